@@ -6,7 +6,7 @@ use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_DERIVATIVES
 use crate::control::Control;
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::{coordinates, formula, Formula, Op, Tape, Term};
+use crate::formula::{coordinates, formula, Formula, Op, Tape, Term, Values};
 use crate::input::{
     enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value, SIGN_BITS,
 };
@@ -287,6 +287,11 @@ impl Problem {
             let place = first.map_or("mechanism", |input| &input.place);
             Err(malformed(place, "such that all is defined for every machine"))
         })
+    }
+
+    /// Whether a user's formulas are defined, used or not.
+    pub(crate) fn is_defined<N>(&self, values: &Values<N>) -> bool {
+        self.partial.iter().all(|&f| values.of(f).is_some())
     }
 
     /// The work of a step: the tape's entries, and what a test does for all signs, vertices and signs of

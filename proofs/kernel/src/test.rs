@@ -27,13 +27,14 @@ pub mod solve;
 pub mod tolerances;
 
 use self::tolerances::{less_changes, Tolerances};
-use crate::arithmetic::Enclosure;
+use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::cell::Vertex;
 use crate::control::Controls;
 use crate::definite::{eliminate, is_positive_definite, Triangle, Vector};
 use crate::formula::{Formula, Values};
 use crate::slope::{Slope, Slopes};
 use serde::{Deserialize, Serialize};
+use std::cell::OnceCell;
 
 /// `A_i` and `D_i`.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,12 +66,34 @@ impl Multiplier {
 /// Binary places are fewer than this.
 pub const MOST_PLACES: u32 = 64;
 
+/// A cell.
+pub struct Place<'a, N> {
+    /// For each coordinate its centre, range and half-width.
+    pub edges: &'a [[N; 3]],
+    /// Whether it touches the root's least, and its greatest corner.
+    pub touches: [bool; 2],
+    /// The formulas of all machines, with their derivatives.
+    pub(crate) derived: OnceCell<Values<Slope<N>>>,
+}
+
+impl<'a, N> Place<'a, N> {
+    /// A cell with these edges.
+    pub fn new(edges: &'a [[N; 3]], touches: [bool; 2]) -> Self {
+        Place { edges, touches, derived: OnceCell::new() }
+    }
+}
+
+/// The values of formulas over a cell.
+pub type Formulas<E> = Values<Slope<<E as Arithmetic>::Number>>;
+
 /// A cell's formulas.
 pub struct Over<'a, E: Enclosure> {
+    /// The cell.
+    pub place: &'a Place<'a, E::Number>,
     /// The arithmetic of their slopes.
     pub slopes: Slopes<'a, E>,
     /// Their values.
-    pub values: &'a Values<Slope<E::Number>>,
+    pub values: &'a Formulas<E>,
     /// The formulas at control points, where these are used in place of vertices.
     pub controls: Option<&'a Controls<E::Number>>,
     /// The values at the vertices of a formula that is not negative at the cell's points in the
@@ -95,9 +118,14 @@ pub type AtVertex<'a, N> = &'a dyn Fn(Vertex) -> Option<N>;
 
 impl<'a, E: Enclosure> Over<'a, E> {
     /// Formulas at vertices, of all machines at once.
-    pub fn new(slopes: Slopes<'a, E>, values: &'a Values<Slope<E::Number>>) -> Self {
-        Over { slopes, values, controls: None, inside: None, tolerances: None, first: 0 }
+    pub fn new(
+        place: &'a Place<'a, E::Number>,
+        slopes: Slopes<'a, E>,
+        values: &'a Formulas<E>,
+    ) -> Self {
+        Over { place, slopes, values, controls: None, inside: None, tolerances: None, first: 0 }
     }
+
     /// The value of a formula over the cell.
     pub fn of(&self, formula: Formula) -> Option<&Slope<E::Number>> {
         self.values.of(formula)
@@ -177,121 +205,171 @@ impl<'a, E: Enclosure> Over<'a, E> {
     }
 }
 
-/// `f >= 0` on the cell if it is not negative at its vertices, or control points.
-pub fn at_least_there<E: Enclosure>(over: &Over<'_, E>, f: Formula) -> bool {
-    let e = over.slopes.arithmetic;
-    let holds = |v: Vertex| over.less_inside(over.least_at(f, v)?, v);
-    over.vertices().all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
-}
-
-/// **A sign.** `f >= 0` on the cell if its range is not negative anywhere. Not at control points, of which
-/// a slope knows nothing. `f` is made of the `parts`, each added or, where this says so, subtracted.
-pub fn at_least<E: Enclosure>(
-    over: &Over<'_, E>,
-    f: &Slope<E::Number>,
+/// The sum of `parts`, each added or, where this says so, subtracted.
+pub(crate) fn signed<A: Arithmetic>(
+    e: &A,
     parts: &[(Formula, bool)],
-) -> bool {
-    let e = over.slopes.arithmetic;
-    if over.controls.is_some() {
-        return false;
-    }
-    if over.inside.is_none() && over.tolerances.is_none() {
-        return over.slopes.all(f, |x| e.is_nonnegative(x));
-    }
-    let holds = |v: Vertex| {
-        let least = e.sub(&v.value(&over.slopes, f)?, &over.greatest_loss(parts, v)?)?;
-        over.less_inside(least, v)
-    };
-    over.vertices().all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
+    of: impl Fn(Formula) -> Option<A::Number>,
+) -> Option<A::Number> {
+    e.sum(parts.iter().map(|&(f, subtracted)| if subtracted { e.neg(&of(f)?) } else { of(f) }))
 }
 
-/// **Least singular value.** If `T = Y^T A + A^T Y - Y^T D Y - kappa^2 I` is positive definite at the
-/// vertices, for any one matrix `Y`, then `sigma_min(M) > kappa` on the cell.
-///
-/// *Proof.* `T` is affine in `(A, D)`, so it is positive definite at `x`. For every `v`, with
-/// `t_i = A_i . v` and `s_i = Y_i . v`,
-///
-/// ```text
-/// 0 <= sum_i (t_i - D_i s_i)^2/D_i = |M v|^2 - v^T (Y^T A + A^T Y - Y^T D Y) v
-/// ```
-///
-/// and so `|M v|^2 >= kappa^2 |v|^2 + v^T T v`. ∎ It needs `D_i > 0`: without that, a leg of length
-/// zero with `Y_i = 0` would pass where `n > m`. `T` decreases with `D`, which is taken at its upper
-/// end. `M^T M - kappa^2 I` at the vertices would be
-/// unsound: `sigma_min >= kappa` is not convex (`diag(t, 1, 1)`, `t` in `[-1, 1]`).
-///
-/// `kappa_squared` may differ from vertex to vertex: what is shown is then of its convex combination.
-pub fn sigma_min<E: Enclosure>(
-    over: &Over<'_, E>,
-    rows: &[Row<Formula>],
-    kappa_squared: AtVertex<'_, E::Number>,
-    evidence: &Multiplier,
-) -> bool {
-    let e = over.slopes.arithmetic;
-    over.at_vertices(rows, |v| {
-        let rest = over.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
-        is_lower(over, rows, v, &rest, (evidence, true))
-    })
-}
-
-/// **Full rank.** If `T = Y^T A + A^T Y` is positive definite at the vertices, and all `D_i > 0`, then
-/// `sigma_min(M) > 0` on the cell. *Proof.* `T` is affine in `A`, so it is positive definite at `x`, and
-/// `0 < v^T T v = 2 (Y v) . (A v)`, so that `A v != 0`, for every `v != 0`. ∎ It is [`sigma_min`] for
-/// `kappa = 0` with `D = 0` in `T`, and as good: what `T` loses to `D` there, a small multiple of `Y`
-/// makes as small as is wanted. With one `Y` for all leaves it is what [`crate::quantity`] concludes
-/// from that a machine is one to one.
-pub fn full_rank<E: Enclosure>(
-    over: &Over<'_, E>,
-    rows: &[Row<Formula>],
-    evidence: &Multiplier,
-) -> bool {
-    over.at_vertices(rows, |v| {
-        let rest = over.less_inside(over.slopes.arithmetic.integer(0)?, v)?;
-        is_lower(over, rows, v, &rest, (evidence, false))
-    })
-}
-
-/// Whether `Y^T A + A^T Y - Y^T D Y + rest I`, if it is said so with `D`, is positive definite at a vertex: for all
-/// machines, where tolerances are apart. Row `i` then changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of
-/// `2 A_i - D_i Y_i`.
-fn is_lower<E: Enclosure>(
-    over: &Over<'_, E>,
-    rows: &[Row<Formula>],
-    v: Vertex,
-    rest: &E::Number,
-    (evidence, with_d): (&Multiplier, bool),
-) -> Option<bool> {
-    let (e, m, places) = (over.slopes.arithmetic, width(rows), evidence.places);
-    if !evidence.is_of(rows.len(), m) {
-        return None;
-    }
-    let (zero, one) = (e.integer(0)?, e.integer(1)?);
-    let mut t = Triangle::scalar(e, m, rest)?;
-    for (row, y) in rows.iter().zip(&evidence.y) {
-        let (row, changes) = over.row(row, v)?;
-        // 2 A_i - D_i Y_i.
-        let residual = |row: &[E::Number], d: &E::Number| -> Option<Vector<E::Number>> {
-            let d = if with_d { d } else { &zero };
-            let entry =
-                |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?);
-            row.iter().zip(y).map(entry).collect()
-        };
-        // Of Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i half is Y_i^T z, and half z^T Y_i.
-        let [_, greatest] = e.ends(row.last()?);
-        let z = residual(&row, &greatest)?;
-        let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
-        t.change(|i, j, entry| e.add(entry, &e.add(&half(i, j)?, &half(j, i)?)?))?;
-        if !changes.is_empty() {
-            let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
-            let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
-            let half = |row: &Vector<E::Number>| {
-                residual(row, row.last()?)?.iter().map(|z| e.halve(z)).collect()
-            };
-            let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
-            less_changes(e, &mut t, &fixed, &changes, &over.direction(<[_]>::first)?)?;
+impl<E: Enclosure> Over<'_, E> {
+    /// **A sign.** The sum of the `parts` ([`signed`]) is not negative on the cell if its range is not, or if it is not at
+    /// the vertices, or control points.
+    pub fn at_least(&self, parts: &[(Formula, bool)]) -> bool {
+        let e = self.slopes.arithmetic;
+        if self.controls.is_none() && self.inside.is_none() && self.tolerances.is_none() {
+            let sum = signed(&self.slopes, parts, |f| self.of(f).cloned());
+            return sum.is_some_and(|sum| self.slopes.all(&sum, |x| e.is_nonnegative(x)));
         }
+        let holds = |v: Vertex| {
+            let own = signed(e, parts, |f| self.own_at(f, v))?;
+            self.less_inside(e.sub(&own, &self.greatest_loss(parts, v)?)?, v)
+        };
+        self.vertices().all(|v| holds(v).is_some_and(|x| e.is_nonnegative(&x)))
     }
-    Some(is_positive_definite(e, &t))
+
+    /// **Least singular value.** If `T = Y^T A + A^T Y - Y^T D Y - kappa^2 I` is positive definite at the
+    /// vertices, for any one matrix `Y`, then `sigma_min(M) > kappa` on the cell.
+    ///
+    /// *Proof.* `T` is affine in `(A, D)`, so it is positive definite at `x`. For every `v`, with
+    /// `t_i = A_i . v` and `s_i = Y_i . v`,
+    ///
+    /// ```text
+    /// 0 <= sum_i (t_i - D_i s_i)^2/D_i = |M v|^2 - v^T (Y^T A + A^T Y - Y^T D Y) v
+    /// ```
+    ///
+    /// and so `|M v|^2 >= kappa^2 |v|^2 + v^T T v`. ∎ It needs `D_i > 0`: without that, a leg of length
+    /// zero with `Y_i = 0` would pass where `n > m`. `T` decreases with `D`, which is taken at its upper
+    /// end. `M^T M - kappa^2 I` at the vertices would be
+    /// unsound: `sigma_min >= kappa` is not convex (`diag(t, 1, 1)`, `t` in `[-1, 1]`).
+    ///
+    /// `kappa_squared` may differ from vertex to vertex: what is shown is then of its convex combination.
+    pub fn sigma_min(
+        &self,
+        rows: &[Row<Formula>],
+        kappa_squared: AtVertex<'_, E::Number>,
+        evidence: &Multiplier,
+    ) -> bool {
+        let e = self.slopes.arithmetic;
+        self.at_vertices(rows, |v| {
+            let rest = self.less_inside(e.neg(&kappa_squared(v)?)?, v)?;
+            self.is_lower(rows, v, &rest, (evidence, true))
+        })
+    }
+
+    /// **Full rank.** If `T = Y^T A + A^T Y` is positive definite at the vertices, and all `D_i > 0`, then
+    /// `sigma_min(M) > 0` on the cell. *Proof.* `T` is affine in `A`, so it is positive definite at `x`, and
+    /// `0 < v^T T v = 2 (Y v) . (A v)`, so that `A v != 0`, for every `v != 0`. ∎ It is [`sigma_min`] for
+    /// `kappa = 0` with `D = 0` in `T`, and as good: what `T` loses to `D` there, a small multiple of `Y`
+    /// makes as small as is wanted. With one `Y` for all leaves it is what [`crate::quantity`] concludes
+    /// from that a machine is one to one.
+    pub fn full_rank(&self, rows: &[Row<Formula>], evidence: &Multiplier) -> bool {
+        self.at_vertices(rows, |v| {
+            let rest = self.less_inside(self.slopes.arithmetic.integer(0)?, v)?;
+            self.is_lower(rows, v, &rest, (evidence, false))
+        })
+    }
+
+    /// Whether `Y^T A + A^T Y - Y^T D Y + rest I`, if it is said so with `D`, is positive definite at a vertex: for all
+    /// machines, where tolerances are apart. Row `i` then changes it by `Y_i s^T + s^T Y_i`, `2 s` the change of
+    /// `2 A_i - D_i Y_i`.
+    fn is_lower(
+        &self,
+        rows: &[Row<Formula>],
+        v: Vertex,
+        rest: &E::Number,
+        (evidence, with_d): (&Multiplier, bool),
+    ) -> Option<bool> {
+        let (e, m, places) = (self.slopes.arithmetic, width(rows), evidence.places);
+        if !evidence.is_of(rows.len(), m) {
+            return None;
+        }
+        let (zero, one) = (e.integer(0)?, e.integer(1)?);
+        let mut t = Triangle::scalar(e, m, rest)?;
+        for (row, y) in rows.iter().zip(&evidence.y) {
+            let (row, changes) = self.row(row, v)?;
+            // 2 A_i - D_i Y_i.
+            let residual = |row: &[E::Number], d: &E::Number| -> Option<Vector<E::Number>> {
+                let d = if with_d { d } else { &zero };
+                let entry =
+                    |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?);
+                row.iter().zip(y).map(entry).collect()
+            };
+            // Of Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i half is Y_i^T z, and half z^T Y_i.
+            let [_, greatest] = e.ends(row.last()?);
+            let z = residual(&row, &greatest)?;
+            let half = |i: usize, j: usize| e.dyadic(y[i], places + 1, &z[j]);
+            t.change(|i, j, entry| e.add(entry, &e.add(&half(i, j)?, &half(j, i)?)?))?;
+            if !changes.is_empty() {
+                let fixed = y.iter().map(|&y| e.dyadic(y, places, &one));
+                let fixed: Vector<E::Number> = fixed.collect::<Option<_>>()?;
+                let half = |row: &Vector<E::Number>| {
+                    residual(row, row.last()?)?.iter().map(|z| e.halve(z)).collect()
+                };
+                let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
+                less_changes(e, &mut t, &fixed, &changes, &self.direction(<[_]>::first)?)?;
+            }
+        }
+        Some(is_positive_definite(e, &t))
+    }
+
+    /// **Greatest singular value.** If `[[D, A], [A^T, k^2 I]]` is positive definite at the vertices, then
+    /// `sigma_max(M) < k` on the cell.
+    ///
+    /// *Proof.* The matrix is affine in `(A, D)`, so it is positive definite at `x`, and with it its Schur
+    /// complement `k^2 I - A^T D^-1 A = k^2 I - M^T M`. ∎ The `D_i` are eliminated first, each at its lower
+    /// end: the complement increases with them. Where tolerances are apart, row `i` changes the matrix by
+    /// `e_i s^T + s e_i^T`, `s = (D_i/2, A_i)` of the change.
+    pub fn sigma_max(&self, rows: &[Row<Formula>], k_squared: AtVertex<'_, E::Number>) -> bool {
+        let e = self.slopes.arithmetic;
+        self.at_vertices(rows, |v| {
+            let mut rest = Triangle::scalar(e, width(rows), &self.less_inside(k_squared(v)?, v)?)?;
+            // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
+            for row in rows {
+                let (row, changes) = self.row(row, v)?;
+                let (d, a) = row.split_last()?;
+                let [least, _] = e.ends(d);
+                let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
+                if !changes.is_empty() {
+                    (first, rest) = self.less_changed_row((first, rest), (d, a), &changes)?;
+                }
+                eliminate(e, &first, &mut rest.entries)?;
+            }
+            Some(is_positive_definite(e, &rest))
+        })
+    }
+
+    /// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
+    /// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
+    fn less_changed_row(
+        &self,
+        (first, rest): Bordered<E::Number>,
+        (d, a): (&E::Number, &[E::Number]),
+        changes: &[Vector<E::Number>],
+    ) -> Option<Bordered<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let (zero, one) = (e.integer(0)?, e.integer(1)?);
+        let mut direction = self.direction(<[_]>::last)?;
+        let along = e.dot(a, &direction)?;
+        direction.insert(0, e.neg(&e.ratio(&along, &one, d)?)?);
+        let mut fixed = vec![zero; a.len()];
+        fixed.insert(0, one);
+        let change = |row: &Vector<E::Number>| {
+            let (d, a) = row.split_last()?;
+            std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some)).collect()
+        };
+        let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
+        let m = a.len();
+        let mut bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
+            None => first.get(j).cloned(),
+            Some(i) => rest.row(i).get(j - i - 1).cloned(),
+        })?;
+        less_changes(e, &mut bordered, &fixed, &changes, &direction)?;
+        let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
+        Some((bordered.row(0).iter().cloned().collect(), rest))
+    }
 }
 
 /// The columns of `A`.
@@ -299,65 +377,5 @@ fn width(rows: &[Row<Formula>]) -> usize {
     rows.first().map_or(0, |row| row.a.len())
 }
 
-/// **Greatest singular value.** If `[[D, A], [A^T, k^2 I]]` is positive definite at the vertices, then
-/// `sigma_max(M) < k` on the cell.
-///
-/// *Proof.* The matrix is affine in `(A, D)`, so it is positive definite at `x`, and with it its Schur
-/// complement `k^2 I - A^T D^-1 A = k^2 I - M^T M`. ∎ The `D_i` are eliminated first, each at its lower
-/// end: the complement increases with them. Where tolerances are apart, row `i` changes the matrix by
-/// `e_i s^T + s e_i^T`, `s = (D_i/2, A_i)` of the change.
-pub fn sigma_max<E: Enclosure>(
-    over: &Over<'_, E>,
-    rows: &[Row<Formula>],
-    k_squared: AtVertex<'_, E::Number>,
-) -> bool {
-    let e = over.slopes.arithmetic;
-    over.at_vertices(rows, |v| {
-        let mut rest = Triangle::scalar(e, width(rows), &over.less_inside(k_squared(v)?, v)?)?;
-        // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
-        for row in rows {
-            let (row, changes) = over.row(row, v)?;
-            let (d, a) = row.split_last()?;
-            let [least, _] = e.ends(d);
-            let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
-            if !changes.is_empty() {
-                (first, rest) = less_changed_row(over, (first, rest), (d, a), &changes)?;
-            }
-            eliminate(e, &first, &mut rest.entries)?;
-        }
-        Some(is_positive_definite(e, &rest))
-    })
-}
-
 /// A matrix by its first row and the rest.
 type Bordered<N> = (Vector<N>, Triangle<N>);
-
-/// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
-/// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
-fn less_changed_row<E: Enclosure>(
-    over: &Over<'_, E>,
-    (first, rest): Bordered<E::Number>,
-    (d, a): (&E::Number, &[E::Number]),
-    changes: &[Vector<E::Number>],
-) -> Option<Bordered<E::Number>> {
-    let e = over.slopes.arithmetic;
-    let (zero, one) = (e.integer(0)?, e.integer(1)?);
-    let mut direction = over.direction(<[_]>::last)?;
-    let along = e.dot(a, &direction)?;
-    direction.insert(0, e.neg(&e.ratio(&along, &one, d)?)?);
-    let mut fixed = vec![zero; a.len()];
-    fixed.insert(0, one);
-    let change = |row: &Vector<E::Number>| {
-        let (d, a) = row.split_last()?;
-        std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some)).collect()
-    };
-    let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
-    let m = a.len();
-    let mut bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
-        None => first.get(j).cloned(),
-        Some(i) => rest.row(i).get(j - i - 1).cloned(),
-    })?;
-    less_changes(e, &mut bordered, &fixed, &changes, &direction)?;
-    let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
-    Some((bordered.row(0).iter().cloned().collect(), rest))
-}

@@ -7,8 +7,8 @@ use crate::fixed::{Fixed, Integer, Interval};
 use crate::input::{enclosed, malformed, narrowed};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
-use crate::step::{Checker, Place};
-use crate::test::Over;
+use crate::step::Checker;
+use crate::test::{Over, Place};
 use crate::witness::fails_throughout;
 use num_bigint::BigInt;
 
@@ -73,12 +73,12 @@ impl Theorem for Problem {
             if !node.by.is_empty() {
                 let place = Place::new(&edges, cell.touches(&root));
                 let values = checker.evaluate(&edges);
-                let over = Over::new(slopes, &values);
+                let over = Over::new(&place, slopes, &values);
                 discharge(at, node, open, |obligation, evidence| match evidence {
-                    Evidence::Outside => checker.is_outside(&over, &place),
+                    Evidence::Outside => checker.is_outside(&over),
                     _ => {
                         let test = &self.obligations[obligation].test;
-                        checker.shows(&over, &place, test, evidence)
+                        checker.shows(&over, test, evidence)
                     }
                 })?;
             }

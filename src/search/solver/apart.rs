@@ -47,15 +47,11 @@ impl Over<'_> {
                 w.iter().map(|x| (x * scale).round() as i64).collect()
             };
             let directions: Vec<Vec<i64>> = worst.directions.iter().map(in_integers).collect();
-            let found = self.prover.checker.apart(
-                &formulas,
-                self.place,
-                (ends, &directions),
-                |formulas| {
+            let found =
+                self.prover.checker.apart(&formulas, (ends, &directions), |formulas| {
                     let apart = Over { formulas, ..*self };
                     apart.at_controls(test).or_else(|| apart.at_vertices(test))
-                },
-            )??;
+                })??;
             Some(Evidence::Tolerances(Box::new(found), ends.clone(), directions))
         })
     }
@@ -165,7 +161,7 @@ impl Over<'_> {
 
     /// The ends of all tolerances that make it worst.
     fn worst_machine(&self, Worst { place, weights, .. }: &Worst) -> Option<String> {
-        let values = self.prover.checker.derived(self.place)?;
+        let values = self.prover.checker.derived(self.formulas.place)?;
         let derivatives = &self.problem().derived.as_ref()?.of;
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         for (f, weight) in weights {

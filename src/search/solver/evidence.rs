@@ -14,9 +14,9 @@ use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slope;
-use orthocert_kernel::step::{Checker, Place};
+use orthocert_kernel::step::Checker;
 use orthocert_kernel::test::accuracy::{self, Accuracy};
-use orthocert_kernel::test::{self, Multiplier, Row};
+use orthocert_kernel::test::{self, Multiplier, Place, Row};
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
 pub const BITS: u32 = 96;
@@ -127,8 +127,8 @@ impl<'a> Prover<'a> {
         };
         let place = Place::new(edges, [touches(|x| x.0), touches(|x| x.1)]);
         let slopes = self.checker.slopes(edges.len());
-        let formulas = test::Over::new(slopes, values);
-        then(&Over { prover: self, formulas: &formulas, place: &place })
+        let formulas = test::Over::new(&place, slopes, values);
+        then(&Over { prover: self, formulas: &formulas })
     }
 }
 
@@ -176,7 +176,6 @@ pub(super) fn edges(cell: &[Pair]) -> Vec<[Pair; 3]> {
 pub(crate) struct Over<'a> {
     pub prover: &'a Prover<'a>,
     pub formulas: &'a test::Over<'a, Doubles>,
-    pub place: &'a Place<'a, Pair>,
 }
 
 /// Where rows are taken.
@@ -196,7 +195,7 @@ impl Over<'_> {
     }
 
     pub fn m(&self) -> usize {
-        self.place.edges.len()
+        self.formulas.place.edges.len()
     }
 
     /// Whether the claim seems to fail so at every point of the box.
@@ -206,7 +205,7 @@ impl Over<'_> {
 
     fn is_outside(&self) -> bool {
         let cut = self.problem().inside.is_some() || self.problem().turned.is_some();
-        cut && self.prover.checker.is_outside(self.formulas, self.place)
+        cut && self.prover.checker.is_outside(self.formulas)
     }
 
     fn has_centre_inside(&self) -> bool {
@@ -216,7 +215,7 @@ impl Over<'_> {
     }
 
     pub fn shows(&self, test: &Test, evidence: &Evidence) -> bool {
-        self.prover.checker.shows(self.formulas, self.place, test, evidence)
+        self.prover.checker.shows(self.formulas, test, evidence)
     }
 
     /// A formula at the centre.
@@ -304,7 +303,7 @@ impl Over<'_> {
             }
         }
         if weights.iter().all(|&weight| weight == 0.0) {
-            return self.place.edges.iter().map(|edge| edge[2].0).collect();
+            return self.formulas.place.edges.iter().map(|edge| edge[2].0).collect();
         }
         weights
     }
@@ -363,7 +362,7 @@ impl Over<'_> {
         let along = total(rows)?;
         // Of the second order.
         let lost = 0.5 * (along / (kappa * rows.len() as f64)).powi(2);
-        let edges = self.place.edges;
+        let edges = self.formulas.place.edges;
         // Undefined is worse than any spread.
         let spread = |edges: &[[Pair; 3]]| self.spread(test, edges).unwrap_or(2.0 * kappa);
         let at = |k: usize, by: f64| {
@@ -390,7 +389,7 @@ impl Over<'_> {
         let (tape, slopes) = (&self.problem().tape, self.formulas.slopes);
         let of = |f| self.formulas.of(f).map(|slope| slope.range);
         let values = accuracy::near(tape, self.prover.parameters(), slopes, edges, test, of)?;
-        accuracy::spread(&test::Over::new(slopes, &values), test).map(|g| g.1)
+        accuracy::spread(slopes, &values, test).map(|g| g.1)
     }
 
     /// `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.

@@ -108,7 +108,7 @@ impl Over<'_> {
             return self.formulas.vertices().map(|v| self.at(inside.g, At::Vertex(v))).collect();
         }
         let g = self.centre(inside.g)?;
-        let gradient = inside.gradient.iter().zip(self.place.edges);
+        let gradient = inside.gradient.iter().zip(self.formulas.place.edges);
         let steps = gradient.map(|(&f, [_, _, half])| Some(self.centre(f)? * half.0));
         let own = &self.formulas.of(inside.g)?.slopes;
         let by_names =

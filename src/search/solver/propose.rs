@@ -76,7 +76,7 @@ impl Over<'_> {
         test: &Test,
         then: impl FnOnce(&Over<'_>) -> Option<T>,
     ) -> Option<T> {
-        self.prover.checker.at_controls(self.formulas, self.place, test, |formulas| {
+        self.prover.checker.at_controls(self.formulas, test, |formulas| {
             let first = Vertex::first(1).next()?;
             let lacks = matches!(test, Test::AtLeast(f) if formulas.own_at(*f, first).is_none());
             (!lacks).then(|| then(&Over { formulas, ..*self }))?
@@ -167,7 +167,7 @@ impl Over<'_> {
 
     /// At a tight corner of the paper's cube.
     fn corner(&self, test: &Test) -> Option<Evidence> {
-        let touched = [Corner::Q1, Corner::Q2].into_iter().zip(self.place.touches);
+        let touched = [Corner::Q1, Corner::Q2].into_iter().zip(self.formulas.place.touches);
         let corners = touched.filter(|_| self.problem().cube_kappa.is_some());
         let corners = corners.filter_map(|(corner, touches)| touches.then_some(corner));
         self.first(test, corners.map(Evidence::Corner))

@@ -14,8 +14,8 @@ use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::Slopes;
-use crate::step::{Checker, Place};
-use crate::test::Over;
+use crate::step::Checker;
+use crate::test::{Over, Place};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use std::collections::HashMap;
@@ -214,14 +214,14 @@ impl<'a, Z: Integer> Side<'a, Z> {
             false => self.checker.evaluate_own(&edges),
         };
         let slopes = self.checker.slopes(edges.len());
-        let over = Over::new(slopes, &values);
         let place = Place::new(&edges, [false; 2]);
+        let over = Over::new(&place, slopes, &values);
         let shown = |over: &Over<'_, _>, obligation: usize, evidence: Option<&_>| {
             let obligations = &subject.problem.obligations;
             let test = &obligations.get(obligation).ok_or_else(|| step(obligation))?.test;
             let holds = match evidence {
-                Some(evidence) => self.checker.shows(over, &place, test, evidence),
-                None => self.checker.shows_own(over, &place, test),
+                Some(evidence) => self.checker.shows(over, test, evidence),
+                None => self.checker.shows_own(over, test),
             };
             holds.then_some(()).ok_or_else(|| step(obligation))
         };
@@ -239,12 +239,12 @@ impl<'a, Z: Integer> Side<'a, Z> {
             Kind::Inner => return rest_shown(&over),
             Kind::Cut(cut) => {
                 let [before, beyond] = cut.corners();
-                rest_shown(&Over::new(Slopes { part: Some(&before), ..slopes }, &values))?;
+                rest_shown(&Over { slopes: Slopes { part: Some(&before), ..slopes }, ..over })?;
                 let beyond = Slopes { part: Some(&beyond), ..slopes };
                 self.is_near(subject, cell, &edges) == Some(true)
                     && self.checker.fails_own(beyond, &values, cut.fails)
             }
-            Kind::Outside => self.checker.is_outside(&over, &place),
+            Kind::Outside => self.checker.is_outside(&over),
             Kind::At(..) if !bound.clone().all(is_inside) => false,
             Kind::Outer(outer) | Kind::At(_, outer) => match outer {
                 Outer::Own(o) => self.checker.fails_own(slopes, &values, *o),

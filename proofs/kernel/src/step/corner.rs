@@ -1,11 +1,12 @@
 //! The tight corners of the paper's cube.
 
-use super::{Checker, Place};
+use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::cell::{unit_corners, Vertex};
 use crate::certificate::Corner;
 use crate::definite::{is_positive_definite, Triangle};
 use crate::slope::Slopes;
+use crate::test::Place;
 
 impl<E: Enclosure> Checker<'_, E> {
     /// **Tight corner.** The cell touches the corner `Q` of the paper's cube. With `x = Q + lambda H`,

@@ -1,6 +1,6 @@
 //! Where the workspace is not the cell: what is known to be not negative there.
 
-use super::{Checker, Place};
+use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::formula::{Formula, Values};
 use crate::problem::Inside;
@@ -20,18 +20,18 @@ impl<E: Enclosure> Checker<'_, E> {
     fn tangent(
         &self,
         over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
         (multiple, places): (i64, u32),
     ) -> Option<Slope<E::Number>> {
         let Inside { g, gradient } = self.problem.inside.as_ref()?;
         let e = self.arithmetic;
-        let by_name = self.at_centre(place, gradient.iter().chain([g]));
+        let by_name = self.at_centre(over, gradient.iter().chain([g]));
         let values = by_name.as_ref().unwrap_or(over.values);
         let mut tangent = values.of(*g)?.clone();
         if by_name.is_none() {
             tangent = over.slopes.constant(tangent.at_centre)?;
         }
-        for ((slope, &f), [_, _, half]) in tangent.slopes.iter_mut().zip(gradient).zip(place.edges)
+        for ((slope, &f), [_, _, half]) in
+            tangent.slopes.iter_mut().zip(gradient).zip(over.place.edges)
         {
             let f = values.of(f)?;
             *slope = e.mul(if by_name.is_some() { &f.range } else { &f.at_centre }, half)?;
@@ -45,7 +45,7 @@ impl<E: Enclosure> Checker<'_, E> {
     /// Where there are names, these formulas at the cell's centre, in slopes in them.
     fn at_centre<'f>(
         &self,
-        place: &Place<'_, E::Number>,
+        over: &Over<'_, E>,
         formulas: impl Iterator<Item = &'f Formula>,
     ) -> Option<Values<Slope<E::Number>>> {
         if self.problem.names.is_empty() {
@@ -53,22 +53,17 @@ impl<E: Enclosure> Checker<'_, E> {
         }
         let zero = self.arithmetic.integer(0)?;
         let edge = |[centre, ..]: &[E::Number; 3]| [centre.clone(), centre.clone(), zero.clone()];
-        let edges: Vec<_> = place.edges.iter().map(edge).collect();
+        let edges: Vec<_> = over.place.edges.iter().map(edge).collect();
         let all: Vec<Formula> = formulas.copied().collect();
         Some(self.values(Some(&self.problem.tape.parts(&all)), &edges))
     }
 
     /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.
-    pub(super) fn inside(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        mu: (i64, u32),
-    ) -> Option<Vec<E::Number>> {
+    pub(super) fn inside(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Vec<E::Number>> {
         if over.controls.is_some() {
             return self.multiples(over, self.problem.inside.as_ref()?.g, mu);
         }
-        let tangent = self.tangent(over, place, mu)?;
+        let tangent = self.tangent(over, mu)?;
         over.vertices().map(|v| v.value(&over.slopes, &tangent)).collect()
     }
 
@@ -91,13 +86,13 @@ impl<E: Enclosure> Checker<'_, E> {
 
     /// Whether the cell has no point of the workspace: the tangent is negative at all vertices, or the
     /// orientations' own inequality nowhere holds.
-    pub fn is_outside(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>) -> bool {
+    pub fn is_outside(&self, over: &Over<'_, E>) -> bool {
         let turned = self.problem.turned.and_then(|g| self.arithmetic.neg(&over.of(g)?.range));
         if turned.is_some_and(|less| self.arithmetic.is_positive(&less)) {
             return true;
         }
         let negative =
             |t: &E::Number| self.arithmetic.neg(t).is_some_and(|t| self.arithmetic.is_positive(&t));
-        self.inside(over, place, (1, 0)).is_some_and(|t| t.iter().all(negative))
+        self.inside(over, (1, 0)).is_some_and(|t| t.iter().all(negative))
     }
 }

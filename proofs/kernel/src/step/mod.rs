@@ -6,7 +6,7 @@ mod own;
 mod tolerances;
 mod work;
 
-use crate::arithmetic::{Arithmetic as _, Enclosure};
+use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::certificate::Evidence;
 use crate::control::Control;
@@ -18,12 +18,8 @@ use crate::test::accuracy::{accuracy, near, Accuracy};
 use crate::test::apart::apart;
 use crate::test::curvature::curvature;
 use crate::test::solve::solve;
-use crate::test::{
-    at_least, at_least_there, full_rank, sigma_max, sigma_min, Multiplier, Over, Row, MOST_PLACES,
-};
+use crate::test::{Multiplier, Over, Row, MOST_PLACES};
 use tolerances::{are_for, is_of_vertices};
-
-pub use tolerances::Place;
 
 /// Checks steps; in another arithmetic than [`Fixed`](crate::fixed::Fixed), proposes them.
 pub struct Checker<'a, E: Enclosure> {
@@ -128,13 +124,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     }
 
     /// Whether the evidence shows that a test holds on a cell.
-    pub fn shows(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        test: &Test,
-        evidence: &Evidence,
-    ) -> bool {
+    pub fn shows(&self, over: &Over<'_, E>, test: &Test, evidence: &Evidence) -> bool {
         let constant = |f: &Formula| {
             let f = *f;
             move |_| over.of(f).map(|f| f.range.clone())
@@ -146,10 +136,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let rows = if over.controls.is_some() { &self.scaled } else { &self.rows };
         match (test, evidence) {
             (test, Evidence::Control(evidence)) => {
-                let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
+                let then = |over: &Over<'_, E>| self.shows(over, test, evidence);
                 // Of a part, control points are not known.
-                over.slopes.part.is_none()
-                    && self.at_controls(over, place, test, then) == Some(true)
+                over.slopes.part.is_none() && self.at_controls(over, test, then) == Some(true)
             }
             (test, Evidence::Turned(inner, n, p) | Evidence::Inside(inner, n, p)) => {
                 use Evidence::{Control, Corner, Inside, Turned};
@@ -162,7 +151,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 let less = match is_turned {
                     _ if !is_plain || *n < 0 || *p >= MOST_PLACES => None,
                     true => self.turned(over, (*n, *p)),
-                    false => self.inside(over, place, (*n, *p)),
+                    false => self.inside(over, (*n, *p)),
                 };
                 let sum = less.and_then(|less| match &over.inside {
                     None => Some(less),
@@ -170,71 +159,58 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                         less.iter().zip(other).map(|(a, b)| self.arithmetic.add(a, b)).collect()
                     }
                 });
-                sum.is_some_and(|sum| {
-                    self.shows(&Over { inside: Some(sum), ..*over }, place, test, inner)
-                })
+                sum.is_some_and(|sum| self.shows(&Over { inside: Some(sum), ..*over }, test, inner))
             }
             (test, Evidence::Tolerances(evidence, ends, directions)) => {
-                let plain =
-                    is_of_vertices(test, evidence) && are_for(directions, test, place.edges.len());
-                let then = |over: &Over<'_, E>| self.shows(over, place, test, evidence);
-                plain && self.apart(over, place, (ends, directions), then) == Some(true)
+                let plain = is_of_vertices(test, evidence)
+                    && are_for(directions, test, over.place.edges.len());
+                let then = |over: &Over<'_, E>| self.shows(over, test, evidence);
+                plain && self.apart(over, (ends, directions), then) == Some(true)
             }
             (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
                 let zero = self.problem.tape.op(*kappa) == Op::Integer(0);
-                zero && self.is_defined(over) && full_rank(over, rows, y)
+                zero && self.problem.is_defined(over.values) && over.full_rank(rows, y)
             }
             (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
-                self.is_defined(over) && sigma_min(over, rows, &scaled(kappa), y)
+                self.problem.is_defined(over.values) && over.sigma_min(rows, &scaled(kappa), y)
             }
-            (Test::SigmaMax(k), Evidence::Test) => sigma_max(over, rows, &scaled(k)),
+            (Test::SigmaMax(k), Evidence::Test) => over.sigma_max(rows, &scaled(k)),
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 self.conditioning(over, rows, *c, (y, mu))
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
-                self.chords.as_ref().is_some_and(|y| full_rank(over, rows, y))
+                self.chords.as_ref().is_some_and(|y| over.full_rank(rows, y))
             }
-            (Test::AtLeast(f), Evidence::Test) if over.controls.is_some() => {
-                at_least_there(over, *f)
-            }
+            (Test::AtLeast(f), Evidence::Test) => over.at_least(&[(*f, false)]),
             (Test::Solve(test), Evidence::Lower(y)) => {
                 let weight = |v| self.scaled(over, self.arithmetic.integer(1)?, v);
                 solve(over, rows, test, &weight, y)
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
-                sigma_min(over, rows, &|v| over.at(*kappa, v), y)
+                over.sigma_min(rows, &|v| over.at(*kappa, v), y)
             }
             (Test::Greatest(rows, k), Evidence::Test) => {
-                sigma_max(over, rows, &|v| over.least_at(*k, v))
+                over.sigma_max(rows, &|v| over.least_at(*k, v))
             }
             (Test::Accuracy(test), Evidence::Accuracy(y, kappa, p)) => {
-                self.accuracy(over, place, test, (y, *kappa, *p)).unwrap_or(false)
+                self.accuracy(over, test, (y, *kappa, *p)) == Some(true)
             }
             // What follows knows of vertices alone.
             _ if over.controls.is_some() => false,
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
-                self.is_defined(over) && sigma_min(over, &self.divided, &constant(kappa), y)
+                self.problem.is_defined(over.values)
+                    && over.sigma_min(&self.divided, &constant(kappa), y)
             }
-            (Test::SigmaMin(_), Evidence::Corner(corner)) => self.corner(place, *corner).is_some(),
-            (Test::SigmaMax(k), Evidence::Divided) => sigma_max(over, &self.divided, &constant(k)),
+            (Test::SigmaMin(_), Evidence::Corner(corner)) => {
+                self.corner(over.place, *corner).is_some()
+            }
+            (Test::SigmaMax(k), Evidence::Divided) => over.sigma_max(&self.divided, &constant(k)),
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
             (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
             (Test::Curvature(test), Evidence::Test) => curvature(over, test),
             (Test::AtLeast(f), Evidence::Cube) => self.problem.cube_reached.contains(f),
-            (Test::AtLeast(f), Evidence::Test) => {
-                over.own(*f).is_some_and(|own| at_least(over, own, &[(*f, false)]))
-            }
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
-                let negative = *evidence == Evidence::Negative;
-                let rest = || {
-                    let (f, b) = (over.own(*f)?, over.own(*b)?);
-                    match negative {
-                        true => over.slopes.neg(&over.slopes.add(f, b)?),
-                        false => over.slopes.sub(f, b),
-                    }
-                };
-                let parts = [(*f, negative), (*b, true)];
-                rest().is_some_and(|rest| at_least(over, &rest, &parts))
+                over.at_least(&[(*f, *evidence == Evidence::Negative), (*b, true)])
             }
             _ => false,
         }
@@ -252,20 +228,13 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     fn accuracy(
         &self,
         over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
         test: &Accuracy,
         evidence: (&Multiplier, i64, u32),
     ) -> Option<bool> {
         let (tape, slopes) = (&self.problem.tape, over.slopes);
         let of = |f| over.of(f).map(|f| f.range.clone());
-        let values = near(tape, &self.parameters, slopes, place.edges, test, of)?;
-        let far = Over::new(slopes, &values);
-        Some(self.is_defined(&far) && accuracy(over, &far, test, evidence))
-    }
-
-    /// Whether a user's formulas are defined on all of the cell, used or not.
-    fn is_defined(&self, over: &Over<'_, E>) -> bool {
-        self.problem.partial.iter().all(|&f| over.of(f).is_some())
+        let far = near(tape, &self.parameters, slopes, over.place.edges, test, of)?;
+        Some(self.problem.is_defined(&far) && accuracy(over, &far, test, evidence))
     }
 
     /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:
@@ -300,8 +269,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
         };
         let greatest = |v| e.mul(&over.of(c_squared)?.range, &least(v)?);
-        y.places < MOST_PLACES
-            && sigma_min(over, rows, &least, y)
-            && sigma_max(over, rows, &greatest)
+        y.places < MOST_PLACES && over.sigma_min(rows, &least, y) && over.sigma_max(rows, &greatest)
     }
 }

@@ -16,7 +16,7 @@
 //!
 //! [`sigma_min`]: crate::test::sigma_min
 
-use super::{Checker, Place};
+use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::certificate::{Evidence, Failure};
 use crate::definite::Triangle;
@@ -66,7 +66,7 @@ impl<E: Enclosure> Checker<'_, E> {
     }
 
     /// Whether a test holds on a cell by its own evidence.
-    pub fn shows_own(&self, over: &Over<'_, E>, place: &Place<'_, E::Number>, test: &Test) -> bool {
+    pub fn shows_own(&self, over: &Over<'_, E>, test: &Test) -> bool {
         let own = || {
             Some(match test {
                 Test::SigmaMin(kappa) => {
@@ -98,7 +98,7 @@ impl<E: Enclosure> Checker<'_, E> {
                 }
             })
         };
-        own().is_some_and(|evidence| self.shows(over, place, test, &evidence))
+        own().is_some_and(|evidence| self.shows(over, test, &evidence))
     }
 
     fn own_multiplier(&self, over: &Over<'_, E>, rows: &[Row<Formula>]) -> Option<Multiplier> {

@@ -5,29 +5,9 @@ use crate::arithmetic::Enclosure;
 use crate::cell::evaluate;
 use crate::certificate::Evidence;
 use crate::control::{Control, Controls};
-use crate::formula::Values;
 use crate::quantity::Test;
-use crate::slope::Slope;
 use crate::test::tolerances::Tolerances;
-use crate::test::Over;
-use std::cell::OnceCell;
-
-/// Where a step is made.
-pub struct Place<'a, N> {
-    /// For each coordinate the cell's centre, range and half-width.
-    pub edges: &'a [[N; 3]],
-    /// Whether the cell touches the root's least, and its greatest corner.
-    pub touches: [bool; 2],
-    /// The formulas of all machines, with their derivatives.
-    derived: OnceCell<Values<Slope<N>>>,
-}
-
-impl<'a, N> Place<'a, N> {
-    /// A cell with these edges.
-    pub fn new(edges: &'a [[N; 3]], touches: [bool; 2]) -> Self {
-        Place { edges, touches, derived: OnceCell::new() }
-    }
-}
+use crate::test::{Formulas, Over, Place};
 
 /// Whether these are directions for a test, of `m` coordinates, one for each matrix.
 pub(super) fn are_for(directions: &[Vec<i64>], test: &Test, m: usize) -> bool {
@@ -52,10 +32,7 @@ pub(super) fn is_of_vertices(test: &Test, evidence: &Evidence) -> bool {
 
 impl<E: Enclosure> Checker<'_, E> {
     /// The formulas of all machines with their derivatives by tolerances, where there are some.
-    pub fn derived<'p>(
-        &self,
-        place: &'p Place<'_, E::Number>,
-    ) -> Option<&'p Values<Slope<E::Number>>> {
+    pub fn derived<'p>(&self, place: &'p Place<'_, E::Number>) -> Option<&'p Formulas<E>> {
         let tape = &self.problem.derived.as_ref()?.tape;
         Some(place.derived.get_or_init(|| {
             evaluate(tape, &self.parameters, self.slopes(place.edges.len()), place.edges)
@@ -68,14 +45,13 @@ impl<E: Enclosure> Checker<'_, E> {
     pub fn apart<T>(
         &self,
         over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
         (ends, directions): (&str, &[Vec<i64>]),
         then: impl FnOnce(&Over<'_, E>) -> T,
     ) -> Option<T> {
         if over.controls.is_some() || over.inside.is_some() || over.tolerances.is_some() {
             return None;
         }
-        let values = self.derived(place)?;
+        let values = self.derived(over.place)?;
         let derivatives = &self.problem.derived.as_ref()?.of;
         let mut named = ends.chars();
         let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.has_two_ends()
@@ -85,7 +61,7 @@ impl<E: Enclosure> Checker<'_, E> {
         };
         let all: Vec<_> = self.parameters.iter().enumerate().map(start).collect::<Option<_>>()?;
         let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = all.into_iter().unzip();
-        let machine = evaluate(&self.problem.tape, &starts, over.slopes, place.edges);
+        let machine = evaluate(&self.problem.tape, &starts, over.slopes, over.place.edges);
         let tolerances = Tolerances {
             machine: &machine,
             parameters: &starts,
@@ -100,33 +76,27 @@ impl<E: Enclosure> Checker<'_, E> {
 
     /// The formulas of a test at control points, where it has such: of all machines, with derivatives where
     /// tolerances are apart.
-    pub fn controls(
-        &self,
-        over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
-        test: &Test,
-    ) -> Option<Controls<E::Number>> {
+    pub fn controls(&self, over: &Over<'_, E>, test: &Test) -> Option<Controls<E::Number>> {
         let all = if over.tolerances.is_some() { &self.derived } else { &self.controls };
-        found(all, test)?.values(self.arithmetic, &self.parameters, place.edges)
+        found(all, test)?.values(self.arithmetic, &self.parameters, over.place.edges)
     }
 
     /// What is so at control points, of formulas there.
     pub fn at_controls<T>(
         &self,
         over: &Over<'_, E>,
-        place: &Place<'_, E::Number>,
         test: &Test,
         then: impl FnOnce(&Over<'_, E>) -> T,
     ) -> Option<T> {
         if over.controls.is_some() || over.inside.is_some() {
             return None;
         }
-        let all = self.controls(over, place, test)?;
+        let all = self.controls(over, test)?;
         let Some(tolerances) = over.tolerances else {
             return Some(then(&Over { controls: Some(&all), inside: None, ..*over }));
         };
         let own = found(&self.controls, test)?;
-        let own = own.values(self.arithmetic, tolerances.parameters, place.edges)?;
+        let own = own.values(self.arithmetic, tolerances.parameters, over.place.edges)?;
         let tolerances = Tolerances { controls: Some(&own), ..*tolerances };
         let over =
             Over { controls: Some(&all), inside: None, tolerances: Some(&tolerances), ..*over };

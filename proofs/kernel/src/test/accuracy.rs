@@ -1,7 +1,7 @@
 //! Where joint errors and tolerances put the platform.
 
 use super::solve::below_square;
-use super::{Multiplier, Over, Row};
+use super::{Formulas, Multiplier, Over, Row};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::definite::{are_positive_definite, is_positive_definite, Vector};
@@ -92,8 +92,12 @@ pub fn near<E: Enclosure>(
 /// over its blocks `B`, the parts of `j` and of `k`, `g = sqrt(sum_i s_i^2)` is one. *Proof.* Row `i` of
 /// `J(u) - J(0)` times `w` is `w^T S_i u`, a sum of `w_a^T B u_b` over the blocks, each at most
 /// `|B| ||w|| ||u||`, and `|B|^2 <= |B|_1 |B|_inf` (Schur). ∎ Absolute values are taken of each entry.
-pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Number> {
-    let (e, m) = (far.slopes.arithmetic, far.slopes.m);
+pub fn spread<E: Enclosure>(
+    slopes: Slopes<'_, E>,
+    far: &Formulas<E>,
+    test: &Accuracy,
+) -> Option<E::Number> {
+    let (e, m) = (slopes.arithmetic, slopes.m);
     let zero = e.integer(0)?;
     let norm = |entries: &[Vec<E::Number>], a: &Range<usize>, b: &Range<usize>| {
         let rows = entries.get(a.clone())?;
@@ -180,7 +184,7 @@ pub fn spread<E: Enclosure>(far: &Over<'_, E>, test: &Accuracy) -> Option<E::Num
 /// Slopes at the control points would be of another machine, see above.
 pub fn accuracy<E: Enclosure>(
     over: &Over<'_, E>,
-    far: &Over<'_, E>,
+    far: &Formulas<E>,
     test: &Accuracy,
     (evidence, kappa, p): (&Multiplier, i64, u32),
 ) -> bool {
@@ -191,7 +195,7 @@ pub fn accuracy<E: Enclosure>(
         let e = over.slopes.arithmetic;
         let one = e.integer(1)?;
         let kappa = e.dyadic(kappa, evidence.places, &one)?;
-        let g = spread(far, test)?;
+        let g = spread(over.slopes, far, test)?;
         if !e.is_positive(&e.sub(&kappa, &g)?) {
             return None;
         }

@@ -101,7 +101,7 @@ impl<E: Enclosure> Over<'_, E> {
         }))
     }
 
-    /// The least value of a formula at a vertex, of all machines.
+    /// The least value of a formula at a vertex, or control point, of all machines.
     pub fn least_at(&self, f: Formula, v: Vertex) -> Option<E::Number> {
         self.slopes.arithmetic.sub(&self.own_at(f, v)?, &self.greatest_loss(&[(f, false)], v)?)
     }

@@ -6,7 +6,6 @@ use crate::machine::Leg;
 use crate::number::Expression;
 use crate::slope::{Slope, Slopes};
 use crate::test::accuracy::{near, spread, Accuracy};
-use crate::test::Over;
 
 impl AtPoint<'_> {
     /// `v . b - |W_t^T v| - |W_c^T v| - (g/2) |v|` for the worst joint errors, at most; `b` is over `d`.
@@ -32,9 +31,7 @@ impl AtPoint<'_> {
         let edges: Vec<_> = self.point.iter().map(|x| [x.clone(), x.clone(), d.clone()]).collect();
         let slopes = Slopes::new(e, edges.len());
         let values = near(&self.problem.tape, &self.parameters, slopes, &edges, test, of)?;
-        let far = Over::new(slopes, &values);
-        let defined = self.problem.partial.iter().all(|&f| far.of(f).is_some());
-        let g = spread(&far, test).filter(|_| defined)?;
+        let g = spread(slopes, &values, test).filter(|_| self.problem.is_defined(&values))?;
         let norm = |v: &[Number]| e.greatest_root(&e.square(v)?);
         for part in test.parts(image.len()) {
             rest = e.sub(&rest, &norm(image.get(part)?)?)?;

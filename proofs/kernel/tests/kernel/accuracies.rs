@@ -22,9 +22,9 @@ use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
-use orthocert_kernel::step::{Checker, Place};
+use orthocert_kernel::step::Checker;
 use orthocert_kernel::test::accuracy::{near, spread, Accuracy};
-use orthocert_kernel::test::{Multiplier, Over};
+use orthocert_kernel::test::{Multiplier, Over, Place};
 
 /// The machine with a tolerance of so much either way on each length and, but for arms, on each
 /// coordinate of the anchors.
@@ -413,8 +413,7 @@ fn the_spread_of_rows_near_a_cell() {
         let parameters = &prover.checker.parameters;
         let slopes = Slopes::new(&Rough, m);
         let values = near(&problem.tape, parameters, slopes, &edges, test, of).expect("defined");
-        let far = Over::new(slopes, &values);
-        let bound = spread(&far, test).expect("defined").1;
+        let bound = spread(slopes, &values, test).expect("defined").1;
         let mut greatest = 0f64;
         for _ in 0..400 {
             let mut one = || random.below(2_001) as f64 / 1_000.0 - 1.0;
@@ -525,11 +524,12 @@ fn nothing_is_shown_of_a_pose_that_is_off_by_more() {
                 let values = prover.checker.evaluate(&rough);
                 let slopes = Slopes::new(&Rough, m);
                 let test = &problem.obligations[obligation].test;
-                let proposals = prover.proposals(&Over::new(slopes, &values), test);
+                let place = Place::new(&rough, [false; 2]);
+                let proposals = prover.proposals(&Over::new(&place, slopes, &values), test);
                 let place = Place::new(&edges, [false; 2]);
                 let values = exact.evaluate(&edges);
-                let over = Over::new(Slopes::new(&fixed, m), &values);
-                let holds = |e: &&Evidence| exact.shows(&over, &place, test, e);
+                let over = Over::new(&place, Slopes::new(&fixed, m), &values);
+                let holds = |e: &&Evidence| exact.shows(&over, test, e);
                 let found: Vec<&Evidence> = proposals.iter().flatten().filter(holds).collect();
                 shown[usize::from(fails == [false; 2])] += usize::from(!found.is_empty());
                 let first = found.first();

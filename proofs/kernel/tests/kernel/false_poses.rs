@@ -13,8 +13,8 @@ use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
-use orthocert_kernel::step::{Checker, Place};
-use orthocert_kernel::test::{Multiplier, Over};
+use orthocert_kernel::step::Checker;
+use orthocert_kernel::test::{Multiplier, Over, Place};
 
 const PLACES: u32 = 20;
 
@@ -254,9 +254,9 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                 let edges = cell.edges().expect("edges");
                 let values = exact.evaluate(&edges);
                 let slopes = Slopes::new(&fixed, edges.len());
-                let over = Over::new(slopes, &values);
                 let place = Place::new(&edges, [false; 2]);
-                assert!(!exact.is_outside(&over, &place), "{cell:?}");
+                let over = Over::new(&place, slopes, &values);
+                assert!(!exact.is_outside(&over), "{cell:?}");
                 for obligation in &problem.obligations {
                     // The sign that goes with a cone may be right where the angle is not.
                     let joint = obligation.requirement.map(|r| &stated.require[r].quantity);
@@ -290,7 +290,7 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
                             _ => Evidence::Test,
                         };
                         let evidence = nested(&plain, &mut random);
-                        let is = exact.shows(&over, &place, &obligation.test, &evidence);
+                        let is = exact.shows(&over, &obligation.test, &evidence);
                         let at = usize::from(matches!(evidence, Evidence::Control(_)));
                         tried += 1;
                         shown[at] += usize::from(is);

@@ -15,9 +15,9 @@ use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slope;
-use orthocert_kernel::step::{Checker, Place};
+use orthocert_kernel::step::Checker;
 use orthocert_kernel::test::solve::Solve;
-use orthocert_kernel::test::{Multiplier, Over, Row};
+use orthocert_kernel::test::{Multiplier, Over, Place, Row};
 
 pub const BITS: u32 = 52;
 pub const PLACES: u32 = 14;
@@ -253,7 +253,7 @@ impl<'a> Prover<'a> {
         test: &Test,
         evidence: Evidence,
     ) -> Option<Evidence> {
-        if self.checker.shows(over, place, test, &evidence) {
+        if self.checker.shows(over, test, &evidence) {
             return Some(evidence);
         }
         let by_margin = matches!(
@@ -263,7 +263,7 @@ impl<'a> Prover<'a> {
         if self.problem.inside.is_some() && over.controls.is_none() && !by_margin {
             let with = |k: i64| Evidence::Inside(Box::new(evidence.clone()), 1 << k, 12);
             let mut all = (0..16).map(with);
-            return all.find(|evidence| self.checker.shows(over, place, test, evidence));
+            return all.find(|evidence| self.checker.shows(over, test, evidence));
         }
         // Margins, and the inequality's values, point by point.
         let form = if over.controls.is_some() { Form::Scaled } else { Form::Plain };
@@ -306,7 +306,7 @@ impl<'a> Prover<'a> {
             Some(_) => Evidence::Turned(Box::new(evidence), multiple, 16),
             None => Evidence::Inside(Box::new(evidence), multiple, 16),
         };
-        self.checker.shows(over, place, test, &evidence).then_some(evidence)
+        self.checker.shows(over, test, &evidence).then_some(evidence)
     }
 
     fn find(
@@ -316,7 +316,7 @@ impl<'a> Prover<'a> {
         test: &Test,
     ) -> Option<Evidence> {
         let proposed = |over: &Over<'_, Rough>| {
-            let found = self.checker.at_controls(over, place, test, |there| {
+            let found = self.checker.at_controls(over, test, |there| {
                 let own = self.at_controls(there, test).unwrap_or_default().into_iter();
                 let mut shown = own.filter_map(|own| self.shown(there, place, test, own));
                 shown.next().map(|found| Evidence::Control(Box::new(found)))
@@ -327,7 +327,7 @@ impl<'a> Prover<'a> {
             };
             found.flatten().or_else(vertices)
         };
-        proposed(over).or_else(|| self.apart(over, place, test, &proposed))
+        proposed(over).or_else(|| self.apart(over, test, &proposed))
     }
 
     /// What shows a test with tolerances apart, from any machine at ends of the tolerance or in their
@@ -335,7 +335,6 @@ impl<'a> Prover<'a> {
     fn apart(
         &self,
         over: &Over<'_, Rough>,
-        place: &Place<'_, Pair>,
         test: &Test,
         proposed: &dyn Fn(&Over<'_, Rough>) -> Option<Evidence>,
     ) -> Option<Evidence> {
@@ -351,11 +350,11 @@ impl<'a> Prover<'a> {
         let directions: Vec<Vec<Vec<i64>>> = some.map(along).chain([Vec::new()]).collect();
         for machine in machines.collect::<Vec<String>>() {
             for directions in &directions {
-                let found = self.checker.apart(over, place, (&machine, directions), proposed);
+                let found = self.checker.apart(over, (&machine, directions), proposed);
                 let Some(inner) = found.flatten() else { continue };
                 let found =
                     Evidence::Tolerances(Box::new(inner), machine.clone(), directions.clone());
-                if self.checker.shows(over, place, test, &found) {
+                if self.checker.shows(over, test, &found) {
                     return Some(found);
                 }
             }
@@ -488,9 +487,9 @@ impl<'a> Prover<'a> {
             let place = Place::new(&edges, cell.touches(&self.root));
             let values = self.checker.evaluate(&edges);
             let slopes = self.checker.slopes(edges.len());
-            let over = Over::new(slopes, &values);
+            let over = Over::new(&place, slopes, &values);
             let cut = self.problem.inside.is_some() || self.problem.turned.is_some();
-            if cut && self.checker.is_outside(&over, &place) {
+            if cut && self.checker.is_outside(&over) {
                 nodes.push(Node { by: vec![Step(0, Evidence::Outside)], ..Node::default() });
                 continue;
             }
@@ -557,8 +556,8 @@ impl<'a> Prover<'a> {
         let place = Place::new(&edges, [false; 2]);
         let values = self.checker.evaluate(&edges);
         let slopes = self.checker.slopes(edges.len());
-        let over = Over::new(slopes, &values);
-        self.checker.is_outside(&over, &place)
+        let over = Over::new(&place, slopes, &values);
+        self.checker.is_outside(&over)
     }
 
     /// The formulas at a point in the unit of the problem.

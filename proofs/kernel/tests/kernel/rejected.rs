@@ -15,7 +15,7 @@ use orthocert_kernel::formula::{Op, Tape};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::rejected::Rejected;
 use orthocert_kernel::slope::Slopes;
-use orthocert_kernel::test::{sigma_min, Multiplier, Over, Row};
+use orthocert_kernel::test::{Multiplier, Over, Place, Row};
 
 const LEG: &str = r#"{"drive":"slider","direction":["0","0","1"],"anchor":["ANCHOR"],"platform":["0","0","0"],"length":"333","mode":"-"}"#;
 
@@ -237,17 +237,18 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
     let mut rows: Vec<_> = (0..3).map(|k| Row { a: unit(k), d: one }).collect();
     let slopes = Slopes::new(&fixed, 3);
     let values = tape.run(&slopes, |_: Op| None);
-    let over = Over::new(slopes, &values);
+    let place = Place::new(&[], [false; 2]);
+    let over = Over::new(&place, slopes, &values);
     let kappa = |_| Some(Interval::point(1i64 << 28));
     let y = |rows: usize| Multiplier {
         y: (0..rows).map(|i| (0..3).map(|k| i64::from(i == k)).collect()).collect(),
         places: 1,
     };
-    assert!(sigma_min(&over, &rows, &kappa, &y(3)));
+    assert!(over.sigma_min(&rows, &kappa, &y(3)));
     rows.push(Row { a: vec![zero; 3], d: one });
-    assert!(sigma_min(&over, &rows, &kappa, &y(4)), "a leg that adds nothing does no harm");
+    assert!(over.sigma_min(&rows, &kappa, &y(4)), "a leg that adds nothing does no harm");
     rows[3].d = zero;
-    assert!(!sigma_min(&over, &rows, &kappa, &y(4)), "a leg of length zero");
+    assert!(!over.sigma_min(&rows, &kappa, &y(4)), "a leg of length zero");
 }
 
 #[test]
