@@ -13,7 +13,9 @@ pub trait Arithmetic {
     /// `a + b`.
     fn add(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
     /// `a - b`.
-    fn sub(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number>;
+    fn sub(&self, a: &Self::Number, b: &Self::Number) -> Option<Self::Number> {
+        self.add(a, &self.neg(b)?)
+    }
     /// `-a`.
     fn neg(&self, a: &Self::Number) -> Option<Self::Number>;
     /// `a b`.

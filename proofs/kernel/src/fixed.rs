@@ -15,15 +15,14 @@ use crate::arithmetic::{Arithmetic, Enclosure};
 use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_traits::{Signed, ToPrimitive};
+use std::ops::Shr;
 
 /// Ends of intervals; `None` where a result does not fit.
-pub trait Integer: Clone + Default + Ord {
+pub trait Integer: Clone + Default + Ord + Shr<u32, Output = Self> + ToPrimitive {
     /// The time of an operation, in that of one on words.
     const WORK: usize;
     /// This integer.
     fn of(n: &BigInt) -> Option<Self>;
-    /// As an integer of any size.
-    fn to_big(&self) -> BigInt;
     /// `n 2^bits`.
     fn scaled(n: i64, bits: u32) -> Option<Self>;
     /// `self + other`.
@@ -39,11 +38,13 @@ pub trait Integer: Clone + Default + Ord {
     /// `floor(sqrt(self 2^bits))` and whether that is the root exactly, for `self >= 0`.
     fn root(&self, bits: u32) -> Option<(Self, bool)>;
     /// `floor(self / 2)`.
-    fn half(&self) -> Self;
+    fn half(&self) -> Self {
+        self.clone() >> 1
+    }
     /// `-1`, `0` or `1`.
-    fn sign(&self) -> i8;
-    /// As a machine word, if it fits.
-    fn word(&self) -> Option<i64>;
+    fn sign(&self) -> i8 {
+        self.cmp(&Self::default()) as i8
+    }
 }
 
 /// Most bits of an end: more than any claim needs, and a bound on what an operation costs.
@@ -58,10 +59,6 @@ impl Integer for BigInt {
 
     fn of(n: &BigInt) -> Option<Self> {
         Some(n.clone())
-    }
-
-    fn to_big(&self) -> BigInt {
-        self.clone()
     }
 
     fn scaled(n: i64, bits: u32) -> Option<Self> {
@@ -98,22 +95,6 @@ impl Integer for BigInt {
         let exact = &root * &root == n;
         Some((root, exact))
     }
-
-    fn half(&self) -> Self {
-        self >> 1
-    }
-
-    fn sign(&self) -> i8 {
-        match self.sign() {
-            num_bigint::Sign::Minus => -1,
-            num_bigint::Sign::NoSign => 0,
-            num_bigint::Sign::Plus => 1,
-        }
-    }
-
-    fn word(&self) -> Option<i64> {
-        self.to_i64()
-    }
 }
 
 /// Products of two words have 127 bits at most and fit into `i128`.
@@ -123,11 +104,6 @@ impl Integer for i64 {
     #[inline]
     fn of(n: &BigInt) -> Option<Self> {
         n.to_i64()
-    }
-
-    #[inline]
-    fn to_big(&self) -> BigInt {
-        BigInt::from(*self)
     }
 
     #[inline]
@@ -176,21 +152,6 @@ impl Integer for i64 {
         let n = n.checked_mul(1u128.checked_shl(bits)?)?;
         let root = n.isqrt();
         Some((root.try_into().ok()?, root * root == n))
-    }
-
-    #[inline]
-    fn half(&self) -> Self {
-        self >> 1
-    }
-
-    #[inline]
-    fn sign(&self) -> i8 {
-        self.signum() as i8
-    }
-
-    #[inline]
-    fn word(&self) -> Option<i64> {
-        Some(*self)
     }
 }
 
@@ -322,11 +283,6 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
     }
 
     #[inline]
-    fn sub(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
-        self.add(a, &self.neg(b)?)
-    }
-
-    #[inline]
     fn neg(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.hi.negated()?, hi: a.lo.negated()? })
     }
@@ -343,11 +299,10 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
 
     #[inline]
     fn sqr(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
-        let zero = Z::scaled(0, 0)?;
         let (least, greatest) = match (a.lo.sign(), a.hi.sign()) {
             (0.., _) => (a.lo.clone(), a.hi.clone()),
             (_, ..=0) => (a.hi.negated()?, a.lo.negated()?),
-            _ => (zero, magnitude(a)?),
+            _ => (Z::default(), magnitude(a)?),
         };
         Some(Interval { lo: self.down(&least, &least)?, hi: self.up(&greatest, &greatest)? })
     }
@@ -409,8 +364,7 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         centre: &Interval<Z>,
         slopes: &[Interval<Z>],
     ) -> Option<Interval<Z>> {
-        let zero = Z::scaled(0, 0)?;
-        let reach = slopes.iter().try_fold(zero, |sum, slope| sum.plus(&magnitude(slope)?))?;
+        let reach = slopes.iter().try_fold(Z::default(), |sum, s| sum.plus(&magnitude(s)?))?;
         let lo = range.lo.clone().max(centre.lo.plus(&reach.negated()?)?);
         let hi = range.hi.clone().min(centre.hi.plus(&reach)?);
         (lo <= hi).then_some(Interval { lo, hi })
@@ -437,7 +391,7 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
 
     /// The middle; precisions are 32 bits or more, places fewer.
     fn rounded(&self, a: &Interval<Z>, places: u32) -> Option<i64> {
-        a.lo.plus(&a.hi)?.half().dyadic(1, self.bits.checked_sub(places)?)?.word()
+        a.lo.plus(&a.hi)?.half().dyadic(1, self.bits.checked_sub(places)?)?.to_i64()
     }
 }
 
