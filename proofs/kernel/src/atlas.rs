@@ -85,12 +85,7 @@ impl AtlasClaim {
             return refused("of a platform that does not turn, and of no bodies");
         }
         let mut names: Vec<&str> = match &self.machine.mechanism {
-            Mechanism::Formulas(formulas) => {
-                let parameters = formulas.parameters.iter().map(|(name, _)| name);
-                let definitions = formulas.definitions.iter().map(|(name, _)| name);
-                let all = formulas.coordinates.iter().chain(parameters).chain(definitions);
-                all.map(String::as_str).collect()
-            }
+            Mechanism::Formulas(formulas) => formulas.names().collect(),
             _ => Vec::new(),
         };
         for parameter in &self.parameters {

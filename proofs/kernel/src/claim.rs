@@ -221,6 +221,15 @@ pub struct Formulas {
     pub joints: Vec<JointFormula>,
 }
 
+impl Formulas {
+    /// Whatever has a name.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let parameters = self.parameters.iter().map(|(name, _)| name);
+        let definitions = self.definitions.iter().map(|(name, _)| name);
+        parameters.chain(definitions).chain(&self.coordinates).map(String::as_str)
+    }
+}
+
 /// A joint of [`Formulas`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

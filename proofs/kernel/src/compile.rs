@@ -1,13 +1,18 @@
 //! Mechanisms as formulas: legs by their drives, and joints that users give.
 
-use crate::claim::{Formulas, JointFormula, Kind, Leg, Mechanism, Orientation, Quantity};
+use crate::claim::{Formulas, JointFormula, Kind, Leg, MachineClaim, Mechanism, Quantity};
 use crate::formula::{formula, Formula, Tape, Term};
 use crate::input::{magnitude, malformed, ordered, positive, ClaimError, Input, Value};
 use crate::machine;
 use crate::machine::motion::{Motion, Turn};
 use crate::number::{Expression, Operator};
 use crate::orientation::{self, Chart};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+
+/// Legs, or joints, as formulas.
+type Legs = Result<Vec<machine::Leg>, ClaimError>;
+/// What names stand for.
+pub(crate) type Names<'a> = HashMap<&'a str, Formula>;
 
 /// Most legs or joints.
 pub const MOST_LEGS: usize = 12;
@@ -75,6 +80,178 @@ impl Builder {
         };
         leg.quantities().into_iter().map(formulas).collect()
     }
+
+    /// The unit of length is that of the greatest length, or, where no leg has one, coordinate.
+    pub fn unit(&mut self, legs: &[Leg]) -> Result<(), ClaimError> {
+        if legs.is_empty() {
+            return Ok(());
+        }
+        if legs.len() > MOST_LEGS {
+            return Err(malformed("mechanism.legs", "twelve legs at most"));
+        }
+        let of_kind = |wanted: Kind| {
+            let quantities = legs.iter().flat_map(Leg::quantities);
+            let wanted = quantities.filter(move |(_, kind, _)| *kind == wanted);
+            magnitude(
+                wanted.flat_map(|(_, _, quantities)| quantities.iter().flat_map(Quantity::ends)),
+            )
+        };
+        let has_length =
+            legs.iter().flat_map(Leg::quantities).any(|(_, kind, _)| kind == Kind::Length);
+        let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
+        self.scale = scale.ok_or_else(|| malformed("mechanism", "numbers"))? + 1;
+        Ok(())
+    }
+
+    /// How a mechanism's platform moves; where it turns, with its orientations.
+    pub fn motion(&mut self, claim: &MachineClaim) -> Result<(Motion, Option<Chart>), ClaimError> {
+        type Components = &'static [usize];
+        let (velocity, spin, turning): (Components, Components, _) = match &claim.mechanism {
+            Mechanism::Planar(turning) => (&[0, 1], &[2], Some(turning)),
+            Mechanism::Spatial(turning) => (&[0, 1, 2], &[0, 1, 2], Some(turning)),
+            Mechanism::Spherical(turning) => (&[], &[0, 1, 2], Some(turning)),
+            Mechanism::Translational(_) | Mechanism::Orthoglide { .. } => (&[0, 1, 2], &[], None),
+            Mechanism::Formulas(_) => (&[], &[], None),
+        };
+        let tape = &mut self.tape;
+        let position = std::array::from_fn(|k| match velocity.contains(&k) {
+            true => tape.coordinate(k),
+            false => tape.integer(0),
+        });
+        let point = turning.is_none() || velocity.len() == 2;
+        let length = turning.and_then(|turning| turning.characteristic_length.as_ref());
+        let (turn, chart) = match (&claim.orientation, length) {
+            (None, None) if point => (None, None),
+            (Some(orientation), Some(length)) => {
+                let place = "mechanism.characteristic_length";
+                positive(place, length)?;
+                let length = self.number(place, length, self.scale);
+                let chart = orientation::chart(self, orientation, velocity.len(), spin.len() == 1)?;
+                let turn = Turn { matrix: chart.matrix, weight: chart.weight, length, spin };
+                (Some(turn), Some(chart))
+            }
+            _ => {
+                let expected =
+                    "with a characteristic_length, where the platform turns, and only there";
+                return Err(malformed("orientation", expected));
+            }
+        };
+        Ok((Motion { position, velocity, turn, moved: None }, chart))
+    }
+
+    /// Legs of a platform that moves so.
+    pub fn built(&mut self, motion: &Motion, legs: &[Leg]) -> Legs {
+        let quantities = legs.iter().enumerate().map(|(number, leg)| self.quantities(number, leg));
+        self.of_legs = quantities.collect::<Result<_, _>>()?;
+        self.moved(motion, legs)
+    }
+
+    /// The same legs at another pose.
+    pub fn moved(&mut self, motion: &Motion, legs: &[Leg]) -> Legs {
+        let Builder { tape, of_legs, .. } = self;
+        let leg = |(leg, formulas): (_, &Vec<_>)| built_leg(tape, motion, leg, formulas);
+        legs.iter().zip(of_legs.iter()).map(leg).collect()
+    }
+
+    /// The joints of a mechanism that its user gives.
+    pub fn by_formulas(&mut self, formulas: &Formulas) -> Legs {
+        let m = formulas.coordinates.len();
+        if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
+            return Err(malformed("coordinates", "one to six names"));
+        }
+        if formulas.joints.len() > MOST_LEGS {
+            return Err(malformed("joints", "twelve at most"));
+        }
+        if !formulas.names().all(Expression::is_name) {
+            return Err(malformed("mechanism", "named by letters, digits and _, a letter first"));
+        }
+        if formulas.names().collect::<HashSet<_>>().len() < formulas.names().count() {
+            return Err(malformed("mechanism", "given names that differ"));
+        }
+        let coordinates = formulas.coordinates.iter().enumerate();
+        let mut names: Names<'_> =
+            coordinates.map(|(k, name)| (name.as_str(), self.tape.coordinate(k))).collect();
+        for (name, quantity) in &formulas.parameters {
+            let [min, max] = quantity.ends();
+            ordered(name, min, max, quantity.has_width())?;
+            names.insert(name, self.quantity(name, quantity, 0));
+        }
+        for (name, expression) in &formulas.definitions {
+            let formula = self.compiled(&names, expression)?;
+            self.few()?;
+            names.insert(name, formula);
+        }
+        let joint = |joint: &JointFormula| match joint {
+            JointFormula::Rho(rho) => {
+                let rho = self.compiled(&names, rho)?;
+                self.few_derivatives(rho, m)?;
+                let joint = machine::joint(&mut self.tape, rho, m);
+                self.few().map(|()| joint)
+            }
+            JointFormula::Row(row) if row.len() == m => {
+                let a = row.iter().map(|x| self.compiled(&names, x)).collect::<Result<_, _>>()?;
+                Ok(machine::row(&mut self.tape, a))
+            }
+            JointFormula::Row(_) => Err(malformed("joints", "rows with an entry a coordinate")),
+        };
+        formulas.joints.iter().map(joint).collect()
+    }
+
+    /// Whether the tape has few entries.
+    pub fn few(&self) -> Result<(), ClaimError> {
+        fewer(self.tape.ops().len(), MOST_FORMULAS)
+    }
+
+    /// Asked before a formula is derived by so many inputs: each of its parts then has as many derivatives.
+    pub fn few_derivatives(&self, f: Formula, by: usize) -> Result<(), ClaimError> {
+        let parts = self.tape.parts(&[f]).into_iter().filter(|&part| part).count();
+        fewer(parts.saturating_mul(by), MOST_DERIVATIVES)
+    }
+
+    /// An expression as a formula.
+    pub fn compiled(&mut self, names: &Names<'_>, x: &Expression) -> Result<Formula, ClaimError> {
+        Ok(match x {
+            Expression::Literal { .. } | Expression::Varying(_) => {
+                self.number("a formula's number", x, 0)
+            }
+            Expression::Name(name) => {
+                *names.get(name.as_str()).ok_or_else(|| malformed(name, "a name given before"))?
+            }
+            Expression::Neg(inner) => {
+                let inner = self.compiled(names, inner)?;
+                self.tape.neg(inner)
+            }
+            Expression::Binary(operator, left, right) => {
+                let (left, right) = (self.compiled(names, left)?, self.compiled(names, right)?);
+                match operator {
+                    Operator::Add => self.tape.add(left, right),
+                    Operator::Sub => self.tape.sub(left, right),
+                    Operator::Mul => self.tape.mul(left, right),
+                    Operator::Div => {
+                        let quotient = self.tape.div(left, right);
+                        self.partial.push(quotient);
+                        quotient
+                    }
+                }
+            }
+            Expression::Power(base, n) => {
+                let base = self.compiled(names, base)?;
+                let square = self.tape.sqr(base);
+                let even = (1..n / 2).fold(square, |power, _| self.tape.mul(power, square));
+                if n % 2 == 0 {
+                    even
+                } else {
+                    self.tape.mul(even, base)
+                }
+            }
+            Expression::Sqrt(inner) => {
+                let inner = self.compiled(names, inner)?;
+                let root = self.tape.sqrt(inner);
+                self.partial.push(root);
+                root
+            }
+        })
+    }
 }
 
 fn small(x: &Expression) -> Option<i64> {
@@ -85,86 +262,6 @@ fn small(x: &Expression) -> Option<i64> {
         Expression::Neg(x) => small(x).map(|n| -n),
         _ => None,
     }
-}
-
-/// The unit of length is that of the greatest length, or, where no leg has one, coordinate.
-pub(crate) fn unit(builder: &mut Builder, legs: &[Leg]) -> Result<(), ClaimError> {
-    if legs.is_empty() {
-        return Ok(());
-    }
-    if legs.len() > MOST_LEGS {
-        return Err(malformed("mechanism.legs", "twelve legs at most"));
-    }
-    let of_kind = |wanted: Kind| {
-        let quantities = legs.iter().flat_map(Leg::quantities);
-        let wanted = quantities.filter(move |(_, kind, _)| *kind == wanted);
-        magnitude(wanted.flat_map(|(_, _, quantities)| quantities.iter().flat_map(Quantity::ends)))
-    };
-    let has_length = legs.iter().flat_map(Leg::quantities).any(|(_, kind, _)| kind == Kind::Length);
-    let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
-    builder.scale = scale.ok_or_else(|| malformed("mechanism", "numbers"))? + 1;
-    Ok(())
-}
-
-/// How a mechanism's platform moves; where it turns, with its orientations.
-pub(crate) fn motion(
-    builder: &mut Builder,
-    mechanism: &Mechanism,
-    orientation: Option<&Orientation>,
-) -> Result<(Motion, Option<Chart>), ClaimError> {
-    type Components = &'static [usize];
-    let (velocity, spin, turning): (Components, Components, _) = match mechanism {
-        Mechanism::Planar(turning) => (&[0, 1], &[2], Some(turning)),
-        Mechanism::Spatial(turning) => (&[0, 1, 2], &[0, 1, 2], Some(turning)),
-        Mechanism::Spherical(turning) => (&[], &[0, 1, 2], Some(turning)),
-        Mechanism::Translational(_) | Mechanism::Orthoglide { .. } => (&[0, 1, 2], &[], None),
-        Mechanism::Formulas(_) => (&[], &[], None),
-    };
-    let tape = &mut builder.tape;
-    let position = std::array::from_fn(|k| match velocity.contains(&k) {
-        true => tape.coordinate(k),
-        false => tape.integer(0),
-    });
-    let point = turning.is_none() || velocity.len() == 2;
-    let length = turning.and_then(|turning| turning.characteristic_length.as_ref());
-    let (turn, chart) = match (orientation, length) {
-        (None, None) if point => (None, None),
-        (Some(orientation), Some(length)) => {
-            let place = "mechanism.characteristic_length";
-            positive(place, length)?;
-            let length = builder.number(place, length, builder.scale);
-            let chart = orientation::chart(builder, orientation, velocity.len(), spin.len() == 1)?;
-            let turn = Turn { matrix: chart.matrix, weight: chart.weight, length, spin };
-            (Some(turn), Some(chart))
-        }
-        _ => {
-            let expected = "with a characteristic_length, where the platform turns, and only there";
-            return Err(malformed("orientation", expected));
-        }
-    };
-    Ok((Motion { position, velocity, turn, moved: None }, chart))
-}
-
-/// Legs of a platform that moves so.
-pub(crate) fn built(
-    builder: &mut Builder,
-    motion: &Motion,
-    legs: &[Leg],
-) -> Result<Vec<machine::Leg>, ClaimError> {
-    let quantities = legs.iter().enumerate().map(|(number, leg)| builder.quantities(number, leg));
-    builder.of_legs = quantities.collect::<Result<_, _>>()?;
-    moved(builder, motion, legs)
-}
-
-/// The same legs at another pose.
-pub(crate) fn moved(
-    builder: &mut Builder,
-    motion: &Motion,
-    legs: &[Leg],
-) -> Result<Vec<machine::Leg>, ClaimError> {
-    let Builder { tape, of_legs, .. } = builder;
-    let leg = |(leg, formulas): (_, &Vec<_>)| built_leg(tape, motion, leg, formulas);
-    legs.iter().zip(of_legs.iter()).map(leg).collect()
 }
 
 fn built_leg(
@@ -221,127 +318,14 @@ fn built_leg(
     build().ok_or_else(|| malformed("mechanism.legs", "legs with their quantities"))
 }
 
-/// The joints of a mechanism that its user gives.
-pub(crate) fn by_formulas(
-    builder: &mut Builder,
-    formulas: &Formulas,
-) -> Result<Vec<machine::Leg>, ClaimError> {
-    let mut names: HashMap<&str, Formula> = HashMap::new();
-    let m = formulas.coordinates.len();
-    if !(1..=crate::slope::MOST_COORDINATES).contains(&m) {
-        return Err(malformed("coordinates", "one to six names"));
-    }
-    if formulas.joints.len() > MOST_LEGS {
-        return Err(malformed("joints", "twelve at most"));
-    }
-    let define = |names: &mut HashMap<_, _>, name, formula| match names.insert(name, formula) {
-        None => Ok(()),
-        Some(_) => Err(malformed("mechanism", "given names that differ")),
-    };
-    let named = formulas.parameters.iter().map(|(name, _)| name);
-    let named = named.chain(formulas.definitions.iter().map(|(name, _)| name));
-    if !named.chain(&formulas.coordinates).all(|name| Expression::is_name(name)) {
-        return Err(malformed("mechanism", "named by letters, digits and _, a letter first"));
-    }
-    for (k, name) in formulas.coordinates.iter().enumerate() {
-        let coordinate = builder.tape.coordinate(k);
-        define(&mut names, name.as_str(), coordinate)?;
-    }
-    for (name, quantity) in &formulas.parameters {
-        let [min, max] = quantity.ends();
-        ordered(name, min, max, quantity.has_width())?;
-        let parameter = builder.quantity(name, quantity, 0);
-        define(&mut names, name.as_str(), parameter)?;
-    }
-    for (name, expression) in &formulas.definitions {
-        let formula = compiled(builder, &names, expression)?;
-        few(builder)?;
-        define(&mut names, name.as_str(), formula)?;
-    }
-    let joint = |joint: &JointFormula| match joint {
-        JointFormula::Rho(rho) => {
-            let rho = compiled(builder, &names, rho)?;
-            few_derivatives(builder, rho, m)?;
-            let joint = machine::joint(&mut builder.tape, rho, m);
-            few(builder).map(|()| joint)
-        }
-        JointFormula::Row(row) if row.len() == m => {
-            let a = row.iter().map(|x| compiled(builder, &names, x));
-            let a = a.collect::<Result<_, _>>()?;
-            Ok(machine::row(&mut builder.tape, a))
-        }
-        JointFormula::Row(_) => Err(malformed("joints", "rows with an entry a coordinate")),
-    };
-    formulas.joints.iter().map(joint).collect()
-}
-
 /// Most entries of a tape that a user's formulas come to.
 const MOST_FORMULAS: usize = 1 << 14;
 /// Most derivatives of one formula and of all that it is made of; by tolerances, of all formulas.
 pub(crate) const MOST_DERIVATIVES: usize = 1 << 17;
-
-pub(crate) fn few(builder: &Builder) -> Result<(), ClaimError> {
-    fewer(builder.tape.ops().len(), MOST_FORMULAS)
-}
-
-/// Asked before a formula is derived by so many inputs: each of its parts then has as many derivatives.
-pub(crate) fn few_derivatives(builder: &Builder, f: Formula, by: usize) -> Result<(), ClaimError> {
-    let parts = builder.tape.parts(&[f]).into_iter().filter(|&part| part).count();
-    fewer(parts.saturating_mul(by), MOST_DERIVATIVES)
-}
 
 fn fewer(n: usize, most: usize) -> Result<(), ClaimError> {
     if n > most {
         return Err(malformed("mechanism", "of fewer operations"));
     }
     Ok(())
-}
-
-/// An expression as a formula.
-pub(crate) fn compiled(
-    builder: &mut Builder,
-    names: &HashMap<&str, Formula>,
-    expression: &Expression,
-) -> Result<Formula, ClaimError> {
-    Ok(match expression {
-        Expression::Literal { .. } | Expression::Varying(_) => {
-            builder.number("a formula's number", expression, 0)
-        }
-        Expression::Name(name) => {
-            *names.get(name.as_str()).ok_or_else(|| malformed(name, "a name given before"))?
-        }
-        Expression::Neg(inner) => {
-            let inner = compiled(builder, names, inner)?;
-            builder.tape.neg(inner)
-        }
-        Expression::Binary(operator, left, right) => {
-            let (left, right) = (compiled(builder, names, left)?, compiled(builder, names, right)?);
-            match operator {
-                Operator::Add => builder.tape.add(left, right),
-                Operator::Sub => builder.tape.sub(left, right),
-                Operator::Mul => builder.tape.mul(left, right),
-                Operator::Div => {
-                    let quotient = builder.tape.div(left, right);
-                    builder.partial.push(quotient);
-                    quotient
-                }
-            }
-        }
-        Expression::Power(base, n) => {
-            let base = compiled(builder, names, base)?;
-            let square = builder.tape.sqr(base);
-            let even = (1..n / 2).fold(square, |power, _| builder.tape.mul(power, square));
-            if n % 2 == 0 {
-                even
-            } else {
-                builder.tape.mul(even, base)
-            }
-        }
-        Expression::Sqrt(inner) => {
-            let inner = compiled(builder, names, inner)?;
-            let root = builder.tape.sqrt(inner);
-            builder.partial.push(root);
-            root
-        }
-    })
 }

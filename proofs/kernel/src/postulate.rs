@@ -55,7 +55,7 @@ use crate::arithmetic::Enclosure;
 use crate::cell::{evaluate, unit_corners, Cell, Vertex};
 use crate::certificate::{Corner, Evidence, Node, Tree};
 use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
-use crate::compile::{compiled, Builder};
+use crate::compile::{Builder, Names};
 use crate::definite::{is_positive_definite, Triangle};
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{Formula, Tape, Values};
@@ -64,7 +64,6 @@ use crate::number::Expression;
 use crate::rejected::Rejected;
 use crate::slope::{Slope, Slopes};
 use crate::tree::{self, bisect, discharge, Theorem, MOST_WORK};
-use std::collections::HashMap;
 
 /// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
 /// Coordinates are `u_y`, `u_z` and `kappa`.
@@ -152,11 +151,11 @@ impl Part {
         let mut builder = Builder::default();
         let coordinates = ["u_y", "u_z", "kappa"].into_iter().enumerate();
         let coordinates = coordinates.map(|(k, name)| (name, builder.tape.coordinate(k)));
-        let mut names: HashMap<&str, Formula> = coordinates.collect();
+        let mut names: Names<'_> = coordinates.collect();
         for (name, text) in definitions {
             let expression = Expression::try_from(text.to_owned());
             let expression = expression.map_err(|_| malformed(name, "a number"))?;
-            names.insert(name, compiled(&mut builder, &names, &expression)?);
+            names.insert(name, builder.compiled(&names, &expression)?);
         }
         let entries = ["diagonal", "xy", "xz", "yz"].map(|name| names[name]);
         Ok(Part { face, least, greatest, tape: builder.tape, entries })

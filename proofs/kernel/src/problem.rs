@@ -2,7 +2,7 @@
 
 use crate::cell::Cell;
 use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
-use crate::compile::{built, by_formulas, motion, unit, Builder, MOST_DERIVATIVES, MOST_LEGS};
+use crate::compile::{Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
 use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
@@ -10,7 +10,7 @@ use crate::formula::{coordinates, formula, Formula, Op, Tape, Term, Values};
 use crate::input::{
     enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value, SIGN_BITS,
 };
-use crate::machine::{self, motion::Motion};
+use crate::machine;
 use crate::number::Expression;
 use crate::quantity::{self, Obligation, Test};
 use crate::slope::{Slope, MOST_COORDINATES};
@@ -30,8 +30,6 @@ pub struct Problem {
     pub inputs: Vec<Input>,
     /// The legs.
     pub legs: Vec<machine::Leg>,
-    /// How the platform moves.
-    pub(crate) motion: Motion,
     /// What is to be shown at every point.
     pub obligations: Vec<Obligation>,
     /// The workspace's least and greatest coordinates, divided by `2^scale`.
@@ -121,14 +119,14 @@ impl Problem {
             | (_, Mechanism::Spherical(Turning { legs, .. })) => legs,
             (_, Mechanism::Formulas(_) | Mechanism::Orthoglide { .. }) => &[],
         };
-        unit(&mut builder, legs)?;
-        let (motion, chart) = motion(&mut builder, &claim.mechanism, claim.orientation.as_ref())?;
+        builder.unit(legs)?;
+        let (motion, chart) = builder.motion(claim)?;
         builder.turns = chart.is_some();
         let (m, legs) = match &claim.mechanism {
             Mechanism::Formulas(formulas) => {
-                (formulas.coordinates.len(), by_formulas(&mut builder, formulas)?)
+                (formulas.coordinates.len(), builder.by_formulas(formulas)?)
             }
-            _ => (motion.velocity.len(), built(&mut builder, &motion, legs)?),
+            _ => (motion.velocity.len(), builder.built(&motion, legs)?),
         };
         let shape = corners.iter().all(|corner| corner.len() == m);
         let turns = chart.as_ref().map_or(0, |chart| chart.ends.len());
@@ -136,33 +134,31 @@ impl Problem {
             return Err(malformed("mechanism", "as many joints as coordinates, or more"));
         }
         let inside = inside(&mut builder, &claim.workspace);
+        let least = cube.as_ref().zip(quantity::psi_min(claim));
+        let cube_has_least = least
+            .is_some_and(|(cube, psi)| ordered("transmission", psi, &cube.kappa, false).is_ok());
+        let cube_kappa = cube.map(|cube| builder.number("transmission", &cube.kappa, 0));
+        let obligations = quantity::obligations(&mut builder, claim, (&legs, &motion))?;
         let mut problem = Problem {
-            tape: Tape::default(),
-            inputs: Vec::new(),
+            tape: builder.tape,
+            inputs: builder.inputs,
             legs,
-            obligations: Vec::new(),
-            motion,
+            obligations,
             corners,
             turned: chart.as_ref().and_then(|chart| chart.g),
             weight: chart.as_ref().map(|chart| chart.weight),
             orientation: chart.map_or_else(Vec::new, |chart| chart.ends),
             scale: builder.scale,
             inside,
-            cube_has_least: cube.as_ref().zip(quantity::psi_min(claim)).is_some_and(
-                |(cube, least)| ordered("transmission", least, &cube.kappa, false).is_ok(),
-            ),
-            partial: std::mem::take(&mut builder.partial),
-            cube_reached: Vec::new(),
+            cube_kappa,
+            cube_has_least,
+            cube_reached: builder.reached,
+            partial: builder.partial,
             names: Vec::new(),
             derived: None,
             offset: None,
             most_work: MOST_WORK,
-            cube_kappa: cube.map(|cube| builder.number("transmission", &cube.kappa, 0)),
         };
-        problem.obligations = quantity::obligations(&mut builder, claim, &problem)?;
-        problem.cube_reached = builder.reached;
-        problem.tape = builder.tape;
-        problem.inputs = builder.inputs;
         problem.constants_are_defined()?;
         problem.names = problem.coordinates_of_names();
         Ok(problem)

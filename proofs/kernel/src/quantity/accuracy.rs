@@ -2,7 +2,6 @@
 
 use super::{Context, Quantity, Test};
 use crate::claim::{self, Mechanism};
-use crate::compile::moved;
 use crate::formula::{formula, Formula, Op, Term};
 use crate::input::{magnitude, malformed, ordered, ClaimError, Value};
 use crate::machine::{motion::Motion, Joint, Leg};
@@ -109,7 +108,7 @@ fn turned_on<'r>(
         row.iter_mut().skip(first).for_each(|entry| *entry = tape.mul(*entry, twice));
     }
     let motion = Motion { moved: Some(c), ..motion.clone() };
-    let legs = moved(context.builder, &motion, &of.legs)?;
+    let legs = context.builder.moved(&motion, &of.legs)?;
     let tape = context.tape();
     let far = |leg: &Leg| {
         let mut row = motion.onward(tape, &leg.driven?);

@@ -1,6 +1,6 @@
 //! The joint acceleration that a platform's acceleration and speed ask for.
 
-use super::{few, Context, Quantity, Test};
+use super::{Context, Quantity, Test};
 use crate::formula::{coordinates, formula, Formula, Term};
 use crate::input::{ordered, ClaimError, Value};
 use crate::machine::{Joint, Leg};
@@ -55,7 +55,7 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
         let Some(twice) = curved.flatten() else {
             return context.refused("of a leg that is driven");
         };
-        few(context.builder)?;
+        context.builder.few()?;
         return Ok(vec![Test::Curvature(Curvature { row: leg.divided.a.clone(), twice, a, b })]);
     }
     let rest = match (leg.rho, leg.length, leg.eta_squared) {

@@ -21,12 +21,11 @@ mod stiffness;
 mod transmission;
 
 use crate::claim::{Bound, MachineClaim, Requirement};
-use crate::compile::{few, few_derivatives, Builder};
+use crate::compile::Builder;
 use crate::formula::{Formula, Op, Tape};
 use crate::input::{magnitude, malformed, positive, ClaimError, Value};
 use crate::machine::{motion::Motion, Leg};
 use crate::number::Expression;
-use crate::problem::Problem;
 use crate::test::accuracy::Accuracy;
 use crate::test::apart::Apart;
 use crate::test::curvature::Curvature;
@@ -205,9 +204,9 @@ impl<'a> Context<'a> {
 
     /// The partial derivatives of a formula; refused where they come to too many operations.
     fn derivatives(&mut self, f: Formula, by: &[Op]) -> Result<Vec<Formula>, ClaimError> {
-        few_derivatives(self.builder, f, by.len())?;
+        self.builder.few_derivatives(f, by.len())?;
         let gradient = self.tape().gradient(f, by);
-        few(self.builder)?;
+        self.builder.few()?;
         Ok(gradient.quotients(self.tape()))
     }
 
@@ -314,9 +313,8 @@ fn psi(claim: &MachineClaim, of: fn(&Bound) -> Option<&Expression>) -> Option<&E
 pub(crate) fn obligations(
     builder: &mut Builder,
     claim: &MachineClaim,
-    problem: &Problem,
+    (legs, motion): (&[Leg], &Motion),
 ) -> Result<Vec<Obligation>, ClaimError> {
-    let legs = &problem.legs;
     if legs.iter().any(|leg| leg.is_angular()) && !legs.iter().all(|leg| leg.is_angular()) {
         return Err(malformed("mechanism.legs", "arms alone, or none: psi has no unit else"));
     }
@@ -345,7 +343,7 @@ pub(crate) fn obligations(
         if !requirement.given.keys().map(String::as_str).eq(names) {
             return Err(malformed(&place, "given what it is for, and nothing else"));
         }
-        let (motion, weight) = (&problem.motion, problem.weight);
+        let weight = motion.turn.as_ref().map(|turn| turn.weight);
         let place = place.as_str();
         let mut context = Context { builder, claim, legs, motion, weight, requirement, place };
         let mut add = |leg: Option<usize>, tests: Vec<Test>| {
