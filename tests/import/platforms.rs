@@ -220,14 +220,11 @@ fn lengths_at<'a>(
 ) -> impl Fn(kernel::formula::Formula) -> f64 + 'a {
     let fixed = kernel::fixed::Fixed::<BigInt>::new(96);
     let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
-    let values = problem.tape.run(&fixed, |op| match op {
-        kernel::formula::Op::Coordinate(k) => {
-            let x = (coordinates[k] * 52f64.exp2()).round() as i64;
-            Some(kernel::fixed::Interval::point(BigInt::from(x) << 44))
-        }
-        kernel::formula::Op::Parameter(j) => parameters.get(j).cloned(),
-        _ => None,
-    });
+    let coordinate = |k: usize| {
+        let x = (coordinates[k] * 52f64.exp2()).round() as i64;
+        Some(kernel::fixed::Interval::point(BigInt::from(x) << 44))
+    };
+    let values = problem.tape.run(&fixed, coordinate, |j| parameters.get(j).cloned());
     let unit = (problem.scale as f64).exp2();
     move |formula| {
         let length = &values.of(formula).expect("defined").lo;

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Enclosure;
 use crate::fixed::{Integer, Interval};
-use crate::formula::{Op, Tape, Values};
+use crate::formula::{Tape, Values};
 use crate::slope::{Slope, Slopes, CORNER_PLACES};
 
 /// A box: for each coordinate a range with ends in multiples of `2^-bits`.
@@ -56,11 +56,11 @@ pub fn evaluate<E: Enclosure>(
     slopes: Slopes<'_, E>,
     edges: &[[E::Number; 3]],
 ) -> Values<Slope<E::Number>> {
-    tape.run(&slopes, |op| match op {
-        Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
-        Op::Parameter(j) => slopes.constant(parameters.get(j)?.clone()),
-        _ => None,
-    })
+    tape.run(
+        &slopes,
+        |k| slopes.coordinate(k, edges.get(k)?.clone()),
+        |j| slopes.constant(parameters.get(j)?.clone()),
+    )
 }
 
 /// A vertex of a cell: bit `k` is set where `lambda_k = 1`, else `lambda_k = -1`.

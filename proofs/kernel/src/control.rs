@@ -102,12 +102,11 @@ impl Control {
             Some(Tensor { depends: std::array::from_fn(|other| other == k), values })
         };
         let tensors = Tensors { e, nodes: counts };
-        let at = self.tape.run(&tensors, |op| match op {
-            Op::Coordinate(k) if k < self.m => own(k, 0),
-            Op::Coordinate(k) => own(k - self.m, 1),
-            Op::Parameter(j) => parameters.get(j).cloned().map(Tensor::constant),
-            _ => None,
-        });
+        let at = self.tape.run(
+            &tensors,
+            |k| if k < self.m { own(k, 0) } else { own(k - self.m, 1) },
+            |j| parameters.get(j).cloned().map(Tensor::constant),
+        );
         let mut values = Vec::new();
         for (f, (image, _)) in &self.images {
             let Some(Tensor { depends, values: own }) = at.of(*image).cloned() else { continue };

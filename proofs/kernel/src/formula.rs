@@ -283,9 +283,10 @@ impl Tape {
     pub fn run<A: Arithmetic>(
         &self,
         arithmetic: &A,
-        input: impl Fn(Op) -> Option<A::Number>,
+        coordinate: impl Fn(usize) -> Option<A::Number>,
+        parameter: impl Fn(usize) -> Option<A::Number>,
     ) -> Values<A::Number> {
-        self.run_parts(arithmetic, None, &Values::default(), input)
+        self.run_parts(arithmetic, (None, &Values::default()), coordinate, parameter)
     }
 
     /// The same of those that are needed alone, where it is said which: the others are undefined. What is
@@ -293,9 +294,9 @@ impl Tape {
     pub fn run_parts<A: Arithmetic>(
         &self,
         arithmetic: &A,
-        needed: Option<&[bool]>,
-        known: &Values<A::Number>,
-        input: impl Fn(Op) -> Option<A::Number>,
+        (needed, known): (Option<&[bool]>, &Values<A::Number>),
+        coordinate: impl Fn(usize) -> Option<A::Number>,
+        parameter: impl Fn(usize) -> Option<A::Number>,
     ) -> Values<A::Number> {
         let ops = needed.map_or(&self.ops[..], |needed| &self.ops[..needed.len()]);
         let count = needed.map_or(ops.len(), |needed| needed.iter().filter(|is| **is).count());
@@ -312,7 +313,8 @@ impl Tape {
             let both = |a, b| Some((at(a)?, at(b)?));
             let value = match op {
                 _ if known.of(own).is_some() => known.of(own).cloned(),
-                Op::Coordinate(_) | Op::Parameter(_) => input(op),
+                Op::Coordinate(k) => coordinate(k),
+                Op::Parameter(j) => parameter(j),
                 Op::Integer(n) => arithmetic.integer(n),
                 Op::Add(a, b) => both(a, b).and_then(|(a, b)| arithmetic.add(a, b)),
                 Op::Sub(a, b) => both(a, b).and_then(|(a, b)| arithmetic.sub(a, b)),

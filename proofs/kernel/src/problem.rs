@@ -268,10 +268,11 @@ impl Problem {
     /// divisors not zero, radicands positive.
     fn constants_are_defined(&self) -> Result<(), ClaimError> {
         let parameters = self.parameters::<BigInt>(SIGN_BITS, &[])?;
-        let values = self.tape.run(&Fixed::<BigInt>::new(SIGN_BITS), |op| match op {
-            Op::Parameter(j) => parameters.get(j).cloned(),
-            _ => None,
-        });
+        let values = self.tape.run(
+            &Fixed::<BigInt>::new(SIGN_BITS),
+            |_| None,
+            |j| parameters.get(j).cloned(),
+        );
         let undefined = self.tape.constants().into_iter().find(|&f| values.of(f).is_none());
         undefined.map_or(Ok(()), |f| {
             // Named after the first number that it is made of.

@@ -10,7 +10,7 @@ use crate::cell::evaluate;
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
-use crate::formula::{Formula, Op, Values};
+use crate::formula::{Formula, Values};
 use crate::input::{ordered, sign, ClaimError};
 use crate::machine::Joint;
 use crate::number::Expression;
@@ -122,17 +122,15 @@ fn fails_by_names(at: &AtPoint<'_>, witness: &Witness) -> Option<bool> {
     }
     let slopes = Slopes::new(at.slopes.arithmetic, problem.dimension() + problem.names.len());
     let varying = problem.varying(bits);
-    let values = problem.tape.run(&slopes, |op| match op {
-        Op::Coordinate(k) => {
-            let own = problem.sloped(witness.point.get(k)?, problem.scale, bits);
-            own.or_else(|| slopes.constant(at.point.get(k)?.clone()))
-        }
-        Op::Parameter(j) => {
-            let own = varying.get(j)?.clone();
-            own.or_else(|| slopes.constant(at.parameters.get(j)?.clone()))
-        }
-        _ => None,
-    });
+    let coordinate = |k: usize| {
+        let own = problem.sloped(witness.point.get(k)?, problem.scale, bits);
+        own.or_else(|| slopes.constant(at.point.get(k)?.clone()))
+    };
+    let parameter = |j: usize| {
+        let own = varying.get(j)?.clone();
+        own.or_else(|| slopes.constant(at.parameters.get(j)?.clone()))
+    };
+    let values = problem.tape.run(&slopes, coordinate, parameter);
     Some(fails_throughout(problem, slopes, &values, &witness.fails))
 }
 

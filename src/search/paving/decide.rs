@@ -12,7 +12,7 @@ use crate::search::solver::evidence::{Over, Prover};
 use crate::search::solver::refute::directions;
 use crate::search::solver::sample::{Place, Quality, Sampler};
 use orthocert_kernel::certificate::Failure;
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::Formula;
 use orthocert_kernel::paving::{
     bit, discharged, is_mirrored, Axis, Cell, Item, Judge, Kind, Outer, Rejected, Step, Subject,
     MAX_AXIS_LEVEL,
@@ -577,11 +577,8 @@ impl<'a> Decider<'a> {
             self.prover.root.iter().zip(u).map(|((lo, hi), u)| lo * (1.0 - u) + hi * u).collect();
         let problem = &self.subject.problem;
         let parameters = self.prover.parameters();
-        let values = problem.tape.run(&Single, |op| match op {
-            Op::Coordinate(k) => point.get(k).copied(),
-            Op::Parameter(j) => parameters.get(j).map(middle),
-            _ => None,
-        });
+        let values =
+            problem.tape.run(&Single, |k| point.get(k).copied(), |j| parameters.get(j).map(middle));
         let rows = problem.legs.iter().map(|leg| &leg.row);
         Local::of(rows, |f| values.of(f).copied()).map_or(f64::INFINITY, |local| {
             let Spectrum { least, greatest, .. } = local.spectrum;

@@ -3,7 +3,7 @@
 use super::doubles::{middle, Pair, Single};
 use super::rows::{above, rounded};
 use nalgebra::{DMatrix, SymmetricEigen};
-use orthocert_kernel::formula::{Formula, Op, Values};
+use orthocert_kernel::formula::{Formula, Values};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::Multiplier;
@@ -33,11 +33,7 @@ pub fn common(problem: &Problem, root: &[Pair], parameters: &[Pair]) -> Option<M
     let (m, n, lengths) = (root.len(), rows.len(), problem.corners[0].len());
     let turns = problem.weight.is_some();
     let run = |x: &[f64]| {
-        problem.tape.run(&Single, |op| match op {
-            Op::Coordinate(k) => x.get(k).copied(),
-            Op::Parameter(j) => parameters.get(j).map(middle),
-            _ => None,
-        })
+        problem.tape.run(&Single, |k| x.get(k).copied(), |j| parameters.get(j).map(middle))
     };
     let matrix = |mut x: Vec<f64>| {
         let mut values = run(&x);

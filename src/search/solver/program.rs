@@ -56,12 +56,18 @@ impl<N: Clone> Program<N> {
     ) -> Self {
         let record =
             Record { arithmetic, constants: RefCell::default(), steps: RefCell::default() };
-        let slots = tape.run_parts(&record, needed, &Values::default(), |op| {
+        let own = |op: Op| {
             Some(match input(op)? {
                 Input::Constant(x) => record.constant(x),
                 Input::Varying(k) => record.push(Step::Input(k)),
             })
-        });
+        };
+        let slots = tape.run_parts(
+            &record,
+            (needed, &Values::default()),
+            |k| own(Op::Coordinate(k)),
+            |j| own(Op::Parameter(j)),
+        );
         let Record { constants, steps, .. } = record;
         Program { steps: steps.into_inner(), constants: constants.into_inner(), slots }
     }

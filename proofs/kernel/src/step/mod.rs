@@ -18,7 +18,7 @@ use crate::test::accuracy::{accuracy, near, Accuracy};
 use crate::test::apart::apart;
 use crate::test::curvature::curvature;
 use crate::test::solve::solve;
-use crate::test::{Multiplier, Over, Row, MOST_PLACES};
+use crate::test::{Formulas, Multiplier, Over, Row, MOST_PLACES};
 use tolerances::{are_for, is_of_vertices};
 
 /// Checks steps; in another arithmetic than [`Fixed`](crate::fixed::Fixed), proposes them.
@@ -43,7 +43,7 @@ pub struct Checker<'a, E: Enclosure> {
     /// What own evidence is made of; none where that is all.
     needed: Option<Vec<bool>>,
     /// The formulas without coordinates, if no parameter has slopes.
-    constant: Values<Slope<E::Number>>,
+    constant: Formulas<E>,
 }
 
 impl<'a, E: Enclosure> Checker<'a, E> {
@@ -102,25 +102,20 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     }
 
     /// The formulas over a cell.
-    pub fn evaluate(&self, edges: &[[E::Number; 3]]) -> Values<Slope<E::Number>> {
+    pub fn evaluate(&self, edges: &[[E::Number; 3]]) -> Formulas<E> {
         self.values(None, edges)
     }
 
     /// The same of the entries that are needed alone, where it is said which.
-    fn values(
-        &self,
-        needed: Option<&[bool]>,
-        edges: &[[E::Number; 3]],
-    ) -> Values<Slope<E::Number>> {
+    fn values(&self, needed: Option<&[bool]>, edges: &[[E::Number; 3]]) -> Formulas<E> {
         let slopes = self.slopes(edges.len());
-        self.problem.tape.run_parts(&slopes, needed, &self.constant, |op| match op {
-            Op::Coordinate(k) => slopes.coordinate(k, edges.get(k)?.clone()),
-            Op::Parameter(j) => match self.varying.get(j) {
-                Some(Some(slope)) => Some(slope.clone()),
-                _ => slopes.constant(self.parameters.get(j)?.clone()),
-            },
-            _ => None,
-        })
+        let coordinate = |k: usize| slopes.coordinate(k, edges.get(k)?.clone());
+        let parameter = |j: usize| match self.varying.get(j) {
+            Some(Some(slope)) => Some(slope.clone()),
+            _ => slopes.constant(self.parameters.get(j)?.clone()),
+        };
+        let known = (needed, &self.constant);
+        self.problem.tape.run_parts(&slopes, known, coordinate, parameter)
     }
 
     /// Whether the evidence shows that a test holds on a cell.

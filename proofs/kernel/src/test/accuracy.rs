@@ -5,7 +5,7 @@ use super::{Formulas, Multiplier, Over, Row};
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
 use crate::definite::{are_positive_definite, is_positive_definite, Vector};
-use crate::formula::{Formula, Op, Tape, Values};
+use crate::formula::{Formula, Tape, Values};
 use crate::slope::{Slope, Slopes};
 use std::ops::Range;
 
@@ -73,16 +73,15 @@ pub fn near<E: Enclosure>(
         let wide = e.hull(&e.sub(centre, by)?, &e.add(centre, by)?);
         Some([centre.clone(), wide, by.clone()])
     };
-    Some(tape.run(&slopes, |op| match op {
-        Op::Coordinate(k) if k < first => slopes.coordinate(k, about(&edges.get(k)?[1], &d)?),
-        Op::Coordinate(k) if k < m => slopes.constant(edges.get(k)?[1].clone()),
-        Op::Coordinate(k) => {
+    let coordinate = |k: usize| match k {
+        _ if k < first => slopes.coordinate(k, about(&edges.get(k)?[1], &d)?),
+        _ if k < m => slopes.constant(edges.get(k)?[1].clone()),
+        _ => {
             let c = about(&e.integer(0)?, tau.as_ref()?)?;
             slopes.coordinate((k - m).checked_add(first).filter(|&k| k < m)?, c)
         }
-        Op::Parameter(j) => slopes.constant(parameters.get(j)?.clone()),
-        _ => None,
-    }))
+    };
+    Some(tape.run(&slopes, coordinate, |j| slopes.constant(parameters.get(j)?.clone())))
 }
 
 /// A number `g` with `|(J(u) - J(0)) w| <= g ||u|| ||w||` for the matrices `J` of the far rows and

@@ -16,7 +16,7 @@ use orthocert_kernel::certificate::{Evidence, Failure, Proof, Step};
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity};
 use orthocert_kernel::fixed::{Fixed, Interval};
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::number::{Expression, Operator};
 use orthocert_kernel::problem::Problem;
@@ -80,11 +80,8 @@ impl<'a> Built<'a> {
     }
 
     fn at(&self, x: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let values = self.problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => Some((x[k], x[k])),
-            Op::Parameter(j) => Some(self.parameters[j]),
-            _ => None,
-        });
+        let values =
+            self.problem.tape.run(&Rough, |k| Some((x[k], x[k])), |j| Some(self.parameters[j]));
         let of = |f| values.of(f).expect("within reach").0;
         let n = x.len();
         let rho = |i: usize| match self.problem.legs[i].rho.expect("a joint") {
@@ -348,13 +345,13 @@ fn far_rows_are_derivatives_by_what_displaces_a_pose() {
             // Coordinates from m on are those of the rotation.
             let rows = |u: &[f64]| -> Vec<Vec<f64>> {
                 let by = by(u);
-                let values = problem.tape.run(&Rough, |op| match op {
-                    Op::Coordinate(k) if k < split[0] => Some((x[k] + by[k], x[k] + by[k])),
-                    Op::Coordinate(k) if k < m => Some((x[k], x[k])),
-                    Op::Coordinate(k) => Some(by[k - m + split[0]]).map(|c| (c, c)),
-                    Op::Parameter(j) => Some(double(&parameters[j], 96)),
-                    _ => None,
-                });
+                let coordinate = |k: usize| match k {
+                    _ if k < split[0] => Some((x[k] + by[k], x[k] + by[k])),
+                    _ if k < m => Some((x[k], x[k])),
+                    _ => Some(by[k - m + split[0]]).map(|c| (c, c)),
+                };
+                let values =
+                    problem.tape.run(&Rough, coordinate, |j| Some(double(&parameters[j], 96)));
                 let of = |f: &Formula| values.of(*f).expect("defined").0;
                 test.far.iter().map(|row| row.iter().map(of).collect()).collect()
             };
@@ -420,13 +417,12 @@ fn the_spread_of_rows_near_a_cell() {
             let p: Vec<f64> = centre.iter().enumerate().map(|(k, c)| c + half(k) * one()).collect();
             let u: Vec<f64> = centre.iter().map(|_| one()).collect();
             let rows = |u: &[f64]| {
-                let values = problem.tape.run(&Rough, |op| match op {
-                    Op::Coordinate(k) if k < first => Some(p[k] + d * u[k]).map(|x| (x, x)),
-                    Op::Coordinate(k) if k < m => Some((p[k], p[k])),
-                    Op::Coordinate(k) => Some(tau? * u[k - m + first]).map(|c| (c, c)),
-                    Op::Parameter(j) => Some(parameters[j]),
-                    _ => None,
-                });
+                let coordinate = |k: usize| match k {
+                    _ if k < first => Some(p[k] + d * u[k]).map(|x| (x, x)),
+                    _ if k < m => Some((p[k], p[k])),
+                    _ => Some(tau? * u[k - m + first]).map(|c| (c, c)),
+                };
+                let values = problem.tape.run(&Rough, coordinate, |j| Some(parameters[j]));
                 let all = test.far.iter().flatten().map(|&f| values.of(f).expect("defined").0);
                 DMatrix::from_row_iterator(m, m, all)
             };

@@ -5,7 +5,7 @@ use num_bigint::BigInt;
 use orthocert_kernel::cell::Cell;
 use orthocert_kernel::control::Control;
 use orthocert_kernel::fixed::{Fixed, Interval};
-use orthocert_kernel::formula::{Formula, Op, Tape};
+use orthocert_kernel::formula::{Formula, Tape};
 
 const BITS: u32 = 40;
 const M: usize = 3;
@@ -41,11 +41,11 @@ fn scaled(x: f64) -> BigInt {
 
 /// The value at a point, enclosed with many bits.
 fn value(tape: &Tape, f: Formula, x: &[BigInt], parameter: &BigInt) -> Interval<BigInt> {
-    let values = tape.run(&Fixed::<BigInt>::new(BITS + 60), |op| match op {
-        Op::Coordinate(k) => Some(Interval::point(&x[k] << 60)),
-        Op::Parameter(_) => Some(Interval::point(parameter << 60)),
-        _ => None,
-    });
+    let values = tape.run(
+        &Fixed::<BigInt>::new(BITS + 60),
+        |k| Some(Interval::point(&x[k] << 60)),
+        |_| Some(Interval::point(parameter << 60)),
+    );
     values.of(f).expect("defined").clone()
 }
 

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Random;
 use crate::rough::{Pair, Rough};
-use orthocert_kernel::formula::{Op, Tape, Values, Vector};
+use orthocert_kernel::formula::{Tape, Values, Vector};
 use orthocert_kernel::machine::{arm, joint, planar, slider, strut, Joint, Leg};
 
 type V = [f64; 3];
@@ -35,11 +35,11 @@ struct At<'a> {
 
 impl At<'_> {
     fn values(&self, w: V) -> Values<Pair> {
-        self.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => Some((w[k], w[k])),
-            Op::Parameter(j) => Some((self.parameters[j], self.parameters[j])),
-            _ => None,
-        })
+        self.tape.run(
+            &Rough,
+            |k| Some((w[k], w[k])),
+            |j| Some((self.parameters[j], self.parameters[j])),
+        )
     }
 
     /// `A`, `D`, the divided row, and the joint coordinate; nothing out of reach.

@@ -6,7 +6,7 @@ use crate::certificates::claim;
 use crate::prover::double;
 use crate::rough::Rough;
 use num_bigint::BigInt;
-use orthocert_kernel::formula::{Formula, Op};
+use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::{Obligation, Test};
@@ -316,15 +316,12 @@ fn rows_are_derivatives_in_the_twist() {
         let mut p = [0.0; 3];
         motion.velocity.iter().for_each(|&k| p[k] = number(&mut random, -1.0, 1.0));
         let c: Vec<f64> = motion.spin.iter().map(|_| number(&mut random, -0.7, 0.7)).collect();
-        let values = problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => {
-                let x = *motion.velocity.get(k).map(|&k| &p[k]).unwrap_or(&0.0) / unit;
-                let x = if k < motion.velocity.len() { x } else { c[k - motion.velocity.len()] };
-                Some((x, x))
-            }
-            Op::Parameter(j) => Some(double(&parameters[j], 96)),
-            _ => None,
-        });
+        let coordinate = |k: usize| {
+            let x = *motion.velocity.get(k).map(|&k| &p[k]).unwrap_or(&0.0) / unit;
+            let x = if k < motion.velocity.len() { x } else { c[k - motion.velocity.len()] };
+            Some((x, x))
+        };
+        let values = problem.tape.run(&Rough, coordinate, |j| Some(double(&parameters[j], 96)));
         let of = |f: Formula| values.of(f).map(|x| x.0);
         let r = rotation(motion.orientation, &c);
         for (i, (own, (_, [a, b], drive))) in problem.legs.iter().zip(&legs).enumerate() {
@@ -461,11 +458,11 @@ fn joints_and_bodies_are_where_the_pose_puts_them() {
         let c: Vec<f64> = motion.spin.iter().map(|_| number(&mut random, -0.7, 0.7)).collect();
         let x: Vec<f64> = motion.velocity.iter().map(|&k| p[k] / unit).chain(c.clone()).collect();
         let parameters = problem.parameters::<BigInt>(96, &[]).expect("numbers");
-        let values = problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => x.get(k).map(|&x| (x, x)),
-            Op::Parameter(j) => Some(double(&parameters[j], 96)),
-            _ => None,
-        });
+        let values = problem.tape.run(
+            &Rough,
+            |k| x.get(k).map(|&x| (x, x)),
+            |j| Some(double(&parameters[j], 96)),
+        );
         let of = |f: Formula| values.of(f).map(|x| (x.0 + x.1) / 2.0);
         let r = rotation(motion.orientation, &c);
         let (_, [a, b], drive) = &legs[0];

@@ -9,7 +9,6 @@ use orthocert_kernel::certificate::{
 };
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::NoCubeClaim;
-use orthocert_kernel::formula::Op;
 use orthocert_kernel::no_cube::statement;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -322,11 +321,11 @@ fn rows_are_as_long_as_their_legs() {
         let Ok(problem) = Problem::new(&claim(&text)) else { continue };
         let parameters = problem.parameters::<i64>(40, &[]).expect("parameters");
         let double = |x: i64| x as f64 * (-40f64).exp2();
-        let values = problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => Some([0.1, -0.05, 0.02][k]).map(|x| (x, x)),
-            Op::Parameter(j) => Some((double(parameters[j].lo), double(parameters[j].hi))),
-            _ => None,
-        });
+        let values = problem.tape.run(
+            &Rough,
+            |k| Some([0.1, -0.05, 0.02][k]).map(|x| (x, x)),
+            |j| Some((double(parameters[j].lo), double(parameters[j].hi))),
+        );
         for leg in &problem.legs {
             let Some(length) = leg.length.and_then(|length| values.of(length)) else { continue };
             let square: f64 =

@@ -6,7 +6,7 @@ use num_traits::{One, Signed};
 use orthocert_kernel::arithmetic::Arithmetic;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::{Fixed, Interval};
-use orthocert_kernel::formula::{Formula, Op, Values};
+use orthocert_kernel::formula::{Formula, Values};
 use orthocert_kernel::machine::Joint;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -43,11 +43,11 @@ impl At {
         let problem = Problem::new(claim).unwrap();
         let parameters = problem.parameters::<BigInt>(BITS, &[]).unwrap();
         let point = problem.root::<BigInt>(BITS).unwrap().0;
-        let values = problem.tape.run(&Fixed::<BigInt>::new(BITS), |op| match op {
-            Op::Parameter(j) => parameters.get(j).cloned(),
-            Op::Coordinate(k) => point.get(k).cloned(),
-            _ => None,
-        });
+        let values = problem.tape.run(
+            &Fixed::<BigInt>::new(BITS),
+            |k| point.get(k).cloned(),
+            |j| parameters.get(j).cloned(),
+        );
         At { problem, values }
     }
 

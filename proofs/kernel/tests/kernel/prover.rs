@@ -10,7 +10,7 @@ use orthocert_kernel::certificate::{
 };
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::fixed::Interval;
-use orthocert_kernel::formula::{Formula, Op, Values};
+use orthocert_kernel::formula::{Formula, Values};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
@@ -562,11 +562,7 @@ impl<'a> Prover<'a> {
 
     /// The formulas at a point in the unit of the problem.
     pub fn values(&self, x: &[f64]) -> Values<Pair> {
-        self.problem.tape.run(&Rough, |op| match op {
-            Op::Coordinate(k) => x.get(k).map(|&x| (x, x)),
-            Op::Parameter(j) => Some(self.parameters[j]),
-            _ => None,
-        })
+        self.problem.tape.run(&Rough, |k| x.get(k).map(|&x| (x, x)), |j| Some(self.parameters[j]))
     }
 
     /// `M` at a point in the unit of the problem.

@@ -11,7 +11,7 @@ use orthocert_kernel::check::check;
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::document::Unreadable;
 use orthocert_kernel::fixed::{Fixed, Interval};
-use orthocert_kernel::formula::{Op, Tape};
+use orthocert_kernel::formula::Tape;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::rejected::Rejected;
 use orthocert_kernel::slope::Slopes;
@@ -236,7 +236,7 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
     let unit = |k: usize| (0..3).map(|j| if j == k { one } else { zero }).collect();
     let mut rows: Vec<_> = (0..3).map(|k| Row { a: unit(k), d: one }).collect();
     let slopes = Slopes::new(&fixed, 3);
-    let values = tape.run(&slopes, |_: Op| None);
+    let values = tape.run(&slopes, |_| None, |_| None);
     let place = Place::new(&[], [false; 2]);
     let over = Over::new(&place, slopes, &values);
     let kappa = |_| Some(Interval::point(1i64 << 28));

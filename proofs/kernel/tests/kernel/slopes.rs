@@ -63,11 +63,11 @@ fn scaled(x: f64) -> BigInt {
 /// The values at a point, enclosed with many bits.
 fn values(tape: &Tape, x: &[BigInt], parameters: &[BigInt]) -> Values<Interval<BigInt>> {
     let fine = Fixed::<BigInt>::new(BITS + 60);
-    tape.run(&fine, |op| match op {
-        Op::Coordinate(k) => Some(Interval::point(&x[k] << 60)),
-        Op::Parameter(j) => Some(Interval::point(&parameters[j] << 60)),
-        _ => None,
-    })
+    tape.run(
+        &fine,
+        |k| Some(Interval::point(&x[k] << 60)),
+        |j| Some(Interval::point(&parameters[j] << 60)),
+    )
 }
 
 /// A formula over a cell.
@@ -245,12 +245,7 @@ fn gradients_are_derivatives() {
         let (mut tape, f) = tape(&mut random);
         let gradient = tape.gradient(f, &coordinates(3));
         let x = [0; 3].map(|_: i64| random.below(100) as f64 / 50.0 - 1.0);
-        let at = |x: [f64; 3]| {
-            tape.run(&Rough, |op| match op {
-                Op::Coordinate(k) => Some((x[k], x[k])),
-                _ => None,
-            })
-        };
+        let at = |x: [f64; 3]| tape.run(&Rough, |k| Some((x[k], x[k])), |_| None);
         let values = at(x);
         let of = |f: Formula| values.of(f).expect("defined").0;
         let denominator = of(gradient.denominator);
