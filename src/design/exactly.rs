@@ -166,9 +166,7 @@ mod tests {
             if let (Some(x), Some(y)) = (exact.as_rational(), expression.rational()) {
                 assert_eq!(*x, y, "{text}");
             }
-            let (old, new) = (exact.enclose(400).unwrap(), {
-                expression.enclose(&Fixed::new(400), &|_| None).unwrap()
-            });
+            let (old, new) = (exact.enclose(400).unwrap(), { expression.enclose(400).unwrap() });
             assert!(old.lo <= new.hi && new.lo <= old.hi, "{text}");
             let least = BigInt::from(1) << 20;
             if exact.as_rational().is_none() {

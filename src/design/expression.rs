@@ -8,6 +8,7 @@
 
 use super::error::Defect;
 use super::exactly::written;
+use super::names::put_in;
 use super::suggestion;
 use crate::exact::Exact;
 use num_bigint::BigInt;
@@ -89,11 +90,13 @@ pub(super) fn enclosed(
     max: &Expression,
     values: &[(String, Exact)],
 ) -> Option<Interval<BigInt>> {
-    let named = |name: &str| {
-        let (_, x) = values.iter().find(|(known, _)| known == name)?;
-        written(x)?.enclose(&Fixed::new(BITS), &|_| None)
+    let values: Vec<(&str, Expression)> =
+        values.iter().filter_map(|(name, x)| Some((name.as_str(), written(x)?))).collect();
+    let end = |x: &Expression| {
+        let mut x = x.clone();
+        put_in(&mut x, &values);
+        x.enclose(BITS)
     };
-    let end = |x: &Expression| x.enclose(&Fixed::new(BITS), &named);
     Some(Interval { lo: end(min)?.lo, hi: end(max)?.hi })
 }
 

@@ -63,7 +63,7 @@ pub(super) fn put(claim: &mut MachineClaim, known: &[(String, Exact)]) {
 }
 
 /// Whether there was a name.
-fn put_in(x: &mut Expression, known: &[(&str, Expression)]) -> bool {
+pub(super) fn put_in(x: &mut Expression, known: &[(&str, Expression)]) -> bool {
     match x {
         Expression::Literal { .. } | Expression::Varying(_) => false,
         Expression::Name(name) => match known.iter().find(|(known, _)| known == name) {

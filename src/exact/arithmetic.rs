@@ -1,7 +1,6 @@
 //! Arithmetic with the exact numbers of claims: what is rational is written as one number.
 
 use crate::search::solver::number;
-use orthocert_kernel::fixed::Fixed;
 use orthocert_kernel::number::{Expression, Operator};
 
 /// Fractional bits in which two numbers are compared.
@@ -21,7 +20,7 @@ pub fn at_most(a: &Expression, b: &Expression) -> bool {
     match (a.rational(), b.rational()) {
         (Some(a), Some(b)) => a <= b,
         _ => apply(Operator::Sub, b, a)
-            .and_then(|x| x.enclose(&Fixed::new(BITS), &|_| None))
+            .and_then(|x| x.enclose(BITS))
             .is_some_and(|x| x.lo >= 0.into()),
     }
 }

@@ -1,6 +1,6 @@
 //! Atlases: maps of a box of parameters, which say where in it a claim holds, and where it fails.
 
-use crate::certificate::{AtlasCell, Witness};
+use crate::certificate::AtlasCell;
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Parameter, Workspace};
 use crate::input::{malformed, ClaimError};
 use crate::number::Expression;
@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::statement::{holds, workspace};
 use crate::tree;
-use crate::vary::{vary, Numbers as _, Range, MOST_PARAMETERS};
+use crate::vary::{vary, Numbers, Range, MOST_PARAMETERS};
 use crate::witness;
 use crate::work::{self, spend};
 use num_bigint::BigInt;
@@ -30,25 +30,17 @@ impl AtlasClaim {
     /// # Errors
     /// If the parameters are not well formed.
     pub fn over(&self, part: &[(u64, u32)]) -> Result<MachineClaim, ClaimError> {
-        let ranges = self.ranges(part)?;
-        let mut claim = self.machine.clone();
-        claim.numbers_mut().into_iter().for_each(|number| vary(number, &ranges));
-        Ok(claim)
+        self.varied(part, &self.machine)
     }
 
-    /// A witness over a cell: its numbers may name parameters.
+    /// What may name parameters, over a cell.
     ///
     /// # Errors
     /// As [`AtlasClaim::over`].
-    pub fn witness_over(
-        &self,
-        part: &[(u64, u32)],
-        witness: &Witness,
-    ) -> Result<Witness, ClaimError> {
-        let ranges = self.ranges(part)?;
-        let mut witness = witness.clone();
-        witness.numbers_mut().into_iter().for_each(|number| vary(number, &ranges));
-        Ok(witness)
+    pub fn varied<T: Numbers + Clone>(&self, part: &[(u64, u32)], of: &T) -> Result<T, ClaimError> {
+        let (ranges, mut over) = (self.ranges(part)?, of.clone());
+        over.numbers_mut().into_iter().for_each(|number| vary(number, &ranges));
+        Ok(over)
     }
 
     /// The parameters' ranges in a cell.
@@ -145,29 +137,25 @@ pub fn walk(
     mut visit: impl FnMut(usize, &Part, &AtlasCell) -> Result<(), Rejected>,
 ) -> Result<Shares, Rejected> {
     let mut waiting: Vec<Part> = vec![vec![(0, 0); parameters]];
-    let (mut certified, mut refuted) = (BigInt::zero(), BigInt::zero());
-    let levels = MOST_LEVEL * MOST_PARAMETERS as u32;
+    let (certified, refuted) = (BigRational::zero(), BigRational::zero());
+    let mut shares = Shares { certified, refuted };
     for (at, cell) in cells.iter().enumerate() {
         let part = waiting.pop().ok_or(Rejected::Shape(at))?;
         let depth: u32 = part.iter().map(|(_, level)| level).sum();
-        let share = || BigInt::from(1) << levels.saturating_sub(depth);
+        let share = || BigRational::new(1.into(), BigInt::from(1) << depth);
         match cell {
             AtlasCell::Split(k) => {
                 let [lower, upper] = halves(&part, *k).ok_or(Rejected::Shape(at))?;
                 waiting.extend([upper, lower]);
                 continue;
             }
-            AtlasCell::Certified(_) => certified += share(),
-            AtlasCell::Refuted(_) => refuted += share(),
+            AtlasCell::Certified(_) => shares.certified += share(),
+            AtlasCell::Refuted(_) => shares.refuted += share(),
             AtlasCell::Undecided => {}
         }
         visit(at, &part, cell)?;
     }
-    if !waiting.is_empty() {
-        return Err(Rejected::Shape(cells.len()));
-    }
-    let of_whole = |found| BigRational::new(found, BigInt::from(1) << levels);
-    Ok(Shares { certified: of_whole(certified), refuted: of_whole(refuted) })
+    waiting.is_empty().then_some(shares).ok_or(Rejected::Shape(cells.len()))
 }
 
 /// Accepts an atlas but for the cells that are not wanted, by their number, or says why not. Where each
@@ -200,11 +188,9 @@ pub fn check_part(
         let share = share.rational().filter(|share| !share.is_negative());
         share.is_some_and(|share| share <= *found)
     };
-    if reaches(&claim.certified, &found.certified) && reaches(&claim.refuted, &found.refuted) {
-        Ok(())
-    } else {
-        Err(Rejected::Shares)
-    }
+    let reached =
+        reaches(&claim.certified, &found.certified) && reaches(&claim.refuted, &found.refuted);
+    reached.then_some(()).ok_or(Rejected::Shares)
 }
 
 /// The bytes of a text.
@@ -235,8 +221,7 @@ pub(crate) fn shown(
     }
     let mut left = bytes.saturating_mul(work::WORK_A_BYTE);
     let mut over = claim.over(part)?;
-    let numbers: usize = over.numbers_mut().into_iter().map(|x| work::of_number(x)).sum();
-    spend(&mut left, numbers)?;
+    spend(&mut left, work::of_each(&mut over))?;
     let problem = Problem::new(&over)?;
     spend(&mut left, work::of_problem(&problem))?;
     match cell {
@@ -246,11 +231,9 @@ pub(crate) fn shown(
             tree::check(&Problem { most_work, ..problem }, tree)
         }
         AtlasCell::Refuted(witness) => {
-            let mut witness = claim.witness_over(part, witness)?;
-            let numbers = witness.numbers_mut().into_iter().map(|x| work::of_number(x));
-            let numbers: usize = numbers.sum();
+            let mut witness = claim.varied(part, witness)?;
             let at_point = work::of_witness(&problem, witness.precision);
-            spend(&mut left, numbers.saturating_add(at_point))?;
+            spend(&mut left, work::of_each(&mut witness).saturating_add(at_point))?;
             Ok(witness::check(&problem, &over.workspace, &witness)?)
         }
         AtlasCell::Undecided | AtlasCell::Split(_) => Ok(()),

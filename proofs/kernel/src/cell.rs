@@ -76,7 +76,7 @@ pub fn evaluate<E: Enclosure>(
 /// About a corner, `lambda` is in `[0, 1]^m`: of that part the vertices are [`unit_corners`].
 ///
 /// So where a set of matrices is convex, and holds the matrices of all `f_v` in their enclosures
-/// [`Vertex::value`], it holds that of `f(x)`.
+/// [`Slopes::at`], it holds that of `f(x)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Vertex(u32);
 
@@ -100,24 +100,6 @@ impl Vertex {
     /// Its number.
     pub fn index(self) -> usize {
         self.0 as usize
-    }
-
-    /// Encloses `f_v`.
-    pub fn value<E: Enclosure>(
-        self,
-        slopes: &Slopes<'_, E>,
-        slope: &Slope<E::Number>,
-    ) -> Option<E::Number> {
-        let e = slopes.arithmetic;
-        let mut terms = slope.slopes.iter().take(slopes.m).enumerate();
-        terms.try_fold(slope.at_centre.clone(), |sum, (k, term)| match slopes.part {
-            None if self.has(k) => e.add(&sum, term),
-            None => e.sub(&sum, term),
-            Some(corners) => {
-                let lambda = *corners.get(self.index())?.get(k)?;
-                e.add(&sum, &e.dyadic(lambda, CORNER_PLACES, term)?)
-            }
-        })
     }
 
     /// Whether bit `k` is set.

@@ -360,6 +360,26 @@ pub enum Bound {
     Holds,
 }
 
+impl Bound {
+    /// The least value that it allows.
+    pub fn least(&self) -> Option<&Expression> {
+        if let Bound::Min(bound) = self {
+            Some(bound)
+        } else {
+            None
+        }
+    }
+
+    /// The greatest.
+    pub fn greatest(&self) -> Option<&Expression> {
+        if let Bound::Max(bound) = self {
+            Some(bound)
+        } else {
+            None
+        }
+    }
+}
+
 /// "For every machine, and every point `C` of the box that is the workspace of `machine`, the closed
 /// cube of this side with the centre `C` and edges along the axes has a point at which the claim of
 /// `machine` fails."

@@ -19,7 +19,7 @@
 //! `rho_i = P_i - offset - a - s_i = (P_i - q_1) + (L - s_i)`, `P_i >= q_1` and `s_i <= L`. ∎ It is 0 where
 //! `P_i = q_1` and the others are 0: a point that enclosures never settle.
 
-use crate::claim::{Leg, MachineClaim, Quantity, Sign};
+use crate::claim::{Bound, Leg, MachineClaim, Quantity, Sign};
 use crate::input::{malformed, ordered, positive, sign, ClaimError};
 use crate::number::Expression;
 use crate::quantity;
@@ -40,7 +40,7 @@ impl Cube {
         side: &Expression,
     ) -> Result<Self, ClaimError> {
         let place = "requirements.transmission";
-        let psi = quantity::psi_max(claim)
+        let psi = quantity::psi(claim, Bound::greatest)
             .ok_or_else(|| malformed(place, "a greatest psi, for the paper's cube"))?;
         let one = Expression::integer(1);
         positive("workspace.side", side)?;

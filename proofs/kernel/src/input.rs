@@ -56,17 +56,12 @@ pub enum Value {
     TiltReach(Expression, Expression),
 }
 
-/// Numbers of a claim have no names in them.
-fn nameless(_: &str) -> Option<Interval<BigInt>> {
-    None
-}
-
 /// Encloses a number with `bits` fractional bits, for every value of its names.
 fn of_all(number: &Expression, bits: u32) -> Option<Interval<BigInt>> {
     if number.varies() {
         vary::enclose(number, bits)
     } else {
-        number.enclose(&Fixed::new(bits), &nameless)
+        number.enclose(bits)
     }
 }
 
@@ -111,9 +106,6 @@ impl Input {
 
     /// Encloses it with `bits` fractional bits. `machine` replaces an interval.
     pub fn enclose(&self, bits: u32, machine: Option<&Expression>) -> Option<Interval<BigInt>> {
-        let angle = |degrees: &Expression| {
-            cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), bits)
-        };
         match &self.value {
             Value::Quantity(Quantity::Exactly(x)) => enclosed(x, self.scale, bits),
             Value::Quantity(Quantity::Between { min, max }) => {
@@ -124,8 +116,10 @@ impl Input {
                     (enclosed(min, self.scale, bits)?, enclosed(max, self.scale, bits)?);
                 Some(Interval { lo: min.lo, hi: max.hi })
             }
-            Value::Cosine(degrees) => angle(degrees).map(|[cos, _]| cos),
-            Value::Sine(degrees) => angle(degrees).map(|[_, sin]| sin),
+            Value::Cosine(degrees) => {
+                cos_sin(|bits| degrees.enclose(bits), bits).map(|[cos, _]| cos)
+            }
+            Value::Sine(degrees) => cos_sin(|bits| degrees.enclose(bits), bits).map(|[_, sin]| sin),
             Value::Radians(degrees) => {
                 let fixed = Fixed::<BigInt>::new(bits);
                 let x = enclosed(degrees, self.scale, bits)?;
@@ -154,7 +148,7 @@ pub(crate) fn half_tangent(
     }
     scaled(scale, bits, |working, by| {
         let fixed = Fixed::<BigInt>::new(working);
-        let [cos, sin] = cos_sin(|bits| degrees.enclose(&Fixed::new(bits), &nameless), working)?;
+        let [cos, sin] = cos_sin(|bits| degrees.enclose(bits), working)?;
         let over = fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?;
         Some(by(&fixed.mul(&sin, &over)?))
     })
@@ -169,7 +163,7 @@ pub(crate) fn magnitude<'a>(numbers: impl Iterator<Item = &'a Expression>) -> Op
         if last.replace(x) == Some(x) {
             continue;
         }
-        let x = x.enclose(&Fixed::new(SIGN_BITS), &nameless)?;
+        let x = x.enclose(SIGN_BITS)?;
         let bits = x.lo.abs().max(x.hi.abs()).bits();
         if bits > 0 {
             greatest = greatest.max(Some(i64::try_from(bits).ok()? - 1 - i64::from(SIGN_BITS)));

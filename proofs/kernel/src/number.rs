@@ -346,30 +346,25 @@ impl Expression {
         }
     }
 
-    /// Encloses the number, with `name` for the names in it; `None` where an operation is undefined.
+    /// Encloses the number with `bits` fractional bits; `None` where an operation is undefined, or it has a name.
     /// A root of an interval that reaches below zero is that of its part from zero on, provided that
     /// is not empty: a number of a claim may be zero. Not so of names that stand for many numbers, some
     /// of which may have no root.
-    pub fn enclose(
-        &self,
-        arithmetic: &Fixed<BigInt>,
-        name: &impl Fn(&str) -> Option<Interval<BigInt>>,
-    ) -> Option<Interval<BigInt>> {
-        self.enclose_once(arithmetic, name, &mut HashMap::new())
+    pub fn enclose(&self, bits: u32) -> Option<Interval<BigInt>> {
+        self.enclose_once(&Fixed::new(bits), &mut HashMap::new())
     }
 
     /// The same; parts that several have are enclosed once.
     fn enclose_once<'a>(
         &'a self,
         arithmetic: &Fixed<BigInt>,
-        name: &impl Fn(&str) -> Option<Interval<BigInt>>,
         known: &mut HashMap<*const Expression, Option<Interval<BigInt>>>,
     ) -> Option<Interval<BigInt>> {
         let mut of = |inner: &'a Arc<Expression>| {
             if let Some(known) = known.get(&Arc::as_ptr(inner)) {
                 return known.clone();
             }
-            let value = inner.enclose_once(arithmetic, name, known).filter(is_moderate);
+            let value = inner.enclose_once(arithmetic, known).filter(is_moderate);
             if Arc::strong_count(inner) > 1 {
                 known.insert(Arc::as_ptr(inner), value.clone());
             }
@@ -382,7 +377,7 @@ impl Expression {
                 let hi = if rest.is_zero() { lo.clone() } else { &lo + 1 };
                 Some(Interval { lo, hi })
             }
-            Expression::Name(inner) => name(inner),
+            Expression::Name(_) => None,
             Expression::Varying(range) => {
                 let [_, range, _] = range.edge(arithmetic.bits());
                 Some(range)

@@ -243,7 +243,7 @@ impl Part {
     ) -> bool {
         let [d, off @ ..] = self.entries;
         let of = |i, j| values.of(if i == j { d } else { off[i + j - 1] });
-        Triangle::new(3, |i, j| v.value(&slopes, of(i, j)?))
+        Triangle::new(3, |i, j| slopes.at(of(i, j)?, v))
             .is_some_and(|f| is_positive_definite(slopes.arithmetic, &f))
     }
 }

@@ -1,7 +1,7 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
-use crate::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
+use crate::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
 use crate::compile::{Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
 use crate::cube::Cube;
@@ -134,7 +134,7 @@ impl Problem {
             return Err(malformed("mechanism", "as many joints as coordinates, or more"));
         }
         let inside = inside(&mut builder, &claim.workspace);
-        let least = cube.as_ref().zip(quantity::psi_min(claim));
+        let least = cube.as_ref().zip(quantity::psi(claim, Bound::least));
         let cube_has_least = least
             .is_some_and(|(cube, psi)| ordered("transmission", psi, &cube.kappa, false).is_ok());
         let cube_kappa = cube.map(|cube| builder.number("transmission", &cube.kappa, 0));

@@ -92,12 +92,26 @@ impl<E: Enclosure> Slopes<'_, E> {
         self.part.map_or(1 << self.m, <[_]>::len)
     }
 
+    /// Encloses `f_v`.
+    pub fn at(&self, f: &Slope<E::Number>, v: Vertex) -> Option<E::Number> {
+        let e = self.arithmetic;
+        let mut terms = f.slopes.iter().take(self.m).enumerate();
+        terms.try_fold(f.at_centre.clone(), |sum, (k, term)| match self.part {
+            None if v.has(k) => e.add(&sum, term),
+            None => e.sub(&sum, term),
+            Some(corners) => {
+                let lambda = *corners.get(v.index())?.get(k)?;
+                e.add(&sum, &e.dyadic(lambda, CORNER_PLACES, term)?)
+            }
+        })
+    }
+
     /// Whether all values of a formula are such numbers; these are a convex set.
     pub fn all(&self, f: &Slope<E::Number>, are: impl Fn(&E::Number) -> bool) -> bool {
         match self.part {
             None => are(&f.range),
             Some(_) => {
-                Vertex::first(self.corners()).all(|v| v.value(self, f).is_some_and(|x| are(&x)))
+                Vertex::first(self.corners()).all(|v| self.at(f, v).is_some_and(|x| are(&x)))
             }
         }
     }

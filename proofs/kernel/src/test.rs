@@ -154,7 +154,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
     /// The same, where tolerances are apart of the one machine: what they change is yet to be taken off.
     pub fn own_at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
         match self.controls {
-            None => vertex.value(&self.slopes, self.own(formula)?),
+            None => self.slopes.at(self.own(formula)?, vertex),
             Some(all) => {
                 let controls = self.tolerances.map_or(Some(all), |tolerances| tolerances.controls);
                 controls?.at(formula, vertex.index()).cloned()

@@ -97,7 +97,7 @@ pub(crate) fn sloped(
 ) -> Option<Slope<Number>> {
     let of = |x: &Expression| sloped(x, slopes, place);
     let found = match x {
-        _ if !x.varies() => slopes.constant(x.enclose(slopes.arithmetic, &|_| None)?),
+        _ if !x.varies() => slopes.constant(x.enclose(slopes.arithmetic.bits())?),
         Expression::Literal { .. } | Expression::Name(_) => None,
         Expression::Varying(range) => {
             slopes.coordinate(place(range.parameter)?, range.edge(slopes.arithmetic.bits()))

@@ -11,6 +11,7 @@ use crate::input::{Input, Value};
 use crate::number::{Expression, Operator};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
+use crate::vary::Numbers;
 
 /// Units of work for each byte of a certificate, of a third of a microsecond or so.
 pub const WORK_A_BYTE: usize = 192;
@@ -26,10 +27,10 @@ pub(crate) fn spend(left: &mut usize, units: usize) -> Result<(), Rejected> {
     Ok(())
 }
 
-/// What a number costs, which is evaluated six times or so: an operation on rational numbers of `b` bits
+/// What numbers cost, each of which is evaluated six times or so: an operation on rational numbers of `b` bits
 /// the square of `b`; one on slopes in parameters eight times as much as another.
-pub(crate) fn of_number(x: &Expression) -> usize {
-    6usize.saturating_mul(size(x).0)
+pub(crate) fn of_each(of: &mut impl Numbers) -> usize {
+    of.numbers_mut().into_iter().map(|x| 6usize.saturating_mul(size(x).0)).sum()
 }
 
 /// What an expression costs, the bits that it has as a rational number, and whether it varies.

@@ -130,7 +130,7 @@ fn common_witness(
     let sampler = Sampler::new(&nominal, &problem).ok()?;
     let named = Named { claim: &claim.machine, over, cell };
     let fails = |witness: &Witness| {
-        let there = claim.witness_over(part, witness);
+        let there = claim.varied(part, witness);
         there.is_ok_and(|there| witness::check(cell, &over.workspace, &there).is_ok())
     };
     let at_place = |quality: Quality, place: &Place, way: f64, inner: bool| {

@@ -167,7 +167,7 @@ pub fn depth_for_edge(
     edge: &Expression,
 ) -> Option<u32> {
     let enclosed = |x: &Expression| {
-        let x = x.enclose(&orthocert_kernel::fixed::Fixed::<BigInt>::new(4 * BITS), &|_| None)?;
+        let x = x.enclose(4 * BITS)?;
         let end = |x| BigRational::new(x, BigInt::from(1) << (4 * BITS));
         Some([end(x.lo), end(x.hi)])
     };

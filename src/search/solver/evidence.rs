@@ -17,6 +17,7 @@ use orthocert_kernel::slope::Slope;
 use orthocert_kernel::step::Checker;
 use orthocert_kernel::test::accuracy::{self, Accuracy};
 use orthocert_kernel::test::{self, Multiplier, Place, Row};
+use orthocert_kernel::witness::fails_throughout;
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
 pub const BITS: u32 = 96;
@@ -200,7 +201,7 @@ impl Over<'_> {
 
     /// Whether the claim seems to fail so at every point of the box.
     pub(crate) fn fails(&self, failure: &Failure) -> bool {
-        self.prover.checker.fails(self.formulas.slopes, self.formulas.values, failure)
+        fails_throughout(self.problem(), self.formulas.slopes, self.formulas.values, failure)
     }
 
     fn is_outside(&self) -> bool {

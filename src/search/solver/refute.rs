@@ -8,7 +8,6 @@ use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 use orthocert_kernel::certificate::{Failure, Witness};
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
-use orthocert_kernel::fixed::Fixed;
 use orthocert_kernel::input::Input;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -292,7 +291,7 @@ fn enclosed(x: &Expression) -> Option<(BigRational, BigRational)> {
     if let Some(x) = x.rational() {
         return Some((x.clone(), x));
     }
-    let x = x.enclose(&Fixed::new(NUMBER_BITS), &|_| None)?;
+    let x = x.enclose(NUMBER_BITS)?;
     let end = |x: BigInt| BigRational::new(x, BigInt::from(1) << NUMBER_BITS);
     Some((end(x.lo), end(x.hi)))
 }

@@ -6,7 +6,7 @@
 
 use orthocert_checker::certificate::{Verdict, MOST_BYTES};
 use orthocert_checker::paving;
-use orthocert_checker::{check, file, read, statement, USAGE};
+use orthocert_checker::{check, file, read, statement, Rejected, USAGE};
 use std::fmt::Display;
 use std::io::{BufRead, Read, Write};
 use std::path::Path;
@@ -40,20 +40,13 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    if paving::is_paving(&bytes) {
+    let accepted = match paving::is_paving(&bytes) {
         // What was read is not read again: the file may be a pipe, or another one by now.
-        return check_paving(bytes.as_slice().chain(rest));
-    }
-    let accepted = read(&bytes).and_then(|certificate| Ok((check(&certificate)?, certificate)));
+        true => of_paving(bytes.as_slice().chain(rest)).map_err(|reason| reason.to_string()),
+        false => of_certificate(&bytes).map_err(|reason| reason.to_string()),
+    };
     match accepted {
-        Ok((verdict, certificate)) => {
-            let words = statement::established(&certificate);
-            let code = match verdict {
-                Verdict::Certified => ExitCode::SUCCESS,
-                Verdict::Refuted => ExitCode::from(1),
-            };
-            print(&format!("ACCEPTED: {verdict}\n{words}"), code)
-        }
+        Ok((what, words, code)) => print(&format!("ACCEPTED: {what}\n{words}"), code),
         Err(reason) => {
             complain(&format_args!("REJECTED: {reason}"));
             ExitCode::from(5)
@@ -61,17 +54,22 @@ fn main() -> ExitCode {
     }
 }
 
-fn check_paving(input: impl BufRead) -> ExitCode {
-    match paving::check(input) {
-        Ok(accepted) => {
-            let words = orthocert_kernel::statement::paving(&accepted);
-            print(&format!("ACCEPTED: paving\n{words}"), ExitCode::SUCCESS)
-        }
-        Err(reason) => {
-            complain(&format_args!("REJECTED: {reason}"));
-            ExitCode::from(5)
-        }
-    }
+/// What is accepted, what it establishes, and the exit code.
+type Accepted = (String, String, ExitCode);
+
+fn of_certificate(bytes: &[u8]) -> Result<Accepted, Rejected> {
+    let certificate = read(bytes)?;
+    let verdict = check(&certificate)?;
+    let code = match verdict {
+        Verdict::Certified => ExitCode::SUCCESS,
+        Verdict::Refuted => ExitCode::from(1),
+    };
+    Ok((verdict.to_string(), statement::established(&certificate), code))
+}
+
+fn of_paving(input: impl BufRead) -> Result<Accepted, paving::Rejected> {
+    let words = orthocert_kernel::statement::paving(&paving::check(input)?);
+    Ok(("paving".to_owned(), words, ExitCode::SUCCESS))
 }
 
 /// A sentence on standard error, on one line.

@@ -16,6 +16,7 @@ use crate::quantity::Test;
 use crate::slope::Slopes;
 use crate::step::Checker;
 use crate::test::{Over, Place};
+use crate::witness::fails_throughout;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use std::collections::HashMap;
@@ -248,7 +249,9 @@ impl<'a, Z: Integer> Side<'a, Z> {
             Kind::At(..) if !bound.clone().all(is_inside) => false,
             Kind::Outer(outer) | Kind::At(_, outer) => match outer {
                 Outer::Own(o) => self.checker.fails_own(slopes, &values, *o),
-                Outer::Given(failure) => self.checker.fails(slopes, &values, failure),
+                Outer::Given(failure) => {
+                    fails_throughout(&subject.problem, slopes, &values, failure)
+                }
             },
             Kind::Split(_) | Kind::Part(_) | Kind::Boundary | Kind::Mirrored => true,
         };

@@ -51,24 +51,19 @@ fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     }
     let mut rows: Vec<_> = context.legs.iter().map(|leg| leg.divided.a.clone()).collect();
     let distance = context.number(max, 1);
-    let first = context.motion.velocity.len();
-    if context.claim.orientation.is_none() {
-        let (far, part) = (rows.clone(), 0..rows.len());
-        let (scaled, weight, turn) = (Vec::new(), None, None);
-        let test = Accuracy { rows, far, scaled, weight, joints, distance, turn, part };
-        return Ok(vec![Test::Accuracy(test)]);
-    }
     let scaled = context.legs.iter().map(|leg| leg.scaled.clone()).collect::<Option<_>>();
     let (mut scaled, weight): (Vec<_>, _) = (scaled.unwrap_or_default(), context.weight);
-    let all = rows.iter_mut().chain(scaled.iter_mut().map(|row| &mut row.a));
-    let (tau, far) = turned_on(context, max, all)?;
-    let parts = [0..first, first..rows.len()].into_iter().filter(|part| !part.is_empty());
-    let of = |part| {
-        let (rows, far, scaled) = (rows.clone(), far.clone(), scaled.clone());
-        let (joints, turn) = (joints.clone(), Some((tau, first)));
-        Test::Accuracy(Accuracy { rows, far, scaled, weight, joints, distance, turn, part })
+    let (turn, far) = match context.claim.orientation {
+        None => (None, rows.clone()),
+        Some(_) => {
+            let all = rows.iter_mut().chain(scaled.iter_mut().map(|row| &mut row.a));
+            let (tau, far) = turned_on(context, max, all)?;
+            (Some((tau, context.motion.velocity.len())), far)
+        }
     };
-    Ok(parts.map(of).collect())
+    let whole = Accuracy { part: 0..0, rows, far, scaled, weight, joints, distance, turn };
+    let parts = whole.parts(whole.rows.len()).into_iter();
+    Ok(parts.map(|part| Test::Accuracy(Accuracy { part, ..whole.clone() })).collect())
 }
 
 /// `tau`, and the far rows; columns of rows in `ell omega` become those in `u_c`: `omega = 2 c'` at `c = 0`,

@@ -261,17 +261,11 @@ impl<'a> Context<'a> {
     }
 
     fn least(&self) -> Result<&'a Expression, ClaimError> {
-        match &self.requirement.bound {
-            Bound::Min(bound) => Ok(bound),
-            _ => self.refused("a least value"),
-        }
+        self.requirement.bound.least().map_or_else(|| self.refused("a least value"), Ok)
     }
 
     fn greatest(&self) -> Result<&'a Expression, ClaimError> {
-        match &self.requirement.bound {
-            Bound::Max(bound) => Ok(bound),
-            _ => self.refused("a greatest value"),
-        }
+        self.requirement.bound.greatest().map_or_else(|| self.refused("a greatest value"), Ok)
     }
 }
 
@@ -293,17 +287,11 @@ fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
     sum
 }
 
-/// The greatest psi that a claim asks for.
-pub(crate) fn psi_max(claim: &MachineClaim) -> Option<&Expression> {
-    psi(claim, |bound| if let Bound::Max(psi) = bound { Some(psi) } else { None })
-}
-
-/// The least psi that a claim asks for.
-pub(crate) fn psi_min(claim: &MachineClaim) -> Option<&Expression> {
-    psi(claim, |bound| if let Bound::Min(psi) = bound { Some(psi) } else { None })
-}
-
-fn psi(claim: &MachineClaim, of: fn(&Bound) -> Option<&Expression>) -> Option<&Expression> {
+/// The least, or the greatest, psi that a claim asks for.
+pub(crate) fn psi(
+    claim: &MachineClaim,
+    of: fn(&Bound) -> Option<&Expression>,
+) -> Option<&Expression> {
     let mut own = claim.require.iter().filter(|own| own.quantity == transmission::TRANSMISSION.key);
     own.find_map(|requirement| of(&requirement.bound))
 }

@@ -52,7 +52,7 @@ impl<E: Enclosure> Checker<'_, E> {
             let entry = |i: usize, j: usize| {
                 let at = |i: usize, j: usize| {
                     let f = *self.divided.get(i)?.a.get(j)?;
-                    v.value(&slopes, values.of(f)?)
+                    slopes.at(values.of(f)?, v)
                 };
                 let sum = e.add(&at(i, j)?, &at(j, i)?)?;
                 if i == j {

@@ -64,7 +64,7 @@ impl<E: Enclosure> Checker<'_, E> {
             return self.multiples(over, self.problem.inside.as_ref()?.g, mu);
         }
         let tangent = self.tangent(over, mu)?;
-        over.vertices().map(|v| v.value(&over.slopes, &tangent)).collect()
+        over.vertices().map(|v| over.slopes.at(&tangent, v)).collect()
     }
 
     /// `mu g` for the orientations' own inequality `g >= 0`. Its values at the vertices are those of its

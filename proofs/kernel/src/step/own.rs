@@ -117,16 +117,6 @@ impl<E: Enclosure> Checker<'_, E> {
         Some(Multiplier { y, places: PLACES })
     }
 
-    /// Whether the claim fails so at every point of a cell, or of its part, for every machine.
-    pub fn fails(
-        &self,
-        slopes: Slopes<'_, E>,
-        values: &Values<Slope<E::Number>>,
-        failure: &Failure,
-    ) -> bool {
-        fails_throughout(self.problem, slopes, values, failure)
-    }
-
     /// Whether an obligation fails so in its own directions: of singular values those of the centre; or,
     /// of the greatest one, in the row of a leg.
     pub fn fails_own(
@@ -151,13 +141,13 @@ impl<E: Enclosure> Checker<'_, E> {
                 | Test::Curvature(_) => return None,
             })
         };
-        let of = |directions| Failure::Obligation(number, directions);
+        let fails = |failure| fails_throughout(self.problem, slopes, values, &failure);
         let mut legs = match obligation.test {
             Test::SigmaMax(_) => 0..self.rows.len(),
             _ => 0..0,
         };
-        directions().is_some_and(|directions| self.fails(slopes, values, &of(directions)))
-            || legs.any(|leg| self.fails(slopes, values, &Failure::Row(number, leg)))
+        directions().is_some_and(|directions| fails(Failure::Obligation(number, directions)))
+            || legs.any(|leg| fails(Failure::Row(number, leg)))
     }
 
     /// Nearly the direction that `M` at the centre stretches most, or least: of `G = M^T M`, or of its

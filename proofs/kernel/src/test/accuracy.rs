@@ -306,7 +306,7 @@ fn at<E: Enclosure>(
     let one = e.integer(1)?;
     let Some([beta, q]) = slopes else {
         let rows: Vec<_> = test.rows.iter().map(row).collect::<Option<_>>()?;
-        let b = sum(over, test, |by| v.value(&over.slopes, over.of(by)?))?;
+        let b = sum(over, test, |by| over.slopes.at(over.of(by)?, v))?;
         return Some((rows, one.clone(), vec![one; b.len()], b));
     };
     let weight = over.at(test.weight?, v)?;

@@ -29,7 +29,7 @@ pub struct Apart {
 pub fn apart<E: Enclosure>(over: &Over<'_, E>, test: &Apart, evidence: &Multiplier) -> bool {
     let e = over.slopes.arithmetic;
     let greatest = |v: Vertex, g: &[Slope<E::Number>]| {
-        let square = e.sum(g.iter().map(|g| e.sqr(&v.value(&over.slopes, g)?)))?;
+        let square = e.sum(g.iter().map(|g| e.sqr(&over.slopes.at(g, v)?)))?;
         e.mul(&over.of(test.distance)?.range, &e.greatest_root(&square)?)
     };
     let along = |g: &[Slope<E::Number>], p: &Vector, q: &Vector| {
@@ -46,7 +46,7 @@ pub fn apart<E: Enclosure>(over: &Over<'_, E>, test: &Apart, evidence: &Multipli
         for (p, q) in first.iter().flat_map(|p| second.iter().map(move |q| (p, q))) {
             let f = along(&g, p, q)?;
             let holds = |v: Vertex| {
-                let rest = e.sub(&v.value(&over.slopes, &f)?, &greatest(v, &g)?)?;
+                let rest = e.sub(&over.slopes.at(&f, v)?, &greatest(v, &g)?)?;
                 Some(e.is_positive(&over.less_inside(rest, v)?))
             };
             over.vertices().all(|v| holds(v) == Some(true)).then_some(())?;

@@ -29,7 +29,7 @@ pub struct Curvature {
 /// eigenvalues of `H` only.
 pub fn curvature<E: Enclosure>(over: &Over<'_, E>, test: &Curvature) -> bool {
     let e = over.slopes.arithmetic;
-    let at = |v: Vertex, f: &Formula| v.value(&over.slopes, over.of(*f)?);
+    let at = |v: Vertex, f: &Formula| over.slopes.at(over.of(*f)?, v);
     let holds = |v: Vertex| {
         let row = e.greatest_root(&e.sum(test.row.iter().map(|f| e.sqr(&at(v, f)?)))?)?;
         let rest = e.sub(&e.integer(1)?, &e.mul(&over.of(test.a)?.range, &row)?)?;

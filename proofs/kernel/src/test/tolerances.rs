@@ -81,7 +81,7 @@ impl<E: Enclosure> Over<'_, E> {
     /// The value of a formula at a vertex, or control point, of all machines.
     fn of_all(&self, f: Formula, v: Vertex) -> Option<E::Number> {
         match self.controls {
-            None => v.value(&self.slopes, self.of(f)?),
+            None => self.slopes.at(self.of(f)?, v),
             Some(controls) => controls.at(f, v.index()).cloned(),
         }
     }

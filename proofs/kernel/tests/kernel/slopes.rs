@@ -234,7 +234,8 @@ fn slopes_of_two_identities_are_not_to_be_mixed() {
     for s in &slope.slopes[..2] {
         assert!(s.lo < 2 * one && 2 * one < s.hi, "{s:?}");
     }
-    let corner = Vertex::all(2).nth(2).expect("(-1, 1)").value(&slopes, slope).expect("value");
+    let v = Vertex::all(2).nth(2).expect("(-1, 1)");
+    let corner = slopes.at(slope, v).expect("value");
     assert!(corner.lo <= 3 * one && 3 * one <= corner.hi);
 }
 

@@ -21,7 +21,6 @@ use num_rational::BigRational;
 use orthocert_checker::certificate;
 use orthocert_kernel::certificate::Provenance;
 use orthocert_kernel::claim::MachineClaim;
-use orthocert_kernel::fixed::Fixed;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{Accepted, Share};
 use region::Region;
@@ -198,7 +197,7 @@ impl<'a> PavingPage<'a> {
         let enclosed = |x: &Expression| match x.rational() {
             Some(x) => Some([x.clone(), x]),
             None => {
-                let x = x.enclose(&Fixed::new(END_BITS), &|_| None)?;
+                let x = x.enclose(END_BITS)?;
                 let end = |x| BigRational::new(x, BigInt::from(1) << END_BITS);
                 Some([end(x.lo), end(x.hi)])
             }
