@@ -116,7 +116,6 @@ fn places(denominator: &BigInt) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use orthocert_kernel::fixed::Fixed;
 
     /// Texts, and how the kernel writes their numbers.
     const WRITTEN: &[(&str, &str)] = &[
