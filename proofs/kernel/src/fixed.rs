@@ -101,38 +101,31 @@ impl Integer for BigInt {
 impl Integer for i64 {
     const WORK: usize = 1;
 
-    #[inline]
     fn of(n: &BigInt) -> Option<Self> {
         n.to_i64()
     }
 
-    #[inline]
     fn scaled(n: i64, bits: u32) -> Option<Self> {
         let factor = 1i64.checked_shl(bits).filter(|&factor| factor > 0)?;
         n.checked_mul(factor)
     }
 
-    #[inline]
     fn plus(&self, other: &Self) -> Option<Self> {
         self.checked_add(*other)
     }
 
-    #[inline]
     fn negated(&self) -> Option<Self> {
         self.checked_neg()
     }
 
-    #[inline]
     fn dyadic(&self, n: i64, places: u32) -> Option<Self> {
         self.product(&n, places)
     }
 
-    #[inline]
     fn product(&self, other: &Self, bits: u32) -> Option<Self> {
         ((i128::from(*self) * i128::from(*other)) >> bits.min(127)).try_into().ok()
     }
 
-    #[inline]
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
         if *divisor <= 0 {
             return None;
@@ -146,7 +139,6 @@ impl Integer for i64 {
         (quotient - i128::from(quotient * divisor > product)).try_into().ok()
     }
 
-    #[inline]
     fn root(&self, bits: u32) -> Option<(Self, bool)> {
         let n = u128::try_from(*self).ok()?;
         let n = n.checked_mul(1u128.checked_shl(bits)?)?;
@@ -157,7 +149,6 @@ impl Integer for i64 {
 
 /// `floor(a b / divisor)`, for `divisor > 0`, by two digits of 32 bits; only where no instruction divides 128 bits, as
 /// in WebAssembly. However the digits are found, `q` is the floor if `0 <= a b - q divisor < divisor`.
-#[inline]
 fn by_digits(a: i64, b: i64, divisor: i64) -> Option<i64> {
     let (product, shift) = (i128::from(a) * i128::from(b), divisor.leading_zeros());
     let size = product.unsigned_abs();
@@ -217,13 +208,11 @@ impl<Z: Integer> Fixed<Z> {
     }
 
     /// `floor(a b)`.
-    #[inline]
     fn down(&self, a: &Z, b: &Z) -> Option<Z> {
         a.product(b, self.bits)
     }
 
     /// `ceil(a b) = -floor(-a b)`.
-    #[inline]
     fn up(&self, a: &Z, b: &Z) -> Option<Z> {
         a.negated()?.product(b, self.bits)?.negated()
     }
@@ -237,7 +226,6 @@ impl<Z: Integer> Fixed<Z> {
 /// | `a >= 0`  | `[lo lo', hi hi']` | `[hi lo', lo hi']` | `[hi lo', hi hi']`                   |
 /// | `a <= 0`  | `[lo hi', hi lo']` | `[hi hi', lo lo']` | `[lo hi', lo lo']`                   |
 /// | mixed     | `[lo hi', hi hi']` | `[hi lo', lo lo']` | least of `lo hi'`, `hi lo'`, greatest of `lo lo'`, `hi hi'` |
-#[inline]
 fn over_ends<Z: Integer>(
     a: &Interval<Z>,
     b: &Interval<Z>,
@@ -264,7 +252,6 @@ fn over_ends<Z: Integer>(
 }
 
 /// The greatest absolute value in an interval.
-#[inline]
 fn magnitude<Z: Integer>(a: &Interval<Z>) -> Option<Z> {
     Some(a.hi.clone().max(a.lo.negated()?))
 }
@@ -272,32 +259,26 @@ fn magnitude<Z: Integer>(a: &Interval<Z>) -> Option<Z> {
 impl<Z: Integer> Arithmetic for Fixed<Z> {
     type Number = Interval<Z>;
 
-    #[inline]
     fn integer(&self, n: i64) -> Option<Interval<Z>> {
         Some(Interval::point(Z::scaled(n, self.bits)?))
     }
 
-    #[inline]
     fn add(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.lo.plus(&b.lo)?, hi: a.hi.plus(&b.hi)? })
     }
 
-    #[inline]
     fn neg(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.hi.negated()?, hi: a.lo.negated()? })
     }
 
-    #[inline]
     fn mul(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         over_ends(a, b, |x, y| self.down(x, y), |x, y| self.up(x, y))
     }
 
-    #[inline]
     fn div(&self, a: &Interval<Z>, b: &Interval<Z>) -> Option<Interval<Z>> {
         self.mul(a, &self.recip(b)?)
     }
 
-    #[inline]
     fn sqr(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         let (least, greatest) = match (a.lo.sign(), a.hi.sign()) {
             (0.., _) => (a.lo.clone(), a.hi.clone()),
@@ -322,7 +303,6 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
 impl<Z: Integer> Enclosure for Fixed<Z> {
     /// `1/(x/2^bits) 2^bits = 2^(2 bits)/x` decreases on either side of zero, and is odd; there is no ratio by
     /// what is not positive.
-    #[inline]
     fn recip(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         if a.hi.sign() < 0 {
             return self.neg(&self.recip(&self.neg(a)?)?);
@@ -332,14 +312,12 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         Some(Interval { lo: one.ratio(&one, &a.hi)?, hi })
     }
 
-    #[inline]
     fn halve(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         Some(Interval { lo: a.lo.half(), hi: a.hi.negated()?.half().negated()? })
     }
 
     /// A product divided by `[c, d]`: a lower end by `d` where it is not negative, else by `c`; an
     /// upper one the other way round.
-    #[inline]
     fn ratio(&self, a: &Interval<Z>, b: &Interval<Z>, c: &Interval<Z>) -> Option<Interval<Z>> {
         let negative = |x: &Z, y: &Z| x.sign() * y.sign() < 0;
         let down = |x: &Z, y: &Z| x.ratio(y, if negative(x, y) { &c.lo } else { &c.hi });
@@ -350,14 +328,12 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         over_ends(a, b, down, up)
     }
 
-    #[inline]
     fn dyadic(&self, n: i64, places: u32, a: &Interval<Z>) -> Option<Interval<Z>> {
         let (lo, hi) = if n >= 0 { (&a.lo, &a.hi) } else { (&a.hi, &a.lo) };
         let hi = hi.negated()?.dyadic(n, places)?.negated()?;
         Some(Interval { lo: lo.dyadic(n, places)?, hi })
     }
 
-    #[inline]
     fn within(
         &self,
         range: &Interval<Z>,
@@ -374,17 +350,14 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         Interval { lo: a.lo.clone().min(b.lo.clone()), hi: a.hi.clone().max(b.hi.clone()) }
     }
 
-    #[inline]
     fn ends(&self, a: &Interval<Z>) -> [Interval<Z>; 2] {
         [Interval::point(a.lo.clone()), Interval::point(a.hi.clone())]
     }
 
-    #[inline]
     fn is_positive(&self, a: &Interval<Z>) -> bool {
         a.lo.sign() > 0
     }
 
-    #[inline]
     fn is_nonnegative(&self, a: &Interval<Z>) -> bool {
         a.lo.sign() >= 0
     }

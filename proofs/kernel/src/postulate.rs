@@ -102,14 +102,12 @@ pub fn parts(claim: &PostulateClaim) -> Result<Vec<Part>, ClaimError> {
             (&one / max, is_low)
         }
     };
-    let low = is_low.then(|| (least.clone(), half.clone(), true));
-    let high = (if is_low { half } else { least }, one, false);
-    let of_face = |face: Corner| {
-        let part = |(least, greatest, is_low): &(Expression, Expression, bool)| {
-            Part::new(face, *is_low, [least.clone(), greatest.clone()])
-        };
-        low.iter().chain([&high]).map(part).collect::<Vec<_>>()
+    let ranges = match is_low {
+        true => vec![([least, half.clone()], true), ([half, one], false)],
+        false => vec![([least, one], false)],
     };
+    let of_face =
+        |face| ranges.iter().map(move |(kappa, low)| Part::new(face, *low, kappa.clone()));
     [Corner::Q1, Corner::Q2].into_iter().flat_map(of_face).collect()
 }
 

@@ -35,24 +35,21 @@ pub(crate) fn of_each(of: &mut impl Numbers) -> usize {
 
 /// What an expression costs, the bits that it has as a rational number, and whether it varies.
 fn size(x: &Expression) -> (usize, usize, bool) {
-    let (each, (parts, bits, varies)) = match x {
+    let both = |(work, bits, varies): (usize, usize, bool), part: &Expression| {
+        let own = size(part);
+        (work.saturating_add(own.0), bits.saturating_add(own.1), varies || own.2)
+    };
+    let (parts, bits, varies) = x.parts().fold((0, 0, matches!(x, Expression::Varying(_))), both);
+    let (each, bits) = match x {
         Expression::Literal { digits, places } => {
             let bits = usize::try_from(digits.bits()).unwrap_or(usize::MAX);
-            (2, (0, bits.saturating_add(4 * *places as usize), false))
+            (2, bits.saturating_add(4 * *places as usize))
         }
-        Expression::Name(_) => (2, (0, 0, false)),
-        Expression::Varying(_) => (2, (0, 0, true)),
-        Expression::Neg(inner) => (2, size(inner)),
-        Expression::Sqrt(inner) => (60, size(inner)),
-        Expression::Power(base, n) => {
-            let (work, bits, varies) = size(base);
-            (4 * *n as usize, (work, bits.saturating_mul(*n as usize), varies))
-        }
-        Expression::Binary(operator, left, right) => {
-            let each = if *operator == Operator::Div { 8 } else { 4 };
-            let ((left, b, v), (right, c, w)) = (size(left), size(right));
-            (each, (left.saturating_add(right), b.saturating_add(c), v || w))
-        }
+        Expression::Name(_) | Expression::Varying(_) | Expression::Neg(_) => (2, bits),
+        Expression::Sqrt(_) => (60, bits),
+        Expression::Power(_, n) => (4 * *n as usize, bits.saturating_mul(*n as usize)),
+        Expression::Binary(Operator::Div, ..) => (8, bits),
+        Expression::Binary(..) => (4, bits),
     };
     let each = if varies { 8 * each } else { each };
     let each = each.saturating_add(bits.saturating_mul(bits) >> 14);

@@ -22,7 +22,7 @@ impl<E: Enclosure> Checker<'_, E> {
         let at_controls = |(test, control): &(Test, Control)| {
             control.work().saturating_add(control.points().saturating_mul(signs(test)))
         };
-        let derived = self.problem.derived.as_ref();
+        let (entries, derived) = (self.problem.tape.ops().len(), self.problem.derived.as_ref());
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
         let at_vertices: Vec<usize> =
             tests.map(|test| at_vertices(test, &self.rows, m) << names).collect();
@@ -31,8 +31,7 @@ impl<E: Enclosure> Checker<'_, E> {
             Evidence::Tolerances(inner, ends, _) => {
                 let is_control = matches!(**inner, Evidence::Control(_));
                 let controls = [&self.controls, &self.derived].map(|all| all.get(*obligation));
-                let controls = || controls.into_iter().flatten();
-                let changes = derived.and_then(|derived| derived.changes.get(*obligation));
+                let controls = || controls.into_iter().flatten().filter(|_| is_control);
                 let points = match is_control {
                     true => controls().map(|(_, control)| control.points()).max().unwrap_or(0),
                     false => 1 << m,
@@ -43,11 +42,10 @@ impl<E: Enclosure> Checker<'_, E> {
                 let steps = if ends.contains('0') { 2 } else { 1 };
                 let values = if is_control { 0 } else { m * (m + 1) };
                 let each = matrices * (steps * (m + 2) * (m + 2) + values);
+                let changes = derived.and_then(|derived| derived.changes.get(*obligation));
                 let changes = changes.map_or(0, |&changes| changes * each);
-                let there = controls().filter(|_| is_control).map(at_controls);
-                there
-                    .fold(changes.saturating_mul(points), usize::saturating_add)
-                    .saturating_add(self.problem.tape.ops().len())
+                let start = changes.saturating_mul(points).saturating_add(entries);
+                controls().map(at_controls).fold(start, usize::saturating_add)
             }
             _ => at_vertices.get(*obligation).copied().unwrap_or(0),
         };
