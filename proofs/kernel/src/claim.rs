@@ -191,19 +191,16 @@ impl Leg {
 pub enum Sign {
     /// `1`.
     #[serde(rename = "+")]
-    Plus,
+    Plus = 1,
     /// `-1`.
     #[serde(rename = "-")]
-    Minus,
+    Minus = -1,
 }
 
 impl Sign {
     /// `1` or `-1`.
     pub fn as_integer(self) -> i64 {
-        match self {
-            Sign::Plus => 1,
-            Sign::Minus => -1,
-        }
+        self as i64
     }
 }
 

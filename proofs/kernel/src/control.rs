@@ -291,13 +291,10 @@ fn image(
         Op::Coordinate(k) => (own.coordinate(k), with(k, 1)?),
         Op::Parameter(j) => (own.parameter(j), CONSTANT),
         Op::Integer(n) => (own.integer(n), CONSTANT),
-        Op::Add(a, b) => {
+        Op::Add(a, b) | Op::Sub(a, b) => {
             let ((a, p), (b, q)) = (of(a)?, of(b)?);
-            (own.add(a, b), most(&p, &q))
-        }
-        Op::Sub(a, b) => {
-            let ((a, p), (b, q)) = (of(a)?, of(b)?);
-            (own.sub(a, b), most(&p, &q))
+            let sum = if matches!(op, Op::Add(..)) { own.add(a, b) } else { own.sub(a, b) };
+            (sum, most(&p, &q))
         }
         Op::Neg(a) => {
             let (a, p) = of(a)?;

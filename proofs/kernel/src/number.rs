@@ -80,6 +80,16 @@ pub enum Operator {
 }
 
 impl Operator {
+    /// The operation, in an arithmetic.
+    pub fn of<A: Arithmetic>(self, e: &A, a: &A::Number, b: &A::Number) -> Option<A::Number> {
+        match self {
+            Operator::Add => e.add(a, b),
+            Operator::Sub => e.sub(a, b),
+            Operator::Mul => e.mul(a, b),
+            Operator::Div => e.div(a, b),
+        }
+    }
+
     const ALL: [Operator; 4] = [Operator::Add, Operator::Sub, Operator::Mul, Operator::Div];
 
     fn strength(self) -> u8 {
@@ -384,13 +394,7 @@ impl Expression {
             }
             Expression::Neg(inner) => arithmetic.neg(&of(inner)?),
             Expression::Binary(operator, left, right) => {
-                let (left, right) = (of(left)?, of(right)?);
-                match operator {
-                    Operator::Add => arithmetic.add(&left, &right),
-                    Operator::Sub => arithmetic.sub(&left, &right),
-                    Operator::Mul => arithmetic.mul(&left, &right),
-                    Operator::Div => arithmetic.div(&left, &right),
-                }
+                operator.of(arithmetic, &of(left)?, &of(right)?)
             }
             Expression::Power(base, n) => {
                 let base = of(base)?;

@@ -58,11 +58,11 @@ use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use crate::compile::{Builder, Names};
 use crate::definite::{is_positive_definite, Triangle};
 use crate::fixed::{Fixed, Integer, Interval};
-use crate::formula::{Formula, Tape, Values};
+use crate::formula::{Formula, Tape};
 use crate::input::{enclosed, malformed, narrowed, ordered, sign, ClaimError};
 use crate::number::Expression;
 use crate::rejected::Rejected;
-use crate::slope::{Slope, Slopes};
+use crate::slope::Slopes;
 use crate::tree::{self, bisect, discharge, Theorem, MOST_WORK};
 
 /// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
@@ -184,7 +184,8 @@ impl Part {
     ) -> bool {
         let [y, z, kappa] = edges else { return false };
         let shown = || match evidence {
-            Evidence::Test => self.is_definite(e, [y, z, kappa].map(Clone::clone)),
+            // If F is positive definite at the vertices of the cell, F > 0 on it.
+            Evidence::Test => Some(self.is_definite(Slopes::new(e, 3), edges, Vertex::all(3))),
             Evidence::Corner(corner) if *corner == self.face => self.tight_edge(e, [y, z, kappa]),
             Evidence::Mirror => {
                 let ([least, _], [_, greatest]) = (e.ends(&y[1]), e.ends(&z[1]));
@@ -193,13 +194,6 @@ impl Part {
             _ => None,
         };
         shown().unwrap_or(false)
-    }
-
-    /// **Definite.** If `F` is positive definite at the vertices of the cell, `F > 0` on it.
-    fn is_definite<E: Enclosure>(&self, e: &E, edges: [[E::Number; 3]; 3]) -> Option<bool> {
-        let slopes = Slopes::new(e, 3);
-        let values = evaluate(&self.tape, &[], slopes, &edges);
-        Some(Vertex::all(3).all(|v| self.is_definite_at(slopes, &values, v)))
     }
 
     /// **Tight edge.** For every `kappa`, let `Q` be the face's own corner, `u = 0` or `u = 1`, and
@@ -228,21 +222,23 @@ impl Part {
         let edges = [about(y)?, about(z)?, [kappa.clone(), kappa.clone(), e.integer(0)?]];
         let corners = unit_corners(3);
         let slopes = Slopes { part: Some(&corners), ..Slopes::new(e, 3) };
-        let values = evaluate(&self.tape, &[], slopes, &edges);
-        Some(Vertex::all(2).skip(1).all(|v| self.is_definite_at(slopes, &values, v)))
+        Some(self.is_definite(slopes, &edges, Vertex::all(2).skip(1)))
     }
 
-    /// Whether `F` is positive definite at a vertex.
-    fn is_definite_at<E: Enclosure>(
+    /// Whether `F` is positive definite at these vertices of a cell.
+    fn is_definite<E: Enclosure>(
         &self,
         slopes: Slopes<'_, E>,
-        values: &Values<Slope<E::Number>>,
-        v: Vertex,
+        edges: &[[E::Number; 3]],
+        mut vertices: impl Iterator<Item = Vertex>,
     ) -> bool {
+        let values = evaluate(&self.tape, &[], slopes, edges);
         let [d, off @ ..] = self.entries;
         let of = |i, j| values.of(if i == j { d } else { off[i + j - 1] });
-        Triangle::new(3, |i, j| slopes.at(of(i, j)?, v))
-            .is_some_and(|f| is_positive_definite(slopes.arithmetic, &f))
+        vertices.all(|v| {
+            Triangle::new(3, |i, j| slopes.at(of(i, j)?, v))
+                .is_some_and(|f| is_positive_definite(slopes.arithmetic, &f))
+        })
     }
 }
 

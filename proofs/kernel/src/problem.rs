@@ -344,30 +344,31 @@ impl Problem {
         })
     }
 
+    /// The least or the greatest coordinates, of the workspace and then of the orientations.
+    pub(crate) fn corner<Z: Integer>(&self, side: usize, bits: u32) -> Option<Vec<Interval<Z>>> {
+        let mut corner = self.point(&self.corners[side], bits)?;
+        for ends in &self.orientation {
+            corner.push(narrowed(&ends[side].enclose(bits, None)?)?);
+        }
+        Some(corner)
+    }
+
     /// The box of the workspace and of the orientations, rounded outward to `bits` fractional bits.
     ///
     /// # Errors
     /// If a corner cannot be enclosed.
     pub fn root<Z: Integer>(&self, bits: u32) -> Result<Cell<Z>, ClaimError> {
-        let [min, max] = &self.corners;
-        let edge = |(min, max): (&Expression, &Expression)| {
-            let (lo, hi) =
-                (enclosed(min, self.scale, bits)?.lo, enclosed(max, self.scale, bits)?.hi);
-            narrowed(&Interval { lo, hi })
-        };
-        let turn = |[min, max]: &[Input; 2]| {
-            narrowed(&Interval { lo: min.enclose(bits, None)?.lo, hi: max.enclose(bits, None)?.hi })
-        };
-        let edges = min.iter().zip(max).map(edge).chain(self.orientation.iter().map(turn));
-        let edges = edges.map(|e| e.ok_or_else(|| malformed("workspace", "numbers")));
-        edges.collect::<Result<_, _>>().map(Cell)
+        let both = self.corner(0, bits).zip(self.corner(1, bits));
+        let (min, max) = both.ok_or_else(|| malformed("workspace", "numbers"))?;
+        let edges = min.into_iter().zip(max);
+        Ok(Cell(edges.map(|(min, max)| Interval { lo: min.lo, hi: max.hi }).collect()))
     }
 
     /// `q_1` and `q_2` of the paper's cube.
     pub fn tight<Z: Integer>(&self, bits: u32) -> Option<[Interval<Z>; 2]> {
         self.cube_kappa?;
-        let of = |corner: &[Expression]| narrowed(&enclosed(corner.first()?, self.scale, bits)?);
-        Some([of(&self.corners[0])?, of(&self.corners[1])?])
+        let of = |side| self.corner(side, bits)?.into_iter().next();
+        Some([of(0)?, of(1)?])
     }
 
     /// The scaled rows; none unless all legs have them.
@@ -384,23 +385,21 @@ impl Problem {
         derived: Option<&Derived>,
     ) -> Vec<(Test, Control)> {
         let Some(weight) = self.weight else { return Vec::new() };
-        let entries = |rows: &[Row<Formula>], other: Option<Formula>| -> Vec<Formula> {
-            rows.iter().flat_map(|row| row.a.iter().chain([&row.d]).copied()).chain(other).collect()
+        let entries = |rows: &[Row<Formula>]| -> Vec<Formula> {
+            rows.iter().flat_map(|row| row.a.iter().chain([&row.d]).copied()).collect()
         };
         let own = |Obligation { test, .. }: &Obligation| {
+            use Test::{Accuracy, Conditioning, SigmaMax, SigmaMin, Solve};
             let mut wanted = match test {
-                Test::SigmaMin(_) | Test::SigmaMax(_) | Test::Conditioning(_) | Test::Solve(_) => {
-                    entries(rows, Some(weight))
-                }
-                Test::Least(rows, bound) | Test::Greatest(rows, bound) => {
-                    entries(rows, Some(*bound))
-                }
-                Test::OneToOne(rows) => entries(rows, None),
-                Test::AtLeast(f) => vec![*f],
-                Test::Accuracy(test) => entries(&test.scaled, Some(weight)),
-                // These have no form for control points.
-                Test::Beyond(..) | Test::Apart(_) | Test::Curvature(_) => Vec::new(),
+                Test::OneToOne(rows) => entries(rows),
+                Accuracy(test) => entries(&test.scaled),
+                // It has no form for control points.
+                Test::Beyond(..) => Vec::new(),
+                _ => test.rows(rows).concat(),
             };
+            if let SigmaMin(_) | SigmaMax(_) | Conditioning(_) | Solve(_) | Accuracy(_) = test {
+                wanted.push(weight);
+            }
             wanted.extend(self.turned);
             wanted.extend(self.inside.as_ref().map(|inside| inside.g));
             if let Some(Derived { of, .. }) = derived {

@@ -7,14 +7,14 @@
 //!
 //! | test | shows | evidence |
 //! |---|---|---|
-//! | [`at_least`] | `f >= 0` | |
-//! | [`sigma_min`] | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
-//! | [`full_rank`] | `sigma_min(M) > 0`; one to one | any `n x m` matrix `Y`; one for all cells |
-//! | [`sigma_max`] | `sigma_max(M) <= k` | |
-//! | [`solve`](solve::solve) | `\|M^-1 e_i\| <= 1/k` | any `n x n` matrix `Y` |
-//! | [`accuracy`](accuracy::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
-//! | [`apart`](apart::apart) | segments farther apart than `R` | an affine direction |
-//! | [`curvature`](curvature::curvature) | `a \|row\| + b \|H\| <= 1` | |
+//! | [`at_least`](Over::at_least) | `f >= 0` | |
+//! | [`sigma_min`](Over::sigma_min) | `sigma_min(M) >= kappa` | any `n x m` matrix `Y` |
+//! | [`full_rank`](Over::full_rank) | `sigma_min(M) > 0`; one to one | any `n x m` matrix `Y`; one for all cells |
+//! | [`sigma_max`](Over::sigma_max) | `sigma_max(M) <= k` | |
+//! | [`solve`](Over::solve) | `\|M^-1 e_i\| <= 1/k` | any `n x n` matrix `Y` |
+//! | [`accuracy`](Over::accuracy) | one solution within `d` | any `n x n` matrix `Y`, `kappa` |
+//! | [`apart`](Over::apart) | segments farther apart than `R` | an affine direction |
+//! | [`curvature`](Over::curvature) | `a \|row\| + b \|H\| <= 1` | |
 //!
 //! All are affine or concave in their formulas, so the vertices of the cell decide ([`Vertex`]), or, of
 //! polynomials, its control points ([`crate::control`]); they are statements about one machine, and hold
@@ -131,6 +131,11 @@ impl<'a, E: Enclosure> Over<'a, E> {
         self.values.of(formula)
     }
 
+    /// Its range.
+    pub fn range(&self, formula: Formula) -> Option<E::Number> {
+        Some(self.of(formula)?.range.clone())
+    }
+
     /// The value whose vertices are meant: where tolerances are apart, of the one machine.
     pub fn own(&self, formula: Formula) -> Option<&Slope<E::Number>> {
         self.tolerances.map_or(self.values, |tolerances| tolerances.machine).of(formula)
@@ -215,7 +220,7 @@ pub(crate) fn signed<A: Arithmetic>(
 }
 
 impl<E: Enclosure> Over<'_, E> {
-    /// **A sign.** The sum of the `parts` ([`signed`]) is not negative on the cell if its range is not, or if it is not at
+    /// **A sign.** The sum of the `parts`, some subtracted, is not negative on the cell if its range is not, or if it is not at
     /// the vertices, or control points.
     pub fn at_least(&self, parts: &[(Formula, bool)]) -> bool {
         let e = self.slopes.arithmetic;
@@ -261,7 +266,7 @@ impl<E: Enclosure> Over<'_, E> {
 
     /// **Full rank.** If `T = Y^T A + A^T Y` is positive definite at the vertices, and all `D_i > 0`, then
     /// `sigma_min(M) > 0` on the cell. *Proof.* `T` is affine in `A`, so it is positive definite at `x`, and
-    /// `0 < v^T T v = 2 (Y v) . (A v)`, so that `A v != 0`, for every `v != 0`. ∎ It is [`sigma_min`] for
+    /// `0 < v^T T v = 2 (Y v) . (A v)`, so that `A v != 0`, for every `v != 0`. ∎ It is [`Over::sigma_min`] for
     /// `kappa = 0` with `D = 0` in `T`, and as good: what `T` loses to `D` there, a small multiple of `Y`
     /// makes as small as is wanted. With one `Y` for all leaves it is what [`crate::quantity`] concludes
     /// from that a machine is one to one.

@@ -103,16 +103,8 @@ pub(crate) fn sloped(
             slopes.coordinate(place(range.parameter)?, range.edge(slopes.arithmetic.bits()))
         }
         Expression::Neg(inner) => slopes.neg(&of(inner)?),
-        Expression::Binary(operator, a, b) => {
-            let (left, right) = (of(a)?, of(b)?);
-            match operator {
-                Operator::Add => slopes.add(&left, &right),
-                Operator::Sub => slopes.sub(&left, &right),
-                Operator::Mul if a == b => slopes.sqr(&left),
-                Operator::Mul => slopes.mul(&left, &right),
-                Operator::Div => slopes.div(&left, &right),
-            }
-        }
+        Expression::Binary(Operator::Mul, a, b) if a == b => slopes.sqr(&of(a)?),
+        Expression::Binary(operator, a, b) => operator.of(slopes, &of(a)?, &of(b)?),
         Expression::Power(base, n) => {
             let base = of(base)?;
             let square = slopes.sqr(&base)?;

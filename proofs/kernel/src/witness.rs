@@ -19,7 +19,7 @@ use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
 use num_bigint::BigInt;
 use thiserror::Error;
-use violated::Over;
+use violated::Enclosed;
 
 pub use violated::fails_throughout;
 
@@ -73,12 +73,10 @@ pub fn check(
     if !PRECISIONS.contains(&witness.precision) {
         return Err(WitnessError::Precision(witness.precision));
     }
-    let mut machine = witness.machine.iter();
-    for (_, min, max) in problem.tolerances() {
-        let x = machine.next().ok_or(WitnessError::OutsideTolerance)?;
-        is_between(x, min, max).then_some(()).ok_or(WitnessError::OutsideTolerance)?;
-    }
-    if machine.next().is_some() {
+    let mut machine = problem.tolerances().zip(&witness.machine);
+    if witness.machine.len() != problem.tolerances().count()
+        || !machine.all(|((_, min, max), x)| is_between(x, min, max))
+    {
         return Err(WitnessError::OutsideTolerance);
     }
     let arithmetic = Fixed::new(witness.precision);
@@ -106,11 +104,8 @@ pub fn check(
         Failure::Dependent => singular::is_singular(problem, witness) == Some(true),
         Failure::Reach | Failure::Row(..) => at.formulas().fail(&witness.fails)?,
     };
-    if violated || fails_by_names(&at, witness) == Some(true) {
-        Ok(())
-    } else {
-        Err(WitnessError::NotViolated)
-    }
+    let violated = violated || fails_by_names(&at, witness) == Some(true);
+    violated.then_some(()).ok_or(WitnessError::NotViolated)
 }
 
 /// Whether a witness over a cell of an atlas fails in slopes in the names, in which its point is
@@ -195,8 +190,8 @@ impl<'a> AtPoint<'a> {
         })
     }
 
-    fn formulas(&self) -> Over<'_, Fixed<BigInt>> {
-        Over { problem: self.problem, slopes: self.slopes, values: &self.values }
+    fn formulas(&self) -> Enclosed<'_, Fixed<BigInt>> {
+        Enclosed { problem: self.problem, slopes: self.slopes, values: &self.values }
     }
 
     /// The value of a formula.

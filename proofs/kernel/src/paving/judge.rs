@@ -84,13 +84,7 @@ impl Subject {
 
     fn corners<Z: Integer>(&self) -> Result<[Vec<Interval<Z>>; 2], Rejected> {
         let bits = self.header.precision;
-        let corner = |side: usize| {
-            let mut corner = self.problem.point(&self.problem.corners[side], bits)?;
-            for ends in &self.problem.orientation {
-                corner.push(narrowed(&ends[side].enclose(bits, None)?)?);
-            }
-            Some(corner)
-        };
+        let corner = |side: usize| self.problem.corner(side, bits);
         corner(0).zip(corner(1)).map(|(min, max)| [min, max]).ok_or(NOT_A_BOX)
     }
 

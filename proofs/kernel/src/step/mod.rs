@@ -14,10 +14,7 @@ use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
-use crate::test::accuracy::{accuracy, near, Accuracy};
-use crate::test::apart::apart;
-use crate::test::curvature::curvature;
-use crate::test::solve::solve;
+use crate::test::accuracy::{near, Accuracy};
 use crate::test::{Formulas, Multiplier, Over, Row, MOST_PLACES};
 use tolerances::{are_for, is_of_vertices};
 
@@ -120,14 +117,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
 
     /// Whether the evidence shows that a test holds on a cell.
     pub fn shows(&self, over: &Over<'_, E>, test: &Test, evidence: &Evidence) -> bool {
-        let constant = |f: &Formula| {
-            let f = *f;
-            move |_| over.of(f).map(|f| f.range.clone())
-        };
-        let scaled = |f: &Formula| {
-            let f = *f;
-            move |v| self.scaled(over, over.of(f)?.range.clone(), v)
-        };
         let rows = if over.controls.is_some() { &self.scaled } else { &self.rows };
         match (test, evidence) {
             (test, Evidence::Control(evidence)) => {
@@ -167,9 +156,12 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 zero && self.problem.is_defined(over.values) && over.full_rank(rows, y)
             }
             (Test::SigmaMin(kappa), Evidence::Lower(y)) => {
-                self.problem.is_defined(over.values) && over.sigma_min(rows, &scaled(kappa), y)
+                self.problem.is_defined(over.values)
+                    && over.sigma_min(rows, &|v| self.scaled(over, over.range(*kappa)?, v), y)
             }
-            (Test::SigmaMax(k), Evidence::Test) => over.sigma_max(rows, &scaled(k)),
+            (Test::SigmaMax(k), Evidence::Test) => {
+                over.sigma_max(rows, &|v| self.scaled(over, over.range(*k)?, v))
+            }
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 self.conditioning(over, rows, *c, (y, mu))
             }
@@ -179,7 +171,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::AtLeast(f), Evidence::Test) => over.at_least(&[(*f, false)]),
             (Test::Solve(test), Evidence::Lower(y)) => {
                 let weight = |v| self.scaled(over, self.arithmetic.integer(1)?, v);
-                solve(over, rows, test, &weight, y)
+                over.solve(rows, test, &weight, y)
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 over.sigma_min(rows, &|v| over.at(*kappa, v), y)
@@ -194,15 +186,17 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             _ if over.controls.is_some() => false,
             (Test::SigmaMin(kappa), Evidence::LowerDivided(y)) => {
                 self.problem.is_defined(over.values)
-                    && over.sigma_min(&self.divided, &constant(kappa), y)
+                    && over.sigma_min(&self.divided, &|_| over.range(*kappa), y)
             }
             (Test::SigmaMin(_), Evidence::Corner(corner)) => {
                 self.corner(over.place, *corner).is_some()
             }
-            (Test::SigmaMax(k), Evidence::Divided) => over.sigma_max(&self.divided, &constant(k)),
+            (Test::SigmaMax(k), Evidence::Divided) => {
+                over.sigma_max(&self.divided, &|_| over.range(*k))
+            }
             (Test::SigmaMax(_), Evidence::Cube) => self.problem.cube_has_least,
-            (Test::Apart(test), Evidence::Direction(g)) => apart(over, test, g),
-            (Test::Curvature(test), Evidence::Test) => curvature(over, test),
+            (Test::Apart(test), Evidence::Direction(g)) => over.apart(test, g),
+            (Test::Curvature(test), Evidence::Test) => over.curvature(test),
             (Test::AtLeast(f), Evidence::Cube) => self.problem.cube_reached.contains(f),
             (Test::Beyond(f, b), Evidence::Test | Evidence::Negative) => {
                 over.at_least(&[(*f, *evidence == Evidence::Negative), (*b, true)])
@@ -227,9 +221,8 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         evidence: (&Multiplier, i64, u32),
     ) -> Option<bool> {
         let (tape, slopes) = (&self.problem.tape, over.slopes);
-        let of = |f| over.of(f).map(|f| f.range.clone());
-        let far = near(tape, &self.parameters, slopes, over.place.edges, test, of)?;
-        Some(self.problem.is_defined(&far) && accuracy(over, &far, test, evidence))
+        let far = near(tape, &self.parameters, slopes, over.place.edges, test, |f| over.range(f))?;
+        Some(self.problem.is_defined(&far) && over.accuracy(&far, test, evidence))
     }
 
     /// **Conditioning.** `mu_v = mu_0 + sum_k v_k mu_k > 0` at the vertices, and with it both bounds:

@@ -14,7 +14,7 @@
 //! | `Conditioning`, `OneToOne`, `Accuracy`, `Apart` | none                                    |
 //! | others                | none is needed                                                    |
 //!
-//! [`sigma_min`]: crate::test::sigma_min
+//! [`sigma_min`]: crate::test::Over::sigma_min
 
 use super::Checker;
 use crate::arithmetic::Enclosure;
@@ -41,20 +41,18 @@ type Square = [[i64; 3]; 3];
 /// The entries of a tape of which own evidence is made, and own failures; none where that is all of them.
 pub(super) fn needed(problem: &Problem) -> Option<Vec<bool>> {
     let mut formulas = problem.partial.clone();
-    let row = |row: &Row<Formula>| row.a.iter().copied().chain([row.d]).collect::<Vec<_>>();
-    for leg in &problem.legs {
-        formulas.extend(row(&leg.row));
-        formulas.extend(leg.length);
-    }
+    formulas.extend(problem.legs.iter().filter_map(|leg| leg.length));
+    let own: Vec<Row<Formula>> = problem.legs.iter().map(|leg| leg.row.clone()).collect();
     for obligation in &problem.obligations {
-        match &obligation.test {
-            Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) => formulas.push(*f),
-            Test::Solve(solve) => formulas.push(solve.square),
+        formulas.extend(match &obligation.test {
+            Test::SigmaMin(f) | Test::SigmaMax(f) | Test::Conditioning(f) => Some(*f),
+            Test::Solve(solve) => Some(solve.square),
             Test::OneToOne(_) | Test::Accuracy(_) | Test::Apart(_) | Test::Curvature(_) => {
                 return None
             }
-            test => formulas.extend(test.rows(&[]).concat()),
-        }
+            Test::Least(..) | Test::Greatest(..) | Test::AtLeast(_) | Test::Beyond(..) => None,
+        });
+        formulas.extend(obligation.test.rows(&own).concat());
     }
     Some(problem.tape.parts(&formulas))
 }

@@ -124,110 +124,6 @@ pub fn spread<E: Enclosure>(
     e.greatest_root(&square)
 }
 
-/// **Accuracy.** Let `Y`, `kappa > 0` and `p >= 0` be given, every formula be defined [`near`] the cell for
-/// every machine, `g` the [`spread`] of the far rows there, `z = 1 - g/(2 kappa)`, and `V` the matrix `W`
-/// with `2^p` times the columns that are not of the test's part. If `g < kappa` and at the vertices, with
-/// `T_v = V_v Y^T + Y V_v^T - Y Y^T` and
-/// `beta_vi = e_i/d + sum_j (r_j/d) |(d rho_i/d theta_j)_v|`,
-///
-/// ```text
-/// T_v - kappa^2 I    and    [[T_v, b], [b^T, z^2]], b_i = s_i beta_vi, for all signs s_i
-/// ```
-///
-/// are positive definite, this part is *met* on the cell. Where each part is met, the following holds for every
-/// machine `theta` of the tolerance, and joint coordinates within `e_i` of those that the nominal machine
-/// `theta_0`, the middle of the tolerance, has at the pose: there is exactly one `u` with `|u_t| <= 1` and
-/// `|u_c| <= 1` for which the machine has these where it is off by `u`.
-///
-/// *Proof.* Fix the pose and `theta`; `d f(u)` are the joint coordinates of that machine, `J` the
-/// derivatives of `f`. Looked for is `f(u) - f(0) = b` with `d b_i = rho_i(theta_0) - rho_i(theta) + eps_i`.
-/// `||u|| = max(|u_t|, |u_c|)`.
-///
-/// 1. *Data.* On the segment from `theta` to `theta_0`, which is in the tolerance,
-///    `d |b_i| <= e_i + sum_j r_j |(d rho_i/d theta_j)(theta')|` for some `theta'` (mean value theorem).
-///    For that `theta'` too, the derivative at the pose is the combination of its vertex values with the
-///    weights `w_v` of [`Vertex`], which depend on the pose alone. So `|b_i| <= sum_v w_v beta_vi`.
-/// 2. *First order.* The combination of the matrices with these weights has `V` and
-///    `b' = (s_i sum_v w_v beta_vi)` in it, and as `V V^T >= V Y^T + Y V^T - Y Y^T`,
-///    `[[V V^T, b'], [b'^T, z^2]]` is positive definite, and with it `z^2 - |V^-1 b'|^2`: for every
-///    corner `b'` of a box that contains `b`, and by convexity for `b`, `|V^-1 b| < z`.
-///    Likewise `V V^T > kappa^2 I`, so `|V^-1| < 1/kappa`. Of this part, `V^-1 x` has the components of
-///    `W^-1 x`.
-/// 3. *Fixed point.* Let `F(u) = W^-1 (b - (f(u) - f(0) - W u))` where `||u|| <= 1`, a convex set.
-///    `f(u) - f(0) - W u = int_0^1 (J(t u) - J(0)) u dt` is at most `g ||u||^2/2 <= g/2`, so this part of
-///    `F(u)` is at most `z + g/(2 kappa) = 1`. And with
-///    `|f(u) - f(u') - W (u - u')| <= g max(||u||, ||u'||) ||u - u'|| <= g ||u - u'||`, this part of
-///    `F(u) - F(u')` is at most `(g/kappa) ||u - u'||`, `g < kappa`. If each part is met, with
-///    numbers of its own, `F` maps that set into itself and contracts it: by Banach's theorem `F` has
-///    exactly one fixed point, and its fixed points are what is looked for. ∎
-///
-/// `c` with `|c| <= tau = tan(a/2)` are the rotations by at most `a < 180` degrees, each once.
-///
-/// The range of `rho_i(theta_0) - rho_i(theta)` over the cell, in place of that of the derivative,
-/// would be as wide as the cell. With the rows of `A`, and derivatives multiplied by `B_i`, it would be
-/// unsound: these are of the machine `theta'`, the row is of `theta`. So it would be with `g` taken
-/// on the cell alone, or on the part of what is near it in the workspace: `u` may lead out of either. With a
-/// large `p` nothing is lost to the other part, and more to the size of the cell.
-///
-/// *At control points.* Let `A`, `D` be polynomials after multiplication by `w > 0`, `A` in the columns of `V`,
-/// `beta_i` at least the error and slopes of joint `i` on all of the cell, and `q_i > 0` any numbers. The same
-/// follows of
-///
-/// ```text
-/// T_v - kappa^2 w D    and    [[T_v, b], [b^T, w z^2]], b_i = s_i beta_i (w D_i + q_i^2 w)/(2 q_i)
-/// ```
-///
-/// with `T_v = w (A Y^T + Y A^T - Y Y^T)`, for in place of 2: all is affine in `w A`, `w D` and `w`, so with `T`,
-/// `b'` at the pose over `w`, `A A^T >= T > kappa^2 D`, which is `V V^T > kappa^2 I`; and
-/// `|A^-1 y| < z` for `|y_i| <= |b'_i|`, among which is `y = sqrt(D) b`, as `D_i + q_i^2 >= 2 q_i sqrt(D_i)`. ∎
-/// Slopes at the control points would be of another machine, see above.
-pub fn accuracy<E: Enclosure>(
-    over: &Over<'_, E>,
-    far: &Formulas<E>,
-    test: &Accuracy,
-    (evidence, kappa, p): (&Multiplier, i64, u32),
-) -> bool {
-    let n = test.rows.len();
-    let shape = n == over.slopes.m && test.joints.len() == n && evidence.is_of(n, n) && kappa > 0;
-    let weighted = p == 0 || (p <= MOST_WEIGHT && test.parts(n).len() == 2);
-    let shown = || {
-        let e = over.slopes.arithmetic;
-        let one = e.integer(1)?;
-        let kappa = e.dyadic(kappa, evidence.places, &one)?;
-        let g = spread(over.slopes, far, test)?;
-        if !e.is_positive(&e.sub(&kappa, &g)?) {
-            return None;
-        }
-        let z = e.sub(&one, &e.halve(&e.mul(&g, &e.recip(&kappa)?)?)?)?;
-        let (square, kappa) = (e.sqr(&z)?, e.sqr(&kappa)?);
-        let slopes = match over.controls {
-            None => None,
-            Some(_) if n == test.scaled.len() => {
-                Some([sum(over, test, |by| Some(over.of(by)?.range.clone()))?, roots(over, test)?])
-            }
-            Some(_) => return None,
-        };
-        let holds = |v| {
-            let (rows, weight, d, b) = at(over, test, (v, p), slopes.as_ref())?;
-            let rows: Vec<&[E::Number]> = rows.iter().map(|row| &row[..]).collect();
-            let start = over.less_inside(e.integer(0)?, v)?;
-            let below = below_square(e, &rows, (&weight, &start), evidence)?;
-            let corner = over.less_inside(e.mul(&weight, &square)?, v)?;
-            let mut least = below.clone();
-            least.change(|i, j, entry| match i == j {
-                true => e.sub(entry, &e.mul(&kappa, d.get(i)?)?),
-                false => Some(entry.clone()),
-            })?;
-            Some(
-                is_positive_definite(e, &least)
-                    && are_positive_definite(e, &below, signed(e, &b)?, &corner),
-            )
-        };
-        over.vertices().all(|v| holds(v) == Some(true)).then_some(())
-    };
-    shape && weighted && shown().is_some()
-}
-
 /// The entries of a row, those of the other part times `2^p`.
 fn weighted<E: Enclosure>(
     e: &E,
@@ -258,65 +154,174 @@ fn signed<'b, E: Enclosure>(
     Some((0..1usize << beta.len().checked_sub(1)?).map(with))
 }
 
-/// The greatest `beta_i`, of these values of slopes.
-fn sum<E: Enclosure>(
-    over: &Over<'_, E>,
-    test: &Accuracy,
-    slope: impl Fn(Formula) -> Option<E::Number>,
-) -> Option<Vec<E::Number>> {
-    let e = over.slopes.arithmetic;
-    let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
-        let part =
-            |[half, by]: &[Formula; 2]| e.mul(&over.of(*half)?.range, &e.magnitude(&slope(*by)?)?);
-        let sum = e.add(&over.of(*error)?.range, &e.sum(all.iter().map(part))?)?;
-        e.ends(&sum).into_iter().nth(1)
-    };
-    test.joints.iter().map(joint).collect()
-}
-
-/// `q_i`: `sqrt(D_i)` at the first control point and the last, in the middle of both.
-fn roots<E: Enclosure>(over: &Over<'_, E>, test: &Accuracy) -> Option<Vec<E::Number>> {
-    let e = over.slopes.arithmetic;
-    let root = |row: &Row<Formula>| {
-        let at = |v| {
-            let (d, weight) = (over.at(row.d, v)?, over.at(test.weight?, v)?);
-            let [least, _] = e.ends(&e.ratio(&d, &e.integer(1)?, &weight)?);
-            e.sqrt(&least)
-        };
-        let ends = [over.vertices().next()?, over.vertices().last()?];
-        let [a, b] = ends.map(at);
-        let q = e.ends(&e.halve(&e.add(&a?, &b?)?)?).into_iter().next()?;
-        e.is_positive(&q).then_some(q)
-    };
-    test.scaled.iter().map(root).collect()
-}
-
 /// At a vertex or control point the rows, their weight, what `kappa^2` is multiplied by in each row, and `b`.
 type Shown<N> = (Vec<Vector<N>>, N, Vec<N>, Vec<N>);
 
-/// With the greatest slopes and the roots of control points.
-fn at<E: Enclosure>(
-    over: &Over<'_, E>,
-    test: &Accuracy,
-    (v, p): (Vertex, u32),
-    slopes: Option<&[Vec<E::Number>; 2]>,
-) -> Option<Shown<E::Number>> {
-    let e = over.slopes.arithmetic;
-    let row = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| over.at(f, v)));
-    let one = e.integer(1)?;
-    let Some([beta, q]) = slopes else {
-        let rows: Vec<_> = test.rows.iter().map(row).collect::<Option<_>>()?;
-        let b = sum(over, test, |by| over.slopes.at(over.of(by)?, v))?;
-        return Some((rows, one.clone(), vec![one; b.len()], b));
-    };
-    let weight = over.at(test.weight?, v)?;
-    let rows = test.scaled.iter().map(|own| row(&own.a)).collect::<Option<_>>()?;
-    let d = test.scaled.iter().map(|row| over.at(row.d, v));
-    let d: Vec<E::Number> = d.collect::<Option<_>>()?;
-    let entry = |((beta, q), d): ((&E::Number, &E::Number), &E::Number)| {
-        let both = e.add(&e.halve(&e.ratio(d, &one, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
-        e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
-    };
-    let b = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
-    Some((rows, weight, d, b))
+impl<E: Enclosure> Over<'_, E> {
+    /// **Accuracy.** Let `Y`, `kappa > 0` and `p >= 0` be given, every formula be defined [`near`] the cell for
+    /// every machine, `g` the [`spread`] of the far rows there, `z = 1 - g/(2 kappa)`, and `V` the matrix `W`
+    /// with `2^p` times the columns that are not of the test's part. If `g < kappa` and at the vertices, with
+    /// `T_v = V_v Y^T + Y V_v^T - Y Y^T` and
+    /// `beta_vi = e_i/d + sum_j (r_j/d) |(d rho_i/d theta_j)_v|`,
+    ///
+    /// ```text
+    /// T_v - kappa^2 I    and    [[T_v, b], [b^T, z^2]], b_i = s_i beta_vi, for all signs s_i
+    /// ```
+    ///
+    /// are positive definite, this part is *met* on the cell. Where each part is met, the following holds for every
+    /// machine `theta` of the tolerance, and joint coordinates within `e_i` of those that the nominal machine
+    /// `theta_0`, the middle of the tolerance, has at the pose: there is exactly one `u` with `|u_t| <= 1` and
+    /// `|u_c| <= 1` for which the machine has these where it is off by `u`.
+    ///
+    /// *Proof.* Fix the pose and `theta`; `d f(u)` are the joint coordinates of that machine, `J` the
+    /// derivatives of `f`. Looked for is `f(u) - f(0) = b` with `d b_i = rho_i(theta_0) - rho_i(theta) + eps_i`.
+    /// `||u|| = max(|u_t|, |u_c|)`.
+    ///
+    /// 1. *Data.* On the segment from `theta` to `theta_0`, which is in the tolerance,
+    ///    `d |b_i| <= e_i + sum_j r_j |(d rho_i/d theta_j)(theta')|` for some `theta'` (mean value theorem).
+    ///    For that `theta'` too, the derivative at the pose is the combination of its vertex values with the
+    ///    weights `w_v` of [`Vertex`], which depend on the pose alone. So `|b_i| <= sum_v w_v beta_vi`.
+    /// 2. *First order.* The combination of the matrices with these weights has `V` and
+    ///    `b' = (s_i sum_v w_v beta_vi)` in it, and as `V V^T >= V Y^T + Y V^T - Y Y^T`,
+    ///    `[[V V^T, b'], [b'^T, z^2]]` is positive definite, and with it `z^2 - |V^-1 b'|^2`: for every
+    ///    corner `b'` of a box that contains `b`, and by convexity for `b`, `|V^-1 b| < z`.
+    ///    Likewise `V V^T > kappa^2 I`, so `|V^-1| < 1/kappa`. Of this part, `V^-1 x` has the components of
+    ///    `W^-1 x`.
+    /// 3. *Fixed point.* Let `F(u) = W^-1 (b - (f(u) - f(0) - W u))` where `||u|| <= 1`, a convex set.
+    ///    `f(u) - f(0) - W u = int_0^1 (J(t u) - J(0)) u dt` is at most `g ||u||^2/2 <= g/2`, so this part of
+    ///    `F(u)` is at most `z + g/(2 kappa) = 1`. And with
+    ///    `|f(u) - f(u') - W (u - u')| <= g max(||u||, ||u'||) ||u - u'|| <= g ||u - u'||`, this part of
+    ///    `F(u) - F(u')` is at most `(g/kappa) ||u - u'||`, `g < kappa`. If each part is met, with
+    ///    numbers of its own, `F` maps that set into itself and contracts it: by Banach's theorem `F` has
+    ///    exactly one fixed point, and its fixed points are what is looked for. ∎
+    ///
+    /// `c` with `|c| <= tau = tan(a/2)` are the rotations by at most `a < 180` degrees, each once.
+    ///
+    /// The range of `rho_i(theta_0) - rho_i(theta)` over the cell, in place of that of the derivative,
+    /// would be as wide as the cell. With the rows of `A`, and derivatives multiplied by `B_i`, it would be
+    /// unsound: these are of the machine `theta'`, the row is of `theta`. So it would be with `g` taken
+    /// on the cell alone, or on the part of what is near it in the workspace: `u` may lead out of either. With a
+    /// large `p` nothing is lost to the other part, and more to the size of the cell.
+    ///
+    /// *At control points.* Let `A`, `D` be polynomials after multiplication by `w > 0`, `A` in the columns of `V`,
+    /// `beta_i` at least the error and slopes of joint `i` on all of the cell, and `q_i > 0` any numbers. The same
+    /// follows of
+    ///
+    /// ```text
+    /// T_v - kappa^2 w D    and    [[T_v, b], [b^T, w z^2]], b_i = s_i beta_i (w D_i + q_i^2 w)/(2 q_i)
+    /// ```
+    ///
+    /// with `T_v = w (A Y^T + Y A^T - Y Y^T)`, for in place of 2: all is affine in `w A`, `w D` and `w`, so with `T`,
+    /// `b'` at the pose over `w`, `A A^T >= T > kappa^2 D`, which is `V V^T > kappa^2 I`; and
+    /// `|A^-1 y| < z` for `|y_i| <= |b'_i|`, among which is `y = sqrt(D) b`, as `D_i + q_i^2 >= 2 q_i sqrt(D_i)`. ∎
+    /// Slopes at the control points would be of another machine, see above.
+    pub fn accuracy(
+        &self,
+        far: &Formulas<E>,
+        test: &Accuracy,
+        (evidence, kappa, p): (&Multiplier, i64, u32),
+    ) -> bool {
+        let n = test.rows.len();
+        let shape =
+            n == self.slopes.m && test.joints.len() == n && evidence.is_of(n, n) && kappa > 0;
+        let weighted = p == 0 || (p <= MOST_WEIGHT && test.parts(n).len() == 2);
+        let shown = || {
+            let e = self.slopes.arithmetic;
+            let one = e.integer(1)?;
+            let kappa = e.dyadic(kappa, evidence.places, &one)?;
+            let g = spread(self.slopes, far, test)?;
+            if !e.is_positive(&e.sub(&kappa, &g)?) {
+                return None;
+            }
+            let z = e.sub(&one, &e.halve(&e.mul(&g, &e.recip(&kappa)?)?)?)?;
+            let (square, kappa) = (e.sqr(&z)?, e.sqr(&kappa)?);
+            let slopes = match self.controls {
+                None => None,
+                Some(_) if n == test.scaled.len() => Some([
+                    self.sum(test, |by| Some(self.of(by)?.range.clone()))?,
+                    self.roots(test)?,
+                ]),
+                Some(_) => return None,
+            };
+            let holds = |v| {
+                let (rows, weight, d, b) = self.shown(test, (v, p), slopes.as_ref())?;
+                let rows: Vec<&[E::Number]> = rows.iter().map(|row| &row[..]).collect();
+                let start = self.less_inside(e.integer(0)?, v)?;
+                let below = below_square(e, &rows, (&weight, &start), evidence)?;
+                let corner = self.less_inside(e.mul(&weight, &square)?, v)?;
+                let mut least = below.clone();
+                least.change(|i, j, entry| match i == j {
+                    true => e.sub(entry, &e.mul(&kappa, d.get(i)?)?),
+                    false => Some(entry.clone()),
+                })?;
+                Some(
+                    is_positive_definite(e, &least)
+                        && are_positive_definite(e, &below, signed(e, &b)?, &corner),
+                )
+            };
+            self.vertices().all(|v| holds(v) == Some(true)).then_some(())
+        };
+        shape && weighted && shown().is_some()
+    }
+
+    /// The greatest `beta_i`, of these values of slopes.
+    fn sum(
+        &self,
+        test: &Accuracy,
+        slope: impl Fn(Formula) -> Option<E::Number>,
+    ) -> Option<Vec<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
+            let part = |[half, by]: &[Formula; 2]| {
+                e.mul(&self.of(*half)?.range, &e.magnitude(&slope(*by)?)?)
+            };
+            let sum = e.add(&self.of(*error)?.range, &e.sum(all.iter().map(part))?)?;
+            e.ends(&sum).into_iter().nth(1)
+        };
+        test.joints.iter().map(joint).collect()
+    }
+
+    /// `q_i`: `sqrt(D_i)` at the first control point and the last, in the middle of both.
+    fn roots(&self, test: &Accuracy) -> Option<Vec<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let root = |row: &Row<Formula>| {
+            let at = |v| {
+                let (d, weight) = (self.at(row.d, v)?, self.at(test.weight?, v)?);
+                let [least, _] = e.ends(&e.ratio(&d, &e.integer(1)?, &weight)?);
+                e.sqrt(&least)
+            };
+            let ends = [self.vertices().next()?, self.vertices().last()?];
+            let [a, b] = ends.map(at);
+            let q = e.ends(&e.halve(&e.add(&a?, &b?)?)?).into_iter().next()?;
+            e.is_positive(&q).then_some(q)
+        };
+        test.scaled.iter().map(root).collect()
+    }
+
+    /// With the greatest slopes and the roots of control points.
+    fn shown(
+        &self,
+        test: &Accuracy,
+        (v, p): (Vertex, u32),
+        slopes: Option<&[Vec<E::Number>; 2]>,
+    ) -> Option<Shown<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let row = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| self.at(f, v)));
+        let one = e.integer(1)?;
+        let Some([beta, q]) = slopes else {
+            let rows: Vec<_> = test.rows.iter().map(row).collect::<Option<_>>()?;
+            let b = self.sum(test, |by| self.slopes.at(self.of(by)?, v))?;
+            return Some((rows, one.clone(), vec![one; b.len()], b));
+        };
+        let weight = self.at(test.weight?, v)?;
+        let rows = test.scaled.iter().map(|own| row(&own.a)).collect::<Option<_>>()?;
+        let d = test.scaled.iter().map(|row| self.at(row.d, v));
+        let d: Vec<E::Number> = d.collect::<Option<_>>()?;
+        let entry = |((beta, q), d): ((&E::Number, &E::Number), &E::Number)| {
+            let both = e.add(&e.halve(&e.ratio(d, &one, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
+            e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
+        };
+        let b = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
+        Some((rows, weight, d, b))
+    }
 }

@@ -17,54 +17,55 @@ pub struct Apart {
     pub distance: Formula,
 }
 
-/// **Distance.** Let `g` be affine on the cell, `g = g_0 + sum_k lambda_k g_k`, in the evidence three
-/// rows `g_0j, g_1j, .., g_mj`. If at the vertices `v`, for each end `p` of the one segment and each end
-/// `q` of the other, `(g . (p - q))_v > R |g_v|`, the segments are farther from each other than `R` on
-/// the cell.
-///
-/// *Proof.* With the weights of [`Vertex`], `g . (p - q) > sum_v w_v R |g_v| >= R |g|` at `x`: norms are
-/// convex. So `g != 0`. The difference of two points of the segments is a convex combination of the four
-/// `p - q`, and with each of these its product with `g` is greater than `R |g|`, so it is longer than
-/// `R`. ∎ With `>=`, `g = 0` would show anything.
-pub fn apart<E: Enclosure>(over: &Over<'_, E>, test: &Apart, evidence: &Multiplier) -> bool {
-    let e = over.slopes.arithmetic;
-    let greatest = |v: Vertex, g: &[Slope<E::Number>]| {
-        let square = e.sum(g.iter().map(|g| e.sqr(&over.slopes.at(g, v)?)))?;
-        e.mul(&over.of(test.distance)?.range, &e.greatest_root(&square)?)
-    };
-    let along = |g: &[Slope<E::Number>], p: &Vector, q: &Vector| {
-        let terms =
-            g.iter().zip(p).zip(q).map(|((g, &p), &q)| {
-                over.slopes.mul(g, &over.slopes.sub(over.of(p)?, over.of(q)?)?)
+impl<E: Enclosure> Over<'_, E> {
+    /// **Distance.** Let `g` be affine on the cell, `g = g_0 + sum_k lambda_k g_k`, in the evidence three
+    /// rows `g_0j, g_1j, .., g_mj`. If at the vertices `v`, for each end `p` of the one segment and each end
+    /// `q` of the other, `(g . (p - q))_v > R |g_v|`, the segments are farther from each other than `R` on
+    /// the cell.
+    ///
+    /// *Proof.* With the weights of [`Vertex`], `g . (p - q) > sum_v w_v R |g_v| >= R |g|` at `x`: norms are
+    /// convex. So `g != 0`. The difference of two points of the segments is a convex combination of the four
+    /// `p - q`, and with each of these its product with `g` is greater than `R |g|`, so it is longer than
+    /// `R`. ∎ With `>=`, `g = 0` would show anything.
+    pub fn apart(&self, test: &Apart, evidence: &Multiplier) -> bool {
+        let e = self.slopes.arithmetic;
+        let greatest = |v: Vertex, g: &[Slope<E::Number>]| {
+            let square = e.sum(g.iter().map(|g| e.sqr(&self.slopes.at(g, v)?)))?;
+            e.mul(&self.of(test.distance)?.range, &e.greatest_root(&square)?)
+        };
+        let along = |g: &[Slope<E::Number>], p: &Vector, q: &Vector| {
+            let terms = g.iter().zip(p).zip(q).map(|((g, &p), &q)| {
+                self.slopes.mul(g, &self.slopes.sub(self.of(p)?, self.of(q)?)?)
             });
-        over.slopes.sum(terms)
-    };
-    let shown = || {
-        let rows = evidence.y.iter().map(|row| affine(over, row, evidence.places));
-        let g: Vec<Slope<E::Number>> = rows.collect::<Option<_>>()?;
-        let [first, second] = &test.ends;
-        for (p, q) in first.iter().flat_map(|p| second.iter().map(move |q| (p, q))) {
-            let f = along(&g, p, q)?;
-            let holds = |v: Vertex| {
-                let rest = e.sub(&over.slopes.at(&f, v)?, &greatest(v, &g)?)?;
-                Some(e.is_positive(&over.less_inside(rest, v)?))
-            };
-            over.vertices().all(|v| holds(v) == Some(true)).then_some(())?;
-        }
-        Some(())
-    };
-    evidence.is_of(3, over.slopes.m + 1) && shown().is_some()
-}
-
-/// `n_0 + sum_k lambda_k n_k`, over `2^places`.
-fn affine<E: Enclosure>(over: &Over<'_, E>, n: &[i64], places: u32) -> Option<Slope<E::Number>> {
-    let e = over.slopes.arithmetic;
-    let one = e.integer(1)?;
-    let (first, rest) = n.split_first()?;
-    let mut affine = over.slopes.constant(e.dyadic(*first, places, &one)?)?;
-    for (slope, &n) in affine.slopes.iter_mut().zip(rest) {
-        *slope = e.dyadic(n, places, &one)?;
-        affine.range = e.add(&affine.range, &e.hull(slope, &e.neg(slope)?))?;
+            self.slopes.sum(terms)
+        };
+        let shown = || {
+            let rows = evidence.y.iter().map(|row| self.affine(row, evidence.places));
+            let g: Vec<Slope<E::Number>> = rows.collect::<Option<_>>()?;
+            let [first, second] = &test.ends;
+            for (p, q) in first.iter().flat_map(|p| second.iter().map(move |q| (p, q))) {
+                let f = along(&g, p, q)?;
+                let holds = |v: Vertex| {
+                    let rest = e.sub(&self.slopes.at(&f, v)?, &greatest(v, &g)?)?;
+                    Some(e.is_positive(&self.less_inside(rest, v)?))
+                };
+                self.vertices().all(|v| holds(v) == Some(true)).then_some(())?;
+            }
+            Some(())
+        };
+        evidence.is_of(3, self.slopes.m + 1) && shown().is_some()
     }
-    Some(affine)
+
+    /// `n_0 + sum_k lambda_k n_k`, over `2^places`.
+    fn affine(&self, n: &[i64], places: u32) -> Option<Slope<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let one = e.integer(1)?;
+        let (first, rest) = n.split_first()?;
+        let mut affine = self.slopes.constant(e.dyadic(*first, places, &one)?)?;
+        for (slope, &n) in affine.slopes.iter_mut().zip(rest) {
+            *slope = e.dyadic(n, places, &one)?;
+            affine.range = e.add(&affine.range, &e.hull(slope, &e.neg(slope)?))?;
+        }
+        Some(affine)
+    }
 }

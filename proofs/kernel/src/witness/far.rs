@@ -12,7 +12,7 @@ impl AtPoint<'_> {
     ///
     /// **Lemma.** If it is positive, the machine has no pose with the joint coordinates that these errors
     /// give which is off by some `u` with `|u_t| <= 1` and `|u_c| <= 1`. *Proof.* For one,
-    /// `b = f(u) - f(0) = W u + e` with `|e| <= g/2` (see [`accuracy`](crate::test::accuracy::accuracy)), so
+    /// `b = f(u) - f(0) = W u + e` with `|e| <= g/2` (see [`accuracy`](crate::test::Over::accuracy)), so
     /// `v . b <= |W_t^T v| + |W_c^T v| + |v| g/2`. Of `b_i = (delta_i + eps_i)/d` the error may be `e_i` with
     /// the sign of `v_i`. ∎ A pose that is off by more would show nothing: there may be another one within.
     pub(super) fn far(&self, test: &Accuracy, v: &[i64]) -> Option<Number> {

@@ -37,11 +37,7 @@ pub(super) fn is_beside(
         && Vertex::all(m).filter(decides).all(|v| contains(problem, workspace, &corner(v)));
     let mut each = point.iter().zip(least).zip(greatest);
     let beside = each.any(|((x, least), greatest)| less(x, least) || less(greatest, x));
-    if inside && beside {
-        Ok(())
-    } else {
-        Err(WitnessError::Outside)
-    }
+    (inside && beside).then_some(()).ok_or(WitnessError::Outside)
 }
 
 impl AtPoint<'_> {

@@ -13,7 +13,7 @@ use crate::test::solve::Solve;
 use crate::test::Row;
 
 /// A claim's formulas over a cell, or its part.
-pub(super) struct Over<'a, E: Enclosure> {
+pub(super) struct Enclosed<'a, E: Enclosure> {
     pub problem: &'a Problem,
     pub slopes: Slopes<'a, E>,
     pub values: &'a Values<Slope<E::Number>>,
@@ -27,41 +27,40 @@ pub fn fails_throughout<E: Enclosure>(
     values: &Values<Slope<E::Number>>,
     failure: &Failure,
 ) -> bool {
-    Over { problem, slopes, values }.fail(failure) == Ok(true)
+    Enclosed { problem, slopes, values }.fail(failure) == Ok(true)
 }
 
-type Numbers<E> = Vec<Slope<<E as Arithmetic>::Number>>;
+type Number<E> = Slope<<E as Arithmetic>::Number>;
+type Missed<E> = Result<Option<Number<E>>, WitnessError>;
 
-impl<E: Enclosure> Over<'_, E> {
+impl<E: Enclosure> Enclosed<'_, E> {
     pub(super) fn fail(&self, failure: &Failure) -> Result<bool, WitnessError> {
-        Ok(match failure {
-            Failure::Reach => self.is_undefined(),
+        let rest = match failure {
+            Failure::Reach => return Ok(self.is_undefined()),
             Failure::Obligation(number, directions) => {
                 let obligation = self.problem.obligations.get(*number);
                 let test = &obligation.ok_or(WitnessError::NoSuchObligation)?.test;
-                return self.fails(test, directions);
+                self.missed(test, directions)?
             }
-            Failure::Row(number, leg) => {
-                self.exceeds(*number, *leg).is_some_and(|rest| self.is_positive(&rest))
-            }
+            Failure::Row(number, leg) => self.exceeds(*number, *leg),
             // Of one or two points.
-            Failure::Same { .. } | Failure::Singular(_) | Failure::Dependent => false,
-        })
+            Failure::Same { .. } | Failure::Singular(_) | Failure::Dependent => None,
+        };
+        Ok(rest.is_some_and(|rest| self.is_positive(&rest)))
     }
 
-    fn is_positive(&self, x: &Slope<E::Number>) -> bool {
+    fn is_positive(&self, x: &Number<E>) -> bool {
         self.slopes.all(x, |x| self.slopes.arithmetic.is_positive(x))
     }
 
-    fn is_nonnegative(&self, x: &Slope<E::Number>) -> bool {
+    fn is_nonnegative(&self, x: &Number<E>) -> bool {
         self.slopes.all(x, |x| self.slopes.arithmetic.is_nonnegative(x))
     }
 
     /// A formula of the claim is certainly not defined: a radicand is not positive, or a divisor zero.
     fn is_undefined(&self) -> bool {
-        let at_most_zero = |x: &Slope<E::Number>| {
-            self.slopes.neg(x).is_some_and(|less| self.is_nonnegative(&less))
-        };
+        let at_most_zero =
+            |x: &Number<E>| self.slopes.neg(x).is_some_and(|less| self.is_nonnegative(&less));
         let is_zero = |x: &_| at_most_zero(x) && self.is_nonnegative(x);
         self.problem.tape.ops().iter().any(|op| match op {
             Op::Sqrt(radicand) => self.values.of(*radicand).is_some_and(at_most_zero),
@@ -75,7 +74,7 @@ impl<E: Enclosure> Over<'_, E> {
     /// `sigma_max(M) >= |M^T e_i| = |A_i|/sqrt(D_i) > k`. ∎ Of a leg with a length whose platform does
     /// not turn, `|A_i|` is that, and defined where `A_i` is not. (The row of a platform that turns has
     /// a moment beside the leg's vector, or is the moment alone, which may be shorter.)
-    fn exceeds(&self, number: usize, leg: usize) -> Option<Slope<E::Number>> {
+    fn exceeds(&self, number: usize, leg: usize) -> Option<Number<E>> {
         let e = self.slopes;
         let Test::SigmaMax(k_squared) = self.problem.obligations.get(number)?.test else {
             return None;
@@ -90,16 +89,16 @@ impl<E: Enclosure> Over<'_, E> {
         e.sub(&square, &e.mul(self.values.of(k_squared)?, self.values.of(leg.row.d)?)?)
     }
 
-    /// Whether a test certainly fails; of singular values and the like, in these directions. What needs
+    /// What is positive only where a test fails; of singular values and the like, in these directions. What needs
     /// more than the formulas' values is left to witnesses.
-    fn fails(&self, test: &Test, directions: &[Vec<i64>]) -> Result<bool, WitnessError> {
+    fn missed(&self, test: &Test, directions: &[Vec<i64>]) -> Missed<E> {
         let e = self.slopes;
         let of = |f: &Formula| self.values.of(*f);
         let stretched = |v: &[i64]| match test.others() {
             Some(rows) => self.stretched(rows.iter(), v),
             None => self.stretched(self.problem.legs.iter().map(|leg| &leg.row), v),
         };
-        let rest = match (test, directions) {
+        Ok(match (test, directions) {
             // kappa^2 |v|^2 - |M v|^2.
             (Test::SigmaMin(kappa) | Test::Least(_, kappa), [v]) => {
                 stretched(v).and_then(|[length, image]| e.sub(&e.mul(of(kappa)?, &length)?, &image))
@@ -126,26 +125,21 @@ impl<E: Enclosure> Over<'_, E> {
                     .filter(|_| above.is_some_and(|x| self.is_positive(&x)))
             }
             _ => return Err(WitnessError::NoSuchObligation),
-        };
-        Ok(rest.is_some_and(|rest| self.is_positive(&rest)))
+        })
     }
 
     /// A direction of so many entries, not all zero.
-    pub(super) fn direction(&self, v: &[i64], m: usize) -> Option<Numbers<E>> {
+    pub(super) fn direction(&self, v: &[i64], m: usize) -> Option<Vec<Number<E>>> {
         let is = v.len() == m && v.iter().any(|&v| v != 0);
         is.then(|| v.iter().map(|&v| self.slopes.integer(v)).collect())?
     }
 
-    fn all(&self, formulas: &[Formula]) -> Option<Numbers<E>> {
+    fn all(&self, formulas: &[Formula]) -> Option<Vec<Number<E>>> {
         formulas.iter().map(|&f| self.values.of(f).cloned()).collect()
     }
 
     /// `A^T v`.
-    pub(super) fn transposed(
-        &self,
-        a: &[Vec<Formula>],
-        v: &[Slope<E::Number>],
-    ) -> Option<Numbers<E>> {
+    pub(super) fn transposed(&self, a: &[Vec<Formula>], v: &[Number<E>]) -> Option<Vec<Number<E>>> {
         let e = self.slopes;
         let entry = |k: usize| {
             let column: Option<Vec<Formula>> = a.iter().map(|row| row.get(k).copied()).collect();
@@ -159,7 +153,7 @@ impl<E: Enclosure> Over<'_, E> {
         &self,
         rows: impl Iterator<Item = &'b Row<Formula>> + Clone,
         v: &[i64],
-    ) -> Option<[Slope<E::Number>; 2]> {
+    ) -> Option<[Number<E>; 2]> {
         let e = self.slopes;
         let numbers = self.direction(v, rows.clone().next()?.a.len())?;
         let term = |row: &Row<Formula>| {
@@ -173,7 +167,7 @@ impl<E: Enclosure> Over<'_, E> {
     }
 
     /// `2 (a |row| |v|^2 + b |v^T H v| - |v|^2)`: positive only if `a |row| + b |H| > 1`.
-    fn curved(&self, test: &Curvature, v: &[i64]) -> Option<Slope<E::Number>> {
+    fn curved(&self, test: &Curvature, v: &[i64]) -> Option<Number<E>> {
         let e = self.slopes;
         let of = |f: Formula| self.values.of(f);
         let v = self.direction(v, test.row.len())?;
@@ -197,7 +191,7 @@ impl<E: Enclosure> Over<'_, E> {
 
     /// `k^2 D_i v_i^2 - |A^T v|^2`: positive only if no `z` with `M z = e_i`, that is `A z = B_i e_i`, has
     /// `|z| <= 1/k`, as then `B_i v_i = (A^T v) . z <= |A^T v|/k`.
-    fn unsolved(&self, test: &Solve, v: &[i64]) -> Option<Slope<E::Number>> {
+    fn unsolved(&self, test: &Solve, v: &[i64]) -> Option<Number<E>> {
         let e = self.slopes;
         let legs = &self.problem.legs;
         let v = self.direction(v, legs.len())?;
@@ -210,13 +204,13 @@ impl<E: Enclosure> Over<'_, E> {
 
     /// `n^2 R^2 - |n (p - q)|^2` for the points `p = p_1 + (s/n)(p_2 - p_1)` and
     /// `q = q_1 + (t/n)(q_2 - q_1)` of the segments, of weights `s, t, n`.
-    fn nearer(&self, test: &Apart, weights: &[i64]) -> Option<Slope<E::Number>> {
+    fn nearer(&self, test: &Apart, weights: &[i64]) -> Option<Number<E>> {
         let e = self.slopes;
         let [s, t, n] = *weights else { return None };
         if n <= 0 || ![s, t].iter().all(|part| (0..=n).contains(part)) {
             return None;
         }
-        let point = |ends: &[Vector; 2], part: i64| -> Option<Numbers<E>> {
+        let point = |ends: &[Vector; 2], part: i64| -> Option<Vec<Number<E>>> {
             let weights = [e.integer(n - part)?, e.integer(part)?];
             (0..3).map(|k| e.dot(&self.all(&[ends[0][k], ends[1][k]])?, &weights)).collect()
         };
@@ -227,10 +221,10 @@ impl<E: Enclosure> Over<'_, E> {
     }
 
     /// `det M`, of as many rows as coordinates.
-    pub(super) fn determinant(&self) -> Option<Slope<E::Number>> {
+    pub(super) fn determinant(&self) -> Option<Number<E>> {
         let legs = &self.problem.legs;
         let row = |a: &Vec<Formula>| a.iter().map(|&a| self.values.of(a).cloned()).collect();
-        let rows: Vec<Numbers<E>> =
+        let rows: Vec<Vec<Number<E>>> =
             legs.iter().map(|leg| row(&leg.divided.a)).collect::<Option<_>>()?;
         (rows.len() == self.problem.dimension()).then(|| determinant(&self.slopes, &rows))?
     }
