@@ -226,6 +226,7 @@ impl<Z: Integer> Fixed<Z> {
 /// | `a >= 0`  | `[lo lo', hi hi']` | `[hi lo', lo hi']` | `[hi lo', hi hi']`                   |
 /// | `a <= 0`  | `[lo hi', hi lo']` | `[hi hi', lo lo']` | `[lo hi', lo lo']`                   |
 /// | mixed     | `[lo hi', hi hi']` | `[hi lo', lo lo']` | least of `lo hi'`, `hi lo'`, greatest of `lo lo'`, `hi hi'` |
+#[inline]
 fn over_ends<Z: Integer>(
     a: &Interval<Z>,
     b: &Interval<Z>,
@@ -303,6 +304,7 @@ impl<Z: Integer> Arithmetic for Fixed<Z> {
 impl<Z: Integer> Enclosure for Fixed<Z> {
     /// `1/(x/2^bits) 2^bits = 2^(2 bits)/x` decreases on either side of zero, and is odd; there is no ratio by
     /// what is not positive.
+    #[inline]
     fn recip(&self, a: &Interval<Z>) -> Option<Interval<Z>> {
         if a.hi.sign() < 0 {
             return self.neg(&self.recip(&self.neg(a)?)?);
@@ -318,6 +320,7 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
 
     /// A product divided by `[c, d]`: a lower end by `d` where it is not negative, else by `c`; an
     /// upper one the other way round.
+    #[inline]
     fn ratio(&self, a: &Interval<Z>, b: &Interval<Z>, c: &Interval<Z>) -> Option<Interval<Z>> {
         let negative = |x: &Z, y: &Z| x.sign() * y.sign() < 0;
         let down = |x: &Z, y: &Z| x.ratio(y, if negative(x, y) { &c.lo } else { &c.hi });
@@ -328,12 +331,14 @@ impl<Z: Integer> Enclosure for Fixed<Z> {
         over_ends(a, b, down, up)
     }
 
+    #[inline]
     fn dyadic(&self, n: i64, places: u32, a: &Interval<Z>) -> Option<Interval<Z>> {
         let (lo, hi) = if n >= 0 { (&a.lo, &a.hi) } else { (&a.hi, &a.lo) };
         let hi = hi.negated()?.dyadic(n, places)?.negated()?;
         Some(Interval { lo: lo.dyadic(n, places)?, hi })
     }
 
+    #[inline]
     fn within(
         &self,
         range: &Interval<Z>,
