@@ -299,14 +299,12 @@ impl Tape {
         parameter: impl Fn(usize) -> Option<A::Number>,
     ) -> Values<A::Number> {
         let ops = needed.map_or(&self.ops[..], |needed| &self.ops[..needed.len()]);
-        let count = needed.map_or(ops.len(), |needed| needed.iter().filter(|is| **is).count());
-        let mut values =
-            Values { defined: Vec::with_capacity(count), places: Vec::with_capacity(ops.len()) };
+        let mut values = Values(Vec::with_capacity(ops.len()));
         // Of the last elbow its two entries, which are found together.
         let mut elbow = ([Formula(usize::MAX); 3], None);
         for (at, &op) in ops.iter().enumerate() {
             if needed.is_some_and(|needed| !needed[at]) {
-                values.places.push(None);
+                values.0.push(None);
                 continue;
             }
             let (own, at) = (Formula(at), |f: Formula| values.of(f));
@@ -331,8 +329,7 @@ impl Tape {
                     elbow.1.as_ref().map(|both| both[usize::from(second)].clone())
                 }
             };
-            values.places.push(value.is_some().then_some(values.defined.len()));
-            values.defined.extend(value);
+            values.0.push(value);
         }
         values
     }
@@ -466,23 +463,19 @@ impl Tape {
     }
 }
 
-/// The values of a tape's entries.
+/// The values of a tape's entries, where they are defined.
 #[derive(Clone, Debug)]
-pub struct Values<N> {
-    defined: Vec<N>,
-    /// Of each entry, which of these is its value.
-    places: Vec<Option<usize>>,
-}
+pub struct Values<N>(Vec<Option<N>>);
 
 impl<N> Default for Values<N> {
     fn default() -> Self {
-        Values { defined: Vec::new(), places: Vec::new() }
+        Values(Vec::new())
     }
 }
 
 impl<N> Values<N> {
     /// The value of a formula of the tape; `None` where it is undefined.
     pub fn of(&self, formula: Formula) -> Option<&N> {
-        self.defined.get((*self.places.get(formula.0)?)?)
+        self.0.get(formula.0)?.as_ref()
     }
 }
