@@ -1,128 +1,100 @@
-//! What is exported to Rocq, and what is refused. That the files prove what they state is for Rocq
-//! to say: `proofs/rocq/instances`.
+//! What is exported to Rocq, and what is refused. That the files prove what they state is for Rocq to
+//! say, and that no more is refused than the verified checker does not cover: `proofs/rocq/instances`,
+//! `proofs/rocq/program/check.js`.
 
-use orthocert::report::export::rocq::{postulate, rocq, ExportError};
+use orthocert::report::export::rocq::{rocq, ExportError};
 use orthocert_checker::read;
-use orthocert_kernel::certificate::{Certificate, Claim, Proof};
+use std::fs::read_to_string;
 
 fn exported(text: &str) -> Result<String, ExportError> {
     rocq(&read(text.as_bytes()).expect("a certificate"))
 }
 
-/// That the instance is the committed one; with `ORTHOCERT_WRITE` set, it is written first.
-fn committed(file: &str, text: &str) {
-    if std::env::var_os("ORTHOCERT_WRITE").is_some() {
-        std::fs::write(file, text).expect("written");
-    }
-    assert_eq!(text, std::fs::read_to_string(file).expect("committed"));
-}
-
-/// The statement of `certified`, without its proof.
-fn statement(text: &str) -> &str {
-    let (_, theorem) = text.split_once("Theorem certified").expect("a theorem");
-    theorem.split_once("Proof.").expect("a proof").0
-}
-
-/// A certificate of the postulate, as the instance that it is exported to.
-fn postulate_of(psi_max: &str, nodes: &str) -> Result<String, ExportError> {
-    let claim = serde_json::from_str(&format!(r#"{{"psi_max":{psi_max}}}"#)).expect("a claim");
-    let tree = format!(r#"{{"precision":52,"nodes":{nodes}}}"#);
-    postulate(&claim, &serde_json::from_str(&tree).expect("a tree"))
+/// The certificate with something else in it.
+fn with(text: &str, from: &str, to: &str) -> String {
+    let other = text.replacen(from, to, 1);
+    assert_ne!(text, other, "{from}");
+    other
 }
 
 #[test]
-fn the_postulate_is_written_as_the_instances_of_the_formal_development() {
-    for name in ["PostulateAll", "PostulateUpTo2"] {
-        let file = |end: &str| format!("proofs/rocq/instances/{name}{end}");
-        let text = std::fs::read_to_string(file(".cert.json")).expect("committed");
-        let certificate = Certificate::read(&text).expect("canonical");
-        let (Claim::Postulate(claim), Proof::Tree(tree)) = (&certificate.claim, &certificate.proof)
-        else {
-            panic!("{name} is about the postulate");
-        };
-        let text = postulate(claim, tree).expect("exported");
-        committed(&file(".v"), &text);
-        assert!(!statement(&text).contains("trees"));
+fn every_committed_certificate_is_exported() {
+    let mut count = 0;
+    for file in std::fs::read_dir("proofs/certificates").expect("a folder") {
+        let text = read_to_string(file.expect("a file").path()).expect("a certificate");
+        exported(&text).expect("exported");
+        count += 1;
     }
+    assert!(count >= 38);
 }
 
-const LEAF: &str = r#"{"by":[[0,"test"]]}"#;
-
+/// With `ORTHOCERT_WRITE` set, they are written first.
 #[test]
-fn a_range_of_the_postulate_is_stated_up_to_its_greatest_psi_max() {
-    let two = format!("[{LEAF},{LEAF}]");
-    let text = postulate_of(r#"{"min":"1.5","max":"2"}"#, &two).expect("exported");
-    assert!(statement(&text).contains("forall psi, 1 < psi <= 2 -> forall P, in_cube L psi P"));
-    assert!(text.contains("check_postulate_up_to 52 (2 // 1) trees = true"));
-    assert!(text.contains("Definition trees : list tree := [q1_high; q2_high]."));
-    assert!(text.contains("Corollary at_greatest : forall L a e, 0 < L -> forall P, in_cube L 2 P"));
-    assert!(text.contains("forall v, (1 / 2) ^ 2 * norm2 v <="));
-    assert_eq!(postulate_of(r#""2""#, &two).as_ref(), Ok(&text));
-
-    let four = format!("[{LEAF},{LEAF},{LEAF},{LEAF}]");
-    let text = postulate_of(r#""2+sqrt(1/3)-0.5""#, &four).expect("exported");
-    assert!(statement(&text).contains("1 < psi <= ((2 + (sqrt (1 / 3))) - (1 / 2)) ->"), "{text}");
-    let exact = "value (Minus (Plus (2 // 1) (Root (Over (1 // 1) (3 // 1)))) (1 // 2)) =";
-    assert!(text.contains(exact), "{text}");
-    assert!(text.contains(":= [q1_low; q1_high; q2_low; q2_high]."));
-}
-
-#[test]
-fn trees_that_the_postulate_does_not_need_are_refused() {
-    let node = r#"{"split":0}"#;
-    for nodes in [
-        String::new(),
-        LEAF.to_owned(),
-        format!("{LEAF},{LEAF},{LEAF}"),
-        format!("{node},{LEAF},{LEAF}"),
-    ] {
-        let refused = postulate_of(r#""2""#, &format!("[{nodes}]"));
-        assert_eq!(refused, Err(ExportError::NotATree), "{nodes}");
+fn instances_of_the_formal_development_are_what_is_exported() {
+    let script = read_to_string("proofs/rocq/instances/regenerate.sh").expect("committed");
+    let mut count = 0;
+    let beside = |name: &str| format!("proofs/rocq/instances/{name}.cert.json");
+    let names = script.split_once("for name in ").and_then(|(_, rest)| rest.split_once(';'));
+    let own = names.expect("names").0.split(' ').map(|name| (name, beside(name)));
+    let (_, table) = script.split_once("<<END\n").expect("a table");
+    let others = table.lines().filter_map(|line| line.split_once(' '));
+    let others = others.map(|(name, from)| (name, format!("proofs/certificates/{from}.cert.json")));
+    for (name, certificate) in own.chain(others) {
+        let text = exported(&read_to_string(certificate).expect("committed")).expect("exported");
+        let file = format!("proofs/rocq/instances/{name}.v");
+        if std::env::var_os("ORTHOCERT_WRITE").is_some() {
+            std::fs::write(&file, &text).expect("written");
+        }
+        assert_eq!(text, read_to_string(&file).expect("committed"), "{name}");
+        count += 1;
     }
-    let cube = r#"[{"by":[[0,"cube"]]},{"by":[[0,"cube"]]}]"#;
-    assert_eq!(postulate_of(r#""2""#, cube), Err(ExportError::Evidence("cube")));
-    assert_eq!(postulate_of(r#""1""#, "[]"), Err(ExportError::NotWellFormed));
+    assert_eq!(count, 16);
 }
 
 const FOUR: &str = include_str!("../proofs/rocq/instances/FourSliders.cert.json");
+const BOX: &str = r#""min":["-60","-60","0"]"#;
 
 #[test]
-fn machines_are_written_as_the_instances_of_the_formal_development() {
-    let instances = "proofs/rocq/instances";
-    for (name, from) in [
-        ("FourSliders", format!("{instances}/FourSliders")),
-        ("StrutsAndPlane", format!("{instances}/StrutsAndPlane")),
-        ("OrthoglideTolerance", format!("{instances}/OrthoglideTolerance")),
-        ("LinearDelta", format!("{instances}/LinearDelta")),
-        ("DeltaSpeed", "proofs/certificates/delta-joint-speed".to_owned()),
-        ("DeltaMargin", "proofs/certificates/delta-parallel-margin".to_owned()),
-        ("UpuAxes", "proofs/certificates/upu-base-axes".to_owned()),
+fn numbers_stand_as_in_the_certificate() {
+    for (number, written) in [
+        ("-0.5", "(-0.5)"),
+        ("1/3", "(1/3)"),
+        ("-2*sqrt(3)^2/5", "(-2*sqrt(3)^2/5)"),
+        // `--` and `*-` might be read as one symbol.
+        ("1--2*-3", "(1- -2* -3)"),
     ] {
-        let certificate = std::fs::read_to_string(format!("{from}.cert.json")).expect("committed");
-        let text = exported(&certificate).expect("exported");
-        committed(&format!("{instances}/{name}.v"), &text);
-        assert!(!statement(&text).contains("certificate"));
+        let text = exported(&with(FOUR, BOX, &format!(r#""min":["{number}","-60","0"]"#)));
+        assert!(text.expect("exported").contains(&format!("Box_ (Triple {written} (-60) 0)")));
     }
+    let formulas = read_to_string("proofs/certificates/five-bar-formulas.cert.json");
+    let text = exported(&formulas.expect("committed")).expect("exported");
+    assert!(text.contains("(\"p\", ((1+(Name \"r\"^2-Name \"l\"^2)/Name \"n\")/2))"), "{text}");
+}
+
+/// What ends a string would be read as Rocq's.
+#[test]
+fn no_string_ends_before_its_end() {
+    let text = exported(&with(FOUR, r#""tool":"test""#, r#""tool":"t\" x""#)).expect("exported");
+    assert!(text.contains(" the_proof \"t\"\" x\" \"0\"."), "{text}");
 }
 
 #[test]
-fn claims_of_the_kernel_that_its_formal_side_lacks_are_refused_with_what_is_missing() {
-    let replaced = |from: &str, to: &str| {
-        let text = FOUR.replacen(from, to, 1);
-        assert_ne!(text, FOUR, "{from}");
-        exported(&text)
-    };
-    let angle = r#""quantity":"leg_angle""#;
-    let range = r#""quantity":"joint_range","leg":1,"end":"min","bound":"200""#;
-    let refused =
-        replaced(range, &format!(r#"{angle},"end":"max","bound":"80""#)).expect_err("refused");
-    assert_eq!(refused, ExportError::Quantity("leg_angle"));
-    assert!(refused.to_string().contains("\"leg_angle\""));
-    let cylinder = r#""cylinder":{"center":["0","0"],"radius":"60","z":["0","200"]}"#;
-    let workspace = r#""box":{"min":["-60","-60","0"],"max":["60","60","200"]}"#;
-    let text = replaced(workspace, cylinder).expect("exported");
-    assert!(text.contains("Cylinder (0 // 1) (0 // 1) (60 // 1) (Within (0 // 1) (200 // 1))"));
+fn what_the_verified_checker_does_not_cover_is_refused_in_its_words() {
     let step = r#"[2,"test"]"#;
-    assert_eq!(replaced(step, r#"[2,"cube"]"#), Err(ExportError::Evidence("cube")));
-    assert_eq!(replaced(r#","split":1}"#, "}"), Err(ExportError::NotATree));
+    let range = r#""quantity":"joint_range","leg":1,"end":"min","bound":"200""#;
+    for (from, to, what) in [
+        (
+            range,
+            r#""quantity":"base_joint","end":"max","bound":"9""#,
+            "the quantity \"base_joint\"",
+        ),
+        (step, r#"[2,{"turned":["test",1,1]}]"#, "the evidence \"turned\""),
+        (step, r#"[2,{"control":"divided"}]"#, "this evidence at control points"),
+        (r#","split":1}"#, r#","split":1,"fails":"reach"}"#, "a leaf that fails"),
+    ] {
+        let refused = exported(&with(FOUR, from, to)).expect_err("refused");
+        assert_eq!(refused.to_string(), format!("{what} is not covered by the verified checker"));
+    }
+    let refuted = exported(&with(FOUR, r#""verdict":"certified""#, r#""verdict":"refuted""#));
+    assert_eq!(refuted, Err(ExportError::Verdict));
 }

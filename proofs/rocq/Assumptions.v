@@ -7,7 +7,8 @@ From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
 From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Legs Control Pose Drives Driven Certificate PavingText.
-From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes.
+From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
+  FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
 Local Open Scope R_scope.
 Set Printing Width 100.
 
@@ -97,8 +98,6 @@ Check Faces.check_postulate_up_to_sound.
 Print Assumptions Faces.check_postulate_up_to_sound.
 Check PostulateUpTo2.certified.
 Print Assumptions PostulateUpTo2.certified.
-Check PostulateUpTo2.at_greatest.
-Print Assumptions PostulateUpTo2.at_greatest.
 
 (** ** The kernel *)
 
@@ -187,6 +186,20 @@ Check kernel.Check.shows_apart_sound.
 Print Assumptions kernel.Check.shows_apart_sound.
 Check kernel.Certificate.accept_cells_sound.
 Print Assumptions kernel.Certificate.accept_cells_sound.
+Check FiveBar.certified.
+Print Assumptions FiveBar.certified.
+Check PlanarPlatform.certified.
+Print Assumptions PlanarPlatform.certified.
+Check FiveBarFormulas.certified.
+Print Assumptions FiveBarFormulas.certified.
+Check Prototype.certified.
+Print Assumptions Prototype.certified.
+Check DeltaTooFast.refuted.
+Print Assumptions DeltaTooFast.refuted.
+Check NoCube.certified.
+Print Assumptions NoCube.certified.
+Check Atlas.certified.
+Print Assumptions Atlas.certified.
 Check kernel.Certificate.verify_sound.
 Print Assumptions kernel.Certificate.verify_sound.
 Check kernel.PavingText.verify_paving_sound.

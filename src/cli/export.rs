@@ -10,6 +10,7 @@ use crate::search::paving::{surface, Surface, SurfaceError};
 use clap::Subcommand;
 use orthocert_checker::{file, read};
 use orthocert_kernel::paving::{is_paving, Reader};
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Take};
 use std::path::{Path, PathBuf};
@@ -23,7 +24,11 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Language {
-    /// A Rocq file that states the claim and proves it by the certificate.
+    /// A Rocq file that states the claim, or that it is false, and proves it by the certificate.
+    ///
+    /// Of every certificate that the verified checker covers; of others the reason is told. The file is of the
+    /// formal development, `coqc -Q proofs/rocq Orthocert FILE.v`, which accepts it if the verified checker, run
+    /// in Rocq, accepts the certificate. That takes a second or two for most machines, and minutes for hexapods.
     Rocq {
         /// The certificate
         #[arg(value_name = "CERT.json")]
@@ -75,6 +80,14 @@ fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
         output::probe(output)?;
     }
     let bytes = input::certificate(path)?;
+    let refused =
+        |reason: &dyn Display| Failure::Input(format!("{}: not exported: {reason}", path.shown()));
+    if is_paving(&bytes) {
+        return Err(refused(
+            &"the evidence of a paving is a stream of cells, which has no form that Rocq reads; \
+              `orthocert-verified` proves it again from the file",
+        ));
+    }
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
         Err(reason) => {
@@ -82,8 +95,7 @@ fn rocq(path: &Path, output: Option<&Path>) -> Result<Status, Failure> {
             return Ok(Status::Rejected);
         }
     };
-    let text = export::rocq::rocq(&certificate)
-        .map_err(|error| Failure::Input(format!("{}: not exported: {error}", path.shown())))?;
+    let text = export::rocq::rocq(&certificate).map_err(|error| refused(&error))?;
     match output {
         Some(file) => output::write(file, text.as_bytes())?,
         None => print::answer(&text)?,

@@ -286,6 +286,7 @@ fn names_do_nothing_in_any_commands_output() {
         (&["report", &paving], 0),
         (&["export", "vtk", &paving, "-o", &out], 0),
         (&["export", "rocq", &toml], 5),
+        (&["export", "rocq", &paving], 2),
         (&["bounds", &missing], 2),
         (&["atlas", &toml], 2),
         (&["split", &missing, "--shards", "1", "--out", &out], 2),

@@ -47,9 +47,9 @@ fn the_certificate_does_not_depend_on_the_number_of_threads() {
 fn certificates_are_exported_to_rocq() {
     let folder = Folder::new();
     for (arguments, statement) in [
-        (&["--psi", "2"][..], "forall psi, 1 < psi <= 2 ->"),
-        (&["--psi-range", "3/2..5/2"], "forall psi, 1 < psi <= (5 / 2) ->"),
-        (&["--all"], "forall psi, 1 < psi ->"),
+        (&["--psi", "2"][..], "Definition the_psi : quantity := 2."),
+        (&["--psi-range", "3/2..5/2"], "the_psi : quantity := (Between 1.5 2.5)."),
+        (&["--all"], "Theorem certified :\n  forall psi, (1 < psi)%R -> postulate_for psi."),
     ] {
         folder.run(&[&["postulate", "-o", "p.json"], arguments].concat()).exits(0);
         folder.run(&["export", "rocq", "p.json"]).exits(0).says(&["Theorem certified", statement]);

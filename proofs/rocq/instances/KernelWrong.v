@@ -10,6 +10,11 @@ From Orthocert.kernel Require Certificate.
 From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta DeltaSpeed DeltaMargin UpuAxes PostulateAll PostulateUpTo2.
 Import ListNotations.
 
+(** The trees that a certificate's nodes are. *)
+Definition trees_in (p : Certificate.proof) : list tree :=
+  match p with Certificate.Nodes _ _ nodes => match Certificate.trees_of [] 4 nodes with Some ts => ts | None => [] end | _ => [] end.
+Definition tree_in (p : Certificate.proof) : tree := nth 0 (trees_in p) (Leaf []).
+
 Definition step : Type := nat * evidence.
 
 (** The first leaf, and the last, left without a step. *)
@@ -39,6 +44,7 @@ Definition requiring (c : claim) (r : list requirement) : claim := MakeClaim (le
 
 Module Sliders.
 Import FourSliders.
+Definition certificate : tree := tree_in the_proof.
 Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0; 0]%Z t).
 Local Notation over := (requiring the_claim).
 Local Notation upper := (PsiMin (Over (9 // 1) (20 // 1))).
@@ -66,17 +72,18 @@ Proof. vm_compute. reflexivity. Qed.
 Example tests_exchanged : accepts (over [upper; PsiMax (Over (6 // 1) (5 // 1)); joint]) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 Example no_lower_bound : accepts (over []) (Leaf []) = false. Proof. vm_compute. reflexivity. Qed.
-Example legs_left_out : accepts (MakeClaim [leg_1; leg_2] the_workspace (require the_claim)) certificate = false.
+Example legs_left_out : accepts (MakeClaim (firstn 2 (legs the_claim)) (workspace the_claim) (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 (** Out of reach: the rows are not regular. *)
 Example box_out_of_reach :
-  accepts (MakeClaim (legs the_claim) (Box (Tolerances (Within (400 // 1) (410 // 1)) (ty (hull the_workspace)) (tz (hull the_workspace)))) [NotSingular])
+  accepts (MakeClaim (legs the_claim) (Box (Tolerances (Within (400 // 1) (410 // 1)) (ty (hull (workspace the_claim))) (tz (hull (workspace the_claim))))) [NotSingular])
     (first_leaf certificate) = false.
 Proof. vm_compute. reflexivity. Qed.
 End Sliders.
 
 Module Struts.
 Import StrutsAndPlane.
+Definition certificate : tree := tree_in the_proof.
 Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0; 1]%Z t).
 
 Example the_certificate : accepts the_claim certificate = true. Proof. vm_compute. reflexivity. Qed.
@@ -85,12 +92,13 @@ Example Y_of_the_other_sign : accepts the_claim (map_evidence (with_Y Z.opp) cer
 Proof. vm_compute. reflexivity. Qed.
 (** A leg of length zero somewhere in the box: D is not positive there. *)
 Example through_a_base_joint :
-  accepts (MakeClaim [leg_1; leg_2; leg_3; leg_4; StrutLeg (hull the_workspace) (hull the_workspace) None] the_workspace (require the_claim)) certificate = false.
+  accepts (MakeClaim (legs the_claim ++ [StrutLeg (hull (workspace the_claim)) (hull (workspace the_claim)) None]) (workspace the_claim) (require the_claim)) certificate = false.
 Proof. vm_compute. reflexivity. Qed.
 End Struts.
 
 Module Tolerance.
 Import OrthoglideTolerance.
+Definition certificate : tree := tree_in the_proof.
 Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
 Local Notation between least greatest := (requiring the_claim [PsiMax greatest; PsiMin least]).
 
@@ -104,6 +112,7 @@ End Tolerance.
 
 Module Margin.
 Import DeltaMargin.
+Definition certificate : tree := tree_in the_proof.
 Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
 Local Notation about r b := (MakeClaim (legs the_claim) (Cylinder (0 // 1) (0 // 1) r (Within (0 // 1) (100 // 1))) [NotSingular; ParallelMargin b]).
 Definition never_negative (e : evidence) : evidence := match e with ByNegative => ByTest | e => e end.
@@ -121,6 +130,7 @@ End Margin.
 
 Module Speed.
 Import DeltaSpeed.
+Definition certificate : tree := tree_in the_proof.
 Local Notation accepts c t := (check_claim 52 c 9 [0; 0; 0]%Z t).
 (** Multiples of what is not negative in the workspace: of the other sign, and more. *)
 Definition with_mu (f : Z -> Z) (e : evidence) : evidence := match e with Inside i n p => Inside i (f n) p | e => e end.
@@ -136,6 +146,7 @@ End Speed.
 
 Module Couples.
 Import UpuAxes.
+Definition certificate : tree := tree_in the_proof.
 Local Notation accepts c t := (check_claim 52 c 8 [0; 0; 0]%Z t).
 
 Example the_certificate : accepts the_claim certificate = true. Proof. vm_compute. reflexivity. Qed.
@@ -153,6 +164,9 @@ Definition mirrored (e : evidence) : evidence := ByMirror.
 
 Module PostulateForAll.
 Import PostulateAll.
+Definition trees : list tree := trees_in the_proof.
+Local Notation tree_ k := (nth k trees (Leaf [])).
+Definition q1_low := tree_ 0. Definition q1_high := tree_ 1. Definition q2_low := tree_ 2. Definition q2_high := tree_ 3.
 Local Notation accepts := (check_postulate 52).
 
 Example the_certificate : accepts trees = true. Proof. vm_compute. reflexivity. Qed.
@@ -177,15 +191,17 @@ End PostulateForAll.
 (** Trees prove the range of kappa that they were found for, and a greatest psi no greater than theirs. *)
 Module PostulateForARange.
 Import PostulateUpTo2.
+Definition trees : list tree := trees_in the_proof.
+Definition q1_high := nth 0 trees (Leaf []). Definition q2_high := nth 1 trees (Leaf []).
 Local Notation accepts := (check_postulate_up_to 52).
 
 Example the_certificate : accepts (2 // 1) trees = true. Proof. vm_compute. reflexivity. Qed.
 Example greatest_increased : accepts (2000001 // 1000000) trees = false. Proof. vm_compute. reflexivity. Qed.
 Example trees_of_kappa_above_half_also_below : accepts (3 // 1) [q1_high; q1_high; q2_high; q2_high] = false.
 Proof. vm_compute. reflexivity. Qed.
-Example tree_of_kappa_below_half_above : accepts (2 // 1) [q1_high; PostulateAll.q2_low] = false.
+Example tree_of_kappa_below_half_above : accepts (2 // 1) [q1_high; PostulateForAll.q2_low] = false.
 Proof. vm_compute. reflexivity. Qed.
-Example trees_of_the_larger_range : accepts (2 // 1) PostulateAll.trees = false. Proof. vm_compute. reflexivity. Qed.
+Example trees_of_the_larger_range : accepts (2 // 1) PostulateForAll.trees = false. Proof. vm_compute. reflexivity. Qed.
 Example greatest_not_above_one : accepts (1 // 1) trees = false. Proof. vm_compute. reflexivity. Qed.
 Example corner_by_vertices : accepts (2 // 1) [first_by ByTest q1_high; q2_high] = false. Proof. vm_compute. reflexivity. Qed.
 Example the_other_corner : accepts (2 // 1) [q1_high; first_by (ByCorner Q1) q2_high] = false. Proof. vm_compute. reflexivity. Qed.

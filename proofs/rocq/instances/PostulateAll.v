@@ -1,74 +1,67 @@
-(** Written by `orthocert export rocq`; nothing here is trusted but what is read: the theorem
-    `certified`, with the definitions of Postulate.v and Kinematics.v. *)
+(** Written by `orthocert export rocq`. What has to be read is the theorem at the end and the claim that it is about,
+    which have the meaning that kernel/Certificate.v gives them; the evidence is not trusted, nor is the writer. *)
 
-From Coq Require Import ZArith Reals List.
-From Orthocert.kernel Require Import Check Faces.
-From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
-Import ListNotations.
-Local Open Scope R_scope.
+From Orthocert.kernel Require Import Notations.
+Local Open Scope string_scope.
+Local Open Scope written_scope.
 
-Definition q1_low : tree :=
-  (Split [] 0
-    (Split [] 1
-      (Leaf [(0, ByCorner Q1)]%nat)
-      (Split [] 2
-        (Leaf [(0, ByTest)]%nat)
-        (Leaf [(0, ByTest)]%nat)))
-    (Split [] 1
-      (Leaf [(0, ByMirror)]%nat)
-      (Split [] 2
-        (Split [] 2
-          (Leaf [(0, ByTest)]%nat)
-          (Leaf [(0, ByTest)]%nat))
-        (Split [] 2
-          (Leaf [(0, ByTest)]%nat)
-          (Leaf [(0, ByTest)]%nat))))).
 
-Definition q1_high : tree :=
-  (Split [] 2
-    (Split [] 2
-      (Split [] 0
-        (Leaf [(0, ByCorner Q1)]%nat)
-        (Leaf [(0, ByTest)]%nat))
-      (Leaf [(0, ByCorner Q1)]%nat))
-    (Leaf [(0, ByCorner Q1)]%nat)).
+(** The evidence. *)
+Local Open Scope nat_scope.
+Definition the_proof : proof := Nodes 52 None [
+  Node [] (Some 0) None []%Z;
+  Node [] (Some 1) None []%Z;
+  Node [(0, AtCorner Check.Q1)] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 1) None []%Z;
+  Node [(0, Plain "mirror")] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [] (Some 0) None []%Z;
+  Node [(0, AtCorner Check.Q1)] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [(0, AtCorner Check.Q1)] None None []%Z;
+  Node [(0, AtCorner Check.Q1)] None None []%Z;
+  Node [] (Some 0) None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 1) None []%Z;
+  Node [(0, Plain "mirror")] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [] (Some 0) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 1) None []%Z;
+  Node [(0, Plain "mirror")] None None []%Z;
+  Node [(0, AtCorner Check.Q2)] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [(0, AtCorner Check.Q2)] None None []%Z;
+  Node [(0, AtCorner Check.Q2)] None None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [] (Some 2) None []%Z;
+  Node [] (Some 0) None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [] (Some 1) None []%Z;
+  Node [(0, Plain "mirror")] None None []%Z;
+  Node [(0, AtCorner Check.Q2)] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z;
+  Node [(0, Plain "test")] None None []%Z].
+Definition the_certificate : certificate := Certificate (Postulate_ None) the_proof "test" "0".
 
-Definition q2_low : tree :=
-  (Split [] 0
-    (Split [] 2
-      (Leaf [(0, ByTest)]%nat)
-      (Split [] 2
-        (Leaf [(0, ByTest)]%nat)
-        (Leaf [(0, ByTest)]%nat)))
-    (Split [] 1
-      (Leaf [(0, ByMirror)]%nat)
-      (Split [] 2
-        (Split [] 0
-          (Leaf [(0, ByTest)]%nat)
-          (Split [] 1
-            (Leaf [(0, ByMirror)]%nat)
-            (Leaf [(0, ByCorner Q2)]%nat)))
-        (Split [] 2
-          (Leaf [(0, ByCorner Q2)]%nat)
-          (Leaf [(0, ByCorner Q2)]%nat))))).
-
-Definition q2_high : tree :=
-  (Split [] 2
-    (Split [] 2
-      (Split [] 0
-        (Leaf [(0, ByTest)]%nat)
-        (Split [] 1
-          (Leaf [(0, ByMirror)]%nat)
-          (Leaf [(0, ByCorner Q2)]%nat)))
-      (Leaf [(0, ByTest)]%nat))
-    (Leaf [(0, ByTest)]%nat)).
-
-Definition trees : list tree := [q1_low; q1_high; q2_low; q2_high].
-
-Lemma checked : check_postulate 52 trees = true.
+Lemma accepted : accept the_certificate = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
-Theorem certified : forall L a e, 0 < L -> forall psi, 1 < psi -> forall P, in_cube L psi P ->
-  regular (orthoglide L a e) P /\
-  forall v, (1 / psi) ^ 2 * norm2 v <= norm2 (mulv (Jinv (orthoglide L a e) P) v) <= psi ^ 2 * norm2 v.
-Proof. exact (check_postulate_sound 52 trees checked). Qed.
+Theorem certified :
+  forall psi, (1 < psi)%R -> postulate_for psi.
+Proof. exact (accept_sound the_certificate accepted). Qed.

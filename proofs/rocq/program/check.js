@@ -1,5 +1,6 @@
 // The verified checker's two programs against each other and against orthocert-check, on
-// certificates and on seeded mutants of them, and the realizers of BigInt against what they have to be:
+// certificates and on seeded mutants of them, and the realizers of BigInt against what they have to be; and what
+// orthocert, which is beside orthocert-check, exports to Rocq, against what the programs cover, and some of it in Rocq:
 //   node check.js NATIVE VERIFIED.JS ORTHOCERT-CHECK MUTANTS CERT.json..
 "use strict";
 const fs = require("fs"), os = require("os"), path = require("path");
@@ -70,6 +71,67 @@ files.forEach((file, i) => {
   if (answer !== right) fail(`${file}: ${right} by orthocert-check`);
 });
 console.log(`${covered} of ${files.length} certificates are covered, with one answer of all three`);
+
+// Exports to Rocq: nothing but what the program does not cover is refused, and in its words. Files that cannot be
+// read (exit 5), the program may not cover.
+const orthocert = path.join(path.dirname(exact), "orthocert");
+const agrees = (file, answer) => {
+  const run = spawnSync(orthocert, ["export", "rocq", file], { encoding: "utf8", maxBuffer: 1 << 28 });
+  const is_right = run.status === 0 ? !answer.startsWith("NOT COVERED")
+    : run.status === 5 ? !["CERTIFIED", "REFUTED"].includes(answer)
+    : run.status === 2 && (answer === "REJECTED" || run.stderr.includes(answer.slice("NOT COVERED: ".length)));
+  if (!is_right) fail(`${file}: ${answer}, and exported with exit ${run.status}: ${run.stderr}`);
+  return run.stdout;
+};
+files.forEach((file, i) => agrees(file, answers[i]));
+const made = fs.mkdtempSync(path.join(os.tmpdir(), "designs-"));
+const design_files = ["", "kernel"].flatMap((folder) => {
+  const all = path.join(__dirname, "../../../tests/designs", folder);
+  return fs.readdirSync(all).filter((name) => name.endsWith(".toml")).map((name) => path.join(all, name));
+});
+const of_designs = design_files.map((design) => {
+  const file = path.join(made, `${path.basename(design, ".toml")}.cert.json`);
+  spawnSync(orthocert, ["verify", design, "-o", file]);
+  return file;
+}).filter((file) => fs.existsSync(file));
+const of_design = natively(of_designs);
+of_designs.forEach((file, i) => agrees(file, of_design[i]));
+if (of_design.includes("REJECTED")) fail(`rejected: ${of_designs.filter((_, i) => of_design[i] === "REJECTED")}`);
+const are_covered = of_design.filter((answer) => !answer.startsWith("NOT COVERED")).length;
+console.log(`designs: ${are_covered} of ${of_designs.length} certificates are proved again, and exported to Rocq, the others refused in the same words`);
+fs.rmSync(made, { recursive: true });
+
+// In Rocq: the exported certificate prints the file's bytes, and with one digit changed is no proof; of each kind of subject, and refuted.
+const in_rocq = fs.mkdtempSync(path.join(os.tmpdir(), "rocq-"));
+const proves = (text, more = "") => {
+  const file = path.join(in_rocq, "one.cert.json"), source = path.join(in_rocq, "Exported.v");
+  fs.writeFileSync(file, text);
+  fs.writeFileSync(source, agrees(file, natively([file])[0]) + more);
+  return spawnSync("coqc", ["-q", "-Q", path.join(__dirname, ".."), "Orthocert", source], { encoding: "utf8", maxBuffer: 1 << 28 });
+};
+const instances = path.join(__dirname, "../instances"), committed = path.join(__dirname, "../../certificates");
+for (const [name, from, to] of [
+  ["upu-struts", '"bound":"1.25"', '"bound":"1.15"'],
+  ["five-bar", '"bound":"300"', '"bound":"100"'],
+  ["planar-3-rpr", '"bound":"480"', '"bound":"440"'],
+  ["five-bar-formulas", '"bound":"300"', '"bound":"200"'],
+  ["delta-joint-speed-refuted", '"bound":"1850"', '"bound":"1950"'],
+  ["orthoglide-prototype", '"bound":"0.5"', '"bound":"0.6"'],
+  ["postulate-2", '"psi_max":"2"', '"psi_max":"3"'],
+  ["NoCube", '"bound":"1.5"', '"bound":"2.5"'],
+  ["Atlas", /"certified":"[^"]*"/, '"certified":"1/3"'],
+]) {
+  const file = [instances, committed].map((folder) => path.join(folder, `${name}.cert.json`)).find((file) => fs.existsSync(file));
+  const text = fs.readFileSync(file, "latin1");
+  const whole = proves(text, '\nEval vm_compute in String.concat "" (print the_certificate).\n');
+  const printed = /= "((?:[^"]|"")*)"/.exec(whole.stdout)?.[1].replaceAll('""', '"');
+  if (whole.status !== 0 || printed !== text) fail(`${name}: in Rocq ${whole.status === 0 ? "another text" : whole.stderr}`);
+  const wrong = text.replace(from, to);
+  const run = proves(wrong);
+  if (wrong === text || run.status !== 1 || !run.stderr.includes('"accept the_certificate = true"')) fail(`${name}, wrong, in Rocq: ${run.stderr}`);
+}
+fs.rmSync(in_rocq, { recursive: true });
+console.log("in Rocq: nine certificates are accepted as they are, and not with a digit changed");
 
 // What is no number, or beyond a limit, though nothing depends on it: refused by all three.
 const plane = (x, y, z) => `{"drive":"planar","direction":["${x}","${y}","${z}"]}`;
@@ -762,6 +824,7 @@ try {
   for (let from = 0; from < paths.length; from += 500) {
     natively(paths.slice(from, from + 500)).forEach((answer, k) => {
       const i = from + k, right = exactly(paths[i]);
+      agrees(paths[i], answer);
       if (answer.startsWith("NOT COVERED")) count["not covered"]++;
       else if (answer === right) count[answer === "REJECTED" ? "rejected" : "accepted"]++;
       else if (right === "REJECTED" && isTheorem(texts[i])) count["by theorem"]++;

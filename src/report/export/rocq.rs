@@ -1,78 +1,146 @@
 //! Certificates as files of the formal development in `proofs/rocq`.
 //!
-//! An exported file holds a claim in exact numbers, a bisection tree, and a theorem about real
-//! numbers that mentions the claim and not the tree. Rocq computes the check and accepts the
-//! theorem, or it does not: nothing here has to be trusted. What a reader has to look at is the
-//! claim and the theorem in the file.
+//! A file has the certificate as a value of the types of `kernel/Certificate.v`, and a theorem about real
+//! numbers that mentions the claim and not the evidence. Rocq runs the verified checker on the
+//! certificate, and accepts the theorem or does not: nothing here has to be trusted. What a reader has to
+//! look at is the claim and the theorem in the file.
 
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
-use orthocert_kernel::certificate::Claim;
+use orthocert_kernel::number::Expression;
+use std::fmt::{Display, Write};
 
-mod kernel;
-mod postulate;
-
-pub use postulate::postulate;
-
-/// What is exported.
-const ONLY: &str =
-    "the postulate is exported, and of machines, certified claims about sliders, struts and \
-     planar legs that do not turn the platform, over a box or a cylinder, of transmission, ranges of \
-     joints that are lengths, joint speeds, condition numbers, one stiffness of all joints, and margins \
-     to singularities";
+mod claim;
+mod proof;
 
 /// Why a certificate is not exported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// It refutes.
-    #[error("the certificate refutes its claim; {ONLY}")]
-    Refutes,
-    /// It is an atlas.
-    #[error("the claim is about a box of parameters; {ONLY}")]
-    Atlas,
-    /// The platform turns, or the mechanism is given by formulas.
-    #[error("the platform turns, or the mechanism is given by formulas; {ONLY}")]
-    NotTranslational,
-    /// A leg is an arm.
-    #[error("a leg is an arm; {ONLY}")]
-    Drive,
-    /// It is about cubes that do not fit.
-    #[error("the claim is that no cube fits; {ONLY}")]
-    NoCube,
-    /// It is about the paper's cube.
-    #[error("the claim is about the paper's cube, of which Closed.v has the theorem; {ONLY}")]
-    Cube,
-    /// The claim bounds this quantity.
-    #[error("the claim bounds \"{0}\", which the formal kernel lacks; {ONLY}")]
-    Quantity(&'static str),
-    /// The kernel does not accept the claim.
-    #[error("the claim is not well formed")]
-    NotWellFormed,
-    /// The tree has this evidence.
-    #[error("the proof has the evidence \"{0}\", which the formal checker lacks; {ONLY}")]
-    Evidence(&'static str),
-    /// The nodes are not those of one tree, or of the trees of the faces.
-    #[error("the nodes are not those of the trees that the claim needs")]
-    NotATree,
+    /// There is no theorem about it, in the words of `orthocert-verified`.
+    #[error("{0} is not covered by the verified checker")]
+    NotCovered(String),
+    /// What it calls refuted it has a tree for, or it has a witness for what it calls certified.
+    #[error("the verdict is not that of the proof")]
+    Verdict,
 }
 
-/// The text of a Rocq file that states the certificate's claim and proves it by the certificate.
-/// Whether the proof is right, Rocq decides.
+type Exported<T> = Result<T, ExportError>;
+
+fn not_covered<T>(what: impl Display) -> Exported<T> {
+    Err(ExportError::NotCovered(what.to_string()))
+}
+
+const HEADER: &str = "\
+(** Written by `orthocert export rocq`. What has to be read is the theorem at the end and the claim that it is about,
+    which have the meaning that kernel/Certificate.v gives them; the evidence is not trusted, nor is the writer. *)
+
+From Orthocert.kernel Require Import Notations.
+Local Open Scope string_scope.
+Local Open Scope written_scope.
+
+";
+
+/// The text of a Rocq file that states what the certificate claims, or that it is false, and proves it by
+/// the certificate. Whether that is a proof, Rocq decides.
 ///
 /// # Errors
-/// If the claim or the proof is not of the kind that the formal checker reads.
-pub fn rocq(certificate: &Certificate) -> Result<String, ExportError> {
-    if certificate.verdict != Verdict::Certified {
-        return Err(ExportError::Refutes);
+/// If it is not of a kind that the verified checker covers, or has another verdict than its proof.
+pub fn rocq(certificate: &Certificate) -> Exported<String> {
+    let Certificate { claim, verdict, proof, provenance, format: _ } = certificate;
+    let is_refuted = matches!(proof, Proof::Witness(_));
+    let subject = claim::subject(claim)?;
+    let proof = proof::proof(proof, &subject)?;
+    if is_refuted != (*verdict == Verdict::Refuted) {
+        return Err(ExportError::Verdict);
     }
-    match (&certificate.claim, &certificate.proof) {
-        (Claim::Machine(claim), proof) => kernel::kernel(claim, proof),
-        (Claim::Postulate(claim), Proof::Tree(tree)) => postulate(claim, tree),
-        (Claim::NoCube(_), _) => Err(ExportError::NoCube),
-        (Claim::Atlas(_), _) => Err(ExportError::Atlas),
-        (Claim::Postulate(_), _) => Err(ExportError::NotATree),
+    let mut out = HEADER.to_owned();
+    for (name, is, x) in &subject.arguments {
+        let _ = writeln!(out, "Definition {name} : {is} := {x}.");
+    }
+    if let Some((is, of)) = subject.claim() {
+        let names = subject.arguments.iter().map(|(name, _, _)| *name);
+        let names = names.collect::<Vec<_>>().join(" ");
+        let _ = writeln!(out, "Definition the_claim : {is} := {of} {names}.");
+    }
+    let [tool, version] = [&provenance.tool, &provenance.version].map(|label| quoted(label));
+    let _ = write!(
+        out,
+        "\n(** The evidence. *)\nLocal Open Scope nat_scope.\nDefinition the_proof : proof := {proof}.\n\
+         Definition the_certificate : certificate := Certificate ({}) the_proof {tool} {version}.\n\n\
+         Lemma accepted : accept the_certificate = true.\n\
+         Proof. vm_cast_no_check (eq_refl true). Qed.\n\n\
+         Theorem {} :\n  {}.\nProof. exact (accept_sound the_certificate accepted). Qed.\n",
+        subject.term(),
+        if is_refuted { "refuted" } else { "certified" },
+        subject.means(is_refuted)
+    );
+    Ok(out)
+}
+
+/// `f x y`
+fn apply<const N: usize>(constructor: &str, arguments: [String; N]) -> String {
+    format!("{constructor} {}", arguments.join(" "))
+}
+
+fn list(all: impl IntoIterator<Item = String>) -> String {
+    format!("[{}]", all.into_iter().collect::<Vec<_>>().join("; "))
+}
+
+/// A list, one a line.
+fn lines(all: impl IntoIterator<Item = String>) -> String {
+    let all: Vec<_> = all.into_iter().collect();
+    if all.is_empty() {
+        "[]".to_owned()
+    } else {
+        format!("[\n  {}]", all.join(";\n  "))
     }
 }
 
-/// Deeper nodes are not indented further.
-const MAX_INDENT: usize = 24;
+fn row(row: &[i64]) -> String {
+    list(row.iter().map(i64::to_string)) + "%Z"
+}
+
+fn matrix(rows: &[Vec<i64>]) -> String {
+    list(rows.iter().map(|row| list(row.iter().map(i64::to_string)))) + "%Z"
+}
+
+fn optional(x: Option<String>) -> String {
+    let Some(x) = x else { return "None".to_owned() };
+    let is_one = !x.contains(' ') || x.starts_with(['(', '[']);
+    if is_one {
+        format!("(Some {x})")
+    } else {
+        format!("(Some ({x}))")
+    }
+}
+
+/// In Rocq nothing but a quotation mark ends a string.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
+/// An expression as its own text, which kernel/Notations.v reads, with `name` of the strings that are its
+/// names; in parentheses, unless it is digits.
+fn text(x: &Expression, name: impl Fn(String) -> String) -> String {
+    let text = x.to_string();
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+    let mut out = String::new();
+    let mut rest = text.as_str();
+    while let Some(first) = rest.chars().next() {
+        let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len()).max(first.len_utf8());
+        let (word, after) = rest.split_at(end);
+        match word {
+            "-" if out.ends_with(['+', '-', '*', '/']) => out.push_str(" -"),
+            word if word != "sqrt" && first.is_ascii_alphabetic() => {
+                out.push_str(&name(quoted(word)))
+            }
+            word => out.push_str(word),
+        }
+        rest = after;
+    }
+    if out.chars().all(is_word) {
+        out
+    } else {
+        format!("({out})")
+    }
+}

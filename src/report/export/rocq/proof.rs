@@ -1,0 +1,177 @@
+//! Proofs, as a `proof` of Certificate.v, if the verified checker covers such a proof of the claim.
+
+use super::claim::{expression, Kind, Subject};
+use super::{lines, list, matrix, not_covered, optional, quoted, row, Exported};
+use orthocert_kernel::certificate::{
+    AtlasCell, Corner, Evidence, Failure, Node, Proof, Step, Tree, Witness,
+};
+use orthocert_kernel::claim::{Leg, Requirement};
+use orthocert_kernel::test::Multiplier;
+
+/// The proof as it is exported.
+pub fn proof(proof: &Proof, subject: &Subject<'_>) -> Exported<String> {
+    let written = match proof {
+        Proof::Tree(tree) => format!("Nodes {}", written_tree(tree)?),
+        Proof::Witness(witness) => format!("ByWitness {}", written_witness(witness)?),
+        Proof::Atlas(cells) => {
+            let cells = cells.iter().map(cell).collect::<Exported<Vec<_>>>()?;
+            format!("Cells {}", lines(cells))
+        }
+    };
+    covered(proof, subject)?;
+    Ok(written)
+}
+
+/// Refuses what `accept` has no theorem for, though there is a value for it.
+fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
+    let requires =
+        |keys: &[&str]| subject.requirements.iter().any(|r| keys.contains(&r.quantity.as_str()));
+    let holds_alone = || requires(&["joint_force", "joint_acceleration", "one_to_one", "accuracy"]);
+    let for_each = |r: &Requirement| r.given.get("joint").is_some_and(|all| all.len() != 1);
+    let accelerates_plane = requires(&["joint_acceleration"])
+        && subject.legs.iter().any(|leg| matches!(leg, Leg::Planar { .. }));
+    let has = |is: fn(&Evidence) -> bool| match proof {
+        Proof::Tree(tree) => tree.nodes.iter().flat_map(|node| &node.by).any(|Step(_, by)| is(by)),
+        _ => false,
+    };
+    let fails = |tree: &Tree| tree.nodes.iter().any(|node| node.fails.is_some());
+    let is_outside = |cell: &AtlasCell| match cell {
+        AtlasCell::Certified(tree) => fails(tree),
+        AtlasCell::Refuted(_) => holds_alone(),
+        AtlasCell::Split(_) | AtlasCell::Undecided => false,
+    };
+    let what = match (subject.kind, proof) {
+        (Kind::Turning | Kind::Formulas, _) if has(|by| matches!(by, Evidence::Tolerances(..))) => {
+            "the evidence \"tolerances\" of such a mechanism"
+        }
+        (Kind::Legs, _) if has(|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
+            "this set of orientations with such drives"
+        }
+        (Kind::Legs, Proof::Witness(_)) if requires(&["joint_force"]) => {
+            "this quantity of such a mechanism in a claim that is refuted"
+        }
+        (Kind::Turning, _) if has(|by| !matches!(by, Evidence::Control(_) | Evidence::Outside)) => {
+            "a step of a platform that turns that is not at control points"
+        }
+        (Kind::Turning, Proof::Witness(_))
+            if requires(&["joint_speed", "joint_force", "stiffness", "one_to_one"]) =>
+        {
+            "this quantity of such a mechanism in a claim that is refuted"
+        }
+        (Kind::Machine, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
+            "the acceleration of a joint of a machine with a plane"
+        }
+        (Kind::Machine, Proof::Witness(_)) | (Kind::NoCube, _) if holds_alone() => {
+            "this quantity in a claim that is refuted"
+        }
+        (Kind::NoCube, Proof::Tree(tree)) if tree.nodes.iter().any(|node| !node.by.is_empty()) => {
+            "a step in a proof that no cube fits"
+        }
+        (Kind::Machine, Proof::Witness(_)) | (Kind::NoCube | Kind::Atlas, _)
+            if subject.requirements.iter().any(for_each) =>
+        {
+            "a stiffness for each joint in such a claim"
+        }
+        (Kind::NoCube, _) => return Ok(()),
+        (Kind::Atlas, Proof::Atlas(cells)) if cells.iter().any(is_outside) => {
+            "this quantity in a refuted cell of an atlas, or a leaf that fails"
+        }
+        (_, Proof::Tree(tree)) if fails(tree) => "a leaf that fails",
+        (Kind::Formulas, Proof::Witness(_)) => "a mechanism by formulas in a claim that is refuted",
+        _ => return Ok(()),
+    };
+    not_covered(what)
+}
+
+fn written_tree(Tree { precision, chords, nodes }: &Tree) -> Exported<String> {
+    let chords =
+        chords.as_ref().map(|Multiplier { y, places }| format!("({}, {places}%N)", matrix(y)));
+    let nodes = nodes.iter().map(node).collect::<Exported<Vec<_>>>()?;
+    Ok(format!("{precision} {} {}", optional(chords), lines(nodes)))
+}
+
+fn written_witness(Witness { precision, point, machine, fails }: &Witness) -> Exported<String> {
+    let [point, machine] = [point, machine].map(|all| list(all.iter().map(expression)));
+    Ok(format!("{precision} {point}%written {machine}%written {}", failure(fails)?))
+}
+
+fn cell(cell: &AtlasCell) -> Exported<String> {
+    Ok(match cell {
+        AtlasCell::Split(k) => format!("Cut {k}"),
+        AtlasCell::Certified(tree) => format!("Proved {}", written_tree(tree)?),
+        AtlasCell::Refuted(witness) => format!("Disproved {}", written_witness(witness)?),
+        AtlasCell::Undecided => "Undecided".to_owned(),
+    })
+}
+
+fn node(Node { by, split, fails, at }: &Node) -> Exported<String> {
+    let step = |Step(obligation, by): &Step| Ok(format!("({obligation}, {})", evidence(by)?));
+    let by = by.iter().map(step).collect::<Exported<Vec<_>>>()?;
+    let fails = fails.as_ref().map(failure).transpose()?;
+    let split = optional(split.map(|k| k.to_string()));
+    Ok(format!("Node {} {split} {} {}", list(by), optional(fails), row(at)))
+}
+
+fn evidence(by: &Evidence) -> Exported<String> {
+    let multiplied =
+        |y: &Multiplier| format!("Multiplied \"{}\" {} {}", by.name(), matrix(&y.y), y.places);
+    Ok(match by {
+        Evidence::Test
+        | Evidence::Divided
+        | Evidence::Chords
+        | Evidence::Negative
+        | Evidence::Cube
+        | Evidence::Mirror
+        | Evidence::Outside => format!("Plain \"{}\"", by.name()),
+        Evidence::Lower(y)
+        | Evidence::LowerDivided(y)
+        | Evidence::Rank(y)
+        | Evidence::Direction(y) => multiplied(y),
+        Evidence::Conditioning(y, mu) => {
+            format!("Conditioned_ {} {} {}", matrix(&y.y), y.places, row(mu))
+        }
+        Evidence::Accuracy(y, kappa, 0) => {
+            format!("Accurate_ {} {} ({kappa})", matrix(&y.y), y.places)
+        }
+        Evidence::Accuracy(..) => {
+            return not_covered("evidence \"accuracy\" of a platform that turns")
+        }
+        Evidence::Corner(Corner::Q1) => "AtCorner Check.Q1".to_owned(),
+        Evidence::Corner(Corner::Q2) => "AtCorner Check.Q2".to_owned(),
+        Evidence::Tolerances(by, ends, directions) => {
+            format!("Apart_ ({}) {} {}", evidence(by)?, quoted(ends), matrix(directions))
+        }
+        Evidence::Inside(by, n, places) => format!("Inside_ ({}) ({n}) {places}", evidence(by)?),
+        Evidence::Control(by) => match &**by {
+            Evidence::Turned(by, n, places) => {
+                format!("AtControls_ (Turned_ ({}) ({n}) {places})", at_controls(by)?)
+            }
+            by => format!("AtControls_ ({})", at_controls(by)?),
+        },
+        Evidence::Turned(..) => return not_covered("the evidence \"turned\""),
+    })
+}
+
+fn at_controls(by: &Evidence) -> Exported<String> {
+    match by {
+        Evidence::Test
+        | Evidence::Chords
+        | Evidence::Lower(_)
+        | Evidence::Rank(_)
+        | Evidence::Conditioning(..) => evidence(by),
+        _ => not_covered("this evidence at control points"),
+    }
+}
+
+fn failure(fails: &Failure) -> Exported<String> {
+    Ok(match fails {
+        Failure::Reach => "Reach".to_owned(),
+        Failure::Obligation(number, directions) => {
+            format!("(Obligation {number} {})", matrix(directions))
+        }
+        Failure::Row(number, leg) => format!("(Row {number} {leg})"),
+        Failure::Dependent => "Dependent_".to_owned(),
+        Failure::Same { .. } => return not_covered("the failure \"same\""),
+        Failure::Singular(_) => return not_covered("the failure \"singular\""),
+    })
+}
