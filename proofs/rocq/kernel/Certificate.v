@@ -8,7 +8,7 @@
     Cubes.v, Closed.v and Kinematics.v. *)
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
-From Orthocert Require Import Vec3 SingularValues Kinematics Postulate Claim.
+From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
 From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Legs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
@@ -699,13 +699,81 @@ Definition driven_claim_of (k : mobility) (ls : list written_driven) (ell : opti
   MakeDrivenClaim k (map (any_drive_of k) ls) (match ell with Some x => denoted x | None => 1 // 1 end) (place_in w) (option_map orientation_of o)
     (demands (has_arms ls) (length ls) rs).
 
-(** The bounds on psi of the closed design, which asks for nothing else. *)
-Definition closed_bounds (rs : list written_requirement) : option (Claim.number * Claim.number) :=
-  match rs with
-  | [Require_ Transmission None None (AtLeast_ a); Require_ Transmission None None (AtMost_ b)]
-  | [Require_ Transmission None None (AtMost_ b); Require_ Transmission None None (AtLeast_ a)] => Some (denoted a, denoted b)
+(** *** The closed design *)
+
+(** Its bounds on psi. *)
+Definition is_of_psi (r : written_requirement) : bool := match about_ r with Transmission => true | _ => false end.
+Definition closed_bounds (rs : list written_requirement) : option (expression * expression) :=
+  match filter is_of_psi rs with
+  | [Require_ _ None None (AtLeast_ a); Require_ _ None None (AtMost_ b)] | [Require_ _ None None (AtMost_ b); Require_ _ None None (AtLeast_ a)] => Some (a, b)
   | _ => None
   end.
+(** What else is asked, but for joint coordinates from below. *)
+Definition is_joint_min (r : written_requirement) : bool := match about_ r, end_ r with JointRange, AtLeast_ _ => true | _, _ => false end.
+Definition is_by_theorem (r : written_requirement) : bool := is_of_psi r || is_joint_min r.
+Definition closed_rest (rs : list written_requirement) : list written_requirement := filter (fun r => negb (is_by_theorem r)) rs.
+
+(** Its machine and its cube, as section 8.5 writes them; [above]: psi_max is at least 2. *)
+Section Steps1To3.
+Variable above : bool.
+Variables offset side psi : expression.
+Let zero : expression := Literal (Decimal.D0 Decimal.Nil) Decimal.Nil.
+Let one : expression := Literal (Decimal.D1 Decimal.Nil) Decimal.Nil.
+Let two : expression := Literal (Decimal.D2 Decimal.Nil) Decimal.Nil.
+Let less (x y : expression) := Binary Subtraction x y.
+Let over_ (x y : expression) := Binary Division x y.
+Let times_ (x y : expression) := Binary Multiplication x y.
+Let plus_ (x y : expression) := Binary Addition x y.
+Let rest := less one (over_ one psi).
+Let entry_1 := over_ rest two.
+Let entry_2 := if above then rest else over_ (less psi one) two.
+Let sine (t : expression) := over_ t (SquareRoot (plus_ one (times_ two (times_ t t)))).
+Definition closed_length : expression := over_ side (plus_ (sine entry_1) (sine entry_2)).
+Definition closed_least : expression := Negative (times_ closed_length (sine entry_1)).
+Definition closed_greatest : expression := times_ closed_length (sine entry_2).
+Definition closed_base : expression := less (less closed_least offset) closed_length.
+Definition closed_legs : list written_driven :=
+  let along i x := map (fun k => One (if Nat.eqb i k then x else zero)) [0; 1; 2] in
+  map (fun i => AnySlider_ (along i one) (along i closed_base) (along i (Negative offset)) (One closed_length) true) [0; 1; 2].
+Definition closed_cube : written_place := AnyBox_ [closed_least; closed_least; closed_least] [closed_greatest; closed_greatest; closed_greatest].
+Definition closed_claim : list written_requirement -> driven_claim := driven_claim_of Translates closed_legs None closed_cube None.
+
+Local Open Scope R_scope.
+(** These are the numbers of the paper. *)
+Definition are_closed : Prop := exists L, is_closed (value (denoted side)) (value (denoted psi)) L /\ value (denoted closed_length) = L /\
+  value (denoted closed_least) = q_1 L (value (denoted psi)) /\ value (denoted closed_greatest) = q_2 L (value (denoted psi)) /\
+  value (denoted closed_base) = q_1 L (value (denoted psi)) - value (denoted offset) - L.
+
+Lemma closed_numbers : 0 < value (denoted side) -> 1 < value (denoted psi) ->
+  (if above then 2 <= value (denoted psi) else value (denoted psi) <= 2) -> are_closed.
+Proof.
+  intros h p1 hp. set (p := value (denoted psi)) in *.
+  assert (E1 : value (denoted entry_1) = t_1 (1 / p)).
+  { unfold entry_1, rest, less, over_, one, two, t_1. cbn. fold p. field. lra. }
+  assert (E2 : value (denoted entry_2) = t_2 (1 / p)).
+  { assert (hk : 1 / p * p = 1) by (field; lra). unfold entry_2, rest, less, over_, one, two, t_2.
+    destruct above; cbn; fold p; destruct (Rle_dec (1 / p) (1 / 2)) as [g | g].
+    - field. lra.
+    - exfalso. apply g. apply Rmult_le_reg_r with p; [lra |]. rewrite hk. lra.
+    - assert (p = 2); [| subst p; rewrite H; field].
+      apply Rle_antisym; [exact hp |]. apply Rmult_le_compat_r with (r := p) in g; lra.
+    - field. lra. }
+  assert (S : forall t, value (denoted (sine t)) = position_of_entry (value (denoted t))).
+  { intro t. unfold sine, over_, plus_, times_, one, two, position_of_entry. cbn [denoted value]. f_equal. f_equal. cbn. field. }
+  pose proof (kappa_01 p p1) as k. destruct (t_facts _ k) as [T1 [T2 _]].
+  assert (c1 : 0 < position_of_entry (t_1 (1 / p))) by (apply (position_on_diagonal (t_1 (1 / p))); lra).
+  assert (c2 : 0 < position_of_entry (t_2 (1 / p))) by (apply (position_on_diagonal (t_2 (1 / p))); lra).
+  assert (EL : value (denoted closed_length) = value (denoted side) / (position_of_entry (t_1 (1 / p)) + position_of_entry (t_2 (1 / p)))).
+  { unfold closed_length, over_, plus_. cbn [denoted value]. rewrite !S, E1, E2. reflexivity. }
+  assert (EQ : value (denoted closed_least) = - value (denoted closed_length) * position_of_entry (t_1 (1 / p))).
+  { change (value (Minus (0 // 1) (Times (denoted closed_length) (denoted (sine entry_1)))) = - value (denoted closed_length) * position_of_entry (t_1 (1 / p))).
+    cbn [value]. rewrite S, E1. field. }
+  exists (value (denoted closed_length)). unfold is_closed, q_1, q_2. fold p.
+  split; [rewrite EL; split; [apply Rdiv_lt_0_compat; lra | field; lra] |]. split; [reflexivity |]. split; [exact EQ |]. split.
+  - unfold closed_greatest, times_. cbn [denoted value]. rewrite S, E2. reflexivity.
+  - unfold closed_base, less. cbn [denoted value]. rewrite EQ. reflexivity.
+Qed.
+End Steps1To3.
 
 (** *** Atlases *)
 
@@ -821,7 +889,13 @@ Definition means (c : certificate) : Prop :=
   | Formulas_ xs ps ds rows a b rs, Nodes _ _ _ => let c := written_claim_of xs ps ds rows a b rs in
       written_holds c /\ exists theta x, is_about_written c theta x
   | Closed_ offset side rs, Nodes _ _ _ =>
-      match closed_bounds rs with Some (least, greatest) => closed_design_holds (denoted side) least greatest (value (denoted offset)) | None => False end
+      match closed_bounds rs with
+      | Some (least, greatest) => closed_design_holds (denoted side) (denoted least) (denoted greatest) (value (denoted offset)) /\
+          Forall (fun r => match about_ r, end_ r with JointRange, AtLeast_ b => value (denoted b) <= 0 | _, _ => True end) rs /\
+          (closed_rest rs = [] \/ exists above, are_closed above offset side greatest /\
+            let c := closed_claim above offset side greatest (closed_rest rs) in driven_holds c /\ exists m P Q, is_about_driven c m P Q)
+      | None => False
+      end
   | NoCube_ ls a b rs side, Nodes _ _ _ => let c := claim_of ls (Box_ a b) [] rs in
       has_no_cube c (denoted side) /\ exists m C, is_about c m C
   | Postulate_ None, Nodes _ _ _ => forall psi, 1 < psi -> postulate_for psi
@@ -1246,6 +1320,32 @@ Fixpoint accept_cells (ps : parameters_) (ls : list written_leg) (w : written_re
 Definition is_share (x : expression) (found : Q) : bool :=
   match rational (denoted x) with Some q => Qle_bool 0 q && Qle_bool q found | None => false end.
 
+(** Of the tree of a closed design, what it says of the rest; about a tight corner M has full rank, which is asked there. *)
+Definition closed_nodes (rs : list written_requirement) (nodes : list node) : list node :=
+  let left := flat_map (fun r => map (fun _ => negb (is_by_theorem r)) (demand_of false 3 r)) rs in
+  let number_of i := match i with
+    | O => Some O
+    | S j => if nth j left false then Some (S (length (filter (fun x => x) (firstn j left)))) else None
+    end in
+  let step_of (s : nat * step) := match number_of (fst s), snd s with
+    | Some i, AtCorner _ => [(i, Multiplied "rank" [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]]%Z 0)]
+    | Some i, s => [(i, s)]
+    | None, _ => []
+    end in
+  map (fun n => Node (flat_map step_of (by_ n)) (split_ n) (fails_ n) (offset_ n)) nodes.
+Definition accept_closed (offset side : expression) (rs : list written_requirement) (bits : positive) (nodes : list node) : bool :=
+  is_number (denoted offset) && match closed_bounds rs with
+  | Some (least, greatest) => check_closed exact_bits (denoted side) (denoted least) (denoted greatest) && forallb (is_driven_demand false Translates 3) rs &&
+      forallb (fun r => match about_ r, end_ r with JointRange, AtLeast_ b => certainly exact_bits false (Minus (0 // 1) (denoted b)) | _, _ => true end) rs &&
+      match closed_rest rs with
+      | [] => true
+      | rest => let above := certainly exact_bits false (Minus (denoted greatest) (2 // 1)) in
+          (above || certainly exact_bits false (Minus (2 // 1) (denoted greatest))) &&
+          accept_driven_tree Translates (closed_legs above offset side greatest) None (closed_cube above side greatest) None rest bits (closed_nodes rs nodes)
+      end
+  | None => false
+  end.
+
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
@@ -1287,8 +1387,7 @@ Definition accept (c : certificate) : bool :=
           certify_written exact_bits bits (matrix_of chords) (place_of_two_points (length rows) rs) (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
-  | Closed_ offset side rs, Nodes _ _ _ => is_number (denoted offset) &&
-      match closed_bounds rs with Some (least, greatest) => check_closed exact_bits (denoted side) least greatest | None => false end
+  | Closed_ offset side rs, Nodes bits _ nodes => accept_closed offset side rs bits nodes
   | Postulate_ None, Nodes bits _ nodes => match trees_of [] 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits _ nodes =>
       match trees_of [] 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
@@ -1325,6 +1424,29 @@ Proof.
   apply andb_true_iff in h as [_ h]. rewrite (rational_sound _ _ e). apply Qreals.Qle_Rle, Qle_bool_iff, h.
 Qed.
 
+Lemma accept_driven_tree_sound : forall k ls ell w o rs bits nodes, accept_driven_tree k ls ell w o rs bits nodes = true ->
+  let c := driven_claim_of k ls ell w o rs in driven_holds c /\ exists m P Q, is_about_driven c m P Q.
+Proof.
+  intros k ls ell w o rs bits nodes h. unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate.
+  apply andb_true_iff in h as [_ h]. exact (certify_driven_sound _ _ _ _ _ _ h).
+Qed.
+
+Lemma accept_closed_sound : forall offset side rs bits chords nodes tool version, accept_closed offset side rs bits nodes = true ->
+  means (Certificate (Closed_ offset side rs) (Nodes bits chords nodes) tool version).
+Proof.
+  intros offset side rs bits chords nodes tool version h. unfold means. cbn [subject_ proof_]. unfold accept_closed in h. apply andb_true_iff in h as [_ h].
+  destruct (closed_bounds rs) as [[a b] |]; [| discriminate]. apply andb_true_iff in h as [h hr]. apply andb_true_iff in h as [h hm].
+  apply andb_true_iff in h as [h _]. split; [exact (check_closed_sound _ _ _ _ h _) |]. split.
+  - apply Forall_forall. intros r i. rewrite forallb_forall in hm. specialize (hm r i). destruct (about_ r); try exact I. destruct (end_ r); try exact I.
+    apply Compare.nonneg_sound in hm. cbn [value] in hm. lra.
+  - destruct (closed_rest rs) as [| r0 rest]; [left; reflexivity |]. right. cbv zeta in hr. apply andb_true_iff in hr as [ha hr].
+    set (above := certainly exact_bits false (Minus (denoted b) (2 // 1))) in *. exists above. split; [| exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ hr)].
+    unfold check_closed in h. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h1 h2].
+    apply Compare.positive_sound in h1, h2. cbn [value] in h2. apply closed_numbers; [exact h1 | lra |].
+    destruct above eqn:e; [unfold above in e | cbn [orb] in ha]; [apply Compare.nonneg_sound in e; cbn [value] in e; lra |].
+    apply Compare.nonneg_sound in ha. cbn [value] in ha. lra.
+Qed.
+
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
@@ -1332,8 +1454,7 @@ Proof.
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
-  - unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
-    exact (certify_driven_sound _ _ _ _ _ _ h).
+  - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ h).
   - unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_driven_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
@@ -1342,7 +1463,7 @@ Proof.
     exact (refute_turning_sound _ _ _ _ _ _ h).
   - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
-  - apply andb_true_iff in h as [_ h]. destruct (closed_bounds rs) as [[k l] |]; [| discriminate]. exact (check_closed_sound _ _ _ _ h _).
+  - exact (accept_closed_sound offset side rs bits chords nodes t v h).
   - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (check_no_cube_certified _ _ _ _ _ _ _ h).
   - destruct (trees_of [] 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].

@@ -3,7 +3,7 @@
     By the postulate, with nothing to be computed but signs. *)
 
 From Coq Require Import ZArith Reals Lra Bool.
-From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Claim.
+From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Scaling Postulate Design Claim.
 From Orthocert.kernel Require Import Witness.
 Local Open Scope R_scope.
 
@@ -16,13 +16,14 @@ Context {names : naming}.
 Definition is_closed (side psi L : R) : Prop := 0 < L /\ q_2 L psi - q_1 L psi = side.
 
 (** The machine of steps 1 to 3, with its base where the least joint coordinate
-    on the cube is 0: no singularity, and psi_min <= psi_i <= psi_max. *)
+    on the cube is 0: no singularity, psi_min <= psi_i <= psi_max, and rho_i >= 0. *)
 Definition closed_design_holds (side psi_min psi_max : number) (offset : R) : Prop :=
   (exists L, is_closed (value side) (value psi_max) L) /\
   forall L P, is_closed (value side) (value psi_max) L -> in_cube L (value psi_max) P ->
     let m := orthoglide L (q_1 L (value psi_max) - offset - L) offset in
-    regular m P /\ forall v, (1 / value psi_max) ^ 2 * norm2 v <= norm2 (mulv (Jinv m P) v)
-      <= (1 / value psi_min) ^ 2 * norm2 v.
+    regular m P /\ (forall v, (1 / value psi_max) ^ 2 * norm2 v <= norm2 (mulv (Jinv m P) v)
+      <= (1 / value psi_min) ^ 2 * norm2 v) /\
+    0 <= rho (leg1 m) P /\ 0 <= rho (leg2 m) P /\ 0 <= rho (leg3 m) P.
 
 Section Precision.
 Variable bits : positive.
@@ -47,7 +48,8 @@ Proof.
     unfold q_1, q_2. fold u v. field. lra.
   - intros L P [hL _] hP. cbv zeta.
     destruct (q1q2_postulate L (q_1 L p - offset - L) offset hL p p1 P hP) as [g t].
-    split; [exact g |]. intro v. destruct (t v) as [t1 t2]. split; [exact t1 |].
+    split; [exact g |]. split; [| destruct (joint_range L offset p hL p1 P hP); tauto].
+    intro v. destruct (t v) as [t1 t2]. split; [exact t1 |].
     apply Rle_trans with (1 := t2). apply Rmult_le_compat_r; [apply norm2_nonneg |].
     apply pow_incr. split; [lra |]. unfold Rdiv. rewrite Rmult_1_l.
     rewrite <- (Rinv_inv p). apply Rinv_le_contravar; lra.

@@ -305,8 +305,10 @@ let rec subject v =
          List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
          List.map two_points_demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
-       let require = require () in
-       if List.exists (fun r -> r.about_ <> Transmission) require || List.length require <> 2 then not_covered [ "what else is asked of the closed design" ];
+       let require = List.map driven_demand (array (get l "require")) in
+       (match List.filter (fun r -> r.about_ = Transmission) require with
+        | [ { end_ = AtLeast_ _; _ }; { end_ = AtMost_ _; _ } ] | [ { end_ = AtMost_ _; _ }; { end_ = AtLeast_ _; _ } ] -> ()
+        | _ -> not_covered [ "the closed design with other bounds on psi than one from below and one from above" ]);
        Closed_ (number (get (members o) "offset"), number (get (members cube) "side"), require)
      | (("translational" | "formulas"), _), (workspace, _) -> not_covered [ "the workspace \""; workspace; "\"" ]
      | (mechanism, _), _ -> not_covered [ "the mechanism \""; mechanism; "\"" ])

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-h5="spatial",n0="Invalid_argument",f6="precision",aw='"',h4=1255,nZ="inside",m8="(",m9=0x800,nY="yaw",m5="range",m6="tree",m7="jsError",bJ=0x8000,nX="sqrt(",m4=256,m3="obligation",eG="offset",a2="machine",m1="this quantity of such a mechanism in a claim that is refuted",m2="End_of_file",dJ="strut",h3="center",eF="arm",h2="Failure",nW="serial_margin",gd="parameters",b6=0xff,ig="bodies",ie="outside",gc="base_axis",h1="ENOENT",nV=122,m0="([^/]+)",id="0",h0=0xf,eE=128,mZ=0xdc00,nT="Sys_blocked_io",nU="fd ",f5="given",mY="ENOTEMPTY",aH=248,mX="such a machine with bodies",f4="bound",mW="Division_by_zero",nR="by",nS=1027,mV="Sys_error",gb="slider",mU="torsion",nQ="postulate",mT="proof",nP="joint_error",eD="refuted",dE="mechanism",f3="row",mS="EEXIST",nO="roll_pitch_yaw",ic="y",mR="cube",f2="lower",nN="within",mQ="clearance",nM="turned",mP="control",f1="int_of_string",nK="definitions",nL="dependent",eC=1024,mN="from",mO="name",nJ=" : flags Open_rdonly and Open_wronly are not compatible",mM="orthocert/2",nI="reach",mL=512,nH="witness",eB="-",aT="platform",mK=0x7ff0,mJ="pitch",ib=": Not a directory",bd="min",nF="trim",dI="workspace",nG=" : file already exists",f0="split",ia="legs",nE="claim",hZ="joint",cX=0xffffff,mI="formulas",mH="roll",fZ="atlas",nC="nodes",nD="Out_of_memory",mG="psi_max",ga="orientation",fY=254,nB="angle",h$="index out of bounds",mF="end",nA="one_to_one",f$="_bigarr02",mE=" : flags Open_text and Open_binary are not compatible",bx="drive",mD="coordinates",nz="holds",mC="lower_divided",mB="speed",nx="cylinder",ny="joints",b5=0xffff,nv="acceleration",ez="certified",eA="chords",nw=12520,hY="on",fX="accuracy",nu="axis",nt="no_cube",ns="parallel_margin",mA='the drive "',hX="Unix.Unix_error",f_="fails",fW="tool",hW="mkdir",nr="rho",f9=1000,fV="translational",nq="tolerances",mz="Stack_overflow",h_="characteristic_length",Q="",h9="^",hV="places",fU=": No such file or directory",my="/static/",dH=0x3f,mw="stiffness",mx="Not_found",cW="planar",ey="mode",np="joint_speed",no="Match_failure",mv="transmission",bc="anchor",nn="at",mu="joint_force",dG="leg",mt="joint_acceleration",f8="+",hU="rmdir",nm=0xf0,nl="spherical",ms=1026,nj="REJECTED",nk="undecided",be="max",b4="direction",mq="leg_angle",mr="orthoglide",f7="rank",ni="constraint_margin",hT="test",mo="Pervasives.do_at_exit",mp="utf8",bw=0x80,dF="conditioning",dD="length",mn="Undefined_recursive_module",h8=")",mm="base",nh="quantity",ml="joint_range",fT="tilt",mk="Q2",ng="reference",mj="point",ne="corner",nf=0xe0,mi="version",h7="z",nc="to",nd=0xdfff,hS="compare: functional value",nb="Assert_failure",by="/",na="provenance",cV="radius",fS="side",bK="require",m$="format",mh="Q1",h6="ENOTDIR",mg="all",cU="box",m_=250;function
-iu(c,b,a){var
+ic="spatial",oc="Invalid_argument",f$="precision",aw='"',ib=1255,ob="inside",nk="(",nl=0x800,oa="yaw",nh="range",ni="tree",nj="jsError",bL=0x8000,n$="sqrt(",ng=256,nf="obligation",eH="offset",a2="machine",nd="this quantity of such a mechanism in a claim that is refuted",ne="End_of_file",dJ="strut",ia="center",eG="arm",h$="Failure",n_="serial_margin",gh="parameters",b6=0xff,iq="bodies",ip="outside",gg="base_axis",h_="ENOENT",n9=122,nc="([^/]+)",io="0",h9=0xf,eF=128,nb=0xdc00,n7="Sys_blocked_io",n8="fd ",f_="given",na="ENOTEMPTY",aH=248,m$="such a machine with bodies",f9="bound",m_="Division_by_zero",n5="by",n6=1027,m9="Sys_error",gf="slider",m8="torsion",n4="postulate",m7="proof",n3="joint_error",eE="refuted",dE="mechanism",f8="row",m6="EEXIST",n2="roll_pitch_yaw",im="y",m5="cube",f7="lower",n1="within",m4="clearance",n0="turned",m3="control",f6="int_of_string",nY="definitions",nZ="dependent",eD=1024,m1="from",m2="name",nX=" : flags Open_rdonly and Open_wronly are not compatible",m0="orthocert/2",nW="reach",mZ=512,nV="witness",eC="-",aT="platform",mY=0x7ff0,mX="pitch",il=": Not a directory",bd="min",nT="trim",dI="workspace",nU=" : file already exists",f5="split",ik="legs",nS="claim",h8="joint",cY=0xffffff,mW="formulas",mV="roll",f4="atlas",nQ="nodes",nR="Out_of_memory",mU="psi_max",ge="orientation",f3=254,nP="angle",ij="index out of bounds",mT="end",nO="one_to_one",gd="_bigarr02",mS=" : flags Open_text and Open_binary are not compatible",bx="drive",mR="coordinates",nN="holds",mQ="lower_divided",mP="speed",nL="cylinder",nM="joints",b5=0xffff,nJ="acceleration",eA="certified",eB="chords",nK=12520,h7="on",f2="accuracy",nI="axis",nH="no_cube",nG="parallel_margin",mO='the drive "',h6="Unix.Unix_error",gc="fails",f1="tool",h5="mkdir",nF="rho",gb=1000,f0="translational",nE="tolerances",mN="Stack_overflow",ii="characteristic_length",Q="",ih="^",h4="places",fZ=": No such file or directory",mM="/static/",dH=0x3f,mK="stiffness",mL="Not_found",cX="planar",ey="mode",nD="joint_speed",nC="Match_failure",mJ="transmission",bc="anchor",nB="at",mI="joint_force",dG="leg",mH="joint_acceleration",ga="+",h3="rmdir",nA=0xf0,nz="spherical",mG=1026,nx="REJECTED",ny="undecided",be="max",b4="direction",mE="leg_angle",mF="orthoglide",ez="rank",nw="constraint_margin",h2="test",mC="Pervasives.do_at_exit",mD="utf8",bw=0x80,dF="conditioning",dD="length",mB="Undefined_recursive_module",ig=")",mA="base",nv="quantity",mz="joint_range",fY="tilt",my="Q2",nu="reference",mx="point",ns="corner",nt=0xe0,mw="version",ie="z",nq="to",nr=0xdfff,h1="compare: functional value",np="Assert_failure",bz="/",no="provenance",cW="radius",fX="side",by="require",nn="format",mv="Q1",id="ENOTDIR",mu="all",cV="box",nm=250;function
+iD(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=Q;for(;0<a;b+=eC,a-=eC)e+=d.apply(null,c.slice(b,b+Math.min(a,eC)));return e}function
-gf(b){if(E.Uint8Array)var
+e=Q;for(;0<a;b+=eD,a-=eD)e+=d.apply(null,c.slice(b,b+Math.min(a,eD)));return e}function
+gj(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eH(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iu(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iu(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gf(b);var
+eI(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iD(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iD(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gj(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,37 +23,37 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 dM(a){return a}function
-dL(a,b,c,d,e){eH(dM(a),b,c,d,e);return 0}function
-ii(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dL(a,b,c,d,e){eI(dM(a),b,c,d,e);return 0}function
+is(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cY(c,a){if(c.fun)return cY(c.fun,a);if(typeof
+cZ(c,a){if(c.fun)return cZ(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cY(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cZ(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cY(c,d)}}function
-oq(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cZ(c,d)}}function
+oE(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
 d=Q,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dN(a){if(a.t==2)a.c+=oq(a.l-a.c.length,"\0");else
-a.c=iu(a.c,0,a.c.length);a.t=0}function
+dN(a){if(a.t==2)a.c+=oE(a.l-a.c.length,"\0");else
+a.c=iD(a.c,0,a.c.length);a.t=0}function
 dO(a){a.t&6&&dN(a);return a.c}var
-CD=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-CC(a){if(CD)return Math.floor(Math.log2(a));var
+C0=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+CZ(a){if(C0)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-il(c){var
+iv(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-oh=Math.pow(2,-24);function
-Ct(a){throw a}var
+ov=Math.pow(2,-24);function
+CQ(a){throw a}var
 ao=[0];function
-on(){Ct(ao.Division_by_zero)}function
-D(b,c,a){this.lo=b&cX;this.mi=c&cX;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+oB(){CQ(ao.Division_by_zero)}function
+D(b,c,a){this.lo=b&cY;this.mi=c&cY;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*oh|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oh|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*ov|0)+this.mi*a.lo+this.lo*a.mi,d=(c*ov|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -77,25 +77,25 @@ c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cX;this.lo=this.lo<<1&cX};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cX;this.mi=(this.mi>>>1|this.hi<<23)&cX;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cY;this.lo=this.lo<<1&cY};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cY;this.mi=(this.mi>>>1|this.hi<<23)&cY;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())on();var
-d=b.hi^a.hi;if(b.hi&bJ)b=b.neg();if(a.hi&bJ)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bJ)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())on();var
-d=a.hi;if(a.hi&bJ)a=a.neg();if(b.hi&bJ)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bJ)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
-gh(b,c,a){return new
+b=this;if(a.isZero())oB();var
+d=b.hi^a.hi;if(b.hi&bL)b=b.neg();if(a.hi&bL)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bL)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())oB();var
+d=a.hi;if(a.hi&bL)a=a.neg();if(b.hi&bL)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bL)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
+gl(b,c,a){return new
 D(b,c,a)}function
-gg(a){if(!isFinite(a)){if(isNaN(a))return gh(1,0,mK);return a>0?gh(0,0,mK):gh(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bJ:a>=0?0:bJ;if(f)a=-a;var
-b=CC(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ms)}else{a/=Math.pow(2,b-nS);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gk(a){if(!isFinite(a)){if(isNaN(a))return gl(1,0,mY);return a>0?gl(0,0,mY):gl(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bL:a>=0?0:bL;if(f)a=-a;var
+b=CZ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mG)}else{a/=Math.pow(2,b-n6);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&h0|f|b<<4;return gh(g,e,c)}function
-eK(a){return a.toArray()}function
-n7(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==f$)for(var
+g=a|0;c=c&h9|f|b<<4;return gl(g,e,c)}function
+eL(a){return a.toArray()}function
+oj(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gd)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eK(b.get(a));for(var
+e=eL(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eK(gg(b.get(a)));for(var
+e=eL(gk(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=il(b.get(a));c.write(32,e)}break;case
+e=iv(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,il(d[1]));c.write(32,il(d[2]))}break;case
+d=b.get(a);c.write(32,iv(d[1]));c.write(32,iv(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eK(gg(f[1]));for(var
+f=b.get(a),e=eL(gk(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eK(gg(f[2]));for(var
+e=eL(gk(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Cv(b,a){throw[0,b,a]}function
-ov(a){if(a.length<24){for(var
+CS(b,a){throw[0,b,a]}function
+oJ(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iv(e){for(var
+iE(e){for(var
 j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bw){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bw;d++);if(d-b>mL){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE){g=h+(f<<6);if(f<nf){a=g-0x3080;if(a<bw)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE){g=h+(g<<6);if(f<nm){a=g-0xe2080;if(a<m9||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eE&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),mZ+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eC){c.substr(0,1);j+=c;c=Q}}return j+c}function
-bL(c,a,b){this.t=c;this.c=a;this.l=b}bL.prototype.toString=function(){switch(this.t){case
+d=b+1;d<i&&(f=e.charCodeAt(d))<bw;d++);if(d-b>mZ){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF){g=h+(f<<6);if(f<nt){a=g-0x3080;if(a<bw)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF){g=h+(g<<6);if(f<nA){a=g-0xe2080;if(a<nl||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),nb+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eD){c.substr(0,1);j+=c;c=Q}}return j+c}function
+bM(c,a,b){this.t=c;this.c=a;this.l=b}bM.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:dN(this);case
-0:if(ov(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bL.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iv(a)};bL.prototype.slice=function(){var
+0:if(oJ(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bM.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iE(a)};bM.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bL(this.t,a,this.l)};function
-n_(a){return new
-bL(0,a,a.length)}function
-a(a){return n_(a)}function
-it(c,b){Cv(c,a(b))}function
-aA(a){it(ao.Invalid_argument,a)}function
-n5(a){switch(a){case
+bM(this.t,a,this.l)};function
+om(a){return new
+bM(0,a,a.length)}function
+a(a){return om(a)}function
+iC(c,b){CS(c,a(b))}function
+az(a){iC(ao.Invalid_argument,a)}function
+oh(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-BZ(c,e){var
+Ck(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,52 +171,52 @@ b=E,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aA("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
 d=new
-a(e*n5(c));return d}function
-im(c){var
+a(e*oh(c));return d}function
+iw(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eJ(a){return new
+eK(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-io(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h0)==0?b&bJ?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&h0);if(c>0){a+=16;a*=Math.pow(2,c-nS)}else
-a*=Math.pow(2,-ms);if(b&bJ)a=-a;return a}function
-ih(b){var
+ix(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h9)==0?b&bL?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&h9);if(c>0){a+=16;a*=Math.pow(2,c-n6)}else
+a*=Math.pow(2,-mG);if(b&bL)a=-a;return a}function
+ir(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aA("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Cd(b,a){return new
-D(b&cX,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
-ip(a){return a.hi32()}function
-iq(a){return a.lo32()}function
-ge(){aA(h$)}var
-B0=f$;function
-cs(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cs.prototype.caml_custom=B0;cs.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+CA(b,a){return new
+D(b&cY,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
+iy(a){return a.hi32()}function
+iz(a){return a.lo32()}function
+gi(){az(ij)}var
+Cl=gd;function
+ct(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ct.prototype.caml_custom=Cl;ct.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aA("bigarray.js: invalid offset");if(this.dims.length!=b.length)aA("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])ge();c=c*this.dims[a]+b[a]}else
+Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gi();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])ge();c=c*this.dims[a]+(b[a]-1)}return c};cs.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gi();c=c*this.dims[a]+(b[a]-1)}return c};ct.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Cd(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return CA(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[fY,e,c];default:return this.data[a]}};cs.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iq(b);this.data[a*2+1]=ip(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[f3,e,c];default:return this.data[a]}};ct.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iz(b);this.data[a*2+1]=iy(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cs.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ct.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iq(b),e=ip(b);if(c==e)this.data.fill(c);else
+c=iz(b),e=iy(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cs.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ct.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
-cs();dK.prototype.offset=function(a){if(typeof
+ct();dK.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aA("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])ge();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
-n3(c,d,a,b){var
-e=n5(c);if(ih(a)*e!=b.length)aA("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gi();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
+of(c,d,a,b){var
+e=oh(c);if(ir(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 dK(c,d,a,b);return new
-cs(c,d,a,b)}function
-bz(b){if(!ao.Failure)ao.Failure=[aH,a(h2),-3];it(ao.Failure,b)}function
-n4(b,v,r){var
-i=b.read32s();if(i<0||i>16)bz("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==f$)for(var
+ct(c,d,a,b)}function
+bA(b){if(!ao.Failure)ao.Failure=[aH,a(h$),-3];iC(ao.Failure,b)}function
+og(b,v,r){var
+i=b.read32s();if(i<0||i>16)bA("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==gd)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==b5){var
-t=b.read32u(),u=b.read32u();if(t!=0)bz("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)bA("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=ih(h),f=BZ(j,d),g=n3(j,o,h,f);switch(j){case
+d=ir(h),f=Ck(j,d),g=of(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,50 +269,50 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bz("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bA("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eJ(e);g.set(a,q)}break;case
+q=eK(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=io(eJ(e));g.set(a,k)}break;case
+k=ix(eK(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=im(b.read32s());g.set(a,k)}break;case
+k=iw(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=im(b.read32s()),l=im(b.read32s());g.set(a,[fY,m,l])}break;case
+m=iw(b.read32s()),l=iw(b.read32s());g.set(a,[f3,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=io(eJ(e));for(var
+m=ix(eK(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=io(eJ(e));g.set(a,[fY,m,l])}break}v[0]=(4+i)*4;return n3(j,o,h,f)}function
-n2(a,b,c){return a.compare(b,c)}function
-ok(a,b){return Math.imul(a,b)}function
-b7(b,a){a=ok(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=ok(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Ca(a,b){a=b7(a,iq(b));a=b7(a,ip(b));return a}function
-og(a,b){return Ca(a,gg(b))}function
-n6(c){var
-b=ih(c.dims),d=0;switch(c.kind){case
+l=ix(eK(e));g.set(a,[f3,m,l])}break}v[0]=(4+i)*4;return of(j,o,h,f)}function
+oe(a,b,c){return a.compare(b,c)}function
+oy(a,b){return Math.imul(a,b)}function
+b7(b,a){a=oy(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oy(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Cx(a,b){a=b7(a,iz(b));a=b7(a,iy(b));return a}function
+ou(a,b){return Cx(a,gk(b))}function
+oi(c){var
+b=ir(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>m4)b=m4;var
+12:if(b>ng)b=ng;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=b7(d,e)}break;case
 4:case
-5:if(b>eE)b=eE;var
+5:if(b>eF)b=eF;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=b7(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=og(d,c.data[a]);break;case
+a=0;a<b;a++)d=ou(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=og(d,c.data[a]);break}return d}function
-Cb(a,b){b[0]=4;return a.read32s()}function
-Cq(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=ou(d,c.data[a]);break}return d}function
+Cy(a,b){b[0]=4;return a.read32s()}function
+CN(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bz("input_value: native integer value too large");default:bz("input_value: ill-formed native integer")}}function
-Cg(c,d){var
+2:bA("input_value: native integer value too large");default:bA("input_value: ill-formed native integer")}}function
+CD(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eJ(b)}function
-Cf(e,d,b){var
-c=eK(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eK(b)}function
+CC(e,d,b){var
+c=eL(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Cc(a,b,c){return a.compare(b)}function
-Ce(a){return a.lo32()^a.hi32()}var
-ob={"_j":{deserialize:Cg,serialize:Cf,fixed_length:8,compare:Cc,hash:Ce},"_i":{deserialize:Cb,fixed_length:4},"_n":{deserialize:Cq,fixed_length:4},"_bigarray":{deserialize:function(a,b){return n4(a,b,"_bigarray")},serialize:n7,compare:n2,hash:n6},"_bigarr02":{deserialize:function(a,b){return n4(a,b,f$)},serialize:n7,compare:n2,hash:n6}};function
-ik(a){return ob[a.caml_custom]&&ob[a.caml_custom].compare}function
-n$(f,c,d,e){var
-b=ik(c);if(b){var
+Cz(a,b,c){return a.compare(b)}function
+CB(a){return a.lo32()^a.hi32()}var
+op={"_j":{deserialize:CD,serialize:CC,fixed_length:8,compare:Cz,hash:CB},"_i":{deserialize:Cy,fixed_length:4},"_n":{deserialize:CN,fixed_length:4},"_bigarray":{deserialize:function(a,b){return og(a,b,"_bigarray")},serialize:oj,compare:oe,hash:oi},"_bigarr02":{deserialize:function(a,b){return og(a,b,gd)},serialize:oj,compare:oe,hash:oi}};function
+iu(a){return op[a.caml_custom]&&op[a.caml_custom].compare}function
+on(f,c,d,e){var
+b=iu(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-is(a){return a
+iB(a){return a
 instanceof
-bL}function
-oi(a){return is(a)}function
-oa(a){if(typeof
-a==="number")return f9;else
-if(is(a))return 252;else
-if(oi(a))return 1252;else
+bM}function
+ow(a){return iB(a)}function
+oo(a){if(typeof
+a==="number")return gb;else
+if(iB(a))return 252;else
+if(ow(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==fY?0:b}else
+b=a[0]|0;return b==f3?0:b}else
 if(a
 instanceof
-String)return nw;else
+String)return nK;else
 if(typeof
-a=="string")return nw;else
+a=="string")return nK;else
 if(a
 instanceof
-Number)return f9;else
-if(a&&a.caml_custom)return h4;else
+Number)return gb;else
+if(a&&a.caml_custom)return ib;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ch(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-n9(a,b){a.t&6&&dN(a);b.t&6&&dN(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-or(a,b){return n9(a,b)}function
-ij(a,b,d){var
+CE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+ol(a,b){a.t&6&&dN(a);b.t&6&&dN(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+oF(a,b){return ol(a,b)}function
+it(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=oa(a);if(f==m_){a=a[1];continue}var
-g=oa(b);if(g==m_){b=b[1];continue}if(f!==g){if(f==f9){if(g==h4)return n$(a,b,-1,d);return-1}if(g==f9){if(f==h4)return n$(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aA(hS);break;case
+f=oo(a);if(f==nm){a=a[1];continue}var
+g=oo(b);if(g==nm){b=b[1];continue}if(f!==g){if(f==gb){if(g==ib)return on(a,b,-1,d);return-1}if(g==gb){if(f==ib)return on(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:az(h1);break;case
 248:var
-c=Ch(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aA(hS);break;case
-250:aA("equal: got Forward_tag, should not happen");break;case
-251:aA("equal: abstract value");break;case
+c=CE(a[2],b[2]);if(c!=0)return c|0;break;case
+249:az(h1);break;case
+250:az("equal: got Forward_tag, should not happen");break;case
+251:az("equal: abstract value");break;case
 252:if(a!==b){var
-c=n9(a,b);if(c!=0)return c|0}break;case
-253:aA("equal: got Double_tag, should not happen");break;case
-254:aA("equal: got Double_array_tag, should not happen");break;case
-255:aA("equal: got Custom_tag, should not happen");break;case
-1247:aA(hS);break;case
+c=ol(a,b);if(c!=0)return c|0}break;case
+253:az("equal: got Double_tag, should not happen");break;case
+254:az("equal: got Double_array_tag, should not happen");break;case
+255:az("equal: got Custom_tag, should not happen");break;case
+1247:az(h1);break;case
 1255:var
-i=ik(a);if(i!=ik(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aA("compare: abstract value");var
+i=iu(a);if(i!=iu(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,176 +405,176 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-B7(a,b){return ij(a,b,true)}function
-bN(a){if(a<0)aA("Bytes.create");return new
-bL(a?2:9,Q,a)}function
-oc(a,b){return+(ij(a,b,false)==0)}function
-B9(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oq(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gf(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Cr=0;function
-oe(){return Cr++}function
-Cj(a){return a.toUtf16()}function
-eL(){return typeof
+Cs(a,b){return it(a,b,true)}function
+bO(a){if(a<0)az("Bytes.create");return new
+bM(a?2:9,Q,a)}function
+oq(a,b){return+(it(a,b,false)==0)}function
+Cu(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oE(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gj(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+CO=0;function
+os(){return CO++}function
+CG(a){return a.toUtf16()}function
+eM(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-CE(){function
-a(a){if(a.charAt(0)===by)return[Q,a.substring(1)];return}function
+C1(){function
+a(a){if(a.charAt(0)===bz)return[Q,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||Q,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eL()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iz=CE();function
-os(a){return a.slice(-1)!==by?a+by:a}if(eL()&&E.process&&E.process.cwd)var
-eI=E.process.cwd().replace(/\\/g,by);else
+d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eM()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iI=C1();function
+oG(a){return a.slice(-1)!==bz?a+bz:a}if(eM()&&E.process&&E.process.cwd)var
+eJ=E.process.cwd().replace(/\\/g,bz);else
 var
-eI="/static";eI=os(eI);function
-Cl(a){a=Cj(a);if(!iz(a))a=eI+a;var
-e=iz(a),d=e[1].split(by),b=[];for(var
+eJ="/static";eJ=oG(eJ);function
+CI(a){a=CG(a);if(!iI(a))a=eJ+a;var
+e=iI(a),d=e[1].split(bz),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Cz(e){for(var
+CW(e){for(var
 f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bw){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bw;d++);if(d-c>mL){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<m9){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bw|a&dH)}else
-if(a<0xd800||a>=nd)b+=String.fromCharCode(nf|a>>12,bw|a>>6&dH,bw|a&dH);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<mZ||h>nd)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nm|a>>18,bw|a>>12&dH,bw|a>>6&dH,bw|a&dH)}if(b.length>eC){b.substr(0,1);f+=b;b=Q}}return f+b}function
-B4(a){var
-b=9;if(!ov(a))b=8,a=Cz(a);return new
-bL(b,a,a.length)}function
-dP(a){return B4(a)}var
-CH=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",mS,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",h1,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",h6,mY,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c2(d,f,e,a){var
-b=CH.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bw;d++);if(d-c>mZ){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<nl){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bw|a&dH)}else
+if(a<0xd800||a>=nr)b+=String.fromCharCode(nt|a>>12,bw|a>>6&dH,bw|a&dH);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nb||h>nr)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nA|a>>18,bw|a>>12&dH,bw|a>>6&dH,bw|a&dH)}if(b.length>eD){b.substr(0,1);f+=b;b=Q}}return f+b}function
+Cp(a){var
+b=9;if(!oJ(a))b=8,a=CW(a);return new
+bM(b,a,a.length)}function
+dP(a){return Cp(a)}var
+C4=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",m6,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",h_,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",id,na,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c3(d,f,e,a){var
+b=C4.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,dP(f||Q),dP(e||Q)];return c}var
-ol={};function
-cZ(a){return ol[a]}function
-c0(b,a){throw[0,b].concat(a)}function
-B3(a){return new
-bL(4,a,a.length)}function
-ad(a){it(ao.Sys_error,a)}function
-Cu(a){ad(a+fU)}function
-n8(){aA(h$)}function
-B2(b,a){if(a>>>0>=b.l)n8();return ii(b,a)}function
-gi(a){return a.l}function
-n1(){}function
-ay(a){this.data=a}ay.prototype=new
-n1();ay.prototype.truncate=function(a){var
-b=this.data;this.data=bN(a|0);eH(b,0,this.data,0,a)};ay.prototype.length=function(){return gi(this.data)};ay.prototype.write=function(b,d,g,a){var
+oz={};function
+c0(a){return oz[a]}function
+c1(b,a){throw[0,b].concat(a)}function
+Co(a){return new
+bM(4,a,a.length)}function
+ae(a){iC(ao.Sys_error,a)}function
+CR(a){ae(a+fZ)}function
+ok(){az(ij)}function
+Cn(b,a){if(a>>>0>=b.l)ok();return is(b,a)}function
+gm(a){return a.l}function
+od(){}function
+ax(a){this.data=a}ax.prototype=new
+od();ax.prototype.truncate=function(a){var
+b=this.data;this.data=bO(a|0);eI(b,0,this.data,0,a)};ax.prototype.length=function(){return gm(this.data)};ax.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bN(b+a),f=this.data;this.data=e;eH(f,0,this.data,0,c)}dL(d,g,this.data,b,a);return 0};ay.prototype.read=function(c,a,d,b){var
-e=this.length();eH(this.data,c,a,d,b);return 0};ay.prototype.read_one=function(a){return B2(this.data,a)};ay.prototype.close=function(){};ay.prototype.constructor=ay;function
+e=bO(b+a),f=this.data;this.data=e;eI(f,0,this.data,0,c)}dL(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
+e=this.length();eI(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return Cn(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
 aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
-c=d.split(by),b=Q;for(var
-a=0;a<c.length-1;a++){b+=c[a]+by;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+by};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bz),b=Q;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bz;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bz};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ay(dM(c[1]))}}};aO.prototype.exists=function(a){if(a==Q)return 1;var
+ax(dM(c[1]))}}};aO.prototype.exists=function(a){if(a==Q)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&cZ(hX);if(this.exists(c))if(b)c0(b,c2(mS,hW,this.nm(c)));else
-ad(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c0(b,c2(h1,hW,this.nm(a)));else
-ad(a+fU);if(!this.is_dir(a))if(b)c0(b,c2(h6,hW,this.nm(a)));else
-ad(a+ib);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&cZ(hX),c=a==Q?Q:this.slash(a),e=new
-RegExp(h9+c+m0);if(!this.exists(a))if(b)c0(b,c2(h1,hU,this.nm(a)));else
-ad(a+fU);if(!this.is_dir(a))if(b)c0(b,c2(h6,hU,this.nm(a)));else
-ad(a+ib);for(var
+b=d&&c0(h6);if(this.exists(c))if(b)c1(b,c3(m6,h5,this.nm(c)));else
+ae(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c1(b,c3(h_,h5,this.nm(a)));else
+ae(a+fZ);if(!this.is_dir(a))if(b)c1(b,c3(id,h5,this.nm(a)));else
+ae(a+il);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&c0(h6),c=a==Q?Q:this.slash(a),e=new
+RegExp(ih+c+nc);if(!this.exists(a))if(b)c1(b,c3(h_,h3,this.nm(a)));else
+ae(a+fZ);if(!this.is_dir(a))if(b)c1(b,c3(id,h3,this.nm(a)));else
+ae(a+il);for(var
 d
 in
-this.content)if(d.match(e))if(b)c0(b,c2(mY,hU,this.nm(a)));else
-ad(this.nm(a)+": Directory not empty");delete
+this.content)if(d.match(e))if(b)c1(b,c3(na,h3,this.nm(a)));else
+ae(this.nm(a)+": Directory not empty");delete
 this.content[c]};aO.prototype.readdir=function(a){var
-f=a==Q?Q:this.slash(a);if(!this.exists(a))ad(a+fU);if(!this.is_dir(a))ad(a+ib);var
+f=a==Q?Q:this.slash(a);if(!this.exists(a))ae(a+fZ);if(!this.is_dir(a))ae(a+il);var
 g=new
-RegExp(h9+f+m0),d={},c=[];for(var
+RegExp(ih+f+nc),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==Q)return true;var
 b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ad(this.nm(a)+nJ);if(b.text&&b.binary)ad(this.nm(a)+mE);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ad(this.nm(a)+" : is a directory");if(b.create&&b.excl)ad(this.nm(a)+nG);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+nX);if(b.text&&b.binary)ae(this.nm(a)+mS);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nU);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ay(bN(0));return this.content[a]}else
-Cu(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ad(this.nm(c)+nG);if(is(a))b=new
-ay(a);if(oi(a))b=new
-ay(dM(a));else
+ax(bO(0));return this.content[a]}else
+CR(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ae(this.nm(c)+nU);if(iB(a))b=new
+ax(a);if(ow(a))b=new
+ax(dM(a));else
 if(a
 instanceof
 Array)b=new
-ay(B3(a));else
+ax(Co(a));else
 if(typeof
 a==="string")b=new
-ay(n_(a));else
+ax(om(a));else
 if(a.toString){var
 d=dM(dP(a.toString()));b=new
-ay(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ad(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-am(a){return gi(a)}function
-c1(b,a){return ii(b,a)}function
-BY(d){var
+ax(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ae(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
+am(a){return gm(a)}function
+c2(b,a){return is(b,a)}function
+Cj(d){var
 c=am(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=c1(d,a);return b}function
-BX(a){if(a.t!=4)gf(a);return a.c}function
-B6(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gf(a)}a.c[c]=b;return 0}function
-B5(b,a,c){if(a>>>0>=b.l)n8();return B6(b,a,c)}function
-bM(a){this.fs=require("fs");this.fd=a}bM.prototype=new
-n1();bM.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ad(a.toString())}};bM.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ad(a.toString())}};bM.prototype.write=function(f,b,c,e){var
-a=BY(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=c2(d,a);return b}function
+Ci(a){if(a.t!=4)gj(a);return a.c}function
+Cr(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gj(a)}a.c[c]=b;return 0}function
+Cq(b,a,c){if(a>>>0>=b.l)ok();return Cr(b,a,c)}function
+bN(a){this.fs=require("fs");this.fd=a}bN.prototype=new
+od();bN.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bN.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bN.prototype.write=function(f,b,c,e){var
+a=Cj(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ad(a.toString())}return 0};bM.prototype.read=function(g,d,c,f){var
-a=BX(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bN.prototype.read=function(g,d,c,f){var
+a=Ci(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ad(a.toString())}for(var
-b=0;b<f;b++)B5(d,c+b,e[c+b]);return 0};bM.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ad(a.toString())}return a[0]};bM.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ad(a.toString())}};bM.prototype.constructor=bM;function
-az(a){this.fs=require("fs");this.root=a}az.prototype.nm=function(a){return this.root+a};az.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};az.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ad(a.toString())}};az.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.open=function(f,c,g){var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
+b=0;b<f;b++)Cq(d,c+b,e[c+b]);return 0};bN.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bN.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bN.prototype.constructor=bN;function
+ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};ay.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bM(d)}catch(a){this.raise_nodejs_error(a,g)}};az.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};az.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),mp);return dP(a)}catch(a){this.raise_nodejs_error(a,c)}};az.prototype.raise_nodejs_error=function(a,d){var
-b=cZ(hX);if(d&&b){var
-c=c2(a.code,a.syscall,a.path,a.errno);c0(b,c)}else
-ad(a.toString())};az.prototype.stats_from_js=function(a){var
+bN(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),mD);return dP(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
+b=c0(h6);if(d&&b){var
+c=c3(a.code,a.syscall,a.path,a.errno);c1(b,c)}else
+ae(a.toString())};ay.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};az.prototype.constructor=az;function
-of(b){var
-a=iz(b);if(!a)return;return a[0]+by}var
-gj=of(eI)||bz("unable to compute caml_root"),dQ=[];if(eL())dQ.push({path:gj,device:new
-az(gj)});else
-dQ.push({path:gj,device:new
-aO(gj)});dQ.push({path:my,device:new
-aO(my)});function
-oz(b){var
-g=Cl(b),b=g.join(by),f=os(b),c;for(var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ay.prototype.constructor=ay;function
+ot(b){var
+a=iI(b);if(!a)return;return a[0]+bz}var
+gn=ot(eJ)||bA("unable to compute caml_root"),dQ=[];if(eM())dQ.push({path:gn,device:new
+ay(gn)});else
+dQ.push({path:gn,device:new
+aO(gn)});dQ.push({path:mM,device:new
+aO(mM)});function
+oN(b){var
+g=CI(b),b=g.join(bz),f=oG(b),c;for(var
 e=0;e<dQ.length;e++){var
-a=dQ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eL()){var
-d=of(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=dQ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eM()){var
+d=ot(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-az(d)};dQ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ad("no device found for "+f)}function
-B8(c,b){var
-a=oz(c);if(!a.device.register)bz("cannot register file");a.device.register(a.rest,b);return 0}function
-ou(c,b){var
-c=a(c),b=a(b);return B8(c,b)}function
-B$(){var
+ay(d)};dQ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
+Ct(c,b){var
+a=oN(c);if(!a.device.register)bA("cannot register file");a.device.register(a.rest,b);return 0}function
+oI(c,b){var
+c=a(c),b=a(b);return Ct(c,b)}function
+Cw(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)ou(b[a].name,b[a].content);E.jsoo_create_file=ou;E.caml_fs_tmp=[];return 0}function
-Cs(c){var
-a=0,e=am(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
+a=0;a<b.length;a++)oI(b[a].name,b[a].content);E.jsoo_create_file=oI;E.caml_fs_tmp=[];return 0}function
+CP(c){var
+a=0,e=am(c),b=10,d=1;if(e>0)switch(c2(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&c1(c,a)==48)switch(c1(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&c2(c,a)==48)switch(c2(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=am(c),b=10,d=1;if(e>0)switch(c1(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-om(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=nV)return a-87;return-1}function
-ir(f){var
-h=Cs(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c1(f,c):0,b=om(e);if(b<0||b>=d)bz(f1);var
-a=b;for(c++;c<g;c++){e=c1(f,c);if(e==95)continue;b=om(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bz(f1)}if(c!=g)bz(f1);a=i*a;if(d==10&&(a|0)!=a)bz(f1);return a|0}function
-Ck(a,b){return+(ij(a,b,false)<=0)}function
-Cm(a,d){if(a<0)ge();var
+oA(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=n9)return a-87;return-1}function
+iA(f){var
+h=CP(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c2(f,c):0,b=oA(e);if(b<0||b>=d)bA(f6);var
+a=b;for(c++;c<g;c++){e=c2(f,c);if(e==95)continue;b=oA(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bA(f6)}if(c!=g)bA(f6);a=i*a;if(d==10&&(a|0)!=a)bA(f6);return a|0}function
+CH(a,b){return+(it(a,b,false)<=0)}function
+CJ(a,d){if(a<0)gi();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 b8=new
 Array();function
-Cn(c){var
-a=b8[c];if(!a.opened)ad("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
+CK(c){var
+a=b8[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
 b=ao.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=Q;return 0}function
-op(e,f){var
+oD(e,f){var
 b=b8[e],d=a(f),c=am(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-CA(a){var
-a=iv(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+CX(a){var
+a=iE(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-CB(a){var
-a=iv(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+CY(a){var
+a=iE(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gl(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gp(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-CI(c,b,g){var
+C5(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,157 +619,160 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ad(dO(c)+nJ);if(a.text&&a.binary)ad(dO(c)+mE);var
-d=oz(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gl(f+1,op,e,a)}gl(0,op,new
-ay(bN(0)));gl(1,CB,new
-ay(bN(0)));gl(2,CA,new
-ay(bN(0)));function
-Co(a){var
-c=ao.fds[a];if(c.flags.wronly)ad(nU+a+" is writeonly");var
-d=null;if(a==0&&eL()){var
-e=require("fs");d=function(){return dP(e.readFileSync(0,mp))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dO(c)+nX);if(a.text&&a.binary)ae(dO(c)+mS);var
+d=oN(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gp(f+1,oD,e,a)}gp(0,oD,new
+ax(bO(0)));gp(1,CY,new
+ax(bO(0)));gp(2,CX,new
+ax(bO(0)));function
+CL(a){var
+c=ao.fds[a];if(c.flags.wronly)ae(n8+a+" is writeonly");var
+d=null;if(a==0&&eM()){var
+e=require("fs");d=function(){return dP(e.readFileSync(0,mD))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
-oj(c){var
-b=ao.fds[c];if(b.flags.rdonly)ad(nU+c+" is readonly");var
+ox(c){var
+b=ao.fds[c];if(b.flags.rdonly)ae(n8+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:Q};b8[a.fd]=a;return a.fd}function
-Cp(){var
+CM(){var
 b=0;for(var
 a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
 bf(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-Cw(a,b){ol[dO(a)]=b;return 0}function
-B1(a,b){if(a===b)return 1;a.t&6&&dN(a);b.t&6&&dN(b);return a.c==b.c?1:0}function
-an(a,b){return B1(a,b)}function
-Cy(){aA(h$)}function
-aI(b,a){if(a>>>0>=am(b))Cy();return c1(b,a)}function
+CT(a,b){oz[dO(a)]=b;return 0}function
+Cm(a,b){if(a===b)return 1;a.t&6&&dN(a);b.t&6&&dN(b);return a.c==b.c?1:0}function
+an(a,b){return Cm(a,b)}function
+CV(){az(ij)}function
+aI(b,a){if(a>>>0>=am(b))CV();return c2(b,a)}function
 m(a,b){return 1-an(a,b)}function
-gk(a){return a}function
-oo(a){return a}function
-ot(a){if(a
+go(a){return a}function
+oC(a){return a}function
+oH(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oo(ao.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oC(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oo(ao.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oC(ao.Stack_overflow);if(a
 instanceof
-E.Error&&cZ(m7))return[0,cZ(m7),a];return[0,ao.Failure,dP(String(a))]}function
-c3(a){return a<0?-a:a}function
+E.Error&&c0(nj))return[0,c0(nj),a];return[0,ao.Failure,dP(String(a))]}function
+c4(a){return a<0?-a:a}function
 x(a,b){return a+b}function
-iw(a,b){return a<b?-1:a>b?1:0}function
-ow(c,b){var
-a=c%b;return a<0?a+c3(b):a}function
-ix(a,b){return(a-ow(a,b))/b}function
+iF(a,b){return a<b?-1:a>b?1:0}function
+oK(c,b){var
+a=c%b;return a<0?a+c4(b):a}function
+iG(a,b){return(a-oK(a,b))/b}function
 Y(a,b){return a==b?1:0}function
-CF(c){E.orthocert_verify=function(b){return dO(cY(c,[a(b)]))}}function
+C2(c){E.orthocert_verify=function(b){return dO(cZ(c,[a(b)]))}}function
 G(a,b){return a<=b?1:0}function
-V(a,b){return a<b?1:0}function
+W(a,b){return a<b?1:0}function
 v(a,b){return a*b}function
 M(a){return-a}function
 aD(a){return E.BigInt(a)}function
-ox(a,b){return a<<E.BigInt(b)}function
-oy(a,b){return a>>E.BigInt(b)}function
+oL(a,b){return a<<E.BigInt(b)}function
+oM(a,b){return a>>E.BigInt(b)}function
 a3(a){return a<0?-1:a>0?1:0}function
-CG(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+C3(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aB(a,b){return a-b}function
-iy(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-Ci(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-B_(b){var
-a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ci(b[1]))var
+aA(a,b){return a-b}function
+iH(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+CF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Cv(b){var
+a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&CF(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=m8;for(var
+f=2,e=b;a+=nk;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bL)a+=aw+c.toString()+aw;else
+bM)a+=aw+c.toString()+aw;else
 if(typeof
 c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=h8}else
+a+="_"}a+=ig}else
 if(b[0]==aH)a+=b[1];return a}function
-od(a){if(a
+or(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aH)){var
-c=cZ("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=B_(a),b=cZ(mo);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+c=c0("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Cv(a),b=c0(mC);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Cx(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){od(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)od(a.error)})}Cx();function
-k(a,b){return a.length==1?a(b):cY(a,[b])}function
-as(a,b,c){return a.length==2?a(b,c):cY(a,[b,c])}function
-BW(a,b,c,d){return a.length==3?a(b,c,d):cY(a,[b,c,d])}B$();var
-iB=[aH,a(mV),-2],iA=[aH,a(n0),-4],AR=[0,[0,0]],AS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AR]]]]]]]]]]],AT=[0,0],AU=[0,0],AV=[0,[0,[0,[0,0]]]],AW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AV]]]]]]]]]]],AX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AW]]]]]]]]]]],AY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AX]]]]]]]]]]],AZ=[0,[0,0]],A0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AZ]]]]]]]]]]],A1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A0]]]]]]]]]]],A2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A1]]]]]]]]]]],A3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A2]]]]]]]]]]],A4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],A5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A4]]]]]]]]]]],A6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A5]]]]]]]]]]],A7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A6]]]]]]]]]]],A8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A7]]]]]]]]]]],A9=[0,[0,0]],A_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A9]]]]]]]]]]],A$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A_]]]]]]]]]]],Ba=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A$]]]]]]]]]]],Bb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ba]]]]]]]]]]],Bc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bb]]]]]]]]]]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],Bf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],Bk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,0],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,0]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],BK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,0],BO=[0,[0,0]],BP=[0,0],BQ=[0,[0,[0,[0,[0,0]]]]],i3=[0,[0,[0,0]]],ci=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fA=[0,[0,[0,[0,0]]]],BR=[0,[0,[0,[0,[0,0]]]]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]];bf(11,[aH,a(mn),-12],mn);bf(10,[aH,a(nb),-11],nb);bf(9,[aH,a(nT),-10],nT);bf(8,[aH,a(mz),-9],mz);bf(7,[aH,a(no),-8],no);bf(6,[aH,a(mx),-7],mx);bf(5,[aH,a(mW),-6],mW);bf(4,[aH,a(m2),-5],m2);bf(3,iA,n0);bf(2,[aH,a(h2),-3],h2);bf(1,iB,mV);bf(0,[aH,a(nD),-1],nD);var
-oA=a("String.sub / Bytes.sub"),oC=a(Q),oB=a("String.concat"),oD=a("Array.init"),oE=a("power"),oP=[0,0],oR=[0,0],oS=[0,[0,0]],oT=[0,[0,0]],o2=[0,0],o3=[0,0],o9=[0,0,0],o_=[0,0,0],o$=[0,0],ps=[0,0],pt=[0,0],pw=[0,0],pO=[0,0],pR=[0,0],pT=[0,0],pU=[0,0],p0=[0,0],p1=[0,0],ql=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qB=[0,0],qX=a(","),rd=[0,a(h8),0],re=a(m8),rf=a("."),rg=[0,[0,[0,0]]],rh=a(eB),ri=a(h9),rj=[0,[0,[0,[0,[0,0]]]]],rk=[0,a(h8),0],rl=a(nX),ub=a(mk),ud=a(mh),uc=a(ne),ue=a(dF),uf=a(fX),ug=a(nZ),uh=a(nM),ui=a(mP),uj=a(nq),vo=[0,0],vp=a(hT),vq=[0,0],vr=a("divided"),vs=[0,1],vt=a("mirror"),vu=[0,3],vv=a("negative"),vw=[0,2],vx=a(eA),vy=[0,5],vz=a(ie),vA=[0,4],vB=a(f2),vC=a(mC),vD=a(f7),vE=a(b4),vF=[0,0],vG=[0,0],vH=[0,0],wf=a(Q),wc=[0,[0,[0,[0,0]]]],wd=[0,[0,[0,[0,0]]]],wa=[0,0],v9=[0,[0,0]],v_=[0,[0,[0,0]]],v5=[0,[0,[0,0]]],v4=[0,0,0],v3=[0,[0,[0,0]]],v2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AS]]]]]]]]]]],v1=[0,0],vV=[0,[0,0]],vW=[0,[0,[0,0]]],vX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AT]]]]]]]]]]],vY=[0,[0,0]],vZ=[0,[0,[0,0]]],vU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AU]]]]]]]]]]],vS=[0,[0,0]],vT=[0,[0,[0,0]]],vQ=[0,[0,[0,0]]],vR=[0,[0,0]],vN=[0,[0,0]],vO=[0,0],vL=[0,0],vM=[0,1],vK=[0,[0,0]],vJ=[0,0],vl=[0,0],vm=[0,1],vn=[0,2],vh=[0,[0,0]],vi=[0,0],vg=[0,0],vf=[0,0],ve=[0,0],vd=[0,0,0],vc=[0,0,0],va=[0,[0,[0,0]]],vb=[0,[0,[0,0]]],u$=[0,0],u9=[0,1,0],u0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,AY]]]]]]]]]]],u1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A3]]]]]]]]]]],uW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,A8]]]]]]]]]]],uX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],uY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],uZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],u2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],u3=a("sqrt"),uU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],uV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],uJ=[0,a("\n"),0],uK=a(mi),uL=a(fW),uM=a(na),uN=a(mT),uT=a(eD),uO=a(ez),uP=a("verdict"),uQ=a(nE),uR=a(mM),uS=a(m$),uG=a(m6),uH=a(nH),uI=a(fZ),uC=a(nk),uD=a(f0),uE=a(ez),uF=a(eD),ux=a(f_),uy=a(a2),uz=a(mj),uA=a(f6),uu=a(nC),uv=a(eA),uw=a(f6),uq=a(nn),ur=a(f_),us=a(f0),ut=a(nR),ul=a(nI),um=a(nL),un=a(m3),uo=a(f3),t$=a(hV),ua=a(ic),t6=a(be),t7=a(bd),t8=a(mO),tG=a(f3),tH=a(nr),tk=a(a2),tl=a(bK),tm=a(ga),tn=a(dI),to=a(cW),tt=a(fV),tp=a(h_),tq=a(ia),tr=a(dE),ts=a(a2),tu=a(bK),tv=a(ga),tw=a(dI),tx=a(h_),ty=a(ia),tz=a(dE),tA=a(a2),tB=a(bK),tC=a(be),tD=a(bd),tE=a(cU),tF=a(dI),tI=a(ny),tJ=a(nK),tK=a(gd),tL=a(mD),tM=a(mI),tN=a(dE),tO=a(a2),tP=a(bK),tQ=a(fS),tR=a(mR),tS=a(dI),tT=a(eG),tU=a(mr),tV=a(dE),tW=a(a2),tX=a(fS),tY=a(a2),tZ=a(nt),t2=a(mg),t0=a(mG),t1=a(nQ),t3=a(eD),t4=a(ez),t5=a(a2),t9=a(gd),t_=a(fZ),te=a(bK),tf=a(ig),tg=a(dI),th=a(fV),ti=a(dE),s4=a(eG),s5=a(nF),s6=a(cV),s7=a(dG),s8=a(dG),s9=a(hY),s_=a(cV),s$=a(nc),ta=a(mN),tb=a(aT),td=a(mm),tc=a(hY),sU=a(m5),sV=a(nY),sW=a(mJ),sX=a(mH),sY=a(nO),sZ=a(nB),s0=a(mU),s1=a(fT),s2=a(fT),sQ=a(aT),sR=a(bc),sS=a(dJ),sT=a(bx),sM=a(cW),sN=a(h5),sO=a(nl),sJ=a(be),sK=a(bd),sL=a(cU),sC=a(be),sD=a(bd),sE=a(cU),sF=a(h7),sG=a(cV),sH=a(h3),sI=a(nx),sq=a(mF),sw=a(fW),sv=a(nP),sr=a(hZ),ss=a(f5),sx=a(hZ),sy=a(f5),sz=a(mB),sA=a(nv),sB=a(f5),st=a(dG),su=a(nh),sn=a(f4),so=a(f4),sp=a(f4),sj=a(nz),sk=a(bd),sl=a(be),sm=a(nN),r7=a(mv),r8=a(ml),r9=a(np),r_=a(dF),r$=a(nW),sa=a(ns),sb=a(mw),sc=a(ni),sd=a(mu),se=a(mQ),sf=a(mt),sg=a(nA),sh=a(fX),si=a(mq),rM=a(f8),rO=a(eB),rN=a(ey),rP=a(dD),rQ=a(aT),rR=a(bc),rS=a(b4),rT=a(gb),rU=a(bx),rV=a(aT),rW=a(bc),rX=a(dJ),rY=a(bx),rZ=a(dD),r0=a(eF),r1=a(aT),r2=a(bc),r3=a(ng),r4=a(nu),r5=a(eF),r6=a(bx),ru=a(f8),rC=a(eB),rv=a(ey),rw=a(dD),rx=a(aT),ry=a(bc),rz=a(b4),rA=a(gb),rB=a(bx),rD=a(gc),rE=a(aT),rF=a(bc),rG=a(dJ),rH=a(bx),rI=a(b4),rJ=a(cW),rK=a(bx),rr=a(be),rs=a(bd),rp=[0,a(aw),0],rq=a(aw),rn=a(Q),rm=[0,a(aw),0],ro=a(aw),q$=a(f8),ra=a(eB),rb=a("*"),rc=a(by),q6=[0,[0,[0,[0,[0,0]]]]],q7=[0,[0,[0,0]]],q8=[0,[0,0]],q9=[0,0],q_=[0,[0,[0,[0,0]]]],q4=a('":'),q5=a(aw),q2=[0,a(aw),0],q3=a(aw),q0=[0,a("}"),0],q1=a("{"),qY=[0,a("]"),0],qZ=a("["),qW=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qT=[0,0],qQ=[0,[0,[0,0]]],qR=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qS=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],qO=[0,[0,0]],qP=[0,[0,[0,0]]],qL=[0,0],qM=[0,[0,[0,[0,[0,[0,0]]]]]],qN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],qI=[0,0],qF=[0,0,0],qG=[0,0,0],qH=[0,0,0],qC=[0,[0,0]],qD=[0,[0,[0,0]]],qE=[0,0],qr=[0,[0,[0,[0,[0,[0,0]]]]]],qs=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,0]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],qy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],qz=[0,[0,[0,0]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qp=[0,[0,0]],qq=[0,[0,[0,0]]],qj=[0,[0,0]],qk=[0,[0,[0,0]]],qh=[0,[0,[0,0]]],qi=[0,[0,0]],qe=[0,0],qf=[0,0],qa=[0,[0,0]],qb=[0,0],qc=[0,0],qd=[0,[0,0]],p3=[0,[0,0]],p4=[0,0],p5=[0,[0,0]],p6=[0,0],p7=[0,0],p8=[0,[0,0]],p9=[0,[0,0]],p_=[0,[0,0]],p$=[0,0],pZ=[0,0],pY=[0,0],pX=[0,[0,[0,0]]],pW=[0,[0,[0,[0,[0,[0,0]]]]]],pS=[0,[0,[0,0]]],pP=[0,[0,[0,0]]],pN=[0,[0,[0,0]]],pL=[0,[0,[0,[0,[0,[0,0]]]]]],pM=[0,[0,[0,[0,[0,[0,0]]]]]],pH=[0,[0,0]],pI=[0,0],pJ=[0,[0,[0,0]]],pK=[0,[0,[0,0]]],pA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pB=[0,[0,[0,[0,[0,[0,0]]]]]],pC=[0,[0,[0,[0,[0,[0,0]]]]]],pD=[0,[0,[0,0]]],pE=[0,[0,[0,[0,[0,[0,0]]]]]],pF=[0,[0,[0,0]]],pG=[0,[0,[0,0]]],py=[0,[0,0]],pz=[0,0],px=[0,0,0],pv=[0,0,0],pu=[0,[0,[0,0]]],pq=[0,0],pr=[0,0],pl=[0,[0,[0,0]]],pm=[0,[0,[0,0]]],pn=[0,[0,[0,0]]],pk=[0,[0,[0,[0,0]]]],pg=[0,[0,[0,0]]],ph=[0,[0,[0,0]]],pi=[0,[0,[0,0]]],pj=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pe=[0,[0,0]],pf=[0,0],pc=[0,[0,0]],pd=[0,0],pa=[0,[0,0]],pb=[0,0],oW=[0,0],oX=[0,[0,0]],oY=[0,0],oZ=[0,[0,0]],oU=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],oV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],oQ=[0,0,0],oO=a(id),oN=a(Q),oM=[0,[0,0]],oL=[0,0],oI=[0,0],oK=[1,0],oJ=[0,0],oH=[0,0],oF=[1,0],oG=[1,0],v$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],zg=a(be),zh=a(bd),zi=a(mO),y8=a(gc),y9=[0,a("a base axis of such a platform"),0],y_=a(aT),y$=a(bc),yV=a(nB),yW=a(m5),yX=a(nO),yY=a(fT),yZ=a(mU),y0=a(fT),y1=a(nY),y2=a(mJ),y3=a(mH),yL=a(nr),yM=a(f3),yl=a(bK),x$=a(fZ),ya=a(a2),yb=a(nt),yc=a(nQ),yf=a(mG),yg=a(mg),yh=a(a2),yi=a(a2),yk=a(fS),yj=[0,a("a claim that no cube of such a machine fits"),0],ym=a(dE),yn=a(dI),yo=a(fV),yp=a(ig),zf=[0,a(mX),0],yq=a(cW),yr=a(h5),ys=a(nl),yt=a(ga),yu=a(mI),yv=a(mr),yw=a(fV),yz=a(cU),yA=a(nx),yD=a(ig),yE=[0,a(mX),0],yF=a(bK),yG=a(mR),yH=[0,a("what else is asked of the closed design"),0],yI=a(fS),yJ=a(eG),yK=a(cU),yN=a(bK),yO=a(be),yP=a(bd),yQ=a(ny),yR=a(nK),yS=a(gd),yT=a(mD),yx=[0,a(aw),0],yy=a('the mechanism "'),yU=a(h_),y4=a(ga),y5=a(cW),y6=a(h5),y7=a(ia),za=a(bK),zb=[0,a('"one_to_one" of this set of orientations'),0],ze=a(cW),zc=[0,a("a platform that turns on struts and other drives"),0],zd=a(bK),yB=[0,a(aw),0],yC=a('the workspace "'),zj=a(a2),zk=a(a2),zm=a(eD),zn=a(ez),zo=a(gd),zl=[0,a("an atlas of such a machine"),0],yd=[0,a(aw),0],ye=a('a claim of the kind "'),zt=a(nZ),zA=a(fX),zB=a(dF),zC=a(mP),zD=a(ne),zE=a(b4),zF=a(ic),zG=a(hV),zH=a(b4),zI=a(id),zu=a(f2),zv=a(mC),zw=a(f7),zx=a(nq),zy=[0,a(aw),0],zz=a('the evidence "'),zJ=a(dF),zK=a(f2),zL=a(f7),zM=a(nM),zO=a(dF),zP=a(f2),zQ=a(f7),zR=a(eA),zS=a(hT),zT=a(eA),zU=a(hT),zN=[0,a("this evidence at control points"),0],AK=a('"orthocert-paving/'),Ap=a(m$),Aq=a(mM),Ar=a(nE),AI=[0,3,3],As=a(mT),AC=[0,a("this set of orientations with such drives"),0],AD=[0,a(m1),0],AG=[0,a(m1),0],AH=[0,a("a mechanism by formulas in a claim that is refuted"),0],AE=[0,a('the evidence "tolerances" of such a mechanism'),0],AF=[0,a("a step of a platform that turns that is not at control points"),0],At=[0,a("the acceleration of a joint of a machine with a plane"),0],AB=[0,a("this quantity in a claim that is refuted"),0],AA=[0,a("a step in a proof that no cube fits"),0],Az=[0,a("a stiffness for each joint in such a claim"),0],Ay=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ax=[0,a("a leaf that fails"),0],Au=a(na),Av=a(mi),Aw=a(fW),An=a(ie),Ag=a(fZ),Ah=a(m6),Ai=a(nH),Aj=[0,a(aw),0],Ak=a('a proof of the kind "'),Ac=a(ez),Ad=a(eD),Ae=a(f0),Af=a(nk),z_=a(a2),z$=a(f_),Aa=a(mj),Ab=a(f6),z7=a(nC),z8=a(eA),z9=a(f6),z3=a(nn),z4=a(f_),z5=a(f0),z6=a(nR),zX=a(nL),zY=a(m3),zZ=a(nI),z0=a(f3),z1=[0,a(aw),0],z2=a('the failure "'),zV=a(ie),zW=a(id),zr=a(ic),zs=a(hV),zp=a(mh),zq=a(mk),x8=a(eG),xY=a(hY),xZ=a(mm),x0=a(dG),x1=a(aT),x6=a(nF),x7=a(eG),x9=a(cV),x_=a(dG),x2=a(cV),x3=a(nc),x4=a(mN),x5=a(aT),xR=a(cU),xV=a(be),xW=a(bd),xS=a(h3),xT=a(h7),xU=a(cV),xL=a(cU),xP=a(be),xQ=a(bd),xM=a(h3),xN=a(h7),xO=a(cV),xK=[0,1],xJ=[0,1],xI=[0,1],xG=[0,1],xH=[0,a("this quantity of such a mechanism"),0],xq=a(hZ),xr=[0,a("a stiffness for each joint of such a mechanism"),0],xs=a(nv),xt=a(mB),xu=a(nP),xv=a("max_angle"),xw=[0,a("accuracy of a platform that turns"),0],xp=a(fW),xh=a(f4),w9=a(nh),w_=a(np),xz=a(fX),xA=a(mQ),xB=a(dF),xC=a(ni),xD=a(mt),xE=a(mu),xF=a(ml),w$=a(mq),xa=a(nA),xb=a(ns),xc=a(nW),xd=a(mw),xe=a(mv),xf=[0,a(aw),0],xg=a('the quantity "'),xi=a(mF),xj=a(nz),xk=a(be),xl=a(bd),xm=a(nN),xn=[0,a(aw),0],xo=a('a bound "'),xx=a(f5),xy=a(dG),w7=a(bx),w8=a(dJ),wM=a(bx),wN=a(gc),wO=a(eF),wP=a(gb),wQ=a(dJ),wT=a(aT),wU=a(bc),wV=a(ey),wW=a(dD),wX=a(aT),wY=a(bc),wZ=a(b4),w0=a(ey),w1=a(dD),w2=a(eF),w3=a(aT),w4=a(bc),w5=a(ng),w6=a(nu),wR=[0,a('" of such a machine'),0],wS=a(mA),wK=a(bx),wL=a(eF),wu=a(bx),wv=a(cW),ww=a(gb),wx=a(dJ),wA=a(gc),wB=a(aT),wC=a(bc),wD=a(ey),wE=a(dD),wF=a(aT),wG=a(bc),wH=a(b4),wI=a(b4),wy=[0,a(aw),0],wz=a(mA),wr=a(f8),ws=a(eB),wp=a(" is not covered by the verified checker"),wq=a(Q),wn=a(be),wo=a(bd),wj=a(Q),wk=a(nX),wl=a(Q),wm=a(Q),wi=[1,0],wg=a("Reader.Malformed"),wh=a("Reader.Not_covered"),AM=[0,a("a paving is checked by orthocert-verified")],AL=a(nj),AN=a("CERTIFIED"),AO=a("REFUTED"),AP=a(nj),AQ=a("NOT COVERED: ");function
-eM(a){throw[0,iA,a]}function
+CU(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){or(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)or(a.error)})}CU();function
+k(a,b){return a.length==1?a(b):cZ(a,[b])}function
+as(a,b,c){return a.length==2?a(b,c):cZ(a,[b,c])}function
+Ch(a,b,c,d){return a.length==3?a(b,c,d):cZ(a,[b,c,d])}Cw();var
+iK=[aH,a(m9),-2],iJ=[aH,a(oc),-4],Bc=[0,[0,0]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,0],Bf=[0,0],fP=[0,[1,0],0],lX=[0,[2,0],0],hF=[0,[1,0],0],lW=[0,[2,0],0],fN=[0,[1,0],0],hE=[0,[2,0],0],Bg=[0,[0,[0,[0,0]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],Bk=[0,[0,0]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,0]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],BK=[0,0],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],BP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],BQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],BY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BX]]]]]]]]]]],BZ=[0,[0,[0,[0,[0,0]]]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,0],B$=[0,[0,0]],Ca=[0,0],Cb=[0,[0,[0,[0,[0,0]]]]],jb=[0,[0,[0,0]]],cj=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fB=[0,[0,[0,[0,0]]]],Cc=[0,[0,[0,[0,[0,0]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]];bf(11,[aH,a(mB),-12],mB);bf(10,[aH,a(np),-11],np);bf(9,[aH,a(n7),-10],n7);bf(8,[aH,a(mN),-9],mN);bf(7,[aH,a(nC),-8],nC);bf(6,[aH,a(mL),-7],mL);bf(5,[aH,a(m_),-6],m_);bf(4,[aH,a(ne),-5],ne);bf(3,iJ,oc);bf(2,[aH,a(h$),-3],h$);bf(1,iK,m9);bf(0,[aH,a(nR),-1],nR);var
+oO=a("String.sub / Bytes.sub"),oQ=a(Q),oP=a("String.concat"),oR=a("Array.init"),oS=a("power"),o3=[0,0],o5=[0,0],o6=[0,[0,0]],o7=[0,[0,0]],pe=[0,0],pf=[0,0],pl=[0,0,0],pm=[0,0,0],pn=[0,0],pG=[0,0],pH=[0,0],pK=[0,0],p2=[0,0],p5=[0,0],p7=[0,0],p8=[0,0],qc=[0,0],qd=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qP=[0,0],q$=a(","),rr=[0,a(ig),0],rs=a(nk),rt=a("."),ru=[0,[0,[0,0]]],rv=a(eC),rw=a(ih),rx=[0,[0,[0,[0,[0,0]]]]],ry=[0,a(ig),0],rz=a(n$),up=a(my),ur=a(mv),uq=a(ns),us=a(dF),ut=a(f2),uu=a(ob),uv=a(n0),uw=a(m3),ux=a(nE),vG=[0,0],vH=a(h2),vI=[0,0],vJ=a("divided"),vK=[0,1],vL=a("mirror"),vM=[0,3],vN=a("negative"),vO=[0,2],vP=a(eB),vQ=[0,5],vR=a(ip),vS=[0,4],vT=a(f7),vU=a(mQ),vV=a(ez),vW=a(b4),vX=[0,0],vY=[0,0],vZ=[0,0],wB=a(Q),wy=[0,[0,[0,[0,0]]]],wz=[0,[0,[0,[0,0]]]],ww=[0,[0,[0,0]]],wv=[0,0],wu=a(ez),wt=[0,[0,[0,0]]],ws=[0,0],wp=[0,[0,0]],wq=[0,[0,[0,0]]],wl=[0,[0,[0,0]]],wk=[0,0,0],wj=[0,[0,[0,0]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],wh=[0,0],wb=[0,[0,0]],wc=[0,[0,[0,0]]],wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],we=[0,[0,0]],wf=[0,[0,[0,0]]],wa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],v_=[0,[0,0]],v$=[0,[0,[0,0]]],v8=[0,[0,[0,0]]],v9=[0,[0,0]],v5=[0,[0,0]],v6=[0,0],v3=[0,0],v4=[0,1],v2=[0,[0,0]],v1=[0,0],vD=[0,0],vE=[0,1],vF=[0,2],vz=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vx=[0,[0,0],0],vy=[0,[1,0],0],vA=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vv=[0,[0,0]],vw=[0,0],vu=[0,0],vt=[0,0],vs=[0,0],vr=[0,0,0],vq=[0,0,0],vo=[0,[0,[0,0]]],vp=[0,[0,[0,0]]],vn=[0,0],vl=[0,1,0],vc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],u$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],va=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],vb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]],ve=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BW]]]]]]]]]]],vf=a("sqrt"),u8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BY]]]]]]]]]]],u9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],uX=[0,a("\n"),0],uY=a(mw),uZ=a(f1),u0=a(no),u1=a(m7),u7=a(eE),u2=a(eA),u3=a("verdict"),u4=a(nS),u5=a(m0),u6=a(nn),uU=a(ni),uV=a(nV),uW=a(f4),uQ=a(ny),uR=a(f5),uS=a(eA),uT=a(eE),uL=a(gc),uM=a(a2),uN=a(mx),uO=a(f$),uI=a(nQ),uJ=a(eB),uK=a(f$),uE=a(nB),uF=a(gc),uG=a(f5),uH=a(n5),uz=a(nW),uA=a(nZ),uB=a(nf),uC=a(f8),un=a(h4),uo=a(im),ui=a(be),uj=a(bd),uk=a(m2),tU=a(f8),tV=a(nF),ty=a(a2),tz=a(by),tA=a(ge),tB=a(dI),tC=a(cX),tH=a(f0),tD=a(ii),tE=a(ik),tF=a(dE),tG=a(a2),tI=a(by),tJ=a(ge),tK=a(dI),tL=a(ii),tM=a(ik),tN=a(dE),tO=a(a2),tP=a(by),tQ=a(be),tR=a(bd),tS=a(cV),tT=a(dI),tW=a(nM),tX=a(nY),tY=a(gh),tZ=a(mR),t0=a(mW),t1=a(dE),t2=a(a2),t3=a(by),t4=a(fX),t5=a(m5),t6=a(dI),t7=a(eH),t8=a(mF),t9=a(dE),t_=a(a2),t$=a(fX),ua=a(a2),ub=a(nH),ue=a(mu),uc=a(mU),ud=a(n4),uf=a(eE),ug=a(eA),uh=a(a2),ul=a(gh),um=a(f4),ts=a(by),tt=a(iq),tu=a(dI),tv=a(f0),tw=a(dE),tg=a(eH),th=a(nT),ti=a(cW),tj=a(dG),tk=a(dG),tl=a(h7),tm=a(cW),tn=a(nq),to=a(m1),tp=a(aT),tr=a(mA),tq=a(h7),s8=a(nh),s9=a(oa),s_=a(mX),s$=a(mV),ta=a(n2),tb=a(nP),tc=a(m8),td=a(fY),te=a(fY),s4=a(aT),s5=a(bc),s6=a(dJ),s7=a(bx),s0=a(cX),s1=a(ic),s2=a(nz),sX=a(be),sY=a(bd),sZ=a(cV),sQ=a(be),sR=a(bd),sS=a(cV),sT=a(ie),sU=a(cW),sV=a(ia),sW=a(nL),sE=a(mT),sK=a(f1),sJ=a(n3),sF=a(h8),sG=a(f_),sL=a(h8),sM=a(f_),sN=a(mP),sO=a(nJ),sP=a(f_),sH=a(dG),sI=a(nv),sB=a(f9),sC=a(f9),sD=a(f9),sx=a(nN),sy=a(bd),sz=a(be),sA=a(n1),sj=a(mJ),sk=a(mz),sl=a(nD),sm=a(dF),sn=a(n_),so=a(nG),sp=a(mK),sq=a(nw),sr=a(mI),ss=a(m4),st=a(mH),su=a(nO),sv=a(f2),sw=a(mE),r0=a(ga),r2=a(eC),r1=a(ey),r3=a(dD),r4=a(aT),r5=a(bc),r6=a(b4),r7=a(gf),r8=a(bx),r9=a(aT),r_=a(bc),r$=a(dJ),sa=a(bx),sb=a(dD),sc=a(eG),sd=a(aT),se=a(bc),sf=a(nu),sg=a(nI),sh=a(eG),si=a(bx),rI=a(ga),rQ=a(eC),rJ=a(ey),rK=a(dD),rL=a(aT),rM=a(bc),rN=a(b4),rO=a(gf),rP=a(bx),rR=a(gg),rS=a(aT),rT=a(bc),rU=a(dJ),rV=a(bx),rW=a(b4),rX=a(cX),rY=a(bx),rF=a(be),rG=a(bd),rD=[0,a(aw),0],rE=a(aw),rB=a(Q),rA=[0,a(aw),0],rC=a(aw),rn=a(ga),ro=a(eC),rp=a("*"),rq=a(bz),ri=[0,[0,[0,[0,[0,0]]]]],rj=[0,[0,[0,0]]],rk=[0,[0,0]],rl=[0,0],rm=[0,[0,[0,[0,0]]]],rg=a('":'),rh=a(aw),re=[0,a(aw),0],rf=a(aw),rc=[0,a("}"),0],rd=a("{"),ra=[0,a("]"),0],rb=a("["),q_=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q7=[0,0],q4=[0,[0,[0,0]]],q5=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q2=[0,[0,0]],q3=[0,[0,[0,0]]],qZ=[0,0],q0=[0,[0,[0,[0,[0,[0,0]]]]]],q1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],qW=[0,0],qT=[0,0,0],qU=[0,0,0],qV=[0,0,0],qQ=[0,[0,0]],qR=[0,[0,[0,0]]],qS=[0,0],qF=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qH=[0,[0,[0,0]]],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],qN=[0,[0,[0,0]]],qO=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,0]],qE=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,0]],qs=[0,0],qt=[0,0],qo=[0,[0,0]],qp=[0,0],qq=[0,0],qr=[0,[0,0]],qf=[0,[0,0]],qg=[0,0],qh=[0,[0,0]],qi=[0,0],qj=[0,0],qk=[0,[0,0]],ql=[0,[0,0]],qm=[0,[0,0]],qn=[0,0],qb=[0,0],qa=[0,0],p$=[0,[0,[0,0]]],p_=[0,[0,[0,[0,[0,[0,0]]]]]],p6=[0,[0,[0,0]]],p3=[0,[0,[0,0]]],p1=[0,[0,[0,0]]],pZ=[0,[0,[0,[0,[0,[0,0]]]]]],p0=[0,[0,[0,[0,[0,[0,0]]]]]],pV=[0,[0,0]],pW=[0,0],pX=[0,[0,[0,0]]],pY=[0,[0,[0,0]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pP=[0,[0,[0,[0,[0,[0,0]]]]]],pQ=[0,[0,[0,[0,[0,[0,0]]]]]],pR=[0,[0,[0,0]]],pS=[0,[0,[0,[0,[0,[0,0]]]]]],pT=[0,[0,[0,0]]],pU=[0,[0,[0,0]]],pM=[0,[0,0]],pN=[0,0],pL=[0,0,0],pJ=[0,0,0],pI=[0,[0,[0,0]]],pE=[0,0],pF=[0,0],pz=[0,[0,[0,0]]],pA=[0,[0,[0,0]]],pB=[0,[0,[0,0]]],py=[0,[0,[0,[0,0]]]],pu=[0,[0,[0,0]]],pv=[0,[0,[0,0]]],pw=[0,[0,[0,0]]],px=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ps=[0,[0,0]],pt=[0,0],pq=[0,[0,0]],pr=[0,0],po=[0,[0,0]],pp=[0,0],o_=[0,0],o$=[0,[0,0]],pa=[0,0],pb=[0,[0,0]],o8=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],o4=[0,0,0],o2=a(io),o1=a(Q),o0=[0,[0,0]],oZ=[0,0],oW=[0,0],oY=[1,0],oX=[0,0],oV=[0,0],oT=[1,0],oU=[1,0],wr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],zD=a(be),zE=a(bd),zF=a(m2),zt=a(gg),zu=[0,a("a base axis of such a platform"),0],zv=a(aT),zw=a(bc),zg=a(nP),zh=a(nh),zi=a(n2),zj=a(fY),zk=a(m8),zl=a(fY),zm=a(oa),zn=a(mX),zo=a(mV),y8=a(nF),y9=a(f8),yv=a(f4),yw=a(a2),yx=a(nH),yy=a(n4),yB=a(mU),yC=a(mu),yD=a(a2),yE=a(a2),yG=a(fX),yF=[0,a("a claim that no cube of such a machine fits"),0],yH=a(dE),yI=a(dI),yJ=a(f0),yK=a(iq),zC=[0,a(m$),0],yL=a(cX),yM=a(ic),yN=a(nz),yO=a(ge),yP=a(mW),yQ=a(mF),yR=a(f0),yU=a(cV),yV=a(nL),yY=a(iq),yZ=a(by),y0=[0,a(m$),0],y1=a(by),y2=a(m5),y3=a(by),y4=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],y5=a(fX),y6=a(eH),y7=a(cV),y_=a(by),y$=a(be),za=a(bd),zb=a(nM),zc=a(nY),zd=a(gh),ze=a(mR),yS=[0,a(aw),0],yT=a('the mechanism "'),zf=a(ii),zp=a(ge),zq=a(cX),zr=a(ic),zs=a(ik),zx=a(by),zy=[0,a('"one_to_one" of this set of orientations'),0],zB=a(cX),zz=[0,a("a platform that turns on struts and other drives"),0],zA=a(by),yW=[0,a(aw),0],yX=a('the workspace "'),zG=a(a2),zH=a(a2),zJ=a(eE),zK=a(eA),zL=a(gh),zI=[0,a("an atlas of such a machine"),0],yz=[0,a(aw),0],yA=a('a claim of the kind "'),zQ=a(ob),zX=a(f2),zY=a(dF),zZ=a(m3),z0=a(ns),z1=a(b4),z2=a(im),z3=a(h4),z4=a(b4),z5=a(io),zR=a(f7),zS=a(mQ),zT=a(ez),zU=a(nE),zV=[0,a(aw),0],zW=a('the evidence "'),z6=a(dF),z7=a(f7),z8=a(ez),z9=a(n0),z$=a(dF),Aa=a(f7),Ab=a(ez),Ac=a(eB),Ad=a(h2),Ae=a(eB),Af=a(h2),z_=[0,a("this evidence at control points"),0],A7=a('"orthocert-paving/'),AM=a(nn),AN=a(m0),AO=a(nS),A5=[0,3,3],AP=a(m7),AZ=[0,a("this set of orientations with such drives"),0],A0=[0,a(nd),0],A3=[0,a(nd),0],A4=[0,a("a mechanism by formulas in a claim that is refuted"),0],A1=[0,a('the evidence "tolerances" of such a mechanism'),0],A2=[0,a("a step of a platform that turns that is not at control points"),0],AQ=[0,a("the acceleration of a joint of a machine with a plane"),0],AY=[0,a("this quantity in a claim that is refuted"),0],AX=[0,a("a step in a proof that no cube fits"),0],AW=[0,a("a stiffness for each joint in such a claim"),0],AV=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],AU=[0,a("a leaf that fails"),0],AR=a(no),AS=a(mw),AT=a(f1),AK=a(ip),AD=a(f4),AE=a(ni),AF=a(nV),AG=[0,a(aw),0],AH=a('a proof of the kind "'),Az=a(eA),AA=a(eE),AB=a(f5),AC=a(ny),Av=a(a2),Aw=a(gc),Ax=a(mx),Ay=a(f$),As=a(nQ),At=a(eB),Au=a(f$),Ao=a(nB),Ap=a(gc),Aq=a(f5),Ar=a(n5),Ai=a(nZ),Aj=a(nf),Ak=a(nW),Al=a(f8),Am=[0,a(aw),0],An=a('the failure "'),Ag=a(ip),Ah=a(io),zO=a(im),zP=a(h4),zM=a(mv),zN=a(my),ys=a(eH),yi=a(h7),yj=a(mA),yk=a(dG),yl=a(aT),yq=a(nT),yr=a(eH),yt=a(cW),yu=a(dG),ym=a(cW),yn=a(nq),yo=a(m1),yp=a(aT),yb=a(cV),yf=a(be),yg=a(bd),yc=a(ia),yd=a(ie),ye=a(cW),x7=a(cV),x$=a(be),ya=a(bd),x8=a(ia),x9=a(ie),x_=a(cW),x6=[0,1],x5=[0,1],x4=[0,1],x2=[0,1],x3=[0,a("this quantity of such a mechanism"),0],xM=a(h8),xN=[0,a("a stiffness for each joint of such a mechanism"),0],xO=a(nJ),xP=a(mP),xQ=a(n3),xR=a("max_angle"),xS=[0,a("accuracy of a platform that turns"),0],xL=a(f1),xD=a(f9),xt=a(nv),xu=a(nD),xV=a(f2),xW=a(m4),xX=a(dF),xY=a(nw),xZ=a(mH),x0=a(mI),x1=a(mz),xv=a(mE),xw=a(nO),xx=a(nG),xy=a(n_),xz=a(mK),xA=a(mJ),xB=[0,a(aw),0],xC=a('the quantity "'),xE=a(mT),xF=a(nN),xG=a(be),xH=a(bd),xI=a(n1),xJ=[0,a(aw),0],xK=a('a bound "'),xT=a(f_),xU=a(dG),xr=a(bx),xs=a(dJ),w8=a(bx),w9=a(gg),w_=a(eG),w$=a(gf),xa=a(dJ),xd=a(aT),xe=a(bc),xf=a(ey),xg=a(dD),xh=a(aT),xi=a(bc),xj=a(b4),xk=a(ey),xl=a(dD),xm=a(eG),xn=a(aT),xo=a(bc),xp=a(nu),xq=a(nI),xb=[0,a('" of such a machine'),0],xc=a(mO),w6=a(bx),w7=a(eG),wQ=a(bx),wR=a(cX),wS=a(gf),wT=a(dJ),wW=a(gg),wX=a(aT),wY=a(bc),wZ=a(ey),w0=a(dD),w1=a(aT),w2=a(bc),w3=a(b4),w4=a(b4),wU=[0,a(aw),0],wV=a(mO),wN=a(ga),wO=a(eC),wL=a(" is not covered by the verified checker"),wM=a(Q),wJ=a(be),wK=a(bd),wF=a(Q),wG=a(n$),wH=a(Q),wI=a(Q),wE=[1,0],wC=a("Reader.Malformed"),wD=a("Reader.Not_covered"),A9=[0,a("a paving is checked by orthocert-verified")],A8=a(nx),A_=a("CERTIFIED"),A$=a("REFUTED"),Ba=a(nx),Bb=a("NOT COVERED: ");function
+eN(a){throw[0,iJ,a]}function
 aP(d,c){var
-a=am(d),e=am(c),b=bN(a+e|0);dL(d,0,b,0,a);dL(c,0,b,a,e);return gk(b)}Co(0);oj(1);oj(2);function
-iC(b){function
+a=am(d),e=am(c),b=bO(a+e|0);dL(d,0,b,0,a);dL(c,0,b,a,e);return go(b)}CL(0);ox(1);ox(2);function
+iL(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Cn(d)}catch(a){a=ot(a);if(a[1]!==iB)throw a;var
+c=a[2],d=a[1];try{CK(d)}catch(a){a=oH(a);if(a[1]!==iK)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Cp(0))}Cw(a(mo),iC);function
-bO(c){var
+a=c;continue}return 0}}return a(CM(0))}CT(a(mC),iL);function
+b9(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-S(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,S(b,c)]}return 0}function
-gm(d,c){var
+iM(d){var
+a=d,b=0;for(;;){if(a){var
+c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
+R(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,R(b,c)]}return 0}function
+gq(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-ax(d,c){var
+aB(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bg(b,c){var
-a=bN(b);B9(a,0,b,c);return gk(a)}function
-c4(g,b,a){var
-d=dM(g),f=0;if(0<=b&&0<=a&&!((gi(d)-a|0)<b)){var
-c=bN(a);eH(d,b,c,0,a);var
+a=bO(b);Cu(a,0,b,c);return go(a)}function
+c5(g,b,a){var
+d=dM(g),f=0;if(0<=b&&0<=a&&!((gm(d)-a|0)<b)){var
+c=bO(a);eI(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eM(oA);return gk(e)}function
-iD(k,g){if(g){var
+e=eN(oO);return go(e)}function
+iN(k,g){if(g){var
 h=am(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eM(oB),c=n,b=m;continue}var
+j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eN(oP),c=n,b=m;continue}var
 l=am(i)+c|0}else
 var
 l=c;var
-f=bN(l),e=p,d=g;for(;;){if(d){var
+f=bO(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];dL(a,0,f,e,am(a));dL(k,0,f,e+am(a)|0,h);var
-e=(e+am(a)|0)+h|0,d=o;continue}dL(a,0,f,e,am(a))}return gk(f)}}}return oC}function
-gn(b,c){if(0===b)return[0];if(0<=b){var
-d=Cm(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+am(a)|0)+h|0,d=o;continue}dL(a,0,f,e,am(a))}return go(f)}}}return oQ}function
+gr(b,c){if(0===b)return[0];if(0<=b){var
+d=CJ(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eM(oD)}function
-go(c){var
+a=g;continue}break}}return d}return eN(oR)}function
+gs(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aD(0),c=aD(1);function
-q(a){return x(a,c)}function
-iE(b,a){return x(aD(b),a)}function
-b(b,a){return v(aD(b),a)}function
-aU(b,a){return[0,ix(b,a),ow(b,a)]}function
-gp(b,a){return G(b,a)?b:a}function
+d=aD(0),b=aD(1);function
+q(a){return x(a,b)}function
+iO(b,a){return x(aD(b),a)}function
+c(b,a){return v(aD(b),a)}function
+aU(b,a){return[0,iG(b,a),oK(b,a)]}function
+gt(b,a){return G(b,a)?b:a}function
 bh(b,a){return G(b,a)?a:b}function
-ai(a){return a?0:1}function
+ac(a){return a?0:1}function
 y(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
 aJ(a){return a[1]}function
-b9(a){return a[2]}function
+b_(a){return a[2]}function
 i(a){var
 b=a?[0,i(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iF(a){return typeof
-a==="number"?0:[0,iF(a[1])]}function
-iG(d,c){var
+iP(a){return typeof
+a==="number"?0:[0,iP(a[1])]}function
+iQ(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -792,9 +795,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eN(a){return iG(a,0)}function
-iH(a){if(typeof
-a==="number")return oF;else
+eO(a){return iQ(a,0)}function
+iR(a){if(typeof
+a==="number")return oT;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -804,9 +807,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,iH(a[1])]}}function
+8:return[9,a[1]];default:return[0,iR(a[1])]}}function
 bj(a){if(typeof
-a==="number")return oG;else
+a==="number")return oU;else
 switch(a[0]){case
 0:return[1,bi(a[1])];case
 1:return[3,bi(a[1])];case
@@ -829,10 +832,10 @@ switch(a[0]){case
 6:return[2,bj(a[1])];case
 7:return[4,bj(a[1])];case
 8:return[6,bj(a[1])];default:return[8,bj(a[1])]}}function
-bA(a){return a?a[1]:a}function
+bB(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
 dR(a,b){return a?N(b,dR(a[1],b)):a}function
-b_(b,a){return b?a:a?0:1}function
+b$(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
@@ -840,138 +843,138 @@ Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 dS(b,a){return Z([0,b],a)}function
-iI(c){var
+iS(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eO(c,b,a){return c?k(b,eO(c[1],b,a)):a}function
-iJ(a){if(a)var
-b=a[1],d=b?[0,iJ(b[1])]:b,c=d;else
+eP(c,b,a){return c?k(b,eP(c[1],b,a)):a}function
+iT(a){if(a)var
+b=a[1],d=b?[0,iT(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iK(b,a){return bh(c,aB(b,a))}function
-eP(a){if(G(a,c))return oI;var
-b=aU(a,aD(2)),e=b[1];return Y(b[2],d)?[0,eP(e)]:[0,eP(e)]}function
-eQ(a){if(G(a,c))return c;var
-b=aU(a,aD(2)),e=b[1];return Y(b[2],d)?q(eQ(e)):q(eQ(e))}function
-iL(c,b){var
-a=iw(c,b);return 0===a?0:0<=a?2:1}function
-gq(j,i){var
-b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Y(aU(a,aD(2))[2],d)?0:0;var
-g=aU(b,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,c))return 0;var
+iU(c,a){return bh(b,aA(c,a))}function
+eQ(a){if(G(a,b))return oW;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eQ(e)]:[0,eQ(e)]}function
+eR(a){if(G(a,b))return b;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?q(eR(e)):q(eR(e))}function
+iV(c,b){var
+a=iF(c,b);return 0===a?0:0<=a?2:1}function
+gu(j,i){var
+c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
+g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,b))return 0;var
 e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
-b=h,a=k;continue}return 0}if(G(a,c))return 0;var
+c=h,a=k;continue}return 0}if(G(a,b))return 0;var
 f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
-b=h,a=l;continue}}function
-eR(b,a){return 2<=iL(b,a)?0:1}function
-c5(i,e,a){if(i){var
-f=i[1];if(G(e,c))return[0,c,[0,c,a]];var
-w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
+c=h,a=l;continue}}function
+eS(b,a){return 2<=iV(b,a)?0:1}function
+c6(i,e,a){if(i){var
+f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
+w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
 m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
-j=c5(f,g,B),y=j[2];return[0,b(2,j[1]),y]}var
-k=c5(f,g,a),l=k[2],z=l[2],A=[0,b(2,l[1]),z];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
+j=c6(f,g,B),y=j[2];return[0,c(2,j[1]),y]}var
+k=c6(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(G(a,b))return[0,b,[0,e,b]];var
 v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=c5(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iL(g,h)){case
-0:return[0,e,[0,c,c]];case
+n=c6(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iV(g,h)){case
+0:return[0,e,[0,b,b]];case
 1:var
-p=c5(f,iK(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=c5(f,iK(g,h),a),t=s[2],u=t[2],E=[0,x(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-eS(b,a){var
-c=eP(a);return c5(N(eP(b),c),b,a)}function
-iM(b,i,h){var
-e=i,a=h;for(;;){if(G(e,c))return a;var
+p=c6(f,iU(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=c6(f,iU(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+eT(b,a){var
+c=eQ(a);return c6(N(eQ(b),c),b,a)}function
+iW(c,i,h){var
+e=i,a=h;for(;;){if(G(e,b))return a;var
 f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=as(b,a,a);continue}return as(b,a,iM(b,g,as(b,a,a)))}}function
-dT(a){return iM(N,a,oJ)}function
-gr(a){return a?q(gr(a[1])):c}function
+e=g,a=as(c,a,a);continue}return as(c,a,iW(c,g,as(c,a,a)))}}function
+dT(a){return iW(N,a,oX)}function
+gv(a){return a?q(gv(a[1])):b}function
 bP(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=v(b(2,q(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=v(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=x(c,v(b(2,q(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=x(b,v(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=v(b(2,q(b(2,b(2,c)))),d),j=x(b(2,c),i),a=a[1],d=j;continue;case
+i=v(c(2,q(c(2,c(2,b)))),d),j=x(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=v(b(2,q(b(2,b(2,c)))),d),l=x(q(b(2,c)),k),a=a[1],d=l;continue;case
+k=v(c(2,q(c(2,c(2,b)))),d),l=x(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=v(b(2,q(b(2,b(2,c)))),d),n=x(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=v(c(2,q(c(2,c(2,b)))),d),n=x(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=v(b(2,q(b(2,b(2,c)))),d),p=x(q(b(2,b(2,c))),o),a=a[1],d=p;continue;case
+o=v(c(2,q(c(2,c(2,b)))),d),p=x(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=v(b(2,q(b(2,b(2,c)))),d),s=x(b(2,q(b(2,c))),r),a=a[1],d=s;continue;case
+r=v(c(2,q(c(2,c(2,b)))),d),s=x(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=v(b(2,q(b(2,b(2,c)))),d),u=x(q(b(2,q(b(2,c)))),t),a=a[1],d=u;continue;case
+t=v(c(2,q(c(2,c(2,b)))),d),u=x(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-w=v(b(2,q(b(2,b(2,c)))),d),y=x(b(2,b(2,b(2,c))),w),a=a[1],d=y;continue;default:var
-z=v(b(2,q(b(2,b(2,c)))),d),A=x(q(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-gs(a){if(G(a,c))return oK;var
-b=aU(a,aD(2)),e=b[1];return Y(b[2],d)?bi(gs(e)):bj(gs(e))}function
-eT(a){return eN(gs(a))}function
-iN(k,f){if(0<=a3(f)){var
-g=iy(f);if(0<=g){var
-e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eM(oE)}return d}function
-gt(b){var
-a=a3(b);return 0===a?d:0<a?c:M(c)}function
-iO(a){return 0<=a3(a)?a:d}function
+w=v(c(2,q(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
+z=v(c(2,q(c(2,c(2,b)))),d),A=x(q(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
+gw(a){if(G(a,b))return oY;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bi(gw(e)):bj(gw(e))}function
+eU(a){return eO(gw(a))}function
+iX(k,f){if(0<=a3(f)){var
+g=iH(f);if(0<=g){var
+e=b,c=k,a=g;for(;;){if(0===a)return e;var
+h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eN(oS)}return d}function
+gx(c){var
+a=a3(c);return 0===a?d:0<a?b:M(b)}function
+iY(a){return 0<=a3(a)?a:d}function
 dU(a){var
-b=a3(a);return 0===b?c:0<b?a:c}function
-iP(m){var
+c=a3(a);return 0===c?b:0<c?a:b}function
+iZ(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bP(a[1],c);case
+1:return bP(a[1],b);case
 2:var
-e=b(2,c);return bP(a[1],e);case
+e=c(2,b);return bP(a[1],e);case
 3:var
-f=q(b(2,c));return bP(a[1],f);case
+f=q(c(2,b));return bP(a[1],f);case
 4:var
-g=b(2,b(2,c));return bP(a[1],g);case
+g=c(2,c(2,b));return bP(a[1],g);case
 5:var
-h=q(b(2,b(2,c)));return bP(a[1],h);case
+h=q(c(2,c(2,b)));return bP(a[1],h);case
 6:var
-i=b(2,q(b(2,c)));return bP(a[1],i);case
+i=c(2,q(c(2,b)));return bP(a[1],i);case
 7:var
-j=q(b(2,q(b(2,c))));return bP(a[1],j);case
+j=q(c(2,q(c(2,b))));return bP(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bP(a[1],k);default:var
-l=q(b(2,b(2,b(2,c))));return bP(a[1],l)}}function
-b$(b,a){var
-c=a3(a);return 0===c?d:1===c?ix(b,a):iE(-1,ix(iE(-1,b),a))}function
-eU(a){return 0<a3(a)?CG(a):d}function
+k=c(2,c(2,c(2,b)));return bP(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return bP(a[1],l)}}function
+ca(b,a){var
+c=a3(a);return 0===c?d:1===c?iG(b,a):iO(-1,iG(iO(-1,b),a))}function
+eV(a){return 0<a3(a)?C3(a):d}function
 dV(b,c){var
-a=iy(c);return 0<=a?ox(b,a):oy(b,-a|0)}function
-ct(b,c){var
-a=iy(c);return 0<=a?oy(b,a):ox(b,-a|0)}function
-bB(b,a){return a?a[1]:b}function
-ca(a){var
+a=iH(c);return 0<=a?oL(b,a):oM(b,-a|0)}function
+cu(b,c){var
+a=iH(c);return 0<=a?oM(b,a):oL(b,-a|0)}function
+bC(b,a){return a?a[1]:b}function
+cb(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-W(d,c){var
+X(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-iQ(a){if(a){var
-b=[0,a[1],0];return f(iQ(a[2]),b)}return a}function
-iR(d,c){var
+i0(a){if(a){var
+b=[0,a[1],0];return f(i0(a[2]),b)}return a}function
+i1(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-iS(a){if(a){var
-b=iS(a[2]);return f(a[1],b)}return a}function
+i2(a){if(a){var
+b=i2(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
-A(b,a){if(a){var
-c=A(b,a[2]);return f(k(b,a[1]),c)}return a}function
-c6(e,d,c){var
+z(b,a){if(a){var
+c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
+c7(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 bk(c,b,a){if(a){var
@@ -987,11 +990,11 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-cu(b,e){var
+bD(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,cu(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,bD(b,c)];var
 a=c;continue}return a}}function
-iT(d,c){var
+i3(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1001,52 +1004,52 @@ var
 c=a;else
 var
 c=b;return c}function
-c7(b,a){if(b)if(a)var
-d=c7(b[1],a[2]),c=[0,a[1],d];else
+cv(b,a){if(b)if(a)var
+d=cv(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eV(d,c){var
+eW(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aV(b,a){var
 c=a?[0,b,aV([0,b],a[1])]:a;return c}function
 aL(b,a){var
 c=a?[0,b,aL(b,a[1])]:a;return c}function
-iU(a){if(a){var
-e=iU(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return x(g,f)}return d}function
-eW(j){function
+i4(a){if(a){var
+e=i4(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
+eX(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=iU([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dT(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=i4([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dT(b):0}function
 c8(c,b){var
-a=iw(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=iF(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 c9(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
 c_(b,a){return[0,x(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
 bQ(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-iV(a){return[0,M(a[1]),a[2]]}function
-eX(b,a){return c_(b,iV(a))}function
-gu(f,b){var
-a=b[1],e=a3(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,M(b[2]),M(a)];return bQ(f,g)}function
-eY(q){var
+i5(a){return[0,M(a[1]),a[2]]}function
+eY(b,a){return c_(b,i5(a))}function
+gy(f,c){var
+a=c[1],e=a3(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,M(c[2]),M(a)];return bQ(f,g)}function
+eZ(q){var
 a=q[2],b=q[1],o=a3(b);if(0===o)var
-c=[0,c3(a),[0,d,gt(a)]];else
+c=[0,c4(a),[0,d,gx(a)]];else
 if(0<o){var
 n=a3(a);if(0===n)var
-c=[0,c3(b),[0,gt(b),d]];else
+c=[0,c4(b),[0,gx(b),d]];else
 if(0<n)var
-l=eS(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=eT(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=eS(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
+j=eT(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
 p=M(b),i=a3(a);if(0===i)var
-c=[0,c3(b),[0,gt(b),d]];else
+c=[0,c4(b),[0,gx(b),d]];else
 if(0<i)var
-g=eS(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
+g=eT(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
 var
-e=eS(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
+e=eT(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
 r=c[2],s=dU(r[2]);return[0,r[1],s]}function
 aW(a){if(typeof
-a==="number")return oN;else
+a==="number")return o1;else
 switch(a[0]){case
 0:var
 b=aW(a[1]);return aP(bg(1,48),b);case
@@ -1068,50 +1071,50 @@ i=aW(a[1]);return aP(bg(1,55),i);case
 j=aW(a[1]);return aP(bg(1,56),j);default:var
 k=aW(a[1]);return aP(bg(1,57),k)}}function
 dW(a){return typeof
-a==="number"?oO:aW(a)}function
-cv(a){return iN(b(2,c),a)}function
-iW(b,a){return ct(a,b)}function
-iX(b,a){return M(ct(M(a),b))}function
-eZ(b,a){return M(b$(M(b),a))}function
+a==="number"?o2:aW(a)}function
+cw(a){return iX(c(2,b),a)}function
+i6(b,a){return cu(a,b)}function
+i7(b,a){return M(cu(M(a),b))}function
+e0(b,a){return M(ca(M(b),a))}function
 $(c,b){var
 a=dV(b,c);return[0,a,a]}function
-iY(d,c,a){var
-b=dV(c,d),e=eZ(b,a);return[0,b$(b,a),e]}function
+i8(d,c,a){var
+b=dV(c,d),e=e0(b,a);return[0,ca(b,a),e]}function
 B(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
-J(b,a){return[0,aB(b[1],a[2]),aB(b[2],a[1])]}function
-ae(a){return[0,M(a[2]),M(a[1])]}function
-iZ(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
-f=bh(v(e,b),v(c,a));return[0,gp(v(e,a),v(c,b)),f]}function
+J(b,a){return[0,aA(b[1],a[2]),aA(b[2],a[1])]}function
+af(a){return[0,M(a[2]),M(a[1])]}function
+i9(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
+f=bh(v(e,b),v(c,a));return[0,gt(v(e,a),v(c,b)),f]}function
 w(c,b,a){var
-d=iZ(b[1],b[2],a[1],a[2]),e=iX(c,d[2]);return[0,iW(c,d[1]),e]}function
-R(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=iX(b,bh(c,e)),g=0;if(V(a[1],d)&&V(d,a[2])){var
+d=i9(b[1],b[2],a[1],a[2]),e=i7(c,d[2]);return[0,i6(c,d[1]),e]}function
+S(b,a){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=i7(b,bh(c,e)),g=0;if(W(a[1],d)&&W(d,a[2])){var
 f=d;g=1}if(!g)var
-f=iW(b,gp(c,e));return[0,f,h]}function
-gv(b,a){var
-c=dV(cv(b),b),d=eZ(c,a[1]);return[0,b$(c,a[2]),d]}function
-cb(b,a){if(V(d,a[1]))return[0,gv(b,a)];var
-c=V(a[2],d),e=c?[0,ae(gv(b,ae(a)))]:c;return e}function
-cw(f,b){var
-g=V(d,b[1]);if(g)var
-e=dV(b[2],f),a=eU(e),i=Y(v(a,a),e)?a:x(a,c),h=[0,[0,eU(dV(b[1],f)),i]];else
+f=i6(b,gt(c,e));return[0,f,h]}function
+gz(b,a){var
+c=dV(cw(b),b),d=e0(c,a[1]);return[0,ca(c,a[2]),d]}function
+cc(b,a){if(W(d,a[1]))return[0,gz(b,a)];var
+c=W(a[2],d),e=c?[0,af(gz(b,af(a)))]:c;return e}function
+cx(f,c){var
+g=W(d,c[1]);if(g)var
+e=dV(c[2],f),a=eV(e),i=Y(v(a,a),e)?a:x(a,b),h=[0,[0,eV(dV(c[1],f)),i]];else
 var
 h=g;return h}function
 aQ(f,d,c,b,a){if(b){if(a){var
 g=aQ(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cc(b,a){return ct(b,a)}function
+cd(b,a){return cu(b,a)}function
 a4(a,c,b){if(G(d,a)){var
-e=b[1],f=M(cc(M(v(a,b[2])),c));return[0,cc(v(a,e),c),f]}var
-g=b[2],h=M(cc(M(v(a,b[1])),c));return[0,cc(v(a,g),c),h]}function
+e=b[1],f=M(cd(M(v(a,b[2])),c));return[0,cd(v(a,e),c),f]}var
+g=b[2],h=M(cd(M(v(a,b[1])),c));return[0,cd(v(a,g),c),h]}function
 a5(a){var
-b=M(ct(M(a[2]),c));return[0,ct(a[1],c),b]}function
+c=M(cu(M(a[2]),b));return[0,cu(a[1],b),c]}function
 dX(c,b,a){var
-e=iZ(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=V(f,d)?a[2]:a[1],i=eZ(f,h),j=V(g,d)?a[1]:a[2];return[0,b$(g,j),i]}function
+e=i9(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=W(f,d)?a[2]:a[1],i=e0(f,h),j=W(g,d)?a[1]:a[2];return[0,ca(g,j),i]}function
 dY(a){return bh(a[2],M(a[1]))}var
 C=[0,d,d];function
-e0(a){return[0,a[1],a[1]]}function
+e1(a){return[0,a[1],a[1]]}function
 c$(a){return[0,a[2],a[2]]}function
-cx(b,a){switch(a[0]){case
+cy(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1151,7 +1154,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=b_(b[1],a[1]);if(j){var
+j=b$(b[1],a[1]);if(j){var
 k=aM(b[2],a[2]);if(k){var
 l=aM(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1160,15 +1163,15 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-e1(b){var
+e2(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aR(c,b){var
-a=e1(b);return a?Y(c,a[1]):a}function
-dZ(a){return V(c3(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=e2(b);return a?Y(c,a[1]):a}function
+dZ(a){return W(c4(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 l(a){return[0,[2,a]]}function
 F(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
-c=e1(b);if(c){var
-e=c[1],f=e1(a);if(f){var
+c=e2(b);if(c){var
+e=c[1],f=e2(a);if(f){var
 g=f[1];if(dZ(e)&&dZ(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bl(a){var
 b=a[1];switch(b[0]){case
@@ -1179,50 +1182,50 @@ s(b,a){if(aR(d,a))return b;if(aR(d,b))return bl(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 K(a){var
-c=e1(a);if(c){var
+c=e2(a);if(c){var
 b=c[1];return dZ(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return aM(a,b)?K(a):[0,[6,a,b]];return b}return a}function
-ak(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
-aE(a){return aR(c,a)?a:[0,[9,a]]}function
-i0(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bC(f,e,d,c){var
+p(a,c){if(!aR(d,a)&&!aR(b,c)){if(!aR(d,c)&&!aR(b,a))return aM(a,c)?K(a):[0,[6,a,c]];return c}return a}function
+ak(c,a){return aR(b,a)?c:[0,[7,c,a]]}function
+aE(a){return aR(b,a)?a:[0,[9,a]]}function
+i_(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bE(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cx(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cy(a){var
+g=b[1],h=[0,k(e,cy(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cz(a){var
 b=0;function
-c(a){return[0,a]}return bC(l(d),c,a,b)}function
-gw(b,a){if(a){if(aM(b,a[1]))return oP;var
-c=gw(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
+c(a){return[0,a]}return bE(l(d),c,a,b)}function
+gA(b,a){if(a){if(aM(b,a[1]))return o3;var
+c=gA(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
 bm(c,b){var
-a=gw(b,c),d=a?a[1]:a;return d}function
-cz(d,b){if(gw(d,b[1]))return b;var
+a=gA(b,c),d=a?a[1]:a;return d}function
+cA(d,b){if(gA(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cz(a[2],b),j=cz(a[3],i),c=cz(a[4],j);break;case
+i=cA(a[2],b),j=cA(a[3],i),c=cA(a[4],j);break;case
 5:case
 8:case
 9:var
-c=cz(a[1],b);break;case
+c=cA(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cz(a[1],b),c=cz(a[2],h)}var
-e=c[2],f=c[1],g=[0,cx(function(a){return bm(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+h=cA(a[1],b),c=cA(a[2],h)}var
+e=c[2],f=c[1],g=[0,cy(function(a){return bm(f,a)},a),e];return[0,[0,d,c[1]],g]}function
 da(a){var
-b=c6(function(b,a){return cz(a,b)},a,oQ),c=b[1],d=e(function(a){return bm(c,a)},a);return[0,iQ(b[2]),d]}function
-e2(a){return bk(function(b,a){return x(dY(b),a)},d,a)}function
+b=c7(function(b,a){return cA(a,b)},a,o4),c=b[1],d=e(function(a){return bm(c,a)},a);return[0,i0(b[2]),d]}function
+e3(a){return bk(function(b,a){return x(dY(b),a)},d,a)}function
 bR(b,c,a){var
-d=e2(a),e=gp(c[2],x(b[2],d)),f=e2(a);return[0,b,[0,bh(c[1],aB(b[1],f)),e],a]}function
-af(a){return[0,a,a,0]}function
-bD(b,a){var
+d=e3(a),e=gt(c[2],x(b[2],d)),f=e3(a);return[0,b,[0,bh(c[1],aA(b[1],f)),e],a]}function
+ag(a){return[0,a,a,0]}function
+bF(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aQ(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return bR(B(b[1],a[1]),g,f)}function
 a6(b,a){var
-c=a[3],d=b[3],e=aQ(function(a){return a},ae,J,d,c),f=J(b[2],a[2]);return bR(J(b[1],a[1]),f,e)}function
+c=a[3],d=b[3],e=aQ(function(a){return a},af,J,d,c),f=J(b[2],a[2]);return bR(J(b[1],a[1]),f,e)}function
 d0(a){var
-b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
+b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
 at(a,c,b){var
 d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
@@ -1230,11 +1233,11 @@ f=w(a,e,b);return a5(B(w(a,d,c),f))}function
 i(b){return a5(w(a,e,b))}var
 j=aQ(function(b){return a5(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bR(w(a,c[1],b[1]),k,j)}function
 d1(b,a){var
-c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=R(b,a[2]);return bR(R(b,a[1]),g,f)}function
-gx(a,b){var
-c=cw(a,b[1]);if(c){var
-g=c[1],d=cw(a,b[2]);if(d){var
-h=d[1],f=cb(a,B(h,g));if(f)var
+c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=S(b,a[2]);return bR(S(b,a[1]),g,f)}function
+gB(a,b){var
+c=cx(a,b[1]);if(c){var
+g=c[1],d=cx(a,b[2]);if(d){var
+h=d[1],f=cc(a,B(h,g));if(f)var
 l=b[3],m=f[1],i=[0,bR(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
@@ -1245,60 +1248,60 @@ k=j}else
 var
 k=c;return k}function
 db(a,c,b){var
-d=cb(a,b[1]);if(d){var
-f=cb(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return J(c,w(a,g,b))},n=function(b){return ae(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bR(g,w(a,c[2],h),p)];else
+d=cc(a,b[1]);if(d){var
+f=cc(a,b[2]);if(f)var
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return J(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bR(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cd(b,a){return a?k(b,a[1]):a}function
-e3(a){var
+ce(b,a){return a?k(b,a[1]):a}function
+e4(a){var
 b=e(a5,a[3]),c=a5(B(a[2],a[1]));return bR(a[1],c,b)}function
-i1(a,k,j,r,b){var
-l=e3(k),m=e3(j),g=e3(b[1]),h=e3(b[2]),s=at(a,l,h),t=a6(at(a,m,g),s),i=db(a,af($(a,c)),t);if(i)var
-f=i[1],n=at(a,a6(l,g),f),o=at(a,a6(m,h),f),d=function(c,b){return at(a,c,af(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bD(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bR(b[2][1],b[2][2],E),G=ae(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bR(b[1][1],b[1][2],H),F]];else
+i$(a,k,j,r,c){var
+l=e4(k),m=e4(j),g=e4(c[1]),h=e4(c[2]),s=at(a,l,h),t=a6(at(a,m,g),s),i=db(a,ag($(a,b)),t);if(i)var
+f=i[1],n=at(a,a6(l,g),f),o=at(a,a6(m,h),f),d=function(c,b){return at(a,c,ag(b))},u=j[3],v=k[3],x=function(b,a){var
+c=d(o,a);return bF(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bR(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bR(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-i2(a,e,d,k){var
-p=d1(a,d),f=bD(d1(a,e),p),g=a6(bD(f,af($(a,c))),k),l=at(a,af($(a,b(2,c))),f),q=d1(a,g),h=gx(a,a6(at(a,af($(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=at(a,m,d),i=db(a,bD(at(a,g,e),r),l);if(i)var
+ja(a,e,d,k){var
+p=d1(a,d),f=bF(d1(a,e),p),g=a6(bF(f,ag($(a,b))),k),l=at(a,ag($(a,c(2,b))),f),q=d1(a,g),h=gB(a,a6(at(a,ag($(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=at(a,m,d),i=db(a,bF(at(a,g,e),r),l);if(i)var
 s=at(a,m,e),j=db(a,a6(at(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cd(function(b){return i1(a,e,d,k,b)},o);return cd(function(b){return i1(a,e,d,k,b)},u)}function
+u=ce(function(b){return i$(a,e,d,k,b)},o);return ce(function(b){return i$(a,e,d,k,b)},u)}function
 bS(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-ce(b,j,i){var
-f=af(C);return function(a){switch(a[0]){case
+cf(b,j,i){var
+f=ag(C);return function(a){switch(a[0]){case
 0:return[0,t(a[1],j,f)];case
 1:return[0,t(a[1],i,f)];case
-2:return[0,af($(b,a[1]))];case
+2:return[0,ag($(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bS(function(b,a){return[0,bD(b,a)]},l,k);case
+k=a[2],l=a[1];return bS(function(b,a){return[0,bF(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return bS(function(b,a){return[0,a6(b,a)]},n,m);case
 5:var
-o=a[1];return cd(function(a){return[0,d0(a)]},o);case
+o=a[1];return ce(function(a){return[0,d0(a)]},o);case
 6:var
 p=a[2],q=a[1];return bS(function(c,a){return[0,at(b,c,a)]},q,p);case
 7:var
 r=a[2],s=a[1];return bS(function(a,c){return db(b,a,c)},s,r);case
 8:var
-u=a[1];return cd(function(a){return[0,d1(b,a)]},u);case
+u=a[1];return ce(function(a){return[0,d1(b,a)]},u);case
 9:var
-v=a[1];return cd(function(a){return gx(b,a)},v);default:var
+v=a[1];return ce(function(a){return gB(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=i2(b,c[1],d[1],e[1]),x=a[1]?b9:aJ;return y(x,w)}var
+w=ja(b,c[1],d[1],e[1]),x=a[1]?b_:aJ;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1316,10 +1319,10 @@ a=a[2];continue}}function
 bT(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gq(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gq(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gq(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=bT(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1334,7 +1337,7 @@ o=bT(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 bn(a,b){switch(b[0]){case
-0:return[0,iY(a,b[1],b[2])];case
+0:return[0,i8(a,b[1],b[2])];case
 1:return 0;case
 2:var
 c=bn(a,b[1]);if(c)var
@@ -1354,394 +1357,394 @@ o=g;return o;case
 5:var
 i=bn(a,b[1]);if(i){var
 j=bn(a,b[2]);if(j)var
-k=cb(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+k=cc(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
 var
 p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bn(a,b[1]);return l?cw(a,l[1]):l}}function
-e4(b,a){return iY(b,a[1],a[2])}function
+l=bn(a,b[1]);return l?cx(a,l[1]):l}}function
+e5(b,a){return i8(b,a[1],a[2])}function
 bo(a,d){if(d2(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dS(i,i3),k=j?c9(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,e4(a,bQ(eX(e,g),n)),0],p=f(aL(C,i),o),q=e4(a,e)[2],r=[0,e4(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,e4(a,bQ(c_(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dS(i,jb),k=j?c9(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,e5(a,bQ(eY(e,g),n)),0],p=f(aL(C,i),o),q=e5(a,e)[2],r=[0,e5(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,e5(a,bQ(c_(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bo(a,d[2]),u=bo(a,d[1]);return bS(function(b,a){return[0,bD(b,a)]},u,t);case
+t=bo(a,d[2]),u=bo(a,d[1]);return bS(function(b,a){return[0,bF(b,a)]},u,t);case
 3:var
 v=bo(a,d[2]),w=bo(a,d[1]);return bS(function(b,a){return[0,a6(b,a)]},w,v);case
 4:var
 m=d[2],h=d[1];if(bT(h,m)){var
-x=bo(a,h);return cd(function(b){return[0,d1(a,b)]},x)}var
+x=bo(a,h);return ce(function(b){return[0,d1(a,b)]},x)}var
 z=bo(a,m),A=bo(a,h);return bS(function(c,b){return[0,at(a,c,b)]},A,z);case
 5:var
 B=bo(a,d[2]),D=bo(a,d[1]);return bS(function(b,c){return db(a,b,c)},D,B);default:var
-E=bo(a,d[1]);return cd(function(b){return gx(a,b)},E)}return y(af,bn(a,d))}function
+E=bo(a,d[1]);return ce(function(b){return gB(a,b)},E)}return y(ag,bn(a,d))}function
 aX(b,a){if(d2(a)){var
 c=bo(b,a);return y(function(a){return a[2]},c)}return bn(b,a)}function
-i4(a){var
-e=bh(M(a),d);return dU(x(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-i5(a){return iO(x(i4(a),a))}function
-cf(f,a,e){var
-b=aX(x(f,i4(a)),e);if(b)var
-c=b[1],g=i5(a),h=M(cc(M(c[2]),g)),i=i5(a),d=[0,[0,cc(c[1],i),h]];else
+jc(a){var
+e=bh(M(a),d);return dU(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+jd(a){return iY(x(jc(a),a))}function
+cg(f,a,e){var
+b=aX(x(f,jc(a)),e);if(b)var
+c=b[1],g=jd(a),h=M(cd(M(c[2]),g)),i=jd(a),d=[0,[0,cd(c[1],i),h]];else
 var
 d=b;return d}function
-ag(d,a){var
-b=cf(d,a[2],a[1][1]);if(b)var
-c=cf(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+ah(d,a){var
+b=cg(d,a[2],a[1][1]);if(b)var
+c=cg(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gy(b,a){var
-c=M(cc(M(a[2]),b));return[0,cc(a[1],b),c]}function
-e5(b,a){var
-c=eZ(b[2],a);return[0,b$(b[1],a),c]}function
-gz(a,f,b){if(b){var
-d=b[1],g=gz(a,f,d),h=g[2],i=gr(N(dR(oS,d),oR)),j=v(gr(dR(oT,d)),i),e=e5(w(a,g[1],f),j),k=iI(b)?B(h,e):J(h,e);return[0,e,k]}var
-l=$(a,c);return[0,$(a,c),l]}function
-i6(f){var
-g=dT(f),e=oU[1],b=g,c=0,a=e;for(;;){if(b){var
+gC(b,a){var
+c=M(cd(M(a[2]),b));return[0,cd(a[1],b),c]}function
+e6(b,a){var
+c=e0(b[2],a);return[0,ca(b[1],a),c]}function
+gD(a,f,c){if(c){var
+d=c[1],g=gD(a,f,d),h=g[2],i=gv(N(dR(o6,d),o5)),j=v(gv(dR(o7,d)),i),e=e6(w(a,g[1],f),j),k=iS(c)?B(h,e):J(h,e);return[0,e,k]}var
+l=$(a,b);return[0,$(a,b),l]}function
+je(f){var
+g=dT(f),e=o8[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return N(oV,c)}}function
-i7(a,d){var
-g=cv(a),h=v(b(2,b(2,c)),g),e=G(d[2],h);if(e)var
-i=gz(a,d,dR(oX,N(i6(a),oW)))[2][2],f=[0,[0,gz(a,d,N(dR(oZ,i6(a)),oY))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return N(o9,c)}}function
+jf(a,d){var
+g=cw(a),h=v(c(2,c(2,b)),g),e=G(d[2],h);if(e)var
+i=gD(a,d,dR(o$,N(je(a),o_)))[2][2],f=[0,[0,gD(a,d,N(dR(pb,je(a)),pa))[2][1],i]];else
 var
 f=e;return f}function
-i8(i){function
+jg(i){function
 a(h){var
-m=b$(cv(i),h),g=dT(i),f=m,e=d,a=c;for(;;){if(g){var
-j=x(a,b(2,c)),k=x(e,b$(f,a)),l=M(b$(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(b(2,q(b(2,q(b(2,q(b(2,b(2,q(b(2,q(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(q(b(2,b(2,c))));return aB(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
-i9(e,a){var
+m=ca(cw(i),h),g=dT(i),f=m,e=d,a=b;for(;;){if(g){var
+j=x(a,c(2,b)),k=x(e,ca(f,a)),l=M(ca(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=v(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aA(v(c(2,c(2,c(2,c(2,b)))),g),f)}function
+jh(e,a){var
 f=G(d,a);if(f){var
-g=b(2,b(2,c));return i7(e,e5(R(e,[0,a,a]),g))}return f}function
-i_(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aB(i8(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=x(i8(a),n),e=i9(a,g);if(e){var
-f=i9(a,h);if(f)var
-i=V(d,e[1][1]),j=i?V(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return jf(e,e6(S(e,[0,a,a]),g))}return f}function
+ji(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aA(jg(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(jg(a),n),e=jh(a,g);if(e){var
+f=jh(a,h);if(f)var
+i=W(d,e[1][1]),j=i?W(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-i$(a,d){var
-b=R(a,d),e=$(a,c);return J(B(b,b),e)}function
+jj(a,d){var
+c=S(a,d),e=$(a,b);return J(B(c,c),e)}function
 dc(f,j){var
-e=aX(x(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=x(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=i_(a);if(d)var
-h=b(2,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))))),i=i7(a,R(a,e5(w(a,k,d[1]),h))),g=y(function(b){return i$(a,i$(a,b))},i);else
+e=aX(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ji(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=jf(a,S(a,e6(w(a,k,d[1]),h))),g=y(function(b){return jj(a,jj(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return y(function(a){return gy(l,a)},g)}return e}function
-ja(a,d){var
-e=i_(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return y(function(e){var
-f=b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))));return e5(w(a,d,gy(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-e6(d,a){return dc(d,[3,a,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c]])}function
-d3(b,a){switch(a[0]){case
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gC(l,a)},g)}return e}function
+jk(a,d){var
+e=ji(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return e6(w(a,d,gC(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+e7(d,a){return dc(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+d3(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
 m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,c_(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,eX(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,eY(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bQ(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return c8(a,[0,d,c])?0:[0,gu(b,a)]};break;default:var
-j=d3(b,a[1]);return j?k(b,j[1]):j}var
-h=d3(b,f);if(h){var
-i=d3(b,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return c8(a,[0,d,b])?0:[0,gy(c,a)]};break;default:var
+j=d3(c,a[1]);return j?k(c,j[1]):j}var
+h=d3(c,f);if(h){var
+i=d3(c,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-o0(a){return 0}function
-cA(a){return d3(o0,a)}function
-h(i,e,b){var
-f=cA(b);if(f){var
-g=f[1];return e?ai(c9(g,[0,d,c])):c9([0,d,c],g)}var
-a=aX(i,b);if(a){var
-h=a[1];return e?V(d,h[1]):G(d,h[1])}return a}function
-jb(c,b){var
+pc(a){return 0}function
+cB(a){return d3(pc,a)}function
+g(i,e,c){var
+f=cB(c);if(f){var
+g=f[1];return e?ac(c9(g,[0,d,b])):c9([0,d,b],g)}var
+a=aX(i,c);if(a){var
+h=a[1];return e?W(d,h[1]):G(d,h[1])}return a}function
+jl(c,b){var
 a=aX(c,b),d=a?1:a;return d}function
 a9(c,a,b){var
-d=bT(a,b),e=d?jb(c,a):d;return e?e:h(c,0,[3,b,a])}function
-o1(c){var
-a=eY(c),g=dU(eU(a[2])),b=[0,eU(a[1]),g],e=V(d,a[1]),f=e?c8(bQ(b,b),c):e,h=f?[0,b]:f;return h}function
-jc(a){if(a){var
-e=a[2],b=a[1];if(c8(bB([0,d,c],b),[0,d,c])){var
-g=jc(e);return y(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
-f=[0,[0,b,e]]}else
+d=bT(a,b),e=d?jl(c,a):d;return e?e:g(c,0,[3,b,a])}function
+pd(c){var
+a=eZ(c),g=dU(eV(a[2])),b=[0,eV(a[1]),g],e=W(d,a[1]),f=e?c8(bQ(b,b),c):e,h=f?[0,b]:f;return h}function
+jm(a){if(a){var
+e=a[2],c=a[1];if(c8(bC([0,d,b],c),[0,d,b])){var
+g=jm(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-jd(b,a){var
-e=aK(b,a),f=[0,d,c];return bk(function(a,b){return eY(c_(bQ(a[1],a[2]),b))},f,e)}function
-je(b,j){if(b){var
-f=b[1],g=jc(j);if(g){var
-h=g[1],a=h[1],k=function(b){var
-f=bB([0,d,c],a),g=gu(bB([0,d,c],b),f),h=ca(a),i=aK(ca(b),h);return e(function(a){var
-b=bQ(g,a[2]);return eY(eX(a[1],b))},i)},l=je(f,e(k,h[2]));return y(function(b){var
-e=bB([0,d,c],a);return[0,eY(gu(iV(jd(ca(a),b)),e)),b]},l)}var
-i=[0,[0,[0,c,c],aL([0,d,c],f)]]}else
+jn(c,a){var
+e=aK(c,a),f=[0,d,b];return bk(function(a,b){return eZ(c_(bQ(a[1],a[2]),b))},f,e)}function
+jo(c,j){if(c){var
+f=c[1],g=jm(j);if(g){var
+h=g[1],a=h[1],k=function(c){var
+f=bC([0,d,b],a),g=gy(bC([0,d,b],c),f),h=cb(a),i=aK(cb(c),h);return e(function(a){var
+b=bQ(g,a[2]);return eZ(eY(a[1],b))},i)},l=jo(f,e(k,h[2]));return y(function(c){var
+e=bC([0,d,b],a);return[0,eZ(gy(i5(jn(cb(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],aL([0,d,b],f)]]}else
 var
-i=b;return i}function
-jf(a){if(a){var
-b=d3(o1,a[1]);if(b)var
-c=jf(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+i=c;return i}function
+jp(a){if(a){var
+b=d3(pd,a[1]);if(b)var
+c=jp(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return o2}function
-jg(a){if(a){var
-b=jf(a[1]);if(b)var
-c=jg(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return pe}function
+jq(a){if(a){var
+b=jp(a[1]);if(b)var
+c=jq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return o3}function
-jh(h,l){var
-a=jg(l);if(a){var
-j=a[1],b=je(h,j);if(b){var
-e=b[1],f=u(i(e),h),g=f?ar(function(a){return ai(c8(a,[0,d,c]))},e):f;return g?n(function(a){return c8(jd(a,e),[0,d,c])},j):g}var
-k=b}else
+d=b;return d}return pf}function
+jr(h,l){var
+a=jq(l);if(a){var
+j=a[1],c=jo(h,j);if(c){var
+e=c[1],f=u(i(e),h),g=f?ar(function(a){return ac(c8(a,[0,d,b]))},e):f;return g?n(function(a){return c8(jn(a,e),[0,d,b])},j):g}var
+k=c}else
 var
 k=a;return k}function
-e7(a){return 0===a[0]?a[2]:a[1]}function
-o4(a){return a}function
-o5(a){return a}function
-o6(a,b){return aQ(o5,o4,B,a,b)}function
-o7(a){return a}function
-o8(a){return a}function
-cg(a,b){return aQ(o8,o7,o6,a,b)}function
-gA(b,a,c){if(a){var
+e8(a){return 0===a[0]?a[2]:a[1]}function
+pg(a){return a}function
+ph(a){return a}function
+pi(a,b){return aQ(ph,pg,B,a,b)}function
+pj(a){return a}function
+pk(a){return a}function
+ch(a,b){return aQ(pk,pj,pi,a,b)}function
+gE(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gA(b,f,c[2]),h=c[1],i=function(c,a){return J(c,dX(d,a,b))},j=function(a){return ae(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
-k=gA(b,f,0);return[0,e(function(a){return ae(dX(d,a,b))},a),k]}return c}function
-gB(a){if(a){var
+g=gE(b,f,c[2]),h=c[1],i=function(c,a){return J(c,dX(d,a,b))},j=function(a){return af(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
+k=gE(b,f,0);return[0,e(function(a){return af(dX(d,a,b))},a),k]}return c}function
+gF(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=V(d,c[1]),h=e?[0,gA(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=W(d,c[1]),h=e?[0,gE(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-ji(f,e){var
+js(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gB(b);if(c){var
+c=gF(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jj(d,b,a){if(b)if(a)var
-e=a[1],f=jj(d,b[2],a[2]),g=b_(d,b[1])?e0(e):c$(e),c=[0,g,f];else
+jt(d,b,a){if(b)if(a)var
+e=a[1],f=jt(d,b[2],a[2]),g=b$(d,b[1])?e1(e):c$(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jk(a,b){if(a)if(b)var
-d=jk(a[2],b[2]),c=[0,jj(a[1],a,b[1]),d];else
+ju(a,b){if(a)if(b)var
+d=ju(a[2],b[2]),c=[0,jt(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bp(a){if(a){var
-b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return o9}function
-e8(a){var
-b=i(a);if(ji(b,a))return 1;var
-c=bp(bA(b));return n(function(c){return ji(b,jk([0,0,c],a))},c)}function
+b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return pl}function
+e9(a){var
+b=i(a);if(js(b,a))return 1;var
+c=bp(bB(b));return n(function(c){return js(b,ju([0,0,c],a))},c)}function
 ap(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aS(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?B(a,d):J(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gC(c,b,a){var
+gG(c,b,a){var
 d=bp(c);return n(function(c){return k(a,k(ap(function(a){return aS(c,a)}),b))},d)}function
-gD(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a4(b,x(h,c),a)},k=gD(h,j,i),l=function(c,b){var
+gH(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a4(c,x(h,b),a)},k=gH(h,j,i),l=function(c,b){var
 d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
 var
-g=b;else
+g=c;else
 var
 g=d;return g}function
-e9(b,d,a,c){function
+e_(b,d,a,c){function
 e(c,d){var
 e=a4(d,b,a);return J(B(c,c),e)}function
-f(c){return ae(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
-e_(d,i,h,g){var
+f(c){return af(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
+e$(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=c$(e[2]),k=cg(a,gD(d,f,e9(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gE(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=c$(e[2]),k=ch(a,gH(d,f,e_(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gI(b,a){return[0,[0,0,b],a]}function
 dd(b,c,g,f,a){function
 d(a){if(a){var
-h=aL([0,ae(a[1][2]),0],b),c=e_(g,f,a[2],h),d=u(i(c),b);if(d)return e8(c);var
+h=aL([0,af(a[1][2]),0],b),c=e$(g,f,a[2],h),d=u(i(c),b);if(d)return e9(c);var
 e=d}else
 var
-e=a;return e}return gC(b,gE(c,a),d)}function
-gF(f,e){var
+e=a;return e}return gG(b,gI(c,a),d)}function
+gJ(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gB([0,[0,e0(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gF([0,[0,e1(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gG(b,c,a){function
+gK(b,c,a){function
 d(a){if(a){var
-h=aL([0,a[1][2],0],b),c=gF(a[2],h);if(c){var
-d=c[1],e=u(i(d),b);if(e)return e8(d);var
+h=aL([0,a[1][2],0],b),c=gJ(a[2],h);if(c){var
+d=c[1],e=u(i(d),b);if(e)return e9(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gC(b,gE(c,a),d)}function
-jl(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jm(b,a){var
-c=bp(b);return n(function(b){return V(d,aS(b,a)[1])},c)}function
-jn(c,b,a){var
+g=a;return g}return gG(b,gI(c,a),d)}function
+jv(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jw(b,a){var
+c=bp(b);return n(function(b){return W(d,aS(b,a)[1])},c)}function
+jx(c,b,a){var
 d=a[3],f=e(function(a){return a4(c,b,a)},d),g=a[2];return[0,a4(c,b,a[1]),g,f]}function
-jo(a,b){var
-c=b[3],d=a[3],e=aQ(function(a){return a},ae,J,d,c),f=a[2];return[0,J(a[1],b[1]),f,e]}function
-ch(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+jy(a,b){var
+c=b[3],d=a[3],e=aQ(function(a){return a},af,J,d,c),f=a[2];return[0,J(a[1],b[1]),f,e]}function
+ci(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 au(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 bU(b,a){var
-c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
-cB(b,a){var
+c=p(b,a[3]),d=p(b,a[2]);return[0,p(b,a[1]),d,c]}function
+cC(b,a){var
 c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
-ac(b,a){var
-c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
-cC(a){return cB(a,aE(ac(a,a)))}function
+ad(b,a){var
+c=p(b[3],a[3]),d=p(b[2],a[2]);return F(F(p(b[1],a[1]),d),c)}function
+cD(a){return cC(a,aE(ad(a,a)))}function
 bV(a){var
 b=a[5];return b?b[1]:aE(a[2])}function
-e$(b,a){return b?a:bl(a)}function
-jp(e,a,i,d,h){var
-f=ac(a,e),b=au(s,e,bU(f,a)),j=ac(b,b),g=s(K(d),j),c=e$(h,aE(g)),k=s(f,c),l=au(F,a,cB(b,c));return[0,au(F,b,bU(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jq(a,e,d){var
-b=ac(a,a),c=aE(b),f=[0,e],g=y(function(b){return au(s,a,bU(ac(b,a),b))},d);return[0,a,b,cB(a,c),c,0,g,f]}function
-jr(b,a){var
-d=ac(a,b);return[0,a,l(c),a,d,0,0,0]}function
+fa(b,a){return b?a:bl(a)}function
+jz(e,a,i,d,h){var
+f=ad(a,e),b=au(s,e,bU(f,a)),j=ad(b,b),g=s(K(d),j),c=fa(h,aE(g)),k=s(f,c),l=au(F,a,cC(b,c));return[0,au(F,b,bU(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jA(a,e,d){var
+b=ad(a,a),c=aE(b),f=[0,e],g=y(function(b){return au(s,a,bU(ad(b,a),b))},d);return[0,a,b,cC(a,c),c,0,g,f]}function
+jB(c,a){var
+d=ad(a,c);return[0,a,l(b),a,d,0,0,0]}function
 d4(a){return e(function(a){var
-b=a[2];return[0,ch(a[1]),b]},a)}function
-js(a){return e(function(a){var
-b=l(c);return[0,ch(a[3]),b]},a)}function
-jt(b,a){var
+b=a[2];return[0,ci(a[1]),b]},a)}function
+jC(a){return e(function(a){var
+c=l(b);return[0,ci(a[3]),c]},a)}function
+jD(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-ju(c,b,a){var
+jE(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-gH(d,a){var
-b=cw(d,[0,a[2],a[2]]);if(b){var
+gL(d,a){var
+b=cx(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fa(a,m,f,l,e,k,j){var
-o=ju(a6,k,j),b=ju(function(b,c){return at(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bD(bD(bD(af($(a,d)),h),g),c),p=bp(m);return n(function(c){var
-b=jt(function(b){return R(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gH(a,B(B(B($(a,d),k),j),h))),g=J(aS(c,i),m),n=f?J(g,aS(c,f[1])):g;return V(d,n[1])},p)}function
-bE(a){return ct(x(a[1],a[2]),c)}function
+fb(a,m,f,l,e,k,j){var
+o=jE(a6,k,j),b=jE(function(b,c){return at(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bF(bF(bF(ag($(a,d)),h),g),c),p=bp(m);return n(function(c){var
+b=jD(function(b){return S(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gL(a,B(B(B($(a,d),k),j),h))),g=J(aS(c,i),m),n=f?J(g,aS(c,f[1])):g;return W(d,n[1])},p)}function
+bG(a){return cu(x(a[1],a[2]),b)}function
 de(a){var
-b=bE(a);return aB(a[2],b)}function
-fb(c,b){if(b)var
-a=b[1],e=fb([0,c],b[2]),g=de(a),h=[0,[0,de(a),g],0],i=f(aL(C,c),h),j=bE(a),d=[0,[0,[0,bE(a),j],a,i],e];else
+b=bG(a);return aA(a[2],b)}function
+fc(c,b){if(b)var
+a=b[1],e=fc([0,c],b[2]),g=de(a),h=[0,[0,de(a),g],0],i=f(aL(C,c),h),j=bG(a),d=[0,[0,[0,bG(a),j],a,i],e];else
 var
 d=b;return d}function
 d5(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=d5(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bE(a),f],c],h=bE(a);return[0,[0,[0,a[1],h],c],g]}return o_}function
-jv(d,b,a){if(b){if(a){var
-e=jv(d,b[2],a[2]);return B(a4(b[1],x(d,c),a[1]),e)}return C}return C}function
+f=a[2],g=[0,[0,bG(a),f],c],h=bG(a);return[0,[0,[0,a[1],h],c],g]}return pm}function
+jF(d,c,a){if(c){if(a){var
+e=jF(d,c[2],a[2]);return B(a4(c[1],x(d,b),a[1]),e)}return C}return C}function
 d6(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jv(f,a,b)},j=d6(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jF(f,a,b)},j=d6(f,h),k=e(function(a){var
 e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
 var
 i=a;return i}function
 d7(e,b,d,a){if(b)if(a)var
-f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,e9(e,a[1][1],d,f)],g];else
+f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,e_(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fc(f,d,c,b,a){if(a){var
+fd(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fc(f,d[1],c,b,g);return[0,[0,J(C,b),0],i]}var
-j=e(function(a){return[0,J(C,b),0]},g),h=[0,[0,J(ae(w(f,c,c$(a[1][2]))),b),0],j]}else
+i=fd(f,d[1],c,b,g);return[0,[0,J(C,b),0],i]}var
+j=e(function(a){return[0,J(C,b),0]},g),h=[0,[0,J(af(w(f,c,c$(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 bq(c,a){var
-b=u(i(a),c);return b?e8(a):b}function
-jw(d,b,a){if(b)var
-c=b[1],g=jw([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aB(c[1],a[2]),x(c[2],a[2])],h],g];else
+b=u(i(a),c);return b?e9(a):b}function
+jG(d,b,a){if(b)var
+c=b[1],g=jG([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aA(c[1],a[2]),x(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jx(d){if(d){var
+jH(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jx(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jH(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return o$}function
-gI(a){return y(function(a){return y(d0,a)},a)}function
-cj(c,b,a){function
+f=a;return f}return pn}function
+gM(a){return y(function(a){return y(d0,a)},a)}function
+ck(c,b,a){function
 d(a){return at(c,b,a)}return y(function(a){return y(d,a)},a)}function
-gJ(c,b,a){function
-d(a){return db(c,a,b)}return y(function(a){return cd(d,a)},a)}function
+gN(c,b,a){function
+d(a){return db(c,a,b)}return y(function(a){return ce(d,a)},a)}function
 df(b,a){var
 c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bS(function(b,a){return[0,bD(b,a)]},e,d)]}return b}return a},c)}function
-fd(a){return af($(a,b(2,c)))}function
-jy(b,c,a){if(a)var
-f=a[1],g=jy(b,c,a[2]),d=[0,e(function(a){return ae(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bS(function(b,a){return[0,bF(b,a)]},e,d)]}return b}return a},c)}function
+fe(a){return ag($(a,c(2,b)))}function
+jI(b,c,a){if(a)var
+f=a[1],g=jI(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jz(a){return n(function(a){var
+jJ(a){return n(function(a){var
 b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
-jA(c,b,a){var
+jK(c,b,a){var
 d=aK(b,a);return bk(function(a,b){return B(w(c,a[1],a[2]),b)},C,d)}function
-gK(c,b,a){var
-d=dY(jA(c,a,b));return bk(function(b,a){return x(dY(b),a)},d,a)}function
-dg(a){return $(a,c)}function
-gL(a,i,c,u,t){var
+gO(c,b,a){var
+d=dY(jK(c,a,b));return bk(function(b,a){return x(dY(b),a)},d,a)}function
+dg(a){return $(a,b)}function
+gP(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jz(c)&&!jz(j)){var
-h=gK(a,i,j),o=dg(a),p=gK(a,i,c),b=dX([0,gK(a,i,c),p],o,[0,h,h])[1],k=V(d,h),l=k?V(d,b):k;if(l)var
-q=a5(gv(a,[0,b,b])),r=function(b){return function(d,c){return J(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cg(e,jy(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),ae,r,j,c)))];else
+j=f[1],n=0;if(!jJ(c)&&!jJ(j)){var
+h=gO(a,i,j),o=dg(a),p=gO(a,i,c),b=dX([0,gO(a,i,c),p],o,[0,h,h])[1],k=W(d,h),l=k?W(d,b):k;if(l)var
+q=a5(gz(a,[0,b,b])),r=function(b){return function(d,c){return J(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ch(e,jI(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-po(a){var
+pC(a){var
 b=a[2],c=e(function(a){return[0,a[1],C]},b);return[0,[0,a[1][1],C],c]}function
-jB(c,b,a){if(b){if(a){var
-d=jB(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
-jC(a,j){switch(j){case
+jL(c,b,a){if(b){if(a){var
+d=jL(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
+jM(a,j){switch(j){case
 0:var
-d=aB(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aA(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aB(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=ct(x(a[1],a[2]),c),h=aB(b,a[2]),i=aB(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jD(d,c,a){if(a)var
-e=a[1],g=jD(d,[0,c],a[2]),b=y(b9,iT(function(a){return u(a[1],c)},d)),h=b?jC(e,b[1])[1]:e,f=[0,h,g];else
+f=aA(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=cu(x(a[1],a[2]),b),h=aA(c,a[2]),i=aA(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jN(d,c,a){if(a)var
+e=a[1],g=jN(d,[0,c],a[2]),b=y(b_,i3(function(a){return u(a[1],c)},d)),h=b?jM(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-pp=af(C);function
-jE(e,d,c){if(d){var
-f=t(e,c[2],pq),a=f?f[1]:[0,pp];if(a)var
-b=jE([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+pD=ag(C);function
+jO(e,d,c){if(d){var
+f=t(e,c[2],pE),a=f?f[1]:[0,pD];if(a)var
+b=jO([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return pr}function
-jF(d,c,b,a){var
-f=e(af,b);return bC(0,ce(d,fb(0,a),f),c,0)}function
+g=a;return g}return pF}function
+jP(d,c,b,a){var
+f=e(ag,b);return bE(0,cf(d,fc(0,a),f),c,0)}function
 aj(a){if(a){var
 b=a[1];if(b)var
 c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ps}function
-fe(b,a){if(a){var
+d=b;return d}return pG}function
+ff(b,a){if(a){var
 h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=fe(b,a[2]);if(g)var
-j=V(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=ff(b,a[2]);if(g)var
+j=W(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1749,22 +1752,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return pt}function
+m=c;return m}return pH}function
 bW(d,c,b){var
-a=fe(d,c);return a?k(b,a[1]):a}function
+a=ff(d,c);return a?k(b,a[1]):a}function
 dh(a,b){return n(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-ff(b,a){if(b){var
+fg(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
-gM(b,a){return b?jo(a,b[1]):a}function
-gN(h,g,b,f){var
+gQ(b,a){return b?jy(a,b[1]):a}function
+gR(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jo(c,b[1]),e=bp(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-jG(f,d,a){function
-b(a){return a4(a,d,$(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),C,g]}return af(C)}function
-fg(b,a){var
+i=jy(c,b[1]),e=bp(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+jQ(f,d,a){function
+c(a){return a4(a,d,$(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),C,g]}return ag(C)}function
+fh(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1773,54 +1776,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-jH(j,k,J,t,h,b,g,f,a){switch(f[0]){case
+jR(j,k,J,t,h,c,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 K=dh(t,h);if(K){var
-ad=a[2],ae=a[1],ag=ff(g,af(r));return bW(h,k,function(a){return dd(b,ag,ae,ad,a)})}return K;case
+ad=a[2],ae=a[1],af=fg(g,ag(r));return bW(h,k,function(a){return dd(c,af,ae,ad,a)})}return K;case
 1:var
 L=dh(t,h);if(L){var
-ah=a[2],ai=a[1],aj=ff(g,af(r));return bW(h,J,function(a){return dd(b,aj,ai,ah,a)})}return L;case
+ah=a[2],ai=a[1],aj=fg(g,ag(r));return bW(h,J,function(a){return dd(c,aj,ai,ah,a)})}return L;case
 2:var
 M=dh(t,h);if(M){if(g)return 0;var
 N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bW(h,k,function(a){return dd(b,[0,C,C,0],al,ak,jl([0,C,C,0],a))})}var
+ak=a[2],al=a[1];return bW(h,k,function(a){return dd(c,[0,C,C,0],al,ak,jv([0,C,C,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=gM(g,af(Q));return bW(h,J,function(a){return gG(b,am,a)})}if(!a){var
-an=gM(g,af(Q));return bW(h,k,function(a){return gG(b,an,a)})}}return 0;case
+am=gQ(g,ag(Q));return bW(h,J,function(a){return gK(c,am,a)})}if(!a){var
+an=gQ(g,ag(Q));return bW(h,k,function(a){return gK(c,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jG(j,R,a[3]),S=f[1],ao=a[2];return bW(h,k,function(d){var
-a=jm(b,l),c=a?dd(b,ff(g,l),R,ao,d):a;if(c){var
-f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gG(b,gM(g,[0,w(j,S,l[1]),i,h]),d)}return c})}return 0;case
+R=a[1],l=jQ(j,R,a[3]),S=f[1],ao=a[2];return bW(h,k,function(d){var
+a=jw(c,l),b=a?dd(c,fg(g,l),R,ao,d):a;if(b){var
+f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gK(c,gQ(g,[0,w(j,S,l[1]),i,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gN(h,b,g,f[1]);return 0;case
+a==="number"&&!a)return gR(h,c,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=ff(g,af(f[2])),as=function(a){return dd(b,ar,aq,ap,a)};return bW(h,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fg(g,ag(f[2])),as=function(a){return dd(c,ar,aq,ap,a)};return bW(h,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gN(h,b,g,f[1]);case
-2:return gN(h,b,g,f[2])}return 0;case
+0:return gR(h,c,g,f[1]);case
+2:return gR(h,c,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fg(h,f[1]);if(v){var
-y=fg(h,f[2]);if(y){var
-z=fg(h,f[3]);if(z){var
-A=fg(h,f[4]);if(A){var
+v=fh(h,f[1]);if(v){var
+y=fh(h,f[2]);if(y){var
+z=fh(h,f[3]);if(z){var
+A=fh(h,f[4]);if(A){var
 T=A[1],U=z[1],V=y[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=jt(function(d){function
-f(a){return a4(a,at,$(j,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=e2(a),h=x(b[2],g),i=e2(a);return[0,b,[0,aB(b[1],i),h],a]}return af(C)},ac),B=n(function(a){return u(i(a),[0,b])},m),D=B?fa(j,b,g,s,q,W,U):B,E=D?fa(j,b,g,s,q,W,T):D,F=E?fa(j,b,g,s,q,V,U):E;if(F)return fa(j,b,g,s,q,V,T);var
+ac=[0,m[1],o[1],p[1]],q=jD(function(d){function
+f(a){return a4(a,at,$(j,b))}if(d){var
+a=e(f,d[2]),c=f(d[1]),g=e3(a),h=x(c[2],g),i=e3(a);return[0,c,[0,aA(c[1],i),h],a]}return ag(C)},ac),B=n(function(a){return u(i(a),[0,c])},m),D=B?fb(j,c,g,s,q,W,U):B,E=D?fb(j,c,g,s,q,W,T):D,F=E?fb(j,c,g,s,q,V,U):E;if(F)return fb(j,c,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1842,51 +1845,51 @@ _=v;return _}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
 aa=a[2],ab=a[1],au=f[2],av=f[1];return bW(h,k,function(e){var
-a=u(i(e),b),d=a?u(i(aa),b):a;if(d){var
+a=u(i(e),c),d=a?u(i(aa),c):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=u(i(d),b);if(e){var
-g=d6(ab,d7(ab,aa,$(j,c),d));return bq(b,cg(fc(j,av,au,a[1][2],d),g))}var
+d=a[2],e=u(i(d),c);if(e){var
+g=d6(ab,d7(ab,aa,$(j,b),d));return bq(c,ch(fd(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:af(C);return gC(b,gE(h,e),f)}return d})}return 0;case
+f=a;return f},h=g?g[1]:ag(C);return gG(c,gI(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jl([0,C,C,0],d),c=g?g[1]:[0,C,C,0];return dd(b,c,ax,aw,a)};return bW(h,f[1],ay)}return 0;default:return 0}}function
-jI(a,Z,I,l,p,Y,g,j,h,f,b){if(9===f[0]){if(typeof
-b!=="number"&&9===b[0]){var
-_=f[1],T=e(af,Y),A=bC(0,ce(a,jw(0,j,_),T),Z,0),K=u(i(j),pu),L=K?dh(p,A):K;if(L){var
-q=fe(A,l);if(q){var
-r=fe(g,l);if(r){var
+a=jv([0,C,C,0],d),b=g?g[1]:[0,C,C,0];return dd(c,b,ax,aw,a)};return bW(h,f[1],ay)}return 0;default:return 0}}function
+jS(a,Z,I,l,p,Y,g,j,h,f,c){if(9===f[0]){if(typeof
+c!=="number"&&9===c[0]){var
+_=f[1],T=e(ag,Y),A=bE(0,cf(a,jG(0,j,_),T),Z,0),K=u(i(j),pI),L=K?dh(p,A):K;if(L){var
+q=ff(A,l);if(q){var
+r=ff(g,l);if(r){var
 aa=f[2],s=aj(e(function(b){var
 c=t(b[1],g,0);if(c)var
 f=b[2][2],a=aj(e(function(a){var
 b=t(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(s){var
-v=jx(q[1]);if(v){var
-M=b[2],z=b[1],N=r[1],ab=b[3],ac=s[1],ad=v[1],D=gH(a,bk(function(f,h){function
+v=jH(q[1]);if(v){var
+M=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ad=v[1],D=gL(a,bk(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dY(t(d,c[3],C))}function
 c(a){var
-b=k(a,pa),c=bh(k(a,pb),b);return bh(k(a,0),c)}var
+b=k(a,po),c=bh(k(a,pp),b);return bh(k(a,0),c)}var
 d=c(function(a){var
-c=b(pc,a),d=b(pd,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,pe),d=b(a,pf);return x(x(b(a,0),d),c)});return B(h,R(a,gH(a,w(a,[0,e,e],g))))},C,ad)),m=a4(ab,z,$(a,c)),E=V(d,J(m,D)[1]),F=E?u(i(M),pl):E,G=F?u(i(N),pm):F;if(G){var
-o=cb(a,m);if(o){var
-U=a5(w(a,D,o[1])),W=J($(a,c),U),X=bp(pn);return n(function(i){var
+c=b(pq,a),d=b(pr,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,ps),d=b(a,pt);return x(x(b(a,0),d),c)});return B(h,S(a,gL(a,w(a,[0,e,e],g))))},C,ad)),m=a4(ab,z,$(a,b)),E=W(d,J(m,D)[1]),F=E?u(i(M),pz):E,G=F?u(i(N),pA):F;if(G){var
+o=cc(a,m);if(o){var
+U=a5(w(a,D,o[1])),V=J($(a,b),U),X=bp(pB);return n(function(i){var
 g=e(function(b){var
-c=b[2],d=b[1];return c$(c6(function(d,b){var
-c=dY(aS(i,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(ap(function(a){return aS(i,a)}),N),E=h?aS(i,h[1]):C,L=R(a,W),s=R(a,m),q=d6(z,d7(z,M,$(a,c),r)),b=cg(aL([0,ae(E),0],pg),q);if(g){var
+c=b[2],d=b[1];return c$(c7(function(d,b){var
+c=dY(aS(i,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(ap(function(a){return aS(i,a)}),N),E=h?aS(i,h[1]):C,L=S(a,V),s=S(a,m),q=d6(z,d7(z,M,$(a,b),r)),c=ch(aL([0,af(E),0],pu),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],D=g[1],G=f[1],j=bq(pi,cg(aL([0,ae(s),0],ph),b));if(j)return n(function(B){var
-H=J(L,E),I=B[2]?A:ae(A),K=B[1]?D:ae(D),n=0;if(b){var
-a=b[1],k=0;if(a){var
-c=a[2],l=0;if(c){var
-d=c[2],m=0;if(d)if(d[2]){var
+A=d[1],D=g[1],G=f[1],j=bq(pw,ch(aL([0,af(s),0],pv),c));if(j)return n(function(B){var
+H=J(L,E),I=B[2]?A:af(A),K=B[1]?D:af(D),n=0;if(c){var
+a=c[1],k=0;if(a){var
+b=a[2],l=0;if(b){var
+d=b[2],m=0;if(d)if(d[2]){var
 j=0;k=1;l=1;m=1}else{var
-e=b[2],o=0;if(e){var
+e=c[2],o=0;if(e){var
 f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
@@ -1894,7 +1897,7 @@ h=e[2],C=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,b[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1914,13 +1917,13 @@ var
 w=d;if(!m)var
 x=w}else
 var
-x=c;if(!l)var
+x=b;if(!l)var
 y=x}else
 var
 y=a;if(!k){var
 z=y;n=1}}else{var
-z=b;n=1}if(n)var
-j=z;return bq(pk,j)},pj);var
+z=c;n=1}if(n)var
+j=z;return bq(py,j)},px);var
 l=j}else
 var
 l=f;var
@@ -1942,15 +1945,15 @@ P=r;var
 Q=P}else
 var
 Q=q;var
-S=Q}else
+R=Q}else
 var
-S=L;return S}return jH(a,I,l,p,g,i(j),h,f,b)}return jH(a,I,l,p,g,i(j),h,f,b)}function
-jJ(i,b,a){if(a){var
+R=L;return R}return jR(a,I,l,p,g,i(j),h,f,c)}return jR(a,I,l,p,g,i(j),h,f,c)}function
+jT(i,b,a){if(a){var
 j=a[1],l=j[2],c=aj(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
 g=t(l,i,0);if(g){var
-h=jJ(i,b,a[2]);if(h)var
-m=V(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+h=jT(i,b,a[2]);if(h)var
+m=W(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1961,48 +1964,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return pw}function
-jK(a,U,m,T,v,s,S,D,h,g,l,b){var
-j=i(S),W=fb(0,S),aT=bC(0,ce(a,W,e(af,jD(l,0,v))),U,0),X=e(aJ,l),aU=0,aW=e(af,v),aX=bC(px,function(b){var
-av=cx(aJ,b),f=k(ce(a,W,aW),av);switch(b[0]){case
+q=c;return q}return pK}function
+jU(a,U,m,T,v,s,S,D,h,g,l,c){var
+j=i(S),V=fc(0,S),aT=bE(0,cf(a,V,e(ag,jN(l,0,v))),U,0),X=e(aJ,l),aU=0,aW=e(ag,v),aX=bE(pL,function(c){var
+av=cy(aJ,c),f=k(cf(a,V,aW),av);switch(c[0]){case
 1:var
-M=b[1],d=e(function(d){var
-b=u(M,d),e=b?[0,[0,af($(a,c))]]:b;return e},X);break;case
+M=c[1],d=e(function(d){var
+c=u(M,d),e=c?[0,[0,ag($(a,b))]]:c;return e},X);break;case
 3:var
-d=df(b[1][2],b[2][2]);break;case
+d=df(c[1][2],c[2][2]);break;case
 4:var
-N=e(gI,b[2][2]),d=df(b[1][2],N);break;case
+N=e(gM,c[2][2]),d=df(c[1][2],N);break;case
 5:var
-d=e(gI,b[1][2]);break;case
+d=e(gM,c[1][2]);break;case
 6:var
-x=b[2],y=b[1],g=y[1],t=0;if(g){var
+x=c[2],y=c[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return cj(a,P,b)},O),R=y[2],S=h[1],d=df(e(function(b){return cj(a,S,b)},R),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return ck(a,P,b)},O),R=y[2],S=h[1],d=df(e(function(b){return ck(a,S,b)},R),Q);else{var
 z=h;t=1}}else{var
 z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=b[2],i=A[1];if(i)var
-T=A[2],U=d0(f[1]),V=e(function(b){return cj(a,U,b)},T),Y=df(b[1][2],V),Z=i[1],d=e(function(b){return gJ(a,Z,b)},Y);else{var
+A=c[2],i=A[1];if(i)var
+T=A[2],U=d0(f[1]),W=e(function(b){return ck(a,U,b)},T),Y=df(c[1][2],W),Z=i[1],d=e(function(b){return gN(a,Z,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=b[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=at(a,fd(a),aa),d=e(function(b){return cj(a,ab,b)},_);else
+C=c[1],j=C[1];if(j)var
+_=C[2],aa=j[1],ab=at(a,fe(a),aa),d=e(function(b){return ck(a,ab,b)},_);else
 var
 d=j;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],ae=at(a,fd(a),ad),d=e(function(b){return gJ(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=at(a,fe(a),ad),d=e(function(b){return gN(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
-D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
+D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=i2(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a6(o,r),ai=e(function(b){return cj(a,ah,b)},ag),aj=F[2],ak=a6(m,s),al=df(e(function(b){return cj(a,ak,b)},aj),ai),am=e(gI,D[2]),an=fd(a),ao=df(e(function(b){return cj(a,an,b)},al),am),ap=b[1]?s:d0(r),aq=e(function(b){return cj(a,ap,b)},ao),ar=at(a,m,r),as=a6(at(a,o,s),ar),au=at(a,fd(a),as),d=e(function(b){return gJ(a,au,b)},aq);K=1;L=1}else
+q=ja(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],af=E[2],ah=a6(o,r),ai=e(function(b){return ck(a,ah,b)},af),aj=F[2],ak=a6(m,s),al=df(e(function(b){return ck(a,ak,b)},aj),ai),am=e(gM,D[2]),an=fe(a),ao=df(e(function(b){return ck(a,an,b)},al),am),ap=c[1]?s:d0(r),aq=e(function(b){return ck(a,ap,b)},ao),ar=at(a,m,r),as=a6(at(a,o,s),ar),au=at(a,fe(a),as),d=e(function(b){return gN(a,au,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2014,37 +2017,37 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},X)}return[0,f,d]},U,aU),aQ=e(function(a){var
-b=a[2];return jC(t(a[1],v,C),b)[2]},l);function
+b=a[2];return jM(t(a[1],v,C),b)[2]},l);function
 Z(c){var
 d=t(c,s,0);if(d){var
 a=t(c,aT,0);if(a)var
-b=jE(0,l,t(c,aX,pv)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=jO(0,l,t(c,aX,pJ)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
 E(b){return e(function(b){return $(a,b)},b)}var
-aY=D?D[1]:af(C);function
+aY=D?D[1]:ag(C);function
 _(a){return a?bq(j,a[1]):a}function
 y(t,s,f,r,q){var
-u=aL([0,ae(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-i=b[1],k=i[1],d=c[1],m=c$(k[2]),n=cg(g,gD(f,d,e9(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e9(f,a[1],a[2],b))}}(d),o),h=gL(a,v,e(function(b){return a4(b,f,dg(a))},d),p,n);if(h){var
+u=aL([0,af(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],k=i[1],d=c[1],m=c$(k[2]),n=ch(g,gH(f,d,e_(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e_(f,a[1],a[2],b))}}(d),o),h=gP(a,v,e(function(b){return a4(b,f,dg(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return _(l)}}function
 aa(y,x,w){var
 z=aL([0,x,0],j),q=E(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e0(g),h],f];if(m){var
-o=V(d,g[1]);if(o)var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e1(g),h],f];if(m){var
+o=W(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,dg(a),t],v=dg(a),b=gL(a,[0,ae(dX(jA(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,dg(a),t],v=dg(a),b=gP(a,[0,af(dX(jK(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gB(b[1]);if(i){var
+i=gF(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
@@ -2054,51 +2057,51 @@ var
 r=[0,f];return _(r)}}var
 aZ=e(aJ,l),ab=n(function(a){return dS(a,i(v))},aZ);if(ab){var
 r=e(aJ,l);for(;;){if(r){var
-Q=r[2],aR=r[1],R=ai(ar(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
+Q=r[2],aR=r[1],R=ac(ar(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
 r=Q;continue}var
-ac=R}else
+ad=R}else
 var
-ac=1;var
-F=ac;break}}else
+ad=1;var
+F=ad;break}}else
 var
 F=ab;var
-ad=F?n(function(a){return u(i(a),j)},b):F;if(ad){var
+ae=F?n(function(a){return u(i(a),j)},c):F;if(ae){var
 A=0;switch(h[0]){case
 0:var
 H=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-aC=0;if(b){if(b[2])return 0;var
-a0=b[1],a1=g[2],a2=g[1],ag=dh(T,s);if(ag){var
+aC=0;if(c){if(c[2])return 0;var
+a0=c[1],a1=g[2],a2=g[1],ah=dh(T,s);if(ah){var
 p=function(c,a){var
 b=B(H,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
 var
-ak=ag}else
+ak=ah}else
 var
-ak=b;if(!aC)return ak;break;case
+ak=c;if(!aC)return ak;break;case
 2:var
-aD=0;if(b){if(b[2])return 0;var
-a7=b[1],a8=g[2],a9=g[1],al=dh(T,s),aE=0;if(al){if(D)return 0;var
+aD=0;if(c){if(c[2])return 0;var
+a7=c[1],a8=g[2],a9=g[1],al=dh(T,s),aE=0;if(al){if(D)return 0;var
 am=Y(H[1],d),an=am?Y(H[2],d):am;if(an){var
-p=function(c,b,a){return y(a7,C,a9,a8,e(po,a))},o=m;O=1;aD=1;aE=1}else
+p=function(c,b,a){return y(a7,C,a9,a8,e(pC,a))},o=m;O=1;aD=1;aE=1}else
 var
 ao=an}else
 var
 ao=al;if(!aE)var
 ap=ao}else
 var
-ap=b;if(!aD)return ap;break}if(!O)return 0;break;case
+ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
 1:var
 aF=0,a_=h[1];if(typeof
-g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
-a$=b[1],p=function(c,a){var
+g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
+a$=c[1],p=function(c,a){var
 b=J(a_,a);return function(a){return aa(a$,b,a)}},o=m;aF=1}if(!aF)return 0;break;case
 2:var
 aG=0,ba=h[1];if(typeof
 g==="number"||!(3===g[0]))aG=1;else{var
-aH=0;if(b){var
-z=b[2],aI=0;if(z){if(z[2])return 0;var
-aq=g[1],bb=z[1],bc=b[1],bd=g[2],as=jG(a,aq,g[3]),au=jm(j,as);if(au){var
+aH=0;if(c){var
+z=c[2],aI=0;if(z){if(z[2])return 0;var
+aq=g[1],bb=z[1],bc=c[1],bd=g[2],as=jQ(a,aq,g[3]),au=jw(j,as);if(au){var
 p=function(f,c,b){var
 d=aS(f,as),e=y(bc,B(d,c),aq,bd,b);return e?aa(bb,J(w(a,ba,d),c),b):e},o=m;aH=1;aI=1}else
 var
@@ -2107,37 +2110,37 @@ var
 av=z;if(!aI)var
 aw=av}else
 var
-aw=b;if(!aH)return aw}if(aG)return 0;break;case
+aw=c;if(!aH)return aw}if(aG)return 0;break;case
 3:var
 aM=0;if(typeof
-g==="number"&&!g){if(b)return 0;var
+g==="number"&&!g){if(c)return 0;var
 K=h[1];A=1}else
 aM=1;if(aM)return 0;break;case
 4:var
 aN=0,bf=h[2];if(typeof
-g==="number"||!(0===g[0]))aN=1;else{if(!b)return b;if(b[2])return 0;var
-bg=b[1],bi=g[2],bj=g[1],bl=function(c,a){var
+g==="number"||!(0===g[0]))aN=1;else{if(!c)return c;if(c[2])return 0;var
+bg=c[1],bi=g[2],bj=g[1],bl=function(c,a){var
 b=B(bf,a);return function(a){return y(bg,b,bj,bi,a)}},p=bl,o=h[1]}if(aN)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
-0:if(b)return 0;var
+0:if(c)return 0;var
 K=h[1];A=1;break;case
-2:if(b)return 0;var
+2:if(c)return 0;var
 K=h[2];A=1;break;default:P=1}else
 P=1;if(P)return 0;break;case
 7:var
 ax=h[2],ay=h[1],aO=0;if(typeof
 g==="number"||!(0===g[0]))aO=1;else{var
-aP=0;if(b){if(b[2])return 0;var
-q=g[2],N=g[1],bm=b[1],az=u(i(m),j);if(az){var
+aP=0;if(c){if(c[2])return 0;var
+q=g[2],N=g[1],bm=c[1],az=u(i(m),j);if(az){var
 p=function(b,y){var
 z=E(bm);return function(f){var
 k=u(i(f),j),l=k?u(i(q),j):k;if(l){var
-s=e(aJ,f),t=d6(N,d7(N,q,dg(a),s)),v=cg(fc(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,x=i(q);for(;;){if(c){var
+s=e(aJ,f),t=d6(N,d7(N,q,dg(a),s)),v=ch(fd(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,x=i(q);for(;;){if(c){var
 o=c[1][2],p=u(b,ay),r=e(function(f,g){return function(d){var
 b=aK(aV(0,i(q)),q);return e(function(b){var
-c=jB(N,b[2],d[1]);if(g&&u(b[1],f))return J(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gL(a,z,e(function(c){return function(b){return u(b,c)?dg(a):C}}(b),n),r,g);if(h){var
+c=jL(N,b[2],d[1]);if(g&&u(b[1],f))return J(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gP(a,z,e(function(c){return function(b){return u(b,c)?dg(a):C}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
@@ -2146,46 +2149,46 @@ m=d;break}}else
 var
 m=l;return m}},o=m;aP=1}else
 var
-aA=az}else
+aB=az}else
 var
-aA=b;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
+aB=c;if(!aP)return aB}if(aO)return 0;break;default:return 0}if(A){var
 L=Z(K);if(!L)return L;var
 be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bk(function(b,a){return x(bh(d,M(b[2][1])),a)},d,c);return G(d,aB(aB(a[1][2][1],e),b))},a)},aj=be,ah=[0,[0,0,L[1]],0]}else{var
-I=jJ(s,Z,o);if(!I)return I;var
-aj=p,ah=I[1]}var
+b=f[2],c=a[2],e=bk(function(b,a){return x(bh(d,M(b[2][1])),a)},d,c);return G(d,aA(aA(a[1][2][1],e),b))},a)},aj=be,ai=[0,[0,0,L[1]],0]}else{var
+I=jT(s,Z,o);if(!I)return I;var
+aj=p,ai=I[1]}var
 a3=bp(j);return n(function(b){var
 c=e(function(c){function
 g(a){return aS(b,a[1])}var
-h=0,j=af(C);function
+h=0,j=ag(C);function
 d(h,g,b,c){if(b){var
 i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ah);return BW(aj,b,aS(b,aY),c)},a3)}return ad}function
-fh(b,a){if(a){var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return Ch(aj,b,aS(b,aY),c)},a3)}return ae}function
+fi(b,a){if(a){var
 c=a[2];if(b){var
-e=fh(b[1],c);return[0,a[1],e]}var
+e=fi(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jL(m,l,q,S,p,j,$,z,b,R,Q){if(R){var
-r=jF(m,l,j,b),h=R,g=Q;for(;;){if(h){var
+jV(m,l,q,S,p,j,$,z,b,R,Q){if(R){var
+r=jP(m,l,j,b),h=R,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],X=bp(i(b)),x=n(function(b){return function(a){return V(aS(a,b)[2],d)}}(_),X);else
+_=v[1],V=bp(i(b)),x=n(function(b){return function(a){return W(aS(a,b)[2],d)}}(_),V);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
 N=t(w,g,0);if(N){var
-y=W($,w);if(y){var
+y=X($,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
 C=a[2],s=k(z,b),T=0;if(s){var
 D=G(d,C);if(D){var
-Y=a[1],c=jI(m,l,q,S,p,j,r,b,[0,jn(C,a[3],s[1])],o,Y);T=1}else
+Y=a[1],c=jS(m,l,q,S,p,j,r,b,[0,jx(C,a[3],s[1])],o,Y);T=1}else
 var
 E=D}else
 var
@@ -2196,74 +2199,74 @@ F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
 I=f[2],u=k(z,b),U=0;if(u){var
 J=G(d,I);if(J){var
-Z=f[1],c=jK(m,l,q,p,j,r,b,[0,jn(I,f[3],u[1])],o,Z,H,F);B=1;U=1}else
+Z=f[1],c=jU(m,l,q,p,j,r,b,[0,jx(I,f[3],u[1])],o,Z,H,F);B=1;U=1}else
 var
 K=J}else
 var
 K=u;if(!U){var
 c=K;B=1}}if(!B)var
-c=jK(m,l,q,p,j,r,b,0,o,f,H,F);break;default:A=1}if(A)var
-c=jI(m,l,q,S,p,j,r,b,0,o,a);if(c){var
-h=M,g=fh(w,g);continue}var
+c=jU(m,l,q,p,j,r,b,0,o,f,H,F);break;default:A=1}if(A)var
+c=jS(m,l,q,S,p,j,r,b,0,o,a);if(c){var
+h=M,g=fi(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-fi(j,i,h,g,f,e,d,c,u,t,s){var
+fj(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jL(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ai,l[1]):l}var
-m=jL(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=d5(a[2],b),q=fi(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jV(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ac,l[1]):l}var
+m=jV(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=d5(a[2],b),q=fj(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-gO(a){return e(function(a){return 1},a)}function
+gS(a){return e(function(a){return 1},a)}function
 di(a,d,b,c){function
 f(d,c){var
 f=aK(a[1],b[1]);return e(function(a){var
-b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
+b=p(c,a[2]);return F(p(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-jM(a){var
-b=l(c);return[0,e(function(a){return l(d)},a),b]}function
+h=p(a[2],b[2]),i=p(c,a[2]);return[0,f(p(d,b[2]),i),h]}function
+jW(a){var
+c=l(b);return[0,e(function(a){return l(d)},a),c]}function
 aN(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 v=f[1];if(ar(function(a){return u(v,a)},a)){var
-C=l(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return l(b)},a),C]}return jM(a);case
+C=l(b);return[0,e(function(a){var
+c=u(a,v)?b:d;return l(c)},a),C]}return jW(a);case
 3:var
-D=l(c),E=aN(a,f[2]),F=l(c);return di(aN(a,f[1]),F,E,D);case
+D=l(b),E=aN(a,f[2]),F=l(b);return di(aN(a,f[1]),F,E,D);case
 4:var
-G=l(M(c)),H=aN(a,f[2]),I=l(c);return di(aN(a,f[1]),I,H,G);case
+G=l(M(b)),H=aN(a,f[2]),I=l(b);return di(aN(a,f[1]),I,H,G);case
 5:var
 w=aN(a,f[1]),J=w[2];return[0,e(bl,w[1]),J];case
 6:var
 x=f[2],y=f[1],K=aN(a,x);return di(aN(a,y),x,K,y);case
 7:var
-z=f[2],L=bl(k),N=aN(a,z),O=l(c),i=di(aN(a,f[1]),O,N,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
-Q=o(i[2],z);return[0,i[1],Q];case
+z=f[2],L=bl(k),N=aN(a,z),O=l(b),i=di(aN(a,f[1]),O,N,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
+Q=p(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aN(a,A),R=B[2],S=B[1],T=o(l(b(2,c)),A);return[0,e(function(a){return o(T,a)},S),R];case
+A=f[1],B=aN(a,A),R=B[2],S=B[1],T=p(l(c(2,b)),A);return[0,e(function(a){return p(T,a)},S),R];case
 9:var
 j=aN(a,f[1]),U=j[1];if(n(function(a){return aR(d,a)},U)){var
-V=l(c);return[0,j[1],V]}var
-W=o(l(b(2,c)),k),X=o(j[2],W);return[0,j[1],X];case
+V=l(b);return[0,j[1],V]}var
+W=p(l(c(2,b)),k),X=p(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,p),$=di(aN(a,h),_,Z,Y),aa=l(M(c)),ab=aN(a,m),r=di($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
-ae=o(h,q),af=s(o(g,p),ae),ag=o(l(b(2,c)),af);return[0,t,o(r[2],ag)];default:return jM(a)}}function
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,o),$=di(aN(a,h),_,Z,Y),aa=l(M(b)),ab=aN(a,m),r=di($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bl(q),t=e(function(a){return p(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
+ae=p(h,q),af=s(p(g,o),ae),ag=p(l(c(2,b)),af);return[0,t,p(r[2],ag)];default:return jW(a)}}function
 bX(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(G(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(G(j,c)){var
-k=Y(b,o),m=k?dZ(b):k;if(m)var
-p=Y(n[2],d),g=p||Y(b,d);else
+i=f[2],c=f[1];if(G(i,b))if(0===e[0]){var
+j=e[2],o=e[1];if(G(j,b)){var
+k=Y(c,o),m=k?dZ(c):k;if(m)var
+p=Y(n[2],d),g=p||Y(c,d);else
 var
 g=m;var
-q=g?[0,b]:g,a=q}else
+q=g?[0,c]:g,a=q}else
 var
 a=Y(aU(j,aD(2))[2],d)?0:0}else
 var
@@ -2272,32 +2275,32 @@ var
 a=Y(aU(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-bF(b,a){if(a)var
-d=bF([0,b],a[2]),c=[0,bX(a[1],b),d];else
+bH(b,a){if(a)var
+d=bH([0,b],a[2]),c=[0,bX(a[1],b),d];else
 var
 c=a;return c}function
 aF(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fj(b,d,a){switch(a[0]){case
+fk(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aF(c[3],b),g),i=f(aF(c[2],b),h);return f(aF(c[1],d),i);case
 1:var
 e=a[3],j=e?aF(e[1],d):e,k=f(aF(a[2],b),j);return f(aF(a[1],b),k);default:return aF(a[1],d)}}function
 aa(b,a){var
-c=l(d),e=t(N(py,a),b,c),f=l(d),g=t(N(pz,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-jN(b,a){return au(s,au(F,ci,a),b)}function
-fk(c,b,a){if(a){var
-e=a[2],g=fk(c,ca(b),e),h=a[1];return f(fj(c,bB(d,b),h),g)}return a}function
-gP(f,e,c,j){if(c){var
-b=c[1],v=N(j,i(fj(f,bB(d,e),b))),w=c[2],x=gP(f,ca(e),w,v),a=bF(j,fj(f,bB(d,e),b));switch(b[0]){case
+c=l(d),e=t(N(pM,a),b,c),f=l(d),g=t(N(pN,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+jX(b,a){return au(s,au(F,cj,a),b)}function
+fl(c,b,a){if(a){var
+e=a[2],g=fl(c,cb(b),e),h=a[1];return f(fk(c,bC(d,b),h),g)}return a}function
+gT(f,e,c,j){if(c){var
+b=c[1],v=N(j,i(fk(f,bC(d,e),b))),w=c[2],x=gT(f,cb(e),w,v),a=bH(j,fk(f,bC(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(pA,a,l(d)),o=au(F,ci,aa(a,pB)),p=cC(aa(a,0)),q=aa(a,pC),g=jp(jN(aa(a,pD),q),p,o,n,m);break;case
+m=b[1][5],n=t(pO,a,l(d)),o=au(F,cj,aa(a,pP)),p=cD(aa(a,0)),q=aa(a,pQ),g=jz(jX(aa(a,pR),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cC(aa(a,pE))]:h,s=au(F,ci,aa(a,pF)),u=aa(a,pG),g=jq(jN(aa(a,0),u),s,r);break;default:var
-g=jr(ci,cC(aa(a,0)))}var
+h=b[3],r=h?[0,cD(aa(a,pS))]:h,s=au(F,cj,aa(a,pT)),u=aa(a,pU),g=jA(jX(aa(a,0),u),s,r);break;default:var
+g=jB(cj,cD(aa(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-br(b,a){if(typeof
+br(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2306,9 +2309,9 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=e7(a[2]),l=[2,[2,e7(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=e8(a[2]),l=[2,[2,e8(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
-m=a[4];return[0,[0,m,m],b];case
+m=a[4];return[0,[0,m,m],c];case
 12:var
 n=[5,a[2],a[4]];return[0,[0,n,n],d];case
 13:var
@@ -2316,22 +2319,22 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 15:break;case
 0:case
 1:var
-f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 2:case
 3:case
 14:var
-g=a[2];return[0,[0,g,g],b];default:var
+g=a[2];return[0,[0,g,g],c];default:var
 i=a[1];return[0,[0,i,i],d]}var
-e=[0,d,c];return[0,[0,e,e],d]}function
+e=[0,d,b];return[0,[0,e,e],d]}function
 d8(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fl(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(d8(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=d8(b,a[3]);return f(d8(b,a[2]),j)}function
-cD(b,a){if(typeof
+fm(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(d8(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=d8(c,a[3]);return f(d8(c,a[2]),j)}function
+cE(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=fl(b,a[2]);return f(fl(b,a[1]),h);case
+h=fm(b,a[2]);return f(fm(b,a[1]),h);case
 11:var
 i=d8(b,a[3]);return f(d8(b,a[2]),i);case
 12:var
@@ -2339,77 +2342,77 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-jO(c,b,a){var
-d=i(cD(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-jP(k,a,g){switch(g[0]){case
+jY(c,b,a){var
+d=i(cE(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+jZ(k,a,g){switch(g[0]){case
 0:var
-e=W(k,g[1]);if(e){var
-b=e[1],f=b[7];if(f)var
-m=f[1],h=function(c){var
-d=aa(a,pH);return au(F,au(s,m,bU(c,b[1])),d)},n=bV(b),o=h(ak(t(pI,a,l(d)),n)),p=bV(b),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(c),q)),o]];else
+e=X(k,g[1]);if(e){var
+c=e[1],f=c[7];if(f)var
+m=f[1],h=function(b){var
+d=aa(a,pV);return au(F,au(s,m,bU(b,c[1])),d)},n=bV(c),o=h(ak(t(pW,a,l(d)),n)),p=bV(c),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aa(a,pJ);return[0,[0,aa(a,0),r]];default:var
-u=au(F,ci,aa(a,pK));return[0,[0,au(F,ci,aa(a,0)),u]]}}function
-jQ(g,e,j,d,c){var
-k=fl(e,c),h=bF(j,f(fl(e,d),k)),a=jP(g,c7(pL,h),d);if(a)var
-b=jP(g,eV(pM,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=aa(a,pX);return[0,[0,aa(a,0),r]];default:var
+u=au(F,cj,aa(a,pY));return[0,[0,au(F,cj,aa(a,0)),u]]}}function
+j0(g,e,j,d,c){var
+k=fm(e,c),h=bH(j,f(fm(e,d),k)),a=jZ(g,cv(pZ,h),d);if(a)var
+b=jZ(g,eW(p0,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-cE(d,c,b,a){var
-e=o(c,b);return s(o(d,a),e)}function
-bs(a){return A(function(a){return f(a[1],[0,a[2],0])},a)}function
-jR(b,a){if(b)if(a)var
-d=b[1],e=jR(b[2],a[2]),f=o(d[2],a[1]),c=[0,[0,ch(d[1]),f],e];else
+cF(d,c,b,a){var
+e=p(c,b);return s(p(d,a),e)}function
+bs(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+j1(b,a){if(b)if(a)var
+d=b[1],e=j1(b[2],a[2]),f=p(d[2],a[1]),c=[0,[0,ci(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-jS(a){if(a){var
+j2(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=jS(a[2]);if(d)var
-g=d[1],h=ac(c,c),e=[0,[0,[0,ch(c),h],g]];else
+c=b[1],d=j2(a[2]);if(d)var
+g=d[1],h=ad(c,c),e=[0,[0,[0,ci(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return pO}function
+f=b;return f}return p2}function
 d9(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 h=c[1],j=bX(br(d,a),h);return[0,e(function(a){var
-b=o(a[2],j);return[0,ch(a[1]),b]},b)];case
-9:return jS(b);case
+b=p(a[2],j);return[0,ci(a[1]),b]},b)];case
+9:return j2(b);case
 15:var
 k=i(b),f=u(i(a[1]),k);if(f)var
-l=cD(d,a),g=[0,jR(b,bF(c[2],l))];else
+l=cE(d,a),g=[0,j1(b,bH(c[2],l))];else
 var
 g=f;return g}return 0}function
-fm(e,k,j,a){var
-P=j[1],b=bX(br(k,a),P),v=0;if(typeof
+fn(e,k,j,a){var
+P=j[1],c=bX(br(k,a),P),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,s(a[4],b),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,s(a[4],c),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,s(b,a[4]),0]},g=R,f=a[1];break;case
+R=function(a){return[0,s(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
-S=function(c){var
-a=c[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=c[2];return[0,s(s(s(o(K(b),g),f),e),d),0]},g=S,f=a[1];break;case
+S=function(b){var
+a=b[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=b[2];return[0,s(s(s(p(K(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
-T=function(c){var
-a=c[5];if(a)var
-e=K(a[1]),f=o(K(b),e),d=[0,s(c[2],f),0];else
+T=function(b){var
+a=b[5];if(a)var
+e=K(a[1]),f=p(K(c),e),d=[0,s(b[2],f),0];else
 var
 d=a;return d},g=T,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],y=m[1],z=e[1],h=x[1],i=y[1],q=z[1],J=cE(i[1],i[2],h[1],h[2]),L=o(q[3],J),M=cE(i[1],i[3],h[1],h[3]),N=o(q[2],M),O=cE(i[2],i[3],h[2],h[3]),w=F(s(o(q[1],O),N),L),U=bV(x),V=bV(y),B=o(o(o(b,bV(z)),V),U),X=[0,bl(F(w,B)),0],C=[0,s(w,B),X]}else
+x=n[1],y=m[1],A=e[1],h=x[1],i=y[1],q=A[1],J=cF(i[1],i[2],h[1],h[2]),L=p(q[3],J),M=cF(i[1],i[3],h[1],h[3]),N=p(q[2],M),O=cF(i[2],i[3],h[2],h[3]),w=F(s(p(q[1],O),N),L),U=bV(x),V=bV(y),B=p(p(p(c,bV(A)),V),U),W=[0,bl(F(w,B)),0],C=[0,s(w,B),W]}else
 var
 C=n;var
 D=C}else
@@ -2419,95 +2422,95 @@ E=D}else
 var
 E=e;return E;case
 10:var
-u=jQ(e,k,j[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],I=G[1];return A(ch,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
+u=j0(e,k,j[2],a[1],a[2]);if(u){var
+G=u[1],H=G[2],I=G[1];return z(ci,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=cD(k,a),f=bF(j[2],n),h=aa(f,pN),c=au(s,aa(f,0),h),i=K(b),l=K(bV(d)),m=ak(K(ac(c,d[1])),l),g=[0,s(s(ac(c,c),m),i),0];else
+n=cE(k,a),f=bH(j[2],n),h=aa(f,p1),b=au(s,aa(f,0),h),i=K(c),l=K(bV(d)),m=ak(K(ad(b,d[1])),l),g=[0,s(s(ad(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-q=l(d),r=cD(k,a),u=t(0,bF(j[2],r),q),f=ak(u,bV(e)),g=e[5];if(g){var
-m=aE(e[2]),h=ak(g[1],m),n=o(h,F(b,o(f,K(h))));return[0,s(l(c),n),0]}var
-i=e[7],p=i?[0,s(s(l(c),b),f),0]:i;return p},g=Z,f=a[1];break;case
+q=l(d),r=cE(k,a),u=t(0,bH(j[2],r),q),f=ak(u,bV(e)),g=e[5];if(g){var
+m=aE(e[2]),h=ak(g[1],m),n=p(h,F(c,p(f,K(h))));return[0,s(l(b),n),0]}var
+i=e[7],o=i?[0,s(s(l(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
 r=d9(e,k,j,a);return r?bs(r[1]):r;default:v=1}if(v)return 0;var
-p=W(e,f);return p?g(p[1]):p}function
-gQ(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gQ(d,b,jO(b,e,c),g);return f(fm(d,b,c,e),h)}return a}var
-jT=[0,d,c],jU=[0,[0,jT,jT],d];function
-gR(a){return ai(bT(a[1][1],a[1][2]))}function
-jV(a){var
-b=aV(0,i(a));return cu(function(b){return gR(t(b,a,jU))},b)}function
-jW(a,g){var
-h=g[4],b=aN(jV(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(jV(a),f);return cu(function(a){return ai(aR(d,a[2]))},i)}function
-jX(f,J,l,I,m,j,o,s){if(s){var
-a=s[1],aK=s[2],aL=jX(f,J,l,I,m,j,jO(j,a,o),aK);if(typeof
+o=X(e,f);return o?g(o[1]):o}function
+gU(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gU(d,b,jY(b,e,c),g);return f(fn(d,b,c,e),h)}return a}var
+j3=[0,d,b],j4=[0,[0,j3,j3],d];function
+gV(a){return ac(bT(a[1][1],a[1][2]))}function
+j5(a){var
+b=aV(0,i(a));return bD(function(b){return gV(t(b,a,j4))},b)}function
+j6(a,g){var
+h=g[4],b=aN(j5(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(j5(a),f);return bD(function(a){return ac(aR(d,a[2]))},i)}function
+j7(f,J,l,I,m,j,o,s){if(s){var
+a=s[1],aK=s[2],aL=j7(f,J,l,I,m,j,jY(j,a,o),aK);if(typeof
 a==="number")if(0===a)var
-g=[0,[0,C]];else
+h=[0,[0,C]];else
 var
-ar=J[2],as=J[1],at=d4(m),g=[0,[8,k(ap(l),at),as,ar]];else
+ar=J[2],as=J[1],at=d4(m),h=[0,[8,k(ap(l),at),as,ar]];else
 switch(a[0]){case
 0:var
-au=ag(f,br(j,a)),g=y(function(a){return[0,R(f,a)]},au);break;case
+au=ah(f,br(j,a)),h=y(function(a){return[0,S(f,a)]},au);break;case
 1:var
-av=ag(f,br(j,a)),g=y(function(a){return[1,R(f,a)]},av);break;case
+av=ah(f,br(j,a)),h=y(function(a){return[1,S(f,a)]},av);break;case
 5:var
-ax=ag(f,br(j,a)),g=y(function(a){return[2,R(f,a)]},ax);break;case
+ax=ah(f,br(j,a)),h=y(function(a){return[2,S(f,a)]},ax);break;case
 8:var
-ay=d9(m,j,o,a),g=y(function(a){var
-b=$(f,c);return[4,k(ap(l),a),b]},ay);break;case
+ay=d9(m,j,o,a),h=y(function(a){var
+c=$(f,b);return[4,k(ap(l),a),c]},ay);break;case
 9:var
 x=d9(m,j,o,a);if(x){var
-z=ag(f,br(j,a));if(z)var
-az=R(f,z[1]),aA=x[1],O=[0,[4,k(ap(l),aA),az]];else
+z=ah(f,br(j,a));if(z)var
+az=S(f,z[1]),aB=x[1],O=[0,[4,k(ap(l),aB),az]];else
 var
 O=z;var
 P=O}else
 var
 P=x;var
-g=P;break;case
+h=P;break;case
 10:var
-A=jQ(m,j,o[2],a[1],a[2]);if(A){var
-Q=A[1],S=Q[2],T=Q[1],B=ag(f,br(j,a));if(B){var
+A=j0(m,j,o[2],a[1],a[2]);if(A){var
+Q=A[1],R=Q[2],T=Q[1],B=ah(f,br(j,a));if(B){var
 U=B[1],V=G(d,U[1]);if(V)var
 q=function(a){var
-b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},aC=q(S[2]),aD=q(S[1]),aE=q(T[2]),X=[0,[6,q(T[1]),aE,aD,aC,U]];else
+b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},aC=q(R[2]),aD=q(R[1]),aE=q(T[2]),W=[0,[6,q(T[1]),aE,aD,aC,U]];else
 var
-X=V;var
-Y=X}else
+W=V;var
+Y=W}else
 var
 Y=B;var
 Z=Y}else
 var
 Z=A;var
-g=Z;break;case
+h=Z;break;case
 12:var
-r=fm(m,j,o,a),v=0;if(r)if(r[2])var
-g=0;else{var
-_=h(f,0,a[2]),aa=_?h(f,1,a[4]):_;if(aa){var
+r=fn(m,j,o,a),v=0;if(r)if(r[2])var
+h=0;else{var
+_=g(f,0,a[2]),aa=_?g(f,1,a[4]):_;if(aa){var
 D=[0,[3,k(l,r[1])]];v=1}else{var
 D=aa;v=1}}else{var
 D=r;v=1}if(v)var
-g=D;break;case
+h=D;break;case
 13:var
-ab=a[1],ac=W(m,ab),K=0;if(ac){var
-ad=h(f,1,a[2]),ae=ad?h(f,1,a[3]):ad;if(ae)var
-aF=ag(f,br(j,a)),g=y(function(a){return[7,ab,R(f,a)]},aF);else{var
+ab=a[1],ac=X(m,ab),K=0;if(ac){var
+ad=g(f,1,a[2]),ae=ad?g(f,1,a[3]):ad;if(ae)var
+aF=ah(f,br(j,a)),h=y(function(a){return[7,ab,S(f,a)]},aF);else{var
 af=ae;K=1}}else{var
 af=ac;K=1}if(K)var
-g=af;break;case
+h=af;break;case
 14:var
-E=a[2],ah=a[1],ai=u(i(m),pP),ak=ai?h(f,0,ah):ai,al=ak?h(f,1,E):ak;if(al){var
-F=ag(f,br(j,a));if(F)var
+E=a[2],ag=a[1],ai=u(i(m),p3),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
+F=ah(f,br(j,a));if(F)var
 H=aj(e(function(n){var
-h=[5,ah,E],a=ag(f,[0,[0,h,h],d]);if(a){var
-o=jW(I,n),g=aj(e(function(e){var
-a=t(e[1],I,jU),g=aB(a[2],j),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=ag(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
+h=[5,ag,E],a=ah(f,[0,[0,h,h],d]);if(a){var
+o=j6(I,n),g=aj(e(function(e){var
+a=t(e[1],I,j4),g=aA(a[2],j),h=[4,[0,c(2,b),b],E],d=[5,[3,a[1][2],a[1][1]],h],i=ah(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
 p=[0,a[1],g[1]],i=[0,[0,k(l,n[4]),p]];else
 var
 i=g;var
@@ -2519,37 +2522,37 @@ am=F;var
 an=am}else
 var
 an=al;var
-g=an;break;case
+h=an;break;case
 15:var
-aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return h(f,aI,a)},aH);if(ao)var
-aJ=d9(m,j,o,a),g=y(function(a){var
-b=$(f,c);return[4,k(ap(l),a),b]},aJ);else
+aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
+aJ=d9(m,j,o,a),h=y(function(a){var
+c=$(f,b);return[4,k(ap(l),a),c]},aJ);else
 var
-g=ao;break;default:var
-p=fm(m,j,o,a),L=0;if(p){var
+h=ao;break;default:var
+p=fn(m,j,o,a),L=0;if(p){var
 w=p[2],M=p[1];if(w)if(w[2])var
-g=0;else
+h=0;else
 var
-aw=k(l,w[1]),g=[0,[5,k(l,M),aw]];else{var
+aw=k(l,w[1]),h=[0,[5,k(l,M),aw]];else{var
 N=[0,[3,k(l,M)]];L=1}}else{var
 N=p;L=1}if(L)var
-g=N}var
-aq=[0,g,aL]}else
+h=N}var
+aq=[0,h,aL]}else
 var
 aq=s;return aq}function
-pQ(a){var
+p4(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dj(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-jY(a,c,g,b){if(0===c[0])return 0;if(b){var
+j8(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cf(a,g,c[1]);if(i){var
-j=cf(a,g,c[2]);if(j){var
-k=cf(a,g,c[3]);if(k)var
-t=i[1],u=bE(f),l=J([0,bE(f),u],t),v=j[1],x=bE(e),m=J([0,bE(e),x],v),y=de(e),z=[0,de(e),y],A=[0,w(a,ae(B(m,m)),z),0],D=de(f),E=[0,de(f),D],F=[0,w(a,ae(B(l,l)),E),A],G=R(a,m),H=R(a,l),n=[0,[0,J(J(R(a,k[1]),H),G),C,F]];else
+e=d[1],f=b[1],i=cg(a,g,c[1]);if(i){var
+j=cg(a,g,c[2]);if(j){var
+k=cg(a,g,c[3]);if(k)var
+t=i[1],u=bG(f),l=J([0,bG(f),u],t),v=j[1],x=bG(e),m=J([0,bG(e),x],v),y=de(e),z=[0,de(e),y],A=[0,w(a,af(B(m,m)),z),0],D=de(f),E=[0,de(f),D],F=[0,w(a,af(B(l,l)),E),A],G=S(a,m),H=S(a,l),n=[0,[0,J(J(S(a,k[1]),H),G),C,F]];else
 var
 n=k;var
 o=n}else
@@ -2567,14 +2570,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gS(a,p,o){var
-q=aF(p,o),b=e(function(b){return ag(a,b)},q);if(b){var
+gW(a,p,o){var
+q=aF(p,o),b=e(function(b){return ah(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=R(a,i[1]),s=R(a,h[1]);return V(d,B(B(R(a,g[1]),s),r)[1])}var
+r=S(a,i[1]),s=S(a,h[1]);return W(d,B(B(S(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2594,31 +2597,31 @@ ab(c,b,a){var
 d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
 aq(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-av(a){return aq([5,[0,c,c],[6,O(a,a)]],a)}function
-cF(c,b,a){var
+av(a){return aq([5,[0,b,b],[6,O(a,a)]],a)}function
+cG(c,b,a){var
 d=a9(c,b[1],a);return d?a9(c,a,b[2]):d}function
 aY(c,b,a){var
-d=cF(c,b[1],a[1]),e=d?cF(c,b[2],a[2]):d;return e?cF(c,b[3],a[3]):e}function
-jZ(b,c,a){switch(c[0]){case
+d=cG(c,b[1],a[1]),e=d?cG(c,b[2],a[2]):d;return e?cG(c,b[3],a[3]):e}function
+j9(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aY(b,d[1],f),l=k?h(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cF(b,d[4],j):n,p=o?h(b,1,j):o;return p?b_(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aY(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cG(b,d[4],j):n,p=o?g(b,1,j):o;return p?b$(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=aY(b,c[1],a[1]),s=r?aY(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=aY(b,q[1],g);if(t)return h(b,1,O(g,g));var
+h=e[1],t=aY(b,q[1],h);if(t)return g(b,1,O(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=aY(b,c[1],i);return w?h(b,1,O(i,i)):w}return 0}}function
+i=a[1],w=aY(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
 d_(c,a,b){if(0===a[0])return aY(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cF(c,a[4],b[3]):i}function
-j0(g,f,i,h){var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cG(c,a[4],b[3]):i}function
+j_(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=jZ(g,b[1],a[1]);if(d){var
+d=j9(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2630,36 +2633,36 @@ a7(c,b,a){var
 d=ab(function(b,a){return[2,b,a]},a,b);return ab(function(b,a){return[3,b,a]},d,c)}function
 d$(a,e,d,c){var
 b=a7(e,d,c),f=av(a),g=aq(O(av(a),b),f);return ab(function(b,a){return[3,b,a]},b,g)}function
-cG(f,e,d,a,c){var
+cH(f,e,d,a,c){var
 b=d$(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cH(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cI(a,b){switch(a[0]){case
+cI(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cJ(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d$(d,f,e,b),h=cG(d,f,e,a[4],b),i=aq([5,[0,c,c],cH(a[5],h)],g),j=av(d);return ab(function(b,a){return[2,b,a]},j,i);case
-1:return av(a7(a[1],a[2],b));default:return av(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=d$(d,f,e,c),h=cH(d,f,e,a[4],c),i=aq([5,[0,b,b],cI(a[5],h)],g),j=av(d);return ab(function(b,a){return[2,b,a]},j,i);case
+1:return av(a7(a[1],a[2],c));default:return av(a[1])}}function
 ea(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cG(c,e,d,a[4],b),h=aq(cH(a[5],g),f),i=d$(c,e,d,b);return ab(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=av(c),g=cH(c,e,d,a[4],b),h=aq(cI(a[5],g),f),i=d$(c,e,d,b);return ab(function(b,a){return[2,b,a]},i,h);case
 1:return a7(a[1],a[2],b);default:return av(a[1])}}function
-gT(a,b){switch(a[0]){case
+gX(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cG(e,d,c,a[4],b),i=cH(a[5],h),j=a7(d,c,b);return[3,O(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cH(e,d,c,a[4],b),i=cI(a[5],h),j=a7(d,c,b);return[3,O(av(e),j),i];case
 1:var
 f=a[2],g=a[1],k=a7(g,f,b);return[6,O(a7(g,f,b),k)];default:return O(av(a[1]),b)}}function
-j1(a,b){switch(a[0]){case
-0:return[0,cG(a[1],a[2],a[3],a[4],b)];case
+j$(a,b){switch(a[0]){case
+0:return[0,cH(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=a7(d,c,b);return[0,O(a7(d,c,b),e)];default:return 0}}function
-eb(e,b,a){var
-f=[0,d,c];return bk(function(c,d){var
-e=O(cI(c,b),a);return[2,[4,O(cI(c,b),a),e],d]},f,e)}function
-j2(a){var
-b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-gU(a,b){switch(a[0]){case
+eb(e,c,a){var
+f=[0,d,b];return bk(function(b,d){var
+e=O(cJ(b,c),a);return[2,[4,O(cJ(b,c),a),e],d]},f,e)}function
+ka(a){var
+c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
+gY(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a7(e,d,b);return[6,O(a7(e,d,b),f)];default:return[0,c,c]}}function
-j3(d,i){if(d){var
+d=a[2],e=a[1],f=a7(e,d,c);return[6,O(a7(e,d,c),f)];default:return[0,b,b]}}function
+kb(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=a7(a[1],a[2],i),k=av(f),l=aq(O(av(f),g),k),h=[0,ab(function(b,a){return[3,b,a]},g,l)];else
@@ -2668,60 +2671,60 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=j3(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kb(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return pR}function
-cJ(a){return[0,a[1],a[2],a[3]]}function
-j4(a,b){switch(a[0]){case
+j=b;return j}return p5}function
+cK(a){return[0,a[1],a[2],a[3]]}function
+kc(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cG(d,g,c,f,b),k=aq(cH(a[5],j),i),l=d$(d,g,c,b),m=ab(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cH(d,g,c,f,b),k=aq(cI(a[5],j),i),l=d$(d,g,c,b),m=ab(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=a7(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-j5(l,b,a){switch(a[0]){case
+kd(l,c,a){switch(a[0]){case
 0:var
-m=a[5],d=W(l,a[1]);if(d){var
-e=j4(d[1],b);if(e)var
+m=a[5],d=X(l,a[1]);if(d){var
+e=kc(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cJ(m),c=aq(a,n),d=ab(function(b,a){return[3,b,a]},o,c);return ab(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cK(m),c=aq(a,n),d=ab(function(b,a){return[3,b,a]},o,c);return ab(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cJ(a[3]);return[0,[0,cJ(a[2]),q]];default:var
-r=cJ(a[3]),s=ab(function(b,a){return[2,b,a]},b,r),t=cJ(a[2]);return[0,[0,ab(function(b,a){return[2,b,a]},b,t),s]]}}function
-j6(d,a,c,b){var
+q=cK(a[3]);return[0,[0,cK(a[2]),q]];default:var
+r=cK(a[3]),s=ab(function(b,a){return[2,b,a]},c,r),t=cK(a[2]);return[0,[0,ab(function(b,a){return[2,b,a]},c,t),s]]}}function
+ke(d,a,c,b){var
 e=aq(a,b),f=aq([3,d,a],c);return ab(function(b,a){return[2,b,a]},f,e)}function
-j7(f,g,b,e,q,a){function
-F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],O(e,e)]}var
+kf(f,h,c,e,q,a){function
+F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],O(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=eb(g,b,e);return h(f,1,[3,F(a[1]),ap]);case
+ap=eb(h,c,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return h(f,1,[3,eb(g,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,eb(h,c,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,gT(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,gX(a,c)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,gT(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,gX(a,c),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],aw=function(a){var
-c=cI(a,b);return[3,[4,[4,H,H],O(cI(a,b),c)],[4,G,G]]},s=aw,r=a[1];break;case
+b=cJ(a,c);return[3,[4,[4,H,H],O(cJ(a,c),b)],[4,G,G]]},s=aw,r=a[1];break;case
 5:var
-I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,eb(g,b,q),ax]],az=O(q,q);return h(f,1,[3,[4,eb(g,b,e),az],ay]);case
+I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,eb(h,c,q),ax]],az=O(q,q);return g(f,1,[3,[4,eb(h,c,e),az],ay]);case
 6:var
-J=a[2],u=W(g,a[1]);if(u){var
+J=a[2],u=X(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cG(i[1],i[2],i[3],v,b),K=cH(i[5],aA);return h(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=cH(i[1],i[2],i[3],v,c),K=cI(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
-7:if(g){var
-n=g[2];if(n){var
+7:if(h){var
+n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],P=g[1],aB=gU(M,b),aC=gU(N,b),aD=gU(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ea(M,b),k=ea(N,b),aE=ea(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=h(f,1,[3,Q,E]);if(R)return h(f,1,[2,Q,E]);var
+M=o[1],N=n[1],P=h[1],aB=gY(M,c),aC=gY(N,c),aD=gY(P,c),Q=[4,[4,[4,a[1],aD],aC],aB],j=ea(M,c),k=ea(N,c),aE=ea(P,c),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
 S=R}else
 var
 S=o;var
@@ -2730,17 +2733,17 @@ var
 T=n;var
 U=T}else
 var
-U=g;return U;case
+U=h;return U;case
 8:var
-aF=eb(g,b,e),aG=O(e,e);return h(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=eb(h,c,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-V=a[1],w=j3(g,b);if(w){var
-aH=w[1],an=[0,d,c],ao=bk(function(a,b){var
-c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return h(f,1,[3,[4,[4,V,V],O(e,e)],ao])}return w;case
+V=a[1],w=kb(h,c);if(w){var
+aH=w[1],an=[0,d,b],ao=bk(function(a,b){var
+c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,V,V],O(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=j5(g,b,Y);if(x){var
-Z=x[1],y=j5(g,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=j6(l,A,_[1],_[2]),aJ=j6(l,z,Z[1],Z[2]),$=ab(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=e7(X),aa=[4,l,[2,[2,e7(Y),aL],aK]],ac=h(f,1,l),ad=ac?h(f,0,z):ac,ae=ad?h(f,0,[3,l,z]):ad,af=ae?h(f,0,A):ae,ag=af?h(f,0,[3,l,A]):af;if(ag)return h(f,1,[3,[4,aa,aa],O($,$)]);var
+W=a[2],Y=a[1],x=kd(h,c,Y);if(x){var
+Z=x[1],y=kd(h,c,W);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=ke(l,A,_[1],_[2]),aJ=ke(l,z,Z[1],Z[2]),$=ab(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=e8(W),aa=[4,l,[2,[2,e8(Y),aL],aK]],ac=g(f,1,l),ad=ac?g(f,0,z):ac,ae=ad?g(f,0,[3,l,z]):ad,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2748,38 +2751,38 @@ ai=ah}else
 var
 ai=x;return ai;case
 11:var
-aj=a[4],B=W(g,a[1]);if(B){var
-C=j4(B[1],b);if(C){var
-m=C[1][1][2],aM=cJ(a[3]),aN=cJ(a[2]),p=ab(function(b,a){return[3,b,a]},aN,aM),ak=h(f,1,O(m,m));if(ak){var
-aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return h(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
+aj=a[4],B=X(h,a[1]);if(B){var
+C=kc(B[1],c);if(C){var
+m=C[1][1][2],aM=cK(a[3]),aN=cK(a[2]),p=ab(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
+aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
 al=ak}else
 var
 al=C;var
 am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
-t=W(g,r);return t?h(f,1,s(t[1])):t}function
+t=X(h,r);return t?g(f,1,s(t[1])):t}function
 a_(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-j8(a){switch(a[0]){case
+kg(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=a_(b[3]),f=a_(b[2]);return[0,a_(b[1]),f,e,d,c];case
 1:var
 g=y(a_,a[3]),h=a_(a[2]);return[1,a_(a[1]),h,g];default:return[2,a_(a[1])]}}function
-gV(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
-j9(b,a){var
-c=gV(a[2]);return j0(b,a,e(j8,a[1]),c)}function
-j_(b,a,c){var
-d=[0,c,eV(b,a)];return f(c7(b,a),d)}function
-bY(b,a){if(b){if(a){var
-e=bY(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-j$(a){if(a){var
+gZ(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
+kh(b,a){var
+c=gZ(a[2]);return j_(b,a,e(kg,a[1]),c)}function
+ki(b,a,c){var
+d=[0,c,eW(b,a)];return f(cv(b,a),d)}function
+bY(c,a){if(c){if(a){var
+e=bY(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+kj(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=j$(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pT}function
-ka(a,l,k,f){var
+c=b[1],d=kj(a[2]);return y(function(a){return[0,c,a]},d)}return b}return p7}function
+kk(a,l,k,f){var
 b=aX(a,l);if(b){var
 c=aX(a,k);if(c){var
 d=dc(a,f);if(d){var
-e=e6(a,f);if(e)var
+e=e7(a,f);if(e)var
 m=w(a,b[1],e[1]),g=[0,J(w(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -2792,50 +2795,50 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fn(a){return a?V(d,a[1][1]):a}function
-kb(a,ab,m,aD,g,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bY(a,a)]}var
+fo(a){return a?W(d,a[1][1]):a}function
+kl(a,ab,m,aD,h,f){function
+ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bY(a,a)]}var
 aE=m[1];function
-o(b){var
-a=[0,d,c];return bk(function(a,c){var
-d=bY(a,b);return[2,[4,bY(a,b),d],c]},a,aE)}var
-ad=n(function(a){return u(i(a),ab)},g);if(ad){var
+o(c){var
+a=[0,d,b];return bk(function(a,b){var
+d=bY(a,c);return[2,[4,bY(a,c),d],b]},a,aE)}var
+ad=n(function(a){return u(i(a),ab)},h);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
-0:if(g){if(g[2])return 0;var
-af=g[1],aF=o(af);return h(a,1,[3,ac(f[1],af),aF])}return g;case
-1:if(g){if(g[2])return 0;var
-ag=g[1],aG=ac(f[1],ag);return h(a,1,[3,o(ag),aG])}return g;case
-2:if(g)return 0;var
+0:if(h){if(h[2])return 0;var
+af=h[1],aF=o(af);return g(a,1,[3,ac(f[1],af),aF])}return h;case
+1:if(h){if(h[2])return 0;var
+ag=h[1],aG=ac(f[1],ag);return g(a,1,[3,o(ag),aG])}return h;case
+2:if(h)return 0;var
 aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
-3:if(g)return 0;var
+b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
+3:if(h)return 0;var
 aJ=f[2],aK=function(b){if(typeof
-b!=="number"&&0===b[0])return h(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
-4:if(g)return 0;var
+b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
+4:if(h)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-g=e[2],i=e[1],j=h(a,0,[3,[2,ai,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=ka(a,i,g,ai);return f?V(f[1][2],d):f}return fn(ka(a,i,g,ah))}return j}return 0},H=aL,G=f[1];break;case
-5:if(g){var
-r=g[2];if(r){if(r[2])return 0;var
-K=r[1],L=g[1],aj=f[1],aM=bY(L,L),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=bY(K,K);return h(a,1,[3,[4,o(L),aO],aN])}var
+h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
+f=kk(a,i,h,ai);return f?W(f[1][2],d):f}return fo(kk(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
+5:if(h){var
+r=h[2];if(r){if(r[2])return 0;var
+K=r[1],L=h[1],aj=f[1],aM=bY(L,L),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=bY(K,K);return g(a,1,[3,[4,o(L),aO],aN])}var
 ak=r}else
 var
-ak=g;return ak;case
-6:if(g)return 0;var
+ak=h;return ak;case
+6:if(h)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=h(a,1,al);return d?h(a,1,[3,bY(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
-8:if(g){if(g[2])return 0;var
-N=g[1],aR=o(N),aS=[4,f[1],aR],aT=bY(N,N);return h(a,1,[3,[4,f[2],aT],aS])}return g;case
-9:if(g)return 0;var
+c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,bY(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+8:if(h){if(h[2])return 0;var
+N=h[1],aR=o(N),aS=[4,f[1],aR],aT=bY(N,N);return g(a,1,[3,[4,f[2],aT],aS])}return h;case
+9:if(h)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
-f=h(a,1,as),g=f?h(a,0,ar):f;if(g){var
+f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
 b=aX(a,bY(e,e));if(b){var
 c=aX(a,[5,ar,as]);if(c){var
-d=ja(a,c[1]);if(d){var
-l=R(a,d[1]);return fn([0,J(b[1],l)])}var
+d=jk(a,c[1]);if(d){var
+l=S(a,d[1]);return fo([0,J(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2844,17 +2847,17 @@ var
 j=b;var
 k=j}else
 var
-k=g;return k},an=aU,am=f[1];k=3;break;case
-10:if(g)return 0;var
+k=h;return k},an=aU,am=f[1];k=3;break;case
+10:if(h)return 0;var
 aV=f[2],aW=function(b){var
-c=[4,aV,b[3]],d=h(a,1,c);return d?h(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
-11:if(g)return 0;var
+c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
+11:if(h)return 0;var
 aY=f[2],aZ=function(e){var
 b=dc(a,aY);if(b){var
 c=aX(a,e[3]);if(c){var
 d=aX(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fn([0,f]);if(g){var
-k=R(a,d[1]);return fn([0,J(R(a,f),k)])}var
+f=w(a,b[1],c[1]),g=fo([0,f]);if(g){var
+k=S(a,d[1]);return fo([0,J(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2864,13 +2867,13 @@ i=c;var
 j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
-12:if(g)return 0;var
-Q=j$(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=c6(function(b,a){return[4,b,a[3]]},aw,a0),S=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
-s=S[1];if(s){var
+12:if(h)return 0;var
+Q=kj(m[3]);if(Q){var
+aw=Q[1],a0=f[1],ax=c7(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
+s=R[1];if(s){var
 t=s[2];if(t){var
-v=t[2],T=t[1],U=s[1],l=S[2];if(v)if(v[2]||!l)var
-j=[0,d,c];else{var
+v=t[2],T=t[1],U=s[1],l=R[2];if(v)if(v[2]||!l)var
+j=[0,d,b];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -2878,56 +2881,56 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,T,p(aa,_,Z,X)],j=[2,[3,[4,U,p($,_,Y,X)],aC],aB];else
+V=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,T,p(aa,_,Z,V)],j=[2,[3,[4,U,p($,_,Y,V)],aC],aB];else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],j=F?F[2]?[0,d,c]:l[2]?[0,d,c]:p(U,T,E[1],F[1]):[0,d,c];else
+F=E[2],j=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(U,T,E[1],F[1]):[0,d,b];else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c];var
-ay=h(a,1,[3,ax,j]);if(ay)return h(a,1,[2,ax,j]);var
+j=[0,d,b];var
+ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
 az=ay}else
 var
 az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=W(m[3],at);if(O){var
+O=X(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-M=W(m[1],am);if(M){var
+M=X(m[1],am);if(M){var
 ao=M[1],ap=u(i(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=M;return aq;default:var
-I=W(m[2],G);return I?H(I[1]):I}}else
+I=X(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-kc(h,g){var
+km(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2937,101 +2940,101 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kd(a){if(a){var
+kn(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kd(a[2]);return y(function(a){return[0,c,a]},d)}return b}return pU}function
-pV(a){return e(function(a){return[0,a,c]},a)}function
-ke(g,f,b,n,a){if(typeof
+c=b[1],d=kn(a[2]);return y(function(a){return[0,c,a]},d)}return b}return p8}function
+p9(a){return e(function(a){return[0,a,b]},a)}function
+ko(h,f,c,n,a){if(typeof
 a==="number"){if(0===a){var
-r=b[4];return ar(function(a){return h(g,0,[3,[0,d,c],a])},r)}var
-i=kd(b[5]);return i?jh(f,i[1]):i}else{if(0===a[0]){var
-j=kc(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(pV,a[2]);return kb(g,f,b,o[2],t,s)}return j}var
-k=kc(a[1],n);if(k){var
+r=c[4];return ar(function(a){return g(h,0,[3,[0,d,b],a])},r)}var
+i=kn(c[5]);return i?jr(f,i[1]):i}else{if(0===a[0]){var
+j=km(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(p9,a[2]);return kl(h,f,c,o[2],t,s)}return j}var
+k=km(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=W(b[1],a[2]);return m?kb(g,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=X(c[1],a[2]);return m?kl(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-gW(a){var
+g0(a){var
 b=av(a[1]),c=aq(O(b,a[2]),b),d=a[2];return ab(function(b,a){return[3,b,a]},d,c)}function
-gX(a){return av(gW(a))}function
-kf(c){var
-a=gX(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-gY(a,b){return a7(a[3],a[4],b)}function
-gZ(a,b){var
-c=gY(a,b);return O(gX(a),c)}function
-g0(a,b){var
-c=gY(a,b);return O(kf(a),c)}function
-kg(a,b){var
-c=gY(a,b);return O(av(a[1]),c)}function
-g1(b,a){var
-c=g0(b,a),d=gZ(b,a);return[2,[4,d,d],[4,c,c]]}function
-g2(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kg(a,d);return[5,[2,g1(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kh(a,b){var
-f=a[5],c=[3,g2(a,b),f],d=kg(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fo(a,b){var
-c=kh(a,b);return cH(a[7],c)}function
-ki(b,a){var
-c=g1(b,a),d=g0(b,a),e=[4,fo(b,a),d],f=gZ(b,a);return[5,[2,[4,g2(b,a),f],e],c]}function
-kj(b,a){var
-c=g1(b,a),d=gZ(b,a),e=[4,fo(b,a),d],f=g0(b,a);return[5,[3,[4,g2(b,a),f],e],c]}function
-kk(a,b){var
-c=kf(a),d=aq(kj(a,b),c),e=gX(a),f=aq(ki(a,b),e),g=ab(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return ab(function(b,a){return[2,b,a]},i,h)}function
-kl(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-km(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-g3(a,c,b){var
-d=[4,kl(a),b],e=[2,[4,km(a),c],d],f=[4,km(a),b];return[0,[3,[4,kl(a),c],f],e]}function
-kn(c,a){var
-b=g3(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+g1(a){return av(g0(a))}function
+kp(c){var
+a=g1(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g2(a,b){return a7(a[3],a[4],b)}function
+g3(a,b){var
+c=g2(a,b);return O(g1(a),c)}function
+g4(a,b){var
+c=g2(a,b);return O(kp(a),c)}function
+kq(a,b){var
+c=g2(a,b);return O(av(a[1]),c)}function
+g5(b,a){var
+c=g4(b,a),d=g3(b,a);return[2,[4,d,d],[4,c,c]]}function
+g6(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kq(a,d);return[5,[2,g5(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kr(a,b){var
+f=a[5],c=[3,g6(a,b),f],d=kq(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fp(a,b){var
+c=kr(a,b);return cI(a[7],c)}function
+ks(b,a){var
+c=g5(b,a),d=g4(b,a),e=[4,fp(b,a),d],f=g3(b,a);return[5,[2,[4,g6(b,a),f],e],c]}function
+kt(b,a){var
+c=g5(b,a),d=g3(b,a),e=[4,fp(b,a),d],f=g4(b,a);return[5,[3,[4,g6(b,a),f],e],c]}function
+ku(a,b){var
+c=kp(a),d=aq(kt(a,b),c),e=g1(a),f=aq(ks(a,b),e),g=ab(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return ab(function(b,a){return[2,b,a]},i,h)}function
+kv(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+kw(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+g7(a,c,b){var
+d=[4,kv(a),b],e=[2,[4,kw(a),c],d],f=[4,kw(a),b];return[0,[3,[4,kv(a),c],f],e]}function
+kx(c,a){var
+b=g7(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 ec(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fp(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kn(d[1],a):a;case
+fq(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kx(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=g3(d[1],a[2],a[3]),m=j[1],k=g3(f[1],j[2],a[1]);return kn(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=g7(d[1],a[2],a[3]),m=j[1],k=g7(f[1],j[2],a[1]);return kx(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=ec(e,a),o=aq([0,b(2,c),c],n),p=O(e,a),q=aq([4,[0,b(2,c),c],p],e),r=aq([3,[0,c,c],l],a),s=ab(function(b,a){return[2,b,a]},r,q);return aq([5,[0,c,c],[2,[0,c,c],l]],ab(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-ko(b){var
-a=cA(b);return a?c8(a[1],[0,d,c]):a}function
-kp(a,n,k,j){if(ko(j)){var
-q=n?[3,[0,d,c],k]:k;return h(a,0,q)}var
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=ec(e,a),o=aq([0,c(2,b),b],n),p=O(e,a),q=aq([4,[0,c(2,b),b],p],e),r=aq([3,[0,b,b],l],a),s=ab(function(b,a){return[2,b,a]},r,q);return aq([5,[0,b,b],[2,[0,b,b],l]],ab(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+ky(c){var
+a=cB(c);return a?c8(a[1],[0,d,b]):a}function
+kz(a,n,k,j){if(ky(j)){var
+q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
 f=aX(a,k);if(f){var
-g=dc(a,[5,j,[0,b(2,c),c]]);if(g){var
-i=e6(a,[5,j,[0,b(2,c),c]]);if(i)var
-p=w(a,f[1],g[1]),l=[0,J(i[1],p)];else
+h=dc(a,[5,j,[0,c(2,b),b]]);if(h){var
+i=e7(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=w(a,f[1],h[1]),l=[0,J(i[1],p)];else
 var
 l=i;var
 m=l}else
 var
-m=g;var
+m=h;var
 e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
 ed(b,a,c){var
-d=a9(b,a[1],a[2]),e=d?kp(b,0,c,a[1]):d;return e?kp(b,1,c,a[2]):e}function
-dk(a,d){if(ko(d))return[0,C];var
-e=dc(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=e6(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=B($(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cb(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return y(function(d){var
-e=w(x(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gy(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+d=a9(b,a[1],a[2]),e=d?kz(b,0,c,a[1]):d;return e?kz(b,1,c,a[2]):e}function
+dk(a,d){if(ky(d))return[0,C];var
+e=dc(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
+f=e7(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
+h=f[1],i=e[1],j=B($(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cc(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
+e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gC(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
 ee(d,a){var
-e=h(d,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]);return e?h(d,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
-cK(a){return[0,[3,[0,d,c],a],a]}function
-kq(a,b,n,m){var
-h=a9(a,[0,d,c],b),i=h?ee(a,b):h;if(i){var
-e=dk(a,b);if(e){var
+e=g(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+cL(a){return[0,[3,[0,d,b],a],a]}function
+kA(a,c,n,m){var
+h=a9(a,[0,d,b],c),i=h?ee(a,c):h;if(i){var
+e=dk(a,c);if(e){var
 f=aX(a,n);if(f){var
 g=aX(a,m);if(g){var
-o=f[1],p=g[1];return G(d,J(w(a,R(a,e[1]),p),o)[1])}var
+o=f[1],p=g[1];return G(d,J(w(a,S(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3041,12 +3044,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-kr(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:ed(d,b[1],a[1]):a;case
+kB(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:ed(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ed(d,b[1],a[1]),m=l?ed(d,b[2],e[1]):l;if(m)return ed(d,b[3],f[1]);var
+l=ed(d,c[1],a[1]),m=l?ed(d,c[2],e[1]):l;if(m)return ed(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3059,7 +3062,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kq(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kA(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3068,7 +3071,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kq(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ed(d,cK(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kA(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return ed(d,cL(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3078,20 +3081,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dl(a){return 1===a?pW:pX}function
-fq(d,c,b,a){var
-e=a[1],f=fp(d,c,a[2]),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
-g4(c,b,a){switch(c){case
+dl(a){return 1===a?p_:p$}function
+fr(d,c,b,a){var
+e=a[1],f=fq(d,c,a[2]),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+g8(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 ef(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cx(function(a){return ef(b,a)},a)]}return[0,cx(function(a){return ef(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cy(function(a){return ef(b,a)},a)]}return[0,cy(function(a){return ef(b,a)},a)]}function
 dm(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ai(u(e,b));return f?ai(u(e,N(d,b))):f;case
+e=a[1],f=ac(u(e,b));return f?ac(u(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3120,10 +3123,10 @@ e=eg(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return dm(c,b,a[1]);default:return 1}}}function
-cL(c,e){var
+cM(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ai(u(a[1],c));case
+0:return ac(u(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3131,19 +3134,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cL(c,a[1]);if(d){var
+d=cM(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g5(d,b,m){var
+g9(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g5(d,b,a[1]);if(f){var
+f=g9(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g5(d,b,a[1]);return g?cL(b,a[2]):g;case
+g=g9(d,b,a[1]);return g?cM(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cL(b,i);if(j){var
-k=cL(b,h);if(k)var
+h=a[2],i=a[1],j=cM(b,i);if(j){var
+k=cM(b,h);if(k)var
 e=k;else{var
 l=aM(i,d);if(l){var
 c=h;continue}var
@@ -3152,8 +3155,8 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cL(b,c)}}}function
-ks(c,e){var
+2:return 1;default:return cM(b,c)}}}function
+kC(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return dS(a[1],c);case
@@ -3164,148 +3167,148 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=ks(c,a[1]);if(d){var
+d=kC(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ck(b,a){return a?k(b,a[1]):a}function
-cl(c,b,a){return ck(function(b){return ck(k(c,b),a)},b)}function
-kt(b,a){switch(a[0]){case
+cl(b,a){return a?k(b,a[1]):a}function
+cm(c,b,a){return cl(function(b){return cl(k(c,b),a)},b)}function
+kD(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-ku(a){return 0===a[0]?a[1]:0}function
-bG(b,a){switch(a[0]){case
+kE(a){return 0===a[0]?a[1]:0}function
+bI(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
-1:return[1,bG(b,a[1])];default:var
-c=bG(b,a[3]),d=bG(b,a[2]);return[2,bG(b,a[1]),d,c]}}function
+1:return[1,bI(b,a[1])];default:var
+c=bI(b,a[3]),d=bI(b,a[2]);return[2,bI(b,a[1]),d,c]}}function
 aZ(b,c,a){switch(c[0]){case
-0:return bG(k(b,c[1]),a);case
+0:return bI(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bG(function(a){return as(b,a,j)},d)];case
+j=a[1];return[1,bI(function(a){return as(b,a,j)},d)];case
 1:return[1,aZ(b,d,a[1])];default:var
 l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bG(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bI(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 i=a[1],r=aZ(b,e,i),s=aZ(b,f,i);return[2,aZ(b,g,i),s,r];default:var
 t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
-g6(c,f,a){if(a)var
+g_(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,R(c,a)];break;case
+e=[0,a,S(c,a)];break;case
 1:var
 g=w(c,a,b),e=[0,a5(B(a,b)),g];break;default:var
-e=[0,b,R(c,b)]}return[0,[0,k(f,e)]]},h=g6(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+e=[0,b,S(c,b)]}return[0,[0,k(f,e)]]},h=g_(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-kv(a){if(a){var
+kF(a){if(a){var
 b=a[1];if(b)var
-c=kv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kF(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p0}function
+d=b;return d}return qc}function
 dn(a){if(a){var
-g=a[1],b=g[2],c=kv(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=kF(g[1]);if(c)if(b){var
 h=b[1],e=dn(a[2]);if(e)var
-i=V(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+i=W(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return p1}function
+f=c;return f}return qd}function
 dp(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ap(b),f),e,d]}function
-kw(e,d,c,b){if(d){var
+kG(e,d,c,b){if(d){var
 i=d[1],a=function(a){var
-d=dp(function(b){return kt(a,b)},b);return kw(bA(e),i,c,d)},f=a(0);if(f){var
+d=dp(function(b){return kD(a,b)},b);return kG(bB(e),i,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,dp(ku,b))}function
-kx(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return kx(m,e,l,a,dp(function(a){return kt(b,a)},d))},h=c(0,aB(b,g));if(h){var
+h=f;return h}return k(c,dp(kE,b))}function
+kH(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return kH(m,e,l,a,dp(function(a){return kD(b,a)},d))},h=c(0,aA(b,g));if(h){var
 i=c(2,x(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:as(e,b,dp(ku,d))}function
+k=a;return k}return a?0:as(e,b,dp(kE,d))}function
 dq(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a4(f,e,a)},d)}return[0,C]}function
-ky(d,h,g,c){var
+kI(d,h,g,c){var
 a=dn(c[1]);if(a){var
 b=dq(c[3]);if(b){var
-i=aL([0,J(C,b[1]),0],d),j=a[1];return bq(d,e_(h,g,e(function(a){return[0,a[1],C]},j),i))}var
+i=aL([0,J(C,b[1]),0],d),j=a[1];return bq(d,e$(h,g,e(function(a){return[0,a[1],C]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-p2(c){var
+qe(c){var
 a=c[2];if(a){var
 b=dq(c[3]);if(b)return G(d,J(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kz(a){return A(function(a){return f(a[1],[0,a[2],0])},a)}function
-kA(a,c,b){var
+kJ(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+kK(a,c,b){var
 e=t(b,c,l(d)),f=aV(0,a);return n(function(b){return eg(a,b,e)},f)}function
 eh(a){var
-b=K(a);return F(l(c),b)}function
-fr(i,g){var
-h=eh(g),j=K(g),e=s(l(c),j),f=o(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
-kB(b,a){var
-c=ac(b[3],a),d=ac(b[2],a);return[0,ac(b[1],a),d,c]}function
-kC(b,a){function
+c=K(a);return F(l(b),c)}function
+fs(i,g){var
+h=eh(g),j=K(g),e=s(l(b),j),f=p(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
+kL(b,a){var
+c=ad(b[3],a),d=ad(b[2],a);return[0,ad(b[1],a),d,c]}function
+kM(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
-b=ac(a,c(function(a){return a[3]})),d=ac(a,c(function(a){return a[2]}));return[0,ac(a,c(function(a){return a[1]})),d,b]}var
+b=ad(a,c(function(a){return a[3]})),d=ad(a,c(function(a){return a[2]}));return[0,ad(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kD(w,v){function
+kN(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=eh(a(0));return[0,fr(p3,a(0)),x];case
+x=eh(a(0));return[0,fs(qf,a(0)),x];case
 1:var
-y=eh(a(0)),z=o(eh(a(p4)),y),A=o(eh(a(p5)),z),B=fr(0,a(0)),C=kC(fr(p7,a(p6)),B);return[0,kC(fr(p9,a(p8)),C),A];default:var
-D=a(p_),E=a(p$),g=[0,a(0),E,D],G=ac(g,g),H=F(l(c),G),j=ac(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=K(a),e=o(l(b(2,c)),d);return F(s(l(c),j),e)},h=function(f,e,d,a){var
-g=as(f,o(e,d),a);return o(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-kE(a){return 1<a[0]?[0,a[1],0]:0}function
-fs(a){switch(a[0]){case
+y=eh(a(0)),z=p(eh(a(qg)),y),A=p(eh(a(qh)),z),B=fs(0,a(0)),C=kM(fs(qj,a(qi)),B);return[0,kM(fs(ql,a(qk)),C),A];default:var
+D=a(qm),E=a(qn),g=[0,a(0),E,D],G=ad(g,g),H=F(l(b),G),j=ad(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=K(a),e=p(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
+g=as(f,p(e,d),a);return p(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,o],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+kO(a){return 1<a[0]?[0,a[1],0]:0}function
+ft(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cK(a[1]),0];default:var
-b=[0,cK(a[2]),0];return[0,cK(a[1]),b]}}function
+2:return[0,cL(a[1]),0];default:var
+b=[0,cL(a[2]),0];return[0,cL(a[1]),b]}}function
 dr(a){return[0,[0,a[1]],[0,a[2]]]}function
-kF(a){switch(a[0]){case
+kP(a){switch(a[0]){case
 0:return[0,dr(a[1]),0];case
 1:var
 f=[0,dr(a[3]),0],g=[0,dr(a[2]),f];return[0,dr(a[1]),g];case
 2:var
-b=dr(cK(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cK(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dr(cK(c)),0]]]}}function
-kG(a,b){if(0===b[0])return dk(a,b[1]);var
-d=dk(a,b[1]);if(d){var
-e=dk(a,b[2]);if(e){var
-g=R(a,e[1]),h=cw(a,B($(a,c),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
+b=dr(cL(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cL(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dr(cL(c)),0]]]}}function
+kQ(a,c){if(0===c[0])return dk(a,c[1]);var
+d=dk(a,c[1]);if(d){var
+e=dk(a,c[2]);if(e){var
+g=S(a,e[1]),h=cx(a,B($(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kH(d,c){var
-a=kG(d,c[1]);if(a)var
-b=kG(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kR(d,c){var
+a=kQ(d,c[1]);if(a)var
+b=kQ(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kI(f,q,e,p,o,b,a){switch(b[0]){case
+kS(f,q,e,p,o,c,a){switch(c[0]){case
 0:var
-r=b[4],m=b[3],s=b[2],v=b[1],n=0;if(typeof
+r=c[4],m=c[3],s=c[2],v=c[1],n=0;if(typeof
 a==="number")n=1;else
 switch(a[0]){case
 0:var
@@ -3313,7 +3316,7 @@ H=a[2],I=a[1],k=s,j=v,h=function(d){var
 a=dn(d[1]);if(a){var
 b=d[2];if(b){var
 c=dq(d[3]);if(c){var
-i=c[1],j=aL([0,J(ae(w(f,m,b[1])),i),0],e);return bq(e,e_(I,H,a[1],j))}var
+i=c[1],j=aL([0,J(af(w(f,m,b[1])),i),0],e);return bq(e,e$(I,H,a[1],j))}var
 g=c}else
 var
 g=b;var
@@ -3322,15 +3325,15 @@ var
 h=a;return h},g=r;break;case
 2:var
 x=Y(m[1],d),y=x?Y(m[2],d):x;if(!y)return y;var
-L=a[2],M=a[1],k=s,j=v,h=function(a){return ky(e,M,L,a)},g=r;break;default:n=1}if(n)return 0;break;case
+L=a[2],M=a[1],k=s,j=v,h=function(a){return kI(e,M,L,a)},g=r;break;default:n=1}if(n)return 0;break;case
 1:var
 D=0;if(typeof
 a==="number"&&!a)var
-N=b[2],O=b[1],P=b[3],k=N,j=O,Q=0,h=function(g){var
+N=c[2],O=c[1],P=c[3],k=N,j=O,Q=0,h=function(g){var
 a=dn(g[1]);if(a){var
 b=g[2];if(b){var
 c=dq(g[3]);if(c){var
-k=c[1],l=aL([0,J(w(f,P,b[1]),k),0],e),d=gF(a[1],l);if(d)return bq(e,d[1]);var
+k=c[1],l=aL([0,J(w(f,P,b[1]),k),0],e),d=gJ(a[1],l);if(d)return bq(e,d[1]);var
 h=d}else
 var
 h=c;var
@@ -3344,12 +3347,12 @@ D=1;if(D)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-R=[0,b[1],b[2],o],S=dp(function(a){return t(a,p,qf)},R),z=a[1],T=l[2],U=l[1],W=a[2],X=b[3];return kx(q,function(v,j){var
+R=[0,c[1],c[2],o],S=dp(function(a){return t(a,p,qt)},R),z=a[1],T=l[2],U=l[1],V=a[2],X=c[3];return kH(q,function(v,j){var
 a=dn(j[1]);if(a){var
-k=a[1],b=j[2];if(b){var
+k=a[1],c=j[2];if(c){var
 g=dq(j[3]);if(g){var
-l=g[1],m=function(a){return a4(a,z,$(f,c))},t=m(v),u=b[1],h=B(w(f,m(U),u),t),n=V(d,h[1]),o=n?bq(e,e_(z,W,k,aL([0,J(ae(h),l),0],e))):n;if(o){var
-i=gF(k,aL([0,J(w(f,X,h),l),0],e));if(i)return bq(e,i[1]);var
+l=g[1],m=function(a){return a4(a,z,$(f,b))},t=m(v),u=c[1],h=B(w(f,m(U),u),t),n=W(d,h[1]),o=n?bq(e,e$(z,V,k,aL([0,J(af(h),l),0],e))):n;if(o){var
+i=gJ(k,aL([0,J(w(f,X,h),l),0],e));if(i)return bq(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3358,7 +3361,7 @@ var
 q=g;var
 r=q}else
 var
-r=b;var
+r=c;var
 s=r}else
 var
 s=a;return s},T,d,S)}return l}return 0;case
@@ -3366,12 +3369,12 @@ s=a;return s},T,d,S)}return l}return 0;case
 E=0;if(typeof
 a==="number"||!(0===a[0]))E=1;else
 var
-A=a[2],C=a[1],Z=b[3],_=b[2],aa=b[4],ab=b[1],ac=function(g){var
+A=a[2],C=a[1],Z=c[3],_=c[2],aa=c[4],ab=c[1],ac=function(g){var
 a=dn(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
 d=dq(g[3]);if(d){var
 h=u(i(b),e),j=h?u(i(A),e):h;if(j){var
-n=d6(C,d7(C,A,c[1],b));return bq(e,cg(fc(f,ab,aa,d[1],b),n))}var
+n=d6(C,d7(C,A,c[1],b));return bq(e,ch(fd(f,ab,aa,d[1],b),n))}var
 k=j}else
 var
 k=d;var
@@ -3380,59 +3383,59 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=Z,j=_,h=ac,g=b[5];if(E)return 0;break;case
+m=a;return m},k=Z,j=_,h=ac,g=c[5];if(E)return 0;break;case
 4:var
 F=0;if(typeof
 a==="number"&&!a)var
-k=b[1],j=0,h=p2,g=0;else
+k=c[1],j=0,h=qe,g=0;else
 F=1;if(F)return 0;break;default:var
 G=0;if(typeof
 a==="number"&&5<=a)var
-ad=b[2],af=b[1],ag=b[4],ah=b[3],k=ad,j=af,ai=0,h=function(a){return ky(e,ah,ag,a)},g=ai;else
+ad=c[2],ae=c[1],ag=c[4],ah=c[3],k=ad,j=ae,ai=0,h=function(a){return kI(e,ah,ag,a)},g=ai;else
 G=1;if(G)return 0}var
-K=[0,j,k,o];return kw(g,q,h,dp(function(a){return t(a,p,qe)},K))}function
-kJ(m,l,k,f,j,i,e){if(typeof
+K=[0,j,k,o];return kG(g,q,h,dp(function(a){return t(a,p,qs)},K))}function
+kT(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=G(d,o);if(p)var
-h=iw(n,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=iF(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kI(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kS(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kI(m,l,k,j,0,i,a)}return 0}function
-qg(a){if(a[1])return 0;var
+q=f;return q}return kS(m,l,k,j,0,i,a)}return 0}function
+qu(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kK(a,N,M,L,K,I,h,p,H,_){if(n(qg,H))var
+kU(a,N,M,L,K,I,h,p,H,_){if(n(qu,H))var
 q=0;else
 var
-X=g6(a,b9,p),U=0,Y=f(g6(a,aJ,p),X),q=bC(pZ,function(b){switch(b[0]){case
+V=g_(a,b_,p),U=0,Y=f(g_(a,aJ,p),V),q=bE(qb,function(b){switch(b[0]){case
 0:return t(b[1],Y,[0,[0,C]]);case
 1:return[0,[0,t(b[1],M,C)]];case
 2:return[0,[0,$(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return aZ(function(a,b){return cl(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return aZ(function(a,b){return cm(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,J(b,a)]};return aZ(function(a,b){return cl(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,J(b,a)]};return aZ(function(a,b){return cm(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,ae(a)]};return bG(function(a){return ck(j,a)},i);case
+i=b[1],j=function(a){return[0,af(a)]};return bI(function(a){return cl(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cl(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cm(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cb(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cl(p,a,b)},o,n);case
+d=cc(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cm(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,R(a,b)]};return bG(function(a){return ck(r,a)},q);case
+q=b[1],r=function(b){return[0,S(a,b)]};return bI(function(a){return cl(r,a)},q);case
 9:var
-s=b[1],u=function(b){return cw(a,b)};return bG(function(a){return ck(u,a)},s);default:return pY}},N,U);var
+s=b[1],u=function(b){return cx(a,b)};return bI(function(a){return cl(u,a)},s);default:return qa}},N,U);var
 g=H,b=_;for(;;){if(g){var
 u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
 v=t(c,b,0);if(v){var
-l=W(L,c);if(l){var
-x=kJ(a,K,I,h,q,l[1],i);if(x){var
-g=k,b=fh(c,b);continue}var
+l=X(L,c);if(l){var
+x=kT(a,K,I,h,q,l[1],i);if(x){var
+g=k,b=fi(c,b);continue}var
 z=x}else
 var
 z=l;var
@@ -3441,26 +3444,26 @@ var
 A=v;return A}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Z=0,r=e(function(b){return[0,b,R(a,b)]},p),Q=e(b9,r),P=0,S=f(e(aJ,r),Q),T=bC(0,function(n){return function(b){switch(b[0]){case
+Z=0,r=e(function(b){return[0,b,S(a,b)]},p),Q=e(b_,r),P=0,R=f(e(aJ,r),Q),T=bE(0,function(n){return function(b){switch(b[0]){case
 0:return[0,t(b[1],n,C)];case
 1:return[0,t(b[1],M,C)];case
 2:return[0,$(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cl(function(b,a){return[0,B(b,a)]},d,c);case
+c=b[2],d=b[1];return cm(function(b,a){return[0,B(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cl(function(b,a){return[0,J(b,a)]},f,e);case
+e=b[2],f=b[1];return cm(function(b,a){return[0,J(b,a)]},f,e);case
 5:var
-g=b[1];return ck(function(a){return[0,ae(a)]},g);case
+g=b[1];return cl(function(a){return[0,af(a)]},g);case
 6:var
-h=b[2],i=b[1];return cl(function(c,b){return[0,w(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cm(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cl(function(c,b){var
-d=cb(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
+j=b[2],k=b[1];return cm(function(c,b){var
+d=cc(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return ck(function(b){return[0,R(a,b)]},l);case
+l=b[1];return cl(function(b){return[0,S(a,b)]},l);case
 9:var
-m=b[1];return ck(function(b){return cw(a,b)},m);default:return 0}}}(S),N,P),j=t(h[1],T,Z);if(j){var
-m=V(j[1][2],d);O=1}else
+m=b[1];return cl(function(b){return cx(a,b)},m);default:return 0}}}(R),N,P),j=t(h[1],T,Z);if(j){var
+m=W(j[1][2],d);O=1}else
 var
 s=j}else
 var
@@ -3468,51 +3471,51 @@ s=h;if(!O)var
 m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
 D=t(c,b,0);if(D){var
-o=W(L,c);if(o){var
-E=kJ(a,K,I,h,q,o[1],i);if(E){var
-g=k,b=fh(c,b);continue}var
+o=X(L,c);if(o){var
+E=kT(a,K,I,h,q,o[1],i);if(E){var
+g=k,b=fi(c,b);continue}var
 F=E}else
 var
 F=o;var
 G=F}else
 var
 G=D;return G}return[0,b]}}function
-kL(i,h,g,f,e,d,c,t,s,r){var
+kV(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kK(i,h,g,f,e,d,c,b,a[1],j);return k?n(ai,k[1]):k}var
-l=kK(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=d5(a[2],b),p=kL(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kU(i,h,g,f,e,d,c,b,a[1],j);return k?n(ac,k[1]):k}var
+l=kU(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=d5(a[2],b),p=kV(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-ft(b,a){var
-c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
-g7(d,a){var
-e=K(a),f=o(o(l(b(2,c)),a),d);return F(s(K(d),f),e)}function
-kM(c,b,a){switch(c){case
+fu(b,a){var
+c=p(b[2],a[1]),d=s(p(b[1],a[2]),c),e=p(b[1],a[3]),f=s(p(b[3],a[1]),e),g=p(b[3],a[2]);return[0,s(p(b[2],a[3]),g),f,d]}function
+g$(d,a){var
+e=K(a),f=p(p(l(c(2,b)),a),d);return F(s(K(d),f),e)}function
+kW(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-g8(a){switch(a){case
-0:return[0,qi,qh,l(d)];case
-1:return ci;default:var
+ha(a){switch(a){case
+0:return[0,qw,qv,l(d)];case
+1:return cj;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fu(a){switch(a){case
-0:return qj;case
-1:return qk;default:return 0}}function
-kN(i,k,h,j,a,e){var
-d=g8(i),f=au(s,d,a),g=kB(k,e),m=g7(d[3],a[3]),n=g7(d[2],a[2]),p=g7(d[1],a[1]),q=F(F(F(ac(e,e),p),n),m),r=ac(g,f),t=o(l(b(2,c)),r),u=F(o(h,q),t),v=cB(ft(g,f),j);return[0,kM(i,au(F,bU(h,f),g),v),u]}function
+fv(a){switch(a){case
+0:return qx;case
+1:return qy;default:return 0}}function
+kX(i,k,h,j,a,e){var
+d=ha(i),f=au(s,d,a),g=kL(k,e),m=g$(d[3],a[3]),n=g$(d[2],a[2]),o=g$(d[1],a[1]),q=F(F(F(ad(e,e),o),n),m),r=ad(g,f),t=p(l(c(2,b)),r),u=F(p(h,q),t),v=cC(fu(g,f),j);return[0,kW(i,au(F,bU(h,f),g),v),u]}function
 ds(b,a){var
 c=aF(a[2],b);return f(aF(a[1],b),c)}function
-kO(g,f,e,d,b,a,c){if(a)var
-h=a[1],j=bF(c,ds(b,h)),l=N(c,i(ds(b,h))),m=kO(g,f,e,d,b,a[2],l),n=aa(j,ql),k=[0,kN(g,f,e,d,aa(j,0),n),m];else
+kY(g,f,e,d,b,a,c){if(a)var
+h=a[1],j=bH(c,ds(b,h)),l=N(c,i(ds(b,h))),m=kY(g,f,e,d,b,a[2],l),n=aa(j,qz),k=[0,kX(g,f,e,d,aa(j,0),n),m];else
 var
 k=a;return k}function
-kP(r,q,p,o,j,c,n){if(c){var
-s=c[1],k=bF(n,ds(j,s)),u=N(n,i(ds(j,s))),v=kP(r,q,p,o,j,c[2],u),w=aa(k,qm),a=kN(r,q,p,o,aa(k,0),w),x=aa(k,0),e=a[1];if(e){var
+kZ(r,q,p,o,j,c,n){if(c){var
+s=c[1],k=bH(n,ds(j,s)),u=N(n,i(ds(j,s))),v=kZ(r,q,p,o,j,c[2],u),w=aa(k,qA),a=kX(r,q,p,o,aa(k,0),w),x=aa(k,0),e=a[1];if(e){var
 f=e[2],b=e[1];if(f){var
 l=f[2],g=f[1];if(l)var
-m=l[1],h=ft(x,[0,b,g,m]),d=[0,[0,b,[0,g,[0,m,[0,h[1],[0,h[2],[0,h[3],0]]]]]],a[2]];else
+m=l[1],h=fu(x,[0,b,g,m]),d=[0,[0,b,[0,g,[0,m,[0,h[1],[0,h[2],[0,h[3],0]]]]]],a[2]];else
 var
 d=[0,[0,b,[0,g,0]],a[2]]}else
 var
@@ -3522,109 +3525,109 @@ d=[0,0,a[2]];var
 t=[0,d,v]}else
 var
 t=c;return t}function
-g9(g,a){if(typeof
+hb(g,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 f=[5,a[2],a[1]];return[0,[0,f,f],d];case
 2:case
 3:var
 e=a[2];return[0,[0,e,e],g]}var
-b=[0,d,c];return[0,[0,b,b],d]}function
-g_(e,d,n,m,l,a){var
-f=o(K(bX(g9(m,a),l)),n);if(typeof
+c=[0,d,b];return[0,[0,c,c],d]}function
+hc(e,d,n,m,l,a){var
+f=p(K(bX(hb(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=W(d,a[1]);if(b)var
-g=h(e,0,a[2]),i=g?[0,s(b[1][2],f)]:g;else
+b=X(d,a[1]);if(b)var
+h=g(e,0,a[2]),i=h?[0,s(b[1][2],f)]:h;else
 var
 i=b;return i;case
 3:var
-c=W(d,a[1]);if(c)var
-j=h(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
+c=X(d,a[1]);if(c)var
+j=g(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-kQ(a,d,c,b){return e(function(a){var
-e=bX(g9(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-kR(b,f,s,e,i,q,p,o){if(o){var
-ac=kR(b,f,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+k0(a,d,c,b){return e(function(a){var
+e=bX(hb(d,b),c),f=p(a[2],e);return[0,a[1],f]},a)}function
+k1(c,f,s,e,i,q,p,o){if(o){var
+ac=k1(c,f,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
 a==="number")var
-P=k(f,i),g=[0,t(k(ap(f),e),P,C)];else
+P=k(f,i),h=[0,t(k(ap(f),e),P,C)];else
 switch(a[0]){case
 0:var
-j=[5,[0,c,c],a[1]],n=e,m=t;l=1;break;case
+j=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
 1:var
-S=[5,[0,c,c],a[1]],j=S,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+R=[5,[0,b,b],a[1]],j=R,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
 2:var
-T=g_(b,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},T);break;case
+T=hc(c,e,i,q,p,a),h=y(function(a){return[4,k(f,a)]},T);break;case
 3:var
-U=g_(b,e,i,q,p,a),g=y(function(a){return[4,k(f,a)]},U);break;case
+U=hc(c,e,i,q,p,a),h=y(function(a){return[4,k(f,a)]},U);break;case
 5:var
-u=a[1],V=ag(b,[0,[0,u,u],d]),g=y(function(a){var
-c=R(b,a),d=k(f,i);return[2,k(ap(f),e),d,c]},V);break;case
+u=a[1],V=ah(c,[0,[0,u,u],d]),h=y(function(a){var
+b=S(c,a),d=k(f,i);return[2,k(ap(f),e),d,b]},V);break;case
 6:var
-v=a[3],w=a[2],r=W(e,a[1]),N=0;if(r){var
-x=h(b,1,w),z=x?h(b,0,v):x;if(z){var
-X=[5,v,w],Y=[0,r[1],0],j=X,n=Y,m=function(c,b,a){return[1,c,b,a]};l=1;N=1}else
+v=a[3],w=a[2],r=X(e,a[1]),N=0;if(r){var
+x=g(c,1,w),z=x?g(c,0,v):x;if(z){var
+W=[5,v,w],Y=[0,r[1],0],j=W,n=Y,m=function(c,b,a){return[1,c,b,a]};l=1;N=1}else
 var
 A=z}else
 var
 A=r;if(!N)var
-g=A;break;case
+h=A;break;case
 7:var
-B=a[3],D=a[2],E=a[1],F=W(e,E),O=0;if(F){var
-G=h(b,1,D),H=G?h(b,1,B):G;if(H){var
+B=a[3],D=a[2],E=a[1],F=X(e,E),O=0;if(F){var
+G=g(c,1,D),H=G?g(c,1,B):G;if(H){var
 Z=[5,D,B],j=Z,n=e,m=function(c,b,a){return[3,E,c,b,a,s]};l=1;O=1}else
 var
 I=H}else
 var
 I=F;if(!O)var
-g=I;break;case
+h=I;break;case
 8:var
-J=h(b,1,a[1]),K=J?h(b,1,a[2]):J;if(K)var
-_=$(b,c),aa=k(f,i),ab=kQ(e,q,p,a),L=[0,[0,k(ap(f),ab),aa,_,0]];else
+J=g(c,1,a[1]),K=J?g(c,1,a[2]):J;if(K)var
+_=$(c,b),aa=k(f,i),ab=k0(e,q,p,a),L=[0,[0,k(ap(f),ab),aa,_,0]];else
 var
 L=K;var
-g=L;break;default:var
-g=0}if(l)var
-Q=ag(b,[0,[0,j,j],d]),g=y(function(a){var
-c=R(b,a),d=k(f,i);return m(k(ap(f),n),d,c)},Q);var
-M=[0,g,ac]}else
+h=L;break;default:var
+h=0}if(l)var
+Q=ah(c,[0,[0,j,j],d]),h=y(function(a){var
+b=S(c,a),d=k(f,i);return m(k(ap(f),n),d,b)},Q);var
+M=[0,h,ac]}else
 var
 M=o;return M}function
-kS(j,h,i,g,d,a){if(a){var
-n=kS(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
+k2(j,h,i,g,d,a){if(a){var
+n=k2(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
 b!=="number"&&8===b[0]){var
-k=e(b9,kQ(h,g,d,b));l=1}if(!l)var
-c=g_(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-qn(a){if(typeof
+k=e(b_,k0(h,g,d,b));l=1}if(!l)var
+c=hc(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
+qB(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-kT(b,a){switch(b){case
+k3(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fv(a){var
-b=bT(a[1],[0,d,c]);return b?bT(a[2],[0,d,c]):b}function
-g$(d,a){switch(d){case
-0:return fv(a[3]);case
+fw(a){var
+c=bT(a[1],[0,d,b]);return c?bT(a[2],[0,d,b]):c}function
+hd(d,a){switch(d){case
+0:return fw(a[3]);case
 1:return 1;default:var
-b=fv(a[1]),c=b?fv(a[2]):b;return c?fv(a[3]):c}}function
-qo(j,X,aR,a,m,aQ){var
-p=a[1],g=dl(p),Y=a[3],aS=[0,[0,[0,Y,Y],m],0],aT=a[2],Z=f(A(function(a){return ds(m,a)},aT),aS),H=i(Z),aU=a[2],aW=i(A(function(a){return ds(m,a)},aU)),_=a[3],$=bX([0,[0,_,_],m],aW),aX=fu(p),aa=kD(a[5],aX),w=aa[2],ab=aa[1],C=kO(p,ab,w,$,m,a[2],0),aY=N(H,i(a[6])),aZ=fu(p),a0=a[5];function
+b=fw(a[1]),c=b?fw(a[2]):b;return c?fw(a[3]):c}}function
+qC(j,X,aR,a,m,aQ){var
+o=a[1],h=dl(o),Y=a[3],aS=[0,[0,[0,Y,Y],m],0],aT=a[2],Z=f(z(function(a){return ds(m,a)},aT),aS),H=i(Z),aU=a[2],aW=i(z(function(a){return ds(m,a)},aU)),_=a[3],$=bX([0,[0,_,_],m],aW),aX=fv(o),aa=kN(a[5],aX),w=aa[2],ab=aa[1],C=kY(o,ab,w,$,m,a[2],0),aY=N(H,i(a[6])),aZ=fv(o),a0=a[5];function
 x(a){return[0,[0,N(aZ,a)]]}var
 S=K([0,[1,aY]]);switch(a0[0]){case
 2:var
-aI=x(qa),aJ=x(qb),T=[0,x(0),aJ,aI],r=[0,s(S,ac(T,T))];break;case
+aI=x(qo),aJ=x(qp),T=[0,x(0),aJ,aI],r=[0,s(S,ad(T,T))];break;case
 3:var
-aK=K(x(qc)),aL=K(x(0)),aN=K(x(qd)),r=[0,s(s(o(S,F(l(c),aN)),aL),aK)];break;default:var
+aK=K(x(qq)),aL=K(x(0)),aN=K(x(qr)),r=[0,s(s(p(S,F(l(b),aN)),aL),aK)];break;default:var
 r=0}var
-ad=a[7],ae=ad?kP(p,ab,w,$,m,a[2],0):ad,a1=bs(ae),a2=r?[0,r[1],0]:r,a3=f(a2,a1),a4=[0,w,f(kS(j,C,w,m,H,a[6]),a3)],I=f(bs(C),a4),af=da(e(function(a){return ef(g,a)},I))[1],z=cy(af);function
-v(a){return bm(z,ef(g,a))}if(0===a[4][0]){var
-a5=y(v,r),a6=v(w),ah=k(ap(v),C),U=fu(p),V=u(i(ah),g);if(V)var
-W=y(function(a){return[0,[0,a,d],d]},a5),B=function(a){return t(a,z,l(d))},R=B(a6),aH=aV(0,U),G=n(function(a){var
-b=dm(g,a,R),c=b?n(function(b){var
+ae=a[7],af=ae?kZ(o,ab,w,$,m,a[2],0):ae,a1=bs(af),a2=r?[0,r[1],0]:r,a3=f(a2,a1),a4=[0,w,f(k2(j,C,w,m,H,a[6]),a3)],I=f(bs(C),a4),ag=da(e(function(a){return ef(h,a)},I))[1],A=cz(ag);function
+v(a){return bm(A,ef(h,a))}if(0===a[4][0]){var
+a5=y(v,r),a6=v(w),ai=k(ap(v),C),U=fv(o),V=u(i(ai),h);if(V)var
+W=y(function(a){return[0,[0,a,d],d]},a5),B=function(a){return t(a,A,l(d))},R=B(a6),aH=aV(0,U),G=n(function(a){var
+b=dm(h,a,R),c=b?n(function(b){var
 d=b[1],c=n(function(b){var
-c=B(b);return cL(N(g,a),c)},d);if(c){var
-e=B(b[2]);return g5(R,N(g,a),e)}return c},ah):b;if(c){if(W){var
-e=B(W[1][1][1]);return cL(N(g,a),e)}var
+c=B(b);return cM(N(h,a),c)},d);if(c){var
+e=B(b[2]);return g9(R,N(h,a),e)}return c},ai):b;if(c){if(W){var
+e=B(W[1][1][1]);return cM(N(h,a),e)}var
 d=1}else
 var
 d=c;return d},aH);else
@@ -3634,37 +3637,37 @@ aP=G?U:G,ak=aP}else
 var
 ak=0;var
 al=n(function(a){var
-b=ef(g,a),c=l(d);return aM(t(v(a),z,c),b)},I),am=al?n(function(a){return ks(g,a)},I):al,an=am?ar(qn,a[6]):am;if(an){var
-ao=ai(a[7]);if(ao)var
+b=ef(h,a),c=l(d);return aM(t(v(a),A,c),b)},I),am=al?n(function(a){return kC(h,a)},I):al,an=am?ar(qB,a[6]):am;if(an){var
+ao=ac(a[7]);if(ao)var
 D=ao;else{var
-aF=a[5];if(1===p&&2===aF[0])var
-aO=aF[1],aG=h(j,1,[3,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c],aO]);else
+aF=a[5];if(1===o&&2===aF[0])var
+aO=aF[1],aG=g(j,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],aO]);else
 var
 aG=0;var
 D=aG}}else
 var
 D=an;var
-aq=D?g$(p,dj(a[4])):D,as=aq?h(j,1,a[3]):aq;if(as)var
-a7=fs(a[5]),J=n(function(a){var
+aq=D?hd(o,dj(a[4])):D,as=aq?g(j,1,a[3]):aq;if(as)var
+a7=ft(a[5]),J=n(function(a){var
 b=ee(j,a[1]);return b?ee(j,a[2]):b},a7);else
 var
 J=as;if(J){var
-a8=a[6],a9=f(Z,e(function(a){return g9(m,a)},a8)),L=aj(e(function(a){return ag(j,a)},a9));if(L){var
-a_=kT(p,dj(a[4])),M=aj(e(function(a){return ag(j,[0,a,m])},a_));if(M){var
-at=M[1],a$=kF(a[5]),O=aj(e(function(a){return kH(j,a)},a$));if(O){var
-au=O[1],ba=kE(a[5]),P=aj(e(function(a){return dk(j,a)},ba));if(P){var
-Q=aj(kR(j,v,ak,C,w,m,H,a[6]));if(Q){var
+a8=a[6],a9=f(Z,e(function(a){return hb(m,a)},a8)),L=aj(e(function(a){return ah(j,a)},a9));if(L){var
+a_=k3(o,dj(a[4])),M=aj(e(function(a){return ah(j,[0,a,m])},a_));if(M){var
+at=M[1],a$=kP(a[5]),O=aj(e(function(a){return kR(j,a)},a$));if(O){var
+au=O[1],ba=kO(a[5]),P=aj(e(function(a){return dk(j,a)},ba));if(P){var
+Q=aj(k1(j,v,ak,C,w,m,H,a[6]));if(Q){var
 av=Q[1];if(a[7])var
-bb=X[2],bc=X[1],bd=v(w),E=j_(aR,av,[5,k(ap(v),ae),bd,bc,bb]);else
+bb=X[2],bc=X[1],bd=v(w),E=ki(aR,av,[5,k(ap(v),af),bd,bc,bb]);else
 var
 E=av;var
-aw=u(i(f(at,au)),g),ax=aw?n(function(a){switch(a[0]){case
+aw=u(i(f(at,au)),h),ax=aw?n(function(a){switch(a[0]){case
 3:var
-d=kz(a[2]),b=[0,a[3],d];break;case
+d=kJ(a[2]),b=[0,a[3],d];break;case
 4:var
 b=[0,a[1],0];break;default:var
-c=kz(a[1]),b=[0,a[2],c]}return n(function(a){return kA(g,z,a)},b)},E):aw,ay=ax?r?kA(g,z,v(r[1])):1:ax;if(ay){var
-be=e(function(a){return 1},E),bf=f(at,au),bg=y(v,r);return kL(j,af,f(L[1],P[1]),E,g,g,bg,bf,be,aQ)}var
+c=kJ(a[1]),b=[0,a[2],c]}return n(function(a){return kK(h,A,a)},b)},E):aw,ay=ax?r?kK(h,A,v(r[1])):1:ax;if(ay){var
+be=e(function(a){return 1},E),bf=f(at,au),bg=y(v,r);return kV(j,ag,f(L[1],P[1]),E,h,h,bg,bf,be,aQ)}var
 az=ay}else
 var
 az=Q;var
@@ -3684,103 +3687,103 @@ aE=aD}else
 var
 aE=J;return aE}function
 ei(b,a){return a9(b,a[1],a[2])}function
-kU(b,a){var
+k4(b,a){var
 c=ei(b,a[1]),d=c?ei(b,a[2]):c;return d?ei(b,a[3]):d}function
 a0(a){return typeof
-a==="number"?a?qp:qq:dl(a[1])}function
-kV(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g4(b[1],a,c)}function
-fw(a){if(0===a[0]){var
-b=a[1];switch(b[0]){case
-0:return b[3];case
-1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-ha(b,c,a){return b?fp(b[1],c,a):a}function
+a==="number"?a?qD:qE:dl(a[1])}function
+k5(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g8(b[1],a,c)}function
+fx(a){if(0===a[0]){var
+c=a[1];switch(c[0]){case
+0:return c[3];case
+1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
+he(b,c,a){return b?fq(b[1],c,a):a}function
 bZ(d,c,b,a){var
-e=fw(a),f=ha(d,c,fw(a)),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
-kW(b,a){var
+e=fx(a),f=he(d,c,fx(a)),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+k6(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-kX(b,w,v){var
+k7(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?jZ(b,j[1],f[1]):0;else
+h=0===f[0]?j9(b,j[1],f[1]):0;else
 if(0===f[0])var
-g=0;else{var
-a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cF(b,c[5],a[5]):n,p=o?cF(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,O(a[1],a[1])):r;if(s)var
-u=gW(a),i=h(b,1,O(gW(a),u));else
+h=0;else{var
+a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cG(b,c[5],a[5]):n,p=o?cG(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
+u=g0(a),i=g(b,1,O(g0(a),u));else
 var
 i=s;var
-g=i?b_(c[7],a[7]):i}if(g){var
+h=i?b$(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
-t=g}else
+t=h}else
 var
 t=d;return t}return d?0:1}}function
-kY(a){return typeof
-a==="number"?a?g8(0):ci:g8(a[1])}function
-hb(b,d,c){if(0===c[0])return fj(b,d[1],c[1]);var
+k8(a){return typeof
+a==="number"?a?ha(0):cj:ha(a[1])}function
+hf(b,d,c){if(0===c[0])return fk(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aF(a[4],b),e),h=f(aF(a[3],b),g),i=f(aF(a[2],d[2]),h);return f(aF(a[1],d[1]),i)}function
-hc(b,a){if(b){var
-c=b[1],d=c[2];return cB(kB(c[1],a),d)}return a}function
-kZ(f,u,al,J,aj,r,ai){if(r){var
-j=r[1],am=bB([0,d,d],aj),a=bF(ai,hb(J,am,j)),y=function(c,b){var
-d=aa(a,c);return au(s,au(F,kY(f),b),d)};if(0===j[0]){var
+hg(b,a){if(b){var
+c=b[1],d=c[2];return cC(kL(c[1],a),d)}return a}function
+k9(f,u,al,J,aj,r,ai){if(r){var
+j=r[1],am=bC([0,d,d],aj),a=bH(ai,hf(J,am,j)),y=function(c,b){var
+d=aa(a,c);return au(s,au(F,k8(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-_=hc(u,aa(a,qr)),aD=z[1][5],A=t(qs,a,l(d)),B=aa(a,0),$=y(qt,_),h=jp($,cC(B),$,A,aD),ao=[0,aE(A),0],ap=[0,aE(ac(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+_=hg(u,aa(a,qF)),aD=z[1][5],A=t(qG,a,l(d)),B=aa(a,0),$=y(qH,_),h=jz($,cD(B),$,A,aD),ao=[0,aE(A),0],ap=[0,aE(ad(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-ab=hc(u,aa(a,qu)),ad=z[3],C=ad?[0,aa(a,qv)]:ad,ae=y(0,ab),m=jq(ae,ae,0);if(C)var
-L=C[1],M=[0,aE(ac(L,L)),0];else
+ab=hg(u,aa(a,qI)),ac=z[3],C=ac?[0,aa(a,qJ)]:ac,ae=y(0,ab),m=jA(ae,ae,0);if(C)var
+L=C[1],M=[0,aE(ad(L,L)),0];else
 var
 M=C;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ab];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=aa(a,0),aI=kY(f),n=jr(aI,cC(D)),aq=[0,aE(ac(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=aa(a,0),aI=k8(f),n=jB(aI,cD(D)),aq=[0,aE(ad(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-af=hc(u,aa(a,qw)),E=j[1][7],G=t(qx,a,l(d)),e=t(qy,a,l(d)),ag=aa(a,qz),H=aa(a,0),q=y(qA,af),p=cC(H),v=au(s,ag,bU(ac(p,ag),p)),w=cC(v),O=ft(p,w),P=ac(q,w),Q=ac(q,O),ar=ac(p,q),as=K(Q),R=F(K(P),as),at=K(ar),S=s(K(G),at),av=o(l(b(2,c)),e),x=s(R,K(ak(F(R,s(K(e),S)),av))),aw=e$(E,o(e,aE(x))),T=ak(P,e),U=e$(E,ak(Q,e)),V=ak(S,K(e)),W=i0(0,T,U,V),X=e$(E,i0(1,T,U,V)),ax=bU(X,O),Y=au(s,q,bU(e,au(F,bU(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ac(v,v)),az],aB=[0,aE(ac(H,H)),aA],aC=cB(Y,aw),k=[0,[0,Y,o(K(e),x),aC,[1,W,X],[0,[0,x,G]],aB],af];var
-aP=N(ai,i(hb(J,am,j))),aQ=r[2],aR=kZ(f,u,al,J,ca(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cB(ft(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:ch(a):kM(f[1],a,b)},I=g[1],Z=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:ch(I):Z,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hg(u,aa(a,qK)),E=j[1][7],G=t(qL,a,l(d)),e=t(qM,a,l(d)),ag=aa(a,qN),H=aa(a,0),q=y(qO,af),o=cD(H),v=au(s,ag,bU(ad(o,ag),o)),w=cD(v),O=fu(o,w),P=ad(q,w),Q=ad(q,O),ar=ad(o,q),as=K(Q),R=F(K(P),as),at=K(ar),S=s(K(G),at),av=p(l(c(2,b)),e),x=s(R,K(ak(F(R,s(K(e),S)),av))),aw=fa(E,p(e,aE(x))),T=ak(P,e),U=fa(E,ak(Q,e)),V=ak(S,K(e)),W=i_(0,T,U,V),X=fa(E,i_(1,T,U,V)),ax=bU(X,O),Y=au(s,q,bU(e,au(F,bU(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ad(v,v)),az],aB=[0,aE(ad(H,H)),aA],aC=cC(Y,aw),k=[0,[0,Y,p(K(e),x),aC,[1,W,X],[0,[0,x,G]],aB],af];var
+aP=N(ai,i(hf(J,am,j))),aQ=r[2],aR=k9(f,u,al,J,cb(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cC(fu(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:ci(a):kW(f[1],a,b)},I=g[1],Z=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:ci(I):Z,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
-hd(c,b,a){if(a){var
-e=a[2],g=hd(c,ca(b),e),h=a[1];return f(hb(c,bB([0,d,d],b),h),g)}return a}function
-k0(b,a){if(a){var
-g=k0([0,b],a[2]),c=a[1];if(0===c[0])var
+hh(c,b,a){if(a){var
+e=a[2],g=hh(c,cb(b),e),h=a[1];return f(hf(c,bC([0,d,d],b),h),g)}return a}function
+k_(b,a){if(a){var
+g=k_([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=bX([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-he(b,a){return b?M(a):d}function
-fx(c,b,a){if(typeof
+hi(b,a){return b?M(a):d}function
+fy(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=he(c,b),h=x(he(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+g=hi(c,b),h=x(hi(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
 9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-k1(a){if(a){var
+k$(a){if(a){var
 b=a[1][6];if(b)var
-c=k1(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=k$(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return qB}function
-k2(y,U,b){function
+d=b;return d}return qP}function
+la(y,U,b){function
 c(a){return t(a,U,l(d))}function
 N(a){var
-e=a[2],f=o(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c6(function(b,a){return s(b,K(a))},g,f),d],b]}function
+e=a[2],f=p(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c7(function(b,a){return s(b,K(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=K(b[2]),g=o(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=K(b[2]),g=p(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
 C=0;if(typeof
@@ -3792,15 +3795,15 @@ a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
 d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
 3:var
-X=function(b){var
+W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=W,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(qC),b),g=[0,[0,s(o(c(qD),d),f),0],0],h=o(d,c(qE));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=p(c(qQ),b),g=[0,[0,s(p(c(qR),d),f),0],0],h=p(d,c(qS));return[0,[0,s(p(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3816,15 +3819,15 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=k1(y);if(A){var
-aa=c(0),P=c6(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=k$(y);if(A){var
+aa=c(0),P=c7(p,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
 k=j[2],E=j[1];if(k)if(k[2]||!h)var
 a=l(d);else{var
 m=h[2],n=h[1];if(n){var
-p=n[2],G=n[1];if(p){var
-q=p[2],H=p[1];if(q){var
+o=n[2],G=n[1];if(o){var
+q=o[2],H=o[1];if(q){var
 I=q[1];if(q[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
@@ -3833,7 +3836,7 @@ v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cE(G,H,J,L),S=o(k[1],R),T=o(E,cE(G,I,J,M)),a=F(s(o(D,cE(H,I,L,M)),T),S)}else
+R=cF(G,H,J,L),S=p(k[1],R),T=p(E,cF(G,I,J,M)),a=F(s(p(D,cF(H,I,L,M)),T),S)}else
 var
 a=l(d)}else
 var
@@ -3848,7 +3851,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cE(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cF(D,E,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -3862,83 +3865,83 @@ a=l(d);var
 ab=[0,bl(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
-z=W(y,f);return z?g(z[1]):z}function
-fy(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+z=X(y,f);return z?g(z[1]):z}function
+fz(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 ej(a){return e(function(a){var
-b=l(c);return[0,a[3],b]},a)}function
-k3(a,b){return e(function(a){var
-c=o(a[2],b);return[0,a[1],c]},a)}function
-k4(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bs(k3(c,t(0,b,l(d))));return iS(k2(c,b,a))}function
+c=l(b);return[0,a[3],c]},a)}function
+lb(a,b){return e(function(a){var
+c=p(a[2],b);return[0,a[1],c]},a)}function
+lc(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bs(lb(c,t(0,b,l(d))));return i2(la(c,b,a))}function
 ek(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],j=ek(g,c,b,N(e,i(fx(c,b,d))),h);return f(as(g,k0(e,fx(c,b,d)),d),j)}return a}function
-k5(b,a){switch(a[0]){case
+d=a[1],h=a[2],j=ek(g,c,b,N(e,i(fy(c,b,d))),h);return f(as(g,k_(e,fy(c,b,d)),d),j)}return a}function
+ld(b,a){switch(a[0]){case
 0:var
-d=a[1];return ag(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ag(b,[0,[0,e,e],a[2]]);return c?ja(b,c[1]):c;case
-2:return dc(b,a[1]);default:return e6(b,a[1])}}function
-k6(f,g,m,I,H,r,a){if(typeof
+e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jk(b,c[1]):c;case
+2:return dc(b,a[1]);default:return e7(b,a[1])}}function
+le(f,h,m,I,H,r,a){if(typeof
 a==="number")return[0,[0,[0,C]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,c,c],a[1]],i=J,n=function(a){return[0,a]};break;case
+J=[5,[0,b,b],a[1]],i=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,c,c],a[1]],i=M,n=function(a){return[1,a]};break;case
+M=[5,[0,b,b],a[1]],i=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=ag(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,R(f,a)]},Q),P];case
+x=a[1],P=0,Q=ah(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,S(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],B=a[1];if(!W(m,B))return qH;var
-G=0;if(h(f,1,A)&&h(f,1,z))var
-S=[5,A,z],i=S,n=function(a){return[7,B,a]};else
-G=1;if(G)return qG;break;case
+z=a[3],A=a[2],B=a[1];if(!X(m,B))return qV;var
+G=0;if(g(f,1,A)&&g(f,1,z))var
+R=[5,A,z],i=R,n=function(a){return[7,B,a]};else
+G=1;if(G)return qU;break;case
 8:var
-D=h(f,1,a[1]),T=0,E=D?h(f,1,a[2]):D;if(E)var
-U=$(f,c),V=k3(m,t(0,r,l(d))),F=[0,[4,k(ap(g),V),U]];else
+D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
+U=$(f,b),V=lb(m,t(0,r,l(d))),F=[0,[4,k(ap(h),V),U]];else
 var
 F=E;return[0,F,T];default:var
 p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=h(f,1,[3,s,u]),O=v?h(f,1,[3,[2,u,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],s]):v,j=O;break;case
+s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],s]):v,j=O;break;case
 6:case
 9:var
-w=h(f,1,a[2]),j=w?h(f,0,a[3]):w;break;default:p=1}if(p)var
+w=g(f,1,a[2]),j=w?g(f,0,a[3]):w;break;default:p=1}if(p)var
 j=1;var
-o=j?k2(m,r,a):j;if(o){var
+o=j?la(m,r,a):j;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=k(g,b[1]);return[0,[5,k(g,c),e]]}var
-d=[0,[3,k(g,c)]]}else
+e=k(h,b[1]);return[0,[5,k(h,c),e]]}var
+d=[0,[3,k(h,c)]]}else
 var
-d=a;return d},N)}return qF}var
-K=0,L=ag(f,[0,[0,i,i],he(I,H)]);return[0,y(function(a){return n(R(f,a))},L),K]}function
-k7(a){if(typeof
+d=a;return d},N)}return qT}var
+K=0,L=ah(f,[0,[0,i,i],hi(I,H)]);return[0,y(function(a){return n(S(f,a))},L),K]}function
+lf(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qJ(b){if(0===b[0])return[0,j8(b[1])];var
+qX(b){if(0===b[0])return[0,kg(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a_(a[4]),g=a_(a[3]),h=a_(a[2]);return[1,[0,a_(a[1]),h,g,f,e,d,c]]}function
-qK(K,c,a,g,an,aT){var
-aU=e(qJ,a[2]),ao=kX(K,a[2],aU);if(ao)var
-aV=gV(a[4]),L=d_(K,a[4],aV);else
+qY(K,c,a,h,an,aT){var
+aU=e(qX,a[2]),ao=k7(K,a[2],aU);if(ao)var
+aV=gZ(a[4]),L=d_(K,a[4],aV);else
 var
 L=ao;if(L){var
 aq=a[5];if(aq)var
-aW=fs(aq[1]),as=n(function(a){return ei(K,a)},aW);else
+aW=ft(aq[1]),as=n(function(a){return ei(K,a)},aW);else
 var
 as=1;var
 M=as}else
 var
 M=L;if(M){var
-b=a[1],aw=a0(b),q=a[6],x=hd(g,an,a[2]),R=a[3],S=[0,[0,R,R],g],T=[0,i(x)],z=a[2],o=z?0===z[1][0]?0:1:z,ax=a[5],ay=y(function(a){var
+b=a[1],aw=a0(b),q=a[6],x=hh(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,i(x)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=y(function(a){var
 c=typeof
-b==="number"?0:fu(b[1]);return kD(a,c)},ax),az=a[2],j=kZ(b,ay,bX(S,i(x)),g,an,az,0),U=A(function(a){return a[7]},j),aA=f(U,ek(function(a,b){return k4(j,a,b)},o,g,T,q)),aB=f(bs(ej(j)),aA),V=f(bs(fy(j)),aB),B=da(V)[1],aC=cy(B),p=function(a){return bm(aC,a)},W=n(function(a){var
-b=l(d),c=cy(B);return aM(t(p(a),c,b),a)},V),X=W?ar(k7,q):W;if(X){var
+b==="number"?0:fv(b[1]);return kN(a,c)},ax),az=a[2],j=k9(b,ay,bX(S,i(x)),h,an,az,0),U=z(function(a){return a[7]},j),aA=f(U,ek(function(a,b){return lc(j,a,b)},o,h,T,q)),aB=f(bs(ej(j)),aA),V=f(bs(fz(j)),aB),B=da(V)[1],aC=cz(B),p=function(a){return bm(aC,a)},W=n(function(a){var
+b=l(d),c=cz(B);return aM(t(p(a),c,b),a)},V),X=W?ar(lf,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?g$(0,dj(Y)):1;else
+Z=b?hd(0,dj(Y)):1;else
 var
-au=dj(Y),Z=g$(b[1],au);var
+au=dj(Y),Z=hd(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3948,8 +3951,8 @@ r=a[5]?0:1;else
 if(2<=O[1])var
 r=0;else{var
 v=a[5],N=0;if(v){var
-P=h(c,1,a[3]);if(P)var
-av=fs(v[1]),r=n(function(a){var
+P=g(c,1,a[3]);if(P)var
+av=ft(v[1]),r=n(function(a){var
 b=ee(c,a[1]);return b?ee(c,a[2]):b},av);else{var
 Q=P;N=1}}else{var
 Q=v;N=1}if(N)var
@@ -3958,35 +3961,35 @@ D=r}else
 var
 D=C;if(D)var
 aD=a[2],E=n(function(a){var
-b=0===a[0]?0:1;return b_(b,o)},aD);else
+b=0===a[0]?0:1;return b$(b,o)},aD);else
 var
 E=D;if(E){var
-aE=f(x,[0,S,0]),F=aj(e(function(a){return ag(c,a)},aE));if(F){var
-aF=A(function(a){return fx(o,g,a)},q),G=aj(e(function(a){return k5(c,a)},aF));if(G){var
+aE=f(x,[0,S,0]),F=aj(e(function(a){return ah(c,a)},aE));if(F){var
+aF=z(function(a){return fy(o,h,a)},q),G=aj(e(function(a){return ld(c,a)},aF));if(G){var
 m=dj(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:kT(b[1],m),H=aj(e(function(a){return ag(c,[0,a,g])},aG));if(H){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:k3(b[1],m),H=aj(e(function(a){return ah(c,[0,a,h])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=kF($[1]),s=aj(e(function(a){return kH(c,a)},aH));else
+aH=kP($[1]),s=aj(e(function(a){return kR(c,a)},aH));else
 var
-s=qI;if(s){var
-aa=s[1],w=a[5],aI=w?kE(w[1]):w,I=aj(e(function(a){return dk(c,a)},aI));if(I){var
-J=aj(ek(function(a,b){return k6(c,p,j,o,g,a,b)},o,g,T,q));if(J){var
+s=qW;if(s){var
+aa=s[1],w=a[5],aI=w?kO(w[1]):w,I=aj(e(function(a){return dk(c,a)},aI));if(I){var
+J=aj(ek(function(a,b){return le(c,p,j,o,h,a,b)},o,h,T,q));if(J){var
 ab=J[1],ac=u(i(f(_,aa)),aw);if(ac){var
-aJ=gO(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
+aJ=gS(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return jY(c,aL,g,a)};at=1}if(!at)var
+ad=function(a){return j8(c,aL,h,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ej(j),aR=k(ap(p),aQ),aS=fy(j);return fi(c,B,k(ap(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ej(j),aR=k(ap(p),aQ),aS=fz(j);return fj(c,B,k(ap(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
 ae=ac}else
 var
 ae=J;var
 af=ae}else
 var
 af=I;var
-ah=af}else
+ag=af}else
 var
-ah=s;var
-ai=ah}else
+ag=s;var
+ai=ag}else
 var
 ai=H;var
 ak=ai}else
@@ -4008,82 +4011,82 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=bt(a[2]);return f(bt(a[1]),e)}}function
-a$(e,a,b){switch(a[0]){case
+a$(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return bX([0,[0,r,r],d],b);case
+r=a[1];return bX([0,[0,r,r],d],c);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(oc(n[1],u))return n[2];var
+n=g[1];if(oq(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bl(a$(e,a[1],b));case
+2:return bl(a$(e,a[1],c));case
 3:var
 j=a[2],f=a[1],h=F;break;case
 4:var
 j=a[2],f=a[1],h=s;break;case
 5:var
-j=a[2],f=a[1],h=o;break;case
+j=a[2],f=a[1],h=p;break;case
 6:var
 j=a[2],f=a[1],h=ak;break;case
 7:var
-k=dT(a[2]),m=a$(e,a[1],b);if(k){if(k[1]){var
-p=K(m),t=function(a){return o(a,p)},q=eO(bA(iJ(k)),t,p);return iI(k)?q:o(q,m)}return m}return l(c);default:return aE(a$(e,a[1],b))}var
-w=a$(e,j,N(b,i(bt(f))));return h(a$(e,f,b),w)}function
-cm(c,g,b){var
+k=dT(a[2]),m=a$(e,a[1],c);if(k){if(k[1]){var
+o=K(m),t=function(a){return p(a,o)},q=eP(bB(iT(k)),t,o);return iS(k)?q:p(q,m)}return m}return l(b);default:return aE(a$(e,a[1],c))}var
+w=a$(e,j,N(c,i(bt(f))));return h(a$(e,f,c),w)}function
+cn(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,i(bt(e))),l=cm(c,a[2],k),m=f(cm(c,e,b),l);return[0,a$(c,a,b),m];case
+e=a[1],k=N(b,i(bt(e))),l=cn(c,a[2],k),m=f(cn(c,e,b),l);return[0,a$(c,a,b),m];case
 8:var
-n=cm(c,a[1],b);return[0,a$(c,a,b),n];case
+n=cn(c,a[1],b);return[0,a$(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,i(bt(d))),j=cm(c,a[2],h);return f(cm(c,d,b),j)}}function
-k8(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,i(bt(d))),h=a[2],j=a$(c,d,b),k=k8([0,[0,e[1],j],c],h,g);return f(cm(c,d,b),k)}return a}function
-hf(a){return A(bt,a)}function
-k9(c,a,b){if(a)var
-d=a[1],f=N(b,i(bt(d))),g=k9(c,a[2],f),e=[0,a$(c,d,b),g];else
+d=a[1],h=N(b,i(bt(d))),j=cn(c,a[2],h);return f(cn(c,d,b),j)}}function
+lg(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,i(bt(d))),h=a[2],j=a$(c,d,b),k=lg([0,[0,e[1],j],c],h,g);return f(cn(c,d,b),k)}return a}function
+hj(a){return z(bt,a)}function
+lh(c,a,b){if(a)var
+d=a[1],f=N(b,i(bt(d))),g=lh(c,a[2],f),e=[0,a$(c,d,b),g];else
 var
 e=a;return e}function
-k_(c,a,b){if(a){var
-d=a[1],e=N(b,i(bt(d))),g=k_(c,a[2],e);return f(cm(c,d,b),g)}return a}function
-hg(a){return 0===a[0]?hf(a[1]):bt(a[1])}function
-k$(c,b,a){if(b){var
-d=b[1],j=N(a,i(hg(d))),k=k$(c,b[2],j);if(0===d[0])var
-g=k_(c,d[1],a);else
+li(c,a,b){if(a){var
+d=a[1],e=N(b,i(bt(d))),g=li(c,a[2],e);return f(cn(c,d,b),g)}return a}function
+hk(a){return 0===a[0]?hj(a[1]):bt(a[1])}function
+lj(c,b,a){if(b){var
+d=b[1],j=N(a,i(hk(d))),k=lj(c,b[2],j);if(0===d[0])var
+g=li(c,d[1],a);else
 var
-e=d[1],h=cm(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
-fz(c){var
+e=d[1],h=cn(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
+fA(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cx(fz,a)}return[0,b]}function
-hh(c){var
+b=cy(fA,a)}return[0,b]}function
+hl(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hh(a[2]);return o(hh(a[1]),d);case
+d=hl(a[2]);return p(hl(a[1]),d);case
 9:return a[1];default:return K(b)}}}function
-la(n,g,a,f){if(a){var
-b=a[1],w=N(f,i(hg(b))),x=la(n,g,a[2],w);if(0===b[0])var
-k=k9(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+lk(n,g,a,f){if(a){var
+c=a[1],w=N(f,i(hk(c))),x=lk(n,g,a[2],w);if(0===c[0])var
+k=lh(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
 var
-m=a$(g,b[1],f),q=fz(m),h=aN(aV(0,n),q),d=fz(h[2]),j=e(fz,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(c):ak(a,d)},j),o=[0,j,hh(d),v,u,t,s,r];var
+m=a$(g,c[1],f),q=fA(m),h=aN(aV(0,n),q),d=fA(h[2]),j=e(fA,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(b):ak(a,d)},j),o=[0,j,hl(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-lb(a){return e(function(a){return[0,a[2],d]},a)}function
-lc(a){var
-b=A(hg,a[4]),c=f(hf(e(b9,a[3])),b);return f(lb(a[2]),c)}function
-ld(a){var
-c=bF(0,lb(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
-hi(b,d){var
+ll(a){return e(function(a){return[0,a[2],d]},a)}function
+lm(a){var
+b=z(hk,a[4]),c=f(hj(e(b_,a[3])),b);return f(ll(a[2]),c)}function
+ln(a){var
+c=bH(0,ll(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
+hm(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4092,27 +4095,27 @@ e=a[1];return ar(function(a){return an(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hi(b,a[1]);if(c){var
+c=hm(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-le(d){var
+lo(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ai(ar(function(b){return function(a){return oc(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ac(ar(function(b){return function(a){return oq(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fB=s(l(c),fA);function
-lf(e){var
-a=K(fB);if(e)var
-f=o(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=o(l(b(2,c)),a),d=ak(F(l(c),h),g);else
+fC=s(l(b),fB);function
+lp(e){var
+a=K(fC);if(e)var
+f=p(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=p(l(c(2,b)),a),d=ak(F(l(b),h),g);else
 var
-i=F(l(b(2,c)),a),j=K(fA),d=ak(F(o(l(b(2,c)),j),a),i);return aE(d)}function
-lg(d,b,a){if(d){var
-e=lf(b),f=F(l(c),e),g=o(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=lf(b),j=ak(l(c),i);return s(o(a,F(l(c),j)),h)}function
+i=F(l(c(2,b)),a),j=K(fB),d=ak(F(p(l(c(2,b)),j),a),i);return aE(d)}function
+lq(d,c,a){if(d){var
+e=lp(c),f=F(l(b),e),g=p(s(l(b),a),f);return s(l(b),g)}var
+h=l(b),i=lp(c),j=ak(l(b),i);return s(p(a,F(l(b),j)),h)}function
 dt(f,e,d,a){var
-g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fB:ak(fB,o(l(b(2,c)),fA)):ak(fB,l(b(2,c))),k=o(K(j),i);return aE(F(l(c),k))}function
-lh(g,d){var
+g=K(a),h=K(d),i=s(s(l(c(2,b)),h),g),j=f?e?fC:ak(fC,p(l(c(2,b)),fB)):ak(fC,l(c(2,b))),k=p(K(j),i);return aE(F(l(b),k))}function
+lr(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hj(v,u,s){var
+hn(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4122,7 +4125,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e8([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e9([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -4144,12 +4147,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-li(f,i,e,b,h){var
-j=f?c:d,a=$(i,j);function
+ls(f,i,e,c,h){var
+j=f?b:d,a=$(i,j);function
 g(b){var
-c=f?e0(b):c$(b);return J(c,a)}var
-k=[0,af(h),0],l=[0,[0,a,b,[0,C,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-lj(r,g,q,p,f,o,n){if(o){var
+c=f?e1(b):c$(b);return J(c,a)}var
+k=[0,ag(h),0],l=[0,[0,a,c,[0,C,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+lt(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4158,16 +4161,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aS,bp(qQ)),a=hj(p,jF(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aS,bp(q4)),a=hn(p,jP(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lh,qR),a=hj(p,bC(0,ce(g,li(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lr,q5),a=hn(p,bE(0,cf(g,ls(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lh,qS),a=hj(p,bC(0,ce(g,li(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lr,q6),a=hn(p,bE(0,cf(g,ls(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4177,26 +4180,26 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?qT:a}else
+y=a?q7:a}else
 var
 y=n;return y}return[0,n]}function
-lk(f,e,d,c,p,o,n){var
+lu(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=lj(f,e,d,c,b,a[1],g);return h?ai(h[1]):h}var
-i=lj(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d5(a[2],b),l=lk(f,e,d,c,k[1],j,a[3]);if(l){var
+h=lt(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
+i=lt(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d5(a[2],b),l=lu(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hk(a){return iN(b(2,c),aB(a,c))}function
+ho(a){return iX(c(2,b),aA(a,b))}function
 du(i,a,e,w,v){var
-m=a?c:M(c),f=l(m),g=lg(a,e,qO),h=lg(a,e,qP),n=ak(g,dt(a,e,f,g)),p=[0,F(ak(h,dt(a,e,h,f)),n),0],q=ak(f,dt(a,e,f,g)),r=[0,F(ak(h,dt(a,e,g,h)),q),p],s=ak(f,dt(a,e,h,f)),t=[0,F(ak(g,dt(a,e,g,h)),s),r],u=a?e?l(b(2,c)):o(l(b(2,b(2,c))),fA):l(b(2,b(2,c))),j=da([0,u,t]),k=[0,d,cv(i)];return lk(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-ll(a,g,b){if(V(g,hk(a))){if(b){var
+m=a?b:M(b),f=l(m),g=lq(a,e,q2),h=lq(a,e,q3),n=ak(g,dt(a,e,f,g)),o=[0,F(ak(h,dt(a,e,h,f)),n),0],q=ak(f,dt(a,e,f,g)),r=[0,F(ak(h,dt(a,e,g,h)),q),o],s=ak(f,dt(a,e,h,f)),t=[0,F(ak(g,dt(a,e,g,h)),s),r],u=a?e?l(c(2,b)):p(l(c(2,c(2,b))),fB):l(c(2,c(2,b))),j=da([0,u,t]),k=[0,d,cw(i)];return lu(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lv(a,g,b){if(W(g,ho(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hk(a)],v=cv(a),i=[0,hk(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,ho(a)],v=cw(a),i=[0,ho(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
 l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4214,252 +4217,252 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cv(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
+r=[0,g,cw(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hl(a){var
-b=[1,[2,d]];return c6(function(b,a){return[1,[3,b,a]]},a,b)}function
-fC(a){return hl(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fD(a,c){return hl(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hl(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lm(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cx(function(a){return lm(e,d,c,b,a)},f);return k(ce(e,d,c),g)}function
-ln(a){return a?V(d,a[1][2][1]):a}function
-qU(a){var
-b=u(i(a),qV);return b?ar(function(a){return ai(Y(a,d))},a):b}function
-lo(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,$(c,a[1]),f),h=lo(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
+hp(a){var
+b=[1,[2,d]];return c7(function(b,a){return[1,[3,b,a]]},a,b)}function
+fD(a){return hp(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fE(a,c){return hp(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hp(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lw(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cy(function(a){return lw(e,d,c,b,a)},f);return k(cf(e,d,c),g)}function
+lx(a){return a?W(d,a[1][2][1]):a}function
+q8(a){var
+b=u(i(a),q9);return b?ar(function(a){return ac(Y(a,d))},a):b}function
+ly(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,$(c,a[1]),f),h=ly(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fE(b,a){return iR(iR(b,0),a)}function
-hm(a){if(a){var
-b=a[2],c=a[1];if(b)return fE(c,[0,qX,hm(b)]);var
+fF(b,a){return i1(i1(b,0),a)}function
+hq(a){if(a){var
+b=a[2],c=a[1];if(b)return fF(c,[0,q$,hq(b)]);var
 d=c}else
 var
 d=a;return d}function
-z(a){return[0,qZ,fE(hm(a),qY)]}function
-T(a){return[0,q1,fE(hm(a),q0)]}function
-ah(a){return[0,q3,[0,a,q2]]}function
-g(b,a){return[0,aP(q5,aP(b,q4)),a]}function
-H(b,a){return T([0,g(b,a),0])}function
+A(a){return[0,rb,fF(hq(a),ra)]}function
+T(a){return[0,rd,fF(hq(a),rc)]}function
+ai(a){return[0,rf,[0,a,re]]}function
+h(b,a){return[0,aP(rh,aP(b,rg)),a]}function
+H(b,a){return T([0,h(b,a),0])}function
 b0(d){var
-b=d,a=oH,e=0;for(;;){if(b){var
-c=iH(a),b=b[1],a=c;continue}return[0,dW(eN(a)),e]}}function
-hn(a){return[0,dW(eT(a)),0]}function
-fF(a){var
-c=a3(a),f=0,b=0===c?oM:0<c?[0,eT(a)]:[1,eT(M(a))];if(0===b[0])var
+b=d,a=oV,e=0;for(;;){if(b){var
+c=iR(a),b=b[1],a=c;continue}return[0,dW(eO(a)),e]}}function
+hr(a){return[0,dW(eU(a)),0]}function
+fG(a){var
+c=a3(a),f=0,b=0===c?o0:0<c?[0,eU(a)]:[1,eU(M(a))];if(0===b[0])var
 d=dW(b[1]);else
 var
 e=dW(b[1]),d=aP(bg(1,45),e);return[0,d,f]}function
-ho(a){var
-b=0,c=0<a3(a)?eT(a):oL;return[0,dW(c),b]}function
-hp(a){switch(a[0]){case
-2:return q7;case
-3:return 2<=a[1]?q8:q9;case
-4:return q_;default:return q6}}function
+hs(a){var
+b=0,c=0<a3(a)?eU(a):oZ;return[0,dW(c),b]}function
+ht(a){switch(a[0]){case
+2:return rj;case
+3:return 2<=a[1]?rk:rl;case
+4:return rm;default:return ri}}function
 el(b,a){function
-c(c,a){return Z(c,hp(a))?el(b,a):[0,re,f(el(b,a),rd)]}switch(a[0]){case
+c(c,a){return Z(c,ht(a))?el(b,a):[0,rs,f(el(b,a),rr)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,aW(g),0];var
-h=[0,rf,[0,aW(e),0]];return[0,aW(g),h];case
+h=[0,rt,[0,aW(e),0]];return[0,aW(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,rh,c(rg,a[1])];case
+2:return[0,rv,c(ru,a[1])];case
 3:var
-i=a[3],j=c([0,hp(a)],i);switch(a[1]){case
+i=a[3],j=c([0,ht(a)],i);switch(a[1]){case
 0:var
-d=q$;break;case
+d=rn;break;case
 1:var
-d=ra;break;case
+d=ro;break;case
 2:var
-d=rb;break;default:var
-d=rc}var
-l=a[2];return f(c(hp(a),l),[0,d,j]);case
+d=rp;break;default:var
+d=rq}var
+l=a[2];return f(c(ht(a),l),[0,d,j]);case
 4:var
-m=[0,ri,hn(a[2])];return f(c(rj,a[1]),m);default:return[0,rl,f(el(b,a[1]),rk)]}}function
-I(a){return[0,ro,f(el(function(a){return 0===a[0]?a[1]:rn},a),rm)]}function
-hq(a){return[0,rq,f(el(function(a){return a},a),rp)]}function
+m=[0,rw,hr(a[2])];return f(c(rx,a[1]),m);default:return[0,rz,f(el(b,a[1]),ry)]}}function
+I(a){return[0,rC,f(el(function(a){return 0===a[0]?a[1]:rB},a),rA)]}function
+hu(a){return[0,rE,f(el(function(a){return a},a),rD)]}function
 b1(a){if(0===a[0])return I(a[1]);var
-b=[0,g(rr,I(a[2])),0];return T([0,g(rs,I(a[1])),b])}function
-fG(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return z([0,k(b,a[1]),d])}function
-rt(a){function
-b(a){return fG(b1,a)}switch(a[0]){case
+b=[0,h(rF,I(a[2])),0];return T([0,h(rG,I(a[1])),b])}function
+fH(b,a){var
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
+rH(a){function
+b(a){return fH(b1,a)}switch(a[0]){case
 0:var
-e=0,h=a[5]?ru:rC,i=[0,g(rv,ah(h)),e],j=[0,g(rw,b1(a[4])),i],k=[0,g(rx,b(a[3])),j],l=[0,g(ry,b(a[2])),k],m=[0,g(rz,b(a[1])),l],c=[0,g(rB,ah(rA)),m];break;case
+e=0,g=a[5]?rI:rQ,i=[0,h(rJ,ai(g)),e],j=[0,h(rK,b1(a[4])),i],k=[0,h(rL,b(a[3])),j],l=[0,h(rM,b(a[2])),k],m=[0,h(rN,b(a[1])),l],c=[0,h(rP,ai(rO)),m];break;case
 1:var
-d=a[3],n=d?[0,g(rD,b(d[1])),0]:d,o=[0,g(rE,b(a[2])),0],p=[0,g(rF,b(a[1])),o],c=f([0,g(rH,ah(rG)),p],n);break;default:var
-q=[0,g(rI,b(a[1])),0],c=[0,g(rK,ah(rJ)),q]}return T(c)}function
-rL(a){function
-b(a){return z(e(b1,a))}function
+d=a[3],n=d?[0,h(rR,b(d[1])),0]:d,o=[0,h(rS,b(a[2])),0],p=[0,h(rT,b(a[1])),o],c=f([0,h(rV,ai(rU)),p],n);break;default:var
+q=[0,h(rW,b(a[1])),0],c=[0,h(rY,ai(rX)),q]}return T(c)}function
+rZ(a){function
+b(a){return A(e(b1,a))}function
 d(a){var
-b=a?rM:rO;return g(rN,ah(b))}switch(a[0]){case
+b=a?r0:r2;return h(r1,ai(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],h=[0,g(rP,b1(a[4])),f],i=[0,g(rQ,b(a[3])),h],j=[0,g(rR,b(a[2])),i],k=[0,g(rS,b(a[1])),j],c=[0,g(rU,ah(rT)),k];break;case
+f=[0,d(a[5]),0],g=[0,h(r3,b1(a[4])),f],i=[0,h(r4,b(a[3])),g],j=[0,h(r5,b(a[2])),i],k=[0,h(r6,b(a[1])),j],c=[0,h(r8,ai(r7)),k];break;case
 1:var
-l=[0,g(rV,b(a[2])),0],m=[0,g(rW,b(a[1])),l],c=[0,g(rY,ah(rX)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,g(rZ,b1(a[6])),n],p=[0,g(r0,b1(a[5])),o],q=[0,g(r1,b(a[4])),p],r=[0,g(r2,b(a[3])),q],s=[0,g(r3,b(a[2])),r],t=[0,g(r4,b(a[1])),s],c=[0,g(r6,ah(r5)),t]}return T(c)}function
-hr(a){switch(a){case
-0:return r7;case
-1:return r8;case
-2:return r9;case
-3:return r_;case
-4:return r$;case
-5:return sa;case
-6:return sb;case
-7:return sc;case
-8:return sd;case
-9:return se;case
-10:return sf;case
-11:return sg;case
-12:return sh;default:return si}}function
-hs(a){if(typeof
-a==="number")return sj;else
+l=[0,h(r9,b(a[2])),0],m=[0,h(r_,b(a[1])),l],c=[0,h(sa,ai(r$)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,h(sb,b1(a[6])),n],p=[0,h(sc,b1(a[5])),o],q=[0,h(sd,b(a[4])),p],r=[0,h(se,b(a[3])),q],s=[0,h(sf,b(a[2])),r],t=[0,h(sg,b(a[1])),s],c=[0,h(si,ai(sh)),t]}return T(c)}function
+hv(a){switch(a){case
+0:return sj;case
+1:return sk;case
+2:return sl;case
+3:return sm;case
+4:return sn;case
+5:return so;case
+6:return sp;case
+7:return sq;case
+8:return sr;case
+9:return ss;case
+10:return st;case
+11:return su;case
+12:return sv;default:return sw}}function
+hw(a){if(typeof
+a==="number")return sx;else
 switch(a[0]){case
-0:return sk;case
-1:return sl;default:return sm}}function
+0:return sy;case
+1:return sz;default:return sA}}function
 em(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,g(sn,I(b[1])),0];break;case
+d=[0,h(sB,I(b[1])),0];break;case
 1:var
-d=[0,g(so,I(b[1])),0];break;default:var
-m=[0,I(b[2]),0],d=[0,g(sp,z([0,I(b[1]),m])),0]}var
-n=[0,g(sq,ah(hs(a[4]))),d],h=a[3];if(h){var
-c=h[1];switch(c[0]){case
+d=[0,h(sC,I(b[1])),0];break;default:var
+m=[0,I(b[2]),0],d=[0,h(sD,A([0,I(b[1]),m])),0]}var
+n=[0,h(sE,ai(hw(a[4]))),d],g=a[3];if(g){var
+c=g[1];switch(c[0]){case
 0:var
-p=z([0,I(c[1]),0]),k=a[1],o=0,q=6===k?sr:12===k?sv:sw,i=[0,g(ss,H(q,p)),o];break;case
+p=A([0,I(c[1]),0]),k=a[1],o=0,q=6===k?sF:12===k?sJ:sK,i=[0,h(sG,H(q,p)),o];break;case
 1:var
-i=[0,g(sy,H(sx,z(e(I,c[1])))),0];break;default:var
-u=[0,g(sz,z([0,I(c[2]),0])),0],i=[0,g(sB,T([0,g(sA,z([0,I(c[1]),0])),u])),0]}var
+i=[0,h(sM,H(sL,A(e(I,c[1])))),0];break;default:var
+u=[0,h(sN,A([0,I(c[2]),0])),0],i=[0,h(sP,T([0,h(sO,A([0,I(c[1]),0])),u])),0]}var
 l=i}else
 var
-l=h;var
-r=f(l,n),j=a[2],s=j?[0,g(st,b0(j[1])),0]:j,t=f(s,r);return T([0,g(su,ah(hr(a[1]))),t])}function
-lp(a){if(0===a[0]){var
-b=[0,g(sC,fG(I,a[2])),0];return H(sE,T([0,g(sD,fG(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,g(sF,z([0,I(a[4]),c])),0],e=[0,g(sG,I(a[3])),d],f=[0,I(a[2]),0];return H(sI,T([0,g(sH,z([0,I(a[1]),f])),e]))}function
-lq(a){if(0===a[0]){var
-b=[0,g(sJ,z(e(I,a[2]))),0];return H(sL,T([0,g(sK,z(e(I,a[1]))),b]))}return lp([1,a[1],a[2],a[3],a[4],a[5]])}function
-lr(a){switch(a){case
-0:return sM;case
-1:return sN;default:return sO}}function
-sP(a){function
-b(a){return z(e(b1,a))}var
-c=[0,g(sQ,b(a[2])),0],d=[0,g(sR,b(a[1])),c];return T([0,g(sT,ah(sS)),d])}function
-ls(a){function
-b(b,a){var
-c=[0,I(a),0];return z([0,I(b),c])}switch(a[0]){case
-0:return H(sU,b(a[1],a[2]));case
-1:var
-c=a[3],d=a[2],e=a[1],f=[0,g(sV,b(c[1],c[2])),0],h=[0,g(sW,b(d[1],d[2])),f];return H(sY,T([0,g(sX,b(e[1],e[2])),h]));case
-2:return H(sZ,I(a[1]));default:var
-i=[0,g(s0,I(a[2])),0];return H(s2,T([0,g(s1,I(a[1])),i]))}}function
+l=g;var
+r=f(l,n),j=a[2],s=j?[0,h(sH,b0(j[1])),0]:j,t=f(s,r);return T([0,h(sI,ai(hv(a[1]))),t])}function
+lz(a){if(0===a[0]){var
+b=[0,h(sQ,fH(I,a[2])),0];return H(sS,T([0,h(sR,fH(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,h(sT,A([0,I(a[4]),c])),0],e=[0,h(sU,I(a[3])),d],f=[0,I(a[2]),0];return H(sW,T([0,h(sV,A([0,I(a[1]),f])),e]))}function
+lA(a){if(0===a[0]){var
+b=[0,h(sX,A(e(I,a[2]))),0];return H(sZ,T([0,h(sY,A(e(I,a[1]))),b]))}return lz([1,a[1],a[2],a[3],a[4],a[5]])}function
+lB(a){switch(a){case
+0:return s0;case
+1:return s1;default:return s2}}function
 s3(a){function
-b(a){return fG(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,g(s4,b(c[1])),0]:c,h=[0,I(a[4]),0],i=[0,g(s5,z([0,I(a[3]),h])),0],j=[0,g(s6,I(a[2])),i],k=[0,g(s7,b0(a[1])),j],d=f([0,g(s9,ah(s8)),k],e);else
-var
-l=[0,g(s_,I(a[4])),0],m=[0,g(s$,b(a[3])),l],n=[0,g(ta,b(a[2])),m],o=a[1]?tb:td,d=[0,g(tc,ah(o)),n];return T(d)}function
-ht(d,c,a,b){var
-h=[0,g(te,z(e(em,b))),0],i=a?[0,g(tf,z(e(s3,a))),0]:a,j=f(i,h),k=[0,g(tg,lp(c)),0];return T(f([0,g(ti,H(th,z(e(rt,d)))),k],j))}function
-tj(a){switch(a[0]){case
-0:return H(tk,ht(a[1],a[2],a[3],a[4]));case
+b(a){return A(e(b1,a))}var
+c=[0,h(s4,b(a[2])),0],d=[0,h(s5,b(a[1])),c];return T([0,h(s7,ai(s6)),d])}function
+lC(a){function
+b(b,a){var
+c=[0,I(a),0];return A([0,I(b),c])}switch(a[0]){case
+0:return H(s8,b(a[1],a[2]));case
 1:var
-b=a[5],c=a[3],d=a[1],h=z(e(rL,a[2])),m=[0,g(tl,z(e(em,a[6]))),0],n=b?[0,g(tm,ls(b[1])),0]:b,o=f(n,m),l=0,p=[0,g(tn,lq(a[4])),o];if(typeof
+c=a[3],d=a[2],e=a[1],f=[0,h(s9,b(c[1],c[2])),0],g=[0,h(s_,b(d[1],d[2])),f];return H(ta,T([0,h(s$,b(e[1],e[2])),g]));case
+2:return H(tb,I(a[1]));default:var
+i=[0,h(tc,I(a[2])),0];return H(te,T([0,h(td,I(a[1])),i]))}}function
+tf(a){function
+b(a){return fH(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tg,b(c[1])),0]:c,g=[0,I(a[4]),0],i=[0,h(th,A([0,I(a[3]),g])),0],j=[0,h(ti,I(a[2])),i],k=[0,h(tj,b0(a[1])),j],d=f([0,h(tl,ai(tk)),k],e);else
+var
+l=[0,h(tm,I(a[4])),0],m=[0,h(tn,b(a[3])),l],n=[0,h(to,b(a[2])),m],o=a[1]?tp:tr,d=[0,h(tq,ai(o)),n];return T(d)}function
+hx(d,c,a,b){var
+g=[0,h(ts,A(e(em,b))),0],i=a?[0,h(tt,A(e(tf,a))),0]:a,j=f(i,g),k=[0,h(tu,lz(c)),0];return T(f([0,h(tw,H(tv,A(e(rH,d)))),k],j))}function
+tx(a){switch(a[0]){case
+0:return H(ty,hx(a[1],a[2],a[3],a[4]));case
+1:var
+b=a[5],c=a[3],d=a[1],g=A(e(rZ,a[2])),m=[0,h(tz,A(e(em,a[6]))),0],n=b?[0,h(tA,lC(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(tB,lA(a[4])),o];if(typeof
 d==="number")if(d)var
-i=to;else{var
-j=H(tt,h);l=1}else
+i=tC;else{var
+j=H(tH,g);l=1}else
 var
-i=lr(d[1]);if(!l)var
-q=c?[0,g(tp,I(c[1])),0]:c,j=H(i,T([0,g(tq,h),q]));return H(ts,T([0,g(tr,j),p]));case
+i=lB(d[1]);if(!l)var
+q=c?[0,h(tD,I(c[1])),0]:c,j=H(i,T([0,h(tE,g),q]));return H(tG,T([0,h(tF,j),p]));case
 2:var
-r=[0,g(tu,z(e(em,a[6]))),0],s=[0,g(tv,ls(a[5])),r],t=[0,g(tw,lq(a[4])),s],u=[0,g(tx,I(a[3])),0],v=T([0,g(ty,z(e(sP,a[2]))),u]);return H(tA,T([0,g(tz,H(lr(a[1]),v)),t]));case
+r=[0,h(tI,A(e(em,a[6]))),0],s=[0,h(tJ,lC(a[5])),r],t=[0,h(tK,lA(a[4])),s],u=[0,h(tL,I(a[3])),0],v=T([0,h(tM,A(e(s3,a[2]))),u]);return H(tO,T([0,h(tN,H(lB(a[1]),v)),t]));case
 3:var
-w=[0,g(tB,z(e(em,a[7]))),0],x=[0,g(tC,z(e(I,a[6]))),0],y=[0,g(tF,H(tE,T([0,g(tD,z(e(I,a[5]))),x]))),w],A=0,B=a[4],C=[0,g(tI,z(e(function(a){return 0===a[0]?H(tG,z(e(hq,a[1]))):H(tH,hq(a[1]))},B))),A],D=a[3],E=[0,g(tJ,z(e(function(a){var
-b=[0,hq(a[2]),0];return z([0,ah(a[1]),b])},D))),C],F=a[2],G=[0,g(tK,z(e(function(a){var
-b=[0,b1(a[2]),0];return z([0,ah(a[1]),b])},F))),E];return H(tO,T([0,g(tN,H(tM,T([0,g(tL,z(e(ah,a[1]))),G]))),y]));case
+w=[0,h(tP,A(e(em,a[7]))),0],x=[0,h(tQ,A(e(I,a[6]))),0],y=[0,h(tT,H(tS,T([0,h(tR,A(e(I,a[5]))),x]))),w],z=0,B=a[4],C=[0,h(tW,A(e(function(a){return 0===a[0]?H(tU,A(e(hu,a[1]))):H(tV,hu(a[1]))},B))),z],D=a[3],E=[0,h(tX,A(e(function(a){var
+b=[0,hu(a[2]),0];return A([0,ai(a[1]),b])},D))),C],F=a[2],G=[0,h(tY,A(e(function(a){var
+b=[0,b1(a[2]),0];return A([0,ai(a[1]),b])},F))),E];return H(t2,T([0,h(t1,H(t0,T([0,h(tZ,A(e(ai,a[1]))),G]))),y]));case
 4:var
-J=[0,g(tP,z(e(em,a[3]))),0],K=[0,g(tS,H(tR,T([0,g(tQ,I(a[2])),0]))),J];return H(tW,T([0,g(tV,H(tU,T([0,g(tT,I(a[1])),0]))),K]));case
+J=[0,h(t3,A(e(em,a[3]))),0],K=[0,h(t6,H(t5,T([0,h(t4,I(a[2])),0]))),J];return H(t_,T([0,h(t9,H(t8,T([0,h(t7,I(a[1])),0]))),K]));case
 5:var
-L=[0,g(tX,I(a[5])),0];return H(tZ,T([0,g(tY,ht(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,h(t$,I(a[5])),0];return H(ub,T([0,h(ua,hx(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-k=a[1],M=0,N=k?b1(k[1]):ah(t2);return H(t1,T([0,g(t0,N),M]));default:var
-O=[0,g(t3,I(a[6])),0],P=[0,g(t4,I(a[5])),O],Q=[0,g(t5,ht(a[2],a[3],0,a[4])),P],R=a[1];return H(t_,T([0,g(t9,z(e(function(a){var
-b=[0,g(t6,I(a[2][2])),0],c=[0,g(t7,I(a[2][1])),b];return T([0,g(t8,ah(a[1])),c])},R))),Q]))}}function
-en(a){return z(e(fF,a))}function
-fH(b,a){var
-c=[0,g(t$,ho(a)),0];return T([0,g(ua,z(e(en,b))),c])}function
+k=a[1],M=0,N=k?b1(k[1]):ai(ue);return H(ud,T([0,h(uc,N),M]));default:var
+O=[0,h(uf,I(a[6])),0],P=[0,h(ug,I(a[5])),O],Q=[0,h(uh,hx(a[2],a[3],0,a[4])),P],R=a[1];return H(um,T([0,h(ul,A(e(function(a){var
+b=[0,h(ui,I(a[2][2])),0],c=[0,h(uj,I(a[2][1])),b];return T([0,h(uk,ai(a[1])),c])},R))),Q]))}}function
+en(a){return A(e(fG,a))}function
+fI(b,a){var
+c=[0,h(un,hs(a)),0];return T([0,h(uo,A(e(en,b))),c])}function
 eo(a){switch(a[0]){case
-0:return ah(a[1]);case
+0:return ai(a[1]);case
 1:var
-b=fH(a[2],a[3]);return H(a[1],b);case
+b=fI(a[2],a[3]);return H(a[1],b);case
 2:var
-c=a[1]?ub:ud;return H(uc,ah(c));case
+c=a[1]?up:ur;return H(uq,ai(c));case
 3:var
-d=[0,en(a[3]),0];return H(ue,z([0,fH(a[1],a[2]),d]));case
+d=[0,en(a[3]),0];return H(us,A([0,fI(a[1],a[2]),d]));case
 4:var
-f=[0,b0(0),0],g=[0,fF(a[3]),f];return H(uf,z([0,fH(a[1],a[2]),g]));case
+f=[0,b0(0),0],g=[0,fG(a[3]),f];return H(ut,A([0,fI(a[1],a[2]),g]));case
 5:var
-h=[0,ho(a[3]),0],i=[0,fF(a[2]),h];return H(ug,z([0,eo(a[1]),i]));case
+h=[0,hs(a[3]),0],i=[0,fG(a[2]),h];return H(uu,A([0,eo(a[1]),i]));case
 6:var
-j=[0,ho(a[3]),0],k=[0,fF(a[2]),j];return H(uh,z([0,eo(a[1]),k]));case
-7:return H(ui,eo(a[1]));default:var
-l=[0,z(e(en,a[3])),0],m=[0,ah(a[2]),l];return H(uj,z([0,eo(a[1]),m]))}}function
-uk(a){var
-b=[0,eo(a[2]),0];return z([0,b0(a[1]),b])}function
-lt(a){if(typeof
-a==="number")return 0===a?ah(ul):ah(um);else{if(0===a[0]){var
-b=[0,z(e(en,a[2])),0];return H(un,z([0,b0(a[1]),b]))}var
-c=[0,b0(a[2]),0];return H(uo,z([0,b0(a[1]),c]))}}function
-up(a){var
-b=a[4],i=b?[0,g(uq,en([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,g(ur,lt(d[1])),0]:d,k=f(j,i),h=a[2],l=h?[0,g(us,b0(h[1])),0]:h,m=f(l,k),c=a[1],n=c?[0,g(ut,z(e(uk,[0,c[1],c[2]]))),0]:c;return T(f(n,m))}function
-lu(h,a,d){var
-i=[0,g(uu,z(e(up,d))),0];if(a)var
-b=a[1],c=[0,g(uv,fH(b[1],b[2])),0];else
+j=[0,hs(a[3]),0],k=[0,fG(a[2]),j];return H(uv,A([0,eo(a[1]),k]));case
+7:return H(uw,eo(a[1]));default:var
+l=[0,A(e(en,a[3])),0],m=[0,ai(a[2]),l];return H(ux,A([0,eo(a[1]),m]))}}function
+uy(a){var
+b=[0,eo(a[2]),0];return A([0,b0(a[1]),b])}function
+lD(a){if(typeof
+a==="number")return 0===a?ai(uz):ai(uA);else{if(0===a[0]){var
+b=[0,A(e(en,a[2])),0];return H(uB,A([0,b0(a[1]),b]))}var
+c=[0,b0(a[2]),0];return H(uC,A([0,b0(a[1]),c]))}}function
+uD(a){var
+b=a[4],i=b?[0,h(uE,en([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uF,lD(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(uG,b0(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(uH,A(e(uy,[0,c[1],c[2]]))),0]:c;return T(f(n,m))}function
+lE(g,a,d){var
+i=[0,h(uI,A(e(uD,d))),0];if(a)var
+b=a[1],c=[0,h(uJ,fI(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return T([0,g(uw,hn(h)),j])}function
-lv(d,c,a,b){var
-h=[0,g(ux,lt(b)),0],i=a?[0,g(uy,z(e(I,a))),0]:a,j=f(i,h),k=[0,g(uz,z(e(I,c))),0];return T(f([0,g(uA,hn(d)),k],j))}function
-uB(a){if(typeof
-a==="number")return ah(uC);else
+j=f(c,i);return T([0,h(uK,hr(g)),j])}function
+lF(d,c,a,b){var
+g=[0,h(uL,lD(b)),0],i=a?[0,h(uM,A(e(I,a))),0]:a,j=f(i,g),k=[0,h(uN,A(e(I,c))),0];return T(f([0,h(uO,hr(d)),k],j))}function
+uP(a){if(typeof
+a==="number")return ai(uQ);else
 switch(a[0]){case
-0:return H(uD,b0(a[1]));case
-1:return H(uE,lu(a[1],a[2],a[3]));default:return H(uF,lv(a[1],a[2],a[3],a[4]))}}function
-fI(a){var
-b=go(gn(am(a),function(b){return aI(a,b)}));return n(function(a){var
-b=ai(34===a?1:0),c=b?ai(92===a?1:0):b,d=c?Z(uU,eW(a)):c;return d?Z(eW(a),uV):d},b)}function
+0:return H(uR,b0(a[1]));case
+1:return H(uS,lE(a[1],a[2],a[3]));default:return H(uT,lF(a[1],a[2],a[3],a[4]))}}function
+fJ(a){var
+b=gs(gr(am(a),function(b){return aI(a,b)}));return n(function(a){var
+b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?Z(u8,eX(a)):c;return d?Z(eX(a),u9):d},b)}function
 ep(b){function
 c(f){var
-a=eW(f),b=Z(uW,a),c=b?Z(a,uX):b;if(c)var
+a=eX(f),b=Z(u_,a),c=b?Z(a,u$):b;if(c)var
 d=c;else{var
-e=Z(uY,a);if(e)return Z(a,uZ);var
+e=Z(va,a);if(e)return Z(a,vb);var
 d=e}return d}var
-a=go(gn(am(b),function(a){return aI(b,a)}));if(a){var
+a=gs(gr(am(b),function(a){return aI(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eW(a),f=Z(u0,e),h=f?Z(e,u1):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(i(d),u2):f;if(g)return ai(an(b,u3));var
+e=eX(a),f=Z(vc,e),h=f?Z(e,vd):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(i(d),ve):f;if(g)return ac(an(b,vf));var
 h=g}else
 var
 h=a;return h}function
-hu(c){var
+hy(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return ep(a[1]);case
 3:var
-b=hu(a[2]);if(b){var
+b=hy(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 eq(m){var
@@ -4473,7 +4476,7 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eN(a[2]);if(typeof
+f=eO(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
@@ -4483,30 +4486,30 @@ g=d;return g;case
 i=eq(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eq(a[1]),l=k?eR(b(2,c),j):k;return l?eR(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eq(a[1]),l=k?eS(c(2,b),j):k;return l?eS(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bu(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cM(a){return A(dv,bu(a))}function
-hv(a){switch(a[0]){case
+cN(a){return z(dv,bu(a))}function
+hz(a){switch(a[0]){case
 0:var
-c=dv(a[4]),d=f(cM(a[3]),c),e=f(cM(a[2]),d);return f(cM(a[1]),e);case
+c=dv(a[4]),d=f(cN(a[3]),c),e=f(cN(a[2]),d);return f(cN(a[1]),e);case
 1:var
-b=a[3],g=b?cM(b[1]):b,h=f(cM(a[2]),g);return f(cM(a[1]),h);default:return cM(a[1])}}function
-u4(a){switch(a[0]){case
+b=a[3],g=b?cN(b[1]):b,h=f(cN(a[2]),g);return f(cN(a[1]),h);default:return cN(a[1])}}function
+vg(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return A(dv,b)}function
-lw(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lx(a){if(0===a[0]){var
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(dv,b)}function
+lG(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lH(a){if(0===a[0]){var
 b=bu(a[2]);return f(bu(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ly(a){switch(a[0]){case
+lI(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cN(e){var
+cO(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -4518,66 +4521,66 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-u5(a){if(0===a[0]){var
+vh(a){if(0===a[0]){var
 b=a[5],c=b?bu(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bu(a[3]),d);return f(bu(a[2]),e)}function
-lz(b,e){var
+lJ(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ar(function(a){return an(f,a)},b)}return 0;case
 3:var
-d=lz(b,a[2]);if(d){var
+d=lJ(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fJ(c,a){return n(function(a){var
-b=eq(a);return b?lz(c,a):b},a)}function
-lA(a){var
-d=eR(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?eR(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-lB(a,b){return b?[4,lB(a,b[1]),a]:a}function
+fK(c,a){return n(function(a){var
+b=eq(a);return b?lJ(c,a):b},a)}function
+lK(a){var
+d=eS(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eS(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+lL(a,b){return b?[4,lL(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=b(2,q(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eO(iF(i),l,c);return[0,iP(iG(eN(a[1]),i)),m];case
+i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return v(k,a)},m=eP(iP(i),l,b);return[0,iZ(iQ(eO(a[1]),i)),m];case
 1:var
-e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
+e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,c],f];case
+f=j(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bA(dT(a[2]));return lB(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bB(dT(a[2]));return lL(j(a[1]),n);default:return[6,j(a[1])]}}function
 bv(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-cO(a){var
+cP(a){var
 b=bv(a[3]),c=bv(a[2]);return[0,bv(a[1]),c,b]}function
-u6(a){switch(a[0]){case
+vi(a){switch(a[0]){case
 0:var
-b=a[5],c=bv(a[4]),d=cO(a[3]),e=cO(a[2]);return[0,[0,cO(a[1]),e,d,c,b]];case
+b=a[5],c=bv(a[4]),d=cP(a[3]),e=cP(a[2]);return[0,[0,cP(a[1]),e,d,c,b]];case
 1:var
-f=y(cO,a[3]),g=cO(a[2]);return[1,cO(a[1]),g,f];default:return[2,cO(a[1])]}}function
-lC(a){if(0===a[0]){var
+f=y(cP,a[3]),g=cP(a[2]);return[1,cP(a[1]),g,f];default:return[2,cP(a[1])]}}function
+lM(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
 dw(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
 dx(a){if(0===a[0]){var
-b=a[5],h=b?dw(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bA(a[1]),l,k,i,h]}var
+c=a[5],h=c?dw(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bB(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=dw(f),n=dw(g);return[2,j(e),n,m]}var
 o=dw(f),p=dw(g);return[1,j(e),p,o]}function
-hw(b,a){if(a){var
-c=a[1],d=a[2],g=hw(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(cu(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:b_(b[1],a[1]);return ai(d)},h),g)}return a}function
-u7(b){if(b[1])return 0;var
+hA(b,a){if(a){var
+c=a[1],d=a[2],g=hA(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bD(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:b$(b[1],a[1]);return ac(d)},h),g)}return a}function
+vj(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-u8(T,S,a){switch(a[1]){case
+vk(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -4586,15 +4589,15 @@ f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-U=f[1],b=function(a){return[2,a,j(U)]};break;case
+U=f[1],c=function(a){return[2,a,j(U)]};break;case
 1:var
-W=f[1],b=function(a){return[3,a,j(W)]};break;default:A=1}if(A)return 0;break;case
+W=f[1],c=function(a){return[3,a,j(W)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],L=0;if(typeof
 h==="number"||!(1===h[0]))L=1;else{var
 i=a[3],M=0,X=h[1];if(i){var
 C=i[1];if(0===C[0]){var
-Y=C[1],b=function(a){var
+Y=C[1],c=function(a){var
 b=j(X);return[4,a,j(Y),b]};M=1}else
 var
 D=0}else
@@ -4607,7 +4610,7 @@ k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
 l=a[4],N=0;if(typeof
 l==="number"||!(0===l[0]))N=1;else
 var
-Z=l[1],b=function(a){return[6,a,j(Z)]};if(N)return 0;break;case
+Z=l[1],c=function(a){return[6,a,j(Z)]};if(N)return 0;break;case
 5:var
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
@@ -4628,7 +4631,7 @@ r=a[4],O=0;if(typeof
 r==="number"||!(1===r[0]))O=1;else{var
 s=a[3],P=0,aa=r[1];if(s){var
 F=s[1];if(0===F[0]){var
-ab=F[1],b=function(a){var
+ab=F[1],c=function(a){var
 b=j(aa);return[13,a,j(ab),b]};P=1}else
 var
 G=0}else
@@ -4637,20 +4640,20 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=hw(0,S);return e(function(h){var
-e=j(ac),a=h[2],b=h[1];if(0===b[0]){var
-f=b[1];if(0===a[0]){var
-g=function(a){return a?dw(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bA(f),m,l,k]}var
-n=dx(a);return[10,dx(b),n,e]}var
-o=dx(a);return[10,dx(b),o,e]}var
-p=dx(a);return[10,dx(b),p,e]},ad)}return 0;case
+ac=t[1],ad=hA(0,S);return e(function(h){var
+e=j(ac),a=h[2],c=h[1];if(0===c[0]){var
+f=c[1];if(0===a[0]){var
+g=function(a){return a?dw(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(u(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bB(f),m,l,k]}var
+n=dx(a);return[10,dx(c),n,e]}var
+o=dx(a);return[10,dx(c),o,e]}var
+p=dx(a);return[10,dx(c),p,e]},ad)}return 0;case
 10:var
 v=a[4],Q=0;if(typeof
 v==="number"||!(1===v[0]))Q=1;else{var
 w=a[3],R=0,ae=v[1];if(w){var
 x=w[1];if(2===x[0]){var
-af=x[2],ag=x[1],b=function(a){var
+af=x[2],ag=x[1],c=function(a){var
 b=j(ae),c=j(af);return[12,a,j(ag),c,b]};R=1}else
 var
 H=0}else
@@ -4658,7 +4661,7 @@ var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?u9:I;return ah;case
+a[4]==="number"?1:0,ah=I?vl:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -4668,8 +4671,8 @@ ai=j(y[1]);return[0,[14,j(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bA(B[1]),0]:aV(0,T);return e(b,V)}function
-u_(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bB(B[1]),0]:aV(0,T);return e(c,V)}function
+vm(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4711,7 +4714,7 @@ z=f[1];switch(z[0]){case
 R=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))R=1;else{var
 g=a[3],S=0;if(g)if(0===g[1][0]){var
-B=u(c,va),T=0;if(B){var
+B=u(c,vo),T=0;if(B){var
 C=a[2];if(C){var
 b=C[1];S=1;T=1}else
 var
@@ -4745,20 +4748,20 @@ K=J;return K;case
 12:var
 L=a[4];if(typeof
 L!=="number"&&1===L[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,vb);var
+k=a[3];if(k){if(0===k[1][0])return u(c,vp);var
 M=0}else
 var
 M=k;return M}return 0;case
 13:return 0;default:var
 x=a[4];if(typeof
 x!=="number"&&0===x[0])return a[2]?0:a[3]?0:1;return 0}var
-o=Z(u$,b);return o?Z(b,c):o}function
-hx(c,k,j,b){var
-l=i(c),d=A(function(a){return u8(l,j,a)},b),a=A(u7,b),g=a?[0,a[1],a[2]]:vc,h=f(g,d),m=lC(k);return[0,e(u6,c),m,h]}function
-lD(b){if(b[1])return 0;var
+o=Z(vn,b);return o?Z(b,c):o}function
+hB(c,k,j,b){var
+l=i(c),d=z(function(a){return vk(l,j,a)},b),a=z(vj,b),g=a?[0,a[1],a[2]]:vq,h=f(g,d),m=lM(k);return[0,e(vi,c),m,h]}function
+lN(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-lE(E,D,a){switch(a[1]){case
+hC(E,D,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -4819,11 +4822,11 @@ p=a[4],C=0;if(typeof
 p==="number"||!(1===p[0]))C=1;else
 var
 Q=p[1],b=function(a){return[11,a,j(Q)]};if(C)return 0;break;default:return 0}var
-q=a[2],G=q?[0,bA(q[1]),0]:aV(0,D);return e(b,G)}function
+q=a[2],G=q?[0,bB(q[1]),0]:aV(0,D);return e(b,G)}function
 dy(d,c,b){var
-e=A(function(a){return lE(d,c,a)},b),a=A(lD,b),g=a?[0,a[1],a[2]]:vd;return f(g,e)}function
-fK(a){return 11===a[1]?1:0}function
-bH(n,m,a){var
+e=z(function(a){return hC(d,c,a)},b),a=z(lN,b),g=a?[0,a[1],a[2]]:vr;return f(g,e)}function
+fL(a){return 11===a[1]?1:0}function
+bJ(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4833,9 +4836,9 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=b_(n,e);if(f){var
+f=b$(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(ve,h);return i?Z(h,m):i}var
+h=g[1],i=Z(vs,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -4844,40 +4847,67 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 ba(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(vf,e),o=f?Z(e,b):f,c=o;else
+e=d[1],f=Z(vt,e),o=f?Z(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bH(0,b,a):bH(0,b,a)}return bH(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bJ(0,b,a):bJ(0,b,a)}return bJ(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bH(0,b,a):bH(0,b,a)}return bH(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bJ(0,b,a):bJ(0,b,a)}return bJ(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,n):c:bH(0,b,a):bH(0,b,a)}return bH(0,b,a)}return bH(0,b,a)}function
-lF(c,b,a){return 11===a[1]?typeof
+m=a[3];return m?0===m[1][0]?c?u(b,n):c:bJ(0,b,a):bJ(0,b,a)}return bJ(0,b,a)}return bJ(0,b,a)}function
+lO(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?ba(c,b,a):a[3]?ba(c,b,a):1:ba(c,b,a):ba(c,b,a)}function
-cn(a){switch(a[0]){case
+lP(f,c,b,a){var
+g=a[2];if(g)var
+h=g[1],i=Z(vu,h),r=i?Z(h,b):i,d=r;else
+var
+d=1;switch(a[1]){case
+1:if(a[3])return ba(a0(c),b,a);if(d){var
+q=0,j=a[4];if(typeof
+j!=="number"&&2===j[0]){var
+k=1;q=1}if(!q)var
+k=0;return b$(f,k)}return d;case
+4:var
+l=a[4];if(typeof
+l!=="number"&&0===l[0])return a[3]?ba(a0(c),b,a):d;return ba(a0(c),b,a);case
+5:var
+m=a[4];if(typeof
+m!=="number"&&0===m[0]){if(a[3])return ba(a0(c),b,a);var
+n=u(b,a0(c));if(n){var
+o=typeof
+c==="number"?1:0;if(o){if(a[2])return 0;var
+e=1}else
+var
+e=o}else
+var
+e=n;return e}return ba(a0(c),b,a);case
+13:var
+p=a[4];if(typeof
+p!=="number"&&1===p[0])return a[3]?ba(a0(c),b,a):d?ac(f):d;return ba(a0(c),b,a);default:return ba(a0(c),b,a)}}function
+co(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cn(a[1])];case
+2:return[2,co(a[1])];case
 3:var
-b=cn(a[2]),c=cn(a[3]);switch(a[1]){case
+b=co(a[2]),c=co(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cn(a[1]),d];default:return[8,cn(a[1])]}}function
-hy(b){function
+d=a[2];return[7,co(a[1]),d];default:return[8,co(a[1])]}}function
+hD(c){function
 a(e){var
-a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(vh),f=a(vi);return[0,a(0),f,e]}function
-cP(a){function
+a=[0,d,b];return t(e,c,[0,a,a])}var
+e=a(vv),f=a(vw);return[0,a(0),f,e]}function
+cQ(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -4885,37 +4915,59 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-lG(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,hy(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return lC([1,a[1],a[2],a[3],a[4],a[5]])}function
-lH(h,b,g,f,d,a){function
-c(a){return hy(e(bv,a))}var
-k=ar(fK,a),l=dy(0,i(b),a),m=cP(d),n=lG(f),o=j(g);return[0,h,e(function(a){var
+lQ(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,hD(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return lM([1,a[1],a[2],a[3],a[4],a[5]])}function
+lR(h,b,g,f,d,a){function
+c(a){return hD(e(bv,a))}var
+k=ar(fL,a),l=dy(0,i(b),a),m=cQ(d),n=lQ(f),o=j(g);return[0,h,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),o,n,m,l,k]}function
-lI(a){return ar(function(a){return 2===a[0]?1:0},a)}function
-lJ(k,a,b,h,g,f){var
-l=i(a),m=dy(lI(a),l,f),n=y(cP,g),o=lG(h),p=b?j(b[1]):[0,c,c];return[0,k,e(function(a){function
-b(a){return hy(e(bv,a))}switch(a[0]){case
+lS(a){return ar(function(a){return 2===a[0]?1:0},a)}function
+lT(k,a,c,h,g,f){var
+l=i(a),m=dy(lS(a),l,f),n=y(cQ,g),o=lQ(h),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return hD(e(bv,a))}switch(a[0]){case
 0:var
-k=a[5],l=bv(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bv(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
+o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
-g=b(f);else
+g=c(f);else
 var
-h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bv(a[6]),r=bv(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-lK(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cA(j(g[2][1]));if(k){var
-l=k[1],m=cA(j(g[2][2]));if(m)var
+h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+p=a[7],q=bv(a[6]),r=bv(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+lU(a){return a[1]?0:1}function
+lV(a){var
+c=lU(a);if(c)return c;if(1===a[1]){var
+b=a[4];if(typeof
+b!=="number"&&0===b[0])return 1;return 0}return 0}function
+fM(i,h,b){function
+c(b,a){return[3,1,b,a]}function
+a(b,a){return[3,3,b,a]}function
+d(b,a){return[3,2,b,a]}function
+e(b,a){return[3,0,b,a]}var
+f=c(fN,a(fN,b)),j=a(f,hE),k=i?f:a(c(b,fN),hE);function
+g(b){return a(b,[5,e(fN,d(hE,d(b,b)))])}var
+l=g(k);return a(h,e(g(j),l))}function
+fO(f,e,d){function
+a(b,a){return[3,3,b,a]}function
+b(b,a){return[3,2,b,a]}var
+c=a([3,1,hF,a(hF,d)],lW),g=a(c,[5,[3,0,hF,b(lW,b(c,c))]]);return[2,b(fM(f,e,d),g)]}function
+hG(e,g,a){function
+f(b,a){return[3,1,b,a]}function
+b(b,a){return[3,3,b,a]}function
+c(b,a){return[3,2,b,a]}var
+h=f(fP,b(fP,a)),d=e?h:b(f(a,fP),lX),i=b(d,[5,[3,0,fP,c(lX,c(d,d))]]);return c(fM(e,g,a),i)}function
+lY(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cB(j(g[2][1]));if(k){var
+l=k[1],m=cB(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
-d(a){return b(2,a)}var
-e=[0,a,eO(h[2],d,c)];return c_(l,bQ(eX(p,l),e))},q=n(x(h[1],c)),f=[0,n(h[1]),q];else
+d(a){return c(2,a)}var
+e=[0,a,eP(h[2],d,b)];return c_(l,bQ(eY(p,l),e))},q=n(x(h[1],b)),f=[0,n(h[1]),q];else
 var
-f=[0,[0,d,c],[0,d,c]]}else
+f=[0,[0,d,b],[0,d,b]]}else
 var
-f=[0,[0,d,c],[0,d,c]];var
-r=lK([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+f=[0,[0,d,b],[0,d,b]];var
+r=lY([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -4924,21 +4976,21 @@ al(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=iT(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=i3(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,al(b,a[1])];case
 3:var
 f=al(b,a[3]),g=al(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,al(b,a[1]),h];default:return[5,al(b,a[1])]}}function
-lL(b,a){if(0===a[0])return[0,al(b,a[1])];var
+lZ(b,a){if(0===a[0])return[0,al(b,a[1])];var
 c=al(b,a[2]);return[1,al(b,a[1]),c]}function
-hz(b,a){var
+hH(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hA(c,a){if(c)if(a){var
+hI(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hA(h,g);if(e){var
-i=e[1],f=hA(h,i[2]);if(f)var
+e=hI(h,g);if(e){var
+i=e[1],f=hI(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -4950,63 +5002,63 @@ var
 d=a;else
 var
 d=c;return d}function
-hB(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hB(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,x(v(b(2,c),l),k),j],h]}else
+hJ(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hJ(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(v(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-vj(a){if(typeof
+vB(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-vk(a){if(typeof
+vC(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fL(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=fL(e,a[3]);return bQ(c_(fL(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}var
-p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+fQ(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=fQ(e,a[3]);return bQ(c_(fQ(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
+o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 b2(h){var
 a=bk(function(f,e){var
-a=aX(p,f);if(a)var
-b=a[1],c=bh(c3(b[1]),c3(b[2]));else
+a=aX(o,f);if(a)var
+b=a[1],c=bh(c4(b[1]),c4(b[2]));else
 var
-c=d;return bh(c,e)},d,h);if(V(d,a)){var
-f=a3(a);if(0===f||!(0<f&&!G(a,c)))var
+c=d;return bh(c,e)},d,h);if(W(d,a)){var
+f=a3(a);if(0===f||!(0<f&&!G(a,b)))var
 g=d;else
 var
-b=aU(a,aD(2)),e=b[1],g=Y(b[2],d)?eQ(e):eQ(e);return aB(g,p)}return d}function
+c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eR(e):eR(e);return aA(g,o)}return d}function
 dz(a){return[0,a[1],[0,a[2],0]]}function
 a1(a){var
 b=dz(a[3]),c=f(dz(a[2]),b);return f(dz(a[1]),c)}function
-lM(a){return 0===a[0]?dz(a[1][4]):0}function
-lN(a){switch(a[0]){case
+l0(a){return 0===a[0]?dz(a[1][4]):0}function
+l1(a){switch(a[0]){case
 0:var
 b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
 d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-fM(a){switch(a[0]){case
+fR(a){switch(a[0]){case
 0:return b2(a1(a[1][1]));case
 1:var
 b=a[3];return b?b2(a1(b[1])):d;default:return b2(a1(a[1]))}}function
-hC(b){var
-a=A(lM,b),d=a?[0,a[1],a[2]]:A(lN,b);return x(c,b2(d))}function
-lO(c,a){if(c){if(a){var
+hK(c){var
+a=z(l0,c),d=a?[0,a[1],a[2]]:z(l1,c);return x(b,b2(d))}function
+l2(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=vl;else
+b=vD;else
 if(43===d)var
-b=vm;else
+b=vE;else
 var
-f=48===d?1:0,i=f?vn:f,b=i;if(b)var
-e=lO(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?vF:f,b=i;if(b)var
+e=l2(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:vo}function
+h=a;return h}return a?0:vG}function
 er(b,a){switch(a[0]){case
 0:var
-c=a[1];if(an(c,vp))return vq;if(an(c,vr))return vs;if(an(c,vt))return vu;if(an(c,vv))return vw;if(an(c,vx))return vy;var
-k=an(c,vz),p=k?vA:k;return p;case
+c=a[1];if(an(c,vH))return vI;if(an(c,vJ))return vK;if(an(c,vL))return vM;if(an(c,vN))return vO;if(an(c,vP))return vQ;var
+k=an(c,vR),p=k?vS:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(an(f,vB))return[0,[0,d,e]];if(an(f,vC))return[0,[1,d,e]];if(an(f,vD))return[0,[2,d,e]];var
-l=an(f,vE),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(an(f,vT))return[0,[0,d,e]];if(an(f,vU))return[0,[1,d,e]];if(an(f,vV))return[0,[2,d,e]];var
+l=an(f,vW),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
@@ -5017,23 +5069,23 @@ h=er(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
 t=er(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
 m=a[2],i=er(b,a[1]);if(i)var
-j=lO(b,go(gn(am(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+j=l2(b,gs(gr(am(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-lP(d,a){if(a){var
+l3(d,a){if(a){var
 e=a[1],b=er(d,e[2]);if(b)var
-c=lP(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+c=l3(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return vF}function
-cQ(d,c,a){if(c)if(a){var
+f=b;return f}return vX}function
+cR(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=lP(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=l3(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cQ(d,k,j);if(f){var
-m=f[1],g=cQ(d,k,m[2]);if(g)var
+f=cR(d,k,j);if(f){var
+m=f[1],g=cR(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5048,111 +5100,111 @@ var
 h=a;else
 var
 h=c;return h}function
-hD(e,d,a){if(d){if(a){var
-b=cQ(e,i(a),a);if(b)var
-f=b[1],c=hD(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hL(e,d,a){if(d){if(a){var
+b=cR(e,i(a),a);if(b)var
+f=b[1],c=hL(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return vG}return a?0:vH}function
-hE(a){return typeof
+g=b;return g}return vY}return a?0:vZ}function
+hM(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hF(d,a){if(d)if(a){var
+hN(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hF(k,j);if(e){var
-l=e[1],f=hF(k,l[2]);if(f)var
+e=hN(k,j);if(e){var
+l=e[1],f=hN(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hE(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hM(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-co(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-cR(a,e){var
-b=co(a[1],e),c=co(a[2],b[2]),d=co(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-lQ(d,c){if(d){var
+cp(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+cS(a,e){var
+b=cp(a[1],e),c=cp(a[2],b[2]),d=cp(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+l4(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cR(a[1],c),f=cR(a[2],e[2]),g=cR(a[3],f[2]),h=co(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cS(a[1],c),f=cS(a[2],e[2]),g=cS(a[3],f[2]),h=cp(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cR(a[1],c),k=j[1],l=cR(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cR(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cS(a[1],c),k=j[1],l=cS(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cS(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cR(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=lQ(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-vI(a){if(typeof
+p=cS(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=l4(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+v0(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return vK;case
+5:return v2;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return vJ}function
+11:return 0}return v1}function
 bb(a,b){if(a){var
-c=co(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a8(b){function
-a(a){return t(a,b,[0,d,c])}var
-e=a(vN),f=a(vO);return[0,a(0),f,e]}function
-lR(a,b){if(a){var
-c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=lR(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
-lS(f,b){if(f){var
+c=cp(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a8(c){function
+a(a){return t(a,c,[0,d,b])}var
+e=a(v5),f=a(v6);return[0,a(0),f,e]}function
+l5(a,b){if(a){var
+c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=l5(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
+l6(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bb(a[1],b),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=co(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
+g=bb(a[1],c),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=cp(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bb(a[1],b),l=bb(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
-m=a[1],n=bb(m,b),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=co(a[5],q[2]),s=co(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
-t=lS(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dA(a){return jb(p,a)}function
-vP(a){if(typeof
+k=bb(a[1],c),l=bb(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
+m=a[1],n=bb(m,c),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=cp(a[5],q[2]),s=cp(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
+t=l6(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dA(a){return jl(o,a)}function
+v7(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(p,1,[3,a[1],[0,c,c]]);case
-6:return h(p,1,a[2]);case
+5:return g(o,1,[3,a[1],[0,b,b]]);case
+6:return g(o,1,a[2]);case
 8:var
-d=h(p,1,a[1]);return d?h(p,1,a[2]):d;case
-10:return h(p,0,a[3]);case
+d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
+10:return g(o,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(p,0,e[2]):0;case
+e=a[4];return 2===e[0]?g(o,0,e[2]):0;case
 12:var
-f=h(p,0,a[2]),g=f?h(p,0,a[3]):f;return g?h(p,1,a[4]):g;case
+f=g(o,0,a[2]),h=f?g(o,0,a[3]):f;return h?g(o,1,a[4]):h;case
 14:var
-i=h(p,0,a[1]);return i?h(p,1,a[2]):i;case
+i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return n(function(a){return h(p,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 2:case
 3:return dA(a[2]);case
 4:case
 13:var
-b=h(p,1,a[2]);return b?h(p,1,a[3]):b;default:return h(p,1,a[1])}}function
-hG(a){if(typeof
+c=g(o,1,a[2]);return c?g(o,1,a[3]):c;default:return g(o,1,a[1])}}function
+hO(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(p,1,[3,d,e]),g=f?h(p,1,[3,[2,e,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c]],d]):f,i=g?h(p,0,[2,e,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c]]):g;return i?h(p,0,[3,[0,b(2,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))))),c],d]):i;case
-5:return h(p,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(o,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):h;return i?g(o,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
+5:return g(o,1,[3,a[1],[0,b,b]]);case
 8:var
-k=h(p,1,a[1]);return k?h(p,1,a[2]):k;case
-10:return h(p,1,a[2]);case
+k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
+10:return g(o,1,a[2]);case
 11:var
-l=a[2],m=h(p,1,l);return m?h(p,0,[3,[0,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c))))))))),c],l]):m;case
+l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):m;case
 2:case
 3:return dA(a[2]);case
 6:case
 7:case
 9:var
-j=h(p,1,a[2]);return j?h(p,1,a[3]):j;default:return h(p,1,a[1])}}function
-fN(d){var
+j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
+fS(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ai(ar(function(d){return function(a){var
-h=hr(a[1]),e=an(hr(d[1]),h);if(e)var
-i=hs(a[4]),b=an(hs(d[4]),i);else
+b=a[2],e=a[1],c=ac(ar(function(d){return function(a){var
+h=hv(a[1]),e=an(hv(d[1]),h);if(e)var
+i=hw(a[4]),b=an(hw(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5163,162 +5215,136 @@ g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
 es(a){if(0===a[0])return dA(j(a[1]));var
 b=a[2],c=a[1];if(!d2(j(c))&&!d2(j(b))){var
-e=j(c);return h(p,1,[3,j(b),e])}var
-d=j(b);return a9(p,j(c),d)}function
-cS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-lT(a){switch(a[0]){case
+e=j(c);return g(o,1,[3,j(b),e])}var
+d=j(b);return a9(o,j(c),d)}function
+cT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+l7(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cS(a[3]),c),e=f(cS(a[2]),d);return f(cS(a[1]),e);case
+c=[0,a[4],0],d=f(cT(a[3]),c),e=f(cT(a[2]),d);return f(cT(a[1]),e);case
 1:var
-b=a[3],g=b?cS(b[1]):b,h=f(cS(a[2]),g);return f(cS(a[1]),h);default:return cS(a[1])}}function
-hH(a){switch(a){case
-0:return vS;case
-1:return vT;default:return 0}}function
-cp(a){var
-f=a[1],d=h(p,1,[2,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],f]),e=d?a9(p,a[1],a[2]):d;if(e){var
-g=a[2];return h(p,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],g])}return e}function
+b=a[3],g=b?cT(b[1]):b,h=f(cT(a[2]),g);return f(cT(a[1]),h);default:return cT(a[1])}}function
+hP(a){switch(a){case
+0:return v_;case
+1:return v$;default:return 0}}function
+cq(a){var
+f=a[1],d=g(o,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?a9(o,a[1],a[2]):d;if(e){var
+h=a[2];return g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
 dB(a){var
-e=a9(p,[0,d,c],a);return e?h(p,1,[3,[0,b(2,b(2,q(b(2,b(2,q(b(2,q(b(2,b(2,c)))))))))),c],a]):e}function
-lU(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(i(e),c),g=f?u(i(d),c):f;if(g){var
+e=a9(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+l8(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=u(i(e),c),h=f?u(i(d),c):f;if(h){var
 l=aK(e,d);return n(function(a){var
-b=j(a[2]);return a9(p,j(a[1]),b)},l)}return g}var
-k=b?h(p,1,j(a[3])):b;if(k){var
-m=j(a[5]);return a9(p,j(a[4]),m)}return k}function
-lV(b,c,A,z,m,f){function
-o(a){var
-d=b?vQ:vR,c=u(i(a),d);return c?n(es,a):c}var
+b=j(a[2]);return a9(o,j(a[1]),b)},l)}return h}var
+k=b?g(o,1,j(a[3])):b;if(k){var
+m=j(a[5]);return a9(o,j(a[4]),m)}return k}function
+l9(b,c,A,z,m,f){function
+p(a){var
+d=b?v8:v9,c=u(i(a),d);return c?n(es,a):c}var
 q=n(function(a){var
-b=o(a[1]);return b?o(a[2]):b},c);if(q)var
-B=i(c),g=Z(dl(b),B);else
+b=p(a[1]);return b?p(a[2]):b},c);if(q)var
+B=i(c),h=Z(dl(b),B);else
 var
-g=q;var
-r=g?Z(i(c),vU):g,s=r?h(p,1,j(A)):r;if(s)var
-C=1===b?1:0,k=lU(hH(b),C,z);else
+h=q;var
+r=h?Z(i(c),wa):h,s=r?g(o,1,j(A)):r;if(s)var
+C=1===b?1:0,k=l8(hP(b),C,z);else
 var
 k=s;if(k)if(b){var
-a=cP(m);switch(a[0]){case
+a=cQ(m);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-v=cp(a[1]),w=v?cp(a[2]):v,d=w?cp(a[3]):w;break;case
+v=cq(a[1]),w=v?cq(a[2]):v,d=w?cq(a[3]):w;break;case
 2:var
 d=dB(a[1]);break;default:var
 x=dB(a[1]),d=x?dB(a[2]):x}var
 e=d}else
 var
-y=cP(m),F=0===y[0]?cp(y[1]):0,e=F;else
+y=cQ(m),F=0===y[0]?cq(y[1]):0,e=F;else
 var
 e=k;if(e)var
-D=i(c),E=dl(b),l=n(function(a){return lF(E,D,a)},f);else
+D=i(c),E=dl(b),l=n(function(a){return lO(E,D,a)},f);else
 var
 l=e;var
-t=l?fN(f):l;return t?n(hG,dy(0,i(c),f)):t}function
-lW(a){switch(a[0]){case
+t=l?fS(f):l;return t?n(hO,dy(0,i(c),f)):t}function
+l_(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-lX(a,f,e,R,o,m){var
-q=typeof
+l$(a,e,d,Q,m,l){var
+p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
-d(a){var
-b=q?vV:vW;return u(i(a),b)}var
-k=lI(f),z=n(function(b){switch(b[0]){case
+c(a){var
+b=p?wb:wc;return u(i(a),b)}var
+h=lS(e),x=n(function(b){switch(b[0]){case
 0:var
-c=ai(k),e=c?d(b[1]):c,f=e?d(b[2]):e;return f?d(b[3]):f;case
+d=ac(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=ai(k),h=g?d(b[1]):g,i=h?d(b[2]):h;if(i)var
-j=typeof
-a==="number"?1:0,l=j?1:j;else
+g=ac(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
+k=typeof
+a==="number"?1:0,l=k?1:k;else
 var
-l=i;return l;default:var
-m=b[1],n=q?m?0:1:d(m),o=n?d(b[2]):n,p=o?d(b[3]):o;return p?d(b[4]):p}},f);if(z)var
-S=i(f),r=Z(a0(a),S);else
+l=j;return l;default:var
+m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(x)var
+R=i(e),q=Z(a0(a),R);else
 var
-r=z;var
-B=r?Z(i(f),vX):r,C=B?n(es,A(lW,f)):B;if(C){var
-Q=0;if(typeof
+q=x;var
+A=q?Z(i(e),wd):q,B=A?n(es,z(l_,e)):A;if(B){var
+P=0;if(typeof
 a==="number"&&!a){var
-D=1;Q=1}if(!Q)var
-D=0;var
-T=q?vY:vZ,s=lU(T,D,R)}else
+C=1;P=1}if(!P)var
+C=0;var
+S=p?we:wf,r=l8(S,C,Q)}else
 var
-s=C;if(s)if(typeof
-a==="number")if(e)var
+r=B;if(r)if(typeof
+a==="number")if(d)var
 b=0;else
 var
-U=y(cP,o)?0:1,b=U;else
+U=y(cQ,m)?0:1,b=U;else
 switch(a[1]){case
-0:if(e){var
-v=y(cP,o);if(v){var
-F=v[1];if(0===F[0])var
-G=h(p,1,j(e[1])),H=G?cp(F[1]):G;else
+0:if(d){var
+t=y(cQ,m);if(t){var
+E=t[1];if(0===E[0])var
+F=g(o,1,j(d[1])),G=F?cq(E[1]):F;else
 var
-H=0;var
-I=H}else
+G=0;var
+H=G}else
 var
-I=v;var
+H=t;var
+b=H}else
+var
+b=d;break;case
+1:if(d){var
+v=d[1],w=y(cQ,m);if(w){var
+f=w[1];switch(f[0]){case
+0:var
+k=0;break;case
+1:var
+J=g(o,1,j(v)),K=J?cq(f[1]):J,L=K?cq(f[2]):K,k=L?cq(f[3]):L;break;case
+2:var
+M=g(o,1,j(v)),k=M?dB(f[1]):M;break;default:var
+N=g(o,1,j(v)),O=N?dB(f[1]):N,k=O?dB(f[2]):O}var
+I=k}else
+var
+I=w;var
 b=I}else
 var
-b=e;break;case
-1:if(e){var
-w=e[1],x=y(cP,o);if(x){var
-g=x[1];switch(g[0]){case
-0:var
-l=0;break;case
-1:var
-K=h(p,1,j(w)),L=K?cp(g[1]):K,M=L?cp(g[2]):L,l=M?cp(g[3]):M;break;case
-2:var
-N=h(p,1,j(w)),l=N?dB(g[1]):N;break;default:var
-O=h(p,1,j(w)),P=O?dB(g[1]):O,l=P?dB(g[2]):P}var
-J=l}else
-var
-J=x;var
-b=J}else
-var
-b=e;break;default:var
+b=d;break;default:var
 b=0}else
 var
-b=s;if(b)var
-c=i(f),t=n(function(b){var
-f=b[2];if(f)var
-g=f[1],h=Z(vg,g),r=h?Z(g,c):h,d=r;else
+b=r;if(b)var
+T=i(e),s=n(function(b){return lP(h,a,T,b)},l);else
 var
-d=1;switch(b[1]){case
-1:if(b[3])return ba(a0(a),c,b);if(d){var
-q=0,i=b[4];if(typeof
-i!=="number"&&2===i[0]){var
-j=1;q=1}if(!q)var
-j=0;return b_(k,j)}return d;case
-4:var
-l=b[4];if(typeof
-l!=="number"&&0===l[0])return b[3]?ba(a0(a),c,b):d;return ba(a0(a),c,b);case
-5:var
-m=b[4];if(typeof
-m!=="number"&&0===m[0]){if(b[3])return ba(a0(a),c,b);var
-n=u(c,a0(a));if(n){var
-o=typeof
-a==="number"?1:0;if(o){if(b[2])return 0;var
-e=1}else
-var
-e=o}else
-var
-e=n;return e}return ba(a0(a),c,b);case
-13:var
-p=b[4];if(typeof
-p!=="number"&&1===p[0])return b[3]?ba(a0(a),c,b):d?ai(k):d;return ba(a0(a),c,b);default:return ba(a0(a),c,b)}},m);else
-var
-t=b;var
-E=t?fN(m):t;return E?n(hG,dy(k,i(f),m)):E}function
-hI(j){var
-q=aF(j,b2(a1(j))),a=e(function(a){return ag(p,a)},q);if(a){var
+s=b;var
+D=s?fS(l):s;return D?n(hO,dy(h,i(e),l)):D}function
+hQ(j){var
+q=aF(j,b2(a1(j))),a=e(function(a){return ah(o,a)},q);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return R(p,a)},r=i(h[1]),s=i(g[1]);return V(d,B(B(i(f[1]),s),r)[1])}var
+i=function(a){return S(o,a)},r=i(h[1]),s=i(g[1]);return W(d,B(B(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5331,147 +5357,154 @@ m=b;var
 n=m}else
 var
 n=f;var
-o=n}else
+p=n}else
 var
-o=a;return o}function
-v0(a){switch(a[0]){case
-0:return hI(a[1][1]);case
+p=a;return p}function
+wg(a){switch(a[0]){case
+0:return hQ(a[1][1]);case
 1:var
-b=a[3];return b?hI(b[1]):1;default:return hI(a[1])}}function
-hJ(c,a,b,o){if(ar(function(a){return 9===a[1]?1:0},b)){var
-g=Z(i(a),v2),k=g?n(function(a){if(0===a[0]){var
-g=a[5],i=h(p,1,j(a[2])),k=i?h(p,0,j(a[3])):i,l=k?h(p,0,j(a[4])):k,e=0;if(l)if(g)var
-u=bu(g[1]),b=n(function(a){return dA(j(a))},u);else{var
+b=a[3];return b?hQ(b[1]):1;default:return hQ(a[1])}}function
+hR(c,a,b,p){if(ar(function(a){return 9===a[1]?1:0},b)){var
+h=Z(i(a),wi),k=h?n(function(a){if(0===a[0]){var
+h=a[5],i=g(o,1,j(a[2])),k=i?g(o,0,j(a[3])):i,l=k?g(o,0,j(a[4])):k,e=0;if(l)if(h)var
+u=bu(h[1]),b=n(function(a){return dA(j(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
-o=h(p,1,j(a[4]));if(o)var
+p=g(o,1,j(a[4]));if(p)var
 v=bu(a[3]),w=f(bu(a[2]),v),b=n(function(a){return dA(j(a))},w);else
 var
-b=o}if(b){if(0===a[0]){var
-q=a[1],r=Z(v1,q);if(r){var
-d=W(c,bA(q));if(d){if(2===d[1][0])return 0;var
+b=p}if(b){if(0===a[0]){var
+q=a[1],r=Z(wh,q);if(r){var
+d=X(c,bB(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=r;return t}return 1}return b},a):g;if(k)var
-l=hw(0,a),u=l?1:l,m=u;else
+t=r;return t}return 1}return b},a):h;if(k)var
+l=hA(0,a),u=l?1:l,m=u;else
 var
 m=k;var
 d=m}else
 var
 d=a?0:1;var
-q=d?n(v0,o[1]):d,r=q?Z(v3,i(c)):q;if(r)var
-v=i(c),e=n(function(a){return u_(v,a)},b);else
+q=d?n(wg,p[1]):d,r=q?Z(wj,i(c)):q;if(r)var
+v=i(c),e=n(function(a){return vm(v,a)},b);else
 var
 e=r;var
-s=e?fN(b):e,t=s?n(es,A(lT,c)):s;return t?n(vP,o[3]):t}function
-fO(b,a){return n(function(c){var
+s=e?fS(b):e,t=s?n(es,z(l7,c)):s;return t?n(v7,p[3]):t}function
+fT(b,a){return n(function(c){var
 a=c[2];return a?dS(a[1],b):1},a)}function
-lY(a){if(a){var
-b=a[1];if(fK(b))return 0;var
-c=[0,b,lY(a[2])]}else
+ma(a){if(a){var
+b=a[1];if(fL(b))return 0;var
+c=[0,b,ma(a[2])]}else
 var
 c=a;return c}function
-lZ(c,b){var
-d=lY(b),e=0,f=i(A(function(a){return lE(e,c,a)},d)),a=A(lD,b),g=a?[0,a[1],a[2]]:v4;return N(i(g),f)}function
-hK(b,a){var
-c=i(cu(function(a){return 0===a[0]?0:1},b));return u(i(a),c)}function
-hL(a){if(a){var
+mb(c,b){var
+d=ma(b),e=0,f=i(z(function(a){return hC(e,c,a)},d)),a=z(lN,b),g=a?[0,a[1],a[2]]:wk;return N(i(g),f)}function
+hS(b,a){var
+c=i(bD(function(a){return 0===a[0]?0:1},b));return u(i(a),c)}function
+hT(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-l0(aL,Z,aI,Y,X,b,aH,B){var
-a=hx(Z,aI,Y,X),aN=i(B);if(aL)var
+mc(aL,Z,aI,Y,X,b,aH,B){var
+a=hB(Z,aI,Y,X),aN=i(B);if(aL)var
 _=0;else
 var
-aD=a[1],aE=e(fM,a[1]),W=fk(hC(a[1]),aE,aD),aG=aK(aV(0,i(W)),W),_=e(aJ,cu(function(a){return gR(a[2])},aG));var
-C=cQ(_,aN,B);if(C){var
+aD=a[1],aE=e(fR,a[1]),V=fl(hK(a[1]),aE,aD),aG=aK(aV(0,i(V)),V),_=e(aJ,bD(function(a){return gV(a[2])},aG));var
+C=cR(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=hJ(Z,Y,X,a),ab=aa?fO(v5,B):aa;if(ab){var
-aO=$[1],D=e(fM,a[1]),c=hC(a[1]),aP=hL(aH),U=j9(p,a);if(U){var
-j=fk(c,D,a[1]),g=gP(c,D,a[1],0),ae=i(a[3]),af=N(i(j),ae),K=[0,i(j),af],ah=a[3],F=ar(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?A(function(a){var
-b=e(b9,jW(j,a));return[0,a[4],b]},g):F,ak=f(gQ(g,c,K,a[3]),ai),al=f(bs(js(g)),ak),L=f(bs(d4(g)),al),M=da(L)[1],m=cy(M),O=n(function(a){var
+aa=hR(Z,Y,X,a),ab=aa?fT(wl,B):aa;if(ab){var
+aO=$[1],D=e(fR,a[1]),c=hK(a[1]),aP=hT(aH),U=kh(o,a);if(U){var
+j=fl(c,D,a[1]),g=gT(c,D,a[1],0),ae=i(a[3]),af=N(i(j),ae),K=[0,i(j),af],ag=a[3],F=ar(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?z(function(a){var
+b=e(b_,j6(j,a));return[0,a[4],b]},g):F,ak=f(gU(g,c,K,a[3]),ai),al=f(bs(jC(g)),ak),L=f(bs(d4(g)),al),M=da(L)[1],m=cz(M),O=n(function(a){var
 b=l(d);return aM(t(bm(m,a),m,b),a)},L);if(O){var
-P=ar(pQ,a[3]);if(P){var
-s=D,o=a[1];for(;;){if(o){var
-q=o[1],u=bB(d,s);switch(q[0]){case
+P=ar(p4,a[3]);if(P){var
+s=D,p=a[1];for(;;){if(p){var
+q=p[1],u=bC(d,s);switch(q[0]){case
 0:var
-G=q[1],H=gS(b,G[1],u),E=0;if(H){var
-r=ag(b,[0,G[4],c]);if(r)var
-h=V(d,r[1][1]);else{var
+G=q[1],H=gW(b,G[1],u),E=0;if(H){var
+r=ah(b,[0,G[4],c]);if(r)var
+h=W(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=q[3],h=J?gS(b,J[1],u):1;break;default:var
-h=gS(b,q[1],u)}if(h){var
-ad=o[2],s=ca(s),o=ad;continue}var
+J=q[3],h=J?gW(b,J[1],u):1;break;default:var
+h=gW(b,q[1],u)}if(h){var
+ad=p[2],s=cb(s),p=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-am=a[3],an=A(function(a){return cD(c,a)},am),ao=a[3],aq=f(j,f(e(function(a){return br(c,a)},ao),an)),w=aj(e(function(a){return ag(b,a)},aq));if(w){var
-as=aF(dj(a[2]),c),x=aj(e(function(a){return ag(b,a)},as));if(x){var
-at=a[3],y=aj(jX(b,aP,function(a){return bm(m,a)},j,g,c,K,at));if(y){var
-R=y[1],au=gO(R),av=x[1],aw=a[2],ax=function(a){return jY(b,aw,c,a)},ay=w[1],az=0,aA=js(g),aB=k(ap(function(a){return bm(m,a)}),aA),aC=d4(g);return fi(b,M,k(ap(function(a){return bm(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
+am=a[3],an=z(function(a){return cE(c,a)},am),ao=a[3],aq=f(j,f(e(function(a){return br(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
+as=aF(dj(a[2]),c),x=aj(e(function(a){return ah(b,a)},as));if(x){var
+at=a[3],y=aj(j7(b,aP,function(a){return bm(m,a)},j,g,c,K,at));if(y){var
+R=y[1],au=gS(R),av=x[1],aw=a[2],ax=function(a){return j8(b,aw,c,a)},ay=w[1],az=0,aA=jC(g),aB=k(ap(function(a){return bm(m,a)}),aA),aC=d4(g);return fj(b,M,k(ap(function(a){return bm(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
 S=y}else
 var
 S=x;var
 T=S}else
 var
 T=w;var
-z=T}else
+A=T}else
 var
-z=v}else
+A=v}else
 var
-z=O;return z}return U}var
+A=O;return A}return U}var
 ac=ab}else
 var
 ac=C;return ac}function
-v6(a){if(0===a[0])return lM(a[1]);var
+wm(a){if(0===a[0])return l0(a[1]);var
 b=a[1],c=dz(b[6]);return f(dz(b[5]),c)}function
-v7(a){if(0===a[0])return lN(a[1]);var
+wn(a){if(0===a[0])return l1(a[1]);var
 b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-v8(a){if(0===a[0])return[0,fM(a[1]),d];var
+wo(a){if(0===a[0])return[0,fR(a[1]),d];var
 b=a[1],c=b2(a1(b[2]));return[0,b2(a1(b[1])),c]}function
-l1(B,aM,ap,ao,z,an,g){var
-l=hx(B,aM,ap,ao);if(z){var
-C=z[2];if(C){var
+md(f,n,m,l,k,j,y,d){var
+a=lT(f,n,m,l,k,j),p=a[2],c=z(wm,p),w=c?[0,c[1],c[2]]:z(wn,p),h=x(b,b2(w)),q=e(wo,a[2]),r=hh(h,q,a[2]),A=i(d),B=aK(aV(0,i(r)),r),g=cR(e(aJ,bD(function(a){return gV(a[2])},B)),A,d);if(g){var
+s=g[1];if(s[2])return 0;var
+t=l$(f,n,m,l,k,j),u=t?fT(a0(f),d):t;if(u)return qY(o,y,a,h,q,s[1]);var
+v=u}else
+var
+v=g;return v}function
+me(B,aM,ap,ao,A,an,h){var
+l=hB(B,aM,ap,ao);if(A){var
+C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-aq=lQ(B,e(j,an));if(aq[2])return 0;var
+aq=l4(B,e(j,an));if(aq[2])return 0;var
 as=l[3];if(typeof
-g==="number")var
-a=0===g?vL:vM;else
-if(0===g[0]){var
-b=g[2],m=g[1],H=y(vI,W(as,m)),J=0;if(H){var
+h==="number")var
+a=0===h?v3:v4;else
+if(0===h[0]){var
+c=h[2],m=h[1],H=y(v0,X(as,m)),J=0;if(H){var
 S=H[1];if(S){var
 T=S[1];if(T)if(T[1])var
 a=0;else{var
-K=0;if(b){var
-n=b[1],L=0;if(n){var
-o=n[2],M=0;if(o){var
-q=o[2],N=0;if(q)if(q[2]){var
+K=0;if(c){var
+n=c[1],L=0;if(n){var
+p=n[2],M=0;if(p){var
+q=p[2],N=0;if(q)if(q[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
-r=b[2],az=0;if(r){var
+r=c[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
 a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
-U=[0,[0,m,[0,[0,n[1],o[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+U=[0,[0,m,[0,[0,n[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 U=u;if(!aC)var
 V=U}else
 var
 V=t;if(!aB)var
-X=V}else
+W=V}else
 var
-X=s;if(!aA)var
-Y=X}else
+W=s;if(!aA)var
+Y=W}else
 var
 Y=r;if(!az)var
 Z=Y}else
@@ -5479,18 +5512,18 @@ var
 Z=q;if(!N)var
 _=Z}else
 var
-_=o;if(!M)var
+_=p;if(!M)var
 $=_}else
 var
 $=n;if(!L)var
 aa=$}else
 var
-aa=b;if(!K)var
+aa=c;if(!K)var
 a=aa}else{var
-aD=0;if(b){var
-v=b[1],aE=0;if(v){var
+aD=0;if(c){var
+v=c[1],aE=0;if(v){var
 w=v[2],aF=0;if(w){var
-x=w[2],aG=0;if(x)if(x[2]||b[2]){var
+x=w[2],aG=0;if(x)if(x[2]||c[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
 ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
@@ -5504,30 +5537,30 @@ var
 ag=v;if(!aE)var
 ah=ag}else
 var
-ah=b;if(!aD)var
+ah=c;if(!aD)var
 a=ah}}else
-if(b)var
+if(c)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=g[1],I=W(as,ak),O=0;if(I){var
+ak=h[1],I=X(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
-a=[0,[1,ak,g[2]]];aH=1}if(!aH){var
+a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=hK(A(lT,B),an),au=at?hJ(B,ap,ao,l):at;if(au){var
-f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(z[1]),aO,aN],k=aq[1],P=j0(p,l,k,i);if(P)if(typeof
-f==="number")return 0===f?ar(function(b){var
-a=j1(b,i);return a?h(p,0,[3,[0,d,c],a[1]]):a},k):jh(pS,e(function(b){var
+at=hS(z(l7,B),an),au=at?hR(B,ap,ao,l):at;if(au){var
+f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=aq[1],P=j_(o,l,k,i);if(P)if(typeof
+f==="number")return 0===f?ar(function(c){var
+a=j$(c,i);return a?g(o,0,[3,[0,d,b],a[1]]):a},k):jr(p6,e(function(b){var
 a=ea(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=W(l[3],f[1]);if(E){var
-aI=E[1],aJ=j2(f[3]);return j7(p,k,i,j2(f[2]),aJ,aI)}return E}var
-F=W(l[3],f[1]);if(F){var
-G=W(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cI(Q,i);return j7(p,k,i,cI(Q,i),aL,aK)}var
+E=X(l[3],f[1]);if(E){var
+aI=E[1],aJ=ka(f[3]);return kf(o,k,i,ka(f[2]),aJ,aI)}return E}var
+F=X(l[3],f[1]);if(F){var
+G=X(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cJ(Q,i);return kf(o,k,i,cJ(Q,i),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
@@ -5542,22 +5575,22 @@ var
 ax=C;var
 ay=ax}else
 var
-ay=z;return ay}function
-l2(m,l,b,k,z,x){var
+ay=A;return ay}function
+mf(m,l,b,k,z,x){var
 f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=W(f,g),n=h?dS(h[1][2],v$):h;if(n)var
-A=d[2],i=l2(m,l,b,k,hB(0,g,f),A);else
+g=d[1],h=X(f,g),n=h?dS(h[1][2],wr):h;if(n)var
+A=d[2],i=mf(m,l,b,k,hJ(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hB(1,g,f),d=B;continue}return i}var
-c=d[1],a=lK(0,m,f),o=e(function(b){function
-d(b){return lL(a,b)}function
-c(a){return hz(d,a)}switch(b[0]){case
+B=d[3],f=hJ(1,g,f),d=B;continue}return i}var
+c=d[1],a=lY(0,m,f),o=e(function(b){function
+d(b){return lZ(a,b)}function
+c(a){return hH(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lL(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=lZ(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hz(function(b){return al(a,b)},q),s=b[1],j=[0,hz(function(b){return al(a,b)},s),r];else
+q=b[2],r=hH(function(b){return al(a,b)},q),s=b[1],j=[0,hH(function(b){return al(a,b)},s),r];else
 var
 t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),w=al(a,b[2]),j=[1,al(a,b[1]),w,v,u,t];var
 p=e(function(f){var
@@ -5583,318 +5616,348 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return l0(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return l1(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
-l3(h,g){var
-a=cA(j(h));if(a){var
-b=a[1],e=c9([0,d,c],b);if(e)return c9(b,g);var
+1:return mc(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return me(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
+mg(h,g){var
+a=cB(j(h));if(a){var
+c=a[1],e=c9([0,d,b],c);if(e)return c9(c,g);var
 f=e}else
 var
 f=a;return f}function
-wb(o){var
-dx=fI(o[3]),dz=dx?fI(o[4]):dx;if(dz){var
-E=o[1];switch(E[0]){case
+wx(p){var
+dF=fJ(p[3]),dG=dF?fJ(p[4]):dF;if(dG){var
+H=p[1];switch(H[0]){case
 3:var
-dH=n(ep,E[1]);if(dH)var
-gM=E[2],bM=n(function(a){return ep(a[1])},gM);else
+dN=n(ep,H[1]);if(dN)var
+gR=H[2],bJ=n(function(a){return ep(a[1])},gR);else
 var
-bM=dH;if(bM)var
-gN=E[3],bN=n(function(a){var
-b=ep(a[1]),c=b?hu(a[2]):b;return c?eq(a[2]):c},gN);else
+bJ=dN;if(bJ)var
+gV=H[3],bK=n(function(a){var
+b=ep(a[1]),c=b?hy(a[2]):b;return c?eq(a[2]):c},gV);else
 var
-bN=bM;if(bN)var
-gS=E[4],aG=n(function(a){var
+bK=bJ;if(bK)var
+gW=H[4],aN=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hu(a);return b?eq(a):b},b)},gS);else
+b=hy(a);return b?eq(a):b},b)},gW);else
 var
-aG=bN;break;case
+aN=bK;break;case
 7:var
-gU=E[1],dI=n(function(a){var
-b=ep(a[1]);return b?fJ(0,[0,a[2][1],[0,a[2][2],0]]):b},gU),aG=dI?fJ(0,[0,E[5],[0,E[6],0]]):dI;break;default:var
-aG=1}var
-bL=aG}else
+gY=H[1],dO=n(function(a){var
+b=ep(a[1]);return b?fK(0,[0,a[2][1],[0,a[2][2],0]]):b},gY),aN=dO?fK(0,[0,H[5],[0,H[6],0]]):dO;break;default:var
+aN=1}var
+bI=aN}else
 var
-bL=dz;var
-cg=0;if(bL){var
-dB=o[1],dC=7===dB[0]?e(aJ,dB[1]):0,dD=function(c,b){var
-a=lA(c);return a?n(function(a){var
+bI=dG;var
+cn=0;if(bI){var
+dH=p[1],dI=7===dH[0]?e(aJ,dH[1]):0,dJ=function(c,b){var
+a=lK(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fI(a[2]);if(b){var
+b=fJ(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fI(a[1]);case
+1:return fJ(a[1]);case
 2:case
 3:case
 4:return 1;default:var
-a=a[1];continue}},b)},b):a},dE=function(d,c,b){var
-a=lA(d);return a?fJ(dC,f(c,b)):a},g=o[1];switch(g[0]){case
+a=a[1];continue}},b)},b):a},dK=function(d,c,b){var
+a=lK(d);return a?fK(dI,f(c,b)):a},h=p[1];switch(h[0]){case
 0:var
-gm=A(cN,g[4]),gn=f(A(u5,g[3]),gm),go=f(lx(g[2]),gn),F=f(A(hv,g[1]),go);break;case
+gr=z(cO,h[4]),gs=f(z(vh,h[3]),gr),gt=f(lH(h[2]),gs),I=f(z(hz,h[1]),gt);break;case
 1:var
-bI=g[5],bJ=g[3],gp=A(cN,g[6]),gq=bI?ly(bI[1]):bI,gr=f(gq,gp),gs=f(lw(g[4]),gr),gt=bJ?[0,bJ[1],0]:bJ,gu=f(gt,gs),F=f(A(u4,g[2]),gu);break;case
+bC=h[5],bF=h[3],gu=z(cO,h[6]),gv=bC?lI(bC[1]):bC,gw=f(gv,gu),gx=f(lG(h[4]),gw),gy=bF?[0,bF[1],0]:bF,gz=f(gy,gx),I=f(z(vg,h[2]),gz);break;case
 2:var
-gv=A(cN,g[6]),gw=f(ly(g[5]),gv),gx=f(lw(g[4]),gw),gy=[0,g[3],gx],gz=g[2],F=f(A(function(a){return A(dv,f(a[1],a[2]))},gz),gy);break;case
+gA=z(cO,h[6]),gB=f(lI(h[5]),gA),gC=f(lG(h[4]),gB),gD=[0,h[3],gC],gE=h[2],I=f(z(function(a){return z(dv,f(a[1],a[2]))},gE),gD);break;case
 3:var
-gA=A(cN,g[7]),gB=f(g[6],gA),gC=f(g[5],gB),gD=g[2],F=f(A(function(a){return dv(a[2])},gD),gC);break;case
+gF=z(cO,h[7]),gG=f(h[6],gF),gH=f(h[5],gG),gI=h[2],I=f(z(function(a){return dv(a[2])},gI),gH);break;case
 4:var
-gE=A(cN,g[3]),F=[0,g[1],[0,g[2],gE]];break;case
+gJ=z(cO,h[3]),I=[0,h[1],[0,h[2],gJ]];break;case
 5:var
-gF=A(cN,g[4]),gG=f(bu(g[3]),gF),gH=f(bu(g[2]),gG),gI=f(A(hv,g[1]),gH),F=[0,g[5],gI];break;case
+gK=z(cO,h[4]),gL=f(bu(h[3]),gK),gM=f(bu(h[2]),gL),gN=f(z(hz,h[1]),gM),I=[0,h[5],gN];break;case
 6:var
-bK=g[1],F=bK?dv(bK[1]):bK;break;default:var
-gJ=A(cN,g[4]),gK=f(lx(g[3]),gJ),F=f(A(hv,g[2]),gK)}var
-dF=fJ(dC,F);if(dF){var
-Q=o[2];switch(Q[0]){case
+bH=h[1],I=bH?dv(bH[1]):bH;break;default:var
+gO=z(cO,h[4]),gP=f(lH(h[3]),gO),I=f(z(hz,h[2]),gP)}var
+dL=fK(dI,I);if(dL){var
+S=p[2];switch(S[0]){case
 0:var
-at=dD(Q[1],Q[3]);break;case
+aw=dJ(S[1],S[3]);break;case
 1:var
-at=dE(Q[1],Q[2],Q[3]);break;default:var
-gL=Q[1],at=n(function(a){if(typeof
+aw=dK(S[1],S[2],S[3]);break;default:var
+gQ=S[1],aw=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dD(a[1],a[3]);case
-2:return dE(a[1],a[2],a[3])}return 1},gL)}}else{var
-dG=dF;cg=1}}else{var
-dG=bL;cg=1}if(cg)var
-at=dG;if(at){var
-a=o[1];switch(a[0]){case
+1:return dJ(a[1],a[3]);case
+2:return dK(a[1],a[2],a[3])}return 1},gQ)}}else{var
+dM=dL;cn=1}}else{var
+dM=bI;cn=1}if(cn)var
+aw=dM;if(aw){var
+a=p[1];switch(a[0]){case
 0:var
-d8=a[4],eb=a[3],ed=a[2],ee=a[1],R=o[2];switch(R[0]){case
-0:return l0(0,ee,ed,eb,d8,R[1],R[2],R[3]);case
-1:return l1(ee,ed,eb,d8,R[2],R[3],R[4]);default:return 0}case
+em=a[4],en=a[3],eo=a[2],er=a[1],T=p[2];switch(T[0]){case
+0:return mc(0,er,eo,en,em,T[1],T[2],T[3]);case
+1:return me(er,eo,en,em,T[2],T[3],T[4]);default:return 0}case
 1:var
-aQ=a[6],aR=a[5],aS=a[4],aT=a[3],ac=a[2],B=a[1],ad=o[2];switch(ad[0]){case
-0:var
-bW=ad[3],g_=ad[1],aP=lJ(B,ac,aT,aS,aR,aQ),dS=aP[2],bR=A(v6,dS),g5=bR?[0,bR[1],bR[2]]:A(v7,dS),dR=x(c,b2(g5)),dT=e(v8,aP[2]),dU=hd(dR,dT,aP[2]),g6=i(bW),g7=aK(aV(0,i(dU)),dU),bS=cQ(e(aJ,cu(function(a){return gR(a[2])},g7)),g6,bW);if(bS){var
-dV=bS[1];if(dV[2])return 0;var
-dW=lX(B,ac,aT,aS,aR,aQ),dX=dW?fO(a0(B),bW):dW;if(dX)return qK(p,g_,aP,dR,dT,dV[1]);var
-dY=dX}else
-var
-dY=bS;return dY;case
+bY=a[6],b0=a[5],b1=a[4],b3=a[3],ax=a[2],U=a[1],ai=p[2];switch(ai[0]){case
+0:return md(U,ax,b3,b1,b0,bY,ai[1],ai[3]);case
 1:var
-ef=ad[3],g$=ad[4],hb=ad[2],dZ=typeof
-B==="number"?B?v9:v_:hH(B[1]),bT=e(j,hb),d0=lS(ac,e(j,ef));if(d0[2])return 0;var
-d1=hK(A(lW,ac),ef),d2=d1?lX(B,ac,aT,aS,aR,aQ):d1;if(d2)var
-g8=a0(B),bU=u(i(bT),g8);else
+et=ai[3],hp=ai[4],hq=ai[2],dX=typeof
+U==="number"?U?wp:wq:hP(U[1]),bT=e(j,hq),dY=l6(ax,e(j,et));if(dY[2])return 0;var
+dZ=hS(z(l_,ax),et),d0=dZ?l$(U,ax,b3,b1,b0,bY):dZ;if(d0)var
+hb=a0(U),bU=u(i(bT),hb);else
 var
-bU=d2;if(bU){var
-g9=hE(g$),q=eV(dZ,bT),w=a8(c7(dZ,bT)),aa=d0[1],I=lJ(B,ac,aT,aS,aR,aQ),cF=kX(p,I[2],aa);if(cF){var
-cB=d_(p,I[4],w),ch=0;if(cB){var
-cC=I[5];if(cC)var
-ba=kr(p,cC[1],q);else
+bU=d0;if(bU){var
+hc=hM(hp),q=eW(dX,bT),B=a8(cv(dX,bT)),af=dY[1],K=lT(U,ax,b3,b1,b0,bY),cQ=k7(o,K[2],af);if(cQ){var
+cM=d_(o,K[4],B),cp=0;if(cM){var
+cN=K[5];if(cN)var
+a5=kB(o,cN[1],q);else
 if(q)var
-ba=0;else{var
-cE=1;ch=1}}else{var
-cE=cB;ch=1}if(ch)var
-ba=cE;var
-bb=ba}else
+a5=0;else{var
+cP=1;cp=1}}else{var
+cP=cM;cp=1}if(cp)var
+a5=cP;var
+a6=a5}else
 var
-bb=cF;if(bb){var
-v=I[5],cJ=I[3],az=I[1],fh=I[6],fc=e(function(a){if(0===a[0]){var
-d=bZ(v,q,w,a),b=ea(a[1],d);return[0,kV(az,b,aq([5,[0,c,c],cJ],ec(ha(v,q,fw(a)),b)))]}return 0},aa),fd=A(function(a){if(0===a[0]){var
-c=bZ(v,q,w,a),b=j1(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bZ(v,q,w,a);return[0,kh(a[1],e),0]},aa),fe=e(function(d){var
-b=bZ(v,q,w,d);if(0===d[0]){var
+a6=cQ;if(a6){var
+w=K[5],cS=K[3],aD=K[1],fm=K[6],ff=e(function(a){if(0===a[0]){var
+d=bZ(w,q,B,a),c=ea(a[1],d);return[0,k5(aD,c,aq([5,[0,b,b],cS],ec(he(w,q,fx(a)),c)))]}return 0},af),fg=z(function(a){if(0===a[0]){var
+c=bZ(w,q,B,a),b=j$(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bZ(w,q,B,a);return[0,kr(a[1],e),0]},af),fh=e(function(d){var
+b=bZ(w,q,B,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cG(e,h,g,f,b),i=cH(a[5],j),k=aq(i,av(e)),l=d$(e,h,g,b);return[0,[0,kW(az,ab(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fo(c,b),o=kk(c,b),p=c[4],r=ab(function(b,a){return[2,b,a]},b,p);return[0,[0,kW(az,ab(function(b,a){return[3,b,a]},r,o)),n,m]]},aa),ff=e(function(a){if(0===a[0]){var
-c=bZ(v,q,w,a);return[0,gT(a[1],c)]}var
-b=a[1],d=kj(b,bZ(v,q,w,a));return[1,ki(b,bZ(v,q,w,a)),d]},aa),fg=[0,e(function(a){if(0===a[0])var
-k=bZ(v,q,w,a),d=cI(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cH(e,h,g,f,b),i=cI(a[5],j),k=aq(i,av(e)),l=d$(e,h,g,b);return[0,[0,k6(aD,ab(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fp(c,b),o=ku(c,b),p=c[4],r=ab(function(b,a){return[2,b,a]},b,p);return[0,[0,k6(aD,ab(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fi=e(function(a){if(0===a[0]){var
+c=bZ(w,q,B,a);return[0,gX(a[1],c)]}var
+b=a[1],d=kt(b,bZ(w,q,B,a));return[1,ks(b,bZ(w,q,B,a)),d]},af),fk=[0,e(function(a){if(0===a[0])var
+k=bZ(w,q,B,a),d=cJ(a[1],k);else
 var
-e=bZ(v,q,w,a),b=a[1],f=kk(b,e),g=b[4],h=ab(function(b,a){return[2,b,a]},e,g),i=ab(function(b,a){return[3,b,a]},h,f),j=fo(b,e),d=aq([5,[0,c,c],[4,b[5],j]],i);return kV(az,d,aq([5,[0,c,c],cJ],ec(ha(v,q,fw(a)),d)))},aa),ff,fe,fd,fc];return ke(p,a0(I[1]),fg,fh,g9)}return bb}return bU;default:return 0}case
+e=bZ(w,q,B,a),c=a[1],f=ku(c,e),g=c[4],h=ab(function(b,a){return[2,b,a]},e,g),i=ab(function(b,a){return[3,b,a]},h,f),j=fp(c,e),d=aq([5,[0,b,b],[4,c[5],j]],i);return k5(aD,d,aq([5,[0,b,b],cS],ec(he(w,q,fx(a)),d)))},af),fi,fh,fg,ff];return ko(o,a0(K[1]),fk,fm,hc)}return a6}return bU;default:return 0}case
 2:var
-au=a[6],aU=a[5],aW=a[4],aX=a[3],S=a[2],ae=a[1],T=o[2];switch(T[0]){case
+ay=a[6],aR=a[5],aS=a[4],aT=a[3],V=a[2],ak=a[1],_=p[2];switch(_[0]){case
 0:var
-bX=T[3],ah=lH(ae,S,aX,aW,aU,au),bY=cQ(0,i(bX),bX);if(bY){var
-eg=bY[1];if(eg[2])return 0;var
-eh=lV(ae,S,aX,aW,aU,au),el=eh?fO(dl(ae),bX):eh;if(el){var
-hc=eg[1],he=ah[2],hg=x(c,b2(A(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},he))),hh=lZ(i(S),au),hj=hL(T[2]),hk=T[1],e_=ah[2],cz=n(function(a){var
-b=kU(p,a[1]);return b?kU(p,a[2]):b},e_);if(cz)var
-e$=gV(ah[4]),a7=d_(p,ah[4],e$);else
+b4=_[3],al=lR(ak,V,aT,aS,aR,ay),b5=cR(0,i(b4),b4);if(b5){var
+eu=b5[1];if(eu[2])return 0;var
+ev=l9(ak,V,aT,aS,aR,ay),ew=ev?fT(dl(ak),b4):ev;if(ew){var
+hr=eu[1],hs=al[2],ht=x(b,b2(z(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},hs))),hu=mb(i(V),ay),hv=hT(_[2]),hw=_[1],fb=al[2],cL=n(function(a){var
+b=k4(o,a[1]);return b?k4(o,a[2]):b},fb);if(cL)var
+fd=gZ(al[4]),a3=d_(o,al[4],fd);else
 var
-a7=cz;if(a7)var
-fa=fs(ah[5]),a_=n(function(a){return ei(p,a)},fa);else
+a3=cL;if(a3)var
+fe=ft(al[5]),a4=n(function(a){return ei(o,a)},fe);else
 var
-a_=a7;return a_?qo(hk,hj,hh,ah,hg,hc):a_}var
-em=el}else
+a4=a3;return a4?qC(hw,hv,hu,al,ht,hr):a4}var
+ex=ew}else
 var
-em=bY;return em;case
+ex=b5;return ex;case
 1:var
-en=T[3],eo=e(j,T[2]),er=hH(ae),et=lR(S,e(j,en));if(et[2])return 0;var
-eu=hK(A(function(a){return f(a[1],a[2])},S),en),ev=eu?lV(ae,S,aX,aW,aU,au):eu;if(ev){var
-hl=hE(T[4]),U=eV(er,eo),aw=a8(c7(er,eo)),ak=et[1],J=lH(ae,S,aX,aW,aU,au),ay=J[2],X=ak;for(;;){if(ay){if(X){var
-cm=X[1],co=ay[1],cp=aY(p,co[1],cm[1]),cq=cp?aY(p,co[2],cm[2]):cp;if(cq){var
-ay=ay[2],X=X[2];continue}var
-cr=cq}else
+ey=_[3],ez=e(j,_[2]),eA=hP(ak),eB=l5(V,e(j,ey));if(eB[2])return 0;var
+eC=hS(z(function(a){return f(a[1],a[2])},V),ey),eD=eC?l9(ak,V,aT,aS,aR,ay):eC;if(eD){var
+hx=hM(_[4]),$=eW(eA,ez),az=a8(cv(eA,ez)),am=eB[1],L=lR(ak,V,aT,aS,aR,ay),aC=L[2],aa=am;for(;;){if(aC){if(aa){var
+cu=aa[1],cx=aC[1],cy=aY(o,cx[1],cu[1]),cA=cy?aY(o,cx[2],cu[2]):cy;if(cA){var
+aC=aC[2],aa=aa[2];continue}var
+cC=cA}else
 var
-cr=X;var
-a6=cr}else
+cC=aa;var
+a2=cC}else
 var
-a6=X?0:1;var
-cs=a6?d_(p,J[4],aw):a6,ct=cs?kr(p,J[5],U):cs;if(ct){var
-_=J[5],cw=J[3],cx=J[1],e9=J[6],cl=function(a){var
-b=fq(_,U,aw,a);return O(fq(_,U,aw,a),b)},e4=e(function(b){var
-a=fq(_,U,aw,b);return[0,g4(cx,a,aq([5,[0,c,c],cw],ec(fp(_,U,b[2]),a)))]},ak),e5=e(cl,ak),e6=e(function(a){return 0},ak),e7=e(function(a){return[0,[6,cl(a)]]},ak),e8=[0,e(function(b){var
-a=av(fq(_,U,aw,b));return g4(cx,a,aq([5,[0,c,c],cw],ec(fp(_,U,b[2]),a)))},ak),e7,e6,e5,e4];return ke(p,dl(J[1]),e8,e9,hl)}return ct}}return ev;default:return 0}case
+a2=aa?0:1;var
+cD=a2?d_(o,L[4],az):a2,cF=cD?kB(o,L[5],$):cD;if(cF){var
+ad=L[5],cG=L[3],cK=L[1],fa=L[6],ct=function(a){var
+b=fr(ad,$,az,a);return O(fr(ad,$,az,a),b)},e7=e(function(c){var
+a=fr(ad,$,az,c);return[0,g8(cK,a,aq([5,[0,b,b],cG],ec(fq(ad,$,c[2]),a)))]},am),e8=e(ct,am),e9=e(function(a){return 0},am),e_=e(function(a){return[0,[6,ct(a)]]},am),e$=[0,e(function(c){var
+a=av(fr(ad,$,az,c));return g8(cK,a,aq([5,[0,b,b],cG],ec(fq(ad,$,c[2]),a)))},am),e_,e9,e8,e7];return ko(o,dl(L[1]),e$,fa,hx)}return cF}}return eD;default:return 0}case
 3:var
-al=a[7],ew=a[6],ex=a[5],K=a[4],ey=a[2],b0=a[1],aZ=o[2];if(0===aZ[0]){var
-b1=aZ[3],b3=cQ(0,i(b1),b1);if(b3){var
-ez=b3[1];if(ez[2])return 0;var
-g2=i(b0),g3=i(ew),dN=u(i(ex),g3),dO=dN?n(function(a){var
-b=lF(g2,i(K),a);if(b){var
+ao=a[7],eE=a[6],eF=a[5],P=a[4],eG=a[2],b6=a[1],aU=p[2];if(0===aU[0]){var
+b7=aU[3],b8=cR(0,i(b7),b7);if(b8){var
+eH=b8[1];if(eH[2])return 0;var
+g$=i(b6),ha=i(eE),dT=u(i(eF),ha),dU=dT?n(function(a){var
+b=lO(g$,i(P),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bA(d[1]),0]:aV(0,i(K));return n(function(b){var
-a=W(K,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},K):1}return b},al):dN,dP=dO?fN(al):dO,dQ=dP?n(function(a){return es(a[2])},ey):dP,eA=dQ?n(hG,dy(0,i(K),al)):dQ,eB=eA?fO(i(b0),b1):eA;if(eB){var
-hm=ez[1],hn=a[3],dJ=ar(fK,al),aH=dy(0,i(K),al),gW=aK(ex,ew),bO=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},gW),gX=e(function(a){return 0===a[0]?[0,e(cn,a[1])]:[1,cn(a[1])]},K),gY=e(function(a){var
-b=cn(a[2]);return[0,a[1],b]},hn),m=[0,b0,e(function(a){var
-b=bv(a[2]);return[0,a[1],b]},ey),gY,gX],ho=lZ(i(K),al),eC=hL(aZ[2]),ax=aZ[1],f3=e(aJ,m[2]),bn=f(m[1],f3),bo=i(m[1]),c5=Z(qL,bo),c6=c5?Z(bo,qM):c5,c8=c6?Z(bo,i(m[4])):c6,c_=c8?Z(i(m[4]),qN):c8,c$=c_?le(bn):c_;if(c$){var
-aD=bn,aC=m[3];for(;;){if(aC){var
-c1=aC[1],c2=c1[1],c3=ai(ar(function(b){return function(a){return an(b,a)}}(c2),aD)),c4=c3?hi(aD,c1[2]):c3;if(c4){var
-aD=[0,c2,aD],aC=aC[2];continue}var
-db=c4}else
+d=a[2],e=d?[0,bB(d[1]),0]:aV(0,i(P));return n(function(b){var
+a=X(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},P):1}return b},ao):dT,dV=dU?fS(ao):dU,dW=dV?n(function(a){return es(a[2])},eG):dV,eI=dW?n(hO,dy(0,i(P),ao)):dW,eJ=eI?fT(i(b6),b7):eI;if(eJ){var
+hA=eH[1],hD=a[3],dP=ar(fL,ao),aO=dy(0,i(P),ao),g0=aK(eF,eE),bL=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},g0),g1=e(function(a){return 0===a[0]?[0,e(co,a[1])]:[1,co(a[1])]},P),g2=e(function(a){var
+b=co(a[2]);return[0,a[1],b]},hD),m=[0,b6,e(function(a){var
+b=bv(a[2]);return[0,a[1],b]},eG),g2,g1],hE=mb(i(P),ao),eK=hT(aU[2]),aA=aU[1],f8=e(aJ,m[2]),bi=f(m[1],f8),bj=i(m[1]),dc=Z(qZ,bj),dd=dc?Z(bj,q0):dc,de=dd?Z(bj,i(m[4])):dd,df=de?Z(i(m[4]),q1):de,dg=df?lo(bi):df;if(dg){var
+aI=bi,aH=m[3];for(;;){if(aH){var
+c8=aH[1],c_=c8[1],c$=ac(ar(function(b){return function(a){return an(b,a)}}(c_),aI)),db=c$?hm(aI,c8[2]):c$;if(db){var
+aI=[0,c_,aI],aH=aH[2];continue}var
+dh=db}else
 var
-db=1;var
-bp=db;break}}else
+dh=1;var
+bk=dh;break}}else
 var
-bp=c$;if(bp)var
-f4=m[4],bq=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bn);return n(function(a){return hi(c,a)},b)},f4);else
+bk=dg;if(bk)var
+f9=m[4],bl=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bi);return n(function(a){return hm(c,a)},b)},f9);else
 var
-bq=bp;if(bq)var
-f5=m[2],bw=n(function(a){return a9(p,a[2][1],a[2][2])},f5);else
+bl=bk;if(bl)var
+f_=m[2],bn=n(function(a){return a9(o,a[2][1],a[2][2])},f_);else
 var
-bw=bq;var
-dc=bw?n(function(a){return a9(p,a[1],a[2])},bO):bw;if(dc){var
-bd=i(m[1]),be=i(m[2]),cM=N(be,i(hf(e(b9,m[3])))),fr=m[3],ao=ld(m),aA=fr,bc=be;for(;;){if(aA){var
-cK=aA[1],cL=cK[2],fj=N(bc,i(bt(cL))),fl=aA[2],fn=a$(ao,cL,bc),ao=[0,[0,cK[1],fn],ao],aA=fl,bc=fj;continue}var
-P=la(bd,ao,m[4],cM),ft=k$(ao,m[4],cM),fu=m[3],cO=f(k8(ld(m),fu,be),ft),cP=i(lc(m)),fv=0,fz=f(cO,ek(function(a,b){return k4(P,a,b)},fv,d,cP,aH)),fA=f(bs(ej(P)),fz),cR=f(bs(fy(P)),fA),bf=da(cR)[1],fB=cy(bf),$=function(a){return bm(fB,a)},cS=u(i(bO),bd);if(cS)var
-fE=m[4],bg=n(function(a){return 0===a[0]?u(i(a[1]),bd):1},fE);else
+bn=bl;var
+di=bn?n(function(a){return a9(o,a[1],a[2])},bL):bn;if(di){var
+a_=i(m[1]),ba=i(m[2]),cV=N(ba,i(hj(e(b_,m[3])))),fv=m[3],at=ln(m),aE=fv,a7=ba;for(;;){if(aE){var
+cT=aE[1],cU=cT[2],fo=N(a7,i(bt(cU))),fs=aE[2],fu=a$(at,cU,a7),at=[0,[0,cT[1],fu],at],aE=fs,a7=fo;continue}var
+R=lk(a_,at,m[4],cV),fw=lj(at,m[4],cV),fA=m[3],cW=f(lg(ln(m),fA,ba),fw),cX=i(lm(m)),fB=0,fC=f(cW,ek(function(a,b){return lc(R,a,b)},fB,d,cX,aO)),fF=f(bs(ej(R)),fC),cY=f(bs(fz(R)),fF),bb=da(cY)[1],fG=cz(bb),ae=function(a){return bm(fG,a)},cZ=u(i(bL),a_);if(cZ)var
+fH=m[4],bc=n(function(a){return 0===a[0]?u(i(a[1]),a_):1},fH);else
 var
-bg=cS;var
-cT=bg?n(function(a){var
-b=l(d),c=cy(bf);return aM(t($(a),c,b),a)},cR):bg,cU=cT?ar(k7,aH):cT;if(cU){var
-cV=ai(dJ);if(cV)var
-aB=cV;else
+bc=cZ;var
+c0=bc?n(function(a){var
+b=l(d),c=cz(bb);return aM(t(ae(a),c,b),a)},cY):bc,c1=c0?ar(lf,aO):c0;if(c1){var
+c2=ac(dP);if(c2)var
+aG=c2;else
 var
-f2=m[4],aB=n(function(a){return 0===a[0]?0:1},f2)}else
+f7=m[4],aG=n(function(a){return 0===a[0]?0:1},f7)}else
 var
-aB=cU;if(aB){var
-fF=lc(m),bh=aj(e(function(a){return ag(ax,a)},fF));if(bh){var
-fG=0,fH=A(function(a){return fx(fG,d,a)},aH),bi=aj(e(function(a){return k5(ax,a)},fH));if(bi){var
-bj=aj(e(function(a){return ag(ax,[0,a,d])},bO));if(bj){var
-fP=0,fQ=0,bk=aj(ek(function(a,b){return k6(ax,$,P,fQ,d,a,b)},fP,d,cP,aH));if(bk){var
-cW=bk[1];if(dJ)var
-fR=eC[2],fS=eC[1],fT=ej(P),bl=j_(ho,cW,[8,k(ap($),fT),fS,fR]);else
+aG=c1;if(aG){var
+fI=lm(m),bd=aj(e(function(a){return ah(aA,a)},fI));if(bd){var
+fN=0,fP=z(function(a){return fy(fN,d,a)},aO),be=aj(e(function(a){return ld(aA,a)},fP));if(be){var
+bf=aj(e(function(a){return ah(aA,[0,a,d])},bL));if(bf){var
+fU=0,fV=0,bg=aj(ek(function(a,b){return le(aA,ae,R,fV,d,a,b)},fU,d,cX,aO));if(bg){var
+c3=bg[1];if(dP)var
+fW=eK[2],fX=eK[1],fY=ej(R),bh=ki(hE,c3,[8,k(ap(ae),fY),fX,fW]);else
 var
-bl=cW;var
-fU=gO(bl),fV=bj[1],fW=function(a){return 0},fX=f(bh[1],bi[1]),fY=e($,cO),fZ=ej(P),f0=k(ap($),fZ),f1=fy(P);return fi(ax,bf,k(ap($),f1),f0,fY,fX,bl,fW,fV,fU,hm)}var
-cX=bk}else
+bh=c3;var
+fZ=gS(bh),f0=bf[1],f1=function(a){return 0},f2=f(bd[1],be[1]),f3=e(ae,cW),f4=ej(R),f5=k(ap(ae),f4),f6=fz(R);return fj(aA,bb,k(ap(ae),f6),f5,f3,f2,bh,f1,f0,fZ,hA)}var
+c4=bg}else
 var
-cX=bj;var
-cY=cX}else
+c4=bf;var
+c5=c4}else
 var
-cY=bi;var
-cZ=cY}else
+c5=be;var
+c6=c5}else
 var
-cZ=bh;var
-c0=cZ}else
+c6=bd;var
+c7=c6}else
 var
-c0=aB;return c0}}return dc}var
-eD=eB}else
+c7=aG;return c7}}return di}var
+eL=eJ}else
 var
-eD=b3;return eD}return 0;case
-4:if(0===o[2][0]){var
-eE=dA(j(a[1]));if(eE){var
-a2=a[3],ci=0;if(a2){var
-aI=a2[1],aL=aI[4],H=a2[2];if(aI[1]||aI[2]||aI[3])var
-s=0;else{var
-C=0;if(typeof
-aL!=="number")switch(aL[0]){case
-0:var
-a4=0;if(H){var
-aN=H[1],bP=aN[4];if(aN[1]||aN[2]||aN[3]){var
-s=0;C=1;a4=1}else{var
-cj=0;if(typeof
-bP!=="number"&&1===bP[0])if(H[2]){var
-s=0;C=1;a4=1;cj=1}else{var
-gZ=j(bP[1]),s=[0,[0,j(aL[1]),gZ]];C=1;a4=1;cj=1}if(!cj)var
-dL=0}}else
-var
-dL=H;if(!a4){var
-s=dL;C=1}break;case
-1:var
-a5=0;if(H){var
-aO=H[1],bQ=aO[4];if(aO[1]||aO[2]||aO[3]){var
-s=0;C=1;a5=1}else{var
-ck=0;if(typeof
-bQ!=="number"&&0===bQ[0])if(H[2]){var
-s=0;C=1;a5=1;ck=1}else{var
-g0=j(aL[1]),s=[0,[0,j(bQ[1]),g0]];C=1;a5=1;ck=1}if(!ck)var
-dM=0}}else
-var
-dM=H;if(!a5){var
-s=dM;C=1}break}if(!C){var
-dK=0;ci=1}}}else{var
-dK=a2;ci=1}if(ci)var
-s=dK;if(s){var
-eF=s[1],eG=eF[2],eH=eF[1],dg=h(p,1,j(a[2])),dh=dg?h(p,1,[3,eG,[0,c,c]]):dg,di=dh?h(p,1,eH):dh;return di?h(p,0,[3,[5,[0,c,c],eG],eH]):di}var
-eI=s}else
-var
-eI=eE;return eI}return 0;case
-5:var
-b4=a[4],eJ=a[1],b5=o[2];if(0===b5[0]){var
-eK=b5[3],r=hx(eJ,[0,a[2],a[3]],0,b4),b6=hF(i(eK),eK);if(b6){var
-eL=b6[1];if(eL[2])return 0;var
-eM=hJ(eJ,0,b4,r),eN=eM?ai(ar(fK,b4)):eM;if(eN){var
-eO=j9(p,r);if(eO){var
-hp=eL[1],eP=e(fM,r[1]),z=hC(r[1]),eQ=j(a[5]),L=b5[1],bz=fk(z,eP,r[1]),D=gP(z,eP,r[1],0),f_=i(r[3]),f$=N(i(bz),f_),aE=[0,i(bz),f$],ga=gQ(D,z,aE,r[3]),gb=f(e(bV,D),ga),dn=f(bs(d4(D)),gb),dp=da(dn)[1],bB=cy(dp),dq=r[2];if(0===dq[0]){var
-dr=n(function(a){var
-b=l(d);return aM(t(bm(bB,a),bB,b),a)},dn),ds=dr?h(p,1,eQ):dr;if(ds){var
-gc=r[3],gd=A(function(a){return cD(z,a)},gc),ge=r[3],gf=f(bz,f(e(function(a){return br(z,a)},ge),gd)),bD=aj(e(function(a){return ag(L,a)},gf));if(bD){var
-gg=aF(dq[1],z),bF=aj(e(function(a){return ag(L,a)},gg));if(bF){var
-bG=cf(L,z,[5,eQ,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bG){var
-bH=r[3],gh=bF[1],gi=bG[1],gj=bD[1],as=function(a){return bm(bB,a)},f7=aV(0,i(bH)),f8=e(function(j){var
-l=W(bH,j);if(l){var
-a=l[1],u=c7(j,bH),v=i(A(function(a){return cD(z,a)},u)),w=N(aE[2],v),g=[0,N(aE[1],j),w],r=d4(D),f=k(ap(as),r),b=[1,[8,[1,[1,g[1]]]]],d=fm(D,z,g,a),n=d?[0,[3,e(as,[0,d[1],d[2]])]]:d,m=0;if(typeof
-a!=="number")switch(a[0]){case
-0:return[0,[0,f,b]];case
-1:return[0,[1,f,b]];case
+eL=b8;return eL}return 0;case
 4:var
-o=h(L,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,f,b]];case
+b9=p[2];if(0===b9[0]){var
+aB=a[3],C=a[2],b$=a[1],hF=b9[3],hH=b9[1],d7=dA(j(b$));if(d7){var
+aP=bD(lU,aB),cq=0;if(aP){var
+bM=aP[1];if(bM[2]||bM[3])var
+s=0;else{var
+aQ=bM[4],J=aP[2],E=0;if(typeof
+aQ!=="number")switch(aQ[0]){case
+0:var
+aX=0;if(J){var
+bN=J[1];if(bN[2]||bN[3]){var
+s=0;E=1;aX=1}else{var
+bO=bN[4],cr=0;if(typeof
+bO!=="number"&&1===bO[0])if(J[2]){var
+s=0;E=1;aX=1;cr=1}else{var
+s=[0,[0,aQ[1],bO[1]]];E=1;aX=1;cr=1}if(!cr)var
+dR=0}}else
+var
+dR=J;if(!aX){var
+s=dR;E=1}break;case
+1:var
+aZ=0;if(J){var
+bP=J[1];if(bP[2]||bP[3]){var
+s=0;E=1;aZ=1}else{var
+bQ=bP[4],cs=0;if(typeof
+bQ!=="number"&&0===bQ[0])if(J[2]){var
+s=0;E=1;aZ=1;cs=1}else{var
+s=[0,[0,bQ[1],aQ[1]]];E=1;aZ=1;cs=1}if(!cs)var
+dS=0}}else
+var
+dS=J;if(!aZ){var
+s=dS;E=1}break}if(!E){var
+dQ=0;cq=1}}}else{var
+dQ=aP;cq=1}if(cq)var
+s=dQ;if(s){var
+d8=s[1],v=d8[2],eb=j(v),ed=j(d8[1]),dn=g(o,1,j(C)),dp=dn?g(o,1,[3,eb,[0,b,b]]):dn,dq=dp?g(o,1,ed):dp,ee=dq?g(o,0,[3,[5,[0,b,b],eb],ed]):dq;if(ee)var
+hg=0,hh=0,bW=n(function(a){return lP(hh,hg,ww,a)},aB);else
+var
+bW=ee;var
+ef=bW?n(function(c){if(1===c[1]){var
+a=c[4];if(typeof
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aB):bW;if(ef){var
+bR=bD(function(a){return ac(lV(a))},aB);if(bR){var
+hi=[0,c(2,b),b],A=g(o,0,[3,j(v),hi]);if(A)var
+bX=A;else
+var
+ho=j(v),bX=g(o,0,[3,[0,c(2,b),b],ho]);if(bX){var
+d6=z(function(a){var
+b=hC(0,wt,a);return e(function(b){return ac(lV(a))},b)},aB),hd=function(f){var
+g=f[1];if(g){var
+h=g[1],j=t(h,d6,0);if(j)var
+l=cv(h,d6),k=[0,[0,i(bD(function(a){return a},l))]];else
+var
+k=j;var
+a=k}else
+var
+a=wv;if(a){var
+c=a[1],e=f[2];switch(e[0]){case
+0:return[0,[0,c,[0,e[1]]],0];case
+2:return[0,[0,c,[1,wu,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},hf=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(hd,a[1]),d,c,b]},hF),hk=[0,bR[1],bR[2]],g3=[0,hG(A,C,v),0],g4=[0,hG(A,C,v),g3],g5=[0,hG(A,C,v),g4],g6=[0,fO(A,C,v),0],g7=[0,fO(A,C,v),g6],hl=0,g9=[0,[0,fO(A,C,v),g7],g5],hn=0,bS=function(b,a){return e(function(c){var
+d=u(b,c)?a:vx;return[0,d]},vz)};return md(0,e(function(a){var
+e=[0,fM(A,C,v)],d=1,f=bS(a,[2,b$]);function
+b(b,a){return[3,1,b,a]}var
+c=fM(A,C,v),g=bS(a,b(b(fO(A,C,v),b$),c));return[0,bS(a,vy),g,f,e,d]},vA),hn,g9,hl,hk,hH,hf)}return bX}var
+eg=1}else
+var
+eg=ef;var
+eh=eg}else
+var
+eh=s;var
+el=eh}else
+var
+el=d7;return el}return 0;case
+5:var
+ca=a[4],eM=a[1],cb=p[2];if(0===cb[0]){var
+eN=cb[3],r=hB(eM,[0,a[2],a[3]],0,ca),cc=hN(i(eN),eN);if(cc){var
+eO=cc[1];if(eO[2])return 0;var
+eP=hR(eM,0,ca,r),eQ=eP?ac(ar(fL,ca)):eP;if(eQ){var
+eR=kh(o,r);if(eR){var
+hJ=eO[1],eS=e(fR,r[1]),D=hK(r[1]),eT=j(a[5]),Q=cb[1],bq=fl(D,eS,r[1]),F=gT(D,eS,r[1],0),gd=i(r[3]),ge=N(i(bq),gd),aL=[0,i(bq),ge],gf=gU(F,D,aL,r[3]),gg=f(e(bV,F),gf),du=f(bs(d4(F)),gg),dw=da(du)[1],bw=cz(dw),dx=r[2];if(0===dx[0]){var
+dz=n(function(a){var
+b=l(d);return aM(t(bm(bw,a),bw,b),a)},du),dB=dz?g(o,1,eT):dz;if(dB){var
+gh=r[3],gi=z(function(a){return cE(D,a)},gh),gj=r[3],gk=f(bq,f(e(function(a){return br(D,a)},gj),gi)),bx=aj(e(function(a){return ah(Q,a)},gk));if(bx){var
+gl=aF(dx[1],D),by=aj(e(function(a){return ah(Q,a)},gl));if(by){var
+bz=cg(Q,D,[5,eT,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bz){var
+bA=r[3],gm=by[1],gn=bz[1],go=bx[1],au=function(a){return bm(bw,a)},ga=aV(0,i(bA)),gb=e(function(j){var
+l=X(bA,j);if(l){var
+a=l[1],u=cv(j,bA),v=i(z(function(a){return cE(D,a)},u)),w=N(aL[2],v),h=[0,N(aL[1],j),w],r=d4(F),f=k(ap(au),r),c=[1,[8,[1,[1,h[1]]]]],d=fn(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a!=="number")switch(a[0]){case
+0:return[0,[0,f,c]];case
+1:return[0,[1,f,c]];case
+4:var
+o=g(Q,1,a[2]),s=o?n:o;return s;case
+5:return[0,[2,f,c]];case
 8:var
-p=h(L,1,[5,a[2],a[1]]);if(!p)return p;var
-q=[1,[2,c]];m=1;break;case
+p=g(Q,1,[5,a[2],a[1]]);if(!p)return p;var
+q=[1,[2,b]];m=1;break;case
 9:var
-q=b;m=1;break;case
+q=c;m=1;break;case
 2:case
 3:case
 6:case
 7:return n}if(m){var
-t=d9(D,z,g,a);return y(function(a){return[0,k(ap(as),a),q]},t)}return 0}return l},f7),f9=e(function(a){return as(bV(a))},D),dj=e(function(a){return as(a[2])},D),gk=r[3],gl=aE[1],dk=e(af,gj),dm=function(az,ay){var
+t=d9(F,D,h,a);return y(function(a){return[0,k(ap(au),a),q]},t)}return 0}return l},ga),gc=e(function(a){return au(bV(a))},F),dr=e(function(a){return au(a[2])},F),gp=r[3],gq=aL[1],ds=e(ag,go),dt=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=u(i(s),qW),ab=aa?n(function(a){var
-d=G(M(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},s):aa;if(ab){var
-ac=lo(L,gi,fb(0,l),s),j=h[2],v=bC(0,ce(L,ac,dk),dp,0),O=function(a){return ln(lm(L,ac,dk,v,a))};if(typeof
+s=h[1],aa=u(i(s),q_),ab=aa?n(function(a){var
+d=G(M(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
+ad=ly(Q,gn,fc(0,l),s),j=h[2],v=bE(0,cf(Q,ad,ds),dw,0),L=function(a){return lx(lw(Q,ad,ds,v,a))};if(typeof
 j==="number")return 0===j?ar(function(b){var
-a=t(b,v,0);return a?G(a[1][2][2],d):a},dj):0;else{if(0===j[0]){var
-a=j[2],P=n(qU,a);if(P){var
-o=t(j[1],f8,0);if(o){var
+a=t(b,v,0);return a?G(a[1][2][2],d):a},dr):0;else{if(0===j[0]){var
+a=j[2],O=n(q8,a);if(O){var
+o=t(j[1],gb,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fD(B,A),an=fC(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fE(B,A),an=fD(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fC(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fD(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fD(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fE(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -5902,7 +5965,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-H=k[1],I=a[1],m=g[1],aq=fC(I),as=[1,[6,fD(m,H),aq]],at=[1,[6,g[2],as]],au=fC(H),J=[0,[0,m,[0,[1,[4,[1,[6,fD(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],aq=fD(I),as=[1,[6,fE(m,H),aq]],at=[1,[6,g[2],as]],au=fD(H),J=[0,[0,m,[0,[1,[4,[1,[6,fE(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -5911,7 +5974,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return ln(t(a[2],v,0))},aw);if(R)return n(O,Q[2]);var
+P=f[1],aw=P[1],R=n(function(a){return lx(t(a[2],v,0))},aw);if(R)return n(L,P[2]);var
 S=R}else
 var
 S=f;var
@@ -5920,116 +5983,116 @@ var
 T=o;var
 U=T}else
 var
-U=P;return U}var
-V=j[2],X=j[1],p=W(gk,X);if(p){var
+U=O;return U}var
+V=j[2],W=j[1],p=X(gp,W);if(p){var
 Z=p[1];if(typeof
 Z!=="number"&&1===Z[0]){var
-q=W(dj,V);if(q){var
-r=W(f9,V);if(r){var
-ax=N(gl,X);return O([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+q=X(dr,V);if(q){var
+r=X(gc,V);if(r){var
+ax=N(gq,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
 _=0}else
 var
 _=p;return _}}return ab}var
-ad=h[1],w=W(l,ad);if(w){var
-ae=w[1],aA=ae[1],af=ai(Y(bE(ae),aA));if(af){var
-ag=d5(ad,l),ah=dm(ag[1],h[2]);if(ah){var
-l=ag[2],h=h[3];continue}var
-aj=ah}else
+ae=h[1],w=X(l,ae);if(w){var
+af=w[1],aA=af[1],ag=ac(Y(bG(af),aA));if(ag){var
+ah=d5(ae,l),ai=dt(ah[1],h[2]);if(ai){var
+l=ah[2],h=h[3];continue}var
+aj=ai}else
 var
-aj=af;var
+aj=ag;var
 ak=aj}else
 var
-ak=w;return ak}};return dm(gh,hp)}var
-dt=bG}else
+ak=w;return ak}};return dt(gm,hJ)}var
+dC=bz}else
 var
-dt=bF;var
-du=dt}else
+dC=by;var
+dD=dC}else
 var
-du=bD;var
-dw=du}else
+dD=bx;var
+dE=dD}else
 var
-dw=ds;return dw}return 0}var
-eR=eO}else
+dE=dB;return dE}return 0}var
+eU=eR}else
 var
-eR=eN;var
-eS=eR}else
+eU=eQ;var
+eV=eU}else
 var
-eS=b6;return eS}return 0;case
+eV=cc;return eV}return 0;case
 6:var
-eT=a[1];if(eT){var
-eU=eT[1],b7=o[2];if(0===b7[0]){var
-b8=hD(0,wc,b7[3]);if(b8){var
-eW=es(eU);if(eW){var
-hq=b8[1],eX=bv(eU)[2],a3=b7[1],bx=cf(a3,d,eX);if(bx){var
-by=cf(a3,d,[5,[0,c,c],eX]);if(by){var
-f6=bx[1][1],dd=V(cv(a3),f6);if(dd)return ll(a3,by[1][1],hq);var
-de=dd}else
+eX=a[1];if(eX){var
+eY=eX[1],cd=p[2];if(0===cd[0]){var
+ce=hL(0,wy,cd[3]);if(ce){var
+eZ=es(eY);if(eZ){var
+hQ=ce[1],e0=bv(eY)[2],aW=cd[1],bo=cg(aW,d,e0);if(bo){var
+bp=cg(aW,d,[5,[0,b,b],e0]);if(bp){var
+f$=bo[1][1],dj=W(cw(aW),f$);if(dj)return lv(aW,bp[1][1],hQ);var
+dk=dj}else
 var
-de=by;var
-df=de}else
+dk=bp;var
+dm=dk}else
 var
-df=bx;return df}var
-eY=eW}else
+dm=bo;return dm}var
+e1=eZ}else
 var
-eY=b8;return eY}return 0}var
-b_=o[2];if(0===b_[0]){var
-b$=hD(0,wd,b_[3]);return b$?ll(b_[1],d,b$[1]):b$}return 0;default:var
-am=a[1],eZ=o[2];if(2===eZ[0]){var
-e0=eZ[1],ca=hA(i(e0),e0);if(ca){var
-e1=ca[1];if(e1[2])return 0;var
-cb=e1[1],d3=Z(wa,i(am)),d6=d3?Z(i(am),i3):d3,d7=d6?le(e(aJ,am)):d6,e2=d7?n(function(c){var
-a=cA(j(c[2][1]));if(a){var
-b=cA(j(c[2][2]));if(b)return ai(c9(b[1],a[1]));var
+e1=ce;return e1}return 0}var
+ch=p[2];if(0===ch[0]){var
+ci=hL(0,wz,ch[3]);return ci?lv(ch[1],d,ci[1]):ci}return 0;default:var
+as=a[1],e2=p[2];if(2===e2[0]){var
+e3=e2[1],cj=hI(i(e3),e3);if(cj){var
+e4=cj[1];if(e4[2])return 0;var
+ck=e4[1],d1=Z(ws,i(as)),d2=d1?Z(i(as),jb):d1,d3=d2?lo(e(aJ,as)):d2,e5=d3?n(function(c){var
+a=cB(j(c[2][1]));if(a){var
+b=cB(j(c[2][2]));if(b)return ac(c9(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},am):d7;if(e2)var
-hr=fL(vj,cb),cc=l3(a[5],hr);else
+d=a;return d},as):d3;if(e5)var
+hU=fQ(vB,ck),cl=mg(a[5],hU);else
 var
-cc=e2;if(cc)var
-hs=fL(vk,cb),cd=l3(a[6],hs);else
+cl=e5;if(cl)var
+hV=fQ(vC,ck),cm=mg(a[6],hV);else
 var
-cd=cc;if(cd){var
-g1=e(function(a){return[0,d,0]},am);return l2(am,a[2],a[3],a[4],g1,cb)}var
-e3=cd}else
+cm=cl;if(cm){var
+g_=e(function(a){return[0,d,0]},as);return mf(as,a[2],a[3],a[4],g_,ck)}var
+e6=cm}else
 var
-e3=ca;return e3}return 0}}return at}var
-L=[aH,wg,oe(0)],l4=[aH,wh,oe(0)];function
-we(m,b){var
-f=[0,g(uK,ah(b[4])),0],h=[0,g(uM,T([0,g(uL,ah(b[3])),f])),0],a=b[2];switch(a[0]){case
+e6=cj;return e6}return 0}}return aw}var
+L=[aH,wC,os(0)],mh=[aH,wD,os(0)];function
+wA(m,b){var
+f=[0,h(uY,ai(b[4])),0],g=[0,h(u0,T([0,h(uZ,ai(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(uG,lu(a[1],a[2],a[3]));break;case
+c=H(uU,lE(a[1],a[2],a[3]));break;case
 1:var
-c=H(uH,lv(a[1],a[2],a[3],a[4]));break;default:var
-c=H(uI,z(e(uB,a[1])))}var
-i=[0,g(uN,c),h],j=1===b[2][0]?uT:uO,k=[0,g(uP,ah(j)),i],l=[0,g(uQ,tj(b[1])),k],d=an(iD(wf,fE(T([0,g(uS,ah(uR)),l]),uJ)),m);return d?wb(b):d}function
+c=H(uV,lF(a[1],a[2],a[3],a[4]));break;default:var
+c=H(uW,A(e(uP,a[1])))}var
+i=[0,h(u1,c),g],j=1===b[2][0]?u7:u2,k=[0,h(u3,ai(j)),i],l=[0,h(u4,tx(b[1])),k],d=an(iN(wB,fF(T([0,h(u6,ai(u5)),l]),uX)),m);return d?wx(b):d}function
 _(a){if(0===a[0])return a[1];throw L}function
-X(a){if(1===a[0])return a[1];throw L}function
+U(a){if(1===a[0])return a[1];throw L}function
 aC(a){if(2===a[0])return a[1];throw L}function
 dC(a){if(3===a[0])return a[1];throw L}function
 aG(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===B7(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Cs(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
 a=aG(c,b);if(a)return a[1];throw L}function
 b3(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-cT(a){switch(a[0]){case
+cU(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],wi]}throw L}function
+2:return[0,a[1],wE]}throw L}function
 et(e,d){var
-a=S(e,X(d));if(a){var
+a=R(e,U(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
-fP(i){var
-f=dM(i),d=[0,0],e=gi(f)-1|0;if(!(e<0)){var
+fU(i){var
+f=dM(i),d=[0,0],e=gm(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=ii(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
+a=d[1],g=is(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6051,47 +6114,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eu(a){return iP(fP(a))}function
+eu(a){return iZ(fU(a))}function
 ev(b){var
-a=dC(b);return 45===aI(a,0)?M(eu(c4(a,1,am(a)-1|0))):eu(a)}function
-l5(a){return dU(eu(dC(a)))}function
-fQ(a){return iO(eu(dC(a)))}function
-cq(c){var
+a=dC(b);return 45===aI(a,0)?M(eu(c5(a,1,am(a)-1|0))):eu(a)}function
+mi(a){return dU(eu(dC(a)))}function
+fV(a){return iY(eu(dC(a)))}function
+cr(c){var
 a=dC(c);if(6<am(a))throw L;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(ir(a))}function
-l6(a){var
-b=97<=a?1:0,c=b?a<=nV?1:0:b;if(c)var
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iA(a))}function
+mj(a){var
+b=97<=a?1:0,c=b?a<=n9?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-l7(y,b){var
+mk(y,b){var
 d=am(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return c4(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return c5(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
 h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&an(c4(b,a[1],5),wk)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&an(c5(b,a[1],5),wG)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&l6(aI(b,a[1]))){var
+v=0;if(a[1]<d&&mj(aI(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!l6(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,c4(b,o,a[1]-o|0))];break}}else
+w=0;if(!mj(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,c5(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,wl);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,wH);if(r)var
 s=r;else
 var
 t=1<am(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw L;if(q){var
-j=q[1],x=0;if(an(j,wm)||48===aI(j,am(j)-1|0))x=1;else
+j=q[1],x=0;if(an(j,wI)||48===aI(j,am(j)-1|0))x=1;else
 var
-z=fP(j),e=[0,fP(g),z];if(x)throw L}else
+z=fU(j),e=[0,fU(g),z];if(x)throw L}else
 var
-e=[0,fP(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,wj)){if(!(2<am(f))&&2<=ir(f)&&!(64<ir(f)))return[4,e,dU(eu(f))];throw L}throw L}return e}function
+e=[0,fU(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,wF)){if(!(2<am(f))&&2<=iA(f)&&!(64<iA(f)))return[4,e,dU(eu(f))];throw L}throw L}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6101,46 +6164,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw L;return g}function
-fR(a){return l7(function(a){return[0,a]},a)}function
-hM(a){var
-b=aC(a);return l7(function(a){return a},b)}function
-P(a){return fR(aC(a))}function
-bI(a){if(2===a[0])return[0,fR(a[1])];var
-b=_(a),c=P(r(b,wn));return[1,P(r(b,wo)),c]}function
-U(a){throw[0,l4,aP(iD(wq,a),wp)]}function
-hN(c){var
-a=aC(c);if(m(a,wr)){var
-b=m(a,ws);if(b)throw L;return b}return 1}function
-wt(d){var
+fW(a){return mk(function(a){return[0,a]},a)}function
+hU(a){var
+b=aC(a);return mk(function(a){return a},b)}function
+P(a){return fW(aC(a))}function
+bK(a){if(2===a[0])return[0,fW(a[1])];var
+b=_(a),c=P(r(b,wJ));return[1,P(r(b,wK)),c]}function
+V(a){throw[0,mh,aP(iN(wM,a),wL)]}function
+hV(c){var
+a=aC(c);if(m(a,wN)){var
+b=m(a,wO);if(b)throw L;return b}return 1}function
+wP(d){var
 b=_(d);function
-a(a){return et(bI,r(b,a))}var
-c=aC(r(b,wu));if(m(c,wv)){if(m(c,ww)){if(m(c,wx))return U([0,wz,[0,c,wy]]);var
-e=aG(b,wA),f=b3(function(a){return et(bI,a)},e),g=a(wB);return[1,a(wC),g,f]}var
-h=hN(r(b,wD)),i=bI(r(b,wE)),j=a(wF),k=a(wG);return[0,a(wH),k,j,i,h]}return[2,a(wI)]}function
-wJ(d){var
+a(a){return et(bK,r(b,a))}var
+c=aC(r(b,wQ));if(m(c,wR)){if(m(c,wS)){if(m(c,wT))return V([0,wV,[0,c,wU]]);var
+e=aG(b,wW),f=b3(function(a){return et(bK,a)},e),g=a(wX);return[1,a(wY),g,f]}var
+h=hV(r(b,wZ)),i=bK(r(b,w0)),j=a(w1),k=a(w2);return[0,a(w3),k,j,i,h]}return[2,a(w4)]}function
+w5(d){var
 a=_(d);if(a){var
-b=a[1];if(!m(b[1],wK)){var
-c=b[2];if(2===c[0]&&!m(c[1],wL))return 1}}return 0}function
-l8(e){var
+b=a[1];if(!m(b[1],w6)){var
+c=b[2];if(2===c[0]&&!m(c[1],w7))return 1}}return 0}function
+ml(e){var
 b=_(e);function
-a(a){return S(bI,X(r(b,a)))}var
-c=aC(r(b,wM)),d=aG(b,wN);if(m(c,wO)){if(m(c,wP)){if(!m(c,wQ)&&!d){var
-f=a(wT);return[1,a(wU),f]}}else
+a(a){return R(bK,U(r(b,a)))}var
+c=aC(r(b,w8)),d=aG(b,w9);if(m(c,w_)){if(m(c,w$)){if(!m(c,xa)&&!d){var
+f=a(xd);return[1,a(xe),f]}}else
 if(!d){var
-g=hN(r(b,wV)),h=bI(r(b,wW)),i=a(wX),j=a(wY);return[0,a(wZ),j,i,h,g]}}else
+g=hV(r(b,xf)),h=bK(r(b,xg)),i=a(xh),j=a(xi);return[0,a(xj),j,i,h,g]}}else
 if(!d){var
-k=hN(r(b,w0)),l=bI(r(b,w1)),n=bI(r(b,w2)),o=a(w3),p=a(w4),q=a(w5);return[2,a(w6),q,p,o,n,l,k]}return U([0,wS,[0,c,wR]])}function
-l9(d){var
+k=hV(r(b,xk)),l=bK(r(b,xl)),n=bK(r(b,xm)),o=a(xn),p=a(xo),q=a(xp);return[2,a(xq),q,p,o,n,l,k]}return V([0,xc,[0,c,xb]])}function
+mm(d){var
 a=_(d);if(a){var
-b=a[1];if(!m(b[1],w7)){var
-c=b[2];if(2===c[0]&&!m(c[1],w8))return 1}}return 0}function
-cr(c,d){var
-a=X(d);if(a){var
+b=a[1];if(!m(b[1],xr)){var
+c=b[2];if(2===c[0]&&!m(c[1],xs))return 1}}return 0}function
+cs(c,d){var
+a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
 ew(f,p){var
-l=f?f[1]:f,c=_(p),a=aC(r(c,w9)),i=or(a,w_),h=0;if(0<=i)if(0<i)if(m(a,w$))if(m(a,xa))if(m(a,xb))if(m(a,xc))if(m(a,xd)){var
-j=m(a,xe);if(j)h=1;else
+l=f?f[1]:f,c=_(p),a=aC(r(c,xt)),i=oF(a,xu),h=0;if(0<=i)if(0<i)if(m(a,xv))if(m(a,xw))if(m(a,xx))if(m(a,xy))if(m(a,xz)){var
+j=m(a,xA);if(j)h=1;else
 var
 b=j}else
 var
@@ -6155,7 +6218,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,xz))if(m(a,xA))if(m(a,xB))if(m(a,xC))if(m(a,xD))if(m(a,xE))if(m(a,xF))h=1;else
+if(m(a,xV))if(m(a,xW))if(m(a,xX))if(m(a,xY))if(m(a,xZ))if(m(a,x0))if(m(a,x1))h=1;else
 var
 b=1;else
 var
@@ -6170,12 +6233,12 @@ var
 b=9;else
 var
 b=12;var
-n=h?U([0,xg,[0,a,xf]]):b;function
-g(a){return r(c,xh)}var
-d=aC(r(c,xi)),k=m(d,xj);if(k)if(m(d,xk))if(m(d,xl))if(m(d,xm))var
-e=U([0,xo,[0,d,xn]]);else
+n=h?V([0,xC,[0,a,xB]]):b;function
+g(a){return r(c,xD)}var
+d=aC(r(c,xE)),k=m(d,xF);if(k)if(m(d,xG))if(m(d,xH))if(m(d,xI))var
+e=V([0,xK,[0,d,xJ]]);else
 var
-o=cr(P,g(0)),e=[2,o[1],o[2]];else
+o=cs(P,g(0)),e=[2,o[1],o[2]];else
 var
 e=[0,P(g(0))];else
 var
@@ -6185,216 +6248,234 @@ e=k;function
 q(y){var
 a=_(y),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],xq)){var
+q=a[1];if(!m(q[1],xM)){var
 r=q[2];if(1===r[0]){var
 b=r[1],k=0;if(b&&!b[2])if(a[2])k=1;else{var
-e=b[1];c=1;k=1}if(!k&&!a[2])return l?U(xr):[1,S(P,b)]}}}break;case
+e=b[1];c=1;k=1}if(!k&&!a[2])return l?V(xN):[1,R(P,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],xs)){var
+s=a[1];if(!m(s[1],xO)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-u=g[1];if(!m(u[1],xt)){var
+u=g[1];if(!m(u[1],xP)){var
 v=u[2];if(1===v[0]){var
 h=v[1];if(h&&!h[2]&&!g[2]){var
 z=P(h[1]);return[2,P(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],xu)){var
-x=w[2],i=a[2];if(i){if(!m(i[1][1],xv)&&!i[2]&&l)return U(xw)}else
+w=a[1];if(!m(w[1],xQ)){var
+x=w[2],i=a[2];if(i){if(!m(i[1][1],xR)&&!i[2]&&l)return V(xS)}else
 if(1===x[0]){var
 j=x[1];if(j&&!j[2]){var
 e=j[1];c=1}}}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],xp)){var
+o=a[1];if(!m(o[1],xL)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw L}var
-s=b3(q,aG(c,xx));return[0,n,b3(cq,aG(c,xy)),s,e]}function
-l_(c){var
-d=ew(xI,c),e=d[1];if(2<=e)switch(e-2|0){case
+s=b3(q,aG(c,xT));return[0,n,b3(cr,aG(c,xU)),s,e]}function
+mn(c){var
+d=ew(x4,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=ew(xG,c),b=a[1];if(2!==b&&!(4<=b))return a;return U(xH)}function
-l$(a){var
-b=ew(xJ,a);return 11===b[1]?b:l_(a)}function
-ma(c){var
-d=ew(xK,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:l_(c)}function
-hO(b){var
-a=_(b[2]);if(m(b[1],xR)){var
-c=cr(P,r(a,xS)),d=cr(P,r(a,xT)),e=d[2],f=d[1],g=P(r(a,xU));return[1,c[1],c[2],g,f,e]}var
-h=S(P,X(r(a,xV)));return[0,S(P,X(r(a,xW))),h]}function
-xX(f){var
+a=ew(x2,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(x3)}function
+mo(a){var
+b=ew(x5,a);return 11===b[1]?b:mn(a)}function
+hW(c){var
+d=ew(x6,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:mn(c)}function
+hX(b){var
+a=_(b[2]);if(m(b[1],yb)){var
+c=cs(P,r(a,yc)),d=cs(P,r(a,yd)),e=d[2],f=d[1],g=P(r(a,ye));return[1,c[1],c[2],g,f,e]}var
+h=R(P,U(r(a,yf)));return[0,R(P,U(r(a,yg))),h]}function
+yh(f){var
 a=_(f);function
 d(b){return P(r(a,b))}function
 c(b){return et(P,r(a,b))}var
-b=aC(r(a,xY));if(m(b,xZ)){if(!m(b,x0)){var
-j=r(a,x6),e=cr(function(a){return a},j),k=aG(a,x7),l=b3(function(a){return c(x8)},k),n=fR(aC(e[2])),o=fR(aC(e[1])),p=d(x9);return[0,cq(r(a,x_)),p,o,n,l]}if(m(b,x1))throw L}var
-g=d(x2),h=c(x3),i=c(x4);return[1,an(b,x5),i,h,g]}function
-hP(ac){var
-e=cT(ac),f=e[1];if(m(f,x$)){if(m(f,ya)){if(m(f,yb)){if(m(f,yc))return U([0,ye,[0,f,yd]]);var
-q=r(_(e[2]),yf),R=0;if(2===q[0]){var
-A=m(q[1],yg);if(!A){var
-z=A;R=1}}if(!R)var
-z=[0,bI(q)];return[6,z]}var
-B=_(e[2]),g=hP([0,[0,[0,yi,r(B,yh)],0]]);if(0===g[0]){var
-s=g[2];if(0===s[0]&&!g[3]){var
-ad=P(r(B,yk));return[5,g[1],s[1],s[2],g[4],ad]}}return U(yj)}var
-a=_(e[2]),C=function(c){var
-b=X(r(a,yl));return S(function(a){return ew(0,a)},b)},h=cT(r(a,ym)),b=cT(r(a,yn)),c=h[1];if(m(c,yo)&&0!==aG(a,yp))return U(zf);if(m(c,yq)&&m(c,yr)&&m(c,ys)){if(0===aG(a,yt)){if(m(c,yu)){var
-T=0;if(m(c,yv)){if(!m(c,yw)){var
-D=b[1],V=0;if(m(D,yz)&&m(D,yA)){T=1;V=1}if(!V){var
-t=X(h[2]),u=aG(a,yD),E=u?S(xX,X(u[1])):u,F=C(0);if(!ax(wJ,t)&&!ax(function(a){return 13===a[1]?1:0},F)){var
-ag=S(wt,t),d=_(b[2]);if(m(b[1],xL))var
-x=cr(P,r(d,xM)),y=cr(P,r(d,xN)),Z=y[2],$=y[1],aa=P(r(d,xO)),G=[1,x[1],x[2],aa,$,Z];else
+b=aC(r(a,yi));if(m(b,yj)){if(!m(b,yk)){var
+j=r(a,yq),e=cs(function(a){return a},j),k=aG(a,yr),l=b3(function(a){return c(ys)},k),n=fW(aC(e[2])),o=fW(aC(e[1])),p=d(yt);return[0,cr(r(a,yu)),p,o,n,l]}if(m(b,yl))throw L}var
+g=d(ym),h=c(yn),i=c(yo);return[1,an(b,yp),i,h,g]}function
+hY(aq){var
+g=cU(aq),h=g[1];if(m(h,yv)){if(m(h,yw)){if(m(h,yx)){if(m(h,yy))return V([0,yA,[0,h,yz]]);var
+v=r(_(g[2]),yB),af=0;if(2===v[0]){var
+J=m(v[1],yC);if(!J){var
+I=J;af=1}}if(!af)var
+I=[0,bK(v)];return[6,I]}var
+K=_(g[2]),i=hY([0,[0,[0,yE,r(K,yD)],0]]);if(0===i[0]){var
+w=i[2];if(0===w[0]&&!i[3]){var
+ar=P(r(K,yG));return[5,i[1],w[1],w[2],i[4],ar]}}return V(yF)}var
+a=_(g[2]),j=cU(r(a,yH)),b=cU(r(a,yI)),c=j[1];if(m(c,yJ)&&0!==aG(a,yK))return V(zC);if(m(c,yL)&&m(c,yM)&&m(c,yN)){if(0===aG(a,yO)){if(m(c,yP)){var
+ag=0;if(m(c,yQ)){if(!m(c,yR)){var
+M=b[1],ah=0;if(m(M,yU)&&m(M,yV)){ag=1;ah=1}if(!ah){var
+x=U(j[2]),y=aG(a,yY),N=y?R(yh,U(y[1])):y,as=U(r(a,yZ)),O=R(function(a){return ew(0,a)},as);if(!aB(w5,x)&&!aB(function(a){return 13===a[1]?1:0},O)){var
+av=R(wP,x),f=_(b[2]);if(m(b[1],x7))var
+G=cs(P,r(f,x8)),H=cs(P,r(f,x9)),al=H[2],am=H[1],ao=P(r(f,x_)),Q=[1,G[1],G[2],ao,am,al];else
 var
-ab=et(P,r(d,xP)),G=[0,et(P,r(d,xQ)),ab];return[0,ag,G,E,F]}if(0!==E)U(yE);var
-ae=S(ma,X(r(a,yF))),af=hO(b);return[1,0,S(l8,t),0,af,0,ae]}}}else
-if(!m(b[1],yG)){var
-v=C(0),ah=ax(function(a){return 0!==a[1]?1:0},v),ai=ah||(2!==bO(v)?1:0);if(ai)U(yH);var
-aj=P(r(_(b[2]),yI));return[4,P(r(_(h[2]),yJ)),aj,v]}if(!T)return U([0,yy,[0,c,yx]])}else
-if(!m(b[1],yK)){var
-j=_(h[2]),H=_(b[2]),I=function(c,a){var
-b=X(a);return S(function(d){var
-a=X(d);if(a){var
+ap=et(P,r(f,x$)),Q=[0,et(P,r(f,ya)),ap];return[0,av,Q,N,O]}if(0!==N)V(y0);var
+at=R(hW,U(r(a,y1))),au=hX(b);return[1,0,R(ml,x),0,au,0,at]}}}else
+if(!m(b[1],y2)){var
+S=R(hW,U(r(a,y3))),u=0,e=S;for(;;){if(e){var
+E=e[2],F=e[1];if(0===F[1]){var
+u=[0,F,u],e=E;continue}var
+e=E;continue}var
+n=iM(u),ai=0;if(n){var
+d=0,T=n[1][4];if(typeof
+T==="number")d=1;else
+switch(T[0]){case
+0:var
+z=n[2];if(z){var
+C=0,W=z[1][4];if(typeof
+W!=="number"&&1===W[0])if(z[2]){d=1;C=1}else
+C=1;if(!C)d=1}else
+d=1;break;case
+1:var
+A=n[2];if(A){var
+D=0,X=A[1][4];if(typeof
+X!=="number"&&0===X[0])if(A[2]){d=1;D=1}else
+D=1;if(!D)d=1}else
+d=1;break;default:d=1}if(!d)ai=1}if(!ai)V(y4);var
+aw=P(r(_(b[2]),y5));return[4,P(r(_(j[2]),y6)),aw,S]}}if(!ag)return V([0,yT,[0,c,yS]])}else
+if(!m(b[1],y7)){var
+o=_(j[2]),Y=_(b[2]),Z=function(c,a){var
+b=U(a);return R(function(d){var
+a=U(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aC(a[1]),e]}}throw L},b)},ak=function(d){var
+e=k(c,b[1]);return[0,aC(a[1]),e]}}throw L},b)},ax=function(d){var
 a=_(d);if(a){var
-b=a[1],c=b[1];if(m(c,yL)){if(!m(c,yM)&&!a[2])return[0,S(hM,X(b[2]))]}else
-if(!a[2])return[1,hM(b[2])]}throw L},al=S(l$,X(r(a,yN))),am=S(P,X(r(H,yO))),ao=S(P,X(r(H,yP))),ap=S(ak,X(r(j,yQ))),aq=I(hM,r(j,yR)),ar=I(bI,r(j,yS));return[3,S(aC,X(r(j,yT))),ar,aq,ap,ao,am,al]}return U([0,yC,[0,b[1],yB]])}throw L}var
-J=_(h[2]),l=b3(P,aG(J,yU)),as=function(f){var
-a=cT(f),b=a[1];if(m(b,yV)){if(m(b,yW)){if(m(b,yX)){if(m(b,yY))throw L;var
-d=a[2],g=P(r(_(d),yZ));return[3,P(r(_(d),y0)),g]}var
-h=a[2],c=function(a){return cr(P,r(_(h),a))},i=c(y1),j=c(y2);return[1,c(y3),j,i]}var
-e=cr(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},n=b3(as,aG(a,y4)),K=m(c,y5),w=K?m(c,y6)?2:1:K,o=X(r(J,y7));if(l&&n){var
-M=n[1];if(gm(l9,o)){var
-at=function(c){var
+b=a[1],c=b[1];if(m(c,y8)){if(!m(c,y9)&&!a[2])return[0,R(hU,U(b[2]))]}else
+if(!a[2])return[1,hU(b[2])]}throw L},ay=R(mo,U(r(a,y_))),az=R(P,U(r(Y,y$))),aA=R(P,U(r(Y,za))),aD=R(ax,U(r(o,zb))),aE=Z(hU,r(o,zc)),aF=Z(bK,r(o,zd));return[3,R(aC,U(r(o,ze))),aF,aE,aD,aA,az,ay]}return V([0,yX,[0,b[1],yW]])}throw L}var
+$=_(j[2]),p=b3(P,aG($,zf)),aH=function(f){var
+a=cU(f),b=a[1];if(m(b,zg)){if(m(b,zh)){if(m(b,zi)){if(m(b,zj))throw L;var
+d=a[2],g=P(r(_(d),zk));return[3,P(r(_(d),zl)),g]}var
+h=a[2],c=function(a){return cs(P,r(_(h),a))},i=c(zm),j=c(zn);return[1,c(zo),j,i]}var
+e=cs(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},q=b3(aH,aG(a,zp)),aa=m(c,zq),B=aa?m(c,zr)?2:1:aa,s=U(r($,zs));if(p&&q){var
+ab=q[1];if(gq(mm,s)){var
+aI=function(c){var
 a=_(c);function
-b(b){return S(bI,X(r(a,b)))}if(0!==aG(a,y8))U(y9);var
-d=b(y_);return[0,b(y$),d]},N=S(l$,X(r(a,za))),W=0;if(1!==w||2!==M[0])W=1;if(W&&ax(function(a){return 11===a[1]?1:0},N))U(zb);var
-au=hO(b),av=l[1];return[2,w,S(at,o),av,au,M,N]}}var
-Y=0;if(!l&&an(c,ze)){var
-O=1;Y=1}if(!Y)var
-O=[0,w];var
-Q=0!==n?1:0,aw=Q?ax(l9,o):Q;if(aw)U(zc);var
-ay=S(ma,X(r(a,zd))),az=hO(b);return[1,O,S(l8,o),l,az,n,ay]}var
-p=_(e[2]);function
-aA(b){var
-a=_(b),c=P(r(a,zg)),d=[0,P(r(a,zh)),c];return[0,aC(r(a,zi)),d]}var
-i=hP([0,[0,[0,zk,r(p,zj)],0]]);if(0===i[0]&&!i[3]){var
-aB=P(r(p,zm)),aD=P(r(p,zn)),aE=i[4],aF=i[2],aH=i[1];return[7,S(aA,X(r(p,zo))),aH,aF,aE,aD,aB]}return U(zl)}function
-hQ(a){return S(ev,X(a))}function
-hR(c,b){var
-a=hQ(b);if(bO(a)!==c)throw L;return a}function
-mb(a,d){var
-b=_(d),e=X(r(b,zr)),f=a[2],c=S(function(a){return hR(f,a)},e),g=a[1];if(bO(c)!==g)throw L;return[0,c,fQ(r(b,zs))]}function
+b(b){return R(bK,U(r(a,b)))}if(0!==aG(a,zt))V(zu);var
+d=b(zv);return[0,b(zw),d]},ac=R(mo,U(r(a,zx))),aj=0;if(1!==B||2!==ab[0])aj=1;if(aj&&aB(function(a){return 11===a[1]?1:0},ac))V(zy);var
+aJ=hX(b),aK=p[1];return[2,B,R(aI,s),aK,aJ,ab,ac]}}var
+ak=0;if(!p&&an(c,zB)){var
+ad=1;ak=1}if(!ak)var
+ad=[0,B];var
+ae=0!==q?1:0,aL=ae?aB(mm,s):ae;if(aL)V(zz);var
+aM=R(hW,U(r(a,zA))),aN=hX(b);return[1,ad,R(ml,s),p,aN,q,aM]}var
+t=_(g[2]);function
+aO(b){var
+a=_(b),c=P(r(a,zD)),d=[0,P(r(a,zE)),c];return[0,aC(r(a,zF)),d]}var
+l=hY([0,[0,[0,zH,r(t,zG)],0]]);if(0===l[0]&&!l[3]){var
+aP=P(r(t,zJ)),aQ=P(r(t,zK)),aR=l[4],aS=l[2],aT=l[1];return[7,R(aO,U(r(t,zL))),aT,aS,aR,aQ,aP]}return V(zI)}function
+hZ(a){return R(ev,U(a))}function
+h0(c,b){var
+a=hZ(b);if(b9(a)!==c)throw L;return a}function
+mp(a,d){var
+b=_(d),e=U(r(b,zO)),f=a[2],c=R(function(a){return h0(f,a)},e),g=a[1];if(b9(c)!==g)throw L;return[0,c,fV(r(b,zP))]}function
 ex(g,o){var
 N=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=or(a,zt),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,zu)&&m(a,zv)&&m(a,zw))if(m(a,zx))f=1;else{var
+e=d[1],a=e[1],O=oF(a,zQ),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,zR)&&m(a,zS)&&m(a,zT))if(m(a,zU))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ad=S(hQ,X(s[1])),ae=aC(q[1]);return[8,ex(g,p[1]),ae,ad]}b=1;f=1}else
+ad=R(hZ,U(s[1])),ae=aC(q[1]);return[8,ex(g,p[1]),ae,ad]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
 af=e[2],u=af,t=function(c,b){return[1,a,c,b]};b=2}}else{var
-R=e[2];if(1===R[0]){var
-v=R[1];if(v){var
+S=e[2];if(1===S[0]){var
+v=S[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ag=fQ(x[1]),ah=ev(w[1]);return[5,ex(g,v[1]),ah,ag]}b=1}}}}}else
-if(m(a,zA))if(m(a,zB))if(m(a,zC))if(m(a,zD)){if(!m(a,zE)){if(!d[2]){var
-T=_(e[2]),ai=X(r(T,zF)),aj=N+1|0,V=S(function(a){return hR(aj,a)},ai);if(3===bO(V))return[1,zH,V,fQ(r(T,zG))];throw L}b=1}}else{if(!d[2]){var
-J=aC(e[2]),K=m(J,zp);if(K){if(m(J,zq))throw L;var
+ag=fV(x[1]),ah=ev(w[1]);return[5,ex(g,v[1]),ah,ag]}b=1}}}}}else
+if(m(a,zX))if(m(a,zY))if(m(a,zZ))if(m(a,z0)){if(!m(a,z1)){if(!d[2]){var
+T=_(e[2]),ai=U(r(T,z2)),aj=N+1|0,W=R(function(a){return h0(aj,a)},ai);if(3===b9(W))return[1,z4,W,fV(r(T,z3))];throw L}b=1}}else{if(!d[2]){var
+J=aC(e[2]),K=m(J,zM);if(K){if(m(J,zN))throw L;var
 M=1}else
 var
 M=K;return[2,M]}b=1}else{if(!d[2]){var
 i=e[2],n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],k=Z[1],c=0;if(m(k,zJ)&&m(k,zK)&&m(k,zL))if(m(k,zM))c=1;else{var
+Z=j[1],k=Z[1],c=0;if(m(k,z6)&&m(k,z7)&&m(k,z8))if(m(k,z9))c=1;else{var
 $=Z[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ac=0;if(m(G,zO)&&m(G,zP)&&m(G,zQ)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ac=0;if(m(G,z$)&&m(G,Aa)&&m(G,Ab)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,zR)&&m(aa,zS)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,Ac)&&m(aa,Ad)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ao=fQ(I[1]),ap=ev(H[1]),y=[6,ex(g,l),ap,ao];n=2;c=1}else
+ao=fV(I[1]),ap=ev(H[1]),y=[6,ex(g,l),ap,ao];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ab=i[1];if(!m(ab,zT)||!m(ab,zU))n=1;break}switch(n){case
+ab=i[1];if(!m(ab,Ae)||!m(ab,Af))n=1;break}switch(n){case
 0:var
-y=U(zN);break;case
+y=V(z_);break;case
 1:var
 y=ex(g,i);break}return[7,y]}b=1}else{var
-W=e[2];if(1===W[0]){var
-z=W[1];if(z){var
+X=e[2];if(1===X[0]){var
+z=X[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-ak=A[1],al=z[1],u=al,t=function(b,a){return[3,b,a,hR(N+1|0,ak)]};b=2}}}}else{var
+ak=A[1],al=z[1],u=al,t=function(b,a){return[3,b,a,h0(N+1|0,ak)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
 B=Y[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-am=C[1];if(m(dC(D[1]),zI))throw L;var
+am=C[1];if(m(dC(D[1]),z5))throw L;var
 an=B[1],u=an,t=function(b,a){return[4,b,a,ev(am)]};b=2}}}}}switch(b){case
-0:if(!d[2])return U([0,zz,[0,a,zy]]);break;case
+0:if(!d[2])return V([0,zW,[0,a,zV]]);break;case
 1:break;default:var
-Q=mb(g,u);return t(Q[1],Q[2])}}break;case
+Q=mp(g,u);return t(Q[1],Q[2])}}break;case
 2:return[0,o[1]]}throw L}function
-mc(k){var
-b=cT(k),a=b[1];if(m(a,zX))if(m(a,zY)){var
-g=m(a,zZ);if(!g)return g;if(!m(a,z0)){var
+mq(k){var
+b=cU(k),a=b[1];if(m(a,Ai))if(m(a,Aj)){var
+g=m(a,Ak);if(!g)return g;if(!m(a,Al)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cq(d[1]);return[1,cq(c[1]),l]}}}}}else{var
+l=cr(d[1]);return[1,cr(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=S(hQ,X(f[1]));return[0,cq(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return U([0,z2,[0,a,z1]])}function
-md(f,b){var
-a=_(b),c=X(r(a,z7)),d=S(function(g){var
+n=R(hZ,U(f[1]));return[0,cr(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,An,[0,a,Am]])}function
+mr(f,b){var
+a=_(b),c=U(r(a,As)),d=R(function(g){var
 a=_(g);function
 b(d,c){var
-b=aG(a,c);return b?S(d,X(b[1])):b}var
-c=b(ev,z3),d=b3(mc,aG(a,z4)),e=b3(cq,aG(a,z5));return[0,b(function(h){var
-b=X(h);if(b){var
+b=aG(a,c);return b?R(d,U(b[1])):b}var
+c=b(ev,Ao),d=b3(mq,aG(a,Ap)),e=b3(cr,aG(a,Aq));return[0,b(function(h){var
+b=U(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],zV)){if(!a[2]){if(m(dC(e),zW))throw L;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Ag)){if(!a[2]){if(m(dC(e),Ah))throw L;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ex(f,c);return[0,cq(e),g]}}}throw L},z6),e,d,c]},c),e=aG(a,z8),g=b3(function(a){return mb(f,a)},e);return[0,l5(r(a,z9)),g,d]}function
-me(c){var
-a=_(c),b=aG(a,z_),d=b?S(P,X(b[1])):b,e=mc(r(a,z$)),f=S(P,X(r(a,Aa)));return[0,l5(r(a,Ab)),f,d,e]}function
-mf(c){var
+g=ex(f,c);return[0,cr(e),g]}}}throw L},Ar),e,d,c]},c),e=aG(a,At),g=b3(function(a){return mp(f,a)},e);return[0,mi(r(a,Au)),g,d]}function
+ms(c){var
+a=_(c),b=aG(a,Av),d=b?R(P,U(b[1])):b,e=mq(r(a,Aw)),f=R(P,U(r(a,Ax)));return[0,mi(r(a,Ay)),f,d,e]}function
+mt(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Al(b){var
+AI(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Am(c){var
+AJ(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],An))a=1;break;case
+0:if(!m(b[1],AK))a=1;break;case
 7:a=1;break}return a?1:0}function
-Ao(g){var
+AL(g){var
 i=am(g),c=[0,0];function
 j(a){if(c[1]<i)return aI(g,c[1]);throw L}function
 l(a){if(j(0)===a){c[1]++;return 0}throw L}function
-C(a,b){for(;;){if(c[1]<i&&k(b,aI(g,c[1]))){c[1]++;continue}return c4(g,a,c[1]-a|0)}}function
+C(a,b){for(;;){if(c[1]<i&&k(b,aI(g,c[1]))){c[1]++;continue}return c5(g,a,c[1]-a|0)}}function
 D(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6402,12 +6483,10 @@ c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
 b=C(c[1],a);l(34);return b}function
-E(h,d){if(j(0)===d){c[1]++;return 0}var
-e=0;for(;;){var
-f=[0,k(h,0),e];if(44===j(0)){c[1]++;var
-e=f;continue}l(d);var
-a=f,b=0;for(;;){if(a){var
-g=[0,a[1],b],a=a[2],b=g;continue}return b}}}function
+E(e,a){if(j(0)===a){c[1]++;return 0}var
+b=0;for(;;){var
+d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
+b=d;continue}l(a);return iM(d)}}function
 t(b,i){if(64<b)throw L;var
 a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,E(function(a){return t(f,a)},e)]}if(123===a){c[1]++;var
@@ -6415,9 +6494,9 @@ g=125;return[0,E(function(c){var
 a=D(0);l(58);return[0,a,t(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,C(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
-Q=t(0,0),F=c[1]<i?1:0,R=F?10===aI(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw L;var
-q=_(Q);if(m(aC(r(q,Ap)),Aq))throw L;var
-a=hP(r(q,Ar)),y=0;switch(a[0]){case
+Q=t(0,0),F=c[1]<i?1:0,S=F?10===aI(g,c[1])?1:0:F;if(S)c[1]++;if(c[1]<i)throw L;var
+q=_(Q);if(m(aC(r(q,AM)),AN))throw L;var
+a=hY(r(q,AO)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -6427,34 +6506,34 @@ if(1===w[1])var
 x=6;else
 z=1;if(z)var
 x=3;var
-f=[0,bO(a[2]),x];break;case
+f=[0,b9(a[2]),x];break;case
 2:var
-af=1===a[1]?6:3,f=[0,bO(a[2]),af];break;case
+af=1===a[1]?6:3,f=[0,b9(a[2]),af];break;case
 3:var
-ag=bO(a[1]),f=[0,bO(a[4]),ag];break;case
+ag=b9(a[1]),f=[0,b9(a[4]),ag];break;case
 7:var
 G=a[2];y=1;break;case
 0:case
 5:var
 G=a[1];y=1;break;default:var
-f=AI}if(y)var
-f=[0,bO(G),3];var
-n=cT(r(q,As)),o=n[1];if(m(o,Ag))if(m(o,Ah))if(m(o,Ai))var
-b=U([0,Ak,[0,o,Aj]]);else
+f=A5}if(y)var
+f=[0,b9(G),3];var
+n=cU(r(q,AP)),o=n[1];if(m(o,AD))if(m(o,AE))if(m(o,AF))var
+b=V([0,AH,[0,o,AG]]);else
 var
-p=me(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
+p=ms(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
 var
-u=md(f,n[2]),b=[0,u[1],u[2],u[3]];else
+u=mr(f,n[2]),b=[0,u[1],u[2],u[3]];else
 var
-T=X(n[2]),b=[2,S(function(g){var
-a=cT(g),b=a[1];if(m(b,Ac)){if(m(b,Ad)){if(m(b,Ae)){var
-e=m(b,Af);if(e)throw L;return e}return[0,cq(a[2])]}var
-c=me(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=md(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
-V(a){var
-b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
-W(a){return 0!==a[3]?1:0}function
-H(a){return ax(W,a)}var
+T=U(n[2]),b=[2,R(function(g){var
+a=cU(g),b=a[1];if(m(b,Az)){if(m(b,AA)){if(m(b,AB)){var
+e=m(b,AC);if(e)throw L;return e}return[0,cr(a[2])]}var
+c=ms(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=mr(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+W(a){var
+b=a[1];return aB(function(a){return 8===a[2][0]?1:0},b)}function
+X(a){return 0!==a[3]?1:0}function
+H(a){return aB(X,a)}var
 d=0;switch(a[0]){case
 0:var
 I=a[4];switch(b[0]){case
@@ -6464,36 +6543,36 @@ K=I,J=a[1];d=4;break;case
 N=I;d=5;break}break;case
 1:switch(b[0]){case
 0:var
-ab=b[3];if(ax(function(a){var
-b=a[1];return ax(function(a){switch(a[2][0]){case
+ab=b[3];if(aB(function(a){var
+b=a[1];return aB(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ab)){U(AC);d=1}else
+7:return 1;default:return 0}},b)},ab)){V(AZ);d=1}else
 d=2;break;case
 1:var
-ac=a[6];if(ax(function(a){return 8===a[1]?1:0},ac)){U(AD);d=1}break}break;case
+ac=a[6];if(aB(function(a){return 8===a[1]?1:0},ac)){V(A0);d=1}break}break;case
 2:if(1===b[0]){var
-ae=a[6];if(ax(function(a){switch(a[1]){case
+ae=a[6];if(aB(function(a){switch(a[1]){case
 2:case
 6:case
 8:case
-11:return 1;default:return 0}},ae)){U(AG);d=1}else
+11:return 1;default:return 0}},ae)){V(A3);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===b[0]){U(AH);d=1}else
+3:if(1===b[0]){V(A4);d=1}else
 d=3;break;case
 5:var
 N=a[4];d=5;break;case
 7:var
 K=a[4],J=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===b[0])if(ax(V,b[3])){U(AE);e=3}else
+3:if(0===b[0])if(aB(W,b[3])){V(A1);e=3}else
 if(3===a[0])e=1;else{var
-ad=b[3];if(gm(function(a){return gm(Am,a[1])},ad))e=1;else{U(AF);e=3}}else
+ad=b[3];if(gq(function(a){return gq(AJ,a[1])},ad))e=1;else{V(A2);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-O=0;if(ax(function(a){return 10===a[1]?1:0},K)&&ax(function(a){return 2===a[0]?1:0},J)){U(At);O=1}if(!O)e=4;break;case
-5:if(ax(mf,N))U(AB);else
+O=0;if(aB(function(a){return 10===a[1]?1:0},K)&&aB(function(a){return 2===a[0]?1:0},J)){V(AQ);O=1}if(!O)e=4;break;case
+5:if(aB(mt,N))V(AY);else
 e=4;break;case
 2:e=1;break;default:e=2}var
 h=0;switch(e){case
@@ -6502,11 +6581,11 @@ h=0;switch(e){case
 A=0;switch(a[0]){case
 5:var
 P=0;if(0===b[0]){var
-aa=b[3];if(ax(function(a){return 0!==a[1]?1:0},aa)){U(AA);A=1;P=1}}if(!P)var
+aa=b[3];if(aB(function(a){return 0!==a[1]?1:0},aa)){V(AX);A=1;P=1}}if(!P)var
 v=a[4];break;case
 7:var
 v=a[4];break;default:if(1===b[0])var
-v=a[4];else{h=2;A=1}}if(!A)if(ax(Al,v))U(Az);else
+v=a[4];else{h=2;A=1}}if(!A)if(aB(AI,v))V(AW);else
 h=2;break;case
 1:h=2;break;case
 2:h=1;break}var
@@ -6521,24 +6600,24 @@ Z=a[4];switch(b[0]){case
 $=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return H(a[3]);case
-2:return ax(mf,Z)}return 0};if(ax($,b[1]))U(Ay);s=1}break}if(!s)if(0===b[0]&&H(b[3]))U(Ax);else
+2:return aB(mt,Z)}return 0};if(aB($,b[1]))V(AV);s=1}break}if(!s)if(0===b[0]&&H(b[3]))V(AU);else
 B=1;break;case
 1:B=1;break}var
-M=_(r(q,Au)),Y=aC(r(M,Av));return[0,a,b,aC(r(M,Aw)),Y]}function
-AJ(b){var
-c=am(b),g=64,h=Ck(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+M=_(r(q,AR)),Y=aC(r(M,AS));return[0,a,b,aC(r(M,AT)),Y]}function
+A6(b){var
+c=am(b),g=64,h=CH(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=an(c4(b,a,18),AK);if(!e){var
+e=an(c5(b,a,18),A7);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}CF(function(b){try{if(AJ(b))var
-a=AM;else{try{var
-e=0,d=Ao(b);e=1}catch(a){a=ot(a);if(a[1]===l4)var
+f=d;return f}}C2(function(b){try{if(A6(b))var
+a=A9;else{try{var
+e=0,d=AL(b);e=1}catch(a){a=oH(a);if(a[1]===mh)var
 c=[0,a[2]];else{if(a!==L)throw a;var
 c=2}}if(e)var
-c=we(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return AL}if(typeof
+c=wA(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return A8}if(typeof
 a==="number")switch(a){case
-0:return AN;case
-1:return AO;default:return AP}return aP(AQ,a[1])});iC(0);return}(globalThis));
+0:return A_;case
+1:return A$;default:return Ba}return aP(Bb,a[1])});iL(0);return}(globalThis));

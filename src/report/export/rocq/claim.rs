@@ -193,9 +193,15 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
             (Kind::Formulas, by_formulas(formulas, [min, max], require)?, &[][..])
         }
         (Mechanism::Orthoglide { offset }, Workspace::Cube { side }) => {
-            let written = requirements(require, Asked::Anything)?;
-            if require.len() != 2 || require.iter().any(|r| r.quantity != "transmission") {
-                return not_covered("what else is asked of the closed design");
+            let written = requirements(require, Asked::OfLegs)?;
+            let bounds = require.iter().filter(|r| r.quantity == "transmission").map(|r| &r.bound);
+            match bounds.collect::<Vec<_>>().as_slice() {
+                [Bound::Min(_), Bound::Max(_)] | [Bound::Max(_), Bound::Min(_)] => {}
+                _ => {
+                    return not_covered(
+                        "the closed design with other bounds on psi than one from below and one from above",
+                    )
+                }
             }
             let [offset, side] = [("the_offset", offset), ("the_side", side)]
                 .map(|(name, x)| (name, "expression", expression(x)));
