@@ -246,6 +246,7 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
     fn elbow(&self, [a, b, t]: [&Self::Number; 3]) -> Option<[Self::Number; 2]> {
         let e = self.arithmetic;
         let [mut c, mut s] = elbow(self, [a, b, t])?;
+        // At a point there are no slopes to narrow it by.
         if self.m == 0 {
             return Some([c, s]);
         }
