@@ -26,6 +26,7 @@ impl<N: Clone + Default> Triangle<N> {
     }
 
     /// `c I`.
+    #[inline]
     pub(crate) fn scalar<E: Enclosure<Number = N>>(e: &E, n: usize, c: &N) -> Option<Self> {
         let zero = e.integer(0)?;
         let entries = Few::filled(n * (n + 1) / 2, || zero.clone());
@@ -64,14 +65,15 @@ impl<N: Clone + Default> Triangle<N> {
     /// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
     /// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
     /// is undefined, the answer is no.
-    fn eliminated<E: Enclosure<Number = N>>(mut self, e: &E) -> Option<Self> {
+    #[inline]
+    fn eliminate<E: Enclosure<Number = N>>(&mut self, e: &E) -> Option<()> {
         let mut rest = &mut self.entries[..];
         for length in (1..=self.n).rev() {
             let (row, below) = rest.split_at_mut(length);
             eliminate(e, row, below)?;
             rest = below;
         }
-        Some(self)
+        Some(())
     }
 }
 
@@ -114,9 +116,9 @@ pub fn is_positive_definite<E: Enclosure>(e: &E, matrix: &Triangle<E::Number>) -
             let [lo, hi] = e.ends(x);
             Some(if negative(i) == negative(j) { lo } else { hi })
         })?;
-        vertex.eliminated(e)
+        vertex.eliminate(e)
     };
-    matrix.clone().eliminated(e).is_some() || (0..1u32 << signs).all(|z| vertex(z).is_some())
+    matrix.clone().eliminate(e).is_some() || (0..1u32 << signs).all(|z| vertex(z).is_some())
 }
 
 /// Whether every `[[T, b], [b^T, c]]` is certainly positive definite, for each `b`: by one elimination of
@@ -127,7 +129,8 @@ pub(crate) fn are_positive_definite<E: Enclosure>(
     mut columns: impl Iterator<Item = Vector<E::Number>>,
     corner: &E::Number,
 ) -> bool {
-    let (n, steps) = (t.n, t.clone().eliminated(e));
+    let (n, mut steps) = (t.n, t.clone());
+    let steps = steps.eliminate(e).map(|()| steps);
     let last = |mut b: Vector<E::Number>| {
         let (steps, mut corner) = (steps.as_ref()?, corner.clone());
         for at in 0..n {

@@ -127,16 +127,14 @@ impl Integer for i64 {
     }
 
     fn ratio(&self, other: &Self, divisor: &Self) -> Option<Self> {
-        if *divisor <= 0 {
-            return None;
-        }
-        if let Some(floor) = by_digits(*self, *other, *divisor) {
-            return Some(floor);
-        }
-        let (product, divisor) = (i128::from(*self) * i128::from(*other), i128::from(*divisor));
-        // Rounded toward zero, which is the floor unless the product is negative and something is left.
-        let quotient = product / divisor;
-        (quotient - i128::from(quotient * divisor > product)).try_into().ok()
+        let divisor = u64::try_from(*divisor).ok().filter(|&divisor| divisor > 0)?;
+        let product = i128::from(*self) * i128::from(*other);
+        // floor(-s/d) = -1 - floor((s - 1)/d): of a negative product all bits are turned, and those of the quotient.
+        let sign = product >> 127;
+        let size = (product ^ sign) as u128;
+        let quotient =
+            by_digits(size, divisor).map_or_else(|| size / u128::from(divisor), u128::from);
+        Some(i64::try_from(quotient).ok()? ^ sign as i64)
     }
 
     fn root(&self, bits: u32) -> Option<(Self, bool)> {
@@ -147,15 +145,13 @@ impl Integer for i64 {
     }
 }
 
-/// `floor(a b / divisor)`, for `divisor > 0`, by two digits of 32 bits; only where no instruction divides 128 bits, as
-/// in WebAssembly. However the digits are found, `q` is the floor if `0 <= a b - q divisor < divisor`.
-fn by_digits(a: i64, b: i64, divisor: i64) -> Option<i64> {
-    let (product, shift) = (i128::from(a) * i128::from(b), divisor.leading_zeros());
-    let size = product.unsigned_abs();
-    if !cfg!(any(test, target_family = "wasm")) || (size >> 64) as u64 >= divisor as u64 {
+/// `floor(size / divisor)` by two digits of 32 bits; only where no instruction divides 128 bits, as in WebAssembly.
+/// However the digits are found, `q` is the floor if `0 <= size - q divisor < divisor`.
+fn by_digits(size: u128, divisor: u64) -> Option<u64> {
+    if !cfg!(any(test, target_family = "wasm")) || (size >> 64) as u64 >= divisor {
         return None;
     }
-    let (size, by) = (size << shift, (divisor as u64) << shift);
+    let (shifted, by) = (size << divisor.leading_zeros(), divisor << divisor.leading_zeros());
     let (high, low) = (by >> 32, by & 0xffff_ffff);
     // A digit of the quotient from the upper half of the divisor is at most two too great.
     let digit = |rest: u64, next: u64| {
@@ -165,12 +161,11 @@ fn by_digits(a: i64, b: i64, divisor: i64) -> Option<i64> {
         }
         (digit, (rest << 32 | next).wrapping_sub(digit.wrapping_mul(by)))
     };
-    let (upper, rest) = digit((size >> 64) as u64, (size >> 32) as u64 & 0xffff_ffff);
-    let (lower, rest) = digit(rest, size as u64 & 0xffff_ffff);
-    let quotient = i128::from(upper << 32 | lower);
-    let floor = if product < 0 { -quotient - i128::from(rest != 0) } else { quotient };
-    let divisor = i128::from(divisor);
-    (0..divisor).contains(&(product - floor * divisor)).then(|| floor.try_into().ok())?
+    let (upper, rest) = digit((shifted >> 64) as u64, (shifted >> 32) as u64 & 0xffff_ffff);
+    let (lower, _) = digit(rest, shifted as u64 & 0xffff_ffff);
+    let quotient = upper << 32 | lower;
+    let rest = size.checked_sub(u128::from(quotient) * u128::from(divisor))?;
+    (rest < u128::from(divisor)).then_some(quotient)
 }
 
 /// `[lo, hi] / 2^bits`, with `lo <= hi`.
@@ -400,8 +395,9 @@ mod tests {
             let [big, other, by] = [a, b, divisor].map(BigInt::from);
             let floor = (big * other).div_floor(&by).to_i64();
             assert_eq!(a.ratio(&b, &divisor), floor, "{a} {b} {divisor}");
-            if let Some(own) = by_digits(a, b, divisor) {
-                assert_eq!(Some(own), floor, "{a} {b} {divisor}");
+            let (size, by) = ((i128::from(a) * i128::from(b)).unsigned_abs(), divisor as u64);
+            if let Some(own) = by_digits(size, by) {
+                assert_eq!(u128::from(own), size / u128::from(by), "{a} {b} {divisor}");
                 found += 1;
             }
         }

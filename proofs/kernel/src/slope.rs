@@ -93,17 +93,21 @@ impl<E: Enclosure> Slopes<'_, E> {
     }
 
     /// Encloses `f_v`.
+    #[inline(always)]
     pub fn at(&self, f: &Slope<E::Number>, v: Vertex) -> Option<E::Number> {
         let e = self.arithmetic;
-        let mut terms = f.slopes.iter().take(self.m).enumerate();
-        terms.try_fold(f.at_centre.clone(), |sum, (k, term)| match self.part {
-            None if v.has(k) => e.add(&sum, term),
-            None => e.sub(&sum, term),
-            Some(corners) => {
-                let lambda = *corners.get(v.index())?.get(k)?;
-                e.add(&sum, &e.dyadic(lambda, CORNER_PLACES, term)?)
-            }
-        })
+        let mut sum = f.at_centre.clone();
+        for (k, term) in f.slopes.iter().take(self.m).enumerate() {
+            sum = match self.part {
+                None if v.has(k) => e.add(&sum, term)?,
+                None => e.sub(&sum, term)?,
+                Some(corners) => {
+                    let lambda = *corners.get(v.index())?.get(k)?;
+                    e.add(&sum, &e.dyadic(lambda, CORNER_PLACES, term)?)?
+                }
+            };
+        }
+        Some(sum)
     }
 
     /// Whether all values of a formula are such numbers; these are a convex set.

@@ -157,6 +157,7 @@ impl<'a, E: Enclosure> Over<'a, E> {
     }
 
     /// The same, where tolerances are apart of the one machine: what they change is yet to be taken off.
+    #[inline(always)]
     pub fn own_at(&self, formula: Formula, vertex: Vertex) -> Option<E::Number> {
         match self.controls {
             None => self.slopes.at(self.own(formula)?, vertex),
@@ -187,8 +188,10 @@ impl<'a, E: Enclosure> Over<'a, E> {
 
     /// A row at a vertex.
     fn row(&self, row: &Row<Formula>, vertex: Vertex) -> Option<Varied<E::Number>> {
-        let own = row.a.iter().map(|f| self.own_at(*f, vertex));
-        let mut own = own.collect::<Option<Vector<_>>>()?;
+        let mut own = Vector::filled(0, Default::default);
+        for f in &row.a {
+            own.push(self.own_at(*f, vertex)?);
+        }
         own.push(self.own_at(row.d, vertex)?);
         Some((own, self.changes(row.a.iter().chain([&row.d]), vertex)?))
     }
@@ -298,9 +301,11 @@ impl<E: Enclosure> Over<'_, E> {
             // 2 A_i - D_i Y_i.
             let residual = |row: &[E::Number], d: &E::Number| -> Option<Vector<E::Number>> {
                 let d = if with_d { d } else { &zero };
-                let entry =
-                    |(a, &y): (&E::Number, &i64)| e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?);
-                row.iter().zip(y).map(entry).collect()
+                let mut all = Vector::filled(0, Default::default);
+                for (a, &y) in row.iter().zip(y) {
+                    all.push(e.sub(&e.add(a, a)?, &e.dyadic(y, places, d)?)?);
+                }
+                Some(all)
             };
             // Of Y_i^T A_i + A_i^T Y_i - D_i Y_i^T Y_i half is Y_i^T z, and half z^T Y_i.
             let [_, greatest] = e.ends(row.last()?);
