@@ -36,7 +36,7 @@ fn claim() -> MachineClaim {
 
 fn cell(u: [f64; 3], level: u32) -> Cell {
     let parts = f64::from(level).exp2();
-    Cell { edges: u.map(|u| Edge { index: (u * parts) as u64, level }), ..Cell::ROOT }
+    Cell { edges: u.map(|u| Edge((u * parts) as u64 + (1 << level))), ..Cell::ROOT }
 }
 
 fn paving(c: &mut Criterion) {

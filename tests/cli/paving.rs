@@ -616,7 +616,7 @@ fn planes_that_cut_boxes_are_where_the_requirements_end() {
             let u = [0, 1, 2].map(|k| (at / 10i32.pow(k) % 10) as f64 / 4.5 - 1.0);
             let p = [0, 1, 2].map(|k| {
                 let edge = visited.cell.edges[k];
-                let part = (edge.index as f64 + 0.5 + 0.5 * u[k]) / (1u64 << edge.level) as f64;
+                let part = (edge.index() as f64 + 0.5 + 0.5 * u[k]) / (1u64 << edge.level()) as f64;
                 -0.7 + 1.4 * part
             });
             let along: f64 = n.iter().zip(u).map(|(n, u)| n * u).sum();

@@ -40,7 +40,7 @@ impl Place {
     pub fn of(cell: &Cell) -> Option<Self> {
         let mut edges = [(0, 0); 3];
         for (place, edge) in edges.iter_mut().zip(&cell.edges) {
-            *place = (edge.index, edge.level);
+            *place = (edge.index(), edge.level());
         }
         let place = Place { edges, left: Vec::new() };
         place.cell().is_some().then_some(place)
@@ -62,7 +62,7 @@ impl Place {
     pub fn cell(&self) -> Option<Cell> {
         let edge = |(index, level): (u64, u32)| {
             let within = level <= MAX_LEVEL && index < 1 << level;
-            within.then_some(Edge { index, level })
+            within.then(|| Edge(index + (1 << level)))
         };
         let [x, y, z] = self.edges;
         Some(Cell { edges: [edge(x)?, edge(y)?, edge(z)?], ..Cell::ROOT })

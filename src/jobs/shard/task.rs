@@ -102,7 +102,7 @@ impl Task {
     pub(super) fn has(&self, cell: &Cell) -> bool {
         match self {
             Task::Pave(task) => {
-                let deepest = cell.edges.iter().all(|edge| edge.level <= MAX_AXIS_LEVEL);
+                let deepest = cell.edges.iter().all(|edge| edge.level() <= MAX_AXIS_LEVEL);
                 deepest && cell.depth() <= task.depth
             }
             Task::Atlas(_) | Task::Verify(_) => true,

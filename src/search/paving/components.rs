@@ -255,20 +255,16 @@ impl Union<'_> {
 
 /// The lower and the upper half along an axis.
 fn halves(mut edges: Edges, axis: Axis) -> [Edges; 2] {
-    let edge = &mut edges[axis.index()];
-    *edge = Edge { index: 2 * edge.index, level: edge.level + 1 };
     let mut above = edges;
-    above[axis.index()].index += 1;
+    let Edge(own) = edges[axis.index()];
+    (edges[axis.index()], above[axis.index()]) = (Edge(2 * own), Edge(2 * own + 1));
     [edges, above]
 }
 
 /// Whether two dyadic intervals have inner points in common: one contains the other.
 fn overlaps(a: Edge, b: Edge) -> bool {
-    if a.level <= b.level {
-        b.index >> (b.level - a.level) == a.index
-    } else {
-        a.index >> (a.level - b.level) == b.index
-    }
+    let (longer, shorter) = if a.level() <= b.level() { (a, b) } else { (b, a) };
+    shorter.index() >> (shorter.level() - longer.level()) == longer.index()
 }
 
 /// The planes `u_x = u_y`, `u_y = u_z`, `u_x = u_z` that have inner points of the cell: it overlaps
@@ -311,7 +307,7 @@ mod tests {
                 let (lower, upper) = cell.halves(axis).unwrap();
                 waiting.extend([(upper, depth + 1), (lower, depth + 1)]);
                 Kind::Split(axis)
-            } else if inner(cell.edges.map(|e| e.index)) {
+            } else if inner(cell.edges.map(Edge::index)) {
                 Kind::Inner
             } else {
                 Kind::Boundary

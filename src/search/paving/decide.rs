@@ -80,6 +80,9 @@ pub(super) struct Margin {
     pub beyond: [f64; 3],
 }
 
+/// An obligation with its margin, if it has one.
+type Own = (usize, Option<Margin>);
+
 impl Margin {
     fn reach(&self) -> f64 {
         self.along.iter().map(|x| x.abs()).sum()
@@ -119,6 +122,11 @@ pub(super) trait View {
     fn range(&self, f: Formula) -> Option<Pair>;
     /// The slopes, times the cell's half-widths.
     fn slopes(&self, f: Formula) -> Option<[Pair; 3]>;
+    /// The middles of slopes, and by how much they vary over the cell.
+    fn moved(&self, f: Formula) -> [[f64; 3]; 2] {
+        let known = self.slopes(f).unwrap_or_default();
+        [known.map(|x| middle(&x)), known.map(|x| 0.5 * (x.1 - x.0))]
+    }
 }
 
 impl View for Over<'_> {
@@ -178,24 +186,19 @@ impl<'a> Local<'a> {
     /// `|M v|^2/|v|^2`.
     fn stretched(&self, over: &(impl View + ?Sized), v: [f64; 3]) -> Margin {
         let dot = |a: &[f64; 3]| a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
-        // The middles of slopes, and by how much they vary over the cell.
-        let slopes = |f: Formula| {
-            let known = over.slopes(f).unwrap_or_default();
-            (known.map(|x| middle(&x)), known.map(|x| 0.5 * (x.1 - x.0)))
-        };
         let mut sum = Margin::default();
         for (row, a, d) in &self.rows {
             let product = dot(a);
             sum.centre += product * product / d;
             let (mut moved, mut varied) = ([0.0; 3], [0.0; 3]);
             for (&f, v) in row.a.iter().zip(v) {
-                let (middles, vary) = slopes(f);
+                let [middles, vary] = over.moved(f);
                 for k in 0..3 {
                     moved[k] += middles[k] * v;
                     varied[k] += vary[k] * v.abs();
                 }
             }
-            let (of_d, d_varies) = slopes(row.d);
+            let [of_d, d_varies] = over.moved(row.d);
             for k in 0..over.m() {
                 let moved = moved[k] - 0.5 * product * of_d[k] / d;
                 sum.along[k] += 2.0 * product * moved / d;
@@ -287,13 +290,11 @@ impl<'a> Decider<'a> {
 
     /// The ends of a cell along each axis.
     fn ends(&self, cell: &Cell) -> [Pair; 3] {
-        let part = |edge: &orthocert_kernel::paving::Edge, end: u64| {
-            (edge.index + end) as f64 / (1u64 << edge.level) as f64
-        };
         let mut ends = [(0.0, 0.0); 3];
         for ((own, (lo, hi)), edge) in ends.iter_mut().zip(&self.prover.root).zip(&cell.edges) {
+            let (index, size) = (edge.index() as f64, 1.0 / (1u64 << edge.level()) as f64);
             let at = |u: f64| lo * (1.0 - u) + hi * u;
-            *own = (at(part(edge, 0)), at(part(edge, 1)));
+            *own = (at(index * size), at((index + 1.0) * size));
         }
         ends
     }
@@ -306,11 +307,11 @@ impl<'a> Decider<'a> {
     /// The obligation that is nearest to failing on a cell on which `inherited` is discharged; `None` where
     /// not all that are open have margins, and of cells that may not be cut.
     pub(super) fn nearest(&self, cell: &Cell, inherited: u128) -> Option<(usize, Margin)> {
-        let (open, ends) = (self.open(inherited), self.ends(cell));
+        let ends = self.ends(cell);
         let least = |over: &dyn View| {
-            let local = self.local(over)?;
-            let margins = open.iter().map(|&o| Some((o, self.margin(over, &local, self.test(o))?)));
-            let margins: Vec<(usize, Margin)> = margins.collect::<Option<_>>()?;
+            let margins = self.margins(over, &self.local(over)?, inherited);
+            let margins: Vec<(usize, Margin)> =
+                margins.into_iter().map(|(o, own)| Some((o, own?))).collect::<Option<_>>()?;
             margins.into_iter().min_by(|(_, a), (_, b)| a.room().total_cmp(&b.room()))
         };
         if !self.cuts || !self.subject.header.may_cut(cell) {
@@ -332,29 +333,35 @@ impl<'a> Decider<'a> {
         inherited: u128,
         over: &(impl View + ?Sized),
     ) -> Option<Decision> {
-        let open = self.open(inherited);
-        let local = self.local(over)?;
-        let margins = open.iter().map(|&o| self.margin(over, &local, self.test(o)).map(Some));
-        let margins: Vec<_> = margins.collect::<Option<_>>()?;
-        Some(self.with_margins(cell, inherited, (&open, &margins), None))
+        let margins = self.margins(over, &self.local(over)?, inherited);
+        let have = margins.iter().all(|(_, own)| own.is_some());
+        have.then(|| self.with_margins(cell, inherited, &margins, None))
+    }
+
+    /// The obligations that are open, each with its margin, if it has one.
+    fn margins(&self, over: &(impl View + ?Sized), local: &Local<'_>, inherited: u128) -> Vec<Own> {
+        let mut margins = Vec::with_capacity(self.subject.problem.obligations.len());
+        margins.extend(self.open(inherited).map(|o| (o, self.margin(over, local, self.test(o)))));
+        margins
     }
 
     fn decided(&self, cell: &Cell, inherited: u128, over: &Over<'_>) -> Decision {
-        let open = self.open(inherited);
         let undefined = over.undefined();
-        let local = match self.local(over) {
-            Some(local) if undefined.is_empty() => local,
-            _ => return self.hardly_reached(cell, over, &open, undefined),
-        };
-        let margins: Vec<Option<Margin>> =
-            open.iter().map(|&o| self.margin(over, &local, self.test(o))).collect();
-        self.with_margins(cell, inherited, (&open, &margins), Some(over))
+        match self.local(over) {
+            Some(local) if undefined.is_empty() => {
+                let margins = self.margins(over, &local, inherited);
+                self.with_margins(cell, inherited, &margins, Some(over))
+            }
+            _ => {
+                let open: Vec<usize> = self.open(inherited).collect();
+                self.hardly_reached(cell, over, &open, undefined)
+            }
+        }
     }
 
     /// The obligations that are not discharged.
-    fn open(&self, inherited: u128) -> Vec<usize> {
-        let open = |o: &usize| inherited & bit(*o) == 0;
-        (0..self.subject.problem.obligations.len()).filter(open).collect()
+    fn open(&self, inherited: u128) -> impl Iterator<Item = usize> {
+        (0..self.subject.problem.obligations.len()).filter(move |&o| inherited & bit(o) == 0)
     }
 
     /// `M` at the centre, if every leg certainly reaches the cell.
@@ -368,11 +375,11 @@ impl<'a> Decider<'a> {
         &self,
         cell: &Cell,
         inherited: u128,
-        (open, margins): (&[usize], &[Option<Margin>]),
+        margins: &[Own],
         over: Option<&Over<'_>>,
     ) -> Decision {
         let evidence = |o: usize| over.and_then(|over| over.evidence(self.test(o)));
-        for (&o, margin) in open.iter().zip(margins) {
+        for &(o, margin) in margins {
             let outer = match margin {
                 Some(margin) if margin.centre + margin.reach() < 0.0 => self.fails(cell, o),
                 Some(_) => None,
@@ -383,32 +390,31 @@ impl<'a> Decider<'a> {
             }
         }
         // What is closest to failing, or fails at the centre.
-        let worst = margins.iter().flatten().min_by(|a, b| a.room().total_cmp(&b.room())).copied();
+        let known = || margins.iter().filter_map(|(o, margin)| Some((*o, (*margin)?)));
+        let worst = known().map(|(_, own)| own).min_by(|a, b| a.room().total_cmp(&b.room()));
         if let Some(worst) = worst.filter(|worst| worst.centre < 0.0) {
             return self.split(cell, Vec::new(), self.weights(&worst, margins));
         }
-        let (mut steps, mut left) = (Vec::new(), Vec::new());
-        for (&o, margin) in open.iter().zip(margins) {
+        let (mut steps, mut left) = (Vec::new(), 0);
+        for &(o, margin) in margins {
             match margin {
                 Some(margin) if margin.room() > 1.0 => {}
-                Some(_) => left.push(o),
+                Some(_) => left |= bit(o),
                 None => match evidence(o) {
                     Some(evidence) => steps.push(Step(o, Some(evidence))),
-                    None => left.push(o),
+                    None => left |= bit(o),
                 },
             }
         }
         let confirms = |steps: &[Step], kind: Kind| {
             self.judge.confirms(cell, inherited, &Item { steps: steps.to_vec(), kind })
         };
-        if left.is_empty() && confirms(&steps, Kind::Inner) {
+        if left == 0 && confirms(&steps, Kind::Inner) {
             return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
         }
         let is_split = || Kind::Split(Axis::X);
         steps.retain(|step| confirms(std::slice::from_ref(step), is_split()));
-        let rooms =
-            open.iter().zip(margins).filter_map(|(&o, margin)| Some((o, (*margin)?.room())));
-        let own = rooms.filter(|(_, room)| *room > 1.0);
+        let own = known().map(|(o, own)| (o, own.room())).filter(|(_, room)| *room > 1.0);
         if self.has_tolerances {
             for (o, _) in own {
                 let given = evidence(o).map(|evidence| Step(o, Some(evidence)));
@@ -426,19 +432,22 @@ impl<'a> Decider<'a> {
             return Decision { steps, fate: Fate::Closed(Kind::Inner), parts: Vec::new() };
         }
         let along = match worst {
-            Some(worst) if !left.iter().any(|o| is_general(self.test(*o))) => {
+            Some(worst) if !self.open(!left).any(|o| is_general(self.test(o))) => {
                 self.weights(&worst, margins)
             }
-            _ => padded(over.map_or_else(Vec::new, |over| over.weights(&left))),
+            _ => {
+                let left: Vec<usize> = self.open(!left).collect();
+                padded(over.map_or_else(Vec::new, |over| over.weights(&left)))
+            }
         };
         self.split(cell, steps, along)
     }
 
     /// What is gained by halving each coordinate of a cell: in what is left between two planes where cells are
     /// cut, the first order has no part. Where more than one obligation ends in the cell, it is not cut.
-    fn weights(&self, worst: &Margin, margins: &[Option<Margin>]) -> [f64; 3] {
-        let ends = |margin: &&Margin| margin.room().abs() < 1.0;
-        let is_cut = self.cuts() && margins.iter().flatten().filter(ends).count() == 1;
+    fn weights(&self, worst: &Margin, margins: &[Own]) -> [f64; 3] {
+        let ends = |(_, own): &&Own| own.is_some_and(|margin| margin.room().abs() < 1.0);
+        let is_cut = self.cuts() && margins.iter().filter(ends).count() == 1;
         match is_cut && worst.beyond.iter().any(|x| *x > 0.0) {
             true => worst.beyond,
             false => worst.weights(),
@@ -447,7 +456,7 @@ impl<'a> Decider<'a> {
 
     fn split(&self, cell: &Cell, steps: Vec<Step>, along: [f64; 3]) -> Decision {
         let axes = Axis::ALL.into_iter().take(self.prover.root.len());
-        let axis = axes.filter(|axis| cell.edges[axis.index()].level < MAX_AXIS_LEVEL);
+        let axis = axes.filter(|axis| cell.edges[axis.index()].level() < MAX_AXIS_LEVEL);
         let axis = axis.max_by(|&a, &b| {
             let weight = |axis: Axis| along[axis.index()].abs();
             // The first of equals.
@@ -483,7 +492,7 @@ impl<'a> Decider<'a> {
 
     fn centre(&self, cell: &Cell) -> Place {
         let u = cell.edges.iter().take(self.prover.root.len());
-        let u = u.map(|edge| (edge.index as f64 + 0.5) * (-f64::from(edge.level)).exp2());
+        let u = u.map(|edge| (edge.index() as f64 + 0.5) * (-f64::from(edge.level())).exp2());
         Place { u: u.collect(), ..self.sampler.centre() }
     }
 
@@ -581,8 +590,7 @@ impl<'a> Decider<'a> {
             problem.tape.run(&Single, |k| point.get(k).copied(), |j| parameters.get(j).map(middle));
         let rows = problem.legs.iter().map(|leg| &leg.row);
         Local::of(rows, |f| values.of(f).copied()).map_or(f64::INFINITY, |local| {
-            let Spectrum { least, greatest, .. } = local.spectrum;
-            (greatest / least.max(f64::MIN_POSITIVE)).sqrt()
+            (local.spectrum.greatest() / local.spectrum.least().max(f64::MIN_POSITIVE)).sqrt()
         })
     }
 }

@@ -10,6 +10,7 @@ use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::Row;
+use std::cell::Cell;
 
 /// A formula over a cell.
 #[derive(Clone, Copy)]
@@ -32,10 +33,21 @@ pub(super) struct Flat {
     divisors: Vec<Slot>,
 }
 
+thread_local! {
+    /// Where entries are kept, from cell to cell.
+    static SPARE: Cell<Vec<Entry>> = const { Cell::new(Vec::new()) };
+}
+
 /// Their values over a cell.
 pub(super) struct Over<'a> {
     flat: &'a Flat,
     entries: Vec<Entry>,
+}
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        SPARE.set(std::mem::take(&mut self.entries));
+    }
 }
 
 /// The formulas of tests that have a margin.
@@ -84,7 +96,8 @@ impl Flat {
 
     /// Over a cell between these ends; `None` unless all are defined.
     pub fn over(&self, ends: &[Pair; 3]) -> Option<Over<'_>> {
-        let mut entries: Vec<Entry> = Vec::with_capacity(self.program.steps.len());
+        let mut entries = SPARE.take();
+        entries.clear();
         let mut second = None;
         for &step in &self.program.steps {
             let of = |slot| self.program.at(&entries, slot);
@@ -137,6 +150,11 @@ impl View for Over<'_> {
     fn slopes(&self, f: Formula) -> Option<[Pair; 3]> {
         let Entry { lo, hi, .. } = self.of(f)?;
         Some([(lo[0], hi[0]), (lo[1], hi[1]), (lo[2], hi[2])])
+    }
+
+    fn moved(&self, f: Formula) -> [[f64; 3]; 2] {
+        let Some(Entry { lo, hi, .. }) = self.of(f) else { return [[0.0; 3]; 2] };
+        [[0, 1, 2].map(|k| 0.5 * (lo[k] + hi[k])), [0, 1, 2].map(|k| 0.5 * (hi[k] - lo[k]))]
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn centre_of(cell: &Cell) -> Point {
 }
 
 fn middle(edge: Edge) -> u64 {
-    (2 * edge.index + 1) << LEVEL.saturating_sub(edge.level + 1)
+    (2 * edge.index() + 1) << LEVEL.saturating_sub(edge.level() + 1)
 }
 
 /// Parts of the box's edges.

@@ -64,7 +64,7 @@ impl<'a> ForAll<'a> {
     fn ranges(&self, prover: &Prover<'_>, cell: &Cell) -> Vec<Pair> {
         let between = |edge: &Edge, (lo, hi): Pair| {
             let at = |j: u64| {
-                let part = (edge.index + j) as f64 * (-f64::from(edge.level)).exp2();
+                let part = (edge.index() + j) as f64 * (-f64::from(edge.level())).exp2();
                 lo * (1.0 - part) + hi * part
             };
             (at(0), at(1))
@@ -156,7 +156,7 @@ impl Attempt<'_, '_> {
     fn open(&self, steps: Vec<Step>, weights: &[f64]) -> Decision {
         let [paved, _] = self.order();
         let axes = Axis::ALL.into_iter().zip(paved);
-        let axes = axes.filter(|(axis, _)| self.cell.edges[axis.index()].level < MAX_AXIS_LEVEL);
+        let axes = axes.filter(|(axis, _)| self.cell.edges[axis.index()].level() < MAX_AXIS_LEVEL);
         let axis = axes.max_by(|(a, i), (b, j)| {
             // The first of equals.
             weights[**i].total_cmp(&weights[**j]).then(b.index().cmp(&a.index()))

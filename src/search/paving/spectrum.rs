@@ -3,10 +3,10 @@
 /// The extreme eigenvalues of `G = M^T M`: the squares of the extreme singular values of `M`.
 #[derive(Clone, Copy, Debug)]
 pub struct Spectrum {
-    /// The square of the least singular value.
-    pub least: f64,
-    /// The square of the greatest singular value.
-    pub greatest: f64,
+    /// The eigenvalues are `mean + 2 p cos(phi + 2 k pi/3)`, `phi` within `[0, pi/3]`.
+    mean: f64,
+    p: f64,
+    phi: f64,
     /// `G_11, G_22, G_33, G_12, G_13, G_23`.
     gram: [f64; 6],
 }
@@ -19,22 +19,31 @@ impl Spectrum {
         let (a, b, c) = (a - mean, b - mean, c - mean);
         let p = ((a * a + b * b + c * c + 2.0 * (x * x + y * y + z * z)) / 6.0).sqrt();
         if p < 1e-300 {
-            return Spectrum { least: mean, greatest: mean, gram };
+            return Spectrum { mean, p: 0.0, phi: 0.0, gram };
         }
         let det = a * (b * c - z * z) - x * (x * c - z * y) + y * (x * z - b * y);
         let phi = (det / (2.0 * p * p * p)).clamp(-1.0, 1.0).acos() / 3.0;
-        let least = mean + 2.0 * p * (phi + std::f64::consts::TAU / 3.0).cos();
-        Spectrum { least, greatest: mean + 2.0 * p * phi.cos(), gram }
+        Spectrum { mean, p, phi, gram }
+    }
+
+    /// The square of the least singular value.
+    pub fn least(&self) -> f64 {
+        self.mean + 2.0 * self.p * (self.phi + std::f64::consts::TAU / 3.0).cos()
+    }
+
+    /// The square of the greatest singular value.
+    pub fn greatest(&self) -> f64 {
+        self.mean + 2.0 * self.p * self.phi.cos()
     }
 
     /// A direction that `M` stretches least.
     pub fn least_direction(&self) -> [f64; 3] {
-        self.direction(self.least)
+        self.direction(self.least())
     }
 
     /// A direction that `M` stretches most.
     pub fn greatest_direction(&self) -> [f64; 3] {
-        self.direction(self.greatest)
+        self.direction(self.greatest())
     }
 
     /// A vector orthogonal to the rows of `G - value I`: the longest of the products of two of them,
@@ -99,11 +108,11 @@ mod tests {
         ] {
             let spectrum = Spectrum::of(gram(m));
             let reference = nalgebra::Matrix3::from_fn(|i, j| m[i][j]).singular_values();
-            assert!((spectrum.least.sqrt() - reference.min()).abs() < 1e-7, "{m:?}");
-            assert!((spectrum.greatest.sqrt() - reference.max()).abs() < 1e-7, "{m:?}");
+            assert!((spectrum.least().sqrt() - reference.min()).abs() < 1e-7, "{m:?}");
+            assert!((spectrum.greatest().sqrt() - reference.max()).abs() < 1e-7, "{m:?}");
             for (v, value) in [
-                (spectrum.least_direction(), spectrum.least),
-                (spectrum.greatest_direction(), spectrum.greatest),
+                (spectrum.least_direction(), spectrum.least()),
+                (spectrum.greatest_direction(), spectrum.greatest()),
             ] {
                 let image: [f64; 3] = std::array::from_fn(|i| (0..3).map(|j| m[i][j] * v[j]).sum());
                 assert!((squared(image) / squared(v) - value).abs() < 1e-6, "{m:?}: {v:?}");

@@ -36,17 +36,23 @@ impl Axis {
     }
 }
 
-/// One edge of a cell: `[index / 2^level, (index + 1) / 2^level]`.
+/// One edge of a cell, `[index / 2^level, (index + 1) / 2^level]`, as the number `2^level + index`: its halves are
+/// twice that, and one more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Edge {
-    /// Number of equal parts before this one.
-    pub index: u64,
-    /// How often the axis was halved.
-    pub level: u32,
-}
+pub struct Edge(pub u64);
 
 impl Edge {
-    const WHOLE: Edge = Edge { index: 0, level: 0 };
+    const WHOLE: Edge = Edge(1);
+
+    /// How often the axis was halved.
+    pub fn level(self) -> u32 {
+        self.0.ilog2()
+    }
+
+    /// Number of equal parts before this one.
+    pub fn index(self) -> u64 {
+        self.0 ^ 1 << self.level()
+    }
 
     /// The values `((2^level - j) min + j max)/2^level` for `j` from `from` to `to`, of ends that are
     /// enclosed.
@@ -68,9 +74,8 @@ impl Edge {
     }
 
     /// Its parts before it, and those before its end.
-    pub(super) fn ends(&self) -> Option<[i64; 2]> {
-        let index = i64::try_from(self.index).ok()?;
-        Some([index, index.checked_add(1)?])
+    pub(super) fn ends(self) -> [i64; 2] {
+        [0, 1].map(|part| self.index() as i64 + part)
     }
 }
 
@@ -100,13 +105,10 @@ impl Cell {
     }
 
     fn halved(&self, edge: impl Fn(&mut Cell) -> Option<&mut Edge>) -> Option<(Cell, Cell)> {
-        let half = |upper: u64| {
-            let mut cell = *self;
-            let edge = edge(&mut cell).filter(|edge| edge.level < MAX_AXIS_LEVEL)?;
-            *edge = Edge { index: 2 * edge.index + upper, level: edge.level + 1 };
-            Some(cell)
-        };
-        half(0).zip(half(1))
+        let (mut lower, mut upper) = (*self, *self);
+        let (low, high) = (edge(&mut lower)?, edge(&mut upper)?);
+        (low.0, high.0) = (2 * low.0, 2 * low.0 + 1);
+        (low.level() <= MAX_AXIS_LEVEL).then_some((lower, upper))
     }
 
     /// Whether it is part of a cell: some other coordinate is halved.
@@ -116,7 +118,7 @@ impl Cell {
 
     /// The splits above it.
     pub fn depth(&self) -> u32 {
-        self.edges.iter().map(|edge| edge.level).sum()
+        self.edges.iter().map(|edge| edge.level()).sum()
     }
 }
 
@@ -124,13 +126,19 @@ impl Cell {
 mod tests {
     use super::*;
 
+    fn edge(index: u64, level: u32) -> Edge {
+        let edge = Edge(index + (1 << level));
+        assert_eq!((edge.index(), edge.level()), (index, level));
+        edge
+    }
+
     #[test]
     fn halves_share_the_midpoint_and_the_outer_ends() {
         let (_, upper) = Cell::ROOT.halves(Axis::Y).unwrap();
         let (lower, upper) = upper.halves(Axis::Y).unwrap();
         // [1/2, 1] splits into [2/4, 3/4] and [3/4, 4/4].
-        assert_eq!(lower.edges[1], Edge { index: 2, level: 2 });
-        assert_eq!(upper.edges[1], Edge { index: 3, level: 2 });
+        assert_eq!(lower.edges[1], edge(2, 2));
+        assert_eq!(upper.edges[1], edge(3, 2));
         assert_eq!(upper.edges[0], Cell::ROOT.edges[0]);
         let mut cell = upper;
         while let Some((_, next)) = cell.halves(Axis::Z) {
@@ -146,14 +154,12 @@ mod tests {
         while let Some((lower, upper)) = cell.parts(4) {
             assert_ne!(lower.others, upper.others);
             assert!(lower.is_part() && upper.is_part());
-            let index = 2 * expected.index;
-            expected = Edge { index, level: expected.level + 1 };
-            assert_eq!(lower.others[4], expected);
-            expected.index += 1;
-            assert_eq!(upper.others[4], expected);
-            cell = upper;
+            let index = 2 * expected.index();
+            let halves = [0, 1].map(|part| edge(index + part, expected.level() + 1));
+            assert_eq!([lower.others[4], upper.others[4]], halves);
+            (cell, expected) = (upper, halves[1]);
         }
-        assert_eq!(expected.level, MAX_AXIS_LEVEL);
+        assert_eq!(expected.level(), MAX_AXIS_LEVEL);
         assert_eq!(cell.parts(MOST_OTHERS), None);
         assert_eq!(Cell { others: Cell::ROOT.others, ..cell }, Cell::ROOT);
     }
@@ -170,7 +176,7 @@ mod tests {
         for level in [0, 1, 5, 20, MAX_AXIS_LEVEL] {
             let parts = 1u64 << level;
             for index in [0, parts / 3, parts / 2, parts - 1] {
-                let ends = Edge { index, level }.ends().unwrap();
+                let ends = edge(index, level).ends();
                 let range = Edge::range(&e, level, ends, [&around(-1, 3), &around(10, 7)]).unwrap();
                 // 21 2^level (min + (max - min) j/2^level) = -7 2^level + 37 j.
                 let end = |j: u64| (37 * j as i128 - 7 * parts as i128) * i128::from(unit);

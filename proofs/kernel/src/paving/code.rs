@@ -139,9 +139,7 @@ impl Item {
                 OUTSIDE => (Kind::Outside, None),
                 CUT => {
                     let normal = source.integers()?;
-                    let Ok(ends) = source.integers()?.try_into() else {
-                        return Err(bad(code));
-                    };
+                    let ends = source.integers()?.try_into().map_err(|_| bad(code))?;
                     let fails = usize::from(source.byte()?);
                     (Kind::Cut(Cut { normal, ends, fails }), None)
                 }
@@ -157,21 +155,18 @@ impl Item {
                 }
                 FAILS => {
                     let obligation = usize::from(source.byte()?);
-                    let count = source.count()?;
-                    let directions =
-                        (0..count).map(|_| source.integers()).collect::<Result<_, _>>()?;
+                    let directions = (0..source.count()?).map(|_| source.integers());
+                    let directions = directions.collect::<Result<_, _>>()?;
                     let failure = Failure::Obligation(obligation, directions);
                     (Kind::Outer(Outer::Given(failure)), None)
                 }
                 OUTER..PAIR => (Kind::Outer(Outer::Own(usize::from(code - OUTER))), None),
-                _ => {
-                    let number = code.checked_sub(PAIR).filter(|number| *number < 75);
-                    let pair = number.and_then(|n| {
-                        let axis = Axis::ALL[usize::from(n / 25)];
-                        Some((Kind::Split(axis), Some([plain(n / 5 % 5)?, plain(n % 5)?])))
-                    });
-                    pair.ok_or(bad(code))?
+                PAIR..0xcb => {
+                    let n = code - PAIR;
+                    let halves = plain(n / 5 % 5).zip(plain(n % 5)).map(<[Kind; 2]>::from);
+                    (Kind::Split(Axis::ALL[usize::from(n / 25)]), halves)
                 }
+                _ => return Err(bad(code)),
             };
             let kind = match (at, kind) {
                 (None, kind) => kind,

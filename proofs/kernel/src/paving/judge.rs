@@ -174,14 +174,14 @@ impl<'a, Z: Integer> Side<'a, Z> {
         let mut ranges = min.clone();
         for (edge, &k) in cell.edges.iter().zip(paved) {
             *ranges.get_mut(k)? = match k.checked_sub(places) {
-                None => Edge::range(e, edge.level, edge.ends()?, [min.get(k)?, max.get(k)?])?,
+                None => Edge::range(e, edge.level(), edge.ends(), [min.get(k)?, max.get(k)?])?,
                 Some(angle) => turned(edge, subject.angles.get(&angle)?, e.bits())?,
             };
         }
         for (i, (edge, &k)) in cell.others.iter().zip(others).enumerate() {
             let (level, ends) = match kind {
                 Kind::At(at, _) => (AT_BITS, [*at.get(i)?; 2]),
-                _ => (edge.level, edge.ends()?),
+                _ => (edge.level(), edge.ends()),
             };
             *ranges.get_mut(k)? = Edge::range(e, level, ends, [min.get(k)?, max.get(k)?])?;
         }
@@ -197,10 +197,8 @@ impl<'a, Z: Integer> Side<'a, Z> {
         (node, cell, inherited): (u64, &Cell, u128),
         item: &Item,
     ) -> Result<(), Rejected> {
-        let (step, outer) = (
-            |o| Rejected::Step(node, o),
-            || Rejected::Node(node, " is not outer: it does not certainly fail throughout"),
-        );
+        let step = |o| Rejected::Step(node, o);
+        let outer = || Rejected::Node(node, " is not outer: it does not certainly fail throughout");
         let edges = self.edges(subject, cell, &item.kind).ok_or_else(outer)?;
         let is_given = item.steps.iter().any(|step| step.1.is_some())
             || matches!(item.kind, Kind::Outer(Outer::Given(_)) | Kind::At(..) | Kind::Outside);
@@ -265,13 +263,12 @@ impl<'a, Z: Integer> Side<'a, Z> {
         let mut all = cell.edges.iter().zip(&subject.order[0]).map(|(edge, &k)| {
             let near = |j: i64| {
                 let Interval { lo, hi } =
-                    Edge::range(e, edge.level, [j, j], [min.get(k)?, max.get(k)?])?;
+                    Edge::range(e, edge.level(), [j, j], [min.get(k)?, max.get(k)?])?;
                 let width = e.sub(&Interval::point(hi), &Interval::point(lo))?;
                 let most = e.dyadic(1 << SLACK_PLACES, 0, &e.add(&width, &unit)?)?;
                 Some(e.is_nonnegative(&e.sub(&edges.get(k)?[2], &most)?))
             };
-            let [from, to] = edge.ends()?;
-            Some(near(from)? && near(to)?)
+            edge.ends().into_iter().try_fold(true, |holds, j| Some(holds && near(j)?))
         });
         all.try_fold(true, |holds, own| Some(holds && own?))
     }
@@ -292,13 +289,13 @@ fn turned<Z: Integer>(
     [min, max]: &[BigRational; 2],
     bits: u32,
 ) -> Option<Interval<Z>> {
-    let parts = 1i64.checked_shl(edge.level)?;
+    let parts = 1i64.checked_shl(edge.level())?;
     let whole = |n: i64| BigRational::from_integer(n.into());
     let at = |j: i64| {
         let x = (min * whole(parts.checked_sub(j)?) + max * whole(j)) / whole(parts);
         let literal = |digits: &BigInt| Expression::Literal { digits: digits.clone(), places: 0 };
         half_tangent(&(&literal(x.numer()) / &literal(x.denom())), 0, bits)
     };
-    let [from, to] = edge.ends()?;
+    let [from, to] = edge.ends();
     narrowed(&Interval { lo: at(from)?.lo, hi: at(to)?.hi })
 }

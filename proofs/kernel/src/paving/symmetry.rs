@@ -79,8 +79,8 @@ fn is_image(leg: &Leg, image: &Leg, p: &[usize; 3]) -> bool {
 /// Whether an edge lies wholly after another, which it may touch; edges are nested, equal, or before or
 /// after each other.
 fn is_after(a: Edge, b: Edge) -> bool {
-    let at = |parts: u64, level: u32| parts << (MAX_AXIS_LEVEL - level);
-    at(a.index, a.level) >= at(b.index + 1, b.level)
+    let at = |edge: Edge, part: u64| (edge.index() + part) << (MAX_AXIS_LEVEL - edge.level());
+    at(a, 0) >= at(b, 1)
 }
 
 /// The coordinates of which the first has to be the less.
@@ -110,7 +110,7 @@ pub fn six_ordered(cell: &Cell) -> u128 {
         if a == b {
             equal += 1;
         } else if !is_after(b, a) {
-            let longer = if a.level < b.level { less } else { greater };
+            let longer = if a.level() < b.level() { less } else { greater };
             return cell.halves(longer).map_or(0, |(a, b)| six_ordered(&a) + six_ordered(&b));
         }
     }

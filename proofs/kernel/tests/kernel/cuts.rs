@@ -130,7 +130,8 @@ fn a_disc_is_cut_where_it_ends_and_nowhere_else() {
     let (judge, fails) = (Judge::new(&subject).unwrap(), of_disc(&header));
     let (mut accepted, mut refused) = ([0; 2], [0; 2]);
     for (i, j, level) in [(5, 5, 3), (11, 2, 4), (2, 11, 4), (22, 3, 5), (0, 1, 1)] {
-        let edges = [Edge { index: i, level }, Edge { index: j, level }, Cell::ROOT.edges[2]];
+        let edge = |i: u64| Edge(i + (1 << level));
+        let edges = [edge(i), edge(j), Cell::ROOT.edges[2]];
         let cell = Cell { edges, ..Cell::ROOT };
         // Of [i, i + 1]/2^level the middle and the half.
         let half = 0.5 / f64::from(1 << level);
@@ -242,8 +243,8 @@ fn cells_near_the_precision_are_not_cut() {
     let fails = of_disc(&header);
     let at = |level: u32| {
         // About (1/2, 0): f = 1/4 there.
-        let edge =
-            |part: f64| Edge { index: (part / 2f64.sqrt() * (1u64 << level) as f64) as u64, level };
+        let index = |part: f64| (part / 2f64.sqrt() * (1u64 << level) as f64) as u64;
+        let edge = |part: f64| Edge(index(part) + (1 << level));
         let cell = Cell { edges: [edge(0.5), edge(0.0), Cell::ROOT.edges[2]], ..Cell::ROOT };
         let cut = Cut { normal: vec![1, 1], ends: [2, 3], fails };
         judge.confirms(&cell, 0, &bare(Kind::Cut(cut)))
@@ -251,7 +252,7 @@ fn cells_near_the_precision_are_not_cut() {
     assert!(at(4) && at(14));
     assert!(!at(18) && !at(30) && !at(40));
     let inner = |level: u32| {
-        let edge = Edge { index: 0, level };
+        let edge = Edge(1 << level);
         judge.confirms(
             &Cell { edges: [edge, edge, Cell::ROOT.edges[2]], ..Cell::ROOT },
             0,
@@ -273,7 +274,7 @@ fn cells_that_are_not_all_in_order_are_not_cut() {
     };
     let text = (0..3).fold(text.to_owned(), |text, i| text.replace(&format!("L{i}"), &leg(i)));
     let header = Header { symmetry: Some(Symmetry::Permutations), ..header_of(claim(&text), 20) };
-    let edge = |index, level| Edge { index, level };
+    let edge = |index: u64, level: u32| Edge(index + (1 << level));
     let whole = |edges| header.may_cut(&Cell { edges, ..Cell::ROOT });
     assert!(!header.may_cut(&Cell::ROOT));
     assert!(

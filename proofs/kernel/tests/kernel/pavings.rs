@@ -72,7 +72,7 @@ fn item(judge: &Judge<'_>, subject: &Subject, cell: &Cell, depth: u32) -> Item {
         return bare(Kind::Boundary);
     }
     let axes = Axis::ALL.iter().take(subject.order[0].len());
-    let axis = *axes.min_by_key(|axis| cell.edges[axis.index()].level).unwrap();
+    let axis = *axes.min_by_key(|axis| cell.edges[axis.index()].level()).unwrap();
     bare(Kind::Split(axis))
 }
 
@@ -314,7 +314,7 @@ fn what_is_inherited_need_not_be_shown_again() {
     let subject = Subject::new(&plain).unwrap();
     let judge = Judge::new(&subject).unwrap();
     // Off the region by sigma_min alone.
-    let edge = |index| Edge { index, level: 4 };
+    let edge = |index: u64| Edge(16 + index);
     let cell = Cell { edges: [edge(4), edge(4), edge(4)], ..Cell::ROOT };
     let visited = |inherited, item| Visited { cell, inherited, depth: 12, node: 7, item };
     let of = |inherited| judge.check(&visited(inherited, bare(Kind::Inner)));
@@ -405,13 +405,13 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
     for _ in 0..500 {
         let edges: [Edge; 3] = std::array::from_fn(|_| {
             let level = random(4) as u32;
-            Edge { index: random(1 << level), level }
+            Edge(random(1 << level) + (1 << level))
         });
         let cell = Cell { edges, ..Cell::ROOT };
         // Count on the grid of level 3: of a cube on the diagonal a sixth is ordered, of one on a
         // plane a half.
         let mut count = 0;
-        let range = |e: Edge| (e.index << (3 - e.level))..((e.index + 1) << (3 - e.level));
+        let range = |e: Edge| (e.index() << (3 - e.level()))..((e.index() + 1) << (3 - e.level()));
         for x in range(edges[0]) {
             for y in range(edges[1]) {
                 for z in range(edges[2]) {
@@ -432,9 +432,9 @@ fn ordered_volumes_add_up_and_agree_with_counting() {
         }
     }
     // The deepest cells, far from the diagonal and on it.
-    let deep = |index: u64| Edge { index, level: 40 };
+    let deep = |index: u64| Edge(index + (1 << 40));
     let last = (1 << 40) - 1;
-    let whole = Edge { index: 0, level: 0 };
+    let whole = Cell::ROOT.edges[0];
     assert_eq!(six_ordered(&Cell { edges: [deep(5); 3], ..Cell::ROOT }), 1);
     assert_eq!(six_ordered(&Cell { edges: [deep(0), deep(7), deep(last)], ..Cell::ROOT }), 6);
     assert_eq!(six_ordered(&Cell { edges: [deep(8), deep(7), deep(last)], ..Cell::ROOT }), 0);

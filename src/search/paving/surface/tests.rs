@@ -87,10 +87,10 @@ fn area(surface: &Surface) -> f64 {
 
 /// Splits the longest edge, of x before y before z, down to cells of `2^-level`.
 fn grid(cell: &Cell, level: u32, inner: impl Fn([u64; 3]) -> bool) -> Fate {
-    let shortest = cell.edges.iter().map(|e| e.level).min().unwrap();
-    match Axis::ALL.into_iter().find(|axis| cell.edges[axis.index()].level == shortest) {
+    let shortest = cell.edges.iter().map(|e| e.level()).min().unwrap();
+    match Axis::ALL.into_iter().find(|axis| cell.edges[axis.index()].level() == shortest) {
         Some(axis) if shortest < level => Fate::Split(axis),
-        _ if inner(cell.edges.map(|e| e.index)) => Fate::Inner,
+        _ if inner(cell.edges.map(|e| e.index())) => Fate::Inner,
         _ => Fate::Undecided,
     }
 }
@@ -112,9 +112,9 @@ fn the_whole_box_has_six_faces_and_eight_corners() {
 #[test]
 fn a_coarse_box_beside_a_fine_one_is_cut_about_it_alone() {
     // The lower half of x whole; of the upper, a grid of which one box is inner.
-    let found = held(false, |cell| match cell.edges[0].level {
+    let found = held(false, |cell| match cell.edges[0].level() {
         0 => Fate::Split(Axis::X),
-        _ if cell.edges[0].index << (3 - cell.edges[0].level.min(3)) < 4 => Fate::Inner,
+        _ if cell.edges[0].index() << (3 - cell.edges[0].level().min(3)) < 4 => Fate::Inner,
         _ => grid(cell, 3, |c| c == [4, 2, 3]),
     });
     // Corners of the large and of the small box, and of at most eight rectangles about that.
@@ -160,16 +160,16 @@ fn squares(walls: &[Wall]) -> BTreeSet<(u8, u64, bool, u64, u64)> {
 fn a_cell_across_the_planes_counts_only_within_the_order() {
     // [0, 1/2] x [0, 1] x [0, 1]: of its points in order, with their images, the box
     // without the part where all are in the upper half.
-    let found = held(true, |cell| match cell.edges[0].level {
+    let found = held(true, |cell| match cell.edges[0].level() {
         0 => Fate::Split(Axis::X),
-        _ if cell.edges[0].index == 0 => Fate::Inner,
+        _ if cell.edges[0].index() == 0 => Fate::Inner,
         _ => Fate::Undecided,
     });
     assert_eq!((found.share(), area(&found)), (7 << (SHARE_BITS - 3), 6.0));
     // [0, 1] x [0, 1/2] x [0, 1]: two coordinates are in the lower half, at least.
-    let found = held(true, |cell| match cell.edges[1].level {
+    let found = held(true, |cell| match cell.edges[1].level() {
         0 => Fate::Split(Axis::Y),
-        _ if cell.edges[1].index == 0 => Fate::Inner,
+        _ if cell.edges[1].index() == 0 => Fate::Inner,
         _ => Fate::Undecided,
     });
     assert_eq!((found.share(), area(&found)), (4 << (SHARE_BITS - 3), 18.0 / 4.0));
@@ -188,11 +188,11 @@ fn surfaces_of_random_trees_are_closed() {
     for seed in 0..60_u64 {
         let random = |cell: &Cell| {
             let place = cell.edges.iter().fold(seed, |hash, edge| {
-                (hash ^ edge.index ^ u64::from(edge.level) << 40)
+                (hash ^ edge.index() ^ u64::from(edge.level()) << 40)
                     .wrapping_mul(0x9e37_79b9_7f4a_7c15)
                     .rotate_left(29)
             });
-            let depth: u32 = cell.edges.iter().map(|edge| edge.level).sum();
+            let depth: u32 = cell.edges.iter().map(|edge| edge.level()).sum();
             match place >> 32 & 7 {
                 _ if depth < 3 => Fate::Split(Axis::ALL[depth as usize]),
                 0..=3 if depth < 11 => Fate::Split(Axis::ALL[(place >> 40) as usize % 3]),
@@ -248,8 +248,8 @@ fn what_has_no_surface_says_so() {
 fn corners_that_coincide_in_single_precision_are_refused() {
     let found = held(false, |cell| match cell.edges[0] {
         // A sliver of 2^-27 of the box at its upper end.
-        edge if edge.level < 27 && edge.index + 1 == 1 << edge.level => Fate::Split(Axis::X),
-        edge if edge.level == 27 && edge.index + 1 == 1 << 27 => Fate::Inner,
+        edge if edge.level() < 27 && edge.index() + 1 == 1 << edge.level() => Fate::Split(Axis::X),
+        edge if edge.level() == 27 && edge.index() + 1 == 1 << 27 => Fate::Inner,
         _ => Fate::Undecided,
     });
     assert!(found.coordinates(|x| x).is_ok());

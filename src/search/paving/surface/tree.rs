@@ -243,12 +243,12 @@ impl Unfolding<'_> {
                 return Ok(at);
             };
             let edge = region.edges[axis.index()];
-            let Some(finer) = edge.level.checked_sub(levels[axis.index()] + 1) else {
+            let Some(finer) = edge.level().checked_sub(levels[axis.index()] + 1) else {
                 let same = |k: &usize| region.edges[*k] == edge;
                 let axes: Vec<usize> = (0..3).filter(same).collect();
                 return self.parts(&axes, at, levels, region, to);
             };
-            at = if edge.index >> finer & 1 == 0 { lower } else { upper };
+            at = if edge.index() >> finer & 1 == 0 { lower } else { upper };
             levels[axis.index()] += 1;
         }
     }
@@ -266,7 +266,7 @@ impl Unfolding<'_> {
             for (a, b) in [(0, 1), (1, 2), (0, 1)] {
                 let [lower, upper] = [region.edges[a], region.edges[b]];
                 // Edges of different levels are of different axes of the region, and in order.
-                if lower.level == upper.level && lower.index > upper.index {
+                if lower.level() == upper.level() && lower.index() > upper.index() {
                     region.edges.swap(a, b);
                     to.swap(a, b);
                 }
