@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::arithmetic::Enclosure;
-use crate::formula::Formula;
+use crate::formula::{Formula, Values};
 use crate::problem::Inside;
 use crate::slope::Slope;
 use crate::test::Over;
@@ -23,20 +23,39 @@ impl<E: Enclosure> Checker<'_, E> {
         (multiple, places): (i64, u32),
     ) -> Option<Slope<E::Number>> {
         let Inside { g, gradient } = self.problem.inside.as_ref()?;
-        let (e, edges) = (self.arithmetic, over.place.edges);
-        let zero = e.integer(0)?;
-        let centre = |[x, ..]: &[E::Number; 3]| [x.clone(), x.clone(), zero.clone()];
-        let needed: Vec<Formula> = gradient.iter().chain([g]).copied().collect();
-        let needed = self.problem.tape.parts(&needed);
-        let values = self.values(Some(&needed), &edges.iter().map(centre).collect::<Vec<_>>());
+        let e = self.arithmetic;
+        let by_name = self.at_centre(over, gradient.iter().chain([g]));
+        let values = by_name.as_ref().unwrap_or(over.values);
         let mut tangent = values.of(*g)?.clone();
-        for ((slope, &f), [_, _, half]) in tangent.slopes.iter_mut().zip(gradient).zip(edges) {
-            *slope = e.mul(&values.of(f)?.range, half)?;
+        if by_name.is_none() {
+            tangent = over.slopes.constant(tangent.at_centre)?;
+        }
+        for ((slope, &f), [_, _, half]) in
+            tangent.slopes.iter_mut().zip(gradient).zip(over.place.edges)
+        {
+            let f = values.of(f)?;
+            *slope = e.mul(if by_name.is_some() { &f.range } else { &f.at_centre }, half)?;
         }
         for part in tangent.slopes.iter_mut().chain([&mut tangent.at_centre]) {
             *part = e.dyadic(multiple, places, part)?;
         }
         Some(tangent)
+    }
+
+    /// Where there are names, these formulas at the cell's centre, in slopes in them.
+    fn at_centre<'f>(
+        &self,
+        over: &Over<'_, E>,
+        formulas: impl Iterator<Item = &'f Formula>,
+    ) -> Option<Values<Slope<E::Number>>> {
+        if self.problem.names.is_empty() {
+            return None;
+        }
+        let zero = self.arithmetic.integer(0)?;
+        let edge = |[centre, ..]: &[E::Number; 3]| [centre.clone(), centre.clone(), zero.clone()];
+        let edges: Vec<_> = over.place.edges.iter().map(edge).collect();
+        let all: Vec<Formula> = formulas.copied().collect();
+        Some(self.values(Some(&self.problem.tape.parts(&all)), &edges))
     }
 
     /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.
