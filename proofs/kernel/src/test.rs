@@ -383,7 +383,7 @@ impl<E: Enclosure> Over<'_, E> {
 }
 
 /// The columns of `A`.
-fn width(rows: &[Row<Formula>]) -> usize {
+pub(crate) fn width(rows: &[Row<Formula>]) -> usize {
     rows.first().map_or(0, |row| row.a.len())
 }
 

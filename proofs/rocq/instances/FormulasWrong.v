@@ -46,10 +46,22 @@ Example outside : accepts right [(0%nat, Outside)] = false. Proof. vm_compute. r
 (** Joint speeds and forces, and stiffness. *)
 Definition asks (d : demand) (e : evidence) : bool :=
   accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (positions right) (Turning.turned right) [FactorMax (11 // 10); d] false) [by_lower Y; (1%nat, AtControls e)].
-Example speed : asks (SpeedMax 0 (100 // 1) (160 // 1)) ByTest = true. Proof. vm_compute. reflexivity. Qed.
-Example speed_less : asks (SpeedMax 0 (100 // 1) (100 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
-Example speed_of_none : asks (SpeedMax 3 (100 // 1) (160 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
-Example tool_at_rest : asks (SpeedMax 0 (0 // 1) (160 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
+Definition no : evidence := ByLower 0%N [[0]].
+(** The square root of 2 at the lever's right angle to the leg, of tools at 100. *)
+Example speed : asks (SpeedMax 0 (100 // 1) (142 // 1)) no = true. Proof. vm_compute. reflexivity. Qed.
+Example speed_less : asks (SpeedMax 0 (100 // 1) (141 // 1)) no = false. Proof. vm_compute. reflexivity. Qed.
+Example speed_of_none : asks (SpeedMax 3 (100 // 1) (142 // 1)) no = false. Proof. vm_compute. reflexivity. Qed.
+Example tool_at_rest : asks (SpeedMax 0 (0 // 1) (142 // 1)) no = false. Proof. vm_compute. reflexivity. Qed.
+Example speed_by_a_sign : asks (SpeedMax 0 (100 // 1) (142 // 1)) ByTest = false. Proof. vm_compute. reflexivity. Qed.
+Example speed_by_three : asks (SpeedMax 0 (100 // 1) (142 // 1)) (ByLower 0%N Y) = false. Proof. vm_compute. reflexivity. Qed.
+(** Less, where the leg leans towards the middle at every pose. *)
+Definition near (b : Z) (y : Z) : bool :=
+  let little := Within (-5 // 1) (5 // 1) in
+  accepts (MakeTurningClaim InPlane (struts right) (100 // 1) (Box (Tolerances little little (exactly (0 // 1)))) (TurnedBy (Within (-2 // 1) (2 // 1)))
+    [FactorMax (11 // 10); SpeedMax 0 (100 // 1) (b // 1)] false) [by_lower Y; (1%nat, AtControls (ByLower 7%N [[y]]))].
+Example leaning : near 140 (-10) = true. Proof. vm_compute. reflexivity. Qed.
+Example leaning_outwards : near 140 10 = false. Proof. vm_compute. reflexivity. Qed.
+Example leaning_less : near 139 (-10) = false. Proof. vm_compute. reflexivity. Qed.
 Definition Y2 := [[0; -2; -2]; [2; 2; -2]; [-2; 0; -2]].
 Example stiff : asks (StiffnessMin (2 // 1) (1 // 1)) (ByLower 0%N Y2) = true. Proof. vm_compute. reflexivity. Qed.
 Example stiffer : asks (StiffnessMin (2 // 1) (3 // 1)) (ByLower 0%N Y2) = false. Proof. vm_compute. reflexivity. Qed.

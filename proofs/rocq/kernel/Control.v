@@ -535,6 +535,8 @@ Inductive polynomial_test :=
   (* |A^T u|^2 > k w D_i u_i^2: a column of the inverse *)
   | SolveOf (i : nat) (r : rows nat) (w : nat) (k2 : fixed) (e : nat)
   | SignOf (f : nat)
+  (* (A . u)^2 > w D |u|^2 of one row of one entry *)
+  | LeverOf (r : rows nat) (w : nat)
   (* Y^T A + A^T Y > 0, with one Y for all cells *)
   | ChordsOf (r : rows nat) (w : nat) (places : N) (Y : list (list Z)).
 

@@ -232,17 +232,6 @@ Proof.
     replace (b * (PI / 180)) with B by (unfold B, in_degrees; field). lra.
 Qed.
 
-Lemma dot_cauchy : forall u v, Linear.dot u v ^ 2 <= Linear.dot u u * Linear.dot v v.
-Proof.
-  intros u v. destruct (Rlt_dec 0 (Linear.dot v v)) as [p | n].
-  - pose proof (Linear.dot_self (comb (Linear.dot v v) (- Linear.dot u v) u v)) as q.
-    rewrite dot_comb, !(Solve.dot_commutes _ (comb _ _ u v)), !dot_comb, (Solve.dot_commutes v u) in q.
-    replace (Linear.dot v v * (Linear.dot v v * Linear.dot u u + - Linear.dot u v * Linear.dot u v) + - Linear.dot u v * (Linear.dot v v * Linear.dot u v + - Linear.dot u v * Linear.dot v v))
-      with (Linear.dot v v * (Linear.dot u u * Linear.dot v v - Linear.dot u v ^ 2)) in q by ring.
-    apply Rnot_lt_le. intro k. assert (Linear.dot v v * (Linear.dot u u * Linear.dot v v - Linear.dot u v ^ 2) < 0) by nra. lra.
-  - rewrite (dot_zero v u (zero_vector v ltac:(lra))). pose proof (Linear.dot_self u). pose proof (Linear.dot_self v). nra.
-Qed.
-
 Lemma value_less_squares : forall x theta l r, Formula.value x theta (fold_left (fun rest a => minus rest (square a)) l r)
   = Formula.value x theta r - Linear.dot (map (Formula.value x theta) l) (map (Formula.value x theta) l).
 Proof.

@@ -37,6 +37,7 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e
       everywhere_by m (conditioned_at bits n c2 places Y mu) mus 0 (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l))
   | ChordsOf r w places Y, ByChords => at_all 0%nat (rank_at n places Y) r w
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
+  | LeverOf r w, ByLower places [[y]] => at_all 0%nat (lower_at bits 1 places [[y]] (Fixed.integer bits 1)) r w
   | _, _ => false
   end.
 Definition shows_at (ts : list tensor) (t : polynomial_test) (e : evidence) : bool :=
@@ -79,7 +80,7 @@ Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
 Definition test_places (t : polynomial_test) : list nat :=
-  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ | ChordsOf r w _ _ => w :: all_places r | SignOf f => [f] end.
+  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ | ChordsOf r w _ _ | LeverOf r w => w :: all_places r | SignOf f => [f] end.
 (** Rows and weight of a test that has ends alone of some coordinates. *)
 Definition with_ends (t : polynomial_test) : option (rows nat * nat * nat) :=
   match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
@@ -105,6 +106,7 @@ Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
   | ConditionOf r w c2 => forall c u v, contains bits c2 c -> 0 <= c -> length u = n -> length v = n -> nonzero u -> nonzero v ->
       positive_D (map_rows here r) /\ energy (map_rows here r) u * Linear.dot v v < c * energy (map_rows here r) v * Linear.dot u u
   | SignOf f => 0 <= here f
+  | LeverOf r w => positive_D (map_rows here r) /\ here w < energy (map_rows here r) [1]
   | ChordsOf r w places Y => forall v, length v = n -> nonzero v -> 0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows here r)) v
   end.
 
@@ -119,7 +121,7 @@ Proof.
   { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
     split; [| split; [exact lr | exact G]].
     destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
-  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w places Y], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w | r w places Y], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
   - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
   - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
     intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
@@ -129,6 +131,9 @@ Proof.
     exact (conditioned_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w c2 mu mus c u v ha h).
   - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
   - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
+  - destruct Y as [| [| y [|]] [|]]; try discriminate.
+    destruct (lower_shown bits tape params theta theta_in m cell x hx len l la l0 0%nat 1%nat places [[y]] r w _ 1 [1] ha (or_introl eq_refl) (K _ _ _ h) (Fixed.integer_sound bits 1)) as [p q];
+      [lra | reflexivity | unfold nonzero; cbn; lra |]. split; [exact p |]. cbn [Linear.dot] in q. lra.
   - intros v. exact (chords_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w v ha (K _ _ _ h)).
 Qed.
 
@@ -228,6 +233,15 @@ Definition scaled_row (k : motion) (N : emat) (w ell : formula) (a b : evec) : l
   let own := plus (plus (plus (Machine.product b b) (expanded (ex p) (ex a))) (expanded (ey p) (ey a))) (expanded (ez p) (ez a)) in
   (etwist k (map2 plus (Machine.scaled w h) nb) (divided_by (ecross nb h) ell),
    plus (times w own) (times (integer 2) (Machine.product nb h))).
+
+(** Of a strut, of which r is its joint's lever from P: w r . A, by the vector w A in the platform's frame, and for the greatest ratio k of
+    the joint's speed to the platform's, w (|b|^2 - (k^2 - q) ell^2), q = 0 if the platform turns about a point and 1 else. *)
+Definition etransposed (N : emat) : emat :=
+  let column f := EVec (f (erow1 N)) (f (erow2 N)) (f (erow3 N)) in EMat (column ex) (column ey) (column ez).
+Definition lever (k : motion) (N : emat) (w ell : formula) (a b : evec) : formula * (formula -> formula) :=
+  let own := map2 plus (Machine.scaled w b) (emulv (etransposed N) (map2 minus (eposition k) a)) in
+  let q := match k with AboutPoint => 0%Z | _ => 1%Z end in
+  (Machine.product own b, fun ratio => times w (minus (Machine.product b b) (times (minus (square ratio) (integer q)) (square ell)))).
 
 (** [A, a x A]: of a strut in space, its vector w A with its moment about the origin, of which a is the base end. *)
 Definition origin_row (a : evec) (row : list formula * formula) : list formula * formula :=
@@ -333,6 +347,46 @@ Proof.
   split; [rewrite !Rpow_mult_distr, S2; ring |]. intro v. rewrite E, !dot_map. field. lra.
 Qed.
 
+Definition is_lever (p : formula * (formula -> formula)) : Prop :=
+  Formula.value x theta (fst p) = W * r ^ 2 * Vec3.dot (arm_of_joint l Q) (strut_vector l P Q) /\
+  forall ratio, Formula.value x theta (snd p ratio) =
+    W * r ^ 2 * (norm2 (strut_joint l) - (Formula.value x theta ratio ^ 2 - match k with AboutPoint => 0 | _ => 1 end) * L ^ 2).
+Lemma lever_values : is_lever (lever k N we le a b).
+Proof.
+  pose proof (keeps (strut_joint l)) as K. unfold is_lever, lever. cbv zeta. cbn [fst snd]. split.
+  - assert (T : valm x theta (etransposed N) = transpose (mscale W Q)) by (rewrite <- hN; reflexivity).
+    rewrite value_dot, val3_plus, val3_scaled, val3_mulv, T, val3_minus, hP, ha, hb, hw.
+    replace (vsub (vscale r P) (vscale r (strut_base l))) with (vscale r (vsub P (strut_base l))) by (unfold vsub, vscale; cbn [vx vy vz]; f_equal; ring).
+    set (h := vsub P (strut_base l)). set (c := strut_joint l) in *.
+    transitivity (W * r ^ 2 * norm2 c + Vec3.dot (mulv (transpose (mscale W Q)) (vscale r h)) (vscale r c)); [unfold Vec3.dot, norm2, vadd, vscale; cbn [vx vy vz]; ring |].
+    rewrite <- dot_transpose, mulv_mscale, mulv_scale. unfold strut_vector, arm_of_joint. fold c. rewrite <- K. subst h. generalize (mulv Q c). clear. intros [n1 n2 n3].
+    destruct P as [p1 p2 p3], (strut_base l) as [b1 b2 b3]. unfold norm2, Vec3.dot, vsub, vadd, vscale. cbn [vx vy vz]. ring.
+  - intro ratio. rewrite value_times, value_minus, value_dot, value_times, value_minus, !Formula.value_square, hw, hl, hb.
+    assert (Q0 : Formula.value x theta (integer match k with AboutPoint => 0 | _ => 1 end) = match k with AboutPoint => 0 | _ => 1 end) by (destruct k; reflexivity).
+    rewrite Q0. unfold Vec3.dot, norm2, vscale. cbn [vx vy vz]. ring.
+Qed.
+(** Where (r . A)^2/|A|^2 is so great, the square of the row is small. *)
+Lemma lever_bounds : forall s, 0 < norm2 (strut_vector l P Q) ->
+  norm2 (strut_joint l) - (s - match k with AboutPoint => 0 | _ => 1 end) * L ^ 2 < Vec3.dot (arm_of_joint l Q) (strut_vector l P Q) ^ 2 / norm2 (strut_vector l P Q) ->
+  Linear.dot (strut_row k L l P Q) (strut_row k L l P Q) <= s.
+Proof.
+  clear - L0 keeps. intros s n0 h. rewrite <- (keeps (strut_joint l)) in h. unfold strut_row. cbv zeta. unfold arm_of_joint in *. set (c := mulv Q (strut_joint l)) in *. set (v := strut_vector l P Q) in *.
+  assert (U : norm2 (normalised v) = 1).
+  { unfold normalised. pose proof (sqrt_lt_R0 _ n0) as s0. transitivity (norm2 v * (/ sqrt (norm2 v)) ^ 2); [unfold norm2, vscale; cbn [vx vy vz]; ring |].
+    rewrite pow_inv, pow2_sqrt by lra. field. lra. }
+  assert (D : Vec3.dot c v ^ 2 / norm2 v = Vec3.dot c (normalised v) ^ 2).
+  { unfold normalised. pose proof (sqrt_lt_R0 _ n0) as s0. transitivity (Vec3.dot c v ^ 2 * (/ sqrt (norm2 v)) ^ 2); [rewrite pow_inv, pow2_sqrt by lra; field; lra |].
+    unfold Vec3.dot, vscale; cbn [vx vy vz]; ring. }
+  rewrite D in h. set (u := normalised v) in *. clearbody u c. clear v n0 D.
+  assert (X : norm2 (cross c u) = norm2 c - Vec3.dot c u ^ 2) by (transitivity (norm2 c * norm2 u - Vec3.dot c u ^ 2); [unfold norm2, cross, Vec3.dot; cbn [vx vy vz]; ring | rewrite U; ring]).
+  assert (R : / L ^ 2 * norm2 (cross c u) < s - match k with AboutPoint => 0 | _ => 1 end).
+  { pose proof (pow_lt L 2 L0). apply Rmult_lt_reg_l with (L ^ 2); [assumption |]. replace (L ^ 2 * (/ L ^ 2 * norm2 (cross c u))) with (norm2 (cross c u)) by (field; lra). lra. }
+  assert (E : Linear.dot (twist k u (vscale (/ L) (cross c u))) (twist k u (vscale (/ L) (cross c u))) <= match k with AboutPoint => 0 | _ => 1 end + / L ^ 2 * norm2 (cross c u)).
+  { rewrite <- pow_inv. generalize (/ L) (cross c u). intros i [x1 x2 x3]. destruct u as [u1 u2 u3]. unfold norm2 in *. cbn [vx vy vz] in *.
+    destruct k; cbn [twist Linear.dot vx vy vz vscale]; pose proof (pow2_ge_0 u3); pose proof (pow2_ge_0 (i * x1)); pose proof (pow2_ge_0 (i * x2)); nra. }
+  lra.
+Qed.
+
 Lemma origin_row_values : k = InSpace -> map (Formula.value x theta) (fst (origin_row a (scaled_row k N we le a b))) = map (Rmult (W * r)) (about_origin r l P Q).
 Proof.
   intro hk. pose proof scaled_row_values as S. rewrite hk in *. unfold scaled_row in *. cbv zeta in *. destruct S as [_ S].
@@ -364,6 +418,13 @@ Fixpoint origin_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : lis
       origin_row (vector_at q 0) (scaled_row k N w ell (vector_at q 0) (vector_at q 3)) :: origin_rows k N w ell s ts' (j + length (strut_layout s t))
   end.
 
+Fixpoint all_levers (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (tolerances * tolerances)) (j : nat) : list (formula * (formula -> formula)) :=
+  match ts with
+  | [] => []
+  | t :: ts' => let q := numbered j (strut_layout s t) in
+      lever k N w ell (vector_at q 0) (vector_at q 3) :: all_levers k N w ell s ts' (j + length (strut_layout s t))
+  end.
+
 Section Precision.
 Variable bits : positive.
 (** Of claims that no two poses have the same lengths: the one matrix, and before which other test this is counted. *)
@@ -372,9 +433,9 @@ Variables (one_matrix : N * list (list Z)) (one_place : nat).
 Definition is_less_than_quarter (k : motion) (o : orientations) : bool :=
   match k, o with InSpace, TurnedUpTo a => certainly bits true (Minus (90 // 1) a) | _, _ => false end.
 
-(** The number of a demand that is in formulas: the bound of a leg's length, in the unit of the check, or b/k of a stiffness. *)
+(** The number of a demand that is in formulas: the bound of a leg's length, in the unit of the check, b/k of a stiffness, or b/tool of a joint's speed. *)
 Definition length_bound (s : Z) (d : demand) : parameter :=
-  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | StiffnessMin k b => (exactly (Over b k), 0%Z) | _ => (exactly (0 // 1), 0%Z) end.
+  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | StiffnessMin k b => (exactly (Over b k), 0%Z) | SpeedMax _ tool b => (exactly (Over b tool), 0%Z) | _ => (exactly (0 // 1), 0%Z) end.
 Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option formula :=
   let bound := times (square (quantity (length_bound s d) j)) w in
   match d with
@@ -385,12 +446,16 @@ Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d 
 (** M^T k M >= b I is sigma_min >= 1 of the rows with D b/k. *)
 Definition stiff_rows (rows : rows formula) (s : Z) (j : nat) (d : demand) : Test.rows formula :=
   map (fun p => (fst p, times (snd p) (quantity (length_bound s d) j))) rows.
-Definition own_formulas (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : list formula :=
+(** Of a joint's speed: w r . A, and what is less than its square over w D. *)
+Definition lever_of (levers : list (formula * (formula -> formula))) (s : Z) (j : nat) (d : demand) : option (formula * formula) :=
+  match d with SpeedMax i _ _ => option_map (fun p => (fst p, snd p (quantity (length_bound s d) j))) (nth_error levers i) | _ => None end.
+Definition own_formulas (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (d : demand) : list formula :=
   match d with
   | StiffnessMin _ _ => map snd (stiff_rows rows s j d)
+  | SpeedMax _ _ _ => match lever_of levers s j d with Some (f, b) => [f; b] | None => [] end
   | _ => match length_sign rows w s j d with Some f => [f] | None => [] end
   end.
-Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
+Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
   let squared make r x := option_map (fun a => make (map_rows place r) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
   let least r w k := LeastOf r w k ends in
   match d with
@@ -398,9 +463,9 @@ Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula)
   | FactorMax b => squared least rows (Over (1 // 1) b)
   | FactorMin b => squared GreatestOf rows (Over (1 // 1) b)
   | LengthMin _ _ | LengthMax _ _ => option_map (fun f => SignOf (place f)) (length_sign rows w s j d)
-  | SpeedMax i tool b => match nth_error rows i with
-      | Some row => if certainly bits true tool && certainly bits false b then squared GreatestOf [row] (Over b tool) else None
-      | None => None
+  | SpeedMax i tool b => match nth_error rows i, lever_of levers s j d with
+      | Some (_, D), Some (f, b') => if certainly bits true tool && certainly bits true b then Some (LeverOf [([place f], place D)] (place b')) else None
+      | _, _ => None
       end
   | StiffnessMin k b => if certainly bits true k && certainly bits true b
       then Some (LeastOf (map_rows place (stiff_rows rows s j d)) (place w) (Fixed.integer bits 1) O) else None
@@ -411,10 +476,10 @@ Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula)
   | Conditioned b => option_map (fun a => ConditionOf (map_rows place rows) (place w) (sqr bits a)) (enclose_parameter bits (exactly b, 0%Z))
   | _ => None
   end.
-Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
-  match ds with [] => [] | d :: ds' => pose_test place ends rows w s j d :: pose_tests place ends rows w s (S j) ds' end.
-Fixpoint demand_formulas (rows : rows formula) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
-  match ds with [] => [] | d :: ds' => own_formulas rows w s j d ++ demand_formulas rows w s (S j) ds' end.
+Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
+  match ds with [] => [] | d :: ds' => pose_test place ends rows levers w s j d :: pose_tests place ends rows levers w s (S j) ds' end.
+Fixpoint demand_formulas (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
+  match ds with [] => [] | d :: ds' => own_formulas rows levers w s j d ++ demand_formulas rows levers w s (S j) ds' end.
 Definition excludes (d : demand) : bool := match d with Nonsingular | FactorMax _ => true | _ => false end.
 
 Definition position_tolerances (k : motion) (t : tolerances) : list tolerance :=
@@ -434,10 +499,10 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let j := length ps in
   let ell := quantity (exactly (characteristic_length c), s) (length (flat_map (strut_layout s) (struts c))) in
   let (N, w) := chart (turned c) (first_angle k) in
-  let rows := all_rows k N w ell s (struts c) 0 in
+  let rows := all_rows k N w ell s (struts c) 0 in let levers := all_levers k N w ell s (struts c) 0 in
   let g := curve (turned c) (first_angle k) (j + length (turning_demands c)) in
   let about := if one_pose c then origin_rows k N w ell s (struts c) 0 else [] in
-  let wanted := entries rows ++ w :: demand_formulas rows w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end ++ entries about in
+  let wanted := entries rows ++ w :: demand_formulas rows levers w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end ++ entries about in
   let tape := fst (compile (map (image m) wanted)) in
   let fs := formulas tape in
   let place f := Formula.place fs (image m f) in
@@ -449,7 +514,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
-        all_some (pose_tests place ends rows w s j (turning_demands c)) with
+        all_some (pose_tests place ends rows levers w s j (turning_demands c)) with
   | Some params, Some box, Some angles, Some tangents, Some tests =>
       let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
@@ -472,21 +537,23 @@ Lemma all_rows_stand : forall s ts m, Forall2 is_strut ts m -> exists th, Forall
     val3 x (front ++ th ++ back) (eposition k) = vscale (/ two_to s) P -> valm x (front ++ th ++ back) N = mscale W Q ->
     Formula.value x (front ++ th ++ back) w = W -> Formula.value x (front ++ th ++ back) ell = / two_to s * L ->
     Forall2 (stands x (front ++ th ++ back) k P Q W (/ two_to s) L) (all_rows k N w ell s ts (length front)) m /\
+    Forall2 (fun p l => is_lever x (front ++ th ++ back) k P Q W (/ two_to s) L l p) (all_levers k N w ell s ts (length front)) m /\
     (k = InSpace -> map (fun row => map (Formula.value x (front ++ th ++ back)) (fst row)) (origin_rows k N w ell s ts (length front)) =
       map (fun l => map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q)) m).
 Proof.
   intros s. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0.
-  induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; [constructor | intros; split; [constructor | reflexivity]] |].
+  induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; [constructor | intros; split; [constructor | split; [constructor | reflexivity]]] |].
   set (th1 := coordinates (vscale (/ two_to s) (strut_base l)) ++ coordinates (vscale (/ two_to s) (strut_joint l))).
   assert (L1 : Forall2 scaled_within (strut_layout s t) th1) by (apply Forall2_app; apply three_within; assumption).
   exists (th1 ++ th2). split; [cbn [flat_map]; apply Forall2_app; assumption |].
-  intros x front back k P Q W L N w ell W0 L0 keeps hP hN hw hl. cbn [all_rows origin_rows]. cbv zeta.
+  intros x front back k P Q W L N w ell W0 L0 keeps hP hN hw hl. cbn [all_rows all_levers origin_rows]. cbv zeta.
   rewrite <- app_assoc in hP, hN, hw, hl. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V.
   assert (Own : forall i, val3 x (front ++ th1 ++ th2 ++ back) (vector_at (numbered (length front) (strut_layout s t)) i) = Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0)).
   { intro i. unfold val3, vector_at. cbn [ex ey ez]. rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V. reflexivity. }
   specialize (R2 x (front ++ th1) back k P Q W L N w ell W0 L0 keeps). rewrite app_length, <- (related_length _ _ _ _ _ L1), <- !app_assoc in R2.
-  destruct (R2 hP hN hw hl) as [I1 I2]. rewrite <- !app_assoc. split.
+  destruct (R2 hP hN hw hl) as [I1 [I3 I2]]. rewrite <- !app_assoc. split; [| split].
   - constructor; [| exact I1]. apply (scaled_row_speed x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N _ _ w ell l); try assumption; rewrite Own; reflexivity.
+  - constructor; [| exact I3]. apply (lever_values x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N); try assumption; rewrite Own; reflexivity.
   - intro hk. cbn [map]. f_equal; [| exact (I2 hk)]. apply (origin_row_values x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N); try assumption; rewrite Own; reflexivity.
 Qed.
 
@@ -532,24 +599,24 @@ Proof.
 Qed.
 
 (** Where ends alone are looked at, it is of these rows. *)
-Lemma least_tests : forall place ends rows w s ds j tests t r v e, all_some (pose_tests place ends rows w s j ds) = Some tests -> In t tests -> with_ends t = Some (r, v, e) ->
+Lemma least_tests : forall place ends rows levers w s ds j tests t r v e, all_some (pose_tests place ends rows levers w s j ds) = Some tests -> In t tests -> with_ends t = Some (r, v, e) ->
   e = O \/ e = ends /\ r = map_rows place rows /\ v = place w.
 Proof.
-  intros place ends rows w s. induction ds as [| d ds IH]; intros j tests t r v e h i we; cbn [pose_tests all_some] in h; [injection h as <-; contradiction |].
-  destruct (pose_test place ends rows w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
+  intros place ends rows levers w s. induction ds as [| d ds IH]; intros j tests t r v e h i we; cbn [pose_tests all_some] in h; [injection h as <-; contradiction |].
+  destruct (pose_test place ends rows levers w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
   destruct i as [-> | i]; [| exact (IH (S j) rest t r v e er i we)].
-  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); [cbn [option_map] in eu | discriminate]); try (destruct (nth_error _ _); [| discriminate]);
+  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); [cbn [option_map] in eu | discriminate]); try (destruct (nth_error _ _) as [[? ?] |]; [| discriminate]); try (destruct (lever_of _ _ _ _) as [[? ?] |]; [| discriminate]);
     try (destruct (certainly _ _ _ && _); [| discriminate]);
     try (destruct (enclose_parameter bits _); [cbn [option_map] in eu |]; try discriminate); injection eu as <-; cbn [with_ends] in we; try discriminate;
     injection we; intros; subst; auto.
 Qed.
 
 (** A demand's own test, bound and formulas. *)
-Lemma demand_at : forall place ends rows w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
-  In (pose_test place ends rows w s (j + i) d) (pose_tests place ends rows w s j ds) /\
-  forall f, In f (own_formulas rows w s (j + i) d) -> In f (demand_formulas rows w s j ds).
+Lemma demand_at : forall place ends rows levers w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
+  In (pose_test place ends rows levers w s (j + i) d) (pose_tests place ends rows levers w s j ds) /\
+  forall f, In f (own_formulas rows levers w s (j + i) d) -> In f (demand_formulas rows levers w s j ds).
 Proof.
-  intros place ends rows w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
+  intros place ends rows levers w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
   - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |]. intros f e. cbn [demand_formulas]. apply in_or_app. left. exact e.
   - destruct (IH (S j) d i) as [n [h1 [h2 h3]]]. exists (S n). rewrite <- Nat.add_succ_comm. split; [exact h1 |]. split; [right; exact h2 |].
     intros f e. cbn [demand_formulas]. apply in_or_app. right. exact (h3 f e).
@@ -607,10 +674,10 @@ Proof.
   intros c s t h m P Q [hm hPQ]. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
   set (k := motion_of c) in *. set (ts := struts c) in *. set (ds := turning_demands c) in *. set (lay := flat_map (strut_layout s) ts) in *.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := length (lay ++ [pl])) in *. set (ell := quantity pl (length lay)) in *.
-  set (rows := all_rows k N w ell s ts 0) in *.
+  set (rows := all_rows k N w ell s ts 0) in *. set (levers := all_levers k N w ell s ts 0) in *.
   set (g := curve (turned c) (first_angle k) (j + length ds)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
   set (about := if one_pose c then origin_rows k N w ell s ts 0 else []) in *.
-  set (wanted := entries rows ++ w :: demand_formulas rows w s j ds ++ gs ++ entries about) in *.
+  set (wanted := entries rows ++ w :: demand_formulas rows levers w s j ds ++ gs ++ entries about) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
   apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h quarter]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [found below_].
@@ -618,7 +685,7 @@ Proof.
   destruct (all_some (map _ (position_tolerances _ _))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (map (end_box bits) _)) as [angles |] eqn:ea; [| discriminate].
   destruct (all_some (map (enclose_tangent bits) _)) as [tangents |] eqn:eg; [| discriminate].
-  destruct (all_some (pose_tests _ _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
+  destruct (all_some (pose_tests _ _ _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
   cbv zeta in C. set (all_tests := if one_pose c then inserted _ _ _ else tests) in C.
   assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (one_pose c); [apply inserted_in; right |]; exact iu).
   assert (Own : forall u, In u all_tests -> In u tests \/ with_ends u = None)
@@ -663,7 +730,7 @@ Proof.
   { unfold ell, theta. apply quantity_value; [exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold Rdiv; ring] |].
     rewrite <- lt. apply nth_middle. }
   pose proof (RS x [] ([/ two_to s * L] ++ bs ++ tt) k P Q W L N w ell W0 L0 (orientation_keeps _ _ hQ)
-    (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN hw hl) as [ST ORIGIN].
+    (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN hw hl) as [ST [LV ORIGIN]].
   change (Forall2 (stands x theta k P Q W (/ two_to s) L) rows m) in ST.
   (* the tape *)
   rewrite forallb_forall in found, below_.
@@ -685,14 +752,14 @@ Proof.
   set (ends := match positions c with Box _ => _ | _ => _ end) in *.
   assert (eased : forall u r v e, In u all_tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
     forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
-  { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
+  { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
     unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
     split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
       apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
     - split; [exact e2 | discriminate]. }
   assert (turn : is_turned tape all_tests (option_map place g) theta x).
-  { split; [| intros u r v e i we; destruct (Own u i) as [i1 | no]; [| congruence]; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
+  { split; [| intros u r v e i we; destruct (Own u i) as [i1 | no]; [| congruence]; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
       [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
@@ -715,9 +782,9 @@ Proof.
       destruct U as [v [lv nv]]. destruct (H kappa v hk k0 lv nv) as [p _]. rewrite Rows in p. exact p. }
     destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. split; [exact PD |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
-  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place ends rows w s (j + i) d = Some u /\ In u tests /\
-    forall f, In f (own_formulas rows w s (j + i) d) -> In f wanted).
-  { intros d id. destruct (demand_at place ends rows w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
+  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place ends rows levers w s (j + i) d = Some u /\ In u tests /\
+    forall f, In f (own_formulas rows levers w s (j + i) d) -> In f wanted).
+  { intros d id. destruct (demand_at place ends rows levers w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
     exists i, u. split; [exact h1 |]. split; [exact e |]. split; [exact iu |]. intros f q. apply in_or_app. right. right. apply in_or_app. left. exact (h3 f q). }
   assert (Reach : exists low kappa, contains bits low kappa /\ 0 <= kappa /\ In (LeastOf (map_rows place rows) (place w) low ends) tests).
   { apply existsb_exists in ex as [d [id e]]. destruct (Test d id) as [i [u [_ [pu [iu _]]]]]. destruct d; try discriminate; cbn [pose_test] in pu.
@@ -765,6 +832,10 @@ Proof.
   { clear - ST. intros n row. revert n. induction ST as [| row' l rows' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
     - injection e as ->. exists l. split; [reflexivity | exact hd].
     - exact (IH n e). }
+  assert (LeverOf_ : forall n p, nth_error levers n = Some p -> exists l, nth_error m n = Some l /\ is_lever x theta k P Q W ratio L l p).
+  { clear - LV. intros n p. revert n. change (Forall2 (fun p l => is_lever x theta k P Q W ratio L l p) levers m) in LV. induction LV as [| p' l levers' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
+    - injection e as ->. exists l. split; [reflexivity | exact hd].
+    - exact (IH n e). }
   assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
   { intros n A D e. destruct (LegOf n _ e) as [l [e' [_ [hd _]]]]. exists l. split; [exact e' | exact hd]. }
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
@@ -791,21 +862,29 @@ Proof.
     destruct (NZ u) as [nu | z]; [| destruct (Z u z) as [-> ->]; lra]. destruct (NZ v) as [nv | z]; [| destruct (Z v z) as [-> ->]; lra].
     destruct (H _ u v K (pow2_ge_0 _) lu lv nu nv) as [p q]. rewrite Rows in p, q. rewrite !(proj2 (Speed p)) in q.
     apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
-  - destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits false b') eqn:ce; [| discriminate].
-    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
-    destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K.
-    destruct (LegOf n _ nr) as [l [nl [st _]]]. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
-    intros v lv le. apply Rabs_le. enough (Q2 : Linear.dot (strut_row k L l P Q) v ^ 2 <= Claim.value b' ^ 2) by (split; nra).
-    destruct (NZ v) as [nz | z]; [| rewrite (dot_zero v _ (zero_vector v ltac:(apply Rnot_lt_le; exact z))); nra].
-    pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct (H _ v K lv nz) as [p q].
-    change [(map place A, place D)] with (map_rows place [(A, D)]) in p, q. rewrite RowsOf in p, q by (intros f i'; apply in_or_app; left; apply in_flat_map; exists (A, D);
-      split; [exact (nth_error_In _ _ nr) | cbn [entries flat_map] in i'; rewrite app_nil_r in i'; exact i']).
-    rewrite map_rows_cons in p, q. pose proof (Forall_inv p) as p1. cbn [snd] in p1. destruct (st p1) as [_ [z [z2 S2]]]. cbn [energy map_rows map] in q.
-    rewrite Weight, S2, Rpow_mult_distr, z2 in q. replace (W * Formula.value x theta D * Linear.dot (strut_row k L l P Q) v ^ 2 / Formula.value x theta D)
-      with (W * Linear.dot (strut_row k L l P Q) v ^ 2) in q by (field; lra).
-    set (tool := Claim.value b) in *. set (y := Claim.value b') in *. set (u := Linear.dot (strut_row k L l P Q) v ^ 2) in *. set (vv := Linear.dot v v) in *.
-    assert (u < (y / tool) ^ 2 * vv) by (apply Rmult_lt_reg_l with W; lra). assert ((y / tool) ^ 2 * vv <= (y / tool) ^ 2 * tool ^ 2) by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact le]).
-    replace ((y / tool) ^ 2 * tool ^ 2) with (y ^ 2) in * by (field; lra). lra.
+  - destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. cbn [own_formulas lever_of length_bound] in *.
+    destruct (nth_error levers n) as [[f bound] |] eqn:nv; [| discriminate]. cbn [option_map fst snd] in *.
+    destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
+    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct H as [p q].
+    destruct (Leg n A D nr) as [l [nl vD]]. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
+    destruct (LeverOf_ n _ nv) as [l' [nl' [vf vb]]]. assert (l' = l) by congruence. subst l'. cbn [fst snd] in vf, vb. set (k2 := quantity (exactly (Over b' b), 0%Z) (j + i)) in *.
+    assert (Number : Formula.value x theta k2 = Claim.value b' / Claim.value b).
+    { apply quantity_value; [exists (Claim.value b' / Claim.value b); split; [split; apply Rle_refl | cbn [snd]; change (two_to 0) with 1; field; lra] |].
+      unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [ratio * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
+      rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map length_bound].
+      cbn. f_equal. change (two_to 0) with 1. field. lra. }
+    specialize (vb k2). rewrite Number in vb.
+    rewrite map_rows_cons in p, q. cbn [map_rows map fst snd energy Linear.dot] in p, q. apply Forall_inv in p. cbn [snd] in p.
+    assert (iD : In D wanted) by (apply in_or_app; left; apply in_flat_map; exists (A, D); split; [exact (nth_error_In _ _ nr) | apply in_or_app; right; left; reflexivity]).
+    rewrite (Found D iD) in p, q. rewrite (Found f (signs f (or_introl eq_refl))), (Found (bound k2) (signs _ (or_intror (or_introl eq_refl)))) in q. rewrite vD in p, q. rewrite vf, vb in q.
+    set (y := Claim.value b') in *. set (tool := Claim.value b) in *. set (n2 := norm2 (strut_vector l P Q)) in *. set (along := Vec3.dot (arm_of_joint l Q) (strut_vector l P Q)) in *.
+    assert (n0 : 0 < n2) by (apply Rmult_lt_reg_l with (W * ratio ^ 2); lra).
+    assert (R : Linear.dot (strut_row k L l P Q) (strut_row k L l P Q) <= (y / tool) ^ 2).
+    { apply (lever_bounds k P Q L l L0 (orientation_keeps _ _ hQ)); [exact n0 |]. fold along. fold n2. apply Rmult_lt_reg_l with (W * ratio ^ 2); [exact wr |].
+      replace (W * ratio ^ 2 * (along ^ 2 / n2)) with ((W * ratio ^ 2 * along * 1 + 0) ^ 2 / (W * ratio ^ 2 * n2) + 0) by (field; split; [lra | split; lra]). exact q. }
+    intros v lv le. apply Rabs_le. enough (Q2 : Linear.dot (strut_row k L l P Q) v ^ 2 <= y ^ 2) by (split; nra).
+    pose proof (Solve.dot_cauchy (strut_row k L l P Q) v) as CS. pose proof (Linear.dot_self v). pose proof (pow2_ge_0 (y / tool)).
+    assert ((y / tool) ^ 2 * tool ^ 2 = y ^ 2) by (field; lra). nra.
   - destruct (nth_error rows n) as [row |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
     apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-.
     pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K. pose proof (HT _ iu) as H. cbn [test_holds] in H. rewrite Rows, Weight in H.

@@ -17,6 +17,16 @@ Lemma dot_weighted : forall u M v, dot (weighted_sum u M) v = dot u (map (fun r 
 Proof. induction u as [| t u IH]; intros [| r M] v; cbn [weighted_sum map dot]; try (destruct v; reflexivity). rewrite dot_comb, IH. ring. Qed.
 Lemma dot_commutes : forall u v, dot u v = dot v u.
 Proof. induction u as [| a u IH]; intros [| b v]; cbn [dot]; try reflexivity. rewrite IH. ring. Qed.
+Lemma dot_cauchy : forall u v, dot u v ^ 2 <= dot u u * dot v v.
+Proof.
+  intros u v. destruct (Rlt_dec 0 (dot v v)) as [p | n].
+  - pose proof (dot_self (comb (dot v v) (- dot u v) u v)) as q.
+    rewrite dot_comb, !(dot_commutes _ (comb _ _ u v)), !dot_comb, (dot_commutes v u) in q.
+    replace (dot v v * (dot v v * dot u u + - dot u v * dot u v) + - dot u v * (dot v v * dot u v + - dot u v * dot v v))
+      with (dot v v * (dot u u * dot v v - dot u v ^ 2)) in q by ring.
+    apply Rnot_lt_le. intro k. assert (dot v v * (dot u u * dot v v - dot u v ^ 2) < 0) by nra. lra.
+  - rewrite (dot_zero v u (zero_vector v ltac:(lra))). pose proof (dot_self u). pose proof (dot_self v). nra.
+Qed.
 
 Fixpoint real_gram (qs : list (list R * list R)) : list (list R) :=
   match qs with

@@ -353,8 +353,11 @@ let rec evidence (n, m as shape) v =
     if List.length rows <> 3 then raise Malformed else Multiplied ("direction", rows, places (get l "places"))
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
-(* At control points. *)
+(* At control points; of the test of one leg, one number. *)
 and at_controls shape v =
+  let evidence shape = function
+    | Object [ ("lower", Object [ ("y", Array [ Array [ _ ] ]); _ ]) ] as e -> evidence (1, 1) e
+    | e -> evidence shape e in
   match v with
   | Object [ ("turned", Array [ (String ("test" | "chords") | Object [ (("lower" | "rank" | "conditioning"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
   | String ("test" | "chords") | Object [ (("lower" | "rank" | "conditioning"), _) ] -> evidence shape v

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-ic="spatial",oc="Invalid_argument",f$="precision",aw='"',ib=1255,ob="inside",nk="(",nl=0x800,oa="yaw",nh="range",ni="tree",nj="jsError",bL=0x8000,n$="sqrt(",ng=256,nf="obligation",eH="offset",a2="machine",nd="this quantity of such a mechanism in a claim that is refuted",ne="End_of_file",dJ="strut",ia="center",eG="arm",h$="Failure",n_="serial_margin",gh="parameters",b6=0xff,iq="bodies",ip="outside",gg="base_axis",h_="ENOENT",n9=122,nc="([^/]+)",io="0",h9=0xf,eF=128,nb=0xdc00,n7="Sys_blocked_io",n8="fd ",f_="given",na="ENOTEMPTY",aH=248,m$="such a machine with bodies",f9="bound",m_="Division_by_zero",n5="by",n6=1027,m9="Sys_error",gf="slider",m8="torsion",n4="postulate",m7="proof",n3="joint_error",eE="refuted",dE="mechanism",f8="row",m6="EEXIST",n2="roll_pitch_yaw",im="y",m5="cube",f7="lower",n1="within",m4="clearance",n0="turned",m3="control",f6="int_of_string",nY="definitions",nZ="dependent",eD=1024,m1="from",m2="name",nX=" : flags Open_rdonly and Open_wronly are not compatible",m0="orthocert/2",nW="reach",mZ=512,nV="witness",eC="-",aT="platform",mY=0x7ff0,mX="pitch",il=": Not a directory",bd="min",nT="trim",dI="workspace",nU=" : file already exists",f5="split",ik="legs",nS="claim",h8="joint",cY=0xffffff,mW="formulas",mV="roll",f4="atlas",nQ="nodes",nR="Out_of_memory",mU="psi_max",ge="orientation",f3=254,nP="angle",ij="index out of bounds",mT="end",nO="one_to_one",gd="_bigarr02",mS=" : flags Open_text and Open_binary are not compatible",bx="drive",mR="coordinates",nN="holds",mQ="lower_divided",mP="speed",nL="cylinder",nM="joints",b5=0xffff,nJ="acceleration",eA="certified",eB="chords",nK=12520,h7="on",f2="accuracy",nI="axis",nH="no_cube",nG="parallel_margin",mO='the drive "',h6="Unix.Unix_error",gc="fails",f1="tool",h5="mkdir",nF="rho",gb=1000,f0="translational",nE="tolerances",mN="Stack_overflow",ii="characteristic_length",Q="",ih="^",h4="places",fZ=": No such file or directory",mM="/static/",dH=0x3f,mK="stiffness",mL="Not_found",cX="planar",ey="mode",nD="joint_speed",nC="Match_failure",mJ="transmission",bc="anchor",nB="at",mI="joint_force",dG="leg",mH="joint_acceleration",ga="+",h3="rmdir",nA=0xf0,nz="spherical",mG=1026,nx="REJECTED",ny="undecided",be="max",b4="direction",mE="leg_angle",mF="orthoglide",ez="rank",nw="constraint_margin",h2="test",mC="Pervasives.do_at_exit",mD="utf8",bw=0x80,dF="conditioning",dD="length",mB="Undefined_recursive_module",ig=")",mA="base",nv="quantity",mz="joint_range",fY="tilt",my="Q2",nu="reference",mx="point",ns="corner",nt=0xe0,mw="version",ie="z",nq="to",nr=0xdfff,h1="compare: functional value",np="Assert_failure",bz="/",no="provenance",cW="radius",fX="side",by="require",nn="format",mv="Q1",id="ENOTDIR",mu="all",cV="box",nm=250;function
-iD(c,b,a){var
+ie="spatial",of="Invalid_argument",gb="precision",aw='"',id=1255,oe="inside",nn="(",no=0x800,od="yaw",nk="range",nl="tree",nm="jsError",bN=0x8000,oc="sqrt(",nj=256,ni="obligation",eI="offset",a2="machine",ng="this quantity of such a mechanism in a claim that is refuted",nh="End_of_file",dJ="strut",ic="center",eH="arm",ib="Failure",ob="serial_margin",gk="parameters",b6=0xff,ir="bodies",iq="outside",gj="base_axis",ia="ENOENT",oa=122,nf="([^/]+)",ip="0",h$=0xf,eG=128,ne=0xdc00,n_="Sys_blocked_io",n$="fd ",ga="given",nd="ENOTEMPTY",aH=248,nc="such a machine with bodies",f$="bound",nb="Division_by_zero",n8="by",n9=1027,na="Sys_error",gi="slider",m$="torsion",n7="postulate",m_="proof",n6="joint_error",eF="refuted",dE="mechanism",f_="row",m9="EEXIST",n5="roll_pitch_yaw",gh="y",m8="cube",ez="lower",n4="within",m7="clearance",n3="turned",m6="control",f9="int_of_string",n1="definitions",n2="dependent",eE=1024,m4="from",m5="name",n0=" : flags Open_rdonly and Open_wronly are not compatible",m3="orthocert/2",nZ="reach",m2=512,nY="witness",eD="-",aT="platform",m1=0x7ff0,m0="pitch",io=": Not a directory",bd="min",nW="trim",dI="workspace",nX=" : file already exists",f8="split",im="legs",nV="claim",h_="joint",cZ=0xffffff,mZ="formulas",mY="roll",f7="atlas",nT="nodes",nU="Out_of_memory",mX="psi_max",gg="orientation",f6=254,nS="angle",il="index out of bounds",mW="end",nR="one_to_one",gf="_bigarr02",mV=" : flags Open_text and Open_binary are not compatible",by="drive",mU="coordinates",nQ="holds",mT="lower_divided",mS="speed",nO="cylinder",nP="joints",b5=0xffff,nM="acceleration",eB="certified",eC="chords",nN=12520,h9="on",f5="accuracy",nL="axis",nK="no_cube",nJ="parallel_margin",mR='the drive "',h8="Unix.Unix_error",ge="fails",f4="tool",h7="mkdir",nI="rho",gd=1000,f3="translational",nH="tolerances",mQ="Stack_overflow",ik="characteristic_length",Q="",ij="^",h6="places",f2=": No such file or directory",mP="/static/",dH=0x3f,mN="stiffness",mO="Not_found",cY="planar",ey="mode",nG="joint_speed",nF="Match_failure",mM="transmission",bc="anchor",nE="at",mL="joint_force",dG="leg",mK="joint_acceleration",gc="+",h5="rmdir",nD=0xf0,nC="spherical",mJ=1026,nA="REJECTED",nB="undecided",be="max",b4="direction",mH="leg_angle",mI="orthoglide",eA="rank",nz="constraint_margin",h4="test",mF="Pervasives.do_at_exit",mG="utf8",bx=0x80,dF="conditioning",dD="length",mE="Undefined_recursive_module",ii=")",mD="base",ny="quantity",mC="joint_range",f1="tilt",mB="Q2",nx="reference",mA="point",nv="corner",nw=0xe0,mz="version",ih="z",nt="to",nu=0xdfff,h3="compare: functional value",ns="Assert_failure",bA="/",nr="provenance",cX="radius",f0="side",bz="require",nq="format",my="Q1",ig="ENOTDIR",mx="all",cW="box",np=250;function
+iE(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=Q;for(;0<a;b+=eD,a-=eD)e+=d.apply(null,c.slice(b,b+Math.min(a,eD)));return e}function
-gj(b){if(E.Uint8Array)var
+e=Q;for(;0<a;b+=eE,a-=eE)e+=d.apply(null,c.slice(b,b+Math.min(a,eE)));return e}function
+gm(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eI(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iD(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iD(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gj(b);var
+eJ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iE(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iE(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gm(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,37 +23,37 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 dM(a){return a}function
-dL(a,b,c,d,e){eI(dM(a),b,c,d,e);return 0}function
-is(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dL(a,b,c,d,e){eJ(dM(a),b,c,d,e);return 0}function
+it(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cZ(c,a){if(c.fun)return cZ(c.fun,a);if(typeof
+c0(c,a){if(c.fun)return c0(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cZ(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c0(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cZ(c,d)}}function
-oE(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c0(c,d)}}function
+oH(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
 d=Q,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dN(a){if(a.t==2)a.c+=oE(a.l-a.c.length,"\0");else
-a.c=iD(a.c,0,a.c.length);a.t=0}function
+dN(a){if(a.t==2)a.c+=oH(a.l-a.c.length,"\0");else
+a.c=iE(a.c,0,a.c.length);a.t=0}function
 dO(a){a.t&6&&dN(a);return a.c}var
-C0=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-CZ(a){if(C0)return Math.floor(Math.log2(a));var
+C8=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+C7(a){if(C8)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iv(c){var
+iw(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-ov=Math.pow(2,-24);function
-CQ(a){throw a}var
+oy=Math.pow(2,-24);function
+CY(a){throw a}var
 ao=[0];function
-oB(){CQ(ao.Division_by_zero)}function
-D(b,c,a){this.lo=b&cY;this.mi=c&cY;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+oE(){CY(ao.Division_by_zero)}function
+D(b,c,a){this.lo=b&cZ;this.mi=c&cZ;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*ov|0)+this.mi*a.lo+this.lo*a.mi,d=(c*ov|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*oy|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oy|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -77,25 +77,25 @@ c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cY;this.lo=this.lo<<1&cY};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cY;this.mi=(this.mi>>>1|this.hi<<23)&cY;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cZ;this.lo=this.lo<<1&cZ};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cZ;this.mi=(this.mi>>>1|this.hi<<23)&cZ;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())oB();var
-d=b.hi^a.hi;if(b.hi&bL)b=b.neg();if(a.hi&bL)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bL)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())oB();var
-d=a.hi;if(a.hi&bL)a=a.neg();if(b.hi&bL)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bL)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
-gl(b,c,a){return new
+b=this;if(a.isZero())oE();var
+d=b.hi^a.hi;if(b.hi&bN)b=b.neg();if(a.hi&bN)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bN)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())oE();var
+d=a.hi;if(a.hi&bN)a=a.neg();if(b.hi&bN)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bN)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
+go(b,c,a){return new
 D(b,c,a)}function
-gk(a){if(!isFinite(a)){if(isNaN(a))return gl(1,0,mY);return a>0?gl(0,0,mY):gl(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bL:a>=0?0:bL;if(f)a=-a;var
-b=CZ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mG)}else{a/=Math.pow(2,b-n6);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gn(a){if(!isFinite(a)){if(isNaN(a))return go(1,0,m1);return a>0?go(0,0,m1):go(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bN:a>=0?0:bN;if(f)a=-a;var
+b=C7(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mJ)}else{a/=Math.pow(2,b-n9);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&h9|f|b<<4;return gl(g,e,c)}function
-eL(a){return a.toArray()}function
-oj(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gd)for(var
+g=a|0;c=c&h$|f|b<<4;return go(g,e,c)}function
+eM(a){return a.toArray()}function
+om(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gf)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eL(b.get(a));for(var
+e=eM(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eL(gk(b.get(a)));for(var
+e=eM(gn(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iv(b.get(a));c.write(32,e)}break;case
+e=iw(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iv(d[1]));c.write(32,iv(d[2]))}break;case
+d=b.get(a);c.write(32,iw(d[1]));c.write(32,iw(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eL(gk(f[1]));for(var
+f=b.get(a),e=eM(gn(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eL(gk(f[2]));for(var
+e=eM(gn(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-CS(b,a){throw[0,b,a]}function
-oJ(a){if(a.length<24){for(var
+C0(b,a){throw[0,b,a]}function
+oM(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iE(e){for(var
-j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bw){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bw;d++);if(d-b>mZ){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF){g=h+(f<<6);if(f<nt){a=g-0x3080;if(a<bw)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF){g=h+(g<<6);if(f<nA){a=g-0xe2080;if(a<nl||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eF&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),nb+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eD){c.substr(0,1);j+=c;c=Q}}return j+c}function
-bM(c,a,b){this.t=c;this.c=a;this.l=b}bM.prototype.toString=function(){switch(this.t){case
+iF(e){for(var
+j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bx){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bx;d++);if(d-b>m2){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eG){g=h+(f<<6);if(f<nw){a=g-0x3080;if(a<bx)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eG){g=h+(g<<6);if(f<nD){a=g-0xe2080;if(a<no||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eG&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),ne+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eE){c.substr(0,1);j+=c;c=Q}}return j+c}function
+bO(c,a,b){this.t=c;this.c=a;this.l=b}bO.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:dN(this);case
-0:if(oJ(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bM.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iE(a)};bM.prototype.slice=function(){var
+0:if(oM(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bO.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iF(a)};bO.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bM(this.t,a,this.l)};function
-om(a){return new
-bM(0,a,a.length)}function
-a(a){return om(a)}function
-iC(c,b){CS(c,a(b))}function
-az(a){iC(ao.Invalid_argument,a)}function
-oh(a){switch(a){case
+bO(this.t,a,this.l)};function
+op(a){return new
+bO(0,a,a.length)}function
+a(a){return op(a)}function
+iD(c,b){C0(c,a(b))}function
+az(a){iD(ao.Invalid_argument,a)}function
+ok(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ck(c,e){var
+Cs(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
 d=new
-a(e*oh(c));return d}function
-iw(c){var
+a(e*ok(c));return d}function
+ix(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eK(a){return new
+eL(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-ix(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h9)==0?b&bL?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&h9);if(c>0){a+=16;a*=Math.pow(2,c-n6)}else
-a*=Math.pow(2,-mG);if(b&bL)a=-a;return a}function
-ir(b){var
+iy(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h$)==0?b&bN?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&h$);if(c>0){a+=16;a*=Math.pow(2,c-n9)}else
+a*=Math.pow(2,-mJ);if(b&bN)a=-a;return a}function
+is(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-CA(b,a){return new
-D(b&cY,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
-iy(a){return a.hi32()}function
-iz(a){return a.lo32()}function
-gi(){az(ij)}var
-Cl=gd;function
-ct(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ct.prototype.caml_custom=Cl;ct.prototype.offset=function(b){var
+CI(b,a){return new
+D(b&cZ,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
+iz(a){return a.hi32()}function
+iA(a){return a.lo32()}function
+gl(){az(il)}var
+Ct=gf;function
+cu(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cu.prototype.caml_custom=Ct;cu.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gi();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gl();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gi();c=c*this.dims[a]+(b[a]-1)}return c};ct.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gl();c=c*this.dims[a]+(b[a]-1)}return c};cu.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return CA(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return CI(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[f3,e,c];default:return this.data[a]}};ct.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iz(b);this.data[a*2+1]=iy(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[f6,e,c];default:return this.data[a]}};cu.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iA(b);this.data[a*2+1]=iz(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};ct.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cu.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iz(b),e=iy(b);if(c==e)this.data.fill(c);else
+c=iA(b),e=iz(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};ct.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cu.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
-ct();dK.prototype.offset=function(a){if(typeof
+cu();dK.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gi();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
-of(c,d,a,b){var
-e=oh(c);if(ir(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gl();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
+oi(c,d,a,b){var
+e=ok(c);if(is(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 dK(c,d,a,b);return new
-ct(c,d,a,b)}function
-bA(b){if(!ao.Failure)ao.Failure=[aH,a(h$),-3];iC(ao.Failure,b)}function
-og(b,v,r){var
-i=b.read32s();if(i<0||i>16)bA("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==gd)for(var
+cu(c,d,a,b)}function
+bB(b){if(!ao.Failure)ao.Failure=[aH,a(ib),-3];iD(ao.Failure,b)}function
+oj(b,v,r){var
+i=b.read32s();if(i<0||i>16)bB("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==gf)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==b5){var
-t=b.read32u(),u=b.read32u();if(t!=0)bA("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)bB("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=ir(h),f=Ck(j,d),g=of(j,o,h,f);switch(j){case
+d=is(h),f=Cs(j,d),g=oi(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,50 +269,50 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bA("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bB("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eK(e);g.set(a,q)}break;case
+q=eL(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=ix(eK(e));g.set(a,k)}break;case
+k=iy(eL(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iw(b.read32s());g.set(a,k)}break;case
+k=ix(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iw(b.read32s()),l=iw(b.read32s());g.set(a,[f3,m,l])}break;case
+m=ix(b.read32s()),l=ix(b.read32s());g.set(a,[f6,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=ix(eK(e));for(var
+m=iy(eL(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=ix(eK(e));g.set(a,[f3,m,l])}break}v[0]=(4+i)*4;return of(j,o,h,f)}function
-oe(a,b,c){return a.compare(b,c)}function
-oy(a,b){return Math.imul(a,b)}function
-b7(b,a){a=oy(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oy(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Cx(a,b){a=b7(a,iz(b));a=b7(a,iy(b));return a}function
-ou(a,b){return Cx(a,gk(b))}function
-oi(c){var
-b=ir(c.dims),d=0;switch(c.kind){case
+l=iy(eL(e));g.set(a,[f6,m,l])}break}v[0]=(4+i)*4;return oi(j,o,h,f)}function
+oh(a,b,c){return a.compare(b,c)}function
+oB(a,b){return Math.imul(a,b)}function
+b7(b,a){a=oB(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oB(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+CF(a,b){a=b7(a,iA(b));a=b7(a,iz(b));return a}function
+ox(a,b){return CF(a,gn(b))}function
+ol(c){var
+b=is(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>ng)b=ng;var
+12:if(b>nj)b=nj;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=b7(d,e)}break;case
 4:case
-5:if(b>eF)b=eF;var
+5:if(b>eG)b=eG;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=b7(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 a=0;a<b;a++)d=b7(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ou(d,c.data[a]);break;case
+a=0;a<b;a++)d=ox(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=ou(d,c.data[a]);break}return d}function
-Cy(a,b){b[0]=4;return a.read32s()}function
-CN(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=ox(d,c.data[a]);break}return d}function
+CG(a,b){b[0]=4;return a.read32s()}function
+CV(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bA("input_value: native integer value too large");default:bA("input_value: ill-formed native integer")}}function
-CD(c,d){var
+2:bB("input_value: native integer value too large");default:bB("input_value: ill-formed native integer")}}function
+CL(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eK(b)}function
-CC(e,d,b){var
-c=eL(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eL(b)}function
+CK(e,d,b){var
+c=eM(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Cz(a,b,c){return a.compare(b)}function
-CB(a){return a.lo32()^a.hi32()}var
-op={"_j":{deserialize:CD,serialize:CC,fixed_length:8,compare:Cz,hash:CB},"_i":{deserialize:Cy,fixed_length:4},"_n":{deserialize:CN,fixed_length:4},"_bigarray":{deserialize:function(a,b){return og(a,b,"_bigarray")},serialize:oj,compare:oe,hash:oi},"_bigarr02":{deserialize:function(a,b){return og(a,b,gd)},serialize:oj,compare:oe,hash:oi}};function
-iu(a){return op[a.caml_custom]&&op[a.caml_custom].compare}function
-on(f,c,d,e){var
-b=iu(c);if(b){var
+CH(a,b,c){return a.compare(b)}function
+CJ(a){return a.lo32()^a.hi32()}var
+os={"_j":{deserialize:CL,serialize:CK,fixed_length:8,compare:CH,hash:CJ},"_i":{deserialize:CG,fixed_length:4},"_n":{deserialize:CV,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oj(a,b,"_bigarray")},serialize:om,compare:oh,hash:ol},"_bigarr02":{deserialize:function(a,b){return oj(a,b,gf)},serialize:om,compare:oh,hash:ol}};function
+iv(a){return os[a.caml_custom]&&os[a.caml_custom].compare}function
+oq(f,c,d,e){var
+b=iv(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-iB(a){return a
+iC(a){return a
 instanceof
-bM}function
-ow(a){return iB(a)}function
-oo(a){if(typeof
-a==="number")return gb;else
-if(iB(a))return 252;else
-if(ow(a))return 1252;else
+bO}function
+oz(a){return iC(a)}function
+or(a){if(typeof
+a==="number")return gd;else
+if(iC(a))return 252;else
+if(oz(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==f3?0:b}else
+b=a[0]|0;return b==f6?0:b}else
 if(a
 instanceof
-String)return nK;else
+String)return nN;else
 if(typeof
-a=="string")return nK;else
+a=="string")return nN;else
 if(a
 instanceof
-Number)return gb;else
-if(a&&a.caml_custom)return ib;else
+Number)return gd;else
+if(a&&a.caml_custom)return id;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-CE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-ol(a,b){a.t&6&&dN(a);b.t&6&&dN(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-oF(a,b){return ol(a,b)}function
-it(a,b,d){var
+CM(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+oo(a,b){a.t&6&&dN(a);b.t&6&&dN(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+oI(a,b){return oo(a,b)}function
+iu(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=oo(a);if(f==nm){a=a[1];continue}var
-g=oo(b);if(g==nm){b=b[1];continue}if(f!==g){if(f==gb){if(g==ib)return on(a,b,-1,d);return-1}if(g==gb){if(f==ib)return on(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:az(h1);break;case
+f=or(a);if(f==np){a=a[1];continue}var
+g=or(b);if(g==np){b=b[1];continue}if(f!==g){if(f==gd){if(g==id)return oq(a,b,-1,d);return-1}if(g==gd){if(f==id)return oq(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:az(h3);break;case
 248:var
-c=CE(a[2],b[2]);if(c!=0)return c|0;break;case
-249:az(h1);break;case
+c=CM(a[2],b[2]);if(c!=0)return c|0;break;case
+249:az(h3);break;case
 250:az("equal: got Forward_tag, should not happen");break;case
 251:az("equal: abstract value");break;case
 252:if(a!==b){var
-c=ol(a,b);if(c!=0)return c|0}break;case
+c=oo(a,b);if(c!=0)return c|0}break;case
 253:az("equal: got Double_tag, should not happen");break;case
 254:az("equal: got Double_array_tag, should not happen");break;case
 255:az("equal: got Custom_tag, should not happen");break;case
-1247:az(h1);break;case
+1247:az(h3);break;case
 1255:var
-i=iu(a);if(i!=iu(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
+i=iv(a);if(i!=iv(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,130 +405,130 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Cs(a,b){return it(a,b,true)}function
-bO(a){if(a<0)az("Bytes.create");return new
-bM(a?2:9,Q,a)}function
-oq(a,b){return+(it(a,b,false)==0)}function
-Cu(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oE(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gj(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-CO=0;function
-os(){return CO++}function
-CG(a){return a.toUtf16()}function
-eM(){return typeof
+CA(a,b){return iu(a,b,true)}function
+bQ(a){if(a<0)az("Bytes.create");return new
+bO(a?2:9,Q,a)}function
+ot(a,b){return+(iu(a,b,false)==0)}function
+CC(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+CW=0;function
+ov(){return CW++}function
+CO(a){return a.toUtf16()}function
+eN(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-C1(){function
-a(a){if(a.charAt(0)===bz)return[Q,a.substring(1)];return}function
+C9(){function
+a(a){if(a.charAt(0)===bA)return[Q,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||Q,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eM()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iI=C1();function
-oG(a){return a.slice(-1)!==bz?a+bz:a}if(eM()&&E.process&&E.process.cwd)var
-eJ=E.process.cwd().replace(/\\/g,bz);else
+d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eN()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iJ=C9();function
+oJ(a){return a.slice(-1)!==bA?a+bA:a}if(eN()&&E.process&&E.process.cwd)var
+eK=E.process.cwd().replace(/\\/g,bA);else
 var
-eJ="/static";eJ=oG(eJ);function
-CI(a){a=CG(a);if(!iI(a))a=eJ+a;var
-e=iI(a),d=e[1].split(bz),b=[];for(var
+eK="/static";eK=oJ(eK);function
+CQ(a){a=CO(a);if(!iJ(a))a=eK+a;var
+e=iJ(a),d=e[1].split(bA),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-CW(e){for(var
-f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bw){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bw;d++);if(d-c>mZ){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<nl){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bw|a&dH)}else
-if(a<0xd800||a>=nr)b+=String.fromCharCode(nt|a>>12,bw|a>>6&dH,bw|a&dH);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nb||h>nr)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nA|a>>18,bw|a>>12&dH,bw|a>>6&dH,bw|a&dH)}if(b.length>eD){b.substr(0,1);f+=b;b=Q}}return f+b}function
-Cp(a){var
-b=9;if(!oJ(a))b=8,a=CW(a);return new
-bM(b,a,a.length)}function
-dP(a){return Cp(a)}var
-C4=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",m6,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",h_,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",id,na,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c3(d,f,e,a){var
-b=C4.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+C4(e){for(var
+f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bx){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bx;d++);if(d-c>m2){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<no){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bx|a&dH)}else
+if(a<0xd800||a>=nu)b+=String.fromCharCode(nw|a>>12,bx|a>>6&dH,bx|a&dH);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ne||h>nu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nD|a>>18,bx|a>>12&dH,bx|a>>6&dH,bx|a&dH)}if(b.length>eE){b.substr(0,1);f+=b;b=Q}}return f+b}function
+Cx(a){var
+b=9;if(!oM(a))b=8,a=C4(a);return new
+bO(b,a,a.length)}function
+dP(a){return Cx(a)}var
+Da=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",m9,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ia,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",ig,nd,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c4(d,f,e,a){var
+b=Da.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,dP(f||Q),dP(e||Q)];return c}var
-oz={};function
-c0(a){return oz[a]}function
-c1(b,a){throw[0,b].concat(a)}function
-Co(a){return new
-bM(4,a,a.length)}function
-ae(a){iC(ao.Sys_error,a)}function
-CR(a){ae(a+fZ)}function
-ok(){az(ij)}function
-Cn(b,a){if(a>>>0>=b.l)ok();return is(b,a)}function
-gm(a){return a.l}function
-od(){}function
+oC={};function
+c1(a){return oC[a]}function
+c2(b,a){throw[0,b].concat(a)}function
+Cw(a){return new
+bO(4,a,a.length)}function
+ae(a){iD(ao.Sys_error,a)}function
+CZ(a){ae(a+f2)}function
+on(){az(il)}function
+Cv(b,a){if(a>>>0>=b.l)on();return it(b,a)}function
+gp(a){return a.l}function
+og(){}function
 ax(a){this.data=a}ax.prototype=new
-od();ax.prototype.truncate=function(a){var
-b=this.data;this.data=bO(a|0);eI(b,0,this.data,0,a)};ax.prototype.length=function(){return gm(this.data)};ax.prototype.write=function(b,d,g,a){var
+og();ax.prototype.truncate=function(a){var
+b=this.data;this.data=bQ(a|0);eJ(b,0,this.data,0,a)};ax.prototype.length=function(){return gp(this.data)};ax.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bO(b+a),f=this.data;this.data=e;eI(f,0,this.data,0,c)}dL(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
-e=this.length();eI(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return Cn(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
+e=bQ(b+a),f=this.data;this.data=e;eJ(f,0,this.data,0,c)}dL(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
+e=this.length();eJ(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return Cv(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
 aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
-c=d.split(bz),b=Q;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bz;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bz};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bA),b=Q;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bA;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bA};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
 ax(dM(c[1]))}}};aO.prototype.exists=function(a){if(a==Q)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&c0(h6);if(this.exists(c))if(b)c1(b,c3(m6,h5,this.nm(c)));else
+b=d&&c1(h8);if(this.exists(c))if(b)c2(b,c4(m9,h7,this.nm(c)));else
 ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c1(b,c3(h_,h5,this.nm(a)));else
-ae(a+fZ);if(!this.is_dir(a))if(b)c1(b,c3(id,h5,this.nm(a)));else
-ae(a+il);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&c0(h6),c=a==Q?Q:this.slash(a),e=new
-RegExp(ih+c+nc);if(!this.exists(a))if(b)c1(b,c3(h_,h3,this.nm(a)));else
-ae(a+fZ);if(!this.is_dir(a))if(b)c1(b,c3(id,h3,this.nm(a)));else
-ae(a+il);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c2(b,c4(ia,h7,this.nm(a)));else
+ae(a+f2);if(!this.is_dir(a))if(b)c2(b,c4(ig,h7,this.nm(a)));else
+ae(a+io);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&c1(h8),c=a==Q?Q:this.slash(a),e=new
+RegExp(ij+c+nf);if(!this.exists(a))if(b)c2(b,c4(ia,h5,this.nm(a)));else
+ae(a+f2);if(!this.is_dir(a))if(b)c2(b,c4(ig,h5,this.nm(a)));else
+ae(a+io);for(var
 d
 in
-this.content)if(d.match(e))if(b)c1(b,c3(na,h3,this.nm(a)));else
+this.content)if(d.match(e))if(b)c2(b,c4(nd,h5,this.nm(a)));else
 ae(this.nm(a)+": Directory not empty");delete
 this.content[c]};aO.prototype.readdir=function(a){var
-f=a==Q?Q:this.slash(a);if(!this.exists(a))ae(a+fZ);if(!this.is_dir(a))ae(a+il);var
+f=a==Q?Q:this.slash(a);if(!this.exists(a))ae(a+f2);if(!this.is_dir(a))ae(a+io);var
 g=new
-RegExp(ih+f+nc),d={},c=[];for(var
+RegExp(ij+f+nf),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==Q)return true;var
 b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+nX);if(b.text&&b.binary)ae(this.nm(a)+mS);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nU);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+n0);if(b.text&&b.binary)ae(this.nm(a)+mV);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nX);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ax(bO(0));return this.content[a]}else
-CR(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+nU);if(iB(a))b=new
-ax(a);if(ow(a))b=new
+ax(bQ(0));return this.content[a]}else
+CZ(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ae(this.nm(c)+nX);if(iC(a))b=new
+ax(a);if(oz(a))b=new
 ax(dM(a));else
 if(a
 instanceof
 Array)b=new
-ax(Co(a));else
+ax(Cw(a));else
 if(typeof
 a==="string")b=new
-ax(om(a));else
+ax(op(a));else
 if(a.toString){var
 d=dM(dP(a.toString()));b=new
 ax(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ae(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-am(a){return gm(a)}function
-c2(b,a){return is(b,a)}function
-Cj(d){var
+am(a){return gp(a)}function
+c3(b,a){return it(b,a)}function
+Cr(d){var
 c=am(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=c2(d,a);return b}function
-Ci(a){if(a.t!=4)gj(a);return a.c}function
-Cr(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gj(a)}a.c[c]=b;return 0}function
-Cq(b,a,c){if(a>>>0>=b.l)ok();return Cr(b,a,c)}function
-bN(a){this.fs=require("fs");this.fd=a}bN.prototype=new
-od();bN.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bN.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bN.prototype.write=function(f,b,c,e){var
-a=Cj(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=c3(d,a);return b}function
+Cq(a){if(a.t!=4)gm(a);return a.c}function
+Cz(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gm(a)}a.c[c]=b;return 0}function
+Cy(b,a,c){if(a>>>0>=b.l)on();return Cz(b,a,c)}function
+bP(a){this.fs=require("fs");this.fd=a}bP.prototype=new
+og();bP.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bP.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bP.prototype.write=function(f,b,c,e){var
+a=Cr(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bN.prototype.read=function(g,d,c,f){var
-a=Ci(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bP.prototype.read=function(g,d,c,f){var
+a=Cq(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)Cq(d,c+b,e[c+b]);return 0};bN.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bN.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bN.prototype.constructor=bN;function
+b=0;b<f;b++)Cy(d,c+b,e[c+b]);return 0};bP.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bP.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bP.prototype.constructor=bP;function
 ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};ay.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
@@ -536,12 +536,12 @@ e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bN(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
+bP(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),mD);return dP(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
-b=c0(h6);if(d&&b){var
-c=c3(a.code,a.syscall,a.path,a.errno);c1(b,c)}else
+a=this.fs.readlinkSync(this.nm(b),mG);return dP(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
+b=c1(h8);if(d&&b){var
+c=c4(a.code,a.syscall,a.path,a.errno);c2(b,c)}else
 ae(a.toString())};ay.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
@@ -550,31 +550,31 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ay.prototype.constructor=ay;function
-ot(b){var
-a=iI(b);if(!a)return;return a[0]+bz}var
-gn=ot(eJ)||bA("unable to compute caml_root"),dQ=[];if(eM())dQ.push({path:gn,device:new
-ay(gn)});else
-dQ.push({path:gn,device:new
-aO(gn)});dQ.push({path:mM,device:new
-aO(mM)});function
-oN(b){var
-g=CI(b),b=g.join(bz),f=oG(b),c;for(var
+ow(b){var
+a=iJ(b);if(!a)return;return a[0]+bA}var
+gq=ow(eK)||bB("unable to compute caml_root"),dQ=[];if(eN())dQ.push({path:gq,device:new
+ay(gq)});else
+dQ.push({path:gq,device:new
+aO(gq)});dQ.push({path:mP,device:new
+aO(mP)});function
+oQ(b){var
+g=CQ(b),b=g.join(bA),f=oJ(b),c;for(var
 e=0;e<dQ.length;e++){var
-a=dQ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eM()){var
-d=ot(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=dQ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eN()){var
+d=ow(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 ay(d)};dQ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-Ct(c,b){var
-a=oN(c);if(!a.device.register)bA("cannot register file");a.device.register(a.rest,b);return 0}function
-oI(c,b){var
-c=a(c),b=a(b);return Ct(c,b)}function
-Cw(){var
+CB(c,b){var
+a=oQ(c);if(!a.device.register)bB("cannot register file");a.device.register(a.rest,b);return 0}function
+oL(c,b){var
+c=a(c),b=a(b);return CB(c,b)}function
+CE(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)oI(b[a].name,b[a].content);E.jsoo_create_file=oI;E.caml_fs_tmp=[];return 0}function
-CP(c){var
-a=0,e=am(c),b=10,d=1;if(e>0)switch(c2(c,a)){case
+a=0;a<b.length;a++)oL(b[a].name,b[a].content);E.jsoo_create_file=oL;E.caml_fs_tmp=[];return 0}function
+CX(c){var
+a=0,e=am(c),b=10,d=1;if(e>0)switch(c3(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&c2(c,a)==48)switch(c2(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&c3(c,a)==48)switch(c3(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=am(c),b=10,d=1;if(e>0)switch(c2(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-oA(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=n9)return a-87;return-1}function
-iA(f){var
-h=CP(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c2(f,c):0,b=oA(e);if(b<0||b>=d)bA(f6);var
-a=b;for(c++;c<g;c++){e=c2(f,c);if(e==95)continue;b=oA(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bA(f6)}if(c!=g)bA(f6);a=i*a;if(d==10&&(a|0)!=a)bA(f6);return a|0}function
-CH(a,b){return+(it(a,b,false)<=0)}function
-CJ(a,d){if(a<0)gi();var
+oD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oa)return a-87;return-1}function
+iB(f){var
+h=CX(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c3(f,c):0,b=oD(e);if(b<0||b>=d)bB(f9);var
+a=b;for(c++;c<g;c++){e=c3(f,c);if(e==95)continue;b=oD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bB(f9)}if(c!=g)bB(f9);a=i*a;if(d==10&&(a|0)!=a)bB(f9);return a|0}function
+CP(a,b){return+(iu(a,b,false)<=0)}function
+CR(a,d){if(a<0)gl();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 b8=new
 Array();function
-CK(c){var
+CS(c){var
 a=b8[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
 b=ao.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=Q;return 0}function
-oD(e,f){var
+oG(e,f){var
 b=b8[e],d=a(f),c=am(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-CX(a){var
-a=iE(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+C5(a){var
+a=iF(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-CY(a){var
-a=iE(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+C6(a){var
+a=iF(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gp(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gs(c,e,d,a){if(ao.fds===undefined)ao.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-C5(c,b,g){var
+Db(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,160 +619,160 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dO(c)+nX);if(a.text&&a.binary)ae(dO(c)+mS);var
-d=oN(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gp(f+1,oD,e,a)}gp(0,oD,new
-ax(bO(0)));gp(1,CY,new
-ax(bO(0)));gp(2,CX,new
-ax(bO(0)));function
-CL(a){var
-c=ao.fds[a];if(c.flags.wronly)ae(n8+a+" is writeonly");var
-d=null;if(a==0&&eM()){var
-e=require("fs");d=function(){return dP(e.readFileSync(0,mD))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dO(c)+n0);if(a.text&&a.binary)ae(dO(c)+mV);var
+d=oQ(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gs(f+1,oG,e,a)}gs(0,oG,new
+ax(bQ(0)));gs(1,C6,new
+ax(bQ(0)));gs(2,C5,new
+ax(bQ(0)));function
+CT(a){var
+c=ao.fds[a];if(c.flags.wronly)ae(n$+a+" is writeonly");var
+d=null;if(a==0&&eN()){var
+e=require("fs");d=function(){return dP(e.readFileSync(0,mG))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
-ox(c){var
-b=ao.fds[c];if(b.flags.rdonly)ae(n8+c+" is readonly");var
+oA(c){var
+b=ao.fds[c];if(b.flags.rdonly)ae(n$+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:Q};b8[a.fd]=a;return a.fd}function
-CM(){var
+CU(){var
 b=0;for(var
 a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
 bf(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-CT(a,b){oz[dO(a)]=b;return 0}function
-Cm(a,b){if(a===b)return 1;a.t&6&&dN(a);b.t&6&&dN(b);return a.c==b.c?1:0}function
-an(a,b){return Cm(a,b)}function
-CV(){az(ij)}function
-aI(b,a){if(a>>>0>=am(b))CV();return c2(b,a)}function
+C1(a,b){oC[dO(a)]=b;return 0}function
+Cu(a,b){if(a===b)return 1;a.t&6&&dN(a);b.t&6&&dN(b);return a.c==b.c?1:0}function
+an(a,b){return Cu(a,b)}function
+C3(){az(il)}function
+aI(b,a){if(a>>>0>=am(b))C3();return c3(b,a)}function
 m(a,b){return 1-an(a,b)}function
-go(a){return a}function
-oC(a){return a}function
-oH(a){if(a
+gr(a){return a}function
+oF(a){return a}function
+oK(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oC(ao.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oF(ao.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oC(ao.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oF(ao.Stack_overflow);if(a
 instanceof
-E.Error&&c0(nj))return[0,c0(nj),a];return[0,ao.Failure,dP(String(a))]}function
-c4(a){return a<0?-a:a}function
-x(a,b){return a+b}function
-iF(a,b){return a<b?-1:a>b?1:0}function
-oK(c,b){var
-a=c%b;return a<0?a+c4(b):a}function
-iG(a,b){return(a-oK(a,b))/b}function
+E.Error&&c1(nm))return[0,c1(nm),a];return[0,ao.Failure,dP(String(a))]}function
+c5(a){return a<0?-a:a}function
+y(a,b){return a+b}function
+iG(a,b){return a<b?-1:a>b?1:0}function
+oN(c,b){var
+a=c%b;return a<0?a+c5(b):a}function
+iH(a,b){return(a-oN(a,b))/b}function
 Y(a,b){return a==b?1:0}function
-C2(c){E.orthocert_verify=function(b){return dO(cZ(c,[a(b)]))}}function
+C_(c){E.orthocert_verify=function(b){return dO(c0(c,[a(b)]))}}function
 G(a,b){return a<=b?1:0}function
-W(a,b){return a<b?1:0}function
+X(a,b){return a<b?1:0}function
 v(a,b){return a*b}function
-M(a){return-a}function
+N(a){return-a}function
 aD(a){return E.BigInt(a)}function
-oL(a,b){return a<<E.BigInt(b)}function
-oM(a,b){return a>>E.BigInt(b)}function
+oO(a,b){return a<<E.BigInt(b)}function
+oP(a,b){return a>>E.BigInt(b)}function
 a3(a){return a<0?-1:a>0?1:0}function
-C3(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+C$(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aA(a,b){return a-b}function
-iH(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-CF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Cv(b){var
-a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&CF(b[1]))var
+iI(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+CN(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+CD(b){var
+a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&CN(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=nk;for(var
+f=2,e=b;a+=nn;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bM)a+=aw+c.toString()+aw;else
+bO)a+=aw+c.toString()+aw;else
 if(typeof
 c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=ig}else
+a+="_"}a+=ii}else
 if(b[0]==aH)a+=b[1];return a}function
-or(a){if(a
+ou(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aH)){var
-c=c0("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Cv(a),b=c0(mC);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+c=c1("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=CD(a),b=c1(mF);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-CU(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){or(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)or(a.error)})}CU();function
-k(a,b){return a.length==1?a(b):cZ(a,[b])}function
-as(a,b,c){return a.length==2?a(b,c):cZ(a,[b,c])}function
-Ch(a,b,c,d){return a.length==3?a(b,c,d):cZ(a,[b,c,d])}Cw();var
-iK=[aH,a(m9),-2],iJ=[aH,a(oc),-4],Bc=[0,[0,0]],Bd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bc]]]]]]]]]]],Be=[0,0],Bf=[0,0],fP=[0,[1,0],0],lX=[0,[2,0],0],hF=[0,[1,0],0],lW=[0,[2,0],0],fN=[0,[1,0],0],hE=[0,[2,0],0],Bg=[0,[0,[0,[0,0]]]],Bh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bg]]]]]]]]]]],Bi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bh]]]]]]]]]]],Bj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bi]]]]]]]]]]],Bk=[0,[0,0]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],Bn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],Bo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,0]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],BK=[0,0],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],BP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],BQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],BS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],BY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BX]]]]]]]]]]],BZ=[0,[0,[0,[0,[0,0]]]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,0],B$=[0,[0,0]],Ca=[0,0],Cb=[0,[0,[0,[0,[0,0]]]]],jb=[0,[0,[0,0]]],cj=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fB=[0,[0,[0,[0,0]]]],Cc=[0,[0,[0,[0,[0,0]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]];bf(11,[aH,a(mB),-12],mB);bf(10,[aH,a(np),-11],np);bf(9,[aH,a(n7),-10],n7);bf(8,[aH,a(mN),-9],mN);bf(7,[aH,a(nC),-8],nC);bf(6,[aH,a(mL),-7],mL);bf(5,[aH,a(m_),-6],m_);bf(4,[aH,a(ne),-5],ne);bf(3,iJ,oc);bf(2,[aH,a(h$),-3],h$);bf(1,iK,m9);bf(0,[aH,a(nR),-1],nR);var
-oO=a("String.sub / Bytes.sub"),oQ=a(Q),oP=a("String.concat"),oR=a("Array.init"),oS=a("power"),o3=[0,0],o5=[0,0],o6=[0,[0,0]],o7=[0,[0,0]],pe=[0,0],pf=[0,0],pl=[0,0,0],pm=[0,0,0],pn=[0,0],pG=[0,0],pH=[0,0],pK=[0,0],p2=[0,0],p5=[0,0],p7=[0,0],p8=[0,0],qc=[0,0],qd=[0,0],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qP=[0,0],q$=a(","),rr=[0,a(ig),0],rs=a(nk),rt=a("."),ru=[0,[0,[0,0]]],rv=a(eC),rw=a(ih),rx=[0,[0,[0,[0,[0,0]]]]],ry=[0,a(ig),0],rz=a(n$),up=a(my),ur=a(mv),uq=a(ns),us=a(dF),ut=a(f2),uu=a(ob),uv=a(n0),uw=a(m3),ux=a(nE),vG=[0,0],vH=a(h2),vI=[0,0],vJ=a("divided"),vK=[0,1],vL=a("mirror"),vM=[0,3],vN=a("negative"),vO=[0,2],vP=a(eB),vQ=[0,5],vR=a(ip),vS=[0,4],vT=a(f7),vU=a(mQ),vV=a(ez),vW=a(b4),vX=[0,0],vY=[0,0],vZ=[0,0],wB=a(Q),wy=[0,[0,[0,[0,0]]]],wz=[0,[0,[0,[0,0]]]],ww=[0,[0,[0,0]]],wv=[0,0],wu=a(ez),wt=[0,[0,[0,0]]],ws=[0,0],wp=[0,[0,0]],wq=[0,[0,[0,0]]],wl=[0,[0,[0,0]]],wk=[0,0,0],wj=[0,[0,[0,0]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bd]]]]]]]]]]],wh=[0,0],wb=[0,[0,0]],wc=[0,[0,[0,0]]],wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Be]]]]]]]]]]],we=[0,[0,0]],wf=[0,[0,[0,0]]],wa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bf]]]]]]]]]]],v_=[0,[0,0]],v$=[0,[0,[0,0]]],v8=[0,[0,[0,0]]],v9=[0,[0,0]],v5=[0,[0,0]],v6=[0,0],v3=[0,0],v4=[0,1],v2=[0,[0,0]],v1=[0,0],vD=[0,0],vE=[0,1],vF=[0,2],vz=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vx=[0,[0,0],0],vy=[0,[1,0],0],vA=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vv=[0,[0,0]],vw=[0,0],vu=[0,0],vt=[0,0],vs=[0,0],vr=[0,0,0],vq=[0,0,0],vo=[0,[0,[0,0]]],vp=[0,[0,[0,0]]],vn=[0,0],vl=[0,1,0],vc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bj]]]]]]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],u_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],u$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],va=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],vb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]],ve=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BW]]]]]]]]]]],vf=a("sqrt"),u8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BY]]]]]]]]]]],u9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],uX=[0,a("\n"),0],uY=a(mw),uZ=a(f1),u0=a(no),u1=a(m7),u7=a(eE),u2=a(eA),u3=a("verdict"),u4=a(nS),u5=a(m0),u6=a(nn),uU=a(ni),uV=a(nV),uW=a(f4),uQ=a(ny),uR=a(f5),uS=a(eA),uT=a(eE),uL=a(gc),uM=a(a2),uN=a(mx),uO=a(f$),uI=a(nQ),uJ=a(eB),uK=a(f$),uE=a(nB),uF=a(gc),uG=a(f5),uH=a(n5),uz=a(nW),uA=a(nZ),uB=a(nf),uC=a(f8),un=a(h4),uo=a(im),ui=a(be),uj=a(bd),uk=a(m2),tU=a(f8),tV=a(nF),ty=a(a2),tz=a(by),tA=a(ge),tB=a(dI),tC=a(cX),tH=a(f0),tD=a(ii),tE=a(ik),tF=a(dE),tG=a(a2),tI=a(by),tJ=a(ge),tK=a(dI),tL=a(ii),tM=a(ik),tN=a(dE),tO=a(a2),tP=a(by),tQ=a(be),tR=a(bd),tS=a(cV),tT=a(dI),tW=a(nM),tX=a(nY),tY=a(gh),tZ=a(mR),t0=a(mW),t1=a(dE),t2=a(a2),t3=a(by),t4=a(fX),t5=a(m5),t6=a(dI),t7=a(eH),t8=a(mF),t9=a(dE),t_=a(a2),t$=a(fX),ua=a(a2),ub=a(nH),ue=a(mu),uc=a(mU),ud=a(n4),uf=a(eE),ug=a(eA),uh=a(a2),ul=a(gh),um=a(f4),ts=a(by),tt=a(iq),tu=a(dI),tv=a(f0),tw=a(dE),tg=a(eH),th=a(nT),ti=a(cW),tj=a(dG),tk=a(dG),tl=a(h7),tm=a(cW),tn=a(nq),to=a(m1),tp=a(aT),tr=a(mA),tq=a(h7),s8=a(nh),s9=a(oa),s_=a(mX),s$=a(mV),ta=a(n2),tb=a(nP),tc=a(m8),td=a(fY),te=a(fY),s4=a(aT),s5=a(bc),s6=a(dJ),s7=a(bx),s0=a(cX),s1=a(ic),s2=a(nz),sX=a(be),sY=a(bd),sZ=a(cV),sQ=a(be),sR=a(bd),sS=a(cV),sT=a(ie),sU=a(cW),sV=a(ia),sW=a(nL),sE=a(mT),sK=a(f1),sJ=a(n3),sF=a(h8),sG=a(f_),sL=a(h8),sM=a(f_),sN=a(mP),sO=a(nJ),sP=a(f_),sH=a(dG),sI=a(nv),sB=a(f9),sC=a(f9),sD=a(f9),sx=a(nN),sy=a(bd),sz=a(be),sA=a(n1),sj=a(mJ),sk=a(mz),sl=a(nD),sm=a(dF),sn=a(n_),so=a(nG),sp=a(mK),sq=a(nw),sr=a(mI),ss=a(m4),st=a(mH),su=a(nO),sv=a(f2),sw=a(mE),r0=a(ga),r2=a(eC),r1=a(ey),r3=a(dD),r4=a(aT),r5=a(bc),r6=a(b4),r7=a(gf),r8=a(bx),r9=a(aT),r_=a(bc),r$=a(dJ),sa=a(bx),sb=a(dD),sc=a(eG),sd=a(aT),se=a(bc),sf=a(nu),sg=a(nI),sh=a(eG),si=a(bx),rI=a(ga),rQ=a(eC),rJ=a(ey),rK=a(dD),rL=a(aT),rM=a(bc),rN=a(b4),rO=a(gf),rP=a(bx),rR=a(gg),rS=a(aT),rT=a(bc),rU=a(dJ),rV=a(bx),rW=a(b4),rX=a(cX),rY=a(bx),rF=a(be),rG=a(bd),rD=[0,a(aw),0],rE=a(aw),rB=a(Q),rA=[0,a(aw),0],rC=a(aw),rn=a(ga),ro=a(eC),rp=a("*"),rq=a(bz),ri=[0,[0,[0,[0,[0,0]]]]],rj=[0,[0,[0,0]]],rk=[0,[0,0]],rl=[0,0],rm=[0,[0,[0,[0,0]]]],rg=a('":'),rh=a(aw),re=[0,a(aw),0],rf=a(aw),rc=[0,a("}"),0],rd=a("{"),ra=[0,a("]"),0],rb=a("["),q_=[0,[0,[0,0]]],q9=[0,[0,[0,0]]],q7=[0,0],q4=[0,[0,[0,0]]],q5=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q2=[0,[0,0]],q3=[0,[0,[0,0]]],qZ=[0,0],q0=[0,[0,[0,[0,[0,[0,0]]]]]],q1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],qW=[0,0],qT=[0,0,0],qU=[0,0,0],qV=[0,0,0],qQ=[0,[0,0]],qR=[0,[0,[0,0]]],qS=[0,0],qF=[0,[0,[0,[0,[0,[0,0]]]]]],qG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qH=[0,[0,[0,0]]],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,0]]]]]],qK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],qM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],qN=[0,[0,[0,0]]],qO=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,0]],qE=[0,[0,[0,0]]],qx=[0,[0,0]],qy=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,0]],qs=[0,0],qt=[0,0],qo=[0,[0,0]],qp=[0,0],qq=[0,0],qr=[0,[0,0]],qf=[0,[0,0]],qg=[0,0],qh=[0,[0,0]],qi=[0,0],qj=[0,0],qk=[0,[0,0]],ql=[0,[0,0]],qm=[0,[0,0]],qn=[0,0],qb=[0,0],qa=[0,0],p$=[0,[0,[0,0]]],p_=[0,[0,[0,[0,[0,[0,0]]]]]],p6=[0,[0,[0,0]]],p3=[0,[0,[0,0]]],p1=[0,[0,[0,0]]],pZ=[0,[0,[0,[0,[0,[0,0]]]]]],p0=[0,[0,[0,[0,[0,[0,0]]]]]],pV=[0,[0,0]],pW=[0,0],pX=[0,[0,[0,0]]],pY=[0,[0,[0,0]]],pO=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pP=[0,[0,[0,[0,[0,[0,0]]]]]],pQ=[0,[0,[0,[0,[0,[0,0]]]]]],pR=[0,[0,[0,0]]],pS=[0,[0,[0,[0,[0,[0,0]]]]]],pT=[0,[0,[0,0]]],pU=[0,[0,[0,0]]],pM=[0,[0,0]],pN=[0,0],pL=[0,0,0],pJ=[0,0,0],pI=[0,[0,[0,0]]],pE=[0,0],pF=[0,0],pz=[0,[0,[0,0]]],pA=[0,[0,[0,0]]],pB=[0,[0,[0,0]]],py=[0,[0,[0,[0,0]]]],pu=[0,[0,[0,0]]],pv=[0,[0,[0,0]]],pw=[0,[0,[0,0]]],px=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],ps=[0,[0,0]],pt=[0,0],pq=[0,[0,0]],pr=[0,0],po=[0,[0,0]],pp=[0,0],o_=[0,0],o$=[0,[0,0]],pa=[0,0],pb=[0,[0,0]],o8=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],o9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],o4=[0,0,0],o2=a(io),o1=a(Q),o0=[0,[0,0]],oZ=[0,0],oW=[0,0],oY=[1,0],oX=[0,0],oV=[0,0],oT=[1,0],oU=[1,0],wr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],zD=a(be),zE=a(bd),zF=a(m2),zt=a(gg),zu=[0,a("a base axis of such a platform"),0],zv=a(aT),zw=a(bc),zg=a(nP),zh=a(nh),zi=a(n2),zj=a(fY),zk=a(m8),zl=a(fY),zm=a(oa),zn=a(mX),zo=a(mV),y8=a(nF),y9=a(f8),yv=a(f4),yw=a(a2),yx=a(nH),yy=a(n4),yB=a(mU),yC=a(mu),yD=a(a2),yE=a(a2),yG=a(fX),yF=[0,a("a claim that no cube of such a machine fits"),0],yH=a(dE),yI=a(dI),yJ=a(f0),yK=a(iq),zC=[0,a(m$),0],yL=a(cX),yM=a(ic),yN=a(nz),yO=a(ge),yP=a(mW),yQ=a(mF),yR=a(f0),yU=a(cV),yV=a(nL),yY=a(iq),yZ=a(by),y0=[0,a(m$),0],y1=a(by),y2=a(m5),y3=a(by),y4=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],y5=a(fX),y6=a(eH),y7=a(cV),y_=a(by),y$=a(be),za=a(bd),zb=a(nM),zc=a(nY),zd=a(gh),ze=a(mR),yS=[0,a(aw),0],yT=a('the mechanism "'),zf=a(ii),zp=a(ge),zq=a(cX),zr=a(ic),zs=a(ik),zx=a(by),zy=[0,a('"one_to_one" of this set of orientations'),0],zB=a(cX),zz=[0,a("a platform that turns on struts and other drives"),0],zA=a(by),yW=[0,a(aw),0],yX=a('the workspace "'),zG=a(a2),zH=a(a2),zJ=a(eE),zK=a(eA),zL=a(gh),zI=[0,a("an atlas of such a machine"),0],yz=[0,a(aw),0],yA=a('a claim of the kind "'),zQ=a(ob),zX=a(f2),zY=a(dF),zZ=a(m3),z0=a(ns),z1=a(b4),z2=a(im),z3=a(h4),z4=a(b4),z5=a(io),zR=a(f7),zS=a(mQ),zT=a(ez),zU=a(nE),zV=[0,a(aw),0],zW=a('the evidence "'),z6=a(dF),z7=a(f7),z8=a(ez),z9=a(n0),z$=a(dF),Aa=a(f7),Ab=a(ez),Ac=a(eB),Ad=a(h2),Ae=a(eB),Af=a(h2),z_=[0,a("this evidence at control points"),0],A7=a('"orthocert-paving/'),AM=a(nn),AN=a(m0),AO=a(nS),A5=[0,3,3],AP=a(m7),AZ=[0,a("this set of orientations with such drives"),0],A0=[0,a(nd),0],A3=[0,a(nd),0],A4=[0,a("a mechanism by formulas in a claim that is refuted"),0],A1=[0,a('the evidence "tolerances" of such a mechanism'),0],A2=[0,a("a step of a platform that turns that is not at control points"),0],AQ=[0,a("the acceleration of a joint of a machine with a plane"),0],AY=[0,a("this quantity in a claim that is refuted"),0],AX=[0,a("a step in a proof that no cube fits"),0],AW=[0,a("a stiffness for each joint in such a claim"),0],AV=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],AU=[0,a("a leaf that fails"),0],AR=a(no),AS=a(mw),AT=a(f1),AK=a(ip),AD=a(f4),AE=a(ni),AF=a(nV),AG=[0,a(aw),0],AH=a('a proof of the kind "'),Az=a(eA),AA=a(eE),AB=a(f5),AC=a(ny),Av=a(a2),Aw=a(gc),Ax=a(mx),Ay=a(f$),As=a(nQ),At=a(eB),Au=a(f$),Ao=a(nB),Ap=a(gc),Aq=a(f5),Ar=a(n5),Ai=a(nZ),Aj=a(nf),Ak=a(nW),Al=a(f8),Am=[0,a(aw),0],An=a('the failure "'),Ag=a(ip),Ah=a(io),zO=a(im),zP=a(h4),zM=a(mv),zN=a(my),ys=a(eH),yi=a(h7),yj=a(mA),yk=a(dG),yl=a(aT),yq=a(nT),yr=a(eH),yt=a(cW),yu=a(dG),ym=a(cW),yn=a(nq),yo=a(m1),yp=a(aT),yb=a(cV),yf=a(be),yg=a(bd),yc=a(ia),yd=a(ie),ye=a(cW),x7=a(cV),x$=a(be),ya=a(bd),x8=a(ia),x9=a(ie),x_=a(cW),x6=[0,1],x5=[0,1],x4=[0,1],x2=[0,1],x3=[0,a("this quantity of such a mechanism"),0],xM=a(h8),xN=[0,a("a stiffness for each joint of such a mechanism"),0],xO=a(nJ),xP=a(mP),xQ=a(n3),xR=a("max_angle"),xS=[0,a("accuracy of a platform that turns"),0],xL=a(f1),xD=a(f9),xt=a(nv),xu=a(nD),xV=a(f2),xW=a(m4),xX=a(dF),xY=a(nw),xZ=a(mH),x0=a(mI),x1=a(mz),xv=a(mE),xw=a(nO),xx=a(nG),xy=a(n_),xz=a(mK),xA=a(mJ),xB=[0,a(aw),0],xC=a('the quantity "'),xE=a(mT),xF=a(nN),xG=a(be),xH=a(bd),xI=a(n1),xJ=[0,a(aw),0],xK=a('a bound "'),xT=a(f_),xU=a(dG),xr=a(bx),xs=a(dJ),w8=a(bx),w9=a(gg),w_=a(eG),w$=a(gf),xa=a(dJ),xd=a(aT),xe=a(bc),xf=a(ey),xg=a(dD),xh=a(aT),xi=a(bc),xj=a(b4),xk=a(ey),xl=a(dD),xm=a(eG),xn=a(aT),xo=a(bc),xp=a(nu),xq=a(nI),xb=[0,a('" of such a machine'),0],xc=a(mO),w6=a(bx),w7=a(eG),wQ=a(bx),wR=a(cX),wS=a(gf),wT=a(dJ),wW=a(gg),wX=a(aT),wY=a(bc),wZ=a(ey),w0=a(dD),w1=a(aT),w2=a(bc),w3=a(b4),w4=a(b4),wU=[0,a(aw),0],wV=a(mO),wN=a(ga),wO=a(eC),wL=a(" is not covered by the verified checker"),wM=a(Q),wJ=a(be),wK=a(bd),wF=a(Q),wG=a(n$),wH=a(Q),wI=a(Q),wE=[1,0],wC=a("Reader.Malformed"),wD=a("Reader.Not_covered"),A9=[0,a("a paving is checked by orthocert-verified")],A8=a(nx),A_=a("CERTIFIED"),A$=a("REFUTED"),Ba=a(nx),Bb=a("NOT COVERED: ");function
-eN(a){throw[0,iJ,a]}function
+C2(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ou(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ou(a.error)})}C2();function
+i(a,b){return a.length==1?a(b):c0(a,[b])}function
+at(a,b,c){return a.length==2?a(b,c):c0(a,[b,c])}function
+Cp(a,b,c,d){return a.length==3?a(b,c,d):c0(a,[b,c,d])}CE();var
+iL=[aH,a(na),-2],iK=[aH,a(of),-4],Bk=[0,[0,0]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,0],Bn=[0,0],fS=[0,[1,0],0],l0=[0,[2,0],0],hH=[0,[1,0],0],lZ=[0,[2,0],0],fQ=[0,[1,0],0],hG=[0,[2,0],0],Bo=[0,[0,[0,[0,0]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,0]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,0]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],BK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],BP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],BQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],BS=[0,0],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BW]]]]]]]]]]],BY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BX]]]]]]]]]]],BZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BY]]]]]]]]]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,0]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,0],Ch=[0,[0,0]],Ci=[0,0],Cj=[0,[0,[0,[0,[0,0]]]]],jc=[0,[0,[0,0]]],cj=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fE=[0,[0,[0,[0,0]]]],Ck=[0,[0,[0,[0,[0,0]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]];bf(11,[aH,a(mE),-12],mE);bf(10,[aH,a(ns),-11],ns);bf(9,[aH,a(n_),-10],n_);bf(8,[aH,a(mQ),-9],mQ);bf(7,[aH,a(nF),-8],nF);bf(6,[aH,a(mO),-7],mO);bf(5,[aH,a(nb),-6],nb);bf(4,[aH,a(nh),-5],nh);bf(3,iK,of);bf(2,[aH,a(ib),-3],ib);bf(1,iL,na);bf(0,[aH,a(nU),-1],nU);var
+oR=a("String.sub / Bytes.sub"),oT=a(Q),oS=a("String.concat"),oU=a("Array.init"),oV=a("power"),o6=[0,0],o8=[0,0],o9=[0,[0,0]],o_=[0,[0,0]],ph=[0,0],pi=[0,0],po=[0,0,0],pp=[0,0,0],pq=[0,0],pJ=[0,0],pK=[0,0],pN=[0,0],p5=[0,0],p8=[0,0],p_=[0,0],p$=[0,0],qf=[0,0],qg=[0,0],qD=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qF=[0,[0,[0,0]]],qU=[0,0],re=a(","),rw=[0,a(ii),0],rx=a(nn),ry=a("."),rz=[0,[0,[0,0]]],rA=a(eD),rB=a(ij),rC=[0,[0,[0,[0,[0,0]]]]],rD=[0,a(ii),0],rE=a(oc),uu=a(mB),uw=a(my),uv=a(nv),ux=a(dF),uy=a(f5),uz=a(oe),uA=a(n3),uB=a(m6),uC=a(nH),vL=[0,0],vM=a(h4),vN=[0,0],vO=a("divided"),vP=[0,1],vQ=a("mirror"),vR=[0,3],vS=a("negative"),vT=[0,2],vU=a(eC),vV=[0,5],vW=a(iq),vX=[0,4],vY=a(ez),vZ=a(mT),v0=a(eA),v1=a(b4),v2=[0,0],v3=[0,0],v4=[0,0],wG=a(Q),wD=[0,[0,[0,[0,0]]]],wE=[0,[0,[0,[0,0]]]],wB=[0,[0,[0,0]]],wA=[0,0],wz=a(eA),wy=[0,[0,[0,0]]],wx=[0,0],wu=[0,[0,0]],wv=[0,[0,[0,0]]],wq=[0,[0,[0,0]]],wp=[0,0,0],wo=[0,[0,[0,0]]],wn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],wm=[0,0],wg=[0,[0,0]],wh=[0,[0,[0,0]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],wj=[0,[0,0]],wk=[0,[0,[0,0]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],wd=[0,[0,0]],we=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],wc=[0,[0,0]],v_=[0,[0,0]],v$=[0,0],v8=[0,0],v9=[0,1],v7=[0,[0,0]],v6=[0,0],vI=[0,0],vJ=[0,1],vK=[0,2],vE=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vC=[0,[0,0],0],vD=[0,[1,0],0],vF=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vA=[0,[0,0]],vB=[0,0],vz=[0,0],vy=[0,0],vx=[0,0],vw=[0,0,0],vv=[0,0,0],vt=[0,[0,[0,0]]],vu=[0,[0,[0,0]]],vs=[0,0],vq=[0,1,0],vh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],vi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],ve=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],vf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],vg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],vj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],vk=a("sqrt"),vb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],vc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],u2=[0,a("\n"),0],u3=a(mz),u4=a(f4),u5=a(nr),u6=a(m_),va=a(eF),u7=a(eB),u8=a("verdict"),u9=a(nV),u_=a(m3),u$=a(nq),uZ=a(nl),u0=a(nY),u1=a(f7),uV=a(nB),uW=a(f8),uX=a(eB),uY=a(eF),uQ=a(ge),uR=a(a2),uS=a(mA),uT=a(gb),uN=a(nT),uO=a(eC),uP=a(gb),uJ=a(nE),uK=a(ge),uL=a(f8),uM=a(n8),uE=a(nZ),uF=a(n2),uG=a(ni),uH=a(f_),us=a(h6),ut=a(gh),un=a(be),uo=a(bd),up=a(m5),tZ=a(f_),t0=a(nI),tD=a(a2),tE=a(bz),tF=a(gg),tG=a(dI),tH=a(cY),tM=a(f3),tI=a(ik),tJ=a(im),tK=a(dE),tL=a(a2),tN=a(bz),tO=a(gg),tP=a(dI),tQ=a(ik),tR=a(im),tS=a(dE),tT=a(a2),tU=a(bz),tV=a(be),tW=a(bd),tX=a(cW),tY=a(dI),t1=a(nP),t2=a(n1),t3=a(gk),t4=a(mU),t5=a(mZ),t6=a(dE),t7=a(a2),t8=a(bz),t9=a(f0),t_=a(m8),t$=a(dI),ua=a(eI),ub=a(mI),uc=a(dE),ud=a(a2),ue=a(f0),uf=a(a2),ug=a(nK),uj=a(mx),uh=a(mX),ui=a(n7),uk=a(eF),ul=a(eB),um=a(a2),uq=a(gk),ur=a(f7),tx=a(bz),ty=a(ir),tz=a(dI),tA=a(f3),tB=a(dE),tl=a(eI),tm=a(nW),tn=a(cX),to=a(dG),tp=a(dG),tq=a(h9),tr=a(cX),ts=a(nt),tt=a(m4),tu=a(aT),tw=a(mD),tv=a(h9),tb=a(nk),tc=a(od),td=a(m0),te=a(mY),tf=a(n5),tg=a(nS),th=a(m$),ti=a(f1),tj=a(f1),s9=a(aT),s_=a(bc),s$=a(dJ),ta=a(by),s5=a(cY),s6=a(ie),s7=a(nC),s2=a(be),s3=a(bd),s4=a(cW),sV=a(be),sW=a(bd),sX=a(cW),sY=a(ih),sZ=a(cX),s0=a(ic),s1=a(nO),sJ=a(mW),sP=a(f4),sO=a(n6),sK=a(h_),sL=a(ga),sQ=a(h_),sR=a(ga),sS=a(mS),sT=a(nM),sU=a(ga),sM=a(dG),sN=a(ny),sG=a(f$),sH=a(f$),sI=a(f$),sC=a(nQ),sD=a(bd),sE=a(be),sF=a(n4),so=a(mM),sp=a(mC),sq=a(nG),sr=a(dF),ss=a(ob),st=a(nJ),su=a(mN),sv=a(nz),sw=a(mL),sx=a(m7),sy=a(mK),sz=a(nR),sA=a(f5),sB=a(mH),r5=a(gc),r7=a(eD),r6=a(ey),r8=a(dD),r9=a(aT),r_=a(bc),r$=a(b4),sa=a(gi),sb=a(by),sc=a(aT),sd=a(bc),se=a(dJ),sf=a(by),sg=a(dD),sh=a(eH),si=a(aT),sj=a(bc),sk=a(nx),sl=a(nL),sm=a(eH),sn=a(by),rN=a(gc),rV=a(eD),rO=a(ey),rP=a(dD),rQ=a(aT),rR=a(bc),rS=a(b4),rT=a(gi),rU=a(by),rW=a(gj),rX=a(aT),rY=a(bc),rZ=a(dJ),r0=a(by),r1=a(b4),r2=a(cY),r3=a(by),rK=a(be),rL=a(bd),rI=[0,a(aw),0],rJ=a(aw),rG=a(Q),rF=[0,a(aw),0],rH=a(aw),rs=a(gc),rt=a(eD),ru=a("*"),rv=a(bA),rn=[0,[0,[0,[0,[0,0]]]]],ro=[0,[0,[0,0]]],rp=[0,[0,0]],rq=[0,0],rr=[0,[0,[0,[0,0]]]],rl=a('":'),rm=a(aw),rj=[0,a(aw),0],rk=a(aw),rh=[0,a("}"),0],ri=a("{"),rf=[0,a("]"),0],rg=a("["),rd=[0,[0,[0,0]]],rc=[0,[0,[0,0]]],ra=[0,0],q9=[0,[0,[0,0]]],q_=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q$=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q7=[0,[0,0]],q8=[0,[0,[0,0]]],q4=[0,0],q5=[0,[0,[0,[0,[0,[0,0]]]]]],q6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],q1=[0,0],qY=[0,0,0],qZ=[0,0,0],q0=[0,0,0],qV=[0,[0,0]],qW=[0,[0,[0,0]]],qX=[0,0],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,0]]],qO=[0,[0,[0,[0,[0,[0,0]]]]]],qP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],qR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],qS=[0,[0,[0,0]]],qT=[0,[0,[0,[0,[0,[0,0]]]]]],qI=[0,[0,0]],qJ=[0,[0,[0,0]]],qB=[0,[0,0]],qC=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qA=[0,[0,0]],qv=[0,0],qw=[0,0],qx=[0,0],qr=[0,[0,0]],qs=[0,0],qt=[0,0],qu=[0,[0,0]],qi=[0,[0,0]],qj=[0,0],qk=[0,[0,0]],ql=[0,0],qm=[0,0],qn=[0,[0,0]],qo=[0,[0,0]],qp=[0,[0,0]],qq=[0,0],qe=[0,0],qd=[0,0],qc=[0,[0,[0,0]]],qb=[0,[0,[0,[0,[0,[0,0]]]]]],p9=[0,[0,[0,0]]],p6=[0,[0,[0,0]]],p4=[0,[0,[0,0]]],p2=[0,[0,[0,[0,[0,[0,0]]]]]],p3=[0,[0,[0,[0,[0,[0,0]]]]]],pY=[0,[0,0]],pZ=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,[0,0]]],pR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pS=[0,[0,[0,[0,[0,[0,0]]]]]],pT=[0,[0,[0,[0,[0,[0,0]]]]]],pU=[0,[0,[0,0]]],pV=[0,[0,[0,[0,[0,[0,0]]]]]],pW=[0,[0,[0,0]]],pX=[0,[0,[0,0]]],pP=[0,[0,0]],pQ=[0,0],pO=[0,0,0],pM=[0,0,0],pL=[0,[0,[0,0]]],pH=[0,0],pI=[0,0],pC=[0,[0,[0,0]]],pD=[0,[0,[0,0]]],pE=[0,[0,[0,0]]],pB=[0,[0,[0,[0,0]]]],px=[0,[0,[0,0]]],py=[0,[0,[0,0]]],pz=[0,[0,[0,0]]],pA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pv=[0,[0,0]],pw=[0,0],pt=[0,[0,0]],pu=[0,0],pr=[0,[0,0]],ps=[0,0],pb=[0,0],pc=[0,[0,0]],pd=[0,0],pe=[0,[0,0]],o$=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],o7=[0,0,0],o5=a(ip),o4=a(Q),o3=[0,[0,0]],o2=[0,0],oZ=[0,0],o1=[1,0],o0=[0,0],oY=[0,0],oW=[1,0],oX=[1,0],ww=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],zI=a(be),zJ=a(bd),zK=a(m5),zy=a(gj),zz=[0,a("a base axis of such a platform"),0],zA=a(aT),zB=a(bc),zl=a(nS),zm=a(nk),zn=a(n5),zo=a(f1),zp=a(m$),zq=a(f1),zr=a(od),zs=a(m0),zt=a(mY),zb=a(nI),zc=a(f_),yA=a(f7),yB=a(a2),yC=a(nK),yD=a(n7),yG=a(mX),yH=a(mx),yI=a(a2),yJ=a(a2),yL=a(f0),yK=[0,a("a claim that no cube of such a machine fits"),0],yM=a(dE),yN=a(dI),yO=a(f3),yP=a(ir),zH=[0,a(nc),0],yQ=a(cY),yR=a(ie),yS=a(nC),yT=a(gg),yU=a(mZ),yV=a(mI),yW=a(f3),yZ=a(cW),y0=a(nO),y3=a(ir),y4=a(bz),y5=[0,a(nc),0],y6=a(bz),y7=a(m8),y8=a(bz),y9=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],y_=a(f0),y$=a(eI),za=a(cW),zd=a(bz),ze=a(be),zf=a(bd),zg=a(nP),zh=a(n1),zi=a(gk),zj=a(mU),yX=[0,a(aw),0],yY=a('the mechanism "'),zk=a(ik),zu=a(gg),zv=a(cY),zw=a(ie),zx=a(im),zC=a(bz),zD=[0,a('"one_to_one" of this set of orientations'),0],zG=a(cY),zE=[0,a("a platform that turns on struts and other drives"),0],zF=a(bz),y1=[0,a(aw),0],y2=a('the workspace "'),zL=a(a2),zM=a(a2),zO=a(eF),zP=a(eB),zQ=a(gk),zN=[0,a("an atlas of such a machine"),0],yE=[0,a(aw),0],yF=a('a claim of the kind "'),zV=a(oe),z2=a(f5),z3=a(dF),z4=a(m6),z5=a(nv),z6=a(b4),z7=a(gh),z8=a(h6),z9=a(b4),z_=a(ip),zW=a(ez),zX=a(mT),zY=a(eA),zZ=a(nH),z0=[0,a(aw),0],z1=a('the evidence "'),z$=a(ez),Aa=a(gh),Ab=[0,1,1],Ac=a(dF),Ad=a(ez),Ae=a(eA),Af=a(n3),Ah=a(dF),Ai=a(ez),Aj=a(eA),Ak=a(eC),Al=a(h4),Am=a(eC),An=a(h4),Ag=[0,a("this evidence at control points"),0],Bd=a('"orthocert-paving/'),AU=a(nq),AV=a(m3),AW=a(nV),Bb=[0,3,3],AX=a(m_),A7=[0,a("this set of orientations with such drives"),0],A8=[0,a(ng),0],A$=[0,a(ng),0],Ba=[0,a("a mechanism by formulas in a claim that is refuted"),0],A9=[0,a('the evidence "tolerances" of such a mechanism'),0],A_=[0,a("a step of a platform that turns that is not at control points"),0],AY=[0,a("the acceleration of a joint of a machine with a plane"),0],A6=[0,a("this quantity in a claim that is refuted"),0],A5=[0,a("a step in a proof that no cube fits"),0],A4=[0,a("a stiffness for each joint in such a claim"),0],A3=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],A2=[0,a("a leaf that fails"),0],AZ=a(nr),A0=a(mz),A1=a(f4),AS=a(iq),AL=a(f7),AM=a(nl),AN=a(nY),AO=[0,a(aw),0],AP=a('a proof of the kind "'),AH=a(eB),AI=a(eF),AJ=a(f8),AK=a(nB),AD=a(a2),AE=a(ge),AF=a(mA),AG=a(gb),AA=a(nT),AB=a(eC),AC=a(gb),Aw=a(nE),Ax=a(ge),Ay=a(f8),Az=a(n8),Aq=a(n2),Ar=a(ni),As=a(nZ),At=a(f_),Au=[0,a(aw),0],Av=a('the failure "'),Ao=a(iq),Ap=a(ip),zT=a(gh),zU=a(h6),zR=a(my),zS=a(mB),yx=a(eI),yn=a(h9),yo=a(mD),yp=a(dG),yq=a(aT),yv=a(nW),yw=a(eI),yy=a(cX),yz=a(dG),yr=a(cX),ys=a(nt),yt=a(m4),yu=a(aT),yg=a(cW),yk=a(be),yl=a(bd),yh=a(ic),yi=a(ih),yj=a(cX),ya=a(cW),ye=a(be),yf=a(bd),yb=a(ic),yc=a(ih),yd=a(cX),x$=[0,1],x_=[0,1],x9=[0,1],x7=[0,1],x8=[0,a("this quantity of such a mechanism"),0],xR=a(h_),xS=[0,a("a stiffness for each joint of such a mechanism"),0],xT=a(nM),xU=a(mS),xV=a(n6),xW=a("max_angle"),xX=[0,a("accuracy of a platform that turns"),0],xQ=a(f4),xI=a(f$),xy=a(ny),xz=a(nG),x0=a(f5),x1=a(m7),x2=a(dF),x3=a(nz),x4=a(mK),x5=a(mL),x6=a(mC),xA=a(mH),xB=a(nR),xC=a(nJ),xD=a(ob),xE=a(mN),xF=a(mM),xG=[0,a(aw),0],xH=a('the quantity "'),xJ=a(mW),xK=a(nQ),xL=a(be),xM=a(bd),xN=a(n4),xO=[0,a(aw),0],xP=a('a bound "'),xY=a(ga),xZ=a(dG),xw=a(by),xx=a(dJ),xb=a(by),xc=a(gj),xd=a(eH),xe=a(gi),xf=a(dJ),xi=a(aT),xj=a(bc),xk=a(ey),xl=a(dD),xm=a(aT),xn=a(bc),xo=a(b4),xp=a(ey),xq=a(dD),xr=a(eH),xs=a(aT),xt=a(bc),xu=a(nx),xv=a(nL),xg=[0,a('" of such a machine'),0],xh=a(mR),w$=a(by),xa=a(eH),wV=a(by),wW=a(cY),wX=a(gi),wY=a(dJ),w1=a(gj),w2=a(aT),w3=a(bc),w4=a(ey),w5=a(dD),w6=a(aT),w7=a(bc),w8=a(b4),w9=a(b4),wZ=[0,a(aw),0],w0=a(mR),wS=a(gc),wT=a(eD),wQ=a(" is not covered by the verified checker"),wR=a(Q),wO=a(be),wP=a(bd),wK=a(Q),wL=a(oc),wM=a(Q),wN=a(Q),wJ=[1,0],wH=a("Reader.Malformed"),wI=a("Reader.Not_covered"),Bf=[0,a("a paving is checked by orthocert-verified")],Be=a(nA),Bg=a("CERTIFIED"),Bh=a("REFUTED"),Bi=a(nA),Bj=a("NOT COVERED: ");function
+eO(a){throw[0,iK,a]}function
 aP(d,c){var
-a=am(d),e=am(c),b=bO(a+e|0);dL(d,0,b,0,a);dL(c,0,b,a,e);return go(b)}CL(0);ox(1);ox(2);function
-iL(b){function
+a=am(d),e=am(c),b=bQ(a+e|0);dL(d,0,b,0,a);dL(c,0,b,a,e);return gr(b)}CT(0);oA(1);oA(2);function
+iM(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{CK(d)}catch(a){a=oH(a);if(a[1]!==iK)throw a;var
+c=a[2],d=a[1];try{CS(d)}catch(a){a=oK(a);if(a[1]!==iL)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(CM(0))}CT(a(mC),iL);function
+a=c;continue}return 0}}return a(CU(0))}C1(a(mF),iM);function
 b9(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-iM(d){var
+iN(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 R(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gq(d,c){var
+c=a[2],d=i(b,a[1]);return[0,d,R(b,c)]}return 0}function
+gt(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=k(d,a[1]);if(b){var
+e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
 aB(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=k(d,a[1]);if(b)return b;var
+e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bg(b,c){var
-a=bO(b);Cu(a,0,b,c);return go(a)}function
-c5(g,b,a){var
-d=dM(g),f=0;if(0<=b&&0<=a&&!((gm(d)-a|0)<b)){var
-c=bO(a);eI(d,b,c,0,a);var
+a=bQ(b);CC(a,0,b,c);return gr(a)}function
+c6(g,b,a){var
+d=dM(g),f=0;if(0<=b&&0<=a&&!((gp(d)-a|0)<b)){var
+c=bQ(a);eJ(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eN(oO);return go(e)}function
-iN(k,g){if(g){var
+e=eO(oR);return gr(e)}function
+iO(k,g){if(g){var
 h=am(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eN(oP),c=n,b=m;continue}var
+j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eO(oS),c=n,b=m;continue}var
 l=am(i)+c|0}else
 var
 l=c;var
-f=bO(l),e=p,d=g;for(;;){if(d){var
+f=bQ(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];dL(a,0,f,e,am(a));dL(k,0,f,e+am(a)|0,h);var
-e=(e+am(a)|0)+h|0,d=o;continue}dL(a,0,f,e,am(a))}return go(f)}}}return oQ}function
-gr(b,c){if(0===b)return[0];if(0<=b){var
-d=CJ(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=k(c,a);var
+e=(e+am(a)|0)+h|0,d=o;continue}dL(a,0,f,e,am(a))}return gr(f)}}}return oT}function
+gu(b,c){if(0===b)return[0];if(0<=b){var
+d=CR(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eN(oR)}function
-gs(c){var
+a=g;continue}break}}return d}return eO(oU)}function
+gv(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aD(0),b=aD(1);function
-q(a){return x(a,b)}function
-iO(b,a){return x(aD(b),a)}function
+q(a){return y(a,b)}function
+iP(b,a){return y(aD(b),a)}function
 c(b,a){return v(aD(b),a)}function
-aU(b,a){return[0,iG(b,a),oK(b,a)]}function
-gt(b,a){return G(b,a)?b:a}function
+aU(b,a){return[0,iH(b,a),oN(b,a)]}function
+gw(b,a){return G(b,a)?b:a}function
 bh(b,a){return G(b,a)?a:b}function
-ac(a){return a?0:1}function
-y(b,a){var
-c=a?[0,k(b,a[1])]:a;return c}function
+ad(a){return a?0:1}function
+x(b,a){var
+c=a?[0,i(b,a[1])]:a;return c}function
 aJ(a){return a[1]}function
 b_(a){return a[2]}function
-i(a){var
-b=a?[0,i(a[2])]:a;return b}function
+j(a){var
+b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iP(a){return typeof
-a==="number"?0:[0,iP(a[1])]}function
-iQ(d,c){var
+iQ(a){return typeof
+a==="number"?0:[0,iQ(a[1])]}function
+iR(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -795,9 +795,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eO(a){return iQ(a,0)}function
-iR(a){if(typeof
-a==="number")return oT;else
+eP(a){return iR(a,0)}function
+iS(a){if(typeof
+a==="number")return oW;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -807,9 +807,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,iR(a[1])]}}function
+8:return[9,a[1]];default:return[0,iS(a[1])]}}function
 bj(a){if(typeof
-a==="number")return oU;else
+a==="number")return oX;else
 switch(a[0]){case
 0:return[1,bi(a[1])];case
 1:return[3,bi(a[1])];case
@@ -832,9 +832,9 @@ switch(a[0]){case
 6:return[2,bj(a[1])];case
 7:return[4,bj(a[1])];case
 8:return[6,bj(a[1])];default:return[8,bj(a[1])]}}function
-bB(a){return a?a[1]:a}function
-N(b,a){return b?[0,N(b[1],a)]:a}function
-dR(a,b){return a?N(b,dR(a[1],b)):a}function
+bC(a){return a?a[1]:a}function
+L(b,a){return b?[0,L(b[1],a)]:a}function
+dR(a,b){return a?L(b,dR(a[1],b)):a}function
 b$(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
@@ -843,160 +843,160 @@ Z(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 dS(b,a){return Z([0,b],a)}function
-iS(c){var
+iT(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eP(c,b,a){return c?k(b,eP(c[1],b,a)):a}function
-iT(a){if(a)var
-b=a[1],d=b?[0,iT(b[1])]:b,c=d;else
+eQ(c,b,a){return c?i(b,eQ(c[1],b,a)):a}function
+iU(a){if(a)var
+b=a[1],d=b?[0,iU(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iU(c,a){return bh(b,aA(c,a))}function
-eQ(a){if(G(a,b))return oW;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eQ(e)]:[0,eQ(e)]}function
-eR(a){if(G(a,b))return b;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?q(eR(e)):q(eR(e))}function
-iV(c,b){var
-a=iF(c,b);return 0===a?0:0<=a?2:1}function
-gu(j,i){var
+iV(c,a){return bh(b,aA(c,a))}function
+eR(a){if(G(a,b))return oZ;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eR(e)]:[0,eR(e)]}function
+eS(a){if(G(a,b))return b;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?q(eS(e)):q(eS(e))}function
+iW(c,b){var
+a=iG(c,b);return 0===a?0:0<=a?2:1}function
+gx(j,i){var
 c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
 g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,b))return 0;var
 e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
 c=h,a=k;continue}return 0}if(G(a,b))return 0;var
 f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
 c=h,a=l;continue}}function
-eS(b,a){return 2<=iV(b,a)?0:1}function
-c6(i,e,a){if(i){var
+eT(b,a){return 2<=iW(b,a)?0:1}function
+c7(i,e,a){if(i){var
 f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
 w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
 m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
-j=c6(f,g,B),y=j[2];return[0,c(2,j[1]),y]}var
-k=c6(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(G(a,b))return[0,b,[0,e,b]];var
+j=c7(f,g,B),x=j[2];return[0,c(2,j[1]),x]}var
+k=c7(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(G(a,b))return[0,b,[0,e,b]];var
 v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=c6(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iV(g,h)){case
+n=c7(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iW(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=c6(f,iU(h,g),e),q=p[2],r=q[2],D=[0,r,x(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=c6(f,iU(g,h),a),t=s[2],u=t[2],E=[0,x(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-eT(b,a){var
-c=eQ(a);return c6(N(eQ(b),c),b,a)}function
-iW(c,i,h){var
+p=c7(f,iV(h,g),e),q=p[2],r=q[2],D=[0,r,y(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=c7(f,iV(g,h),a),t=s[2],u=t[2],E=[0,y(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+eU(b,a){var
+c=eR(a);return c7(L(eR(b),c),b,a)}function
+iX(c,i,h){var
 e=i,a=h;for(;;){if(G(e,b))return a;var
 f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=as(c,a,a);continue}return as(c,a,iW(c,g,as(c,a,a)))}}function
-dT(a){return iW(N,a,oX)}function
-gv(a){return a?q(gv(a[1])):b}function
-bP(f,e){var
+e=g,a=at(c,a,a);continue}return at(c,a,iX(c,g,at(c,a,a)))}}function
+dT(a){return iX(L,a,o0)}function
+gy(a){return a?q(gy(a[1])):b}function
+bR(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 g=v(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=x(b,v(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=y(b,v(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=v(c(2,q(c(2,c(2,b)))),d),j=x(c(2,b),i),a=a[1],d=j;continue;case
+i=v(c(2,q(c(2,c(2,b)))),d),j=y(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=v(c(2,q(c(2,c(2,b)))),d),l=x(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=v(c(2,q(c(2,c(2,b)))),d),l=y(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=v(c(2,q(c(2,c(2,b)))),d),n=x(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=v(c(2,q(c(2,c(2,b)))),d),n=y(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=v(c(2,q(c(2,c(2,b)))),d),p=x(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=v(c(2,q(c(2,c(2,b)))),d),p=y(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=v(c(2,q(c(2,c(2,b)))),d),s=x(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+r=v(c(2,q(c(2,c(2,b)))),d),s=y(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=v(c(2,q(c(2,c(2,b)))),d),u=x(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
+t=v(c(2,q(c(2,c(2,b)))),d),u=y(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-w=v(c(2,q(c(2,c(2,b)))),d),y=x(c(2,c(2,c(2,b))),w),a=a[1],d=y;continue;default:var
-z=v(c(2,q(c(2,c(2,b)))),d),A=x(q(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
-gw(a){if(G(a,b))return oY;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bi(gw(e)):bj(gw(e))}function
-eU(a){return eO(gw(a))}function
-iX(k,f){if(0<=a3(f)){var
-g=iH(f);if(0<=g){var
+w=v(c(2,q(c(2,c(2,b)))),d),x=y(c(2,c(2,c(2,b))),w),a=a[1],d=x;continue;default:var
+z=v(c(2,q(c(2,c(2,b)))),d),A=y(q(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
+gz(a){if(G(a,b))return o1;var
+c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bi(gz(e)):bj(gz(e))}function
+eV(a){return eP(gz(a))}function
+iY(k,f){if(0<=a3(f)){var
+g=iI(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eN(oS)}return d}function
-gx(c){var
-a=a3(c);return 0===a?d:0<a?b:M(b)}function
-iY(a){return 0<=a3(a)?a:d}function
+h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eO(oV)}return d}function
+gA(c){var
+a=a3(c);return 0===a?d:0<a?b:N(b)}function
+iZ(a){return 0<=a3(a)?a:d}function
 dU(a){var
 c=a3(a);return 0===c?b:0<c?a:b}function
-iZ(m){var
+i0(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bP(a[1],b);case
+1:return bR(a[1],b);case
 2:var
-e=c(2,b);return bP(a[1],e);case
+e=c(2,b);return bR(a[1],e);case
 3:var
-f=q(c(2,b));return bP(a[1],f);case
+f=q(c(2,b));return bR(a[1],f);case
 4:var
-g=c(2,c(2,b));return bP(a[1],g);case
+g=c(2,c(2,b));return bR(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return bP(a[1],h);case
+h=q(c(2,c(2,b)));return bR(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return bP(a[1],i);case
+i=c(2,q(c(2,b)));return bR(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return bP(a[1],j);case
+j=q(c(2,q(c(2,b))));return bR(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return bP(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return bP(a[1],l)}}function
+k=c(2,c(2,c(2,b)));return bR(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return bR(a[1],l)}}function
 ca(b,a){var
-c=a3(a);return 0===c?d:1===c?iG(b,a):iO(-1,iG(iO(-1,b),a))}function
-eV(a){return 0<a3(a)?C3(a):d}function
+c=a3(a);return 0===c?d:1===c?iH(b,a):iP(-1,iH(iP(-1,b),a))}function
+eW(a){return 0<a3(a)?C$(a):d}function
 dV(b,c){var
-a=iH(c);return 0<=a?oL(b,a):oM(b,-a|0)}function
-cu(b,c){var
-a=iH(c);return 0<=a?oM(b,a):oL(b,-a|0)}function
-bC(b,a){return a?a[1]:b}function
+a=iI(c);return 0<=a?oO(b,a):oP(b,-a|0)}function
+cv(b,c){var
+a=iI(c);return 0<=a?oP(b,a):oO(b,-a|0)}function
+bD(b,a){return a?a[1]:b}function
 cb(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-X(d,c){var
+T(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-i0(a){if(a){var
-b=[0,a[1],0];return f(i0(a[2]),b)}return a}function
-i1(d,c){var
+i1(a){if(a){var
+b=[0,a[1],0];return f(i1(a[2]),b)}return a}function
+i2(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-i2(a){if(a){var
-b=i2(a[2]);return f(a[1],b)}return a}function
+i3(a){if(a){var
+b=i3(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,k(b,a[1]),d];else
+d=e(b,a[2]),c=[0,i(b,a[1]),d];else
 var
 c=a;return c}function
 z(b,a){if(a){var
-c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
-c7(e,d,c){var
+c=z(b,a[2]);return f(i(b,a[1]),c)}return a}function
+c8(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=as(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+f=at(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 bk(c,b,a){if(a){var
-d=bk(c,b,a[2]);return as(c,a[1],d)}return b}function
+d=bk(c,b,a[2]);return at(c,a[1],d)}return b}function
 ar(e,d){var
 a=d;for(;;){if(a){var
-b=k(e,a[1]);if(!b){var
+b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 n(d,c){var
 a=c;for(;;){if(a){var
-b=k(d,a[1]);if(b){var
+b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bD(b,e){var
+bE(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,bD(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bE(b,c)];var
 a=c;continue}return a}}function
-i3(d,c){var
+i4(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(k(d,b))return[0,b];var
+b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
 aK(b,a){if(b)if(a)var
 d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
@@ -1004,52 +1004,52 @@ var
 c=a;else
 var
 c=b;return c}function
-cv(b,a){if(b)if(a)var
-d=cv(b[1],a[2]),c=[0,a[1],d];else
+cw(b,a){if(b)if(a)var
+d=cw(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eW(d,c){var
+eX(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aV(b,a){var
 c=a?[0,b,aV([0,b],a[1])]:a;return c}function
 aL(b,a){var
 c=a?[0,b,aL(b,a[1])]:a;return c}function
-i4(a){if(a){var
-e=i4(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return x(g,f)}return d}function
-eX(j){function
+i5(a){if(a){var
+e=i5(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return y(g,f)}return d}function
+eY(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=i4([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dT(b):0}function
-c8(c,b){var
-a=iF(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c9(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
-c_(b,a){return[0,x(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
-bQ(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-i5(a){return[0,M(a[1]),a[2]]}function
-eY(b,a){return c_(b,i5(a))}function
-gy(f,c){var
-a=c[1],e=a3(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,M(c[2]),M(a)];return bQ(f,g)}function
-eZ(q){var
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=i5([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dT(b):0}function
+c9(c,b){var
+a=iG(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c_(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
+c$(b,a){return[0,y(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
+bS(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
+i6(a){return[0,N(a[1]),a[2]]}function
+eZ(b,a){return c$(b,i6(a))}function
+gB(f,c){var
+a=c[1],e=a3(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,N(c[2]),N(a)];return bS(f,g)}function
+e0(q){var
 a=q[2],b=q[1],o=a3(b);if(0===o)var
-c=[0,c4(a),[0,d,gx(a)]];else
+c=[0,c5(a),[0,d,gA(a)]];else
 if(0<o){var
 n=a3(a);if(0===n)var
-c=[0,c4(b),[0,gx(b),d]];else
+c=[0,c5(b),[0,gA(b),d]];else
 if(0<n)var
-l=eT(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=eU(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=eT(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
-p=M(b),i=a3(a);if(0===i)var
-c=[0,c4(b),[0,gx(b),d]];else
+j=eU(b,N(a)),k=j[2],c=[0,j[1],[0,k[1],N(k[2])]]}else{var
+p=N(b),i=a3(a);if(0===i)var
+c=[0,c5(b),[0,gA(b),d]];else
 if(0<i)var
-g=eT(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
+g=eU(p,a),h=g[2],c=[0,g[1],[0,N(h[1]),h[2]]];else
 var
-e=eT(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
+e=eU(p,N(a)),f=e[2],c=[0,e[1],[0,N(f[1]),N(f[2])]]}var
 r=c[2],s=dU(r[2]);return[0,r[1],s]}function
 aW(a){if(typeof
-a==="number")return o1;else
+a==="number")return o4;else
 switch(a[0]){case
 0:var
 b=aW(a[1]);return aP(bg(1,48),b);case
@@ -1071,65 +1071,65 @@ i=aW(a[1]);return aP(bg(1,55),i);case
 j=aW(a[1]);return aP(bg(1,56),j);default:var
 k=aW(a[1]);return aP(bg(1,57),k)}}function
 dW(a){return typeof
-a==="number"?o2:aW(a)}function
-cw(a){return iX(c(2,b),a)}function
-i6(b,a){return cu(a,b)}function
-i7(b,a){return M(cu(M(a),b))}function
-e0(b,a){return M(ca(M(b),a))}function
-$(c,b){var
+a==="number"?o5:aW(a)}function
+cx(a){return iY(c(2,b),a)}function
+i7(b,a){return cv(a,b)}function
+i8(b,a){return N(cv(N(a),b))}function
+e1(b,a){return N(ca(N(b),a))}function
+_(c,b){var
 a=dV(b,c);return[0,a,a]}function
-i8(d,c,a){var
-b=dV(c,d),e=e0(b,a);return[0,ca(b,a),e]}function
-B(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
-J(b,a){return[0,aA(b[1],a[2]),aA(b[2],a[1])]}function
-af(a){return[0,M(a[2]),M(a[1])]}function
-i9(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
-f=bh(v(e,b),v(c,a));return[0,gt(v(e,a),v(c,b)),f]}function
+i9(d,c,a){var
+b=dV(c,d),e=e1(b,a);return[0,ca(b,a),e]}function
+B(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+K(b,a){return[0,aA(b[1],a[2]),aA(b[2],a[1])]}function
+af(a){return[0,N(a[2]),N(a[1])]}function
+i_(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
+f=bh(v(e,b),v(c,a));return[0,gw(v(e,a),v(c,b)),f]}function
 w(c,b,a){var
-d=i9(b[1],b[2],a[1],a[2]),e=i7(c,d[2]);return[0,i6(c,d[1]),e]}function
+d=i_(b[1],b[2],a[1],a[2]),e=i8(c,d[2]);return[0,i7(c,d[1]),e]}function
 S(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=i7(b,bh(c,e)),g=0;if(W(a[1],d)&&W(d,a[2])){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=i8(b,bh(c,e)),g=0;if(X(a[1],d)&&X(d,a[2])){var
 f=d;g=1}if(!g)var
-f=i6(b,gt(c,e));return[0,f,h]}function
-gz(b,a){var
-c=dV(cw(b),b),d=e0(c,a[1]);return[0,ca(c,a[2]),d]}function
-cc(b,a){if(W(d,a[1]))return[0,gz(b,a)];var
-c=W(a[2],d),e=c?[0,af(gz(b,af(a)))]:c;return e}function
-cx(f,c){var
-g=W(d,c[1]);if(g)var
-e=dV(c[2],f),a=eV(e),i=Y(v(a,a),e)?a:x(a,b),h=[0,[0,eV(dV(c[1],f)),i]];else
+f=i7(b,gw(c,e));return[0,f,h]}function
+gC(b,a){var
+c=dV(cx(b),b),d=e1(c,a[1]);return[0,ca(c,a[2]),d]}function
+cc(b,a){if(X(d,a[1]))return[0,gC(b,a)];var
+c=X(a[2],d),e=c?[0,af(gC(b,af(a)))]:c;return e}function
+cy(f,c){var
+g=X(d,c[1]);if(g)var
+e=dV(c[2],f),a=eW(e),i=Y(v(a,a),e)?a:y(a,b),h=[0,[0,eW(dV(c[1],f)),i]];else
 var
 h=g;return h}function
 aQ(f,d,c,b,a){if(b){if(a){var
-g=aQ(f,d,c,b[2],a[2]);return[0,as(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cd(b,a){return cu(b,a)}function
+g=aQ(f,d,c,b[2],a[2]);return[0,at(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cd(b,a){return cv(b,a)}function
 a4(a,c,b){if(G(d,a)){var
-e=b[1],f=M(cd(M(v(a,b[2])),c));return[0,cd(v(a,e),c),f]}var
-g=b[2],h=M(cd(M(v(a,b[1])),c));return[0,cd(v(a,g),c),h]}function
+e=b[1],f=N(cd(N(v(a,b[2])),c));return[0,cd(v(a,e),c),f]}var
+g=b[2],h=N(cd(N(v(a,b[1])),c));return[0,cd(v(a,g),c),h]}function
 a5(a){var
-c=M(cu(M(a[2]),b));return[0,cu(a[1],b),c]}function
+c=N(cv(N(a[2]),b));return[0,cv(a[1],b),c]}function
 dX(c,b,a){var
-e=i9(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=W(f,d)?a[2]:a[1],i=e0(f,h),j=W(g,d)?a[1]:a[2];return[0,ca(g,j),i]}function
-dY(a){return bh(a[2],M(a[1]))}var
+e=i_(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=X(f,d)?a[2]:a[1],i=e1(f,h),j=X(g,d)?a[1]:a[2];return[0,ca(g,j),i]}function
+dY(a){return bh(a[2],N(a[1]))}var
 C=[0,d,d];function
-e1(a){return[0,a[1],a[1]]}function
-c$(a){return[0,a[2],a[2]]}function
-cy(b,a){switch(a[0]){case
+e2(a){return[0,a[1],a[1]]}function
+da(a){return[0,a[2],a[2]]}function
+cz(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=k(b,a[2]);return[3,k(b,a[1]),c];case
+c=i(b,a[2]);return[3,i(b,a[1]),c];case
 4:var
-d=k(b,a[2]);return[4,k(b,a[1]),d];case
-5:return[5,k(b,a[1])];case
+d=i(b,a[2]);return[4,i(b,a[1]),d];case
+5:return[5,i(b,a[1])];case
 6:var
-e=k(b,a[2]);return[6,k(b,a[1]),e];case
+e=i(b,a[2]);return[6,i(b,a[1]),e];case
 7:var
-f=k(b,a[2]);return[7,k(b,a[1]),f];case
-8:return[8,k(b,a[1])];case
-9:return[9,k(b,a[1])];default:var
-g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
+f=i(b,a[2]);return[7,i(b,a[1]),f];case
+8:return[8,i(b,a[1])];case
+9:return[9,i(b,a[1])];default:var
+g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
 aM(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
@@ -1163,82 +1163,82 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-e2(b){var
+e3(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aR(c,b){var
-a=e2(b);return a?Y(c,a[1]):a}function
-dZ(a){return W(c4(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=e3(b);return a?Y(c,a[1]):a}function
+dZ(a){return X(c5(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 l(a){return[0,[2,a]]}function
 F(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
-c=e2(b);if(c){var
-e=c[1],f=e2(a);if(f){var
-g=f[1];if(dZ(e)&&dZ(g))return l(x(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+c=e3(b);if(c){var
+e=c[1],f=e3(a);if(f){var
+g=f[1];if(dZ(e)&&dZ(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bl(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dZ(c)?l(M(c)):[0,[5,a]];case
+c=b[1];return dZ(c)?l(N(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 s(b,a){if(aR(d,a))return b;if(aR(d,b))return bl(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-K(a){var
-c=e2(a);if(c){var
+H(a){var
+c=e3(a);if(c){var
 b=c[1];return dZ(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-p(a,c){if(!aR(d,a)&&!aR(b,c)){if(!aR(d,c)&&!aR(b,a))return aM(a,c)?K(a):[0,[6,a,c]];return c}return a}function
+o(a,c){if(!aR(d,a)&&!aR(b,c)){if(!aR(d,c)&&!aR(b,a))return aM(a,c)?H(a):[0,[6,a,c]];return c}return a}function
 ak(c,a){return aR(b,a)?c:[0,[7,c,a]]}function
 aE(a){return aR(b,a)?a:[0,[9,a]]}function
-i_(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bE(f,e,d,c){var
+i$(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bF(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cy(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cz(a){var
+g=b[1],h=[0,i(e,cz(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cA(a){var
 b=0;function
-c(a){return[0,a]}return bE(l(d),c,a,b)}function
-gA(b,a){if(a){if(aM(b,a[1]))return o3;var
-c=gA(b,a[2]);return y(function(a){return[0,a]},c)}return a}function
+c(a){return[0,a]}return bF(l(d),c,a,b)}function
+gD(b,a){if(a){if(aM(b,a[1]))return o6;var
+c=gD(b,a[2]);return x(function(a){return[0,a]},c)}return a}function
 bm(c,b){var
-a=gA(b,c),d=a?a[1]:a;return d}function
-cA(d,b){if(gA(d,b[1]))return b;var
+a=gD(b,c),d=a?a[1]:a;return d}function
+cB(d,b){if(gD(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cA(a[2],b),j=cA(a[3],i),c=cA(a[4],j);break;case
+i=cB(a[2],b),j=cB(a[3],i),c=cB(a[4],j);break;case
 5:case
 8:case
 9:var
-c=cA(a[1],b);break;case
+c=cB(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cA(a[1],b),c=cA(a[2],h)}var
-e=c[2],f=c[1],g=[0,cy(function(a){return bm(f,a)},a),e];return[0,[0,d,c[1]],g]}function
-da(a){var
-b=c7(function(b,a){return cA(a,b)},a,o4),c=b[1],d=e(function(a){return bm(c,a)},a);return[0,i0(b[2]),d]}function
-e3(a){return bk(function(b,a){return x(dY(b),a)},d,a)}function
-bR(b,c,a){var
-d=e3(a),e=gt(c[2],x(b[2],d)),f=e3(a);return[0,b,[0,bh(c[1],aA(b[1],f)),e],a]}function
+h=cB(a[1],b),c=cB(a[2],h)}var
+e=c[2],f=c[1],g=[0,cz(function(a){return bm(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+db(a){var
+b=c8(function(b,a){return cB(a,b)},a,o7),c=b[1],d=e(function(a){return bm(c,a)},a);return[0,i1(b[2]),d]}function
+e4(a){return bk(function(b,a){return y(dY(b),a)},d,a)}function
+bT(b,c,a){var
+d=e4(a),e=gw(c[2],y(b[2],d)),f=e4(a);return[0,b,[0,bh(c[1],aA(b[1],f)),e],a]}function
 ag(a){return[0,a,a,0]}function
-bF(b,a){var
+bG(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aQ(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return bR(B(b[1],a[1]),g,f)}function
+f=aQ(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return bT(B(b[1],a[1]),g,f)}function
 a6(b,a){var
-c=a[3],d=b[3],e=aQ(function(a){return a},af,J,d,c),f=J(b[2],a[2]);return bR(J(b[1],a[1]),f,e)}function
+c=a[3],d=b[3],e=aQ(function(a){return a},af,K,d,c),f=K(b[2],a[2]);return bT(K(b[1],a[1]),f,e)}function
 d0(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
-at(a,c,b){var
+au(a,c,b){var
 d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=w(a,e,b);return a5(B(w(a,d,c),f))}function
 i(b){return a5(w(a,e,b))}var
-j=aQ(function(b){return a5(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bR(w(a,c[1],b[1]),k,j)}function
+j=aQ(function(b){return a5(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bT(w(a,c[1],b[1]),k,j)}function
 d1(b,a){var
-c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=S(b,a[2]);return bR(S(b,a[1]),g,f)}function
-gB(a,b){var
-c=cx(a,b[1]);if(c){var
-g=c[1],d=cx(a,b[2]);if(d){var
+c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=S(b,a[2]);return bT(S(b,a[1]),g,f)}function
+gE(a,b){var
+c=cy(a,b[1]);if(c){var
+g=c[1],d=cy(a,b[2]);if(d){var
 h=d[1],f=cc(a,B(h,g));if(f)var
-l=b[3],m=f[1],i=[0,bR(g,h,e(function(b){return w(a,m,b)},l))];else
+l=b[3],m=f[1],i=[0,bT(g,h,e(function(b){return w(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1247,35 +1247,35 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-db(a,c,b){var
+dc(a,c,b){var
 d=cc(a,b[1]);if(d){var
 f=cc(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return J(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bR(g,w(a,c[2],h),p)];else
+h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bT(g,w(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-ce(b,a){return a?k(b,a[1]):a}function
-e4(a){var
-b=e(a5,a[3]),c=a5(B(a[2],a[1]));return bR(a[1],c,b)}function
-i$(a,k,j,r,c){var
-l=e4(k),m=e4(j),g=e4(c[1]),h=e4(c[2]),s=at(a,l,h),t=a6(at(a,m,g),s),i=db(a,ag($(a,b)),t);if(i)var
-f=i[1],n=at(a,a6(l,g),f),o=at(a,a6(m,h),f),d=function(c,b){return at(a,c,ag(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bF(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bR(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bR(c[1][1],c[1][2],H),F]];else
+ce(b,a){return a?i(b,a[1]):a}function
+e5(a){var
+b=e(a5,a[3]),c=a5(B(a[2],a[1]));return bT(a[1],c,b)}function
+ja(a,k,j,r,c){var
+l=e5(k),m=e5(j),g=e5(c[1]),h=e5(c[2]),s=au(a,l,h),t=a6(au(a,m,g),s),i=dc(a,ag(_(a,b)),t);if(i)var
+f=i[1],n=au(a,a6(l,g),f),o=au(a,a6(m,h),f),d=function(c,b){return au(a,c,ag(b))},u=j[3],v=k[3],x=function(b,a){var
+c=d(o,a);return bG(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bT(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bT(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-ja(a,e,d,k){var
-p=d1(a,d),f=bF(d1(a,e),p),g=a6(bF(f,ag($(a,b))),k),l=at(a,ag($(a,c(2,b))),f),q=d1(a,g),h=gB(a,a6(at(a,ag($(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=at(a,m,d),i=db(a,bF(at(a,g,e),r),l);if(i)var
-s=at(a,m,e),j=db(a,a6(at(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jb(a,e,d,k){var
+p=d1(a,d),f=bG(d1(a,e),p),g=a6(bG(f,ag(_(a,b))),k),l=au(a,ag(_(a,c(2,b))),f),q=d1(a,g),h=gE(a,a6(au(a,ag(_(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=au(a,m,d),i=dc(a,bG(au(a,g,e),r),l);if(i)var
+s=au(a,m,e),j=dc(a,a6(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=ce(function(b){return i$(a,e,d,k,b)},o);return ce(function(b){return i$(a,e,d,k,b)},u)}function
-bS(d,b,a){if(b){if(a)return as(d,b[1],a[1]);var
+u=ce(function(b){return ja(a,e,d,k,b)},o);return ce(function(b){return ja(a,e,d,k,b)},u)}function
+bU(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
@@ -1283,25 +1283,25 @@ cf(b,j,i){var
 f=ag(C);return function(a){switch(a[0]){case
 0:return[0,t(a[1],j,f)];case
 1:return[0,t(a[1],i,f)];case
-2:return[0,ag($(b,a[1]))];case
+2:return[0,ag(_(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bS(function(b,a){return[0,bF(b,a)]},l,k);case
+k=a[2],l=a[1];return bU(function(b,a){return[0,bG(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bS(function(b,a){return[0,a6(b,a)]},n,m);case
+m=a[2],n=a[1];return bU(function(b,a){return[0,a6(b,a)]},n,m);case
 5:var
 o=a[1];return ce(function(a){return[0,d0(a)]},o);case
 6:var
-p=a[2],q=a[1];return bS(function(c,a){return[0,at(b,c,a)]},q,p);case
+p=a[2],q=a[1];return bU(function(c,a){return[0,au(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bS(function(a,c){return db(b,a,c)},s,r);case
+r=a[2],s=a[1];return bU(function(a,c){return dc(b,a,c)},s,r);case
 8:var
 u=a[1];return ce(function(a){return[0,d1(b,a)]},u);case
 9:var
-v=a[1];return ce(function(a){return gB(b,a)},v);default:var
+v=a[1];return ce(function(a){return gE(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=ja(b,c[1],d[1],e[1]),x=a[1]?b_:aJ;return y(x,w)}var
+w=jb(b,c[1],d[1],e[1]),y=a[1]?b_:aJ;return x(y,w)}var
 g=e}else
 var
 g=d;var
@@ -1316,28 +1316,28 @@ a=c;for(;;)switch(a[0]){case
 a=a[1];continue;default:var
 b=d2(a[1]);if(b)return b;var
 a=a[2];continue}}function
-bT(q,p){var
+bV(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gu(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gx(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gu(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gu(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gx(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gx(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=bT(b[1],a[1]);if(l){var
+l=bV(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=bT(b[1],a[1]);if(m){var
+m=bV(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=bT(b[1],a[1]);if(n){var
+n=bV(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=bT(b[1],a[1]);if(o){var
+o=bV(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
 bn(a,b){switch(b[0]){case
-0:return[0,i8(a,b[1],b[2])];case
+0:return[0,i9(a,b[1],b[2])];case
 1:return 0;case
 2:var
 c=bn(a,b[1]);if(c)var
@@ -1346,7 +1346,7 @@ var
 m=c;return m;case
 3:var
 e=bn(a,b[1]);if(e)var
-f=bn(a,b[2]),s=f?[0,J(e[1],f[1])]:f,n=s;else
+f=bn(a,b[2]),s=f?[0,K(e[1],f[1])]:f,n=s;else
 var
 n=e;return n;case
 4:var
@@ -1363,34 +1363,34 @@ p=j;var
 q=p}else
 var
 q=i;return q;default:var
-l=bn(a,b[1]);return l?cx(a,l[1]):l}}function
-e5(b,a){return i8(b,a[1],a[2])}function
+l=bn(a,b[1]);return l?cy(a,l[1]):l}}function
+e6(b,a){return i9(b,a[1],a[2])}function
 bo(a,d){if(d2(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dS(i,jb),k=j?c9(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,e5(a,bQ(eY(e,g),n)),0],p=f(aL(C,i),o),q=e5(a,e)[2],r=[0,e5(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,e5(a,bQ(c_(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dS(i,jc),k=j?c_(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,e6(a,bS(eZ(e,g),n)),0],p=f(aL(C,i),o),q=e6(a,e)[2],r=[0,e6(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,e6(a,bS(c$(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bo(a,d[2]),u=bo(a,d[1]);return bS(function(b,a){return[0,bF(b,a)]},u,t);case
+t=bo(a,d[2]),u=bo(a,d[1]);return bU(function(b,a){return[0,bG(b,a)]},u,t);case
 3:var
-v=bo(a,d[2]),w=bo(a,d[1]);return bS(function(b,a){return[0,a6(b,a)]},w,v);case
+v=bo(a,d[2]),w=bo(a,d[1]);return bU(function(b,a){return[0,a6(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(bT(h,m)){var
-x=bo(a,h);return ce(function(b){return[0,d1(a,b)]},x)}var
-z=bo(a,m),A=bo(a,h);return bS(function(c,b){return[0,at(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(bV(h,m)){var
+y=bo(a,h);return ce(function(b){return[0,d1(a,b)]},y)}var
+z=bo(a,m),A=bo(a,h);return bU(function(c,b){return[0,au(a,c,b)]},A,z);case
 5:var
-B=bo(a,d[2]),D=bo(a,d[1]);return bS(function(b,c){return db(a,b,c)},D,B);default:var
-E=bo(a,d[1]);return ce(function(b){return gB(a,b)},E)}return y(ag,bn(a,d))}function
+B=bo(a,d[2]),D=bo(a,d[1]);return bU(function(b,c){return dc(a,b,c)},D,B);default:var
+E=bo(a,d[1]);return ce(function(b){return gE(a,b)},E)}return x(ag,bn(a,d))}function
 aX(b,a){if(d2(a)){var
-c=bo(b,a);return y(function(a){return a[2]},c)}return bn(b,a)}function
-jc(a){var
-e=bh(M(a),d);return dU(x(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-jd(a){return iY(x(jc(a),a))}function
+c=bo(b,a);return x(function(a){return a[2]},c)}return bn(b,a)}function
+jd(a){var
+e=bh(N(a),d);return dU(y(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+je(a){return iZ(y(jd(a),a))}function
 cg(f,a,e){var
-b=aX(x(f,jc(a)),e);if(b)var
-c=b[1],g=jd(a),h=M(cd(M(c[2]),g)),i=jd(a),d=[0,[0,cd(c[1],i),h]];else
+b=aX(y(f,jd(a)),e);if(b)var
+c=b[1],g=je(a),h=N(cd(N(c[2]),g)),i=je(a),d=[0,[0,cd(c[1],i),h]];else
 var
 d=b;return d}function
 ah(d,a){var
@@ -1398,353 +1398,353 @@ b=cg(d,a[2],a[1][1]);if(b)var
 c=cg(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gC(b,a){var
-c=M(cd(M(a[2]),b));return[0,cd(a[1],b),c]}function
-e6(b,a){var
-c=e0(b[2],a);return[0,ca(b[1],a),c]}function
-gD(a,f,c){if(c){var
-d=c[1],g=gD(a,f,d),h=g[2],i=gv(N(dR(o6,d),o5)),j=v(gv(dR(o7,d)),i),e=e6(w(a,g[1],f),j),k=iS(c)?B(h,e):J(h,e);return[0,e,k]}var
-l=$(a,b);return[0,$(a,b),l]}function
-je(f){var
-g=dT(f),e=o8[1],b=g,c=0,a=e;for(;;){if(b){var
+gF(b,a){var
+c=N(cd(N(a[2]),b));return[0,cd(a[1],b),c]}function
+e7(b,a){var
+c=e1(b[2],a);return[0,ca(b[1],a),c]}function
+gG(a,f,c){if(c){var
+d=c[1],g=gG(a,f,d),h=g[2],i=gy(L(dR(o9,d),o8)),j=v(gy(dR(o_,d)),i),e=e7(w(a,g[1],f),j),k=iT(c)?B(h,e):K(h,e);return[0,e,k]}var
+l=_(a,b);return[0,_(a,b),l]}function
+jf(f){var
+g=dT(f),e=o$[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return N(o9,c)}}function
-jf(a,d){var
-g=cw(a),h=v(c(2,c(2,b)),g),e=G(d[2],h);if(e)var
-i=gD(a,d,dR(o$,N(je(a),o_)))[2][2],f=[0,[0,gD(a,d,N(dR(pb,je(a)),pa))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return L(pa,c)}}function
+jg(a,d){var
+g=cx(a),h=v(c(2,c(2,b)),g),e=G(d[2],h);if(e)var
+i=gG(a,d,dR(pc,L(jf(a),pb)))[2][2],f=[0,[0,gG(a,d,L(dR(pe,jf(a)),pd))[2][1],i]];else
 var
 f=e;return f}function
-jg(i){function
+jh(i){function
 a(h){var
-m=ca(cw(i),h),g=dT(i),f=m,e=d,a=b;for(;;){if(g){var
-j=x(a,c(2,b)),k=x(e,ca(f,a)),l=M(ca(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+m=ca(cx(i),h),g=dT(i),f=m,e=d,a=b;for(;;){if(g){var
+j=y(a,c(2,b)),k=y(e,ca(f,a)),l=N(ca(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=v(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aA(v(c(2,c(2,c(2,c(2,b)))),g),f)}function
-jh(e,a){var
+ji(e,a){var
 f=G(d,a);if(f){var
-g=c(2,c(2,b));return jf(e,e6(S(e,[0,a,a]),g))}return f}function
-ji(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aA(jg(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=x(jg(a),n),e=jh(a,g);if(e){var
-f=jh(a,h);if(f)var
-i=W(d,e[1][1]),j=i?W(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return jg(e,e7(S(e,[0,a,a]),g))}return f}function
+jj(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aA(jh(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=y(jh(a),n),e=ji(a,g);if(e){var
+f=ji(a,h);if(f)var
+i=X(d,e[1][1]),j=i?X(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jj(a,d){var
-c=S(a,d),e=$(a,b);return J(B(c,c),e)}function
-dc(f,j){var
-e=aX(x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=x(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=ji(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=jf(a,S(a,e6(w(a,k,d[1]),h))),g=y(function(b){return jj(a,jj(a,b))},i);else
+jk(a,d){var
+c=S(a,d),e=_(a,b);return K(B(c,c),e)}function
+dd(f,j){var
+e=aX(y(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=y(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=jj(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=jg(a,S(a,e7(w(a,k,d[1]),h))),g=x(function(b){return jk(a,jk(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return gC(l,a)},g)}return e}function
-jk(a,d){var
-e=ji(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return e6(w(a,d,gC(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-e7(d,a){return dc(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return gF(l,a)},g)}return e}function
+jl(a,d){var
+e=jj(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return e7(w(a,d,gF(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+e8(d,a){return dd(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 d3(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,c_(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,c$(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,eY(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,eZ(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bQ(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bS(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return c8(a,[0,d,b])?0:[0,gy(c,a)]};break;default:var
-j=d3(c,a[1]);return j?k(c,j[1]):j}var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return c9(a,[0,d,b])?0:[0,gB(c,a)]};break;default:var
+k=d3(c,a[1]);return k?i(c,k[1]):k}var
 h=d3(c,f);if(h){var
-i=d3(c,g);if(i)return e(h[1],i[1]);var
-l=i}else
+j=d3(c,g);if(j)return e(h[1],j[1]);var
+l=j}else
 var
 l=h;return l}function
-pc(a){return 0}function
-cB(a){return d3(pc,a)}function
+pf(a){return 0}function
+cC(a){return d3(pf,a)}function
 g(i,e,c){var
-f=cB(c);if(f){var
-g=f[1];return e?ac(c9(g,[0,d,b])):c9([0,d,b],g)}var
+f=cC(c);if(f){var
+g=f[1];return e?ad(c_(g,[0,d,b])):c_([0,d,b],g)}var
 a=aX(i,c);if(a){var
-h=a[1];return e?W(d,h[1]):G(d,h[1])}return a}function
-jl(c,b){var
+h=a[1];return e?X(d,h[1]):G(d,h[1])}return a}function
+jm(c,b){var
 a=aX(c,b),d=a?1:a;return d}function
 a9(c,a,b){var
-d=bT(a,b),e=d?jl(c,a):d;return e?e:g(c,0,[3,b,a])}function
-pd(c){var
-a=eZ(c),g=dU(eV(a[2])),b=[0,eV(a[1]),g],e=W(d,a[1]),f=e?c8(bQ(b,b),c):e,h=f?[0,b]:f;return h}function
-jm(a){if(a){var
-e=a[2],c=a[1];if(c8(bC([0,d,b],c),[0,d,b])){var
-g=jm(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+d=bV(a,b),e=d?jm(c,a):d;return e?e:g(c,0,[3,b,a])}function
+pg(c){var
+a=e0(c),g=dU(eW(a[2])),b=[0,eW(a[1]),g],e=X(d,a[1]),f=e?c9(bS(b,b),c):e,h=f?[0,b]:f;return h}function
+jn(a){if(a){var
+e=a[2],c=a[1];if(c9(bD([0,d,b],c),[0,d,b])){var
+g=jn(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-jn(c,a){var
-e=aK(c,a),f=[0,d,b];return bk(function(a,b){return eZ(c_(bQ(a[1],a[2]),b))},f,e)}function
-jo(c,j){if(c){var
-f=c[1],g=jm(j);if(g){var
+jo(c,a){var
+e=aK(c,a),f=[0,d,b];return bk(function(a,b){return e0(c$(bS(a[1],a[2]),b))},f,e)}function
+jp(c,j){if(c){var
+f=c[1],g=jn(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bC([0,d,b],a),g=gy(bC([0,d,b],c),f),h=cb(a),i=aK(cb(c),h);return e(function(a){var
-b=bQ(g,a[2]);return eZ(eY(a[1],b))},i)},l=jo(f,e(k,h[2]));return y(function(c){var
-e=bC([0,d,b],a);return[0,eZ(gy(i5(jn(cb(a),c)),e)),c]},l)}var
+f=bD([0,d,b],a),g=gB(bD([0,d,b],c),f),h=cb(a),i=aK(cb(c),h);return e(function(a){var
+b=bS(g,a[2]);return e0(eZ(a[1],b))},i)},l=jp(f,e(k,h[2]));return x(function(c){var
+e=bD([0,d,b],a);return[0,e0(gB(i6(jo(cb(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],aL([0,d,b],f)]]}else
 var
 i=c;return i}function
-jp(a){if(a){var
-b=d3(pd,a[1]);if(b)var
-c=jp(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return pe}function
 jq(a){if(a){var
-b=jp(a[1]);if(b)var
+b=d3(pg,a[1]);if(b)var
 c=jq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pf}function
-jr(h,l){var
-a=jq(l);if(a){var
-j=a[1],c=jo(h,j);if(c){var
-e=c[1],f=u(i(e),h),g=f?ar(function(a){return ac(c8(a,[0,d,b]))},e):f;return g?n(function(a){return c8(jn(a,e),[0,d,b])},j):g}var
+d=b;return d}return ph}function
+jr(a){if(a){var
+b=jq(a[1]);if(b)var
+c=jr(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return pi}function
+js(h,l){var
+a=jr(l);if(a){var
+i=a[1],c=jp(h,i);if(c){var
+e=c[1],f=u(j(e),h),g=f?ar(function(a){return ad(c9(a,[0,d,b]))},e):f;return g?n(function(a){return c9(jo(a,e),[0,d,b])},i):g}var
 k=c}else
 var
 k=a;return k}function
-e8(a){return 0===a[0]?a[2]:a[1]}function
-pg(a){return a}function
-ph(a){return a}function
-pi(a,b){return aQ(ph,pg,B,a,b)}function
+e9(a){return 0===a[0]?a[2]:a[1]}function
 pj(a){return a}function
 pk(a){return a}function
-ch(a,b){return aQ(pk,pj,pi,a,b)}function
-gE(b,a,c){if(a){var
+pl(a,b){return aQ(pk,pj,B,a,b)}function
+pm(a){return a}function
+pn(a){return a}function
+ch(a,b){return aQ(pn,pm,pl,a,b)}function
+gH(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gE(b,f,c[2]),h=c[1],i=function(c,a){return J(c,dX(d,a,b))},j=function(a){return af(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
-k=gE(b,f,0);return[0,e(function(a){return af(dX(d,a,b))},a),k]}return c}function
-gF(a){if(a){var
+g=gH(b,f,c[2]),h=c[1],i=function(c,a){return K(c,dX(d,a,b))},j=function(a){return af(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
+k=gH(b,f,0);return[0,e(function(a){return af(dX(d,a,b))},a),k]}return c}function
+gI(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=W(d,c[1]),h=e?[0,gE(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=X(d,c[1]),h=e?[0,gH(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-js(f,e){var
+jt(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gF(b);if(c){var
+c=gI(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jt(d,b,a){if(b)if(a)var
-e=a[1],f=jt(d,b[2],a[2]),g=b$(d,b[1])?e1(e):c$(e),c=[0,g,f];else
+ju(d,b,a){if(b)if(a)var
+e=a[1],f=ju(d,b[2],a[2]),g=b$(d,b[1])?e2(e):da(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-ju(a,b){if(a)if(b)var
-d=ju(a[2],b[2]),c=[0,jt(a[1],a,b[1]),d];else
+jv(a,b){if(a)if(b)var
+d=jv(a[2],b[2]),c=[0,ju(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bp(a){if(a){var
-b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return pl}function
-e9(a){var
-b=i(a);if(js(b,a))return 1;var
-c=bp(bB(b));return n(function(c){return js(b,ju([0,0,c],a))},c)}function
+b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return po}function
+e_(a){var
+b=j(a);if(jt(b,a))return 1;var
+c=bp(bC(b));return n(function(c){return jt(b,jv([0,0,c],a))},c)}function
 ap(a){function
 b(b){var
-c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aS(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?B(a,d):J(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gG(c,b,a){var
-d=bp(c);return n(function(c){return k(a,k(ap(function(a){return aS(c,a)}),b))},d)}function
-gH(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a4(c,x(h,b),a)},k=gH(h,j,i),l=function(c,b){var
+d=b[1],f=b[2],g=c[1]?B(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gJ(c,b,a){var
+d=bp(c);return n(function(c){return i(a,i(ap(function(a){return aS(c,a)}),b))},d)}function
+gK(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a4(c,y(h,b),a)},k=gK(h,j,i),l=function(c,b){var
 d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-e_(b,d,a,c){function
+e$(b,d,a,c){function
 e(c,d){var
-e=a4(d,b,a);return J(B(c,c),e)}function
+e=a4(d,b,a);return K(B(c,c),e)}function
 f(c){return af(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
-e$(d,i,h,g){var
+fa(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=c$(e[2]),k=ch(a,gH(d,f,e_(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gI(b,a){return[0,[0,0,b],a]}function
-dd(b,c,g,f,a){function
+e=b[1],f=c[1],j=da(e[2]),k=ch(a,gK(d,f,e$(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gL(b,a){return[0,[0,0,b],a]}function
+de(b,c,g,f,a){function
 d(a){if(a){var
-h=aL([0,af(a[1][2]),0],b),c=e$(g,f,a[2],h),d=u(i(c),b);if(d)return e9(c);var
+h=aL([0,af(a[1][2]),0],b),c=fa(g,f,a[2],h),d=u(j(c),b);if(d)return e_(c);var
 e=d}else
 var
-e=a;return e}return gG(b,gI(c,a),d)}function
-gJ(f,e){var
+e=a;return e}return gJ(b,gL(c,a),d)}function
+gM(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gF([0,[0,e1(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gI([0,[0,e2(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gK(b,c,a){function
+gN(b,c,a){function
 d(a){if(a){var
-h=aL([0,a[1][2],0],b),c=gJ(a[2],h);if(c){var
-d=c[1],e=u(i(d),b);if(e)return e9(d);var
+h=aL([0,a[1][2],0],b),c=gM(a[2],h);if(c){var
+d=c[1],e=u(j(d),b);if(e)return e_(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gG(b,gI(c,a),d)}function
-jv(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jw(b,a){var
-c=bp(b);return n(function(b){return W(d,aS(b,a)[1])},c)}function
-jx(c,b,a){var
+g=a;return g}return gJ(b,gL(c,a),d)}function
+jw(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jx(b,a){var
+c=bp(b);return n(function(b){return X(d,aS(b,a)[1])},c)}function
+jy(c,b,a){var
 d=a[3],f=e(function(a){return a4(c,b,a)},d),g=a[2];return[0,a4(c,b,a[1]),g,f]}function
-jy(a,b){var
-c=b[3],d=a[3],e=aQ(function(a){return a},af,J,d,c),f=a[2];return[0,J(a[1],b[1]),f,e]}function
+jz(a,b){var
+c=b[3],d=a[3],e=aQ(function(a){return a},af,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
 ci(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-au(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-bU(b,a){var
-c=p(b,a[3]),d=p(b,a[2]);return[0,p(b,a[1]),d,c]}function
-cC(b,a){var
+as(c,b,a){var
+d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
+bH(b,a){var
+c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
+cD(b,a){var
 c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
-ad(b,a){var
-c=p(b[3],a[3]),d=p(b[2],a[2]);return F(F(p(b[1],a[1]),d),c)}function
-cD(a){return cC(a,aE(ad(a,a)))}function
-bV(a){var
+ab(b,a){var
+c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
+cE(a){return cD(a,aE(ab(a,a)))}function
+bW(a){var
 b=a[5];return b?b[1]:aE(a[2])}function
-fa(b,a){return b?a:bl(a)}function
-jz(e,a,i,d,h){var
-f=ad(a,e),b=au(s,e,bU(f,a)),j=ad(b,b),g=s(K(d),j),c=fa(h,aE(g)),k=s(f,c),l=au(F,a,cC(b,c));return[0,au(F,b,bU(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jA(a,e,d){var
-b=ad(a,a),c=aE(b),f=[0,e],g=y(function(b){return au(s,a,bU(ad(b,a),b))},d);return[0,a,b,cC(a,c),c,0,g,f]}function
-jB(c,a){var
-d=ad(a,c);return[0,a,l(b),a,d,0,0,0]}function
+fb(b,a){return b?a:bl(a)}function
+jA(e,a,i,d,h){var
+f=ab(a,e),b=as(s,e,bH(f,a)),j=ab(b,b),g=s(H(d),j),c=fb(h,aE(g)),k=s(f,c),l=as(F,a,cD(b,c));return[0,as(F,b,bH(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jB(a,e,d){var
+b=ab(a,a),c=aE(b),f=[0,e],g=x(function(b){return as(s,a,bH(ab(b,a),b))},d);return[0,a,b,cD(a,c),c,0,g,f]}function
+jC(c,a){var
+d=ab(a,c);return[0,a,l(b),a,d,0,0,0]}function
 d4(a){return e(function(a){var
 b=a[2];return[0,ci(a[1]),b]},a)}function
-jC(a){return e(function(a){var
+jD(a){return e(function(a){var
 c=l(b);return[0,ci(a[3]),c]},a)}function
-jD(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-jE(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
-gL(d,a){var
-b=cx(d,[0,a[2],a[2]]);if(b){var
+jE(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+jF(c,b,a){var
+d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
+gO(d,a){var
+b=cy(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fb(a,m,f,l,e,k,j){var
-o=jE(a6,k,j),b=jE(function(b,c){return at(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bF(bF(bF(ag($(a,d)),h),g),c),p=bp(m);return n(function(c){var
-b=jD(function(b){return S(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gL(a,B(B(B($(a,d),k),j),h))),g=J(aS(c,i),m),n=f?J(g,aS(c,f[1])):g;return W(d,n[1])},p)}function
-bG(a){return cu(x(a[1],a[2]),b)}function
-de(a){var
-b=bG(a);return aA(a[2],b)}function
-fc(c,b){if(b)var
-a=b[1],e=fc([0,c],b[2]),g=de(a),h=[0,[0,de(a),g],0],i=f(aL(C,c),h),j=bG(a),d=[0,[0,[0,bG(a),j],a,i],e];else
+fc(a,m,f,l,e,k,j){var
+o=jF(a6,k,j),b=jF(function(b,c){return au(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bG(bG(bG(ag(_(a,d)),h),g),c),p=bp(m);return n(function(c){var
+b=jE(function(b){return S(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gO(a,B(B(B(_(a,d),k),j),h))),g=K(aS(c,i),m),n=f?K(g,aS(c,f[1])):g;return X(d,n[1])},p)}function
+bI(a){return cv(y(a[1],a[2]),b)}function
+df(a){var
+b=bI(a);return aA(a[2],b)}function
+fd(c,b){if(b)var
+a=b[1],e=fd([0,c],b[2]),g=df(a),h=[0,[0,df(a),g],0],i=f(aL(C,c),h),j=bI(a),d=[0,[0,[0,bI(a),j],a,i],e];else
 var
 d=b;return d}function
 d5(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=d5(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bG(a),f],c],h=bG(a);return[0,[0,[0,a[1],h],c],g]}return pm}function
-jF(d,c,a){if(c){if(a){var
-e=jF(d,c[2],a[2]);return B(a4(c[1],x(d,b),a[1]),e)}return C}return C}function
+f=a[2],g=[0,[0,bI(a),f],c],h=bI(a);return[0,[0,[0,a[1],h],c],g]}return pp}function
+jG(d,c,a){if(c){if(a){var
+e=jG(d,c[2],a[2]);return B(a4(c[1],y(d,b),a[1]),e)}return C}return C}function
 d6(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jF(f,a,b)},j=d6(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jG(f,a,b)},j=d6(f,h),k=e(function(a){var
 e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
 var
 i=a;return i}function
 d7(e,b,d,a){if(b)if(a)var
-f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,e_(e,a[1][1],d,f)],g];else
+f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,e$(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fd(f,d,c,b,a){if(a){var
+fe(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fd(f,d[1],c,b,g);return[0,[0,J(C,b),0],i]}var
-j=e(function(a){return[0,J(C,b),0]},g),h=[0,[0,J(af(w(f,c,c$(a[1][2]))),b),0],j]}else
+i=fe(f,d[1],c,b,g);return[0,[0,K(C,b),0],i]}var
+j=e(function(a){return[0,K(C,b),0]},g),h=[0,[0,K(af(w(f,c,da(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 bq(c,a){var
-b=u(i(a),c);return b?e9(a):b}function
-jG(d,b,a){if(b)var
-c=b[1],g=jG([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aA(c[1],a[2]),x(c[2],a[2])],h],g];else
+b=u(j(a),c);return b?e_(a):b}function
+jH(d,b,a){if(b)var
+c=b[1],g=jH([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aA(c[1],a[2]),y(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jH(d){if(d){var
+jI(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jH(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jI(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return pn}function
-gM(a){return y(function(a){return y(d0,a)},a)}function
+f=a;return f}return pq}function
+gP(a){return x(function(a){return x(d0,a)},a)}function
 ck(c,b,a){function
-d(a){return at(c,b,a)}return y(function(a){return y(d,a)},a)}function
-gN(c,b,a){function
-d(a){return db(c,a,b)}return y(function(a){return ce(d,a)},a)}function
-df(b,a){var
+d(a){return au(c,b,a)}return x(function(a){return x(d,a)},a)}function
+gQ(c,b,a){function
+d(a){return dc(c,a,b)}return x(function(a){return ce(d,a)},a)}function
+dg(b,a){var
 c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bS(function(b,a){return[0,bF(b,a)]},e,d)]}return b}return a},c)}function
-fe(a){return ag($(a,c(2,b)))}function
-jI(b,c,a){if(a)var
-f=a[1],g=jI(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bU(function(b,a){return[0,bG(b,a)]},e,d)]}return b}return a},c)}function
+ff(a){return ag(_(a,c(2,b)))}function
+jJ(b,c,a){if(a)var
+f=a[1],g=jJ(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jJ(a){return n(function(a){var
+jK(a){return n(function(a){var
 b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
-jK(c,b,a){var
+jL(c,b,a){var
 d=aK(b,a);return bk(function(a,b){return B(w(c,a[1],a[2]),b)},C,d)}function
-gO(c,b,a){var
-d=dY(jK(c,a,b));return bk(function(b,a){return x(dY(b),a)},d,a)}function
-dg(a){return $(a,b)}function
-gP(a,i,c,u,t){var
+gR(c,b,a){var
+d=dY(jL(c,a,b));return bk(function(b,a){return y(dY(b),a)},d,a)}function
+dh(a){return _(a,b)}function
+gS(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jJ(c)&&!jJ(j)){var
-h=gO(a,i,j),o=dg(a),p=gO(a,i,c),b=dX([0,gO(a,i,c),p],o,[0,h,h])[1],k=W(d,h),l=k?W(d,b):k;if(l)var
-q=a5(gz(a,[0,b,b])),r=function(b){return function(d,c){return J(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ch(e,jI(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!jK(c)&&!jK(j)){var
+h=gR(a,i,j),o=dh(a),p=gR(a,i,c),b=dX([0,gR(a,i,c),p],o,[0,h,h])[1],k=X(d,h),l=k?X(d,b):k;if(l)var
+q=a5(gC(a,[0,b,b])),r=function(b){return function(d,c){return K(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ch(e,jJ(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-pC(a){var
+pF(a){var
 b=a[2],c=e(function(a){return[0,a[1],C]},b);return[0,[0,a[1][1],C],c]}function
-jL(c,b,a){if(b){if(a){var
-d=jL(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
-jM(a,j){switch(j){case
+jM(c,b,a){if(b){if(a){var
+d=jM(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
+jN(a,j){switch(j){case
 0:var
 d=aA(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aA(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=cu(x(a[1],a[2]),b),h=aA(c,a[2]),i=aA(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jN(d,c,a){if(a)var
-e=a[1],g=jN(d,[0,c],a[2]),b=y(b_,i3(function(a){return u(a[1],c)},d)),h=b?jM(e,b[1])[1]:e,f=[0,h,g];else
+c=cv(y(a[1],a[2]),b),h=aA(c,a[2]),i=aA(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jO(d,c,a){if(a)var
+e=a[1],g=jO(d,[0,c],a[2]),b=x(b_,i4(function(a){return u(a[1],c)},d)),h=b?jN(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-pD=ag(C);function
-jO(e,d,c){if(d){var
-f=t(e,c[2],pE),a=f?f[1]:[0,pD];if(a)var
-b=jO([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+pG=ag(C);function
+jP(e,d,c){if(d){var
+f=t(e,c[2],pH),a=f?f[1]:[0,pG];if(a)var
+b=jP([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return pF}function
-jP(d,c,b,a){var
-f=e(ag,b);return bE(0,cf(d,fc(0,a),f),c,0)}function
+g=a;return g}return pI}function
+jQ(d,c,b,a){var
+f=e(ag,b);return bF(0,cf(d,fd(0,a),f),c,0)}function
 aj(a){if(a){var
 b=a[1];if(b)var
 c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pG}function
-ff(b,a){if(a){var
+d=b;return d}return pJ}function
+fg(b,a){if(a){var
 h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=ff(b,a[2]);if(g)var
-j=W(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=fg(b,a[2]);if(g)var
+j=X(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1752,22 +1752,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return pH}function
-bW(d,c,b){var
-a=ff(d,c);return a?k(b,a[1]):a}function
-dh(a,b){return n(function(c){var
+m=c;return m}return pK}function
+bX(d,c,b){var
+a=fg(d,c);return a?i(b,a[1]):a}function
+di(a,b){return n(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-fg(b,a){if(b){var
+fh(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
-gQ(b,a){return b?jy(a,b[1]):a}function
-gR(h,g,b,f){var
+gT(b,a){return b?jz(a,b[1]):a}function
+gU(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jy(c,b[1]),e=bp(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-jQ(f,d,a){function
-c(a){return a4(a,d,$(f,b))}if(a){var
+i=jz(c,b[1]),e=bp(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+jR(f,d,a){function
+c(a){return a4(a,d,_(f,b))}if(a){var
 g=e(c,a[2]);return[0,c(a[1]),C,g]}return ag(C)}function
-fh(b,a){var
+fi(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1776,54 +1776,54 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-jR(j,k,J,t,h,c,g,f,a){switch(f[0]){case
+jS(i,k,J,t,h,c,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dh(t,h);if(K){var
-ad=a[2],ae=a[1],af=fg(g,ag(r));return bW(h,k,function(a){return dd(c,af,ae,ad,a)})}return K;case
+K=di(t,h);if(K){var
+ad=a[2],ae=a[1],af=fh(g,ag(r));return bX(h,k,function(a){return de(c,af,ae,ad,a)})}return K;case
 1:var
-L=dh(t,h);if(L){var
-ah=a[2],ai=a[1],aj=fg(g,ag(r));return bW(h,J,function(a){return dd(c,aj,ai,ah,a)})}return L;case
+L=di(t,h);if(L){var
+ah=a[2],ai=a[1],aj=fh(g,ag(r));return bX(h,J,function(a){return de(c,aj,ai,ah,a)})}return L;case
 2:var
-M=dh(t,h);if(M){if(g)return 0;var
+M=di(t,h);if(M){if(g)return 0;var
 N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bW(h,k,function(a){return dd(c,[0,C,C,0],al,ak,jv([0,C,C,0],a))})}var
+ak=a[2],al=a[1];return bX(h,k,function(a){return de(c,[0,C,C,0],al,ak,jw([0,C,C,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=gQ(g,ag(Q));return bW(h,J,function(a){return gK(c,am,a)})}if(!a){var
-an=gQ(g,ag(Q));return bW(h,k,function(a){return gK(c,an,a)})}}return 0;case
+am=gT(g,ag(Q));return bX(h,J,function(a){return gN(c,am,a)})}if(!a){var
+an=gT(g,ag(Q));return bX(h,k,function(a){return gN(c,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jQ(j,R,a[3]),S=f[1],ao=a[2];return bW(h,k,function(d){var
-a=jw(c,l),b=a?dd(c,fg(g,l),R,ao,d):a;if(b){var
-f=l[3],h=e(function(a){return w(j,S,a)},f),i=l[2];return gK(c,gQ(g,[0,w(j,S,l[1]),i,h]),d)}return b})}return 0;case
+R=a[1],l=jR(i,R,a[3]),S=f[1],ao=a[2];return bX(h,k,function(d){var
+a=jx(c,l),b=a?de(c,fh(g,l),R,ao,d):a;if(b){var
+f=l[3],h=e(function(a){return w(i,S,a)},f),j=l[2];return gN(c,gT(g,[0,w(i,S,l[1]),j,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gR(h,c,g,f[1]);return 0;case
+a==="number"&&!a)return gU(h,c,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fg(g,ag(f[2])),as=function(a){return dd(c,ar,aq,ap,a)};return bW(h,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fh(g,ag(f[2])),as=function(a){return de(c,ar,aq,ap,a)};return bX(h,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gR(h,c,g,f[1]);case
-2:return gR(h,c,g,f[2])}return 0;case
+0:return gU(h,c,g,f[1]);case
+2:return gU(h,c,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fh(h,f[1]);if(v){var
-y=fh(h,f[2]);if(y){var
-z=fh(h,f[3]);if(z){var
-A=fh(h,f[4]);if(A){var
-T=A[1],U=z[1],V=y[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
+v=fi(h,f[1]);if(v){var
+x=fi(h,f[2]);if(x){var
+z=fi(h,f[3]);if(z){var
+A=fi(h,f[4]);if(A){var
+T=A[1],U=z[1],V=x[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=jD(function(d){function
-f(a){return a4(a,at,$(j,b))}if(d){var
-a=e(f,d[2]),c=f(d[1]),g=e3(a),h=x(c[2],g),i=e3(a);return[0,c,[0,aA(c[1],i),h],a]}return ag(C)},ac),B=n(function(a){return u(i(a),[0,c])},m),D=B?fb(j,c,g,s,q,W,U):B,E=D?fb(j,c,g,s,q,W,T):D,F=E?fb(j,c,g,s,q,V,U):E;if(F)return fb(j,c,g,s,q,V,T);var
+ac=[0,m[1],o[1],p[1]],q=jE(function(d){function
+f(a){return a4(a,at,_(i,b))}if(d){var
+a=e(f,d[2]),c=f(d[1]),g=e4(a),h=y(c[2],g),j=e4(a);return[0,c,[0,aA(c[1],j),h],a]}return ag(C)},ac),B=n(function(a){return u(j(a),[0,c])},m),D=B?fc(i,c,g,s,q,W,U):B,E=D?fc(i,c,g,s,q,W,T):D,F=E?fc(i,c,g,s,q,V,U):E;if(F)return fc(i,c,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1838,53 +1838,53 @@ var
 X=z;var
 Z=X}else
 var
-Z=y;var
-_=Z}else
+Z=x;var
+$=Z}else
 var
-_=v;return _}return 0;case
+$=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],au=f[2],av=f[1];return bW(h,k,function(e){var
-a=u(i(e),c),d=a?u(i(aa),c):a;if(d){var
+aa=a[2],ab=a[1],au=f[2],av=f[1];return bX(h,k,function(e){var
+a=u(j(e),c),d=a?u(j(aa),c):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=u(i(d),c);if(e){var
-g=d6(ab,d7(ab,aa,$(j,b),d));return bq(c,ch(fd(j,av,au,a[1][2],d),g))}var
+d=a[2],e=u(j(d),c);if(e){var
+g=d6(ab,d7(ab,aa,_(i,b),d));return bq(c,ch(fe(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:ag(C);return gG(c,gI(h,e),f)}return d})}return 0;case
+f=a;return f},h=g?g[1]:ag(C);return gJ(c,gL(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jv([0,C,C,0],d),b=g?g[1]:[0,C,C,0];return dd(c,b,ax,aw,a)};return bW(h,f[1],ay)}return 0;default:return 0}}function
-jS(a,Z,I,l,p,Y,g,j,h,f,c){if(9===f[0]){if(typeof
+a=jw([0,C,C,0],d),b=g?g[1]:[0,C,C,0];return de(c,b,ax,aw,a)};return bX(h,f[1],ay)}return 0;default:return 0}}function
+jT(a,Z,I,l,p,Y,g,k,h,f,c){if(9===f[0]){if(typeof
 c!=="number"&&9===c[0]){var
-_=f[1],T=e(ag,Y),A=bE(0,cf(a,jG(0,j,_),T),Z,0),K=u(i(j),pI),L=K?dh(p,A):K;if(L){var
-q=ff(A,l);if(q){var
-r=ff(g,l);if(r){var
+$=f[1],T=e(ag,Y),A=bF(0,cf(a,jH(0,k,$),T),Z,0),J=u(j(k),pL),L=J?di(p,A):J;if(L){var
+q=fg(A,l);if(q){var
+r=fg(g,l);if(r){var
 aa=f[2],s=aj(e(function(b){var
 c=t(b[1],g,0);if(c)var
 f=b[2][2],a=aj(e(function(a){var
-b=t(a[2],g,0);return y(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+b=t(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(s){var
-v=jH(q[1]);if(v){var
-M=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ad=v[1],D=gL(a,bk(function(f,h){function
+v=jI(q[1]);if(v){var
+M=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ad=v[1],D=gO(a,bk(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dY(t(d,c[3],C))}function
 c(a){var
-b=k(a,po),c=bh(k(a,pp),b);return bh(k(a,0),c)}var
+b=i(a,pr),c=bh(i(a,ps),b);return bh(i(a,0),c)}var
 d=c(function(a){var
-c=b(pq,a),d=b(pr,a);return x(x(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,ps),d=b(a,pt);return x(x(b(a,0),d),c)});return B(h,S(a,gL(a,w(a,[0,e,e],g))))},C,ad)),m=a4(ab,z,$(a,b)),E=W(d,J(m,D)[1]),F=E?u(i(M),pz):E,G=F?u(i(N),pA):F;if(G){var
+c=b(pt,a),d=b(pu,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,pv),d=b(a,pw);return y(y(b(a,0),d),c)});return B(h,S(a,gO(a,w(a,[0,e,e],g))))},C,ad)),m=a4(ab,z,_(a,b)),E=X(d,K(m,D)[1]),F=E?u(j(M),pC):E,G=F?u(j(N),pD):F;if(G){var
 o=cc(a,m);if(o){var
-U=a5(w(a,D,o[1])),V=J($(a,b),U),X=bp(pB);return n(function(i){var
+U=a5(w(a,D,o[1])),V=K(_(a,b),U),W=bp(pE);return n(function(j){var
 g=e(function(b){var
-c=b[2],d=b[1];return c$(c7(function(d,b){var
-c=dY(aS(i,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=k(ap(function(a){return aS(i,a)}),N),E=h?aS(i,h[1]):C,L=S(a,V),s=S(a,m),q=d6(z,d7(z,M,$(a,b),r)),c=ch(aL([0,af(E),0],pu),q);if(g){var
+c=b[2],d=b[1];return da(c8(function(d,b){var
+c=dY(aS(j,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=i(ap(function(a){return aS(j,a)}),N),E=h?aS(j,h[1]):C,L=S(a,V),s=S(a,m),q=d6(z,d7(z,M,_(a,b),r)),c=ch(aL([0,af(E),0],px),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],D=g[1],G=f[1],j=bq(pw,ch(aL([0,af(s),0],pv),c));if(j)return n(function(B){var
-H=J(L,E),I=B[2]?A:af(A),K=B[1]?D:af(D),n=0;if(c){var
+A=d[1],D=g[1],G=f[1],k=bq(pz,ch(aL([0,af(s),0],py),c));if(k)return n(function(B){var
+H=K(L,E),I=B[2]?A:af(A),J=B[1]?D:af(D),n=0;if(c){var
 a=c[1],k=0;if(a){var
 b=a[2],l=0;if(b){var
 d=b[2],m=0;if(d)if(d[2]){var
@@ -1897,7 +1897,7 @@ h=e[2],C=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
 var
-r=[0,[0,a[1],[0,b[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,b[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1923,8 +1923,8 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=c;n=1}if(n)var
-j=z;return bq(py,j)},px);var
-l=j}else
+j=z;return bq(pB,j)},pA);var
+l=k}else
 var
 l=f;var
 o=l}else
@@ -1932,7 +1932,7 @@ var
 o=d;var
 p=o}else
 var
-p=g;return p},X)}var
+p=g;return p},W)}var
 H=o}else
 var
 H=G;return H}var
@@ -1947,13 +1947,13 @@ var
 Q=q;var
 R=Q}else
 var
-R=L;return R}return jR(a,I,l,p,g,i(j),h,f,c)}return jR(a,I,l,p,g,i(j),h,f,c)}function
-jT(i,b,a){if(a){var
-j=a[1],l=j[2],c=aj(e(b,j[1]));if(c){var
-f=k(b,l);if(f){var
-g=t(l,i,0);if(g){var
-h=jT(i,b,a[2]);if(h)var
-m=W(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+R=L;return R}return jS(a,I,l,p,g,j(k),h,f,c)}return jS(a,I,l,p,g,j(k),h,f,c)}function
+jU(j,b,a){if(a){var
+k=a[1],l=k[2],c=aj(e(b,k[1]));if(c){var
+f=i(b,l);if(f){var
+g=t(l,j,0);if(g){var
+h=jU(j,b,a[2]);if(h)var
+m=X(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1964,48 +1964,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return pK}function
-jU(a,U,m,T,v,s,S,D,h,g,l,c){var
-j=i(S),V=fc(0,S),aT=bE(0,cf(a,V,e(ag,jN(l,0,v))),U,0),X=e(aJ,l),aU=0,aW=e(ag,v),aX=bE(pL,function(c){var
-av=cy(aJ,c),f=k(cf(a,V,aW),av);switch(c[0]){case
+q=c;return q}return pN}function
+jV(a,U,m,T,v,s,S,D,h,g,l,c){var
+k=j(S),V=fd(0,S),aT=bF(0,cf(a,V,e(ag,jO(l,0,v))),U,0),W=e(aJ,l),aU=0,aW=e(ag,v),aX=bF(pO,function(c){var
+av=cz(aJ,c),f=i(cf(a,V,aW),av);switch(c[0]){case
 1:var
 M=c[1],d=e(function(d){var
-c=u(M,d),e=c?[0,[0,ag($(a,b))]]:c;return e},X);break;case
+c=u(M,d),e=c?[0,[0,ag(_(a,b))]]:c;return e},W);break;case
 3:var
-d=df(c[1][2],c[2][2]);break;case
+d=dg(c[1][2],c[2][2]);break;case
 4:var
-N=e(gM,c[2][2]),d=df(c[1][2],N);break;case
+N=e(gP,c[2][2]),d=dg(c[1][2],N);break;case
 5:var
-d=e(gM,c[1][2]);break;case
+d=e(gP,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ck(a,P,b)},O),R=y[2],S=h[1],d=df(e(function(b){return ck(a,S,b)},R),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return ck(a,P,b)},O),R=y[2],S=h[1],d=dg(e(function(b){return ck(a,S,b)},R),Q);else{var
 z=h;t=1}}else{var
 z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=c[2],i=A[1];if(i)var
-T=A[2],U=d0(f[1]),W=e(function(b){return ck(a,U,b)},T),Y=df(c[1][2],W),Z=i[1],d=e(function(b){return gN(a,Z,b)},Y);else{var
-B=i;v=1}}else{var
+A=c[2],j=A[1];if(j)var
+T=A[2],U=d0(f[1]),X=e(function(b){return ck(a,U,b)},T),Y=dg(c[1][2],X),Z=j[1],d=e(function(b){return gQ(a,Z,b)},Y);else{var
+B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=c[1],j=C[1];if(j)var
-_=C[2],aa=j[1],ab=at(a,fe(a),aa),d=e(function(b){return ck(a,ab,b)},_);else
+C=c[1],k=C[1];if(k)var
+$=C[2],aa=k[1],ab=au(a,ff(a),aa),d=e(function(b){return ck(a,ab,b)},$);else
 var
-d=j;break;case
+d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=at(a,fe(a),ad),d=e(function(b){return gN(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=au(a,ff(a),ad),d=e(function(b){return gQ(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=ja(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],af=E[2],ah=a6(o,r),ai=e(function(b){return ck(a,ah,b)},af),aj=F[2],ak=a6(m,s),al=df(e(function(b){return ck(a,ak,b)},aj),ai),am=e(gM,D[2]),an=fe(a),ao=df(e(function(b){return ck(a,an,b)},al),am),ap=c[1]?s:d0(r),aq=e(function(b){return ck(a,ap,b)},ao),ar=at(a,m,r),as=a6(at(a,o,s),ar),au=at(a,fe(a),as),d=e(function(b){return gN(a,au,b)},aq);K=1;L=1}else
+q=jb(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],af=E[2],ah=a6(o,r),ai=e(function(b){return ck(a,ah,b)},af),aj=F[2],ak=a6(m,s),al=dg(e(function(b){return ck(a,ak,b)},aj),ai),am=e(gP,D[2]),an=ff(a),ao=dg(e(function(b){return ck(a,an,b)},al),am),ap=c[1]?s:d0(r),aq=e(function(b){return ck(a,ap,b)},ao),ar=au(a,m,r),as=a6(au(a,o,s),ar),at=au(a,ff(a),as),d=e(function(b){return gQ(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2016,74 +2016,74 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},X)}return[0,f,d]},U,aU),aQ=e(function(a){var
-b=a[2];return jM(t(a[1],v,C),b)[2]},l);function
+d=e(function(a){return 0},W)}return[0,f,d]},U,aU),aQ=e(function(a){var
+b=a[2];return jN(t(a[1],v,C),b)[2]},l);function
 Z(c){var
 d=t(c,s,0);if(d){var
 a=t(c,aT,0);if(a)var
-b=jO(0,l,t(c,aX,pJ)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=jP(0,l,t(c,aX,pM)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-E(b){return e(function(b){return $(a,b)},b)}var
+E(b){return e(function(b){return _(a,b)},b)}var
 aY=D?D[1]:ag(C);function
-_(a){return a?bq(j,a[1]):a}function
-y(t,s,f,r,q){var
-u=aL([0,af(s),0],j),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-i=b[1],k=i[1],d=c[1],m=c$(k[2]),n=ch(g,gH(f,d,e_(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e_(f,a[1],a[2],b))}}(d),o),h=gP(a,v,e(function(b){return a4(b,f,dg(a))},d),p,n);if(h){var
+$(a){return a?bq(k,a[1]):a}function
+x(t,s,f,r,q){var
+u=aL([0,af(s),0],k),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
+i=b[1],j=i[1],d=c[1],m=da(j[2]),n=ch(g,gK(f,d,e$(f,j[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e$(f,a[1],a[2],b))}}(d),o),h=gS(a,v,e(function(b){return a4(b,f,dh(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
-l=[0,g];return _(l)}}function
+l=[0,g];return $(l)}}function
 aa(y,x,w){var
-z=aL([0,x,0],j),q=E(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e1(g),h],f];if(m){var
-o=W(d,g[1]);if(o)var
+z=aL([0,x,0],k),q=E(y),c=w,f=z;for(;;){if(c){var
+j=c[1],l=j[1],g=l[2],h=l[1],m=j[2],n=[0,[0,e2(g),h],f];if(m){var
+o=X(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,dg(a),t],v=dg(a),b=gP(a,[0,af(dX(jK(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,dh(a),t],v=dh(a),b=gS(a,[0,af(dX(jL(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gF(b[1]);if(i){var
+i=gI(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return _(r)}}var
-aZ=e(aJ,l),ab=n(function(a){return dS(a,i(v))},aZ);if(ab){var
+r=[0,f];return $(r)}}var
+aZ=e(aJ,l),ab=n(function(a){return dS(a,j(v))},aZ);if(ab){var
 r=e(aJ,l);for(;;){if(r){var
-Q=r[2],aR=r[1],R=ac(ar(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
+Q=r[2],aR=r[1],R=ad(ar(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
 r=Q;continue}var
-ad=R}else
+ac=R}else
 var
-ad=1;var
-F=ad;break}}else
+ac=1;var
+F=ac;break}}else
 var
 F=ab;var
-ae=F?n(function(a){return u(i(a),j)},c):F;if(ae){var
+ae=F?n(function(a){return u(j(a),k)},c):F;if(ae){var
 A=0;switch(h[0]){case
 0:var
 H=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 aC=0;if(c){if(c[2])return 0;var
-a0=c[1],a1=g[2],a2=g[1],ah=dh(T,s);if(ah){var
+a0=c[1],a1=g[2],a2=g[1],ah=di(T,s);if(ah){var
 p=function(c,a){var
-b=B(H,a);return function(a){return y(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
+b=B(H,a);return function(a){return x(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
 var
 ak=ah}else
 var
 ak=c;if(!aC)return ak;break;case
 2:var
 aD=0;if(c){if(c[2])return 0;var
-a7=c[1],a8=g[2],a9=g[1],al=dh(T,s),aE=0;if(al){if(D)return 0;var
+a7=c[1],a8=g[2],a9=g[1],al=di(T,s),aE=0;if(al){if(D)return 0;var
 am=Y(H[1],d),an=am?Y(H[2],d):am;if(an){var
-p=function(c,b,a){return y(a7,C,a9,a8,e(pC,a))},o=m;O=1;aD=1;aE=1}else
+p=function(c,b,a){return x(a7,C,a9,a8,e(pF,a))},o=m;O=1;aD=1;aE=1}else
 var
 ao=an}else
 var
@@ -2095,17 +2095,17 @@ ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
 aF=0,a_=h[1];if(typeof
 g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
 a$=c[1],p=function(c,a){var
-b=J(a_,a);return function(a){return aa(a$,b,a)}},o=m;aF=1}if(!aF)return 0;break;case
+b=K(a_,a);return function(a){return aa(a$,b,a)}},o=m;aF=1}if(!aF)return 0;break;case
 2:var
 aG=0,ba=h[1];if(typeof
 g==="number"||!(3===g[0]))aG=1;else{var
 aH=0;if(c){var
 z=c[2],aI=0;if(z){if(z[2])return 0;var
-aq=g[1],bb=z[1],bc=c[1],bd=g[2],as=jQ(a,aq,g[3]),au=jw(j,as);if(au){var
+aq=g[1],bb=z[1],bc=c[1],bd=g[2],as=jR(a,aq,g[3]),at=jx(k,as);if(at){var
 p=function(f,c,b){var
-d=aS(f,as),e=y(bc,B(d,c),aq,bd,b);return e?aa(bb,J(w(a,ba,d),c),b):e},o=m;aH=1;aI=1}else
+d=aS(f,as),e=x(bc,B(d,c),aq,bd,b);return e?aa(bb,K(w(a,ba,d),c),b):e},o=m;aH=1;aI=1}else
 var
-av=au}else
+av=at}else
 var
 av=z;if(!aI)var
 aw=av}else
@@ -2114,37 +2114,37 @@ aw=c;if(!aH)return aw}if(aG)return 0;break;case
 3:var
 aM=0;if(typeof
 g==="number"&&!g){if(c)return 0;var
-K=h[1];A=1}else
+J=h[1];A=1}else
 aM=1;if(aM)return 0;break;case
 4:var
 aN=0,bf=h[2];if(typeof
 g==="number"||!(0===g[0]))aN=1;else{if(!c)return c;if(c[2])return 0;var
 bg=c[1],bi=g[2],bj=g[1],bl=function(c,a){var
-b=B(bf,a);return function(a){return y(bg,b,bj,bi,a)}},p=bl,o=h[1]}if(aN)return 0;break;case
+b=B(bf,a);return function(a){return x(bg,b,bj,bi,a)}},p=bl,o=h[1]}if(aN)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
 0:if(c)return 0;var
-K=h[1];A=1;break;case
+J=h[1];A=1;break;case
 2:if(c)return 0;var
-K=h[2];A=1;break;default:P=1}else
+J=h[2];A=1;break;default:P=1}else
 P=1;if(P)return 0;break;case
 7:var
 ax=h[2],ay=h[1],aO=0;if(typeof
 g==="number"||!(0===g[0]))aO=1;else{var
 aP=0;if(c){if(c[2])return 0;var
-q=g[2],N=g[1],bm=c[1],az=u(i(m),j);if(az){var
+q=g[2],M=g[1],bm=c[1],az=u(j(m),k);if(az){var
 p=function(b,y){var
 z=E(bm);return function(f){var
-k=u(i(f),j),l=k?u(i(q),j):k;if(l){var
-s=e(aJ,f),t=d6(N,d7(N,q,dg(a),s)),v=ch(fd(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,x=i(q);for(;;){if(c){var
+i=u(j(f),k),l=i?u(j(q),k):i;if(l){var
+s=e(aJ,f),t=d6(M,d7(M,q,dh(a),s)),v=ch(fe(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,x=j(q);for(;;){if(c){var
 o=c[1][2],p=u(b,ay),r=e(function(f,g){return function(d){var
-b=aK(aV(0,i(q)),q);return e(function(b){var
-c=jL(N,b[2],d[1]);if(g&&u(b[1],f))return J(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gP(a,z,e(function(c){return function(b){return u(b,c)?dg(a):C}}(b),n),r,g);if(h){var
+b=aK(aV(0,j(q)),q);return e(function(b){var
+c=jM(M,b[2],d[1]);if(g&&u(b[1],f))return K(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gS(a,z,e(function(c){return function(b){return u(b,c)?dh(a):C}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return bq(j,d[1]);var
+d=[0,g];if(d)return bq(k,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},o=m;aP=1}else
@@ -2152,113 +2152,113 @@ var
 aB=az}else
 var
 aB=c;if(!aP)return aB}if(aO)return 0;break;default:return 0}if(A){var
-L=Z(K);if(!L)return L;var
+L=Z(J);if(!L)return L;var
 be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bk(function(b,a){return x(bh(d,M(b[2][1])),a)},d,c);return G(d,aA(aA(a[1][2][1],e),b))},a)},aj=be,ai=[0,[0,0,L[1]],0]}else{var
-I=jT(s,Z,o);if(!I)return I;var
+b=f[2],c=a[2],e=bk(function(b,a){return y(bh(d,N(b[2][1])),a)},d,c);return G(d,aA(aA(a[1][2][1],e),b))},a)},aj=be,ai=[0,[0,0,L[1]],0]}else{var
+I=jU(s,Z,o);if(!I)return I;var
 aj=p,ai=I[1]}var
-a3=bp(j);return n(function(b){var
+a3=bp(k);return n(function(b){var
 c=e(function(c){function
 g(a){return aS(b,a[1])}var
 h=0,j=ag(C);function
 d(h,g,b,c){if(b){var
 i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return Ch(aj,b,aS(b,aY),c)},a3)}return ae}function
-fi(b,a){if(a){var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return Cp(aj,b,aS(b,aY),c)},a3)}return ae}function
+fj(b,a){if(a){var
 c=a[2];if(b){var
-e=fi(b[1],c);return[0,a[1],e]}var
+e=fj(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jV(m,l,q,S,p,j,$,z,b,R,Q){if(R){var
-r=jP(m,l,j,b),h=R,g=Q;for(;;){if(h){var
+jW(m,l,q,S,p,k,$,z,b,R,Q){if(R){var
+r=jQ(m,l,k,b),h=R,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
-v=k(z,b);if(v)var
-_=v[1],V=bp(i(b)),x=n(function(b){return function(a){return W(aS(a,b)[2],d)}}(_),V);else
+v=i(z,b);if(v)var
+_=v[1],W=bp(j(b)),x=n(function(b){return function(a){return X(aS(a,b)[2],d)}}(_),W);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
 N=t(w,g,0);if(N){var
-y=X($,w);if(y){var
+y=T($,w);if(y){var
 o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=k(z,b),T=0;if(s){var
+C=a[2],s=i(z,b),U=0;if(s){var
 D=G(d,C);if(D){var
-Y=a[1],c=jS(m,l,q,S,p,j,r,b,[0,jx(C,a[3],s[1])],o,Y);T=1}else
+Y=a[1],c=jT(m,l,q,S,p,k,r,b,[0,jy(C,a[3],s[1])],o,Y);U=1}else
 var
 E=D}else
 var
-E=s;if(!T)var
+E=s;if(!U)var
 c=E;break;case
 10:var
 F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-I=f[2],u=k(z,b),U=0;if(u){var
+I=f[2],u=i(z,b),V=0;if(u){var
 J=G(d,I);if(J){var
-Z=f[1],c=jU(m,l,q,p,j,r,b,[0,jx(I,f[3],u[1])],o,Z,H,F);B=1;U=1}else
+Z=f[1],c=jV(m,l,q,p,k,r,b,[0,jy(I,f[3],u[1])],o,Z,H,F);B=1;V=1}else
 var
 K=J}else
 var
-K=u;if(!U){var
+K=u;if(!V){var
 c=K;B=1}}if(!B)var
-c=jU(m,l,q,p,j,r,b,0,o,f,H,F);break;default:A=1}if(A)var
-c=jS(m,l,q,S,p,j,r,b,0,o,a);if(c){var
-h=M,g=fi(w,g);continue}var
+c=jV(m,l,q,p,k,r,b,0,o,f,H,F);break;default:A=1}if(A)var
+c=jT(m,l,q,S,p,k,r,b,0,o,a);if(c){var
+h=M,g=fj(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-fj(j,i,h,g,f,e,d,c,u,t,s){var
+fk(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jV(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ac,l[1]):l}var
-m=jV(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=d5(a[2],b),q=fj(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=jW(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ad,l[1]):l}var
+m=jW(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=d5(a[2],b),q=fk(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-gS(a){return e(function(a){return 1},a)}function
-di(a,d,b,c){function
+gV(a){return e(function(a){return 1},a)}function
+dj(a,d,b,c){function
 f(d,c){var
 f=aK(a[1],b[1]);return e(function(a){var
-b=p(c,a[2]);return F(p(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
+b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=p(a[2],b[2]),i=p(c,a[2]);return[0,f(p(d,b[2]),i),h]}function
-jW(a){var
+h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
+jX(a){var
 c=l(b);return[0,e(function(a){return l(d)},a),c]}function
 aN(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 v=f[1];if(ar(function(a){return u(v,a)},a)){var
 C=l(b);return[0,e(function(a){var
-c=u(a,v)?b:d;return l(c)},a),C]}return jW(a);case
+c=u(a,v)?b:d;return l(c)},a),C]}return jX(a);case
 3:var
-D=l(b),E=aN(a,f[2]),F=l(b);return di(aN(a,f[1]),F,E,D);case
+D=l(b),E=aN(a,f[2]),F=l(b);return dj(aN(a,f[1]),F,E,D);case
 4:var
-G=l(M(b)),H=aN(a,f[2]),I=l(b);return di(aN(a,f[1]),I,H,G);case
+G=l(N(b)),H=aN(a,f[2]),I=l(b);return dj(aN(a,f[1]),I,H,G);case
 5:var
 w=aN(a,f[1]),J=w[2];return[0,e(bl,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aN(a,x);return di(aN(a,y),x,K,y);case
+x=f[2],y=f[1],K=aN(a,x);return dj(aN(a,y),x,K,y);case
 7:var
-z=f[2],L=bl(k),N=aN(a,z),O=l(b),i=di(aN(a,f[1]),O,N,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
-Q=p(i[2],z);return[0,i[1],Q];case
+z=f[2],L=bl(k),M=aN(a,z),O=l(b),i=dj(aN(a,f[1]),O,M,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
+Q=o(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aN(a,A),R=B[2],S=B[1],T=p(l(c(2,b)),A);return[0,e(function(a){return p(T,a)},S),R];case
+A=f[1],B=aN(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
 9:var
 j=aN(a,f[1]),U=j[1];if(n(function(a){return aR(d,a)},U)){var
 V=l(b);return[0,j[1],V]}var
-W=p(l(c(2,b)),k),X=p(j[2],W);return[0,j[1],X];case
+W=o(l(c(2,b)),k),X=o(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,o),$=di(aN(a,h),_,Z,Y),aa=l(M(b)),ab=aN(a,m),r=di($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bl(q),t=e(function(a){return p(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
-ae=p(h,q),af=s(p(g,o),ae),ag=p(l(c(2,b)),af);return[0,t,p(r[2],ag)];default:return jW(a)}}function
-bX(n,r){var
+m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,p),$=dj(aN(a,h),_,Z,Y),aa=l(N(b)),ab=aN(a,m),r=dj($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
+ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,t,o(r[2],ag)];default:return jX(a)}}function
+bJ(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],c=f[1];if(G(i,b))if(0===e[0]){var
 j=e[2],o=e[1];if(G(j,b)){var
@@ -2275,32 +2275,32 @@ var
 a=Y(aU(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-bH(b,a){if(a)var
-d=bH([0,b],a[2]),c=[0,bX(a[1],b),d];else
+br(b,a){if(a)var
+d=br([0,b],a[2]),c=[0,bJ(a[1],b),d];else
 var
 c=a;return c}function
 aF(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fk(b,d,a){switch(a[0]){case
+fl(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aF(c[3],b),g),i=f(aF(c[2],b),h);return f(aF(c[1],d),i);case
 1:var
 e=a[3],j=e?aF(e[1],d):e,k=f(aF(a[2],b),j);return f(aF(a[1],b),k);default:return aF(a[1],d)}}function
-aa(b,a){var
-c=l(d),e=t(N(pM,a),b,c),f=l(d),g=t(N(pN,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-jX(b,a){return au(s,au(F,cj,a),b)}function
-fl(c,b,a){if(a){var
-e=a[2],g=fl(c,cb(b),e),h=a[1];return f(fk(c,bC(d,b),h),g)}return a}function
-gT(f,e,c,j){if(c){var
-b=c[1],v=N(j,i(fk(f,bC(d,e),b))),w=c[2],x=gT(f,cb(e),w,v),a=bH(j,fk(f,bC(d,e),b));switch(b[0]){case
+$(b,a){var
+c=l(d),e=t(L(pP,a),b,c),f=l(d),g=t(L(pQ,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+jY(b,a){return as(s,as(F,cj,a),b)}function
+fm(c,b,a){if(a){var
+e=a[2],g=fm(c,cb(b),e),h=a[1];return f(fl(c,bD(d,b),h),g)}return a}function
+gW(f,e,c,i){if(c){var
+b=c[1],v=L(i,j(fl(f,bD(d,e),b))),w=c[2],x=gW(f,cb(e),w,v),a=br(i,fl(f,bD(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(pO,a,l(d)),o=au(F,cj,aa(a,pP)),p=cD(aa(a,0)),q=aa(a,pQ),g=jz(jX(aa(a,pR),q),p,o,n,m);break;case
+m=b[1][5],n=t(pR,a,l(d)),o=as(F,cj,$(a,pS)),p=cE($(a,0)),q=$(a,pT),g=jA(jY($(a,pU),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cD(aa(a,pS))]:h,s=au(F,cj,aa(a,pT)),u=aa(a,pU),g=jA(jX(aa(a,0),u),s,r);break;default:var
-g=jB(cj,cD(aa(a,0)))}var
+h=b[3],r=h?[0,cE($(a,pV))]:h,s=as(F,cj,$(a,pW)),u=$(a,pX),g=jB(jY($(a,0),u),s,r);break;default:var
+g=jC(cj,cE($(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-br(c,a){if(typeof
+bs(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2309,7 +2309,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=e8(a[2]),l=[2,[2,e8(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=e9(a[2]),l=[2,[2,e9(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2328,13 +2328,13 @@ i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
 d8(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fm(c,a){if(0===a[0]){var
+fn(c,a){if(0===a[0]){var
 e=[0,d,b],i=f(d8(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
 j=d8(c,a[3]);return f(d8(c,a[2]),j)}function
-cE(b,a){if(typeof
+cF(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=fm(b,a[2]);return f(fm(b,a[1]),h);case
+h=fn(b,a[2]);return f(fn(b,a[1]),h);case
 11:var
 i=d8(b,a[3]);return f(d8(b,a[2]),i);case
 12:var
@@ -2342,58 +2342,58 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-jY(c,b,a){var
-d=i(cE(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-jZ(k,a,g){switch(g[0]){case
+jZ(c,b,a){var
+d=j(cF(c,b)),e=L(a[2],d);return[0,[0,a[1]],e]}function
+j0(k,a,g){switch(g[0]){case
 0:var
-e=X(k,g[1]);if(e){var
+e=T(k,g[1]);if(e){var
 c=e[1],f=c[7];if(f)var
 m=f[1],h=function(b){var
-d=aa(a,pV);return au(F,au(s,m,bU(b,c[1])),d)},n=bV(c),o=h(ak(t(pW,a,l(d)),n)),p=bV(c),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
+d=$(a,pY);return as(F,as(s,m,bH(b,c[1])),d)},n=bW(c),o=h(ak(t(pZ,a,l(d)),n)),p=bW(c),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
 var
 i=f;var
 j=i}else
 var
 j=e;return j;case
 1:var
-r=aa(a,pX);return[0,[0,aa(a,0),r]];default:var
-u=au(F,cj,aa(a,pY));return[0,[0,au(F,cj,aa(a,0)),u]]}}function
-j0(g,e,j,d,c){var
-k=fm(e,c),h=bH(j,f(fm(e,d),k)),a=jZ(g,cv(pZ,h),d);if(a)var
-b=jZ(g,eW(p0,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+r=$(a,p0);return[0,[0,$(a,0),r]];default:var
+u=as(F,cj,$(a,p1));return[0,[0,as(F,cj,$(a,0)),u]]}}function
+j1(g,e,j,d,c){var
+k=fn(e,c),h=br(j,f(fn(e,d),k)),a=j0(g,cw(p2,h),d);if(a)var
+b=j0(g,eX(p3,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
 var
 i=a;return i}function
-cF(d,c,b,a){var
-e=p(c,b);return s(p(d,a),e)}function
-bs(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-j1(b,a){if(b)if(a)var
-d=b[1],e=j1(b[2],a[2]),f=p(d[2],a[1]),c=[0,[0,ci(d[1]),f],e];else
+cG(d,c,b,a){var
+e=o(c,b);return s(o(d,a),e)}function
+bt(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+j2(b,a){if(b)if(a)var
+d=b[1],e=j2(b[2],a[2]),f=o(d[2],a[1]),c=[0,[0,ci(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-j2(a){if(a){var
+j3(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=j2(a[2]);if(d)var
-g=d[1],h=ad(c,c),e=[0,[0,[0,ci(c),h],g]];else
+c=b[1],d=j3(a[2]);if(d)var
+g=d[1],h=ab(c,c),e=[0,[0,[0,ci(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return p2}function
+f=b;return f}return p5}function
 d9(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-h=c[1],j=bX(br(d,a),h);return[0,e(function(a){var
-b=p(a[2],j);return[0,ci(a[1]),b]},b)];case
-9:return j2(b);case
+h=c[1],i=bJ(bs(d,a),h);return[0,e(function(a){var
+b=o(a[2],i);return[0,ci(a[1]),b]},b)];case
+9:return j3(b);case
 15:var
-k=i(b),f=u(i(a[1]),k);if(f)var
-l=cE(d,a),g=[0,j1(b,bH(c[2],l))];else
+k=j(b),f=u(j(a[1]),k);if(f)var
+l=cF(d,a),g=[0,j2(b,br(c[2],l))];else
 var
 g=f;return g}return 0}function
-fn(e,k,j,a){var
-P=j[1],c=bX(br(k,a),P),v=0;if(typeof
+fo(e,k,j,a){var
+P=j[1],c=bJ(bs(k,a),P),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
@@ -2402,17 +2402,17 @@ Q=function(a){return[0,s(a[4],c),0]},g=Q,f=a[1];break;case
 R=function(a){return[0,s(c,a[4]),0]},g=R,f=a[1];break;case
 4:var
 S=function(b){var
-a=b[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=b[2];return[0,s(s(s(p(K(c),g),f),e),d),0]},g=S,f=a[1];break;case
+a=b[1],d=H(a[3]),e=H(a[2]),f=H(a[1]),g=b[2];return[0,s(s(s(o(H(c),g),f),e),d),0]},g=S,f=a[1];break;case
 6:var
-T=function(b){var
+U=function(b){var
 a=b[5];if(a)var
-e=K(a[1]),f=p(K(c),e),d=[0,s(b[2],f),0];else
+e=H(a[1]),f=o(H(c),e),d=[0,s(b[2],f),0];else
 var
-d=a;return d},g=T,f=a[1];break;case
+d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],y=m[1],A=e[1],h=x[1],i=y[1],q=A[1],J=cF(i[1],i[2],h[1],h[2]),L=p(q[3],J),M=cF(i[1],i[3],h[1],h[3]),N=p(q[2],M),O=cF(i[2],i[3],h[2],h[3]),w=F(s(p(q[1],O),N),L),U=bV(x),V=bV(y),B=p(p(p(c,bV(A)),V),U),W=[0,bl(F(w,B)),0],C=[0,s(w,B),W]}else
+x=n[1],y=m[1],A=e[1],h=x[1],i=y[1],q=A[1],K=cG(i[1],i[2],h[1],h[2]),L=o(q[3],K),M=cG(i[1],i[3],h[1],h[3]),N=o(q[2],M),O=cG(i[2],i[3],h[2],h[3]),w=F(s(o(q[1],O),N),L),V=bW(x),W=bW(y),B=o(o(o(c,bW(A)),W),V),X=[0,bl(F(w,B)),0],C=[0,s(w,B),X]}else
 var
 C=n;var
 D=C}else
@@ -2422,67 +2422,67 @@ E=D}else
 var
 E=e;return E;case
 10:var
-u=j0(e,k,j[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],I=G[1];return z(ci,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
+u=j1(e,k,j[2],a[1],a[2]);if(u){var
+G=u[1],I=G[2],J=G[1];return z(ci,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return u;case
 11:var
 Y=function(d){var
 e=d[7];if(e)var
-n=cE(k,a),f=bH(j[2],n),h=aa(f,p1),b=au(s,aa(f,0),h),i=K(c),l=K(bV(d)),m=ak(K(ad(b,d[1])),l),g=[0,s(s(ad(b,b),m),i),0];else
+n=cF(k,a),f=br(j[2],n),h=$(f,p4),b=as(s,$(f,0),h),i=H(c),l=H(bW(d)),m=ak(H(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
 var
 g=e;return g},g=Y,f=a[1];break;case
 12:var
 Z=function(e){var
-q=l(d),r=cE(k,a),u=t(0,bH(j[2],r),q),f=ak(u,bV(e)),g=e[5];if(g){var
-m=aE(e[2]),h=ak(g[1],m),n=p(h,F(c,p(f,K(h))));return[0,s(l(b),n),0]}var
-i=e[7],o=i?[0,s(s(l(b),c),f),0]:i;return o},g=Z,f=a[1];break;case
+q=l(d),r=cF(k,a),u=t(0,br(j[2],r),q),f=ak(u,bW(e)),g=e[5];if(g){var
+m=aE(e[2]),h=ak(g[1],m),n=o(h,F(c,o(f,H(h))));return[0,s(l(b),n),0]}var
+i=e[7],p=i?[0,s(s(l(b),c),f),0]:i;return p},g=Z,f=a[1];break;case
 8:case
 9:case
 15:var
-r=d9(e,k,j,a);return r?bs(r[1]):r;default:v=1}if(v)return 0;var
-o=X(e,f);return o?g(o[1]):o}function
-gU(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gU(d,b,jY(b,e,c),g);return f(fn(d,b,c,e),h)}return a}var
-j3=[0,d,b],j4=[0,[0,j3,j3],d];function
-gV(a){return ac(bT(a[1][1],a[1][2]))}function
-j5(a){var
-b=aV(0,i(a));return bD(function(b){return gV(t(b,a,j4))},b)}function
-j6(a,g){var
-h=g[4],b=aN(j5(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(j5(a),f);return bD(function(a){return ac(aR(d,a[2]))},i)}function
-j7(f,J,l,I,m,j,o,s){if(s){var
-a=s[1],aK=s[2],aL=j7(f,J,l,I,m,j,jY(j,a,o),aK);if(typeof
+r=d9(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
+p=T(e,f);return p?g(p[1]):p}function
+gX(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=gX(d,b,jZ(b,e,c),g);return f(fo(d,b,c,e),h)}return a}var
+j4=[0,d,b],j5=[0,[0,j4,j4],d];function
+gY(a){return ad(bV(a[1][1],a[1][2]))}function
+j6(a){var
+b=aV(0,j(a));return bE(function(b){return gY(t(b,a,j5))},b)}function
+j7(a,g){var
+h=g[4],b=aN(j6(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(j6(a),f);return bE(function(a){return ad(aR(d,a[2]))},i)}function
+j8(f,J,l,I,m,k,o,s){if(s){var
+a=s[1],aK=s[2],aL=j8(f,J,l,I,m,k,jZ(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
 h=[0,[0,C]];else
 var
-ar=J[2],as=J[1],at=d4(m),h=[0,[8,k(ap(l),at),as,ar]];else
+ar=J[2],as=J[1],at=d4(m),h=[0,[8,i(ap(l),at),as,ar]];else
 switch(a[0]){case
 0:var
-au=ah(f,br(j,a)),h=y(function(a){return[0,S(f,a)]},au);break;case
+au=ah(f,bs(k,a)),h=x(function(a){return[0,S(f,a)]},au);break;case
 1:var
-av=ah(f,br(j,a)),h=y(function(a){return[1,S(f,a)]},av);break;case
+av=ah(f,bs(k,a)),h=x(function(a){return[1,S(f,a)]},av);break;case
 5:var
-ax=ah(f,br(j,a)),h=y(function(a){return[2,S(f,a)]},ax);break;case
+ax=ah(f,bs(k,a)),h=x(function(a){return[2,S(f,a)]},ax);break;case
 8:var
-ay=d9(m,j,o,a),h=y(function(a){var
-c=$(f,b);return[4,k(ap(l),a),c]},ay);break;case
+ay=d9(m,k,o,a),h=x(function(a){var
+c=_(f,b);return[4,i(ap(l),a),c]},ay);break;case
 9:var
-x=d9(m,j,o,a);if(x){var
-z=ah(f,br(j,a));if(z)var
-az=S(f,z[1]),aB=x[1],O=[0,[4,k(ap(l),aB),az]];else
+y=d9(m,k,o,a);if(y){var
+z=ah(f,bs(k,a));if(z)var
+az=S(f,z[1]),aB=y[1],O=[0,[4,i(ap(l),aB),az]];else
 var
 O=z;var
 P=O}else
 var
-P=x;var
+P=y;var
 h=P;break;case
 10:var
-A=j0(m,j,o[2],a[1],a[2]);if(A){var
-Q=A[1],R=Q[2],T=Q[1],B=ah(f,br(j,a));if(B){var
-U=B[1],V=G(d,U[1]);if(V)var
+A=j1(m,k,o[2],a[1],a[2]);if(A){var
+Q=A[1],R=Q[2],U=Q[1],B=ah(f,bs(k,a));if(B){var
+V=B[1],W=G(d,V[1]);if(W)var
 q=function(a){var
-b=k(l,a[3]),c=k(l,a[2]);return[0,k(l,a[1]),c,b]},aC=q(R[2]),aD=q(R[1]),aE=q(T[2]),W=[0,[6,q(T[1]),aE,aD,aC,U]];else
+b=i(l,a[3]),c=i(l,a[2]);return[0,i(l,a[1]),c,b]},aC=q(R[2]),aD=q(R[1]),aE=q(U[2]),X=[0,[6,q(U[1]),aE,aD,aC,V]];else
 var
-W=V;var
-Y=W}else
+X=W;var
+Y=X}else
 var
 Y=B;var
 Z=Y}else
@@ -2490,31 +2490,31 @@ var
 Z=A;var
 h=Z;break;case
 12:var
-r=fn(m,j,o,a),v=0;if(r)if(r[2])var
+r=fo(m,k,o,a),v=0;if(r)if(r[2])var
 h=0;else{var
-_=g(f,0,a[2]),aa=_?g(f,1,a[4]):_;if(aa){var
-D=[0,[3,k(l,r[1])]];v=1}else{var
+$=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
+D=[0,[3,i(l,r[1])]];v=1}else{var
 D=aa;v=1}}else{var
 D=r;v=1}if(v)var
 h=D;break;case
 13:var
-ab=a[1],ac=X(m,ab),K=0;if(ac){var
+ab=a[1],ac=T(m,ab),K=0;if(ac){var
 ad=g(f,1,a[2]),ae=ad?g(f,1,a[3]):ad;if(ae)var
-aF=ah(f,br(j,a)),h=y(function(a){return[7,ab,S(f,a)]},aF);else{var
+aF=ah(f,bs(k,a)),h=x(function(a){return[7,ab,S(f,a)]},aF);else{var
 af=ae;K=1}}else{var
 af=ac;K=1}if(K)var
 h=af;break;case
 14:var
-E=a[2],ag=a[1],ai=u(i(m),p3),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
-F=ah(f,br(j,a));if(F)var
+E=a[2],ag=a[1],ai=u(j(m),p6),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
+F=ah(f,bs(k,a));if(F)var
 H=aj(e(function(n){var
 h=[5,ag,E],a=ah(f,[0,[0,h,h],d]);if(a){var
-o=j6(I,n),g=aj(e(function(e){var
-a=t(e[1],I,j4),g=aA(a[2],j),h=[4,[0,c(2,b),b],E],d=[5,[3,a[1][2],a[1][1]],h],i=ah(f,[0,[0,d,d],g]);return y(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
-p=[0,a[1],g[1]],i=[0,[0,k(l,n[4]),p]];else
+o=j7(I,n),g=aj(e(function(e){var
+a=t(e[1],I,j5),g=aA(a[2],k),h=[4,[0,c(2,b),b],E],d=[5,[3,a[1][2],a[1][1]],h],j=ah(f,[0,[0,d,d],g]);return x(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
+p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
 var
-i=g;var
-m=i}else
+j=g;var
+m=j}else
 var
 m=a;return m},m)),aG=H?[0,[9,F[1],H[1]]]:H,am=aG;else
 var
@@ -2525,34 +2525,34 @@ an=al;var
 h=an;break;case
 15:var
 aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=d9(m,j,o,a),h=y(function(a){var
-c=$(f,b);return[4,k(ap(l),a),c]},aJ);else
+aJ=d9(m,k,o,a),h=x(function(a){var
+c=_(f,b);return[4,i(ap(l),a),c]},aJ);else
 var
 h=ao;break;default:var
-p=fn(m,j,o,a),L=0;if(p){var
+p=fo(m,k,o,a),L=0;if(p){var
 w=p[2],M=p[1];if(w)if(w[2])var
 h=0;else
 var
-aw=k(l,w[1]),h=[0,[5,k(l,M),aw]];else{var
-N=[0,[3,k(l,M)]];L=1}}else{var
+aw=i(l,w[1]),h=[0,[5,i(l,M),aw]];else{var
+N=[0,[3,i(l,M)]];L=1}}else{var
 N=p;L=1}if(L)var
 h=N}var
 aq=[0,h,aL]}else
 var
 aq=s;return aq}function
-p4(a){var
+p7(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dj(a){if(0===a[0])return a[1];var
+dk(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-j8(a,c,g,b){if(0===c[0])return 0;if(b){var
+j9(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cg(a,g,c[1]);if(i){var
 j=cg(a,g,c[2]);if(j){var
 k=cg(a,g,c[3]);if(k)var
-t=i[1],u=bG(f),l=J([0,bG(f),u],t),v=j[1],x=bG(e),m=J([0,bG(e),x],v),y=de(e),z=[0,de(e),y],A=[0,w(a,af(B(m,m)),z),0],D=de(f),E=[0,de(f),D],F=[0,w(a,af(B(l,l)),E),A],G=S(a,m),H=S(a,l),n=[0,[0,J(J(S(a,k[1]),H),G),C,F]];else
+t=i[1],u=bI(f),l=K([0,bI(f),u],t),v=j[1],x=bI(e),m=K([0,bI(e),x],v),y=df(e),z=[0,df(e),y],A=[0,w(a,af(B(m,m)),z),0],D=df(f),E=[0,df(f),D],F=[0,w(a,af(B(l,l)),E),A],G=S(a,m),H=S(a,l),n=[0,[0,K(K(S(a,k[1]),H),G),C,F]];else
 var
 n=k;var
 o=n}else
@@ -2570,14 +2570,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gW(a,p,o){var
+gZ(a,p,o){var
 q=aF(p,o),b=e(function(b){return ah(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=S(a,i[1]),s=S(a,h[1]);return W(d,B(B(S(a,g[1]),s),r)[1])}var
+r=S(a,i[1]),s=S(a,h[1]);return X(d,B(B(S(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2593,19 +2593,19 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ab(c,b,a){var
-d=as(c,b[3],a[3]),e=as(c,b[2],a[2]);return[0,as(c,b[1],a[1]),e,d]}function
+ac(c,b,a){var
+d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
 aq(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
 av(a){return aq([5,[0,b,b],[6,O(a,a)]],a)}function
-cG(c,b,a){var
+cH(c,b,a){var
 d=a9(c,b[1],a);return d?a9(c,a,b[2]):d}function
 aY(c,b,a){var
-d=cG(c,b[1],a[1]),e=d?cG(c,b[2],a[2]):d;return e?cG(c,b[3],a[3]):e}function
-j9(b,c,a){switch(c[0]){case
+d=cH(c,b[1],a[1]),e=d?cH(c,b[2],a[2]):d;return e?cH(c,b[3],a[3]):e}function
+j_(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aY(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cG(b,d[4],j):n,p=o?g(b,1,j):o;return p?b$(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aY(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cH(b,d[4],j):n,p=o?g(b,1,j):o;return p?b$(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=aY(b,c[1],a[1]),s=r?aY(b,c[2],a[2]):r;if(s){if(q){if(e){var
@@ -2618,10 +2618,10 @@ var
 v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=aY(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
 d_(c,a,b){if(0===a[0])return aY(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cG(c,a[4],b[3]):i}function
-j_(g,f,i,h){var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cH(c,a[4],b[3]):i}function
+j$(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=j9(g,b[1],a[1]);if(d){var
+d=j_(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2630,73 +2630,73 @@ c=e}else
 var
 c=a?0:1;return c?d_(g,f[2],h):c}}function
 a7(c,b,a){var
-d=ab(function(b,a){return[2,b,a]},a,b);return ab(function(b,a){return[3,b,a]},d,c)}function
+d=ac(function(b,a){return[2,b,a]},a,b);return ac(function(b,a){return[3,b,a]},d,c)}function
 d$(a,e,d,c){var
-b=a7(e,d,c),f=av(a),g=aq(O(av(a),b),f);return ab(function(b,a){return[3,b,a]},b,g)}function
-cH(f,e,d,a,c){var
+b=a7(e,d,c),f=av(a),g=aq(O(av(a),b),f);return ac(function(b,a){return[3,b,a]},b,g)}function
+cI(f,e,d,a,c){var
 b=d$(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cI(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cJ(a,c){switch(a[0]){case
+cJ(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+cK(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d$(d,f,e,c),h=cH(d,f,e,a[4],c),i=aq([5,[0,b,b],cI(a[5],h)],g),j=av(d);return ab(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=d$(d,f,e,c),h=cI(d,f,e,a[4],c),i=aq([5,[0,b,b],cJ(a[5],h)],g),j=av(d);return ac(function(b,a){return[2,b,a]},j,i);case
 1:return av(a7(a[1],a[2],c));default:return av(a[1])}}function
 ea(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cH(c,e,d,a[4],b),h=aq(cI(a[5],g),f),i=d$(c,e,d,b);return ab(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=av(c),g=cI(c,e,d,a[4],b),h=aq(cJ(a[5],g),f),i=d$(c,e,d,b);return ac(function(b,a){return[2,b,a]},i,h);case
 1:return a7(a[1],a[2],b);default:return av(a[1])}}function
-gX(a,b){switch(a[0]){case
+g0(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cH(e,d,c,a[4],b),i=cI(a[5],h),j=a7(d,c,b);return[3,O(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cI(e,d,c,a[4],b),i=cJ(a[5],h),j=a7(d,c,b);return[3,O(av(e),j),i];case
 1:var
 f=a[2],g=a[1],k=a7(g,f,b);return[6,O(a7(g,f,b),k)];default:return O(av(a[1]),b)}}function
-j$(a,b){switch(a[0]){case
-0:return[0,cH(a[1],a[2],a[3],a[4],b)];case
+ka(a,b){switch(a[0]){case
+0:return[0,cI(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=a7(d,c,b);return[0,O(a7(d,c,b),e)];default:return 0}}function
 eb(e,c,a){var
 f=[0,d,b];return bk(function(b,d){var
-e=O(cJ(b,c),a);return[2,[4,O(cJ(b,c),a),e],d]},f,e)}function
-ka(a){var
+e=O(cK(b,c),a);return[2,[4,O(cK(b,c),a),e],d]},f,e)}function
+kb(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-gY(a,c){switch(a[0]){case
+g1(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=a7(e,d,c);return[6,O(a7(e,d,c),f)];default:return[0,b,b]}}function
-kb(d,i){if(d){var
+kc(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a7(a[1],a[2],i),k=av(f),l=aq(O(av(f),g),k),h=[0,ab(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a7(a[1],a[2],i),k=av(f),l=aq(O(av(f),g),k),h=[0,ac(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kb(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kc(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return p5}function
-cK(a){return[0,a[1],a[2],a[3]]}function
-kc(a,b){switch(a[0]){case
+j=b;return j}return p8}function
+cL(a){return[0,a[1],a[2],a[3]]}function
+kd(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cH(d,g,c,f,b),k=aq(cI(a[5],j),i),l=d$(d,g,c,b),m=ab(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cI(d,g,c,f,b),k=aq(cJ(a[5],j),i),l=d$(d,g,c,b),m=ac(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a7(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kd(l,c,a){switch(a[0]){case
+h=a[2],e=a7(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+ke(l,c,a){switch(a[0]){case
 0:var
-m=a[5],d=X(l,a[1]);if(d){var
-e=kc(d[1],c);if(e)var
+m=a[5],d=T(l,a[1]);if(d){var
+e=kd(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cK(m),c=aq(a,n),d=ab(function(b,a){return[3,b,a]},o,c);return ab(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
+b=cL(m),c=aq(a,n),d=ac(function(b,a){return[3,b,a]},o,c);return ac(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cK(a[3]);return[0,[0,cK(a[2]),q]];default:var
-r=cK(a[3]),s=ab(function(b,a){return[2,b,a]},c,r),t=cK(a[2]);return[0,[0,ab(function(b,a){return[2,b,a]},c,t),s]]}}function
-ke(d,a,c,b){var
-e=aq(a,b),f=aq([3,d,a],c);return ab(function(b,a){return[2,b,a]},f,e)}function
-kf(f,h,c,e,q,a){function
+q=cL(a[3]);return[0,[0,cL(a[2]),q]];default:var
+r=cL(a[3]),s=ac(function(b,a){return[2,b,a]},c,r),t=cL(a[2]);return[0,[0,ac(function(b,a){return[2,b,a]},c,t),s]]}}function
+kf(d,a,c,b){var
+e=aq(a,b),f=aq([3,d,a],c);return ac(function(b,a){return[2,b,a]},f,e)}function
+kg(f,h,c,e,q,a){function
 F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],O(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
@@ -2706,44 +2706,44 @@ ap=eb(h,c,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
 aq=F(a[1]);return g(f,1,[3,eb(h,c,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,gX(a,c)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,g0(a,c)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,gX(a,c),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,g0(a,c),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],aw=function(a){var
-b=cJ(a,c);return[3,[4,[4,H,H],O(cJ(a,c),b)],[4,G,G]]},s=aw,r=a[1];break;case
+b=cK(a,c);return[3,[4,[4,H,H],O(cK(a,c),b)],[4,G,G]]},s=aw,r=a[1];break;case
 5:var
 I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,eb(h,c,q),ax]],az=O(q,q);return g(f,1,[3,[4,eb(h,c,e),az],ay]);case
 6:var
-J=a[2],u=X(h,a[1]);if(u){var
+J=a[2],u=T(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cH(i[1],i[2],i[3],v,c),K=cI(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=cI(i[1],i[2],i[3],v,c),K=cJ(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],P=h[1],aB=gY(M,c),aC=gY(N,c),aD=gY(P,c),Q=[4,[4,[4,a[1],aD],aC],aB],j=ea(M,c),k=ea(N,c),aE=ea(P,c),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
+M=o[1],N=n[1],P=h[1],aB=g1(M,c),aC=g1(N,c),aD=g1(P,c),Q=[4,[4,[4,a[1],aD],aC],aB],j=ea(M,c),k=ea(N,c),aE=ea(P,c),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
 S=R}else
 var
 S=o;var
-T=S}else
+U=S}else
 var
-T=n;var
-U=T}else
+U=n;var
+V=U}else
 var
-U=h;return U;case
+V=h;return V;case
 8:var
 aF=eb(h,c,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-V=a[1],w=kb(h,c);if(w){var
+W=a[1],w=kc(h,c);if(w){var
 aH=w[1],an=[0,d,b],ao=bk(function(a,b){var
-c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,V,V],O(e,e)],ao])}return w;case
+c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],O(e,e)],ao])}return w;case
 10:var
-W=a[2],Y=a[1],x=kd(h,c,Y);if(x){var
-Z=x[1],y=kd(h,c,W);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=ke(l,A,_[1],_[2]),aJ=ke(l,z,Z[1],Z[2]),$=ab(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=e8(W),aa=[4,l,[2,[2,e8(Y),aL],aK]],ac=g(f,1,l),ad=ac?g(f,0,z):ac,ae=ad?g(f,0,[3,l,z]):ad,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
+X=a[2],Y=a[1],x=ke(h,c,Y);if(x){var
+Z=x[1],y=ke(h,c,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=kf(l,A,_[1],_[2]),aJ=kf(l,z,Z[1],Z[2]),$=ac(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=e9(X),aa=[4,l,[2,[2,e9(Y),aL],aK]],ab=g(f,1,l),ad=ab?g(f,0,z):ab,ae=ad?g(f,0,[3,l,z]):ad,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2751,9 +2751,9 @@ ai=ah}else
 var
 ai=x;return ai;case
 11:var
-aj=a[4],B=X(h,a[1]);if(B){var
-C=kc(B[1],c);if(C){var
-m=C[1][1][2],aM=cK(a[3]),aN=cK(a[2]),p=ab(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
+aj=a[4],B=T(h,a[1]);if(B){var
+C=kd(B[1],c);if(C){var
+m=C[1][1][2],aM=cL(a[3]),aN=cL(a[2]),p=ac(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
 aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
 al=ak}else
 var
@@ -2761,29 +2761,29 @@ al=C;var
 am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
-t=X(h,r);return t?g(f,1,s(t[1])):t}function
+t=T(h,r);return t?g(f,1,s(t[1])):t}function
 a_(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kg(a){switch(a[0]){case
+kh(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=a_(b[3]),f=a_(b[2]);return[0,a_(b[1]),f,e,d,c];case
 1:var
-g=y(a_,a[3]),h=a_(a[2]);return[1,a_(a[1]),h,g];default:return[2,a_(a[1])]}}function
-gZ(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
-kh(b,a){var
-c=gZ(a[2]);return j_(b,a,e(kg,a[1]),c)}function
-ki(b,a,c){var
-d=[0,c,eW(b,a)];return f(cv(b,a),d)}function
+g=x(a_,a[3]),h=a_(a[2]);return[1,a_(a[1]),h,g];default:return[2,a_(a[1])]}}function
+g2(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
+ki(b,a){var
+c=g2(a[2]);return j$(b,a,e(kh,a[1]),c)}function
+kj(b,a,c){var
+d=[0,c,eX(b,a)];return f(cw(b,a),d)}function
 bY(c,a){if(c){if(a){var
 e=bY(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-kj(a){if(a){var
+kk(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kj(a[2]);return y(function(a){return[0,c,a]},d)}return b}return p7}function
-kk(a,l,k,f){var
+c=b[1],d=kk(a[2]);return x(function(a){return[0,c,a]},d)}return b}return p_}function
+kl(a,l,k,f){var
 b=aX(a,l);if(b){var
 c=aX(a,k);if(c){var
-d=dc(a,f);if(d){var
-e=e7(a,f);if(e)var
-m=w(a,b[1],e[1]),g=[0,J(w(a,c[1],d[1]),m)];else
+d=dd(a,f);if(d){var
+e=e8(a,f);if(e)var
+m=w(a,b[1],e[1]),g=[0,K(w(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2795,14 +2795,14 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fo(a){return a?W(d,a[1][1]):a}function
-kl(a,ab,m,aD,h,f){function
+fp(a){return a?X(d,a[1][1]):a}function
+km(a,ab,m,aD,h,f){function
 ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bY(a,a)]}var
 aE=m[1];function
 o(c){var
 a=[0,d,b];return bk(function(a,b){var
 d=bY(a,c);return[2,[4,bY(a,c),d],b]},a,aE)}var
-ad=n(function(a){return u(i(a),ab)},h);if(ad){var
+ad=n(function(a){return u(j(a),ab)},h);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
@@ -2820,10 +2820,10 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;cas
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
-f=kk(a,i,h,ai);return f?W(f[1][2],d):f}return fo(kk(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
+f=kl(a,i,h,ai);return f?X(f[1][2],d):f}return fp(kl(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
 5:if(h){var
 r=h[2];if(r){if(r[2])return 0;var
-K=r[1],L=h[1],aj=f[1],aM=bY(L,L),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=bY(K,K);return g(a,1,[3,[4,o(L),aO],aN])}var
+J=r[1],L=h[1],aj=f[1],aM=bY(L,L),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bY(J,J);return g(a,1,[3,[4,o(L),aO],aN])}var
 ak=r}else
 var
 ak=h;return ak;case
@@ -2837,8 +2837,8 @@ ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
 b=aX(a,bY(e,e));if(b){var
 c=aX(a,[5,ar,as]);if(c){var
-d=jk(a,c[1]);if(d){var
-l=S(a,d[1]);return fo([0,J(b[1],l)])}var
+d=jl(a,c[1]);if(d){var
+l=S(a,d[1]);return fp([0,K(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2853,11 +2853,11 @@ aV=f[2],aW=function(b){var
 c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
 11:if(h)return 0;var
 aY=f[2],aZ=function(e){var
-b=dc(a,aY);if(b){var
+b=dd(a,aY);if(b){var
 c=aX(a,e[3]);if(c){var
 d=aX(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fo([0,f]);if(g){var
-k=S(a,d[1]);return fo([0,J(S(a,f),k)])}var
+f=w(a,b[1],c[1]),g=fp([0,f]);if(g){var
+k=S(a,d[1]);return fp([0,K(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2868,12 +2868,12 @@ j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(h)return 0;var
-Q=kj(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=c7(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
+Q=kk(m[3]);if(Q){var
+aw=Q[1],a0=f[1],ax=c8(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
 s=R[1];if(s){var
 t=s[2];if(t){var
-v=t[2],T=t[1],U=s[1],l=R[2];if(v)if(v[2]||!l)var
-j=[0,d,b];else{var
+v=t[2],U=t[1],V=s[1],l=R[2];if(v)if(v[2]||!l)var
+i=[0,d,b];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -2881,56 +2881,56 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-V=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,T,p(aa,_,Z,V)],j=[2,[3,[4,U,p($,_,Y,V)],aC],aB];else
+W=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,U,p(aa,_,Z,W)],i=[2,[3,[4,V,p($,_,Y,W)],aC],aB];else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],j=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(U,T,E[1],F[1]):[0,d,b];else
+F=E[2],i=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(V,U,E[1],F[1]):[0,d,b];else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b]}else
+i=[0,d,b]}else
 var
-j=[0,d,b];var
-ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
+i=[0,d,b];var
+ay=g(a,1,[3,ax,i]);if(ay)return g(a,1,[2,ax,i]);var
 az=ay}else
 var
 az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=X(m[3],at);if(O){var
+O=T(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-M=X(m[1],am);if(M){var
-ao=M[1],ap=u(i(ao),ab);if(ap)return an(ao);var
+M=T(m[1],am);if(M){var
+ao=M[1],ap=u(j(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=M;return aq;default:var
-I=X(m[2],G);return I?H(I[1]):I}}else
+I=T(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-km(h,g){var
+kn(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2940,73 +2940,73 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kn(a){if(a){var
+ko(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kn(a[2]);return y(function(a){return[0,c,a]},d)}return b}return p8}function
-p9(a){return e(function(a){return[0,a,b]},a)}function
-ko(h,f,c,n,a){if(typeof
+c=b[1],d=ko(a[2]);return x(function(a){return[0,c,a]},d)}return b}return p$}function
+qa(a){return e(function(a){return[0,a,b]},a)}function
+kp(h,f,c,n,a){if(typeof
 a==="number"){if(0===a){var
 r=c[4];return ar(function(a){return g(h,0,[3,[0,d,b],a])},r)}var
-i=kn(c[5]);return i?jr(f,i[1]):i}else{if(0===a[0]){var
-j=km(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(p9,a[2]);return kl(h,f,c,o[2],t,s)}return j}var
-k=km(a[1],n);if(k){var
+i=ko(c[5]);return i?js(f,i[1]):i}else{if(0===a[0]){var
+j=kn(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(qa,a[2]);return km(h,f,c,o[2],t,s)}return j}var
+k=kn(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=X(c[1],a[2]);return m?kl(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=T(c[1],a[2]);return m?km(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-g0(a){var
-b=av(a[1]),c=aq(O(b,a[2]),b),d=a[2];return ab(function(b,a){return[3,b,a]},d,c)}function
-g1(a){return av(g0(a))}function
-kp(c){var
-a=g1(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-g2(a,b){return a7(a[3],a[4],b)}function
-g3(a,b){var
-c=g2(a,b);return O(g1(a),c)}function
-g4(a,b){var
-c=g2(a,b);return O(kp(a),c)}function
-kq(a,b){var
-c=g2(a,b);return O(av(a[1]),c)}function
-g5(b,a){var
-c=g4(b,a),d=g3(b,a);return[2,[4,d,d],[4,c,c]]}function
-g6(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kq(a,d);return[5,[2,g5(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+g3(a){var
+b=av(a[1]),c=aq(O(b,a[2]),b),d=a[2];return ac(function(b,a){return[3,b,a]},d,c)}function
+g4(a){return av(g3(a))}function
+kq(c){var
+a=g4(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+g5(a,b){return a7(a[3],a[4],b)}function
+g6(a,b){var
+c=g5(a,b);return O(g4(a),c)}function
+g7(a,b){var
+c=g5(a,b);return O(kq(a),c)}function
 kr(a,b){var
-f=a[5],c=[3,g6(a,b),f],d=kq(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fp(a,b){var
-c=kr(a,b);return cI(a[7],c)}function
-ks(b,a){var
-c=g5(b,a),d=g4(b,a),e=[4,fp(b,a),d],f=g3(b,a);return[5,[2,[4,g6(b,a),f],e],c]}function
+c=g5(a,b);return O(av(a[1]),c)}function
+g8(b,a){var
+c=g7(b,a),d=g6(b,a);return[2,[4,d,d],[4,c,c]]}function
+g9(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kr(a,d);return[5,[2,g8(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+ks(a,b){var
+f=a[5],c=[3,g9(a,b),f],d=kr(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fq(a,b){var
+c=ks(a,b);return cJ(a[7],c)}function
 kt(b,a){var
-c=g5(b,a),d=g3(b,a),e=[4,fp(b,a),d],f=g4(b,a);return[5,[3,[4,g6(b,a),f],e],c]}function
-ku(a,b){var
-c=kp(a),d=aq(kt(a,b),c),e=g1(a),f=aq(ks(a,b),e),g=ab(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return ab(function(b,a){return[2,b,a]},i,h)}function
-kv(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-kw(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-g7(a,c,b){var
-d=[4,kv(a),b],e=[2,[4,kw(a),c],d],f=[4,kw(a),b];return[0,[3,[4,kv(a),c],f],e]}function
-kx(c,a){var
-b=g7(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+c=g8(b,a),d=g7(b,a),e=[4,fq(b,a),d],f=g6(b,a);return[5,[2,[4,g9(b,a),f],e],c]}function
+ku(b,a){var
+c=g8(b,a),d=g6(b,a),e=[4,fq(b,a),d],f=g7(b,a);return[5,[3,[4,g9(b,a),f],e],c]}function
+kv(a,b){var
+c=kq(a),d=aq(ku(a,b),c),e=g4(a),f=aq(kt(a,b),e),g=ac(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return ac(function(b,a){return[2,b,a]},i,h)}function
+kw(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+kx(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+g_(a,c,b){var
+d=[4,kw(a),b],e=[2,[4,kx(a),c],d],f=[4,kx(a),b];return[0,[3,[4,kw(a),c],f],e]}function
+ky(c,a){var
+b=g_(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 ec(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fq(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kx(d[1],a):a;case
+fr(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:ky(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=g7(d[1],a[2],a[3]),m=j[1],k=g7(f[1],j[2],a[1]);return kx(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=g_(d[1],a[2],a[3]),m=j[1],k=g_(f[1],j[2],a[1]);return ky(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=ec(e,a),o=aq([0,c(2,b),b],n),p=O(e,a),q=aq([4,[0,c(2,b),b],p],e),r=aq([3,[0,b,b],l],a),s=ab(function(b,a){return[2,b,a]},r,q);return aq([5,[0,b,b],[2,[0,b,b],l]],ab(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-ky(c){var
-a=cB(c);return a?c8(a[1],[0,d,b]):a}function
-kz(a,n,k,j){if(ky(j)){var
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=ec(e,a),o=aq([0,c(2,b),b],n),p=O(e,a),q=aq([4,[0,c(2,b),b],p],e),r=aq([3,[0,b,b],l],a),s=ac(function(b,a){return[2,b,a]},r,q);return aq([5,[0,b,b],[2,[0,b,b],l]],ac(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kz(c){var
+a=cC(c);return a?c9(a[1],[0,d,b]):a}function
+kA(a,n,k,j){if(kz(j)){var
 q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
 f=aX(a,k);if(f){var
-h=dc(a,[5,j,[0,c(2,b),b]]);if(h){var
-i=e7(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=w(a,f[1],h[1]),l=[0,J(i[1],p)];else
+h=dd(a,[5,j,[0,c(2,b),b]]);if(h){var
+i=e8(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=w(a,f[1],h[1]),l=[0,K(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3017,24 +3017,24 @@ var
 e=f;if(e){var
 o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
 ed(b,a,c){var
-d=a9(b,a[1],a[2]),e=d?kz(b,0,c,a[1]):d;return e?kz(b,1,c,a[2]):e}function
-dk(a,d){if(ky(d))return[0,C];var
-e=dc(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
-f=e7(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
-h=f[1],i=e[1],j=B($(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cc(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return y(function(d){var
-e=w(x(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gC(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
+d=a9(b,a[1],a[2]),e=d?kA(b,0,c,a[1]):d;return e?kA(b,1,c,a[2]):e}function
+dl(a,d){if(kz(d))return[0,C];var
+e=dd(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
+f=e8(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
+h=f[1],i=e[1],j=B(_(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cc(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return x(function(d){var
+e=w(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gF(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
 ee(d,a){var
 e=g(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-cL(a){return[0,[3,[0,d,b],a],a]}function
-kA(a,c,n,m){var
+cM(a){return[0,[3,[0,d,b],a],a]}function
+kB(a,c,n,m){var
 h=a9(a,[0,d,b],c),i=h?ee(a,c):h;if(i){var
-e=dk(a,c);if(e){var
+e=dl(a,c);if(e){var
 f=aX(a,n);if(f){var
 g=aX(a,m);if(g){var
-o=f[1],p=g[1];return G(d,J(w(a,S(a,e[1]),p),o)[1])}var
+o=f[1],p=g[1];return G(d,K(w(a,S(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3044,7 +3044,7 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-kB(d,c,a){switch(c[0]){case
+kC(d,c,a){switch(c[0]){case
 0:return a?a[2]?0:ed(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
@@ -3062,7 +3062,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kA(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kB(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3071,7 +3071,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kA(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return ed(d,cL(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kB(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return ed(d,cM(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3081,20 +3081,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dl(a){return 1===a?p_:p$}function
-fr(d,c,b,a){var
-e=a[1],f=fq(d,c,a[2]),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
-g8(c,b,a){switch(c){case
+dm(a){return 1===a?qb:qc}function
+fs(d,c,b,a){var
+e=a[1],f=fr(d,c,a[2]),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
+g$(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 ef(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cy(function(a){return ef(b,a)},a)]}return[0,cy(function(a){return ef(b,a)},a)]}function
-dm(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,L(b,c[1])]]:[0,cz(function(a){return ef(b,a)},a)]}return[0,cz(function(a){return ef(b,a)},a)]}function
+dn(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ac(u(e,b));return f?ac(u(e,N(d,b))):f;case
+e=a[1],f=ad(u(e,b));return f?ad(u(e,L(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3102,7 +3102,7 @@ e=a[1],f=ac(u(e,b));return f?ac(u(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dm(d,b,a[1]);if(g){var
+g=dn(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
 eg(c,b,m){var
 d=m;for(;;){var
@@ -3110,23 +3110,23 @@ a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dm(c,b,g),i=h?eg(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dn(c,b,g),i=h?eg(c,b,f):h;if(i)var
 j=i;else{var
-k=eg(c,b,g);if(k)return dm(c,b,f);var
+k=eg(c,b,g);if(k)return dn(c,b,f);var
 j=k}return j;case
 7:var
-l=eg(c,b,a[1]);return l?dm(c,b,a[2]):l;case
+l=eg(c,b,a[1]);return l?dn(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
 e=eg(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dm(c,b,a[1]);default:return 1}}}function
-cM(c,e){var
+9:return dn(c,b,a[1]);default:return 1}}}function
+cN(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ac(u(a[1],c));case
+0:return ad(u(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3134,19 +3134,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cM(c,a[1]);if(d){var
+d=cN(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-g9(d,b,m){var
+ha(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=g9(d,b,a[1]);if(f){var
+f=ha(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=g9(d,b,a[1]);return g?cM(b,a[2]):g;case
+g=ha(d,b,a[1]);return g?cN(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cM(b,i);if(j){var
-k=cM(b,h);if(k)var
+h=a[2],i=a[1],j=cN(b,i);if(j){var
+k=cN(b,h);if(k)var
 e=k;else{var
 l=aM(i,d);if(l){var
 c=h;continue}var
@@ -3155,8 +3155,8 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cM(b,c)}}}function
-kC(c,e){var
+2:return 1;default:return cN(b,c)}}}function
+kD(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return dS(a[1],c);case
@@ -3167,173 +3167,174 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kC(c,a[1]);if(d){var
+d=kD(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cl(b,a){return a?k(b,a[1]):a}function
-cm(c,b,a){return cl(function(b){return cl(k(c,b),a)},b)}function
-kD(b,a){switch(a[0]){case
+cl(b,a){return a?i(b,a[1]):a}function
+cm(c,b,a){return cl(function(b){return cl(i(c,b),a)},b)}function
+kE(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-kE(a){return 0===a[0]?a[1]:0}function
-bI(b,a){switch(a[0]){case
-0:return[0,k(b,a[1])];case
-1:return[1,bI(b,a[1])];default:var
-c=bI(b,a[3]),d=bI(b,a[2]);return[2,bI(b,a[1]),d,c]}}function
+kF(a){return 0===a[0]?a[1]:0}function
+bK(b,a){switch(a[0]){case
+0:return[0,i(b,a[1])];case
+1:return[1,bK(b,a[1])];default:var
+c=bK(b,a[3]),d=bK(b,a[2]);return[2,bK(b,a[1]),d,c]}}function
 aZ(b,c,a){switch(c[0]){case
-0:return bI(k(b,c[1]),a);case
+0:return bK(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bI(function(a){return as(b,a,j)},d)];case
+k=a[1];return[1,bK(function(a){return at(b,a,k)},d)];case
 1:return[1,aZ(b,d,a[1])];default:var
 l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return as(b,a,n)},h=function(a){return bI(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return at(b,a,n)},h=function(a){return bK(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=aZ(b,e,i),s=aZ(b,f,i);return[2,aZ(b,g,i),s,r];default:var
+j=a[1],r=aZ(b,e,j),s=aZ(b,f,j);return[2,aZ(b,g,j),s,r];default:var
 t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
-g_(c,f,a){if(a)var
+hb(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,S(c,a)];break;case
 1:var
 g=w(c,a,b),e=[0,a5(B(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,k(f,e)]]},h=g_(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=hb(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-kF(a){if(a){var
+kG(a){if(a){var
 b=a[1];if(b)var
-c=kF(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kG(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qc}function
-dn(a){if(a){var
-g=a[1],b=g[2],c=kF(g[1]);if(c)if(b){var
-h=b[1],e=dn(a[2]);if(e)var
-i=W(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qf}function
+dp(a){if(a){var
+g=a[1],b=g[2],c=kG(g[1]);if(c)if(b){var
+h=b[1],e=dp(a[2]);if(e)var
+i=X(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qd}function
-dp(b,a){var
-c=a[3],d=y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ap(b),f),e,d]}function
-kG(e,d,c,b){if(d){var
-i=d[1],a=function(a){var
-d=dp(function(b){return kD(a,b)},b);return kG(bB(e),i,c,d)},f=a(0);if(f){var
+f=c;return f}return qg}function
+dq(b,a){var
+c=a[3],d=x(function(a){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ap(b),f),e,d]}function
+kH(e,d,c,b){if(d){var
+j=d[1],a=function(a){var
+d=dq(function(b){return kE(a,b)},b);return kH(bC(e),j,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,dp(kE,b))}function
-kH(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return kH(m,e,l,a,dp(function(a){return kD(b,a)},d))},h=c(0,aA(b,g));if(h){var
-i=c(2,x(b,g));if(i)return c(1,b);var
+h=f;return h}return i(c,dq(kF,b))}function
+kI(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return kI(m,e,l,a,dq(function(a){return kE(b,a)},d))},h=c(0,aA(b,g));if(h){var
+i=c(2,y(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:as(e,b,dp(kE,d))}function
-dq(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return a4(f,e,a)},d)}return[0,C]}function
-kI(d,h,g,c){var
-a=dn(c[1]);if(a){var
-b=dq(c[3]);if(b){var
-i=aL([0,J(C,b[1]),0],d),j=a[1];return bq(d,e$(h,g,e(function(a){return[0,a[1],C]},j),i))}var
+k=a;return k}return a?0:at(e,b,dq(kF,d))}function
+dr(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a4(f,e,a)},d)}return[0,C]}function
+kJ(k,e,j,i,h,a){var
+b=dp(a[1]);if(b){var
+c=a[2];if(c){var
+d=dr(a[3]);if(d){var
+l=d[1],m=aL([0,K(af(w(k,h,c[1])),l),0],e);return bq(e,fa(j,i,b[1],m))}var
+f=d}else
+var
+f=c;var
+g=f}else
+var
+g=b;return g}function
+kK(d,h,g,c){var
+a=dp(c[1]);if(a){var
+b=dr(c[3]);if(b){var
+i=aL([0,K(C,b[1]),0],d),j=a[1];return bq(d,fa(h,g,e(function(a){return[0,a[1],C]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-qe(c){var
+qh(c){var
 a=c[2];if(a){var
-b=dq(c[3]);if(b)return G(d,J(a[1],b[1])[1]);var
+b=dr(c[3]);if(b)return G(d,K(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kJ(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-kK(a,c,b){var
+kL(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+kM(a,c,b){var
 e=t(b,c,l(d)),f=aV(0,a);return n(function(b){return eg(a,b,e)},f)}function
 eh(a){var
-c=K(a);return F(l(b),c)}function
-fs(i,g){var
-h=eh(g),j=K(g),e=s(l(b),j),f=p(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
-kL(b,a){var
-c=ad(b[3],a),d=ad(b[2],a);return[0,ad(b[1],a),d,c]}function
-kM(b,a){function
+c=H(a);return F(l(b),c)}function
+ft(i,g){var
+h=eh(g),j=H(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
+hc(b,a){var
+c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
+kN(b,a){function
 c(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=ad(a,c(function(a){return a[3]})),d=ad(a,c(function(a){return a[2]}));return[0,ad(a,c(function(a){return a[1]})),d,b]}var
+b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kN(w,v){function
-a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
+kO(w,v){function
+a(a){return[0,[0,L(v,a)]]}switch(w[0]){case
 0:var
-x=eh(a(0));return[0,fs(qf,a(0)),x];case
+x=eh(a(0));return[0,ft(qi,a(0)),x];case
 1:var
-y=eh(a(0)),z=p(eh(a(qg)),y),A=p(eh(a(qh)),z),B=fs(0,a(0)),C=kM(fs(qj,a(qi)),B);return[0,kM(fs(ql,a(qk)),C),A];default:var
-D=a(qm),E=a(qn),g=[0,a(0),E,D],G=ad(g,g),H=F(l(b),G),j=ad(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=K(a),e=p(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
-g=as(f,p(e,d),a);return p(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,o],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-kO(a){return 1<a[0]?[0,a[1],0]:0}function
-ft(a){switch(a[0]){case
+y=eh(a(0)),z=o(eh(a(qj)),y),A=o(eh(a(qk)),z),B=ft(0,a(0)),C=kN(ft(qm,a(ql)),B);return[0,kN(ft(qo,a(qn)),C),A];default:var
+D=a(qp),E=a(qq),g=[0,a(0),E,D],G=ab(g,g),I=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=H(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
+g=at(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],I]}}function
+kP(a){return 1<a[0]?[0,a[1],0]:0}function
+fu(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cL(a[1]),0];default:var
-b=[0,cL(a[2]),0];return[0,cL(a[1]),b]}}function
-dr(a){return[0,[0,a[1]],[0,a[2]]]}function
-kP(a){switch(a[0]){case
-0:return[0,dr(a[1]),0];case
+2:return[0,cM(a[1]),0];default:var
+b=[0,cM(a[2]),0];return[0,cM(a[1]),b]}}function
+ds(a){return[0,[0,a[1]],[0,a[2]]]}function
+kQ(a){switch(a[0]){case
+0:return[0,ds(a[1]),0];case
 1:var
-f=[0,dr(a[3]),0],g=[0,dr(a[2]),f];return[0,dr(a[1]),g];case
+f=[0,ds(a[3]),0],g=[0,ds(a[2]),f];return[0,ds(a[1]),g];case
 2:var
-b=dr(cL(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cL(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dr(cL(c)),0]]]}}function
-kQ(a,c){if(0===c[0])return dk(a,c[1]);var
-d=dk(a,c[1]);if(d){var
-e=dk(a,c[2]);if(e){var
-g=S(a,e[1]),h=cx(a,B($(a,b),g)),i=d[1];return y(function(b){return w(a,i,b)},h)}var
+b=ds(cM(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cM(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ds(cM(c)),0]]]}}function
+kR(a,c){if(0===c[0])return dl(a,c[1]);var
+d=dl(a,c[1]);if(d){var
+e=dl(a,c[2]);if(e){var
+g=S(a,e[1]),h=cy(a,B(_(a,b),g)),i=d[1];return x(function(b){return w(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-kR(d,c){var
-a=kQ(d,c[1]);if(a)var
-b=kQ(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+kS(d,c){var
+a=kR(d,c[1]);if(a)var
+b=kR(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-kS(f,q,e,p,o,c,a){switch(c[0]){case
+kT(f,s,e,r,q,c,a){switch(c[0]){case
 0:var
-r=c[4],m=c[3],s=c[2],v=c[1],n=0;if(typeof
-a==="number")n=1;else
+v=c[4],o=c[3],x=c[2],y=c[1],p=0;if(typeof
+a==="number")p=1;else
 switch(a[0]){case
 0:var
-H=a[2],I=a[1],k=s,j=v,h=function(d){var
-a=dn(d[1]);if(a){var
-b=d[2];if(b){var
-c=dq(d[3]);if(c){var
-i=c[1],j=aL([0,J(af(w(f,m,b[1])),i),0],e);return bq(e,e$(I,H,a[1],j))}var
-g=c}else
-var
-g=b;var
-h=g}else
-var
-h=a;return h},g=r;break;case
+N=a[2],O=a[1],k=x,i=y,h=function(a){return kJ(f,e,O,N,o,a)},g=v;break;case
 2:var
-x=Y(m[1],d),y=x?Y(m[2],d):x;if(!y)return y;var
-L=a[2],M=a[1],k=s,j=v,h=function(a){return kI(e,M,L,a)},g=r;break;default:n=1}if(n)return 0;break;case
+z=Y(o[1],d),A=z?Y(o[2],d):z;if(!A)return A;var
+Q=a[2],R=a[1],k=x,i=y,h=function(a){return kK(e,R,Q,a)},g=v;break;default:p=1}if(p)return 0;break;case
 1:var
-D=0;if(typeof
+G=0;if(typeof
 a==="number"&&!a)var
-N=c[2],O=c[1],P=c[3],k=N,j=O,Q=0,h=function(g){var
-a=dn(g[1]);if(a){var
+S=c[2],T=c[1],U=c[3],k=S,i=T,V=0,h=function(g){var
+a=dp(g[1]);if(a){var
 b=g[2];if(b){var
-c=dq(g[3]);if(c){var
-k=c[1],l=aL([0,J(w(f,P,b[1]),k),0],e),d=gJ(a[1],l);if(d)return bq(e,d[1]);var
+c=dr(g[3]);if(c){var
+k=c[1],l=aL([0,K(w(f,U,b[1]),k),0],e),d=gM(a[1],l);if(d)return bq(e,d[1]);var
 h=d}else
 var
 h=c;var
@@ -3342,17 +3343,17 @@ var
 i=b;var
 j=i}else
 var
-j=a;return j},g=Q;else
-D=1;if(D)return 0;break;case
+j=a;return j},g=V;else
+G=1;if(G)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-R=[0,c[1],c[2],o],S=dp(function(a){return t(a,p,qt)},R),z=a[1],T=l[2],U=l[1],V=a[2],X=c[3];return kH(q,function(v,j){var
-a=dn(j[1]);if(a){var
+W=[0,c[1],c[2],q],Z=dq(function(a){return t(a,r,qw)},W),C=a[1],$=l[2],aa=l[1],ab=a[2],ac=c[3];return kI(s,function(v,j){var
+a=dp(j[1]);if(a){var
 k=a[1],c=j[2];if(c){var
-g=dq(j[3]);if(g){var
-l=g[1],m=function(a){return a4(a,z,$(f,b))},t=m(v),u=c[1],h=B(w(f,m(U),u),t),n=W(d,h[1]),o=n?bq(e,e$(z,V,k,aL([0,J(af(h),l),0],e))):n;if(o){var
-i=gJ(k,aL([0,J(w(f,X,h),l),0],e));if(i)return bq(e,i[1]);var
+g=dr(j[3]);if(g){var
+l=g[1],m=function(a){return a4(a,C,_(f,b))},t=m(v),u=c[1],h=B(w(f,m(aa),u),t),n=X(d,h[1]),o=n?bq(e,fa(C,ab,k,aL([0,K(af(h),l),0],e))):n;if(o){var
+i=gM(k,aL([0,K(w(f,ac,h),l),0],e));if(i)return bq(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3364,18 +3365,18 @@ var
 r=c;var
 s=r}else
 var
-s=a;return s},T,d,S)}return l}return 0;case
+s=a;return s},$,d,Z)}return l}return 0;case
 3:var
-E=0;if(typeof
-a==="number"||!(0===a[0]))E=1;else
+H=0;if(typeof
+a==="number"||!(0===a[0]))H=1;else
 var
-A=a[2],C=a[1],Z=c[3],_=c[2],aa=c[4],ab=c[1],ac=function(g){var
-a=dn(g[1]);if(a){var
+D=a[2],E=a[1],ad=c[3],ae=c[2],ag=c[4],ah=c[1],ai=function(g){var
+a=dp(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
-d=dq(g[3]);if(d){var
-h=u(i(b),e),j=h?u(i(A),e):h;if(j){var
-n=d6(C,d7(C,A,c[1],b));return bq(e,ch(fd(f,ab,aa,d[1],b),n))}var
-k=j}else
+d=dr(g[3]);if(d){var
+h=u(j(b),e),i=h?u(j(D),e):h;if(i){var
+n=d6(E,d7(E,D,c[1],b));return bq(e,ch(fe(f,ah,ag,d[1],b),n))}var
+k=i}else
 var
 k=d;var
 l=k}else
@@ -3383,60 +3384,70 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=Z,j=_,h=ac,g=c[5];if(E)return 0;break;case
+m=a;return m},k=ad,i=ae,h=ai,g=c[5];if(H)return 0;break;case
 4:var
-F=0;if(typeof
+I=0;if(typeof
 a==="number"&&!a)var
-k=c[1],j=0,h=qe,g=0;else
-F=1;if(F)return 0;break;default:var
-G=0;if(typeof
+k=c[1],i=0,h=qh,g=0;else
+I=1;if(I)return 0;break;case
+5:var
+J=0;if(typeof
+a==="number"||!(0===a[0]))J=1;else{var
+m=a[2],L=0;if(m){var
+n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
+aj=c[2],ak=c[1],al=_(f,b),am=[0,[0,n[1],0],0],an=a[1],k=aj,i=ak,ao=0,h=function(a){return kJ(f,qx,an,am,al,a)},g=ao;L=1}else
+var
+F=n}else
+var
+F=m;if(!L)return F}if(J)return 0;break;default:var
+M=0;if(typeof
 a==="number"&&5<=a)var
-ad=c[2],ae=c[1],ag=c[4],ah=c[3],k=ad,j=ae,ai=0,h=function(a){return kI(e,ah,ag,a)},g=ai;else
-G=1;if(G)return 0}var
-K=[0,j,k,o];return kG(g,q,h,dp(function(a){return t(a,p,qs)},K))}function
-kT(m,l,k,f,j,i,e){if(typeof
+ap=c[2],aq=c[1],ar=c[4],as=c[3],k=ap,i=aq,at=0,h=function(a){return kK(e,as,ar,a)},g=at;else
+M=1;if(M)return 0}var
+P=[0,i,k,q];return kH(g,s,h,dq(function(a){return t(a,r,qv)},P))}function
+kU(m,l,k,f,j,i,e){if(typeof
 e!=="number"&&6===e[0]){var
 a=e[1];if(typeof
 a!=="number"&&7===a[0]){if(f){var
 n=a[3],o=a[2],p=G(d,o);if(p)var
-h=iF(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+h=iG(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
 var
-g=p;if(g)return kS(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
+g=p;if(g)return kT(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
 q=g}else
 var
-q=f;return q}return kS(m,l,k,j,0,i,a)}return 0}function
-qu(a){if(a[1])return 0;var
+q=f;return q}return kT(m,l,k,j,0,i,a)}return 0}function
+qy(a){if(a[1])return 0;var
 b=a[2];if(typeof
 b==="number"&&4===b)return 1;return 0}function
-kU(a,N,M,L,K,I,h,p,H,_){if(n(qu,H))var
+kV(a,N,M,L,J,I,h,p,H,$){if(n(qy,H))var
 q=0;else
 var
-V=g_(a,b_,p),U=0,Y=f(g_(a,aJ,p),V),q=bE(qb,function(b){switch(b[0]){case
+W=hb(a,b_,p),V=0,Y=f(hb(a,aJ,p),W),q=bF(qe,function(b){switch(b[0]){case
 0:return t(b[1],Y,[0,[0,C]]);case
 1:return[0,[0,t(b[1],M,C)]];case
-2:return[0,[0,$(a,b[1])]];case
+2:return[0,[0,_(a,b[1])]];case
 3:var
 c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return aZ(function(a,b){return cm(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,J(b,a)]};return aZ(function(a,b){return cm(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return aZ(function(a,b){return cm(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,af(a)]};return bI(function(a){return cl(j,a)},i);case
+i=b[1],j=function(a){return[0,af(a)]};return bK(function(a){return cl(j,a)},i);case
 6:var
 k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cm(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cc(a,b);return y(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cm(p,a,b)},o,n);case
+d=cc(a,b);return x(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cm(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,S(a,b)]};return bI(function(a){return cl(r,a)},q);case
+q=b[1],r=function(b){return[0,S(a,b)]};return bK(function(a){return cl(r,a)},q);case
 9:var
-s=b[1],u=function(b){return cx(a,b)};return bI(function(a){return cl(u,a)},s);default:return qa}},N,U);var
-g=H,b=_;for(;;){if(g){var
+s=b[1],u=function(b){return cy(a,b)};return bK(function(a){return cl(u,a)},s);default:return qd}},N,V);var
+g=H,b=$;for(;;){if(g){var
 u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
 v=t(c,b,0);if(v){var
-l=X(L,c);if(l){var
-x=kT(a,K,I,h,q,l[1],i);if(x){var
-g=k,b=fi(c,b);continue}var
-z=x}else
+l=T(L,c);if(l){var
+y=kU(a,J,I,h,q,l[1],i);if(y){var
+g=k,b=fj(c,b);continue}var
+z=y}else
 var
 z=l;var
 A=z}else
@@ -3444,26 +3455,26 @@ var
 A=v;return A}if(typeof
 i==="number"&&4===i){var
 O=0;if(h){var
-Z=0,r=e(function(b){return[0,b,S(a,b)]},p),Q=e(b_,r),P=0,R=f(e(aJ,r),Q),T=bE(0,function(n){return function(b){switch(b[0]){case
+Z=0,r=e(function(b){return[0,b,S(a,b)]},p),Q=e(b_,r),P=0,R=f(e(aJ,r),Q),U=bF(0,function(n){return function(b){switch(b[0]){case
 0:return[0,t(b[1],n,C)];case
 1:return[0,t(b[1],M,C)];case
-2:return[0,$(a,b[1])];case
+2:return[0,_(a,b[1])];case
 3:var
 c=b[2],d=b[1];return cm(function(b,a){return[0,B(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cm(function(b,a){return[0,J(b,a)]},f,e);case
+e=b[2],f=b[1];return cm(function(b,a){return[0,K(b,a)]},f,e);case
 5:var
 g=b[1];return cl(function(a){return[0,af(a)]},g);case
 6:var
 h=b[2],i=b[1];return cm(function(c,b){return[0,w(a,c,b)]},i,h);case
 7:var
 j=b[2],k=b[1];return cm(function(c,b){var
-d=cc(a,b);return y(function(b){return w(a,c,b)},d)},k,j);case
+d=cc(a,b);return x(function(b){return w(a,c,b)},d)},k,j);case
 8:var
 l=b[1];return cl(function(b){return[0,S(a,b)]},l);case
 9:var
-m=b[1];return cl(function(b){return cx(a,b)},m);default:return 0}}}(R),N,P),j=t(h[1],T,Z);if(j){var
-m=W(j[1][2],d);O=1}else
+m=b[1];return cl(function(b){return cy(a,b)},m);default:return 0}}}(R),N,P),j=t(h[1],U,Z);if(j){var
+m=X(j[1][2],d);O=1}else
 var
 s=j}else
 var
@@ -3471,51 +3482,51 @@ s=h;if(!O)var
 m=s;if(m){var
 g=k,b=e(function(a){return 0},b);continue}return m}var
 D=t(c,b,0);if(D){var
-o=X(L,c);if(o){var
-E=kT(a,K,I,h,q,o[1],i);if(E){var
-g=k,b=fi(c,b);continue}var
+o=T(L,c);if(o){var
+E=kU(a,J,I,h,q,o[1],i);if(E){var
+g=k,b=fj(c,b);continue}var
 F=E}else
 var
 F=o;var
 G=F}else
 var
 G=D;return G}return[0,b]}}function
-kV(i,h,g,f,e,d,c,t,s,r){var
+kW(i,h,g,f,e,d,c,t,s,r){var
 b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kU(i,h,g,f,e,d,c,b,a[1],j);return k?n(ac,k[1]):k}var
-l=kU(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=d5(a[2],b),p=kV(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
+k=kV(i,h,g,f,e,d,c,b,a[1],j);return k?n(ad,k[1]):k}var
+l=kV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
+m=l[1],o=d5(a[2],b),p=kW(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
 b=o[2],j=m,a=a[4];continue}var
 q=p}else
 var
 q=l;return q}}function
-fu(b,a){var
-c=p(b[2],a[1]),d=s(p(b[1],a[2]),c),e=p(b[1],a[3]),f=s(p(b[3],a[1]),e),g=p(b[3],a[2]);return[0,s(p(b[2],a[3]),g),f,d]}function
-g$(d,a){var
-e=K(a),f=p(p(l(c(2,b)),a),d);return F(s(K(d),f),e)}function
-kW(c,b,a){switch(c){case
+fv(b,a){var
+c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
+hd(d,a){var
+e=H(a),f=o(o(l(c(2,b)),a),d);return F(s(H(d),f),e)}function
+kX(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-ha(a){switch(a){case
-0:return[0,qw,qv,l(d)];case
+fw(a){switch(a){case
+0:return[0,qA,qz,l(d)];case
 1:return cj;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fv(a){switch(a){case
-0:return qx;case
-1:return qy;default:return 0}}function
-kX(i,k,h,j,a,e){var
-d=ha(i),f=au(s,d,a),g=kL(k,e),m=g$(d[3],a[3]),n=g$(d[2],a[2]),o=g$(d[1],a[1]),q=F(F(F(ad(e,e),o),n),m),r=ad(g,f),t=p(l(c(2,b)),r),u=F(p(h,q),t),v=cC(fu(g,f),j);return[0,kW(i,au(F,bU(h,f),g),v),u]}function
-ds(b,a){var
+fx(a){switch(a){case
+0:return qB;case
+1:return qC;default:return 0}}function
+kY(i,k,h,j,a,e){var
+d=fw(i),f=as(s,d,a),g=hc(k,e),m=hd(d[3],a[3]),n=hd(d[2],a[2]),p=hd(d[1],a[1]),q=F(F(F(ab(e,e),p),n),m),r=ab(g,f),t=o(l(c(2,b)),r),u=F(o(h,q),t),v=cD(fv(g,f),j);return[0,kX(i,as(F,bH(h,f),g),v),u]}function
+cn(b,a){var
 c=aF(a[2],b);return f(aF(a[1],b),c)}function
-kY(g,f,e,d,b,a,c){if(a)var
-h=a[1],j=bH(c,ds(b,h)),l=N(c,i(ds(b,h))),m=kY(g,f,e,d,b,a[2],l),n=aa(j,qz),k=[0,kX(g,f,e,d,aa(j,0),n),m];else
+kZ(g,f,e,d,b,a,c){if(a)var
+h=a[1],i=br(c,cn(b,h)),l=L(c,j(cn(b,h))),m=kZ(g,f,e,d,b,a[2],l),n=$(i,qD),k=[0,kY(g,f,e,d,$(i,0),n),m];else
 var
 k=a;return k}function
-kZ(r,q,p,o,j,c,n){if(c){var
-s=c[1],k=bH(n,ds(j,s)),u=N(n,i(ds(j,s))),v=kZ(r,q,p,o,j,c[2],u),w=aa(k,qA),a=kX(r,q,p,o,aa(k,0),w),x=aa(k,0),e=a[1];if(e){var
+k0(r,q,p,o,i,c,n){if(c){var
+s=c[1],k=br(n,cn(i,s)),u=L(n,j(cn(i,s))),v=k0(r,q,p,o,i,c[2],u),w=$(k,qE),a=kY(r,q,p,o,$(k,0),w),x=$(k,0),e=a[1];if(e){var
 f=e[2],b=e[1];if(f){var
 l=f[2],g=f[1];if(l)var
-m=l[1],h=fu(x,[0,b,g,m]),d=[0,[0,b,[0,g,[0,m,[0,h[1],[0,h[2],[0,h[3],0]]]]]],a[2]];else
+m=l[1],h=fv(x,[0,b,g,m]),d=[0,[0,b,[0,g,[0,m,[0,h[1],[0,h[2],[0,h[3],0]]]]]],a[2]];else
 var
 d=[0,[0,b,[0,g,0]],a[2]]}else
 var
@@ -3525,195 +3536,220 @@ d=[0,0,a[2]];var
 t=[0,d,v]}else
 var
 t=c;return t}function
-hb(g,a){if(typeof
+k1(k,c,h,n,g,a,m){if(a)var
+p=a[1],q=br(m,cn(g,p)),A=L(m,j(cn(g,p))),B=k1(k,c,h,n,g,a[2],A),e=$(q,qF),C=$(q,0),v=as(s,fw(k),C),f=function(a){var
+b=i(a,c[3]),d=i(a,c[2]);return[0,i(a,c[1]),d,b]},t=f(function(a){return a[3]}),u=f(function(a){return a[2]}),w=hc([0,f(function(a){return a[1]}),u,t],v),x=as(F,bH(h,e),w),y=2<=k?d:b,z=function(a){var
+b=H(n),c=l(y),d=o(s(H(a),c),b);return o(h,s(ab(e,e),d))},r=[0,[0,ab(x,e),z],B];else
+var
+r=a;return r}function
+fy(h,a){if(typeof
 a!=="number")switch(a[0]){case
+6:var
+f=[5,a[3],a[2]];return[0,[0,f,f],d];case
 8:var
-f=[5,a[2],a[1]];return[0,[0,f,f],d];case
+g=[5,a[2],a[1]];return[0,[0,g,g],d];case
 2:case
 3:var
-e=a[2];return[0,[0,e,e],g]}var
+e=a[2];return[0,[0,e,e],h]}var
 c=[0,d,b];return[0,[0,c,c],d]}function
-hc(e,d,n,m,l,a){var
-f=p(K(bX(hb(m,a),l)),n);if(typeof
+he(e,d,n,m,l,a){var
+f=o(H(bJ(fy(m,a),l)),n);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=X(d,a[1]);if(b)var
+b=T(d,a[1]);if(b)var
 h=g(e,0,a[2]),i=h?[0,s(b[1][2],f)]:h;else
 var
 i=b;return i;case
 3:var
-c=X(d,a[1]);if(c)var
+c=T(d,a[1]);if(c)var
 j=g(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
 var
 k=c;return k}return 0}function
-k0(a,d,c,b){return e(function(a){var
-e=bX(hb(d,b),c),f=p(a[2],e);return[0,a[1],f]},a)}function
-k1(c,f,s,e,i,q,p,o){if(o){var
-ac=k1(c,f,s,e,i,q,[0,p],o[2]),a=o[1],t=function(c,b,a){return[0,c,b,a,s]},l=0;if(typeof
+k2(a,d,c,b){return e(function(a){var
+e=bJ(fy(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
+k3(b,d,c,a){if(typeof
+a!=="number"&&6===a[0]){var
+e=T(b,a[1]);return x(function(b){var
+e=bJ(fy(d,a),c),f=i(b[2],e);return[0,b[1],f]},e)}return 0}function
+k4(e,c,s,f,N,j,l,k,n){if(n){var
+ad=k4(e,c,s,f,N,j,l,[0,k],n[2]),a=n[1],t=function(c,b,a){return[0,c,b,a,s]},o=0;if(typeof
 a==="number")var
-P=k(f,i),h=[0,t(k(ap(f),e),P,C)];else
+Q=i(c,j),h=[0,t(i(ap(c),f),Q,C)];else
 switch(a[0]){case
 0:var
-j=[5,[0,b,b],a[1]],n=e,m=t;l=1;break;case
+m=[5,[0,b,b],a[1]],p=t;o=1;break;case
 1:var
-R=[5,[0,b,b],a[1]],j=R,n=e,m=function(c,b,a){return[1,c,b,a]};l=1;break;case
+U=[5,[0,b,b],a[1]],m=U,p=function(c,b,a){return[1,c,b,a]};o=1;break;case
 2:var
-T=hc(c,e,i,q,p,a),h=y(function(a){return[4,k(f,a)]},T);break;case
+V=he(e,f,j,l,k,a),h=x(function(a){return[4,i(c,a)]},V);break;case
 3:var
-U=hc(c,e,i,q,p,a),h=y(function(a){return[4,k(f,a)]},U);break;case
+W=he(e,f,j,l,k,a),h=x(function(a){return[4,i(c,a)]},W);break;case
 5:var
-u=a[1],V=ah(c,[0,[0,u,u],d]),h=y(function(a){var
-b=S(c,a),d=k(f,i);return[2,k(ap(f),e),d,b]},V);break;case
+u=a[1],X=ah(e,[0,[0,u,u],d]),h=x(function(a){var
+b=S(e,a),d=i(c,j);return[2,i(ap(c),f),d,b]},X);break;case
 6:var
-v=a[3],w=a[2],r=X(e,a[1]),N=0;if(r){var
-x=g(c,1,w),z=x?g(c,0,v):x;if(z){var
-W=[5,v,w],Y=[0,r[1],0],j=W,n=Y,m=function(c,b,a){return[1,c,b,a]};l=1;N=1}else
+q=T(f,a[1]);if(q){var
+r=k3(N,l,k,a);if(r){var
+v=r[1],w=g(e,1,a[2]),y=w?g(e,1,a[3]):w;if(y)var
+Y=i(c,v[2]),Z=i(c,q[1][2]),z=[0,[5,[0,[0,[0,i(c,v[1]),0],Z],0],Y]];else
 var
+z=y;var
 A=z}else
 var
-A=r;if(!N)var
-h=A;break;case
+A=r;var
+B=A}else
+var
+B=q;var
+h=B;break;case
 7:var
-B=a[3],D=a[2],E=a[1],F=X(e,E),O=0;if(F){var
-G=g(c,1,D),H=G?g(c,1,B):G;if(H){var
-Z=[5,D,B],j=Z,n=e,m=function(c,b,a){return[3,E,c,b,a,s]};l=1;O=1}else
+D=a[3],E=a[2],F=a[1],G=T(f,F),P=0;if(G){var
+H=g(e,1,E),I=H?g(e,1,D):H;if(I){var
+$=[5,E,D],m=$,p=function(c,b,a){return[3,F,c,b,a,s]};o=1;P=1}else
 var
-I=H}else
+J=I}else
 var
-I=F;if(!O)var
-h=I;break;case
+J=G;if(!P)var
+h=J;break;case
 8:var
-J=g(c,1,a[1]),K=J?g(c,1,a[2]):J;if(K)var
-_=$(c,b),aa=k(f,i),ab=k0(e,q,p,a),L=[0,[0,k(ap(f),ab),aa,_,0]];else
+K=g(e,1,a[1]),L=K?g(e,1,a[2]):K;if(L)var
+aa=_(e,b),ab=i(c,j),ac=k2(f,l,k,a),M=[0,[0,i(ap(c),ac),ab,aa,0]];else
 var
-L=K;var
-h=L;break;default:var
-h=0}if(l)var
-Q=ah(c,[0,[0,j,j],d]),h=y(function(a){var
-b=S(c,a),d=k(f,i);return m(k(ap(f),n),d,b)},Q);var
-M=[0,h,ac]}else
+M=L;var
+h=M;break;default:var
+h=0}if(o)var
+R=ah(e,[0,[0,m,m],d]),h=x(function(a){var
+b=S(e,a),d=i(c,j);return p(i(ap(c),f),d,b)},R);var
+O=[0,h,ad]}else
 var
-M=o;return M}function
-k2(j,h,i,g,d,a){if(a){var
-n=k2(j,h,i,g,[0,d],a[2]),b=a[1],l=0;if(typeof
-b!=="number"&&8===b[0]){var
-k=e(b_,k0(h,g,d,b));l=1}if(!l)var
-c=hc(j,h,i,g,d,b),m=c?[0,c[1],0]:c,k=m;return f(k,n)}return a}function
-qB(a){if(typeof
+O=n;return O}function
+k5(p,i,o,n,d,c,b){if(b){var
+r=k5(p,i,o,n,d,[0,c],b[2]),a=b[1],k=0;if(typeof
+a==="number")k=1;else
+switch(a[0]){case
+6:var
+h=k3(o,d,c,a);if(h)var
+l=h[1],m=[0,l[1],[0,l[2],0]];else
+var
+m=h;var
+j=m;break;case
+8:var
+j=e(b_,k2(i,d,c,a));break;default:k=1}if(k)var
+g=he(p,i,n,d,c,a),q=g?[0,g[1],0]:g,j=q;return f(j,r)}return b}function
+qG(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-k3(b,a){switch(b){case
+k6(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fw(a){var
-c=bT(a[1],[0,d,b]);return c?bT(a[2],[0,d,b]):c}function
-hd(d,a){switch(d){case
-0:return fw(a[3]);case
+fz(a){var
+c=bV(a[1],[0,d,b]);return c?bV(a[2],[0,d,b]):c}function
+hf(d,a){switch(d){case
+0:return fz(a[3]);case
 1:return 1;default:var
-b=fw(a[1]),c=b?fw(a[2]):b;return c?fw(a[3]):c}}function
-qC(j,X,aR,a,m,aQ){var
-o=a[1],h=dl(o),Y=a[3],aS=[0,[0,[0,Y,Y],m],0],aT=a[2],Z=f(z(function(a){return ds(m,a)},aT),aS),H=i(Z),aU=a[2],aW=i(z(function(a){return ds(m,a)},aU)),_=a[3],$=bX([0,[0,_,_],m],aW),aX=fv(o),aa=kN(a[5],aX),w=aa[2],ab=aa[1],C=kY(o,ab,w,$,m,a[2],0),aY=N(H,i(a[6])),aZ=fv(o),a0=a[5];function
-x(a){return[0,[0,N(aZ,a)]]}var
-S=K([0,[1,aY]]);switch(a0[0]){case
+b=fz(a[1]),c=b?fz(a[2]):b;return c?fz(a[3]):c}}function
+qH(m,Z,aS,a,k,aR){var
+p=a[1],h=dm(p),_=a[3],aT=[0,[0,[0,_,_],k],0],aU=a[2],$=f(z(function(a){return cn(k,a)},aU),aT),I=j($),aW=a[2],aX=j(z(function(a){return cn(k,a)},aW)),aa=a[3],J=bJ([0,[0,aa,aa],k],aX),aY=fx(p),ac=kO(a[5],aY),w=ac[2],K=ac[1],C=kZ(p,K,w,J,k,a[2],0),ae=k1(p,K,w,J,k,a[2],0),aZ=L(I,j(a[6])),a0=fx(p),a1=a[5];function
+y(a){return[0,[0,L(a0,a)]]}var
+U=H([0,[1,aZ]]);switch(a1[0]){case
 2:var
-aI=x(qo),aJ=x(qp),T=[0,x(0),aJ,aI],r=[0,s(S,ad(T,T))];break;case
+aJ=y(qr),aK=y(qs),V=[0,y(0),aK,aJ],r=[0,s(U,ab(V,V))];break;case
 3:var
-aK=K(x(qq)),aL=K(x(0)),aN=K(x(qr)),r=[0,s(s(p(S,F(l(b),aN)),aL),aK)];break;default:var
+aL=H(y(qt)),aN=H(y(0)),aO=H(y(qu)),r=[0,s(s(o(U,F(l(b),aO)),aN),aL)];break;default:var
 r=0}var
-ae=a[7],af=ae?kZ(o,ab,w,$,m,a[2],0):ae,a1=bs(af),a2=r?[0,r[1],0]:r,a3=f(a2,a1),a4=[0,w,f(k2(j,C,w,m,H,a[6]),a3)],I=f(bs(C),a4),ag=da(e(function(a){return ef(h,a)},I))[1],A=cz(ag);function
+af=a[7],ag=af?k0(p,K,w,J,k,a[2],0):af,a2=bt(ag),a3=r?[0,r[1],0]:r,a4=f(a3,a2),a5=[0,w,f(k5(m,C,ae,w,k,I,a[6]),a4)],M=f(bt(C),a5),ai=db(e(function(a){return ef(h,a)},M))[1],A=cA(ai);function
 v(a){return bm(A,ef(h,a))}if(0===a[4][0]){var
-a5=y(v,r),a6=v(w),ai=k(ap(v),C),U=fv(o),V=u(i(ai),h);if(V)var
-W=y(function(a){return[0,[0,a,d],d]},a5),B=function(a){return t(a,A,l(d))},R=B(a6),aH=aV(0,U),G=n(function(a){var
-b=dm(h,a,R),c=b?n(function(b){var
+a6=x(v,r),a7=v(w),ak=i(ap(v),C),W=fx(p),X=u(j(ak),h);if(X)var
+Y=x(function(a){return[0,[0,a,d],d]},a6),B=function(a){return t(a,A,l(d))},T=B(a7),aI=aV(0,W),G=n(function(a){var
+b=dn(h,a,T),c=b?n(function(b){var
 d=b[1],c=n(function(b){var
-c=B(b);return cM(N(h,a),c)},d);if(c){var
-e=B(b[2]);return g9(R,N(h,a),e)}return c},ai):b;if(c){if(W){var
-e=B(W[1][1][1]);return cM(N(h,a),e)}var
+c=B(b);return cN(L(h,a),c)},d);if(c){var
+e=B(b[2]);return ha(T,L(h,a),e)}return c},ak):b;if(c){if(Y){var
+e=B(Y[1][1][1]);return cN(L(h,a),e)}var
 d=1}else
 var
-d=c;return d},aH);else
+d=c;return d},aI);else
 var
-G=V;var
-aP=G?U:G,ak=aP}else
+G=X;var
+aQ=G?W:G,al=aQ}else
 var
-ak=0;var
-al=n(function(a){var
-b=ef(h,a),c=l(d);return aM(t(v(a),A,c),b)},I),am=al?n(function(a){return kC(h,a)},I):al,an=am?ar(qB,a[6]):am;if(an){var
-ao=ac(a[7]);if(ao)var
-D=ao;else{var
-aF=a[5];if(1===o&&2===aF[0])var
-aO=aF[1],aG=g(j,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],aO]);else
+al=0;var
+am=n(function(a){var
+b=ef(h,a),c=l(d);return aM(t(v(a),A,c),b)},M),an=am?n(function(a){return kD(h,a)},M):am,ao=an?ar(qG,a[6]):an;if(ao){var
+aq=ad(a[7]);if(aq)var
+D=aq;else{var
+aG=a[5];if(1===p&&2===aG[0])var
+aP=aG[1],aH=g(m,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],aP]);else
 var
-aG=0;var
-D=aG}}else
+aH=0;var
+D=aH}}else
 var
-D=an;var
-aq=D?hd(o,dj(a[4])):D,as=aq?g(j,1,a[3]):aq;if(as)var
-a7=ft(a[5]),J=n(function(a){var
-b=ee(j,a[1]);return b?ee(j,a[2]):b},a7);else
+D=ao;var
+as=D?hf(p,dk(a[4])):D,at=as?g(m,1,a[3]):as;if(at)var
+a8=fu(a[5]),N=n(function(a){var
+b=ee(m,a[1]);return b?ee(m,a[2]):b},a8);else
 var
-J=as;if(J){var
-a8=a[6],a9=f(Z,e(function(a){return hb(m,a)},a8)),L=aj(e(function(a){return ah(j,a)},a9));if(L){var
-a_=k3(o,dj(a[4])),M=aj(e(function(a){return ah(j,[0,a,m])},a_));if(M){var
-at=M[1],a$=kP(a[5]),O=aj(e(function(a){return kR(j,a)},a$));if(O){var
-au=O[1],ba=kO(a[5]),P=aj(e(function(a){return dk(j,a)},ba));if(P){var
-Q=aj(k1(j,v,ak,C,w,m,H,a[6]));if(Q){var
-av=Q[1];if(a[7])var
-bb=X[2],bc=X[1],bd=v(w),E=ki(aR,av,[5,k(ap(v),af),bd,bc,bb]);else
+N=at;if(N){var
+a9=a[6],a_=f($,e(function(a){return fy(k,a)},a9)),O=aj(e(function(a){return ah(m,a)},a_));if(O){var
+a$=k6(p,dk(a[4])),P=aj(e(function(a){return ah(m,[0,a,k])},a$));if(P){var
+au=P[1],ba=kQ(a[5]),Q=aj(e(function(a){return kS(m,a)},ba));if(Q){var
+av=Q[1],bb=kP(a[5]),R=aj(e(function(a){return dl(m,a)},bb));if(R){var
+S=aj(k4(m,v,al,C,ae,w,k,I,a[6]));if(S){var
+aw=S[1];if(a[7])var
+bc=Z[2],bd=Z[1],be=v(w),E=kj(aS,aw,[6,i(ap(v),ag),be,bd,bc]);else
 var
-E=av;var
-aw=u(i(f(at,au)),h),ax=aw?n(function(a){switch(a[0]){case
+E=aw;var
+ax=u(j(f(au,av)),h),ay=ax?n(function(a){switch(a[0]){case
 3:var
-d=kJ(a[2]),b=[0,a[3],d];break;case
+d=kL(a[2]),b=[0,a[3],d];break;case
 4:var
 b=[0,a[1],0];break;default:var
-c=kJ(a[1]),b=[0,a[2],c]}return n(function(a){return kK(h,A,a)},b)},E):aw,ay=ax?r?kK(h,A,v(r[1])):1:ax;if(ay){var
-be=e(function(a){return 1},E),bf=f(at,au),bg=y(v,r);return kV(j,ag,f(L[1],P[1]),E,h,h,bg,bf,be,aQ)}var
-az=ay}else
-var
-az=Q;var
+c=kL(a[1]),b=[0,a[2],c]}return n(function(a){return kM(h,A,a)},b)},E):ax,az=ay?r?kM(h,A,v(r[1])):1:ay;if(az){var
+bf=e(function(a){return 1},E),bg=f(au,av),bh=x(v,r);return kW(m,ai,f(O[1],R[1]),E,h,h,bh,bg,bf,aR)}var
 aA=az}else
 var
-aA=P;var
+aA=S;var
 aB=aA}else
 var
-aB=O;var
+aB=R;var
 aC=aB}else
 var
-aC=M;var
+aC=Q;var
 aD=aC}else
 var
-aD=L;var
+aD=P;var
 aE=aD}else
 var
-aE=J;return aE}function
+aE=O;var
+aF=aE}else
+var
+aF=N;return aF}function
 ei(b,a){return a9(b,a[1],a[2])}function
-k4(b,a){var
+k7(b,a){var
 c=ei(b,a[1]),d=c?ei(b,a[2]):c;return d?ei(b,a[3]):d}function
 a0(a){return typeof
-a==="number"?a?qD:qE:dl(a[1])}function
-k5(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g8(b[1],a,c)}function
-fx(a){if(0===a[0]){var
+a==="number"?a?qI:qJ:dm(a[1])}function
+k8(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g$(b[1],a,c)}function
+fA(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-he(b,c,a){return b?fq(b[1],c,a):a}function
+hg(b,c,a){return b?fr(b[1],c,a):a}function
 bZ(d,c,b,a){var
-e=fx(a),f=he(d,c,fx(a)),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
-k6(b,a){var
+e=fA(a),f=hg(d,c,fA(a)),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
+k9(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-k7(b,w,v){var
+k_(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?j9(b,j[1],f[1]):0;else
+h=0===f[0]?j_(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cG(b,c[5],a[5]):n,p=o?cG(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
-u=g0(a),i=g(b,1,O(g0(a),u));else
+a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cH(b,c[5],a[5]):n,p=o?cH(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
+u=g3(a),i=g(b,1,O(g3(a),u));else
 var
 i=s;var
 h=i?b$(c[7],a[7]):i}if(h){var
@@ -3721,89 +3757,89 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-k8(a){return typeof
-a==="number"?a?ha(0):cj:ha(a[1])}function
-hf(b,d,c){if(0===c[0])return fk(b,d[1],c[1]);var
+k$(a){return typeof
+a==="number"?a?fw(0):cj:fw(a[1])}function
+hh(b,d,c){if(0===c[0])return fl(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aF(a[4],b),e),h=f(aF(a[3],b),g),i=f(aF(a[2],d[2]),h);return f(aF(a[1],d[1]),i)}function
-hg(b,a){if(b){var
-c=b[1],d=c[2];return cC(kL(c[1],a),d)}return a}function
-k9(f,u,al,J,aj,r,ai){if(r){var
-j=r[1],am=bC([0,d,d],aj),a=bH(ai,hf(J,am,j)),y=function(c,b){var
-d=aa(a,c);return au(s,au(F,k8(f),b),d)};if(0===j[0]){var
-z=j[1];switch(z[0]){case
+hi(b,a){if(b){var
+c=b[1],d=c[2];return cD(hc(c[1],a),d)}return a}function
+la(f,u,al,K,aj,r,ai){if(r){var
+i=r[1],am=bD([0,d,d],aj),a=br(ai,hh(K,am,i)),y=function(c,b){var
+d=$(a,c);return as(s,as(F,k$(f),b),d)};if(0===i[0]){var
+z=i[1];switch(z[0]){case
 0:var
-_=hg(u,aa(a,qF)),aD=z[1][5],A=t(qG,a,l(d)),B=aa(a,0),$=y(qH,_),h=jz($,cD(B),$,A,aD),ao=[0,aE(A),0],ap=[0,aE(ad(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+_=hi(u,$(a,qK)),aD=z[1][5],A=t(qL,a,l(d)),B=$(a,0),aa=y(qM,_),h=jA(aa,cE(B),aa,A,aD),ao=[0,aE(A),0],ap=[0,aE(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
 1:var
-ab=hg(u,aa(a,qI)),ac=z[3],C=ac?[0,aa(a,qJ)]:ac,ae=y(0,ab),m=jA(ae,ae,0);if(C)var
-L=C[1],M=[0,aE(ad(L,L)),0];else
+ac=hi(u,$(a,qN)),ad=z[3],C=ad?[0,$(a,qO)]:ad,ae=y(0,ac),m=jB(ae,ae,0);if(C)var
+M=C[1],N=[0,aE(ab(M,M)),0];else
 var
-M=C;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ab];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=aa(a,0),aI=k8(f),n=jB(aI,cD(D)),aq=[0,aE(ad(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+N=C;var
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,N],ac];break;default:var
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=$(a,0),aI=k$(f),n=jC(aI,cE(D)),aq=[0,aE(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-af=hg(u,aa(a,qK)),E=j[1][7],G=t(qL,a,l(d)),e=t(qM,a,l(d)),ag=aa(a,qN),H=aa(a,0),q=y(qO,af),o=cD(H),v=au(s,ag,bU(ad(o,ag),o)),w=cD(v),O=fu(o,w),P=ad(q,w),Q=ad(q,O),ar=ad(o,q),as=K(Q),R=F(K(P),as),at=K(ar),S=s(K(G),at),av=p(l(c(2,b)),e),x=s(R,K(ak(F(R,s(K(e),S)),av))),aw=fa(E,p(e,aE(x))),T=ak(P,e),U=fa(E,ak(Q,e)),V=ak(S,K(e)),W=i_(0,T,U,V),X=fa(E,i_(1,T,U,V)),ax=bU(X,O),Y=au(s,q,bU(e,au(F,bU(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ad(v,v)),az],aB=[0,aE(ad(H,H)),aA],aC=cC(Y,aw),k=[0,[0,Y,p(K(e),x),aC,[1,W,X],[0,[0,x,G]],aB],af];var
-aP=N(ai,i(hf(J,am,j))),aQ=r[2],aR=k9(f,u,al,J,cb(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cC(fu(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:ci(a):kW(f[1],a,b)},I=g[1],Z=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,I[1],[0,I[2],0]]:ci(I):Z,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hi(u,$(a,qP)),E=i[1][7],G=t(qQ,a,l(d)),e=t(qR,a,l(d)),ag=$(a,qS),I=$(a,0),q=y(qT,af),p=cE(I),v=as(s,ag,bH(ab(p,ag),p)),w=cE(v),O=fv(p,w),P=ab(q,w),Q=ab(q,O),ar=ab(p,q),at=H(Q),R=F(H(P),at),au=H(ar),S=s(H(G),au),av=o(l(c(2,b)),e),x=s(R,H(ak(F(R,s(H(e),S)),av))),aw=fb(E,o(e,aE(x))),T=ak(P,e),U=fb(E,ak(Q,e)),V=ak(S,H(e)),W=i$(0,T,U,V),X=fb(E,i$(1,T,U,V)),ax=bH(X,O),Y=as(s,q,bH(e,as(F,bH(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ab(v,v)),az],aB=[0,aE(ab(I,I)),aA],aC=cD(Y,aw),k=[0,[0,Y,o(H(e),x),aC,[1,W,X],[0,[0,x,G]],aB],af];var
+aP=L(ai,j(hh(K,am,i))),aQ=r[2],aR=la(f,u,al,K,cb(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cD(fv(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:ci(a):kX(f[1],a,b)},J=g[1],Z=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,J[1],[0,J[2],0]]:ci(J):Z,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
-hh(c,b,a){if(a){var
-e=a[2],g=hh(c,cb(b),e),h=a[1];return f(hf(c,bC([0,d,d],b),h),g)}return a}function
-k_(b,a){if(a){var
-g=k_([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bX([0,[0,d,d],c[2]],b);else
+hj(c,b,a){if(a){var
+e=a[2],g=hj(c,cb(b),e),h=a[1];return f(hh(c,bD([0,d,d],b),h),g)}return a}function
+lb(b,a){if(a){var
+g=lb([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=bJ([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-hi(b,a){return b?M(a):d}function
-fy(c,b,a){if(typeof
+hk(b,a){return b?N(a):d}function
+fB(c,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-g=hi(c,b),h=x(hi(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
-9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
+g=hk(c,b),h=y(hk(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
+9:return[0,[1,[5,a[3],a[2]],N(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-k$(a){if(a){var
+lc(a){if(a){var
 b=a[1][6];if(b)var
-c=k$(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=lc(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return qP}function
-la(y,U,b){function
-c(a){return t(a,U,l(d))}function
+d=b;return d}return qU}function
+ld(y,V,b){function
+c(a){return t(a,V,l(d))}function
 N(a){var
-e=a[2],f=p(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c7(function(b,a){return s(b,K(a))},g,f),d],b]}function
+e=a[2],f=o(H(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c8(function(b,a){return s(b,H(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=K(b[2]),g=p(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=H(b[2]),g=o(H(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
 C=0;if(typeof
 b==="number")C=1;else
 switch(b[0]){case
 2:var
-V=function(b){var
-a=b[4];if(typeof
-a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=V,f=b[1];break;case
-3:var
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+3:var
+X=function(b){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0]){var
+d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=p(c(qQ),b),g=[0,[0,s(p(c(qR),d),f),0],0],h=p(d,c(qS));return[0,[0,s(p(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=o(c(qV),b),g=[0,[0,s(o(c(qW),d),f),0],0],h=o(d,c(qX));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3819,24 +3855,24 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=k$(y);if(A){var
-aa=c(0),P=c7(p,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=lc(y);if(A){var
+aa=c(0),P=c8(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
 k=j[2],E=j[1];if(k)if(k[2]||!h)var
 a=l(d);else{var
 m=h[2],n=h[1];if(n){var
-o=n[2],G=n[1];if(o){var
-q=o[2],H=o[1];if(q){var
-I=q[1];if(q[2]||!m)var
+p=n[2],G=n[1];if(p){var
+q=p[2],I=p[1];if(q){var
+J=q[1];if(q[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
-u=r[2],J=r[1];if(u){var
+u=r[2],K=r[1];if(u){var
 v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cF(G,H,J,L),S=p(k[1],R),T=p(E,cF(G,I,J,M)),a=F(s(p(D,cF(H,I,L,M)),T),S)}else
+R=cG(G,I,K,L),S=o(k[1],R),U=o(E,cG(G,J,K,M)),a=F(s(o(D,cG(I,J,L,M)),U),S)}else
 var
 a=l(d)}else
 var
@@ -3851,7 +3887,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cF(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cG(D,E,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -3865,83 +3901,83 @@ a=l(d);var
 ab=[0,bl(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
-z=X(y,f);return z?g(z[1]):z}function
-fz(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+z=T(y,f);return z?g(z[1]):z}function
+fC(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 ej(a){return e(function(a){var
 c=l(b);return[0,a[3],c]},a)}function
-lb(a,b){return e(function(a){var
-c=p(a[2],b);return[0,a[1],c]},a)}function
-lc(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bs(lb(c,t(0,b,l(d))));return i2(la(c,b,a))}function
+le(a,b){return e(function(a){var
+c=o(a[2],b);return[0,a[1],c]},a)}function
+lf(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bt(le(c,t(0,b,l(d))));return i3(ld(c,b,a))}function
 ek(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],j=ek(g,c,b,N(e,i(fy(c,b,d))),h);return f(as(g,k_(e,fy(c,b,d)),d),j)}return a}function
-ld(b,a){switch(a[0]){case
+d=a[1],h=a[2],i=ek(g,c,b,L(e,j(fB(c,b,d))),h);return f(at(g,lb(e,fB(c,b,d)),d),i)}return a}function
+lg(b,a){switch(a[0]){case
 0:var
 d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jk(b,c[1]):c;case
-2:return dc(b,a[1]);default:return e7(b,a[1])}}function
-le(f,h,m,I,H,r,a){if(typeof
+e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jl(b,c[1]):c;case
+2:return dd(b,a[1]);default:return e8(b,a[1])}}function
+lh(f,h,m,I,H,r,a){if(typeof
 a==="number")return[0,[0,[0,C]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,b,b],a[1]],i=J,n=function(a){return[0,a]};break;case
+J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,b,b],a[1]],i=M,n=function(a){return[1,a]};break;case
+M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-x=a[1],P=0,Q=ah(f,[0,[0,x,x],d]);return[0,y(function(a){return[2,S(f,a)]},Q),P];case
+y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,S(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],B=a[1];if(!X(m,B))return qV;var
+z=a[3],A=a[2],B=a[1];if(!T(m,B))return q0;var
 G=0;if(g(f,1,A)&&g(f,1,z))var
-R=[5,A,z],i=R,n=function(a){return[7,B,a]};else
-G=1;if(G)return qU;break;case
+R=[5,A,z],j=R,n=function(a){return[7,B,a]};else
+G=1;if(G)return qZ;break;case
 8:var
-D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=$(f,b),V=lb(m,t(0,r,l(d))),F=[0,[4,k(ap(h),V),U]];else
+D=g(f,1,a[1]),U=0,E=D?g(f,1,a[2]):D;if(E)var
+V=_(f,b),W=le(m,t(0,r,l(d))),F=[0,[4,i(ap(h),W),V]];else
 var
-F=E;return[0,F,T];default:var
+F=E;return[0,F,U];default:var
 p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],s]):v,j=O;break;case
+s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],s]):v,k=O;break;case
 6:case
 9:var
-w=g(f,1,a[2]),j=w?g(f,0,a[3]):w;break;default:p=1}if(p)var
-j=1;var
-o=j?la(m,r,a):j;if(o){var
+w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:p=1}if(p)var
+k=1;var
+o=k?ld(m,r,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=k(h,b[1]);return[0,[5,k(h,c),e]]}var
-d=[0,[3,k(h,c)]]}else
+e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
+d=[0,[3,i(h,c)]]}else
 var
-d=a;return d},N)}return qT}var
-K=0,L=ah(f,[0,[0,i,i],hi(I,H)]);return[0,y(function(a){return n(S(f,a))},L),K]}function
-lf(a){if(typeof
+d=a;return d},N)}return qY}var
+K=0,L=ah(f,[0,[0,j,j],hk(I,H)]);return[0,x(function(a){return n(S(f,a))},L),K]}function
+li(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-qX(b){if(0===b[0])return[0,kg(b[1])];var
+q2(b){if(0===b[0])return[0,kh(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a_(a[4]),g=a_(a[3]),h=a_(a[2]);return[1,[0,a_(a[1]),h,g,f,e,d,c]]}function
-qY(K,c,a,h,an,aT){var
-aU=e(qX,a[2]),ao=k7(K,a[2],aU);if(ao)var
-aV=gZ(a[4]),L=d_(K,a[4],aV);else
+q3(K,c,a,h,an,aT){var
+aU=e(q2,a[2]),ao=k_(K,a[2],aU);if(ao)var
+aV=g2(a[4]),L=d_(K,a[4],aV);else
 var
 L=ao;if(L){var
 aq=a[5];if(aq)var
-aW=ft(aq[1]),as=n(function(a){return ei(K,a)},aW);else
+aW=fu(aq[1]),as=n(function(a){return ei(K,a)},aW);else
 var
 as=1;var
 M=as}else
 var
 M=L;if(M){var
-b=a[1],aw=a0(b),q=a[6],x=hh(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,i(x)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=y(function(a){var
+b=a[1],aw=a0(b),q=a[6],y=hj(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,j(y)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=x(function(a){var
 c=typeof
-b==="number"?0:fv(b[1]);return kN(a,c)},ax),az=a[2],j=k9(b,ay,bX(S,i(x)),h,an,az,0),U=z(function(a){return a[7]},j),aA=f(U,ek(function(a,b){return lc(j,a,b)},o,h,T,q)),aB=f(bs(ej(j)),aA),V=f(bs(fz(j)),aB),B=da(V)[1],aC=cz(B),p=function(a){return bm(aC,a)},W=n(function(a){var
-b=l(d),c=cz(B);return aM(t(p(a),c,b),a)},V),X=W?ar(lf,q):W;if(X){var
+b==="number"?0:fx(b[1]);return kO(a,c)},ax),az=a[2],k=la(b,ay,bJ(S,j(y)),h,an,az,0),U=z(function(a){return a[7]},k),aA=f(U,ek(function(a,b){return lf(k,a,b)},o,h,T,q)),aB=f(bt(ej(k)),aA),V=f(bt(fC(k)),aB),B=db(V)[1],aC=cA(B),p=function(a){return bm(aC,a)},W=n(function(a){var
+b=l(d),c=cA(B);return aM(t(p(a),c,b),a)},V),X=W?ar(li,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?hd(0,dj(Y)):1;else
+Z=b?hf(0,dk(Y)):1;else
 var
-au=dj(Y),Z=hd(b[1],au);var
+au=dk(Y),Z=hf(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3952,7 +3988,7 @@ if(2<=O[1])var
 r=0;else{var
 v=a[5],N=0;if(v){var
 P=g(c,1,a[3]);if(P)var
-av=ft(v[1]),r=n(function(a){var
+av=fu(v[1]),r=n(function(a){var
 b=ee(c,a[1]);return b?ee(c,a[2]):b},av);else{var
 Q=P;N=1}}else{var
 Q=v;N=1}if(N)var
@@ -3964,22 +4000,22 @@ aD=a[2],E=n(function(a){var
 b=0===a[0]?0:1;return b$(b,o)},aD);else
 var
 E=D;if(E){var
-aE=f(x,[0,S,0]),F=aj(e(function(a){return ah(c,a)},aE));if(F){var
-aF=z(function(a){return fy(o,h,a)},q),G=aj(e(function(a){return ld(c,a)},aF));if(G){var
-m=dj(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:k3(b[1],m),H=aj(e(function(a){return ah(c,[0,a,h])},aG));if(H){var
+aE=f(y,[0,S,0]),F=aj(e(function(a){return ah(c,a)},aE));if(F){var
+aF=z(function(a){return fB(o,h,a)},q),G=aj(e(function(a){return lg(c,a)},aF));if(G){var
+m=dk(a[4]),aG=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:k6(b[1],m),H=aj(e(function(a){return ah(c,[0,a,h])},aG));if(H){var
 _=H[1],$=a[5];if($)var
-aH=kP($[1]),s=aj(e(function(a){return kR(c,a)},aH));else
+aH=kQ($[1]),s=aj(e(function(a){return kS(c,a)},aH));else
 var
-s=qW;if(s){var
-aa=s[1],w=a[5],aI=w?kO(w[1]):w,I=aj(e(function(a){return dk(c,a)},aI));if(I){var
-J=aj(ek(function(a,b){return le(c,p,j,o,h,a,b)},o,h,T,q));if(J){var
-ab=J[1],ac=u(i(f(_,aa)),aw);if(ac){var
-aJ=gS(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
+s=q1;if(s){var
+aa=s[1],w=a[5],aI=w?kP(w[1]):w,I=aj(e(function(a){return dl(c,a)},aI));if(I){var
+J=aj(ek(function(a,b){return lh(c,p,k,o,h,a,b)},o,h,T,q));if(J){var
+ab=J[1],ac=u(j(f(_,aa)),aw);if(ac){var
+aJ=gV(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return j8(c,aL,h,a)};at=1}if(!at)var
+ad=function(a){return j9(c,aL,h,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ej(j),aR=k(ap(p),aQ),aS=fz(j);return fj(c,B,k(ap(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ej(k),aR=i(ap(p),aQ),aS=fC(k);return fk(c,B,i(ap(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
 ae=ac}else
 var
 ae=J;var
@@ -4001,7 +4037,7 @@ al=F;var
 am=al}else
 var
 am=E;return am}return M}function
-bt(c){var
+bu(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4010,83 +4046,83 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bt(a[2]);return f(bt(a[1]),e)}}function
+e=bu(a[2]);return f(bu(a[1]),e)}}function
 a$(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return bX([0,[0,r,r],d],c);case
+r=a[1];return bJ([0,[0,r,r],d],c);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(oq(n[1],u))return n[2];var
+n=g[1];if(ot(n[1],u))return n[2];var
 g=g[2];continue}return v}case
 2:return bl(a$(e,a[1],c));case
 3:var
-j=a[2],f=a[1],h=F;break;case
+i=a[2],f=a[1],h=F;break;case
 4:var
-j=a[2],f=a[1],h=s;break;case
+i=a[2],f=a[1],h=s;break;case
 5:var
-j=a[2],f=a[1],h=p;break;case
+i=a[2],f=a[1],h=o;break;case
 6:var
-j=a[2],f=a[1],h=ak;break;case
+i=a[2],f=a[1],h=ak;break;case
 7:var
 k=dT(a[2]),m=a$(e,a[1],c);if(k){if(k[1]){var
-o=K(m),t=function(a){return p(a,o)},q=eP(bB(iT(k)),t,o);return iS(k)?q:p(q,m)}return m}return l(b);default:return aE(a$(e,a[1],c))}var
-w=a$(e,j,N(c,i(bt(f))));return h(a$(e,f,c),w)}function
-cn(c,g,b){var
+p=H(m),t=function(a){return o(a,p)},q=eQ(bC(iU(k)),t,p);return iT(k)?q:o(q,m)}return m}return l(b);default:return aE(a$(e,a[1],c))}var
+w=a$(e,i,L(c,j(bu(f))));return h(a$(e,f,c),w)}function
+co(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,i(bt(e))),l=cn(c,a[2],k),m=f(cn(c,e,b),l);return[0,a$(c,a,b),m];case
+e=a[1],k=L(b,j(bu(e))),l=co(c,a[2],k),m=f(co(c,e,b),l);return[0,a$(c,a,b),m];case
 8:var
-n=cn(c,a[1],b);return[0,a$(c,a,b),n];case
+n=co(c,a[1],b);return[0,a$(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,i(bt(d))),j=cn(c,a[2],h);return f(cn(c,d,b),j)}}function
-lg(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,i(bt(d))),h=a[2],j=a$(c,d,b),k=lg([0,[0,e[1],j],c],h,g);return f(cn(c,d,b),k)}return a}function
-hj(a){return z(bt,a)}function
-lh(c,a,b){if(a)var
-d=a[1],f=N(b,i(bt(d))),g=lh(c,a[2],f),e=[0,a$(c,d,b),g];else
+d=a[1],h=L(b,j(bu(d))),i=co(c,a[2],h);return f(co(c,d,b),i)}}function
+lj(c,a,b){if(a){var
+e=a[1],d=e[2],g=L(b,j(bu(d))),h=a[2],i=a$(c,d,b),k=lj([0,[0,e[1],i],c],h,g);return f(co(c,d,b),k)}return a}function
+hl(a){return z(bu,a)}function
+lk(c,a,b){if(a)var
+d=a[1],f=L(b,j(bu(d))),g=lk(c,a[2],f),e=[0,a$(c,d,b),g];else
 var
 e=a;return e}function
-li(c,a,b){if(a){var
-d=a[1],e=N(b,i(bt(d))),g=li(c,a[2],e);return f(cn(c,d,b),g)}return a}function
-hk(a){return 0===a[0]?hj(a[1]):bt(a[1])}function
-lj(c,b,a){if(b){var
-d=b[1],j=N(a,i(hk(d))),k=lj(c,b[2],j);if(0===d[0])var
-g=li(c,d[1],a);else
+ll(c,a,b){if(a){var
+d=a[1],e=L(b,j(bu(d))),g=ll(c,a[2],e);return f(co(c,d,b),g)}return a}function
+hm(a){return 0===a[0]?hl(a[1]):bu(a[1])}function
+lm(c,b,a){if(b){var
+d=b[1],i=L(a,j(hm(d))),k=lm(c,b[2],i);if(0===d[0])var
+g=ll(c,d[1],a);else
 var
-e=d[1],h=cn(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
-fA(c){var
+e=d[1],h=co(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
+fD(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cy(fA,a)}return[0,b]}function
-hl(c){var
+b=cz(fD,a)}return[0,b]}function
+hn(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hl(a[2]);return p(hl(a[1]),d);case
-9:return a[1];default:return K(b)}}}function
-lk(n,g,a,f){if(a){var
-c=a[1],w=N(f,i(hk(c))),x=lk(n,g,a[2],w);if(0===c[0])var
-k=lh(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
+d=hn(a[2]);return o(hn(a[1]),d);case
+9:return a[1];default:return H(b)}}}function
+ln(n,g,a,f){if(a){var
+c=a[1],w=L(f,j(hm(c))),x=ln(n,g,a[2],w);if(0===c[0])var
+k=lk(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
 var
-m=a$(g,c[1],f),q=fA(m),h=aN(aV(0,n),q),d=fA(h[2]),j=e(fA,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(b):ak(a,d)},j),o=[0,j,hl(d),v,u,t,s,r];var
+m=a$(g,c[1],f),q=fD(m),h=aN(aV(0,n),q),d=fD(h[2]),i=e(fD,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(b):ak(a,d)},i),o=[0,i,hn(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-ll(a){return e(function(a){return[0,a[2],d]},a)}function
-lm(a){var
-b=z(hk,a[4]),c=f(hj(e(b_,a[3])),b);return f(ll(a[2]),c)}function
-ln(a){var
-c=bH(0,ll(a[2])),d=aV(0,i(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
-hm(b,d){var
+lo(a){return e(function(a){return[0,a[2],d]},a)}function
+lp(a){var
+b=z(hm,a[4]),c=f(hl(e(b_,a[3])),b);return f(lo(a[2]),c)}function
+lq(a){var
+c=br(0,lo(a[2])),d=aV(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
+ho(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4095,27 +4131,27 @@ e=a[1];return ar(function(a){return an(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hm(b,a[1]);if(c){var
+c=ho(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-lo(d){var
+lr(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ar(function(b){return function(a){return oq(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ad(ar(function(b){return function(a){return ot(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fC=s(l(b),fB);function
-lp(e){var
-a=K(fC);if(e)var
-f=p(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=p(l(c(2,b)),a),d=ak(F(l(b),h),g);else
+fF=s(l(b),fE);function
+ls(e){var
+a=H(fF);if(e)var
+f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=ak(F(l(b),h),g);else
 var
-i=F(l(c(2,b)),a),j=K(fB),d=ak(F(p(l(c(2,b)),j),a),i);return aE(d)}function
-lq(d,c,a){if(d){var
-e=lp(c),f=F(l(b),e),g=p(s(l(b),a),f);return s(l(b),g)}var
-h=l(b),i=lp(c),j=ak(l(b),i);return s(p(a,F(l(b),j)),h)}function
+i=F(l(c(2,b)),a),j=H(fE),d=ak(F(o(l(c(2,b)),j),a),i);return aE(d)}function
+lt(d,c,a){if(d){var
+e=ls(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
+h=l(b),i=ls(c),j=ak(l(b),i);return s(o(a,F(l(b),j)),h)}function
 dt(f,e,d,a){var
-g=K(a),h=K(d),i=s(s(l(c(2,b)),h),g),j=f?e?fC:ak(fC,p(l(c(2,b)),fB)):ak(fC,l(c(2,b))),k=p(K(j),i);return aE(F(l(b),k))}function
-lr(g,d){var
+g=H(a),h=H(d),i=s(s(l(c(2,b)),h),g),j=f?e?fF:ak(fF,o(l(c(2,b)),fE)):ak(fF,l(c(2,b))),k=o(H(j),i);return aE(F(l(b),k))}function
+lu(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hn(v,u,s){var
+hp(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4123,13 +4159,13 @@ g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
-i=d[1];if(i){if(d[2])return 0;var
-w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return e9([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
-j=i}else
+j=d[1];if(j){if(d[2])return 0;var
+w=j[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
+c=i(a,w),d=i(a,x),e=i(a,y),b=i(a,z);return e_([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+k=j}else
 var
-j=d;var
-l=j}else
+k=d;var
+l=k}else
 var
 l=h;var
 m=l}else
@@ -4147,12 +4183,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-ls(f,i,e,c,h){var
-j=f?b:d,a=$(i,j);function
+lv(f,i,e,c,h){var
+j=f?b:d,a=_(i,j);function
 g(b){var
-c=f?e1(b):c$(b);return J(c,a)}var
+c=f?e2(b):da(b);return K(c,a)}var
 k=[0,ag(h),0],l=[0,[0,a,c,[0,C,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-lt(r,g,q,p,f,o,n){if(o){var
+lw(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4161,16 +4197,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aS,bp(q4)),a=hn(p,jP(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aS,bp(q9)),a=hp(p,jQ(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lr,q5),a=hn(p,bE(0,cf(g,ls(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lu,q_),a=hp(p,bF(0,cf(g,lv(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lr,q6),a=hn(p,bE(0,cf(g,ls(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lu,q$),a=hp(p,bF(0,cf(g,lv(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4180,26 +4216,26 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?q7:a}else
+y=a?ra:a}else
 var
 y=n;return y}return[0,n]}function
-lu(f,e,d,c,p,o,n){var
+lx(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=lt(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
-i=lt(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d5(a[2],b),l=lu(f,e,d,c,k[1],j,a[3]);if(l){var
+h=lw(f,e,d,c,b,a[1],g);return h?ad(h[1]):h}var
+i=lw(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d5(a[2],b),l=lx(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-ho(a){return iX(c(2,b),aA(a,b))}function
+hq(a){return iY(c(2,b),aA(a,b))}function
 du(i,a,e,w,v){var
-m=a?b:M(b),f=l(m),g=lq(a,e,q2),h=lq(a,e,q3),n=ak(g,dt(a,e,f,g)),o=[0,F(ak(h,dt(a,e,h,f)),n),0],q=ak(f,dt(a,e,f,g)),r=[0,F(ak(h,dt(a,e,g,h)),q),o],s=ak(f,dt(a,e,h,f)),t=[0,F(ak(g,dt(a,e,g,h)),s),r],u=a?e?l(c(2,b)):p(l(c(2,c(2,b))),fB):l(c(2,c(2,b))),j=da([0,u,t]),k=[0,d,cw(i)];return lu(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lv(a,g,b){if(W(g,ho(a))){if(b){var
+m=a?b:N(b),f=l(m),g=lt(a,e,q7),h=lt(a,e,q8),n=ak(g,dt(a,e,f,g)),p=[0,F(ak(h,dt(a,e,h,f)),n),0],q=ak(f,dt(a,e,f,g)),r=[0,F(ak(h,dt(a,e,g,h)),q),p],s=ak(f,dt(a,e,h,f)),t=[0,F(ak(g,dt(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fE):l(c(2,c(2,b))),j=db([0,u,t]),k=[0,d,cx(i)];return lx(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+ly(a,g,b){if(X(g,hq(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,ho(a)],v=cw(a),i=[0,ho(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,hq(a)],v=cx(a),i=[0,hq(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
 l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4217,252 +4253,252 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cw(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
+r=[0,g,cx(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hp(a){var
-b=[1,[2,d]];return c7(function(b,a){return[1,[3,b,a]]},a,b)}function
-fD(a){return hp(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fE(a,c){return hp(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hp(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lw(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cy(function(a){return lw(e,d,c,b,a)},f);return k(cf(e,d,c),g)}function
-lx(a){return a?W(d,a[1][2][1]):a}function
-q8(a){var
-b=u(i(a),q9);return b?ar(function(a){return ac(Y(a,d))},a):b}function
-ly(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,$(c,a[1]),f),h=ly(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
+hr(a){var
+b=[1,[2,d]];return c8(function(b,a){return[1,[3,b,a]]},a,b)}function
+fG(a){return hr(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fH(a,c){return hr(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hr(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lz(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cz(function(a){return lz(e,d,c,b,a)},f);return i(cf(e,d,c),g)}function
+lA(a){return a?X(d,a[1][2][1]):a}function
+rb(a){var
+b=u(j(a),rc);return b?ar(function(a){return ad(Y(a,d))},a):b}function
+lB(c,f,b,a){if(b)if(a)var
+d=b[1],g=w(c,_(c,a[1]),f),h=lB(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fF(b,a){return i1(i1(b,0),a)}function
-hq(a){if(a){var
-b=a[2],c=a[1];if(b)return fF(c,[0,q$,hq(b)]);var
+fI(b,a){return i2(i2(b,0),a)}function
+hs(a){if(a){var
+b=a[2],c=a[1];if(b)return fI(c,[0,re,hs(b)]);var
 d=c}else
 var
 d=a;return d}function
-A(a){return[0,rb,fF(hq(a),ra)]}function
-T(a){return[0,rd,fF(hq(a),rc)]}function
-ai(a){return[0,rf,[0,a,re]]}function
-h(b,a){return[0,aP(rh,aP(b,rg)),a]}function
-H(b,a){return T([0,h(b,a),0])}function
+A(a){return[0,rg,fI(hs(a),rf)]}function
+U(a){return[0,ri,fI(hs(a),rh)]}function
+ai(a){return[0,rk,[0,a,rj]]}function
+h(b,a){return[0,aP(rm,aP(b,rl)),a]}function
+I(b,a){return U([0,h(b,a),0])}function
 b0(d){var
-b=d,a=oV,e=0;for(;;){if(b){var
-c=iR(a),b=b[1],a=c;continue}return[0,dW(eO(a)),e]}}function
-hr(a){return[0,dW(eU(a)),0]}function
-fG(a){var
-c=a3(a),f=0,b=0===c?o0:0<c?[0,eU(a)]:[1,eU(M(a))];if(0===b[0])var
+b=d,a=oY,e=0;for(;;){if(b){var
+c=iS(a),b=b[1],a=c;continue}return[0,dW(eP(a)),e]}}function
+ht(a){return[0,dW(eV(a)),0]}function
+fJ(a){var
+c=a3(a),f=0,b=0===c?o3:0<c?[0,eV(a)]:[1,eV(N(a))];if(0===b[0])var
 d=dW(b[1]);else
 var
 e=dW(b[1]),d=aP(bg(1,45),e);return[0,d,f]}function
-hs(a){var
-b=0,c=0<a3(a)?eU(a):oZ;return[0,dW(c),b]}function
-ht(a){switch(a[0]){case
-2:return rj;case
-3:return 2<=a[1]?rk:rl;case
-4:return rm;default:return ri}}function
+hu(a){var
+b=0,c=0<a3(a)?eV(a):o2;return[0,dW(c),b]}function
+hv(a){switch(a[0]){case
+2:return ro;case
+3:return 2<=a[1]?rp:rq;case
+4:return rr;default:return rn}}function
 el(b,a){function
-c(c,a){return Z(c,ht(a))?el(b,a):[0,rs,f(el(b,a),rr)]}switch(a[0]){case
+c(c,a){return Z(c,hv(a))?el(b,a):[0,rx,f(el(b,a),rw)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,aW(g),0];var
-h=[0,rt,[0,aW(e),0]];return[0,aW(g),h];case
-1:return[0,k(b,a[1]),0];case
-2:return[0,rv,c(ru,a[1])];case
+h=[0,ry,[0,aW(e),0]];return[0,aW(g),h];case
+1:return[0,i(b,a[1]),0];case
+2:return[0,rA,c(rz,a[1])];case
 3:var
-i=a[3],j=c([0,ht(a)],i);switch(a[1]){case
+j=a[3],k=c([0,hv(a)],j);switch(a[1]){case
 0:var
-d=rn;break;case
+d=rs;break;case
 1:var
-d=ro;break;case
+d=rt;break;case
 2:var
-d=rp;break;default:var
-d=rq}var
-l=a[2];return f(c(ht(a),l),[0,d,j]);case
+d=ru;break;default:var
+d=rv}var
+l=a[2];return f(c(hv(a),l),[0,d,k]);case
 4:var
-m=[0,rw,hr(a[2])];return f(c(rx,a[1]),m);default:return[0,rz,f(el(b,a[1]),ry)]}}function
-I(a){return[0,rC,f(el(function(a){return 0===a[0]?a[1]:rB},a),rA)]}function
-hu(a){return[0,rE,f(el(function(a){return a},a),rD)]}function
-b1(a){if(0===a[0])return I(a[1]);var
-b=[0,h(rF,I(a[2])),0];return T([0,h(rG,I(a[1])),b])}function
-fH(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
-rH(a){function
-b(a){return fH(b1,a)}switch(a[0]){case
+m=[0,rB,ht(a[2])];return f(c(rC,a[1]),m);default:return[0,rE,f(el(b,a[1]),rD)]}}function
+J(a){return[0,rH,f(el(function(a){return 0===a[0]?a[1]:rG},a),rF)]}function
+hw(a){return[0,rJ,f(el(function(a){return a},a),rI)]}function
+b1(a){if(0===a[0])return J(a[1]);var
+b=[0,h(rK,J(a[2])),0];return U([0,h(rL,J(a[1])),b])}function
+fK(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return A([0,i(b,a[1]),d])}function
+rM(a){function
+b(a){return fK(b1,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?rI:rQ,i=[0,h(rJ,ai(g)),e],j=[0,h(rK,b1(a[4])),i],k=[0,h(rL,b(a[3])),j],l=[0,h(rM,b(a[2])),k],m=[0,h(rN,b(a[1])),l],c=[0,h(rP,ai(rO)),m];break;case
+e=0,g=a[5]?rN:rV,i=[0,h(rO,ai(g)),e],j=[0,h(rP,b1(a[4])),i],k=[0,h(rQ,b(a[3])),j],l=[0,h(rR,b(a[2])),k],m=[0,h(rS,b(a[1])),l],c=[0,h(rU,ai(rT)),m];break;case
 1:var
-d=a[3],n=d?[0,h(rR,b(d[1])),0]:d,o=[0,h(rS,b(a[2])),0],p=[0,h(rT,b(a[1])),o],c=f([0,h(rV,ai(rU)),p],n);break;default:var
-q=[0,h(rW,b(a[1])),0],c=[0,h(rY,ai(rX)),q]}return T(c)}function
-rZ(a){function
+d=a[3],n=d?[0,h(rW,b(d[1])),0]:d,o=[0,h(rX,b(a[2])),0],p=[0,h(rY,b(a[1])),o],c=f([0,h(r0,ai(rZ)),p],n);break;default:var
+q=[0,h(r1,b(a[1])),0],c=[0,h(r3,ai(r2)),q]}return U(c)}function
+r4(a){function
 b(a){return A(e(b1,a))}function
 d(a){var
-b=a?r0:r2;return h(r1,ai(b))}switch(a[0]){case
+b=a?r5:r7;return h(r6,ai(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,h(r3,b1(a[4])),f],i=[0,h(r4,b(a[3])),g],j=[0,h(r5,b(a[2])),i],k=[0,h(r6,b(a[1])),j],c=[0,h(r8,ai(r7)),k];break;case
+f=[0,d(a[5]),0],g=[0,h(r8,b1(a[4])),f],i=[0,h(r9,b(a[3])),g],j=[0,h(r_,b(a[2])),i],k=[0,h(r$,b(a[1])),j],c=[0,h(sb,ai(sa)),k];break;case
 1:var
-l=[0,h(r9,b(a[2])),0],m=[0,h(r_,b(a[1])),l],c=[0,h(sa,ai(r$)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,h(sb,b1(a[6])),n],p=[0,h(sc,b1(a[5])),o],q=[0,h(sd,b(a[4])),p],r=[0,h(se,b(a[3])),q],s=[0,h(sf,b(a[2])),r],t=[0,h(sg,b(a[1])),s],c=[0,h(si,ai(sh)),t]}return T(c)}function
-hv(a){switch(a){case
-0:return sj;case
-1:return sk;case
-2:return sl;case
-3:return sm;case
-4:return sn;case
-5:return so;case
-6:return sp;case
-7:return sq;case
-8:return sr;case
-9:return ss;case
-10:return st;case
-11:return su;case
-12:return sv;default:return sw}}function
-hw(a){if(typeof
-a==="number")return sx;else
+l=[0,h(sc,b(a[2])),0],m=[0,h(sd,b(a[1])),l],c=[0,h(sf,ai(se)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,h(sg,b1(a[6])),n],p=[0,h(sh,b1(a[5])),o],q=[0,h(si,b(a[4])),p],r=[0,h(sj,b(a[3])),q],s=[0,h(sk,b(a[2])),r],t=[0,h(sl,b(a[1])),s],c=[0,h(sn,ai(sm)),t]}return U(c)}function
+hx(a){switch(a){case
+0:return so;case
+1:return sp;case
+2:return sq;case
+3:return sr;case
+4:return ss;case
+5:return st;case
+6:return su;case
+7:return sv;case
+8:return sw;case
+9:return sx;case
+10:return sy;case
+11:return sz;case
+12:return sA;default:return sB}}function
+hy(a){if(typeof
+a==="number")return sC;else
 switch(a[0]){case
-0:return sy;case
-1:return sz;default:return sA}}function
+0:return sD;case
+1:return sE;default:return sF}}function
 em(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,h(sB,I(b[1])),0];break;case
+d=[0,h(sG,J(b[1])),0];break;case
 1:var
-d=[0,h(sC,I(b[1])),0];break;default:var
-m=[0,I(b[2]),0],d=[0,h(sD,A([0,I(b[1]),m])),0]}var
-n=[0,h(sE,ai(hw(a[4]))),d],g=a[3];if(g){var
+d=[0,h(sH,J(b[1])),0];break;default:var
+m=[0,J(b[2]),0],d=[0,h(sI,A([0,J(b[1]),m])),0]}var
+n=[0,h(sJ,ai(hy(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-p=A([0,I(c[1]),0]),k=a[1],o=0,q=6===k?sF:12===k?sJ:sK,i=[0,h(sG,H(q,p)),o];break;case
+p=A([0,J(c[1]),0]),k=a[1],o=0,q=6===k?sK:12===k?sO:sP,i=[0,h(sL,I(q,p)),o];break;case
 1:var
-i=[0,h(sM,H(sL,A(e(I,c[1])))),0];break;default:var
-u=[0,h(sN,A([0,I(c[2]),0])),0],i=[0,h(sP,T([0,h(sO,A([0,I(c[1]),0])),u])),0]}var
+i=[0,h(sR,I(sQ,A(e(J,c[1])))),0];break;default:var
+u=[0,h(sS,A([0,J(c[2]),0])),0],i=[0,h(sU,U([0,h(sT,A([0,J(c[1]),0])),u])),0]}var
 l=i}else
 var
 l=g;var
-r=f(l,n),j=a[2],s=j?[0,h(sH,b0(j[1])),0]:j,t=f(s,r);return T([0,h(sI,ai(hv(a[1]))),t])}function
-lz(a){if(0===a[0]){var
-b=[0,h(sQ,fH(I,a[2])),0];return H(sS,T([0,h(sR,fH(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,h(sT,A([0,I(a[4]),c])),0],e=[0,h(sU,I(a[3])),d],f=[0,I(a[2]),0];return H(sW,T([0,h(sV,A([0,I(a[1]),f])),e]))}function
-lA(a){if(0===a[0]){var
-b=[0,h(sX,A(e(I,a[2]))),0];return H(sZ,T([0,h(sY,A(e(I,a[1]))),b]))}return lz([1,a[1],a[2],a[3],a[4],a[5]])}function
-lB(a){switch(a){case
-0:return s0;case
-1:return s1;default:return s2}}function
-s3(a){function
+r=f(l,n),j=a[2],s=j?[0,h(sM,b0(j[1])),0]:j,t=f(s,r);return U([0,h(sN,ai(hx(a[1]))),t])}function
+lC(a){if(0===a[0]){var
+b=[0,h(sV,fK(J,a[2])),0];return I(sX,U([0,h(sW,fK(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,h(sY,A([0,J(a[4]),c])),0],e=[0,h(sZ,J(a[3])),d],f=[0,J(a[2]),0];return I(s1,U([0,h(s0,A([0,J(a[1]),f])),e]))}function
+lD(a){if(0===a[0]){var
+b=[0,h(s2,A(e(J,a[2]))),0];return I(s4,U([0,h(s3,A(e(J,a[1]))),b]))}return lC([1,a[1],a[2],a[3],a[4],a[5]])}function
+lE(a){switch(a){case
+0:return s5;case
+1:return s6;default:return s7}}function
+s8(a){function
 b(a){return A(e(b1,a))}var
-c=[0,h(s4,b(a[2])),0],d=[0,h(s5,b(a[1])),c];return T([0,h(s7,ai(s6)),d])}function
-lC(a){function
+c=[0,h(s9,b(a[2])),0],d=[0,h(s_,b(a[1])),c];return U([0,h(ta,ai(s$)),d])}function
+lF(a){function
 b(b,a){var
-c=[0,I(a),0];return A([0,I(b),c])}switch(a[0]){case
-0:return H(s8,b(a[1],a[2]));case
+c=[0,J(a),0];return A([0,J(b),c])}switch(a[0]){case
+0:return I(tb,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,h(s9,b(c[1],c[2])),0],g=[0,h(s_,b(d[1],d[2])),f];return H(ta,T([0,h(s$,b(e[1],e[2])),g]));case
-2:return H(tb,I(a[1]));default:var
-i=[0,h(tc,I(a[2])),0];return H(te,T([0,h(td,I(a[1])),i]))}}function
-tf(a){function
-b(a){return fH(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tg,b(c[1])),0]:c,g=[0,I(a[4]),0],i=[0,h(th,A([0,I(a[3]),g])),0],j=[0,h(ti,I(a[2])),i],k=[0,h(tj,b0(a[1])),j],d=f([0,h(tl,ai(tk)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,h(tc,b(c[1],c[2])),0],g=[0,h(td,b(d[1],d[2])),f];return I(tf,U([0,h(te,b(e[1],e[2])),g]));case
+2:return I(tg,J(a[1]));default:var
+i=[0,h(th,J(a[2])),0];return I(tj,U([0,h(ti,J(a[1])),i]))}}function
+tk(a){function
+b(a){return fK(J,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tl,b(c[1])),0]:c,g=[0,J(a[4]),0],i=[0,h(tm,A([0,J(a[3]),g])),0],j=[0,h(tn,J(a[2])),i],k=[0,h(to,b0(a[1])),j],d=f([0,h(tq,ai(tp)),k],e);else
 var
-l=[0,h(tm,I(a[4])),0],m=[0,h(tn,b(a[3])),l],n=[0,h(to,b(a[2])),m],o=a[1]?tp:tr,d=[0,h(tq,ai(o)),n];return T(d)}function
-hx(d,c,a,b){var
-g=[0,h(ts,A(e(em,b))),0],i=a?[0,h(tt,A(e(tf,a))),0]:a,j=f(i,g),k=[0,h(tu,lz(c)),0];return T(f([0,h(tw,H(tv,A(e(rH,d)))),k],j))}function
-tx(a){switch(a[0]){case
-0:return H(ty,hx(a[1],a[2],a[3],a[4]));case
+l=[0,h(tr,J(a[4])),0],m=[0,h(ts,b(a[3])),l],n=[0,h(tt,b(a[2])),m],o=a[1]?tu:tw,d=[0,h(tv,ai(o)),n];return U(d)}function
+hz(d,c,a,b){var
+g=[0,h(tx,A(e(em,b))),0],i=a?[0,h(ty,A(e(tk,a))),0]:a,j=f(i,g),k=[0,h(tz,lC(c)),0];return U(f([0,h(tB,I(tA,A(e(rM,d)))),k],j))}function
+tC(a){switch(a[0]){case
+0:return I(tD,hz(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=A(e(rZ,a[2])),m=[0,h(tz,A(e(em,a[6]))),0],n=b?[0,h(tA,lC(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(tB,lA(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=A(e(r4,a[2])),m=[0,h(tE,A(e(em,a[6]))),0],n=b?[0,h(tF,lF(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(tG,lD(a[4])),o];if(typeof
 d==="number")if(d)var
-i=tC;else{var
-j=H(tH,g);l=1}else
+i=tH;else{var
+j=I(tM,g);l=1}else
 var
-i=lB(d[1]);if(!l)var
-q=c?[0,h(tD,I(c[1])),0]:c,j=H(i,T([0,h(tE,g),q]));return H(tG,T([0,h(tF,j),p]));case
+i=lE(d[1]);if(!l)var
+q=c?[0,h(tI,J(c[1])),0]:c,j=I(i,U([0,h(tJ,g),q]));return I(tL,U([0,h(tK,j),p]));case
 2:var
-r=[0,h(tI,A(e(em,a[6]))),0],s=[0,h(tJ,lC(a[5])),r],t=[0,h(tK,lA(a[4])),s],u=[0,h(tL,I(a[3])),0],v=T([0,h(tM,A(e(s3,a[2]))),u]);return H(tO,T([0,h(tN,H(lB(a[1]),v)),t]));case
+r=[0,h(tN,A(e(em,a[6]))),0],s=[0,h(tO,lF(a[5])),r],t=[0,h(tP,lD(a[4])),s],u=[0,h(tQ,J(a[3])),0],v=U([0,h(tR,A(e(s8,a[2]))),u]);return I(tT,U([0,h(tS,I(lE(a[1]),v)),t]));case
 3:var
-w=[0,h(tP,A(e(em,a[7]))),0],x=[0,h(tQ,A(e(I,a[6]))),0],y=[0,h(tT,H(tS,T([0,h(tR,A(e(I,a[5]))),x]))),w],z=0,B=a[4],C=[0,h(tW,A(e(function(a){return 0===a[0]?H(tU,A(e(hu,a[1]))):H(tV,hu(a[1]))},B))),z],D=a[3],E=[0,h(tX,A(e(function(a){var
-b=[0,hu(a[2]),0];return A([0,ai(a[1]),b])},D))),C],F=a[2],G=[0,h(tY,A(e(function(a){var
-b=[0,b1(a[2]),0];return A([0,ai(a[1]),b])},F))),E];return H(t2,T([0,h(t1,H(t0,T([0,h(tZ,A(e(ai,a[1]))),G]))),y]));case
+w=[0,h(tU,A(e(em,a[7]))),0],x=[0,h(tV,A(e(J,a[6]))),0],y=[0,h(tY,I(tX,U([0,h(tW,A(e(J,a[5]))),x]))),w],z=0,B=a[4],C=[0,h(t1,A(e(function(a){return 0===a[0]?I(tZ,A(e(hw,a[1]))):I(t0,hw(a[1]))},B))),z],D=a[3],E=[0,h(t2,A(e(function(a){var
+b=[0,hw(a[2]),0];return A([0,ai(a[1]),b])},D))),C],F=a[2],G=[0,h(t3,A(e(function(a){var
+b=[0,b1(a[2]),0];return A([0,ai(a[1]),b])},F))),E];return I(t7,U([0,h(t6,I(t5,U([0,h(t4,A(e(ai,a[1]))),G]))),y]));case
 4:var
-J=[0,h(t3,A(e(em,a[3]))),0],K=[0,h(t6,H(t5,T([0,h(t4,I(a[2])),0]))),J];return H(t_,T([0,h(t9,H(t8,T([0,h(t7,I(a[1])),0]))),K]));case
+H=[0,h(t8,A(e(em,a[3]))),0],K=[0,h(t$,I(t_,U([0,h(t9,J(a[2])),0]))),H];return I(ud,U([0,h(uc,I(ub,U([0,h(ua,J(a[1])),0]))),K]));case
 5:var
-L=[0,h(t$,I(a[5])),0];return H(ub,T([0,h(ua,hx(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,h(ue,J(a[5])),0];return I(ug,U([0,h(uf,hz(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-k=a[1],M=0,N=k?b1(k[1]):ai(ue);return H(ud,T([0,h(uc,N),M]));default:var
-O=[0,h(uf,I(a[6])),0],P=[0,h(ug,I(a[5])),O],Q=[0,h(uh,hx(a[2],a[3],0,a[4])),P],R=a[1];return H(um,T([0,h(ul,A(e(function(a){var
-b=[0,h(ui,I(a[2][2])),0],c=[0,h(uj,I(a[2][1])),b];return T([0,h(uk,ai(a[1])),c])},R))),Q]))}}function
-en(a){return A(e(fG,a))}function
-fI(b,a){var
-c=[0,h(un,hs(a)),0];return T([0,h(uo,A(e(en,b))),c])}function
+k=a[1],M=0,N=k?b1(k[1]):ai(uj);return I(ui,U([0,h(uh,N),M]));default:var
+O=[0,h(uk,J(a[6])),0],P=[0,h(ul,J(a[5])),O],Q=[0,h(um,hz(a[2],a[3],0,a[4])),P],R=a[1];return I(ur,U([0,h(uq,A(e(function(a){var
+b=[0,h(un,J(a[2][2])),0],c=[0,h(uo,J(a[2][1])),b];return U([0,h(up,ai(a[1])),c])},R))),Q]))}}function
+en(a){return A(e(fJ,a))}function
+fL(b,a){var
+c=[0,h(us,hu(a)),0];return U([0,h(ut,A(e(en,b))),c])}function
 eo(a){switch(a[0]){case
 0:return ai(a[1]);case
 1:var
-b=fI(a[2],a[3]);return H(a[1],b);case
+b=fL(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?up:ur;return H(uq,ai(c));case
+c=a[1]?uu:uw;return I(uv,ai(c));case
 3:var
-d=[0,en(a[3]),0];return H(us,A([0,fI(a[1],a[2]),d]));case
+d=[0,en(a[3]),0];return I(ux,A([0,fL(a[1],a[2]),d]));case
 4:var
-f=[0,b0(0),0],g=[0,fG(a[3]),f];return H(ut,A([0,fI(a[1],a[2]),g]));case
+f=[0,b0(0),0],g=[0,fJ(a[3]),f];return I(uy,A([0,fL(a[1],a[2]),g]));case
 5:var
-h=[0,hs(a[3]),0],i=[0,fG(a[2]),h];return H(uu,A([0,eo(a[1]),i]));case
+h=[0,hu(a[3]),0],i=[0,fJ(a[2]),h];return I(uz,A([0,eo(a[1]),i]));case
 6:var
-j=[0,hs(a[3]),0],k=[0,fG(a[2]),j];return H(uv,A([0,eo(a[1]),k]));case
-7:return H(uw,eo(a[1]));default:var
-l=[0,A(e(en,a[3])),0],m=[0,ai(a[2]),l];return H(ux,A([0,eo(a[1]),m]))}}function
-uy(a){var
-b=[0,eo(a[2]),0];return A([0,b0(a[1]),b])}function
-lD(a){if(typeof
-a==="number")return 0===a?ai(uz):ai(uA);else{if(0===a[0]){var
-b=[0,A(e(en,a[2])),0];return H(uB,A([0,b0(a[1]),b]))}var
-c=[0,b0(a[2]),0];return H(uC,A([0,b0(a[1]),c]))}}function
+j=[0,hu(a[3]),0],k=[0,fJ(a[2]),j];return I(uA,A([0,eo(a[1]),k]));case
+7:return I(uB,eo(a[1]));default:var
+l=[0,A(e(en,a[3])),0],m=[0,ai(a[2]),l];return I(uC,A([0,eo(a[1]),m]))}}function
 uD(a){var
-b=a[4],i=b?[0,h(uE,en([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uF,lD(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(uG,b0(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(uH,A(e(uy,[0,c[1],c[2]]))),0]:c;return T(f(n,m))}function
-lE(g,a,d){var
-i=[0,h(uI,A(e(uD,d))),0];if(a)var
-b=a[1],c=[0,h(uJ,fI(b[1],b[2])),0];else
+b=[0,eo(a[2]),0];return A([0,b0(a[1]),b])}function
+lG(a){if(typeof
+a==="number")return 0===a?ai(uE):ai(uF);else{if(0===a[0]){var
+b=[0,A(e(en,a[2])),0];return I(uG,A([0,b0(a[1]),b]))}var
+c=[0,b0(a[2]),0];return I(uH,A([0,b0(a[1]),c]))}}function
+uI(a){var
+b=a[4],i=b?[0,h(uJ,en([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uK,lG(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(uL,b0(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(uM,A(e(uD,[0,c[1],c[2]]))),0]:c;return U(f(n,m))}function
+lH(g,a,d){var
+i=[0,h(uN,A(e(uI,d))),0];if(a)var
+b=a[1],c=[0,h(uO,fL(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return T([0,h(uK,hr(g)),j])}function
-lF(d,c,a,b){var
-g=[0,h(uL,lD(b)),0],i=a?[0,h(uM,A(e(I,a))),0]:a,j=f(i,g),k=[0,h(uN,A(e(I,c))),0];return T(f([0,h(uO,hr(d)),k],j))}function
-uP(a){if(typeof
-a==="number")return ai(uQ);else
+j=f(c,i);return U([0,h(uP,ht(g)),j])}function
+lI(d,c,a,b){var
+g=[0,h(uQ,lG(b)),0],i=a?[0,h(uR,A(e(J,a))),0]:a,j=f(i,g),k=[0,h(uS,A(e(J,c))),0];return U(f([0,h(uT,ht(d)),k],j))}function
+uU(a){if(typeof
+a==="number")return ai(uV);else
 switch(a[0]){case
-0:return H(uR,b0(a[1]));case
-1:return H(uS,lE(a[1],a[2],a[3]));default:return H(uT,lF(a[1],a[2],a[3],a[4]))}}function
-fJ(a){var
-b=gs(gr(am(a),function(b){return aI(a,b)}));return n(function(a){var
-b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?Z(u8,eX(a)):c;return d?Z(eX(a),u9):d},b)}function
+0:return I(uW,b0(a[1]));case
+1:return I(uX,lH(a[1],a[2],a[3]));default:return I(uY,lI(a[1],a[2],a[3],a[4]))}}function
+fM(a){var
+b=gv(gu(am(a),function(b){return aI(a,b)}));return n(function(a){var
+b=ad(34===a?1:0),c=b?ad(92===a?1:0):b,d=c?Z(vb,eY(a)):c;return d?Z(eY(a),vc):d},b)}function
 ep(b){function
 c(f){var
-a=eX(f),b=Z(u_,a),c=b?Z(a,u$):b;if(c)var
+a=eY(f),b=Z(vd,a),c=b?Z(a,ve):b;if(c)var
 d=c;else{var
-e=Z(va,a);if(e)return Z(a,vb);var
+e=Z(vf,a);if(e)return Z(a,vg);var
 d=e}return d}var
-a=gs(gr(am(b),function(a){return aI(b,a)}));if(a){var
+a=gv(gu(am(b),function(a){return aI(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eX(a),f=Z(vc,e),h=f?Z(e,vd):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(i(d),ve):f;if(g)return ac(an(b,vf));var
+e=eY(a),f=Z(vh,e),h=f?Z(e,vi):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Z(j(d),vj):f;if(g)return ad(an(b,vk));var
 h=g}else
 var
 h=a;return h}function
-hy(c){var
+hA(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return ep(a[1]);case
 3:var
-b=hy(a[2]);if(b){var
+b=hA(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 eq(m){var
@@ -4476,7 +4512,7 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eO(a[2]);if(typeof
+f=eP(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
@@ -4486,30 +4522,30 @@ g=d;return g;case
 i=eq(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eq(a[1]),l=k?eS(c(2,b),j):k;return l?eS(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=eq(a[1]),l=k?eT(c(2,b),j):k;return l?eT(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bu(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cN(a){return z(dv,bu(a))}function
-hz(a){switch(a[0]){case
+bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+cO(a){return z(dv,bv(a))}function
+hB(a){switch(a[0]){case
 0:var
-c=dv(a[4]),d=f(cN(a[3]),c),e=f(cN(a[2]),d);return f(cN(a[1]),e);case
+c=dv(a[4]),d=f(cO(a[3]),c),e=f(cO(a[2]),d);return f(cO(a[1]),e);case
 1:var
-b=a[3],g=b?cN(b[1]):b,h=f(cN(a[2]),g);return f(cN(a[1]),h);default:return cN(a[1])}}function
-vg(a){switch(a[0]){case
+b=a[3],g=b?cO(b[1]):b,h=f(cO(a[2]),g);return f(cO(a[1]),h);default:return cO(a[1])}}function
+vl(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
 e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(dv,b)}function
-lG(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lH(a){if(0===a[0]){var
-b=bu(a[2]);return f(bu(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lI(a){switch(a[0]){case
+lJ(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lK(a){if(0===a[0]){var
+b=bv(a[2]);return f(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lL(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cO(e){var
+cP(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -4521,118 +4557,118 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-vh(a){if(0===a[0]){var
-b=a[5],c=b?bu(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bu(a[3]),d);return f(bu(a[2]),e)}function
-lJ(b,e){var
+vm(a){if(0===a[0]){var
+b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bv(a[3]),d);return f(bv(a[2]),e)}function
+lM(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ar(function(a){return an(f,a)},b)}return 0;case
 3:var
-d=lJ(b,a[2]);if(d){var
+d=lM(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fK(c,a){return n(function(a){var
-b=eq(a);return b?lJ(c,a):b},a)}function
-lK(a){var
-d=eS(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eS(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-lL(a,b){return b?[4,lL(a,b[1]),a]:a}function
-j(a){switch(a[0]){case
+fN(c,a){return n(function(a){var
+b=eq(a);return b?lM(c,a):b},a)}function
+lN(a){var
+d=eT(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eT(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+lO(a,b){return b?[4,lO(a,b[1]),a]:a}function
+k(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,q(c(2,c(2,b)))),l=function(a){return v(k,a)},m=eP(iP(i),l,b);return[0,iZ(iQ(eO(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return v(j,a)},m=eQ(iQ(i),l,b);return[0,i0(iR(eP(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,b],f];case
+f=k(a[1]);return 0===f[0]?[0,N(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
-g=j(a[2]),h=j(a[3]);switch(a[1]){case
+g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bB(dT(a[2]));return lL(j(a[1]),n);default:return[6,j(a[1])]}}function
-bv(a){if(0===a[0]){var
-b=j(a[1]);return[0,b,b]}var
-c=j(a[2]);return[0,j(a[1]),c]}function
-cP(a){var
-b=bv(a[3]),c=bv(a[2]);return[0,bv(a[1]),c,b]}function
-vi(a){switch(a[0]){case
+n=bC(dT(a[2]));return lO(k(a[1]),n);default:return[6,k(a[1])]}}function
+bw(a){if(0===a[0]){var
+b=k(a[1]);return[0,b,b]}var
+c=k(a[2]);return[0,k(a[1]),c]}function
+cQ(a){var
+b=bw(a[3]),c=bw(a[2]);return[0,bw(a[1]),c,b]}function
+vn(a){switch(a[0]){case
 0:var
-b=a[5],c=bv(a[4]),d=cP(a[3]),e=cP(a[2]);return[0,[0,cP(a[1]),e,d,c,b]];case
+b=a[5],c=bw(a[4]),d=cQ(a[3]),e=cQ(a[2]);return[0,[0,cQ(a[1]),e,d,c,b]];case
 1:var
-f=y(cP,a[3]),g=cP(a[2]);return[1,cP(a[1]),g,f];default:return[2,cP(a[1])]}}function
-lM(a){if(0===a[0]){var
+f=x(cQ,a[3]),g=cQ(a[2]);return[1,cQ(a[1]),g,f];default:return[2,cQ(a[1])]}}function
+lP(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=j(k(a,c));return[0,j(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=j(a[5]),h=[0,j(a[4]),g],i=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,i,h]}function
+b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
 dw(a){var
-b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
+b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
 dx(a){if(0===a[0]){var
-c=a[5],h=c?dw(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bB(a[1]),l,k,i,h]}var
+c=a[5],h=c?dw(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bC(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dw(f),n=dw(g);return[2,j(e),n,m]}var
-o=dw(f),p=dw(g);return[1,j(e),p,o]}function
-hA(b,a){if(a){var
-c=a[1],d=a[2],g=hA(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bD(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:b$(b[1],a[1]);return ac(d)},h),g)}return a}function
-vj(b){if(b[1])return 0;var
+m=dw(f),n=dw(g);return[2,k(e),n,m]}var
+o=dw(f),p=dw(g);return[1,k(e),p,o]}function
+hC(b,a){if(a){var
+c=a[1],d=a[2],g=hC(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bE(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:b$(b[1],a[1]);return ad(d)},h),g)}return a}function
+vo(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-vk(T,S,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
+vp(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-U=f[1],c=function(a){return[2,a,j(U)]};break;case
+U=f[1],c=function(a){return[2,a,k(U)]};break;case
 1:var
-W=f[1],c=function(a){return[3,a,j(W)]};break;default:A=1}if(A)return 0;break;case
+W=f[1],c=function(a){return[3,a,k(W)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],L=0;if(typeof
 h==="number"||!(1===h[0]))L=1;else{var
 i=a[3],M=0,X=h[1];if(i){var
 C=i[1];if(0===C[0]){var
 Y=C[1],c=function(a){var
-b=j(X);return[4,a,j(Y),b]};M=1}else
+b=k(X);return[4,a,k(Y),b]};M=1}else
 var
 D=0}else
 var
 D=i;if(!M)return D}if(L)return 0;break;case
 3:var
-k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
+j=a[4];if(typeof
+j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
 4:var
 l=a[4],N=0;if(typeof
 l==="number"||!(0===l[0]))N=1;else
 var
-Z=l[1],c=function(a){return[6,a,j(Z)]};if(N)return 0;break;case
+Z=l[1],c=function(a){return[6,a,k(Z)]};if(N)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 E=n[1],o=a[3];if(o){var
 p=o[1];switch(p[0]){case
 0:var
-_=j(E);return[0,[8,j(p[1]),_],0];case
+_=k(E);return[0,[8,k(p[1]),_],0];case
 1:var
-$=j(E);return[0,[15,e(j,p[1]),$],0];default:return 0}}return o}return 0;case
+$=k(E);return[0,[15,e(k,p[1]),$],0];default:return 0}}return o}return 0;case
 7:var
 q=a[4];if(typeof
-q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
+q!=="number"&&0===q[0])return[0,[9,k(q[1])],0];return 0;case
 8:var
 r=a[4],O=0;if(typeof
 r==="number"||!(1===r[0]))O=1;else{var
 s=a[3],P=0,aa=r[1];if(s){var
 F=s[1];if(0===F[0]){var
 ab=F[1],c=function(a){var
-b=j(aa);return[13,a,j(ab),b]};P=1}else
+b=k(aa);return[13,a,k(ab),b]};P=1}else
 var
 G=0}else
 var
@@ -4640,11 +4676,11 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=hA(0,S);return e(function(h){var
-e=j(ac),a=h[2],c=h[1];if(0===c[0]){var
+ac=t[1],ad=hC(0,S);return e(function(h){var
+e=k(ac),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
 g=function(a){return a?dw(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(u(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bB(f),m,l,k]}var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bC(f),m,l,j]}var
 n=dx(a);return[10,dx(c),n,e]}var
 o=dx(a);return[10,dx(c),o,e]}var
 p=dx(a);return[10,dx(c),p,e]},ad)}return 0;case
@@ -4654,25 +4690,25 @@ v==="number"||!(1===v[0]))Q=1;else{var
 w=a[3],R=0,ae=v[1];if(w){var
 x=w[1];if(2===x[0]){var
 af=x[2],ag=x[1],c=function(a){var
-b=j(ae),c=j(af);return[12,a,j(ag),c,b]};R=1}else
+b=k(ae),c=k(af);return[12,a,k(ag),c,b]};R=1}else
 var
 H=0}else
 var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?vl:I;return ah;case
+a[4]==="number"?1:0,ah=I?vq:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 J=z[1];if(0===J[0]){var
-ai=j(y[1]);return[0,[14,j(J[1]),ai],0]}var
+ai=k(y[1]);return[0,[14,k(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bB(B[1]),0]:aV(0,T);return e(c,V)}function
-vm(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bC(B[1]),0]:aV(0,T);return e(c,V)}function
+vr(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4709,12 +4745,12 @@ y!=="number"&&0===y[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
-1:return u(i(z[1]),c);default:return 0}}return f}return 0;case
+1:return u(j(z[1]),c);default:return 0}}return f}return 0;case
 8:var
 R=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))R=1;else{var
 g=a[3],S=0;if(g)if(0===g[1][0]){var
-B=u(c,vo),T=0;if(B){var
+B=u(c,vt),T=0;if(B){var
 C=a[2];if(C){var
 b=C[1];S=1;T=1}else
 var
@@ -4729,10 +4765,10 @@ E=g;if(!S)return E}if(R)return 0;break;case
 U=0,F=a[4];if(typeof
 F==="number"||!(1===F[0]))U=1;else{var
 G=a[2];if(!G){var
-j=a[3];if(j){if(2===j[1][0])return 1;var
+i=a[3];if(i){if(2===i[1][0])return 1;var
 I=0}else
 var
-I=j;return I}var
+I=i;return I}var
 h=a[3],V=0;if(h)if(2===h[1][0]){var
 b=G[1];V=1}else
 var
@@ -4748,61 +4784,61 @@ K=J;return K;case
 12:var
 L=a[4];if(typeof
 L!=="number"&&1===L[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,vp);var
+k=a[3];if(k){if(0===k[1][0])return u(c,vu);var
 M=0}else
 var
 M=k;return M}return 0;case
 13:return 0;default:var
 x=a[4];if(typeof
 x!=="number"&&0===x[0])return a[2]?0:a[3]?0:1;return 0}var
-o=Z(vn,b);return o?Z(b,c):o}function
-hB(c,k,j,b){var
-l=i(c),d=z(function(a){return vk(l,j,a)},b),a=z(vj,b),g=a?[0,a[1],a[2]]:vq,h=f(g,d),m=lM(k);return[0,e(vi,c),m,h]}function
-lN(b){if(b[1])return 0;var
+o=Z(vs,b);return o?Z(b,c):o}function
+hD(c,k,i,b){var
+l=j(c),d=z(function(a){return vp(l,i,a)},b),a=z(vo,b),g=a?[0,a[1],a[2]]:vv,h=f(g,d),m=lP(k);return[0,e(vn,c),m,h]}function
+lQ(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-hC(E,D,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
+hE(E,D,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-F=c[1],b=function(a){return[2,a,j(F)]};break;case
+F=c[1],b=function(a){return[2,a,k(F)]};break;case
 1:var
-H=c[1],b=function(a){return[3,a,j(H)]};break;default:var
+H=c[1],b=function(a){return[3,a,k(H)]};break;default:var
 I=c[2],J=c[1],b=function(a){var
-b=j(I);return[4,a,j(J),b]}}break;case
+b=k(I);return[4,a,k(J),b]}}break;case
 2:var
 f=a[4],x=0;if(typeof
 f==="number"||!(1===f[0]))x=1;else{var
 g=a[3],y=0,K=f[1];if(g){var
 r=g[1];if(0===r[0]){var
 L=r[1],b=function(a){var
-b=j(L),c=j(K);return E?[9,a,b,c]:[6,a,b,c]};y=1}else
+b=k(L),c=k(K);return E?[9,a,b,c]:[6,a,b,c]};y=1}else
 var
 s=0}else
 var
 s=g;if(!y)return s}if(x)return 0;break;case
 3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
+h!=="number"&&1===h[0])return[0,[5,k(h[1])],0];return 0;case
 4:var
 i=a[4],z=0;if(typeof
 i==="number"||!(0===i[0]))z=1;else
 var
-M=i[1],b=function(a){return[10,a,j(M)]};if(z)return 0;break;case
+M=i[1],b=function(a){return[10,a,k(M)]};if(z)return 0;break;case
 5:var
-k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
+j=a[4];if(typeof
+j!=="number"&&0===j[0])return[0,[12,k(j[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
 t=m[1];if(0===t[0]){var
-N=j(l[1]);return[0,[8,j(t[1]),N],0]}var
+N=k(l[1]);return[0,[8,k(t[1]),N],0]}var
 u=0}else
 var
 u=m;return u}return 0;case
@@ -4812,7 +4848,7 @@ n==="number"||!(1===n[0]))A=1;else{var
 o=a[3],B=0,O=n[1];if(o){var
 v=o[1];if(0===v[0]){var
 P=v[1],b=function(a){var
-b=j(O);return[7,a,j(P),b]};B=1}else
+b=k(O);return[7,a,k(P),b]};B=1}else
 var
 w=0}else
 var
@@ -4821,12 +4857,12 @@ w=o;if(!B)return w}if(A)return 0;break;case
 p=a[4],C=0;if(typeof
 p==="number"||!(1===p[0]))C=1;else
 var
-Q=p[1],b=function(a){return[11,a,j(Q)]};if(C)return 0;break;default:return 0}var
-q=a[2],G=q?[0,bB(q[1]),0]:aV(0,D);return e(b,G)}function
+Q=p[1],b=function(a){return[11,a,k(Q)]};if(C)return 0;break;default:return 0}var
+q=a[2],G=q?[0,bC(q[1]),0]:aV(0,D);return e(b,G)}function
 dy(d,c,b){var
-e=z(function(a){return hC(d,c,a)},b),a=z(lN,b),g=a?[0,a[1],a[2]]:vr;return f(g,e)}function
-fL(a){return 11===a[1]?1:0}function
-bJ(n,m,a){var
+e=z(function(a){return hE(d,c,a)},b),a=z(lQ,b),g=a?[0,a[1],a[2]]:vw;return f(g,e)}function
+fO(a){return 11===a[1]?1:0}function
+bL(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4838,7 +4874,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=b$(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(vs,h);return i?Z(h,m):i}var
+h=g[1],i=Z(vx,h);return i?Z(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -4847,27 +4883,27 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 ba(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(vt,e),o=f?Z(e,b):f,c=o;else
+e=d[1],f=Z(vy,e),o=f?Z(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(2<=g)switch(g-2|0){case
 0:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bJ(0,b,a):bJ(0,b,a)}return bJ(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bL(0,b,a):bL(0,b,a)}return bL(0,b,a);case
 4:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bJ(0,b,a):bJ(0,b,a)}return bJ(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bL(0,b,a):bL(0,b,a)}return bL(0,b,a);case
 6:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,n):c:bJ(0,b,a):bJ(0,b,a)}return bJ(0,b,a)}return bJ(0,b,a)}function
-lO(c,b,a){return 11===a[1]?typeof
+m=a[3];return m?0===m[1][0]?c?u(b,n):c:bL(0,b,a):bL(0,b,a)}return bL(0,b,a)}return bL(0,b,a)}function
+lR(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?ba(c,b,a):a[3]?ba(c,b,a):1:ba(c,b,a):ba(c,b,a)}function
-lP(f,c,b,a){var
+lS(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Z(vu,h),r=i?Z(h,b):i,d=r;else
+h=g[1],i=Z(vz,h),r=i?Z(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return ba(a0(c),b,a);if(d){var
@@ -4891,83 +4927,83 @@ var
 e=n;return e}return ba(a0(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?ba(a0(c),b,a):d?ac(f):d;return ba(a0(c),b,a);default:return ba(a0(c),b,a)}}function
-co(a){switch(a[0]){case
-0:return[0,j([0,a[1],a[2]])];case
+p!=="number"&&1===p[0])return a[3]?ba(a0(c),b,a):d?ad(f):d;return ba(a0(c),b,a);default:return ba(a0(c),b,a)}}function
+cp(a){switch(a[0]){case
+0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,co(a[1])];case
+2:return[2,cp(a[1])];case
 3:var
-b=co(a[2]),c=co(a[3]);switch(a[1]){case
+b=cp(a[2]),c=cp(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,co(a[1]),d];default:return[8,co(a[1])]}}function
-hD(c){function
+d=a[2];return[7,cp(a[1]),d];default:return[8,cp(a[1])]}}function
+hF(c){function
 a(e){var
 a=[0,d,b];return t(e,c,[0,a,a])}var
-e=a(vv),f=a(vw);return[0,a(0),f,e]}function
-cQ(a){function
+e=a(vA),f=a(vB);return[0,a(0),f,e]}function
+cR(a){function
 b(a){var
-b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
+b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,j(a[1])];default:var
-e=j(a[2]);return[3,j(a[1]),e]}}function
-lQ(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,hD(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return lM([1,a[1],a[2],a[3],a[4],a[5]])}function
-lR(h,b,g,f,d,a){function
-c(a){return hD(e(bv,a))}var
-k=ar(fL,a),l=dy(0,i(b),a),m=cQ(d),n=lQ(f),o=j(g);return[0,h,e(function(a){var
-b=c(a[2]);return[0,c(a[1]),b]},b),o,n,m,l,k]}function
-lS(a){return ar(function(a){return 2===a[0]?1:0},a)}function
-lT(k,a,c,h,g,f){var
-l=i(a),m=dy(lS(a),l,f),n=y(cQ,g),o=lQ(h),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return hD(e(bv,a))}switch(a[0]){case
+2:return[2,k(a[1])];default:var
+e=k(a[2]);return[3,k(a[1]),e]}}function
+lT(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,hF(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return lP([1,a[1],a[2],a[3],a[4],a[5]])}function
+lU(h,b,g,f,d,a){function
+c(a){return hF(e(bw,a))}var
+i=ar(fO,a),l=dy(0,j(b),a),m=cR(d),n=lT(f),o=k(g);return[0,h,e(function(a){var
+b=c(a[2]);return[0,c(a[1]),b]},b),o,n,m,l,i]}function
+lV(a){return ar(function(a){return 2===a[0]?1:0},a)}function
+lW(i,a,c,h,g,f){var
+l=j(a),m=dy(lV(a),l,f),n=x(cR,g),o=lT(h),p=c?k(c[1]):[0,b,b];return[0,i,e(function(a){function
+c(a){return hF(e(bw,a))}switch(a[0]){case
 0:var
-k=a[5],l=bv(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bw(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bv(a[6]),r=bv(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-lU(a){return a[1]?0:1}function
-lV(a){var
-c=lU(a);if(c)return c;if(1===a[1]){var
+p=a[7],q=bw(a[6]),r=bw(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+lX(a){return a[1]?0:1}function
+lY(a){var
+c=lX(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-fM(i,h,b){function
+fP(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(fN,a(fN,b)),j=a(f,hE),k=i?f:a(c(b,fN),hE);function
-g(b){return a(b,[5,e(fN,d(hE,d(b,b)))])}var
+f=c(fQ,a(fQ,b)),j=a(f,hG),k=i?f:a(c(b,fQ),hG);function
+g(b){return a(b,[5,e(fQ,d(hG,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-fO(f,e,d){function
+fR(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,hF,a(hF,d)],lW),g=a(c,[5,[3,0,hF,b(lW,b(c,c))]]);return[2,b(fM(f,e,d),g)]}function
-hG(e,g,a){function
+c=a([3,1,hH,a(hH,d)],lZ),g=a(c,[5,[3,0,hH,b(lZ,b(c,c))]]);return[2,b(fP(f,e,d),g)]}function
+hI(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(fP,b(fP,a)),d=e?h:b(f(a,fP),lX),i=b(d,[5,[3,0,fP,c(lX,c(d,d))]]);return c(fM(e,g,a),i)}function
-lY(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cB(j(g[2][1]));if(k){var
-l=k[1],m=cB(j(g[2][2]));if(m)var
+h=f(fS,b(fS,a)),d=e?h:b(f(a,fS),l0),i=b(d,[5,[3,0,fS,c(l0,c(d,d))]]);return c(fP(e,g,a),i)}function
+l1(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cC(k(g[2][1]));if(j){var
+l=j[1],m=cC(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,eP(h[2],d,b)];return c_(l,bQ(eY(p,l),e))},q=n(x(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,eQ(h[2],d,b)];return c$(l,bS(eZ(p,l),e))},q=n(y(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=lY([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=l1([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -4976,21 +5012,21 @@ al(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=i3(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=i4(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,al(b,a[1])];case
 3:var
 f=al(b,a[3]),g=al(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,al(b,a[1]),h];default:return[5,al(b,a[1])]}}function
-lZ(b,a){if(0===a[0])return[0,al(b,a[1])];var
+l2(b,a){if(0===a[0])return[0,al(b,a[1])];var
 c=al(b,a[2]);return[1,al(b,a[1]),c]}function
-hH(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hI(c,a){if(c)if(a){var
+hJ(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+hK(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hI(h,g);if(e){var
-i=e[1],f=hI(h,i[2]);if(f)var
+e=hK(h,g);if(e){var
+i=e[1],f=hK(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5002,63 +5038,63 @@ var
 d=a;else
 var
 d=c;return d}function
-hJ(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hJ(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,x(v(c(2,b),l),k),j],h]}else
+hL(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hL(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,y(v(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-vB(a){if(typeof
+vG(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-vC(a){if(typeof
+vH(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fQ(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=fQ(e,a[3]);return bQ(c_(fQ(e,a[2]),g),f)}return k(e,a[1])?[0,b,b]:[0,d,b]}var
-o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+fT(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=fT(e,a[3]);return bS(c$(fT(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}var
+p=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 b2(h){var
 a=bk(function(f,e){var
-a=aX(o,f);if(a)var
-b=a[1],c=bh(c4(b[1]),c4(b[2]));else
+a=aX(p,f);if(a)var
+b=a[1],c=bh(c5(b[1]),c5(b[2]));else
 var
-c=d;return bh(c,e)},d,h);if(W(d,a)){var
+c=d;return bh(c,e)},d,h);if(X(d,a)){var
 f=a3(a);if(0===f||!(0<f&&!G(a,b)))var
 g=d;else
 var
-c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eR(e):eR(e);return aA(g,o)}return d}function
+c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eS(e):eS(e);return aA(g,p)}return d}function
 dz(a){return[0,a[1],[0,a[2],0]]}function
 a1(a){var
 b=dz(a[3]),c=f(dz(a[2]),b);return f(dz(a[1]),c)}function
-l0(a){return 0===a[0]?dz(a[1][4]):0}function
-l1(a){switch(a[0]){case
+l3(a){return 0===a[0]?dz(a[1][4]):0}function
+l4(a){switch(a[0]){case
 0:var
 b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
 d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-fR(a){switch(a[0]){case
+fU(a){switch(a[0]){case
 0:return b2(a1(a[1][1]));case
 1:var
 b=a[3];return b?b2(a1(b[1])):d;default:return b2(a1(a[1]))}}function
-hK(c){var
-a=z(l0,c),d=a?[0,a[1],a[2]]:z(l1,c);return x(b,b2(d))}function
-l2(c,a){if(c){if(a){var
+hM(c){var
+a=z(l3,c),d=a?[0,a[1],a[2]]:z(l4,c);return y(b,b2(d))}function
+l5(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=vD;else
+b=vI;else
 if(43===d)var
-b=vE;else
+b=vJ;else
 var
-f=48===d?1:0,i=f?vF:f,b=i;if(b)var
-e=l2(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?vK:f,b=i;if(b)var
+e=l5(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:vG}function
+h=a;return h}return a?0:vL}function
 er(b,a){switch(a[0]){case
 0:var
-c=a[1];if(an(c,vH))return vI;if(an(c,vJ))return vK;if(an(c,vL))return vM;if(an(c,vN))return vO;if(an(c,vP))return vQ;var
-k=an(c,vR),p=k?vS:k;return p;case
+c=a[1];if(an(c,vM))return vN;if(an(c,vO))return vP;if(an(c,vQ))return vR;if(an(c,vS))return vT;if(an(c,vU))return vV;var
+k=an(c,vW),p=k?vX:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(an(f,vT))return[0,[0,d,e]];if(an(f,vU))return[0,[1,d,e]];if(an(f,vV))return[0,[2,d,e]];var
-l=an(f,vW),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(an(f,vY))return[0,[0,d,e]];if(an(f,vZ))return[0,[1,d,e]];if(an(f,v0))return[0,[2,d,e]];var
+l=an(f,v1),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
@@ -5067,25 +5103,25 @@ g=er(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
 h=er(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=er(b,a[1]);return y(function(a){return[6,a]},t);default:if(b){var
+t=er(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
 m=a[2],i=er(b,a[1]);if(i)var
-j=l2(b,gs(gr(am(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+j=l5(b,gv(gu(am(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-l3(d,a){if(a){var
+l6(d,a){if(a){var
 e=a[1],b=er(d,e[2]);if(b)var
-c=l3(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+c=l6(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return vX}function
-cR(d,c,a){if(c)if(a){var
+f=b;return f}return v2}function
+cS(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=l3(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=l6(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cR(d,k,j);if(f){var
-m=f[1],g=cR(d,k,m[2]);if(g)var
+f=cS(d,k,j);if(f){var
+m=f[1],g=cS(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5100,111 +5136,111 @@ var
 h=a;else
 var
 h=c;return h}function
-hL(e,d,a){if(d){if(a){var
-b=cR(e,i(a),a);if(b)var
-f=b[1],c=hL(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hN(e,d,a){if(d){if(a){var
+b=cS(e,j(a),a);if(b)var
+f=b[1],c=hN(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return vY}return a?0:vZ}function
-hM(a){return typeof
+g=b;return g}return v3}return a?0:v4}function
+hO(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hN(d,a){if(d)if(a){var
+hP(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hN(k,j);if(e){var
-l=e[1],f=hN(k,l[2]);if(f)var
+e=hP(k,j);if(e){var
+l=e[1],f=hP(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hM(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hO(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cp(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-cS(a,e){var
-b=cp(a[1],e),c=cp(a[2],b[2]),d=cp(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-l4(d,c){if(d){var
+cq(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+cT(a,e){var
+b=cq(a[1],e),c=cq(a[2],b[2]),d=cq(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+l7(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cS(a[1],c),f=cS(a[2],e[2]),g=cS(a[3],f[2]),h=cp(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cT(a[1],c),f=cT(a[2],e[2]),g=cT(a[3],f[2]),h=cq(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cS(a[1],c),k=j[1],l=cS(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cS(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cT(a[1],c),k=j[1],l=cT(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cT(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cS(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=l4(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-v0(a){if(typeof
+p=cT(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=l7(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+v5(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return v2;case
+5:return v7;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return v1}function
+11:return 0}return v6}function
 bb(a,b){if(a){var
-c=cp(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+c=cq(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 a8(c){function
 a(a){return t(a,c,[0,d,b])}var
-e=a(v5),f=a(v6);return[0,a(0),f,e]}function
-l5(a,b){if(a){var
-c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=l5(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
-l6(f,c){if(f){var
+e=a(v_),f=a(v$);return[0,a(0),f,e]}function
+l8(a,b){if(a){var
+c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=l8(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
+l9(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bb(a[1],c),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=cp(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
+g=bb(a[1],c),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=cq(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
 1:var
 k=bb(a[1],c),l=bb(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
-m=a[1],n=bb(m,c),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=cp(a[5],q[2]),s=cp(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
-t=l6(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dA(a){return jl(o,a)}function
-v7(a){if(typeof
+m=a[1],n=bb(m,c),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=cq(a[5],q[2]),s=cq(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
+t=l9(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dA(a){return jm(p,a)}function
+wa(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(o,1,[3,a[1],[0,b,b]]);case
-6:return g(o,1,a[2]);case
+5:return g(p,1,[3,a[1],[0,b,b]]);case
+6:return g(p,1,a[2]);case
 8:var
-d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
-10:return g(o,0,a[3]);case
+d=g(p,1,a[1]);return d?g(p,1,a[2]):d;case
+10:return g(p,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?g(o,0,e[2]):0;case
+e=a[4];return 2===e[0]?g(p,0,e[2]):0;case
 12:var
-f=g(o,0,a[2]),h=f?g(o,0,a[3]):f;return h?g(o,1,a[4]):h;case
+f=g(p,0,a[2]),h=f?g(p,0,a[3]):f;return h?g(p,1,a[4]):h;case
 14:var
-i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
+i=g(p,0,a[1]);return i?g(p,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return n(function(a){return g(p,k,a)},j);case
 2:case
 3:return dA(a[2]);case
 4:case
 13:var
-c=g(o,1,a[2]);return c?g(o,1,a[3]):c;default:return g(o,1,a[1])}}function
-hO(a){if(typeof
+c=g(p,1,a[2]);return c?g(p,1,a[3]):c;default:return g(p,1,a[1])}}function
+hQ(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(o,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):h;return i?g(o,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
-5:return g(o,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=g(p,1,[3,d,e]),h=f?g(p,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(p,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):h;return i?g(p,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
+5:return g(p,1,[3,a[1],[0,b,b]]);case
 8:var
-k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
-10:return g(o,1,a[2]);case
+k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
+10:return g(p,1,a[2]);case
 11:var
-l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):m;case
+l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):m;case
 2:case
 3:return dA(a[2]);case
 6:case
 7:case
 9:var
-j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
-fS(d){var
+j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
+fV(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ar(function(d){return function(a){var
-h=hv(a[1]),e=an(hv(d[1]),h);if(e)var
-i=hw(a[4]),b=an(hw(d[4]),i);else
+b=a[2],e=a[1],c=ad(ar(function(d){return function(a){var
+h=hx(a[1]),e=an(hx(d[1]),h);if(e)var
+i=hy(a[4]),b=an(hy(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5213,99 +5249,99 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-es(a){if(0===a[0])return dA(j(a[1]));var
-b=a[2],c=a[1];if(!d2(j(c))&&!d2(j(b))){var
-e=j(c);return g(o,1,[3,j(b),e])}var
-d=j(b);return a9(o,j(c),d)}function
-cT(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-l7(a){switch(a[0]){case
+es(a){if(0===a[0])return dA(k(a[1]));var
+b=a[2],c=a[1];if(!d2(k(c))&&!d2(k(b))){var
+e=k(c);return g(p,1,[3,k(b),e])}var
+d=k(b);return a9(p,k(c),d)}function
+cU(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+l_(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cT(a[3]),c),e=f(cT(a[2]),d);return f(cT(a[1]),e);case
+c=[0,a[4],0],d=f(cU(a[3]),c),e=f(cU(a[2]),d);return f(cU(a[1]),e);case
 1:var
-b=a[3],g=b?cT(b[1]):b,h=f(cT(a[2]),g);return f(cT(a[1]),h);default:return cT(a[1])}}function
-hP(a){switch(a){case
-0:return v_;case
-1:return v$;default:return 0}}function
-cq(a){var
-f=a[1],d=g(o,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?a9(o,a[1],a[2]):d;if(e){var
-h=a[2];return g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
+b=a[3],g=b?cU(b[1]):b,h=f(cU(a[2]),g);return f(cU(a[1]),h);default:return cU(a[1])}}function
+hR(a){switch(a){case
+0:return wd;case
+1:return we;default:return 0}}function
+cr(a){var
+f=a[1],d=g(p,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?a9(p,a[1],a[2]):d;if(e){var
+h=a[2];return g(p,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
 dB(a){var
-e=a9(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-l8(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(i(e),c),h=f?u(i(d),c):f;if(h){var
+e=a9(p,[0,d,b],a);return e?g(p,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+l$(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
 l=aK(e,d);return n(function(a){var
-b=j(a[2]);return a9(o,j(a[1]),b)},l)}return h}var
-k=b?g(o,1,j(a[3])):b;if(k){var
-m=j(a[5]);return a9(o,j(a[4]),m)}return k}function
-l9(b,c,A,z,m,f){function
-p(a){var
-d=b?v8:v9,c=u(i(a),d);return c?n(es,a):c}var
+b=k(a[2]);return a9(p,k(a[1]),b)},l)}return h}var
+i=b?g(p,1,k(a[3])):b;if(i){var
+m=k(a[5]);return a9(p,k(a[4]),m)}return i}function
+ma(b,c,A,z,m,f){function
+o(a){var
+d=b?wb:wc,c=u(j(a),d);return c?n(es,a):c}var
 q=n(function(a){var
-b=p(a[1]);return b?p(a[2]):b},c);if(q)var
-B=i(c),h=Z(dl(b),B);else
+b=o(a[1]);return b?o(a[2]):b},c);if(q)var
+B=j(c),h=Z(dm(b),B);else
 var
 h=q;var
-r=h?Z(i(c),wa):h,s=r?g(o,1,j(A)):r;if(s)var
-C=1===b?1:0,k=l8(hP(b),C,z);else
+r=h?Z(j(c),wf):h,s=r?g(p,1,k(A)):r;if(s)var
+C=1===b?1:0,i=l$(hR(b),C,z);else
 var
-k=s;if(k)if(b){var
-a=cQ(m);switch(a[0]){case
+i=s;if(i)if(b){var
+a=cR(m);switch(a[0]){case
 0:var
 d=0;break;case
 1:var
-v=cq(a[1]),w=v?cq(a[2]):v,d=w?cq(a[3]):w;break;case
+v=cr(a[1]),w=v?cr(a[2]):v,d=w?cr(a[3]):w;break;case
 2:var
 d=dB(a[1]);break;default:var
 x=dB(a[1]),d=x?dB(a[2]):x}var
 e=d}else
 var
-y=cQ(m),F=0===y[0]?cq(y[1]):0,e=F;else
+y=cR(m),F=0===y[0]?cr(y[1]):0,e=F;else
 var
-e=k;if(e)var
-D=i(c),E=dl(b),l=n(function(a){return lO(E,D,a)},f);else
+e=i;if(e)var
+D=j(c),E=dm(b),l=n(function(a){return lR(E,D,a)},f);else
 var
 l=e;var
-t=l?fS(f):l;return t?n(hO,dy(0,i(c),f)):t}function
-l_(a){switch(a[0]){case
+t=l?fV(f):l;return t?n(hQ,dy(0,j(c),f)):t}function
+mb(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-l$(a,e,d,Q,m,l){var
-p=typeof
+mc(a,e,d,Q,m,l){var
+o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?wb:wc;return u(i(a),b)}var
-h=lS(e),x=n(function(b){switch(b[0]){case
+b=o?wg:wh;return u(j(a),b)}var
+h=lV(e),y=n(function(b){switch(b[0]){case
 0:var
-d=ac(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=ad(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=ac(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
+g=ad(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
-m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(x)var
-R=i(e),q=Z(a0(a),R);else
+m=b[1],n=o?m?0:1:c(m),p=n?c(b[2]):n,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(y)var
+R=j(e),q=Z(a0(a),R);else
 var
-q=x;var
-A=q?Z(i(e),wd):q,B=A?n(es,z(l_,e)):A;if(B){var
+q=y;var
+A=q?Z(j(e),wi):q,B=A?n(es,z(mb,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-S=p?we:wf,r=l8(S,C,Q)}else
+S=o?wj:wk,r=l$(S,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=y(cQ,m)?0:1,b=U;else
+U=x(cR,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=y(cQ,m);if(t){var
+t=x(cR,m);if(t){var
 E=t[1];if(0===E[0])var
-F=g(o,1,j(d[1])),G=F?cq(E[1]):F;else
+F=g(p,1,k(d[1])),G=F?cr(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -5315,16 +5351,16 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],w=y(cQ,m);if(w){var
+v=d[1],w=x(cR,m);if(w){var
 f=w[1];switch(f[0]){case
 0:var
-k=0;break;case
+i=0;break;case
 1:var
-J=g(o,1,j(v)),K=J?cq(f[1]):J,L=K?cq(f[2]):K,k=L?cq(f[3]):L;break;case
+J=g(p,1,k(v)),K=J?cr(f[1]):J,L=K?cr(f[2]):K,i=L?cr(f[3]):L;break;case
 2:var
-M=g(o,1,j(v)),k=M?dB(f[1]):M;break;default:var
-N=g(o,1,j(v)),O=N?dB(f[1]):N,k=O?dB(f[2]):O}var
-I=k}else
+M=g(p,1,k(v)),i=M?dB(f[1]):M;break;default:var
+N=g(p,1,k(v)),O=N?dB(f[1]):N,i=O?dB(f[2]):O}var
+I=i}else
 var
 I=w;var
 b=I}else
@@ -5333,18 +5369,18 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=i(e),s=n(function(b){return lP(h,a,T,b)},l);else
+T=j(e),s=n(function(b){return lS(h,a,T,b)},l);else
 var
 s=b;var
-D=s?fS(l):s;return D?n(hO,dy(h,i(e),l)):D}function
-hQ(j){var
-q=aF(j,b2(a1(j))),a=e(function(a){return ah(o,a)},q);if(a){var
+D=s?fV(l):s;return D?n(hQ,dy(h,j(e),l)):D}function
+hS(j){var
+q=aF(j,b2(a1(j))),a=e(function(a){return ah(p,a)},q);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return S(o,a)},r=i(h[1]),s=i(g[1]);return W(d,B(B(i(f[1]),s),r)[1])}var
+i=function(a){return S(p,a)},r=i(h[1]),s=i(g[1]);return X(d,B(B(i(f[1]),s),r)[1])}var
 k=h}else
 var
 k=c;var
@@ -5357,93 +5393,93 @@ m=b;var
 n=m}else
 var
 n=f;var
-p=n}else
+o=n}else
 var
-p=a;return p}function
-wg(a){switch(a[0]){case
-0:return hQ(a[1][1]);case
+o=a;return o}function
+wl(a){switch(a[0]){case
+0:return hS(a[1][1]);case
 1:var
-b=a[3];return b?hQ(b[1]):1;default:return hQ(a[1])}}function
-hR(c,a,b,p){if(ar(function(a){return 9===a[1]?1:0},b)){var
-h=Z(i(a),wi),k=h?n(function(a){if(0===a[0]){var
-h=a[5],i=g(o,1,j(a[2])),k=i?g(o,0,j(a[3])):i,l=k?g(o,0,j(a[4])):k,e=0;if(l)if(h)var
-u=bu(h[1]),b=n(function(a){return dA(j(a))},u);else{var
+b=a[3];return b?hS(b[1]):1;default:return hS(a[1])}}function
+hT(c,a,b,o){if(ar(function(a){return 9===a[1]?1:0},b)){var
+h=Z(j(a),wn),i=h?n(function(a){if(0===a[0]){var
+h=a[5],i=g(p,1,k(a[2])),j=i?g(p,0,k(a[3])):i,l=j?g(p,0,k(a[4])):j,e=0;if(l)if(h)var
+u=bv(h[1]),b=n(function(a){return dA(k(a))},u);else{var
 m=1;e=1}else{var
 m=l;e=1}if(e)var
 b=m}else{var
-p=g(o,1,j(a[4]));if(p)var
-v=bu(a[3]),w=f(bu(a[2]),v),b=n(function(a){return dA(j(a))},w);else
+o=g(p,1,k(a[4]));if(o)var
+v=bv(a[3]),w=f(bv(a[2]),v),b=n(function(a){return dA(k(a))},w);else
 var
-b=p}if(b){if(0===a[0]){var
-q=a[1],r=Z(wh,q);if(r){var
-d=X(c,bB(q));if(d){if(2===d[1][0])return 0;var
+b=o}if(b){if(0===a[0]){var
+q=a[1],r=Z(wm,q);if(r){var
+d=T(c,bC(q));if(d){if(2===d[1][0])return 0;var
 s=1}else
 var
 s=d;var
 t=s}else
 var
-t=r;return t}return 1}return b},a):h;if(k)var
-l=hA(0,a),u=l?1:l,m=u;else
+t=r;return t}return 1}return b},a):h;if(i)var
+l=hC(0,a),u=l?1:l,m=u;else
 var
-m=k;var
+m=i;var
 d=m}else
 var
 d=a?0:1;var
-q=d?n(wg,p[1]):d,r=q?Z(wj,i(c)):q;if(r)var
-v=i(c),e=n(function(a){return vm(v,a)},b);else
+q=d?n(wl,o[1]):d,r=q?Z(wo,j(c)):q;if(r)var
+v=j(c),e=n(function(a){return vr(v,a)},b);else
 var
 e=r;var
-s=e?fS(b):e,t=s?n(es,z(l7,c)):s;return t?n(v7,p[3]):t}function
-fT(b,a){return n(function(c){var
+s=e?fV(b):e,t=s?n(es,z(l_,c)):s;return t?n(wa,o[3]):t}function
+fW(b,a){return n(function(c){var
 a=c[2];return a?dS(a[1],b):1},a)}function
-ma(a){if(a){var
-b=a[1];if(fL(b))return 0;var
-c=[0,b,ma(a[2])]}else
+md(a){if(a){var
+b=a[1];if(fO(b))return 0;var
+c=[0,b,md(a[2])]}else
 var
 c=a;return c}function
-mb(c,b){var
-d=ma(b),e=0,f=i(z(function(a){return hC(e,c,a)},d)),a=z(lN,b),g=a?[0,a[1],a[2]]:wk;return N(i(g),f)}function
-hS(b,a){var
-c=i(bD(function(a){return 0===a[0]?0:1},b));return u(i(a),c)}function
-hT(a){if(a){var
+me(c,b){var
+d=md(b),e=0,f=j(z(function(a){return hE(e,c,a)},d)),a=z(lQ,b),g=a?[0,a[1],a[2]]:wp;return L(j(g),f)}function
+hU(b,a){var
+c=j(bE(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
+hV(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-mc(aL,Z,aI,Y,X,b,aH,B){var
-a=hB(Z,aI,Y,X),aN=i(B);if(aL)var
+mf(aL,Z,aI,Y,W,b,aH,B){var
+a=hD(Z,aI,Y,W),aN=j(B);if(aL)var
 _=0;else
 var
-aD=a[1],aE=e(fR,a[1]),V=fl(hK(a[1]),aE,aD),aG=aK(aV(0,i(V)),V),_=e(aJ,bD(function(a){return gV(a[2])},aG));var
-C=cR(_,aN,B);if(C){var
+aD=a[1],aE=e(fU,a[1]),V=fm(hM(a[1]),aE,aD),aG=aK(aV(0,j(V)),V),_=e(aJ,bE(function(a){return gY(a[2])},aG));var
+C=cS(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=hR(Z,Y,X,a),ab=aa?fT(wl,B):aa;if(ab){var
-aO=$[1],D=e(fR,a[1]),c=hK(a[1]),aP=hT(aH),U=kh(o,a);if(U){var
-j=fl(c,D,a[1]),g=gT(c,D,a[1],0),ae=i(a[3]),af=N(i(j),ae),K=[0,i(j),af],ag=a[3],F=ar(function(a){if(typeof
+aa=hT(Z,Y,W,a),ab=aa?fW(wq,B):aa;if(ab){var
+aO=$[1],D=e(fU,a[1]),c=hM(a[1]),aP=hV(aH),U=ki(p,a);if(U){var
+k=fm(c,D,a[1]),g=gW(c,D,a[1],0),ae=j(a[3]),af=L(j(k),ae),K=[0,j(k),af],ag=a[3],F=ar(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?z(function(a){var
-b=e(b_,j6(j,a));return[0,a[4],b]},g):F,ak=f(gU(g,c,K,a[3]),ai),al=f(bs(jC(g)),ak),L=f(bs(d4(g)),al),M=da(L)[1],m=cz(M),O=n(function(a){var
-b=l(d);return aM(t(bm(m,a),m,b),a)},L);if(O){var
-P=ar(p4,a[3]);if(P){var
-s=D,p=a[1];for(;;){if(p){var
-q=p[1],u=bC(d,s);switch(q[0]){case
+b=e(b_,j7(k,a));return[0,a[4],b]},g):F,ak=f(gX(g,c,K,a[3]),ai),al=f(bt(jD(g)),ak),M=f(bt(d4(g)),al),N=db(M)[1],m=cA(N),O=n(function(a){var
+b=l(d);return aM(t(bm(m,a),m,b),a)},M);if(O){var
+P=ar(p7,a[3]);if(P){var
+s=D,o=a[1];for(;;){if(o){var
+q=o[1],u=bD(d,s);switch(q[0]){case
 0:var
-G=q[1],H=gW(b,G[1],u),E=0;if(H){var
+G=q[1],H=gZ(b,G[1],u),E=0;if(H){var
 r=ah(b,[0,G[4],c]);if(r)var
-h=W(d,r[1][1]);else{var
+h=X(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=q[3],h=J?gW(b,J[1],u):1;break;default:var
-h=gW(b,q[1],u)}if(h){var
-ad=p[2],s=cb(s),p=ad;continue}var
+J=q[3],h=J?gZ(b,J[1],u):1;break;default:var
+h=gZ(b,q[1],u)}if(h){var
+ad=o[2],s=cb(s),o=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-am=a[3],an=z(function(a){return cE(c,a)},am),ao=a[3],aq=f(j,f(e(function(a){return br(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
-as=aF(dj(a[2]),c),x=aj(e(function(a){return ah(b,a)},as));if(x){var
-at=a[3],y=aj(j7(b,aP,function(a){return bm(m,a)},j,g,c,K,at));if(y){var
-R=y[1],au=gS(R),av=x[1],aw=a[2],ax=function(a){return j8(b,aw,c,a)},ay=w[1],az=0,aA=jC(g),aB=k(ap(function(a){return bm(m,a)}),aA),aC=d4(g);return fj(b,M,k(ap(function(a){return bm(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
+am=a[3],an=z(function(a){return cF(c,a)},am),ao=a[3],aq=f(k,f(e(function(a){return bs(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
+as=aF(dk(a[2]),c),x=aj(e(function(a){return ah(b,a)},as));if(x){var
+at=a[3],y=aj(j8(b,aP,function(a){return bm(m,a)},k,g,c,K,at));if(y){var
+R=y[1],au=gV(R),av=x[1],aw=a[2],ax=function(a){return j9(b,aw,c,a)},ay=w[1],az=0,aA=jD(g),aB=i(ap(function(a){return bm(m,a)}),aA),aC=d4(g);return fk(b,N,i(ap(function(a){return bm(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
 S=y}else
 var
 S=x;var
@@ -5458,36 +5494,36 @@ A=O;return A}return U}var
 ac=ab}else
 var
 ac=C;return ac}function
-wm(a){if(0===a[0])return l0(a[1]);var
+wr(a){if(0===a[0])return l3(a[1]);var
 b=a[1],c=dz(b[6]);return f(dz(b[5]),c)}function
-wn(a){if(0===a[0])return l1(a[1]);var
+ws(a){if(0===a[0])return l4(a[1]);var
 b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-wo(a){if(0===a[0])return[0,fR(a[1]),d];var
+wt(a){if(0===a[0])return[0,fU(a[1]),d];var
 b=a[1],c=b2(a1(b[2]));return[0,b2(a1(b[1])),c]}function
-md(f,n,m,l,k,j,y,d){var
-a=lT(f,n,m,l,k,j),p=a[2],c=z(wm,p),w=c?[0,c[1],c[2]]:z(wn,p),h=x(b,b2(w)),q=e(wo,a[2]),r=hh(h,q,a[2]),A=i(d),B=aK(aV(0,i(r)),r),g=cR(e(aJ,bD(function(a){return gV(a[2])},B)),A,d);if(g){var
+mg(f,n,m,l,k,i,x,d){var
+a=lW(f,n,m,l,k,i),o=a[2],c=z(wr,o),w=c?[0,c[1],c[2]]:z(ws,o),h=y(b,b2(w)),q=e(wt,a[2]),r=hj(h,q,a[2]),A=j(d),B=aK(aV(0,j(r)),r),g=cS(e(aJ,bE(function(a){return gY(a[2])},B)),A,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=l$(f,n,m,l,k,j),u=t?fT(a0(f),d):t;if(u)return qY(o,y,a,h,q,s[1]);var
+t=mc(f,n,m,l,k,i),u=t?fW(a0(f),d):t;if(u)return q3(p,x,a,h,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-me(B,aM,ap,ao,A,an,h){var
-l=hB(B,aM,ap,ao);if(A){var
+mh(B,aM,ap,ao,A,an,h){var
+l=hD(B,aM,ap,ao);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-aq=l4(B,e(j,an));if(aq[2])return 0;var
+aq=l7(B,e(k,an));if(aq[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?v3:v4;else
+a=0===h?v8:v9;else
 if(0===h[0]){var
-c=h[2],m=h[1],H=y(v0,X(as,m)),J=0;if(H){var
+c=h[2],m=h[1],H=x(v5,T(as,m)),J=0;if(H){var
 S=H[1];if(S){var
-T=S[1];if(T)if(T[1])var
+U=S[1];if(U)if(U[1])var
 a=0;else{var
 K=0;if(c){var
 n=c[1],L=0;if(n){var
-p=n[2],M=0;if(p){var
-q=p[2],N=0;if(q)if(q[2]){var
+o=n[2],M=0;if(o){var
+q=o[2],N=0;if(q)if(q[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
 r=c[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
@@ -5495,16 +5531,16 @@ t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
 a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
-U=[0,[0,m,[0,[0,n[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+V=[0,[0,m,[0,[0,n[1],o[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
-U=u;if(!aC)var
-V=U}else
-var
-V=t;if(!aB)var
+V=u;if(!aC)var
 W=V}else
 var
-W=s;if(!aA)var
-Y=W}else
+W=t;if(!aB)var
+X=W}else
+var
+X=s;if(!aA)var
+Y=X}else
 var
 Y=r;if(!az)var
 Z=Y}else
@@ -5512,7 +5548,7 @@ var
 Z=q;if(!N)var
 _=Z}else
 var
-_=p;if(!M)var
+_=o;if(!M)var
 $=_}else
 var
 $=n;if(!L)var
@@ -5523,12 +5559,12 @@ a=aa}else{var
 aD=0;if(c){var
 v=c[1],aE=0;if(v){var
 w=v[2],aF=0;if(w){var
-x=w[2],aG=0;if(x)if(x[2]||c[2]){var
+y=w[2],aG=0;if(y)if(y[2]||c[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=x[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=y[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-ae=x;if(!aG)var
+ae=y;if(!aG)var
 af=ae}else
 var
 af=w;if(!aF)var
@@ -5544,23 +5580,23 @@ a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=h[1],I=X(as,ak),O=0;if(I){var
+ak=h[1],I=T(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
 a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=hS(z(l7,B),an),au=at?hR(B,ap,ao,l):at;if(au){var
-f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=aq[1],P=j_(o,l,k,i);if(P)if(typeof
+at=hU(z(l_,B),an),au=at?hT(B,ap,ao,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=aq[1],P=j$(p,l,j,i);if(P)if(typeof
 f==="number")return 0===f?ar(function(c){var
-a=j$(c,i);return a?g(o,0,[3,[0,d,b],a[1]]):a},k):jr(p6,e(function(b){var
-a=ea(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=X(l[3],f[1]);if(E){var
-aI=E[1],aJ=ka(f[3]);return kf(o,k,i,ka(f[2]),aJ,aI)}return E}var
-F=X(l[3],f[1]);if(F){var
-G=X(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cJ(Q,i);return kf(o,k,i,cJ(Q,i),aL,aK)}var
+a=ka(c,i);return a?g(p,0,[3,[0,d,b],a[1]]):a},j):js(p9,e(function(b){var
+a=ea(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
+E=T(l[3],f[1]);if(E){var
+aI=E[1],aJ=kb(f[3]);return kg(p,j,i,kb(f[2]),aJ,aI)}return E}var
+F=T(l[3],f[1]);if(F){var
+G=T(j,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cK(Q,i);return kg(p,j,i,cK(Q,i),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
@@ -5576,21 +5612,21 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-mf(m,l,b,k,z,x){var
-f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=X(f,g),n=h?dS(h[1][2],wr):h;if(n)var
-A=d[2],i=mf(m,l,b,k,hJ(0,g,f),A);else
+mi(m,l,b,k,z,y){var
+f=z,d=y;for(;;){if(0===d[0]){var
+g=d[1],h=T(f,g),n=h?dS(h[1][2],ww):h;if(n)var
+A=d[2],i=mi(m,l,b,k,hL(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hJ(1,g,f),d=B;continue}return i}var
-c=d[1],a=lY(0,m,f),o=e(function(b){function
-d(b){return lZ(a,b)}function
-c(a){return hH(d,a)}switch(b[0]){case
+B=d[3],f=hL(1,g,f),d=B;continue}return i}var
+c=d[1],a=l1(0,m,f),o=e(function(b){function
+d(b){return l2(a,b)}function
+c(a){return hJ(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=lZ(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=l2(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hH(function(b){return al(a,b)},q),s=b[1],j=[0,hH(function(b){return al(a,b)},s),r];else
+i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hJ(function(b){return al(a,b)},q),s=b[1],j=[0,hJ(function(b){return al(a,b)},s),r];else
 var
 t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),w=al(a,b[2]),j=[1,al(a,b[1]),w,v,u,t];var
 p=e(function(f){var
@@ -5616,70 +5652,70 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mc(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return me(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
-mg(h,g){var
-a=cB(j(h));if(a){var
-c=a[1],e=c9([0,d,b],c);if(e)return c9(c,g);var
+1:return mf(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return mh(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
+mj(h,g){var
+a=cC(k(h));if(a){var
+c=a[1],e=c_([0,d,b],c);if(e)return c_(c,g);var
 f=e}else
 var
 f=a;return f}function
-wx(p){var
-dF=fJ(p[3]),dG=dF?fJ(p[4]):dF;if(dG){var
-H=p[1];switch(H[0]){case
+wC(o){var
+dF=fM(o[3]),dG=dF?fM(o[4]):dF;if(dG){var
+H=o[1];switch(H[0]){case
 3:var
 dN=n(ep,H[1]);if(dN)var
 gR=H[2],bJ=n(function(a){return ep(a[1])},gR);else
 var
 bJ=dN;if(bJ)var
-gV=H[3],bK=n(function(a){var
-b=ep(a[1]),c=b?hy(a[2]):b;return c?eq(a[2]):c},gV);else
+gS=H[3],bK=n(function(a){var
+b=ep(a[1]),c=b?hA(a[2]):b;return c?eq(a[2]):c},gS);else
 var
 bK=bJ;if(bK)var
-gW=H[4],aN=n(function(a){var
+gT=H[4],aN=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hy(a);return b?eq(a):b},b)},gW);else
+b=hA(a);return b?eq(a):b},b)},gT);else
 var
 aN=bK;break;case
 7:var
-gY=H[1],dO=n(function(a){var
-b=ep(a[1]);return b?fK(0,[0,a[2][1],[0,a[2][2],0]]):b},gY),aN=dO?fK(0,[0,H[5],[0,H[6],0]]):dO;break;default:var
+gU=H[1],dO=n(function(a){var
+b=ep(a[1]);return b?fN(0,[0,a[2][1],[0,a[2][2],0]]):b},gU),aN=dO?fN(0,[0,H[5],[0,H[6],0]]):dO;break;default:var
 aN=1}var
-bI=aN}else
+bH=aN}else
 var
-bI=dG;var
-cn=0;if(bI){var
-dH=p[1],dI=7===dH[0]?e(aJ,dH[1]):0,dJ=function(c,b){var
-a=lK(c);return a?n(function(a){var
+bH=dG;var
+cn=0;if(bH){var
+dH=o[1],dI=7===dH[0]?e(aJ,dH[1]):0,dJ=function(c,b){var
+a=lN(c);return a?n(function(a){var
 b=a[1];return n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fJ(a[2]);if(b){var
+b=fM(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fJ(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}},b)},b):a},dK=function(d,c,b){var
-a=lK(d);return a?fK(dI,f(c,b)):a},h=p[1];switch(h[0]){case
+1:return fM(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}},b)},b):a},dK=function(d,c,b){var
+a=lN(d);return a?fN(dI,f(c,b)):a},h=o[1];switch(h[0]){case
 0:var
-gr=z(cO,h[4]),gs=f(z(vh,h[3]),gr),gt=f(lH(h[2]),gs),I=f(z(hz,h[1]),gt);break;case
+gr=z(cP,h[4]),gs=f(z(vm,h[3]),gr),gt=f(lK(h[2]),gs),I=f(z(hB,h[1]),gt);break;case
 1:var
-bC=h[5],bF=h[3],gu=z(cO,h[6]),gv=bC?lI(bC[1]):bC,gw=f(gv,gu),gx=f(lG(h[4]),gw),gy=bF?[0,bF[1],0]:bF,gz=f(gy,gx),I=f(z(vg,h[2]),gz);break;case
+bB=h[5],bD=h[3],gu=z(cP,h[6]),gv=bB?lL(bB[1]):bB,gw=f(gv,gu),gx=f(lJ(h[4]),gw),gy=bD?[0,bD[1],0]:bD,gz=f(gy,gx),I=f(z(vl,h[2]),gz);break;case
 2:var
-gA=z(cO,h[6]),gB=f(lI(h[5]),gA),gC=f(lG(h[4]),gB),gD=[0,h[3],gC],gE=h[2],I=f(z(function(a){return z(dv,f(a[1],a[2]))},gE),gD);break;case
+gA=z(cP,h[6]),gB=f(lL(h[5]),gA),gC=f(lJ(h[4]),gB),gD=[0,h[3],gC],gE=h[2],I=f(z(function(a){return z(dv,f(a[1],a[2]))},gE),gD);break;case
 3:var
-gF=z(cO,h[7]),gG=f(h[6],gF),gH=f(h[5],gG),gI=h[2],I=f(z(function(a){return dv(a[2])},gI),gH);break;case
+gF=z(cP,h[7]),gG=f(h[6],gF),gH=f(h[5],gG),gI=h[2],I=f(z(function(a){return dv(a[2])},gI),gH);break;case
 4:var
-gJ=z(cO,h[3]),I=[0,h[1],[0,h[2],gJ]];break;case
+gJ=z(cP,h[3]),I=[0,h[1],[0,h[2],gJ]];break;case
 5:var
-gK=z(cO,h[4]),gL=f(bu(h[3]),gK),gM=f(bu(h[2]),gL),gN=f(z(hz,h[1]),gM),I=[0,h[5],gN];break;case
+gK=z(cP,h[4]),gL=f(bv(h[3]),gK),gM=f(bv(h[2]),gL),gN=f(z(hB,h[1]),gM),I=[0,h[5],gN];break;case
 6:var
-bH=h[1],I=bH?dv(bH[1]):bH;break;default:var
-gO=z(cO,h[4]),gP=f(lH(h[3]),gO),I=f(z(hz,h[2]),gP)}var
-dL=fK(dI,I);if(dL){var
-S=p[2];switch(S[0]){case
+bG=h[1],I=bG?dv(bG[1]):bG;break;default:var
+gO=z(cP,h[4]),gP=f(lK(h[3]),gO),I=f(z(hB,h[2]),gP)}var
+dL=fN(dI,I);if(dL){var
+S=o[2];switch(S[0]){case
 0:var
 aw=dJ(S[1],S[3]);break;case
 1:var
@@ -5689,136 +5725,136 @@ a!=="number")switch(a[0]){case
 1:return dJ(a[1],a[3]);case
 2:return dK(a[1],a[2],a[3])}return 1},gQ)}}else{var
 dM=dL;cn=1}}else{var
-dM=bI;cn=1}if(cn)var
+dM=bH;cn=1}if(cn)var
 aw=dM;if(aw){var
-a=p[1];switch(a[0]){case
+a=o[1];switch(a[0]){case
 0:var
-em=a[4],en=a[3],eo=a[2],er=a[1],T=p[2];switch(T[0]){case
-0:return mc(0,er,eo,en,em,T[1],T[2],T[3]);case
-1:return me(er,eo,en,em,T[2],T[3],T[4]);default:return 0}case
+em=a[4],en=a[3],eo=a[2],er=a[1],U=o[2];switch(U[0]){case
+0:return mf(0,er,eo,en,em,U[1],U[2],U[3]);case
+1:return mh(er,eo,en,em,U[2],U[3],U[4]);default:return 0}case
 1:var
-bY=a[6],b0=a[5],b1=a[4],b3=a[3],ax=a[2],U=a[1],ai=p[2];switch(ai[0]){case
-0:return md(U,ax,b3,b1,b0,bY,ai[1],ai[3]);case
+bY=a[6],b0=a[5],b1=a[4],b3=a[3],ax=a[2],V=a[1],ai=o[2];switch(ai[0]){case
+0:return mg(V,ax,b3,b1,b0,bY,ai[1],ai[3]);case
 1:var
 et=ai[3],hp=ai[4],hq=ai[2],dX=typeof
-U==="number"?U?wp:wq:hP(U[1]),bT=e(j,hq),dY=l6(ax,e(j,et));if(dY[2])return 0;var
-dZ=hS(z(l_,ax),et),d0=dZ?l$(U,ax,b3,b1,b0,bY):dZ;if(d0)var
-hb=a0(U),bU=u(i(bT),hb);else
+V==="number"?V?wu:wv:hR(V[1]),bT=e(k,hq),dY=l9(ax,e(k,et));if(dY[2])return 0;var
+dZ=hU(z(mb,ax),et),d0=dZ?mc(V,ax,b3,b1,b0,bY):dZ;if(d0)var
+hb=a0(V),bU=u(j(bT),hb);else
 var
 bU=d0;if(bU){var
-hc=hM(hp),q=eW(dX,bT),B=a8(cv(dX,bT)),af=dY[1],K=lT(U,ax,b3,b1,b0,bY),cQ=k7(o,K[2],af);if(cQ){var
-cM=d_(o,K[4],B),cp=0;if(cM){var
+hc=hO(hp),q=eX(dX,bT),B=a8(cw(dX,bT)),af=dY[1],K=lW(V,ax,b3,b1,b0,bY),cQ=k_(p,K[2],af);if(cQ){var
+cM=d_(p,K[4],B),co=0;if(cM){var
 cN=K[5];if(cN)var
-a5=kB(o,cN[1],q);else
+a5=kC(p,cN[1],q);else
 if(q)var
 a5=0;else{var
-cP=1;cp=1}}else{var
-cP=cM;cp=1}if(cp)var
-a5=cP;var
+cO=1;co=1}}else{var
+cO=cM;co=1}if(co)var
+a5=cO;var
 a6=a5}else
 var
 a6=cQ;if(a6){var
-w=K[5],cS=K[3],aD=K[1],fm=K[6],ff=e(function(a){if(0===a[0]){var
-d=bZ(w,q,B,a),c=ea(a[1],d);return[0,k5(aD,c,aq([5,[0,b,b],cS],ec(he(w,q,fx(a)),c)))]}return 0},af),fg=z(function(a){if(0===a[0]){var
-c=bZ(w,q,B,a),b=j$(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bZ(w,q,B,a);return[0,kr(a[1],e),0]},af),fh=e(function(d){var
+w=K[5],cR=K[3],aD=K[1],fl=K[6],ff=e(function(a){if(0===a[0]){var
+d=bZ(w,q,B,a),c=ea(a[1],d);return[0,k8(aD,c,aq([5,[0,b,b],cR],ec(hg(w,q,fA(a)),c)))]}return 0},af),fg=z(function(a){if(0===a[0]){var
+c=bZ(w,q,B,a),b=ka(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=bZ(w,q,B,a);return[0,ks(a[1],e),0]},af),fh=e(function(d){var
 b=bZ(w,q,B,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cH(e,h,g,f,b),i=cI(a[5],j),k=aq(i,av(e)),l=d$(e,h,g,b);return[0,[0,k6(aD,ab(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fp(c,b),o=ku(c,b),p=c[4],r=ab(function(b,a){return[2,b,a]},b,p);return[0,[0,k6(aD,ab(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fi=e(function(a){if(0===a[0]){var
-c=bZ(w,q,B,a);return[0,gX(a[1],c)]}var
-b=a[1],d=kt(b,bZ(w,q,B,a));return[1,ks(b,bZ(w,q,B,a)),d]},af),fk=[0,e(function(a){if(0===a[0])var
-k=bZ(w,q,B,a),d=cJ(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cI(e,h,g,f,b),i=cJ(a[5],j),k=aq(i,av(e)),l=d$(e,h,g,b);return[0,[0,k9(aD,ac(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fq(c,b),o=kv(c,b),p=c[4],r=ac(function(b,a){return[2,b,a]},b,p);return[0,[0,k9(aD,ac(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fi=e(function(a){if(0===a[0]){var
+c=bZ(w,q,B,a);return[0,g0(a[1],c)]}var
+b=a[1],d=ku(b,bZ(w,q,B,a));return[1,kt(b,bZ(w,q,B,a)),d]},af),fj=[0,e(function(a){if(0===a[0])var
+k=bZ(w,q,B,a),d=cK(a[1],k);else
 var
-e=bZ(w,q,B,a),c=a[1],f=ku(c,e),g=c[4],h=ab(function(b,a){return[2,b,a]},e,g),i=ab(function(b,a){return[3,b,a]},h,f),j=fp(c,e),d=aq([5,[0,b,b],[4,c[5],j]],i);return k5(aD,d,aq([5,[0,b,b],cS],ec(he(w,q,fx(a)),d)))},af),fi,fh,fg,ff];return ko(o,a0(K[1]),fk,fm,hc)}return a6}return bU;default:return 0}case
+e=bZ(w,q,B,a),c=a[1],f=kv(c,e),g=c[4],h=ac(function(b,a){return[2,b,a]},e,g),i=ac(function(b,a){return[3,b,a]},h,f),j=fq(c,e),d=aq([5,[0,b,b],[4,c[5],j]],i);return k8(aD,d,aq([5,[0,b,b],cR],ec(hg(w,q,fA(a)),d)))},af),fi,fh,fg,ff];return kp(p,a0(K[1]),fj,fl,hc)}return a6}return bU;default:return 0}case
 2:var
-ay=a[6],aR=a[5],aS=a[4],aT=a[3],V=a[2],ak=a[1],_=p[2];switch(_[0]){case
+ay=a[6],aR=a[5],aS=a[4],aT=a[3],W=a[2],ak=a[1],_=o[2];switch(_[0]){case
 0:var
-b4=_[3],al=lR(ak,V,aT,aS,aR,ay),b5=cR(0,i(b4),b4);if(b5){var
+b4=_[3],al=lU(ak,W,aT,aS,aR,ay),b5=cS(0,j(b4),b4);if(b5){var
 eu=b5[1];if(eu[2])return 0;var
-ev=l9(ak,V,aT,aS,aR,ay),ew=ev?fT(dl(ak),b4):ev;if(ew){var
-hr=eu[1],hs=al[2],ht=x(b,b2(z(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},hs))),hu=mb(i(V),ay),hv=hT(_[2]),hw=_[1],fb=al[2],cL=n(function(a){var
-b=k4(o,a[1]);return b?k4(o,a[2]):b},fb);if(cL)var
-fd=gZ(al[4]),a3=d_(o,al[4],fd);else
+ev=ma(ak,W,aT,aS,aR,ay),ew=ev?fW(dm(ak),b4):ev;if(ew){var
+hr=eu[1],hs=al[2],ht=y(b,b2(z(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},hs))),hu=me(j(W),ay),hv=hV(_[2]),hw=_[1],fb=al[2],cL=n(function(a){var
+b=k7(p,a[1]);return b?k7(p,a[2]):b},fb);if(cL)var
+fc=g2(al[4]),a3=d_(p,al[4],fc);else
 var
 a3=cL;if(a3)var
-fe=ft(al[5]),a4=n(function(a){return ei(o,a)},fe);else
+fe=fu(al[5]),a4=n(function(a){return ei(p,a)},fe);else
 var
-a4=a3;return a4?qC(hw,hv,hu,al,ht,hr):a4}var
+a4=a3;return a4?qH(hw,hv,hu,al,ht,hr):a4}var
 ex=ew}else
 var
 ex=b5;return ex;case
 1:var
-ey=_[3],ez=e(j,_[2]),eA=hP(ak),eB=l5(V,e(j,ey));if(eB[2])return 0;var
-eC=hS(z(function(a){return f(a[1],a[2])},V),ey),eD=eC?l9(ak,V,aT,aS,aR,ay):eC;if(eD){var
-hx=hM(_[4]),$=eW(eA,ez),az=a8(cv(eA,ez)),am=eB[1],L=lR(ak,V,aT,aS,aR,ay),aC=L[2],aa=am;for(;;){if(aC){if(aa){var
-cu=aa[1],cx=aC[1],cy=aY(o,cx[1],cu[1]),cA=cy?aY(o,cx[2],cu[2]):cy;if(cA){var
+ey=_[3],ez=e(k,_[2]),eA=hR(ak),eB=l8(W,e(k,ey));if(eB[2])return 0;var
+eC=hU(z(function(a){return f(a[1],a[2])},W),ey),eD=eC?ma(ak,W,aT,aS,aR,ay):eC;if(eD){var
+hx=hO(_[4]),$=eX(eA,ez),az=a8(cw(eA,ez)),am=eB[1],M=lU(ak,W,aT,aS,aR,ay),aC=M[2],aa=am;for(;;){if(aC){if(aa){var
+cu=aa[1],cv=aC[1],cy=aY(p,cv[1],cu[1]),cz=cy?aY(p,cv[2],cu[2]):cy;if(cz){var
 aC=aC[2],aa=aa[2];continue}var
-cC=cA}else
+cB=cz}else
 var
-cC=aa;var
-a2=cC}else
+cB=aa;var
+a2=cB}else
 var
 a2=aa?0:1;var
-cD=a2?d_(o,L[4],az):a2,cF=cD?kB(o,L[5],$):cD;if(cF){var
-ad=L[5],cG=L[3],cK=L[1],fa=L[6],ct=function(a){var
-b=fr(ad,$,az,a);return O(fr(ad,$,az,a),b)},e7=e(function(c){var
-a=fr(ad,$,az,c);return[0,g8(cK,a,aq([5,[0,b,b],cG],ec(fq(ad,$,c[2]),a)))]},am),e8=e(ct,am),e9=e(function(a){return 0},am),e_=e(function(a){return[0,[6,ct(a)]]},am),e$=[0,e(function(c){var
-a=av(fr(ad,$,az,c));return g8(cK,a,aq([5,[0,b,b],cG],ec(fq(ad,$,c[2]),a)))},am),e_,e9,e8,e7];return ko(o,dl(L[1]),e$,fa,hx)}return cF}}return eD;default:return 0}case
+cD=a2?d_(p,M[4],az):a2,cE=cD?kC(p,M[5],$):cD;if(cE){var
+ab=M[5],cG=M[3],cH=M[1],fa=M[6],ct=function(a){var
+b=fs(ab,$,az,a);return O(fs(ab,$,az,a),b)},e7=e(function(c){var
+a=fs(ab,$,az,c);return[0,g$(cH,a,aq([5,[0,b,b],cG],ec(fr(ab,$,c[2]),a)))]},am),e8=e(ct,am),e9=e(function(a){return 0},am),e_=e(function(a){return[0,[6,ct(a)]]},am),e$=[0,e(function(c){var
+a=av(fs(ab,$,az,c));return g$(cH,a,aq([5,[0,b,b],cG],ec(fr(ab,$,c[2]),a)))},am),e_,e9,e8,e7];return kp(p,dm(M[1]),e$,fa,hx)}return cE}}return eD;default:return 0}case
 3:var
-ao=a[7],eE=a[6],eF=a[5],P=a[4],eG=a[2],b6=a[1],aU=p[2];if(0===aU[0]){var
-b7=aU[3],b8=cR(0,i(b7),b7);if(b8){var
+ao=a[7],eE=a[6],eF=a[5],P=a[4],eG=a[2],b6=a[1],aU=o[2];if(0===aU[0]){var
+b7=aU[3],b8=cS(0,j(b7),b7);if(b8){var
 eH=b8[1];if(eH[2])return 0;var
-g$=i(b6),ha=i(eE),dT=u(i(eF),ha),dU=dT?n(function(a){var
-b=lO(g$,i(P),a);if(b){var
+g_=j(b6),ha=j(eE),dT=u(j(eF),ha),dU=dT?n(function(a){var
+b=lR(g_,j(P),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bB(d[1]),0]:aV(0,i(P));return n(function(b){var
-a=X(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},P):1}return b},ao):dT,dV=dU?fS(ao):dU,dW=dV?n(function(a){return es(a[2])},eG):dV,eI=dW?n(hO,dy(0,i(P),ao)):dW,eJ=eI?fT(i(b6),b7):eI;if(eJ){var
-hA=eH[1],hD=a[3],dP=ar(fL,ao),aO=dy(0,i(P),ao),g0=aK(eF,eE),bL=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},g0),g1=e(function(a){return 0===a[0]?[0,e(co,a[1])]:[1,co(a[1])]},P),g2=e(function(a){var
-b=co(a[2]);return[0,a[1],b]},hD),m=[0,b6,e(function(a){var
-b=bv(a[2]);return[0,a[1],b]},eG),g2,g1],hE=mb(i(P),ao),eK=hT(aU[2]),aA=aU[1],f8=e(aJ,m[2]),bi=f(m[1],f8),bj=i(m[1]),dc=Z(qZ,bj),dd=dc?Z(bj,q0):dc,de=dd?Z(bj,i(m[4])):dd,df=de?Z(i(m[4]),q1):de,dg=df?lo(bi):df;if(dg){var
+d=a[2],e=d?[0,bC(d[1]),0]:aV(0,j(P));return n(function(b){var
+a=T(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},P):1}return b},ao):dT,dV=dU?fV(ao):dU,dW=dV?n(function(a){return es(a[2])},eG):dV,eI=dW?n(hQ,dy(0,j(P),ao)):dW,eJ=eI?fW(j(b6),b7):eI;if(eJ){var
+hy=eH[1],hz=a[3],dP=ar(fO,ao),aO=dy(0,j(P),ao),gY=aK(eF,eE),bL=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},gY),gZ=e(function(a){return 0===a[0]?[0,e(cp,a[1])]:[1,cp(a[1])]},P),g1=e(function(a){var
+b=cp(a[2]);return[0,a[1],b]},hz),m=[0,b6,e(function(a){var
+b=bw(a[2]);return[0,a[1],b]},eG),g1,gZ],hC=me(j(P),ao),eK=hV(aU[2]),aA=aU[1],f8=e(aJ,m[2]),bi=f(m[1],f8),bj=j(m[1]),dc=Z(q4,bj),dd=dc?Z(bj,q5):dc,de=dd?Z(bj,j(m[4])):dd,df=de?Z(j(m[4]),q6):de,dg=df?lr(bi):df;if(dg){var
 aI=bi,aH=m[3];for(;;){if(aH){var
-c8=aH[1],c_=c8[1],c$=ac(ar(function(b){return function(a){return an(b,a)}}(c_),aI)),db=c$?hm(aI,c8[2]):c$;if(db){var
-aI=[0,c_,aI],aH=aH[2];continue}var
-dh=db}else
+c8=aH[1],c9=c8[1],c$=ad(ar(function(b){return function(a){return an(b,a)}}(c9),aI)),da=c$?ho(aI,c8[2]):c$;if(da){var
+aI=[0,c9,aI],aH=aH[2];continue}var
+dh=da}else
 var
 dh=1;var
 bk=dh;break}}else
 var
 bk=dg;if(bk)var
 f9=m[4],bl=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bi);return n(function(a){return hm(c,a)},b)},f9);else
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bi);return n(function(a){return ho(c,a)},b)},f9);else
 var
 bl=bk;if(bl)var
-f_=m[2],bn=n(function(a){return a9(o,a[2][1],a[2][2])},f_);else
+f_=m[2],bn=n(function(a){return a9(p,a[2][1],a[2][2])},f_);else
 var
 bn=bl;var
-di=bn?n(function(a){return a9(o,a[1],a[2])},bL):bn;if(di){var
-a_=i(m[1]),ba=i(m[2]),cV=N(ba,i(hj(e(b_,m[3])))),fv=m[3],at=ln(m),aE=fv,a7=ba;for(;;){if(aE){var
-cT=aE[1],cU=cT[2],fo=N(a7,i(bt(cU))),fs=aE[2],fu=a$(at,cU,a7),at=[0,[0,cT[1],fu],at],aE=fs,a7=fo;continue}var
-R=lk(a_,at,m[4],cV),fw=lj(at,m[4],cV),fA=m[3],cW=f(lg(ln(m),fA,ba),fw),cX=i(lm(m)),fB=0,fC=f(cW,ek(function(a,b){return lc(R,a,b)},fB,d,cX,aO)),fF=f(bs(ej(R)),fC),cY=f(bs(fz(R)),fF),bb=da(cY)[1],fG=cz(bb),ae=function(a){return bm(fG,a)},cZ=u(i(bL),a_);if(cZ)var
-fH=m[4],bc=n(function(a){return 0===a[0]?u(i(a[1]),a_):1},fH);else
+di=bn?n(function(a){return a9(p,a[1],a[2])},bL):bn;if(di){var
+a_=j(m[1]),ba=j(m[2]),cV=L(ba,j(hl(e(b_,m[3])))),fv=m[3],at=lq(m),aE=fv,a7=ba;for(;;){if(aE){var
+cT=aE[1],cU=cT[2],fn=L(a7,j(bu(cU))),fp=aE[2],ft=a$(at,cU,a7),at=[0,[0,cT[1],ft],at],aE=fp,a7=fn;continue}var
+R=ln(a_,at,m[4],cV),fw=lm(at,m[4],cV),fx=m[3],cW=f(lj(lq(m),fx,ba),fw),cX=j(lp(m)),fy=0,fz=f(cW,ek(function(a,b){return lf(R,a,b)},fy,d,cX,aO)),fD=f(bt(ej(R)),fz),cY=f(bt(fC(R)),fD),bb=db(cY)[1],fE=cA(bb),ae=function(a){return bm(fE,a)},cZ=u(j(bL),a_);if(cZ)var
+fF=m[4],bc=n(function(a){return 0===a[0]?u(j(a[1]),a_):1},fF);else
 var
 bc=cZ;var
 c0=bc?n(function(a){var
-b=l(d),c=cz(bb);return aM(t(ae(a),c,b),a)},cY):bc,c1=c0?ar(lf,aO):c0;if(c1){var
-c2=ac(dP);if(c2)var
+b=l(d),c=cA(bb);return aM(t(ae(a),c,b),a)},cY):bc,c1=c0?ar(li,aO):c0;if(c1){var
+c2=ad(dP);if(c2)var
 aG=c2;else
 var
 f7=m[4],aG=n(function(a){return 0===a[0]?0:1},f7)}else
 var
 aG=c1;if(aG){var
-fI=lm(m),bd=aj(e(function(a){return ah(aA,a)},fI));if(bd){var
-fN=0,fP=z(function(a){return fy(fN,d,a)},aO),be=aj(e(function(a){return ld(aA,a)},fP));if(be){var
+fI=lp(m),bd=aj(e(function(a){return ah(aA,a)},fI));if(bd){var
+fJ=0,fK=z(function(a){return fB(fJ,d,a)},aO),be=aj(e(function(a){return lg(aA,a)},fK));if(be){var
 bf=aj(e(function(a){return ah(aA,[0,a,d])},bL));if(bf){var
-fU=0,fV=0,bg=aj(ek(function(a,b){return le(aA,ae,R,fV,d,a,b)},fU,d,cX,aO));if(bg){var
+fL=0,fQ=0,bg=aj(ek(function(a,b){return lh(aA,ae,R,fQ,d,a,b)},fL,d,cX,aO));if(bg){var
 c3=bg[1];if(dP)var
-fW=eK[2],fX=eK[1],fY=ej(R),bh=ki(hE,c3,[8,k(ap(ae),fY),fX,fW]);else
+fS=eK[2],fX=eK[1],fY=ej(R),bh=kj(hC,c3,[8,i(ap(ae),fY),fX,fS]);else
 var
 bh=c3;var
-fZ=gS(bh),f0=bf[1],f1=function(a){return 0},f2=f(bd[1],be[1]),f3=e(ae,cW),f4=ej(R),f5=k(ap(ae),f4),f6=fz(R);return fj(aA,bb,k(ap(ae),f6),f5,f3,f2,bh,f1,f0,fZ,hA)}var
+fZ=gV(bh),f0=bf[1],f1=function(a){return 0},f2=f(bd[1],be[1]),f3=e(ae,cW),f4=ej(R),f5=i(ap(ae),f4),f6=fC(R);return fk(aA,bb,i(ap(ae),f6),f5,f3,f2,bh,f1,f0,fZ,hy)}var
 c4=bg}else
 var
 c4=bf;var
@@ -5835,9 +5871,9 @@ eL=eJ}else
 var
 eL=b8;return eL}return 0;case
 4:var
-b9=p[2];if(0===b9[0]){var
-aB=a[3],C=a[2],b$=a[1],hF=b9[3],hH=b9[1],d7=dA(j(b$));if(d7){var
-aP=bD(lU,aB),cq=0;if(aP){var
+b9=o[2];if(0===b9[0]){var
+aB=a[3],C=a[2],b$=a[1],hF=b9[3],hG=b9[1],d7=dA(k(b$));if(d7){var
+aP=bE(lX,aB),cq=0;if(aP){var
 bM=aP[1];if(bM[2]||bM[3])var
 s=0;else{var
 aQ=bM[4],J=aP[2],E=0;if(typeof
@@ -5869,36 +5905,36 @@ s=dS;E=1}break}if(!E){var
 dQ=0;cq=1}}}else{var
 dQ=aP;cq=1}if(cq)var
 s=dQ;if(s){var
-d8=s[1],v=d8[2],eb=j(v),ed=j(d8[1]),dn=g(o,1,j(C)),dp=dn?g(o,1,[3,eb,[0,b,b]]):dn,dq=dp?g(o,1,ed):dp,ee=dq?g(o,0,[3,[5,[0,b,b],eb],ed]):dq;if(ee)var
-hg=0,hh=0,bW=n(function(a){return lP(hh,hg,ww,a)},aB);else
+d8=s[1],v=d8[2],eb=k(v),ed=k(d8[1]),dn=g(p,1,k(C)),dp=dn?g(p,1,[3,eb,[0,b,b]]):dn,dq=dp?g(p,1,ed):dp,ee=dq?g(p,0,[3,[5,[0,b,b],eb],ed]):dq;if(ee)var
+hf=0,hh=0,bV=n(function(a){return lS(hh,hf,wB,a)},aB);else
 var
-bW=ee;var
-ef=bW?n(function(c){if(1===c[1]){var
+bV=ee;var
+ef=bV?n(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],j(a[1])]);return 1}return 1},aB):bW;if(ef){var
-bR=bD(function(a){return ac(lV(a))},aB);if(bR){var
-hi=[0,c(2,b),b],A=g(o,0,[3,j(v),hi]);if(A)var
+a!=="number"&&0===a[0])return g(p,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aB):bV;if(ef){var
+bR=bE(function(a){return ad(lY(a))},aB);if(bR){var
+hi=[0,c(2,b),b],A=g(p,0,[3,k(v),hi]);if(A)var
 bX=A;else
 var
-ho=j(v),bX=g(o,0,[3,[0,c(2,b),b],ho]);if(bX){var
+hn=k(v),bX=g(p,0,[3,[0,c(2,b),b],hn]);if(bX){var
 d6=z(function(a){var
-b=hC(0,wt,a);return e(function(b){return ac(lV(a))},b)},aB),hd=function(f){var
+b=hE(0,wy,a);return e(function(b){return ad(lY(a))},b)},aB),hd=function(f){var
 g=f[1];if(g){var
-h=g[1],j=t(h,d6,0);if(j)var
-l=cv(h,d6),k=[0,[0,i(bD(function(a){return a},l))]];else
+h=g[1],i=t(h,d6,0);if(i)var
+l=cw(h,d6),k=[0,[0,j(bE(function(a){return a},l))]];else
 var
-k=j;var
+k=i;var
 a=k}else
 var
-a=wv;if(a){var
+a=wA;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,wu,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},hf=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(hd,a[1]),d,c,b]},hF),hk=[0,bR[1],bR[2]],g3=[0,hG(A,C,v),0],g4=[0,hG(A,C,v),g3],g5=[0,hG(A,C,v),g4],g6=[0,fO(A,C,v),0],g7=[0,fO(A,C,v),g6],hl=0,g9=[0,[0,fO(A,C,v),g7],g5],hn=0,bS=function(b,a){return e(function(c){var
-d=u(b,c)?a:vx;return[0,d]},vz)};return md(0,e(function(a){var
-e=[0,fM(A,C,v)],d=1,f=bS(a,[2,b$]);function
+2:return[0,[0,c,[1,wz,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},he=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(hd,a[1]),d,c,b]},hF),hj=[0,bR[1],bR[2]],g3=[0,hI(A,C,v),0],g4=[0,hI(A,C,v),g3],g5=[0,hI(A,C,v),g4],g6=[0,fR(A,C,v),0],g7=[0,fR(A,C,v),g6],hk=0,g8=[0,[0,fR(A,C,v),g7],g5],hm=0,bS=function(b,a){return e(function(c){var
+d=u(b,c)?a:vC;return[0,d]},vE)};return mg(0,e(function(a){var
+e=[0,fP(A,C,v)],d=1,f=bS(a,[2,b$]);function
 b(b,a){return[3,1,b,a]}var
-c=fM(A,C,v),g=bS(a,b(b(fO(A,C,v),b$),c));return[0,bS(a,vy),g,f,e,d]},vA),hn,g9,hl,hk,hH,hf)}return bX}var
+c=fP(A,C,v),g=bS(a,b(b(fR(A,C,v),b$),c));return[0,bS(a,vD),g,f,e,d]},vF),hm,g8,hk,hj,hG,he)}return bX}var
 eg=1}else
 var
 eg=ef;var
@@ -5909,20 +5945,20 @@ el=eh}else
 var
 el=d7;return el}return 0;case
 5:var
-ca=a[4],eM=a[1],cb=p[2];if(0===cb[0]){var
-eN=cb[3],r=hB(eM,[0,a[2],a[3]],0,ca),cc=hN(i(eN),eN);if(cc){var
+ca=a[4],eM=a[1],cb=o[2];if(0===cb[0]){var
+eN=cb[3],r=hD(eM,[0,a[2],a[3]],0,ca),cc=hP(j(eN),eN);if(cc){var
 eO=cc[1];if(eO[2])return 0;var
-eP=hR(eM,0,ca,r),eQ=eP?ac(ar(fL,ca)):eP;if(eQ){var
-eR=kh(o,r);if(eR){var
-hJ=eO[1],eS=e(fR,r[1]),D=hK(r[1]),eT=j(a[5]),Q=cb[1],bq=fl(D,eS,r[1]),F=gT(D,eS,r[1],0),gd=i(r[3]),ge=N(i(bq),gd),aL=[0,i(bq),ge],gf=gU(F,D,aL,r[3]),gg=f(e(bV,F),gf),du=f(bs(d4(F)),gg),dw=da(du)[1],bw=cz(dw),dx=r[2];if(0===dx[0]){var
+eP=hT(eM,0,ca,r),eQ=eP?ad(ar(fO,ca)):eP;if(eQ){var
+eR=ki(p,r);if(eR){var
+hH=eO[1],eS=e(fU,r[1]),D=hM(r[1]),eT=k(a[5]),Q=cb[1],bq=fm(D,eS,r[1]),F=gW(D,eS,r[1],0),gd=j(r[3]),ge=L(j(bq),gd),aL=[0,j(bq),ge],gf=gX(F,D,aL,r[3]),gg=f(e(bW,F),gf),du=f(bt(d4(F)),gg),dw=db(du)[1],br=cA(dw),dx=r[2];if(0===dx[0]){var
 dz=n(function(a){var
-b=l(d);return aM(t(bm(bw,a),bw,b),a)},du),dB=dz?g(o,1,eT):dz;if(dB){var
-gh=r[3],gi=z(function(a){return cE(D,a)},gh),gj=r[3],gk=f(bq,f(e(function(a){return br(D,a)},gj),gi)),bx=aj(e(function(a){return ah(Q,a)},gk));if(bx){var
+b=l(d);return aM(t(bm(br,a),br,b),a)},du),dB=dz?g(p,1,eT):dz;if(dB){var
+gh=r[3],gi=z(function(a){return cF(D,a)},gh),gj=r[3],gk=f(bq,f(e(function(a){return bs(D,a)},gj),gi)),bx=aj(e(function(a){return ah(Q,a)},gk));if(bx){var
 gl=aF(dx[1],D),by=aj(e(function(a){return ah(Q,a)},gl));if(by){var
 bz=cg(Q,D,[5,eT,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bz){var
-bA=r[3],gm=by[1],gn=bz[1],go=bx[1],au=function(a){return bm(bw,a)},ga=aV(0,i(bA)),gb=e(function(j){var
-l=X(bA,j);if(l){var
-a=l[1],u=cv(j,bA),v=i(z(function(a){return cE(D,a)},u)),w=N(aL[2],v),h=[0,N(aL[1],j),w],r=d4(F),f=k(ap(au),r),c=[1,[8,[1,[1,h[1]]]]],d=fn(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
+bA=r[3],gm=by[1],gn=bz[1],go=bx[1],au=function(a){return bm(br,a)},ga=aV(0,j(bA)),gb=e(function(k){var
+l=T(bA,k);if(l){var
+a=l[1],u=cw(k,bA),v=j(z(function(a){return cF(D,a)},u)),w=L(aL[2],v),h=[0,L(aL[1],k),w],r=d4(F),f=i(ap(au),r),c=[1,[8,[1,[1,h[1]]]]],d=fo(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -5938,26 +5974,26 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=d9(F,D,h,a);return y(function(a){return[0,k(ap(au),a),q]},t)}return 0}return l},ga),gc=e(function(a){return au(bV(a))},F),dr=e(function(a){return au(a[2])},F),gp=r[3],gq=aL[1],ds=e(ag,go),dt=function(az,ay){var
+t=d9(F,D,h,a);return x(function(a){return[0,i(ap(au),a),q]},t)}return 0}return l},ga),gc=e(function(a){return au(bW(a))},F),dr=e(function(a){return au(a[2])},F),gp=r[3],gq=aL[1],ds=e(ag,go),dt=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=u(i(s),q_),ab=aa?n(function(a){var
-d=G(M(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
-ad=ly(Q,gn,fc(0,l),s),j=h[2],v=bE(0,cf(Q,ad,ds),dw,0),L=function(a){return lx(lw(Q,ad,ds,v,a))};if(typeof
-j==="number")return 0===j?ar(function(b){var
-a=t(b,v,0);return a?G(a[1][2][2],d):a},dr):0;else{if(0===j[0]){var
-a=j[2],O=n(q8,a);if(O){var
-o=t(j[1],gb,0);if(o){var
+s=h[1],aa=u(j(s),rd),ab=aa?n(function(a){var
+d=G(N(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
+ac=lB(Q,gn,fd(0,l),s),i=h[2],v=bF(0,cf(Q,ac,ds),dw,0),M=function(a){return lA(lz(Q,ac,ds,v,a))};if(typeof
+i==="number")return 0===i?ar(function(b){var
+a=t(b,v,0);return a?G(a[1][2][2],d):a},dr):0;else{if(0===i[0]){var
+a=i[2],O=n(rb,a);if(O){var
+o=t(i[1],gb,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fE(B,A),an=fD(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fH(B,A),an=fG(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fD(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fE(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fG(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fH(E,D),ap]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -5965,7 +6001,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-H=k[1],I=a[1],m=g[1],aq=fD(I),as=[1,[6,fE(m,H),aq]],at=[1,[6,g[2],as]],au=fD(H),J=[0,[0,m,[0,[1,[4,[1,[6,fE(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],aq=fG(I),as=[1,[6,fH(m,H),aq]],at=[1,[6,g[2],as]],au=fG(H),J=[0,[0,m,[0,[1,[4,[1,[6,fH(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -5974,30 +6010,30 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],R=n(function(a){return lx(t(a[2],v,0))},aw);if(R)return n(L,P[2]);var
+P=f[1],aw=P[1],R=n(function(a){return lA(t(a[2],v,0))},aw);if(R)return n(M,P[2]);var
 S=R}else
 var
 S=f;var
-T=S}else
+U=S}else
 var
-T=o;var
-U=T}else
+U=o;var
+V=U}else
 var
-U=O;return U}var
-V=j[2],W=j[1],p=X(gp,W);if(p){var
+V=O;return V}var
+W=i[2],X=i[1],p=T(gp,X);if(p){var
 Z=p[1];if(typeof
 Z!=="number"&&1===Z[0]){var
-q=X(dr,V);if(q){var
-r=X(gc,V);if(r){var
-ax=N(gq,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+q=T(dr,W);if(q){var
+r=T(gc,W);if(r){var
+ax=L(gq,X);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
 _=0}else
 var
 _=p;return _}}return ab}var
-ae=h[1],w=X(l,ae);if(w){var
-af=w[1],aA=af[1],ag=ac(Y(bG(af),aA));if(ag){var
+ae=h[1],w=T(l,ae);if(w){var
+af=w[1],aA=af[1],ag=ad(Y(bI(af),aA));if(ag){var
 ah=d5(ae,l),ai=dt(ah[1],h[2]);if(ai){var
 l=ah[2],h=h[3];continue}var
 aj=ai}else
@@ -6005,7 +6041,7 @@ var
 aj=ag;var
 ak=aj}else
 var
-ak=w;return ak}};return dt(gm,hJ)}var
+ak=w;return ak}};return dt(gm,hH)}var
 dC=bz}else
 var
 dC=by;var
@@ -6022,77 +6058,77 @@ eV=eU}else
 var
 eV=cc;return eV}return 0;case
 6:var
-eX=a[1];if(eX){var
-eY=eX[1],cd=p[2];if(0===cd[0]){var
-ce=hL(0,wy,cd[3]);if(ce){var
+eW=a[1];if(eW){var
+eY=eW[1],cd=o[2];if(0===cd[0]){var
+ce=hN(0,wD,cd[3]);if(ce){var
 eZ=es(eY);if(eZ){var
-hQ=ce[1],e0=bv(eY)[2],aW=cd[1],bo=cg(aW,d,e0);if(bo){var
+hJ=ce[1],e0=bw(eY)[2],aW=cd[1],bo=cg(aW,d,e0);if(bo){var
 bp=cg(aW,d,[5,[0,b,b],e0]);if(bp){var
-f$=bo[1][1],dj=W(cw(aW),f$);if(dj)return lv(aW,bp[1][1],hQ);var
+f$=bo[1][1],dj=X(cx(aW),f$);if(dj)return ly(aW,bp[1][1],hJ);var
 dk=dj}else
 var
 dk=bp;var
-dm=dk}else
+dl=dk}else
 var
-dm=bo;return dm}var
+dl=bo;return dl}var
 e1=eZ}else
 var
 e1=ce;return e1}return 0}var
-ch=p[2];if(0===ch[0]){var
-ci=hL(0,wz,ch[3]);return ci?lv(ch[1],d,ci[1]):ci}return 0;default:var
-as=a[1],e2=p[2];if(2===e2[0]){var
-e3=e2[1],cj=hI(i(e3),e3);if(cj){var
+ch=o[2];if(0===ch[0]){var
+ci=hN(0,wE,ch[3]);return ci?ly(ch[1],d,ci[1]):ci}return 0;default:var
+as=a[1],e2=o[2];if(2===e2[0]){var
+e3=e2[1],cj=hK(j(e3),e3);if(cj){var
 e4=cj[1];if(e4[2])return 0;var
-ck=e4[1],d1=Z(ws,i(as)),d2=d1?Z(i(as),jb):d1,d3=d2?lo(e(aJ,as)):d2,e5=d3?n(function(c){var
-a=cB(j(c[2][1]));if(a){var
-b=cB(j(c[2][2]));if(b)return ac(c9(b[1],a[1]));var
+ck=e4[1],d1=Z(wx,j(as)),d2=d1?Z(j(as),jc):d1,d3=d2?lr(e(aJ,as)):d2,e5=d3?n(function(c){var
+a=cC(k(c[2][1]));if(a){var
+b=cC(k(c[2][2]));if(b)return ad(c_(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},as):d3;if(e5)var
-hU=fQ(vB,ck),cl=mg(a[5],hU);else
+hL=fT(vG,ck),cl=mj(a[5],hL);else
 var
 cl=e5;if(cl)var
-hV=fQ(vC,ck),cm=mg(a[6],hV);else
+hS=fT(vH,ck),cm=mj(a[6],hS);else
 var
 cm=cl;if(cm){var
-g_=e(function(a){return[0,d,0]},as);return mf(as,a[2],a[3],a[4],g_,ck)}var
+g9=e(function(a){return[0,d,0]},as);return mi(as,a[2],a[3],a[4],g9,ck)}var
 e6=cm}else
 var
 e6=cj;return e6}return 0}}return aw}var
-L=[aH,wC,os(0)],mh=[aH,wD,os(0)];function
-wA(m,b){var
-f=[0,h(uY,ai(b[4])),0],g=[0,h(u0,T([0,h(uZ,ai(b[3])),f])),0],a=b[2];switch(a[0]){case
+M=[aH,wH,ov(0)],mk=[aH,wI,ov(0)];function
+wF(m,b){var
+f=[0,h(u3,ai(b[4])),0],g=[0,h(u5,U([0,h(u4,ai(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(uU,lE(a[1],a[2],a[3]));break;case
+c=I(uZ,lH(a[1],a[2],a[3]));break;case
 1:var
-c=H(uV,lF(a[1],a[2],a[3],a[4]));break;default:var
-c=H(uW,A(e(uP,a[1])))}var
-i=[0,h(u1,c),g],j=1===b[2][0]?u7:u2,k=[0,h(u3,ai(j)),i],l=[0,h(u4,tx(b[1])),k],d=an(iN(wB,fF(T([0,h(u6,ai(u5)),l]),uX)),m);return d?wx(b):d}function
-_(a){if(0===a[0])return a[1];throw L}function
-U(a){if(1===a[0])return a[1];throw L}function
-aC(a){if(2===a[0])return a[1];throw L}function
-dC(a){if(3===a[0])return a[1];throw L}function
+c=I(u0,lI(a[1],a[2],a[3],a[4]));break;default:var
+c=I(u1,A(e(uU,a[1])))}var
+i=[0,h(u6,c),g],j=1===b[2][0]?va:u7,k=[0,h(u8,ai(j)),i],l=[0,h(u9,tC(b[1])),k],d=an(iO(wG,fI(U([0,h(u$,ai(u_)),l]),u2)),m);return d?wC(b):d}function
+aa(a){if(0===a[0])return a[1];throw M}function
+V(a){if(1===a[0])return a[1];throw M}function
+aC(a){if(2===a[0])return a[1];throw M}function
+dC(a){if(3===a[0])return a[1];throw M}function
 aG(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Cs(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===CA(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
-a=aG(c,b);if(a)return a[1];throw L}function
+a=aG(c,b);if(a)return a[1];throw M}function
 b3(b,a){var
-c=a?[0,k(b,a[1])]:a;return c}function
-cU(a){switch(a[0]){case
+c=a?[0,i(b,a[1])]:a;return c}function
+cV(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],wE]}throw L}function
+2:return[0,a[1],wJ]}throw M}function
 et(e,d){var
-a=R(e,U(d));if(a){var
+a=R(e,V(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
-fU(i){var
-f=dM(i),d=[0,0],e=gm(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw M}function
+fX(i){var
+f=dM(i),d=[0,0],e=gp(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=is(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
+a=d[1],g=it(f,c)-48|0;if(9<g>>>0)throw M;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6114,96 +6150,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eu(a){return iZ(fU(a))}function
+eu(a){return i0(fX(a))}function
 ev(b){var
-a=dC(b);return 45===aI(a,0)?M(eu(c5(a,1,am(a)-1|0))):eu(a)}function
-mi(a){return dU(eu(dC(a)))}function
-fV(a){return iY(eu(dC(a)))}function
-cr(c){var
-a=dC(c);if(6<am(a))throw L;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iA(a))}function
-mj(a){var
-b=97<=a?1:0,c=b?a<=n9?1:0:b;if(c)var
+a=dC(b);return 45===aI(a,0)?N(eu(c6(a,1,am(a)-1|0))):eu(a)}function
+ml(a){return dU(eu(dC(a)))}function
+fY(a){return iZ(eu(dC(a)))}function
+cs(c){var
+a=dC(c);if(6<am(a))throw M;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iB(a))}function
+mm(a){var
+b=97<=a?1:0,c=b?a<=oa?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mk(y,b){var
+mn(y,b){var
 d=am(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return c5(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return c6(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
-h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
-e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&an(c5(b,a[1],5),wG)){a[1]=a[1]+4|0;var
-e=[5,n(i)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw M}function
+h(j){if(64<j)throw M;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+e=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&an(c6(b,a[1],5),wL)){a[1]=a[1]+4|0;var
+e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&mj(aI(b,a[1]))){var
+v=0;if(a[1]<d&&mm(aI(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!mj(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,c5(b,o,a[1]-o|0))];break}}else
+w=0;if(!mm(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,c6(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,wH);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,wM);if(r)var
 s=r;else
 var
-t=1<am(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw L;if(q){var
-j=q[1],x=0;if(an(j,wI)||48===aI(j,am(j)-1|0))x=1;else
+t=1<am(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw M;if(q){var
+k=q[1],x=0;if(an(k,wN)||48===aI(k,am(k)-1|0))x=1;else
 var
-z=fU(j),e=[0,fU(g),z];if(x)throw L}else
+z=fX(k),e=[0,fX(g),z];if(x)throw M}else
 var
-e=[0,fU(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,wF)){if(!(2<am(f))&&2<=iA(f)&&!(64<iA(f)))return[4,e,dU(eu(f))];throw L}throw L}return e}function
+e=[0,fX(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,wK)){if(!(2<am(f))&&2<=iB(f)&&!(64<iB(f)))return[4,e,dU(eu(f))];throw M}throw M}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw L;var
+f(d){if(64<d)throw M;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw L;return g}function
-fW(a){return mk(function(a){return[0,a]},a)}function
-hU(a){var
-b=aC(a);return mk(function(a){return a},b)}function
-P(a){return fW(aC(a))}function
-bK(a){if(2===a[0])return[0,fW(a[1])];var
-b=_(a),c=P(r(b,wJ));return[1,P(r(b,wK)),c]}function
-V(a){throw[0,mh,aP(iN(wM,a),wL)]}function
-hV(c){var
-a=aC(c);if(m(a,wN)){var
-b=m(a,wO);if(b)throw L;return b}return 1}function
-wP(d){var
-b=_(d);function
-a(a){return et(bK,r(b,a))}var
-c=aC(r(b,wQ));if(m(c,wR)){if(m(c,wS)){if(m(c,wT))return V([0,wV,[0,c,wU]]);var
-e=aG(b,wW),f=b3(function(a){return et(bK,a)},e),g=a(wX);return[1,a(wY),g,f]}var
-h=hV(r(b,wZ)),i=bK(r(b,w0)),j=a(w1),k=a(w2);return[0,a(w3),k,j,i,h]}return[2,a(w4)]}function
-w5(d){var
-a=_(d);if(a){var
-b=a[1];if(!m(b[1],w6)){var
-c=b[2];if(2===c[0]&&!m(c[1],w7))return 1}}return 0}function
-ml(e){var
-b=_(e);function
-a(a){return R(bK,U(r(b,a)))}var
-c=aC(r(b,w8)),d=aG(b,w9);if(m(c,w_)){if(m(c,w$)){if(!m(c,xa)&&!d){var
-f=a(xd);return[1,a(xe),f]}}else
+g=f(0);if(a[1]<d)throw M;return g}function
+fZ(a){return mn(function(a){return[0,a]},a)}function
+hW(a){var
+b=aC(a);return mn(function(a){return a},b)}function
+P(a){return fZ(aC(a))}function
+bM(a){if(2===a[0])return[0,fZ(a[1])];var
+b=aa(a),c=P(r(b,wO));return[1,P(r(b,wP)),c]}function
+W(a){throw[0,mk,aP(iO(wR,a),wQ)]}function
+hX(c){var
+a=aC(c);if(m(a,wS)){var
+b=m(a,wT);if(b)throw M;return b}return 1}function
+wU(d){var
+b=aa(d);function
+a(a){return et(bM,r(b,a))}var
+c=aC(r(b,wV));if(m(c,wW)){if(m(c,wX)){if(m(c,wY))return W([0,w0,[0,c,wZ]]);var
+e=aG(b,w1),f=b3(function(a){return et(bM,a)},e),g=a(w2);return[1,a(w3),g,f]}var
+h=hX(r(b,w4)),i=bM(r(b,w5)),j=a(w6),k=a(w7);return[0,a(w8),k,j,i,h]}return[2,a(w9)]}function
+w_(d){var
+a=aa(d);if(a){var
+b=a[1];if(!m(b[1],w$)){var
+c=b[2];if(2===c[0]&&!m(c[1],xa))return 1}}return 0}function
+mo(e){var
+b=aa(e);function
+a(a){return R(bM,V(r(b,a)))}var
+c=aC(r(b,xb)),d=aG(b,xc);if(m(c,xd)){if(m(c,xe)){if(!m(c,xf)&&!d){var
+f=a(xi);return[1,a(xj),f]}}else
 if(!d){var
-g=hV(r(b,xf)),h=bK(r(b,xg)),i=a(xh),j=a(xi);return[0,a(xj),j,i,h,g]}}else
+g=hX(r(b,xk)),h=bM(r(b,xl)),i=a(xm),j=a(xn);return[0,a(xo),j,i,h,g]}}else
 if(!d){var
-k=hV(r(b,xk)),l=bK(r(b,xl)),n=bK(r(b,xm)),o=a(xn),p=a(xo),q=a(xp);return[2,a(xq),q,p,o,n,l,k]}return V([0,xc,[0,c,xb]])}function
-mm(d){var
-a=_(d);if(a){var
-b=a[1];if(!m(b[1],xr)){var
-c=b[2];if(2===c[0]&&!m(c[1],xs))return 1}}return 0}function
-cs(c,d){var
-a=U(d);if(a){var
+k=hX(r(b,xp)),l=bM(r(b,xq)),n=bM(r(b,xr)),o=a(xs),p=a(xt),q=a(xu);return[2,a(xv),q,p,o,n,l,k]}return W([0,xh,[0,c,xg]])}function
+mp(d){var
+a=aa(d);if(a){var
+b=a[1];if(!m(b[1],xw)){var
+c=b[2];if(2===c[0]&&!m(c[1],xx))return 1}}return 0}function
+ct(c,d){var
+a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw M}function
 ew(f,p){var
-l=f?f[1]:f,c=_(p),a=aC(r(c,xt)),i=oF(a,xu),h=0;if(0<=i)if(0<i)if(m(a,xv))if(m(a,xw))if(m(a,xx))if(m(a,xy))if(m(a,xz)){var
-j=m(a,xA);if(j)h=1;else
+l=f?f[1]:f,c=aa(p),a=aC(r(c,xy)),i=oI(a,xz),h=0;if(0<=i)if(0<i)if(m(a,xA))if(m(a,xB))if(m(a,xC))if(m(a,xD))if(m(a,xE)){var
+j=m(a,xF);if(j)h=1;else
 var
 b=j}else
 var
@@ -6218,7 +6254,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,xV))if(m(a,xW))if(m(a,xX))if(m(a,xY))if(m(a,xZ))if(m(a,x0))if(m(a,x1))h=1;else
+if(m(a,x0))if(m(a,x1))if(m(a,x2))if(m(a,x3))if(m(a,x4))if(m(a,x5))if(m(a,x6))h=1;else
 var
 b=1;else
 var
@@ -6233,12 +6269,12 @@ var
 b=9;else
 var
 b=12;var
-n=h?V([0,xC,[0,a,xB]]):b;function
-g(a){return r(c,xD)}var
-d=aC(r(c,xE)),k=m(d,xF);if(k)if(m(d,xG))if(m(d,xH))if(m(d,xI))var
-e=V([0,xK,[0,d,xJ]]);else
+n=h?W([0,xH,[0,a,xG]]):b;function
+g(a){return r(c,xI)}var
+d=aC(r(c,xJ)),k=m(d,xK);if(k)if(m(d,xL))if(m(d,xM))if(m(d,xN))var
+e=W([0,xP,[0,d,xO]]);else
 var
-o=cs(P,g(0)),e=[2,o[1],o[2]];else
+o=ct(P,g(0)),e=[2,o[1],o[2]];else
 var
 e=[0,P(g(0))];else
 var
@@ -6246,87 +6282,87 @@ e=[1,P(g(0))];else
 var
 e=k;function
 q(y){var
-a=_(y),c=0;switch(n){case
+a=aa(y),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],xM)){var
+q=a[1];if(!m(q[1],xR)){var
 r=q[2];if(1===r[0]){var
 b=r[1],k=0;if(b&&!b[2])if(a[2])k=1;else{var
-e=b[1];c=1;k=1}if(!k&&!a[2])return l?V(xN):[1,R(P,b)]}}}break;case
+e=b[1];c=1;k=1}if(!k&&!a[2])return l?W(xS):[1,R(P,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],xO)){var
+s=a[1];if(!m(s[1],xT)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-u=g[1];if(!m(u[1],xP)){var
+u=g[1];if(!m(u[1],xU)){var
 v=u[2];if(1===v[0]){var
 h=v[1];if(h&&!h[2]&&!g[2]){var
 z=P(h[1]);return[2,P(f[1]),z]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],xQ)){var
-x=w[2],i=a[2];if(i){if(!m(i[1][1],xR)&&!i[2]&&l)return V(xS)}else
+w=a[1];if(!m(w[1],xV)){var
+x=w[2],i=a[2];if(i){if(!m(i[1][1],xW)&&!i[2]&&l)return W(xX)}else
 if(1===x[0]){var
 j=x[1];if(j&&!j[2]){var
 e=j[1];c=1}}}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],xL)){var
+o=a[1];if(!m(o[1],xQ)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw L}var
-s=b3(q,aG(c,xT));return[0,n,b3(cr,aG(c,xU)),s,e]}function
-mn(c){var
-d=ew(x4,c),e=d[1];if(2<=e)switch(e-2|0){case
+e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw M}var
+s=b3(q,aG(c,xY));return[0,n,b3(cs,aG(c,xZ)),s,e]}function
+mq(c){var
+d=ew(x9,c),e=d[1];if(2<=e)switch(e-2|0){case
 0:case
 4:case
 6:return d}var
-a=ew(x2,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(x3)}function
-mo(a){var
-b=ew(x5,a);return 11===b[1]?b:mn(a)}function
-hW(c){var
-d=ew(x6,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:mn(c)}function
-hX(b){var
-a=_(b[2]);if(m(b[1],yb)){var
-c=cs(P,r(a,yc)),d=cs(P,r(a,yd)),e=d[2],f=d[1],g=P(r(a,ye));return[1,c[1],c[2],g,f,e]}var
-h=R(P,U(r(a,yf)));return[0,R(P,U(r(a,yg))),h]}function
-yh(f){var
-a=_(f);function
+a=ew(x7,c),b=a[1];if(2!==b&&!(4<=b))return a;return W(x8)}function
+mr(a){var
+b=ew(x_,a);return 11===b[1]?b:mq(a)}function
+hY(c){var
+d=ew(x$,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
+if(4<=a)b=1;return b?d:mq(c)}function
+hZ(b){var
+a=aa(b[2]);if(m(b[1],yg)){var
+c=ct(P,r(a,yh)),d=ct(P,r(a,yi)),e=d[2],f=d[1],g=P(r(a,yj));return[1,c[1],c[2],g,f,e]}var
+h=R(P,V(r(a,yk)));return[0,R(P,V(r(a,yl))),h]}function
+ym(f){var
+a=aa(f);function
 d(b){return P(r(a,b))}function
 c(b){return et(P,r(a,b))}var
-b=aC(r(a,yi));if(m(b,yj)){if(!m(b,yk)){var
-j=r(a,yq),e=cs(function(a){return a},j),k=aG(a,yr),l=b3(function(a){return c(ys)},k),n=fW(aC(e[2])),o=fW(aC(e[1])),p=d(yt);return[0,cr(r(a,yu)),p,o,n,l]}if(m(b,yl))throw L}var
-g=d(ym),h=c(yn),i=c(yo);return[1,an(b,yp),i,h,g]}function
-hY(aq){var
-g=cU(aq),h=g[1];if(m(h,yv)){if(m(h,yw)){if(m(h,yx)){if(m(h,yy))return V([0,yA,[0,h,yz]]);var
-v=r(_(g[2]),yB),af=0;if(2===v[0]){var
-J=m(v[1],yC);if(!J){var
+b=aC(r(a,yn));if(m(b,yo)){if(!m(b,yp)){var
+j=r(a,yv),e=ct(function(a){return a},j),k=aG(a,yw),l=b3(function(a){return c(yx)},k),n=fZ(aC(e[2])),o=fZ(aC(e[1])),p=d(yy);return[0,cs(r(a,yz)),p,o,n,l]}if(m(b,yq))throw M}var
+g=d(yr),h=c(ys),i=c(yt);return[1,an(b,yu),i,h,g]}function
+h0(aq){var
+g=cV(aq),h=g[1];if(m(h,yA)){if(m(h,yB)){if(m(h,yC)){if(m(h,yD))return W([0,yF,[0,h,yE]]);var
+v=r(aa(g[2]),yG),af=0;if(2===v[0]){var
+J=m(v[1],yH);if(!J){var
 I=J;af=1}}if(!af)var
-I=[0,bK(v)];return[6,I]}var
-K=_(g[2]),i=hY([0,[0,[0,yE,r(K,yD)],0]]);if(0===i[0]){var
-w=i[2];if(0===w[0]&&!i[3]){var
-ar=P(r(K,yG));return[5,i[1],w[1],w[2],i[4],ar]}}return V(yF)}var
-a=_(g[2]),j=cU(r(a,yH)),b=cU(r(a,yI)),c=j[1];if(m(c,yJ)&&0!==aG(a,yK))return V(zC);if(m(c,yL)&&m(c,yM)&&m(c,yN)){if(0===aG(a,yO)){if(m(c,yP)){var
-ag=0;if(m(c,yQ)){if(!m(c,yR)){var
-M=b[1],ah=0;if(m(M,yU)&&m(M,yV)){ag=1;ah=1}if(!ah){var
-x=U(j[2]),y=aG(a,yY),N=y?R(yh,U(y[1])):y,as=U(r(a,yZ)),O=R(function(a){return ew(0,a)},as);if(!aB(w5,x)&&!aB(function(a){return 13===a[1]?1:0},O)){var
-av=R(wP,x),f=_(b[2]);if(m(b[1],x7))var
-G=cs(P,r(f,x8)),H=cs(P,r(f,x9)),al=H[2],am=H[1],ao=P(r(f,x_)),Q=[1,G[1],G[2],ao,am,al];else
+I=[0,bM(v)];return[6,I]}var
+K=aa(g[2]),j=h0([0,[0,[0,yJ,r(K,yI)],0]]);if(0===j[0]){var
+w=j[2];if(0===w[0]&&!j[3]){var
+ar=P(r(K,yL));return[5,j[1],w[1],w[2],j[4],ar]}}return W(yK)}var
+a=aa(g[2]),k=cV(r(a,yM)),b=cV(r(a,yN)),c=k[1];if(m(c,yO)&&0!==aG(a,yP))return W(zH);if(m(c,yQ)&&m(c,yR)&&m(c,yS)){if(0===aG(a,yT)){if(m(c,yU)){var
+ag=0;if(m(c,yV)){if(!m(c,yW)){var
+L=b[1],ah=0;if(m(L,yZ)&&m(L,y0)){ag=1;ah=1}if(!ah){var
+x=V(k[2]),y=aG(a,y3),N=y?R(ym,V(y[1])):y,as=V(r(a,y4)),O=R(function(a){return ew(0,a)},as);if(!aB(w_,x)&&!aB(function(a){return 13===a[1]?1:0},O)){var
+av=R(wU,x),f=aa(b[2]);if(m(b[1],ya))var
+G=ct(P,r(f,yb)),H=ct(P,r(f,yc)),al=H[2],am=H[1],ao=P(r(f,yd)),Q=[1,G[1],G[2],ao,am,al];else
 var
-ap=et(P,r(f,x$)),Q=[0,et(P,r(f,ya)),ap];return[0,av,Q,N,O]}if(0!==N)V(y0);var
-at=R(hW,U(r(a,y1))),au=hX(b);return[1,0,R(ml,x),0,au,0,at]}}}else
-if(!m(b[1],y2)){var
-S=R(hW,U(r(a,y3))),u=0,e=S;for(;;){if(e){var
+ap=et(P,r(f,ye)),Q=[0,et(P,r(f,yf)),ap];return[0,av,Q,N,O]}if(0!==N)W(y5);var
+at=R(hY,V(r(a,y6))),au=hZ(b);return[1,0,R(mo,x),0,au,0,at]}}}else
+if(!m(b[1],y7)){var
+S=R(hY,V(r(a,y8))),u=0,e=S;for(;;){if(e){var
 E=e[2],F=e[1];if(0===F[1]){var
 u=[0,F,u],e=E;continue}var
 e=E;continue}var
-n=iM(u),ai=0;if(n){var
+n=iN(u),ai=0;if(n){var
 d=0,T=n[1][4];if(typeof
 T==="number")d=1;else
 switch(T[0]){case
 0:var
 z=n[2];if(z){var
-C=0,W=z[1][4];if(typeof
-W!=="number"&&1===W[0])if(z[2]){d=1;C=1}else
+C=0,U=z[1][4];if(typeof
+U!=="number"&&1===U[0])if(z[2]){d=1;C=1}else
 C=1;if(!C)d=1}else
 d=1;break;case
 1:var
@@ -6334,148 +6370,158 @@ A=n[2];if(A){var
 D=0,X=A[1][4];if(typeof
 X!=="number"&&0===X[0])if(A[2]){d=1;D=1}else
 D=1;if(!D)d=1}else
-d=1;break;default:d=1}if(!d)ai=1}if(!ai)V(y4);var
-aw=P(r(_(b[2]),y5));return[4,P(r(_(j[2]),y6)),aw,S]}}if(!ag)return V([0,yT,[0,c,yS]])}else
-if(!m(b[1],y7)){var
-o=_(j[2]),Y=_(b[2]),Z=function(c,a){var
-b=U(a);return R(function(d){var
-a=U(d);if(a){var
+d=1;break;default:d=1}if(!d)ai=1}if(!ai)W(y9);var
+aw=P(r(aa(b[2]),y_));return[4,P(r(aa(k[2]),y$)),aw,S]}}if(!ag)return W([0,yY,[0,c,yX]])}else
+if(!m(b[1],za)){var
+o=aa(k[2]),Y=aa(b[2]),Z=function(c,a){var
+b=V(a);return R(function(d){var
+a=V(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aC(a[1]),e]}}throw L},b)},ax=function(d){var
-a=_(d);if(a){var
-b=a[1],c=b[1];if(m(c,y8)){if(!m(c,y9)&&!a[2])return[0,R(hU,U(b[2]))]}else
-if(!a[2])return[1,hU(b[2])]}throw L},ay=R(mo,U(r(a,y_))),az=R(P,U(r(Y,y$))),aA=R(P,U(r(Y,za))),aD=R(ax,U(r(o,zb))),aE=Z(hU,r(o,zc)),aF=Z(bK,r(o,zd));return[3,R(aC,U(r(o,ze))),aF,aE,aD,aA,az,ay]}return V([0,yX,[0,b[1],yW]])}throw L}var
-$=_(j[2]),p=b3(P,aG($,zf)),aH=function(f){var
-a=cU(f),b=a[1];if(m(b,zg)){if(m(b,zh)){if(m(b,zi)){if(m(b,zj))throw L;var
-d=a[2],g=P(r(_(d),zk));return[3,P(r(_(d),zl)),g]}var
-h=a[2],c=function(a){return cs(P,r(_(h),a))},i=c(zm),j=c(zn);return[1,c(zo),j,i]}var
-e=cs(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},q=b3(aH,aG(a,zp)),aa=m(c,zq),B=aa?m(c,zr)?2:1:aa,s=U(r($,zs));if(p&&q){var
-ab=q[1];if(gq(mm,s)){var
+e=i(c,b[1]);return[0,aC(a[1]),e]}}throw M},b)},ax=function(d){var
+a=aa(d);if(a){var
+b=a[1],c=b[1];if(m(c,zb)){if(!m(c,zc)&&!a[2])return[0,R(hW,V(b[2]))]}else
+if(!a[2])return[1,hW(b[2])]}throw M},ay=R(mr,V(r(a,zd))),az=R(P,V(r(Y,ze))),aA=R(P,V(r(Y,zf))),aD=R(ax,V(r(o,zg))),aE=Z(hW,r(o,zh)),aF=Z(bM,r(o,zi));return[3,R(aC,V(r(o,zj))),aF,aE,aD,aA,az,ay]}return W([0,y2,[0,b[1],y1]])}throw M}var
+_=aa(k[2]),p=b3(P,aG(_,zk)),aH=function(f){var
+a=cV(f),b=a[1];if(m(b,zl)){if(m(b,zm)){if(m(b,zn)){if(m(b,zo))throw M;var
+d=a[2],g=P(r(aa(d),zp));return[3,P(r(aa(d),zq)),g]}var
+h=a[2],c=function(a){return ct(P,r(aa(h),a))},i=c(zr),j=c(zs);return[1,c(zt),j,i]}var
+e=ct(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},q=b3(aH,aG(a,zu)),$=m(c,zv),B=$?m(c,zw)?2:1:$,s=V(r(_,zx));if(p&&q){var
+ab=q[1];if(gt(mp,s)){var
 aI=function(c){var
-a=_(c);function
-b(b){return R(bK,U(r(a,b)))}if(0!==aG(a,zt))V(zu);var
-d=b(zv);return[0,b(zw),d]},ac=R(mo,U(r(a,zx))),aj=0;if(1!==B||2!==ab[0])aj=1;if(aj&&aB(function(a){return 11===a[1]?1:0},ac))V(zy);var
-aJ=hX(b),aK=p[1];return[2,B,R(aI,s),aK,aJ,ab,ac]}}var
-ak=0;if(!p&&an(c,zB)){var
+a=aa(c);function
+b(b){return R(bM,V(r(a,b)))}if(0!==aG(a,zy))W(zz);var
+d=b(zA);return[0,b(zB),d]},ac=R(mr,V(r(a,zC))),aj=0;if(1!==B||2!==ab[0])aj=1;if(aj&&aB(function(a){return 11===a[1]?1:0},ac))W(zD);var
+aJ=hZ(b),aK=p[1];return[2,B,R(aI,s),aK,aJ,ab,ac]}}var
+ak=0;if(!p&&an(c,zG)){var
 ad=1;ak=1}if(!ak)var
 ad=[0,B];var
-ae=0!==q?1:0,aL=ae?aB(mm,s):ae;if(aL)V(zz);var
-aM=R(hW,U(r(a,zA))),aN=hX(b);return[1,ad,R(ml,s),p,aN,q,aM]}var
-t=_(g[2]);function
+ae=0!==q?1:0,aL=ae?aB(mp,s):ae;if(aL)W(zE);var
+aM=R(hY,V(r(a,zF))),aN=hZ(b);return[1,ad,R(mo,s),p,aN,q,aM]}var
+t=aa(g[2]);function
 aO(b){var
-a=_(b),c=P(r(a,zD)),d=[0,P(r(a,zE)),c];return[0,aC(r(a,zF)),d]}var
-l=hY([0,[0,[0,zH,r(t,zG)],0]]);if(0===l[0]&&!l[3]){var
-aP=P(r(t,zJ)),aQ=P(r(t,zK)),aR=l[4],aS=l[2],aT=l[1];return[7,R(aO,U(r(t,zL))),aT,aS,aR,aQ,aP]}return V(zI)}function
-hZ(a){return R(ev,U(a))}function
-h0(c,b){var
-a=hZ(b);if(b9(a)!==c)throw L;return a}function
-mp(a,d){var
-b=_(d),e=U(r(b,zO)),f=a[2],c=R(function(a){return h0(f,a)},e),g=a[1];if(b9(c)!==g)throw L;return[0,c,fV(r(b,zP))]}function
+a=aa(b),c=P(r(a,zI)),d=[0,P(r(a,zJ)),c];return[0,aC(r(a,zK)),d]}var
+l=h0([0,[0,[0,zM,r(t,zL)],0]]);if(0===l[0]&&!l[3]){var
+aP=P(r(t,zO)),aQ=P(r(t,zP)),aR=l[4],aS=l[2],aT=l[1];return[7,R(aO,V(r(t,zQ))),aT,aS,aR,aQ,aP]}return W(zN)}function
+h1(a){return R(ev,V(a))}function
+h2(c,b){var
+a=h1(b);if(b9(a)!==c)throw M;return a}function
+ms(a,d){var
+b=aa(d),e=V(r(b,zT)),f=a[2],c=R(function(a){return h2(f,a)},e),g=a[1];if(b9(c)!==g)throw M;return[0,c,fY(r(b,zU))]}function
 ex(g,o){var
 N=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=oF(a,zQ),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,zR)&&m(a,zS)&&m(a,zT))if(m(a,zU))f=1;else{var
+e=d[1],a=e[1],O=oI(a,zV),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,zW)&&m(a,zX)&&m(a,zY))if(m(a,zZ))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ad=R(hZ,U(s[1])),ae=aC(q[1]);return[8,ex(g,p[1]),ae,ad]}b=1;f=1}else
+ae=R(h1,V(s[1])),af=aC(q[1]);return[8,ex(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
-af=e[2],u=af,t=function(c,b){return[1,a,c,b]};b=2}}else{var
+ag=e[2],u=ag,t=function(c,b){return[1,a,c,b]};b=2}}else{var
 S=e[2];if(1===S[0]){var
 v=S[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ag=fV(x[1]),ah=ev(w[1]);return[5,ex(g,v[1]),ah,ag]}b=1}}}}}else
-if(m(a,zX))if(m(a,zY))if(m(a,zZ))if(m(a,z0)){if(!m(a,z1)){if(!d[2]){var
-T=_(e[2]),ai=U(r(T,z2)),aj=N+1|0,W=R(function(a){return h0(aj,a)},ai);if(3===b9(W))return[1,z4,W,fV(r(T,z3))];throw L}b=1}}else{if(!d[2]){var
-J=aC(e[2]),K=m(J,zM);if(K){if(m(J,zN))throw L;var
-M=1}else
+ah=fY(x[1]),ai=ev(w[1]);return[5,ex(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,z2))if(m(a,z3))if(m(a,z4))if(m(a,z5)){if(!m(a,z6)){if(!d[2]){var
+T=aa(e[2]),aj=V(r(T,z7)),ak=N+1|0,U=R(function(a){return h2(ak,a)},aj);if(3===b9(U))return[1,z9,U,fY(r(T,z8))];throw M}b=1}}else{if(!d[2]){var
+J=aC(e[2]),K=m(J,zR);if(K){if(m(J,zS))throw M;var
+L=1}else
 var
-M=K;return[2,M]}b=1}else{if(!d[2]){var
-i=e[2],n=0;switch(i[0]){case
+L=K;return[2,L]}b=1}else{if(!d[2]){var
+i=e[2],Z=function(l,a){if(0===a[0]){var
+b=a[1];if(b){var
+e=b[1];if(!m(e[1],z$)){var
+f=e[2];if(0===f[0]){var
+c=f[1];if(c){var
+g=c[1];if(!m(g[1],Aa)){var
+h=g[2];if(1===h[0]){var
+d=h[1];if(d){var
+i=d[1];if(1===i[0]){var
+j=i[1];if(j&&!j[2]&&!d[2]){var
+k=c[2];if(k&&!k[2]&&!b[2])return ex(Ab,a)}}}}}}}}}}return ex(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],k=Z[1],c=0;if(m(k,z6)&&m(k,z7)&&m(k,z8))if(m(k,z9))c=1;else{var
-$=Z[2];if(1===$[0]){var
+_=j[1],k=_[1],c=0;if(m(k,Ac)&&m(k,Ad)&&m(k,Ae))if(m(k,Af))c=1;else{var
+$=_[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ac=0;if(m(G,z$)&&m(G,Aa)&&m(G,Ab)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ad=0;if(m(G,Ah)&&m(G,Ai)&&m(G,Aj)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,Ac)&&m(aa,Ad)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+ab=l[1];if(m(ab,Ak)&&m(ab,Al)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ao=fV(I[1]),ap=ev(H[1]),y=[6,ex(g,l),ap,ao];n=2;c=1}else
+ap=fY(I[1]),aq=ev(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ab=i[1];if(!m(ab,Ae)||!m(ab,Af))n=1;break}switch(n){case
+ac=i[1];if(!m(ac,Am)||!m(ac,An))n=1;break}switch(n){case
 0:var
-y=V(z_);break;case
+y=W(Ag);break;case
 1:var
-y=ex(g,i);break}return[7,y]}b=1}else{var
+y=Z(g,i);break}return[7,y]}b=1}else{var
 X=e[2];if(1===X[0]){var
 z=X[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-ak=A[1],al=z[1],u=al,t=function(b,a){return[3,b,a,h0(N+1|0,ak)]};b=2}}}}else{var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,h2(N+1|0,al)]};b=2}}}}else{var
 Y=e[2];if(1===Y[0]){var
 B=Y[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-am=C[1];if(m(dC(D[1]),z5))throw L;var
-an=B[1],u=an,t=function(b,a){return[4,b,a,ev(am)]};b=2}}}}}switch(b){case
-0:if(!d[2])return V([0,zW,[0,a,zV]]);break;case
+an=C[1];if(m(dC(D[1]),z_))throw M;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,ev(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return W([0,z1,[0,a,z0]]);break;case
 1:break;default:var
-Q=mp(g,u);return t(Q[1],Q[2])}}break;case
-2:return[0,o[1]]}throw L}function
-mq(k){var
-b=cU(k),a=b[1];if(m(a,Ai))if(m(a,Aj)){var
-g=m(a,Ak);if(!g)return g;if(!m(a,Al)){var
+Q=ms(g,u);return t(Q[1],Q[2])}}break;case
+2:return[0,o[1]]}throw M}function
+mt(k){var
+b=cV(k),a=b[1];if(m(a,Aq))if(m(a,Ar)){var
+g=m(a,As);if(!g)return g;if(!m(a,At)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cr(d[1]);return[1,cr(c[1]),l]}}}}}else{var
+l=cs(d[1]);return[1,cs(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=R(hZ,U(f[1]));return[0,cr(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,An,[0,a,Am]])}function
-mr(f,b){var
-a=_(b),c=U(r(a,As)),d=R(function(g){var
-a=_(g);function
+n=R(h1,V(f[1]));return[0,cs(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return W([0,Av,[0,a,Au]])}function
+mu(f,b){var
+a=aa(b),c=V(r(a,AA)),d=R(function(g){var
+a=aa(g);function
 b(d,c){var
-b=aG(a,c);return b?R(d,U(b[1])):b}var
-c=b(ev,Ao),d=b3(mq,aG(a,Ap)),e=b3(cr,aG(a,Aq));return[0,b(function(h){var
-b=U(h);if(b){var
+b=aG(a,c);return b?R(d,V(b[1])):b}var
+c=b(ev,Aw),d=b3(mt,aG(a,Ax)),e=b3(cs,aG(a,Ay));return[0,b(function(h){var
+b=V(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Ag)){if(!a[2]){if(m(dC(e),Ah))throw L;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Ao)){if(!a[2]){if(m(dC(e),Ap))throw M;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ex(f,c);return[0,cr(e),g]}}}throw L},Ar),e,d,c]},c),e=aG(a,At),g=b3(function(a){return mp(f,a)},e);return[0,mi(r(a,Au)),g,d]}function
-ms(c){var
-a=_(c),b=aG(a,Av),d=b?R(P,U(b[1])):b,e=mq(r(a,Aw)),f=R(P,U(r(a,Ax)));return[0,mi(r(a,Ay)),f,d,e]}function
-mt(c){var
+g=ex(f,c);return[0,cs(e),g]}}}throw M},Az),e,d,c]},c),e=aG(a,AB),g=b3(function(a){return ms(f,a)},e);return[0,ml(r(a,AC)),g,d]}function
+mv(c){var
+a=aa(c),b=aG(a,AD),d=b?R(P,V(b[1])):b,e=mt(r(a,AE)),f=R(P,V(r(a,AF)));return[0,ml(r(a,AG)),f,d,e]}function
+mw(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-AI(b){var
+AQ(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-AJ(c){var
+AR(c){var
 b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],AK))a=1;break;case
+0:if(!m(b[1],AS))a=1;break;case
 7:a=1;break}return a?1:0}function
-AL(g){var
-i=am(g),c=[0,0];function
-j(a){if(c[1]<i)return aI(g,c[1]);throw L}function
-l(a){if(j(0)===a){c[1]++;return 0}throw L}function
-C(a,b){for(;;){if(c[1]<i&&k(b,aI(g,c[1]))){c[1]++;continue}return c5(g,a,c[1]-a|0)}}function
+AT(g){var
+j=am(g),c=[0,0];function
+k(a){if(c[1]<j)return aI(g,c[1]);throw M}function
+l(a){if(k(0)===a){c[1]++;return 0}throw M}function
+C(a,b){for(;;){if(c[1]<j&&i(b,aI(g,c[1]))){c[1]++;continue}return c6(g,a,c[1]-a|0)}}function
 D(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6483,20 +6529,20 @@ c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
 b=C(c[1],a);l(34);return b}function
-E(e,a){if(j(0)===a){c[1]++;return 0}var
+E(e,a){if(k(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return iM(d)}}function
-t(b,i){if(64<b)throw L;var
-a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
+d=[0,i(e,0),b];if(44===k(0)){c[1]++;var
+b=d;continue}l(a);return iN(d)}}function
+t(b,i){if(64<b)throw M;var
+a=k(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,E(function(a){return t(f,a)},e)]}if(123===a){c[1]++;var
 g=125;return[0,E(function(c){var
 a=D(0);l(58);return[0,a,t(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,C(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
-Q=t(0,0),F=c[1]<i?1:0,S=F?10===aI(g,c[1])?1:0:F;if(S)c[1]++;if(c[1]<i)throw L;var
-q=_(Q);if(m(aC(r(q,AM)),AN))throw L;var
-a=hY(r(q,AO)),y=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw M}var
+Q=t(0,0),F=c[1]<j?1:0,S=F?10===aI(g,c[1])?1:0:F;if(S)c[1]++;if(c[1]<j)throw M;var
+q=aa(Q);if(m(aC(r(q,AU)),AV))throw M;var
+a=h0(r(q,AW)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -6516,21 +6562,21 @@ G=a[2];y=1;break;case
 0:case
 5:var
 G=a[1];y=1;break;default:var
-f=A5}if(y)var
+f=Bb}if(y)var
 f=[0,b9(G),3];var
-n=cU(r(q,AP)),o=n[1];if(m(o,AD))if(m(o,AE))if(m(o,AF))var
-b=V([0,AH,[0,o,AG]]);else
+n=cV(r(q,AX)),o=n[1];if(m(o,AL))if(m(o,AM))if(m(o,AN))var
+b=W([0,AP,[0,o,AO]]);else
 var
-p=ms(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
+p=mv(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
 var
-u=mr(f,n[2]),b=[0,u[1],u[2],u[3]];else
+u=mu(f,n[2]),b=[0,u[1],u[2],u[3]];else
 var
-T=U(n[2]),b=[2,R(function(g){var
-a=cU(g),b=a[1];if(m(b,Az)){if(m(b,AA)){if(m(b,AB)){var
-e=m(b,AC);if(e)throw L;return e}return[0,cr(a[2])]}var
-c=ms(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=mr(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
-W(a){var
+T=V(n[2]),b=[2,R(function(g){var
+a=cV(g),b=a[1];if(m(b,AH)){if(m(b,AI)){if(m(b,AJ)){var
+e=m(b,AK);if(e)throw M;return e}return[0,cs(a[2])]}var
+c=mv(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=mu(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+U(a){var
 b=a[1];return aB(function(a){return 8===a[2][0]?1:0},b)}function
 X(a){return 0!==a[3]?1:0}function
 H(a){return aB(X,a)}var
@@ -6546,33 +6592,33 @@ N=I;d=5;break}break;case
 ab=b[3];if(aB(function(a){var
 b=a[1];return aB(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ab)){V(AZ);d=1}else
+7:return 1;default:return 0}},b)},ab)){W(A7);d=1}else
 d=2;break;case
 1:var
-ac=a[6];if(aB(function(a){return 8===a[1]?1:0},ac)){V(A0);d=1}break}break;case
+ac=a[6];if(aB(function(a){return 8===a[1]?1:0},ac)){W(A8);d=1}break}break;case
 2:if(1===b[0]){var
 ae=a[6];if(aB(function(a){switch(a[1]){case
 2:case
 6:case
 8:case
-11:return 1;default:return 0}},ae)){V(A3);d=1}else
+11:return 1;default:return 0}},ae)){W(A$);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===b[0]){V(A4);d=1}else
+3:if(1===b[0]){W(Ba);d=1}else
 d=3;break;case
 5:var
 N=a[4];d=5;break;case
 7:var
 K=a[4],J=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===b[0])if(aB(W,b[3])){V(A1);e=3}else
+3:if(0===b[0])if(aB(U,b[3])){W(A9);e=3}else
 if(3===a[0])e=1;else{var
-ad=b[3];if(gq(function(a){return gq(AJ,a[1])},ad))e=1;else{V(A2);e=3}}else
+ad=b[3];if(gt(function(a){return gt(AR,a[1])},ad))e=1;else{W(A_);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-O=0;if(aB(function(a){return 10===a[1]?1:0},K)&&aB(function(a){return 2===a[0]?1:0},J)){V(AQ);O=1}if(!O)e=4;break;case
-5:if(aB(mt,N))V(AY);else
+O=0;if(aB(function(a){return 10===a[1]?1:0},K)&&aB(function(a){return 2===a[0]?1:0},J)){W(AY);O=1}if(!O)e=4;break;case
+5:if(aB(mw,N))W(A6);else
 e=4;break;case
 2:e=1;break;default:e=2}var
 h=0;switch(e){case
@@ -6581,11 +6627,11 @@ h=0;switch(e){case
 A=0;switch(a[0]){case
 5:var
 P=0;if(0===b[0]){var
-aa=b[3];if(aB(function(a){return 0!==a[1]?1:0},aa)){V(AX);A=1;P=1}}if(!P)var
+$=b[3];if(aB(function(a){return 0!==a[1]?1:0},$)){W(A5);A=1;P=1}}if(!P)var
 v=a[4];break;case
 7:var
 v=a[4];break;default:if(1===b[0])var
-v=a[4];else{h=2;A=1}}if(!A)if(aB(AI,v))V(AW);else
+v=a[4];else{h=2;A=1}}if(!A)if(aB(AQ,v))W(A4);else
 h=2;break;case
 1:h=2;break;case
 2:h=1;break}var
@@ -6597,27 +6643,27 @@ s=0;switch(a[0]){case
 Z=a[4];switch(b[0]){case
 0:break;case
 1:B=1;s=1;break;default:var
-$=function(a){if(typeof
+_=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return H(a[3]);case
-2:return aB(mt,Z)}return 0};if(aB($,b[1]))V(AV);s=1}break}if(!s)if(0===b[0]&&H(b[3]))V(AU);else
+2:return aB(mw,Z)}return 0};if(aB(_,b[1]))W(A3);s=1}break}if(!s)if(0===b[0]&&H(b[3]))W(A2);else
 B=1;break;case
 1:B=1;break}var
-M=_(r(q,AR)),Y=aC(r(M,AS));return[0,a,b,aC(r(M,AT)),Y]}function
-A6(b){var
-c=am(b),g=64,h=CH(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+L=aa(r(q,AZ)),Y=aC(r(L,A0));return[0,a,b,aC(r(L,A1)),Y]}function
+Bc(b){var
+c=am(b),g=64,h=CP(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=an(c5(b,a,18),A7);if(!e){var
+e=an(c6(b,a,18),Bd);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}C2(function(b){try{if(A6(b))var
-a=A9;else{try{var
-e=0,d=AL(b);e=1}catch(a){a=oH(a);if(a[1]===mh)var
-c=[0,a[2]];else{if(a!==L)throw a;var
+f=d;return f}}C_(function(b){try{if(Bc(b))var
+a=Bf;else{try{var
+e=0,d=AT(b);e=1}catch(a){a=oK(a);if(a[1]===mk)var
+c=[0,a[2]];else{if(a!==M)throw a;var
 c=2}}if(e)var
-c=wA(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return A8}if(typeof
+c=wF(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Be}if(typeof
 a==="number")switch(a){case
-0:return A_;case
-1:return A$;default:return Ba}return aP(Bb,a[1])});iL(0);return}(globalThis));
+0:return Bg;case
+1:return Bh;default:return Bi}return aP(Bj,a[1])});iM(0);return}(globalThis));

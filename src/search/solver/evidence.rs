@@ -265,10 +265,10 @@ impl Over<'_> {
     /// Rows somewhere; `None` unless all `D_i` are positive there.
     pub fn rows<'r>(
         &self,
-        rows: impl ExactSizeIterator<Item = &'r Row<Formula>>,
+        rows: impl ExactSizeIterator<Item = &'r Row<Formula>> + Clone,
         at: At,
     ) -> Option<Rows> {
-        let mut a = DMatrix::zeros(rows.len(), self.m());
+        let mut a = DMatrix::zeros(rows.len(), rows.clone().next()?.a.len());
         let mut d = DVector::zeros(rows.len());
         for (i, row) in rows.enumerate() {
             d[i] = self.at(row.d, at)?;

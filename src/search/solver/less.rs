@@ -130,8 +130,8 @@ impl Over<'_> {
     /// some tests it is not known.
     fn margin(&self, test: &Test, evidence: &Evidence, v: Vertex) -> Option<f64> {
         let least = |t: DMatrix<f64>| t.symmetric_eigenvalues().min();
-        let (m, at) = (self.m(), At::Vertex(v));
-        let unit = |c: f64| DMatrix::identity(m, m) * c;
+        let at = At::Vertex(v);
+        let greatest = |rows: Rows| rows.square().symmetric_eigenvalues().max();
         let form = match evidence {
             Evidence::LowerDivided(_) | Evidence::Divided => Form::Divided,
             _ if self.formulas.controls.is_some() => Form::Scaled,
@@ -144,10 +144,10 @@ impl Over<'_> {
             (Test::SigmaMin(_), Evidence::Rank(y)) => Some(least(own()?.symmetric(&matrix(y)))),
             (Test::SigmaMin(kappa), Evidence::Lower(y) | Evidence::LowerDivided(y)) => {
                 let kappa = self.centre(*kappa)? * weight;
-                Some(least(own()?.minorant(&matrix(y)) - unit(kappa)))
+                Some(least(own()?.minorant(&matrix(y))) - kappa)
             }
             (Test::SigmaMax(k), Evidence::Test | Evidence::Divided) => {
-                Some(least(unit(self.centre(*k)? * weight) - own()?.square()))
+                Some(self.centre(*k)? * weight - greatest(own()?))
             }
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
                 let scale = (-f64::from(y.places)).exp2();
@@ -157,16 +157,15 @@ impl Over<'_> {
                     Some(k) => Some(self.formulas.place(k, v)? as f64 * mu as f64),
                 });
                 let (mu, rows) = (scale * signed.sum::<Option<f64>>()?, own()?);
-                let lower = least(rows.minorant(&matrix(y)) - unit(mu));
-                Some(lower.min(least(unit(self.centre(*c)? * mu) - rows.square())))
+                let lower = least(rows.minorant(&matrix(y))) - mu;
+                Some(lower.min(self.centre(*c)? * mu - greatest(rows)))
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
                 let rows = self.rows(rows.iter(), at)?;
-                Some(least(rows.minorant(&matrix(y)) - unit(self.at(*kappa, at)?)))
+                Some(least(rows.minorant(&matrix(y))) - self.at(*kappa, at)?)
             }
             (Test::Greatest(rows, k), Evidence::Test) => {
-                let rows = self.rows(rows.iter(), at)?;
-                Some(least(unit(self.at(*k, at)?) - rows.square()))
+                Some(self.at(*k, at)? - greatest(self.rows(rows.iter(), at)?))
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
                 let y = matrix(self.prover.chords.as_ref()?);

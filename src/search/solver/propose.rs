@@ -174,8 +174,12 @@ impl Over<'_> {
     }
 
     fn least(&self, test: &Test, rows: &[Row<Formula>], kappa: Formula) -> Option<Evidence> {
-        let kappa = self.centre(kappa)?.max(0.0).sqrt();
-        let starts = self.rows(rows.iter(), At::Centre)?.starts(kappa);
+        let (kappa, own) = (self.centre(kappa)?, self.rows(rows.iter(), At::Centre)?);
+        // What is less than no square, nothing shows as well as anything.
+        let starts = match kappa < 0.0 {
+            true => vec![&own.a * 0.0],
+            false => own.starts(kappa.sqrt()),
+        };
         self.shortest_of(test, starts, Evidence::Lower)
     }
 

@@ -437,15 +437,9 @@ impl<'a> Sampler<'a> {
 
     fn margin_of(&self, test: &Test, values: &At) -> Option<f64> {
         let root = |f: &Formula| Some(values.of(*f)?.max(0.0).sqrt());
+        let beyond = |xi: f64, kappa: f64| if kappa > 0.0 { xi / kappa - 1.0 } else { xi };
         Some(match test {
-            Test::SigmaMin(kappa) => {
-                let ([xi, _], kappa) = (self.xi(values)?, root(kappa)?);
-                if kappa > 0.0 {
-                    xi / kappa - 1.0
-                } else {
-                    xi
-                }
-            }
+            Test::SigmaMin(kappa) => beyond(self.xi(values)?[0], root(kappa)?),
             Test::SigmaMax(k) => 1.0 - self.xi(values)?[1] / root(k)?,
             Test::Conditioning(c) => {
                 let [least, greatest] = self.xi(values)?;
@@ -455,7 +449,7 @@ impl<'a> Sampler<'a> {
             Test::Beyond(f, b) => values.of(*f)?.abs() - values.of(*b)?,
             Test::Least(rows, kappa) => {
                 let xi = violation::divided(values, rows.iter())?.singular_values();
-                xi.min() / root(kappa)? - 1.0
+                beyond(xi.min(), root(kappa)?)
             }
             Test::Greatest(rows, k) => {
                 let xi = violation::divided(values, rows.iter())?.singular_values();

@@ -1,8 +1,10 @@
 //! The joint speed that a platform speed asks for: `|row_i of M| tool`.
 
 use super::{Context, Quantity, Test};
+use crate::formula::{formula, Term};
 use crate::input::{ClaimError, Value};
-use crate::machine::Leg;
+use crate::machine::{motion::Turn, Leg};
+use crate::test::Row;
 
 pub(super) const JOINT_SPEED: Quantity = Quantity {
     key: "joint_speed",
@@ -12,8 +14,18 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
     ..Quantity::of_legs(tests)
 };
 
-/// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians. Of scaled rows
-/// it is `sigma_max^2 <= w k^2` of that row alone, which, unlike the square, has a form for control points.
+/// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians.
+///
+/// Of a strut of a platform that turns it is a least angle between the leg and the lever `r = R b` of its joint.
+/// **Lemma.** With the leg's vector `A`, `|A|^2 = D`, the row is `[A, (r x A)/ell]`, or the second part alone about a
+/// point, and with `q = 1` or `0` for the first part, `|r x A|^2 + (r . A)^2 = |b|^2 D` gives
+///
+/// ```text
+/// |row|^2/D <= k^2    if and only if    (r . A)^2/D >= |b|^2 - (k^2 - q) ell^2
+/// ```
+///
+/// which is `sigma_min^2 >= w c` of the one row of one entry `w r . A`, with `w D`, all of them polynomials. ∎ In
+/// `T = 2 y f - y^2 D - c` squares of positions are subtracted: nothing is lost to them at control points.
 fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
     let max = context.positive(context.greatest()?)?;
     let tool = context.positive(context.given("tool")?)?;
@@ -24,14 +36,20 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
     } else {
         context.number(&ratio, 0)
     };
-    let scaled = leg.scaled.clone().zip(context.weight);
+    let motion = context.motion;
+    let lever = leg.scaled.as_ref().zip(leg.ends).zip(motion.turn.as_ref());
     let tape = context.tape();
-    let square = tape.sqr(k);
-    if let Some((row, weight)) = scaled {
-        let square = tape.mul(square, weight);
-        return Ok(vec![Test::Greatest(vec![row], square)]);
+    if let Some(((scaled, ends), turn)) = lever {
+        let [_, b] = ends;
+        let u = motion.vector(tape, &ends, true);
+        let q = tape.integer(i64::from(!motion.velocity.is_empty()));
+        let a = vec![formula!(tape; u . b)];
+        let Turn { weight, length, .. } = *turn;
+        let most = formula!(tape; ((k ^ 2) - q) * (length ^ 2));
+        let least = formula!(tape; weight * ((b . b) - most));
+        return Ok(vec![Test::Least(vec![Row { a, d: scaled.d }], least)]);
     }
-    let greatest = tape.mul(square, leg.row.d);
+    let greatest = formula!(tape; (k ^ 2) * { leg.row.d });
     let squares: Vec<_> = leg.row.a.iter().map(|&a| tape.sqr(a)).collect();
     let rest = squares.into_iter().fold(greatest, |rest, a| tape.sub(rest, a));
     Ok(vec![Test::AtLeast(rest)])

@@ -174,7 +174,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
                 over.solve(rows, test, &weight, y)
             }
             (Test::Least(rows, kappa), Evidence::Lower(y)) => {
-                over.sigma_min(rows, &|v| over.at(*kappa, v), y)
+                over.sigma_min(rows, &|v| over.greatest_at(*kappa, v), y)
             }
             (Test::Greatest(rows, k), Evidence::Test) => {
                 over.sigma_max(rows, &|v| over.least_at(*k, v))

@@ -7,13 +7,14 @@ use crate::certificate::Evidence;
 use crate::control::{Control, Controls};
 use crate::quantity::Test;
 use crate::test::tolerances::Tolerances;
-use crate::test::{Formulas, Over, Place};
+use crate::test::{width, Formulas, Over, Place};
 
-/// Whether these are directions for a test, of `m` coordinates, one for each matrix.
+/// Whether these are directions for a test, of `m` coordinates, one for each matrix; of other rows, of as many entries.
 pub(super) fn are_for(directions: &[Vec<i64>], test: &Test, m: usize) -> bool {
     let expected = match test {
         Test::AtLeast(_) | Test::Beyond(..) => vec![],
         Test::Conditioning(_) => vec![m, m],
+        Test::Least(rows, _) | Test::Greatest(rows, _) => vec![width(rows)],
         _ => vec![m],
     };
     directions.iter().map(Vec::len).eq(expected)

@@ -106,6 +106,11 @@ impl<E: Enclosure> Over<'_, E> {
         self.slopes.arithmetic.sub(&self.own_at(f, v)?, &self.greatest_loss(&[(f, false)], v)?)
     }
 
+    /// The greatest one.
+    pub fn greatest_at(&self, f: Formula, v: Vertex) -> Option<E::Number> {
+        self.slopes.arithmetic.add(&self.own_at(f, v)?, &self.greatest_loss(&[(f, true)], v)?)
+    }
+
     /// One of the directions.
     pub(super) fn direction(
         &self,

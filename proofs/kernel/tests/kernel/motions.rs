@@ -11,6 +11,7 @@ use orthocert_kernel::machine::Joint;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::{Obligation, Test};
 use orthocert_kernel::test::curvature::Curvature;
+use orthocert_kernel::test::Row;
 
 type V = [f64; 3];
 type R = [V; 3];
@@ -294,7 +295,9 @@ fn rows_are_derivatives_in_the_twist() {
         let m = legs.len();
         let (text, ell) = written(motion, &legs);
         let stroke = match which {
-            0 => r#"{"quantity":"joint_range","end":"min","bound":"1/2"},"#,
+            0 => {
+                r#"{"quantity":"joint_range","end":"min","bound":"1/2"},{"quantity":"joint_speed","given":{"tool":["2"]},"end":"max","bound":"3"},"#
+            }
             _ => "",
         };
         let require = format!(
@@ -404,6 +407,19 @@ fn rows_are_derivatives_in_the_twist() {
                 let Test::AtLeast(f) = problem.obligations[1 + i].test else { panic!("a sign") };
                 let most = w * (expected.powi(2) - 0.25) / unit.powi(2);
                 assert!((of(f).expect("a stroke") - most).abs() < 1e-6, "{most}");
+                // Of the speeds: w ell^2 (k^2 - |row|^2), whatever that is.
+                let Test::Least(rows, bound) = &problem.obligations[1 + m + i].test else {
+                    panic!("a lever")
+                };
+                let [Row { a, d }] = rows.as_slice() else { panic!("one row") };
+                let along = of(a[0]).expect("w r . A").powi(2) / of(*d).expect("w D");
+                let square: f64 = row.iter().map(|x| x * x).sum();
+                let expected = w * (1.5 / unit).powi(2) * (1.5f64.powi(2) - square);
+                let found = along - of(*bound).expect("w c");
+                assert!(
+                    (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
+                    "{found} {expected}"
+                );
             }
             assert_eq!(own.scaled.is_some(), which == 0 && !motion.spin.is_empty());
             reached += 1;

@@ -82,7 +82,7 @@ impl<'a> Prover<'a> {
 
     /// `A_i` and `D_i`, in the middle.
     fn rows(&self, rows: &[Row<Formula>], at: Point<'_>) -> Option<(DMatrix<f64>, Vec<f64>)> {
-        let mut a = DMatrix::zeros(rows.len(), self.problem.dimension());
+        let mut a = DMatrix::zeros(rows.len(), rows.first()?.a.len());
         let mut d = Vec::new();
         for (i, row) in rows.iter().enumerate() {
             d.push(at(row.d)?);
@@ -226,7 +226,8 @@ impl<'a> Prover<'a> {
             ) => {
                 let (a, d) = self.rows(&rows, at)?;
                 let scale = (-f64::from(y.places)).exp2();
-                let y = DMatrix::from_fn(a.nrows(), m, |i, k| y.y[i][k] as f64 * scale);
+                let (n, m) = a.shape();
+                let y = DMatrix::from_fn(n, m, |i, k| y.y[i][k] as f64 * scale);
                 let d = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(d));
                 let t = y.transpose() * &a;
                 let unit = DMatrix::identity(m, m) * at(*kappa)? * weight;
@@ -456,6 +457,11 @@ impl<'a> Prover<'a> {
             Test::AtLeast(_) => tried.extend([Evidence::Test, Evidence::Cube]),
             Test::Curvature(_) | Test::Greatest(..) => tried.push(Evidence::Test),
             Test::Beyond(..) => tried.extend([Evidence::Test, Evidence::Negative]),
+            // Less than zero: nothing need be known of the rows.
+            Test::Least(rows, kappa) if number(kappa) < 0.0 => {
+                let y = rows.iter().map(|row| vec![0; row.a.len()]).collect();
+                tried.push(Evidence::Lower(Multiplier { y, places: 0 }));
+            }
             Test::Least(rows, kappa) => {
                 let starts = self.starts(over, rows, number(kappa).sqrt());
                 tried.extend(starts.into_iter().map(Evidence::Lower));

@@ -338,6 +338,36 @@ fn bounds_that_tolerances_change_are_lessened_too() {
     assert!(!accepted(["399", "401"], "9.5", own), "ranges are too wide");
 }
 
+/// Of a joint's speed `|b|^2` is in the bound, another for each machine, and not that of the one.
+#[test]
+fn bounds_that_tolerances_change_are_raised_too() {
+    let accepted = |[lo, hi]: [&str; 2], bound: &str, evidence: &str| {
+        let text = loose_joint(["400", "400"], bound, evidence)
+            .replace(r#"{"min":"400","max":"400"}"#, r#""400""#)
+            .replace(r#"["50","50"]"#, &format!(r#"["50",{{"min":"{lo}","max":"{hi}"}}]"#))
+            .replace(
+                r#""base_joint","leg":1,"given":{"axis":["0","-1"]}"#,
+                r#""joint_speed","leg":1,"given":{"tool":["1"]}"#,
+            )
+            .replace(r#"[1,{"control":"test"}],[2,"#, "[1,");
+        check(&Certificate::read(&text).expect("a text")).is_ok()
+    };
+    let apart = |y: i64, end: &str, direction: &str| {
+        format!(
+            r#"{{"tolerances":[{{"control":{{"lower":{{"y":[[{y}]],"places":7}}}}}},"{end}",[{direction}]]}}"#
+        )
+    };
+    // sqrt(1 + 16/(1 + (400 - y)^2/2500)) at the middle, y = 60: 1.1570.
+    for (y, end) in (-24..=0).flat_map(|y| ["-", "+", "0"].map(|end| (y, end))) {
+        for bound in ["1.145", "1.15", "1.155"] {
+            assert!(!accepted(["40", "60"], bound, &apart(y, end, "[1]")), "{y} {end} {bound}");
+        }
+    }
+    assert!(accepted(["49.5", "50.5"], "1.16", &apart(-15, "+", "[1]")));
+    assert!(!accepted(["49.5", "50.5"], "1.16", &apart(-15, "+", "[1,0,0]")), "one entry");
+    assert!(!accepted(["49.5", "50.5"], "1.16", &apart(15, "+", "[1]")), "the other way");
+}
+
 /// What tolerances change of one obligation in six coordinates would take seconds: it is not taken apart.
 #[test]
 fn too_many_changes_are_not_taken_apart() {
