@@ -98,6 +98,7 @@ impl Folder {
     pub fn report_of_design(&self, name: &str) -> (PathBuf, MachineClaim) {
         let path = root().join("tests/designs").join(format!("{name}.toml"));
         let text = fs::read_to_string(&path).unwrap();
+        let (_, name) = name.rsplit_once('/').unwrap_or(("", name));
         let page = report(self, name, &text, 0).unwrap();
         let claim = Design::read(&path).unwrap().claim;
         (page, claim)
