@@ -30,7 +30,8 @@ pub(crate) fn spend(left: &mut usize, units: usize) -> Result<(), Rejected> {
 /// What numbers cost, each of which is evaluated six times or so: an operation on rational numbers of `b` bits
 /// the square of `b`; one on slopes in parameters eight times as much as another.
 pub(crate) fn of_each(of: &mut impl Numbers) -> usize {
-    of.numbers_mut().into_iter().map(|x| 6usize.saturating_mul(size(x).0)).sum()
+    let each = of.numbers_mut().into_iter().map(|x| 6usize.saturating_mul(size(x).0));
+    each.fold(0, usize::saturating_add)
 }
 
 /// What an expression costs, the bits that it has as a rational number, and whether it varies.

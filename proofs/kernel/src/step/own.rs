@@ -24,7 +24,7 @@ use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::{Slope, Slopes};
-use crate::test::{Multiplier, Over, Row};
+use crate::test::{width, Multiplier, Over, Row};
 use crate::witness::fails_throughout;
 
 /// Binary places of an own multiplier.
@@ -125,7 +125,7 @@ impl<E: Enclosure> Checker<'_, E> {
     ) -> bool {
         let Some(obligation) = self.problem.obligations.get(number) else { return false };
         let rows = obligation.test.others().unwrap_or(&self.rows);
-        let direction = |greatest| self.direction(values, rows, slopes.m, greatest);
+        let direction = |greatest| self.direction(values, rows, greatest);
         let directions = || {
             Some(match &obligation.test {
                 Test::SigmaMin(_) | Test::Least(..) => vec![direction(false)?],
@@ -154,10 +154,9 @@ impl<E: Enclosure> Checker<'_, E> {
         &self,
         values: &Values<Slope<E::Number>>,
         rows: &[Row<Formula>],
-        m: usize,
         greatest: bool,
     ) -> Option<Vec<i64>> {
-        let e = self.arithmetic;
+        let (e, m) = (self.arithmetic, width(rows));
         let at = |f: &Formula| values.of(*f).map(|slope| &slope.at_centre);
         let entry = |j: usize, k: usize| {
             e.sum(rows.iter().map(|row| {

@@ -547,6 +547,13 @@ fn work_is_linear_in_the_file() {
     assert!(is_work(tree(&format!("\"1+{}\"", fractions.join("+")))));
     let powers = ["(1+p)^64/(3+p)^64+(2+p)^64/(5+p)^64+(1+q)^64/(3+p)^64"; 6].join("+");
     assert!(is_work(tree(&format!("\"1+{powers}\""))));
+    // So much work that its sum is beyond the machine's numbers.
+    let dear = format!("{}1{}^64", "(".repeat(60), "^64)".repeat(60));
+    let all: Vec<String> = (0..60).map(|i| format!(r#"["a{i}","{dear}"]"#)).collect();
+    let text = plain(["0", "1"], r#""1""#, "1")
+        .replace(r#"[["a","1"]]"#, &format!(r#"[["a","1"],{}]"#, all.join(",")));
+    let tree = Tree { precision: 32, chords: None, nodes: vec![Node::default()] };
+    assert!(is_work(check(&certificate(claim(&text), vec![AtlasCell::Certified(tree)]))));
     // A tape that takes too much memory is no claim's.
     let definitions: Vec<String> =
         (1..300).map(|i| format!(r#"["d{i}","(d{}+1)^63"]"#, i - 1)).collect();

@@ -550,6 +550,19 @@ fn claims_that_have_no_region_are_refused() {
     assert!(refused(of_two_points).contains("two points"));
 }
 
+/// Of a turning strut's speed the own direction is one number: code 41 is that of obligation 1.
+#[test]
+fn a_joint_is_too_fast_in_its_own_direction() {
+    let text = |bound: &str| {
+        let claim = r#"{"format":"orthocert-paving/3","claim":{"machine":{"mechanism":{"planar":{"legs":[{"drive":"strut","anchor":["0","0"],"platform":["-1","0"]},{"drive":"strut","anchor":["10","0"],"platform":["1","0"]},{"drive":"strut","anchor":["5","10"],"platform":["0","1"]}],"characteristic_length":"1/2"}},"workspace":{"box":{"min":["4.9","3.9"],"max":["5.1","4.1"]}},"orientation":{"range":["-1","1"]},"require":[{"quantity":"joint_speed","leg":1,"given":{"tool":["1"]},"end":"max","bound":"BOUND"}]}},"coordinates":["x"],"precision":36,"depth":2,"provenance":{"tool":"hand","version":"1"}}"#;
+        let sums = r#"{"splits":0,"inner":0,"outer":1,"boundary":0,"mirrored":0,"inner_share":"0","boundary_share":"0"}"#;
+        format!("{}\nA{sums}\n", claim.replace("BOUND", bound))
+    };
+    checked(text("1/2").as_bytes()).expect("faster at every pose");
+    checked(text("0.9").as_bytes()).expect("as the first part alone is");
+    assert!(checked(text("3").as_bytes()).is_err());
+}
+
 /// A hundred thousand nodes of any bytes: read to an end, or refused, in no more memory than a path has.
 #[test]
 fn any_bytes_are_read_without_harm() {
