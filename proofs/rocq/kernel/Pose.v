@@ -823,10 +823,12 @@ Proof.
       rewrite IH, dot_map. ring. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.
   destruct (Test d id) as [i [u [nd [pu [iu signs]]]]].
-  assert (Bound : forall b, length_bound s d = (exactly b, s) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = / two_to s * Claim.value b).
-  { intros b e. apply quantity_value; [rewrite e; exists (Claim.value b); split; [split; apply Rle_refl | cbn [snd]; unfold Rdiv; ring] |].
+  assert (Bound : forall b z, length_bound s d = (exactly b, z) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = / two_to z * Claim.value b).
+  { intros b z e. apply quantity_value; [rewrite e; exists (Claim.value b); split; [split; apply Rle_refl | cbn [snd]; unfold Rdiv; ring] |].
     unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [/ two_to s * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
     rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map]. rewrite e. cbn. f_equal. unfold Rdiv. ring. }
+  assert (Ratio : forall b b', length_bound s d = (exactly (Over b b'), 0%Z) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = Claim.value b / Claim.value b')
+    by (intros b b' e; rewrite (Bound _ _ e); change (two_to 0) with 1; rewrite Rinv_1; apply Rmult_1_l).
   pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
   assert (LegOf : forall n row, nth_error rows n = Some row -> exists l, nth_error m n = Some l /\ stands x theta k P Q W ratio L row l).
   { clear - ST. intros n row. revert n. induction ST as [| row' l rows' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
@@ -846,7 +848,7 @@ Proof.
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (Leg n A D nr) as [l [nl vD]];
     pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ (or_introl eq_refl))) as FF;
     match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end; clear H FF; rename G into H;
-    rewrite value_minus, value_times, Formula.value_square, (Bound b eq_refl), vD in H; rewrite hw in H;
+    rewrite value_minus, value_times, Formula.value_square, (Bound b s eq_refl), vD in H; fold ratio in H; rewrite hw in H;
     exists (strut_length l P Q); (split; [exact (Joint n l nl) |]); unfold strut_length; rewrite <- (sqrt_pow2 (Claim.value b) b0); apply sqrt_le_1_alt;
     apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]; rewrite Rpow_mult_distr in H; lra.
   - exact INJ.
@@ -868,12 +870,7 @@ Proof.
     apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct H as [p q].
     destruct (Leg n A D nr) as [l [nl vD]]. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
     destruct (LeverOf_ n _ nv) as [l' [nl' [vf vb]]]. assert (l' = l) by congruence. subst l'. cbn [fst snd] in vf, vb. set (k2 := quantity (exactly (Over b' b), 0%Z) (j + i)) in *.
-    assert (Number : Formula.value x theta k2 = Claim.value b' / Claim.value b).
-    { apply quantity_value; [exists (Claim.value b' / Claim.value b); split; [split; apply Rle_refl | cbn [snd]; change (two_to 0) with 1; field; lra] |].
-      unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [ratio * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
-      rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map length_bound].
-      cbn. f_equal. change (two_to 0) with 1. field. lra. }
-    specialize (vb k2). rewrite Number in vb.
+    specialize (vb k2). rewrite (Ratio b' b eq_refl : Formula.value x theta k2 = _) in vb.
     rewrite map_rows_cons in p, q. cbn [map_rows map fst snd energy Linear.dot] in p, q. apply Forall_inv in p. cbn [snd] in p.
     assert (iD : In D wanted) by (apply in_or_app; left; apply in_flat_map; exists (A, D); split; [exact (nth_error_In _ _ nr) | apply in_or_app; right; left; reflexivity]).
     rewrite (Found D iD) in p, q. rewrite (Found f (signs f (or_introl eq_refl))), (Found (bound k2) (signs _ (or_intror (or_introl eq_refl)))) in q. rewrite vD in p, q. rewrite vf, vb in q.
@@ -911,11 +908,7 @@ Proof.
       rewrite <- hi. unfold du. rewrite un. pose proof (pow2_ge_0 y). lra.
   - destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate]. apply andb_true_iff in ce as [k0' b0]. apply positive_sound in k0', b0.
     injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. cbn [own_formulas] in signs. intros v lv.
-    assert (Number : Formula.value x theta (quantity (length_bound s (StiffnessMin b b')) (j + i)) = Claim.value b' / Claim.value b).
-    { apply quantity_value; [exists (Claim.value b' / Claim.value b); split; [split; apply Rle_refl | cbn [snd length_bound]; change (two_to 0) with 1; field; lra] |].
-      unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [ratio * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
-      rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map length_bound].
-      cbn. f_equal. change (two_to 0) with 1. field. lra. }
+    pose proof (Ratio b' b eq_refl) as Number.
     assert (q0 : 0 < Claim.value b' / Claim.value b) by (apply Rdiv_lt_0_compat; assumption).
     destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
     destruct (H 1 v (Fixed.integer_sound bits 1) ltac:(lra) lv nz) as [p q].

@@ -16,7 +16,7 @@ pub(super) const JOINT_SPEED: Quantity = Quantity {
 
 /// `|A_i|^2/D_i <= k^2` is `k^2 D_i - |A_i|^2 >= 0`, for `k = max/tool`; of arms in radians.
 ///
-/// Of a strut of a platform that turns it is a least angle between the leg and the lever `r = R b` of its joint.
+/// Of a strut of a platform that turns it bounds how near to a right angle the leg is to the lever `r = R b` of its joint.
 /// **Lemma.** With the leg's vector `A`, `|A|^2 = D`, the row is `[A, (r x A)/ell]`, or the second part alone about a
 /// point, and with `q = 1` or `0` for the first part, `|r x A|^2 + (r . A)^2 = |b|^2 D` gives
 ///
