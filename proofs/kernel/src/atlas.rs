@@ -3,12 +3,12 @@
 use crate::certificate::AtlasCell;
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Parameter, Workspace};
 use crate::input::{malformed, ClaimError};
-use crate::number::Expression;
+use crate::number::{Expression, Range};
 use crate::problem::Problem;
 use crate::rejected::Rejected;
 use crate::statement::{holds, workspace};
 use crate::tree;
-use crate::vary::{vary, Numbers, Range, MOST_PARAMETERS};
+use crate::vary::{vary, Numbers, MOST_PARAMETERS};
 use crate::witness;
 use crate::work::{self, spend};
 use num_bigint::BigInt;

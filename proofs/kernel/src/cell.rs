@@ -1,9 +1,6 @@
 //! Boxes of the bisection tree, and the points between which a formula's values on them lie.
 
-use crate::arithmetic::Enclosure;
 use crate::fixed::{Integer, Interval};
-use crate::formula::{Tape, Values};
-use crate::slope::{Slope, Slopes, CORNER_PLACES};
 
 /// A box: for each coordinate a range with ends in multiples of `2^-bits`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,21 +45,6 @@ impl<Z: Integer> Cell<Z> {
     }
 }
 
-/// The values of a tape's entries over a cell, of which `edges` has, for each coordinate, the
-/// expansion point, the range, and what `lambda_k` is multiplied by.
-pub fn evaluate<E: Enclosure>(
-    tape: &Tape,
-    parameters: &[E::Number],
-    slopes: Slopes<'_, E>,
-    edges: &[[E::Number; 3]],
-) -> Values<Slope<E::Number>> {
-    tape.run(
-        &slopes,
-        |k| slopes.coordinate(k, edges.get(k)?.clone()),
-        |j| slopes.constant(parameters.get(j)?.clone()),
-    )
-}
-
 /// A vertex of a cell: bit `k` is set where `lambda_k = 1`, else `lambda_k = -1`.
 ///
 /// **Lemma (vertices).** Fix a point `x` of the cell and the parameters. There are weights
@@ -76,9 +58,12 @@ pub fn evaluate<E: Enclosure>(
 /// About a corner, `lambda` is in `[0, 1]^m`: of that part the vertices are [`unit_corners`].
 ///
 /// So where a set of matrices is convex, and holds the matrices of all `f_v` in their enclosures
-/// [`Slopes::at`], it holds that of `f(x)`.
+/// [`Slopes::at`](crate::slope::Slopes::at), it holds that of `f(x)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Vertex(u32);
+
+/// Binary places of the corners of a part of a cell.
+pub const CORNER_PLACES: u32 = 16;
 
 /// The corners of `[0, 1]^m`, in units of `2^-CORNER_PLACES`: bit `k` is set where `lambda_k = 1`.
 pub fn unit_corners(m: usize) -> Vec<Vec<i64>> {

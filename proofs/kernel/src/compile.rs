@@ -1,12 +1,11 @@
 //! Mechanisms as formulas: legs by their drives, and joints that users give.
 
-use crate::claim::{Formulas, JointFormula, Kind, Leg, MachineClaim, Mechanism, Quantity};
+use crate::claim::{Formulas, JointFormula, Kind, Leg, Quantity};
 use crate::formula::{formula, Formula, Tape, Term};
 use crate::input::{magnitude, malformed, ordered, positive, ClaimError, Input, Value};
 use crate::machine;
-use crate::machine::motion::{Motion, Turn};
+use crate::machine::motion::Motion;
 use crate::number::{Expression, Operator};
-use crate::orientation::{self, Chart};
 use std::collections::{HashMap, HashSet};
 
 /// Legs, or joints, as formulas.
@@ -101,42 +100,6 @@ impl Builder {
         let scale = of_kind(if has_length { Kind::Length } else { Kind::Place });
         self.scale = scale.ok_or_else(|| malformed("mechanism", "numbers"))? + 1;
         Ok(())
-    }
-
-    /// How a mechanism's platform moves; where it turns, with its orientations.
-    pub fn motion(&mut self, claim: &MachineClaim) -> Result<(Motion, Option<Chart>), ClaimError> {
-        type Components = &'static [usize];
-        let (velocity, spin, turning): (Components, Components, _) = match &claim.mechanism {
-            Mechanism::Planar(turning) => (&[0, 1], &[2], Some(turning)),
-            Mechanism::Spatial(turning) => (&[0, 1, 2], &[0, 1, 2], Some(turning)),
-            Mechanism::Spherical(turning) => (&[], &[0, 1, 2], Some(turning)),
-            Mechanism::Translational(_) | Mechanism::Orthoglide { .. } => (&[0, 1, 2], &[], None),
-            Mechanism::Formulas(_) => (&[], &[], None),
-        };
-        let tape = &mut self.tape;
-        let position = std::array::from_fn(|k| match velocity.contains(&k) {
-            true => tape.coordinate(k),
-            false => tape.integer(0),
-        });
-        let point = turning.is_none() || velocity.len() == 2;
-        let length = turning.and_then(|turning| turning.characteristic_length.as_ref());
-        let (turn, chart) = match (&claim.orientation, length) {
-            (None, None) if point => (None, None),
-            (Some(orientation), Some(length)) => {
-                let place = "mechanism.characteristic_length";
-                positive(place, length)?;
-                let length = self.number(place, length, self.scale);
-                let chart = orientation::chart(self, orientation, velocity.len(), spin.len() == 1)?;
-                let turn = Turn { matrix: chart.matrix, weight: chart.weight, length, spin };
-                (Some(turn), Some(chart))
-            }
-            _ => {
-                let expected =
-                    "with a characteristic_length, where the platform turns, and only there";
-                return Err(malformed("orientation", expected));
-            }
-        };
-        Ok((Motion { position, velocity, turn, moved: None }, chart))
     }
 
     /// Legs of a platform that moves so.

@@ -15,7 +15,6 @@
 
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::fixed::{Fixed, Interval};
-use crate::vary::Range;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -64,6 +63,37 @@ pub enum Expression {
     Power(Arc<Expression>, u32),
     /// `sqrt(a)`.
     Sqrt(Arc<Expression>),
+}
+
+/// A name, and the values that it stands for.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Range {
+    /// Which of the parameters it is, counted from zero.
+    pub parameter: usize,
+    /// Its name.
+    pub name: String,
+    /// From the one to the other.
+    pub ends: [BigRational; 2],
+}
+
+impl Range {
+    /// Its centre `c`, itself, and its half-width `h`, each rounded outward to `bits` fractional bits.
+    ///
+    /// A value is `c + lambda h` with the exact `c` and `h`: its `lambda` is the same with any number of
+    /// bits. Were `c` and `h` the rounded ones, slopes of inputs with different units would be of
+    /// different `lambda`.
+    pub(crate) fn edge(&self, bits: u32) -> [Interval<BigInt>; 3] {
+        let [least, greatest] = &self.ends;
+        // Over twice the common denominator.
+        let whole = (least.denom() * greatest.denom()) << 1u32;
+        let lo = least.numer() * greatest.denom();
+        let hi = greatest.numer() * least.denom();
+        let (centre, half) = (&lo + &hi, &hi - &lo);
+        [[&centre, &centre], [&(&lo << 1u32), &(&hi << 1u32)], [&half, &half]].map(|[lo, hi]| {
+            let lo = (lo << bits).div_floor(&whole);
+            Interval { lo, hi: -(-hi << bits).div_floor(&whole) }
+        })
+    }
 }
 
 /// An operation on two numbers.

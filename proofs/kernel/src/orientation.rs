@@ -9,10 +9,11 @@
 //!
 //! `R = N/w`. Of degree two at most in each coordinate, and `w >= 1`.
 
-use crate::claim::Orientation;
+use crate::claim::{MachineClaim, Mechanism, Orientation};
 use crate::compile::Builder;
 use crate::formula::{formula, Formula, Tape, Term, Vector};
-use crate::input::{malformed, ordered, ClaimError, Input, Value};
+use crate::input::{malformed, ordered, positive, ClaimError, Input, Value};
+use crate::machine::motion::{Motion, Turn};
 use crate::number::Expression;
 
 const PLACE: &str = "orientation";
@@ -29,8 +30,46 @@ pub(crate) struct Chart {
     pub g: Option<Formula>,
 }
 
+impl Builder {
+    /// How a mechanism's platform moves; where it turns, with its orientations.
+    pub fn motion(&mut self, claim: &MachineClaim) -> Result<(Motion, Option<Chart>), ClaimError> {
+        type Components = &'static [usize];
+        let (velocity, spin, turning): (Components, Components, _) = match &claim.mechanism {
+            Mechanism::Planar(turning) => (&[0, 1], &[2], Some(turning)),
+            Mechanism::Spatial(turning) => (&[0, 1, 2], &[0, 1, 2], Some(turning)),
+            Mechanism::Spherical(turning) => (&[], &[0, 1, 2], Some(turning)),
+            Mechanism::Translational(_) | Mechanism::Orthoglide { .. } => (&[0, 1, 2], &[], None),
+            Mechanism::Formulas(_) => (&[], &[], None),
+        };
+        let tape = &mut self.tape;
+        let position = std::array::from_fn(|k| match velocity.contains(&k) {
+            true => tape.coordinate(k),
+            false => tape.integer(0),
+        });
+        let point = turning.is_none() || velocity.len() == 2;
+        let length = turning.and_then(|turning| turning.characteristic_length.as_ref());
+        let (turn, chart) = match (&claim.orientation, length) {
+            (None, None) if point => (None, None),
+            (Some(orientation), Some(length)) => {
+                let place = "mechanism.characteristic_length";
+                positive(place, length)?;
+                let length = self.number(place, length, self.scale);
+                let chart = chart(self, orientation, velocity.len(), spin.len() == 1)?;
+                let turn = Turn { matrix: chart.matrix, weight: chart.weight, length, spin };
+                (Some(turn), Some(chart))
+            }
+            _ => {
+                let expected =
+                    "with a characteristic_length, where the platform turns, and only there";
+                return Err(malformed("orientation", expected));
+            }
+        };
+        Ok((Motion { position, velocity, turn, moved: None }, chart))
+    }
+}
+
 /// The chart of a set, in coordinates from `first` on; in the plane, or in space.
-pub(crate) fn chart(
+fn chart(
     builder: &mut Builder,
     orientation: &Orientation,
     first: usize,

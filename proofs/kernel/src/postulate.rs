@@ -52,8 +52,8 @@
 //! at the vertices of `[-p, 1] x [0, 1]`. ∎
 
 use crate::arithmetic::Enclosure;
-use crate::cell::{evaluate, unit_corners, Cell, Vertex};
-use crate::certificate::{Corner, Evidence, Node, Tree};
+use crate::cell::{unit_corners, Cell, Vertex};
+use crate::certificate::{Corner, Evidence, Node, Tree, MOST_WORK};
 use crate::claim::{Every, PostulateClaim, PsiMax, Quantity};
 use crate::compile::{Builder, Names};
 use crate::definite::{is_positive_definite, Triangle};
@@ -62,8 +62,8 @@ use crate::formula::{Formula, Tape};
 use crate::input::{enclosed, malformed, narrowed, ordered, sign, ClaimError};
 use crate::number::Expression;
 use crate::rejected::Rejected;
-use crate::slope::Slopes;
-use crate::tree::{self, bisect, discharge, Theorem, MOST_WORK};
+use crate::slope::{evaluate, Slopes};
+use crate::tree::{self, bisect, discharge, Theorem};
 
 /// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
 /// Coordinates are `u_y`, `u_z` and `kappa`.

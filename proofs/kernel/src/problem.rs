@@ -1,6 +1,7 @@
 //! A claim as formulas, a box, and obligations: what a proof is about.
 
 use crate::cell::Cell;
+use crate::certificate::MOST_WORK;
 use crate::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity, Turning, Workspace};
 use crate::compile::{Builder, MOST_DERIVATIVES, MOST_LEGS};
 use crate::control::Control;
@@ -16,7 +17,6 @@ use crate::quantity::{self, Obligation, Test};
 use crate::slope::{Slope, MOST_COORDINATES};
 use crate::test::tolerances::Derivatives;
 use crate::test::Row;
-use crate::tree::MOST_WORK;
 use crate::vary;
 use num_bigint::BigInt;
 use std::collections::{BTreeSet, HashMap};

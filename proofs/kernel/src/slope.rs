@@ -40,7 +40,8 @@
 //! they are found from: they are found twice.
 
 use crate::arithmetic::{elbow, Arithmetic, Enclosure};
-use crate::cell::Vertex;
+use crate::cell::{Vertex, CORNER_PLACES};
+use crate::formula::{Tape, Values};
 
 /// Most coordinates of a workspace.
 pub const MOST_COORDINATES: usize = 6;
@@ -67,9 +68,6 @@ pub struct Slopes<'a, E> {
     /// `2^-CORNER_PLACES`. Ranges are those of the cell.
     pub part: Option<&'a [Vec<i64>]>,
 }
-
-/// Binary places of the corners of a part of a cell.
-pub const CORNER_PLACES: u32 = 16;
 
 impl<E> Clone for Slopes<'_, E> {
     fn clone(&self) -> Self {
@@ -272,4 +270,19 @@ impl<E: Enclosure> Arithmetic for Slopes<'_, E> {
         }
         Some([c, s])
     }
+}
+
+/// The values of a tape's entries over a cell, of which `edges` has, for each coordinate, the
+/// expansion point, the range, and what `lambda_k` is multiplied by.
+pub fn evaluate<E: Enclosure>(
+    tape: &Tape,
+    parameters: &[E::Number],
+    slopes: Slopes<'_, E>,
+    edges: &[[E::Number; 3]],
+) -> Values<Slope<E::Number>> {
+    tape.run(
+        &slopes,
+        |k| slopes.coordinate(k, edges.get(k)?.clone()),
+        |j| slopes.constant(parameters.get(j)?.clone()),
+    )
 }

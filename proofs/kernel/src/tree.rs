@@ -12,10 +12,6 @@ use crate::test::{Over, Place};
 use crate::witness::fails_throughout;
 use num_bigint::BigInt;
 
-/// Most work of all steps, each counted once for every 64 bits of the precision, and as that of the
-/// integers it is in: a bound on time, whatever the file.
-pub const MOST_WORK: usize = 1 << 28;
-
 /// What a tree may be a proof of.
 pub(crate) trait Theorem {
     /// Says that the tree proves it, in these integers, or why not.

@@ -6,7 +6,6 @@ mod singular;
 mod violated;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure as _};
-use crate::cell::evaluate;
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
@@ -16,7 +15,7 @@ use crate::machine::Joint;
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::{Slope, Slopes};
+use crate::slope::{evaluate, Slope, Slopes};
 use num_bigint::BigInt;
 use thiserror::Error;
 use violated::Enclosed;

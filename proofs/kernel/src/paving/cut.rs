@@ -3,7 +3,7 @@
 //! `u` in `[-1, 1]^m` is where in the cell a point is, `n` a vector of integers: what is *before* `c` is the
 //! set of the points with `n . u <= c`.
 
-use crate::slope::CORNER_PLACES;
+use crate::cell::CORNER_PLACES;
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
 

@@ -2,10 +2,10 @@
 
 use super::Checker;
 use crate::arithmetic::Enclosure;
-use crate::cell::evaluate;
 use crate::certificate::Evidence;
 use crate::control::{Control, Controls};
 use crate::quantity::Test;
+use crate::slope::evaluate;
 use crate::test::tolerances::Tolerances;
 use crate::test::{width, Formulas, Over, Place};
 

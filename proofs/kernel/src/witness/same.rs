@@ -2,14 +2,14 @@
 
 use super::{contains, AtPoint, Number, WitnessError};
 use crate::arithmetic::{Arithmetic, Enclosure};
-use crate::cell::{evaluate, Vertex};
+use crate::cell::Vertex;
 use crate::claim::Workspace;
 use crate::fixed::{Integer, Interval};
 use crate::input::sign;
 use crate::machine::Leg;
 use crate::number::Expression;
 use crate::problem::Problem;
-use crate::slope::{Slope, Slopes};
+use crate::slope::{evaluate, Slope, Slopes};
 use crate::test::Multiplier;
 
 /// Whether a box is in the workspace, which is convex, and the point is not in the box. Of orientations

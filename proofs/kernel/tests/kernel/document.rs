@@ -1,5 +1,6 @@
 //! The document of the format: its instance, its limits, its tables.
 
+use orthocert_kernel::certificate::MOST_WORK;
 use orthocert_kernel::certificate::{
     Certificate, Claim, Evidence, MOST_BYTES, MOST_LABEL, MOST_NODES, PRECISIONS,
 };
@@ -8,7 +9,6 @@ use orthocert_kernel::number;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::TABLE;
 use orthocert_kernel::slope::MOST_COORDINATES;
-use orthocert_kernel::tree::MOST_WORK;
 
 const DOCUMENT: &str = include_str!("../../../FORMAT.md");
 

@@ -15,6 +15,7 @@ mod false_poses;
 mod for_all;
 mod leaves;
 mod machines;
+mod modules;
 mod motions;
 mod no_cube;
 mod oracle;

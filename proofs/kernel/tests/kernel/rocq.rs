@@ -8,7 +8,7 @@ use crate::prover::certify;
 use num_bigint::BigInt;
 use num_integer::Integer as _;
 use orthocert_kernel::arithmetic::{Arithmetic as _, Enclosure as _};
-use orthocert_kernel::cell::{evaluate, Cell};
+use orthocert_kernel::cell::Cell;
 use orthocert_kernel::certificate::{Certificate, Evidence};
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Every, PostulateClaim, PsiMax};
@@ -17,7 +17,7 @@ use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::formula::Tape;
 use orthocert_kernel::postulate::parts;
 use orthocert_kernel::problem::Problem;
-use orthocert_kernel::slope::Slopes;
+use orthocert_kernel::slope::{evaluate, Slopes};
 use std::fmt::Write;
 
 fn slider(x: &str, y: &str) -> String {

@@ -4,11 +4,11 @@ use crate::arithmetic::Random;
 use crate::rough::Rough;
 use num_bigint::BigInt;
 use orthocert_kernel::arithmetic::Arithmetic;
-use orthocert_kernel::cell::{evaluate, Cell, Vertex};
+use orthocert_kernel::cell::{Cell, Vertex};
 use orthocert_kernel::fixed::{Fixed, Interval};
 use orthocert_kernel::formula::{coordinates, Formula, Op, Tape, Values};
 use orthocert_kernel::machine::{arm, Joint};
-use orthocert_kernel::slope::{Slope, Slopes};
+use orthocert_kernel::slope::{evaluate, Slope, Slopes};
 
 const BITS: u32 = 40;
 
