@@ -9,12 +9,12 @@ use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::certificate::{Failure, Witness, PRECISIONS};
 use crate::claim::Workspace;
 use crate::fixed::{Fixed, Interval};
-use crate::formula::{Formula, Values};
+use crate::formula::{Formula, Tape, Values};
 use crate::input::{ordered, sign, ClaimError};
 use crate::machine::Joint;
 use crate::number::Expression;
 use crate::problem::Problem;
-use crate::quantity::Test;
+use crate::quantity::{determinant, Test};
 use crate::slope::{evaluate, Slope, Slopes};
 use num_bigint::BigInt;
 use thiserror::Error;
@@ -160,15 +160,15 @@ impl<'a> AtPoint<'a> {
         let parameters = problem.parameters(bits, &witness.machine)?;
         let point = problem.point(point, bits).ok_or(WitnessError::Outside)?;
         let mut at = AtPoint { problem, slopes, point, parameters, values: Values::default() };
-        at.values = at.values_of(&at.parameters);
+        at.values = at.values_of(&problem.tape, &at.parameters);
         at.is_turned(&at.point, &at.values).then_some(at).ok_or(WitnessError::Outside)
     }
 
-    /// The formulas of the machine with these parameters.
-    fn values_of(&self, parameters: &[Number]) -> Values<Slope<Number>> {
+    /// The formulas of a tape, of the machine with these parameters.
+    fn values_of(&self, tape: &Tape, parameters: &[Number]) -> Values<Slope<Number>> {
         let edge = |x: &Number| [x.clone(), x.clone(), Number::default()];
         let edges: Vec<_> = self.point.iter().map(edge).collect();
-        evaluate(&self.problem.tape, parameters, self.slopes, &edges)
+        evaluate(tape, parameters, self.slopes, &edges)
     }
 
     /// A joint's coordinate by the one values less that by the other; of angles the sine of this, and its
@@ -220,9 +220,15 @@ impl<'a> AtPoint<'a> {
     /// `c_1^2 + c_2^2 <= t^2 (1 + c_3^2)`, `|c_3| <= s` are not, but connected: those with one `c_3` are a
     /// disc, in which a segment leads to `(0, 0, c_3)`, and these are a segment of the set.
     fn opposite(&self, other: &Self) -> bool {
+        let rows: Vec<Vec<Formula>> =
+            self.problem.legs.iter().map(|leg| leg.divided.a.clone()).collect();
+        let mut tape = self.problem.tape.clone();
+        let is_square = rows.len() == self.problem.dimension();
+        let det = is_square.then(|| determinant(&mut tape, &rows));
         let signs = |at: &Self| {
-            let (e, det) = (at.slopes.arithmetic, at.formulas().determinant()?.range);
-            Some([e.is_positive(&det), e.is_positive(&e.neg(&det)?)])
+            let (e, values) = (at.slopes.arithmetic, at.values_of(&tape, &at.parameters));
+            let det = &values.of(det?)?.range;
+            Some([e.is_positive(det), e.is_positive(&e.neg(det)?)])
         };
         matches!(
             (signs(self), signs(other)),

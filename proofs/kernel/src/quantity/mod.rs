@@ -270,7 +270,7 @@ impl<'a> Context<'a> {
 }
 
 /// The determinant, by the first row: `sum_j (-1)^j a_0j det(the rows below without column j)`.
-fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
+pub(crate) fn determinant(tape: &mut Tape, rows: &[Vec<Formula>]) -> Formula {
     let Some((first, below)) = rows.split_first() else { return tape.integer(1) };
     let mut sum = tape.integer(0);
     for (j, &a) in first.iter().enumerate() {

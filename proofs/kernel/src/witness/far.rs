@@ -51,7 +51,7 @@ impl AtPoint<'_> {
         let middle: Vec<Expression> = problem.tolerances().map(middle).collect();
         let with = |machine: &[Expression]| {
             let parameters = problem.parameters(e.bits(), machine).ok()?;
-            Some(self.values_of(&parameters))
+            Some(self.values_of(&problem.tape, &parameters))
         };
         let (nominal, all) = (with(&middle)?, with(&[])?);
         let off = |leg: &Leg| {

@@ -219,26 +219,4 @@ impl<E: Enclosure> Enclosed<'_, E> {
         let least = e.mul(&e.integer(n)?, self.values.of(test.distance)?)?;
         e.sub(&e.sqr(&least)?, &e.square(&between)?)
     }
-
-    /// `det M`, of as many rows as coordinates.
-    pub(super) fn determinant(&self) -> Option<Number<E>> {
-        let legs = &self.problem.legs;
-        let row = |a: &Vec<Formula>| a.iter().map(|&a| self.values.of(a).cloned()).collect();
-        let rows: Vec<Vec<Number<E>>> =
-            legs.iter().map(|leg| row(&leg.divided.a)).collect::<Option<_>>()?;
-        (rows.len() == self.problem.dimension()).then(|| determinant(&self.slopes, &rows))?
-    }
-}
-
-/// By the first row.
-fn determinant<A: Arithmetic>(e: &A, rows: &[Vec<A::Number>]) -> Option<A::Number> {
-    let Some((first, below)) = rows.split_first() else { return e.integer(1) };
-    let mut sum = e.integer(0)?;
-    for (j, a) in first.iter().enumerate() {
-        let without = |row: &Vec<A::Number>| [&row[..j], &row[j + 1..]].concat();
-        let minor: Vec<Vec<A::Number>> = below.iter().map(without).collect();
-        let term = e.mul(a, &determinant(e, &minor)?)?;
-        sum = if j % 2 == 0 { e.add(&sum, &term)? } else { e.sub(&sum, &term)? };
-    }
-    Some(sum)
 }
