@@ -1,4 +1,4 @@
-"""One question about hexapods for orthocert and Codac: is M regular all over a workspace of six dimensions?
+"""One question about hexapods for orthocert, Codac and IBEX: is M regular all over a workspace of six dimensions?
 
     benches/peers/run.sh --hexapods
 
@@ -11,26 +11,41 @@ r x (P - a), which is the same and narrower. A box is regular by
   R is enclosed first, then M, and the product is an interval matrix of Codac's. This is the test that the literature uses.
 
 Boxes that are not are halved along the side over which M changes most at first order, by differences of C M, or, for
-the determinant, along the widest. The work is given up after PATIENCE seconds. Times are processor time of one thread:
-of Codac of the loop alone, of orthocert of the whole process, with its exact check. Codac's loop is in Python: the
-numbers of boxes are what does not depend on that. Needs numpy.
+the determinant, along the widest.
+
+`ibexsolve` (how to get it: ibex.py; without it these columns are left out) is asked for a singular pose, with the
+contractors and the bisection that it chooses itself (HC4, ACID, Newton where it is square, polytope hulls by Clp; smear),
+in two ways; both were as good or better with half-angle tangents as with sines and cosines, and the second one as with
+M^T v = 0:
+
+* the determinant is 0, by the minors of the last rows, each once;
+* M v = 0 with |v|^2 = 1 and v_6 >= 0: twelve unknowns, seven equations.
+
+No pose is an answer: M is regular. The work is given up after PATIENCE seconds. Times are processor time of one thread:
+of Codac of the loop alone, of orthocert, with its exact check, and ibexsolve of the whole process. Codac's loop is in
+Python: the numbers of boxes are what does not depend on that. Needs numpy.
 """
 
 import importlib.metadata
 import json
 import platform
+import re
 import resource
 import subprocess
 import sys
 import tempfile
 import time
+from functools import reduce
+from itertools import combinations
 from math import cos, radians, sin, tan
+from operator import add
 from pathlib import Path
 
+import ibex
 import numpy as np
 from codac import AnalyticFunction, EvalMode, Interval, IntervalMatrix, IntervalVector, Matrix, VectorVar, det, mat, sqr, vec
 
-PATIENCE = 5  # seconds
+PATIENCE = 10  # seconds
 
 
 def circle(radius, degrees):
@@ -52,12 +67,47 @@ QUESTIONS = [
 ]
 
 
+class Text:
+    """An expression of ibexsolve's, without terms and factors that change nothing."""
+
+    def __init__(self, text):
+        self.text = text
+
+    def __str__(self):
+        return self.text
+
+    def __add__(self, other):
+        return self if other == 0 else Text(f"({self}+{other})")
+
+    def __sub__(self, other):
+        return self if other == 0 else Text(f"({self}-({other}))")
+
+    def __mul__(self, other):
+        return Text(f"{self}*({other})")
+
+    def __truediv__(self, other):
+        return Text(f"({self}/{other})")
+
+    def __radd__(self, other):
+        return self if other == 0 else Text(f"({other}+{self})")
+
+    def __rsub__(self, other):
+        return Text(f"(-{self})" if other == 0 else f"({other}-{self})")
+
+    def __rmul__(self, other):
+        return other if other == 0 else self if other == 1 else Text(f"{other}*{self}")
+
+
+def squared(x):
+    return Text(f"{x}^2") if isinstance(x, Text) else sqr(x)
+
+
 def rotation(v):
     """R_z R_y R_x, by columns, from half-angle tangents that are anything with + - * /."""
     r = [[1 if i == j else 0 for j in range(3)] for i in range(3)]
     for axis, t in ((2, v[2]), (1, v[1]), (0, v[0])):
-        w = 1 + sqr(t)
-        c, s = (1 - sqr(t)) / w, 2 * t / w
+        w = 1 + squared(t)
+        c, s = (1 - squared(t)) / w, 2 * t / w
         i, j = (axis + 1) % 3, (axis + 2) % 3
         for row in r:
             row[i], row[j] = row[i] * c + row[j] * s, row[j] * c - row[i] * s
@@ -68,7 +118,7 @@ def matrix(a, b, p, r):
     """Entries of M without divisors, from a position and a rotation by columns."""
     rows = []
     for a_i, b_i in zip(a, b):
-        at = [sum((r[j][k] * b_i[j] for j in range(3) if b_i[j]), 0 * r[0][0]) for k in range(3)]
+        at = [reduce(add, (r[j][k] * b_i[j] for j in range(3) if b_i[j])) for k in range(3)]
         e = [p[k] - a_i[k] for k in range(3)]
         moment = [at[(k + 1) % 3] * e[(k + 2) % 3] - at[(k + 2) % 3] * e[(k + 1) % 3] for k in range(3)]
         rows.append([at[k] + e[k] for k in range(3)] + moment)
@@ -129,6 +179,39 @@ def by_neumann(a, b):
     return tested
 
 
+def determinant():
+    """That of six rows as a function of ibexsolve's, by the minors of the last rows."""
+    lines = ["function det(" + ",".join(f"m{i}{j}" for i in range(6) for j in range(6)) + ")"]
+    for size in range(2, 7):
+        i = 6 - size
+        for columns in combinations("012345", size):
+            below = ("".join(columns).replace(c, "") for c in columns)
+            minors = (f"m5{b}" if size == 2 else f"d{b}" for b in below)
+            terms = (f"{'+-'[k % 2]}m{i}{c}*{minor}" for k, (c, minor) in enumerate(zip(columns, minors)))
+            value = "".join(terms)[1:]
+            lines.append(f"return {value};" if size == 6 else f"d{''.join(columns)}={value};")
+    return "\n".join([*lines, "end\n"])
+
+
+def ibexsolve(folder, a, b, box, is_determinant):
+    """Whether no pose of the box is singular, how many boxes were tried, and seconds."""
+    names = [f"p{k}" for k in range(6)]
+    unknown = "".join(f"{name} in [{low!r},{high!r}];\n" for name, (low, high) in zip(names, box))
+    v = [Text(name) for name in names]
+    rows = matrix(a, b, v[:3], rotation(v[3:]))
+    if is_determinant:
+        functions = determinant()
+        constraints = "det(" + ",".join(str(entry) for row in rows for entry in row) + ")=0;\n"
+    else:
+        unknown += "".join(f"v{k} in [{0 if k == 5 else -1},1];\n" for k in range(6))
+        functions = ""
+        constraints = "".join("+".join(f"{entry}*v{k}" for k, entry in enumerate(row)) + "=0;\n" for row in rows)
+        constraints += "+".join(f"v{k}^2" for k in range(6)) + "=1;\n"
+    problem = f"Variables\n{unknown}{functions}Constraints\n{constraints}end\n"
+    printed, seconds = ibex.run(folder, problem, [f"--timeout={PATIENCE}"])
+    return "infeasible problem" in printed, int(re.search(r"number of cells:\s*(\d+)", printed)[1]), seconds
+
+
 def spent(command, folder, timeout=None):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     run = subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=timeout)
@@ -149,23 +232,30 @@ def main():
     version = subprocess.run([orthocert, "--version"], capture_output=True, text=True).stdout.strip()
     processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo")
                       if line.startswith("model name")), platform.machine())
-    print("# Orthocert and Codac: is a hexapod regular?\n")
-    print(f"`benches/peers/run.sh --hexapods`; {version}, Codac {importlib.metadata.version('codac')} (PyPI), Python "
+    with_ibex = ibex.available()
+    programs = f"Codac {importlib.metadata.version('codac')} (PyPI), " + (f"{ibex.version()}, " if with_ibex else "")
+    print("# Orthocert and its peers: is a hexapod regular?\n")
+    print(f"`benches/peers/run.sh --hexapods`; {version}, {programs}Python "
           f"{platform.python_version()}, {processor}, one thread each, processor time. Load of the machine at the start: "
           f"{Path('/proc/loadavg').read_text().split()[0]}. Formulations: `benches/peers/hexapod.py`.\n")
-    print("Codac's work is given up after " f"{PATIENCE} s; the ratio is then a lower bound.")
-    print("\n| workspace | orthocert | leaves | time | Neumann | boxes | time | ratio | determinant | boxes | time | ratio |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
+    if not with_ibex:
+        print("IBEX: `ibexsolve` is not on PATH here; it is not compared.\n")
+    print(f"The peers' work is given up after {PATIENCE} s; the ratio is then a lower bound.")
+    peers = ["Codac, Neumann", "Codac, determinant"] + ["IBEX, determinant", "IBEX, M v = 0"] * with_ibex
+    print("\n| workspace | orthocert | leaves | time |" + "".join(f" {p} | boxes | time | ratio |" for p in peers))
+    print("|---|---|---|---|" + "---|---|---|---|" * len(peers), flush=True)
     for name, a, b, half, height, angle in QUESTIONS:
+        t = tan(radians(angle) / 2)
+        box = [[-half, half], [-half, half], [height - half, height + half]] + [[-t, t]] * 3
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, "hexapod.toml").write_text(design(a, b, half, height, angle))
             run, ours = spent([orthocert, "verify", "hexapod.toml", "--threads", "1", "--format", "json"], folder)
-        answer = json.loads(run.stdout)
-        row = f"| {name} | {answer['verdict']} | {answer['proof']['leaves']} | {1000 * ours:.0f} ms |"
-        t = tan(radians(angle) / 2)
-        box = IntervalVector([[-half, half], [-half, half], [height - half, height + half]] + [[-t, t]] * 3)
-        for test in (by_neumann, by_determinant):
-            is_regular, tried, seconds = codac(a, b, box, test)
+            answer = json.loads(run.stdout)
+            row = f"| {name} | {answer['verdict']} | {answer['proof']['leaves']} | {1000 * ours:.0f} ms |"
+            others = [codac(a, b, IntervalVector(box), test) for test in (by_neumann, by_determinant)]
+            if with_ibex:
+                others += [ibexsolve(folder, a, b, box, is_determinant) for is_determinant in (True, False)]
+        for is_regular, tried, seconds in others:
             least = "" if is_regular else "> "
             row += (f" {'regular' if is_regular else 'not decided'} | {tried:,} | {seconds:.2f} s | "
                     f"{least}{seconds / ours:,.0f} |")

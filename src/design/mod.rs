@@ -174,17 +174,9 @@ fn too_long(root: &Table<'_>) -> DesignError {
 fn mapped_claim(root: &Table<'_>) -> Result<kernel::MachineClaim, DesignError> {
     let claim = description(root)?.kernel().ok_or_else(|| too_long(root))?;
     let has_cube = matches!(claim.workspace, kernel::Workspace::Cube { .. });
-    if claim.orientation.is_some() {
-        let found =
-            "a platform that turns, whose formulas are not enclosed for all values of parameters";
-        let accepted = "one that does not turn; of others, limit says how far a number of the design goes, and \
-                        pave where it holds";
-        return Err(refusal::of_table(root, "mechanism", found, accepted));
-    }
-    if has_cube || !claim.bodies.is_empty() {
-        let found = "a machine, or requirements, that maps are not made of";
-        let accepted =
-            "a machine with numbers of its own, no \"cube\"; requirements other than clearance";
+    if has_cube {
+        let found = "a machine that maps are not made of";
+        let accepted = "a machine with numbers of its own, no \"cube\"";
         return Err(refusal::of_table(root, "mechanism", found, accepted));
     }
     Ok(claim)

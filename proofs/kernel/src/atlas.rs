@@ -2,6 +2,7 @@
 
 use crate::certificate::AtlasCell;
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Parameter, Workspace};
+use crate::fixed::Integer;
 use crate::input::{malformed, ClaimError};
 use crate::number::{Expression, Range};
 use crate::problem::Problem;
@@ -72,9 +73,6 @@ impl AtlasClaim {
             || matches!(self.machine.workspace, Workspace::Cube { .. })
         {
             return refused("of a machine with numbers of its own, without a cube");
-        }
-        if self.machine.orientation.is_some() || !self.machine.bodies.is_empty() {
-            return refused("of a platform that does not turn, and of no bodies");
         }
         let mut names: Vec<&str> = match &self.machine.mechanism {
             Mechanism::Formulas(formulas) => formulas.names().collect(),
@@ -209,7 +207,10 @@ fn bytes(part: &impl Serialize) -> usize {
 /// false for all values. *Proof.* For each, the witness's point is in the workspace, its machine is one
 /// of the claim's, and what it names is violated there. ∎ The point may be another for every value.
 ///
-/// Where a tolerance varies, it may be none for some values: its ends are the same number there.
+/// Where a tolerance varies, it may be none for some values: its ends are the same number there. Where the
+/// platform turns, a name is an input of which numbers are formulas, and machines differ by it as by a tolerance
+/// ([`Tolerances`](crate::test::tolerances::Tolerances)): each of its values is between the ends of the cell's
+/// range, and what else varies is in its enclosure for all of them.
 pub(crate) fn shown(
     claim: &AtlasClaim,
     part: &[(u64, u32)],
@@ -227,7 +228,9 @@ pub(crate) fn shown(
     match cell {
         AtlasCell::Certified(tree) => {
             spend(&mut left, work::of_numbers(&problem, tree))?;
-            let most_work = problem.most_work.min(left);
+            let is_apart = over.orientation.is_some() && tree.takes_tolerances_apart();
+            let problem = if is_apart { problem.with_derivatives() } else { problem };
+            let most_work = problem.most_work.min(left.saturating_mul(BigInt::WORK));
             tree::check(&Problem { most_work, ..problem }, tree)
         }
         AtlasCell::Refuted(witness) => {

@@ -38,8 +38,30 @@ impl Builder {
             if let Some(n) = small(x).filter(|&n| scale == 0 || n == 0) {
                 return self.tape.integer(n);
             }
+            if let Some(formula) = self.of_names(place, x, scale) {
+                return formula;
+            }
         }
         self.input(place, Value::Quantity(quantity.clone()), scale)
+    }
+
+    /// Where the platform turns, a number as a formula of an atlas's names: each of these is one input.
+    fn of_names(&mut self, place: &str, x: &Expression, scale: i64) -> Option<Formula> {
+        if !self.turns || !x.varies() {
+            return None;
+        }
+        if let (Expression::Varying(_), 0) = (x, scale) {
+            let value = Value::Quantity(Quantity::Exactly(x.clone()));
+            let known =
+                self.inputs.iter().position(|input| input.scale == 0 && input.value == value);
+            return Some(match known {
+                Some(j) => self.tape.parameter(j),
+                None => self.input(place, value, 0),
+            });
+        }
+        let whole = self.compiled(&Names::new(), x).ok()?;
+        let unit = self.number(place, &Expression::integer(1), scale);
+        self.few().is_ok().then(|| self.tape.mul(whole, unit))
     }
 
     /// Some other input.

@@ -104,6 +104,13 @@ impl Input {
         matches!(self.value, Value::Quantity(Quantity::Between { .. }))
     }
 
+    /// Whether machines differ by it: so, or by a name of an atlas.
+    pub fn differs(&self) -> bool {
+        use Expression::Varying;
+        let is_name = matches!(self.value, Value::Quantity(Quantity::Exactly(Varying(_))));
+        is_name || self.has_two_ends()
+    }
+
     /// Encloses it with `bits` fractional bits. `machine` replaces an interval.
     pub fn enclose(&self, bits: u32, machine: Option<&Expression>) -> Option<Interval<BigInt>> {
         match &self.value {
@@ -137,7 +144,8 @@ impl Input {
     }
 }
 
-/// `tan(x/2) = sin x/(1 + cos x)` divided by `2^scale`, which of 0 is exactly 0; with 64 guard bits.
+/// `tan(x/2) = sin x/(1 + cos x)` divided by `2^scale`, which of 0 is exactly 0; with 64 guard bits. It increases
+/// between -180 and 180: for all values of names, it lies between those of the ends of an enclosure in there.
 pub(crate) fn half_tangent(
     degrees: &Expression,
     scale: i64,
@@ -146,12 +154,23 @@ pub(crate) fn half_tangent(
     if degrees.rational().is_some_and(|x| x.is_zero()) {
         return Some(Interval::point(BigInt::from(0)));
     }
-    scaled(scale, bits, |working, by| {
-        let fixed = Fixed::<BigInt>::new(working);
-        let [cos, sin] = cos_sin(|bits| degrees.enclose(bits), working)?;
-        let over = fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?;
-        Some(by(&fixed.mul(&sin, &over)?))
-    })
+    let of = |part: fn(Interval<BigInt>) -> Interval<BigInt>| {
+        let angle = |bits: u32| {
+            let (x, most) = (degrees.enclose(bits)?, BigInt::from(180) << bits);
+            (-&most < x.lo && x.hi < most).then(|| part(x))
+        };
+        scaled(scale, bits, |working, by| {
+            let fixed = Fixed::<BigInt>::new(working);
+            let [cos, sin] = cos_sin(angle, working)?;
+            let over = fixed.recip(&fixed.add(&fixed.integer(1)?, &cos)?)?;
+            Some(by(&fixed.mul(&sin, &over)?))
+        })
+    };
+    if !degrees.varies() {
+        return of(|x| x);
+    }
+    let ends = of(|x| Interval::point(x.lo)).zip(of(|x| Interval::point(x.hi)));
+    ends.map(|(least, greatest)| Interval { lo: least.lo, hi: greatest.hi })
 }
 
 /// The exponent of the power of two that is at most the greatest absolute value; 0 if all are zero. A

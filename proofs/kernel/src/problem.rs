@@ -63,7 +63,8 @@ pub struct Problem {
     pub(crate) most_work: usize,
 }
 
-/// A problem's derivatives by its quantities with two ends.
+/// A problem's derivatives by what machines differ by: quantities with two ends, and an atlas's names where the
+/// platform turns.
 #[derive(Clone, Debug)]
 pub struct Derived {
     /// The problem's tape, and they.
@@ -120,8 +121,8 @@ impl Problem {
             (_, Mechanism::Formulas(_) | Mechanism::Orthoglide { .. }) => &[],
         };
         builder.unit(legs)?;
+        builder.turns = claim.orientation.is_some();
         let (motion, chart) = builder.motion(claim)?;
-        builder.turns = chart.is_some();
         let (m, legs) = match &claim.mechanism {
             Mechanism::Formulas(formulas) => {
                 (formulas.coordinates.len(), builder.by_formulas(formulas)?)
@@ -165,8 +166,8 @@ impl Problem {
     }
 
     /// The parameters in the quantities, but for tolerances, if there are not too many, and all that is
-    /// to be shown is of each point and machine by itself: tests of accuracy compare machines, and
-    /// bodies and orientations no atlas has.
+    /// to be shown is of each point and machine by itself: tests of accuracy compare machines, directions between
+    /// bodies are affine in coordinates alone, and control points are those of a cell without names.
     fn coordinates_of_names(&self) -> Vec<usize> {
         let mut names = Vec::new();
         for input in &self.inputs {
@@ -186,8 +187,8 @@ impl Problem {
         names
     }
 
-    /// With the derivatives of tests by the quantities with two ends; as it is, where there are none of
-    /// these, or where it takes too many operations.
+    /// With the derivatives of tests by what machines differ by; as it is, where there is nothing of that, or
+    /// where it takes too many operations.
     #[must_use]
     pub fn with_derivatives(self) -> Self {
         Problem { derived: self.derivatives(), ..self }
@@ -195,10 +196,10 @@ impl Problem {
 
     fn derivatives(&self) -> Option<Derived> {
         let is_by = |op: &Op| match *op {
-            Op::Parameter(j) => self.inputs.get(j).is_some_and(Input::has_two_ends),
+            Op::Parameter(j) => self.inputs.get(j).is_some_and(Input::differs),
             _ => false,
         };
-        if !self.inputs.iter().any(Input::has_two_ends) {
+        if !self.inputs.iter().any(Input::differs) {
             return None;
         }
         // Polynomials, where there are such.
@@ -430,14 +431,22 @@ impl Problem {
         decreases && self.inside.is_none() && self.legs.len() == self.dimension()
     }
 
+    /// The unit of coordinate `k` is two to the power of this.
+    pub(crate) fn scale_of(&self, k: usize) -> i64 {
+        if k < self.corners[0].len() {
+            self.scale
+        } else {
+            0
+        }
+    }
+
     /// A point of the workspace in the problem's unit, and coordinates of orientation.
     pub(crate) fn point<Z: Integer>(
         &self,
         point: &[Expression],
         bits: u32,
     ) -> Option<Vec<Interval<Z>>> {
-        let scale = |k: usize| if k < self.corners[0].len() { self.scale } else { 0 };
-        let enclose = |(k, x)| narrowed(&enclosed(x, scale(k), bits)?);
+        let enclose = |(k, x)| narrowed(&enclosed(x, self.scale_of(k), bits)?);
         point.iter().enumerate().map(enclose).collect()
     }
 }

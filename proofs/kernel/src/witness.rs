@@ -7,15 +7,16 @@ mod violated;
 
 use crate::arithmetic::{Arithmetic as _, Enclosure as _};
 use crate::certificate::{Failure, Witness, PRECISIONS};
-use crate::claim::Workspace;
+use crate::claim::{Quantity, Workspace};
 use crate::fixed::{Fixed, Interval};
 use crate::formula::{Formula, Tape, Values};
-use crate::input::{ordered, sign, ClaimError};
+use crate::input::{ordered, sign, sloped, ClaimError, Value};
 use crate::machine::Joint;
 use crate::number::Expression;
 use crate::problem::Problem;
 use crate::quantity::{determinant, Test};
 use crate::slope::{evaluate, Slope, Slopes};
+use crate::vary::MOST_PARAMETERS;
 use num_bigint::BigInt;
 use thiserror::Error;
 use violated::Enclosed;
@@ -103,29 +104,29 @@ pub fn check(
         Failure::Dependent => singular::is_singular(problem, witness) == Some(true),
         Failure::Reach | Failure::Row(..) => at.formulas().fail(&witness.fails)?,
     };
-    let violated = violated || fails_by_names(&at, witness) == Some(true);
+    let violated = violated || fails_by_names(&at, witness);
     violated.then_some(()).ok_or(WitnessError::NotViolated)
 }
 
-/// Whether a witness over a cell of an atlas fails in slopes in the names, in which its point is
+/// Whether a witness over a cell of an atlas fails in slopes in its names, in which its point is
 /// enclosed also: what several numbers share cancels. What is asked of two points is not seen.
-fn fails_by_names(at: &AtPoint<'_>, witness: &Witness) -> Option<bool> {
+fn fails_by_names(at: &AtPoint<'_>, witness: &Witness) -> bool {
     let (problem, bits) = (at.problem, witness.precision);
-    if problem.names.is_empty() {
-        return None;
-    }
-    let slopes = Slopes::new(at.slopes.arithmetic, problem.dimension() + problem.names.len());
-    let varying = problem.varying(bits);
-    let coordinate = |k: usize| {
-        let own = problem.sloped(witness.point.get(k)?, problem.scale, bits);
-        own.or_else(|| slopes.constant(at.point.get(k)?.clone()))
+    let slopes = Slopes::new(at.slopes.arithmetic, MOST_PARAMETERS);
+    let either = |x: &Expression, scale: i64, range: &Number| match x.varies() {
+        true => sloped(x, scale, bits, MOST_PARAMETERS, &Some),
+        false => slopes.constant(range.clone()),
     };
+    let coordinate = |k| either(witness.point.get(k)?, problem.scale_of(k), at.point.get(k)?);
     let parameter = |j: usize| {
-        let own = varying.get(j)?.clone();
-        own.or_else(|| slopes.constant(at.parameters.get(j)?.clone()))
+        let (input, range) = (problem.inputs.get(j)?, at.parameters.get(j)?);
+        match &input.value {
+            Value::Quantity(Quantity::Exactly(x)) => either(x, input.scale, range),
+            _ => slopes.constant(range.clone()),
+        }
     };
     let values = problem.tape.run(&slopes, coordinate, parameter);
-    Some(fails_throughout(problem, slopes, &values, &witness.fails))
+    fails_throughout(problem, slopes, &values, &witness.fails)
 }
 
 fn is_between(x: &Expression, min: &Expression, max: &Expression) -> bool {

@@ -2,7 +2,9 @@
 
 use crate::design::AtlasDesign;
 use crate::exact::Exact;
-use crate::search::solver::refute::{failures, machine, opposite, point, short, Toward};
+use crate::search::solver::refute::{
+    failures, machine, opposite, point, short, turned, Toward,
+};
 use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::search::solver::{number, tree};
 use crate::search::{Budget, Control, Stop};
@@ -212,6 +214,8 @@ impl Named<'_> {
                     _ => Some(over(Operator::Add, center[k].clone(), off)),
                 }
             }
+            // Of orientations the tangents of an angle's ends are no numbers of the claim.
+            _ if k >= min.len() => Some(fixed),
             _ if parts[k] <= 0.0 => Some(by_name(&min[k])),
             _ if parts[k] >= 1.0 => Some(by_name(&max[k])),
             _ => Some(fixed),
@@ -229,6 +233,7 @@ impl Named<'_> {
                 let off = short([&-&radius, &radius], *part, DIGITS, Toward::Middle)?;
                 number(&(center[k].rational()? + off.rational()?))
             }
+            _ if k >= min.len() => turned(self.over, self.cell, k - min.len(), *part, DIGITS),
             _ => {
                 let ([_, least], [greatest, _]) = (ends(&min[k])?, ends(&max[k])?);
                 let is_there = least <= greatest;

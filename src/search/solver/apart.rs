@@ -34,7 +34,7 @@ impl Over<'_> {
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
         self.problem().derived.as_ref()?;
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
-        let two_ends = self.problem().inputs.iter().filter(|input| input.has_two_ends());
+        let two_ends = self.problem().inputs.iter().filter(|input| input.differs());
         let middle = "0".repeat(two_ends.count());
         // What fails mostly fails there.
         let formulas = test::Over { first: worst.vertex, inside: None, ..*self.formulas };
@@ -173,7 +173,7 @@ impl Over<'_> {
             }
         }
         let inputs = self.problem().inputs.iter().enumerate();
-        let two_ends = inputs.filter(|(_, input)| input.has_two_ends());
+        let two_ends = inputs.filter(|(_, input)| input.differs());
         let end = |(j, _)| match slopes.get(&j) {
             Some(slope) if *slope > 0.0 => '-',
             Some(slope) if *slope < 0.0 => '+',

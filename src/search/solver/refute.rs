@@ -204,21 +204,32 @@ pub fn point(
         };
         between([&min[k], &max[k]], inside[k], digits, toward)
     };
-    let turned = |(j, ends): (usize, &[Input; 2])| {
-        let toward = match claim.orientation {
-            Some(Orientation::Angle(_)) => Toward::Middle,
-            Some(Orientation::Tilt { .. }) if j < 2 => Toward::Middle,
-            _ => Toward::Nearest,
-        };
-        let inner = |end: &Input| {
-            let x = end.enclose(NUMBER_BITS, None)?;
-            Some([x.lo, x.hi].map(|x| BigRational::new(x, BigInt::from(1) << NUMBER_BITS)))
-        };
-        let ([_, least], [greatest, _]) = (inner(&ends[0])?, inner(&ends[1])?);
-        short([&least, &greatest], inside[min.len() + j], digits, toward)
-    };
-    let turned = problem.orientation.iter().enumerate().map(turned);
+    let turned = (0..problem.orientation.len())
+        .map(|j| turned(claim, problem, j, inside[min.len() + j], digits));
     (0..min.len()).map(coordinate).chain(turned).collect()
+}
+
+/// A short number at a part of coordinate `j` of orientation, within the set of the claim; over a cell of an atlas
+/// within that of each machine. `None` where there is none.
+pub(crate) fn turned(
+    claim: &MachineClaim,
+    problem: &Problem,
+    j: usize,
+    part: f64,
+    digits: i32,
+) -> Option<Expression> {
+    let toward = match claim.orientation {
+        Some(Orientation::Angle(_)) => Toward::Middle,
+        Some(Orientation::Tilt { .. }) if j < 2 => Toward::Middle,
+        _ => Toward::Nearest,
+    };
+    let inner = |end: &Input| {
+        let x = end.enclose(NUMBER_BITS, None)?;
+        Some([x.lo, x.hi].map(|x| BigRational::new(x, BigInt::from(1) << NUMBER_BITS)))
+    };
+    let [min, max] = problem.orientation.get(j)?;
+    let ([_, least], [greatest, _]) = (inner(min)?, inner(max)?);
+    (least <= greatest).then(|| short([&least, &greatest], part, digits, toward))?
 }
 
 /// Short numbers near the parts of the tolerances.

@@ -41,7 +41,7 @@ impl<E: Enclosure> Checker<'_, E> {
     }
 
     /// What is so with tolerances apart, by the lemma of [`Tolerances`]. The one machine has the least
-    /// value of each quantity with two ends, the greatest or one in the middle, as its character of
+    /// value of each quantity with two ends, or name, the greatest or one in the middle, as its character of
     /// `ends` says: `-`, `+` or `0`.
     pub fn apart<T>(
         &self,
@@ -55,8 +55,7 @@ impl<E: Enclosure> Checker<'_, E> {
         let values = self.derived(over.place)?;
         let derivatives = &self.problem.derived.as_ref()?.of;
         let mut named = ends.chars();
-        let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.has_two_ends()
-        {
+        let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.differs() {
             true => start(self.arithmetic, x, named.next()?),
             false => Some((x.clone(), Vec::new())),
         };

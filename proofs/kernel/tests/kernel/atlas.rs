@@ -13,7 +13,7 @@ use orthocert_kernel::prover::check_cell;
 use orthocert_kernel::rejected::Rejected;
 use orthocert_kernel::witness::WitnessError;
 
-fn number(text: &str) -> Expression {
+pub fn number(text: &str) -> Expression {
     Expression::try_from(text.to_owned()).expect("a number")
 }
 
@@ -31,11 +31,11 @@ fn orthoglide(certified: &str, refuted: &str) -> String {
     )
 }
 
-fn claim(text: &str) -> AtlasClaim {
+pub fn claim(text: &str) -> AtlasClaim {
     serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
 }
 
-fn certificate(claim: AtlasClaim, cells: Vec<AtlasCell>) -> Certificate {
+pub fn certificate(claim: AtlasClaim, cells: Vec<AtlasCell>) -> Certificate {
     Certificate {
         format: FORMAT.to_owned(),
         claim: Claim::Atlas(claim),
@@ -150,7 +150,7 @@ fn mapped() -> Certificate {
     certificate(own, cells)
 }
 
-fn parts(certificate: &Certificate) -> (AtlasClaim, Vec<AtlasCell>) {
+pub fn parts(certificate: &Certificate) -> (AtlasClaim, Vec<AtlasCell>) {
     match (&certificate.claim, &certificate.proof) {
         (Claim::Atlas(claim), Proof::Atlas(cells)) => (claim.clone(), cells.clone()),
         _ => panic!("an atlas"),

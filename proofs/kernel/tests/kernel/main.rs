@@ -33,5 +33,6 @@ mod slopes;
 mod statements;
 mod tolerances;
 mod turned;
+mod turned_atlas;
 mod turning;
 mod witnesses;

@@ -340,7 +340,7 @@ impl<'a> Prover<'a> {
         proposed: &dyn Fn(&Over<'_, Rough>) -> Option<Evidence>,
     ) -> Option<Evidence> {
         self.problem.derived.as_ref()?;
-        let quantities = self.problem.tolerances().count() as u32;
+        let quantities = self.problem.inputs.iter().filter(|x| x.differs()).count() as u32;
         let digits = |n: usize, size: u32| (0..size).map(move |k| n / 3usize.pow(k) % 3);
         let all = |size: u32| (0..3usize.pow(size)).map(move |n| digits(n, size));
         let machines = all(quantities).map(|ends| ends.map(|k| ["-", "+", "0"][k]).collect());
