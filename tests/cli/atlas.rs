@@ -63,6 +63,26 @@ fn a_map_is_written_with_everything_and_accepted() {
     );
 }
 
+#[test]
+fn a_map_of_a_platform_that_turns_is_written_and_accepted() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/atlases/rpr.toml");
+    let text = fs::read_to_string(path).unwrap();
+    let text = text.replace("resolution = 6", "resolution = 3").replace("objective", "# objective");
+    let folder = Folder::new();
+    folder.write("map.toml", &text);
+    let report = json(&folder.run(&["atlas", "map.toml", "--format", "json"]).exits(0));
+    let share = |part: &str| report[part]["share"].as_str().unwrap().to_owned();
+    assert!(share("certified") != "0" && share("refuted") != "0", "{report}");
+    folder.run(&["check", "map.atlas/atlas.cert.json"]).exits(0).says(&[
+        "ACCEPTED: certified",
+        "turn in [5, 60]",
+        "for every rotation R from -turn to turn degrees",
+    ]);
+    folder.run(&["show", "map.atlas/atlas.cert.json"]).exits(0).says(&["NOT CHECKED", "atlas of"]);
+    let page = String::from_utf8(folder.read("map.atlas/index.html")).unwrap();
+    assert!(page.contains("<svg") && page.contains("It is proved:"));
+}
+
 /// A map with the widest margin as its objective.
 pub fn widest(resolution: usize) -> Folder {
     let folder = map(resolution);

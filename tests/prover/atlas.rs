@@ -113,8 +113,15 @@ fn alone(design: &AtlasDesign, at: &[Exact]) -> Option<Verdict> {
 
 #[test]
 fn single_designs_are_what_their_cell_says() {
-    for name in ["linear-delta-2", "linear-delta-3"] {
-        let design = atlas(name, 3);
+    for (name, resolution) in [
+        ("linear-delta-2", 3),
+        ("linear-delta-3", 3),
+        ("rpr", 3),
+        ("spherical", 2),
+        ("hexapod", 2),
+        ("delta-clearance", 2),
+    ] {
+        let design = AtlasDesign { boxes: 40, ..atlas(name, resolution) };
         let mut certified = 0;
         walk(&map(&design), 2, |_, part, said| {
             let expected = match said {
