@@ -2,9 +2,7 @@
 
 use crate::design::AtlasDesign;
 use crate::exact::Exact;
-use crate::search::solver::refute::{
-    failures, machine, opposite, point, short, turned, Toward,
-};
+use crate::search::solver::refute::{failures, machine, opposite, point, short, turned, Toward};
 use crate::search::solver::sample::{Place, Quality, Sampler, Worst};
 use crate::search::solver::{number, tree};
 use crate::search::{Budget, Control, Stop};
