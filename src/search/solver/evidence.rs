@@ -15,7 +15,6 @@ use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slope;
 use orthocert_kernel::step::Checker;
-use orthocert_kernel::test::accuracy::{self, Accuracy};
 use orthocert_kernel::test::{self, Multiplier, Place, Row};
 use orthocert_kernel::witness::fails_throughout;
 
@@ -347,50 +346,11 @@ impl Over<'_> {
             Test::Beyond(f, b) => self.along(*f, k) + self.along(*b, k),
             Test::Accuracy(accuracy) => sum(&mut accuracy.rows.iter().flatten()),
             Test::Apart(apart) => sum(&mut apart.ends.iter().flatten().flatten()),
-            Test::Curvature(test) => sum(&mut test.row.iter().chain(test.twice.iter().flatten())),
+            Test::Curvature(test) => {
+                let [a, b] = [test.a, test.b].map(|f| self.centre(f).unwrap_or(1.0));
+                a * sum(&mut test.row.iter()) + b * sum(&mut test.twice.iter().flatten())
+            }
         }
-    }
-
-    /// By how much an accuracy's rows vary along each coordinate, and by how much less their spread near the box is
-    /// of its halves, in proportion to what either loses. A spread is that of ranges, and may depend on a
-    /// coordinate along which the rows do not vary: of a slider's, along its guide.
-    fn with_spread(&self, test: &Accuracy, rows: &[f64]) -> Option<Vec<f64>> {
-        if test.turn.is_some() {
-            return None;
-        }
-        let kappa = self.matrix(&test.rows, At::Centre)?.singular_values().min();
-        let total = |all: &[f64]| Some(all.iter().sum::<f64>()).filter(|sum| *sum > 0.0);
-        let along = total(rows)?;
-        // Of the second order.
-        let lost = 0.5 * (along / (kappa * rows.len() as f64)).powi(2);
-        let edges = self.formulas.place.edges;
-        // Undefined is worse than any spread.
-        let spread = |edges: &[[Pair; 3]]| self.spread(test, edges).unwrap_or(2.0 * kappa);
-        let at = |k: usize, by: f64| {
-            let [centre, _, half] = edges[k];
-            let half = (half.0 * by, half.1 * by);
-            [centre, (centre.0 - half.1, centre.1 + half.1), half]
-        };
-        let with = |k: usize| {
-            let mut halved = edges.to_vec();
-            halved[k] = at(k, 0.5);
-            halved
-        };
-        let own = spread(edges);
-        let point: Vec<[Pair; 3]> = (0..edges.len()).map(|k| at(k, 0.0)).collect();
-        let less: Vec<f64> = (0..edges.len()).map(|k| (own - spread(&with(k))).max(0.0)).collect();
-        let wide = (own - spread(&point)).max(0.0) / (2.0 * kappa);
-        let Some(sum) = total(&less) else { return Some(rows.to_vec()) };
-        let both = rows.iter().zip(&less);
-        Some(both.map(|(rows, less)| rows / along * lost + less / sum * wide).collect())
-    }
-
-    /// The spread of an accuracy near a box.
-    fn spread(&self, test: &Accuracy, edges: &[[Pair; 3]]) -> Option<f64> {
-        let (tape, slopes) = (&self.problem().tape, self.formulas.slopes);
-        let of = |f| self.formulas.of(f).map(|slope| slope.range);
-        let values = accuracy::near(tape, self.prover.parameters(), slopes, edges, test, of)?;
-        accuracy::spread(slopes, &values, test).map(|g| g.1)
     }
 
     /// `sum_i |S_k A_i|/sqrt(D_i) + 16 |S_k D_i|/D_i`.

@@ -10,6 +10,10 @@ use std::cell::OnceCell;
 
 /// Parts of the interval of multiples from which a short one is taken.
 const MULTIPLES: [[f64; 2]; 3] = [[0.25, 0.75], [0.02, 0.25], [0.75, 0.98]];
+/// Parts of the most that a multiple leaves, of which at least is left with others that are tried.
+const LEFT: [f64; 2] = [0.5, 0.9];
+/// Halvings to the most that is left.
+const HALVINGS: usize = 30;
 /// Powers of two tried as multiples, where what a test leaves is not known.
 const POWERS: std::ops::RangeInclusive<i32> = -8..=4;
 
@@ -31,6 +35,19 @@ fn interval(margins: impl IntoIterator<Item = Option<f64>>, g: &[f64]) -> Option
     Some(Some([low, high]))
 }
 
+/// The same of what is left, `margin - mu g`, where this is at least a part of the most there is; and the most.
+pub fn best(margins: &[f64], g: &[f64], part: f64) -> Option<(f64, [f64; 2])> {
+    let above = |least: f64| interval(margins.iter().map(|m| Some(m - least)), g).flatten();
+    let (mut low, mut high) =
+        margins.iter().fold((f64::INFINITY, 0.0), |(low, high), &m| (m.min(low), m.max(high)));
+    low = low.max(0.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        *(if above(middle).is_some() { &mut low } else { &mut high }) = middle;
+    }
+    above(part * low).filter(|_| low > 0.0).map(|multiples| (low, multiples))
+}
+
 /// Short numbers of an interval.
 fn short([low, high]: [f64; 2]) -> impl Iterator<Item = (i64, u32)> {
     let part = move |[a, b]: [f64; 2]| between(low + a * (high - low), low + b * (high - low));
@@ -43,8 +60,19 @@ pub type With = fn(Box<Evidence>, i64, u32) -> Evidence;
 impl Over<'_> {
     /// The evidence, alone or with one of the inequalities, or both, where the test holds with it.
     pub fn shown(&self, test: &Test, evidence: Evidence) -> Option<Evidence> {
-        if self.shows(test, &evidence) {
-            return Some(evidence);
+        let margin = |v| self.margin(test, &evidence, v);
+        self.shown_with(test, &evidence, &margin)
+    }
+
+    /// The same, of which this is left at a vertex, or control point.
+    pub fn shown_with(
+        &self,
+        test: &Test,
+        evidence: &Evidence,
+        margin: &dyn Fn(Vertex) -> Option<f64>,
+    ) -> Option<Evidence> {
+        if self.shows(test, evidence) {
+            return Some(evidence.clone());
         }
         let all = self.less();
         if all.is_empty() {
@@ -53,10 +81,8 @@ impl Over<'_> {
         let holds = |evidence: Evidence| self.shows(test, &evidence).then_some(evidence);
         let points: Vec<Vertex> = self.formulas.vertices().collect();
         let known = vec![OnceCell::new(); points.len()];
-        let margin = |(known, &v): (&OnceCell<Option<f64>>, &Vertex)| {
-            *known.get_or_init(|| self.margin(test, &evidence, v))
-        };
-        let margins = || known.iter().zip(&points).map(margin);
+        let of = |(known, &v): (&OnceCell<Option<f64>>, &Vertex)| *known.get_or_init(|| margin(v));
+        let margins = || known.iter().zip(&points).map(of);
         let with = |with: &With, (n, places)| with(Box::new(evidence.clone()), n, places);
         for (wrap, g) in &all {
             let Some(multiples) = interval(margins(), g) else {
@@ -65,8 +91,11 @@ impl Over<'_> {
                     holds(with(wrap, between(f64::from(k).exp2(), f64::from(k).exp2())?))
                 });
             };
-            let mut multiples = multiples.into_iter().flat_map(short);
-            let found = multiples.find_map(|multiple| holds(with(wrap, multiple)));
+            let Some(multiples) = multiples else { continue };
+            let known: Vec<f64> = margins().flatten().collect();
+            let others = LEFT.iter().filter_map(|&part| best(&known, g, part));
+            let others = others.filter_map(|(_, [low, high])| between(low, high));
+            let found = short(multiples).chain(others).find_map(|n| holds(with(wrap, n)));
             if found.is_some() {
                 return found;
             }
@@ -79,6 +108,13 @@ impl Over<'_> {
             let mut multiples = short(interval(left, g)??);
             multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
         })
+    }
+
+    /// The most that is left of these, alone or less a multiple of one of the inequalities.
+    pub fn most(&self, margins: &[f64]) -> f64 {
+        let own = margins.iter().fold(f64::INFINITY, |least, m| m.min(least));
+        let with = self.less().into_iter().filter_map(|(_, g)| Some(best(margins, &g, 0.5)?.0));
+        with.fold(own, f64::max)
     }
 
     /// The inequalities of the workspace and the orientations at the vertices, or control points.

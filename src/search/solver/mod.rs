@@ -24,6 +24,7 @@
 //!
 //! Nothing in it is trusted: [`orthocert_checker::check`] decides.
 
+mod accuracy;
 mod adverse;
 mod apart;
 mod balance;

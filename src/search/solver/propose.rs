@@ -3,28 +3,24 @@
 use super::balance::Balance;
 use super::directions::directions;
 use super::evidence::{At, Over};
-use super::rows::{above, exponent, in_places, rounded, Form, Rows};
+use super::rows::{above, exponent, rounded, Form, Rows};
 use super::violation;
 use nalgebra::{DMatrix, DVector};
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Corner, Evidence};
 use orthocert_kernel::formula::{Formula, Op};
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::test::accuracy::Accuracy;
 use orthocert_kernel::test::apart::Apart;
+use orthocert_kernel::test::curvature::Curvature;
 use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Row};
 
 /// Bits of the greatest entry of a multiplier that is tried first.
-const FINE: i32 = 15;
+pub(super) const FINE: i32 = 15;
 /// The same, of what `mu` shares its places with: what it is rounded by is lost whole.
 const FINER: i32 = 27;
 /// Bits tried for a shorter one.
 const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
-/// Weights of an accuracy that are tried.
-const WEIGHTS: [u32; 5] = [0, 1, 2, 3, 5];
-/// Parts of the least singular value tried as `kappa` of an accuracy.
-const PARTS: [f64; 3] = [0.95, 0.8, 0.5];
 /// Parts of `b z^T/c^2` in what is tried for solutions.
 const OWN: [f64; 3] = [0.0, 0.3, 0.6];
 
@@ -47,7 +43,7 @@ impl Over<'_> {
                 Test::OneToOne(_) => there.shown(test, Evidence::Chords),
                 Test::Solve(solve) => there.solution(test, solve),
                 Test::Least(rows, kappa) => there.least(test, rows, *kappa),
-                Test::Accuracy(accuracy) => there.accuracy(test, accuracy, Form::Scaled),
+                Test::Accuracy(accuracy) => there.accuracy(test, accuracy),
                 _ => there.shown(test, Evidence::Test),
             };
             found.map(|inner| Evidence::Control(Box::new(inner)))
@@ -94,13 +90,13 @@ impl Over<'_> {
             }
             Test::Conditioning(c) => self.conditioning(test, *c, Form::Plain),
             Test::AtLeast(_) => self.first(test, [Evidence::Cube, Evidence::Test]),
-            Test::Curvature(_) => self.shown(test, Evidence::Test),
+            Test::Curvature(curvature) => self.curvature(test, curvature),
             Test::Beyond(..) => self.first(test, [Evidence::Test, Evidence::Negative]),
             Test::Least(rows, kappa) => self.least(test, rows, *kappa),
             Test::Greatest(..) => self.shown(test, Evidence::Test),
             Test::OneToOne(_) => self.shown(test, Evidence::Chords),
             Test::Solve(solve) => self.solution(test, solve),
-            Test::Accuracy(accuracy) => self.accuracy(test, accuracy, Form::Plain),
+            Test::Accuracy(accuracy) => self.accuracy(test, accuracy),
             Test::Apart(apart) => self.apart(test, apart),
         }
     }
@@ -124,7 +120,7 @@ impl Over<'_> {
         Some(self.shortened(test, found, with))
     }
 
-    fn shortened(
+    pub(super) fn shortened(
         &self,
         test: &Test,
         found: Evidence,
@@ -248,63 +244,48 @@ impl Over<'_> {
         self.shortest_of(test, all, Evidence::Lower)
     }
 
-    /// `Y` is `V` at the centre, and at control points `A`.
-    fn accuracy(&self, test: &Test, accuracy: &Accuracy, form: Form) -> Option<Evidence> {
-        let rows = self.matrix(&accuracy.rows, At::Centre)?;
-        self.weights_of_parts(&rows, accuracy)?.find_map(|p| {
-            let mut m = rows.clone();
-            let others = (0..m.ncols()).filter(|k| !accuracy.part.contains(k));
-            others.for_each(|k| m.column_mut(k).scale_mut(f64::from(p).exp2()));
-            let least = m.singular_values().min();
-            if form == Form::Scaled {
-                for (i, leg) in self.problem().legs.iter().enumerate() {
-                    m.row_mut(i).scale_mut(self.centre(leg.row.d)?.sqrt());
-                }
-            }
-            PARTS.into_iter().find_map(|part| {
-                self.shortest(test, |bits| {
-                    // As many bits for kappa as for the greatest entry.
-                    let y = in_places(&m, (bits + above(&m)).max(bits - exponent(least)))?;
-                    let kappa = (part * least * f64::from(y.places).exp2()).floor();
-                    Some(Evidence::Accuracy(y, kappa as i64, p))
-                })
-            })
-        })
-    }
-
-    /// The weights by which the other part of what the platform is off by may do: from the least one that
-    /// does at the centre, to first order.
-    fn weights_of_parts(
-        &self,
-        rows: &DMatrix<f64>,
-        accuracy: &Accuracy,
-    ) -> Option<impl Iterator<Item = u32>> {
-        let inverse = rows.clone().try_inverse()?;
-        let beta = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
-            let each =
-                all.iter().map(|[half, by]| Some(self.centre(*half)? * self.centre(*by)?.abs()));
-            Some(self.centre(*error)? + each.sum::<Option<f64>>()?)
+    /// With the row's length at the vertices, or by its lever, with which more is left.
+    fn curvature(&self, test: &Test, curvature: &Curvature) -> Option<Evidence> {
+        let margins = |lever: Option<[Formula; 2]>| -> Option<Vec<f64>> {
+            let at = |v| {
+                let of = |f| self.at(f, At::Vertex(v));
+                let (sum, _) = violation::curved(curvature, of)?;
+                let Some([square, s]) = lever else { return Some(1.0 - sum) };
+                let row = curvature
+                    .row
+                    .iter()
+                    .map(|&f| Some(of(f)?.powi(2)))
+                    .sum::<Option<f64>>()?
+                    .sqrt();
+                let (square, centre) = (self.centre(square)?, self.centre(s)?);
+                let longest = (square - centre * of(s)?) / (square - centre * centre).sqrt();
+                Some(1.0 - sum + self.centre(curvature.a)? * (row - longest))
+            };
+            self.formulas.vertices().map(at).collect()
         };
-        let beta: Vec<f64> = accuracy.joints.iter().map(beta).collect::<Option<_>>()?;
-        let n = beta.len();
-        // Of each sign vector the squares of both parts.
-        let squares = (0..1usize << (n - 1)).map(|signs| {
-            let b = |i: usize, _| if signs >> i & 1 == 1 { -beta[i] } else { beta[i] };
-            let u = &inverse * DVector::from_fn(n, b);
-            let own = violation::part(&u, accuracy).norm_squared();
-            [own, u.norm_squared() - own]
-        });
-        let squares: Vec<[f64; 2]> = squares.collect();
-        let least = WEIGHTS.into_iter().position(|p| {
-            let part = f64::from(p).exp2().powi(-2);
-            squares.iter().all(|[own, other]| own + part * other < 1.0)
-        });
-        let tried = accuracy.parts(n).len();
-        Some(WEIGHTS.into_iter().skip(least?).take(tried).filter(move |&p| tried == 2 || p == 0))
+        let both = [None, curvature.lever].into_iter().filter_map(margins);
+        let both = both.map(|margins| (self.most(&margins), margins));
+        let (most, margins) = both.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        if most <= 0.0 {
+            return None;
+        }
+        let margin = |v: Vertex| margins.get(v.index()).copied();
+        self.shown_with(test, &Evidence::Test, &margin)
     }
 
+    /// The first of the directions with which something is left.
     fn apart(&self, test: &Test, apart: &Apart) -> Option<Evidence> {
-        self.shortest_of(test, directions(self.formulas, apart), Evidence::Direction)
+        let with = |g: &DMatrix<f64>, bits: i32| rounded(g, bits + above(g));
+        directions(self.formulas, apart).into_iter().find_map(|g| {
+            let along = self.formulas.along(apart, &with(&g, FINE)?)?;
+            let margin = |v| {
+                let all = self.formulas.beyond(apart, &along, v)?;
+                Some(all.iter().fold(f64::INFINITY, |least, x| least.min(x.0)))
+            };
+            let with = |bits| Some(Evidence::Direction(with(&g, bits)?));
+            let found = self.shown_with(test, &with(FINE)?, &margin)?;
+            Some(self.shortened(test, found, with))
+        })
     }
 }
 

@@ -158,7 +158,7 @@ pub(crate) fn directions(
         }
         Test::Solve(solve) => each(violation::unsolved(at, &problem.legs, solve)),
         Test::Accuracy(test) => each(violation::far(at, &problem.legs, test)),
-        Test::Curvature(test) => each(violation::curved(at, test).map(|(_, v)| v)),
+        Test::Curvature(test) => each(violation::curved(test, |f| at.of(f)).map(|(_, v)| v)),
         Test::Apart(test) => violation::between(at, test).map_or_else(Vec::new, |([s, t], _)| {
             let weights = |bits: i32| {
                 let n = f64::from(bits).exp2();

@@ -469,7 +469,7 @@ impl<'a> Sampler<'a> {
                 let (_, between) = violation::between(values, test)?;
                 between.norm() / values.of(test.distance)? - 1.0
             }
-            Test::Curvature(test) => 1.0 - violation::curved(values, test)?.0,
+            Test::Curvature(test) => 1.0 - violation::curved(test, |f| values.of(f))?.0,
         })
     }
 

@@ -165,13 +165,16 @@ pub fn nearest_points(at: &At, test: &Apart) -> Option<[Vector3<f64>; 2]> {
 }
 
 /// `a |row| + b |H|`, and the eigenvector of `H` of greatest absolute eigenvalue.
-pub fn curved(at: &At, test: &Curvature) -> Option<(f64, DVector<f64>)> {
-    let row: Vec<f64> = test.row.iter().map(|&f| at.of(f)).collect::<Option<_>>()?;
+pub fn curved(
+    test: &Curvature,
+    of: impl Fn(Formula) -> Option<f64>,
+) -> Option<(f64, DVector<f64>)> {
+    let row: Vec<f64> = test.row.iter().map(|&f| of(f)).collect::<Option<_>>()?;
     let n = row.len();
     let mut h = DMatrix::zeros(n, n);
     for (i, entries) in test.twice.iter().enumerate() {
         for (j, &f) in (i..).zip(entries) {
-            let half = 0.5 * at.of(f)?;
+            let half = 0.5 * of(f)?;
             (h[(i, j)], h[(j, i)]) = (half, half);
         }
     }
@@ -180,7 +183,7 @@ pub fn curved(at: &At, test: &Curvature) -> Option<(f64, DVector<f64>)> {
     }
     let eigen = SymmetricEigen::new(h);
     let greatest = eigen.eigenvalues.iamax();
-    let sum = at.of(test.a)? * DVector::from_vec(row).norm()
-        + at.of(test.b)? * eigen.eigenvalues[greatest].abs();
+    let sum = of(test.a)? * DVector::from_vec(row).norm()
+        + of(test.b)? * eigen.eigenvalues[greatest].abs();
     Some((sum, eigen.eigenvectors.column(greatest).into_owned()))
 }

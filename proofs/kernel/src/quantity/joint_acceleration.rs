@@ -28,6 +28,8 @@ pub(super) const JOINT_ACCELERATION: Quantity = Quantity {
 ///
 /// so that a sign shows it; of others, `H` is the derivative of the row. Where the platform turns, `x'` and
 /// `x''` are `(v, ell omega)` and `(a, ell alpha)`, and `H` is [`Motion`](crate::machine::motion)'s.
+/// There the row of a strut is `[u, (r x u)/ell]`, or the second part alone about a point, and with `q = 1` or `0` for the first
+/// part, `|row|^2 = q + (|b|^2 - (r . u)^2)/ell^2`, as `|r| = |b|` and `|u| = 1`: its lever.
 fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>, ClaimError> {
     let max = context.positive(context.greatest()?)?;
     let zero = Expression::integer(0);
@@ -55,8 +57,18 @@ fn tests(context: &mut Context<'_>, (_, leg): (usize, &Leg)) -> Result<Vec<Test>
         let Some(twice) = curved.flatten() else {
             return context.refused("of a leg that is driven");
         };
+        let lever = leg.ends.zip(leg.driven).zip(motion.turn.as_ref());
+        let tape = context.tape();
+        let lever = lever.map(|(([_, at], [r, u]), turn)| {
+            let q = tape.integer(i64::from(!motion.velocity.is_empty()));
+            [
+                formula!(tape; q + ((at . at) / ({ turn.length } ^ 2))),
+                formula!(tape; (r . u) / { turn.length }),
+            ]
+        });
         context.builder.few()?;
-        return Ok(vec![Test::Curvature(Curvature { row: leg.divided.a.clone(), twice, a, b })]);
+        let row = leg.divided.a.clone();
+        return Ok(vec![Test::Curvature(Curvature { row, twice, a, b, lever })]);
     }
     let rest = match (leg.rho, leg.length, leg.eta_squared) {
         (Some(Joint::Length(_)), Some(length), Some(square)) => {
@@ -88,5 +100,5 @@ fn curvature(
         let entry = |(&f, other): (&Formula, &Vec<Formula>)| tape.add(f, other[j]);
         twice.push(own.iter().zip(&h).skip(j).map(entry).collect());
     }
-    Ok(Curvature { row, twice, a, b })
+    Ok(Curvature { row, twice, a, b, lever: None })
 }

@@ -155,7 +155,7 @@ fn signed<'b, E: Enclosure>(
 }
 
 /// At a vertex or control point the rows, their weight, what `kappa^2` is multiplied by in each row, and `b`.
-type Shown<N> = (Vec<Vector<N>>, N, Vec<N>, Vec<N>);
+pub type Shown<N> = (Vec<Vector<N>>, N, Vec<N>, Vec<N>);
 
 impl<E: Enclosure> Over<'_, E> {
     /// **Accuracy.** Let `Y`, `kappa > 0` and `p >= 0` be given, every formula be defined [`near`] the cell for
@@ -235,14 +235,7 @@ impl<E: Enclosure> Over<'_, E> {
             }
             let z = e.sub(&one, &e.halve(&e.mul(&g, &e.recip(&kappa)?)?)?)?;
             let (square, kappa) = (e.sqr(&z)?, e.sqr(&kappa)?);
-            let slopes = match self.controls {
-                None => None,
-                Some(_) if n == test.scaled.len() => Some([
-                    self.sum(test, |by| Some(self.of(by)?.range.clone()))?,
-                    self.roots(test)?,
-                ]),
-                Some(_) => return None,
-            };
+            let slopes = self.greatest(test)?;
             let holds = |v| {
                 let (rows, weight, d, b) = self.shown(test, (v, p), slopes.as_ref())?;
                 let rows: Vec<&[E::Number]> = rows.iter().map(|row| &row[..]).collect();
@@ -262,6 +255,19 @@ impl<E: Enclosure> Over<'_, E> {
             self.vertices().all(|v| holds(v) == Some(true)).then_some(())
         };
         shape && weighted && shown().is_some()
+    }
+
+    /// At control points the greatest `beta_i` and `q_i`; at vertices nothing.
+    pub fn greatest(&self, test: &Accuracy) -> Option<Option<[Vec<E::Number>; 2]>> {
+        let all = || {
+            let beta = self.sum(test, |by| Some(self.of(by)?.range.clone()))?;
+            Some([beta, self.roots(test)?])
+        };
+        match self.controls {
+            None => Some(None),
+            Some(_) if test.scaled.len() == test.rows.len() => all().map(Some),
+            Some(_) => None,
+        }
     }
 
     /// The greatest `beta_i`, of these values of slopes.
@@ -299,7 +305,7 @@ impl<E: Enclosure> Over<'_, E> {
     }
 
     /// With the greatest slopes and the roots of control points.
-    fn shown(
+    pub fn shown(
         &self,
         test: &Accuracy,
         (v, p): (Vertex, u32),

@@ -17,6 +17,9 @@ pub struct Apart {
     pub distance: Formula,
 }
 
+/// A direction, and what is along it.
+type Along<N> = (Vec<Slope<N>>, Vec<Slope<N>>);
+
 impl<E: Enclosure> Over<'_, E> {
     /// **Distance.** Let `g` be affine on the cell, `g = g_0 + sum_k lambda_k g_k`, in the evidence three
     /// rows `g_0j, g_1j, .., g_mj`. If at the vertices `v`, for each end `p` of the one segment and each end
@@ -28,32 +31,44 @@ impl<E: Enclosure> Over<'_, E> {
     /// `p - q`, and with each of these its product with `g` is greater than `R |g|`, so it is longer than
     /// `R`. ∎ With `>=`, `g = 0` would show anything.
     pub fn apart(&self, test: &Apart, evidence: &Multiplier) -> bool {
-        let e = self.slopes.arithmetic;
-        let greatest = |v: Vertex, g: &[Slope<E::Number>]| {
-            let square = e.sum(g.iter().map(|g| e.sqr(&self.slopes.at(g, v)?)))?;
-            e.mul(&self.of(test.distance)?.range, &e.greatest_root(&square)?)
+        let positive = |x: &E::Number| self.slopes.arithmetic.is_positive(x);
+        let holds = |along: &Along<E::Number>, v: Vertex| {
+            self.beyond(test, along, v).is_some_and(|all| all.iter().all(positive))
         };
-        let along = |g: &[Slope<E::Number>], p: &Vector, q: &Vector| {
+        self.along(test, evidence).is_some_and(|along| self.vertices().all(|v| holds(&along, v)))
+    }
+
+    /// `g`, and its products with the four `p - q`.
+    pub fn along(&self, test: &Apart, evidence: &Multiplier) -> Option<Along<E::Number>> {
+        if !evidence.is_of(3, self.slopes.m + 1) {
+            return None;
+        }
+        let rows = evidence.y.iter().map(|row| self.affine(row, evidence.places));
+        let g: Vec<Slope<E::Number>> = rows.collect::<Option<_>>()?;
+        let product = |(p, q): (&Vector, &Vector)| {
             let terms = g.iter().zip(p).zip(q).map(|((g, &p), &q)| {
                 self.slopes.mul(g, &self.slopes.sub(self.of(p)?, self.of(q)?)?)
             });
             self.slopes.sum(terms)
         };
-        let shown = || {
-            let rows = evidence.y.iter().map(|row| self.affine(row, evidence.places));
-            let g: Vec<Slope<E::Number>> = rows.collect::<Option<_>>()?;
-            let [first, second] = &test.ends;
-            for (p, q) in first.iter().flat_map(|p| second.iter().map(move |q| (p, q))) {
-                let f = along(&g, p, q)?;
-                let holds = |v: Vertex| {
-                    let rest = e.sub(&self.slopes.at(&f, v)?, &greatest(v, &g)?)?;
-                    Some(e.is_positive(&self.less_inside(rest, v)?))
-                };
-                self.vertices().all(|v| holds(v) == Some(true)).then_some(())?;
-            }
-            Some(())
-        };
-        evidence.is_of(3, self.slopes.m + 1) && shown().is_some()
+        let [first, second] = &test.ends;
+        let pairs = first.iter().flat_map(|p| second.iter().map(move |q| (p, q)));
+        let products = pairs.map(product).collect::<Option<_>>()?;
+        Some((g, products))
+    }
+
+    /// These products at a vertex, less `R |g_v|`.
+    pub fn beyond(
+        &self,
+        test: &Apart,
+        (g, products): &Along<E::Number>,
+        v: Vertex,
+    ) -> Option<Vec<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let square = e.sum(g.iter().map(|g| e.sqr(&self.slopes.at(g, v)?)))?;
+        let least = e.mul(&self.of(test.distance)?.range, &e.greatest_root(&square)?)?;
+        let rest = |f| self.less_inside(e.sub(&self.slopes.at(f, v)?, &least)?, v);
+        products.iter().map(rest).collect()
     }
 
     /// `n_0 + sum_k lambda_k n_k`, over `2^places`.

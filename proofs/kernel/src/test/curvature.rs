@@ -17,6 +17,8 @@ pub struct Curvature {
     pub a: Formula,
     /// `b`.
     pub b: Formula,
+    /// `K^2`, that depends on no coordinate, and `s` with `|row|^2 = K^2 - s^2`, where these are known.
+    pub lever: Option<[Formula; 2]>,
 }
 
 impl<E: Enclosure> Over<'_, E> {
@@ -28,11 +30,26 @@ impl<E: Enclosure> Over<'_, E> {
     /// `a |row(x)| + b |H(x)| <= sum_v w_v (a |row_v| + b |H_v|) < 1`. ∎ With the workspace's own
     /// inequality `t`, less `t_v` at each. One of the two matrices alone would bound one end of the
     /// eigenvalues of `H` only.
+    ///
+    /// **Lever.** Where `|row|^2 = K^2 - s^2`, the same holds with `(K^2 - s_0 s_v)/sqrt(K^2 - s_0^2)` in the place of `|row_v|` at
+    /// all vertices, for any number `s_0` with `s_0^2 < K^2`: here, of `s` at the centre. *Proof.*
+    /// `(K^2 - s_0 s)^2 - (K^2 - s^2)(K^2 - s_0^2) = K^2 (s - s_0)^2 >= 0`, and `K^2 - s_0 s > 0`, so that `|row| sqrt(K^2 - s_0^2) <= K^2 - s_0 s`,
+    /// of which the right-hand side is affine in `s`. ∎ Where a row is longest `s` is 0, and nothing is lost. At each vertex the
+    /// lesser of both would be unsound: the first is convex, the second is above `|row|` by as much as it is affine.
     pub fn curvature(&self, test: &Curvature) -> bool {
         let e = self.slopes.arithmetic;
         let at = |v: Vertex, f: &Formula| self.slopes.at(self.of(*f)?, v);
-        let holds = |v: Vertex| {
-            let row = e.greatest_root(&e.sum(test.row.iter().map(|f| e.sqr(&at(v, f)?)))?)?;
+        let longest = |v: Vertex, lever: Option<[Formula; 2]>| {
+            let Some([square, s]) = lever else {
+                return e.greatest_root(&e.sum(test.row.iter().map(|f| e.sqr(&at(v, f)?)))?);
+            };
+            let [square, centre] = [&self.of(square)?.range, &self.of(s)?.at_centre];
+            let [centre, _] = e.ends(centre);
+            let root = e.sqrt(&e.sub(square, &e.sqr(&centre)?)?)?;
+            e.div(&e.sub(square, &e.mul(&centre, &at(v, &s)?)?)?, &root)
+        };
+        let holds = |v: Vertex, lever| {
+            let row = longest(v, lever)?;
             let rest = e.sub(&e.integer(1)?, &e.mul(&self.of(test.a)?.range, &row)?)?;
             let start = Triangle::scalar(e, test.row.len(), &self.less_inside(rest, v)?)?;
             let b = e.halve(&self.of(test.b)?.range)?;
@@ -43,6 +60,7 @@ impl<E: Enclosure> Over<'_, E> {
             };
             Some(is_definite(&b)? && is_definite(&e.neg(&b)?)?)
         };
-        self.vertices().all(|v| holds(v) == Some(true))
+        let all = |lever| self.vertices().all(|v| holds(v, lever) == Some(true));
+        all(None) || (test.lever.is_some() && all(test.lever))
     }
 }

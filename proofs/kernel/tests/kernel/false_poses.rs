@@ -87,7 +87,7 @@ fn machine(kind: u64, random: &mut Random) -> Box<dyn Fn(&str) -> String> {
     }
 }
 
-/// `|H_1|` at a pose, by the formulas of an acceleration.
+/// `a |M_1| + b |H_1|` at a pose, by the formulas of an acceleration.
 fn curved(text: &str, x: &[f64]) -> f64 {
     let stated = claim(text);
     let problem = Problem::new(&stated).expect("a claim");
@@ -100,7 +100,8 @@ fn curved(text: &str, x: &[f64]) -> f64 {
     let n = test.row.len();
     let entry = |i: usize, j: usize| 0.5 * of(test.twice[i.min(j)][i.abs_diff(j)]);
     let h = nalgebra::SymmetricEigen::new(DMatrix::from_fn(n, n, entry));
-    of(test.b) * h.eigenvalues.amax()
+    let square: f64 = test.row.iter().map(|&f| of(f).powi(2)).sum();
+    of(test.a) * square.sqrt() + of(test.b) * h.eigenvalues.amax()
 }
 
 /// The angles of the first leg, in degrees, with an axis in the base and on the platform: the last one
@@ -190,7 +191,7 @@ fn nothing_shows_what_fails_at_a_pose_of_the_cell() {
         let length = rho.of(problem.legs[0].length.expect("a strut")).expect("defined").0 * unit;
         let acceleration = |bound: &str| {
             format!(
-                r#"{{"quantity":"joint_acceleration","leg":1,"given":{{"acceleration":["0"],"speed":["1"]}},"end":"max","bound":"{bound}"}}"#
+                r#"{{"quantity":"joint_acceleration","leg":1,"given":{{"acceleration":["1"],"speed":["1"]}},"end":"max","bound":"{bound}"}}"#
             )
         };
         let curved = curved(&text(&acceleration("1")), &x);

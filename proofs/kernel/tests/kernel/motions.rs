@@ -375,6 +375,12 @@ fn rows_are_derivatives_in_the_twist() {
             });
             assert_eq!(test.is_some(), !motion.spin.is_empty() || which == 2);
             if let Some(test) = test.filter(|_| !motion.spin.is_empty()) {
+                assert_eq!(test.lever.is_some(), which == 0);
+                if let Some(lever) = test.lever {
+                    let [square, s] = lever.map(|f| of(f).expect("a lever"));
+                    let length: f64 = row.iter().map(|x| x * x).sum();
+                    assert!((square - s * s - length).abs() < 1e-9 * (1.0 + length), "{length}");
+                }
                 let moved = Moved::random(&mut random, motion, (p, r));
                 let at = |t: f64| moved.at(t);
                 let h = 1e-4;
