@@ -331,7 +331,10 @@ pub fn regular(path: &Path) -> Result<PathBuf, Failure> {
         Ok(_) => {
             // A link is refused, or followed, for the finished paving takes the file's place.
             output::probe(path)?;
-            Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()))
+            match path.is_symlink() {
+                true => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())),
+                false => Ok(path.to_owned()),
+            }
         }
         Err(_) => Ok(path.to_owned()),
     }

@@ -11,6 +11,7 @@ use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict};
 use orthocert_checker::{read, statement};
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::certificate::{AtlasCell, Claim};
+use orthocert_kernel::paving::is_paving;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -87,8 +88,11 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let certificate = match read(&bytes) {
         Ok(certificate) => certificate,
         Err(reason) => {
-            let (path, hint) =
-                (arguments.certificate.shown(), input::design_hint(&arguments.certificate));
+            let path = arguments.certificate.shown();
+            let hint = match is_paving(&bytes) {
+                true => "; it is a paving, which `orthocert check` and `report` read",
+                false => input::design_hint(&arguments.certificate),
+            };
             print::diagnostic(&format!("{path}: REJECTED: {reason}{hint}"));
             return Ok(Status::Rejected);
         }

@@ -119,3 +119,38 @@ fn errors_leave_standard_output_empty() {
     let run = Folder::new().run(&["verify", "missing.toml", "--format", "json"]).exits(2);
     run.complains(&["missing.toml"]);
 }
+
+/// A joint that turns from 94 to 185 degrees: what is found of it is an angle of its range, not 360 degrees off.
+#[test]
+fn an_angle_beyond_half_a_turn_is_told_in_the_turn_of_its_bound() {
+    let folder = Folder::new();
+    let design = |max: i32| {
+        let leg = |x: i32, mode: &str| {
+            format!(
+                "[[mechanism.legs]]\ndrive = \"arm\"\nanchor = [{x}, 0]\narm = 12\nlength = 18\n\
+                 mode = \"{mode}\"\n"
+            )
+        };
+        format!(
+            "[mechanism]\nkind = \"planar\"\n{}{}[workspace]\nmin = [-8, 14]\nmax = [8, 22]\n\
+             [requirements]\njoint_range = [{{ min = 60, max = {max} }}, {{ min = -10, max = 120 }}]\n",
+            leg(-6, "-"),
+            leg(6, "+")
+        )
+    };
+    folder.write("wide.toml", design(190));
+    folder.write("narrow.toml", design(184));
+    let found = |name: &str, code: i32| {
+        let run = folder.run(&["verify", name, "--format", "json"]).exits(code);
+        let value = object(&run);
+        let rows = value["requirements"].as_array().unwrap().clone();
+        let own = rows.iter().find(|row| row["requirement"].as_str().unwrap().contains("rho_1"));
+        own.unwrap_or_else(|| panic!("{value}"))["worst_found"].as_f64().unwrap()
+    };
+    for (name, code) in [("wide.toml", 0), ("narrow.toml", 1)] {
+        let angle = found(name, code);
+        assert!((184.0..186.0).contains(&angle), "{name}: {angle}");
+    }
+    let refuted = folder.run(&["verify", "narrow.toml"]).exits(1);
+    assert!(refuted.stdout.contains("rho_1 is about 184."), "{}", refuted.stdout);
+}

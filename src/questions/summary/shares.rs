@@ -23,8 +23,9 @@ pub struct Share {
     pub parameter: String,
     /// With all else exact, the platform is nowhere farther off.
     pub certified: Exact,
-    /// That in the sum of all rows.
-    pub share: f64,
+    /// That in the sum of all rows; not known where a row is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
 }
 
 /// All of them, greatest first.
@@ -32,8 +33,9 @@ pub struct Share {
 pub struct Shares {
     /// One for each deviation.
     pub alone: Vec<Share>,
-    /// Their sum.
-    pub sum: Exact,
+    /// Their sum, if no row is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sum: Option<Exact>,
     /// All at once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub together: Option<Exact>,
@@ -146,10 +148,14 @@ pub fn shares(
     }
     rows.sort_by(|a, b| b.1.cmp(&a.1));
     let sum: BigRational = rows.iter().map(|(_, bound)| bound).sum();
+    let sum = not_enclosed.is_empty().then_some(sum);
     let share = |((leg, parameter), bound): ((Option<usize>, String), BigRational)| {
-        let share = if sum.is_zero() { None } else { (&bound / &sum).to_f64() };
-        let certified = Exact::Rational(bound);
-        Share { leg, parameter, certified, share: share.unwrap_or(0.0) }
+        let of_sum = |sum: &BigRational| match sum.is_zero() {
+            true => Some(0.0),
+            false => (&bound / sum).to_f64(),
+        };
+        let share = sum.as_ref().and_then(of_sum);
+        Share { leg, parameter, certified: Exact::Rational(bound), share }
     };
     let whole = found.iter().find(|found| found.asked.of().0 == "accuracy");
     let together = whole.and_then(|found| match found.ends.as_deref() {
@@ -157,7 +163,7 @@ pub fn shares(
         _ => None,
     });
     let alone = rows.into_iter().map(share).collect();
-    Ok(Some(Shares { alone, sum: Exact::Rational(sum.clone()), together, not_enclosed }))
+    Ok(Some(Shares { alone, sum: sum.clone().map(Exact::Rational), together, not_enclosed }))
 }
 
 /// A deviation in words.

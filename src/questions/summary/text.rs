@@ -224,12 +224,9 @@ fn shares(out: &mut String, found: &Shares) {
             2,
         );
     }
-    wrap(
-        out,
-        "off by at most, with one deviation alone and all else exact; its part of their sum",
-        2,
-    );
-    let total = sum.as_rational().cloned().unwrap_or_default();
+    let total = sum.as_ref().map(|sum| sum.as_rational().cloned().unwrap_or_default());
+    let part = if total.is_some() { "; its part of their sum" } else { "" };
+    wrap(out, &format!("off by at most, with one deviation alone and all else exact{part}"), 2);
     let name = |number: usize| {
         let own = &alone[number];
         named(&(own.leg, own.parameter.clone()))
@@ -248,14 +245,21 @@ fn shares(out: &mut String, found: &Shares) {
     let width = lines.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     for (name, bound) in &lines {
         let text = briefly(bound, FEW, Toward::Above);
-        let part = if total.is_positive() { (bound / &total) * hundred() } else { total.clone() };
-        let part = part.round().to_integer();
-        let _ = writeln!(out, "    {name:width$}  {text:<10}  {part:>3} %");
+        let part = total.as_ref().map_or_else(String::new, |total| {
+            let part =
+                if total.is_positive() { (bound / total) * hundred() } else { total.clone() };
+            format!("{:>3} %", part.round().to_integer())
+        });
+        let _ = writeln!(out, "{}", format!("    {name:width$}  {text:<10}  {part}").trim_end());
     }
-    let sum = briefly(&total, FEW, Toward::Above);
     let whole = together.as_ref().and_then(Exact::as_rational);
-    let whole = whole.map(|x| format!("; all at once: {}", briefly(x, FEW, Toward::Above)));
-    let _ = writeln!(out, "    {:width$}  {sum}{}", "sum", whole.unwrap_or_default());
+    let whole = whole.map(|x| format!("all at once: {}", briefly(x, FEW, Toward::Above)));
+    let sum = |total| format!("{:width$}  {}", "sum", briefly(total, FEW, Toward::Above));
+    let sum = total.as_ref().map(sum);
+    let both: Vec<String> = sum.into_iter().chain(whole).collect();
+    if !both.is_empty() {
+        let _ = writeln!(out, "    {}", both.join("; "));
+    }
     if !not_enclosed.is_empty() {
         let (named, more) = not_enclosed.split_at(not_enclosed.len().min(OTHERS));
         let more = if more.is_empty() { String::new() } else { format!(", {} more", more.len()) };
@@ -265,4 +269,34 @@ fn shares(out: &mut String, found: &Shares) {
 
 fn hundred() -> BigRational {
     BigRational::from_integer(100.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Share;
+    use super::*;
+
+    /// Of two rows of which one is missing, the other is not all of their sum.
+    #[test]
+    fn rows_that_are_missing_leave_no_parts_and_no_sum() {
+        let shown = |share, sum: Option<i64>, not_enclosed: &[&str]| {
+            let certified = Exact::integer(3);
+            let row = Share { leg: Some(1), parameter: "length".to_owned(), certified, share };
+            let not_enclosed = not_enclosed.iter().map(|name| (*name).to_owned()).collect();
+            let (sum, together) = (sum.map(Exact::integer), Some(Exact::integer(4)));
+            let mut out = String::new();
+            shares(&mut out, &Shares { alone: vec![row], sum, together, not_enclosed });
+            out
+        };
+        let whole = shown(Some(1.0), Some(3), &[]);
+        assert!(
+            whole.contains("100 %") && whole.contains("sum") && whole.contains("all at once: 4")
+        );
+        let part = shown(None, None, &["length of leg 2"]);
+        assert!(!part.contains('%') && !part.contains("sum"), "{part}");
+        assert!(
+            part.contains("all at once: 4")
+                && part.contains("no bound was found for: length of leg 2")
+        );
+    }
 }

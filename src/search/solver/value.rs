@@ -226,7 +226,8 @@ impl Bounded {
             ("joint_range", _) => match leg?.rho? {
                 Joint::Length(rho) => Some(values.of(rho)? * sampler.unit()),
                 Joint::Angle { cos, sin } => {
-                    Some(values.of(sin)?.atan2(values.of(cos)?).to_degrees())
+                    let angle = values.of(sin)?.atan2(values.of(cos)?).to_degrees();
+                    Some(angle + 360.0 * self.turns(angle))
                 }
             },
             ("serial_margin", _) => cosine(leg?, values),
@@ -247,6 +248,13 @@ impl Bounded {
                 self.by_margin(own?, problem, sampler, values)
             }
         }
+    }
+
+    /// The whole turns by which an angle, in degrees, is nearest to the middle of its range.
+    fn turns(&self, angle: f64) -> f64 {
+        let Bound::Within([min, max]) = &self.requirement.bound else { return 0.0 };
+        let middle = approximate(min).zip(approximate(max)).map(|(min, max)| 0.5 * (min + max));
+        middle.map_or(0.0, |middle| ((middle - angle) / 360.0).round())
     }
 
     /// The value of a quantity that its margins tell: the worst of its tests.
