@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The same paving and the same yes/no questions for orthocert, Codac and IBEX, on this machine in one
 # run; or, of --hexapods, whether hexapods are regular. Prints Markdown; what is compared, and how, stands in
-# peers.py and hexapod.py.
+# peers.py and hexapod.py. IBEX where `ibexsolve` is on PATH: ibex.py says how to build it.
 # usage: benches/peers/run.sh [--hexapods | EDGE...] > benches/runs/DATE-peers.md
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
