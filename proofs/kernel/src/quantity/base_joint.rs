@@ -20,7 +20,7 @@ pub(super) const BASE_JOINT: Quantity = Quantity {
 /// in a proof and the lower end in a refutation, as of all that is enclosed. Squares alone would lose the
 /// sign, and let a leg pass that points the other way.
 ///
-/// Of struts of platforms that turn, and `b <= 90`, it is `f = U . j >= 0` and, if `b < 90`,
+/// Of struts of platforms that turn, and `b <= 90`, it is `f = U . j >= 0` and, unless certainly `b >= 90`,
 /// `c^2 |U|^2 <= f^2` for `c = cos(b) |j|` and any positive multiple `U` of `A`. The second is
 /// `sigma_max <= sqrt(f)` of the one row `c U/sqrt(f)`: a test that is affine in `U`, and so decided at
 /// control points, where `w A` is a polynomial. With `|w A|^2` as another polynomial in place of the square
@@ -47,12 +47,12 @@ pub(super) fn tests(
     axis.resize(3, tape.integer(0));
     let axis = [axis[0], axis[1], axis[2]];
     let least = formula!(tape; cos * (sqrt (axis . axis)));
-    let at_most = |degrees, strict| ordered("", bound, &Expression::integer(degrees), strict);
-    if let Some(ends) = leg.ends.filter(|_| turns && at_most(90, false).is_ok()) {
+    let right = Expression::integer(90);
+    if let Some(ends) = leg.ends.filter(|_| turns && ordered("", bound, &right, false).is_ok()) {
         let u = motion.vector(tape, &ends, on_platform);
         let along = tape.dot(&u, &axis);
         let mut tests = vec![Test::AtLeast(along)];
-        if at_most(90, true).is_ok() {
+        if ordered("", &right, bound, false).is_err() {
             let a = formula!(tape; least * u).to_vec();
             tests.push(Test::Greatest(vec![Row { a, d: along }], along));
         }

@@ -561,3 +561,22 @@ fn tilt_sets_are_tilts_and_torsions() {
         assert!((c[2] - (s / 2.0).tan()).abs() < 1e-9 * (1.0 + c[2].abs()));
     }
 }
+
+/// Its cosine is not 0, which the sign alone would take it for.
+#[test]
+fn an_angle_at_a_joint_of_nearly_90_degrees_has_both_tests() {
+    let tests = |bound: &str| {
+        let strut = |x: &str| {
+            format!(r#"{{"drive":"strut","anchor":["{x}","-2"],"platform":["{x}","0"]}}"#)
+        };
+        let claim = claim(&format!(
+            r#"{{"mechanism":{{"planar":{{"legs":[{},{},{}],"characteristic_length":"1"}}}},"workspace":{{"box":{{"min":["0","0"],"max":["1","1"]}}}},"orientation":{{"range":["-1","1"]}},"require":[{{"quantity":"base_joint","leg":1,"given":{{"axis":["0","1"]}},"end":"max","bound":"{bound}"}}]}}"#,
+            strut("-1"),
+            strut("0"),
+            strut("1"),
+        ));
+        Problem::new(&claim).expect("a claim").obligations.len()
+    };
+    let nearly = "90-sqrt(2)/10^64/10^64/10^64";
+    assert_eq!(["89", nearly, "90", "91"].map(tests), [3, 3, 2, 2]);
+}
