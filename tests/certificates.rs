@@ -49,7 +49,7 @@ const OF_DESIGNS: [(&str, Verdict); 20] = [
     ("star-singular", Refuted),
 ];
 /// The same of `tests/designs/kernel/NAME.toml`.
-const OF_OTHER_KINDS: [(&str, Verdict); 10] = [
+const OF_OTHER_KINDS: [(&str, Verdict); 11] = [
     ("five-bar", Certified),
     ("five-bar-formulas", Certified),
     ("orthoglide-formulas", Certified),
@@ -57,6 +57,7 @@ const OF_OTHER_KINDS: [(&str, Verdict); 10] = [
     ("planar-3-rpr", Certified),
     ("spherical-3-ups", Certified),
     ("upu-base-axes", Certified),
+    ("hexapod-joints", Certified),
     ("hexapod-linuxcnc", Certified),
     ("hexapod-rubin-camera", Certified),
     ("hexapod-rubin-camera-stroke-refuted", Refuted),

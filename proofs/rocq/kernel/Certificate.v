@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Legs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -56,9 +56,9 @@ Inductive written_driven :=
   | AnyStrut_ (anchor platform : list quantity)
   | AnyArm_ (axis reference anchor platform : list quantity) (arm rod : quantity) (mode : bool).
 
-Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_.
+Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_ | BaseJoint_ | PlatformJoint_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
-    the joints' error, of accuracy, and its acceleration and speed, of accelerations. *)
+    the joints' error, of accuracy, its acceleration and speed, of accelerations, and an axis, of angles at joints. *)
 Inductive written_given := Given_ (x : expression) | Each_ (xs : list expression) | Motion_ (acceleration speed : expression).
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression) | Holds_.
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
@@ -87,7 +87,7 @@ Inductive subject :=
       (orientation : option written_orientation) (require : list written_requirement)
   (* struts of a platform that turns: its joint in the base and on the platform, each of two numbers in the plane *)
   | Turning_ (kind : motion) (struts : list (list quantity * list quantity)) (length : expression) (workspace : written_place)
-      (orientation : written_orientation) (require : list written_requirement)
+      (orientation : written_orientation) (bodies : list written_body) (require : list written_requirement)
   (* by formulas: names, and all joints *)
   | Formulas_ (coordinates : list string) (parameters : list (string * quantity)) (definitions : list (string * term string))
       (joints : list written_form) (min max : list expression) (require : list written_requirement)
@@ -216,7 +216,7 @@ Definition about_text (a : about) : string :=
   | Condition_ => "conditioning" | Serial_ => "serial_margin" | Parallel_ => "parallel_margin"
   | Stiffness_ => "stiffness" | Constraint_ => "constraint_margin"
   | Force_ => "joint_force" | Clearance_ => "clearance" | Acceleration_ => "joint_acceleration" | OneToOne_ => "one_to_one" | Accuracy_ => "accuracy"
-  | LegAngle_ => "leg_angle"
+  | LegAngle_ => "leg_angle" | BaseJoint_ => "base_joint" | PlatformJoint_ => "platform_joint"
   end.
 Definition end_text (e : written_end) : string := match e with AtLeast_ _ => "min" | AtMost_ _ => "max" | Within_ _ _ => "within" | Holds_ => "holds" end.
 Definition bound_text (e : written_end) : list text :=
@@ -226,7 +226,7 @@ Definition requirement_text (r : written_requirement) : text :=
     match leg_ r with Some n => [field "leg" (natural n)] | None => [] end ++
     match given_ r with
     | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | Accuracy_ => "joint_error" | _ => "tool" end) (array [number x]))]
-    | Some (Each_ xs) => [field "given" (variant "joint" (array (map number xs)))]
+    | Some (Each_ xs) => [field "given" (variant (match about_ r with BaseJoint_ | PlatformJoint_ => "axis" | _ => "joint" end) (array (map number xs)))]
     | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
     | None => []
     end ++
@@ -265,10 +265,10 @@ Definition body_text (b : written_body) : text :=
   | Fixed_ moves p q r => [field "on" (quoted (if moves then "platform" else "base")); field "from" (at_ p); field "to" (at_ q);
       field "radius" (number r)]
   end%list.
+Definition bodies_text (bs : list written_body) : list text := match bs with [] => [] | _ => [field "bodies" (array (map body_text bs))] end.
 Definition machine_text (legs : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement) : text :=
   object ([field "mechanism" (variant "translational" (array (map leg_text legs))); field "workspace" (region_text w)] ++
-    match bs with [] => [] | _ => [field "bodies" (array (map body_text bs))] end ++
-    [field "require" (array (map requirement_text rs))])%list.
+    bodies_text bs ++ [field "require" (array (map requirement_text rs))])%list.
 Definition subject_text (s : subject) : text :=
   match s with
   | Machine_ legs w bs rs => variant "machine" (machine_text legs w bs rs)
@@ -282,12 +282,12 @@ Definition subject_text (s : subject) : text :=
           | Turns m => turning (motion_text m)
           end :: field "workspace" (place_text w) :: match o with Some o => [field "orientation" (orientation_text o)] | None => [] end ++
         [field "require" (array (map requirement_text rs))]))%list
-  | Turning_ k ls ell w o rs => variant "machine" (object
-      [field "mechanism" (variant (motion_text k) (object
+  | Turning_ k ls ell w o bs rs => variant "machine" (object
+      ([field "mechanism" (variant (motion_text k) (object
          [field "legs" (array (map turning_strut_text ls)); field "characteristic_length" (number ell)]));
        field "workspace" (place_text w);
-       field "orientation" (orientation_text o);
-       field "require" (array (map requirement_text rs))])
+       field "orientation" (orientation_text o)] ++ bodies_text bs ++
+       [field "require" (array (map requirement_text rs))]))%list
   | Formulas_ xs ps ds rows a b rs => variant "machine" (object
       [field "mechanism" (variant "formulas" (object
          [field "coordinates" (array (map quoted xs)); field "parameters" (array (map (fun p => array [quoted (fst p); quantity_text (snd p)]) ps));
@@ -439,8 +439,8 @@ Definition in_subject (s : subject) : list expression :=
   | Machine_ ls w bs rs => flat_map in_leg ls ++ in_region w ++ flat_map in_body bs ++ flat_map in_requirement rs
   | Legs_ _ ls ell w o rs => flat_map in_driven ls ++ match ell with Some x => [x] | None => [] end ++ in_place w ++
       match o with Some o => in_orientation o | None => [] end ++ flat_map in_requirement rs
-  | Turning_ _ ls ell w o rs =>
-      flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: in_place w ++ in_orientation o ++ flat_map in_requirement rs
+  | Turning_ _ ls ell w o bs rs =>
+      flat_map (fun l => flat_map in_quantity (fst l ++ snd l)) ls ++ ell :: in_place w ++ in_orientation o ++ flat_map in_body bs ++ flat_map in_requirement rs
   | Formulas_ _ ps _ _ a b rs => flat_map (fun p => in_quantity (snd p)) ps ++ a ++ b ++ flat_map in_requirement rs
   | Closed_ offset side rs => offset :: side :: flat_map in_requirement rs
   | NoCube_ ls a b rs side => side :: flat_map in_leg ls ++ in_triple a ++ in_triple b ++ flat_map in_requirement rs
@@ -594,7 +594,9 @@ Definition claim_of (ls : list written_leg) (w : written_region) (bs : list writ
 (** The same of machines whose claims are those of Configuration.v; their joints are angles, or not. *)
 Definition factor_max_of (r : written_requirement) : list demand :=
   match about_ r, end_ r with Transmission, AtMost_ b => [FactorMax (denoted b)] | _, _ => [] end.
-Definition demand_of (are_angles : bool) (legs : nat) (r : written_requirement) : list demand :=
+Definition axis_of (xs : list expression) : position :=
+  let at_ k := nth k (map denoted xs) (0 // 1) in Position (at_ 0) (at_ 1) (at_ 2).
+Definition demand_of (are_angles : bool) (legs : nat) (bs : list written_body) (r : written_requirement) : list demand :=
   let each f := map f match leg_ r with Some n => [pred n] | None => seq 0 legs end in
   match about_ r, end_ r with
   | Transmission, AtLeast_ b => [FactorMin (denoted b)]
@@ -608,10 +610,13 @@ Definition demand_of (are_angles : bool) (legs : nat) (r : written_requirement) 
   | Serial_, AtLeast_ b => each (fun i => SerialMin i (denoted b))
   | LegAngle_, AtMost_ b => each (fun i => LegAngleMax i (denoted b))
   | Parallel_, AtLeast_ b => [ParallelMin (denoted b)]
+  | BaseJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i false (axis_of xs) (denoted b)) | _ => [] end
+  | PlatformJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i true (axis_of xs) (denoted b)) | _ => [] end
+  | Clearance_, AtLeast_ b => map (fun p => Clear (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
   | _, _ => []
   end.
-Definition demands (are_angles : bool) (legs : nat) (rs : list written_requirement) : list demand :=
-  (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end ++ flat_map (demand_of are_angles legs) rs)%list.
+Definition demands (are_angles : bool) (legs : nat) (bs : list written_body) (rs : list written_requirement) : list demand :=
+  (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end ++ flat_map (demand_of are_angles legs bs) rs)%list.
 (** What is claimed of two points of a workspace, which a cube is not. *)
 Definition is_of_two_points (r : written_requirement) : bool := match about_ r with OneToOne_ => true | _ => false end.
 Definition is_demand (are_angles : bool) (legs : nat) (r : written_requirement) : bool :=
@@ -634,6 +639,15 @@ Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) 
 (** Or of two points. *)
 Definition is_asked (coordinates legs : nat) (r : written_requirement) : bool :=
   match about_ r, end_ r, leg_ r, given_ r with OneToOne_, Holds_, None, None => true | _, _, _, _ => is_turning_demand coordinates legs r end.
+
+(** Or of bodies and angles at joints; an axis has [n] numbers. *)
+Definition is_asked_of_struts (n coordinates legs : nat) (r : written_requirement) : bool :=
+  match about_ r, end_ r, leg_ r, given_ r with
+  | BaseJoint_, AtMost_ _, leg, Some (Each_ xs) | PlatformJoint_, AtMost_ _, leg, Some (Each_ xs) =>
+      Nat.eqb (length xs) n && match leg with Some i => Nat.leb 1 i && Nat.leb i legs | None => true end
+  | Clearance_, AtLeast_ _, None, None => true
+  | _, _, _, _ => is_asked coordinates legs r
+  end.
 
 (** Of legs in any motion; forces and determinants of as many as coordinates. *)
 Definition is_driven_demand (are_angles : bool) (k : mobility) (legs : nat) (r : written_requirement) : bool :=
@@ -660,7 +674,7 @@ Definition written_claim_of (xs : list string) (ps : list (string * quantity)) (
     (rows : list written_form) (a b : list expression) (rs : list written_requirement) : written_claim :=
   MakeWrittenClaim
     (Mechanism xs (map (fun p => (fst p, tolerance_of (snd p))) ps) (map (fun d => (fst d, written_of (snd d))) ds) (map (fun j => match j with Row_ r => ByRow (map written_of r) | Rho_ x => ByCoordinate (written_of x) end) rows))
-    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands false (length rows) rs) (existsb is_of_two_points rs).
+    (map (fun p => Within (denoted (fst p)) (denoted (snd p))) (combine a b)) (demands false (length rows) [] rs) (existsb is_of_two_points rs).
 
 (** A vector whose last components are 0 where they are not written. *)
 Definition vector_of (l : list tolerance) : tolerances :=
@@ -679,9 +693,9 @@ Definition place_in (w : written_place) : region :=
   | AnyCylinder_ x y r bottom top => region_of (Cylinder_ x y r bottom top)
   end.
 Definition turning_claim_of (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (w : written_place)
-    (o : written_orientation) (rs : list written_requirement) : turning_claim :=
+    (o : written_orientation) (bs : list written_body) (rs : list written_requirement) : turning_claim :=
   let vector v := vector_of (map tolerance_of v) in
-  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell) (place_in w) (orientation_of o) (demands false (length ls) rs) (existsb is_of_two_points rs).
+  MakeTurningClaim k (map (fun l => (vector (fst l), vector (snd l))) ls) (denoted ell) (place_in w) (orientation_of o) (demands false (length ls) bs rs) (existsb is_of_two_points rs).
 
 (** In the plane arms turn about z. *)
 Definition any_drive_of (k : mobility) (l : written_driven) : any_drive :=
@@ -697,7 +711,7 @@ Definition has_arms (ls : list written_driven) : bool := existsb (fun l => match
 Definition driven_claim_of (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
     (rs : list written_requirement) : driven_claim :=
   MakeDrivenClaim k (map (any_drive_of k) ls) (match ell with Some x => denoted x | None => 1 // 1 end) (place_in w) (option_map orientation_of o)
-    (demands (has_arms ls) (length ls) rs).
+    (demands (has_arms ls) (length ls) [] rs).
 
 (** *** The closed design *)
 
@@ -882,9 +896,9 @@ Definition means (c : certificate) : Prop :=
       driven_holds c /\ exists m P Q, is_about_driven c m P Q
   | Legs_ k ls ell w o rs, ByWitness _ _ _ _ => let c := driven_claim_of k ls ell w o rs in
       exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q
-  | Turning_ k ls ell w o rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell w o rs in
+  | Turning_ k ls ell w o bs rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell w o bs rs in
       exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
-  | Turning_ k ls ell w o rs, Nodes _ _ _ => let c := turning_claim_of k ls ell w o rs in
+  | Turning_ k ls ell w o bs rs, Nodes _ _ _ => let c := turning_claim_of k ls ell w o bs rs in
       turning_holds c /\ exists m P Q, is_about_struts c m P Q
   | Formulas_ xs ps ds rows a b rs, Nodes _ _ _ => let c := written_claim_of xs ps ds rows a b rs in
       written_holds c /\ exists theta x, is_about_written c theta x
@@ -919,13 +933,6 @@ Definition means (c : certificate) : Prop :=
 Local Close Scope R_scope.
 
 (** Units of lengths and directions: section 7.3. *)
-Definition exact_bits : positive := 512.
-Definition order_of (xs : list Claim.number) : Z :=
-  let size x := match enclose exact_bits x with Some a => Z.max (Z.abs (Fixed.lo a)) (Z.abs (Fixed.hi a)) | None => 0%Z end in
-  let most := fold_right (fun x m => Z.max (size x) m) 0%Z xs in
-  if (0 <? most)%Z then (Z.log2 most - Zpos exact_bits)%Z else 0%Z.
-Definition ends (t : tolerance) : list Claim.number := [least t; greatest t].
-Definition ends3 (t : tolerances) : list Claim.number := (ends (tx t) ++ ends (ty t) ++ ends (tz t))%list.
 Definition lengths_of (d : drive) : list Claim.number := match d with SliderLeg c => ends (Claim.length c) | _ => [] end.
 Definition places_of (d : drive) : list Claim.number :=
   match d with SliderLeg c => (ends3 (anchor c) ++ ends3 (platform c))%list | StrutLeg a p _ => (ends3 a ++ ends3 p)%list | PlanarLeg _ => [] end.
@@ -1124,6 +1131,8 @@ Definition is_demand_bound (d : demand) : bool :=
   | SerialMin _ b | ParallelMin b => certainly exact_bits true b
   | LegAngleMax _ b => certainly exact_bits true b && certainly exact_bits false (Minus (90 // 1) b)
   | SpeedMax _ a b | TurnMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
+  | JointAngleMax _ _ j b => is_axis j && certainly exact_bits true b && certainly exact_bits false (Minus (180 // 1) b)
+  | Clear _ _ b => certainly exact_bits false b
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)
@@ -1148,6 +1157,26 @@ Definition quantities_of (l : written_leg) : list quantity :=
   | Planar_ d => three_of d
   end%list.
 
+(** Bodies that there are, if and only if their clearance is asked for. *)
+Definition is_sized (b : written_body) : bool :=
+  match b with
+  | AlongLeg_ _ r t u o => certainly exact_bits true (denoted r) && certainly exact_bits false (denoted t) && certainly exact_bits false (denoted u) &&
+      match o with Some o => forallb (fun x => is_number (denoted x)) (in_triple o) | None => true end
+  | Fixed_ _ p q r => certainly exact_bits true (denoted r) && forallb (fun x => is_number (denoted x)) (in_triple p ++ in_triple q)%list
+  end.
+Definition is_on (ls : list written_leg) (b : written_body) : bool :=
+  match b with
+  | AlongLeg_ i _ _ _ _ => Nat.leb 1 i && match nth_error ls (pred i) with Some (Slider_ _ _ _ _ _ | Strut_ _ _ _) => true | _ => false end
+  | Fixed_ _ _ _ _ => true
+  end.
+(** Of platforms that turn none is beside a leg. *)
+Definition is_on_strut (struts : nat) (b : written_body) : bool :=
+  match b with AlongLeg_ i _ _ _ o => Nat.leb 1 i && Nat.leb i struts && match o with Some _ => false | None => true end | Fixed_ _ _ _ _ => true end.
+Definition are_bodies (is_on : written_body -> bool) (bs : list written_body) (rs : list written_requirement) : bool :=
+  if existsb (fun r => match about_ r with Clearance_ => true | _ => false end) rs
+  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on b) bs && match pairs_of [] bs with [] => false | _ => true end
+  else match bs with [] => true | _ => false end.
+
 (** Numbers of a vector of the legs, and of the platform's point. *)
 Definition places_in (k : motion) : nat := match k with InPlane => 2 | _ => 3 end.
 Definition places_of_point (k : motion) : nat := match k with InPlane => 2 | InSpace => 3 | AboutPoint => 0 end.
@@ -1161,7 +1190,7 @@ Definition is_place (n : nat) (round : bool) (w : written_place) : bool :=
   | AnyCylinder_ _ _ r bottom top => round && certainly exact_bits true (denoted r) && below exact_bits (denoted bottom) (denoted top)
   end.
 Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (ell : expression) (w : written_place)
-    (o : written_orientation) (rs : list written_requirement) : bool :=
+    (o : written_orientation) (bs : list written_body) (rs : list written_requirement) : bool :=
   let is_vector v := Nat.eqb (length v) (places_in k) && forallb is_range v in
   forallb (fun l => is_vector (fst l) && is_vector (snd l)) ls && Nat.leb (dimension k) (length ls) && Nat.leb (length ls) 12 &&
   certainly exact_bits true (denoted ell) && is_place (places_of_point k) match k with InSpace => true | _ => false end w &&
@@ -1171,7 +1200,8 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
   | (InSpace | AboutPoint), TurnedUpTo a => is_less_than_half_turn a
   | (InSpace | AboutPoint), Tilted a b => is_less_than_half_turn a && is_less_than_half_turn b
   | _, _ => false
-  end && forallb (is_asked (dimension k) (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands false (length ls) rs).
+  end && are_bodies (is_on_strut (length ls)) bs rs && forallb (is_asked_of_struts (places_in k) (dimension k) (length ls)) rs && is_each_once rs &&
+  forallb is_demand_bound (demands false (length ls) bs rs).
 
 Definition quantities_of_driven (l : written_driven) : list quantity :=
   match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p => a ++ p | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
@@ -1195,35 +1225,14 @@ Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell :
   | Turns InSpace, Some x, Some (Tilted a b) => certainly exact_bits true (denoted x) && is_less_than_half_turn a && is_less_than_half_turn b
   | _, _, _ => false
   end &&
-  forallb (is_driven_demand arms k (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) rs).
+  forallb (is_driven_demand arms k (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
 
 (** No machine within the tolerances has a direction that is zero. *)
-Definition is_nonzero (t : tolerances) : bool :=
-  match map (enclose_parameter exact_bits) (three t (order_of (ends3 t))) with
-  | [Some x; Some y; Some z] => let square := Fixed.sqr exact_bits in (0 <? Fixed.lo (Fixed.add (Fixed.add (square x) (square y)) (square z)))%Z
-  | _ => false
-  end.
 Definition has_direction (d : drive) : bool :=
-  match d with SliderLeg c => is_nonzero (direction c) | PlanarLeg n => is_nonzero n | StrutLeg _ _ (Some k) => is_nonzero k
+  match d with SliderLeg c => is_never_zero (direction c) | PlanarLeg n => is_never_zero n | StrutLeg _ _ (Some k) => is_never_zero k
   | StrutLeg _ _ None => true end.
-(** Bodies that there are, if and only if their clearance is asked for. *)
-Definition is_sized (b : written_body) : bool :=
-  match b with
-  | AlongLeg_ _ r t u o => certainly exact_bits true (denoted r) && certainly exact_bits false (denoted t) && certainly exact_bits false (denoted u) &&
-      match o with Some o => forallb (fun x => is_number (denoted x)) (in_triple o) | None => true end
-  | Fixed_ _ p q r => certainly exact_bits true (denoted r) && forallb (fun x => is_number (denoted x)) (in_triple p ++ in_triple q)%list
-  end.
-Definition is_on (ls : list written_leg) (b : written_body) : bool :=
-  match b with
-  | AlongLeg_ i _ _ _ _ => Nat.leb 1 i && match nth_error ls (pred i) with Some (Slider_ _ _ _ _ _ | Strut_ _ _ _) => true | _ => false end
-  | Fixed_ _ _ _ _ => true
-  end.
-Definition are_bodies (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) : bool :=
-  if existsb (fun r => match about_ r with Clearance_ => true | _ => false end) rs
-  then Nat.leb (length bs) 24 && forallb (fun b => is_sized b && is_on ls b) bs && match pairs_of [] bs with [] => false | _ => true end
-  else match bs with [] => true | _ => false end.
 Definition is_well_formed (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) (c : claim) : bool :=
-  are_bodies ls bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
+  are_bodies (is_on ls) bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
 
 (** Nodes are halved along coordinates that there are. *)
 Definition splits_below (n : nat) (nodes : list node) : bool :=
@@ -1238,13 +1247,15 @@ Definition are_well_formed_formulas (xs : list string) (ps : list (string * quan
     | _ => true
     end in
   Nat.eqb (length a) (length b) && forallb (fun r => is_asked n (length rows) r && has_coordinate r) rs && is_each_once rs &&
-  forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) rs).
+  forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) [] rs).
 
-(** How many obligations are before that of two points. *)
+(** How many obligations are before that of two points; an angle at a joint of less than 90 degrees has two tests. *)
 Fixpoint before_two_points (rs : list written_requirement) : list written_requirement :=
   match rs with r :: rs' => if is_of_two_points r then [] else r :: before_two_points rs' | [] => [] end.
-Definition place_of_two_points (legs : nat) (rs : list written_requirement) : nat :=
-  (length (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end) + length (flat_map (demand_of false legs) (before_two_points rs)))%nat.
+Definition tests_in (d : demand) : nat :=
+  match d with JointAngleMax _ _ _ b => if up_to_90 b && negb (certainly exact_bits false (Minus b (90 // 1))) then 2 else 1 | _ => 1 end.
+Definition place_of_two_points (legs : nat) (bs : list written_body) (rs : list written_requirement) : nat :=
+  (length (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end) + list_sum (map tests_in (flat_map (demand_of false legs bs) (before_two_points rs))))%nat.
 
 (** A witness has a number for each tolerance. *)
 Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
@@ -1322,7 +1333,7 @@ Definition is_share (x : expression) (found : Q) : bool :=
 
 (** Of the tree of a closed design, what it says of the rest; about a tight corner M has full rank, which is asked there. *)
 Definition closed_nodes (rs : list written_requirement) (nodes : list node) : list node :=
-  let left := flat_map (fun r => map (fun _ => negb (is_by_theorem r)) (demand_of false 3 r)) rs in
+  let left := flat_map (fun r => map (fun _ => negb (is_by_theorem r)) (demand_of false 3 [] r)) rs in
   let number_of i := match i with
     | O => Some O
     | S j => if nth j left false then Some (S (length (filter (fun x => x) (firstn j left)))) else None
@@ -1366,25 +1377,25 @@ Definition accept (c : certificate) : bool :=
       end
   | Legs_ k ls ell w o rs, Nodes bits _ nodes => accept_driven_tree k ls ell w o rs bits nodes
   | Legs_ k ls ell w o rs, ByWitness _ point machine how => accept_driven_witness k ls ell w o rs point machine how
-  | Turning_ k ls ell w o rs, ByWitness bits point machine how =>
+  | Turning_ k ls ell w o bs rs, ByWitness bits point machine how =>
       let point := map denoted point in
       let n := places_of_point k in
       match take_struts ls (map denoted machine) with
-      | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell w o rs &&
-          refute_turning exact_bits (turning_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
+      | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell w o bs rs &&
+          refute_turning exact_bits (turning_claim_of k ls ell w o bs rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
       | _ => false
       end
-  | Turning_ k ls ell w o rs, Nodes bits chords nodes =>
-      let c := turning_claim_of k ls ell w o rs in
+  | Turning_ k ls ell w o bs rs, Nodes bits chords nodes =>
+      let c := turning_claim_of k ls ell w o bs rs in
       match tree_of [] (length nodes) nodes with
-      | Some (t, []) => is_turning k ls ell w o rs && splits_below (dimension k) nodes &&
-          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points (length ls) rs) c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
+      | Some (t, []) => is_turning k ls ell w o bs rs && splits_below (dimension k) nodes &&
+          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points (length ls) bs rs) c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>
       match tree_of [] (length nodes) nodes with
       | Some (t, []) => are_well_formed_formulas xs ps rows a b rs && splits_below (length xs) nodes &&
-          certify_written exact_bits bits (matrix_of chords) (place_of_two_points (length rows) rs) (written_claim_of xs ps ds rows a b rs) t
+          certify_written exact_bits bits (matrix_of chords) (place_of_two_points (length rows) [] rs) (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
   | Closed_ offset side rs, Nodes bits _ nodes => accept_closed offset side rs bits nodes
@@ -1450,7 +1461,7 @@ Qed.
 Theorem accept_sound : forall c, accept c = true -> means c.
 Proof.
   intros [s p t v] h. unfold accept in h. apply andb_true_iff in h as [_ h]. unfold means. cbn [subject_ proof_] in *.
-  destruct s as [ls w bs rs | k ls ell w o rs | k ls ell w o rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
+  destruct s as [ls w bs rs | k ls ell w o rs | k ls ell w o bs rs | xs ps ds rows a b rs | offset side rs | ls a b rs side | [q |] | ps ls w rs certified refuted],
     p as [bits chords nodes | bits point machine how | cells]; try discriminate.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).

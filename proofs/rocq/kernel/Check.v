@@ -907,6 +907,15 @@ Proof.
     destruct (joints_bounded values lambda x _ E joints js bs ejs hb) as [rs [q1 ->]]. exact (c2 rs s q1 nz).
 Qed.
 
+(** Where nothing is subtracted. *)
+Theorem shows_holds : forall cell x t e, Forall2 contains cell x -> shows (evaluate cell) (length cell) None t e = true -> holds (length cell) x t.
+Proof.
+  intros cell x t e hx h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [_ C]]]]. specialize (C []). cbn [app length] in C.
+  apply (shows_sound cell x lambda el hlam) with None e; [| exact I | exact h]. intro i.
+  apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I |].
+  exact (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C (params_hold bits lambda params theta theta_in) tape).
+Qed.
+
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x ->
   shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
 Proof.

@@ -9,45 +9,6 @@ Local Open Scope R_scope.
 Section Named.
 Context {names : naming}.
 
-(** The number as a fraction, given the roots that are. *)
-Section Roots.
-Variable root : Q -> option Q.
-
-Fixpoint fraction (x : number) : option Q :=
-  let both f a b := match fraction a, fraction b with Some p, Some q => f p q | _, _ => None end in
-  match x with
-  | Ratio n d => Some (n # d)%Q
-  | Plus a b => both (fun p q => Some (Qplus p q)) a b
-  | Minus a b => both (fun p q => Some (Qminus p q)) a b
-  | Times a b => both (fun p q => Some (Qmult p q)) a b
-  | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
-  | Root a => match fraction a with Some q => root q | None => None end
-  | Varying _ _ _ => None
-  end.
-
-Hypothesis root_sound : forall q s, root q = Some s -> sqrt (Q2R q) = Q2R s.
-
-Lemma fraction_sound : forall x q, fraction x = Some q -> value x = Q2R q.
-Proof.
-  induction x as [n d | k a b | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a ha]; intros q h; cbn [fraction] in h; [| discriminate | | | | |];
-    try (destruct (fraction a) as [p |]; [| discriminate]; destruct (fraction b) as [r |]; [| discriminate];
-      cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
-  - injection h as <-. reflexivity.
-  - injection h as <-. symmetry. apply Q2R_plus.
-  - injection h as <-. symmetry. apply Q2R_minus.
-  - injection h as <-. symmetry. apply Q2R_mult.
-  - destruct (Qeq_bool r 0) eqn:z; [discriminate |]. injection h as <-. symmetry. apply Q2R_div.
-    intro e. apply Qeq_bool_iff in e. congruence.
-  - destruct (fraction a) as [p |]; [| discriminate]. cbn [value]. rewrite (ha p eq_refl). apply root_sound, h.
-Qed.
-End Roots.
-
-(** The number, where it has no roots. *)
-Definition rational : number -> option Q := fraction (fun _ => None).
-
-Lemma rational_sound : forall x q, rational x = Some q -> value x = Q2R q.
-Proof. apply fraction_sound. discriminate. Qed.
-
 Section Precision.
 Variable bits : positive.
 

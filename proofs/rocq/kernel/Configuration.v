@@ -4,8 +4,8 @@
     are lists, as many entries as the platform has coordinates. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
-From Orthocert Require Import Fixed Claim.
-From Orthocert.kernel Require Import Linear Arithmetic Number Trig Dependent Witness.
+From Orthocert Require Import Vec3 Fixed Claim.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Number Trig Dependent Witness.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -23,8 +23,11 @@ Inductive coordinate :=
 (** A leg of fixed length: its vector, as many components as the platform has, its component eta along the motion of its driven end, and its length. *)
 Record rod := Rod { rod_vector : list R; rod_eta : R; rod_size : R }.
 
-(** A machine at a point. [reached]: all is defined there, and no leg is serially singular. [rods]: of its legs, or none. *)
-Record configuration := Configuration { jacobian : list (list R); joints : list coordinate; rods : list (option rod); reached : Prop }.
+(** A machine at a point. [reached]: all is defined there, and no leg is serially singular. [rods]: of its legs, or none. [limbs]: of legs
+    with two ends, where angles at joints and bodies are asked for, the platform end, the vector from the base end to there, and the length;
+    [placed]: where points of the platform are. *)
+Record configuration := Configuration { jacobian : list (list R); joints : list coordinate; rods : list (option rod);
+  limbs : list (option (vec * vec * R)); placed : vec -> vec; reached : Prop }.
 
 (** |M v|^2 *)
 Definition speed2 (M : list (list R)) (v : list R) : R := fold_right (fun row sum => dot row v ^ 2 + sum) 0 M.
@@ -41,7 +44,11 @@ Inductive demand :=
   | StiffnessMin (k b : number)                        (* the least eigenvalue of k M^T M *)
   | TurnMax (joint : nat) (tool b : number)            (* of joints that are angles, degrees: their speed *)
   (* of legs of fixed length: |eta|/L, its arc cosine in degrees, and |det A| over the product of all lengths *)
-  | SerialMin (leg : nat) (b : number) | LegAngleMax (leg : nat) (b : number) | ParallelMin (b : number).
+  | SerialMin (leg : nat) (b : number) | LegAngleMax (leg : nat) (b : number) | ParallelMin (b : number)
+  (* degrees, from an axis of the leg's joint in the base, or on the platform, to the leg *)
+  | JointAngleMax (leg : nat) (on_platform : bool) (axis : position) (b : number)
+  (* the distance of two bodies *)
+  | Clear (one other : body) (b : number).
 
 (** By the first row. *)
 Definition determinant (rows : list (list R)) : R :=
@@ -80,6 +87,10 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
   | LegAngleMax i b => exists l, nth_error (rods c) i = Some (Some l) /\ cos (in_degrees (value b)) * rod_size l <= Rabs (rod_eta l)
   | ParallelMin b => exists ls, rods c = map Some ls /\
       fold_left (fun p l => p * rod_size l) ls (value b) <= Rabs (determinant (map rod_vector ls))
+  | JointAngleMax i on_platform j b => exists C A L, nth_error (limbs c) i = Some (Some (C, A, L)) /\
+      let a := if on_platform then vsub (placed c (located j)) (placed c vzero) else located j in
+      0 < norm2 A /\ 0 < norm2 a /\ exists angle, 0 <= angle <= value b /\ Vec3.dot A a = sqrt (norm2 A) * sqrt (norm2 a) * cos (in_degrees angle)
+  | Clear one other b => are_clear (segment_along (limbs c) (placed c)) one other b
   end.
 
 Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
@@ -263,7 +274,7 @@ Proof.
   assert (AtRod : forall i l, nth_error (rods k) i = Some (Some l) -> exists y, nth_error (nrods c) i = Some (Some y) /\ l = real_rod y).
   { intros i x e. rewrite B0, nth_error_map in e. destruct (nth_error (nrods c) i) as [[y |] |]; try discriminate. injection e as <-. exists y. split; reflexivity. }
   assert (Short : forall x y, 0 < x -> y ^ 2 < x ^ 2 -> Rabs y < x) by (intros x y x0 l; rewrite <- (Rabs_right x) by lra; apply Rsqr_lt_abs_0; rewrite !Rsqr_pow2; exact l).
-  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b]; cbn [fulfils] in F;
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b | i on j b | one other b]; cbn [fulfils] in F;
     destruct vs as [| u [| v [| w vs]]]; try discriminate.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
     set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.

@@ -384,11 +384,57 @@ Qed.
 
 (** ** Formulas at a control point, in intervals *)
 
+(** *** Of a tape, the entries that some others are made of; in place of all else nothing is evaluated *)
+
+Definition nothing : op nat := Elbow false 0%nat 0%nat 0%nat.
+Definition is_thinned : list (op nat) -> list (op nat) -> Prop := Forall2 (fun o' o => o' = o \/ o' = nothing).
+Fixpoint mark (i : nat) (l : list bool) : list bool :=
+  match l, i with [], _ => [] | _ :: l', O => true :: l' | b :: l', S j => b :: mark j l' end.
+Definition parts_of (o : op nat) : list nat :=
+  match o with
+  | Coord _ | Param _ | Integer _ => []
+  | Add a b | Sub a b | Mul a b | Div a b => [a; b]
+  | Neg a | Sqr a | Sqrt a => [a]
+  | Elbow _ a b c => [a; b; c]
+  end.
+(** Last first. *)
+Fixpoint thinned_back (l : list (op nat)) (needed : list bool) : list (op nat) :=
+  match l, needed with
+  | o :: l', b :: rest => if b then o :: thinned_back l' (fold_right mark rest (parts_of o)) else nothing :: thinned_back l' rest
+  | o :: l', [] => o :: thinned_back l' []
+  | [], _ => []
+  end.
+Definition thinned (wanted : list nat) (tape : list (op nat)) : list (op nat) :=
+  rev_append (thinned_back (rev_append tape []) (fold_right mark (map (fun _ => false) tape) wanted)) [].
+
+Lemma thinned_is : forall wanted tape, is_thinned (thinned wanted tape) tape.
+Proof.
+  intros wanted tape. unfold thinned. rewrite <- !rev_alt. set (needed := fold_right mark _ _). clearbody needed.
+  assert (B : forall l needed, is_thinned (thinned_back l needed) l).
+  { induction l as [| o l IH]; intros [| [|] rest]; cbn [thinned_back]; constructor; auto; apply IH. }
+  assert (R0 : forall l' l, is_thinned l' l -> is_thinned (rev l') (rev l)).
+  { induction 1 as [| o' o l' l h hs IH]; [constructor |]. cbn [rev]. apply Forall2_app; [exact IH | constructor; [exact h | constructor]]. }
+  rewrite <- (rev_involutive tape) at 2. apply R0, B.
+Qed.
+Lemma thinned_not_at_all : forall tape, is_thinned tape tape.
+Proof. induction tape; constructor; auto. Qed.
+
+Theorem run_thinned : forall (V W : Type) (dv : V) (dw : W) (ev : op V -> V) (ew : op W -> W) (P : V -> W -> Prop),
+  P dv dw -> (forall w, P dv w) -> (forall f, ev (map_op f nothing) = dv) -> (forall (o : op nat) f g, (forall i, P (f i) (g i)) -> P (ev (map_op f o)) (ew (map_op g o))) ->
+  forall tape' tape, is_thinned tape' tape -> forall vs ws, Forall2 P vs ws -> Forall2 P (run V dv ev tape' vs) (run W dw ew tape ws).
+Proof.
+  intros V W dv dw ev ew P start never none step. induction 1 as [| o' o tape' tape h hs IH]; intros vs ws r; [exact r |]. cbn [run]. apply IH. constructor; [| exact r].
+  destruct h as [-> | ->]; [apply step; intro i; exact (nth_related V W dv dw P start vs ws r i) | rewrite none; apply never].
+Qed.
+
 Section Tape.
 Variable tape : list (op nat).
 Variable params : list fixed.
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
+(** Of which there are values. *)
+Variable thin : list (op nat).
+Hypothesis thin_is : is_thinned thin tape.
 
 Definition lift1 (f : fixed -> option fixed) (a : option fixed) : option fixed := match a with Some a => f a | None => None end.
 Definition lift2 (f : fixed -> fixed -> option fixed) (a b : option fixed) : option fixed := lift1 (fun a => lift1 (f a) b) a.
@@ -409,7 +455,7 @@ Definition fixed_op (coords : list fixed) (o : op (option fixed)) : option fixed
 
 Definition entry_at (i : nat) : formula := nth i (formulas tape) (integer 0).
 Definition evaluate_at (q : list (fixed * fixed)) : list (option fixed) :=
-  run (option fixed) None (fixed_op (map fst q ++ map snd q)) tape [].
+  run (option fixed) None (fixed_op (map fst q ++ map snd q)) thin [].
 
 Definition has_value (ps : list (R * R)) (a : option fixed) (f : formula) : Prop :=
   match a with Some a => contains bits a (at_pairs theta f ps) | None => True end.
@@ -423,7 +469,7 @@ Proof.
   assert (C : Forall2 (contains bits) (map fst q ++ map snd q) (point_of ps)).
   { unfold point_of. apply Forall2_app; eapply map_related; try exact h; intros ? ? [? ?]; assumption. }
   apply (nth_related _ _ None (integer 0) (has_value ps)); [exact I |].
-  apply (run_related (option fixed) formula None (integer 0) _ F (has_value ps)); [exact I | | constructor].
+  apply (run_thinned (option fixed) formula None (integer 0) _ F (has_value ps)); [exact I | intro; exact I | reflexivity | | exact thin_is | constructor].
   intros o f g H. unfold has_value, at_pairs in *. destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | ? a b e];
     cbn [map_op fixed_op value real_op];
     try (pose proof (H a) as A; destruct (f a) as [ia |]; cbn [lift1 lift2]; [| exact I]);
@@ -506,7 +552,7 @@ Definition tensor_op (coords : list tensor) (o : op tensor) : tensor :=
   | Elbow _ _ _ _ => Constant None
   end.
 Definition tensors (cell : list fixed) : list tensor :=
-  run tensor (Constant None) (tensor_op (axes fst cell ++ axes snd cell)) tape [].
+  run tensor (Constant None) (tensor_op (axes fst cell ++ axes snd cell)) thin [].
 
 Theorem tensors_value : forall cell p, length p = length cell ->
   forall i, value_at (nth i (tensors cell) (Constant None)) p = nth i (evaluate_at (points cell p)) None.
@@ -525,20 +571,6 @@ Proof.
 Qed.
 
 (** ** Tests: sigma_min^2 > k w, sigma_max^2 < k w, f >= 0 *)
-
-Inductive polynomial_test :=
-  (* of the first [e] coordinates, ends alone *)
-  | LeastOf (r : rows nat) (w : nat) (kappa2 : fixed) (e : nat)
-  | GreatestOf (r : rows nat) (w : nat) (k2 : fixed)
-  (* |M u|^2 |v|^2 < c^2 |M v|^2 |u|^2 *)
-  | ConditionOf (r : rows nat) (w : nat) (c2 : fixed)
-  (* |A^T u|^2 > k w D_i u_i^2: a column of the inverse *)
-  | SolveOf (i : nat) (r : rows nat) (w : nat) (k2 : fixed) (e : nat)
-  | SignOf (f : nat)
-  (* (A . u)^2 > w D |u|^2 of one row of one entry *)
-  | LeverOf (r : rows nat) (w : nat)
-  (* Y^T A + A^T Y > 0, with one Y for all cells *)
-  | ChordsOf (r : rows nat) (w : nat) (places : N) (Y : list (list Z)).
 
 Fixpoint all_known (a : list (option fixed)) : option (list fixed) :=
   match a with

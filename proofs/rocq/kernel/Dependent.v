@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
 From Orthocert Require Import Claim.
-From Orthocert.kernel Require Import Linear Compare.
+From Orthocert.kernel Require Import Linear Number Compare.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.

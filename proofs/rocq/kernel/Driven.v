@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Pose Configuration Arm Legs Drives.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Pose Arm Legs Drives.
 From Orthocert.kernel Require Solve.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -10,44 +10,6 @@ Local Notation length := Datatypes.length.
 
 Section Named.
 Context {names : naming}.
-
-(** ** Numbers of a demand that are in formulas *)
-
-(** An exact number, an angle in radians over 2^u, or the cosine or sine of an angle in degrees. *)
-Inductive input := InUnit (x : number) (u : Z) | Radians (x : number) (u : Z) | Cosine (x : number) | Sine (x : number).
-Definition input_value (i : input) : R :=
-  match i with
-  | InUnit x u => Claim.value x / two_to u
-  | Radians x u => in_degrees (Claim.value x / two_to u)
-  | Cosine x => cos (in_degrees (Claim.value x))
-  | Sine x => sin (in_degrees (Claim.value x))
-  end.
-Definition input_formula (i : input) (j : nat) : formula := match i with InUnit x u => quantity (exactly x, u) j | _ => F (Param j) end.
-Fixpoint input_formulas (j : nat) (l : list input) : list formula :=
-  match l with [] => [] | i :: l' => input_formula i j :: input_formulas (S j) l' end.
-
-Lemma exact_within : forall x u, scaled_within (exactly x, u) (Claim.value x / two_to u).
-Proof. intros x u. exists (Claim.value x). split; [split; apply Rle_refl | reflexivity]. Qed.
-Lemma input_formulas_value : forall l x front back, map (Formula.value x (front ++ map input_value l ++ back)) (input_formulas (length front) l) = map input_value l.
-Proof.
-  induction l as [| i l IH]; intros x front back; [reflexivity |]. cbn [map input_formulas app]. f_equal.
-  - destruct i as [y u | | |]; cbn [input_formula]; [apply quantity_value; [exact (exact_within y u) |] | | |]; apply nth_middle.
-  - specialize (IH x (front ++ [input_value i]) back). rewrite app_length, <- app_assoc in IH. cbn [length app] in IH. rewrite Nat.add_1_r in IH. exact IH.
-Qed.
-
-(** M is in the unit 2^[rate] of the check: of angles, over a length. *)
-Definition rate (are_angles : bool) (s : Z) : Z := if are_angles then (- s)%Z else 0%Z.
-Definition inputs_of (are_angles : bool) (s : Z) (d : demand) : list input :=
-  match d with
-  | LengthMin _ b | LengthMax _ b => [InUnit b s]
-  | AngleWithin _ a b => [Cosine a; Sine a; Cosine b; Sine b]
-  | SpeedMax _ tool b => [InUnit (Over b tool) 0]
-  | TurnMax _ tool b => [Radians (Over b tool) (- s)]
-  | StiffnessMin k b => [InUnit (Over b k) (rate are_angles s + rate are_angles s)]
-  | SerialMin _ b | ParallelMin b => [InUnit b 0]
-  | LegAngleMax _ b => [Cosine b]
-  | _ => []
-  end.
 
 (** ** Tests *)
 
@@ -89,44 +51,9 @@ Definition stiffened (fs : list pose_formulas) (q : formula) : rows formula := m
 Definition own_of (fs : list pose_formulas) (q : list formula) (d : demand) : list formula :=
   match d with StiffnessMin _ _ => entries (stiffened fs (nth 0 q (integer 0))) | _ => concat (signs_of fs q d) end.
 
-(** What is made of each demand, with the formulas of its numbers; [j] is the place of the first. *)
-Fixpoint of_each {A : Type} (g : list formula -> demand -> list A) (are_angles : bool) (s : Z) (j : nat) (ds : list demand) : list A :=
-  match ds with
-  | [] => []
-  | d :: ds' => g (input_formulas j (inputs_of are_angles s d)) d ++ of_each g are_angles s (j + length (inputs_of are_angles s d)) ds'
-  end.
-
-Lemma of_each_at : forall are_angles s ds d x front back, In d ds ->
-  let theta := front ++ map input_value (flat_map (inputs_of are_angles s) ds) ++ back in
-  exists q, map (Formula.value x theta) q = map input_value (inputs_of are_angles s d) /\
-    forall A (g : list formula -> demand -> list A) a, In a (g q d) -> In a (of_each g are_angles s (length front) ds).
-Proof.
-  intros are_angles s. induction ds as [| d0 ds IH]; intros d x front back i; [contradiction |]. cbv zeta. cbn [flat_map of_each]. destruct i as [-> | i].
-  - exists (input_formulas (length front) (inputs_of are_angles s d)). split; [rewrite map_app, <- app_assoc; apply input_formulas_value |].
-    intros A g a k. apply in_or_app. left. exact k.
-  - destruct (IH d x (front ++ map input_value (inputs_of are_angles s d0)) back i) as [q [h1 h2]]. exists q. rewrite map_app, <- !app_assoc in *.
-    split; [exact h1 |]. intros A g a k. apply in_or_app. right. specialize (h2 A g a k). rewrite app_length, map_length in h2. exact h2.
-Qed.
-
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
-
-Definition enclose_input (i : input) : option fixed :=
-  match i with
-  | InUnit x u => enclose_parameter bits (exactly x, u)
-  | Radians x u => match enclose_parameter bits (exactly x, u) with Some a => radians bits a | None => None end
-  | Cosine x => cosine bits x
-  | Sine x => sine bits x
-  end.
-Lemma enclose_input_sound : forall i a, enclose_input i = Some a -> contains a (input_value i).
-Proof.
-  intros [x u | x u | x | x] a h; cbn [enclose_input input_value] in *.
-  - exact (enclose_parameter_sound bits _ _ _ h (exact_within x u)).
-  - destruct (enclose_parameter bits (exactly x, u)) as [e |] eqn:ee; [| discriminate]. exact (radians_sound bits _ _ _ h (enclose_parameter_sound bits _ _ _ ee (exact_within x u))).
-  - exact (cosine_sound bits _ _ h).
-  - exact (sine_sound bits _ _ h).
-Qed.
 
 Definition tests_for (place : formula -> nat) (fs : list pose_formulas) (are_angles : bool) (s : Z) (q : list formula) (d : demand) : list (option test) :=
   let squared make x := [option_map (fun a => make (sqr bits a)) (enclose_parameter bits (exactly x, rate are_angles s))] in
@@ -185,7 +112,7 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let place := place (formulas tape) in
   forallb (fun e => same (nth (place e) (formulas tape) (integer 0)) e) wanted && existsb rules_out demands && is_flat_region k (place_of c) && is_oriented c &&
   forallb (fun d => Bool.eqb (is_angular_drive d) angular) (drives c) &&
-  match all_some (map (enclose_parameter bits) (lay ++ [ell])), all_some (map enclose_input (flat_map (inputs_of angular s) demands)),
+  match all_some (map (enclose_parameter bits) (lay ++ [ell])), all_some (map (enclose_input bits) (flat_map (inputs_of angular s) demands)),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_edges k (place_of c))),
         match turned_by c with Some o => all_some (map (end_box bits) (chart_ends o)) | None => Some [] end,
         all_some (map (enclose_tangent bits) (curve_angles c)),
@@ -211,13 +138,7 @@ Proof.
   set (C := c * cos A + s * sin A). set (S := s * cos A - c * sin A) in *.
   assert (CS : C ^ 2 + S ^ 2 = 1) by (unfold C, S; transitivity ((c ^ 2 + s ^ 2) * (sin A * sin A + cos A * cos A)); [ring | rewrite one, u; ring]).
   assert (C1 : -1 <= C <= 1) by (split; nra).
-  assert (K : exists d, 0 <= d <= PI /\ cos d = C).
-  { destruct (IVT_cor (fun t => C - cos t) 0 PI) as [d [d0 dz]].
-    - apply continuity_minus; [apply continuity_const; intros y z; reflexivity | exact continuity_cos].
-    - lra.
-    - rewrite cos_0, cos_PI. nra.
-    - exists d. split; [exact d0 | lra]. }
-  destruct K as [d [ab ca]]. assert (sa : sin d = S).
+  destruct (cosine_taken C C1) as [d [ab ca]]. assert (sa : sin d = S).
   { pose proof (sin_ge_0 d (proj1 ab) (proj2 ab)) as s0. pose proof (sin2_cos2 d) as v. unfold Rsqr in v. rewrite ca in v. nra. }
   assert (E : in_degrees (a + d * 180 / PI) = A + d) by (unfold A, in_degrees; field; lra).
   assert (ec : cos (A + d) = c).
@@ -257,21 +178,21 @@ Proof.
   - reflexivity.
 Qed.
 
-Lemma reached_aside : forall n J X T A B d, Configuration.fulfils n (Configuration J X T A) d -> Configuration.fulfils n (Configuration J X T B) d.
-Proof. intros n J X T A B [] h; exact h. Qed.
+Lemma reached_aside : forall n J X T l p A B d, Configuration.fulfils n (Configuration J X T l p A) d -> Configuration.fulfils n (Configuration J X T l p B) d.
+Proof. intros n J X T l p A B [] h; exact h. Qed.
 
 (** What is asked of a joint at a point: its row of M, its coordinate, the leg, and where it is reached. *)
 Record seen := Seen { seen_row : list R; seen_joint : coordinate; seen_rod : option Configuration.rod; seen_reach : Prop }.
 
 Section Fulfilled.
 Variable bits : positive.
-Variables (x theta : list R) (s : Z) (n : nat) (are_angles : bool) (fs : list pose_formulas) (m : list seen).
+Variables (x theta : list R) (s : Z) (n : nat) (are_angles : bool) (fs : list pose_formulas) (m : list seen) (here : vec -> vec).
 Variables (tape : list (op nat)) (params : list fixed) (partial : list nat).
 Local Notation value := (Formula.value x theta).
 Local Notation found := (place (formulas tape)).
 Local Notation holds := (Check.holds bits tape (map_rows found (pose_rows fs)) (map_rows found (pose_divided fs)) partial params theta n x).
 Let mu := / two_to (rate are_angles s).
-Let conf := Configuration (map seen_row m) (map seen_joint m) (map seen_rod m) True.
+Let conf := Configuration (map seen_row m) (map seen_joint m) (map seen_rod m) [] here True.
 (** The formulas of a joint, in the unit of the check. *)
 Definition is_good (f : pose_formulas) (l : seen) : Prop :=
   let mu := / two_to (rate are_angles s) in let u := / two_to s in
@@ -445,7 +366,8 @@ Proof.
   assert (Low : forall low, holds (SigmaMin low) -> forall c v, contains bits low c -> length v = n -> nonzero v -> c * Linear.dot v v < mu ^ 2 * Configuration.speed2 (jacobian conf) v).
   { intros low [_ h] c v hc lv nz. destruct (of_rows_energy _ h) as [_ [r [b e]]]. rewrite <- e. exact (b c v hc lv nz). }
   assert (Num := number_at). assert (Signs := signs_hold). assert (One := one_sign). unfold by_signs in Signs, One.
-  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i tool b | a b | i tool b | i b | i b | b]; cbn [Configuration.fulfils].
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i tool b | a b | i tool b | i b | i b | b | i on j b | one other b]; cbn [Configuration.fulfils].
+  15-16: exfalso; destruct (shown None ltac:(left; reflexivity)) as [t [e _]]; discriminate.
   - intros v lv nz. destruct (shown (Some (SigmaMin zero)) ltac:(left; reflexivity)) as [t [e h]]. injection e as <-.
     pose proof (Low zero h 0 v (zero_sound bits) lv nz) as q0. rewrite Rmult_0_l in q0. apply Rmult_lt_reg_l with (mu ^ 2); lra.
   - intros v lv. destruct (is_zero_or_not v) as [nz | z]; [| destruct (zero_speed v z) as [-> ->]; lra].
@@ -640,8 +562,7 @@ Proof.
   assert (T : Forall2 (contains bits) (params ++ inputs ++ tangents) theta).
   { unfold theta. rewrite (app_assoc th). apply Forall2_app; [| apply Forall2_app].
     - apply (enclosed_all bits _ _ _ ep). apply Forall2_app; [exact TH |]. constructor; [apply exact_within | constructor].
-    - clear - ei. revert inputs ei. induction ins as [| i l IH]; intros inputs e; cbn [map all_some] in *; [injection e as <-; constructor |].
-      destruct (enclose_input bits i) as [a |] eqn:e1; [| discriminate]. destruct (all_some _) as [r |]; [| discriminate]. injection e as <-. constructor; [exact (enclose_input_sound bits _ _ e1) | exact (IH r eq_refl)].
+    - exact (inputs_enclosed bits _ _ ei).
     - unfold tt, curve_angles in *. destruct (turned_by c) as [o |] eqn:eo; [| injection eg as <-; constructor].
       apply (tangents_in bits); [intros a i; exact (curved_angles _ a (proj1 (AOK o eq_refl)) i) | exact eg]. }
   (* coordinates *)
@@ -719,15 +640,15 @@ Proof.
     split; [exact h1 |]. split; [exact h2 |]. split; [intro d; exact (h3 d V4) | exact h4]. }
   assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; left; exact i).
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e i; apply Found, in_or_app; right; apply in_or_app; left; exact i).
-  destruct (of_rows_energy x theta s (freedom k) angular fs (map look m) tape good W1 W2 _ LOW) as [RE [r [b e]]].
+  destruct (of_rows_energy x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape good W1 W2 _ LOW) as [RE [r [b e]]].
   unfold meets_driven. fold k demands L. cbn [jacobian] in e. assert (EJ : map seen_row (map look m) = jacobian (legs_at k L m P Q)) by (rewrite map_map; reflexivity). rewrite EJ in e.
   split; [rewrite Forall_map in RE; exact RE |]. split.
   - intros v lv nz. specialize (b c0 v hc0 lv nz). rewrite e in b. unfold nonzero in nz.
     assert (0 <= c0 * Linear.dot v v) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intro z.
     pose proof (mu_pos s angular) as m0. assert (0 < (/ two_to (rate angular s)) ^ 2) by (apply pow_lt, m0). nra.
   - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-    pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3) as met.
-    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ met).
+    pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3) as met.
+    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ met).
 Qed.
 
 (** ** Claims that are about something *)

@@ -4,7 +4,7 @@
     checker's; a power of two is the unit of lengths, so that the integers of
     a check have one size whatever the claim's unit. *)
 
-From Coq Require Import ZArith QArith Reals Lra Lia List Bool.
+From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed Claim.
 From Orthocert.kernel Require Import Arithmetic.
 From Orthocert.kernel Require Slope.
@@ -43,9 +43,64 @@ Qed.
 Section Named.
 Context {names : naming}.
 
+(** The number as a fraction, given the roots that are. *)
+Section Roots.
+Variable root : Q -> option Q.
+
+Fixpoint fraction (x : number) : option Q :=
+  let both f a b := match fraction a, fraction b with Some p, Some q => f p q | _, _ => None end in
+  match x with
+  | Ratio n d => Some (n # d)%Q
+  | Plus a b => both (fun p q => Some (Qplus p q)) a b
+  | Minus a b => both (fun p q => Some (Qminus p q)) a b
+  | Times a b => both (fun p q => Some (Qmult p q)) a b
+  | Over a b => both (fun p q => if Qeq_bool q 0 then None else Some (Qdiv p q)) a b
+  | Root a => match fraction a with Some q => root q | None => None end
+  | Varying _ _ _ => None
+  end.
+
+Hypothesis root_sound : forall q s, root q = Some s -> sqrt (Q2R q) = Q2R s.
+
+Lemma fraction_sound : forall x q, fraction x = Some q -> value x = Q2R q.
+Proof.
+  induction x as [n d | k a b | a ha b hb | a ha b hb | a ha b hb | a ha b hb | a ha]; intros q h; cbn [fraction] in h; [| discriminate | | | | |];
+    try (destruct (fraction a) as [p |]; [| discriminate]; destruct (fraction b) as [r |]; [| discriminate];
+      cbn [value]; rewrite (ha p eq_refl), (hb r eq_refl)).
+  - injection h as <-. reflexivity.
+  - injection h as <-. symmetry. apply Q2R_plus.
+  - injection h as <-. symmetry. apply Q2R_minus.
+  - injection h as <-. symmetry. apply Q2R_mult.
+  - destruct (Qeq_bool r 0) eqn:z; [discriminate |]. injection h as <-. symmetry. apply Q2R_div.
+    intro e. apply Qeq_bool_iff in e. congruence.
+  - destruct (fraction a) as [p |]; [| discriminate]. cbn [value]. rewrite (ha p eq_refl). apply root_sound, h.
+Qed.
+End Roots.
+
+(** The number, where it has no roots. *)
+Definition rational : number -> option Q := fraction (fun _ => None).
+
+Lemma rational_sound : forall x q, rational x = Some q -> value x = Q2R q.
+Proof. apply fraction_sound. discriminate. Qed.
+
 Section Precision.
 Variable bits : positive.
 Local Notation contains := (contains bits).
+
+(** A root of what may be zero: of its part from zero on. *)
+Definition root_from_zero (a : fixed) : option fixed :=
+  if (0 <? hi a)%Z then option_map (fun b => Fixed 0 (hi b)) (root bits (Fixed (hi a) (hi a))) else if (hi a =? 0)%Z then Some zero else None.
+Lemma root_from_zero_sound : forall a b x, root_from_zero a = Some b -> contains a x -> contains b (sqrt x).
+Proof.
+  intros a b x e [_ u]. pose proof (unit_R_pos bits) as u0. unfold root_from_zero in e. destruct (0 <? hi a)%Z.
+  - destruct (root bits (Fixed (hi a) (hi a))) as [r |] eqn:er; [| discriminate]. cbn [option_map] in e. injection e as <-.
+    set (w := IZR (hi a) / unit_R bits). assert (ew : w * unit_R bits = IZR (hi a)) by (unfold w; field; lra).
+    assert (W : contains (Fixed (hi a) (hi a)) w) by (split; cbn [lo hi]; lra).
+    destruct (root_sound bits _ _ _ er W) as [_ [_ [_ k]]]. split; cbn [lo hi]; [pose proof (Rmult_le_pos _ _ (sqrt_pos x) (Rlt_le _ _ u0)); lra |].
+    apply Rle_trans with (2 := k), Rmult_le_compat_r; [lra |]. apply sqrt_le_1_alt. apply Rmult_le_reg_r with (unit_R bits); lra.
+  - destruct (hi a =? 0)%Z eqn:z; [| discriminate]. injection e as <-. apply Z.eqb_eq in z. rewrite z in u.
+    rewrite sqrt_neg_0 by nra. apply zero_sound.
+Qed.
+Definition is_negative_fraction (x : number) : bool := match rational x with Some q => negb (Qle_bool 0 q) | None => false end.
 
 (** Of numbers that do not vary. *)
 Fixpoint steady (x : number) : option fixed :=
@@ -60,7 +115,10 @@ Fixpoint steady (x : number) : option fixed :=
       | Some a, Some b => match recip bits b with Some c => Some (mul bits a c) | None => None end
       | _, _ => None
       end
-  | Root x => match steady x with Some a => root bits a | None => None end
+  | Root x => match steady x with
+      | Some a => if (0 <? lo a)%Z then root bits a else if is_negative_fraction x then None else root_from_zero a
+      | None => None
+      end
   end.
 
 Lemma steady_sound : forall x a, steady x = Some a -> contains a (value x).
@@ -78,7 +136,8 @@ Proof.
     destruct (recip bits c) as [d |] eqn:r; [| discriminate].
     assert (e : mul bits b d = a) by congruence. subst a. apply mul_sound; [auto |].
     apply (recip_sound bits c); auto.
-  - destruct (steady x) as [b |]; [| discriminate]. apply (root_sound bits b); auto.
+  - destruct (steady x) as [b |]; [| discriminate]. destruct (0 <? lo b)%Z; [apply (root_sound bits b); auto |].
+    destruct (is_negative_fraction x); [discriminate |]. apply (root_from_zero_sound b); auto.
 Qed.
 
 (** The others by their slopes in what varies, so that what cancels does: parameter [k] is half its range's width times

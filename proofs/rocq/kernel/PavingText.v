@@ -7,6 +7,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool String.
 From Orthocert Require Import Claim.
+From Orthocert.kernel Require Import Inputs.
 From Orthocert.kernel Require Import Statement Problem Witness Paving Certificate.
 Import ListNotations.
 Local Open Scope string_scope.

@@ -6,7 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert.kernel Require Import Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Poses Control Chart.
+From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Chart.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -14,19 +14,48 @@ Local Notation length := Datatypes.length.
 Section Named.
 Context {names : naming}.
 
+(** ** Tests *)
+
+Inductive pose_test :=
+  (* sigma_min^2 > k w; of the first [e] coordinates, ends alone *)
+  | LeastOf (r : rows nat) (w : nat) (kappa2 : fixed) (e : nat)
+  (* sigma_max^2 < k w *)
+  | GreatestOf (r : rows nat) (w : nat) (k2 : fixed)
+  (* |M u|^2 |v|^2 < c^2 |M v|^2 |u|^2 *)
+  | ConditionOf (r : rows nat) (w : nat) (c2 : fixed)
+  (* |A^T u|^2 > k w D_i u_i^2: a column of the inverse *)
+  | SolveOf (i : nat) (r : rows nat) (w : nat) (k2 : fixed) (e : nat)
+  | SignOf (f : nat)
+  (* (A . u)^2 > w D |u|^2 of one row of one entry *)
+  | LeverOf (r : rows nat) (w : nat)
+  (* (A . u)^2 < w D |u|^2 of one row of three entries *)
+  | AxisOf (r : rows nat) (w : nat)
+  (* Y^T A + A^T Y > 0, with one Y for all cells *)
+  | ChordsOf (r : rows nat) (w : nat) (places : N) (Y : list (list Z))
+  (* of formulas that are no polynomials, by their slopes *)
+  | OnSlopes (t : test).
+
+Definition test_places (t : pose_test) : list nat :=
+  match t with
+  | LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ | ChordsOf r w _ _ | LeverOf r w | AxisOf r w => w :: all_places r
+  | SignOf f => [f]
+  | OnSlopes _ => []
+  end.
+
 (** ** The tree *)
 
 Section Tree.
 Variable bits : positive.
-Variable tape : list (op nat).
+(** Of polynomials, with squares of coordinates as coordinates, and of other formulas. *)
+Variables tape plain : list (op nat).
 Variable params : list fixed.
-Variable tests : list polynomial_test.
+Variable tests : list pose_test.
 Variables m n : nat.
 (** Where it is curved, what is not negative at the orientations. *)
 Variable g : option nat.
 
 
-Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e : evidence) : bool :=
+Definition shows_less (ts : list tensor) (l : multiple) (t : pose_test) (e : evidence) : bool :=
   let at_all e good r w := everywhere e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
   match t, e with
   | LeastOf r w k ends, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
@@ -38,35 +67,40 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : polynomial_test) (e
   | ChordsOf r w places Y, ByChords => at_all 0%nat (rank_at n places Y) r w
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | LeverOf r w, ByLower places [[y]] => at_all 0%nat (lower_at bits 1 places [[y]] (Fixed.integer bits 1)) r w
+  | AxisOf r w, ByTest => at_all 0%nat (upper_at bits 3 (Fixed.integer bits 1)) r w
   | _, _ => false
   end.
-Definition shows_at (ts : list tensor) (t : polynomial_test) (e : evidence) : bool :=
+Definition shows_at (ts : list tensor) (values : list (option slope)) (t : pose_test) (e : evidence) : bool :=
   match e with
   | AtControls (Turned e k places) =>
       match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less ts (Some (g, k, places)) t e | None => false end
   | AtControls e => shows_less ts None t e
+  | ByTest | ByDirection _ _ => match t with OnSlopes t => shows bits [] [] [] values m None t e | _ => false end
   | _ => false
   end.
 (** No orientation of the set is in the cell. *)
 Definition is_outside_at (cell : list fixed) : bool :=
   match g with
-  | Some g => match nth g (evaluate_at bits tape params (map (fun a => (a, sqr bits a)) cell)) None with Some a => (hi a <? 0)%Z | None => false end
+  | Some g => match nth g (evaluate_at bits params tape (map (fun a => (a, sqr bits a)) cell)) None with Some a => (hi a <? 0)%Z | None => false end
   | None => false
   end.
-Fixpoint discharged (cell : list fixed) (ts : list tensor) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
+Fixpoint discharged (cell : list fixed) (ts : list tensor) (values : list (option slope)) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
   match steps with
   | [] => Some open
-  | (O, Outside) :: rest => if is_outside_at cell then discharged cell ts rest (map (fun _ => false) open) else None
+  | (O, Outside) :: rest => if is_outside_at cell then discharged cell ts values rest (map (fun _ => false) open) else None
   | (i, e) :: rest =>
       match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at ts t e then discharged cell ts rest (clear i open) else None
+      | true, Some t => if shows_at ts values t e then discharged cell ts values rest (clear i open) else None
       | _, _ => None
       end
   end.
-Definition is_outside (s : nat * evidence) : bool := match s with (O, Outside) => true | _ => false end.
-(** With formulas at control points where there is a test. *)
+(** Formulas at control points, and in slopes, where they are asked for. *)
+Definition of_controls (s : nat * evidence) : bool := match snd s with AtControls _ => true | _ => false end.
+Definition of_slopes (s : nat * evidence) : bool := match snd s with ByTest | ByDirection _ _ => true | _ => false end.
+Definition places_in (steps : list (nat * evidence)) : list nat :=
+  match g with Some i => [i] | None => [] end ++ flat_map (fun s => if of_controls s then match nth_error tests (fst s) with Some t => test_places t | None => [] end else []) steps.
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  discharged cell (if forallb is_outside steps then [] else tensors bits tape params cell) steps open.
+  discharged cell (if existsb of_controls steps then tensors bits params (thinned (places_in steps) tape) cell else []) (if existsb of_slopes steps then evaluate bits plain params cell else []) steps open.
 Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
   match t with
   | Leaf steps => match steps_at cell steps open with Some last => forallb negb last | None => false end
@@ -79,10 +113,8 @@ Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
 
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
-Definition test_places (t : polynomial_test) : list nat :=
-  match t with LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ | ChordsOf r w _ _ | LeverOf r w => w :: all_places r | SignOf f => [f] end.
 (** Rows and weight of a test that has ends alone of some coordinates. *)
-Definition with_ends (t : polynomial_test) : option (rows nat * nat * nat) :=
+Definition with_ends (t : pose_test) : option (rows nat * nat * nat) :=
   match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
 Hypothesis affine : forall t, In t tests -> forallb (is_affine_at tape m) (test_places t) = true.
 Hypothesis g_affine : forall i, g = Some i -> is_affine_at tape m i = true.
@@ -93,7 +125,7 @@ Definition is_turned (x : list R) : Prop :=
   let here i := at_pairs theta (entry_at tape i) (parabola x) in
   (forall i, g = Some i -> 0 <= here i) /\ (forall t r w e, In t tests -> with_ends t = Some (r, w, e) -> e = O \/ grounded (map_rows here r) /\ 0 < here w).
 
-Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
+Definition test_holds (x : list R) (t : pose_test) : Prop :=
   let here i := at_pairs theta (entry_at tape i) (parabola x) in
   match t with
   | LeastOf r w kappa2 _ => forall k v, contains bits kappa2 k -> 0 <= k -> length v = n -> nonzero v ->
@@ -107,80 +139,99 @@ Definition test_holds (x : list R) (t : polynomial_test) : Prop :=
       positive_D (map_rows here r) /\ energy (map_rows here r) u * Linear.dot v v < c * energy (map_rows here r) v * Linear.dot u u
   | SignOf f => 0 <= here f
   | LeverOf r w => positive_D (map_rows here r) /\ here w < energy (map_rows here r) [1]
+  | AxisOf r w => forall v, length v = 3%nat -> nonzero v -> positive_D (map_rows here r) /\ energy (map_rows here r) v < here w * Linear.dot v v
+  | OnSlopes t => Check.holds bits plain [] [] [] params theta m x t
   | ChordsOf r w places Y => forall v, length v = n -> nonzero v -> 0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows here r)) v
   end.
+
+Section Thin.
+Variable thin : list (op nat).
+Hypothesis thin_is : is_thinned thin tape.
+Local Notation tensors_here cell := (tensors bits params thin cell).
 
 Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   (l = None \/ exists i k places, g = Some i /\ l = Some (i, k, places)) ->
   is_affine_multiple tape m l = true -> 0 <= less_at tape theta (parabola x) l ->
-  shows_less (tensors bits tape params cell) l t e = true -> test_holds x t.
+  shows_less (tensors_here cell) l t e = true -> test_holds x t.
 Proof.
   intros cell x l t e it hx len ht hl la l0 h. pose proof (affine t it) as ha.
-  pose proof (fun e good s => everywhere_shown bits tape params m cell len e good s) as K.
+  pose proof (fun e good s => everywhere_shown bits params thin m cell len e good s) as K.
   assert (E : forall r w c, with_ends t = Some (r, w, c) -> ends_suffice tape theta m x c n r w l).
   { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
     split; [| split; [exact lr | exact G]].
     destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
-  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w | r w places Y], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
-  - intros k v. apply (lower_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
+  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w | r w | r w places Y | t], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  - intros k v. apply (lower_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
   - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
     intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
-    exact (rank_shown bits tape params theta theta_in m cell x hx len l la l0 ends n places Y r w v ha (E r w ends eq_refl) (K _ _ _ h3) lv nz).
-  - intros k v. apply (upper_shown bits tape params theta theta_in m cell x hx len l la l0 n); [exact ha | exact (K _ _ _ h)].
+    exact (rank_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 ends n places Y r w v ha (E r w ends eq_refl) (K _ _ _ h3) lv nz).
+  - intros k v. apply (upper_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 n); [exact ha | exact (K _ _ _ h)].
   - destruct mu as [| mu mus]; [discriminate |]. intros c u v.
-    exact (conditioned_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w c2 mu mus c u v ha h).
-  - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
-  - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in m cell x hx len l la l0 f ha (K _ _ _ h)).
+    exact (conditioned_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 n places Y r w c2 mu mus c u v ha h).
+  - intros k u hk k0 w0 lu nz. exact (solve_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 ends n i places Y r w k2 k u ha (E r w ends eq_refl) (K _ _ _ h) hk k0 w0 lu nz).
+  - cbn [forallb] in ha. apply andb_true_iff in ha as [ha _]. exact (sign_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 f ha (K _ _ _ h)).
   - destruct Y as [| [| y [|]] [|]]; try discriminate.
-    destruct (lower_shown bits tape params theta theta_in m cell x hx len l la l0 0%nat 1%nat places [[y]] r w _ 1 [1] ha (or_introl eq_refl) (K _ _ _ h) (Fixed.integer_sound bits 1)) as [p q];
+    destruct (lower_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 0%nat 1%nat places [[y]] r w _ 1 [1] ha (or_introl eq_refl) (K _ _ _ h) (Fixed.integer_sound bits 1)) as [p q];
       [lra | reflexivity | unfold nonzero; cbn; lra |]. split; [exact p |]. cbn [Linear.dot] in q. lra.
-  - intros v. exact (chords_shown bits tape params theta theta_in m cell x hx len l la l0 n places Y r w v ha (K _ _ _ h)).
+  - intros v lv nz. rewrite <- (Rmult_1_l (at_pairs _ _ _)).
+    exact (upper_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 3%nat r w _ 1 v ha (K _ _ _ h) (Fixed.integer_sound bits 1) lv nz).
+  - intros v. exact (chords_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 n places Y r w v ha (K _ _ _ h)).
 Qed.
 
 Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
-  shows_at (tensors bits tape params cell) t e = true -> test_holds x t.
+  shows_at (tensors_here cell) (evaluate bits plain params cell) t e = true -> test_holds x t.
 Proof.
   intros cell x t e it hx len ht h.
-  assert (None_ : forall e, shows_less (tensors bits tape params cell) None t e = true -> test_holds x t)
+  assert (None_ : forall e, shows_less (tensors_here cell) None t e = true -> test_holds x t)
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
-  destruct e as [| | | | | | | | | | | e | | | | |]; cbn [shows_at] in h; try discriminate. destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
-  assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors bits tape params cell) (Some (i, k, places)) t e = true)
+  assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate bits plain params cell) m None t e | _ => false end) = true -> test_holds x t).
+  { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in cell x _ e' hx k). }
+  destruct e as [| | | | | | | | | | | e | | | | |]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h). destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
+  assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors_here cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
   apply (shows_less_sound cell x (Some (i, k, places)) t e it hx len ht); [right; exists i, k, places; auto | exact (g_affine i eg) | | exact s].
   cbn [less_at]. apply Rmult_le_pos; [| exact (proj1 ht i eg)]. pose proof (two_power places). apply Rmult_le_pos; [exact k0 | apply Rlt_le, Rinv_0_lt_compat; assumption].
 Qed.
 
+End Thin.
+
 Lemma is_outside_at_sound : forall cell x, Forall2 (contains bits) cell x -> is_outside_at cell = true -> ~ is_turned x.
 Proof.
   intros cell x hx h ht. unfold is_outside_at in h. destruct g as [i |] eqn:eg; [| discriminate].
   destruct (nth i _ None) as [a |] eqn:ea; [| discriminate]. apply Z.ltb_lt, IZR_lt in h.
-  destruct (range_sound bits tape params theta theta_in cell x hx i a ea) as [_ u]. pose proof (proj1 ht i eg). pose proof (unit_R_pos bits). nra.
+  destruct (range_sound bits tape params theta theta_in tape (thinned_not_at_all tape) cell x hx i a ea) as [_ u]. pose proof (proj1 ht i eg). pose proof (unit_R_pos bits). nra.
 Qed.
 
 Definition is_done (x : list R) (open : list bool) : Prop := forall i t, nth_error tests i = Some t -> nth i open false = false -> test_holds x t.
 
-Lemma steps_at_tensors : forall cell steps open, steps_at cell steps open = discharged cell (tensors bits tape params cell) steps open.
+Lemma discharged_needs : forall cell ts ts' vs vs' steps open, (existsb of_controls steps = true -> ts = ts') -> (existsb of_slopes steps = true -> vs = vs') ->
+  discharged cell ts vs steps open = discharged cell ts' vs' steps open.
 Proof.
-  intros cell steps open. unfold steps_at. destruct (forallb is_outside steps) eqn:h; [| reflexivity]. revert open h.
-  induction steps as [| [i e] steps IH]; intros open h; [reflexivity |]. cbn [forallb] in h. apply andb_true_iff in h as [h1 h2].
-  destruct i, e; try discriminate h1. cbn [discharged]. destruct (is_outside_at cell); [apply IH, h2 | reflexivity].
+  intros cell ts ts' vs vs'. induction steps as [| [i e] steps IH]; intros open hc hs; [reflexivity |]. cbn [existsb] in hc, hs.
+  assert (Rest : forall open, discharged cell ts vs steps open = discharged cell ts' vs' steps open)
+    by (intro o; apply IH; intro k; [apply hc | apply hs]; rewrite k; apply orb_true_r).
+  assert (E : forall t, shows_at ts vs t e = shows_at ts' vs' t e).
+  { intro t. destruct e; try reflexivity; [rewrite (hs eq_refl) | rewrite (hc eq_refl) | rewrite (hs eq_refl)]; reflexivity. }
+  destruct i, e; cbn [discharged]; try (destruct (is_outside_at cell); [apply Rest | reflexivity]);
+    match goal with |- match nth ?j open false with _ => _ end = _ => destruct (nth j open false); [destruct (nth_error tests j); [rewrite E, Rest |] |]; reflexivity end.
 Qed.
 
 Lemma steps_at_sound : forall cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   steps_at cell steps open = Some rest -> is_done x open -> is_done x rest.
 Proof.
-  intros cell x steps open rest hx len ht h.
-  assert (h' : discharged cell (tensors bits tape params cell) steps open = Some rest) by (rewrite <- steps_at_tensors; exact h). clear h.
-  assert (Own : forall i e steps, (forall open, discharged cell (tensors bits tape params cell) steps open = Some rest -> is_done x open -> is_done x rest) ->
+  intros cell x steps open rest hx len ht h. set (thin := thinned (places_in steps) tape) in *. set (ts := tensors bits params thin cell) in *. set (vs := evaluate bits plain params cell) in *.
+  assert (h' : discharged cell ts vs steps open = Some rest)
+    by (rewrite <- h; unfold steps_at; fold thin; fold ts vs; apply discharged_needs; intros ->; reflexivity). clear h.
+  assert (TI : is_thinned thin tape) by apply thinned_is. clearbody thin.
+  assert (Own : forall i e steps, (forall open, discharged cell ts vs steps open = Some rest -> is_done x open -> is_done x rest) ->
     forall open, match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at (tensors bits tape params cell) t e
-          then discharged cell (tensors bits tape params cell) steps (clear i open) else None
+      | true, Some t => if shows_at ts vs t e then discharged cell ts vs steps (clear i open) else None
       | _, _ => None end = Some rest -> is_done x open -> is_done x rest).
   { intros i e steps' IH open' h D. destruct (nth i open' false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
-    destruct (shows_at _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
+    destruct (shows_at _ _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
     destruct (nth_clear i j open' o) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
-    exact (shows_at_sound cell x t e (nth_error_In _ _ nt) hx len ht s). }
+    exact (shows_at_sound thin TI cell x t e (nth_error_In _ _ nt) hx len ht s). }
   revert open h'. induction steps as [| [i e] steps IH]; intros open h D; cbn [discharged] in h; [injection h as <-; exact D |].
   pose proof (Own i e steps IH open) as O1. destruct i as [| i], e; try exact (O1 h D).
   destruct (is_outside_at cell) eqn:o; [| discriminate h]. exfalso. exact (is_outside_at_sound cell x hx o ht).
@@ -227,21 +278,31 @@ Definition eposition (k : motion) : evec :=
   end.
 Definition first_angle (k : motion) : nat := match k with InPlane => 2 | InSpace => 3 | AboutPoint => 0 end.
 
-(** w A and w D of a strut from [a] to [b]. *)
+(** w times the vector of a strut from [a] to [b], in the base or in the platform's frame. *)
+Definition etransposed (N : emat) : emat :=
+  let column f := EVec (f (erow1 N)) (f (erow2 N)) (f (erow3 N)) in EMat (column ex) (column ey) (column ez).
+Definition way (k : motion) (N : emat) (w : formula) (a b : evec) (on_platform : bool) : evec :=
+  let h := map2 minus (eposition k) a in
+  if on_platform then map2 plus (Machine.scaled w b) (emulv (etransposed N) h) else map2 plus (Machine.scaled w h) (emulv N b).
+
+(** w A and w D. *)
 Definition scaled_row (k : motion) (N : emat) (w ell : formula) (a b : evec) : list formula * formula :=
   let p := eposition k in let h := map2 minus p a in let nb := emulv N b in
   let own := plus (plus (plus (Machine.product b b) (expanded (ex p) (ex a))) (expanded (ey p) (ey a))) (expanded (ez p) (ez a)) in
-  (etwist k (map2 plus (Machine.scaled w h) nb) (divided_by (ecross nb h) ell),
+  (etwist k (way k N w a b false) (divided_by (ecross nb h) ell),
    plus (times w own) (times (integer 2) (Machine.product nb h))).
 
-(** Of a strut, of which r is its joint's lever from P: w r . A, by the vector w A in the platform's frame, and for the greatest ratio k of
+(** Of a strut, of which r is its joint's lever from P: w r . A, and for the greatest ratio k of
     the joint's speed to the platform's, w (|b|^2 - (k^2 - q) ell^2), q = 0 if the platform turns about a point and 1 else. *)
-Definition etransposed (N : emat) : emat :=
-  let column f := EVec (f (erow1 N)) (f (erow2 N)) (f (erow3 N)) in EMat (column ex) (column ey) (column ez).
 Definition lever (k : motion) (N : emat) (w ell : formula) (a b : evec) : formula * (formula -> formula) :=
-  let own := map2 plus (Machine.scaled w b) (emulv (etransposed N) (map2 minus (eposition k) a)) in
   let q := match k with AboutPoint => 0%Z | _ => 1%Z end in
-  (Machine.product own b, fun ratio => times w (minus (Machine.product b b) (times (minus (square ratio) (integer q)) (square ell)))).
+  (Machine.product (way k N w a b true) b, fun ratio => times w (minus (Machine.product b b) (times (minus (square ratio) (integer q)) (square ell)))).
+
+(** Not polynomials: the platform end, the vector and the length. *)
+Definition eturned (N : emat) (w : formula) (b : evec) : evec := divided_by (emulv N b) w.
+Definition eplaced (k : motion) (N : emat) (w : formula) (b : evec) : evec := map2 plus (eposition k) (eturned N w b).
+Definition limb (k : motion) (N : emat) (w : formula) (a b : evec) : evec * evec * formula :=
+  let tip := eplaced k N w b in let A := map2 minus tip a in (tip, A, root (Machine.product A A)).
 
 (** [A, a x A]: of a strut in space, its vector w A with its moment about the origin, of which a is the base end. *)
 Definition origin_row (a : evec) (row : list formula * formula) : list formula * formula :=
@@ -267,6 +328,62 @@ Proof. intros. unfold val3, ecross, cross. cbn [ex ey ez vx vy vz]. rewrite !val
 End Values.
 
 (** ** What they stand for *)
+
+Lemma orthonormal_whole : forall a b c v, norm2 a = 1 -> norm2 b = 1 -> norm2 c = 1 -> Vec3.dot a b = 0 -> Vec3.dot a c = 0 -> Vec3.dot b c = 0 ->
+  vadd (vadd (vscale (Vec3.dot a v) a) (vscale (Vec3.dot b v) b)) (vscale (Vec3.dot c v) c) = v.
+Proof.
+  intros a b c v ha hb hc ab ac bc. set (u := vadd _ _). set (w := vsub v u). set (d := Vec3.dot a (cross b c)).
+  assert (D : d ^ 2 = 1).
+  { assert (E : d ^ 2 = norm2 a * norm2 b * norm2 c + 2 * Vec3.dot a b * Vec3.dot a c * Vec3.dot b c - norm2 a * Vec3.dot b c ^ 2 - norm2 b * Vec3.dot a c ^ 2 - norm2 c * Vec3.dot a b ^ 2)
+      by (unfold d; clear; vec_ring). rewrite E, ha, hb, hc, ab, ac, bc. ring. }
+  assert (S : forall p, Vec3.dot p w = Vec3.dot p v - (Vec3.dot a v * Vec3.dot p a + Vec3.dot b v * Vec3.dot p b + Vec3.dot c v * Vec3.dot p c)) by (intro p; unfold w, u; clear; vec_ring).
+  assert (C : forall p q, Vec3.dot p q = Vec3.dot q p) by (intros; unfold Vec3.dot; ring).
+  assert (A : Vec3.dot a w = 0) by (rewrite S, <- norm2_dot, ha, ab, ac; ring).
+  assert (B : Vec3.dot b w = 0) by (rewrite S, (C b a), <- norm2_dot, hb, ab, bc; ring).
+  assert (G : Vec3.dot c w = 0) by (rewrite S, (C c a), (C c b), <- norm2_dot, hc, ac, bc; ring).
+  assert (Z : vscale d w = vzero).
+  { transitivity (vadd (vadd (vscale (Vec3.dot a w) (cross b c)) (vscale (Vec3.dot b w) (cross c a))) (vscale (Vec3.dot c w) (cross a b)));
+      [unfold d; generalize w; clear; intro w; vec_ring | rewrite A, B, G; unfold vadd, vscale, vzero; cbn [vx vy vz]; f_equal; ring]. }
+  assert (W : w = vzero).
+  { transitivity (vscale d (vscale d w)); [| rewrite Z; unfold vscale, vzero; cbn [vx vy vz]; f_equal; ring].
+    clearbody w. clear - D. destruct w as [x y z]. unfold vscale. cbn [vx vy vz]. f_equal; rewrite <- Rmult_assoc; replace (d * d) with (d ^ 2) by ring; rewrite D; ring. }
+  clearbody u. unfold w in W. clear - W. destruct v as [x y z], u as [p q r]. unfold vsub, vzero in W. cbn [vx vy vz] in W. injection W as e1 e2 e3. f_equal; lra.
+Qed.
+Lemma vadd_vscale : forall r u v, vadd (vscale r u) (vscale r v) = vscale r (vadd u v).
+Proof. vec_ring. Qed.
+Lemma vsub_vscale : forall r u v, vsub (vscale r u) (vscale r v) = vscale r (vsub u v).
+Proof. vec_ring. Qed.
+Lemma transpose_mscale : forall a M, transpose (mscale a M) = mscale a (transpose M).
+Proof. vec_ring. Qed.
+Lemma mulv_back : forall M P n B, mulv M (vsub (vadd P n) B) = vadd (mulv M (vsub P B)) (mulv M n).
+Proof. vec_ring. Qed.
+Lemma way_on_platform : forall w r c n, vadd (vscale w (vscale r c)) (vscale w (vscale r n)) = vscale (w * r) (vadd n c).
+Proof. vec_ring. Qed.
+Lemma way_in_base : forall w r P n B, vadd (vscale w (vscale r (vsub P B))) (vscale w (vscale r n)) = vscale (w * r) (vsub (vadd P n) B).
+Proof. vec_ring. Qed.
+Lemma placed_difference : forall P M v, vsub (vadd P (mulv M v)) (vadd P (mulv M vzero)) = mulv M v.
+Proof. vec_ring. Qed.
+Lemma axis_on_platform : forall a o M A v, Vec3.dot (vscale a (mulv (transpose M) A)) (vscale o v) = a * o * Vec3.dot A (mulv M v).
+Proof. vec_ring. Qed.
+Lemma lever_dot : forall w r M A c, Vec3.dot (vscale (w * r) (mulv (transpose M) A)) (vscale r c) = w * r ^ 2 * Vec3.dot (mulv M c) A.
+Proof. vec_ring. Qed.
+(** What keeps lengths has its transpose as its inverse, on both sides. *)
+Lemma rotations_invert : forall Q, (forall b, norm2 (mulv Q b) = norm2 b) -> forall b, mulv (transpose Q) (mulv Q b) = b /\ mulv Q (mulv (transpose Q) b) = b.
+Proof.
+  intros Q keeps.
+  pose proof (keeps (Vec 1 0 0)) as k1. pose proof (keeps (Vec 0 1 0)) as k2. pose proof (keeps (Vec 0 0 1)) as k3.
+  pose proof (keeps (Vec 1 1 0)) as k4. pose proof (keeps (Vec 1 0 1)) as k5. pose proof (keeps (Vec 0 1 1)) as k6.
+  destruct Q as [[a1 a2 a3] [b1 b2 b3] [c1 c2 c3]]. unfold mulv, norm2, Vec3.dot in k1, k2, k3, k4, k5, k6. cbn [row1 row2 row3 vx vy vz] in k1, k2, k3, k4, k5, k6.
+  assert (n1 : a1 ^ 2 + b1 ^ 2 + c1 ^ 2 = 1) by lra. assert (n2 : a2 ^ 2 + b2 ^ 2 + c2 ^ 2 = 1) by lra. assert (n3 : a3 ^ 2 + b3 ^ 2 + c3 ^ 2 = 1) by lra.
+  assert (o1 : a1 * a2 + b1 * b2 + c1 * c2 = 0) by lra. assert (o2 : a1 * a3 + b1 * b3 + c1 * c3 = 0) by lra. assert (o3 : a2 * a3 + b2 * b3 + c2 * c3 = 0) by lra.
+  clear k1 k2 k3 k4 k5 k6. intros [x y z]. split.
+  - unfold mulv, transpose, col1, col2, col3, Vec3.dot. cbn [row1 row2 row3 vx vy vz].
+    f_equal; [transitivity ((a1 ^ 2 + b1 ^ 2 + c1 ^ 2) * x + (a1 * a2 + b1 * b2 + c1 * c2) * y + (a1 * a3 + b1 * b3 + c1 * c3) * z) |
+      transitivity ((a1 * a2 + b1 * b2 + c1 * c2) * x + (a2 ^ 2 + b2 ^ 2 + c2 ^ 2) * y + (a2 * a3 + b2 * b3 + c2 * c3) * z) |
+      transitivity ((a1 * a3 + b1 * b3 + c1 * c3) * x + (a2 * a3 + b2 * b3 + c2 * c3) * y + (a3 ^ 2 + b3 ^ 2 + c3 ^ 2) * z)]; try ring; rewrite ?n1, ?n2, ?n3, ?o1, ?o2, ?o3; ring.
+  - pose proof (orthonormal_whole (Vec a1 b1 c1) (Vec a2 b2 c2) (Vec a3 b3 c3) (Vec x y z) n1 n2 n3 o1 o2 o3) as E. rewrite <- E at 2.
+    unfold mulv, transpose, col1, col2, col3, vadd, vscale, Vec3.dot. cbn [row1 row2 row3 vx vy vz]. f_equal; ring.
+Qed.
 
 Lemma twist_scaled : forall k c a b, twist k (vscale c a) (vscale c b) = map (Rmult c) (twist k a b).
 Proof. intros [] c a b; reflexivity. Qed.
@@ -301,6 +418,15 @@ Hypothesis hl : Formula.value x theta le = r * L.
 Hypothesis ha : val3 x theta a = vscale r (strut_base l).
 Hypothesis hb : val3 x theta b = vscale r (strut_joint l).
 
+Lemma transposed_is : valm x theta (etransposed N) = transpose (mscale W Q).
+Proof. rewrite <- hN. reflexivity. Qed.
+Lemma way_values : forall on, val3 x theta (way k N we a b on) = vscale (W * r) (if on then mulv (transpose Q) (strut_vector l P Q) else strut_vector l P Q).
+Proof.
+  pose proof (proj1 (rotations_invert Q keeps (strut_joint l))) as I. intros [|]; unfold way; cbv zeta; rewrite val3_plus, val3_scaled, val3_mulv, val3_minus, hP, ha, hb, hw.
+  - rewrite transposed_is, transpose_mscale, vsub_vscale, mulv_mscale, mulv_scale. unfold strut_vector, arm_of_joint. rewrite mulv_back, I. apply way_on_platform.
+  - rewrite hN, vsub_vscale, mulv_mscale, mulv_scale. unfold strut_vector, arm_of_joint. apply way_in_base.
+Qed.
+
 Lemma scaled_row_values : let (A, D) := scaled_row k N we le a b in
   Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
   map (Formula.value x theta) A = map (Rmult (W * r)) (twist k (strut_vector l P Q) (vscale (/ L) (cross (arm_of_joint l Q) (strut_vector l P Q)))).
@@ -319,10 +445,9 @@ Proof.
     replace (Vec3.dot (vscale r (strut_joint l)) (vscale r (strut_joint l))) with (r ^ 2 * norm2 (strut_joint l)) by (unfold Vec3.dot, norm2, vscale; cbn [vx vy vz]; ring).
     rewrite <- K. clearbody n. clear. destruct P as [p1 p2 p3], (strut_base l) as [b1 b2 b3], n as [n1 n2 n3].
     unfold norm2, Vec3.dot, vsub, vadd, vscale. cbn [vx vy vz]. ring.
-  - rewrite twist_values, <- twist_scaled. rewrite val3_plus, val3_scaled, val3_divided, val3_cross, Nb, H, hw, hl.
+  - rewrite twist_values, <- twist_scaled, way_values, val3_divided, val3_cross, Nb, H, hl.
     unfold strut_vector. set (n := arm_of_joint l Q). clearbody n. clear - r0 L0. f_equal.
-    + destruct P as [p1 p2 p3], (strut_base l) as [b1 b2 b3], n as [n1 n2 n3]. unfold vsub, vadd, vscale. cbn [vx vy vz]. f_equal; ring.
-    + destruct P as [p1 p2 p3], (strut_base l) as [b1 b2 b3], n as [n1 n2 n3]. unfold vsub, vadd, vscale, cross. cbn [vx vy vz]. f_equal; field; lra.
+    destruct P as [p1 p2 p3], (strut_base l) as [b1 b2 b3], n as [n1 n2 n3]. unfold vsub, vadd, vscale, cross. cbn [vx vy vz]. f_equal; field; lra.
 Qed.
 
 Lemma scaled_row_speed : let (A, D) := scaled_row k N we le a b in
@@ -353,14 +478,8 @@ Definition is_lever (p : formula * (formula -> formula)) : Prop :=
     W * r ^ 2 * (norm2 (strut_joint l) - (Formula.value x theta ratio ^ 2 - match k with AboutPoint => 0 | _ => 1 end) * L ^ 2).
 Lemma lever_values : is_lever (lever k N we le a b).
 Proof.
-  pose proof (keeps (strut_joint l)) as K. unfold is_lever, lever. cbv zeta. cbn [fst snd]. split.
-  - assert (T : valm x theta (etransposed N) = transpose (mscale W Q)) by (rewrite <- hN; reflexivity).
-    rewrite value_dot, val3_plus, val3_scaled, val3_mulv, T, val3_minus, hP, ha, hb, hw.
-    replace (vsub (vscale r P) (vscale r (strut_base l))) with (vscale r (vsub P (strut_base l))) by (unfold vsub, vscale; cbn [vx vy vz]; f_equal; ring).
-    set (h := vsub P (strut_base l)). set (c := strut_joint l) in *.
-    transitivity (W * r ^ 2 * norm2 c + Vec3.dot (mulv (transpose (mscale W Q)) (vscale r h)) (vscale r c)); [unfold Vec3.dot, norm2, vadd, vscale; cbn [vx vy vz]; ring |].
-    rewrite <- dot_transpose, mulv_mscale, mulv_scale. unfold strut_vector, arm_of_joint. fold c. rewrite <- K. subst h. generalize (mulv Q c). clear. intros [n1 n2 n3].
-    destruct P as [p1 p2 p3], (strut_base l) as [b1 b2 b3]. unfold norm2, Vec3.dot, vsub, vadd, vscale. cbn [vx vy vz]. ring.
+  unfold is_lever, lever. cbv zeta. cbn [fst snd]. split.
+  - rewrite value_dot, way_values, hb. apply lever_dot.
   - intro ratio. rewrite value_times, value_minus, value_dot, value_times, value_minus, !Formula.value_square, hw, hl, hb.
     assert (Q0 : Formula.value x theta (integer match k with AboutPoint => 0 | _ => 1 end) = match k with AboutPoint => 0 | _ => 1 end) by (destruct k; reflexivity).
     rewrite Q0. unfold Vec3.dot, norm2, vscale. cbn [vx vy vz]. ring.
@@ -387,10 +506,26 @@ Proof.
   lra.
 Qed.
 
+Lemma turned_values : forall u v, val3 x theta u = vscale r v -> val3 x theta (eturned N we u) = vscale r (mulv Q v).
+Proof.
+  intros u v e. unfold eturned. rewrite val3_divided, val3_mulv, hN, e, hw, mulv_mscale, mulv_scale. generalize (mulv Q v). clear - W0. intros [v1 v2 v3].
+  unfold vscale. cbn [vx vy vz]. f_equal; field; lra.
+Qed.
+Lemma placed_values : forall u v, val3 x theta u = vscale r v -> val3 x theta (eplaced k N we u) = vscale r (vadd P (mulv Q v)).
+Proof. intros u v e. unfold eplaced. rewrite val3_plus, hP, (turned_values u v e). apply vadd_vscale. Qed.
+Lemma limb_values : rod_stands x theta r (Some (limb k N we a b)) (Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)).
+Proof.
+  pose proof (placed_values b (strut_joint l) hb) as T. fold (arm_of_joint l Q) in T. unfold limb. cbv zeta. cbn [rod_stands].
+  assert (A : val3 x theta (map2 minus (eplaced k N we b) a) = vscale r (strut_vector l P Q)).
+  { rewrite val3_minus, T, ha. apply vsub_vscale. }
+  do 3 eexists. split; [reflexivity |]. split; [symmetry; exact T |]. split; [symmetry; exact A |].
+  rewrite value_root, value_dot, A, <- norm2_dot, norm2_scale, sqrt_resized by exact r0. reflexivity.
+Qed.
+
 Lemma origin_row_values : k = InSpace -> map (Formula.value x theta) (fst (origin_row a (scaled_row k N we le a b))) = map (Rmult (W * r)) (about_origin r l P Q).
 Proof.
   intro hk. pose proof scaled_row_values as S. rewrite hk in *. unfold scaled_row in *. cbv zeta in *. destruct S as [_ S].
-  set (A := map2 plus _ _) in *. cbn [etwist twist map fst origin_row] in *. set (q := strut_vector l P Q) in *.
+  set (A := way _ _ _ _ _ _) in *. cbn [etwist twist map fst origin_row] in *. set (q := strut_vector l P Q) in *.
   pose proof (f_equal (fun u => nth 0 u 0) S) as s1. pose proof (f_equal (fun u => nth 1 u 0) S) as s2. pose proof (f_equal (fun u => nth 2 u 0) S) as s3.
   cbn [nth map] in s1, s2, s3. clear S.
   assert (V : val3 x theta (EVec (ex A) (ey A) (ez A)) = vscale (W * r) q) by (unfold val3, vscale; cbn [ex ey ez]; rewrite s1, s2, s3; reflexivity).
@@ -404,26 +539,15 @@ End Row.
 (** ** Checking *)
 
 Definition strut_layout (s : Z) (t : tolerances * tolerances) : list parameter := three (fst t) s ++ three (snd t) s.
-Fixpoint all_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (tolerances * tolerances)) (j : nat) : rows formula :=
+(** What is made of each strut, of its two ends. *)
+Fixpoint each_strut {A : Type} (f : evec -> evec -> A) (s : Z) (ts : list (tolerances * tolerances)) (j : nat) : list A :=
   match ts with
   | [] => []
-  | t :: ts' => let q := numbered j (strut_layout s t) in
-      scaled_row k N w ell (vector_at q 0) (vector_at q 3) :: all_rows k N w ell s ts' (j + length (strut_layout s t))
+  | t :: ts' => let q := numbered j (strut_layout s t) in f (vector_at q 0) (vector_at q 3) :: each_strut f s ts' (j + length (strut_layout s t))
   end.
-
-Fixpoint origin_rows (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (tolerances * tolerances)) (j : nat) : rows formula :=
-  match ts with
-  | [] => []
-  | t :: ts' => let q := numbered j (strut_layout s t) in
-      origin_row (vector_at q 0) (scaled_row k N w ell (vector_at q 0) (vector_at q 3)) :: origin_rows k N w ell s ts' (j + length (strut_layout s t))
-  end.
-
-Fixpoint all_levers (k : motion) (N : emat) (w ell : formula) (s : Z) (ts : list (tolerances * tolerances)) (j : nat) : list (formula * (formula -> formula)) :=
-  match ts with
-  | [] => []
-  | t :: ts' => let q := numbered j (strut_layout s t) in
-      lever k N w ell (vector_at q 0) (vector_at q 3) :: all_levers k N w ell s ts' (j + length (strut_layout s t))
-  end.
+Record posed_strut := PosedStrut { z_row : list formula * formula; z_lever : formula * (formula -> formula); z_way : bool -> evec; z_limb : evec * evec * formula }.
+Definition formulas_of (k : motion) (N : emat) (w ell : formula) (a b : evec) : posed_strut :=
+  PosedStrut (scaled_row k N w ell a b) (lever k N w ell a b) (way k N w a b) (limb k N w a b).
 
 Section Precision.
 Variable bits : positive.
@@ -433,53 +557,96 @@ Variables (one_matrix : N * list (list Z)) (one_place : nat).
 Definition is_less_than_quarter (k : motion) (o : orientations) : bool :=
   match k, o with InSpace, TurnedUpTo a => certainly bits true (Minus (90 // 1) a) | _, _ => false end.
 
-(** The number of a demand that is in formulas: the bound of a leg's length, in the unit of the check, b/k of a stiffness, or b/tool of a joint's speed. *)
-Definition length_bound (s : Z) (d : demand) : parameter :=
-  match d with LengthMin _ b | LengthMax _ b => (exactly b, s) | StiffnessMin k b => (exactly (Over b k), 0%Z) | SpeedMax _ tool b => (exactly (Over b tool), 0%Z) | _ => (exactly (0 // 1), 0%Z) end.
-Definition length_sign (rows : rows formula) (w : formula) (s : Z) (j : nat) (d : demand) : option formula :=
-  let bound := times (square (quantity (length_bound s d) j)) w in
+(** Of a pose, with the formulas of its struts. *)
+Section Asked.
+Variables (s : Z) (k : motion) (N : emat) (w : formula) (zs : list posed_strut).
+Let rows : rows formula := map z_row zs.
+
+Definition length_sign (q : list formula) (d : demand) : option formula :=
+  let bound := times (square (nth 0 q (integer 0))) w in
   match d with
-  | LengthMin i b => match nth_error rows i with Some (_, D) => if certainly bits false b then Some (minus D bound) else None | None => None end
-  | LengthMax i b => match nth_error rows i with Some (_, D) => if certainly bits false b then Some (minus bound D) else None | None => None end
+  | LengthMin i b => match nth_error zs i with Some z => if certainly bits false b then Some (minus (snd (z_row z)) bound) else None | None => None end
+  | LengthMax i b => match nth_error zs i with Some z => if certainly bits false b then Some (minus bound (snd (z_row z))) else None | None => None end
   | _ => None
   end.
 (** M^T k M >= b I is sigma_min >= 1 of the rows with D b/k. *)
-Definition stiff_rows (rows : rows formula) (s : Z) (j : nat) (d : demand) : Test.rows formula :=
-  map (fun p => (fst p, times (snd p) (quantity (length_bound s d) j))) rows.
+Definition stiff_rows (q : list formula) : Test.rows formula := map (fun p => (fst p, times (snd p) (nth 0 q (integer 0)))) rows.
 (** Of a joint's speed: w r . A, and what is less than its square over w D. *)
-Definition lever_of (levers : list (formula * (formula -> formula))) (s : Z) (j : nat) (d : demand) : option (formula * formula) :=
-  match d with SpeedMax i _ _ => option_map (fun p => (fst p, snd p (quantity (length_bound s d) j))) (nth_error levers i) | _ => None end.
-Definition own_formulas (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (d : demand) : list formula :=
+Definition lever_of (q : list formula) (d : demand) : option (formula * formula) :=
+  match d with SpeedMax i _ _ => option_map (fun z => (fst (z_lever z), snd (z_lever z) (nth 0 q (integer 0)))) (nth_error zs i) | _ => None end.
+
+(** Of an angle up to 90 degrees at a joint: w U . j >= 0, and (cos(b) |j| w |U|)^2 <= (w U . j)^2 for less than 90, U the strut's vector where j is.
+    Of others A . j - cos(b) |j| |A|. *)
+Definition up_to_90 (b : number) : bool := certainly exact_bits false (Minus (90 // 1) b).
+Definition least_cosine (q : list formula) : formula := times (nth 0 q (integer 0)) (root (Machine.product (vector_at q 1) (vector_at q 1))).
+Definition angle_row (q : list formula) (U : evec) : list formula * formula :=
+  (list_of (Machine.scaled (least_cosine q) U), Machine.product U (vector_at q 1)).
+Definition angle_sign (q : list formula) (on_platform : bool) (l : evec * evec * formula) : formula :=
+  let '(_, A, len) := l in
+  minus (Machine.product A (if on_platform then eturned N w (vector_at q 1) else vector_at q 1)) (times (least_cosine q) len).
+
+Definition limb_segments (q : list formula) (one other : body) : option (evec * evec * (evec * evec)) :=
+  segments_along (map (fun z => Some (z_limb z)) zs) (eplaced k N w) (tl q) one other.
+
+Definition own_formulas (q : list formula) (d : demand) : list formula :=
   match d with
-  | StiffnessMin _ _ => map snd (stiff_rows rows s j d)
-  | SpeedMax _ _ _ => match lever_of levers s j d with Some (f, b) => [f; b] | None => [] end
-  | _ => match length_sign rows w s j d with Some f => [f] | None => [] end
+  | StiffnessMin _ _ => map snd (stiff_rows q)
+  | SpeedMax _ _ _ => match lever_of q d with Some (f, b) => [f; b] | None => [] end
+  | JointAngleMax i on _ b => match nth_error zs i with
+      | Some z => if up_to_90 b then let (A, D) := angle_row q (z_way z on) in A ++ [D] else []
+      | None => []
+      end
+  | _ => match length_sign q d with Some f => [f] | None => [] end
   end.
-Definition pose_test (place : formula -> nat) (ends : nat) (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (d : demand) : option polynomial_test :=
+(** Of these, slopes. *)
+Definition plain_formulas (q : list formula) (d : demand) : list formula :=
+  match d with
+  | JointAngleMax i on _ b => match nth_error zs i with Some z => if up_to_90 b then [] else [angle_sign q on (z_limb z)] | None => [] end
+  | Clear one other _ => match limb_segments q one other with Some ((a, b), (c, d)) => flat_map list_of [a; b; c; d] | None => [] end
+  | _ => []
+  end.
+
+Variables (place plain : formula -> nat) (ends : nat).
+Definition pose_test_of (q : list formula) (d : demand) : option pose_test :=
   let squared make r x := option_map (fun a => make (map_rows place r) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
   let least r w k := LeastOf r w k ends in
   match d with
   | Nonsingular => Some (least (map_rows place rows) (place w) zero)
   | FactorMax b => squared least rows (Over (1 // 1) b)
   | FactorMin b => squared GreatestOf rows (Over (1 // 1) b)
-  | LengthMin _ _ | LengthMax _ _ => option_map (fun f => SignOf (place f)) (length_sign rows w s j d)
-  | SpeedMax i tool b => match nth_error rows i, lever_of levers s j d with
-      | Some (_, D), Some (f, b') => if certainly bits true tool && certainly bits true b then Some (LeverOf [([place f], place D)] (place b')) else None
+  | LengthMin _ _ | LengthMax _ _ => option_map (fun f => SignOf (place f)) (length_sign q d)
+  | SpeedMax i tool b => match nth_error zs i, lever_of q d with
+      | Some z, Some (f, b') => if certainly bits true tool && certainly bits true b then Some (LeverOf [([place f], place (snd (z_row z)))] (place b')) else None
       | _, _ => None
       end
   | StiffnessMin k b => if certainly bits true k && certainly bits true b
-      then Some (LeastOf (map_rows place (stiff_rows rows s j d)) (place w) (Fixed.integer bits 1) O) else None
-  | ForceMax i tool b => match nth_error rows i with
+      then Some (LeastOf (map_rows place (stiff_rows q)) (place w) (Fixed.integer bits 1) O) else None
+  | ForceMax i tool b => match nth_error zs i with
       | Some _ => if certainly bits true tool && certainly bits true b then squared (fun r w k => SolveOf i r w k ends) rows (Over tool b) else None
       | None => None
       end
   | Conditioned b => option_map (fun a => ConditionOf (map_rows place rows) (place w) (sqr bits a)) (enclose_parameter bits (exactly b, 0%Z))
+  | Clear one other b => match limb_segments q one other, enclose_parameter bits (exactly (distance_of one other b), s) with
+      | Some ((a, b), (c, d)), Some distance => if (0 <=? lo distance)%Z then
+          let at_ := ends_at plain in Some (OnSlopes (Apart (at_ a) (at_ b) (at_ c) (at_ d) distance)) else None
+      | _, _ => None
+      end
   | _ => None
   end.
-Fixpoint pose_tests (place : formula -> nat) (ends : nat) (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (ds : list demand) : list (option polynomial_test) :=
-  match ds with [] => [] | d :: ds' => pose_test place ends rows levers w s j d :: pose_tests place ends rows levers w s (S j) ds' end.
-Fixpoint demand_formulas (rows : rows formula) (levers : list (formula * (formula -> formula))) (w : formula) (s : Z) (j : nat) (ds : list demand) : list formula :=
-  match ds with [] => [] | d :: ds' => own_formulas rows levers w s j d ++ demand_formulas rows levers w s (S j) ds' end.
+Definition angle_tests (q : list formula) (z : posed_strut) (on : bool) (b : number) : list pose_test :=
+  if up_to_90 b then let (A, D) := angle_row q (z_way z on) in
+    SignOf (place D) :: if certainly exact_bits false (Minus b (90 // 1)) then [] else [AxisOf [(map place A, place D)] (place D)]
+  else [OnSlopes (AtLeast (plain (angle_sign q on (z_limb z))))].
+Definition is_axis (j : Statement.position) : bool := is_never_zero (Tolerances (exactly (px j)) (exactly (py j)) (exactly (pz j))).
+Definition tests_of_demand (q : list formula) (d : demand) : list (option pose_test) :=
+  match d with
+  | JointAngleMax i on j b => match nth_error zs i with
+      | Some z => if is_axis j && certainly bits false b && certainly bits false (Minus (180 // 1) b) then map Some (angle_tests q z on b) else [None]
+      | None => [None]
+      end
+  | _ => [pose_test_of q d]
+  end.
+End Asked.
 Definition excludes (d : demand) : bool := match d with Nonsingular | FactorMax _ => true | _ => false end.
 
 Definition position_tolerances (k : motion) (t : tolerances) : list tolerance :=
@@ -494,33 +661,34 @@ Definition ends_of (fs : list formula) (m : nat) (k : motion) (r : rows nat) (w 
   if Nat.eqb (length r) m && eased_in m fs e r w (option_map (fun g => (g, 0%Z, 0%N)) g) then e else O.
 
 Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
-  let k := motion_of c in let m := dimension k in
-  let ps := flat_map (strut_layout s) (struts c) ++ [(exactly (characteristic_length c), s)] in
-  let j := length ps in
-  let ell := quantity (exactly (characteristic_length c), s) (length (flat_map (strut_layout s) (struts c))) in
+  let k := motion_of c in let m := dimension k in let ds := turning_demands c in
+  let lay := flat_map (strut_layout s) (struts c) in let pl := (exactly (characteristic_length c), s) in let j := S (length lay) in
+  let ins := flat_map (inputs_of false s) ds in
   let (N, w) := chart (turned c) (first_angle k) in
-  let rows := all_rows k N w ell s (struts c) 0 in let levers := all_levers k N w ell s (struts c) 0 in
-  let g := curve (turned c) (first_angle k) (j + length (turning_demands c)) in
-  let about := if one_pose c then origin_rows k N w ell s (struts c) 0 else [] in
-  let wanted := entries rows ++ w :: demand_formulas rows levers w s j (turning_demands c) ++ match g with Some g => [g] | None => [] end ++ entries about in
-  let tape := fst (compile (map (image m) wanted)) in
+  let zs := each_strut (formulas_of k N w (quantity pl (length lay))) s (struts c) 0 in let rows := map z_row zs in
+  let g := curve (turned c) (first_angle k) (j + length ins) in
+  let about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
+  let wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
+  let others := of_each (plain_formulas k N w zs) false s j ds in
+  let tape := fst (compile (map (image m) wanted)) in let plain := fst (compile others) in
   let fs := formulas tape in
   let place f := Formula.place fs (image m f) in
   let ends := match positions c with Box _ => ends_of fs m k (map_rows place rows) (place w) (option_map place g) | _ => O end in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
-  existsb excludes (turning_demands c) && (negb (one_pose c) || is_less_than_quarter k (turned c)) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
+  forallb (fun f => Formula.same (nth (Formula.place (formulas plain) f) (formulas plain) (integer 0)) f) others &&
+  existsb excludes ds && (negb (one_pose c) || is_less_than_quarter k (turned c)) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
-  match all_some (map (enclose_parameter bits) (ps ++ map (length_bound s) (turning_demands c))),
+  match all_some (map (enclose_parameter bits) (lay ++ [pl])), all_some (map (enclose_input bits) ins),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
-        all_some (pose_tests place ends rows levers w s j (turning_demands c)) with
-  | Some params, Some box, Some angles, Some tangents, Some tests =>
+        all_some (of_each (tests_of_demand s k N w zs place (Formula.place (formulas plain)) ends) false s j ds) with
+  | Some params, Some inputs, Some box, Some angles, Some tangents, Some tests =>
       let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
       match g with Some g => affine_in m fs (place g) | None => true end &&
-      check_poses bits tape (params ++ tangents) tests m m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
-  | _, _, _, _, _ => false
+      check_poses bits tape plain (params ++ inputs ++ tangents) tests m m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
+  | _, _, _, _, _, _ => false
   end.
 
 (** ** Soundness *)
@@ -532,30 +700,26 @@ Definition stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R
   Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
   (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0) /\ length A = dimension k.
 
-Lemma all_rows_stand : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
-  forall x front back k P Q W L N w ell, 0 < W -> 0 < L -> (forall b, norm2 (mulv Q b) = norm2 b) ->
-    val3 x (front ++ th ++ back) (eposition k) = vscale (/ two_to s) P -> valm x (front ++ th ++ back) N = mscale W Q ->
-    Formula.value x (front ++ th ++ back) w = W -> Formula.value x (front ++ th ++ back) ell = / two_to s * L ->
-    Forall2 (stands x (front ++ th ++ back) k P Q W (/ two_to s) L) (all_rows k N w ell s ts (length front)) m /\
-    Forall2 (fun p l => is_lever x (front ++ th ++ back) k P Q W (/ two_to s) L l p) (all_levers k N w ell s ts (length front)) m /\
-    (k = InSpace -> map (fun row => map (Formula.value x (front ++ th ++ back)) (fst row)) (origin_rows k N w ell s ts (length front)) =
-      map (fun l => map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q)) m).
+Lemma each_strut_stands : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
+  forall A (f : evec -> evec -> A) (good : A -> strut -> Prop) x front back,
+    (forall a b l, val3 x (front ++ th ++ back) a = vscale (/ two_to s) (strut_base l) -> val3 x (front ++ th ++ back) b = vscale (/ two_to s) (strut_joint l) -> good (f a b) l) ->
+    Forall2 good (each_strut f s ts (length front)) m.
 Proof.
-  intros s. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0.
-  induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; [constructor | intros; split; [constructor | split; [constructor | reflexivity]]] |].
+  intros s. induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; constructor |].
   set (th1 := coordinates (vscale (/ two_to s) (strut_base l)) ++ coordinates (vscale (/ two_to s) (strut_joint l))).
   assert (L1 : Forall2 scaled_within (strut_layout s t) th1) by (apply Forall2_app; apply three_within; assumption).
   exists (th1 ++ th2). split; [cbn [flat_map]; apply Forall2_app; assumption |].
-  intros x front back k P Q W L N w ell W0 L0 keeps hP hN hw hl. cbn [all_rows all_levers origin_rows]. cbv zeta.
-  rewrite <- app_assoc in hP, hN, hw, hl. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V.
-  assert (Own : forall i, val3 x (front ++ th1 ++ th2 ++ back) (vector_at (numbered (length front) (strut_layout s t)) i) = Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0)).
-  { intro i. unfold val3, vector_at. cbn [ex ey ez]. rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V. reflexivity. }
-  specialize (R2 x (front ++ th1) back k P Q W L N w ell W0 L0 keeps). rewrite app_length, <- (related_length _ _ _ _ _ L1), <- !app_assoc in R2.
-  destruct (R2 hP hN hw hl) as [I1 [I3 I2]]. rewrite <- !app_assoc. split; [| split].
-  - constructor; [| exact I1]. apply (scaled_row_speed x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N _ _ w ell l); try assumption; rewrite Own; reflexivity.
-  - constructor; [| exact I3]. apply (lever_values x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N); try assumption; rewrite Own; reflexivity.
-  - intro hk. cbn [map]. f_equal; [| exact (I2 hk)]. apply (origin_row_values x (front ++ th1 ++ th2 ++ back) k P Q W (/ two_to s) L N); try assumption; rewrite Own; reflexivity.
+  intros A f good x front back h. rewrite <- app_assoc in h. cbn [each_strut]. cbv zeta. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V. constructor.
+  - assert (Own : forall i, val3 x (front ++ th1 ++ th2 ++ back) (vector_at (numbered (length front) (strut_layout s t)) i) = Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0)).
+    { intro i. unfold val3, vector_at. cbn [ex ey ez]. rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V. reflexivity. }
+    apply h; rewrite Own; reflexivity.
+  - specialize (R2 A f good x (front ++ th1) back). rewrite app_length, <- (related_length _ _ _ _ _ L1), <- !app_assoc in R2. exact (R2 h).
 Qed.
+
+Definition strut_stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R) (z : posed_strut) (l : strut) : Prop :=
+  stands x theta k P Q W r L (z_row z) l /\ is_lever x theta k P Q W r L l (z_lever z) /\
+  (forall on, val3 x theta (z_way z on) = vscale (W * r) (if on then mulv (transpose Q) (strut_vector l P Q) else strut_vector l P Q)) /\
+  rod_stands x theta r (Some (z_limb z)) (Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)).
 
 Lemma rows_speed : forall x theta k P Q W r L rows m, Forall2 (stands x theta k P Q W r L) rows m -> positive_D (map_rows (Formula.value x theta) rows) ->
   Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
@@ -598,41 +762,64 @@ Proof.
   destruct (strut_vector l P Q) as [a b c]. cbn [vx vy vz]. pose proof (pow2_ge_0 a). pose proof (pow2_ge_0 b). pose proof (pow2_ge_0 c). lra.
 Qed.
 
-(** Where ends alone are looked at, it is of these rows. *)
-Lemma least_tests : forall place ends rows levers w s ds j tests t r v e, all_some (pose_tests place ends rows levers w s j ds) = Some tests -> In t tests -> with_ends t = Some (r, v, e) ->
-  e = O \/ e = ends /\ r = map_rows place rows /\ v = place w.
+Lemma all_some_back : forall (A : Type) (l : list (option A)) m a, all_some l = Some m -> In a m -> In (Some a) l.
 Proof.
-  intros place ends rows levers w s. induction ds as [| d ds IH]; intros j tests t r v e h i we; cbn [pose_tests all_some] in h; [injection h as <-; contradiction |].
-  destruct (pose_test place ends rows levers w s j d) as [u |] eqn:eu; [| discriminate]. destruct (all_some _) as [rest |] eqn:er; [| discriminate]. assert (E : tests = u :: rest) by congruence. subst tests.
-  destruct i as [-> | i]; [| exact (IH (S j) rest t r v e er i we)].
-  destruct d; cbn [pose_test] in eu; try discriminate; try (destruct (length_sign _ _ _ _ _); [cbn [option_map] in eu | discriminate]); try (destruct (nth_error _ _) as [[? ?] |]; [| discriminate]); try (destruct (lever_of _ _ _ _) as [[? ?] |]; [| discriminate]);
+  intros A. induction l as [| o l IH]; intros m a e i; cbn [all_some] in e; [injection e as <-; contradiction |].
+  destruct o as [b |]; [| discriminate]. destruct (all_some l) as [r |]; [| discriminate]. injection e as <-. destruct i as [-> | i]; [left; reflexivity | right; exact (IH r a eq_refl i)].
+Qed.
+Lemma of_each_back : forall (A : Type) (f : list formula -> demand -> list A) are_angles s ds j a, In a (of_each f are_angles s j ds) -> exists q d, In a (f q d).
+Proof.
+  intros A f are_angles s. induction ds as [| d ds IH]; intros j a i; [contradiction |]. cbn [of_each] in i. apply in_app_or in i as [i | i]; [eauto | exact (IH _ _ i)].
+Qed.
+
+(** Where ends alone are looked at, it is of these rows. *)
+Lemma least_tests : forall s k N w zs place plain ends q d t r v e, In (Some t) (tests_of_demand s k N w zs place plain ends q d) -> with_ends t = Some (r, v, e) ->
+  e = O \/ e = ends /\ r = map_rows place (map z_row zs) /\ v = place w.
+Proof.
+  intros s k N w zs place plain ends q d t r v e i we.
+  assert (Angles : forall z on b, In (Some t) (map Some (angle_tests N w place plain q z on b)) -> with_ends t = None).
+  { intros z on b h. apply in_map_iff in h as [u [eu h]]. injection eu as ->. unfold angle_tests in h. destruct (up_to_90 b).
+    - destruct (angle_row q (z_way z on)). destruct h as [<- | h]; [reflexivity |]. destruct (certainly _ _ _); [contradiction | destruct h as [<- | []]; reflexivity].
+    - destruct h as [<- | []]. reflexivity. }
+  destruct d; cbn [tests_of_demand] in i;
+    try (destruct (nth_error zs _) as [z |]; [| destruct i as [i | []]; discriminate]; destruct (is_axis _ && _ && _); [| destruct i as [i | []]; discriminate]; rewrite (Angles _ _ _ i) in we; discriminate);
+    destruct i as [i | []]; cbn [pose_test_of] in i; try discriminate; try (destruct (length_sign _ _ _ _); [cbn [option_map] in i | discriminate]);
+    try (destruct (nth_error _ _) as [? |]; [| discriminate]); try (destruct (lever_of _ _ _) as [[? ?] |]; [| discriminate]); try (destruct (limb_segments _ _ _ _ _ _ _) as [[[? ?] [? ?]] |]; [| discriminate]);
     try (destruct (certainly _ _ _ && _); [| discriminate]);
-    try (destruct (enclose_parameter bits _); [cbn [option_map] in eu |]; try discriminate); injection eu as <-; cbn [with_ends] in we; try discriminate;
+    try (destruct (enclose_parameter bits _); [cbn [option_map] in i |]; try discriminate); try (destruct (0 <=? lo _)%Z; [| discriminate]); injection i as <-; cbn [with_ends] in we; try discriminate;
     injection we; intros; subst; auto.
 Qed.
 
-(** A demand's own test, bound and formulas. *)
-Lemma demand_at : forall place ends rows levers w s ds j d, In d ds -> exists i, nth_error ds i = Some d /\
-  In (pose_test place ends rows levers w s (j + i) d) (pose_tests place ends rows levers w s j ds) /\
-  forall f, In f (own_formulas rows levers w s (j + i) d) -> In f (demand_formulas rows levers w s j ds).
-Proof.
-  intros place ends rows levers w s ds. induction ds as [| q ds IH]; intros j d i; [contradiction |]. destruct i as [-> | i].
-  - exists O. rewrite Nat.add_0_r. split; [reflexivity |]. split; [left; reflexivity |]. intros f e. cbn [demand_formulas]. apply in_or_app. left. exact e.
-  - destruct (IH (S j) d i) as [n [h1 [h2 h3]]]. exists (S n). rewrite <- Nat.add_succ_comm. split; [exact h1 |]. split; [right; exact h2 |].
-    intros f e. cbn [demand_formulas]. apply in_or_app. right. exact (h3 f e).
-Qed.
-
 (** Rows with D times q. *)
-Lemma stiff_energy : forall x theta rows s j d q v, Formula.value x theta (quantity (length_bound s d) j) = q -> 0 < q ->
-  positive_D (map_rows (Formula.value x theta) (stiff_rows rows s j d)) ->
-  positive_D (map_rows (Formula.value x theta) rows) /\
-  energy (map_rows (Formula.value x theta) rows) v = q * energy (map_rows (Formula.value x theta) (stiff_rows rows s j d)) v.
+Lemma stiff_energy : forall x theta zs l q v, Formula.value x theta (nth 0 l (integer 0)) = q -> 0 < q ->
+  positive_D (map_rows (Formula.value x theta) (stiff_rows zs l)) ->
+  positive_D (map_rows (Formula.value x theta) (map z_row zs)) /\
+  energy (map_rows (Formula.value x theta) (map z_row zs)) v = q * energy (map_rows (Formula.value x theta) (stiff_rows zs l)) v.
 Proof.
-  intros x theta rows s j d q v hq q0. induction rows as [| [A D] rows IH]; intro p; [split; [constructor | cbn; ring] |].
-  cbn [stiff_rows map fst snd] in p |- *. fold (stiff_rows rows s j d) in *. rewrite map_rows_cons in p |- *. rewrite map_rows_cons. inversion p as [| ? ? p1 p2]; subst.
-  cbn [snd] in p1. rewrite value_times in p1. destruct (IH p2) as [I1 I2]. set (q := Formula.value x theta (quantity (length_bound s d) j)) in *.
+  intros x theta zs l q v hq q0. unfold stiff_rows. induction (map z_row zs) as [| [A D] rows IH]; intro p; [split; [constructor | cbn; ring] |].
+  cbn [map fst snd] in p |- *. rewrite map_rows_cons in p |- *. rewrite map_rows_cons. inversion p as [| ? ? p1 p2]; subst.
+  cbn [snd] in p1. rewrite value_times in p1. destruct (IH p2) as [I1 I2]. set (q := Formula.value x theta (nth 0 l (integer 0))) in *.
   assert (D0 : 0 < Formula.value x theta D) by (apply Rmult_lt_reg_r with q; lra).
   split; [constructor; assumption |]. cbn [energy]. rewrite value_times, I2. fold q. field. split; lra.
+Qed.
+
+(** An angle whose cosine is not less than that of the greatest. *)
+Lemma angle_found : forall A a b, 0 < norm2 A -> 0 < norm2 a -> 0 <= b <= 180 -> cos (in_degrees b) * (sqrt (norm2 A) * sqrt (norm2 a)) <= Vec3.dot A a ->
+  exists angle, 0 <= angle <= b /\ Vec3.dot A a = sqrt (norm2 A) * sqrt (norm2 a) * cos (in_degrees angle).
+Proof.
+  intros A a b hA ha [b0 b1] h. pose proof PI_RGT_0 as p0. pose proof (sqrt_lt_R0 _ hA) as sA. pose proof (sqrt_lt_R0 _ ha) as sa. set (p := sqrt (norm2 A) * sqrt (norm2 a)) in *.
+  assert (pp : 0 < p) by (apply Rmult_lt_0_compat; assumption).
+  assert (P2 : p ^ 2 = norm2 A * norm2 a) by (unfold p; rewrite Rpow_mult_distr, !pow2_sqrt by lra; reflexivity).
+  pose proof (cauchy_schwarz A a) as C. rewrite <- P2 in C. set (D := Vec3.dot A a) in *. clearbody D.
+  assert (C1 : -1 <= D / p <= 1) by (split; apply Rmult_le_reg_r with p; try exact pp; unfold Rdiv; rewrite Rmult_assoc, Rinv_l by lra; nra).
+  destruct (cosine_taken _ C1) as [d [[d0 d1] ec]].
+  assert (E : in_degrees (d * 180 / PI) = d) by (unfold in_degrees; field; lra).
+  exists (d * 180 / PI). rewrite E, ec. split; [split | field; lra].
+  - apply Rmult_le_pos; [lra | apply Rlt_le, Rinv_0_lt_compat, p0].
+  - assert (L : cos (in_degrees b) <= cos d) by (rewrite ec; apply Rmult_le_reg_r with p; [exact pp |]; unfold Rdiv; rewrite Rmult_assoc, Rinv_l by lra; lra).
+    assert (R0 : 0 <= in_degrees b <= PI) by (unfold in_degrees; split; nra).
+    assert (dB : d <= in_degrees b) by (apply Rnot_lt_le; intro n; pose proof (cos_decreasing_1 _ _ (proj1 R0) (proj2 R0) d0 d1 n); lra).
+    apply Rmult_le_reg_r with (PI / 180); [lra |]. replace (d * 180 / PI * (PI / 180)) with d by (field; lra). unfold in_degrees in dB. lra.
 Qed.
 
 Lemma is_nothing_sound : forall t y, is_nothing t = true -> within t y -> y = 0.
@@ -673,19 +860,21 @@ Theorem check_turning_sound : forall c s t, check_turning c s t = true -> turnin
 Proof.
   intros c s t h m P Q [hm hPQ]. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
   set (k := motion_of c) in *. set (ts := struts c) in *. set (ds := turning_demands c) in *. set (lay := flat_map (strut_layout s) ts) in *.
-  set (pl := (exactly (characteristic_length c), s)) in *. set (j := length (lay ++ [pl])) in *. set (ell := quantity pl (length lay)) in *.
-  set (rows := all_rows k N w ell s ts 0) in *. set (levers := all_levers k N w ell s ts 0) in *.
-  set (g := curve (turned c) (first_angle k) (j + length ds)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
-  set (about := if one_pose c then origin_rows k N w ell s ts 0 else []) in *.
-  set (wanted := entries rows ++ w :: demand_formulas rows levers w s j ds ++ gs ++ entries about) in *.
+  set (pl := (exactly (characteristic_length c), s)) in *. set (j := S (length lay)) in *. set (ell := quantity pl (length lay)) in *. set (ins := flat_map (inputs_of false s) ds) in *.
+  set (zs := each_strut (formulas_of k N w ell) s ts 0) in *. set (rows := map z_row zs) in *.
+  set (g := curve (turned c) (first_angle k) (j + length ins)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
+  set (about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0 else []) in *.
+  set (wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs) false s j ds) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
+  set (plain := fst (compile others)) in *. set (plain_place := Formula.place (formulas plain)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
-  apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h quarter]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [found below_].
+  apply andb_true_iff in h as [h flat]. apply andb_true_iff in h as [h quarter]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h there]. apply andb_true_iff in h as [found below_].
   destruct (all_some (map (enclose_parameter bits) _)) as [params |] eqn:ep; [| discriminate].
+  destruct (all_some (map (enclose_input bits) _)) as [inputs |] eqn:ei; [| discriminate].
   destruct (all_some (map _ (position_tolerances _ _))) as [box |] eqn:eb; [| discriminate].
   destruct (all_some (map (end_box bits) _)) as [angles |] eqn:ea; [| discriminate].
   destruct (all_some (map (enclose_tangent bits) _)) as [tangents |] eqn:eg; [| discriminate].
-  destruct (all_some (pose_tests _ _ _ _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
+  destruct (all_some (of_each _ _ _ _ _)) as [tests |] eqn:et; [| discriminate].
   cbv zeta in C. set (all_tests := if one_pose c then inserted _ _ _ else tests) in C.
   assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (one_pose c); [apply inserted_in; right |]; exact iu).
   assert (Own : forall u, In u all_tests -> In u tests \/ with_ends u = None)
@@ -695,22 +884,18 @@ Proof.
   assert (ok : are_angles (turned c)).
   { unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros u iu. specialize (ang u iu). apply andb_true_iff in ang as [a b].
     split; apply (is_angle_number_sound bits); assumption. }
-  destruct (all_rows_stand s ts m hm) as [th [TH RS]]. set (bs := map (fun d => Claim.value (least (fst (length_bound s d))) / two_to (snd (length_bound s d))) ds).
+  destruct (each_strut_stands s ts m hm) as [th [TH RS]].
   set (tt := map (fun a => tangent (Claim.value a)) (curved (turned c))).
-  set (theta := th ++ [/ two_to s * L] ++ bs ++ tt).
-  assert (TL : Forall2 scaled_within (lay ++ [pl]) (th ++ [/ two_to s * L])).
-  { apply Forall2_app; [exact TH |]. constructor; [| constructor]. exists L. split; [split; apply Rle_refl |]. cbn [snd pl]. unfold Rdiv. ring. }
-  assert (TB : Forall2 scaled_within (map (length_bound s) ds) bs).
-  { unfold bs. clear. induction ds as [| d l IH]; cbn [map]; constructor; [| exact IH]. eexists. split; [| reflexivity]. unfold within. destruct d; cbn; lra. }
+  set (theta := th ++ [/ two_to s * L] ++ map input_value ins ++ tt).
   assert (TT : Forall2 (contains bits) tangents tt).
   { apply (tangents_in bits); [intros a i; exact (curved_angles _ a ok i) | exact eg]. }
-  assert (T : Forall2 (contains bits) (params ++ tangents) theta).
-  { unfold theta. rewrite !app_assoc. apply Forall2_app; [| exact TT]. apply (enclosed_all bits _ _ _ ep). apply Forall2_app; assumption. }
-  assert (lb : length bs = length ds) by apply map_length.
+  assert (T : Forall2 (contains bits) (params ++ inputs ++ tangents) theta).
+  { unfold theta. rewrite (app_assoc th). apply Forall2_app; [| apply Forall2_app; [exact (inputs_enclosed bits _ _ ei) | exact TT]].
+    apply (enclosed_all bits _ _ _ ep). apply Forall2_app; [exact TH |]. constructor; [| constructor]. exists L. split; [split; apply Rle_refl |]. cbn [snd pl]. unfold Rdiv. ring. }
   assert (lt : length th = length lay) by (symmetry; exact (related_length _ _ _ _ _ TH)).
-  assert (tangent_at : forall a, In a (curved (turned c)) -> nth (j + length ds) theta 0 = tangent (Claim.value a)).
-  { intros a i. unfold theta. rewrite !app_assoc. replace (j + length ds)%nat with (length ((th ++ [(/ two_to s * L)%R]) ++ bs) + 0)%nat
-      by (unfold j; rewrite !app_length, lb, lt; cbn [length]; lia).
+  assert (tangent_at : forall a, In a (curved (turned c)) -> nth (j + length ins) theta 0 = tangent (Claim.value a)).
+  { intros a i. unfold theta. rewrite !app_assoc. replace (j + length ins)%nat with (length ((th ++ [(/ two_to s * L)%R]) ++ map input_value ins) + 0)%nat
+      by (unfold j; rewrite !app_length, map_length, lt; cbn [length]; lia).
     rewrite app_nth2_plus. unfold tt. destruct (turned c); cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
   (* at one pose *)
   enough (At : forall P Q, in_region (positions c) P /\ in_orientations (turned c) Q -> meets_turning c m P Q /\ (one_pose c = true ->
@@ -725,15 +910,27 @@ Proof.
   assert (lx : length x = dimension k) by (rewrite <- (related_length _ _ _ _ _ X); exact len).
   assert (first : forall i, nth (first_angle k + i) x 0 = nth i cs 0).
   { intro i. unfold x. replace (first_angle k) with (length (map (Rmult (/ two_to s)) (position_list k P))) by (destruct k; reflexivity). apply app_nth2_plus. }
-  destruct (CH x theta (first_angle k) (j + length ds)%nat first tangent_at) as [hN [hw hg]]. rewrite ch in hN, hw. cbn [fst snd] in hN, hw.
+  destruct (CH x theta (first_angle k) (j + length ins)%nat first tangent_at) as [hN [hw hg]]. rewrite ch in hN, hw. cbn [fst snd] in hN, hw.
   assert (hl : Formula.value x theta ell = / two_to s * L).
   { unfold ell, theta. apply quantity_value; [exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold Rdiv; ring] |].
     rewrite <- lt. apply nth_middle. }
-  pose proof (RS x [] ([/ two_to s * L] ++ bs ++ tt) k P Q W L N w ell W0 L0 (orientation_keeps _ _ hQ)
-    (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN hw hl) as [ST [LV ORIGIN]].
-  change (Forall2 (stands x theta k P Q W (/ two_to s) L) rows m) in ST.
+  set (ratio := / two_to s) in *. assert (r0 : 0 < ratio) by apply Rinv_0_lt_compat, two_to_pos.
+  pose proof (orientation_keeps _ _ hQ) as keeps. assert (hPv : val3 x theta (eposition k) = vscale ratio P) by exact (position_value k P _ cs _ (flat_position _ _ _ flat hP)).
+  assert (ZS : Forall2 (strut_stands x theta k P Q W ratio L) zs m).
+  { apply (RS _ _ _ x [] ([ratio * L] ++ map input_value ins ++ tt)). intros a b l hsa hsb. cbn [app] in hsa, hsb. fold theta in hsa, hsb.
+    split; [exact (scaled_row_speed x theta k P Q W ratio L N a b w ell l r0 W0 L0 keeps hPv hN hw hl hsa hsb) |].
+    split; [exact (lever_values x theta k P Q W ratio L N a b w ell l keeps hPv hN hw hl hsa hsb) |].
+    split; [exact (way_values x theta k P Q W ratio N a b w l keeps hPv hN hw hsa hsb) | exact (limb_values x theta k P Q W ratio N a b w l r0 W0 hPv hN hw hsa hsb)]. }
+  assert (ST : Forall2 (stands x theta k P Q W ratio L) rows m)
+    by (unfold rows; clear - ZS; induction ZS as [| z l zs' m' [h _] hs IH]; constructor; assumption).
+  assert (ORIGIN : k = InSpace -> map (fun row => map (Formula.value x theta) (fst row)) (each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0) =
+    map (fun l => map (Rmult (W * ratio)) (about_origin ratio l P Q)) m).
+  { intro hk. assert (F : Forall2 (fun row l => map (Formula.value x theta) (fst row) = map (Rmult (W * ratio)) (about_origin ratio l P Q)) (each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0) m).
+    { apply (RS _ _ _ x [] ([ratio * L] ++ map input_value ins ++ tt)). intros a b l hsa hsb. cbn [app] in hsa, hsb. fold theta in hsa, hsb.
+      exact (origin_row_values x theta k P Q W ratio L N a b w ell l r0 L0 keeps hPv hN hw hl hsa hsb hk). }
+    clear - F. induction F as [| row l rs m' h hs IH]; [reflexivity |]. cbn [map]. rewrite h, IH. reflexivity. }
   (* the tape *)
-  rewrite forallb_forall in found, below_.
+  rewrite forallb_forall in found, below_, there.
   assert (Found : forall f, In f wanted -> at_pairs theta (entry_at tape (place f)) (parabola x) = Formula.value x theta f).
   { intros f i. assert (E : entry_at tape (place f) = image (dimension k) f) by (apply Formula.same_sound, found, i).
     rewrite E, <- lx. apply image_value. rewrite lx. apply below_, i. }
@@ -750,24 +947,26 @@ Proof.
   assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
     by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
   set (ends := match positions c with Box _ => _ | _ => _ end) in *.
+  assert (LT : forall u r v e, In u tests -> with_ends u = Some (r, v, e) -> e = O \/ e = ends /\ r = map_rows place rows /\ v = place w).
+  { intros u r v e i we. destruct (of_each_back _ _ _ _ _ _ _ (all_some_back _ _ _ _ et i)) as [q [d iq]]. exact (least_tests s k N w zs place plain_place ends q d u r v e iq we). }
   assert (eased : forall u r v e, In u all_tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
     forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
-  { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
+  { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (LT u r v _ i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
     unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
     split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
       apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
     - split; [exact e2 | discriminate]. }
   assert (turn : is_turned tape all_tests (option_map place g) theta x).
-  { split; [| intros u r v e i we; destruct (Own u i) as [i1 | no]; [| congruence]; destruct (least_tests _ _ _ _ _ _ _ _ _ _ _ _ _ et i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
+  { split; [| intros u r v e i we; destruct (Own u i) as [i1 | no]; [| congruence]; destruct (LT u r v _ i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity | right]; split;
       [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
-  pose proof (check_poses_sound bits tape (params ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
+  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
   pose proof (fun u iu => HT0 u (Sub u iu)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)
-    by (apply (rows_speed x theta k P Q W (/ two_to s) L); exact ST).
+    by (apply (rows_speed x theta k P Q W ratio L); exact ST).
   assert (Z : forall v, ~ nonzero v -> Linear.dot v v = 0 /\ Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v = 0).
   { intros v z. pose proof (zero_vector v ltac:(apply Rnot_lt_le; exact z)) as F0. split; [apply dot_zero, F0 |].
     generalize (map (fun l => strut_row k L l P Q) m). intro M. unfold Configuration.speed2. induction M as [| row M IH]; cbn [fold_right]; [reflexivity |]. rewrite IH, (dot_zero v row F0). ring. }
@@ -782,12 +981,16 @@ Proof.
       destruct U as [v [lv nv]]. destruct (H kappa v hk k0 lv nv) as [p _]. rewrite Rows in p. exact p. }
     destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. split; [exact PD |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
-  assert (Test : forall d, In d ds -> exists i u, nth_error ds i = Some d /\ pose_test place ends rows levers w s (j + i) d = Some u /\ In u tests /\
-    forall f, In f (own_formulas rows levers w s (j + i) d) -> In f wanted).
-  { intros d id. destruct (demand_at place ends rows levers w s ds j d id) as [i [h1 [h2 h3]]]. destruct (all_some_in _ _ _ _ et h2) as [u [e iu]].
-    exists i, u. split; [exact h1 |]. split; [exact e |]. split; [exact iu |]. intros f q. apply in_or_app. right. right. apply in_or_app. left. exact (h3 f q). }
+  assert (Test : forall d, In d ds -> exists q, map (Formula.value x theta) q = map input_value (inputs_of false s d) /\
+    (forall f, In f (own_formulas w zs q d) -> In f wanted) /\ (forall f, In f (plain_formulas k N w zs q d) -> formula_at plain (plain_place f) = f) /\
+    forall o, In o (tests_of_demand s k N w zs place plain_place ends q d) -> exists u, o = Some u /\ In u tests).
+  { intros d id. destruct (of_each_at false s ds d x (th ++ [ratio * L]) tt id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1. rewrite <- app_assoc in q1. fold theta in q1.
+    rewrite app_length, lt in q2. cbn [length] in q2. rewrite Nat.add_1_r in q2. fold j in q2. exists q. split; [exact q1 |].
+    split; [intros f i; apply in_or_app; right; right; apply in_or_app; left; exact (q2 _ _ _ i) |].
+    split; [intros f i; apply Formula.same_sound, there; exact (q2 _ _ _ i) |]. intros o i. exact (all_some_in _ _ _ _ et (q2 _ _ _ i)). }
   assert (Reach : exists low kappa, contains bits low kappa /\ 0 <= kappa /\ In (LeastOf (map_rows place rows) (place w) low ends) tests).
-  { apply existsb_exists in ex as [d [id e]]. destruct (Test d id) as [i [u [_ [pu [iu _]]]]]. destruct d; try discriminate; cbn [pose_test] in pu.
+  { apply existsb_exists in ex as [d [id e]]. destruct (Test d id) as [q [_ [_ [_ shown]]]]. destruct d; try discriminate; cbn [tests_of_demand] in shown;
+      destruct (shown _ (or_introl eq_refl)) as [u [pu iu]]; cbn [pose_test_of] in pu.
     - injection pu as <-. exists zero, 0. split; [apply zero_sound |]. split; [lra | exact iu].
     - destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-. eexists; eexists. split; [apply squared_in, e1 |].
       split; [apply pow2_ge_0 | exact iu]. }
@@ -813,42 +1016,35 @@ Proof.
       pose proof (HT0 _ IA) as K. cbn [test_holds] in K. specialize (K v lv nz).
       rewrite RowsOf in K by (intros f i; apply in_or_app; right; right; do 2 (apply in_or_app; right); exact i).
       specialize (ORIGIN eq_refl). assert (EA : map (fun p => (fst p, 0)) (map_rows (Formula.value x theta) about) =
-        map (fun l => (map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q), 0)) m).
+        map (fun l => (map (Rmult (W * ratio)) (about_origin (ratio) l P Q), 0)) m).
       { unfold map_rows. rewrite map_map. cbn [fst]. unfold about. rewrite o.
-        rewrite <- (map_map (fun l => map (Rmult (W * / two_to s)) (about_origin (/ two_to s) l P Q)) (fun A => (A, 0))), <- (map_map (fun p => map (Formula.value x theta) (fst p)) (fun A => (A, 0))).
+        rewrite <- (map_map (fun l => map (Rmult (W * ratio)) (about_origin (ratio) l P Q)) (fun A => (A, 0))), <- (map_map (fun p => map (Formula.value x theta) (fst p)) (fun A => (A, 0))).
         f_equal. exact ORIGIN. }
-      rewrite EA in K. set (q := W * / two_to s) in *. assert (q0 : 0 < q) by (apply Rmult_lt_0_compat; [exact W0 | apply Rinv_0_lt_compat, two_to_pos]).
+      rewrite EA in K. set (q := W * ratio) in *. assert (q0 : 0 < q) by (apply Rmult_lt_0_compat; [exact W0 | exact r0]).
       apply Rmult_lt_reg_l with q; [exact q0 |]. rewrite Rmult_0_r. match type of K with 0 < ?y => replace (q * _) with y; [exact K |] end.
       clear. generalize (lower_weights (fst one_matrix) (snd one_matrix) v). induction m as [| l m' IH]; intros [| [y z] ws]; cbn [map form]; try ring.
       rewrite IH, dot_map. ring. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.
-  destruct (Test d id) as [i [u [nd [pu [iu signs]]]]].
-  assert (Bound : forall b z, length_bound s d = (exactly b, z) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = / two_to z * Claim.value b).
-  { intros b z e. apply quantity_value; [rewrite e; exists (Claim.value b); split; [split; apply Rle_refl | cbn [snd]; unfold Rdiv; ring] |].
-    unfold theta. rewrite (app_assoc th). replace j with (length (th ++ [/ two_to s * L])) by (unfold j; rewrite !app_length; cbn [length]; lia).
-    rewrite app_nth2_plus, app_nth1 by (rewrite lb; apply nth_error_Some; congruence). unfold bs. apply nth_error_nth. rewrite nth_error_map, nd. cbn [option_map]. rewrite e. cbn. f_equal. unfold Rdiv. ring. }
-  assert (Ratio : forall b b', length_bound s d = (exactly (Over b b'), 0%Z) -> Formula.value x theta (quantity (length_bound s d) (j + i)) = Claim.value b / Claim.value b')
-    by (intros b b' e; rewrite (Bound _ _ e); change (two_to 0) with 1; rewrite Rinv_1; apply Rmult_1_l).
-  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (ratio := / two_to s) in *.
-  assert (LegOf : forall n row, nth_error rows n = Some row -> exists l, nth_error m n = Some l /\ stands x theta k P Q W ratio L row l).
-  { clear - ST. intros n row. revert n. induction ST as [| row' l rows' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
+  destruct (Test d id) as [ns [qv [signs [plains shown]]]].
+  assert (Num : forall n, Formula.value x theta (nth n ns (integer 0)) = nth n (map input_value (inputs_of false s d)) 0)
+    by (intro n; rewrite <- qv; symmetry; exact (map_nth (Formula.value x theta) ns (integer 0) n)).
+  assert (LegOf : forall n z, nth_error zs n = Some z -> exists l, nth_error m n = Some l /\ strut_stands x theta k P Q W ratio L z l).
+  { clear - ZS. intros n z. revert n. induction ZS as [| z' l zs' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
     - injection e as ->. exists l. split; [reflexivity | exact hd].
     - exact (IH n e). }
-  assert (LeverOf_ : forall n p, nth_error levers n = Some p -> exists l, nth_error m n = Some l /\ is_lever x theta k P Q W ratio L l p).
-  { clear - LV. intros n p. revert n. change (Forall2 (fun p l => is_lever x theta k P Q W ratio L l p) levers m) in LV. induction LV as [| p' l levers' m' hd hs IH]; intros [| n] e; try discriminate; cbn [nth_error] in *.
-    - injection e as ->. exists l. split; [reflexivity | exact hd].
-    - exact (IH n e). }
-  assert (Leg : forall n A D, nth_error rows n = Some (A, D) -> exists l, nth_error m n = Some l /\ Formula.value x theta D = W * ratio ^ 2 * norm2 (strut_vector l P Q)).
-  { intros n A D e. destruct (LegOf n _ e) as [l [e' [_ [hd _]]]]. exists l. split; [exact e' | exact hd]. }
+  assert (Size : forall z l, strut_stands x theta k P Q W ratio L z l -> Formula.value x theta (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l P Q))
+    by (intros z l [hs _]; unfold stands in hs; destruct (z_row z) as [A D]; exact (proj1 (proj2 hs))).
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
-  pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b]; cbn [pose_test] in pu; try discriminate; cbn [Configuration.fulfils].
-  4-5: cbn [own_formulas length_sign] in *; destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
-    cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (Leg n A D nr) as [l [nl vD]];
+  assert (Over1 : forall y, y / 1 = y) by (intro; field). pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b]; cbn [Configuration.fulfils];
+    try (destruct (shown _ (or_introl eq_refl)) as [u [pu iu]]; cbn [pose_test_of] in pu; fold rows in pu; try discriminate).
+  4-5: cbn [own_formulas length_sign] in *; destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
+    cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (LegOf n z nz) as [l [nl sl]]; pose proof (Size z l sl) as vD;
     pose proof (HT _ iu) as H; cbn [test_holds] in H; pose proof (Found _ (signs _ (or_introl eq_refl))) as FF;
     match type of FF with _ = ?v => assert (G : 0 <= v) by (rewrite <- FF; exact H) end; clear H FF; rename G into H;
-    rewrite value_minus, value_times, Formula.value_square, (Bound b s eq_refl), vD in H; fold ratio in H; rewrite hw in H;
+    rewrite value_minus, value_times, Formula.value_square, Num, vD, hw in H; cbn [inputs_of map nth input_value] in H;
+    replace (Claim.value b / two_to s) with (ratio * Claim.value b) in H by (unfold ratio, Rdiv; ring);
     exists (strut_length l P Q); (split; [exact (Joint n l nl) |]); unfold strut_length; rewrite <- (sqrt_pow2 (Claim.value b) b0); apply sqrt_le_1_alt;
     apply Rmult_le_reg_l with (W * ratio ^ 2); [exact wr |]; rewrite Rpow_mult_distr in H; lra.
   - exact INJ.
@@ -864,25 +1060,25 @@ Proof.
     destruct (NZ u) as [nu | z]; [| destruct (Z u z) as [-> ->]; lra]. destruct (NZ v) as [nv | z]; [| destruct (Z v z) as [-> ->]; lra].
     destruct (H _ u v K (pow2_ge_0 _) lu lv nu nv) as [p q]. rewrite Rows in p, q. rewrite !(proj2 (Speed p)) in q.
     apply Rlt_le, Rmult_lt_reg_l with W; [exact W0 | lra].
-  - destruct (nth_error rows n) as [[A D] |] eqn:nr; [| discriminate]. cbn [own_formulas lever_of length_bound] in *.
-    destruct (nth_error levers n) as [[f bound] |] eqn:nv; [| discriminate]. cbn [option_map fst snd] in *.
+  - cbn [own_formulas lever_of] in *. destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]. cbn [option_map] in *.
     destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
-    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct H as [p q].
-    destruct (Leg n A D nr) as [l [nl vD]]. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
-    destruct (LeverOf_ n _ nv) as [l' [nl' [vf vb]]]. assert (l' = l) by congruence. subst l'. cbn [fst snd] in vf, vb. set (k2 := quantity (exactly (Over b' b), 0%Z) (j + i)) in *.
-    specialize (vb k2). rewrite (Ratio b' b eq_refl : Formula.value x theta k2 = _) in vb.
-    rewrite map_rows_cons in p, q. cbn [map_rows map fst snd energy Linear.dot] in p, q. apply Forall_inv in p. cbn [snd] in p.
-    assert (iD : In D wanted) by (apply in_or_app; left; apply in_flat_map; exists (A, D); split; [exact (nth_error_In _ _ nr) | apply in_or_app; right; left; reflexivity]).
-    rewrite (Found D iD) in p, q. rewrite (Found f (signs f (or_introl eq_refl))), (Found (bound k2) (signs _ (or_intror (or_introl eq_refl)))) in q. rewrite vD in p, q. rewrite vf, vb in q.
+    apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. destruct H as [p qq].
+    destruct (LegOf n z nz) as [l [nl sl]]. pose proof (Size z l sl) as vD. exists (strut_row k L l P Q). split; [unfold conf, struts_at; cbn [jacobian]; rewrite nth_error_map, nl; reflexivity |].
+    destruct (proj1 (proj2 sl)) as [vf vb]. set (k2 := nth 0 ns (integer 0)) in *.
+    specialize (vb k2). unfold k2 in vb at 2. rewrite Num in vb. cbn [inputs_of map nth input_value Claim.value] in vb. change (two_to 0) with 1 in vb. rewrite Over1 in vb.
+    rewrite map_rows_cons in p, qq. cbn [map_rows map fst snd energy Linear.dot] in p, qq. apply Forall_inv in p. cbn [snd] in p.
+    assert (iD : In (snd (z_row z)) wanted).
+    { apply in_or_app. left. apply in_flat_map. exists (z_row z). split; [apply in_map, (nth_error_In _ _ nz) | apply in_or_app; right; left; reflexivity]. }
+    rewrite (Found _ iD) in p, qq. rewrite (Found _ (signs _ (or_introl eq_refl))), (Found _ (signs _ (or_intror (or_introl eq_refl)))) in qq. rewrite vD in p, qq. rewrite vf, vb in qq.
     set (y := Claim.value b') in *. set (tool := Claim.value b) in *. set (n2 := norm2 (strut_vector l P Q)) in *. set (along := Vec3.dot (arm_of_joint l Q) (strut_vector l P Q)) in *.
     assert (n0 : 0 < n2) by (apply Rmult_lt_reg_l with (W * ratio ^ 2); lra).
     assert (R : Linear.dot (strut_row k L l P Q) (strut_row k L l P Q) <= (y / tool) ^ 2).
-    { apply (lever_bounds k P Q L l L0 (orientation_keeps _ _ hQ)); [exact n0 |]. fold along. fold n2. apply Rmult_lt_reg_l with (W * ratio ^ 2); [exact wr |].
-      replace (W * ratio ^ 2 * (along ^ 2 / n2)) with ((W * ratio ^ 2 * along * 1 + 0) ^ 2 / (W * ratio ^ 2 * n2) + 0) by (field; split; [lra | split; lra]). exact q. }
+    { apply (lever_bounds k P Q L l L0 keeps); [exact n0 |]. fold along. fold n2. apply Rmult_lt_reg_l with (W * ratio ^ 2); [exact wr |].
+      replace (W * ratio ^ 2 * (along ^ 2 / n2)) with ((W * ratio ^ 2 * along * 1 + 0) ^ 2 / (W * ratio ^ 2 * n2) + 0) by (field; split; [lra | split; lra]). exact qq. }
     intros v lv le. apply Rabs_le. enough (Q2 : Linear.dot (strut_row k L l P Q) v ^ 2 <= y ^ 2) by (split; nra).
     pose proof (Solve.dot_cauchy (strut_row k L l P Q) v) as CS. pose proof (Linear.dot_self v). pose proof (pow2_ge_0 (y / tool)).
     assert ((y / tool) ^ 2 * tool ^ 2 = y ^ 2) by (field; lra). nra.
-  - destruct (nth_error rows n) as [row |] eqn:nr; [| discriminate]. destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
+  - destruct (nth_error zs n) as [z0 |] eqn:there0; [| discriminate]. destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate].
     apply andb_true_iff in ce as [t0 b0]. apply positive_sound in t0, b0. destruct (enclose_parameter bits _) as [a |] eqn:e1; [| discriminate]. injection pu as <-.
     pose proof (squared_in _ _ e1) as K. cbn [Claim.value] in K. pose proof (HT _ iu) as H. cbn [test_holds] in H. rewrite Rows, Weight in H.
     unfold conf, struts_at. cbn [jacobian]. intros tau F [lt' [lF hF]] le. rewrite map_length in lt'.
@@ -908,18 +1104,89 @@ Proof.
       rewrite <- hi. unfold du. rewrite un. pose proof (pow2_ge_0 y). lra.
   - destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate]. apply andb_true_iff in ce as [k0' b0]. apply positive_sound in k0', b0.
     injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. cbn [own_formulas] in signs. intros v lv.
-    pose proof (Ratio b' b eq_refl) as Number.
+    pose proof (Num 0%nat) as Number. cbn [inputs_of rate Z.add map nth input_value Claim.value] in Number. change (two_to 0) with 1 in Number. rewrite Over1 in Number.
     assert (q0 : 0 < Claim.value b' / Claim.value b) by (apply Rdiv_lt_0_compat; assumption).
     destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
     destruct (H 1 v (Fixed.integer_sound bits 1) ltac:(lra) lv nz) as [p q].
     rewrite RowsOf in p, q by (intros f i'; apply in_flat_map in i' as [[A D] [i1 i2]]; apply in_app_or in i2 as [i2 | [<- | []]];
       [apply in_map_iff in i1 as [[A' D'] [e1 i1]]; injection e1 as <- <-; apply in_or_app; left; apply in_flat_map; exists (A', D'); split; [exact i1 | apply in_or_app; left; exact i2]
       | apply signs, in_map_iff; exists (A, D); split; [reflexivity | exact i1]]).
-    destruct (stiff_energy x theta rows s (j + i) _ _ v Number q0 p) as [p' E]. rewrite (proj2 (Speed p')) in E. rewrite Weight in q.
+    destruct (stiff_energy x theta zs ns _ v Number q0 p) as [p' E]. rewrite (proj2 (Speed p')) in E. rewrite Weight in q.
     unfold conf, struts_at. cbn [jacobian]. set (S2 := Configuration.speed2 _ v) in *. set (y := Claim.value b') in *. set (e := Claim.value b) in *.
     assert (y / e * (W * Linear.dot v v) < W * S2) by (rewrite E; apply Rmult_lt_compat_l; [exact q0 | lra]).
     assert (y / e * Linear.dot v v < S2) by (apply Rmult_lt_reg_l with W; lra).
     replace (y * Linear.dot v v) with (e * (y / e * Linear.dot v v)) by (field; lra). apply Rmult_le_compat_l; lra.
+  - cbn [tests_of_demand own_formulas plain_formulas] in *. destruct (nth_error zs n) as [z |] eqn:nz; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    destruct (is_axis ax && certainly bits false b && certainly bits false (Minus (180 // 1) b)) eqn:ce; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    apply andb_true_iff in ce as [ce b1]. apply andb_true_iff in ce as [axis b0]. apply nonneg_sound in b0, b1. cbn [Claim.value] in b1.
+    destruct (LegOf n z nz) as [l [nl [_ [_ [WAY LIMB]]]]]. set (A := strut_vector l P Q) in *.
+    assert (A0 : 0 < norm2 A) by (rewrite Forall_forall in reach_; exact (reach_ l (nth_error_In _ _ nl))).
+    assert (J0 : 0 < norm2 (located ax)) by (apply (is_never_zero_sound _ (located ax) axis); repeat split; apply Rle_refl).
+    set (a := if on then mulv Q (located ax) else located ax). assert (a0 : norm2 a = norm2 (located ax)) by (unfold a; destruct on; [apply keeps | reflexivity]).
+    exists (vadd P (arm_of_joint l Q)), A, (strut_length l P Q). unfold conf, struts_at. cbn [limbs placed]. split; [rewrite nth_error_map, nl; reflexivity |].
+    assert (eqa : (if on then vsub (vadd P (mulv Q (located ax))) (vadd P (mulv Q vzero)) else located ax) = a) by (unfold a; destruct on; [apply placed_difference | reflexivity]).
+    cbv zeta. rewrite eqa. split; [exact A0 |]. split; [rewrite a0; exact J0 |].
+    assert (B : 0 <= Claim.value b <= 180) by lra.
+    apply (angle_found A a (Claim.value b) A0 ltac:(rewrite a0; exact J0) B). rewrite a0.
+    set (o := order_of [px ax; py ax; pz ax]) in *. pose proof (Rinv_0_lt_compat _ (two_to_pos o)) as o0. set (c0 := cos (in_degrees (Claim.value b))) in *.
+    assert (AX : val3 x theta (vector_at ns 1) = vscale (/ two_to o) (located ax)).
+    { unfold val3, vector_at. cbn [Machine.ex Machine.ey Machine.ez Nat.add]. rewrite !Num. cbn [inputs_of map nth input_value]. fold o. unfold vscale, located. cbn [vx vy vz]. unfold Rdiv. f_equal; ring. }
+    pose proof (sqrt_lt_R0 _ J0) as sj. pose proof (sqrt_lt_R0 _ A0) as sA.
+    assert (LC : Formula.value x theta (least_cosine ns) = / two_to o * (c0 * sqrt (norm2 (located ax)))).
+    { unfold least_cosine. rewrite value_times, Num, value_root, value_dot, AX, <- norm2_dot, norm2_scale, sqrt_resized by exact o0. cbn [inputs_of map nth input_value]. fold c0. ring. }
+    unfold angle_tests in shown. destruct (up_to_90 b) eqn:up.
+    + unfold angle_row in shown, signs. cbv beta iota in shown, signs. set (U := z_way z on) in *. set (row := list_of (Machine.scaled (least_cosine ns) U)) in *. set (D := Machine.product U (vector_at ns 1)) in *.
+      assert (FD : at_pairs theta (entry_at tape (place D)) (parabola x) = Formula.value x theta D) by (apply Found, signs, in_or_app; right; left; reflexivity).
+      assert (DV : Formula.value x theta D = W * ratio * / two_to o * Vec3.dot A a).
+      { unfold D. rewrite value_dot, (WAY on : val3 x theta U = _), AX. unfold a. destruct on; [apply axis_on_platform | unfold Vec3.dot, vscale; cbn [vx vy vz]; ring]. }
+      assert (wo : 0 < W * ratio * / two_to o) by (repeat apply Rmult_lt_0_compat; assumption).
+      destruct (shown _ (or_introl eq_refl)) as [u0 [e0 i0]]. injection e0 as <-. pose proof (HT _ i0) as H0. cbn [test_holds] in H0. rewrite FD, DV in H0.
+      destruct (certainly exact_bits false (Minus b (90 // 1))) eqn:right.
+      * apply nonneg_sound in right. cbn [Claim.value] in right. assert (Aa : 0 <= Vec3.dot A a) by (apply Rmult_le_reg_l with (W * ratio * / two_to o); [exact wo | lra]).
+        assert (c1 : c0 <= 0).
+        { unfold c0. replace 0 with (cos (PI / 2)) by apply cos_PI2. pose proof PI_RGT_0. destruct (Rle_lt_or_eq_dec (PI / 2) (in_degrees (Claim.value b))) as [gl | gl]; [unfold in_degrees; nra | | rewrite <- gl; apply Rle_refl].
+          apply Rlt_le, cos_decreasing_1; try exact gl; unfold in_degrees; nra. }
+        assert (0 < sqrt (norm2 A) * sqrt (norm2 (located ax))) by (apply Rmult_lt_0_compat; assumption). nra.
+      * destruct (shown _ (or_intror (or_introl eq_refl))) as [u1 [e1 i1]]. injection e1 as <-. pose proof (HT _ i1) as H1. cbn [test_holds] in H1.
+        assert (UV : norm2 (val3 x theta U) = (W * ratio) ^ 2 * norm2 A).
+        { rewrite (WAY on : val3 x theta U = _), norm2_scale. destruct on; [| reflexivity]. rewrite <- (keeps (mulv (transpose Q) A)), (proj2 (rotations_invert Q keeps A)). reflexivity. }
+        assert (U0 : 0 < (W * ratio) ^ 2 * norm2 A) by (apply Rmult_lt_0_compat; [apply pow_lt, Rmult_lt_0_compat; assumption | exact A0]).
+        specialize (H1 (coordinates (val3 x theta U)) eq_refl ltac:(unfold nonzero; rewrite dot_coordinates, <- norm2_dot, UV; exact U0)).
+        assert (MR : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) [(map place row, place D)] = [(map (Rmult (Formula.value x theta (least_cosine ns))) (coordinates (val3 x theta U)), Formula.value x theta D)]).
+        { unfold map_rows. cbn [map fst snd]. rewrite FD, map_map. f_equal. f_equal. transitivity (map (Formula.value x theta) row).
+          - apply map_ext_in. intros f i. apply Found, signs, in_or_app. left. exact i.
+          - unfold row, list_of, Machine.scaled. cbn [map Machine.ex Machine.ey Machine.ez coordinates val3 vx vy vz]. rewrite !value_times. reflexivity. }
+        unfold row in MR. cbn [list_of Machine.scaled Machine.ex Machine.ey Machine.ez map] in MR. rewrite MR, FD in H1. destruct H1 as [p1 qq]. pose proof (Forall_inv p1) as p2. cbn [snd] in p2. cbn [energy] in qq. rewrite dot_map, dot_coordinates, <- norm2_dot, UV, LC in qq. rewrite DV in p2, qq.
+        set (S := (W * ratio) ^ 2 * norm2 A) in *. set (E := W * ratio * / two_to o * Vec3.dot A a) in *. set (C := / two_to o * (c0 * sqrt (norm2 (located ax)))) in *.
+        assert (K : C ^ 2 * S < E ^ 2).
+        { apply Rmult_lt_reg_r with S; [exact U0 |]. apply Rmult_lt_reg_r with (/ E); [apply Rinv_0_lt_compat, p2 |].
+          replace (C ^ 2 * S * S * / E) with ((C * S) ^ 2 / E + 0) by (field; lra). replace (E ^ 2 * S * / E) with (E * S) by (field; lra). exact qq. }
+        assert (SS : S = (W * ratio * sqrt (norm2 A)) ^ 2) by (unfold S; rewrite (Rpow_mult_distr (W * ratio) (sqrt (norm2 A))), pow2_sqrt by lra; reflexivity).
+        assert (w2 : 0 < W * ratio * sqrt (norm2 A)) by (repeat apply Rmult_lt_0_compat; assumption). rewrite SS, <- Rpow_mult_distr in K.
+        assert (M : C * (W * ratio * sqrt (norm2 A)) <= E) by (apply Rnot_lt_le; intro gl; assert (E ^ 2 < (C * (W * ratio * sqrt (norm2 A))) ^ 2) by nra; lra).
+        unfold C, E in M. apply Rmult_le_reg_l with (W * ratio * / two_to o); [exact wo | lra].
+    + destruct (shown _ (or_introl eq_refl)) as [u0 [e0 i0]]. injection e0 as <-. pose proof (HT _ i0) as H0. cbn [test_holds Check.holds] in H0. unfold is_nonneg in H0. destruct H0 as [_ H0].
+      rewrite (plains _ (or_introl eq_refl)) in H0. unfold angle_sign in H0. destruct (z_limb z) as [[tip eA] size] eqn:ez. cbn [rod_stands] in LIMB.
+      destruct LIMB as [C [V [size0 [e1 [_ [e2 e3]]]]]]. injection e1 as e4 e5 e6. fold A in e5. unfold strut_length in e6. fold A in e6. rewrite <- e5 in e2. rewrite <- e6 in e3.
+      assert (TV : val3 x theta (if on then eturned N w (vector_at ns 1) else vector_at ns 1) = vscale (/ two_to o) a).
+      { unfold a. destruct on; [| exact AX]. exact (turned_values x theta Q W (/ two_to o) N w W0 hN hw _ _ AX). }
+      rewrite value_minus, value_times, value_dot, TV, LC, <- e3 in H0. change (val3 x theta eA) with (located_at x theta eA) in H0. rewrite <- e2 in H0.
+      assert (ro : 0 < ratio * / two_to o) by (apply Rmult_lt_0_compat; assumption).
+      replace (Vec3.dot (vscale ratio A) (vscale (/ two_to o) a)) with (ratio * / two_to o * Vec3.dot A a) in H0 by (unfold Vec3.dot, vscale; cbn [vx vy vz]; ring).
+      apply Rmult_le_reg_l with (ratio * / two_to o); [exact ro | lra].
+  - cbn [plain_formulas] in plains. destruct (limb_segments k N w zs ns one other) as [[[a a'] [e e']] |] eqn:es; [| discriminate].
+    destruct (enclose_parameter bits _) as [distance |] eqn:ed; [| discriminate]. destruct (0 <=? lo distance)%Z eqn:d0; [| discriminate]. apply Z.leb_le in d0. injection pu as <-.
+    pose proof (HT _ iu) as H. cbn [test_holds] in H.
+    assert (RODS : Forall2 (rod_stands x theta (/ two_to s)) (map (fun z => Some (z_limb z)) zs) (limbs conf)).
+    { unfold conf, struts_at. cbn [limbs]. fold ratio. clear - ZS. induction ZS as [| z l zs' m' [_ [_ [_ h]]] hs IH]; cbn [map]; constructor; assumption. }
+    assert (QV : map (Formula.value x theta) (tl ns) = map exact_value (body_numbers s one ++ body_numbers s other)).
+    { destruct ns as [| q0 ns']; [discriminate qv |]. cbn [inputs_of map] in qv. cbn [tl]. apply (f_equal (@tl R)) in qv. cbn [tl map] in qv. rewrite qv, map_map. reflexivity. }
+    assert (PL : forall u v, located_at x theta u = vscale (/ two_to s) v -> located_at x theta (eplaced k N w u) = vscale (/ two_to s) (placed conf v))
+      by (intros u v; exact (placed_values x theta k P Q W ratio N w W0 hPv hN hw u v)).
+    refine (bodies_apart bits one_matrix x theta s plain (params ++ inputs ++ tangents) _ _ _ _ RODS PL one other b (tl ns) a a' e e' distance (dimension k) [] [] QV es _ _ d0 H).
+    + intros f i. exact (f_equal (Formula.value x theta) (plains f i)).
+    + replace (/ two_to s * _) with (Claim.value (distance_of one other b) / two_to s) by (cbn [distance_of Claim.value]; unfold Rdiv; ring).
+      exact (enclose_parameter_sound bits _ _ _ ed (exact_within _ _)).
 Qed.
 End Precision.
 

@@ -290,25 +290,24 @@ Qed.
 (** Where a requirement's bound and its other numbers are among the parameters. *)
 Definition next (s : Z) (r : requirement) (j : nat * nat) : nat * nat := (S (fst j), snd j + length (extras s r))%nat.
 
-(** The ends of a body's segment, by its numbers. *)
-Definition segment_formulas (fs : list leg_formulas) (q : list formula) (b : body) : option (evec * evec) :=
+(** The ends of a body's segment, by its numbers; [rods]: of each leg its platform end, vector and length. *)
+Definition segment_formulas (rods : list (option (evec * evec * formula))) (placed : evec -> evec) (q : list formula) (b : body) : option (evec * evec) :=
   match b with
   | AlongLeg i _ _ _ _ =>
-      match nth_error fs i with
-      | Some f => match f_tip f with
-          | Some tip =>
-              let part x := map2 plus (map2 minus tip (scaled x (f_A f))) (vector_at q 2) in
-              Some (part (minus (integer 1) (over (nth 0 q (integer 0)) (rod f))), part (over (nth 1 q (integer 0)) (rod f)))
-          | None => None
-          end
-      | None => None
+      match nth_error rods i with
+      | Some (Some (tip, A, len)) =>
+          let part x := map2 plus (map2 minus tip (scaled x A)) (vector_at q 2) in
+          Some (part (minus (integer 1) (over (nth 0 q (integer 0)) len)), part (over (nth 1 q (integer 0)) len))
+      | _ => None
       end
   | OnBase _ _ _ => Some (vector_at q 0, vector_at q 3)
-  | OnPlatform _ _ _ => Some (map2 plus point (vector_at q 0), map2 plus point (vector_at q 3))
+  | OnPlatform _ _ _ => Some (placed (vector_at q 0), placed (vector_at q 3))
   end.
+Definition segments_along (rods : list (option (evec * evec * formula))) (placed : evec -> evec) (q : list formula) (one other : body) : option (evec * evec * (evec * evec)) :=
+  match segment_formulas rods placed (firstn 6 q) one, segment_formulas rods placed (skipn 6 q) other with Some a, Some b => Some (a, b) | _, _ => None end.
+Definition rods_of (fs : list leg_formulas) : list (option (evec * evec * formula)) := map (fun f => option_map (fun tip => (tip, f_A f, rod f)) (f_tip f)) fs.
 Definition segments (fs : list leg_formulas) (s : Z) (j : nat) (one other : body) : option (evec * evec * (evec * evec)) :=
-  let q := numbered j (body_numbers s one ++ body_numbers s other) in
-  match segment_formulas fs (firstn 6 q) one, segment_formulas fs (skipn 6 q) other with Some a, Some b => Some (a, b) | _, _ => None end.
+  segments_along (rods_of fs) (map2 plus point) (numbered j (body_numbers s one ++ body_numbers s other)) one other.
 
 (** |d|^2 - (d . A)^2/L^2 - R^2, d from the one line along the leg to the other. *)
 Definition beside_formula (f : leg_formulas) (q : list formula) (b : formula) : formula :=
@@ -674,6 +673,93 @@ Proof.
   intro e. apply z. subst v. unfold norm2, vzero. cbn. ring.
 Qed.
 
+(** *** Bodies *)
+
+Section Bodies.
+Variables x theta : list R.
+Variable s : Z.
+Local Notation value := (value x theta).
+Let ratio := / two_to s.
+Definition located_at (u : evec) : vec := Vec (value (ex u)) (value (ey u)) (value (ez u)).
+Definition rod_stands (unit : R) (f : option (evec * evec * formula)) (l : option (vec * vec * R)) : Prop :=
+  match f with
+  | Some (tip, A, len) => exists C V L, l = Some (C, V, L) /\ vscale unit C = located_at tip /\ vscale unit V = located_at A /\ unit * L = value len
+  | None => True
+  end.
+Variable tape : list (op nat).
+Variables (params : list fixed) (rods : list (option (evec * evec * formula))) (placed : evec -> evec) (real : list (option (vec * vec * R))) (place_of : vec -> vec).
+Hypothesis rods_are : Forall2 (rod_stands ratio) rods real.
+Hypothesis placed_is : forall u v, located_at u = vscale ratio v -> located_at (placed u) = vscale ratio (place_of v).
+Local Notation found := (place (formulas tape)).
+
+Lemma quotient_resized : forall a b, ratio * a / (ratio * b) = a / b.
+Proof.
+  intros a b. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0. destruct (Req_dec b 0) as [-> | z]; [| field; lra].
+  rewrite Rmult_0_r. unfold Rdiv. rewrite Rinv_0. ring.
+Qed.
+
+Lemma exact_in_unit : forall y, exact_value (exactly y, s) = ratio * Claim.value y.
+Proof. intro y. unfold exact_value. cbn. unfold Rdiv. fold ratio. ring. Qed.
+
+Lemma segment_there : forall q b e e', map value q = map exact_value (body_numbers s b) -> segment_formulas rods placed q b = Some (e, e') ->
+  exists p p', segment_along real place_of b = Some (p, p') /\ located_at e = vscale ratio p /\ located_at e' = vscale ratio p'.
+Proof.
+  intros q b e e' V h. pose proof exact_in_unit as N.
+  assert (At : forall k, value (nth k q (integer 0)) = nth k (map exact_value (body_numbers s b)) 0)
+    by (intro k; rewrite <- V; symmetry; exact (map_nth value q (integer 0) k)).
+  assert (Three : forall k, located_at (vector_at q k) = Vec (nth k (map exact_value (body_numbers s b)) 0) (nth (1 + k) (map exact_value (body_numbers s b)) 0) (nth (2 + k) (map exact_value (body_numbers s b)) 0))
+    by (intro k; unfold located_at, vector_at; cbn [ex ey ez]; rewrite !At; reflexivity).
+  destruct b as [i rad tb up o | rad p p' | rad p p']; cbn [segment_formulas segment_along] in *.
+  - destruct (nth_error rods i) as [[[[tip A] len] |] |] eqn:nf; try discriminate. injection h as <- <-.
+    assert (R0 : exists C V L, nth_error real i = Some (Some (C, V, L)) /\ vscale ratio C = located_at tip /\ vscale ratio V = located_at A /\ ratio * L = value len).
+    { clear - rods_are nf. revert i nf. induction rods_are as [| f l rods' real' hf hs IH]; intros [| i] nf; try discriminate; cbn [nth_error] in *.
+      - injection nf as ->. destruct hf as [C [V [L [-> h]]]]. exists C, V, L. split; [reflexivity | exact h].
+      - exact (IH hs i nf). }
+    destruct R0 as [C [W [L [-> [e1 [e2 e3]]]]]]. eexists. eexists. split; [reflexivity |].
+    pose proof (Three 2%nat) as O. pose proof (At 0%nat) as T0. pose proof (At 1%nat) as T1. cbn [body_numbers position_numbers map app nth Nat.add] in O, T0, T1. rewrite !N in O, T0, T1.
+    unfold located_at in O, e1, e2. unfold vscale in e1, e2. injection O as o1 o2 o3. injection e1 as c1 c2 c3. injection e2 as a1 a2 a3.
+    unfold located_at. cbn [map2 scaled ex ey ez vector_at]. cbn [vector_at ex ey ez Nat.add] in o1, o2, o3.
+    rewrite !value_plus, !value_minus, !value_times, !value_minus, !value_over, T0, T1, <- e3, !quotient_resized. cbn [Nat.add]. rewrite o1, o2, o3, <- c1, <- c2, <- c3, <- a1, <- a2, <- a3, ?N.
+    change (value (integer 1)) with 1. unfold vadd, vsub, vscale, located. cbn [vx vy vz]. split; f_equal; ring.
+  - injection h as <- <-. eexists. eexists. split; [reflexivity |]. rewrite !Three. cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
+  - injection h as <- <-. eexists. eexists. split; [reflexivity |].
+    split; apply placed_is; rewrite Three; cbn [body_numbers position_numbers map app nth Nat.add]; rewrite !N; reflexivity.
+Qed.
+
+Lemma body_numbers_length : forall b, length (body_numbers s b) = 6%nat.
+Proof. intros []; reflexivity. Qed.
+
+Theorem bodies_apart : forall one other b q a a' c d distance n whole divided, map value q = map exact_value (body_numbers s one ++ body_numbers s other) ->
+  segments_along rods placed q one other = Some ((a, a'), (c, d)) -> (forall k, In k (flat_map list_of [a; a'; c; d]) -> value (formula_at tape (found k)) = value k) ->
+  contains distance (/ two_to s * (Claim.value (radius_of one) + Claim.value (radius_of other) + Claim.value b)) -> (0 <= lo distance)%Z ->
+  Check.holds bits tape whole divided [] params theta n x (Apart (ends_at found a) (ends_at found a') (ends_at found c) (ends_at found d) distance) ->
+  are_clear (segment_along real place_of) one other b.
+Proof.
+  intros one other b q a a' c d distance n whole divided V es E hd d0 H. pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0, hd.
+  unfold segments_along in es. destruct (segment_formulas rods placed (firstn 6 q) one) as [[e1 e1'] |] eqn:s1; [| discriminate].
+  destruct (segment_formulas rods placed (skipn 6 q) other) as [[e2 e2'] |] eqn:s2; [| discriminate]. injection es as -> -> -> ->.
+  rewrite map_app in V.
+  assert (L : length (map exact_value (body_numbers s one)) = 6%nat) by (rewrite map_length; apply body_numbers_length).
+  assert (V1 : map value (firstn 6 q) = map exact_value (body_numbers s one)).
+  { rewrite <- firstn_map, V, <- L. rewrite firstn_app, Nat.sub_diag, firstn_O, app_nil_r. apply firstn_all. }
+  assert (V2 : map value (skipn 6 q) = map exact_value (body_numbers s other)).
+  { rewrite <- skipn_map, V, <- L. rewrite skipn_app, Nat.sub_diag, skipn_all. reflexivity. }
+  destruct (segment_there _ _ _ _ V1 s1) as [p [p' [g1 [v1 v1']]]]. destruct (segment_there _ _ _ _ V2 s2) as [w [w' [g2 [v2 v2']]]].
+  exists p, p', w, w'. split; [exact g1 |]. split; [exact g2 |]. intros y0 z0 hy hz.
+  assert (At : forall y v, In y [a; a'; c; d] -> located_at y = vscale ratio v ->
+    each (fun i => value (formula_at tape i)) (ends_at found y) = Spatial (ratio * vx v) (ratio * vy v) (ratio * vz v)).
+  { intros y v iy e. unfold each, ends_at. cbn [along_x along_y along_z].
+    assert (I : forall k, In k (list_of y) -> In k (flat_map list_of [a; a'; c; d])) by (intros k ik; apply in_flat_map; exists y; split; assumption).
+    rewrite !E by (apply I; cbn; tauto). f_equal; [exact (f_equal vx e) | exact (f_equal vy e) | exact (f_equal vz e)]. }
+  cbn [Check.holds] in H. cbv zeta in H.
+  rewrite (At a p ltac:(cbn; tauto) v1), (At a' p' ltac:(cbn; tauto) v1'), (At c w ltac:(cbn; tauto) v2), (At d w' ltac:(cbn; tauto) v2') in H.
+  specialize (H _ y0 z0 hd (contains_nonneg bits _ _ d0 hd) hy hz).
+  apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. apply Rlt_le.
+  rewrite Rpow_mult_distr in H. apply Rlt_le_trans with (1 := H).
+  unfold inner, away, between, both, norm2, towards, vsub, vadd, vscale. cbn [along_x along_y along_z vx vy vz]. apply Req_le. ring.
+Qed.
+End Bodies.
+
 Section Accepted.
 Variables (c : claim) (s : Z) (ds : list Z) (m : list leg) (P : vec) (theta : list R) (params : list fixed).
 Let ratio := / two_to s.
@@ -916,41 +1002,16 @@ Proof.
     unfold normalised. rewrite !E1, !Rpow_mult_distr, pow_inv, S. field. split; lra.
 Qed.
 
-Lemma quotient_resized : forall a b, ratio * a / (ratio * b) = a / b.
+(** What the rods of formulas are. *)
+Lemma rods_stand : Forall2 (rod_stands x theta ratio) (rods_of fs) (map (fun l => rod_of l P) m).
 Proof.
-  intros a b. pose proof ratio_pos. destruct (Req_dec b 0) as [-> | z]; [| field; lra].
-  rewrite Rmult_0_r. unfold Rdiv. rewrite Rinv_0. ring.
+  pose proof ratio_pos as r0. clear - represented r0. unfold rods_of. revert represented. generalize m. induction fs as [| f fs' IH]; intros [| l m'] h; try (inversion h; fail); cbn [map]; constructor.
+  - inversion h as [| ? ? ? ? R0 _]; subst. destruct R0 as [_ [_ [_ [_ [_ [_ [_ R0]]]]]]]. destruct (f_tip f) as [tip |] eqn:et; cbn [option_map rod_stands]; [| exact I].
+    specialize (R0 tip eq_refl). rewrite rod_resized in R0 by exact r0. destruct (rod_of l P) as [[[C A] L] |]; [| discriminate].
+    exists C, A, L. split; [reflexivity |]. split; [exact (f_equal (fun o => match o with Some (C, _, _) => C | None => C end) R0) |].
+    split; [exact (f_equal (fun o => match o with Some (_, A, _) => A | None => A end) R0) | exact (f_equal (fun o => match o with Some (_, _, L) => L | None => L end) R0)].
+  - apply IH. inversion h. assumption.
 Qed.
-
-Lemma segment_there : forall q b e e', map (value x theta) q = map exact_value (body_numbers s b) -> segment_formulas fs q b = Some (e, e') ->
-  exists p p', segment_of m P b = Some (p, p') /\ vvalue Q theta e = vscale ratio p /\ vvalue Q theta e' = vscale ratio p'.
-Proof.
-  pose proof ratio_pos as r0. intros q b e e' V h.
-  assert (N : forall y, exact_value (exactly y, s) = ratio * Claim.value y) by (intro y; unfold exact_value; cbn; unfold Rdiv; fold ratio; ring).
-  destruct b as [i rad tb up o | rad p p' | rad p p']; cbn [segment_formulas segment_of] in *.
-  - destruct (nth_error fs i) as [f |] eqn:nf; [| discriminate]. destruct (f_tip f) as [tip |] eqn:et; [| discriminate]. injection h as <- <-.
-    destruct (represents_nth _ _ _ _ _ _ represented nf) as [l' [k R0]]. rewrite nth_error_map in k.
-    destruct (nth_error m i) as [l |]; [| discriminate]. injection k as <-.
-    destruct R0 as [_ [_ [_ [_ [_ [_ [_ R0]]]]]]]. specialize (R0 tip et). unfold ratio in R0. rewrite rod_resized in R0 by exact r0. fold ratio in R0.
-    destruct (rod_of l P) as [[[C A] L] |]; [| discriminate].
-    assert (e1 : vscale ratio C = vvalue Q theta tip) by congruence. assert (e2 : vscale ratio A = vvalue Q theta (f_A f)) by congruence.
-    assert (e3 : ratio * L = value x theta (rod f)) by congruence.
-    eexists. eexists. split; [reflexivity |].
-    assert (O : vvalue Q theta (vector_at q 2) = vscale ratio (located o)).
-    { rewrite (vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. reflexivity. }
-    assert (T0 : value x theta (nth 0 q (integer 0)) = ratio * Claim.value tb) by (rewrite (value_at _ _ _ _ _ V); apply N).
-    assert (T1 : value x theta (nth 1 q (integer 0)) = ratio * Claim.value up) by (rewrite (value_at _ _ _ _ _ V); apply N).
-    rewrite !vvalue_plus, !vvalue_minus, !vvalue_scaled, value_minus, !value_over, O, T0, T1, <- e1, <- e2, <- e3, !quotient_resized.
-    change (value x theta (integer 1)) with 1. unfold vadd, vsub, vscale. cbn [vx vy vz]. split; f_equal; ring.
-  - injection h as <- <-. eexists. eexists. split; [reflexivity |].
-    rewrite !(vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
-  - injection h as <- <-. eexists. eexists. split; [reflexivity |].
-    rewrite !vvalue_plus, !vvalue_point, !(vvalue_at _ _ _ _ _ V). cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N.
-    unfold vadd, located, vscale. cbn [vx vy vz]. split; f_equal; ring.
-Qed.
-
-Lemma body_numbers_length : forall b, length (body_numbers s b) = 6%nat.
-Proof. intros []; reflexivity. Qed.
 
 Lemma clearance_fulfilled : forall one other b a a' c' d' distance, r = Clearance one other b ->
   segments fs s (snd j) one other = Some ((a, a'), (c', d')) -> contains distance (bound_value s r) -> (0 <= lo distance)%Z ->
@@ -958,35 +1019,14 @@ Lemma clearance_fulfilled : forall one other b a a' c' d' distance, r = Clearanc
     (Apart (ends_at found a) (ends_at found a') (ends_at found c') (ends_at found d') distance) ->
   fulfils c m P r.
 Proof.
-  intros one other b a a' c' d' distance er es hd d0 H. pose proof ratio_pos as r0.
+  intros one other b a a' c' d' distance er es hd d0 H.
   pose proof range_found as RF. pose proof extras_at as EX. subst r. cbn [extras range_formula] in *. rewrite es in RF.
-  set (q := numbered (snd j) (body_numbers s one ++ body_numbers s other)) in *. unfold segments in es. fold q in es.
-  destruct (segment_formulas fs (firstn 6 q) one) as [[e1 e1'] |] eqn:s1; [| discriminate].
-  destruct (segment_formulas fs (skipn 6 q) other) as [[e2 e2'] |] eqn:s2; [| discriminate]. injection es as -> -> -> ->.
-  rewrite map_app in EX.
-  assert (L : length (map exact_value (body_numbers s one)) = 6%nat) by (rewrite map_length; apply body_numbers_length).
-  assert (V1 : map (value x theta) (firstn 6 q) = map exact_value (body_numbers s one)).
-  { rewrite <- firstn_map, EX, <- L. rewrite firstn_app, Nat.sub_diag, firstn_O, app_nil_r. apply firstn_all. }
-  assert (V2 : map (value x theta) (skipn 6 q) = map exact_value (body_numbers s other)).
-  { rewrite <- skipn_map, EX, <- L. rewrite skipn_app, Nat.sub_diag, skipn_all. reflexivity. }
-  destruct (segment_there _ _ _ _ V1 s1) as [p [p' [g1 [v1 v1']]]]. destruct (segment_there _ _ _ _ V2 s2) as [w [w' [g2 [v2 v2']]]].
-  exists p, p', w, w'. split; [exact g1 |]. split; [exact g2 |]. intros y0 z0 hy hz.
-  assert (E : forall k, (In k (flat_map list_of [a; a'; c'; d'])) -> value x theta (formula_at tape (found k)) = value x theta k)
-    by (intros k ik; rewrite (RF k ik); reflexivity).
-  assert (At : forall y v, In y [a; a'; c'; d'] -> vvalue Q theta y = vscale ratio v ->
-    each (fun i => value x theta (formula_at tape i)) (ends_at found y) = Spatial (ratio * vx v) (ratio * vy v) (ratio * vz v)).
-  { intros y v iy e. unfold each, ends_at. cbn [along_x along_y along_z].
-    assert (I : forall k, In k (list_of y) -> In k (flat_map list_of [a; a'; c'; d'])) by (intros k ik; apply in_flat_map; exists y; split; assumption).
-    rewrite !E by (apply I; cbn; tauto). f_equal; [exact (f_equal vx e) | exact (f_equal vy e) | exact (f_equal vz e)]. }
-  cbn [Check.holds] in H. cbv zeta in H.
-  rewrite (At a p ltac:(cbn; tauto) v1), (At a' p' ltac:(cbn; tauto) v1'), (At c' w ltac:(cbn; tauto) v2), (At d' w' ltac:(cbn; tauto) v2') in H.
-  assert (B0 : 0 <= bound_value s (Clearance one other b)) by (apply (contains_nonneg bits distance); assumption).
-  specialize (H (bound_value s (Clearance one other b)) y0 z0 hd B0 hy hz).
-  assert (Bv : bound_value s (Clearance one other b) = ratio * (Claim.value (radius_of one) + Claim.value (radius_of other) + Claim.value b))
-    by (unfold bound_value; cbn; unfold Rdiv; fold ratio; ring).
-  rewrite Bv in H. apply Rmult_le_reg_l with (ratio ^ 2); [apply pow_lt, r0 |]. apply Rlt_le.
-  rewrite Rpow_mult_distr in H. apply Rlt_le_trans with (1 := H).
-  unfold inner, away, between, both, norm2, towards, vsub, vadd, vscale. cbn [along_x along_y along_z vx vy vz]. apply Req_le. ring.
+  refine (bodies_apart x theta s tape params (rods_of fs) (map2 plus point) _ (vadd P) rods_stand _ one other b _ _ _ _ _ distance _ _ _ EX es _ _ d0 H).
+  - intros u v e. change (vvalue Q theta (map2 plus point u) = vscale ratio (vadd P v)). rewrite vvalue_plus, vvalue_point.
+    change (vvalue Q theta u = vscale ratio v) in e. rewrite e. unfold vadd, vscale. cbn [vx vy vz]. f_equal; ring.
+  - intros k ik. rewrite (RF k ik). reflexivity.
+  - replace (/ two_to s * (Claim.value (radius_of one) + Claim.value (radius_of other) + Claim.value b)) with (bound_value s (Clearance one other b)); [exact hd |].
+    unfold bound_value. cbn. unfold Rdiv. ring.
 Qed.
 
 Lemma rod_length : forall l C A L, well_formed_leg l -> reaches P l -> rod_of l P = Some (C, A, L) -> norm2 A = L ^ 2 /\ 0 < L ^ 2.
@@ -1226,7 +1266,7 @@ End Accepted.
 Theorem beside_keeps : forall c m P i one other r r' t u t' u' b,
   fulfils c m P (Beside i one other (Plus (Plus r r') b)) -> fulfils c m P (Clearance (AlongLeg i r t u one) (AlongLeg i r' t' u' other) b).
 Proof.
-  intros c m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. cbn [fulfils segment_of]. rewrite n, e.
+  intros c m P i one other r r' t u t' u' b [l [C [A [L [n [e h]]]]]]. unfold fulfils, are_clear, segment_of. cbn [segment_along]. rewrite nth_error_map, n. cbn [option_map]. rewrite e.
   do 4 eexists. split; [reflexivity |]. split; [reflexivity |]. intros y z _ _. cbn [radius_of].
   set (a1 := 1 - Claim.value t / L). set (a2 := Claim.value u / L). set (a3 := 1 - Claim.value t' / L). set (a4 := Claim.value u' / L).
   specialize (h ((1 - y) * a1 + y * a2) ((1 - z) * a3 + z * a4)). cbn [Claim.value] in h. apply Rle_trans with (1 := h), Req_le.

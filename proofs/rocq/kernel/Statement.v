@@ -96,20 +96,23 @@ Definition rod_of (l : leg) (P : vec) : option (vec * vec * R) :=
   | Extensible base platform _ => Some (vadd P platform, span base platform P, sqrt (norm2 (span base platform P)))
   | Plane _ => None
   end.
-Definition segment_of (m : list leg) (P : vec) (b : body) : option (vec * vec) :=
+(** [rods]: of each leg what [rod_of] is; [placed]: where points of the platform are. *)
+Definition segment_along (rods : list (option (vec * vec * R))) (placed : vec -> vec) (b : body) : option (vec * vec) :=
   match b with
   | AlongLeg i _ t u o =>
-      match nth_error m i with
-      | Some l => match rod_of l P with
-          | Some (C, A, L) => Some (vadd (vsub C (vscale (1 - value t / L) A)) (located o), vadd (vsub C (vscale (value u / L) A)) (located o))
-          | None => None
-          end
-      | None => None
+      match nth_error rods i with
+      | Some (Some (C, A, L)) => Some (vadd (vsub C (vscale (1 - value t / L) A)) (located o), vadd (vsub C (vscale (value u / L) A)) (located o))
+      | _ => None
       end
   | OnBase _ p q => Some (located p, located q)
-  | OnPlatform _ p q => Some (vadd P (located p), vadd P (located q))
+  | OnPlatform _ p q => Some (placed (located p), placed (located q))
   end.
+Definition segment_of (m : list leg) (P : vec) : body -> option (vec * vec) := segment_along (map (fun l => rod_of l P) m) (vadd P).
 Definition towards (t : R) (p q : vec) : vec := vadd (vscale (1 - t) p) (vscale t q).
+(** The distance of two bodies is at least [b]. *)
+Definition are_clear (segment : body -> option (vec * vec)) (one other : body) (b : number) : Prop :=
+  exists p p' q q', segment one = Some (p, p') /\ segment other = Some (q, q') /\ forall s t, 0 <= s <= 1 -> 0 <= t <= 1 ->
+    (value (radius_of one) + value (radius_of other) + value b) ^ 2 <= norm2 (vsub (towards s p p') (towards t q q')).
 
 (** ** Claims *)
 
@@ -199,9 +202,7 @@ Definition fulfils (c : claim) (m : list leg) (P : vec) (r : requirement) : Prop
   | Stiffness joint b => forall v, value b / value joint * norm2 v <= speed2 m P v
   | ConstraintMargin b => exists cs, Forall2 (fun l c => couple_of l P = Some c /\ c <> vzero) m cs /\
       forall v, value b ^ 2 * norm2 v <= fold_right (fun c sum => dot (normalised c) v ^ 2 + sum) 0 cs
-  | Clearance one other b => exists p p' q q', segment_of m P one = Some (p, p') /\ segment_of m P other = Some (q, q') /\
-      forall s t, 0 <= s <= 1 -> 0 <= t <= 1 ->
-      (value (radius_of one) + value (radius_of other) + value b) ^ 2 <= norm2 (vsub (towards s p p') (towards t q q'))
+  | Clearance one other b => are_clear (segment_of m P) one other b
   | Beside i one other distance => exists l C A L, nth_error m i = Some l /\ rod_of l P = Some (C, A, L) /\ forall t u,
       value distance ^ 2 <= norm2 (vsub (vadd (vsub C (vscale t A)) (located one)) (vadd (vsub C (vscale u A)) (located other)))
   (* row . V is the joint's speed *)

@@ -195,6 +195,16 @@ Proof.
   apply over_sound, mul_sound; [exact hd | apply shortened_sound, pi_sound, e].
 Qed.
 
+(** Every cosine is that of an angle up to half a turn. *)
+Lemma cosine_taken : forall C, -1 <= C <= 1 -> exists d, 0 <= d <= PI /\ cos d = C.
+Proof.
+  intros C C1. pose proof PI_RGT_0 as p0. destruct (IVT_cor (fun t => C - cos t) 0 PI) as [d [d0 dz]].
+  - apply continuity_minus; [apply continuity_const; intros y z; reflexivity | exact continuity_cos].
+  - lra.
+  - rewrite cos_0, cos_PI. nra.
+  - exists d. split; [exact d0 | lra].
+Qed.
+
 Lemma sine_sound : forall bits x c, sine bits x = Some c -> contains bits c (sin (in_degrees (value x))).
 Proof.
   intros bits x c h. apply cosine_sound in h. cbn [value] in h. rewrite <- cos_shift, <- cos_neg.

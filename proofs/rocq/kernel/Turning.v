@@ -40,6 +40,7 @@ Definition strut_row (k : motion) (ell : R) (l : strut) (P : vec) (Q : mat) : li
 
 Definition struts_at (k : motion) (ell : R) (m : list strut) (P : vec) (Q : mat) : configuration :=
   Configuration (map (fun l => strut_row k ell l P Q) m) (map (fun l => Length (strut_length l P Q)) m) (map (fun _ => None) m)
+    (map (fun l => Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)) m) (fun b => vadd P (mulv Q b))
     (Forall (fun l => 0 < norm2 (strut_vector l P Q)) m).
 
 (** The motion's own velocities. *)

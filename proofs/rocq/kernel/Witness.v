@@ -427,8 +427,8 @@ Qed.
 Lemma nsegment_sound : forall ls P b p q, nsegment ls P b = Some (p, q) -> segment_of (map leg_of ls) (values P) b = Some (values p, values q).
 Proof.
   intros ls P b p q h.
-  destruct b as [i r t u o | r a c | r a c]; cbn [nsegment segment_of] in *.
-  - rewrite nth_error_map. destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map].
+  unfold segment_of. destruct b as [i r t u o | r a c | r a c]; cbn [nsegment segment_along] in *.
+  - rewrite map_map, nth_error_map. destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map].
     destruct (nrod l P) as [[[C A] L] |] eqn:e; [| discriminate]. cbv zeta in h. injection h as <- <-.
     rewrite (nrod_sound _ _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
   - injection h as <- <-. reflexivity.

@@ -6,7 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool String.
 From Orthocert Require Import Velocity Fixed Claim.
 From Orthocert Require MeanValue.
-From Orthocert.kernel Require Import Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Drives Driven.
+From Orthocert.kernel Require Import Linear Arithmetic Slope Test Cell Check Number Formula Problem Witness Configuration Inputs Drives Driven.
 From Orthocert.kernel Require Gradient.
 Import ListNotations.
 Local Open Scope list_scope.
@@ -85,7 +85,7 @@ Definition is_row (c : mechanism) (theta x : list R) (j : written_joint) (row : 
 (** The machine with the parameters [theta] at the coordinates [x], with these rows. *)
 Definition machine_at (c : mechanism) (theta x : list R) (M : list (list R)) : configuration :=
   let env := environment_at c theta x in
-  Configuration M (map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning env e) end) (joint_forms c)) (map (fun _ => None) (joint_forms c))
+  Configuration M (map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning env e) end) (joint_forms c)) (map (fun _ => None) (joint_forms c)) [] (fun b => b)
     (all_defined (given c x theta) (definitions c) /\
      Forall (fun j => match j with ByRow es => Forall (is_defined env) es | ByCoordinate e => is_defined env e end) (joint_forms c)).
 
@@ -638,7 +638,7 @@ Proof.
   destruct E1 as [E1 [E2 E3]].
   assert (W1 : forall e, In e (entries (pose_rows fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; left; exact k).
   assert (W2 : forall e, In e (entries (pose_divided fs)) -> formula_at tape (place e) = e) by (intros e k; apply Found, in_or_app; right; apply in_or_app; left; exact k).
-  destruct (of_rows_energy x th 0 n false fs looks tape good W1 W2 _ LOW) as [RE [r [b e]]]. cbn [jacobian] in e. rewrite E1 in e.
+  destruct (of_rows_energy x th 0 n false fs looks (fun b => b) tape good W1 W2 _ LOW) as [RE [r [b e]]]. cbn [jacobian] in e. rewrite E1 in e.
   split.
   2: { assert (EM : M = map (map (value x th)) (map d_divided fs)).
     { assert (g0 : Forall2 (is_good x th 0 n false) fs (map (fun p => Seen (snd p) (coordinate_at f theta x (fst p)) None True) (combine (joint_forms f) M))) by exact good. clear - g0 lM. revert M lM g0. generalize fs. clear. induction (joint_forms f) as [| jo js IH]; intros qs [| row M] l h; try discriminate l; cbn [combine map] in h; inversion h as [| q ? ? ? g hs]; subst; [reflexivity |].
@@ -653,8 +653,8 @@ Proof.
     assert (0 <= c0 * Linear.dot v v) by (apply Rmult_le_pos; lra). apply Rnot_le_lt. intro z.
     pose proof (mu_pos 0 false) as m0. assert (0 < (/ two_to (rate false 0)) ^ 2) by (apply pow_lt, m0). nra.
   - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
-    pose proof (demand_met bits x th 0 n false fs looks tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3) as met.
-    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ met).
+    pose proof (demand_met bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3) as met.
+    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ met).
 Qed.
 End Precision.
 

@@ -165,6 +165,21 @@ for (const [name, from, to] of [
   ["orthoglide-cube-all", '[5,"test"],', ""],
   ["orthoglide-cube-all", '"side":"200"', '"side":"-200"'],
   ["orthoglide-cube-all", '"cube"],[5', '"cube"],[6'],
+  // Angles at joints, of less and of more than 90 degrees, and bodies, of a platform that turns.
+  ["hexapod-joints", '"bound":"14"', '"bound":"12"'],
+  ["hexapod-joints", '"bound":"14"', '"bound":"0"'],
+  ["hexapod-joints", '"bound":"14"', '"bound":"181"'],
+  ["hexapod-joints", '"bound":"14"', '"bound":"140"'],
+  ["hexapod-joints", '"bound":"23"', '"bound":"21"'],
+  ["hexapod-joints", '"axis":["22","-2","20"]', '"axis":["0","0","0"]'],
+  ["hexapod-joints", '"axis":["22","-2","20"]', '"axis":["22","-2"]'],
+  ["hexapod-joints", '"axis":["22","-2","20"]', '"axis":["-22","2","-20"]'],
+  ["hexapod-joints", '"platform_joint"', '"base_joint"'],
+  ["hexapod-joints", '"end":"min","bound":"0.4"', '"end":"min","bound":"4"'],
+  ["hexapod-joints", '"end":"min","bound":"0.4"', '"end":"min","bound":"-1"'],
+  ["hexapod-joints", '"radius":"1"', '"radius":"0"'],
+  ["hexapod-joints", '"trim":["4","2"]', '"trim":["4","2"],"offset":["0","0","1"]'],
+  ["hexapod-joints", /"direction":\{"y":\[\[[^\]]*\]/, '"direction":{"y":[[0,0,0,0,0,0,0]'],
   ["tripteron", /"precision":\d+/, '"precision":8'],
   ["tripteron", /"precision":\d+/, '"precision":5000'],
   ["tripteron", /"nodes":\[(.*)\]\}\},"prov/, '"nodes":[{"split":3},$1,$1]}},"prov'],
@@ -182,6 +197,17 @@ wrong.forEach((text, i) => {
   if (all.some((answer) => answer !== "REJECTED")) fail(`${all}: ${text}`);
 });
 fs.rmSync(aside, { recursive: true });
+
+// A root of zero is a number, and one of less is none.
+const root_of = fs.mkdtempSync(path.join(os.tmpdir(), "root-")), planar = fs.readFileSync(path.join(committed, "planar-3-rpr.cert.json"), "latin1");
+for (const [x, is] of [["sqrt(0)", true], ["sqrt(2-sqrt(4))", true], ["sqrt(sqrt(2)-sqrt(2))", true], ["sqrt(1-sqrt(2)*sqrt(1/2))", true],
+  ["sqrt(-1)", false], ["sqrt(-1/10^64/10^64/10^64)", false]]) {
+  const file = path.join(root_of, "one.json"), text = planar.replace('"anchor":["0"', `"anchor":["${x}"`);
+  fs.writeFileSync(file, text);
+  const all = [verify(text), natively([file])[0], exactly(file)];
+  if (text === planar || all.some((answer) => answer !== (is ? "CERTIFIED" : "REJECTED"))) fail(`${x}: ${all}`);
+}
+fs.rmSync(root_of, { recursive: true });
 
 // No cube: each way to fail, at bounds ever nearer to the last with which it is shown, where one bit decides.
 const triple = (x, y, z) => `["${x}","${y}","${z}"]`;

@@ -181,6 +181,8 @@ let requirement ?(turns = false) v =
     | "accuracy" -> Accuracy_
     | "clearance" -> Clearance_
     | "leg_angle" -> LegAngle_
+    | "base_joint" when turns -> BaseJoint_
+    | "platform_joint" when turns -> PlatformJoint_
     | quantity -> not_covered [ "the quantity \""; quantity; "\"" ] in
   let bound () = get l "bound" in
   let end_ = match string (get l "end") with
@@ -192,6 +194,7 @@ let requirement ?(turns = false) v =
   let given v = match about_, members v with
     | (Speed_ | Force_), [ ("tool", Array [ x ]) ] | Stiffness_, [ ("joint", Array [ x ]) ] | Accuracy_, [ ("joint_error", Array [ x ]) ] -> Given_ (number x)
     | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
+    | (BaseJoint_ | PlatformJoint_), [ ("axis", Array l) ] -> Each_ (List.map number l)
     | Accuracy_, [ ("joint_error", _); ("max_angle", _) ] when turns -> not_covered [ "accuracy of a platform that turns" ]
     | Stiffness_, [ ("joint", Array l) ] -> if turns then not_covered [ "a stiffness for each joint of such a mechanism" ] else Each_ (List.map number l)
     | _ -> raise Malformed in
@@ -212,6 +215,11 @@ let turning_demand v =
 let two_points_demand v =
   let r = requirement ~turns:true v in
   if r.about_ = OneToOne_ then r else turning_demand v
+let strut_demand v =
+  let r = requirement ~turns:true v in
+  match r.about_ with
+  | BaseJoint_ | PlatformJoint_ | Clearance_ -> r
+  | _ -> two_points_demand v
 let driven_demand v =
   let r = requirement ~turns:true v in
   match r.about_ with
@@ -249,8 +257,9 @@ let rec subject v =
   | "machine", v ->
     let l = members v in
     let require () = List.map requirement (array (get l "require")) in
+    let bodies = match find l "bodies" with Some v -> List.map body (array v) | None -> [] in
+    let without_bodies () = if bodies <> [] then not_covered [ "such a machine with bodies" ] in
     (match variant (get l "mechanism"), variant (get l "workspace") with
-     | (mechanism, _), _ when mechanism <> "translational" && find l "bodies" <> None -> not_covered [ "such a machine with bodies" ]
      | (("planar" | "spatial" | "spherical") as kind, t), (workspace, w as region) ->
        let t = members t in
        let ell = optional number (find t "characteristic_length") in
@@ -272,29 +281,30 @@ let rec subject v =
             let vector key = List.map quantity (array (get l key)) in
             if find l "base_axis" <> None then not_covered [ "a base axis of such a platform" ];
             (vector "anchor", vector "platform") in
-          let require = List.map two_points_demand (array (get l "require")) in
+          let require = List.map strut_demand (array (get l "require")) in
           (match motion, orientation with
            | InSpace, Angle_ _ -> ()
            | _ when List.exists (fun r -> r.about_ = OneToOne_) require -> not_covered [ "\"one_to_one\" of this set of orientations" ]
            | _ -> ());
-          Turning_ (motion, List.map strut legs, ell, place region, orientation, require)
+          Turning_ (motion, List.map strut legs, ell, place region, orientation, bodies, require)
         | _ ->
+          without_bodies ();
           let kind = match ell with None when kind = "planar" -> TranslatesInPlane | _ -> Turns motion in
           if orientation <> None && List.exists is_strut legs then not_covered [ "a platform that turns on struts and other drives" ];
           Legs_ (kind, List.map driven legs, ell, place region, orientation, List.map driven_demand (array (get l "require"))))
      | _ when find l "orientation" <> None -> raise Malformed
      | ("translational", legs), (("box" | "cylinder"), _ as workspace) ->
        let legs = array legs in
-       let bodies = match find l "bodies" with Some v -> List.map body (array v) | None -> [] in
        let require = require () in
        if List.exists is_arm legs || List.exists (fun r -> r.about_ = LegAngle_) require then begin
-         if bodies <> [] then not_covered [ "such a machine with bodies" ];
+         without_bodies ();
          Legs_ (Translates, List.map driven legs, None, place workspace, None, List.map driven_demand (array (get l "require")))
        end else begin
          let legs = List.map leg legs in
          Machine_ (legs, region workspace, bodies, require)
        end
      | ("formulas", f), ("box", box) ->
+       without_bodies ();
        let f = members f and box = members box in
        let pairs item v = List.map (fun v -> match array v with [ name; x ] -> (string name, item x) | _ -> raise Malformed) (array v) in
        let row v = match members v with
@@ -305,6 +315,7 @@ let rec subject v =
          List.map row (array (get f "joints")), List.map number (array (get box "min")), List.map number (array (get box "max")),
          List.map two_points_demand (array (get l "require")))
      | ("orthoglide", o), ("cube", cube) ->
+       without_bodies ();
        let require = List.map driven_demand (array (get l "require")) in
        (match List.filter (fun r -> r.about_ = Transmission) require with
         | [ { end_ = AtLeast_ _; _ }; { end_ = AtMost_ _; _ } ] | [ { end_ = AtMost_ _; _ }; { end_ = AtLeast_ _; _ } ] -> ()
@@ -401,7 +412,12 @@ let proof n v =
 
 let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ | Accuracy_ -> true | _ -> false
 let has_each = List.exists (fun r -> match r.given_ with Some (Each_ _) -> true | _ -> false)
-let is_at_controls (_, s) = match s with AtControls_ _ | Plain "outside" -> true | _ -> false
+(* A sign by slopes is of angles of more than 90 degrees at joints. *)
+let is_wide r = match r.about_, r.end_ with (BaseJoint_ | PlatformJoint_), AtMost_ b -> not (up_to_90 (denoted b)) | _ -> false
+let is_pose_step rs (_, s) = match s with
+  | AtControls_ _ | Plain "outside" | Multiplied ("direction", _, _) -> true
+  | Plain "test" -> List.exists is_wide rs
+  | _ -> false
 
 let certificate text =
   let l = members (parse text) in
@@ -412,7 +428,7 @@ let certificate text =
   let shape = match subject_ with
     | Machine_ (legs, _, _, _) | NoCube_ (legs, _, _, _, _) | Atlas_ (_, legs, _, _, _, _) -> (List.length legs, 3)
     | Formulas_ (coordinates, _, _, rows, _, _, _) -> (List.length rows, List.length coordinates)
-    | Turning_ (kind, legs, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
+    | Turning_ (kind, legs, _, _, _, _, _) -> (List.length legs, match kind with InSpace -> 6 | _ -> 3)
     | Legs_ (kind, legs, _, _, _, _) -> (List.length legs, match kind with TranslatesInPlane -> 2 | Turns InSpace -> 6 | _ -> 3)
     | Closed_ _ | Postulate_ _ -> (3, 3) in
   let proof_ = proof shape (get l "proof") in
@@ -425,9 +441,9 @@ let certificate text =
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
    | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
-   | Turning_ _, Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all is_at_controls n.by_) nodes) ->
+   | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Speed_ | Force_ | Stiffness_ | OneToOne_ -> true | _ -> false) rs ->
+   | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Transmission | JointRange | Condition_ -> false | _ -> true) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]

@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(E){"use strict";var
-ie="spatial",of="Invalid_argument",gb="precision",aw='"',id=1255,oe="inside",nn="(",no=0x800,od="yaw",nk="range",nl="tree",nm="jsError",bN=0x8000,oc="sqrt(",nj=256,ni="obligation",eI="offset",a2="machine",ng="this quantity of such a mechanism in a claim that is refuted",nh="End_of_file",dJ="strut",ic="center",eH="arm",ib="Failure",ob="serial_margin",gk="parameters",b6=0xff,ir="bodies",iq="outside",gj="base_axis",ia="ENOENT",oa=122,nf="([^/]+)",ip="0",h$=0xf,eG=128,ne=0xdc00,n_="Sys_blocked_io",n$="fd ",ga="given",nd="ENOTEMPTY",aH=248,nc="such a machine with bodies",f$="bound",nb="Division_by_zero",n8="by",n9=1027,na="Sys_error",gi="slider",m$="torsion",n7="postulate",m_="proof",n6="joint_error",eF="refuted",dE="mechanism",f_="row",m9="EEXIST",n5="roll_pitch_yaw",gh="y",m8="cube",ez="lower",n4="within",m7="clearance",n3="turned",m6="control",f9="int_of_string",n1="definitions",n2="dependent",eE=1024,m4="from",m5="name",n0=" : flags Open_rdonly and Open_wronly are not compatible",m3="orthocert/2",nZ="reach",m2=512,nY="witness",eD="-",aT="platform",m1=0x7ff0,m0="pitch",io=": Not a directory",bd="min",nW="trim",dI="workspace",nX=" : file already exists",f8="split",im="legs",nV="claim",h_="joint",cZ=0xffffff,mZ="formulas",mY="roll",f7="atlas",nT="nodes",nU="Out_of_memory",mX="psi_max",gg="orientation",f6=254,nS="angle",il="index out of bounds",mW="end",nR="one_to_one",gf="_bigarr02",mV=" : flags Open_text and Open_binary are not compatible",by="drive",mU="coordinates",nQ="holds",mT="lower_divided",mS="speed",nO="cylinder",nP="joints",b5=0xffff,nM="acceleration",eB="certified",eC="chords",nN=12520,h9="on",f5="accuracy",nL="axis",nK="no_cube",nJ="parallel_margin",mR='the drive "',h8="Unix.Unix_error",ge="fails",f4="tool",h7="mkdir",nI="rho",gd=1000,f3="translational",nH="tolerances",mQ="Stack_overflow",ik="characteristic_length",Q="",ij="^",h6="places",f2=": No such file or directory",mP="/static/",dH=0x3f,mN="stiffness",mO="Not_found",cY="planar",ey="mode",nG="joint_speed",nF="Match_failure",mM="transmission",bc="anchor",nE="at",mL="joint_force",dG="leg",mK="joint_acceleration",gc="+",h5="rmdir",nD=0xf0,nC="spherical",mJ=1026,nA="REJECTED",nB="undecided",be="max",b4="direction",mH="leg_angle",mI="orthoglide",eA="rank",nz="constraint_margin",h4="test",mF="Pervasives.do_at_exit",mG="utf8",bx=0x80,dF="conditioning",dD="length",mE="Undefined_recursive_module",ii=")",mD="base",ny="quantity",mC="joint_range",f1="tilt",mB="Q2",nx="reference",mA="point",nv="corner",nw=0xe0,mz="version",ih="z",nt="to",nu=0xdfff,h3="compare: functional value",ns="Assert_failure",bA="/",nr="provenance",cX="radius",f0="side",bz="require",nq="format",my="Q1",ig="ENOTDIR",mx="all",cW="box",np=250;function
-iE(c,b,a){var
+a.prototype._T_}}(Object));(function(D){"use strict";var
+iq="spatial",ox="Invalid_argument",gj="precision",aw='"',ip=1255,ow="inside",nE="(",nF=0x800,ov="yaw",nB="range",nC="tree",nD="jsError",bP=0x8000,ou="sqrt(",nA=256,nz="obligation",eP="offset",a3="machine",nx="this quantity of such a mechanism in a claim that is refuted",ny="End_of_file",dN="strut",io="center",eO="arm",im="Failure",ot="serial_margin",gs="parameters",b8=0xff,os="bodies",iA="outside",gr="base_axis",il="ENOENT",or=122,nw="([^/]+)",iz="0",ik=0xf,eN=128,nv=0xdc00,op="Sys_blocked_io",oq="fd ",gi="given",nu="ENOTEMPTY",aG=248,gh="bound",nt="Division_by_zero",on="by",oo=1027,ns="Sys_error",gq="slider",nr="torsion",om="postulate",nq="proof",ol="joint_error",eM="refuted",dI="mechanism",gg="row",np="EEXIST",ok="roll_pitch_yaw",gp="y",no="cube",eF="lower",oj="within",nn="clearance",oi="turned",nm="control",gf="int_of_string",og="definitions",oh="dependent",eL=1024,nk="from",nl="name",of=" : flags Open_rdonly and Open_wronly are not compatible",nj="orthocert/2",oe="reach",ni=512,oc="base_joint",od="witness",eK="-",aT="platform",nh=0x7ff0,ng="pitch",iy=": Not a directory",bf="min",oa="trim",dM="workspace",ob=" : file already exists",ge="split",ix="legs",n$="claim",ij="joint",c3=0xffffff,nf="platform_joint",ne="formulas",nd="roll",gd="atlas",n9="nodes",n_="Out_of_memory",nc="psi_max",go="orientation",gc=254,n8="angle",iw="index out of bounds",nb="end",n7="one_to_one",gn="_bigarr02",na=" : flags Open_text and Open_binary are not compatible",bz="drive",m$="coordinates",n6="holds",m_="lower_divided",m9="speed",n4="cylinder",n5="joints",b7=0xffff,n2="acceleration",eI="certified",eJ="chords",n3=12520,ii="on",gb="accuracy",eH="axis",n1="no_cube",n0="parallel_margin",m8='the drive "',ih="Unix.Unix_error",gm="fails",ga="tool",ig="mkdir",nZ="rho",gl=1000,ie="translational",nY="tolerances",m7="Stack_overflow",iv="characteristic_length",S="",iu="^",id="places",f$=": No such file or directory",m6="/static/",dL=0x3f,m4="stiffness",m5="Not_found",c2="planar",eE="mode",nX="joint_speed",nW="Match_failure",m3="transmission",be="anchor",nV="at",m2="joint_force",dK="leg",m1="joint_acceleration",gk="+",ic="rmdir",nU=0xf0,nT="spherical",m0=1026,nR="REJECTED",nS="undecided",bg="max",bQ="direction",mY="leg_angle",mZ="orthoglide",eG="rank",nQ="constraint_margin",f_="test",mW="Pervasives.do_at_exit",mX="utf8",by=0x80,dJ="conditioning",dH="length",mV="Undefined_recursive_module",it=")",mU="base",nP="quantity",mT="joint_range",f9="tilt",mS="Q2",nO="reference",mR="point",nM="corner",nN=0xe0,mQ="version",is="z",nK="to",nL=0xdfff,ib="compare: functional value",nJ="Assert_failure",bB="/",nI="provenance",c1="radius",f8="side",bA="require",nH="format",mP="Q1",ir="ENOTDIR",mO="all",c0="box",nG=250;function
+iN(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=Q;for(;0<a;b+=eE,a-=eE)e+=d.apply(null,c.slice(b,b+Math.min(a,eE)));return e}function
-gm(b){if(E.Uint8Array)var
-c=new(E.Uint8Array)(b.l);else
+e=S;for(;0<a;b+=eL,a-=eL)e+=d.apply(null,c.slice(b,b+Math.min(a,eL)));return e}function
+gu(b){if(D.Uint8Array)var
+c=new(D.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eJ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iE(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iE(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gm(b);var
+eQ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gu(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dM(a){return a}function
-dL(a,b,c,d,e){eJ(dM(a),b,c,d,e);return 0}function
-it(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dQ(a){return a}function
+dP(a,b,c,d,e){eQ(dQ(a),b,c,d,e);return 0}function
+iC(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c0(c,a){if(c.fun)return c0(c.fun,a);if(typeof
+c4(c,a){if(c.fun)return c4(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c0(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c4(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c0(c,d)}}function
-oH(b,a){if(b==0)return Q;if(a.repeat)return a.repeat(b);var
-d=Q,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dN(a){if(a.t==2)a.c+=oH(a.l-a.c.length,"\0");else
-a.c=iE(a.c,0,a.c.length);a.t=0}function
-dO(a){a.t&6&&dN(a);return a.c}var
-C8=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-C7(a){if(C8)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c4(c,d)}}function
+oZ(b,a){if(b==0)return S;if(a.repeat)return a.repeat(b);var
+d=S,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dR(a){if(a.t==2)a.c+=oZ(a.l-a.c.length,"\0");else
+a.c=iN(a.c,0,a.c.length);a.t=0}function
+dS(a){a.t&6&&dR(a);return a.c}var
+DL=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+DK(a){if(DL)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iw(c){var
-a=new(E.Float32Array)(1);a[0]=c;var
-b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-oy=Math.pow(2,-24);function
-CY(a){throw a}var
-ao=[0];function
-oE(){CY(ao.Division_by_zero)}function
-D(b,c,a){this.lo=b&cZ;this.mi=c&cZ;this.hi=a&b5}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
-D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
+iF(c){var
+a=new(D.Float32Array)(1);a[0]=c;var
+b=new(D.Int32Array)(a.buffer);return b[0]|0}var
+oQ=Math.pow(2,-24);function
+DB(a){throw a}var
+ap=[0];function
+oW(){DB(ap.Division_by_zero)}function
+C(b,c,a){this.lo=b&c3;this.mi=c&c3;this.hi=a&b7}C.prototype.caml_custom="_j";C.prototype.copy=function(){return new
+C(this.lo,this.mi,this.hi)};C.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};C.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};C.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-D(a,b,c)};D.prototype.add=function(a){var
+C(a,b,c)};C.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-D(b,c,d)};D.prototype.sub=function(a){var
+C(b,c,d)};C.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*oy|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oy|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
-D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
-D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
-D(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};D.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-D(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-D(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-D(0,0,this.lo<<a-48)};D.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-D(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+C(b,c,d)};C.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*oQ|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oQ|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+C(b,c,d)};C.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};C.prototype.isNeg=function(){return this.hi<<16<0};C.prototype.and=function(a){return new
+C(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};C.prototype.or=function(a){return new
+C(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};C.prototype.xor=function(a){return new
+C(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};C.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+C(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+C(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+C(0,0,this.lo<<a-48)};C.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+C(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+C(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+C(this.hi>>a-48,0,0)};C.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+C(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b5);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&cZ;this.lo=this.lo<<1&cZ};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&cZ;this.mi=(this.mi>>>1|this.hi<<23)&cZ;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+C(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b7);return new
+C(this.hi<<16>>a-32,b,b)};C.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&c3;this.lo=this.lo<<1&c3};C.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&c3;this.mi=(this.mi>>>1|this.hi<<23)&c3;this.hi=this.hi>>>1};C.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())oE();var
-d=b.hi^a.hi;if(b.hi&bN)b=b.neg();if(a.hi&bN)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bN)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())oE();var
-d=a.hi;if(a.hi&bN)a=a.neg();if(b.hi&bN)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bN)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b6,this.mi>>16,this.mi>>8&b6,this.mi&b6,this.lo>>16,this.lo>>8&b6,this.lo&b6]};D.prototype.lo32=function(){return this.lo|(this.mi&b6)<<24};D.prototype.hi32=function(){return this.mi>>>8&b5|this.hi<<16};function
-go(b,c,a){return new
-D(b,c,a)}function
-gn(a){if(!isFinite(a)){if(isNaN(a))return go(1,0,m1);return a>0?go(0,0,m1):go(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bN:a>=0?0:bN;if(f)a=-a;var
-b=C7(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-mJ)}else{a/=Math.pow(2,b-n9);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+C(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};C.prototype.div=function(a){var
+b=this;if(a.isZero())oW();var
+d=b.hi^a.hi;if(b.hi&bP)b=b.neg();if(a.hi&bP)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bP)c=c.neg();return c};C.prototype.mod=function(b){var
+a=this;if(b.isZero())oW();var
+d=a.hi;if(a.hi&bP)a=a.neg();if(b.hi&bP)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bP)c=c.neg();return c};C.prototype.toInt=function(){return this.lo|this.mi<<24};C.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};C.prototype.toArray=function(){return[this.hi>>8,this.hi&b8,this.mi>>16,this.mi>>8&b8,this.mi&b8,this.lo>>16,this.lo>>8&b8,this.lo&b8]};C.prototype.lo32=function(){return this.lo|(this.mi&b8)<<24};C.prototype.hi32=function(){return this.mi>>>8&b7|this.hi<<16};function
+gw(b,c,a){return new
+C(b,c,a)}function
+gv(a){if(!isFinite(a)){if(isNaN(a))return gw(1,0,nh);return a>0?gw(0,0,nh):gw(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bP:a>=0?0:bP;if(f)a=-a;var
+b=DK(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m0)}else{a/=Math.pow(2,b-oo);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&h$|f|b<<4;return go(g,e,c)}function
-eM(a){return a.toArray()}function
-om(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gf)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b5)c.write(16,b.dims[a]);else{c.write(16,b5);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&ik|f|b<<4;return gw(g,e,c)}function
+eT(a){return a.toArray()}function
+oE(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gn)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b7)c.write(16,b.dims[a]);else{c.write(16,b7);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eM(b.get(a));for(var
+e=eT(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eM(gn(b.get(a)));for(var
+e=eT(gv(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iw(b.get(a));c.write(32,e)}break;case
+e=iF(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iw(d[1]));c.write(32,iw(d[2]))}break;case
+d=b.get(a);c.write(32,iF(d[1]));c.write(32,iF(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eM(gn(f[1]));for(var
+f=b.get(a),e=eT(gv(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eM(gn(f[2]));for(var
+e=eT(gv(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-C0(b,a){throw[0,b,a]}function
-oM(a){if(a.length<24){for(var
+DD(b,a){throw[0,b,a]}function
+o4(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iF(e){for(var
-j=Q,c=Q,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bx){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bx;d++);if(d-b>m2){c.substr(0,1);j+=c;c=Q;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eG){g=h+(f<<6);if(f<nw){a=g-0x3080;if(a<bx)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eG){g=h+(g<<6);if(f<nD){a=g-0xe2080;if(a<no||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eG&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b5)c+=String.fromCharCode(0xd7c0+(a>>10),ne+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eE){c.substr(0,1);j+=c;c=Q}}return j+c}function
-bO(c,a,b){this.t=c;this.c=a;this.l=b}bO.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dN(this);case
-0:if(oM(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bO.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iF(a)};bO.prototype.slice=function(){var
+iO(e){for(var
+j=S,c=S,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<by){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<by;d++);if(d-b>ni){c.substr(0,1);j+=c;c=S;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(f<<6);if(f<nN){a=g-0x3080;if(a<by)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(g<<6);if(f<nU){a=g-0xe2080;if(a<nF||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b7)c+=String.fromCharCode(0xd7c0+(a>>10),nv+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eL){c.substr(0,1);j+=c;c=S}}return j+c}function
+bR(c,a,b){this.t=c;this.c=a;this.l=b}bR.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:dR(this);case
+0:if(o4(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bR.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return iO(a)};bR.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bO(this.t,a,this.l)};function
-op(a){return new
-bO(0,a,a.length)}function
-a(a){return op(a)}function
-iD(c,b){C0(c,a(b))}function
-az(a){iD(ao.Invalid_argument,a)}function
-ok(a){switch(a){case
+bR(this.t,a,this.l)};function
+oH(a){return new
+bR(0,a,a.length)}function
+a(a){return oH(a)}function
+iM(c,b){DD(c,a(b))}function
+aB(a){iM(ap.Invalid_argument,a)}function
+oC(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Cs(c,e){var
-b=E,a;switch(c){case
+C7(c,e){var
+b=D,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=E,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)az("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aB("Bigarray.create: unsupported kind");var
 d=new
-a(e*ok(c));return d}function
-ix(c){var
-a=new(E.Int32Array)(1);a[0]=c;var
-b=new(E.Float32Array)(a.buffer);return b[0]}function
-eL(a){return new
-D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iy(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&h$)==0?b&bN?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&h$);if(c>0){a+=16;a*=Math.pow(2,c-n9)}else
-a*=Math.pow(2,-mJ);if(b&bN)a=-a;return a}function
-is(b){var
+a(e*oC(c));return d}function
+iG(c){var
+a=new(D.Int32Array)(1);a[0]=c;var
+b=new(D.Float32Array)(a.buffer);return b[0]}function
+eS(a){return new
+C(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+iH(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ik)==0?b&bP?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ik);if(c>0){a+=16;a*=Math.pow(2,c-oo)}else
+a*=Math.pow(2,-m0);if(b&bP)a=-a;return a}function
+iB(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)az("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-CI(b,a){return new
-D(b&cZ,b>>>24&b6|(a&b5)<<8,a>>>16&b5)}function
-iz(a){return a.hi32()}function
-iA(a){return a.lo32()}function
-gl(){az(il)}var
-Ct=gf;function
-cu(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cu.prototype.caml_custom=Ct;cu.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aB("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Dl(b,a){return new
+C(b&c3,b>>>24&b8|(a&b7)<<8,a>>>16&b7)}function
+iI(a){return a.hi32()}function
+iJ(a){return a.lo32()}function
+gt(){aB(iw)}var
+C8=gn;function
+cz(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cz.prototype.caml_custom=C8;cz.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))az("bigarray.js: invalid offset");if(this.dims.length!=b.length)az("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gl();c=c*this.dims[a]+b[a]}else
+Array))aB("bigarray.js: invalid offset");if(this.dims.length!=b.length)aB("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gt();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gl();c=c*this.dims[a]+(b[a]-1)}return c};cu.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gt();c=c*this.dims[a]+(b[a]-1)}return c};cz.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return CI(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Dl(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[f6,e,c];default:return this.data[a]}};cu.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iA(b);this.data[a*2+1]=iz(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gc,e,c];default:return this.data[a]}};cz.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iJ(b);this.data[a*2+1]=iI(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cu.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cz.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iA(b),e=iz(b);if(c==e)this.data.fill(c);else
+c=iJ(b),e=iI(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cu.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cz.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dK(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dK.prototype=new
-cu();dK.prototype.offset=function(a){if(typeof
+dO(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dO.prototype=new
+cz();dO.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-az("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gl();return a};dK.prototype.get=function(a){return this.data[a]};dK.prototype.set=function(a,b){this.data[a]=b;return 0};dK.prototype.fill=function(a){this.data.fill(a);return 0};function
-oi(c,d,a,b){var
-e=ok(c);if(is(a)*e!=b.length)az("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dK(c,d,a,b);return new
-cu(c,d,a,b)}function
-bB(b){if(!ao.Failure)ao.Failure=[aH,a(ib),-3];iD(ao.Failure,b)}function
-oj(b,v,r){var
-i=b.read32s();if(i<0||i>16)bB("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b6,o=p>>8&1,h=[];if(r==gf)for(var
+aB("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gt();return a};dO.prototype.get=function(a){return this.data[a]};dO.prototype.set=function(a,b){this.data[a]=b;return 0};dO.prototype.fill=function(a){this.data.fill(a);return 0};function
+oA(c,d,a,b){var
+e=oC(c);if(iB(a)*e!=b.length)aB("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dO(c,d,a,b);return new
+cz(c,d,a,b)}function
+bC(b){if(!ap.Failure)ap.Failure=[aG,a(im),-3];iM(ap.Failure,b)}function
+oB(b,v,r){var
+i=b.read32s();if(i<0||i>16)bC("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&b8,o=p>>8&1,h=[];if(r==gn)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b5){var
-t=b.read32u(),u=b.read32u();if(t!=0)bB("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b7){var
+t=b.read32u(),u=b.read32u();if(t!=0)bC("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=is(h),f=Cs(j,d),g=oi(j,o,h,f);switch(j){case
+d=iB(h),f=C7(j,d),g=oA(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bB("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bC("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eL(e);g.set(a,q)}break;case
+q=eS(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iy(eL(e));g.set(a,k)}break;case
+k=iH(eS(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=ix(b.read32s());g.set(a,k)}break;case
+k=iG(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=ix(b.read32s()),l=ix(b.read32s());g.set(a,[f6,m,l])}break;case
+m=iG(b.read32s()),l=iG(b.read32s());g.set(a,[gc,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iy(eL(e));for(var
+m=iH(eS(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iy(eL(e));g.set(a,[f6,m,l])}break}v[0]=(4+i)*4;return oi(j,o,h,f)}function
-oh(a,b,c){return a.compare(b,c)}function
-oB(a,b){return Math.imul(a,b)}function
-b7(b,a){a=oB(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oB(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-CF(a,b){a=b7(a,iA(b));a=b7(a,iz(b));return a}function
-ox(a,b){return CF(a,gn(b))}function
-ol(c){var
-b=is(c.dims),d=0;switch(c.kind){case
+l=iH(eS(e));g.set(a,[gc,m,l])}break}v[0]=(4+i)*4;return oA(j,o,h,f)}function
+oz(a,b,c){return a.compare(b,c)}function
+oT(a,b){return Math.imul(a,b)}function
+b9(b,a){a=oT(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oT(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Di(a,b){a=b9(a,iJ(b));a=b9(a,iI(b));return a}function
+oP(a,b){return Di(a,gv(b))}function
+oD(c){var
+b=iB(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>nj)b=nj;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b7(d,e)}e=0;switch(b&3){case
+12:if(b>nA)b=nA;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b9(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b7(d,e)}break;case
+1:e|=c.data[a+0];d=b9(d,e)}break;case
 4:case
-5:if(b>eG)b=eG;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b7(d,e)}if((b&1)!=0)d=b7(d,c.data[a]);break;case
+5:if(b>eN)b=eN;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b9(d,e)}if((b&1)!=0)d=b9(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b7(d,c.data[a]);break;case
+a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b7(d,c.data[a]);break;case
+a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b7(d,c.data[a]);break;case
+a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ox(d,c.data[a]);break;case
+a=0;a<b;a++)d=oP(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=ox(d,c.data[a]);break}return d}function
-CG(a,b){b[0]=4;return a.read32s()}function
-CV(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=oP(d,c.data[a]);break}return d}function
+Dj(a,b){b[0]=4;return a.read32s()}function
+Dy(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bB("input_value: native integer value too large");default:bB("input_value: ill-formed native integer")}}function
-CL(c,d){var
+2:bC("input_value: native integer value too large");default:bC("input_value: ill-formed native integer")}}function
+Do(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eL(b)}function
-CK(e,d,b){var
-c=eM(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eS(b)}function
+Dn(e,d,b){var
+c=eT(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-CH(a,b,c){return a.compare(b)}function
-CJ(a){return a.lo32()^a.hi32()}var
-os={"_j":{deserialize:CL,serialize:CK,fixed_length:8,compare:CH,hash:CJ},"_i":{deserialize:CG,fixed_length:4},"_n":{deserialize:CV,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oj(a,b,"_bigarray")},serialize:om,compare:oh,hash:ol},"_bigarr02":{deserialize:function(a,b){return oj(a,b,gf)},serialize:om,compare:oh,hash:ol}};function
-iv(a){return os[a.caml_custom]&&os[a.caml_custom].compare}function
-oq(f,c,d,e){var
-b=iv(c);if(b){var
+Dk(a,b,c){return a.compare(b)}function
+Dm(a){return a.lo32()^a.hi32()}var
+oK={"_j":{deserialize:Do,serialize:Dn,fixed_length:8,compare:Dk,hash:Dm},"_i":{deserialize:Dj,fixed_length:4},"_n":{deserialize:Dy,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oB(a,b,"_bigarray")},serialize:oE,compare:oz,hash:oD},"_bigarr02":{deserialize:function(a,b){return oB(a,b,gn)},serialize:oE,compare:oz,hash:oD}};function
+iE(a){return oK[a.caml_custom]&&oK[a.caml_custom].compare}function
+oI(f,c,d,e){var
+b=iE(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-iC(a){return a
+iL(a){return a
 instanceof
-bO}function
-oz(a){return iC(a)}function
-or(a){if(typeof
-a==="number")return gd;else
-if(iC(a))return 252;else
-if(oz(a))return 1252;else
+bR}function
+oR(a){return iL(a)}function
+oJ(a){if(typeof
+a==="number")return gl;else
+if(iL(a))return 252;else
+if(oR(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==f6?0:b}else
+b=a[0]|0;return b==gc?0:b}else
 if(a
 instanceof
-String)return nN;else
+String)return n3;else
 if(typeof
-a=="string")return nN;else
+a=="string")return n3;else
 if(a
 instanceof
-Number)return gd;else
-if(a&&a.caml_custom)return id;else
+Number)return gl;else
+if(a&&a.caml_custom)return ip;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-CM(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-oo(a,b){a.t&6&&dN(a);b.t&6&&dN(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-oI(a,b){return oo(a,b)}function
-iu(a,b,d){var
+Dp(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+oG(a,b){a.t&6&&dR(a);b.t&6&&dR(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+o0(a,b){return oG(a,b)}function
+iD(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=or(a);if(f==np){a=a[1];continue}var
-g=or(b);if(g==np){b=b[1];continue}if(f!==g){if(f==gd){if(g==id)return oq(a,b,-1,d);return-1}if(g==gd){if(f==id)return oq(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:az(h3);break;case
+f=oJ(a);if(f==nG){a=a[1];continue}var
+g=oJ(b);if(g==nG){b=b[1];continue}if(f!==g){if(f==gl){if(g==ip)return oI(a,b,-1,d);return-1}if(g==gl){if(f==ip)return oI(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aB(ib);break;case
 248:var
-c=CM(a[2],b[2]);if(c!=0)return c|0;break;case
-249:az(h3);break;case
-250:az("equal: got Forward_tag, should not happen");break;case
-251:az("equal: abstract value");break;case
+c=Dp(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aB(ib);break;case
+250:aB("equal: got Forward_tag, should not happen");break;case
+251:aB("equal: abstract value");break;case
 252:if(a!==b){var
-c=oo(a,b);if(c!=0)return c|0}break;case
-253:az("equal: got Double_tag, should not happen");break;case
-254:az("equal: got Double_array_tag, should not happen");break;case
-255:az("equal: got Custom_tag, should not happen");break;case
-1247:az(h3);break;case
+c=oG(a,b);if(c!=0)return c|0}break;case
+253:aB("equal: got Double_tag, should not happen");break;case
+254:aB("equal: got Double_array_tag, should not happen");break;case
+255:aB("equal: got Custom_tag, should not happen");break;case
+1247:aB(ib);break;case
 1255:var
-i=iv(a);if(i!=iv(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)az("compare: abstract value");var
+i=iE(a);if(i!=iE(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aB("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dO(a),b=dO(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dS(a),b=dS(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-CA(a,b){return iu(a,b,true)}function
-bQ(a){if(a<0)az("Bytes.create");return new
-bO(a?2:9,Q,a)}function
-ot(a,b){return+(iu(a,b,false)==0)}function
-CC(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=Q;a.t=2}else{a.c=oH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gm(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-CW=0;function
-ov(){return CW++}function
-CO(a){return a.toUtf16()}function
-eN(){return typeof
-E.process!=="undefined"&&typeof
-E.process.versions!=="undefined"&&typeof
-E.process.versions.node!=="undefined"}function
-C9(){function
-a(a){if(a.charAt(0)===bA)return[Q,a.substring(1)];return}function
+Dd(a,b){return iD(a,b,true)}function
+bT(a){if(a<0)aB("Bytes.create");return new
+bR(a?2:9,S,a)}function
+oL(a,b){return+(iD(a,b,false)==0)}function
+Df(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=S;a.t=2}else{a.c=oZ(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gu(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Dz=0;function
+oN(){return Dz++}function
+Dr(a){return a.toUtf16()}function
+eU(){return typeof
+D.process!=="undefined"&&typeof
+D.process.versions!=="undefined"&&typeof
+D.process.versions.node!=="undefined"}function
+DM(){function
+a(a){if(a.charAt(0)===bB)return[S,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||Q,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||Q,f=a[2]||Q;return[d,c.substring(d.length+f.length)]}return}return eN()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iJ=C9();function
-oJ(a){return a.slice(-1)!==bA?a+bA:a}if(eN()&&E.process&&E.process.cwd)var
-eK=E.process.cwd().replace(/\\/g,bA);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||S,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||S,f=a[2]||S;return[d,c.substring(d.length+f.length)]}return}return eU()&&D.process&&D.process.platform?D.process.platform==="win32"?b:a:a}var
+iS=DM();function
+o1(a){return a.slice(-1)!==bB?a+bB:a}if(eU()&&D.process&&D.process.cwd)var
+eR=D.process.cwd().replace(/\\/g,bB);else
 var
-eK="/static";eK=oJ(eK);function
-CQ(a){a=CO(a);if(!iJ(a))a=eK+a;var
-e=iJ(a),d=e[1].split(bA),b=[];for(var
+eR="/static";eR=o1(eR);function
+Dt(a){a=Dr(a);if(!iS(a))a=eR+a;var
+e=iS(a),d=e[1].split(bB),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-C4(e){for(var
-f=Q,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bx){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bx;d++);if(d-c>m2){b.substr(0,1);f+=b;b=Q;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<no){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bx|a&dH)}else
-if(a<0xd800||a>=nu)b+=String.fromCharCode(nw|a>>12,bx|a>>6&dH,bx|a&dH);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ne||h>nu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nD|a>>18,bx|a>>12&dH,bx|a>>6&dH,bx|a&dH)}if(b.length>eE){b.substr(0,1);f+=b;b=Q}}return f+b}function
-Cx(a){var
-b=9;if(!oM(a))b=8,a=C4(a);return new
-bO(b,a,a.length)}function
-dP(a){return Cx(a)}var
-Da=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",m9,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ia,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",ig,nd,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c4(d,f,e,a){var
-b=Da.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dP(f||Q),dP(e||Q)];return c}var
-oC={};function
-c1(a){return oC[a]}function
-c2(b,a){throw[0,b].concat(a)}function
-Cw(a){return new
-bO(4,a,a.length)}function
-ae(a){iD(ao.Sys_error,a)}function
-CZ(a){ae(a+f2)}function
-on(){az(il)}function
-Cv(b,a){if(a>>>0>=b.l)on();return it(b,a)}function
-gp(a){return a.l}function
-og(){}function
-ax(a){this.data=a}ax.prototype=new
-og();ax.prototype.truncate=function(a){var
-b=this.data;this.data=bQ(a|0);eJ(b,0,this.data,0,a)};ax.prototype.length=function(){return gp(this.data)};ax.prototype.write=function(b,d,g,a){var
+DH(e){for(var
+f=S,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<by){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<by;d++);if(d-c>ni){b.substr(0,1);f+=b;b=S;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<nF){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(by|a&dL)}else
+if(a<0xd800||a>=nL)b+=String.fromCharCode(nN|a>>12,by|a>>6&dL,by|a&dL);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nv||h>nL)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nU|a>>18,by|a>>12&dL,by|a>>6&dL,by|a&dL)}if(b.length>eL){b.substr(0,1);f+=b;b=S}}return f+b}function
+Da(a){var
+b=9;if(!o4(a))b=8,a=DH(a);return new
+bR(b,a,a.length)}function
+dT(a){return Da(a)}var
+DP=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",np,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",il,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",ir,nu,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c8(d,f,e,a){var
+b=DP.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dT(f||S),dT(e||S)];return c}var
+oU={};function
+c5(a){return oU[a]}function
+c6(b,a){throw[0,b].concat(a)}function
+C$(a){return new
+bR(4,a,a.length)}function
+ae(a){iM(ap.Sys_error,a)}function
+DC(a){ae(a+f$)}function
+oF(){aB(iw)}function
+C_(b,a){if(a>>>0>=b.l)oF();return iC(b,a)}function
+gx(a){return a.l}function
+oy(){}function
+az(a){this.data=a}az.prototype=new
+oy();az.prototype.truncate=function(a){var
+b=this.data;this.data=bT(a|0);eQ(b,0,this.data,0,a)};az.prototype.length=function(){return gx(this.data)};az.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bQ(b+a),f=this.data;this.data=e;eJ(f,0,this.data,0,c)}dL(d,g,this.data,b,a);return 0};ax.prototype.read=function(c,a,d,b){var
-e=this.length();eJ(this.data,c,a,d,b);return 0};ax.prototype.read_one=function(a){return Cv(this.data,a)};ax.prototype.close=function(){};ax.prototype.constructor=ax;function
+e=bT(b+a),f=this.data;this.data=e;eQ(f,0,this.data,0,c)}dP(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
+e=this.length();eQ(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return C_(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
 aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
-c=d.split(bA),b=Q;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bA;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bA};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bB),b=S;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bB;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bB};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-ax(dM(c[1]))}}};aO.prototype.exists=function(a){if(a==Q)return 1;var
+az(dQ(c[1]))}}};aO.prototype.exists=function(a){if(a==S)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&c1(h8);if(this.exists(c))if(b)c2(b,c4(m9,h7,this.nm(c)));else
+b=d&&c5(ih);if(this.exists(c))if(b)c6(b,c8(np,ig,this.nm(c)));else
 ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||Q;if(!this.exists(a))if(b)c2(b,c4(ia,h7,this.nm(a)));else
-ae(a+f2);if(!this.is_dir(a))if(b)c2(b,c4(ig,h7,this.nm(a)));else
-ae(a+io);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&c1(h8),c=a==Q?Q:this.slash(a),e=new
-RegExp(ij+c+nf);if(!this.exists(a))if(b)c2(b,c4(ia,h5,this.nm(a)));else
-ae(a+f2);if(!this.is_dir(a))if(b)c2(b,c4(ig,h5,this.nm(a)));else
-ae(a+io);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||S;if(!this.exists(a))if(b)c6(b,c8(il,ig,this.nm(a)));else
+ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(ir,ig,this.nm(a)));else
+ae(a+iy);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&c5(ih),c=a==S?S:this.slash(a),e=new
+RegExp(iu+c+nw);if(!this.exists(a))if(b)c6(b,c8(il,ic,this.nm(a)));else
+ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(ir,ic,this.nm(a)));else
+ae(a+iy);for(var
 d
 in
-this.content)if(d.match(e))if(b)c2(b,c4(nd,h5,this.nm(a)));else
+this.content)if(d.match(e))if(b)c6(b,c8(nu,ic,this.nm(a)));else
 ae(this.nm(a)+": Directory not empty");delete
 this.content[c]};aO.prototype.readdir=function(a){var
-f=a==Q?Q:this.slash(a);if(!this.exists(a))ae(a+f2);if(!this.is_dir(a))ae(a+io);var
+f=a==S?S:this.slash(a);if(!this.exists(a))ae(a+f$);if(!this.is_dir(a))ae(a+iy);var
 g=new
-RegExp(ij+f+nf),d={},c=[];for(var
+RegExp(iu+f+nw),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==Q)return true;var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==S)return true;var
 b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+n0);if(b.text&&b.binary)ae(this.nm(a)+mV);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+nX);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+of);if(b.text&&b.binary)ae(this.nm(a)+na);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+ob);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-ax(bQ(0));return this.content[a]}else
-CZ(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+nX);if(iC(a))b=new
-ax(a);if(oz(a))b=new
-ax(dM(a));else
+az(bT(0));return this.content[a]}else
+DC(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ae(this.nm(c)+ob);if(iL(a))b=new
+az(a);if(oR(a))b=new
+az(dQ(a));else
 if(a
 instanceof
 Array)b=new
-ax(Cw(a));else
+az(C$(a));else
 if(typeof
 a==="string")b=new
-ax(op(a));else
+az(oH(a));else
 if(a.toString){var
-d=dM(dP(a.toString()));b=new
-ax(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+d=dQ(dT(a.toString()));b=new
+az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ae(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-am(a){return gp(a)}function
-c3(b,a){return it(b,a)}function
-Cr(d){var
+am(a){return gx(a)}function
+c7(b,a){return iC(b,a)}function
+C6(d){var
 c=am(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=c3(d,a);return b}function
-Cq(a){if(a.t!=4)gm(a);return a.c}function
-Cz(a,c,b){b&=b6;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gm(a)}a.c[c]=b;return 0}function
-Cy(b,a,c){if(a>>>0>=b.l)on();return Cz(b,a,c)}function
-bP(a){this.fs=require("fs");this.fd=a}bP.prototype=new
-og();bP.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bP.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bP.prototype.write=function(f,b,c,e){var
-a=Cr(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=c7(d,a);return b}function
+C5(a){if(a.t!=4)gu(a);return a.c}function
+Dc(a,c,b){b&=b8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gu(a)}a.c[c]=b;return 0}function
+Db(b,a,c){if(a>>>0>=b.l)oF();return Dc(b,a,c)}function
+bS(a){this.fs=require("fs");this.fd=a}bS.prototype=new
+oy();bS.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bS.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bS.prototype.write=function(f,b,c,e){var
+a=C6(b);if(!(a
 instanceof
-E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bP.prototype.read=function(g,d,c,f){var
-a=Cq(d);if(!(a
+D.Uint8Array))a=new(D.Uint8Array)(a);var
+d=D.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bS.prototype.read=function(g,d,c,f){var
+a=C5(d);if(!(a
 instanceof
-E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)Cy(d,c+b,e[c+b]);return 0};bP.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bP.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bP.prototype.constructor=bP;function
-ay(a){this.fs=require("fs");this.root=a}ay.prototype.nm=function(a){return this.root+a};ay.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};ay.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};ay.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.open=function(f,c,g){var
+D.Uint8Array))a=new(D.Uint8Array)(a);var
+e=D.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
+b=0;b<f;b++)Db(d,c+b,e[c+b]);return 0};bS.prototype.read_one=function(c){var
+b=new(D.Uint8Array)(1),a=D.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bS.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bS.prototype.constructor=bS;function
+aA(a){this.fs=require("fs");this.root=a}aA.prototype.nm=function(a){return this.root+a};aA.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aA.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aA.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bP(d)}catch(a){this.raise_nodejs_error(a,g)}};ay.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};ay.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),mG);return dP(a)}catch(a){this.raise_nodejs_error(a,c)}};ay.prototype.raise_nodejs_error=function(a,d){var
-b=c1(h8);if(d&&b){var
-c=c4(a.code,a.syscall,a.path,a.errno);c2(b,c)}else
-ae(a.toString())};ay.prototype.stats_from_js=function(a){var
+bS(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),mX);return dT(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
+b=c5(ih);if(d&&b){var
+c=c8(a.code,a.syscall,a.path,a.errno);c6(b,c)}else
+ae(a.toString())};aA.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};ay.prototype.constructor=ay;function
-ow(b){var
-a=iJ(b);if(!a)return;return a[0]+bA}var
-gq=ow(eK)||bB("unable to compute caml_root"),dQ=[];if(eN())dQ.push({path:gq,device:new
-ay(gq)});else
-dQ.push({path:gq,device:new
-aO(gq)});dQ.push({path:mP,device:new
-aO(mP)});function
-oQ(b){var
-g=CQ(b),b=g.join(bA),f=oJ(b),c;for(var
-e=0;e<dQ.length;e++){var
-a=dQ[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eN()){var
-d=ow(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
+oO(b){var
+a=iS(b);if(!a)return;return a[0]+bB}var
+gy=oO(eR)||bC("unable to compute caml_root"),dU=[];if(eU())dU.push({path:gy,device:new
+aA(gy)});else
+dU.push({path:gy,device:new
+aO(gy)});dU.push({path:m6,device:new
+aO(m6)});function
+o8(b){var
+g=Dt(b),b=g.join(bB),f=o1(b),c;for(var
+e=0;e<dU.length;e++){var
+a=dU[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eU()){var
+d=oO(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-ay(d)};dQ.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-CB(c,b){var
-a=oQ(c);if(!a.device.register)bB("cannot register file");a.device.register(a.rest,b);return 0}function
-oL(c,b){var
-c=a(c),b=a(b);return CB(c,b)}function
-CE(){var
-b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)oL(b[a].name,b[a].content);E.jsoo_create_file=oL;E.caml_fs_tmp=[];return 0}function
-CX(c){var
-a=0,e=am(c),b=10,d=1;if(e>0)switch(c3(c,a)){case
+aA(d)};dU.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
+De(c,b){var
+a=o8(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
+o3(c,b){var
+c=a(c),b=a(b);return De(c,b)}function
+Dh(){var
+b=D.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)o3(b[a].name,b[a].content);D.jsoo_create_file=o3;D.caml_fs_tmp=[];return 0}function
+DA(c){var
+a=0,e=am(c),b=10,d=1;if(e>0)switch(c7(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&c3(c,a)==48)switch(c3(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&c7(c,a)==48)switch(c7(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=am(c),b=10,d=1;if(e>0)switch(c3(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-oD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oa)return a-87;return-1}function
-iB(f){var
-h=CX(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c3(f,c):0,b=oD(e);if(b<0||b>=d)bB(f9);var
-a=b;for(c++;c<g;c++){e=c3(f,c);if(e==95)continue;b=oD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bB(f9)}if(c!=g)bB(f9);a=i*a;if(d==10&&(a|0)!=a)bB(f9);return a|0}function
-CP(a,b){return+(iu(a,b,false)<=0)}function
-CR(a,d){if(a<0)gl();var
+oV(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=or)return a-87;return-1}function
+iK(f){var
+h=DA(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c7(f,c):0,b=oV(e);if(b<0||b>=d)bC(gf);var
+a=b;for(c++;c<g;c++){e=c7(f,c);if(e==95)continue;b=oV(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(gf)}if(c!=g)bC(gf);a=i*a;if(d==10&&(a|0)!=a)bC(gf);return a|0}function
+Ds(a,b){return+(iD(a,b,false)<=0)}function
+Du(a,d){if(a<0)gt();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-b8=new
+b_=new
 Array();function
-CS(c){var
-a=b8[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==Q)return 0;if(a.fd&&ao.fds[a.fd]&&ao.fds[a.fd].output){var
-b=ao.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=Q;return 0}function
-oG(e,f){var
-b=b8[e],d=a(f),c=am(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-C5(a){var
-a=iF(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Dv(c){var
+a=b_[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==S)return 0;if(a.fd&&ap.fds[a.fd]&&ap.fds[a.fd].output){var
+b=ap.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=S;return 0}function
+oY(e,f){var
+b=b_[e],d=a(f),c=am(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+DI(a){var
+a=iO(a),b=D;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-C6(a){var
-a=iF(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+DJ(a){var
+a=iO(a),b=D;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gs(c,e,d,a){if(ao.fds===undefined)ao.fds=new
+gA(c,e,d,a){if(ap.fds===undefined)ap.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ao.fds[c]=b;if(!ao.fd_last_idx||c>ao.fd_last_idx)ao.fd_last_idx=c;return c}function
-Db(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ap.fds[c]=b;if(!ap.fd_last_idx||c>ap.fd_last_idx)ap.fd_last_idx=c;return c}function
+DQ(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,160 +619,160 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dO(c)+n0);if(a.text&&a.binary)ae(dO(c)+mV);var
-d=oQ(c),e=d.device.open(d.rest,a),f=ao.fd_last_idx?ao.fd_last_idx:0;return gs(f+1,oG,e,a)}gs(0,oG,new
-ax(bQ(0)));gs(1,C6,new
-ax(bQ(0)));gs(2,C5,new
-ax(bQ(0)));function
-CT(a){var
-c=ao.fds[a];if(c.flags.wronly)ae(n$+a+" is writeonly");var
-d=null;if(a==0&&eN()){var
-e=require("fs");d=function(){return dP(e.readFileSync(0,mG))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b8[b.fd]=b;return b.fd}function
-oA(c){var
-b=ao.fds[c];if(b.flags.rdonly)ae(n$+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:Q};b8[a.fd]=a;return a.fd}function
-CU(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dS(c)+of);if(a.text&&a.binary)ae(dS(c)+na);var
+d=o8(c),e=d.device.open(d.rest,a),f=ap.fd_last_idx?ap.fd_last_idx:0;return gA(f+1,oY,e,a)}gA(0,oY,new
+az(bT(0)));gA(1,DJ,new
+az(bT(0)));gA(2,DI,new
+az(bT(0)));function
+Dw(a){var
+c=ap.fds[a];if(c.flags.wronly)ae(oq+a+" is writeonly");var
+d=null;if(a==0&&eU()){var
+e=require("fs");d=function(){return dT(e.readFileSync(0,mX))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b_[b.fd]=b;return b.fd}function
+oS(c){var
+b=ap.fds[c];if(b.flags.rdonly)ae(oq+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:S};b_[a.fd]=a;return a.fd}function
+Dx(){var
 b=0;for(var
-a=0;a<b8.length;a++)if(b8[a]&&b8[a].opened&&b8[a].out)b=[0,b8[a].fd,b];return b}function
-bf(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ao[b+1]=c;if(a)ao[a]=c}function
-C1(a,b){oC[dO(a)]=b;return 0}function
-Cu(a,b){if(a===b)return 1;a.t&6&&dN(a);b.t&6&&dN(b);return a.c==b.c?1:0}function
-an(a,b){return Cu(a,b)}function
-C3(){az(il)}function
-aI(b,a){if(a>>>0>=am(b))C3();return c3(b,a)}function
+a=0;a<b_.length;a++)if(b_[a]&&b_[a].opened&&b_[a].out)b=[0,b_[a].fd,b];return b}function
+bh(b,c,a){if(a&&D.toplevelReloc)b=D.toplevelReloc(a);ap[b+1]=c;if(a)ap[a]=c}function
+DE(a,b){oU[dS(a)]=b;return 0}function
+C9(a,b){if(a===b)return 1;a.t&6&&dR(a);b.t&6&&dR(b);return a.c==b.c?1:0}function
+an(a,b){return C9(a,b)}function
+DG(){aB(iw)}function
+aH(b,a){if(a>>>0>=am(b))DG();return c7(b,a)}function
 m(a,b){return 1-an(a,b)}function
-gr(a){return a}function
-oF(a){return a}function
-oK(a){if(a
+gz(a){return a}function
+oX(a){return a}function
+o2(a){if(a
 instanceof
-Array)return a;if(E.RangeError&&a
+Array)return a;if(D.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oF(ao.Stack_overflow);if(E.InternalError&&a
+D.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oX(ap.Stack_overflow);if(D.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oF(ao.Stack_overflow);if(a
+D.InternalError&&a.message&&a.message.match(/too much recursion/i))return oX(ap.Stack_overflow);if(a
 instanceof
-E.Error&&c1(nm))return[0,c1(nm),a];return[0,ao.Failure,dP(String(a))]}function
-c5(a){return a<0?-a:a}function
-y(a,b){return a+b}function
-iG(a,b){return a<b?-1:a>b?1:0}function
-oN(c,b){var
-a=c%b;return a<0?a+c5(b):a}function
-iH(a,b){return(a-oN(a,b))/b}function
-Y(a,b){return a==b?1:0}function
-C_(c){E.orthocert_verify=function(b){return dO(c0(c,[a(b)]))}}function
+D.Error&&c5(nD))return[0,c5(nD),a];return[0,ap.Failure,dT(String(a))]}function
+c9(a){return a<0?-a:a}function
+z(a,b){return a+b}function
+iP(a,b){return a<b?-1:a>b?1:0}function
+o5(c,b){var
+a=c%b;return a<0?a+c9(b):a}function
+iQ(a,b){return(a-o5(a,b))/b}function
+Z(a,b){return a==b?1:0}function
+DN(c){D.orthocert_verify=function(b){return dS(c4(c,[a(b)]))}}function
 G(a,b){return a<=b?1:0}function
-X(a,b){return a<b?1:0}function
+V(a,b){return a<b?1:0}function
 v(a,b){return a*b}function
-N(a){return-a}function
-aD(a){return E.BigInt(a)}function
-oO(a,b){return a<<E.BigInt(b)}function
-oP(a,b){return a>>E.BigInt(b)}function
-a3(a){return a<0?-1:a>0?1:0}function
-C$(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
-d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aA(a,b){return a-b}function
-iI(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-CN(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-CD(b){var
-a=Q;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&CN(b[1]))var
+M(a){return-a}function
+aE(a){return D.BigInt(a)}function
+o6(a,b){return a<<D.BigInt(b)}function
+o7(a,b){return a>>D.BigInt(b)}function
+a4(a){return a<0?-1:a>0?1:0}function
+DO(a){if(a<0)throw new(D.Error)("a root of a negative number");if(a<2)return a;var
+d=D.BigInt(1),b=d<<D.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aC(a,b){return a-b}function
+iR(a){if(a>0x7fffffff||a<-0x80000000)throw new(D.Error)("a number of more than 32 bits");return D.Number(a)}function
+Dq(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Dg(b){var
+a=S;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Dq(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=nn;for(var
+f=2,e=b;a+=nE;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bO)a+=aw+c.toString()+aw;else
+bR)a+=aw+c.toString()+aw;else
 if(typeof
 c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=ii}else
-if(b[0]==aH)a+=b[1];return a}function
-ou(a){if(a
+a+="_"}a+=it}else
+if(b[0]==aG)a+=b[1];return a}function
+oM(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aH)){var
-c=c1("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=CD(a),b=c1(mF);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aG)){var
+c=c5("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Dg(a),b=c5(mW);if(b)b(0);D.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-C2(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ou(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ou(a.error)})}C2();function
-i(a,b){return a.length==1?a(b):c0(a,[b])}function
-at(a,b,c){return a.length==2?a(b,c):c0(a,[b,c])}function
-Cp(a,b,c,d){return a.length==3?a(b,c,d):c0(a,[b,c,d])}CE();var
-iL=[aH,a(na),-2],iK=[aH,a(of),-4],Bk=[0,[0,0]],Bl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bk]]]]]]]]]]],Bm=[0,0],Bn=[0,0],fS=[0,[1,0],0],l0=[0,[2,0],0],hH=[0,[1,0],0],lZ=[0,[2,0],0],fQ=[0,[1,0],0],hG=[0,[2,0],0],Bo=[0,[0,[0,[0,0]]]],Bp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bo]]]]]]]]]]],Bq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bp]]]]]]]]]]],Br=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bq]]]]]]]]]]],Bs=[0,[0,0]],Bt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bs]]]]]]]]]]],Bu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bt]]]]]]]]]]],Bv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bu]]]]]]]]]]],Bw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bv]]]]]]]]]]],Bx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],By=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bx]]]]]]]]]]],Bz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,By]]]]]]]]]]],BA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bz]]]]]]]]]]],BB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BA]]]]]]]]]]],BC=[0,[0,0]],BD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BC]]]]]]]]]]],BE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BD]]]]]]]]]]],BF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BE]]]]]]]]]]],BG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BF]]]]]]]]]]],BH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BG]]]]]]]]]]],BI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BH]]]]]]]]]]],BJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BI]]]]]]]]]]],BK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],BL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BK]]]]]]]]]]],BM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BL]]]]]]]]]]],BN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BM]]]]]]]]]]],BO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BN]]]]]]]]]]],BP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BO]]]]]]]]]]],BQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BP]]]]]]]]]]],BR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BQ]]]]]]]]]]],BS=[0,0],BT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BS]]]]]]]]]]],BU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BT]]]]]]]]]]],BV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BU]]]]]]]]]]],BW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BV]]]]]]]]]]],BX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BW]]]]]]]]]]],BY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BX]]]]]]]]]]],BZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BY]]]]]]]]]]],B0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],B1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],B3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,0]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,0],Ch=[0,[0,0]],Ci=[0,0],Cj=[0,[0,[0,[0,[0,0]]]]],jc=[0,[0,[0,0]]],cj=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fE=[0,[0,[0,[0,0]]]],Ck=[0,[0,[0,[0,[0,0]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]];bf(11,[aH,a(mE),-12],mE);bf(10,[aH,a(ns),-11],ns);bf(9,[aH,a(n_),-10],n_);bf(8,[aH,a(mQ),-9],mQ);bf(7,[aH,a(nF),-8],nF);bf(6,[aH,a(mO),-7],mO);bf(5,[aH,a(nb),-6],nb);bf(4,[aH,a(nh),-5],nh);bf(3,iK,of);bf(2,[aH,a(ib),-3],ib);bf(1,iL,na);bf(0,[aH,a(nU),-1],nU);var
-oR=a("String.sub / Bytes.sub"),oT=a(Q),oS=a("String.concat"),oU=a("Array.init"),oV=a("power"),o6=[0,0],o8=[0,0],o9=[0,[0,0]],o_=[0,[0,0]],ph=[0,0],pi=[0,0],po=[0,0,0],pp=[0,0,0],pq=[0,0],pJ=[0,0],pK=[0,0],pN=[0,0],p5=[0,0],p8=[0,0],p_=[0,0],p$=[0,0],qf=[0,0],qg=[0,0],qD=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qF=[0,[0,[0,0]]],qU=[0,0],re=a(","),rw=[0,a(ii),0],rx=a(nn),ry=a("."),rz=[0,[0,[0,0]]],rA=a(eD),rB=a(ij),rC=[0,[0,[0,[0,[0,0]]]]],rD=[0,a(ii),0],rE=a(oc),uu=a(mB),uw=a(my),uv=a(nv),ux=a(dF),uy=a(f5),uz=a(oe),uA=a(n3),uB=a(m6),uC=a(nH),vL=[0,0],vM=a(h4),vN=[0,0],vO=a("divided"),vP=[0,1],vQ=a("mirror"),vR=[0,3],vS=a("negative"),vT=[0,2],vU=a(eC),vV=[0,5],vW=a(iq),vX=[0,4],vY=a(ez),vZ=a(mT),v0=a(eA),v1=a(b4),v2=[0,0],v3=[0,0],v4=[0,0],wG=a(Q),wD=[0,[0,[0,[0,0]]]],wE=[0,[0,[0,[0,0]]]],wB=[0,[0,[0,0]]],wA=[0,0],wz=a(eA),wy=[0,[0,[0,0]]],wx=[0,0],wu=[0,[0,0]],wv=[0,[0,[0,0]]],wq=[0,[0,[0,0]]],wp=[0,0,0],wo=[0,[0,[0,0]]],wn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bl]]]]]]]]]]],wm=[0,0],wg=[0,[0,0]],wh=[0,[0,[0,0]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bm]]]]]]]]]]],wj=[0,[0,0]],wk=[0,[0,[0,0]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bn]]]]]]]]]]],wd=[0,[0,0]],we=[0,[0,[0,0]]],wb=[0,[0,[0,0]]],wc=[0,[0,0]],v_=[0,[0,0]],v$=[0,0],v8=[0,0],v9=[0,1],v7=[0,[0,0]],v6=[0,0],vI=[0,0],vJ=[0,1],vK=[0,2],vE=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vC=[0,[0,0],0],vD=[0,[1,0],0],vF=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],vA=[0,[0,0]],vB=[0,0],vz=[0,0],vy=[0,0],vx=[0,0],vw=[0,0,0],vv=[0,0,0],vt=[0,[0,[0,0]]],vu=[0,[0,[0,0]]],vs=[0,0],vq=[0,1,0],vh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Br]]]]]]]]]]],vi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Bw]]]]]]]]]]],vd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BB]]]]]]]]]]],ve=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BJ]]]]]]]]]]],vf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BR]]]]]]]]]]],vg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],vj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],vk=a("sqrt"),vb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],vc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],u2=[0,a("\n"),0],u3=a(mz),u4=a(f4),u5=a(nr),u6=a(m_),va=a(eF),u7=a(eB),u8=a("verdict"),u9=a(nV),u_=a(m3),u$=a(nq),uZ=a(nl),u0=a(nY),u1=a(f7),uV=a(nB),uW=a(f8),uX=a(eB),uY=a(eF),uQ=a(ge),uR=a(a2),uS=a(mA),uT=a(gb),uN=a(nT),uO=a(eC),uP=a(gb),uJ=a(nE),uK=a(ge),uL=a(f8),uM=a(n8),uE=a(nZ),uF=a(n2),uG=a(ni),uH=a(f_),us=a(h6),ut=a(gh),un=a(be),uo=a(bd),up=a(m5),tZ=a(f_),t0=a(nI),tD=a(a2),tE=a(bz),tF=a(gg),tG=a(dI),tH=a(cY),tM=a(f3),tI=a(ik),tJ=a(im),tK=a(dE),tL=a(a2),tN=a(bz),tO=a(gg),tP=a(dI),tQ=a(ik),tR=a(im),tS=a(dE),tT=a(a2),tU=a(bz),tV=a(be),tW=a(bd),tX=a(cW),tY=a(dI),t1=a(nP),t2=a(n1),t3=a(gk),t4=a(mU),t5=a(mZ),t6=a(dE),t7=a(a2),t8=a(bz),t9=a(f0),t_=a(m8),t$=a(dI),ua=a(eI),ub=a(mI),uc=a(dE),ud=a(a2),ue=a(f0),uf=a(a2),ug=a(nK),uj=a(mx),uh=a(mX),ui=a(n7),uk=a(eF),ul=a(eB),um=a(a2),uq=a(gk),ur=a(f7),tx=a(bz),ty=a(ir),tz=a(dI),tA=a(f3),tB=a(dE),tl=a(eI),tm=a(nW),tn=a(cX),to=a(dG),tp=a(dG),tq=a(h9),tr=a(cX),ts=a(nt),tt=a(m4),tu=a(aT),tw=a(mD),tv=a(h9),tb=a(nk),tc=a(od),td=a(m0),te=a(mY),tf=a(n5),tg=a(nS),th=a(m$),ti=a(f1),tj=a(f1),s9=a(aT),s_=a(bc),s$=a(dJ),ta=a(by),s5=a(cY),s6=a(ie),s7=a(nC),s2=a(be),s3=a(bd),s4=a(cW),sV=a(be),sW=a(bd),sX=a(cW),sY=a(ih),sZ=a(cX),s0=a(ic),s1=a(nO),sJ=a(mW),sP=a(f4),sO=a(n6),sK=a(h_),sL=a(ga),sQ=a(h_),sR=a(ga),sS=a(mS),sT=a(nM),sU=a(ga),sM=a(dG),sN=a(ny),sG=a(f$),sH=a(f$),sI=a(f$),sC=a(nQ),sD=a(bd),sE=a(be),sF=a(n4),so=a(mM),sp=a(mC),sq=a(nG),sr=a(dF),ss=a(ob),st=a(nJ),su=a(mN),sv=a(nz),sw=a(mL),sx=a(m7),sy=a(mK),sz=a(nR),sA=a(f5),sB=a(mH),r5=a(gc),r7=a(eD),r6=a(ey),r8=a(dD),r9=a(aT),r_=a(bc),r$=a(b4),sa=a(gi),sb=a(by),sc=a(aT),sd=a(bc),se=a(dJ),sf=a(by),sg=a(dD),sh=a(eH),si=a(aT),sj=a(bc),sk=a(nx),sl=a(nL),sm=a(eH),sn=a(by),rN=a(gc),rV=a(eD),rO=a(ey),rP=a(dD),rQ=a(aT),rR=a(bc),rS=a(b4),rT=a(gi),rU=a(by),rW=a(gj),rX=a(aT),rY=a(bc),rZ=a(dJ),r0=a(by),r1=a(b4),r2=a(cY),r3=a(by),rK=a(be),rL=a(bd),rI=[0,a(aw),0],rJ=a(aw),rG=a(Q),rF=[0,a(aw),0],rH=a(aw),rs=a(gc),rt=a(eD),ru=a("*"),rv=a(bA),rn=[0,[0,[0,[0,[0,0]]]]],ro=[0,[0,[0,0]]],rp=[0,[0,0]],rq=[0,0],rr=[0,[0,[0,[0,0]]]],rl=a('":'),rm=a(aw),rj=[0,a(aw),0],rk=a(aw),rh=[0,a("}"),0],ri=a("{"),rf=[0,a("]"),0],rg=a("["),rd=[0,[0,[0,0]]],rc=[0,[0,[0,0]]],ra=[0,0],q9=[0,[0,[0,0]]],q_=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q$=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],q7=[0,[0,0]],q8=[0,[0,[0,0]]],q4=[0,0],q5=[0,[0,[0,[0,[0,[0,0]]]]]],q6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],q1=[0,0],qY=[0,0,0],qZ=[0,0,0],q0=[0,0,0],qV=[0,[0,0]],qW=[0,[0,[0,0]]],qX=[0,0],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,0]]],qO=[0,[0,[0,[0,[0,[0,0]]]]]],qP=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],qR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],qS=[0,[0,[0,0]]],qT=[0,[0,[0,[0,[0,[0,0]]]]]],qI=[0,[0,0]],qJ=[0,[0,[0,0]]],qB=[0,[0,0]],qC=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qA=[0,[0,0]],qv=[0,0],qw=[0,0],qx=[0,0],qr=[0,[0,0]],qs=[0,0],qt=[0,0],qu=[0,[0,0]],qi=[0,[0,0]],qj=[0,0],qk=[0,[0,0]],ql=[0,0],qm=[0,0],qn=[0,[0,0]],qo=[0,[0,0]],qp=[0,[0,0]],qq=[0,0],qe=[0,0],qd=[0,0],qc=[0,[0,[0,0]]],qb=[0,[0,[0,[0,[0,[0,0]]]]]],p9=[0,[0,[0,0]]],p6=[0,[0,[0,0]]],p4=[0,[0,[0,0]]],p2=[0,[0,[0,[0,[0,[0,0]]]]]],p3=[0,[0,[0,[0,[0,[0,0]]]]]],pY=[0,[0,0]],pZ=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,[0,0]]],pR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],pS=[0,[0,[0,[0,[0,[0,0]]]]]],pT=[0,[0,[0,[0,[0,[0,0]]]]]],pU=[0,[0,[0,0]]],pV=[0,[0,[0,[0,[0,[0,0]]]]]],pW=[0,[0,[0,0]]],pX=[0,[0,[0,0]]],pP=[0,[0,0]],pQ=[0,0],pO=[0,0,0],pM=[0,0,0],pL=[0,[0,[0,0]]],pH=[0,0],pI=[0,0],pC=[0,[0,[0,0]]],pD=[0,[0,[0,0]]],pE=[0,[0,[0,0]]],pB=[0,[0,[0,[0,0]]]],px=[0,[0,[0,0]]],py=[0,[0,[0,0]]],pz=[0,[0,[0,0]]],pA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pv=[0,[0,0]],pw=[0,0],pt=[0,[0,0]],pu=[0,0],pr=[0,[0,0]],ps=[0,0],pb=[0,0],pc=[0,[0,0]],pd=[0,0],pe=[0,[0,0]],o$=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],o7=[0,0,0],o5=a(ip),o4=a(Q),o3=[0,[0,0]],o2=[0,0],oZ=[0,0],o1=[1,0],o0=[0,0],oY=[0,0],oW=[1,0],oX=[1,0],ww=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],zI=a(be),zJ=a(bd),zK=a(m5),zy=a(gj),zz=[0,a("a base axis of such a platform"),0],zA=a(aT),zB=a(bc),zl=a(nS),zm=a(nk),zn=a(n5),zo=a(f1),zp=a(m$),zq=a(f1),zr=a(od),zs=a(m0),zt=a(mY),zb=a(nI),zc=a(f_),yA=a(f7),yB=a(a2),yC=a(nK),yD=a(n7),yG=a(mX),yH=a(mx),yI=a(a2),yJ=a(a2),yL=a(f0),yK=[0,a("a claim that no cube of such a machine fits"),0],yM=a(dE),yN=a(dI),yO=a(f3),yP=a(ir),zH=[0,a(nc),0],yQ=a(cY),yR=a(ie),yS=a(nC),yT=a(gg),yU=a(mZ),yV=a(mI),yW=a(f3),yZ=a(cW),y0=a(nO),y3=a(ir),y4=a(bz),y5=[0,a(nc),0],y6=a(bz),y7=a(m8),y8=a(bz),y9=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],y_=a(f0),y$=a(eI),za=a(cW),zd=a(bz),ze=a(be),zf=a(bd),zg=a(nP),zh=a(n1),zi=a(gk),zj=a(mU),yX=[0,a(aw),0],yY=a('the mechanism "'),zk=a(ik),zu=a(gg),zv=a(cY),zw=a(ie),zx=a(im),zC=a(bz),zD=[0,a('"one_to_one" of this set of orientations'),0],zG=a(cY),zE=[0,a("a platform that turns on struts and other drives"),0],zF=a(bz),y1=[0,a(aw),0],y2=a('the workspace "'),zL=a(a2),zM=a(a2),zO=a(eF),zP=a(eB),zQ=a(gk),zN=[0,a("an atlas of such a machine"),0],yE=[0,a(aw),0],yF=a('a claim of the kind "'),zV=a(oe),z2=a(f5),z3=a(dF),z4=a(m6),z5=a(nv),z6=a(b4),z7=a(gh),z8=a(h6),z9=a(b4),z_=a(ip),zW=a(ez),zX=a(mT),zY=a(eA),zZ=a(nH),z0=[0,a(aw),0],z1=a('the evidence "'),z$=a(ez),Aa=a(gh),Ab=[0,1,1],Ac=a(dF),Ad=a(ez),Ae=a(eA),Af=a(n3),Ah=a(dF),Ai=a(ez),Aj=a(eA),Ak=a(eC),Al=a(h4),Am=a(eC),An=a(h4),Ag=[0,a("this evidence at control points"),0],Bd=a('"orthocert-paving/'),AU=a(nq),AV=a(m3),AW=a(nV),Bb=[0,3,3],AX=a(m_),A7=[0,a("this set of orientations with such drives"),0],A8=[0,a(ng),0],A$=[0,a(ng),0],Ba=[0,a("a mechanism by formulas in a claim that is refuted"),0],A9=[0,a('the evidence "tolerances" of such a mechanism'),0],A_=[0,a("a step of a platform that turns that is not at control points"),0],AY=[0,a("the acceleration of a joint of a machine with a plane"),0],A6=[0,a("this quantity in a claim that is refuted"),0],A5=[0,a("a step in a proof that no cube fits"),0],A4=[0,a("a stiffness for each joint in such a claim"),0],A3=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],A2=[0,a("a leaf that fails"),0],AZ=a(nr),A0=a(mz),A1=a(f4),AS=a(iq),AL=a(f7),AM=a(nl),AN=a(nY),AO=[0,a(aw),0],AP=a('a proof of the kind "'),AH=a(eB),AI=a(eF),AJ=a(f8),AK=a(nB),AD=a(a2),AE=a(ge),AF=a(mA),AG=a(gb),AA=a(nT),AB=a(eC),AC=a(gb),Aw=a(nE),Ax=a(ge),Ay=a(f8),Az=a(n8),Aq=a(n2),Ar=a(ni),As=a(nZ),At=a(f_),Au=[0,a(aw),0],Av=a('the failure "'),Ao=a(iq),Ap=a(ip),zT=a(gh),zU=a(h6),zR=a(my),zS=a(mB),yx=a(eI),yn=a(h9),yo=a(mD),yp=a(dG),yq=a(aT),yv=a(nW),yw=a(eI),yy=a(cX),yz=a(dG),yr=a(cX),ys=a(nt),yt=a(m4),yu=a(aT),yg=a(cW),yk=a(be),yl=a(bd),yh=a(ic),yi=a(ih),yj=a(cX),ya=a(cW),ye=a(be),yf=a(bd),yb=a(ic),yc=a(ih),yd=a(cX),x$=[0,1],x_=[0,1],x9=[0,1],x7=[0,1],x8=[0,a("this quantity of such a mechanism"),0],xR=a(h_),xS=[0,a("a stiffness for each joint of such a mechanism"),0],xT=a(nM),xU=a(mS),xV=a(n6),xW=a("max_angle"),xX=[0,a("accuracy of a platform that turns"),0],xQ=a(f4),xI=a(f$),xy=a(ny),xz=a(nG),x0=a(f5),x1=a(m7),x2=a(dF),x3=a(nz),x4=a(mK),x5=a(mL),x6=a(mC),xA=a(mH),xB=a(nR),xC=a(nJ),xD=a(ob),xE=a(mN),xF=a(mM),xG=[0,a(aw),0],xH=a('the quantity "'),xJ=a(mW),xK=a(nQ),xL=a(be),xM=a(bd),xN=a(n4),xO=[0,a(aw),0],xP=a('a bound "'),xY=a(ga),xZ=a(dG),xw=a(by),xx=a(dJ),xb=a(by),xc=a(gj),xd=a(eH),xe=a(gi),xf=a(dJ),xi=a(aT),xj=a(bc),xk=a(ey),xl=a(dD),xm=a(aT),xn=a(bc),xo=a(b4),xp=a(ey),xq=a(dD),xr=a(eH),xs=a(aT),xt=a(bc),xu=a(nx),xv=a(nL),xg=[0,a('" of such a machine'),0],xh=a(mR),w$=a(by),xa=a(eH),wV=a(by),wW=a(cY),wX=a(gi),wY=a(dJ),w1=a(gj),w2=a(aT),w3=a(bc),w4=a(ey),w5=a(dD),w6=a(aT),w7=a(bc),w8=a(b4),w9=a(b4),wZ=[0,a(aw),0],w0=a(mR),wS=a(gc),wT=a(eD),wQ=a(" is not covered by the verified checker"),wR=a(Q),wO=a(be),wP=a(bd),wK=a(Q),wL=a(oc),wM=a(Q),wN=a(Q),wJ=[1,0],wH=a("Reader.Malformed"),wI=a("Reader.Not_covered"),Bf=[0,a("a paving is checked by orthocert-verified")],Be=a(nA),Bg=a("CERTIFIED"),Bh=a("REFUTED"),Bi=a(nA),Bj=a("NOT COVERED: ");function
-eO(a){throw[0,iK,a]}function
+DF(){var
+a=D;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oM(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oM(a.error)})}DF();function
+k(a,b){return a.length==1?a(b):c4(a,[b])}function
+at(a,b,c){return a.length==2?a(b,c):c4(a,[b,c])}function
+C4(a,b,c,d){return a.length==3?a(b,c,d):c4(a,[b,c,d])}Dh();var
+iU=[aG,a(ns),-2],iT=[aG,a(ox),-4],BZ=[0,0],B0=[0,0],B1=[0,[0,0]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],f0=[0,[1,0],0],md=[0,[2,0],0],hS=[0,[1,0],0],mc=[0,[2,0],0],fY=[0,[1,0],0],hR=[0,[2,0],0],B3=[0,[0,[0,[0,0]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,0]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,0]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,0],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,0]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,0],CW=[0,[0,0]],CX=[0,0],CY=[0,[0,[0,[0,[0,0]]]]],jk=[0,[0,[0,0]]],cI=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fL=[0,[0,[0,[0,0]]]],CZ=[0,[0,[0,[0,[0,0]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]];bh(11,[aG,a(mV),-12],mV);bh(10,[aG,a(nJ),-11],nJ);bh(9,[aG,a(op),-10],op);bh(8,[aG,a(m7),-9],m7);bh(7,[aG,a(nW),-8],nW);bh(6,[aG,a(m5),-7],m5);bh(5,[aG,a(nt),-6],nt);bh(4,[aG,a(ny),-5],ny);bh(3,iT,ox);bh(2,[aG,a(im),-3],im);bh(1,iU,ns);bh(0,[aG,a(n_),-1],n_);var
+o9=a("String.sub / Bytes.sub"),o$=a(S),o_=a("String.concat"),pa=a("Array.init"),pb=a("power"),pm=[0,0],pp=[0,0],pq=[0,[0,0]],pr=[0,[0,0]],pz=[0,0],pA=[0,0],pG=[0,0,0],pH=[0,0,0],pI=[0,0],p1=[0,0],p2=[0,0],p5=[0,0],ql=[0,0],qo=[0,0],qq=[0,0],qr=[0,0],qy=[0,0],qz=[0,0],qX=[0,[0,[0,0]]],rh=[0,0],rD=a(","),rV=[0,a(it),0],rW=a(nE),rX=a("."),rY=[0,[0,[0,0]]],rZ=a(eK),r0=a(iu),r1=[0,[0,[0,[0,[0,0]]]]],r2=[0,a(it),0],r3=a(ou),uX=a(mS),uZ=a(mP),uY=a(nM),u0=a(dJ),u1=a(gb),u2=a(ow),u3=a(oi),u4=a(nm),u5=a(nY),wf=[0,0],wg=a(f_),wh=[0,0],wi=a("divided"),wj=[0,1],wk=a("mirror"),wl=[0,3],wm=a("negative"),wn=[0,2],wo=a(eJ),wp=[0,5],wq=a(iA),wr=[0,4],ws=a(eF),wt=a(m_),wu=a(eG),wv=a(bQ),ww=[0,0],wx=[0,0],wy=[0,0],xf=a(S),xc=[0,[0,[0,[0,0]]]],xd=[0,[0,[0,[0,0]]]],xa=[0,[0,[0,0]]],w$=[0,0],w_=a(eG),w9=[0,[0,[0,0]]],w8=[0,0],w5=[0,[0,0]],w6=[0,[0,[0,0]]],w1=[0,[0,[0,0]]],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0],wV=[0,[0,[0,0]]],wP=[0,[0,0]],wQ=[0,[0,[0,0]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],wS=[0,[0,0]],wT=[0,[0,[0,0]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],wM=[0,[0,0]],wN=[0,[0,[0,0]]],wK=[0,[0,[0,0]]],wL=[0,[0,0]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],wI=[0,0],wH=[0,0],wE=[0,[0,0]],wF=[0,0],wC=[0,0],wD=[0,1],wB=[0,[0,0]],wA=[0,0],wc=[0,0],wd=[0,1],we=[0,2],v_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v8=[0,[0,0],0],v9=[0,[1,0],0],v$=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v6=[0,[0,0]],v7=[0,0],v5=[0,0],v3=[0,0],v4=[0,0],v2=[0,0],v1=[0,0],v0=[0,0,0],vY=[0,[0,0]],vZ=[0,0],vX=[0,0,0],vV=[0,[0,[0,0]]],vW=[0,[0,[0,0]]],vU=[0,0],vS=[0,1,0],vK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],vL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],vH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],vI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],vM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],vN=a("sqrt"),vE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],vF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],vt=[0,a("\n"),0],vu=a(mQ),vv=a(ga),vw=a(nI),vx=a(nq),vD=a(eM),vy=a(eI),vz=a("verdict"),vA=a(n$),vB=a(nj),vC=a(nH),vq=a(nC),vr=a(od),vs=a(gd),vm=a(nS),vn=a(ge),vo=a(eI),vp=a(eM),vh=a(gm),vi=a(a3),vj=a(mR),vk=a(gj),ve=a(n9),vf=a(eJ),vg=a(gj),va=a(nV),vb=a(gm),vc=a(ge),vd=a(on),u7=a(oe),u8=a(oh),u9=a(nz),u_=a(gg),uV=a(id),uW=a(gp),uQ=a(bg),uR=a(bf),uS=a(nl),uq=a(gg),ur=a(nZ),t6=a(a3),t7=a(bA),t8=a(go),t9=a(dM),t_=a(c2),ud=a(ie),t$=a(iv),ua=a(ix),ub=a(dI),uc=a(a3),ue=a(bA),uf=a(go),ug=a(dM),uh=a(iv),ui=a(ix),uj=a(dI),uk=a(a3),ul=a(bA),um=a(bg),un=a(bf),uo=a(c0),up=a(dM),us=a(n5),ut=a(og),uu=a(gs),uv=a(m$),uw=a(ne),ux=a(dI),uy=a(a3),uz=a(bA),uA=a(f8),uB=a(no),uC=a(dM),uD=a(eP),uE=a(mZ),uF=a(dI),uG=a(a3),uH=a(f8),uI=a(a3),uJ=a(n1),uM=a(mO),uK=a(nc),uL=a(om),uN=a(eM),uO=a(eI),uP=a(a3),uT=a(gs),uU=a(gd),t1=a(bA),t2=a(dM),t3=a(ie),t4=a(dI),t0=a(os),tO=a(eP),tP=a(oa),tQ=a(c1),tR=a(dK),tS=a(dK),tT=a(ii),tU=a(c1),tV=a(nK),tW=a(nk),tX=a(aT),tZ=a(mU),tY=a(ii),tE=a(nB),tF=a(ov),tG=a(ng),tH=a(nd),tI=a(ok),tJ=a(n8),tK=a(nr),tL=a(f9),tM=a(f9),tA=a(aT),tB=a(be),tC=a(dN),tD=a(bz),tw=a(c2),tx=a(iq),ty=a(nT),tt=a(bg),tu=a(bf),tv=a(c0),tm=a(bg),tn=a(bf),to=a(c0),tp=a(is),tq=a(c1),tr=a(io),ts=a(n4),s_=a(nb),te=a(ga),td=a(ol),s$=a(ij),ta=a(gi),th=a(eH),ti=a(ij),tf=a(eH),tg=a(gi),tj=a(m9),tk=a(n2),tl=a(gi),tb=a(dK),tc=a(nP),s7=a(gh),s8=a(gh),s9=a(gh),s3=a(n6),s4=a(bf),s5=a(bg),s6=a(oj),sN=a(m3),sO=a(mT),sP=a(nX),sQ=a(dJ),sR=a(ot),sS=a(n0),sT=a(m4),sU=a(nQ),sV=a(m2),sW=a(nn),sX=a(m1),sY=a(n7),sZ=a(gb),s0=a(mY),s1=a(oc),s2=a(nf),ss=a(gk),su=a(eK),st=a(eE),sv=a(dH),sw=a(aT),sx=a(be),sy=a(bQ),sz=a(gq),sA=a(bz),sB=a(aT),sC=a(be),sD=a(dN),sE=a(bz),sF=a(dH),sG=a(eO),sH=a(aT),sI=a(be),sJ=a(nO),sK=a(eH),sL=a(eO),sM=a(bz),sa=a(gk),si=a(eK),sb=a(eE),sc=a(dH),sd=a(aT),se=a(be),sf=a(bQ),sg=a(gq),sh=a(bz),sj=a(gr),sk=a(aT),sl=a(be),sm=a(dN),sn=a(bz),so=a(bQ),sp=a(c2),sq=a(bz),r9=a(bg),r_=a(bf),r7=[0,a(aw),0],r8=a(aw),r5=a(S),r4=[0,a(aw),0],r6=a(aw),rR=a(gk),rS=a(eK),rT=a("*"),rU=a(bB),rM=[0,[0,[0,[0,[0,0]]]]],rN=[0,[0,[0,0]]],rO=[0,[0,0]],rP=[0,0],rQ=[0,[0,[0,[0,0]]]],rK=a('":'),rL=a(aw),rI=[0,a(aw),0],rJ=a(aw),rG=[0,a("}"),0],rH=a("{"),rE=[0,a("]"),0],rF=a("["),rC=[0,[0,[0,0]]],rB=[0,[0,[0,0]]],rz=[0,0],rw=[0,[0,[0,0]]],rx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ry=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ru=[0,[0,0]],rv=[0,[0,[0,0]]],rr=[0,0],rs=[0,[0,[0,[0,[0,[0,0]]]]]],rt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],ro=[0,0],rl=[0,0,0],rm=[0,0,0],rn=[0,0,0],ri=[0,[0,0]],rj=[0,[0,[0,0]]],rk=[0,0],q9=[0,[0,[0,[0,[0,[0,0]]]]]],q_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q$=[0,[0,[0,0]]],ra=[0,[0,[0,0]]],rb=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],re=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],rf=[0,[0,[0,0]]],rg=[0,[0,[0,[0,[0,[0,0]]]]]],q7=[0,[0,0]],q8=[0,[0,[0,0]]],q3=[0,0,0],q4=[0,0,0],q1=[0,0],q2=[0,0],q0=[0,0],qY=[0,0],qZ=[0,0],qV=[0,[0,0]],qW=[0,[0,[0,0]]],qT=[0,[0,[0,0]]],qU=[0,[0,0]],qO=[0,0],qP=[0,0],qQ=[0,0],qR=[0,[0,[0,0]]],qK=[0,[0,0]],qL=[0,0],qM=[0,0],qN=[0,[0,0]],qB=[0,[0,0]],qC=[0,0],qD=[0,[0,0]],qE=[0,0],qF=[0,0],qG=[0,[0,0]],qH=[0,[0,0]],qI=[0,[0,0]],qJ=[0,0],qx=[0,0],qw=[0,0],qu=[0,[0,[0,0]]],qt=[0,[0,[0,[0,[0,[0,0]]]]]],qp=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qk=[0,[0,[0,0]]],qi=[0,[0,[0,[0,[0,[0,0]]]]]],qj=[0,[0,[0,[0,[0,[0,0]]]]]],qe=[0,[0,0]],qf=[0,0],qg=[0,[0,[0,0]]],qh=[0,[0,[0,0]]],p9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],p_=[0,[0,[0,[0,[0,[0,0]]]]]],p$=[0,[0,[0,[0,[0,[0,0]]]]]],qa=[0,[0,[0,0]]],qb=[0,[0,[0,[0,[0,[0,0]]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,[0,0]]],p7=[0,[0,0]],p8=[0,0],p6=[0,0,0],p4=[0,0,0],p3=[0,[0,[0,0]]],pZ=[0,0],p0=[0,0],pU=[0,[0,[0,0]]],pV=[0,[0,[0,0]]],pW=[0,[0,[0,0]]],pT=[0,[0,[0,[0,0]]]],pP=[0,[0,[0,0]]],pQ=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pN=[0,[0,0]],pO=[0,0],pL=[0,[0,0]],pM=[0,0],pJ=[0,[0,0]],pK=[0,0],pu=[0,0],pv=[0,[0,0]],pw=[0,0],px=[0,[0,0]],ps=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],pn=[0,0,0],pl=a(iz),pk=a(S),pj=[0,[0,0]],pi=[0,0],pf=[0,0],ph=[1,0],pg=[0,0],pe=[0,0],pc=[1,0],pd=[1,0],qv=[10,0,0,0,0],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],Aj=a(bg),Ak=a(bf),Al=a(nl),Aa=a(gr),Ab=[0,a("a base axis of such a platform"),0],Ac=a(aT),Ad=a(be),zZ=a(n8),z0=a(nB),z1=a(ok),z2=a(f9),z3=a(nr),z4=a(f9),z5=a(ov),z6=a(ng),z7=a(nd),zP=a(nZ),zQ=a(gg),zr=[0,a("such a machine with bodies"),0],ze=a(gd),zf=a(a3),zg=a(n1),zh=a(om),zk=a(nc),zl=a(mO),zm=a(a3),zn=a(a3),zp=a(f8),zo=[0,a("a claim that no cube of such a machine fits"),0],zq=a(os),zs=a(dI),zt=a(dM),zu=a(c2),zv=a(iq),zw=a(nT),zx=a(go),zy=a(ne),zz=a(mZ),zA=a(ie),zD=a(c0),zE=a(n4),zH=a(bA),zI=a(bA),zJ=a(no),zK=a(bA),zL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],zM=a(f8),zN=a(eP),zO=a(c0),zR=a(bA),zS=a(bg),zT=a(bf),zU=a(n5),zV=a(og),zW=a(gs),zX=a(m$),zB=[0,a(aw),0],zC=a('the mechanism "'),zY=a(iv),z8=a(go),z9=a(c2),z_=a(iq),z$=a(ix),Ae=a(bA),Af=[0,a('"one_to_one" of this set of orientations'),0],Ai=a(c2),Ag=[0,a("a platform that turns on struts and other drives"),0],Ah=a(bA),zF=[0,a(aw),0],zG=a('the workspace "'),Am=a(a3),An=a(a3),Ap=a(eM),Aq=a(eI),Ar=a(gs),Ao=[0,a("an atlas of such a machine"),0],zi=[0,a(aw),0],zj=a('a claim of the kind "'),Aw=a(ow),AD=a(gb),AE=a(dJ),AF=a(nm),AG=a(nM),AH=a(bQ),AI=a(gp),AJ=a(id),AK=a(bQ),AL=a(iz),Ax=a(eF),Ay=a(m_),Az=a(eG),AA=a(nY),AB=[0,a(aw),0],AC=a('the evidence "'),AM=a(eF),AN=a(gp),AO=[0,1,1],AP=a(dJ),AQ=a(eF),AR=a(eG),AS=a(oi),AU=a(dJ),AV=a(eF),AW=a(eG),AX=a(eJ),AY=a(f_),AZ=a(eJ),A0=a(f_),AT=[0,a("this evidence at control points"),0],BS=a('"orthocert-paving/'),Bx=a(nH),By=a(nj),Bz=a(n$),BQ=[0,3,3],BA=a(nq),BK=[0,a("this set of orientations with such drives"),0],BL=[0,a(nx),0],BO=[0,a(nx),0],BP=[0,a("a mechanism by formulas in a claim that is refuted"),0],BM=[0,a('the evidence "tolerances" of such a mechanism'),0],BN=[0,a("a step of a platform that turns that is not at control points"),0],BB=[0,a("the acceleration of a joint of a machine with a plane"),0],BJ=[0,a("this quantity in a claim that is refuted"),0],BI=[0,a("a step in a proof that no cube fits"),0],BH=[0,a("a stiffness for each joint in such a claim"),0],BG=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BF=[0,a("a leaf that fails"),0],BC=a(nI),BD=a(mQ),BE=a(ga),Bt=a(iA),Bu=a(f_),Bv=a(bQ),Bm=a(gd),Bn=a(nC),Bo=a(od),Bp=[0,a(aw),0],Bq=a('a proof of the kind "'),Bi=a(eI),Bj=a(eM),Bk=a(ge),Bl=a(nS),Be=a(a3),Bf=a(gm),Bg=a(mR),Bh=a(gj),Bb=a(n9),Bc=a(eJ),Bd=a(gj),A9=a(nV),A_=a(gm),A$=a(ge),Ba=a(on),A3=a(oh),A4=a(nz),A5=a(oe),A6=a(gg),A7=[0,a(aw),0],A8=a('the failure "'),A1=a(iA),A2=a(iz),Au=a(gp),Av=a(id),As=a(mP),At=a(mS),zb=a(eP),y3=a(ii),y4=a(mU),y5=a(dK),y6=a(aT),y$=a(oa),za=a(eP),zc=a(c1),zd=a(dK),y7=a(c1),y8=a(nK),y9=a(nk),y_=a(aT),yW=a(c0),y0=a(bg),y1=a(bf),yX=a(io),yY=a(is),yZ=a(c1),yQ=a(c0),yU=a(bg),yV=a(bf),yR=a(io),yS=a(is),yT=a(c1),yP=[0,1],yO=[0,1],yM=[0,1],yL=[0,1],yJ=[0,1],yK=[0,a("this quantity of such a mechanism"),0],yr=a(ij),ys=[0,a("a stiffness for each joint of such a mechanism"),0],yt=a(n2),yu=a(m9),yv=a(ol),yw=a("max_angle"),yx=[0,a("accuracy of a platform that turns"),0],yy=a(eH),yq=a(ga),yi=a(gh),x9=a(nP),x_=a(nX),yB=a(gb),yC=a(oc),yD=a(nn),yE=a(dJ),yF=a(nQ),yG=a(m1),yH=a(m2),yI=a(mT),x$=a(mY),ya=a(n7),yb=a(n0),yc=a(nf),yd=a(ot),ye=a(m4),yf=a(m3),yg=[0,a(aw),0],yh=a('the quantity "'),yj=a(nb),yk=a(n6),yl=a(bg),ym=a(bf),yn=a(oj),yo=[0,a(aw),0],yp=a('a bound "'),yz=a(gi),yA=a(dK),x7=a(bz),x8=a(dN),xM=a(bz),xN=a(gr),xO=a(eO),xP=a(gq),xQ=a(dN),xT=a(aT),xU=a(be),xV=a(eE),xW=a(dH),xX=a(aT),xY=a(be),xZ=a(bQ),x0=a(eE),x1=a(dH),x2=a(eO),x3=a(aT),x4=a(be),x5=a(nO),x6=a(eH),xR=[0,a('" of such a machine'),0],xS=a(m8),xK=a(bz),xL=a(eO),xu=a(bz),xv=a(c2),xw=a(gq),xx=a(dN),xA=a(gr),xB=a(aT),xC=a(be),xD=a(eE),xE=a(dH),xF=a(aT),xG=a(be),xH=a(bQ),xI=a(bQ),xy=[0,a(aw),0],xz=a(m8),xr=a(gk),xs=a(eK),xp=a(" is not covered by the verified checker"),xq=a(S),xn=a(bg),xo=a(bf),xj=a(S),xk=a(ou),xl=a(S),xm=a(S),xi=[1,0],xg=a("Reader.Malformed"),xh=a("Reader.Not_covered"),BU=[0,a("a paving is checked by orthocert-verified")],BT=a(nR),BV=a("CERTIFIED"),BW=a("REFUTED"),BX=a(nR),BY=a("NOT COVERED: ");function
+eV(a){throw[0,iT,a]}function
 aP(d,c){var
-a=am(d),e=am(c),b=bQ(a+e|0);dL(d,0,b,0,a);dL(c,0,b,a,e);return gr(b)}CT(0);oA(1);oA(2);function
-iM(b){function
+a=am(d),e=am(c),b=bT(a+e|0);dP(d,0,b,0,a);dP(c,0,b,a,e);return gz(b)}Dw(0);oS(1);oS(2);function
+iV(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{CS(d)}catch(a){a=oK(a);if(a[1]!==iL)throw a;var
+c=a[2],d=a[1];try{Dv(d)}catch(a){a=o2(a);if(a[1]!==iU)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(CU(0))}C1(a(mF),iM);function
-b9(c){var
+a=c;continue}return 0}}return a(Dx(0))}DE(a(mW),iV);function
+b$(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-iN(d){var
+iW(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-R(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,R(b,c)]}return 0}function
-gt(d,c){var
+T(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,T(b,c)]}return 0}function
+gB(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=i(d,a[1]);if(b){var
+e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aB(d,c){var
+ax(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=i(d,a[1]);if(b)return b;var
+e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bg(b,c){var
-a=bQ(b);CC(a,0,b,c);return gr(a)}function
-c6(g,b,a){var
-d=dM(g),f=0;if(0<=b&&0<=a&&!((gp(d)-a|0)<b)){var
-c=bQ(a);eJ(d,b,c,0,a);var
+bi(b,c){var
+a=bT(b);Df(a,0,b,c);return gz(a)}function
+c_(g,b,a){var
+d=dQ(g),f=0;if(0<=b&&0<=a&&!((gx(d)-a|0)<b)){var
+c=bT(a);eQ(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eO(oR);return gr(e)}function
-iO(k,g){if(g){var
+e=eV(o9);return gz(e)}function
+iX(k,g){if(g){var
 h=am(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eO(oS),c=n,b=m;continue}var
+j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eV(o_),c=n,b=m;continue}var
 l=am(i)+c|0}else
 var
 l=c;var
-f=bQ(l),e=p,d=g;for(;;){if(d){var
+f=bT(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dL(a,0,f,e,am(a));dL(k,0,f,e+am(a)|0,h);var
-e=(e+am(a)|0)+h|0,d=o;continue}dL(a,0,f,e,am(a))}return gr(f)}}}return oT}function
-gu(b,c){if(0===b)return[0];if(0<=b){var
-d=CR(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=i(c,a);var
+o=d[2];dP(a,0,f,e,am(a));dP(k,0,f,e+am(a)|0,h);var
+e=(e+am(a)|0)+h|0,d=o;continue}dP(a,0,f,e,am(a))}return gz(f)}}}return o$}function
+gC(b,c){if(0===b)return[0];if(0<=b){var
+d=Du(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eO(oU)}function
-gv(c){var
+a=g;continue}break}}return d}return eV(pa)}function
+gD(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aD(0),b=aD(1);function
-q(a){return y(a,b)}function
-iP(b,a){return y(aD(b),a)}function
-c(b,a){return v(aD(b),a)}function
-aU(b,a){return[0,iH(b,a),oN(b,a)]}function
-gw(b,a){return G(b,a)?b:a}function
-bh(b,a){return G(b,a)?a:b}function
-ad(a){return a?0:1}function
-x(b,a){var
-c=a?[0,i(b,a[1])]:a;return c}function
-aJ(a){return a[1]}function
-b_(a){return a[2]}function
+d=aE(0),c=aE(1);function
+n(a){return z(a,c)}function
+iY(b,a){return z(aE(b),a)}function
+b(b,a){return v(aE(b),a)}function
+aU(b,a){return[0,iQ(b,a),o5(b,a)]}function
+gE(b,a){return G(b,a)?b:a}function
+bj(b,a){return G(b,a)?a:b}function
+ac(a){return a?0:1}function
+w(b,a){var
+c=a?[0,k(b,a[1])]:a;return c}function
+aI(a){return a[1]}function
+ca(a){return a[2]}function
 j(a){var
 b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iQ(a){return typeof
-a==="number"?0:[0,iQ(a[1])]}function
-iR(d,c){var
+iZ(a){return typeof
+a==="number"?0:[0,iZ(a[1])]}function
+i0(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -795,9 +795,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eP(a){return iR(a,0)}function
-iS(a){if(typeof
-a==="number")return oW;else
+eW(a){return i0(a,0)}function
+i1(a){if(typeof
+a==="number")return pc;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -807,438 +807,439 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,iS(a[1])]}}function
-bj(a){if(typeof
-a==="number")return oX;else
+8:return[9,a[1]];default:return[0,i1(a[1])]}}function
+bl(a){if(typeof
+a==="number")return pd;else
 switch(a[0]){case
-0:return[1,bi(a[1])];case
-1:return[3,bi(a[1])];case
-2:return[5,bi(a[1])];case
-3:return[7,bi(a[1])];case
-4:return[9,bi(a[1])];case
-5:return[1,bj(a[1])];case
-6:return[3,bj(a[1])];case
-7:return[5,bj(a[1])];case
-8:return[7,bj(a[1])];default:return[9,bj(a[1])]}}function
-bi(a){if(typeof
+0:return[1,bk(a[1])];case
+1:return[3,bk(a[1])];case
+2:return[5,bk(a[1])];case
+3:return[7,bk(a[1])];case
+4:return[9,bk(a[1])];case
+5:return[1,bl(a[1])];case
+6:return[3,bl(a[1])];case
+7:return[5,bl(a[1])];case
+8:return[7,bl(a[1])];default:return[9,bl(a[1])]}}function
+bk(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bi(a[1])];case
-1:return[2,bi(a[1])];case
-2:return[4,bi(a[1])];case
-3:return[6,bi(a[1])];case
-4:return[8,bi(a[1])];case
-5:return[0,bj(a[1])];case
-6:return[2,bj(a[1])];case
-7:return[4,bj(a[1])];case
-8:return[6,bj(a[1])];default:return[8,bj(a[1])]}}function
-bC(a){return a?a[1]:a}function
-L(b,a){return b?[0,L(b[1],a)]:a}function
-dR(a,b){return a?L(b,dR(a[1],b)):a}function
-b$(b,a){return b?a:a?0:1}function
+0:return[0,bk(a[1])];case
+1:return[2,bk(a[1])];case
+2:return[4,bk(a[1])];case
+3:return[6,bk(a[1])];case
+4:return[8,bk(a[1])];case
+5:return[0,bl(a[1])];case
+6:return[2,bl(a[1])];case
+7:return[4,bl(a[1])];case
+8:return[6,bl(a[1])];default:return[8,bl(a[1])]}}function
+bD(a){return a?a[1]:a}function
+N(b,a){return b?[0,N(b[1],a)]:a}function
+dV(a,b){return a?N(b,dV(a[1],b)):a}function
+cb(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Z(d,c){var
+Q(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dS(b,a){return Z([0,b],a)}function
-iT(c){var
+dW(b,a){return Q([0,b],a)}function
+i2(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eQ(c,b,a){return c?i(b,eQ(c[1],b,a)):a}function
-iU(a){if(a)var
-b=a[1],d=b?[0,iU(b[1])]:b,c=d;else
+eX(c,b,a){return c?k(b,eX(c[1],b,a)):a}function
+i3(a){if(a)var
+b=a[1],d=b?[0,i3(b[1])]:b,c=d;else
 var
 c=a;return c}function
-iV(c,a){return bh(b,aA(c,a))}function
-eR(a){if(G(a,b))return oZ;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?[0,eR(e)]:[0,eR(e)]}function
-eS(a){if(G(a,b))return b;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?q(eS(e)):q(eS(e))}function
-iW(c,b){var
-a=iG(c,b);return 0===a?0:0<=a?2:1}function
-gx(j,i){var
-c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:Y(aU(a,aD(2))[2],d)?0:0;var
-g=aU(c,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,b))return 0;var
-e=aU(a,aD(2)),k=e[1];if(Y(e[2],d)){var
-c=h,a=k;continue}return 0}if(G(a,b))return 0;var
-f=aU(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
-c=h,a=l;continue}}function
-eT(b,a){return 2<=iW(b,a)?0:1}function
-c7(i,e,a){if(i){var
-f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
-w=aU(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
-m=aU(a,aD(2)),B=m[1];if(Y(m[2],d)){var
-j=c7(f,g,B),x=j[2];return[0,c(2,j[1]),x]}var
-k=c7(f,g,a),l=k[2],z=l[2],A=[0,c(2,l[1]),z];return[0,k[1],A]}if(G(a,b))return[0,b,[0,e,b]];var
-v=aU(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=c7(f,e,h),o=n[2],C=c(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(iW(g,h)){case
-0:return[0,e,[0,b,b]];case
+i4(b,a){return bj(c,aC(b,a))}function
+eY(a){if(G(a,c))return pf;var
+b=aU(a,aE(2)),e=b[1];return Z(b[2],d)?[0,eY(e)]:[0,eY(e)]}function
+eZ(a){if(G(a,c))return c;var
+b=aU(a,aE(2)),e=b[1];return Z(b[2],d)?n(eZ(e)):n(eZ(e))}function
+i5(c,b){var
+a=iP(c,b);return 0===a?0:0<=a?2:1}function
+gF(j,i){var
+b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Z(aU(a,aE(2))[2],d)?0:0;var
+g=aU(b,aE(2)),h=g[1];if(Z(g[2],d)){if(G(a,c))return 0;var
+e=aU(a,aE(2)),k=e[1];if(Z(e[2],d)){var
+b=h,a=k;continue}return 0}if(G(a,c))return 0;var
+f=aU(a,aE(2)),l=f[1];if(Z(f[2],d))return 0;var
+b=h,a=l;continue}}function
+e0(b,a){return 2<=i5(b,a)?0:1}function
+c$(i,e,a){if(i){var
+f=i[1];if(G(e,c))return[0,c,[0,c,a]];var
+w=aU(e,aE(2)),g=w[1];if(Z(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
+m=aU(a,aE(2)),B=m[1];if(Z(m[2],d)){var
+j=c$(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
+k=c$(f,g,a),l=k[2],y=l[2],A=[0,b(2,l[1]),y];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
+v=aU(a,aE(2)),h=v[1];if(Z(v[2],d)){var
+n=c$(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(i5(g,h)){case
+0:return[0,e,[0,c,c]];case
 1:var
-p=c7(f,iV(h,g),e),q=p[2],r=q[2],D=[0,r,y(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=c7(f,iV(g,h),a),t=s[2],u=t[2],E=[0,y(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-eU(b,a){var
-c=eR(a);return c7(L(eR(b),c),b,a)}function
-iX(c,i,h){var
-e=i,a=h;for(;;){if(G(e,b))return a;var
-f=aU(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=at(c,a,a);continue}return at(c,a,iX(c,g,at(c,a,a)))}}function
-dT(a){return iX(L,a,o0)}function
-gy(a){return a?q(gy(a[1])):b}function
-bR(f,e){var
+p=c$(f,i4(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=c$(f,i4(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+e1(b,a){var
+c=eY(a);return c$(N(eY(b),c),b,a)}function
+i6(b,i,h){var
+e=i,a=h;for(;;){if(G(e,c))return a;var
+f=aU(e,aE(2)),g=f[1];if(Z(f[2],d)){var
+e=g,a=at(b,a,a);continue}return at(b,a,i6(b,g,at(b,a,a)))}}function
+dX(a){return i6(N,a,pg)}function
+gG(a){return a?n(gG(a[1])):c}function
+bU(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=v(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=v(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=y(b,v(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=z(c,v(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=v(c(2,q(c(2,c(2,b)))),d),j=y(c(2,b),i),a=a[1],d=j;continue;case
+i=v(b(2,n(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=v(c(2,q(c(2,c(2,b)))),d),l=y(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=v(b(2,n(b(2,b(2,c)))),d),l=z(n(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=v(c(2,q(c(2,c(2,b)))),d),n=y(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=v(b(2,n(b(2,b(2,c)))),d),o=z(b(2,b(2,c)),m),a=a[1],d=o;continue;case
 5:var
-o=v(c(2,q(c(2,c(2,b)))),d),p=y(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+p=v(b(2,n(b(2,b(2,c)))),d),q=z(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-r=v(c(2,q(c(2,c(2,b)))),d),s=y(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+r=v(b(2,n(b(2,b(2,c)))),d),s=z(b(2,n(b(2,c))),r),a=a[1],d=s;continue;case
 7:var
-t=v(c(2,q(c(2,c(2,b)))),d),u=y(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
+t=v(b(2,n(b(2,b(2,c)))),d),u=z(n(b(2,n(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
-w=v(c(2,q(c(2,c(2,b)))),d),x=y(c(2,c(2,c(2,b))),w),a=a[1],d=x;continue;default:var
-z=v(c(2,q(c(2,c(2,b)))),d),A=y(q(c(2,c(2,c(2,b)))),z),a=a[1],d=A;continue}}function
-gz(a){if(G(a,b))return o1;var
-c=aU(a,aD(2)),e=c[1];return Y(c[2],d)?bi(gz(e)):bj(gz(e))}function
-eV(a){return eP(gz(a))}function
-iY(k,f){if(0<=a3(f)){var
-g=iI(f);if(0<=g){var
-e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(c,c),j=1===(a&1)?v(e,c):e,e=j,c=i,a=h;continue}}return eO(oV)}return d}function
-gA(c){var
-a=a3(c);return 0===a?d:0<a?b:N(b)}function
-iZ(a){return 0<=a3(a)?a:d}function
-dU(a){var
-c=a3(a);return 0===c?b:0<c?a:b}function
-i0(m){var
+w=v(b(2,n(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+y=v(b(2,n(b(2,b(2,c)))),d),A=z(n(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+gH(a){if(G(a,c))return ph;var
+b=aU(a,aE(2)),e=b[1];return Z(b[2],d)?bk(gH(e)):bl(gH(e))}function
+e2(a){return eW(gH(a))}function
+i7(k,f){if(0<=a4(f)){var
+g=iR(f);if(0<=g){var
+e=c,b=k,a=g;for(;;){if(0===a)return e;var
+h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eV(pb)}return d}function
+gI(b){var
+a=a4(b);return 0===a?d:0<a?c:M(c)}function
+i8(a){return 0<=a4(a)?a:d}function
+dY(a){var
+b=a4(a);return 0===b?c:0<b?a:c}function
+i9(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bR(a[1],b);case
+1:return bU(a[1],c);case
 2:var
-e=c(2,b);return bR(a[1],e);case
+e=b(2,c);return bU(a[1],e);case
 3:var
-f=q(c(2,b));return bR(a[1],f);case
+f=n(b(2,c));return bU(a[1],f);case
 4:var
-g=c(2,c(2,b));return bR(a[1],g);case
+g=b(2,b(2,c));return bU(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return bR(a[1],h);case
+h=n(b(2,b(2,c)));return bU(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return bR(a[1],i);case
+i=b(2,n(b(2,c)));return bU(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return bR(a[1],j);case
+j=n(b(2,n(b(2,c))));return bU(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return bR(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return bR(a[1],l)}}function
-ca(b,a){var
-c=a3(a);return 0===c?d:1===c?iH(b,a):iP(-1,iH(iP(-1,b),a))}function
-eW(a){return 0<a3(a)?C$(a):d}function
-dV(b,c){var
-a=iI(c);return 0<=a?oO(b,a):oP(b,-a|0)}function
-cv(b,c){var
-a=iI(c);return 0<=a?oP(b,a):oO(b,-a|0)}function
-bD(b,a){return a?a[1]:b}function
-cb(a){var
+k=b(2,b(2,b(2,c)));return bU(a[1],k);default:var
+l=n(b(2,b(2,b(2,c))));return bU(a[1],l)}}function
+cc(b,a){var
+c=a4(a);return 0===c?d:1===c?iQ(b,a):iY(-1,iQ(iY(-1,b),a))}function
+e3(a){return 0<a4(a)?DO(a):d}function
+dZ(b,c){var
+a=iR(c);return 0<=a?o6(b,a):o7(b,-a|0)}function
+cA(b,c){var
+a=iR(c);return 0<=a?o7(b,a):o6(b,-a|0)}function
+bE(b,a){return a?a[1]:b}function
+bV(a){var
 b=a?a[2]:a;return b}function
-t(e,d,c){var
+s(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-T(d,c){var
+R(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-i1(a){if(a){var
-b=[0,a[1],0];return f(i1(a[2]),b)}return a}function
-i2(d,c){var
+i_(a){if(a){var
+b=[0,a[1],0];return f(i_(a[2]),b)}return a}function
+e4(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-i3(a){if(a){var
-b=i3(a[2]);return f(a[1],b)}return a}function
+i$(a){if(a){var
+b=i$(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,i(b,a[1]),d];else
+d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
-z(b,a){if(a){var
-c=z(b,a[2]);return f(i(b,a[1]),c)}return a}function
-c8(e,d,c){var
+y(b,a){if(a){var
+c=y(b,a[2]);return f(k(b,a[1]),c)}return a}function
+da(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=at(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-bk(c,b,a){if(a){var
-d=bk(c,b,a[2]);return at(c,a[1],d)}return b}function
-ar(e,d){var
+aV(c,b,a){if(a){var
+d=aV(c,b,a[2]);return at(c,a[1],d)}return b}function
+ao(e,d){var
 a=d;for(;;){if(a){var
-b=i(e,a[1]);if(!b){var
+b=k(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-n(d,c){var
+o(d,c){var
 a=c;for(;;){if(a){var
-b=i(d,a[1]);if(b){var
+b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bE(b,e){var
+bF(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bE(b,c)];var
+c=a[2],d=a[1];if(k(b,d))return[0,d,bF(b,c)];var
 a=c;continue}return a}}function
-i4(d,c){var
+ja(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(i(d,b))return[0,b];var
+b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aK(b,a){if(b)if(a)var
-d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aJ(b,a){if(b)if(a)var
+d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-cw(b,a){if(b)if(a)var
-d=cw(b[1],a[2]),c=[0,a[1],d];else
+cB(b,a){if(b)if(a)var
+d=cB(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-eX(d,c){var
+e5(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aV(b,a){var
-c=a?[0,b,aV([0,b],a[1])]:a;return c}function
-aL(b,a){var
-c=a?[0,b,aL(b,a[1])]:a;return c}function
-i5(a){if(a){var
-e=i5(a[2]),f=v(c(2,b),e),g=a[1]?b:d;return y(g,f)}return d}function
-eY(j){function
+aW(b,a){var
+c=a?[0,b,aW([0,b],a[1])]:a;return c}function
+aK(b,a){var
+c=a?[0,b,aK(b,a[1])]:a;return c}function
+jb(a){if(a){var
+e=jb(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+e6(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=i5([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a3(b)?dT(b):0}function
-c9(c,b){var
-a=iG(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c_(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
-c$(b,a){return[0,y(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
-bS(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-i6(a){return[0,N(a[1]),a[2]]}function
-eZ(b,a){return c$(b,i6(a))}function
-gB(f,c){var
-a=c[1],e=a3(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,N(c[2]),N(a)];return bS(f,g)}function
-e0(q){var
-a=q[2],b=q[1],o=a3(b);if(0===o)var
-c=[0,c5(a),[0,d,gA(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jb([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a4(b)?dX(b):0}function
+db(c,b){var
+a=iP(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cC(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
+dc(b,a){return[0,z(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
+bW(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
+jc(a){return[0,M(a[1]),a[2]]}function
+e7(b,a){return dc(b,jc(a))}function
+gJ(f,b){var
+a=b[1],e=a4(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,M(b[2]),M(a)];return bW(f,g)}function
+e8(q){var
+a=q[2],b=q[1],o=a4(b);if(0===o)var
+c=[0,c9(a),[0,d,gI(a)]];else
 if(0<o){var
-n=a3(a);if(0===n)var
-c=[0,c5(b),[0,gA(b),d]];else
+n=a4(a);if(0===n)var
+c=[0,c9(b),[0,gI(b),d]];else
 if(0<n)var
-l=eU(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e1(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=eU(b,N(a)),k=j[2],c=[0,j[1],[0,k[1],N(k[2])]]}else{var
-p=N(b),i=a3(a);if(0===i)var
-c=[0,c5(b),[0,gA(b),d]];else
+j=e1(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
+p=M(b),i=a4(a);if(0===i)var
+c=[0,c9(b),[0,gI(b),d]];else
 if(0<i)var
-g=eU(p,a),h=g[2],c=[0,g[1],[0,N(h[1]),h[2]]];else
+g=e1(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
 var
-e=eU(p,N(a)),f=e[2],c=[0,e[1],[0,N(f[1]),N(f[2])]]}var
-r=c[2],s=dU(r[2]);return[0,r[1],s]}function
-aW(a){if(typeof
-a==="number")return o4;else
+e=e1(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
+r=c[2],s=dY(r[2]);return[0,r[1],s]}function
+aX(a){if(typeof
+a==="number")return pk;else
 switch(a[0]){case
 0:var
-b=aW(a[1]);return aP(bg(1,48),b);case
+b=aX(a[1]);return aP(bi(1,48),b);case
 1:var
-c=aW(a[1]);return aP(bg(1,49),c);case
+c=aX(a[1]);return aP(bi(1,49),c);case
 2:var
-d=aW(a[1]);return aP(bg(1,50),d);case
+d=aX(a[1]);return aP(bi(1,50),d);case
 3:var
-e=aW(a[1]);return aP(bg(1,51),e);case
+e=aX(a[1]);return aP(bi(1,51),e);case
 4:var
-f=aW(a[1]);return aP(bg(1,52),f);case
+f=aX(a[1]);return aP(bi(1,52),f);case
 5:var
-g=aW(a[1]);return aP(bg(1,53),g);case
+g=aX(a[1]);return aP(bi(1,53),g);case
 6:var
-h=aW(a[1]);return aP(bg(1,54),h);case
+h=aX(a[1]);return aP(bi(1,54),h);case
 7:var
-i=aW(a[1]);return aP(bg(1,55),i);case
+i=aX(a[1]);return aP(bi(1,55),i);case
 8:var
-j=aW(a[1]);return aP(bg(1,56),j);default:var
-k=aW(a[1]);return aP(bg(1,57),k)}}function
-dW(a){return typeof
-a==="number"?o5:aW(a)}function
-cx(a){return iY(c(2,b),a)}function
-i7(b,a){return cv(a,b)}function
-i8(b,a){return N(cv(N(a),b))}function
-e1(b,a){return N(ca(N(b),a))}function
+j=aX(a[1]);return aP(bi(1,56),j);default:var
+k=aX(a[1]);return aP(bi(1,57),k)}}function
+d0(a){return typeof
+a==="number"?pl:aX(a)}function
+cD(a){return i7(b(2,c),a)}function
+jd(b,a){return cA(a,b)}function
+je(b,a){return M(cA(M(a),b))}function
+e9(b,a){return M(cc(M(b),a))}function
 _(c,b){var
-a=dV(b,c);return[0,a,a]}function
-i9(d,c,a){var
-b=dV(c,d),e=e1(b,a);return[0,ca(b,a),e]}function
-B(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-K(b,a){return[0,aA(b[1],a[2]),aA(b[2],a[1])]}function
-af(a){return[0,N(a[2]),N(a[1])]}function
-i_(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
-f=bh(v(e,b),v(c,a));return[0,gw(v(e,a),v(c,b)),f]}function
-w(c,b,a){var
-d=i_(b[1],b[2],a[1],a[2]),e=i8(c,d[2]);return[0,i7(c,d[1]),e]}function
-S(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=i8(b,bh(c,e)),g=0;if(X(a[1],d)&&X(d,a[2])){var
+a=dZ(b,c);return[0,a,a]}function
+jf(d,c,a){var
+b=dZ(c,d),e=e9(b,a);return[0,cc(b,a),e]}function
+E(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+K(b,a){return[0,aC(b[1],a[2]),aC(b[2],a[1])]}function
+af(a){return[0,M(a[2]),M(a[1])]}function
+jg(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
+f=bj(v(e,b),v(c,a));return[0,gE(v(e,a),v(c,b)),f]}function
+x(c,b,a){var
+d=jg(b[1],b[2],a[1],a[2]),e=je(c,d[2]);return[0,jd(c,d[1]),e]}function
+W(b,a){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=je(b,bj(c,e)),g=0;if(V(a[1],d)&&V(d,a[2])){var
 f=d;g=1}if(!g)var
-f=i7(b,gw(c,e));return[0,f,h]}function
-gC(b,a){var
-c=dV(cx(b),b),d=e1(c,a[1]);return[0,ca(c,a[2]),d]}function
-cc(b,a){if(X(d,a[1]))return[0,gC(b,a)];var
-c=X(a[2],d),e=c?[0,af(gC(b,af(a)))]:c;return e}function
-cy(f,c){var
-g=X(d,c[1]);if(g)var
-e=dV(c[2],f),a=eW(e),i=Y(v(a,a),e)?a:y(a,b),h=[0,[0,eW(dV(c[1],f)),i]];else
+f=jd(b,gE(c,e));return[0,f,h]}function
+gK(b,a){var
+c=dZ(cD(b),b),d=e9(c,a[1]);return[0,cc(c,a[2]),d]}function
+cd(b,a){if(V(d,a[1]))return[0,gK(b,a)];var
+c=V(a[2],d),e=c?[0,af(gK(b,af(a)))]:c;return e}function
+ce(f,b){var
+g=V(d,b[1]);if(g)var
+e=dZ(b[2],f),a=e3(e),i=Z(v(a,a),e)?a:z(a,c),h=[0,[0,e3(dZ(b[1],f)),i]];else
 var
 h=g;return h}function
+dd(a){return 0===a[0]?a[2]:a[1]}function
 aQ(f,d,c,b,a){if(b){if(a){var
 g=aQ(f,d,c,b[2],a[2]);return[0,at(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cd(b,a){return cv(b,a)}function
-a4(a,c,b){if(G(d,a)){var
-e=b[1],f=N(cd(N(v(a,b[2])),c));return[0,cd(v(a,e),c),f]}var
-g=b[2],h=N(cd(N(v(a,b[1])),c));return[0,cd(v(a,g),c),h]}function
-a5(a){var
-c=N(cv(N(a[2]),b));return[0,cv(a[1],b),c]}function
-dX(c,b,a){var
-e=i_(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=X(f,d)?a[2]:a[1],i=e1(f,h),j=X(g,d)?a[1]:a[2];return[0,ca(g,j),i]}function
-dY(a){return bh(a[2],N(a[1]))}var
-C=[0,d,d];function
-e2(a){return[0,a[1],a[1]]}function
-da(a){return[0,a[2],a[2]]}function
-cz(b,a){switch(a[0]){case
+cf(b,a){return cA(b,a)}function
+a5(a,c,b){if(G(d,a)){var
+e=b[1],f=M(cf(M(v(a,b[2])),c));return[0,cf(v(a,e),c),f]}var
+g=b[2],h=M(cf(M(v(a,b[1])),c));return[0,cf(v(a,g),c),h]}function
+a6(a){var
+b=M(cA(M(a[2]),c));return[0,cA(a[1],c),b]}function
+d1(c,b,a){var
+e=jg(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=V(f,d)?a[2]:a[1],i=e9(f,h),j=V(g,d)?a[1]:a[2];return[0,cc(g,j),i]}function
+d2(a){return bj(a[2],M(a[1]))}var
+B=[0,d,d];function
+e_(a){return[0,a[1],a[1]]}function
+de(a){return[0,a[2],a[2]]}function
+cE(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=i(b,a[2]);return[3,i(b,a[1]),c];case
+c=k(b,a[2]);return[3,k(b,a[1]),c];case
 4:var
-d=i(b,a[2]);return[4,i(b,a[1]),d];case
-5:return[5,i(b,a[1])];case
+d=k(b,a[2]);return[4,k(b,a[1]),d];case
+5:return[5,k(b,a[1])];case
 6:var
-e=i(b,a[2]);return[6,i(b,a[1]),e];case
+e=k(b,a[2]);return[6,k(b,a[1]),e];case
 7:var
-f=i(b,a[2]);return[7,i(b,a[1]),f];case
-8:return[8,i(b,a[1])];case
-9:return[9,i(b,a[1])];default:var
-g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-aM(n,m){var
+f=k(b,a[2]);return[7,k(b,a[1]),f];case
+8:return[8,k(b,a[1])];case
+9:return[9,k(b,a[1])];default:var
+g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
+aF(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?u(b[1],a[1]):0;case
 1:return 1===a[0]?u(b[1],a[1]):0;case
-2:return 2===a[0]?Y(b[1],a[1]):0;case
+2:return 2===a[0]?Z(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aM(b[1],a[1]);if(f){var
+f=aF(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aM(b[1],a[1]);if(g){var
+g=aF(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aM(b[1],a[1]);if(h){var
+h=aF(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aM(b[1],a[1]);if(i){var
+i=aF(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=b$(b[1],a[1]);if(j){var
-k=aM(b[2],a[2]);if(k){var
-l=aM(b[3],a[3]);if(l){var
+j=cb(b[1],a[1]);if(j){var
+k=aF(b[2],a[2]);if(k){var
+l=aF(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-e3(b){var
+e$(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aR(c,b){var
-a=e3(b);return a?Y(c,a[1]):a}function
-dZ(a){return X(c5(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a=e$(b);return a?Z(c,a[1]):a}function
+d3(a){return V(c9(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 l(a){return[0,[2,a]]}function
 F(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
-c=e3(b);if(c){var
-e=c[1],f=e3(a);if(f){var
-g=f[1];if(dZ(e)&&dZ(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bl(a){var
+c=e$(b);if(c){var
+e=c[1],f=e$(a);if(f){var
+g=f[1];if(d3(e)&&d3(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bm(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return dZ(c)?l(N(c)):[0,[5,a]];case
+c=b[1];return d3(c)?l(M(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aR(d,a))return b;if(aR(d,b))return bl(a);var
+t(b,a){if(aR(d,a))return b;if(aR(d,b))return bm(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 H(a){var
-c=e3(a);if(c){var
-b=c[1];return dZ(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-o(a,c){if(!aR(d,a)&&!aR(b,c)){if(!aR(d,c)&&!aR(b,a))return aM(a,c)?H(a):[0,[6,a,c]];return c}return a}function
-ak(c,a){return aR(b,a)?c:[0,[7,c,a]]}function
-aE(a){return aR(b,a)?a:[0,[9,a]]}function
-i$(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bF(f,e,d,c){var
+c=e$(a);if(c){var
+b=c[1];return d3(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return aF(a,b)?H(a):[0,[6,a,b]];return b}return a}function
+ak(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
+ay(a){return aR(c,a)?a:[0,[9,a]]}function
+jh(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bG(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,cz(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cA(a){var
+g=b[1],h=[0,k(e,cE(function(b){return function(a){return s(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+bH(a){var
 b=0;function
-c(a){return[0,a]}return bF(l(d),c,a,b)}function
-gD(b,a){if(a){if(aM(b,a[1]))return o6;var
-c=gD(b,a[2]);return x(function(a){return[0,a]},c)}return a}function
-bm(c,b){var
-a=gD(b,c),d=a?a[1]:a;return d}function
-cB(d,b){if(gD(d,b[1]))return b;var
+c(a){return[0,a]}return bG(l(d),c,a,b)}function
+gL(b,a){if(a){if(aF(b,a[1]))return pm;var
+c=gL(b,a[2]);return w(function(a){return[0,a]},c)}return a}function
+a7(c,b){var
+a=gL(b,c),d=a?a[1]:a;return d}function
+cF(d,b){if(gL(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cB(a[2],b),j=cB(a[3],i),c=cB(a[4],j);break;case
+i=cF(a[2],b),j=cF(a[3],i),c=cF(a[4],j);break;case
 5:case
 8:case
 9:var
-c=cB(a[1],b);break;case
+c=cF(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cB(a[1],b),c=cB(a[2],h)}var
-e=c[2],f=c[1],g=[0,cz(function(a){return bm(f,a)},a),e];return[0,[0,d,c[1]],g]}function
-db(a){var
-b=c8(function(b,a){return cB(a,b)},a,o7),c=b[1],d=e(function(a){return bm(c,a)},a);return[0,i1(b[2]),d]}function
-e4(a){return bk(function(b,a){return y(dY(b),a)},d,a)}function
-bT(b,c,a){var
-d=e4(a),e=gw(c[2],y(b[2],d)),f=e4(a);return[0,b,[0,bh(c[1],aA(b[1],f)),e],a]}function
+h=cF(a[1],b),c=cF(a[2],h)}var
+e=c[2],f=c[1],g=[0,cE(function(a){return a7(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+cG(a){var
+b=da(function(b,a){return cF(a,b)},a,pn),c=b[1],d=e(function(a){return a7(c,a)},a);return[0,i_(b[2]),d]}function
+fa(a){return aV(function(b,a){return z(d2(b),a)},d,a)}function
+bX(b,c,a){var
+d=fa(a),e=gE(c[2],z(b[2],d)),f=fa(a);return[0,b,[0,bj(c[1],aC(b[1],f)),e],a]}function
 ag(a){return[0,a,a,0]}function
-bG(b,a){var
+bI(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aQ(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return bT(B(b[1],a[1]),g,f)}function
-a6(b,a){var
-c=a[3],d=b[3],e=aQ(function(a){return a},af,K,d,c),f=K(b[2],a[2]);return bT(K(b[1],a[1]),f,e)}function
-d0(a){var
+f=aQ(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return bX(E(b[1],a[1]),g,f)}function
+a8(b,a){var
+c=a[3],d=b[3],e=aQ(function(a){return a},af,K,d,c),f=K(b[2],a[2]);return bX(K(b[1],a[1]),f,e)}function
+d4(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
 au(a,c,b){var
-d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
+d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=w(a,e,b);return a5(B(w(a,d,c),f))}function
-i(b){return a5(w(a,e,b))}var
-j=aQ(function(b){return a5(w(a,d,b))},i,h,g,f),k=w(a,c[2],b[2]);return bT(w(a,c[1],b[1]),k,j)}function
-d1(b,a){var
-c=a[3],d=B(a[2],a[1]),f=e(function(a){return w(b,d,a)},c),g=S(b,a[2]);return bT(S(b,a[1]),g,f)}function
-gE(a,b){var
-c=cy(a,b[1]);if(c){var
-g=c[1],d=cy(a,b[2]);if(d){var
-h=d[1],f=cc(a,B(h,g));if(f)var
-l=b[3],m=f[1],i=[0,bT(g,h,e(function(b){return w(a,m,b)},l))];else
+f=x(a,e,b);return a6(E(x(a,d,c),f))}function
+i(b){return a6(x(a,e,b))}var
+j=aQ(function(b){return a6(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return bX(x(a,c[1],b[1]),k,j)}function
+d5(b,a){var
+c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=W(b,a[2]);return bX(W(b,a[1]),g,f)}function
+gM(a,b){var
+c=ce(a,b[1]);if(c){var
+g=c[1],d=ce(a,b[2]);if(d){var
+h=d[1],f=cd(a,E(h,g));if(f)var
+l=b[3],m=f[1],i=[0,bX(g,h,e(function(b){return x(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1247,504 +1248,507 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dc(a,c,b){var
-d=cc(a,b[1]);if(d){var
-f=cc(a,b[2]);if(f)var
-h=f[1],g=w(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,w(a,g,b))},n=function(b){return af(w(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return w(a,h,b)},o),i=[0,bT(g,w(a,c[2],h),p)];else
+df(a,c,b){var
+d=cd(a,b[1]);if(d){var
+f=cd(a,b[2]);if(f)var
+h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,bX(g,x(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-ce(b,a){return a?i(b,a[1]):a}function
-e5(a){var
-b=e(a5,a[3]),c=a5(B(a[2],a[1]));return bT(a[1],c,b)}function
-ja(a,k,j,r,c){var
-l=e5(k),m=e5(j),g=e5(c[1]),h=e5(c[2]),s=au(a,l,h),t=a6(au(a,m,g),s),i=dc(a,ag(_(a,b)),t);if(i)var
-f=i[1],n=au(a,a6(l,g),f),o=au(a,a6(m,h),f),d=function(c,b){return au(a,c,ag(b))},u=j[3],v=k[3],x=function(b,a){var
-c=d(o,a);return bG(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,x,v,u),A=r[3],B=function(b,a){return a6(b,d(f,a5(a)))[2]},C=function(a){return d0(d(f,a5(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return w(a,D,b)},p),F=bT(c[2][1],c[2][2],E),G=af(h[2]),H=e(function(b){return w(a,G,b)},p),q=[0,[0,bT(c[1][1],c[1][2],H),F]];else
+cg(b,a){return a?k(b,a[1]):a}function
+fb(a){var
+b=e(a6,a[3]),c=a6(E(a[2],a[1]));return bX(a[1],c,b)}function
+ji(a,k,j,r,b){var
+l=fb(k),m=fb(j),g=fb(b[1]),h=fb(b[2]),s=au(a,l,h),t=a8(au(a,m,g),s),i=df(a,ag(_(a,c)),t);if(i)var
+f=i[1],n=au(a,a8(l,g),f),o=au(a,a8(m,h),f),d=function(c,b){return au(a,c,ag(b))},u=j[3],v=k[3],w=function(b,a){var
+c=d(o,a);return bI(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a8(b,d(f,a6(a)))[2]},C=function(a){return d4(d(f,a6(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=bX(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,bX(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jb(a,e,d,k){var
-p=d1(a,d),f=bG(d1(a,e),p),g=a6(bG(f,ag(_(a,b))),k),l=au(a,ag(_(a,c(2,b))),f),q=d1(a,g),h=gE(a,a6(au(a,ag(_(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=au(a,m,d),i=dc(a,bG(au(a,g,e),r),l);if(i)var
-s=au(a,m,e),j=dc(a,a6(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jj(a,e,d,k){var
+p=d5(a,d),f=bI(d5(a,e),p),g=a8(bI(f,ag(_(a,c))),k),l=au(a,ag(_(a,b(2,c))),f),q=d5(a,g),h=gM(a,a8(au(a,ag(_(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=au(a,m,d),i=df(a,bI(au(a,g,e),r),l);if(i)var
+s=au(a,m,e),j=df(a,a8(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=ce(function(b){return ja(a,e,d,k,b)},o);return ce(function(b){return ja(a,e,d,k,b)},u)}function
-bU(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
+u=cg(function(b){return ji(a,e,d,k,b)},o);return cg(function(b){return ji(a,e,d,k,b)},u)}function
+bY(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cf(b,j,i){var
-f=ag(C);return function(a){switch(a[0]){case
-0:return[0,t(a[1],j,f)];case
-1:return[0,t(a[1],i,f)];case
+ch(b,j,i){var
+f=ag(B);return function(a){switch(a[0]){case
+0:return[0,s(a[1],j,f)];case
+1:return[0,s(a[1],i,f)];case
 2:return[0,ag(_(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bU(function(b,a){return[0,bG(b,a)]},l,k);case
+k=a[2],l=a[1];return bY(function(b,a){return[0,bI(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bU(function(b,a){return[0,a6(b,a)]},n,m);case
+m=a[2],n=a[1];return bY(function(b,a){return[0,a8(b,a)]},n,m);case
 5:var
-o=a[1];return ce(function(a){return[0,d0(a)]},o);case
+o=a[1];return cg(function(a){return[0,d4(a)]},o);case
 6:var
-p=a[2],q=a[1];return bU(function(c,a){return[0,au(b,c,a)]},q,p);case
+p=a[2],q=a[1];return bY(function(c,a){return[0,au(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bU(function(a,c){return dc(b,a,c)},s,r);case
+r=a[2],t=a[1];return bY(function(a,c){return df(b,a,c)},t,r);case
 8:var
-u=a[1];return ce(function(a){return[0,d1(b,a)]},u);case
+u=a[1];return cg(function(a){return[0,d5(b,a)]},u);case
 9:var
-v=a[1];return ce(function(a){return gE(b,a)},v);default:var
+v=a[1];return cg(function(a){return gM(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jb(b,c[1],d[1],e[1]),y=a[1]?b_:aJ;return x(y,w)}var
+x=jj(b,c[1],d[1],e[1]),y=a[1]?ca:aI;return w(y,x)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d2(c){var
+d6(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d2(a[1]);if(b)return b;var
+b=d6(a[1]);if(b)return b;var
 a=a[2];continue}}function
-bV(q,p){var
+bZ(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gx(b[2],a[2]):c}return 0;case
+c=Z(b[1],a[1]);return c?gF(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gx(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gx(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Z(e[1],g[1]):h,j=i?gF(e[2],g[2]):i,k=j?Z(d[1],f[1]):j;return k?gF(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=bV(b[1],a[1]);if(l){var
+l=bZ(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=bV(b[1],a[1]);if(m){var
+m=bZ(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=bV(b[1],a[1]);if(n){var
+n=bZ(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=bV(b[1],a[1]);if(o){var
+o=bZ(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-bn(a,b){switch(b[0]){case
-0:return[0,i9(a,b[1],b[2])];case
+d7(b,a){switch(a[0]){case
+0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-c=bn(a,b[1]);if(c)var
-d=bn(a,b[2]),r=d?[0,B(c[1],d[1])]:d,m=r;else
-var
-m=c;return m;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dc(b,a)]};break;case
 3:var
-e=bn(a,b[1]);if(e)var
-f=bn(a,b[2]),s=f?[0,K(e[1],f[1])]:f,n=s;else
-var
-n=e;return n;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e7(b,a)]};break;case
 4:var
-g=bn(a,b[1]);if(g)var
-h=bn(a,b[2]),t=h?[0,w(a,g[1],h[1])]:h,o=t;else
-var
-o=g;return o;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bW(b,a)]};break;case
 5:var
-i=bn(a,b[1]);if(i){var
-j=bn(a,b[2]);if(j)var
-k=cc(a,j[1]),u=k?[0,w(a,i[1],k[1])]:k,p=u;else
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return db(a,[0,d,c])?0:[0,gJ(b,a)]};break;default:var
+j=d7(b,a[1]);return j?k(b,j[1]):j}var
+h=d7(b,f);if(h){var
+i=d7(b,g);if(i)return e(h[1],i[1]);var
+l=i}else
 var
-p=j;var
-q=p}else
+l=h;return l}function
+po(a){return 0}function
+ci(a){return d7(po,a)}function
+bn(a,b){switch(b[0]){case
+0:return[0,jf(a,b[1],b[2])];case
+1:return 0;case
+2:var
+g=bn(a,b[1]);if(g)var
+h=bn(a,b[2]),C=h?[0,E(g[1],h[1])]:h,r=C;else
 var
-q=i;return q;default:var
-l=bn(a,b[1]);return l?cy(a,l[1]):l}}function
-e6(b,a){return i9(b,a[1],a[2])}function
-bo(a,d){if(d2(d))switch(d[0]){case
+r=g;return r;case
+3:var
+i=bn(a,b[1]);if(i)var
+j=bn(a,b[2]),D=j?[0,K(i[1],j[1])]:j,s=D;else
+var
+s=i;return s;case
+4:var
+k=bn(a,b[1]);if(k)var
+l=bn(a,b[2]),F=l?[0,x(a,k[1],l[1])]:l,t=F;else
+var
+t=k;return t;case
+5:var
+m=bn(a,b[1]);if(m){var
+n=bn(a,b[2]);if(n)var
+o=cd(a,n[1]),G=o?[0,x(a,m[1],o[1])]:o,u=G;else
+var
+u=n;var
+v=u}else
+var
+v=m;return v;default:var
+y=b[1],p=bn(a,y);if(p){var
+e=p[1];if(V(d,e[1]))return ce(a,e);var
+f=ci(y),H=f?ac(cC([0,d,c],f[1])):f;if(H)return 0;if(V(d,e[2])){var
+z=ce(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
+q=Z(e[2],d),A=q?[0,B]:q;return A}return p}}function
+fc(b,a){return jf(b,a[1],a[2])}function
+bo(a,d){if(d6(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dS(i,jc),k=j?c_(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,e6(a,bS(eZ(e,g),n)),0],p=f(aL(C,i),o),q=e6(a,e)[2],r=[0,e6(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,e6(a,bS(c$(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dW(i,jk),k=j?cC(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fc(a,bW(e7(e,g),n)),0],p=f(aK(B,i),o),q=fc(a,e)[2],r=[0,fc(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fc(a,bW(dc(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bo(a,d[2]),u=bo(a,d[1]);return bU(function(b,a){return[0,bG(b,a)]},u,t);case
+t=bo(a,d[2]),u=bo(a,d[1]);return bY(function(b,a){return[0,bI(b,a)]},u,t);case
 3:var
-v=bo(a,d[2]),w=bo(a,d[1]);return bU(function(b,a){return[0,a6(b,a)]},w,v);case
+v=bo(a,d[2]),x=bo(a,d[1]);return bY(function(b,a){return[0,a8(b,a)]},x,v);case
 4:var
-m=d[2],h=d[1];if(bV(h,m)){var
-y=bo(a,h);return ce(function(b){return[0,d1(a,b)]},y)}var
-z=bo(a,m),A=bo(a,h);return bU(function(c,b){return[0,au(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(bZ(h,m)){var
+y=bo(a,h);return cg(function(b){return[0,d5(a,b)]},y)}var
+z=bo(a,m),A=bo(a,h);return bY(function(c,b){return[0,au(a,c,b)]},A,z);case
 5:var
-B=bo(a,d[2]),D=bo(a,d[1]);return bU(function(b,c){return dc(a,b,c)},D,B);default:var
-E=bo(a,d[1]);return ce(function(b){return gE(a,b)},E)}return x(ag,bn(a,d))}function
-aX(b,a){if(d2(a)){var
-c=bo(b,a);return x(function(a){return a[2]},c)}return bn(b,a)}function
-jd(a){var
-e=bh(N(a),d);return dU(y(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-je(a){return iZ(y(jd(a),a))}function
-cg(f,a,e){var
-b=aX(y(f,jd(a)),e);if(b)var
-c=b[1],g=je(a),h=N(cd(N(c[2]),g)),i=je(a),d=[0,[0,cd(c[1],i),h]];else
+C=bo(a,d[2]),D=bo(a,d[1]);return bY(function(b,c){return df(a,b,c)},D,C);default:var
+E=bo(a,d[1]);return cg(function(b){return gM(a,b)},E)}return w(ag,bn(a,d))}function
+aY(b,a){if(d6(a)){var
+c=bo(b,a);return w(function(a){return a[2]},c)}return bn(b,a)}function
+jl(a){var
+e=bj(M(a),d);return dY(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jm(a){return i8(z(jl(a),a))}function
+cj(f,a,e){var
+b=aY(z(f,jl(a)),e);if(b)var
+c=b[1],g=jm(a),h=M(cf(M(c[2]),g)),i=jm(a),d=[0,[0,cf(c[1],i),h]];else
 var
 d=b;return d}function
 ah(d,a){var
-b=cg(d,a[2],a[1][1]);if(b)var
-c=cg(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=cj(d,a[2],a[1][1]);if(b)var
+c=cj(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gF(b,a){var
-c=N(cd(N(a[2]),b));return[0,cd(a[1],b),c]}function
-e7(b,a){var
-c=e1(b[2],a);return[0,ca(b[1],a),c]}function
-gG(a,f,c){if(c){var
-d=c[1],g=gG(a,f,d),h=g[2],i=gy(L(dR(o9,d),o8)),j=v(gy(dR(o_,d)),i),e=e7(w(a,g[1],f),j),k=iT(c)?B(h,e):K(h,e);return[0,e,k]}var
-l=_(a,b);return[0,_(a,b),l]}function
-jf(f){var
-g=dT(f),e=o$[1],b=g,c=0,a=e;for(;;){if(b){var
+gN(b,a){var
+c=M(cf(M(a[2]),b));return[0,cf(a[1],b),c]}function
+fd(b,a){var
+c=e9(b[2],a);return[0,cc(b[1],a),c]}function
+gO(a,f,b){if(b){var
+d=b[1],g=gO(a,f,d),h=g[2],i=gG(N(dV(pq,d),pp)),j=v(gG(dV(pr,d)),i),e=fd(x(a,g[1],f),j),k=i2(b)?E(h,e):K(h,e);return[0,e,k]}var
+l=_(a,c);return[0,_(a,c),l]}function
+jn(f){var
+g=dX(f),e=ps[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return L(pa,c)}}function
-jg(a,d){var
-g=cx(a),h=v(c(2,c(2,b)),g),e=G(d[2],h);if(e)var
-i=gG(a,d,dR(pc,L(jf(a),pb)))[2][2],f=[0,[0,gG(a,d,L(dR(pe,jf(a)),pd))[2][1],i]];else
+b=d,c=[0,c],a=e;continue}return N(pt,c)}}function
+jo(a,d){var
+g=cD(a),h=v(b(2,b(2,c)),g),e=G(d[2],h);if(e)var
+i=gO(a,d,dV(pv,N(jn(a),pu)))[2][2],f=[0,[0,gO(a,d,N(dV(px,jn(a)),pw))[2][1],i]];else
 var
 f=e;return f}function
-jh(i){function
+jp(i){function
 a(h){var
-m=ca(cx(i),h),g=dT(i),f=m,e=d,a=b;for(;;){if(g){var
-j=y(a,c(2,b)),k=y(e,ca(f,a)),l=N(ca(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=v(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aA(v(c(2,c(2,c(2,c(2,b)))),g),f)}function
-ji(e,a){var
+m=cc(cD(i),h),g=dX(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,cc(f,a)),l=M(cc(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return aC(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jq(e,a){var
 f=G(d,a);if(f){var
-g=c(2,c(2,b));return jg(e,e7(S(e,[0,a,a]),g))}return f}function
-jj(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aA(jh(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=y(jh(a),n),e=ji(a,g);if(e){var
-f=ji(a,h);if(f)var
-i=X(d,e[1][1]),j=i?X(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=b(2,b(2,c));return jo(e,fd(W(e,[0,a,a]),g))}return f}function
+jr(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aC(jp(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jp(a),n),e=jq(a,g);if(e){var
+f=jq(a,h);if(f)var
+i=V(d,e[1][1]),j=i?V(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jk(a,d){var
-c=S(a,d),e=_(a,b);return K(B(c,c),e)}function
-dd(f,j){var
-e=aX(y(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=y(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=jj(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=jg(a,S(a,e7(w(a,k,d[1]),h))),g=x(function(b){return jk(a,jk(a,b))},i);else
+js(a,d){var
+b=W(a,d),e=_(a,c);return K(E(b,b),e)}function
+dg(f,j){var
+e=aY(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jr(a);if(d)var
+h=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),i=jo(a,W(a,fd(x(a,k,d[1]),h))),g=w(function(b){return js(a,js(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return gF(l,a)},g)}return e}function
-jl(a,d){var
-e=jj(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return e7(w(a,d,gF(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-e8(d,a){return dd(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
-d3(c,a){switch(a[0]){case
-0:return[0,[0,a[1],a[2]]];case
-1:return 0;case
-2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,c$(b,a)]};break;case
-3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,eZ(b,a)]};break;case
-4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bS(b,a)]};break;case
-5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return c9(a,[0,d,b])?0:[0,gB(c,a)]};break;default:var
-k=d3(c,a[1]);return k?i(c,k[1]):k}var
-h=d3(c,f);if(h){var
-j=d3(c,g);if(j)return e(h[1],j[1]);var
-l=j}else
-var
-l=h;return l}function
-pf(a){return 0}function
-cC(a){return d3(pf,a)}function
-g(i,e,c){var
-f=cC(c);if(f){var
-g=f[1];return e?ad(c_(g,[0,d,b])):c_([0,d,b],g)}var
-a=aX(i,c);if(a){var
-h=a[1];return e?X(d,h[1]):G(d,h[1])}return a}function
-jm(c,b){var
-a=aX(c,b),d=a?1:a;return d}function
-a9(c,a,b){var
-d=bV(a,b),e=d?jm(c,a):d;return e?e:g(c,0,[3,b,a])}function
-pg(c){var
-a=e0(c),g=dU(eW(a[2])),b=[0,eW(a[1]),g],e=X(d,a[1]),f=e?c9(bS(b,b),c):e,h=f?[0,b]:f;return h}function
-jn(a){if(a){var
-e=a[2],c=a[1];if(c9(bD([0,d,b],c),[0,d,b])){var
-g=jn(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
-f=[0,[0,c,e]]}else
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gN(l,a)},g)}return e}function
+jt(a,d){var
+e=jr(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+f=b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))));return fd(x(a,d,gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fe(d,a){return dg(d,[3,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+g(i,e,b){var
+f=ci(b);if(f){var
+g=f[1];return e?ac(cC(g,[0,d,c])):cC([0,d,c],g)}var
+a=aY(i,b);if(a){var
+h=a[1];return e?V(d,h[1]):G(d,h[1])}return a}function
+ju(c,b){var
+a=aY(c,b),d=a?1:a;return d}function
+a$(c,a,b){var
+d=bZ(a,b),e=d?ju(c,a):d;return e?e:g(c,0,[3,b,a])}function
+py(c){var
+a=e8(c),g=dY(e3(a[2])),b=[0,e3(a[1]),g],e=V(d,a[1]),f=e?db(bW(b,b),c):e,h=f?[0,b]:f;return h}function
+jv(a){if(a){var
+e=a[2],b=a[1];if(db(bE([0,d,c],b),[0,d,c])){var
+g=jv(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jo(c,a){var
-e=aK(c,a),f=[0,d,b];return bk(function(a,b){return e0(c$(bS(a[1],a[2]),b))},f,e)}function
-jp(c,j){if(c){var
-f=c[1],g=jn(j);if(g){var
-h=g[1],a=h[1],k=function(c){var
-f=bD([0,d,b],a),g=gB(bD([0,d,b],c),f),h=cb(a),i=aK(cb(c),h);return e(function(a){var
-b=bS(g,a[2]);return e0(eZ(a[1],b))},i)},l=jp(f,e(k,h[2]));return x(function(c){var
-e=bD([0,d,b],a);return[0,e0(gB(i6(jo(cb(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],aL([0,d,b],f)]]}else
+jw(b,a){var
+e=aJ(b,a),f=[0,d,c];return aV(function(a,b){return e8(dc(bW(a[1],a[2]),b))},f,e)}function
+jx(b,j){if(b){var
+f=b[1],g=jv(j);if(g){var
+h=g[1],a=h[1],k=function(b){var
+f=bE([0,d,c],a),g=gJ(bE([0,d,c],b),f),h=bV(a),i=aJ(bV(b),h);return e(function(a){var
+b=bW(g,a[2]);return e8(e7(a[1],b))},i)},l=jx(f,e(k,h[2]));return w(function(b){var
+e=bE([0,d,c],a);return[0,e8(gJ(jc(jw(bV(a),b)),e)),b]},l)}var
+i=[0,[0,[0,c,c],aK([0,d,c],f)]]}else
 var
-i=c;return i}function
-jq(a){if(a){var
-b=d3(pg,a[1]);if(b)var
-c=jq(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+i=b;return i}function
+jy(a){if(a){var
+b=d7(py,a[1]);if(b)var
+c=jy(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ph}function
-jr(a){if(a){var
-b=jq(a[1]);if(b)var
-c=jr(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return pz}function
+jz(a){if(a){var
+b=jy(a[1]);if(b)var
+c=jz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pi}function
-js(h,l){var
-a=jr(l);if(a){var
-i=a[1],c=jp(h,i);if(c){var
-e=c[1],f=u(j(e),h),g=f?ar(function(a){return ad(c9(a,[0,d,b]))},e):f;return g?n(function(a){return c9(jo(a,e),[0,d,b])},i):g}var
-k=c}else
+d=b;return d}return pA}function
+jA(h,l){var
+a=jz(l);if(a){var
+i=a[1],b=jx(h,i);if(b){var
+e=b[1],f=u(j(e),h),g=f?ao(function(a){return ac(db(a,[0,d,c]))},e):f;return g?o(function(a){return db(jw(a,e),[0,d,c])},i):g}var
+k=b}else
 var
 k=a;return k}function
-e9(a){return 0===a[0]?a[2]:a[1]}function
-pj(a){return a}function
-pk(a){return a}function
-pl(a,b){return aQ(pk,pj,B,a,b)}function
-pm(a){return a}function
-pn(a){return a}function
-ch(a,b){return aQ(pn,pm,pl,a,b)}function
-gH(b,a,c){if(a){var
+pB(a){return a}function
+pC(a){return a}function
+pD(a,b){return aQ(pC,pB,E,a,b)}function
+pE(a){return a}function
+pF(a){return a}function
+ck(a,b){return aQ(pF,pE,pD,a,b)}function
+gP(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gH(b,f,c[2]),h=c[1],i=function(c,a){return K(c,dX(d,a,b))},j=function(a){return af(dX(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
-k=gH(b,f,0);return[0,e(function(a){return af(dX(d,a,b))},a),k]}return c}function
-gI(a){if(a){var
+g=gP(b,f,c[2]),h=c[1],i=function(c,a){return K(c,d1(d,a,b))},j=function(a){return af(d1(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
+k=gP(b,f,0);return[0,e(function(a){return af(d1(d,a,b))},a),k]}return c}function
+gQ(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=X(d,c[1]),h=e?[0,gH(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=V(d,c[1]),h=e?[0,gP(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jt(f,e){var
+jB(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gI(b);if(c){var
+c=gQ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-ju(d,b,a){if(b)if(a)var
-e=a[1],f=ju(d,b[2],a[2]),g=b$(d,b[1])?e2(e):da(e),c=[0,g,f];else
+jC(d,b,a){if(b)if(a)var
+e=a[1],f=jC(d,b[2],a[2]),g=cb(d,b[1])?e_(e):de(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jv(a,b){if(a)if(b)var
-d=jv(a[2],b[2]),c=[0,ju(a[1],a,b[1]),d];else
+jD(a,b){if(a)if(b)var
+d=jD(a[2],b[2]),c=[0,jC(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bp(a){if(a){var
-b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return po}function
-e_(a){var
-b=j(a);if(jt(b,a))return 1;var
-c=bp(bC(b));return n(function(c){return jt(b,jv([0,0,c],a))},c)}function
-ap(a){function
+b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return pG}function
+ff(a){var
+b=j(a);if(jB(b,a))return 1;var
+c=bp(bD(b));return o(function(c){return jB(b,jD([0,0,c],a))},c)}function
+aq(a){function
 b(b){var
-c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aS(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?B(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gJ(c,b,a){var
-d=bp(c);return n(function(c){return i(a,i(ap(function(a){return aS(c,a)}),b))},d)}function
-gK(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a4(c,y(h,b),a)},k=gK(h,j,i),l=function(c,b){var
-d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?E(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gR(c,b,a){var
+d=bp(c);return o(function(c){return k(a,k(aq(function(a){return aS(c,a)}),b))},d)}function
+gS(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a5(b,z(h,c),a)},k=gS(h,j,i),l=function(c,b){var
+d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
 var
-g=c;else
+g=b;else
 var
 g=d;return g}function
-e$(b,d,a,c){function
+fg(b,d,a,c){function
 e(c,d){var
-e=a4(d,b,a);return K(B(c,c),e)}function
-f(c){return af(a4(c,b,a))}return aQ(function(a){return B(a,a)},f,e,d,c)}function
-fa(d,i,h,g){var
+e=a5(d,b,a);return K(E(c,c),e)}function
+f(c){return af(a5(c,b,a))}return aQ(function(a){return E(a,a)},f,e,d,c)}function
+fh(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=da(e[2]),k=ch(a,gK(d,f,e$(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gL(b,a){return[0,[0,0,b],a]}function
-de(b,c,g,f,a){function
+e=b[1],f=c[1],j=de(e[2]),k=ck(a,gS(d,f,fg(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gT(b,a){return[0,[0,0,b],a]}function
+dh(b,c,g,f,a){function
 d(a){if(a){var
-h=aL([0,af(a[1][2]),0],b),c=fa(g,f,a[2],h),d=u(j(c),b);if(d)return e_(c);var
+h=aK([0,af(a[1][2]),0],b),c=fh(g,f,a[2],h),d=u(j(c),b);if(d)return ff(c);var
 e=d}else
 var
-e=a;return e}return gJ(b,gL(c,a),d)}function
-gM(f,e){var
+e=a;return e}return gR(b,gT(c,a),d)}function
+gU(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gI([0,[0,e2(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gQ([0,[0,e_(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gN(b,c,a){function
+gV(b,c,a){function
 d(a){if(a){var
-h=aL([0,a[1][2],0],b),c=gM(a[2],h);if(c){var
-d=c[1],e=u(j(d),b);if(e)return e_(d);var
+h=aK([0,a[1][2],0],b),c=gU(a[2],h);if(c){var
+d=c[1],e=u(j(d),b);if(e)return ff(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gJ(b,gL(c,a),d)}function
-jw(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jx(b,a){var
-c=bp(b);return n(function(b){return X(d,aS(b,a)[1])},c)}function
-jy(c,b,a){var
-d=a[3],f=e(function(a){return a4(c,b,a)},d),g=a[2];return[0,a4(c,b,a[1]),g,f]}function
-jz(a,b){var
+g=a;return g}return gR(b,gT(c,a),d)}function
+jE(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jF(b,a){var
+c=bp(b);return o(function(b){return V(d,aS(b,a)[1])},c)}function
+jG(c,b,a){var
+d=a[3],f=e(function(a){return a5(c,b,a)},d),g=a[2];return[0,a5(c,b,a[1]),g,f]}function
+jH(a,b){var
 c=b[3],d=a[3],e=aQ(function(a){return a},af,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
-ci(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-as(c,b,a){var
+bJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ar(c,b,a){var
 d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-bH(b,a){var
-c=o(b,a[3]),d=o(b,a[2]);return[0,o(b,a[1]),d,c]}function
-cD(b,a){var
+bq(b,a){var
+c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
+cl(b,a){var
 c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
-ab(b,a){var
-c=o(b[3],a[3]),d=o(b[2],a[2]);return F(F(o(b[1],a[1]),d),c)}function
-cE(a){return cD(a,aE(ab(a,a)))}function
-bW(a){var
-b=a[5];return b?b[1]:aE(a[2])}function
-fb(b,a){return b?a:bl(a)}function
-jA(e,a,i,d,h){var
-f=ab(a,e),b=as(s,e,bH(f,a)),j=ab(b,b),g=s(H(d),j),c=fb(h,aE(g)),k=s(f,c),l=as(F,a,cD(b,c));return[0,as(F,b,bH(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jB(a,e,d){var
-b=ab(a,a),c=aE(b),f=[0,e],g=x(function(b){return as(s,a,bH(ab(b,a),b))},d);return[0,a,b,cD(a,c),c,0,g,f]}function
-jC(c,a){var
-d=ab(a,c);return[0,a,l(b),a,d,0,0,0]}function
-d4(a){return e(function(a){var
-b=a[2];return[0,ci(a[1]),b]},a)}function
-jD(a){return e(function(a){var
-c=l(b);return[0,ci(a[3]),c]},a)}function
-jE(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-jF(c,b,a){var
+U(b,a){var
+c=q(b[3],a[3]),d=q(b[2],a[2]);return F(F(q(b[1],a[1]),d),c)}function
+cH(a){return cl(a,ay(U(a,a)))}function
+cm(a){var
+b=a[5];return b?b[1]:ay(a[2])}function
+fi(b,a){return b?a:bm(a)}function
+jI(e,a,i,d,h){var
+f=U(a,e),b=ar(t,e,bq(f,a)),j=U(b,b),g=t(H(d),j),c=fi(h,ay(g)),k=t(f,c),l=ar(F,a,cl(b,c));return[0,ar(F,b,bq(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jJ(a,e,d){var
+b=U(a,a),c=ay(b),f=[0,e],g=w(function(b){return ar(t,a,bq(U(b,a),b))},d);return[0,a,b,cl(a,c),c,0,g,f]}function
+jK(b,a){var
+d=U(a,b);return[0,a,l(c),a,d,0,0,0]}function
+d8(a){return e(function(a){var
+b=a[2];return[0,bJ(a[1]),b]},a)}function
+jL(a){return e(function(a){var
+b=l(c);return[0,bJ(a[3]),b]},a)}function
+jM(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+jN(c,b,a){var
 d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-gO(d,a){var
-b=cy(d,[0,a[2],a[2]]);if(b){var
+gW(d,a){var
+b=ce(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fc(a,m,f,l,e,k,j){var
-o=jF(a6,k,j),b=jF(function(b,c){return au(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bG(bG(bG(ag(_(a,d)),h),g),c),p=bp(m);return n(function(c){var
-b=jE(function(b){return S(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=w(a,l,gO(a,B(B(B(_(a,d),k),j),h))),g=K(aS(c,i),m),n=f?K(g,aS(c,f[1])):g;return X(d,n[1])},p)}function
-bI(a){return cv(y(a[1],a[2]),b)}function
-df(a){var
-b=bI(a);return aA(a[2],b)}function
-fd(c,b){if(b)var
-a=b[1],e=fd([0,c],b[2]),g=df(a),h=[0,[0,df(a),g],0],i=f(aL(C,c),h),j=bI(a),d=[0,[0,[0,bI(a),j],a,i],e];else
+fj(a,m,f,l,e,k,j){var
+n=jN(a8,k,j),b=jN(function(b,c){return au(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=bI(bI(bI(ag(_(a,d)),h),g),c),p=bp(m);return o(function(c){var
+b=jM(function(b){return W(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,gW(a,E(E(E(_(a,d),k),j),h))),g=K(aS(c,i),m),n=f?K(g,aS(c,f[1])):g;return V(d,n[1])},p)}function
+bK(a){return cA(z(a[1],a[2]),c)}function
+di(a){var
+b=bK(a);return aC(a[2],b)}function
+fk(c,b){if(b)var
+a=b[1],e=fk([0,c],b[2]),g=di(a),h=[0,[0,di(a),g],0],i=f(aK(B,c),h),j=bK(a),d=[0,[0,[0,bK(a),j],a,i],e];else
 var
 d=b;return d}function
-d5(d,b){if(b){var
+d9(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d5(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bI(a),f],c],h=bI(a);return[0,[0,[0,a[1],h],c],g]}return pp}function
-jG(d,c,a){if(c){if(a){var
-e=jG(d,c[2],a[2]);return B(a4(c[1],y(d,b),a[1]),e)}return C}return C}function
-d6(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jG(f,a,b)},j=d6(f,h),k=e(function(a){var
-e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
+e=d9(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bK(a),f],c],h=bK(a);return[0,[0,[0,a[1],h],c],g]}return pH}function
+jO(d,b,a){if(b){if(a){var
+e=jO(d,b[2],a[2]);return E(a5(b[1],z(d,c),a[1]),e)}return B}return B}function
+d_(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jO(f,a,b)},j=d_(f,h),k=e(function(a){var
+e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d7(e,b,d,a){if(b)if(a)var
-f=b[1],g=d7(e,b[2],d,a[2]),c=[0,[0,f,e$(e,a[1][1],d,f)],g];else
+d$(e,b,d,a){if(b)if(a)var
+f=b[1],g=d$(e,b[2],d,a[2]),c=[0,[0,f,fg(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fe(f,d,c,b,a){if(a){var
+fl(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fe(f,d[1],c,b,g);return[0,[0,K(C,b),0],i]}var
-j=e(function(a){return[0,K(C,b),0]},g),h=[0,[0,K(af(w(f,c,da(a[1][2]))),b),0],j]}else
+i=fl(f,d[1],c,b,g);return[0,[0,K(B,b),0],i]}var
+j=e(function(a){return[0,K(B,b),0]},g),h=[0,[0,K(af(x(f,c,de(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bq(c,a){var
-b=u(j(a),c);return b?e_(a):b}function
-jH(d,b,a){if(b)var
-c=b[1],g=jH([0,d],b[2],a),h=f(aL(C,d),[0,a,0]),e=[0,[0,c,[0,aA(c[1],a[2]),y(c[2],a[2])],h],g];else
+br(c,a){var
+b=u(j(a),c);return b?ff(a):b}function
+jP(d,b,a){if(b)var
+c=b[1],g=jP([0,d],b[2],a),h=f(aK(B,d),[0,a,0]),e=[0,[0,c,[0,aC(c[1],a[2]),z(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jI(d){if(d){var
+jQ(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jI(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jQ(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return pq}function
-gP(a){return x(function(a){return x(d0,a)},a)}function
-ck(c,b,a){function
-d(a){return au(c,b,a)}return x(function(a){return x(d,a)},a)}function
-gQ(c,b,a){function
-d(a){return dc(c,a,b)}return x(function(a){return ce(d,a)},a)}function
-dg(b,a){var
-c=aK(b,a);return e(function(c){var
+f=a;return f}return pI}function
+gX(a){return w(function(a){return w(d4,a)},a)}function
+cn(c,b,a){function
+d(a){return au(c,b,a)}return w(function(a){return w(d,a)},a)}function
+gY(c,b,a){function
+d(a){return df(c,a,b)}return w(function(a){return cg(d,a)},a)}function
+dj(b,a){var
+c=aJ(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bU(function(b,a){return[0,bG(b,a)]},e,d)]}return b}return a},c)}function
-ff(a){return ag(_(a,c(2,b)))}function
-jJ(b,c,a){if(a)var
-f=a[1],g=jJ(b,c,a[2]),d=[0,e(function(a){return af(w(b,w(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bY(function(b,a){return[0,bI(b,a)]},e,d)]}return b}return a},c)}function
+fm(a){return ag(_(a,b(2,c)))}function
+jR(b,c,a){if(a)var
+f=a[1],g=jR(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jK(a){return n(function(a){var
-b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
-jL(c,b,a){var
-d=aK(b,a);return bk(function(a,b){return B(w(c,a[1],a[2]),b)},C,d)}function
-gR(c,b,a){var
-d=dY(jL(c,a,b));return bk(function(b,a){return y(dY(b),a)},d,a)}function
-dh(a){return _(a,b)}function
-gS(a,i,c,u,t){var
+jS(a){return o(function(a){var
+b=Z(a[1],d);return b?Z(a[2],d):b},a)}function
+jT(c,b,a){var
+d=aJ(b,a);return aV(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
+gZ(c,b,a){var
+d=d2(jT(c,a,b));return aV(function(b,a){return z(d2(b),a)},d,a)}function
+dk(a){return _(a,c)}function
+g0(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jK(c)&&!jK(j)){var
-h=gR(a,i,j),o=dh(a),p=gR(a,i,c),b=dX([0,gR(a,i,c),p],o,[0,h,h])[1],k=X(d,h),l=k?X(d,b):k;if(l)var
-q=a5(gC(a,[0,b,b])),r=function(b){return function(d,c){return K(w(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ch(e,jJ(a,q,aQ(function(c){return function(b){return w(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!jS(c)&&!jS(j)){var
+h=gZ(a,i,j),o=dk(a),p=gZ(a,i,c),b=d1([0,gZ(a,i,c),p],o,[0,h,h])[1],k=V(d,h),l=k?V(d,b):k;if(l)var
+q=a6(gK(a,[0,b,b])),r=function(b){return function(d,c){return K(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ck(e,jR(a,q,aQ(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-pF(a){var
-b=a[2],c=e(function(a){return[0,a[1],C]},b);return[0,[0,a[1][1],C],c]}function
-jM(c,b,a){if(b){if(a){var
-d=jM(c,b[2],a[2]);return B(a4(b[1],c,a[1]),d)}return C}return C}function
-jN(a,j){switch(j){case
+pX(a){var
+b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
+jU(c,b,a){if(b){if(a){var
+d=jU(c,b[2],a[2]);return E(a5(b[1],c,a[1]),d)}return B}return B}function
+jV(a,j){switch(j){case
 0:var
-d=aA(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aC(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aA(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=cv(y(a[1],a[2]),b),h=aA(c,a[2]),i=aA(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jO(d,c,a){if(a)var
-e=a[1],g=jO(d,[0,c],a[2]),b=x(b_,i4(function(a){return u(a[1],c)},d)),h=b?jN(e,b[1])[1]:e,f=[0,h,g];else
+f=aC(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cA(z(a[1],a[2]),c),h=aC(b,a[2]),i=aC(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jW(d,c,a){if(a)var
+e=a[1],g=jW(d,[0,c],a[2]),b=w(ca,ja(function(a){return u(a[1],c)},d)),h=b?jV(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-pG=ag(C);function
-jP(e,d,c){if(d){var
-f=t(e,c[2],pH),a=f?f[1]:[0,pG];if(a)var
-b=jP([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+pY=ag(B);function
+jX(e,d,c){if(d){var
+f=s(e,c[2],pZ),a=f?f[1]:[0,pY];if(a)var
+b=jX([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return pI}function
-jQ(d,c,b,a){var
-f=e(ag,b);return bF(0,cf(d,fd(0,a),f),c,0)}function
-aj(a){if(a){var
+g=a;return g}return p0}function
+g1(d,c,b,a){var
+f=e(ag,b);return bG(0,ch(d,fk(0,a),f),c,0)}function
+ai(a){if(a){var
 b=a[1];if(b)var
-c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ai(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pJ}function
-fg(b,a){if(a){var
-h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
-f=t(h[2],b,0);if(f){var
-i=f[1],g=fg(b,a[2]);if(g)var
-j=X(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return p1}function
+fn(b,a){if(a){var
+h=a[1],n=h[1],c=ai(e(function(a){return s(a,b,0)},n));if(c){var
+f=s(h[2],b,0);if(f){var
+i=f[1],g=fn(b,a[2]);if(g)var
+j=V(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1752,157 +1756,157 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return pK}function
-bX(d,c,b){var
-a=fg(d,c);return a?i(b,a[1]):a}function
-di(a,b){return n(function(c){var
-a=t(c,b,0),d=a?1:a;return d},a)}function
-fh(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
-gT(b,a){return b?jz(a,b[1]):a}function
-gU(h,g,b,f){var
-a=t(f,h,0);if(a){var
+m=c;return m}return p2}function
+b0(d,c,b){var
+a=fn(d,c);return a?k(b,a[1]):a}function
+dl(a,b){return o(function(c){var
+a=s(c,b,0),d=a?1:a;return d},a)}function
+fo(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
+g2(b,a){return b?jH(a,b[1]):a}function
+g3(h,g,b,f){var
+a=s(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jz(c,b[1]),e=bp(g);return n(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-jR(f,d,a){function
-c(a){return a4(a,d,_(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),C,g]}return ag(C)}function
-fi(b,a){var
-c=t(a[1],b,0);if(c){var
-d=t(a[2],b,0);if(d)var
-e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jH(c,b[1]),e=bp(g);return o(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+jY(f,d,a){function
+b(a){return a5(a,d,_(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),B,g]}return ag(B)}function
+fp(b,a){var
+c=s(a[1],b,0);if(c){var
+d=s(a[2],b,0);if(d)var
+e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-jS(i,k,J,t,h,c,g,f,a){switch(f[0]){case
+fq(i,k,J,t,h,b,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=di(t,h);if(K){var
-ad=a[2],ae=a[1],af=fh(g,ag(r));return bX(h,k,function(a){return de(c,af,ae,ad,a)})}return K;case
+K=dl(t,h);if(K){var
+ad=a[2],ae=a[1],af=fo(g,ag(r));return b0(h,k,function(a){return dh(b,af,ae,ad,a)})}return K;case
 1:var
-L=di(t,h);if(L){var
-ah=a[2],ai=a[1],aj=fh(g,ag(r));return bX(h,J,function(a){return de(c,aj,ai,ah,a)})}return L;case
+L=dl(t,h);if(L){var
+ah=a[2],ai=a[1],aj=fo(g,ag(r));return b0(h,J,function(a){return dh(b,aj,ai,ah,a)})}return L;case
 2:var
-M=di(t,h);if(M){if(g)return 0;var
-N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return bX(h,k,function(a){return de(c,[0,C,C,0],al,ak,jw([0,C,C,0],a))})}var
+M=dl(t,h);if(M){if(g)return 0;var
+N=Z(r[1],d),O=N?Z(r[2],d):N;if(O){var
+ak=a[2],al=a[1];return b0(h,k,function(a){return dh(b,[0,B,B,0],al,ak,jE([0,B,B,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=gT(g,ag(Q));return bX(h,J,function(a){return gN(c,am,a)})}if(!a){var
-an=gT(g,ag(Q));return bX(h,k,function(a){return gN(c,an,a)})}}return 0;case
+am=g2(g,ag(Q));return b0(h,J,function(a){return gV(b,am,a)})}if(!a){var
+an=g2(g,ag(Q));return b0(h,k,function(a){return gV(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jR(i,R,a[3]),S=f[1],ao=a[2];return bX(h,k,function(d){var
-a=jx(c,l),b=a?de(c,fh(g,l),R,ao,d):a;if(b){var
-f=l[3],h=e(function(a){return w(i,S,a)},f),j=l[2];return gN(c,gT(g,[0,w(i,S,l[1]),j,h]),d)}return b})}return 0;case
+R=a[1],l=jY(i,R,a[3]),S=f[1],ao=a[2];return b0(h,k,function(d){var
+a=jF(b,l),c=a?dh(b,fo(g,l),R,ao,d):a;if(c){var
+f=l[3],h=e(function(a){return x(i,S,a)},f),j=l[2];return gV(b,g2(g,[0,x(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return gU(h,c,g,f[1]);return 0;case
+a==="number"&&!a)return g3(h,b,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fh(g,ag(f[2])),as=function(a){return de(c,ar,aq,ap,a)};return bX(h,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fo(g,ag(f[2])),as=function(a){return dh(b,ar,aq,ap,a)};return b0(h,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return gU(h,c,g,f[1]);case
-2:return gU(h,c,g,f[2])}return 0;case
+0:return g3(h,b,g,f[1]);case
+2:return g3(h,b,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fi(h,f[1]);if(v){var
-x=fi(h,f[2]);if(x){var
-z=fi(h,f[3]);if(z){var
-A=fi(h,f[4]);if(A){var
-T=A[1],U=z[1],V=x[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
-o=m[2];if(o){var
-p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=jE(function(d){function
-f(a){return a4(a,at,_(i,b))}if(d){var
-a=e(f,d[2]),c=f(d[1]),g=e4(a),h=y(c[2],g),j=e4(a);return[0,c,[0,aA(c[1],j),h],a]}return ag(C)},ac),B=n(function(a){return u(j(a),[0,c])},m),D=B?fc(i,c,g,s,q,W,U):B,E=D?fc(i,c,g,s,q,W,T):D,F=E?fc(i,c,g,s,q,V,U):E;if(F)return fc(i,c,g,s,q,V,T);var
+v=fp(h,f[1]);if(v){var
+w=fp(h,f[2]);if(w){var
+y=fp(h,f[3]);if(y){var
+A=fp(h,f[4]);if(A){var
+T=A[1],U=y[1],V=w[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
+n=m[2];if(n){var
+p=n[2];if(p){if(p[2])return 0;var
+ac=[0,m[1],n[1],p[1]],q=jM(function(d){function
+f(a){return a5(a,at,_(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fa(a),h=z(b[2],g),j=fa(a);return[0,b,[0,aC(b[1],j),h],a]}return ag(B)},ac),C=o(function(a){return u(j(a),[0,b])},m),D=C?fj(i,b,g,s,q,W,U):C,E=D?fj(i,b,g,s,q,W,T):D,F=E?fj(i,b,g,s,q,V,U):E;if(F)return fj(i,b,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
 H=G}else
 var
-H=o;var
+H=n;var
 I=H}else
 var
 I=m;return I}var
 X=A}else
 var
-X=z;var
-Z=X}else
+X=y;var
+Y=X}else
 var
-Z=x;var
-$=Z}else
+Y=w;var
+$=Y}else
 var
 $=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],au=f[2],av=f[1];return bX(h,k,function(e){var
-a=u(j(e),c),d=a?u(j(aa),c):a;if(d){var
+aa=a[2],ab=a[1],au=f[2],av=f[1];return b0(h,k,function(e){var
+a=u(j(e),b),d=a?u(j(aa),b):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=u(j(d),c);if(e){var
-g=d6(ab,d7(ab,aa,_(i,b),d));return bq(c,ch(fe(i,av,au,a[1][2],d),g))}var
+d=a[2],e=u(j(d),b);if(e){var
+g=d_(ab,d$(ab,aa,_(i,c),d));return br(b,ck(fl(i,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:ag(C);return gJ(c,gL(h,e),f)}return d})}return 0;case
+f=a;return f},h=g?g[1]:ag(B);return gR(b,gT(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jw([0,C,C,0],d),b=g?g[1]:[0,C,C,0];return de(c,b,ax,aw,a)};return bX(h,f[1],ay)}return 0;default:return 0}}function
-jT(a,Z,I,l,p,Y,g,k,h,f,c){if(9===f[0]){if(typeof
-c!=="number"&&9===c[0]){var
-$=f[1],T=e(ag,Y),A=bF(0,cf(a,jH(0,k,$),T),Z,0),J=u(j(k),pL),L=J?di(p,A):J;if(L){var
-q=fg(A,l);if(q){var
-r=fg(g,l);if(r){var
-aa=f[2],s=aj(e(function(b){var
-c=t(b[1],g,0);if(c)var
-f=b[2][2],a=aj(e(function(a){var
-b=t(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+a=jE([0,B,B,0],d),c=g?g[1]:[0,B,B,0];return dh(b,c,ax,aw,a)};return b0(h,f[1],ay)}return 0;default:return 0}}function
+jZ(a,Z,I,l,p,Y,g,i,h,f,b){if(9===f[0]){if(typeof
+b!=="number"&&9===b[0]){var
+$=f[1],S=e(ag,Y),A=bG(0,ch(a,jP(0,i,$),S),Z,0),J=u(j(i),p3),L=J?dl(p,A):J;if(L){var
+q=fn(A,l);if(q){var
+r=fn(g,l);if(r){var
+aa=f[2],t=ai(e(function(b){var
+c=s(b[1],g,0);if(c)var
+f=b[2][2],a=ai(e(function(a){var
+b=s(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},aa));if(s){var
-v=jI(q[1]);if(v){var
-M=c[2],z=c[1],N=r[1],ab=c[3],ac=s[1],ad=v[1],D=gO(a,bk(function(f,h){function
+d=c;return d},aa));if(t){var
+v=jQ(q[1]);if(v){var
+M=b[2],y=b[1],N=r[1],ab=b[3],ac=t[1],ad=v[1],C=gW(a,aV(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return dY(t(d,c[3],C))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return d2(s(d,c[3],B))}function
 c(a){var
-b=i(a,pr),c=bh(i(a,ps),b);return bh(i(a,0),c)}var
+b=k(a,pJ),c=bj(k(a,pK),b);return bj(k(a,0),c)}var
 d=c(function(a){var
-c=b(pt,a),d=b(pu,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,pv),d=b(a,pw);return y(y(b(a,0),d),c)});return B(h,S(a,gO(a,w(a,[0,e,e],g))))},C,ad)),m=a4(ab,z,_(a,b)),E=X(d,K(m,D)[1]),F=E?u(j(M),pC):E,G=F?u(j(N),pD):F;if(G){var
-o=cc(a,m);if(o){var
-U=a5(w(a,D,o[1])),V=K(_(a,b),U),W=bp(pE);return n(function(j){var
+c=b(pL,a),d=b(pM,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,pN),d=b(a,pO);return z(z(b(a,0),d),c)});return E(h,W(a,gW(a,x(a,[0,e,e],g))))},B,ad)),m=a5(ab,y,_(a,c)),D=V(d,K(m,C)[1]),F=D?u(j(M),pU):D,G=F?u(j(N),pV):F;if(G){var
+n=cd(a,m);if(n){var
+T=a6(x(a,C,n[1])),U=K(_(a,c),T),X=bp(pW);return o(function(i){var
 g=e(function(b){var
-c=b[2],d=b[1];return da(c8(function(d,b){var
-c=dY(aS(j,b[2]));return B(d,w(a,b[1],[0,c,c]))},c,d))},ac),r=i(ap(function(a){return aS(j,a)}),N),E=h?aS(j,h[1]):C,L=S(a,V),s=S(a,m),q=d6(z,d7(z,M,_(a,b),r)),c=ch(aL([0,af(E),0],px),q);if(g){var
+c=b[2],d=b[1];return de(da(function(d,b){var
+c=d2(aS(i,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ac),r=k(aq(function(a){return aS(i,a)}),N),D=h?aS(i,h[1]):B,L=W(a,U),s=W(a,m),q=d_(y,d$(y,M,_(a,c),r)),b=ck(aK([0,af(D),0],pP),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],D=g[1],G=f[1],k=bq(pz,ch(aL([0,af(s),0],py),c));if(k)return n(function(B){var
-H=K(L,E),I=B[2]?A:af(A),J=B[1]?D:af(D),n=0;if(c){var
-a=c[1],k=0;if(a){var
-b=a[2],l=0;if(b){var
-d=b[2],m=0;if(d)if(d[2]){var
+A=d[1],C=g[1],G=f[1],j=br(pR,ck(aK([0,af(s),0],pQ),b));if(j)return o(function(B){var
+H=K(L,D),I=B[2]?A:af(A),J=B[1]?C:af(C),n=0;if(b){var
+a=b[1],k=0;if(a){var
+c=a[2],l=0;if(c){var
+d=c[2],m=0;if(d)if(d[2]){var
 j=0;k=1;l=1;m=1}else{var
-e=c[2],o=0;if(e){var
+e=b[2],o=0;if(e){var
 f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
-h=e[2],C=0;if(h){var
+h=e[2],E=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
-j=0;k=1;l=1;m=1;o=1;p=1;q=1;C=1;F=1}else
+j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
 var
-r=[0,[0,a[1],[0,b[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
 var
-s=h;if(!C)var
+s=h;if(!E)var
 t=s}else
 var
 t=g;if(!q)var
@@ -1917,28 +1921,28 @@ var
 w=d;if(!m)var
 x=w}else
 var
-x=b;if(!l)var
+x=c;if(!l)var
 y=x}else
 var
 y=a;if(!k){var
 z=y;n=1}}else{var
-z=c;n=1}if(n)var
-j=z;return bq(pB,j)},pA);var
-l=k}else
+z=b;n=1}if(n)var
+j=z;return br(pT,j)},pS);var
+l=j}else
 var
 l=f;var
-o=l}else
+n=l}else
 var
-o=d;var
-p=o}else
+n=d;var
+p=n}else
 var
-p=g;return p},W)}var
-H=o}else
+p=g;return p},X)}var
+H=n}else
 var
 H=G;return H}var
 O=v}else
 var
-O=s;var
+O=t;var
 P=O}else
 var
 P=r;var
@@ -1947,13 +1951,13 @@ var
 Q=q;var
 R=Q}else
 var
-R=L;return R}return jS(a,I,l,p,g,j(k),h,f,c)}return jS(a,I,l,p,g,j(k),h,f,c)}function
-jU(j,b,a){if(a){var
-k=a[1],l=k[2],c=aj(e(b,k[1]));if(c){var
-f=i(b,l);if(f){var
-g=t(l,j,0);if(g){var
-h=jU(j,b,a[2]);if(h)var
-m=X(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+R=L;return R}return fq(a,I,l,p,g,j(i),h,f,b)}return fq(a,I,l,p,g,j(i),h,f,b)}function
+j0(i,b,a){if(a){var
+j=a[1],l=j[2],c=ai(e(b,j[1]));if(c){var
+f=k(b,l);if(f){var
+g=s(l,i,0);if(g){var
+h=j0(i,b,a[2]);if(h)var
+m=V(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1964,48 +1968,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return pN}function
-jV(a,U,m,T,v,s,S,D,h,g,l,c){var
-k=j(S),V=fd(0,S),aT=bF(0,cf(a,V,e(ag,jO(l,0,v))),U,0),W=e(aJ,l),aU=0,aW=e(ag,v),aX=bF(pO,function(c){var
-av=cz(aJ,c),f=i(cf(a,V,aW),av);switch(c[0]){case
+q=c;return q}return p5}function
+j1(a,U,m,T,v,t,S,C,h,g,l,b){var
+i=j(S),W=fk(0,S),aT=bG(0,ch(a,W,e(ag,jW(l,0,v))),U,0),X=e(aI,l),aU=0,aX=e(ag,v),aY=bG(p6,function(b){var
+av=cE(aI,b),f=k(ch(a,W,aX),av);switch(b[0]){case
 1:var
-M=c[1],d=e(function(d){var
-c=u(M,d),e=c?[0,[0,ag(_(a,b))]]:c;return e},W);break;case
+M=b[1],d=e(function(d){var
+b=u(M,d),e=b?[0,[0,ag(_(a,c))]]:b;return e},X);break;case
 3:var
-d=dg(c[1][2],c[2][2]);break;case
+d=dj(b[1][2],b[2][2]);break;case
 4:var
-N=e(gP,c[2][2]),d=dg(c[1][2],N);break;case
+N=e(gX,b[2][2]),d=dj(b[1][2],N);break;case
 5:var
-d=e(gP,c[1][2]);break;case
+d=e(gX,b[1][2]);break;case
 6:var
-x=c[2],y=c[1],g=y[1],t=0;if(g){var
+x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ck(a,P,b)},O),R=y[2],S=h[1],d=dg(e(function(b){return ck(a,S,b)},R),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return cn(a,P,b)},O),R=y[2],S=h[1],d=dj(e(function(b){return cn(a,S,b)},R),Q);else{var
 z=h;t=1}}else{var
 z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=c[2],j=A[1];if(j)var
-T=A[2],U=d0(f[1]),X=e(function(b){return ck(a,U,b)},T),Y=dg(c[1][2],X),Z=j[1],d=e(function(b){return gQ(a,Z,b)},Y);else{var
-B=j;v=1}}else{var
+A=b[2],i=A[1];if(i)var
+T=A[2],U=d4(f[1]),V=e(function(b){return cn(a,U,b)},T),Y=dj(b[1][2],V),Z=i[1],d=e(function(b){return gY(a,Z,b)},Y);else{var
+B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=au(a,ff(a),aa),d=e(function(b){return ck(a,ab,b)},$);else
+C=b[1],j=C[1];if(j)var
+$=C[2],aa=j[1],ab=au(a,fm(a),aa),d=e(function(b){return cn(a,ab,b)},$);else
 var
-d=k;break;case
+d=j;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=au(a,ff(a),ad),d=e(function(b){return gQ(a,ae,b)},ac);else
+ac=b[1][2],ad=f[1],ae=au(a,fm(a),ad),d=e(function(b){return gY(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
-D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
+D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jb(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],af=E[2],ah=a6(o,r),ai=e(function(b){return ck(a,ah,b)},af),aj=F[2],ak=a6(m,s),al=dg(e(function(b){return ck(a,ak,b)},aj),ai),am=e(gP,D[2]),an=ff(a),ao=dg(e(function(b){return ck(a,an,b)},al),am),ap=c[1]?s:d0(r),aq=e(function(b){return ck(a,ap,b)},ao),ar=au(a,m,r),as=a6(au(a,o,s),ar),at=au(a,ff(a),as),d=e(function(b){return gQ(a,at,b)},aq);K=1;L=1}else
+q=jj(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],af=E[2],ah=a8(o,r),ai=e(function(b){return cn(a,ah,b)},af),aj=F[2],ak=a8(m,s),al=dj(e(function(b){return cn(a,ak,b)},aj),ai),am=e(gX,D[2]),an=fm(a),ao=dj(e(function(b){return cn(a,an,b)},al),am),ap=b[1]?s:d4(r),aq=e(function(b){return cn(a,ap,b)},ao),ar=au(a,m,r),as=a8(au(a,o,s),ar),at=au(a,fm(a),as),d=e(function(b){return gY(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2016,291 +2020,291 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},W)}return[0,f,d]},U,aU),aQ=e(function(a){var
-b=a[2];return jN(t(a[1],v,C),b)[2]},l);function
-Z(c){var
-d=t(c,s,0);if(d){var
-a=t(c,aT,0);if(a)var
-b=jP(0,l,t(c,aX,pM)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=e(function(a){return 0},X)}return[0,f,d]},U,aU),aQ=e(function(a){var
+b=a[2];return jV(s(a[1],v,B),b)[2]},l);function
+Y(c){var
+d=s(c,t,0);if(d){var
+a=s(c,aT,0);if(a)var
+b=jX(0,l,s(c,aY,p4)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-E(b){return e(function(b){return _(a,b)},b)}var
-aY=D?D[1]:ag(C);function
-$(a){return a?bq(k,a[1]):a}function
-x(t,s,f,r,q){var
-u=aL([0,af(s),0],k),c=r,b=q,g=u,v=E(t);for(;;){if(c&&b){var
-i=b[1],j=i[1],d=c[1],m=da(j[2]),n=ch(g,gK(f,d,e$(f,j[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a5,e$(f,a[1],a[2],b))}}(d),o),h=gS(a,v,e(function(b){return a4(b,f,dh(a))},d),p,n);if(h){var
+D(b){return e(function(b){return _(a,b)},b)}var
+aZ=C?C[1]:ag(B);function
+$(a){return a?br(i,a[1]):a}function
+w(t,s,f,r,q){var
+u=aK([0,af(s),0],i),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
+j=b[1],k=j[1],d=c[1],m=de(k[2]),n=ck(g,gS(f,d,fg(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a6,fg(f,a[1],a[2],b))}}(d),o),h=g0(a,v,e(function(b){return a5(b,f,dk(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return $(l)}}function
 aa(y,x,w){var
-z=aL([0,x,0],k),q=E(y),c=w,f=z;for(;;){if(c){var
-j=c[1],l=j[1],g=l[2],h=l[1],m=j[2],n=[0,[0,e2(g),h],f];if(m){var
-o=X(d,g[1]);if(o)var
+z=aK([0,x,0],i),q=D(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e_(g),h],f];if(m){var
+o=V(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a5(a[2]),b]},m),t=e(function(a){return C},h),u=[0,dh(a),t],v=dh(a),b=gS(a,[0,af(dX(jL(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a6(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dk(a),t],v=dk(a),b=g0(a,[0,af(d1(jT(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gI(b[1]);if(i){var
-c=c[2],f=i[1];continue}var
-p=i}else
+j=gQ(b[1]);if(j){var
+c=c[2],f=j[1];continue}var
+p=j}else
 var
 p=b;var
 r=p}else
 var
 r=[0,f];return $(r)}}var
-aZ=e(aJ,l),ab=n(function(a){return dS(a,j(v))},aZ);if(ab){var
-r=e(aJ,l);for(;;){if(r){var
-Q=r[2],aR=r[1],R=ad(ar(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
+a0=e(aI,l),ab=o(function(a){return dW(a,j(v))},a0);if(ab){var
+r=e(aI,l);for(;;){if(r){var
+Q=r[2],aR=r[1],R=ac(ao(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
 r=Q;continue}var
-ac=R}else
+ad=R}else
 var
-ac=1;var
-F=ac;break}}else
+ad=1;var
+F=ad;break}}else
 var
 F=ab;var
-ae=F?n(function(a){return u(j(a),k)},c):F;if(ae){var
+ae=F?o(function(a){return u(j(a),i)},b):F;if(ae){var
 A=0;switch(h[0]){case
 0:var
 H=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
-aC=0;if(c){if(c[2])return 0;var
-a0=c[1],a1=g[2],a2=g[1],ah=di(T,s);if(ah){var
+aB=0;if(b){if(b[2])return 0;var
+a1=b[1],a2=g[2],a3=g[1],ah=dl(T,t);if(ah){var
 p=function(c,a){var
-b=B(H,a);return function(a){return x(a0,b,a2,a1,a)}},o=m;O=1;aC=1}else
+b=E(H,a);return function(a){return w(a1,b,a3,a2,a)}},n=m;O=1;aB=1}else
 var
 ak=ah}else
 var
-ak=c;if(!aC)return ak;break;case
+ak=b;if(!aB)return ak;break;case
 2:var
-aD=0;if(c){if(c[2])return 0;var
-a7=c[1],a8=g[2],a9=g[1],al=di(T,s),aE=0;if(al){if(D)return 0;var
-am=Y(H[1],d),an=am?Y(H[2],d):am;if(an){var
-p=function(c,b,a){return x(a7,C,a9,a8,e(pF,a))},o=m;O=1;aD=1;aE=1}else
+aD=0;if(b){if(b[2])return 0;var
+a7=b[1],a9=g[2],a_=g[1],al=dl(T,t),aE=0;if(al){if(C)return 0;var
+am=Z(H[1],d),an=am?Z(H[2],d):am;if(an){var
+p=function(c,b,a){return w(a7,B,a_,a9,e(pX,a))},n=m;O=1;aD=1;aE=1}else
 var
-ao=an}else
+ap=an}else
 var
-ao=al;if(!aE)var
-ap=ao}else
+ap=al;if(!aE)var
+aq=ap}else
 var
-ap=c;if(!aD)return ap;break}if(!O)return 0;break;case
+aq=b;if(!aD)return aq;break}if(!O)return 0;break;case
 1:var
-aF=0,a_=h[1];if(typeof
-g==="number"&&!g){if(!c)return c;if(c[2])return 0;var
-a$=c[1],p=function(c,a){var
-b=K(a_,a);return function(a){return aa(a$,b,a)}},o=m;aF=1}if(!aF)return 0;break;case
+aF=0,a$=h[1];if(typeof
+g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
+ba=b[1],p=function(c,a){var
+b=K(a$,a);return function(a){return aa(ba,b,a)}},n=m;aF=1}if(!aF)return 0;break;case
 2:var
-aG=0,ba=h[1];if(typeof
+aG=0,bb=h[1];if(typeof
 g==="number"||!(3===g[0]))aG=1;else{var
-aH=0;if(c){var
-z=c[2],aI=0;if(z){if(z[2])return 0;var
-aq=g[1],bb=z[1],bc=c[1],bd=g[2],as=jR(a,aq,g[3]),at=jx(k,as);if(at){var
+aH=0;if(b){var
+y=b[2],aL=0;if(y){if(y[2])return 0;var
+ar=g[1],bc=y[1],bd=b[1],be=g[2],as=jY(a,ar,g[3]),at=jF(i,as);if(at){var
 p=function(f,c,b){var
-d=aS(f,as),e=x(bc,B(d,c),aq,bd,b);return e?aa(bb,K(w(a,ba,d),c),b):e},o=m;aH=1;aI=1}else
+d=aS(f,as),e=w(bd,E(d,c),ar,be,b);return e?aa(bc,K(x(a,bb,d),c),b):e},n=m;aH=1;aL=1}else
 var
 av=at}else
 var
-av=z;if(!aI)var
+av=y;if(!aL)var
 aw=av}else
 var
-aw=c;if(!aH)return aw}if(aG)return 0;break;case
+aw=b;if(!aH)return aw}if(aG)return 0;break;case
 3:var
 aM=0;if(typeof
-g==="number"&&!g){if(c)return 0;var
+g==="number"&&!g){if(b)return 0;var
 J=h[1];A=1}else
 aM=1;if(aM)return 0;break;case
 4:var
-aN=0,bf=h[2];if(typeof
-g==="number"||!(0===g[0]))aN=1;else{if(!c)return c;if(c[2])return 0;var
-bg=c[1],bi=g[2],bj=g[1],bl=function(c,a){var
-b=B(bf,a);return function(a){return x(bg,b,bj,bi,a)}},p=bl,o=h[1]}if(aN)return 0;break;case
+aN=0,bg=h[2];if(typeof
+g==="number"||!(0===g[0]))aN=1;else{if(!b)return b;if(b[2])return 0;var
+bh=b[1],bi=g[2],bk=g[1],bl=function(c,a){var
+b=E(bg,a);return function(a){return w(bh,b,bk,bi,a)}},p=bl,n=h[1]}if(aN)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
-0:if(c)return 0;var
+0:if(b)return 0;var
 J=h[1];A=1;break;case
-2:if(c)return 0;var
+2:if(b)return 0;var
 J=h[2];A=1;break;default:P=1}else
 P=1;if(P)return 0;break;case
 7:var
 ax=h[2],ay=h[1],aO=0;if(typeof
 g==="number"||!(0===g[0]))aO=1;else{var
-aP=0;if(c){if(c[2])return 0;var
-q=g[2],M=g[1],bm=c[1],az=u(j(m),k);if(az){var
+aP=0;if(b){if(b[2])return 0;var
+q=g[2],N=g[1],bm=b[1],az=u(j(m),i);if(az){var
 p=function(b,y){var
-z=E(bm);return function(f){var
-i=u(j(f),k),l=i?u(j(q),k):i;if(l){var
-s=e(aJ,f),t=d6(M,d7(M,q,dh(a),s)),v=ch(fe(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,x=j(q);for(;;){if(c){var
+z=D(bm);return function(f){var
+k=u(j(f),i),l=k?u(j(q),i):k;if(l){var
+s=e(aI,f),t=d_(N,d$(N,q,dk(a),s)),v=ck(fl(a,ay,ax,y,e(aI,f)),t),b=0,c=f,g=v,w=j(q);for(;;){if(c){var
 o=c[1][2],p=u(b,ay),r=e(function(f,g){return function(d){var
-b=aK(aV(0,j(q)),q);return e(function(b){var
-c=jM(M,b[2],d[1]);if(g&&u(b[1],f))return K(c,a5(w(a,ax,d[2])));return c},b)}}(b,p),o),n=aV(0,x),h=gS(a,z,e(function(c){return function(b){return u(b,c)?dh(a):C}}(b),n),r,g);if(h){var
+b=aJ(aW(0,j(q)),q);return e(function(b){var
+c=jU(N,b[2],d[1]);if(g&&u(b[1],f))return K(c,a6(x(a,ax,d[2])));return c},b)}}(b,p),o),n=aW(0,w),h=g0(a,z,e(function(c){return function(b){return u(b,c)?dk(a):B}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
-d=[0,g];if(d)return bq(k,d[1]);var
+d=[0,g];if(d)return br(i,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},o=m;aP=1}else
+m=l;return m}},n=m;aP=1}else
 var
-aB=az}else
+aA=az}else
 var
-aB=c;if(!aP)return aB}if(aO)return 0;break;default:return 0}if(A){var
-L=Z(J);if(!L)return L;var
-be=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=bk(function(b,a){return y(bh(d,N(b[2][1])),a)},d,c);return G(d,aA(aA(a[1][2][1],e),b))},a)},aj=be,ai=[0,[0,0,L[1]],0]}else{var
-I=jU(s,Z,o);if(!I)return I;var
+aA=b;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
+L=Y(J);if(!L)return L;var
+bf=function(b,f,a){return o(function(a){var
+b=f[2],c=a[2],e=aV(function(b,a){return z(bj(d,M(b[2][1])),a)},d,c);return G(d,aC(aC(a[1][2][1],e),b))},a)},aj=bf,ai=[0,[0,0,L[1]],0]}else{var
+I=j0(t,Y,n);if(!I)return I;var
 aj=p,ai=I[1]}var
-a3=bp(k);return n(function(b){var
+a4=bp(i);return o(function(b){var
 c=e(function(c){function
 g(a){return aS(b,a[1])}var
-h=0,j=ag(C);function
+h=0,j=ag(B);function
 d(h,g,b,c){if(b){var
-i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
-c=w(a,b,l);return[0,e(function(c){return w(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return Cp(aj,b,aS(b,aY),c)},a3)}return ae}function
-fj(b,a){if(a){var
+i=function(a){return aS(h,s(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
+c=x(a,b,l);return[0,e(function(c){return x(a,b,c)},k),c]},n),m)}return b}var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return C4(aj,b,aS(b,aZ),c)},a4)}return ae}function
+fr(b,a){if(a){var
 c=a[2];if(b){var
-e=fj(b[1],c);return[0,a[1],e]}var
+e=fr(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-jW(m,l,q,S,p,k,$,z,b,R,Q){if(R){var
-r=jQ(m,l,k,b),h=R,g=Q;for(;;){if(h){var
+j2(m,l,q,T,p,i,$,z,b,S,Q){if(S){var
+r=g1(m,l,i,b),h=S,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
-v=i(z,b);if(v)var
-_=v[1],W=bp(j(b)),x=n(function(b){return function(a){return X(aS(a,b)[2],d)}}(_),W);else
+v=k(z,b);if(v)var
+_=v[1],X=bp(j(b)),x=o(function(b){return function(a){return V(aS(a,b)[2],d)}}(_),X);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
-N=t(w,g,0);if(N){var
-y=T($,w);if(y){var
-o=y[1],A=0;if(typeof
+N=s(w,g,0);if(N){var
+y=R($,w);if(y){var
+n=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=i(z,b),U=0;if(s){var
+C=a[2],t=k(z,b),U=0;if(t){var
 D=G(d,C);if(D){var
-Y=a[1],c=jT(m,l,q,S,p,k,r,b,[0,jy(C,a[3],s[1])],o,Y);U=1}else
+Y=a[1],c=jZ(m,l,q,T,p,i,r,b,[0,jG(C,a[3],t[1])],n,Y);U=1}else
 var
 E=D}else
 var
-E=s;if(!U)var
+E=t;if(!U)var
 c=E;break;case
 10:var
 F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-I=f[2],u=i(z,b),V=0;if(u){var
+I=f[2],u=k(z,b),W=0;if(u){var
 J=G(d,I);if(J){var
-Z=f[1],c=jV(m,l,q,p,k,r,b,[0,jy(I,f[3],u[1])],o,Z,H,F);B=1;V=1}else
+Z=f[1],c=j1(m,l,q,p,i,r,b,[0,jG(I,f[3],u[1])],n,Z,H,F);B=1;W=1}else
 var
 K=J}else
 var
-K=u;if(!V){var
+K=u;if(!W){var
 c=K;B=1}}if(!B)var
-c=jV(m,l,q,p,k,r,b,0,o,f,H,F);break;default:A=1}if(A)var
-c=jT(m,l,q,S,p,k,r,b,0,o,a);if(c){var
-h=M,g=fj(w,g);continue}var
+c=j1(m,l,q,p,i,r,b,0,n,f,H,F);break;default:A=1}if(A)var
+c=jZ(m,l,q,T,p,i,r,b,0,n,a);if(c){var
+h=M,g=fr(w,g);continue}var
 O=c}else
 var
 O=y;var
 P=O}else
 var
 P=N;return P}return[0,g]}}return[0,Q]}function
-fk(j,i,h,g,f,e,d,c,u,t,s){var
+fs(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=jW(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ad,l[1]):l}var
-m=jW(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=d5(a[2],b),q=fk(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
-b=p[2],k=o,a=a[4];continue}var
+l=j2(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
+m=j2(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=d9(a[2],b),q=fs(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-gV(a){return e(function(a){return 1},a)}function
-dj(a,d,b,c){function
+g4(a){return e(function(a){return 1},a)}function
+dm(a,d,b,c){function
 f(d,c){var
-f=aK(a[1],b[1]);return e(function(a){var
-b=o(c,a[2]);return F(o(d,a[1]),b)},f)}if(aM(a[2],b[2])){var
+f=aJ(a[1],b[1]);return e(function(a){var
+b=q(c,a[2]);return F(q(d,a[1]),b)},f)}if(aF(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=o(a[2],b[2]),i=o(c,a[2]);return[0,f(o(d,b[2]),i),h]}function
-jX(a){var
-c=l(b);return[0,e(function(a){return l(d)},a),c]}function
-aN(a,k){var
+h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
+j3(a){var
+b=l(c);return[0,e(function(a){return l(d)},a),b]}function
+aL(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-v=f[1];if(ar(function(a){return u(v,a)},a)){var
-C=l(b);return[0,e(function(a){var
-c=u(a,v)?b:d;return l(c)},a),C]}return jX(a);case
+v=f[1];if(ao(function(a){return u(v,a)},a)){var
+C=l(c);return[0,e(function(a){var
+b=u(a,v)?c:d;return l(b)},a),C]}return j3(a);case
 3:var
-D=l(b),E=aN(a,f[2]),F=l(b);return dj(aN(a,f[1]),F,E,D);case
+D=l(c),E=aL(a,f[2]),F=l(c);return dm(aL(a,f[1]),F,E,D);case
 4:var
-G=l(N(b)),H=aN(a,f[2]),I=l(b);return dj(aN(a,f[1]),I,H,G);case
+G=l(M(c)),H=aL(a,f[2]),I=l(c);return dm(aL(a,f[1]),I,H,G);case
 5:var
-w=aN(a,f[1]),J=w[2];return[0,e(bl,w[1]),J];case
+w=aL(a,f[1]),J=w[2];return[0,e(bm,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aN(a,x);return dj(aN(a,y),x,K,y);case
+x=f[2],y=f[1],K=aL(a,x);return dm(aL(a,y),x,K,y);case
 7:var
-z=f[2],L=bl(k),M=aN(a,z),O=l(b),i=dj(aN(a,f[1]),O,M,L),P=i[1];if(n(function(a){return aR(d,a)},P))return i;var
-Q=o(i[2],z);return[0,i[1],Q];case
+z=f[2],L=bm(k),N=aL(a,z),O=l(c),i=dm(aL(a,f[1]),O,N,L),P=i[1];if(o(function(a){return aR(d,a)},P))return i;var
+Q=q(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aN(a,A),R=B[2],S=B[1],T=o(l(c(2,b)),A);return[0,e(function(a){return o(T,a)},S),R];case
+A=f[1],B=aL(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
 9:var
-j=aN(a,f[1]),U=j[1];if(n(function(a){return aR(d,a)},U)){var
-V=l(b);return[0,j[1],V]}var
-W=o(l(c(2,b)),k),X=o(j[2],W);return[0,j[1],X];case
+j=aL(a,f[1]),U=j[1];if(o(function(a){return aR(d,a)},U)){var
+V=l(c);return[0,j[1],V]}var
+W=q(l(b(2,c)),k),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],p=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=s(g,q),Z=aN(a,g),_=s(h,p),$=dj(aN(a,h),_,Z,Y),aa=l(N(b)),ab=aN(a,m),r=dj($,l(c(2,b)),ab,aa),ac=r[1],ad=f[1]?p:bl(q),t=e(function(a){return o(ad,a)},ac);if(n(function(a){return aR(d,a)},t))return[0,t,r[2]];var
-ae=o(h,q),af=s(o(g,p),ae),ag=o(l(c(2,b)),af);return[0,t,o(r[2],ag)];default:return jX(a)}}function
-bJ(n,r){var
+m=f[4],g=f[3],h=f[2],n=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=t(g,p),Z=aL(a,g),_=t(h,n),$=dm(aL(a,h),_,Z,Y),aa=l(M(c)),ab=aL(a,m),r=dm($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?n:bm(p),s=e(function(a){return q(ad,a)},ac);if(o(function(a){return aR(d,a)},s))return[0,s,r[2]];var
+ae=q(h,p),af=t(q(g,n),ae),ag=q(l(b(2,c)),af);return[0,s,q(r[2],ag)];default:return j3(a)}}function
+co(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],c=f[1];if(G(i,b))if(0===e[0]){var
-j=e[2],o=e[1];if(G(j,b)){var
-k=Y(c,o),m=k?dZ(c):k;if(m)var
-p=Y(n[2],d),g=p||Y(c,d);else
+i=f[2],b=f[1];if(G(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(G(j,c)){var
+k=Z(b,o),m=k?d3(b):k;if(m)var
+p=Z(n[2],d),g=p||Z(b,d);else
 var
 g=m;var
-q=g?[0,c]:g,a=q}else
+q=g?[0,b]:g,a=q}else
 var
-a=Y(aU(j,aD(2))[2],d)?0:0}else
+a=Z(aU(j,aE(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=Y(aU(i,aD(2))[2],d)?0:0}else
+a=Z(aU(i,aE(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-br(b,a){if(a)var
-d=br([0,b],a[2]),c=[0,bJ(a[1],b),d];else
+b1(b,a){if(a)var
+d=b1([0,b],a[2]),c=[0,co(a[1],b),d];else
 var
 c=a;return c}function
-aF(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fl(b,d,a){switch(a[0]){case
+aM(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+ft(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aF(c[3],b),g),i=f(aF(c[2],b),h);return f(aF(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aM(c[3],b),g),i=f(aM(c[2],b),h);return f(aM(c[1],d),i);case
 1:var
-e=a[3],j=e?aF(e[1],d):e,k=f(aF(a[2],b),j);return f(aF(a[1],b),k);default:return aF(a[1],d)}}function
-$(b,a){var
-c=l(d),e=t(L(pP,a),b,c),f=l(d),g=t(L(pQ,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-jY(b,a){return as(s,as(F,cj,a),b)}function
-fm(c,b,a){if(a){var
-e=a[2],g=fm(c,cb(b),e),h=a[1];return f(fl(c,bD(d,b),h),g)}return a}function
-gW(f,e,c,i){if(c){var
-b=c[1],v=L(i,j(fl(f,bD(d,e),b))),w=c[2],x=gW(f,cb(e),w,v),a=br(i,fl(f,bD(d,e),b));switch(b[0]){case
+e=a[3],j=e?aM(e[1],d):e,k=f(aM(a[2],b),j);return f(aM(a[1],b),k);default:return aM(a[1],d)}}function
+aa(b,a){var
+c=l(d),e=s(N(p7,a),b,c),f=l(d),g=s(N(p8,a),b,f);return[0,s(a,b,l(d)),g,e]}function
+j4(b,a){return ar(t,ar(F,cI,a),b)}function
+fu(c,b,a){if(a){var
+e=a[2],g=fu(c,bV(b),e),h=a[1];return f(ft(c,bE(d,b),h),g)}return a}function
+g5(f,e,c,i){if(c){var
+b=c[1],v=N(i,j(ft(f,bE(d,e),b))),w=c[2],x=g5(f,bV(e),w,v),a=b1(i,ft(f,bE(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(pR,a,l(d)),o=as(F,cj,$(a,pS)),p=cE($(a,0)),q=$(a,pT),g=jA(jY($(a,pU),q),p,o,n,m);break;case
+m=b[1][5],n=s(p9,a,l(d)),o=ar(F,cI,aa(a,p_)),p=cH(aa(a,0)),q=aa(a,p$),g=jI(j4(aa(a,qa),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cE($(a,pV))]:h,s=as(F,cj,$(a,pW)),u=$(a,pX),g=jB(jY($(a,0),u),s,r);break;default:var
-g=jC(cj,cE($(a,0)))}var
+h=b[3],r=h?[0,cH(aa(a,qb))]:h,t=ar(F,cI,aa(a,qc)),u=aa(a,qd),g=jJ(j4(aa(a,0),u),t,r);break;default:var
+g=jK(cI,cH(aa(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bs(c,a){if(typeof
+bs(b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2309,9 +2313,9 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=e9(a[2]),l=[2,[2,e9(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=dd(a[2]),l=[2,[2,dd(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
-m=a[4];return[0,[0,m,m],c];case
+m=a[4];return[0,[0,m,m],b];case
 12:var
 n=[5,a[2],a[4]];return[0,[0,n,n],d];case
 13:var
@@ -2319,100 +2323,105 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 15:break;case
 0:case
 1:var
-f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 2:case
 3:case
 14:var
-g=a[2];return[0,[0,g,g],c];default:var
+g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}var
-e=[0,d,b];return[0,[0,e,e],d]}function
-d8(b,a){var
+e=[0,d,c];return[0,[0,e,e],d]}function
+ea(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-fn(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(d8(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=d8(c,a[3]);return f(d8(c,a[2]),j)}function
-cF(b,a){if(typeof
+dn(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(ea(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=ea(b,a[3]);return f(ea(b,a[2]),j)}function
+cJ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=fn(b,a[2]);return f(fn(b,a[1]),h);case
+h=dn(b,a[2]);return f(dn(b,a[1]),h);case
 11:var
-i=d8(b,a[3]);return f(d8(b,a[2]),i);case
+i=ea(b,a[3]);return f(ea(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-jZ(c,b,a){var
-d=j(cF(c,b)),e=L(a[2],d);return[0,[0,a[1]],e]}function
-j0(k,a,g){switch(g[0]){case
+j5(c,b,a){var
+d=j(cJ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+j6(p,g,a,f){switch(f[0]){case
 0:var
-e=T(k,g[1]);if(e){var
-c=e[1],f=c[7];if(f)var
-m=f[1],h=function(b){var
-d=$(a,pY);return as(F,as(s,m,bH(b,c[1])),d)},n=bW(c),o=h(ak(t(pZ,a,l(d)),n)),p=bW(c),q=ak(t(0,a,l(d)),p),i=[0,[0,h(s(l(b),q)),o]];else
+b=R(p,f[1]);if(b){var
+e=b[1];if(e)var
+h=e[1],i=h[1],j=h[2],q=i[2],r=i[1],m=function(b){var
+c=aa(a,qe);return ar(F,ar(t,r,bq(b,q)),c)},u=m(ak(s(qf,a,l(d)),j)),v=ak(s(0,a,l(d)),j),n=[0,[0,m(t(l(c),v)),u]];else
 var
-i=f;var
-j=i}else
+n=e;var
+o=n}else
 var
-j=e;return j;case
+o=b;return o;case
 1:var
-r=$(a,p0);return[0,[0,$(a,0),r]];default:var
-u=as(F,cj,$(a,p1));return[0,[0,as(F,cj,$(a,0)),u]]}}function
-j1(g,e,j,d,c){var
-k=fn(e,c),h=br(j,f(fn(e,d),k)),a=j0(g,cw(p2,h),d);if(a)var
-b=j0(g,eX(p3,h),c),l=b?[0,[0,a[1],b[1]]]:b,i=l;else
+w=aa(a,qg);return[0,[0,aa(a,0),w]];default:var
+x=k(g,aa(a,qh));return[0,[0,k(g,aa(a,0)),x]]}}function
+j7(e,d,c,h,g){var
+a=j6(e,d,cB(qi,c),h);if(a)var
+b=j6(e,d,e5(qj,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
-i=a;return i}function
-cG(d,c,b,a){var
-e=o(c,b);return s(o(d,a),e)}function
-bt(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-j2(b,a){if(b)if(a)var
-d=b[1],e=j2(b[2],a[2]),f=o(d[2],a[1]),c=[0,[0,ci(d[1]),f],e];else
+f=a;return f}function
+j8(g,c,d,b,a){var
+h=dn(c,a),i=b1(d,f(dn(c,b),h));function
+j(a){return ar(F,cI,a)}return j7(e(function(a){var
+b=a[7];return w(function(b){var
+c=cm(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+cK(d,c,b,a){var
+e=q(c,b);return t(q(d,a),e)}function
+bt(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+j9(b,a){if(b)if(a)var
+d=b[1],e=j9(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bJ(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-j3(a){if(a){var
+j_(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=j3(a[2]);if(d)var
-g=d[1],h=ab(c,c),e=[0,[0,[0,ci(c),h],g]];else
+c=b[1],d=j_(a[2]);if(d)var
+g=d[1],h=U(c,c),e=[0,[0,[0,bJ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return p5}function
-d9(b,d,c,a){if(typeof
+f=b;return f}return ql}function
+eb(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-h=c[1],i=bJ(bs(d,a),h);return[0,e(function(a){var
-b=o(a[2],i);return[0,ci(a[1]),b]},b)];case
-9:return j3(b);case
+h=c[1],i=co(bs(d,a),h);return[0,e(function(a){var
+b=q(a[2],i);return[0,bJ(a[1]),b]},b)];case
+9:return j_(b);case
 15:var
 k=j(b),f=u(j(a[1]),k);if(f)var
-l=cF(d,a),g=[0,j2(b,br(c[2],l))];else
+l=cJ(d,a),g=[0,j9(b,b1(c[2],l))];else
 var
 g=f;return g}return 0}function
-fo(e,k,j,a){var
-P=j[1],c=bJ(bs(k,a),P),v=0;if(typeof
+fv(e,k,j,a){var
+P=j[1],b=co(bs(k,a),P),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,s(a[4],c),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,t(a[4],b),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,s(c,a[4]),0]},g=R,f=a[1];break;case
+S=function(a){return[0,t(b,a[4]),0]},g=S,f=a[1];break;case
 4:var
-S=function(b){var
-a=b[1],d=H(a[3]),e=H(a[2]),f=H(a[1]),g=b[2];return[0,s(s(s(o(H(c),g),f),e),d),0]},g=S,f=a[1];break;case
+T=function(c){var
+a=c[1],d=H(a[3]),e=H(a[2]),f=H(a[1]),g=c[2];return[0,t(t(t(q(H(b),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
-U=function(b){var
-a=b[5];if(a)var
-e=H(a[1]),f=o(H(c),e),d=[0,s(b[2],f),0];else
+V=function(c){var
+a=c[5];if(a)var
+e=H(a[1]),f=q(H(b),e),d=[0,t(c[2],f),0];else
 var
-d=a;return d},g=U,f=a[1];break;case
+d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],y=m[1],A=e[1],h=x[1],i=y[1],q=A[1],K=cG(i[1],i[2],h[1],h[2]),L=o(q[3],K),M=cG(i[1],i[3],h[1],h[3]),N=o(q[2],M),O=cG(i[2],i[3],h[2],h[3]),w=F(s(o(q[1],O),N),L),V=bW(x),W=bW(y),B=o(o(o(c,bW(A)),W),V),X=[0,bl(F(w,B)),0],C=[0,s(w,B),X]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=cK(i[1],i[2],h[1],h[2]),L=q(p[3],K),M=cK(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cK(i[2],i[3],h[2],h[3]),w=F(t(q(p[1],O),N),L),W=cm(x),X=cm(z),B=q(q(q(b,cm(A)),X),W),Y=[0,bm(F(w,B)),0],C=[0,t(w,B),Y]}else
 var
 C=n;var
 D=C}else
@@ -2422,52 +2431,54 @@ E=D}else
 var
 E=e;return E;case
 10:var
-u=j1(e,k,j[2],a[1],a[2]);if(u){var
-G=u[1],I=G[2],J=G[1];return z(ci,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return u;case
+u=j8(e,k,j[2],a[1],a[2]);if(u){var
+G=u[1],I=G[2],J=G[1];return y(bJ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return u;case
 11:var
-Y=function(d){var
+Z=function(d){var
 e=d[7];if(e)var
-n=cF(k,a),f=br(j[2],n),h=$(f,p4),b=as(s,$(f,0),h),i=H(c),l=H(bW(d)),m=ak(H(ab(b,d[1])),l),g=[0,s(s(ab(b,b),m),i),0];else
+n=cJ(k,a),f=b1(j[2],n),h=aa(f,qk),c=ar(t,aa(f,0),h),i=H(b),l=H(cm(d)),m=ak(H(U(c,d[1])),l),g=[0,t(t(U(c,c),m),i),0];else
 var
-g=e;return g},g=Y,f=a[1];break;case
+g=e;return g},g=Z,f=a[1];break;case
 12:var
-Z=function(e){var
-q=l(d),r=cF(k,a),u=t(0,br(j[2],r),q),f=ak(u,bW(e)),g=e[5];if(g){var
-m=aE(e[2]),h=ak(g[1],m),n=o(h,F(c,o(f,H(h))));return[0,s(l(b),n),0]}var
-i=e[7],p=i?[0,s(s(l(b),c),f),0]:i;return p},g=Z,f=a[1];break;case
+_=function(e){var
+p=l(d),r=cJ(k,a),u=s(0,b1(j[2],r),p),f=ak(u,cm(e)),g=e[5];if(g){var
+m=ay(e[2]),h=ak(g[1],m),n=q(h,F(b,q(f,H(h))));return[0,t(l(c),n),0]}var
+i=e[7],o=i?[0,t(t(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=d9(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
-p=T(e,f);return p?g(p[1]):p}function
-gX(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=gX(d,b,jZ(b,e,c),g);return f(fo(d,b,c,e),h)}return a}var
-j4=[0,d,b],j5=[0,[0,j4,j4],d];function
-gY(a){return ad(bV(a[1][1],a[1][2]))}function
-j6(a){var
-b=aV(0,j(a));return bE(function(b){return gY(t(b,a,j5))},b)}function
-j7(a,g){var
-h=g[4],b=aN(j6(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aK(j6(a),f);return bE(function(a){return ad(aR(d,a[2]))},i)}function
-j8(f,J,l,I,m,k,o,s){if(s){var
-a=s[1],aK=s[2],aL=j8(f,J,l,I,m,k,jZ(k,a,o),aK);if(typeof
+r=eb(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
+o=R(e,f);return o?g(o[1]):o}function
+g6(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=g6(d,b,j5(b,e,c),g);return f(fv(d,b,c,e),h)}return a}var
+j$=[0,d,c],ka=[0,[0,j$,j$],d];function
+g7(a){return ac(bZ(a[1][1],a[1][2]))}function
+kb(a){var
+b=aW(0,j(a));return bF(function(b){return g7(s(b,a,ka))},b)}function
+kc(a,g){var
+h=g[4],b=aL(kb(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aJ(kb(a),f);return bF(function(a){return ac(aR(d,a[2]))},i)}function
+kd(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+ke(f,J,l,I,m,i,n,t){if(t){var
+a=t[1],aK=t[2],aL=ke(f,J,l,I,m,i,j5(i,a,n),aK);if(typeof
 a==="number")if(0===a)var
-h=[0,[0,C]];else
+h=[0,[0,B]];else
 var
-ar=J[2],as=J[1],at=d4(m),h=[0,[8,i(ap(l),at),as,ar]];else
+ar=J[2],as=J[1],at=d8(m),h=[0,[8,k(aq(l),at),as,ar]];else
 switch(a[0]){case
 0:var
-au=ah(f,bs(k,a)),h=x(function(a){return[0,S(f,a)]},au);break;case
+au=ah(f,bs(i,a)),h=w(function(a){return[0,W(f,a)]},au);break;case
 1:var
-av=ah(f,bs(k,a)),h=x(function(a){return[1,S(f,a)]},av);break;case
+av=ah(f,bs(i,a)),h=w(function(a){return[1,W(f,a)]},av);break;case
 5:var
-ax=ah(f,bs(k,a)),h=x(function(a){return[2,S(f,a)]},ax);break;case
+ax=ah(f,bs(i,a)),h=w(function(a){return[2,W(f,a)]},ax);break;case
 8:var
-ay=d9(m,k,o,a),h=x(function(a){var
-c=_(f,b);return[4,i(ap(l),a),c]},ay);break;case
+ay=eb(m,i,n,a),h=w(function(a){var
+b=_(f,c);return[4,k(aq(l),a),b]},ay);break;case
 9:var
-y=d9(m,k,o,a);if(y){var
-z=ah(f,bs(k,a));if(z)var
-az=S(f,z[1]),aB=y[1],O=[0,[4,i(ap(l),aB),az]];else
+y=eb(m,i,n,a);if(y){var
+z=ah(f,bs(i,a));if(z)var
+az=W(f,z[1]),aA=y[1],O=[0,[4,k(aq(l),aA),az]];else
 var
 O=z;var
 P=O}else
@@ -2475,43 +2486,42 @@ var
 P=y;var
 h=P;break;case
 10:var
-A=j1(m,k,o[2],a[1],a[2]);if(A){var
-Q=A[1],R=Q[2],U=Q[1],B=ah(f,bs(k,a));if(B){var
-V=B[1],W=G(d,V[1]);if(W)var
-q=function(a){var
-b=i(l,a[3]),c=i(l,a[2]);return[0,i(l,a[1]),c,b]},aC=q(R[2]),aD=q(R[1]),aE=q(U[2]),X=[0,[6,q(U[1]),aE,aD,aC,V]];else
+A=j8(m,i,n[2],a[1],a[2]);if(A){var
+Q=A[1],S=Q[2],T=Q[1],C=ah(f,bs(i,a));if(C){var
+U=C[1],V=G(d,U[1]);if(V)var
+q=function(a){return kd(l,a)},aB=q(S[2]),aD=q(S[1]),aE=q(T[2]),X=[0,[6,q(T[1]),aE,aD,aB,U]];else
 var
-X=W;var
+X=V;var
 Y=X}else
 var
-Y=B;var
+Y=C;var
 Z=Y}else
 var
 Z=A;var
 h=Z;break;case
 12:var
-r=fo(m,k,o,a),v=0;if(r)if(r[2])var
+r=fv(m,i,n,a),v=0;if(r)if(r[2])var
 h=0;else{var
 $=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
-D=[0,[3,i(l,r[1])]];v=1}else{var
+D=[0,[3,k(l,r[1])]];v=1}else{var
 D=aa;v=1}}else{var
 D=r;v=1}if(v)var
 h=D;break;case
 13:var
-ab=a[1],ac=T(m,ab),K=0;if(ac){var
+ab=a[1],ac=R(m,ab),K=0;if(ac){var
 ad=g(f,1,a[2]),ae=ad?g(f,1,a[3]):ad;if(ae)var
-aF=ah(f,bs(k,a)),h=x(function(a){return[7,ab,S(f,a)]},aF);else{var
+aF=ah(f,bs(i,a)),h=w(function(a){return[7,ab,W(f,a)]},aF);else{var
 af=ae;K=1}}else{var
 af=ac;K=1}if(K)var
 h=af;break;case
 14:var
-E=a[2],ag=a[1],ai=u(j(m),p6),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
-F=ah(f,bs(k,a));if(F)var
-H=aj(e(function(n){var
+E=a[2],ag=a[1],aj=u(j(m),qm),ak=aj?g(f,0,ag):aj,al=ak?g(f,1,E):ak;if(al){var
+F=ah(f,bs(i,a));if(F)var
+H=ai(e(function(n){var
 h=[5,ag,E],a=ah(f,[0,[0,h,h],d]);if(a){var
-o=j7(I,n),g=aj(e(function(e){var
-a=t(e[1],I,j5),g=aA(a[2],k),h=[4,[0,c(2,b),b],E],d=[5,[3,a[1][2],a[1][1]],h],j=ah(f,[0,[0,d,d],g]);return x(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
-p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
+o=kc(I,n),g=ai(e(function(e){var
+a=s(e[1],I,ka),g=aC(a[2],i),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=ah(f,[0,[0,d,d],g]);return w(function(a){return[0,a,k(l,e[2])]},j)},o));if(g)var
+p=[0,a[1],g[1]],j=[0,[0,k(l,n[4]),p]];else
 var
 j=g;var
 m=j}else
@@ -2524,35 +2534,35 @@ var
 an=al;var
 h=an;break;case
 15:var
-aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=d9(m,k,o,a),h=x(function(a){var
-c=_(f,b);return[4,i(ap(l),a),c]},aJ);else
+aH=[0,a[2],a[1]],aI=1,ao=o(function(a){return g(f,aI,a)},aH);if(ao)var
+aJ=eb(m,i,n,a),h=w(function(a){var
+b=_(f,c);return[4,k(aq(l),a),b]},aJ);else
 var
 h=ao;break;default:var
-p=fo(m,k,o,a),L=0;if(p){var
-w=p[2],M=p[1];if(w)if(w[2])var
+p=fv(m,i,n,a),L=0;if(p){var
+x=p[2],M=p[1];if(x)if(x[2])var
 h=0;else
 var
-aw=i(l,w[1]),h=[0,[5,i(l,M),aw]];else{var
-N=[0,[3,i(l,M)]];L=1}}else{var
+aw=k(l,x[1]),h=[0,[5,k(l,M),aw]];else{var
+N=[0,[3,k(l,M)]];L=1}}else{var
 N=p;L=1}if(L)var
 h=N}var
-aq=[0,h,aL]}else
+ap=[0,h,aL]}else
 var
-aq=s;return aq}function
-p7(a){var
+ap=t;return ap}function
+qn(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dk(a){if(0===a[0])return a[1];var
+dp(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-j9(a,c,g,b){if(0===c[0])return 0;if(b){var
+kf(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cg(a,g,c[1]);if(i){var
-j=cg(a,g,c[2]);if(j){var
-k=cg(a,g,c[3]);if(k)var
-t=i[1],u=bI(f),l=K([0,bI(f),u],t),v=j[1],x=bI(e),m=K([0,bI(e),x],v),y=df(e),z=[0,df(e),y],A=[0,w(a,af(B(m,m)),z),0],D=df(f),E=[0,df(f),D],F=[0,w(a,af(B(l,l)),E),A],G=S(a,m),H=S(a,l),n=[0,[0,K(K(S(a,k[1]),H),G),C,F]];else
+e=d[1],f=b[1],i=cj(a,g,c[1]);if(i){var
+j=cj(a,g,c[2]);if(j){var
+k=cj(a,g,c[3]);if(k)var
+t=i[1],u=bK(f),l=K([0,bK(f),u],t),v=j[1],w=bK(e),m=K([0,bK(e),w],v),y=di(e),z=[0,di(e),y],A=[0,x(a,af(E(m,m)),z),0],C=di(f),D=[0,di(f),C],F=[0,x(a,af(E(l,l)),D),A],G=W(a,m),H=W(a,l),n=[0,[0,K(K(W(a,k[1]),H),G),B,F]];else
 var
 n=k;var
 o=n}else
@@ -2570,14 +2580,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-gZ(a,p,o){var
-q=aF(p,o),b=e(function(b){return ah(a,b)},q);if(b){var
+fw(a,p,o){var
+q=aM(p,o),b=e(function(b){return ah(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=S(a,i[1]),s=S(a,h[1]);return X(d,B(B(S(a,g[1]),s),r)[1])}var
+r=W(a,i[1]),s=W(a,h[1]);return V(d,E(E(W(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2593,157 +2603,157 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ac(c,b,a){var
+ad(c,b,a){var
 d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-aq(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+as(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-av(a){return aq([5,[0,b,b],[6,O(a,a)]],a)}function
-cH(c,b,a){var
-d=a9(c,b[1],a);return d?a9(c,a,b[2]):d}function
-aY(c,b,a){var
-d=cH(c,b[1],a[1]),e=d?cH(c,b[2],a[2]):d;return e?cH(c,b[3],a[3]):e}function
-j_(b,c,a){switch(c[0]){case
+av(a){return as([5,[0,c,c],[6,O(a,a)]],a)}function
+cL(c,b,a){var
+d=a$(c,b[1],a);return d?a$(c,a,b[2]):d}function
+aZ(c,b,a){var
+d=cL(c,b[1],a[1]),e=d?cL(c,b[2],a[2]):d;return e?cL(c,b[3],a[3]):e}function
+kg(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aY(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?aY(b,d[2],a[2]):l,n=m?aY(b,d[3],a[3]):m,o=n?cH(b,d[4],j):n,p=o?g(b,1,j):o;return p?b$(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=aZ(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?aZ(b,d[2],a[2]):l,n=m?aZ(b,d[3],a[3]):m,o=n?cL(b,d[4],j):n,p=o?g(b,1,j):o;return p?cb(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=aY(b,c[1],a[1]),s=r?aY(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=aY(b,q[1],h);if(t)return g(b,1,O(h,h));var
+e=a[3],r=aZ(b,c[1],a[1]),s=r?aZ(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=aZ(b,q[1],h);if(t)return g(b,1,O(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=aY(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
-d_(c,a,b){if(0===a[0])return aY(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cH(c,a[4],b[3]):i}function
-j$(g,f,i,h){var
+i=a[1],w=aZ(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
+ec(c,a,b){if(0===a[0])return aZ(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cL(c,a[4],b[3]):i}function
+kh(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=j_(g,b[1],a[1]);if(d){var
+d=kg(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?d_(g,f[2],h):c}}function
-a7(c,b,a){var
-d=ac(function(b,a){return[2,b,a]},a,b);return ac(function(b,a){return[3,b,a]},d,c)}function
-d$(a,e,d,c){var
-b=a7(e,d,c),f=av(a),g=aq(O(av(a),b),f);return ac(function(b,a){return[3,b,a]},b,g)}function
-cI(f,e,d,a,c){var
-b=d$(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cJ(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-cK(a,c){switch(a[0]){case
+c=a?0:1;return c?ec(g,f[2],h):c}}function
+a9(c,b,a){var
+d=ad(function(b,a){return[2,b,a]},a,b);return ad(function(b,a){return[3,b,a]},d,c)}function
+ed(a,e,d,c){var
+b=a9(e,d,c),f=av(a),g=as(O(av(a),b),f);return ad(function(b,a){return[3,b,a]},b,g)}function
+cM(f,e,d,a,c){var
+b=ed(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
+cN(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cO(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=d$(d,f,e,c),h=cI(d,f,e,a[4],c),i=aq([5,[0,b,b],cJ(a[5],h)],g),j=av(d);return ac(function(b,a){return[2,b,a]},j,i);case
-1:return av(a7(a[1],a[2],c));default:return av(a[1])}}function
-ea(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ed(d,f,e,b),h=cM(d,f,e,a[4],b),i=as([5,[0,c,c],cN(a[5],h)],g),j=av(d);return ad(function(b,a){return[2,b,a]},j,i);case
+1:return av(a9(a[1],a[2],b));default:return av(a[1])}}function
+ee(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cI(c,e,d,a[4],b),h=aq(cJ(a[5],g),f),i=d$(c,e,d,b);return ac(function(b,a){return[2,b,a]},i,h);case
-1:return a7(a[1],a[2],b);default:return av(a[1])}}function
-g0(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=av(c),g=cM(c,e,d,a[4],b),h=as(cN(a[5],g),f),i=ed(c,e,d,b);return ad(function(b,a){return[2,b,a]},i,h);case
+1:return a9(a[1],a[2],b);default:return av(a[1])}}function
+g8(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cI(e,d,c,a[4],b),i=cJ(a[5],h),j=a7(d,c,b);return[3,O(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cM(e,d,c,a[4],b),i=cN(a[5],h),j=a9(d,c,b);return[3,O(av(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a7(g,f,b);return[6,O(a7(g,f,b),k)];default:return O(av(a[1]),b)}}function
-ka(a,b){switch(a[0]){case
-0:return[0,cI(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=a9(g,f,b);return[6,O(a9(g,f,b),k)];default:return O(av(a[1]),b)}}function
+ki(a,b){switch(a[0]){case
+0:return[0,cM(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a7(d,c,b);return[0,O(a7(d,c,b),e)];default:return 0}}function
-eb(e,c,a){var
-f=[0,d,b];return bk(function(b,d){var
-e=O(cK(b,c),a);return[2,[4,O(cK(b,c),a),e],d]},f,e)}function
-kb(a){var
-c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-g1(a,c){switch(a[0]){case
+c=a[2],d=a[1],e=a9(d,c,b);return[0,O(a9(d,c,b),e)];default:return 0}}function
+ef(e,b,a){var
+f=[0,d,c];return aV(function(c,d){var
+e=O(cO(c,b),a);return[2,[4,O(cO(c,b),a),e],d]},f,e)}function
+kj(a){var
+b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
+g9(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a7(e,d,c);return[6,O(a7(e,d,c),f)];default:return[0,b,b]}}function
-kc(d,i){if(d){var
+d=a[2],e=a[1],f=a9(e,d,b);return[6,O(a9(e,d,b),f)];default:return[0,c,c]}}function
+kk(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a7(a[1],a[2],i),k=av(f),l=aq(O(av(f),g),k),h=[0,ac(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a9(a[1],a[2],i),k=av(f),l=as(O(av(f),g),k),h=[0,ad(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kc(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kk(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return p8}function
-cL(a){return[0,a[1],a[2],a[3]]}function
-kd(a,b){switch(a[0]){case
+j=b;return j}return qo}function
+cP(a){return[0,a[1],a[2],a[3]]}function
+kl(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cI(d,g,c,f,b),k=aq(cJ(a[5],j),i),l=d$(d,g,c,b),m=ac(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cM(d,g,c,f,b),k=as(cN(a[5],j),i),l=ed(d,g,c,b),m=ad(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a7(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-ke(l,c,a){switch(a[0]){case
+h=a[2],e=a9(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+km(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=T(l,a[1]);if(d){var
-e=kd(d[1],c);if(e)var
+m=a[5],d=R(l,a[1]);if(d){var
+e=kl(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cL(m),c=aq(a,n),d=ac(function(b,a){return[3,b,a]},o,c);return ac(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
+b=cP(m),c=as(a,n),d=ad(function(b,a){return[3,b,a]},o,c);return ad(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cL(a[3]);return[0,[0,cL(a[2]),q]];default:var
-r=cL(a[3]),s=ac(function(b,a){return[2,b,a]},c,r),t=cL(a[2]);return[0,[0,ac(function(b,a){return[2,b,a]},c,t),s]]}}function
-kf(d,a,c,b){var
-e=aq(a,b),f=aq([3,d,a],c);return ac(function(b,a){return[2,b,a]},f,e)}function
-kg(f,h,c,e,q,a){function
-F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],O(e,e)]}var
+q=cP(a[3]);return[0,[0,cP(a[2]),q]];default:var
+r=cP(a[3]),s=ad(function(b,a){return[2,b,a]},b,r),t=cP(a[2]);return[0,[0,ad(function(b,a){return[2,b,a]},b,t),s]]}}function
+kn(d,a,c,b){var
+e=as(a,b),f=as([3,d,a],c);return ad(function(b,a){return[2,b,a]},f,e)}function
+ko(f,h,b,e,q,a){function
+F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],O(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=eb(h,c,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=ef(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,eb(h,c,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,ef(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,g0(a,c)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,g8(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,g0(a,c),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,g8(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],aw=function(a){var
-b=cK(a,c);return[3,[4,[4,H,H],O(cK(a,c),b)],[4,G,G]]},s=aw,r=a[1];break;case
+c=cO(a,b);return[3,[4,[4,H,H],O(cO(a,b),c)],[4,G,G]]},s=aw,r=a[1];break;case
 5:var
-I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,eb(h,c,q),ax]],az=O(q,q);return g(f,1,[3,[4,eb(h,c,e),az],ay]);case
+I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,ef(h,b,q),ax]],az=O(q,q);return g(f,1,[3,[4,ef(h,b,e),az],ay]);case
 6:var
-J=a[2],u=T(h,a[1]);if(u){var
+J=a[2],u=R(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cI(i[1],i[2],i[3],v,c),K=cJ(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=cM(i[1],i[2],i[3],v,b),K=cN(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],P=h[1],aB=g1(M,c),aC=g1(N,c),aD=g1(P,c),Q=[4,[4,[4,a[1],aD],aC],aB],j=ea(M,c),k=ea(N,c),aE=ea(P,c),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
-S=R}else
+M=o[1],N=n[1],P=h[1],aB=g9(M,b),aC=g9(N,b),aD=g9(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ee(M,b),k=ee(N,b),aE=ee(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+T=S}else
 var
-S=o;var
-U=S}else
+T=o;var
+U=T}else
 var
 U=n;var
 V=U}else
 var
 V=h;return V;case
 8:var
-aF=eb(h,c,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=ef(h,b,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kc(h,c);if(w){var
-aH=w[1],an=[0,d,b],ao=bk(function(a,b){var
+W=a[1],w=kk(h,b);if(w){var
+aH=w[1],an=[0,d,c],ao=aV(function(a,b){var
 c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],O(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=ke(h,c,Y);if(x){var
-Z=x[1],y=ke(h,c,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=kf(l,A,_[1],_[2]),aJ=kf(l,z,Z[1],Z[2]),$=ac(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=e9(X),aa=[4,l,[2,[2,e9(Y),aL],aK]],ab=g(f,1,l),ad=ab?g(f,0,z):ab,ae=ad?g(f,0,[3,l,z]):ad,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
+X=a[2],Y=a[1],x=km(h,b,Y);if(x){var
+Z=x[1],y=km(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=kn(l,A,_[1],_[2]),aJ=kn(l,z,Z[1],Z[2]),$=ad(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dd(X),aa=[4,l,[2,[2,dd(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ae=ac?g(f,0,[3,l,z]):ac,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2751,9 +2761,9 @@ ai=ah}else
 var
 ai=x;return ai;case
 11:var
-aj=a[4],B=T(h,a[1]);if(B){var
-C=kd(B[1],c);if(C){var
-m=C[1][1][2],aM=cL(a[3]),aN=cL(a[2]),p=ac(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
+aj=a[4],B=R(h,a[1]);if(B){var
+C=kl(B[1],b);if(C){var
+m=C[1][1][2],aM=cP(a[3]),aN=cP(a[2]),p=ad(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
 aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
 al=ak}else
 var
@@ -2761,29 +2771,29 @@ al=C;var
 am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
-t=T(h,r);return t?g(f,1,s(t[1])):t}function
-a_(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kh(a){switch(a[0]){case
+t=R(h,r);return t?g(f,1,s(t[1])):t}function
+ba(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+kp(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=a_(b[3]),f=a_(b[2]);return[0,a_(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=ba(b[3]),f=ba(b[2]);return[0,ba(b[1]),f,e,d,c];case
 1:var
-g=x(a_,a[3]),h=a_(a[2]);return[1,a_(a[1]),h,g];default:return[2,a_(a[1])]}}function
-g2(a){return 0===a[0]?a_(a[1]):[0,a[1],a[2],a[4][1]]}function
-ki(b,a){var
-c=g2(a[2]);return j$(b,a,e(kh,a[1]),c)}function
-kj(b,a,c){var
-d=[0,c,eX(b,a)];return f(cw(b,a),d)}function
-bY(c,a){if(c){if(a){var
-e=bY(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-kk(a){if(a){var
+g=w(ba,a[3]),h=ba(a[2]);return[1,ba(a[1]),h,g];default:return[2,ba(a[1])]}}function
+g_(a){return 0===a[0]?ba(a[1]):[0,a[1],a[2],a[4][1]]}function
+kq(b,a){var
+c=g_(a[2]);return kh(b,a,e(kp,a[1]),c)}function
+kr(b,a,c){var
+d=[0,c,e5(b,a)];return f(cB(b,a),d)}function
+b2(b,a){if(b){if(a){var
+e=b2(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+ks(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kk(a[2]);return x(function(a){return[0,c,a]},d)}return b}return p_}function
-kl(a,l,k,f){var
-b=aX(a,l);if(b){var
-c=aX(a,k);if(c){var
-d=dd(a,f);if(d){var
-e=e8(a,f);if(e)var
-m=w(a,b[1],e[1]),g=[0,K(w(a,c[1],d[1]),m)];else
+c=b[1],d=ks(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qq}function
+kt(a,l,k,f){var
+b=aY(a,l);if(b){var
+c=aY(a,k);if(c){var
+d=dg(a,f);if(d){var
+e=fe(a,f);if(e)var
+m=x(a,b[1],e[1]),g=[0,K(x(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2795,21 +2805,21 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fp(a){return a?X(d,a[1][1]):a}function
-km(a,ab,m,aD,h,f){function
-ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bY(a,a)]}var
+fx(a){return a?V(d,a[1][1]):a}function
+ku(a,ab,m,aD,h,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b2(a,a)]}var
 aE=m[1];function
-o(c){var
-a=[0,d,b];return bk(function(a,b){var
-d=bY(a,c);return[2,[4,bY(a,c),d],b]},a,aE)}var
-ad=n(function(a){return u(j(a),ab)},h);if(ad){var
+p(b){var
+a=[0,d,c];return aV(function(a,c){var
+d=b2(a,b);return[2,[4,b2(a,b),d],c]},a,aE)}var
+ad=o(function(a){return u(j(a),ab)},h);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
 0:if(h){if(h[2])return 0;var
-af=h[1],aF=o(af);return g(a,1,[3,ac(f[1],af),aF])}return h;case
+af=h[1],aF=p(af);return g(a,1,[3,ac(f[1],af),aF])}return h;case
 1:if(h){if(h[2])return 0;var
-ag=h[1],aG=ac(f[1],ag);return g(a,1,[3,o(ag),aG])}return h;case
+ag=h[1],aG=ac(f[1],ag);return g(a,1,[3,p(ag),aG])}return h;case
 2:if(h)return 0;var
 aH=f[2],aI=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
@@ -2819,26 +2829,26 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;cas
 4:if(h)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aD){var
-f=kl(a,i,h,ai);return f?X(f[1][2],d):f}return fp(kl(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
+h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
+f=kt(a,i,h,ai);return f?V(f[1][2],d):f}return fx(kt(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
 5:if(h){var
 r=h[2];if(r){if(r[2])return 0;var
-J=r[1],L=h[1],aj=f[1],aM=bY(L,L),aN=[4,[4,aj,aj],[4,o(J),aM]],aO=bY(J,J);return g(a,1,[3,[4,o(L),aO],aN])}var
+J=r[1],L=h[1],aj=f[1],aM=b2(L,L),aN=[4,[4,aj,aj],[4,p(J),aM]],aO=b2(J,J);return g(a,1,[3,[4,p(L),aO],aN])}var
 ak=r}else
 var
 ak=h;return ak;case
 6:if(h)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,bY(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,b2(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(h){if(h[2])return 0;var
-N=h[1],aR=o(N),aS=[4,f[1],aR],aT=bY(N,N);return g(a,1,[3,[4,f[2],aT],aS])}return h;case
+N=h[1],aR=p(N),aS=[4,f[1],aR],aT=b2(N,N);return g(a,1,[3,[4,f[2],aT],aS])}return h;case
 9:if(h)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aX(a,bY(e,e));if(b){var
-c=aX(a,[5,ar,as]);if(c){var
-d=jl(a,c[1]);if(d){var
-l=S(a,d[1]);return fp([0,K(b[1],l)])}var
+b=aY(a,b2(e,e));if(b){var
+c=aY(a,[5,ar,as]);if(c){var
+d=jt(a,c[1]);if(d){var
+l=W(a,d[1]);return fx([0,K(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2849,15 +2859,15 @@ k=j}else
 var
 k=h;return k},an=aU,am=f[1];k=3;break;case
 10:if(h)return 0;var
-aV=f[2],aW=function(b){var
-c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
+aW=f[2],aX=function(b){var
+c=[4,aW,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
 11:if(h)return 0;var
-aY=f[2],aZ=function(e){var
-b=dd(a,aY);if(b){var
-c=aX(a,e[3]);if(c){var
-d=aX(a,e[2]);if(d){var
-f=w(a,b[1],c[1]),g=fp([0,f]);if(g){var
-k=S(a,d[1]);return fp([0,K(S(a,f),k)])}var
+aZ=f[2],a0=function(e){var
+b=dg(a,aZ);if(b){var
+c=aY(a,e[3]);if(c){var
+d=aY(a,e[2]);if(d){var
+f=x(a,b[1],c[1]),g=fx([0,f]);if(g){var
+k=W(a,d[1]);return fx([0,K(W(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2866,49 +2876,49 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},au=aZ,at=f[1];k=2;break;case
+j=b;return j},au=a0,at=f[1];k=2;break;case
 12:if(h)return 0;var
-Q=kk(m[3]);if(Q){var
-aw=Q[1],a0=f[1],ax=c8(function(b,a){return[4,b,a[3]]},aw,a0),R=e(function(a){return a[1]},aw),p=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(R){var
-s=R[1];if(s){var
+Q=ks(m[3]);if(Q){var
+aw=Q[1],a1=f[1],ax=da(function(b,a){return[4,b,a[3]]},aw,a1),S=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
+s=S[1];if(s){var
 t=s[2];if(t){var
-v=t[2],U=t[1],V=s[1],l=R[2];if(v)if(v[2]||!l)var
-i=[0,d,b];else{var
-x=l[1];if(x){var
-y=x[2];if(y){var
+v=t[2],T=t[1],U=s[1],l=S[2];if(v)if(v[2]||!l)var
+i=[0,d,c];else{var
+w=l[1];if(w){var
+y=w[2];if(y){var
 z=y[2];if(z&&!z[2]){var
 A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-W=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=p(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,U,p(aa,_,Z,W)],i=[2,[3,[4,V,p($,_,Y,W)],aC],aB];else
+X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=w[1],aA=q(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,T,q(aa,_,Z,X)],i=[2,[3,[4,U,q($,_,Y,X)],aC],aB];else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],i=F?F[2]?[0,d,b]:l[2]?[0,d,b]:p(V,U,E[1],F[1]):[0,d,b];else
+F=E[2],i=F?F[2]?[0,d,c]:l[2]?[0,d,c]:q(U,T,E[1],F[1]):[0,d,c];else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b]}else
+i=[0,d,c]}else
 var
-i=[0,d,b];var
+i=[0,d,c];var
 ay=g(a,1,[3,ax,i]);if(ay)return g(a,1,[2,ax,i]);var
 az=ay}else
 var
@@ -2916,21 +2926,21 @@ az=Q;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=T(m[3],at);if(O){var
+O=R(m[3],at);if(O){var
 P=O[1];if(P)return au(P[1]);var
 av=P}else
 var
 av=O;return av;case
 3:var
-M=T(m[1],am);if(M){var
+M=R(m[1],am);if(M){var
 ao=M[1],ap=u(j(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=M;return aq;default:var
-I=T(m[2],G);return I?H(I[1]):I}}else
+I=R(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-kn(h,g){var
+kv(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2940,73 +2950,124 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-ko(a){if(a){var
+kw(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ko(a[2]);return x(function(a){return[0,c,a]},d)}return b}return p$}function
-qa(a){return e(function(a){return[0,a,b]},a)}function
-kp(h,f,c,n,a){if(typeof
+c=b[1],d=kw(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qr}function
+qs(a){return e(function(a){return[0,a,c]},a)}function
+kx(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
-r=c[4];return ar(function(a){return g(h,0,[3,[0,d,b],a])},r)}var
-i=ko(c[5]);return i?js(f,i[1]):i}else{if(0===a[0]){var
-j=kn(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(qa,a[2]);return km(h,f,c,o[2],t,s)}return j}var
-k=kn(a[1],n);if(k){var
+r=b[4];return ao(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
+i=kw(b[5]);return i?jA(f,i[1]):i}else{if(0===a[0]){var
+j=kv(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(qs,a[2]);return ku(h,f,b,o[2],t,s)}return j}var
+k=kv(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=T(c[1],a[2]);return m?km(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=R(b[1],a[2]);return m?ku(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-g3(a){var
-b=av(a[1]),c=aq(O(b,a[2]),b),d=a[2];return ac(function(b,a){return[3,b,a]},d,c)}function
-g4(a){return av(g3(a))}function
-kq(c){var
-a=g4(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-g5(a,b){return a7(a[3],a[4],b)}function
-g6(a,b){var
-c=g5(a,b);return O(g4(a),c)}function
-g7(a,b){var
-c=g5(a,b);return O(kq(a),c)}function
-kr(a,b){var
-c=g5(a,b);return O(av(a[1]),c)}function
-g8(b,a){var
-c=g7(b,a),d=g6(b,a);return[2,[4,d,d],[4,c,c]]}function
-g9(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=kr(a,d);return[5,[2,g8(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-ks(a,b){var
-f=a[5],c=[3,g9(a,b),f],d=kr(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fq(a,b){var
-c=ks(a,b);return cJ(a[7],c)}function
-kt(b,a){var
-c=g8(b,a),d=g7(b,a),e=[4,fq(b,a),d],f=g6(b,a);return[5,[2,[4,g9(b,a),f],e],c]}function
-ku(b,a){var
-c=g8(b,a),d=g6(b,a),e=[4,fq(b,a),d],f=g7(b,a);return[5,[3,[4,g9(b,a),f],e],c]}function
-kv(a,b){var
-c=kq(a),d=aq(ku(a,b),c),e=g4(a),f=aq(kt(a,b),e),g=ac(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return ac(function(b,a){return[2,b,a]},i,h)}function
-kw(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-kx(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-g_(a,c,b){var
-d=[4,kw(a),b],e=[2,[4,kx(a),c],d],f=[4,kx(a),b];return[0,[3,[4,kw(a),c],f],e]}function
-ky(c,a){var
-b=g_(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-ec(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fr(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:ky(d[1],a):a;case
+g$(a){var
+b=av(a[1]),c=as(O(b,a[2]),b),d=a[2];return ad(function(b,a){return[3,b,a]},d,c)}function
+ha(a){return av(g$(a))}function
+ky(c){var
+a=ha(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hb(a,b){return a9(a[3],a[4],b)}function
+hc(a,b){var
+c=hb(a,b);return O(ha(a),c)}function
+hd(a,b){var
+c=hb(a,b);return O(ky(a),c)}function
+kz(a,b){var
+c=hb(a,b);return O(av(a[1]),c)}function
+he(b,a){var
+c=hd(b,a),d=hc(b,a);return[2,[4,d,d],[4,c,c]]}function
+hf(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kz(a,d);return[5,[2,he(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kA(a,b){var
+f=a[5],c=[3,hf(a,b),f],d=kz(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fy(a,b){var
+c=kA(a,b);return cN(a[7],c)}function
+kB(b,a){var
+c=he(b,a),d=hd(b,a),e=[4,fy(b,a),d],f=hc(b,a);return[5,[2,[4,hf(b,a),f],e],c]}function
+kC(b,a){var
+c=he(b,a),d=hc(b,a),e=[4,fy(b,a),d],f=hd(b,a);return[5,[3,[4,hf(b,a),f],e],c]}function
+kD(a,b){var
+c=ky(a),d=as(kC(a,b),c),e=ha(a),f=as(kB(a,b),e),g=ad(function(b,a){return[2,b,a]},f,d),h=as(a[5],g),i=a[3];return ad(function(b,a){return[2,b,a]},i,h)}var
+p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+bL(h){var
+a=aV(function(f,e){var
+a=aY(p,f);if(a)var
+b=a[1],c=bj(c9(b[1]),c9(b[2]));else
+var
+c=d;return bj(c,e)},d,h);if(V(d,a)){var
+f=a4(a);if(0===f||!(0<f&&!G(a,c)))var
+g=d;else
+var
+b=aU(a,aE(2)),e=b[1],g=Z(b[2],d)?eZ(e):eZ(e);return aC(g,p)}return d}function
+dq(a){return[0,a[1],[0,a[2],0]]}function
+a0(a){var
+b=dq(a[3]),c=f(dq(a[2]),b);return f(dq(a[1]),c)}function
+fz(a){return fw(p,a,bL(a0(a)))}function
+kE(b,a){if(a){var
+g=kE([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=co([0,[0,d,d],c[2]],b);else
+var
+e=[0,[1,b]];var
+f=[0,e,g]}else
+var
+f=a;return f}function
+kF(c,b,a){var
+d=dd(b);return[2,[2,dd(c),d],a]}function
+hg(b,a){return b?M(a):d}function
+eg(h,b,a){if(typeof
+a!=="number")switch(a[0]){case
+4:var
+i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
+6:return[0,[0,[5,a[3],a[2]],d],0];case
+8:var
+m=hg(h,b),n=z(hg(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
+9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
+10:return[0,[0,a[2],d],0];case
+11:return[0,[2,a[2]],0];case
+12:return[0,[0,a[1],d],0];case
+13:var
+c=a[3],g=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+14:var
+k=a[2],l=a[1],o=dn(b,k),p=f(dn(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kF(l,k,a[3]),b],q];case
+2:case
+3:return[0,[0,a[2],b],0]}return 0}function
+cp(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],i=cp(g,c,b,N(e,j(eg(c,b,d))),h);return f(at(g,kE(e,eg(c,b,d)),d),i)}return a}function
+hh(b,a){switch(a[0]){case
+0:var
+d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
+1:var
+e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jt(b,c[1]):c;case
+2:return dg(b,a[1]);default:return fe(b,a[1])}}function
+kG(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kH(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hi(a,c,b){var
+d=[4,kG(a),b],e=[2,[4,kH(a),c],d],f=[4,kH(a),b];return[0,[3,[4,kG(a),c],f],e]}function
+kI(c,a){var
+b=hi(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+eh(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fA(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kI(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=g_(d[1],a[2],a[3]),m=j[1],k=g_(f[1],j[2],a[1]);return ky(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hi(d[1],a[2],a[3]),m=j[1],k=hi(f[1],j[2],a[1]);return kI(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=ec(e,a),o=aq([0,c(2,b),b],n),p=O(e,a),q=aq([4,[0,c(2,b),b],p],e),r=aq([3,[0,b,b],l],a),s=ac(function(b,a){return[2,b,a]},r,q);return aq([5,[0,b,b],[2,[0,b,b],l]],ac(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kz(c){var
-a=cC(c);return a?c9(a[1],[0,d,b]):a}function
-kA(a,n,k,j){if(kz(j)){var
-q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
-f=aX(a,k);if(f){var
-h=dd(a,[5,j,[0,c(2,b),b]]);if(h){var
-i=e8(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=w(a,f[1],h[1]),l=[0,K(i[1],p)];else
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=eh(e,a),o=as([0,b(2,c),c],n),p=O(e,a),q=as([4,[0,b(2,c),c],p],e),r=as([3,[0,c,c],l],a),s=ad(function(b,a){return[2,b,a]},r,q);return as([5,[0,c,c],[2,[0,c,c],l]],ad(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kJ(b){var
+a=ci(b);return a?db(a[1],[0,d,c]):a}function
+kK(a,n,k,j){if(kJ(j)){var
+q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
+f=aY(a,k);if(f){var
+h=dg(a,[5,j,[0,b(2,c),c]]);if(h){var
+i=fe(a,[5,j,[0,b(2,c),c]]);if(i)var
+p=x(a,f[1],h[1]),l=[0,K(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3016,25 +3077,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
-ed(b,a,c){var
-d=a9(b,a[1],a[2]),e=d?kA(b,0,c,a[1]):d;return e?kA(b,1,c,a[2]):e}function
-dl(a,d){if(kz(d))return[0,C];var
-e=dd(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(e){var
-f=e8(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d);if(f){var
-h=f[1],i=e[1],j=B(_(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),b),i),k=cc(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);return x(function(d){var
-e=w(y(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),h,d);return gF(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)},k)}var
+ei(b,a,c){var
+d=a$(b,a[1],a[2]),e=d?kK(b,0,c,a[1]):d;return e?kK(b,1,c,a[2]):e}function
+dr(a,d){if(kJ(d))return[0,B];var
+e=dg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fe(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=E(_(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
+e=x(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ee(d,a){var
-e=g(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-cM(a){return[0,[3,[0,d,b],a],a]}function
-kB(a,c,n,m){var
-h=a9(a,[0,d,b],c),i=h?ee(a,c):h;if(i){var
-e=dl(a,c);if(e){var
-f=aX(a,n);if(f){var
-g=aX(a,m);if(g){var
-o=f[1],p=g[1];return G(d,K(w(a,S(a,e[1]),p),o)[1])}var
+ej(d,a){var
+e=g(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+cQ(a){return[0,[3,[0,d,c],a],a]}function
+kL(a,b,n,m){var
+h=a$(a,[0,d,c],b),i=h?ej(a,b):h;if(i){var
+e=dr(a,b);if(e){var
+f=aY(a,n);if(f){var
+g=aY(a,m);if(g){var
+o=f[1],p=g[1];return G(d,K(x(a,W(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3044,12 +3105,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-kC(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:ed(d,c[1],a[1]):a;case
+kM(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:ei(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ed(d,c[1],a[1]),m=l?ed(d,c[2],e[1]):l;if(m)return ed(d,c[3],f[1]);var
+l=ei(d,b[1],a[1]),m=l?ei(d,b[2],e[1]):l;if(m)return ei(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3062,7 +3123,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kB(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kL(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3071,7 +3132,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kB(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return ed(d,cM(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kL(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ei(d,cQ(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3081,20 +3142,20 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-dm(a){return 1===a?qb:qc}function
-fs(d,c,b,a){var
-e=a[1],f=fr(d,c,a[2]),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
-g$(c,b,a){switch(c){case
+ds(a){return 1===a?qt:qu}function
+fB(d,c,b,a){var
+e=a[1],f=fA(d,c,a[2]),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
+hj(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-ef(b,d){var
+ek(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,L(b,c[1])]]:[0,cz(function(a){return ef(b,a)},a)]}return[0,cz(function(a){return ef(b,a)},a)]}function
-dn(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cE(function(a){return ek(b,a)},a)]}return[0,cE(function(a){return ek(b,a)},a)]}function
+dt(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ad(u(e,b));return f?ad(u(e,L(d,b))):f;case
+e=a[1],f=ac(u(e,b));return f?ac(u(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3102,31 +3163,31 @@ e=a[1],f=ad(u(e,b));return f?ad(u(e,L(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dn(d,b,a[1]);if(g){var
+g=dt(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-eg(c,b,m){var
+el(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dn(c,b,g),i=h?eg(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dt(c,b,g),i=h?el(c,b,f):h;if(i)var
 j=i;else{var
-k=eg(c,b,g);if(k)return dn(c,b,f);var
+k=el(c,b,g);if(k)return dt(c,b,f);var
 j=k}return j;case
 7:var
-l=eg(c,b,a[1]);return l?dn(c,b,a[2]):l;case
+l=el(c,b,a[1]);return l?dt(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=eg(c,b,a[1]);if(e){var
+e=el(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dn(c,b,a[1]);default:return 1}}}function
-cN(c,e){var
+9:return dt(c,b,a[1]);default:return 1}}}function
+cR(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ad(u(a[1],c));case
+0:return ac(u(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3134,32 +3195,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cN(c,a[1]);if(d){var
+d=cR(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-ha(d,b,m){var
+hk(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=ha(d,b,a[1]);if(f){var
+f=hk(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=ha(d,b,a[1]);return g?cN(b,a[2]):g;case
+g=hk(d,b,a[1]);return g?cR(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cN(b,i);if(j){var
-k=cN(b,h);if(k)var
+h=a[2],i=a[1],j=cR(b,i);if(j){var
+k=cR(b,h);if(k)var
 e=k;else{var
-l=aM(i,d);if(l){var
+l=aF(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cN(b,c)}}}function
-kD(c,e){var
+2:return 1;default:return cR(b,c)}}}function
+kN(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dS(a[1],c);case
+0:return dW(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3167,193 +3228,223 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kD(c,a[1]);if(d){var
+d=kN(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-cl(b,a){return a?i(b,a[1]):a}function
-cm(c,b,a){return cl(function(b){return cl(i(c,b),a)},b)}function
-kE(b,a){switch(a[0]){case
+hl(b,a){if(a){var
+c=a[2];if(b){var
+e=hl(b[1],c);return[0,a[1],e]}var
+d=[0,1,c]}else
+var
+d=a;return d}function
+fC(b,d){if(b){var
+e=b[2],a=b[1];if(d){var
+f=d[2];if(d[1]){switch(a[0]){case
+10:var
+c=[0,a[2],[0,a[3],[0,a[4],0]]];break;case
+5:case
+8:case
+9:var
+c=[0,a[1],0];break;case
+0:case
+1:case
+2:var
+c=0;break;default:var
+c=[0,a[1],[0,a[2],0]]}return[0,a,fC(e,aV(hl,f,c))]}return[0,qv,fC(e,f)]}var
+g=[0,a,fC(e,0)]}else
+var
+g=b;return g}function
+cq(b,a){return a?k(b,a[1]):a}function
+cr(c,b,a){return cq(function(b){return cq(k(c,b),a)},b)}function
+kO(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-kF(a){return 0===a[0]?a[1]:0}function
-bK(b,a){switch(a[0]){case
-0:return[0,i(b,a[1])];case
-1:return[1,bK(b,a[1])];default:var
-c=bK(b,a[3]),d=bK(b,a[2]);return[2,bK(b,a[1]),d,c]}}function
-aZ(b,c,a){switch(c[0]){case
-0:return bK(i(b,c[1]),a);case
+kP(a){return 0===a[0]?a[1]:0}function
+bM(b,a){switch(a[0]){case
+0:return[0,k(b,a[1])];case
+1:return[1,bM(b,a[1])];default:var
+c=bM(b,a[3]),d=bM(b,a[2]);return[2,bM(b,a[1]),d,c]}}function
+a1(b,c,a){switch(c[0]){case
+0:return bM(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bK(function(a){return at(b,a,k)},d)];case
-1:return[1,aZ(b,d,a[1])];default:var
-l=aZ(b,d,a[3]),m=aZ(b,d,a[2]);return[2,aZ(b,d,a[1]),m,l]}default:var
+j=a[1];return[1,bM(function(a){return at(b,a,j)},d)];case
+1:return[1,a1(b,d,a[1])];default:var
+l=a1(b,d,a[3]),m=a1(b,d,a[2]);return[2,a1(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return at(b,a,n)},h=function(a){return bK(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return at(b,a,n)},h=function(a){return bM(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=aZ(b,e,j),s=aZ(b,f,j);return[2,aZ(b,g,j),s,r];default:var
-t=aZ(b,e,a[3]),u=aZ(b,f,a[2]);return[2,aZ(b,g,a[1]),u,t]}}}function
-hb(c,f,a){if(a)var
+i=a[1],r=a1(b,e,i),s=a1(b,f,i);return[2,a1(b,g,i),s,r];default:var
+t=a1(b,e,a[3]),u=a1(b,f,a[2]);return[2,a1(b,g,a[1]),u,t]}}}function
+hm(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,S(c,a)];break;case
+e=[0,a,W(c,a)];break;case
 1:var
-g=w(c,a,b),e=[0,a5(B(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=hb(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=x(c,a,b),e=[0,a6(E(a,b)),g];break;default:var
+e=[0,b,W(c,b)]}return[0,[0,k(f,e)]]},h=hm(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-kG(a){if(a){var
+kQ(a){if(a){var
 b=a[1];if(b)var
-c=kG(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qf}function
-dp(a){if(a){var
-g=a[1],b=g[2],c=kG(g[1]);if(c)if(b){var
-h=b[1],e=dp(a[2]);if(e)var
-i=X(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qy}function
+du(a){if(a){var
+g=a[1],b=g[2],c=kQ(g[1]);if(c)if(b){var
+h=b[1],e=du(a[2]);if(e)var
+i=V(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qg}function
-dq(b,a){var
-c=a[3],d=x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ap(b),f),e,d]}function
-kH(e,d,c,b){if(d){var
-j=d[1],a=function(a){var
-d=dq(function(b){return kE(a,b)},b);return kH(bC(e),j,c,d)},f=a(0);if(f){var
+f=c;return f}return qz}function
+dv(b,a){var
+c=a[3],d=w(function(a){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(aq(b),f),e,d]}function
+kR(e,d,c,b){if(d){var
+i=d[1],a=function(a){var
+d=dv(function(b){return kO(a,b)},b);return kR(bD(e),i,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return i(c,dq(kF,b))}function
-kI(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return kI(m,e,l,a,dq(function(a){return kE(b,a)},d))},h=c(0,aA(b,g));if(h){var
-i=c(2,y(b,g));if(i)return c(1,b);var
+h=f;return h}return k(c,dv(kP,b))}function
+kS(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return kS(m,e,l,a,dv(function(a){return kO(b,a)},d))},h=c(0,aC(b,g));if(h){var
+i=c(2,z(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:at(e,b,dq(kF,d))}function
-dr(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a4(f,e,a)},d)}return[0,C]}function
-kJ(k,e,j,i,h,a){var
-b=dp(a[1]);if(b){var
+k=a;return k}return a?0:at(e,b,dv(kP,d))}function
+dw(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a5(f,e,a)},d)}return[0,B]}function
+kT(k,e,j,i,h,a){var
+b=du(a[1]);if(b){var
 c=a[2];if(c){var
-d=dr(a[3]);if(d){var
-l=d[1],m=aL([0,K(af(w(k,h,c[1])),l),0],e);return bq(e,fa(j,i,b[1],m))}var
+d=dw(a[3]);if(d){var
+l=d[1],m=aK([0,K(af(x(k,h,c[1])),l),0],e);return br(e,fh(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
 g=f}else
 var
 g=b;return g}function
-kK(d,h,g,c){var
-a=dp(c[1]);if(a){var
-b=dr(c[3]);if(b){var
-i=aL([0,K(C,b[1]),0],d),j=a[1];return bq(d,fa(h,g,e(function(a){return[0,a[1],C]},j),i))}var
+kU(d,h,g,c){var
+a=du(c[1]);if(a){var
+b=dw(c[3]);if(b){var
+i=aK([0,K(B,b[1]),0],d),j=a[1];return br(d,fh(h,g,e(function(a){return[0,a[1],B]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-qh(c){var
-a=c[2];if(a){var
-b=dr(c[3]);if(b)return G(d,K(a[1],b[1])[1]);var
-e=b}else
+kV(k,f,j,a){var
+b=du(a[1]);if(b){var
+c=a[2];if(c){var
+d=dw(a[3]);if(d){var
+l=d[1],m=aK([0,K(x(k,j,c[1]),l),0],f),e=gU(b[1],m);if(e)return br(f,e[1]);var
+g=e}else
 var
-e=a;return e}function
-kL(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-kM(a,c,b){var
-e=t(b,c,l(d)),f=aV(0,a);return n(function(b){return eg(a,b,e)},f)}function
-eh(a){var
-c=H(a);return F(l(b),c)}function
-ft(i,g){var
-h=eh(g),j=H(g),e=s(l(b),j),f=o(l(c(2,b)),g),a=l(d);return i?i[1]?[0,[0,e,bl(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bl(f),a,e]]:[0,[0,h,a,a],[0,a,e,bl(f)],[0,a,f,e]]}function
-hc(b,a){var
-c=ab(b[3],a),d=ab(b[2],a);return[0,ab(b[1],a),d,c]}function
-kN(b,a){function
-c(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-d(a){var
-b=ab(a,c(function(a){return a[3]})),d=ab(a,c(function(a){return a[2]}));return[0,ab(a,c(function(a){return a[1]})),d,b]}var
-e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kO(w,v){function
-a(a){return[0,[0,L(v,a)]]}switch(w[0]){case
-0:var
-x=eh(a(0));return[0,ft(qi,a(0)),x];case
-1:var
-y=eh(a(0)),z=o(eh(a(qj)),y),A=o(eh(a(qk)),z),B=ft(0,a(0)),C=kN(ft(qm,a(ql)),B);return[0,kN(ft(qo,a(qn)),C),A];default:var
-D=a(qp),E=a(qq),g=[0,a(0),E,D],G=ab(g,g),I=F(l(b),G),j=ab(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=H(a),e=o(l(c(2,b)),d);return F(s(l(b),j),e)},h=function(f,e,d,a){var
-g=at(f,o(e,d),a);return o(l(c(2,b)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(s,d,f,e),m,k],p=h(s,e,f,d),q=i(e),r=[0,h(F,d,e,f),q,p],t=h(F,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],I]}}function
-kP(a){return 1<a[0]?[0,a[1],0]:0}function
-fu(a){switch(a[0]){case
-0:return[0,a[1],0];case
-1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cM(a[1]),0];default:var
-b=[0,cM(a[2]),0];return[0,cM(a[1]),b]}}function
-ds(a){return[0,[0,a[1]],[0,a[2]]]}function
-kQ(a){switch(a[0]){case
-0:return[0,ds(a[1]),0];case
-1:var
-f=[0,ds(a[3]),0],g=[0,ds(a[2]),f];return[0,ds(a[1]),g];case
-2:var
-b=ds(cM(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cM(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ds(cM(c)),0]]]}}function
-kR(a,c){if(0===c[0])return dl(a,c[1]);var
-d=dl(a,c[1]);if(d){var
-e=dl(a,c[2]);if(e){var
-g=S(a,e[1]),h=cy(a,B(_(a,b),g)),i=d[1];return x(function(b){return w(a,i,b)},h)}var
-f=e}else
-var
-f=d;return f}function
-kS(d,c){var
-a=kR(d,c[1]);if(a)var
-b=kR(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
-var
-e=a;return e}function
-kT(f,s,e,r,q,c,a){switch(c[0]){case
-0:var
-v=c[4],o=c[3],x=c[2],y=c[1],p=0;if(typeof
-a==="number")p=1;else
-switch(a[0]){case
-0:var
-N=a[2],O=a[1],k=x,i=y,h=function(a){return kJ(f,e,O,N,o,a)},g=v;break;case
-2:var
-z=Y(o[1],d),A=z?Y(o[2],d):z;if(!A)return A;var
-Q=a[2],R=a[1],k=x,i=y,h=function(a){return kK(e,R,Q,a)},g=v;break;default:p=1}if(p)return 0;break;case
-1:var
-G=0;if(typeof
-a==="number"&&!a)var
-S=c[2],T=c[1],U=c[3],k=S,i=T,V=0,h=function(g){var
-a=dp(g[1]);if(a){var
-b=g[2];if(b){var
-c=dr(g[3]);if(c){var
-k=c[1],l=aL([0,K(w(f,U,b[1]),k),0],e),d=gM(a[1],l);if(d)return bq(e,d[1]);var
-h=d}else
+g=d;var
+h=g}else
 var
 h=c;var
 i=h}else
 var
-i=b;var
-j=i}else
+i=b;return i}function
+qA(c){var
+a=c[2];if(a){var
+b=dw(c[3]);if(b)return G(d,K(a[1],b[1])[1]);var
+e=b}else
 var
-j=a;return j},g=V;else
+e=a;return e}function
+kW(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+kX(a,c,b){var
+e=s(b,c,l(d)),f=aW(0,a);return o(function(b){return el(a,b,e)},f)}function
+em(a){var
+b=H(a);return F(l(c),b)}function
+fD(i,g){var
+h=em(g),j=H(g),e=t(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bm(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bm(f),a,e]]:[0,[0,h,a,a],[0,a,e,bm(f)],[0,a,f,e]]}function
+en(b,a){var
+c=U(b[3],a),d=U(b[2],a);return[0,U(b[1],a),d,c]}function
+kY(b,a){function
+c(b){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+d(a){var
+b=U(a,c(function(a){return a[3]})),d=U(a,c(function(a){return a[2]}));return[0,U(a,c(function(a){return a[1]})),d,b]}var
+e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
+kZ(w,v){function
+a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
+0:var
+x=em(a(0));return[0,fD(qB,a(0)),x];case
+1:var
+y=em(a(0)),z=q(em(a(qC)),y),A=q(em(a(qD)),z),B=fD(0,a(0)),C=kY(fD(qF,a(qE)),B);return[0,kY(fD(qH,a(qG)),C),A];default:var
+D=a(qI),E=a(qJ),g=[0,a(0),E,D],G=U(g,g),I=F(l(c),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=H(a),e=q(l(b(2,c)),d);return F(t(l(c),j),e)},h=function(f,e,d,a){var
+g=at(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(t,d,f,e),m,k],o=h(t,e,f,d),p=i(e),r=[0,h(F,d,e,f),p,o],s=h(F,d,f,e),u=h(t,d,e,f);return[0,[0,[0,i(d),u,s],r,n],I]}}function
+k0(a){return 1<a[0]?[0,a[1],0]:0}function
+fE(a){switch(a[0]){case
+0:return[0,a[1],0];case
+1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
+2:return[0,cQ(a[1]),0];default:var
+b=[0,cQ(a[2]),0];return[0,cQ(a[1]),b]}}function
+dx(a){return[0,[0,a[1]],[0,a[2]]]}function
+k1(a){switch(a[0]){case
+0:return[0,dx(a[1]),0];case
+1:var
+f=[0,dx(a[3]),0],g=[0,dx(a[2]),f];return[0,dx(a[1]),g];case
+2:var
+b=dx(cQ(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cQ(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dx(cQ(c)),0]]]}}function
+k2(a,b){if(0===b[0])return dr(a,b[1]);var
+d=dr(a,b[1]);if(d){var
+e=dr(a,b[2]);if(e){var
+g=W(a,e[1]),h=ce(a,E(_(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
+f=e}else
+var
+f=d;return f}function
+k3(d,c){var
+a=k2(d,c[1]);if(a)var
+b=k2(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+var
+e=a;return e}function
+k4(a){switch(a[0]){case
+3:var
+c=kW(a[2]);return[0,a[3],c];case
+4:return[0,a[1],0];case
+8:return 0;default:var
+b=kW(a[1]);return[0,a[2],b]}}function
+k5(f,t,e,r,q,b,a){switch(b[0]){case
+0:var
+v=b[4],o=b[3],w=b[2],y=b[1],p=0;if(typeof
+a==="number")p=1;else
+switch(a[0]){case
+0:var
+O=a[2],P=a[1],k=w,i=y,h=function(a){return kT(f,e,P,O,o,a)},g=v;break;case
+2:var
+z=Z(o[1],d),A=z?Z(o[2],d):z;if(!A)return A;var
+R=a[2],S=a[1],k=w,i=y,h=function(a){return kU(e,S,R,a)},g=v;break;default:p=1}if(p)return 0;break;case
+1:var
+G=0;if(typeof
+a==="number"&&!a)var
+T=b[2],U=b[1],W=b[3],k=T,i=U,X=0,h=function(a){return kV(f,e,W,a)},g=X;else
 G=1;if(G)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-W=[0,c[1],c[2],q],Z=dq(function(a){return t(a,r,qw)},W),C=a[1],$=l[2],aa=l[1],ab=a[2],ac=c[3];return kI(s,function(v,j){var
-a=dp(j[1]);if(a){var
-k=a[1],c=j[2];if(c){var
-g=dr(j[3]);if(g){var
-l=g[1],m=function(a){return a4(a,C,_(f,b))},t=m(v),u=c[1],h=B(w(f,m(aa),u),t),n=X(d,h[1]),o=n?bq(e,fa(C,ab,k,aL([0,K(af(h),l),0],e))):n;if(o){var
-i=gM(k,aL([0,K(w(f,ac,h),l),0],e));if(i)return bq(e,i[1]);var
+Y=[0,b[1],b[2],q],$=dv(function(a){return s(a,r,qP)},Y),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return kS(t,function(v,j){var
+a=du(j[1]);if(a){var
+k=a[1],b=j[2];if(b){var
+g=dw(j[3]);if(g){var
+l=g[1],m=function(a){return a5(a,B,_(f,c))},t=m(v),u=b[1],h=E(x(f,m(ab),u),t),n=V(d,h[1]),o=n?br(e,fh(B,ac,k,aK([0,K(af(h),l),0],e))):n;if(o){var
+i=gU(k,aK([0,K(x(f,ad,h),l),0],e));if(i)return br(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3362,20 +3453,20 @@ var
 q=g;var
 r=q}else
 var
-r=c;var
+r=b;var
 s=r}else
 var
-s=a;return s},$,d,Z)}return l}return 0;case
+s=a;return s},aa,d,$)}return l}return 0;case
 3:var
 H=0;if(typeof
 a==="number"||!(0===a[0]))H=1;else
 var
-D=a[2],E=a[1],ad=c[3],ae=c[2],ag=c[4],ah=c[1],ai=function(g){var
-a=dp(g[1]);if(a){var
+C=a[2],D=a[1],ae=b[3],ag=b[2],ah=b[4],ai=b[1],aj=function(g){var
+a=du(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
-d=dr(g[3]);if(d){var
-h=u(j(b),e),i=h?u(j(D),e):h;if(i){var
-n=d6(E,d7(E,D,c[1],b));return bq(e,ch(fe(f,ah,ag,d[1],b),n))}var
+d=dw(g[3]);if(d){var
+h=u(j(b),e),i=h?u(j(C),e):h;if(i){var
+n=d_(D,d$(D,C,c[1],b));return br(e,ck(fl(f,ai,ah,d[1],b),n))}var
 k=i}else
 var
 k=d;var
@@ -3384,442 +3475,478 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=ad,i=ae,h=ai,g=c[5];if(H)return 0;break;case
+m=a;return m},k=ae,i=ag,h=aj,g=b[5];if(H)return 0;break;case
 4:var
 I=0;if(typeof
 a==="number"&&!a)var
-k=c[1],i=0,h=qh,g=0;else
+k=b[1],i=0,h=qA,g=0;else
 I=1;if(I)return 0;break;case
 5:var
 J=0;if(typeof
 a==="number"||!(0===a[0]))J=1;else{var
 m=a[2],L=0;if(m){var
 n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-aj=c[2],ak=c[1],al=_(f,b),am=[0,[0,n[1],0],0],an=a[1],k=aj,i=ak,ao=0,h=function(a){return kJ(f,qx,an,am,al,a)},g=ao;L=1}else
+ak=b[2],al=b[1],am=_(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,i=al,ap=0,h=function(a){return kT(f,qQ,ao,an,am,a)},g=ap;L=1}else
 var
 F=n}else
 var
-F=m;if(!L)return F}if(J)return 0;break;default:var
+F=m;if(!L)return F}if(J)return 0;break;case
+6:var
 M=0;if(typeof
+a==="number"&&!a)var
+aq=b[2],ar=b[1],as=_(f,c),k=aq,i=ar,at=0,h=function(a){return kV(f,qR,as,a)},g=at;else
+M=1;if(M)return 0;break;case
+7:var
+N=0;if(typeof
 a==="number"&&5<=a)var
-ap=c[2],aq=c[1],ar=c[4],as=c[3],k=ap,i=aq,at=0,h=function(a){return kK(e,as,ar,a)},g=at;else
-M=1;if(M)return 0}var
-P=[0,i,k,q];return kH(g,s,h,dq(function(a){return t(a,r,qv)},P))}function
-kU(m,l,k,f,j,i,e){if(typeof
-e!=="number"&&6===e[0]){var
-a=e[1];if(typeof
-a!=="number"&&7===a[0]){if(f){var
-n=a[3],o=a[2],p=G(d,o);if(p)var
-h=iG(n,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),r=0===h?0:0<=h?2:1,s=1===r?1:0,g=s;else
+au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,i=av,ay=0,h=function(a){return kU(e,ax,aw,a)},g=ay;else
+N=1;if(N)return 0;break;default:return 0}var
+Q=[0,i,k,q];return kR(g,t,h,dv(function(a){return s(a,r,qO)},Q))}function
+k6(h,g,n,i,m,l,e,a){if(typeof
+a==="number"){if(0===a)return 8===e[0]?fq(h,0,0,0,l,g,0,e[1],a):0}else
+switch(a[0]){case
+6:var
+f=a[1];if(typeof
+f!=="number"&&7===f[0]){if(i){var
+o=f[3],p=f[2],q=G(d,p);if(q)var
+k=iP(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===k?0:0<=k?2:1,t=1===s?1:0,j=t;else
 var
-g=p;if(g)return kT(m,l,k,j,[0,[0,[0,f[1],o],n]],i,a[1]);var
-q=g}else
+j=q;if(j)return k5(h,g,n,m,[0,[0,[0,i[1],p],o]],e,f[1]);var
+r=j}else
 var
-q=f;return q}return kT(m,l,k,j,0,i,a)}return 0}function
-qy(a){if(a[1])return 0;var
-b=a[2];if(typeof
-b==="number"&&4===b)return 1;return 0}function
-kV(a,N,M,L,J,I,h,p,H,$){if(n(qy,H))var
-q=0;else
+r=i;return r}return k5(h,g,n,m,0,e,f);case
+8:return 8===e[0]?fq(h,0,0,0,l,g,0,e[1],a):0}return 0}function
+k7(b){var
+a=b[2];if(typeof
+a!=="number"&&6===a[0])return 1;return 0}function
+qS(c){var
+b=0,a=c[2];if(typeof
+a==="number"){if(0!==a)b=1}else
+if(8!==a[0])b=1;return b?0:1}function
+k8(a,t,ak,r,q,N,M,c,k,j,aj){var
+O=ao(qS,j),P=O?g1(a,ak,r,k):O,Q=ao(k7,j);if(Q)var
+ag=y(function(b){var
+c=k7(b);if(c){var
+a=R(q,b[1]);if(a)return k4(a[1]);var
+d=a}else
 var
-W=hb(a,b_,p),V=0,Y=f(hb(a,aJ,p),W),q=bF(qe,function(b){switch(b[0]){case
-0:return t(b[1],Y,[0,[0,C]]);case
-1:return[0,[0,t(b[1],M,C)]];case
+d=c;return d},j),ah=c?[0,c[1],0]:c,ai=f(ah,ag),T=0,U=aV(hl,e(function(a){return 0},t),ai),X=e4(fC(e4(t,0),U),T),ac=hm(a,ca,k),ab=0,ad=f(hm(a,aI,k),ac),u=bG(qx,function(b){switch(b[0]){case
+0:return s(b[1],ad,[0,[0,B]]);case
+1:return[0,[0,s(b[1],r,B)]];case
 2:return[0,[0,_(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,B(b,a)]};return aZ(function(a,b){return cm(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,E(b,a)]};return a1(function(a,b){return cr(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return aZ(function(a,b){return cm(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return a1(function(a,b){return cr(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,af(a)]};return bK(function(a){return cl(j,a)},i);case
+i=b[1],j=function(a){return[0,af(a)]};return bM(function(a){return cq(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,w(a,c,b)]};return aZ(function(a,b){return cm(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,x(a,c,b)]};return a1(function(a,b){return cr(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cc(a,b);return x(function(b){return w(a,c,b)},d)};return aZ(function(a,b){return cm(p,a,b)},o,n);case
+d=cd(a,b);return w(function(b){return x(a,c,b)},d)};return a1(function(a,b){return cr(p,a,b)},o,n);case
 8:var
-q=b[1],r=function(b){return[0,S(a,b)]};return bK(function(a){return cl(r,a)},q);case
+q=b[1],t=function(b){return[0,W(a,b)]};return bM(function(a){return cq(t,a)},q);case
 9:var
-s=b[1],u=function(b){return cy(a,b)};return bK(function(a){return cl(u,a)},s);default:return qd}},N,V);var
-g=H,b=$;for(;;){if(g){var
-u=g[1],i=u[2],c=u[1],k=g[2];if(c){var
-v=t(c,b,0);if(v){var
-l=T(L,c);if(l){var
-y=kU(a,J,I,h,q,l[1],i);if(y){var
-g=k,b=fj(c,b);continue}var
-z=y}else
+u=b[1],v=function(b){return ce(a,b)};return bM(function(a){return cq(v,a)},u);default:return qw}},X,ab);else
 var
-z=l;var
-A=z}else
+u=Q;var
+h=j,b=aj;for(;;){if(h){var
+A=h[1],i=A[2],g=A[1],m=h[2];if(g){var
+C=s(g,b,0);if(C){var
+n=R(q,g);if(n){var
+D=k6(a,N,M,c,u,P,n[1],i);if(D){var
+h=m,b=fr(g,b);continue}var
+F=D}else
 var
-A=v;return A}if(typeof
-i==="number"&&4===i){var
-O=0;if(h){var
-Z=0,r=e(function(b){return[0,b,S(a,b)]},p),Q=e(b_,r),P=0,R=f(e(aJ,r),Q),U=bF(0,function(n){return function(b){switch(b[0]){case
-0:return[0,t(b[1],n,C)];case
-1:return[0,t(b[1],M,C)];case
-2:return[0,_(a,b[1])];case
-3:var
-c=b[2],d=b[1];return cm(function(b,a){return[0,B(b,a)]},d,c);case
-4:var
-e=b[2],f=b[1];return cm(function(b,a){return[0,K(b,a)]},f,e);case
-5:var
-g=b[1];return cl(function(a){return[0,af(a)]},g);case
-6:var
-h=b[2],i=b[1];return cm(function(c,b){return[0,w(a,c,b)]},i,h);case
-7:var
-j=b[2],k=b[1];return cm(function(c,b){var
-d=cc(a,b);return x(function(b){return w(a,c,b)},d)},k,j);case
-8:var
-l=b[1];return cl(function(b){return[0,S(a,b)]},l);case
-9:var
-m=b[1];return cl(function(b){return cy(a,b)},m);default:return 0}}}(R),N,P),j=t(h[1],U,Z);if(j){var
-m=X(j[1][2],d);O=1}else
-var
-s=j}else
-var
-s=h;if(!O)var
-m=s;if(m){var
-g=k,b=e(function(a){return 0},b);continue}return m}var
-D=t(c,b,0);if(D){var
-o=T(L,c);if(o){var
-E=kU(a,J,I,h,q,o[1],i);if(E){var
-g=k,b=fj(c,b);continue}var
-F=E}else
-var
-F=o;var
+F=n;var
 G=F}else
 var
-G=D;return G}return[0,b]}}function
-kW(i,h,g,f,e,d,c,t,s,r){var
-b=t,j=s,a=r;for(;;){if(0===a[0]){var
-k=kV(i,h,g,f,e,d,c,b,a[1],j);return k?n(ad,k[1]):k}var
-l=kV(i,h,g,f,e,d,c,b,a[1],j);if(l){var
-m=l[1],o=d5(a[2],b),p=kW(i,h,g,f,e,d,c,o[1],m,a[3]);if(p){var
-b=o[2],j=m,a=a[4];continue}var
-q=p}else
-var
-q=l;return q}}function
-fv(b,a){var
-c=o(b[2],a[1]),d=s(o(b[1],a[2]),c),e=o(b[1],a[3]),f=s(o(b[3],a[1]),e),g=o(b[3],a[2]);return[0,s(o(b[2],a[3]),g),f,d]}function
-hd(d,a){var
-e=H(a),f=o(o(l(c(2,b)),a),d);return F(s(H(d),f),e)}function
-kX(c,b,a){switch(c){case
-0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-fw(a){switch(a){case
-0:return[0,qA,qz,l(d)];case
-1:return cj;default:var
-b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fx(a){switch(a){case
-0:return qB;case
-1:return qC;default:return 0}}function
-kY(i,k,h,j,a,e){var
-d=fw(i),f=as(s,d,a),g=hc(k,e),m=hd(d[3],a[3]),n=hd(d[2],a[2]),p=hd(d[1],a[1]),q=F(F(F(ab(e,e),p),n),m),r=ab(g,f),t=o(l(c(2,b)),r),u=F(o(h,q),t),v=cD(fv(g,f),j);return[0,kX(i,as(F,bH(h,f),g),v),u]}function
-cn(b,a){var
-c=aF(a[2],b);return f(aF(a[1],b),c)}function
-kZ(g,f,e,d,b,a,c){if(a)var
-h=a[1],i=br(c,cn(b,h)),l=L(c,j(cn(b,h))),m=kZ(g,f,e,d,b,a[2],l),n=$(i,qD),k=[0,kY(g,f,e,d,$(i,0),n),m];else
-var
-k=a;return k}function
-k0(r,q,p,o,i,c,n){if(c){var
-s=c[1],k=br(n,cn(i,s)),u=L(n,j(cn(i,s))),v=k0(r,q,p,o,i,c[2],u),w=$(k,qE),a=kY(r,q,p,o,$(k,0),w),x=$(k,0),e=a[1];if(e){var
-f=e[2],b=e[1];if(f){var
-l=f[2],g=f[1];if(l)var
-m=l[1],h=fv(x,[0,b,g,m]),d=[0,[0,b,[0,g,[0,m,[0,h[1],[0,h[2],[0,h[3],0]]]]]],a[2]];else
-var
-d=[0,[0,b,[0,g,0]],a[2]]}else
-var
-d=[0,[0,b,0],a[2]]}else
-var
-d=[0,0,a[2]];var
-t=[0,d,v]}else
-var
-t=c;return t}function
-k1(k,c,h,n,g,a,m){if(a)var
-p=a[1],q=br(m,cn(g,p)),A=L(m,j(cn(g,p))),B=k1(k,c,h,n,g,a[2],A),e=$(q,qF),C=$(q,0),v=as(s,fw(k),C),f=function(a){var
-b=i(a,c[3]),d=i(a,c[2]);return[0,i(a,c[1]),d,b]},t=f(function(a){return a[3]}),u=f(function(a){return a[2]}),w=hc([0,f(function(a){return a[1]}),u,t],v),x=as(F,bH(h,e),w),y=2<=k?d:b,z=function(a){var
-b=H(n),c=l(y),d=o(s(H(a),c),b);return o(h,s(ab(e,e),d))},r=[0,[0,ab(x,e),z],B];else
-var
-r=a;return r}function
-fy(h,a){if(typeof
-a!=="number")switch(a[0]){case
-6:var
-f=[5,a[3],a[2]];return[0,[0,f,f],d];case
-8:var
-g=[5,a[2],a[1]];return[0,[0,g,g],d];case
-2:case
+G=C;return G}if(typeof
+i==="number"&&4===i){var
+S=0;if(c){var
+ae=0,v=e(function(b){return[0,b,W(a,b)]},k),Z=e(ca,v),Y=0,$=f(e(aI,v),Z),aa=bG(0,function(n){return function(b){switch(b[0]){case
+0:return[0,s(b[1],n,B)];case
+1:return[0,s(b[1],r,B)];case
+2:return[0,_(a,b[1])];case
 3:var
-e=a[2];return[0,[0,e,e],h]}var
-c=[0,d,b];return[0,[0,c,c],d]}function
-he(e,d,n,m,l,a){var
-f=o(H(bJ(fy(m,a),l)),n);if(typeof
-a!=="number")switch(a[0]){case
-2:var
-b=T(d,a[1]);if(b)var
-h=g(e,0,a[2]),i=h?[0,s(b[1][2],f)]:h;else
-var
-i=b;return i;case
-3:var
-c=T(d,a[1]);if(c)var
-j=g(e,0,a[2]),k=j?[0,s(f,c[1][2])]:j;else
-var
-k=c;return k}return 0}function
-k2(a,d,c,b){return e(function(a){var
-e=bJ(fy(d,b),c),f=o(a[2],e);return[0,a[1],f]},a)}function
-k3(b,d,c,a){if(typeof
-a!=="number"&&6===a[0]){var
-e=T(b,a[1]);return x(function(b){var
-e=bJ(fy(d,a),c),f=i(b[2],e);return[0,b[1],f]},e)}return 0}function
-k4(e,c,s,f,N,j,l,k,n){if(n){var
-ad=k4(e,c,s,f,N,j,l,[0,k],n[2]),a=n[1],t=function(c,b,a){return[0,c,b,a,s]},o=0;if(typeof
-a==="number")var
-Q=i(c,j),h=[0,t(i(ap(c),f),Q,C)];else
-switch(a[0]){case
-0:var
-m=[5,[0,b,b],a[1]],p=t;o=1;break;case
-1:var
-U=[5,[0,b,b],a[1]],m=U,p=function(c,b,a){return[1,c,b,a]};o=1;break;case
-2:var
-V=he(e,f,j,l,k,a),h=x(function(a){return[4,i(c,a)]},V);break;case
-3:var
-W=he(e,f,j,l,k,a),h=x(function(a){return[4,i(c,a)]},W);break;case
+c=b[2],d=b[1];return cr(function(b,a){return[0,E(b,a)]},d,c);case
+4:var
+e=b[2],f=b[1];return cr(function(b,a){return[0,K(b,a)]},f,e);case
 5:var
-u=a[1],X=ah(e,[0,[0,u,u],d]),h=x(function(a){var
-b=S(e,a),d=i(c,j);return[2,i(ap(c),f),d,b]},X);break;case
+g=b[1];return cq(function(a){return[0,af(a)]},g);case
 6:var
-q=T(f,a[1]);if(q){var
-r=k3(N,l,k,a);if(r){var
-v=r[1],w=g(e,1,a[2]),y=w?g(e,1,a[3]):w;if(y)var
-Y=i(c,v[2]),Z=i(c,q[1][2]),z=[0,[5,[0,[0,[0,i(c,v[1]),0],Z],0],Y]];else
-var
-z=y;var
-A=z}else
-var
-A=r;var
-B=A}else
-var
-B=q;var
-h=B;break;case
+h=b[2],i=b[1];return cr(function(c,b){return[0,x(a,c,b)]},i,h);case
 7:var
-D=a[3],E=a[2],F=a[1],G=T(f,F),P=0;if(G){var
-H=g(e,1,E),I=H?g(e,1,D):H;if(I){var
-$=[5,E,D],m=$,p=function(c,b,a){return[3,F,c,b,a,s]};o=1;P=1}else
+j=b[2],k=b[1];return cr(function(c,b){var
+d=cd(a,b);return w(function(b){return x(a,c,b)},d)},k,j);case
+8:var
+l=b[1];return cq(function(b){return[0,W(a,b)]},l);case
+9:var
+m=b[1];return cq(function(b){return ce(a,b)},m);default:return 0}}}($),t,Y),l=s(c[1],aa,ae);if(l){var
+o=V(l[1][2],d);S=1}else
 var
+z=l}else
+var
+z=c;if(!S)var
+o=z;if(o){var
+h=m,b=e(function(a){return 0},b);continue}return o}var
+H=s(g,b,0);if(H){var
+p=R(q,g);if(p){var
+I=k6(a,N,M,c,u,P,p[1],i);if(I){var
+h=m,b=fr(g,b);continue}var
 J=I}else
 var
-J=G;if(!P)var
-h=J;break;case
-8:var
-K=g(e,1,a[1]),L=K?g(e,1,a[2]):K;if(L)var
-aa=_(e,b),ab=i(c,j),ac=k2(f,l,k,a),M=[0,[0,i(ap(c),ac),ab,aa,0]];else
+J=p;var
+L=J}else
 var
-M=L;var
-h=M;break;default:var
-h=0}if(o)var
-R=ah(e,[0,[0,m,m],d]),h=x(function(a){var
-b=S(e,a),d=i(c,j);return p(i(ap(c),f),d,b)},R);var
-O=[0,h,ad]}else
+L=H;return L}return[0,b]}}function
+k9(j,i,h,g,f,e,d,c,u,t,s){var
+b=u,k=t,a=s;for(;;){if(0===a[0]){var
+l=k8(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
+m=k8(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=d9(a[2],b),q=k9(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+b=p[2],k=n,a=a[4];continue}var
+r=q}else
 var
-O=n;return O}function
-k5(p,i,o,n,d,c,b){if(b){var
-r=k5(p,i,o,n,d,[0,c],b[2]),a=b[1],k=0;if(typeof
-a==="number")k=1;else
-switch(a[0]){case
-6:var
-h=k3(o,d,c,a);if(h)var
-l=h[1],m=[0,l[1],[0,l[2],0]];else
+r=m;return r}}function
+fF(b,a){var
+c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
+hn(d,a){var
+e=H(a),f=q(q(l(b(2,c)),a),d);return F(t(H(d),f),e)}function
+k_(c,b,a){switch(c){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
+eo(a){switch(a){case
+0:return[0,qU,qT,l(d)];case
+1:return cI;default:var
+b=l(d),c=l(d);return[0,l(d),c,b]}}function
+fG(a){switch(a){case
+0:return qV;case
+1:return qW;default:return 0}}function
+ho(j,a,d,i,c,h){var
+e=ar(t,eo(j),i);if(h){var
+b=function(b){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=en([0,b(function(a){return a[1]}),g,f],e);return ar(F,bq(d,c),l)}var
+m=en(a,c);return ar(F,bq(d,e),m)}function
+k$(f,h,g,k,a,d){var
+e=eo(f),i=ar(t,e,a),j=en(h,d),m=hn(e[3],a[3]),n=hn(e[2],a[2]),o=hn(e[1],a[1]),p=F(F(F(U(d,d),o),n),m),r=U(j,i),s=q(l(b(2,c)),r),u=F(q(g,p),s),v=cl(fF(j,i),k);return[0,k_(f,ho(f,h,g,a,d,0),v),u]}function
+la(c,b,a){return cl(en(c,a),b)}function
+lb(d,c,b,a){var
+e=la(c,b,a);return ar(F,eo(d),e)}function
+hp(b,a){var
+c=aM(a[2],b);return f(aM(a[1],b),c)}function
+hq(d,b,a,c){if(a)var
+e=a[1],f=b1(c,hp(b,e)),h=N(c,j(hp(b,e))),i=hq(d,b,a[2],h),k=aa(f,qX),g=[0,at(d,aa(f,0),k),i];else
 var
-m=h;var
-j=m;break;case
-8:var
-j=e(b_,k2(i,d,c,a));break;default:k=1}if(k)var
-g=he(p,i,n,d,c,a),q=g?[0,g[1],0]:g,j=q;return f(j,r)}return b}function
-qG(a){if(typeof
+g=a;return g}function
+hr(f,o,e,n,a){var
+h=q(H(s(0,n,l(d))),o);if(typeof
+a!=="number")switch(a[0]){case
+2:var
+b=R(e,a[1]);if(b)var
+i=g(f,0,a[2]),j=i?[0,t(b[1][1][2],h)]:i;else
+var
+j=b;return j;case
+3:var
+c=R(e,a[1]);if(c)var
+k=g(f,0,a[2]),m=k?[0,t(h,c[1][1][2])]:k;else
+var
+m=c;return m}return 0}function
+lc(a){var
+b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
+b=s(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
+ld(c,b,a){if(typeof
+a!=="number"&&6===a[0]){var
+e=R(c,a[1]);return w(function(a){var
+c=s(0,b,l(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+ep(a){return g(p,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a])}function
+le(a){var
+b=aa(a,qY),c=ay(U(aa(a,qZ),b));return q(s(0,a,l(d)),c)}function
+lf(b,a){var
+c=U(a,aa(b,q0));return[0,bJ(bq(le(b),a)),c]}function
+lg(e,d,a,c,b){var
+f=b[2],g=q(le(a),f),h=c?la(e,d,aa(a,q1)):aa(a,q2);return t(U(b[1][2],h),g)}function
+lh(h,g,f,d,c,b,a){var
+i=bV(c);function
+j(a){return lb(h,g,f,a)}return j7(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+li(a){var
+b=a[3],c=a[2],d=a[1];return fz([0,[0,d,d],[0,c,c],[0,b,b]])}function
+q5(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-k6(b,a){switch(b){case
+lj(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fz(a){var
-c=bV(a[1],[0,d,b]);return c?bV(a[2],[0,d,b]):c}function
-hf(d,a){switch(d){case
-0:return fz(a[3]);case
+fH(a){var
+b=bZ(a[1],[0,d,c]);return b?bZ(a[2],[0,d,c]):b}function
+hs(d,a){switch(d){case
+0:return fH(a[3]);case
 1:return 1;default:var
-b=fz(a[1]),c=b?fz(a[2]):b;return c?fz(a[3]):c}}function
-qH(m,Z,aS,a,k,aR){var
-p=a[1],h=dm(p),_=a[3],aT=[0,[0,[0,_,_],k],0],aU=a[2],$=f(z(function(a){return cn(k,a)},aU),aT),I=j($),aW=a[2],aX=j(z(function(a){return cn(k,a)},aW)),aa=a[3],J=bJ([0,[0,aa,aa],k],aX),aY=fx(p),ac=kO(a[5],aY),w=ac[2],K=ac[1],C=kZ(p,K,w,J,k,a[2],0),ae=k1(p,K,w,J,k,a[2],0),aZ=L(I,j(a[6])),a0=fx(p),a1=a[5];function
-y(a){return[0,[0,L(a0,a)]]}var
-U=H([0,[1,aZ]]);switch(a1[0]){case
+b=fH(a[1]),c=b?fH(a[2]):b;return c?fH(a[3]):c}}function
+q6(a,an,a_,m,z,a9){var
+v=m[1],x=ds(v),E=m[6],a$=m[2],K=y(function(a){return hp(z,a)},a$),ap=m[3],S=[0,[0,ap,ap],z],L=[0,j(K)],ba=0,as=y(function(a){return eg(ba,z,a)},E),bb=fG(v),at=kZ(m[5],bb),i=at[2],A=at[1],bd=m[2],au=co(S,j(K)),bc=0,r=hq(function(b,a){var
+f=lb(v,A,i,a),e=ar(t,f,b),k=[0,[0,f,e],ay(U(e,e))];function
+m(c){return ho(v,A,i,b,a,c)}var
+g=2<=v?d:c;function
+h(b){var
+c=H(au),d=l(g),e=q(t(H(b),d),c);return q(i,t(U(a,a),e))}var
+j=[0,U(ho(v,A,i,b,a,1),a),h];return[0,k$(v,A,i,au,b,a),j,m,k]},z,bd,bc),av=e(function(a){return a[1]},r),be=N(L,j(as)),bf=fG(v),bg=m[5];function
+D(a){return[0,[0,N(bf,a)]]}var
+ag=H([0,[1,be]]);switch(bg[0]){case
 2:var
-aJ=y(qr),aK=y(qs),V=[0,y(0),aK,aJ],r=[0,s(U,ab(V,V))];break;case
+a1=D(qK),a2=D(qL),aj=[0,D(0),a2,a1],C=[0,t(ag,U(aj,aj))];break;case
 3:var
-aL=H(y(qt)),aN=H(y(0)),aO=H(y(qu)),r=[0,s(s(o(U,F(l(b),aO)),aN),aL)];break;default:var
-r=0}var
-af=a[7],ag=af?k0(p,K,w,J,k,a[2],0):af,a2=bt(ag),a3=r?[0,r[1],0]:r,a4=f(a3,a2),a5=[0,w,f(k5(m,C,ae,w,k,I,a[6]),a4)],M=f(bt(C),a5),ai=db(e(function(a){return ef(h,a)},M))[1],A=cA(ai);function
-v(a){return bm(A,ef(h,a))}if(0===a[4][0]){var
-a6=x(v,r),a7=v(w),ak=i(ap(v),C),W=fx(p),X=u(j(ak),h);if(X)var
-Y=x(function(a){return[0,[0,a,d],d]},a6),B=function(a){return t(a,A,l(d))},T=B(a7),aI=aV(0,W),G=n(function(a){var
-b=dn(h,a,T),c=b?n(function(b){var
-d=b[1],c=n(function(b){var
-c=B(b);return cN(L(h,a),c)},d);if(c){var
-e=B(b[2]);return ha(T,L(h,a),e)}return c},ak):b;if(c){if(Y){var
-e=B(Y[1][1][1]);return cN(L(h,a),e)}var
+a3=H(D(qM)),a4=H(D(0)),a5=H(D(qN)),C=[0,t(t(q(ag,F(l(c),a5)),a4),a3)];break;default:var
+C=0}var
+aw=m[7];if(aw)var
+bh=0,bi=m[2],T=hq(function(k,l){var
+a=k$(v,A,i,co(S,j(K)),k,l),c=a[1];if(c){var
+d=c[2],b=c[1];if(d){var
+g=d[2],e=d[1];if(g){var
+h=g[1],f=fF(k,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},z,bi,bh);else
+var
+T=aw;var
+bj=bt(T),bk=C?[0,C[1],0]:C,bl=f(bk,bj),bm=0,bn=[0,i,f(cp(function(c,b){if(typeof
+b!=="number")switch(b[0]){case
+6:var
+g=ld(r,c,b);if(g)var
+j=g[1],l=[0,j[1],[0,j[2],0]];else
+var
+l=g;return l;case
+8:return e(ca,k(lc(r),c));case
+13:var
+h=R(r,b[1]);if(h){var
+m=ep(b[4]);if(m){var
+n=lf(c,k(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+o=m}else
+var
+o=h;return o}var
+d=hr(a,i,r,c,b),p=d?[0,d[1],0]:d;return p},bm,z,L,E),bl)],V=f(bt(av),bn),bo=0,ax=cp(function(h,a){if(typeof
+a!=="number")switch(a[0]){case
+13:var
+b=R(r,a[1]);if(b){if(ep(a[4]))return 0;var
+d=[0,lg(A,i,h,a[2],b[1][4]),0]}else
+var
+d=b;return d;case
+14:var
+c=lh(v,A,i,r,h,a[1],a[2]);if(c){var
+e=c[1],f=e[2],g=e[1];return y(bJ,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bo,z,L,E),az=cG(e(function(a){return ek(x,a)},V))[1],M=cG(ax)[1],I=bH(az);function
+h(a){return a7(I,ek(x,a))}if(0===m[4][0]){var
+bp=w(h,C),bq=h(i),aA=k(aq(h),av),ak=fG(v),al=u(j(aA),x);if(al)var
+am=w(function(a){return[0,[0,a,d],d]},bp),J=function(a){return s(a,I,l(d))},af=J(bq),a0=aW(0,ak),Q=o(function(a){var
+b=dt(x,a,af),c=b?o(function(b){var
+d=b[1],c=o(function(b){var
+c=J(b);return cR(N(x,a),c)},d);if(c){var
+e=J(b[2]);return hk(af,N(x,a),e)}return c},aA):b;if(c){if(am){var
+e=J(am[1][1][1]);return cR(N(x,a),e)}var
 d=1}else
 var
-d=c;return d},aI);else
+d=c;return d},a0);else
 var
-G=X;var
-aQ=G?W:G,al=aQ}else
+Q=al;var
+a8=Q?ak:Q,X=a8}else
 var
-al=0;var
-am=n(function(a){var
-b=ef(h,a),c=l(d);return aM(t(v(a),A,c),b)},M),an=am?n(function(a){return kD(h,a)},M):am,ao=an?ar(qG,a[6]):an;if(ao){var
-aq=ad(a[7]);if(aq)var
-D=aq;else{var
-aG=a[5];if(1===p&&2===aG[0])var
-aP=aG[1],aH=g(m,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],aP]);else
+X=0;var
+aB=o(function(a){var
+b=ek(x,a),c=l(d);return aF(s(h(a),I,c),b)},V),aC=aB?o(function(a){return kN(x,a)},V):aB,aD=aC?o(function(a){var
+b=l(d),c=bH(M);return aF(s(a7(bH(M),a),c,b),a)},ax):aC,aE=aD?ao(q5,E):aD;if(aE){var
+aG=ac(m[7]);if(aG)var
+O=aG;else{var
+aY=m[5];if(1===v&&2===aY[0])var
+a6=aY[1],aZ=g(a,1,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a6]);else
 var
-aH=0;var
-D=aH}}else
+aZ=0;var
+O=aZ}}else
 var
-D=ao;var
-as=D?hf(p,dk(a[4])):D,at=as?g(m,1,a[3]):as;if(at)var
-a8=fu(a[5]),N=n(function(a){var
-b=ee(m,a[1]);return b?ee(m,a[2]):b},a8);else
+O=aE;var
+aH=O?hs(v,dp(m[4])):O,aI=aH?g(a,1,m[3]):aH;if(aI)var
+br=fE(m[5]),Y=o(function(b){var
+c=ej(a,b[1]);return c?ej(a,b[2]):c},br);else
 var
-N=at;if(N){var
-a9=a[6],a_=f($,e(function(a){return fy(k,a)},a9)),O=aj(e(function(a){return ah(m,a)},a_));if(O){var
-a$=k6(p,dk(a[4])),P=aj(e(function(a){return ah(m,[0,a,k])},a$));if(P){var
-au=P[1],ba=kQ(a[5]),Q=aj(e(function(a){return kS(m,a)},ba));if(Q){var
-av=Q[1],bb=kP(a[5]),R=aj(e(function(a){return dl(m,a)},bb));if(R){var
-S=aj(k4(m,v,al,C,ae,w,k,I,a[6]));if(S){var
-aw=S[1];if(a[7])var
-bc=Z[2],bd=Z[1],be=v(w),E=kj(aS,aw,[6,i(ap(v),ag),be,bd,bc]);else
+Y=aI;if(Y){var
+bs=f(K,[0,S,0]),Z=ai(e(function(b){return ah(a,b)},bs));if(Z){var
+$=ai(e(function(b){return hh(a,b)},as));if($){var
+bu=lj(v,dp(m[4])),aa=ai(e(function(b){return ah(a,[0,b,z])},bu));if(aa){var
+aJ=aa[1],bv=k1(m[5]),ab=ai(e(function(b){return k3(a,b)},bv));if(ab){var
+aK=ab[1],bw=k0(m[5]),ad=ai(e(function(b){return dr(a,b)},bw));if(ad){var
+bx=0,by=bH(M),aL=function(a){return a7(by,a)},ae=ai(cp(function(l,f){if(typeof
+f!=="number"&&13===f[0]){var
+q=f[4],ao=R(r,f[1]);if(ao){if(li(f[3])&&g(a,0,q)&&g(a,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],q])){var
+ap=f[2],ar=ao[1];if(ep(q)){var
+am=lf(l,k(ar[3],ap)),E=am[2];if(g(p,0,[3,q,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]]))var
+an=0;else
 var
-E=aw;var
-ax=u(j(f(au,av)),h),ay=ax?n(function(a){switch(a[0]){case
+aJ=h(E),aK=h(E),an=[0,[6,[0,[0,e(h,am[1]),aK],0],aJ],0];var
+as=[0,[4,h(E)],an]}else
+var
+as=[0,[8,[3,aL(lg(A,i,l,ap,ar[4]))]],0];return e(function(a){return[0,a]},as)}return q3}return q4}var
+aM=0,t=e(function(a){return a[1]},r);function
+F(c,b,a){return[0,c,b,a,X]}var
+s=0;if(typeof
+f==="number")var
+au=h(i),j=[0,F(k(aq(h),t),au,B)];else
+switch(f[0]){case
+0:var
+m=[5,[0,c,c],f[1]],u=F;s=1;break;case
+1:var
+aw=[5,[0,c,c],f[1]],m=aw,u=function(c,b,a){return[1,c,b,a]};s=1;break;case
+2:var
+ax=hr(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ax);break;case
 3:var
-d=kL(a[2]),b=[0,a[3],d];break;case
-4:var
-b=[0,a[1],0];break;default:var
-c=kL(a[1]),b=[0,a[2],c]}return n(function(a){return kM(h,A,a)},b)},E):ax,az=ay?r?kM(h,A,v(r[1])):1:ay;if(az){var
-bf=e(function(a){return 1},E),bg=f(au,av),bh=x(v,r);return kW(m,ai,f(O[1],R[1]),E,h,h,bh,bg,bf,aR)}var
-aA=az}else
+ay=hr(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ay);break;case
+5:var
+H=f[1],az=ah(a,[0,[0,H,H],d]),j=w(function(b){var
+c=W(a,b),d=h(i);return[2,k(aq(h),t),d,c]},az);break;case
+6:var
+x=R(r,f[1]);if(x){var
+y=ld(r,l,f);if(y){var
+I=y[1],J=g(a,1,f[2]),K=J?g(a,1,f[3]):J;if(K)var
+aA=h(I[2]),aB=h(x[1][1][2]),L=[0,[5,[0,[0,[0,h(I[1]),0],aB],0],aA]];else
 var
-aA=S;var
-aB=aA}else
+L=K;var
+M=L}else
 var
-aB=R;var
-aC=aB}else
+M=y;var
+N=M}else
 var
-aC=Q;var
-aD=aC}else
+N=x;var
+j=N;break;case
+7:var
+O=f[3],P=f[2],Q=f[1],S=R(r,Q),at=0;if(S){var
+T=g(a,1,P),U=T?g(a,1,O):T;if(U){var
+aC=[5,P,O],m=aC,u=function(c,b,a){return[3,Q,c,b,a,X]};s=1;at=1}else
 var
-aD=P;var
-aE=aD}else
+V=U}else
 var
-aE=O;var
-aF=aE}else
+V=S;if(!at)var
+j=V;break;case
+8:var
+Y=g(a,1,f[1]),Z=Y?g(a,1,f[2]):Y;if(Z)var
+aD=_(a,c),aE=h(i),aF=k(lc(r),l),$=[0,[0,k(aq(h),aF),aE,aD,0]];else
 var
-aF=N;return aF}function
-ei(b,a){return a9(b,a[1],a[2])}function
-k7(b,a){var
-c=ei(b,a[1]),d=c?ei(b,a[2]):c;return d?ei(b,a[3]):d}function
-a0(a){return typeof
-a==="number"?a?qI:qJ:dm(a[1])}function
-k8(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:g$(b[1],a,c)}function
-fA(a){if(0===a[0]){var
-c=a[1];switch(c[0]){case
-0:return c[3];case
-1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-hg(b,c,a){return b?fr(b[1],c,a):a}function
-bZ(d,c,b,a){var
-e=fA(a),f=hg(d,c,fA(a)),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
-k9(b,a){var
+$=Z;var
+j=$;break;case
+14:var
+aa=f[2],ab=f[1],C=lh(v,A,i,r,l,ab,aa);if(C){var
+ac=C[1],ad=ac[2],ae=ac[1],af=kF(ab,aa,f[3]),D=ah(a,[0,[0,af,af],z]);if(D){var
+ag=D[1],ai=G(d,ag[1]);if(ai)var
+o=function(a){return kd(aL,a)},aG=o(ad[2]),aH=o(ad[1]),aI=o(ae[2]),aj=[0,[8,[6,o(ae[1]),aI,aH,aG,ag]]];else
+var
+aj=ai;var
+ak=aj}else
+var
+ak=D;var
+al=ak}else
+var
+al=C;var
+j=al;break;default:var
+j=0}if(s)var
+av=ah(a,[0,[0,m,m],d]),j=w(function(b){var
+c=W(a,b),d=h(i);return u(k(aq(h),t),d,c)},av);return[0,j,aM]},bx,z,L,E));if(ae){var
+aM=ae[1];if(m[7])var
+bz=an[2],bA=an[1],bB=h(i),P=kr(a_,aM,[7,k(aq(h),T),bB,bA,bz]);else
+var
+P=aM;var
+aN=u(j(f(aJ,aK)),x),aO=aN?o(function(a){var
+b=k4(a);return o(function(a){return kX(x,I,a)},b)},P):aN,aP=aO?C?kX(x,I,h(C[1])):1:aO;if(aP){var
+bC=e(function(a){return 1},P),bD=f(aJ,aK),bE=w(h,C),bF=f($[1],ad[1]);return k9(a,az,M,f(Z[1],bF),P,x,x,bE,bD,bC,a9)}var
+aQ=aP}else
+var
+aQ=ae;var
+aR=aQ}else
+var
+aR=ad;var
+aS=aR}else
+var
+aS=ab;var
+aT=aS}else
+var
+aT=aa;var
+aU=aT}else
+var
+aU=$;var
+aV=aU}else
+var
+aV=Z;var
+aX=aV}else
+var
+aX=Y;return aX}function
+eq(b,a){return a$(b,a[1],a[2])}function
+lk(b,a){var
+c=eq(b,a[1]),d=c?eq(b,a[2]):c;return d?eq(b,a[3]):d}function
+a2(a){return typeof
+a==="number"?a?q7:q8:ds(a[1])}function
+ll(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hj(b[1],a,c)}function
+fI(a){if(0===a[0]){var
+b=a[1];switch(b[0]){case
+0:return b[3];case
+1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
+ht(b,c,a){return b?fA(b[1],c,a):a}function
+b3(d,c,b,a){var
+e=fI(a),f=ht(d,c,fI(a)),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
+lm(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-k_(b,w,v){var
+ln(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?j_(b,j[1],f[1]):0;else
+h=0===f[0]?kg(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=aY(b,c[1],a[1]),l=k?aY(b,c[2],a[2]):k,m=l?aY(b,c[3],a[3]):l,n=m?aY(b,c[4],a[4]):m,o=n?cH(b,c[5],a[5]):n,p=o?cH(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
-u=g3(a),i=g(b,1,O(g3(a),u));else
+a=f[1],c=j[1],k=aZ(b,c[1],a[1]),l=k?aZ(b,c[2],a[2]):k,m=l?aZ(b,c[3],a[3]):l,n=m?aZ(b,c[4],a[4]):m,o=n?cL(b,c[5],a[5]):n,p=o?cL(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
+u=g$(a),i=g(b,1,O(g$(a),u));else
 var
 i=s;var
-h=i?b$(c[7],a[7]):i}if(h){var
+h=i?cb(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-k$(a){return typeof
-a==="number"?a?fw(0):cj:fw(a[1])}function
-hh(b,d,c){if(0===c[0])return fl(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aF(a[4],b),e),h=f(aF(a[3],b),g),i=f(aF(a[2],d[2]),h);return f(aF(a[1],d[1]),i)}function
-hi(b,a){if(b){var
-c=b[1],d=c[2];return cD(hc(c[1],a),d)}return a}function
-la(f,u,al,K,aj,r,ai){if(r){var
-i=r[1],am=bD([0,d,d],aj),a=br(ai,hh(K,am,i)),y=function(c,b){var
-d=$(a,c);return as(s,as(F,k$(f),b),d)};if(0===i[0]){var
+lo(a){return typeof
+a==="number"?a?eo(0):cI:eo(a[1])}function
+hu(b,d,c){if(0===c[0])return ft(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aM(a[4],b),e),h=f(aM(a[3],b),g),i=f(aM(a[2],d[2]),h);return f(aM(a[1],d[1]),i)}function
+hv(b,a){if(b){var
+c=b[1],d=c[2];return cl(en(c[1],a),d)}return a}function
+lp(f,u,al,K,aj,r,ai){if(r){var
+i=r[1],am=bE([0,d,d],aj),a=b1(ai,hu(K,am,i)),y=function(c,b){var
+d=aa(a,c);return ar(t,ar(F,lo(f),b),d)};if(0===i[0]){var
 z=i[1];switch(z[0]){case
 0:var
-_=hi(u,$(a,qK)),aD=z[1][5],A=t(qL,a,l(d)),B=$(a,0),aa=y(qM,_),h=jA(aa,cE(B),aa,A,aD),ao=[0,aE(A),0],ap=[0,aE(ab(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],_];break;case
+$=hv(u,aa(a,q9)),aE=z[1][5],A=s(q_,a,l(d)),B=aa(a,0),ab=y(q$,$),h=jI(ab,cH(B),ab,A,aE),ao=[0,ay(A),0],ap=[0,ay(U(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],$];break;case
 1:var
-ac=hi(u,$(a,qN)),ad=z[3],C=ad?[0,$(a,qO)]:ad,ae=y(0,ac),m=jB(ae,ae,0);if(C)var
-M=C[1],N=[0,aE(ab(M,M)),0];else
+ac=hv(u,aa(a,ra)),ad=z[3],C=ad?[0,aa(a,rb)]:ad,ae=y(0,ac),m=jJ(ae,ae,0);if(C)var
+L=C[1],M=[0,ay(U(L,L)),0];else
 var
-N=C;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,N],ac];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=$(a,0),aI=k$(f),n=jC(aI,cE(D)),aq=[0,aE(ab(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+M=C;var
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=aa(a,0),aI=lo(f),n=jK(aI,cH(D)),aq=[0,ay(U(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
 var
-af=hi(u,$(a,qP)),E=i[1][7],G=t(qQ,a,l(d)),e=t(qR,a,l(d)),ag=$(a,qS),I=$(a,0),q=y(qT,af),p=cE(I),v=as(s,ag,bH(ab(p,ag),p)),w=cE(v),O=fv(p,w),P=ab(q,w),Q=ab(q,O),ar=ab(p,q),at=H(Q),R=F(H(P),at),au=H(ar),S=s(H(G),au),av=o(l(c(2,b)),e),x=s(R,H(ak(F(R,s(H(e),S)),av))),aw=fb(E,o(e,aE(x))),T=ak(P,e),U=fb(E,ak(Q,e)),V=ak(S,H(e)),W=i$(0,T,U,V),X=fb(E,i$(1,T,U,V)),ax=bH(X,O),Y=as(s,q,bH(e,as(F,bH(W,w),ax))),ay=[0,aE(G),0],az=[0,aE(e),ay],aA=[0,aE(ab(v,v)),az],aB=[0,aE(ab(I,I)),aA],aC=cD(Y,aw),k=[0,[0,Y,o(H(e),x),aC,[1,W,X],[0,[0,x,G]],aB],af];var
-aP=L(ai,j(hh(K,am,i))),aQ=r[2],aR=la(f,u,al,K,cb(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cD(fv(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:ci(a):kX(f[1],a,b)},J=g[1],Z=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=Z?f?[0,J[1],[0,J[2],0]]:ci(J):Z,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hv(u,aa(a,rc)),E=i[1][7],G=s(rd,a,l(d)),e=s(re,a,l(d)),ag=aa(a,rf),I=aa(a,0),p=y(rg,af),o=cH(I),v=ar(t,ag,bq(U(o,ag),o)),w=cH(v),O=fF(o,w),P=U(p,w),Q=U(p,O),as=U(o,p),at=H(Q),R=F(H(P),at),au=H(as),S=t(H(G),au),av=q(l(b(2,c)),e),x=t(R,H(ak(F(R,t(H(e),S)),av))),aw=fi(E,q(e,ay(x))),T=ak(P,e),V=fi(E,ak(Q,e)),W=ak(S,H(e)),X=jh(0,T,V,W),Y=fi(E,jh(1,T,V,W)),ax=bq(Y,O),Z=ar(t,p,bq(e,ar(F,bq(X,w),ax))),az=[0,ay(G),0],aA=[0,ay(e),az],aB=[0,ay(U(v,v)),aA],aC=[0,ay(U(I,I)),aB],aD=cl(Z,aw),k=[0,[0,Z,q(H(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=N(ai,j(hu(K,am,i))),aQ=r[2],aR=lp(f,u,al,K,bV(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cl(fF(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bJ(a):k_(f[1],a,b)},J=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:bJ(J):_,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 an=r;return an}function
-hj(c,b,a){if(a){var
-e=a[2],g=hj(c,cb(b),e),h=a[1];return f(hh(c,bD([0,d,d],b),h),g)}return a}function
-lb(b,a){if(a){var
-g=lb([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=bJ([0,[0,d,d],c[2]],b);else
-var
-e=[0,[1,b]];var
-f=[0,e,g]}else
-var
-f=a;return f}function
-hk(b,a){return b?N(a):d}function
-fB(c,b,a){if(typeof
-a!=="number")switch(a[0]){case
-4:var
-e=a[3],f=a[2];return[0,[2,f],[0,[3,f],[0,[2,e],[0,[3,e],0]]]];case
-6:return[0,[0,[5,a[3],a[2]],d],0];case
-8:var
-g=hk(c,b),h=y(hk(c,b),g);return[0,[0,[5,a[2],a[1]],h],0];case
-9:return[0,[1,[5,a[3],a[2]],N(b)],0];case
-10:return[0,[0,a[2],d],0];case
-11:return[0,[2,a[2]],0];case
-12:return[0,[0,a[1],d],0];case
-2:case
-3:return[0,[0,a[2],b],0]}return 0}function
-lc(a){if(a){var
+hw(c,b,a){if(a){var
+e=a[2],g=hw(c,bV(b),e),h=a[1];return f(hu(c,bE([0,d,d],b),h),g)}return a}function
+lq(a){if(a){var
 b=a[1][6];if(b)var
-c=lc(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=lq(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return qU}function
-ld(y,V,b){function
-c(a){return t(a,V,l(d))}function
+d=b;return d}return rh}function
+lr(y,V,b){function
+c(a){return s(a,V,l(d))}function
 N(a){var
-e=a[2],f=o(H(c(0)),e),b=0,d=0,g=a[1];return[0,[0,c8(function(b,a){return s(b,H(a))},g,f),d],b]}function
+e=a[2],f=q(H(c(0)),e),b=0,d=0,g=a[1];return[0,[0,da(function(b,a){return t(b,H(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=H(b[2]),g=o(H(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=H(b[2]),g=q(H(c(0)),f),d=[0,[0,t(b[1],g),0],0];else
 var
 d=a;return d}var
 C=0;if(typeof
@@ -3829,17 +3956,17 @@ switch(b[0]){case
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,t(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,t(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=o(c(qV),b),g=[0,[0,s(o(c(qW),d),f),0],0],h=o(d,c(qX));return[0,[0,s(o(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(ri),b),g=[0,[0,t(q(c(rj),d),f),0],0],h=q(d,c(rk));return[0,[0,t(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3855,16 +3982,16 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lc(y);if(A){var
-aa=c(0),P=c8(o,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=lq(y);if(A){var
+aa=c(0),P=da(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],D=i[1];if(j){var
 k=j[2],E=j[1];if(k)if(k[2]||!h)var
 a=l(d);else{var
 m=h[2],n=h[1];if(n){var
-p=n[2],G=n[1];if(p){var
-q=p[2],I=p[1];if(q){var
-J=q[1];if(q[2]||!m)var
+o=n[2],G=n[1];if(o){var
+p=o[2],I=o[1];if(p){var
+J=p[1];if(p[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
 u=r[2],K=r[1];if(u){var
@@ -3872,7 +3999,7 @@ v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cG(G,I,K,L),S=o(k[1],R),U=o(E,cG(G,J,K,M)),a=F(s(o(D,cG(I,J,L,M)),U),S)}else
+S=cK(G,I,K,L),T=q(k[1],S),U=q(E,cK(G,J,K,M)),a=F(t(q(D,cK(I,J,L,M)),U),T)}else
 var
 a=l(d)}else
 var
@@ -3887,7 +4014,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cG(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cK(D,E,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -3898,86 +4025,78 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bl(F(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+ab=[0,bm(F(a,P)),0],Q=[0,[0,t(a,P),ab],0]}else
 var
 Q=A;return Q;default:C=1}if(C)return 0;var
-z=T(y,f);return z?g(z[1]):z}function
-fC(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-ej(a){return e(function(a){var
-c=l(b);return[0,a[3],c]},a)}function
-le(a,b){return e(function(a){var
-c=o(a[2],b);return[0,a[1],c]},a)}function
-lf(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bt(le(c,t(0,b,l(d))));return i3(ld(c,b,a))}function
-ek(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=ek(g,c,b,L(e,j(fB(c,b,d))),h);return f(at(g,lb(e,fB(c,b,d)),d),i)}return a}function
-lg(b,a){switch(a[0]){case
-0:var
-d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
-1:var
-e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jl(b,c[1]):c;case
-2:return dd(b,a[1]);default:return e8(b,a[1])}}function
-lh(f,h,m,I,H,r,a){if(typeof
-a==="number")return[0,[0,[0,C]],0];else
+z=R(y,f);return z?g(z[1]):z}function
+fJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+er(a){return e(function(a){var
+b=l(c);return[0,a[3],b]},a)}function
+ls(a,b){return e(function(a){var
+c=q(a[2],b);return[0,a[1],c]},a)}function
+lt(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bt(ls(c,s(0,b,l(d))));return i$(lr(c,b,a))}function
+lu(f,h,m,I,H,r,a){if(typeof
+a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
+J=[5,[0,c,c],a[1]],i=J,o=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
+M=[5,[0,c,c],a[1]],i=M,o=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,S(f,a)]},Q),P];case
+y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,W(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],B=a[1];if(!T(m,B))return q0;var
+z=a[3],A=a[2],C=a[1];if(!R(m,C))return rn;var
 G=0;if(g(f,1,A)&&g(f,1,z))var
-R=[5,A,z],j=R,n=function(a){return[7,B,a]};else
-G=1;if(G)return qZ;break;case
+S=[5,A,z],i=S,o=function(a){return[7,C,a]};else
+G=1;if(G)return rm;break;case
 8:var
-D=g(f,1,a[1]),U=0,E=D?g(f,1,a[2]):D;if(E)var
-V=_(f,b),W=le(m,t(0,r,l(d))),F=[0,[4,i(ap(h),W),V]];else
+D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
+U=_(f,c),V=ls(m,s(0,r,l(d))),F=[0,[4,k(aq(h),V),U]];else
 var
-F=E;return[0,F,U];default:var
-p=0;if(typeof
-a==="number")p=1;else
+F=E;return[0,F,T];default:var
+q=0;if(typeof
+a==="number")q=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],s]):v,k=O;break;case
+t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],t]):v,j=O;break;case
 6:case
 9:var
-w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:p=1}if(p)var
-k=1;var
-o=k?ld(m,r,a):k;if(o){var
-N=[0,o[1],o[2]];return e(function(a){if(a){var
+x=g(f,1,a[2]),j=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
+j=1;var
+p=j?lr(m,r,a):j;if(p){var
+N=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
-d=[0,[3,i(h,c)]]}else
+e=k(h,b[1]);return[0,[5,k(h,c),e]]}var
+d=[0,[3,k(h,c)]]}else
 var
-d=a;return d},N)}return qY}var
-K=0,L=ah(f,[0,[0,j,j],hk(I,H)]);return[0,x(function(a){return n(S(f,a))},L),K]}function
-li(a){if(typeof
+d=a;return d},N)}return rl}var
+K=0,L=ah(f,[0,[0,i,i],hg(I,H)]);return[0,w(function(a){return o(W(f,a))},L),K]}function
+lv(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-q2(b){if(0===b[0])return[0,kh(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=a_(a[4]),g=a_(a[3]),h=a_(a[2]);return[1,[0,a_(a[1]),h,g,f,e,d,c]]}function
-q3(K,c,a,h,an,aT){var
-aU=e(q2,a[2]),ao=k_(K,a[2],aU);if(ao)var
-aV=g2(a[4]),L=d_(K,a[4],aV);else
+rp(b){if(0===b[0])return[0,kp(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=ba(a[4]),g=ba(a[3]),h=ba(a[2]);return[1,[0,ba(a[1]),h,g,f,e,d,c]]}function
+rq(K,c,a,h,an,aT){var
+aU=e(rp,a[2]),ap=ln(K,a[2],aU);if(ap)var
+aV=g_(a[4]),L=ec(K,a[4],aV);else
 var
-L=ao;if(L){var
-aq=a[5];if(aq)var
-aW=fu(aq[1]),as=n(function(a){return ei(K,a)},aW);else
+L=ap;if(L){var
+ar=a[5];if(ar)var
+aW=fE(ar[1]),as=o(function(a){return eq(K,a)},aW);else
 var
 as=1;var
 M=as}else
 var
 M=L;if(M){var
-b=a[1],aw=a0(b),q=a[6],y=hj(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,j(y)],A=a[2],o=A?0===A[1][0]?0:1:A,ax=a[5],ay=x(function(a){var
+b=a[1],aw=a2(b),q=a[6],z=hw(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,j(z)],A=a[2],n=A?0===A[1][0]?0:1:A,ax=a[5],ay=w(function(a){var
 c=typeof
-b==="number"?0:fx(b[1]);return kO(a,c)},ax),az=a[2],k=la(b,ay,bJ(S,j(y)),h,an,az,0),U=z(function(a){return a[7]},k),aA=f(U,ek(function(a,b){return lf(k,a,b)},o,h,T,q)),aB=f(bt(ej(k)),aA),V=f(bt(fC(k)),aB),B=db(V)[1],aC=cA(B),p=function(a){return bm(aC,a)},W=n(function(a){var
-b=l(d),c=cA(B);return aM(t(p(a),c,b),a)},V),X=W?ar(li,q):W;if(X){var
+b==="number"?0:fG(b[1]);return kZ(a,c)},ax),az=a[2],i=lp(b,ay,co(S,j(z)),h,an,az,0),U=y(function(a){return a[7]},i),aA=f(U,cp(function(a,b){return lt(i,a,b)},n,h,T,q)),aB=f(bt(er(i)),aA),V=f(bt(fJ(i)),aB),B=cG(V)[1],aC=bH(B),p=function(a){return a7(aC,a)},W=o(function(a){var
+b=l(d),c=bH(B);return aF(s(p(a),c,b),a)},V),X=W?ao(lv,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?hf(0,dk(Y)):1;else
+Z=b?hs(0,dp(Y)):1;else
 var
-au=dk(Y),Z=hf(b[1],au);var
+au=dp(Y),Z=hs(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -3988,34 +4107,34 @@ if(2<=O[1])var
 r=0;else{var
 v=a[5],N=0;if(v){var
 P=g(c,1,a[3]);if(P)var
-av=fu(v[1]),r=n(function(a){var
-b=ee(c,a[1]);return b?ee(c,a[2]):b},av);else{var
+av=fE(v[1]),r=o(function(a){var
+b=ej(c,a[1]);return b?ej(c,a[2]):b},av);else{var
 Q=P;N=1}}else{var
 Q=v;N=1}if(N)var
 r=Q}var
 D=r}else
 var
 D=C;if(D)var
-aD=a[2],E=n(function(a){var
-b=0===a[0]?0:1;return b$(b,o)},aD);else
+aD=a[2],E=o(function(a){var
+b=0===a[0]?0:1;return cb(b,n)},aD);else
 var
 E=D;if(E){var
-aE=f(y,[0,S,0]),F=aj(e(function(a){return ah(c,a)},aE));if(F){var
-aF=z(function(a){return fB(o,h,a)},q),G=aj(e(function(a){return lg(c,a)},aF));if(G){var
-m=dk(a[4]),aG=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:k6(b[1],m),H=aj(e(function(a){return ah(c,[0,a,h])},aG));if(H){var
+aE=f(z,[0,S,0]),F=ai(e(function(a){return ah(c,a)},aE));if(F){var
+aG=y(function(a){return eg(n,h,a)},q),G=ai(e(function(a){return hh(c,a)},aG));if(G){var
+m=dp(a[4]),aH=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lj(b[1],m),H=ai(e(function(a){return ah(c,[0,a,h])},aH));if(H){var
 _=H[1],$=a[5];if($)var
-aH=kQ($[1]),s=aj(e(function(a){return kS(c,a)},aH));else
+aI=k1($[1]),t=ai(e(function(a){return k3(c,a)},aI));else
 var
-s=q1;if(s){var
-aa=s[1],w=a[5],aI=w?kP(w[1]):w,I=aj(e(function(a){return dl(c,a)},aI));if(I){var
-J=aj(ek(function(a,b){return lh(c,p,k,o,h,a,b)},o,h,T,q));if(J){var
+t=ro;if(t){var
+aa=t[1],x=a[5],aJ=x?k0(x[1]):x,I=ai(e(function(a){return dr(c,a)},aJ));if(I){var
+J=ai(cp(function(a,b){return lu(c,p,i,n,h,a,b)},n,h,T,q));if(J){var
 ab=J[1],ac=u(j(f(_,aa)),aw);if(ac){var
-aJ=gV(ab),aK=f(_,aa),at=0,aL=a[4];if(typeof
+aK=g4(ab),aL=f(_,aa),at=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return j9(c,aL,h,a)};at=1}if(!at)var
+ad=function(a){return kf(c,aM,h,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=ej(k),aR=i(ap(p),aQ),aS=fC(k);return fk(c,B,i(ap(p),aS),aR,aP,aO,ab,ad,aK,aJ,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=er(i),aR=k(aq(p),aQ),aS=fJ(i);return fs(c,B,k(aq(p),aS),aR,aP,aO,ab,ad,aL,aK,aT)}var
 ae=ac}else
 var
 ae=J;var
@@ -4024,11 +4143,11 @@ var
 af=I;var
 ag=af}else
 var
-ag=s;var
-ai=ag}else
+ag=t;var
+aj=ag}else
 var
-ai=H;var
-ak=ai}else
+aj=H;var
+ak=aj}else
 var
 ak=G;var
 al=ak}else
@@ -4047,134 +4166,134 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=bu(a[2]);return f(bu(a[1]),e)}}function
-a$(e,a,c){switch(a[0]){case
+bb(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return bJ([0,[0,r,r],d],c);case
+r=a[1];return co([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(ot(n[1],u))return n[2];var
+n=g[1];if(oL(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bl(a$(e,a[1],c));case
+2:return bm(bb(e,a[1],b));case
 3:var
 i=a[2],f=a[1],h=F;break;case
 4:var
-i=a[2],f=a[1],h=s;break;case
+i=a[2],f=a[1],h=t;break;case
 5:var
-i=a[2],f=a[1],h=o;break;case
+i=a[2],f=a[1],h=q;break;case
 6:var
 i=a[2],f=a[1],h=ak;break;case
 7:var
-k=dT(a[2]),m=a$(e,a[1],c);if(k){if(k[1]){var
-p=H(m),t=function(a){return o(a,p)},q=eQ(bC(iU(k)),t,p);return iT(k)?q:o(q,m)}return m}return l(b);default:return aE(a$(e,a[1],c))}var
-w=a$(e,i,L(c,j(bu(f))));return h(a$(e,f,c),w)}function
-co(c,g,b){var
+k=dX(a[2]),m=bb(e,a[1],b);if(k){if(k[1]){var
+o=H(m),s=function(a){return q(a,o)},p=eX(bD(i3(k)),s,o);return i2(k)?p:q(p,m)}return m}return l(c);default:return ay(bb(e,a[1],b))}var
+w=bb(e,i,N(b,j(bu(f))));return h(bb(e,f,b),w)}function
+cs(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=L(b,j(bu(e))),l=co(c,a[2],k),m=f(co(c,e,b),l);return[0,a$(c,a,b),m];case
+e=a[1],k=N(b,j(bu(e))),l=cs(c,a[2],k),m=f(cs(c,e,b),l);return[0,bb(c,a,b),m];case
 8:var
-n=co(c,a[1],b);return[0,a$(c,a,b),n];case
+n=cs(c,a[1],b);return[0,bb(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=L(b,j(bu(d))),i=co(c,a[2],h);return f(co(c,d,b),i)}}function
-lj(c,a,b){if(a){var
-e=a[1],d=e[2],g=L(b,j(bu(d))),h=a[2],i=a$(c,d,b),k=lj([0,[0,e[1],i],c],h,g);return f(co(c,d,b),k)}return a}function
-hl(a){return z(bu,a)}function
-lk(c,a,b){if(a)var
-d=a[1],f=L(b,j(bu(d))),g=lk(c,a[2],f),e=[0,a$(c,d,b),g];else
+d=a[1],h=N(b,j(bu(d))),i=cs(c,a[2],h);return f(cs(c,d,b),i)}}function
+lw(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,j(bu(d))),h=a[2],i=bb(c,d,b),k=lw([0,[0,e[1],i],c],h,g);return f(cs(c,d,b),k)}return a}function
+hx(a){return y(bu,a)}function
+lx(c,a,b){if(a)var
+d=a[1],f=N(b,j(bu(d))),g=lx(c,a[2],f),e=[0,bb(c,d,b),g];else
 var
 e=a;return e}function
-ll(c,a,b){if(a){var
-d=a[1],e=L(b,j(bu(d))),g=ll(c,a[2],e);return f(co(c,d,b),g)}return a}function
-hm(a){return 0===a[0]?hl(a[1]):bu(a[1])}function
-lm(c,b,a){if(b){var
-d=b[1],i=L(a,j(hm(d))),k=lm(c,b[2],i);if(0===d[0])var
-g=ll(c,d[1],a);else
+ly(c,a,b){if(a){var
+d=a[1],e=N(b,j(bu(d))),g=ly(c,a[2],e);return f(cs(c,d,b),g)}return a}function
+hy(a){return 0===a[0]?hx(a[1]):bu(a[1])}function
+lz(c,b,a){if(b){var
+d=b[1],i=N(a,j(hy(d))),k=lz(c,b[2],i);if(0===d[0])var
+g=ly(c,d[1],a);else
 var
-e=d[1],h=co(c,e,a),g=[0,a$(c,e,a),h];return f(g,k)}return b}function
-fD(c){var
+e=d[1],h=cs(c,e,a),g=[0,bb(c,e,a),h];return f(g,k)}return b}function
+fK(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cz(fD,a)}return[0,b]}function
-hn(c){var
+b=cE(fK,a)}return[0,b]}function
+hz(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hn(a[2]);return o(hn(a[1]),d);case
+d=hz(a[2]);return q(hz(a[1]),d);case
 9:return a[1];default:return H(b)}}}function
-ln(n,g,a,f){if(a){var
-c=a[1],w=L(f,j(hm(c))),x=ln(n,g,a[2],w);if(0===c[0])var
-k=lk(g,c[1],f),o=[0,k,l(b),k,0,0,0,0];else
+lA(n,g,a,f){if(a){var
+b=a[1],w=N(f,j(hy(b))),x=lA(n,g,a[2],w);if(0===b[0])var
+k=lx(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=a$(g,c[1],f),q=fD(m),h=aN(aV(0,n),q),d=fD(h[2]),i=e(fD,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aM(a,d)?l(b):ak(a,d)},i),o=[0,i,hn(d),v,u,t,s,r];var
+m=bb(g,b[1],f),q=fK(m),h=aL(aW(0,n),q),d=fK(h[2]),i=e(fK,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aF(a,d)?l(c):ak(a,d)},i),o=[0,i,hz(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-lo(a){return e(function(a){return[0,a[2],d]},a)}function
-lp(a){var
-b=z(hm,a[4]),c=f(hl(e(b_,a[3])),b);return f(lo(a[2]),c)}function
-lq(a){var
-c=br(0,lo(a[2])),d=aV(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
-ho(b,d){var
+lB(a){return e(function(a){return[0,a[2],d]},a)}function
+lC(a){var
+b=y(hy,a[4]),c=f(hx(e(ca,a[3])),b);return f(lB(a[2]),c)}function
+lD(a){var
+c=b1(0,lB(a[2])),d=aW(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aI,a[2]),c);return f(aJ(a[1],g),b)}function
+hA(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ar(function(a){return an(e,a)},b);case
+e=a[1];return ao(function(a){return an(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=ho(b,a[1]);if(c){var
+c=hA(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-lr(d){var
+lE(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ad(ar(function(b){return function(a){return ot(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ac(ao(function(b){return function(a){return oL(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fF=s(l(b),fE);function
-ls(e){var
-a=H(fF);if(e)var
-f=o(l(c(2,b)),a),g=F(l(c(2,c(2,b))),f),h=o(l(c(2,b)),a),d=ak(F(l(b),h),g);else
+fM=t(l(c),fL);function
+lF(e){var
+a=H(fM);if(e)var
+f=q(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=ak(F(l(c),h),g);else
 var
-i=F(l(c(2,b)),a),j=H(fE),d=ak(F(o(l(c(2,b)),j),a),i);return aE(d)}function
-lt(d,c,a){if(d){var
-e=ls(c),f=F(l(b),e),g=o(s(l(b),a),f);return s(l(b),g)}var
-h=l(b),i=ls(c),j=ak(l(b),i);return s(o(a,F(l(b),j)),h)}function
-dt(f,e,d,a){var
-g=H(a),h=H(d),i=s(s(l(c(2,b)),h),g),j=f?e?fF:ak(fF,o(l(c(2,b)),fE)):ak(fF,l(c(2,b))),k=o(H(j),i);return aE(F(l(b),k))}function
-lu(g,d){var
+i=F(l(b(2,c)),a),j=H(fL),d=ak(F(q(l(b(2,c)),j),a),i);return ay(d)}function
+lG(d,b,a){if(d){var
+e=lF(b),f=F(l(c),e),g=q(t(l(c),a),f);return t(l(c),g)}var
+h=l(c),i=lF(b),j=ak(l(c),i);return t(q(a,F(l(c),j)),h)}function
+dy(f,e,d,a){var
+g=H(a),h=H(d),i=t(t(l(b(2,c)),h),g),j=f?e?fM:ak(fM,q(l(b(2,c)),fL)):ak(fM,l(b(2,c))),k=q(H(j),i);return ay(F(l(c),k))}function
+lH(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hp(v,u,s){var
-a=e(function(a){return t(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+hB(v,u,t){var
+a=e(function(a){return s(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
-j=d[1];if(j){if(d[2])return 0;var
-w=j[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=i(a,w),d=i(a,x),e=i(a,y),b=i(a,z);return e_([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
-k=j}else
+i=d[1];if(i){if(d[2])return 0;var
+w=i[1],x=h[1],y=g[1],z=f[1];return o(function(a){var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return ff([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+j=i}else
 var
-k=d;var
-l=k}else
+j=d;var
+l=j}else
 var
 l=h;var
 m=l}else
 var
 m=c;var
-o=m}else
+n=m}else
 var
-o=g;var
-p=o}else
+n=g;var
+p=n}else
 var
 p=b;var
 q=p}else
@@ -4183,12 +4302,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-lv(f,i,e,c,h){var
-j=f?b:d,a=_(i,j);function
+lI(f,i,e,b,h){var
+j=f?c:d,a=_(i,j);function
 g(b){var
-c=f?e2(b):da(b);return K(c,a)}var
-k=[0,ag(h),0],l=[0,[0,a,c,[0,C,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-lw(r,g,q,p,f,o,n){if(o){var
+c=f?e_(b):de(b);return K(c,a)}var
+k=[0,ag(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+lJ(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4197,16 +4316,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aS,bp(q9)),a=hp(p,jQ(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aS,bp(rw)),a=hB(p,g1(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lu,q_),a=hp(p,bF(0,cf(g,lv(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lH,rx),a=hB(p,bG(0,ch(g,lI(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lu,q$),a=hp(p,bF(0,cf(g,lv(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lH,ry),a=hB(p,bG(0,ch(g,lI(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4216,27 +4335,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?ra:a}else
+y=a?rz:a}else
 var
 y=n;return y}return[0,n]}function
-lx(f,e,d,c,p,o,n){var
+lK(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=lw(f,e,d,c,b,a[1],g);return h?ad(h[1]):h}var
-i=lw(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d5(a[2],b),l=lx(f,e,d,c,k[1],j,a[3]);if(l){var
+h=lJ(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
+i=lJ(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d9(a[2],b),l=lK(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hq(a){return iY(c(2,b),aA(a,b))}function
-du(i,a,e,w,v){var
-m=a?b:N(b),f=l(m),g=lt(a,e,q7),h=lt(a,e,q8),n=ak(g,dt(a,e,f,g)),p=[0,F(ak(h,dt(a,e,h,f)),n),0],q=ak(f,dt(a,e,f,g)),r=[0,F(ak(h,dt(a,e,g,h)),q),p],s=ak(f,dt(a,e,h,f)),t=[0,F(ak(g,dt(a,e,g,h)),s),r],u=a?e?l(c(2,b)):o(l(c(2,c(2,b))),fE):l(c(2,c(2,b))),j=db([0,u,t]),k=[0,d,cx(i)];return lx(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-ly(a,g,b){if(X(g,hq(a))){if(b){var
+hC(a){return i7(b(2,c),aC(a,c))}function
+dz(i,a,e,w,v){var
+m=a?c:M(c),f=l(m),g=lG(a,e,ru),h=lG(a,e,rv),n=ak(g,dy(a,e,f,g)),o=[0,F(ak(h,dy(a,e,h,f)),n),0],p=ak(f,dy(a,e,f,g)),r=[0,F(ak(h,dy(a,e,g,h)),p),o],s=ak(f,dy(a,e,h,f)),t=[0,F(ak(g,dy(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fL):l(b(2,b(2,c))),j=cG([0,u,t]),k=[0,d,cD(i)];return lK(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lL(a,g,b){if(V(g,hC(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hq(a)],v=cx(a),i=[0,hq(a),v],j=du(a,0,1,h,b[1]),k=j?du(a,0,0,i,c[1]):j;if(k){var
-l=du(a,1,1,h,d[1]);if(l)return du(a,1,0,i,e[1]);var
+h=[0,g,hC(a)],v=cD(a),i=[0,hC(a),v],j=dz(a,0,1,h,b[1]),k=j?dz(a,0,0,i,c[1]):j;if(k){var
+l=dz(a,1,1,h,d[1]);if(l)return dz(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4253,255 +4372,259 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cx(a)],s=du(a,0,0,r,b[1]);if(s)return du(a,1,0,r,f[1]);var
+r=[0,g,cD(a)],s=dz(a,0,0,r,b[1]);if(s)return dz(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hr(a){var
-b=[1,[2,d]];return c8(function(b,a){return[1,[3,b,a]]},a,b)}function
-fG(a){return hr(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fH(a,c){return hr(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hr(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lz(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cz(function(a){return lz(e,d,c,b,a)},f);return i(cf(e,d,c),g)}function
-lA(a){return a?X(d,a[1][2][1]):a}function
-rb(a){var
-b=u(j(a),rc);return b?ar(function(a){return ad(Y(a,d))},a):b}function
-lB(c,f,b,a){if(b)if(a)var
-d=b[1],g=w(c,_(c,a[1]),f),h=lB(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
+hD(a){var
+b=[1,[2,d]];return da(function(b,a){return[1,[3,b,a]]},a,b)}function
+fN(a){return hD(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fO(a,c){return hD(e(function(a){var
+d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hD(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lM(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
+f=a[1],g=cE(function(a){return lM(e,d,c,b,a)},f);return k(ch(e,d,c),g)}function
+lN(a){return a?V(d,a[1][2][1]):a}function
+rA(a){var
+b=u(j(a),rB);return b?ao(function(a){return ac(Z(a,d))},a):b}function
+lO(c,f,b,a){if(b)if(a)var
+d=b[1],g=x(c,_(c,a[1]),f),h=lO(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fI(b,a){return i2(i2(b,0),a)}function
-hs(a){if(a){var
-b=a[2],c=a[1];if(b)return fI(c,[0,re,hs(b)]);var
+fP(b,a){return e4(e4(b,0),a)}function
+hE(a){if(a){var
+b=a[2],c=a[1];if(b)return fP(c,[0,rD,hE(b)]);var
 d=c}else
 var
 d=a;return d}function
-A(a){return[0,rg,fI(hs(a),rf)]}function
-U(a){return[0,ri,fI(hs(a),rh)]}function
-ai(a){return[0,rk,[0,a,rj]]}function
-h(b,a){return[0,aP(rm,aP(b,rl)),a]}function
-I(b,a){return U([0,h(b,a),0])}function
-b0(d){var
-b=d,a=oY,e=0;for(;;){if(b){var
-c=iS(a),b=b[1],a=c;continue}return[0,dW(eP(a)),e]}}function
-ht(a){return[0,dW(eV(a)),0]}function
-fJ(a){var
-c=a3(a),f=0,b=0===c?o3:0<c?[0,eV(a)]:[1,eV(N(a))];if(0===b[0])var
-d=dW(b[1]);else
+A(a){return[0,rF,fP(hE(a),rE)]}function
+X(a){return[0,rH,fP(hE(a),rG)]}function
+aj(a){return[0,rJ,[0,a,rI]]}function
+h(b,a){return[0,aP(rL,aP(b,rK)),a]}function
+I(b,a){return X([0,h(b,a),0])}function
+b4(d){var
+b=d,a=pe,e=0;for(;;){if(b){var
+c=i1(a),b=b[1],a=c;continue}return[0,d0(eW(a)),e]}}function
+hF(a){return[0,d0(e2(a)),0]}function
+fQ(a){var
+c=a4(a),f=0,b=0===c?pj:0<c?[0,e2(a)]:[1,e2(M(a))];if(0===b[0])var
+d=d0(b[1]);else
 var
-e=dW(b[1]),d=aP(bg(1,45),e);return[0,d,f]}function
-hu(a){var
-b=0,c=0<a3(a)?eV(a):o2;return[0,dW(c),b]}function
-hv(a){switch(a[0]){case
-2:return ro;case
-3:return 2<=a[1]?rp:rq;case
-4:return rr;default:return rn}}function
-el(b,a){function
-c(c,a){return Z(c,hv(a))?el(b,a):[0,rx,f(el(b,a),rw)]}switch(a[0]){case
+e=d0(b[1]),d=aP(bi(1,45),e);return[0,d,f]}function
+hG(a){var
+b=0,c=0<a4(a)?e2(a):pi;return[0,d0(c),b]}function
+hH(a){switch(a[0]){case
+2:return rN;case
+3:return 2<=a[1]?rO:rP;case
+4:return rQ;default:return rM}}function
+es(b,a){function
+c(c,a){return Q(c,hH(a))?es(b,a):[0,rW,f(es(b,a),rV)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,aW(g),0];var
-h=[0,ry,[0,aW(e),0]];return[0,aW(g),h];case
-1:return[0,i(b,a[1]),0];case
-2:return[0,rA,c(rz,a[1])];case
+e==="number")return[0,aX(g),0];var
+h=[0,rX,[0,aX(e),0]];return[0,aX(g),h];case
+1:return[0,k(b,a[1]),0];case
+2:return[0,rZ,c(rY,a[1])];case
 3:var
-j=a[3],k=c([0,hv(a)],j);switch(a[1]){case
+i=a[3],j=c([0,hH(a)],i);switch(a[1]){case
 0:var
-d=rs;break;case
+d=rR;break;case
 1:var
-d=rt;break;case
+d=rS;break;case
 2:var
-d=ru;break;default:var
-d=rv}var
-l=a[2];return f(c(hv(a),l),[0,d,k]);case
+d=rT;break;default:var
+d=rU}var
+l=a[2];return f(c(hH(a),l),[0,d,j]);case
 4:var
-m=[0,rB,ht(a[2])];return f(c(rC,a[1]),m);default:return[0,rE,f(el(b,a[1]),rD)]}}function
-J(a){return[0,rH,f(el(function(a){return 0===a[0]?a[1]:rG},a),rF)]}function
-hw(a){return[0,rJ,f(el(function(a){return a},a),rI)]}function
-b1(a){if(0===a[0])return J(a[1]);var
-b=[0,h(rK,J(a[2])),0];return U([0,h(rL,J(a[1])),b])}function
-fK(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return A([0,i(b,a[1]),d])}function
-rM(a){function
-b(a){return fK(b1,a)}switch(a[0]){case
+m=[0,r0,hF(a[2])];return f(c(r1,a[1]),m);default:return[0,r3,f(es(b,a[1]),r2)]}}function
+J(a){return[0,r6,f(es(function(a){return 0===a[0]?a[1]:r5},a),r4)]}function
+hI(a){return[0,r8,f(es(function(a){return a},a),r7)]}function
+b5(a){if(0===a[0])return J(a[1]);var
+b=[0,h(r9,J(a[2])),0];return X([0,h(r_,J(a[1])),b])}function
+fR(b,a){var
+c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
+r$(a){function
+b(a){return fR(b5,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?rN:rV,i=[0,h(rO,ai(g)),e],j=[0,h(rP,b1(a[4])),i],k=[0,h(rQ,b(a[3])),j],l=[0,h(rR,b(a[2])),k],m=[0,h(rS,b(a[1])),l],c=[0,h(rU,ai(rT)),m];break;case
+e=0,g=a[5]?sa:si,i=[0,h(sb,aj(g)),e],j=[0,h(sc,b5(a[4])),i],k=[0,h(sd,b(a[3])),j],l=[0,h(se,b(a[2])),k],m=[0,h(sf,b(a[1])),l],c=[0,h(sh,aj(sg)),m];break;case
 1:var
-d=a[3],n=d?[0,h(rW,b(d[1])),0]:d,o=[0,h(rX,b(a[2])),0],p=[0,h(rY,b(a[1])),o],c=f([0,h(r0,ai(rZ)),p],n);break;default:var
-q=[0,h(r1,b(a[1])),0],c=[0,h(r3,ai(r2)),q]}return U(c)}function
-r4(a){function
-b(a){return A(e(b1,a))}function
+d=a[3],n=d?[0,h(sj,b(d[1])),0]:d,o=[0,h(sk,b(a[2])),0],p=[0,h(sl,b(a[1])),o],c=f([0,h(sn,aj(sm)),p],n);break;default:var
+q=[0,h(so,b(a[1])),0],c=[0,h(sq,aj(sp)),q]}return X(c)}function
+sr(a){function
+b(a){return A(e(b5,a))}function
 d(a){var
-b=a?r5:r7;return h(r6,ai(b))}switch(a[0]){case
+b=a?ss:su;return h(st,aj(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,h(r8,b1(a[4])),f],i=[0,h(r9,b(a[3])),g],j=[0,h(r_,b(a[2])),i],k=[0,h(r$,b(a[1])),j],c=[0,h(sb,ai(sa)),k];break;case
+f=[0,d(a[5]),0],g=[0,h(sv,b5(a[4])),f],i=[0,h(sw,b(a[3])),g],j=[0,h(sx,b(a[2])),i],k=[0,h(sy,b(a[1])),j],c=[0,h(sA,aj(sz)),k];break;case
 1:var
-l=[0,h(sc,b(a[2])),0],m=[0,h(sd,b(a[1])),l],c=[0,h(sf,ai(se)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,h(sg,b1(a[6])),n],p=[0,h(sh,b1(a[5])),o],q=[0,h(si,b(a[4])),p],r=[0,h(sj,b(a[3])),q],s=[0,h(sk,b(a[2])),r],t=[0,h(sl,b(a[1])),s],c=[0,h(sn,ai(sm)),t]}return U(c)}function
-hx(a){switch(a){case
-0:return so;case
-1:return sp;case
-2:return sq;case
-3:return sr;case
-4:return ss;case
-5:return st;case
-6:return su;case
-7:return sv;case
-8:return sw;case
-9:return sx;case
-10:return sy;case
-11:return sz;case
-12:return sA;default:return sB}}function
-hy(a){if(typeof
-a==="number")return sC;else
+l=[0,h(sB,b(a[2])),0],m=[0,h(sC,b(a[1])),l],c=[0,h(sE,aj(sD)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,h(sF,b5(a[6])),n],p=[0,h(sG,b5(a[5])),o],q=[0,h(sH,b(a[4])),p],r=[0,h(sI,b(a[3])),q],s=[0,h(sJ,b(a[2])),r],t=[0,h(sK,b(a[1])),s],c=[0,h(sM,aj(sL)),t]}return X(c)}function
+hJ(a){switch(a){case
+0:return sN;case
+1:return sO;case
+2:return sP;case
+3:return sQ;case
+4:return sR;case
+5:return sS;case
+6:return sT;case
+7:return sU;case
+8:return sV;case
+9:return sW;case
+10:return sX;case
+11:return sY;case
+12:return sZ;case
+13:return s0;case
+14:return s1;default:return s2}}function
+hK(a){if(typeof
+a==="number")return s3;else
 switch(a[0]){case
-0:return sD;case
-1:return sE;default:return sF}}function
-em(a){var
+0:return s4;case
+1:return s5;default:return s6}}function
+et(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,h(sG,J(b[1])),0];break;case
+d=[0,h(s7,J(b[1])),0];break;case
 1:var
-d=[0,h(sH,J(b[1])),0];break;default:var
-m=[0,J(b[2]),0],d=[0,h(sI,A([0,J(b[1]),m])),0]}var
-n=[0,h(sJ,ai(hy(a[4]))),d],g=a[3];if(g){var
+d=[0,h(s8,J(b[1])),0];break;default:var
+n=[0,J(b[2]),0],d=[0,h(s9,A([0,J(b[1]),n])),0]}var
+o=[0,h(s_,aj(hK(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-p=A([0,J(c[1]),0]),k=a[1],o=0,q=6===k?sK:12===k?sO:sP,i=[0,h(sL,I(q,p)),o];break;case
+q=A([0,J(c[1]),0]),k=a[1],p=0,r=6===k?s$:12===k?td:te,i=[0,h(ta,I(r,q)),p];break;case
 1:var
-i=[0,h(sR,I(sQ,A(e(J,c[1])))),0];break;default:var
-u=[0,h(sS,A([0,J(c[2]),0])),0],i=[0,h(sU,U([0,h(sT,A([0,J(c[1]),0])),u])),0]}var
+w=A(e(J,c[1])),m=a[1],v=0,x=14===m?tf:15<=m?th:ti,i=[0,h(tg,I(x,w)),v];break;default:var
+y=[0,h(tj,A([0,J(c[2]),0])),0],i=[0,h(tl,X([0,h(tk,A([0,J(c[1]),0])),y])),0]}var
 l=i}else
 var
 l=g;var
-r=f(l,n),j=a[2],s=j?[0,h(sM,b0(j[1])),0]:j,t=f(s,r);return U([0,h(sN,ai(hx(a[1]))),t])}function
-lC(a){if(0===a[0]){var
-b=[0,h(sV,fK(J,a[2])),0];return I(sX,U([0,h(sW,fK(J,a[1])),b]))}var
-c=[0,J(a[5]),0],d=[0,h(sY,A([0,J(a[4]),c])),0],e=[0,h(sZ,J(a[3])),d],f=[0,J(a[2]),0];return I(s1,U([0,h(s0,A([0,J(a[1]),f])),e]))}function
-lD(a){if(0===a[0]){var
-b=[0,h(s2,A(e(J,a[2]))),0];return I(s4,U([0,h(s3,A(e(J,a[1]))),b]))}return lC([1,a[1],a[2],a[3],a[4],a[5]])}function
-lE(a){switch(a){case
-0:return s5;case
-1:return s6;default:return s7}}function
-s8(a){function
-b(a){return A(e(b1,a))}var
-c=[0,h(s9,b(a[2])),0],d=[0,h(s_,b(a[1])),c];return U([0,h(ta,ai(s$)),d])}function
-lF(a){function
+s=f(l,o),j=a[2],t=j?[0,h(tb,b4(j[1])),0]:j,u=f(t,s);return X([0,h(tc,aj(hJ(a[1]))),u])}function
+lP(a){if(0===a[0]){var
+b=[0,h(tm,fR(J,a[2])),0];return I(to,X([0,h(tn,fR(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,h(tp,A([0,J(a[4]),c])),0],e=[0,h(tq,J(a[3])),d],f=[0,J(a[2]),0];return I(ts,X([0,h(tr,A([0,J(a[1]),f])),e]))}function
+lQ(a){if(0===a[0]){var
+b=[0,h(tt,A(e(J,a[2]))),0];return I(tv,X([0,h(tu,A(e(J,a[1]))),b]))}return lP([1,a[1],a[2],a[3],a[4],a[5]])}function
+lR(a){switch(a){case
+0:return tw;case
+1:return tx;default:return ty}}function
+tz(a){function
+b(a){return A(e(b5,a))}var
+c=[0,h(tA,b(a[2])),0],d=[0,h(tB,b(a[1])),c];return X([0,h(tD,aj(tC)),d])}function
+lS(a){function
 b(b,a){var
 c=[0,J(a),0];return A([0,J(b),c])}switch(a[0]){case
-0:return I(tb,b(a[1],a[2]));case
+0:return I(tE,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,h(tc,b(c[1],c[2])),0],g=[0,h(td,b(d[1],d[2])),f];return I(tf,U([0,h(te,b(e[1],e[2])),g]));case
-2:return I(tg,J(a[1]));default:var
-i=[0,h(th,J(a[2])),0];return I(tj,U([0,h(ti,J(a[1])),i]))}}function
-tk(a){function
-b(a){return fK(J,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tl,b(c[1])),0]:c,g=[0,J(a[4]),0],i=[0,h(tm,A([0,J(a[3]),g])),0],j=[0,h(tn,J(a[2])),i],k=[0,h(to,b0(a[1])),j],d=f([0,h(tq,ai(tp)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,h(tF,b(c[1],c[2])),0],g=[0,h(tG,b(d[1],d[2])),f];return I(tI,X([0,h(tH,b(e[1],e[2])),g]));case
+2:return I(tJ,J(a[1]));default:var
+i=[0,h(tK,J(a[2])),0];return I(tM,X([0,h(tL,J(a[1])),i]))}}function
+tN(a){function
+b(a){return fR(J,a)}if(0===a[0])var
+c=a[5],e=c?[0,h(tO,b(c[1])),0]:c,g=[0,J(a[4]),0],i=[0,h(tP,A([0,J(a[3]),g])),0],j=[0,h(tQ,J(a[2])),i],k=[0,h(tR,b4(a[1])),j],d=f([0,h(tT,aj(tS)),k],e);else
 var
-l=[0,h(tr,J(a[4])),0],m=[0,h(ts,b(a[3])),l],n=[0,h(tt,b(a[2])),m],o=a[1]?tu:tw,d=[0,h(tv,ai(o)),n];return U(d)}function
-hz(d,c,a,b){var
-g=[0,h(tx,A(e(em,b))),0],i=a?[0,h(ty,A(e(tk,a))),0]:a,j=f(i,g),k=[0,h(tz,lC(c)),0];return U(f([0,h(tB,I(tA,A(e(rM,d)))),k],j))}function
-tC(a){switch(a[0]){case
-0:return I(tD,hz(a[1],a[2],a[3],a[4]));case
+l=[0,h(tU,J(a[4])),0],m=[0,h(tV,b(a[3])),l],n=[0,h(tW,b(a[2])),m],o=a[1]?tX:tZ,d=[0,h(tY,aj(o)),n];return X(d)}function
+lT(a){var
+b=a?[0,h(t0,A(e(tN,a))),0]:a;return b}function
+hL(d,c,b,a){var
+g=[0,h(t1,A(e(et,a))),0],i=f(lT(b),g),j=[0,h(t2,lP(c)),0];return X(f([0,h(t4,I(t3,A(e(r$,d)))),j],i))}function
+t5(a){switch(a[0]){case
+0:return I(t6,hL(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=A(e(r4,a[2])),m=[0,h(tE,A(e(em,a[6]))),0],n=b?[0,h(tF,lF(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(tG,lD(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=A(e(sr,a[2])),m=[0,h(t7,A(e(et,a[6]))),0],n=b?[0,h(t8,lS(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(t9,lQ(a[4])),o];if(typeof
 d==="number")if(d)var
-i=tH;else{var
-j=I(tM,g);l=1}else
+i=t_;else{var
+j=I(ud,g);l=1}else
 var
-i=lE(d[1]);if(!l)var
-q=c?[0,h(tI,J(c[1])),0]:c,j=I(i,U([0,h(tJ,g),q]));return I(tL,U([0,h(tK,j),p]));case
+i=lR(d[1]);if(!l)var
+q=c?[0,h(t$,J(c[1])),0]:c,j=I(i,X([0,h(ua,g),q]));return I(uc,X([0,h(ub,j),p]));case
 2:var
-r=[0,h(tN,A(e(em,a[6]))),0],s=[0,h(tO,lF(a[5])),r],t=[0,h(tP,lD(a[4])),s],u=[0,h(tQ,J(a[3])),0],v=U([0,h(tR,A(e(s8,a[2]))),u]);return I(tT,U([0,h(tS,I(lE(a[1]),v)),t]));case
+r=[0,h(ue,A(e(et,a[7]))),0],s=f(lT(a[6]),r),t=[0,h(uf,lS(a[5])),0],u=[0,h(ug,lQ(a[4])),t],v=[0,h(uh,J(a[3])),0],w=X([0,h(ui,A(e(tz,a[2]))),v]);return I(uk,X(f([0,h(uj,I(lR(a[1]),w)),u],s)));case
 3:var
-w=[0,h(tU,A(e(em,a[7]))),0],x=[0,h(tV,A(e(J,a[6]))),0],y=[0,h(tY,I(tX,U([0,h(tW,A(e(J,a[5]))),x]))),w],z=0,B=a[4],C=[0,h(t1,A(e(function(a){return 0===a[0]?I(tZ,A(e(hw,a[1]))):I(t0,hw(a[1]))},B))),z],D=a[3],E=[0,h(t2,A(e(function(a){var
-b=[0,hw(a[2]),0];return A([0,ai(a[1]),b])},D))),C],F=a[2],G=[0,h(t3,A(e(function(a){var
-b=[0,b1(a[2]),0];return A([0,ai(a[1]),b])},F))),E];return I(t7,U([0,h(t6,I(t5,U([0,h(t4,A(e(ai,a[1]))),G]))),y]));case
+x=[0,h(ul,A(e(et,a[7]))),0],y=[0,h(um,A(e(J,a[6]))),0],z=[0,h(up,I(uo,X([0,h(un,A(e(J,a[5]))),y]))),x],B=0,C=a[4],D=[0,h(us,A(e(function(a){return 0===a[0]?I(uq,A(e(hI,a[1]))):I(ur,hI(a[1]))},C))),B],E=a[3],F=[0,h(ut,A(e(function(a){var
+b=[0,hI(a[2]),0];return A([0,aj(a[1]),b])},E))),D],G=a[2],H=[0,h(uu,A(e(function(a){var
+b=[0,b5(a[2]),0];return A([0,aj(a[1]),b])},G))),F];return I(uy,X([0,h(ux,I(uw,X([0,h(uv,A(e(aj,a[1]))),H]))),z]));case
 4:var
-H=[0,h(t8,A(e(em,a[3]))),0],K=[0,h(t$,I(t_,U([0,h(t9,J(a[2])),0]))),H];return I(ud,U([0,h(uc,I(ub,U([0,h(ua,J(a[1])),0]))),K]));case
+K=[0,h(uz,A(e(et,a[3]))),0],L=[0,h(uC,I(uB,X([0,h(uA,J(a[2])),0]))),K];return I(uG,X([0,h(uF,I(uE,X([0,h(uD,J(a[1])),0]))),L]));case
 5:var
-L=[0,h(ue,J(a[5])),0];return I(ug,U([0,h(uf,hz(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+M=[0,h(uH,J(a[5])),0];return I(uJ,X([0,h(uI,hL(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-k=a[1],M=0,N=k?b1(k[1]):ai(uj);return I(ui,U([0,h(uh,N),M]));default:var
-O=[0,h(uk,J(a[6])),0],P=[0,h(ul,J(a[5])),O],Q=[0,h(um,hz(a[2],a[3],0,a[4])),P],R=a[1];return I(ur,U([0,h(uq,A(e(function(a){var
-b=[0,h(un,J(a[2][2])),0],c=[0,h(uo,J(a[2][1])),b];return U([0,h(up,ai(a[1])),c])},R))),Q]))}}function
-en(a){return A(e(fJ,a))}function
-fL(b,a){var
-c=[0,h(us,hu(a)),0];return U([0,h(ut,A(e(en,b))),c])}function
-eo(a){switch(a[0]){case
-0:return ai(a[1]);case
+k=a[1],N=0,O=k?b5(k[1]):aj(uM);return I(uL,X([0,h(uK,O),N]));default:var
+P=[0,h(uN,J(a[6])),0],Q=[0,h(uO,J(a[5])),P],R=[0,h(uP,hL(a[2],a[3],0,a[4])),Q],S=a[1];return I(uU,X([0,h(uT,A(e(function(a){var
+b=[0,h(uQ,J(a[2][2])),0],c=[0,h(uR,J(a[2][1])),b];return X([0,h(uS,aj(a[1])),c])},S))),R]))}}function
+eu(a){return A(e(fQ,a))}function
+fS(b,a){var
+c=[0,h(uV,hG(a)),0];return X([0,h(uW,A(e(eu,b))),c])}function
+ev(a){switch(a[0]){case
+0:return aj(a[1]);case
 1:var
-b=fL(a[2],a[3]);return I(a[1],b);case
+b=fS(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?uu:uw;return I(uv,ai(c));case
+c=a[1]?uX:uZ;return I(uY,aj(c));case
 3:var
-d=[0,en(a[3]),0];return I(ux,A([0,fL(a[1],a[2]),d]));case
+d=[0,eu(a[3]),0];return I(u0,A([0,fS(a[1],a[2]),d]));case
 4:var
-f=[0,b0(0),0],g=[0,fJ(a[3]),f];return I(uy,A([0,fL(a[1],a[2]),g]));case
+f=[0,b4(0),0],g=[0,fQ(a[3]),f];return I(u1,A([0,fS(a[1],a[2]),g]));case
 5:var
-h=[0,hu(a[3]),0],i=[0,fJ(a[2]),h];return I(uz,A([0,eo(a[1]),i]));case
+h=[0,hG(a[3]),0],i=[0,fQ(a[2]),h];return I(u2,A([0,ev(a[1]),i]));case
 6:var
-j=[0,hu(a[3]),0],k=[0,fJ(a[2]),j];return I(uA,A([0,eo(a[1]),k]));case
-7:return I(uB,eo(a[1]));default:var
-l=[0,A(e(en,a[3])),0],m=[0,ai(a[2]),l];return I(uC,A([0,eo(a[1]),m]))}}function
-uD(a){var
-b=[0,eo(a[2]),0];return A([0,b0(a[1]),b])}function
-lG(a){if(typeof
-a==="number")return 0===a?ai(uE):ai(uF);else{if(0===a[0]){var
-b=[0,A(e(en,a[2])),0];return I(uG,A([0,b0(a[1]),b]))}var
-c=[0,b0(a[2]),0];return I(uH,A([0,b0(a[1]),c]))}}function
-uI(a){var
-b=a[4],i=b?[0,h(uJ,en([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(uK,lG(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(uL,b0(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(uM,A(e(uD,[0,c[1],c[2]]))),0]:c;return U(f(n,m))}function
-lH(g,a,d){var
-i=[0,h(uN,A(e(uI,d))),0];if(a)var
-b=a[1],c=[0,h(uO,fL(b[1],b[2])),0];else
+j=[0,hG(a[3]),0],k=[0,fQ(a[2]),j];return I(u3,A([0,ev(a[1]),k]));case
+7:return I(u4,ev(a[1]));default:var
+l=[0,A(e(eu,a[3])),0],m=[0,aj(a[2]),l];return I(u5,A([0,ev(a[1]),m]))}}function
+u6(a){var
+b=[0,ev(a[2]),0];return A([0,b4(a[1]),b])}function
+lU(a){if(typeof
+a==="number")return 0===a?aj(u7):aj(u8);else{if(0===a[0]){var
+b=[0,A(e(eu,a[2])),0];return I(u9,A([0,b4(a[1]),b]))}var
+c=[0,b4(a[2]),0];return I(u_,A([0,b4(a[1]),c]))}}function
+u$(a){var
+b=a[4],i=b?[0,h(va,eu([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(vb,lU(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(vc,b4(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(vd,A(e(u6,[0,c[1],c[2]]))),0]:c;return X(f(n,m))}function
+lV(g,a,d){var
+i=[0,h(ve,A(e(u$,d))),0];if(a)var
+b=a[1],c=[0,h(vf,fS(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return U([0,h(uP,ht(g)),j])}function
-lI(d,c,a,b){var
-g=[0,h(uQ,lG(b)),0],i=a?[0,h(uR,A(e(J,a))),0]:a,j=f(i,g),k=[0,h(uS,A(e(J,c))),0];return U(f([0,h(uT,ht(d)),k],j))}function
-uU(a){if(typeof
-a==="number")return ai(uV);else
+j=f(c,i);return X([0,h(vg,hF(g)),j])}function
+lW(d,c,a,b){var
+g=[0,h(vh,lU(b)),0],i=a?[0,h(vi,A(e(J,a))),0]:a,j=f(i,g),k=[0,h(vj,A(e(J,c))),0];return X(f([0,h(vk,hF(d)),k],j))}function
+vl(a){if(typeof
+a==="number")return aj(vm);else
 switch(a[0]){case
-0:return I(uW,b0(a[1]));case
-1:return I(uX,lH(a[1],a[2],a[3]));default:return I(uY,lI(a[1],a[2],a[3],a[4]))}}function
-fM(a){var
-b=gv(gu(am(a),function(b){return aI(a,b)}));return n(function(a){var
-b=ad(34===a?1:0),c=b?ad(92===a?1:0):b,d=c?Z(vb,eY(a)):c;return d?Z(eY(a),vc):d},b)}function
-ep(b){function
+0:return I(vn,b4(a[1]));case
+1:return I(vo,lV(a[1],a[2],a[3]));default:return I(vp,lW(a[1],a[2],a[3],a[4]))}}function
+fT(a){var
+b=gD(gC(am(a),function(b){return aH(a,b)}));return o(function(a){var
+b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?Q(vE,e6(a)):c;return d?Q(e6(a),vF):d},b)}function
+ew(b){function
 c(f){var
-a=eY(f),b=Z(vd,a),c=b?Z(a,ve):b;if(c)var
+a=e6(f),b=Q(vG,a),c=b?Q(a,vH):b;if(c)var
 d=c;else{var
-e=Z(vf,a);if(e)return Z(a,vg);var
+e=Q(vI,a);if(e)return Q(a,vJ);var
 d=e}return d}var
-a=gv(gu(am(b),function(a){return aI(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?n(function(a){var
+a=gD(gC(am(b),function(a){return aH(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=eY(a),f=Z(vh,e),h=f?Z(e,vi):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Z(j(d),vj):f;if(g)return ad(an(b,vk));var
+e=e6(a),f=Q(vK,e),h=f?Q(e,vL):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Q(j(d),vM):f;if(g)return ac(an(b,vN));var
 h=g}else
 var
 h=a;return h}function
-hA(c){var
+hM(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ep(a[1]);case
+1:return ew(a[1]);case
 3:var
-b=hA(a[2]);if(b){var
+b=hM(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eq(m){var
+ex(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4512,40 +4635,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eP(a[2]);if(typeof
+f=eW(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eq(a[2]);if(i){var
+i=ex(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eq(a[1]),l=k?eT(c(2,b),j):k;return l?eT(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=ex(a[1]),l=k?e0(b(2,c),j):k;return l?e0(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dv(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+dA(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cO(a){return z(dv,bv(a))}function
-hB(a){switch(a[0]){case
+cS(a){return y(dA,bv(a))}function
+hN(a){switch(a[0]){case
 0:var
-c=dv(a[4]),d=f(cO(a[3]),c),e=f(cO(a[2]),d);return f(cO(a[1]),e);case
+c=dA(a[4]),d=f(cS(a[3]),c),e=f(cS(a[2]),d);return f(cS(a[1]),e);case
 1:var
-b=a[3],g=b?cO(b[1]):b,h=f(cO(a[2]),g);return f(cO(a[1]),h);default:return cO(a[1])}}function
-vl(a){switch(a[0]){case
+b=a[3],g=b?cS(b[1]):b,h=f(cS(a[2]),g);return f(cS(a[1]),h);default:return cS(a[1])}}function
+vO(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(dv,b)}function
-lJ(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lK(a){if(0===a[0]){var
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(dA,b)}function
+lX(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lY(a){if(0===a[0]){var
 b=bv(a[2]);return f(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lL(a){switch(a[0]){case
+lZ(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cP(e){var
+cT(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -4557,118 +4680,118 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-vm(a){if(0===a[0]){var
+l0(a){if(0===a[0]){var
 b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bv(a[3]),d);return f(bv(a[2]),e)}function
-lM(b,e){var
+l1(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ar(function(a){return an(f,a)},b)}return 0;case
+f=c[1];return ao(function(a){return an(f,a)},b)}return 0;case
 3:var
-d=lM(b,a[2]);if(d){var
+d=l1(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fN(c,a){return n(function(a){var
-b=eq(a);return b?lM(c,a):b},a)}function
-lN(a){var
-d=eT(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?eT(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-lO(a,b){return b?[4,lO(a,b[1]),a]:a}function
-k(a){switch(a[0]){case
+fU(c,a){return o(function(a){var
+b=ex(a);return b?l1(c,a):b},a)}function
+l2(a){var
+d=e0(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e0(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+l3(a,b){return b?[4,l3(a,b[1]),a]:a}function
+i(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return v(j,a)},m=eQ(iQ(i),l,b);return[0,i0(iR(eP(a[1]),i)),m];case
+j=a[2],k=b(2,n(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eX(iZ(j),l,c);return[0,i9(i0(eW(a[1]),j)),m];case
 1:var
-e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
+e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,N(f[1]),f[2]]:[3,[0,d,b],f];case
+f=i(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
-g=k(a[2]),h=k(a[3]);switch(a[1]){case
+g=i(a[2]),h=i(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bC(dT(a[2]));return lO(k(a[1]),n);default:return[6,k(a[1])]}}function
+o=bD(dX(a[2]));return l3(i(a[1]),o);default:return[6,i(a[1])]}}function
 bw(a){if(0===a[0]){var
-b=k(a[1]);return[0,b,b]}var
-c=k(a[2]);return[0,k(a[1]),c]}function
-cQ(a){var
+b=i(a[1]);return[0,b,b]}var
+c=i(a[2]);return[0,i(a[1]),c]}function
+cU(a){var
 b=bw(a[3]),c=bw(a[2]);return[0,bw(a[1]),c,b]}function
-vn(a){switch(a[0]){case
+vP(a){switch(a[0]){case
 0:var
-b=a[5],c=bw(a[4]),d=cQ(a[3]),e=cQ(a[2]);return[0,[0,cQ(a[1]),e,d,c,b]];case
+b=a[5],c=bw(a[4]),d=cU(a[3]),e=cU(a[2]);return[0,[0,cU(a[1]),e,d,c,b]];case
 1:var
-f=x(cQ,a[3]),g=cQ(a[2]);return[1,cQ(a[1]),g,f];default:return[2,cQ(a[1])]}}function
-lP(a){if(0===a[0]){var
+f=w(cU,a[3]),g=cU(a[2]);return[1,cU(a[1]),g,f];default:return[2,cU(a[1])]}}function
+l4(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
-dw(a){var
-b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-dx(a){if(0===a[0]){var
-c=a[5],h=c?dw(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bC(a[1]),l,j,i,h]}var
+b=i(k(a,c));return[0,i(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=i(a[5]),h=[0,i(a[4]),g],j=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,j,h]}function
+dB(a){var
+b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
+ct(a){if(0===a[0]){var
+b=a[5],h=b?dB(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bD(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dw(f),n=dw(g);return[2,k(e),n,m]}var
-o=dw(f),p=dw(g);return[1,k(e),p,o]}function
-hC(b,a){if(a){var
-c=a[1],d=a[2],g=hC(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bE(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:b$(b[1],a[1]);return ad(d)},h),g)}return a}function
-vo(b){if(b[1])return 0;var
+m=dB(f),n=dB(g);return[2,i(e),n,m]}var
+o=dB(f),p=dB(g);return[1,i(e),p,o]}function
+fV(b,a){if(a){var
+c=a[1],d=a[2],g=fV(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bF(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:cb(b[1],a[1]);return ac(d)},h),g)}return a}function
+vQ(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-vp(T,S,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+vR(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-U=f[1],c=function(a){return[2,a,k(U)]};break;case
+U=f[1],b=function(a){return[2,a,i(U)]};break;case
 1:var
-W=f[1],c=function(a){return[3,a,k(W)]};break;default:A=1}if(A)return 0;break;case
+W=f[1],b=function(a){return[3,a,i(W)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],L=0;if(typeof
 h==="number"||!(1===h[0]))L=1;else{var
-i=a[3],M=0,X=h[1];if(i){var
-C=i[1];if(0===C[0]){var
-Y=C[1],c=function(a){var
-b=k(X);return[4,a,k(Y),b]};M=1}else
+j=a[3],M=0,X=h[1];if(j){var
+C=j[1];if(0===C[0]){var
+Y=C[1],b=function(a){var
+b=i(X);return[4,a,i(Y),b]};M=1}else
 var
 D=0}else
 var
-D=i;if(!M)return D}if(L)return 0;break;case
+D=j;if(!M)return D}if(L)return 0;break;case
 3:var
-j=a[4];if(typeof
-j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
+k=a[4];if(typeof
+k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
 4:var
 l=a[4],N=0;if(typeof
 l==="number"||!(0===l[0]))N=1;else
 var
-Z=l[1],c=function(a){return[6,a,k(Z)]};if(N)return 0;break;case
+Z=l[1],b=function(a){return[6,a,i(Z)]};if(N)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 E=n[1],o=a[3];if(o){var
 p=o[1];switch(p[0]){case
 0:var
-_=k(E);return[0,[8,k(p[1]),_],0];case
+_=i(E);return[0,[8,i(p[1]),_],0];case
 1:var
-$=k(E);return[0,[15,e(k,p[1]),$],0];default:return 0}}return o}return 0;case
+$=i(E);return[0,[15,e(i,p[1]),$],0];default:return 0}}return o}return 0;case
 7:var
 q=a[4];if(typeof
-q!=="number"&&0===q[0])return[0,[9,k(q[1])],0];return 0;case
+q!=="number"&&0===q[0])return[0,[9,i(q[1])],0];return 0;case
 8:var
 r=a[4],O=0;if(typeof
 r==="number"||!(1===r[0]))O=1;else{var
 s=a[3],P=0,aa=r[1];if(s){var
 F=s[1];if(0===F[0]){var
-ab=F[1],c=function(a){var
-b=k(aa);return[13,a,k(ab),b]};P=1}else
+ab=F[1],b=function(a){var
+b=i(aa);return[13,a,i(ab),b]};P=1}else
 var
 G=0}else
 var
@@ -4676,69 +4799,72 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=hC(0,S);return e(function(h){var
-e=k(ac),a=h[2],c=h[1];if(0===c[0]){var
-f=c[1];if(0===a[0]){var
-g=function(a){return a?dw(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(u(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bC(f),m,l,j]}var
-n=dx(a);return[10,dx(c),n,e]}var
-o=dx(a);return[10,dx(c),o,e]}var
-p=dx(a);return[10,dx(c),p,e]},ad)}return 0;case
+ac=t[1],ad=fV(0,S);return e(function(h){var
+e=i(ac),a=h[2],b=h[1];if(0===b[0]){var
+f=b[1];if(0===a[0]){var
+g=function(a){return a?dB(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bD(f),m,l,k]}var
+n=ct(a);return[10,ct(b),n,e]}var
+o=ct(a);return[10,ct(b),o,e]}var
+p=ct(a);return[10,ct(b),p,e]},ad)}return 0;case
 10:var
 v=a[4],Q=0;if(typeof
 v==="number"||!(1===v[0]))Q=1;else{var
 w=a[3],R=0,ae=v[1];if(w){var
 x=w[1];if(2===x[0]){var
-af=x[2],ag=x[1],c=function(a){var
-b=k(ae),c=k(af);return[12,a,k(ag),c,b]};R=1}else
+af=x[2],ag=x[1],b=function(a){var
+b=i(ae),c=i(af);return[12,a,i(ag),c,b]};R=1}else
 var
 H=0}else
 var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?vq:I;return ah;case
+a[4]==="number"?1:0,ah=I?vS:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 J=z[1];if(0===J[0]){var
-ai=k(y[1]);return[0,[14,k(J[1]),ai],0]}var
+ai=i(y[1]);return[0,[14,i(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bC(B[1]),0]:aV(0,T);return e(c,V)}function
-vr(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bD(B[1]),0]:aW(0,T);return e(b,V)}function
+vT(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
-N=0,m=a[4];if(typeof
-m==="number"||2===m[0])N=1;else{var
+P=0,m=a[4];if(typeof
+m==="number"||2===m[0])P=1;else{var
 n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
-b=n[1]}if(N)return 0;break;case
+b=n[1]}if(P)return 0;break;case
 2:var
-O=0,p=a[4];if(typeof
-p==="number"||!(1===p[0]))O=1;else{var
+R=0,p=a[4];if(typeof
+p==="number"||!(1===p[0]))R=1;else{var
 q=a[2];if(!q){var
 e=a[3];if(e){if(0===e[1][0])return 1;var
 s=0}else
 var
 s=e;return s}var
-d=a[3],P=0;if(d)if(0===d[1][0]){var
-b=q[1];P=1}else
+d=a[3],S=0;if(d)if(0===d[1][0]){var
+b=q[1];S=1}else
 var
 r=0;else
 var
-r=d;if(!P)return r}if(O)return 0;break;case
+r=d;if(!S)return r}if(R)return 0;break;case
 3:var
 t=a[4];if(typeof
 t!=="number"&&1===t[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
-Q=0,v=a[4];if(typeof
-v==="number"||!(0===v[0]))Q=1;else{var
+T=0,v=a[4];if(typeof
+v==="number"||!(0===v[0]))T=1;else{var
 w=a[2];if(!w)return a[3]?0:1;if(a[3])return 0;var
-b=w[1]}if(Q)return 0;break;case
+b=w[1]}if(T)return 0;break;case
+5:var
+x=a[4];if(typeof
+x!=="number"&&0===x[0])return a[2]?0:a[3]?0:1;return 0;case
 6:var
 y=a[4];if(typeof
 y!=="number"&&0===y[0]){if(a[2])return 0;var
@@ -4746,123 +4872,156 @@ f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
 1:return u(j(z[1]),c);default:return 0}}return f}return 0;case
+7:var
+A=a[4];if(typeof
+A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 8:var
-R=0,A=a[4];if(typeof
-A==="number"||!(1===A[0]))R=1;else{var
-g=a[3],S=0;if(g)if(0===g[1][0]){var
-B=u(c,vt),T=0;if(B){var
-C=a[2];if(C){var
-b=C[1];S=1;T=1}else
+U=0,B=a[4];if(typeof
+B==="number"||!(1===B[0]))U=1;else{var
+g=a[3],V=0;if(g)if(0===g[1][0]){var
+C=u(c,vV),W=0;if(C){var
+D=a[2];if(D){var
+b=D[1];V=1;W=1}else
 var
-D=1}else
+E=1}else
 var
-D=B;if(!T)return D}else
+E=C;if(!W)return E}else
 var
-E=0;else
+F=0;else
 var
-E=g;if(!S)return E}if(R)return 0;break;case
+F=g;if(!V)return F}if(U)return 0;break;case
+9:var
+G=a[4];if(typeof
+G!=="number"&&0===G[0])return a[2]?0:a[3]?0:1;return 0;case
 10:var
-U=0,F=a[4];if(typeof
-F==="number"||!(1===F[0]))U=1;else{var
-G=a[2];if(!G){var
+X=0,H=a[4];if(typeof
+H==="number"||!(1===H[0]))X=1;else{var
+I=a[2];if(!I){var
 i=a[3];if(i){if(2===i[1][0])return 1;var
-I=0}else
+K=0}else
 var
-I=i;return I}var
-h=a[3],V=0;if(h)if(2===h[1][0]){var
-b=G[1];V=1}else
+K=i;return K}var
+h=a[3],Y=0;if(h)if(2===h[1][0]){var
+b=I[1];Y=1}else
 var
-H=0;else
+J=0;else
 var
-H=h;if(!V)return H}if(U)return 0;break;case
+J=h;if(!Y)return J}if(X)return 0;break;case
 11:var
-J=typeof
-a[4]==="number"?1:0;if(J){if(a[2])return 0;if(a[3])return 0;var
-K=1}else
+L=typeof
+a[4]==="number"?1:0;if(L){if(a[2])return 0;if(a[3])return 0;var
+M=1}else
 var
-K=J;return K;case
+M=L;return M;case
 12:var
-L=a[4];if(typeof
-L!=="number"&&1===L[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,vu);var
-M=0}else
+N=a[4];if(typeof
+N!=="number"&&1===N[0]){if(a[2])return 0;var
+k=a[3];if(k){if(0===k[1][0])return u(c,vW);var
+O=0}else
 var
-M=k;return M}return 0;case
-13:return 0;default:var
-x=a[4];if(typeof
-x!=="number"&&0===x[0])return a[2]?0:a[3]?0:1;return 0}var
-o=Z(vs,b);return o?Z(b,c):o}function
-hD(c,k,i,b){var
-l=j(c),d=z(function(a){return vp(l,i,a)},b),a=z(vo,b),g=a?[0,a[1],a[2]]:vv,h=f(g,d),m=lP(k);return[0,e(vn,c),m,h]}function
-lQ(b){if(b[1])return 0;var
+O=k;return O}return 0;default:return 0}var
+o=Q(vU,b);return o?Q(b,c):o}function
+hO(c,k,i,b){var
+l=j(c),d=y(function(a){return vR(l,i,a)},b),a=y(vQ,b),g=a?[0,a[1],a[2]]:vX,h=f(g,d),m=l4(k);return[0,e(vP,c),m,h]}function
+l5(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-hE(E,D,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
+l6(b){function
+a(a){return s(a,e(i,b),[0,d,c])}var
+f=a(vY),g=a(vZ);return[0,a(0),g,f]}function
+hP(S,R,Q,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-F=c[1],b=function(a){return[2,a,k(F)]};break;case
+T=c[1],b=function(a){return[2,a,i(T)]};break;case
 1:var
-H=c[1],b=function(a){return[3,a,k(H)]};break;default:var
-I=c[2],J=c[1],b=function(a){var
-b=k(I);return[4,a,k(J),b]}}break;case
+V=c[1],b=function(a){return[3,a,i(V)]};break;default:var
+W=c[2],X=c[1],b=function(a){var
+b=i(W);return[4,a,i(X),b]}}break;case
 2:var
-f=a[4],x=0;if(typeof
-f==="number"||!(1===f[0]))x=1;else{var
-g=a[3],y=0,K=f[1];if(g){var
-r=g[1];if(0===r[0]){var
-L=r[1],b=function(a){var
-b=k(L),c=k(K);return E?[9,a,b,c]:[6,a,b,c]};y=1}else
+f=a[4],G=0;if(typeof
+f==="number"||!(1===f[0]))G=1;else{var
+g=a[3],H=0,Y=f[1];if(g){var
+w=g[1];if(0===w[0]){var
+Z=w[1],b=function(a){var
+b=i(Z),c=i(Y);return S?[9,a,b,c]:[6,a,b,c]};H=1}else
 var
-s=0}else
+x=0}else
 var
-s=g;if(!y)return s}if(x)return 0;break;case
+x=g;if(!H)return x}if(G)return 0;break;case
 3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,k(h[1])],0];return 0;case
+h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
 4:var
-i=a[4],z=0;if(typeof
-i==="number"||!(0===i[0]))z=1;else
+j=a[4],I=0;if(typeof
+j==="number"||!(0===j[0]))I=1;else
 var
-M=i[1],b=function(a){return[10,a,k(M)]};if(z)return 0;break;case
+_=j[1],b=function(a){return[10,a,i(_)]};if(I)return 0;break;case
 5:var
-j=a[4];if(typeof
-j!=="number"&&0===j[0])return[0,[12,k(j[1])],0];return 0;case
+k=a[4];if(typeof
+k!=="number"&&0===k[0])return[0,[12,i(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
-t=m[1];if(0===t[0]){var
-N=k(l[1]);return[0,[8,k(t[1]),N],0]}var
-u=0}else
+y=m[1];if(0===y[0]){var
+$=i(l[1]);return[0,[8,i(y[1]),$],0]}var
+z=0}else
 var
-u=m;return u}return 0;case
+z=m;return z}return 0;case
 8:var
-n=a[4],A=0;if(typeof
-n==="number"||!(1===n[0]))A=1;else{var
-o=a[3],B=0,O=n[1];if(o){var
-v=o[1];if(0===v[0]){var
-P=v[1],b=function(a){var
-b=k(O);return[7,a,k(P),b]};B=1}else
+n=a[4],J=0;if(typeof
+n==="number"||!(1===n[0]))J=1;else{var
+o=a[3],K=0,aa=n[1];if(o){var
+A=o[1];if(0===A[0]){var
+ab=A[1],b=function(a){var
+b=i(aa);return[7,a,i(ab),b]};K=1}else
 var
-w=0}else
+B=0}else
 var
-w=o;if(!B)return w}if(A)return 0;break;case
+B=o;if(!K)return B}if(J)return 0;break;case
+9:var
+p=a[4];if(typeof
+p!=="number"&&0===p[0]){var
+ac=p[1],ad=fV(0,Q);return e(function(a){var
+b=i(ac),c=ct(a[2]);return[14,ct(a[1]),c,b]},ad)}return 0;case
 13:var
-p=a[4],C=0;if(typeof
-p==="number"||!(1===p[0]))C=1;else
+q=a[4],L=0;if(typeof
+q==="number"||!(1===q[0]))L=1;else
 var
-Q=p[1],b=function(a){return[11,a,k(Q)]};if(C)return 0;break;default:return 0}var
-q=a[2],G=q?[0,bC(q[1]),0]:aV(0,D);return e(b,G)}function
-dy(d,c,b){var
-e=z(function(a){return hE(d,c,a)},b),a=z(lQ,b),g=a?[0,a[1],a[2]]:vw;return f(g,e)}function
-fO(a){return 11===a[1]?1:0}function
-bL(n,m,a){var
+ae=q[1],b=function(a){return[11,a,i(ae)]};if(L)return 0;break;case
+14:var
+r=a[4],M=0;if(typeof
+r==="number"||!(1===r[0]))M=1;else{var
+s=a[3],N=0,af=r[1];if(s){var
+C=s[1];if(1===C[0]){var
+ag=C[1],b=function(a){var
+b=i(af);return[13,a,0,l6(ag),b]};N=1}else
+var
+D=0}else
+var
+D=s;if(!N)return D}if(M)return 0;break;case
+15:var
+t=a[4],O=0;if(typeof
+t==="number"||!(1===t[0]))O=1;else{var
+u=a[3],P=0,ah=t[1];if(u){var
+E=u[1];if(1===E[0]){var
+ai=E[1],b=function(a){var
+b=i(ah);return[13,a,1,l6(ai),b]};P=1}else
+var
+F=0}else
+var
+F=u;if(!P)return F}if(O)return 0;break;default:return 0}var
+v=a[2],U=v?[0,bD(v[1]),0]:aW(0,R);return e(b,U)}function
+dC(e,d,c,b){var
+g=y(function(a){return hP(e,d,c,a)},b),a=y(l5,b),h=a?[0,a[1],a[2]]:v0;return f(h,g)}function
+fW(a){return 11===a[1]?1:0}function
+bN(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -4872,161 +5031,161 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=b$(n,e);if(f){var
+f=cb(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Z(vx,h);return i?Z(h,m):i}var
+h=g[1],i=Q(v1,h);return i?Q(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-ba(n,b,a){var
+bc(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Z(vy,e),o=f?Z(e,b):f,c=o;else
+e=d[1],f=Q(v2,e),o=f?Q(e,b):f,c=o;else
 var
 c=1;var
-g=a[1];if(2<=g)switch(g-2|0){case
-0:var
+g=a[1];if(!(9<=g))switch(g){case
+2:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bL(0,b,a):bL(0,b,a)}return bL(0,b,a);case
-4:var
+i=a[3];return i?0===i[1][0]?c:bN(0,b,a):bN(0,b,a)}return bN(0,b,a);case
+6:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bL(0,b,a):bL(0,b,a)}return bL(0,b,a);case
-6:var
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bN(0,b,a):bN(0,b,a)}return bN(0,b,a);case
+8:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,n):c:bL(0,b,a):bL(0,b,a)}return bL(0,b,a)}return bL(0,b,a)}function
-lR(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?ba(c,b,a):a[3]?ba(c,b,a):1:ba(c,b,a):ba(c,b,a)}function
-lS(f,c,b,a){var
+m=a[3];return m?0===m[1][0]?c?u(b,n):c:bN(0,b,a):bN(0,b,a)}return bN(0,b,a)}return bN(0,b,a)}function
+bx(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bc(c,b,a):a[3]?bc(c,b,a):1:bc(c,b,a):bc(c,b,a)}function
+l7(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Z(vz,h),r=i?Z(h,b):i,d=r;else
+h=g[1],i=Q(v5,h),r=i?Q(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return ba(a0(c),b,a);if(d){var
+1:if(a[3])return bc(a2(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return b$(f,k)}return d;case
+k=0;return cb(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?ba(a0(c),b,a):d;return ba(a0(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bc(a2(c),b,a):d;return bc(a2(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return ba(a0(c),b,a);var
-n=u(b,a0(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bc(a2(c),b,a);var
+n=u(b,a2(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return ba(a0(c),b,a);case
+e=n;return e}return bc(a2(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?ba(a0(c),b,a):d?ad(f):d;return ba(a0(c),b,a);default:return ba(a0(c),b,a)}}function
-cp(a){switch(a[0]){case
-0:return[0,k([0,a[1],a[2]])];case
+p!=="number"&&1===p[0])return a[3]?bc(a2(c),b,a):d?ac(f):d;return bc(a2(c),b,a);default:return bc(a2(c),b,a)}}function
+cu(a){switch(a[0]){case
+0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cp(a[1])];case
+2:return[2,cu(a[1])];case
 3:var
-b=cp(a[2]),c=cp(a[3]);switch(a[1]){case
+b=cu(a[2]),c=cu(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cp(a[1]),d];default:return[8,cp(a[1])]}}function
-hF(c){function
+d=a[2];return[7,cu(a[1]),d];default:return[8,cu(a[1])]}}function
+hQ(b){function
 a(e){var
-a=[0,d,b];return t(e,c,[0,a,a])}var
-e=a(vA),f=a(vB);return[0,a(0),f,e]}function
-cR(a){function
+a=[0,d,c];return s(e,b,[0,a,a])}var
+e=a(v6),f=a(v7);return[0,a(0),f,e]}function
+cV(a){function
 b(a){var
-b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
+b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,k(a[1])];default:var
-e=k(a[2]);return[3,k(a[1]),e]}}function
-lT(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,hF(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return lP([1,a[1],a[2],a[3],a[4],a[5]])}function
-lU(h,b,g,f,d,a){function
-c(a){return hF(e(bw,a))}var
-i=ar(fO,a),l=dy(0,j(b),a),m=cR(d),n=lT(f),o=k(g);return[0,h,e(function(a){var
-b=c(a[2]);return[0,c(a[1]),b]},b),o,n,m,l,i]}function
-lV(a){return ar(function(a){return 2===a[0]?1:0},a)}function
-lW(i,a,c,h,g,f){var
-l=j(a),m=dy(lV(a),l,f),n=x(cR,g),o=lT(h),p=c?k(c[1]):[0,b,b];return[0,i,e(function(a){function
-c(a){return hF(e(bw,a))}switch(a[0]){case
+2:return[2,i(a[1])];default:var
+e=i(a[2]);return[3,i(a[1]),e]}}function
+l8(a){if(0===a[0]){var
+b=aJ(a[1],a[2]);return[0,hQ(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},b))]}return l4([1,a[1],a[2],a[3],a[4],a[5]])}function
+l9(k,b,h,g,f,d,a){function
+c(a){return hQ(e(bw,a))}var
+l=ao(fW,a),m=dC(0,j(b),d,a),n=cV(f),o=l8(g),p=i(h);return[0,k,e(function(a){var
+b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
+l_(a){return ao(function(a){return 2===a[0]?1:0},a)}function
+l$(k,a,b,h,g,f){var
+l=j(a),m=dC(l_(a),l,0,f),n=w(cV,g),o=l8(h),p=b?i(b[1]):[0,c,c];return[0,k,e(function(a){function
+b(a){return hQ(e(bw,a))}switch(a[0]){case
 0:var
-k=a[5],l=bw(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bw(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
-o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
+o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
-g=c(f);else
+g=b(f);else
 var
-h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bw(a[6]),r=bw(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-lX(a){return a[1]?0:1}function
-lY(a){var
-c=lX(a);if(c)return c;if(1===a[1]){var
+h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+p=a[7],q=bw(a[6]),r=bw(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+ma(a){return a[1]?0:1}function
+mb(a){var
+c=ma(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-fP(i,h,b){function
+fX(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(fQ,a(fQ,b)),j=a(f,hG),k=i?f:a(c(b,fQ),hG);function
-g(b){return a(b,[5,e(fQ,d(hG,d(b,b)))])}var
+f=c(fY,a(fY,b)),j=a(f,hR),k=i?f:a(c(b,fY),hR);function
+g(b){return a(b,[5,e(fY,d(hR,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-fR(f,e,d){function
+fZ(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,hH,a(hH,d)],lZ),g=a(c,[5,[3,0,hH,b(lZ,b(c,c))]]);return[2,b(fP(f,e,d),g)]}function
-hI(e,g,a){function
+c=a([3,1,hS,a(hS,d)],mc),g=a(c,[5,[3,0,hS,b(mc,b(c,c))]]);return[2,b(fX(f,e,d),g)]}function
+hT(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(fS,b(fS,a)),d=e?h:b(f(a,fS),l0),i=b(d,[5,[3,0,fS,c(l0,c(d,d))]]);return c(fP(e,g,a),i)}function
-l1(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cC(k(g[2][1]));if(j){var
-l=j[1],m=cC(k(g[2][2]));if(m)var
+h=f(f0,b(f0,a)),d=e?h:b(f(a,f0),md),i=b(d,[5,[3,0,f0,c(md,c(d,d))]]);return c(fX(e,g,a),i)}function
+me(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=ci(i(g[2][1]));if(k){var
+l=k[1],m=ci(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
-d(a){return c(2,a)}var
-e=[0,a,eQ(h[2],d,b)];return c$(l,bS(eZ(p,l),e))},q=n(y(h[1],b)),f=[0,n(h[1]),q];else
+d(a){return b(2,a)}var
+e=[0,a,eX(h[2],d,c)];return dc(l,bW(e7(p,l),e))},q=n(z(h[1],c)),f=[0,n(h[1]),q];else
 var
-f=[0,[0,d,b],[0,d,b]]}else
+f=[0,[0,d,c],[0,d,c]]}else
 var
-f=[0,[0,d,b],[0,d,b]];var
-r=l1([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+f=[0,[0,d,c],[0,d,c]];var
+r=me([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
-i=a;else
+j=a;else
 var
-i=e;return i}function
+j=e;return j}function
 al(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=i4(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=ja(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,al(b,a[1])];case
 3:var
 f=al(b,a[3]),g=al(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,al(b,a[1]),h];default:return[5,al(b,a[1])]}}function
-l2(b,a){if(0===a[0])return[0,al(b,a[1])];var
+mf(b,a){if(0===a[0])return[0,al(b,a[1])];var
 c=al(b,a[2]);return[1,al(b,a[1]),c]}function
-hJ(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-hK(c,a){if(c)if(a){var
+hU(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+hV(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hK(h,g);if(e){var
-i=e[1],f=hK(h,i[2]);if(f)var
+e=hV(h,g);if(e){var
+i=e[1],f=hV(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5038,90 +5197,76 @@ var
 d=a;else
 var
 d=c;return d}function
-hL(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hL(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,y(v(c(2,b),l),k),j],h]}else
+hW(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hW(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(v(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-vG(a){if(typeof
+wa(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-vH(a){if(typeof
+wb(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-fT(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=fT(e,a[3]);return bS(c$(fT(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}var
-p=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-b2(h){var
-a=bk(function(f,e){var
-a=aX(p,f);if(a)var
-b=a[1],c=bh(c5(b[1]),c5(b[2]));else
-var
-c=d;return bh(c,e)},d,h);if(X(d,a)){var
-f=a3(a);if(0===f||!(0<f&&!G(a,b)))var
-g=d;else
-var
-c=aU(a,aD(2)),e=c[1],g=Y(c[2],d)?eS(e):eS(e);return aA(g,p)}return d}function
-dz(a){return[0,a[1],[0,a[2],0]]}function
-a1(a){var
-b=dz(a[3]),c=f(dz(a[2]),b);return f(dz(a[1]),c)}function
-l3(a){return 0===a[0]?dz(a[1][4]):0}function
-l4(a){switch(a[0]){case
+f1(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=f1(e,a[3]);return bW(dc(f1(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}function
+mg(a){return 0===a[0]?dq(a[1][4]):0}function
+mh(a){switch(a[0]){case
 0:var
-b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
+b=a[1],c=a0(b[3]);return f(a0(b[2]),c);case
 1:var
-d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-fU(a){switch(a[0]){case
-0:return b2(a1(a[1][1]));case
+d=a0(a[2]);return f(a0(a[1]),d);default:return 0}}function
+f2(a){switch(a[0]){case
+0:return bL(a0(a[1][1]));case
 1:var
-b=a[3];return b?b2(a1(b[1])):d;default:return b2(a1(a[1]))}}function
-hM(c){var
-a=z(l3,c),d=a?[0,a[1],a[2]]:z(l4,c);return y(b,b2(d))}function
-l5(c,a){if(c){if(a){var
+b=a[3];return b?bL(a0(b[1])):d;default:return bL(a0(a[1]))}}function
+hX(b){var
+a=y(mg,b),d=a?[0,a[1],a[2]]:y(mh,b);return z(c,bL(d))}function
+mi(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=vI;else
+b=wc;else
 if(43===d)var
-b=vJ;else
+b=wd;else
 var
-f=48===d?1:0,i=f?vK:f,b=i;if(b)var
-e=l5(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?we:f,b=i;if(b)var
+e=mi(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:vL}function
-er(b,a){switch(a[0]){case
+h=a;return h}return a?0:wf}function
+ey(b,a){switch(a[0]){case
 0:var
-c=a[1];if(an(c,vM))return vN;if(an(c,vO))return vP;if(an(c,vQ))return vR;if(an(c,vS))return vT;if(an(c,vU))return vV;var
-k=an(c,vW),p=k?vX:k;return p;case
+c=a[1];if(an(c,wg))return wh;if(an(c,wi))return wj;if(an(c,wk))return wl;if(an(c,wm))return wn;if(an(c,wo))return wp;var
+k=an(c,wq),p=k?wr:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(an(f,vY))return[0,[0,d,e]];if(an(f,vZ))return[0,[1,d,e]];if(an(f,v0))return[0,[2,d,e]];var
-l=an(f,v1),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(an(f,ws))return[0,[0,d,e]];if(an(f,wt))return[0,[1,d,e]];if(an(f,wu))return[0,[2,d,e]];var
+l=an(f,wv),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=er(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=ey(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=er(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=ey(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=er(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=er(b,a[1]);if(i)var
-j=l5(b,gv(gu(am(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=ey(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=ey(b,a[1]);if(i)var
+j=mi(b,gD(gC(am(m),function(a){return aH(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-l6(d,a){if(a){var
-e=a[1],b=er(d,e[2]);if(b)var
-c=l6(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+mj(d,a){if(a){var
+e=a[1],b=ey(d,e[2]);if(b)var
+c=mj(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return v2}function
-cS(d,c,a){if(c)if(a){var
+f=b;return f}return ww}function
+cW(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=l6(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=mj(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cS(d,k,j);if(f){var
-m=f[1],g=cS(d,k,m[2]);if(g)var
+f=cW(d,k,j);if(f){var
+m=f[1],g=cW(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5136,72 +5281,72 @@ var
 h=a;else
 var
 h=c;return h}function
-hN(e,d,a){if(d){if(a){var
-b=cS(e,j(a),a);if(b)var
-f=b[1],c=hN(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hY(e,d,a){if(d){if(a){var
+b=cW(e,j(a),a);if(b)var
+f=b[1],c=hY(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return v3}return a?0:v4}function
-hO(a){return typeof
+g=b;return g}return wx}return a?0:wy}function
+hZ(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-hP(d,a){if(d)if(a){var
+h0(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hP(k,j);if(e){var
-l=e[1],f=hP(k,l[2]);if(f)var
+e=h0(k,j);if(e){var
+l=e[1],f=h0(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hO(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,hZ(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
 g=d;return g}function
-cq(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-cT(a,e){var
-b=cq(a[1],e),c=cq(a[2],b[2]),d=cq(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-l7(d,c){if(d){var
+cv(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+cX(a,e){var
+b=cv(a[1],e),c=cv(a[2],b[2]),d=cv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+mk(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cT(a[1],c),f=cT(a[2],e[2]),g=cT(a[3],f[2]),h=cq(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=cX(a[1],c),f=cX(a[2],e[2]),g=cX(a[3],f[2]),h=cv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cT(a[1],c),k=j[1],l=cT(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cT(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=cX(a[1],c),k=j[1],l=cX(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=cX(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cT(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=l7(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-v5(a){if(typeof
+p=cX(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=mk(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+wz(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return v7;case
+5:return wB;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return v6}function
-bb(a,b){if(a){var
-c=cq(a[1],b),d=bb(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a8(c){function
-a(a){return t(a,c,[0,d,b])}var
-e=a(v_),f=a(v$);return[0,a(0),f,e]}function
-l8(a,b){if(a){var
-c=a[1],d=bb(c[1],b),e=bb(c[2],d[2]),f=l8(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
-l9(f,c){if(f){var
+11:return 0}return wA}function
+bd(a,b){if(a){var
+c=cv(a[1],b),d=bd(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a_(b){function
+a(a){return s(a,b,[0,d,c])}var
+e=a(wE),f=a(wF);return[0,a(0),f,e]}function
+ml(a,b){if(a){var
+c=a[1],d=bd(c[1],b),e=bd(c[2],d[2]),f=ml(a[2],e[2]),g=f[2],h=f[1],i=a_(e[1]);return[0,[0,[0,a_(d[1]),i],h],g]}return[0,0,b]}function
+mm(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bb(a[1],c),h=bb(a[2],g[2]),i=bb(a[3],h[2]),j=cq(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
+g=bd(a[1],b),h=bd(a[2],g[2]),i=bd(a[3],h[2]),j=cv(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a_(i[1]),y=a_(h[1]),e=[0,[0,[0,a_(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bb(a[1],c),l=bb(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
-m=a[1],n=bb(m,c),o=bb(a[2],n[2]),p=bb(a[3],o[2]),q=bb(a[4],p[2]),r=cq(a[5],q[2]),s=cq(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
-t=l9(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dA(a){return jm(p,a)}function
-wa(a){if(typeof
+k=bd(a[1],b),l=bd(a[2],k[2]),z=l[2],A=a_(l[1]),e=[0,[0,[1,a_(k[1]),A,0]],z];break;default:var
+m=a[1],n=bd(m,b),o=bd(a[2],n[2]),p=bd(a[3],o[2]),q=bd(a[4],p[2]),r=cv(a[5],q[2]),s=cv(a[6],r[2]),B=m?a_(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a_(q[1]),H=a_(p[1]),e=[0,[1,[0,B,a_(o[1]),H,G,F,E,D]],C]}var
+t=mm(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dD(a){return ju(p,a)}function
+wG(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(p,1,[3,a[1],[0,b,b]]);case
+5:return g(p,1,[3,a[1],[0,c,c]]);case
 6:return g(p,1,a[2]);case
 8:var
 d=g(p,1,a[1]);return d?g(p,1,a[2]):d;case
@@ -5213,34 +5358,37 @@ f=g(p,0,a[2]),h=f?g(p,0,a[3]):f;return h?g(p,1,a[4]):h;case
 14:var
 i=g(p,0,a[1]);return i?g(p,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return n(function(a){return g(p,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return o(function(a){return g(p,k,a)},j);case
 2:case
-3:return dA(a[2]);case
+3:return dD(a[2]);case
 4:case
 13:var
-c=g(p,1,a[2]);return c?g(p,1,a[3]):c;default:return g(p,1,a[1])}}function
-hQ(a){if(typeof
+b=g(p,1,a[2]);return b?g(p,1,a[3]):b;default:return g(p,1,a[1])}}function
+h1(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(p,1,[3,d,e]),h=f?g(p,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(p,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):h;return i?g(p,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
-5:return g(p,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=g(p,1,[3,d,e]),h=f?g(p,1,[3,[2,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(p,0,[2,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):h;return i?g(p,0,[3,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):i;case
+5:return g(p,1,[3,a[1],[0,c,c]]);case
 8:var
 k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
 10:return g(p,1,a[2]);case
 11:var
-l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],l]):m;case
+l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],l]):m;case
+13:var
+o=a[4],q=li(a[3]),r=q?g(p,1,o):q;return r?g(p,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],o]):r;case
+14:return g(p,0,a[3]);case
 2:case
-3:return dA(a[2]);case
+3:return dD(a[2]);case
 6:case
 7:case
 9:var
 j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
-fV(d){var
+f3(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ad(ar(function(d){return function(a){var
-h=hx(a[1]),e=an(hx(d[1]),h);if(e)var
-i=hy(a[4]),b=an(hy(d[4]),i);else
+b=a[2],e=a[1],c=ac(ao(function(d){return function(a){var
+h=hJ(a[1]),e=an(hJ(d[1]),h);if(e)var
+i=hK(a[4]),b=an(hK(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5249,99 +5397,147 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-es(a){if(0===a[0])return dA(k(a[1]));var
-b=a[2],c=a[1];if(!d2(k(c))&&!d2(k(b))){var
-e=k(c);return g(p,1,[3,k(b),e])}var
-d=k(b);return a9(p,k(c),d)}function
-cU(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-l_(a){switch(a[0]){case
+ez(a){if(0===a[0])return dD(i(a[1]));var
+b=a[2],c=a[1];if(!d6(i(c))&&!d6(i(b))){var
+e=i(c);return g(p,1,[3,i(b),e])}var
+d=i(b);return a$(p,i(c),d)}function
+cY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+mn(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cU(a[3]),c),e=f(cU(a[2]),d);return f(cU(a[1]),e);case
+c=[0,a[4],0],d=f(cY(a[3]),c),e=f(cY(a[2]),d);return f(cY(a[1]),e);case
 1:var
-b=a[3],g=b?cU(b[1]):b,h=f(cU(a[2]),g);return f(cU(a[1]),h);default:return cU(a[1])}}function
-hR(a){switch(a){case
-0:return wd;case
-1:return we;default:return 0}}function
-cr(a){var
-f=a[1],d=g(p,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?a9(p,a[1],a[2]):d;if(e){var
-h=a[2];return g(p,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
-dB(a){var
-e=a9(p,[0,d,b],a);return e?g(p,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-l$(c,b,a){if(0===a[0]){var
+b=a[3],g=b?cY(b[1]):b,h=f(cY(a[2]),g);return f(cY(a[1]),h);default:return cY(a[1])}}function
+mo(s,a,h){if(ao(function(a){return 9===a[1]?1:0},h)){var
+b=Q(j(a),wJ),c=b?o(function(a){if(0===a[0]){var
+d=a[5],e=g(p,1,i(a[2])),h=e?g(p,0,i(a[3])):e,j=h?g(p,0,i(a[4])):h,c=0;if(j)if(d)var
+n=bv(d[1]),b=o(function(a){return dD(i(a))},n);else{var
+l=1;c=1}else{var
+l=j;c=1}if(c)var
+b=l}else{var
+m=g(p,1,i(a[4]));if(m)var
+q=bv(a[3]),r=f(bv(a[2]),q),b=o(function(a){return dD(i(a))},r);else
+var
+b=m}return b?k(s,a):b},a):b;if(c)var
+d=fV(0,a),l=d?1:d,e=l;else
+var
+e=c;return e}return a?0:1}function
+mp(a){return a?wK:wL}function
+h2(a){switch(a){case
+0:return wM;case
+1:return wN;default:return 0}}function
+cw(a){var
+f=a[1],d=g(p,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?a$(p,a[1],a[2]):d;if(e){var
+h=a[2];return g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],h])}return e}function
+dE(a){var
+e=a$(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+mq(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
-l=aK(e,d);return n(function(a){var
-b=k(a[2]);return a9(p,k(a[1]),b)},l)}return h}var
-i=b?g(p,1,k(a[3])):b;if(i){var
-m=k(a[5]);return a9(p,k(a[4]),m)}return i}function
-ma(b,c,A,z,m,f){function
-o(a){var
-d=b?wb:wc,c=u(j(a),d);return c?n(es,a):c}var
-q=n(function(a){var
-b=o(a[1]);return b?o(a[2]):b},c);if(q)var
-B=j(c),h=Z(dm(b),B);else
+l=aJ(e,d);return o(function(a){var
+b=i(a[2]);return a$(p,i(a[1]),b)},l)}return h}var
+k=b?g(p,1,i(a[3])):b;if(k){var
+m=i(a[5]);return a$(p,i(a[4]),m)}return k}function
+mr(a,e,F,E,s,r,f){function
+t(b){var
+d=mp(a),c=u(j(b),d);return c?o(ez,b):c}var
+v=o(function(a){var
+b=t(a[1]);return b?t(a[2]):b},e);if(v)var
+G=j(e),l=Q(ds(a),G);else
 var
-h=q;var
-r=h?Z(j(c),wf):h,s=r?g(p,1,k(A)):r;if(s)var
-C=1===b?1:0,i=l$(hR(b),C,z);else
+l=v;var
+w=l?Q(j(e),wO):l,x=w?g(p,1,i(F)):w;if(x)var
+H=1===a?1:0,m=mq(h2(a),H,E);else
 var
-i=s;if(i)if(b){var
-a=cR(m);switch(a[0]){case
+m=x;if(m)if(a){var
+d=cV(s);switch(d[0]){case
 0:var
-d=0;break;case
+h=0;break;case
 1:var
-v=cr(a[1]),w=v?cr(a[2]):v,d=w?cr(a[3]):w;break;case
+A=cw(d[1]),B=A?cw(d[2]):A,h=B?cw(d[3]):B;break;case
 2:var
-d=dB(a[1]);break;default:var
-x=dB(a[1]),d=x?dB(a[2]):x}var
-e=d}else
+h=dE(d[1]);break;default:var
+C=dE(d[1]),h=C?dE(d[2]):C}var
+k=h}else
 var
-y=cR(m),F=0===y[0]?cr(y[1]):0,e=F;else
+D=cV(s),J=0===D[0]?cw(D[1]):0,k=J;else
 var
-e=i;if(e)var
-D=j(c),E=dm(b),l=n(function(a){return lR(E,D,a)},f);else
+k=m;if(k)var
+I=j(e),n=mo(function(a){if(0===a[0]){var
+b=a[1],c=Q(wI,b),d=c?Q(b,I):c;if(d){if(a[5])return 0;var
+e=1}else
 var
-l=e;var
-t=l?fV(f):l;return t?n(hQ,dy(0,j(c),f)):t}function
-mb(a){switch(a[0]){case
+e=d;return e}return 1},r,f);else
+var
+n=k;if(n)var
+b=j(e),c=ds(a),y=mp(a),q=o(function(a){var
+d=a[1];if(9<=d)switch(d-9|0){case
+0:var
+e=a[4];if(typeof
+e!=="number"&&0===e[0])return a[2]?bx(c,b,a):a[3]?bx(c,b,a):1;return bx(c,b,a);case
+5:var
+f=a[4];if(typeof
+f!=="number"&&1===f[0]){var
+g=a[3];if(g){var
+h=g[1];if(1===h[0]){var
+i=u(j(h[1]),y);if(i){var
+k=a[2];if(k){var
+l=k[1],m=Q(v3,l);return m?Q(l,b):m}var
+n=1}else
+var
+n=i;return n}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a);case
+6:var
+o=a[4];if(typeof
+o!=="number"&&1===o[0]){var
+p=a[3];if(p){var
+q=p[1];if(1===q[0]){var
+r=u(j(q[1]),y);if(r){var
+s=a[2];if(s){var
+t=s[1],v=Q(v4,t);return v?Q(t,b):v}var
+w=1}else
+var
+w=r;return w}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)},f);else
+var
+q=n;var
+z=q?f3(f):q;return z?o(h1,dC(0,j(e),r,f)):z}function
+ms(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-mc(a,e,d,Q,m,l){var
-o=typeof
+mt(a,e,d,R,m,l){var
+n=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=o?wg:wh;return u(j(a),b)}var
-h=lV(e),y=n(function(b){switch(b[0]){case
+b=n?wP:wQ;return u(j(a),b)}var
+h=l_(e),z=o(function(b){switch(b[0]){case
 0:var
-d=ad(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=ac(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=ad(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
+g=ac(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
-m=b[1],n=o?m?0:1:c(m),p=n?c(b[2]):n,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(y)var
-R=j(e),q=Z(a0(a),R);else
+m=b[1],o=n?m?0:1:c(m),p=o?c(b[2]):o,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(z)var
+S=j(e),q=Q(a2(a),S);else
 var
-q=y;var
-A=q?Z(j(e),wi):q,B=A?n(es,z(mb,e)):A;if(B){var
+q=z;var
+A=q?Q(j(e),wR):q,B=A?o(ez,y(ms,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-S=o?wj:wk,r=l$(S,C,Q)}else
+T=n?wS:wT,r=mq(T,C,R)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=x(cR,m)?0:1,b=U;else
+V=w(cV,m)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=x(cR,m);if(t){var
+t=w(cV,m);if(t){var
 E=t[1];if(0===E[0])var
-F=g(p,1,k(d[1])),G=F?cr(E[1]):F;else
+F=g(p,1,i(d[1])),G=F?cw(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -5351,136 +5547,100 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],w=x(cR,m);if(w){var
-f=w[1];switch(f[0]){case
+v=d[1],x=w(cV,m);if(x){var
+f=x[1];switch(f[0]){case
 0:var
-i=0;break;case
+k=0;break;case
 1:var
-J=g(p,1,k(v)),K=J?cr(f[1]):J,L=K?cr(f[2]):K,i=L?cr(f[3]):L;break;case
+J=g(p,1,i(v)),K=J?cw(f[1]):J,L=K?cw(f[2]):K,k=L?cw(f[3]):L;break;case
 2:var
-M=g(p,1,k(v)),i=M?dB(f[1]):M;break;default:var
-N=g(p,1,k(v)),O=N?dB(f[1]):N,i=O?dB(f[2]):O}var
-I=i}else
+M=g(p,1,i(v)),k=M?dE(f[1]):M;break;default:var
+N=g(p,1,i(v)),O=N?dE(f[1]):N,k=O?dE(f[2]):O}var
+I=k}else
 var
-I=w;var
+I=x;var
 b=I}else
 var
 b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=j(e),s=n(function(b){return lS(h,a,T,b)},l);else
+U=j(e),s=o(function(b){return l7(h,a,U,b)},l);else
 var
 s=b;var
-D=s?fV(l):s;return D?n(hQ,dy(h,j(e),l)):D}function
-hS(j){var
-q=aF(j,b2(a1(j))),a=e(function(a){return ah(p,a)},q);if(a){var
-f=a[1];if(f){var
-b=a[2];if(b){var
-g=b[1];if(g){var
-c=b[2];if(c){var
-h=c[1];if(h){if(c[2])return 0;var
-i=function(a){return S(p,a)},r=i(h[1]),s=i(g[1]);return X(d,B(B(i(f[1]),s),r)[1])}var
-k=h}else
-var
-k=c;var
-l=k}else
-var
-l=g;var
-m=l}else
-var
-m=b;var
-n=m}else
-var
-n=f;var
-o=n}else
-var
-o=a;return o}function
-wl(a){switch(a[0]){case
-0:return hS(a[1][1]);case
+D=s?f3(l):s;return D?o(h1,dC(h,j(e),0,l)):D}function
+wU(a){switch(a[0]){case
+0:return fz(a[1][1]);case
 1:var
-b=a[3];return b?hS(b[1]):1;default:return hS(a[1])}}function
-hT(c,a,b,o){if(ar(function(a){return 9===a[1]?1:0},b)){var
-h=Z(j(a),wn),i=h?n(function(a){if(0===a[0]){var
-h=a[5],i=g(p,1,k(a[2])),j=i?g(p,0,k(a[3])):i,l=j?g(p,0,k(a[4])):j,e=0;if(l)if(h)var
-u=bv(h[1]),b=n(function(a){return dA(k(a))},u);else{var
-m=1;e=1}else{var
-m=l;e=1}if(e)var
-b=m}else{var
-o=g(p,1,k(a[4]));if(o)var
-v=bv(a[3]),w=f(bv(a[2]),v),b=n(function(a){return dA(k(a))},w);else
+b=a[3];return b?fz(b[1]):1;default:return fz(a[1])}}function
+h3(a,k,b,d){var
+e=mo(function(g){if(0===g[0]){var
+c=g[1],d=Q(wH,c);if(d){var
+b=R(a,bD(c));if(b){if(2===b[1][0])return 0;var
+e=1}else
 var
-b=o}if(b){if(0===a[0]){var
-q=a[1],r=Z(wm,q);if(r){var
-d=T(c,bC(q));if(d){if(2===d[1][0])return 0;var
-s=1}else
+e=b;var
+f=e}else
 var
-s=d;var
-t=s}else
+f=d;return f}return 1},k,b),f=e?o(wU,d[1]):e,g=f?Q(wV,j(a)):f;if(g)var
+l=j(a),c=o(function(a){return vT(l,a)},b);else
 var
-t=r;return t}return 1}return b},a):h;if(i)var
-l=hC(0,a),u=l?1:l,m=u;else
-var
-m=i;var
-d=m}else
-var
-d=a?0:1;var
-q=d?n(wl,o[1]):d,r=q?Z(wo,j(c)):q;if(r)var
-v=j(c),e=n(function(a){return vr(v,a)},b);else
-var
-e=r;var
-s=e?fV(b):e,t=s?n(es,z(l_,c)):s;return t?n(wa,o[3]):t}function
-fW(b,a){return n(function(c){var
-a=c[2];return a?dS(a[1],b):1},a)}function
-md(a){if(a){var
-b=a[1];if(fO(b))return 0;var
-c=[0,b,md(a[2])]}else
+c=g;var
+h=c?f3(b):c,i=h?o(ez,y(mn,a)):h;return i?o(wG,d[3]):i}function
+f4(b,a){return o(function(c){var
+a=c[2];return a?dW(a[1],b):1},a)}function
+mu(a){if(a){var
+b=a[1];if(fW(b))return 0;var
+c=[0,b,mu(a[2])]}else
 var
 c=a;return c}function
-me(c,b){var
-d=md(b),e=0,f=j(z(function(a){return hE(e,c,a)},d)),a=z(lQ,b),g=a?[0,a[1],a[2]]:wp;return L(j(g),f)}function
-hU(b,a){var
-c=j(bE(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
-hV(a){if(a){var
+wW(a){if(typeof
+a!=="number"&&13===a[0]){var
+d=a[4];if(ep(d)&&ac(g(p,0,[3,d,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])))return wY;return wZ}return wX}function
+mv(f,d,b){var
+g=mu(b),h=0,c=aV(N,0,e(wW,y(function(a){return hP(h,f,d,a)},g))),a=y(l5,b),i=a?[0,a[1],a[2]]:w0;return N(j(i),c)}function
+h4(b,a){var
+c=j(bF(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
+h5(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-mf(aL,Z,aI,Y,W,b,aH,B){var
-a=hD(Z,aI,Y,W),aN=j(B);if(aL)var
+mw(aL,Z,aK,Y,X,b,aH,B){var
+a=hO(Z,aK,Y,X),aN=j(B);if(aL)var
 _=0;else
 var
-aD=a[1],aE=e(fU,a[1]),V=fm(hM(a[1]),aE,aD),aG=aK(aV(0,j(V)),V),_=e(aJ,bE(function(a){return gY(a[2])},aG));var
-C=cS(_,aN,B);if(C){var
+aD=a[1],aE=e(f2,a[1]),W=fu(hX(a[1]),aE,aD),aG=aJ(aW(0,j(W)),W),_=e(aI,bF(function(a){return g7(a[2])},aG));var
+C=cW(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=hT(Z,Y,W,a),ab=aa?fW(wq,B):aa;if(ab){var
-aO=$[1],D=e(fU,a[1]),c=hM(a[1]),aP=hV(aH),U=ki(p,a);if(U){var
-k=fm(c,D,a[1]),g=gW(c,D,a[1],0),ae=j(a[3]),af=L(j(k),ae),K=[0,j(k),af],ag=a[3],F=ar(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?z(function(a){var
-b=e(b_,j7(k,a));return[0,a[4],b]},g):F,ak=f(gX(g,c,K,a[3]),ai),al=f(bt(jD(g)),ak),M=f(bt(d4(g)),al),N=db(M)[1],m=cA(N),O=n(function(a){var
-b=l(d);return aM(t(bm(m,a),m,b),a)},M);if(O){var
-P=ar(p7,a[3]);if(P){var
-s=D,o=a[1];for(;;){if(o){var
-q=o[1],u=bD(d,s);switch(q[0]){case
+aa=h3(Z,Y,X,a),ab=aa?f4(w1,B):aa;if(ab){var
+aO=$[1],D=e(f2,a[1]),c=hX(a[1]),aP=h5(aH),U=kq(p,a);if(U){var
+i=fu(c,D,a[1]),g=g5(c,D,a[1],0),ae=j(a[3]),af=N(j(i),ae),K=[0,j(i),af],ag=a[3],F=ao(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ag),aj=F?y(function(a){var
+b=e(ca,kc(i,a));return[0,a[4],b]},g):F,ak=f(g6(g,c,K,a[3]),aj),al=f(bt(jL(g)),ak),L=f(bt(d8(g)),al),M=cG(L)[1],m=bH(M),O=o(function(a){var
+b=l(d);return aF(s(a7(m,a),m,b),a)},L);if(O){var
+P=ao(qn,a[3]);if(P){var
+t=D,n=a[1];for(;;){if(n){var
+q=n[1],u=bE(d,t);switch(q[0]){case
 0:var
-G=q[1],H=gZ(b,G[1],u),E=0;if(H){var
+G=q[1],H=fw(b,G[1],u),E=0;if(H){var
 r=ah(b,[0,G[4],c]);if(r)var
-h=X(d,r[1][1]);else{var
+h=V(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
 h=I;break;case
 1:var
-J=q[3],h=J?gZ(b,J[1],u):1;break;default:var
-h=gZ(b,q[1],u)}if(h){var
-ad=o[2],s=cb(s),o=ad;continue}var
+J=q[3],h=J?fw(b,J[1],u):1;break;default:var
+h=fw(b,q[1],u)}if(h){var
+ad=n[2],t=bV(t),n=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-am=a[3],an=z(function(a){return cF(c,a)},am),ao=a[3],aq=f(k,f(e(function(a){return bs(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
-as=aF(dk(a[2]),c),x=aj(e(function(a){return ah(b,a)},as));if(x){var
-at=a[3],y=aj(j8(b,aP,function(a){return bm(m,a)},k,g,c,K,at));if(y){var
-R=y[1],au=gV(R),av=x[1],aw=a[2],ax=function(a){return j9(b,aw,c,a)},ay=w[1],az=0,aA=jD(g),aB=i(ap(function(a){return bm(m,a)}),aA),aC=d4(g);return fk(b,N,i(ap(function(a){return bm(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
-S=y}else
+am=a[3],an=y(function(a){return cJ(c,a)},am),ap=a[3],ar=f(i,f(e(function(a){return bs(c,a)},ap),an)),w=ai(e(function(a){return ah(b,a)},ar));if(w){var
+as=aM(dp(a[2]),c),x=ai(e(function(a){return ah(b,a)},as));if(x){var
+at=a[3],z=ai(ke(b,aP,function(a){return a7(m,a)},i,g,c,K,at));if(z){var
+R=z[1],au=g4(R),av=x[1],aw=a[2],ax=function(a){return kf(b,aw,c,a)},ay=w[1],az=0,aA=jL(g),aB=k(aq(function(a){return a7(m,a)}),aA),aC=d8(g);return fs(b,M,k(aq(function(a){return a7(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
+S=z}else
 var
 S=x;var
 T=S}else
@@ -5494,38 +5654,38 @@ A=O;return A}return U}var
 ac=ab}else
 var
 ac=C;return ac}function
-wr(a){if(0===a[0])return l3(a[1]);var
-b=a[1],c=dz(b[6]);return f(dz(b[5]),c)}function
-ws(a){if(0===a[0])return l4(a[1]);var
-b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-wt(a){if(0===a[0])return[0,fU(a[1]),d];var
-b=a[1],c=b2(a1(b[2]));return[0,b2(a1(b[1])),c]}function
-mg(f,n,m,l,k,i,x,d){var
-a=lW(f,n,m,l,k,i),o=a[2],c=z(wr,o),w=c?[0,c[1],c[2]]:z(ws,o),h=y(b,b2(w)),q=e(wt,a[2]),r=hj(h,q,a[2]),A=j(d),B=aK(aV(0,j(r)),r),g=cS(e(aJ,bE(function(a){return gY(a[2])},B)),A,d);if(g){var
+w2(a){if(0===a[0])return mg(a[1]);var
+b=a[1],c=dq(b[6]);return f(dq(b[5]),c)}function
+w3(a){if(0===a[0])return mh(a[1]);var
+b=a[1],c=a0(b[4]);return f(a0(b[3]),c)}function
+w4(a){if(0===a[0])return[0,f2(a[1]),d];var
+b=a[1],c=bL(a0(b[2]));return[0,bL(a0(b[1])),c]}function
+mx(f,n,m,l,k,i,x,d){var
+a=l$(f,n,m,l,k,i),o=a[2],b=y(w2,o),w=b?[0,b[1],b[2]]:y(w3,o),h=z(c,bL(w)),q=e(w4,a[2]),r=hw(h,q,a[2]),A=j(d),B=aJ(aW(0,j(r)),r),g=cW(e(aI,bF(function(a){return g7(a[2])},B)),A,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=mc(f,n,m,l,k,i),u=t?fW(a0(f),d):t;if(u)return q3(p,x,a,h,q,s[1]);var
+t=mt(f,n,m,l,k,i),u=t?f4(a2(f),d):t;if(u)return rq(p,x,a,h,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-mh(B,aM,ap,ao,A,an,h){var
-l=hD(B,aM,ap,ao);if(A){var
+my(B,aM,aq,ap,A,an,h){var
+l=hO(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-aq=l7(B,e(k,an));if(aq[2])return 0;var
+ar=mk(B,e(i,an));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?v8:v9;else
+a=0===h?wC:wD;else
 if(0===h[0]){var
-c=h[2],m=h[1],H=x(v5,T(as,m)),J=0;if(H){var
-S=H[1];if(S){var
-U=S[1];if(U)if(U[1])var
+b=h[2],m=h[1],H=w(wz,R(as,m)),J=0;if(H){var
+T=H[1];if(T){var
+U=T[1];if(U)if(U[1])var
 a=0;else{var
-K=0;if(c){var
-n=c[1],L=0;if(n){var
+K=0;if(b){var
+n=b[1],L=0;if(n){var
 o=n[2],M=0;if(o){var
 q=o[2],N=0;if(q)if(q[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
-r=c[2],az=0;if(r){var
+r=b[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
@@ -5554,52 +5714,52 @@ var
 $=n;if(!L)var
 aa=$}else
 var
-aa=c;if(!K)var
+aa=b;if(!K)var
 a=aa}else{var
-aD=0;if(c){var
-v=c[1],aE=0;if(v){var
-w=v[2],aF=0;if(w){var
-y=w[2],aG=0;if(y)if(y[2]||c[2]){var
+aD=0;if(b){var
+v=b[1],aE=0;if(v){var
+x=v[2],aF=0;if(x){var
+z=x[2],aG=0;if(z)if(z[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=y[1],ac=w[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=z[1],ac=x[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-ae=y;if(!aG)var
+ae=z;if(!aG)var
 af=ae}else
 var
-af=w;if(!aF)var
+af=x;if(!aF)var
 ag=af}else
 var
 ag=v;if(!aE)var
 ah=ag}else
 var
-ah=c;if(!aD)var
+ah=b;if(!aD)var
 a=ah}}else
-if(c)var
+if(b)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj}else{var
-ak=h[1],I=T(as,ak),O=0;if(I){var
+ak=h[1],I=R(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
 a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=hU(z(l_,B),an),au=at?hT(B,ap,ao,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=aq[1],P=j$(p,l,j,i);if(P)if(typeof
-f==="number")return 0===f?ar(function(c){var
-a=ka(c,i);return a?g(p,0,[3,[0,d,b],a[1]]):a},j):js(p9,e(function(b){var
-a=ea(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
-E=T(l[3],f[1]);if(E){var
-aI=E[1],aJ=kb(f[3]);return kg(p,j,i,kb(f[2]),aJ,aI)}return E}var
-F=T(l[3],f[1]);if(F){var
-G=T(j,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cK(Q,i);return kg(p,j,i,cK(Q,i),aL,aK)}var
-R=G}else
+at=h4(y(mn,B),an),au=at?h3(B,aq,ap,l):at;if(au){var
+f=a[1],aN=i(D[1]),aO=i(C[1]),j=[0,i(A[1]),aO,aN],k=ar[1],P=kh(p,l,k,j);if(P)if(typeof
+f==="number")return 0===f?ao(function(b){var
+a=ki(b,j);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jA(qp,e(function(b){var
+a=ee(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+E=R(l[3],f[1]);if(E){var
+aI=E[1],aJ=kj(f[3]);return ko(p,k,j,kj(f[2]),aJ,aI)}return E}var
+F=R(l[3],f[1]);if(F){var
+G=R(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cO(Q,j);return ko(p,k,j,cO(Q,j),aL,aK)}var
+S=G}else
 var
-R=F;return R}return P}var
+S=F;return S}return P}var
 av=au}else
 var
 av=a;var
@@ -5612,23 +5772,23 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-mi(m,l,b,k,z,y){var
+mz(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=T(f,g),n=h?dS(h[1][2],ww):h;if(n)var
-A=d[2],i=mi(m,l,b,k,hL(0,g,f),A);else
+g=d[1],h=R(f,g),n=h?dW(h[1][2],w7):h;if(n)var
+A=d[2],i=mz(m,l,b,k,hW(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hL(1,g,f),d=B;continue}return i}var
-c=d[1],a=l1(0,m,f),o=e(function(b){function
-d(b){return l2(a,b)}function
-c(a){return hJ(d,a)}switch(b[0]){case
+B=d[3],f=hW(1,g,f),d=B;continue}return i}var
+c=d[1],a=me(0,m,f),o=e(function(b){function
+d(b){return mf(a,b)}function
+c(a){return hU(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=l2(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mf(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hJ(function(b){return al(a,b)},q),s=b[1],j=[0,hJ(function(b){return al(a,b)},s),r];else
+i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=hU(function(b){return al(a,b)},q),s=b[1],j=[0,hU(function(b){return al(a,b)},s),r];else
 var
-t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),w=al(a,b[2]),j=[1,al(a,b[1]),w,v,u,t];var
+t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),x=al(a,b[2]),j=[1,al(a,b[1]),x,v,u,t];var
 p=e(function(f){var
 b=f[4];if(typeof
 b==="number")var
@@ -5652,348 +5812,348 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mf(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return mh(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
-mj(h,g){var
-a=cC(k(h));if(a){var
-c=a[1],e=c_([0,d,b],c);if(e)return c_(c,g);var
+1:return mw(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return my(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
+mA(h,g){var
+a=ci(i(h));if(a){var
+b=a[1],e=cC([0,d,c],b);if(e)return cC(b,g);var
 f=e}else
 var
 f=a;return f}function
-wC(o){var
-dF=fM(o[3]),dG=dF?fM(o[4]):dF;if(dG){var
-H=o[1];switch(H[0]){case
+xb(n){var
+dI=fT(n[3]),dJ=dI?fT(n[4]):dI;if(dJ){var
+H=n[1];switch(H[0]){case
 3:var
-dN=n(ep,H[1]);if(dN)var
-gR=H[2],bJ=n(function(a){return ep(a[1])},gR);else
+dQ=o(ew,H[1]);if(dQ)var
+gU=H[2],bN=o(function(a){return ew(a[1])},gU);else
 var
-bJ=dN;if(bJ)var
-gS=H[3],bK=n(function(a){var
-b=ep(a[1]),c=b?hA(a[2]):b;return c?eq(a[2]):c},gS);else
+bN=dQ;if(bN)var
+gV=H[3],bO=o(function(a){var
+b=ew(a[1]),c=b?hM(a[2]):b;return c?ex(a[2]):c},gV);else
 var
-bK=bJ;if(bK)var
-gT=H[4],aN=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hA(a);return b?eq(a):b},b)},gT);else
+bO=bN;if(bO)var
+gW=H[4],aO=o(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return o(function(a){var
+b=hM(a);return b?ex(a):b},b)},gW);else
 var
-aN=bK;break;case
+aO=bO;break;case
 7:var
-gU=H[1],dO=n(function(a){var
-b=ep(a[1]);return b?fN(0,[0,a[2][1],[0,a[2][2],0]]):b},gU),aN=dO?fN(0,[0,H[5],[0,H[6],0]]):dO;break;default:var
-aN=1}var
-bH=aN}else
+gX=H[1],dR=o(function(a){var
+b=ew(a[1]);return b?fU(0,[0,a[2][1],[0,a[2][2],0]]):b},gX),aO=dR?fU(0,[0,H[5],[0,H[6],0]]):dR;break;default:var
+aO=1}var
+bM=aO}else
 var
-bH=dG;var
-cn=0;if(bH){var
-dH=o[1],dI=7===dH[0]?e(aJ,dH[1]):0,dJ=function(c,b){var
-a=lN(c);return a?n(function(a){var
-b=a[1];return n(function(c){var
+bM=dJ;var
+cs=0;if(bM){var
+dK=n[1],dL=7===dK[0]?e(aI,dK[1]):0,dM=function(c,b){var
+a=l2(c);return a?o(function(a){var
+b=a[1];return o(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fM(a[2]);if(b){var
+b=fT(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fM(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}},b)},b):a},dK=function(d,c,b){var
-a=lN(d);return a?fN(dI,f(c,b)):a},h=o[1];switch(h[0]){case
+1:return fT(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}},b)},b):a},dN=function(d,c,b){var
+a=l2(d);return a?fU(dL,f(c,b)):a},h=n[1];switch(h[0]){case
 0:var
-gr=z(cP,h[4]),gs=f(z(vm,h[3]),gr),gt=f(lK(h[2]),gs),I=f(z(hB,h[1]),gt);break;case
+gt=y(cT,h[4]),gu=f(y(l0,h[3]),gt),gv=f(lY(h[2]),gu),I=f(y(hN,h[1]),gv);break;case
 1:var
-bB=h[5],bD=h[3],gu=z(cP,h[6]),gv=bB?lL(bB[1]):bB,gw=f(gv,gu),gx=f(lJ(h[4]),gw),gy=bD?[0,bD[1],0]:bD,gz=f(gy,gx),I=f(z(vl,h[2]),gz);break;case
+bE=h[5],bI=h[3],gw=y(cT,h[6]),gx=bE?lZ(bE[1]):bE,gy=f(gx,gw),gz=f(lX(h[4]),gy),gA=bI?[0,bI[1],0]:bI,gB=f(gA,gz),I=f(y(vO,h[2]),gB);break;case
 2:var
-gA=z(cP,h[6]),gB=f(lL(h[5]),gA),gC=f(lJ(h[4]),gB),gD=[0,h[3],gC],gE=h[2],I=f(z(function(a){return z(dv,f(a[1],a[2]))},gE),gD);break;case
+gC=y(cT,h[7]),gD=f(y(l0,h[6]),gC),gE=f(lZ(h[5]),gD),gF=f(lX(h[4]),gE),gG=[0,h[3],gF],gH=h[2],I=f(y(function(a){return y(dA,f(a[1],a[2]))},gH),gG);break;case
 3:var
-gF=z(cP,h[7]),gG=f(h[6],gF),gH=f(h[5],gG),gI=h[2],I=f(z(function(a){return dv(a[2])},gI),gH);break;case
+gI=y(cT,h[7]),gJ=f(h[6],gI),gK=f(h[5],gJ),gL=h[2],I=f(y(function(a){return dA(a[2])},gL),gK);break;case
 4:var
-gJ=z(cP,h[3]),I=[0,h[1],[0,h[2],gJ]];break;case
+gM=y(cT,h[3]),I=[0,h[1],[0,h[2],gM]];break;case
 5:var
-gK=z(cP,h[4]),gL=f(bv(h[3]),gK),gM=f(bv(h[2]),gL),gN=f(z(hB,h[1]),gM),I=[0,h[5],gN];break;case
+gN=y(cT,h[4]),gO=f(bv(h[3]),gN),gP=f(bv(h[2]),gO),gQ=f(y(hN,h[1]),gP),I=[0,h[5],gQ];break;case
 6:var
-bG=h[1],I=bG?dv(bG[1]):bG;break;default:var
-gO=z(cP,h[4]),gP=f(lK(h[3]),gO),I=f(z(hB,h[2]),gP)}var
-dL=fN(dI,I);if(dL){var
-S=o[2];switch(S[0]){case
+bJ=h[1],I=bJ?dA(bJ[1]):bJ;break;default:var
+gR=y(cT,h[4]),gS=f(lY(h[3]),gR),I=f(y(hN,h[2]),gS)}var
+dO=fU(dL,I);if(dO){var
+U=n[2];switch(U[0]){case
 0:var
-aw=dJ(S[1],S[3]);break;case
+aw=dM(U[1],U[3]);break;case
 1:var
-aw=dK(S[1],S[2],S[3]);break;default:var
-gQ=S[1],aw=n(function(a){if(typeof
+aw=dN(U[1],U[2],U[3]);break;default:var
+gT=U[1],aw=o(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dJ(a[1],a[3]);case
-2:return dK(a[1],a[2],a[3])}return 1},gQ)}}else{var
-dM=dL;cn=1}}else{var
-dM=bH;cn=1}if(cn)var
-aw=dM;if(aw){var
-a=o[1];switch(a[0]){case
+1:return dM(a[1],a[3]);case
+2:return dN(a[1],a[2],a[3])}return 1},gT)}}else{var
+dP=dO;cs=1}}else{var
+dP=bM;cs=1}if(cs)var
+aw=dP;if(aw){var
+a=n[1];switch(a[0]){case
 0:var
-em=a[4],en=a[3],eo=a[2],er=a[1],U=o[2];switch(U[0]){case
-0:return mf(0,er,eo,en,em,U[1],U[2],U[3]);case
-1:return mh(er,eo,en,em,U[2],U[3],U[4]);default:return 0}case
+en=a[4],eo=a[3],ep=a[2],es=a[1],W=n[2];switch(W[0]){case
+0:return mw(0,es,ep,eo,en,W[1],W[2],W[3]);case
+1:return my(es,ep,eo,en,W[2],W[3],W[4]);default:return 0}case
 1:var
-bY=a[6],b0=a[5],b1=a[4],b3=a[3],ax=a[2],V=a[1],ai=o[2];switch(ai[0]){case
-0:return mg(V,ax,b3,b1,b0,bY,ai[1],ai[3]);case
+b1=a[6],b2=a[5],b4=a[4],b5=a[3],ax=a[2],X=a[1],aj=n[2];switch(aj[0]){case
+0:return mx(X,ax,b5,b4,b2,b1,aj[1],aj[3]);case
 1:var
-et=ai[3],hp=ai[4],hq=ai[2],dX=typeof
-V==="number"?V?wu:wv:hR(V[1]),bT=e(k,hq),dY=l9(ax,e(k,et));if(dY[2])return 0;var
-dZ=hU(z(mb,ax),et),d0=dZ?mc(V,ax,b3,b1,b0,bY):dZ;if(d0)var
-hb=a0(V),bU=u(j(bT),hb);else
+et=aj[3],hq=aj[4],hr=aj[2],d0=typeof
+X==="number"?X?w5:w6:h2(X[1]),bX=e(i,hr),d1=mm(ax,e(i,et));if(d1[2])return 0;var
+d2=h4(y(ms,ax),et),d3=d2?mt(X,ax,b5,b4,b2,b1):d2;if(d3)var
+hd=a2(X),bY=u(j(bX),hd);else
 var
-bU=d0;if(bU){var
-hc=hO(hp),q=eX(dX,bT),B=a8(cw(dX,bT)),af=dY[1],K=lW(V,ax,b3,b1,b0,bY),cQ=k_(p,K[2],af);if(cQ){var
-cM=d_(p,K[4],B),co=0;if(cM){var
-cN=K[5];if(cN)var
-a5=kC(p,cN[1],q);else
+bY=d3;if(bY){var
+he=hZ(hq),q=e5(d0,bX),B=a_(cB(d0,bX)),af=d1[1],K=l$(X,ax,b5,b4,b2,b1),cV=ln(p,K[2],af);if(cV){var
+cR=ec(p,K[4],B),ct=0;if(cR){var
+cS=K[5];if(cS)var
+a6=kM(p,cS[1],q);else
 if(q)var
-a5=0;else{var
-cO=1;co=1}}else{var
-cO=cM;co=1}if(co)var
-a5=cO;var
-a6=a5}else
+a6=0;else{var
+cU=1;ct=1}}else{var
+cU=cR;ct=1}if(ct)var
+a6=cU;var
+a8=a6}else
 var
-a6=cQ;if(a6){var
-w=K[5],cR=K[3],aD=K[1],fl=K[6],ff=e(function(a){if(0===a[0]){var
-d=bZ(w,q,B,a),c=ea(a[1],d);return[0,k8(aD,c,aq([5,[0,b,b],cR],ec(hg(w,q,fA(a)),c)))]}return 0},af),fg=z(function(a){if(0===a[0]){var
-c=bZ(w,q,B,a),b=ka(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=bZ(w,q,B,a);return[0,ks(a[1],e),0]},af),fh=e(function(d){var
-b=bZ(w,q,B,d);if(0===d[0]){var
+a8=cV;if(a8){var
+x=K[5],cX=K[3],aE=K[1],fn=K[6],fh=e(function(a){if(0===a[0]){var
+d=b3(x,q,B,a),b=ee(a[1],d);return[0,ll(aE,b,as([5,[0,c,c],cX],eh(ht(x,q,fI(a)),b)))]}return 0},af),fi=y(function(a){if(0===a[0]){var
+c=b3(x,q,B,a),b=ki(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=b3(x,q,B,a);return[0,kA(a[1],e),0]},af),fj=e(function(d){var
+b=b3(x,q,B,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cI(e,h,g,f,b),i=cJ(a[5],j),k=aq(i,av(e)),l=d$(e,h,g,b);return[0,[0,k9(aD,ac(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fq(c,b),o=kv(c,b),p=c[4],r=ac(function(b,a){return[2,b,a]},b,p);return[0,[0,k9(aD,ac(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fi=e(function(a){if(0===a[0]){var
-c=bZ(w,q,B,a);return[0,g0(a[1],c)]}var
-b=a[1],d=ku(b,bZ(w,q,B,a));return[1,kt(b,bZ(w,q,B,a)),d]},af),fj=[0,e(function(a){if(0===a[0])var
-k=bZ(w,q,B,a),d=cK(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cM(e,h,g,f,b),i=cN(a[5],j),k=as(i,av(e)),l=ed(e,h,g,b);return[0,[0,lm(aE,ad(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fy(c,b),o=kD(c,b),p=c[4],r=ad(function(b,a){return[2,b,a]},b,p);return[0,[0,lm(aE,ad(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fl=e(function(a){if(0===a[0]){var
+c=b3(x,q,B,a);return[0,g8(a[1],c)]}var
+b=a[1],d=kC(b,b3(x,q,B,a));return[1,kB(b,b3(x,q,B,a)),d]},af),fm=[0,e(function(a){if(0===a[0])var
+k=b3(x,q,B,a),d=cO(a[1],k);else
 var
-e=bZ(w,q,B,a),c=a[1],f=kv(c,e),g=c[4],h=ac(function(b,a){return[2,b,a]},e,g),i=ac(function(b,a){return[3,b,a]},h,f),j=fq(c,e),d=aq([5,[0,b,b],[4,c[5],j]],i);return k8(aD,d,aq([5,[0,b,b],cR],ec(hg(w,q,fA(a)),d)))},af),fi,fh,fg,ff];return kp(p,a0(K[1]),fj,fl,hc)}return a6}return bU;default:return 0}case
+e=b3(x,q,B,a),b=a[1],f=kD(b,e),g=b[4],h=ad(function(b,a){return[2,b,a]},e,g),i=ad(function(b,a){return[3,b,a]},h,f),j=fy(b,e),d=as([5,[0,c,c],[4,b[5],j]],i);return ll(aE,d,as([5,[0,c,c],cX],eh(ht(x,q,fI(a)),d)))},af),fl,fj,fi,fh];return kx(p,a2(K[1]),fm,fn,he)}return a8}return bY;default:return 0}case
 2:var
-ay=a[6],aR=a[5],aS=a[4],aT=a[3],W=a[2],ak=a[1],_=o[2];switch(_[0]){case
+ay=a[7],az=a[6],aS=a[5],aT=a[4],aU=a[3],Y=a[2],ak=a[1],_=n[2];switch(_[0]){case
 0:var
-b4=_[3],al=lU(ak,W,aT,aS,aR,ay),b5=cS(0,j(b4),b4);if(b5){var
-eu=b5[1];if(eu[2])return 0;var
-ev=ma(ak,W,aT,aS,aR,ay),ew=ev?fW(dm(ak),b4):ev;if(ew){var
-hr=eu[1],hs=al[2],ht=y(b,b2(z(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},hs))),hu=me(j(W),ay),hv=hV(_[2]),hw=_[1],fb=al[2],cL=n(function(a){var
-b=k7(p,a[1]);return b?k7(p,a[2]):b},fb);if(cL)var
-fc=g2(al[4]),a3=d_(p,al[4],fc);else
+b6=_[3],al=l9(ak,Y,aU,aT,aS,az,ay),b7=cW(0,j(b6),b6);if(b7){var
+eu=b7[1];if(eu[2])return 0;var
+ev=mr(ak,Y,aU,aT,aS,az,ay),ey=ev?f4(ds(ak),b6):ev;if(ey){var
+hs=eu[1],hu=al[2],hv=z(c,bL(y(function(a){var
+b=a0(a[2]);return f(a0(a[1]),b)},hu))),hw=mv(j(Y),az,ay),hy=h5(_[2]),hz=_[1],fe=al[2],cQ=o(function(a){var
+b=lk(p,a[1]);return b?lk(p,a[2]):b},fe);if(cQ)var
+ff=g_(al[4]),a4=ec(p,al[4],ff);else
 var
-a3=cL;if(a3)var
-fe=fu(al[5]),a4=n(function(a){return ei(p,a)},fe);else
+a4=cQ;if(a4)var
+fg=fE(al[5]),a5=o(function(a){return eq(p,a)},fg);else
 var
-a4=a3;return a4?qH(hw,hv,hu,al,ht,hr):a4}var
-ex=ew}else
+a5=a4;return a5?q6(hz,hy,hw,al,hv,hs):a5}var
+eA=ey}else
 var
-ex=b5;return ex;case
+eA=b7;return eA;case
 1:var
-ey=_[3],ez=e(k,_[2]),eA=hR(ak),eB=l8(W,e(k,ey));if(eB[2])return 0;var
-eC=hU(z(function(a){return f(a[1],a[2])},W),ey),eD=eC?ma(ak,W,aT,aS,aR,ay):eC;if(eD){var
-hx=hO(_[4]),$=eX(eA,ez),az=a8(cw(eA,ez)),am=eB[1],M=lU(ak,W,aT,aS,aR,ay),aC=M[2],aa=am;for(;;){if(aC){if(aa){var
-cu=aa[1],cv=aC[1],cy=aY(p,cv[1],cu[1]),cz=cy?aY(p,cv[2],cu[2]):cy;if(cz){var
-aC=aC[2],aa=aa[2];continue}var
-cB=cz}else
+eB=_[3],eC=e(i,_[2]),eD=h2(ak),eE=ml(Y,e(i,eB));if(eE[2])return 0;var
+eF=h4(y(function(a){return f(a[1],a[2])},Y),eB),eG=eF?mr(ak,Y,aU,aT,aS,az,ay):eF;if(eG){var
+hB=hZ(_[4]),$=e5(eD,eC),aA=a_(cB(eD,eC)),am=eE[1],L=l9(ak,Y,aU,aT,aS,az,ay),aD=L[2],aa=am;for(;;){if(aD){if(aa){var
+cz=aa[1],cA=aD[1],cE=aZ(p,cA[1],cz[1]),cF=cE?aZ(p,cA[2],cz[2]):cE;if(cF){var
+aD=aD[2],aa=aa[2];continue}var
+cH=cF}else
 var
-cB=aa;var
-a2=cB}else
+cH=aa;var
+a3=cH}else
 var
-a2=aa?0:1;var
-cD=a2?d_(p,M[4],az):a2,cE=cD?kC(p,M[5],$):cD;if(cE){var
-ab=M[5],cG=M[3],cH=M[1],fa=M[6],ct=function(a){var
-b=fs(ab,$,az,a);return O(fs(ab,$,az,a),b)},e7=e(function(c){var
-a=fs(ab,$,az,c);return[0,g$(cH,a,aq([5,[0,b,b],cG],ec(fr(ab,$,c[2]),a)))]},am),e8=e(ct,am),e9=e(function(a){return 0},am),e_=e(function(a){return[0,[6,ct(a)]]},am),e$=[0,e(function(c){var
-a=av(fs(ab,$,az,c));return g$(cH,a,aq([5,[0,b,b],cG],ec(fr(ab,$,c[2]),a)))},am),e_,e9,e8,e7];return kp(p,dm(M[1]),e$,fa,hx)}return cE}}return eD;default:return 0}case
+a3=aa?0:1;var
+cI=a3?ec(p,L[4],aA):a3,cK=cI?kM(p,L[5],$):cI;if(cK){var
+ab=L[5],cL=L[3],cP=L[1],fd=L[6],cy=function(a){var
+b=fB(ab,$,aA,a);return O(fB(ab,$,aA,a),b)},e_=e(function(b){var
+a=fB(ab,$,aA,b);return[0,hj(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))]},am),e$=e(cy,am),fa=e(function(a){return 0},am),fb=e(function(a){return[0,[6,cy(a)]]},am),fc=[0,e(function(b){var
+a=av(fB(ab,$,aA,b));return hj(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))},am),fb,fa,e$,e_];return kx(p,ds(L[1]),fc,fd,hB)}return cK}}return eG;default:return 0}case
 3:var
-ao=a[7],eE=a[6],eF=a[5],P=a[4],eG=a[2],b6=a[1],aU=o[2];if(0===aU[0]){var
-b7=aU[3],b8=cS(0,j(b7),b7);if(b8){var
-eH=b8[1];if(eH[2])return 0;var
-g_=j(b6),ha=j(eE),dT=u(j(eF),ha),dU=dT?n(function(a){var
-b=lR(g_,j(P),a);if(b){var
+ap=a[7],eH=a[6],eI=a[5],P=a[4],eJ=a[2],b8=a[1],aV=n[2];if(0===aV[0]){var
+b9=aV[3],b_=cW(0,j(b9),b9);if(b_){var
+eK=b_[1];if(eK[2])return 0;var
+hb=j(b8),hc=j(eH),dW=u(j(eI),hc),dX=dW?o(function(a){var
+b=bx(hb,j(P),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bC(d[1]),0]:aV(0,j(P));return n(function(b){var
-a=T(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},P):1}return b},ao):dT,dV=dU?fV(ao):dU,dW=dV?n(function(a){return es(a[2])},eG):dV,eI=dW?n(hQ,dy(0,j(P),ao)):dW,eJ=eI?fW(j(b6),b7):eI;if(eJ){var
-hy=eH[1],hz=a[3],dP=ar(fO,ao),aO=dy(0,j(P),ao),gY=aK(eF,eE),bL=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},gY),gZ=e(function(a){return 0===a[0]?[0,e(cp,a[1])]:[1,cp(a[1])]},P),g1=e(function(a){var
-b=cp(a[2]);return[0,a[1],b]},hz),m=[0,b6,e(function(a){var
-b=bw(a[2]);return[0,a[1],b]},eG),g1,gZ],hC=me(j(P),ao),eK=hV(aU[2]),aA=aU[1],f8=e(aJ,m[2]),bi=f(m[1],f8),bj=j(m[1]),dc=Z(q4,bj),dd=dc?Z(bj,q5):dc,de=dd?Z(bj,j(m[4])):dd,df=de?Z(j(m[4]),q6):de,dg=df?lr(bi):df;if(dg){var
-aI=bi,aH=m[3];for(;;){if(aH){var
-c8=aH[1],c9=c8[1],c$=ad(ar(function(b){return function(a){return an(b,a)}}(c9),aI)),da=c$?ho(aI,c8[2]):c$;if(da){var
-aI=[0,c9,aI],aH=aH[2];continue}var
-dh=da}else
+d=a[2],e=d?[0,bD(d[1]),0]:aW(0,j(P));return o(function(b){var
+a=R(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?o(function(a){return 0===a[0]?0:1},P):1}return b},ap):dW,dY=dX?f3(ap):dX,dZ=dY?o(function(a){return ez(a[2])},eJ):dY,eL=dZ?o(h1,dC(0,j(P),0,ap)):dZ,eM=eL?f4(j(b8),b9):eL;if(eM){var
+hC=eK[1],hD=a[3],dS=ao(fW,ap),aP=dC(0,j(P),0,ap),gY=aJ(eI,eH),bP=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},gY),gZ=e(function(a){return 0===a[0]?[0,e(cu,a[1])]:[1,cu(a[1])]},P),g0=e(function(a){var
+b=cu(a[2]);return[0,a[1],b]},hD),m=[0,b8,e(function(a){var
+b=bw(a[2]);return[0,a[1],b]},eJ),g0,gZ],hE=mv(j(P),0,ap),eN=h5(aV[2]),aB=aV[1],f_=e(aI,m[2]),bk=f(m[1],f_),bl=j(m[1]),df=Q(rr,bl),dg=df?Q(bl,rs):df,dh=dg?Q(bl,j(m[4])):dg,di=dh?Q(j(m[4]),rt):dh,dj=di?lE(bk):di;if(dj){var
+aL=bk,aK=m[3];for(;;){if(aK){var
+db=aK[1],dc=db[1],dd=ac(ao(function(b){return function(a){return an(b,a)}}(dc),aL)),de=dd?hA(aL,db[2]):dd;if(de){var
+aL=[0,dc,aL],aK=aK[2];continue}var
+dk=de}else
 var
-dh=1;var
-bk=dh;break}}else
+dk=1;var
+bm=dk;break}}else
 var
-bk=dg;if(bk)var
-f9=m[4],bl=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bi);return n(function(a){return ho(c,a)},b)},f9);else
+bm=dj;if(bm)var
+f$=m[4],bn=o(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bk);return o(function(a){return hA(c,a)},b)},f$);else
 var
-bl=bk;if(bl)var
-f_=m[2],bn=n(function(a){return a9(p,a[2][1],a[2][2])},f_);else
+bn=bm;if(bn)var
+ga=m[2],bo=o(function(a){return a$(p,a[2][1],a[2][2])},ga);else
 var
-bn=bl;var
-di=bn?n(function(a){return a9(p,a[1],a[2])},bL):bn;if(di){var
-a_=j(m[1]),ba=j(m[2]),cV=L(ba,j(hl(e(b_,m[3])))),fv=m[3],at=lq(m),aE=fv,a7=ba;for(;;){if(aE){var
-cT=aE[1],cU=cT[2],fn=L(a7,j(bu(cU))),fp=aE[2],ft=a$(at,cU,a7),at=[0,[0,cT[1],ft],at],aE=fp,a7=fn;continue}var
-R=ln(a_,at,m[4],cV),fw=lm(at,m[4],cV),fx=m[3],cW=f(lj(lq(m),fx,ba),fw),cX=j(lp(m)),fy=0,fz=f(cW,ek(function(a,b){return lf(R,a,b)},fy,d,cX,aO)),fD=f(bt(ej(R)),fz),cY=f(bt(fC(R)),fD),bb=db(cY)[1],fE=cA(bb),ae=function(a){return bm(fE,a)},cZ=u(j(bL),a_);if(cZ)var
-fF=m[4],bc=n(function(a){return 0===a[0]?u(j(a[1]),a_):1},fF);else
+bo=bn;var
+dl=bo?o(function(a){return a$(p,a[1],a[2])},bP):bo;if(dl){var
+ba=j(m[1]),bc=j(m[2]),c0=N(bc,j(hx(e(ca,m[3])))),fr=m[3],at=lD(m),aG=fr,a9=bc;for(;;){if(aG){var
+cY=aG[1],cZ=cY[2],fo=N(a9,j(bu(cZ))),fp=aG[2],fq=bb(at,cZ,a9),at=[0,[0,cY[1],fq],at],aG=fp,a9=fo;continue}var
+T=lA(ba,at,m[4],c0),ft=lz(at,m[4],c0),fw=m[3],c1=f(lw(lD(m),fw,bc),ft),c2=j(lC(m)),fx=0,fz=f(c1,cp(function(a,b){return lt(T,a,b)},fx,d,c2,aP)),fC=f(bt(er(T)),fz),c3=f(bt(fJ(T)),fC),bd=cG(c3)[1],fD=bH(bd),ae=function(a){return a7(fD,a)},c4=u(j(bP),ba);if(c4)var
+fF=m[4],be=o(function(a){return 0===a[0]?u(j(a[1]),ba):1},fF);else
 var
-bc=cZ;var
-c0=bc?n(function(a){var
-b=l(d),c=cA(bb);return aM(t(ae(a),c,b),a)},cY):bc,c1=c0?ar(li,aO):c0;if(c1){var
-c2=ad(dP);if(c2)var
-aG=c2;else
+be=c4;var
+c5=be?o(function(a){var
+b=l(d),c=bH(bd);return aF(s(ae(a),c,b),a)},c3):be,c6=c5?ao(lv,aP):c5;if(c6){var
+c7=ac(dS);if(c7)var
+aH=c7;else
 var
-f7=m[4],aG=n(function(a){return 0===a[0]?0:1},f7)}else
+f9=m[4],aH=o(function(a){return 0===a[0]?0:1},f9)}else
 var
-aG=c1;if(aG){var
-fI=lp(m),bd=aj(e(function(a){return ah(aA,a)},fI));if(bd){var
-fJ=0,fK=z(function(a){return fB(fJ,d,a)},aO),be=aj(e(function(a){return lg(aA,a)},fK));if(be){var
-bf=aj(e(function(a){return ah(aA,[0,a,d])},bL));if(bf){var
-fL=0,fQ=0,bg=aj(ek(function(a,b){return lh(aA,ae,R,fQ,d,a,b)},fL,d,cX,aO));if(bg){var
-c3=bg[1];if(dP)var
-fS=eK[2],fX=eK[1],fY=ej(R),bh=kj(hC,c3,[8,i(ap(ae),fY),fX,fS]);else
+aH=c6;if(aH){var
+fG=lC(m),bf=ai(e(function(a){return ah(aB,a)},fG));if(bf){var
+fH=0,fK=y(function(a){return eg(fH,d,a)},aP),bg=ai(e(function(a){return hh(aB,a)},fK));if(bg){var
+bh=ai(e(function(a){return ah(aB,[0,a,d])},bP));if(bh){var
+fL=0,fM=0,bi=ai(cp(function(a,b){return lu(aB,ae,T,fM,d,a,b)},fL,d,c2,aP));if(bi){var
+c8=bi[1];if(dS)var
+fP=eN[2],fQ=eN[1],fR=er(T),bj=kr(hE,c8,[8,k(aq(ae),fR),fQ,fP]);else
 var
-bh=c3;var
-fZ=gV(bh),f0=bf[1],f1=function(a){return 0},f2=f(bd[1],be[1]),f3=e(ae,cW),f4=ej(R),f5=i(ap(ae),f4),f6=fC(R);return fk(aA,bb,i(ap(ae),f6),f5,f3,f2,bh,f1,f0,fZ,hy)}var
-c4=bg}else
+bj=c8;var
+fS=g4(bj),fV=bh[1],fY=function(a){return 0},f0=f(bf[1],bg[1]),f5=e(ae,c1),f6=er(T),f7=k(aq(ae),f6),f8=fJ(T);return fs(aB,bd,k(aq(ae),f8),f7,f5,f0,bj,fY,fV,fS,hC)}var
+c9=bi}else
 var
-c4=bf;var
-c5=c4}else
+c9=bh;var
+c_=c9}else
 var
-c5=be;var
-c6=c5}else
+c_=bg;var
+c$=c_}else
 var
-c6=bd;var
-c7=c6}else
+c$=bf;var
+da=c$}else
 var
-c7=aG;return c7}}return di}var
-eL=eJ}else
+da=aH;return da}}return dl}var
+eO=eM}else
 var
-eL=b8;return eL}return 0;case
+eO=b_;return eO}return 0;case
 4:var
-b9=o[2];if(0===b9[0]){var
-aB=a[3],C=a[2],b$=a[1],hF=b9[3],hG=b9[1],d7=dA(k(b$));if(d7){var
-aP=bE(lX,aB),cq=0;if(aP){var
-bM=aP[1];if(bM[2]||bM[3])var
-s=0;else{var
-aQ=bM[4],J=aP[2],E=0;if(typeof
-aQ!=="number")switch(aQ[0]){case
+b$=n[2];if(0===b$[0]){var
+aC=a[3],C=a[2],cb=a[1],hF=b$[3],hG=b$[1],d_=dD(i(cb));if(d_){var
+aQ=bF(ma,aC),cv=0;if(aQ){var
+bQ=aQ[1];if(bQ[2]||bQ[3])var
+t=0;else{var
+aR=bQ[4],J=aQ[2],E=0;if(typeof
+aR!=="number")switch(aR[0]){case
 0:var
-aX=0;if(J){var
-bN=J[1];if(bN[2]||bN[3]){var
-s=0;E=1;aX=1}else{var
-bO=bN[4],cr=0;if(typeof
-bO!=="number"&&1===bO[0])if(J[2]){var
-s=0;E=1;aX=1;cr=1}else{var
-s=[0,[0,aQ[1],bO[1]]];E=1;aX=1;cr=1}if(!cr)var
-dR=0}}else
+aY=0;if(J){var
+bR=J[1];if(bR[2]||bR[3]){var
+t=0;E=1;aY=1}else{var
+bS=bR[4],cw=0;if(typeof
+bS!=="number"&&1===bS[0])if(J[2]){var
+t=0;E=1;aY=1;cw=1}else{var
+t=[0,[0,aR[1],bS[1]]];E=1;aY=1;cw=1}if(!cw)var
+dU=0}}else
 var
-dR=J;if(!aX){var
-s=dR;E=1}break;case
+dU=J;if(!aY){var
+t=dU;E=1}break;case
 1:var
-aZ=0;if(J){var
-bP=J[1];if(bP[2]||bP[3]){var
-s=0;E=1;aZ=1}else{var
-bQ=bP[4],cs=0;if(typeof
-bQ!=="number"&&0===bQ[0])if(J[2]){var
-s=0;E=1;aZ=1;cs=1}else{var
-s=[0,[0,bQ[1],aQ[1]]];E=1;aZ=1;cs=1}if(!cs)var
-dS=0}}else
+a1=0;if(J){var
+bT=J[1];if(bT[2]||bT[3]){var
+t=0;E=1;a1=1}else{var
+bU=bT[4],cx=0;if(typeof
+bU!=="number"&&0===bU[0])if(J[2]){var
+t=0;E=1;a1=1;cx=1}else{var
+t=[0,[0,bU[1],aR[1]]];E=1;a1=1;cx=1}if(!cx)var
+dV=0}}else
 var
-dS=J;if(!aZ){var
-s=dS;E=1}break}if(!E){var
-dQ=0;cq=1}}}else{var
-dQ=aP;cq=1}if(cq)var
-s=dQ;if(s){var
-d8=s[1],v=d8[2],eb=k(v),ed=k(d8[1]),dn=g(p,1,k(C)),dp=dn?g(p,1,[3,eb,[0,b,b]]):dn,dq=dp?g(p,1,ed):dp,ee=dq?g(p,0,[3,[5,[0,b,b],eb],ed]):dq;if(ee)var
-hf=0,hh=0,bV=n(function(a){return lS(hh,hf,wB,a)},aB);else
+dV=J;if(!a1){var
+t=dV;E=1}break}if(!E){var
+dT=0;cv=1}}}else{var
+dT=aQ;cv=1}if(cv)var
+t=dT;if(t){var
+d$=t[1],v=d$[2],ea=i(v),ef=i(d$[1]),dq=g(p,1,i(C)),dr=dq?g(p,1,[3,ea,[0,c,c]]):dq,dt=dr?g(p,1,ef):dr,ei=dt?g(p,0,[3,[5,[0,c,c],ea],ef]):dt;if(ei)var
+hi=0,hk=0,bZ=o(function(a){return l7(hk,hi,xa,a)},aC);else
 var
-bV=ee;var
-ef=bV?n(function(c){if(1===c[1]){var
-a=c[4];if(typeof
-a!=="number"&&0===a[0])return g(p,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aB):bV;if(ef){var
-bR=bE(function(a){return ad(lY(a))},aB);if(bR){var
-hi=[0,c(2,b),b],A=g(p,0,[3,k(v),hi]);if(A)var
-bX=A;else
+bZ=ei;var
+ej=bZ?o(function(b){if(1===b[1]){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],i(a[1])]);return 1}return 1},aC):bZ;if(ej){var
+bV=bF(function(a){return ac(mb(a))},aC);if(bV){var
+hl=[0,b(2,c),c],A=g(p,0,[3,i(v),hl]);if(A)var
+b0=A;else
 var
-hn=k(v),bX=g(p,0,[3,[0,c(2,b),b],hn]);if(bX){var
-d6=z(function(a){var
-b=hE(0,wy,a);return e(function(b){return ad(lY(a))},b)},aB),hd=function(f){var
+hp=i(v),b0=g(p,0,[3,[0,b(2,c),c],hp]);if(b0){var
+d7=y(function(a){var
+b=hP(0,w9,0,a);return e(function(b){return ac(mb(a))},b)},aC),hf=function(f){var
 g=f[1];if(g){var
-h=g[1],i=t(h,d6,0);if(i)var
-l=cw(h,d6),k=[0,[0,j(bE(function(a){return a},l))]];else
+h=g[1],i=s(h,d7,0);if(i)var
+l=cB(h,d7),k=[0,[0,j(bF(function(a){return a},l))]];else
 var
 k=i;var
 a=k}else
 var
-a=wA;if(a){var
-c=a[1],e=f[2];switch(e[0]){case
-0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,wz,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},he=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(hd,a[1]),d,c,b]},hF),hj=[0,bR[1],bR[2]],g3=[0,hI(A,C,v),0],g4=[0,hI(A,C,v),g3],g5=[0,hI(A,C,v),g4],g6=[0,fR(A,C,v),0],g7=[0,fR(A,C,v),g6],hk=0,g8=[0,[0,fR(A,C,v),g7],g5],hm=0,bS=function(b,a){return e(function(c){var
-d=u(b,c)?a:vC;return[0,d]},vE)};return mg(0,e(function(a){var
-e=[0,fP(A,C,v)],d=1,f=bS(a,[2,b$]);function
+a=w$;if(a){var
+b=a[1],e=f[2];switch(e[0]){case
+0:return[0,[0,b,[0,e[1]]],0];case
+2:return[0,[0,b,[1,w_,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hg=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(hf,a[1]),d,c,b]},hF),hm=[0,bV[1],bV[2]],g1=[0,hT(A,C,v),0],g2=[0,hT(A,C,v),g1],g3=[0,hT(A,C,v),g2],g7=[0,fZ(A,C,v),0],g9=[0,fZ(A,C,v),g7],hn=0,g$=[0,[0,fZ(A,C,v),g9],g3],ho=0,bW=function(b,a){return e(function(c){var
+d=u(b,c)?a:v8;return[0,d]},v_)};return mx(0,e(function(a){var
+e=[0,fX(A,C,v)],d=1,f=bW(a,[2,cb]);function
 b(b,a){return[3,1,b,a]}var
-c=fP(A,C,v),g=bS(a,b(b(fR(A,C,v),b$),c));return[0,bS(a,vD),g,f,e,d]},vF),hm,g8,hk,hj,hG,he)}return bX}var
-eg=1}else
+c=fX(A,C,v),g=bW(a,b(b(fZ(A,C,v),cb),c));return[0,bW(a,v9),g,f,e,d]},v$),ho,g$,hn,hm,hG,hg)}return b0}var
+ek=1}else
 var
-eg=ef;var
-eh=eg}else
+ek=ej;var
+el=ek}else
 var
-eh=s;var
-el=eh}else
+el=t;var
+em=el}else
 var
-el=d7;return el}return 0;case
+em=d_;return em}return 0;case
 5:var
-ca=a[4],eM=a[1],cb=o[2];if(0===cb[0]){var
-eN=cb[3],r=hD(eM,[0,a[2],a[3]],0,ca),cc=hP(j(eN),eN);if(cc){var
-eO=cc[1];if(eO[2])return 0;var
-eP=hT(eM,0,ca,r),eQ=eP?ad(ar(fO,ca)):eP;if(eQ){var
-eR=ki(p,r);if(eR){var
-hH=eO[1],eS=e(fU,r[1]),D=hM(r[1]),eT=k(a[5]),Q=cb[1],bq=fm(D,eS,r[1]),F=gW(D,eS,r[1],0),gd=j(r[3]),ge=L(j(bq),gd),aL=[0,j(bq),ge],gf=gX(F,D,aL,r[3]),gg=f(e(bW,F),gf),du=f(bt(d4(F)),gg),dw=db(du)[1],br=cA(dw),dx=r[2];if(0===dx[0]){var
-dz=n(function(a){var
-b=l(d);return aM(t(bm(br,a),br,b),a)},du),dB=dz?g(p,1,eT):dz;if(dB){var
-gh=r[3],gi=z(function(a){return cF(D,a)},gh),gj=r[3],gk=f(bq,f(e(function(a){return bs(D,a)},gj),gi)),bx=aj(e(function(a){return ah(Q,a)},gk));if(bx){var
-gl=aF(dx[1],D),by=aj(e(function(a){return ah(Q,a)},gl));if(by){var
-bz=cg(Q,D,[5,eT,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bz){var
-bA=r[3],gm=by[1],gn=bz[1],go=bx[1],au=function(a){return bm(br,a)},ga=aV(0,j(bA)),gb=e(function(k){var
-l=T(bA,k);if(l){var
-a=l[1],u=cw(k,bA),v=j(z(function(a){return cF(D,a)},u)),w=L(aL[2],v),h=[0,L(aL[1],k),w],r=d4(F),f=i(ap(au),r),c=[1,[8,[1,[1,h[1]]]]],d=fo(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cc=a[4],eP=a[1],cd=n[2];if(0===cd[0]){var
+eQ=cd[3],r=hO(eP,[0,a[2],a[3]],0,cc),ce=h0(j(eQ),eQ);if(ce){var
+eR=ce[1];if(eR[2])return 0;var
+eS=h3(eP,0,cc,r),eT=eS?ac(ao(fW,cc)):eS;if(eT){var
+eU=kq(p,r);if(eU){var
+hH=eR[1],eV=e(f2,r[1]),D=hX(r[1]),eW=i(a[5]),S=cd[1],br=fu(D,eV,r[1]),F=g5(D,eV,r[1],0),gf=j(r[3]),gg=N(j(br),gf),aN=[0,j(br),gg],gh=g6(F,D,aN,r[3]),gi=f(e(cm,F),gh),dx=f(bt(d8(F)),gi),dy=cG(dx)[1],by=bH(dy),dz=r[2];if(0===dz[0]){var
+dB=o(function(a){var
+b=l(d);return aF(s(a7(by,a),by,b),a)},dx),dE=dB?g(p,1,eW):dB;if(dE){var
+gj=r[3],gk=y(function(a){return cJ(D,a)},gj),gl=r[3],gm=f(br,f(e(function(a){return bs(D,a)},gl),gk)),bz=ai(e(function(a){return ah(S,a)},gm));if(bz){var
+gn=aM(dz[1],D),bA=ai(e(function(a){return ah(S,a)},gn));if(bA){var
+bB=cj(S,D,[5,eW,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bB){var
+bC=r[3],go=bA[1],gp=bB[1],gq=bz[1],au=function(a){return a7(by,a)},gc=aW(0,j(bC)),gd=e(function(i){var
+l=R(bC,i);if(l){var
+a=l[1],u=cB(i,bC),v=j(y(function(a){return cJ(D,a)},u)),x=N(aN[2],v),h=[0,N(aN[1],i),x],r=d8(F),f=k(aq(au),r),b=[1,[8,[1,[1,h[1]]]]],d=fv(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
-0:return[0,[0,f,c]];case
-1:return[0,[1,f,c]];case
+0:return[0,[0,f,b]];case
+1:return[0,[1,f,b]];case
 4:var
-o=g(Q,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,f,c]];case
+o=g(S,1,a[2]),s=o?n:o;return s;case
+5:return[0,[2,f,b]];case
 8:var
-p=g(Q,1,[5,a[2],a[1]]);if(!p)return p;var
-q=[1,[2,b]];m=1;break;case
+p=g(S,1,[5,a[2],a[1]]);if(!p)return p;var
+q=[1,[2,c]];m=1;break;case
 9:var
-q=c;m=1;break;case
+q=b;m=1;break;case
 2:case
 3:case
 6:case
 7:return n}if(m){var
-t=d9(F,D,h,a);return x(function(a){return[0,i(ap(au),a),q]},t)}return 0}return l},ga),gc=e(function(a){return au(bW(a))},F),dr=e(function(a){return au(a[2])},F),gp=r[3],gq=aL[1],ds=e(ag,go),dt=function(az,ay){var
+t=eb(F,D,h,a);return w(function(a){return[0,k(aq(au),a),q]},t)}return 0}return l},gc),ge=e(function(a){return au(cm(a))},F),du=e(function(a){return au(a[2])},F),gr=r[3],gs=aN[1],dv=e(ag,gq),dw=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=u(j(s),rd),ab=aa?n(function(a){var
-d=G(N(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},s):aa;if(ab){var
-ac=lB(Q,gn,fd(0,l),s),i=h[2],v=bF(0,cf(Q,ac,ds),dw,0),M=function(a){return lA(lz(Q,ac,ds,v,a))};if(typeof
-i==="number")return 0===i?ar(function(b){var
-a=t(b,v,0);return a?G(a[1][2][2],d):a},dr):0;else{if(0===i[0]){var
-a=i[2],O=n(rb,a);if(O){var
-o=t(i[1],gb,0);if(o){var
-g=o[1];switch(g[0]){case
+t=h[1],aa=u(j(t),rC),ab=aa?o(function(a){var
+d=G(M(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},t):aa;if(ab){var
+ad=lO(S,gp,fk(0,l),t),i=h[2],v=bG(0,ch(S,ad,dv),dy,0),L=function(a){return lN(lM(S,ad,dv,v,a))};if(typeof
+i==="number")return 0===i?ao(function(b){var
+a=s(b,v,0);return a?G(a[1][2][2],d):a},du):0;else{if(0===i[0]){var
+a=i[2],O=o(rA,a);if(O){var
+n=s(i[1],gd,0);if(n){var
+g=n[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fH(B,A),an=fG(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fO(B,A),an=fN(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fG(D),ap=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fH(E,D),ap]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=fN(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,fO(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6001,7 +6161,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-H=k[1],I=a[1],m=g[1],aq=fG(I),as=[1,[6,fH(m,H),aq]],at=[1,[6,g[2],as]],au=fG(H),J=[0,[0,m,[0,[1,[4,[1,[6,fH(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],ar=fN(I),as=[1,[6,fO(m,H),ar]],at=[1,[6,g[2],as]],au=fN(H),J=[0,[0,m,[0,[1,[4,[1,[6,fO(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -6010,125 +6170,125 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],R=n(function(a){return lA(t(a[2],v,0))},aw);if(R)return n(M,P[2]);var
-S=R}else
+P=f[1],aw=P[1],Q=o(function(a){return lN(s(a[2],v,0))},aw);if(Q)return o(L,P[2]);var
+T=Q}else
 var
-S=f;var
-U=S}else
+T=f;var
+U=T}else
 var
-U=o;var
+U=n;var
 V=U}else
 var
 V=O;return V}var
-W=i[2],X=i[1],p=T(gp,X);if(p){var
-Z=p[1];if(typeof
-Z!=="number"&&1===Z[0]){var
-q=T(dr,W);if(q){var
-r=T(gc,W);if(r){var
-ax=L(gq,X);return M([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+W=i[2],X=i[1],p=R(gr,X);if(p){var
+Y=p[1];if(typeof
+Y!=="number"&&1===Y[0]){var
+q=R(du,W);if(q){var
+r=R(ge,W);if(r){var
+ax=N(gs,X);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
 _=0}else
 var
 _=p;return _}}return ab}var
-ae=h[1],w=T(l,ae);if(w){var
-af=w[1],aA=af[1],ag=ad(Y(bI(af),aA));if(ag){var
-ah=d5(ae,l),ai=dt(ah[1],h[2]);if(ai){var
+ae=h[1],w=R(l,ae);if(w){var
+af=w[1],aA=af[1],ag=ac(Z(bK(af),aA));if(ag){var
+ah=d9(ae,l),ai=dw(ah[1],h[2]);if(ai){var
 l=ah[2],h=h[3];continue}var
 aj=ai}else
 var
 aj=ag;var
 ak=aj}else
 var
-ak=w;return ak}};return dt(gm,hH)}var
-dC=bz}else
+ak=w;return ak}};return dw(go,hH)}var
+dF=bB}else
 var
-dC=by;var
-dD=dC}else
+dF=bA;var
+dG=dF}else
 var
-dD=bx;var
-dE=dD}else
+dG=bz;var
+dH=dG}else
 var
-dE=dB;return dE}return 0}var
-eU=eR}else
+dH=dE;return dH}return 0}var
+eX=eU}else
 var
-eU=eQ;var
-eV=eU}else
+eX=eT;var
+eY=eX}else
 var
-eV=cc;return eV}return 0;case
+eY=ce;return eY}return 0;case
 6:var
-eW=a[1];if(eW){var
-eY=eW[1],cd=o[2];if(0===cd[0]){var
-ce=hN(0,wD,cd[3]);if(ce){var
-eZ=es(eY);if(eZ){var
-hJ=ce[1],e0=bw(eY)[2],aW=cd[1],bo=cg(aW,d,e0);if(bo){var
-bp=cg(aW,d,[5,[0,b,b],e0]);if(bp){var
-f$=bo[1][1],dj=X(cx(aW),f$);if(dj)return ly(aW,bp[1][1],hJ);var
-dk=dj}else
+eZ=a[1];if(eZ){var
+e0=eZ[1],cf=n[2];if(0===cf[0]){var
+cg=hY(0,xc,cf[3]);if(cg){var
+e1=ez(e0);if(e1){var
+hI=cg[1],e2=bw(e0)[2],aX=cf[1],bp=cj(aX,d,e2);if(bp){var
+bq=cj(aX,d,[5,[0,c,c],e2]);if(bq){var
+gb=bp[1][1],dm=V(cD(aX),gb);if(dm)return lL(aX,bq[1][1],hI);var
+dn=dm}else
 var
-dk=bp;var
-dl=dk}else
+dn=bq;var
+dp=dn}else
 var
-dl=bo;return dl}var
-e1=eZ}else
+dp=bp;return dp}var
+e3=e1}else
 var
-e1=ce;return e1}return 0}var
-ch=o[2];if(0===ch[0]){var
-ci=hN(0,wE,ch[3]);return ci?ly(ch[1],d,ci[1]):ci}return 0;default:var
-as=a[1],e2=o[2];if(2===e2[0]){var
-e3=e2[1],cj=hK(j(e3),e3);if(cj){var
-e4=cj[1];if(e4[2])return 0;var
-ck=e4[1],d1=Z(wx,j(as)),d2=d1?Z(j(as),jc):d1,d3=d2?lr(e(aJ,as)):d2,e5=d3?n(function(c){var
-a=cC(k(c[2][1]));if(a){var
-b=cC(k(c[2][2]));if(b)return ad(c_(b[1],a[1]));var
+e3=cg;return e3}return 0}var
+ck=n[2];if(0===ck[0]){var
+cl=hY(0,xd,ck[3]);return cl?lL(ck[1],d,cl[1]):cl}return 0;default:var
+ar=a[1],e4=n[2];if(2===e4[0]){var
+e6=e4[1],cn=hV(j(e6),e6);if(cn){var
+e7=cn[1];if(e7[2])return 0;var
+co=e7[1],d4=Q(w8,j(ar)),d5=d4?Q(j(ar),jk):d4,d6=d5?lE(e(aI,ar)):d5,e8=d6?o(function(c){var
+a=ci(i(c[2][1]));if(a){var
+b=ci(i(c[2][2]));if(b)return ac(cC(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},as):d3;if(e5)var
-hL=fT(vG,ck),cl=mj(a[5],hL);else
+d=a;return d},ar):d6;if(e8)var
+hJ=f1(wa,co),cq=mA(a[5],hJ);else
 var
-cl=e5;if(cl)var
-hS=fT(vH,ck),cm=mj(a[6],hS);else
+cq=e8;if(cq)var
+hK=f1(wb,co),cr=mA(a[6],hK);else
 var
-cm=cl;if(cm){var
-g9=e(function(a){return[0,d,0]},as);return mi(as,a[2],a[3],a[4],g9,ck)}var
-e6=cm}else
+cr=cq;if(cr){var
+ha=e(function(a){return[0,d,0]},ar);return mz(ar,a[2],a[3],a[4],ha,co)}var
+e9=cr}else
 var
-e6=cj;return e6}return 0}}return aw}var
-M=[aH,wH,ov(0)],mk=[aH,wI,ov(0)];function
-wF(m,b){var
-f=[0,h(u3,ai(b[4])),0],g=[0,h(u5,U([0,h(u4,ai(b[3])),f])),0],a=b[2];switch(a[0]){case
+e9=cn;return e9}return 0}}return aw}var
+L=[aG,xg,oN(0)],mB=[aG,xh,oN(0)];function
+xe(m,b){var
+f=[0,h(vu,aj(b[4])),0],g=[0,h(vw,X([0,h(vv,aj(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(uZ,lH(a[1],a[2],a[3]));break;case
+c=I(vq,lV(a[1],a[2],a[3]));break;case
 1:var
-c=I(u0,lI(a[1],a[2],a[3],a[4]));break;default:var
-c=I(u1,A(e(uU,a[1])))}var
-i=[0,h(u6,c),g],j=1===b[2][0]?va:u7,k=[0,h(u8,ai(j)),i],l=[0,h(u9,tC(b[1])),k],d=an(iO(wG,fI(U([0,h(u$,ai(u_)),l]),u2)),m);return d?wC(b):d}function
-aa(a){if(0===a[0])return a[1];throw M}function
-V(a){if(1===a[0])return a[1];throw M}function
-aC(a){if(2===a[0])return a[1];throw M}function
-dC(a){if(3===a[0])return a[1];throw M}function
-aG(f,e){var
+c=I(vr,lW(a[1],a[2],a[3],a[4]));break;default:var
+c=I(vs,A(e(vl,a[1])))}var
+i=[0,h(vx,c),g],j=1===b[2][0]?vD:vy,k=[0,h(vz,aj(j)),i],l=[0,h(vA,t5(b[1])),k],d=an(iX(xf,fP(X([0,h(vC,aj(vB)),l]),vt)),m);return d?xb(b):d}function
+ab(a){if(0===a[0])return a[1];throw L}function
+Y(a){if(1===a[0])return a[1];throw L}function
+aD(a){if(2===a[0])return a[1];throw L}function
+dF(a){if(3===a[0])return a[1];throw L}function
+aN(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===CA(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Dd(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
-a=aG(c,b);if(a)return a[1];throw M}function
-b3(b,a){var
-c=a?[0,i(b,a[1])]:a;return c}function
-cV(a){switch(a[0]){case
+a=aN(c,b);if(a)return a[1];throw L}function
+b6(b,a){var
+c=a?[0,k(b,a[1])]:a;return c}function
+cZ(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],wJ]}throw M}function
-et(e,d){var
-a=R(e,V(d));if(a){var
+2:return[0,a[1],xi]}throw L}function
+eA(e,d){var
+a=T(e,Y(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw M}function
-fX(i){var
-f=dM(i),d=[0,0],e=gp(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
+f5(i){var
+f=dQ(i),d=[0,0],e=gx(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=it(f,c)-48|0;if(9<g>>>0)throw M;switch(g){case
+a=d[1],g=iC(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6150,102 +6310,105 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eu(a){return i0(fX(a))}function
-ev(b){var
-a=dC(b);return 45===aI(a,0)?N(eu(c6(a,1,am(a)-1|0))):eu(a)}function
-ml(a){return dU(eu(dC(a)))}function
-fY(a){return iZ(eu(dC(a)))}function
-cs(c){var
-a=dC(c);if(6<am(a))throw M;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iB(a))}function
-mm(a){var
-b=97<=a?1:0,c=b?a<=oa?1:0:b;if(c)var
+eB(a){return i9(f5(a))}function
+eC(b){var
+a=dF(b);return 45===aH(a,0)?M(eB(c_(a,1,am(a)-1|0))):eB(a)}function
+mC(a){return dY(eB(dF(a)))}function
+f6(a){return i8(eB(dF(a)))}function
+cx(c){var
+a=dF(c);if(6<am(a))throw L;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iK(a))}function
+mD(a){var
+b=97<=a?1:0,c=b?a<=or?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mn(y,b){var
+mE(y,b){var
 d=am(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aH(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return c6(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aH(b,a[1])&&!(57<aH(b,a[1]))){a[1]++;continue}return c_(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw M}function
-h(j){if(64<j)throw M;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
-e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&an(c6(b,a[1],5),wL)){a[1]=a[1]+4|0;var
-e=[5,n(j)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
+h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+e=n(i);else{var
+u=0;if((a[1]+5|0)<=d&&an(c_(b,a[1],5),xk)){a[1]=a[1]+4|0;var
+e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&mm(aI(b,a[1]))){var
+v=0;if(a[1]<d&&mD(aH(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!mm(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,c6(b,o,a[1]-o|0))];break}}else
+w=0;if(!mD(aH(b,a[1]))&&95!==aH(b,a[1])&&(!(48<=aH(b,a[1]))||57<aH(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,c_(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,wM);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,xl);if(r)var
 s=r;else
 var
-t=1<am(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw M;if(q){var
-k=q[1],x=0;if(an(k,wN)||48===aI(k,am(k)-1|0))x=1;else
+t=1<am(g)?1:0,s=t?48===aH(g,0)?1:0:t;if(s)throw L;if(q){var
+j=q[1],x=0;if(an(j,xm)||48===aH(j,am(j)-1|0))x=1;else
 var
-z=fX(k),e=[0,fX(g),z];if(x)throw M}else
+z=f5(j),e=[0,f5(g),z];if(x)throw L}else
 var
-e=[0,fX(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,wK)){if(!(2<am(f))&&2<=iB(f)&&!(64<iB(f)))return[4,e,dU(eu(f))];throw M}throw M}return e}function
+e=[0,f5(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,xj)){if(!(2<am(f))&&2<=iK(f)&&!(64<iK(f)))return[4,e,dY(eB(f))];throw L}throw L}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw M;var
+f(d){if(64<d)throw L;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw M;return g}function
-fZ(a){return mn(function(a){return[0,a]},a)}function
-hW(a){var
-b=aC(a);return mn(function(a){return a},b)}function
-P(a){return fZ(aC(a))}function
-bM(a){if(2===a[0])return[0,fZ(a[1])];var
-b=aa(a),c=P(r(b,wO));return[1,P(r(b,wP)),c]}function
-W(a){throw[0,mk,aP(iO(wR,a),wQ)]}function
-hX(c){var
-a=aC(c);if(m(a,wS)){var
-b=m(a,wT);if(b)throw M;return b}return 1}function
-wU(d){var
-b=aa(d);function
-a(a){return et(bM,r(b,a))}var
-c=aC(r(b,wV));if(m(c,wW)){if(m(c,wX)){if(m(c,wY))return W([0,w0,[0,c,wZ]]);var
-e=aG(b,w1),f=b3(function(a){return et(bM,a)},e),g=a(w2);return[1,a(w3),g,f]}var
-h=hX(r(b,w4)),i=bM(r(b,w5)),j=a(w6),k=a(w7);return[0,a(w8),k,j,i,h]}return[2,a(w9)]}function
-w_(d){var
-a=aa(d);if(a){var
-b=a[1];if(!m(b[1],w$)){var
-c=b[2];if(2===c[0]&&!m(c[1],xa))return 1}}return 0}function
-mo(e){var
-b=aa(e);function
-a(a){return R(bM,V(r(b,a)))}var
-c=aC(r(b,xb)),d=aG(b,xc);if(m(c,xd)){if(m(c,xe)){if(!m(c,xf)&&!d){var
-f=a(xi);return[1,a(xj),f]}}else
+g=f(0);if(a[1]<d)throw L;return g}function
+f7(a){return mE(function(a){return[0,a]},a)}function
+h6(a){var
+b=aD(a);return mE(function(a){return a},b)}function
+P(a){return f7(aD(a))}function
+bO(a){if(2===a[0])return[0,f7(a[1])];var
+b=ab(a),c=P(r(b,xn));return[1,P(r(b,xo)),c]}function
+$(a){throw[0,mB,aP(iX(xq,a),xp)]}function
+h7(c){var
+a=aD(c);if(m(a,xr)){var
+b=m(a,xs);if(b)throw L;return b}return 1}function
+xt(d){var
+b=ab(d);function
+a(a){return eA(bO,r(b,a))}var
+c=aD(r(b,xu));if(m(c,xv)){if(m(c,xw)){if(m(c,xx))return $([0,xz,[0,c,xy]]);var
+e=aN(b,xA),f=b6(function(a){return eA(bO,a)},e),g=a(xB);return[1,a(xC),g,f]}var
+h=h7(r(b,xD)),i=bO(r(b,xE)),j=a(xF),k=a(xG);return[0,a(xH),k,j,i,h]}return[2,a(xI)]}function
+xJ(d){var
+a=ab(d);if(a){var
+b=a[1];if(!m(b[1],xK)){var
+c=b[2];if(2===c[0]&&!m(c[1],xL))return 1}}return 0}function
+mF(e){var
+b=ab(e);function
+a(a){return T(bO,Y(r(b,a)))}var
+c=aD(r(b,xM)),d=aN(b,xN);if(m(c,xO)){if(m(c,xP)){if(!m(c,xQ)&&!d){var
+f=a(xT);return[1,a(xU),f]}}else
 if(!d){var
-g=hX(r(b,xk)),h=bM(r(b,xl)),i=a(xm),j=a(xn);return[0,a(xo),j,i,h,g]}}else
+g=h7(r(b,xV)),h=bO(r(b,xW)),i=a(xX),j=a(xY);return[0,a(xZ),j,i,h,g]}}else
 if(!d){var
-k=hX(r(b,xp)),l=bM(r(b,xq)),n=bM(r(b,xr)),o=a(xs),p=a(xt),q=a(xu);return[2,a(xv),q,p,o,n,l,k]}return W([0,xh,[0,c,xg]])}function
-mp(d){var
-a=aa(d);if(a){var
-b=a[1];if(!m(b[1],xw)){var
-c=b[2];if(2===c[0]&&!m(c[1],xx))return 1}}return 0}function
-ct(c,d){var
-a=V(d);if(a){var
+k=h7(r(b,x0)),l=bO(r(b,x1)),n=bO(r(b,x2)),o=a(x3),p=a(x4),q=a(x5);return[2,a(x6),q,p,o,n,l,k]}return $([0,xS,[0,c,xR]])}function
+mG(d){var
+a=ab(d);if(a){var
+b=a[1];if(!m(b[1],x7)){var
+c=b[2];if(2===c[0]&&!m(c[1],x8))return 1}}return 0}function
+cy(c,d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw M}function
-ew(f,p){var
-l=f?f[1]:f,c=aa(p),a=aC(r(c,xy)),i=oI(a,xz),h=0;if(0<=i)if(0<i)if(m(a,xA))if(m(a,xB))if(m(a,xC))if(m(a,xD))if(m(a,xE)){var
-j=m(a,xF);if(j)h=1;else
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
+dG(h,p){var
+g=h?h[1]:h,c=ab(p),a=aD(r(c,x9)),j=o0(a,x_),f=0;if(0<=j)if(0<j)if(m(a,x$))if(m(a,ya))if(m(a,yb))if(m(a,yc))if(m(a,yd))if(m(a,ye)){var
+k=m(a,yf);if(k)f=1;else
 var
-b=j}else
+b=k}else
 var
 b=6;else
 var
 b=4;else
+if(g)var
+b=15;else
+f=1;else
 var
 b=5;else
 var
@@ -6254,7 +6417,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,x0))if(m(a,x1))if(m(a,x2))if(m(a,x3))if(m(a,x4))if(m(a,x5))if(m(a,x6))h=1;else
+if(m(a,yB))if(m(a,yC))if(m(a,yD))if(m(a,yE))if(m(a,yF))if(m(a,yG))if(m(a,yH))if(m(a,yI))f=1;else
 var
 b=1;else
 var
@@ -6267,261 +6430,270 @@ var
 b=3;else
 var
 b=9;else
+if(g)var
+b=14;else
+f=1;else
 var
 b=12;var
-n=h?W([0,xH,[0,a,xG]]):b;function
-g(a){return r(c,xI)}var
-d=aC(r(c,xJ)),k=m(d,xK);if(k)if(m(d,xL))if(m(d,xM))if(m(d,xN))var
-e=W([0,xP,[0,d,xO]]);else
+n=f?$([0,yh,[0,a,yg]]):b;function
+i(a){return r(c,yi)}var
+d=aD(r(c,yj)),l=m(d,yk);if(l)if(m(d,yl))if(m(d,ym))if(m(d,yn))var
+e=$([0,yp,[0,d,yo]]);else
 var
-o=ct(P,g(0)),e=[2,o[1],o[2]];else
+o=cy(P,i(0)),e=[2,o[1],o[2]];else
 var
-e=[0,P(g(0))];else
+e=[0,P(i(0))];else
 var
-e=[1,P(g(0))];else
+e=[1,P(i(0))];else
 var
-e=k;function
-q(y){var
-a=aa(y),c=0;switch(n){case
+e=l;function
+q(A){var
+a=ab(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],xR)){var
+q=a[1];if(!m(q[1],yr)){var
 r=q[2];if(1===r[0]){var
-b=r[1],k=0;if(b&&!b[2])if(a[2])k=1;else{var
-e=b[1];c=1;k=1}if(!k&&!a[2])return l?W(xS):[1,R(P,b)]}}}break;case
+b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
+e=b[1];c=1;l=1}if(!l&&!a[2])return g?$(ys):[1,T(P,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],xT)){var
+s=a[1];if(!m(s[1],yt)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
-g=a[2];if(g){var
-u=g[1];if(!m(u[1],xU)){var
+h=a[2];if(h){var
+u=h[1];if(!m(u[1],yu)){var
 v=u[2];if(1===v[0]){var
-h=v[1];if(h&&!h[2]&&!g[2]){var
-z=P(h[1]);return[2,P(f[1]),z]}}}}}}}}break;case
+i=v[1];if(i&&!i[2]&&!h[2]){var
+B=P(i[1]);return[2,P(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],xV)){var
-x=w[2],i=a[2];if(i){if(!m(i[1][1],xW)&&!i[2]&&l)return W(xX)}else
+w=a[1];if(!m(w[1],yv)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],yw)&&!j[2]&&g)return $(yx)}else
 if(1===x[0]){var
-j=x[1];if(j&&!j[2]){var
-e=j[1];c=1}}}}break;case
+k=x[1];if(k&&!k[2]){var
+e=k[1];c=1}}}}break;case
+14:case
+15:if(a){var
+y=a[1];if(!m(y[1],yy)){var
+z=y[2];if(1===z[0]&&!a[2])return[1,T(P,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],xQ)){var
+o=a[1];if(!m(o[1],yq)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw M}var
-s=b3(q,aG(c,xY));return[0,n,b3(cs,aG(c,xZ)),s,e]}function
-mq(c){var
-d=ew(x9,c),e=d[1];if(2<=e)switch(e-2|0){case
-0:case
-4:case
-6:return d}var
-a=ew(x7,c),b=a[1];if(2!==b&&!(4<=b))return a;return W(x8)}function
-mr(a){var
-b=ew(x_,a);return 11===b[1]?b:mq(a)}function
-hY(c){var
-d=ew(x$,c),a=d[1],b=0;if(6<=a){if(13<=a)b=1}else
-if(4<=a)b=1;return b?d:mq(c)}function
-hZ(b){var
-a=aa(b[2]);if(m(b[1],yg)){var
-c=ct(P,r(a,yh)),d=ct(P,r(a,yi)),e=d[2],f=d[1],g=P(r(a,yj));return[1,c[1],c[2],g,f,e]}var
-h=R(P,V(r(a,yk)));return[0,R(P,V(r(a,yl))),h]}function
-ym(f){var
-a=aa(f);function
+e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw L}var
+s=b6(q,aN(c,yz));return[0,n,b6(cx,aN(c,yA)),s,e]}function
+mH(c){var
+d=dG(yL,c),e=d[1];if(!(9<=e))switch(e){case
+2:case
+6:case
+8:return d}var
+a=dG(yJ,c),b=a[1];if(2!==b&&!(4<=b))return a;return $(yK)}function
+mI(a){var
+b=dG(yM,a);return 11===b[1]?b:mH(a)}function
+yN(a){var
+b=dG(yO,a),c=b[1];if(9!==c&&!(14<=c))return mI(a);return b}function
+h8(c){var
+d=dG(yP,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:mH(c)}function
+h9(b){var
+a=ab(b[2]);if(m(b[1],yW)){var
+c=cy(P,r(a,yX)),d=cy(P,r(a,yY)),e=d[2],f=d[1],g=P(r(a,yZ));return[1,c[1],c[2],g,f,e]}var
+h=T(P,Y(r(a,y0)));return[0,T(P,Y(r(a,y1))),h]}function
+y2(f){var
+a=ab(f);function
 d(b){return P(r(a,b))}function
-c(b){return et(P,r(a,b))}var
-b=aC(r(a,yn));if(m(b,yo)){if(!m(b,yp)){var
-j=r(a,yv),e=ct(function(a){return a},j),k=aG(a,yw),l=b3(function(a){return c(yx)},k),n=fZ(aC(e[2])),o=fZ(aC(e[1])),p=d(yy);return[0,cs(r(a,yz)),p,o,n,l]}if(m(b,yq))throw M}var
-g=d(yr),h=c(ys),i=c(yt);return[1,an(b,yu),i,h,g]}function
-h0(aq){var
-g=cV(aq),h=g[1];if(m(h,yA)){if(m(h,yB)){if(m(h,yC)){if(m(h,yD))return W([0,yF,[0,h,yE]]);var
-v=r(aa(g[2]),yG),af=0;if(2===v[0]){var
-J=m(v[1],yH);if(!J){var
-I=J;af=1}}if(!af)var
-I=[0,bM(v)];return[6,I]}var
-K=aa(g[2]),j=h0([0,[0,[0,yJ,r(K,yI)],0]]);if(0===j[0]){var
-w=j[2];if(0===w[0]&&!j[3]){var
-ar=P(r(K,yL));return[5,j[1],w[1],w[2],j[4],ar]}}return W(yK)}var
-a=aa(g[2]),k=cV(r(a,yM)),b=cV(r(a,yN)),c=k[1];if(m(c,yO)&&0!==aG(a,yP))return W(zH);if(m(c,yQ)&&m(c,yR)&&m(c,yS)){if(0===aG(a,yT)){if(m(c,yU)){var
-ag=0;if(m(c,yV)){if(!m(c,yW)){var
-L=b[1],ah=0;if(m(L,yZ)&&m(L,y0)){ag=1;ah=1}if(!ah){var
-x=V(k[2]),y=aG(a,y3),N=y?R(ym,V(y[1])):y,as=V(r(a,y4)),O=R(function(a){return ew(0,a)},as);if(!aB(w_,x)&&!aB(function(a){return 13===a[1]?1:0},O)){var
-av=R(wU,x),f=aa(b[2]);if(m(b[1],ya))var
-G=ct(P,r(f,yb)),H=ct(P,r(f,yc)),al=H[2],am=H[1],ao=P(r(f,yd)),Q=[1,G[1],G[2],ao,am,al];else
+c(b){return eA(P,r(a,b))}var
+b=aD(r(a,y3));if(m(b,y4)){if(!m(b,y5)){var
+j=r(a,y$),e=cy(function(a){return a},j),k=aN(a,za),l=b6(function(a){return c(zb)},k),n=f7(aD(e[2])),o=f7(aD(e[1])),p=d(zc);return[0,cx(r(a,zd)),p,o,n,l]}if(m(b,y6))throw L}var
+g=d(y7),h=c(y8),i=c(y9);return[1,an(b,y_),i,h,g]}function
+h_(ar){var
+g=cZ(ar),h=g[1];if(m(h,ze)){if(m(h,zf)){if(m(h,zg)){if(m(h,zh))return $([0,zj,[0,h,zi]]);var
+w=r(ab(g[2]),zk),ag=0;if(2===w[0]){var
+M=m(w[1],zl);if(!M){var
+K=M;ag=1}}if(!ag)var
+K=[0,bO(w)];return[6,K]}var
+N=ab(g[2]),i=h_([0,[0,[0,zn,r(N,zm)],0]]);if(0===i[0]){var
+x=i[2];if(0===x[0]&&!i[3]){var
+as=P(r(N,zp));return[5,i[1],x[1],x[2],i[4],as]}}return $(zo)}var
+a=ab(g[2]),y=aN(a,zq),z=y?T(y2,Y(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?$(zr):a},j=cZ(r(a,zs)),b=cZ(r(a,zt)),c=j[1];if(m(c,zu)&&m(c,zv)&&m(c,zw)){if(0===aN(a,zx)){if(m(c,zy)){var
+ah=0;if(m(c,zz)){if(!m(c,zA)){var
+O=b[1],ai=0;if(m(O,zD)&&m(O,zE)){ah=1;ai=1}if(!ai){var
+A=Y(j[2]),at=Y(r(a,zH)),Q=T(function(a){return dG(0,a)},at);if(!ax(xJ,A)&&!ax(function(a){return 13===a[1]?1:0},Q)){var
+aw=T(xt,A),f=ab(b[2]);if(m(b[1],yQ))var
+I=cy(P,r(f,yR)),J=cy(P,r(f,yS)),am=J[2],ao=J[1],ap=P(r(f,yT)),R=[1,I[1],I[2],ap,ao,am];else
 var
-ap=et(P,r(f,ye)),Q=[0,et(P,r(f,yf)),ap];return[0,av,Q,N,O]}if(0!==N)W(y5);var
-at=R(hY,V(r(a,y6))),au=hZ(b);return[1,0,R(mo,x),0,au,0,at]}}}else
-if(!m(b[1],y7)){var
-S=R(hY,V(r(a,y8))),u=0,e=S;for(;;){if(e){var
-E=e[2],F=e[1];if(0===F[1]){var
-u=[0,F,u],e=E;continue}var
-e=E;continue}var
-n=iN(u),ai=0;if(n){var
-d=0,T=n[1][4];if(typeof
-T==="number")d=1;else
-switch(T[0]){case
+aq=eA(P,r(f,yU)),R=[0,eA(P,r(f,yV)),aq];return[0,aw,R,z,Q]}o(0);var
+au=T(h8,Y(r(a,zI))),av=h9(b);return[1,0,T(mF,A),0,av,0,au]}}}else
+if(!m(b[1],zJ)){o(0);var
+S=T(h8,Y(r(a,zK))),v=0,e=S;for(;;){if(e){var
+G=e[2],H=e[1];if(0===H[1]){var
+v=[0,H,v],e=G;continue}var
+e=G;continue}var
+n=iW(v),aj=0;if(n){var
+d=0,U=n[1][4];if(typeof
+U==="number")d=1;else
+switch(U[0]){case
 0:var
-z=n[2];if(z){var
-C=0,U=z[1][4];if(typeof
-U!=="number"&&1===U[0])if(z[2]){d=1;C=1}else
-C=1;if(!C)d=1}else
+B=n[2];if(B){var
+E=0,V=B[1][4];if(typeof
+V!=="number"&&1===V[0])if(B[2]){d=1;E=1}else
+E=1;if(!E)d=1}else
 d=1;break;case
 1:var
-A=n[2];if(A){var
-D=0,X=A[1][4];if(typeof
-X!=="number"&&0===X[0])if(A[2]){d=1;D=1}else
-D=1;if(!D)d=1}else
-d=1;break;default:d=1}if(!d)ai=1}if(!ai)W(y9);var
-aw=P(r(aa(b[2]),y_));return[4,P(r(aa(k[2]),y$)),aw,S]}}if(!ag)return W([0,yY,[0,c,yX]])}else
-if(!m(b[1],za)){var
-o=aa(k[2]),Y=aa(b[2]),Z=function(c,a){var
-b=V(a);return R(function(d){var
-a=V(d);if(a){var
+C=n[2];if(C){var
+F=0,W=C[1][4];if(typeof
+W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
+F=1;if(!F)d=1}else
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)$(zL);var
+ay=P(r(ab(b[2]),zM));return[4,P(r(ab(j[2]),zN)),ay,S]}}if(!ah)return $([0,zC,[0,c,zB]])}else
+if(!m(b[1],zO)){o(0);var
+p=ab(j[2]),X=ab(b[2]),Z=function(c,a){var
+b=Y(a);return T(function(d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aC(a[1]),e]}}throw M},b)},ax=function(d){var
-a=aa(d);if(a){var
-b=a[1],c=b[1];if(m(c,zb)){if(!m(c,zc)&&!a[2])return[0,R(hW,V(b[2]))]}else
-if(!a[2])return[1,hW(b[2])]}throw M},ay=R(mr,V(r(a,zd))),az=R(P,V(r(Y,ze))),aA=R(P,V(r(Y,zf))),aD=R(ax,V(r(o,zg))),aE=Z(hW,r(o,zh)),aF=Z(bM,r(o,zi));return[3,R(aC,V(r(o,zj))),aF,aE,aD,aA,az,ay]}return W([0,y2,[0,b[1],y1]])}throw M}var
-_=aa(k[2]),p=b3(P,aG(_,zk)),aH=function(f){var
-a=cV(f),b=a[1];if(m(b,zl)){if(m(b,zm)){if(m(b,zn)){if(m(b,zo))throw M;var
-d=a[2],g=P(r(aa(d),zp));return[3,P(r(aa(d),zq)),g]}var
-h=a[2],c=function(a){return ct(P,r(aa(h),a))},i=c(zr),j=c(zs);return[1,c(zt),j,i]}var
-e=ct(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},q=b3(aH,aG(a,zu)),$=m(c,zv),B=$?m(c,zw)?2:1:$,s=V(r(_,zx));if(p&&q){var
-ab=q[1];if(gt(mp,s)){var
+e=k(c,b[1]);return[0,aD(a[1]),e]}}throw L},b)},az=function(d){var
+a=ab(d);if(a){var
+b=a[1],c=b[1];if(m(c,zP)){if(!m(c,zQ)&&!a[2])return[0,T(h6,Y(b[2]))]}else
+if(!a[2])return[1,h6(b[2])]}throw L},aA=T(mI,Y(r(a,zR))),aB=T(P,Y(r(X,zS))),aC=T(P,Y(r(X,zT))),aE=T(az,Y(r(p,zU))),aF=Z(h6,r(p,zV)),aG=Z(bO,r(p,zW));return[3,T(aD,Y(r(p,zX))),aG,aF,aE,aC,aB,aA]}return $([0,zG,[0,b[1],zF]])}throw L}var
+_=ab(j[2]),q=b6(P,aN(_,zY)),aH=function(f){var
+a=cZ(f),b=a[1];if(m(b,zZ)){if(m(b,z0)){if(m(b,z1)){if(m(b,z2))throw L;var
+d=a[2],g=P(r(ab(d),z3));return[3,P(r(ab(d),z4)),g]}var
+h=a[2],c=function(a){return cy(P,r(ab(h),a))},i=c(z5),j=c(z6);return[1,c(z7),j,i]}var
+e=cy(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},s=b6(aH,aN(a,z8)),aa=m(c,z9),D=aa?m(c,z_)?2:1:aa,t=Y(r(_,z$));if(q&&s){var
+ac=s[1];if(gB(mG,t)){var
 aI=function(c){var
-a=aa(c);function
-b(b){return R(bM,V(r(a,b)))}if(0!==aG(a,zy))W(zz);var
-d=b(zA);return[0,b(zB),d]},ac=R(mr,V(r(a,zC))),aj=0;if(1!==B||2!==ab[0])aj=1;if(aj&&aB(function(a){return 11===a[1]?1:0},ac))W(zD);var
-aJ=hZ(b),aK=p[1];return[2,B,R(aI,s),aK,aJ,ab,ac]}}var
-ak=0;if(!p&&an(c,zG)){var
-ad=1;ak=1}if(!ak)var
-ad=[0,B];var
-ae=0!==q?1:0,aL=ae?aB(mp,s):ae;if(aL)W(zE);var
-aM=R(hY,V(r(a,zF))),aN=hZ(b);return[1,ad,R(mo,s),p,aN,q,aM]}var
-t=aa(g[2]);function
-aO(b){var
-a=aa(b),c=P(r(a,zI)),d=[0,P(r(a,zJ)),c];return[0,aC(r(a,zK)),d]}var
-l=h0([0,[0,[0,zM,r(t,zL)],0]]);if(0===l[0]&&!l[3]){var
-aP=P(r(t,zO)),aQ=P(r(t,zP)),aR=l[4],aS=l[2],aT=l[1];return[7,R(aO,V(r(t,zQ))),aT,aS,aR,aQ,aP]}return W(zN)}function
-h1(a){return R(ev,V(a))}function
-h2(c,b){var
-a=h1(b);if(b9(a)!==c)throw M;return a}function
-ms(a,d){var
-b=aa(d),e=V(r(b,zT)),f=a[2],c=R(function(a){return h2(f,a)},e),g=a[1];if(b9(c)!==g)throw M;return[0,c,fY(r(b,zU))]}function
-ex(g,o){var
+a=ab(c);function
+b(b){return T(bO,Y(r(a,b)))}if(0!==aN(a,Aa))$(Ab);var
+d=b(Ac);return[0,b(Ad),d]},ad=T(yN,Y(r(a,Ae))),ak=0;if(1!==D||2!==ac[0])ak=1;if(ak&&ax(function(a){return 11===a[1]?1:0},ad))$(Af);var
+aJ=h9(b),aK=q[1];return[2,D,T(aI,t),aK,aJ,ac,z,ad]}}o(0);var
+al=0;if(!q&&an(c,Ai)){var
+ae=1;al=1}if(!al)var
+ae=[0,D];var
+af=0!==s?1:0,aL=af?ax(mG,t):af;if(aL)$(Ag);var
+aM=T(h8,Y(r(a,Ah))),aO=h9(b);return[1,ae,T(mF,t),q,aO,s,aM]}var
+u=ab(g[2]);function
+aP(b){var
+a=ab(b),c=P(r(a,Aj)),d=[0,P(r(a,Ak)),c];return[0,aD(r(a,Al)),d]}var
+l=h_([0,[0,[0,An,r(u,Am)],0]]);if(0===l[0]&&!l[3]){var
+aQ=P(r(u,Ap)),aR=P(r(u,Aq)),aS=l[4],aT=l[2],aU=l[1];return[7,T(aP,Y(r(u,Ar))),aU,aT,aS,aR,aQ]}return $(Ao)}function
+h$(a){return T(eC,Y(a))}function
+ia(c,b){var
+a=h$(b);if(b$(a)!==c)throw L;return a}function
+mJ(a,d){var
+b=ab(d),e=Y(r(b,Au)),f=a[2],c=T(function(a){return ia(f,a)},e),g=a[1];if(b$(c)!==g)throw L;return[0,c,f6(r(b,Av))]}function
+eD(g,o){var
 N=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=oI(a,zV),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,zW)&&m(a,zX)&&m(a,zY))if(m(a,zZ))f=1;else{var
+e=d[1],a=e[1],O=o0(a,Aw),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,Ax)&&m(a,Ay)&&m(a,Az))if(m(a,AA))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ae=R(h1,V(s[1])),af=aC(q[1]);return[8,ex(g,p[1]),af,ae]}b=1;f=1}else
+ae=T(h$,Y(s[1])),af=aD(q[1]);return[8,eD(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
 ag=e[2],u=ag,t=function(c,b){return[1,a,c,b]};b=2}}else{var
-S=e[2];if(1===S[0]){var
-v=S[1];if(v){var
+R=e[2];if(1===R[0]){var
+v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=fY(x[1]),ai=ev(w[1]);return[5,ex(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,z2))if(m(a,z3))if(m(a,z4))if(m(a,z5)){if(!m(a,z6)){if(!d[2]){var
-T=aa(e[2]),aj=V(r(T,z7)),ak=N+1|0,U=R(function(a){return h2(ak,a)},aj);if(3===b9(U))return[1,z9,U,fY(r(T,z8))];throw M}b=1}}else{if(!d[2]){var
-J=aC(e[2]),K=m(J,zR);if(K){if(m(J,zS))throw M;var
-L=1}else
+ah=f6(x[1]),ai=eC(w[1]);return[5,eD(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,AD))if(m(a,AE))if(m(a,AF))if(m(a,AG)){if(!m(a,AH)){if(!d[2]){var
+S=ab(e[2]),aj=Y(r(S,AI)),ak=N+1|0,U=T(function(a){return ia(ak,a)},aj);if(3===b$(U))return[1,AK,U,f6(r(S,AJ))];throw L}b=1}}else{if(!d[2]){var
+J=aD(e[2]),K=m(J,As);if(K){if(m(J,At))throw L;var
+M=1}else
 var
-L=K;return[2,L]}b=1}else{if(!d[2]){var
-i=e[2],Z=function(l,a){if(0===a[0]){var
+M=K;return[2,M]}b=1}else{if(!d[2]){var
+i=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],z$)){var
+e=b[1];if(!m(e[1],AM)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],Aa)){var
+g=c[1];if(!m(g[1],AN)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return ex(Ab,a)}}}}}}}}}}return ex(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eD(AO,a)}}}}}}}}}}return eD(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-_=j[1],k=_[1],c=0;if(m(k,Ac)&&m(k,Ad)&&m(k,Ae))if(m(k,Af))c=1;else{var
-$=_[2];if(1===$[0]){var
-E=$[1];if(E){var
+Z=j[1],k=Z[1],c=0;if(m(k,AP)&&m(k,AQ)&&m(k,AR))if(m(k,AS))c=1;else{var
+_=Z[2];if(1===_[0]){var
+E=_[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ad=0;if(m(G,Ah)&&m(G,Ai)&&m(G,Aj)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ad=0;if(m(G,AU)&&m(G,AV)&&m(G,AW)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-ab=l[1];if(m(ab,Ak)&&m(ab,Al)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,AX)&&m(aa,AY)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=fY(I[1]),aq=ev(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
+ap=f6(I[1]),aq=eC(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ac=i[1];if(!m(ac,Am)||!m(ac,An))n=1;break}switch(n){case
+ac=i[1];if(!m(ac,AZ)||!m(ac,A0))n=1;break}switch(n){case
 0:var
-y=W(Ag);break;case
+y=$(AT);break;case
 1:var
-y=Z(g,i);break}return[7,y]}b=1}else{var
-X=e[2];if(1===X[0]){var
-z=X[1];if(z){var
+y=X(g,i);break}return[7,y]}b=1}else{var
+V=e[2];if(1===V[0]){var
+z=V[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,h2(N+1|0,al)]};b=2}}}}else{var
-Y=e[2];if(1===Y[0]){var
-B=Y[1];if(B){var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,ia(N+1|0,al)]};b=2}}}}else{var
+W=e[2];if(1===W[0]){var
+B=W[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dC(D[1]),z_))throw M;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,ev(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return W([0,z1,[0,a,z0]]);break;case
+an=C[1];if(m(dF(D[1]),AL))throw L;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eC(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return $([0,AC,[0,a,AB]]);break;case
 1:break;default:var
-Q=ms(g,u);return t(Q[1],Q[2])}}break;case
-2:return[0,o[1]]}throw M}function
-mt(k){var
-b=cV(k),a=b[1];if(m(a,Aq))if(m(a,Ar)){var
-g=m(a,As);if(!g)return g;if(!m(a,At)){var
+Q=mJ(g,u);return t(Q[1],Q[2])}}break;case
+2:return[0,o[1]]}throw L}function
+mK(k){var
+b=cZ(k),a=b[1];if(m(a,A3))if(m(a,A4)){var
+g=m(a,A5);if(!g)return g;if(!m(a,A6)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cs(d[1]);return[1,cs(c[1]),l]}}}}}else{var
+l=cx(d[1]);return[1,cx(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=R(h1,V(f[1]));return[0,cs(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return W([0,Av,[0,a,Au]])}function
-mu(f,b){var
-a=aa(b),c=V(r(a,AA)),d=R(function(g){var
-a=aa(g);function
+n=T(h$,Y(f[1]));return[0,cx(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return $([0,A8,[0,a,A7]])}function
+mL(f,b){var
+a=ab(b),c=Y(r(a,Bb)),d=T(function(g){var
+a=ab(g);function
 b(d,c){var
-b=aG(a,c);return b?R(d,V(b[1])):b}var
-c=b(ev,Aw),d=b3(mt,aG(a,Ax)),e=b3(cs,aG(a,Ay));return[0,b(function(h){var
-b=V(h);if(b){var
+b=aN(a,c);return b?T(d,Y(b[1])):b}var
+c=b(eC,A9),d=b6(mK,aN(a,A_)),e=b6(cx,aN(a,A$));return[0,b(function(h){var
+b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Ao)){if(!a[2]){if(m(dC(e),Ap))throw M;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],A1)){if(!a[2]){if(m(dF(e),A2))throw L;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ex(f,c);return[0,cs(e),g]}}}throw M},Az),e,d,c]},c),e=aG(a,AB),g=b3(function(a){return ms(f,a)},e);return[0,ml(r(a,AC)),g,d]}function
-mv(c){var
-a=aa(c),b=aG(a,AD),d=b?R(P,V(b[1])):b,e=mt(r(a,AE)),f=R(P,V(r(a,AF)));return[0,ml(r(a,AG)),f,d,e]}function
-mw(c){var
+g=eD(f,c);return[0,cx(e),g]}}}throw L},Ba),e,d,c]},c),e=aN(a,Bc),g=b6(function(a){return mJ(f,a)},e);return[0,mC(r(a,Bd)),g,d]}function
+mM(c){var
+a=ab(c),b=aN(a,Be),d=b?T(P,Y(b[1])):b,e=mK(r(a,Bf)),f=T(P,Y(r(a,Bg)));return[0,mC(r(a,Bh)),f,d,e]}function
+mN(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-AQ(b){var
+Br(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-AR(c){var
-b=c[2],a=0;switch(b[0]){case
-0:if(!m(b[1],AS))a=1;break;case
-7:a=1;break}return a?1:0}function
-AT(g){var
-j=am(g),c=[0,0];function
-k(a){if(c[1]<j)return aI(g,c[1]);throw M}function
-l(a){if(k(0)===a){c[1]++;return 0}throw M}function
-C(a,b){for(;;){if(c[1]<j&&i(b,aI(g,c[1]))){c[1]++;continue}return c6(g,a,c[1]-a|0)}}function
+Bs(b){var
+a=b[4];if(14<=b[1]&&typeof
+a!=="number"&&1===a[0])return 1-ep(i(a[1]));return 0}function
+Bw(g){var
+i=am(g),c=[0,0];function
+j(a){if(c[1]<i)return aH(g,c[1]);throw L}function
+l(a){if(j(0)===a){c[1]++;return 0}throw L}function
+C(a,b){for(;;){if(c[1]<i&&k(b,aH(g,c[1]))){c[1]++;continue}return c_(g,a,c[1]-a|0)}}function
 D(d){l(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6529,20 +6701,20 @@ c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
 b=C(c[1],a);l(34);return b}function
-E(e,a){if(k(0)===a){c[1]++;return 0}var
+E(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,i(e,0),b];if(44===k(0)){c[1]++;var
-b=d;continue}l(a);return iN(d)}}function
-t(b,i){if(64<b)throw M;var
-a=k(0),d=0;if(48<=a){if(91===a){c[1]++;var
+d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
+b=d;continue}l(a);return iW(d)}}function
+t(b,i){if(64<b)throw L;var
+a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,E(function(a){return t(f,a)},e)]}if(123===a){c[1]++;var
 g=125;return[0,E(function(c){var
 a=D(0);l(58);return[0,a,t(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,C(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw M}var
-Q=t(0,0),F=c[1]<j?1:0,S=F?10===aI(g,c[1])?1:0:F;if(S)c[1]++;if(c[1]<j)throw M;var
-q=aa(Q);if(m(aC(r(q,AU)),AV))throw M;var
-a=h0(r(q,AW)),y=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
+Q=t(0,0),F=c[1]<i?1:0,R=F?10===aH(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw L;var
+q=ab(Q);if(m(aD(r(q,Bx)),By))throw L;var
+a=h_(r(q,Bz)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -6552,34 +6724,34 @@ if(1===w[1])var
 x=6;else
 z=1;if(z)var
 x=3;var
-f=[0,b9(a[2]),x];break;case
+f=[0,b$(a[2]),x];break;case
 2:var
-af=1===a[1]?6:3,f=[0,b9(a[2]),af];break;case
+ag=1===a[1]?6:3,f=[0,b$(a[2]),ag];break;case
 3:var
-ag=b9(a[1]),f=[0,b9(a[4]),ag];break;case
+ah=b$(a[1]),f=[0,b$(a[4]),ah];break;case
 7:var
 G=a[2];y=1;break;case
 0:case
 5:var
 G=a[1];y=1;break;default:var
-f=Bb}if(y)var
-f=[0,b9(G),3];var
-n=cV(r(q,AX)),o=n[1];if(m(o,AL))if(m(o,AM))if(m(o,AN))var
-b=W([0,AP,[0,o,AO]]);else
+f=BQ}if(y)var
+f=[0,b$(G),3];var
+n=cZ(r(q,BA)),o=n[1];if(m(o,Bm))if(m(o,Bn))if(m(o,Bo))var
+b=$([0,Bq,[0,o,Bp]]);else
 var
-p=mv(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
+p=mM(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
 var
-u=mu(f,n[2]),b=[0,u[1],u[2],u[3]];else
+u=mL(f,n[2]),b=[0,u[1],u[2],u[3]];else
 var
-T=V(n[2]),b=[2,R(function(g){var
-a=cV(g),b=a[1];if(m(b,AH)){if(m(b,AI)){if(m(b,AJ)){var
-e=m(b,AK);if(e)throw M;return e}return[0,cs(a[2])]}var
-c=mv(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=mu(f,a[2]);return[1,d[1],d[2],d[3]]},T)];function
+S=Y(n[2]),b=[2,T(function(g){var
+a=cZ(g),b=a[1];if(m(b,Bi)){if(m(b,Bj)){if(m(b,Bk)){var
+e=m(b,Bl);if(e)throw L;return e}return[0,cx(a[2])]}var
+c=mM(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=mL(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
 U(a){var
-b=a[1];return aB(function(a){return 8===a[2][0]?1:0},b)}function
-X(a){return 0!==a[3]?1:0}function
-H(a){return aB(X,a)}var
+b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
+V(a){return 0!==a[3]?1:0}function
+H(a){return ax(V,a)}var
 d=0;switch(a[0]){case
 0:var
 I=a[4];switch(b[0]){case
@@ -6589,36 +6761,41 @@ K=I,J=a[1];d=4;break;case
 N=I;d=5;break}break;case
 1:switch(b[0]){case
 0:var
-ab=b[3];if(aB(function(a){var
-b=a[1];return aB(function(a){switch(a[2][0]){case
+aa=b[3];if(ax(function(a){var
+b=a[1];return ax(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ab)){W(A7);d=1}else
+7:return 1;default:return 0}},b)},aa)){$(BK);d=1}else
 d=2;break;case
 1:var
-ac=a[6];if(aB(function(a){return 8===a[1]?1:0},ac)){W(A8);d=1}break}break;case
+ac=a[6];if(ax(function(a){return 8===a[1]?1:0},ac)){$(BL);d=1}break}break;case
 2:if(1===b[0]){var
-ae=a[6];if(aB(function(a){switch(a[1]){case
-2:case
-6:case
-8:case
-11:return 1;default:return 0}},ae)){W(A$);d=1}else
+af=a[7];if(ax(function(c){var
+a=c[1];if(2!==a){var
+b=4<=a?1:0;if(!b)return b}return 1},af)){$(BO);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===b[0]){W(Ba);d=1}else
+3:if(1===b[0]){$(BP);d=1}else
 d=3;break;case
 5:var
 N=a[4];d=5;break;case
 7:var
 K=a[4],J=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===b[0])if(aB(U,b[3])){W(A9);e=3}else
+3:if(0===b[0])if(ax(U,b[3])){$(BM);e=3}else
 if(3===a[0])e=1;else{var
-ad=b[3];if(gt(function(a){return gt(AR,a[1])},ad))e=1;else{W(A_);e=3}}else
+ad=a[7],ae=b[3];if(gB(function(a){var
+b=a[1];return gB(function(d){var
+b=d[2],a=0;switch(b[0]){case
+0:var
+c=b[1];if(m(c,Bt)){if(!m(c,Bu))return ax(Bs,ad)}else
+a=1;break;case
+1:if(!m(b[1],Bv))a=1;break;case
+7:a=1;break}return a?1:0},b)},ae))e=1;else{$(BN);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-O=0;if(aB(function(a){return 10===a[1]?1:0},K)&&aB(function(a){return 2===a[0]?1:0},J)){W(AY);O=1}if(!O)e=4;break;case
-5:if(aB(mw,N))W(A6);else
+O=0;if(ax(function(a){return 10===a[1]?1:0},K)&&ax(function(a){return 2===a[0]?1:0},J)){$(BB);O=1}if(!O)e=4;break;case
+5:if(ax(mN,N))$(BJ);else
 e=4;break;case
 2:e=1;break;default:e=2}var
 h=0;switch(e){case
@@ -6627,11 +6804,11 @@ h=0;switch(e){case
 A=0;switch(a[0]){case
 5:var
 P=0;if(0===b[0]){var
-$=b[3];if(aB(function(a){return 0!==a[1]?1:0},$)){W(A5);A=1;P=1}}if(!P)var
+_=b[3];if(ax(function(a){return 0!==a[1]?1:0},_)){$(BI);A=1;P=1}}if(!P)var
 v=a[4];break;case
 7:var
 v=a[4];break;default:if(1===b[0])var
-v=a[4];else{h=2;A=1}}if(!A)if(aB(AQ,v))W(A4);else
+v=a[4];else{h=2;A=1}}if(!A)if(ax(Br,v))$(BH);else
 h=2;break;case
 1:h=2;break;case
 2:h=1;break}var
@@ -6640,30 +6817,30 @@ B=0;switch(h){case
 s=0;switch(a[0]){case
 5:s=1;break;case
 7:var
-Z=a[4];switch(b[0]){case
+X=a[4];switch(b[0]){case
 0:break;case
 1:B=1;s=1;break;default:var
-_=function(a){if(typeof
+Z=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return H(a[3]);case
-2:return aB(mw,Z)}return 0};if(aB(_,b[1]))W(A3);s=1}break}if(!s)if(0===b[0]&&H(b[3]))W(A2);else
+2:return ax(mN,X)}return 0};if(ax(Z,b[1]))$(BG);s=1}break}if(!s)if(0===b[0]&&H(b[3]))$(BF);else
 B=1;break;case
 1:B=1;break}var
-L=aa(r(q,AZ)),Y=aC(r(L,A0));return[0,a,b,aC(r(L,A1)),Y]}function
-Bc(b){var
-c=am(b),g=64,h=CP(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+M=ab(r(q,BC)),W=aD(r(M,BD));return[0,a,b,aD(r(M,BE)),W]}function
+BR(b){var
+c=am(b),g=64,h=Ds(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=an(c6(b,a,18),Bd);if(!e){var
+e=an(c_(b,a,18),BS);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}C_(function(b){try{if(Bc(b))var
-a=Bf;else{try{var
-e=0,d=AT(b);e=1}catch(a){a=oK(a);if(a[1]===mk)var
-c=[0,a[2]];else{if(a!==M)throw a;var
+f=d;return f}}DN(function(b){try{if(BR(b))var
+a=BU;else{try{var
+e=0,d=Bw(b);e=1}catch(a){a=o2(a);if(a[1]===mB)var
+c=[0,a[2]];else{if(a!==L)throw a;var
 c=2}}if(e)var
-c=wF(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Be}if(typeof
+c=xe(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return BT}if(typeof
 a==="number")switch(a){case
-0:return Bg;case
-1:return Bh;default:return Bi}return aP(Bj,a[1])});iM(0);return}(globalThis));
+0:return BV;case
+1:return BW;default:return BX}return aP(BY,a[1])});iV(0);return}(globalThis));

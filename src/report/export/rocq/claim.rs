@@ -100,6 +100,7 @@ enum Asked {
     Anything,
     OfLegs,
     OfTwoPoints,
+    OfStruts,
 }
 
 /// The claim as it is exported.
@@ -165,10 +166,6 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
         let is_arm = |leg: &Leg| matches!(leg, Leg::Arm { .. });
         legs.iter().any(is_arm) || require.iter().any(|r| r.quantity == "leg_angle")
     };
-    let has_bodies = || not_covered("such a machine with bodies");
-    if !bodies.is_empty() && !matches!(mechanism, Mechanism::Translational(_)) {
-        return has_bodies();
-    }
     let (kind, arguments, legs) = match (mechanism, workspace) {
         (Mechanism::Planar(turning), _) => turning_machine(claim, turning, "InPlane")?,
         (Mechanism::Spatial(turning), _) => turning_machine(claim, turning, "InSpace")?,
@@ -183,16 +180,16 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
                     written,
                 ];
                 (Kind::Machine, arguments, &legs[..])
-            } else if bodies.is_empty() {
-                (Kind::Legs, any_legs("Translates", legs, None, claim)?, &legs[..])
             } else {
-                return has_bodies();
+                (Kind::Legs, any_legs("Translates", legs, None, claim)?, &legs[..])
             }
         }
         (Mechanism::Formulas(formulas), Workspace::Box { min, max }) => {
+            without_bodies(claim)?;
             (Kind::Formulas, by_formulas(formulas, [min, max], require)?, &[][..])
         }
         (Mechanism::Orthoglide { offset }, Workspace::Cube { side }) => {
+            without_bodies(claim)?;
             let written = requirements(require, Asked::OfLegs)?;
             let bounds = require.iter().filter(|r| r.quantity == "transmission").map(|r| &r.bound);
             match bounds.collect::<Vec<_>>().as_slice() {
@@ -212,6 +209,13 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
         (_, Workspace::Cylinder { .. }) => return not_covered("the workspace \"cylinder\""),
     };
     Ok(Subject { kind, arguments, legs, requirements: require })
+}
+
+fn without_bodies(claim: &MachineClaim) -> Exported<()> {
+    match claim.bodies.is_empty() {
+        true => Ok(()),
+        false => not_covered("such a machine with bodies"),
+    }
 }
 
 /// Legs in the plane, or of a platform that turns.
@@ -234,7 +238,7 @@ fn turning_machine<'a>(
             return Ok((Kind::Legs, any_legs(&mobility, legs, length.as_ref(), claim)?, legs));
         }
     };
-    let written = requirements(&claim.require, Asked::OfTwoPoints)?;
+    let written = requirements(&claim.require, Asked::OfStruts)?;
     let is_about_any_axis = motion == "InSpace" && matches!(orientation, Orientation::Angle(_));
     if !is_about_any_axis && claim.require.iter().any(|r| r.quantity == "one_to_one") {
         return not_covered("\"one_to_one\" of this set of orientations");
@@ -253,6 +257,7 @@ fn turning_machine<'a>(
         ("the_length", "expression", expression(length)),
         ("the_workspace", "written_place", region(&claim.workspace, Shape::Any)?),
         ("the_orientations", "written_orientation", orientations(orientation)),
+        ("the_bodies", "list written_body", lines(claim.bodies.iter().map(body))),
         written,
     ];
     Ok((Kind::Turning, arguments, legs))
@@ -265,6 +270,7 @@ fn any_legs(
     length: Option<&Expression>,
     claim: &MachineClaim,
 ) -> Exported<Vec<Argument>> {
+    without_bodies(claim)?;
     let written = requirements(&claim.require, Asked::OfLegs)?;
     let orientation = claim.orientation.as_ref().map(orientations);
     Ok(vec![
@@ -424,6 +430,8 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         "accuracy" => "Accuracy_",
         "clearance" => "Clearance_",
         "leg_angle" => "LegAngle_",
+        "base_joint" if asked > Asked::Anything => "BaseJoint_",
+        "platform_joint" if asked > Asked::Anything => "PlatformJoint_",
         other => return not_covered(format!("the quantity {other:?}")),
     };
     let bound = match bound {
@@ -447,15 +455,17 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         ("Stiffness_", [("joint", _)]) if asked > Asked::Anything => {
             return not_covered("a stiffness for each joint of such a mechanism")
         }
-        ("Stiffness_", [("joint", all)]) => {
+        ("Stiffness_", [("joint", all)]) | ("BaseJoint_" | "PlatformJoint_", [("axis", all)]) => {
             Some(format!("(Each_ {})", list(all.iter().map(expression))))
         }
         _ => return not_covered(format!("what is given for {quantity:?}")),
     };
     let is_asked = match about {
         "Transmission" | "JointRange" | "Condition_" | "Speed_" | "Force_" | "Stiffness_" => true,
-        "Serial_" | "Parallel_" | "LegAngle_" => asked != Asked::OfTwoPoints,
+        "Serial_" | "Parallel_" | "LegAngle_" => asked < Asked::OfTwoPoints,
         "OneToOne_" => asked != Asked::OfLegs,
+        "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
+        "Clearance_" => matches!(asked, Asked::Anything | Asked::OfStruts),
         _ => asked == Asked::Anything,
     };
     if !is_asked {

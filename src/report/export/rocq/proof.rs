@@ -5,7 +5,8 @@ use super::{lines, list, matrix, not_covered, optional, quoted, row, Exported};
 use orthocert_kernel::certificate::{
     AtlasCell, Corner, Evidence, Failure, Node, Proof, Step, Tree, Witness,
 };
-use orthocert_kernel::claim::{Leg, Requirement};
+use orthocert_kernel::claim::{Bound, Leg, Requirement};
+use orthocert_kernel::number::Expression;
 use orthocert_kernel::test::Multiplier;
 
 /// The proof as it is exported.
@@ -50,11 +51,19 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         (Kind::Legs, Proof::Witness(_)) if requires(&["joint_force"]) => {
             "this quantity of such a mechanism in a claim that is refuted"
         }
-        (Kind::Turning, _) if has(|by| !matches!(by, Evidence::Control(_) | Evidence::Outside)) => {
+        (Kind::Turning, _)
+            if has(if subject.requirements.iter().any(is_wide) {
+                is_no_step_of_pose
+            } else {
+                |by| is_no_step_of_pose(by) || *by == Evidence::Test
+            }) =>
+        {
             "a step of a platform that turns that is not at control points"
         }
         (Kind::Turning, Proof::Witness(_))
-            if requires(&["joint_speed", "joint_force", "stiffness", "one_to_one"]) =>
+            if subject.requirements.iter().any(|r| {
+                !["transmission", "joint_range", "conditioning"].contains(&r.quantity.as_str())
+            }) =>
         {
             "this quantity of such a mechanism in a claim that is refuted"
         }
@@ -81,6 +90,19 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         _ => return Ok(()),
     };
     not_covered(what)
+}
+
+fn is_no_step_of_pose(by: &Evidence) -> bool {
+    use Evidence::{Control, Direction, Outside, Test};
+    !matches!(by, Control(_) | Outside | Direction(_) | Test)
+}
+
+/// An angle at a joint of more than 90 degrees, of which slopes show a sign.
+fn is_wide(requirement: &Requirement) -> bool {
+    let of_joint = matches!(requirement.quantity.as_str(), "base_joint" | "platform_joint");
+    let Bound::Max(bound) = &requirement.bound else { return false };
+    let more = &Expression::integer(90) - bound;
+    of_joint && more.enclose(512).is_none_or(|more| more.lo.sign() == num_bigint::Sign::Minus)
 }
 
 fn written_tree(Tree { precision, chords, nodes }: &Tree) -> Exported<String> {
