@@ -48,6 +48,9 @@ struct Point {
 struct Start {
     p: u32,
     points: Vec<Point>,
+    /// `V` at the centre, at control points `A`, and the least singular value of `V`.
+    plain: DMatrix<f64>,
+    least: f64,
     y: DMatrix<f64>,
     z: f64,
     margins: Vec<f64>,
@@ -176,38 +179,43 @@ impl Over<'_> {
         let g = self.spread(accuracy, self.formulas.place.edges)?;
         let greatest = self.formulas.greatest(accuracy)?;
         let parts = accuracy.parts(accuracy.rows.len()).len();
-        let mut known: Option<Start> = None;
-        for p in WEIGHTS.into_iter().take_while(|&p| p == 0 || parts == 2) {
-            let Some(start) = self.start(accuracy, (p, g), greatest.as_ref()) else { continue };
-            if known.as_ref().is_some_and(|known| known.most >= start.most) {
-                break;
-            }
-            known = Some(start);
-        }
-        let Start { p, points, y, z, margins, .. } = known?;
-        let first = self.found(&points, &y, g).filter(|found| found.most > EASY);
+        let weights = WEIGHTS.into_iter().take_while(|&p| p == 0 || parts == 2);
+        let starts = weights.filter_map(|p| self.start(accuracy, (p, g), greatest.as_ref()));
+        let starts: Vec<Start> = starts.collect();
+        let shown = |p: u32, Found { y, kappa, margins, .. }: Found| {
+            let with = |bits: i32| {
+                // As many bits for kappa as for the greatest entry.
+                let y = in_places(&y, (bits + above(&y)).max(bits - exponent(kappa)))?;
+                let kappa = (kappa * f64::from(y.places).exp2()).floor();
+                Some(Evidence::Accuracy(y, kappa as i64, p))
+            };
+            let margin = |v: Vertex| margins.get(v.index()).copied();
+            let found = self.shown_with(test, &with(FINE)?, &margin)?;
+            Some(self.shortened(test, found, with))
+        };
+        let most = starts.iter().max_by(|a, b| a.most.total_cmp(&b.most))?;
+        let Start { p, points, y, z, margins, .. } = most;
+        let first = self.found(points, y, g).filter(|found| found.most > EASY);
         let better = || {
             let mut t = vec![0.0; points.len()];
             for (_, g) in self.less() {
-                if let Some((_, [low, high])) = best(&margins, &g, 0.9) {
+                if let Some((_, [low, high])) = best(margins, &g, 0.9) {
                     t = g.iter().map(|g| 0.5 * (low + high) * g).collect();
                 }
             }
-            self.found(&points, &improved(&points, &t, &y, z), g)
+            self.found(points, &improved(points, &t, y, *z), g)
         };
-        let Found { y, kappa, margins, most } = first.or_else(better)?;
-        if most <= 0.0 {
-            return None;
-        }
-        let with = |bits: i32| {
-            // As many bits for kappa as for the greatest entry.
-            let y = in_places(&y, (bits + above(&y)).max(bits - exponent(kappa)))?;
-            let kappa = (kappa * f64::from(y.places).exp2()).floor();
-            Some(Evidence::Accuracy(y, kappa as i64, p))
+        let found = first.or_else(better).filter(|found| found.most > 0.0);
+        // `V` itself may be better where tolerances are wide.
+        let plain = || {
+            let mut each =
+                starts.iter().take(parts).flat_map(|start| PARTS.map(|part| (start, part)));
+            each.find_map(|(start, part)| {
+                let found = self.with(&start.points, &start.plain, (part * start.least, g))?;
+                (found.most > 0.0).then(|| shown(start.p, found))?
+            })
         };
-        let margin = |v: Vertex| margins.get(v.index()).copied();
-        let found = self.shown_with(test, &with(FINE)?, &margin)?;
-        Some(self.shortened(test, found, with))
+        found.and_then(|found| shown(*p, found)).or_else(plain)
     }
 
     /// `Y` between `V` at the centre, and at control points `A`, and `b z^T/|z|^2`, which loses nothing along the `b`
@@ -231,28 +239,37 @@ impl Over<'_> {
         let centre = Point { v, weight: 1.0, d, b };
         let b = centre.worst(&centre.t(&centre.v).try_inverse()?).into_iter().next()?;
         let z = centre.v.clone().lu().solve(&b).filter(|z| z.norm() < 1.0)?;
+        let least_of_v = centre.v.singular_values().min();
         let mut y = &centre.v * (1.0 - OWN) + &b * z.transpose() * (OWN / z.norm_squared());
+        let mut plain = centre.v;
         if self.formulas.controls.is_some() {
             for (i, leg) in self.problem().legs.iter().enumerate() {
-                y.row_mut(i).scale_mut(self.centre(leg.row.d)?.sqrt());
+                let root = self.centre(leg.row.d)?.sqrt();
+                y.row_mut(i).scale_mut(root);
+                plain.row_mut(i).scale_mut(root);
             }
         }
         let points = self.points(test, p, greatest)?;
         let z = 1.0 - 0.5 * g / least(&points, &y).max(g);
         let margins: Vec<f64> = points.iter().map(|point| point.margin(&y, 0.0, z)).collect();
-        Some(Start { p, y, z, most: self.most(&margins), margins, points })
+        let most = self.most(&margins);
+        Some(Start { p, points, plain, least: least_of_v, y, z, margins, most })
     }
 
     /// With the best of some `kappa`.
     fn found(&self, points: &[Point], y: &DMatrix<f64>, g: f64) -> Option<Found> {
         let least = least(points, y);
-        let with = |part: f64| {
-            let kappa = Some(part * least).filter(|&kappa| kappa > g)?;
-            let z = 1.0 - 0.5 * g / kappa;
-            let margins: Vec<f64> = points.iter().map(|point| point.margin(y, kappa, z)).collect();
-            Some(Found { y: y.clone(), kappa, most: self.most(&margins), margins })
-        };
-        PARTS.into_iter().filter_map(with).max_by(|a, b| a.most.total_cmp(&b.most))
+        let all = PARTS.into_iter().filter_map(|part| self.with(points, y, (part * least, g)));
+        all.max_by(|a, b| a.most.total_cmp(&b.most))
+    }
+
+    fn with(&self, points: &[Point], y: &DMatrix<f64>, (kappa, g): (f64, f64)) -> Option<Found> {
+        if kappa <= g {
+            return None;
+        }
+        let z = 1.0 - 0.5 * g / kappa;
+        let margins: Vec<f64> = points.iter().map(|point| point.margin(y, kappa, z)).collect();
+        Some(Found { y: y.clone(), kappa, most: self.most(&margins), margins })
     }
 
     fn points(
