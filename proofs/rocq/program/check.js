@@ -150,7 +150,7 @@ for (const [name, from, to] of [
   ["orthoglide-prototype-whole", '"bound":"0.114"', '"bound":"114"'],
   ["orthoglide-prototype-whole", '"accuracy":[{"y":[[4', '"accuracy":[{"y":[[-4'],
   ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\}),\d+/, "$1,-1"],
-  ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\}),\d+/, "$1,4"],
+  ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\}),\d+/, "$1,64"],
   ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*\},\d+),0/, "$1,1"],
   ["orthoglide-prototype-whole", /("accuracy":\[\{"y":[^}]*"places":)2/, "$11"],
   ["orthoglide-prototype-whole", /\[18,\{"accuracy":.*?,0\]\}\],?/, ""],
