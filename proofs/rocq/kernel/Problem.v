@@ -290,14 +290,24 @@ Qed.
 (** Where a requirement's bound and its other numbers are among the parameters. *)
 Definition next (s : Z) (r : requirement) (j : nat * nat) : nat * nat := (S (fst j), snd j + length (extras s r))%nat.
 
+(** The base end of a leg whose vector is built as C - b, as of struts, is b. [first_end]: the point a part of the vector after it, else the
+    rest of the vector before C. *)
+Definition base_part (c a : formula) : option formula :=
+  if same a c then Some (integer 0) else match a with F (Sub d b) => if same d c then Some b else None | _ => None end.
+Definition first_end (tip A : evec) (x : formula) : evec :=
+  match base_part (ex tip) (ex A), base_part (ey tip) (ey A), base_part (ez tip) (ez A) with
+  | Some b, Some c, Some d => map2 plus (EVec b c d) (scaled x A)
+  | _, _, _ => map2 minus tip (scaled (minus (integer 1) x) A)
+  end.
+
 (** The ends of a body's segment, by its numbers; [rods]: of each leg its platform end, vector and length. *)
 Definition segment_formulas (rods : list (option (evec * evec * formula))) (placed : evec -> evec) (q : list formula) (b : body) : option (evec * evec) :=
   match b with
   | AlongLeg i _ _ _ _ =>
       match nth_error rods i with
       | Some (Some (tip, A, len)) =>
-          let part x := map2 plus (map2 minus tip (scaled x A)) (vector_at q 2) in
-          Some (part (minus (integer 1) (over (nth 0 q (integer 0)) len)), part (over (nth 1 q (integer 0)) len))
+          Some (map2 plus (first_end tip A (over (nth 0 q (integer 0)) len)) (vector_at q 2),
+            map2 plus (map2 minus tip (scaled (over (nth 1 q (integer 0)) len) A)) (vector_at q 2))
       | _ => None
       end
   | OnBase _ _ _ => Some (vector_at q 0, vector_at q 3)
@@ -701,6 +711,22 @@ Qed.
 Lemma exact_in_unit : forall y, exact_value (exactly y, s) = ratio * Claim.value y.
 Proof. intro y. unfold exact_value. cbn. unfold Rdiv. fold ratio. ring. Qed.
 
+Lemma base_part_value : forall c a b, base_part c a = Some b -> value b = value c - value a.
+Proof.
+  intros c a b h. unfold base_part in h. destruct (same a c) eqn:e.
+  - injection h as <-. apply same_sound in e. subst. change (value (integer 0)) with 0. ring.
+  - destruct a as [o]. destruct o as [| | | | a d | | | | | |]; try discriminate h. destruct (same a c) eqn:g; [| discriminate h].
+    injection h as <-. apply same_sound in g. subst. cbn. ring.
+Qed.
+
+Lemma first_end_value : forall tip A y, located_at (first_end tip A y) = located_at (map2 minus tip (scaled (minus (integer 1) y) A)).
+Proof.
+  intros tip A y. unfold first_end. destruct (base_part (ex tip) (ex A)) as [b |] eqn:eb; [| reflexivity].
+  destruct (base_part (ey tip) (ey A)) as [c |] eqn:ec; [| reflexivity]. destruct (base_part (ez tip) (ez A)) as [d |] eqn:ed; [| reflexivity].
+  apply base_part_value in eb, ec, ed. unfold located_at. cbn [map2 scaled ex ey ez]. rewrite !value_plus, !value_minus, !value_times, !value_minus, eb, ec, ed.
+  change (value (integer 1)) with 1. f_equal; ring.
+Qed.
+
 Lemma segment_there : forall q b e e', map value q = map exact_value (body_numbers s b) -> segment_formulas rods placed q b = Some (e, e') ->
   exists p p', segment_along real place_of b = Some (p, p') /\ located_at e = vscale ratio p /\ located_at e' = vscale ratio p'.
 Proof.
@@ -718,8 +744,9 @@ Proof.
     destruct R0 as [C [W [L [-> [e1 [e2 e3]]]]]]. eexists. eexists. split; [reflexivity |].
     pose proof (Three 2%nat) as O. pose proof (At 0%nat) as T0. pose proof (At 1%nat) as T1. cbn [body_numbers position_numbers map app nth Nat.add] in O, T0, T1. rewrite !N in O, T0, T1.
     unfold located_at in O, e1, e2. unfold vscale in e1, e2. injection O as o1 o2 o3. injection e1 as c1 c2 c3. injection e2 as a1 a2 a3.
-    unfold located_at. cbn [map2 scaled ex ey ez vector_at]. cbn [vector_at ex ey ez Nat.add] in o1, o2, o3.
-    rewrite !value_plus, !value_minus, !value_times, !value_minus, !value_over, T0, T1, <- e3, !quotient_resized. cbn [Nat.add]. rewrite o1, o2, o3, <- c1, <- c2, <- c3, <- a1, <- a2, <- a3, ?N.
+    pose proof (first_end_value tip A (over (nth 0 q (integer 0)) len)) as B. unfold located_at in B. cbn [map2 scaled ex ey ez] in B. injection B as b1 b2 b3.
+    unfold located_at. cbn [map2 scaled ex ey ez vector_at]. cbn [vector_at ex ey ez Nat.add] in o1, o2, o3. rewrite !value_plus, b1, b2, b3.
+    rewrite !value_minus, !value_times, !value_minus, !value_over, T0, T1, <- e3, !quotient_resized. cbn [Nat.add]. rewrite o1, o2, o3, <- c1, <- c2, <- c3, <- a1, <- a2, <- a3, ?N.
     change (value (integer 1)) with 1. unfold vadd, vsub, vscale, located. cbn [vx vy vz]. split; f_equal; ring.
   - injection h as <- <-. eexists. eexists. split; [reflexivity |]. rewrite !Three. cbn [body_numbers position_numbers map app nth Nat.add]. rewrite !N. split; reflexivity.
   - injection h as <- <-. eexists. eexists. split; [reflexivity |].

@@ -3,19 +3,19 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(D){"use strict";var
-iq="spatial",ox="Invalid_argument",gj="precision",aw='"',ip=1255,ow="inside",nE="(",nF=0x800,ov="yaw",nB="range",nC="tree",nD="jsError",bP=0x8000,ou="sqrt(",nA=256,nz="obligation",eP="offset",a3="machine",nx="this quantity of such a mechanism in a claim that is refuted",ny="End_of_file",dN="strut",io="center",eO="arm",im="Failure",ot="serial_margin",gs="parameters",b8=0xff,os="bodies",iA="outside",gr="base_axis",il="ENOENT",or=122,nw="([^/]+)",iz="0",ik=0xf,eN=128,nv=0xdc00,op="Sys_blocked_io",oq="fd ",gi="given",nu="ENOTEMPTY",aG=248,gh="bound",nt="Division_by_zero",on="by",oo=1027,ns="Sys_error",gq="slider",nr="torsion",om="postulate",nq="proof",ol="joint_error",eM="refuted",dI="mechanism",gg="row",np="EEXIST",ok="roll_pitch_yaw",gp="y",no="cube",eF="lower",oj="within",nn="clearance",oi="turned",nm="control",gf="int_of_string",og="definitions",oh="dependent",eL=1024,nk="from",nl="name",of=" : flags Open_rdonly and Open_wronly are not compatible",nj="orthocert/2",oe="reach",ni=512,oc="base_joint",od="witness",eK="-",aT="platform",nh=0x7ff0,ng="pitch",iy=": Not a directory",bf="min",oa="trim",dM="workspace",ob=" : file already exists",ge="split",ix="legs",n$="claim",ij="joint",c3=0xffffff,nf="platform_joint",ne="formulas",nd="roll",gd="atlas",n9="nodes",n_="Out_of_memory",nc="psi_max",go="orientation",gc=254,n8="angle",iw="index out of bounds",nb="end",n7="one_to_one",gn="_bigarr02",na=" : flags Open_text and Open_binary are not compatible",bz="drive",m$="coordinates",n6="holds",m_="lower_divided",m9="speed",n4="cylinder",n5="joints",b7=0xffff,n2="acceleration",eI="certified",eJ="chords",n3=12520,ii="on",gb="accuracy",eH="axis",n1="no_cube",n0="parallel_margin",m8='the drive "',ih="Unix.Unix_error",gm="fails",ga="tool",ig="mkdir",nZ="rho",gl=1000,ie="translational",nY="tolerances",m7="Stack_overflow",iv="characteristic_length",S="",iu="^",id="places",f$=": No such file or directory",m6="/static/",dL=0x3f,m4="stiffness",m5="Not_found",c2="planar",eE="mode",nX="joint_speed",nW="Match_failure",m3="transmission",be="anchor",nV="at",m2="joint_force",dK="leg",m1="joint_acceleration",gk="+",ic="rmdir",nU=0xf0,nT="spherical",m0=1026,nR="REJECTED",nS="undecided",bg="max",bQ="direction",mY="leg_angle",mZ="orthoglide",eG="rank",nQ="constraint_margin",f_="test",mW="Pervasives.do_at_exit",mX="utf8",by=0x80,dJ="conditioning",dH="length",mV="Undefined_recursive_module",it=")",mU="base",nP="quantity",mT="joint_range",f9="tilt",mS="Q2",nO="reference",mR="point",nM="corner",nN=0xe0,mQ="version",is="z",nK="to",nL=0xdfff,ib="compare: functional value",nJ="Assert_failure",bB="/",nI="provenance",c1="radius",f8="side",bA="require",nH="format",mP="Q1",ir="ENOTDIR",mO="all",c0="box",nG=250;function
-iN(c,b,a){var
+a.prototype._T_}}(Object));(function(E){"use strict";var
+ir="spatial",oy="Invalid_argument",gj="precision",aw='"',iq=1255,ox="inside",nF="(",nG=0x800,ow="yaw",nC="range",nD="tree",nE="jsError",bP=0x8000,ov="sqrt(",nB=256,nA="obligation",eP="offset",a4="machine",ny="this quantity of such a mechanism in a claim that is refuted",nz="End_of_file",dN="strut",ip="center",eO="arm",io="Failure",ou="serial_margin",gs="parameters",b8=0xff,ot="bodies",iB="outside",gr="base_axis",im="ENOENT",os=122,nx="([^/]+)",iA="0",il=0xf,eN=128,nw=0xdc00,oq="Sys_blocked_io",or="fd ",gi="given",nv="ENOTEMPTY",aG=248,gh="bound",nu="Division_by_zero",oo="by",op=1027,nt="Sys_error",gq="slider",ns="torsion",on="postulate",nr="proof",om="joint_error",eM="refuted",dI="mechanism",gg="row",nq="EEXIST",ol="roll_pitch_yaw",gp="y",np="cube",eF="lower",ok="within",no="clearance",oj="turned",nn="control",gf="int_of_string",oh="definitions",oi="dependent",eL=1024,nl="from",nm="name",og=" : flags Open_rdonly and Open_wronly are not compatible",nk="orthocert/2",of="reach",nj=512,od="base_joint",oe="witness",eK="-",aU="platform",ni=0x7ff0,nh="pitch",iz=": Not a directory",bg="min",ob="trim",dM="workspace",oc=" : file already exists",ge="split",iy="legs",oa="claim",ik="joint",c3=0xffffff,ng="platform_joint",nf="formulas",ne="roll",gd="atlas",n_="nodes",n$="Out_of_memory",nd="psi_max",go="orientation",gc=254,n9="angle",ix="index out of bounds",nc="end",n8="one_to_one",gn="_bigarr02",nb=" : flags Open_text and Open_binary are not compatible",bz="drive",na="coordinates",n7="holds",m$="lower_divided",m_="speed",n5="cylinder",n6="joints",b7=0xffff,n3="acceleration",eI="certified",eJ="chords",n4=12520,ij="on",gb="accuracy",eH="axis",n2="no_cube",n1="parallel_margin",m9='the drive "',ii="Unix.Unix_error",gm="fails",ga="tool",ih="mkdir",n0="rho",gl=1000,ig="translational",nZ="tolerances",m8="Stack_overflow",iw="characteristic_length",S="",iv="^",ie="places",f$=": No such file or directory",m7="/static/",dL=0x3f,m5="stiffness",m6="Not_found",c2="planar",eE="mode",nY="joint_speed",nX="Match_failure",m4="transmission",bf="anchor",nW="at",m3="joint_force",dK="leg",m2="joint_acceleration",gk="+",id="rmdir",nV=0xf0,nU="spherical",m1=1026,nS="REJECTED",nT="undecided",bh="max",bQ="direction",mZ="leg_angle",m0="orthoglide",eG="rank",nR="constraint_margin",f_="test",mX="Pervasives.do_at_exit",mY="utf8",by=0x80,dJ="conditioning",dH="length",mW="Undefined_recursive_module",iu=")",mV="base",nQ="quantity",mU="joint_range",f9="tilt",mT="Q2",nP="reference",mS="point",nN="corner",nO=0xe0,mR="version",it="z",nL="to",nM=0xdfff,ic="compare: functional value",nK="Assert_failure",bB="/",nJ="provenance",c1="radius",f8="side",bA="require",nI="format",mQ="Q1",is="ENOTDIR",mP="all",c0="box",nH=250;function
+iO(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=S;for(;0<a;b+=eL,a-=eL)e+=d.apply(null,c.slice(b,b+Math.min(a,eL)));return e}function
-gu(b){if(D.Uint8Array)var
-c=new(D.Uint8Array)(b.l);else
+gu(b){if(E.Uint8Array)var
+c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eQ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iN(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gu(b);var
+eQ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iO(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iO(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gu(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -24,7 +24,7 @@ i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 dQ(a){return a}function
 dP(a,b,c,d,e){eQ(dQ(a),b,c,d,e);return 0}function
-iC(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+iD(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 c4(c,a){if(c.fun)return c4(c.fun,a);if(typeof
@@ -37,65 +37,65 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c4(c,d)}}function
-oZ(b,a){if(b==0)return S;if(a.repeat)return a.repeat(b);var
+o0(b,a){if(b==0)return S;if(a.repeat)return a.repeat(b);var
 d=S,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dR(a){if(a.t==2)a.c+=oZ(a.l-a.c.length,"\0");else
-a.c=iN(a.c,0,a.c.length);a.t=0}function
+dR(a){if(a.t==2)a.c+=o0(a.l-a.c.length,"\0");else
+a.c=iO(a.c,0,a.c.length);a.t=0}function
 dS(a){a.t&6&&dR(a);return a.c}var
-DL=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-DK(a){if(DL)return Math.floor(Math.log2(a));var
+DN=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+DM(a){if(DN)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iF(c){var
-a=new(D.Float32Array)(1);a[0]=c;var
-b=new(D.Int32Array)(a.buffer);return b[0]|0}var
-oQ=Math.pow(2,-24);function
-DB(a){throw a}var
-ap=[0];function
-oW(){DB(ap.Division_by_zero)}function
-C(b,c,a){this.lo=b&c3;this.mi=c&c3;this.hi=a&b7}C.prototype.caml_custom="_j";C.prototype.copy=function(){return new
-C(this.lo,this.mi,this.hi)};C.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};C.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};C.prototype.neg=function(){var
+iG(c){var
+a=new(E.Float32Array)(1);a[0]=c;var
+b=new(E.Int32Array)(a.buffer);return b[0]|0}var
+oR=Math.pow(2,-24);function
+DD(a){throw a}var
+aq=[0];function
+oX(){DD(aq.Division_by_zero)}function
+D(b,c,a){this.lo=b&c3;this.mi=c&c3;this.hi=a&b7}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-C(a,b,c)};C.prototype.add=function(a){var
+D(a,b,c)};D.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-C(b,c,d)};C.prototype.sub=function(a){var
+D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-C(b,c,d)};C.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*oQ|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oQ|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-C(b,c,d)};C.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};C.prototype.isNeg=function(){return this.hi<<16<0};C.prototype.and=function(a){return new
-C(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};C.prototype.or=function(a){return new
-C(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};C.prototype.xor=function(a){return new
-C(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};C.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-C(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-C(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-C(0,0,this.lo<<a-48)};C.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-C(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-C(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-C(this.hi>>a-48,0,0)};C.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+D(b,c,d)};D.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*oR|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oR|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
+D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
+D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
+D(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};D.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+D(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+D(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+D(0,0,this.lo<<a-48)};D.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+D(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+D(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-C(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-C(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b7);return new
-C(this.hi<<16>>a-32,b,b)};C.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&c3;this.lo=this.lo<<1&c3};C.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&c3;this.mi=(this.mi>>>1|this.hi<<23)&c3;this.hi=this.hi>>>1};C.prototype.udivmod=function(e){var
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b7);return new
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&c3;this.lo=this.lo<<1&c3};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&c3;this.mi=(this.mi>>>1|this.hi<<23)&c3;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-C(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};C.prototype.div=function(a){var
-b=this;if(a.isZero())oW();var
+D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
+b=this;if(a.isZero())oX();var
 d=b.hi^a.hi;if(b.hi&bP)b=b.neg();if(a.hi&bP)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bP)c=c.neg();return c};C.prototype.mod=function(b){var
-a=this;if(b.isZero())oW();var
+c=b.udivmod(a).quotient;if(d&bP)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())oX();var
 d=a.hi;if(a.hi&bP)a=a.neg();if(b.hi&bP)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bP)c=c.neg();return c};C.prototype.toInt=function(){return this.lo|this.mi<<24};C.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};C.prototype.toArray=function(){return[this.hi>>8,this.hi&b8,this.mi>>16,this.mi>>8&b8,this.mi&b8,this.lo>>16,this.lo>>8&b8,this.lo&b8]};C.prototype.lo32=function(){return this.lo|(this.mi&b8)<<24};C.prototype.hi32=function(){return this.mi>>>8&b7|this.hi<<16};function
+c=a.udivmod(b).modulus;if(d&bP)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b8,this.mi>>16,this.mi>>8&b8,this.mi&b8,this.lo>>16,this.lo>>8&b8,this.lo&b8]};D.prototype.lo32=function(){return this.lo|(this.mi&b8)<<24};D.prototype.hi32=function(){return this.mi>>>8&b7|this.hi<<16};function
 gw(b,c,a){return new
-C(b,c,a)}function
-gv(a){if(!isFinite(a)){if(isNaN(a))return gw(1,0,nh);return a>0?gw(0,0,nh):gw(0,0,0xfff0)}var
+D(b,c,a)}function
+gv(a){if(!isFinite(a)){if(isNaN(a))return gw(1,0,ni);return a>0?gw(0,0,ni):gw(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bP:a>=0?0:bP;if(f)a=-a;var
-b=DK(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m0)}else{a/=Math.pow(2,b-oo);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=DM(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m1)}else{a/=Math.pow(2,b-op);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&ik|f|b<<4;return gw(g,e,c)}function
+g=a|0;c=c&il|f|b<<4;return gw(g,e,c)}function
 eT(a){return a.toArray()}function
-oE(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gn)for(var
+oF(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gn)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<b7)c.write(16,b.dims[a]);else{c.write(16,b7);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -121,44 +121,44 @@ e=eT(gv(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iF(b.get(a));c.write(32,e)}break;case
+e=iG(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iF(d[1]));c.write(32,iF(d[2]))}break;case
+d=b.get(a);c.write(32,iG(d[1]));c.write(32,iG(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
 f=b.get(a),e=eT(gv(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
 e=eT(gv(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-DD(b,a){throw[0,b,a]}function
-o4(a){if(a.length<24){for(var
+DF(b,a){throw[0,b,a]}function
+o5(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iO(e){for(var
+iP(e){for(var
 j=S,c=S,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<by){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<by;d++);if(d-b>ni){c.substr(0,1);j+=c;c=S;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(f<<6);if(f<nN){a=g-0x3080;if(a<by)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(g<<6);if(f<nU){a=g-0xe2080;if(a<nF||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b7)c+=String.fromCharCode(0xd7c0+(a>>10),nv+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<by;d++);if(d-b>nj){c.substr(0,1);j+=c;c=S;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(f<<6);if(f<nO){a=g-0x3080;if(a<by)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(g<<6);if(f<nV){a=g-0xe2080;if(a<nG||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b7)c+=String.fromCharCode(0xd7c0+(a>>10),nw+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>eL){c.substr(0,1);j+=c;c=S}}return j+c}function
 bR(c,a,b){this.t=c;this.c=a;this.l=b}bR.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:dR(this);case
-0:if(o4(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(o5(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bR.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iO(a)};bR.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return iP(a)};bR.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bR(this.t,a,this.l)};function
-oH(a){return new
+oI(a){return new
 bR(0,a,a.length)}function
-a(a){return oH(a)}function
-iM(c,b){DD(c,a(b))}function
-aB(a){iM(ap.Invalid_argument,a)}function
-oC(a){switch(a){case
+a(a){return oI(a)}function
+iN(c,b){DF(c,a(b))}function
+aC(a){iN(aq.Invalid_argument,a)}function
+oD(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-C7(c,e){var
-b=D,a;switch(c){case
+C9(c,e){var
+b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,45 +171,45 @@ b=D,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aB("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aC("Bigarray.create: unsupported kind");var
 d=new
-a(e*oC(c));return d}function
-iG(c){var
-a=new(D.Int32Array)(1);a[0]=c;var
-b=new(D.Float32Array)(a.buffer);return b[0]}function
+a(e*oD(c));return d}function
+iH(c){var
+a=new(E.Int32Array)(1);a[0]=c;var
+b=new(E.Float32Array)(a.buffer);return b[0]}function
 eS(a){return new
-C(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iH(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ik)==0?b&bP?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&ik);if(c>0){a+=16;a*=Math.pow(2,c-oo)}else
-a*=Math.pow(2,-m0);if(b&bP)a=-a;return a}function
-iB(b){var
+D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+iI(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&il)==0?b&bP?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&il);if(c>0){a+=16;a*=Math.pow(2,c-op)}else
+a*=Math.pow(2,-m1);if(b&bP)a=-a;return a}function
+iC(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aB("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Dl(b,a){return new
-C(b&c3,b>>>24&b8|(a&b7)<<8,a>>>16&b7)}function
-iI(a){return a.hi32()}function
-iJ(a){return a.lo32()}function
-gt(){aB(iw)}var
-C8=gn;function
-cz(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cz.prototype.caml_custom=C8;cz.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aC("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Dn(b,a){return new
+D(b&c3,b>>>24&b8|(a&b7)<<8,a>>>16&b7)}function
+iJ(a){return a.hi32()}function
+iK(a){return a.lo32()}function
+gt(){aC(ix)}var
+C_=gn;function
+cz(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cz.prototype.caml_custom=C_;cz.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aB("bigarray.js: invalid offset");if(this.dims.length!=b.length)aB("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+Array))aC("bigarray.js: invalid offset");if(this.dims.length!=b.length)aC("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
 a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gt();c=c*this.dims[a]+b[a]}else
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gt();c=c*this.dims[a]+(b[a]-1)}return c};cz.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Dl(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Dn(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[gc,e,c];default:return this.data[a]}};cz.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iJ(b);this.data[a*2+1]=iI(b);break;case
+7:this.data[a*2+0]=iK(b);this.data[a*2+1]=iJ(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cz.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iJ(b),e=iI(b);if(c==e)this.data.fill(c);else
+c=iK(b),e=iJ(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -241,13 +241,13 @@ cz();dO.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aB("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gt();return a};dO.prototype.get=function(a){return this.data[a]};dO.prototype.set=function(a,b){this.data[a]=b;return 0};dO.prototype.fill=function(a){this.data.fill(a);return 0};function
-oA(c,d,a,b){var
-e=oC(c);if(iB(a)*e!=b.length)aB("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gt();return a};dO.prototype.get=function(a){return this.data[a]};dO.prototype.set=function(a,b){this.data[a]=b;return 0};dO.prototype.fill=function(a){this.data.fill(a);return 0};function
+oB(c,d,a,b){var
+e=oD(c);if(iC(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 dO(c,d,a,b);return new
 cz(c,d,a,b)}function
-bC(b){if(!ap.Failure)ap.Failure=[aG,a(im),-3];iM(ap.Failure,b)}function
-oB(b,v,r){var
+bC(b){if(!aq.Failure)aq.Failure=[aG,a(io),-3];iN(aq.Failure,b)}function
+oC(b,v,r){var
 i=b.read32s();if(i<0||i>16)bC("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&b8,o=p>>8&1,h=[];if(r==gn)for(var
 a=0;a<i;a++){var
@@ -255,7 +255,7 @@ n=b.read16u();if(n==b7){var
 t=b.read32u(),u=b.read32u();if(t!=0)bC("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iB(h),f=C7(j,d),g=oA(j,o,h,f);switch(j){case
+d=iC(h),f=C9(j,d),g=oB(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,31 +282,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iH(eS(e));g.set(a,k)}break;case
+k=iI(eS(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iG(b.read32s());g.set(a,k)}break;case
+k=iH(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iG(b.read32s()),l=iG(b.read32s());g.set(a,[gc,m,l])}break;case
+m=iH(b.read32s()),l=iH(b.read32s());g.set(a,[gc,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iH(eS(e));for(var
+m=iI(eS(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iH(eS(e));g.set(a,[gc,m,l])}break}v[0]=(4+i)*4;return oA(j,o,h,f)}function
-oz(a,b,c){return a.compare(b,c)}function
-oT(a,b){return Math.imul(a,b)}function
-b9(b,a){a=oT(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oT(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Di(a,b){a=b9(a,iJ(b));a=b9(a,iI(b));return a}function
-oP(a,b){return Di(a,gv(b))}function
-oD(c){var
-b=iB(c.dims),d=0;switch(c.kind){case
+l=iI(eS(e));g.set(a,[gc,m,l])}break}v[0]=(4+i)*4;return oB(j,o,h,f)}function
+oA(a,b,c){return a.compare(b,c)}function
+oU(a,b){return Math.imul(a,b)}function
+b9(b,a){a=oU(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oU(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Dk(a,b){a=b9(a,iK(b));a=b9(a,iJ(b));return a}function
+oQ(a,b){return Dk(a,gv(b))}function
+oE(c){var
+b=iC(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>nA)b=nA;var
+12:if(b>nB)b=nB;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b9(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=oP(d,c.data[a]);break;case
+a=0;a<b;a++)d=oQ(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=oP(d,c.data[a]);break}return d}function
-Dj(a,b){b[0]=4;return a.read32s()}function
-Dy(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=oQ(d,c.data[a]);break}return d}function
+Dl(a,b){b[0]=4;return a.read32s()}function
+DA(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bC("input_value: native integer value too large");default:bC("input_value: ill-formed native integer")}}function
-Do(c,d){var
+Dq(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eS(b)}function
-Dn(e,d,b){var
+Dp(e,d,b){var
 c=eT(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Dk(a,b,c){return a.compare(b)}function
-Dm(a){return a.lo32()^a.hi32()}var
-oK={"_j":{deserialize:Do,serialize:Dn,fixed_length:8,compare:Dk,hash:Dm},"_i":{deserialize:Dj,fixed_length:4},"_n":{deserialize:Dy,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oB(a,b,"_bigarray")},serialize:oE,compare:oz,hash:oD},"_bigarr02":{deserialize:function(a,b){return oB(a,b,gn)},serialize:oE,compare:oz,hash:oD}};function
-iE(a){return oK[a.caml_custom]&&oK[a.caml_custom].compare}function
-oI(f,c,d,e){var
-b=iE(c);if(b){var
+Dm(a,b,c){return a.compare(b)}function
+Do(a){return a.lo32()^a.hi32()}var
+oL={"_j":{deserialize:Dq,serialize:Dp,fixed_length:8,compare:Dm,hash:Do},"_i":{deserialize:Dl,fixed_length:4},"_n":{deserialize:DA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oC(a,b,"_bigarray")},serialize:oF,compare:oA,hash:oE},"_bigarr02":{deserialize:function(a,b){return oC(a,b,gn)},serialize:oF,compare:oA,hash:oE}};function
+iF(a){return oL[a.caml_custom]&&oL[a.caml_custom].compare}function
+oJ(f,c,d,e){var
+b=iF(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-iL(a){return a
+iM(a){return a
 instanceof
 bR}function
-oR(a){return iL(a)}function
-oJ(a){if(typeof
+oS(a){return iM(a)}function
+oK(a){if(typeof
 a==="number")return gl;else
-if(iL(a))return 252;else
-if(oR(a))return 1252;else
+if(iM(a))return 252;else
+if(oS(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
 b=a[0]|0;return b==gc?0:b}else
 if(a
 instanceof
-String)return n3;else
+String)return n4;else
 if(typeof
-a=="string")return n3;else
+a=="string")return n4;else
 if(a
 instanceof
 Number)return gl;else
-if(a&&a.caml_custom)return ip;else
+if(a&&a.caml_custom)return iq;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Dp(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-oG(a,b){a.t&6&&dR(a);b.t&6&&dR(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-o0(a,b){return oG(a,b)}function
-iD(a,b,d){var
+Dr(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+oH(a,b){a.t&6&&dR(a);b.t&6&&dR(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+o1(a,b){return oH(a,b)}function
+iE(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=oJ(a);if(f==nG){a=a[1];continue}var
-g=oJ(b);if(g==nG){b=b[1];continue}if(f!==g){if(f==gl){if(g==ip)return oI(a,b,-1,d);return-1}if(g==gl){if(f==ip)return oI(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aB(ib);break;case
+f=oK(a);if(f==nH){a=a[1];continue}var
+g=oK(b);if(g==nH){b=b[1];continue}if(f!==g){if(f==gl){if(g==iq)return oJ(a,b,-1,d);return-1}if(g==gl){if(f==iq)return oJ(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aC(ic);break;case
 248:var
-c=Dp(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aB(ib);break;case
-250:aB("equal: got Forward_tag, should not happen");break;case
-251:aB("equal: abstract value");break;case
+c=Dr(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aC(ic);break;case
+250:aC("equal: got Forward_tag, should not happen");break;case
+251:aC("equal: abstract value");break;case
 252:if(a!==b){var
-c=oG(a,b);if(c!=0)return c|0}break;case
-253:aB("equal: got Double_tag, should not happen");break;case
-254:aB("equal: got Double_array_tag, should not happen");break;case
-255:aB("equal: got Custom_tag, should not happen");break;case
-1247:aB(ib);break;case
+c=oH(a,b);if(c!=0)return c|0}break;case
+253:aC("equal: got Double_tag, should not happen");break;case
+254:aC("equal: got Double_array_tag, should not happen");break;case
+255:aC("equal: got Custom_tag, should not happen");break;case
+1247:aC(ic);break;case
 1255:var
-i=iE(a);if(i!=iE(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aB("compare: abstract value");var
+i=iF(a);if(i!=iF(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aC("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,174 +405,174 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Dd(a,b){return iD(a,b,true)}function
-bT(a){if(a<0)aB("Bytes.create");return new
+Df(a,b){return iE(a,b,true)}function
+bT(a){if(a<0)aC("Bytes.create");return new
 bR(a?2:9,S,a)}function
-oL(a,b){return+(iD(a,b,false)==0)}function
-Df(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=S;a.t=2}else{a.c=oZ(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gu(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Dz=0;function
-oN(){return Dz++}function
-Dr(a){return a.toUtf16()}function
+oM(a,b){return+(iE(a,b,false)==0)}function
+Dh(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=S;a.t=2}else{a.c=o0(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gu(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+DB=0;function
+oO(){return DB++}function
+Dt(a){return a.toUtf16()}function
 eU(){return typeof
-D.process!=="undefined"&&typeof
-D.process.versions!=="undefined"&&typeof
-D.process.versions.node!=="undefined"}function
-DM(){function
+E.process!=="undefined"&&typeof
+E.process.versions!=="undefined"&&typeof
+E.process.versions.node!=="undefined"}function
+DO(){function
 a(a){if(a.charAt(0)===bB)return[S,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||S,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||S,f=a[2]||S;return[d,c.substring(d.length+f.length)]}return}return eU()&&D.process&&D.process.platform?D.process.platform==="win32"?b:a:a}var
-iS=DM();function
-o1(a){return a.slice(-1)!==bB?a+bB:a}if(eU()&&D.process&&D.process.cwd)var
-eR=D.process.cwd().replace(/\\/g,bB);else
+d=a[1]||S,f=a[2]||S;return[d,c.substring(d.length+f.length)]}return}return eU()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iT=DO();function
+o2(a){return a.slice(-1)!==bB?a+bB:a}if(eU()&&E.process&&E.process.cwd)var
+eR=E.process.cwd().replace(/\\/g,bB);else
 var
-eR="/static";eR=o1(eR);function
-Dt(a){a=Dr(a);if(!iS(a))a=eR+a;var
-e=iS(a),d=e[1].split(bB),b=[];for(var
+eR="/static";eR=o2(eR);function
+Dv(a){a=Dt(a);if(!iT(a))a=eR+a;var
+e=iT(a),d=e[1].split(bB),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-DH(e){for(var
+DJ(e){for(var
 f=S,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<by){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<by;d++);if(d-c>ni){b.substr(0,1);f+=b;b=S;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<nF){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(by|a&dL)}else
-if(a<0xd800||a>=nL)b+=String.fromCharCode(nN|a>>12,by|a>>6&dL,by|a&dL);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nv||h>nL)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nU|a>>18,by|a>>12&dL,by|a>>6&dL,by|a&dL)}if(b.length>eL){b.substr(0,1);f+=b;b=S}}return f+b}function
-Da(a){var
-b=9;if(!o4(a))b=8,a=DH(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<by;d++);if(d-c>nj){b.substr(0,1);f+=b;b=S;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<nG){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(by|a&dL)}else
+if(a<0xd800||a>=nM)b+=String.fromCharCode(nO|a>>12,by|a>>6&dL,by|a&dL);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nw||h>nM)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nV|a>>18,by|a>>12&dL,by|a>>6&dL,by|a&dL)}if(b.length>eL){b.substr(0,1);f+=b;b=S}}return f+b}function
+Dc(a){var
+b=9;if(!o5(a))b=8,a=DJ(a);return new
 bR(b,a,a.length)}function
-dT(a){return Da(a)}var
-DP=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",np,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",il,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",ir,nu,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dT(a){return Dc(a)}var
+DR=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nq,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",im,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",is,nv,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 c8(d,f,e,a){var
-b=DP.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=DR.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,dT(f||S),dT(e||S)];return c}var
-oU={};function
-c5(a){return oU[a]}function
+oV={};function
+c5(a){return oV[a]}function
 c6(b,a){throw[0,b].concat(a)}function
-C$(a){return new
+Db(a){return new
 bR(4,a,a.length)}function
-ae(a){iM(ap.Sys_error,a)}function
-DC(a){ae(a+f$)}function
-oF(){aB(iw)}function
-C_(b,a){if(a>>>0>=b.l)oF();return iC(b,a)}function
+ae(a){iN(aq.Sys_error,a)}function
+DE(a){ae(a+f$)}function
+oG(){aC(ix)}function
+Da(b,a){if(a>>>0>=b.l)oG();return iD(b,a)}function
 gx(a){return a.l}function
-oy(){}function
-az(a){this.data=a}az.prototype=new
-oy();az.prototype.truncate=function(a){var
-b=this.data;this.data=bT(a|0);eQ(b,0,this.data,0,a)};az.prototype.length=function(){return gx(this.data)};az.prototype.write=function(b,d,g,a){var
+oz(){}function
+aA(a){this.data=a}aA.prototype=new
+oz();aA.prototype.truncate=function(a){var
+b=this.data;this.data=bT(a|0);eQ(b,0,this.data,0,a)};aA.prototype.length=function(){return gx(this.data)};aA.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bT(b+a),f=this.data;this.data=e;eQ(f,0,this.data,0,c)}dP(d,g,this.data,b,a);return 0};az.prototype.read=function(c,a,d,b){var
-e=this.length();eQ(this.data,c,a,d,b);return 0};az.prototype.read_one=function(a){return C_(this.data,a)};az.prototype.close=function(){};az.prototype.constructor=az;function
+e=bT(b+a),f=this.data;this.data=e;eQ(f,0,this.data,0,c)}dP(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
+e=this.length();eQ(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return Da(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
 aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
 c=d.split(bB),b=S;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bB;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bB};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-az(dQ(c[1]))}}};aO.prototype.exists=function(a){if(a==S)return 1;var
+aA(dQ(c[1]))}}};aO.prototype.exists=function(a){if(a==S)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&c5(ih);if(this.exists(c))if(b)c6(b,c8(np,ig,this.nm(c)));else
+b=d&&c5(ii);if(this.exists(c))if(b)c6(b,c8(nq,ih,this.nm(c)));else
 ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||S;if(!this.exists(a))if(b)c6(b,c8(il,ig,this.nm(a)));else
-ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(ir,ig,this.nm(a)));else
-ae(a+iy);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&c5(ih),c=a==S?S:this.slash(a),e=new
-RegExp(iu+c+nw);if(!this.exists(a))if(b)c6(b,c8(il,ic,this.nm(a)));else
-ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(ir,ic,this.nm(a)));else
-ae(a+iy);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||S;if(!this.exists(a))if(b)c6(b,c8(im,ih,this.nm(a)));else
+ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(is,ih,this.nm(a)));else
+ae(a+iz);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&c5(ii),c=a==S?S:this.slash(a),e=new
+RegExp(iv+c+nx);if(!this.exists(a))if(b)c6(b,c8(im,id,this.nm(a)));else
+ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(is,id,this.nm(a)));else
+ae(a+iz);for(var
 d
 in
-this.content)if(d.match(e))if(b)c6(b,c8(nu,ic,this.nm(a)));else
+this.content)if(d.match(e))if(b)c6(b,c8(nv,id,this.nm(a)));else
 ae(this.nm(a)+": Directory not empty");delete
 this.content[c]};aO.prototype.readdir=function(a){var
-f=a==S?S:this.slash(a);if(!this.exists(a))ae(a+f$);if(!this.is_dir(a))ae(a+iy);var
+f=a==S?S:this.slash(a);if(!this.exists(a))ae(a+f$);if(!this.is_dir(a))ae(a+iz);var
 g=new
-RegExp(iu+f+nw),d={},c=[];for(var
+RegExp(iv+f+nx),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==S)return true;var
 b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+of);if(b.text&&b.binary)ae(this.nm(a)+na);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+ob);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+og);if(b.text&&b.binary)ae(this.nm(a)+nb);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+oc);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-az(bT(0));return this.content[a]}else
-DC(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+ob);if(iL(a))b=new
-az(a);if(oR(a))b=new
-az(dQ(a));else
+aA(bT(0));return this.content[a]}else
+DE(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ae(this.nm(c)+oc);if(iM(a))b=new
+aA(a);if(oS(a))b=new
+aA(dQ(a));else
 if(a
 instanceof
 Array)b=new
-az(C$(a));else
+aA(Db(a));else
 if(typeof
 a==="string")b=new
-az(oH(a));else
+aA(oI(a));else
 if(a.toString){var
 d=dQ(dT(a.toString()));b=new
-az(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ae(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-am(a){return gx(a)}function
-c7(b,a){return iC(b,a)}function
-C6(d){var
-c=am(d),b=new
+an(a){return gx(a)}function
+c7(b,a){return iD(b,a)}function
+C8(d){var
+c=an(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=c7(d,a);return b}function
-C5(a){if(a.t!=4)gu(a);return a.c}function
-Dc(a,c,b){b&=b8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gu(a)}a.c[c]=b;return 0}function
-Db(b,a,c){if(a>>>0>=b.l)oF();return Dc(b,a,c)}function
+C7(a){if(a.t!=4)gu(a);return a.c}function
+De(a,c,b){b&=b8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gu(a)}a.c[c]=b;return 0}function
+Dd(b,a,c){if(a>>>0>=b.l)oG();return De(b,a,c)}function
 bS(a){this.fs=require("fs");this.fd=a}bS.prototype=new
-oy();bS.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bS.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bS.prototype.write=function(f,b,c,e){var
-a=C6(b);if(!(a
+oz();bS.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bS.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bS.prototype.write=function(f,b,c,e){var
+a=C8(b);if(!(a
 instanceof
-D.Uint8Array))a=new(D.Uint8Array)(a);var
-d=D.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bS.prototype.read=function(g,d,c,f){var
-a=C5(d);if(!(a
+E.Uint8Array))a=new(E.Uint8Array)(a);var
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bS.prototype.read=function(g,d,c,f){var
+a=C7(d);if(!(a
 instanceof
-D.Uint8Array))a=new(D.Uint8Array)(a);var
-e=D.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)Db(d,c+b,e[c+b]);return 0};bS.prototype.read_one=function(c){var
-b=new(D.Uint8Array)(1),a=D.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bS.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bS.prototype.constructor=bS;function
-aA(a){this.fs=require("fs");this.root=a}aA.prototype.nm=function(a){return this.root+a};aA.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aA.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aA.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.open=function(f,c,g){var
+E.Uint8Array))a=new(E.Uint8Array)(a);var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
+b=0;b<f;b++)Dd(d,c+b,e[c+b]);return 0};bS.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bS.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bS.prototype.constructor=bS;function
+aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aB.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bS(d)}catch(a){this.raise_nodejs_error(a,g)}};aA.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aA.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),mX);return dT(a)}catch(a){this.raise_nodejs_error(a,c)}};aA.prototype.raise_nodejs_error=function(a,d){var
-b=c5(ih);if(d&&b){var
+bS(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),mY);return dT(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
+b=c5(ii);if(d&&b){var
 c=c8(a.code,a.syscall,a.path,a.errno);c6(b,c)}else
-ae(a.toString())};aA.prototype.stats_from_js=function(a){var
+ae(a.toString())};aB.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aA.prototype.constructor=aA;function
-oO(b){var
-a=iS(b);if(!a)return;return a[0]+bB}var
-gy=oO(eR)||bC("unable to compute caml_root"),dU=[];if(eU())dU.push({path:gy,device:new
-aA(gy)});else
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
+oP(b){var
+a=iT(b);if(!a)return;return a[0]+bB}var
+gy=oP(eR)||bC("unable to compute caml_root"),dU=[];if(eU())dU.push({path:gy,device:new
+aB(gy)});else
 dU.push({path:gy,device:new
-aO(gy)});dU.push({path:m6,device:new
-aO(m6)});function
-o8(b){var
-g=Dt(b),b=g.join(bB),f=o1(b),c;for(var
+aO(gy)});dU.push({path:m7,device:new
+aO(m7)});function
+o9(b){var
+g=Dv(b),b=g.join(bB),f=o2(b),c;for(var
 e=0;e<dU.length;e++){var
 a=dU[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eU()){var
-d=oO(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+d=oP(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aA(d)};dU.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-De(c,b){var
-a=o8(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
-o3(c,b){var
-c=a(c),b=a(b);return De(c,b)}function
-Dh(){var
-b=D.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)o3(b[a].name,b[a].content);D.jsoo_create_file=o3;D.caml_fs_tmp=[];return 0}function
-DA(c){var
-a=0,e=am(c),b=10,d=1;if(e>0)switch(c7(c,a)){case
+aB(d)};dU.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
+Dg(c,b){var
+a=o9(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
+o4(c,b){var
+c=a(c),b=a(b);return Dg(c,b)}function
+Dj(){var
+b=E.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)o4(b[a].name,b[a].content);E.jsoo_create_file=o4;E.caml_fs_tmp=[];return 0}function
+DC(c){var
+a=0,e=an(c),b=10,d=1;if(e>0)switch(c7(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&c7(c,a)==48)switch(c7(c,a+1)){case
 120:case
@@ -583,33 +583,33 @@ a=0,e=am(c),b=10,d=1;if(e>0)switch(c7(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-oV(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=or)return a-87;return-1}function
-iK(f){var
-h=DA(f),c=h[0],i=h[1],d=h[2],g=am(f),j=-1>>>0,e=c<g?c7(f,c):0,b=oV(e);if(b<0||b>=d)bC(gf);var
-a=b;for(c++;c<g;c++){e=c7(f,c);if(e==95)continue;b=oV(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(gf)}if(c!=g)bC(gf);a=i*a;if(d==10&&(a|0)!=a)bC(gf);return a|0}function
-Ds(a,b){return+(iD(a,b,false)<=0)}function
-Du(a,d){if(a<0)gt();var
+oW(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=os)return a-87;return-1}function
+iL(f){var
+h=DC(f),c=h[0],i=h[1],d=h[2],g=an(f),j=-1>>>0,e=c<g?c7(f,c):0,b=oW(e);if(b<0||b>=d)bC(gf);var
+a=b;for(c++;c<g;c++){e=c7(f,c);if(e==95)continue;b=oW(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(gf)}if(c!=g)bC(gf);a=i*a;if(d==10&&(a|0)!=a)bC(gf);return a|0}function
+Du(a,b){return+(iE(a,b,false)<=0)}function
+Dw(a,d){if(a<0)gt();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 b_=new
 Array();function
-Dv(c){var
-a=b_[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==S)return 0;if(a.fd&&ap.fds[a.fd]&&ap.fds[a.fd].output){var
-b=ap.fds[a.fd].output;switch(b.length){case
+Dx(c){var
+a=b_[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==S)return 0;if(a.fd&&aq.fds[a.fd]&&aq.fds[a.fd].output){var
+b=aq.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=S;return 0}function
-oY(e,f){var
-b=b_[e],d=a(f),c=am(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-DI(a){var
-a=iO(a),b=D;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+oZ(e,f){var
+b=b_[e],d=a(f),c=an(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+DK(a){var
+a=iP(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-DJ(a){var
-a=iO(a),b=D;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+DL(a){var
+a=iP(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gA(c,e,d,a){if(ap.fds===undefined)ap.fds=new
+gA(c,e,d,a){if(aq.fds===undefined)aq.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ap.fds[c]=b;if(!ap.fd_last_idx||c>ap.fd_last_idx)ap.fd_last_idx=c;return c}function
-DQ(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aq.fds[c]=b;if(!aq.fd_last_idx||c>aq.fd_last_idx)aq.fd_last_idx=c;return c}function
+DS(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,66 +619,66 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dS(c)+of);if(a.text&&a.binary)ae(dS(c)+na);var
-d=o8(c),e=d.device.open(d.rest,a),f=ap.fd_last_idx?ap.fd_last_idx:0;return gA(f+1,oY,e,a)}gA(0,oY,new
-az(bT(0)));gA(1,DJ,new
-az(bT(0)));gA(2,DI,new
-az(bT(0)));function
-Dw(a){var
-c=ap.fds[a];if(c.flags.wronly)ae(oq+a+" is writeonly");var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dS(c)+og);if(a.text&&a.binary)ae(dS(c)+nb);var
+d=o9(c),e=d.device.open(d.rest,a),f=aq.fd_last_idx?aq.fd_last_idx:0;return gA(f+1,oZ,e,a)}gA(0,oZ,new
+aA(bT(0)));gA(1,DL,new
+aA(bT(0)));gA(2,DK,new
+aA(bT(0)));function
+Dy(a){var
+c=aq.fds[a];if(c.flags.wronly)ae(or+a+" is writeonly");var
 d=null;if(a==0&&eU()){var
-e=require("fs");d=function(){return dT(e.readFileSync(0,mX))}}var
+e=require("fs");d=function(){return dT(e.readFileSync(0,mY))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b_[b.fd]=b;return b.fd}function
-oS(c){var
-b=ap.fds[c];if(b.flags.rdonly)ae(oq+c+" is readonly");var
+oT(c){var
+b=aq.fds[c];if(b.flags.rdonly)ae(or+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:S};b_[a.fd]=a;return a.fd}function
-Dx(){var
+Dz(){var
 b=0;for(var
 a=0;a<b_.length;a++)if(b_[a]&&b_[a].opened&&b_[a].out)b=[0,b_[a].fd,b];return b}function
-bh(b,c,a){if(a&&D.toplevelReloc)b=D.toplevelReloc(a);ap[b+1]=c;if(a)ap[a]=c}function
-DE(a,b){oU[dS(a)]=b;return 0}function
-C9(a,b){if(a===b)return 1;a.t&6&&dR(a);b.t&6&&dR(b);return a.c==b.c?1:0}function
-an(a,b){return C9(a,b)}function
-DG(){aB(iw)}function
-aH(b,a){if(a>>>0>=am(b))DG();return c7(b,a)}function
-m(a,b){return 1-an(a,b)}function
+bi(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);aq[b+1]=c;if(a)aq[a]=c}function
+DG(a,b){oV[dS(a)]=b;return 0}function
+C$(a,b){if(a===b)return 1;a.t&6&&dR(a);b.t&6&&dR(b);return a.c==b.c?1:0}function
+ao(a,b){return C$(a,b)}function
+DI(){aC(ix)}function
+aH(b,a){if(a>>>0>=an(b))DI();return c7(b,a)}function
+m(a,b){return 1-ao(a,b)}function
 gz(a){return a}function
-oX(a){return a}function
-o2(a){if(a
+oY(a){return a}function
+o3(a){if(a
 instanceof
-Array)return a;if(D.RangeError&&a
+Array)return a;if(E.RangeError&&a
 instanceof
-D.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oX(ap.Stack_overflow);if(D.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oY(aq.Stack_overflow);if(E.InternalError&&a
 instanceof
-D.InternalError&&a.message&&a.message.match(/too much recursion/i))return oX(ap.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oY(aq.Stack_overflow);if(a
 instanceof
-D.Error&&c5(nD))return[0,c5(nD),a];return[0,ap.Failure,dT(String(a))]}function
+E.Error&&c5(nE))return[0,c5(nE),a];return[0,aq.Failure,dT(String(a))]}function
 c9(a){return a<0?-a:a}function
 z(a,b){return a+b}function
-iP(a,b){return a<b?-1:a>b?1:0}function
-o5(c,b){var
+iQ(a,b){return a<b?-1:a>b?1:0}function
+o6(c,b){var
 a=c%b;return a<0?a+c9(b):a}function
-iQ(a,b){return(a-o5(a,b))/b}function
+iR(a,b){return(a-o6(a,b))/b}function
 Z(a,b){return a==b?1:0}function
-DN(c){D.orthocert_verify=function(b){return dS(c4(c,[a(b)]))}}function
+DP(c){E.orthocert_verify=function(b){return dS(c4(c,[a(b)]))}}function
 G(a,b){return a<=b?1:0}function
 V(a,b){return a<b?1:0}function
 v(a,b){return a*b}function
 M(a){return-a}function
-aE(a){return D.BigInt(a)}function
-o6(a,b){return a<<D.BigInt(b)}function
-o7(a,b){return a>>D.BigInt(b)}function
-a4(a){return a<0?-1:a>0?1:0}function
-DO(a){if(a<0)throw new(D.Error)("a root of a negative number");if(a<2)return a;var
-d=D.BigInt(1),b=d<<D.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aC(a,b){return a-b}function
-iR(a){if(a>0x7fffffff||a<-0x80000000)throw new(D.Error)("a number of more than 32 bits");return D.Number(a)}function
-Dq(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Dg(b){var
-a=S;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Dq(b[1]))var
+aF(a){return E.BigInt(a)}function
+o7(a,b){return a<<E.BigInt(b)}function
+o8(a,b){return a>>E.BigInt(b)}function
+a5(a){return a<0?-1:a>0?1:0}function
+DQ(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aD(a,b){return a-b}function
+iS(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+Ds(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Di(b){var
+a=S;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ds(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=nE;for(var
+f=2,e=b;a+=nF;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -687,35 +687,35 @@ instanceof
 bR)a+=aw+c.toString()+aw;else
 if(typeof
 c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=it}else
+a+="_"}a+=iu}else
 if(b[0]==aG)a+=b[1];return a}function
-oM(a){if(a
+oN(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aG)){var
 c=c5("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Dg(a),b=c5(mW);if(b)b(0);D.console.error("Fatal error: exception "+d+"\n")}}else
+d=Di(a),b=c5(mX);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-DF(){var
-a=D;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oM(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oM(a.error)})}DF();function
+DH(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oN(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oN(a.error)})}DH();function
 k(a,b){return a.length==1?a(b):c4(a,[b])}function
 at(a,b,c){return a.length==2?a(b,c):c4(a,[b,c])}function
-C4(a,b,c,d){return a.length==3?a(b,c,d):c4(a,[b,c,d])}Dh();var
-iU=[aG,a(ns),-2],iT=[aG,a(ox),-4],BZ=[0,0],B0=[0,0],B1=[0,[0,0]],B2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],f0=[0,[1,0],0],md=[0,[2,0],0],hS=[0,[1,0],0],mc=[0,[2,0],0],fY=[0,[1,0],0],hR=[0,[2,0],0],B3=[0,[0,[0,[0,0]]]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],B5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,0]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,0]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,0],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,0]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,0],CW=[0,[0,0]],CX=[0,0],CY=[0,[0,[0,[0,[0,0]]]]],jk=[0,[0,[0,0]]],cI=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fL=[0,[0,[0,[0,0]]]],CZ=[0,[0,[0,[0,[0,0]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]];bh(11,[aG,a(mV),-12],mV);bh(10,[aG,a(nJ),-11],nJ);bh(9,[aG,a(op),-10],op);bh(8,[aG,a(m7),-9],m7);bh(7,[aG,a(nW),-8],nW);bh(6,[aG,a(m5),-7],m5);bh(5,[aG,a(nt),-6],nt);bh(4,[aG,a(ny),-5],ny);bh(3,iT,ox);bh(2,[aG,a(im),-3],im);bh(1,iU,ns);bh(0,[aG,a(n_),-1],n_);var
-o9=a("String.sub / Bytes.sub"),o$=a(S),o_=a("String.concat"),pa=a("Array.init"),pb=a("power"),pm=[0,0],pp=[0,0],pq=[0,[0,0]],pr=[0,[0,0]],pz=[0,0],pA=[0,0],pG=[0,0,0],pH=[0,0,0],pI=[0,0],p1=[0,0],p2=[0,0],p5=[0,0],ql=[0,0],qo=[0,0],qq=[0,0],qr=[0,0],qy=[0,0],qz=[0,0],qX=[0,[0,[0,0]]],rh=[0,0],rD=a(","),rV=[0,a(it),0],rW=a(nE),rX=a("."),rY=[0,[0,[0,0]]],rZ=a(eK),r0=a(iu),r1=[0,[0,[0,[0,[0,0]]]]],r2=[0,a(it),0],r3=a(ou),uX=a(mS),uZ=a(mP),uY=a(nM),u0=a(dJ),u1=a(gb),u2=a(ow),u3=a(oi),u4=a(nm),u5=a(nY),wf=[0,0],wg=a(f_),wh=[0,0],wi=a("divided"),wj=[0,1],wk=a("mirror"),wl=[0,3],wm=a("negative"),wn=[0,2],wo=a(eJ),wp=[0,5],wq=a(iA),wr=[0,4],ws=a(eF),wt=a(m_),wu=a(eG),wv=a(bQ),ww=[0,0],wx=[0,0],wy=[0,0],xf=a(S),xc=[0,[0,[0,[0,0]]]],xd=[0,[0,[0,[0,0]]]],xa=[0,[0,[0,0]]],w$=[0,0],w_=a(eG),w9=[0,[0,[0,0]]],w8=[0,0],w5=[0,[0,0]],w6=[0,[0,[0,0]]],w1=[0,[0,[0,0]]],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0],wV=[0,[0,[0,0]]],wP=[0,[0,0]],wQ=[0,[0,[0,0]]],wR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,BZ]]]]]]]]]]],wS=[0,[0,0]],wT=[0,[0,[0,0]]],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B0]]]]]]]]]]],wM=[0,[0,0]],wN=[0,[0,[0,0]]],wK=[0,[0,[0,0]]],wL=[0,[0,0]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],wI=[0,0],wH=[0,0],wE=[0,[0,0]],wF=[0,0],wC=[0,0],wD=[0,1],wB=[0,[0,0]],wA=[0,0],wc=[0,0],wd=[0,1],we=[0,2],v_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v8=[0,[0,0],0],v9=[0,[1,0],0],v$=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v6=[0,[0,0]],v7=[0,0],v5=[0,0],v3=[0,0],v4=[0,0],v2=[0,0],v1=[0,0],v0=[0,0,0],vY=[0,[0,0]],vZ=[0,0],vX=[0,0,0],vV=[0,[0,[0,0]]],vW=[0,[0,[0,0]]],vU=[0,0],vS=[0,1,0],vK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],vL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],vH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],vI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],vM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],vN=a("sqrt"),vE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],vF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],vt=[0,a("\n"),0],vu=a(mQ),vv=a(ga),vw=a(nI),vx=a(nq),vD=a(eM),vy=a(eI),vz=a("verdict"),vA=a(n$),vB=a(nj),vC=a(nH),vq=a(nC),vr=a(od),vs=a(gd),vm=a(nS),vn=a(ge),vo=a(eI),vp=a(eM),vh=a(gm),vi=a(a3),vj=a(mR),vk=a(gj),ve=a(n9),vf=a(eJ),vg=a(gj),va=a(nV),vb=a(gm),vc=a(ge),vd=a(on),u7=a(oe),u8=a(oh),u9=a(nz),u_=a(gg),uV=a(id),uW=a(gp),uQ=a(bg),uR=a(bf),uS=a(nl),uq=a(gg),ur=a(nZ),t6=a(a3),t7=a(bA),t8=a(go),t9=a(dM),t_=a(c2),ud=a(ie),t$=a(iv),ua=a(ix),ub=a(dI),uc=a(a3),ue=a(bA),uf=a(go),ug=a(dM),uh=a(iv),ui=a(ix),uj=a(dI),uk=a(a3),ul=a(bA),um=a(bg),un=a(bf),uo=a(c0),up=a(dM),us=a(n5),ut=a(og),uu=a(gs),uv=a(m$),uw=a(ne),ux=a(dI),uy=a(a3),uz=a(bA),uA=a(f8),uB=a(no),uC=a(dM),uD=a(eP),uE=a(mZ),uF=a(dI),uG=a(a3),uH=a(f8),uI=a(a3),uJ=a(n1),uM=a(mO),uK=a(nc),uL=a(om),uN=a(eM),uO=a(eI),uP=a(a3),uT=a(gs),uU=a(gd),t1=a(bA),t2=a(dM),t3=a(ie),t4=a(dI),t0=a(os),tO=a(eP),tP=a(oa),tQ=a(c1),tR=a(dK),tS=a(dK),tT=a(ii),tU=a(c1),tV=a(nK),tW=a(nk),tX=a(aT),tZ=a(mU),tY=a(ii),tE=a(nB),tF=a(ov),tG=a(ng),tH=a(nd),tI=a(ok),tJ=a(n8),tK=a(nr),tL=a(f9),tM=a(f9),tA=a(aT),tB=a(be),tC=a(dN),tD=a(bz),tw=a(c2),tx=a(iq),ty=a(nT),tt=a(bg),tu=a(bf),tv=a(c0),tm=a(bg),tn=a(bf),to=a(c0),tp=a(is),tq=a(c1),tr=a(io),ts=a(n4),s_=a(nb),te=a(ga),td=a(ol),s$=a(ij),ta=a(gi),th=a(eH),ti=a(ij),tf=a(eH),tg=a(gi),tj=a(m9),tk=a(n2),tl=a(gi),tb=a(dK),tc=a(nP),s7=a(gh),s8=a(gh),s9=a(gh),s3=a(n6),s4=a(bf),s5=a(bg),s6=a(oj),sN=a(m3),sO=a(mT),sP=a(nX),sQ=a(dJ),sR=a(ot),sS=a(n0),sT=a(m4),sU=a(nQ),sV=a(m2),sW=a(nn),sX=a(m1),sY=a(n7),sZ=a(gb),s0=a(mY),s1=a(oc),s2=a(nf),ss=a(gk),su=a(eK),st=a(eE),sv=a(dH),sw=a(aT),sx=a(be),sy=a(bQ),sz=a(gq),sA=a(bz),sB=a(aT),sC=a(be),sD=a(dN),sE=a(bz),sF=a(dH),sG=a(eO),sH=a(aT),sI=a(be),sJ=a(nO),sK=a(eH),sL=a(eO),sM=a(bz),sa=a(gk),si=a(eK),sb=a(eE),sc=a(dH),sd=a(aT),se=a(be),sf=a(bQ),sg=a(gq),sh=a(bz),sj=a(gr),sk=a(aT),sl=a(be),sm=a(dN),sn=a(bz),so=a(bQ),sp=a(c2),sq=a(bz),r9=a(bg),r_=a(bf),r7=[0,a(aw),0],r8=a(aw),r5=a(S),r4=[0,a(aw),0],r6=a(aw),rR=a(gk),rS=a(eK),rT=a("*"),rU=a(bB),rM=[0,[0,[0,[0,[0,0]]]]],rN=[0,[0,[0,0]]],rO=[0,[0,0]],rP=[0,0],rQ=[0,[0,[0,[0,0]]]],rK=a('":'),rL=a(aw),rI=[0,a(aw),0],rJ=a(aw),rG=[0,a("}"),0],rH=a("{"),rE=[0,a("]"),0],rF=a("["),rC=[0,[0,[0,0]]],rB=[0,[0,[0,0]]],rz=[0,0],rw=[0,[0,[0,0]]],rx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ry=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ru=[0,[0,0]],rv=[0,[0,[0,0]]],rr=[0,0],rs=[0,[0,[0,[0,[0,[0,0]]]]]],rt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],ro=[0,0],rl=[0,0,0],rm=[0,0,0],rn=[0,0,0],ri=[0,[0,0]],rj=[0,[0,[0,0]]],rk=[0,0],q9=[0,[0,[0,[0,[0,[0,0]]]]]],q_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q$=[0,[0,[0,0]]],ra=[0,[0,[0,0]]],rb=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],re=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],rf=[0,[0,[0,0]]],rg=[0,[0,[0,[0,[0,[0,0]]]]]],q7=[0,[0,0]],q8=[0,[0,[0,0]]],q3=[0,0,0],q4=[0,0,0],q1=[0,0],q2=[0,0],q0=[0,0],qY=[0,0],qZ=[0,0],qV=[0,[0,0]],qW=[0,[0,[0,0]]],qT=[0,[0,[0,0]]],qU=[0,[0,0]],qO=[0,0],qP=[0,0],qQ=[0,0],qR=[0,[0,[0,0]]],qK=[0,[0,0]],qL=[0,0],qM=[0,0],qN=[0,[0,0]],qB=[0,[0,0]],qC=[0,0],qD=[0,[0,0]],qE=[0,0],qF=[0,0],qG=[0,[0,0]],qH=[0,[0,0]],qI=[0,[0,0]],qJ=[0,0],qx=[0,0],qw=[0,0],qu=[0,[0,[0,0]]],qt=[0,[0,[0,[0,[0,[0,0]]]]]],qp=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qk=[0,[0,[0,0]]],qi=[0,[0,[0,[0,[0,[0,0]]]]]],qj=[0,[0,[0,[0,[0,[0,0]]]]]],qe=[0,[0,0]],qf=[0,0],qg=[0,[0,[0,0]]],qh=[0,[0,[0,0]]],p9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],p_=[0,[0,[0,[0,[0,[0,0]]]]]],p$=[0,[0,[0,[0,[0,[0,0]]]]]],qa=[0,[0,[0,0]]],qb=[0,[0,[0,[0,[0,[0,0]]]]]],qc=[0,[0,[0,0]]],qd=[0,[0,[0,0]]],p7=[0,[0,0]],p8=[0,0],p6=[0,0,0],p4=[0,0,0],p3=[0,[0,[0,0]]],pZ=[0,0],p0=[0,0],pU=[0,[0,[0,0]]],pV=[0,[0,[0,0]]],pW=[0,[0,[0,0]]],pT=[0,[0,[0,[0,0]]]],pP=[0,[0,[0,0]]],pQ=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pN=[0,[0,0]],pO=[0,0],pL=[0,[0,0]],pM=[0,0],pJ=[0,[0,0]],pK=[0,0],pu=[0,0],pv=[0,[0,0]],pw=[0,0],px=[0,[0,0]],ps=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],pn=[0,0,0],pl=a(iz),pk=a(S),pj=[0,[0,0]],pi=[0,0],pf=[0,0],ph=[1,0],pg=[0,0],pe=[0,0],pc=[1,0],pd=[1,0],qv=[10,0,0,0,0],w7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],Aj=a(bg),Ak=a(bf),Al=a(nl),Aa=a(gr),Ab=[0,a("a base axis of such a platform"),0],Ac=a(aT),Ad=a(be),zZ=a(n8),z0=a(nB),z1=a(ok),z2=a(f9),z3=a(nr),z4=a(f9),z5=a(ov),z6=a(ng),z7=a(nd),zP=a(nZ),zQ=a(gg),zr=[0,a("such a machine with bodies"),0],ze=a(gd),zf=a(a3),zg=a(n1),zh=a(om),zk=a(nc),zl=a(mO),zm=a(a3),zn=a(a3),zp=a(f8),zo=[0,a("a claim that no cube of such a machine fits"),0],zq=a(os),zs=a(dI),zt=a(dM),zu=a(c2),zv=a(iq),zw=a(nT),zx=a(go),zy=a(ne),zz=a(mZ),zA=a(ie),zD=a(c0),zE=a(n4),zH=a(bA),zI=a(bA),zJ=a(no),zK=a(bA),zL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],zM=a(f8),zN=a(eP),zO=a(c0),zR=a(bA),zS=a(bg),zT=a(bf),zU=a(n5),zV=a(og),zW=a(gs),zX=a(m$),zB=[0,a(aw),0],zC=a('the mechanism "'),zY=a(iv),z8=a(go),z9=a(c2),z_=a(iq),z$=a(ix),Ae=a(bA),Af=[0,a('"one_to_one" of this set of orientations'),0],Ai=a(c2),Ag=[0,a("a platform that turns on struts and other drives"),0],Ah=a(bA),zF=[0,a(aw),0],zG=a('the workspace "'),Am=a(a3),An=a(a3),Ap=a(eM),Aq=a(eI),Ar=a(gs),Ao=[0,a("an atlas of such a machine"),0],zi=[0,a(aw),0],zj=a('a claim of the kind "'),Aw=a(ow),AD=a(gb),AE=a(dJ),AF=a(nm),AG=a(nM),AH=a(bQ),AI=a(gp),AJ=a(id),AK=a(bQ),AL=a(iz),Ax=a(eF),Ay=a(m_),Az=a(eG),AA=a(nY),AB=[0,a(aw),0],AC=a('the evidence "'),AM=a(eF),AN=a(gp),AO=[0,1,1],AP=a(dJ),AQ=a(eF),AR=a(eG),AS=a(oi),AU=a(dJ),AV=a(eF),AW=a(eG),AX=a(eJ),AY=a(f_),AZ=a(eJ),A0=a(f_),AT=[0,a("this evidence at control points"),0],BS=a('"orthocert-paving/'),Bx=a(nH),By=a(nj),Bz=a(n$),BQ=[0,3,3],BA=a(nq),BK=[0,a("this set of orientations with such drives"),0],BL=[0,a(nx),0],BO=[0,a(nx),0],BP=[0,a("a mechanism by formulas in a claim that is refuted"),0],BM=[0,a('the evidence "tolerances" of such a mechanism'),0],BN=[0,a("a step of a platform that turns that is not at control points"),0],BB=[0,a("the acceleration of a joint of a machine with a plane"),0],BJ=[0,a("this quantity in a claim that is refuted"),0],BI=[0,a("a step in a proof that no cube fits"),0],BH=[0,a("a stiffness for each joint in such a claim"),0],BG=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BF=[0,a("a leaf that fails"),0],BC=a(nI),BD=a(mQ),BE=a(ga),Bt=a(iA),Bu=a(f_),Bv=a(bQ),Bm=a(gd),Bn=a(nC),Bo=a(od),Bp=[0,a(aw),0],Bq=a('a proof of the kind "'),Bi=a(eI),Bj=a(eM),Bk=a(ge),Bl=a(nS),Be=a(a3),Bf=a(gm),Bg=a(mR),Bh=a(gj),Bb=a(n9),Bc=a(eJ),Bd=a(gj),A9=a(nV),A_=a(gm),A$=a(ge),Ba=a(on),A3=a(oh),A4=a(nz),A5=a(oe),A6=a(gg),A7=[0,a(aw),0],A8=a('the failure "'),A1=a(iA),A2=a(iz),Au=a(gp),Av=a(id),As=a(mP),At=a(mS),zb=a(eP),y3=a(ii),y4=a(mU),y5=a(dK),y6=a(aT),y$=a(oa),za=a(eP),zc=a(c1),zd=a(dK),y7=a(c1),y8=a(nK),y9=a(nk),y_=a(aT),yW=a(c0),y0=a(bg),y1=a(bf),yX=a(io),yY=a(is),yZ=a(c1),yQ=a(c0),yU=a(bg),yV=a(bf),yR=a(io),yS=a(is),yT=a(c1),yP=[0,1],yO=[0,1],yM=[0,1],yL=[0,1],yJ=[0,1],yK=[0,a("this quantity of such a mechanism"),0],yr=a(ij),ys=[0,a("a stiffness for each joint of such a mechanism"),0],yt=a(n2),yu=a(m9),yv=a(ol),yw=a("max_angle"),yx=[0,a("accuracy of a platform that turns"),0],yy=a(eH),yq=a(ga),yi=a(gh),x9=a(nP),x_=a(nX),yB=a(gb),yC=a(oc),yD=a(nn),yE=a(dJ),yF=a(nQ),yG=a(m1),yH=a(m2),yI=a(mT),x$=a(mY),ya=a(n7),yb=a(n0),yc=a(nf),yd=a(ot),ye=a(m4),yf=a(m3),yg=[0,a(aw),0],yh=a('the quantity "'),yj=a(nb),yk=a(n6),yl=a(bg),ym=a(bf),yn=a(oj),yo=[0,a(aw),0],yp=a('a bound "'),yz=a(gi),yA=a(dK),x7=a(bz),x8=a(dN),xM=a(bz),xN=a(gr),xO=a(eO),xP=a(gq),xQ=a(dN),xT=a(aT),xU=a(be),xV=a(eE),xW=a(dH),xX=a(aT),xY=a(be),xZ=a(bQ),x0=a(eE),x1=a(dH),x2=a(eO),x3=a(aT),x4=a(be),x5=a(nO),x6=a(eH),xR=[0,a('" of such a machine'),0],xS=a(m8),xK=a(bz),xL=a(eO),xu=a(bz),xv=a(c2),xw=a(gq),xx=a(dN),xA=a(gr),xB=a(aT),xC=a(be),xD=a(eE),xE=a(dH),xF=a(aT),xG=a(be),xH=a(bQ),xI=a(bQ),xy=[0,a(aw),0],xz=a(m8),xr=a(gk),xs=a(eK),xp=a(" is not covered by the verified checker"),xq=a(S),xn=a(bg),xo=a(bf),xj=a(S),xk=a(ou),xl=a(S),xm=a(S),xi=[1,0],xg=a("Reader.Malformed"),xh=a("Reader.Not_covered"),BU=[0,a("a paving is checked by orthocert-verified")],BT=a(nR),BV=a("CERTIFIED"),BW=a("REFUTED"),BX=a(nR),BY=a("NOT COVERED: ");function
-eV(a){throw[0,iT,a]}function
+C6(a,b,c,d){return a.length==3?a(b,c,d):c4(a,[b,c,d])}Dj();var
+iV=[aG,a(nt),-2],iU=[aG,a(oy),-4],B1=[0,0],B2=[0,0],B3=[0,[0,0]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],f0=[0,[1,0],0],me=[0,[2,0],0],hT=[0,[1,0],0],md=[0,[2,0],0],fY=[0,[1,0],0],hS=[0,[2,0],0],B5=[0,[0,[0,[0,0]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,0]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,0],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,0]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,0],CY=[0,[0,0]],CZ=[0,0],C0=[0,[0,[0,[0,[0,0]]]]],jl=[0,[0,[0,0]]],cI=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fL=[0,[0,[0,[0,0]]]],C1=[0,[0,[0,[0,[0,0]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]];bi(11,[aG,a(mW),-12],mW);bi(10,[aG,a(nK),-11],nK);bi(9,[aG,a(oq),-10],oq);bi(8,[aG,a(m8),-9],m8);bi(7,[aG,a(nX),-8],nX);bi(6,[aG,a(m6),-7],m6);bi(5,[aG,a(nu),-6],nu);bi(4,[aG,a(nz),-5],nz);bi(3,iU,oy);bi(2,[aG,a(io),-3],io);bi(1,iV,nt);bi(0,[aG,a(n$),-1],n$);var
+o_=a("String.sub / Bytes.sub"),pa=a(S),o$=a("String.concat"),pb=a("Array.init"),pc=a("power"),pn=[0,0],pq=[0,0],pr=[0,[0,0]],ps=[0,[0,0]],pA=[0,0],pB=[0,0],pH=[0,0,0],pI=[0,0,0],pJ=[0,0],p2=[0,0],p3=[0,0],p6=[0,0],qn=[0,0],qq=[0,0],qs=[0,0],qt=[0,0],qA=[0,0],qB=[0,0],qZ=[0,[0,[0,0]]],rj=[0,0],rF=a(","),rX=[0,a(iu),0],rY=a(nF),rZ=a("."),r0=[0,[0,[0,0]]],r1=a(eK),r2=a(iv),r3=[0,[0,[0,[0,[0,0]]]]],r4=[0,a(iu),0],r5=a(ov),uZ=a(mT),u1=a(mQ),u0=a(nN),u2=a(dJ),u3=a(gb),u4=a(ox),u5=a(oj),u6=a(nn),u7=a(nZ),wh=[0,0],wi=a(f_),wj=[0,0],wk=a("divided"),wl=[0,1],wm=a("mirror"),wn=[0,3],wo=a("negative"),wp=[0,2],wq=a(eJ),wr=[0,5],ws=a(iB),wt=[0,4],wu=a(eF),wv=a(m$),ww=a(eG),wx=a(bQ),wy=[0,0],wz=[0,0],wA=[0,0],xh=a(S),xe=[0,[0,[0,[0,0]]]],xf=[0,[0,[0,[0,0]]]],xc=[0,[0,[0,0]]],xb=[0,0],xa=a(eG),w$=[0,[0,[0,0]]],w_=[0,0],w7=[0,[0,0]],w8=[0,[0,[0,0]]],w3=[0,[0,[0,0]]],w2=[0,0,0],w0=[0,[0,0]],w1=[0,0],wZ=[0,0],wX=[0,[0,[0,0]]],wR=[0,[0,0]],wS=[0,[0,[0,0]]],wT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],wU=[0,[0,0]],wV=[0,[0,[0,0]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],wO=[0,[0,0]],wP=[0,[0,[0,0]]],wM=[0,[0,[0,0]]],wN=[0,[0,0]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],wK=[0,0],wJ=[0,0],wG=[0,[0,0]],wH=[0,0],wE=[0,0],wF=[0,1],wD=[0,[0,0]],wC=[0,0],we=[0,0],wf=[0,1],wg=[0,2],wa=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v_=[0,[0,0],0],v$=[0,[1,0],0],wb=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v8=[0,[0,0]],v9=[0,0],v7=[0,0],v5=[0,0],v6=[0,0],v4=[0,0],v3=[0,0],v2=[0,0,0],v0=[0,[0,0]],v1=[0,0],vZ=[0,0,0],vX=[0,[0,[0,0]]],vY=[0,[0,[0,0]]],vW=[0,0],vU=[0,1,0],vM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],vN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],vI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],vK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],vL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],vP=a("sqrt"),vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],vH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],vv=[0,a("\n"),0],vw=a(mR),vx=a(ga),vy=a(nJ),vz=a(nr),vF=a(eM),vA=a(eI),vB=a("verdict"),vC=a(oa),vD=a(nk),vE=a(nI),vs=a(nD),vt=a(oe),vu=a(gd),vo=a(nT),vp=a(ge),vq=a(eI),vr=a(eM),vj=a(gm),vk=a(a4),vl=a(mS),vm=a(gj),vg=a(n_),vh=a(eJ),vi=a(gj),vc=a(nW),vd=a(gm),ve=a(ge),vf=a(oo),u9=a(of),u_=a(oi),u$=a(nA),va=a(gg),uX=a(ie),uY=a(gp),uS=a(bh),uT=a(bg),uU=a(nm),us=a(gg),ut=a(n0),t8=a(a4),t9=a(bA),t_=a(go),t$=a(dM),ua=a(c2),uf=a(ig),ub=a(iw),uc=a(iy),ud=a(dI),ue=a(a4),ug=a(bA),uh=a(go),ui=a(dM),uj=a(iw),uk=a(iy),ul=a(dI),um=a(a4),un=a(bA),uo=a(bh),up=a(bg),uq=a(c0),ur=a(dM),uu=a(n6),uv=a(oh),uw=a(gs),ux=a(na),uy=a(nf),uz=a(dI),uA=a(a4),uB=a(bA),uC=a(f8),uD=a(np),uE=a(dM),uF=a(eP),uG=a(m0),uH=a(dI),uI=a(a4),uJ=a(f8),uK=a(a4),uL=a(n2),uO=a(mP),uM=a(nd),uN=a(on),uP=a(eM),uQ=a(eI),uR=a(a4),uV=a(gs),uW=a(gd),t3=a(bA),t4=a(dM),t5=a(ig),t6=a(dI),t2=a(ot),tQ=a(eP),tR=a(ob),tS=a(c1),tT=a(dK),tU=a(dK),tV=a(ij),tW=a(c1),tX=a(nL),tY=a(nl),tZ=a(aU),t1=a(mV),t0=a(ij),tG=a(nC),tH=a(ow),tI=a(nh),tJ=a(ne),tK=a(ol),tL=a(n9),tM=a(ns),tN=a(f9),tO=a(f9),tC=a(aU),tD=a(bf),tE=a(dN),tF=a(bz),ty=a(c2),tz=a(ir),tA=a(nU),tv=a(bh),tw=a(bg),tx=a(c0),to=a(bh),tp=a(bg),tq=a(c0),tr=a(it),ts=a(c1),tt=a(ip),tu=a(n5),ta=a(nc),tg=a(ga),tf=a(om),tb=a(ik),tc=a(gi),tj=a(eH),tk=a(ik),th=a(eH),ti=a(gi),tl=a(m_),tm=a(n3),tn=a(gi),td=a(dK),te=a(nQ),s9=a(gh),s_=a(gh),s$=a(gh),s5=a(n7),s6=a(bg),s7=a(bh),s8=a(ok),sP=a(m4),sQ=a(mU),sR=a(nY),sS=a(dJ),sT=a(ou),sU=a(n1),sV=a(m5),sW=a(nR),sX=a(m3),sY=a(no),sZ=a(m2),s0=a(n8),s1=a(gb),s2=a(mZ),s3=a(od),s4=a(ng),su=a(gk),sw=a(eK),sv=a(eE),sx=a(dH),sy=a(aU),sz=a(bf),sA=a(bQ),sB=a(gq),sC=a(bz),sD=a(aU),sE=a(bf),sF=a(dN),sG=a(bz),sH=a(dH),sI=a(eO),sJ=a(aU),sK=a(bf),sL=a(nP),sM=a(eH),sN=a(eO),sO=a(bz),sc=a(gk),sk=a(eK),sd=a(eE),se=a(dH),sf=a(aU),sg=a(bf),sh=a(bQ),si=a(gq),sj=a(bz),sl=a(gr),sm=a(aU),sn=a(bf),so=a(dN),sp=a(bz),sq=a(bQ),sr=a(c2),ss=a(bz),r$=a(bh),sa=a(bg),r9=[0,a(aw),0],r_=a(aw),r7=a(S),r6=[0,a(aw),0],r8=a(aw),rT=a(gk),rU=a(eK),rV=a("*"),rW=a(bB),rO=[0,[0,[0,[0,[0,0]]]]],rP=[0,[0,[0,0]]],rQ=[0,[0,0]],rR=[0,0],rS=[0,[0,[0,[0,0]]]],rM=a('":'),rN=a(aw),rK=[0,a(aw),0],rL=a(aw),rI=[0,a("}"),0],rJ=a("{"),rG=[0,a("]"),0],rH=a("["),rE=[0,[0,[0,0]]],rD=[0,[0,[0,0]]],rB=[0,0],ry=[0,[0,[0,0]]],rz=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rw=[0,[0,0]],rx=[0,[0,[0,0]]],rt=[0,0],ru=[0,[0,[0,[0,[0,[0,0]]]]]],rv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],rq=[0,0],rn=[0,0,0],ro=[0,0,0],rp=[0,0,0],rk=[0,[0,0]],rl=[0,[0,[0,0]]],rm=[0,0],q$=[0,[0,[0,[0,[0,[0,0]]]]]],ra=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rb=[0,[0,[0,0]]],rc=[0,[0,[0,0]]],rd=[0,[0,[0,[0,[0,[0,0]]]]]],re=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],rg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],rh=[0,[0,[0,0]]],ri=[0,[0,[0,[0,[0,[0,0]]]]]],q9=[0,[0,0]],q_=[0,[0,[0,0]]],q5=[0,0,0],q6=[0,0,0],q3=[0,0],q4=[0,0],q2=[0,0],q0=[0,0],q1=[0,0],qX=[0,[0,0]],qY=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qW=[0,[0,0]],qQ=[0,0],qR=[0,0],qS=[0,0],qT=[0,[0,[0,0]]],qM=[0,[0,0]],qN=[0,0],qO=[0,0],qP=[0,[0,0]],qD=[0,[0,0]],qE=[0,0],qF=[0,[0,0]],qG=[0,0],qH=[0,0],qI=[0,[0,0]],qJ=[0,[0,0]],qK=[0,[0,0]],qL=[0,0],qz=[0,0],qy=[0,0],qw=[0,[0,[0,0]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qr=[0,[0,[0,0]]],qo=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qk=[0,[0,[0,[0,[0,[0,0]]]]]],ql=[0,[0,[0,[0,[0,[0,0]]]]]],qf=[0,[0,0]],qg=[0,0],qh=[0,[0,0]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],p$=[0,[0,[0,[0,[0,[0,0]]]]]],qa=[0,[0,[0,[0,[0,[0,0]]]]]],qb=[0,[0,[0,0]]],qc=[0,[0,[0,[0,[0,[0,0]]]]]],qd=[0,[0,[0,0]]],qe=[0,[0,[0,0]]],p8=[0,[0,0]],p9=[0,0],p7=[0,0,0],p5=[0,0,0],p4=[0,[0,[0,0]]],p0=[0,0],p1=[0,0],pV=[0,[0,[0,0]]],pW=[0,[0,[0,0]]],pX=[0,[0,[0,0]]],pU=[0,[0,[0,[0,0]]]],pQ=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,[0,0]]],pT=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pO=[0,[0,0]],pP=[0,0],pM=[0,[0,0]],pN=[0,0],pK=[0,[0,0]],pL=[0,0],pv=[0,0],pw=[0,[0,0]],px=[0,0],py=[0,[0,0]],pt=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],po=[0,0,0],pm=a(iA),pl=a(S),pk=[0,[0,0]],pj=[0,0],pg=[0,0],pi=[1,0],ph=[0,0],pf=[0,0],pd=[1,0],pe=[1,0],qx=[10,0,0,0,0],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],Al=a(bh),Am=a(bg),An=a(nm),Ac=a(gr),Ad=[0,a("a base axis of such a platform"),0],Ae=a(aU),Af=a(bf),z1=a(n9),z2=a(nC),z3=a(ol),z4=a(f9),z5=a(ns),z6=a(f9),z7=a(ow),z8=a(nh),z9=a(ne),zR=a(n0),zS=a(gg),zt=[0,a("such a machine with bodies"),0],zg=a(gd),zh=a(a4),zi=a(n2),zj=a(on),zm=a(nd),zn=a(mP),zo=a(a4),zp=a(a4),zr=a(f8),zq=[0,a("a claim that no cube of such a machine fits"),0],zs=a(ot),zu=a(dI),zv=a(dM),zw=a(c2),zx=a(ir),zy=a(nU),zz=a(go),zA=a(nf),zB=a(m0),zC=a(ig),zF=a(c0),zG=a(n5),zJ=a(bA),zK=a(bA),zL=a(np),zM=a(bA),zN=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],zO=a(f8),zP=a(eP),zQ=a(c0),zT=a(bA),zU=a(bh),zV=a(bg),zW=a(n6),zX=a(oh),zY=a(gs),zZ=a(na),zD=[0,a(aw),0],zE=a('the mechanism "'),z0=a(iw),z_=a(go),z$=a(c2),Aa=a(ir),Ab=a(iy),Ag=a(bA),Ah=[0,a('"one_to_one" of this set of orientations'),0],Ak=a(c2),Ai=[0,a("a platform that turns on struts and other drives"),0],Aj=a(bA),zH=[0,a(aw),0],zI=a('the workspace "'),Ao=a(a4),Ap=a(a4),Ar=a(eM),As=a(eI),At=a(gs),Aq=[0,a("an atlas of such a machine"),0],zk=[0,a(aw),0],zl=a('a claim of the kind "'),Ay=a(ox),AF=a(gb),AG=a(dJ),AH=a(nn),AI=a(nN),AJ=a(bQ),AK=a(gp),AL=a(ie),AM=a(bQ),AN=a(iA),Az=a(eF),AA=a(m$),AB=a(eG),AC=a(nZ),AD=[0,a(aw),0],AE=a('the evidence "'),AO=a(eF),AP=a(gp),AQ=[0,1,1],AR=a(dJ),AS=a(eF),AT=a(eG),AU=a(oj),AW=a(dJ),AX=a(eF),AY=a(eG),AZ=a(eJ),A0=a(f_),A1=a(eJ),A2=a(f_),AV=[0,a("this evidence at control points"),0],BU=a('"orthocert-paving/'),Bz=a(nI),BA=a(nk),BB=a(oa),BS=[0,3,3],BC=a(nr),BM=[0,a("this set of orientations with such drives"),0],BN=[0,a(ny),0],BQ=[0,a(ny),0],BR=[0,a("a mechanism by formulas in a claim that is refuted"),0],BO=[0,a('the evidence "tolerances" of such a mechanism'),0],BP=[0,a("a step of a platform that turns that is not at control points"),0],BD=[0,a("the acceleration of a joint of a machine with a plane"),0],BL=[0,a("this quantity in a claim that is refuted"),0],BK=[0,a("a step in a proof that no cube fits"),0],BJ=[0,a("a stiffness for each joint in such a claim"),0],BI=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BH=[0,a("a leaf that fails"),0],BE=a(nJ),BF=a(mR),BG=a(ga),Bv=a(iB),Bw=a(f_),Bx=a(bQ),Bo=a(gd),Bp=a(nD),Bq=a(oe),Br=[0,a(aw),0],Bs=a('a proof of the kind "'),Bk=a(eI),Bl=a(eM),Bm=a(ge),Bn=a(nT),Bg=a(a4),Bh=a(gm),Bi=a(mS),Bj=a(gj),Bd=a(n_),Be=a(eJ),Bf=a(gj),A$=a(nW),Ba=a(gm),Bb=a(ge),Bc=a(oo),A5=a(oi),A6=a(nA),A7=a(of),A8=a(gg),A9=[0,a(aw),0],A_=a('the failure "'),A3=a(iB),A4=a(iA),Aw=a(gp),Ax=a(ie),Au=a(mQ),Av=a(mT),zd=a(eP),y5=a(ij),y6=a(mV),y7=a(dK),y8=a(aU),zb=a(ob),zc=a(eP),ze=a(c1),zf=a(dK),y9=a(c1),y_=a(nL),y$=a(nl),za=a(aU),yY=a(c0),y2=a(bh),y3=a(bg),yZ=a(ip),y0=a(it),y1=a(c1),yS=a(c0),yW=a(bh),yX=a(bg),yT=a(ip),yU=a(it),yV=a(c1),yR=[0,1],yQ=[0,1],yO=[0,1],yN=[0,1],yL=[0,1],yM=[0,a("this quantity of such a mechanism"),0],yt=a(ik),yu=[0,a("a stiffness for each joint of such a mechanism"),0],yv=a(n3),yw=a(m_),yx=a(om),yy=a("max_angle"),yz=[0,a("accuracy of a platform that turns"),0],yA=a(eH),ys=a(ga),yk=a(gh),x$=a(nQ),ya=a(nY),yD=a(gb),yE=a(od),yF=a(no),yG=a(dJ),yH=a(nR),yI=a(m2),yJ=a(m3),yK=a(mU),yb=a(mZ),yc=a(n8),yd=a(n1),ye=a(ng),yf=a(ou),yg=a(m5),yh=a(m4),yi=[0,a(aw),0],yj=a('the quantity "'),yl=a(nc),ym=a(n7),yn=a(bh),yo=a(bg),yp=a(ok),yq=[0,a(aw),0],yr=a('a bound "'),yB=a(gi),yC=a(dK),x9=a(bz),x_=a(dN),xO=a(bz),xP=a(gr),xQ=a(eO),xR=a(gq),xS=a(dN),xV=a(aU),xW=a(bf),xX=a(eE),xY=a(dH),xZ=a(aU),x0=a(bf),x1=a(bQ),x2=a(eE),x3=a(dH),x4=a(eO),x5=a(aU),x6=a(bf),x7=a(nP),x8=a(eH),xT=[0,a('" of such a machine'),0],xU=a(m9),xM=a(bz),xN=a(eO),xw=a(bz),xx=a(c2),xy=a(gq),xz=a(dN),xC=a(gr),xD=a(aU),xE=a(bf),xF=a(eE),xG=a(dH),xH=a(aU),xI=a(bf),xJ=a(bQ),xK=a(bQ),xA=[0,a(aw),0],xB=a(m9),xt=a(gk),xu=a(eK),xr=a(" is not covered by the verified checker"),xs=a(S),xp=a(bh),xq=a(bg),xl=a(S),xm=a(ov),xn=a(S),xo=a(S),xk=[1,0],xi=a("Reader.Malformed"),xj=a("Reader.Not_covered"),BW=[0,a("a paving is checked by orthocert-verified")],BV=a(nS),BX=a("CERTIFIED"),BY=a("REFUTED"),BZ=a(nS),B0=a("NOT COVERED: ");function
+eV(a){throw[0,iU,a]}function
 aP(d,c){var
-a=am(d),e=am(c),b=bT(a+e|0);dP(d,0,b,0,a);dP(c,0,b,a,e);return gz(b)}Dw(0);oS(1);oS(2);function
-iV(b){function
+a=an(d),e=an(c),b=bT(a+e|0);dP(d,0,b,0,a);dP(c,0,b,a,e);return gz(b)}Dy(0);oT(1);oT(2);function
+iW(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Dv(d)}catch(a){a=o2(a);if(a[1]!==iU)throw a;var
+c=a[2],d=a[1];try{Dx(d)}catch(a){a=o3(a);if(a[1]!==iV)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Dx(0))}DE(a(mW),iV);function
+a=c;continue}return 0}}return a(Dz(0))}DG(a(mX),iW);function
 b$(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-iW(d){var
+iX(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 T(b,a){if(a){var
@@ -728,39 +728,39 @@ ax(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bi(b,c){var
-a=bT(b);Df(a,0,b,c);return gz(a)}function
+bj(b,c){var
+a=bT(b);Dh(a,0,b,c);return gz(a)}function
 c_(g,b,a){var
 d=dQ(g),f=0;if(0<=b&&0<=a&&!((gx(d)-a|0)<b)){var
 c=bT(a);eQ(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eV(o9);return gz(e)}function
-iX(k,g){if(g){var
-h=am(k),c=0,b=g,p=0;for(;;){if(b){var
+e=eV(o_);return gz(e)}function
+iY(k,g){if(g){var
+h=an(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(am(i)+h|0)+c|0,m=b[2],n=c<=j?j:eV(o_),c=n,b=m;continue}var
-l=am(i)+c|0}else
+j=(an(i)+h|0)+c|0,m=b[2],n=c<=j?j:eV(o$),c=n,b=m;continue}var
+l=an(i)+c|0}else
 var
 l=c;var
 f=bT(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dP(a,0,f,e,am(a));dP(k,0,f,e+am(a)|0,h);var
-e=(e+am(a)|0)+h|0,d=o;continue}dP(a,0,f,e,am(a))}return gz(f)}}}return o$}function
+o=d[2];dP(a,0,f,e,an(a));dP(k,0,f,e+an(a)|0,h);var
+e=(e+an(a)|0)+h|0,d=o;continue}dP(a,0,f,e,an(a))}return gz(f)}}}return pa}function
 gC(b,c){if(0===b)return[0];if(0<=b){var
-d=Du(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+d=Dw(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eV(pa)}function
+a=g;continue}break}}return d}return eV(pb)}function
 gD(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aE(0),c=aE(1);function
+d=aF(0),c=aF(1);function
 n(a){return z(a,c)}function
-iY(b,a){return z(aE(b),a)}function
-b(b,a){return v(aE(b),a)}function
-aU(b,a){return[0,iQ(b,a),o5(b,a)]}function
+iZ(b,a){return z(aF(b),a)}function
+b(b,a){return v(aF(b),a)}function
+aV(b,a){return[0,iR(b,a),o6(b,a)]}function
 gE(b,a){return G(b,a)?b:a}function
-bj(b,a){return G(b,a)?a:b}function
+bk(b,a){return G(b,a)?a:b}function
 ac(a){return a?0:1}function
 w(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
@@ -770,9 +770,9 @@ j(a){var
 b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iZ(a){return typeof
-a==="number"?0:[0,iZ(a[1])]}function
-i0(d,c){var
+i0(a){return typeof
+a==="number"?0:[0,i0(a[1])]}function
+i1(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -795,9 +795,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eW(a){return i0(a,0)}function
-i1(a){if(typeof
-a==="number")return pc;else
+eW(a){return i1(a,0)}function
+i2(a){if(typeof
+a==="number")return pd;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -807,31 +807,31 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,i1(a[1])]}}function
-bl(a){if(typeof
-a==="number")return pd;else
+8:return[9,a[1]];default:return[0,i2(a[1])]}}function
+bm(a){if(typeof
+a==="number")return pe;else
 switch(a[0]){case
-0:return[1,bk(a[1])];case
-1:return[3,bk(a[1])];case
-2:return[5,bk(a[1])];case
-3:return[7,bk(a[1])];case
-4:return[9,bk(a[1])];case
-5:return[1,bl(a[1])];case
-6:return[3,bl(a[1])];case
-7:return[5,bl(a[1])];case
-8:return[7,bl(a[1])];default:return[9,bl(a[1])]}}function
-bk(a){if(typeof
+0:return[1,bl(a[1])];case
+1:return[3,bl(a[1])];case
+2:return[5,bl(a[1])];case
+3:return[7,bl(a[1])];case
+4:return[9,bl(a[1])];case
+5:return[1,bm(a[1])];case
+6:return[3,bm(a[1])];case
+7:return[5,bm(a[1])];case
+8:return[7,bm(a[1])];default:return[9,bm(a[1])]}}function
+bl(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bk(a[1])];case
-1:return[2,bk(a[1])];case
-2:return[4,bk(a[1])];case
-3:return[6,bk(a[1])];case
-4:return[8,bk(a[1])];case
-5:return[0,bl(a[1])];case
-6:return[2,bl(a[1])];case
-7:return[4,bl(a[1])];case
-8:return[6,bl(a[1])];default:return[8,bl(a[1])]}}function
+0:return[0,bl(a[1])];case
+1:return[2,bl(a[1])];case
+2:return[4,bl(a[1])];case
+3:return[6,bl(a[1])];case
+4:return[8,bl(a[1])];case
+5:return[0,bm(a[1])];case
+6:return[2,bm(a[1])];case
+7:return[4,bm(a[1])];case
+8:return[6,bm(a[1])];default:return[8,bm(a[1])]}}function
 bD(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
 dV(a,b){return a?N(b,dV(a[1],b)):a}function
@@ -843,49 +843,49 @@ Q(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 dW(b,a){return Q([0,b],a)}function
-i2(c){var
+i3(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 eX(c,b,a){return c?k(b,eX(c[1],b,a)):a}function
-i3(a){if(a)var
-b=a[1],d=b?[0,i3(b[1])]:b,c=d;else
+i4(a){if(a)var
+b=a[1],d=b?[0,i4(b[1])]:b,c=d;else
 var
 c=a;return c}function
-i4(b,a){return bj(c,aC(b,a))}function
-eY(a){if(G(a,c))return pf;var
-b=aU(a,aE(2)),e=b[1];return Z(b[2],d)?[0,eY(e)]:[0,eY(e)]}function
+i5(b,a){return bk(c,aD(b,a))}function
+eY(a){if(G(a,c))return pg;var
+b=aV(a,aF(2)),e=b[1];return Z(b[2],d)?[0,eY(e)]:[0,eY(e)]}function
 eZ(a){if(G(a,c))return c;var
-b=aU(a,aE(2)),e=b[1];return Z(b[2],d)?n(eZ(e)):n(eZ(e))}function
-i5(c,b){var
-a=iP(c,b);return 0===a?0:0<=a?2:1}function
+b=aV(a,aF(2)),e=b[1];return Z(b[2],d)?n(eZ(e)):n(eZ(e))}function
+i6(c,b){var
+a=iQ(c,b);return 0===a?0:0<=a?2:1}function
 gF(j,i){var
-b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Z(aU(a,aE(2))[2],d)?0:0;var
-g=aU(b,aE(2)),h=g[1];if(Z(g[2],d)){if(G(a,c))return 0;var
-e=aU(a,aE(2)),k=e[1];if(Z(e[2],d)){var
+b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Z(aV(a,aF(2))[2],d)?0:0;var
+g=aV(b,aF(2)),h=g[1];if(Z(g[2],d)){if(G(a,c))return 0;var
+e=aV(a,aF(2)),k=e[1];if(Z(e[2],d)){var
 b=h,a=k;continue}return 0}if(G(a,c))return 0;var
-f=aU(a,aE(2)),l=f[1];if(Z(f[2],d))return 0;var
+f=aV(a,aF(2)),l=f[1];if(Z(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e0(b,a){return 2<=i5(b,a)?0:1}function
+e0(b,a){return 2<=i6(b,a)?0:1}function
 c$(i,e,a){if(i){var
 f=i[1];if(G(e,c))return[0,c,[0,c,a]];var
-w=aU(e,aE(2)),g=w[1];if(Z(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
-m=aU(a,aE(2)),B=m[1];if(Z(m[2],d)){var
+w=aV(e,aF(2)),g=w[1];if(Z(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
+m=aV(a,aF(2)),B=m[1];if(Z(m[2],d)){var
 j=c$(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
 k=c$(f,g,a),l=k[2],y=l[2],A=[0,b(2,l[1]),y];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
-v=aU(a,aE(2)),h=v[1];if(Z(v[2],d)){var
-n=c$(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(i5(g,h)){case
+v=aV(a,aF(2)),h=v[1];if(Z(v[2],d)){var
+n=c$(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(i6(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=c$(f,i4(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=c$(f,i4(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+p=c$(f,i5(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=c$(f,i5(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
 e1(b,a){var
 c=eY(a);return c$(N(eY(b),c),b,a)}function
-i6(b,i,h){var
+i7(b,i,h){var
 e=i,a=h;for(;;){if(G(e,c))return a;var
-f=aU(e,aE(2)),g=f[1];if(Z(f[2],d)){var
-e=g,a=at(b,a,a);continue}return at(b,a,i6(b,g,at(b,a,a)))}}function
-dX(a){return i6(N,a,pg)}function
+f=aV(e,aF(2)),g=f[1];if(Z(f[2],d)){var
+e=g,a=at(b,a,a);continue}return at(b,a,i7(b,g,at(b,a,a)))}}function
+dX(a){return i7(N,a,ph)}function
 gG(a){return a?n(gG(a[1])):c}function
 bU(f,e){var
 a=f,d=e;for(;;)if(typeof
@@ -910,19 +910,19 @@ t=v(b(2,n(b(2,b(2,c)))),d),u=z(n(b(2,n(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
 w=v(b(2,n(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
 y=v(b(2,n(b(2,b(2,c)))),d),A=z(n(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-gH(a){if(G(a,c))return ph;var
-b=aU(a,aE(2)),e=b[1];return Z(b[2],d)?bk(gH(e)):bl(gH(e))}function
+gH(a){if(G(a,c))return pi;var
+b=aV(a,aF(2)),e=b[1];return Z(b[2],d)?bl(gH(e)):bm(gH(e))}function
 e2(a){return eW(gH(a))}function
-i7(k,f){if(0<=a4(f)){var
-g=iR(f);if(0<=g){var
+i8(k,f){if(0<=a5(f)){var
+g=iS(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eV(pb)}return d}function
+h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eV(pc)}return d}function
 gI(b){var
-a=a4(b);return 0===a?d:0<a?c:M(c)}function
-i8(a){return 0<=a4(a)?a:d}function
+a=a5(b);return 0===a?d:0<a?c:M(c)}function
+i9(a){return 0<=a5(a)?a:d}function
 dY(a){var
-b=a4(a);return 0===b?c:0<b?a:c}function
-i9(m){var
+b=a5(a);return 0===b?c:0<b?a:c}function
+i_(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -945,29 +945,29 @@ j=n(b(2,n(b(2,c))));return bU(a[1],j);case
 k=b(2,b(2,b(2,c)));return bU(a[1],k);default:var
 l=n(b(2,b(2,b(2,c))));return bU(a[1],l)}}function
 cc(b,a){var
-c=a4(a);return 0===c?d:1===c?iQ(b,a):iY(-1,iQ(iY(-1,b),a))}function
-e3(a){return 0<a4(a)?DO(a):d}function
+c=a5(a);return 0===c?d:1===c?iR(b,a):iZ(-1,iR(iZ(-1,b),a))}function
+e3(a){return 0<a5(a)?DQ(a):d}function
 dZ(b,c){var
-a=iR(c);return 0<=a?o6(b,a):o7(b,-a|0)}function
+a=iS(c);return 0<=a?o7(b,a):o8(b,-a|0)}function
 cA(b,c){var
-a=iR(c);return 0<=a?o7(b,a):o6(b,-a|0)}function
+a=iS(c);return 0<=a?o8(b,a):o7(b,-a|0)}function
 bE(b,a){return a?a[1]:b}function
 bV(a){var
 b=a?a[2]:a;return b}function
-s(e,d,c){var
+t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 R(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-i_(a){if(a){var
-b=[0,a[1],0];return f(i_(a[2]),b)}return a}function
+i$(a){if(a){var
+b=[0,a[1],0];return f(i$(a[2]),b)}return a}function
 e4(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-i$(a){if(a){var
-b=i$(a[2]);return f(a[1],b)}return a}function
+ja(a){if(a){var
+b=ja(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
@@ -977,9 +977,9 @@ c=y(b,a[2]);return f(k(b,a[1]),c)}return a}function
 da(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=at(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aV(c,b,a){if(a){var
-d=aV(c,b,a[2]);return at(c,a[1],d)}return b}function
-ao(e,d){var
+aW(c,b,a){if(a){var
+d=aW(c,b,a[2]);return at(c,a[1],d)}return b}function
+ap(e,d){var
 a=d;for(;;){if(a){var
 b=k(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -994,7 +994,7 @@ bF(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(k(b,d))return[0,d,bF(b,c)];var
 a=c;continue}return a}}function
-ja(d,c){var
+jb(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1013,84 +1013,84 @@ c=b;return c}function
 e5(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aW(b,a){var
-c=a?[0,b,aW([0,b],a[1])]:a;return c}function
+aX(b,a){var
+c=a?[0,b,aX([0,b],a[1])]:a;return c}function
 aK(b,a){var
 c=a?[0,b,aK(b,a[1])]:a;return c}function
-jb(a){if(a){var
-e=jb(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+jc(a){if(a){var
+e=jc(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
 e6(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jb([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a4(b)?dX(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jc([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a5(b)?dX(b):0}function
 db(c,b){var
-a=iP(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=iQ(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 cC(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
 dc(b,a){return[0,z(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
 bW(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-jc(a){return[0,M(a[1]),a[2]]}function
-e7(b,a){return dc(b,jc(a))}function
+jd(a){return[0,M(a[1]),a[2]]}function
+e7(b,a){return dc(b,jd(a))}function
 gJ(f,b){var
-a=b[1],e=a4(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,M(b[2]),M(a)];return bW(f,g)}function
+a=b[1],e=a5(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,M(b[2]),M(a)];return bW(f,g)}function
 e8(q){var
-a=q[2],b=q[1],o=a4(b);if(0===o)var
+a=q[2],b=q[1],o=a5(b);if(0===o)var
 c=[0,c9(a),[0,d,gI(a)]];else
 if(0<o){var
-n=a4(a);if(0===n)var
+n=a5(a);if(0===n)var
 c=[0,c9(b),[0,gI(b),d]];else
 if(0<n)var
 l=e1(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=e1(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
-p=M(b),i=a4(a);if(0===i)var
+p=M(b),i=a5(a);if(0===i)var
 c=[0,c9(b),[0,gI(b),d]];else
 if(0<i)var
 g=e1(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
 var
 e=e1(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
 r=c[2],s=dY(r[2]);return[0,r[1],s]}function
-aX(a){if(typeof
-a==="number")return pk;else
+aY(a){if(typeof
+a==="number")return pl;else
 switch(a[0]){case
 0:var
-b=aX(a[1]);return aP(bi(1,48),b);case
+b=aY(a[1]);return aP(bj(1,48),b);case
 1:var
-c=aX(a[1]);return aP(bi(1,49),c);case
+c=aY(a[1]);return aP(bj(1,49),c);case
 2:var
-d=aX(a[1]);return aP(bi(1,50),d);case
+d=aY(a[1]);return aP(bj(1,50),d);case
 3:var
-e=aX(a[1]);return aP(bi(1,51),e);case
+e=aY(a[1]);return aP(bj(1,51),e);case
 4:var
-f=aX(a[1]);return aP(bi(1,52),f);case
+f=aY(a[1]);return aP(bj(1,52),f);case
 5:var
-g=aX(a[1]);return aP(bi(1,53),g);case
+g=aY(a[1]);return aP(bj(1,53),g);case
 6:var
-h=aX(a[1]);return aP(bi(1,54),h);case
+h=aY(a[1]);return aP(bj(1,54),h);case
 7:var
-i=aX(a[1]);return aP(bi(1,55),i);case
+i=aY(a[1]);return aP(bj(1,55),i);case
 8:var
-j=aX(a[1]);return aP(bi(1,56),j);default:var
-k=aX(a[1]);return aP(bi(1,57),k)}}function
+j=aY(a[1]);return aP(bj(1,56),j);default:var
+k=aY(a[1]);return aP(bj(1,57),k)}}function
 d0(a){return typeof
-a==="number"?pl:aX(a)}function
-cD(a){return i7(b(2,c),a)}function
-jd(b,a){return cA(a,b)}function
-je(b,a){return M(cA(M(a),b))}function
+a==="number"?pm:aY(a)}function
+cD(a){return i8(b(2,c),a)}function
+je(b,a){return cA(a,b)}function
+jf(b,a){return M(cA(M(a),b))}function
 e9(b,a){return M(cc(M(b),a))}function
 _(c,b){var
 a=dZ(b,c);return[0,a,a]}function
-jf(d,c,a){var
+jg(d,c,a){var
 b=dZ(c,d),e=e9(b,a);return[0,cc(b,a),e]}function
-E(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-K(b,a){return[0,aC(b[1],a[2]),aC(b[2],a[1])]}function
+F(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+K(b,a){return[0,aD(b[1],a[2]),aD(b[2],a[1])]}function
 af(a){return[0,M(a[2]),M(a[1])]}function
-jg(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
-f=bj(v(e,b),v(c,a));return[0,gE(v(e,a),v(c,b)),f]}function
+jh(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
+f=bk(v(e,b),v(c,a));return[0,gE(v(e,a),v(c,b)),f]}function
 x(c,b,a){var
-d=jg(b[1],b[2],a[1],a[2]),e=je(c,d[2]);return[0,jd(c,d[1]),e]}function
+d=jh(b[1],b[2],a[1],a[2]),e=jf(c,d[2]);return[0,je(c,d[1]),e]}function
 W(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=je(b,bj(c,e)),g=0;if(V(a[1],d)&&V(d,a[2])){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=jf(b,bk(c,e)),g=0;if(V(a[1],d)&&V(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jd(b,gE(c,e));return[0,f,h]}function
+f=je(b,gE(c,e));return[0,f,h]}function
 gK(b,a){var
 c=dZ(cD(b),b),d=e9(c,a[1]);return[0,cc(c,a[2]),d]}function
 cd(b,a){if(V(d,a[1]))return[0,gK(b,a)];var
@@ -1104,14 +1104,14 @@ dd(a){return 0===a[0]?a[2]:a[1]}function
 aQ(f,d,c,b,a){if(b){if(a){var
 g=aQ(f,d,c,b[2],a[2]);return[0,at(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
 cf(b,a){return cA(b,a)}function
-a5(a,c,b){if(G(d,a)){var
+a6(a,c,b){if(G(d,a)){var
 e=b[1],f=M(cf(M(v(a,b[2])),c));return[0,cf(v(a,e),c),f]}var
 g=b[2],h=M(cf(M(v(a,b[1])),c));return[0,cf(v(a,g),c),h]}function
-a6(a){var
+a7(a){var
 b=M(cA(M(a[2]),c));return[0,cA(a[1],c),b]}function
 d1(c,b,a){var
-e=jg(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=V(f,d)?a[2]:a[1],i=e9(f,h),j=V(g,d)?a[1]:a[2];return[0,cc(g,j),i]}function
-d2(a){return bj(a[2],M(a[1]))}var
+e=jh(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=V(f,d)?a[2]:a[1],i=e9(f,h),j=V(g,d)?a[1]:a[2];return[0,cc(g,j),i]}function
+d2(a){return bk(a[2],M(a[1]))}var
 B=[0,d,d];function
 e_(a){return[0,a[1],a[1]]}function
 de(a){return[0,a[2],a[2]]}function
@@ -1131,33 +1131,33 @@ f=k(b,a[2]);return[7,k(b,a[1]),f];case
 8:return[8,k(b,a[1])];case
 9:return[9,k(b,a[1])];default:var
 g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
-aF(n,m){var
+ay(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?u(b[1],a[1]):0;case
 1:return 1===a[0]?u(b[1],a[1]):0;case
 2:return 2===a[0]?Z(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aF(b[1],a[1]);if(f){var
+f=ay(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aF(b[1],a[1]);if(g){var
+g=ay(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aF(b[1],a[1]);if(h){var
+h=ay(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aF(b[1],a[1]);if(i){var
+i=ay(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
 j=cb(b[1],a[1]);if(j){var
-k=aF(b[2],a[2]);if(k){var
-l=aF(b[3],a[3]);if(l){var
+k=ay(b[2],a[2]);if(k){var
+l=ay(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
@@ -1170,34 +1170,34 @@ aR(c,b){var
 a=e$(b);return a?Z(c,a[1]):a}function
 d3(a){return V(c9(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-F(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
+C(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
 c=e$(b);if(c){var
 e=c[1],f=e$(a);if(f){var
 g=f[1];if(d3(e)&&d3(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bm(a){var
+bn(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return d3(c)?l(M(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-t(b,a){if(aR(d,a))return b;if(aR(d,b))return bm(a);var
+s(b,a){if(aR(d,a))return b;if(aR(d,b))return bn(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 H(a){var
 c=e$(a);if(c){var
 b=c[1];return d3(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return aF(a,b)?H(a):[0,[6,a,b]];return b}return a}function
-ak(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
-ay(a){return aR(c,a)?a:[0,[9,a]]}function
-jh(d,c,b,a){return[0,[10,d,c,b,a]]}function
+q(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return ay(a,b)?H(a):[0,[6,a,b]];return b}return a}function
+al(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
+az(a){return aR(c,a)?a:[0,[9,a]]}function
+ji(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bG(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cE(function(b){return function(a){return s(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+g=b[1],h=[0,k(e,cE(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
 bH(a){var
 b=0;function
 c(a){return[0,a]}return bG(l(d),c,a,b)}function
-gL(b,a){if(a){if(aF(b,a[1]))return pm;var
+gL(b,a){if(a){if(ay(b,a[1]))return pn;var
 c=gL(b,a[2]);return w(function(a){return[0,a]},c)}return a}function
-a7(c,b){var
+a8(c,b){var
 a=gL(b,c),d=a?a[1]:a;return d}function
 cF(d,b){if(gL(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
@@ -1212,33 +1212,33 @@ c=cF(a[1],b);break;case
 2:var
 c=b;break;default:var
 h=cF(a[1],b),c=cF(a[2],h)}var
-e=c[2],f=c[1],g=[0,cE(function(a){return a7(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+e=c[2],f=c[1],g=[0,cE(function(a){return a8(f,a)},a),e];return[0,[0,d,c[1]],g]}function
 cG(a){var
-b=da(function(b,a){return cF(a,b)},a,pn),c=b[1],d=e(function(a){return a7(c,a)},a);return[0,i_(b[2]),d]}function
-fa(a){return aV(function(b,a){return z(d2(b),a)},d,a)}function
+b=da(function(b,a){return cF(a,b)},a,po),c=b[1],d=e(function(a){return a8(c,a)},a);return[0,i$(b[2]),d]}function
+fa(a){return aW(function(b,a){return z(d2(b),a)},d,a)}function
 bX(b,c,a){var
-d=fa(a),e=gE(c[2],z(b[2],d)),f=fa(a);return[0,b,[0,bj(c[1],aC(b[1],f)),e],a]}function
+d=fa(a),e=gE(c[2],z(b[2],d)),f=fa(a);return[0,b,[0,bk(c[1],aD(b[1],f)),e],a]}function
 ag(a){return[0,a,a,0]}function
 bI(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aQ(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return bX(E(b[1],a[1]),g,f)}function
-a8(b,a){var
+f=aQ(function(a){return a},e,F,d,c),g=F(b[2],a[2]);return bX(F(b[1],a[1]),g,f)}function
+a9(b,a){var
 c=a[3],d=b[3],e=aQ(function(a){return a},af,K,d,c),f=K(b[2],a[2]);return bX(K(b[1],a[1]),f,e)}function
 d4(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
 au(a,c,b){var
-d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
+d=F(b[2],b[1]),e=F(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=x(a,e,b);return a6(E(x(a,d,c),f))}function
-i(b){return a6(x(a,e,b))}var
-j=aQ(function(b){return a6(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return bX(x(a,c[1],b[1]),k,j)}function
+f=x(a,e,b);return a7(F(x(a,d,c),f))}function
+i(b){return a7(x(a,e,b))}var
+j=aQ(function(b){return a7(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return bX(x(a,c[1],b[1]),k,j)}function
 d5(b,a){var
-c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=W(b,a[2]);return bX(W(b,a[1]),g,f)}function
+c=a[3],d=F(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=W(b,a[2]);return bX(W(b,a[1]),g,f)}function
 gM(a,b){var
 c=ce(a,b[1]);if(c){var
 g=c[1],d=ce(a,b[2]);if(d){var
-h=d[1],f=cd(a,E(h,g));if(f)var
+h=d[1],f=cd(a,F(h,g));if(f)var
 l=b[3],m=f[1],i=[0,bX(g,h,e(function(b){return x(a,m,b)},l))];else
 var
 i=f;var
@@ -1259,42 +1259,42 @@ var
 j=d;return j}function
 cg(b,a){return a?k(b,a[1]):a}function
 fb(a){var
-b=e(a6,a[3]),c=a6(E(a[2],a[1]));return bX(a[1],c,b)}function
-ji(a,k,j,r,b){var
-l=fb(k),m=fb(j),g=fb(b[1]),h=fb(b[2]),s=au(a,l,h),t=a8(au(a,m,g),s),i=df(a,ag(_(a,c)),t);if(i)var
-f=i[1],n=au(a,a8(l,g),f),o=au(a,a8(m,h),f),d=function(c,b){return au(a,c,ag(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bI(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a8(b,d(f,a6(a)))[2]},C=function(a){return d4(d(f,a6(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=bX(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,bX(b[1][1],b[1][2],H),F]];else
+b=e(a7,a[3]),c=a7(F(a[2],a[1]));return bX(a[1],c,b)}function
+jj(a,k,j,r,b){var
+l=fb(k),m=fb(j),g=fb(b[1]),h=fb(b[2]),s=au(a,l,h),t=a9(au(a,m,g),s),i=df(a,ag(_(a,c)),t);if(i)var
+f=i[1],n=au(a,a9(l,g),f),o=au(a,a9(m,h),f),d=function(c,b){return au(a,c,ag(b))},u=j[3],v=k[3],w=function(b,a){var
+c=d(o,a);return bI(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a9(b,d(f,a7(a)))[2]},C=function(a){return d4(d(f,a7(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=bX(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,bX(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jj(a,e,d,k){var
-p=d5(a,d),f=bI(d5(a,e),p),g=a8(bI(f,ag(_(a,c))),k),l=au(a,ag(_(a,b(2,c))),f),q=d5(a,g),h=gM(a,a8(au(a,ag(_(a,b(2,b(2,c)))),f),q));if(h){var
+jk(a,e,d,k){var
+p=d5(a,d),f=bI(d5(a,e),p),g=a9(bI(f,ag(_(a,c))),k),l=au(a,ag(_(a,b(2,c))),f),q=d5(a,g),h=gM(a,a9(au(a,ag(_(a,b(2,b(2,c)))),f),q));if(h){var
 m=h[1],r=au(a,m,d),i=df(a,bI(au(a,g,e),r),l);if(i)var
-s=au(a,m,e),j=df(a,a8(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+s=au(a,m,e),j=df(a,a9(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cg(function(b){return ji(a,e,d,k,b)},o);return cg(function(b){return ji(a,e,d,k,b)},u)}function
+u=cg(function(b){return jj(a,e,d,k,b)},o);return cg(function(b){return jj(a,e,d,k,b)},u)}function
 bY(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
 ch(b,j,i){var
 f=ag(B);return function(a){switch(a[0]){case
-0:return[0,s(a[1],j,f)];case
-1:return[0,s(a[1],i,f)];case
+0:return[0,t(a[1],j,f)];case
+1:return[0,t(a[1],i,f)];case
 2:return[0,ag(_(b,a[1]))];case
 3:var
 k=a[2],l=a[1];return bY(function(b,a){return[0,bI(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bY(function(b,a){return[0,a8(b,a)]},n,m);case
+m=a[2],n=a[1];return bY(function(b,a){return[0,a9(b,a)]},n,m);case
 5:var
 o=a[1];return cg(function(a){return[0,d4(a)]},o);case
 6:var
 p=a[2],q=a[1];return bY(function(c,a){return[0,au(b,c,a)]},q,p);case
 7:var
-r=a[2],t=a[1];return bY(function(a,c){return df(b,a,c)},t,r);case
+r=a[2],s=a[1];return bY(function(a,c){return df(b,a,c)},s,r);case
 8:var
 u=a[1];return cg(function(a){return[0,d5(b,a)]},u);case
 9:var
@@ -1302,7 +1302,7 @@ v=a[1];return cg(function(a){return gM(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jj(b,c[1],d[1],e[1]),y=a[1]?ca:aI;return w(y,x)}var
+x=jk(b,c[1],d[1],e[1]),y=a[1]?ca:aI;return w(y,x)}var
 g=e}else
 var
 g=d;var
@@ -1354,67 +1354,67 @@ i=d7(b,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-po(a){return 0}function
-ci(a){return d7(po,a)}function
-bn(a,b){switch(b[0]){case
-0:return[0,jf(a,b[1],b[2])];case
+pp(a){return 0}function
+ci(a){return d7(pp,a)}function
+bo(a,b){switch(b[0]){case
+0:return[0,jg(a,b[1],b[2])];case
 1:return 0;case
 2:var
-g=bn(a,b[1]);if(g)var
-h=bn(a,b[2]),C=h?[0,E(g[1],h[1])]:h,r=C;else
+g=bo(a,b[1]);if(g)var
+h=bo(a,b[2]),C=h?[0,F(g[1],h[1])]:h,r=C;else
 var
 r=g;return r;case
 3:var
-i=bn(a,b[1]);if(i)var
-j=bn(a,b[2]),D=j?[0,K(i[1],j[1])]:j,s=D;else
+i=bo(a,b[1]);if(i)var
+j=bo(a,b[2]),D=j?[0,K(i[1],j[1])]:j,s=D;else
 var
 s=i;return s;case
 4:var
-k=bn(a,b[1]);if(k)var
-l=bn(a,b[2]),F=l?[0,x(a,k[1],l[1])]:l,t=F;else
+k=bo(a,b[1]);if(k)var
+l=bo(a,b[2]),E=l?[0,x(a,k[1],l[1])]:l,t=E;else
 var
 t=k;return t;case
 5:var
-m=bn(a,b[1]);if(m){var
-n=bn(a,b[2]);if(n)var
+m=bo(a,b[1]);if(m){var
+n=bo(a,b[2]);if(n)var
 o=cd(a,n[1]),G=o?[0,x(a,m[1],o[1])]:o,u=G;else
 var
 u=n;var
 v=u}else
 var
 v=m;return v;default:var
-y=b[1],p=bn(a,y);if(p){var
+y=b[1],p=bo(a,y);if(p){var
 e=p[1];if(V(d,e[1]))return ce(a,e);var
 f=ci(y),H=f?ac(cC([0,d,c],f[1])):f;if(H)return 0;if(V(d,e[2])){var
 z=ce(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
 q=Z(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fc(b,a){return jf(b,a[1],a[2])}function
-bo(a,d){if(d6(d))switch(d[0]){case
+fc(b,a){return jg(b,a[1],a[2])}function
+bp(a,d){if(d6(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dW(i,jk),k=j?cC(g,e):j;if(k)var
+e=d[3],g=d[2],i=d[1],j=dW(i,jl),k=j?cC(g,e):j;if(k)var
 n=[0,c,b(2,c)],o=[0,fc(a,bW(e7(e,g),n)),0],p=f(aK(B,i),o),q=fc(a,e)[2],r=[0,fc(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fc(a,bW(dc(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bo(a,d[2]),u=bo(a,d[1]);return bY(function(b,a){return[0,bI(b,a)]},u,t);case
+t=bp(a,d[2]),u=bp(a,d[1]);return bY(function(b,a){return[0,bI(b,a)]},u,t);case
 3:var
-v=bo(a,d[2]),x=bo(a,d[1]);return bY(function(b,a){return[0,a8(b,a)]},x,v);case
+v=bp(a,d[2]),x=bp(a,d[1]);return bY(function(b,a){return[0,a9(b,a)]},x,v);case
 4:var
 m=d[2],h=d[1];if(bZ(h,m)){var
-y=bo(a,h);return cg(function(b){return[0,d5(a,b)]},y)}var
-z=bo(a,m),A=bo(a,h);return bY(function(c,b){return[0,au(a,c,b)]},A,z);case
+y=bp(a,h);return cg(function(b){return[0,d5(a,b)]},y)}var
+z=bp(a,m),A=bp(a,h);return bY(function(c,b){return[0,au(a,c,b)]},A,z);case
 5:var
-C=bo(a,d[2]),D=bo(a,d[1]);return bY(function(b,c){return df(a,b,c)},D,C);default:var
-E=bo(a,d[1]);return cg(function(b){return gM(a,b)},E)}return w(ag,bn(a,d))}function
-aY(b,a){if(d6(a)){var
-c=bo(b,a);return w(function(a){return a[2]},c)}return bn(b,a)}function
-jl(a){var
-e=bj(M(a),d);return dY(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jm(a){return i8(z(jl(a),a))}function
+C=bp(a,d[2]),D=bp(a,d[1]);return bY(function(b,c){return df(a,b,c)},D,C);default:var
+E=bp(a,d[1]);return cg(function(b){return gM(a,b)},E)}return w(ag,bo(a,d))}function
+aZ(b,a){if(d6(a)){var
+c=bp(b,a);return w(function(a){return a[2]},c)}return bo(b,a)}function
+jm(a){var
+e=bk(M(a),d);return dY(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jn(a){return i9(z(jm(a),a))}function
 cj(f,a,e){var
-b=aY(z(f,jl(a)),e);if(b)var
-c=b[1],g=jm(a),h=M(cf(M(c[2]),g)),i=jm(a),d=[0,[0,cf(c[1],i),h]];else
+b=aZ(z(f,jm(a)),e);if(b)var
+c=b[1],g=jn(a),h=M(cf(M(c[2]),g)),i=jn(a),d=[0,[0,cf(c[1],i),h]];else
 var
 d=b;return d}function
 ah(d,a){var
@@ -1427,99 +1427,99 @@ c=M(cf(M(a[2]),b));return[0,cf(a[1],b),c]}function
 fd(b,a){var
 c=e9(b[2],a);return[0,cc(b[1],a),c]}function
 gO(a,f,b){if(b){var
-d=b[1],g=gO(a,f,d),h=g[2],i=gG(N(dV(pq,d),pp)),j=v(gG(dV(pr,d)),i),e=fd(x(a,g[1],f),j),k=i2(b)?E(h,e):K(h,e);return[0,e,k]}var
+d=b[1],g=gO(a,f,d),h=g[2],i=gG(N(dV(pr,d),pq)),j=v(gG(dV(ps,d)),i),e=fd(x(a,g[1],f),j),k=i3(b)?F(h,e):K(h,e);return[0,e,k]}var
 l=_(a,c);return[0,_(a,c),l]}function
-jn(f){var
-g=dX(f),e=ps[1],b=g,c=0,a=e;for(;;){if(b){var
+jo(f){var
+g=dX(f),e=pt[1],b=g,c=0,a=e;for(;;){if(b){var
 d=b[1];if(a){var
 b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return N(pt,c)}}function
-jo(a,d){var
+b=d,c=[0,c],a=e;continue}return N(pu,c)}}function
+jp(a,d){var
 g=cD(a),h=v(b(2,b(2,c)),g),e=G(d[2],h);if(e)var
-i=gO(a,d,dV(pv,N(jn(a),pu)))[2][2],f=[0,[0,gO(a,d,N(dV(px,jn(a)),pw))[2][1],i]];else
+i=gO(a,d,dV(pw,N(jo(a),pv)))[2][2],f=[0,[0,gO(a,d,N(dV(py,jo(a)),px))[2][1],i]];else
 var
 f=e;return f}function
-jp(i){function
+jq(i){function
 a(h){var
 m=cc(cD(i),h),g=dX(i),f=m,e=d,a=c;for(;;){if(g){var
 j=z(a,b(2,c)),k=z(e,cc(f,a)),l=M(cc(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return aC(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jq(e,a){var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return aD(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jr(e,a){var
 f=G(d,a);if(f){var
-g=b(2,b(2,c));return jo(e,fd(W(e,[0,a,a]),g))}return f}function
-jr(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aC(jp(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jp(a),n),e=jq(a,g);if(e){var
-f=jq(a,h);if(f)var
+g=b(2,b(2,c));return jp(e,fd(W(e,[0,a,a]),g))}return f}function
+js(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aD(jq(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jq(a),n),e=jr(a,g);if(e){var
+f=jr(a,h);if(f)var
 i=V(d,e[1][1]),j=i?V(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-js(a,d){var
-b=W(a,d),e=_(a,c);return K(E(b,b),e)}function
+jt(a,d){var
+b=W(a,d),e=_(a,c);return K(F(b,b),e)}function
 dg(f,j){var
-e=aY(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jr(a);if(d)var
-h=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),i=jo(a,W(a,fd(x(a,k,d[1]),h))),g=w(function(b){return js(a,js(a,b))},i);else
+e=aZ(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=js(a);if(d)var
+h=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),i=jp(a,W(a,fd(x(a,k,d[1]),h))),g=w(function(b){return jt(a,jt(a,b))},i);else
 var
 g=d;var
 l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gN(l,a)},g)}return e}function
-jt(a,d){var
-e=jr(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+ju(a,d){var
+e=js(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
 f=b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))));return fd(x(a,d,gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
 fe(d,a){return dg(d,[3,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
 f=ci(b);if(f){var
 g=f[1];return e?ac(cC(g,[0,d,c])):cC([0,d,c],g)}var
-a=aY(i,b);if(a){var
+a=aZ(i,b);if(a){var
 h=a[1];return e?V(d,h[1]):G(d,h[1])}return a}function
-ju(c,b){var
-a=aY(c,b),d=a?1:a;return d}function
-a$(c,a,b){var
-d=bZ(a,b),e=d?ju(c,a):d;return e?e:g(c,0,[3,b,a])}function
-py(c){var
+jv(c,b){var
+a=aZ(c,b),d=a?1:a;return d}function
+ba(c,a,b){var
+d=bZ(a,b),e=d?jv(c,a):d;return e?e:g(c,0,[3,b,a])}function
+pz(c){var
 a=e8(c),g=dY(e3(a[2])),b=[0,e3(a[1]),g],e=V(d,a[1]),f=e?db(bW(b,b),c):e,h=f?[0,b]:f;return h}function
-jv(a){if(a){var
+jw(a){if(a){var
 e=a[2],b=a[1];if(db(bE([0,d,c],b),[0,d,c])){var
-g=jv(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+g=jw(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jw(b,a){var
-e=aJ(b,a),f=[0,d,c];return aV(function(a,b){return e8(dc(bW(a[1],a[2]),b))},f,e)}function
-jx(b,j){if(b){var
-f=b[1],g=jv(j);if(g){var
+jx(b,a){var
+e=aJ(b,a),f=[0,d,c];return aW(function(a,b){return e8(dc(bW(a[1],a[2]),b))},f,e)}function
+jy(b,j){if(b){var
+f=b[1],g=jw(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
 f=bE([0,d,c],a),g=gJ(bE([0,d,c],b),f),h=bV(a),i=aJ(bV(b),h);return e(function(a){var
-b=bW(g,a[2]);return e8(e7(a[1],b))},i)},l=jx(f,e(k,h[2]));return w(function(b){var
-e=bE([0,d,c],a);return[0,e8(gJ(jc(jw(bV(a),b)),e)),b]},l)}var
+b=bW(g,a[2]);return e8(e7(a[1],b))},i)},l=jy(f,e(k,h[2]));return w(function(b){var
+e=bE([0,d,c],a);return[0,e8(gJ(jd(jx(bV(a),b)),e)),b]},l)}var
 i=[0,[0,[0,c,c],aK([0,d,c],f)]]}else
 var
 i=b;return i}function
-jy(a){if(a){var
-b=d7(py,a[1]);if(b)var
-c=jy(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return pz}function
 jz(a){if(a){var
-b=jy(a[1]);if(b)var
+b=d7(pz,a[1]);if(b)var
 c=jz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return pA}function
-jA(h,l){var
-a=jz(l);if(a){var
-i=a[1],b=jx(h,i);if(b){var
-e=b[1],f=u(j(e),h),g=f?ao(function(a){return ac(db(a,[0,d,c]))},e):f;return g?o(function(a){return db(jw(a,e),[0,d,c])},i):g}var
+jA(a){if(a){var
+b=jz(a[1]);if(b)var
+c=jA(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return pB}function
+jB(h,l){var
+a=jA(l);if(a){var
+i=a[1],b=jy(h,i);if(b){var
+e=b[1],f=u(j(e),h),g=f?ap(function(a){return ac(db(a,[0,d,c]))},e):f;return g?o(function(a){return db(jx(a,e),[0,d,c])},i):g}var
 k=b}else
 var
 k=a;return k}function
-pB(a){return a}function
 pC(a){return a}function
-pD(a,b){return aQ(pC,pB,E,a,b)}function
-pE(a){return a}function
+pD(a){return a}function
+pE(a,b){return aQ(pD,pC,F,a,b)}function
 pF(a){return a}function
-ck(a,b){return aQ(pF,pE,pD,a,b)}function
+pG(a){return a}function
+ck(a,b){return aQ(pG,pF,pE,a,b)}function
 gP(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
 g=gP(b,f,c[2]),h=c[1],i=function(c,a){return K(c,d1(d,a,b))},j=function(a){return af(d1(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
@@ -1532,49 +1532,49 @@ f=b;var
 g=f}else
 var
 g=a;return g}function
-jB(f,e){var
+jC(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
 c=gQ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jC(d,b,a){if(b)if(a)var
-e=a[1],f=jC(d,b[2],a[2]),g=cb(d,b[1])?e_(e):de(e),c=[0,g,f];else
+jD(d,b,a){if(b)if(a)var
+e=a[1],f=jD(d,b[2],a[2]),g=cb(d,b[1])?e_(e):de(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jD(a,b){if(a)if(b)var
-d=jD(a[2],b[2]),c=[0,jC(a[1],a,b[1]),d];else
+jE(a,b){if(a)if(b)var
+d=jE(a[2],b[2]),c=[0,jD(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bp(a){if(a){var
-b=a[1],c=bp(b),d=e(function(a){return[0,1,a]},c),g=bp(b);return f(e(function(a){return[0,0,a]},g),d)}return pG}function
+bq(a){if(a){var
+b=a[1],c=bq(b),d=e(function(a){return[0,1,a]},c),g=bq(b);return f(e(function(a){return[0,0,a]},g),d)}return pH}function
 ff(a){var
-b=j(a);if(jB(b,a))return 1;var
-c=bp(bD(b));return o(function(c){return jB(b,jD([0,0,c],a))},c)}function
-aq(a){function
+b=j(a);if(jC(b,a))return 1;var
+c=bq(bD(b));return o(function(c){return jC(b,jE([0,0,c],a))},c)}function
+ar(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aS(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?E(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+d=b[1],f=b[2],g=c[1]?F(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
 gR(c,b,a){var
-d=bp(c);return o(function(c){return k(a,k(aq(function(a){return aS(c,a)}),b))},d)}function
+d=bq(c);return o(function(c){return k(a,k(ar(function(a){return aS(c,a)}),b))},d)}function
 gS(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a5(b,z(h,c),a)},k=gS(h,j,i),l=function(c,b){var
-d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a6(b,z(h,c),a)},k=gS(h,j,i),l=function(c,b){var
+d=a(b,e);return F(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,F(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
 fg(b,d,a,c){function
 e(c,d){var
-e=a5(d,b,a);return K(E(c,c),e)}function
-f(c){return af(a5(c,b,a))}return aQ(function(a){return E(a,a)},f,e,d,c)}function
+e=a6(d,b,a);return K(F(c,c),e)}function
+f(c){return af(a6(c,b,a))}return aQ(function(a){return F(a,a)},f,e,d,c)}function
 fh(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
 e=b[1],f=c[1],j=de(e[2]),k=ck(a,gS(d,f,fg(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
@@ -1599,49 +1599,49 @@ f=c;var
 g=f}else
 var
 g=a;return g}return gR(b,gT(c,a),d)}function
-jE(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jF(b,a){var
-c=bp(b);return o(function(b){return V(d,aS(b,a)[1])},c)}function
-jG(c,b,a){var
-d=a[3],f=e(function(a){return a5(c,b,a)},d),g=a[2];return[0,a5(c,b,a[1]),g,f]}function
-jH(a,b){var
+jF(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jG(b,a){var
+c=bq(b);return o(function(b){return V(d,aS(b,a)[1])},c)}function
+jH(c,b,a){var
+d=a[3],f=e(function(a){return a6(c,b,a)},d),g=a[2];return[0,a6(c,b,a[1]),g,f]}function
+jI(a,b){var
 c=b[3],d=a[3],e=aQ(function(a){return a},af,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
 bJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ar(c,b,a){var
+ai(c,b,a){var
 d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-bq(b,a){var
+aT(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
 cl(b,a){var
-c=ak(b[3],a),d=ak(b[2],a);return[0,ak(b[1],a),d,c]}function
+c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
 U(b,a){var
-c=q(b[3],a[3]),d=q(b[2],a[2]);return F(F(q(b[1],a[1]),d),c)}function
-cH(a){return cl(a,ay(U(a,a)))}function
+c=q(b[3],a[3]),d=q(b[2],a[2]);return C(C(q(b[1],a[1]),d),c)}function
+cH(a){return cl(a,az(U(a,a)))}function
 cm(a){var
-b=a[5];return b?b[1]:ay(a[2])}function
-fi(b,a){return b?a:bm(a)}function
-jI(e,a,i,d,h){var
-f=U(a,e),b=ar(t,e,bq(f,a)),j=U(b,b),g=t(H(d),j),c=fi(h,ay(g)),k=t(f,c),l=ar(F,a,cl(b,c));return[0,ar(F,b,bq(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jJ(a,e,d){var
-b=U(a,a),c=ay(b),f=[0,e],g=w(function(b){return ar(t,a,bq(U(b,a),b))},d);return[0,a,b,cl(a,c),c,0,g,f]}function
-jK(b,a){var
+b=a[5];return b?b[1]:az(a[2])}function
+fi(b,a){return b?a:bn(a)}function
+jJ(e,a,i,d,h){var
+f=U(a,e),b=ai(s,e,aT(f,a)),j=U(b,b),g=s(H(d),j),c=fi(h,az(g)),k=s(f,c),l=ai(C,a,cl(b,c));return[0,ai(C,b,aT(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jK(a,e,d){var
+b=U(a,a),c=az(b),f=[0,e],g=w(function(b){return ai(s,a,aT(U(b,a),b))},d);return[0,a,b,cl(a,c),c,0,g,f]}function
+jL(b,a){var
 d=U(a,b);return[0,a,l(c),a,d,0,0,0]}function
 d8(a){return e(function(a){var
 b=a[2];return[0,bJ(a[1]),b]},a)}function
-jL(a){return e(function(a){var
+jM(a){return e(function(a){var
 b=l(c);return[0,bJ(a[3]),b]},a)}function
-jM(b,a){var
+jN(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-jN(c,b,a){var
+jO(c,b,a){var
 d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
 gW(d,a){var
 b=ce(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 fj(a,m,f,l,e,k,j){var
-n=jN(a8,k,j),b=jN(function(b,c){return au(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=bI(bI(bI(ag(_(a,d)),h),g),c),p=bp(m);return o(function(c){var
-b=jM(function(b){return W(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,gW(a,E(E(E(_(a,d),k),j),h))),g=K(aS(c,i),m),n=f?K(g,aS(c,f[1])):g;return V(d,n[1])},p)}function
+n=jO(a9,k,j),b=jO(function(b,c){return au(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=bI(bI(bI(ag(_(a,d)),h),g),c),p=bq(m);return o(function(c){var
+b=jN(function(b){return W(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,gW(a,F(F(F(_(a,d),k),j),h))),g=K(aS(c,i),m),n=f?K(g,aS(c,f[1])):g;return V(d,n[1])},p)}function
 bK(a){return cA(z(a[1],a[2]),c)}function
 di(a){var
-b=bK(a);return aC(a[2],b)}function
+b=bK(a);return aD(a[2],b)}function
 fk(c,b){if(b)var
 a=b[1],e=fk([0,c],b[2]),g=di(a),h=[0,[0,di(a),g],0],i=f(aK(B,c),h),j=bK(a),d=[0,[0,[0,bK(a),j],a,i],e];else
 var
@@ -1649,12 +1649,12 @@ d=b;return d}function
 d9(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=d9(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bK(a),f],c],h=bK(a);return[0,[0,[0,a[1],h],c],g]}return pH}function
-jO(d,b,a){if(b){if(a){var
-e=jO(d,b[2],a[2]);return E(a5(b[1],z(d,c),a[1]),e)}return B}return B}function
+f=a[2],g=[0,[0,bK(a),f],c],h=bK(a);return[0,[0,[0,a[1],h],c],g]}return pI}function
+jP(d,b,a){if(b){if(a){var
+e=jP(d,b[2],a[2]);return F(a6(b[1],z(d,c),a[1]),e)}return B}return B}function
 d_(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jO(f,a,b)},j=d_(f,h),k=e(function(a){var
-e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jP(f,a,b)},j=d_(f,h),k=e(function(a){var
+e=b(d,a[2]);return F(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,F(b(d,c),l),k],j];else
 var
 i=a;return i}function
 d$(e,b,d,a){if(b)if(a)var
@@ -1671,21 +1671,21 @@ var
 h=a;return h}function
 br(c,a){var
 b=u(j(a),c);return b?ff(a):b}function
-jP(d,b,a){if(b)var
-c=b[1],g=jP([0,d],b[2],a),h=f(aK(B,d),[0,a,0]),e=[0,[0,c,[0,aC(c[1],a[2]),z(c[2],a[2])],h],g];else
+jQ(d,b,a){if(b)var
+c=b[1],g=jQ([0,d],b[2],a),h=f(aK(B,d),[0,a,0]),e=[0,[0,c,[0,aD(c[1],a[2]),z(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jQ(d){if(d){var
+jR(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jQ(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jR(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return pI}function
+f=a;return f}return pJ}function
 gX(a){return w(function(a){return w(d4,a)},a)}function
 cn(c,b,a){function
 d(a){return au(c,b,a)}return w(function(a){return w(d,a)},a)}function
@@ -1696,57 +1696,57 @@ c=aJ(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,bY(function(b,a){return[0,bI(b,a)]},e,d)]}return b}return a},c)}function
 fm(a){return ag(_(a,b(2,c)))}function
-jR(b,c,a){if(a)var
-f=a[1],g=jR(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
+jS(b,c,a){if(a)var
+f=a[1],g=jS(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jS(a){return o(function(a){var
+jT(a){return o(function(a){var
 b=Z(a[1],d);return b?Z(a[2],d):b},a)}function
-jT(c,b,a){var
-d=aJ(b,a);return aV(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
+jU(c,b,a){var
+d=aJ(b,a);return aW(function(a,b){return F(x(c,a[1],a[2]),b)},B,d)}function
 gZ(c,b,a){var
-d=d2(jT(c,a,b));return aV(function(b,a){return z(d2(b),a)},d,a)}function
+d=d2(jU(c,a,b));return aW(function(b,a){return z(d2(b),a)},d,a)}function
 dk(a){return _(a,c)}function
 g0(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jS(c)&&!jS(j)){var
+j=f[1],n=0;if(!jT(c)&&!jT(j)){var
 h=gZ(a,i,j),o=dk(a),p=gZ(a,i,c),b=d1([0,gZ(a,i,c),p],o,[0,h,h])[1],k=V(d,h),l=k?V(d,b):k;if(l)var
-q=a6(gK(a,[0,b,b])),r=function(b){return function(d,c){return K(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ck(e,jR(a,q,aQ(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
+q=a7(gK(a,[0,b,b])),r=function(b){return function(d,c){return K(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ck(e,jS(a,q,aQ(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-pX(a){var
+pY(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-jU(c,b,a){if(b){if(a){var
-d=jU(c,b[2],a[2]);return E(a5(b[1],c,a[1]),d)}return B}return B}function
-jV(a,j){switch(j){case
+jV(c,b,a){if(b){if(a){var
+d=jV(c,b[2],a[2]);return F(a6(b[1],c,a[1]),d)}return B}return B}function
+jW(a,j){switch(j){case
 0:var
-d=aC(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aD(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aC(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cA(z(a[1],a[2]),c),h=aC(b,a[2]),i=aC(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jW(d,c,a){if(a)var
-e=a[1],g=jW(d,[0,c],a[2]),b=w(ca,ja(function(a){return u(a[1],c)},d)),h=b?jV(e,b[1])[1]:e,f=[0,h,g];else
+f=aD(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cA(z(a[1],a[2]),c),h=aD(b,a[2]),i=aD(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jX(d,c,a){if(a)var
+e=a[1],g=jX(d,[0,c],a[2]),b=w(ca,jb(function(a){return u(a[1],c)},d)),h=b?jW(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-pY=ag(B);function
-jX(e,d,c){if(d){var
-f=s(e,c[2],pZ),a=f?f[1]:[0,pY];if(a)var
-b=jX([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+pZ=ag(B);function
+jY(e,d,c){if(d){var
+f=t(e,c[2],p0),a=f?f[1]:[0,pZ];if(a)var
+b=jY([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return p0}function
+g=a;return g}return p1}function
 g1(d,c,b,a){var
 f=e(ag,b);return bG(0,ch(d,fk(0,a),f),c,0)}function
-ai(a){if(a){var
+aj(a){if(a){var
 b=a[1];if(b)var
-c=ai(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p1}function
+d=b;return d}return p2}function
 fn(b,a){if(a){var
-h=a[1],n=h[1],c=ai(e(function(a){return s(a,b,0)},n));if(c){var
-f=s(h[2],b,0);if(f){var
+h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
+f=t(h[2],b,0);if(f){var
 i=f[1],g=fn(b,a[2]);if(g)var
 j=V(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
@@ -1756,25 +1756,25 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return p2}function
+m=c;return m}return p3}function
 b0(d,c,b){var
 a=fn(d,c);return a?k(b,a[1]):a}function
 dl(a,b){return o(function(c){var
-a=s(c,b,0),d=a?1:a;return d},a)}function
+a=t(c,b,0),d=a?1:a;return d},a)}function
 fo(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
-g2(b,a){return b?jH(a,b[1]):a}function
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,F,e,d),h=a[2];return[0,F(a[1],c[1]),h,g]}return a}function
+g2(b,a){return b?jI(a,b[1]):a}function
 g3(h,g,b,f){var
-a=s(f,h,0);if(a){var
+a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jH(c,b[1]),e=bp(g);return o(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-jY(f,d,a){function
-b(a){return a5(a,d,_(f,c))}if(a){var
+i=jI(c,b[1]),e=bq(g);return o(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+jZ(f,d,a){function
+b(a){return a6(a,d,_(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),B,g]}return ag(B)}function
 fp(b,a){var
-c=s(a[1],b,0);if(c){var
-d=s(a[2],b,0);if(d)var
-e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+c=t(a[1],b,0);if(c){var
+d=t(a[2],b,0);if(d)var
+e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
@@ -1793,7 +1793,7 @@ ah=a[2],ai=a[1],aj=fo(g,ag(r));return b0(h,J,function(a){return dh(b,aj,ai,ah,a)
 2:var
 M=dl(t,h);if(M){if(g)return 0;var
 N=Z(r[1],d),O=N?Z(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return b0(h,k,function(a){return dh(b,[0,B,B,0],al,ak,jE([0,B,B,0],a))})}var
+ak=a[2],al=a[1];return b0(h,k,function(a){return dh(b,[0,B,B,0],al,ak,jF([0,B,B,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
@@ -1804,8 +1804,8 @@ am=g2(g,ag(Q));return b0(h,J,function(a){return gV(b,am,a)})}if(!a){var
 an=g2(g,ag(Q));return b0(h,k,function(a){return gV(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jY(i,R,a[3]),S=f[1],ao=a[2];return b0(h,k,function(d){var
-a=jF(b,l),c=a?dh(b,fo(g,l),R,ao,d):a;if(c){var
+R=a[1],l=jZ(i,R,a[3]),S=f[1],ao=a[2];return b0(h,k,function(d){var
+a=jG(b,l),c=a?dh(b,fo(g,l),R,ao,d):a;if(c){var
 f=l[3],h=e(function(a){return x(i,S,a)},f),j=l[2];return gV(b,g2(g,[0,x(i,S,l[1]),j,h]),d)}return c})}return 0;case
 3:if(typeof
 a==="number"&&!a)return g3(h,b,g,f[1]);return 0;case
@@ -1825,9 +1825,9 @@ A=fp(h,f[4]);if(A){var
 T=A[1],U=y[1],V=w[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
 n=m[2];if(n){var
 p=n[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],n[1],p[1]],q=jM(function(d){function
-f(a){return a5(a,at,_(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fa(a),h=z(b[2],g),j=fa(a);return[0,b,[0,aC(b[1],j),h],a]}return ag(B)},ac),C=o(function(a){return u(j(a),[0,b])},m),D=C?fj(i,b,g,s,q,W,U):C,E=D?fj(i,b,g,s,q,W,T):D,F=E?fj(i,b,g,s,q,V,U):E;if(F)return fj(i,b,g,s,q,V,T);var
+ac=[0,m[1],n[1],p[1]],q=jN(function(d){function
+f(a){return a6(a,at,_(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fa(a),h=z(b[2],g),j=fa(a);return[0,b,[0,aD(b[1],j),h],a]}return ag(B)},ac),C=o(function(a){return u(j(a),[0,b])},m),D=C?fj(i,b,g,s,q,W,U):C,E=D?fj(i,b,g,s,q,W,T):D,F=E?fj(i,b,g,s,q,V,U):E;if(F)return fj(i,b,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1859,35 +1859,35 @@ f=a;return f},h=g?g[1]:ag(B);return gR(b,gT(h,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jE([0,B,B,0],d),c=g?g[1]:[0,B,B,0];return dh(b,c,ax,aw,a)};return b0(h,f[1],ay)}return 0;default:return 0}}function
-jZ(a,Z,I,l,p,Y,g,i,h,f,b){if(9===f[0]){if(typeof
+a=jF([0,B,B,0],d),c=g?g[1]:[0,B,B,0];return dh(b,c,ax,aw,a)};return b0(h,f[1],ay)}return 0;default:return 0}}function
+j0(a,Z,I,l,p,Y,g,i,h,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-$=f[1],S=e(ag,Y),A=bG(0,ch(a,jP(0,i,$),S),Z,0),J=u(j(i),p3),L=J?dl(p,A):J;if(L){var
+$=f[1],S=e(ag,Y),A=bG(0,ch(a,jQ(0,i,$),S),Z,0),J=u(j(i),p4),L=J?dl(p,A):J;if(L){var
 q=fn(A,l);if(q){var
 r=fn(g,l);if(r){var
-aa=f[2],t=ai(e(function(b){var
-c=s(b[1],g,0);if(c)var
-f=b[2][2],a=ai(e(function(a){var
-b=s(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+aa=f[2],s=aj(e(function(b){var
+c=t(b[1],g,0);if(c)var
+f=b[2][2],a=aj(e(function(a){var
+b=t(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},aa));if(t){var
-v=jQ(q[1]);if(v){var
-M=b[2],y=b[1],N=r[1],ab=b[3],ac=t[1],ad=v[1],C=gW(a,aV(function(f,h){function
+d=c;return d},aa));if(s){var
+v=jR(q[1]);if(v){var
+M=b[2],y=b[1],N=r[1],ab=b[3],ac=s[1],ad=v[1],C=gW(a,aW(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return d2(s(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return d2(t(d,c[3],B))}function
 c(a){var
-b=k(a,pJ),c=bj(k(a,pK),b);return bj(k(a,0),c)}var
+b=k(a,pK),c=bk(k(a,pL),b);return bk(k(a,0),c)}var
 d=c(function(a){var
-c=b(pL,a),d=b(pM,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,pN),d=b(a,pO);return z(z(b(a,0),d),c)});return E(h,W(a,gW(a,x(a,[0,e,e],g))))},B,ad)),m=a5(ab,y,_(a,c)),D=V(d,K(m,C)[1]),F=D?u(j(M),pU):D,G=F?u(j(N),pV):F;if(G){var
+c=b(pM,a),d=b(pN,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,pO),d=b(a,pP);return z(z(b(a,0),d),c)});return F(h,W(a,gW(a,x(a,[0,e,e],g))))},B,ad)),m=a6(ab,y,_(a,c)),D=V(d,K(m,C)[1]),E=D?u(j(M),pV):D,G=E?u(j(N),pW):E;if(G){var
 n=cd(a,m);if(n){var
-T=a6(x(a,C,n[1])),U=K(_(a,c),T),X=bp(pW);return o(function(i){var
+T=a7(x(a,C,n[1])),U=K(_(a,c),T),X=bq(pX);return o(function(i){var
 g=e(function(b){var
 c=b[2],d=b[1];return de(da(function(d,b){var
-c=d2(aS(i,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ac),r=k(aq(function(a){return aS(i,a)}),N),D=h?aS(i,h[1]):B,L=W(a,U),s=W(a,m),q=d_(y,d$(y,M,_(a,c),r)),b=ck(aK([0,af(D),0],pP),q);if(g){var
+c=d2(aS(i,b[2]));return F(d,x(a,b[1],[0,c,c]))},c,d))},ac),r=k(ar(function(a){return aS(i,a)}),N),D=h?aS(i,h[1]):B,L=W(a,U),s=W(a,m),q=d_(y,d$(y,M,_(a,c),r)),b=ck(aK([0,af(D),0],pQ),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],C=g[1],G=f[1],j=br(pR,ck(aK([0,af(s),0],pQ),b));if(j)return o(function(B){var
+A=d[1],C=g[1],G=f[1],j=br(pS,ck(aK([0,af(s),0],pR),b));if(j)return o(function(B){var
 H=K(L,D),I=B[2]?A:af(A),J=B[1]?C:af(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
@@ -1927,7 +1927,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return br(pT,j)},pS);var
+j=z;return br(pU,j)},pT);var
 l=j}else
 var
 l=f;var
@@ -1942,7 +1942,7 @@ var
 H=G;return H}var
 O=v}else
 var
-O=t;var
+O=s;var
 P=O}else
 var
 P=r;var
@@ -1952,11 +1952,11 @@ Q=q;var
 R=Q}else
 var
 R=L;return R}return fq(a,I,l,p,g,j(i),h,f,b)}return fq(a,I,l,p,g,j(i),h,f,b)}function
-j0(i,b,a){if(a){var
-j=a[1],l=j[2],c=ai(e(b,j[1]));if(c){var
+j1(i,b,a){if(a){var
+j=a[1],l=j[2],c=aj(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
-g=s(l,i,0);if(g){var
-h=j0(i,b,a[2]);if(h)var
+g=t(l,i,0);if(g){var
+h=j1(i,b,a[2]);if(h)var
 m=V(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -1968,10 +1968,10 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return p5}function
-j1(a,U,m,T,v,t,S,C,h,g,l,b){var
-i=j(S),W=fk(0,S),aT=bG(0,ch(a,W,e(ag,jW(l,0,v))),U,0),X=e(aI,l),aU=0,aX=e(ag,v),aY=bG(p6,function(b){var
-av=cE(aI,b),f=k(ch(a,W,aX),av);switch(b[0]){case
+q=c;return q}return p6}function
+j2(a,U,m,T,v,s,S,C,h,g,l,b){var
+i=j(S),W=fk(0,S),aT=bG(0,ch(a,W,e(ag,jX(l,0,v))),U,0),X=e(aI,l),aU=0,aV=e(ag,v),aY=bG(p7,function(b){var
+av=cE(aI,b),f=k(ch(a,W,aV),av);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
 b=u(M,d),e=b?[0,[0,ag(_(a,c))]]:b;return e},X);break;case
@@ -2008,8 +2008,8 @@ d=f;break;case
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jj(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],af=E[2],ah=a8(o,r),ai=e(function(b){return cn(a,ah,b)},af),aj=F[2],ak=a8(m,s),al=dj(e(function(b){return cn(a,ak,b)},aj),ai),am=e(gX,D[2]),an=fm(a),ao=dj(e(function(b){return cn(a,an,b)},al),am),ap=b[1]?s:d4(r),aq=e(function(b){return cn(a,ap,b)},ao),ar=au(a,m,r),as=a8(au(a,o,s),ar),at=au(a,fm(a),as),d=e(function(b){return gY(a,at,b)},aq);K=1;L=1}else
+q=jk(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],af=E[2],ah=a9(o,r),ai=e(function(b){return cn(a,ah,b)},af),aj=F[2],ak=a9(m,s),al=dj(e(function(b){return cn(a,ak,b)},aj),ai),am=e(gX,D[2]),an=fm(a),ao=dj(e(function(b){return cn(a,an,b)},al),am),ap=b[1]?s:d4(r),aq=e(function(b){return cn(a,ap,b)},ao),ar=au(a,m,r),as=a9(au(a,o,s),ar),at=au(a,fm(a),as),d=e(function(b){return gY(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2021,11 +2021,11 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},X)}return[0,f,d]},U,aU),aQ=e(function(a){var
-b=a[2];return jV(s(a[1],v,B),b)[2]},l);function
+b=a[2];return jW(t(a[1],v,B),b)[2]},l);function
 Y(c){var
-d=s(c,t,0);if(d){var
-a=s(c,aT,0);if(a)var
-b=jX(0,l,s(c,aY,p4)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=t(c,s,0);if(d){var
+a=t(c,aT,0);if(a)var
+b=jY(0,l,t(c,aY,p5)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
@@ -2036,7 +2036,7 @@ aZ=C?C[1]:ag(B);function
 $(a){return a?br(i,a[1]):a}function
 w(t,s,f,r,q){var
 u=aK([0,af(s),0],i),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
-j=b[1],k=j[1],d=c[1],m=de(k[2]),n=ck(g,gS(f,d,fg(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a6,fg(f,a[1],a[2],b))}}(d),o),h=g0(a,v,e(function(b){return a5(b,f,dk(a))},d),p,n);if(h){var
+j=b[1],k=j[1],d=c[1],m=de(k[2]),n=ck(g,gS(f,d,fg(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a7,fg(f,a[1],a[2],b))}}(d),o),h=g0(a,v,e(function(b){return a6(b,f,dk(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
@@ -2046,7 +2046,7 @@ z=aK([0,x,0],i),q=D(y),c=w,f=z;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e_(g),h],f];if(m){var
 o=V(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a6(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dk(a),t],v=dk(a),b=g0(a,[0,af(d1(jT(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a7(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dk(a),t],v=dk(a),b=g0(a,[0,af(d1(jU(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
@@ -2061,40 +2061,40 @@ var
 r=[0,f];return $(r)}}var
 a0=e(aI,l),ab=o(function(a){return dW(a,j(v))},a0);if(ab){var
 r=e(aI,l);for(;;){if(r){var
-Q=r[2],aR=r[1],R=ac(ao(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
+Q=r[2],aR=r[1],R=ac(ap(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
 r=Q;continue}var
 ad=R}else
 var
 ad=1;var
-F=ad;break}}else
+E=ad;break}}else
 var
-F=ab;var
-ae=F?o(function(a){return u(j(a),i)},b):F;if(ae){var
+E=ab;var
+ae=E?o(function(a){return u(j(a),i)},b):E;if(ae){var
 A=0;switch(h[0]){case
 0:var
 H=h[1],O=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 aB=0;if(b){if(b[2])return 0;var
-a1=b[1],a2=g[2],a3=g[1],ah=dl(T,t);if(ah){var
+a1=b[1],a2=g[2],a3=g[1],ah=dl(T,s);if(ah){var
 p=function(c,a){var
-b=E(H,a);return function(a){return w(a1,b,a3,a2,a)}},n=m;O=1;aB=1}else
+b=F(H,a);return function(a){return w(a1,b,a3,a2,a)}},n=m;O=1;aB=1}else
 var
 ak=ah}else
 var
 ak=b;if(!aB)return ak;break;case
 2:var
-aD=0;if(b){if(b[2])return 0;var
-a7=b[1],a9=g[2],a_=g[1],al=dl(T,t),aE=0;if(al){if(C)return 0;var
+aC=0;if(b){if(b[2])return 0;var
+a5=b[1],a8=g[2],a_=g[1],al=dl(T,s),aE=0;if(al){if(C)return 0;var
 am=Z(H[1],d),an=am?Z(H[2],d):am;if(an){var
-p=function(c,b,a){return w(a7,B,a_,a9,e(pX,a))},n=m;O=1;aD=1;aE=1}else
+p=function(c,b,a){return w(a5,B,a_,a8,e(pY,a))},n=m;O=1;aC=1;aE=1}else
 var
-ap=an}else
+ao=an}else
 var
-ap=al;if(!aE)var
-aq=ap}else
+ao=al;if(!aE)var
+aq=ao}else
 var
-aq=b;if(!aD)return aq;break}if(!O)return 0;break;case
+aq=b;if(!aC)return aq;break}if(!O)return 0;break;case
 1:var
 aF=0,a$=h[1];if(typeof
 g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
@@ -2105,9 +2105,9 @@ aG=0,bb=h[1];if(typeof
 g==="number"||!(3===g[0]))aG=1;else{var
 aH=0;if(b){var
 y=b[2],aL=0;if(y){if(y[2])return 0;var
-ar=g[1],bc=y[1],bd=b[1],be=g[2],as=jY(a,ar,g[3]),at=jF(i,as);if(at){var
+ar=g[1],bc=y[1],bd=b[1],be=g[2],as=jZ(a,ar,g[3]),at=jG(i,as);if(at){var
 p=function(f,c,b){var
-d=aS(f,as),e=w(bd,E(d,c),ar,be,b);return e?aa(bc,K(x(a,bb,d),c),b):e},n=m;aH=1;aL=1}else
+d=aS(f,as),e=w(bd,F(d,c),ar,be,b);return e?aa(bc,K(x(a,bb,d),c),b):e},n=m;aH=1;aL=1}else
 var
 av=at}else
 var
@@ -2123,8 +2123,8 @@ aM=1;if(aM)return 0;break;case
 4:var
 aN=0,bg=h[2];if(typeof
 g==="number"||!(0===g[0]))aN=1;else{if(!b)return b;if(b[2])return 0;var
-bh=b[1],bi=g[2],bk=g[1],bl=function(c,a){var
-b=E(bg,a);return function(a){return w(bh,b,bk,bi,a)}},p=bl,n=h[1]}if(aN)return 0;break;case
+bh=b[1],bi=g[2],bj=g[1],bl=function(c,a){var
+b=F(bg,a);return function(a){return w(bh,b,bj,bi,a)}},p=bl,n=h[1]}if(aN)return 0;break;case
 5:var
 P=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
@@ -2143,8 +2143,8 @@ z=D(bm);return function(f){var
 k=u(j(f),i),l=k?u(j(q),i):k;if(l){var
 s=e(aI,f),t=d_(N,d$(N,q,dk(a),s)),v=ck(fl(a,ay,ax,y,e(aI,f)),t),b=0,c=f,g=v,w=j(q);for(;;){if(c){var
 o=c[1][2],p=u(b,ay),r=e(function(f,g){return function(d){var
-b=aJ(aW(0,j(q)),q);return e(function(b){var
-c=jU(N,b[2],d[1]);if(g&&u(b[1],f))return K(c,a6(x(a,ax,d[2])));return c},b)}}(b,p),o),n=aW(0,w),h=g0(a,z,e(function(c){return function(b){return u(b,c)?dk(a):B}}(b),n),r,g);if(h){var
+b=aJ(aX(0,j(q)),q);return e(function(b){var
+c=jV(N,b[2],d[1]);if(g&&u(b[1],f))return K(c,a7(x(a,ax,d[2])));return c},b)}}(b,p),o),n=aX(0,w),h=g0(a,z,e(function(c){return function(b){return u(b,c)?dk(a):B}}(b),n),r,g);if(h){var
 b=[0,b],c=c[2],g=h[1];continue}var
 d=h}else
 var
@@ -2158,59 +2158,59 @@ var
 aA=b;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
 L=Y(J);if(!L)return L;var
 bf=function(b,f,a){return o(function(a){var
-b=f[2],c=a[2],e=aV(function(b,a){return z(bj(d,M(b[2][1])),a)},d,c);return G(d,aC(aC(a[1][2][1],e),b))},a)},aj=bf,ai=[0,[0,0,L[1]],0]}else{var
-I=j0(t,Y,n);if(!I)return I;var
+b=f[2],c=a[2],e=aW(function(b,a){return z(bk(d,M(b[2][1])),a)},d,c);return G(d,aD(aD(a[1][2][1],e),b))},a)},aj=bf,ai=[0,[0,0,L[1]],0]}else{var
+I=j1(s,Y,n);if(!I)return I;var
 aj=p,ai=I[1]}var
-a4=bp(i);return o(function(b){var
+a4=bq(i);return o(function(b){var
 c=e(function(c){function
 g(a){return aS(b,a[1])}var
 h=0,j=ag(B);function
 d(h,g,b,c){if(b){var
-i=function(a){return aS(h,s(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
+i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=x(a,b,l);return[0,e(function(c){return x(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return C4(aj,b,aS(b,aZ),c)},a4)}return ae}function
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return C6(aj,b,aS(b,aZ),c)},a4)}return ae}function
 fr(b,a){if(a){var
 c=a[2];if(b){var
 e=fr(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-j2(m,l,q,T,p,i,$,z,b,S,Q){if(S){var
+j3(m,l,q,T,p,i,$,z,b,S,Q){if(S){var
 r=g1(m,l,i,b),h=S,g=Q;for(;;){if(h){var
 L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],X=bp(j(b)),x=o(function(b){return function(a){return V(aS(a,b)[2],d)}}(_),X);else
+_=v[1],X=bq(j(b)),x=o(function(b){return function(a){return V(aS(a,b)[2],d)}}(_),X);else
 var
 x=v;if(x){var
 h=M,g=e(function(a){return 0},g);continue}return x}var
-N=s(w,g,0);if(N){var
+N=t(w,g,0);if(N){var
 y=R($,w);if(y){var
 n=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],t=k(z,b),U=0;if(t){var
+C=a[2],s=k(z,b),U=0;if(s){var
 D=G(d,C);if(D){var
-Y=a[1],c=jZ(m,l,q,T,p,i,r,b,[0,jG(C,a[3],t[1])],n,Y);U=1}else
+Y=a[1],c=j0(m,l,q,T,p,i,r,b,[0,jH(C,a[3],s[1])],n,Y);U=1}else
 var
 E=D}else
 var
-E=t;if(!U)var
+E=s;if(!U)var
 c=E;break;case
 10:var
 F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
 I=f[2],u=k(z,b),W=0;if(u){var
 J=G(d,I);if(J){var
-Z=f[1],c=j1(m,l,q,p,i,r,b,[0,jG(I,f[3],u[1])],n,Z,H,F);B=1;W=1}else
+Z=f[1],c=j2(m,l,q,p,i,r,b,[0,jH(I,f[3],u[1])],n,Z,H,F);B=1;W=1}else
 var
 K=J}else
 var
 K=u;if(!W){var
 c=K;B=1}}if(!B)var
-c=j1(m,l,q,p,i,r,b,0,n,f,H,F);break;default:A=1}if(A)var
-c=jZ(m,l,q,T,p,i,r,b,0,n,a);if(c){var
+c=j2(m,l,q,p,i,r,b,0,n,f,H,F);break;default:A=1}if(A)var
+c=j0(m,l,q,T,p,i,r,b,0,n,a);if(c){var
 h=M,g=fr(w,g);continue}var
 O=c}else
 var
@@ -2220,8 +2220,8 @@ var
 P=N;return P}return[0,g]}}return[0,Q]}function
 fs(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=j2(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
-m=j2(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+l=j3(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
+m=j3(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
 n=m[1],p=d9(a[2],b),q=fs(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
@@ -2231,27 +2231,27 @@ g4(a){return e(function(a){return 1},a)}function
 dm(a,d,b,c){function
 f(d,c){var
 f=aJ(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return F(q(d,a[1]),b)},f)}if(aF(a[2],b[2])){var
+b=q(c,a[2]);return C(q(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-j3(a){var
+j4(a){var
 b=l(c);return[0,e(function(a){return l(d)},a),b]}function
 aL(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-v=f[1];if(ao(function(a){return u(v,a)},a)){var
+v=f[1];if(ap(function(a){return u(v,a)},a)){var
 C=l(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return l(b)},a),C]}return j3(a);case
+b=u(a,v)?c:d;return l(b)},a),C]}return j4(a);case
 3:var
 D=l(c),E=aL(a,f[2]),F=l(c);return dm(aL(a,f[1]),F,E,D);case
 4:var
 G=l(M(c)),H=aL(a,f[2]),I=l(c);return dm(aL(a,f[1]),I,H,G);case
 5:var
-w=aL(a,f[1]),J=w[2];return[0,e(bm,w[1]),J];case
+w=aL(a,f[1]),J=w[2];return[0,e(bn,w[1]),J];case
 6:var
 x=f[2],y=f[1],K=aL(a,x);return dm(aL(a,y),x,K,y);case
 7:var
-z=f[2],L=bm(k),N=aL(a,z),O=l(c),i=dm(aL(a,f[1]),O,N,L),P=i[1];if(o(function(a){return aR(d,a)},P))return i;var
+z=f[2],L=bn(k),N=aL(a,z),O=l(c),i=dm(aL(a,f[1]),O,N,L),P=i[1];if(o(function(a){return aR(d,a)},P))return i;var
 Q=q(i[2],z);return[0,i[1],Q];case
 8:var
 A=f[1],B=aL(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
@@ -2260,8 +2260,8 @@ j=aL(a,f[1]),U=j[1];if(o(function(a){return aR(d,a)},U)){var
 V=l(c);return[0,j[1],V]}var
 W=q(l(b(2,c)),k),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],n=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=t(g,p),Z=aL(a,g),_=t(h,n),$=dm(aL(a,h),_,Z,Y),aa=l(M(c)),ab=aL(a,m),r=dm($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?n:bm(p),s=e(function(a){return q(ad,a)},ac);if(o(function(a){return aR(d,a)},s))return[0,s,r[2]];var
-ae=q(h,p),af=t(q(g,n),ae),ag=q(l(b(2,c)),af);return[0,s,q(r[2],ag)];default:return j3(a)}}function
+m=f[4],g=f[3],h=f[2],n=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=s(g,p),Z=aL(a,g),_=s(h,n),$=dm(aL(a,h),_,Z,Y),aa=l(M(c)),ab=aL(a,m),r=dm($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?n:bn(p),t=e(function(a){return q(ad,a)},ac);if(o(function(a){return aR(d,a)},t))return[0,t,r[2]];var
+ae=q(h,p),af=s(q(g,n),ae),ag=q(l(b(2,c)),af);return[0,t,q(r[2],ag)];default:return j4(a)}}function
 co(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(G(i,c))if(0===e[0]){var
@@ -2272,11 +2272,11 @@ var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=Z(aU(j,aE(2))[2],d)?0:0}else
+a=Z(aV(j,aF(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=Z(aU(i,aE(2))[2],d)?0:0}else
+a=Z(aV(i,aF(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
 b1(b,a){if(a)var
@@ -2289,18 +2289,18 @@ ft(b,d,a){switch(a[0]){case
 c=a[1],g=[0,[0,c[4],b],0],h=f(aM(c[3],b),g),i=f(aM(c[2],b),h);return f(aM(c[1],d),i);case
 1:var
 e=a[3],j=e?aM(e[1],d):e,k=f(aM(a[2],b),j);return f(aM(a[1],b),k);default:return aM(a[1],d)}}function
-aa(b,a){var
-c=l(d),e=s(N(p7,a),b,c),f=l(d),g=s(N(p8,a),b,f);return[0,s(a,b,l(d)),g,e]}function
-j4(b,a){return ar(t,ar(F,cI,a),b)}function
+$(b,a){var
+c=l(d),e=t(N(p8,a),b,c),f=l(d),g=t(N(p9,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+j5(b,a){return ai(s,ai(C,cI,a),b)}function
 fu(c,b,a){if(a){var
 e=a[2],g=fu(c,bV(b),e),h=a[1];return f(ft(c,bE(d,b),h),g)}return a}function
 g5(f,e,c,i){if(c){var
 b=c[1],v=N(i,j(ft(f,bE(d,e),b))),w=c[2],x=g5(f,bV(e),w,v),a=b1(i,ft(f,bE(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=s(p9,a,l(d)),o=ar(F,cI,aa(a,p_)),p=cH(aa(a,0)),q=aa(a,p$),g=jI(j4(aa(a,qa),q),p,o,n,m);break;case
+m=b[1][5],n=t(p_,a,l(d)),o=ai(C,cI,$(a,p$)),p=cH($(a,0)),q=$(a,qa),g=jJ(j5($(a,qb),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cH(aa(a,qb))]:h,t=ar(F,cI,aa(a,qc)),u=aa(a,qd),g=jJ(j4(aa(a,0),u),t,r);break;default:var
-g=jK(cI,cH(aa(a,0)))}var
+h=b[3],r=h?[0,cH($(a,qc))]:h,s=ai(C,cI,$(a,qd)),u=$(a,qe),g=jK(j5($(a,0),u),s,r);break;default:var
+g=jL(cI,cH($(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
@@ -2346,59 +2346,71 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-j5(c,b,a){var
+j6(c,b,a){var
 d=j(cJ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-j6(p,g,a,f){switch(f[0]){case
+g6(c,b){if(ay(b,c))return[0,l(d)];var
+a=b[1];if(4===a[0]){var
+e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+j7(y,p,a,o){switch(o[0]){case
 0:var
-b=R(p,f[1]);if(b){var
-e=b[1];if(e)var
-h=e[1],i=h[1],j=h[2],q=i[2],r=i[1],m=function(b){var
-c=aa(a,qe);return ar(F,ar(t,r,bq(b,q)),c)},u=m(ak(s(qf,a,l(d)),j)),v=ak(s(0,a,l(d)),j),n=[0,[0,m(t(l(c),v)),u]];else
+h=R(y,o[1]);if(h){var
+i=h[1];if(i){var
+q=i[1],r=q[1],b=r[2],e=r[1],u=q[2],z=$(a,qf),A=ai(C,ai(s,e,aT(al(t(qg,a,l(d)),u),b)),z),B=$(a,qh),f=al(t(0,a,l(d)),u),j=g6(e[1],b[1]);if(j){var
+m=g6(e[2],b[2]);if(m){var
+n=g6(e[3],b[3]);if(n)var
+x=aT(f,b),g=ai(C,[0,j[1],m[1],n[1]],x);else
 var
-n=e;var
-o=n}else
+g=ai(s,e,aT(s(l(c),f),b))}else
 var
-o=b;return o;case
+g=ai(s,e,aT(s(l(c),f),b))}else
+var
+g=ai(s,e,aT(s(l(c),f),b));var
+v=[0,[0,ai(C,g,B),A]]}else
+var
+v=i;var
+w=v}else
+var
+w=h;return w;case
 1:var
-w=aa(a,qg);return[0,[0,aa(a,0),w]];default:var
-x=k(g,aa(a,qh));return[0,[0,k(g,aa(a,0)),x]]}}function
-j7(e,d,c,h,g){var
-a=j6(e,d,cB(qi,c),h);if(a)var
-b=j6(e,d,e5(qj,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=$(a,qi);return[0,[0,$(a,0),D]];default:var
+E=k(p,$(a,qj));return[0,[0,k(p,$(a,0)),E]]}}function
+j8(e,d,c,h,g){var
+a=j7(e,d,cB(qk,c),h);if(a)var
+b=j7(e,d,e5(ql,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-j8(g,c,d,b,a){var
+j9(g,c,d,b,a){var
 h=dn(c,a),i=b1(d,f(dn(c,b),h));function
-j(a){return ar(F,cI,a)}return j7(e(function(a){var
+j(a){return ai(C,cI,a)}return j8(e(function(a){var
 b=a[7];return w(function(b){var
 c=cm(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 cK(d,c,b,a){var
-e=q(c,b);return t(q(d,a),e)}function
+e=q(c,b);return s(q(d,a),e)}function
 bt(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-j9(b,a){if(b)if(a)var
-d=b[1],e=j9(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bJ(d[1]),f],e];else
+j_(b,a){if(b)if(a)var
+d=b[1],e=j_(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bJ(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-j_(a){if(a){var
+j$(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=j_(a[2]);if(d)var
+c=b[1],d=j$(a[2]);if(d)var
 g=d[1],h=U(c,c),e=[0,[0,[0,bJ(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return ql}function
+f=b;return f}return qn}function
 eb(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 h=c[1],i=co(bs(d,a),h);return[0,e(function(a){var
 b=q(a[2],i);return[0,bJ(a[1]),b]},b)];case
-9:return j_(b);case
+9:return j$(b);case
 15:var
 k=j(b),f=u(j(a[1]),k);if(f)var
-l=cJ(d,a),g=[0,j9(b,b1(c[2],l))];else
+l=cJ(d,a),g=[0,j_(b,b1(c[2],l))];else
 var
 g=f;return g}return 0}function
 fv(e,k,j,a){var
@@ -2406,65 +2418,65 @@ P=j[1],b=co(bs(k,a),P),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,t(a[4],b),0]},g=Q,f=a[1];break;case
+Q=function(a){return[0,s(a[4],b),0]},g=Q,f=a[1];break;case
 3:var
-S=function(a){return[0,t(b,a[4]),0]},g=S,f=a[1];break;case
+S=function(a){return[0,s(b,a[4]),0]},g=S,f=a[1];break;case
 4:var
 T=function(c){var
-a=c[1],d=H(a[3]),e=H(a[2]),f=H(a[1]),g=c[2];return[0,t(t(t(q(H(b),g),f),e),d),0]},g=T,f=a[1];break;case
+a=c[1],d=H(a[3]),e=H(a[2]),f=H(a[1]),g=c[2];return[0,s(s(s(q(H(b),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
 V=function(c){var
 a=c[5];if(a)var
-e=H(a[1]),f=q(H(b),e),d=[0,t(c[2],f),0];else
+e=H(a[1]),f=q(H(b),e),d=[0,s(c[2],f),0];else
 var
 d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=cK(i[1],i[2],h[1],h[2]),L=q(p[3],K),M=cK(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cK(i[2],i[3],h[2],h[3]),w=F(t(q(p[1],O),N),L),W=cm(x),X=cm(z),B=q(q(q(b,cm(A)),X),W),Y=[0,bm(F(w,B)),0],C=[0,t(w,B),Y]}else
+x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=cK(i[1],i[2],h[1],h[2]),L=q(p[3],K),M=cK(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cK(i[2],i[3],h[2],h[3]),w=C(s(q(p[1],O),N),L),W=cm(x),X=cm(z),B=q(q(q(b,cm(A)),X),W),Y=[0,bn(C(w,B)),0],D=[0,s(w,B),Y]}else
 var
-C=n;var
-D=C}else
-var
-D=m;var
+D=n;var
 E=D}else
 var
-E=e;return E;case
+E=m;var
+F=E}else
+var
+F=e;return F;case
 10:var
-u=j8(e,k,j[2],a[1],a[2]);if(u){var
+u=j9(e,k,j[2],a[1],a[2]);if(u){var
 G=u[1],I=G[2],J=G[1];return y(bJ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cJ(k,a),f=b1(j[2],n),h=aa(f,qk),c=ar(t,aa(f,0),h),i=H(b),l=H(cm(d)),m=ak(H(U(c,d[1])),l),g=[0,t(t(U(c,c),m),i),0];else
+n=cJ(k,a),f=b1(j[2],n),h=$(f,qm),c=ai(s,$(f,0),h),i=H(b),l=H(cm(d)),m=al(H(U(c,d[1])),l),g=[0,s(s(U(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),r=cJ(k,a),u=s(0,b1(j[2],r),p),f=ak(u,cm(e)),g=e[5];if(g){var
-m=ay(e[2]),h=ak(g[1],m),n=q(h,F(b,q(f,H(h))));return[0,t(l(c),n),0]}var
-i=e[7],o=i?[0,t(t(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
+p=l(d),r=cJ(k,a),u=t(0,b1(j[2],r),p),f=al(u,cm(e)),g=e[5];if(g){var
+m=az(e[2]),h=al(g[1],m),n=q(h,C(b,q(f,H(h))));return[0,s(l(c),n),0]}var
+i=e[7],o=i?[0,s(s(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
 r=eb(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
 o=R(e,f);return o?g(o[1]):o}function
-g6(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=g6(d,b,j5(b,e,c),g);return f(fv(d,b,c,e),h)}return a}var
-j$=[0,d,c],ka=[0,[0,j$,j$],d];function
-g7(a){return ac(bZ(a[1][1],a[1][2]))}function
-kb(a){var
-b=aW(0,j(a));return bF(function(b){return g7(s(b,a,ka))},b)}function
-kc(a,g){var
-h=g[4],b=aL(kb(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:ak(a,b[2])},c),i=aJ(kb(a),f);return bF(function(a){return ac(aR(d,a[2]))},i)}function
-kd(b,a){var
+g7(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=g7(d,b,j6(b,e,c),g);return f(fv(d,b,c,e),h)}return a}var
+ka=[0,d,c],kb=[0,[0,ka,ka],d];function
+g8(a){return ac(bZ(a[1][1],a[1][2]))}function
+kc(a){var
+b=aX(0,j(a));return bF(function(b){return g8(t(b,a,kb))},b)}function
+kd(a,g){var
+h=g[4],b=aL(kc(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:al(a,b[2])},c),i=aJ(kc(a),f);return bF(function(a){return ac(aR(d,a[2]))},i)}function
+ke(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-ke(f,J,l,I,m,i,n,t){if(t){var
-a=t[1],aK=t[2],aL=ke(f,J,l,I,m,i,j5(i,a,n),aK);if(typeof
+kf(f,J,l,I,m,i,n,s){if(s){var
+a=s[1],aK=s[2],aL=kf(f,J,l,I,m,i,j6(i,a,n),aK);if(typeof
 a==="number")if(0===a)var
 h=[0,[0,B]];else
 var
-ar=J[2],as=J[1],at=d8(m),h=[0,[8,k(aq(l),at),as,ar]];else
+aq=J[2],as=J[1],at=d8(m),h=[0,[8,k(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
 au=ah(f,bs(i,a)),h=w(function(a){return[0,W(f,a)]},au);break;case
@@ -2474,11 +2486,11 @@ av=ah(f,bs(i,a)),h=w(function(a){return[1,W(f,a)]},av);break;case
 ax=ah(f,bs(i,a)),h=w(function(a){return[2,W(f,a)]},ax);break;case
 8:var
 ay=eb(m,i,n,a),h=w(function(a){var
-b=_(f,c);return[4,k(aq(l),a),b]},ay);break;case
+b=_(f,c);return[4,k(ar(l),a),b]},ay);break;case
 9:var
 y=eb(m,i,n,a);if(y){var
 z=ah(f,bs(i,a));if(z)var
-az=W(f,z[1]),aA=y[1],O=[0,[4,k(aq(l),aA),az]];else
+az=W(f,z[1]),aA=y[1],O=[0,[4,k(ar(l),aA),az]];else
 var
 O=z;var
 P=O}else
@@ -2486,10 +2498,10 @@ var
 P=y;var
 h=P;break;case
 10:var
-A=j8(m,i,n[2],a[1],a[2]);if(A){var
+A=j9(m,i,n[2],a[1],a[2]);if(A){var
 Q=A[1],S=Q[2],T=Q[1],C=ah(f,bs(i,a));if(C){var
 U=C[1],V=G(d,U[1]);if(V)var
-q=function(a){return kd(l,a)},aB=q(S[2]),aD=q(S[1]),aE=q(T[2]),X=[0,[6,q(T[1]),aE,aD,aB,U]];else
+q=function(a){return ke(l,a)},aB=q(S[2]),aC=q(S[1]),aE=q(T[2]),X=[0,[6,q(T[1]),aE,aC,aB,U]];else
 var
 X=V;var
 Y=X}else
@@ -2515,12 +2527,12 @@ af=ae;K=1}}else{var
 af=ac;K=1}if(K)var
 h=af;break;case
 14:var
-E=a[2],ag=a[1],aj=u(j(m),qm),ak=aj?g(f,0,ag):aj,al=ak?g(f,1,E):ak;if(al){var
+E=a[2],ag=a[1],ai=u(j(m),qo),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
 F=ah(f,bs(i,a));if(F)var
-H=ai(e(function(n){var
+H=aj(e(function(n){var
 h=[5,ag,E],a=ah(f,[0,[0,h,h],d]);if(a){var
-o=kc(I,n),g=ai(e(function(e){var
-a=s(e[1],I,ka),g=aC(a[2],i),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=ah(f,[0,[0,d,d],g]);return w(function(a){return[0,a,k(l,e[2])]},j)},o));if(g)var
+o=kd(I,n),g=aj(e(function(e){var
+a=t(e[1],I,kb),g=aD(a[2],i),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=ah(f,[0,[0,d,d],g]);return w(function(a){return[0,a,k(l,e[2])]},j)},o));if(g)var
 p=[0,a[1],g[1]],j=[0,[0,k(l,n[4]),p]];else
 var
 j=g;var
@@ -2536,7 +2548,7 @@ h=an;break;case
 15:var
 aH=[0,a[2],a[1]],aI=1,ao=o(function(a){return g(f,aI,a)},aH);if(ao)var
 aJ=eb(m,i,n,a),h=w(function(a){var
-b=_(f,c);return[4,k(aq(l),a),b]},aJ);else
+b=_(f,c);return[4,k(ar(l),a),b]},aJ);else
 var
 h=ao;break;default:var
 p=fv(m,i,n,a),L=0;if(p){var
@@ -2549,20 +2561,20 @@ N=p;L=1}if(L)var
 h=N}var
 ap=[0,h,aL]}else
 var
-ap=t;return ap}function
-qn(a){var
+ap=s;return ap}function
+qp(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dp(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kf(a,c,g,b){if(0===c[0])return 0;if(b){var
+kg(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cj(a,g,c[1]);if(i){var
 j=cj(a,g,c[2]);if(j){var
 k=cj(a,g,c[3]);if(k)var
-t=i[1],u=bK(f),l=K([0,bK(f),u],t),v=j[1],w=bK(e),m=K([0,bK(e),w],v),y=di(e),z=[0,di(e),y],A=[0,x(a,af(E(m,m)),z),0],C=di(f),D=[0,di(f),C],F=[0,x(a,af(E(l,l)),D),A],G=W(a,m),H=W(a,l),n=[0,[0,K(K(W(a,k[1]),H),G),B,F]];else
+t=i[1],u=bK(f),l=K([0,bK(f),u],t),v=j[1],w=bK(e),m=K([0,bK(e),w],v),y=di(e),z=[0,di(e),y],A=[0,x(a,af(F(m,m)),z),0],C=di(f),D=[0,di(f),C],E=[0,x(a,af(F(l,l)),D),A],G=W(a,m),H=W(a,l),n=[0,[0,K(K(W(a,k[1]),H),G),B,E]];else
 var
 n=k;var
 o=n}else
@@ -2587,7 +2599,7 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=W(a,i[1]),s=W(a,h[1]);return V(d,E(E(W(a,g[1]),s),r)[1])}var
+r=W(a,i[1]),s=W(a,h[1]);return V(d,F(F(W(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2609,29 +2621,29 @@ as(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
 av(a){return as([5,[0,c,c],[6,O(a,a)]],a)}function
 cL(c,b,a){var
-d=a$(c,b[1],a);return d?a$(c,a,b[2]):d}function
-aZ(c,b,a){var
+d=ba(c,b[1],a);return d?ba(c,a,b[2]):d}function
+a0(c,b,a){var
 d=cL(c,b[1],a[1]),e=d?cL(c,b[2],a[2]):d;return e?cL(c,b[3],a[3]):e}function
-kg(b,c,a){switch(c[0]){case
+kh(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=aZ(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?aZ(b,d[2],a[2]):l,n=m?aZ(b,d[3],a[3]):m,o=n?cL(b,d[4],j):n,p=o?g(b,1,j):o;return p?cb(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a0(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?a0(b,d[2],a[2]):l,n=m?a0(b,d[3],a[3]):m,o=n?cL(b,d[4],j):n,p=o?g(b,1,j):o;return p?cb(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=aZ(b,c[1],a[1]),s=r?aZ(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=aZ(b,q[1],h);if(t)return g(b,1,O(h,h));var
+e=a[3],r=a0(b,c[1],a[1]),s=r?a0(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=a0(b,q[1],h);if(t)return g(b,1,O(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=aZ(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
-ec(c,a,b){if(0===a[0])return aZ(c,a[1],b);var
+i=a[1],w=a0(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
+ec(c,a,b){if(0===a[0])return a0(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cL(c,a[4],b[3]):i}function
-kh(g,f,i,h){var
+ki(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kg(g,b[1],a[1]);if(d){var
+d=kh(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2639,61 +2651,61 @@ e=a;var
 c=e}else
 var
 c=a?0:1;return c?ec(g,f[2],h):c}}function
-a9(c,b,a){var
+a_(c,b,a){var
 d=ad(function(b,a){return[2,b,a]},a,b);return ad(function(b,a){return[3,b,a]},d,c)}function
 ed(a,e,d,c){var
-b=a9(e,d,c),f=av(a),g=as(O(av(a),b),f);return ad(function(b,a){return[3,b,a]},b,g)}function
+b=a_(e,d,c),f=av(a),g=as(O(av(a),b),f);return ad(function(b,a){return[3,b,a]},b,g)}function
 cM(f,e,d,a,c){var
 b=ed(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
 cN(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
 cO(a,b){switch(a[0]){case
 0:var
 e=a[3],f=a[2],d=a[1],g=ed(d,f,e,b),h=cM(d,f,e,a[4],b),i=as([5,[0,c,c],cN(a[5],h)],g),j=av(d);return ad(function(b,a){return[2,b,a]},j,i);case
-1:return av(a9(a[1],a[2],b));default:return av(a[1])}}function
+1:return av(a_(a[1],a[2],b));default:return av(a[1])}}function
 ee(a,b){switch(a[0]){case
 0:var
 d=a[3],e=a[2],c=a[1],f=av(c),g=cM(c,e,d,a[4],b),h=as(cN(a[5],g),f),i=ed(c,e,d,b);return ad(function(b,a){return[2,b,a]},i,h);case
-1:return a9(a[1],a[2],b);default:return av(a[1])}}function
-g8(a,b){switch(a[0]){case
+1:return a_(a[1],a[2],b);default:return av(a[1])}}function
+g9(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cM(e,d,c,a[4],b),i=cN(a[5],h),j=a9(d,c,b);return[3,O(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cM(e,d,c,a[4],b),i=cN(a[5],h),j=a_(d,c,b);return[3,O(av(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a9(g,f,b);return[6,O(a9(g,f,b),k)];default:return O(av(a[1]),b)}}function
-ki(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=a_(g,f,b);return[6,O(a_(g,f,b),k)];default:return O(av(a[1]),b)}}function
+kj(a,b){switch(a[0]){case
 0:return[0,cM(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a9(d,c,b);return[0,O(a9(d,c,b),e)];default:return 0}}function
+c=a[2],d=a[1],e=a_(d,c,b);return[0,O(a_(d,c,b),e)];default:return 0}}function
 ef(e,b,a){var
-f=[0,d,c];return aV(function(c,d){var
+f=[0,d,c];return aW(function(c,d){var
 e=O(cO(c,b),a);return[2,[4,O(cO(c,b),a),e],d]},f,e)}function
-kj(a){var
+kk(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-g9(a,b){switch(a[0]){case
+g_(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a9(e,d,b);return[6,O(a9(e,d,b),f)];default:return[0,c,c]}}function
-kk(d,i){if(d){var
+d=a[2],e=a[1],f=a_(e,d,b);return[6,O(a_(e,d,b),f)];default:return[0,c,c]}}function
+kl(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a9(a[1],a[2],i),k=av(f),l=as(O(av(f),g),k),h=[0,ad(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a_(a[1],a[2],i),k=av(f),l=as(O(av(f),g),k),h=[0,ad(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kk(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kl(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qo}function
+j=b;return j}return qq}function
 cP(a){return[0,a[1],a[2],a[3]]}function
-kl(a,b){switch(a[0]){case
+km(a,b){switch(a[0]){case
 0:var
 f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cM(d,g,c,f,b),k=as(cN(a[5],j),i),l=ed(d,g,c,b),m=ad(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a9(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-km(l,b,a){switch(a[0]){case
+h=a[2],e=a_(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+kn(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=R(l,a[1]);if(d){var
-e=kl(d[1],b);if(e)var
+e=km(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
 b=cP(m),c=as(a,n),d=ad(function(b,a){return[3,b,a]},o,c);return ad(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
@@ -2704,9 +2716,9 @@ k=d;return k;case
 1:var
 q=cP(a[3]);return[0,[0,cP(a[2]),q]];default:var
 r=cP(a[3]),s=ad(function(b,a){return[2,b,a]},b,r),t=cP(a[2]);return[0,[0,ad(function(b,a){return[2,b,a]},b,t),s]]}}function
-kn(d,a,c,b){var
+ko(d,a,c,b){var
 e=as(a,b),f=as([3,d,a],c);return ad(function(b,a){return[2,b,a]},f,e)}function
-ko(f,h,b,e,q,a){function
+kp(f,h,b,e,q,a){function
 F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],O(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
@@ -2716,9 +2728,9 @@ ap=ef(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
 aq=F(a[1]);return g(f,1,[3,ef(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,g8(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,g9(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,g8(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,g9(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],aw=function(a){var
 c=cO(a,b);return[3,[4,[4,H,H],O(cO(a,b),c)],[4,G,G]]},s=aw,r=a[1];break;case
@@ -2734,7 +2746,7 @@ L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],P=h[1],aB=g9(M,b),aC=g9(N,b),aD=g9(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ee(M,b),k=ee(N,b),aE=ee(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+M=o[1],N=n[1],P=h[1],aB=g_(M,b),aC=g_(N,b),aD=g_(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ee(M,b),k=ee(N,b),aE=ee(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
 T=S}else
 var
 T=o;var
@@ -2747,13 +2759,13 @@ V=h;return V;case
 8:var
 aF=ef(h,b,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kk(h,b);if(w){var
-aH=w[1],an=[0,d,c],ao=aV(function(a,b){var
+W=a[1],w=kl(h,b);if(w){var
+aH=w[1],an=[0,d,c],ao=aW(function(a,b){var
 c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],O(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=km(h,b,Y);if(x){var
-Z=x[1],y=km(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=kn(l,A,_[1],_[2]),aJ=kn(l,z,Z[1],Z[2]),$=ad(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dd(X),aa=[4,l,[2,[2,dd(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ae=ac?g(f,0,[3,l,z]):ac,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
+X=a[2],Y=a[1],x=kn(h,b,Y);if(x){var
+Z=x[1],y=kn(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=ko(l,A,_[1],_[2]),aJ=ko(l,z,Z[1],Z[2]),$=ad(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dd(X),aa=[4,l,[2,[2,dd(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ae=ac?g(f,0,[3,l,z]):ac,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2762,7 +2774,7 @@ var
 ai=x;return ai;case
 11:var
 aj=a[4],B=R(h,a[1]);if(B){var
-C=kl(B[1],b);if(C){var
+C=km(B[1],b);if(C){var
 m=C[1][1][2],aM=cP(a[3]),aN=cP(a[2]),p=ad(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
 aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
 al=ak}else
@@ -2772,25 +2784,25 @@ am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
 t=R(h,r);return t?g(f,1,s(t[1])):t}function
-ba(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kp(a){switch(a[0]){case
+bb(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+kq(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=ba(b[3]),f=ba(b[2]);return[0,ba(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bb(b[3]),f=bb(b[2]);return[0,bb(b[1]),f,e,d,c];case
 1:var
-g=w(ba,a[3]),h=ba(a[2]);return[1,ba(a[1]),h,g];default:return[2,ba(a[1])]}}function
-g_(a){return 0===a[0]?ba(a[1]):[0,a[1],a[2],a[4][1]]}function
-kq(b,a){var
-c=g_(a[2]);return kh(b,a,e(kp,a[1]),c)}function
-kr(b,a,c){var
+g=w(bb,a[3]),h=bb(a[2]);return[1,bb(a[1]),h,g];default:return[2,bb(a[1])]}}function
+g$(a){return 0===a[0]?bb(a[1]):[0,a[1],a[2],a[4][1]]}function
+kr(b,a){var
+c=g$(a[2]);return ki(b,a,e(kq,a[1]),c)}function
+ks(b,a,c){var
 d=[0,c,e5(b,a)];return f(cB(b,a),d)}function
 b2(b,a){if(b){if(a){var
 e=b2(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-ks(a){if(a){var
+kt(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=ks(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qq}function
-kt(a,l,k,f){var
-b=aY(a,l);if(b){var
-c=aY(a,k);if(c){var
+c=b[1],d=kt(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qs}function
+ku(a,l,k,f){var
+b=aZ(a,l);if(b){var
+c=aZ(a,k);if(c){var
 d=dg(a,f);if(d){var
 e=fe(a,f);if(e)var
 m=x(a,b[1],e[1]),g=[0,K(x(a,c[1],d[1]),m)];else
@@ -2806,11 +2818,11 @@ j=i}else
 var
 j=b;return j}function
 fx(a){return a?V(d,a[1][1]):a}function
-ku(a,ab,m,aD,h,f){function
+kv(a,ab,m,aD,h,f){function
 ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b2(a,a)]}var
 aE=m[1];function
 p(b){var
-a=[0,d,c];return aV(function(a,c){var
+a=[0,d,c];return aW(function(a,c){var
 d=b2(a,b);return[2,[4,b2(a,b),d],c]},a,aE)}var
 ad=o(function(a){return u(j(a),ab)},h);if(ad){var
 k=0;if(typeof
@@ -2830,7 +2842,7 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;cas
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kt(a,i,h,ai);return f?V(f[1][2],d):f}return fx(kt(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
+f=ku(a,i,h,ai);return f?V(f[1][2],d):f}return fx(ku(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
 5:if(h){var
 r=h[2];if(r){if(r[2])return 0;var
 J=r[1],L=h[1],aj=f[1],aM=b2(L,L),aN=[4,[4,aj,aj],[4,p(J),aM]],aO=b2(J,J);return g(a,1,[3,[4,p(L),aO],aN])}var
@@ -2845,9 +2857,9 @@ N=h[1],aR=p(N),aS=[4,f[1],aR],aT=b2(N,N);return g(a,1,[3,[4,f[2],aT],aS])}return
 9:if(h)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aY(a,b2(e,e));if(b){var
-c=aY(a,[5,ar,as]);if(c){var
-d=jt(a,c[1]);if(d){var
+b=aZ(a,b2(e,e));if(b){var
+c=aZ(a,[5,ar,as]);if(c){var
+d=ju(a,c[1]);if(d){var
 l=W(a,d[1]);return fx([0,K(b[1],l)])}var
 i=d}else
 var
@@ -2859,13 +2871,13 @@ k=j}else
 var
 k=h;return k},an=aU,am=f[1];k=3;break;case
 10:if(h)return 0;var
-aW=f[2],aX=function(b){var
-c=[4,aW,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
+aV=f[2],aX=function(b){var
+c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
 11:if(h)return 0;var
-aZ=f[2],a0=function(e){var
-b=dg(a,aZ);if(b){var
-c=aY(a,e[3]);if(c){var
-d=aY(a,e[2]);if(d){var
+aY=f[2],a0=function(e){var
+b=dg(a,aY);if(b){var
+c=aZ(a,e[3]);if(c){var
+d=aZ(a,e[2]);if(d){var
 f=x(a,b[1],c[1]),g=fx([0,f]);if(g){var
 k=W(a,d[1]);return fx([0,K(W(a,f),k)])}var
 h=g}else
@@ -2878,7 +2890,7 @@ j=i}else
 var
 j=b;return j},au=a0,at=f[1];k=2;break;case
 12:if(h)return 0;var
-Q=ks(m[3]);if(Q){var
+Q=kt(m[3]);if(Q){var
 aw=Q[1],a1=f[1],ax=da(function(b,a){return[4,b,a[3]]},aw,a1),S=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
 s=S[1];if(s){var
 t=s[2];if(t){var
@@ -2940,7 +2952,7 @@ aq=M;return aq;default:var
 I=R(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-kv(h,g){var
+kw(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2950,82 +2962,82 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kw(a){if(a){var
+kx(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kw(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qr}function
-qs(a){return e(function(a){return[0,a,c]},a)}function
-kx(h,f,b,n,a){if(typeof
+c=b[1],d=kx(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qt}function
+qu(a){return e(function(a){return[0,a,c]},a)}function
+ky(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
-r=b[4];return ao(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=kw(b[5]);return i?jA(f,i[1]):i}else{if(0===a[0]){var
-j=kv(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(qs,a[2]);return ku(h,f,b,o[2],t,s)}return j}var
-k=kv(a[1],n);if(k){var
+r=b[4];return ap(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
+i=kx(b[5]);return i?jB(f,i[1]):i}else{if(0===a[0]){var
+j=kw(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(qu,a[2]);return kv(h,f,b,o[2],t,s)}return j}var
+k=kw(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=R(b[1],a[2]);return m?ku(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=R(b[1],a[2]);return m?kv(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-g$(a){var
+ha(a){var
 b=av(a[1]),c=as(O(b,a[2]),b),d=a[2];return ad(function(b,a){return[3,b,a]},d,c)}function
-ha(a){return av(g$(a))}function
-ky(c){var
-a=ha(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hb(a,b){return a9(a[3],a[4],b)}function
-hc(a,b){var
-c=hb(a,b);return O(ha(a),c)}function
+hb(a){return av(ha(a))}function
+kz(c){var
+a=hb(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hc(a,b){return a_(a[3],a[4],b)}function
 hd(a,b){var
-c=hb(a,b);return O(ky(a),c)}function
-kz(a,b){var
-c=hb(a,b);return O(av(a[1]),c)}function
-he(b,a){var
-c=hd(b,a),d=hc(b,a);return[2,[4,d,d],[4,c,c]]}function
-hf(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kz(a,d);return[5,[2,he(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+c=hc(a,b);return O(hb(a),c)}function
+he(a,b){var
+c=hc(a,b);return O(kz(a),c)}function
 kA(a,b){var
-f=a[5],c=[3,hf(a,b),f],d=kz(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+c=hc(a,b);return O(av(a[1]),c)}function
+hf(b,a){var
+c=he(b,a),d=hd(b,a);return[2,[4,d,d],[4,c,c]]}function
+hg(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kA(a,d);return[5,[2,hf(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kB(a,b){var
+f=a[5],c=[3,hg(a,b),f],d=kA(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 fy(a,b){var
-c=kA(a,b);return cN(a[7],c)}function
-kB(b,a){var
-c=he(b,a),d=hd(b,a),e=[4,fy(b,a),d],f=hc(b,a);return[5,[2,[4,hf(b,a),f],e],c]}function
+c=kB(a,b);return cN(a[7],c)}function
 kC(b,a){var
-c=he(b,a),d=hc(b,a),e=[4,fy(b,a),d],f=hd(b,a);return[5,[3,[4,hf(b,a),f],e],c]}function
-kD(a,b){var
-c=ky(a),d=as(kC(a,b),c),e=ha(a),f=as(kB(a,b),e),g=ad(function(b,a){return[2,b,a]},f,d),h=as(a[5],g),i=a[3];return ad(function(b,a){return[2,b,a]},i,h)}var
+c=hf(b,a),d=he(b,a),e=[4,fy(b,a),d],f=hd(b,a);return[5,[2,[4,hg(b,a),f],e],c]}function
+kD(b,a){var
+c=hf(b,a),d=hd(b,a),e=[4,fy(b,a),d],f=he(b,a);return[5,[3,[4,hg(b,a),f],e],c]}function
+kE(a,b){var
+c=kz(a),d=as(kD(a,b),c),e=hb(a),f=as(kC(a,b),e),g=ad(function(b,a){return[2,b,a]},f,d),h=as(a[5],g),i=a[3];return ad(function(b,a){return[2,b,a]},i,h)}var
 p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 bL(h){var
-a=aV(function(f,e){var
-a=aY(p,f);if(a)var
-b=a[1],c=bj(c9(b[1]),c9(b[2]));else
+a=aW(function(f,e){var
+a=aZ(p,f);if(a)var
+b=a[1],c=bk(c9(b[1]),c9(b[2]));else
 var
-c=d;return bj(c,e)},d,h);if(V(d,a)){var
-f=a4(a);if(0===f||!(0<f&&!G(a,c)))var
+c=d;return bk(c,e)},d,h);if(V(d,a)){var
+f=a5(a);if(0===f||!(0<f&&!G(a,c)))var
 g=d;else
 var
-b=aU(a,aE(2)),e=b[1],g=Z(b[2],d)?eZ(e):eZ(e);return aC(g,p)}return d}function
+b=aV(a,aF(2)),e=b[1],g=Z(b[2],d)?eZ(e):eZ(e);return aD(g,p)}return d}function
 dq(a){return[0,a[1],[0,a[2],0]]}function
-a0(a){var
+a1(a){var
 b=dq(a[3]),c=f(dq(a[2]),b);return f(dq(a[1]),c)}function
-fz(a){return fw(p,a,bL(a0(a)))}function
-kE(b,a){if(a){var
-g=kE([0,b],a[2]),c=a[1];if(0===c[0])var
+fz(a){return fw(p,a,bL(a1(a)))}function
+kF(b,a){if(a){var
+g=kF([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=co([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-kF(c,b,a){var
+kG(c,b,a){var
 d=dd(b);return[2,[2,dd(c),d],a]}function
-hg(b,a){return b?M(a):d}function
+hh(b,a){return b?M(a):d}function
 eg(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-m=hg(h,b),n=z(hg(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
+m=hh(h,b),n=z(hh(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
 9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3033,38 +3045,38 @@ m=hg(h,b),n=z(hg(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
 13:var
 c=a[3],g=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],o=dn(b,k),p=f(dn(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kF(l,k,a[3]),b],q];case
+k=a[2],l=a[1],o=dn(b,k),p=f(dn(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kG(l,k,a[3]),b],q];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cp(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=cp(g,c,b,N(e,j(eg(c,b,d))),h);return f(at(g,kE(e,eg(c,b,d)),d),i)}return a}function
-hh(b,a){switch(a[0]){case
+d=a[1],h=a[2],i=cp(g,c,b,N(e,j(eg(c,b,d))),h);return f(at(g,kF(e,eg(c,b,d)),d),i)}return a}function
+hi(b,a){switch(a[0]){case
 0:var
 d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jt(b,c[1]):c;case
+e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?ju(b,c[1]):c;case
 2:return dg(b,a[1]);default:return fe(b,a[1])}}function
-kG(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-kH(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hi(a,c,b){var
-d=[4,kG(a),b],e=[2,[4,kH(a),c],d],f=[4,kH(a),b];return[0,[3,[4,kG(a),c],f],e]}function
-kI(c,a){var
-b=hi(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+kH(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kI(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hj(a,c,b){var
+d=[4,kH(a),b],e=[2,[4,kI(a),c],d],f=[4,kI(a),b];return[0,[3,[4,kH(a),c],f],e]}function
+kJ(c,a){var
+b=hj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 eh(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 fA(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kI(d[1],a):a;case
+0:return d?d[2]?a:kJ(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hi(d[1],a[2],a[3]),m=j[1],k=hi(f[1],j[2],a[1]);return kI(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hj(d[1],a[2],a[3]),m=j[1],k=hj(f[1],j[2],a[1]);return kJ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
 e=[0,d[1],h[1],i[1]],l=O(e,e),n=eh(e,a),o=as([0,b(2,c),c],n),p=O(e,a),q=as([4,[0,b(2,c),c],p],e),r=as([3,[0,c,c],l],a),s=ad(function(b,a){return[2,b,a]},r,q);return as([5,[0,c,c],[2,[0,c,c],l]],ad(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kJ(b){var
+kK(b){var
 a=ci(b);return a?db(a[1],[0,d,c]):a}function
-kK(a,n,k,j){if(kJ(j)){var
+kL(a,n,k,j){if(kK(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
-f=aY(a,k);if(f){var
+f=aZ(a,k);if(f){var
 h=dg(a,[5,j,[0,b(2,c),c]]);if(h){var
 i=fe(a,[5,j,[0,b(2,c),c]]);if(i)var
 p=x(a,f[1],h[1]),l=[0,K(i[1],p)];else
@@ -3078,11 +3090,11 @@ var
 e=f;if(e){var
 o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
 ei(b,a,c){var
-d=a$(b,a[1],a[2]),e=d?kK(b,0,c,a[1]):d;return e?kK(b,1,c,a[2]):e}function
-dr(a,d){if(kJ(d))return[0,B];var
+d=ba(b,a[1],a[2]),e=d?kL(b,0,c,a[1]):d;return e?kL(b,1,c,a[2]):e}function
+dr(a,d){if(kK(d))return[0,B];var
 e=dg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
 f=fe(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=E(_(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
+h=f[1],i=e[1],j=F(_(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
 e=x(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
@@ -3090,11 +3102,11 @@ g=e;return g}function
 ej(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
 cQ(a){return[0,[3,[0,d,c],a],a]}function
-kL(a,b,n,m){var
-h=a$(a,[0,d,c],b),i=h?ej(a,b):h;if(i){var
+kM(a,b,n,m){var
+h=ba(a,[0,d,c],b),i=h?ej(a,b):h;if(i){var
 e=dr(a,b);if(e){var
-f=aY(a,n);if(f){var
-g=aY(a,m);if(g){var
+f=aZ(a,n);if(f){var
+g=aZ(a,m);if(g){var
 o=f[1],p=g[1];return G(d,K(x(a,W(a,e[1]),p),o)[1])}var
 j=g}else
 var
@@ -3105,7 +3117,7 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-kM(d,b,a){switch(b[0]){case
+kN(d,b,a){switch(b[0]){case
 0:return a?a[2]?0:ei(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
@@ -3123,7 +3135,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kL(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kM(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3132,7 +3144,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kL(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ei(d,cQ(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kM(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ei(d,cQ(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3142,10 +3154,10 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-ds(a){return 1===a?qt:qu}function
+ds(a){return 1===a?qv:qw}function
 fB(d,c,b,a){var
 e=a[1],f=fA(d,c,a[2]),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
-hj(c,b,a){switch(c){case
+hk(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 ek(b,d){var
@@ -3197,19 +3209,19 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cR(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hk(d,b,m){var
+hl(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hk(d,b,a[1]);if(f){var
+f=hl(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hk(d,b,a[1]);return g?cR(b,a[2]):g;case
+g=hl(d,b,a[1]);return g?cR(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cR(b,i);if(j){var
 k=cR(b,h);if(k)var
 e=k;else{var
-l=aF(i,d);if(l){var
+l=ay(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3217,7 +3229,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cR(b,c)}}}function
-kN(c,e){var
+kO(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return dW(a[1],c);case
@@ -3228,11 +3240,11 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kN(c,a[1]);if(d){var
+d=kO(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hl(b,a){if(a){var
+hm(b,a){if(a){var
 c=a[2];if(b){var
-e=hl(b[1],c);return[0,a[1],e]}var
+e=hm(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
@@ -3249,54 +3261,54 @@ c=[0,a[1],0];break;case
 1:case
 2:var
 c=0;break;default:var
-c=[0,a[1],[0,a[2],0]]}return[0,a,fC(e,aV(hl,f,c))]}return[0,qv,fC(e,f)]}var
+c=[0,a[1],[0,a[2],0]]}return[0,a,fC(e,aW(hm,f,c))]}return[0,qx,fC(e,f)]}var
 g=[0,a,fC(e,0)]}else
 var
 g=b;return g}function
 cq(b,a){return a?k(b,a[1]):a}function
 cr(c,b,a){return cq(function(b){return cq(k(c,b),a)},b)}function
-kO(b,a){switch(a[0]){case
+kP(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-kP(a){return 0===a[0]?a[1]:0}function
+kQ(a){return 0===a[0]?a[1]:0}function
 bM(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
 1:return[1,bM(b,a[1])];default:var
 c=bM(b,a[3]),d=bM(b,a[2]);return[2,bM(b,a[1]),d,c]}}function
-a1(b,c,a){switch(c[0]){case
+a2(b,c,a){switch(c[0]){case
 0:return bM(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
 j=a[1];return[1,bM(function(a){return at(b,a,j)},d)];case
-1:return[1,a1(b,d,a[1])];default:var
-l=a1(b,d,a[3]),m=a1(b,d,a[2]);return[2,a1(b,d,a[1]),m,l]}default:var
+1:return[1,a2(b,d,a[1])];default:var
+l=a2(b,d,a[3]),m=a2(b,d,a[2]);return[2,a2(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
 n=a[1],o=function(a){return at(b,a,n)},h=function(a){return bM(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=a1(b,e,i),s=a1(b,f,i);return[2,a1(b,g,i),s,r];default:var
-t=a1(b,e,a[3]),u=a1(b,f,a[2]);return[2,a1(b,g,a[1]),u,t]}}}function
-hm(c,f,a){if(a)var
+i=a[1],r=a2(b,e,i),s=a2(b,f,i);return[2,a2(b,g,i),s,r];default:var
+t=a2(b,e,a[3]),u=a2(b,f,a[2]);return[2,a2(b,g,a[1]),u,t]}}}function
+hn(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,W(c,a)];break;case
 1:var
-g=x(c,a,b),e=[0,a6(E(a,b)),g];break;default:var
-e=[0,b,W(c,b)]}return[0,[0,k(f,e)]]},h=hm(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=x(c,a,b),e=[0,a7(F(a,b)),g];break;default:var
+e=[0,b,W(c,b)]}return[0,[0,k(f,e)]]},h=hn(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-kQ(a){if(a){var
+kR(a){if(a){var
 b=a[1];if(b)var
-c=kQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kR(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qy}function
+d=b;return d}return qA}function
 du(a){if(a){var
-g=a[1],b=g[2],c=kQ(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=kR(g[1]);if(c)if(b){var
 h=b[1],e=du(a[2]);if(e)var
 i=V(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3305,29 +3317,29 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return qz}function
+f=c;return f}return qB}function
 dv(b,a){var
 c=a[3],d=w(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(aq(b),f),e,d]}function
-kR(e,d,c,b){if(d){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ar(b),f),e,d]}function
+kS(e,d,c,b){if(d){var
 i=d[1],a=function(a){var
-d=dv(function(b){return kO(a,b)},b);return kR(bD(e),i,c,d)},f=a(0);if(f){var
+d=dv(function(b){return kP(a,b)},b);return kS(bD(e),i,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,dv(kP,b))}function
-kS(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return kS(m,e,l,a,dv(function(a){return kO(b,a)},d))},h=c(0,aC(b,g));if(h){var
+h=f;return h}return k(c,dv(kQ,b))}function
+kT(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return kT(m,e,l,a,dv(function(a){return kP(b,a)},d))},h=c(0,aD(b,g));if(h){var
 i=c(2,z(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:at(e,b,dv(kP,d))}function
+k=a;return k}return a?0:at(e,b,dv(kQ,d))}function
 dw(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a5(f,e,a)},d)}return[0,B]}function
-kT(k,e,j,i,h,a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a6(f,e,a)},d)}return[0,B]}function
+kU(k,e,j,i,h,a){var
 b=du(a[1]);if(b){var
 c=a[2];if(c){var
 d=dw(a[3]);if(d){var
@@ -3338,14 +3350,14 @@ f=c;var
 g=f}else
 var
 g=b;return g}function
-kU(d,h,g,c){var
+kV(d,h,g,c){var
 a=du(c[1]);if(a){var
 b=dw(c[3]);if(b){var
 i=aK([0,K(B,b[1]),0],d),j=a[1];return br(d,fh(h,g,e(function(a){return[0,a[1],B]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-kV(k,f,j,a){var
+kW(k,f,j,a){var
 b=du(a[1]);if(b){var
 c=a[2];if(c){var
 d=dw(a[3]);if(d){var
@@ -3359,91 +3371,91 @@ h=c;var
 i=h}else
 var
 i=b;return i}function
-qA(c){var
+qC(c){var
 a=c[2];if(a){var
 b=dw(c[3]);if(b)return G(d,K(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kW(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-kX(a,c,b){var
-e=s(b,c,l(d)),f=aW(0,a);return o(function(b){return el(a,b,e)},f)}function
+kX(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
+kY(a,c,b){var
+e=t(b,c,l(d)),f=aX(0,a);return o(function(b){return el(a,b,e)},f)}function
 em(a){var
-b=H(a);return F(l(c),b)}function
+b=H(a);return C(l(c),b)}function
 fD(i,g){var
-h=em(g),j=H(g),e=t(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bm(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bm(f),a,e]]:[0,[0,h,a,a],[0,a,e,bm(f)],[0,a,f,e]]}function
+h=em(g),j=H(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bn(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bn(f),a,e]]:[0,[0,h,a,a],[0,a,e,bn(f)],[0,a,f,e]]}function
 en(b,a){var
 c=U(b[3],a),d=U(b[2],a);return[0,U(b[1],a),d,c]}function
-kY(b,a){function
+kZ(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
 b=U(a,c(function(a){return a[3]})),d=U(a,c(function(a){return a[2]}));return[0,U(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-kZ(w,v){function
+k0(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=em(a(0));return[0,fD(qB,a(0)),x];case
+x=em(a(0));return[0,fD(qD,a(0)),x];case
 1:var
-y=em(a(0)),z=q(em(a(qC)),y),A=q(em(a(qD)),z),B=fD(0,a(0)),C=kY(fD(qF,a(qE)),B);return[0,kY(fD(qH,a(qG)),C),A];default:var
-D=a(qI),E=a(qJ),g=[0,a(0),E,D],G=U(g,g),I=F(l(c),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=H(a),e=q(l(b(2,c)),d);return F(t(l(c),j),e)},h=function(f,e,d,a){var
-g=at(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(F,e,f,d),n=[0,h(t,d,f,e),m,k],o=h(t,e,f,d),p=i(e),r=[0,h(F,d,e,f),p,o],s=h(F,d,f,e),u=h(t,d,e,f);return[0,[0,[0,i(d),u,s],r,n],I]}}function
-k0(a){return 1<a[0]?[0,a[1],0]:0}function
+y=em(a(0)),z=q(em(a(qE)),y),A=q(em(a(qF)),z),B=fD(0,a(0)),D=kZ(fD(qH,a(qG)),B);return[0,kZ(fD(qJ,a(qI)),D),A];default:var
+E=a(qK),F=a(qL),g=[0,a(0),F,E],G=U(g,g),I=C(l(c),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=H(a),e=q(l(b(2,c)),d);return C(s(l(c),j),e)},h=function(f,e,d,a){var
+g=at(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],I]}}function
+k1(a){return 1<a[0]?[0,a[1],0]:0}function
 fE(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cQ(a[1]),0];default:var
 b=[0,cQ(a[2]),0];return[0,cQ(a[1]),b]}}function
 dx(a){return[0,[0,a[1]],[0,a[2]]]}function
-k1(a){switch(a[0]){case
+k2(a){switch(a[0]){case
 0:return[0,dx(a[1]),0];case
 1:var
 f=[0,dx(a[3]),0],g=[0,dx(a[2]),f];return[0,dx(a[1]),g];case
 2:var
 b=dx(cQ(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,cQ(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dx(cQ(c)),0]]]}}function
-k2(a,b){if(0===b[0])return dr(a,b[1]);var
+k3(a,b){if(0===b[0])return dr(a,b[1]);var
 d=dr(a,b[1]);if(d){var
 e=dr(a,b[2]);if(e){var
-g=W(a,e[1]),h=ce(a,E(_(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
+g=W(a,e[1]),h=ce(a,F(_(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-k3(d,c){var
-a=k2(d,c[1]);if(a)var
-b=k2(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+k4(d,c){var
+a=k3(d,c[1]);if(a)var
+b=k3(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-k4(a){switch(a[0]){case
+k5(a){switch(a[0]){case
 3:var
-c=kW(a[2]);return[0,a[3],c];case
+c=kX(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=kW(a[1]);return[0,a[2],b]}}function
-k5(f,t,e,r,q,b,a){switch(b[0]){case
+b=kX(a[1]);return[0,a[2],b]}}function
+k6(f,s,e,r,q,b,a){switch(b[0]){case
 0:var
 v=b[4],o=b[3],w=b[2],y=b[1],p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 0:var
-O=a[2],P=a[1],k=w,i=y,h=function(a){return kT(f,e,P,O,o,a)},g=v;break;case
+O=a[2],P=a[1],k=w,i=y,h=function(a){return kU(f,e,P,O,o,a)},g=v;break;case
 2:var
 z=Z(o[1],d),A=z?Z(o[2],d):z;if(!A)return A;var
-R=a[2],S=a[1],k=w,i=y,h=function(a){return kU(e,S,R,a)},g=v;break;default:p=1}if(p)return 0;break;case
+R=a[2],S=a[1],k=w,i=y,h=function(a){return kV(e,S,R,a)},g=v;break;default:p=1}if(p)return 0;break;case
 1:var
 G=0;if(typeof
 a==="number"&&!a)var
-T=b[2],U=b[1],W=b[3],k=T,i=U,X=0,h=function(a){return kV(f,e,W,a)},g=X;else
+T=b[2],U=b[1],W=b[3],k=T,i=U,X=0,h=function(a){return kW(f,e,W,a)},g=X;else
 G=1;if(G)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-Y=[0,b[1],b[2],q],$=dv(function(a){return s(a,r,qP)},Y),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return kS(t,function(v,j){var
+Y=[0,b[1],b[2],q],$=dv(function(a){return t(a,r,qR)},Y),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return kT(s,function(v,j){var
 a=du(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
 g=dw(j[3]);if(g){var
-l=g[1],m=function(a){return a5(a,B,_(f,c))},t=m(v),u=b[1],h=E(x(f,m(ab),u),t),n=V(d,h[1]),o=n?br(e,fh(B,ac,k,aK([0,K(af(h),l),0],e))):n;if(o){var
+l=g[1],m=function(a){return a6(a,B,_(f,c))},t=m(v),u=b[1],h=F(x(f,m(ab),u),t),n=V(d,h[1]),o=n?br(e,fh(B,ac,k,aK([0,K(af(h),l),0],e))):n;if(o){var
 i=gU(k,aK([0,K(x(f,ad,h),l),0],e));if(i)return br(e,i[1]);var
 p=i}else
 var
@@ -3479,98 +3491,98 @@ m=a;return m},k=ae,i=ag,h=aj,g=b[5];if(H)return 0;break;case
 4:var
 I=0;if(typeof
 a==="number"&&!a)var
-k=b[1],i=0,h=qA,g=0;else
+k=b[1],i=0,h=qC,g=0;else
 I=1;if(I)return 0;break;case
 5:var
 J=0;if(typeof
 a==="number"||!(0===a[0]))J=1;else{var
 m=a[2],L=0;if(m){var
 n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-ak=b[2],al=b[1],am=_(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,i=al,ap=0,h=function(a){return kT(f,qQ,ao,an,am,a)},g=ap;L=1}else
+ak=b[2],al=b[1],am=_(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,i=al,ap=0,h=function(a){return kU(f,qS,ao,an,am,a)},g=ap;L=1}else
 var
-F=n}else
+E=n}else
 var
-F=m;if(!L)return F}if(J)return 0;break;case
+E=m;if(!L)return E}if(J)return 0;break;case
 6:var
 M=0;if(typeof
 a==="number"&&!a)var
-aq=b[2],ar=b[1],as=_(f,c),k=aq,i=ar,at=0,h=function(a){return kV(f,qR,as,a)},g=at;else
+aq=b[2],ar=b[1],as=_(f,c),k=aq,i=ar,at=0,h=function(a){return kW(f,qT,as,a)},g=at;else
 M=1;if(M)return 0;break;case
 7:var
 N=0;if(typeof
 a==="number"&&5<=a)var
-au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,i=av,ay=0,h=function(a){return kU(e,ax,aw,a)},g=ay;else
+au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,i=av,ay=0,h=function(a){return kV(e,ax,aw,a)},g=ay;else
 N=1;if(N)return 0;break;default:return 0}var
-Q=[0,i,k,q];return kR(g,t,h,dv(function(a){return s(a,r,qO)},Q))}function
-k6(h,g,n,i,m,l,e,a){if(typeof
+Q=[0,i,k,q];return kS(g,s,h,dv(function(a){return t(a,r,qQ)},Q))}function
+k7(h,g,n,i,m,l,e,a){if(typeof
 a==="number"){if(0===a)return 8===e[0]?fq(h,0,0,0,l,g,0,e[1],a):0}else
 switch(a[0]){case
 6:var
 f=a[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
 o=f[3],p=f[2],q=G(d,p);if(q)var
-k=iP(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===k?0:0<=k?2:1,t=1===s?1:0,j=t;else
+k=iQ(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===k?0:0<=k?2:1,t=1===s?1:0,j=t;else
 var
-j=q;if(j)return k5(h,g,n,m,[0,[0,[0,i[1],p],o]],e,f[1]);var
+j=q;if(j)return k6(h,g,n,m,[0,[0,[0,i[1],p],o]],e,f[1]);var
 r=j}else
 var
-r=i;return r}return k5(h,g,n,m,0,e,f);case
+r=i;return r}return k6(h,g,n,m,0,e,f);case
 8:return 8===e[0]?fq(h,0,0,0,l,g,0,e[1],a):0}return 0}function
-k7(b){var
+k8(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-qS(c){var
+qU(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-k8(a,t,ak,r,q,N,M,c,k,j,aj){var
-O=ao(qS,j),P=O?g1(a,ak,r,k):O,Q=ao(k7,j);if(Q)var
+k9(a,s,ak,r,q,N,M,c,k,j,aj){var
+O=ap(qU,j),P=O?g1(a,ak,r,k):O,Q=ap(k8,j);if(Q)var
 ag=y(function(b){var
-c=k7(b);if(c){var
-a=R(q,b[1]);if(a)return k4(a[1]);var
+c=k8(b);if(c){var
+a=R(q,b[1]);if(a)return k5(a[1]);var
 d=a}else
 var
-d=c;return d},j),ah=c?[0,c[1],0]:c,ai=f(ah,ag),T=0,U=aV(hl,e(function(a){return 0},t),ai),X=e4(fC(e4(t,0),U),T),ac=hm(a,ca,k),ab=0,ad=f(hm(a,aI,k),ac),u=bG(qx,function(b){switch(b[0]){case
-0:return s(b[1],ad,[0,[0,B]]);case
-1:return[0,[0,s(b[1],r,B)]];case
+d=c;return d},j),ah=c?[0,c[1],0]:c,ai=f(ah,ag),T=0,U=aW(hm,e(function(a){return 0},s),ai),X=e4(fC(e4(s,0),U),T),ac=hn(a,ca,k),ab=0,ad=f(hn(a,aI,k),ac),u=bG(qz,function(b){switch(b[0]){case
+0:return t(b[1],ad,[0,[0,B]]);case
+1:return[0,[0,t(b[1],r,B)]];case
 2:return[0,[0,_(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,E(b,a)]};return a1(function(a,b){return cr(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,F(b,a)]};return a2(function(a,b){return cr(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return a1(function(a,b){return cr(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return a2(function(a,b){return cr(h,a,b)},g,f);case
 5:var
 i=b[1],j=function(a){return[0,af(a)]};return bM(function(a){return cq(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,x(a,c,b)]};return a1(function(a,b){return cr(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,x(a,c,b)]};return a2(function(a,b){return cr(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cd(a,b);return w(function(b){return x(a,c,b)},d)};return a1(function(a,b){return cr(p,a,b)},o,n);case
+d=cd(a,b);return w(function(b){return x(a,c,b)},d)};return a2(function(a,b){return cr(p,a,b)},o,n);case
 8:var
-q=b[1],t=function(b){return[0,W(a,b)]};return bM(function(a){return cq(t,a)},q);case
+q=b[1],s=function(b){return[0,W(a,b)]};return bM(function(a){return cq(s,a)},q);case
 9:var
-u=b[1],v=function(b){return ce(a,b)};return bM(function(a){return cq(v,a)},u);default:return qw}},X,ab);else
+u=b[1],v=function(b){return ce(a,b)};return bM(function(a){return cq(v,a)},u);default:return qy}},X,ab);else
 var
 u=Q;var
 h=j,b=aj;for(;;){if(h){var
 A=h[1],i=A[2],g=A[1],m=h[2];if(g){var
-C=s(g,b,0);if(C){var
+C=t(g,b,0);if(C){var
 n=R(q,g);if(n){var
-D=k6(a,N,M,c,u,P,n[1],i);if(D){var
+D=k7(a,N,M,c,u,P,n[1],i);if(D){var
 h=m,b=fr(g,b);continue}var
-F=D}else
+E=D}else
 var
-F=n;var
-G=F}else
+E=n;var
+G=E}else
 var
 G=C;return G}if(typeof
 i==="number"&&4===i){var
 S=0;if(c){var
 ae=0,v=e(function(b){return[0,b,W(a,b)]},k),Z=e(ca,v),Y=0,$=f(e(aI,v),Z),aa=bG(0,function(n){return function(b){switch(b[0]){case
-0:return[0,s(b[1],n,B)];case
-1:return[0,s(b[1],r,B)];case
+0:return[0,t(b[1],n,B)];case
+1:return[0,t(b[1],r,B)];case
 2:return[0,_(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cr(function(b,a){return[0,E(b,a)]},d,c);case
+c=b[2],d=b[1];return cr(function(b,a){return[0,F(b,a)]},d,c);case
 4:var
 e=b[2],f=b[1];return cr(function(b,a){return[0,K(b,a)]},f,e);case
 5:var
@@ -3583,7 +3595,7 @@ d=cd(a,b);return w(function(b){return x(a,c,b)},d)},k,j);case
 8:var
 l=b[1];return cq(function(b){return[0,W(a,b)]},l);case
 9:var
-m=b[1];return cq(function(b){return ce(a,b)},m);default:return 0}}}($),t,Y),l=s(c[1],aa,ae);if(l){var
+m=b[1];return cq(function(b){return ce(a,b)},m);default:return 0}}}($),s,Y),l=t(c[1],aa,ae);if(l){var
 o=V(l[1][2],d);S=1}else
 var
 z=l}else
@@ -3591,9 +3603,9 @@ var
 z=c;if(!S)var
 o=z;if(o){var
 h=m,b=e(function(a){return 0},b);continue}return o}var
-H=s(g,b,0);if(H){var
+H=t(g,b,0);if(H){var
 p=R(q,g);if(p){var
-I=k6(a,N,M,c,u,P,p[1],i);if(I){var
+I=k7(a,N,M,c,u,P,p[1],i);if(I){var
 h=m,b=fr(g,b);continue}var
 J=I}else
 var
@@ -3601,155 +3613,155 @@ J=p;var
 L=J}else
 var
 L=H;return L}return[0,b]}}function
-k9(j,i,h,g,f,e,d,c,u,t,s){var
+k_(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=k8(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
-m=k8(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=d9(a[2],b),q=k9(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
+l=k9(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
+m=k9(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],p=d9(a[2],b),q=k_(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
 b=p[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
 fF(b,a){var
-c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
-hn(d,a){var
-e=H(a),f=q(q(l(b(2,c)),a),d);return F(t(H(d),f),e)}function
-k_(c,b,a){switch(c){case
+c=q(b[2],a[1]),d=s(q(b[1],a[2]),c),e=q(b[1],a[3]),f=s(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,s(q(b[2],a[3]),g),f,d]}function
+ho(d,a){var
+e=H(a),f=q(q(l(b(2,c)),a),d);return C(s(H(d),f),e)}function
+k$(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 eo(a){switch(a){case
-0:return[0,qU,qT,l(d)];case
+0:return[0,qW,qV,l(d)];case
 1:return cI;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
 fG(a){switch(a){case
-0:return qV;case
-1:return qW;default:return 0}}function
-ho(j,a,d,i,c,h){var
-e=ar(t,eo(j),i);if(h){var
+0:return qX;case
+1:return qY;default:return 0}}function
+hp(j,a,d,i,c,h){var
+e=ai(s,eo(j),i);if(h){var
 b=function(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=en([0,b(function(a){return a[1]}),g,f],e);return ar(F,bq(d,c),l)}var
-m=en(a,c);return ar(F,bq(d,e),m)}function
-k$(f,h,g,k,a,d){var
-e=eo(f),i=ar(t,e,a),j=en(h,d),m=hn(e[3],a[3]),n=hn(e[2],a[2]),o=hn(e[1],a[1]),p=F(F(F(U(d,d),o),n),m),r=U(j,i),s=q(l(b(2,c)),r),u=F(q(g,p),s),v=cl(fF(j,i),k);return[0,k_(f,ho(f,h,g,a,d,0),v),u]}function
-la(c,b,a){return cl(en(c,a),b)}function
-lb(d,c,b,a){var
-e=la(c,b,a);return ar(F,eo(d),e)}function
-hp(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=en([0,b(function(a){return a[1]}),g,f],e);return ai(C,aT(d,c),l)}var
+m=en(a,c);return ai(C,aT(d,e),m)}function
+la(f,h,g,k,a,d){var
+e=eo(f),i=ai(s,e,a),j=en(h,d),m=ho(e[3],a[3]),n=ho(e[2],a[2]),o=ho(e[1],a[1]),p=C(C(C(U(d,d),o),n),m),r=U(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cl(fF(j,i),k);return[0,k$(f,hp(f,h,g,a,d,0),v),u]}function
+lb(c,b,a){return cl(en(c,a),b)}function
+lc(d,c,b,a){var
+e=lb(c,b,a);return ai(C,eo(d),e)}function
+hq(b,a){var
 c=aM(a[2],b);return f(aM(a[1],b),c)}function
-hq(d,b,a,c){if(a)var
-e=a[1],f=b1(c,hp(b,e)),h=N(c,j(hp(b,e))),i=hq(d,b,a[2],h),k=aa(f,qX),g=[0,at(d,aa(f,0),k),i];else
+hr(d,b,a,c){if(a)var
+e=a[1],f=b1(c,hq(b,e)),h=N(c,j(hq(b,e))),i=hr(d,b,a[2],h),k=$(f,qZ),g=[0,at(d,$(f,0),k),i];else
 var
 g=a;return g}function
-hr(f,o,e,n,a){var
-h=q(H(s(0,n,l(d))),o);if(typeof
+hs(f,o,e,n,a){var
+h=q(H(t(0,n,l(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=R(e,a[1]);if(b)var
-i=g(f,0,a[2]),j=i?[0,t(b[1][1][2],h)]:i;else
+i=g(f,0,a[2]),j=i?[0,s(b[1][1][2],h)]:i;else
 var
 j=b;return j;case
 3:var
 c=R(e,a[1]);if(c)var
-k=g(f,0,a[2]),m=k?[0,t(h,c[1][1][2])]:k;else
+k=g(f,0,a[2]),m=k?[0,s(h,c[1][1][2])]:k;else
 var
 m=c;return m}return 0}function
-lc(a){var
+ld(a){var
 b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
-b=s(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-ld(c,b,a){if(typeof
+b=t(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
+le(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=R(c,a[1]);return w(function(a){var
-c=s(0,b,l(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+c=t(0,b,l(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 ep(a){return g(p,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a])}function
-le(a){var
-b=aa(a,qY),c=ay(U(aa(a,qZ),b));return q(s(0,a,l(d)),c)}function
-lf(b,a){var
-c=U(a,aa(b,q0));return[0,bJ(bq(le(b),a)),c]}function
-lg(e,d,a,c,b){var
-f=b[2],g=q(le(a),f),h=c?la(e,d,aa(a,q1)):aa(a,q2);return t(U(b[1][2],h),g)}function
-lh(h,g,f,d,c,b,a){var
+lf(a){var
+b=$(a,q0),c=az(U($(a,q1),b));return q(t(0,a,l(d)),c)}function
+lg(b,a){var
+c=U(a,$(b,q2));return[0,bJ(aT(lf(b),a)),c]}function
+lh(e,d,a,c,b){var
+f=b[2],g=q(lf(a),f),h=c?lb(e,d,$(a,q3)):$(a,q4);return s(U(b[1][2],h),g)}function
+li(h,g,f,d,c,b,a){var
 i=bV(c);function
-j(a){return lb(h,g,f,a)}return j7(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-li(a){var
+j(a){return lc(h,g,f,a)}return j8(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lj(a){var
 b=a[3],c=a[2],d=a[1];return fz([0,[0,d,d],[0,c,c],[0,b,b]])}function
-q5(a){if(typeof
+q7(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lj(b,a){switch(b){case
+lk(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
 fH(a){var
 b=bZ(a[1],[0,d,c]);return b?bZ(a[2],[0,d,c]):b}function
-hs(d,a){switch(d){case
+ht(d,a){switch(d){case
 0:return fH(a[3]);case
 1:return 1;default:var
 b=fH(a[1]),c=b?fH(a[2]):b;return c?fH(a[3]):c}}function
-q6(a,an,a_,m,z,a9){var
-v=m[1],x=ds(v),E=m[6],a$=m[2],K=y(function(a){return hp(z,a)},a$),ap=m[3],S=[0,[0,ap,ap],z],L=[0,j(K)],ba=0,as=y(function(a){return eg(ba,z,a)},E),bb=fG(v),at=kZ(m[5],bb),i=at[2],A=at[1],bd=m[2],au=co(S,j(K)),bc=0,r=hq(function(b,a){var
-f=lb(v,A,i,a),e=ar(t,f,b),k=[0,[0,f,e],ay(U(e,e))];function
-m(c){return ho(v,A,i,b,a,c)}var
+q8(a,ao,a_,m,z,a9){var
+v=m[1],x=ds(v),F=m[6],a$=m[2],K=y(function(a){return hq(z,a)},a$),aq=m[3],S=[0,[0,aq,aq],z],L=[0,j(K)],ba=0,as=y(function(a){return eg(ba,z,a)},F),bb=fG(v),at=k0(m[5],bb),i=at[2],A=at[1],bd=m[2],au=co(S,j(K)),bc=0,r=hr(function(b,a){var
+f=lc(v,A,i,a),e=ai(s,f,b),k=[0,[0,f,e],az(U(e,e))];function
+m(c){return hp(v,A,i,b,a,c)}var
 g=2<=v?d:c;function
 h(b){var
-c=H(au),d=l(g),e=q(t(H(b),d),c);return q(i,t(U(a,a),e))}var
-j=[0,U(ho(v,A,i,b,a,1),a),h];return[0,k$(v,A,i,au,b,a),j,m,k]},z,bd,bc),av=e(function(a){return a[1]},r),be=N(L,j(as)),bf=fG(v),bg=m[5];function
-D(a){return[0,[0,N(bf,a)]]}var
+c=H(au),d=l(g),e=q(s(H(b),d),c);return q(i,s(U(a,a),e))}var
+j=[0,U(hp(v,A,i,b,a,1),a),h];return[0,la(v,A,i,au,b,a),j,m,k]},z,bd,bc),av=e(function(a){return a[1]},r),be=N(L,j(as)),bf=fG(v),bg=m[5];function
+E(a){return[0,[0,N(bf,a)]]}var
 ag=H([0,[1,be]]);switch(bg[0]){case
 2:var
-a1=D(qK),a2=D(qL),aj=[0,D(0),a2,a1],C=[0,t(ag,U(aj,aj))];break;case
+a1=E(qM),a2=E(qN),ak=[0,E(0),a2,a1],D=[0,s(ag,U(ak,ak))];break;case
 3:var
-a3=H(D(qM)),a4=H(D(0)),a5=H(D(qN)),C=[0,t(t(q(ag,F(l(c),a5)),a4),a3)];break;default:var
-C=0}var
+a3=H(E(qO)),a4=H(E(0)),a5=H(E(qP)),D=[0,s(s(q(ag,C(l(c),a5)),a4),a3)];break;default:var
+D=0}var
 aw=m[7];if(aw)var
-bh=0,bi=m[2],T=hq(function(k,l){var
-a=k$(v,A,i,co(S,j(K)),k,l),c=a[1];if(c){var
+bh=0,bi=m[2],T=hr(function(k,l){var
+a=la(v,A,i,co(S,j(K)),k,l),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
 h=g[1],f=fF(k,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},z,bi,bh);else
 var
 T=aw;var
-bj=bt(T),bk=C?[0,C[1],0]:C,bl=f(bk,bj),bm=0,bn=[0,i,f(cp(function(c,b){if(typeof
+bj=bt(T),bk=D?[0,D[1],0]:D,bl=f(bk,bj),bm=0,bn=[0,i,f(cp(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=ld(r,c,b);if(g)var
+g=le(r,c,b);if(g)var
 j=g[1],l=[0,j[1],[0,j[2],0]];else
 var
 l=g;return l;case
-8:return e(ca,k(lc(r),c));case
+8:return e(ca,k(ld(r),c));case
 13:var
 h=R(r,b[1]);if(h){var
 m=ep(b[4]);if(m){var
-n=lf(c,k(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+n=lg(c,k(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 o=m}else
 var
 o=h;return o}var
-d=hr(a,i,r,c,b),p=d?[0,d[1],0]:d;return p},bm,z,L,E),bl)],V=f(bt(av),bn),bo=0,ax=cp(function(h,a){if(typeof
+d=hs(a,i,r,c,b),p=d?[0,d[1],0]:d;return p},bm,z,L,F),bl)],V=f(bt(av),bn),bo=0,ax=cp(function(h,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
 b=R(r,a[1]);if(b){if(ep(a[4]))return 0;var
-d=[0,lg(A,i,h,a[2],b[1][4]),0]}else
+d=[0,lh(A,i,h,a[2],b[1][4]),0]}else
 var
 d=b;return d;case
 14:var
-c=lh(v,A,i,r,h,a[1],a[2]);if(c){var
-e=c[1],f=e[2],g=e[1];return y(bJ,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bo,z,L,E),az=cG(e(function(a){return ek(x,a)},V))[1],M=cG(ax)[1],I=bH(az);function
-h(a){return a7(I,ek(x,a))}if(0===m[4][0]){var
-bp=w(h,C),bq=h(i),aA=k(aq(h),av),ak=fG(v),al=u(j(aA),x);if(al)var
-am=w(function(a){return[0,[0,a,d],d]},bp),J=function(a){return s(a,I,l(d))},af=J(bq),a0=aW(0,ak),Q=o(function(a){var
+c=li(v,A,i,r,h,a[1],a[2]);if(c){var
+e=c[1],f=e[2],g=e[1];return y(bJ,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bo,z,L,F),aA=cG(e(function(a){return ek(x,a)},V))[1],M=cG(ax)[1],I=bH(aA);function
+h(a){return a8(I,ek(x,a))}if(0===m[4][0]){var
+bp=w(h,D),bq=h(i),aB=k(ar(h),av),al=fG(v),am=u(j(aB),x);if(am)var
+an=w(function(a){return[0,[0,a,d],d]},bp),J=function(a){return t(a,I,l(d))},af=J(bq),a0=aX(0,al),Q=o(function(a){var
 b=dt(x,a,af),c=b?o(function(b){var
 d=b[1],c=o(function(b){var
 c=J(b);return cR(N(x,a),c)},d);if(c){var
-e=J(b[2]);return hk(af,N(x,a),e)}return c},aA):b;if(c){if(am){var
-e=J(am[1][1][1]);return cR(N(x,a),e)}var
+e=J(b[2]);return hl(af,N(x,a),e)}return c},aB):b;if(c){if(an){var
+e=J(an[1][1][1]);return cR(N(x,a),e)}var
 d=1}else
 var
 d=c;return d},a0);else
 var
-Q=al;var
-a8=Q?ak:Q,X=a8}else
+Q=am;var
+a7=Q?al:Q,X=a7}else
 var
 X=0;var
-aB=o(function(a){var
-b=ek(x,a),c=l(d);return aF(s(h(a),I,c),b)},V),aC=aB?o(function(a){return kN(x,a)},V):aB,aD=aC?o(function(a){var
-b=l(d),c=bH(M);return aF(s(a7(bH(M),a),c,b),a)},ax):aC,aE=aD?ao(q5,E):aD;if(aE){var
+aC=o(function(a){var
+b=ek(x,a),c=l(d);return ay(t(h(a),I,c),b)},V),aD=aC?o(function(a){return kO(x,a)},V):aC,aE=aD?o(function(a){var
+b=l(d),c=bH(M);return ay(t(a8(bH(M),a),c,b),a)},ax):aD,aF=aE?ap(q7,F):aE;if(aF){var
 aG=ac(m[7]);if(aG)var
 O=aG;else{var
 aY=m[5];if(1===v&&2===aY[0])var
@@ -3758,48 +3770,48 @@ var
 aZ=0;var
 O=aZ}}else
 var
-O=aE;var
-aH=O?hs(v,dp(m[4])):O,aI=aH?g(a,1,m[3]):aH;if(aI)var
+O=aF;var
+aH=O?ht(v,dp(m[4])):O,aI=aH?g(a,1,m[3]):aH;if(aI)var
 br=fE(m[5]),Y=o(function(b){var
 c=ej(a,b[1]);return c?ej(a,b[2]):c},br);else
 var
 Y=aI;if(Y){var
-bs=f(K,[0,S,0]),Z=ai(e(function(b){return ah(a,b)},bs));if(Z){var
-$=ai(e(function(b){return hh(a,b)},as));if($){var
-bu=lj(v,dp(m[4])),aa=ai(e(function(b){return ah(a,[0,b,z])},bu));if(aa){var
-aJ=aa[1],bv=k1(m[5]),ab=ai(e(function(b){return k3(a,b)},bv));if(ab){var
-aK=ab[1],bw=k0(m[5]),ad=ai(e(function(b){return dr(a,b)},bw));if(ad){var
-bx=0,by=bH(M),aL=function(a){return a7(by,a)},ae=ai(cp(function(l,f){if(typeof
+bs=f(K,[0,S,0]),Z=aj(e(function(b){return ah(a,b)},bs));if(Z){var
+$=aj(e(function(b){return hi(a,b)},as));if($){var
+bu=lk(v,dp(m[4])),aa=aj(e(function(b){return ah(a,[0,b,z])},bu));if(aa){var
+aJ=aa[1],bv=k2(m[5]),ab=aj(e(function(b){return k4(a,b)},bv));if(ab){var
+aK=ab[1],bw=k1(m[5]),ad=aj(e(function(b){return dr(a,b)},bw));if(ad){var
+bx=0,by=bH(M),aL=function(a){return a8(by,a)},ae=aj(cp(function(l,f){if(typeof
 f!=="number"&&13===f[0]){var
-q=f[4],ao=R(r,f[1]);if(ao){if(li(f[3])&&g(a,0,q)&&g(a,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],q])){var
-ap=f[2],ar=ao[1];if(ep(q)){var
-am=lf(l,k(ar[3],ap)),E=am[2];if(g(p,0,[3,q,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]]))var
+q=f[4],ao=R(r,f[1]);if(ao){if(lj(f[3])&&g(a,0,q)&&g(a,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],q])){var
+ap=f[2],aq=ao[1];if(ep(q)){var
+am=lg(l,k(aq[3],ap)),E=am[2];if(g(p,0,[3,q,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]]))var
 an=0;else
 var
 aJ=h(E),aK=h(E),an=[0,[6,[0,[0,e(h,am[1]),aK],0],aJ],0];var
 as=[0,[4,h(E)],an]}else
 var
-as=[0,[8,[3,aL(lg(A,i,l,ap,ar[4]))]],0];return e(function(a){return[0,a]},as)}return q3}return q4}var
+as=[0,[8,[3,aL(lh(A,i,l,ap,aq[4]))]],0];return e(function(a){return[0,a]},as)}return q5}return q6}var
 aM=0,t=e(function(a){return a[1]},r);function
 F(c,b,a){return[0,c,b,a,X]}var
 s=0;if(typeof
 f==="number")var
-au=h(i),j=[0,F(k(aq(h),t),au,B)];else
+au=h(i),j=[0,F(k(ar(h),t),au,B)];else
 switch(f[0]){case
 0:var
 m=[5,[0,c,c],f[1]],u=F;s=1;break;case
 1:var
 aw=[5,[0,c,c],f[1]],m=aw,u=function(c,b,a){return[1,c,b,a]};s=1;break;case
 2:var
-ax=hr(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ax);break;case
+ax=hs(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ax);break;case
 3:var
-ay=hr(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ay);break;case
+ay=hs(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ay);break;case
 5:var
 H=f[1],az=ah(a,[0,[0,H,H],d]),j=w(function(b){var
-c=W(a,b),d=h(i);return[2,k(aq(h),t),d,c]},az);break;case
+c=W(a,b),d=h(i);return[2,k(ar(h),t),d,c]},az);break;case
 6:var
 x=R(r,f[1]);if(x){var
-y=ld(r,l,f);if(y){var
+y=le(r,l,f);if(y){var
 I=y[1],J=g(a,1,f[2]),K=J?g(a,1,f[3]):J;if(K)var
 aA=h(I[2]),aB=h(x[1][1][2]),L=[0,[5,[0,[0,[0,h(I[1]),0],aB],0],aA]];else
 var
@@ -3822,15 +3834,15 @@ V=S;if(!at)var
 j=V;break;case
 8:var
 Y=g(a,1,f[1]),Z=Y?g(a,1,f[2]):Y;if(Z)var
-aD=_(a,c),aE=h(i),aF=k(lc(r),l),$=[0,[0,k(aq(h),aF),aE,aD,0]];else
+aD=_(a,c),aE=h(i),aF=k(ld(r),l),$=[0,[0,k(ar(h),aF),aE,aD,0]];else
 var
 $=Z;var
 j=$;break;case
 14:var
-aa=f[2],ab=f[1],C=lh(v,A,i,r,l,ab,aa);if(C){var
-ac=C[1],ad=ac[2],ae=ac[1],af=kF(ab,aa,f[3]),D=ah(a,[0,[0,af,af],z]);if(D){var
+aa=f[2],ab=f[1],C=li(v,A,i,r,l,ab,aa);if(C){var
+ac=C[1],ad=ac[2],ae=ac[1],af=kG(ab,aa,f[3]),D=ah(a,[0,[0,af,af],z]);if(D){var
 ag=D[1],ai=G(d,ag[1]);if(ai)var
-o=function(a){return kd(aL,a)},aG=o(ad[2]),aH=o(ad[1]),aI=o(ae[2]),aj=[0,[8,[6,o(ae[1]),aI,aH,aG,ag]]];else
+o=function(a){return ke(aL,a)},aG=o(ad[2]),aH=o(ad[1]),aI=o(ae[2]),aj=[0,[8,[6,o(ae[1]),aI,aH,aG,ag]]];else
 var
 aj=ai;var
 ak=aj}else
@@ -3842,14 +3854,14 @@ al=C;var
 j=al;break;default:var
 j=0}if(s)var
 av=ah(a,[0,[0,m,m],d]),j=w(function(b){var
-c=W(a,b),d=h(i);return u(k(aq(h),t),d,c)},av);return[0,j,aM]},bx,z,L,E));if(ae){var
+c=W(a,b),d=h(i);return u(k(ar(h),t),d,c)},av);return[0,j,aM]},bx,z,L,F));if(ae){var
 aM=ae[1];if(m[7])var
-bz=an[2],bA=an[1],bB=h(i),P=kr(a_,aM,[7,k(aq(h),T),bB,bA,bz]);else
+bz=ao[2],bA=ao[1],bB=h(i),P=ks(a_,aM,[7,k(ar(h),T),bB,bA,bz]);else
 var
 P=aM;var
 aN=u(j(f(aJ,aK)),x),aO=aN?o(function(a){var
-b=k4(a);return o(function(a){return kX(x,I,a)},b)},P):aN,aP=aO?C?kX(x,I,h(C[1])):1:aO;if(aP){var
-bC=e(function(a){return 1},P),bD=f(aJ,aK),bE=w(h,C),bF=f($[1],ad[1]);return k9(a,az,M,f(Z[1],bF),P,x,x,bE,bD,bC,a9)}var
+b=k5(a);return o(function(a){return kY(x,I,a)},b)},P):aN,aP=aO?D?kY(x,I,h(D[1])):1:aO;if(aP){var
+bC=e(function(a){return 1},P),bD=f(aJ,aK),bE=w(h,D),bF=f($[1],ad[1]);return k_(a,aA,M,f(Z[1],bF),P,x,x,bE,bD,bC,a9)}var
 aQ=aP}else
 var
 aQ=ae;var
@@ -3868,37 +3880,37 @@ aU=$;var
 aV=aU}else
 var
 aV=Z;var
-aX=aV}else
+aW=aV}else
 var
-aX=Y;return aX}function
-eq(b,a){return a$(b,a[1],a[2])}function
-lk(b,a){var
+aW=Y;return aW}function
+eq(b,a){return ba(b,a[1],a[2])}function
+ll(b,a){var
 c=eq(b,a[1]),d=c?eq(b,a[2]):c;return d?eq(b,a[3]):d}function
-a2(a){return typeof
-a==="number"?a?q7:q8:ds(a[1])}function
-ll(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hj(b[1],a,c)}function
+a3(a){return typeof
+a==="number"?a?q9:q_:ds(a[1])}function
+lm(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hk(b[1],a,c)}function
 fI(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-ht(b,c,a){return b?fA(b[1],c,a):a}function
+hu(b,c,a){return b?fA(b[1],c,a):a}function
 b3(d,c,b,a){var
-e=fI(a),f=ht(d,c,fI(a)),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
-lm(b,a){var
+e=fI(a),f=hu(d,c,fI(a)),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
+ln(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-ln(b,w,v){var
+lo(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kg(b,j[1],f[1]):0;else
+h=0===f[0]?kh(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=aZ(b,c[1],a[1]),l=k?aZ(b,c[2],a[2]):k,m=l?aZ(b,c[3],a[3]):l,n=m?aZ(b,c[4],a[4]):m,o=n?cL(b,c[5],a[5]):n,p=o?cL(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
-u=g$(a),i=g(b,1,O(g$(a),u));else
+a=f[1],c=j[1],k=a0(b,c[1],a[1]),l=k?a0(b,c[2],a[2]):k,m=l?a0(b,c[3],a[3]):l,n=m?a0(b,c[4],a[4]):m,o=n?cL(b,c[5],a[5]):n,p=o?cL(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
+u=ha(a),i=g(b,1,O(ha(a),u));else
 var
 i=s;var
 h=i?cb(c[7],a[7]):i}if(h){var
@@ -3906,67 +3918,67 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-lo(a){return typeof
+lp(a){return typeof
 a==="number"?a?eo(0):cI:eo(a[1])}function
-hu(b,d,c){if(0===c[0])return ft(b,d[1],c[1]);var
+hv(b,d,c){if(0===c[0])return ft(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aM(a[4],b),e),h=f(aM(a[3],b),g),i=f(aM(a[2],d[2]),h);return f(aM(a[1],d[1]),i)}function
-hv(b,a){if(b){var
+hw(b,a){if(b){var
 c=b[1],d=c[2];return cl(en(c[1],a),d)}return a}function
-lp(f,u,al,K,aj,r,ai){if(r){var
-i=r[1],am=bE([0,d,d],aj),a=b1(ai,hu(K,am,i)),y=function(c,b){var
-d=aa(a,c);return ar(t,ar(F,lo(f),b),d)};if(0===i[0]){var
+lq(f,u,am,K,ak,r,aj){if(r){var
+i=r[1],an=bE([0,d,d],ak),a=b1(aj,hv(K,an,i)),y=function(c,b){var
+d=$(a,c);return ai(s,ai(C,lp(f),b),d)};if(0===i[0]){var
 z=i[1];switch(z[0]){case
 0:var
-$=hv(u,aa(a,q9)),aE=z[1][5],A=s(q_,a,l(d)),B=aa(a,0),ab=y(q$,$),h=jI(ab,cH(B),ab,A,aE),ao=[0,ay(A),0],ap=[0,ay(U(B,B)),ao],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],ap],$];break;case
+aa=hw(u,$(a,q$)),aE=z[1][5],A=t(ra,a,l(d)),B=$(a,0),ab=y(rb,aa),h=jJ(ab,cH(B),ab,A,aE),ap=[0,az(A),0],aq=[0,az(U(B,B)),ap],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],aq],aa];break;case
 1:var
-ac=hv(u,aa(a,ra)),ad=z[3],C=ad?[0,aa(a,rb)]:ad,ae=y(0,ac),m=jJ(ae,ae,0);if(C)var
-L=C[1],M=[0,ay(U(L,L)),0];else
+ac=hw(u,$(a,rc)),ad=z[3],D=ad?[0,$(a,rd)]:ad,ae=y(0,ac),m=jK(ae,ae,0);if(D)var
+L=D[1],M=[0,az(U(L,L)),0];else
 var
-M=C;var
+M=D;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],D=aa(a,0),aI=lo(f),n=jK(aI,cH(D)),aq=[0,ay(U(D,D)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,aq],aH]}}else
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=$(a,0),aI=lp(f),n=jL(aI,cH(E)),ar=[0,az(U(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hv(u,aa(a,rc)),E=i[1][7],G=s(rd,a,l(d)),e=s(re,a,l(d)),ag=aa(a,rf),I=aa(a,0),p=y(rg,af),o=cH(I),v=ar(t,ag,bq(U(o,ag),o)),w=cH(v),O=fF(o,w),P=U(p,w),Q=U(p,O),as=U(o,p),at=H(Q),R=F(H(P),at),au=H(as),S=t(H(G),au),av=q(l(b(2,c)),e),x=t(R,H(ak(F(R,t(H(e),S)),av))),aw=fi(E,q(e,ay(x))),T=ak(P,e),V=fi(E,ak(Q,e)),W=ak(S,H(e)),X=jh(0,T,V,W),Y=fi(E,jh(1,T,V,W)),ax=bq(Y,O),Z=ar(t,p,bq(e,ar(F,bq(X,w),ax))),az=[0,ay(G),0],aA=[0,ay(e),az],aB=[0,ay(U(v,v)),aA],aC=[0,ay(U(I,I)),aB],aD=cl(Z,aw),k=[0,[0,Z,q(H(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=N(ai,j(hu(K,am,i))),aQ=r[2],aR=lp(f,u,al,K,bV(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cl(fF(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bJ(a):k_(f[1],a,b)},J=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:bJ(J):_,aM=g[4],aN=ah(g[3]),aO=g[2],an=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hw(u,$(a,re)),F=i[1][7],G=t(rf,a,l(d)),e=t(rg,a,l(d)),ag=$(a,rh),I=$(a,0),p=y(ri,af),o=cH(I),v=ai(s,ag,aT(U(o,ag),o)),w=cH(v),O=fF(o,w),P=U(p,w),Q=U(p,O),as=U(o,p),at=H(Q),R=C(H(P),at),au=H(as),S=s(H(G),au),av=q(l(b(2,c)),e),x=s(R,H(al(C(R,s(H(e),S)),av))),aw=fi(F,q(e,az(x))),T=al(P,e),V=fi(F,al(Q,e)),W=al(S,H(e)),X=ji(0,T,V,W),Y=fi(F,ji(1,T,V,W)),ax=aT(Y,O),Z=ai(s,p,aT(e,ai(C,aT(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(U(v,v)),aA],aC=[0,az(U(I,I)),aB],aD=cl(Z,aw),k=[0,[0,Z,q(H(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=N(aj,j(hv(K,an,i))),aQ=r[2],aR=lq(f,u,am,K,bV(ak),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cl(fF(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bJ(a):k$(f[1],a,b)},J=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:bJ(J):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
-an=r;return an}function
-hw(c,b,a){if(a){var
-e=a[2],g=hw(c,bV(b),e),h=a[1];return f(hu(c,bE([0,d,d],b),h),g)}return a}function
-lq(a){if(a){var
+ao=r;return ao}function
+hx(c,b,a){if(a){var
+e=a[2],g=hx(c,bV(b),e),h=a[1];return f(hv(c,bE([0,d,d],b),h),g)}return a}function
+lr(a){if(a){var
 b=a[1][6];if(b)var
-c=lq(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=lr(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return rh}function
-lr(y,V,b){function
-c(a){return s(a,V,l(d))}function
+d=b;return d}return rj}function
+ls(y,V,b){function
+c(a){return t(a,V,l(d))}function
 N(a){var
-e=a[2],f=q(H(c(0)),e),b=0,d=0,g=a[1];return[0,[0,da(function(b,a){return t(b,H(a))},g,f),d],b]}function
+e=a[2],f=q(H(c(0)),e),b=0,d=0,g=a[1];return[0,[0,da(function(b,a){return s(b,H(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=H(b[2]),g=q(H(c(0)),f),d=[0,[0,t(b[1],g),0],0];else
+b=a[1],f=H(b[2]),g=q(H(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
-C=0;if(typeof
-b==="number")C=1;else
+D=0;if(typeof
+b==="number")D=1;else
 switch(b[0]){case
 2:var
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,t(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,t(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(ri),b),g=[0,[0,t(q(c(rj),d),f),0],0],h=q(d,c(rk));return[0,[0,t(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(rk),b),g=[0,[0,s(q(c(rl),d),f),0],0],h=q(d,c(rm));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3982,11 +3994,11 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lq(y);if(A){var
+A=lr(y);if(A){var
 aa=c(0),P=da(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
-j=i[2],D=i[1];if(j){var
-k=j[2],E=j[1];if(k)if(k[2]||!h)var
+j=i[2],E=i[1];if(j){var
+k=j[2],F=j[1];if(k)if(k[2]||!h)var
 a=l(d);else{var
 m=h[2],n=h[1];if(n){var
 o=n[2],G=n[1];if(o){var
@@ -3999,7 +4011,7 @@ v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-S=cK(G,I,K,L),T=q(k[1],S),U=q(E,cK(G,J,K,M)),a=F(t(q(D,cK(I,J,L,M)),U),T)}else
+S=cK(G,I,K,L),T=q(k[1],S),U=q(F,cK(G,J,K,M)),a=C(s(q(E,cK(I,J,L,M)),U),T)}else
 var
 a=l(d)}else
 var
@@ -4014,7 +4026,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cK(D,E,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cK(E,F,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -4025,18 +4037,18 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bm(F(a,P)),0],Q=[0,[0,t(a,P),ab],0]}else
+ab=[0,bn(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
-Q=A;return Q;default:C=1}if(C)return 0;var
+Q=A;return Q;default:D=1}if(D)return 0;var
 z=R(y,f);return z?g(z[1]):z}function
 fJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 er(a){return e(function(a){var
 b=l(c);return[0,a[3],b]},a)}function
-ls(a,b){return e(function(a){var
+lt(a,b){return e(function(a){var
 c=q(a[2],b);return[0,a[1],c]},a)}function
-lt(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bt(ls(c,s(0,b,l(d))));return i$(lr(c,b,a))}function
-lu(f,h,m,I,H,r,a){if(typeof
+lu(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bt(lt(c,t(0,b,l(d))));return ja(ls(c,b,a))}function
+lv(f,h,m,I,H,r,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
@@ -4046,57 +4058,57 @@ M=[5,[0,c,c],a[1]],i=M,o=function(a){return[1,a]};break;case
 5:var
 y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,W(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!R(m,C))return rn;var
+z=a[3],A=a[2],C=a[1];if(!R(m,C))return rp;var
 G=0;if(g(f,1,A)&&g(f,1,z))var
 S=[5,A,z],i=S,o=function(a){return[7,C,a]};else
-G=1;if(G)return rm;break;case
+G=1;if(G)return ro;break;case
 8:var
 D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=_(f,c),V=ls(m,s(0,r,l(d))),F=[0,[4,k(aq(h),V),U]];else
+U=_(f,c),V=lt(m,t(0,r,l(d))),F=[0,[4,k(ar(h),V),U]];else
 var
 F=E;return[0,F,T];default:var
 q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],t]):v,j=O;break;case
+s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],s]):v,j=O;break;case
 6:case
 9:var
 x=g(f,1,a[2]),j=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
 j=1;var
-p=j?lr(m,r,a):j;if(p){var
+p=j?ls(m,r,a):j;if(p){var
 N=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(h,b[1]);return[0,[5,k(h,c),e]]}var
 d=[0,[3,k(h,c)]]}else
 var
-d=a;return d},N)}return rl}var
-K=0,L=ah(f,[0,[0,i,i],hg(I,H)]);return[0,w(function(a){return o(W(f,a))},L),K]}function
-lv(a){if(typeof
+d=a;return d},N)}return rn}var
+K=0,L=ah(f,[0,[0,i,i],hh(I,H)]);return[0,w(function(a){return o(W(f,a))},L),K]}function
+lw(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-rp(b){if(0===b[0])return[0,kp(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=ba(a[4]),g=ba(a[3]),h=ba(a[2]);return[1,[0,ba(a[1]),h,g,f,e,d,c]]}function
-rq(K,c,a,h,an,aT){var
-aU=e(rp,a[2]),ap=ln(K,a[2],aU);if(ap)var
-aV=g_(a[4]),L=ec(K,a[4],aV);else
+rr(b){if(0===b[0])return[0,kq(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bb(a[4]),g=bb(a[3]),h=bb(a[2]);return[1,[0,bb(a[1]),h,g,f,e,d,c]]}function
+rs(K,c,a,h,an,aT){var
+aU=e(rr,a[2]),ao=lo(K,a[2],aU);if(ao)var
+aV=g$(a[4]),L=ec(K,a[4],aV);else
 var
-L=ap;if(L){var
-ar=a[5];if(ar)var
-aW=fE(ar[1]),as=o(function(a){return eq(K,a)},aW);else
+L=ao;if(L){var
+aq=a[5];if(aq)var
+aW=fE(aq[1]),as=o(function(a){return eq(K,a)},aW);else
 var
 as=1;var
 M=as}else
 var
 M=L;if(M){var
-b=a[1],aw=a2(b),q=a[6],z=hw(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,j(z)],A=a[2],n=A?0===A[1][0]?0:1:A,ax=a[5],ay=w(function(a){var
+b=a[1],aw=a3(b),q=a[6],z=hx(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,j(z)],A=a[2],n=A?0===A[1][0]?0:1:A,ax=a[5],az=w(function(a){var
 c=typeof
-b==="number"?0:fG(b[1]);return kZ(a,c)},ax),az=a[2],i=lp(b,ay,co(S,j(z)),h,an,az,0),U=y(function(a){return a[7]},i),aA=f(U,cp(function(a,b){return lt(i,a,b)},n,h,T,q)),aB=f(bt(er(i)),aA),V=f(bt(fJ(i)),aB),B=cG(V)[1],aC=bH(B),p=function(a){return a7(aC,a)},W=o(function(a){var
-b=l(d),c=bH(B);return aF(s(p(a),c,b),a)},V),X=W?ao(lv,q):W;if(X){var
+b==="number"?0:fG(b[1]);return k0(a,c)},ax),aA=a[2],i=lq(b,az,co(S,j(z)),h,an,aA,0),U=y(function(a){return a[7]},i),aB=f(U,cp(function(a,b){return lu(i,a,b)},n,h,T,q)),aC=f(bt(er(i)),aB),V=f(bt(fJ(i)),aC),B=cG(V)[1],aD=bH(B),p=function(a){return a8(aD,a)},W=o(function(a){var
+b=l(d),c=bH(B);return ay(t(p(a),c,b),a)},V),X=W?ap(lw,q):W;if(X){var
 Y=a[4];if(typeof
 b==="number")var
-Z=b?hs(0,dp(Y)):1;else
+Z=b?ht(0,dp(Y)):1;else
 var
-au=dp(Y),Z=hs(b[1],au);var
+au=dp(Y),Z=ht(b[1],au);var
 C=Z}else
 var
 C=X;if(C){var
@@ -4115,26 +4127,26 @@ r=Q}var
 D=r}else
 var
 D=C;if(D)var
-aD=a[2],E=o(function(a){var
-b=0===a[0]?0:1;return cb(b,n)},aD);else
+aE=a[2],E=o(function(a){var
+b=0===a[0]?0:1;return cb(b,n)},aE);else
 var
 E=D;if(E){var
-aE=f(z,[0,S,0]),F=ai(e(function(a){return ah(c,a)},aE));if(F){var
-aG=y(function(a){return eg(n,h,a)},q),G=ai(e(function(a){return hh(c,a)},aG));if(G){var
+aF=f(z,[0,S,0]),F=aj(e(function(a){return ah(c,a)},aF));if(F){var
+aG=y(function(a){return eg(n,h,a)},q),G=aj(e(function(a){return hi(c,a)},aG));if(G){var
 m=dp(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lj(b[1],m),H=ai(e(function(a){return ah(c,[0,a,h])},aH));if(H){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lk(b[1],m),H=aj(e(function(a){return ah(c,[0,a,h])},aH));if(H){var
 _=H[1],$=a[5];if($)var
-aI=k1($[1]),t=ai(e(function(a){return k3(c,a)},aI));else
+aI=k2($[1]),s=aj(e(function(a){return k4(c,a)},aI));else
 var
-t=ro;if(t){var
-aa=t[1],x=a[5],aJ=x?k0(x[1]):x,I=ai(e(function(a){return dr(c,a)},aJ));if(I){var
-J=ai(cp(function(a,b){return lu(c,p,i,n,h,a,b)},n,h,T,q));if(J){var
+s=rq;if(s){var
+aa=s[1],x=a[5],aJ=x?k1(x[1]):x,I=aj(e(function(a){return dr(c,a)},aJ));if(I){var
+J=aj(cp(function(a,b){return lv(c,p,i,n,h,a,b)},n,h,T,q));if(J){var
 ab=J[1],ac=u(j(f(_,aa)),aw);if(ac){var
 aK=g4(ab),aL=f(_,aa),at=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return kf(c,aM,h,a)};at=1}if(!at)var
+ad=function(a){return kg(c,aM,h,a)};at=1}if(!at)var
 ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=er(i),aR=k(aq(p),aQ),aS=fJ(i);return fs(c,B,k(aq(p),aS),aR,aP,aO,ab,ad,aL,aK,aT)}var
+aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=er(i),aR=k(ar(p),aQ),aS=fJ(i);return fs(c,B,k(ar(p),aS),aR,aP,aO,ab,ad,aL,aK,aT)}var
 ae=ac}else
 var
 ae=J;var
@@ -4143,11 +4155,11 @@ var
 af=I;var
 ag=af}else
 var
-ag=t;var
-aj=ag}else
+ag=s;var
+ai=ag}else
 var
-aj=H;var
-ak=aj}else
+ai=H;var
+ak=ai}else
 var
 ak=G;var
 al=ak}else
@@ -4166,53 +4178,53 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=bu(a[2]);return f(bu(a[1]),e)}}function
-bb(e,a,b){switch(a[0]){case
+bc(e,a,b){switch(a[0]){case
 0:var
 r=a[1];return co([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(oL(n[1],u))return n[2];var
+n=g[1];if(oM(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bm(bb(e,a[1],b));case
+2:return bn(bc(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=F;break;case
+i=a[2],f=a[1],h=C;break;case
 4:var
-i=a[2],f=a[1],h=t;break;case
+i=a[2],f=a[1],h=s;break;case
 5:var
 i=a[2],f=a[1],h=q;break;case
 6:var
-i=a[2],f=a[1],h=ak;break;case
+i=a[2],f=a[1],h=al;break;case
 7:var
-k=dX(a[2]),m=bb(e,a[1],b);if(k){if(k[1]){var
-o=H(m),s=function(a){return q(a,o)},p=eX(bD(i3(k)),s,o);return i2(k)?p:q(p,m)}return m}return l(c);default:return ay(bb(e,a[1],b))}var
-w=bb(e,i,N(b,j(bu(f))));return h(bb(e,f,b),w)}function
+k=dX(a[2]),m=bc(e,a[1],b);if(k){if(k[1]){var
+o=H(m),t=function(a){return q(a,o)},p=eX(bD(i4(k)),t,o);return i3(k)?p:q(p,m)}return m}return l(c);default:return az(bc(e,a[1],b))}var
+w=bc(e,i,N(b,j(bu(f))));return h(bc(e,f,b),w)}function
 cs(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,j(bu(e))),l=cs(c,a[2],k),m=f(cs(c,e,b),l);return[0,bb(c,a,b),m];case
+e=a[1],k=N(b,j(bu(e))),l=cs(c,a[2],k),m=f(cs(c,e,b),l);return[0,bc(c,a,b),m];case
 8:var
-n=cs(c,a[1],b);return[0,bb(c,a,b),n];case
+n=cs(c,a[1],b);return[0,bc(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],h=N(b,j(bu(d))),i=cs(c,a[2],h);return f(cs(c,d,b),i)}}function
-lw(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,j(bu(d))),h=a[2],i=bb(c,d,b),k=lw([0,[0,e[1],i],c],h,g);return f(cs(c,d,b),k)}return a}function
-hx(a){return y(bu,a)}function
-lx(c,a,b){if(a)var
-d=a[1],f=N(b,j(bu(d))),g=lx(c,a[2],f),e=[0,bb(c,d,b),g];else
+lx(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,j(bu(d))),h=a[2],i=bc(c,d,b),k=lx([0,[0,e[1],i],c],h,g);return f(cs(c,d,b),k)}return a}function
+hy(a){return y(bu,a)}function
+ly(c,a,b){if(a)var
+d=a[1],f=N(b,j(bu(d))),g=ly(c,a[2],f),e=[0,bc(c,d,b),g];else
 var
 e=a;return e}function
-ly(c,a,b){if(a){var
-d=a[1],e=N(b,j(bu(d))),g=ly(c,a[2],e);return f(cs(c,d,b),g)}return a}function
-hy(a){return 0===a[0]?hx(a[1]):bu(a[1])}function
-lz(c,b,a){if(b){var
-d=b[1],i=N(a,j(hy(d))),k=lz(c,b[2],i);if(0===d[0])var
-g=ly(c,d[1],a);else
+lz(c,a,b){if(a){var
+d=a[1],e=N(b,j(bu(d))),g=lz(c,a[2],e);return f(cs(c,d,b),g)}return a}function
+hz(a){return 0===a[0]?hy(a[1]):bu(a[1])}function
+lA(c,b,a){if(b){var
+d=b[1],i=N(a,j(hz(d))),k=lA(c,b[2],i);if(0===d[0])var
+g=lz(c,d[1],a);else
 var
-e=d[1],h=cs(c,e,a),g=[0,bb(c,e,a),h];return f(g,k)}return b}function
+e=d[1],h=cs(c,e,a),g=[0,bc(c,e,a),h];return f(g,k)}return b}function
 fK(c){var
 a=c[1];switch(a[0]){case
 0:var
@@ -4220,58 +4232,58 @@ b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
 b=cE(fK,a)}return[0,b]}function
-hz(c){var
+hA(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hz(a[2]);return q(hz(a[1]),d);case
+d=hA(a[2]);return q(hA(a[1]),d);case
 9:return a[1];default:return H(b)}}}function
-lA(n,g,a,f){if(a){var
-b=a[1],w=N(f,j(hy(b))),x=lA(n,g,a[2],w);if(0===b[0])var
-k=lx(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+lB(n,g,a,f){if(a){var
+b=a[1],w=N(f,j(hz(b))),x=lB(n,g,a[2],w);if(0===b[0])var
+k=ly(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=bb(g,b[1],f),q=fK(m),h=aL(aW(0,n),q),d=fK(h[2]),i=e(fK,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aF(a,d)?l(c):ak(a,d)},i),o=[0,i,hz(d),v,u,t,s,r];var
+m=bc(g,b[1],f),q=fK(m),h=aL(aX(0,n),q),d=fK(h[2]),i=e(fK,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?l(c):al(a,d)},i),o=[0,i,hA(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-lB(a){return e(function(a){return[0,a[2],d]},a)}function
-lC(a){var
-b=y(hy,a[4]),c=f(hx(e(ca,a[3])),b);return f(lB(a[2]),c)}function
+lC(a){return e(function(a){return[0,a[2],d]},a)}function
 lD(a){var
-c=b1(0,lB(a[2])),d=aW(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aI,a[2]),c);return f(aJ(a[1],g),b)}function
-hA(b,d){var
+b=y(hz,a[4]),c=f(hy(e(ca,a[3])),b);return f(lC(a[2]),c)}function
+lE(a){var
+c=b1(0,lC(a[2])),d=aX(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aI,a[2]),c);return f(aJ(a[1],g),b)}function
+hB(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ao(function(a){return an(e,a)},b);case
+e=a[1];return ap(function(a){return ao(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hA(b,a[1]);if(c){var
+c=hB(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-lE(d){var
+lF(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ao(function(b){return function(a){return oL(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ac(ap(function(b){return function(a){return oM(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}var
-fM=t(l(c),fL);function
-lF(e){var
+fM=s(l(c),fL);function
+lG(e){var
 a=H(fM);if(e)var
-f=q(l(b(2,c)),a),g=F(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=ak(F(l(c),h),g);else
+f=q(l(b(2,c)),a),g=C(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=al(C(l(c),h),g);else
 var
-i=F(l(b(2,c)),a),j=H(fL),d=ak(F(q(l(b(2,c)),j),a),i);return ay(d)}function
-lG(d,b,a){if(d){var
-e=lF(b),f=F(l(c),e),g=q(t(l(c),a),f);return t(l(c),g)}var
-h=l(c),i=lF(b),j=ak(l(c),i);return t(q(a,F(l(c),j)),h)}function
+i=C(l(b(2,c)),a),j=H(fL),d=al(C(q(l(b(2,c)),j),a),i);return az(d)}function
+lH(d,b,a){if(d){var
+e=lG(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=lG(b),j=al(l(c),i);return s(q(a,C(l(c),j)),h)}function
 dy(f,e,d,a){var
-g=H(a),h=H(d),i=t(t(l(b(2,c)),h),g),j=f?e?fM:ak(fM,q(l(b(2,c)),fL)):ak(fM,l(b(2,c))),k=q(H(j),i);return ay(F(l(c),k))}function
-lH(g,d){var
+g=H(a),h=H(d),i=s(s(l(b(2,c)),h),g),j=f?e?fM:al(fM,q(l(b(2,c)),fL)):al(fM,l(b(2,c))),k=q(H(j),i);return az(C(l(c),k))}function
+lI(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hB(v,u,t){var
-a=e(function(a){return s(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?F(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+hC(v,u,s){var
+a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -4280,7 +4292,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
 w=i[1],x=h[1],y=g[1],z=f[1];return o(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return ff([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return ff([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -4302,12 +4314,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-lI(f,i,e,b,h){var
+lJ(f,i,e,b,h){var
 j=f?c:d,a=_(i,j);function
 g(b){var
 c=f?e_(b):de(b);return K(c,a)}var
 k=[0,ag(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-lJ(r,g,q,p,f,o,n){if(o){var
+lK(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4316,16 +4328,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aS,bp(rw)),a=hB(p,g1(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aS,bq(ry)),a=hC(p,g1(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lH,rx),a=hB(p,bG(0,ch(g,lI(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lI,rz),a=hC(p,bG(0,ch(g,lJ(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lH,ry),a=hB(p,bG(0,ch(g,lI(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lI,rA),a=hC(p,bG(0,ch(g,lJ(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4335,26 +4347,26 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?rz:a}else
+y=a?rB:a}else
 var
 y=n;return y}return[0,n]}function
-lK(f,e,d,c,p,o,n){var
+lL(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=lJ(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
-i=lJ(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d9(a[2],b),l=lK(f,e,d,c,k[1],j,a[3]);if(l){var
+h=lK(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
+i=lK(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d9(a[2],b),l=lL(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hC(a){return i7(b(2,c),aC(a,c))}function
+hD(a){return i8(b(2,c),aD(a,c))}function
 dz(i,a,e,w,v){var
-m=a?c:M(c),f=l(m),g=lG(a,e,ru),h=lG(a,e,rv),n=ak(g,dy(a,e,f,g)),o=[0,F(ak(h,dy(a,e,h,f)),n),0],p=ak(f,dy(a,e,f,g)),r=[0,F(ak(h,dy(a,e,g,h)),p),o],s=ak(f,dy(a,e,h,f)),t=[0,F(ak(g,dy(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fL):l(b(2,b(2,c))),j=cG([0,u,t]),k=[0,d,cD(i)];return lK(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lL(a,g,b){if(V(g,hC(a))){if(b){var
+m=a?c:M(c),f=l(m),g=lH(a,e,rw),h=lH(a,e,rx),n=al(g,dy(a,e,f,g)),o=[0,C(al(h,dy(a,e,h,f)),n),0],p=al(f,dy(a,e,f,g)),r=[0,C(al(h,dy(a,e,g,h)),p),o],s=al(f,dy(a,e,h,f)),t=[0,C(al(g,dy(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fL):l(b(2,b(2,c))),j=cG([0,u,t]),k=[0,d,cD(i)];return lL(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lM(a,g,b){if(V(g,hD(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hC(a)],v=cD(a),i=[0,hC(a),v],j=dz(a,0,1,h,b[1]),k=j?dz(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,hD(a)],v=cD(a),i=[0,hD(a),v],j=dz(a,0,1,h,b[1]),k=j?dz(a,0,0,i,c[1]):j;if(k){var
 l=dz(a,1,1,h,d[1]);if(l)return dz(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4379,249 +4391,249 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-hD(a){var
+hE(a){var
 b=[1,[2,d]];return da(function(b,a){return[1,[3,b,a]]},a,b)}function
-fN(a){return hD(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fO(a,c){return hD(e(function(a){var
-d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hD(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lM(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
-f=a[1],g=cE(function(a){return lM(e,d,c,b,a)},f);return k(ch(e,d,c),g)}function
-lN(a){return a?V(d,a[1][2][1]):a}function
-rA(a){var
-b=u(j(a),rB);return b?ao(function(a){return ac(Z(a,d))},a):b}function
-lO(c,f,b,a){if(b)if(a)var
-d=b[1],g=x(c,_(c,a[1]),f),h=lO(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+fN(a){return hE(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fO(a,c){return hE(e(function(a){var
+d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hE(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lN(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cE(function(a){return lN(e,d,c,b,a)},f);return k(ch(e,d,c),g)}function
+lO(a){return a?V(d,a[1][2][1]):a}function
+rC(a){var
+b=u(j(a),rD);return b?ap(function(a){return ac(Z(a,d))},a):b}function
+lP(c,f,b,a){if(b)if(a)var
+d=b[1],g=x(c,_(c,a[1]),f),h=lP(c,f,b[2],a[2]),i=d[3],j=F(d[2],g),e=[0,[0,F(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
 fP(b,a){return e4(e4(b,0),a)}function
-hE(a){if(a){var
-b=a[2],c=a[1];if(b)return fP(c,[0,rD,hE(b)]);var
+hF(a){if(a){var
+b=a[2],c=a[1];if(b)return fP(c,[0,rF,hF(b)]);var
 d=c}else
 var
 d=a;return d}function
-A(a){return[0,rF,fP(hE(a),rE)]}function
-X(a){return[0,rH,fP(hE(a),rG)]}function
-aj(a){return[0,rJ,[0,a,rI]]}function
-h(b,a){return[0,aP(rL,aP(b,rK)),a]}function
+A(a){return[0,rH,fP(hF(a),rG)]}function
+X(a){return[0,rJ,fP(hF(a),rI)]}function
+ak(a){return[0,rL,[0,a,rK]]}function
+h(b,a){return[0,aP(rN,aP(b,rM)),a]}function
 I(b,a){return X([0,h(b,a),0])}function
 b4(d){var
-b=d,a=pe,e=0;for(;;){if(b){var
-c=i1(a),b=b[1],a=c;continue}return[0,d0(eW(a)),e]}}function
-hF(a){return[0,d0(e2(a)),0]}function
+b=d,a=pf,e=0;for(;;){if(b){var
+c=i2(a),b=b[1],a=c;continue}return[0,d0(eW(a)),e]}}function
+hG(a){return[0,d0(e2(a)),0]}function
 fQ(a){var
-c=a4(a),f=0,b=0===c?pj:0<c?[0,e2(a)]:[1,e2(M(a))];if(0===b[0])var
+c=a5(a),f=0,b=0===c?pk:0<c?[0,e2(a)]:[1,e2(M(a))];if(0===b[0])var
 d=d0(b[1]);else
 var
-e=d0(b[1]),d=aP(bi(1,45),e);return[0,d,f]}function
-hG(a){var
-b=0,c=0<a4(a)?e2(a):pi;return[0,d0(c),b]}function
-hH(a){switch(a[0]){case
-2:return rN;case
-3:return 2<=a[1]?rO:rP;case
-4:return rQ;default:return rM}}function
+e=d0(b[1]),d=aP(bj(1,45),e);return[0,d,f]}function
+hH(a){var
+b=0,c=0<a5(a)?e2(a):pj;return[0,d0(c),b]}function
+hI(a){switch(a[0]){case
+2:return rP;case
+3:return 2<=a[1]?rQ:rR;case
+4:return rS;default:return rO}}function
 es(b,a){function
-c(c,a){return Q(c,hH(a))?es(b,a):[0,rW,f(es(b,a),rV)]}switch(a[0]){case
+c(c,a){return Q(c,hI(a))?es(b,a):[0,rY,f(es(b,a),rX)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,aX(g),0];var
-h=[0,rX,[0,aX(e),0]];return[0,aX(g),h];case
+e==="number")return[0,aY(g),0];var
+h=[0,rZ,[0,aY(e),0]];return[0,aY(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,rZ,c(rY,a[1])];case
+2:return[0,r1,c(r0,a[1])];case
 3:var
-i=a[3],j=c([0,hH(a)],i);switch(a[1]){case
+i=a[3],j=c([0,hI(a)],i);switch(a[1]){case
 0:var
-d=rR;break;case
+d=rT;break;case
 1:var
-d=rS;break;case
+d=rU;break;case
 2:var
-d=rT;break;default:var
-d=rU}var
-l=a[2];return f(c(hH(a),l),[0,d,j]);case
+d=rV;break;default:var
+d=rW}var
+l=a[2];return f(c(hI(a),l),[0,d,j]);case
 4:var
-m=[0,r0,hF(a[2])];return f(c(r1,a[1]),m);default:return[0,r3,f(es(b,a[1]),r2)]}}function
-J(a){return[0,r6,f(es(function(a){return 0===a[0]?a[1]:r5},a),r4)]}function
-hI(a){return[0,r8,f(es(function(a){return a},a),r7)]}function
+m=[0,r2,hG(a[2])];return f(c(r3,a[1]),m);default:return[0,r5,f(es(b,a[1]),r4)]}}function
+J(a){return[0,r8,f(es(function(a){return 0===a[0]?a[1]:r7},a),r6)]}function
+hJ(a){return[0,r_,f(es(function(a){return a},a),r9)]}function
 b5(a){if(0===a[0])return J(a[1]);var
-b=[0,h(r9,J(a[2])),0];return X([0,h(r_,J(a[1])),b])}function
+b=[0,h(r$,J(a[2])),0];return X([0,h(sa,J(a[1])),b])}function
 fR(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
-r$(a){function
+sb(a){function
 b(a){return fR(b5,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?sa:si,i=[0,h(sb,aj(g)),e],j=[0,h(sc,b5(a[4])),i],k=[0,h(sd,b(a[3])),j],l=[0,h(se,b(a[2])),k],m=[0,h(sf,b(a[1])),l],c=[0,h(sh,aj(sg)),m];break;case
+e=0,g=a[5]?sc:sk,i=[0,h(sd,ak(g)),e],j=[0,h(se,b5(a[4])),i],k=[0,h(sf,b(a[3])),j],l=[0,h(sg,b(a[2])),k],m=[0,h(sh,b(a[1])),l],c=[0,h(sj,ak(si)),m];break;case
 1:var
-d=a[3],n=d?[0,h(sj,b(d[1])),0]:d,o=[0,h(sk,b(a[2])),0],p=[0,h(sl,b(a[1])),o],c=f([0,h(sn,aj(sm)),p],n);break;default:var
-q=[0,h(so,b(a[1])),0],c=[0,h(sq,aj(sp)),q]}return X(c)}function
-sr(a){function
+d=a[3],n=d?[0,h(sl,b(d[1])),0]:d,o=[0,h(sm,b(a[2])),0],p=[0,h(sn,b(a[1])),o],c=f([0,h(sp,ak(so)),p],n);break;default:var
+q=[0,h(sq,b(a[1])),0],c=[0,h(ss,ak(sr)),q]}return X(c)}function
+st(a){function
 b(a){return A(e(b5,a))}function
 d(a){var
-b=a?ss:su;return h(st,aj(b))}switch(a[0]){case
+b=a?su:sw;return h(sv,ak(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,h(sv,b5(a[4])),f],i=[0,h(sw,b(a[3])),g],j=[0,h(sx,b(a[2])),i],k=[0,h(sy,b(a[1])),j],c=[0,h(sA,aj(sz)),k];break;case
+f=[0,d(a[5]),0],g=[0,h(sx,b5(a[4])),f],i=[0,h(sy,b(a[3])),g],j=[0,h(sz,b(a[2])),i],k=[0,h(sA,b(a[1])),j],c=[0,h(sC,ak(sB)),k];break;case
 1:var
-l=[0,h(sB,b(a[2])),0],m=[0,h(sC,b(a[1])),l],c=[0,h(sE,aj(sD)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,h(sF,b5(a[6])),n],p=[0,h(sG,b5(a[5])),o],q=[0,h(sH,b(a[4])),p],r=[0,h(sI,b(a[3])),q],s=[0,h(sJ,b(a[2])),r],t=[0,h(sK,b(a[1])),s],c=[0,h(sM,aj(sL)),t]}return X(c)}function
-hJ(a){switch(a){case
-0:return sN;case
-1:return sO;case
-2:return sP;case
-3:return sQ;case
-4:return sR;case
-5:return sS;case
-6:return sT;case
-7:return sU;case
-8:return sV;case
-9:return sW;case
-10:return sX;case
-11:return sY;case
-12:return sZ;case
-13:return s0;case
-14:return s1;default:return s2}}function
-hK(a){if(typeof
-a==="number")return s3;else
+l=[0,h(sD,b(a[2])),0],m=[0,h(sE,b(a[1])),l],c=[0,h(sG,ak(sF)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,h(sH,b5(a[6])),n],p=[0,h(sI,b5(a[5])),o],q=[0,h(sJ,b(a[4])),p],r=[0,h(sK,b(a[3])),q],s=[0,h(sL,b(a[2])),r],t=[0,h(sM,b(a[1])),s],c=[0,h(sO,ak(sN)),t]}return X(c)}function
+hK(a){switch(a){case
+0:return sP;case
+1:return sQ;case
+2:return sR;case
+3:return sS;case
+4:return sT;case
+5:return sU;case
+6:return sV;case
+7:return sW;case
+8:return sX;case
+9:return sY;case
+10:return sZ;case
+11:return s0;case
+12:return s1;case
+13:return s2;case
+14:return s3;default:return s4}}function
+hL(a){if(typeof
+a==="number")return s5;else
 switch(a[0]){case
-0:return s4;case
-1:return s5;default:return s6}}function
+0:return s6;case
+1:return s7;default:return s8}}function
 et(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,h(s7,J(b[1])),0];break;case
+d=[0,h(s9,J(b[1])),0];break;case
 1:var
-d=[0,h(s8,J(b[1])),0];break;default:var
-n=[0,J(b[2]),0],d=[0,h(s9,A([0,J(b[1]),n])),0]}var
-o=[0,h(s_,aj(hK(a[4]))),d],g=a[3];if(g){var
+d=[0,h(s_,J(b[1])),0];break;default:var
+n=[0,J(b[2]),0],d=[0,h(s$,A([0,J(b[1]),n])),0]}var
+o=[0,h(ta,ak(hL(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-q=A([0,J(c[1]),0]),k=a[1],p=0,r=6===k?s$:12===k?td:te,i=[0,h(ta,I(r,q)),p];break;case
+q=A([0,J(c[1]),0]),k=a[1],p=0,r=6===k?tb:12===k?tf:tg,i=[0,h(tc,I(r,q)),p];break;case
 1:var
-w=A(e(J,c[1])),m=a[1],v=0,x=14===m?tf:15<=m?th:ti,i=[0,h(tg,I(x,w)),v];break;default:var
-y=[0,h(tj,A([0,J(c[2]),0])),0],i=[0,h(tl,X([0,h(tk,A([0,J(c[1]),0])),y])),0]}var
+w=A(e(J,c[1])),m=a[1],v=0,x=14===m?th:15<=m?tj:tk,i=[0,h(ti,I(x,w)),v];break;default:var
+y=[0,h(tl,A([0,J(c[2]),0])),0],i=[0,h(tn,X([0,h(tm,A([0,J(c[1]),0])),y])),0]}var
 l=i}else
 var
 l=g;var
-s=f(l,o),j=a[2],t=j?[0,h(tb,b4(j[1])),0]:j,u=f(t,s);return X([0,h(tc,aj(hJ(a[1]))),u])}function
-lP(a){if(0===a[0]){var
-b=[0,h(tm,fR(J,a[2])),0];return I(to,X([0,h(tn,fR(J,a[1])),b]))}var
-c=[0,J(a[5]),0],d=[0,h(tp,A([0,J(a[4]),c])),0],e=[0,h(tq,J(a[3])),d],f=[0,J(a[2]),0];return I(ts,X([0,h(tr,A([0,J(a[1]),f])),e]))}function
+s=f(l,o),j=a[2],t=j?[0,h(td,b4(j[1])),0]:j,u=f(t,s);return X([0,h(te,ak(hK(a[1]))),u])}function
 lQ(a){if(0===a[0]){var
-b=[0,h(tt,A(e(J,a[2]))),0];return I(tv,X([0,h(tu,A(e(J,a[1]))),b]))}return lP([1,a[1],a[2],a[3],a[4],a[5]])}function
-lR(a){switch(a){case
-0:return tw;case
-1:return tx;default:return ty}}function
-tz(a){function
+b=[0,h(to,fR(J,a[2])),0];return I(tq,X([0,h(tp,fR(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,h(tr,A([0,J(a[4]),c])),0],e=[0,h(ts,J(a[3])),d],f=[0,J(a[2]),0];return I(tu,X([0,h(tt,A([0,J(a[1]),f])),e]))}function
+lR(a){if(0===a[0]){var
+b=[0,h(tv,A(e(J,a[2]))),0];return I(tx,X([0,h(tw,A(e(J,a[1]))),b]))}return lQ([1,a[1],a[2],a[3],a[4],a[5]])}function
+lS(a){switch(a){case
+0:return ty;case
+1:return tz;default:return tA}}function
+tB(a){function
 b(a){return A(e(b5,a))}var
-c=[0,h(tA,b(a[2])),0],d=[0,h(tB,b(a[1])),c];return X([0,h(tD,aj(tC)),d])}function
-lS(a){function
+c=[0,h(tC,b(a[2])),0],d=[0,h(tD,b(a[1])),c];return X([0,h(tF,ak(tE)),d])}function
+lT(a){function
 b(b,a){var
 c=[0,J(a),0];return A([0,J(b),c])}switch(a[0]){case
-0:return I(tE,b(a[1],a[2]));case
+0:return I(tG,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,h(tF,b(c[1],c[2])),0],g=[0,h(tG,b(d[1],d[2])),f];return I(tI,X([0,h(tH,b(e[1],e[2])),g]));case
-2:return I(tJ,J(a[1]));default:var
-i=[0,h(tK,J(a[2])),0];return I(tM,X([0,h(tL,J(a[1])),i]))}}function
-tN(a){function
+c=a[3],d=a[2],e=a[1],f=[0,h(tH,b(c[1],c[2])),0],g=[0,h(tI,b(d[1],d[2])),f];return I(tK,X([0,h(tJ,b(e[1],e[2])),g]));case
+2:return I(tL,J(a[1]));default:var
+i=[0,h(tM,J(a[2])),0];return I(tO,X([0,h(tN,J(a[1])),i]))}}function
+tP(a){function
 b(a){return fR(J,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tO,b(c[1])),0]:c,g=[0,J(a[4]),0],i=[0,h(tP,A([0,J(a[3]),g])),0],j=[0,h(tQ,J(a[2])),i],k=[0,h(tR,b4(a[1])),j],d=f([0,h(tT,aj(tS)),k],e);else
+c=a[5],e=c?[0,h(tQ,b(c[1])),0]:c,g=[0,J(a[4]),0],i=[0,h(tR,A([0,J(a[3]),g])),0],j=[0,h(tS,J(a[2])),i],k=[0,h(tT,b4(a[1])),j],d=f([0,h(tV,ak(tU)),k],e);else
 var
-l=[0,h(tU,J(a[4])),0],m=[0,h(tV,b(a[3])),l],n=[0,h(tW,b(a[2])),m],o=a[1]?tX:tZ,d=[0,h(tY,aj(o)),n];return X(d)}function
-lT(a){var
-b=a?[0,h(t0,A(e(tN,a))),0]:a;return b}function
-hL(d,c,b,a){var
-g=[0,h(t1,A(e(et,a))),0],i=f(lT(b),g),j=[0,h(t2,lP(c)),0];return X(f([0,h(t4,I(t3,A(e(r$,d)))),j],i))}function
-t5(a){switch(a[0]){case
-0:return I(t6,hL(a[1],a[2],a[3],a[4]));case
+l=[0,h(tW,J(a[4])),0],m=[0,h(tX,b(a[3])),l],n=[0,h(tY,b(a[2])),m],o=a[1]?tZ:t1,d=[0,h(t0,ak(o)),n];return X(d)}function
+lU(a){var
+b=a?[0,h(t2,A(e(tP,a))),0]:a;return b}function
+hM(d,c,b,a){var
+g=[0,h(t3,A(e(et,a))),0],i=f(lU(b),g),j=[0,h(t4,lQ(c)),0];return X(f([0,h(t6,I(t5,A(e(sb,d)))),j],i))}function
+t7(a){switch(a[0]){case
+0:return I(t8,hM(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=A(e(sr,a[2])),m=[0,h(t7,A(e(et,a[6]))),0],n=b?[0,h(t8,lS(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(t9,lQ(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=A(e(st,a[2])),m=[0,h(t9,A(e(et,a[6]))),0],n=b?[0,h(t_,lT(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(t$,lR(a[4])),o];if(typeof
 d==="number")if(d)var
-i=t_;else{var
-j=I(ud,g);l=1}else
+i=ua;else{var
+j=I(uf,g);l=1}else
 var
-i=lR(d[1]);if(!l)var
-q=c?[0,h(t$,J(c[1])),0]:c,j=I(i,X([0,h(ua,g),q]));return I(uc,X([0,h(ub,j),p]));case
+i=lS(d[1]);if(!l)var
+q=c?[0,h(ub,J(c[1])),0]:c,j=I(i,X([0,h(uc,g),q]));return I(ue,X([0,h(ud,j),p]));case
 2:var
-r=[0,h(ue,A(e(et,a[7]))),0],s=f(lT(a[6]),r),t=[0,h(uf,lS(a[5])),0],u=[0,h(ug,lQ(a[4])),t],v=[0,h(uh,J(a[3])),0],w=X([0,h(ui,A(e(tz,a[2]))),v]);return I(uk,X(f([0,h(uj,I(lR(a[1]),w)),u],s)));case
+r=[0,h(ug,A(e(et,a[7]))),0],s=f(lU(a[6]),r),t=[0,h(uh,lT(a[5])),0],u=[0,h(ui,lR(a[4])),t],v=[0,h(uj,J(a[3])),0],w=X([0,h(uk,A(e(tB,a[2]))),v]);return I(um,X(f([0,h(ul,I(lS(a[1]),w)),u],s)));case
 3:var
-x=[0,h(ul,A(e(et,a[7]))),0],y=[0,h(um,A(e(J,a[6]))),0],z=[0,h(up,I(uo,X([0,h(un,A(e(J,a[5]))),y]))),x],B=0,C=a[4],D=[0,h(us,A(e(function(a){return 0===a[0]?I(uq,A(e(hI,a[1]))):I(ur,hI(a[1]))},C))),B],E=a[3],F=[0,h(ut,A(e(function(a){var
-b=[0,hI(a[2]),0];return A([0,aj(a[1]),b])},E))),D],G=a[2],H=[0,h(uu,A(e(function(a){var
-b=[0,b5(a[2]),0];return A([0,aj(a[1]),b])},G))),F];return I(uy,X([0,h(ux,I(uw,X([0,h(uv,A(e(aj,a[1]))),H]))),z]));case
+x=[0,h(un,A(e(et,a[7]))),0],y=[0,h(uo,A(e(J,a[6]))),0],z=[0,h(ur,I(uq,X([0,h(up,A(e(J,a[5]))),y]))),x],B=0,C=a[4],D=[0,h(uu,A(e(function(a){return 0===a[0]?I(us,A(e(hJ,a[1]))):I(ut,hJ(a[1]))},C))),B],E=a[3],F=[0,h(uv,A(e(function(a){var
+b=[0,hJ(a[2]),0];return A([0,ak(a[1]),b])},E))),D],G=a[2],H=[0,h(uw,A(e(function(a){var
+b=[0,b5(a[2]),0];return A([0,ak(a[1]),b])},G))),F];return I(uA,X([0,h(uz,I(uy,X([0,h(ux,A(e(ak,a[1]))),H]))),z]));case
 4:var
-K=[0,h(uz,A(e(et,a[3]))),0],L=[0,h(uC,I(uB,X([0,h(uA,J(a[2])),0]))),K];return I(uG,X([0,h(uF,I(uE,X([0,h(uD,J(a[1])),0]))),L]));case
+K=[0,h(uB,A(e(et,a[3]))),0],L=[0,h(uE,I(uD,X([0,h(uC,J(a[2])),0]))),K];return I(uI,X([0,h(uH,I(uG,X([0,h(uF,J(a[1])),0]))),L]));case
 5:var
-M=[0,h(uH,J(a[5])),0];return I(uJ,X([0,h(uI,hL(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,h(uJ,J(a[5])),0];return I(uL,X([0,h(uK,hM(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-k=a[1],N=0,O=k?b5(k[1]):aj(uM);return I(uL,X([0,h(uK,O),N]));default:var
-P=[0,h(uN,J(a[6])),0],Q=[0,h(uO,J(a[5])),P],R=[0,h(uP,hL(a[2],a[3],0,a[4])),Q],S=a[1];return I(uU,X([0,h(uT,A(e(function(a){var
-b=[0,h(uQ,J(a[2][2])),0],c=[0,h(uR,J(a[2][1])),b];return X([0,h(uS,aj(a[1])),c])},S))),R]))}}function
+k=a[1],N=0,O=k?b5(k[1]):ak(uO);return I(uN,X([0,h(uM,O),N]));default:var
+P=[0,h(uP,J(a[6])),0],Q=[0,h(uQ,J(a[5])),P],R=[0,h(uR,hM(a[2],a[3],0,a[4])),Q],S=a[1];return I(uW,X([0,h(uV,A(e(function(a){var
+b=[0,h(uS,J(a[2][2])),0],c=[0,h(uT,J(a[2][1])),b];return X([0,h(uU,ak(a[1])),c])},S))),R]))}}function
 eu(a){return A(e(fQ,a))}function
 fS(b,a){var
-c=[0,h(uV,hG(a)),0];return X([0,h(uW,A(e(eu,b))),c])}function
+c=[0,h(uX,hH(a)),0];return X([0,h(uY,A(e(eu,b))),c])}function
 ev(a){switch(a[0]){case
-0:return aj(a[1]);case
+0:return ak(a[1]);case
 1:var
 b=fS(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?uX:uZ;return I(uY,aj(c));case
+c=a[1]?uZ:u1;return I(u0,ak(c));case
 3:var
-d=[0,eu(a[3]),0];return I(u0,A([0,fS(a[1],a[2]),d]));case
+d=[0,eu(a[3]),0];return I(u2,A([0,fS(a[1],a[2]),d]));case
 4:var
-f=[0,b4(0),0],g=[0,fQ(a[3]),f];return I(u1,A([0,fS(a[1],a[2]),g]));case
+f=[0,b4(0),0],g=[0,fQ(a[3]),f];return I(u3,A([0,fS(a[1],a[2]),g]));case
 5:var
-h=[0,hG(a[3]),0],i=[0,fQ(a[2]),h];return I(u2,A([0,ev(a[1]),i]));case
+h=[0,hH(a[3]),0],i=[0,fQ(a[2]),h];return I(u4,A([0,ev(a[1]),i]));case
 6:var
-j=[0,hG(a[3]),0],k=[0,fQ(a[2]),j];return I(u3,A([0,ev(a[1]),k]));case
-7:return I(u4,ev(a[1]));default:var
-l=[0,A(e(eu,a[3])),0],m=[0,aj(a[2]),l];return I(u5,A([0,ev(a[1]),m]))}}function
-u6(a){var
+j=[0,hH(a[3]),0],k=[0,fQ(a[2]),j];return I(u5,A([0,ev(a[1]),k]));case
+7:return I(u6,ev(a[1]));default:var
+l=[0,A(e(eu,a[3])),0],m=[0,ak(a[2]),l];return I(u7,A([0,ev(a[1]),m]))}}function
+u8(a){var
 b=[0,ev(a[2]),0];return A([0,b4(a[1]),b])}function
-lU(a){if(typeof
-a==="number")return 0===a?aj(u7):aj(u8);else{if(0===a[0]){var
-b=[0,A(e(eu,a[2])),0];return I(u9,A([0,b4(a[1]),b]))}var
-c=[0,b4(a[2]),0];return I(u_,A([0,b4(a[1]),c]))}}function
-u$(a){var
-b=a[4],i=b?[0,h(va,eu([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(vb,lU(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(vc,b4(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(vd,A(e(u6,[0,c[1],c[2]]))),0]:c;return X(f(n,m))}function
-lV(g,a,d){var
-i=[0,h(ve,A(e(u$,d))),0];if(a)var
-b=a[1],c=[0,h(vf,fS(b[1],b[2])),0];else
+lV(a){if(typeof
+a==="number")return 0===a?ak(u9):ak(u_);else{if(0===a[0]){var
+b=[0,A(e(eu,a[2])),0];return I(u$,A([0,b4(a[1]),b]))}var
+c=[0,b4(a[2]),0];return I(va,A([0,b4(a[1]),c]))}}function
+vb(a){var
+b=a[4],i=b?[0,h(vc,eu([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(vd,lV(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(ve,b4(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(vf,A(e(u8,[0,c[1],c[2]]))),0]:c;return X(f(n,m))}function
+lW(g,a,d){var
+i=[0,h(vg,A(e(vb,d))),0];if(a)var
+b=a[1],c=[0,h(vh,fS(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return X([0,h(vg,hF(g)),j])}function
-lW(d,c,a,b){var
-g=[0,h(vh,lU(b)),0],i=a?[0,h(vi,A(e(J,a))),0]:a,j=f(i,g),k=[0,h(vj,A(e(J,c))),0];return X(f([0,h(vk,hF(d)),k],j))}function
-vl(a){if(typeof
-a==="number")return aj(vm);else
+j=f(c,i);return X([0,h(vi,hG(g)),j])}function
+lX(d,c,a,b){var
+g=[0,h(vj,lV(b)),0],i=a?[0,h(vk,A(e(J,a))),0]:a,j=f(i,g),k=[0,h(vl,A(e(J,c))),0];return X(f([0,h(vm,hG(d)),k],j))}function
+vn(a){if(typeof
+a==="number")return ak(vo);else
 switch(a[0]){case
-0:return I(vn,b4(a[1]));case
-1:return I(vo,lV(a[1],a[2],a[3]));default:return I(vp,lW(a[1],a[2],a[3],a[4]))}}function
+0:return I(vp,b4(a[1]));case
+1:return I(vq,lW(a[1],a[2],a[3]));default:return I(vr,lX(a[1],a[2],a[3],a[4]))}}function
 fT(a){var
-b=gD(gC(am(a),function(b){return aH(a,b)}));return o(function(a){var
-b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?Q(vE,e6(a)):c;return d?Q(e6(a),vF):d},b)}function
+b=gD(gC(an(a),function(b){return aH(a,b)}));return o(function(a){var
+b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?Q(vG,e6(a)):c;return d?Q(e6(a),vH):d},b)}function
 ew(b){function
 c(f){var
-a=e6(f),b=Q(vG,a),c=b?Q(a,vH):b;if(c)var
+a=e6(f),b=Q(vI,a),c=b?Q(a,vJ):b;if(c)var
 d=c;else{var
-e=Q(vI,a);if(e)return Q(a,vJ);var
+e=Q(vK,a);if(e)return Q(a,vL);var
 d=e}return d}var
-a=gD(gC(am(b),function(a){return aH(b,a)}));if(a){var
+a=gD(gC(an(b),function(a){return aH(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?o(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=e6(a),f=Q(vK,e),h=f?Q(e,vL):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Q(j(d),vM):f;if(g)return ac(an(b,vN));var
+e=e6(a),f=Q(vM,e),h=f?Q(e,vN):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?Q(j(d),vO):f;if(g)return ac(ao(b,vP));var
 h=g}else
 var
 h=a;return h}function
-hM(c){var
+hN(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
 1:return ew(a[1]);case
 3:var
-b=hM(a[2]);if(b){var
+b=hN(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
 ex(m){var
@@ -4650,21 +4662,21 @@ a=a[1];continue}}function
 dA(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 cS(a){return y(dA,bv(a))}function
-hN(a){switch(a[0]){case
+hO(a){switch(a[0]){case
 0:var
 c=dA(a[4]),d=f(cS(a[3]),c),e=f(cS(a[2]),d);return f(cS(a[1]),e);case
 1:var
 b=a[3],g=b?cS(b[1]):b,h=f(cS(a[2]),g);return f(cS(a[1]),h);default:return cS(a[1])}}function
-vO(a){switch(a[0]){case
+vQ(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
 e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(dA,b)}function
-lX(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lY(a){if(0===a[0]){var
+lY(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+lZ(a){if(0===a[0]){var
 b=bv(a[2]);return f(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lZ(a){switch(a[0]){case
+l0(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -4680,27 +4692,27 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-l0(a){if(0===a[0]){var
+l1(a){if(0===a[0]){var
 b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bv(a[3]),d);return f(bv(a[2]),e)}function
-l1(b,e){var
+l2(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ao(function(a){return an(f,a)},b)}return 0;case
+f=c[1];return ap(function(a){return ao(f,a)},b)}return 0;case
 3:var
-d=l1(b,a[2]);if(d){var
+d=l2(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 fU(c,a){return o(function(a){var
-b=ex(a);return b?l1(c,a):b},a)}function
-l2(a){var
+b=ex(a);return b?l2(c,a):b},a)}function
+l3(a){var
 d=e0(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e0(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-l3(a,b){return b?[4,l3(a,b[1]),a]:a}function
+l4(a,b){return b?[4,l4(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,n(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eX(iZ(j),l,c);return[0,i9(i0(eW(a[1]),j)),m];case
+j=a[2],k=b(2,n(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eX(i0(j),l,c);return[0,i_(i1(eW(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -4711,18 +4723,18 @@ g=i(a[2]),h=i(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-o=bD(dX(a[2]));return l3(i(a[1]),o);default:return[6,i(a[1])]}}function
+o=bD(dX(a[2]));return l4(i(a[1]),o);default:return[6,i(a[1])]}}function
 bw(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
 cU(a){var
 b=bw(a[3]),c=bw(a[2]);return[0,bw(a[1]),c,b]}function
-vP(a){switch(a[0]){case
+vR(a){switch(a[0]){case
 0:var
 b=a[5],c=bw(a[4]),d=cU(a[3]),e=cU(a[2]);return[0,[0,cU(a[1]),e,d,c,b]];case
 1:var
 f=w(cU,a[3]),g=cU(a[2]);return[1,cU(a[1]),g,f];default:return[2,cU(a[1])]}}function
-l4(a){if(0===a[0]){var
+l5(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(k(a,c));return[0,i(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=i(a[5]),h=[0,i(a[4]),g],j=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,j,h]}function
@@ -4736,10 +4748,10 @@ o=dB(f),p=dB(g);return[1,i(e),p,o]}function
 fV(b,a){if(a){var
 c=a[1],d=a[2],g=fV(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bF(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:cb(b[1],a[1]);return ac(d)},h),g)}return a}function
-vQ(b){if(b[1])return 0;var
+vS(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-vR(T,S,a){switch(a[1]){case
+vT(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -4820,7 +4832,7 @@ var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?vS:I;return ah;case
+a[4]==="number"?1:0,ah=I?vU:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -4830,8 +4842,8 @@ ai=i(y[1]);return[0,[14,i(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bD(B[1]),0]:aW(0,T);return e(b,V)}function
-vT(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bD(B[1]),0]:aX(0,T);return e(b,V)}function
+vV(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4879,7 +4891,7 @@ A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 U=0,B=a[4];if(typeof
 B==="number"||!(1===B[0]))U=1;else{var
 g=a[3],V=0;if(g)if(0===g[1][0]){var
-C=u(c,vV),W=0;if(C){var
+C=u(c,vX),W=0;if(C){var
 D=a[2];if(D){var
 b=D[1];V=1;W=1}else
 var
@@ -4916,20 +4928,20 @@ M=L;return M;case
 12:var
 N=a[4];if(typeof
 N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,vW);var
+k=a[3];if(k){if(0===k[1][0])return u(c,vY);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=Q(vU,b);return o?Q(b,c):o}function
-hO(c,k,i,b){var
-l=j(c),d=y(function(a){return vR(l,i,a)},b),a=y(vQ,b),g=a?[0,a[1],a[2]]:vX,h=f(g,d),m=l4(k);return[0,e(vP,c),m,h]}function
-l5(b){if(b[1])return 0;var
+o=Q(vW,b);return o?Q(b,c):o}function
+hP(c,k,i,b){var
+l=j(c),d=y(function(a){return vT(l,i,a)},b),a=y(vS,b),g=a?[0,a[1],a[2]]:vZ,h=f(g,d),m=l5(k);return[0,e(vR,c),m,h]}function
+l6(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-l6(b){function
-a(a){return s(a,e(i,b),[0,d,c])}var
-f=a(vY),g=a(vZ);return[0,a(0),g,f]}function
-hP(S,R,Q,a){switch(a[1]){case
+l7(b){function
+a(a){return t(a,e(i,b),[0,d,c])}var
+f=a(v0),g=a(v1);return[0,a(0),g,f]}function
+hQ(S,R,Q,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
@@ -5001,7 +5013,7 @@ r==="number"||!(1===r[0]))M=1;else{var
 s=a[3],N=0,af=r[1];if(s){var
 C=s[1];if(1===C[0]){var
 ag=C[1],b=function(a){var
-b=i(af);return[13,a,0,l6(ag),b]};N=1}else
+b=i(af);return[13,a,0,l7(ag),b]};N=1}else
 var
 D=0}else
 var
@@ -5012,14 +5024,14 @@ t==="number"||!(1===t[0]))O=1;else{var
 u=a[3],P=0,ah=t[1];if(u){var
 E=u[1];if(1===E[0]){var
 ai=E[1],b=function(a){var
-b=i(ah);return[13,a,1,l6(ai),b]};P=1}else
+b=i(ah);return[13,a,1,l7(ai),b]};P=1}else
 var
 F=0}else
 var
 F=u;if(!P)return F}if(O)return 0;break;default:return 0}var
-v=a[2],U=v?[0,bD(v[1]),0]:aW(0,R);return e(b,U)}function
+v=a[2],U=v?[0,bD(v[1]),0]:aX(0,R);return e(b,U)}function
 dC(e,d,c,b){var
-g=y(function(a){return hP(e,d,c,a)},b),a=y(l5,b),h=a?[0,a[1],a[2]]:v0;return f(h,g)}function
+g=y(function(a){return hQ(e,d,c,a)},b),a=y(l6,b),h=a?[0,a[1],a[2]]:v2;return f(h,g)}function
 fW(a){return 11===a[1]?1:0}function
 bN(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -5033,16 +5045,16 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cb(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Q(v1,h);return i?Q(h,m):i}var
+h=g[1],i=Q(v3,h);return i?Q(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bc(n,b,a){var
+bd(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Q(v2,e),o=f?Q(e,b):f,c=o;else
+e=d[1],f=Q(v4,e),o=f?Q(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
@@ -5059,34 +5071,34 @@ l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
 m=a[3];return m?0===m[1][0]?c?u(b,n):c:bN(0,b,a):bN(0,b,a)}return bN(0,b,a)}return bN(0,b,a)}function
 bx(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bc(c,b,a):a[3]?bc(c,b,a):1:bc(c,b,a):bc(c,b,a)}function
-l7(f,c,b,a){var
+a[4]==="number"?a[2]?bd(c,b,a):a[3]?bd(c,b,a):1:bd(c,b,a):bd(c,b,a)}function
+l8(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Q(v5,h),r=i?Q(h,b):i,d=r;else
+h=g[1],i=Q(v7,h),r=i?Q(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bc(a2(c),b,a);if(d){var
+1:if(a[3])return bd(a3(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
 k=0;return cb(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bc(a2(c),b,a):d;return bc(a2(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bd(a3(c),b,a):d;return bd(a3(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bc(a2(c),b,a);var
-n=u(b,a2(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bd(a3(c),b,a);var
+n=u(b,a3(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bc(a2(c),b,a);case
+e=n;return e}return bd(a3(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bc(a2(c),b,a):d?ac(f):d;return bc(a2(c),b,a);default:return bc(a2(c),b,a)}}function
+p!=="number"&&1===p[0])return a[3]?bd(a3(c),b,a):d?ac(f):d;return bd(a3(c),b,a);default:return bd(a3(c),b,a)}}function
 cu(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -5098,10 +5110,10 @@ b=cu(a[2]),c=cu(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,cu(a[1]),d];default:return[8,cu(a[1])]}}function
-hQ(b){function
+hR(b){function
 a(e){var
-a=[0,d,c];return s(e,b,[0,a,a])}var
-e=a(v6),f=a(v7);return[0,a(0),f,e]}function
+a=[0,d,c];return t(e,b,[0,a,a])}var
+e=a(v8),f=a(v9);return[0,a(0),f,e]}function
 cV(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
@@ -5110,17 +5122,17 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-l8(a){if(0===a[0]){var
-b=aJ(a[1],a[2]);return[0,hQ(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},b))]}return l4([1,a[1],a[2],a[3],a[4],a[5]])}function
-l9(k,b,h,g,f,d,a){function
-c(a){return hQ(e(bw,a))}var
-l=ao(fW,a),m=dC(0,j(b),d,a),n=cV(f),o=l8(g),p=i(h);return[0,k,e(function(a){var
+l9(a){if(0===a[0]){var
+b=aJ(a[1],a[2]);return[0,hR(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},b))]}return l5([1,a[1],a[2],a[3],a[4],a[5]])}function
+l_(k,b,h,g,f,d,a){function
+c(a){return hR(e(bw,a))}var
+l=ap(fW,a),m=dC(0,j(b),d,a),n=cV(f),o=l9(g),p=i(h);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-l_(a){return ao(function(a){return 2===a[0]?1:0},a)}function
-l$(k,a,b,h,g,f){var
-l=j(a),m=dC(l_(a),l,0,f),n=w(cV,g),o=l8(h),p=b?i(b[1]):[0,c,c];return[0,k,e(function(a){function
-b(a){return hQ(e(bw,a))}switch(a[0]){case
+l$(a){return ap(function(a){return 2===a[0]?1:0},a)}function
+ma(k,a,b,h,g,f){var
+l=j(a),m=dC(l$(a),l,0,f),n=w(cV,g),o=l9(h),p=b?i(b[1]):[0,c,c];return[0,k,e(function(a){function
+b(a){return hR(e(bw,a))}switch(a[0]){case
 0:var
 k=a[5],l=bw(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
@@ -5130,9 +5142,9 @@ g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 p=a[7],q=bw(a[6]),r=bw(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-ma(a){return a[1]?0:1}function
-mb(a){var
-c=ma(a);if(c)return c;if(1===a[1]){var
+mb(a){return a[1]?0:1}function
+mc(a){var
+c=mb(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
 fX(i,h,b){function
@@ -5140,19 +5152,19 @@ c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(fY,a(fY,b)),j=a(f,hR),k=i?f:a(c(b,fY),hR);function
-g(b){return a(b,[5,e(fY,d(hR,d(b,b)))])}var
+f=c(fY,a(fY,b)),j=a(f,hS),k=i?f:a(c(b,fY),hS);function
+g(b){return a(b,[5,e(fY,d(hS,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
 fZ(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,hS,a(hS,d)],mc),g=a(c,[5,[3,0,hS,b(mc,b(c,c))]]);return[2,b(fX(f,e,d),g)]}function
-hT(e,g,a){function
+c=a([3,1,hT,a(hT,d)],md),g=a(c,[5,[3,0,hT,b(md,b(c,c))]]);return[2,b(fX(f,e,d),g)]}function
+hU(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f0,b(f0,a)),d=e?h:b(f(a,f0),md),i=b(d,[5,[3,0,f0,c(md,c(d,d))]]);return c(fX(e,g,a),i)}function
-me(o,e,a){if(e)if(a){var
+h=f(f0,b(f0,a)),d=e?h:b(f(a,f0),me),i=b(d,[5,[3,0,f0,c(me,c(d,d))]]);return c(fX(e,g,a),i)}function
+mf(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=ci(i(g[2][1]));if(k){var
 l=k[1],m=ci(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -5162,30 +5174,30 @@ var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=me([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mf([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
 j=e;return j}function
-al(b,a){switch(a[0]){case
+am(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=ja(function(a){return an(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,al(b,a[1])];case
+e=c[1],d=jb(function(a){return ao(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,am(b,a[1])];case
 3:var
-f=al(b,a[3]),g=al(b,a[2]);return[3,a[1],g,f];case
+f=am(b,a[3]),g=am(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,al(b,a[1]),h];default:return[5,al(b,a[1])]}}function
-mf(b,a){if(0===a[0])return[0,al(b,a[1])];var
-c=al(b,a[2]);return[1,al(b,a[1]),c]}function
-hU(b,a){var
+h=a[2];return[4,am(b,a[1]),h];default:return[5,am(b,a[1])]}}function
+mg(b,a){if(0===a[0])return[0,am(b,a[1])];var
+c=am(b,a[2]);return[1,am(b,a[1]),c]}function
+hV(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hV(c,a){if(c)if(a){var
+hW(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hV(h,g);if(e){var
-i=e[1],f=hV(h,i[2]);if(f)var
+e=hW(h,g);if(e){var
+i=e[1],f=hW(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5197,49 +5209,49 @@ var
 d=a;else
 var
 d=c;return d}function
-hW(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hW(g,f[1],h)];var
+hX(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hX(g,f[1],h)];var
 j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(v(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-wa(a){if(typeof
+wc(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-wb(a){if(typeof
+wd(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
 f1(e,a){if(0===a[0]){var
 f=[0,c,b(2,c)],g=f1(e,a[3]);return bW(dc(f1(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}function
-mg(a){return 0===a[0]?dq(a[1][4]):0}function
-mh(a){switch(a[0]){case
+mh(a){return 0===a[0]?dq(a[1][4]):0}function
+mi(a){switch(a[0]){case
 0:var
-b=a[1],c=a0(b[3]);return f(a0(b[2]),c);case
+b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
 1:var
-d=a0(a[2]);return f(a0(a[1]),d);default:return 0}}function
+d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
 f2(a){switch(a[0]){case
-0:return bL(a0(a[1][1]));case
+0:return bL(a1(a[1][1]));case
 1:var
-b=a[3];return b?bL(a0(b[1])):d;default:return bL(a0(a[1]))}}function
-hX(b){var
-a=y(mg,b),d=a?[0,a[1],a[2]]:y(mh,b);return z(c,bL(d))}function
-mi(c,a){if(c){if(a){var
+b=a[3];return b?bL(a1(b[1])):d;default:return bL(a1(a[1]))}}function
+hY(b){var
+a=y(mh,b),d=a?[0,a[1],a[2]]:y(mi,b);return z(c,bL(d))}function
+mj(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=wc;else
+b=we;else
 if(43===d)var
-b=wd;else
+b=wf;else
 var
-f=48===d?1:0,i=f?we:f,b=i;if(b)var
-e=mi(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?wg:f,b=i;if(b)var
+e=mj(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:wf}function
+h=a;return h}return a?0:wh}function
 ey(b,a){switch(a[0]){case
 0:var
-c=a[1];if(an(c,wg))return wh;if(an(c,wi))return wj;if(an(c,wk))return wl;if(an(c,wm))return wn;if(an(c,wo))return wp;var
-k=an(c,wq),p=k?wr:k;return p;case
+c=a[1];if(ao(c,wi))return wj;if(ao(c,wk))return wl;if(ao(c,wm))return wn;if(ao(c,wo))return wp;if(ao(c,wq))return wr;var
+k=ao(c,ws),p=k?wt:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(an(f,ws))return[0,[0,d,e]];if(an(f,wt))return[0,[1,d,e]];if(an(f,wu))return[0,[2,d,e]];var
-l=an(f,wv),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(ao(f,wu))return[0,[0,d,e]];if(ao(f,wv))return[0,[1,d,e]];if(ao(f,ww))return[0,[2,d,e]];var
+l=ao(f,wx),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
@@ -5250,20 +5262,20 @@ h=ey(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
 t=ey(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
 m=a[2],i=ey(b,a[1]);if(i)var
-j=mi(b,gD(gC(am(m),function(a){return aH(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+j=mj(b,gD(gC(an(m),function(a){return aH(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mj(d,a){if(a){var
+mk(d,a){if(a){var
 e=a[1],b=ey(d,e[2]);if(b)var
-c=mj(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+c=mk(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return ww}function
+f=b;return f}return wy}function
 cW(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mj(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=mk(d,b[1]);if(e){var
 l=e[1];if(i){var
 f=cW(d,k,j);if(f){var
 m=f[1],g=cW(d,k,m[2]);if(g)var
@@ -5281,25 +5293,25 @@ var
 h=a;else
 var
 h=c;return h}function
-hY(e,d,a){if(d){if(a){var
+hZ(e,d,a){if(d){if(a){var
 b=cW(e,j(a),a);if(b)var
-f=b[1],c=hY(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+f=b[1],c=hZ(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return wx}return a?0:wy}function
-hZ(a){return typeof
+g=b;return g}return wz}return a?0:wA}function
+h0(a){return typeof
 a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-h0(d,a){if(d)if(a){var
+h1(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=h0(k,j);if(e){var
-l=e[1],f=h0(k,l[2]);if(f)var
+e=h1(k,j);if(e){var
+l=e[1],f=h1(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}var
-p=c?[0,[0,[0,h,hZ(c[1])],j]]:c,g=p}else
+p=c?[0,[0,[0,h,h0(c[1])],j]]:c,g=p}else
 var
 g=a;else
 var
@@ -5307,7 +5319,7 @@ g=d;return g}function
 cv(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
 cX(a,e){var
 b=cv(a[1],e),c=cv(a[2],b[2]),d=cv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-mk(d,c){if(d){var
+ml(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=cX(a[1],c),f=cX(a[2],e[2]),g=cX(a[3],f[2]),h=cv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -5317,33 +5329,33 @@ o=cX(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=cX(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=mk(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-wz(a){if(typeof
+q=ml(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+wB(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return wB;case
+5:return wD;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return wA}function
-bd(a,b){if(a){var
-c=cv(a[1],b),d=bd(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a_(b){function
-a(a){return s(a,b,[0,d,c])}var
-e=a(wE),f=a(wF);return[0,a(0),f,e]}function
-ml(a,b){if(a){var
-c=a[1],d=bd(c[1],b),e=bd(c[2],d[2]),f=ml(a[2],e[2]),g=f[2],h=f[1],i=a_(e[1]);return[0,[0,[0,a_(d[1]),i],h],g]}return[0,0,b]}function
-mm(f,b){if(f){var
+11:return 0}return wC}function
+be(a,b){if(a){var
+c=cv(a[1],b),d=be(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a$(b){function
+a(a){return t(a,b,[0,d,c])}var
+e=a(wG),f=a(wH);return[0,a(0),f,e]}function
+mm(a,b){if(a){var
+c=a[1],d=be(c[1],b),e=be(c[2],d[2]),f=mm(a[2],e[2]),g=f[2],h=f[1],i=a$(e[1]);return[0,[0,[0,a$(d[1]),i],h],g]}return[0,0,b]}function
+mn(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bd(a[1],b),h=bd(a[2],g[2]),i=bd(a[3],h[2]),j=cv(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a_(i[1]),y=a_(h[1]),e=[0,[0,[0,a_(g[1]),y,x,w,v]],u];break;case
+g=be(a[1],b),h=be(a[2],g[2]),i=be(a[3],h[2]),j=cv(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a$(i[1]),y=a$(h[1]),e=[0,[0,[0,a$(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bd(a[1],b),l=bd(a[2],k[2]),z=l[2],A=a_(l[1]),e=[0,[0,[1,a_(k[1]),A,0]],z];break;default:var
-m=a[1],n=bd(m,b),o=bd(a[2],n[2]),p=bd(a[3],o[2]),q=bd(a[4],p[2]),r=cv(a[5],q[2]),s=cv(a[6],r[2]),B=m?a_(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a_(q[1]),H=a_(p[1]),e=[0,[1,[0,B,a_(o[1]),H,G,F,E,D]],C]}var
-t=mm(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dD(a){return ju(p,a)}function
-wG(a){if(typeof
+k=be(a[1],b),l=be(a[2],k[2]),z=l[2],A=a$(l[1]),e=[0,[0,[1,a$(k[1]),A,0]],z];break;default:var
+m=a[1],n=be(m,b),o=be(a[2],n[2]),p=be(a[3],o[2]),q=be(a[4],p[2]),r=cv(a[5],q[2]),s=cv(a[6],r[2]),B=m?a$(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a$(q[1]),H=a$(p[1]),e=[0,[1,[0,B,a$(o[1]),H,G,F,E,D]],C]}var
+t=mn(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dD(a){return jv(p,a)}function
+wI(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return g(p,1,[3,a[1],[0,c,c]]);case
@@ -5364,7 +5376,7 @@ j=[0,a[2],a[1]],k=1;return o(function(a){return g(p,k,a)},j);case
 4:case
 13:var
 b=g(p,1,a[2]);return b?g(p,1,a[3]):b;default:return g(p,1,a[1])}}function
-h1(a){if(typeof
+h2(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -5376,7 +5388,7 @@ k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
 11:var
 l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],l]):m;case
 13:var
-o=a[4],q=li(a[3]),r=q?g(p,1,o):q;return r?g(p,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],o]):r;case
+o=a[4],q=lj(a[3]),r=q?g(p,1,o):q;return r?g(p,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],o]):r;case
 14:return g(p,0,a[3]);case
 2:case
 3:return dD(a[2]);case
@@ -5386,9 +5398,9 @@ o=a[4],q=li(a[3]),r=q?g(p,1,o):q;return r?g(p,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(
 j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
 f3(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ao(function(d){return function(a){var
-h=hJ(a[1]),e=an(hJ(d[1]),h);if(e)var
-i=hK(a[4]),b=an(hK(d[4]),i);else
+b=a[2],e=a[1],c=ac(ap(function(d){return function(a){var
+h=hK(a[1]),e=ao(hK(d[1]),h);if(e)var
+i=hL(a[4]),b=ao(hL(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5400,15 +5412,15 @@ a=b;continue}return c}return 1}}function
 ez(a){if(0===a[0])return dD(i(a[1]));var
 b=a[2],c=a[1];if(!d6(i(c))&&!d6(i(b))){var
 e=i(c);return g(p,1,[3,i(b),e])}var
-d=i(b);return a$(p,i(c),d)}function
+d=i(b);return ba(p,i(c),d)}function
 cY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-mn(a){switch(a[0]){case
+mo(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(cY(a[3]),c),e=f(cY(a[2]),d);return f(cY(a[1]),e);case
 1:var
 b=a[3],g=b?cY(b[1]):b,h=f(cY(a[2]),g);return f(cY(a[1]),h);default:return cY(a[1])}}function
-mo(s,a,h){if(ao(function(a){return 9===a[1]?1:0},h)){var
-b=Q(j(a),wJ),c=b?o(function(a){if(0===a[0]){var
+mp(s,a,h){if(ap(function(a){return 9===a[1]?1:0},h)){var
+b=Q(j(a),wL),c=b?o(function(a){if(0===a[0]){var
 d=a[5],e=g(p,1,i(a[2])),h=e?g(p,0,i(a[3])):e,j=h?g(p,0,i(a[4])):h,c=0;if(j)if(d)var
 n=bv(d[1]),b=o(function(a){return dD(i(a))},n);else{var
 l=1;c=1}else{var
@@ -5421,31 +5433,31 @@ b=m}return b?k(s,a):b},a):b;if(c)var
 d=fV(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-mp(a){return a?wK:wL}function
-h2(a){switch(a){case
-0:return wM;case
-1:return wN;default:return 0}}function
+mq(a){return a?wM:wN}function
+h3(a){switch(a){case
+0:return wO;case
+1:return wP;default:return 0}}function
 cw(a){var
-f=a[1],d=g(p,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?a$(p,a[1],a[2]):d;if(e){var
+f=a[1],d=g(p,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?ba(p,a[1],a[2]):d;if(e){var
 h=a[2];return g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],h])}return e}function
 dE(a){var
-e=a$(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-mq(c,b,a){if(0===a[0]){var
+e=ba(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+mr(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
 l=aJ(e,d);return o(function(a){var
-b=i(a[2]);return a$(p,i(a[1]),b)},l)}return h}var
+b=i(a[2]);return ba(p,i(a[1]),b)},l)}return h}var
 k=b?g(p,1,i(a[3])):b;if(k){var
-m=i(a[5]);return a$(p,i(a[4]),m)}return k}function
-mr(a,e,F,E,s,r,f){function
+m=i(a[5]);return ba(p,i(a[4]),m)}return k}function
+ms(a,e,F,E,s,r,f){function
 t(b){var
-d=mp(a),c=u(j(b),d);return c?o(ez,b):c}var
+d=mq(a),c=u(j(b),d);return c?o(ez,b):c}var
 v=o(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
 G=j(e),l=Q(ds(a),G);else
 var
 l=v;var
-w=l?Q(j(e),wO):l,x=w?g(p,1,i(F)):w;if(x)var
-H=1===a?1:0,m=mq(h2(a),H,E);else
+w=l?Q(j(e),wQ):l,x=w?g(p,1,i(F)):w;if(x)var
+H=1===a?1:0,m=mr(h3(a),H,E);else
 var
 m=x;if(m)if(a){var
 d=cV(s);switch(d[0]){case
@@ -5461,14 +5473,14 @@ var
 D=cV(s),J=0===D[0]?cw(D[1]):0,k=J;else
 var
 k=m;if(k)var
-I=j(e),n=mo(function(a){if(0===a[0]){var
-b=a[1],c=Q(wI,b),d=c?Q(b,I):c;if(d){if(a[5])return 0;var
+I=j(e),n=mp(function(a){if(0===a[0]){var
+b=a[1],c=Q(wK,b),d=c?Q(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 n=k;if(n)var
-b=j(e),c=ds(a),y=mp(a),q=o(function(a){var
+b=j(e),c=ds(a),y=mq(a),q=o(function(a){var
 d=a[1];if(9<=d)switch(d-9|0){case
 0:var
 e=a[4];if(typeof
@@ -5480,7 +5492,7 @@ g=a[3];if(g){var
 h=g[1];if(1===h[0]){var
 i=u(j(h[1]),y);if(i){var
 k=a[2];if(k){var
-l=k[1],m=Q(v3,l);return m?Q(l,b):m}var
+l=k[1],m=Q(v5,l);return m?Q(l,b):m}var
 n=1}else
 var
 n=i;return n}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a);case
@@ -5491,24 +5503,24 @@ p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
 r=u(j(q[1]),y);if(r){var
 s=a[2];if(s){var
-t=s[1],v=Q(v4,t);return v?Q(t,b):v}var
+t=s[1],v=Q(v6,t);return v?Q(t,b):v}var
 w=1}else
 var
 w=r;return w}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)},f);else
 var
 q=n;var
-z=q?f3(f):q;return z?o(h1,dC(0,j(e),r,f)):z}function
-ms(a){switch(a[0]){case
+z=q?f3(f):q;return z?o(h2,dC(0,j(e),r,f)):z}function
+mt(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-mt(a,e,d,R,m,l){var
+mu(a,e,d,R,m,l){var
 n=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=n?wP:wQ;return u(j(a),b)}var
-h=l_(e),z=o(function(b){switch(b[0]){case
+b=n?wR:wS;return u(j(a),b)}var
+h=l$(e),z=o(function(b){switch(b[0]){case
 0:var
 d=ac(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
@@ -5518,15 +5530,15 @@ a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],o=n?m?0:1:c(m),p=o?c(b[2]):o,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(z)var
-S=j(e),q=Q(a2(a),S);else
+S=j(e),q=Q(a3(a),S);else
 var
 q=z;var
-A=q?Q(j(e),wR):q,B=A?o(ez,y(ms,e)):A;if(B){var
+A=q?Q(j(e),wT):q,B=A?o(ez,y(mt,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-T=n?wS:wT,r=mq(T,C,R)}else
+T=n?wU:wV,r=mr(T,C,R)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
@@ -5565,60 +5577,60 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-U=j(e),s=o(function(b){return l7(h,a,U,b)},l);else
+U=j(e),s=o(function(b){return l8(h,a,U,b)},l);else
 var
 s=b;var
-D=s?f3(l):s;return D?o(h1,dC(h,j(e),0,l)):D}function
-wU(a){switch(a[0]){case
+D=s?f3(l):s;return D?o(h2,dC(h,j(e),0,l)):D}function
+wW(a){switch(a[0]){case
 0:return fz(a[1][1]);case
 1:var
 b=a[3];return b?fz(b[1]):1;default:return fz(a[1])}}function
-h3(a,k,b,d){var
-e=mo(function(g){if(0===g[0]){var
-c=g[1],d=Q(wH,c);if(d){var
+h4(a,k,b,d){var
+e=mp(function(g){if(0===g[0]){var
+c=g[1],d=Q(wJ,c);if(d){var
 b=R(a,bD(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?o(wU,d[1]):e,g=f?Q(wV,j(a)):f;if(g)var
-l=j(a),c=o(function(a){return vT(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?o(wW,d[1]):e,g=f?Q(wX,j(a)):f;if(g)var
+l=j(a),c=o(function(a){return vV(l,a)},b);else
 var
 c=g;var
-h=c?f3(b):c,i=h?o(ez,y(mn,a)):h;return i?o(wG,d[3]):i}function
+h=c?f3(b):c,i=h?o(ez,y(mo,a)):h;return i?o(wI,d[3]):i}function
 f4(b,a){return o(function(c){var
 a=c[2];return a?dW(a[1],b):1},a)}function
-mu(a){if(a){var
+mv(a){if(a){var
 b=a[1];if(fW(b))return 0;var
-c=[0,b,mu(a[2])]}else
+c=[0,b,mv(a[2])]}else
 var
 c=a;return c}function
-wW(a){if(typeof
+wY(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ep(d)&&ac(g(p,0,[3,d,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])))return wY;return wZ}return wX}function
-mv(f,d,b){var
-g=mu(b),h=0,c=aV(N,0,e(wW,y(function(a){return hP(h,f,d,a)},g))),a=y(l5,b),i=a?[0,a[1],a[2]]:w0;return N(j(i),c)}function
-h4(b,a){var
+d=a[4];if(ep(d)&&ac(g(p,0,[3,d,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])))return w0;return w1}return wZ}function
+mw(f,d,b){var
+g=mv(b),h=0,c=aW(N,0,e(wY,y(function(a){return hQ(h,f,d,a)},g))),a=y(l6,b),i=a?[0,a[1],a[2]]:w2;return N(j(i),c)}function
+h5(b,a){var
 c=j(bF(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
-h5(a){if(a){var
+h6(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-mw(aL,Z,aK,Y,X,b,aH,B){var
-a=hO(Z,aK,Y,X),aN=j(B);if(aL)var
+mx(aL,Z,aK,Y,X,b,aH,B){var
+a=hP(Z,aK,Y,X),aN=j(B);if(aL)var
 _=0;else
 var
-aD=a[1],aE=e(f2,a[1]),W=fu(hX(a[1]),aE,aD),aG=aJ(aW(0,j(W)),W),_=e(aI,bF(function(a){return g7(a[2])},aG));var
+aE=a[1],aF=e(f2,a[1]),W=fu(hY(a[1]),aF,aE),aG=aJ(aX(0,j(W)),W),_=e(aI,bF(function(a){return g8(a[2])},aG));var
 C=cW(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=h3(Z,Y,X,a),ab=aa?f4(w1,B):aa;if(ab){var
-aO=$[1],D=e(f2,a[1]),c=hX(a[1]),aP=h5(aH),U=kq(p,a);if(U){var
-i=fu(c,D,a[1]),g=g5(c,D,a[1],0),ae=j(a[3]),af=N(j(i),ae),K=[0,j(i),af],ag=a[3],F=ao(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ag),aj=F?y(function(a){var
-b=e(ca,kc(i,a));return[0,a[4],b]},g):F,ak=f(g6(g,c,K,a[3]),aj),al=f(bt(jL(g)),ak),L=f(bt(d8(g)),al),M=cG(L)[1],m=bH(M),O=o(function(a){var
-b=l(d);return aF(s(a7(m,a),m,b),a)},L);if(O){var
-P=ao(qn,a[3]);if(P){var
-t=D,n=a[1];for(;;){if(n){var
-q=n[1],u=bE(d,t);switch(q[0]){case
+aa=h4(Z,Y,X,a),ab=aa?f4(w3,B):aa;if(ab){var
+aO=$[1],D=e(f2,a[1]),c=hY(a[1]),aP=h6(aH),U=kr(p,a);if(U){var
+i=fu(c,D,a[1]),g=g5(c,D,a[1],0),ae=j(a[3]),af=N(j(i),ae),K=[0,j(i),af],ag=a[3],F=ap(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?y(function(a){var
+b=e(ca,kd(i,a));return[0,a[4],b]},g):F,ak=f(g7(g,c,K,a[3]),ai),al=f(bt(jM(g)),ak),L=f(bt(d8(g)),al),M=cG(L)[1],m=bH(M),O=o(function(a){var
+b=l(d);return ay(t(a8(m,a),m,b),a)},L);if(O){var
+P=ap(qp,a[3]);if(P){var
+s=D,n=a[1];for(;;){if(n){var
+q=n[1],u=bE(d,s);switch(q[0]){case
 0:var
 G=q[1],H=fw(b,G[1],u),E=0;if(H){var
 r=ah(b,[0,G[4],c]);if(r)var
@@ -5629,17 +5641,17 @@ h=I;break;case
 1:var
 J=q[3],h=J?fw(b,J[1],u):1;break;default:var
 h=fw(b,q[1],u)}if(h){var
-ad=n[2],t=bV(t),n=ad;continue}var
+ad=n[2],s=bV(s),n=ad;continue}var
 Q=h}else
 var
 Q=1;var
 v=Q;break}}else
 var
 v=P;if(v){var
-am=a[3],an=y(function(a){return cJ(c,a)},am),ap=a[3],ar=f(i,f(e(function(a){return bs(c,a)},ap),an)),w=ai(e(function(a){return ah(b,a)},ar));if(w){var
-as=aM(dp(a[2]),c),x=ai(e(function(a){return ah(b,a)},as));if(x){var
-at=a[3],z=ai(ke(b,aP,function(a){return a7(m,a)},i,g,c,K,at));if(z){var
-R=z[1],au=g4(R),av=x[1],aw=a[2],ax=function(a){return kf(b,aw,c,a)},ay=w[1],az=0,aA=jL(g),aB=k(aq(function(a){return a7(m,a)}),aA),aC=d8(g);return fs(b,M,k(aq(function(a){return a7(m,a)}),aC),aB,az,ay,R,ax,av,au,aO)}var
+am=a[3],an=y(function(a){return cJ(c,a)},am),ao=a[3],aq=f(i,f(e(function(a){return bs(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
+as=aM(dp(a[2]),c),x=aj(e(function(a){return ah(b,a)},as));if(x){var
+at=a[3],z=aj(kf(b,aP,function(a){return a8(m,a)},i,g,c,K,at));if(z){var
+R=z[1],au=g4(R),av=x[1],aw=a[2],ax=function(a){return kg(b,aw,c,a)},az=w[1],aA=0,aB=jM(g),aC=k(ar(function(a){return a8(m,a)}),aB),aD=d8(g);return fs(b,M,k(ar(function(a){return a8(m,a)}),aD),aC,aA,az,R,ax,av,au,aO)}var
 S=z}else
 var
 S=x;var
@@ -5654,29 +5666,29 @@ A=O;return A}return U}var
 ac=ab}else
 var
 ac=C;return ac}function
-w2(a){if(0===a[0])return mg(a[1]);var
+w4(a){if(0===a[0])return mh(a[1]);var
 b=a[1],c=dq(b[6]);return f(dq(b[5]),c)}function
-w3(a){if(0===a[0])return mh(a[1]);var
-b=a[1],c=a0(b[4]);return f(a0(b[3]),c)}function
-w4(a){if(0===a[0])return[0,f2(a[1]),d];var
-b=a[1],c=bL(a0(b[2]));return[0,bL(a0(b[1])),c]}function
-mx(f,n,m,l,k,i,x,d){var
-a=l$(f,n,m,l,k,i),o=a[2],b=y(w2,o),w=b?[0,b[1],b[2]]:y(w3,o),h=z(c,bL(w)),q=e(w4,a[2]),r=hw(h,q,a[2]),A=j(d),B=aJ(aW(0,j(r)),r),g=cW(e(aI,bF(function(a){return g7(a[2])},B)),A,d);if(g){var
+w5(a){if(0===a[0])return mi(a[1]);var
+b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
+w6(a){if(0===a[0])return[0,f2(a[1]),d];var
+b=a[1],c=bL(a1(b[2]));return[0,bL(a1(b[1])),c]}function
+my(f,n,m,l,k,i,x,d){var
+a=ma(f,n,m,l,k,i),o=a[2],b=y(w4,o),w=b?[0,b[1],b[2]]:y(w5,o),h=z(c,bL(w)),q=e(w6,a[2]),r=hx(h,q,a[2]),A=j(d),B=aJ(aX(0,j(r)),r),g=cW(e(aI,bF(function(a){return g8(a[2])},B)),A,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=mt(f,n,m,l,k,i),u=t?f4(a2(f),d):t;if(u)return rq(p,x,a,h,q,s[1]);var
+t=mu(f,n,m,l,k,i),u=t?f4(a3(f),d):t;if(u)return rs(p,x,a,h,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-my(B,aM,aq,ap,A,an,h){var
-l=hO(B,aM,aq,ap);if(A){var
+mz(B,aM,aq,ao,A,an,h){var
+l=hP(B,aM,aq,ao);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=mk(B,e(i,an));if(ar[2])return 0;var
+ar=ml(B,e(i,an));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?wC:wD;else
+a=0===h?wE:wF;else
 if(0===h[0]){var
-b=h[2],m=h[1],H=w(wz,R(as,m)),J=0;if(H){var
+b=h[2],m=h[1],H=w(wB,R(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
@@ -5747,16 +5759,16 @@ a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
 a=am}if(a){var
-at=h4(y(mn,B),an),au=at?h3(B,aq,ap,l):at;if(au){var
-f=a[1],aN=i(D[1]),aO=i(C[1]),j=[0,i(A[1]),aO,aN],k=ar[1],P=kh(p,l,k,j);if(P)if(typeof
-f==="number")return 0===f?ao(function(b){var
-a=ki(b,j);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jA(qp,e(function(b){var
+at=h5(y(mo,B),an),au=at?h4(B,aq,ao,l):at;if(au){var
+f=a[1],aN=i(D[1]),aO=i(C[1]),j=[0,i(A[1]),aO,aN],k=ar[1],P=ki(p,l,k,j);if(P)if(typeof
+f==="number")return 0===f?ap(function(b){var
+a=kj(b,j);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jB(qr,e(function(b){var
 a=ee(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
 E=R(l[3],f[1]);if(E){var
-aI=E[1],aJ=kj(f[3]);return ko(p,k,j,kj(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=kk(f[3]);return kp(p,k,j,kk(f[2]),aJ,aI)}return E}var
 F=R(l[3],f[1]);if(F){var
 G=R(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cO(Q,j);return ko(p,k,j,cO(Q,j),aL,aK)}var
+Q=G[1],aK=F[1],aL=cO(Q,j);return kp(p,k,j,cO(Q,j),aL,aK)}var
 S=G}else
 var
 S=F;return S}return P}var
@@ -5772,55 +5784,55 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-mz(m,l,b,k,z,y){var
+mA(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=R(f,g),n=h?dW(h[1][2],w7):h;if(n)var
-A=d[2],i=mz(m,l,b,k,hW(0,g,f),A);else
+g=d[1],h=R(f,g),n=h?dW(h[1][2],w9):h;if(n)var
+A=d[2],i=mA(m,l,b,k,hX(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hW(1,g,f),d=B;continue}return i}var
-c=d[1],a=me(0,m,f),o=e(function(b){function
-d(b){return mf(a,b)}function
-c(a){return hU(d,a)}switch(b[0]){case
+B=d[3],f=hX(1,g,f),d=B;continue}return i}var
+c=d[1],a=mf(0,m,f),o=e(function(b){function
+d(b){return mg(a,b)}function
+c(a){return hV(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mf(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mg(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hU(function(b){return al(a,b)},q),s=b[1],j=[0,hU(function(b){return al(a,b)},s),r];else
+q=b[2],r=hV(function(b){return am(a,b)},q),s=b[1],j=[0,hV(function(b){return am(a,b)},s),r];else
 var
-t=al(a,b[5]),u=al(a,b[4]),v=al(a,b[3]),x=al(a,b[2]),j=[1,al(a,b[1]),x,v,u,t];var
+t=am(a,b[5]),u=am(a,b[4]),v=am(a,b[3]),x=am(a,b[2]),j=[1,am(a,b[1]),x,v,u,t];var
 p=e(function(f){var
 b=f[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,al(a,b[1])];break;case
+d=[0,am(a,b[1])];break;case
 1:var
-d=[1,al(a,b[1])];break;default:var
-l=al(a,b[2]),d=[2,al(a,b[1]),l]}var
+d=[1,am(a,b[1])];break;default:var
+l=am(a,b[2]),d=[2,am(a,b[1]),l]}var
 g=f[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-h=[0,[0,al(a,c[1])]];break;case
+h=[0,[0,am(a,c[1])]];break;case
 1:var
-j=c[1],h=[0,[1,e(function(b){return al(a,b)},j)]];break;default:var
-k=al(a,c[2]),h=[0,[2,al(a,c[1]),k]]}var
+j=c[1],h=[0,[1,e(function(b){return am(a,b)},j)]];break;default:var
+k=am(a,c[2]),h=[0,[2,am(a,c[1]),k]]}var
 i=h}else
 var
 i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mw(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return al(a,b)},D),F=c[2];return my(o,j,0,p,e(function(b){return al(a,b)},F),E,C)}}}function
-mA(h,g){var
+1:return mx(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return am(a,b)},D),F=c[2];return mz(o,j,0,p,e(function(b){return am(a,b)},F),E,C)}}}function
+mB(h,g){var
 a=ci(i(h));if(a){var
 b=a[1],e=cC([0,d,c],b);if(e)return cC(b,g);var
 f=e}else
 var
 f=a;return f}function
-xb(n){var
+xd(n){var
 dI=fT(n[3]),dJ=dI?fT(n[4]):dI;if(dJ){var
 H=n[1];switch(H[0]){case
 3:var
@@ -5829,12 +5841,12 @@ gU=H[2],bN=o(function(a){return ew(a[1])},gU);else
 var
 bN=dQ;if(bN)var
 gV=H[3],bO=o(function(a){var
-b=ew(a[1]),c=b?hM(a[2]):b;return c?ex(a[2]):c},gV);else
+b=ew(a[1]),c=b?hN(a[2]):b;return c?ex(a[2]):c},gV);else
 var
 bO=bN;if(bO)var
 gW=H[4],aO=o(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return o(function(a){var
-b=hM(a);return b?ex(a):b},b)},gW);else
+b=hN(a);return b?ex(a):b},b)},gW);else
 var
 aO=bO;break;case
 7:var
@@ -5846,7 +5858,7 @@ var
 bM=dJ;var
 cs=0;if(bM){var
 dK=n[1],dL=7===dK[0]?e(aI,dK[1]):0,dM=function(c,b){var
-a=l2(c);return a?o(function(a){var
+a=l3(c);return a?o(function(a){var
 b=a[1];return o(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
@@ -5854,26 +5866,26 @@ b=fT(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
 1:return fT(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}},b)},b):a},dN=function(d,c,b){var
-a=l2(d);return a?fU(dL,f(c,b)):a},h=n[1];switch(h[0]){case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}},b)},b):a},dN=function(d,c,b){var
+a=l3(d);return a?fU(dL,f(c,b)):a},h=n[1];switch(h[0]){case
 0:var
-gt=y(cT,h[4]),gu=f(y(l0,h[3]),gt),gv=f(lY(h[2]),gu),I=f(y(hN,h[1]),gv);break;case
+gt=y(cT,h[4]),gu=f(y(l1,h[3]),gt),gv=f(lZ(h[2]),gu),I=f(y(hO,h[1]),gv);break;case
 1:var
-bE=h[5],bI=h[3],gw=y(cT,h[6]),gx=bE?lZ(bE[1]):bE,gy=f(gx,gw),gz=f(lX(h[4]),gy),gA=bI?[0,bI[1],0]:bI,gB=f(gA,gz),I=f(y(vO,h[2]),gB);break;case
+bE=h[5],bI=h[3],gw=y(cT,h[6]),gx=bE?l0(bE[1]):bE,gy=f(gx,gw),gz=f(lY(h[4]),gy),gA=bI?[0,bI[1],0]:bI,gB=f(gA,gz),I=f(y(vQ,h[2]),gB);break;case
 2:var
-gC=y(cT,h[7]),gD=f(y(l0,h[6]),gC),gE=f(lZ(h[5]),gD),gF=f(lX(h[4]),gE),gG=[0,h[3],gF],gH=h[2],I=f(y(function(a){return y(dA,f(a[1],a[2]))},gH),gG);break;case
+gC=y(cT,h[7]),gD=f(y(l1,h[6]),gC),gE=f(l0(h[5]),gD),gF=f(lY(h[4]),gE),gG=[0,h[3],gF],gH=h[2],I=f(y(function(a){return y(dA,f(a[1],a[2]))},gH),gG);break;case
 3:var
 gI=y(cT,h[7]),gJ=f(h[6],gI),gK=f(h[5],gJ),gL=h[2],I=f(y(function(a){return dA(a[2])},gL),gK);break;case
 4:var
 gM=y(cT,h[3]),I=[0,h[1],[0,h[2],gM]];break;case
 5:var
-gN=y(cT,h[4]),gO=f(bv(h[3]),gN),gP=f(bv(h[2]),gO),gQ=f(y(hN,h[1]),gP),I=[0,h[5],gQ];break;case
+gN=y(cT,h[4]),gO=f(bv(h[3]),gN),gP=f(bv(h[2]),gO),gQ=f(y(hO,h[1]),gP),I=[0,h[5],gQ];break;case
 6:var
 bJ=h[1],I=bJ?dA(bJ[1]):bJ;break;default:var
-gR=y(cT,h[4]),gS=f(lY(h[3]),gR),I=f(y(hN,h[2]),gS)}var
+gR=y(cT,h[4]),gS=f(lZ(h[3]),gR),I=f(y(hO,h[2]),gS)}var
 dO=fU(dL,I);if(dO){var
 U=n[2];switch(U[0]){case
 0:var
@@ -5890,93 +5902,93 @@ aw=dP;if(aw){var
 a=n[1];switch(a[0]){case
 0:var
 en=a[4],eo=a[3],ep=a[2],es=a[1],W=n[2];switch(W[0]){case
-0:return mw(0,es,ep,eo,en,W[1],W[2],W[3]);case
-1:return my(es,ep,eo,en,W[2],W[3],W[4]);default:return 0}case
+0:return mx(0,es,ep,eo,en,W[1],W[2],W[3]);case
+1:return mz(es,ep,eo,en,W[2],W[3],W[4]);default:return 0}case
 1:var
-b1=a[6],b2=a[5],b4=a[4],b5=a[3],ax=a[2],X=a[1],aj=n[2];switch(aj[0]){case
-0:return mx(X,ax,b5,b4,b2,b1,aj[1],aj[3]);case
+b1=a[6],b2=a[5],b4=a[4],b5=a[3],ax=a[2],X=a[1],ai=n[2];switch(ai[0]){case
+0:return my(X,ax,b5,b4,b2,b1,ai[1],ai[3]);case
 1:var
-et=aj[3],hq=aj[4],hr=aj[2],d0=typeof
-X==="number"?X?w5:w6:h2(X[1]),bX=e(i,hr),d1=mm(ax,e(i,et));if(d1[2])return 0;var
-d2=h4(y(ms,ax),et),d3=d2?mt(X,ax,b5,b4,b2,b1):d2;if(d3)var
-hd=a2(X),bY=u(j(bX),hd);else
+et=ai[3],hq=ai[4],hr=ai[2],d0=typeof
+X==="number"?X?w7:w8:h3(X[1]),bX=e(i,hr),d1=mn(ax,e(i,et));if(d1[2])return 0;var
+d2=h5(y(mt,ax),et),d3=d2?mu(X,ax,b5,b4,b2,b1):d2;if(d3)var
+hd=a3(X),bY=u(j(bX),hd);else
 var
 bY=d3;if(bY){var
-he=hZ(hq),q=e5(d0,bX),B=a_(cB(d0,bX)),af=d1[1],K=l$(X,ax,b5,b4,b2,b1),cV=ln(p,K[2],af);if(cV){var
+he=h0(hq),q=e5(d0,bX),B=a$(cB(d0,bX)),af=d1[1],K=ma(X,ax,b5,b4,b2,b1),cV=lo(p,K[2],af);if(cV){var
 cR=ec(p,K[4],B),ct=0;if(cR){var
 cS=K[5];if(cS)var
-a6=kM(p,cS[1],q);else
+a6=kN(p,cS[1],q);else
 if(q)var
 a6=0;else{var
 cU=1;ct=1}}else{var
 cU=cR;ct=1}if(ct)var
 a6=cU;var
-a8=a6}else
+a7=a6}else
 var
-a8=cV;if(a8){var
-x=K[5],cX=K[3],aE=K[1],fn=K[6],fh=e(function(a){if(0===a[0]){var
-d=b3(x,q,B,a),b=ee(a[1],d);return[0,ll(aE,b,as([5,[0,c,c],cX],eh(ht(x,q,fI(a)),b)))]}return 0},af),fi=y(function(a){if(0===a[0]){var
-c=b3(x,q,B,a),b=ki(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=b3(x,q,B,a);return[0,kA(a[1],e),0]},af),fj=e(function(d){var
+a7=cV;if(a7){var
+x=K[5],cX=K[3],aF=K[1],fn=K[6],fh=e(function(a){if(0===a[0]){var
+d=b3(x,q,B,a),b=ee(a[1],d);return[0,lm(aF,b,as([5,[0,c,c],cX],eh(hu(x,q,fI(a)),b)))]}return 0},af),fi=y(function(a){if(0===a[0]){var
+c=b3(x,q,B,a),b=kj(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=b3(x,q,B,a);return[0,kB(a[1],e),0]},af),fj=e(function(d){var
 b=b3(x,q,B,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cM(e,h,g,f,b),i=cN(a[5],j),k=as(i,av(e)),l=ed(e,h,g,b);return[0,[0,lm(aE,ad(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fy(c,b),o=kD(c,b),p=c[4],r=ad(function(b,a){return[2,b,a]},b,p);return[0,[0,lm(aE,ad(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fl=e(function(a){if(0===a[0]){var
-c=b3(x,q,B,a);return[0,g8(a[1],c)]}var
-b=a[1],d=kC(b,b3(x,q,B,a));return[1,kB(b,b3(x,q,B,a)),d]},af),fm=[0,e(function(a){if(0===a[0])var
+f=a[4],g=a[3],h=a[2],e=a[1],j=cM(e,h,g,f,b),i=cN(a[5],j),k=as(i,av(e)),l=ed(e,h,g,b);return[0,[0,ln(aF,ad(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fy(c,b),o=kE(c,b),p=c[4],r=ad(function(b,a){return[2,b,a]},b,p);return[0,[0,ln(aF,ad(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fl=e(function(a){if(0===a[0]){var
+c=b3(x,q,B,a);return[0,g9(a[1],c)]}var
+b=a[1],d=kD(b,b3(x,q,B,a));return[1,kC(b,b3(x,q,B,a)),d]},af),fm=[0,e(function(a){if(0===a[0])var
 k=b3(x,q,B,a),d=cO(a[1],k);else
 var
-e=b3(x,q,B,a),b=a[1],f=kD(b,e),g=b[4],h=ad(function(b,a){return[2,b,a]},e,g),i=ad(function(b,a){return[3,b,a]},h,f),j=fy(b,e),d=as([5,[0,c,c],[4,b[5],j]],i);return ll(aE,d,as([5,[0,c,c],cX],eh(ht(x,q,fI(a)),d)))},af),fl,fj,fi,fh];return kx(p,a2(K[1]),fm,fn,he)}return a8}return bY;default:return 0}case
+e=b3(x,q,B,a),b=a[1],f=kE(b,e),g=b[4],h=ad(function(b,a){return[2,b,a]},e,g),i=ad(function(b,a){return[3,b,a]},h,f),j=fy(b,e),d=as([5,[0,c,c],[4,b[5],j]],i);return lm(aF,d,as([5,[0,c,c],cX],eh(hu(x,q,fI(a)),d)))},af),fl,fj,fi,fh];return ky(p,a3(K[1]),fm,fn,he)}return a7}return bY;default:return 0}case
 2:var
-ay=a[7],az=a[6],aS=a[5],aT=a[4],aU=a[3],Y=a[2],ak=a[1],_=n[2];switch(_[0]){case
+az=a[7],aA=a[6],aS=a[5],aT=a[4],aU=a[3],Y=a[2],ak=a[1],_=n[2];switch(_[0]){case
 0:var
-b6=_[3],al=l9(ak,Y,aU,aT,aS,az,ay),b7=cW(0,j(b6),b6);if(b7){var
+b6=_[3],al=l_(ak,Y,aU,aT,aS,aA,az),b7=cW(0,j(b6),b6);if(b7){var
 eu=b7[1];if(eu[2])return 0;var
-ev=mr(ak,Y,aU,aT,aS,az,ay),ey=ev?f4(ds(ak),b6):ev;if(ey){var
-hs=eu[1],hu=al[2],hv=z(c,bL(y(function(a){var
-b=a0(a[2]);return f(a0(a[1]),b)},hu))),hw=mv(j(Y),az,ay),hy=h5(_[2]),hz=_[1],fe=al[2],cQ=o(function(a){var
-b=lk(p,a[1]);return b?lk(p,a[2]):b},fe);if(cQ)var
-ff=g_(al[4]),a4=ec(p,al[4],ff);else
+ev=ms(ak,Y,aU,aT,aS,aA,az),ey=ev?f4(ds(ak),b6):ev;if(ey){var
+hs=eu[1],ht=al[2],hv=z(c,bL(y(function(a){var
+b=a1(a[2]);return f(a1(a[1]),b)},ht))),hw=mw(j(Y),aA,az),hx=h6(_[2]),hz=_[1],fe=al[2],cQ=o(function(a){var
+b=ll(p,a[1]);return b?ll(p,a[2]):b},fe);if(cQ)var
+ff=g$(al[4]),a4=ec(p,al[4],ff);else
 var
 a4=cQ;if(a4)var
 fg=fE(al[5]),a5=o(function(a){return eq(p,a)},fg);else
 var
-a5=a4;return a5?q6(hz,hy,hw,al,hv,hs):a5}var
+a5=a4;return a5?q8(hz,hx,hw,al,hv,hs):a5}var
 eA=ey}else
 var
 eA=b7;return eA;case
 1:var
-eB=_[3],eC=e(i,_[2]),eD=h2(ak),eE=ml(Y,e(i,eB));if(eE[2])return 0;var
-eF=h4(y(function(a){return f(a[1],a[2])},Y),eB),eG=eF?mr(ak,Y,aU,aT,aS,az,ay):eF;if(eG){var
-hB=hZ(_[4]),$=e5(eD,eC),aA=a_(cB(eD,eC)),am=eE[1],L=l9(ak,Y,aU,aT,aS,az,ay),aD=L[2],aa=am;for(;;){if(aD){if(aa){var
-cz=aa[1],cA=aD[1],cE=aZ(p,cA[1],cz[1]),cF=cE?aZ(p,cA[2],cz[2]):cE;if(cF){var
-aD=aD[2],aa=aa[2];continue}var
+eB=_[3],eC=e(i,_[2]),eD=h3(ak),eE=mm(Y,e(i,eB));if(eE[2])return 0;var
+eF=h5(y(function(a){return f(a[1],a[2])},Y),eB),eG=eF?ms(ak,Y,aU,aT,aS,aA,az):eF;if(eG){var
+hA=h0(_[4]),$=e5(eD,eC),aB=a$(cB(eD,eC)),am=eE[1],L=l_(ak,Y,aU,aT,aS,aA,az),aE=L[2],aa=am;for(;;){if(aE){if(aa){var
+cz=aa[1],cA=aE[1],cE=a0(p,cA[1],cz[1]),cF=cE?a0(p,cA[2],cz[2]):cE;if(cF){var
+aE=aE[2],aa=aa[2];continue}var
 cH=cF}else
 var
 cH=aa;var
-a3=cH}else
+a2=cH}else
 var
-a3=aa?0:1;var
-cI=a3?ec(p,L[4],aA):a3,cK=cI?kM(p,L[5],$):cI;if(cK){var
+a2=aa?0:1;var
+cI=a2?ec(p,L[4],aB):a2,cK=cI?kN(p,L[5],$):cI;if(cK){var
 ab=L[5],cL=L[3],cP=L[1],fd=L[6],cy=function(a){var
-b=fB(ab,$,aA,a);return O(fB(ab,$,aA,a),b)},e_=e(function(b){var
-a=fB(ab,$,aA,b);return[0,hj(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))]},am),e$=e(cy,am),fa=e(function(a){return 0},am),fb=e(function(a){return[0,[6,cy(a)]]},am),fc=[0,e(function(b){var
-a=av(fB(ab,$,aA,b));return hj(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))},am),fb,fa,e$,e_];return kx(p,ds(L[1]),fc,fd,hB)}return cK}}return eG;default:return 0}case
+b=fB(ab,$,aB,a);return O(fB(ab,$,aB,a),b)},e_=e(function(b){var
+a=fB(ab,$,aB,b);return[0,hk(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))]},am),e$=e(cy,am),fa=e(function(a){return 0},am),fb=e(function(a){return[0,[6,cy(a)]]},am),fc=[0,e(function(b){var
+a=av(fB(ab,$,aB,b));return hk(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))},am),fb,fa,e$,e_];return ky(p,ds(L[1]),fc,fd,hA)}return cK}}return eG;default:return 0}case
 3:var
-ap=a[7],eH=a[6],eI=a[5],P=a[4],eJ=a[2],b8=a[1],aV=n[2];if(0===aV[0]){var
+an=a[7],eH=a[6],eI=a[5],P=a[4],eJ=a[2],b8=a[1],aV=n[2];if(0===aV[0]){var
 b9=aV[3],b_=cW(0,j(b9),b9);if(b_){var
 eK=b_[1];if(eK[2])return 0;var
 hb=j(b8),hc=j(eH),dW=u(j(eI),hc),dX=dW?o(function(a){var
 b=bx(hb,j(P),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bD(d[1]),0]:aW(0,j(P));return o(function(b){var
-a=R(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?o(function(a){return 0===a[0]?0:1},P):1}return b},ap):dW,dY=dX?f3(ap):dX,dZ=dY?o(function(a){return ez(a[2])},eJ):dY,eL=dZ?o(h1,dC(0,j(P),0,ap)):dZ,eM=eL?f4(j(b8),b9):eL;if(eM){var
-hC=eK[1],hD=a[3],dS=ao(fW,ap),aP=dC(0,j(P),0,ap),gY=aJ(eI,eH),bP=e(function(a){var
+d=a[2],e=d?[0,bD(d[1]),0]:aX(0,j(P));return o(function(b){var
+a=R(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?o(function(a){return 0===a[0]?0:1},P):1}return b},an):dW,dY=dX?f3(an):dX,dZ=dY?o(function(a){return ez(a[2])},eJ):dY,eL=dZ?o(h2,dC(0,j(P),0,an)):dZ,eM=eL?f4(j(b8),b9):eL;if(eM){var
+hC=eK[1],hD=a[3],dS=ap(fW,an),aP=dC(0,j(P),0,an),gY=aJ(eI,eH),bP=e(function(a){var
 b=i(a[2]);return[0,i(a[1]),b]},gY),gZ=e(function(a){return 0===a[0]?[0,e(cu,a[1])]:[1,cu(a[1])]},P),g0=e(function(a){var
 b=cu(a[2]);return[0,a[1],b]},hD),m=[0,b8,e(function(a){var
-b=bw(a[2]);return[0,a[1],b]},eJ),g0,gZ],hE=mv(j(P),0,ap),eN=h5(aV[2]),aB=aV[1],f_=e(aI,m[2]),bk=f(m[1],f_),bl=j(m[1]),df=Q(rr,bl),dg=df?Q(bl,rs):df,dh=dg?Q(bl,j(m[4])):dg,di=dh?Q(j(m[4]),rt):dh,dj=di?lE(bk):di;if(dj){var
+b=bw(a[2]);return[0,a[1],b]},eJ),g0,gZ],hE=mw(j(P),0,an),eN=h6(aV[2]),aC=aV[1],f_=e(aI,m[2]),bk=f(m[1],f_),bl=j(m[1]),df=Q(rt,bl),dg=df?Q(bl,ru):df,dh=dg?Q(bl,j(m[4])):dg,di=dh?Q(j(m[4]),rv):dh,dj=di?lF(bk):di;if(dj){var
 aL=bk,aK=m[3];for(;;){if(aK){var
-db=aK[1],dc=db[1],dd=ac(ao(function(b){return function(a){return an(b,a)}}(dc),aL)),de=dd?hA(aL,db[2]):dd;if(de){var
+db=aK[1],dc=db[1],dd=ac(ap(function(b){return function(a){return ao(b,a)}}(dc),aL)),de=dd?hB(aL,db[2]):dd;if(de){var
 aL=[0,dc,aL],aK=aK[2];continue}var
 dk=de}else
 var
@@ -5985,36 +5997,36 @@ bm=dk;break}}else
 var
 bm=dj;if(bm)var
 f$=m[4],bn=o(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bk);return o(function(a){return hA(c,a)},b)},f$);else
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bk);return o(function(a){return hB(c,a)},b)},f$);else
 var
 bn=bm;if(bn)var
-ga=m[2],bo=o(function(a){return a$(p,a[2][1],a[2][2])},ga);else
+ga=m[2],bo=o(function(a){return ba(p,a[2][1],a[2][2])},ga);else
 var
 bo=bn;var
-dl=bo?o(function(a){return a$(p,a[1],a[2])},bP):bo;if(dl){var
-ba=j(m[1]),bc=j(m[2]),c0=N(bc,j(hx(e(ca,m[3])))),fr=m[3],at=lD(m),aG=fr,a9=bc;for(;;){if(aG){var
-cY=aG[1],cZ=cY[2],fo=N(a9,j(bu(cZ))),fp=aG[2],fq=bb(at,cZ,a9),at=[0,[0,cY[1],fq],at],aG=fp,a9=fo;continue}var
-T=lA(ba,at,m[4],c0),ft=lz(at,m[4],c0),fw=m[3],c1=f(lw(lD(m),fw,bc),ft),c2=j(lC(m)),fx=0,fz=f(c1,cp(function(a,b){return lt(T,a,b)},fx,d,c2,aP)),fC=f(bt(er(T)),fz),c3=f(bt(fJ(T)),fC),bd=cG(c3)[1],fD=bH(bd),ae=function(a){return a7(fD,a)},c4=u(j(bP),ba);if(c4)var
-fF=m[4],be=o(function(a){return 0===a[0]?u(j(a[1]),ba):1},fF);else
+dl=bo?o(function(a){return ba(p,a[1],a[2])},bP):bo;if(dl){var
+a_=j(m[1]),bb=j(m[2]),c0=N(bb,j(hy(e(ca,m[3])))),fr=m[3],at=lE(m),aG=fr,a9=bb;for(;;){if(aG){var
+cY=aG[1],cZ=cY[2],fo=N(a9,j(bu(cZ))),fp=aG[2],fq=bc(at,cZ,a9),at=[0,[0,cY[1],fq],at],aG=fp,a9=fo;continue}var
+T=lB(a_,at,m[4],c0),ft=lA(at,m[4],c0),fw=m[3],c1=f(lx(lE(m),fw,bb),ft),c2=j(lD(m)),fx=0,fz=f(c1,cp(function(a,b){return lu(T,a,b)},fx,d,c2,aP)),fC=f(bt(er(T)),fz),c3=f(bt(fJ(T)),fC),bd=cG(c3)[1],fD=bH(bd),ae=function(a){return a8(fD,a)},c4=u(j(bP),a_);if(c4)var
+fF=m[4],be=o(function(a){return 0===a[0]?u(j(a[1]),a_):1},fF);else
 var
 be=c4;var
 c5=be?o(function(a){var
-b=l(d),c=bH(bd);return aF(s(ae(a),c,b),a)},c3):be,c6=c5?ao(lv,aP):c5;if(c6){var
+b=l(d),c=bH(bd);return ay(t(ae(a),c,b),a)},c3):be,c6=c5?ap(lw,aP):c5;if(c6){var
 c7=ac(dS);if(c7)var
 aH=c7;else
 var
 f9=m[4],aH=o(function(a){return 0===a[0]?0:1},f9)}else
 var
 aH=c6;if(aH){var
-fG=lC(m),bf=ai(e(function(a){return ah(aB,a)},fG));if(bf){var
-fH=0,fK=y(function(a){return eg(fH,d,a)},aP),bg=ai(e(function(a){return hh(aB,a)},fK));if(bg){var
-bh=ai(e(function(a){return ah(aB,[0,a,d])},bP));if(bh){var
-fL=0,fM=0,bi=ai(cp(function(a,b){return lu(aB,ae,T,fM,d,a,b)},fL,d,c2,aP));if(bi){var
+fG=lD(m),bf=aj(e(function(a){return ah(aC,a)},fG));if(bf){var
+fH=0,fK=y(function(a){return eg(fH,d,a)},aP),bg=aj(e(function(a){return hi(aC,a)},fK));if(bg){var
+bh=aj(e(function(a){return ah(aC,[0,a,d])},bP));if(bh){var
+fL=0,fM=0,bi=aj(cp(function(a,b){return lv(aC,ae,T,fM,d,a,b)},fL,d,c2,aP));if(bi){var
 c8=bi[1];if(dS)var
-fP=eN[2],fQ=eN[1],fR=er(T),bj=kr(hE,c8,[8,k(aq(ae),fR),fQ,fP]);else
+fP=eN[2],fQ=eN[1],fR=er(T),bj=ks(hE,c8,[8,k(ar(ae),fR),fQ,fP]);else
 var
 bj=c8;var
-fS=g4(bj),fV=bh[1],fY=function(a){return 0},f0=f(bf[1],bg[1]),f5=e(ae,c1),f6=er(T),f7=k(aq(ae),f6),f8=fJ(T);return fs(aB,bd,k(aq(ae),f8),f7,f5,f0,bj,fY,fV,fS,hC)}var
+fS=g4(bj),fV=bh[1],fY=function(a){return 0},f0=f(bf[1],bg[1]),f5=e(ae,c1),f6=er(T),f7=k(ar(ae),f6),f8=fJ(T);return fs(aC,bd,k(ar(ae),f8),f7,f5,f0,bj,fY,fV,fS,hC)}var
 c9=bi}else
 var
 c9=bh;var
@@ -6032,93 +6044,93 @@ var
 eO=b_;return eO}return 0;case
 4:var
 b$=n[2];if(0===b$[0]){var
-aC=a[3],C=a[2],cb=a[1],hF=b$[3],hG=b$[1],d_=dD(i(cb));if(d_){var
-aQ=bF(ma,aC),cv=0;if(aQ){var
+aD=a[3],C=a[2],cb=a[1],hF=b$[3],hG=b$[1],d_=dD(i(cb));if(d_){var
+aQ=bF(mb,aD),cv=0;if(aQ){var
 bQ=aQ[1];if(bQ[2]||bQ[3])var
-t=0;else{var
+s=0;else{var
 aR=bQ[4],J=aQ[2],E=0;if(typeof
 aR!=="number")switch(aR[0]){case
 0:var
 aY=0;if(J){var
 bR=J[1];if(bR[2]||bR[3]){var
-t=0;E=1;aY=1}else{var
+s=0;E=1;aY=1}else{var
 bS=bR[4],cw=0;if(typeof
 bS!=="number"&&1===bS[0])if(J[2]){var
-t=0;E=1;aY=1;cw=1}else{var
-t=[0,[0,aR[1],bS[1]]];E=1;aY=1;cw=1}if(!cw)var
+s=0;E=1;aY=1;cw=1}else{var
+s=[0,[0,aR[1],bS[1]]];E=1;aY=1;cw=1}if(!cw)var
 dU=0}}else
 var
 dU=J;if(!aY){var
-t=dU;E=1}break;case
+s=dU;E=1}break;case
 1:var
-a1=0;if(J){var
+aZ=0;if(J){var
 bT=J[1];if(bT[2]||bT[3]){var
-t=0;E=1;a1=1}else{var
+s=0;E=1;aZ=1}else{var
 bU=bT[4],cx=0;if(typeof
 bU!=="number"&&0===bU[0])if(J[2]){var
-t=0;E=1;a1=1;cx=1}else{var
-t=[0,[0,bU[1],aR[1]]];E=1;a1=1;cx=1}if(!cx)var
+s=0;E=1;aZ=1;cx=1}else{var
+s=[0,[0,bU[1],aR[1]]];E=1;aZ=1;cx=1}if(!cx)var
 dV=0}}else
 var
-dV=J;if(!a1){var
-t=dV;E=1}break}if(!E){var
+dV=J;if(!aZ){var
+s=dV;E=1}break}if(!E){var
 dT=0;cv=1}}}else{var
 dT=aQ;cv=1}if(cv)var
-t=dT;if(t){var
-d$=t[1],v=d$[2],ea=i(v),ef=i(d$[1]),dq=g(p,1,i(C)),dr=dq?g(p,1,[3,ea,[0,c,c]]):dq,dt=dr?g(p,1,ef):dr,ei=dt?g(p,0,[3,[5,[0,c,c],ea],ef]):dt;if(ei)var
-hi=0,hk=0,bZ=o(function(a){return l7(hk,hi,xa,a)},aC);else
+s=dT;if(s){var
+d$=s[1],v=d$[2],ea=i(v),ef=i(d$[1]),dq=g(p,1,i(C)),dr=dq?g(p,1,[3,ea,[0,c,c]]):dq,dt=dr?g(p,1,ef):dr,ei=dt?g(p,0,[3,[5,[0,c,c],ea],ef]):dt;if(ei)var
+hh=0,hj=0,bZ=o(function(a){return l8(hj,hh,xc,a)},aD);else
 var
 bZ=ei;var
 ej=bZ?o(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],i(a[1])]);return 1}return 1},aC):bZ;if(ej){var
-bV=bF(function(a){return ac(mb(a))},aC);if(bV){var
+a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],i(a[1])]);return 1}return 1},aD):bZ;if(ej){var
+bV=bF(function(a){return ac(mc(a))},aD);if(bV){var
 hl=[0,b(2,c),c],A=g(p,0,[3,i(v),hl]);if(A)var
 b0=A;else
 var
 hp=i(v),b0=g(p,0,[3,[0,b(2,c),c],hp]);if(b0){var
 d7=y(function(a){var
-b=hP(0,w9,0,a);return e(function(b){return ac(mb(a))},b)},aC),hf=function(f){var
+b=hQ(0,w$,0,a);return e(function(b){return ac(mc(a))},b)},aD),hf=function(f){var
 g=f[1];if(g){var
-h=g[1],i=s(h,d7,0);if(i)var
+h=g[1],i=t(h,d7,0);if(i)var
 l=cB(h,d7),k=[0,[0,j(bF(function(a){return a},l))]];else
 var
 k=i;var
 a=k}else
 var
-a=w$;if(a){var
+a=xb;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,w_,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hg=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(hf,a[1]),d,c,b]},hF),hm=[0,bV[1],bV[2]],g1=[0,hT(A,C,v),0],g2=[0,hT(A,C,v),g1],g3=[0,hT(A,C,v),g2],g7=[0,fZ(A,C,v),0],g9=[0,fZ(A,C,v),g7],hn=0,g$=[0,[0,fZ(A,C,v),g9],g3],ho=0,bW=function(b,a){return e(function(c){var
-d=u(b,c)?a:v8;return[0,d]},v_)};return mx(0,e(function(a){var
+2:return[0,[0,b,[1,xa,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hg=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,y(hf,a[1]),d,c,b]},hF),hm=[0,bV[1],bV[2]],g1=[0,hU(A,C,v),0],g2=[0,hU(A,C,v),g1],g3=[0,hU(A,C,v),g2],g6=[0,fZ(A,C,v),0],g8=[0,fZ(A,C,v),g6],hn=0,g_=[0,[0,fZ(A,C,v),g8],g3],ho=0,bW=function(b,a){return e(function(c){var
+d=u(b,c)?a:v_;return[0,d]},wa)};return my(0,e(function(a){var
 e=[0,fX(A,C,v)],d=1,f=bW(a,[2,cb]);function
 b(b,a){return[3,1,b,a]}var
-c=fX(A,C,v),g=bW(a,b(b(fZ(A,C,v),cb),c));return[0,bW(a,v9),g,f,e,d]},v$),ho,g$,hn,hm,hG,hg)}return b0}var
+c=fX(A,C,v),g=bW(a,b(b(fZ(A,C,v),cb),c));return[0,bW(a,v$),g,f,e,d]},wb),ho,g_,hn,hm,hG,hg)}return b0}var
 ek=1}else
 var
 ek=ej;var
 el=ek}else
 var
-el=t;var
+el=s;var
 em=el}else
 var
 em=d_;return em}return 0;case
 5:var
 cc=a[4],eP=a[1],cd=n[2];if(0===cd[0]){var
-eQ=cd[3],r=hO(eP,[0,a[2],a[3]],0,cc),ce=h0(j(eQ),eQ);if(ce){var
+eQ=cd[3],r=hP(eP,[0,a[2],a[3]],0,cc),ce=h1(j(eQ),eQ);if(ce){var
 eR=ce[1];if(eR[2])return 0;var
-eS=h3(eP,0,cc,r),eT=eS?ac(ao(fW,cc)):eS;if(eT){var
-eU=kq(p,r);if(eU){var
-hH=eR[1],eV=e(f2,r[1]),D=hX(r[1]),eW=i(a[5]),S=cd[1],br=fu(D,eV,r[1]),F=g5(D,eV,r[1],0),gf=j(r[3]),gg=N(j(br),gf),aN=[0,j(br),gg],gh=g6(F,D,aN,r[3]),gi=f(e(cm,F),gh),dx=f(bt(d8(F)),gi),dy=cG(dx)[1],by=bH(dy),dz=r[2];if(0===dz[0]){var
+eS=h4(eP,0,cc,r),eT=eS?ac(ap(fW,cc)):eS;if(eT){var
+eU=kr(p,r);if(eU){var
+hH=eR[1],eV=e(f2,r[1]),D=hY(r[1]),eW=i(a[5]),S=cd[1],br=fu(D,eV,r[1]),F=g5(D,eV,r[1],0),gf=j(r[3]),gg=N(j(br),gf),aN=[0,j(br),gg],gh=g7(F,D,aN,r[3]),gi=f(e(cm,F),gh),dx=f(bt(d8(F)),gi),dy=cG(dx)[1],by=bH(dy),dz=r[2];if(0===dz[0]){var
 dB=o(function(a){var
-b=l(d);return aF(s(a7(by,a),by,b),a)},dx),dE=dB?g(p,1,eW):dB;if(dE){var
-gj=r[3],gk=y(function(a){return cJ(D,a)},gj),gl=r[3],gm=f(br,f(e(function(a){return bs(D,a)},gl),gk)),bz=ai(e(function(a){return ah(S,a)},gm));if(bz){var
-gn=aM(dz[1],D),bA=ai(e(function(a){return ah(S,a)},gn));if(bA){var
+b=l(d);return ay(t(a8(by,a),by,b),a)},dx),dE=dB?g(p,1,eW):dB;if(dE){var
+gj=r[3],gk=y(function(a){return cJ(D,a)},gj),gl=r[3],gm=f(br,f(e(function(a){return bs(D,a)},gl),gk)),bz=aj(e(function(a){return ah(S,a)},gm));if(bz){var
+gn=aM(dz[1],D),bA=aj(e(function(a){return ah(S,a)},gn));if(bA){var
 bB=cj(S,D,[5,eW,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bB){var
-bC=r[3],go=bA[1],gp=bB[1],gq=bz[1],au=function(a){return a7(by,a)},gc=aW(0,j(bC)),gd=e(function(i){var
+bC=r[3],go=bA[1],gp=bB[1],gq=bz[1],au=function(a){return a8(by,a)},gc=aX(0,j(bC)),gd=e(function(i){var
 l=R(bC,i);if(l){var
-a=l[1],u=cB(i,bC),v=j(y(function(a){return cJ(D,a)},u)),x=N(aN[2],v),h=[0,N(aN[1],i),x],r=d8(F),f=k(aq(au),r),b=[1,[8,[1,[1,h[1]]]]],d=fv(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=cB(i,bC),v=j(y(function(a){return cJ(D,a)},u)),x=N(aN[2],v),h=[0,N(aN[1],i),x],r=d8(F),f=k(ar(au),r),b=[1,[8,[1,[1,h[1]]]]],d=fv(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -6134,15 +6146,15 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eb(F,D,h,a);return w(function(a){return[0,k(aq(au),a),q]},t)}return 0}return l},gc),ge=e(function(a){return au(cm(a))},F),du=e(function(a){return au(a[2])},F),gr=r[3],gs=aN[1],dv=e(ag,gq),dw=function(az,ay){var
+t=eb(F,D,h,a);return w(function(a){return[0,k(ar(au),a),q]},t)}return 0}return l},gc),ge=e(function(a){return au(cm(a))},F),du=e(function(a){return au(a[2])},F),gr=r[3],gs=aN[1],dv=e(ag,gq),dw=function(az,ay){var
 l=az,h=ay;for(;;){if(0===h[0]){var
-t=h[1],aa=u(j(t),rC),ab=aa?o(function(a){var
-d=G(M(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},t):aa;if(ab){var
-ad=lO(S,gp,fk(0,l),t),i=h[2],v=bG(0,ch(S,ad,dv),dy,0),L=function(a){return lN(lM(S,ad,dv,v,a))};if(typeof
-i==="number")return 0===i?ao(function(b){var
-a=s(b,v,0);return a?G(a[1][2][2],d):a},du):0;else{if(0===i[0]){var
-a=i[2],O=o(rA,a);if(O){var
-n=s(i[1],gd,0);if(n){var
+s=h[1],aa=u(j(s),rE),ab=aa?o(function(a){var
+d=G(M(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},s):aa;if(ab){var
+ad=lP(S,gp,fk(0,l),s),i=h[2],v=bG(0,ch(S,ad,dv),dy,0),L=function(a){return lO(lN(S,ad,dv,v,a))};if(typeof
+i==="number")return 0===i?ap(function(b){var
+a=t(b,v,0);return a?G(a[1][2][2],d):a},du):0;else{if(0===i[0]){var
+a=i[2],O=o(rC,a);if(O){var
+n=t(i[1],gd,0);if(n){var
 g=n[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
@@ -6153,7 +6165,7 @@ f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=fN(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,fO(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fN(D),aq=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fO(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6170,7 +6182,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],Q=o(function(a){return lN(s(a[2],v,0))},aw);if(Q)return o(L,P[2]);var
+P=f[1],aw=P[1],Q=o(function(a){return lO(t(a[2],v,0))},aw);if(Q)return o(L,P[2]);var
 T=Q}else
 var
 T=f;var
@@ -6220,11 +6232,11 @@ eY=ce;return eY}return 0;case
 6:var
 eZ=a[1];if(eZ){var
 e0=eZ[1],cf=n[2];if(0===cf[0]){var
-cg=hY(0,xc,cf[3]);if(cg){var
+cg=hZ(0,xe,cf[3]);if(cg){var
 e1=ez(e0);if(e1){var
-hI=cg[1],e2=bw(e0)[2],aX=cf[1],bp=cj(aX,d,e2);if(bp){var
-bq=cj(aX,d,[5,[0,c,c],e2]);if(bq){var
-gb=bp[1][1],dm=V(cD(aX),gb);if(dm)return lL(aX,bq[1][1],hI);var
+hI=cg[1],e2=bw(e0)[2],aW=cf[1],bp=cj(aW,d,e2);if(bp){var
+bq=cj(aW,d,[5,[0,c,c],e2]);if(bq){var
+gb=bp[1][1],dm=V(cD(aW),gb);if(dm)return lM(aW,bq[1][1],hI);var
 dn=dm}else
 var
 dn=bq;var
@@ -6235,42 +6247,42 @@ e3=e1}else
 var
 e3=cg;return e3}return 0}var
 ck=n[2];if(0===ck[0]){var
-cl=hY(0,xd,ck[3]);return cl?lL(ck[1],d,cl[1]):cl}return 0;default:var
-ar=a[1],e4=n[2];if(2===e4[0]){var
-e6=e4[1],cn=hV(j(e6),e6);if(cn){var
+cl=hZ(0,xf,ck[3]);return cl?lM(ck[1],d,cl[1]):cl}return 0;default:var
+aq=a[1],e4=n[2];if(2===e4[0]){var
+e6=e4[1],cn=hW(j(e6),e6);if(cn){var
 e7=cn[1];if(e7[2])return 0;var
-co=e7[1],d4=Q(w8,j(ar)),d5=d4?Q(j(ar),jk):d4,d6=d5?lE(e(aI,ar)):d5,e8=d6?o(function(c){var
+co=e7[1],d4=Q(w_,j(aq)),d5=d4?Q(j(aq),jl):d4,d6=d5?lF(e(aI,aq)):d5,e8=d6?o(function(c){var
 a=ci(i(c[2][1]));if(a){var
 b=ci(i(c[2][2]));if(b)return ac(cC(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},ar):d6;if(e8)var
-hJ=f1(wa,co),cq=mA(a[5],hJ);else
+d=a;return d},aq):d6;if(e8)var
+hJ=f1(wc,co),cq=mB(a[5],hJ);else
 var
 cq=e8;if(cq)var
-hK=f1(wb,co),cr=mA(a[6],hK);else
+hK=f1(wd,co),cr=mB(a[6],hK);else
 var
 cr=cq;if(cr){var
-ha=e(function(a){return[0,d,0]},ar);return mz(ar,a[2],a[3],a[4],ha,co)}var
+ha=e(function(a){return[0,d,0]},aq);return mA(aq,a[2],a[3],a[4],ha,co)}var
 e9=cr}else
 var
 e9=cn;return e9}return 0}}return aw}var
-L=[aG,xg,oN(0)],mB=[aG,xh,oN(0)];function
-xe(m,b){var
-f=[0,h(vu,aj(b[4])),0],g=[0,h(vw,X([0,h(vv,aj(b[3])),f])),0],a=b[2];switch(a[0]){case
+L=[aG,xi,oO(0)],mC=[aG,xj,oO(0)];function
+xg(m,b){var
+f=[0,h(vw,ak(b[4])),0],g=[0,h(vy,X([0,h(vx,ak(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(vq,lV(a[1],a[2],a[3]));break;case
+c=I(vs,lW(a[1],a[2],a[3]));break;case
 1:var
-c=I(vr,lW(a[1],a[2],a[3],a[4]));break;default:var
-c=I(vs,A(e(vl,a[1])))}var
-i=[0,h(vx,c),g],j=1===b[2][0]?vD:vy,k=[0,h(vz,aj(j)),i],l=[0,h(vA,t5(b[1])),k],d=an(iX(xf,fP(X([0,h(vC,aj(vB)),l]),vt)),m);return d?xb(b):d}function
+c=I(vt,lX(a[1],a[2],a[3],a[4]));break;default:var
+c=I(vu,A(e(vn,a[1])))}var
+i=[0,h(vz,c),g],j=1===b[2][0]?vF:vA,k=[0,h(vB,ak(j)),i],l=[0,h(vC,t7(b[1])),k],d=ao(iY(xh,fP(X([0,h(vE,ak(vD)),l]),vv)),m);return d?xd(b):d}function
 ab(a){if(0===a[0])return a[1];throw L}function
 Y(a){if(1===a[0])return a[1];throw L}function
-aD(a){if(2===a[0])return a[1];throw L}function
+aE(a){if(2===a[0])return a[1];throw L}function
 dF(a){if(3===a[0])return a[1];throw L}function
 aN(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Dd(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Df(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
 a=aN(c,b);if(a)return a[1];throw L}function
@@ -6280,7 +6292,7 @@ cZ(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],xi]}throw L}function
+2:return[0,a[1],xk]}throw L}function
 eA(e,d){var
 a=T(e,Y(d));if(a){var
 b=a[2];if(b){var
@@ -6288,7 +6300,7 @@ c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
 f5(i){var
 f=dQ(i),d=[0,0],e=gx(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iC(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
+a=d[1],g=iD(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6310,21 +6322,21 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eB(a){return i9(f5(a))}function
+eB(a){return i_(f5(a))}function
 eC(b){var
-a=dF(b);return 45===aH(a,0)?M(eB(c_(a,1,am(a)-1|0))):eB(a)}function
-mC(a){return dY(eB(dF(a)))}function
-f6(a){return i8(eB(dF(a)))}function
+a=dF(b);return 45===aH(a,0)?M(eB(c_(a,1,an(a)-1|0))):eB(a)}function
+mD(a){return dY(eB(dF(a)))}function
+f6(a){return i9(eB(dF(a)))}function
 cx(c){var
-a=dF(c);if(6<am(a))throw L;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iK(a))}function
-mD(a){var
-b=97<=a?1:0,c=b?a<=or?1:0:b;if(c)var
+a=dF(c);if(6<an(a))throw L;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iL(a))}function
+mE(a){var
+b=97<=a?1:0,c=b?a<=os?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mE(y,b){var
-d=am(b),a=[0,0];function
+mF(y,b){var
+d=an(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aH(b,a[1])===e?1:0:c;return f}function
 l(e){var
@@ -6333,24 +6345,24 @@ n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
 h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&an(c_(b,a[1],5),xk)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ao(c_(b,a[1],5),xm)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&mD(aH(b,a[1]))){var
+v=0;if(a[1]<d&&mE(aH(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!mD(aH(b,a[1]))&&95!==aH(b,a[1])&&(!(48<=aH(b,a[1]))||57<aH(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!mE(aH(b,a[1]))&&95!==aH(b,a[1])&&(!(48<=aH(b,a[1]))||57<aH(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,k(y,c_(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=an(g,xl);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ao(g,xn);if(r)var
 s=r;else
 var
-t=1<am(g)?1:0,s=t?48===aH(g,0)?1:0:t;if(s)throw L;if(q){var
-j=q[1],x=0;if(an(j,xm)||48===aH(j,am(j)-1|0))x=1;else
+t=1<an(g)?1:0,s=t?48===aH(g,0)?1:0:t;if(s)throw L;if(q){var
+j=q[1],x=0;if(ao(j,xo)||48===aH(j,an(j)-1|0))x=1;else
 var
 z=f5(j),e=[0,f5(g),z];if(x)throw L}else
 var
 e=[0,f5(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,xj)){if(!(2<am(f))&&2<=iK(f)&&!(64<iK(f)))return[4,e,dY(eB(f))];throw L}throw L}return e}function
+f=l(0);if(m(f,xl)){if(!(2<an(f))&&2<=iL(f)&&!(64<iL(f)))return[4,e,dY(eB(f))];throw L}throw L}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6360,46 +6372,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw L;return g}function
-f7(a){return mE(function(a){return[0,a]},a)}function
-h6(a){var
-b=aD(a);return mE(function(a){return a},b)}function
-P(a){return f7(aD(a))}function
+f7(a){return mF(function(a){return[0,a]},a)}function
+h7(a){var
+b=aE(a);return mF(function(a){return a},b)}function
+P(a){return f7(aE(a))}function
 bO(a){if(2===a[0])return[0,f7(a[1])];var
-b=ab(a),c=P(r(b,xn));return[1,P(r(b,xo)),c]}function
-$(a){throw[0,mB,aP(iX(xq,a),xp)]}function
-h7(c){var
-a=aD(c);if(m(a,xr)){var
-b=m(a,xs);if(b)throw L;return b}return 1}function
-xt(d){var
+b=ab(a),c=P(r(b,xp));return[1,P(r(b,xq)),c]}function
+aa(a){throw[0,mC,aP(iY(xs,a),xr)]}function
+h8(c){var
+a=aE(c);if(m(a,xt)){var
+b=m(a,xu);if(b)throw L;return b}return 1}function
+xv(d){var
 b=ab(d);function
 a(a){return eA(bO,r(b,a))}var
-c=aD(r(b,xu));if(m(c,xv)){if(m(c,xw)){if(m(c,xx))return $([0,xz,[0,c,xy]]);var
-e=aN(b,xA),f=b6(function(a){return eA(bO,a)},e),g=a(xB);return[1,a(xC),g,f]}var
-h=h7(r(b,xD)),i=bO(r(b,xE)),j=a(xF),k=a(xG);return[0,a(xH),k,j,i,h]}return[2,a(xI)]}function
-xJ(d){var
+c=aE(r(b,xw));if(m(c,xx)){if(m(c,xy)){if(m(c,xz))return aa([0,xB,[0,c,xA]]);var
+e=aN(b,xC),f=b6(function(a){return eA(bO,a)},e),g=a(xD);return[1,a(xE),g,f]}var
+h=h8(r(b,xF)),i=bO(r(b,xG)),j=a(xH),k=a(xI);return[0,a(xJ),k,j,i,h]}return[2,a(xK)]}function
+xL(d){var
 a=ab(d);if(a){var
-b=a[1];if(!m(b[1],xK)){var
-c=b[2];if(2===c[0]&&!m(c[1],xL))return 1}}return 0}function
-mF(e){var
+b=a[1];if(!m(b[1],xM)){var
+c=b[2];if(2===c[0]&&!m(c[1],xN))return 1}}return 0}function
+mG(e){var
 b=ab(e);function
 a(a){return T(bO,Y(r(b,a)))}var
-c=aD(r(b,xM)),d=aN(b,xN);if(m(c,xO)){if(m(c,xP)){if(!m(c,xQ)&&!d){var
-f=a(xT);return[1,a(xU),f]}}else
+c=aE(r(b,xO)),d=aN(b,xP);if(m(c,xQ)){if(m(c,xR)){if(!m(c,xS)&&!d){var
+f=a(xV);return[1,a(xW),f]}}else
 if(!d){var
-g=h7(r(b,xV)),h=bO(r(b,xW)),i=a(xX),j=a(xY);return[0,a(xZ),j,i,h,g]}}else
+g=h8(r(b,xX)),h=bO(r(b,xY)),i=a(xZ),j=a(x0);return[0,a(x1),j,i,h,g]}}else
 if(!d){var
-k=h7(r(b,x0)),l=bO(r(b,x1)),n=bO(r(b,x2)),o=a(x3),p=a(x4),q=a(x5);return[2,a(x6),q,p,o,n,l,k]}return $([0,xS,[0,c,xR]])}function
-mG(d){var
+k=h8(r(b,x2)),l=bO(r(b,x3)),n=bO(r(b,x4)),o=a(x5),p=a(x6),q=a(x7);return[2,a(x8),q,p,o,n,l,k]}return aa([0,xU,[0,c,xT]])}function
+mH(d){var
 a=ab(d);if(a){var
-b=a[1];if(!m(b[1],x7)){var
-c=b[2];if(2===c[0]&&!m(c[1],x8))return 1}}return 0}function
+b=a[1];if(!m(b[1],x9)){var
+c=b[2];if(2===c[0]&&!m(c[1],x_))return 1}}return 0}function
 cy(c,d){var
 a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
 dG(h,p){var
-g=h?h[1]:h,c=ab(p),a=aD(r(c,x9)),j=o0(a,x_),f=0;if(0<=j)if(0<j)if(m(a,x$))if(m(a,ya))if(m(a,yb))if(m(a,yc))if(m(a,yd))if(m(a,ye)){var
-k=m(a,yf);if(k)f=1;else
+g=h?h[1]:h,c=ab(p),a=aE(r(c,x$)),j=o1(a,ya),f=0;if(0<=j)if(0<j)if(m(a,yb))if(m(a,yc))if(m(a,yd))if(m(a,ye))if(m(a,yf))if(m(a,yg)){var
+k=m(a,yh);if(k)f=1;else
 var
 b=k}else
 var
@@ -6417,7 +6429,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,yB))if(m(a,yC))if(m(a,yD))if(m(a,yE))if(m(a,yF))if(m(a,yG))if(m(a,yH))if(m(a,yI))f=1;else
+if(m(a,yD))if(m(a,yE))if(m(a,yF))if(m(a,yG))if(m(a,yH))if(m(a,yI))if(m(a,yJ))if(m(a,yK))f=1;else
 var
 b=1;else
 var
@@ -6435,10 +6447,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?$([0,yh,[0,a,yg]]):b;function
-i(a){return r(c,yi)}var
-d=aD(r(c,yj)),l=m(d,yk);if(l)if(m(d,yl))if(m(d,ym))if(m(d,yn))var
-e=$([0,yp,[0,d,yo]]);else
+n=f?aa([0,yj,[0,a,yi]]):b;function
+i(a){return r(c,yk)}var
+d=aE(r(c,yl)),l=m(d,ym);if(l)if(m(d,yn))if(m(d,yo))if(m(d,yp))var
+e=aa([0,yr,[0,d,yq]]);else
 var
 o=cy(P,i(0)),e=[2,o[1],o[2]];else
 var
@@ -6450,85 +6462,85 @@ e=l;function
 q(A){var
 a=ab(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],yr)){var
+q=a[1];if(!m(q[1],yt)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return g?$(ys):[1,T(P,b)]}}}break;case
+e=b[1];c=1;l=1}if(!l&&!a[2])return g?aa(yu):[1,T(P,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],yt)){var
+s=a[1];if(!m(s[1],yv)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 h=a[2];if(h){var
-u=h[1];if(!m(u[1],yu)){var
+u=h[1];if(!m(u[1],yw)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!h[2]){var
 B=P(i[1]);return[2,P(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],yv)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],yw)&&!j[2]&&g)return $(yx)}else
+w=a[1];if(!m(w[1],yx)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],yy)&&!j[2]&&g)return aa(yz)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],yy)){var
+y=a[1];if(!m(y[1],yA)){var
 z=y[2];if(1===z[0]&&!a[2])return[1,T(P,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],yq)){var
+o=a[1];if(!m(o[1],ys)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw L}var
-s=b6(q,aN(c,yz));return[0,n,b6(cx,aN(c,yA)),s,e]}function
-mH(c){var
-d=dG(yL,c),e=d[1];if(!(9<=e))switch(e){case
+s=b6(q,aN(c,yB));return[0,n,b6(cx,aN(c,yC)),s,e]}function
+mI(c){var
+d=dG(yN,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dG(yJ,c),b=a[1];if(2!==b&&!(4<=b))return a;return $(yK)}function
-mI(a){var
-b=dG(yM,a);return 11===b[1]?b:mH(a)}function
-yN(a){var
-b=dG(yO,a),c=b[1];if(9!==c&&!(14<=c))return mI(a);return b}function
-h8(c){var
-d=dG(yP,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:mH(c)}function
-h9(b){var
-a=ab(b[2]);if(m(b[1],yW)){var
-c=cy(P,r(a,yX)),d=cy(P,r(a,yY)),e=d[2],f=d[1],g=P(r(a,yZ));return[1,c[1],c[2],g,f,e]}var
-h=T(P,Y(r(a,y0)));return[0,T(P,Y(r(a,y1))),h]}function
-y2(f){var
+a=dG(yL,c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(yM)}function
+mJ(a){var
+b=dG(yO,a);return 11===b[1]?b:mI(a)}function
+yP(a){var
+b=dG(yQ,a),c=b[1];if(9!==c&&!(14<=c))return mJ(a);return b}function
+h9(c){var
+d=dG(yR,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:mI(c)}function
+h_(b){var
+a=ab(b[2]);if(m(b[1],yY)){var
+c=cy(P,r(a,yZ)),d=cy(P,r(a,y0)),e=d[2],f=d[1],g=P(r(a,y1));return[1,c[1],c[2],g,f,e]}var
+h=T(P,Y(r(a,y2)));return[0,T(P,Y(r(a,y3))),h]}function
+y4(f){var
 a=ab(f);function
 d(b){return P(r(a,b))}function
 c(b){return eA(P,r(a,b))}var
-b=aD(r(a,y3));if(m(b,y4)){if(!m(b,y5)){var
-j=r(a,y$),e=cy(function(a){return a},j),k=aN(a,za),l=b6(function(a){return c(zb)},k),n=f7(aD(e[2])),o=f7(aD(e[1])),p=d(zc);return[0,cx(r(a,zd)),p,o,n,l]}if(m(b,y6))throw L}var
-g=d(y7),h=c(y8),i=c(y9);return[1,an(b,y_),i,h,g]}function
-h_(ar){var
-g=cZ(ar),h=g[1];if(m(h,ze)){if(m(h,zf)){if(m(h,zg)){if(m(h,zh))return $([0,zj,[0,h,zi]]);var
-w=r(ab(g[2]),zk),ag=0;if(2===w[0]){var
-M=m(w[1],zl);if(!M){var
+b=aE(r(a,y5));if(m(b,y6)){if(!m(b,y7)){var
+j=r(a,zb),e=cy(function(a){return a},j),k=aN(a,zc),l=b6(function(a){return c(zd)},k),n=f7(aE(e[2])),o=f7(aE(e[1])),p=d(ze);return[0,cx(r(a,zf)),p,o,n,l]}if(m(b,y8))throw L}var
+g=d(y9),h=c(y_),i=c(y$);return[1,ao(b,za),i,h,g]}function
+h$(ar){var
+g=cZ(ar),h=g[1];if(m(h,zg)){if(m(h,zh)){if(m(h,zi)){if(m(h,zj))return aa([0,zl,[0,h,zk]]);var
+w=r(ab(g[2]),zm),ag=0;if(2===w[0]){var
+M=m(w[1],zn);if(!M){var
 K=M;ag=1}}if(!ag)var
 K=[0,bO(w)];return[6,K]}var
-N=ab(g[2]),i=h_([0,[0,[0,zn,r(N,zm)],0]]);if(0===i[0]){var
+N=ab(g[2]),i=h$([0,[0,[0,zp,r(N,zo)],0]]);if(0===i[0]){var
 x=i[2];if(0===x[0]&&!i[3]){var
-as=P(r(N,zp));return[5,i[1],x[1],x[2],i[4],as]}}return $(zo)}var
-a=ab(g[2]),y=aN(a,zq),z=y?T(y2,Y(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?$(zr):a},j=cZ(r(a,zs)),b=cZ(r(a,zt)),c=j[1];if(m(c,zu)&&m(c,zv)&&m(c,zw)){if(0===aN(a,zx)){if(m(c,zy)){var
-ah=0;if(m(c,zz)){if(!m(c,zA)){var
-O=b[1],ai=0;if(m(O,zD)&&m(O,zE)){ah=1;ai=1}if(!ai){var
-A=Y(j[2]),at=Y(r(a,zH)),Q=T(function(a){return dG(0,a)},at);if(!ax(xJ,A)&&!ax(function(a){return 13===a[1]?1:0},Q)){var
-aw=T(xt,A),f=ab(b[2]);if(m(b[1],yQ))var
-I=cy(P,r(f,yR)),J=cy(P,r(f,yS)),am=J[2],ao=J[1],ap=P(r(f,yT)),R=[1,I[1],I[2],ap,ao,am];else
+as=P(r(N,zr));return[5,i[1],x[1],x[2],i[4],as]}}return aa(zq)}var
+a=ab(g[2]),y=aN(a,zs),z=y?T(y4,Y(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?aa(zt):a},j=cZ(r(a,zu)),b=cZ(r(a,zv)),c=j[1];if(m(c,zw)&&m(c,zx)&&m(c,zy)){if(0===aN(a,zz)){if(m(c,zA)){var
+ah=0;if(m(c,zB)){if(!m(c,zC)){var
+O=b[1],ai=0;if(m(O,zF)&&m(O,zG)){ah=1;ai=1}if(!ai){var
+A=Y(j[2]),at=Y(r(a,zJ)),Q=T(function(a){return dG(0,a)},at);if(!ax(xL,A)&&!ax(function(a){return 13===a[1]?1:0},Q)){var
+aw=T(xv,A),f=ab(b[2]);if(m(b[1],yS))var
+I=cy(P,r(f,yT)),J=cy(P,r(f,yU)),am=J[2],an=J[1],ap=P(r(f,yV)),R=[1,I[1],I[2],ap,an,am];else
 var
-aq=eA(P,r(f,yU)),R=[0,eA(P,r(f,yV)),aq];return[0,aw,R,z,Q]}o(0);var
-au=T(h8,Y(r(a,zI))),av=h9(b);return[1,0,T(mF,A),0,av,0,au]}}}else
-if(!m(b[1],zJ)){o(0);var
-S=T(h8,Y(r(a,zK))),v=0,e=S;for(;;){if(e){var
+aq=eA(P,r(f,yW)),R=[0,eA(P,r(f,yX)),aq];return[0,aw,R,z,Q]}o(0);var
+au=T(h9,Y(r(a,zK))),av=h_(b);return[1,0,T(mG,A),0,av,0,au]}}}else
+if(!m(b[1],zL)){o(0);var
+S=T(h9,Y(r(a,zM))),v=0,e=S;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=iW(v),aj=0;if(n){var
+n=iX(v),aj=0;if(n){var
 d=0,U=n[1][4];if(typeof
 U==="number")d=1;else
 switch(U[0]){case
@@ -6543,54 +6555,54 @@ C=n[2];if(C){var
 F=0,W=C[1][4];if(typeof
 W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)$(zL);var
-ay=P(r(ab(b[2]),zM));return[4,P(r(ab(j[2]),zN)),ay,S]}}if(!ah)return $([0,zC,[0,c,zB]])}else
-if(!m(b[1],zO)){o(0);var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)aa(zN);var
+ay=P(r(ab(b[2]),zO));return[4,P(r(ab(j[2]),zP)),ay,S]}}if(!ah)return aa([0,zE,[0,c,zD]])}else
+if(!m(b[1],zQ)){o(0);var
 p=ab(j[2]),X=ab(b[2]),Z=function(c,a){var
 b=Y(a);return T(function(d){var
 a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aD(a[1]),e]}}throw L},b)},az=function(d){var
+e=k(c,b[1]);return[0,aE(a[1]),e]}}throw L},b)},az=function(d){var
 a=ab(d);if(a){var
-b=a[1],c=b[1];if(m(c,zP)){if(!m(c,zQ)&&!a[2])return[0,T(h6,Y(b[2]))]}else
-if(!a[2])return[1,h6(b[2])]}throw L},aA=T(mI,Y(r(a,zR))),aB=T(P,Y(r(X,zS))),aC=T(P,Y(r(X,zT))),aE=T(az,Y(r(p,zU))),aF=Z(h6,r(p,zV)),aG=Z(bO,r(p,zW));return[3,T(aD,Y(r(p,zX))),aG,aF,aE,aC,aB,aA]}return $([0,zG,[0,b[1],zF]])}throw L}var
-_=ab(j[2]),q=b6(P,aN(_,zY)),aH=function(f){var
-a=cZ(f),b=a[1];if(m(b,zZ)){if(m(b,z0)){if(m(b,z1)){if(m(b,z2))throw L;var
-d=a[2],g=P(r(ab(d),z3));return[3,P(r(ab(d),z4)),g]}var
-h=a[2],c=function(a){return cy(P,r(ab(h),a))},i=c(z5),j=c(z6);return[1,c(z7),j,i]}var
-e=cy(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},s=b6(aH,aN(a,z8)),aa=m(c,z9),D=aa?m(c,z_)?2:1:aa,t=Y(r(_,z$));if(q&&s){var
-ac=s[1];if(gB(mG,t)){var
+b=a[1],c=b[1];if(m(c,zR)){if(!m(c,zS)&&!a[2])return[0,T(h7,Y(b[2]))]}else
+if(!a[2])return[1,h7(b[2])]}throw L},aA=T(mJ,Y(r(a,zT))),aB=T(P,Y(r(X,zU))),aC=T(P,Y(r(X,zV))),aD=T(az,Y(r(p,zW))),aF=Z(h7,r(p,zX)),aG=Z(bO,r(p,zY));return[3,T(aE,Y(r(p,zZ))),aG,aF,aD,aC,aB,aA]}return aa([0,zI,[0,b[1],zH]])}throw L}var
+_=ab(j[2]),q=b6(P,aN(_,z0)),aH=function(f){var
+a=cZ(f),b=a[1];if(m(b,z1)){if(m(b,z2)){if(m(b,z3)){if(m(b,z4))throw L;var
+d=a[2],g=P(r(ab(d),z5));return[3,P(r(ab(d),z6)),g]}var
+h=a[2],c=function(a){return cy(P,r(ab(h),a))},i=c(z7),j=c(z8);return[1,c(z9),j,i]}var
+e=cy(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},s=b6(aH,aN(a,z_)),$=m(c,z$),D=$?m(c,Aa)?2:1:$,t=Y(r(_,Ab));if(q&&s){var
+ac=s[1];if(gB(mH,t)){var
 aI=function(c){var
 a=ab(c);function
-b(b){return T(bO,Y(r(a,b)))}if(0!==aN(a,Aa))$(Ab);var
-d=b(Ac);return[0,b(Ad),d]},ad=T(yN,Y(r(a,Ae))),ak=0;if(1!==D||2!==ac[0])ak=1;if(ak&&ax(function(a){return 11===a[1]?1:0},ad))$(Af);var
-aJ=h9(b),aK=q[1];return[2,D,T(aI,t),aK,aJ,ac,z,ad]}}o(0);var
-al=0;if(!q&&an(c,Ai)){var
+b(b){return T(bO,Y(r(a,b)))}if(0!==aN(a,Ac))aa(Ad);var
+d=b(Ae);return[0,b(Af),d]},ad=T(yP,Y(r(a,Ag))),ak=0;if(1!==D||2!==ac[0])ak=1;if(ak&&ax(function(a){return 11===a[1]?1:0},ad))aa(Ah);var
+aJ=h_(b),aK=q[1];return[2,D,T(aI,t),aK,aJ,ac,z,ad]}}o(0);var
+al=0;if(!q&&ao(c,Ak)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==s?1:0,aL=af?ax(mG,t):af;if(aL)$(Ag);var
-aM=T(h8,Y(r(a,Ah))),aO=h9(b);return[1,ae,T(mF,t),q,aO,s,aM]}var
+af=0!==s?1:0,aL=af?ax(mH,t):af;if(aL)aa(Ai);var
+aM=T(h9,Y(r(a,Aj))),aO=h_(b);return[1,ae,T(mG,t),q,aO,s,aM]}var
 u=ab(g[2]);function
 aP(b){var
-a=ab(b),c=P(r(a,Aj)),d=[0,P(r(a,Ak)),c];return[0,aD(r(a,Al)),d]}var
-l=h_([0,[0,[0,An,r(u,Am)],0]]);if(0===l[0]&&!l[3]){var
-aQ=P(r(u,Ap)),aR=P(r(u,Aq)),aS=l[4],aT=l[2],aU=l[1];return[7,T(aP,Y(r(u,Ar))),aU,aT,aS,aR,aQ]}return $(Ao)}function
-h$(a){return T(eC,Y(a))}function
-ia(c,b){var
-a=h$(b);if(b$(a)!==c)throw L;return a}function
-mJ(a,d){var
-b=ab(d),e=Y(r(b,Au)),f=a[2],c=T(function(a){return ia(f,a)},e),g=a[1];if(b$(c)!==g)throw L;return[0,c,f6(r(b,Av))]}function
+a=ab(b),c=P(r(a,Al)),d=[0,P(r(a,Am)),c];return[0,aE(r(a,An)),d]}var
+l=h$([0,[0,[0,Ap,r(u,Ao)],0]]);if(0===l[0]&&!l[3]){var
+aQ=P(r(u,Ar)),aR=P(r(u,As)),aS=l[4],aT=l[2],aU=l[1];return[7,T(aP,Y(r(u,At))),aU,aT,aS,aR,aQ]}return aa(Aq)}function
+ia(a){return T(eC,Y(a))}function
+ib(c,b){var
+a=ia(b);if(b$(a)!==c)throw L;return a}function
+mK(a,d){var
+b=ab(d),e=Y(r(b,Aw)),f=a[2],c=T(function(a){return ib(f,a)},e),g=a[1];if(b$(c)!==g)throw L;return[0,c,f6(r(b,Ax))]}function
 eD(g,o){var
 N=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=o0(a,Aw),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,Ax)&&m(a,Ay)&&m(a,Az))if(m(a,AA))f=1;else{var
+e=d[1],a=e[1],O=o1(a,Ay),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,Az)&&m(a,AA)&&m(a,AB))if(m(a,AC))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ae=T(h$,Y(s[1])),af=aD(q[1]);return[8,eD(g,p[1]),af,ae]}b=1;f=1}else
+ae=T(ia,Y(s[1])),af=aE(q[1]);return[8,eD(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6601,34 +6613,34 @@ v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
 ah=f6(x[1]),ai=eC(w[1]);return[5,eD(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,AD))if(m(a,AE))if(m(a,AF))if(m(a,AG)){if(!m(a,AH)){if(!d[2]){var
-S=ab(e[2]),aj=Y(r(S,AI)),ak=N+1|0,U=T(function(a){return ia(ak,a)},aj);if(3===b$(U))return[1,AK,U,f6(r(S,AJ))];throw L}b=1}}else{if(!d[2]){var
-J=aD(e[2]),K=m(J,As);if(K){if(m(J,At))throw L;var
+if(m(a,AF))if(m(a,AG))if(m(a,AH))if(m(a,AI)){if(!m(a,AJ)){if(!d[2]){var
+S=ab(e[2]),aj=Y(r(S,AK)),ak=N+1|0,U=T(function(a){return ib(ak,a)},aj);if(3===b$(U))return[1,AM,U,f6(r(S,AL))];throw L}b=1}}else{if(!d[2]){var
+J=aE(e[2]),K=m(J,Au);if(K){if(m(J,Av))throw L;var
 M=1}else
 var
 M=K;return[2,M]}b=1}else{if(!d[2]){var
 i=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],AM)){var
+e=b[1];if(!m(e[1],AO)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],AN)){var
+g=c[1];if(!m(g[1],AP)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eD(AO,a)}}}}}}}}}}return eD(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eD(AQ,a)}}}}}}}}}}return eD(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],k=Z[1],c=0;if(m(k,AP)&&m(k,AQ)&&m(k,AR))if(m(k,AS))c=1;else{var
+Z=j[1],k=Z[1],c=0;if(m(k,AR)&&m(k,AS)&&m(k,AT))if(m(k,AU))c=1;else{var
 _=Z[2];if(1===_[0]){var
 E=_[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ad=0;if(m(G,AU)&&m(G,AV)&&m(G,AW)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ad=0;if(m(G,AW)&&m(G,AX)&&m(G,AY)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,AX)&&m(aa,AY)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=l[1];if(m($,AZ)&&m($,A0)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
 ap=f6(I[1]),aq=eC(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
@@ -6637,28 +6649,28 @@ c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ac=i[1];if(!m(ac,AZ)||!m(ac,A0))n=1;break}switch(n){case
+ac=i[1];if(!m(ac,A1)||!m(ac,A2))n=1;break}switch(n){case
 0:var
-y=$(AT);break;case
+y=aa(AV);break;case
 1:var
 y=X(g,i);break}return[7,y]}b=1}else{var
 V=e[2];if(1===V[0]){var
 z=V[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,ia(N+1|0,al)]};b=2}}}}else{var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,ib(N+1|0,al)]};b=2}}}}else{var
 W=e[2];if(1===W[0]){var
 B=W[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dF(D[1]),AL))throw L;var
+an=C[1];if(m(dF(D[1]),AN))throw L;var
 ao=B[1],u=ao,t=function(b,a){return[4,b,a,eC(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return $([0,AC,[0,a,AB]]);break;case
+0:if(!d[2])return aa([0,AE,[0,a,AD]]);break;case
 1:break;default:var
-Q=mJ(g,u);return t(Q[1],Q[2])}}break;case
+Q=mK(g,u);return t(Q[1],Q[2])}}break;case
 2:return[0,o[1]]}throw L}function
-mK(k){var
-b=cZ(k),a=b[1];if(m(a,A3))if(m(a,A4)){var
-g=m(a,A5);if(!g)return g;if(!m(a,A6)){var
+mL(k){var
+b=cZ(k),a=b[1];if(m(a,A5))if(m(a,A6)){var
+g=m(a,A7);if(!g)return g;if(!m(a,A8)){var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -6666,31 +6678,31 @@ l=cx(d[1]);return[1,cx(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=T(h$,Y(f[1]));return[0,cx(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return $([0,A8,[0,a,A7]])}function
-mL(f,b){var
-a=ab(b),c=Y(r(a,Bb)),d=T(function(g){var
+n=T(ia,Y(f[1]));return[0,cx(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return aa([0,A_,[0,a,A9]])}function
+mM(f,b){var
+a=ab(b),c=Y(r(a,Bd)),d=T(function(g){var
 a=ab(g);function
 b(d,c){var
 b=aN(a,c);return b?T(d,Y(b[1])):b}var
-c=b(eC,A9),d=b6(mK,aN(a,A_)),e=b6(cx,aN(a,A$));return[0,b(function(h){var
+c=b(eC,A$),d=b6(mL,aN(a,Ba)),e=b6(cx,aN(a,Bb));return[0,b(function(h){var
 b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],A1)){if(!a[2]){if(m(dF(e),A2))throw L;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],A3)){if(!a[2]){if(m(dF(e),A4))throw L;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eD(f,c);return[0,cx(e),g]}}}throw L},Ba),e,d,c]},c),e=aN(a,Bc),g=b6(function(a){return mJ(f,a)},e);return[0,mC(r(a,Bd)),g,d]}function
-mM(c){var
-a=ab(c),b=aN(a,Be),d=b?T(P,Y(b[1])):b,e=mK(r(a,Bf)),f=T(P,Y(r(a,Bg)));return[0,mC(r(a,Bh)),f,d,e]}function
+g=eD(f,c);return[0,cx(e),g]}}}throw L},Bc),e,d,c]},c),e=aN(a,Be),g=b6(function(a){return mK(f,a)},e);return[0,mD(r(a,Bf)),g,d]}function
 mN(c){var
+a=ab(c),b=aN(a,Bg),d=b?T(P,Y(b[1])):b,e=mL(r(a,Bh)),f=T(P,Y(r(a,Bi)));return[0,mD(r(a,Bj)),f,d,e]}function
+mO(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Br(b){var
+Bt(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Bs(b){var
+Bu(b){var
 a=b[4];if(14<=b[1]&&typeof
 a!=="number"&&1===a[0])return 1-ep(i(a[1]));return 0}function
-Bw(g){var
-i=am(g),c=[0,0];function
+By(g){var
+i=an(g),c=[0,0];function
 j(a){if(c[1]<i)return aH(g,c[1]);throw L}function
 l(a){if(j(0)===a){c[1]++;return 0}throw L}function
 C(a,b){for(;;){if(c[1]<i&&k(b,aH(g,c[1]))){c[1]++;continue}return c_(g,a,c[1]-a|0)}}function
@@ -6704,7 +6716,7 @@ b=C(c[1],a);l(34);return b}function
 E(e,a){if(j(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return iW(d)}}function
+b=d;continue}l(a);return iX(d)}}function
 t(b,i){if(64<b)throw L;var
 a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,E(function(a){return t(f,a)},e)]}if(123===a){c[1]++;var
@@ -6713,8 +6725,8 @@ a=D(0);l(58);return[0,a,t(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2
 h=c[1];c[1]++;return[3,C(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
 Q=t(0,0),F=c[1]<i?1:0,R=F?10===aH(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw L;var
-q=ab(Q);if(m(aD(r(q,Bx)),By))throw L;var
-a=h_(r(q,Bz)),y=0;switch(a[0]){case
+q=ab(Q);if(m(aE(r(q,Bz)),BA))throw L;var
+a=h$(r(q,BB)),y=0;switch(a[0]){case
 1:var
 w=a[1],z=0;if(typeof
 w==="number")if(w)var
@@ -6734,20 +6746,20 @@ G=a[2];y=1;break;case
 0:case
 5:var
 G=a[1];y=1;break;default:var
-f=BQ}if(y)var
+f=BS}if(y)var
 f=[0,b$(G),3];var
-n=cZ(r(q,BA)),o=n[1];if(m(o,Bm))if(m(o,Bn))if(m(o,Bo))var
-b=$([0,Bq,[0,o,Bp]]);else
+n=cZ(r(q,BC)),o=n[1];if(m(o,Bo))if(m(o,Bp))if(m(o,Bq))var
+b=aa([0,Bs,[0,o,Br]]);else
 var
-p=mM(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
+p=mN(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
 var
-u=mL(f,n[2]),b=[0,u[1],u[2],u[3]];else
+u=mM(f,n[2]),b=[0,u[1],u[2],u[3]];else
 var
 S=Y(n[2]),b=[2,T(function(g){var
-a=cZ(g),b=a[1];if(m(b,Bi)){if(m(b,Bj)){if(m(b,Bk)){var
-e=m(b,Bl);if(e)throw L;return e}return[0,cx(a[2])]}var
-c=mM(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=mL(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
+a=cZ(g),b=a[1];if(m(b,Bk)){if(m(b,Bl)){if(m(b,Bm)){var
+e=m(b,Bn);if(e)throw L;return e}return[0,cx(a[2])]}var
+c=mN(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=mM(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
 U(a){var
 b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
 V(a){return 0!==a[3]?1:0}function
@@ -6761,41 +6773,41 @@ K=I,J=a[1];d=4;break;case
 N=I;d=5;break}break;case
 1:switch(b[0]){case
 0:var
-aa=b[3];if(ax(function(a){var
+$=b[3];if(ax(function(a){var
 b=a[1];return ax(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aa)){$(BK);d=1}else
+7:return 1;default:return 0}},b)},$)){aa(BM);d=1}else
 d=2;break;case
 1:var
-ac=a[6];if(ax(function(a){return 8===a[1]?1:0},ac)){$(BL);d=1}break}break;case
+ac=a[6];if(ax(function(a){return 8===a[1]?1:0},ac)){aa(BN);d=1}break}break;case
 2:if(1===b[0]){var
 af=a[7];if(ax(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},af)){$(BO);d=1}else
+b=4<=a?1:0;if(!b)return b}return 1},af)){aa(BQ);d=1}else
 d=3}else
 d=3;break;case
-3:if(1===b[0]){$(BP);d=1}else
+3:if(1===b[0]){aa(BR);d=1}else
 d=3;break;case
 5:var
 N=a[4];d=5;break;case
 7:var
 K=a[4],J=a[2];d=4;break;default:d=2}var
 e=0;switch(d){case
-3:if(0===b[0])if(ax(U,b[3])){$(BM);e=3}else
+3:if(0===b[0])if(ax(U,b[3])){aa(BO);e=3}else
 if(3===a[0])e=1;else{var
 ad=a[7],ae=b[3];if(gB(function(a){var
 b=a[1];return gB(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,Bt)){if(!m(c,Bu))return ax(Bs,ad)}else
+c=b[1];if(m(c,Bv)){if(!m(c,Bw))return ax(Bu,ad)}else
 a=1;break;case
-1:if(!m(b[1],Bv))a=1;break;case
-7:a=1;break}return a?1:0},b)},ae))e=1;else{$(BN);e=3}}else
+1:if(!m(b[1],Bx))a=1;break;case
+7:a=1;break}return a?1:0},b)},ae))e=1;else{aa(BP);e=3}}else
 e=2;break;case
 1:e=3;break;case
 4:var
-O=0;if(ax(function(a){return 10===a[1]?1:0},K)&&ax(function(a){return 2===a[0]?1:0},J)){$(BB);O=1}if(!O)e=4;break;case
-5:if(ax(mN,N))$(BJ);else
+O=0;if(ax(function(a){return 10===a[1]?1:0},K)&&ax(function(a){return 2===a[0]?1:0},J)){aa(BD);O=1}if(!O)e=4;break;case
+5:if(ax(mO,N))aa(BL);else
 e=4;break;case
 2:e=1;break;default:e=2}var
 h=0;switch(e){case
@@ -6804,11 +6816,11 @@ h=0;switch(e){case
 A=0;switch(a[0]){case
 5:var
 P=0;if(0===b[0]){var
-_=b[3];if(ax(function(a){return 0!==a[1]?1:0},_)){$(BI);A=1;P=1}}if(!P)var
+_=b[3];if(ax(function(a){return 0!==a[1]?1:0},_)){aa(BK);A=1;P=1}}if(!P)var
 v=a[4];break;case
 7:var
 v=a[4];break;default:if(1===b[0])var
-v=a[4];else{h=2;A=1}}if(!A)if(ax(Br,v))$(BH);else
+v=a[4];else{h=2;A=1}}if(!A)if(ax(Bt,v))aa(BJ);else
 h=2;break;case
 1:h=2;break;case
 2:h=1;break}var
@@ -6823,24 +6835,24 @@ X=a[4];switch(b[0]){case
 Z=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return H(a[3]);case
-2:return ax(mN,X)}return 0};if(ax(Z,b[1]))$(BG);s=1}break}if(!s)if(0===b[0]&&H(b[3]))$(BF);else
+2:return ax(mO,X)}return 0};if(ax(Z,b[1]))aa(BI);s=1}break}if(!s)if(0===b[0]&&H(b[3]))aa(BH);else
 B=1;break;case
 1:B=1;break}var
-M=ab(r(q,BC)),W=aD(r(M,BD));return[0,a,b,aD(r(M,BE)),W]}function
-BR(b){var
-c=am(b),g=64,h=Ds(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+M=ab(r(q,BE)),W=aE(r(M,BF));return[0,a,b,aE(r(M,BG)),W]}function
+BT(b){var
+c=an(b),g=64,h=Du(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=an(c_(b,a,18),BS);if(!e){var
+e=ao(c_(b,a,18),BU);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}DN(function(b){try{if(BR(b))var
-a=BU;else{try{var
-e=0,d=Bw(b);e=1}catch(a){a=o2(a);if(a[1]===mB)var
+f=d;return f}}DP(function(b){try{if(BT(b))var
+a=BW;else{try{var
+e=0,d=By(b);e=1}catch(a){a=o3(a);if(a[1]===mC)var
 c=[0,a[2]];else{if(a!==L)throw a;var
 c=2}}if(e)var
-c=xe(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return BT}if(typeof
+c=xg(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return BV}if(typeof
 a==="number")switch(a){case
-0:return BV;case
-1:return BW;default:return BX}return aP(BY,a[1])});iV(0);return}(globalThis));
+0:return BX;case
+1:return BY;default:return BZ}return aP(B0,a[1])});iW(0);return}(globalThis));

@@ -137,7 +137,8 @@ fn beside(
     Ok(Test::AtLeast(formula!(tape; square - (distance ^ 2))))
 }
 
-/// From `C - A + (trim_1/L) A` to `C - (trim_2/L) A`, `C` the leg's platform end, `A` its vector.
+/// From `C - A + (trim_1/L) A` to `C - (trim_2/L) A`, `C` the leg's platform end, `A` its vector. Of a strut
+/// `C - A` is its own base end, which no slope widens.
 fn trimmed(
     context: &mut Context<'_>,
     leg: usize,
@@ -148,7 +149,10 @@ fn trimmed(
     }
     let (tip, length, a) = parts(context, leg)?;
     let [from, to] = [&trim[0], &trim[1]].map(|trim| context.number(trim, 1));
-    let tape = context.tape();
-    let from = formula!(tape; tip - ((1 - (from / length)) * a));
+    let (own, tape) = (context.legs[leg - 1].ends, context.tape());
+    let from = match own {
+        Some([base, _]) => formula!(tape; base + ((from / length) * a)),
+        None => formula!(tape; tip - ((1 - (from / length)) * a)),
+    };
     Ok([from, formula!(tape; tip - ((to / length) * a))])
 }
