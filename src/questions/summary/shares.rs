@@ -163,7 +163,7 @@ pub fn shares(
         _ => None,
     });
     let alone = rows.into_iter().map(share).collect();
-    Ok(Some(Shares { alone, sum: sum.clone().map(Exact::Rational), together, not_enclosed }))
+    Ok(Some(Shares { alone, sum: sum.map(Exact::Rational), together, not_enclosed }))
 }
 
 /// A deviation in words.

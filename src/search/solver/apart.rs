@@ -34,8 +34,8 @@ impl Over<'_> {
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
         self.problem().derived.as_ref()?;
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
-        let two_ends = self.problem().inputs.iter().filter(|input| input.differs());
-        let middle = "0".repeat(two_ends.count());
+        let differing = self.problem().inputs.iter().filter(|input| input.differs());
+        let middle = "0".repeat(differing.count());
         // What fails mostly fails there.
         let formulas = test::Over { first: worst.vertex, inside: None, ..*self.formulas };
         let machines = [self.worst_machine(&worst), Some(middle)];
@@ -173,12 +173,12 @@ impl Over<'_> {
             }
         }
         let inputs = self.problem().inputs.iter().enumerate();
-        let two_ends = inputs.filter(|(_, input)| input.differs());
+        let differing = inputs.filter(|(_, input)| input.differs());
         let end = |(j, _)| match slopes.get(&j) {
             Some(slope) if *slope > 0.0 => '-',
             Some(slope) if *slope < 0.0 => '+',
             _ => '0',
         };
-        (!slopes.is_empty()).then(|| two_ends.map(end).collect())
+        (!slopes.is_empty()).then(|| differing.map(end).collect())
     }
 }

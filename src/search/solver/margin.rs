@@ -85,11 +85,7 @@ fn room(claim: &MachineClaim, bounded: &Bounded, value: f64) -> Option<f64> {
         let [least, greatest] = joint_range(claim, own)?;
         let (least, greatest) = (approximate(least)?, approximate(greatest)?);
         let off = value - (least + greatest) / 2.0;
-        let turns = match own.bound {
-            Bound::Within(_) => (off / 360.0).round(),
-            _ => 0.0,
-        };
-        return Some((greatest - least) / 2.0 / (off - 360.0 * turns).abs() - 1.0);
+        return Some((greatest - least) / 2.0 / off.abs() - 1.0);
     }
     match &bounded.bound() {
         Bound::Min(bound) => Some(value / approximate(bound)? - 1.0),

@@ -31,10 +31,11 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     let for_each = |r: &Requirement| r.given.get("joint").is_some_and(|all| all.len() != 1);
     let accelerates_plane = requires(&["joint_acceleration"])
         && subject.legs.iter().any(|leg| matches!(leg, Leg::Planar { .. }));
-    let has = |is: fn(&Evidence) -> bool| match proof {
+    let has = |is: &dyn Fn(&Evidence) -> bool| match proof {
         Proof::Tree(tree) => tree.nodes.iter().flat_map(|node| &node.by).any(|Step(_, by)| is(by)),
         _ => false,
     };
+    let has_sign = subject.requirements.iter().any(is_wide);
     let fails = |tree: &Tree| tree.nodes.iter().any(|node| node.fails.is_some());
     let is_outside = |cell: &AtlasCell| match cell {
         AtlasCell::Certified(tree) => fails(tree),
@@ -42,21 +43,19 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         AtlasCell::Split(_) | AtlasCell::Undecided => false,
     };
     let what = match (subject.kind, proof) {
-        (Kind::Turning | Kind::Formulas, _) if has(|by| matches!(by, Evidence::Tolerances(..))) => {
+        (Kind::Turning | Kind::Formulas, _)
+            if has(&|by| matches!(by, Evidence::Tolerances(..))) =>
+        {
             "the evidence \"tolerances\" of such a mechanism"
         }
-        (Kind::Legs, _) if has(|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
+        (Kind::Legs, _) if has(&|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
             "this set of orientations with such drives"
         }
         (Kind::Legs, Proof::Witness(_)) if requires(&["joint_force"]) => {
             "this quantity of such a mechanism in a claim that is refuted"
         }
         (Kind::Turning, _)
-            if has(if subject.requirements.iter().any(is_wide) {
-                is_no_step_of_pose
-            } else {
-                |by| is_no_step_of_pose(by) || *by == Evidence::Test
-            }) =>
+            if has(&|by| is_no_step_of_pose(by) || (*by == Evidence::Test && !has_sign)) =>
         {
             "a step of a platform that turns that is not at control points"
         }
