@@ -243,12 +243,14 @@ pub(crate) fn shown(
     }
 }
 
-/// What an accepted claim establishes.
+/// What an accepted claim establishes. A parameter is told from a coordinate of its name.
 pub fn statement(claim: &AtlasClaim) -> String {
     let AtlasClaim { parameters, machine, certified, refuted } = claim;
-    let range = |Parameter { name, min, max }: &Parameter| format!("  {name} in [{min}, {max}]\n");
+    let range =
+        |Parameter { name, min, max }: &Parameter| format!("  <{name}> in [{min}, {max}]\n");
     let ranges: String = parameters.iter().map(range).collect();
-    let all = holds(machine, &workspace(machine));
+    let machine = claim.over(&vec![(0, 0); parameters.len()]).unwrap_or_else(|_| machine.clone());
+    let all = holds(&machine, &workspace(&machine));
     format!(
         "\
 It is proved:

@@ -320,7 +320,7 @@ impl fmt::Display for Expression {
                 write!(f, "{whole}{point}{text}")
             }
             Expression::Name(name) => f.write_str(name),
-            Expression::Varying(range) => f.write_str(&range.name),
+            Expression::Varying(range) => write!(f, "<{}>", range.name),
             Expression::Neg(inner) => {
                 f.write_str("-")?;
                 part(f, inner, 3)

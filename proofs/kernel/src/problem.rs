@@ -105,6 +105,9 @@ impl Problem {
             (Mechanism::Orthoglide { .. }, _) | (_, Workspace::Cube { .. }) => {
                 return Err(malformed("workspace", "a cube with kind orthoglide, and only then"));
             }
+            (Mechanism::Formulas(_), Workspace::Cylinder { .. }) => {
+                return Err(malformed("workspace", "a box of coordinates that are named"));
+            }
             _ => None,
         };
         let corners = match (&cube, &claim.workspace) {

@@ -213,7 +213,7 @@ fn inverse_kinematics(formulas: &Formulas) -> String {
     let definitions =
         lines(definitions, |_, (name, expression)| format!("  {name} = {expression}"));
     let joints = lines(joints, |i, joint| match joint {
-        JointFormula::Rho(rho) => format!("  rho_{i} = {rho}"),
+        JointFormula::Rho(rho) => format!("  joint {i}: rho_{i} = {rho}"),
         JointFormula::Row(row) => format!("  row {i} of M: ({})", list(row)),
     });
     let coordinates = list(coordinates);

@@ -112,10 +112,10 @@ pub fn names(claim: &MachineClaim) -> Vec<Option<String>> {
         names.split(' ').map(|name| Some(name.to_owned()).filter(|name| name != "-")).collect()
     };
     let mut all = match (&claim.mechanism, &claim.workspace) {
-        (Mechanism::Formulas(formulas), Workspace::Box { .. }) => {
+        (Mechanism::Formulas(formulas), _) => {
             formulas.coordinates.iter().cloned().map(Some).collect()
         }
-        (Mechanism::Formulas(_), _) | (_, Workspace::Cube { .. }) => named("- - -"),
+        (_, Workspace::Cube { .. }) => named("- - -"),
         (_, Workspace::Cylinder { .. }) => named("- - z"),
         (Mechanism::Planar(_), _) => named("x y"),
         (Mechanism::Spherical(_), _) => Vec::new(),

@@ -6,7 +6,7 @@ use orthocert_kernel::certificate::{
     AtlasCell, Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
 };
 use orthocert_kernel::check::check;
-use orthocert_kernel::claim::AtlasClaim;
+use orthocert_kernel::claim::{AtlasClaim, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::prover::check_cell;
@@ -181,9 +181,17 @@ fn a_map_says_what_is_true() {
         }
     }
     let words = statement(&own);
-    for sentence in ["psi_max in [6/5, 4]", "to (side*(3-sqrt(3))/2, ", "psi_i <= psi_max"] {
+    for sentence in ["<psi_max> in [6/5, 4]", "to (<side>*(3-sqrt(3))/2, ", "psi_i <= <psi_max>"] {
         assert!(words.contains(sentence), "{words}");
     }
+    // Of a parameter with the name of a coordinate: "z <= z <= z" would be said of every z.
+    let mut own = own;
+    own.parameters[1].name = "z".to_owned();
+    let [z, radius] = ["z", "1/2"].map(number);
+    let center = [number("0"), number("0")];
+    own.machine.workspace = Workspace::Cylinder { center, radius, z: [z.clone(), z] };
+    let words = statement(&own);
+    assert!(words.contains("<z> in [1/10, 1]") && words.contains("<z> <= z <= <z>"), "{words}");
 }
 
 #[test]

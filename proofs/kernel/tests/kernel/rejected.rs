@@ -255,7 +255,7 @@ fn a_leg_of_length_zero_in_a_redundant_machine() {
 fn the_workspace_at_the_vertices_in_place_of_its_tangent() {
     // rho = z - sqrt(4 - x^2 - y^2) with z >= 2 in a disc about the box's centre: rho_min fails at the
     // centre only. With g at the vertices (negative there) it would seem to hold.
-    let text = r#"{"mechanism":{"formulas":{"coordinates":["x","y","z"],"parameters":[],"definitions":[],"joints":[{"rho":"x"},{"rho":"y"},{"rho":"z-sqrt(4-x^2-y^2)"}]}},"workspace":{"cylinder":{"center":["0","0"],"radius":"1","z":["2","2"]}},"require":[{"quantity":"joint_range","leg":3,"end":"min","bound":"0.01"}]}"#;
+    let text = r#"{"mechanism":{"translational":[{"drive":"planar","direction":["1","0","0"]},{"drive":"planar","direction":["0","1","0"]},{"drive":"slider","direction":["0","0","1"],"anchor":["0","0","0"],"platform":["0","0","0"],"length":"2","mode":"+"}]},"workspace":{"cylinder":{"center":["0","0"],"radius":"1","z":["2","2"]}},"require":[{"quantity":"joint_range","leg":3,"end":"min","bound":"0.01"}]}"#;
     let machine: MachineClaim = claim(text);
     assert!(certify(&machine, 2_000).is_none());
     let problem = Problem::new(&machine).expect("a claim");
@@ -292,6 +292,9 @@ fn formulas_that_are_not_defined_although_their_derivatives_are() {
 
 #[test]
 fn names_and_numbers_that_mean_something_else() {
+    // Of these y is the first coordinate: "x^2 + (y - 1)^2 <= 1" would not be what is shown.
+    let text = r#"{"mechanism":{"formulas":{"coordinates":["y","x","z"],"parameters":[],"definitions":[],"joints":[{"rho":"y"},{"rho":"x"},{"rho":"z"}]}},"workspace":{"cylinder":{"center":["0","1"],"radius":"1","z":["0","1"]}},"require":[{"quantity":"joint_range","leg":1,"end":"max","bound":"1"}]}"#;
+    assert!(Problem::new(&claim(text)).is_err(), "a cylinder about coordinates with other names");
     let good = one("", r#"{"rho":"x"}"#);
     for name in ["", "sqrt", "1", "x y", "\u{0445}", "-x"] {
         let text = good.replace(r#"["x"]"#, &format!(r#"["{name}"]"#));

@@ -37,7 +37,7 @@ fn of_a_users_mechanism() {
             "It is proved:",
             "  l in [199.95, 200.05]",
             "  s = sqrt(l^2-y^2)",
-            "  rho_2 = x+s",
+            "  joint 2: rho_2 = x+s",
             "from (-50, 80) to (50, 160)",
             "every formula is defined",
             "psi_i <= 3 (velocity transmission factors)",
