@@ -8,6 +8,7 @@ use super::error::{Defect, DesignError};
 use super::exactly;
 use super::independence::product;
 use super::number::{exact, less_than_half_a_turn, not_negative, positive};
+use crate::exact::monomial::Monomial;
 use crate::exact::{Exact, NumberErrorKind};
 use orthocert_kernel::claim::Body;
 use orthocert_kernel::number::Expression;
@@ -66,8 +67,11 @@ pub(super) fn rods(
     Ok(vec![with(Some(written(half(-1)?)?)), with(Some(written(half(1)?)?))])
 }
 
-/// Half of `spread` along an axis, or against it.
+/// Half of `spread` along an axis, or against it: in numbers `c sqrt(r)` where these are such.
 fn offset(spread: &Exact, axis: &[Exact], sign: i64) -> Result<Vec<Exact>, NumberErrorKind> {
+    if let Some(short) = in_monomials(spread, axis, sign) {
+        return Ok(short);
+    }
     let mut square = Exact::integer(0);
     for x in axis {
         square = square.plus(product(x, x)?)?;
@@ -75,6 +79,15 @@ fn offset(spread: &Exact, axis: &[Exact], sign: i64) -> Result<Vec<Exact>, Numbe
     let half = product(spread, &Exact::integer(sign))?.over(Exact::integer(2))?;
     let unit = half.over(square.root()?)?;
     axis.iter().map(|x| product(&unit, x)).collect()
+}
+
+fn in_monomials(spread: &Exact, axis: &[Exact], sign: i64) -> Option<Vec<Exact>> {
+    let axis: Vec<Monomial> = axis.iter().map(Monomial::of).collect::<Option<_>>()?;
+    let square = axis.iter().map(Monomial::square).sum();
+    let half =
+        Monomial::of(&product(spread, &Exact::integer(sign)).ok()?.over(Exact::integer(2)).ok()?)?;
+    let unit = half.times(&Monomial::root(square)?.inverse()?);
+    axis.iter().map(|x| unit.times(x).exact()).collect()
 }
 
 fn radius(table: &Table<'_>) -> Result<Expression, DesignError> {

@@ -190,10 +190,23 @@ pub fn briefly(x: &BigRational, digits: u32, toward: Toward) -> String {
     }
 }
 
-/// An exact number in full: as a decimal, if it is one of at most forty places.
+/// An exact number in full: as a decimal, if it is one of at most forty places; a whole number with more
+/// than fifteen zeros at its end with an exponent.
 pub fn exact(x: &Exact) -> String {
     let decimal = x.as_rational().and_then(|x| terminating(x, EXACT_PLACES));
-    decimal.unwrap_or_else(|| x.to_string())
+    decimal.map_or_else(|| x.to_string(), with_exponent)
+}
+
+fn with_exponent(decimal: String) -> String {
+    let digits = decimal.trim_start_matches('-');
+    let mantissa = digits.trim_end_matches('0');
+    if digits.contains('.') || digits.len() - mantissa.len() <= 15 || mantissa.is_empty() {
+        return decimal;
+    }
+    let sign = if decimal.starts_with('-') { "-" } else { "" };
+    let (first, rest) = mantissa.split_at(1);
+    let point = if rest.is_empty() { "" } else { "." };
+    format!("{sign}{first}{point}{rest}e{}", digits.len() - 1)
 }
 
 /// A double near `x`; `None` where there is none.
@@ -206,10 +219,16 @@ pub fn approximate(x: &Exact) -> Option<f64> {
 }
 
 /// A double with so many significant digits, positional or with an exponent like [`rounded`],
-/// without trailing zeros.
+/// without trailing zeros. Of what no double is, words.
 pub fn significant(value: f64, digits: u32) -> String {
     if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 { "0".to_owned() } else { value.to_string() };
+        let words = match value {
+            0.0 => "0",
+            f64::INFINITY => "over 1e308",
+            f64::NEG_INFINITY => "under -1e308",
+            _ => "not computed",
+        };
+        return words.to_owned();
     }
     let scientific = format!("{value:.*e}", digits.max(1) as usize - 1);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
@@ -287,6 +306,25 @@ mod tests {
             let x = exact(text);
             assert_eq!(rounded(&x, 4, Toward::Below), below, "{text}");
             assert_eq!(rounded(&x, 4, Toward::Above), above, "{text}");
+        }
+    }
+
+    #[test]
+    fn long_whole_numbers_have_an_exponent_and_stay_exact() {
+        for (text, shown) in [
+            ("3.107e162", "3.107e162"),
+            ("-7e400", "-7e400"),
+            ("1e16", "1e16"),
+            ("1e15", "1000000000000000"),
+            ("120000000000000001", "120000000000000001"),
+            ("0", "0"),
+        ] {
+            let x = Exact::parse(text, 1000).unwrap();
+            assert_eq!(super::exact(&x), shown);
+            assert_eq!(exact(shown), exact(text));
+        }
+        for (x, shown) in [(f64::INFINITY, "over 1e308"), (f64::NAN, "not computed")] {
+            assert_eq!(significant(x, 3), shown);
         }
     }
 

@@ -21,6 +21,7 @@
 
 pub mod arithmetic;
 pub mod decimal;
+pub mod monomial;
 mod operand;
 mod read;
 

@@ -54,6 +54,9 @@ pub fn exactly(x: &Expression) -> Option<Exact> {
     Exact::parse(&x.to_string(), MOST_DIGITS).ok()
 }
 
+/// The name of what is under the roots of a leg's closure.
+pub const RADICAND: &str = "least radicand";
+
 /// Pairs of bodies along one leg of which one is beside it, counted from one, in the order of their obligations.
 fn along_one_leg(bodies: &[Body]) -> impl Iterator<Item = [usize; 2]> + '_ {
     let leg = |body: &Body| match body {
@@ -97,7 +100,7 @@ impl<'a> Facts<'a> {
     ) -> (String, Option<&'static str>, &'static str, Vec<Expression>) {
         let Some(bounded) = self.bounded(quality) else {
             let name = match quality {
-                Quality::Reach => "least radicand",
+                Quality::Reach => RADICAND,
                 Quality::Determinant => "least |det M|",
                 Quality::Obligation(_) => "least sigma_min(M)",
             };
@@ -322,7 +325,12 @@ impl<'a> Facts<'a> {
         let touch = self.bounded(quality).is_some_and(|bounded| bounded.is_clearance());
         let value = value.map(|value| if touch { value.max(0.0) } else { value });
         let Some(value) = value.and_then(BigRational::from_f64) else {
-            return Some(format!("{name} has no bound: M is singular there"));
+            // Beyond the doubles nothing is known of it but what is refuted.
+            let is_near = |x: &Expression| exactly(x).as_ref().and_then(approximate).is_some();
+            return Some(match witness.point.iter().all(is_near) {
+                true => format!("{name} has no bound: M is singular there"),
+                false => format!("{name} {} {}", &reverse[..1], shown(sides.first()?)),
+            });
         };
         let texts = PARTS.into_iter().flat_map(|part| {
             let part = BigRational::from_f64(part).unwrap_or_else(|| bound.clone());
