@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let acceleration = asked("--acceleration", &arguments.acceleration, "14000")?;
     let gap = arguments.gap.as_deref().map(gap).transpose()?;
     let budget = effort.budget(started)?;
-    let design = input::design(arguments.design.as_deref())?;
+    let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     let claim = &design.claim;
     let turns = claim.orientation.is_some();
     let of_widths = effort.budget_or(effort::boxes_of(claim, BOXES), started)?;

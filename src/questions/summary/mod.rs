@@ -1,17 +1,19 @@
 //! What a designer reads first: how far the quantities of a machine go, and which requirement is nearest
 //! to its limit.
 //!
-//! | module    | does                                                                |
-//! |-----------|---------------------------------------------------------------------|
-//! | `asked`   | which quantities                                                    |
-//! | `nearest` | the requirement with the least margin                               |
-//! | `shares`  | what each tolerance adds to the inaccuracy                          |
-//! | [`text`]  | the answer for people                                               |
+//! | module      | does                                                              |
+//! |-------------|-------------------------------------------------------------------|
+//! | `asked`     | which quantities                                                  |
+//! | `deviation` | how far a platform that turns is off, in position and angle       |
+//! | `nearest`   | the requirement with the least margin                             |
+//! | `shares`    | what each tolerance adds to the inaccuracy                        |
+//! | [`text`]    | the answer for people                                             |
 //!
 //! Every value stands beside the certificates that the exact checker has accepted for it; what is only
 //! sampled is named `seen`.
 
 mod asked;
+mod deviation;
 mod nearest;
 mod shares;
 pub mod text;
@@ -23,7 +25,7 @@ pub use shares::{Share, Shares};
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
-use crate::search::solver::extremes::{enclose, is_singular, Enclosed, NotEnclosed};
+use crate::search::solver::extremes::{enclose, is_singular, reached, Enclosed, NotEnclosed};
 use crate::search::solver::value::Bounded;
 use crate::search::solver::{sector, Verification};
 use crate::search::{Budget, Control, Steps};
@@ -160,6 +162,8 @@ pub fn summary(
         known => known?,
     };
     let mut found = Vec::new();
+    // Distance and angle are found together.
+    let mut off: Option<Result<[End; 2], NotEnclosed>> = None;
     for asked in all {
         left -= 1;
         let ends = match &asked {
@@ -175,6 +179,20 @@ pub fn summary(
             }
             _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
             _ if is_over(budget) => Err(NotEnclosed::Undecided),
+            Asked::Extreme(extreme)
+                if deviation::is_one_of_two(claim, &extreme.bounded().requirement) =>
+            {
+                // The distance has its bound as a question, the angle the claim's own requirement.
+                let own = claim.require.iter().find(|own| own.quantity == "accuracy");
+                let both = off.get_or_insert_with(|| {
+                    let own = own.ok_or(NotEnclosed::Undecided)?;
+                    steps.next(control, left, |control| {
+                        deviation::deviation(claim, own, &question.gap, budget, control)
+                    })
+                });
+                let at = usize::from(extreme.bounded().angle);
+                both.clone().map(|both| vec![both[at].clone()])
+            }
             Asked::Extreme(extreme) => {
                 let found = steps.next(control, left, |control| {
                     enclose(claim, extreme, &question.gap, budget, control)
@@ -198,7 +216,7 @@ pub fn summary(
         if let Err(error @ NotEnclosed::Claim(_)) = ends {
             return Err(error);
         }
-        let ends = if certified { tightened(claim, &asked, ends) } else { ends };
+        let ends = if certified { tightened(claim, &asked, ends, &question.gap) } else { ends };
         found.push(Found { asked, ends });
     }
     let facts = Facts::new(claim, &problem);
@@ -236,6 +254,7 @@ fn tightened(
     claim: &MachineClaim,
     asked: &Asked,
     mut ends: Result<Vec<End>, NotEnclosed>,
+    gap: &BigRational,
 ) -> Result<Vec<End>, NotEnclosed> {
     let Asked::Extreme(extreme) = asked else { return ends };
     let (one, leg) = (&extreme.bounded().requirement, extreme.bounded().leg.map(|leg| leg + 1));
@@ -261,7 +280,8 @@ fn tightened(
             }
         }
         Err(NotEnclosed::Undecided) => {
-            ends = Ok(vec![End { certified: bound, reached: None, relative: None }]);
+            let reached = reached(claim, extreme, gap).ok().and_then(|(_, reached)| reached);
+            ends = Ok(vec![End { certified: bound, reached, relative: None }]);
         }
         Err(_) => {}
     }

@@ -136,7 +136,7 @@ fn rows(values: &[Value]) -> Vec<Row> {
         let inner = |value: &Value| match (&value.reached, value.end) {
             (Some(x), "least") => outward(x, DIGITS, Toward::Above),
             (Some(x), _) => outward(x, DIGITS, Toward::Below),
-            (None, _) => "?".to_owned(),
+            (None, _) => "not found".to_owned(),
         };
         let outer = |value: &Value| match (&value.certified, value.end) {
             (Some(x), "least") => Ok(outward(x, DIGITS, Toward::Below)),

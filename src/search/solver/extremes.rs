@@ -12,7 +12,7 @@ use super::{accepted, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, One, Zero};
+use num_traits::{FromPrimitive, One, Signed, Zero};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement, Workspace};
 use orthocert_kernel::input::ClaimError;
@@ -220,7 +220,7 @@ impl Extreme {
             ("joint_range", Some(leg)) => format!("rho_{}", leg + 1),
             ("conditioning", _) => "sigma_max/sigma_min".to_owned(),
             ("serial_margin", _) => "|eta_i|/L_i".to_owned(),
-            ("parallel_margin", _) => "|det A|/(L1 L2 L3)".to_owned(),
+            ("parallel_margin", _) => "|det A|/(L_1 .. L_n)".to_owned(),
             ("joint_speed", _) => "joint/tool speed".to_owned(),
             (_, Some(leg)) => format!("{} {}", quantity.replace('_', " "), leg + 1),
             (_, None) => quantity.replace('_', " "),
@@ -345,6 +345,37 @@ pub fn enclose(
         width *= BigRational::from_integer(looser.into());
     }
     Err(NotEnclosed::Undecided)
+}
+
+/// The worst that sampling finds of an extreme, and a bound near it, at a relative distance of `relative` or more
+/// up to [`loosest`], that is refuted as a certificate says.
+///
+/// # Errors
+/// See [`NotEnclosed`].
+pub fn reached(
+    claim: &MachineClaim,
+    extreme: &Extreme,
+    relative: &BigRational,
+) -> Result<(f64, Option<BigRational>), NotEnclosed> {
+    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
+    let known = Found::worst(&probe, extreme)?;
+    let mut width = relative.clone();
+    while width <= loosest() {
+        let (inner, _) =
+            ends(extreme, known.value, &(&width * known.size()?)).ok_or(NotEnclosed::Undecided)?;
+        let claim = extreme.claim(claim, &inner).filter(|claim| Problem::new(claim).is_ok());
+        if claim.is_some_and(|claim| refute(&claim, &known.place).is_some()) {
+            return Ok((known.value, Some(inner)));
+        }
+        width *= BigRational::from_integer(2.into());
+    }
+    Ok((known.value, None))
+}
+
+/// A decimal near a value times `factor`; none of zero.
+pub fn beyond(value: f64, factor: &BigRational) -> Option<BigRational> {
+    let value = BigRational::from_f64(value).filter(|value| !value.is_zero())? * factor;
+    Some(rounded(&value, &(value.abs() / BigRational::from_integer(10.into()))))
 }
 
 /// The budget after which a width is given up.

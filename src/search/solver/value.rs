@@ -380,7 +380,7 @@ impl Bounded {
 }
 
 /// The claim of these requirements alone; its bodies are claimed where their clearance is.
-pub(super) fn alone(claim: &MachineClaim, require: Vec<Requirement>) -> MachineClaim {
+pub(crate) fn alone(claim: &MachineClaim, require: Vec<Requirement>) -> MachineClaim {
     let mut claim = MachineClaim { require, ..claim.clone() };
     if claim.require.iter().all(|own| own.quantity != "clearance") {
         claim.bodies.clear();

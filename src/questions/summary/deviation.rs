@@ -1,0 +1,70 @@
+//! How far a platform that turns in space is off, in position and angle at once: either bound is sharp only
+//! where the other is of one size with what is so.
+
+use super::End;
+use crate::search::solver::extremes::{beyond, reached, Extreme, NotEnclosed};
+use crate::search::solver::{proof, value};
+use crate::search::{Budget, Control, Steps, Stop};
+use num_rational::BigRational;
+use num_traits::Signed;
+use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement};
+
+/// What both bounds are tried at, in parts of a hundred of the worst that is seen: of one that fails, no
+/// tighter one is tried.
+const OF_WORST: [i64; 6] = [400, 200, 150, 135, 125, 115];
+
+/// Whether this is one of the two bounds of an accuracy.
+pub fn is_one_of_two(claim: &MachineClaim, own: &Requirement) -> bool {
+    matches!(claim.mechanism, Mechanism::Spatial(_))
+        && own.quantity == "accuracy"
+        && own.given.contains_key("max_angle")
+}
+
+/// The ends of the distance and of the angle that go with `own`, an accuracy of which
+/// [`is_one_of_two`] holds: one claim with both bounds, certified.
+///
+/// # Errors
+/// See [`NotEnclosed`].
+pub fn deviation(
+    claim: &MachineClaim,
+    own: &Requirement,
+    gap: &BigRational,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<[End; 2], NotEnclosed> {
+    let claim = value::alone(claim, vec![own.clone()]);
+    let distance = Extreme::on(own.clone(), None).ok_or(NotEnclosed::Undecided)?;
+    let angle = Extreme::angle(&claim, own).ok_or(NotEnclosed::Undecided)?;
+    let worst = [reached(&claim, &distance, gap)?, reached(&claim, &angle, gap)?];
+    let mut steps = Steps::default();
+    let mut best = Err(NotEnclosed::Undecided);
+    for (number, part) in OF_WORST.into_iter().enumerate() {
+        let factor = BigRational::new(part.into(), 100.into());
+        let bounds = worst.each_ref().map(|(seen, _)| beyond(*seen, &factor));
+        let [Some(off), Some(turned)] = &bounds else { break };
+        let Some(both) = bounded(own, [off, turned]) else { break };
+        let both = value::alone(&claim, vec![both]);
+        match steps.next(control, OF_WORST.len() - number, |control| proof(&both, budget, control))
+        {
+            Ok(_) => best = Ok([off.clone(), turned.clone()]),
+            Err(Stop::Cancelled) if best.is_err() => return Err(NotEnclosed::Cancelled),
+            Err(_) => break,
+        }
+    }
+    let [off, turned] = worst;
+    let end = |certified: BigRational, (_, reached): (f64, Option<BigRational>)| {
+        let relative = reached.as_ref().filter(|_| certified.is_positive());
+        let relative = relative.map(|reached| (&certified - reached) / &certified);
+        End { certified, reached, relative }
+    };
+    best.map(|[one, other]| [end(one, off), end(other, turned)])
+}
+
+/// The requirement with both bounds.
+fn bounded(own: &Requirement, [off, turned]: [&BigRational; 2]) -> Option<Requirement> {
+    let number = crate::search::solver::number;
+    let mut own = own.clone();
+    own.bound = Bound::Max(number(off)?);
+    own.given.insert("max_angle".to_owned(), vec![number(turned)?]);
+    Some(own)
+}
