@@ -664,7 +664,7 @@ def toml(x):
 
 REQUIREMENT = {
     "psi": "transmission", "sigma_max/sigma_min": "conditioning", "|eta_i|/L_i": "serial_margin",
-    "|det A|/(L1 L2 L3)": "parallel_margin", "leg angle": "leg_angle", "joint/tool speed": "joint_speed",
+    "|det A|/(L_1 .. L_n)": "parallel_margin", "leg angle": "leg_angle", "joint/tool speed": "joint_speed",
     "stiffness": "stiffness", "joint acceleration": "joint_acceleration", "joint force": "joint_force",
     "accuracy": "accuracy", "accuracy of the angle": "accuracy", "clearance": "clearance",
     "base joint": "base_joint", "platform joint": "platform_joint", "constraint margin": "constraint_margin",

@@ -10,7 +10,7 @@ use crate::exact::Exact;
 use crate::files::digest::sha256;
 use crate::files::folder::{self, FolderError, SUMS};
 use crate::files::output;
-use crate::files::read::Named;
+use crate::files::read::{beside, Named};
 use crate::jobs::batch::plan::identity;
 use crate::questions::atlas::{
     self, Bound, Growing, Kept, KeptError, Stopped, Top, Widest, FORMAT,
@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let design = AtlasDesign::read(&arguments.atlas).map_err(Failure::input)?;
     let folder = match &arguments.output {
         Some(folder) => folder.clone(),
-        None => arguments.atlas.with_extension("atlas"),
+        None => beside(&arguments.atlas).with_extension("atlas"),
     };
     probe(&folder)?;
     let timeout = arguments.timeout.as_deref().map(|text| time("--timeout", text)).transpose()?;

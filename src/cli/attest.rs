@@ -39,6 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     // What is hashed is what is read: the bytes are taken once.
     let design_bytes = Design::bytes(design_path).map_err(Failure::input)?;
     let design = Design::of(&design_bytes, design_path).map_err(Failure::input)?;
+    input::tell_notes(&design, Some(design_path), false);
     let certificate_bytes = input::certificate(path)?;
     let (certificate, accepted) = match examine(&certificate_bytes, Some(&design)) {
         Ok(examined) => examined,

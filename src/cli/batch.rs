@@ -217,7 +217,9 @@ fn attempt(
 /// What a report says, as an entry.
 fn known(design: &Design, report: Report, status: Status) -> Entry {
     let (verdict, message) = match status {
-        Status::Decided(verdict) => (verdict.into(), None),
+        Status::Decided(verdict) => {
+            (verdict.into(), Some(report.notes.join("; ")).filter(|notes| !notes.is_empty()))
+        }
         _ => (Ending::Undecided, Some(undecided(&report))),
     };
     let known = match (status, &report.counterexample) {

@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
     let relative = relative(&arguments.relative)?;
-    let design = input::design(arguments.design.as_deref())?;
+    let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("bounds.cert.json"))?;
         arguments.design.as_deref().map_or(Ok(()), |design| input::apart_in(folder, design))?;

@@ -100,6 +100,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     // The design first: what is wrong with it is no defect of the certificate.
     let design = arguments.design.as_deref().map(Design::read).transpose();
     let design = design.map_err(Failure::input)?;
+    if let Some(design) = &design {
+        input::tell_notes(design, arguments.design.as_deref(), arguments.quiet);
+    }
     let begun = Begun::new(&arguments.certificate)?;
     if paving::is_paving(&begun.start) {
         if arguments.formulas {
@@ -320,12 +323,28 @@ fn another_claim(certified: &Claim, designed: &Claim) -> String {
     match (serde_json::to_value(certified), serde_json::to_value(designed)) {
         (Ok(certified), Ok(designed)) => match difference(&certified, &designed, "claim") {
             Some((key, found, wanted)) => {
+                let key = key_of_design(&key);
                 format!("{same}: {key} is {found} in the certificate and {wanted} in the design")
             }
             None => same.to_owned(),
         },
         _ => same.to_owned(),
     }
+}
+
+/// A key of a claim as a design has it, where both have the same numbers.
+fn key_of_design(key: &str) -> String {
+    const ALIKE: [(&str, &str); 6] = [
+        ("mechanism.translational.", "mechanism.legs."),
+        ("mechanism.formulas.", "mechanism."),
+        ("mechanism.planar.", "mechanism."),
+        ("mechanism.spatial.", "mechanism."),
+        ("mechanism.spherical.", "mechanism."),
+        ("workspace.box.", "workspace."),
+    ];
+    let Some(own) = key.strip_prefix("claim.machine.") else { return key.to_owned() };
+    let alike = ALIKE.iter().find_map(|(claim, design)| Some((own.strip_prefix(claim)?, design)));
+    alike.map_or_else(|| own.to_owned(), |(rest, design)| format!("{design}{rest}"))
 }
 
 /// The first place at which two values differ, and what stands there.
@@ -349,7 +368,7 @@ fn difference(one: &Value, other: &Value, key: &str) -> Option<(String, String, 
         // Where one list goes on, what the other lacks is absent.
         (Value::Array(a), Value::Array(b)) => (0..a.len().max(b.len())).find_map(|i| {
             let of = |list: &[Value]| list.get(i).cloned().unwrap_or(Value::Null);
-            difference(&of(a), &of(b), &format!("{key}[{}]", i + 1))
+            difference(&of(a), &of(b), &format!("{key}.{i}"))
         }),
         _ if one == other => None,
         _ => Some((key.to_owned(), shown(one), shown(other))),

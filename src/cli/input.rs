@@ -1,9 +1,9 @@
 //! Reading what commands are given: designs, certificates and numbers.
 
-use super::Failure;
+use super::{print, Failure};
 use crate::design::{may_be_tolerance, Design};
 use crate::exact::Exact;
-use crate::files::read::{read, Named};
+use crate::files::read::{meant, read, Named};
 use orthocert_checker::certificate::MOST_BYTES;
 use orthocert_checker::file;
 use std::fs::{self, File};
@@ -13,12 +13,21 @@ use std::path::{Path, PathBuf};
 /// Most digits of a literal on the command line, as in design files.
 const MAX_DIGITS: usize = 1000;
 
-/// The design of a file; without one, the prototype of the paper.
-pub fn design(path: Option<&Path>) -> Result<Design, Failure> {
-    match path {
-        Some(path) => Design::read(path).map_err(Failure::input),
-        None => Ok(Design::prototype()),
-    }
+/// The design of a file; without one, the prototype of the paper. What its claim leaves out is told,
+/// unless `quiet`.
+pub fn design(path: Option<&Path>, quiet: bool) -> Result<Design, Failure> {
+    let design = match path {
+        Some(path) => Design::read(path).map_err(Failure::input)?,
+        None => Design::prototype(),
+    };
+    tell_notes(&design, path, quiet);
+    Ok(design)
+}
+
+/// Tells what a design has and its claim has not.
+pub fn tell_notes(design: &Design, path: Option<&Path>, quiet: bool) {
+    let Some(path) = path.filter(|_| !quiet) else { return };
+    design.notes().iter().for_each(|note| print::diagnostic(&format!("{}: {note}", path.shown())));
 }
 
 /// The bytes of a certificate, one more than are admissible at most: the checker refuses those.
@@ -49,7 +58,7 @@ impl Begun {
             return Err(unreadable(&"it is a folder; accepted: a certificate or a paving"));
         }
         let mut start = Vec::new();
-        let mut rest = file::reader(path).map_err(|error| unreadable(&error))?;
+        let mut rest = file::reader(meant(path)).map_err(|error| unreadable(&error))?;
         let read = rest.by_ref().take(MOST_BYTES as u64 + 1).read_to_end(&mut start);
         read.map_err(|error| unreadable(&error))?;
         Ok(Begun { start, rest })

@@ -5,6 +5,7 @@ use crate::design::{written, Design};
 use crate::exact::decimal::{grouped, readable, significant};
 use crate::exact::Exact;
 use crate::files::output;
+use crate::files::read::beside;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
 use crate::report::text::{duration, labelled, verbatim};
 use crate::report::{counterexample, CertificateFile, Counterexample};
@@ -94,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let gap = gap(&arguments.gap)?;
     let side = arguments.side.as_deref().map(side).transpose()?;
     let budget = effort.budget(started)?;
-    let design = Design::read(&arguments.design).map_err(Failure::input)?;
+    let design = input::design(Some(&arguments.design), effort.quiet)?;
     let claim = boxed(&design)?;
     let turns = claim.orientation.is_some();
     let beyond = if turns { "refuted-cube" } else { "no-cube" };
@@ -108,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         Some(side) => cube_of_side(claim, side, budget, control),
         None => largest_cube(claim, gap, budget, control),
     });
-    let bracket = found.map_err(size::explain)?;
+    let bracket = found.map_err(|error| size::explain(error, &design))?;
     if bracket.inside.is_none() && bracket.too_large.is_none() && interrupt::is_cancelled() {
         return Err(Failure::Interrupted);
     }
@@ -158,16 +159,15 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
 
 fn boxed(design: &Design) -> Result<&MachineClaim, Failure> {
     let claim = &design.claim;
-    let found = match &claim.workspace {
+    let (key, found) = match &claim.workspace {
         Workspace::Box { min, .. } if min.len() == 3 => return Ok(claim),
-        Workspace::Box { .. } => "box of other coordinates than three",
-        Workspace::Cylinder { .. } => "cylinder",
-        Workspace::Cube { .. } => "cube",
+        Workspace::Box { .. } => ("workspace.min", "a box of other coordinates than three"),
+        Workspace::Cylinder { .. } => ("workspace.cylinder", "a cylinder"),
+        Workspace::Cube { .. } => ("workspace.cube", "a cube"),
     };
-    Err(Failure::Input(format!(
-        "[workspace]: found a {found}; accepted: a box of three coordinates, min and max, in which the \
-         centres are"
-    )))
+    let accepted =
+        "of largest-cube, a box of three coordinates, min and max, in which the centres are";
+    Err(Failure::Input(design.refused(key, found, accepted)))
 }
 
 fn stored(
@@ -208,11 +208,12 @@ fn side(text: &str) -> Result<Expression, Failure> {
 
 impl Arguments {
     fn target(&self, name: &str) -> PathBuf {
-        let mut file = self.design.file_stem().unwrap_or_default().to_owned();
+        let design = beside(&self.design);
+        let mut file = design.file_stem().unwrap_or_default().to_owned();
         file.push(format!(".{name}.cert.json"));
         match &self.output {
             Some(folder) => folder.join(file),
-            None => self.design.with_file_name(file),
+            None => design.with_file_name(file),
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::design::{text_of, Design, Variable};
 use crate::exact::decimal::{exact, grouped, significant};
 use crate::exact::Exact;
 use crate::files::output;
+use crate::files::read::beside;
 use crate::files::shown::Shown;
 use crate::questions::limit::Side;
 use crate::questions::limit::{
@@ -139,6 +140,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let budget = effort.budget(started)?;
     let bytes = Design::bytes(&arguments.design).map_err(Failure::input)?;
     let design = Design::of(&bytes, &arguments.design).map_err(Failure::input)?;
+    input::tell_notes(&design, Some(&arguments.design), effort.quiet);
     let text = text_of(&bytes, &arguments.design).map_err(Failure::input)?;
     let name = arguments.design.to_string_lossy();
     let variable = Variable::find(text, &name, &arguments.key).map_err(Failure::input)?;
@@ -165,7 +167,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let own = bar.run("own value", 20, |control| {
         DesignFamily { variable, budget, control }.decide(&design.claim, [0.0, 1.0])
     });
-    let own = own.map_err(explain)?;
+    let own = own.map_err(|error| explain(error, &design))?;
     if own.is_none() && interrupt::is_cancelled() {
         return Err(Failure::Interrupted);
     }
@@ -177,7 +179,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
         limits(&question, own, &mut DesignFamily { variable, budget, control })
     });
     drop(bar);
-    let limits = found.map_err(explain)?;
+    let limits = found.map_err(|error| explain(error, &design))?;
     let rows = limits.into_iter().map(|limit| row(arguments, &question, variable.own(), limit));
     let answer = Answer {
         title: design.title.clone(),
@@ -212,11 +214,12 @@ const ENDS: [(&str, &str); 4] =
 
 impl Arguments {
     fn target(&self, side: &str, verdict: &str) -> PathBuf {
-        let mut file = self.design.file_stem().unwrap_or_default().to_owned();
+        let design = beside(&self.design);
+        let mut file = design.file_stem().unwrap_or_default().to_owned();
         file.push(format!(".limit-{side}-{verdict}.cert.json"));
         match &self.output {
             Some(folder) => folder.join(file),
-            None => self.design.with_file_name(file),
+            None => design.with_file_name(file),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::design::{written, Design};
 use crate::exact::Exact;
 use crate::files::digest::Summed;
 use crate::files::output::{self, OutputError};
-use crate::files::read::Named;
+use crate::files::read::{beside, Named};
 use crate::jobs::batch::plan::identity;
 use crate::report::paving::PavingReport;
 use crate::search::paving::{
@@ -84,12 +84,11 @@ pub struct Arguments {
 /// Runs it.
 pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
-    let design = Design::read(&arguments.design).map_err(Failure::input)?;
-    let claim = &design.claim;
-    let claim = &searched(claim, arguments.search_box.as_deref())?;
-    let coordinates = chosen(claim, arguments.coordinates.as_deref())?;
+    let design = input::design(Some(&arguments.design), arguments.quiet)?;
+    let claim = &searched(&design.claim, arguments.search_box.as_deref())?;
+    let coordinates = chosen(&design, claim, arguments.coordinates.as_deref())?;
     let coordinates = coordinates.as_deref();
-    let goal = arguments.goal(claim, coordinates)?;
+    let goal = arguments.goal(&design, claim, coordinates)?;
     let target = arguments.target()?;
     output::probe(&target)?;
     output::probe(&unfinished(&target))?;
@@ -183,7 +182,11 @@ fn coordinates(claim: &MachineClaim) -> (usize, Vec<String>) {
 }
 
 /// The coordinates that `--coordinates` names, where it does, and where these are not all.
-fn chosen(claim: &MachineClaim, text: Option<&str>) -> Result<Option<Vec<String>>, Failure> {
+fn chosen(
+    design: &Design,
+    claim: &MachineClaim,
+    text: Option<&str>,
+) -> Result<Option<Vec<String>>, Failure> {
     let names = names(claim);
     let known: Vec<String> = names.iter().flatten().cloned().collect();
     let list = match &claim.orientation {
@@ -194,12 +197,18 @@ fn chosen(claim: &MachineClaim, text: Option<&str>) -> Result<Option<Vec<String>
     };
     let Some(text) = text else {
         return match claim.orientation.is_some() || names.len() > 3 {
-            true => Err(Failure::Input(format!(
-                "[workspace]: found {} coordinates{}; accepted: up to three without orientation, or \
-                 --coordinates NAME,.. with up to three to be paved for all values of the others: {list}",
-                names.len(),
-                if claim.orientation.is_some() { ", with orientation" } else { "" }
-            ))),
+            true => {
+                let found = format!(
+                    "{} coordinates{}",
+                    names.len(),
+                    if claim.orientation.is_some() { ", with orientation" } else { "" }
+                );
+                let accepted = format!(
+                    "of pave, up to three without orientation, or --coordinates NAME,.. with up to three \
+                     to be paved for all values of the others: {list}"
+                );
+                Err(Failure::Input(design.refused("workspace", &found, &accepted)))
+            }
             false => Ok(None),
         };
     };
@@ -224,8 +233,14 @@ fn expression(number: &Exact) -> Result<Expression, Failure> {
 }
 
 impl Arguments {
-    fn goal(&self, claim: &MachineClaim, coordinates: Option<&[String]>) -> Result<Goal, Failure> {
-        is_a_box(claim, coordinates)?;
+    fn goal(
+        &self,
+        design: &Design,
+        claim: &MachineClaim,
+        coordinates: Option<&[String]>,
+    ) -> Result<Goal, Failure> {
+        is_a_box(design, claim, coordinates)?;
+        at_a_point(design)?;
         let depth = self.precision.as_deref();
         let depth = depth.map(|edge| depth_to(claim, coordinates, edge)).transpose()?;
         let gap = match (&self.volume_gap, depth) {
@@ -240,7 +255,8 @@ impl Arguments {
 
     /// Where the paving goes, which is not the design, nor is its unfinished file.
     fn target(&self) -> Result<PathBuf, Failure> {
-        let target = self.output.clone().unwrap_or_else(|| self.design.with_extension("paving"));
+        let target =
+            self.output.clone().unwrap_or_else(|| beside(&self.design).with_extension("paving"));
         let target = regular(&target)?;
         let design = identity(&self.design);
         if identity(&target) == design {
@@ -278,17 +294,32 @@ pub fn not_taken_up(part: &Path, begins: &[u8], what: &str) -> Result<(), Failur
 }
 
 /// Demands a box as the workspace; of a cylinder, z may be paved for all x and y.
-fn is_a_box(claim: &MachineClaim, coordinates: Option<&[String]>) -> Result<(), Failure> {
-    let found = match claim.workspace {
+fn is_a_box(
+    design: &Design,
+    claim: &MachineClaim,
+    coordinates: Option<&[String]>,
+) -> Result<(), Failure> {
+    let (key, found) = match claim.workspace {
         Workspace::Cylinder { .. } if coordinates.is_some() => return Ok(()),
         Workspace::Box { .. } => return Ok(()),
-        Workspace::Cylinder { .. } => "cylinder",
-        Workspace::Cube { .. } => "cube",
+        Workspace::Cylinder { .. } => ("workspace.cylinder", "a cylinder"),
+        Workspace::Cube { .. } => ("workspace.cube", "a cube"),
     };
-    Err(Failure::Input(format!(
-        "[workspace]: found a {found}; accepted: a box, min and max, or --box X0,X1,Y0,Y1,Z0,Z1, the \
-         box that is searched"
-    )))
+    let accepted =
+        "of pave, a box, min and max, or --box X0,X1,Y0,Y1,Z0,Z1, the box that is searched";
+    Err(Failure::Input(design.refused(key, found, accepted)))
+}
+
+/// Refuses the requirement that is about two points at a time.
+fn at_a_point(design: &Design) -> Result<(), Failure> {
+    match design.claim.require.iter().any(|own| own.quantity == "one_to_one") {
+        false => Ok(()),
+        true => Err(Failure::Input(design.refused(
+            "requirements.one_to_one",
+            "a requirement on two points at a time, which has no region",
+            "of pave, requirements that hold at a point or fail there",
+        ))),
+    }
 }
 
 fn positive(option: &str, text: &str) -> Result<Exact, Failure> {
@@ -300,7 +331,9 @@ fn positive(option: &str, text: &str) -> Result<Exact, Failure> {
 }
 
 /// The depth at which boxes have the edges that `--precision` asks for.
-pub fn depth(claim: &MachineClaim, precision: &str) -> Result<u32, Failure> {
+pub fn depth(design: &Design, claim: &MachineClaim, precision: &str) -> Result<u32, Failure> {
+    is_a_box(design, claim, None)?;
+    at_a_point(design)?;
     depth_to(claim, None, precision)
 }
 
@@ -309,7 +342,6 @@ fn depth_to(
     coordinates: Option<&[String]>,
     precision: &str,
 ) -> Result<u32, Failure> {
-    is_a_box(claim, coordinates)?;
     if !are_places(claim, coordinates) {
         let refused = format!(
             "--precision: found {precision}, and coordinates that are angles; accepted: --volume-gap"

@@ -72,6 +72,7 @@ impl Task<'_> {
         })?;
         report.title.clone_from(&self.design.title);
         report.length_unit = self.design.unit;
+        report.notes = self.design.notes();
         report.design = self.file.map(|path| path.to_string_lossy().into_owned());
         match file {
             Some((file, cached)) => {

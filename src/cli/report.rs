@@ -113,7 +113,8 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let file = File { name: &name, bytes: &bytes };
     let title = arguments.title.as_deref().or(design.as_ref().and_then(|own| own.title.as_deref()));
     let unit = design.as_ref().and_then(|own| own.unit);
-    let page = Page::new(&certificate, &accepted, file, title, unit);
+    let notes = design.as_ref().map(Design::notes).unwrap_or_default();
+    let page = Page::new(&certificate, &accepted, file, title, unit).noting(notes);
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;

@@ -1,6 +1,7 @@
 //! `orthocert size`, and what it has in common with `orthocert tolerance`.
 
 use super::{certify, effort, input, interrupt, print, Failure, Format, Status};
+use crate::design::Design;
 use crate::exact::decimal::{exact, outward, readable, rounded, Toward};
 use crate::exact::Exact;
 use crate::files::output;
@@ -93,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, 1e-9, 0.1)?;
     let side = side(&arguments.cube)?;
-    let design = input::design(arguments.design.as_deref())?;
+    let design = input::design(arguments.design.as_deref(), effort.quiet)?;
     let claim = &design.claim;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("size.cert.json"))?;
@@ -105,13 +106,13 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let mut bar = effort.bar();
     let family =
         bar.run("place of the cube", 5, |control| Family::new(claim, &side, width, control));
-    let family = family.map_err(explain)?;
+    let family = family.map_err(|error| explain(error, &design))?;
     let found = bar
         .run("this place", 2, |control| family.smallest(width, budget, control))
-        .map_err(explain)?;
+        .map_err(|error| explain(error, &design))?;
     let excluded = bar
         .run("every place", 1, |control| family.excluded(width, budget, control))
-        .map_err(explain)?;
+        .map_err(|error| explain(error, &design))?;
     drop(bar);
     let nothing = found.certified.is_none() && found.refuted.is_none() && excluded.is_none();
     if nothing && interrupt::is_cancelled() {
@@ -166,9 +167,12 @@ pub fn gap(text: &str, least: f64, greatest: f64) -> Result<f64, Failure> {
 }
 
 /// The failure that there is no answer.
-pub fn explain(error: NoAnswer) -> Failure {
+pub fn explain(error: NoAnswer, design: &Design) -> Failure {
     match error {
         NoAnswer::Cancelled => Failure::Interrupted,
+        NoAnswer::Unfit { key, found, accepted } => {
+            Failure::Input(design.refused(&key, &found, accepted))
+        }
         error => Failure::input(error),
     }
 }

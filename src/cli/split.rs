@@ -1,7 +1,7 @@
 //! `orthocert split`.
 
 use super::effort::Work;
-use super::{atlas, pave, print, Failure, Format, Status};
+use super::{atlas, input, pave, print, Failure, Format, Status};
 use crate::cli::progress::Bar;
 use crate::design::{is_atlas, AtlasDesign, Design};
 use crate::exact::decimal::{counted, grouped};
@@ -110,10 +110,10 @@ impl Arguments {
             let design = AtlasDesign::read(&self.job).map_err(Failure::input)?;
             return Ok(Task::Atlas(Box::new(design)));
         }
-        let design = Design::read(&self.job).map_err(Failure::input)?;
+        let design = input::design(Some(&self.job), self.work.quiet)?;
         if let Some(precision) = &self.precision {
             let claim = pave::searched(&design.claim, self.search_box.as_deref())?;
-            let depth = pave::depth(&claim, precision)?;
+            let depth = pave::depth(&design, &claim, precision)?;
             return Ok(Task::Pave(Box::new(Pave { title: design.title, claim, depth })));
         }
         let boxes = usize::try_from(self.max_boxes).unwrap_or(MOST_NODES);

@@ -100,9 +100,9 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let effort = &arguments.effort;
     let width = gap(&arguments.gap, 1e-6, 0.5)?;
-    let design = Design::read(&arguments.design).map_err(Failure::input)?;
+    let design = input::design(Some(&arguments.design), effort.quiet)?;
     let claim = &design.claim;
-    let kinds = named(&arguments.on, claim)?;
+    let kinds = named(&arguments.on, &design)?;
     if let Some(folder) = &arguments.output {
         output::probe(&folder.join("tolerance.cert.json"))?;
         input::apart_in(folder, &arguments.design)?;
@@ -133,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             .run(&words(scheme), left + 1, |control| widest(claim, scheme, width, budget, control));
         let out_of_time = interrupt::is_cancelled()
             || deadline.is_some_and(|deadline| Instant::now() >= deadline);
-        found.map(|found| (found, out_of_time)).map_err(explain)
+        found.map(|found| (found, out_of_time)).map_err(|error| explain(error, &design))
     };
     let mut rows = Vec::new();
     let mut fill = || {
@@ -194,21 +194,22 @@ fn too_large() -> Failure {
 }
 
 /// The kinds that are asked for, in the order of [`Kind::ALL`].
-fn named(on: &[String], claim: &MachineClaim) -> Result<Vec<Kind>, Failure> {
+fn named(on: &[String], design: &Design) -> Result<Vec<Kind>, Failure> {
+    let claim = &design.claim;
     let there = Kind::of(&claim.mechanism);
     if let Mechanism::Orthoglide { .. } = &claim.mechanism {
-        return Err(Failure::Input(
-            "workspace.cube: found the Orthoglide that meets its bounds with equality, which \
-             leaves no room for tolerances; accepted: a design with leg_length, min and max"
-                .to_owned(),
-        ));
+        return Err(Failure::Input(design.refused(
+            "workspace.cube",
+            "the Orthoglide that meets its bounds with equality, which leaves no room for tolerances",
+            "of tolerance, a design with leg_length, min and max",
+        )));
     }
     if there.is_empty() {
-        return Err(Failure::Input(
-            "mechanism: found a machine by formulas, whose parameters are of no kinds; accepted by \
-             this command: a machine of legs"
-                .to_owned(),
-        ));
+        return Err(Failure::Input(design.refused(
+            "mechanism.kind",
+            "a machine by formulas, whose parameters are of no kinds",
+            "of tolerance, a machine of legs; limit says how far any number of a design goes",
+        )));
     }
     for name in on {
         if !there.iter().any(|kind| kind.name() == name.trim()) {
@@ -385,29 +386,35 @@ fn text(
     };
     let limit =
         |row: &Row| row.counterexample.as_ref().map_or(String::new(), |it| it.limit.clone());
-    let names: Vec<String> =
-        rows.iter().map(|row| format!("{}, {}", name(row), measure(row))).collect();
+    let names: Vec<String> = rows.iter().map(name).collect();
     let head = "widest tolerance ± t of";
-    let first = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-    let first = first.max(head.chars().count());
+    let width = |texts: &mut dyn Iterator<Item = usize>, head: &str| {
+        texts.max().unwrap_or(0).max(head.chars().count())
+    };
+    let first = width(&mut names.iter().map(|name| name.chars().count()), head);
+    let second = width(&mut rows.iter().map(|row| measure(row).len()), "in");
+    let end = |x: &Option<Exact>, toward| {
+        x.as_ref().map_or("not found".into(), |t| outward(t, DIGITS, toward))
+    };
+    let ends = |row: &Row| [end(&row.certified, Toward::Below), end(&row.refuted, Toward::Above)];
+    let third = width(&mut rows.iter().flat_map(|row| ends(row).map(|end| end.len())), "certified");
     let mut out = String::new();
     let quiet = arguments.effort.quiet;
     if !quiet {
         let _ = writeln!(
             out,
-            "  {head:first$} {:>9} {:>9} {:>7}  limited by",
-            "certified", "refuted", "gap"
+            "  {head:first$}  {:second$}  {:>third$}  {:>third$}  {:>7}  limited by",
+            "in", "certified", "refuted", "gap"
         );
     }
     for (row, name) in rows.iter().zip(&names) {
-        let end = |x: &Option<Exact>, toward| {
-            x.as_ref().map_or("not found".into(), |t| outward(t, DIGITS, toward))
-        };
-        let (certified, refuted) =
-            (end(&row.certified, Toward::Below), end(&row.refuted, Toward::Above));
+        let [certified, refuted] = ends(row);
         let gap = row.gap.as_deref().unwrap_or("-");
         let mark = if row.out_of_time { " *" } else { "" };
-        let line = format!("  {name:first$} {certified:>9} {refuted:>9} {gap:>7}{mark}");
+        let line = format!(
+            "  {name:first$}  {:second$}  {certified:>third$}  {refuted:>third$}  {gap:>7}{mark}",
+            measure(row)
+        );
         let limit = limit(row);
         let line = match line.chars().count() + 2 + limit.chars().count() {
             0..=WIDTH => format!("{line}  {limit}"),
@@ -426,7 +433,7 @@ fn text(
         &mut out,
         "Every parameter of the kinds named lies within ± t of its nominal value, independently of all \
          others. The design is certified for the t on the left, and refuted, by one machine and point, \
-         for the t on the right.",
+         for the t on the right, which is greater by the gap, a part of the left one.",
         2,
     );
     if rows.iter().any(|row| row.out_of_time) {

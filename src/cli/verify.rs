@@ -65,7 +65,8 @@ fn single(arguments: &Arguments, path: Option<&PathBuf>) -> Result<Status, Failu
     let started = Instant::now();
     let Arguments { output, reprove, verbose, effort, .. } = arguments;
     let budget = effort.budget(started)?;
-    let design = input::design(path.map(PathBuf::as_path))?;
+    // Its report has the notes.
+    let design = input::design(path.map(PathBuf::as_path), true)?;
     let target = target(output.as_deref(), path.map(PathBuf::as_path))?;
     effort.start_threads()?;
     let task = Task {

@@ -45,7 +45,7 @@ pub(super) struct Table<'a> {
 /// A value of a document.
 pub(super) struct Value<'a> {
     pub document: Document<'a>,
-    /// The path of keys and indices that leads to it.
+    /// The path of keys and indices, from 0, that leads to it, as `limit` takes it.
     pub key: String,
     /// Its bytes in the text.
     pub at: Range<usize>,
@@ -114,10 +114,22 @@ impl<'a> Document<'a> {
         self.error(at, (&key, Defect::Syntax), found, expected)
     }
 
-    /// Whether a number of the text has a comma at `at`.
+    /// Whether a number of the text has a comma at `at`, or is the last thing before it and a table's only
+    /// value so far: `{ min = 0,5, max = 2 }`, of which `5` is read as a key.
     fn is_decimal_comma(&self, at: usize) -> bool {
         let digit = |at: usize| self.text.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
-        self.text.as_bytes().get(at) == Some(&b',') && at > 0 && digit(at - 1) && digit(at + 1)
+        let before = self.text.get(..at).unwrap_or_default().trim_end();
+        let decimals = before.trim_end_matches(|c: char| c.is_ascii_digit());
+        let whole = decimals.strip_suffix(',').filter(|_| decimals.len() < before.len());
+        let value = whole.map(|whole| {
+            let number = |c: char| c.is_ascii_digit() || "+-._".contains(c);
+            (whole.ends_with(|c: char| c.is_ascii_digit()), whole.trim_end_matches(number))
+        });
+        let in_table =
+            value.is_some_and(|(is_number, before)| is_number && before.trim_end().ends_with('='));
+        let in_number =
+            self.text.as_bytes().get(at) == Some(&b',') && at > 0 && digit(at - 1) && digit(at + 1);
+        in_number || in_table
     }
 
     /// The key that the byte at `offset` seems to belong to, where the text is not TOML and can only
@@ -262,7 +274,7 @@ impl<'a> Value<'a> {
         let elements = self.inner.as_array().ok_or_else(|| self.wrong_type(accepted))?;
         let all = elements.iter().enumerate().map(|(i, element)| Value {
             document: self.document,
-            key: format!("{}[{}]", self.key, i + 1),
+            key: format!("{}.{i}", self.key),
             at: element.span(),
             inner: element.get_ref(),
         });

@@ -82,9 +82,9 @@ impl DesignError {
         self.report.position
     }
 
-    /// The key, with the tables that it is in: `mechanism.legs[2].length`. Elements are counted
-    /// from 1, so that `legs[1]` is leg 1 and `min[1]` belongs to x. For [`Defect::Syntax`] it is
-    /// the key that the place seems to belong to, or empty.
+    /// The key, with the tables that it is in: `mechanism.legs.1.length`. Elements are counted
+    /// from 0, as in the keys of `limit`: `legs.0` is leg 1, and `min.0` belongs to x. For
+    /// [`Defect::Syntax`] it is the key that the place seems to belong to, or empty.
     pub fn key(&self) -> &str {
         &self.report.key
     }

@@ -16,7 +16,7 @@ pub(super) fn different(values: &[Value<'_>], legs: &[&Leg]) -> Result<(), Desig
     for (j, (value, leg)) in values.iter().zip(legs).enumerate() {
         let same = |other: &&Leg| other == leg && !leg.has_tolerance();
         if let Some(i) = legs.iter().take(j).position(same).filter(|_| value.document.demands()) {
-            let found = format!("a leg that is leg {} once more", i + 1);
+            let found = format!("the leg {} once more", values[i].key);
             let accepted = "legs with independent rows: this one constrains nothing further";
             return Err(value.error(Defect::OutOfDomain, found, accepted));
         }
@@ -33,8 +33,10 @@ pub(super) fn independent(values: &[Value<'_>], legs: [&Leg; 3]) -> Result<(), D
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
         if let (Leg::Planar { direction: u }, Leg::Planar { direction: v }) = (legs[i], legs[j]) {
             if !not_parallel(u, v) {
-                let found =
-                    format!("a direction that is, or may be, parallel to that of leg {}", i + 1);
+                let found = format!(
+                    "a direction that is, or may be, parallel to that of {}",
+                    values[i].key
+                );
                 return dependent(&values[j], "direction", found);
             }
         }

@@ -102,7 +102,7 @@ impl Design {
         let title = root.find("title").map(|title| title.text("a text in quotes")).transpose()?;
         let unit = unit(&root)?;
         let description = description(&root)?;
-        let sources = Sources::of(text, tree.get_ref());
+        let sources = Sources::of((file_name, text), tree.get_ref());
         let claim = description.kernel().ok_or_else(|| too_long(&root))?;
         refusal::compiled(&root, &claim)?;
         let title = title.map(str::to_owned);
@@ -132,6 +132,31 @@ impl Design {
         Ok(Design::parse(text_of(bytes, path)?, &path.to_string_lossy())?)
     }
 
+    /// What is said of this design where a question does not fit it: the sentence of one that is not
+    /// well formed, with file, line and key.
+    pub fn refused(&self, key: &str, found: &str, accepted: &str) -> String {
+        match self.sources.refused(key, found, accepted) {
+            Some(error) => error.to_string(),
+            None => format!("{key}: found {found}; accepted: {accepted}"),
+        }
+    }
+
+    /// What the file has and its claim has not, because no requirement is about it.
+    pub fn notes(&self) -> Vec<String> {
+        let note = |(requirement, keys, about): &(&str, &[&str], &str)| {
+            let there = keys.iter().filter_map(|key| {
+                let key = self.sources.first("mechanism", key)?;
+                Some((self.sources.position(key)?.line, key))
+            });
+            let is_asked = self.sources.position(&format!("requirements.{requirement}")).is_some();
+            let (line, key) = there.min().filter(|_| !is_asked)?;
+            Some(format!(
+                "{key}, line {line}: nothing is claimed of {about}, as [requirements] has no {requirement}"
+            ))
+        };
+        UNASKED.iter().filter_map(note).collect()
+    }
+
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.
     pub fn prototype() -> Self {
         let description = Description {
@@ -150,6 +175,12 @@ impl Design {
         }
     }
 }
+
+/// Requirements that alone are about some keys of a mechanism, and what those describe.
+const UNASKED: [(&str, &[&str], &str); 2] = [
+    ("clearance", &["rod", "bodies"], "rods and bodies"),
+    ("constraint_margin", &["base_axis"], "what keeps the platform from turning"),
+];
 
 /// The text of a file; `path` is for messages only.
 pub fn text_of<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, ReadError> {

@@ -149,13 +149,7 @@ impl<'d> Walk<'_, 'd> {
         let Some(value) = table.find(name) else {
             let there: Vec<String> =
                 table.entries().iter().map(|(name, _)| dotted(path, name)).collect();
-            // Messages about files count elements from 1, in brackets.
-            let counted = name.split_once('[').and_then(|(stem, rest)| {
-                let number: usize = rest.strip_suffix(']')?.parse().ok()?;
-                Some(format!("; elements are counted from 0: {stem}.{}", number.checked_sub(1)?))
-            });
-            let accepted = self.accepted(&there) + &counted.unwrap_or_default();
-            return Err(table.lacks(name, accepted));
+            return Err(table.lacks(name, self.accepted(&there)));
         };
         self.in_value(value, &dotted(path, name), rest)
     }
@@ -219,7 +213,7 @@ impl<'d> Walk<'_, 'd> {
         let one = found.iter().filter_map(|number| Some(number.group(&groups)?.0));
         let all: Vec<&str> = one.chain(found.iter().map(|number| number.key.as_str())).collect();
         // Without the tables that it is in, a key is meant as well as a misspelt one.
-        let key = from_zero(self.key);
+        let key = without_brackets(self.key);
         let end = format!(".{key}");
         let meant = |other: &&&str| {
             let other = other.replace(".*", "");
@@ -240,18 +234,9 @@ fn dotted(path: &str, name: &str) -> String {
     }
 }
 
-/// A key with `[i]`, as messages about designs count elements, from 1, written with `.i` from 0.
-fn from_zero(key: &str) -> String {
-    let mut parts = key.split('[');
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (number, rest) = part.split_once(']').unwrap_or((part, ""));
-        match number.parse::<usize>().ok().and_then(|i| i.checked_sub(1)) {
-            Some(i) => text.push_str(&format!(".{i}{rest}")),
-            None => text.push_str(part),
-        }
-    }
-    text
+/// A key with `[i]` written with `.i`.
+fn without_brackets(key: &str) -> String {
+    key.replace('[', ".").replace(']', "")
 }
 
 /// The keys of an array's elements.

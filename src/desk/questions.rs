@@ -93,7 +93,9 @@ pub fn run<T>(search: impl FnOnce(&mut Control<'_>) -> T) -> T {
 }
 
 fn verdict(text: &str, file: &str, before: &[String]) -> Result<Value, String> {
-    let Design { title, claim, .. } = design(text, file)?;
+    let design = design(text, file)?;
+    let notes = design.notes();
+    let Design { title, claim, .. } = design;
     let mut found = decided(&claim, before)?;
     let written = found.decided().map(|(certificate, _)| as_written(certificate));
     let mut answer = match (written, found.decided()) {
@@ -107,6 +109,7 @@ fn verdict(text: &str, file: &str, before: &[String]) -> Result<Value, String> {
     let proof = found.decided().map(|(certificate, _)| &certificate.proof);
     answer["drawing"] = json!(machine(&claim, proof).map(|picture| picture.inline()));
     answer["title"] = json!(title);
+    answer["notes"] = json!(notes);
     Ok(answer)
 }
 

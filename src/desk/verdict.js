@@ -74,7 +74,8 @@ function show(answer, text, changed) {
     at("headline").textContent = headline;
   }
   at("of").textContent = answer.title ?? "";
-  at("meaning").textContent = meaningOf(answer, state) ?? meaning;
+  const notes = (answer.notes ?? []).map((note) => ` Note: ${note}.`);
+  at("meaning").textContent = (meaningOf(answer, state) ?? meaning) + notes.join("");
   at("refusal").hidden = state !== "refused";
   at("refusal").textContent = answer.refused ?? "";
   at("statement").textContent = answer.statement ?? "Nothing yet.";

@@ -1,10 +1,29 @@
 //! Files that are read, and their names.
 
 use crate::files::shown::Shown;
-use orthocert_checker::file::open;
+use orthocert_checker::file::{is_stream, open};
 use std::ffi::OsStr;
 use std::io::{self, Read};
 use std::path::Path;
+
+/// The file that a name stands for: `-` for standard input.
+pub fn meant(path: &Path) -> &Path {
+    if path == Path::new("-") {
+        Path::new("/dev/stdin")
+    } else {
+        path
+    }
+}
+
+/// Beside what the answers about a file are written: beside itself, about a stream in the current folder, as
+/// if it were called `stdin.toml`.
+pub fn beside(path: &Path) -> &Path {
+    if is_stream(meant(path)) {
+        Path::new("stdin.toml")
+    } else {
+        path
+    }
+}
 
 /// The bytes of a file, or the first `limit` and one more: then it is too large.
 ///
@@ -12,7 +31,7 @@ use std::path::Path;
 /// As [`open`], or if it cannot be read.
 pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    open(path)?.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    open(meant(path))?.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

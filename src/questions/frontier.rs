@@ -52,6 +52,23 @@ pub enum NoAnswer {
     /// The question does not fit the claim: a sentence that says what was found.
     #[error("{0}")]
     Claim(String),
+    /// It does not fit what the design has at this key.
+    #[error("{key}: found {found}; accepted: {accepted}")]
+    Unfit {
+        /// The key.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What it would fit.
+        accepted: &'static str,
+    },
+}
+
+impl NoAnswer {
+    /// It does not fit what the design has at `key`.
+    pub fn unfit(key: &str, found: impl Into<String>, accepted: &'static str) -> Self {
+        NoAnswer::Unfit { key: key.to_owned(), found: found.into(), accepted }
+    }
 }
 
 impl From<ClaimError> for NoAnswer {

@@ -117,8 +117,9 @@ pub fn cube_about(centre: &[BigRational; 3], side: &Expression) -> Option<Worksp
 impl<'a> Cubes<'a> {
     fn new(sampler: Sampler<'a>, centres: Centres) -> Result<Self, NoAnswer> {
         let refused = || {
-            let why = "the workspace is not a box with a volume, of three coordinates of length";
-            NoAnswer::Claim(why.to_owned())
+            let (found, accepted) =
+                ("no box with a volume", "min and max in three coordinates of length");
+            NoAnswer::unfit("workspace", found, accepted)
         };
         let claim = sampler.claim();
         if !matches!(claim.workspace, Workspace::Box { .. }) || sampler.lengths() != 3 {

@@ -271,15 +271,18 @@ fn placed(
     let claim = MachineClaim { workspace, ..claim.clone() };
     let place = best_place(&claim, centres, precision, control)?;
     let place = place.ok_or_else(|| {
-        refused(
-            "no point of the workspace was found at which every requirement holds, to put a cube \
-             there; accepted: a design whose workspace holds such a point",
+        NoAnswer::unfit(
+            "workspace",
+            "no point at which every requirement holds, to put a cube there",
+            "of size, a workspace that holds such a point",
         )
     })?;
     match is_endless(&place, width) {
-        true => {
-            Err(refused("the requirements hold in cubes of any size: there is no smallest machine"))
-        }
+        true => Err(NoAnswer::unfit(
+            "requirements",
+            "none that ends a cube: they hold in cubes of any size",
+            "of size, requirements that a machine of some size does not meet",
+        )),
         false => Ok(place),
     }
 }
@@ -302,11 +305,11 @@ fn as_box(claim: &MachineClaim) -> Result<MachineClaim, NoAnswer> {
         Mechanism::Translational(_) | Mechanism::Spatial(_) => return Ok(claim.clone()),
         Mechanism::Orthoglide { .. } => {}
         Mechanism::Planar(_) | Mechanism::Spherical(_) | Mechanism::Formulas(_) => {
-            return Err(NoAnswer::Claim(
-                "mechanism: found one that is not moved in space by legs, so that no cube is in its \
-                 workspace; accepted by size: kind \"orthoglide\", \"translational\" or \"spatial\"; \
-                 limit says how far any number of a design goes"
-                    .to_owned(),
+            return Err(NoAnswer::unfit(
+                "mechanism.kind",
+                "a machine that is not moved in space by legs, so that no cube is in its workspace",
+                "of size, kind \"orthoglide\", \"translational\" or \"spatial\"; limit says how far \
+                 any number of a design goes",
             ))
         }
     }
@@ -347,11 +350,11 @@ fn scale_free(claim: &MachineClaim) -> Result<(), NoAnswer> {
     let depends = |own: &&Requirement| depends_on_length(&own.quantity, angular);
     let Some(found) = claim.require.iter().find(depends) else { return Ok(()) };
     let of_arms = if found.quantity == "joint_range" || !angular { "" } else { " of arms" };
-    Err(NoAnswer::Claim(format!(
-        "requirements: found {}{of_arms}, which does not scale with the machine; accepted: \
-         requirements that no unit of length enters",
-        found.quantity
-    )))
+    Err(NoAnswer::unfit(
+        &format!("requirements.{}", found.quantity),
+        format!("{}{of_arms}, which does not scale with the machine", found.quantity),
+        "of size, requirements that no unit of length enters",
+    ))
 }
 
 /// The leg length, if the machine is an Orthoglide with equal legs of exact length, whose anchors

@@ -85,6 +85,9 @@ pub struct Report {
     /// What may have gone wrong in the design of a refuted claim.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
+    /// What the design has and its claim has not.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// The size of a proof.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<Size>,
@@ -201,6 +204,7 @@ impl Report {
             margins: Vec::new(),
             counterexample: None,
             hint: None,
+            notes: Vec::new(),
             proof: None,
             undecided: None,
             boxes_tried: boxes,

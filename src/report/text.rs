@@ -1,5 +1,6 @@
 //! Reports for people: the verdict first, then the table, within 80 columns.
 
+use super::kernel::RADICAND;
 use super::place::{placed, point_text, pose_text, positions, turn_text, FreeParameter};
 use super::{
     machine_of_witness, CertificateFile, Counterexample, EarlierFile, Margin, Outcome,
@@ -109,6 +110,10 @@ pub fn report(report: &Report, style: Style, verbose: bool) -> String {
     if let Some(hint) = &report.hint {
         labelled(&mut out, "hint", hint);
     }
+    if !report.notes.is_empty() {
+        out.push('\n');
+    }
+    report.notes.iter().for_each(|note| labelled(&mut out, "note", note));
     if let Some(remains) = &report.undecided {
         describe_remains(&mut out, remains, &report.coordinates, verbose);
     }
@@ -246,6 +251,9 @@ fn table(out: &mut String, report: &Report, verbose: bool) {
         out.push_str(
             "  each found for a machine at the ends of its tolerances: --verbose names it\n",
         );
+    }
+    if rows.iter().any(|row| row.requirement == RADICAND) {
+        out.push_str("  least radicand: 0 where a leg's reach ends; |det M|: 0 at a singularity\n");
     }
     if rows.iter().any(|row| row.seems_violated) {
         out.push_str("  ! the value found is beyond its bound\n");

@@ -59,7 +59,7 @@ fn misplaced_options_and_empty_folders_are_refused() {
     for (arguments, part) in [
         (vec!["check", "proofs", "--design", "designs/b.toml"], "--designs FOLDER"),
         (vec!["check", "proofs/b.cert.json", "--designs", "designs"], "is no folder"),
-        (vec!["check", "empty"], "without designs"),
+        (vec!["check", "empty"], "without certificates"),
         (vec!["check", "proofs", "--designs", "missing"], "missing"),
     ] {
         folder.run(&arguments).exits(2).complains(&[part]);

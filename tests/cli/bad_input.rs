@@ -42,7 +42,7 @@ fn spoiled_designs_are_refused_with_line_key_and_what_is_accepted() {
         ("312", "-312", &["bad.toml:3", "greater than 0"]),
         ("312", "nan", &["bad.toml:3", "finite"]),
         ("312", "1e1001", &["bad.toml:3", "leg_length"]),
-        ("min = [-73", "min = [273", &["bad.toml:7", "workspace.max[1]", "273"]),
+        ("min = [-73", "min = [273", &["bad.toml:7", "workspace.max.0", "273"]),
         ("126, 126, 126", "126, 126", &["bad.toml:7", "max"]),
         ("min = 0.5", "min = 0", &["bad.toml:10", "transmission.min", "greater than 0"]),
         ("max = 2 ", "max = 0.5 ", &["bad.toml:10", "transmission"]),

@@ -30,7 +30,7 @@ fn check_demands_the_design_that_it_is_given() {
     folder.run(&["check", "good.json", "--design", "orthoglide-312.toml"]).exits(0);
     folder.run(&["check", "refuted.json", "--design", "orthoglide-310.toml"]).exits(1);
     let run = folder.run(&["check", "good.json", "--design", "orthoglide-310.toml"]).exits(5);
-    run.complains(&["another claim", "translational[1].length is 312 in the certificate and 310"]);
+    run.complains(&["another claim", "mechanism.legs.0.length is 312 in the certificate and 310"]);
     folder.run(&["verify"]).exits(0);
     let prototype = "orthoglide-prototype.cert.json";
     let run = folder.run(&["check", prototype, "--design", "orthoglide-310.toml"]).exits(5);

@@ -76,19 +76,19 @@ fn a_certificate_is_checked_against_its_design() {
     let run = folder.run(&["check", "machine.json", "--design", "machine.toml"]).exits(1);
     run.says(&["ACCEPTED: refuted", "rho_1 = x/g"]);
     for (old, new, parts) in [
-        ("max = 1 }", "max = 3 }", "require[1].bound is 1 in the certificate and 3 in the design"),
+        ("max = 1 }", "max = 3 }", "require.0.bound is 1 in the certificate and 3 in the design"),
         ("± 0.5", "± 0.4", "max is 2.5 in the certificate and 2.4 in the design"),
-        ("x / g", "x * g", "joints[1].rho is x/g in the certificate and x*g in the design"),
-        ("max = [4]", "max = [5]", "box.max[1] is 4 in the certificate and 5 in the design"),
+        ("x / g", "x * g", "joints.0.rho is x/g in the certificate and x*g in the design"),
+        ("max = [4]", "max = [5]", " workspace.max.0 is 4 in the certificate and 5 in the design"),
         (
             "joint_range = { max = 1 }",
             "joint_range = { max = 1 }\nconditioning = { max = 3 }",
-            "require[2] is absent in the certificate",
+            "require.1 is absent in the certificate",
         ),
         (
             "joint_range = { max = 1 }",
             "joint_range = { min = 1 }",
-            "require[1].end is max in the certificate and min in the design",
+            "require.0.end is max in the certificate and min in the design",
         ),
     ] {
         assert!(DESIGN.contains(old));
@@ -122,7 +122,7 @@ fn formulas_are_printed_on_request() {
 #[test]
 fn spoiled_machines_are_refused_with_line_key_and_what_is_accepted() {
     for (old, new, parts) in [
-        ("x / g", "x / h", &["bad.toml:7:12", "mechanism.joints[1].rho", "unknown name h"][..]),
+        ("x / g", "x / h", &["bad.toml:7:12", "mechanism.joints.0.rho", "unknown name h"][..]),
         ("x / g", "x / (g - 2)", &["bad.toml:7:12", "may be zero", "^^^^^^^"]),
         ("x / g", "x / g + sqrt(1 - g)", &["bad.toml:7:20", "may be negative"]),
         ("x / g", "x", &["bad.toml:5", "mechanism.parameters.g", "no joint depends on"]),

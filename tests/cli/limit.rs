@@ -241,7 +241,7 @@ fn keys_without_a_number_are_refused_before_anything_is_written() {
         (BOX, "workspace.max.3", &["none at 3"]),
         (BOX, "mechanism.kind", &["\"orthoglide\"", "accepted: a number"]),
         (BOX, "a\nb", &["nothing: the key is missing"]),
-        (DELTA, "mechanism.legs[1].length", &["did you mean mechanism.legs.0.length?"]),
+        (DELTA, "mechanism.legs[1].length", &["did you mean mechanism.legs.1.length?"]),
         (DELTA, "mechanism.legs.*.anchor.1", &["the same number in every element"]),
     ] {
         folder.run(&["limit", design, key]).exits(2).complains(&[design]).complains(parts);

@@ -26,6 +26,7 @@
 //! | `interruption` | signals, closed and full outputs                                  |
 //! | `json`         | `--format json`: the same facts                                   |
 //! | `answers`      | `--format json` is as its schema says                             |
+//! | `designer`     | what is left out is said, refusals name the line                  |
 //! | `tolerance`    | `tolerance`: both ends, together, refused                         |
 //! | `hostile`      | checkouts and names of strangers                                  |
 //! | `summary`      | `summary`: closed forms, the nearest requirement, every kind      |
@@ -42,6 +43,7 @@ mod batch;
 mod cache;
 mod calculator;
 mod certificates;
+mod designer;
 mod files;
 mod for_all;
 mod hostile;

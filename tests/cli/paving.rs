@@ -369,7 +369,7 @@ fn bad_usage_is_refused() {
         (&["pave", "d.toml", "--volume-gap", "x"], "not a number"),
         (&["pave", "d.toml", "--precision", "1", "--volume-gap", "1"], "cannot be used with"),
         (&["pave", "d.toml", "--max-boxes", "0"], "--max-boxes"),
-        (&["pave", "cube.toml"], "[workspace]: found a cube"),
+        (&["pave", "cube.toml"], "cube.toml:4:1: workspace.cube: found a cube"),
         (&["pave", "flat.toml"], "a box of positive volume"),
         (&["pave", "missing.toml"], "missing.toml"),
     ] {
@@ -394,7 +394,7 @@ fn a_box_in_the_place_of_the_workspace_takes_any_design() {
     let folder = Folder::new();
     folder.write("cube.toml", CUBE);
     let refused = folder.run(&["pave", "cube.toml"]).exits(2);
-    refused.complains(&["[workspace]: found a cube", "--box X0,X1,Y0,Y1,Z0,Z1"]);
+    refused.complains(&["workspace.cube: found a cube", "--box X0,X1,Y0,Y1,Z0,Z1"]);
     // A hair within the paper's cube, all of it is inner; beyond Q_1 and Q_2, not.
     let within = "-73.2,126.79,-73.2,126.79,-73.2,126.79";
     let pave = |range: &str, to: &str| {

@@ -181,10 +181,10 @@ fn every_key_has_its_place() {
     let design = Design::parse(LEGS, "legs.toml").unwrap();
     for (key, line, column) in [
         ("mechanism.kind", 2, 1),
-        ("mechanism.legs[1]", 3, 1),
-        ("mechanism.legs[2].anchor", 13, 1),
-        ("mechanism.legs[2].anchor[2]", 13, 32),
-        ("workspace.max[3]", 24, 16),
+        ("mechanism.legs.0", 3, 1),
+        ("mechanism.legs.1.anchor", 13, 1),
+        ("mechanism.legs.1.anchor.1", 13, 32),
+        ("workspace.max.2", 24, 16),
         ("requirements.transmission", 26, 1),
         ("requirements.transmission.max", 26, 18),
     ] {

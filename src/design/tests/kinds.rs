@@ -314,6 +314,10 @@ fn rods_joints_and_bodies() {
     let claim = shown(&with(STRUTS, &[(9, two), (17, "clearance = { min = 0.05 }")]));
     let rod = |offset: [&str; 3]| json!({ "on": "leg", "leg": 2, "radius": "0.1", "trim": ["0.2", "0"], "offset": offset });
     assert_eq!(claim["bodies"], json!([rod(["0", "-3", "-4"]), rod(["0", "3", "4"])]));
+    // Along an axis with roots, the offsets are simplified.
+    let oblique = two.replace("[0, 3, 4]", "[\"-1/2\", \"sqrt(3)/2\", 0]");
+    let claim = shown(&with(STRUTS, &[(9, &oblique), (17, "clearance = { min = 0.05 }")]));
+    assert_eq!(claim["bodies"][1], rod(["-2.5", "5*sqrt(3)/2", "0"]));
     // Of joints alone, no requirement of the machine is needed.
     let alone = "anchor = [0, 2, 0]\nbase_joint = { axis = [0, 1, 0], max = 45 }";
     let claim = kernel(&with(STRUTS, &[(9, alone), (17, "")]));
@@ -389,5 +393,28 @@ fn the_order_of_keys_does_not_matter() {
 fn the_kernel_takes_what_it_knows() {
     let fourth = "[[mechanism.legs]]\ndrive = \"strut\"\nanchor = [3, 3, -3]\n[workspace]";
     let design = Design::parse(&with(STRUTS, &[(13, fourth)]), "test.toml").unwrap();
-    assert_eq!(design.sources.position("mechanism.legs[4]").unwrap().line, 13);
+    assert_eq!(design.sources.position("mechanism.legs.3").unwrap().line, 13);
+}
+
+#[test]
+fn what_no_requirement_is_about_is_noted() {
+    let rods = "anchor = [0, 2, 0]\nrod = { radius = 0.1, trim = [0.2, 0] }";
+    let axes = "anchor = [0, 2, 0]\nbase_axis = [1, 0, 0]";
+    let notes = |changes: &[(usize, &str)]| {
+        Design::parse(&with(STRUTS, changes), "d.toml").unwrap().notes()
+    };
+    assert_eq!(notes(&[]), [""; 0]);
+    let [note] = &notes(&[(9, rods)])[..] else { panic!("one note") };
+    assert!(
+        note.starts_with("mechanism.legs.1.rod, line 10: nothing is claimed of rods"),
+        "{note}"
+    );
+    assert!(note.ends_with("no clearance"), "{note}");
+    let other = "anchor = [0, 0, 2]\nrod = { radius = 0.1, trim = [0, 0.2] }";
+    assert_eq!(notes(&[(9, rods), (12, other), (17, "clearance = { min = 0.05 }")]), [""; 0]);
+    let [note] = &notes(&[(9, axes)])[..] else { panic!("one note") };
+    assert!(
+        note.starts_with("mechanism.legs.1.base_axis, line 10: ")
+            && note.ends_with("no constraint_margin")
+    );
 }

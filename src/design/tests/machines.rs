@@ -82,51 +82,51 @@ fn a_reference_with_tolerance_or_roots_is_made_orthogonal() {
 #[rustfmt::skip]
 fn drives_that_are_not_well_described() {
     check(&[
-        row!("unknown drive", ARMS, [(4, "drive = \"armm\"")], 4, "mechanism.legs[1].drive",
+        row!("unknown drive", ARMS, [(4, "drive = \"armm\"")], 4, "mechanism.legs.0.drive",
             UnknownWord, "\"armm\"",
             "\"slider\", \"strut\", \"arm\", \"planar\"; did you mean \"arm\"?"),
-        row!("key of another drive", STRUTS, [(6, "length = 3")], 6, "mechanism.legs[1].length",
+        row!("key of another drive", STRUTS, [(6, "length = 3")], 6, "mechanism.legs.0.length",
             UnknownKey, "an unknown key", "drive, anchor, platform"),
-        row!("mode of a planar leg", PLANES, [(11, "mode = \"+\"")], 11, "mechanism.legs[3].mode",
+        row!("mode of a planar leg", PLANES, [(11, "mode = \"+\"")], 11, "mechanism.legs.2.mode",
             UnknownKey, "an unknown key", "drive, direction"),
-        row!("no axis", ARMS, [(6, "")], 3, "mechanism.legs[1].axis", MissingKey, "nothing: the key is missing",
+        row!("no axis", ARMS, [(6, "")], 3, "mechanism.legs.0.axis", MissingKey, "nothing: the key is missing",
             "the direction of the motor's axis"),
-        row!("no reference", ARMS, [(16, "")], 12, "mechanism.legs[2].reference", MissingKey,
+        row!("no reference", ARMS, [(16, "")], 12, "mechanism.legs.1.reference", MissingKey,
             "nothing: the key is missing", "the arm's direction at angle 0"),
-        row!("no arm", ARMS, [(8, "")], 3, "mechanism.legs[1].arm", MissingKey, "nothing: the key is missing",
+        row!("no arm", ARMS, [(8, "")], 3, "mechanism.legs.0.arm", MissingKey, "nothing: the key is missing",
             "from the axis to the elbow"),
-        row!("no anchor of a strut", STRUTS, [(9, "")], 7, "mechanism.legs[2].anchor", MissingKey,
+        row!("no anchor of a strut", STRUTS, [(9, "")], 7, "mechanism.legs.1.anchor", MissingKey,
             "nothing: the key is missing", "the leg's joint on the base"),
-        row!("no direction of a plane", PLANES, [(8, "")], 6, "mechanism.legs[2].direction",
+        row!("no direction of a plane", PLANES, [(8, "")], 6, "mechanism.legs.1.direction",
             MissingKey, "nothing: the key is missing", "the normal of the plane"),
-        row!("zero arm", ARMS, [(8, "arm = 0")], 8, "mechanism.legs[1].arm", OutOfDomain, "0",
+        row!("zero arm", ARMS, [(8, "arm = 0")], 8, "mechanism.legs.0.arm", OutOfDomain, "0",
             "a length greater than 0"),
         row!("tolerance makes an arm zero", ARMS, [(26, "arm = \"1 ± 1\"")], 26,
-            "mechanism.legs[3].arm", OutOfDomain, "\"1 ± 1\"", "a length greater than 0"),
-        row!("zero axis", ARMS, [(6, "axis = [0, 0, 0]")], 6, "mechanism.legs[1].axis",
+            "mechanism.legs.2.arm", OutOfDomain, "\"1 ± 1\"", "a length greater than 0"),
+        row!("zero axis", ARMS, [(6, "axis = [0, 0, 0]")], 6, "mechanism.legs.0.axis",
             OutOfDomain, "is, or may be, zero", "any vector that is not zero"),
         row!("zero reference", ARMS, [(7, "reference = [0, 0, 0]")], 7,
-            "mechanism.legs[1].reference", OutOfDomain, "is, or may be, zero", "not zero"),
+            "mechanism.legs.0.reference", OutOfDomain, "is, or may be, zero", "not zero"),
         row!("zero normal", PLANES, [(8, "direction = [0, \"0 ± 1\", 0]")], 8,
-            "mechanism.legs[2].direction", OutOfDomain, "is, or may be, zero", "not zero"),
+            "mechanism.legs.1.direction", OutOfDomain, "is, or may be, zero", "not zero"),
         row!("axis parallel to reference", ARMS, [(7, "reference = [0, 3, 0]")], 7,
-            "mechanism.legs[1].reference", OutOfDomain, "is, or may be, parallel to the axis",
+            "mechanism.legs.0.reference", OutOfDomain, "is, or may be, parallel to the axis",
             "orthogonal to the axis"),
         row!("axis parallel to reference, with roots", ARMS,
             [(16, "reference = [\"sqrt(6)\", \"sqrt(2)\", 0]")], 16,
-            "mechanism.legs[2].reference", OutOfDomain, "is, or may be, parallel to the axis",
+            "mechanism.legs.1.reference", OutOfDomain, "is, or may be, parallel to the axis",
             "orthogonal to the axis"),
         row!("axis may be parallel to reference", ARMS,
-            [(7, "reference = [\"0.01 ± 0.02\", 1, 0]")], 7, "mechanism.legs[1].reference",
+            [(7, "reference = [\"0.01 ± 0.02\", 1, 0]")], 7, "mechanism.legs.0.reference",
             OutOfDomain, "is, or may be, parallel to the axis", "orthogonal to the axis"),
         row!("reference oblique to the axis", ARMS, [(7, "reference = [1, 0.001, 0]")], 7,
-            "mechanism.legs[1].reference", OutOfDomain, "not orthogonal to the axis",
+            "mechanism.legs.0.reference", OutOfDomain, "not orthogonal to the axis",
             "orthogonal to the axis"),
         row!("arms beside other drives", ARMS,
             [(13, "drive = \"strut\""), (15, ""), (16, ""), (17, ""), (18, ""), (20, "")], 13,
-            "mechanism.legs[2].drive", Conflict, "next to another kind of drive", "no unit"),
+            "mechanism.legs.1.drive", Conflict, "next to another kind of drive", "no unit"),
         row!("other drives beside arms", PLANES, [(10, ARM), (11, "")], 10,
-            "mechanism.legs[3].drive", Conflict, "next to another kind of drive", "no unit"),
+            "mechanism.legs.2.drive", Conflict, "next to another kind of drive", "no unit"),
     ]);
 }
 
@@ -138,15 +138,15 @@ const ARM: &str = "drive = \"arm\"\nanchor = [0, 0, 0]\naxis = [0, 0, 1]\nrefere
 fn legs_whose_rows_are_dependent_everywhere() {
     check(&[
         row!("dependent directions", PLANES, [(11, "direction = [1, 2, 0]")], 11,
-            "mechanism.legs[3].direction", OutOfDomain, "dependent", "a parallel singularity"),
+            "mechanism.legs.2.direction", OutOfDomain, "dependent", "a parallel singularity"),
         row!("directions that may be dependent", PLANES, [(11, "direction = [1, 2, \"1 ± 1\"]")],
-            11, "mechanism.legs[3].direction", OutOfDomain, "may be, dependent", "independent"),
+            11, "mechanism.legs.2.direction", OutOfDomain, "may be, dependent", "independent"),
         row!("parallel directions", PLANES, [(8, "direction = [-2, 0, 0]")], 8,
-            "mechanism.legs[2].direction", OutOfDomain, "parallel to that of leg 1", "independent"),
-        row!("a leg twice", STRUTS, [(9, "anchor = [0, 0, 2]")], 10, "mechanism.legs[3]",
-            OutOfDomain, "a leg that is leg 2 once more", "independent"),
+            "mechanism.legs.1.direction", OutOfDomain, "parallel to that of mechanism.legs.0", "independent"),
+        row!("a leg twice", STRUTS, [(9, "anchor = [0, 0, 2]")], 10, "mechanism.legs.2",
+            OutOfDomain, "the leg mechanism.legs.1 once more", "independent"),
         row!("struts on one line", STRUTS, [(9, "anchor = [2, 0, 0]"), (12, "anchor = [7, 0, 0]")],
-            12, "mechanism.legs[3].anchor", OutOfDomain, "on one line", "independent"),
+            12, "mechanism.legs.2.anchor", OutOfDomain, "on one line", "independent"),
     ]);
 }
 
@@ -163,7 +163,7 @@ fn cylinders_that_are_not_well_described() {
         row!("zero radius", ARMS, [(31, "cylinder = { center = [0, 0], radius = 0, z = [0, 1] }")],
             31, "workspace.cylinder.radius", OutOfDomain, "0", "a radius greater than 0"),
         row!("empty", ARMS, [(31, "cylinder = { center = [0, 0], radius = 1, z = [1, 0] }")],
-            31, "workspace.cylinder.z[2]", Reversed, "0, below the lower end 1", "at least"),
+            31, "workspace.cylinder.z.1", Reversed, "0, below the lower end 1", "at least"),
         row!("unknown key", ARMS, [(31, "cylinder = { centre = [0, 0], radius = 1, z = [1, 2] }")],
             31, "workspace.cylinder.centre", UnknownKey, "an unknown key", "did you mean center?"),
         row!("cylinder and box", ARMS, [(31, "cylinder = { center = [0, 0], radius = 1, z = [1, 2] }\nmin = [0, 0, 0]")],
@@ -221,15 +221,15 @@ fn requirements_that_are_not_well_described() {
 fn expressions_with_errors_name_leg_key_and_place() {
     check(&[
         row!("division by what may be zero", ARMS, [(14, "anchor = [-3, \"1/(sqrt(2)*sqrt(2)-2)\", 0]")],
-            14, "mechanism.legs[2].anchor[2]", NotANumber,
+            14, "mechanism.legs.1.anchor.1", NotANumber,
             "division by something that is or may be zero at character 3", "a number"),
         row!("root of what may be negative", ARMS, [(8, "arm = \"sqrt(2-3)\"")], 8,
-            "mechanism.legs[1].arm", NotANumber,
+            "mechanism.legs.0.arm", NotANumber,
             "square root of something that is or may be negative at character 6", "a number"),
         row!("unknown function", PLANES, [(5, "direction = [\"cos(30)\", 0, 0]")], 5,
-            "mechanism.legs[1].direction[1]", NotANumber, "at character 1", "a number"),
+            "mechanism.legs.0.direction.0", NotANumber, "at character 1", "a number"),
         row!("expression ends early", STRUTS, [(6, "platform = [0, 0, \"2*\"]")], 6,
-            "mechanism.legs[1].platform[3]", NotANumber, "at character 3", "a number"),
+            "mechanism.legs.0.platform.2", NotANumber, "at character 3", "a number"),
     ]);
 }
 
@@ -238,5 +238,5 @@ fn claims_refused_as_a_whole_are_of_that_class() {
     let far_too_wide = "axis = [\"0 ± 5\", -1, \"0 ± 5\"]";
     let error = refuse(&with(ARMS, &[(6, far_too_wide)]));
     assert_eq!((error.defect(), error.position().line), (WholeClaim, 6), "{error}");
-    assert_eq!(error.key(), "mechanism.legs[1].axis", "{error}");
+    assert_eq!(error.key(), "mechanism.legs.0.axis", "{error}");
 }

@@ -23,7 +23,7 @@ fn what_is_not_a_number() {
             NotANumber, "at character 1", "a number"),
         row!("infinity", BOX, [(4, "leg_length = inf")], 4, "mechanism.leg_length", NotANumber,
             "inf", "a finite number"),
-        row!("minus infinity", BOX, [(8, "min = [0, -inf, 0]")], 8, "workspace.min[2]", NotANumber,
+        row!("minus infinity", BOX, [(8, "min = [0, -inf, 0]")], 8, "workspace.min.1", NotANumber,
             "-inf", "a finite number"),
         row!("not a number", CUBE, [(8, "transmission = { max = +nan }")], 8,
             "requirements.transmission.max", NotANumber, "+nan", "a finite number"),
@@ -45,7 +45,7 @@ fn what_is_not_a_number() {
         row!("root of a negative number", BOX, [(4, "leg_length = \"sqrt(1-2)\"")], 4,
             "mechanism.leg_length", NotANumber, "square root of something", "a number"),
         row!("parenthesis not closed", LEGS, [(13, "anchor = [0, \"(1+2\", 0]")], 13,
-            "mechanism.legs[2].anchor[2]", NotANumber, "\")\" at character 5", "a number"),
+            "mechanism.legs.1.anchor.1", NotANumber, "\")\" at character 5", "a number"),
     ]);
 }
 
@@ -64,7 +64,7 @@ fn numbers_outside_of_their_domain() {
         row!("length not provably positive", BOX,
             [(4, "leg_length = \"sqrt(2)*sqrt(3)-sqrt(6)\"")], 4, "mechanism.leg_length",
             OutOfDomain, "not provably positive", "a length greater than 0"),
-        row!("zero length of a leg", LEGS, [(14, "length = 0.0")], 14, "mechanism.legs[2].length",
+        row!("zero length of a leg", LEGS, [(14, "length = 0.0")], 14, "mechanism.legs.1.length",
             OutOfDomain, "0.0", "a length greater than 0"),
         row!("zero side", CUBE, [(6, "cube = 0")], 6, "workspace.cube", OutOfDomain,
             "0", "a length greater than 0"),
@@ -77,9 +77,9 @@ fn numbers_outside_of_their_domain() {
         row!("negative psi_max", BOX, [(11, "transmission = { max = -2 }")], 11,
             "requirements.transmission.max", OutOfDomain, "-2", "greater than 0"),
         row!("zero direction", LEGS, [(5, "direction = [0, 0.0, \"1-1\"]")], 5,
-            "mechanism.legs[1].direction", OutOfDomain, "is, or may be, zero", "not zero"),
+            "mechanism.legs.0.direction", OutOfDomain, "is, or may be, zero", "not zero"),
         row!("direction that may be zero", LEGS, [(5, "direction = [0, \"0 ± 1\", 0]")], 5,
-            "mechanism.legs[1].direction", OutOfDomain, "is, or may be, zero", "not zero"),
+            "mechanism.legs.0.direction", OutOfDomain, "is, or may be, zero", "not zero"),
     ]);
 }
 
@@ -89,10 +89,10 @@ fn tolerances_where_there_can_be_none() {
     check(&[
         row!("on the side", CUBE, [(6, "cube = \"200 ± 1\"")], 6, "workspace.cube", Tolerance,
             "the tolerance \"200 ± 1\"", "workspace and requirements not"),
-        row!("on a corner", BOX, [(9, "max = [1, \"2 +/- 1\", 3]")], 9, "workspace.max[2]",
+        row!("on a corner", BOX, [(9, "max = [1, \"2 +/- 1\", 3]")], 9, "workspace.max.1",
             Tolerance, "the tolerance \"2 +/- 1\"", "workspace and requirements not"),
         row!("as a table on a corner", BOX, [(9, "max = [1, 2, { min = 1, max = 2 }]")], 9,
-            "workspace.max[3]", Tolerance, "a tolerance { min, max }", "one exact number"),
+            "workspace.max.2", Tolerance, "a tolerance { min, max }", "one exact number"),
         row!("on a bound", BOX, [(11, "transmission = { max = \"2 ± 0.1\" }")], 11,
             "requirements.transmission.max", Tolerance, "2 ± 0.1", "workspace and requirements not"),
         row!("on a joint range", BOX, [(12, "joint_range = { max = \"257 ± 1\" }")], 12,

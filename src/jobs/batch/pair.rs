@@ -30,7 +30,7 @@ pub fn pairs(certificates: &Path, designs: &Path) -> Result<Vec<Pair>, PlanError
         pair.design = Some(design);
     }
     match pairs.is_empty() {
-        true => Err(PlanError::NoDesigns(designs.to_owned())),
+        true => Err(PlanError::NoCertificates(certificates.to_owned())),
         false => Ok(pairs.into_values().collect()),
     }
 }
@@ -60,6 +60,6 @@ mod tests {
             pair(Some("c/y.cert.json"), None),
         ];
         assert_eq!(pairs(&path("c"), &path("d")).unwrap(), expected);
-        assert!(matches!(pairs(&path("c/b"), &path("c/b")), Err(PlanError::NoDesigns(_))));
+        assert!(matches!(pairs(&path("c/b"), &path("c/b")), Err(PlanError::NoCertificates(_))));
     }
 }

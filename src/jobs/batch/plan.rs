@@ -1,7 +1,7 @@
 //! The designs that files and folders stand for, and where their certificates go.
 
 use crate::files::output::{folder_of, follows_links};
-use crate::files::read::Named;
+use crate::files::read::{beside, Named};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
@@ -29,6 +29,13 @@ pub enum PlanError {
         .0.shown()
     )]
     NoDesigns(PathBuf),
+    /// A folder without certificates.
+    #[error(
+        "{}: found a folder without certificates; accepted: a folder with *.cert.json files, at any \
+         depth (what is hidden is skipped)",
+        .0.shown()
+    )]
+    NoCertificates(PathBuf),
     /// A folder that cannot be read.
     #[error("{path}: cannot be read: {1}; accepted: a folder", path = .0.shown())]
     Unreadable(PathBuf, #[source] io::Error),
@@ -111,6 +118,7 @@ fn in_folder(path: &Path) -> Option<PathBuf> {
 
 /// `NAME.cert.json` beside `NAME.toml`.
 pub fn certificate_of(design: &Path) -> PathBuf {
+    let design = beside(design);
     let toml = design.extension().is_some_and(|extension| extension == "toml");
     let name = if toml { design.file_stem() } else { design.file_name() };
     let mut name = name.unwrap_or_default().to_owned();

@@ -35,7 +35,10 @@ pub fn table(batch: &Batch, style: Style) -> String {
     for (entry, name) in batch.designs.iter().zip(&names) {
         let _ = write!(out, "{}  {name:longest$}  ", verdict(entry.verdict, style));
         let remark = match entry.remark() {
-            _ if entry.cached && entry.counterexample.is_none() => "re-checked".to_owned(),
+            text if entry.cached && entry.counterexample.is_none() => {
+                let text = Some(text).filter(|text| !text.is_empty());
+                std::iter::once("re-checked".to_owned()).chain(text).collect::<Vec<_>>().join("; ")
+            }
             text => text,
         };
         let _ = writeln!(out, "{:>8}  {remark}", duration(entry.seconds));

@@ -54,7 +54,7 @@ pub fn drawing(machine: &Shape, marks: &[Mark]) -> Picture {
     }
     Picture {
         name: "design".to_owned(),
-        title: "The nominal machine: guides, legs, platform and workspace".to_owned(),
+        title: "The nominal machine: legs, platform and workspace".to_owned(),
         size: SIZE,
         attributes: String::new(),
         content: out.0,

@@ -4,6 +4,7 @@ use super::legend::OUTSIDE;
 use super::subdivision::{Leaf, Subdivision};
 use crate::exact::decimal::{counted, grouped, significant};
 use crate::report::escape::xml;
+use crate::report::kernel::RADICAND;
 use std::fmt::Write;
 
 /// Boxes listed among those where the proof worked hardest.
@@ -54,9 +55,15 @@ pub fn margins(rows: &[Row]) -> String {
             xml(&row.at),
         );
     }
+    let of_radicands = match rows.iter().any(|row| row.requirement == RADICAND) {
+        true => " The least radicand is 0 where a leg's reach ends, |det M| at a singularity.",
+        false => "",
+    };
     out + "</tbody></table></div><p class=\"note\">How close each requirement comes to its bound. The \
          bounds are what is claimed; the values are the worst that <strong>sampling</strong> found, in \
-         floating point, and no proof. <code>orthocert bounds</code> proves enclosures of the extremes.</p>"
+         floating point, and no proof. <code>orthocert bounds</code> proves enclosures of the extremes."
+        + of_radicands
+        + "</p>"
 }
 
 /// A margin in percent.

@@ -95,6 +95,8 @@ pub struct Page<'a> {
     title: String,
     /// The unit of lengths.
     unit: Option<&'static str>,
+    /// What the design has and the claim has not.
+    notes: Vec<String>,
     /// Three translating legs, and the scale of their maps; none where there is no single machine of
     /// them, or where its numbers exceed what doubles can show.
     machine: Option<(Nominal, Option<Scale>)>,
@@ -182,12 +184,18 @@ impl<'a> Page<'a> {
             file,
             title: title.unwrap_or(stem(file.name)).to_owned(),
             unit,
+            notes: Vec::new(),
             machine,
             scene,
             figures: Figures::default(),
         };
         page.figures = page.draw();
         page
+    }
+
+    /// The page with what the design has and the claim has not.
+    pub fn noting(self, notes: Vec<String>) -> Self {
+        Page { notes, ..self }
     }
 
     fn draw(&self) -> Figures {

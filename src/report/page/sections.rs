@@ -63,6 +63,7 @@ impl Page<'_> {
         if let Some(unit) = self.unit {
             signed.push(("lengths", format!("in {unit}")));
         }
+        signed.extend(self.notes.iter().map(|note| ("note", note.clone())));
         for (name, value) in signed {
             let _ = write!(out, "<dt>{name}</dt><dd>{}</dd>", xml(&value));
         }
@@ -147,9 +148,10 @@ impl Page<'_> {
         };
         let _ = write!(
             out,
-            "<figure>{}<figcaption>The nominal machine (every parameter in the middle of its tolerance): guides \
-             dash-dotted, legs from B<sub>i</sub> to the platform at P, the workspace in colour.{note}{unit}{turned}</figcaption></figure>",
-            design.inline()
+            "<figure>{}<figcaption>The nominal machine (every parameter in the middle of its tolerance): {} to the \
+             platform at P, the workspace in colour.{note}{unit}{turned}</figcaption></figure>",
+            design.inline(),
+            drawn(&shape.legs, self.in_plane())
         );
         match &self.certificate.claim {
             Claim::Machine(claim) if !matches!(claim.mechanism, Mechanism::Orthoglide { .. }) => {
@@ -164,6 +166,10 @@ impl Page<'_> {
             }
         }
         out + "</section>\n"
+    }
+
+    fn in_plane(&self) -> bool {
+        matches!(&self.certificate.claim, Claim::Machine(claim) if matches!(claim.mechanism, Mechanism::Planar(_)))
     }
 
     fn maps_section(&self, Slice { maps, legends, fixed }: &Slice) -> String {
@@ -253,6 +259,20 @@ impl Page<'_> {
         }
         out + "</ul>"
     }
+}
+
+/// What a drawing shows of legs: those of arms in the plane have axes that are seen as points.
+fn drawn(legs: &[Numbers], in_plane: bool) -> String {
+    let any = |is: fn(&Numbers) -> bool| legs.iter().any(is);
+    let guides = any(|leg| matches!(leg, Numbers::Slider { .. } | Numbers::Planar { .. }));
+    let arms = any(|leg| matches!(leg, Numbers::Arm { .. }));
+    let parts = [
+        (guides, "guides dash-dotted, "),
+        (arms && !in_plane, "axes of the motors dash-dotted, "),
+        (arms, "arms from A<sub>i</sub> to B<sub>i</sub>, "),
+        (true, "legs from B<sub>i</sub>"),
+    ];
+    parts.into_iter().filter_map(|(is_there, words)| is_there.then_some(words)).collect()
 }
 
 fn caption(tree: &Subdivision) -> String {

@@ -30,6 +30,24 @@ fn a_page_is_a_function_of_the_certificate_and_its_names() {
 }
 
 #[test]
+fn a_caption_names_what_is_drawn() {
+    for (name, there, not_there) in [
+        ("five-bar", "arms from A<sub>i</sub> to B<sub>i</sub>, legs", "dash-dotted"),
+        ("rotary-delta-speed", "axes of the motors dash-dotted, arms", "guides"),
+        ("linear-delta-klipper-cylinder", "guides dash-dotted, legs", "arms"),
+        ("hexapod-linuxcnc", "tolerance): legs from B<sub>i</sub>", "dash-dotted"),
+    ] {
+        let page = with_page(&certificate(name), None, |page| page.html());
+        let caption = page
+            .split("<figcaption>The nominal machine")
+            .nth(1)
+            .and_then(|s| s.split("</fig").next());
+        let caption = caption.unwrap();
+        assert!(caption.contains(there) && !caption.contains(not_there), "{name}: {caption}");
+    }
+}
+
+#[test]
 fn names_and_titles_stay_text() {
     let bytes = certificate("orthoglide-310");
     let text = String::from_utf8(bytes).unwrap();

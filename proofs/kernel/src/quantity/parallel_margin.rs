@@ -5,7 +5,7 @@ use crate::input::ClaimError;
 
 pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
     key: "parallel_margin",
-    symbol: "|det A|/(L_1 L_2 L_3)",
+    symbol: "|det A|/(L_1 .. L_n)",
     words: "distance from parallel singularities",
     ..Quantity::of_machine(tests)
 };
