@@ -81,9 +81,13 @@ pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
     }
     Exact::parse(text, MAX_DIGITS).map_err(|error| {
         let text: String = text.chars().take(60).collect();
+        let number = text.starts_with(|c: char| c.is_ascii_digit());
+        let with_unit = number && text.ends_with(|c: char| c.is_alphabetic());
+        let hint =
+            if with_unit { "; numbers carry no unit: lengths are in the design's" } else { "" };
         Failure::Input(format!(
             "{option}: found \"{text}\", which is not a number: {error}; accepted: a number such \
-             as 2, 1.5, 3/2 or sqrt(2)"
+             as 2, 1.5, 3/2 or sqrt(2){hint}"
         ))
     })
 }

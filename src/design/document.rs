@@ -234,7 +234,9 @@ impl<'a> Value<'a> {
 
     /// The error that this value is of another type than `accepted`.
     pub fn wrong_type(&self, accepted: &str) -> DesignError {
-        self.error(Defect::WrongType, self.found(), accepted)
+        let range = self.range().filter(|_| accepted.contains("{ min = "));
+        let hint = range.map_or_else(String::new, |range| format!("; did you mean {range}?"));
+        self.error(Defect::WrongType, self.found(), format!("{accepted}{hint}"))
     }
 
     /// The value as the file has it, for messages.
@@ -279,6 +281,17 @@ impl<'a> Value<'a> {
             inner: element.get_ref(),
         });
         Ok(all.collect())
+    }
+
+    /// The table of the two ends that an array of two may be meant as.
+    fn range(&self) -> Option<String> {
+        let [least, greatest] = &self.inner.as_array()?[..] else { return None };
+        let number = |end: &toml::Spanned<DeValue<'_>>| {
+            let is_one = !matches!(end.get_ref(), DeValue::Array(_) | DeValue::Table(_));
+            self.document.text.get(end.span()).filter(|_| is_one)
+        };
+        let (least, greatest) = (number(least)?, number(greatest)?);
+        Some(quoted(&format!("{{ min = {least}, max = {greatest} }}")))
     }
 
     /// The text that this value is.

@@ -166,7 +166,11 @@ impl Excerpt {
         let line = text.get(start..).unwrap_or_default().lines().next().unwrap_or_default();
         let column = width(before.get(start..).unwrap_or_default());
         let marked = text.get(at).unwrap_or_default().lines().next().map_or(0, width);
-        let skipped = column.saturating_sub(SHOWN_BEFORE);
+        // Of a line that is short enough, all is shown.
+        let skipped = match width(line) + marked {
+            0..=SHOWN => 0,
+            _ => column.saturating_sub(SHOWN_BEFORE),
+        };
         let line: String = line
             .strip_prefix(BYTE_ORDER_MARK)
             .unwrap_or(line)

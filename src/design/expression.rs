@@ -319,7 +319,14 @@ impl Reader<'_, '_> {
                 match (name.as_str(), opens) {
                     ("sqrt", _) => self.root(),
                     (_, true) => {
-                        self.refuse(at, format!("the function {name}"), "sqrt, +, -, *, /, ^")
+                        let accepted = match name.as_str() {
+                            "sin" | "cos" | "tan" => {
+                                "sqrt, +, -, *, /, ^; of an angle take t = tan(angle/2) as the \
+                                 coordinate: its sine is 2*t/(1 + t^2), its cosine (1 - t^2)/(1 + t^2)"
+                            }
+                            _ => "sqrt, +, -, *, /, ^",
+                        };
+                        self.refuse(at, format!("the function {name}"), accepted)
                     }
                     (_, false) => self.name(name, at),
                 }

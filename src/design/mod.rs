@@ -141,7 +141,8 @@ impl Design {
         }
     }
 
-    /// What the file has and its claim has not, because no requirement is about it.
+    /// What the file has and its claim has not, because no requirement is about it; and coordinates along
+    /// which its workspace has no extent.
     pub fn notes(&self) -> Vec<String> {
         let note = |(requirement, keys, about): &(&str, &[&str], &str)| {
             let there = keys.iter().filter_map(|key| {
@@ -154,7 +155,18 @@ impl Design {
                 "{key}, line {line}: nothing is claimed of {about}, as [requirements] has no {requirement}"
             ))
         };
-        UNASKED.iter().filter_map(note).collect()
+        let kernel::Workspace::Box { min, max } = &self.claim.workspace else {
+            return UNASKED.iter().filter_map(note).collect();
+        };
+        let flat = min.iter().zip(max).enumerate().filter(|(_, (min, max))| min == max);
+        let flat = flat.filter_map(|(at, _)| {
+            let key = format!("workspace.min.{at}");
+            let line = self.sources.position(&key)?.line;
+            Some(format!(
+                "{key}, line {line}: the same as workspace.max.{at}, so that the workspace is flat"
+            ))
+        });
+        UNASKED.iter().filter_map(note).chain(flat).collect()
     }
 
     /// The paper's prototype: the Orthoglide of a cube of side 200 with `psi_max = 2`.

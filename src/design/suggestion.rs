@@ -3,13 +3,14 @@
 use super::UNITS;
 
 /// What is called otherwise here: the names that others have for it.
-const OTHERWISE: [(&str, &[&str]); 12] = [
+const OTHERWISE: [(&str, &[&str]); 13] = [
     ("slider", &["prismatic", "linear", "guide", "rail", "prs", "pus", "puu"]),
     ("arm", &["rotary", "revolute", "crank", "motor", "rss", "rus"]),
     ("strut", &["extensible", "actuator", "cylinder", "jack", "ups", "sps", "upu"]),
     ("in", &["inch", "inches", "zoll"]),
     ("m", &["metre", "meter", "metres", "meters"]),
     ("um", &["µm", "μm", "micron", "microns", "micrometre", "micrometer"]),
+    ("radius", &["diameter"]),
     ("length", &["leg_length", "rod_length", "arm_length"]),
     ("arm", &["crank_length", "arm_length"]),
     ("transmission", &["psi", "velocity", "transmission_factor", "transmission_factors"]),

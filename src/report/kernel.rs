@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
 use orthocert_kernel::certificate::{Failure, Witness};
-use orthocert_kernel::claim::{Body, Bound, MachineClaim};
+use orthocert_kernel::claim::{Body, Bound, MachineClaim, Mechanism};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -198,7 +198,7 @@ impl<'a> Facts<'a> {
         let (violated, value) = match &witness.fails {
             Failure::Reach => (
                 "every leg reaches P and is not serially singular there".to_owned(),
-                "a leg cannot reach P, or is serially singular there".to_owned(),
+                format!("{} cannot reach P, or is serially singular there", self.short(witness)),
             ),
             Failure::Singular(other) => {
                 other_point = Some(points(other)?);
@@ -259,6 +259,25 @@ impl<'a> Facts<'a> {
             bodies,
             directions,
         })
+    }
+
+    /// The legs that do not reach the point of a witness, as far as doubles tell.
+    fn short(&self, witness: &Witness) -> String {
+        let place = self.sampler.place_of(&witness.point, &witness.machine);
+        let values = place.as_ref().map(|place| self.sampler.at(place));
+        let is_short = |leg: &Leg| {
+            let values = values.as_ref()?;
+            let reaches = leg.row.a.iter().all(|&a| values.of(a).is_some());
+            Some(!reaches || values.of(leg.row.d).is_none_or(|d| d <= 0.0))
+        };
+        let legs = self.problem.legs.iter().enumerate();
+        let short = legs.filter(|(_, leg)| is_short(leg) == Some(true));
+        let names: Vec<String> = short.map(|(at, _)| (at + 1).to_string()).collect();
+        match (&self.claim.mechanism, &names[..]) {
+            (Mechanism::Formulas(_), _) | (_, []) => "a leg".to_owned(),
+            (_, [one]) => format!("leg {one}"),
+            (_, all) => format!("one of legs {}", all.join(", ")),
+        }
     }
 
     /// The rule that an obligation is part of.

@@ -1,6 +1,6 @@
 //! What a paving holds, for people and for scripts.
 
-use crate::exact::decimal::{grouped, percent, rounded, significant, Toward};
+use crate::exact::decimal::{boxes, grouped, percent, rounded, significant, Toward};
 use crate::exact::Exact;
 use crate::files::shown::Shown;
 use crate::search::paving::{box_ends, box_volume, Component, Components, Paved};
@@ -74,6 +74,9 @@ pub struct ComponentsReport {
     /// What that point is.
     #[serde(skip)]
     what_is_there: &'static str,
+    /// Whether parts of boxes that planes cut are inner, too: they are in no component.
+    #[serde(skip)]
+    are_cut: bool,
 }
 
 /// A component.
@@ -140,8 +143,10 @@ impl PavingReport {
             boundary: part(summary.boundary, summary.boundary_share),
             mirrored: summary.mirrored,
             depth: paved.header.depth,
-            components: components
-                .map(|found| described(found, &box_ends(claim, coordinates).unwrap_or_default())),
+            components: components.map(|found| {
+                let ends = box_ends(claim, coordinates).unwrap_or_default();
+                described(found, &ends, inner)
+            }),
             boxes: paved.boxes,
             seconds: 0.0,
         }
@@ -172,8 +177,9 @@ impl PavingReport {
         let row = |name: &str, part: &Part, toward: Toward, what: &str| {
             let share = part.share.as_rational().map(|share| percent(share, 6, toward));
             format!(
-                "  {name:<9} {:>13} boxes {:>11} of the box   {what}\n",
+                "  {name:<9} {:>13} {:<5} {:>11} of the box   {what}\n",
                 grouped(part.boxes),
+                if part.boxes == 1 { "box" } else { "boxes" },
                 share.unwrap_or_default()
             )
         };
@@ -204,31 +210,33 @@ impl PavingReport {
         }
         let rate = self.boxes as f64 / self.seconds;
         out + &format!(
-        "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  sha256 {}\n  {} boxes in \
-         {} s, {} boxes/s\n",
+        "\n  paving {} ({} bytes), every box confirmed by the exact checker\n  sha256 {}\n  {} in {} s, {} \
+         boxes/s\n",
         Shown(&self.paving),
         grouped(self.bytes),
         self.sha256,
-        grouped(self.boxes),
+        boxes(self.boxes as usize),
         significant(self.seconds, 3),
         grouped(rate as u64),
     )
     }
 }
 
-fn described(found: &Components, ends: &[Pair]) -> ComponentsReport {
+fn described(found: &Components, ends: &[Pair], inner: u128) -> ComponentsReport {
     let described = |component: &Component| ComponentReport {
         share: rounded_down(component.share),
         boxes: component.boxes,
         copies: component.copies,
         best_conditioned: component.best_conditioned,
     };
-    let is_found = found.conditioning.is_finite();
+    let point = found.point(ends);
+    let is_found = found.conditioning.is_finite() && point.iter().all(|x| x.is_finite());
     ComponentsReport {
+        are_cut: found.all.iter().map(|component| component.share).sum::<u128>() < inner,
         count: found.all.iter().map(|component| component.copies).sum(),
         largest: found.all.iter().take(SHOWN).map(described).collect(),
         best_conditioning: is_found.then_some(found.conditioning),
-        best_conditioned_at: is_found.then(|| found.point(ends)),
+        best_conditioned_at: is_found.then_some(point),
         what_is_there: found.what_is_there(),
     }
 }
@@ -257,15 +265,19 @@ fn components_text(components: &ComponentsReport) -> String {
         "\n  components {:>10}, by shared faces; they may join in undecided boxes\n",
         grouped(components.count)
     );
+    if components.are_cut {
+        out += "              of whole inner boxes: the parts of boxes that planes cut, which the\n              \
+                shares above have, are not in these\n";
+    }
     for component in &components.largest {
         let copies = match component.copies {
             1 => String::new(),
             n => format!(" together with {} images", n - 1),
         };
         out += &format!(
-            "    {:>11} of the box{copies}, {} boxes\n",
+            "    {:>11} of the box{copies}, {}\n",
             component.percent(),
-            grouped(component.boxes)
+            boxes(component.boxes as usize)
         );
         if component.best_conditioned {
             let least = components.best_conditioning.map(|least| significant(least, 4));

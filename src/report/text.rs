@@ -253,7 +253,7 @@ fn table(out: &mut String, report: &Report, verbose: bool) {
         );
     }
     if rows.iter().any(|row| row.requirement == RADICAND) {
-        out.push_str("  least radicand: 0 where a leg's reach ends; |det M|: 0 at a singularity\n");
+        out.push_str("  least radicand: 0 where reach ends; |det M|: 0 at a singularity\n");
     }
     if rows.iter().any(|row| row.seems_violated) {
         out.push_str("  ! the value found is beyond its bound\n");

@@ -130,6 +130,21 @@ fn a_design_is_read_from_standard_input() {
 }
 
 #[test]
+fn numbers_of_options_carry_no_unit() {
+    let folder = Folder::new();
+    folder.write("d.toml", RODS);
+    let run = folder.run(&["summary", "d.toml", "--speed", "100 mm/s"]).exits(2);
+    run.complains(&["--speed: found \"100 mm/s\"", "numbers carry no unit"]);
+}
+
+#[test]
+fn a_leg_that_does_not_reach_is_named() {
+    let folder = Folder::with(&["delta-out-of-reach.toml"]);
+    let run = folder.run(&["verify", "delta-out-of-reach.toml"]).exits(1);
+    run.says(&["leg 3 cannot reach P, or is serially singular there"]);
+}
+
+#[test]
 fn a_folder_to_check_lacks_certificates() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("empty")).unwrap();

@@ -357,6 +357,15 @@ fn too_few_boxes_leave_the_gap_open() {
 }
 
 #[test]
+fn components_are_of_whole_boxes() {
+    let folder = folder();
+    let run = folder.run(&["pave", "d.toml", "--volume-gap", "0.2", "-o", "cut.paving"]).exits(0);
+    run.says(&["of whole inner boxes: the parts of boxes that planes cut"]);
+    let run = folder.run(&["pave", "d.toml", "--precision", "0.2", "-o", "whole.paving"]);
+    assert!(run.stdout.contains("components") && !run.stdout.contains("that planes cut, which"));
+}
+
+#[test]
 fn bad_usage_is_refused() {
     let folder = folder();
     folder.write("cube.toml", "[mechanism]\nkind = \"orthoglide\"\n[workspace]\ncube = 200\n[requirements]\ntransmission = { max = 2 }\n");

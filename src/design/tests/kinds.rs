@@ -404,6 +404,8 @@ fn what_no_requirement_is_about_is_noted() {
         Design::parse(&with(STRUTS, changes), "d.toml").unwrap().notes()
     };
     assert_eq!(notes(&[]), [""; 0]);
+    let [note] = &notes(&[(15, "max = [6, 5, 6]")])[..] else { panic!("one note") };
+    assert!(note.starts_with("workspace.min.1, line 14: the same as workspace.max.1"), "{note}");
     let [note] = &notes(&[(9, rods)])[..] else { panic!("one note") };
     assert!(
         note.starts_with("mechanism.legs.1.rod, line 10: nothing is claimed of rods"),

@@ -200,6 +200,8 @@ fn texts_that_are_not_toml() {
             "mechanism.leg_length", Syntax, "must be quoted", "\"310.25 ± 0.02\""),
         row!("decimal comma", BOX, [(4, "leg_length = 310,25")], 4, "mechanism.leg_length", Syntax,
             "a comma in a number", "a point: 310.7"),
+        row!("a range as an array", BOX, [(12, "joint_range = [0, 257]")], 12, "requirements.joint_range",
+            WrongType, "an array of 2 elements", "did you mean { min = 0, max = 257 }?"),
         row!("decimal comma in a table", BOX, [(11, "transmission = { min = 0,5, max = 2 }")], 11,
             "requirements.transmission", Syntax, "a comma in a number", "a point: 310.7"),
         row!("decimal comma at its end", BOX, [(11, "transmission = { max = 2,5 }")], 11,

@@ -56,7 +56,7 @@ pub fn margins(rows: &[Row]) -> String {
         );
     }
     let of_radicands = match rows.iter().any(|row| row.requirement == RADICAND) {
-        true => " The least radicand is 0 where a leg's reach ends, |det M| at a singularity.",
+        true => " The least radicand is 0 where reach ends, |det M| at a singularity.",
         false => "",
     };
     out + "</tbody></table></div><p class=\"note\">How close each requirement comes to its bound. The \

@@ -162,7 +162,10 @@ impl General<'_> {
                 };
                 let unit = match (own.unit, self.length) {
                     (Some(unit), Some(length)) => Some(unit.replace("length", length)),
-                    (unit, None) => unit.filter(|unit| *unit == "deg").map(str::to_owned),
+                    // Of a length alone, nothing is told.
+                    (unit, None) => unit
+                        .filter(|unit| unit.starts_with("deg") || unit.ends_with("rad"))
+                        .map(str::to_owned),
                     (None, _) => None,
                 };
                 if let Some(unit) = unit {

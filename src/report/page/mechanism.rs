@@ -229,7 +229,9 @@ fn of_legs(legs: &[Leg]) -> String {
     };
     for (i, leg) in legs.iter().enumerate() {
         put("drive", i, drive(leg).to_owned());
-        for (key, _, quantities) in leg.quantities() {
+        // An arm in the plane has no axis.
+        for (key, _, quantities) in leg.quantities().into_iter().filter(|(.., all)| !all.is_empty())
+        {
             put(key, i, quantities.iter().map(value).collect::<Vec<_>>().join(", "));
         }
         if let Leg::Slider { mode, .. } | Leg::Arm { mode, .. } = leg {

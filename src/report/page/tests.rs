@@ -44,6 +44,7 @@ fn a_caption_names_what_is_drawn() {
             .and_then(|s| s.split("</fig").next());
         let caption = caption.unwrap();
         assert!(caption.contains(there) && !caption.contains(not_there), "{name}: {caption}");
+        assert_eq!(page.contains("<td>axis</td>"), name == "rotary-delta-speed");
     }
 }
 

@@ -160,7 +160,7 @@ impl PavingPage<'_> {
         let _ = write!(
             out,
             "<p>The inner boxes make up <strong>{}</strong>, connected by shared faces; what is apart here may \
-             join in undecided boxes.</p>",
+             join in undecided boxes. Parts of boxes that planes cut are in none of them.</p>",
             if count == 1 { "one component".to_owned() } else { format!("{} components", grouped(count)) }
         );
         out.push_str(
