@@ -12,7 +12,7 @@ use crate::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
     PaveError, Resume, DEEPEST,
 };
-use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
+use orthocert_kernel::claim::{MachineClaim, Mechanism, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
 use std::cmp::Ordering;
@@ -108,6 +108,10 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
     report.design = arguments.design.to_string_lossy().into_owned();
     report.title = design.title;
+    let power = report.coordinates.as_ref().map_or_else(|| coordinates_of(claim).0, Vec::len);
+    let unit = design.unit.filter(|_| !matches!(claim.mechanism, Mechanism::Formulas(_)));
+    report.unit =
+        unit.map(|unit| if power == 1 { unit.to_owned() } else { format!("{unit}^{power}") });
     report.reached = match (goal.depth, goal.gap) {
         (Some(depth), _) => paved.reaches(depth),
         (None, Some(gap)) => report.gap.is_some_and(|found| found <= gap),
@@ -148,7 +152,7 @@ pub fn searched(claim: &MachineClaim, text: Option<&str>) -> Result<MachineClaim
     };
     let numbers = text.split(',').map(|text| input::number("--box", text));
     let numbers: Vec<Exact> = numbers.collect::<Result<_, _>>()?;
-    let (m, names) = coordinates(claim);
+    let (m, names) = coordinates_of(claim);
     if numbers.len() != 2 * m {
         let (count, ends) = match m {
             1 => ("two numbers X0,X1, the ends".to_owned(), ""),
@@ -172,7 +176,7 @@ pub fn searched(claim: &MachineClaim, text: Option<&str>) -> Result<MachineClaim
 }
 
 /// The names of a claim's coordinates of places, and how many there are.
-fn coordinates(claim: &MachineClaim) -> (usize, Vec<String>) {
+fn coordinates_of(claim: &MachineClaim) -> (usize, Vec<String>) {
     let names = crate::report::page::coordinates(claim);
     let m = match &claim.workspace {
         Workspace::Box { min, .. } => min.len(),

@@ -96,7 +96,14 @@ impl<'a> Document<'a> {
             ),
             Some((what @ "string values must be quoted", _)) => (what, QUOTED_VALUES),
             Some((what, expected)) => (what, expected),
-            None if error.message() == "duplicate key" => (error.message(), "each key once"),
+            None if error.message() == "duplicate key" => {
+                let key = self.text.get(at.clone()).unwrap_or_default().trim();
+                let accepted = match suggestion::LISTS.contains(&key) {
+                    true => "each key once; of a list, each table between two brackets: [[mechanism.legs]]",
+                    false => "each key once",
+                };
+                (error.message(), accepted)
+            }
             None => (error.message(), "TOML text"),
         };
         let rest = self.text.get(at.start..).unwrap_or_default().lines().next().unwrap_or_default();
@@ -142,7 +149,9 @@ impl<'a> Document<'a> {
             Some(text.trim()).filter(|t| t.chars().all(bare)).unwrap_or_default().to_owned()
         };
         let header = lines.lines().rev().find_map(|line| line.trim().strip_prefix('['));
-        let header = header.map(|h| name(h.trim_matches(['[', ']', ' ']))).unwrap_or_default();
+        // What follows is a comment.
+        let header = header.and_then(|h| h.trim_start_matches('[').split(']').next());
+        let header = header.map(name).unwrap_or_default();
         let last = lines.lines().next_back().unwrap_or_default();
         let key = last.split_once('=').map(|(key, _)| name(key)).unwrap_or_default();
         match (header.is_empty(), key.is_empty()) {
@@ -187,7 +196,8 @@ impl<'a> Table<'a> {
             return Ok(());
         };
         let name = unknown.get_ref();
-        let hint = match elsewhere(name) {
+        let home = || suggestion::home_of(name).filter(|home| *home != format!("[{}]", self.key));
+        let hint = match elsewhere(name).or_else(|| home().map(str::to_owned)) {
             Some(place) => format!("; {name} goes with {place}"),
             None => suggestion::hint(name, accepted, |word| word.to_owned()),
         };

@@ -51,6 +51,11 @@ pub(super) fn position(key: &str) -> usize {
     keys.take_while(|known| *known != key).count()
 }
 
+/// Whether `[requirements]` may have a key.
+pub(super) fn is_key(key: &str) -> bool {
+    REQUIREMENTS.iter().any(|requirement| requirement.key == key)
+}
+
 const BOUNDS: &str = r#"{ min = "1/2", max = 2 }, or one of min and max"#;
 const CUBE_BOUND: &str =
     "transmission = { max = psi_max }, greater than 1: workspace.cube needs it";

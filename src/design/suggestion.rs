@@ -86,6 +86,20 @@ pub(super) fn kind_of(word: &str) -> Option<&'static str> {
     }
 }
 
+/// Keys of a mechanism that are lists of tables.
+pub(super) const LISTS: [&str; 3] = ["legs", "joints", "bodies"];
+
+/// The table that a key belongs to, of those that are in one alone.
+pub(super) fn home_of(key: &str) -> Option<&'static str> {
+    const MECHANISM: [&str; 7] =
+        ["kind", "legs", "leg_length", "characteristic_length", "coordinates", "joints", "bodies"];
+    match key {
+        "cylinder" | "cube" | "orientation" => Some("[workspace]"),
+        _ if MECHANISM.contains(&key) => Some("[mechanism]"),
+        _ => super::requirements::is_key(key).then_some("[requirements]"),
+    }
+}
+
 /// Which command reads the files that have such a table.
 pub(super) fn file_with(table: &str) -> Option<&'static str> {
     matches!(table, "parameters" | "atlas").then_some("maps: `orthocert atlas` reads them")

@@ -54,6 +54,9 @@ pub fn exactly(x: &Expression) -> Option<Exact> {
     Exact::parse(&x.to_string(), MOST_DIGITS).ok()
 }
 
+/// Relative margin of an accuracy beyond which its bound is what makes it hard.
+const AMPLE: f64 = 0.75;
+
 /// The name of what is under the roots of a leg's closure.
 pub const RADICAND: &str = "least radicand";
 
@@ -454,7 +457,13 @@ impl<'a> Facts<'a> {
 
     fn help(&self, quality: Quality, stop: Stop, worst: &[Worst]) -> String {
         let margin = worst.iter().find(|found| found.quality == quality).map(|found| found.margin);
+        let of_accuracy =
+            self.bounded(quality).filter(|own| own.requirement.quantity == "accuracy");
         match (stop, margin) {
+            (_, Some(margin)) if of_accuracy.is_some() && margin > AMPLE => {
+                "smaller bounds: within them there is to be no second pose, which is the harder to show \
+                 the more room they leave; twice the worst found is enough"
+            }
             (_, Some(margin)) if margin.abs() <= TIE => {
                 "it holds with equality, or nearly, somewhere; no splitting decides a tie: give the \
                  bound or the workspace a little more room"

@@ -55,6 +55,9 @@ pub struct PavingReport {
     pub boxes: u64,
     /// Seconds taken.
     pub seconds: f64,
+    /// The unit of volumes, as `mm^3`, where the design names one of lengths.
+    #[serde(skip)]
+    pub unit: Option<String>,
 }
 
 /// The components of the inner boxes: boxes that share a part of a face are connected.
@@ -149,6 +152,7 @@ impl PavingReport {
             }),
             boxes: paved.boxes,
             seconds: 0.0,
+            unit: None,
         }
     }
 
@@ -159,7 +163,11 @@ impl PavingReport {
         let (Some(inner), Some(open)) = (inner, open) else {
             return String::new();
         };
-        let unit = if self.inner.volume.is_some() { "" } else { " of the box" };
+        let unit = match (&self.inner.volume, &self.unit) {
+            (None, _) => " of the box".to_owned(),
+            (Some(_), Some(unit)) => format!(" {unit}"),
+            (Some(_), None) => String::new(),
+        };
         // Of shares and of volumes the quotient is the same.
         let gap = match self.gap {
             Some(_) if open.is_zero() => "0 %".to_owned(),

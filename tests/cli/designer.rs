@@ -162,3 +162,12 @@ fn a_report_names_what_is_drawn_and_left_out() {
     let page = String::from_utf8(folder.read("d.report.html")).unwrap();
     assert!(page.contains(&format!("<dt>note</dt><dd>{NOTE}")));
 }
+
+#[test]
+fn an_accuracy_with_too_much_room_says_so() {
+    let folder = Folder::new();
+    let text = include_str!("../designs/kernel/hexapod-accuracy.toml");
+    folder.write("d.toml", text.replace("max = 0.01, max_angle = 0.05", "max = 5, max_angle = 1"));
+    let run = folder.run(&["verify", "d.toml", "--max-boxes", "5"]).exits(3);
+    run.says(&["what would help: smaller bounds: within them there is to be no second pose"]);
+}

@@ -361,7 +361,9 @@ fn components_are_of_whole_boxes() {
     let folder = folder();
     let run = folder.run(&["pave", "d.toml", "--volume-gap", "0.2", "-o", "cut.paving"]).exits(0);
     run.says(&["of whole inner boxes: the parts of boxes that planes cut"]);
+    folder.write("d.toml", format!("unit = \"mm\"\n{DESIGN}"));
     let run = folder.run(&["pave", "d.toml", "--precision", "0.2", "-o", "whole.paving"]);
+    assert!(run.stdout.lines().next().unwrap().contains(" mm^3, gap"), "{}", run.stdout);
     assert!(run.stdout.contains("components") && !run.stdout.contains("that planes cut, which"));
 }
 

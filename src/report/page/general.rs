@@ -239,7 +239,7 @@ impl General<'_> {
         {
             functions.push(Function {
                 file: "critical",
-                heading: mechanism::formula(requirement),
+                heading: mechanism::heading(requirement),
                 of: Box::new(move |at| sampled.value(number, at)),
             });
         }
@@ -431,11 +431,9 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
             rows.push((place.to_owned(), number(x)));
         }
     }
-    if let kernel::Failure::Obligation(_, directions) = &witness.fails {
-        for direction in directions {
-            let all: Vec<String> = direction.iter().map(ToString::to_string).collect();
-            rows.push(("moving along".to_owned(), format!("({})", all.join(", "))));
-        }
+    for direction in found.iter().flat_map(|found| &found.directions) {
+        let all: Vec<String> = direction.iter().map(ToString::to_string).collect();
+        rows.push(("moving along".to_owned(), format!("({})", all.join(", "))));
     }
     rows
 }

@@ -207,6 +207,11 @@ pub fn formula(requirement: &Requirement) -> String {
     text + &of
 }
 
+/// The same over a picture.
+pub fn heading(requirement: &Requirement) -> String {
+    formula(requirement).replace("psi_i", "\u{3c8}\u{1d62}").replace("rho_i", "\u{3c1}\u{1d62}")
+}
+
 /// The machine's numbers, exactly.
 pub fn parameters(claim: &MachineClaim) -> String {
     match &claim.mechanism {

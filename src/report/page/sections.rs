@@ -61,7 +61,7 @@ impl Page<'_> {
             signed.push(("nearest limit", nearest.clone()));
         }
         if let Some(unit) = self.unit {
-            signed.push(("lengths", format!("in {unit}")));
+            signed.push(("lengths in", unit.to_owned()));
         }
         signed.extend(self.notes.iter().map(|note| ("note", note.clone())));
         for (name, value) in signed {

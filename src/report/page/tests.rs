@@ -49,6 +49,16 @@ fn a_caption_names_what_is_drawn() {
 }
 
 #[test]
+fn directions_are_those_of_motions() {
+    for (name, moves) in
+        [("delta-conditioning-refuted", true), ("rotary-delta-angle-refuted", false)]
+    {
+        let page = with_page(&certificate(name), None, |page| page.html());
+        assert_eq!(page.contains("moving along"), moves, "{name}");
+    }
+}
+
+#[test]
 fn names_and_titles_stay_text() {
     let bytes = certificate("orthoglide-310");
     let text = String::from_utf8(bytes).unwrap();
@@ -158,7 +168,7 @@ fn the_first_box_has_what_a_designer_signs() {
     for text in [
         "<dt>verdict</dt><dd>certified</dd>",
         "<dt>nearest limit</dt><dd>",
-        "<dt>lengths</dt><dd>in mm</dd>",
+        "<dt>lengths in</dt><dd>mm</dd>",
         "Every translational machine of four struts within one tolerance",
         "the box [-60, 60] \u{d7} [-60, 60] \u{d7} [150, 220]",
         "<td>joint coordinates: rho_i</td><td class=\"place\">at most 340 mm</td>",

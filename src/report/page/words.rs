@@ -135,7 +135,7 @@ fn asserted(claim: &Claim) -> Vec<String> {
 }
 
 /// The table's symbols as the paper writes them.
-fn symbols(formula: &str) -> String {
+pub(super) fn symbols(formula: &str) -> String {
     let greek = [("psi_i", '\u{3c8}'), ("rho_i", '\u{3c1}'), ("eta_i", '\u{3b7}')];
     let written = |text: String, (name, letter): (&str, char)| {
         text.replace(name, &format!("{letter}<sub>i</sub>"))

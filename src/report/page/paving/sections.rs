@@ -1,6 +1,6 @@
 //! The sections of a paving's page, in their order.
 
-use super::super::{mechanism, recheck};
+use super::super::{mechanism, recheck, words};
 use super::PavingPage;
 use crate::exact::decimal::{grouped, percent, significant, Toward};
 use crate::report::escape::xml;
@@ -209,7 +209,8 @@ impl PavingPage<'_> {
             xml(statement.trim_end())
         );
         for requirement in &self.claim.require {
-            let _ = write!(out, "<li>{}</li>", mechanism::formula(requirement));
+            let formula = words::symbols(&xml(&mechanism::formula(requirement)));
+            let _ = write!(out, "<li>{formula}</li>");
         }
         out + "</ul></section>\n"
     }
