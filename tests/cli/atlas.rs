@@ -44,7 +44,7 @@ fn a_map_is_written_with_everything_and_accepted() {
     assert_eq!(names(&folder), written);
     folder.run(&["check", "map.atlas/atlas.cert.json"]).exits(0).says(&[
         "ACCEPTED: certified",
-        "psi_max in [1.2, 4]",
+        "<psi_max> in [1.2, 4]",
         "the share 9/16",
     ]);
     folder.run(&["check", "map.atlas/best.cert.json"]).exits(0);
@@ -75,8 +75,8 @@ fn a_map_of_a_platform_that_turns_is_written_and_accepted() {
     assert!(share("certified") != "0" && share("refuted") != "0", "{report}");
     folder.run(&["check", "map.atlas/atlas.cert.json"]).exits(0).says(&[
         "ACCEPTED: certified",
-        "turn in [5, 60]",
-        "for every rotation R from -turn to turn degrees",
+        "<turn> in [5, 60]",
+        "for every rotation R from -<turn> to <turn> degrees",
     ]);
     folder.run(&["show", "map.atlas/atlas.cert.json"]).exits(0).says(&["NOT CHECKED", "atlas of"]);
     let page = String::from_utf8(folder.read("map.atlas/index.html")).unwrap();
@@ -228,7 +228,7 @@ fn designs_that_are_none_somewhere_in_the_box_are_refused() {
     refused("resolution = 4", "resolution = 4.5", &["atlas.resolution", "a whole number"]);
     refused("boxes = 300\n", "", &["atlas.boxes", "nothing: the key is missing"]);
     refused("{ maximise = \"side\" }", "{ maximise = \"size\" }", &["objective", "the name size"]);
-    refused("side = \"1/sqrt", "size = \"1/sqrt", &["marks[1].size", "unknown key"]);
+    refused("side = \"1/sqrt", "size = \"1/sqrt", &["marks.0.size", "unknown key"]);
     refused("leg_length = 1", "", &["leg_length", "nothing: the key is missing"]);
 }
 
