@@ -3,12 +3,13 @@
 use super::{input, interrupt, print, Failure, Status};
 use crate::exact::decimal::grouped;
 use crate::files::digest::Summed;
+use crate::files::open::reader;
 use crate::files::output;
 use crate::files::read::Named;
 use crate::report::export;
 use crate::search::paving::{surface, Surface, SurfaceError};
 use clap::Subcommand;
-use orthocert_checker::{file, read};
+use orthocert_checker::read;
 use orthocert_kernel::paving::{is_paving, Reader};
 use std::fmt::Display;
 use std::fs::File;
@@ -148,7 +149,7 @@ fn opened(path: &Path) -> Result<BufReader<Summed<BufReader<Take<File>>>>, Failu
     if path.is_dir() {
         return Err(unreadable("it is a folder; accepted: a paving"));
     }
-    let mut reader = file::reader(path)
+    let mut reader = reader(path)
         .map(Summed::new)
         .map(BufReader::new)
         .map_err(|error| unreadable(&error.to_string()))?;

@@ -3,9 +3,9 @@
 use super::{print, Failure};
 use crate::design::{may_be_tolerance, Design};
 use crate::exact::Exact;
+use crate::files::open::reader;
 use crate::files::read::{meant, read, Named};
 use orthocert_checker::certificate::MOST_BYTES;
-use orthocert_checker::file;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
 use std::path::{Path, PathBuf};
@@ -58,7 +58,7 @@ impl Begun {
             return Err(unreadable(&"it is a folder; accepted: a certificate or a paving"));
         }
         let mut start = Vec::new();
-        let mut rest = file::reader(meant(path)).map_err(|error| unreadable(&error))?;
+        let mut rest = reader(meant(path)).map_err(|error| unreadable(&error))?;
         let read = rest.by_ref().take(MOST_BYTES as u64 + 1).read_to_end(&mut start);
         read.map_err(|error| unreadable(&error))?;
         Ok(Begun { start, rest })

@@ -2,6 +2,7 @@
 
 pub mod digest;
 pub mod folder;
+pub mod open;
 pub mod output;
 pub mod read;
 pub mod shown;

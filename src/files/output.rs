@@ -4,8 +4,8 @@
 //! of a file, or of a folder below the one that was named, would lead to somebody else's. Links are
 //! refused, unless [`follow_links`] was called.
 
+use crate::files::open::is_stream;
 use crate::files::read::Named;
-use orthocert_checker::file::is_stream;
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io::{self, Seek, Write};

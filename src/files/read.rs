@@ -1,7 +1,7 @@
 //! Files that are read, and their names.
 
+use crate::files::open::{is_stream, open};
 use crate::files::shown::Shown;
-use orthocert_checker::file::{is_stream, open};
 use std::ffi::OsStr;
 use std::io::{self, Read};
 use std::path::Path;

@@ -6,15 +6,11 @@
 //! [`orthocert_kernel`], which has all of the mathematics, and nothing of the program that searched
 //! for the proof.
 //!
-//! | module             | holds                                                                |
-//! |--------------------|----------------------------------------------------------------------|
-//! | [`statement`]      | the claim in words                                                   |
-//! | [`file`](mod@file) | reading files: regular ones, and no more of them than is admissible  |
+//! [`statement`] has the claim in words.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_macros))]
 
-pub mod file;
 pub mod statement;
 
 pub use orthocert_kernel::rejected::Rejected;
@@ -46,9 +42,8 @@ Re-proves an orthocert certificate or paving in exact arithmetic and prints what
 exit: 0 certified, 1 refuted, 2 bad usage or unreadable file, 5 rejected";
 
 /// Every file of `src`, with its path there, in the order of the paths' bytes.
-pub const SOURCES: [(&str, &[u8]); 4] = [
+pub const SOURCES: [(&str, &[u8]); 3] = [
     ("bin/orthocert-check.rs", include_bytes!("bin/orthocert-check.rs")),
-    ("file.rs", include_bytes!("file.rs")),
     ("lib.rs", include_bytes!("lib.rs")),
     ("statement.rs", include_bytes!("statement.rs")),
 ];

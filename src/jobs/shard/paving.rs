@@ -9,10 +9,10 @@ use super::name::{name_of, Name};
 use super::run::RunError;
 use super::split::SplitError;
 use super::task::Pave;
+use crate::files::open::open;
 use crate::files::output::{self, OutputError};
 use crate::search::paving::{Cancelled, Parts, PaveError, Paved, Segment, TreeWriter};
 use data_encoding::HEXLOWER;
-use orthocert_checker::file;
 use orthocert_kernel::paving::Cell;
 use sha2::{Digest, Sha256};
 use std::fs::{File, OpenOptions};
@@ -82,7 +82,7 @@ fn opened(path: &Path) -> Result<File, OutputError> {
 
 /// Forgets of what is done, in order, all from the first cell on whose nodes are not in the file.
 pub(super) fn keep_written(path: &Path, done: &mut [Option<Part>]) {
-    let mut written = file::open(path).ok();
+    let mut written = open(path).ok();
     for part in done {
         let is_there = match (&mut written, &part) {
             (Some(file), Some(Part::Nodes(nodes))) => follow(file, nodes),
@@ -103,7 +103,7 @@ pub(super) fn close(path: &Path, end: u64) -> Result<(), OutputError> {
 
 /// Why the file is not that of these parts.
 pub(super) fn objection(path: &Path, parts: &[Part]) -> Option<String> {
-    let mut file = match file::open(path) {
+    let mut file = match open(path) {
         Ok(file) => file,
         Err(error) => return Some(format!("cannot be read: {error}")),
     };
@@ -210,7 +210,7 @@ impl Held {
             Held::InFile { path, at, bytes } => (path, *at, *bytes),
         };
         let unread = |error| PaveError::Io(path.clone(), error);
-        let mut file = file::open(path).map_err(unread)?;
+        let mut file = open(path).map_err(unread)?;
         file.seek(SeekFrom::Start(at)).map_err(unread)?;
         hand_on(&mut file, bytes, unread, |chunk| out.write(chunk))
     }
