@@ -175,9 +175,10 @@ fn check_paving(
         None => None,
     };
     let accepted = accepted.and_then(|(accepted, words)| match wanted {
-        Some(claim) if accepted.header.claim != claim => {
-            Err(another_claim(&Claim::Machine(accepted.header.claim), &Claim::Machine(claim)))
-        }
+        Some(claim) if accepted.header.claim.machine != claim => Err(another_claim(
+            &Claim::Machine(accepted.header.claim.machine),
+            &Claim::Machine(claim),
+        )),
         _ => Ok((accepted, words)),
     });
     match accepted {

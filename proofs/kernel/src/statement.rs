@@ -34,7 +34,7 @@ pub fn paving(accepted: &Accepted) -> String {
 
 /// What is `shown` of the region of a paving.
 pub(crate) fn region(header: &Header, summary: &Summary, shown: &str) -> String {
-    let claim = &header.claim;
+    let claim = &header.claim.machine;
     let (points, of) = match &header.coordinates {
         None => ("the points at which".to_owned(), String::new()),
         Some(own) => {

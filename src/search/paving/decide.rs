@@ -216,7 +216,7 @@ impl<'a> Decider<'a> {
     /// # Errors
     /// If one of its numbers cannot be enclosed.
     pub fn new(subject: &'a Subject) -> Result<Self, Rejected> {
-        let (claim, problem) = (&subject.header.claim, &subject.problem);
+        let (claim, problem) = (&subject.header.claim.machine, &subject.problem);
         let has_tolerances = problem.tolerances().next().is_some();
         let is_general = problem.obligations.iter().any(|own| is_general(&own.test));
         let (prover, gives_evidence) = (Prover::new(problem)?, has_tolerances || is_general);

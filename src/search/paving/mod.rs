@@ -55,7 +55,7 @@ use num_rational::BigRational;
 use orthocert_kernel::certificate::Provenance;
 use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
-use orthocert_kernel::paving::{is_symmetric, names, Header, Symmetry, FORMAT};
+use orthocert_kernel::paving::{is_symmetric, names, About, Header, Symmetry, FORMAT};
 use orthocert_kernel::problem::Problem;
 
 /// Fractional bits of the exact check: most of those for which it can be done in machine words, and
@@ -80,7 +80,7 @@ pub struct Goal {
 pub fn header(claim: &MachineClaim, coordinates: Option<&[String]>, depth: u32) -> Header {
     Header {
         format: FORMAT.to_owned(),
-        claim: claim.clone(),
+        claim: About { machine: claim.clone() },
         coordinates: coordinates.map(<[String]>::to_vec),
         precision: precision(claim),
         depth,

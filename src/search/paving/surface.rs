@@ -104,7 +104,7 @@ pub fn surface<R: Read>(reader: Reader<R>, cancel: &AtomicBool) -> Result<Surfac
 pub fn ends(header: &Header) -> Option<[[f64; 2]; 3]> {
     let mut ends = [[0.0, 1.0]; 3];
     for (end, (min, max)) in
-        ends.iter_mut().zip(box_ends(&header.claim, header.coordinates.as_deref())?)
+        ends.iter_mut().zip(box_ends(&header.claim.machine, header.coordinates.as_deref())?)
     {
         *end = [min, max];
     }

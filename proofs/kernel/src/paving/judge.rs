@@ -54,11 +54,12 @@ impl Subject {
             return Err(Rejected::Precision(bits));
         }
         let is_whole = header.coordinates.is_none();
-        if header.symmetry.is_some() && !(is_whole && symmetry::is_symmetric(&header.claim)) {
+        if header.symmetry.is_some() && !(is_whole && symmetry::is_symmetric(&header.claim.machine))
+        {
             let why = "the claim is not provably the same in every permutation of the coordinates";
             return Err(Rejected::Whole(why));
         }
-        let problem = Problem::new(&header.claim)?;
+        let problem = Problem::new(&header.claim.machine)?;
         let of_two_points = |test: &Test| matches!(test, Test::OneToOne(_));
         if problem.obligations.iter().any(|obligation| of_two_points(&obligation.test)) {
             let why = "the claim is about two points at a time: one_to_one has no region";

@@ -57,8 +57,7 @@ pub struct Header {
     /// [`FORMAT`].
     pub format: String,
     /// The claim whose region is paved: about a box.
-    #[serde(with = "machine")]
-    pub claim: MachineClaim,
+    pub claim: About,
     /// The coordinates that are paved, for all values of the others; none if there are no others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coordinates: Option<Vec<String>>,
@@ -73,23 +72,12 @@ pub struct Header {
     pub provenance: Provenance,
 }
 
-/// A claim as it is in certificates.
-mod machine {
-    use crate::certificate::Claim;
-    use crate::claim::MachineClaim;
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(claim: &MachineClaim, to: S) -> Result<S::Ok, S::Error> {
-        Claim::Machine(claim.clone()).serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<MachineClaim, D::Error> {
-        match Claim::deserialize(from)? {
-            Claim::Machine(claim) => Ok(claim),
-            _ => Err(D::Error::custom("a claim about a machine over a workspace is expected")),
-        }
-    }
+/// A claim about a machine, as it is in certificates.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct About {
+    /// The claim.
+    pub machine: MachineClaim,
 }
 
 /// A symmetry of the claim.
@@ -143,11 +131,13 @@ impl Header {
     /// # Errors
     /// If they are none.
     pub fn order(&self) -> Result<[Vec<usize>; 2], Rejected> {
-        let names = names(&self.claim);
+        let names = names(&self.claim.machine);
         let place = |own: &String| names.iter().position(|name| name.as_ref() == Some(own));
         let paved: Option<Vec<usize>> = match &self.coordinates {
             Some(own) => own.iter().map(place).collect(),
-            None if self.claim.orientation.is_none() => names.iter().flatten().map(place).collect(),
+            None if self.claim.machine.orientation.is_none() => {
+                names.iter().flatten().map(place).collect()
+            }
             None => None,
         };
         let paved = paved.filter(|paved| (1..=3).contains(&paved.len()));

@@ -5,9 +5,9 @@ use orthocert_kernel::certificate::{Evidence, Failure, Provenance};
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{
-    bit, check, is_mirrored, is_paving, is_symmetric, six_ordered, Accepted, Axis, Cell, Edge,
-    Header, Item, Judge, Kind, Outer, Reader, Rejected, Step, Subject, Symmetry, Visited, FORMAT,
-    SHARE_BITS,
+    bit, check, is_mirrored, is_paving, is_symmetric, six_ordered, About, Accepted, Axis, Cell,
+    Edge, Header, Item, Judge, Kind, Outer, Reader, Rejected, Step, Subject, Symmetry, Visited,
+    FORMAT, SHARE_BITS,
 };
 use orthocert_kernel::prover::{check_sample, write_pair};
 use orthocert_kernel::test::Multiplier;
@@ -39,7 +39,7 @@ const DISC: &str = r#"{"mechanism":{"formulas":{"coordinates":["x","y"],"paramet
 pub fn header_of(claim: MachineClaim, depth: u32) -> Header {
     Header {
         format: FORMAT.to_owned(),
-        claim,
+        claim: About { machine: claim },
         coordinates: None,
         precision: 36,
         depth,
@@ -334,7 +334,9 @@ fn symmetry_leaves_out_only_what_is_out_of_order() {
     assert!(reason(&written(&symmetric, &wrong)).contains("has points with u_x < u_y < u_z"));
     // The same bytes for a box that is not symmetric.
     let mut header = symmetric;
-    let Workspace::Box { max, .. } = &mut header.claim.workspace else { panic!("not a box") };
+    let Workspace::Box { max, .. } = &mut header.claim.machine.workspace else {
+        panic!("not a box")
+    };
     max[2] = number("0.8");
     assert!(reason(&written(&header, &items)).contains("in every permutation"));
 }
@@ -458,8 +460,8 @@ fn headers_that_are_none_are_rejected() {
         (with(|h| h.precision = 1025), "is not within"),
         (with(|h| h.depth = 121), "more than 120"),
         (with(|h| h.depth = 9), "split too often"),
-        (with(|h| h.claim = orthoglide("0.5", "0.5")), "positive volume"),
-        (with(|h| h.claim = orthoglide("0.5", "0")), "not well formed"),
+        (with(|h| h.claim.machine = orthoglide("0.5", "0.5")), "positive volume"),
+        (with(|h| h.claim.machine = orthoglide("0.5", "0")), "not well formed"),
         (with(|_| ()), "not the summary"),
     ] {
         assert!(found.contains(expected), "{found}");

@@ -69,7 +69,7 @@ impl<'a> PavingPage<'a> {
         file: File<'a>,
         title: Option<&str>,
     ) -> Option<Self> {
-        let claim = &accepted.header.claim;
+        let claim = &accepted.header.claim.machine;
         let (ends, axes) = (ends(&accepted.header)?, axes(&accepted.header));
         let least: Point = ends.map(|[least, _]| least);
         let width: Point = ends.map(|[least, most]| most - least);
