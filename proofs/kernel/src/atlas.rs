@@ -207,8 +207,8 @@ fn bytes(part: &impl Serialize) -> usize {
 /// false for all values. *Proof.* For each, the witness's point is in the workspace, its machine is one
 /// of the claim's, and what it names is violated there. ∎ The point may be another for every value.
 ///
-/// Where a tolerance varies, it may be none for some values: its ends are the same number there. Where the
-/// platform turns, a name is an input of which numbers are formulas, and machines differ by it as by a tolerance
+/// Where a tolerance varies, it may be none for some values: its ends are the same number there. A name
+/// is an input of which numbers are formulas, and machines differ by it as by a tolerance
 /// ([`Tolerances`](crate::test::tolerances::Tolerances)): each of its values is between the ends of the cell's
 /// range, and what else varies is in its enclosure for all of them.
 pub(crate) fn shown(
@@ -228,7 +228,7 @@ pub(crate) fn shown(
     match cell {
         AtlasCell::Certified(tree) => {
             spend(&mut left, work::of_numbers(&problem, tree))?;
-            let is_apart = over.orientation.is_some() && tree.takes_tolerances_apart();
+            let is_apart = tree.takes_tolerances_apart();
             let problem = if is_apart { problem.with_derivatives() } else { problem };
             let most_work = problem.most_work.min(left.saturating_mul(BigInt::WORK));
             tree::check(&Problem { most_work, ..problem }, tree)

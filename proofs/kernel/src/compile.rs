@@ -45,9 +45,9 @@ impl Builder {
         self.input(place, Value::Quantity(quantity.clone()), scale)
     }
 
-    /// Where the platform turns, a number as a formula of an atlas's names: each of these is one input.
+    /// A number as a formula of an atlas's names, where it has such: each of these is one input.
     fn of_names(&mut self, place: &str, x: &Expression, scale: i64) -> Option<Formula> {
-        if !self.turns || !x.varies() {
+        if !x.varies() {
             return None;
         }
         if let (Expression::Varying(_), 0) = (x, scale) {

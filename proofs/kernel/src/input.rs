@@ -6,7 +6,7 @@ use crate::fixed::{Fixed, Integer, Interval};
 use crate::number::Expression;
 use crate::slope::{Slope, Slopes};
 use crate::trig::{cos_sin, pi, shortened};
-use crate::vary;
+use crate::vary::{self, MOST_PARAMETERS};
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 use thiserror::Error;
@@ -83,16 +83,14 @@ pub(crate) fn enclosed(number: &Expression, scale: i64, bits: u32) -> Option<Int
     scaled(scale, bits, |working, by| Some(by(&of_all(number, working)?)))
 }
 
-/// The same in slopes, of `m` coordinates, of which a number's names are those at their `place`.
+/// The same in slopes in an atlas's parameters.
 pub(crate) fn sloped(
     number: &Expression,
     scale: i64,
     bits: u32,
-    m: usize,
-    place: &impl Fn(usize) -> Option<usize>,
 ) -> Option<Slope<Interval<BigInt>>> {
     scaled(scale, bits, |working, by| {
-        let x = vary::sloped(number, &Slopes::new(&Fixed::new(working), m), place)?;
+        let x = vary::sloped(number, &Slopes::new(&Fixed::new(working), MOST_PARAMETERS))?;
         let (at_centre, range) = (by(&x.at_centre), by(&x.range));
         Some(Slope { at_centre, range, slopes: x.slopes.map(|x| by(&x)) })
     })

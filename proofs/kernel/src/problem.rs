@@ -9,15 +9,13 @@ use crate::cube::Cube;
 use crate::fixed::{Fixed, Integer, Interval};
 use crate::formula::{coordinates, formula, Formula, Op, Tape, Term, Values};
 use crate::input::{
-    enclosed, malformed, narrowed, ordered, positive, sloped, ClaimError, Input, Value, SIGN_BITS,
+    enclosed, malformed, narrowed, ordered, positive, ClaimError, Input, Value, SIGN_BITS,
 };
 use crate::machine;
 use crate::number::Expression;
 use crate::quantity::{self, Obligation, Test};
-use crate::slope::{Slope, MOST_COORDINATES};
 use crate::test::tolerances::Derivatives;
 use crate::test::Row;
-use crate::vary;
 use num_bigint::BigInt;
 use std::collections::{BTreeSet, HashMap};
 
@@ -53,8 +51,6 @@ pub struct Problem {
     pub cube_reached: Vec<Formula>,
     /// Quotients and roots of a user's formulas: defined where the claim is true.
     pub partial: Vec<Formula>,
-    /// The parameters of an atlas that are coordinates of slopes, after those of the workspace.
-    pub names: Vec<usize>,
     /// The derivatives of tests by tolerances, where they are asked for.
     pub derived: Option<Derived>,
     /// Of a claim that no cube fits, a part of half of the side: cells are moved by so many of these.
@@ -63,8 +59,7 @@ pub struct Problem {
     pub(crate) most_work: usize,
 }
 
-/// A problem's derivatives by what machines differ by: quantities with two ends, and an atlas's names where the
-/// platform turns.
+/// A problem's derivatives by what machines differ by: quantities with two ends, and an atlas's names.
 #[derive(Clone, Debug)]
 pub struct Derived {
     /// The problem's tape, and they.
@@ -143,7 +138,7 @@ impl Problem {
             .is_some_and(|(cube, psi)| ordered("transmission", psi, &cube.kappa, false).is_ok());
         let cube_kappa = cube.map(|cube| builder.number("transmission", &cube.kappa, 0));
         let obligations = quantity::obligations(&mut builder, claim, (&legs, &motion))?;
-        let mut problem = Problem {
+        let problem = Problem {
             tape: builder.tape,
             inputs: builder.inputs,
             legs,
@@ -158,36 +153,12 @@ impl Problem {
             cube_has_least,
             cube_reached: builder.reached,
             partial: builder.partial,
-            names: Vec::new(),
             derived: None,
             offset: None,
             most_work: MOST_WORK,
         };
         problem.constants_are_defined()?;
-        problem.names = problem.coordinates_of_names();
         Ok(problem)
-    }
-
-    /// The parameters in the quantities, but for tolerances, if there are not too many, and all that is
-    /// to be shown is of each point and machine by itself: tests of accuracy compare machines, directions between
-    /// bodies are affine in coordinates alone, and control points are those of a cell without names.
-    fn coordinates_of_names(&self) -> Vec<usize> {
-        let mut names = Vec::new();
-        for input in &self.inputs {
-            if let Value::Quantity(Quantity::Exactly(x)) = &input.value {
-                vary::parameters(x, &mut names);
-            }
-        }
-        names.sort_unstable();
-        names.dedup();
-        let other = |o: &Obligation| matches!(o.test, Test::Accuracy(_) | Test::Apart(_));
-        if self.dimension() + names.len() > MOST_COORDINATES
-            || !self.orientation.is_empty()
-            || self.obligations.iter().any(other)
-        {
-            names.clear();
-        }
-        names
     }
 
     /// With the derivatives of tests by what machines differ by; as it is, where there is nothing of that, or
@@ -240,32 +211,6 @@ impl Problem {
         let changes: Vec<usize> = changes.collect();
         let few = tape.ops().len() <= MOST_DERIVED && changes.iter().all(|&n| n <= MOST_CHANGES);
         few.then_some(Derived { tape, of, changes })
-    }
-
-    /// A number's slopes in the names of an atlas, after division by `2^scale`; `None` where other names
-    /// are in it.
-    pub(crate) fn sloped<Z: Integer>(
-        &self,
-        number: &Expression,
-        scale: i64,
-        bits: u32,
-    ) -> Option<Slope<Interval<Z>>> {
-        let m = self.dimension();
-        let place = |parameter| Some(m + self.names.iter().position(|&own| own == parameter)?);
-        let x = sloped(number, scale, bits, m + self.names.len(), &place)?;
-        let slopes = x.slopes.iter().map(narrowed).collect::<Option<Vec<_>>>()?.try_into().ok()?;
-        Some(Slope { at_centre: narrowed(&x.at_centre)?, range: narrowed(&x.range)?, slopes })
-    }
-
-    /// The slopes of each quantity with such names; `None` of all else.
-    pub fn varying<Z: Integer>(&self, bits: u32) -> Vec<Option<Slope<Interval<Z>>>> {
-        let slope = |input: &Input| match &input.value {
-            Value::Quantity(Quantity::Exactly(x)) if !self.names.is_empty() && x.varies() => {
-                self.sloped(x, input.scale, bits)
-            }
-            _ => None,
-        };
-        self.inputs.iter().map(slope).collect()
     }
 
     /// Whether what depends on no coordinate is defined, for every machine: directions are not zero,

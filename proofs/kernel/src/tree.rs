@@ -50,8 +50,7 @@ impl Theorem for Problem {
         let arithmetic = Fixed::<Z>::new(bits);
         let parameters = self.parameters(bits, &[])?;
         let checker = Checker::new(self, &arithmetic, parameters, self.tight(bits))
-            .with_chords(tree.chords.clone())
-            .with_varying(self.varying(bits));
+            .with_chords(tree.chords.clone());
         let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
         let steps = tree.nodes.iter().filter(is_evaluated).count();
         let work = steps.saturating_mul(self.work()).saturating_add(checker.work_of(tree));

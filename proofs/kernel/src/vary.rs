@@ -41,33 +41,19 @@ pub(crate) fn vary(x: &mut Expression, ranges: &[Range]) {
 ///
 /// `None` where it is not certainly defined for all of them; a root of what may be zero is not.
 pub(crate) fn enclose(x: &Expression, bits: u32) -> Option<Interval<BigInt>> {
-    let place = |parameter| (parameter < MOST_PARAMETERS).then_some(parameter);
-    Some(sloped(x, &Slopes::new(&Fixed::new(bits), MOST_PARAMETERS), &place)?.range)
-}
-
-/// Adds the parameters that an expression's names stand for.
-pub(crate) fn parameters(x: &Expression, found: &mut Vec<usize>) {
-    if let Expression::Varying(range) = x {
-        found.push(range.parameter);
-    }
-    x.parts().for_each(|part| parameters(part, found));
+    Some(sloped(x, &Slopes::new(&Fixed::new(bits), MOST_PARAMETERS))?.range)
 }
 
 type Number = Interval<BigInt>;
 
-/// A number's slopes in coordinates of which names are those that `place` says of their parameters; `None` where a
-/// name has none, or the number is not certainly defined for all values.
-pub(crate) fn sloped(
-    x: &Expression,
-    slopes: &Slopes<'_, Fixed<BigInt>>,
-    place: &impl Fn(usize) -> Option<usize>,
-) -> Option<Slope<Number>> {
-    let of = |x: &Expression| sloped(x, slopes, place);
+/// A number's slopes in coordinates one a parameter; `None` where it is not certainly defined for all values.
+pub(crate) fn sloped(x: &Expression, slopes: &Slopes<'_, Fixed<BigInt>>) -> Option<Slope<Number>> {
+    let of = |x: &Expression| sloped(x, slopes);
     let found = match x {
         _ if !x.varies() => slopes.constant(x.enclose(slopes.arithmetic.bits())?),
         Expression::Literal { .. } | Expression::Name(_) => None,
         Expression::Varying(range) => {
-            slopes.coordinate(place(range.parameter)?, range.edge(slopes.arithmetic.bits()))
+            slopes.coordinate(range.parameter, range.edge(slopes.arithmetic.bits()))
         }
         Expression::Neg(inner) => slopes.neg(&of(inner)?),
         Expression::Binary(Operator::Mul, a, b) if a == b => slopes.sqr(&of(a)?),

@@ -114,7 +114,7 @@ fn fails_by_names(at: &AtPoint<'_>, witness: &Witness) -> bool {
     let (problem, bits) = (at.problem, witness.precision);
     let slopes = Slopes::new(at.slopes.arithmetic, MOST_PARAMETERS);
     let either = |x: &Expression, scale: i64, range: &Number| match x.varies() {
-        true => sloped(x, scale, bits, MOST_PARAMETERS, &Some),
+        true => sloped(x, scale, bits),
         false => slopes.constant(range.clone()),
     };
     let coordinate = |k| either(witness.point.get(k)?, problem.scale_of(k), at.point.get(k)?);

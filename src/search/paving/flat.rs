@@ -73,7 +73,7 @@ impl Flat {
     pub fn new(prover: &Prover<'_>) -> Option<Self> {
         let (problem, m) = (prover.problem, prover.root.len());
         let is_known = |&(lo, hi): &Pair| lo == hi;
-        let is_plain = problem.names.is_empty() && !prover.is_scaled && m <= 3;
+        let is_plain = !prover.is_scaled && m <= 3;
         if !is_plain || !prover.parameters().iter().all(is_known) {
             return None;
         }

@@ -8,7 +8,6 @@ use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Evidence, Failure, Node, Step};
-use orthocert_kernel::fixed::Interval;
 use orthocert_kernel::formula::{Formula, Op, Values};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::problem::{Inside, Problem};
@@ -50,13 +49,7 @@ impl<'a> Prover<'a> {
         let root: Cell = problem.root::<BigInt>(BITS)?.0.iter().map(|x| pair(x, BITS)).collect();
         let chords = chords::common(problem, &root, &parameters);
         let checker = Checker::new(problem, &Doubles, parameters, tight);
-        let slope = |x: Slope<Interval<BigInt>>| Slope {
-            at_centre: pair(&x.at_centre, BITS),
-            range: pair(&x.range, BITS),
-            slopes: x.slopes.map(|x| pair(&x, BITS)),
-        };
-        let varying = problem.varying(BITS).into_iter().map(|x| x.map(slope)).collect();
-        let checker = checker.with_chords(chords.clone()).with_varying(varying);
+        let checker = checker.with_chords(chords.clone());
         let is_scaled = problem.legs.iter().all(|leg| leg.scaled.is_some());
         Ok(Prover { problem, root, chords, is_scaled, checker })
     }

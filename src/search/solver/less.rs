@@ -146,10 +146,7 @@ impl Over<'_> {
         let g = self.centre(inside.g)?;
         let gradient = inside.gradient.iter().zip(self.formulas.place.edges);
         let steps = gradient.map(|(&f, [_, _, half])| Some(self.centre(f)? * half.0));
-        let own = &self.formulas.of(inside.g)?.slopes;
-        let by_names =
-            own[self.m()..self.formulas.slopes.m].iter().map(|x| Some(0.5 * (x.0 + x.1)));
-        let steps: Vec<f64> = steps.chain(by_names).collect::<Option<_>>()?;
+        let steps: Vec<f64> = steps.collect::<Option<_>>()?;
         let at = |v: Vertex| {
             let signed = steps.iter().enumerate().map(|(k, s)| if v.has(k) { *s } else { -s });
             g + signed.sum::<f64>()

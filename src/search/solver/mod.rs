@@ -342,7 +342,7 @@ pub(crate) fn tree(
     control: &mut Control<'_>,
     accepts: impl Fn(&Tree) -> bool,
 ) -> Result<Tree, Stop> {
-    let derived = (!problem.orientation.is_empty()).then(|| problem.clone().with_derivatives());
+    let derived = Some(problem.clone().with_derivatives());
     let problem = derived.as_ref().unwrap_or(problem);
     let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
     if !points.iter().all(|point| prover.holds_next_to(point)) {

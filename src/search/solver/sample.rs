@@ -104,8 +104,6 @@ pub struct Sampler<'a> {
     program: Program<f64>,
     /// The parameters that are intervals; over a cell of an atlas also those that vary by themselves.
     pub(super) free: Vec<usize>,
-    /// Of an atlas, the values in the middle and the slopes of parameters that vary with its names.
-    varying: Vec<(usize, f64, Vec<f64>)>,
     /// Radicands that depend on the point.
     radicands: Vec<Formula>,
     /// The formulas that each quality needs.
@@ -139,14 +137,7 @@ impl<'a> Sampler<'a> {
         let free = inputs.filter(|(_, input)| {
             matches!(input.value, Value::Quantity(Quantity::Between { .. })) || input.varies()
         });
-        let (m, slopes) = (problem.dimension(), problem.varying::<BigInt>(BITS));
-        let number = |x| middle(&pair(x, BITS));
-        let varying = slopes.iter().enumerate().filter_map(|(j, slope)| {
-            let slope = slope.as_ref()?;
-            let by = slope.slopes.iter().skip(m).take(problem.names.len()).map(number);
-            Some((j, number(&slope.at_centre), by.collect()))
-        });
-        let free = free.filter(|(j, _)| slopes[*j].is_none());
+        let m = problem.dimension();
         let constants: std::collections::HashSet<Formula> =
             problem.tape.constants().into_iter().collect();
         let radicand = |op: &Op| match *op {
@@ -158,9 +149,7 @@ impl<'a> Sampler<'a> {
         let program = |needed: Option<&[bool]>| {
             Program::new(&problem.tape, needed, Single, |op| match op {
                 Op::Coordinate(k) => Some(Input::Varying(k)),
-                Op::Parameter(j) if free.contains(&j) || slopes[j].is_some() => {
-                    Some(Input::Varying(m + j))
-                }
+                Op::Parameter(j) if free.contains(&j) => Some(Input::Varying(m + j)),
                 Op::Parameter(j) => Some(Input::Constant(middle(parameters.get(j)?))),
                 _ => None,
             })
@@ -171,7 +160,6 @@ impl<'a> Sampler<'a> {
             claim,
             box_: root.iter().map(edge).collect(),
             program: program(None),
-            varying: varying.collect(),
             radicands,
             needed: Vec::new(),
             sign: 1.0,
@@ -195,9 +183,9 @@ impl<'a> Sampler<'a> {
         Place { u: vec![0.5; self.box_.len()], t: vec![0.5; self.frees()] }
     }
 
-    /// In how many ways machines differ: parameters that are free, and names.
+    /// In how many ways machines differ.
     pub(super) fn frees(&self) -> usize {
-        self.free.len() + self.problem.names.len()
+        self.free.len()
     }
 
     /// The parts of the workspace's box that a place stands for: outside a cylinder, those of the point
@@ -311,14 +299,10 @@ impl<'a> Sampler<'a> {
     fn at_program<'s>(&self, place: &Place, program: &'s Program<f64>, nominal: bool) -> At<'s> {
         let mut inputs = self.inputs(&self.point(&place.u));
         let nominal = nominal.then(|| program.run(|k| inputs[k]));
-        let (m, names) = (self.box_.len(), place.t.get(self.free.len()..).unwrap_or_default());
+        let m = self.box_.len();
         for (&j, t) in self.free.iter().zip(&place.t) {
             let (lo, hi) = self.parameters[j];
             inputs[m + j] = lo + t * (hi - lo);
-        }
-        for (j, centre, by) in &self.varying {
-            let terms = by.iter().zip(names).map(|(by, t)| by * (2.0 * t - 1.0));
-            inputs[m + *j] = centre + terms.sum::<f64>();
         }
         At { program, own: program.run(|k| inputs[k]), nominal }
     }

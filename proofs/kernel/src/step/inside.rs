@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::arithmetic::Enclosure;
-use crate::formula::{Formula, Values};
+use crate::formula::Formula;
 use crate::problem::Inside;
 use crate::slope::Slope;
 use crate::test::Over;
@@ -13,10 +13,6 @@ impl<E: Enclosure> Checker<'_, E> {
     /// **Lemma.** `g` is concave, so `g <= t`, and `t >= 0` at the cell's points in the workspace.
     /// (Taking `g` at the vertices instead of `t` would be unsound: a convex combination of these is
     /// below `g`. `f = -0.1` "holds" then on `|x| <= 0.7` in the cell `[-1, 1]` with `g = 1/2 - x^2`.)
-    ///
-    /// With names, `g` is concave for each of their values: its tangent is `g(c) + sum_k lambda_k h_k
-    /// d_k g(c)` with `g(c)` in slopes in the names, for `x` at the centre `c`, and `d_k g(c)` of all
-    /// values. (The slopes in names over the whole cell, or a tangent in names also, would be unsound.)
     fn tangent(
         &self,
         over: &Over<'_, E>,
@@ -24,38 +20,17 @@ impl<E: Enclosure> Checker<'_, E> {
     ) -> Option<Slope<E::Number>> {
         let Inside { g, gradient } = self.problem.inside.as_ref()?;
         let e = self.arithmetic;
-        let by_name = self.at_centre(over, gradient.iter().chain([g]));
-        let values = by_name.as_ref().unwrap_or(over.values);
-        let mut tangent = values.of(*g)?.clone();
-        if by_name.is_none() {
-            tangent = over.slopes.constant(tangent.at_centre)?;
-        }
+        let at_centre = |f: Formula| Some(over.of(f)?.at_centre.clone());
+        let mut tangent = over.slopes.constant(at_centre(*g)?)?;
         for ((slope, &f), [_, _, half]) in
             tangent.slopes.iter_mut().zip(gradient).zip(over.place.edges)
         {
-            let f = values.of(f)?;
-            *slope = e.mul(if by_name.is_some() { &f.range } else { &f.at_centre }, half)?;
+            *slope = e.mul(&at_centre(f)?, half)?;
         }
         for part in tangent.slopes.iter_mut().chain([&mut tangent.at_centre]) {
             *part = e.dyadic(multiple, places, part)?;
         }
         Some(tangent)
-    }
-
-    /// Where there are names, these formulas at the cell's centre, in slopes in them.
-    fn at_centre<'f>(
-        &self,
-        over: &Over<'_, E>,
-        formulas: impl Iterator<Item = &'f Formula>,
-    ) -> Option<Values<Slope<E::Number>>> {
-        if self.problem.names.is_empty() {
-            return None;
-        }
-        let zero = self.arithmetic.integer(0)?;
-        let edge = |[centre, ..]: &[E::Number; 3]| [centre.clone(), centre.clone(), zero.clone()];
-        let edges: Vec<_> = over.place.edges.iter().map(edge).collect();
-        let all: Vec<Formula> = formulas.copied().collect();
-        Some(self.values(Some(&self.problem.tape.parts(&all)), &edges))
     }
 
     /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.

@@ -13,7 +13,7 @@ use crate::control::Control;
 use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
-use crate::slope::{Slope, Slopes};
+use crate::slope::Slopes;
 use crate::test::accuracy::{near, Accuracy};
 use crate::test::{Formulas, Multiplier, Over, Row, MOST_PLACES};
 use tolerances::{are_for, is_of_vertices};
@@ -24,8 +24,6 @@ pub struct Checker<'a, E: Enclosure> {
     arithmetic: &'a E,
     /// What it was given.
     pub parameters: Vec<E::Number>,
-    /// Of an atlas, the parameters that have slopes in its names.
-    varying: Vec<Option<Slope<E::Number>>>,
     /// `q_1` and `q_2` of the paper's cube.
     tight: Option<[E::Number; 2]>,
     rows: Vec<Row<Formula>>,
@@ -39,7 +37,7 @@ pub struct Checker<'a, E: Enclosure> {
     chords: Option<Multiplier>,
     /// What own evidence is made of; none where that is all.
     needed: Option<Vec<bool>>,
-    /// The formulas without coordinates, if no parameter has slopes.
+    /// The formulas without coordinates.
     constant: Formulas<E>,
 }
 
@@ -57,7 +55,6 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             problem,
             arithmetic,
             parameters,
-            varying: Vec::new(),
             tight,
             rows: problem.legs.iter().map(|leg| leg.row.clone()).collect(),
             divided: problem.legs.iter().map(|leg| leg.divided.clone()).collect(),
@@ -78,24 +75,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         Checker { chords, ..self }
     }
 
-    /// With parameters whose slopes in the names of an atlas are known.
-    ///
-    /// **Lemma (names).** Let names be coordinates as those of the workspace are: a cell is then one of
-    /// points and values, and the lemmas of slopes and vertices hold of it. What a test shows at the
-    /// vertices holds at each point for the machine of each value, so of each machine at all points: no
-    /// test compares machines, and what is of a whole tree (`Y` of chords) is the same for all values. ∎
-    /// The workspace's own inequality is concave for each machine, not in names (`radius^2`): see the
-    /// tangent.
-    #[must_use]
-    pub fn with_varying(self, varying: Vec<Option<Slope<E::Number>>>) -> Self {
-        let is_varied = varying.iter().any(Option::is_some);
-        let constant = if is_varied { Values::default() } else { self.constant };
-        Checker { varying, constant, ..self }
-    }
-
-    /// The arithmetic of slopes in `m` coordinates, and in names.
+    /// The arithmetic of slopes in `m` coordinates.
     pub fn slopes(&self, m: usize) -> Slopes<'a, E> {
-        Slopes::new(self.arithmetic, m + self.problem.names.len())
+        Slopes::new(self.arithmetic, m)
     }
 
     /// The formulas over a cell.
@@ -107,10 +89,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     fn values(&self, needed: Option<&[bool]>, edges: &[[E::Number; 3]]) -> Formulas<E> {
         let slopes = self.slopes(edges.len());
         let coordinate = |k: usize| slopes.coordinate(k, edges.get(k)?.clone());
-        let parameter = |j: usize| match self.varying.get(j) {
-            Some(Some(slope)) => Some(slope.clone()),
-            _ => slopes.constant(self.parameters.get(j)?.clone()),
-        };
+        let parameter = |j: usize| slopes.constant(self.parameters.get(j)?.clone());
         let known = (needed, &self.constant);
         self.problem.tape.run_parts(&slopes, known, coordinate, parameter)
     }

@@ -14,7 +14,7 @@ impl<E: Enclosure> Checker<'_, E> {
     /// formulas with their derivatives once a node, and for each step those of one machine, and at each vertex or
     /// control point all changes.
     pub(crate) fn work_of(&self, tree: &Tree) -> usize {
-        let (m, names) = (self.problem.dimension(), self.problem.names.len());
+        let m = self.problem.dimension();
         let signs = |test: &Test| match test {
             Test::Accuracy(test) => test.rows.len().pow(2) << test.rows.len(),
             _ => 0,
@@ -24,8 +24,7 @@ impl<E: Enclosure> Checker<'_, E> {
         };
         let (entries, derived) = (self.problem.tape.ops().len(), self.problem.derived.as_ref());
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
-        let at_vertices: Vec<usize> =
-            tests.map(|test| at_vertices(test, &self.rows, m) << names).collect();
+        let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
         let of_step = |Step(obligation, evidence): &Step| match evidence {
             Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
             Evidence::Tolerances(inner, ends, _) => {

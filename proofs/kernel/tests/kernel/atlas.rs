@@ -1,16 +1,20 @@
 //! Maps of parameters: certified, refuted and undecided cells, and what is rejected.
 
 use crate::prover::Prover;
+use num_traits::ToPrimitive;
 use orthocert_kernel::atlas::{check_part, statement, walk, Part};
 use orthocert_kernel::certificate::{
-    AtlasCell, Certificate, Claim, Failure, Node, Proof, Provenance, Tree, Verdict, Witness, FORMAT,
+    AtlasCell, Certificate, Claim, Evidence, Failure, Node, Proof, Provenance, Step, Tree, Verdict,
+    Witness, FORMAT,
 };
 use orthocert_kernel::check::check;
-use orthocert_kernel::claim::{AtlasClaim, Workspace};
+use orthocert_kernel::claim::{AtlasClaim, Quantity, Workspace};
+use orthocert_kernel::input::{Input, Value};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::prover::check_cell;
 use orthocert_kernel::rejected::Rejected;
+use orthocert_kernel::test::Multiplier;
 use orthocert_kernel::witness::WitnessError;
 
 pub fn number(text: &str) -> Expression {
@@ -428,24 +432,38 @@ fn numbers_are_decided_for_every_value() {
 /// What two numbers share cancels between them; what they do not share does not.
 #[test]
 fn a_name_is_one_number_wherever_it_stands() {
-    let with = |joint: &str, parameters: &str, bound: &str| {
+    // By one step with names apart, from these ends, and with `Y = y/1024`.
+    let with = |joint: &str, parameters: &str, bound: &str, (ends, y): (&str, i64)| {
         let require = format!(r#"[{{"quantity":"transmission","end":"max","bound":"{bound}"}}]"#);
         let text = plain(["0", "1"], r#""1""#, "1")
             .replace(r#"["a","1"]"#, parameters)
             .replace("a*x", joint)
             .replace(r#""require":[]"#, &format!(r#""require":{require}"#));
-        certified(&text)
+        let lower = Evidence::Lower(Multiplier { y: vec![vec![y]], places: 10 });
+        let by = Evidence::Tolerances(lower.into(), ends.to_owned(), vec![vec![1]]);
+        let nodes = vec![Node { by: vec![Step(0, by)], ..Node::default() }];
+        let tree = Tree { precision: 64, chords: None, nodes };
+        check(&certificate(claim(&text), vec![AtlasCell::Certified(tree)]))
     };
     let same = r#"["a","2+p"],["b","1+p"]"#;
     let other = r#"["a","2+p"],["b","1+q"]"#;
-    with("a*x-b*x", same, "1.01").expect("a - b = 1");
-    assert!(with("a*x-b*x", other, "1.01").is_err());
-    assert!(with("a*x-b*x", same, "1").is_err());
-    with("a*x/b", r#"["a","4+p/64"],["b","4+p/64"]"#, "1.001").expect("a/b = 1");
-    assert!(with("a*x/b", r#"["a","4+p/64"],["b","4+q/64"]"#, "1.001").is_err());
+    with("a*x-b*x", same, "1.01", ("-", 1024)).expect("a - b = 1");
+    for ends in ["--", "-+", "+-", "++"] {
+        assert!(with("a*x-b*x", other, "1.01", (ends, 1024)).is_err());
+    }
+    assert!(with("a*x-b*x", same, "1", ("-", 1024)).is_err());
+    assert!(with("a*x-b*x", same, "1.01", ("", 1024)).is_err(), "no end of a name");
+    let with_p = r#"["a","4+p/64"],["b","4+p/64"]"#;
+    with("a*x/b", with_p, "1.001", ("-", 256)).expect("a/b = 1");
+    let with_q = r#"["a","4+p/64"],["b","4+q/64"]"#;
+    for ends in ["--", "-+", "+-", "++"] {
+        assert!(with("a*x/b", with_q, "1.001", (ends, 256)).is_err());
+    }
     // psi is up to 1/(1 - 1/8).
-    with("a*x", r#"["a","1-p/8"]"#, "8/7+1/1000").expect("up to 8/7");
-    assert!(with("a*x", r#"["a","1-p/8"]"#, "8/7-1/1000").is_err());
+    for end in ["-", "0", "+"] {
+        with("a*x", r#"["a","1-p/8"]"#, "8/7+1/1000", (end, 896)).expect("up to 8/7");
+        assert!(with("a*x", r#"["a","1-p/8"]"#, "8/7-1/1000", (end, 896)).is_err());
+    }
 }
 
 /// Cells of linear Deltas whose guides' radius and workspace have names are certified only where all of
@@ -507,13 +525,14 @@ fn enclosures_have_every_value() {
         ("1/(1+p)+1/(1+q)", |p, q| 1.0 / (1.0 + p) + 1.0 / (1.0 + q)),
     ];
     for (text, value) in numbers {
-        let own = claim(&plain(["0", "1"], &format!("\"{text}\""), "1"));
+        let own = claim(&plain(["0", "1"], "\"1\"", "1"));
         let mut widths = Vec::new();
         for part in [[(0, 0), (0, 0)], [(1, 1), (0, 2)], [(5, 4), (5, 4)], [(200, 8), (17, 8)]] {
-            let problem = Problem::new(&own.over(&part).expect("parameters")).expect("well formed");
-            let found = &problem.parameters::<i64>(40, &[]).expect("parameters")[0];
-            let scale = (-40f64).exp2();
-            let (lo, hi) = (found.lo as f64 * scale, found.hi as f64 * scale);
+            let varied = own.varied(&part, &number(text)).expect("parameters");
+            let value_of = Value::Quantity(Quantity::Exactly(varied));
+            let input = Input { place: String::new(), value: value_of, scale: 0 };
+            let ends = input.enclose(40, None).map(|x| [x.lo, x.hi]).expect("a number");
+            let [lo, hi] = ends.map(|x| x.to_f64().expect("a double") * (-40f64).exp2());
             for i in 0..81 {
                 let at = |(n, level): (u64, u32), i: i32| {
                     (n as f64 + f64::from(i) / 8.0) / f64::from(1 << level)

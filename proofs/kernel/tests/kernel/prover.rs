@@ -14,7 +14,6 @@ use orthocert_kernel::formula::{Formula, Values};
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::Slope;
 use orthocert_kernel::step::Checker;
 use orthocert_kernel::test::solve::Solve;
 use orthocert_kernel::test::{Multiplier, Over, Place, Row};
@@ -60,13 +59,7 @@ impl<'a> Prover<'a> {
         let checker = Checker::new(problem, &Rough, parameters.clone(), tight);
         let mut prover = Prover { problem, checker, parameters, root, chords: None };
         prover.chords = prover.common();
-        let slope = |x: Slope<Interval<BigInt>>| Slope {
-            at_centre: double(&x.at_centre, 96),
-            range: double(&x.range, 96),
-            slopes: x.slopes.map(|x| double(&x, 96)),
-        };
-        let varying = problem.varying(96).into_iter().map(|x| x.map(slope)).collect();
-        prover.checker = prover.checker.with_chords(prover.chords.clone()).with_varying(varying);
+        prover.checker = prover.checker.with_chords(prover.chords.clone());
         prover
     }
 
