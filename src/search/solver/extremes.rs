@@ -27,7 +27,7 @@ const FINEST: i32 = 30;
 /// Open boxes from whose centres a better inner end is looked for.
 const OPEN_CENTRES: usize = 8;
 /// Boxes after which a width is given up for a looser one; of platforms that turn a third of that for
-/// each coordinate of orientation, as each takes three times as long.
+/// each coordinate of orientation, as each takes three times as long, and with tolerances a sixth of what is left.
 const MOST_BOXES: usize = 20_000;
 /// Longest text of an exact number.
 const MOST_DIGITS: usize = 1000;
@@ -307,7 +307,8 @@ pub fn enclose(
         return Err(NotEnclosed::Cancelled);
     }
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let budget = of_one_width(budget, &Problem::new(&probe)?);
+    let problem = Problem::new(&probe)?;
+    let (budget, tolerances) = (of_one_width(budget, &problem), turns_with_tolerances(&problem));
     let mut known = Found::worst(&probe, extreme)?;
     let mut width = relative.clone();
     let mut steps = Steps::default();
@@ -336,8 +337,9 @@ pub fn enclose(
                 }
                 Attempt::Worse => {}
                 Attempt::Undecided(stop) => {
-                    // A hopeless width costs little, so the next one is tried soon.
-                    looser = if stop == Stop::Hopeless { 2 } else { 10 };
+                    // A hopeless width costs little, so the next one is tried soon; and tolerances, not boxes,
+                    // may be what is too wide for this one.
+                    looser = if stop == Stop::Hopeless || tolerances { 2 } else { 10 };
                     break;
                 }
             }
@@ -380,8 +382,14 @@ pub fn beyond(value: f64, factor: &BigRational) -> Option<BigRational> {
 
 /// The budget after which a width is given up.
 pub(super) fn of_one_width(budget: Budget, problem: &Problem) -> Budget {
-    let most = MOST_BOXES / 3usize.pow(problem.orientation.len() as u32);
+    let slower = if turns_with_tolerances(problem) { 6 } else { 1 };
+    let most = MOST_BOXES / 3usize.pow(problem.orientation.len() as u32) / slower;
     Budget { max_boxes: budget.max_boxes.min(most), ..budget }
+}
+
+/// Whether it is a platform that turns, of a machine with tolerances.
+fn turns_with_tolerances(problem: &Problem) -> bool {
+    !problem.orientation.is_empty() && problem.tolerances().next().is_some()
 }
 
 /// The most extreme place known.
