@@ -25,8 +25,6 @@ pub(crate) struct Builder {
     pub partial: Vec<Formula>,
     /// Not negative on the paper's cube.
     pub reached: Vec<Formula>,
-    /// Whether the platform turns.
-    pub turns: bool,
     /// The formulas of the legs' quantities, leg by leg.
     of_legs: Vec<Vec<Vec<Formula>>>,
 }

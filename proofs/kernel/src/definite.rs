@@ -29,10 +29,7 @@ impl<N: Clone + Default> Triangle<N> {
     #[inline]
     pub(crate) fn scalar<E: Enclosure<Number = N>>(e: &E, n: usize, c: &N) -> Option<Self> {
         let zero = e.integer(0)?;
-        let entries = Few::filled(n * (n + 1) / 2, || zero.clone());
-        let mut t = Triangle { n, entries };
-        t.change(|i, j, zero| Some(if i == j { c.clone() } else { zero.clone() }))?;
-        Some(t)
+        Triangle::new(n, |i, j| Some(if i == j { c.clone() } else { zero.clone() }))
     }
 
     fn start(&self, i: usize) -> usize {

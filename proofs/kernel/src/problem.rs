@@ -119,7 +119,6 @@ impl Problem {
             (_, Mechanism::Formulas(_) | Mechanism::Orthoglide { .. }) => &[],
         };
         builder.unit(legs)?;
-        builder.turns = claim.orientation.is_some();
         let (motion, chart) = builder.motion(claim)?;
         let (m, legs) = match &claim.mechanism {
             Mechanism::Formulas(formulas) => {
@@ -132,7 +131,7 @@ impl Problem {
         if !shape || !(m + turns..=MOST_LEGS).contains(&legs.len()) {
             return Err(malformed("mechanism", "as many joints as coordinates, or more"));
         }
-        let inside = inside(&mut builder, &claim.workspace);
+        let inside = inside(&mut builder, claim);
         let least = cube.as_ref().zip(quantity::psi(claim, Bound::least));
         let cube_has_least = least
             .is_some_and(|(cube, psi)| ordered("transmission", psi, &cube.kappa, false).is_ok());
@@ -424,15 +423,15 @@ fn corners(workspace: &Workspace) -> Result<[Vec<Expression>; 2], ClaimError> {
 }
 
 /// `radius^2 - (x - center_1)^2 - (y - center_2)^2`.
-fn inside(builder: &mut Builder, workspace: &Workspace) -> Option<Inside> {
-    let Workspace::Cylinder { center, radius, .. } = workspace else { return None };
+fn inside(builder: &mut Builder, claim: &MachineClaim) -> Option<Inside> {
+    let Workspace::Cylinder { center, radius, .. } = &claim.workspace else { return None };
     let scale = builder.scale;
     let radius = builder.number("workspace.radius", radius, scale);
     let mut g = builder.tape.sqr(radius);
     for (k, center) in center.iter().enumerate() {
         let center = builder.number("workspace.center", center, scale);
         let x = builder.tape.coordinate(k);
-        let (turns, tape) = (builder.turns, &mut builder.tape);
+        let (turns, tape) = (claim.orientation.is_some(), &mut builder.tape);
         // Control points want squares of coordinates alone.
         let off = if turns { tape.expanded(x, center) } else { formula!(tape; (x - center) ^ 2) };
         g = tape.sub(g, off);

@@ -13,9 +13,7 @@ pub(super) const PARALLEL_MARGIN: Quantity = Quantity {
 /// `|det A| >= b L_1 .. L_n`, for `b > 0` and as many legs as coordinates.
 fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
     let bound = context.positive(context.least()?)?;
-    if context.builder.turns {
-        return context.refused("of a platform that does not turn");
-    }
+    context.without_rotation()?;
     let mut least = context.number(bound, 0);
     let mut rows = Vec::new();
     for leg in context.legs {

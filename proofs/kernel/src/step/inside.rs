@@ -4,41 +4,28 @@ use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::formula::Formula;
 use crate::problem::Inside;
-use crate::slope::Slope;
 use crate::test::Over;
 
 impl<E: Enclosure> Checker<'_, E> {
-    /// `mu t` for the tangent `t` of the workspace's own inequality at the cell's centre.
+    /// `mu t` at the vertices, for the tangent `t` of the workspace's own inequality at the cell's centre; at control
+    /// points `mu g`, whose weighted sum is that of `g(x)`.
     ///
     /// **Lemma.** `g` is concave, so `g <= t`, and `t >= 0` at the cell's points in the workspace.
     /// (Taking `g` at the vertices instead of `t` would be unsound: a convex combination of these is
     /// below `g`. `f = -0.1` "holds" then on `|x| <= 0.7` in the cell `[-1, 1]` with `g = 1/2 - x^2`.)
-    fn tangent(
-        &self,
-        over: &Over<'_, E>,
-        (multiple, places): (i64, u32),
-    ) -> Option<Slope<E::Number>> {
-        let Inside { g, gradient } = self.problem.inside.as_ref()?;
-        let e = self.arithmetic;
-        let at_centre = |f: Formula| Some(over.of(f)?.at_centre.clone());
-        let mut tangent = over.slopes.constant(at_centre(*g)?)?;
-        for ((slope, &f), [_, _, half]) in
-            tangent.slopes.iter_mut().zip(gradient).zip(over.place.edges)
-        {
-            *slope = e.mul(&at_centre(f)?, half)?;
-        }
-        for part in tangent.slopes.iter_mut().chain([&mut tangent.at_centre]) {
-            *part = e.dyadic(multiple, places, part)?;
-        }
-        Some(tangent)
-    }
-
-    /// The tangent at the vertices; at control points `mu g`, whose weighted sum is that of `g(x)`.
     pub(super) fn inside(&self, over: &Over<'_, E>, mu: (i64, u32)) -> Option<Vec<E::Number>> {
+        let Inside { g, gradient } = self.problem.inside.as_ref()?;
         if over.controls.is_some() {
-            return self.multiples(over, self.problem.inside.as_ref()?.g, mu);
+            return self.multiples(over, *g, mu);
         }
-        let tangent = self.tangent(over, mu)?;
+        let e = self.arithmetic;
+        let at_centre = |f: &Formula| Some(&over.of(*f)?.at_centre);
+        let times = |x: &E::Number| e.dyadic(mu.0, mu.1, x);
+        let mut tangent = over.slopes.constant(times(at_centre(g)?)?)?;
+        let each = tangent.slopes.iter_mut().zip(gradient).zip(over.place.edges);
+        for ((slope, f), [_, _, half]) in each {
+            *slope = times(&e.mul(at_centre(f)?, half)?)?;
+        }
         over.vertices().map(|v| over.slopes.at(&tangent, v)).collect()
     }
 
