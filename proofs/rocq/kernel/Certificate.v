@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Singular Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -113,7 +113,10 @@ Inductive step :=
   (* [ends]: of each quantity with two ends, where the one machine is *)
   | Apart_ (s : step) (ends : string) (directions : list (list Z)).
 
-Inductive violation := Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_.
+Inductive violation :=
+  | Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_
+  (* det M has the other sign at this point *)
+  | Singular_ (other : list expression).
 
 (** [fails_], [offset_]: of leaves on which, moved by so many 16ths of the side, a claim fails. *)
 Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
@@ -329,6 +332,7 @@ Definition violation_text (f : violation) : text :=
   | Dependent_ => quoted "dependent"
   | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
   | Row i l => variant "row" (array [natural i; natural l])
+  | Singular_ other => variant "singular" (array (map number other))
   end.
 Definition node_text (n : node) : text :=
   object (match by_ n with [] => [] | l => [field "by" (array (map step_text l))] end ++
@@ -458,6 +462,7 @@ Fixpoint is_of (ns : list string) (x : expression) : bool :=
   | Binary _ y z => is_of ns y && is_of ns z
   end.
 Definition are_written (ns : list string) (l : list expression) : bool := forallb (fun x => is_written x && is_of ns x) l.
+Definition in_violation (f : violation) : list expression := match f with Singular_ other => other | _ => [] end.
 Definition is_precision (bits : positive) : bool := Pos.leb 32 bits && Pos.leb bits 1024.
 
 (** Every string of the certificate is one, every number is written as section 3 writes it, and precisions are
@@ -472,15 +477,16 @@ Definition is_plain_certificate (c : certificate) : bool :=
   | _ => true
   end &&
   let ns := match subject_ c with Atlas_ ps _ _ _ _ _ => map fst ps | _ => [] end in
-  let is_tree bits nodes := is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n)) nodes in
-  let is_witness bits point machine := is_precision bits && are_written ns (point ++ machine)%list in
+  let is_tree bits nodes := is_precision bits && forallb (fun n => forallb (fun s => is_plain_step (snd s)) (by_ n) &&
+    match fails_ n with Some f => are_written ns (in_violation f) | None => true end) nodes in
+  let is_witness bits point machine how := is_precision bits && are_written ns (point ++ machine ++ in_violation how)%list in
   are_written ns (in_subject (subject_ c)) &&
   match proof_ c with
   | Nodes bits _ nodes => is_tree bits nodes
-  | ByWitness bits point machine _ => is_witness bits point machine
+  | ByWitness bits point machine how => is_witness bits point machine how
   | Cells cells => forallb (fun x => match x with
       | Proved bits _ nodes => is_tree bits nodes
-      | Disproved bits point machine _ => is_witness bits point machine
+      | Disproved bits point machine how => is_witness bits point machine how
       | Cut _ | Undecided => true
       end) cells
   end.
@@ -1011,13 +1017,17 @@ Fixpoint trees_of (most : nat) (l : list node) : option (list tree) :=
 
 End Steps.
 
-Definition nfailure_of (f : violation) : nfailure :=
-  match f with Reach => NOutOfReach | Obligation i vs => NFails i vs | Row i leg => NFailsAlong i leg | Dependent_ => NDependent end.
+(** At one point. *)
+Definition nfailure_of (f : violation) : option nfailure :=
+  match f with
+  | Reach => Some NOutOfReach | Obligation i vs => Some (NFails i vs) | Row i leg => Some (NFailsAlong i leg) | Dependent_ => Some NDependent
+  | Singular_ _ => None
+  end.
 
 (** The same of a tree whose leaves fail, and that has no steps. *)
 Fixpoint failing_tree_of (depth : nat) (l : list node) : option (failing_tree * list node) :=
   match depth, l with
-  | S d, Node [] None (Some f) at_ :: rest => Some (Fails_ at_ (nfailure_of f), rest)
+  | S d, Node [] None (Some f) at_ :: rest => option_map (fun f => (Fails_ at_ f, rest)) (nfailure_of f)
   | S d, Node [] (Some k) None [] :: rest =>
       match failing_tree_of d rest with
       | Some (a, rest) => match failing_tree_of d rest with Some (b, rest) => Some (Halved k a b, rest) | None => None end
@@ -1069,6 +1079,7 @@ Definition failure_of (rs : list requirement) (f : violation) : option failure :
       end
   | Row i leg => match nth_error rs i with Some (PsiMin _) => Some (FailsAlong i leg) | _ => None end
   | Dependent_ => Some AreDependent
+  | Singular_ _ => None
   end.
 
 Fixpoint take_list (v : list quantity) (l : list Claim.number) : list Claim.number * list Claim.number :=
@@ -1295,10 +1306,10 @@ Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell 
     (rs : list written_requirement) (point machine : list expression) (how : violation) : bool :=
   let n := match k with Translates => 3 | TranslatesInPlane => 2 | Turns m => places_of_point m end in
   let point := map denoted point in
-  match take_all_driven ls (map denoted machine) with
-  | (m, []) => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
-      refute_driven exact_bits (driven_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
-  | _ => false
+  match take_all_driven ls (map denoted machine), nfailure_of how with
+  | (m, []), Some f => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
+      refute_driven exact_bits (driven_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) f
+  | _, _ => false
   end.
 Definition accept_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (point machine : list expression) (how : violation) : bool :=
@@ -1382,7 +1393,13 @@ Definition accept (c : certificate) : bool :=
       let n := places_of_point k in
       match take_struts ls (map denoted machine) with
       | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell w o bs rs &&
-          refute_turning exact_bits (turning_claim_of k ls ell w o bs rs) m (numbers_of (firstn n point)) (skipn n point) (nfailure_of how)
+          let c := turning_claim_of k ls ell w o bs rs in
+          match how, nfailure_of how with
+          | Singular_ other, _ => let other := map denoted other in
+              refute_between exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other)
+          | _, Some f => refute_turning exact_bits c m (numbers_of (firstn n point)) (skipn n point) f
+          | _, None => false
+          end
       | _ => false
       end
   | Turning_ k ls ell w o bs rs, Nodes bits chords nodes =>
@@ -1466,12 +1483,13 @@ Proof.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
   - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ h).
-  - unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
+  - unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate].
+    destruct (nfailure_of how); [| discriminate]. apply andb_true_iff in h as [_ h].
     exact (refute_driven_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
-    exact (refute_turning_sound _ _ _ _ _ _ h).
+    destruct how; try exact (refute_turning_sound _ _ _ _ _ _ h). exact (refute_between_sound _ _ _ _ _ _ _ h).
   - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
   - exact (accept_closed_sound offset side rs bits chords nodes t v h).

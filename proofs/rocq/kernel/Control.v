@@ -665,7 +665,7 @@ Definition rank_at (n : nat) (places : N) (Y : list (list Z)) (s : sample (optio
   end.
 Definition upper_at (n : nat) (k : fixed) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
-  | Some rows, Some w, Some t => match upper_triangle rows (repeat [sub (mul bits k w) t] n) with Some t => is_definite n t | None => false end
+  | Some rows, Some w, Some t => are_below n rows (sub (mul bits k w) t)
   | _, _, _ => false
   end.
 (** mu = first w + sum, and both bounds: w sigma_min^2 > mu, w sigma_max^2 < c^2 mu. *)
@@ -1026,11 +1026,8 @@ Proof.
   - intros p ps lp ep rq. specialize (H p lp ep). unfold upper_at in H. pose proof (evaluate_at_sound _ ps rq w) as W.
     destruct (known_rows _) as [s |] eqn:es; [| discriminate]. cbn [map_sample sample_of s_rows s_weight] in es, H. destruct (nth w (evaluate_at _) None) as [b |]; [| discriminate].
     match type of H with context [known_multiple ?u] => destruct (known_multiple u) as [t |] eqn:et; [| discriminate] end. pose proof (multiple_sound _ ps r w l t rq et) as L.
-    destruct (known_rows_sound _ ps r s rq es) as [S _]. destruct (upper_triangle s (repeat [sub (mul bits k2 b) t] n)) as [T |] eqn:eu; [| discriminate].
-    unfold is_definite in H. destruct (Nat.eqb_spec (length T) n) as [e | e]; [| discriminate].
-    destruct (upper_triangle_sound bits s _ _ _ v T S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) L)) eu) as [U [hU le]].
-    pose proof (is_positive_definite_sound bits _ U H hU v) as Q. specialize (le u). rewrite <- lv, quad_diagonal in le.
-    rewrite (related_length _ _ _ _ _ hU) in e. specialize (Q ltac:(congruence) nz). lra.
+    destruct (known_rows_sound _ ps r s rq es) as [S _].
+    pose proof (are_below_sound bits n s _ _ _ v u H S (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hk W) L) lv nz). lra.
 Qed.
 
 (** The number of each control point is that of both bounds, and so is no number of the two together. *)

@@ -109,8 +109,8 @@ Definition check_driven (c : driven_claim) (s : Z) (ds : list (Z * Z)) (t : tree
   let built := flat_map d_built fs in
   let wanted := entries (pose_rows fs) ++ entries (pose_divided fs) ++ built ++ of_each (own_of fs) angular s j demands in
   let tape := fst (compile wanted) in
-  let place := place (formulas tape) in
-  forallb (fun e => same (nth (place e) (formulas tape) (integer 0)) e) wanted && existsb rules_out demands && is_flat_region k (place_of c) && is_oriented c &&
+  let all := formulas tape in let place := place all in
+  forallb (fun e => same (nth (place e) all (integer 0)) e) wanted && existsb rules_out demands && is_flat_region k (place_of c) && is_oriented c &&
   forallb (fun d => Bool.eqb (is_angular_drive d) angular) (drives c) &&
   match all_some (map (enclose_parameter bits) (lay ++ [ell])), all_some (map (enclose_input bits) (flat_map (inputs_of angular s) demands)),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_edges k (place_of c))),

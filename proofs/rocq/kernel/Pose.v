@@ -671,18 +671,18 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
   let others := of_each (plain_formulas k N w zs) false s j ds in
   let tape := fst (compile (map (image m) wanted)) in let plain := fst (compile others) in
-  let fs := formulas tape in
+  let fs := formulas tape in let plain_fs := formulas plain in
   let place f := Formula.place fs (image m f) in
   let ends := match positions c with Box _ => ends_of fs m k (map_rows place rows) (place w) (option_map place g) | _ => O end in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
-  forallb (fun f => Formula.same (nth (Formula.place (formulas plain) f) (formulas plain) (integer 0)) f) others &&
+  forallb (fun f => Formula.same (nth (Formula.place plain_fs f) plain_fs (integer 0)) f) others &&
   existsb excludes ds && (negb (one_pose c) || is_less_than_quarter k (turned c)) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
   forallb (fun t => is_angle_number bits (least t) && is_angle_number bits (greatest t)) (angles_of (turned c)) &&
   match all_some (map (enclose_parameter bits) (lay ++ [pl])), all_some (map (enclose_input bits) ins),
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
-        all_some (of_each (tests_of_demand s k N w zs place (Formula.place (formulas plain)) ends) false s j ds) with
+        all_some (of_each (tests_of_demand s k N w zs place (Formula.place plain_fs) ends) false s j ds) with
   | Some params, Some inputs, Some box, Some angles, Some tangents, Some tests =>
       let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&

@@ -313,6 +313,57 @@ Proof.
     assert (g * x ^ 2 <= e * x ^ 2) by (apply Rmult_le_compat_r; [apply pow2_ge_0 | exact le]). lra.
 Qed.
 
+(** Of one row, k > 0, D > 0 and |A|^2 < k D: nothing is divided, nor rounded. *)
+Definition squares (a : list fixed) : Z := fold_right (fun x sum => (magnitude x * magnitude x + sum)%Z) 0%Z a.
+Definition are_below (n : nat) (r : rows fixed) (k : fixed) : bool :=
+  match r with
+  | [(a, d)] => (0 <? lo k)%Z && (0 <? lo d)%Z && (squares a <? lo k * lo d)%Z
+  | _ => match upper_triangle r (repeat [k] n) with Some t => Nat.eqb (length t) n && is_positive_definite t | None => false end
+  end.
+
+Lemma squares_sound : forall a b, Forall2 contains a b -> dot b b * unit_R bits ^ 2 <= IZR (squares a).
+Proof.
+  induction 1 as [| x y a b h _ IH]; cbn [squares fold_right dot]; [rewrite Rmult_0_l; apply Rle_refl |]. fold (squares a).
+  rewrite plus_IZR, mult_IZR. pose proof (magnitude_sound bits x y 1 h ltac:(lra)) as M. rewrite Rmult_1_r in M.
+  set (z := IZR (magnitude x)) in *. set (u := unit_R bits) in *. replace ((y * y + dot b b) * u ^ 2) with ((y * u) ^ 2 + dot b b * u ^ 2) by ring.
+  assert ((y * u) ^ 2 <= z * z) by nra. lra.
+Qed.
+
+Lemma one_row_below : forall k d a v x, 0 < k -> dot a a < k * d -> nonzero v -> 0 < k * dot v v + (2 * x * dot a v + x ^ 2 * d).
+Proof.
+  intros k d a v x k0 h nz. unfold nonzero in nz.
+  assert (N : forall u, 0 <= dot u u) by (induction u as [| y u IH]; cbn [dot]; [lra | nra]).
+  assert (C : forall u w, dot u w = dot w u) by (induction u as [| y u IH]; intros [| z w]; cbn [dot]; rewrite ?IH; ring).
+  pose proof (N (comb k x v a)) as S. rewrite dot_comb, (C v), (C a), !dot_comb, (C v a) in S.
+  apply Rmult_lt_reg_l with k; [exact k0 |]. rewrite Rmult_0_r. destruct (Req_dec x 0) as [-> | n].
+  - replace (k * (k * dot v v + (2 * 0 * dot a v + 0 ^ 2 * d))) with (k * (k * dot v v)) by ring. repeat apply Rmult_lt_0_compat; assumption.
+  - assert (0 < x ^ 2 * (k * d - dot a a)) by (apply Rmult_lt_0_compat; [rewrite <- Rsqr_pow2; apply Rlt_0_sqr, n | lra]).
+    replace (k * (k * dot v v + (2 * x * dot a v + x ^ 2 * d))) with
+      (k * (k * dot v v + x * dot a v) + x * (k * dot a v + x * dot a a) + x ^ 2 * (k * d - dot a a)) by ring. lra.
+Qed.
+
+Lemma are_below_sound : forall n i r b k v w, are_below n i b = true -> rows_rel contains i r -> contains b k -> length v = n -> nonzero v ->
+  0 < k * dot v v + form (upper_weights w) r v.
+Proof.
+  intros n i r b k v w h hr hb lv nz.
+  assert (More : match upper_triangle i (repeat [b] n) with Some t => Nat.eqb (length t) n && is_positive_definite t | None => false end = true ->
+    0 < k * dot v v + form (upper_weights w) r v).
+  { clear h. intro h. destruct (upper_triangle i (repeat [b] n)) as [T |] eqn:u; [| discriminate]. apply andb_true_iff in h as [e h]. apply Nat.eqb_eq in e.
+    destruct (upper_triangle_sound i r _ _ v T hr (diagonal_in _ _ n hb) u) as [U [hU le]].
+    pose proof (is_positive_definite_sound bits _ U h hU v) as Q. specialize (le w). rewrite <- lv, quad_diagonal in le.
+    rewrite (related_length _ _ _ _ _ hU) in e. specialize (Q ltac:(congruence) nz). lra. }
+  unfold are_below in h. destruct hr as [| [a d] [a' d'] i r [h1 h2] hr]; [exact (More h) |]. destruct hr; [| exact (More h)].
+  clear More. cbn [fst snd] in h1, h2. apply andb_true_iff in h as [h q]. apply andb_true_iff in h as [p p']. apply Z.ltb_lt in p, p', q.
+  pose proof (contains_positive bits _ _ p hb) as k0. pose proof (squares_sound _ _ h1) as S. apply IZR_lt in q. rewrite mult_IZR in q.
+  assert (g : dot a' a' < k * d').
+  { pose proof (unit_R_pos bits) as u0. destruct hb as [kl _], h2 as [dl _]. apply IZR_lt in p, p'. apply Rmult_lt_reg_r with (unit_R bits ^ 2); [nra |].
+    apply Rle_lt_trans with (1 := S), Rlt_le_trans with (1 := q). replace (k * d' * unit_R bits ^ 2) with (k * unit_R bits * (d' * unit_R bits)) by ring.
+    apply Rmult_le_compat; lra. }
+  destruct w as [| x w]; cbn [upper_weights map form].
+  - pose proof (Rmult_lt_0_compat _ _ k0 nz). lra.
+  - pose proof (one_row_below k d' a' v x k0 g nz) as O. destruct w; cbn [form map]; lra.
+Qed.
+
 Definition sigma_max (m : nat) (k : slope) (r : rows slope) : bool :=
   at_vertices m (with_bound k r) (fun i =>
     match i with

@@ -42,13 +42,15 @@ Qed.
 
 (** ** The cosine's series: y^n/(2n)! and the sum up to there, for y = a^2 *)
 
+(** From what is of m to what is of m + 1, whose term is divided by (2m + 1)(2m + 2). *)
+Definition next (y : fixed) (m : nat) (p : fixed * fixed) : fixed * fixed :=
+  let (t, sum) := p in let k := Pos.of_succ_nat m in
+  let t' := over (mul bits t y) (Pos.pred_double k * k~0) in
+  (t', if Nat.even m then sub sum t' else add sum t').
 Fixpoint series (y : fixed) (n : nat) : fixed * fixed :=
   match n with
   | O => (Fixed.integer bits 1, Fixed.integer bits 1)
-  | S m =>
-      let (t, sum) := series y m in
-      let t' := over (mul bits t y) (Pos.of_succ_nat (2 * m) * Pos.of_succ_nat (2 * m + 1)) in
-      (t', if Nat.even n then add sum t' else sub sum t')
+  | S m => next y m (series y m)
   end.
 
 Lemma power_sign : forall n, (-1) ^ n = if Nat.even n then 1 else -1.
@@ -63,8 +65,9 @@ Proof.
   intros y a n h. induction n as [| m [IH1 IH2]].
   - split; cbn [series fst snd]; [replace (a ^ (2 * 0) / INR (fact (2 * 0))) with 1 by (cbn; field)
       | replace (cos_approx a 0) with 1 by (unfold cos_approx, cos_term; cbn; field)]; apply (Fixed.integer_sound bits 1).
-  - cbn [series]. destruct (series y m) as [t sum]. cbn [fst snd] in *.
-    set (d := (Pos.of_succ_nat (2 * m) * Pos.of_succ_nat (2 * m + 1))%positive).
+  - cbn [series]. destruct (series y m) as [t sum]. cbn [next fst snd] in *.
+    assert (D : (Pos.pred_double (Pos.of_succ_nat m) * (Pos.of_succ_nat m)~0 = Pos.of_succ_nat (2 * m) * Pos.of_succ_nat (2 * m + 1))%positive) by (f_equal; lia).
+    rewrite D. set (d := (Pos.of_succ_nat (2 * m) * Pos.of_succ_nat (2 * m + 1))%positive).
     assert (E : a ^ (2 * S m) / INR (fact (2 * S m)) = a ^ (2 * m) / INR (fact (2 * m)) * a ^ 2 / IZR (Zpos d)).
     { replace (2 * S m)%nat with (S (S (2 * m))) by lia. rewrite !fact_simpl, !mult_INR. unfold d.
       rewrite Pos2Z.inj_mul, mult_IZR, !Zpos_P_of_succ_nat, <- !Nat2Z.inj_succ, <- !INR_IZR_INZ. replace (2 * m + 1)%nat with (S (2 * m)) by lia.
@@ -73,7 +76,7 @@ Proof.
     assert (T : contains (over (mul bits t y) d) (a ^ (2 * S m) / INR (fact (2 * S m))))
       by (rewrite E; apply over_sound, mul_sound; assumption).
     split; [exact T |]. unfold cos_approx. cbn [sum_f_R0]. fold (cos_approx a m). unfold cos_term. rewrite power_sign.
-    destruct (Nat.even (S m)); [rewrite Rmult_1_l; apply add_sound; assumption |].
+    rewrite Nat.even_succ, <- Nat.negb_even. destruct (Nat.even m); cbn [negb]; [| rewrite Rmult_1_l; apply add_sound; assumption].
     replace (cos_approx a m + -1 * (a ^ (2 * S m) / INR (fact (2 * S m))))
       with (cos_approx a m - a ^ (2 * S m) / INR (fact (2 * S m))) by ring. apply sub_sound; assumption.
 Qed.
@@ -84,11 +87,13 @@ Definition terms : nat := 16 + Pos.to_nat bits / 8.
 (** cos a by a^2, for |a| <= 2. *)
 Definition cos_below_two (y : fixed) : option fixed :=
   if (hi y <=? 4 * unit_Z bits)%Z
-  then Some (Fixed (lo (snd (series y (2 * terms + 1)))) (hi (snd (series y (2 * (terms + 1)))))) else None.
+  then let n := (2 * terms + 1)%nat in let p := series y n in Some (Fixed (lo (snd p)) (hi (snd (next y n p)))) else None.
 
 Lemma cos_below_two_sound : forall y a c, cos_below_two y = Some c -> contains y (a ^ 2) -> contains c (cos a).
 Proof.
   intros y a c e h. unfold cos_below_two in e. destruct (hi y <=? _)%Z eqn:b; [| discriminate].
+  cbv zeta in e. change (next y (2 * terms + 1) (series y (2 * terms + 1))) with (series y (S (2 * terms + 1))) in e.
+  replace (S (2 * terms + 1)) with (2 * (terms + 1))%nat in e by lia.
   assert (E : Fixed (lo (snd (series y (2 * terms + 1)))) (hi (snd (series y (2 * (terms + 1))))) = c) by congruence. subst c. clear e.
   apply Z.leb_le, IZR_le in b. rewrite mult_IZR in b. pose proof (unit_R_pos bits) as u. fold (unit_R bits) in b.
   assert (a ^ 2 <= 4) by (destruct h as [_ h]; apply Rmult_le_reg_r with (unit_R bits); lra).

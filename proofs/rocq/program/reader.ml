@@ -384,6 +384,7 @@ let fails v =
   | "obligation", Array [ i; vs ] -> Obligation (count i, List.map integers (array vs))
   | "row", Array [ i; leg ] -> Row (count i, count leg)
   | "dependent", Array [] -> Dependent_
+  | "singular", other -> Singular_ (List.map number (array other))
   | name, _ -> not_covered [ "the failure \""; name; "\"" ]
 let node n v =
   let l = members v in
@@ -436,6 +437,7 @@ let certificate text =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
   let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ -> true | _ -> false) n.by_) in
   let has_failure = List.exists (fun n -> n.fails_ <> None) in
+  let is_singular = function Singular_ _ -> true | _ -> false in
   (match subject_, proof_ with
    | (Turning_ _ | Formulas_ _), Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
@@ -443,8 +445,11 @@ let certificate text =
    | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
+   | Turning_ _, ByWitness (_, _, _, (Reach | Dependent_ | Singular_ _)) -> ()
    | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Transmission | JointRange | Condition_ -> false | _ -> true) rs ->
      not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
+   | _, ByWitness (_, _, _, how) when is_singular how -> not_covered [ "the failure \"singular\" of such a mechanism" ]
+   | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, how) -> is_singular how | _ -> false) cells -> not_covered [ "the failure \"singular\" of such a mechanism" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]
    | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->

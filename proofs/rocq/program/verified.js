@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-ir="spatial",oy="Invalid_argument",gj="precision",aw='"',iq=1255,ox="inside",nF="(",nG=0x800,ow="yaw",nC="range",nD="tree",nE="jsError",bP=0x8000,ov="sqrt(",nB=256,nA="obligation",eP="offset",a4="machine",ny="this quantity of such a mechanism in a claim that is refuted",nz="End_of_file",dN="strut",ip="center",eO="arm",io="Failure",ou="serial_margin",gs="parameters",b8=0xff,ot="bodies",iB="outside",gr="base_axis",im="ENOENT",os=122,nx="([^/]+)",iA="0",il=0xf,eN=128,nw=0xdc00,oq="Sys_blocked_io",or="fd ",gi="given",nv="ENOTEMPTY",aG=248,gh="bound",nu="Division_by_zero",oo="by",op=1027,nt="Sys_error",gq="slider",ns="torsion",on="postulate",nr="proof",om="joint_error",eM="refuted",dI="mechanism",gg="row",nq="EEXIST",ol="roll_pitch_yaw",gp="y",np="cube",eF="lower",ok="within",no="clearance",oj="turned",nn="control",gf="int_of_string",oh="definitions",oi="dependent",eL=1024,nl="from",nm="name",og=" : flags Open_rdonly and Open_wronly are not compatible",nk="orthocert/2",of="reach",nj=512,od="base_joint",oe="witness",eK="-",aU="platform",ni=0x7ff0,nh="pitch",iz=": Not a directory",bg="min",ob="trim",dM="workspace",oc=" : file already exists",ge="split",iy="legs",oa="claim",ik="joint",c3=0xffffff,ng="platform_joint",nf="formulas",ne="roll",gd="atlas",n_="nodes",n$="Out_of_memory",nd="psi_max",go="orientation",gc=254,n9="angle",ix="index out of bounds",nc="end",n8="one_to_one",gn="_bigarr02",nb=" : flags Open_text and Open_binary are not compatible",bz="drive",na="coordinates",n7="holds",m$="lower_divided",m_="speed",n5="cylinder",n6="joints",b7=0xffff,n3="acceleration",eI="certified",eJ="chords",n4=12520,ij="on",gb="accuracy",eH="axis",n2="no_cube",n1="parallel_margin",m9='the drive "',ii="Unix.Unix_error",gm="fails",ga="tool",ih="mkdir",n0="rho",gl=1000,ig="translational",nZ="tolerances",m8="Stack_overflow",iw="characteristic_length",S="",iv="^",ie="places",f$=": No such file or directory",m7="/static/",dL=0x3f,m5="stiffness",m6="Not_found",c2="planar",eE="mode",nY="joint_speed",nX="Match_failure",m4="transmission",bf="anchor",nW="at",m3="joint_force",dK="leg",m2="joint_acceleration",gk="+",id="rmdir",nV=0xf0,nU="spherical",m1=1026,nS="REJECTED",nT="undecided",bh="max",bQ="direction",mZ="leg_angle",m0="orthoglide",eG="rank",nR="constraint_margin",f_="test",mX="Pervasives.do_at_exit",mY="utf8",by=0x80,dJ="conditioning",dH="length",mW="Undefined_recursive_module",iu=")",mV="base",nQ="quantity",mU="joint_range",f9="tilt",mT="Q2",nP="reference",mS="point",nN="corner",nO=0xe0,mR="version",it="z",nL="to",nM=0xdfff,ic="compare: functional value",nK="Assert_failure",bB="/",nJ="provenance",c1="radius",f8="side",bA="require",nI="format",mQ="Q1",is="ENOTDIR",mP="all",c0="box",nH=250;function
-iO(c,b,a){var
+ip="spatial",oI="Invalid_argument",gk="precision",ax='"',io=1255,oH="inside",nN="(",nO=0x800,oG="yaw",nK="range",nL="tree",nM="jsError",bP=0x8000,oF="sqrt(",nJ=256,nI="obligation",eR="offset",a5="machine",nG="this quantity of such a mechanism in a claim that is refuted",nH="End_of_file",dR="strut",im="center",eQ="arm",il="Failure",oE="serial_margin",gt="parameters",b8=0xff,oD="bodies",iz="outside",gs="base_axis",ik="ENOENT",oC="singular",oB=122,nF="([^/]+)",iy="0",ij=0xf,eP=128,nE=0xdc00,oz="Sys_blocked_io",oA="fd ",gj="given",nD="ENOTEMPTY",aH=248,gi="bound",nC="Division_by_zero",ox="by",oy=1027,nB="Sys_error",gr="slider",nA="torsion",ow="postulate",nz="proof",ov="joint_error",eO="refuted",dM="mechanism",gh="row",ny="EEXIST",ou="roll_pitch_yaw",gq="y",nx="cube",eH="lower",ot="within",nw="clearance",os="turned",nv="control",gg="int_of_string",oq="definitions",or="dependent",eN=1024,nt="from",nu="name",op=" : flags Open_rdonly and Open_wronly are not compatible",ns="orthocert/2",oo="reach",nr=512,om="base_joint",on="witness",eM="-",aY="platform",nq=0x7ff0,np="pitch",ix=": Not a directory",bg="min",ok="trim",dQ="workspace",ol=" : file already exists",gf="split",oi='the failure "singular" of such a mechanism',iw="legs",oj="claim",ii="joint",c6=0xffffff,no="platform_joint",nn="formulas",nm="roll",ge="atlas",og="nodes",oh="Out_of_memory",nl="psi_max",gp="orientation",gd=254,of="angle",iv="index out of bounds",nk="end",oe="one_to_one",go="_bigarr02",nj=" : flags Open_text and Open_binary are not compatible",bz="drive",ni="coordinates",od="holds",nh="lower_divided",ng="speed",ob="cylinder",oc="joints",b7=0xffff,n$="acceleration",eK="certified",eL="chords",oa=12520,ih="on",gc="accuracy",eJ="axis",n_="no_cube",n9="parallel_margin",nf='the drive "',ig="Unix.Unix_error",gn="fails",gb="tool",ie="mkdir",n8="rho",gm=1000,id="translational",n7="tolerances",ne="Stack_overflow",iu="characteristic_length",T="",it="^",ic="places",ga=": No such file or directory",nd="/static/",dP=0x3f,nb="stiffness",nc="Not_found",c5="planar",eG="mode",n6="joint_speed",n5="Match_failure",na="transmission",bf="anchor",n4="at",m$="joint_force",dO="leg",m_="joint_acceleration",gl="+",ib="rmdir",n3=0xf0,n2="spherical",m9=1026,n0="REJECTED",n1="undecided",bh="max",bQ="direction",m7="leg_angle",m8="orthoglide",eI="rank",nZ="constraint_margin",f$="test",m5="Pervasives.do_at_exit",m6="utf8",by=0x80,dN="conditioning",dL="length",m4="Undefined_recursive_module",is=")",m3="base",nY="quantity",m2="joint_range",f_="tilt",m1="Q2",nX="reference",m0="point",nV="corner",nW=0xe0,mZ="version",ir="z",nT="to",nU=0xdfff,ia="compare: functional value",nS="Assert_failure",bB="/",nR="provenance",c4="radius",f9="side",bA="require",nQ="format",mY="Q1",iq="ENOTDIR",mX="all",c3="box",nP=250;function
+iM(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=S;for(;0<a;b+=eL,a-=eL)e+=d.apply(null,c.slice(b,b+Math.min(a,eL)));return e}function
-gu(b){if(E.Uint8Array)var
+e=T;for(;0<a;b+=eN,a-=eN)e+=d.apply(null,c.slice(b,b+Math.min(a,eN)));return e}function
+gv(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eQ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iO(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iO(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gu(b);var
+eS(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iM(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iM(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gv(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dQ(a){return a}function
-dP(a,b,c,d,e){eQ(dQ(a),b,c,d,e);return 0}function
-iD(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dU(a){return a}function
+dT(a,b,c,d,e){eS(dU(a),b,c,d,e);return 0}function
+iB(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c4(c,a){if(c.fun)return c4(c.fun,a);if(typeof
+c7(c,a){if(c.fun)return c7(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c4(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c7(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c4(c,d)}}function
-o0(b,a){if(b==0)return S;if(a.repeat)return a.repeat(b);var
-d=S,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dR(a){if(a.t==2)a.c+=o0(a.l-a.c.length,"\0");else
-a.c=iO(a.c,0,a.c.length);a.t=0}function
-dS(a){a.t&6&&dR(a);return a.c}var
-DN=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-DM(a){if(DN)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c7(c,d)}}function
+o_(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
+d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+dV(a){if(a.t==2)a.c+=o_(a.l-a.c.length,"\0");else
+a.c=iM(a.c,0,a.c.length);a.t=0}function
+dW(a){a.t&6&&dV(a);return a.c}var
+D0=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+DZ(a){if(D0)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iG(c){var
+iE(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-oR=Math.pow(2,-24);function
-DD(a){throw a}var
-aq=[0];function
-oX(){DD(aq.Division_by_zero)}function
-D(b,c,a){this.lo=b&c3;this.mi=c&c3;this.hi=a&b7}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+o1=Math.pow(2,-24);function
+DQ(a){throw a}var
+ar=[0];function
+o7(){DQ(ar.Division_by_zero)}function
+D(b,c,a){this.lo=b&c6;this.mi=c&c6;this.hi=a&b7}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*oR|0)+this.mi*a.lo+this.lo*a.mi,d=(c*oR|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*o1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*o1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -77,25 +77,25 @@ c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b7);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&c3;this.lo=this.lo<<1&c3};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&c3;this.mi=(this.mi>>>1|this.hi<<23)&c3;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&c6;this.lo=this.lo<<1&c6};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&c6;this.mi=(this.mi>>>1|this.hi<<23)&c6;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())oX();var
+b=this;if(a.isZero())o7();var
 d=b.hi^a.hi;if(b.hi&bP)b=b.neg();if(a.hi&bP)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bP)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())oX();var
+a=this;if(b.isZero())o7();var
 d=a.hi;if(a.hi&bP)a=a.neg();if(b.hi&bP)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&bP)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b8,this.mi>>16,this.mi>>8&b8,this.mi&b8,this.lo>>16,this.lo>>8&b8,this.lo&b8]};D.prototype.lo32=function(){return this.lo|(this.mi&b8)<<24};D.prototype.hi32=function(){return this.mi>>>8&b7|this.hi<<16};function
-gw(b,c,a){return new
+gx(b,c,a){return new
 D(b,c,a)}function
-gv(a){if(!isFinite(a)){if(isNaN(a))return gw(1,0,ni);return a>0?gw(0,0,ni):gw(0,0,0xfff0)}var
+gw(a){if(!isFinite(a)){if(isNaN(a))return gx(1,0,nq);return a>0?gx(0,0,nq):gx(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bP:a>=0?0:bP;if(f)a=-a;var
-b=DM(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m1)}else{a/=Math.pow(2,b-op);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=DZ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m9)}else{a/=Math.pow(2,b-oy);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&il|f|b<<4;return gw(g,e,c)}function
-eT(a){return a.toArray()}function
-oF(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gn)for(var
+g=a|0;c=c&ij|f|b<<4;return gx(g,e,c)}function
+eV(a){return a.toArray()}function
+oP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==go)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<b7)c.write(16,b.dims[a]);else{c.write(16,b7);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eT(b.get(a));for(var
+e=eV(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eT(gv(b.get(a)));for(var
+e=eV(gw(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iG(b.get(a));c.write(32,e)}break;case
+e=iE(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iG(d[1]));c.write(32,iG(d[2]))}break;case
+d=b.get(a);c.write(32,iE(d[1]));c.write(32,iE(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eT(gv(f[1]));for(var
+f=b.get(a),e=eV(gw(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eT(gv(f[2]));for(var
+e=eV(gw(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-DF(b,a){throw[0,b,a]}function
-o5(a){if(a.length<24){for(var
+DS(b,a){throw[0,b,a]}function
+pd(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iP(e){for(var
-j=S,c=S,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<by){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<by;d++);if(d-b>nj){c.substr(0,1);j+=c;c=S;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(f<<6);if(f<nO){a=g-0x3080;if(a<by)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN){g=h+(g<<6);if(f<nV){a=g-0xe2080;if(a<nG||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eN&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b7)c+=String.fromCharCode(0xd7c0+(a>>10),nw+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eL){c.substr(0,1);j+=c;c=S}}return j+c}function
+iN(e){for(var
+j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<by){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<by;d++);if(d-b>nr){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eP){g=h+(f<<6);if(f<nW){a=g-0x3080;if(a<by)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eP){g=h+(g<<6);if(f<n3){a=g-0xe2080;if(a<nO||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eP&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b7)c+=String.fromCharCode(0xd7c0+(a>>10),nE+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eN){c.substr(0,1);j+=c;c=T}}return j+c}function
 bR(c,a,b){this.t=c;this.c=a;this.l=b}bR.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dR(this);case
-0:if(o5(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:dV(this);case
+0:if(pd(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bR.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iP(a)};bR.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return iN(a)};bR.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bR(this.t,a,this.l)};function
-oI(a){return new
+oS(a){return new
 bR(0,a,a.length)}function
-a(a){return oI(a)}function
-iN(c,b){DF(c,a(b))}function
-aC(a){iN(aq.Invalid_argument,a)}function
-oD(a){switch(a){case
+a(a){return oS(a)}function
+iL(c,b){DS(c,a(b))}function
+aC(a){iL(ar.Invalid_argument,a)}function
+oN(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-C9(c,e){var
+Dk(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aC("Bigarray.create: unsupported kind");var
 d=new
-a(e*oD(c));return d}function
-iH(c){var
+a(e*oN(c));return d}function
+iF(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eS(a){return new
+eU(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iI(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&il)==0?b&bP?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&il);if(c>0){a+=16;a*=Math.pow(2,c-op)}else
-a*=Math.pow(2,-m1);if(b&bP)a=-a;return a}function
-iC(b){var
+iG(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ij)==0?b&bP?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ij);if(c>0){a+=16;a*=Math.pow(2,c-oy)}else
+a*=Math.pow(2,-m9);if(b&bP)a=-a;return a}function
+iA(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aC("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Dn(b,a){return new
-D(b&c3,b>>>24&b8|(a&b7)<<8,a>>>16&b7)}function
-iJ(a){return a.hi32()}function
-iK(a){return a.lo32()}function
-gt(){aC(ix)}var
-C_=gn;function
-cz(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cz.prototype.caml_custom=C_;cz.prototype.offset=function(b){var
+DA(b,a){return new
+D(b&c6,b>>>24&b8|(a&b7)<<8,a>>>16&b7)}function
+iH(a){return a.hi32()}function
+iI(a){return a.lo32()}function
+gu(){aC(iv)}var
+Dl=go;function
+cA(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cA.prototype.caml_custom=Dl;cA.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aC("bigarray.js: invalid offset");if(this.dims.length!=b.length)aC("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gt();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gu();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gt();c=c*this.dims[a]+(b[a]-1)}return c};cz.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gu();c=c*this.dims[a]+(b[a]-1)}return c};cA.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Dn(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return DA(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gc,e,c];default:return this.data[a]}};cz.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iK(b);this.data[a*2+1]=iJ(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gd,e,c];default:return this.data[a]}};cA.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iI(b);this.data[a*2+1]=iH(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cz.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cA.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iK(b),e=iJ(b);if(c==e)this.data.fill(c);else
+c=iI(b),e=iH(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cz.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cA.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dO(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dO.prototype=new
-cz();dO.prototype.offset=function(a){if(typeof
+dS(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dS.prototype=new
+cA();dS.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gt();return a};dO.prototype.get=function(a){return this.data[a]};dO.prototype.set=function(a,b){this.data[a]=b;return 0};dO.prototype.fill=function(a){this.data.fill(a);return 0};function
-oB(c,d,a,b){var
-e=oD(c);if(iC(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dO(c,d,a,b);return new
-cz(c,d,a,b)}function
-bC(b){if(!aq.Failure)aq.Failure=[aG,a(io),-3];iN(aq.Failure,b)}function
-oC(b,v,r){var
+aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gu();return a};dS.prototype.get=function(a){return this.data[a]};dS.prototype.set=function(a,b){this.data[a]=b;return 0};dS.prototype.fill=function(a){this.data.fill(a);return 0};function
+oL(c,d,a,b){var
+e=oN(c);if(iA(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dS(c,d,a,b);return new
+cA(c,d,a,b)}function
+bC(b){if(!ar.Failure)ar.Failure=[aH,a(il),-3];iL(ar.Failure,b)}function
+oM(b,v,r){var
 i=b.read32s();if(i<0||i>16)bC("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b8,o=p>>8&1,h=[];if(r==gn)for(var
+p=b.read32s(),j=p&b8,o=p>>8&1,h=[];if(r==go)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==b7){var
 t=b.read32u(),u=b.read32u();if(t!=0)bC("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iC(h),f=C9(j,d),g=oB(j,o,h,f);switch(j){case
+d=iA(h),f=Dk(j,d),g=oL(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,43 +276,43 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eS(e);g.set(a,q)}break;case
+q=eU(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iI(eS(e));g.set(a,k)}break;case
+k=iG(eU(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iH(b.read32s());g.set(a,k)}break;case
+k=iF(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iH(b.read32s()),l=iH(b.read32s());g.set(a,[gc,m,l])}break;case
+m=iF(b.read32s()),l=iF(b.read32s());g.set(a,[gd,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iI(eS(e));for(var
+m=iG(eU(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iI(eS(e));g.set(a,[gc,m,l])}break}v[0]=(4+i)*4;return oB(j,o,h,f)}function
-oA(a,b,c){return a.compare(b,c)}function
-oU(a,b){return Math.imul(a,b)}function
-b9(b,a){a=oU(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=oU(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Dk(a,b){a=b9(a,iK(b));a=b9(a,iJ(b));return a}function
-oQ(a,b){return Dk(a,gv(b))}function
-oE(c){var
-b=iC(c.dims),d=0;switch(c.kind){case
+l=iG(eU(e));g.set(a,[gd,m,l])}break}v[0]=(4+i)*4;return oL(j,o,h,f)}function
+oK(a,b,c){return a.compare(b,c)}function
+o4(a,b){return Math.imul(a,b)}function
+b9(b,a){a=o4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=o4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Dx(a,b){a=b9(a,iI(b));a=b9(a,iH(b));return a}function
+o0(a,b){return Dx(a,gw(b))}function
+oO(c){var
+b=iA(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>nB)b=nB;var
+12:if(b>nJ)b=nJ;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b9(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=b9(d,e)}break;case
 4:case
-5:if(b>eN)b=eN;var
+5:if(b>eP)b=eP;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b9(d,e)}if((b&1)!=0)d=b9(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=b9(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 a=0;a<b;a++)d=b9(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=oQ(d,c.data[a]);break;case
+a=0;a<b;a++)d=o0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=oQ(d,c.data[a]);break}return d}function
-Dl(a,b){b[0]=4;return a.read32s()}function
-DA(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=o0(d,c.data[a]);break}return d}function
+Dy(a,b){b[0]=4;return a.read32s()}function
+DN(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bC("input_value: native integer value too large");default:bC("input_value: ill-formed native integer")}}function
-Dq(c,d){var
+DD(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eS(b)}function
-Dp(e,d,b){var
-c=eT(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eU(b)}function
+DC(e,d,b){var
+c=eV(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Dm(a,b,c){return a.compare(b)}function
-Do(a){return a.lo32()^a.hi32()}var
-oL={"_j":{deserialize:Dq,serialize:Dp,fixed_length:8,compare:Dm,hash:Do},"_i":{deserialize:Dl,fixed_length:4},"_n":{deserialize:DA,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oC(a,b,"_bigarray")},serialize:oF,compare:oA,hash:oE},"_bigarr02":{deserialize:function(a,b){return oC(a,b,gn)},serialize:oF,compare:oA,hash:oE}};function
-iF(a){return oL[a.caml_custom]&&oL[a.caml_custom].compare}function
-oJ(f,c,d,e){var
-b=iF(c);if(b){var
+Dz(a,b,c){return a.compare(b)}function
+DB(a){return a.lo32()^a.hi32()}var
+oV={"_j":{deserialize:DD,serialize:DC,fixed_length:8,compare:Dz,hash:DB},"_i":{deserialize:Dy,fixed_length:4},"_n":{deserialize:DN,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oM(a,b,"_bigarray")},serialize:oP,compare:oK,hash:oO},"_bigarr02":{deserialize:function(a,b){return oM(a,b,go)},serialize:oP,compare:oK,hash:oO}};function
+iD(a){return oV[a.caml_custom]&&oV[a.caml_custom].compare}function
+oT(f,c,d,e){var
+b=iD(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-iM(a){return a
+iK(a){return a
 instanceof
 bR}function
-oS(a){return iM(a)}function
-oK(a){if(typeof
-a==="number")return gl;else
-if(iM(a))return 252;else
-if(oS(a))return 1252;else
+o2(a){return iK(a)}function
+oU(a){if(typeof
+a==="number")return gm;else
+if(iK(a))return 252;else
+if(o2(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gc?0:b}else
+b=a[0]|0;return b==gd?0:b}else
 if(a
 instanceof
-String)return n4;else
+String)return oa;else
 if(typeof
-a=="string")return n4;else
+a=="string")return oa;else
 if(a
 instanceof
-Number)return gl;else
-if(a&&a.caml_custom)return iq;else
+Number)return gm;else
+if(a&&a.caml_custom)return io;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Dr(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-oH(a,b){a.t&6&&dR(a);b.t&6&&dR(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-o1(a,b){return oH(a,b)}function
-iE(a,b,d){var
+DE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+oR(a,b){a.t&6&&dV(a);b.t&6&&dV(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+o$(a,b){return oR(a,b)}function
+iC(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=oK(a);if(f==nH){a=a[1];continue}var
-g=oK(b);if(g==nH){b=b[1];continue}if(f!==g){if(f==gl){if(g==iq)return oJ(a,b,-1,d);return-1}if(g==gl){if(f==iq)return oJ(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aC(ic);break;case
+f=oU(a);if(f==nP){a=a[1];continue}var
+g=oU(b);if(g==nP){b=b[1];continue}if(f!==g){if(f==gm){if(g==io)return oT(a,b,-1,d);return-1}if(g==gm){if(f==io)return oT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aC(ia);break;case
 248:var
-c=Dr(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aC(ic);break;case
+c=DE(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aC(ia);break;case
 250:aC("equal: got Forward_tag, should not happen");break;case
 251:aC("equal: abstract value");break;case
 252:if(a!==b){var
-c=oH(a,b);if(c!=0)return c|0}break;case
+c=oR(a,b);if(c!=0)return c|0}break;case
 253:aC("equal: got Double_tag, should not happen");break;case
 254:aC("equal: got Double_array_tag, should not happen");break;case
 255:aC("equal: got Custom_tag, should not happen");break;case
-1247:aC(ic);break;case
+1247:aC(ia);break;case
 1255:var
-i=iF(a);if(i!=iF(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aC("compare: abstract value");var
+i=iD(a);if(i!=iD(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aC("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,135 +399,135 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dS(a),b=dS(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=dW(a),b=dW(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Df(a,b){return iE(a,b,true)}function
+Ds(a,b){return iC(a,b,true)}function
 bT(a){if(a<0)aC("Bytes.create");return new
-bR(a?2:9,S,a)}function
-oM(a,b){return+(iE(a,b,false)==0)}function
-Dh(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=S;a.t=2}else{a.c=o0(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gu(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-DB=0;function
-oO(){return DB++}function
-Dt(a){return a.toUtf16()}function
-eU(){return typeof
+bR(a?2:9,T,a)}function
+oW(a,b){return+(iC(a,b,false)==0)}function
+Du(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=o_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gv(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+DO=0;function
+oY(){return DO++}function
+DG(a){return a.toUtf16()}function
+eW(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-DO(){function
-a(a){if(a.charAt(0)===bB)return[S,a.substring(1)];return}function
+D1(){function
+a(a){if(a.charAt(0)===bB)return[T,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||S,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||S,f=a[2]||S;return[d,c.substring(d.length+f.length)]}return}return eU()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iT=DO();function
-o2(a){return a.slice(-1)!==bB?a+bB:a}if(eU()&&E.process&&E.process.cwd)var
-eR=E.process.cwd().replace(/\\/g,bB);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return eW()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+iR=D1();function
+pa(a){return a.slice(-1)!==bB?a+bB:a}if(eW()&&E.process&&E.process.cwd)var
+eT=E.process.cwd().replace(/\\/g,bB);else
 var
-eR="/static";eR=o2(eR);function
-Dv(a){a=Dt(a);if(!iT(a))a=eR+a;var
-e=iT(a),d=e[1].split(bB),b=[];for(var
+eT="/static";eT=pa(eT);function
+DI(a){a=DG(a);if(!iR(a))a=eT+a;var
+e=iR(a),d=e[1].split(bB),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-DJ(e){for(var
-f=S,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<by){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<by;d++);if(d-c>nj){b.substr(0,1);f+=b;b=S;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<nG){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(by|a&dL)}else
-if(a<0xd800||a>=nM)b+=String.fromCharCode(nO|a>>12,by|a>>6&dL,by|a&dL);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nw||h>nM)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(nV|a>>18,by|a>>12&dL,by|a>>6&dL,by|a&dL)}if(b.length>eL){b.substr(0,1);f+=b;b=S}}return f+b}function
-Dc(a){var
-b=9;if(!o5(a))b=8,a=DJ(a);return new
+DW(e){for(var
+f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<by){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<by;d++);if(d-c>nr){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<nO){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(by|a&dP)}else
+if(a<0xd800||a>=nU)b+=String.fromCharCode(nW|a>>12,by|a>>6&dP,by|a&dP);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nE||h>nU)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(n3|a>>18,by|a>>12&dP,by|a>>6&dP,by|a&dP)}if(b.length>eN){b.substr(0,1);f+=b;b=T}}return f+b}function
+Dp(a){var
+b=9;if(!pd(a))b=8,a=DW(a);return new
 bR(b,a,a.length)}function
-dT(a){return Dc(a)}var
-DR=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nq,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",im,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",is,nv,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c8(d,f,e,a){var
-b=DR.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dT(f||S),dT(e||S)];return c}var
-oV={};function
-c5(a){return oV[a]}function
-c6(b,a){throw[0,b].concat(a)}function
-Db(a){return new
+dX(a){return Dp(a)}var
+D4=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",ny,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ik,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iq,nD,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+c$(d,f,e,a){var
+b=D4.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,dX(f||T),dX(e||T)];return c}var
+o5={};function
+c8(a){return o5[a]}function
+c9(b,a){throw[0,b].concat(a)}function
+Do(a){return new
 bR(4,a,a.length)}function
-ae(a){iN(aq.Sys_error,a)}function
-DE(a){ae(a+f$)}function
-oG(){aC(ix)}function
-Da(b,a){if(a>>>0>=b.l)oG();return iD(b,a)}function
-gx(a){return a.l}function
-oz(){}function
+ae(a){iL(ar.Sys_error,a)}function
+DR(a){ae(a+ga)}function
+oQ(){aC(iv)}function
+Dn(b,a){if(a>>>0>=b.l)oQ();return iB(b,a)}function
+gy(a){return a.l}function
+oJ(){}function
 aA(a){this.data=a}aA.prototype=new
-oz();aA.prototype.truncate=function(a){var
-b=this.data;this.data=bT(a|0);eQ(b,0,this.data,0,a)};aA.prototype.length=function(){return gx(this.data)};aA.prototype.write=function(b,d,g,a){var
+oJ();aA.prototype.truncate=function(a){var
+b=this.data;this.data=bT(a|0);eS(b,0,this.data,0,a)};aA.prototype.length=function(){return gy(this.data)};aA.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bT(b+a),f=this.data;this.data=e;eQ(f,0,this.data,0,c)}dP(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
-e=this.length();eQ(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return Da(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
+e=bT(b+a),f=this.data;this.data=e;eS(f,0,this.data,0,c)}dT(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
+e=this.length();eS(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return Dn(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
 aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
-c=d.split(bB),b=S;for(var
+c=d.split(bB),b=T;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bB;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bB};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aA(dQ(c[1]))}}};aO.prototype.exists=function(a){if(a==S)return 1;var
+aA(dU(c[1]))}}};aO.prototype.exists=function(a){if(a==T)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&c5(ii);if(this.exists(c))if(b)c6(b,c8(nq,ih,this.nm(c)));else
+b=d&&c8(ig);if(this.exists(c))if(b)c9(b,c$(ny,ie,this.nm(c)));else
 ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||S;if(!this.exists(a))if(b)c6(b,c8(im,ih,this.nm(a)));else
-ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(is,ih,this.nm(a)));else
-ae(a+iz);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&c5(ii),c=a==S?S:this.slash(a),e=new
-RegExp(iv+c+nx);if(!this.exists(a))if(b)c6(b,c8(im,id,this.nm(a)));else
-ae(a+f$);if(!this.is_dir(a))if(b)c6(b,c8(is,id,this.nm(a)));else
-ae(a+iz);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)c9(b,c$(ik,ie,this.nm(a)));else
+ae(a+ga);if(!this.is_dir(a))if(b)c9(b,c$(iq,ie,this.nm(a)));else
+ae(a+ix);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
+b=f&&c8(ig),c=a==T?T:this.slash(a),e=new
+RegExp(it+c+nF);if(!this.exists(a))if(b)c9(b,c$(ik,ib,this.nm(a)));else
+ae(a+ga);if(!this.is_dir(a))if(b)c9(b,c$(iq,ib,this.nm(a)));else
+ae(a+ix);for(var
 d
 in
-this.content)if(d.match(e))if(b)c6(b,c8(nv,id,this.nm(a)));else
+this.content)if(d.match(e))if(b)c9(b,c$(nD,ib,this.nm(a)));else
 ae(this.nm(a)+": Directory not empty");delete
 this.content[c]};aO.prototype.readdir=function(a){var
-f=a==S?S:this.slash(a);if(!this.exists(a))ae(a+f$);if(!this.is_dir(a))ae(a+iz);var
+f=a==T?T:this.slash(a);if(!this.exists(a))ae(a+ga);if(!this.is_dir(a))ae(a+ix);var
 g=new
-RegExp(iv+f+nx),d={},c=[];for(var
+RegExp(it+f+nF),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==S)return true;var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==T)return true;var
 b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+og);if(b.text&&b.binary)ae(this.nm(a)+nb);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+oc);var
+this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+op);if(b.text&&b.binary)ae(this.nm(a)+nj);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+ol);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aA(bT(0));return this.content[a]}else
-DE(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+oc);if(iM(a))b=new
-aA(a);if(oS(a))b=new
-aA(dQ(a));else
+DR(this.nm(a))};aO.prototype.register=function(c,a){var
+b;if(this.content[c])ae(this.nm(c)+ol);if(iK(a))b=new
+aA(a);if(o2(a))b=new
+aA(dU(a));else
 if(a
 instanceof
 Array)b=new
-aA(Db(a));else
+aA(Do(a));else
 if(typeof
 a==="string")b=new
-aA(oI(a));else
+aA(oS(a));else
 if(a.toString){var
-d=dQ(dT(a.toString()));b=new
+d=dU(dX(a.toString()));b=new
 aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ae(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-an(a){return gx(a)}function
-c7(b,a){return iD(b,a)}function
-C8(d){var
+an(a){return gy(a)}function
+c_(b,a){return iB(b,a)}function
+Dj(d){var
 c=an(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=c7(d,a);return b}function
-C7(a){if(a.t!=4)gu(a);return a.c}function
-De(a,c,b){b&=b8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gu(a)}a.c[c]=b;return 0}function
-Dd(b,a,c){if(a>>>0>=b.l)oG();return De(b,a,c)}function
+Array(c),a=0;for(;a<c;a++)b[a]=c_(d,a);return b}function
+Di(a){if(a.t!=4)gv(a);return a.c}function
+Dr(a,c,b){b&=b8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gv(a)}a.c[c]=b;return 0}function
+Dq(b,a,c){if(a>>>0>=b.l)oQ();return Dr(b,a,c)}function
 bS(a){this.fs=require("fs");this.fd=a}bS.prototype=new
-oz();bS.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bS.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bS.prototype.write=function(f,b,c,e){var
-a=C8(b);if(!(a
+oJ();bS.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bS.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bS.prototype.write=function(f,b,c,e){var
+a=Dj(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bS.prototype.read=function(g,d,c,f){var
-a=C7(d);if(!(a
+a=Di(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)Dd(d,c+b,e[c+b]);return 0};bS.prototype.read_one=function(c){var
+b=0;b<f;b++)Dq(d,c+b,e[c+b]);return 0};bS.prototype.read_one=function(c){var
 b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bS.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bS.prototype.constructor=bS;function
 aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aB.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
@@ -539,9 +539,9 @@ d=this.fs.openSync(this.nm(f),b);return new
 bS(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),mY);return dT(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
-b=c5(ii);if(d&&b){var
-c=c8(a.code,a.syscall,a.path,a.errno);c6(b,c)}else
+a=this.fs.readlinkSync(this.nm(b),m6);return dX(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
+b=c8(ig);if(d&&b){var
+c=c$(a.code,a.syscall,a.path,a.errno);c9(b,c)}else
 ae(a.toString())};aB.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
@@ -550,31 +550,31 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
-oP(b){var
-a=iT(b);if(!a)return;return a[0]+bB}var
-gy=oP(eR)||bC("unable to compute caml_root"),dU=[];if(eU())dU.push({path:gy,device:new
-aB(gy)});else
-dU.push({path:gy,device:new
-aO(gy)});dU.push({path:m7,device:new
-aO(m7)});function
-o9(b){var
-g=Dv(b),b=g.join(bB),f=o2(b),c;for(var
-e=0;e<dU.length;e++){var
-a=dU[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eU()){var
-d=oP(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+oZ(b){var
+a=iR(b);if(!a)return;return a[0]+bB}var
+gz=oZ(eT)||bC("unable to compute caml_root"),dY=[];if(eW())dY.push({path:gz,device:new
+aB(gz)});else
+dY.push({path:gz,device:new
+aO(gz)});dY.push({path:nd,device:new
+aO(nd)});function
+ph(b){var
+g=DI(b),b=g.join(bB),f=pa(b),c;for(var
+e=0;e<dY.length;e++){var
+a=dY[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eW()){var
+d=oZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aB(d)};dU.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-Dg(c,b){var
-a=o9(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
-o4(c,b){var
-c=a(c),b=a(b);return Dg(c,b)}function
-Dj(){var
+aB(d)};dY.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
+Dt(c,b){var
+a=ph(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
+pc(c,b){var
+c=a(c),b=a(b);return Dt(c,b)}function
+Dw(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)o4(b[a].name,b[a].content);E.jsoo_create_file=o4;E.caml_fs_tmp=[];return 0}function
-DC(c){var
-a=0,e=an(c),b=10,d=1;if(e>0)switch(c7(c,a)){case
+a=0;a<b.length;a++)pc(b[a].name,b[a].content);E.jsoo_create_file=pc;E.caml_fs_tmp=[];return 0}function
+DP(c){var
+a=0,e=an(c),b=10,d=1;if(e>0)switch(c_(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&c7(c,a)==48)switch(c7(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&c_(c,a)==48)switch(c_(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=an(c),b=10,d=1;if(e>0)switch(c7(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-oW(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=os)return a-87;return-1}function
-iL(f){var
-h=DC(f),c=h[0],i=h[1],d=h[2],g=an(f),j=-1>>>0,e=c<g?c7(f,c):0,b=oW(e);if(b<0||b>=d)bC(gf);var
-a=b;for(c++;c<g;c++){e=c7(f,c);if(e==95)continue;b=oW(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(gf)}if(c!=g)bC(gf);a=i*a;if(d==10&&(a|0)!=a)bC(gf);return a|0}function
-Du(a,b){return+(iE(a,b,false)<=0)}function
-Dw(a,d){if(a<0)gt();var
+o6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oB)return a-87;return-1}function
+iJ(f){var
+h=DP(f),c=h[0],i=h[1],d=h[2],g=an(f),j=-1>>>0,e=c<g?c_(f,c):0,b=o6(e);if(b<0||b>=d)bC(gg);var
+a=b;for(c++;c<g;c++){e=c_(f,c);if(e==95)continue;b=o6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(gg)}if(c!=g)bC(gg);a=i*a;if(d==10&&(a|0)!=a)bC(gg);return a|0}function
+DH(a,b){return+(iC(a,b,false)<=0)}function
+DJ(a,d){if(a<0)gu();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 b_=new
 Array();function
-Dx(c){var
-a=b_[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==S)return 0;if(a.fd&&aq.fds[a.fd]&&aq.fds[a.fd].output){var
-b=aq.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=S;return 0}function
-oZ(e,f){var
+DK(c){var
+a=b_[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&ar.fds[a.fd]&&ar.fds[a.fd].output){var
+b=ar.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
+o9(e,f){var
 b=b_[e],d=a(f),c=an(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-DK(a){var
-a=iP(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+DX(a){var
+a=iN(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-DL(a){var
-a=iP(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+DY(a){var
+a=iN(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gA(c,e,d,a){if(aq.fds===undefined)aq.fds=new
+gB(c,e,d,a){if(ar.fds===undefined)ar.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;aq.fds[c]=b;if(!aq.fd_last_idx||c>aq.fd_last_idx)aq.fd_last_idx=c;return c}function
-DS(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ar.fds[c]=b;if(!ar.fd_last_idx||c>ar.fd_last_idx)ar.fd_last_idx=c;return c}function
+D5(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,160 +619,160 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dS(c)+og);if(a.text&&a.binary)ae(dS(c)+nb);var
-d=o9(c),e=d.device.open(d.rest,a),f=aq.fd_last_idx?aq.fd_last_idx:0;return gA(f+1,oZ,e,a)}gA(0,oZ,new
-aA(bT(0)));gA(1,DL,new
-aA(bT(0)));gA(2,DK,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dW(c)+op);if(a.text&&a.binary)ae(dW(c)+nj);var
+d=ph(c),e=d.device.open(d.rest,a),f=ar.fd_last_idx?ar.fd_last_idx:0;return gB(f+1,o9,e,a)}gB(0,o9,new
+aA(bT(0)));gB(1,DY,new
+aA(bT(0)));gB(2,DX,new
 aA(bT(0)));function
-Dy(a){var
-c=aq.fds[a];if(c.flags.wronly)ae(or+a+" is writeonly");var
-d=null;if(a==0&&eU()){var
-e=require("fs");d=function(){return dT(e.readFileSync(0,mY))}}var
+DL(a){var
+c=ar.fds[a];if(c.flags.wronly)ae(oA+a+" is writeonly");var
+d=null;if(a==0&&eW()){var
+e=require("fs");d=function(){return dX(e.readFileSync(0,m6))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b_[b.fd]=b;return b.fd}function
-oT(c){var
-b=aq.fds[c];if(b.flags.rdonly)ae(or+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:S};b_[a.fd]=a;return a.fd}function
-Dz(){var
+o3(c){var
+b=ar.fds[c];if(b.flags.rdonly)ae(oA+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};b_[a.fd]=a;return a.fd}function
+DM(){var
 b=0;for(var
 a=0;a<b_.length;a++)if(b_[a]&&b_[a].opened&&b_[a].out)b=[0,b_[a].fd,b];return b}function
-bi(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);aq[b+1]=c;if(a)aq[a]=c}function
-DG(a,b){oV[dS(a)]=b;return 0}function
-C$(a,b){if(a===b)return 1;a.t&6&&dR(a);b.t&6&&dR(b);return a.c==b.c?1:0}function
-ao(a,b){return C$(a,b)}function
-DI(){aC(ix)}function
-aH(b,a){if(a>>>0>=an(b))DI();return c7(b,a)}function
+bi(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ar[b+1]=c;if(a)ar[a]=c}function
+DT(a,b){o5[dW(a)]=b;return 0}function
+Dm(a,b){if(a===b)return 1;a.t&6&&dV(a);b.t&6&&dV(b);return a.c==b.c?1:0}function
+ao(a,b){return Dm(a,b)}function
+DV(){aC(iv)}function
+aI(b,a){if(a>>>0>=an(b))DV();return c_(b,a)}function
 m(a,b){return 1-ao(a,b)}function
-gz(a){return a}function
-oY(a){return a}function
-o3(a){if(a
+gA(a){return a}function
+o8(a){return a}function
+pb(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return oY(aq.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return o8(ar.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return oY(aq.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return o8(ar.Stack_overflow);if(a
 instanceof
-E.Error&&c5(nE))return[0,c5(nE),a];return[0,aq.Failure,dT(String(a))]}function
-c9(a){return a<0?-a:a}function
-z(a,b){return a+b}function
-iQ(a,b){return a<b?-1:a>b?1:0}function
-o6(c,b){var
-a=c%b;return a<0?a+c9(b):a}function
-iR(a,b){return(a-o6(a,b))/b}function
-Z(a,b){return a==b?1:0}function
-DP(c){E.orthocert_verify=function(b){return dS(c4(c,[a(b)]))}}function
+E.Error&&c8(nM))return[0,c8(nM),a];return[0,ar.Failure,dX(String(a))]}function
+da(a){return a<0?-a:a}function
+y(a,b){return a+b}function
+iO(a,b){return a<b?-1:a>b?1:0}function
+pe(c,b){var
+a=c%b;return a<0?a+da(b):a}function
+iP(a,b){return(a-pe(a,b))/b}function
+Y(a,b){return a==b?1:0}function
+D2(c){E.orthocert_verify=function(b){return dW(c7(c,[a(b)]))}}function
 G(a,b){return a<=b?1:0}function
-V(a,b){return a<b?1:0}function
+L(a,b){return a<b?1:0}function
 v(a,b){return a*b}function
-M(a){return-a}function
-aF(a){return E.BigInt(a)}function
-o7(a,b){return a<<E.BigInt(b)}function
-o8(a,b){return a>>E.BigInt(b)}function
-a5(a){return a<0?-1:a>0?1:0}function
-DQ(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+N(a){return-a}function
+aD(a){return E.BigInt(a)}function
+pf(a,b){return a<<E.BigInt(b)}function
+pg(a,b){return a>>E.BigInt(b)}function
+a6(a){return a<0?-1:a>0?1:0}function
+D3(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aD(a,b){return a-b}function
-iS(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-Ds(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Di(b){var
-a=S;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ds(b[1]))var
+aE(a,b){return a-b}function
+iQ(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+DF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Dv(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&DF(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=nF;for(var
+f=2,e=b;a+=nN;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bR)a+=aw+c.toString()+aw;else
+bR)a+=ax+c.toString()+ax;else
 if(typeof
-c=="string")a+=aw+c.toString()+aw;else
-a+="_"}a+=iu}else
-if(b[0]==aG)a+=b[1];return a}function
-oN(a){if(a
+c=="string")a+=ax+c.toString()+ax;else
+a+="_"}a+=is}else
+if(b[0]==aH)a+=b[1];return a}function
+oX(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aG)){var
-c=c5("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Di(a),b=c5(mX);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aH)){var
+c=c8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Dv(a),b=c8(m5);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-DH(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oN(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oN(a.error)})}DH();function
-k(a,b){return a.length==1?a(b):c4(a,[b])}function
-at(a,b,c){return a.length==2?a(b,c):c4(a,[b,c])}function
-C6(a,b,c,d){return a.length==3?a(b,c,d):c4(a,[b,c,d])}Dj();var
-iV=[aG,a(nt),-2],iU=[aG,a(oy),-4],B1=[0,0],B2=[0,0],B3=[0,[0,0]],B4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B3]]]]]]]]]]],f0=[0,[1,0],0],me=[0,[2,0],0],hT=[0,[1,0],0],md=[0,[2,0],0],fY=[0,[1,0],0],hS=[0,[2,0],0],B5=[0,[0,[0,[0,0]]]],B6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B5]]]]]]]]]]],B7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B6]]]]]]]]]]],B8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B7]]]]]]]]]]],B9=[0,[0,0]],B_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B9]]]]]]]]]]],B$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B_]]]]]]]]]]],Ca=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B$]]]]]]]]]]],Cb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ca]]]]]]]]]]],Cc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],Ce=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],Cg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],Ch=[0,[0,0]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,0],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,0]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,0],CY=[0,[0,0]],CZ=[0,0],C0=[0,[0,[0,[0,[0,0]]]]],jl=[0,[0,[0,0]]],cI=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fL=[0,[0,[0,[0,0]]]],C1=[0,[0,[0,[0,[0,0]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]];bi(11,[aG,a(mW),-12],mW);bi(10,[aG,a(nK),-11],nK);bi(9,[aG,a(oq),-10],oq);bi(8,[aG,a(m8),-9],m8);bi(7,[aG,a(nX),-8],nX);bi(6,[aG,a(m6),-7],m6);bi(5,[aG,a(nu),-6],nu);bi(4,[aG,a(nz),-5],nz);bi(3,iU,oy);bi(2,[aG,a(io),-3],io);bi(1,iV,nt);bi(0,[aG,a(n$),-1],n$);var
-o_=a("String.sub / Bytes.sub"),pa=a(S),o$=a("String.concat"),pb=a("Array.init"),pc=a("power"),pn=[0,0],pq=[0,0],pr=[0,[0,0]],ps=[0,[0,0]],pA=[0,0],pB=[0,0],pH=[0,0,0],pI=[0,0,0],pJ=[0,0],p2=[0,0],p3=[0,0],p6=[0,0],qn=[0,0],qq=[0,0],qs=[0,0],qt=[0,0],qA=[0,0],qB=[0,0],qZ=[0,[0,[0,0]]],rj=[0,0],rF=a(","),rX=[0,a(iu),0],rY=a(nF),rZ=a("."),r0=[0,[0,[0,0]]],r1=a(eK),r2=a(iv),r3=[0,[0,[0,[0,[0,0]]]]],r4=[0,a(iu),0],r5=a(ov),uZ=a(mT),u1=a(mQ),u0=a(nN),u2=a(dJ),u3=a(gb),u4=a(ox),u5=a(oj),u6=a(nn),u7=a(nZ),wh=[0,0],wi=a(f_),wj=[0,0],wk=a("divided"),wl=[0,1],wm=a("mirror"),wn=[0,3],wo=a("negative"),wp=[0,2],wq=a(eJ),wr=[0,5],ws=a(iB),wt=[0,4],wu=a(eF),wv=a(m$),ww=a(eG),wx=a(bQ),wy=[0,0],wz=[0,0],wA=[0,0],xh=a(S),xe=[0,[0,[0,[0,0]]]],xf=[0,[0,[0,[0,0]]]],xc=[0,[0,[0,0]]],xb=[0,0],xa=a(eG),w$=[0,[0,[0,0]]],w_=[0,0],w7=[0,[0,0]],w8=[0,[0,[0,0]]],w3=[0,[0,[0,0]]],w2=[0,0,0],w0=[0,[0,0]],w1=[0,0],wZ=[0,0],wX=[0,[0,[0,0]]],wR=[0,[0,0]],wS=[0,[0,[0,0]]],wT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B1]]]]]]]]]]],wU=[0,[0,0]],wV=[0,[0,[0,0]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B2]]]]]]]]]]],wO=[0,[0,0]],wP=[0,[0,[0,0]]],wM=[0,[0,[0,0]]],wN=[0,[0,0]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B4]]]]]]]]]]],wK=[0,0],wJ=[0,0],wG=[0,[0,0]],wH=[0,0],wE=[0,0],wF=[0,1],wD=[0,[0,0]],wC=[0,0],we=[0,0],wf=[0,1],wg=[0,2],wa=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v_=[0,[0,0],0],v$=[0,[1,0],0],wb=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],v8=[0,[0,0]],v9=[0,0],v7=[0,0],v5=[0,0],v6=[0,0],v4=[0,0],v3=[0,0],v2=[0,0,0],v0=[0,[0,0]],v1=[0,0],vZ=[0,0,0],vX=[0,[0,[0,0]]],vY=[0,[0,[0,0]]],vW=[0,0],vU=[0,1,0],vM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,B8]]]]]]]]]]],vN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cb]]]]]]]]]]],vI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],vJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],vK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],vL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],vP=a("sqrt"),vG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],vH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],vv=[0,a("\n"),0],vw=a(mR),vx=a(ga),vy=a(nJ),vz=a(nr),vF=a(eM),vA=a(eI),vB=a("verdict"),vC=a(oa),vD=a(nk),vE=a(nI),vs=a(nD),vt=a(oe),vu=a(gd),vo=a(nT),vp=a(ge),vq=a(eI),vr=a(eM),vj=a(gm),vk=a(a4),vl=a(mS),vm=a(gj),vg=a(n_),vh=a(eJ),vi=a(gj),vc=a(nW),vd=a(gm),ve=a(ge),vf=a(oo),u9=a(of),u_=a(oi),u$=a(nA),va=a(gg),uX=a(ie),uY=a(gp),uS=a(bh),uT=a(bg),uU=a(nm),us=a(gg),ut=a(n0),t8=a(a4),t9=a(bA),t_=a(go),t$=a(dM),ua=a(c2),uf=a(ig),ub=a(iw),uc=a(iy),ud=a(dI),ue=a(a4),ug=a(bA),uh=a(go),ui=a(dM),uj=a(iw),uk=a(iy),ul=a(dI),um=a(a4),un=a(bA),uo=a(bh),up=a(bg),uq=a(c0),ur=a(dM),uu=a(n6),uv=a(oh),uw=a(gs),ux=a(na),uy=a(nf),uz=a(dI),uA=a(a4),uB=a(bA),uC=a(f8),uD=a(np),uE=a(dM),uF=a(eP),uG=a(m0),uH=a(dI),uI=a(a4),uJ=a(f8),uK=a(a4),uL=a(n2),uO=a(mP),uM=a(nd),uN=a(on),uP=a(eM),uQ=a(eI),uR=a(a4),uV=a(gs),uW=a(gd),t3=a(bA),t4=a(dM),t5=a(ig),t6=a(dI),t2=a(ot),tQ=a(eP),tR=a(ob),tS=a(c1),tT=a(dK),tU=a(dK),tV=a(ij),tW=a(c1),tX=a(nL),tY=a(nl),tZ=a(aU),t1=a(mV),t0=a(ij),tG=a(nC),tH=a(ow),tI=a(nh),tJ=a(ne),tK=a(ol),tL=a(n9),tM=a(ns),tN=a(f9),tO=a(f9),tC=a(aU),tD=a(bf),tE=a(dN),tF=a(bz),ty=a(c2),tz=a(ir),tA=a(nU),tv=a(bh),tw=a(bg),tx=a(c0),to=a(bh),tp=a(bg),tq=a(c0),tr=a(it),ts=a(c1),tt=a(ip),tu=a(n5),ta=a(nc),tg=a(ga),tf=a(om),tb=a(ik),tc=a(gi),tj=a(eH),tk=a(ik),th=a(eH),ti=a(gi),tl=a(m_),tm=a(n3),tn=a(gi),td=a(dK),te=a(nQ),s9=a(gh),s_=a(gh),s$=a(gh),s5=a(n7),s6=a(bg),s7=a(bh),s8=a(ok),sP=a(m4),sQ=a(mU),sR=a(nY),sS=a(dJ),sT=a(ou),sU=a(n1),sV=a(m5),sW=a(nR),sX=a(m3),sY=a(no),sZ=a(m2),s0=a(n8),s1=a(gb),s2=a(mZ),s3=a(od),s4=a(ng),su=a(gk),sw=a(eK),sv=a(eE),sx=a(dH),sy=a(aU),sz=a(bf),sA=a(bQ),sB=a(gq),sC=a(bz),sD=a(aU),sE=a(bf),sF=a(dN),sG=a(bz),sH=a(dH),sI=a(eO),sJ=a(aU),sK=a(bf),sL=a(nP),sM=a(eH),sN=a(eO),sO=a(bz),sc=a(gk),sk=a(eK),sd=a(eE),se=a(dH),sf=a(aU),sg=a(bf),sh=a(bQ),si=a(gq),sj=a(bz),sl=a(gr),sm=a(aU),sn=a(bf),so=a(dN),sp=a(bz),sq=a(bQ),sr=a(c2),ss=a(bz),r$=a(bh),sa=a(bg),r9=[0,a(aw),0],r_=a(aw),r7=a(S),r6=[0,a(aw),0],r8=a(aw),rT=a(gk),rU=a(eK),rV=a("*"),rW=a(bB),rO=[0,[0,[0,[0,[0,0]]]]],rP=[0,[0,[0,0]]],rQ=[0,[0,0]],rR=[0,0],rS=[0,[0,[0,[0,0]]]],rM=a('":'),rN=a(aw),rK=[0,a(aw),0],rL=a(aw),rI=[0,a("}"),0],rJ=a("{"),rG=[0,a("]"),0],rH=a("["),rE=[0,[0,[0,0]]],rD=[0,[0,[0,0]]],rB=[0,0],ry=[0,[0,[0,0]]],rz=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rw=[0,[0,0]],rx=[0,[0,[0,0]]],rt=[0,0],ru=[0,[0,[0,[0,[0,[0,0]]]]]],rv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],rq=[0,0],rn=[0,0,0],ro=[0,0,0],rp=[0,0,0],rk=[0,[0,0]],rl=[0,[0,[0,0]]],rm=[0,0],q$=[0,[0,[0,[0,[0,[0,0]]]]]],ra=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rb=[0,[0,[0,0]]],rc=[0,[0,[0,0]]],rd=[0,[0,[0,[0,[0,[0,0]]]]]],re=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],rg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],rh=[0,[0,[0,0]]],ri=[0,[0,[0,[0,[0,[0,0]]]]]],q9=[0,[0,0]],q_=[0,[0,[0,0]]],q5=[0,0,0],q6=[0,0,0],q3=[0,0],q4=[0,0],q2=[0,0],q0=[0,0],q1=[0,0],qX=[0,[0,0]],qY=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qW=[0,[0,0]],qQ=[0,0],qR=[0,0],qS=[0,0],qT=[0,[0,[0,0]]],qM=[0,[0,0]],qN=[0,0],qO=[0,0],qP=[0,[0,0]],qD=[0,[0,0]],qE=[0,0],qF=[0,[0,0]],qG=[0,0],qH=[0,0],qI=[0,[0,0]],qJ=[0,[0,0]],qK=[0,[0,0]],qL=[0,0],qz=[0,0],qy=[0,0],qw=[0,[0,[0,0]]],qv=[0,[0,[0,[0,[0,[0,0]]]]]],qr=[0,[0,[0,0]]],qo=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qk=[0,[0,[0,[0,[0,[0,0]]]]]],ql=[0,[0,[0,[0,[0,[0,0]]]]]],qf=[0,[0,0]],qg=[0,0],qh=[0,[0,0]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],p_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],p$=[0,[0,[0,[0,[0,[0,0]]]]]],qa=[0,[0,[0,[0,[0,[0,0]]]]]],qb=[0,[0,[0,0]]],qc=[0,[0,[0,[0,[0,[0,0]]]]]],qd=[0,[0,[0,0]]],qe=[0,[0,[0,0]]],p8=[0,[0,0]],p9=[0,0],p7=[0,0,0],p5=[0,0,0],p4=[0,[0,[0,0]]],p0=[0,0],p1=[0,0],pV=[0,[0,[0,0]]],pW=[0,[0,[0,0]]],pX=[0,[0,[0,0]]],pU=[0,[0,[0,[0,0]]]],pQ=[0,[0,[0,0]]],pR=[0,[0,[0,0]]],pS=[0,[0,[0,0]]],pT=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pO=[0,[0,0]],pP=[0,0],pM=[0,[0,0]],pN=[0,0],pK=[0,[0,0]],pL=[0,0],pv=[0,0],pw=[0,[0,0]],px=[0,0],py=[0,[0,0]],pt=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],po=[0,0,0],pm=a(iA),pl=a(S),pk=[0,[0,0]],pj=[0,0],pg=[0,0],pi=[1,0],ph=[0,0],pf=[0,0],pd=[1,0],pe=[1,0],qx=[10,0,0,0,0],w9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],Al=a(bh),Am=a(bg),An=a(nm),Ac=a(gr),Ad=[0,a("a base axis of such a platform"),0],Ae=a(aU),Af=a(bf),z1=a(n9),z2=a(nC),z3=a(ol),z4=a(f9),z5=a(ns),z6=a(f9),z7=a(ow),z8=a(nh),z9=a(ne),zR=a(n0),zS=a(gg),zt=[0,a("such a machine with bodies"),0],zg=a(gd),zh=a(a4),zi=a(n2),zj=a(on),zm=a(nd),zn=a(mP),zo=a(a4),zp=a(a4),zr=a(f8),zq=[0,a("a claim that no cube of such a machine fits"),0],zs=a(ot),zu=a(dI),zv=a(dM),zw=a(c2),zx=a(ir),zy=a(nU),zz=a(go),zA=a(nf),zB=a(m0),zC=a(ig),zF=a(c0),zG=a(n5),zJ=a(bA),zK=a(bA),zL=a(np),zM=a(bA),zN=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],zO=a(f8),zP=a(eP),zQ=a(c0),zT=a(bA),zU=a(bh),zV=a(bg),zW=a(n6),zX=a(oh),zY=a(gs),zZ=a(na),zD=[0,a(aw),0],zE=a('the mechanism "'),z0=a(iw),z_=a(go),z$=a(c2),Aa=a(ir),Ab=a(iy),Ag=a(bA),Ah=[0,a('"one_to_one" of this set of orientations'),0],Ak=a(c2),Ai=[0,a("a platform that turns on struts and other drives"),0],Aj=a(bA),zH=[0,a(aw),0],zI=a('the workspace "'),Ao=a(a4),Ap=a(a4),Ar=a(eM),As=a(eI),At=a(gs),Aq=[0,a("an atlas of such a machine"),0],zk=[0,a(aw),0],zl=a('a claim of the kind "'),Ay=a(ox),AF=a(gb),AG=a(dJ),AH=a(nn),AI=a(nN),AJ=a(bQ),AK=a(gp),AL=a(ie),AM=a(bQ),AN=a(iA),Az=a(eF),AA=a(m$),AB=a(eG),AC=a(nZ),AD=[0,a(aw),0],AE=a('the evidence "'),AO=a(eF),AP=a(gp),AQ=[0,1,1],AR=a(dJ),AS=a(eF),AT=a(eG),AU=a(oj),AW=a(dJ),AX=a(eF),AY=a(eG),AZ=a(eJ),A0=a(f_),A1=a(eJ),A2=a(f_),AV=[0,a("this evidence at control points"),0],BU=a('"orthocert-paving/'),Bz=a(nI),BA=a(nk),BB=a(oa),BS=[0,3,3],BC=a(nr),BM=[0,a("this set of orientations with such drives"),0],BN=[0,a(ny),0],BQ=[0,a(ny),0],BR=[0,a("a mechanism by formulas in a claim that is refuted"),0],BO=[0,a('the evidence "tolerances" of such a mechanism'),0],BP=[0,a("a step of a platform that turns that is not at control points"),0],BD=[0,a("the acceleration of a joint of a machine with a plane"),0],BL=[0,a("this quantity in a claim that is refuted"),0],BK=[0,a("a step in a proof that no cube fits"),0],BJ=[0,a("a stiffness for each joint in such a claim"),0],BI=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BH=[0,a("a leaf that fails"),0],BE=a(nJ),BF=a(mR),BG=a(ga),Bv=a(iB),Bw=a(f_),Bx=a(bQ),Bo=a(gd),Bp=a(nD),Bq=a(oe),Br=[0,a(aw),0],Bs=a('a proof of the kind "'),Bk=a(eI),Bl=a(eM),Bm=a(ge),Bn=a(nT),Bg=a(a4),Bh=a(gm),Bi=a(mS),Bj=a(gj),Bd=a(n_),Be=a(eJ),Bf=a(gj),A$=a(nW),Ba=a(gm),Bb=a(ge),Bc=a(oo),A5=a(oi),A6=a(nA),A7=a(of),A8=a(gg),A9=[0,a(aw),0],A_=a('the failure "'),A3=a(iB),A4=a(iA),Aw=a(gp),Ax=a(ie),Au=a(mQ),Av=a(mT),zd=a(eP),y5=a(ij),y6=a(mV),y7=a(dK),y8=a(aU),zb=a(ob),zc=a(eP),ze=a(c1),zf=a(dK),y9=a(c1),y_=a(nL),y$=a(nl),za=a(aU),yY=a(c0),y2=a(bh),y3=a(bg),yZ=a(ip),y0=a(it),y1=a(c1),yS=a(c0),yW=a(bh),yX=a(bg),yT=a(ip),yU=a(it),yV=a(c1),yR=[0,1],yQ=[0,1],yO=[0,1],yN=[0,1],yL=[0,1],yM=[0,a("this quantity of such a mechanism"),0],yt=a(ik),yu=[0,a("a stiffness for each joint of such a mechanism"),0],yv=a(n3),yw=a(m_),yx=a(om),yy=a("max_angle"),yz=[0,a("accuracy of a platform that turns"),0],yA=a(eH),ys=a(ga),yk=a(gh),x$=a(nQ),ya=a(nY),yD=a(gb),yE=a(od),yF=a(no),yG=a(dJ),yH=a(nR),yI=a(m2),yJ=a(m3),yK=a(mU),yb=a(mZ),yc=a(n8),yd=a(n1),ye=a(ng),yf=a(ou),yg=a(m5),yh=a(m4),yi=[0,a(aw),0],yj=a('the quantity "'),yl=a(nc),ym=a(n7),yn=a(bh),yo=a(bg),yp=a(ok),yq=[0,a(aw),0],yr=a('a bound "'),yB=a(gi),yC=a(dK),x9=a(bz),x_=a(dN),xO=a(bz),xP=a(gr),xQ=a(eO),xR=a(gq),xS=a(dN),xV=a(aU),xW=a(bf),xX=a(eE),xY=a(dH),xZ=a(aU),x0=a(bf),x1=a(bQ),x2=a(eE),x3=a(dH),x4=a(eO),x5=a(aU),x6=a(bf),x7=a(nP),x8=a(eH),xT=[0,a('" of such a machine'),0],xU=a(m9),xM=a(bz),xN=a(eO),xw=a(bz),xx=a(c2),xy=a(gq),xz=a(dN),xC=a(gr),xD=a(aU),xE=a(bf),xF=a(eE),xG=a(dH),xH=a(aU),xI=a(bf),xJ=a(bQ),xK=a(bQ),xA=[0,a(aw),0],xB=a(m9),xt=a(gk),xu=a(eK),xr=a(" is not covered by the verified checker"),xs=a(S),xp=a(bh),xq=a(bg),xl=a(S),xm=a(ov),xn=a(S),xo=a(S),xk=[1,0],xi=a("Reader.Malformed"),xj=a("Reader.Not_covered"),BW=[0,a("a paving is checked by orthocert-verified")],BV=a(nS),BX=a("CERTIFIED"),BY=a("REFUTED"),BZ=a(nS),B0=a("NOT COVERED: ");function
-eV(a){throw[0,iU,a]}function
+DU(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oX(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oX(a.error)})}DU();function
+k(a,b){return a.length==1?a(b):c7(a,[b])}function
+aq(a,b,c){return a.length==2?a(b,c):c7(a,[b,c])}function
+Dh(a,b,c,d){return a.length==3?a(b,c,d):c7(a,[b,c,d])}Dw();var
+iT=[aH,a(nB),-2],iS=[aH,a(oI),-4],Cc=[0,0],Cd=[0,0],Ce=[0,[0,0]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],f1=[0,[1,0],0],mm=[0,[2,0],0],hR=[0,[1,0],0],ml=[0,[2,0],0],fZ=[0,[1,0],0],hQ=[0,[2,0],0],Cg=[0,[0,[0,[0,0]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,0]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,0]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,0],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,0]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,0],C$=[0,[0,0]],Da=[0,0],Db=[0,[0,[0,[0,[0,0]]]]],jm=[0,[0,[0,0]]],cK=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fN=[0,[0,[0,[0,0]]]],Dc=[0,[0,[0,[0,[0,0]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]];bi(11,[aH,a(m4),-12],m4);bi(10,[aH,a(nS),-11],nS);bi(9,[aH,a(oz),-10],oz);bi(8,[aH,a(ne),-9],ne);bi(7,[aH,a(n5),-8],n5);bi(6,[aH,a(nc),-7],nc);bi(5,[aH,a(nC),-6],nC);bi(4,[aH,a(nH),-5],nH);bi(3,iS,oI);bi(2,[aH,a(il),-3],il);bi(1,iT,nB);bi(0,[aH,a(oh),-1],oh);var
+pi=a("String.sub / Bytes.sub"),pk=a(T),pj=a("String.concat"),pl=a("Array.init"),pm=a("power"),px=[0,0],pF=[0,0],pG=[0,0],pM=[0,0,0],pN=[0,0,0],pO=[0,0],p7=[0,0],p8=[0,0],p$=[0,0],qs=[0,0],qv=[0,0],qx=[0,0],qy=[0,0],qF=[0,0],qG=[0,0],q4=[0,[0,[0,0]]],ro=[0,0],rB=[0,0],rC=[0,0],rM=a(","),r4=[0,a(is),0],r5=a(nN),r6=a("."),r7=[0,[0,[0,0]]],r8=a(eM),r9=a(it),r_=[0,[0,[0,[0,[0,0]]]]],r$=[0,a(is),0],sa=a(oF),u6=a(m1),u8=a(mY),u7=a(nV),u9=a(dN),u_=a(gc),u$=a(oH),va=a(os),vb=a(nv),vc=a(n7),wp=[0,0],wq=a(f$),wr=[0,0],ws=a("divided"),wt=[0,1],wu=a("mirror"),wv=[0,3],ww=a("negative"),wx=[0,2],wy=a(eL),wz=[0,5],wA=a(iz),wB=[0,4],wC=a(eH),wD=a(nh),wE=a(eI),wF=a(bQ),wG=[0,0],wH=[0,0],wI=[0,0],xr=a(T),xo=[0,[0,[0,[0,0]]]],xp=[0,[0,[0,[0,0]]]],xm=[0,[0,[0,0]]],xl=[0,0],xk=a(eI),xj=[0,[0,[0,0]]],xi=[0,0],xf=[0,[0,0]],xg=[0,[0,[0,0]]],xb=[0,[0,[0,0]]],xa=[0,0,0],w_=[0,[0,0]],w$=[0,0],w9=[0,0],w7=[0,[0,[0,0]]],w1=[0,[0,0]],w2=[0,[0,[0,0]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],w4=[0,[0,0]],w5=[0,[0,[0,0]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],wY=[0,[0,0]],wZ=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wX=[0,[0,0]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],wU=[0,0],wT=[0,0],wQ=[0,[0,0]],wR=[0,0],wO=[0,0],wP=[0,1],wN=[0,[0,0]],wM=[0,0],wJ=[0,0],wK=[0,1],wm=[0,0],wn=[0,1],wo=[0,2],wi=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wg=[0,[0,0],0],wh=[0,[1,0],0],wj=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],we=[0,[0,0]],wf=[0,0],wd=[0,0],wb=[0,0],wc=[0,0],wa=[0,0],v$=[0,0],v_=[0,0,0],v8=[0,[0,0]],v9=[0,0],v7=[0,0,0],v5=[0,[0,[0,0]]],v6=[0,[0,[0,0]]],v4=[0,0],v2=[0,1,0],vU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],vV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],vQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],vR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],vT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],vW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],vX=a("sqrt"),vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],vD=[0,a("\n"),0],vE=a(mZ),vF=a(gb),vG=a(nR),vH=a(nz),vN=a(eO),vI=a(eK),vJ=a("verdict"),vK=a(oj),vL=a(ns),vM=a(nQ),vA=a(nL),vB=a(on),vC=a(ge),vw=a(n1),vx=a(gf),vy=a(eK),vz=a(eO),vr=a(gn),vs=a(a5),vt=a(m0),vu=a(gk),vo=a(og),vp=a(eL),vq=a(gk),vk=a(n4),vl=a(gn),vm=a(gf),vn=a(ox),ve=a(oo),vf=a(or),vg=a(nI),vh=a(gh),vi=a(oC),u4=a(ic),u5=a(gq),uZ=a(bh),u0=a(bg),u1=a(nu),uz=a(gh),uA=a(n8),ud=a(a5),ue=a(bA),uf=a(gp),ug=a(dQ),uh=a(c5),um=a(id),ui=a(iu),uj=a(iw),uk=a(dM),ul=a(a5),un=a(bA),uo=a(gp),up=a(dQ),uq=a(iu),ur=a(iw),us=a(dM),ut=a(a5),uu=a(bA),uv=a(bh),uw=a(bg),ux=a(c3),uy=a(dQ),uB=a(oc),uC=a(oq),uD=a(gt),uE=a(ni),uF=a(nn),uG=a(dM),uH=a(a5),uI=a(bA),uJ=a(f9),uK=a(nx),uL=a(dQ),uM=a(eR),uN=a(m8),uO=a(dM),uP=a(a5),uQ=a(f9),uR=a(a5),uS=a(n_),uV=a(mX),uT=a(nl),uU=a(ow),uW=a(eO),uX=a(eK),uY=a(a5),u2=a(gt),u3=a(ge),t_=a(bA),t$=a(dQ),ua=a(id),ub=a(dM),t9=a(oD),tX=a(eR),tY=a(ok),tZ=a(c4),t0=a(dO),t1=a(dO),t2=a(ih),t3=a(c4),t4=a(nT),t5=a(nt),t6=a(aY),t8=a(m3),t7=a(ih),tN=a(nK),tO=a(oG),tP=a(np),tQ=a(nm),tR=a(ou),tS=a(of),tT=a(nA),tU=a(f_),tV=a(f_),tJ=a(aY),tK=a(bf),tL=a(dR),tM=a(bz),tF=a(c5),tG=a(ip),tH=a(n2),tC=a(bh),tD=a(bg),tE=a(c3),tv=a(bh),tw=a(bg),tx=a(c3),ty=a(ir),tz=a(c4),tA=a(im),tB=a(ob),th=a(nk),tn=a(gb),tm=a(ov),ti=a(ii),tj=a(gj),tq=a(eJ),tr=a(ii),to=a(eJ),tp=a(gj),ts=a(ng),tt=a(n$),tu=a(gj),tk=a(dO),tl=a(nY),te=a(gi),tf=a(gi),tg=a(gi),ta=a(od),tb=a(bg),tc=a(bh),td=a(ot),sW=a(na),sX=a(m2),sY=a(n6),sZ=a(dN),s0=a(oE),s1=a(n9),s2=a(nb),s3=a(nZ),s4=a(m$),s5=a(nw),s6=a(m_),s7=a(oe),s8=a(gc),s9=a(m7),s_=a(om),s$=a(no),sB=a(gl),sD=a(eM),sC=a(eG),sE=a(dL),sF=a(aY),sG=a(bf),sH=a(bQ),sI=a(gr),sJ=a(bz),sK=a(aY),sL=a(bf),sM=a(dR),sN=a(bz),sO=a(dL),sP=a(eQ),sQ=a(aY),sR=a(bf),sS=a(nX),sT=a(eJ),sU=a(eQ),sV=a(bz),sj=a(gl),sr=a(eM),sk=a(eG),sl=a(dL),sm=a(aY),sn=a(bf),so=a(bQ),sp=a(gr),sq=a(bz),ss=a(gs),st=a(aY),su=a(bf),sv=a(dR),sw=a(bz),sx=a(bQ),sy=a(c5),sz=a(bz),sg=a(bh),sh=a(bg),se=[0,a(ax),0],sf=a(ax),sc=a(T),sb=[0,a(ax),0],sd=a(ax),r0=a(gl),r1=a(eM),r2=a("*"),r3=a(bB),rV=[0,[0,[0,[0,[0,0]]]]],rW=[0,[0,[0,0]]],rX=[0,[0,0]],rY=[0,0],rZ=[0,[0,[0,[0,0]]]],rT=a('":'),rU=a(ax),rR=[0,a(ax),0],rS=a(ax),rP=[0,a("}"),0],rQ=a("{"),rN=[0,a("]"),0],rO=a("["),rL=[0,[0,[0,0]]],rK=[0,[0,[0,0]]],rI=[0,0],rF=[0,[0,[0,0]]],rG=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rD=[0,[0,0]],rE=[0,[0,[0,0]]],ry=[0,0],rz=[0,[0,[0,[0,[0,[0,0]]]]]],rA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],rv=[0,0],rs=[0,0,0],rt=[0,0,0],ru=[0,0,0],rp=[0,[0,0]],rq=[0,[0,[0,0]]],rr=[0,0],re=[0,[0,[0,[0,[0,[0,0]]]]]],rf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rg=[0,[0,[0,0]]],rh=[0,[0,[0,0]]],ri=[0,[0,[0,[0,[0,[0,0]]]]]],rj=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],rl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],rm=[0,[0,[0,0]]],rn=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,0]],rd=[0,[0,[0,0]]],q_=[0,0,0],q$=[0,0,0],q8=[0,0],q9=[0,0],q7=[0,0],q5=[0,0],q6=[0,0],q2=[0,[0,0]],q3=[0,[0,[0,0]]],q0=[0,[0,[0,0]]],q1=[0,[0,0]],qV=[0,0],qW=[0,0],qX=[0,0],qY=[0,[0,[0,0]]],qR=[0,[0,0]],qS=[0,0],qT=[0,0],qU=[0,[0,0]],qI=[0,[0,0]],qJ=[0,0],qK=[0,[0,0]],qL=[0,0],qM=[0,0],qN=[0,[0,0]],qO=[0,[0,0]],qP=[0,[0,0]],qQ=[0,0],qE=[0,0],qD=[0,0],qB=[0,[0,[0,0]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qp=[0,[0,[0,[0,[0,[0,0]]]]]],qq=[0,[0,[0,[0,[0,[0,0]]]]]],qk=[0,[0,0]],ql=[0,0],qm=[0,[0,0]],qn=[0,[0,[0,0]]],qo=[0,[0,[0,0]]],qd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qe=[0,[0,[0,[0,[0,[0,0]]]]]],qf=[0,[0,[0,[0,[0,[0,0]]]]]],qg=[0,[0,[0,0]]],qh=[0,[0,[0,[0,[0,[0,0]]]]]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],qb=[0,[0,0]],qc=[0,0],qa=[0,0,0],p_=[0,0,0],p9=[0,[0,[0,0]]],p5=[0,0],p6=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,[0,0]]],p2=[0,[0,[0,0]]],pZ=[0,[0,[0,[0,0]]]],pV=[0,[0,[0,0]]],pW=[0,[0,[0,0]]],pX=[0,[0,[0,0]]],pY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pT=[0,[0,0]],pU=[0,0],pR=[0,[0,0]],pS=[0,0],pP=[0,[0,0]],pQ=[0,0],pC=[0,0],pD=[0,[0,0]],pA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],py=[0,0,0],pw=a(iy),pv=a(T),pu=[0,[0,0]],pt=[0,0],pq=[0,0],ps=[1,0],pr=[0,0],pp=[0,0],pn=[1,0],po=[1,0],qC=[10,0,0,0,0],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Av=a(bh),Aw=a(bg),Ax=a(nu),Am=a(gs),An=[0,a("a base axis of such a platform"),0],Ao=a(aY),Ap=a(bf),z$=a(of),Aa=a(nK),Ab=a(ou),Ac=a(f_),Ad=a(nA),Ae=a(f_),Af=a(oG),Ag=a(np),Ah=a(nm),z1=a(n8),z2=a(gh),zD=[0,a("such a machine with bodies"),0],zq=a(ge),zr=a(a5),zs=a(n_),zt=a(ow),zw=a(nl),zx=a(mX),zy=a(a5),zz=a(a5),zB=a(f9),zA=[0,a("a claim that no cube of such a machine fits"),0],zC=a(oD),zE=a(dM),zF=a(dQ),zG=a(c5),zH=a(ip),zI=a(n2),zJ=a(gp),zK=a(nn),zL=a(m8),zM=a(id),zP=a(c3),zQ=a(ob),zT=a(bA),zU=a(bA),zV=a(nx),zW=a(bA),zX=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],zY=a(f9),zZ=a(eR),z0=a(c3),z3=a(bA),z4=a(bh),z5=a(bg),z6=a(oc),z7=a(oq),z8=a(gt),z9=a(ni),zN=[0,a(ax),0],zO=a('the mechanism "'),z_=a(iu),Ai=a(gp),Aj=a(c5),Ak=a(ip),Al=a(iw),Aq=a(bA),Ar=[0,a('"one_to_one" of this set of orientations'),0],Au=a(c5),As=[0,a("a platform that turns on struts and other drives"),0],At=a(bA),zR=[0,a(ax),0],zS=a('the workspace "'),Ay=a(a5),Az=a(a5),AB=a(eO),AC=a(eK),AD=a(gt),AA=[0,a("an atlas of such a machine"),0],zu=[0,a(ax),0],zv=a('a claim of the kind "'),AI=a(oH),AP=a(gc),AQ=a(dN),AR=a(nv),AS=a(nV),AT=a(bQ),AU=a(gq),AV=a(ic),AW=a(bQ),AX=a(iy),AJ=a(eH),AK=a(nh),AL=a(eI),AM=a(n7),AN=[0,a(ax),0],AO=a('the evidence "'),AY=a(eH),AZ=a(gq),A0=[0,1,1],A1=a(dN),A2=a(eH),A3=a(eI),A4=a(os),A6=a(dN),A7=a(eH),A8=a(eI),A9=a(eL),A_=a(f$),A$=a(eL),Ba=a(f$),A5=[0,a("this evidence at control points"),0],B7=a('"orthocert-paving/'),BK=a(nQ),BL=a(ns),BM=a(oj),B5=[0,3,3],BN=a(nz),B1=[0,a("this set of orientations with such drives"),0],B2=[0,a(nG),0],B3=[0,a(nG),0],B4=[0,a(oi),0],B0=[0,a(oi),0],BZ=[0,a("a mechanism by formulas in a claim that is refuted"),0],BW=[0,a("this quantity in a claim that is refuted"),0],BX=[0,a('the evidence "tolerances" of such a mechanism'),0],BY=[0,a("a step of a platform that turns that is not at control points"),0],BO=[0,a("the acceleration of a joint of a machine with a plane"),0],BV=[0,a("a step in a proof that no cube fits"),0],BU=[0,a("a stiffness for each joint in such a claim"),0],BT=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BS=[0,a("a leaf that fails"),0],BP=a(nR),BQ=a(mZ),BR=a(gb),BG=a(iz),BH=a(f$),BI=a(bQ),Bz=a(ge),BA=a(nL),BB=a(on),BC=[0,a(ax),0],BD=a('a proof of the kind "'),Bv=a(eK),Bw=a(eO),Bx=a(gf),By=a(n1),Br=a(a5),Bs=a(gn),Bt=a(m0),Bu=a(gk),Bo=a(og),Bp=a(eL),Bq=a(gk),Bk=a(n4),Bl=a(gn),Bm=a(gf),Bn=a(ox),Bd=a(or),Be=a(nI),Bf=a(oo),Bg=a(gh),Bh=a(oC),Bi=[0,a(ax),0],Bj=a('the failure "'),Bb=a(iz),Bc=a(iy),AG=a(gq),AH=a(ic),AE=a(mY),AF=a(m1),zn=a(eR),zd=a(ih),ze=a(m3),zf=a(dO),zg=a(aY),zl=a(ok),zm=a(eR),zo=a(c4),zp=a(dO),zh=a(c4),zi=a(nT),zj=a(nt),zk=a(aY),y8=a(c3),za=a(bh),zb=a(bg),y9=a(im),y_=a(ir),y$=a(c4),y2=a(c3),y6=a(bh),y7=a(bg),y3=a(im),y4=a(ir),y5=a(c4),y1=[0,1],y0=[0,1],yY=[0,1],yX=[0,1],yV=[0,1],yW=[0,a("this quantity of such a mechanism"),0],yD=a(ii),yE=[0,a("a stiffness for each joint of such a mechanism"),0],yF=a(n$),yG=a(ng),yH=a(ov),yI=a("max_angle"),yJ=[0,a("accuracy of a platform that turns"),0],yK=a(eJ),yC=a(gb),yu=a(gi),yj=a(nY),yk=a(n6),yN=a(gc),yO=a(om),yP=a(nw),yQ=a(dN),yR=a(nZ),yS=a(m_),yT=a(m$),yU=a(m2),yl=a(m7),ym=a(oe),yn=a(n9),yo=a(no),yp=a(oE),yq=a(nb),yr=a(na),ys=[0,a(ax),0],yt=a('the quantity "'),yv=a(nk),yw=a(od),yx=a(bh),yy=a(bg),yz=a(ot),yA=[0,a(ax),0],yB=a('a bound "'),yL=a(gj),yM=a(dO),yh=a(bz),yi=a(dR),xY=a(bz),xZ=a(gs),x0=a(eQ),x1=a(gr),x2=a(dR),x5=a(aY),x6=a(bf),x7=a(eG),x8=a(dL),x9=a(aY),x_=a(bf),x$=a(bQ),ya=a(eG),yb=a(dL),yc=a(eQ),yd=a(aY),ye=a(bf),yf=a(nX),yg=a(eJ),x3=[0,a('" of such a machine'),0],x4=a(nf),xW=a(bz),xX=a(eQ),xG=a(bz),xH=a(c5),xI=a(gr),xJ=a(dR),xM=a(gs),xN=a(aY),xO=a(bf),xP=a(eG),xQ=a(dL),xR=a(aY),xS=a(bf),xT=a(bQ),xU=a(bQ),xK=[0,a(ax),0],xL=a(nf),xD=a(gl),xE=a(eM),xB=a(" is not covered by the verified checker"),xC=a(T),xz=a(bh),xA=a(bg),xv=a(T),xw=a(oF),xx=a(T),xy=a(T),xu=[1,0],xs=a("Reader.Malformed"),xt=a("Reader.Not_covered"),B9=[0,a("a paving is checked by orthocert-verified")],B8=a(n0),B_=a("CERTIFIED"),B$=a("REFUTED"),Ca=a(n0),Cb=a("NOT COVERED: ");function
+eX(a){throw[0,iS,a]}function
 aP(d,c){var
-a=an(d),e=an(c),b=bT(a+e|0);dP(d,0,b,0,a);dP(c,0,b,a,e);return gz(b)}Dy(0);oT(1);oT(2);function
-iW(b){function
+a=an(d),e=an(c),b=bT(a+e|0);dT(d,0,b,0,a);dT(c,0,b,a,e);return gA(b)}DL(0);o3(1);o3(2);function
+iU(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Dx(d)}catch(a){a=o3(a);if(a[1]!==iV)throw a;var
+c=a[2],d=a[1];try{DK(d)}catch(a){a=pb(a);if(a[1]!==iT)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Dz(0))}DG(a(mX),iW);function
+a=c;continue}return 0}}return a(DM(0))}DT(a(m5),iU);function
 b$(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-iX(d){var
+iV(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-T(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,T(b,c)]}return 0}function
-gB(d,c){var
+U(b,a){if(a){var
+c=a[2],d=k(b,a[1]);return[0,d,U(b,c)]}return 0}function
+gC(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-ax(d,c){var
+au(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=k(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bj(b,c){var
-a=bT(b);Dh(a,0,b,c);return gz(a)}function
-c_(g,b,a){var
-d=dQ(g),f=0;if(0<=b&&0<=a&&!((gx(d)-a|0)<b)){var
-c=bT(a);eQ(d,b,c,0,a);var
+a=bT(b);Du(a,0,b,c);return gA(a)}function
+db(g,b,a){var
+d=dU(g),f=0;if(0<=b&&0<=a&&!((gy(d)-a|0)<b)){var
+c=bT(a);eS(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eV(o_);return gz(e)}function
-iY(k,g){if(g){var
+e=eX(pi);return gA(e)}function
+iW(k,g){if(g){var
 h=an(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(an(i)+h|0)+c|0,m=b[2],n=c<=j?j:eV(o$),c=n,b=m;continue}var
+j=(an(i)+h|0)+c|0,m=b[2],n=c<=j?j:eX(pj),c=n,b=m;continue}var
 l=an(i)+c|0}else
 var
 l=c;var
 f=bT(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dP(a,0,f,e,an(a));dP(k,0,f,e+an(a)|0,h);var
-e=(e+an(a)|0)+h|0,d=o;continue}dP(a,0,f,e,an(a))}return gz(f)}}}return pa}function
-gC(b,c){if(0===b)return[0];if(0<=b){var
-d=Dw(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];dT(a,0,f,e,an(a));dT(k,0,f,e+an(a)|0,h);var
+e=(e+an(a)|0)+h|0,d=o;continue}dT(a,0,f,e,an(a))}return gA(f)}}}return pk}function
+gD(b,c){if(0===b)return[0];if(0<=b){var
+d=DJ(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=k(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eV(pb)}function
-gD(c){var
+a=g;continue}break}}return d}return eX(pl)}function
+gE(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aF(0),c=aF(1);function
-n(a){return z(a,c)}function
-iZ(b,a){return z(aF(b),a)}function
-b(b,a){return v(aF(b),a)}function
-aV(b,a){return[0,iR(b,a),o6(b,a)]}function
-gE(b,a){return G(b,a)?b:a}function
+d=aD(0),c=aD(1);function
+n(a){return y(a,c)}function
+iX(b,a){return y(aD(b),a)}function
+b(b,a){return v(aD(b),a)}function
+aQ(b,a){return[0,iP(b,a),pe(b,a)]}function
+gF(b,a){return G(b,a)?b:a}function
 bk(b,a){return G(b,a)?a:b}function
 ac(a){return a?0:1}function
 w(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-aI(a){return a[1]}function
+aJ(a){return a[1]}function
 ca(a){return a[2]}function
-j(a){var
-b=a?[0,j(a[2])]:a;return b}function
+h(a){var
+b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-i0(a){return typeof
-a==="number"?0:[0,i0(a[1])]}function
-i1(d,c){var
+iY(a){return typeof
+a==="number"?0:[0,iY(a[1])]}function
+iZ(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -795,9 +795,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eW(a){return i1(a,0)}function
-i2(a){if(typeof
-a==="number")return pd;else
+eY(a){return iZ(a,0)}function
+i0(a){if(typeof
+a==="number")return pn;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -807,9 +807,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,i2(a[1])]}}function
+8:return[9,a[1]];default:return[0,i0(a[1])]}}function
 bm(a){if(typeof
-a==="number")return pe;else
+a==="number")return po;else
 switch(a[0]){case
 0:return[1,bl(a[1])];case
 1:return[3,bl(a[1])];case
@@ -833,60 +833,62 @@ switch(a[0]){case
 7:return[4,bm(a[1])];case
 8:return[6,bm(a[1])];default:return[8,bm(a[1])]}}function
 bD(a){return a?a[1]:a}function
-N(b,a){return b?[0,N(b[1],a)]:a}function
-dV(a,b){return a?N(b,dV(a[1],b)):a}function
+Q(b,a){return b?[0,Q(b[1],a)]:a}function
+i1(a,b){return a?Q(b,i1(a[1],b)):a}function
 cb(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-Q(d,c){var
+R(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dW(b,a){return Q([0,b],a)}function
-i3(c){var
+dZ(b,a){return R([0,b],a)}function
+i2(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eX(c,b,a){return c?k(b,eX(c[1],b,a)):a}function
-i4(a){if(a)var
-b=a[1],d=b?[0,i4(b[1])]:b,c=d;else
+eZ(c,b,a){return c?k(b,eZ(c[1],b,a)):a}function
+i3(a){if(a)var
+b=a[1],d=b?[0,i3(b[1])]:b,c=d;else
 var
 c=a;return c}function
-i5(b,a){return bk(c,aD(b,a))}function
-eY(a){if(G(a,c))return pg;var
-b=aV(a,aF(2)),e=b[1];return Z(b[2],d)?[0,eY(e)]:[0,eY(e)]}function
-eZ(a){if(G(a,c))return c;var
-b=aV(a,aF(2)),e=b[1];return Z(b[2],d)?n(eZ(e)):n(eZ(e))}function
+i4(a){if(G(a,c))return c;var
+e=aQ(a,aD(2)),f=e[1];return Y(e[2],d)?n(b(2,i4(f))):n(b(2,b(2,f)))}function
+i5(b,a){return bk(c,aE(b,a))}function
+e0(a){if(G(a,c))return pq;var
+b=aQ(a,aD(2)),e=b[1];return Y(b[2],d)?[0,e0(e)]:[0,e0(e)]}function
+e1(a){if(G(a,c))return c;var
+b=aQ(a,aD(2)),e=b[1];return Y(b[2],d)?n(e1(e)):n(e1(e))}function
 i6(c,b){var
-a=iQ(c,b);return 0===a?0:0<=a?2:1}function
-gF(j,i){var
-b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Z(aV(a,aF(2))[2],d)?0:0;var
-g=aV(b,aF(2)),h=g[1];if(Z(g[2],d)){if(G(a,c))return 0;var
-e=aV(a,aF(2)),k=e[1];if(Z(e[2],d)){var
+a=iO(c,b);return 0===a?0:0<=a?2:1}function
+gG(j,i){var
+b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Y(aQ(a,aD(2))[2],d)?0:0;var
+g=aQ(b,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,c))return 0;var
+e=aQ(a,aD(2)),k=e[1];if(Y(e[2],d)){var
 b=h,a=k;continue}return 0}if(G(a,c))return 0;var
-f=aV(a,aF(2)),l=f[1];if(Z(f[2],d))return 0;var
+f=aQ(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e0(b,a){return 2<=i6(b,a)?0:1}function
-c$(i,e,a){if(i){var
+e2(b,a){return 2<=i6(b,a)?0:1}function
+dc(i,e,a){if(i){var
 f=i[1];if(G(e,c))return[0,c,[0,c,a]];var
-w=aV(e,aF(2)),g=w[1];if(Z(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
-m=aV(a,aF(2)),B=m[1];if(Z(m[2],d)){var
-j=c$(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
-k=c$(f,g,a),l=k[2],y=l[2],A=[0,b(2,l[1]),y];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
-v=aV(a,aF(2)),h=v[1];if(Z(v[2],d)){var
-n=c$(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(i6(g,h)){case
+w=aQ(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
+m=aQ(a,aD(2)),B=m[1];if(Y(m[2],d)){var
+j=dc(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
+k=dc(f,g,a),l=k[2],z=l[2],A=[0,b(2,l[1]),z];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
+v=aQ(a,aD(2)),h=v[1];if(Y(v[2],d)){var
+n=dc(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(i6(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=c$(f,i5(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=c$(f,i5(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e1(b,a){var
-c=eY(a);return c$(N(eY(b),c),b,a)}function
+p=dc(f,i5(h,g),e),q=p[2],r=q[2],D=[0,r,y(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=dc(f,i5(g,h),a),t=s[2],u=t[2],E=[0,y(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+e3(b,a){var
+c=e0(a);return dc(Q(e0(b),c),b,a)}function
 i7(b,i,h){var
 e=i,a=h;for(;;){if(G(e,c))return a;var
-f=aV(e,aF(2)),g=f[1];if(Z(f[2],d)){var
-e=g,a=at(b,a,a);continue}return at(b,a,i7(b,g,at(b,a,a)))}}function
-dX(a){return i7(N,a,ph)}function
-gG(a){return a?n(gG(a[1])):c}function
+f=aQ(e,aD(2)),g=f[1];if(Y(f[2],d)){var
+e=g,a=aq(b,a,a);continue}return aq(b,a,i7(b,g,aq(b,a,a)))}}function
+d0(a){return i7(Q,a,pr)}function
+i8(a){return a?n(i8(a[1])):c}function
 bU(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -894,35 +896,35 @@ switch(a[0]){case
 0:var
 g=v(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,v(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=y(c,v(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=v(b(2,n(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
+i=v(b(2,n(b(2,b(2,c)))),d),j=y(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=v(b(2,n(b(2,b(2,c)))),d),l=z(n(b(2,c)),k),a=a[1],d=l;continue;case
+k=v(b(2,n(b(2,b(2,c)))),d),l=y(n(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=v(b(2,n(b(2,b(2,c)))),d),o=z(b(2,b(2,c)),m),a=a[1],d=o;continue;case
+m=v(b(2,n(b(2,b(2,c)))),d),o=y(b(2,b(2,c)),m),a=a[1],d=o;continue;case
 5:var
-p=v(b(2,n(b(2,b(2,c)))),d),q=z(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+p=v(b(2,n(b(2,b(2,c)))),d),q=y(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-r=v(b(2,n(b(2,b(2,c)))),d),s=z(b(2,n(b(2,c))),r),a=a[1],d=s;continue;case
+r=v(b(2,n(b(2,b(2,c)))),d),s=y(b(2,n(b(2,c))),r),a=a[1],d=s;continue;case
 7:var
-t=v(b(2,n(b(2,b(2,c)))),d),u=z(n(b(2,n(b(2,c)))),t),a=a[1],d=u;continue;case
+t=v(b(2,n(b(2,b(2,c)))),d),u=y(n(b(2,n(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
-w=v(b(2,n(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-y=v(b(2,n(b(2,b(2,c)))),d),A=z(n(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-gH(a){if(G(a,c))return pi;var
-b=aV(a,aF(2)),e=b[1];return Z(b[2],d)?bl(gH(e)):bm(gH(e))}function
-e2(a){return eW(gH(a))}function
-i8(k,f){if(0<=a5(f)){var
-g=iS(f);if(0<=g){var
+w=v(b(2,n(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
+z=v(b(2,n(b(2,b(2,c)))),d),A=y(n(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
+gH(a){if(G(a,c))return ps;var
+b=aQ(a,aD(2)),e=b[1];return Y(b[2],d)?bl(gH(e)):bm(gH(e))}function
+e4(a){return eY(gH(a))}function
+i9(k,f){if(0<=a6(f)){var
+g=iQ(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eV(pc)}return d}function
+h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eX(pm)}return d}function
 gI(b){var
-a=a5(b);return 0===a?d:0<a?c:M(c)}function
-i9(a){return 0<=a5(a)?a:d}function
-dY(a){var
-b=a5(a);return 0===b?c:0<b?a:c}function
-i_(m){var
+a=a6(b);return 0===a?d:0<a?c:N(c)}function
+i_(a){return 0<=a6(a)?a:d}function
+d1(a){var
+b=a6(a);return 0===b?c:0<b?a:c}function
+i$(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -945,40 +947,40 @@ j=n(b(2,n(b(2,c))));return bU(a[1],j);case
 k=b(2,b(2,b(2,c)));return bU(a[1],k);default:var
 l=n(b(2,b(2,b(2,c))));return bU(a[1],l)}}function
 cc(b,a){var
-c=a5(a);return 0===c?d:1===c?iR(b,a):iZ(-1,iR(iZ(-1,b),a))}function
-e3(a){return 0<a5(a)?DQ(a):d}function
-dZ(b,c){var
-a=iS(c);return 0<=a?o7(b,a):o8(b,-a|0)}function
-cA(b,c){var
-a=iS(c);return 0<=a?o8(b,a):o7(b,-a|0)}function
-bE(b,a){return a?a[1]:b}function
-bV(a){var
+c=a6(a);return 0===c?d:1===c?iP(b,a):iX(-1,iP(iX(-1,b),a))}function
+e5(a){return 0<a6(a)?D3(a):d}function
+d2(b,c){var
+a=iQ(c);return 0<=a?pf(b,a):pg(b,-a|0)}function
+cB(b,c){var
+a=iQ(c);return 0<=a?pg(b,a):pf(b,-a|0)}function
+bn(b,a){return a?a[1]:b}function
+bE(a){var
 b=a?a[2]:a;return b}function
 t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-R(d,c){var
+S(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-i$(a){if(a){var
-b=[0,a[1],0];return f(i$(a[2]),b)}return a}function
-e4(d,c){var
+ja(a){if(a){var
+b=[0,a[1],0];return f(ja(a[2]),b)}return a}function
+e6(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-ja(a){if(a){var
-b=ja(a[2]);return f(a[1],b)}return a}function
+jb(a){if(a){var
+b=jb(a[2]);return f(a[1],b)}return a}function
 e(b,a){if(a)var
 d=e(b,a[2]),c=[0,k(b,a[1]),d];else
 var
 c=a;return c}function
-y(b,a){if(a){var
-c=y(b,a[2]);return f(k(b,a[1]),c)}return a}function
-da(e,d,c){var
+z(b,a){if(a){var
+c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
+dd(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=at(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aW(c,b,a){if(a){var
-d=aW(c,b,a[2]);return at(c,a[1],d)}return b}function
+f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aR(c,b,a){if(a){var
+d=aR(c,b,a[2]);return aq(c,a[1],d)}return b}function
 ap(e,d){var
 a=d;for(;;){if(a){var
 b=k(e,a[1]);if(!b){var
@@ -986,7 +988,7 @@ a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-o(d,c){var
+p(d,c){var
 a=c;for(;;){if(a){var
 b=k(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
@@ -994,128 +996,128 @@ bF(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(k(b,d))return[0,d,bF(b,c)];var
 a=c;continue}return a}}function
-jb(d,c){var
+jc(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(k(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aJ(b,a){if(b)if(a)var
-d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aK(b,a){if(b)if(a)var
+d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-cB(b,a){if(b)if(a)var
-d=cB(b[1],a[2]),c=[0,a[1],d];else
+bV(b,a){if(b)if(a)var
+d=bV(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-e5(d,c){var
+de(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aX(b,a){var
-c=a?[0,b,aX([0,b],a[1])]:a;return c}function
-aK(b,a){var
-c=a?[0,b,aK(b,a[1])]:a;return c}function
-jc(a){if(a){var
-e=jc(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-e6(j){function
+aZ(b,a){var
+c=a?[0,b,aZ([0,b],a[1])]:a;return c}function
+aG(b,a){var
+c=a?[0,b,aG(b,a[1])]:a;return c}function
+jd(a){if(a){var
+e=jd(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
+e7(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jc([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a5(b)?dX(b):0}function
-db(c,b){var
-a=iQ(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jd([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a6(b)?d0(b):0}function
+df(c,b){var
+a=iO(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 cC(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
-dc(b,a){return[0,z(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
+dg(b,a){return[0,y(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
 bW(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-jd(a){return[0,M(a[1]),a[2]]}function
-e7(b,a){return dc(b,jd(a))}function
+je(a){return[0,N(a[1]),a[2]]}function
+e8(b,a){return dg(b,je(a))}function
 gJ(f,b){var
-a=b[1],e=a5(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,M(b[2]),M(a)];return bW(f,g)}function
-e8(q){var
-a=q[2],b=q[1],o=a5(b);if(0===o)var
-c=[0,c9(a),[0,d,gI(a)]];else
+a=b[1],e=a6(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,N(b[2]),N(a)];return bW(f,g)}function
+e9(q){var
+a=q[2],b=q[1],o=a6(b);if(0===o)var
+c=[0,da(a),[0,d,gI(a)]];else
 if(0<o){var
-n=a5(a);if(0===n)var
-c=[0,c9(b),[0,gI(b),d]];else
+n=a6(a);if(0===n)var
+c=[0,da(b),[0,gI(b),d]];else
 if(0<n)var
-l=e1(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e3(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e1(b,M(a)),k=j[2],c=[0,j[1],[0,k[1],M(k[2])]]}else{var
-p=M(b),i=a5(a);if(0===i)var
-c=[0,c9(b),[0,gI(b),d]];else
+j=e3(b,N(a)),k=j[2],c=[0,j[1],[0,k[1],N(k[2])]]}else{var
+p=N(b),i=a6(a);if(0===i)var
+c=[0,da(b),[0,gI(b),d]];else
 if(0<i)var
-g=e1(p,a),h=g[2],c=[0,g[1],[0,M(h[1]),h[2]]];else
+g=e3(p,a),h=g[2],c=[0,g[1],[0,N(h[1]),h[2]]];else
 var
-e=e1(p,M(a)),f=e[2],c=[0,e[1],[0,M(f[1]),M(f[2])]]}var
-r=c[2],s=dY(r[2]);return[0,r[1],s]}function
-aY(a){if(typeof
-a==="number")return pl;else
+e=e3(p,N(a)),f=e[2],c=[0,e[1],[0,N(f[1]),N(f[2])]]}var
+r=c[2],s=d1(r[2]);return[0,r[1],s]}function
+a0(a){if(typeof
+a==="number")return pv;else
 switch(a[0]){case
 0:var
-b=aY(a[1]);return aP(bj(1,48),b);case
+b=a0(a[1]);return aP(bj(1,48),b);case
 1:var
-c=aY(a[1]);return aP(bj(1,49),c);case
+c=a0(a[1]);return aP(bj(1,49),c);case
 2:var
-d=aY(a[1]);return aP(bj(1,50),d);case
+d=a0(a[1]);return aP(bj(1,50),d);case
 3:var
-e=aY(a[1]);return aP(bj(1,51),e);case
+e=a0(a[1]);return aP(bj(1,51),e);case
 4:var
-f=aY(a[1]);return aP(bj(1,52),f);case
+f=a0(a[1]);return aP(bj(1,52),f);case
 5:var
-g=aY(a[1]);return aP(bj(1,53),g);case
+g=a0(a[1]);return aP(bj(1,53),g);case
 6:var
-h=aY(a[1]);return aP(bj(1,54),h);case
+h=a0(a[1]);return aP(bj(1,54),h);case
 7:var
-i=aY(a[1]);return aP(bj(1,55),i);case
+i=a0(a[1]);return aP(bj(1,55),i);case
 8:var
-j=aY(a[1]);return aP(bj(1,56),j);default:var
-k=aY(a[1]);return aP(bj(1,57),k)}}function
-d0(a){return typeof
-a==="number"?pm:aY(a)}function
-cD(a){return i8(b(2,c),a)}function
-je(b,a){return cA(a,b)}function
-jf(b,a){return M(cA(M(a),b))}function
-e9(b,a){return M(cc(M(b),a))}function
-_(c,b){var
-a=dZ(b,c);return[0,a,a]}function
-jg(d,c,a){var
-b=dZ(c,d),e=e9(b,a);return[0,cc(b,a),e]}function
-F(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-K(b,a){return[0,aD(b[1],a[2]),aD(b[2],a[1])]}function
-af(a){return[0,M(a[2]),M(a[1])]}function
-jh(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
-f=bk(v(e,b),v(c,a));return[0,gE(v(e,a),v(c,b)),f]}function
+j=a0(a[1]);return aP(bj(1,56),j);default:var
+k=a0(a[1]);return aP(bj(1,57),k)}}function
+d3(a){return typeof
+a==="number"?pw:a0(a)}function
+cD(a){return i9(b(2,c),a)}function
+jf(b,a){return cB(a,b)}function
+jg(b,a){return N(cB(N(a),b))}function
+e_(b,a){return N(cc(N(b),a))}function
+Z(c,b){var
+a=d2(b,c);return[0,a,a]}function
+jh(d,c,a){var
+b=d2(c,d),e=e_(b,a);return[0,cc(b,a),e]}function
+F(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+J(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
+af(a){return[0,N(a[2]),N(a[1])]}function
+ji(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
+f=bk(v(e,b),v(c,a));return[0,gF(v(e,a),v(c,b)),f]}function
 x(c,b,a){var
-d=jh(b[1],b[2],a[1],a[2]),e=jf(c,d[2]);return[0,je(c,d[1]),e]}function
-W(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=jf(b,bk(c,e)),g=0;if(V(a[1],d)&&V(d,a[2])){var
+d=ji(b[1],b[2],a[1],a[2]),e=jg(c,d[2]);return[0,jf(c,d[1]),e]}function
+_(b,a){var
+c=v(a[1],a[1]),e=v(a[2],a[2]),h=jg(b,bk(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=je(b,gE(c,e));return[0,f,h]}function
+f=jf(b,gF(c,e));return[0,f,h]}function
 gK(b,a){var
-c=dZ(cD(b),b),d=e9(c,a[1]);return[0,cc(c,a[2]),d]}function
-cd(b,a){if(V(d,a[1]))return[0,gK(b,a)];var
-c=V(a[2],d),e=c?[0,af(gK(b,af(a)))]:c;return e}function
+c=d2(cD(b),b),d=e_(c,a[1]);return[0,cc(c,a[2]),d]}function
+cd(b,a){if(L(d,a[1]))return[0,gK(b,a)];var
+c=L(a[2],d),e=c?[0,af(gK(b,af(a)))]:c;return e}function
 ce(f,b){var
-g=V(d,b[1]);if(g)var
-e=dZ(b[2],f),a=e3(e),i=Z(v(a,a),e)?a:z(a,c),h=[0,[0,e3(dZ(b[1],f)),i]];else
+g=L(d,b[1]);if(g)var
+e=d2(b[2],f),a=e5(e),i=Y(v(a,a),e)?a:y(a,c),h=[0,[0,e5(d2(b[1],f)),i]];else
 var
 h=g;return h}function
-dd(a){return 0===a[0]?a[2]:a[1]}function
-aQ(f,d,c,b,a){if(b){if(a){var
-g=aQ(f,d,c,b[2],a[2]);return[0,at(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cf(b,a){return cA(b,a)}function
-a6(a,c,b){if(G(d,a)){var
-e=b[1],f=M(cf(M(v(a,b[2])),c));return[0,cf(v(a,e),c),f]}var
-g=b[2],h=M(cf(M(v(a,b[1])),c));return[0,cf(v(a,g),c),h]}function
-a7(a){var
-b=M(cA(M(a[2]),c));return[0,cA(a[1],c),b]}function
-d1(c,b,a){var
-e=jh(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=V(f,d)?a[2]:a[1],i=e9(f,h),j=V(g,d)?a[1]:a[2];return[0,cc(g,j),i]}function
-d2(a){return bk(a[2],M(a[1]))}var
+dh(a){return 0===a[0]?a[2]:a[1]}function
+aS(f,d,c,b,a){if(b){if(a){var
+g=aS(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cf(b,a){return cB(b,a)}function
+a7(a,c,b){if(G(d,a)){var
+e=b[1],f=N(cf(N(v(a,b[2])),c));return[0,cf(v(a,e),c),f]}var
+g=b[2],h=N(cf(N(v(a,b[1])),c));return[0,cf(v(a,g),c),h]}function
+a8(a){var
+b=N(cB(N(a[2]),c));return[0,cB(a[1],c),b]}function
+d4(c,b,a){var
+e=ji(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=e_(f,h),j=L(g,d)?a[1]:a[2];return[0,cc(g,j),i]}function
+cE(a){return bk(a[2],N(a[1]))}var
 B=[0,d,d];function
-e_(a){return[0,a[1],a[1]]}function
-de(a){return[0,a[2],a[2]]}function
-cE(b,a){switch(a[0]){case
+e$(a){return[0,a[1],a[1]]}function
+di(a){return[0,a[2],a[2]]}function
+cF(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1136,7 +1138,7 @@ d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?u(b[1],a[1]):0;case
 1:return 1===a[0]?u(b[1],a[1]):0;case
-2:return 2===a[0]?Z(b[1],a[1]):0;case
+2:return 2===a[0]?Y(b[1],a[1]):0;case
 3:if(3===a[0]){var
 f=ay(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
@@ -1164,77 +1166,77 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-e$(b){var
+fa(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aR(c,b){var
-a=e$(b);return a?Z(c,a[1]):a}function
-d3(a){return V(c9(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+aT(c,b){var
+a=fa(b);return a?Y(c,a[1]):a}function
+d5(a){return L(da(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-C(b,a){if(aR(d,b))return a;if(aR(d,a))return b;var
-c=e$(b);if(c){var
-e=c[1],f=e$(a);if(f){var
-g=f[1];if(d3(e)&&d3(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bn(a){var
+C(b,a){if(aT(d,b))return a;if(aT(d,a))return b;var
+c=fa(b);if(c){var
+e=c[1],f=fa(a);if(f){var
+g=f[1];if(d5(e)&&d5(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bo(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return d3(c)?l(M(c)):[0,[5,a]];case
+c=b[1];return d5(c)?l(N(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aR(d,a))return b;if(aR(d,b))return bn(a);var
+s(b,a){if(aT(d,a))return b;if(aT(d,b))return bo(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-H(a){var
-c=e$(a);if(c){var
-b=c[1];return d3(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aR(d,a)&&!aR(c,b)){if(!aR(d,b)&&!aR(c,a))return ay(a,b)?H(a):[0,[6,a,b]];return b}return a}function
-al(b,a){return aR(c,a)?b:[0,[7,b,a]]}function
-az(a){return aR(c,a)?a:[0,[9,a]]}function
-ji(d,c,b,a){return[0,[10,d,c,b,a]]}function
+K(a){var
+c=fa(a);if(c){var
+b=c[1];return d5(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,b){if(!aT(d,a)&&!aT(c,b)){if(!aT(d,b)&&!aT(c,a))return ay(a,b)?K(a):[0,[6,a,b]];return b}return a}function
+al(b,a){return aT(c,a)?b:[0,[7,b,a]]}function
+az(a){return aT(c,a)?a:[0,[9,a]]}function
+jj(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bG(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cE(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-bH(a){var
+g=b[1],h=[0,k(e,cF(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cG(a){var
 b=0;function
 c(a){return[0,a]}return bG(l(d),c,a,b)}function
-gL(b,a){if(a){if(ay(b,a[1]))return pn;var
+gL(b,a){if(a){if(ay(b,a[1]))return px;var
 c=gL(b,a[2]);return w(function(a){return[0,a]},c)}return a}function
-a8(c,b){var
+a9(c,b){var
 a=gL(b,c),d=a?a[1]:a;return d}function
-cF(d,b){if(gL(d,b[1]))return b;var
+cH(d,b){if(gL(d,b[1]))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cF(a[2],b),j=cF(a[3],i),c=cF(a[4],j);break;case
+i=cH(a[2],b),j=cH(a[3],i),c=cH(a[4],j);break;case
 5:case
 8:case
 9:var
-c=cF(a[1],b);break;case
+c=cH(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cF(a[1],b),c=cF(a[2],h)}var
-e=c[2],f=c[1],g=[0,cE(function(a){return a8(f,a)},a),e];return[0,[0,d,c[1]],g]}function
-cG(a){var
-b=da(function(b,a){return cF(a,b)},a,po),c=b[1],d=e(function(a){return a8(c,a)},a);return[0,i$(b[2]),d]}function
-fa(a){return aW(function(b,a){return z(d2(b),a)},d,a)}function
+h=cH(a[1],b),c=cH(a[2],h)}var
+e=c[2],f=c[1],g=[0,cF(function(a){return a9(f,a)},a),e];return[0,[0,d,c[1]],g]}function
+cI(a){var
+b=dd(function(b,a){return cH(a,b)},a,py),c=b[1],d=e(function(a){return a9(c,a)},a);return[0,ja(b[2]),d]}function
+fb(a){return aR(function(b,a){return y(cE(b),a)},d,a)}function
 bX(b,c,a){var
-d=fa(a),e=gE(c[2],z(b[2],d)),f=fa(a);return[0,b,[0,bk(c[1],aD(b[1],f)),e],a]}function
+d=fb(a),e=gF(c[2],y(b[2],d)),f=fb(a);return[0,b,[0,bk(c[1],aE(b[1],f)),e],a]}function
 ag(a){return[0,a,a,0]}function
-bI(b,a){var
+bH(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aQ(function(a){return a},e,F,d,c),g=F(b[2],a[2]);return bX(F(b[1],a[1]),g,f)}function
-a9(b,a){var
-c=a[3],d=b[3],e=aQ(function(a){return a},af,K,d,c),f=K(b[2],a[2]);return bX(K(b[1],a[1]),f,e)}function
-d4(a){var
+f=aS(function(a){return a},e,F,d,c),g=F(b[2],a[2]);return bX(F(b[1],a[1]),g,f)}function
+a_(b,a){var
+c=a[3],d=b[3],e=aS(function(a){return a},af,J,d,c),f=J(b[2],a[2]);return bX(J(b[1],a[1]),f,e)}function
+d6(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
-au(a,c,b){var
+av(a,c,b){var
 d=F(b[2],b[1]),e=F(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=x(a,e,b);return a7(F(x(a,d,c),f))}function
-i(b){return a7(x(a,e,b))}var
-j=aQ(function(b){return a7(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return bX(x(a,c[1],b[1]),k,j)}function
-d5(b,a){var
-c=a[3],d=F(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=W(b,a[2]);return bX(W(b,a[1]),g,f)}function
+f=x(a,e,b);return a8(F(x(a,d,c),f))}function
+i(b){return a8(x(a,e,b))}var
+j=aS(function(b){return a8(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return bX(x(a,c[1],b[1]),k,j)}function
+d7(b,a){var
+c=a[3],d=F(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=_(b,a[2]);return bX(_(b,a[1]),g,f)}function
 gM(a,b){var
 c=ce(a,b[1]);if(c){var
 g=c[1],d=ce(a,b[2]);if(d){var
@@ -1248,35 +1250,35 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-df(a,c,b){var
+dj(a,c,b){var
 d=cd(a,b[1]);if(d){var
 f=cd(a,b[2]);if(f)var
-h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return K(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aQ(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,bX(g,x(a,c[2],h),p)];else
+h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return J(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,bX(g,x(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
 cg(b,a){return a?k(b,a[1]):a}function
-fb(a){var
-b=e(a7,a[3]),c=a7(F(a[2],a[1]));return bX(a[1],c,b)}function
-jj(a,k,j,r,b){var
-l=fb(k),m=fb(j),g=fb(b[1]),h=fb(b[2]),s=au(a,l,h),t=a9(au(a,m,g),s),i=df(a,ag(_(a,c)),t);if(i)var
-f=i[1],n=au(a,a9(l,g),f),o=au(a,a9(m,h),f),d=function(c,b){return au(a,c,ag(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bI(d(n,b),c)},y=function(a){return d(o,a)},z=aQ(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a9(b,d(f,a7(a)))[2]},C=function(a){return d4(d(f,a7(a)))[2]},p=aQ(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=bX(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,bX(b[1][1],b[1][2],H),F]];else
+fc(a){var
+b=e(a8,a[3]),c=a8(F(a[2],a[1]));return bX(a[1],c,b)}function
+jk(a,k,j,r,b){var
+l=fc(k),m=fc(j),g=fc(b[1]),h=fc(b[2]),s=av(a,l,h),t=a_(av(a,m,g),s),i=dj(a,ag(Z(a,c)),t);if(i)var
+f=i[1],n=av(a,a_(l,g),f),o=av(a,a_(m,h),f),d=function(c,b){return av(a,c,ag(b))},u=j[3],v=k[3],w=function(b,a){var
+c=d(o,a);return bH(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a_(b,d(f,a8(a)))[2]},C=function(a){return d6(d(f,a8(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=bX(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,bX(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jk(a,e,d,k){var
-p=d5(a,d),f=bI(d5(a,e),p),g=a9(bI(f,ag(_(a,c))),k),l=au(a,ag(_(a,b(2,c))),f),q=d5(a,g),h=gM(a,a9(au(a,ag(_(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=au(a,m,d),i=df(a,bI(au(a,g,e),r),l);if(i)var
-s=au(a,m,e),j=df(a,a9(au(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jl(a,e,d,k){var
+p=d7(a,d),f=bH(d7(a,e),p),g=a_(bH(f,ag(Z(a,c))),k),l=av(a,ag(Z(a,b(2,c))),f),q=d7(a,g),h=gM(a,a_(av(a,ag(Z(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=av(a,m,d),i=dj(a,bH(av(a,g,e),r),l);if(i)var
+s=av(a,m,e),j=dj(a,a_(av(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cg(function(b){return jj(a,e,d,k,b)},o);return cg(function(b){return jj(a,e,d,k,b)},u)}function
-bY(d,b,a){if(b){if(a)return at(d,b[1],a[1]);var
+u=cg(function(b){return jk(a,e,d,k,b)},o);return cg(function(b){return jk(a,e,d,k,b)},u)}function
+bY(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
@@ -1284,46 +1286,46 @@ ch(b,j,i){var
 f=ag(B);return function(a){switch(a[0]){case
 0:return[0,t(a[1],j,f)];case
 1:return[0,t(a[1],i,f)];case
-2:return[0,ag(_(b,a[1]))];case
+2:return[0,ag(Z(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bY(function(b,a){return[0,bI(b,a)]},l,k);case
+k=a[2],l=a[1];return bY(function(b,a){return[0,bH(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bY(function(b,a){return[0,a9(b,a)]},n,m);case
+m=a[2],n=a[1];return bY(function(b,a){return[0,a_(b,a)]},n,m);case
 5:var
-o=a[1];return cg(function(a){return[0,d4(a)]},o);case
+o=a[1];return cg(function(a){return[0,d6(a)]},o);case
 6:var
-p=a[2],q=a[1];return bY(function(c,a){return[0,au(b,c,a)]},q,p);case
+p=a[2],q=a[1];return bY(function(c,a){return[0,av(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bY(function(a,c){return df(b,a,c)},s,r);case
+r=a[2],s=a[1];return bY(function(a,c){return dj(b,a,c)},s,r);case
 8:var
-u=a[1];return cg(function(a){return[0,d5(b,a)]},u);case
+u=a[1];return cg(function(a){return[0,d7(b,a)]},u);case
 9:var
 v=a[1];return cg(function(a){return gM(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jk(b,c[1],d[1],e[1]),y=a[1]?ca:aI;return w(y,x)}var
+x=jl(b,c[1],d[1],e[1]),y=a[1]?ca:aJ;return w(y,x)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d6(c){var
+d8(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d6(a[1]);if(b)return b;var
+b=d8(a[1]);if(b)return b;var
 a=a[2];continue}}function
 bZ(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Z(b[1],a[1]);return c?gF(b[2],a[2]):c}return 0;case
+c=Y(b[1],a[1]);return c?gG(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Z(e[1],g[1]):h,j=i?gF(e[2],g[2]):i,k=j?Z(d[1],f[1]):j;return k?gF(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gG(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gG(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=bZ(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1337,84 +1339,84 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=bZ(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-d7(b,a){switch(a[0]){case
+d9(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dc(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dg(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e7(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e8(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bW(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return db(a,[0,d,c])?0:[0,gJ(b,a)]};break;default:var
-j=d7(b,a[1]);return j?k(b,j[1]):j}var
-h=d7(b,f);if(h){var
-i=d7(b,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return df(a,[0,d,c])?0:[0,gJ(b,a)]};break;default:var
+j=d9(b,a[1]);return j?k(b,j[1]):j}var
+h=d9(b,f);if(h){var
+i=d9(b,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-pp(a){return 0}function
-ci(a){return d7(pp,a)}function
-bo(a,b){switch(b[0]){case
-0:return[0,jg(a,b[1],b[2])];case
+pz(a){return 0}function
+ci(a){return d9(pz,a)}function
+bp(a,b){switch(b[0]){case
+0:return[0,jh(a,b[1],b[2])];case
 1:return 0;case
 2:var
-g=bo(a,b[1]);if(g)var
-h=bo(a,b[2]),C=h?[0,F(g[1],h[1])]:h,r=C;else
+g=bp(a,b[1]);if(g)var
+h=bp(a,b[2]),C=h?[0,F(g[1],h[1])]:h,r=C;else
 var
 r=g;return r;case
 3:var
-i=bo(a,b[1]);if(i)var
-j=bo(a,b[2]),D=j?[0,K(i[1],j[1])]:j,s=D;else
+i=bp(a,b[1]);if(i)var
+j=bp(a,b[2]),D=j?[0,J(i[1],j[1])]:j,s=D;else
 var
 s=i;return s;case
 4:var
-k=bo(a,b[1]);if(k)var
-l=bo(a,b[2]),E=l?[0,x(a,k[1],l[1])]:l,t=E;else
+k=bp(a,b[1]);if(k)var
+l=bp(a,b[2]),E=l?[0,x(a,k[1],l[1])]:l,t=E;else
 var
 t=k;return t;case
 5:var
-m=bo(a,b[1]);if(m){var
-n=bo(a,b[2]);if(n)var
+m=bp(a,b[1]);if(m){var
+n=bp(a,b[2]);if(n)var
 o=cd(a,n[1]),G=o?[0,x(a,m[1],o[1])]:o,u=G;else
 var
 u=n;var
 v=u}else
 var
 v=m;return v;default:var
-y=b[1],p=bo(a,y);if(p){var
-e=p[1];if(V(d,e[1]))return ce(a,e);var
-f=ci(y),H=f?ac(cC([0,d,c],f[1])):f;if(H)return 0;if(V(d,e[2])){var
+y=b[1],p=bp(a,y);if(p){var
+e=p[1];if(L(d,e[1]))return ce(a,e);var
+f=ci(y),H=f?ac(cC([0,d,c],f[1])):f;if(H)return 0;if(L(d,e[2])){var
 z=ce(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
-q=Z(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fc(b,a){return jg(b,a[1],a[2])}function
-bp(a,d){if(d6(d))switch(d[0]){case
+q=Y(e[2],d),A=q?[0,B]:q;return A}return p}}function
+fd(b,a){return jh(b,a[1],a[2])}function
+bq(a,d){if(d8(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dW(i,jl),k=j?cC(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fc(a,bW(e7(e,g),n)),0],p=f(aK(B,i),o),q=fc(a,e)[2],r=[0,fc(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fc(a,bW(dc(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=dZ(i,jm),k=j?cC(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fd(a,bW(e8(e,g),n)),0],p=f(aG(B,i),o),q=fd(a,e)[2],r=[0,fd(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fd(a,bW(dg(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bp(a,d[2]),u=bp(a,d[1]);return bY(function(b,a){return[0,bI(b,a)]},u,t);case
+t=bq(a,d[2]),u=bq(a,d[1]);return bY(function(b,a){return[0,bH(b,a)]},u,t);case
 3:var
-v=bp(a,d[2]),x=bp(a,d[1]);return bY(function(b,a){return[0,a9(b,a)]},x,v);case
+v=bq(a,d[2]),x=bq(a,d[1]);return bY(function(b,a){return[0,a_(b,a)]},x,v);case
 4:var
 m=d[2],h=d[1];if(bZ(h,m)){var
-y=bp(a,h);return cg(function(b){return[0,d5(a,b)]},y)}var
-z=bp(a,m),A=bp(a,h);return bY(function(c,b){return[0,au(a,c,b)]},A,z);case
+y=bq(a,h);return cg(function(b){return[0,d7(a,b)]},y)}var
+z=bq(a,m),A=bq(a,h);return bY(function(c,b){return[0,av(a,c,b)]},A,z);case
 5:var
-C=bp(a,d[2]),D=bp(a,d[1]);return bY(function(b,c){return df(a,b,c)},D,C);default:var
-E=bp(a,d[1]);return cg(function(b){return gM(a,b)},E)}return w(ag,bo(a,d))}function
-aZ(b,a){if(d6(a)){var
-c=bp(b,a);return w(function(a){return a[2]},c)}return bo(b,a)}function
-jm(a){var
-e=bk(M(a),d);return dY(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jn(a){return i9(z(jm(a),a))}function
+C=bq(a,d[2]),D=bq(a,d[1]);return bY(function(b,c){return dj(a,b,c)},D,C);default:var
+E=bq(a,d[1]);return cg(function(b){return gM(a,b)},E)}return w(ag,bp(a,d))}function
+aU(b,a){if(d8(a)){var
+c=bq(b,a);return w(function(a){return a[2]},c)}return bp(b,a)}function
+jn(a){var
+e=bk(N(a),d);return d1(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jo(a){return i_(y(jn(a),a))}function
 cj(f,a,e){var
-b=aZ(z(f,jm(a)),e);if(b)var
-c=b[1],g=jn(a),h=M(cf(M(c[2]),g)),i=jn(a),d=[0,[0,cf(c[1],i),h]];else
+b=aU(y(f,jn(a)),e);if(b)var
+c=b[1],g=jo(a),h=N(cf(N(c[2]),g)),i=jo(a),d=[0,[0,cf(c[1],i),h]];else
 var
 d=b;return d}function
 ah(d,a){var
@@ -1423,332 +1425,333 @@ c=cj(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
 gN(b,a){var
-c=M(cf(M(a[2]),b));return[0,cf(a[1],b),c]}function
-fd(b,a){var
-c=e9(b[2],a);return[0,cc(b[1],a),c]}function
-gO(a,f,b){if(b){var
-d=b[1],g=gO(a,f,d),h=g[2],i=gG(N(dV(pr,d),pq)),j=v(gG(dV(ps,d)),i),e=fd(x(a,g[1],f),j),k=i3(b)?F(h,e):K(h,e);return[0,e,k]}var
-l=_(a,c);return[0,_(a,c),l]}function
-jo(f){var
-g=dX(f),e=pt[1],b=g,c=0,a=e;for(;;){if(b){var
-d=b[1];if(a){var
-b=d,a=a[1];continue}var
-b=d,c=[0,c],a=e;continue}return N(pu,c)}}function
-jp(a,d){var
-g=cD(a),h=v(b(2,b(2,c)),g),e=G(d[2],h);if(e)var
-i=gO(a,d,dV(pw,N(jo(a),pv)))[2][2],f=[0,[0,gO(a,d,N(dV(py,jo(a)),px))[2][1],i]];else
+c=N(cf(N(a[2]),b));return[0,cf(a[1],b),c]}function
+fe(b,a){var
+c=e_(b[2],a);return[0,cc(b[1],a),c]}function
+jp(h,g,d,c){var
+e=c[2],f=i8(d),i=b(2,f),j=v(i4(f),i),a=fe(x(h,c[1],g),j),k=i2(d)?J(e,a):F(e,a);return[0,a,k]}function
+jq(a,d,b){if(b){var
+e=b[1];return jp(a,d,e,jq(a,d,e))}var
+f=Z(a,c);return[0,Z(a,c),f]}function
+jr(e,g){var
+o=cD(e),p=v(b(2,b(2,c)),o),j=G(g[2],p);if(j){var
+n=d0(e),i=pA[1],d=n,f=0,a=i;for(;;){if(d){var
+h=d[1];if(a){var
+d=h,a=a[1];continue}var
+d=h,f=[0,f],a=i;continue}var
+k=Q(i1(pD,Q(pB,f)),pC),l=jq(e,g,k),q=jp(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
-f=e;return f}function
-jq(i){function
+m=j;return m}function
+js(i){function
 a(h){var
-m=cc(cD(i),h),g=dX(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,cc(f,a)),l=M(cc(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return aD(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jr(e,a){var
+m=cc(cD(i),h),g=d0(i),f=m,e=d,a=c;for(;;){if(g){var
+j=y(a,b(2,c)),k=y(e,cc(f,a)),l=N(cc(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return aE(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jt(e,a){var
 f=G(d,a);if(f){var
-g=b(2,b(2,c));return jp(e,fd(W(e,[0,a,a]),g))}return f}function
-js(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aD(jq(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jq(a),n),e=jr(a,g);if(e){var
-f=jr(a,h);if(f)var
-i=V(d,e[1][1]),j=i?V(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=b(2,b(2,c));return jr(e,fe(_(e,[0,a,a]),g))}return f}function
+ju(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aE(js(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(js(a),n),e=jt(a,g);if(e){var
+f=jt(a,h);if(f)var
+i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jt(a,d){var
-b=W(a,d),e=_(a,c);return K(F(b,b),e)}function
-dg(f,j){var
-e=aZ(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=js(a);if(d)var
-h=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),i=jp(a,W(a,fd(x(a,k,d[1]),h))),g=w(function(b){return jt(a,jt(a,b))},i);else
+jv(a,d){var
+b=_(a,d),e=Z(a,c);return J(F(b,b),e)}function
+dk(f,j){var
+e=aU(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=ju(a);if(d)var
+h=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),i=jr(a,_(a,fe(x(a,k,d[1]),h))),g=w(function(b){return jv(a,jv(a,b))},i);else
 var
 g=d;var
 l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gN(l,a)},g)}return e}function
-ju(a,d){var
-e=js(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
-f=b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))));return fd(x(a,d,gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fe(d,a){return dg(d,[3,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+jw(a,d){var
+e=ju(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+f=b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))));return fe(x(a,d,gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+ff(d,a){return dk(d,[3,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
 f=ci(b);if(f){var
 g=f[1];return e?ac(cC(g,[0,d,c])):cC([0,d,c],g)}var
-a=aZ(i,b);if(a){var
-h=a[1];return e?V(d,h[1]):G(d,h[1])}return a}function
-jv(c,b){var
-a=aZ(c,b),d=a?1:a;return d}function
+a=aU(i,b);if(a){var
+h=a[1];return e?L(d,h[1]):G(d,h[1])}return a}function
+jx(c,b){var
+a=aU(c,b),d=a?1:a;return d}function
 ba(c,a,b){var
-d=bZ(a,b),e=d?jv(c,a):d;return e?e:g(c,0,[3,b,a])}function
-pz(c){var
-a=e8(c),g=dY(e3(a[2])),b=[0,e3(a[1]),g],e=V(d,a[1]),f=e?db(bW(b,b),c):e,h=f?[0,b]:f;return h}function
-jw(a){if(a){var
-e=a[2],b=a[1];if(db(bE([0,d,c],b),[0,d,c])){var
-g=jw(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+d=bZ(a,b),e=d?jx(c,a):d;return e?e:g(c,0,[3,b,a])}function
+pE(c){var
+a=e9(c),g=d1(e5(a[2])),b=[0,e5(a[1]),g],e=L(d,a[1]),f=e?df(bW(b,b),c):e,h=f?[0,b]:f;return h}function
+jy(a){if(a){var
+e=a[2],b=a[1];if(df(bn([0,d,c],b),[0,d,c])){var
+g=jy(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jx(b,a){var
-e=aJ(b,a),f=[0,d,c];return aW(function(a,b){return e8(dc(bW(a[1],a[2]),b))},f,e)}function
-jy(b,j){if(b){var
-f=b[1],g=jw(j);if(g){var
+jz(b,a){var
+e=aK(b,a),f=[0,d,c];return aR(function(a,b){return e9(dg(bW(a[1],a[2]),b))},f,e)}function
+jA(b,j){if(b){var
+f=b[1],g=jy(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bE([0,d,c],a),g=gJ(bE([0,d,c],b),f),h=bV(a),i=aJ(bV(b),h);return e(function(a){var
-b=bW(g,a[2]);return e8(e7(a[1],b))},i)},l=jy(f,e(k,h[2]));return w(function(b){var
-e=bE([0,d,c],a);return[0,e8(gJ(jd(jx(bV(a),b)),e)),b]},l)}var
-i=[0,[0,[0,c,c],aK([0,d,c],f)]]}else
+f=bn([0,d,c],a),g=gJ(bn([0,d,c],b),f),h=bE(a),i=aK(bE(b),h);return e(function(a){var
+b=bW(g,a[2]);return e9(e8(a[1],b))},i)},l=jA(f,e(k,h[2]));return w(function(b){var
+e=bn([0,d,c],a);return[0,e9(gJ(je(jz(bE(a),b)),e)),b]},l)}var
+i=[0,[0,[0,c,c],aG([0,d,c],f)]]}else
 var
 i=b;return i}function
-jz(a){if(a){var
-b=d7(pz,a[1]);if(b)var
-c=jz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+jB(a){if(a){var
+b=d9(pE,a[1]);if(b)var
+c=jB(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pA}function
-jA(a){if(a){var
-b=jz(a[1]);if(b)var
-c=jA(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return pF}function
+jC(a){if(a){var
+b=jB(a[1]);if(b)var
+c=jC(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pB}function
-jB(h,l){var
-a=jA(l);if(a){var
-i=a[1],b=jy(h,i);if(b){var
-e=b[1],f=u(j(e),h),g=f?ap(function(a){return ac(db(a,[0,d,c]))},e):f;return g?o(function(a){return db(jx(a,e),[0,d,c])},i):g}var
+d=b;return d}return pG}function
+jD(i,l){var
+a=jC(l);if(a){var
+j=a[1],b=jA(i,j);if(b){var
+e=b[1],f=u(h(e),i),g=f?ap(function(a){return ac(df(a,[0,d,c]))},e):f;return g?p(function(a){return df(jz(a,e),[0,d,c])},j):g}var
 k=b}else
 var
 k=a;return k}function
-pC(a){return a}function
-pD(a){return a}function
-pE(a,b){return aQ(pD,pC,F,a,b)}function
-pF(a){return a}function
-pG(a){return a}function
-ck(a,b){return aQ(pG,pF,pE,a,b)}function
-gP(b,a,c){if(a){var
+pH(a){return a}function
+pI(a){return a}function
+pJ(a,b){return aS(pI,pH,F,a,b)}function
+pK(a){return a}function
+pL(a){return a}function
+ck(a,b){return aS(pL,pK,pJ,a,b)}function
+gO(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gP(b,f,c[2]),h=c[1],i=function(c,a){return K(c,d1(d,a,b))},j=function(a){return af(d1(d,a,b))};return[0,aQ(function(a){return a},j,i,h,a),g]}var
-k=gP(b,f,0);return[0,e(function(a){return af(d1(d,a,b))},a),k]}return c}function
-gQ(a){if(a){var
+g=gO(b,f,c[2]),h=c[1],i=function(c,a){return J(c,d4(d,a,b))},j=function(a){return af(d4(d,a,b))};return[0,aS(function(a){return a},j,i,h,a),g]}var
+k=gO(b,f,0);return[0,e(function(a){return af(d4(d,a,b))},a),k]}return c}function
+gP(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=V(d,c[1]),h=e?[0,gP(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),h=e?[0,gO(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jC(f,e){var
+jE(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gQ(b);if(c){var
+c=gP(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jD(d,b,a){if(b)if(a)var
-e=a[1],f=jD(d,b[2],a[2]),g=cb(d,b[1])?e_(e):de(e),c=[0,g,f];else
+jF(d,b,a){if(b)if(a)var
+e=a[1],f=jF(d,b[2],a[2]),g=cb(d,b[1])?e$(e):di(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jE(a,b){if(a)if(b)var
-d=jE(a[2],b[2]),c=[0,jD(a[1],a,b[1]),d];else
+jG(a,b){if(a)if(b)var
+d=jG(a[2],b[2]),c=[0,jF(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bq(a){if(a){var
-b=a[1],c=bq(b),d=e(function(a){return[0,1,a]},c),g=bq(b);return f(e(function(a){return[0,0,a]},g),d)}return pH}function
-ff(a){var
-b=j(a);if(jC(b,a))return 1;var
-c=bq(bD(b));return o(function(c){return jC(b,jE([0,0,c],a))},c)}function
-ar(a){function
+br(a){if(a){var
+b=a[1],c=br(b),d=e(function(a){return[0,1,a]},c),g=br(b);return f(e(function(a){return[0,0,a]},g),d)}return pM}function
+dl(a){var
+b=h(a);if(jE(b,a))return 1;var
+c=br(bD(b));return p(function(c){return jE(b,jG([0,0,c],a))},c)}function
+as(a){function
 b(b){var
 c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aS(h,e){var
+aV(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?F(a,d):K(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gR(c,b,a){var
-d=bq(c);return o(function(c){return k(a,k(ar(function(a){return aS(c,a)}),b))},d)}function
-gS(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a6(b,z(h,c),a)},k=gS(h,j,i),l=function(c,b){var
-d=a(b,e);return F(a(f,c),d)},m=function(b){return a(b,e)},n=aQ(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,F(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?F(a,d):J(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gQ(c,b,a){var
+d=br(c);return p(function(c){return k(a,k(as(function(a){return aV(c,a)}),b))},d)}function
+gR(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a7(b,y(h,c),a)},k=gR(h,j,i),l=function(c,b){var
+d=a(b,e);return F(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,F(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
 fg(b,d,a,c){function
 e(c,d){var
-e=a6(d,b,a);return K(F(c,c),e)}function
-f(c){return af(a6(c,b,a))}return aQ(function(a){return F(a,a)},f,e,d,c)}function
+e=a7(d,b,a);return J(F(c,c),e)}function
+f(c){return af(a7(c,b,a))}return aS(function(a){return F(a,a)},f,e,d,c)}function
 fh(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=de(e[2]),k=ck(a,gS(d,f,fg(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gT(b,a){return[0,[0,0,b],a]}function
-dh(b,c,g,f,a){function
+e=b[1],f=c[1],j=di(e[2]),k=ck(a,gR(d,f,fg(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gS(b,a){return[0,[0,0,b],a]}function
+dm(b,c,g,f,a){function
 d(a){if(a){var
-h=aK([0,af(a[1][2]),0],b),c=fh(g,f,a[2],h),d=u(j(c),b);if(d)return ff(c);var
+i=aG([0,af(a[1][2]),0],b),c=fh(g,f,a[2],i),d=u(h(c),b);if(d)return dl(c);var
 e=d}else
 var
-e=a;return e}return gR(b,gT(c,a),d)}function
-gU(f,e){var
+e=a;return e}return gQ(b,gS(c,a),d)}function
+fi(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gQ([0,[0,e_(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gP([0,[0,e$(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gV(b,c,a){function
+gT(b,c,a){function
 d(a){if(a){var
-h=aK([0,a[1][2],0],b),c=gU(a[2],h);if(c){var
-d=c[1],e=u(j(d),b);if(e)return ff(d);var
+i=aG([0,a[1][2],0],b),c=fi(a[2],i);if(c){var
+d=c[1],e=u(h(d),b);if(e)return dl(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gR(b,gT(c,a),d)}function
-jF(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jG(b,a){var
-c=bq(b);return o(function(b){return V(d,aS(b,a)[1])},c)}function
-jH(c,b,a){var
-d=a[3],f=e(function(a){return a6(c,b,a)},d),g=a[2];return[0,a6(c,b,a[1]),g,f]}function
-jI(a,b){var
-c=b[3],d=a[3],e=aQ(function(a){return a},af,K,d,c),f=a[2];return[0,K(a[1],b[1]),f,e]}function
-bJ(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+g=a;return g}return gQ(b,gS(c,a),d)}function
+jH(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jI(b,a){var
+c=br(b);return p(function(b){return L(d,aV(b,a)[1])},c)}function
+jJ(c,b,a){var
+d=a[3],f=e(function(a){return a7(c,b,a)},d),g=a[2];return[0,a7(c,b,a[1]),g,f]}function
+jK(a,b){var
+c=b[3],d=a[3],e=aS(function(a){return a},af,J,d,c),f=a[2];return[0,J(a[1],b[1]),f,e]}function
+bI(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ai(c,b,a){var
-d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-aT(b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+aW(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
 cl(b,a){var
 c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
-U(b,a){var
+V(b,a){var
 c=q(b[3],a[3]),d=q(b[2],a[2]);return C(C(q(b[1],a[1]),d),c)}function
-cH(a){return cl(a,az(U(a,a)))}function
+cJ(a){return cl(a,az(V(a,a)))}function
 cm(a){var
 b=a[5];return b?b[1]:az(a[2])}function
-fi(b,a){return b?a:bn(a)}function
-jJ(e,a,i,d,h){var
-f=U(a,e),b=ai(s,e,aT(f,a)),j=U(b,b),g=s(H(d),j),c=fi(h,az(g)),k=s(f,c),l=ai(C,a,cl(b,c));return[0,ai(C,b,aT(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jK(a,e,d){var
-b=U(a,a),c=az(b),f=[0,e],g=w(function(b){return ai(s,a,aT(U(b,a),b))},d);return[0,a,b,cl(a,c),c,0,g,f]}function
-jL(b,a){var
-d=U(a,b);return[0,a,l(c),a,d,0,0,0]}function
-d8(a){return e(function(a){var
-b=a[2];return[0,bJ(a[1]),b]},a)}function
-jM(a){return e(function(a){var
-b=l(c);return[0,bJ(a[3]),b]},a)}function
+fj(b,a){return b?a:bo(a)}function
+jL(e,a,i,d,h){var
+f=V(a,e),b=ai(s,e,aW(f,a)),j=V(b,b),g=s(K(d),j),c=fj(h,az(g)),k=s(f,c),l=ai(C,a,cl(b,c));return[0,ai(C,b,aW(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jM(a,e,d){var
+b=V(a,a),c=az(b),f=[0,e],g=w(function(b){return ai(s,a,aW(V(b,a),b))},d);return[0,a,b,cl(a,c),c,0,g,f]}function
 jN(b,a){var
+d=V(a,b);return[0,a,l(c),a,d,0,0,0]}function
+d_(a){return e(function(a){var
+b=a[2];return[0,bI(a[1]),b]},a)}function
+jO(a){return e(function(a){var
+b=l(c);return[0,bI(a[3]),b]},a)}function
+jP(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-jO(c,b,a){var
-d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-gW(d,a){var
+jQ(c,b,a){var
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+gU(d,a){var
 b=ce(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fj(a,m,f,l,e,k,j){var
-n=jO(a9,k,j),b=jO(function(b,c){return au(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=bI(bI(bI(ag(_(a,d)),h),g),c),p=bq(m);return o(function(c){var
-b=jN(function(b){return W(a,aS(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,gW(a,F(F(F(_(a,d),k),j),h))),g=K(aS(c,i),m),n=f?K(g,aS(c,f[1])):g;return V(d,n[1])},p)}function
-bK(a){return cA(z(a[1],a[2]),c)}function
-di(a){var
-b=bK(a);return aD(a[2],b)}function
-fk(c,b){if(b)var
-a=b[1],e=fk([0,c],b[2]),g=di(a),h=[0,[0,di(a),g],0],i=f(aK(B,c),h),j=bK(a),d=[0,[0,[0,bK(a),j],a,i],e];else
+fk(a,m,f,l,e,k,j){var
+n=jQ(a_,k,j),b=jQ(function(b,c){return av(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=bH(bH(bH(ag(Z(a,d)),h),g),c),o=br(m);return p(function(c){var
+b=jP(function(b){return _(a,aV(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,gU(a,F(F(F(Z(a,d),k),j),h))),g=J(aV(c,i),m),n=f?J(g,aV(c,f[1])):g;return L(d,n[1])},o)}function
+bJ(a){return cB(y(a[1],a[2]),c)}function
+dn(a){var
+b=bJ(a);return aE(a[2],b)}function
+fl(c,b){if(b)var
+a=b[1],e=fl([0,c],b[2]),g=dn(a),h=[0,[0,dn(a),g],0],i=f(aG(B,c),h),j=bJ(a),d=[0,[0,[0,bJ(a),j],a,i],e];else
 var
 d=b;return d}function
-d9(d,b){if(b){var
+d$(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d9(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bK(a),f],c],h=bK(a);return[0,[0,[0,a[1],h],c],g]}return pI}function
-jP(d,b,a){if(b){if(a){var
-e=jP(d,b[2],a[2]);return F(a6(b[1],z(d,c),a[1]),e)}return B}return B}function
-d_(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jP(f,a,b)},j=d_(f,h),k=e(function(a){var
+e=d$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bJ(a),f],c],h=bJ(a);return[0,[0,[0,a[1],h],c],g]}return pN}function
+jR(d,b,a){if(b){if(a){var
+e=jR(d,b[2],a[2]);return F(a7(b[1],y(d,c),a[1]),e)}return B}return B}function
+ea(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jR(f,a,b)},j=ea(f,h),k=e(function(a){var
 e=b(d,a[2]);return F(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,F(b(d,c),l),k],j];else
 var
 i=a;return i}function
-d$(e,b,d,a){if(b)if(a)var
-f=b[1],g=d$(e,b[2],d,a[2]),c=[0,[0,f,fg(e,a[1][1],d,f)],g];else
+eb(e,b,d,a){if(b)if(a)var
+f=b[1],g=eb(e,b[2],d,a[2]),c=[0,[0,f,fg(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fl(f,d,c,b,a){if(a){var
+fm(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fl(f,d[1],c,b,g);return[0,[0,K(B,b),0],i]}var
-j=e(function(a){return[0,K(B,b),0]},g),h=[0,[0,K(af(x(f,c,de(a[1][2]))),b),0],j]}else
+i=fm(f,d[1],c,b,g);return[0,[0,J(B,b),0],i]}var
+j=e(function(a){return[0,J(B,b),0]},g),h=[0,[0,J(af(x(f,c,di(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-br(c,a){var
-b=u(j(a),c);return b?ff(a):b}function
-jQ(d,b,a){if(b)var
-c=b[1],g=jQ([0,d],b[2],a),h=f(aK(B,d),[0,a,0]),e=[0,[0,c,[0,aD(c[1],a[2]),z(c[2],a[2])],h],g];else
+bK(c,a){var
+b=u(h(a),c);return b?dl(a):b}function
+jS(d,b,a){if(b)var
+c=b[1],g=jS([0,d],b[2],a),h=f(aG(B,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),y(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jR(d){if(d){var
+jT(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jR(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=jT(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return pJ}function
-gX(a){return w(function(a){return w(d4,a)},a)}function
+f=a;return f}return pO}function
+gV(a){return w(function(a){return w(d6,a)},a)}function
 cn(c,b,a){function
-d(a){return au(c,b,a)}return w(function(a){return w(d,a)},a)}function
-gY(c,b,a){function
-d(a){return df(c,a,b)}return w(function(a){return cg(d,a)},a)}function
-dj(b,a){var
-c=aJ(b,a);return e(function(c){var
+d(a){return av(c,b,a)}return w(function(a){return w(d,a)},a)}function
+gW(c,b,a){function
+d(a){return dj(c,a,b)}return w(function(a){return cg(d,a)},a)}function
+dp(b,a){var
+c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bY(function(b,a){return[0,bI(b,a)]},e,d)]}return b}return a},c)}function
-fm(a){return ag(_(a,b(2,c)))}function
-jS(b,c,a){if(a)var
-f=a[1],g=jS(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,bY(function(b,a){return[0,bH(b,a)]},e,d)]}return b}return a},c)}function
+fn(a){return ag(Z(a,b(2,c)))}function
+jU(b,c,a){if(a)var
+f=a[1],g=jU(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jT(a){return o(function(a){var
-b=Z(a[1],d);return b?Z(a[2],d):b},a)}function
-jU(c,b,a){var
-d=aJ(b,a);return aW(function(a,b){return F(x(c,a[1],a[2]),b)},B,d)}function
-gZ(c,b,a){var
-d=d2(jU(c,a,b));return aW(function(b,a){return z(d2(b),a)},d,a)}function
-dk(a){return _(a,c)}function
-g0(a,i,c,u,t){var
+jV(a){return p(function(a){var
+b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
+jW(c,b,a){var
+d=aK(b,a);return aR(function(a,b){return F(x(c,a[1],a[2]),b)},B,d)}function
+gX(c,b,a){var
+d=cE(jW(c,a,b));return aR(function(b,a){return y(cE(b),a)},d,a)}function
+dq(a){return Z(a,c)}function
+gY(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jT(c)&&!jT(j)){var
-h=gZ(a,i,j),o=dk(a),p=gZ(a,i,c),b=d1([0,gZ(a,i,c),p],o,[0,h,h])[1],k=V(d,h),l=k?V(d,b):k;if(l)var
-q=a7(gK(a,[0,b,b])),r=function(b){return function(d,c){return K(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ck(e,jS(a,q,aQ(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!jV(c)&&!jV(j)){var
+h=gX(a,i,j),o=dq(a),p=gX(a,i,c),b=d4([0,gX(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=a8(gK(a,[0,b,b])),r=function(b){return function(d,c){return J(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ck(e,jU(a,q,aS(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-pY(a){var
+p3(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-jV(c,b,a){if(b){if(a){var
-d=jV(c,b[2],a[2]);return F(a6(b[1],c,a[1]),d)}return B}return B}function
-jW(a,j){switch(j){case
+jX(c,b,a){if(b){if(a){var
+d=jX(c,b[2],a[2]);return F(a7(b[1],c,a[1]),d)}return B}return B}function
+jY(a,j){switch(j){case
 0:var
-d=aD(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aD(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cA(z(a[1],a[2]),c),h=aD(b,a[2]),i=aD(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jX(d,c,a){if(a)var
-e=a[1],g=jX(d,[0,c],a[2]),b=w(ca,jb(function(a){return u(a[1],c)},d)),h=b?jW(e,b[1])[1]:e,f=[0,h,g];else
+f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cB(y(a[1],a[2]),c),h=aE(b,a[2]),i=aE(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+jZ(d,c,a){if(a)var
+e=a[1],g=jZ(d,[0,c],a[2]),b=w(ca,jc(function(a){return u(a[1],c)},d)),h=b?jY(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}var
-pZ=ag(B);function
-jY(e,d,c){if(d){var
-f=t(e,c[2],p0),a=f?f[1]:[0,pZ];if(a)var
-b=jY([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+p4=ag(B);function
+j0(e,d,c){if(d){var
+f=t(e,c[2],p5),a=f?f[1]:[0,p4];if(a)var
+b=j0([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return p1}function
-g1(d,c,b,a){var
-f=e(ag,b);return bG(0,ch(d,fk(0,a),f),c,0)}function
+g=a;return g}return p6}function
+gZ(d,c,b,a){var
+f=e(ag,b);return bG(0,ch(d,fl(0,a),f),c,0)}function
 aj(a){if(a){var
 b=a[1];if(b)var
 c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p2}function
-fn(b,a){if(a){var
+d=b;return d}return p7}function
+fo(b,a){if(a){var
 h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
 f=t(h[2],b,0);if(f){var
-i=f[1],g=fn(b,a[2]);if(g)var
-j=V(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=fo(b,a[2]);if(g)var
+j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1756,22 +1759,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return p3}function
+m=c;return m}return p8}function
 b0(d,c,b){var
-a=fn(d,c);return a?k(b,a[1]):a}function
-dl(a,b){return o(function(c){var
+a=fo(d,c);return a?k(b,a[1]):a}function
+dr(a,b){return p(function(c){var
 a=t(c,b,0),d=a?1:a;return d},a)}function
-fo(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aQ(function(a){return a},f,F,e,d),h=a[2];return[0,F(a[1],c[1]),h,g]}return a}function
-g2(b,a){return b?jI(a,b[1]):a}function
-g3(h,g,b,f){var
+fp(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,F,e,d),h=a[2];return[0,F(a[1],c[1]),h,g]}return a}function
+g0(b,a){return b?jK(a,b[1]):a}function
+g1(h,g,b,f){var
 a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jI(c,b[1]),e=bq(g);return o(function(a){return G(d,aS(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-jZ(f,d,a){function
-b(a){return a6(a,d,_(f,c))}if(a){var
+i=jK(c,b[1]),e=br(g);return p(function(a){return G(d,aV(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+j1(f,d,a){function
+b(a){return a7(a,d,Z(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),B,g]}return ag(B)}function
-fp(b,a){var
+fq(b,a){var
 c=t(a[1],b,0);if(c){var
 d=t(a[2],b,0);if(d)var
 e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1780,57 +1783,57 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-fq(i,k,J,t,h,b,g,f,a){switch(f[0]){case
+fr(j,k,J,t,i,b,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dl(t,h);if(K){var
-ad=a[2],ae=a[1],af=fo(g,ag(r));return b0(h,k,function(a){return dh(b,af,ae,ad,a)})}return K;case
+K=dr(t,i);if(K){var
+ad=a[2],ae=a[1],af=fp(g,ag(r));return b0(i,k,function(a){return dm(b,af,ae,ad,a)})}return K;case
 1:var
-L=dl(t,h);if(L){var
-ah=a[2],ai=a[1],aj=fo(g,ag(r));return b0(h,J,function(a){return dh(b,aj,ai,ah,a)})}return L;case
+L=dr(t,i);if(L){var
+ah=a[2],ai=a[1],aj=fp(g,ag(r));return b0(i,J,function(a){return dm(b,aj,ai,ah,a)})}return L;case
 2:var
-M=dl(t,h);if(M){if(g)return 0;var
-N=Z(r[1],d),O=N?Z(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return b0(h,k,function(a){return dh(b,[0,B,B,0],al,ak,jF([0,B,B,0],a))})}var
+M=dr(t,i);if(M){if(g)return 0;var
+N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
+ak=a[2],al=a[1];return b0(i,k,function(a){return dm(b,[0,B,B,0],al,ak,jH([0,B,B,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=g2(g,ag(Q));return b0(h,J,function(a){return gV(b,am,a)})}if(!a){var
-an=g2(g,ag(Q));return b0(h,k,function(a){return gV(b,an,a)})}}return 0;case
+am=g0(g,ag(Q));return b0(i,J,function(a){return gT(b,am,a)})}if(!a){var
+an=g0(g,ag(Q));return b0(i,k,function(a){return gT(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=jZ(i,R,a[3]),S=f[1],ao=a[2];return b0(h,k,function(d){var
-a=jG(b,l),c=a?dh(b,fo(g,l),R,ao,d):a;if(c){var
-f=l[3],h=e(function(a){return x(i,S,a)},f),j=l[2];return gV(b,g2(g,[0,x(i,S,l[1]),j,h]),d)}return c})}return 0;case
+R=a[1],l=j1(j,R,a[3]),S=f[1],ao=a[2];return b0(i,k,function(d){var
+a=jI(b,l),c=a?dm(b,fp(g,l),R,ao,d):a;if(c){var
+f=l[3],h=e(function(a){return x(j,S,a)},f),i=l[2];return gT(b,g0(g,[0,x(j,S,l[1]),i,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return g3(h,b,g,f[1]);return 0;case
+a==="number"&&!a)return g1(i,b,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fo(g,ag(f[2])),as=function(a){return dh(b,ar,aq,ap,a)};return b0(h,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fp(g,ag(f[2])),as=function(a){return dm(b,ar,aq,ap,a)};return b0(i,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return g3(h,b,g,f[1]);case
-2:return g3(h,b,g,f[2])}return 0;case
+0:return g1(i,b,g,f[1]);case
+2:return g1(i,b,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fp(h,f[1]);if(v){var
-w=fp(h,f[2]);if(w){var
-y=fp(h,f[3]);if(y){var
-A=fp(h,f[4]);if(A){var
-T=A[1],U=y[1],V=w[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
+v=fq(i,f[1]);if(v){var
+w=fq(i,f[2]);if(w){var
+z=fq(i,f[3]);if(z){var
+A=fq(i,f[4]);if(A){var
+T=A[1],U=z[1],V=w[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
 n=m[2];if(n){var
-p=n[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],n[1],p[1]],q=jN(function(d){function
-f(a){return a6(a,at,_(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fa(a),h=z(b[2],g),j=fa(a);return[0,b,[0,aD(b[1],j),h],a]}return ag(B)},ac),C=o(function(a){return u(j(a),[0,b])},m),D=C?fj(i,b,g,s,q,W,U):C,E=D?fj(i,b,g,s,q,W,T):D,F=E?fj(i,b,g,s,q,V,U):E;if(F)return fj(i,b,g,s,q,V,T);var
+o=n[2];if(o){if(o[2])return 0;var
+ac=[0,m[1],n[1],o[1]],q=jP(function(d){function
+f(a){return a7(a,at,Z(j,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fb(a),h=y(b[2],g),i=fb(a);return[0,b,[0,aE(b[1],i),h],a]}return ag(B)},ac),C=p(function(a){return u(h(a),[0,b])},m),D=C?fk(j,b,g,s,q,W,U):C,E=D?fk(j,b,g,s,q,W,T):D,F=E?fk(j,b,g,s,q,V,U):E;if(F)return fk(j,b,g,s,q,V,T);var
 G=F}else
 var
-G=p;var
+G=o;var
 H=G}else
 var
 H=n;var
@@ -1839,56 +1842,56 @@ var
 I=m;return I}var
 X=A}else
 var
-X=y;var
-Y=X}else
+X=z;var
+_=X}else
 var
-Y=w;var
-$=Y}else
+_=w;var
+$=_}else
 var
 $=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],au=f[2],av=f[1];return b0(h,k,function(e){var
-a=u(j(e),b),d=a?u(j(aa),b):a;if(d){var
+aa=a[2],ab=a[1],au=f[2],av=f[1];return b0(i,k,function(e){var
+a=u(h(e),b),d=a?u(h(aa),b):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=u(j(d),b);if(e){var
-g=d_(ab,d$(ab,aa,_(i,c),d));return br(b,ck(fl(i,av,au,a[1][2],d),g))}var
+d=a[2],e=u(h(d),b);if(e){var
+g=ea(ab,eb(ab,aa,Z(j,c),d));return bK(b,ck(fm(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},h=g?g[1]:ag(B);return gR(b,gT(h,e),f)}return d})}return 0;case
+f=a;return f},i=g?g[1]:ag(B);return gQ(b,gS(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jF([0,B,B,0],d),c=g?g[1]:[0,B,B,0];return dh(b,c,ax,aw,a)};return b0(h,f[1],ay)}return 0;default:return 0}}function
-j0(a,Z,I,l,p,Y,g,i,h,f,b){if(9===f[0]){if(typeof
+a=jH([0,B,B,0],d),c=g?g[1]:[0,B,B,0];return dm(b,c,ax,aw,a)};return b0(i,f[1],ay)}return 0;default:return 0}}function
+j2(a,Y,I,l,o,X,g,j,i,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-$=f[1],S=e(ag,Y),A=bG(0,ch(a,jQ(0,i,$),S),Z,0),J=u(j(i),p4),L=J?dl(p,A):J;if(L){var
-q=fn(A,l);if(q){var
-r=fn(g,l);if(r){var
+$=f[1],T=e(ag,X),A=bG(0,ch(a,jS(0,j,$),T),Y,0),K=u(h(j),p9),M=K?dr(o,A):K;if(M){var
+q=fo(A,l);if(q){var
+r=fo(g,l);if(r){var
 aa=f[2],s=aj(e(function(b){var
 c=t(b[1],g,0);if(c)var
 f=b[2][2],a=aj(e(function(a){var
 b=t(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(s){var
-v=jR(q[1]);if(v){var
-M=b[2],y=b[1],N=r[1],ab=b[3],ac=s[1],ad=v[1],C=gW(a,aW(function(f,h){function
+v=jT(q[1]);if(v){var
+N=b[2],z=b[1],O=r[1],ab=b[3],ac=s[1],ad=v[1],C=gU(a,aR(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return d2(t(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cE(t(d,c[3],B))}function
 c(a){var
-b=k(a,pK),c=bk(k(a,pL),b);return bk(k(a,0),c)}var
+b=k(a,pP),c=bk(k(a,pQ),b);return bk(k(a,0),c)}var
 d=c(function(a){var
-c=b(pM,a),d=b(pN,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,pO),d=b(a,pP);return z(z(b(a,0),d),c)});return F(h,W(a,gW(a,x(a,[0,e,e],g))))},B,ad)),m=a6(ab,y,_(a,c)),D=V(d,K(m,C)[1]),E=D?u(j(M),pV):D,G=E?u(j(N),pW):E;if(G){var
+c=b(pR,a),d=b(pS,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,pT),d=b(a,pU);return y(y(b(a,0),d),c)});return F(h,_(a,gU(a,x(a,[0,e,e],g))))},B,ad)),m=a7(ab,z,Z(a,c)),D=L(d,J(m,C)[1]),E=D?u(h(N),p0):D,G=E?u(h(O),p1):E;if(G){var
 n=cd(a,m);if(n){var
-T=a7(x(a,C,n[1])),U=K(_(a,c),T),X=bq(pX);return o(function(i){var
+U=a8(x(a,C,n[1])),V=J(Z(a,c),U),W=br(p2);return p(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return de(da(function(d,b){var
-c=d2(aS(i,b[2]));return F(d,x(a,b[1],[0,c,c]))},c,d))},ac),r=k(ar(function(a){return aS(i,a)}),N),D=h?aS(i,h[1]):B,L=W(a,U),s=W(a,m),q=d_(y,d$(y,M,_(a,c),r)),b=ck(aK([0,af(D),0],pQ),q);if(g){var
+c=b[2],d=b[1];return di(dd(function(d,b){var
+c=cE(aV(h,b[2]));return F(d,x(a,b[1],[0,c,c]))},c,d))},ac),r=k(as(function(a){return aV(h,a)}),O),D=i?aV(h,i[1]):B,L=_(a,V),s=_(a,m),q=ea(z,eb(z,N,Z(a,c),r)),b=ck(aG([0,af(D),0],pV),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],C=g[1],G=f[1],j=br(pS,ck(aK([0,af(s),0],pR),b));if(j)return o(function(B){var
-H=K(L,D),I=B[2]?A:af(A),J=B[1]?C:af(C),n=0;if(b){var
+A=d[1],C=g[1],G=f[1],j=bK(pX,ck(aG([0,af(s),0],pW),b));if(j)return p(function(B){var
+H=J(L,D),I=B[2]?A:af(A),K=B[1]?C:af(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -1901,7 +1904,7 @@ h=e[2],E=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,J,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1927,37 +1930,37 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return br(pU,j)},pT);var
+j=z;return bK(pZ,j)},pY);var
 l=j}else
 var
 l=f;var
 n=l}else
 var
 n=d;var
-p=n}else
+o=n}else
 var
-p=g;return p},X)}var
+o=g;return o},W)}var
 H=n}else
 var
 H=G;return H}var
-O=v}else
+P=v}else
 var
-O=s;var
-P=O}else
-var
-P=r;var
+P=s;var
 Q=P}else
 var
-Q=q;var
+Q=r;var
 R=Q}else
 var
-R=L;return R}return fq(a,I,l,p,g,j(i),h,f,b)}return fq(a,I,l,p,g,j(i),h,f,b)}function
-j1(i,b,a){if(a){var
+R=q;var
+S=R}else
+var
+S=M;return S}return fr(a,I,l,o,g,h(j),i,f,b)}return fr(a,I,l,o,g,h(j),i,f,b)}function
+j3(i,b,a){if(a){var
 j=a[1],l=j[2],c=aj(e(b,j[1]));if(c){var
 f=k(b,l);if(f){var
 g=t(l,i,0);if(g){var
-h=j1(i,b,a[2]);if(h)var
-m=V(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+h=j3(i,b,a[2]);if(h)var
+m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -1968,48 +1971,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return p6}function
-j2(a,U,m,T,v,s,S,C,h,g,l,b){var
-i=j(S),W=fk(0,S),aT=bG(0,ch(a,W,e(ag,jX(l,0,v))),U,0),X=e(aI,l),aU=0,aV=e(ag,v),aY=bG(p7,function(b){var
-av=cE(aI,b),f=k(ch(a,W,aV),av);switch(b[0]){case
+q=c;return q}return p$}function
+j4(a,V,m,U,v,s,T,C,i,g,l,b){var
+j=h(T),W=fl(0,T),aT=bG(0,ch(a,W,e(ag,jZ(l,0,v))),V,0),X=e(aJ,l),aU=0,aW=e(ag,v),aX=bG(qa,function(b){var
+au=cF(aJ,b),f=k(ch(a,W,aW),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
-b=u(M,d),e=b?[0,[0,ag(_(a,c))]]:b;return e},X);break;case
+b=u(M,d),e=b?[0,[0,ag(Z(a,c))]]:b;return e},X);break;case
 3:var
-d=dj(b[1][2],b[2][2]);break;case
+d=dp(b[1][2],b[2][2]);break;case
 4:var
-N=e(gX,b[2][2]),d=dj(b[1][2],N);break;case
+N=e(gV,b[2][2]),d=dp(b[1][2],N);break;case
 5:var
-d=e(gX,b[1][2]);break;case
+d=e(gV,b[1][2]);break;case
 6:var
 x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return cn(a,P,b)},O),R=y[2],S=h[1],d=dj(e(function(b){return cn(a,S,b)},R),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return cn(a,P,b)},O),R=y[2],S=h[1],d=dp(e(function(b){return cn(a,S,b)},R),Q);else{var
 z=h;t=1}}else{var
 z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=b[2],i=A[1];if(i)var
-T=A[2],U=d4(f[1]),V=e(function(b){return cn(a,U,b)},T),Y=dj(b[1][2],V),Z=i[1],d=e(function(b){return gY(a,Z,b)},Y);else{var
+T=A[2],U=d6(f[1]),V=e(function(b){return cn(a,U,b)},T),Y=dp(b[1][2],V),_=i[1],d=e(function(b){return gW(a,_,b)},Y);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=b[1],j=C[1];if(j)var
-$=C[2],aa=j[1],ab=au(a,fm(a),aa),d=e(function(b){return cn(a,ab,b)},$);else
+$=C[2],aa=j[1],ab=av(a,fn(a),aa),d=e(function(b){return cn(a,ab,b)},$);else
 var
 d=j;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],ae=au(a,fm(a),ad),d=e(function(b){return gY(a,ae,b)},ac);else
+ac=b[1][2],ad=f[1],ae=av(a,fn(a),ad),d=e(function(b){return gW(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jk(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],af=E[2],ah=a9(o,r),ai=e(function(b){return cn(a,ah,b)},af),aj=F[2],ak=a9(m,s),al=dj(e(function(b){return cn(a,ak,b)},aj),ai),am=e(gX,D[2]),an=fm(a),ao=dj(e(function(b){return cn(a,an,b)},al),am),ap=b[1]?s:d4(r),aq=e(function(b){return cn(a,ap,b)},ao),ar=au(a,m,r),as=a9(au(a,o,s),ar),at=au(a,fm(a),as),d=e(function(b){return gY(a,at,b)},aq);K=1;L=1}else
+q=jl(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],af=E[2],ah=a_(o,r),ai=e(function(b){return cn(a,ah,b)},af),aj=F[2],ak=a_(m,s),al=dp(e(function(b){return cn(a,ak,b)},aj),ai),am=e(gV,D[2]),an=fn(a),ao=dp(e(function(b){return cn(a,an,b)},al),am),ap=b[1]?s:d6(r),aq=e(function(b){return cn(a,ap,b)},ao),ar=av(a,m,r),as=a_(av(a,o,s),ar),at=av(a,fn(a),as),d=e(function(b){return gW(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2020,135 +2023,135 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},X)}return[0,f,d]},U,aU),aQ=e(function(a){var
-b=a[2];return jW(t(a[1],v,B),b)[2]},l);function
-Y(c){var
+d=e(function(a){return 0},X)}return[0,f,d]},V,aU),aQ=e(function(a){var
+b=a[2];return jY(t(a[1],v,B),b)[2]},l);function
+_(c){var
 d=t(c,s,0);if(d){var
 a=t(c,aT,0);if(a)var
-b=jY(0,l,t(c,aY,p5)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=j0(0,l,t(c,aX,p_)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-D(b){return e(function(b){return _(a,b)},b)}var
-aZ=C?C[1]:ag(B);function
-$(a){return a?br(i,a[1]):a}function
+D(b){return e(function(b){return Z(a,b)},b)}var
+aY=C?C[1]:ag(B);function
+$(a){return a?bK(j,a[1]):a}function
 w(t,s,f,r,q){var
-u=aK([0,af(s),0],i),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
-j=b[1],k=j[1],d=c[1],m=de(k[2]),n=ck(g,gS(f,d,fg(f,k[1],m,d))),o=j[2],p=e(function(b){return function(a){return e(a7,fg(f,a[1],a[2],b))}}(d),o),h=g0(a,v,e(function(b){return a6(b,f,dk(a))},d),p,n);if(h){var
+u=aG([0,af(s),0],j),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
+i=b[1],k=i[1],d=c[1],m=di(k[2]),n=ck(g,gR(f,d,fg(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a8,fg(f,a[1],a[2],b))}}(d),o),h=gY(a,v,e(function(b){return a7(b,f,dq(a))},d),p,n);if(h){var
 c=c[2],b=b[2],g=h[1];continue}var
 l=h}else
 var
 l=[0,g];return $(l)}}function
 aa(y,x,w){var
-z=aK([0,x,0],i),q=D(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e_(g),h],f];if(m){var
-o=V(d,g[1]);if(o)var
+z=aG([0,x,0],j),q=D(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e$(g),h],f];if(m){var
+o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a7(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dk(a),t],v=dk(a),b=g0(a,[0,af(d1(jU(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a8(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dq(a),t],v=dq(a),b=gY(a,[0,af(d4(jW(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=gQ(b[1]);if(j){var
-c=c[2],f=j[1];continue}var
-p=j}else
+i=gP(b[1]);if(i){var
+c=c[2],f=i[1];continue}var
+p=i}else
 var
 p=b;var
 r=p}else
 var
 r=[0,f];return $(r)}}var
-a0=e(aI,l),ab=o(function(a){return dW(a,j(v))},a0);if(ab){var
-r=e(aI,l);for(;;){if(r){var
-Q=r[2],aR=r[1],R=ac(ap(function(b){return function(a){return u(b,a)}}(aR),Q));if(R){var
-r=Q;continue}var
-ad=R}else
+a0=e(aJ,l),ab=p(function(a){return dZ(a,h(v))},a0);if(ab){var
+r=e(aJ,l);for(;;){if(r){var
+R=r[2],aS=r[1],S=ac(ap(function(b){return function(a){return u(b,a)}}(aS),R));if(S){var
+r=R;continue}var
+ad=S}else
 var
 ad=1;var
 E=ad;break}}else
 var
 E=ab;var
-ae=E?o(function(a){return u(j(a),i)},b):E;if(ae){var
-A=0;switch(h[0]){case
+ae=E?p(function(a){return u(h(a),j)},b):E;if(ae){var
+A=0;switch(i[0]){case
 0:var
-H=h[1],O=0;if(typeof
+H=i[1],P=0;if(typeof
 g!=="number")switch(g[0]){case
 0:var
 aB=0;if(b){if(b[2])return 0;var
-a1=b[1],a2=g[2],a3=g[1],ah=dl(T,s);if(ah){var
-p=function(c,a){var
-b=F(H,a);return function(a){return w(a1,b,a3,a2,a)}},n=m;O=1;aB=1}else
+a1=b[1],a2=g[2],a3=g[1],ah=dr(U,s);if(ah){var
+o=function(c,a){var
+b=F(H,a);return function(a){return w(a1,b,a3,a2,a)}},n=m;P=1;aB=1}else
 var
 ak=ah}else
 var
 ak=b;if(!aB)return ak;break;case
 2:var
 aC=0;if(b){if(b[2])return 0;var
-a5=b[1],a8=g[2],a_=g[1],al=dl(T,s),aE=0;if(al){if(C)return 0;var
-am=Z(H[1],d),an=am?Z(H[2],d):am;if(an){var
-p=function(c,b,a){return w(a5,B,a_,a8,e(pY,a))},n=m;O=1;aC=1;aE=1}else
+a5=b[1],a6=g[2],a9=g[1],al=dr(U,s),aD=0;if(al){if(C)return 0;var
+am=Y(H[1],d),an=am?Y(H[2],d):am;if(an){var
+o=function(c,b,a){return w(a5,B,a9,a6,e(p3,a))},n=m;P=1;aC=1;aD=1}else
 var
 ao=an}else
 var
-ao=al;if(!aE)var
+ao=al;if(!aD)var
 aq=ao}else
 var
-aq=b;if(!aC)return aq;break}if(!O)return 0;break;case
+aq=b;if(!aC)return aq;break}if(!P)return 0;break;case
 1:var
-aF=0,a$=h[1];if(typeof
+aF=0,a$=i[1];if(typeof
 g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
-ba=b[1],p=function(c,a){var
-b=K(a$,a);return function(a){return aa(ba,b,a)}},n=m;aF=1}if(!aF)return 0;break;case
+ba=b[1],o=function(c,a){var
+b=J(a$,a);return function(a){return aa(ba,b,a)}},n=m;aF=1}if(!aF)return 0;break;case
 2:var
-aG=0,bb=h[1];if(typeof
-g==="number"||!(3===g[0]))aG=1;else{var
-aH=0;if(b){var
-y=b[2],aL=0;if(y){if(y[2])return 0;var
-ar=g[1],bc=y[1],bd=b[1],be=g[2],as=jZ(a,ar,g[3]),at=jG(i,as);if(at){var
-p=function(f,c,b){var
-d=aS(f,as),e=w(bd,F(d,c),ar,be,b);return e?aa(bc,K(x(a,bb,d),c),b):e},n=m;aH=1;aL=1}else
+aH=0,bb=i[1];if(typeof
+g==="number"||!(3===g[0]))aH=1;else{var
+aI=0;if(b){var
+z=b[2],aL=0;if(z){if(z[2])return 0;var
+ar=g[1],bc=z[1],bd=b[1],be=g[2],as=j1(a,ar,g[3]),at=jI(j,as);if(at){var
+o=function(f,c,b){var
+d=aV(f,as),e=w(bd,F(d,c),ar,be,b);return e?aa(bc,J(x(a,bb,d),c),b):e},n=m;aI=1;aL=1}else
 var
-av=at}else
+au=at}else
 var
-av=y;if(!aL)var
-aw=av}else
+au=z;if(!aL)var
+aw=au}else
 var
-aw=b;if(!aH)return aw}if(aG)return 0;break;case
+aw=b;if(!aI)return aw}if(aH)return 0;break;case
 3:var
 aM=0;if(typeof
 g==="number"&&!g){if(b)return 0;var
-J=h[1];A=1}else
+K=i[1];A=1}else
 aM=1;if(aM)return 0;break;case
 4:var
-aN=0,bg=h[2];if(typeof
+aN=0,bg=i[2];if(typeof
 g==="number"||!(0===g[0]))aN=1;else{if(!b)return b;if(b[2])return 0;var
 bh=b[1],bi=g[2],bj=g[1],bl=function(c,a){var
-b=F(bg,a);return function(a){return w(bh,b,bj,bi,a)}},p=bl,n=h[1]}if(aN)return 0;break;case
+b=F(bg,a);return function(a){return w(bh,b,bj,bi,a)}},o=bl,n=i[1]}if(aN)return 0;break;case
 5:var
-P=0;if(typeof
+Q=0;if(typeof
 g==="number"&&!(3<=g))switch(g){case
 0:if(b)return 0;var
-J=h[1];A=1;break;case
+K=i[1];A=1;break;case
 2:if(b)return 0;var
-J=h[2];A=1;break;default:P=1}else
-P=1;if(P)return 0;break;case
+K=i[2];A=1;break;default:Q=1}else
+Q=1;if(Q)return 0;break;case
 7:var
-ax=h[2],ay=h[1],aO=0;if(typeof
+ax=i[2],ay=i[1],aO=0;if(typeof
 g==="number"||!(0===g[0]))aO=1;else{var
 aP=0;if(b){if(b[2])return 0;var
-q=g[2],N=g[1],bm=b[1],az=u(j(m),i);if(az){var
-p=function(b,y){var
+q=g[2],O=g[1],bm=b[1],az=u(h(m),j);if(az){var
+o=function(b,y){var
 z=D(bm);return function(f){var
-k=u(j(f),i),l=k?u(j(q),i):k;if(l){var
-s=e(aI,f),t=d_(N,d$(N,q,dk(a),s)),v=ck(fl(a,ay,ax,y,e(aI,f)),t),b=0,c=f,g=v,w=j(q);for(;;){if(c){var
+k=u(h(f),j),l=k?u(h(q),j):k;if(l){var
+s=e(aJ,f),t=ea(O,eb(O,q,dq(a),s)),v=ck(fm(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,w=h(q);for(;;){if(c){var
 o=c[1][2],p=u(b,ay),r=e(function(f,g){return function(d){var
-b=aJ(aX(0,j(q)),q);return e(function(b){var
-c=jV(N,b[2],d[1]);if(g&&u(b[1],f))return K(c,a7(x(a,ax,d[2])));return c},b)}}(b,p),o),n=aX(0,w),h=g0(a,z,e(function(c){return function(b){return u(b,c)?dk(a):B}}(b),n),r,g);if(h){var
-b=[0,b],c=c[2],g=h[1];continue}var
-d=h}else
+b=aK(aZ(0,h(q)),q);return e(function(b){var
+c=jX(O,b[2],d[1]);if(g&&u(b[1],f))return J(c,a8(x(a,ax,d[2])));return c},b)}}(b,p),o),n=aZ(0,w),i=gY(a,z,e(function(c){return function(b){return u(b,c)?dq(a):B}}(b),n),r,g);if(i){var
+b=[0,b],c=c[2],g=i[1];continue}var
+d=i}else
 var
-d=[0,g];if(d)return br(i,d[1]);var
+d=[0,g];if(d)return bK(j,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},n=m;aP=1}else
@@ -2156,127 +2159,127 @@ var
 aA=az}else
 var
 aA=b;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
-L=Y(J);if(!L)return L;var
-bf=function(b,f,a){return o(function(a){var
-b=f[2],c=a[2],e=aW(function(b,a){return z(bk(d,M(b[2][1])),a)},d,c);return G(d,aD(aD(a[1][2][1],e),b))},a)},aj=bf,ai=[0,[0,0,L[1]],0]}else{var
-I=j1(s,Y,n);if(!I)return I;var
-aj=p,ai=I[1]}var
-a4=bq(i);return o(function(b){var
+M=_(K);if(!M)return M;var
+bf=function(b,f,a){return p(function(a){var
+b=f[2],c=a[2],e=aR(function(b,a){return y(bk(d,N(b[2][1])),a)},d,c);return G(d,aE(aE(a[1][2][1],e),b))},a)},aj=bf,ai=[0,[0,0,M[1]],0]}else{var
+I=j3(s,_,n);if(!I)return I;var
+aj=o,ai=I[1]}var
+a4=br(j);return p(function(b){var
 c=e(function(c){function
-g(a){return aS(b,a[1])}var
+g(a){return aV(b,a[1])}var
 h=0,j=ag(B);function
 d(h,g,b,c){if(b){var
-i=function(a){return aS(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
+i=function(a){return aV(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
 c=x(a,b,l);return[0,e(function(c){return x(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return C6(aj,b,aS(b,aZ),c)},a4)}return ae}function
-fr(b,a){if(a){var
+i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return Dh(aj,b,aV(b,aY),c)},a4)}return ae}function
+fs(b,a){if(a){var
 c=a[2];if(b){var
-e=fr(b[1],c);return[0,a[1],e]}var
+e=fs(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-j3(m,l,q,T,p,i,$,z,b,S,Q){if(S){var
-r=g1(m,l,i,b),h=S,g=Q;for(;;){if(h){var
-L=h[1],a=L[2],w=L[1],M=h[2];if(typeof
+j5(m,l,q,U,o,j,$,z,b,T,R){if(T){var
+r=gZ(m,l,j,b),i=T,g=R;for(;;){if(i){var
+M=i[1],a=M[2],w=M[1],N=i[2];if(typeof
 a==="number"&&4===a){var
 v=k(z,b);if(v)var
-_=v[1],X=bq(j(b)),x=o(function(b){return function(a){return V(aS(a,b)[2],d)}}(_),X);else
+_=v[1],X=br(h(b)),x=p(function(b){return function(a){return L(aV(a,b)[2],d)}}(_),X);else
 var
 x=v;if(x){var
-h=M,g=e(function(a){return 0},g);continue}return x}var
-N=t(w,g,0);if(N){var
-y=R($,w);if(y){var
+i=N,g=e(function(a){return 0},g);continue}return x}var
+O=t(w,g,0);if(O){var
+y=S($,w);if(y){var
 n=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=k(z,b),U=0;if(s){var
+C=a[2],s=k(z,b),V=0;if(s){var
 D=G(d,C);if(D){var
-Y=a[1],c=j0(m,l,q,T,p,i,r,b,[0,jH(C,a[3],s[1])],n,Y);U=1}else
+Y=a[1],c=j2(m,l,q,U,o,j,r,b,[0,jJ(C,a[3],s[1])],n,Y);V=1}else
 var
 E=D}else
 var
-E=s;if(!U)var
+E=s;if(!V)var
 c=E;break;case
 10:var
 F=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
 I=f[2],u=k(z,b),W=0;if(u){var
 J=G(d,I);if(J){var
-Z=f[1],c=j2(m,l,q,p,i,r,b,[0,jH(I,f[3],u[1])],n,Z,H,F);B=1;W=1}else
+Z=f[1],c=j4(m,l,q,o,j,r,b,[0,jJ(I,f[3],u[1])],n,Z,H,F);B=1;W=1}else
 var
 K=J}else
 var
 K=u;if(!W){var
 c=K;B=1}}if(!B)var
-c=j2(m,l,q,p,i,r,b,0,n,f,H,F);break;default:A=1}if(A)var
-c=j0(m,l,q,T,p,i,r,b,0,n,a);if(c){var
-h=M,g=fr(w,g);continue}var
-O=c}else
+c=j4(m,l,q,o,j,r,b,0,n,f,H,F);break;default:A=1}if(A)var
+c=j2(m,l,q,U,o,j,r,b,0,n,a);if(c){var
+i=N,g=fs(w,g);continue}var
+P=c}else
 var
-O=y;var
-P=O}else
+P=y;var
+Q=P}else
 var
-P=N;return P}return[0,g]}}return[0,Q]}function
-fs(j,i,h,g,f,e,d,c,u,t,s){var
+Q=O;return Q}return[0,g]}}return[0,R]}function
+ft(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=j3(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
-m=j3(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=d9(a[2],b),q=fs(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
-b=p[2],k=n,a=a[4];continue}var
+l=j5(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(ac,l[1]):l}var
+m=j5(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d$(a[2],b),q=ft(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+b=o[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-g4(a){return e(function(a){return 1},a)}function
-dm(a,d,b,c){function
+g2(a){return e(function(a){return 1},a)}function
+ds(a,d,b,c){function
 f(d,c){var
-f=aJ(a[1],b[1]);return e(function(a){var
+f=aK(a[1],b[1]);return e(function(a){var
 b=q(c,a[2]);return C(q(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-j4(a){var
+j6(a){var
 b=l(c);return[0,e(function(a){return l(d)},a),b]}function
 aL(a,k){var
 f=k[1];switch(f[0]){case
 1:var
 v=f[1];if(ap(function(a){return u(v,a)},a)){var
 C=l(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return l(b)},a),C]}return j4(a);case
+b=u(a,v)?c:d;return l(b)},a),C]}return j6(a);case
 3:var
-D=l(c),E=aL(a,f[2]),F=l(c);return dm(aL(a,f[1]),F,E,D);case
+D=l(c),E=aL(a,f[2]),F=l(c);return ds(aL(a,f[1]),F,E,D);case
 4:var
-G=l(M(c)),H=aL(a,f[2]),I=l(c);return dm(aL(a,f[1]),I,H,G);case
+G=l(N(c)),H=aL(a,f[2]),I=l(c);return ds(aL(a,f[1]),I,H,G);case
 5:var
-w=aL(a,f[1]),J=w[2];return[0,e(bn,w[1]),J];case
+w=aL(a,f[1]),J=w[2];return[0,e(bo,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aL(a,x);return dm(aL(a,y),x,K,y);case
+x=f[2],y=f[1],K=aL(a,x);return ds(aL(a,y),x,K,y);case
 7:var
-z=f[2],L=bn(k),N=aL(a,z),O=l(c),i=dm(aL(a,f[1]),O,N,L),P=i[1];if(o(function(a){return aR(d,a)},P))return i;var
+z=f[2],L=bo(k),M=aL(a,z),O=l(c),i=ds(aL(a,f[1]),O,M,L),P=i[1];if(p(function(a){return aT(d,a)},P))return i;var
 Q=q(i[2],z);return[0,i[1],Q];case
 8:var
 A=f[1],B=aL(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
 9:var
-j=aL(a,f[1]),U=j[1];if(o(function(a){return aR(d,a)},U)){var
+j=aL(a,f[1]),U=j[1];if(p(function(a){return aT(d,a)},U)){var
 V=l(c);return[0,j[1],V]}var
 W=q(l(b(2,c)),k),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],n=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=s(g,p),Z=aL(a,g),_=s(h,n),$=dm(aL(a,h),_,Z,Y),aa=l(M(c)),ab=aL(a,m),r=dm($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?n:bn(p),t=e(function(a){return q(ad,a)},ac);if(o(function(a){return aR(d,a)},t))return[0,t,r[2]];var
-ae=q(h,p),af=s(q(g,n),ae),ag=q(l(b(2,c)),af);return[0,t,q(r[2],ag)];default:return j4(a)}}function
+m=f[4],g=f[3],h=f[2],n=[0,[10,0,h,g,m]],o=[0,[10,1,h,g,m]],Y=s(g,o),Z=aL(a,g),_=s(h,n),$=ds(aL(a,h),_,Z,Y),aa=l(N(c)),ab=aL(a,m),r=ds($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?n:bo(o),t=e(function(a){return q(ad,a)},ac);if(p(function(a){return aT(d,a)},t))return[0,t,r[2]];var
+ae=q(h,o),af=s(q(g,n),ae),ag=q(l(b(2,c)),af);return[0,t,q(r[2],ag)];default:return j6(a)}}function
 co(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(G(i,c))if(0===e[0]){var
 j=e[2],o=e[1];if(G(j,c)){var
-k=Z(b,o),m=k?d3(b):k;if(m)var
-p=Z(n[2],d),g=p||Z(b,d);else
+k=Y(b,o),m=k?d5(b):k;if(m)var
+p=Y(n[2],d),g=p||Y(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=Z(aV(j,aF(2))[2],d)?0:0}else
+a=Y(aQ(j,aD(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=Z(aV(i,aF(2))[2],d)?0:0}else
+a=Y(aQ(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
 b1(b,a){if(a)var
@@ -2284,23 +2287,23 @@ d=b1([0,b],a[2]),c=[0,co(a[1],b),d];else
 var
 c=a;return c}function
 aM(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-ft(b,d,a){switch(a[0]){case
+fu(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aM(c[3],b),g),i=f(aM(c[2],b),h);return f(aM(c[1],d),i);case
 1:var
 e=a[3],j=e?aM(e[1],d):e,k=f(aM(a[2],b),j);return f(aM(a[1],b),k);default:return aM(a[1],d)}}function
-$(b,a){var
-c=l(d),e=t(N(p8,a),b,c),f=l(d),g=t(N(p9,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-j5(b,a){return ai(s,ai(C,cI,a),b)}function
-fu(c,b,a){if(a){var
-e=a[2],g=fu(c,bV(b),e),h=a[1];return f(ft(c,bE(d,b),h),g)}return a}function
-g5(f,e,c,i){if(c){var
-b=c[1],v=N(i,j(ft(f,bE(d,e),b))),w=c[2],x=g5(f,bV(e),w,v),a=b1(i,ft(f,bE(d,e),b));switch(b[0]){case
+aa(b,a){var
+c=l(d),e=t(Q(qb,a),b,c),f=l(d),g=t(Q(qc,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+j7(b,a){return ai(s,ai(C,cK,a),b)}function
+fv(c,b,a){if(a){var
+e=a[2],g=fv(c,bE(b),e),h=a[1];return f(fu(c,bn(d,b),h),g)}return a}function
+g3(f,e,c,j){if(c){var
+b=c[1],v=Q(j,h(fu(f,bn(d,e),b))),w=c[2],x=g3(f,bE(e),w,v),a=b1(j,fu(f,bn(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(p_,a,l(d)),o=ai(C,cI,$(a,p$)),p=cH($(a,0)),q=$(a,qa),g=jJ(j5($(a,qb),q),p,o,n,m);break;case
+m=b[1][5],n=t(qd,a,l(d)),o=ai(C,cK,aa(a,qe)),p=cJ(aa(a,0)),q=aa(a,qf),g=jL(j7(aa(a,qg),q),p,o,n,m);break;case
 1:var
-h=b[3],r=h?[0,cH($(a,qc))]:h,s=ai(C,cI,$(a,qd)),u=$(a,qe),g=jK(j5($(a,0),u),s,r);break;default:var
-g=jL(cI,cH($(a,0)))}var
+i=b[3],r=i?[0,cJ(aa(a,qh))]:i,s=ai(C,cK,aa(a,qi)),u=aa(a,qj),g=jM(j7(aa(a,0),u),s,r);break;default:var
+g=jN(cK,cJ(aa(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
@@ -2313,7 +2316,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dd(a[2]),l=[2,[2,dd(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=dh(a[2]),l=[2,[2,dh(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -2330,41 +2333,41 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-ea(b,a){var
+ec(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dn(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(ea(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=ea(b,a[3]);return f(ea(b,a[2]),j)}function
-cJ(b,a){if(typeof
+dt(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(ec(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=ec(b,a[3]);return f(ec(b,a[2]),j)}function
+cL(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dn(b,a[2]);return f(dn(b,a[1]),h);case
+h=dt(b,a[2]);return f(dt(b,a[1]),h);case
 11:var
-i=ea(b,a[3]);return f(ea(b,a[2]),i);case
+i=ec(b,a[3]);return f(ec(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-j6(c,b,a){var
-d=j(cJ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-g6(c,b){if(ay(b,c))return[0,l(d)];var
+j8(c,b,a){var
+d=h(cL(c,b)),e=Q(a[2],d);return[0,[0,a[1]],e]}function
+g4(c,b){if(ay(b,c))return[0,l(d)];var
 a=b[1];if(4===a[0]){var
 e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-j7(y,p,a,o){switch(o[0]){case
+j9(y,p,a,o){switch(o[0]){case
 0:var
-h=R(y,o[1]);if(h){var
+h=S(y,o[1]);if(h){var
 i=h[1];if(i){var
-q=i[1],r=q[1],b=r[2],e=r[1],u=q[2],z=$(a,qf),A=ai(C,ai(s,e,aT(al(t(qg,a,l(d)),u),b)),z),B=$(a,qh),f=al(t(0,a,l(d)),u),j=g6(e[1],b[1]);if(j){var
-m=g6(e[2],b[2]);if(m){var
-n=g6(e[3],b[3]);if(n)var
-x=aT(f,b),g=ai(C,[0,j[1],m[1],n[1]],x);else
+q=i[1],r=q[1],b=r[2],e=r[1],u=q[2],z=aa(a,qk),A=ai(C,ai(s,e,aW(al(t(ql,a,l(d)),u),b)),z),B=aa(a,qm),f=al(t(0,a,l(d)),u),j=g4(e[1],b[1]);if(j){var
+m=g4(e[2],b[2]);if(m){var
+n=g4(e[3],b[3]);if(n)var
+x=aW(f,b),g=ai(C,[0,j[1],m[1],n[1]],x);else
 var
-g=ai(s,e,aT(s(l(c),f),b))}else
+g=ai(s,e,aW(s(l(c),f),b))}else
 var
-g=ai(s,e,aT(s(l(c),f),b))}else
+g=ai(s,e,aW(s(l(c),f),b))}else
 var
-g=ai(s,e,aT(s(l(c),f),b));var
+g=ai(s,e,aW(s(l(c),f),b));var
 v=[0,[0,ai(C,g,B),A]]}else
 var
 v=i;var
@@ -2372,68 +2375,68 @@ w=v}else
 var
 w=h;return w;case
 1:var
-D=$(a,qi);return[0,[0,$(a,0),D]];default:var
-E=k(p,$(a,qj));return[0,[0,k(p,$(a,0)),E]]}}function
-j8(e,d,c,h,g){var
-a=j7(e,d,cB(qk,c),h);if(a)var
-b=j7(e,d,e5(ql,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=aa(a,qn);return[0,[0,aa(a,0),D]];default:var
+E=k(p,aa(a,qo));return[0,[0,k(p,aa(a,0)),E]]}}function
+j_(e,d,c,h,g){var
+a=j9(e,d,bV(qp,c),h);if(a)var
+b=j9(e,d,de(qq,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-j9(g,c,d,b,a){var
-h=dn(c,a),i=b1(d,f(dn(c,b),h));function
-j(a){return ai(C,cI,a)}return j8(e(function(a){var
+j$(g,c,d,b,a){var
+h=dt(c,a),i=b1(d,f(dt(c,b),h));function
+j(a){return ai(C,cK,a)}return j_(e(function(a){var
 b=a[7];return w(function(b){var
 c=cm(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-cK(d,c,b,a){var
+cM(d,c,b,a){var
 e=q(c,b);return s(q(d,a),e)}function
-bt(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-j_(b,a){if(b)if(a)var
-d=b[1],e=j_(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bJ(d[1]),f],e];else
+bt(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+ka(b,a){if(b)if(a)var
+d=b[1],e=ka(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bI(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-j$(a){if(a){var
+kb(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=j$(a[2]);if(d)var
-g=d[1],h=U(c,c),e=[0,[0,[0,bJ(c),h],g]];else
+c=b[1],d=kb(a[2]);if(d)var
+g=d[1],h=V(c,c),e=[0,[0,[0,bI(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qn}function
-eb(b,d,c,a){if(typeof
+f=b;return f}return qs}function
+ed(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-h=c[1],i=co(bs(d,a),h);return[0,e(function(a){var
-b=q(a[2],i);return[0,bJ(a[1]),b]},b)];case
-9:return j$(b);case
+i=c[1],j=co(bs(d,a),i);return[0,e(function(a){var
+b=q(a[2],j);return[0,bI(a[1]),b]},b)];case
+9:return kb(b);case
 15:var
-k=j(b),f=u(j(a[1]),k);if(f)var
-l=cJ(d,a),g=[0,j_(b,b1(c[2],l))];else
+k=h(b),f=u(h(a[1]),k);if(f)var
+l=cL(d,a),g=[0,ka(b,b1(c[2],l))];else
 var
 g=f;return g}return 0}function
-fv(e,k,j,a){var
+fw(e,k,j,a){var
 P=j[1],b=co(bs(k,a),P),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
 Q=function(a){return[0,s(a[4],b),0]},g=Q,f=a[1];break;case
 3:var
-S=function(a){return[0,s(b,a[4]),0]},g=S,f=a[1];break;case
+R=function(a){return[0,s(b,a[4]),0]},g=R,f=a[1];break;case
 4:var
 T=function(c){var
-a=c[1],d=H(a[3]),e=H(a[2]),f=H(a[1]),g=c[2];return[0,s(s(s(q(H(b),g),f),e),d),0]},g=T,f=a[1];break;case
+a=c[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=c[2];return[0,s(s(s(q(K(b),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
-V=function(c){var
+U=function(c){var
 a=c[5];if(a)var
-e=H(a[1]),f=q(H(b),e),d=[0,s(c[2],f),0];else
+e=K(a[1]),f=q(K(b),e),d=[0,s(c[2],f),0];else
 var
-d=a;return d},g=V,f=a[1];break;case
+d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],z=m[1],A=e[1],h=x[1],i=z[1],p=A[1],K=cK(i[1],i[2],h[1],h[2]),L=q(p[3],K),M=cK(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cK(i[2],i[3],h[2],h[3]),w=C(s(q(p[1],O),N),L),W=cm(x),X=cm(z),B=q(q(q(b,cm(A)),X),W),Y=[0,bn(C(w,B)),0],D=[0,s(w,B),Y]}else
+x=n[1],y=m[1],A=e[1],h=x[1],i=y[1],p=A[1],J=cM(i[1],i[2],h[1],h[2]),L=q(p[3],J),M=cM(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cM(i[2],i[3],h[2],h[3]),w=C(s(q(p[1],O),N),L),W=cm(x),X=cm(y),B=q(q(q(b,cm(A)),X),W),Y=[0,bo(C(w,B)),0],D=[0,s(w,B),Y]}else
 var
 D=n;var
 E=D}else
@@ -2443,100 +2446,100 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=j9(e,k,j[2],a[1],a[2]);if(u){var
-G=u[1],I=G[2],J=G[1];return y(bJ,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return u;case
+u=j$(e,k,j[2],a[1],a[2]);if(u){var
+G=u[1],H=G[2],I=G[1];return z(bI,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cJ(k,a),f=b1(j[2],n),h=$(f,qm),c=ai(s,$(f,0),h),i=H(b),l=H(cm(d)),m=al(H(U(c,d[1])),l),g=[0,s(s(U(c,c),m),i),0];else
+n=cL(k,a),f=b1(j[2],n),h=aa(f,qr),c=ai(s,aa(f,0),h),i=K(b),l=K(cm(d)),m=al(K(V(c,d[1])),l),g=[0,s(s(V(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),r=cJ(k,a),u=t(0,b1(j[2],r),p),f=al(u,cm(e)),g=e[5];if(g){var
-m=az(e[2]),h=al(g[1],m),n=q(h,C(b,q(f,H(h))));return[0,s(l(c),n),0]}var
+p=l(d),r=cL(k,a),u=t(0,b1(j[2],r),p),f=al(u,cm(e)),g=e[5];if(g){var
+m=az(e[2]),h=al(g[1],m),n=q(h,C(b,q(f,K(h))));return[0,s(l(c),n),0]}var
 i=e[7],o=i?[0,s(s(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=eb(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
-o=R(e,f);return o?g(o[1]):o}function
-g7(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=g7(d,b,j6(b,e,c),g);return f(fv(d,b,c,e),h)}return a}var
-ka=[0,d,c],kb=[0,[0,ka,ka],d];function
-g8(a){return ac(bZ(a[1][1],a[1][2]))}function
-kc(a){var
-b=aX(0,j(a));return bF(function(b){return g8(t(b,a,kb))},b)}function
-kd(a,g){var
-h=g[4],b=aL(kc(a),h),c=b[1],f=e(function(a){return aR(d,a)?a:al(a,b[2])},c),i=aJ(kc(a),f);return bF(function(a){return ac(aR(d,a[2]))},i)}function
-ke(b,a){var
+r=ed(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
+o=S(e,f);return o?g(o[1]):o}function
+g5(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=g5(d,b,j8(b,e,c),g);return f(fw(d,b,c,e),h)}return a}var
+kc=[0,d,c],kd=[0,[0,kc,kc],d];function
+g6(a){return ac(bZ(a[1][1],a[1][2]))}function
+ke(a){var
+b=aZ(0,h(a));return bF(function(b){return g6(t(b,a,kd))},b)}function
+kf(a,g){var
+h=g[4],b=aL(ke(a),h),c=b[1],f=e(function(a){return aT(d,a)?a:al(a,b[2])},c),i=aK(ke(a),f);return bF(function(a){return ac(aT(d,a[2]))},i)}function
+kg(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-kf(f,J,l,I,m,i,n,s){if(s){var
-a=s[1],aK=s[2],aL=kf(f,J,l,I,m,i,j6(i,a,n),aK);if(typeof
+kh(f,J,l,I,m,j,n,s){if(s){var
+a=s[1],aK=s[2],aL=kh(f,J,l,I,m,j,j8(j,a,n),aK);if(typeof
 a==="number")if(0===a)var
-h=[0,[0,B]];else
+i=[0,[0,B]];else
 var
-aq=J[2],as=J[1],at=d8(m),h=[0,[8,k(ar(l),at),as,aq]];else
+aq=J[2],ar=J[1],at=d_(m),i=[0,[8,k(as(l),at),ar,aq]];else
 switch(a[0]){case
 0:var
-au=ah(f,bs(i,a)),h=w(function(a){return[0,W(f,a)]},au);break;case
+au=ah(f,bs(j,a)),i=w(function(a){return[0,_(f,a)]},au);break;case
 1:var
-av=ah(f,bs(i,a)),h=w(function(a){return[1,W(f,a)]},av);break;case
+av=ah(f,bs(j,a)),i=w(function(a){return[1,_(f,a)]},av);break;case
 5:var
-ax=ah(f,bs(i,a)),h=w(function(a){return[2,W(f,a)]},ax);break;case
+ax=ah(f,bs(j,a)),i=w(function(a){return[2,_(f,a)]},ax);break;case
 8:var
-ay=eb(m,i,n,a),h=w(function(a){var
-b=_(f,c);return[4,k(ar(l),a),b]},ay);break;case
+ay=ed(m,j,n,a),i=w(function(a){var
+b=Z(f,c);return[4,k(as(l),a),b]},ay);break;case
 9:var
-y=eb(m,i,n,a);if(y){var
-z=ah(f,bs(i,a));if(z)var
-az=W(f,z[1]),aA=y[1],O=[0,[4,k(ar(l),aA),az]];else
+y=ed(m,j,n,a);if(y){var
+z=ah(f,bs(j,a));if(z)var
+az=_(f,z[1]),aA=y[1],O=[0,[4,k(as(l),aA),az]];else
 var
 O=z;var
 P=O}else
 var
 P=y;var
-h=P;break;case
+i=P;break;case
 10:var
-A=j9(m,i,n[2],a[1],a[2]);if(A){var
-Q=A[1],S=Q[2],T=Q[1],C=ah(f,bs(i,a));if(C){var
+A=j$(m,j,n[2],a[1],a[2]);if(A){var
+Q=A[1],R=Q[2],T=Q[1],C=ah(f,bs(j,a));if(C){var
 U=C[1],V=G(d,U[1]);if(V)var
-q=function(a){return ke(l,a)},aB=q(S[2]),aC=q(S[1]),aE=q(T[2]),X=[0,[6,q(T[1]),aE,aC,aB,U]];else
+q=function(a){return kg(l,a)},aB=q(R[2]),aC=q(R[1]),aD=q(T[2]),W=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
-X=V;var
+W=V;var
+X=W}else
+var
+X=C;var
 Y=X}else
 var
-Y=C;var
-Z=Y}else
-var
-Z=A;var
-h=Z;break;case
+Y=A;var
+i=Y;break;case
 12:var
-r=fv(m,i,n,a),v=0;if(r)if(r[2])var
-h=0;else{var
+r=fw(m,j,n,a),v=0;if(r)if(r[2])var
+i=0;else{var
 $=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
 D=[0,[3,k(l,r[1])]];v=1}else{var
 D=aa;v=1}}else{var
 D=r;v=1}if(v)var
-h=D;break;case
+i=D;break;case
 13:var
-ab=a[1],ac=R(m,ab),K=0;if(ac){var
+ab=a[1],ac=S(m,ab),K=0;if(ac){var
 ad=g(f,1,a[2]),ae=ad?g(f,1,a[3]):ad;if(ae)var
-aF=ah(f,bs(i,a)),h=w(function(a){return[7,ab,W(f,a)]},aF);else{var
+aF=ah(f,bs(j,a)),i=w(function(a){return[7,ab,_(f,a)]},aF);else{var
 af=ae;K=1}}else{var
 af=ac;K=1}if(K)var
-h=af;break;case
+i=af;break;case
 14:var
-E=a[2],ag=a[1],ai=u(j(m),qo),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
-F=ah(f,bs(i,a));if(F)var
+E=a[2],ag=a[1],ai=u(h(m),qt),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
+F=ah(f,bs(j,a));if(F)var
 H=aj(e(function(n){var
 h=[5,ag,E],a=ah(f,[0,[0,h,h],d]);if(a){var
-o=kd(I,n),g=aj(e(function(e){var
-a=t(e[1],I,kb),g=aD(a[2],i),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=ah(f,[0,[0,d,d],g]);return w(function(a){return[0,a,k(l,e[2])]},j)},o));if(g)var
-p=[0,a[1],g[1]],j=[0,[0,k(l,n[4]),p]];else
+o=kf(I,n),g=aj(e(function(e){var
+a=t(e[1],I,kd),g=aE(a[2],j),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=ah(f,[0,[0,d,d],g]);return w(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
+p=[0,a[1],g[1]],i=[0,[0,k(l,n[4]),p]];else
 var
-j=g;var
-m=j}else
+i=g;var
+m=i}else
 var
 m=a;return m},m)),aG=H?[0,[9,F[1],H[1]]]:H,am=aG;else
 var
@@ -2544,37 +2547,37 @@ am=F;var
 an=am}else
 var
 an=al;var
-h=an;break;case
+i=an;break;case
 15:var
-aH=[0,a[2],a[1]],aI=1,ao=o(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=eb(m,i,n,a),h=w(function(a){var
-b=_(f,c);return[4,k(ar(l),a),b]},aJ);else
+aH=[0,a[2],a[1]],aI=1,ao=p(function(a){return g(f,aI,a)},aH);if(ao)var
+aJ=ed(m,j,n,a),i=w(function(a){var
+b=Z(f,c);return[4,k(as(l),a),b]},aJ);else
 var
-h=ao;break;default:var
-p=fv(m,i,n,a),L=0;if(p){var
-x=p[2],M=p[1];if(x)if(x[2])var
-h=0;else
+i=ao;break;default:var
+o=fw(m,j,n,a),L=0;if(o){var
+x=o[2],M=o[1];if(x)if(x[2])var
+i=0;else
 var
-aw=k(l,x[1]),h=[0,[5,k(l,M),aw]];else{var
+aw=k(l,x[1]),i=[0,[5,k(l,M),aw]];else{var
 N=[0,[3,k(l,M)]];L=1}}else{var
-N=p;L=1}if(L)var
-h=N}var
-ap=[0,h,aL]}else
+N=o;L=1}if(L)var
+i=N}var
+ap=[0,i,aL]}else
 var
 ap=s;return ap}function
-qp(a){var
+qu(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dp(a){if(0===a[0])return a[1];var
+du(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kg(a,c,g,b){if(0===c[0])return 0;if(b){var
+ki(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cj(a,g,c[1]);if(i){var
 j=cj(a,g,c[2]);if(j){var
 k=cj(a,g,c[3]);if(k)var
-t=i[1],u=bK(f),l=K([0,bK(f),u],t),v=j[1],w=bK(e),m=K([0,bK(e),w],v),y=di(e),z=[0,di(e),y],A=[0,x(a,af(F(m,m)),z),0],C=di(f),D=[0,di(f),C],E=[0,x(a,af(F(l,l)),D),A],G=W(a,m),H=W(a,l),n=[0,[0,K(K(W(a,k[1]),H),G),B,E]];else
+t=i[1],u=bJ(f),l=J([0,bJ(f),u],t),v=j[1],w=bJ(e),m=J([0,bJ(e),w],v),y=dn(e),z=[0,dn(e),y],A=[0,x(a,af(F(m,m)),z),0],C=dn(f),D=[0,dn(f),C],E=[0,x(a,af(F(l,l)),D),A],G=_(a,m),H=_(a,l),n=[0,[0,J(J(_(a,k[1]),H),G),B,E]];else
 var
 n=k;var
 o=n}else
@@ -2592,14 +2595,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fw(a,p,o){var
+fx(a,p,o){var
 q=aM(p,o),b=e(function(b){return ah(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=W(a,i[1]),s=W(a,h[1]);return V(d,F(F(W(a,g[1]),s),r)[1])}var
+r=_(a,i[1]),s=_(a,h[1]);return L(d,F(F(_(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2616,138 +2619,138 @@ n=m}else
 var
 n=b;return n}function
 ad(c,b,a){var
-d=at(c,b[3],a[3]),e=at(c,b[2],a[2]);return[0,at(c,b[1],a[1]),e,d]}function
-as(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-av(a){return as([5,[0,c,c],[6,O(a,a)]],a)}function
-cL(c,b,a){var
+aw(a){return at([5,[0,c,c],[6,O(a,a)]],a)}function
+cN(c,b,a){var
 d=ba(c,b[1],a);return d?ba(c,a,b[2]):d}function
-a0(c,b,a){var
-d=cL(c,b[1],a[1]),e=d?cL(c,b[2],a[2]):d;return e?cL(c,b[3],a[3]):e}function
-kh(b,c,a){switch(c[0]){case
+a1(c,b,a){var
+d=cN(c,b[1],a[1]),e=d?cN(c,b[2],a[2]):d;return e?cN(c,b[3],a[3]):e}function
+kj(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a0(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?a0(b,d[2],a[2]):l,n=m?a0(b,d[3],a[3]):m,o=n?cL(b,d[4],j):n,p=o?g(b,1,j):o;return p?cb(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a1(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?a1(b,d[2],a[2]):l,n=m?a1(b,d[3],a[3]):m,o=n?cN(b,d[4],j):n,p=o?g(b,1,j):o;return p?cb(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a0(b,c[1],a[1]),s=r?a0(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a0(b,q[1],h);if(t)return g(b,1,O(h,h));var
+e=a[3],r=a1(b,c[1],a[1]),s=r?a1(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=a1(b,q[1],h);if(t)return g(b,1,O(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a0(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
-ec(c,a,b){if(0===a[0])return a0(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cL(c,a[4],b[3]):i}function
-ki(g,f,i,h){var
+i=a[1],w=a1(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
+cO(c,a,b){if(0===a[0])return a1(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cN(c,a[4],b[3]):i}function
+kk(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kh(g,b[1],a[1]);if(d){var
+d=kj(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?ec(g,f[2],h):c}}function
-a_(c,b,a){var
+c=a?0:1;return c?cO(g,f[2],h):c}}function
+a$(c,b,a){var
 d=ad(function(b,a){return[2,b,a]},a,b);return ad(function(b,a){return[3,b,a]},d,c)}function
-ed(a,e,d,c){var
-b=a_(e,d,c),f=av(a),g=as(O(av(a),b),f);return ad(function(b,a){return[3,b,a]},b,g)}function
-cM(f,e,d,a,c){var
-b=ed(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cN(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cO(a,b){switch(a[0]){case
+ee(a,e,d,c){var
+b=a$(e,d,c),f=aw(a),g=at(O(aw(a),b),f);return ad(function(b,a){return[3,b,a]},b,g)}function
+cP(f,e,d,a,c){var
+b=ee(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
+cQ(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cR(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ed(d,f,e,b),h=cM(d,f,e,a[4],b),i=as([5,[0,c,c],cN(a[5],h)],g),j=av(d);return ad(function(b,a){return[2,b,a]},j,i);case
-1:return av(a_(a[1],a[2],b));default:return av(a[1])}}function
-ee(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ee(d,f,e,b),h=cP(d,f,e,a[4],b),i=at([5,[0,c,c],cQ(a[5],h)],g),j=aw(d);return ad(function(b,a){return[2,b,a]},j,i);case
+1:return aw(a$(a[1],a[2],b));default:return aw(a[1])}}function
+ef(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=av(c),g=cM(c,e,d,a[4],b),h=as(cN(a[5],g),f),i=ed(c,e,d,b);return ad(function(b,a){return[2,b,a]},i,h);case
-1:return a_(a[1],a[2],b);default:return av(a[1])}}function
-g9(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aw(c),g=cP(c,e,d,a[4],b),h=at(cQ(a[5],g),f),i=ee(c,e,d,b);return ad(function(b,a){return[2,b,a]},i,h);case
+1:return a$(a[1],a[2],b);default:return aw(a[1])}}function
+g7(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cM(e,d,c,a[4],b),i=cN(a[5],h),j=a_(d,c,b);return[3,O(av(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cP(e,d,c,a[4],b),i=cQ(a[5],h),j=a$(d,c,b);return[3,O(aw(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a_(g,f,b);return[6,O(a_(g,f,b),k)];default:return O(av(a[1]),b)}}function
-kj(a,b){switch(a[0]){case
-0:return[0,cM(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=a$(g,f,b);return[6,O(a$(g,f,b),k)];default:return O(aw(a[1]),b)}}function
+kl(a,b){switch(a[0]){case
+0:return[0,cP(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a_(d,c,b);return[0,O(a_(d,c,b),e)];default:return 0}}function
-ef(e,b,a){var
-f=[0,d,c];return aW(function(c,d){var
-e=O(cO(c,b),a);return[2,[4,O(cO(c,b),a),e],d]},f,e)}function
-kk(a){var
+c=a[2],d=a[1],e=a$(d,c,b);return[0,O(a$(d,c,b),e)];default:return 0}}function
+eg(e,b,a){var
+f=[0,d,c];return aR(function(c,d){var
+e=O(cR(c,b),a);return[2,[4,O(cR(c,b),a),e],d]},f,e)}function
+km(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-g_(a,b){switch(a[0]){case
+g8(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a_(e,d,b);return[6,O(a_(e,d,b),f)];default:return[0,c,c]}}function
-kl(d,i){if(d){var
+d=a[2],e=a[1],f=a$(e,d,b);return[6,O(a$(e,d,b),f)];default:return[0,c,c]}}function
+kn(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a_(a[1],a[2],i),k=av(f),l=as(O(av(f),g),k),h=[0,ad(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a$(a[1],a[2],i),k=aw(f),l=at(O(aw(f),g),k),h=[0,ad(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kl(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kn(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qq}function
-cP(a){return[0,a[1],a[2],a[3]]}function
-km(a,b){switch(a[0]){case
+j=b;return j}return qv}function
+cS(a){return[0,a[1],a[2],a[3]]}function
+ko(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=av(d),j=cM(d,g,c,f,b),k=as(cN(a[5],j),i),l=ed(d,g,c,b),m=ad(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aw(d),j=cP(d,g,c,f,b),k=at(cQ(a[5],j),i),l=ee(d,g,c,b),m=ad(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a_(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kn(l,b,a){switch(a[0]){case
+h=a[2],e=a$(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+kp(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=R(l,a[1]);if(d){var
-e=km(d[1],b);if(e)var
+m=a[5],d=S(l,a[1]);if(d){var
+e=ko(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cP(m),c=as(a,n),d=ad(function(b,a){return[3,b,a]},o,c);return ad(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cS(m),c=at(a,n),d=ad(function(b,a){return[3,b,a]},o,c);return ad(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cP(a[3]);return[0,[0,cP(a[2]),q]];default:var
-r=cP(a[3]),s=ad(function(b,a){return[2,b,a]},b,r),t=cP(a[2]);return[0,[0,ad(function(b,a){return[2,b,a]},b,t),s]]}}function
-ko(d,a,c,b){var
-e=as(a,b),f=as([3,d,a],c);return ad(function(b,a){return[2,b,a]},f,e)}function
-kp(f,h,b,e,q,a){function
+q=cS(a[3]);return[0,[0,cS(a[2]),q]];default:var
+r=cS(a[3]),s=ad(function(b,a){return[2,b,a]},b,r),t=cS(a[2]);return[0,[0,ad(function(b,a){return[2,b,a]},b,t),s]]}}function
+kq(d,a,c,b){var
+e=at(a,b),f=at([3,d,a],c);return ad(function(b,a){return[2,b,a]},f,e)}function
+kr(f,h,b,e,q,a){function
 F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],O(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=ef(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=eg(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,ef(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,eg(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,g9(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,g7(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,g9(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,g7(a,b),at]},s=au,r=a[1];break;case
 4:var
-G=a[3],H=a[2],aw=function(a){var
-c=cO(a,b);return[3,[4,[4,H,H],O(cO(a,b),c)],[4,G,G]]},s=aw,r=a[1];break;case
+G=a[3],H=a[2],av=function(a){var
+c=cR(a,b);return[3,[4,[4,H,H],O(cR(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,ef(h,b,q),ax]],az=O(q,q);return g(f,1,[3,[4,ef(h,b,e),az],ay]);case
+I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,eg(h,b,q),ax]],az=O(q,q);return g(f,1,[3,[4,eg(h,b,e),az],ay]);case
 6:var
-J=a[2],u=R(h,a[1]);if(u){var
+J=a[2],u=S(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cM(i[1],i[2],i[3],v,b),K=cN(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=cP(i[1],i[2],i[3],v,b),K=cQ(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],P=h[1],aB=g_(M,b),aC=g_(N,b),aD=g_(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ee(M,b),k=ee(N,b),aE=ee(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
-T=S}else
+M=o[1],N=n[1],P=h[1],aB=g8(M,b),aC=g8(N,b),aD=g8(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ef(M,b),k=ef(N,b),aE=ef(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
+T=R}else
 var
 T=o;var
 U=T}else
@@ -2757,15 +2760,15 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=ef(h,b,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=eg(h,b,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kl(h,b);if(w){var
-aH=w[1],an=[0,d,c],ao=aW(function(a,b){var
-c=O(av(a),e);return[2,[4,O(av(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],O(e,e)],ao])}return w;case
+W=a[1],w=kn(h,b);if(w){var
+aH=w[1],an=[0,d,c],ao=aR(function(a,b){var
+c=O(aw(a),e);return[2,[4,O(aw(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],O(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kn(h,b,Y);if(x){var
-Z=x[1],y=kn(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=ko(l,A,_[1],_[2]),aJ=ko(l,z,Z[1],Z[2]),$=ad(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dd(X),aa=[4,l,[2,[2,dd(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ae=ac?g(f,0,[3,l,z]):ac,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
+X=a[2],Y=a[1],x=kp(h,b,Y);if(x){var
+Z=x[1],y=kp(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=kq(l,A,_[1],_[2]),aJ=kq(l,z,Z[1],Z[2]),$=ad(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dh(X),aa=[4,l,[2,[2,dh(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ae=ac?g(f,0,[3,l,z]):ac,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2773,9 +2776,9 @@ ai=ah}else
 var
 ai=x;return ai;case
 11:var
-aj=a[4],B=R(h,a[1]);if(B){var
-C=km(B[1],b);if(C){var
-m=C[1][1][2],aM=cP(a[3]),aN=cP(a[2]),p=ad(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
+aj=a[4],B=S(h,a[1]);if(B){var
+C=ko(B[1],b);if(C){var
+m=C[1][1][2],aM=cS(a[3]),aN=cS(a[2]),p=ad(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
 aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
 al=ak}else
 var
@@ -2783,29 +2786,29 @@ al=C;var
 am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
-t=R(h,r);return t?g(f,1,s(t[1])):t}function
+t=S(h,r);return t?g(f,1,s(t[1])):t}function
 bb(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kq(a){switch(a[0]){case
+ks(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bb(b[3]),f=bb(b[2]);return[0,bb(b[1]),f,e,d,c];case
 1:var
 g=w(bb,a[3]),h=bb(a[2]);return[1,bb(a[1]),h,g];default:return[2,bb(a[1])]}}function
-g$(a){return 0===a[0]?bb(a[1]):[0,a[1],a[2],a[4][1]]}function
-kr(b,a){var
-c=g$(a[2]);return ki(b,a,e(kq,a[1]),c)}function
-ks(b,a,c){var
-d=[0,c,e5(b,a)];return f(cB(b,a),d)}function
+g9(a){return 0===a[0]?bb(a[1]):[0,a[1],a[2],a[4][1]]}function
+kt(b,a){var
+c=g9(a[2]);return kk(b,a,e(ks,a[1]),c)}function
+ku(b,a,c){var
+d=[0,c,de(b,a)];return f(bV(b,a),d)}function
 b2(b,a){if(b){if(a){var
 e=b2(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kt(a){if(a){var
+kv(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kt(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qs}function
-ku(a,l,k,f){var
-b=aZ(a,l);if(b){var
-c=aZ(a,k);if(c){var
-d=dg(a,f);if(d){var
-e=fe(a,f);if(e)var
-m=x(a,b[1],e[1]),g=[0,K(x(a,c[1],d[1]),m)];else
+c=b[1],d=kv(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qx}function
+kw(a,l,k,f){var
+b=aU(a,l);if(b){var
+c=aU(a,k);if(c){var
+d=dk(a,f);if(d){var
+e=ff(a,f);if(e)var
+m=x(a,b[1],e[1]),g=[0,J(x(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2817,50 +2820,50 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fx(a){return a?V(d,a[1][1]):a}function
-kv(a,ab,m,aD,h,f){function
+fy(a){return a?L(d,a[1][1]):a}function
+kx(a,ab,m,aD,i,f){function
 ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b2(a,a)]}var
 aE=m[1];function
-p(b){var
-a=[0,d,c];return aW(function(a,c){var
+o(b){var
+a=[0,d,c];return aR(function(a,c){var
 d=b2(a,b);return[2,[4,b2(a,b),d],c]},a,aE)}var
-ad=o(function(a){return u(j(a),ab)},h);if(ad){var
+ad=p(function(a){return u(h(a),ab)},i);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
-0:if(h){if(h[2])return 0;var
-af=h[1],aF=p(af);return g(a,1,[3,ac(f[1],af),aF])}return h;case
-1:if(h){if(h[2])return 0;var
-ag=h[1],aG=ac(f[1],ag);return g(a,1,[3,p(ag),aG])}return h;case
-2:if(h)return 0;var
+0:if(i){if(i[2])return 0;var
+af=i[1],aF=o(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
+1:if(i){if(i[2])return 0;var
+ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,o(ag),aG])}return i;case
+2:if(i)return 0;var
 aH=f[2],aI=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
-3:if(h)return 0;var
+3:if(i)return 0;var
 aJ=f[2],aK=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
-4:if(h)return 0;var
+4:if(i)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=ku(a,i,h,ai);return f?V(f[1][2],d):f}return fx(ku(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
-5:if(h){var
-r=h[2];if(r){if(r[2])return 0;var
-J=r[1],L=h[1],aj=f[1],aM=b2(L,L),aN=[4,[4,aj,aj],[4,p(J),aM]],aO=b2(J,J);return g(a,1,[3,[4,p(L),aO],aN])}var
+f=kw(a,i,h,ai);return f?L(f[1][2],d):f}return fy(kw(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
+5:if(i){var
+r=i[2];if(r){if(r[2])return 0;var
+K=r[1],M=i[1],aj=f[1],aM=b2(M,M),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=b2(K,K);return g(a,1,[3,[4,o(M),aO],aN])}var
 ak=r}else
 var
-ak=h;return ak;case
-6:if(h)return 0;var
+ak=i;return ak;case
+6:if(i)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
 c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,b2(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
-8:if(h){if(h[2])return 0;var
-N=h[1],aR=p(N),aS=[4,f[1],aR],aT=b2(N,N);return g(a,1,[3,[4,f[2],aT],aS])}return h;case
-9:if(h)return 0;var
-ar=f[3],as=f[2],aU=function(e){var
+8:if(i){if(i[2])return 0;var
+O=i[1],aS=o(O),aT=[4,f[1],aS],aV=b2(O,O);return g(a,1,[3,[4,f[2],aV],aT])}return i;case
+9:if(i)return 0;var
+ar=f[3],as=f[2],aW=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aZ(a,b2(e,e));if(b){var
-c=aZ(a,[5,ar,as]);if(c){var
-d=ju(a,c[1]);if(d){var
-l=W(a,d[1]);return fx([0,K(b[1],l)])}var
+b=aU(a,b2(e,e));if(b){var
+c=aU(a,[5,ar,as]);if(c){var
+d=jw(a,c[1]);if(d){var
+l=_(a,d[1]);return fy([0,J(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2869,17 +2872,17 @@ var
 j=b;var
 k=j}else
 var
-k=h;return k},an=aU,am=f[1];k=3;break;case
-10:if(h)return 0;var
-aV=f[2],aX=function(b){var
-c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
-11:if(h)return 0;var
-aY=f[2],a0=function(e){var
-b=dg(a,aY);if(b){var
-c=aZ(a,e[3]);if(c){var
-d=aZ(a,e[2]);if(d){var
-f=x(a,b[1],c[1]),g=fx([0,f]);if(g){var
-k=W(a,d[1]);return fx([0,K(W(a,f),k)])}var
+k=h;return k},an=aW,am=f[1];k=3;break;case
+10:if(i)return 0;var
+aX=f[2],aY=function(b){var
+c=[4,aX,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aY,at=f[1];k=2;break;case
+11:if(i)return 0;var
+aZ=f[2],a0=function(e){var
+b=dk(a,aZ);if(b){var
+c=aU(a,e[3]);if(c){var
+d=aU(a,e[2]);if(d){var
+f=x(a,b[1],c[1]),g=fy([0,f]);if(g){var
+k=_(a,d[1]);return fy([0,J(_(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2889,13 +2892,13 @@ i=c;var
 j=i}else
 var
 j=b;return j},au=a0,at=f[1];k=2;break;case
-12:if(h)return 0;var
-Q=kt(m[3]);if(Q){var
-aw=Q[1],a1=f[1],ax=da(function(b,a){return[4,b,a[3]]},aw,a1),S=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(S){var
-s=S[1];if(s){var
+12:if(i)return 0;var
+R=kv(m[3]);if(R){var
+aw=R[1],a1=f[1],ax=dd(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
+s=T[1];if(s){var
 t=s[2];if(t){var
-v=t[2],T=t[1],U=s[1],l=S[2];if(v)if(v[2]||!l)var
-i=[0,d,c];else{var
+v=t[2],U=t[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
+j=[0,d,c];else{var
 w=l[1];if(w){var
 y=w[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -2903,56 +2906,56 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=w[1],aA=q(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,T,q(aa,_,Z,X)],i=[2,[3,[4,U,q($,_,Y,X)],aC],aB];else
+W=D[1],X=C[1],Y=B[1],Z=z[1],$=y[1],aa=w[1],aA=q(aa,$,Y,X),aB=[4,v[1],aA],aC=[4,U,q(aa,Z,Y,W)],j=[2,[3,[4,V,q($,Z,X,W)],aC],aB];else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 if(l){var
 E=l[1];if(E)var
-F=E[2],i=F?F[2]?[0,d,c]:l[2]?[0,d,c]:q(U,T,E[1],F[1]):[0,d,c];else
+F=E[2],j=F?F[2]?[0,d,c]:l[2]?[0,d,c]:q(V,U,E[1],F[1]):[0,d,c];else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c];var
-ay=g(a,1,[3,ax,i]);if(ay)return g(a,1,[2,ax,i]);var
+j=[0,d,c];var
+ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
 az=ay}else
 var
-az=Q;return az;default:k=1}switch(k){case
+az=R;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-O=R(m[3],at);if(O){var
-P=O[1];if(P)return au(P[1]);var
-av=P}else
+P=S(m[3],at);if(P){var
+Q=P[1];if(Q)return au(Q[1]);var
+av=Q}else
 var
-av=O;return av;case
+av=P;return av;case
 3:var
-M=R(m[1],am);if(M){var
-ao=M[1],ap=u(j(ao),ab);if(ap)return an(ao);var
+N=S(m[1],am);if(N){var
+ao=N[1],ap=u(h(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
-aq=M;return aq;default:var
-I=R(m[2],G);return I?H(I[1]):I}}else
+aq=N;return aq;default:var
+I=S(m[2],G);return I?H(I[1]):I}}else
 var
 ae=ad;return ae}function
-kw(h,g){var
+ky(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2962,124 +2965,124 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kx(a){if(a){var
+kz(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kx(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qt}function
-qu(a){return e(function(a){return[0,a,c]},a)}function
-ky(h,f,b,n,a){if(typeof
+c=b[1],d=kz(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qy}function
+qz(a){return e(function(a){return[0,a,c]},a)}function
+kA(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
 r=b[4];return ap(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=kx(b[5]);return i?jB(f,i[1]):i}else{if(0===a[0]){var
-j=kw(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(qu,a[2]);return kv(h,f,b,o[2],t,s)}return j}var
-k=kw(a[1],n);if(k){var
+i=kz(b[5]);return i?jD(f,i[1]):i}else{if(0===a[0]){var
+j=ky(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(qz,a[2]);return kx(h,f,b,o[2],t,s)}return j}var
+k=ky(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=R(b[1],a[2]);return m?kv(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=S(b[1],a[2]);return m?kx(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-ha(a){var
-b=av(a[1]),c=as(O(b,a[2]),b),d=a[2];return ad(function(b,a){return[3,b,a]},d,c)}function
-hb(a){return av(ha(a))}function
-kz(c){var
-a=hb(c),b=av(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hc(a,b){return a_(a[3],a[4],b)}function
-hd(a,b){var
-c=hc(a,b);return O(hb(a),c)}function
-he(a,b){var
-c=hc(a,b);return O(kz(a),c)}function
-kA(a,b){var
-c=hc(a,b);return O(av(a[1]),c)}function
-hf(b,a){var
-c=he(b,a),d=hd(b,a);return[2,[4,d,d],[4,c,c]]}function
-hg(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kA(a,d);return[5,[2,hf(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kB(a,b){var
-f=a[5],c=[3,hg(a,b),f],d=kA(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fy(a,b){var
-c=kB(a,b);return cN(a[7],c)}function
-kC(b,a){var
-c=hf(b,a),d=he(b,a),e=[4,fy(b,a),d],f=hd(b,a);return[5,[2,[4,hg(b,a),f],e],c]}function
-kD(b,a){var
-c=hf(b,a),d=hd(b,a),e=[4,fy(b,a),d],f=he(b,a);return[5,[3,[4,hg(b,a),f],e],c]}function
-kE(a,b){var
-c=kz(a),d=as(kD(a,b),c),e=hb(a),f=as(kC(a,b),e),g=ad(function(b,a){return[2,b,a]},f,d),h=as(a[5],g),i=a[3];return ad(function(b,a){return[2,b,a]},i,h)}var
-p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+g_(a){var
+b=aw(a[1]),c=at(O(b,a[2]),b),d=a[2];return ad(function(b,a){return[3,b,a]},d,c)}function
+g$(a){return aw(g_(a))}function
+kB(c){var
+a=g$(c),b=aw(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+ha(a,b){return a$(a[3],a[4],b)}function
+hb(a,b){var
+c=ha(a,b);return O(g$(a),c)}function
+hc(a,b){var
+c=ha(a,b);return O(kB(a),c)}function
+kC(a,b){var
+c=ha(a,b);return O(aw(a[1]),c)}function
+hd(b,a){var
+c=hc(b,a),d=hb(b,a);return[2,[4,d,d],[4,c,c]]}function
+he(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kC(a,d);return[5,[2,hd(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kD(a,b){var
+f=a[5],c=[3,he(a,b),f],d=kC(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fz(a,b){var
+c=kD(a,b);return cQ(a[7],c)}function
+kE(b,a){var
+c=hd(b,a),d=hc(b,a),e=[4,fz(b,a),d],f=hb(b,a);return[5,[2,[4,he(b,a),f],e],c]}function
+kF(b,a){var
+c=hd(b,a),d=hb(b,a),e=[4,fz(b,a),d],f=hc(b,a);return[5,[3,[4,he(b,a),f],e],c]}function
+kG(a,b){var
+c=kB(a),d=at(kF(a,b),c),e=g$(a),f=at(kE(a,b),e),g=ad(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ad(function(b,a){return[2,b,a]},i,h)}var
+o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 bL(h){var
-a=aW(function(f,e){var
-a=aZ(p,f);if(a)var
-b=a[1],c=bk(c9(b[1]),c9(b[2]));else
+a=aR(function(f,e){var
+a=aU(o,f);if(a)var
+b=a[1],c=bk(da(b[1]),da(b[2]));else
 var
-c=d;return bk(c,e)},d,h);if(V(d,a)){var
-f=a5(a);if(0===f||!(0<f&&!G(a,c)))var
+c=d;return bk(c,e)},d,h);if(L(d,a)){var
+f=a6(a);if(0===f||!(0<f&&!G(a,c)))var
 g=d;else
 var
-b=aV(a,aF(2)),e=b[1],g=Z(b[2],d)?eZ(e):eZ(e);return aD(g,p)}return d}function
-dq(a){return[0,a[1],[0,a[2],0]]}function
-a1(a){var
-b=dq(a[3]),c=f(dq(a[2]),b);return f(dq(a[1]),c)}function
-fz(a){return fw(p,a,bL(a1(a)))}function
-kF(b,a){if(a){var
-g=kF([0,b],a[2]),c=a[1];if(0===c[0])var
+b=aQ(a,aD(2)),e=b[1],g=Y(b[2],d)?e1(e):e1(e);return aE(g,o)}return d}function
+dv(a){return[0,a[1],[0,a[2],0]]}function
+a2(a){var
+b=dv(a[3]),c=f(dv(a[2]),b);return f(dv(a[1]),c)}function
+fA(a){return fx(o,a,bL(a2(a)))}function
+kH(b,a){if(a){var
+g=kH([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=co([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-kG(c,b,a){var
-d=dd(b);return[2,[2,dd(c),d],a]}function
-hh(b,a){return b?M(a):d}function
-eg(h,b,a){if(typeof
+kI(c,b,a){var
+d=dh(b);return[2,[2,dh(c),d],a]}function
+hf(b,a){return b?N(a):d}function
+eh(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-m=hh(h,b),n=z(hh(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
-9:return[0,[1,[5,a[3],a[2]],M(b)],0];case
+m=hf(h,b),n=y(hf(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
+9:return[0,[1,[5,a[3],a[2]],N(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
 c=a[3],g=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],o=dn(b,k),p=f(dn(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kG(l,k,a[3]),b],q];case
+k=a[2],l=a[1],o=dt(b,k),p=f(dt(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kI(l,k,a[3]),b],q];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cp(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=cp(g,c,b,N(e,j(eg(c,b,d))),h);return f(at(g,kF(e,eg(c,b,d)),d),i)}return a}function
-hi(b,a){switch(a[0]){case
+d=a[1],i=a[2],j=cp(g,c,b,Q(e,h(eh(c,b,d))),i);return f(aq(g,kH(e,eh(c,b,d)),d),j)}return a}function
+hg(b,a){switch(a[0]){case
 0:var
 d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?ju(b,c[1]):c;case
-2:return dg(b,a[1]);default:return fe(b,a[1])}}function
-kH(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-kI(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hj(a,c,b){var
-d=[4,kH(a),b],e=[2,[4,kI(a),c],d],f=[4,kI(a),b];return[0,[3,[4,kH(a),c],f],e]}function
-kJ(c,a){var
-b=hj(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-eh(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fA(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kJ(d[1],a):a;case
+e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jw(b,c[1]):c;case
+2:return dk(b,a[1]);default:return ff(b,a[1])}}function
+kJ(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kK(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hh(a,c,b){var
+d=[4,kJ(a),b],e=[2,[4,kK(a),c],d],f=[4,kK(a),b];return[0,[3,[4,kJ(a),c],f],e]}function
+kL(c,a){var
+b=hh(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+ei(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fB(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:kL(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hj(d[1],a[2],a[3]),m=j[1],k=hj(f[1],j[2],a[1]);return kJ(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hh(d[1],a[2],a[3]),m=j[1],k=hh(f[1],j[2],a[1]);return kL(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=eh(e,a),o=as([0,b(2,c),c],n),p=O(e,a),q=as([4,[0,b(2,c),c],p],e),r=as([3,[0,c,c],l],a),s=ad(function(b,a){return[2,b,a]},r,q);return as([5,[0,c,c],[2,[0,c,c],l]],ad(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kK(b){var
-a=ci(b);return a?db(a[1],[0,d,c]):a}function
-kL(a,n,k,j){if(kK(j)){var
+e=[0,d[1],h[1],i[1]],l=O(e,e),n=ei(e,a),o=at([0,b(2,c),c],n),p=O(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ad(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ad(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+kM(b){var
+a=ci(b);return a?df(a[1],[0,d,c]):a}function
+kN(a,n,k,j){if(kM(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
-f=aZ(a,k);if(f){var
-h=dg(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=fe(a,[5,j,[0,b(2,c),c]]);if(i)var
-p=x(a,f[1],h[1]),l=[0,K(i[1],p)];else
+f=aU(a,k);if(f){var
+h=dk(a,[5,j,[0,b(2,c),c]]);if(h){var
+i=ff(a,[5,j,[0,b(2,c),c]]);if(i)var
+p=x(a,f[1],h[1]),l=[0,J(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3089,25 +3092,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
-ei(b,a,c){var
-d=ba(b,a[1],a[2]),e=d?kL(b,0,c,a[1]):d;return e?kL(b,1,c,a[2]):e}function
-dr(a,d){if(kK(d))return[0,B];var
-e=dg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fe(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=F(_(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
-e=x(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+ej(b,a,c){var
+d=ba(b,a[1],a[2]),e=d?kN(b,0,c,a[1]):d;return e?kN(b,1,c,a[2]):e}function
+dw(a,d){if(kM(d))return[0,B];var
+e=dk(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=ff(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=F(Z(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
+e=x(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ej(d,a){var
+ek(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-cQ(a){return[0,[3,[0,d,c],a],a]}function
-kM(a,b,n,m){var
-h=ba(a,[0,d,c],b),i=h?ej(a,b):h;if(i){var
-e=dr(a,b);if(e){var
-f=aZ(a,n);if(f){var
-g=aZ(a,m);if(g){var
-o=f[1],p=g[1];return G(d,K(x(a,W(a,e[1]),p),o)[1])}var
+cT(a){return[0,[3,[0,d,c],a],a]}function
+kO(a,b,n,m){var
+h=ba(a,[0,d,c],b),i=h?ek(a,b):h;if(i){var
+e=dw(a,b);if(e){var
+f=aU(a,n);if(f){var
+g=aU(a,m);if(g){var
+o=f[1],p=g[1];return G(d,J(x(a,_(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3117,12 +3120,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-kN(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:ei(d,b[1],a[1]):a;case
+fC(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:ej(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ei(d,b[1],a[1]),m=l?ei(d,b[2],e[1]):l;if(m)return ei(d,b[3],f[1]);var
+l=ej(d,b[1],a[1]),m=l?ej(d,b[2],e[1]):l;if(m)return ej(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3135,7 +3138,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kM(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kO(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3144,7 +3147,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kM(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ei(d,cQ(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=kO(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ej(d,cT(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3154,20 +3157,29 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-ds(a){return 1===a?qv:qw}function
-fB(d,c,b,a){var
-e=a[1],f=fA(d,c,a[2]),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
-hk(c,b,a){switch(c){case
+cq(a){return 1===a?qA:qB}function
+fD(d,c,b,a){var
+e=a[1],f=fB(d,c,a[2]),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
+hi(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-ek(b,d){var
+kP(h,g,d,b,f,a){var
+e=fD(d,b,f,a);return hi(h,e,at([5,[0,c,c],g],ei(fB(d,b,a[2]),e)))}function
+kQ(c,j,i){var
+b=j,a=i;for(;;){if(b){if(a){var
+d=a[1],e=b[1],f=a1(c,e[1],d[1]),g=f?a1(c,e[2],d[2]):f;if(g){var
+b=b[2],a=a[2];continue}var
+h=g}else
+var
+h=a;return h}return a?0:1}}function
+el(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,cE(function(a){return ek(b,a)},a)]}return[0,cE(function(a){return ek(b,a)},a)]}function
-dt(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,Q(b,c[1])]]:[0,cF(function(a){return el(b,a)},a)]}return[0,cF(function(a){return el(b,a)},a)]}function
+dx(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ac(u(e,b));return f?ac(u(e,N(d,b))):f;case
+e=a[1],f=ac(u(e,b));return f?ac(u(e,Q(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3175,28 +3187,28 @@ e=a[1],f=ac(u(e,b));return f?ac(u(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dt(d,b,a[1]);if(g){var
+g=dx(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-el(c,b,m){var
+em(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dt(c,b,g),i=h?el(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dx(c,b,g),i=h?em(c,b,f):h;if(i)var
 j=i;else{var
-k=el(c,b,g);if(k)return dt(c,b,f);var
+k=em(c,b,g);if(k)return dx(c,b,f);var
 j=k}return j;case
 7:var
-l=el(c,b,a[1]);return l?dt(c,b,a[2]):l;case
+l=em(c,b,a[1]);return l?dx(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=el(c,b,a[1]);if(e){var
+e=em(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dt(c,b,a[1]);default:return 1}}}function
-cR(c,e){var
+9:return dx(c,b,a[1]);default:return 1}}}function
+cU(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return ac(u(a[1],c));case
@@ -3207,19 +3219,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cR(c,a[1]);if(d){var
+d=cU(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hl(d,b,m){var
+hj(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hl(d,b,a[1]);if(f){var
+f=hj(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hl(d,b,a[1]);return g?cR(b,a[2]):g;case
+g=hj(d,b,a[1]);return g?cU(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cR(b,i);if(j){var
-k=cR(b,h);if(k)var
+h=a[2],i=a[1],j=cU(b,i);if(j){var
+k=cU(b,h);if(k)var
 e=k;else{var
 l=ay(i,d);if(l){var
 c=h;continue}var
@@ -3228,11 +3240,11 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cR(b,c)}}}function
-kO(c,e){var
+2:return 1;default:return cU(b,c)}}}function
+kR(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dW(a[1],c);case
+0:return dZ(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3240,15 +3252,15 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kO(c,a[1]);if(d){var
+d=kR(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hm(b,a){if(a){var
+hk(b,a){if(a){var
 c=a[2];if(b){var
-e=hm(b[1],c);return[0,a[1],e]}var
+e=hk(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-fC(b,d){if(b){var
+fE(b,d){if(b){var
 e=b[2],a=b[1];if(d){var
 f=d[2];if(d[1]){switch(a[0]){case
 10:var
@@ -3261,202 +3273,213 @@ c=[0,a[1],0];break;case
 1:case
 2:var
 c=0;break;default:var
-c=[0,a[1],[0,a[2],0]]}return[0,a,fC(e,aW(hm,f,c))]}return[0,qx,fC(e,f)]}var
-g=[0,a,fC(e,0)]}else
+c=[0,a[1],[0,a[2],0]]}return[0,a,fE(e,aR(hk,f,c))]}return[0,qC,fE(e,f)]}var
+g=[0,a,fE(e,0)]}else
 var
 g=b;return g}function
-cq(b,a){return a?k(b,a[1]):a}function
-cr(c,b,a){return cq(function(b){return cq(k(c,b),a)},b)}function
-kP(b,a){switch(a[0]){case
+cr(b,a){return a?k(b,a[1]):a}function
+cs(c,b,a){return cr(function(b){return cr(k(c,b),a)},b)}function
+kS(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-kQ(a){return 0===a[0]?a[1]:0}function
+kT(a){return 0===a[0]?a[1]:0}function
 bM(b,a){switch(a[0]){case
 0:return[0,k(b,a[1])];case
 1:return[1,bM(b,a[1])];default:var
 c=bM(b,a[3]),d=bM(b,a[2]);return[2,bM(b,a[1]),d,c]}}function
-a2(b,c,a){switch(c[0]){case
+a3(b,c,a){switch(c[0]){case
 0:return bM(k(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bM(function(a){return at(b,a,j)},d)];case
-1:return[1,a2(b,d,a[1])];default:var
-l=a2(b,d,a[3]),m=a2(b,d,a[2]);return[2,a2(b,d,a[1]),m,l]}default:var
+j=a[1];return[1,bM(function(a){return aq(b,a,j)},d)];case
+1:return[1,a3(b,d,a[1])];default:var
+l=a3(b,d,a[3]),m=a3(b,d,a[2]);return[2,a3(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return at(b,a,n)},h=function(a){return bM(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return bM(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=a2(b,e,i),s=a2(b,f,i);return[2,a2(b,g,i),s,r];default:var
-t=a2(b,e,a[3]),u=a2(b,f,a[2]);return[2,a2(b,g,a[1]),u,t]}}}function
-hn(c,f,a){if(a)var
+i=a[1],r=a3(b,e,i),s=a3(b,f,i);return[2,a3(b,g,i),s,r];default:var
+t=a3(b,e,a[3]),u=a3(b,f,a[2]);return[2,a3(b,g,a[1]),u,t]}}}function
+hl(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,W(c,a)];break;case
+e=[0,a,_(c,a)];break;case
 1:var
-g=x(c,a,b),e=[0,a7(F(a,b)),g];break;default:var
-e=[0,b,W(c,b)]}return[0,[0,k(f,e)]]},h=hn(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=x(c,a,b),e=[0,a8(F(a,b)),g];break;default:var
+e=[0,b,_(c,b)]}return[0,[0,k(f,e)]]},h=hl(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
 var
 g=a;return g}function
-kR(a){if(a){var
+kU(a){if(a){var
 b=a[1];if(b)var
-c=kR(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=kU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qA}function
-du(a){if(a){var
-g=a[1],b=g[2],c=kR(g[1]);if(c)if(b){var
-h=b[1],e=du(a[2]);if(e)var
-i=V(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return qF}function
+dy(a){if(a){var
+g=a[1],b=g[2],c=kU(g[1]);if(c)if(b){var
+h=b[1],e=dy(a[2]);if(e)var
+i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return qB}function
-dv(b,a){var
+f=c;return f}return qG}function
+dz(b,a){var
 c=a[3],d=w(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(ar(b),f),e,d]}function
-kS(e,d,c,b){if(d){var
+c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(as(b),f),e,d]}function
+kV(e,d,c,b){if(d){var
 i=d[1],a=function(a){var
-d=dv(function(b){return kP(a,b)},b);return kS(bD(e),i,c,d)},f=a(0);if(f){var
+d=dz(function(b){return kS(a,b)},b);return kV(bD(e),i,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,dv(kQ,b))}function
-kT(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return kT(m,e,l,a,dv(function(a){return kP(b,a)},d))},h=c(0,aD(b,g));if(h){var
-i=c(2,z(b,g));if(i)return c(1,b);var
+h=f;return h}return k(c,dz(kT,b))}function
+kW(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return kW(m,e,l,a,dz(function(a){return kS(b,a)},d))},h=c(0,aE(b,g));if(h){var
+i=c(2,y(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:at(e,b,dv(kQ,d))}function
-dw(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a6(f,e,a)},d)}return[0,B]}function
-kU(k,e,j,i,h,a){var
-b=du(a[1]);if(b){var
+k=a;return k}return a?0:aq(e,b,dz(kT,d))}function
+dA(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a7(f,e,a)},d)}return[0,B]}function
+kX(k,e,j,i,h,a){var
+b=dy(a[1]);if(b){var
 c=a[2];if(c){var
-d=dw(a[3]);if(d){var
-l=d[1],m=aK([0,K(af(x(k,h,c[1])),l),0],e);return br(e,fh(j,i,b[1],m))}var
+d=dA(a[3]);if(d){var
+l=d[1],m=aG([0,J(af(x(k,h,c[1])),l),0],e);return bK(e,fh(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
 g=f}else
 var
 g=b;return g}function
-kV(d,h,g,c){var
-a=du(c[1]);if(a){var
-b=dw(c[3]);if(b){var
-i=aK([0,K(B,b[1]),0],d),j=a[1];return br(d,fh(h,g,e(function(a){return[0,a[1],B]},j),i))}var
+kY(d,h,g,c){var
+a=dy(c[1]);if(a){var
+b=dA(c[3]);if(b){var
+i=aG([0,J(B,b[1]),0],d),j=a[1];return bK(d,fh(h,g,e(function(a){return[0,a[1],B]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-kW(k,f,j,a){var
-b=du(a[1]);if(b){var
-c=a[2];if(c){var
-d=dw(a[3]);if(d){var
-l=d[1],m=aK([0,K(x(k,j,c[1]),l),0],f),e=gU(b[1],m);if(e)return br(f,e[1]);var
-g=e}else
+kZ(E,b,D,g){var
+i=dy(g[1]);if(i){var
+j=g[2];if(j){var
+k=dA(g[3]);if(k){var
+F=k[1],c=J(x(E,D,j[1]),F),a=i[1];if(a){var
+l=a[1],m=l[2];if(a[2]){var
+e=fi(a,aG([0,c,0],b));if(e){var
+n=e[1],o=u(h(n),b);if(o)return dl(n);var
+p=o}else
 var
-g=d;var
-h=g}else
+p=e;return p}var
+q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
+B=v(c[1],m[1]),C=l[1];return L(aR(function(a,b){var
+c=cE(a);return y(v(cE(a),c),b)},d,C),B)}return r}var
+f=fi(a,aG([0,c,0],b));if(f){var
+s=f[1],t=u(h(s),b);if(t)return dl(s);var
+w=t}else
 var
-h=c;var
-i=h}else
+w=f;return w}var
+z=k}else
 var
-i=b;return i}function
-qC(c){var
+z=j;var
+A=z}else
+var
+A=i;return A}function
+qH(c){var
 a=c[2];if(a){var
-b=dw(c[3]);if(b)return G(d,K(a[1],b[1])[1]);var
+b=dA(c[3]);if(b)return G(d,J(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-kX(a){return y(function(a){return f(a[1],[0,a[2],0])},a)}function
-kY(a,c,b){var
-e=t(b,c,l(d)),f=aX(0,a);return o(function(b){return el(a,b,e)},f)}function
-em(a){var
-b=H(a);return C(l(c),b)}function
-fD(i,g){var
-h=em(g),j=H(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bn(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bn(f),a,e]]:[0,[0,h,a,a],[0,a,e,bn(f)],[0,a,f,e]]}function
-en(b,a){var
-c=U(b[3],a),d=U(b[2],a);return[0,U(b[1],a),d,c]}function
-kZ(b,a){function
+k0(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
+k1(a,c,b){var
+e=t(b,c,l(d)),f=aZ(0,a);return p(function(b){return em(a,b,e)},f)}function
+en(a){var
+b=K(a);return C(l(c),b)}function
+fF(i,g){var
+h=en(g),j=K(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bo(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bo(f),a,e]]:[0,[0,h,a,a],[0,a,e,bo(f)],[0,a,f,e]]}function
+eo(b,a){var
+c=V(b[3],a),d=V(b[2],a);return[0,V(b[1],a),d,c]}function
+k2(b,a){function
 c(b){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
 d(a){var
-b=U(a,c(function(a){return a[3]})),d=U(a,c(function(a){return a[2]}));return[0,U(a,c(function(a){return a[1]})),d,b]}var
+b=V(a,c(function(a){return a[3]})),d=V(a,c(function(a){return a[2]}));return[0,V(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-k0(w,v){function
-a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
+k3(w,v){function
+a(a){return[0,[0,Q(v,a)]]}switch(w[0]){case
 0:var
-x=em(a(0));return[0,fD(qD,a(0)),x];case
+x=en(a(0));return[0,fF(qI,a(0)),x];case
 1:var
-y=em(a(0)),z=q(em(a(qE)),y),A=q(em(a(qF)),z),B=fD(0,a(0)),D=kZ(fD(qH,a(qG)),B);return[0,kZ(fD(qJ,a(qI)),D),A];default:var
-E=a(qK),F=a(qL),g=[0,a(0),F,E],G=U(g,g),I=C(l(c),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=H(a),e=q(l(b(2,c)),d);return C(s(l(c),j),e)},h=function(f,e,d,a){var
-g=at(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],I]}}function
-k1(a){return 1<a[0]?[0,a[1],0]:0}function
-fE(a){switch(a[0]){case
+y=en(a(0)),z=q(en(a(qJ)),y),A=q(en(a(qK)),z),B=fF(0,a(0)),D=k2(fF(qM,a(qL)),B);return[0,k2(fF(qO,a(qN)),D),A];default:var
+E=a(qP),F=a(qQ),g=[0,a(0),F,E],G=V(g,g),H=C(l(c),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=K(a),e=q(l(b(2,c)),d);return C(s(l(c),j),e)},h=function(f,e,d,a){var
+g=aq(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+k4(a){return 1<a[0]?[0,a[1],0]:0}function
+fG(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cQ(a[1]),0];default:var
-b=[0,cQ(a[2]),0];return[0,cQ(a[1]),b]}}function
-dx(a){return[0,[0,a[1]],[0,a[2]]]}function
-k2(a){switch(a[0]){case
-0:return[0,dx(a[1]),0];case
+2:return[0,cT(a[1]),0];default:var
+b=[0,cT(a[2]),0];return[0,cT(a[1]),b]}}function
+dB(a){return[0,[0,a[1]],[0,a[2]]]}function
+k5(a){switch(a[0]){case
+0:return[0,dB(a[1]),0];case
 1:var
-f=[0,dx(a[3]),0],g=[0,dx(a[2]),f];return[0,dx(a[1]),g];case
+f=[0,dB(a[3]),0],g=[0,dB(a[2]),f];return[0,dB(a[1]),g];case
 2:var
-b=dx(cQ(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cQ(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dx(cQ(c)),0]]]}}function
-k3(a,b){if(0===b[0])return dr(a,b[1]);var
-d=dr(a,b[1]);if(d){var
-e=dr(a,b[2]);if(e){var
-g=W(a,e[1]),h=ce(a,F(_(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
+b=dB(cT(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cT(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dB(cT(c)),0]]]}}function
+k6(a,b){if(0===b[0])return dw(a,b[1]);var
+d=dw(a,b[1]);if(d){var
+e=dw(a,b[2]);if(e){var
+g=_(a,e[1]),h=ce(a,F(Z(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-k4(d,c){var
-a=k3(d,c[1]);if(a)var
-b=k3(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+k7(d,c){var
+a=k6(d,c[1]);if(a)var
+b=k6(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-k5(a){switch(a[0]){case
+k8(a){switch(a[0]){case
 3:var
-c=kX(a[2]);return[0,a[3],c];case
+c=k0(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=kX(a[1]);return[0,a[2],b]}}function
-k6(f,s,e,r,q,b,a){switch(b[0]){case
+b=k0(a[1]);return[0,a[2],b]}}function
+k9(f,s,e,r,q,b,a){switch(b[0]){case
 0:var
 v=b[4],o=b[3],w=b[2],y=b[1],p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 0:var
-O=a[2],P=a[1],k=w,i=y,h=function(a){return kU(f,e,P,O,o,a)},g=v;break;case
+P=a[2],Q=a[1],k=w,j=y,i=function(a){return kX(f,e,Q,P,o,a)},g=v;break;case
 2:var
-z=Z(o[1],d),A=z?Z(o[2],d):z;if(!A)return A;var
-R=a[2],S=a[1],k=w,i=y,h=function(a){return kV(e,S,R,a)},g=v;break;default:p=1}if(p)return 0;break;case
+z=Y(o[1],d),A=z?Y(o[2],d):z;if(!A)return A;var
+S=a[2],T=a[1],k=w,j=y,i=function(a){return kY(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
 1:var
 G=0;if(typeof
 a==="number"&&!a)var
-T=b[2],U=b[1],W=b[3],k=T,i=U,X=0,h=function(a){return kW(f,e,W,a)},g=X;else
+U=b[2],V=b[1],W=b[3],k=U,j=V,X=0,i=function(a){return kZ(f,e,W,a)},g=X;else
 G=1;if(G)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-Y=[0,b[1],b[2],q],$=dv(function(a){return t(a,r,qR)},Y),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return kT(s,function(v,j){var
-a=du(j[1]);if(a){var
+_=[0,b[1],b[2],q],$=dz(function(a){return t(a,r,qW)},_),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return kW(s,function(v,j){var
+a=dy(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
-g=dw(j[3]);if(g){var
-l=g[1],m=function(a){return a6(a,B,_(f,c))},t=m(v),u=b[1],h=F(x(f,m(ab),u),t),n=V(d,h[1]),o=n?br(e,fh(B,ac,k,aK([0,K(af(h),l),0],e))):n;if(o){var
-i=gU(k,aK([0,K(x(f,ad,h),l),0],e));if(i)return br(e,i[1]);var
+g=dA(j[3]);if(g){var
+l=g[1],m=function(a){return a7(a,B,Z(f,c))},t=m(v),u=b[1],h=F(x(f,m(ab),u),t),n=L(d,h[1]),o=n?bK(e,fh(B,ac,k,aG([0,J(af(h),l),0],e))):n;if(o){var
+i=fi(k,aG([0,J(x(f,ad,h),l),0],e));if(i)return bK(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3474,12 +3497,12 @@ H=0;if(typeof
 a==="number"||!(0===a[0]))H=1;else
 var
 C=a[2],D=a[1],ae=b[3],ag=b[2],ah=b[4],ai=b[1],aj=function(g){var
-a=du(g[1]);if(a){var
+a=dy(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
-d=dw(g[3]);if(d){var
-h=u(j(b),e),i=h?u(j(C),e):h;if(i){var
-n=d_(D,d$(D,C,c[1],b));return br(e,ck(fl(f,ai,ah,d[1],b),n))}var
-k=i}else
+d=dA(g[3]);if(d){var
+i=u(h(b),e),j=i?u(h(C),e):i;if(j){var
+n=ea(D,eb(D,C,c[1],b));return bK(e,ck(fm(f,ai,ah,d[1],b),n))}var
+k=j}else
 var
 k=d;var
 l=k}else
@@ -3487,88 +3510,88 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=ae,i=ag,h=aj,g=b[5];if(H)return 0;break;case
+m=a;return m},k=ae,j=ag,i=aj,g=b[5];if(H)return 0;break;case
 4:var
 I=0;if(typeof
 a==="number"&&!a)var
-k=b[1],i=0,h=qC,g=0;else
+k=b[1],j=0,i=qH,g=0;else
 I=1;if(I)return 0;break;case
 5:var
-J=0;if(typeof
-a==="number"||!(0===a[0]))J=1;else{var
-m=a[2],L=0;if(m){var
+K=0;if(typeof
+a==="number"||!(0===a[0]))K=1;else{var
+m=a[2],M=0;if(m){var
 n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-ak=b[2],al=b[1],am=_(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,i=al,ap=0,h=function(a){return kU(f,qS,ao,an,am,a)},g=ap;L=1}else
+ak=b[2],al=b[1],am=Z(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,j=al,ap=0,i=function(a){return kX(f,qX,ao,an,am,a)},g=ap;M=1}else
 var
 E=n}else
 var
-E=m;if(!L)return E}if(J)return 0;break;case
+E=m;if(!M)return E}if(K)return 0;break;case
 6:var
-M=0;if(typeof
-a==="number"&&!a)var
-aq=b[2],ar=b[1],as=_(f,c),k=aq,i=ar,at=0,h=function(a){return kW(f,qT,as,a)},g=at;else
-M=1;if(M)return 0;break;case
-7:var
 N=0;if(typeof
+a==="number"&&!a)var
+aq=b[2],ar=b[1],as=Z(f,c),k=aq,j=ar,at=0,i=function(a){return kZ(f,qY,as,a)},g=at;else
+N=1;if(N)return 0;break;case
+7:var
+O=0;if(typeof
 a==="number"&&5<=a)var
-au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,i=av,ay=0,h=function(a){return kV(e,ax,aw,a)},g=ay;else
-N=1;if(N)return 0;break;default:return 0}var
-Q=[0,i,k,q];return kS(g,s,h,dv(function(a){return t(a,r,qQ)},Q))}function
-k7(h,g,n,i,m,l,e,a){if(typeof
-a==="number"){if(0===a)return 8===e[0]?fq(h,0,0,0,l,g,0,e[1],a):0}else
+au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,j=av,ay=0,i=function(a){return kY(e,ax,aw,a)},g=ay;else
+O=1;if(O)return 0;break;default:return 0}var
+R=[0,j,k,q];return kV(g,s,i,dz(function(a){return t(a,r,qV)},R))}function
+k_(h,g,n,i,m,l,e,a){if(typeof
+a==="number"){if(0===a)return 8===e[0]?fr(h,0,0,0,l,g,0,e[1],a):0}else
 switch(a[0]){case
 6:var
 f=a[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
 o=f[3],p=f[2],q=G(d,p);if(q)var
-k=iQ(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===k?0:0<=k?2:1,t=1===s?1:0,j=t;else
+k=iO(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===k?0:0<=k?2:1,t=1===s?1:0,j=t;else
 var
-j=q;if(j)return k6(h,g,n,m,[0,[0,[0,i[1],p],o]],e,f[1]);var
+j=q;if(j)return k9(h,g,n,m,[0,[0,[0,i[1],p],o]],e,f[1]);var
 r=j}else
 var
-r=i;return r}return k6(h,g,n,m,0,e,f);case
-8:return 8===e[0]?fq(h,0,0,0,l,g,0,e[1],a):0}return 0}function
-k8(b){var
+r=i;return r}return k9(h,g,n,m,0,e,f);case
+8:return 8===e[0]?fr(h,0,0,0,l,g,0,e[1],a):0}return 0}function
+k$(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-qU(c){var
+qZ(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-k9(a,s,ak,r,q,N,M,c,k,j,aj){var
-O=ap(qU,j),P=O?g1(a,ak,r,k):O,Q=ap(k8,j);if(Q)var
-ag=y(function(b){var
-c=k8(b);if(c){var
-a=R(q,b[1]);if(a)return k5(a[1]);var
+la(a,s,ak,r,q,O,N,c,k,j,aj){var
+P=ap(qZ,j),Q=P?gZ(a,ak,r,k):P,R=ap(k$,j);if(R)var
+ag=z(function(b){var
+c=k$(b);if(c){var
+a=S(q,b[1]);if(a)return k8(a[1]);var
 d=a}else
 var
-d=c;return d},j),ah=c?[0,c[1],0]:c,ai=f(ah,ag),T=0,U=aW(hm,e(function(a){return 0},s),ai),X=e4(fC(e4(s,0),U),T),ac=hn(a,ca,k),ab=0,ad=f(hn(a,aI,k),ac),u=bG(qz,function(b){switch(b[0]){case
+d=c;return d},j),ah=c?[0,c[1],0]:c,ai=f(ah,ag),U=0,V=aR(hk,e(function(a){return 0},s),ai),W=e6(fE(e6(s,0),V),U),ac=hl(a,ca,k),ab=0,ad=f(hl(a,aJ,k),ac),u=bG(qE,function(b){switch(b[0]){case
 0:return t(b[1],ad,[0,[0,B]]);case
 1:return[0,[0,t(b[1],r,B)]];case
-2:return[0,[0,_(a,b[1])]];case
+2:return[0,[0,Z(a,b[1])]];case
 3:var
-c=b[2],d=b[1],e=function(b,a){return[0,F(b,a)]};return a2(function(a,b){return cr(e,a,b)},d,c);case
+c=b[2],d=b[1],e=function(b,a){return[0,F(b,a)]};return a3(function(a,b){return cs(e,a,b)},d,c);case
 4:var
-f=b[2],g=b[1],h=function(b,a){return[0,K(b,a)]};return a2(function(a,b){return cr(h,a,b)},g,f);case
+f=b[2],g=b[1],h=function(b,a){return[0,J(b,a)]};return a3(function(a,b){return cs(h,a,b)},g,f);case
 5:var
-i=b[1],j=function(a){return[0,af(a)]};return bM(function(a){return cq(j,a)},i);case
+i=b[1],j=function(a){return[0,af(a)]};return bM(function(a){return cr(j,a)},i);case
 6:var
-k=b[2],l=b[1],m=function(c,b){return[0,x(a,c,b)]};return a2(function(a,b){return cr(m,a,b)},l,k);case
+k=b[2],l=b[1],m=function(c,b){return[0,x(a,c,b)]};return a3(function(a,b){return cs(m,a,b)},l,k);case
 7:var
 n=b[2],o=b[1],p=function(c,b){var
-d=cd(a,b);return w(function(b){return x(a,c,b)},d)};return a2(function(a,b){return cr(p,a,b)},o,n);case
+d=cd(a,b);return w(function(b){return x(a,c,b)},d)};return a3(function(a,b){return cs(p,a,b)},o,n);case
 8:var
-q=b[1],s=function(b){return[0,W(a,b)]};return bM(function(a){return cq(s,a)},q);case
+q=b[1],s=function(b){return[0,_(a,b)]};return bM(function(a){return cr(s,a)},q);case
 9:var
-u=b[1],v=function(b){return ce(a,b)};return bM(function(a){return cq(v,a)},u);default:return qy}},X,ab);else
+u=b[1],v=function(b){return ce(a,b)};return bM(function(a){return cr(v,a)},u);default:return qD}},W,ab);else
 var
-u=Q;var
+u=R;var
 h=j,b=aj;for(;;){if(h){var
 A=h[1],i=A[2],g=A[1],m=h[2];if(g){var
 C=t(g,b,0);if(C){var
-n=R(q,g);if(n){var
-D=k7(a,N,M,c,u,P,n[1],i);if(D){var
-h=m,b=fr(g,b);continue}var
+n=S(q,g);if(n){var
+D=k_(a,O,N,c,u,Q,n[1],i);if(D){var
+h=m,b=fs(g,b);continue}var
 E=D}else
 var
 E=n;var
@@ -3576,273 +3599,273 @@ G=E}else
 var
 G=C;return G}if(typeof
 i==="number"&&4===i){var
-S=0;if(c){var
-ae=0,v=e(function(b){return[0,b,W(a,b)]},k),Z=e(ca,v),Y=0,$=f(e(aI,v),Z),aa=bG(0,function(n){return function(b){switch(b[0]){case
+T=0;if(c){var
+ae=0,v=e(function(b){return[0,b,_(a,b)]},k),Y=e(ca,v),X=0,$=f(e(aJ,v),Y),aa=bG(0,function(n){return function(b){switch(b[0]){case
 0:return[0,t(b[1],n,B)];case
 1:return[0,t(b[1],r,B)];case
-2:return[0,_(a,b[1])];case
+2:return[0,Z(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cr(function(b,a){return[0,F(b,a)]},d,c);case
+c=b[2],d=b[1];return cs(function(b,a){return[0,F(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cr(function(b,a){return[0,K(b,a)]},f,e);case
+e=b[2],f=b[1];return cs(function(b,a){return[0,J(b,a)]},f,e);case
 5:var
-g=b[1];return cq(function(a){return[0,af(a)]},g);case
+g=b[1];return cr(function(a){return[0,af(a)]},g);case
 6:var
-h=b[2],i=b[1];return cr(function(c,b){return[0,x(a,c,b)]},i,h);case
+h=b[2],i=b[1];return cs(function(c,b){return[0,x(a,c,b)]},i,h);case
 7:var
-j=b[2],k=b[1];return cr(function(c,b){var
+j=b[2],k=b[1];return cs(function(c,b){var
 d=cd(a,b);return w(function(b){return x(a,c,b)},d)},k,j);case
 8:var
-l=b[1];return cq(function(b){return[0,W(a,b)]},l);case
+l=b[1];return cr(function(b){return[0,_(a,b)]},l);case
 9:var
-m=b[1];return cq(function(b){return ce(a,b)},m);default:return 0}}}($),s,Y),l=t(c[1],aa,ae);if(l){var
-o=V(l[1][2],d);S=1}else
+m=b[1];return cr(function(b){return ce(a,b)},m);default:return 0}}}($),s,X),l=t(c[1],aa,ae);if(l){var
+o=L(l[1][2],d);T=1}else
 var
-z=l}else
+y=l}else
 var
-z=c;if(!S)var
-o=z;if(o){var
+y=c;if(!T)var
+o=y;if(o){var
 h=m,b=e(function(a){return 0},b);continue}return o}var
 H=t(g,b,0);if(H){var
-p=R(q,g);if(p){var
-I=k7(a,N,M,c,u,P,p[1],i);if(I){var
-h=m,b=fr(g,b);continue}var
-J=I}else
+p=S(q,g);if(p){var
+I=k_(a,O,N,c,u,Q,p[1],i);if(I){var
+h=m,b=fs(g,b);continue}var
+K=I}else
 var
-J=p;var
-L=J}else
+K=p;var
+M=K}else
 var
-L=H;return L}return[0,b]}}function
-k_(j,i,h,g,f,e,d,c,u,t,s){var
+M=H;return M}return[0,b]}}function
+lb(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=k9(j,i,h,g,f,e,d,c,b,a[1],k);return l?o(ac,l[1]):l}var
-m=k9(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],p=d9(a[2],b),q=k_(j,i,h,g,f,e,d,c,p[1],n,a[3]);if(q){var
-b=p[2],k=n,a=a[4];continue}var
+l=la(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(ac,l[1]):l}var
+m=la(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+n=m[1],o=d$(a[2],b),q=lb(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
+b=o[2],k=n,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-fF(b,a){var
+fH(b,a){var
 c=q(b[2],a[1]),d=s(q(b[1],a[2]),c),e=q(b[1],a[3]),f=s(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,s(q(b[2],a[3]),g),f,d]}function
-ho(d,a){var
-e=H(a),f=q(q(l(b(2,c)),a),d);return C(s(H(d),f),e)}function
-k$(c,b,a){switch(c){case
+hm(d,a){var
+e=K(a),f=q(q(l(b(2,c)),a),d);return C(s(K(d),f),e)}function
+lc(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-eo(a){switch(a){case
-0:return[0,qW,qV,l(d)];case
-1:return cI;default:var
+ep(a){switch(a){case
+0:return[0,q1,q0,l(d)];case
+1:return cK;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fG(a){switch(a){case
-0:return qX;case
-1:return qY;default:return 0}}function
-hp(j,a,d,i,c,h){var
-e=ai(s,eo(j),i);if(h){var
+fI(a){switch(a){case
+0:return q2;case
+1:return q3;default:return 0}}function
+hn(j,a,d,i,c,h){var
+e=ai(s,ep(j),i);if(h){var
 b=function(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=en([0,b(function(a){return a[1]}),g,f],e);return ai(C,aT(d,c),l)}var
-m=en(a,c);return ai(C,aT(d,e),m)}function
-la(f,h,g,k,a,d){var
-e=eo(f),i=ai(s,e,a),j=en(h,d),m=ho(e[3],a[3]),n=ho(e[2],a[2]),o=ho(e[1],a[1]),p=C(C(C(U(d,d),o),n),m),r=U(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cl(fF(j,i),k);return[0,k$(f,hp(f,h,g,a,d,0),v),u]}function
-lb(c,b,a){return cl(en(c,a),b)}function
-lc(d,c,b,a){var
-e=lb(c,b,a);return ai(C,eo(d),e)}function
-hq(b,a){var
+c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eo([0,b(function(a){return a[1]}),g,f],e);return ai(C,aW(d,c),l)}var
+m=eo(a,c);return ai(C,aW(d,e),m)}function
+ld(f,h,g,k,a,d){var
+e=ep(f),i=ai(s,e,a),j=eo(h,d),m=hm(e[3],a[3]),n=hm(e[2],a[2]),o=hm(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),r=V(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cl(fH(j,i),k);return[0,lc(f,hn(f,h,g,a,d,0),v),u]}function
+le(c,b,a){return cl(eo(c,a),b)}function
+lf(d,c,b,a){var
+e=le(c,b,a);return ai(C,ep(d),e)}function
+ho(b,a){var
 c=aM(a[2],b);return f(aM(a[1],b),c)}function
-hr(d,b,a,c){if(a)var
-e=a[1],f=b1(c,hq(b,e)),h=N(c,j(hq(b,e))),i=hr(d,b,a[2],h),k=$(f,qZ),g=[0,at(d,$(f,0),k),i];else
+hp(d,b,a,c){if(a)var
+e=a[1],f=b1(c,ho(b,e)),i=Q(c,h(ho(b,e))),j=hp(d,b,a[2],i),k=aa(f,q4),g=[0,aq(d,aa(f,0),k),j];else
 var
 g=a;return g}function
-hs(f,o,e,n,a){var
-h=q(H(t(0,n,l(d))),o);if(typeof
+hq(f,o,e,n,a){var
+h=q(K(t(0,n,l(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=R(e,a[1]);if(b)var
+b=S(e,a[1]);if(b)var
 i=g(f,0,a[2]),j=i?[0,s(b[1][1][2],h)]:i;else
 var
 j=b;return j;case
 3:var
-c=R(e,a[1]);if(c)var
+c=S(e,a[1]);if(c)var
 k=g(f,0,a[2]),m=k?[0,s(h,c[1][1][2])]:k;else
 var
 m=c;return m}return 0}function
-ld(a){var
+lg(a){var
 b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
 b=t(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-le(c,b,a){if(typeof
+lh(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=R(c,a[1]);return w(function(a){var
+e=S(c,a[1]);return w(function(a){var
 c=t(0,b,l(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ep(a){return g(p,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a])}function
-lf(a){var
-b=$(a,q0),c=az(U($(a,q1),b));return q(t(0,a,l(d)),c)}function
-lg(b,a){var
-c=U(a,$(b,q2));return[0,bJ(aT(lf(b),a)),c]}function
-lh(e,d,a,c,b){var
-f=b[2],g=q(lf(a),f),h=c?lb(e,d,$(a,q3)):$(a,q4);return s(U(b[1][2],h),g)}function
-li(h,g,f,d,c,b,a){var
-i=bV(c);function
-j(a){return lc(h,g,f,a)}return j8(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lj(a){var
-b=a[3],c=a[2],d=a[1];return fz([0,[0,d,d],[0,c,c],[0,b,b]])}function
-q7(a){if(typeof
+eq(a){return g(o,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a])}function
+li(a){var
+b=aa(a,q5),c=az(V(aa(a,q6),b));return q(t(0,a,l(d)),c)}function
+lj(b,a){var
+c=V(a,aa(b,q7));return[0,bI(aW(li(b),a)),c]}function
+lk(e,d,a,c,b){var
+f=b[2],g=q(li(a),f),h=c?le(e,d,aa(a,q8)):aa(a,q9);return s(V(b[1][2],h),g)}function
+ll(h,g,f,d,c,b,a){var
+i=bE(c);function
+j(a){return lf(h,g,f,a)}return j_(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lm(a){var
+b=a[3],c=a[2],d=a[1];return fA([0,[0,d,d],[0,c,c],[0,b,b]])}function
+ra(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lk(b,a){switch(b){case
+ln(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fH(a){var
+fJ(a){var
 b=bZ(a[1],[0,d,c]);return b?bZ(a[2],[0,d,c]):b}function
-ht(d,a){switch(d){case
-0:return fH(a[3]);case
+hr(d,a){switch(d){case
+0:return fJ(a[3]);case
 1:return 1;default:var
-b=fH(a[1]),c=b?fH(a[2]):b;return c?fH(a[3]):c}}function
-q8(a,ao,a_,m,z,a9){var
-v=m[1],x=ds(v),F=m[6],a$=m[2],K=y(function(a){return hq(z,a)},a$),aq=m[3],S=[0,[0,aq,aq],z],L=[0,j(K)],ba=0,as=y(function(a){return eg(ba,z,a)},F),bb=fG(v),at=k0(m[5],bb),i=at[2],A=at[1],bd=m[2],au=co(S,j(K)),bc=0,r=hr(function(b,a){var
-f=lc(v,A,i,a),e=ai(s,f,b),k=[0,[0,f,e],az(U(e,e))];function
-m(c){return hp(v,A,i,b,a,c)}var
+b=fJ(a[1]),c=b?fJ(a[2]):b;return c?fJ(a[3]):c}}function
+rb(a,ao,a$,m,y,a_){var
+v=m[1],x=cq(v),F=m[6],ba=m[2],J=z(function(a){return ho(y,a)},ba),aq=m[3],P=[0,[0,aq,aq],y],L=[0,h(J)],bb=0,ar=z(function(a){return eh(bb,y,a)},F),bc=fI(v),at=k3(m[5],bc),j=at[2],A=at[1],be=m[2],au=co(P,h(J)),bd=0,r=hp(function(b,a){var
+f=lf(v,A,j,a),e=ai(s,f,b),k=[0,[0,f,e],az(V(e,e))];function
+m(c){return hn(v,A,j,b,a,c)}var
 g=2<=v?d:c;function
 h(b){var
-c=H(au),d=l(g),e=q(s(H(b),d),c);return q(i,s(U(a,a),e))}var
-j=[0,U(hp(v,A,i,b,a,1),a),h];return[0,la(v,A,i,au,b,a),j,m,k]},z,bd,bc),av=e(function(a){return a[1]},r),be=N(L,j(as)),bf=fG(v),bg=m[5];function
-E(a){return[0,[0,N(bf,a)]]}var
-ag=H([0,[1,be]]);switch(bg[0]){case
+c=K(au),d=l(g),e=q(s(K(b),d),c);return q(j,s(V(a,a),e))}var
+i=[0,V(hn(v,A,j,b,a,1),a),h];return[0,ld(v,A,j,au,b,a),i,m,k]},y,be,bd),av=e(function(a){return a[1]},r),bf=Q(L,h(ar)),bg=fI(v),bh=m[5];function
+E(a){return[0,[0,Q(bg,a)]]}var
+ag=K([0,[1,bf]]);switch(bh[0]){case
 2:var
-a1=E(qM),a2=E(qN),ak=[0,E(0),a2,a1],D=[0,s(ag,U(ak,ak))];break;case
+a2=E(qR),a3=E(qS),ak=[0,E(0),a3,a2],D=[0,s(ag,V(ak,ak))];break;case
 3:var
-a3=H(E(qO)),a4=H(E(0)),a5=H(E(qP)),D=[0,s(s(q(ag,C(l(c),a5)),a4),a3)];break;default:var
+a4=K(E(qT)),a5=K(E(0)),a6=K(E(qU)),D=[0,s(s(q(ag,C(l(c),a6)),a5),a4)];break;default:var
 D=0}var
 aw=m[7];if(aw)var
-bh=0,bi=m[2],T=hr(function(k,l){var
-a=la(v,A,i,co(S,j(K)),k,l),c=a[1];if(c){var
+bi=0,bj=m[2],R=hp(function(k,l){var
+a=ld(v,A,j,co(P,h(J)),k,l),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-h=g[1],f=fF(k,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},z,bi,bh);else
+i=g[1],f=fH(k,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},y,bj,bi);else
 var
-T=aw;var
-bj=bt(T),bk=D?[0,D[1],0]:D,bl=f(bk,bj),bm=0,bn=[0,i,f(cp(function(c,b){if(typeof
+R=aw;var
+bk=bt(R),bl=D?[0,D[1],0]:D,bm=f(bl,bk),bn=0,bo=[0,j,f(cp(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=le(r,c,b);if(g)var
-j=g[1],l=[0,j[1],[0,j[2],0]];else
+g=lh(r,c,b);if(g)var
+i=g[1],l=[0,i[1],[0,i[2],0]];else
 var
 l=g;return l;case
-8:return e(ca,k(ld(r),c));case
+8:return e(ca,k(lg(r),c));case
 13:var
-h=R(r,b[1]);if(h){var
-m=ep(b[4]);if(m){var
-n=lg(c,k(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+h=S(r,b[1]);if(h){var
+m=eq(b[4]);if(m){var
+n=lj(c,k(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 o=m}else
 var
 o=h;return o}var
-d=hs(a,i,r,c,b),p=d?[0,d[1],0]:d;return p},bm,z,L,F),bl)],V=f(bt(av),bn),bo=0,ax=cp(function(h,a){if(typeof
+d=hq(a,j,r,c,b),p=d?[0,d[1],0]:d;return p},bn,y,L,F),bm)],T=f(bt(av),bo),bp=0,ax=cp(function(h,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-b=R(r,a[1]);if(b){if(ep(a[4]))return 0;var
-d=[0,lh(A,i,h,a[2],b[1][4]),0]}else
+b=S(r,a[1]);if(b){if(eq(a[4]))return 0;var
+d=[0,lk(A,j,h,a[2],b[1][4]),0]}else
 var
 d=b;return d;case
 14:var
-c=li(v,A,i,r,h,a[1],a[2]);if(c){var
-e=c[1],f=e[2],g=e[1];return y(bJ,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bo,z,L,F),aA=cG(e(function(a){return ek(x,a)},V))[1],M=cG(ax)[1],I=bH(aA);function
-h(a){return a8(I,ek(x,a))}if(0===m[4][0]){var
-bp=w(h,D),bq=h(i),aB=k(ar(h),av),al=fG(v),am=u(j(aB),x);if(am)var
-an=w(function(a){return[0,[0,a,d],d]},bp),J=function(a){return t(a,I,l(d))},af=J(bq),a0=aX(0,al),Q=o(function(a){var
-b=dt(x,a,af),c=b?o(function(b){var
-d=b[1],c=o(function(b){var
-c=J(b);return cR(N(x,a),c)},d);if(c){var
-e=J(b[2]);return hl(af,N(x,a),e)}return c},aB):b;if(c){if(an){var
-e=J(an[1][1][1]);return cR(N(x,a),e)}var
+c=ll(v,A,j,r,h,a[1],a[2]);if(c){var
+e=c[1],f=e[2],g=e[1];return z(bI,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bp,y,L,F),aA=cI(e(function(a){return el(x,a)},T))[1],aB=cI(ax)[1],H=cG(aA),U=cG(aB);function
+i(a){return a9(H,el(x,a))}if(0===m[4][0]){var
+bq=w(i,D),br=i(j),aC=k(as(i),av),al=fI(v),am=u(h(aC),x);if(am)var
+an=w(function(a){return[0,[0,a,d],d]},bq),I=function(a){return t(a,H,l(d))},af=I(br),a1=aZ(0,al),O=p(function(a){var
+b=dx(x,a,af),c=b?p(function(b){var
+d=b[1],c=p(function(b){var
+c=I(b);return cU(Q(x,a),c)},d);if(c){var
+e=I(b[2]);return hj(af,Q(x,a),e)}return c},aC):b;if(c){if(an){var
+e=I(an[1][1][1]);return cU(Q(x,a),e)}var
 d=1}else
 var
-d=c;return d},a0);else
+d=c;return d},a1);else
 var
-Q=am;var
-a7=Q?al:Q,X=a7}else
+O=am;var
+a8=O?al:O,W=a8}else
 var
-X=0;var
-aC=o(function(a){var
-b=ek(x,a),c=l(d);return ay(t(h(a),I,c),b)},V),aD=aC?o(function(a){return kO(x,a)},V):aC,aE=aD?o(function(a){var
-b=l(d),c=bH(M);return ay(t(a8(bH(M),a),c,b),a)},ax):aD,aF=aE?ap(q7,F):aE;if(aF){var
-aG=ac(m[7]);if(aG)var
-O=aG;else{var
+W=0;var
+aD=p(function(a){var
+b=el(x,a),c=l(d);return ay(t(i(a),H,c),b)},T),aE=aD?p(function(a){return kR(x,a)},T):aD,aF=aE?p(function(a){var
+b=l(d);return ay(t(a9(U,a),U,b),a)},ax):aE,aG=aF?ap(ra,F):aF;if(aG){var
+aH=ac(m[7]);if(aH)var
+M=aH;else{var
 aY=m[5];if(1===v&&2===aY[0])var
-a6=aY[1],aZ=g(a,1,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a6]);else
+a7=aY[1],a0=g(a,1,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a7]);else
 var
-aZ=0;var
-O=aZ}}else
+a0=0;var
+M=a0}}else
 var
-O=aF;var
-aH=O?ht(v,dp(m[4])):O,aI=aH?g(a,1,m[3]):aH;if(aI)var
-br=fE(m[5]),Y=o(function(b){var
-c=ej(a,b[1]);return c?ej(a,b[2]):c},br);else
+M=aG;var
+aI=M?hr(v,du(m[4])):M,aJ=aI?g(a,1,m[3]):aI;if(aJ)var
+bs=fG(m[5]),X=p(function(b){var
+c=ek(a,b[1]);return c?ek(a,b[2]):c},bs);else
 var
-Y=aI;if(Y){var
-bs=f(K,[0,S,0]),Z=aj(e(function(b){return ah(a,b)},bs));if(Z){var
-$=aj(e(function(b){return hi(a,b)},as));if($){var
-bu=lk(v,dp(m[4])),aa=aj(e(function(b){return ah(a,[0,b,z])},bu));if(aa){var
-aJ=aa[1],bv=k2(m[5]),ab=aj(e(function(b){return k4(a,b)},bv));if(ab){var
-aK=ab[1],bw=k1(m[5]),ad=aj(e(function(b){return dr(a,b)},bw));if(ad){var
-bx=0,by=bH(M),aL=function(a){return a8(by,a)},ae=aj(cp(function(l,f){if(typeof
+X=aJ;if(X){var
+bu=f(J,[0,P,0]),Y=aj(e(function(b){return ah(a,b)},bu));if(Y){var
+$=aj(e(function(b){return hg(a,b)},ar));if($){var
+bv=ln(v,du(m[4])),aa=aj(e(function(b){return ah(a,[0,b,y])},bv));if(aa){var
+aK=aa[1],bw=k5(m[5]),ab=aj(e(function(b){return k7(a,b)},bw));if(ab){var
+aL=ab[1],bx=k4(m[5]),ad=aj(e(function(b){return dw(a,b)},bx));if(ad){var
+by=0,aM=function(a){return a9(U,a)},ae=aj(cp(function(l,f){if(typeof
 f!=="number"&&13===f[0]){var
-q=f[4],ao=R(r,f[1]);if(ao){if(lj(f[3])&&g(a,0,q)&&g(a,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],q])){var
-ap=f[2],aq=ao[1];if(ep(q)){var
-am=lg(l,k(aq[3],ap)),E=am[2];if(g(p,0,[3,q,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]]))var
+q=f[4],ao=S(r,f[1]);if(ao){if(lm(f[3])&&g(a,0,q)&&g(a,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],q])){var
+ap=f[2],aq=ao[1];if(eq(q)){var
+am=lj(l,k(aq[3],ap)),E=am[2];if(g(o,0,[3,q,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]]))var
 an=0;else
 var
-aJ=h(E),aK=h(E),an=[0,[6,[0,[0,e(h,am[1]),aK],0],aJ],0];var
-as=[0,[4,h(E)],an]}else
+aJ=i(E),aK=i(E),an=[0,[6,[0,[0,e(i,am[1]),aK],0],aJ],0];var
+ar=[0,[4,i(E)],an]}else
 var
-as=[0,[8,[3,aL(lh(A,i,l,ap,aq[4]))]],0];return e(function(a){return[0,a]},as)}return q5}return q6}var
-aM=0,t=e(function(a){return a[1]},r);function
-F(c,b,a){return[0,c,b,a,X]}var
+ar=[0,[8,[3,aM(lk(A,j,l,ap,aq[4]))]],0];return e(function(a){return[0,a]},ar)}return q_}return q$}var
+aL=0,t=e(function(a){return a[1]},r);function
+F(c,b,a){return[0,c,b,a,W]}var
 s=0;if(typeof
 f==="number")var
-au=h(i),j=[0,F(k(ar(h),t),au,B)];else
+au=i(j),h=[0,F(k(as(i),t),au,B)];else
 switch(f[0]){case
 0:var
 m=[5,[0,c,c],f[1]],u=F;s=1;break;case
 1:var
 aw=[5,[0,c,c],f[1]],m=aw,u=function(c,b,a){return[1,c,b,a]};s=1;break;case
 2:var
-ax=hs(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ax);break;case
+ax=hq(a,j,r,l,f),h=w(function(a){return[4,i(a)]},ax);break;case
 3:var
-ay=hs(a,i,r,l,f),j=w(function(a){return[4,h(a)]},ay);break;case
+ay=hq(a,j,r,l,f),h=w(function(a){return[4,i(a)]},ay);break;case
 5:var
-H=f[1],az=ah(a,[0,[0,H,H],d]),j=w(function(b){var
-c=W(a,b),d=h(i);return[2,k(ar(h),t),d,c]},az);break;case
+H=f[1],az=ah(a,[0,[0,H,H],d]),h=w(function(b){var
+c=_(a,b),d=i(j);return[2,k(as(i),t),d,c]},az);break;case
 6:var
-x=R(r,f[1]);if(x){var
-y=le(r,l,f);if(y){var
-I=y[1],J=g(a,1,f[2]),K=J?g(a,1,f[3]):J;if(K)var
-aA=h(I[2]),aB=h(x[1][1][2]),L=[0,[5,[0,[0,[0,h(I[1]),0],aB],0],aA]];else
+x=S(r,f[1]);if(x){var
+z=lh(r,l,f);if(z){var
+I=z[1],J=g(a,1,f[2]),K=J?g(a,1,f[3]):J;if(K)var
+aA=i(I[2]),aB=i(x[1][1][2]),L=[0,[5,[0,[0,[0,i(I[1]),0],aB],0],aA]];else
 var
 L=K;var
 M=L}else
 var
-M=y;var
+M=z;var
 N=M}else
 var
 N=x;var
-j=N;break;case
+h=N;break;case
 7:var
-O=f[3],P=f[2],Q=f[1],S=R(r,Q),at=0;if(S){var
+O=f[3],P=f[2],Q=f[1],R=S(r,Q),at=0;if(R){var
 T=g(a,1,P),U=T?g(a,1,O):T;if(U){var
-aC=[5,P,O],m=aC,u=function(c,b,a){return[3,Q,c,b,a,X]};s=1;at=1}else
+aC=[5,P,O],m=aC,u=function(c,b,a){return[3,Q,c,b,a,W]};s=1;at=1}else
 var
 V=U}else
 var
-V=S;if(!at)var
-j=V;break;case
+V=R;if(!at)var
+h=V;break;case
 8:var
-Y=g(a,1,f[1]),Z=Y?g(a,1,f[2]):Y;if(Z)var
-aD=_(a,c),aE=h(i),aF=k(ld(r),l),$=[0,[0,k(ar(h),aF),aE,aD,0]];else
+X=g(a,1,f[1]),Y=X?g(a,1,f[2]):X;if(Y)var
+aD=Z(a,c),aE=i(j),aF=k(lg(r),l),$=[0,[0,k(as(i),aF),aE,aD,0]];else
 var
-$=Z;var
-j=$;break;case
+$=Y;var
+h=$;break;case
 14:var
-aa=f[2],ab=f[1],C=li(v,A,i,r,l,ab,aa);if(C){var
-ac=C[1],ad=ac[2],ae=ac[1],af=kG(ab,aa,f[3]),D=ah(a,[0,[0,af,af],z]);if(D){var
+aa=f[2],ab=f[1],C=ll(v,A,j,r,l,ab,aa);if(C){var
+ac=C[1],ad=ac[2],ae=ac[1],af=kI(ab,aa,f[3]),D=ah(a,[0,[0,af,af],y]);if(D){var
 ag=D[1],ai=G(d,ag[1]);if(ai)var
-o=function(a){return ke(aL,a)},aG=o(ad[2]),aH=o(ad[1]),aI=o(ae[2]),aj=[0,[8,[6,o(ae[1]),aI,aH,aG,ag]]];else
+p=function(a){return kg(aM,a)},aG=p(ad[2]),aH=p(ad[1]),aI=p(ae[2]),aj=[0,[8,[6,p(ae[1]),aI,aH,aG,ag]]];else
 var
 aj=ai;var
 ak=aj}else
@@ -3851,66 +3874,66 @@ ak=D;var
 al=ak}else
 var
 al=C;var
-j=al;break;default:var
-j=0}if(s)var
-av=ah(a,[0,[0,m,m],d]),j=w(function(b){var
-c=W(a,b),d=h(i);return u(k(ar(h),t),d,c)},av);return[0,j,aM]},bx,z,L,F));if(ae){var
-aM=ae[1];if(m[7])var
-bz=ao[2],bA=ao[1],bB=h(i),P=ks(a_,aM,[7,k(ar(h),T),bB,bA,bz]);else
+h=al;break;default:var
+h=0}if(s)var
+av=ah(a,[0,[0,m,m],d]),h=w(function(b){var
+c=_(a,b),d=i(j);return u(k(as(i),t),d,c)},av);return[0,h,aL]},by,y,L,F));if(ae){var
+aN=ae[1];if(m[7])var
+bz=ao[2],bA=ao[1],bB=i(j),N=ku(a$,aN,[7,k(as(i),R),bB,bA,bz]);else
 var
-P=aM;var
-aN=u(j(f(aJ,aK)),x),aO=aN?o(function(a){var
-b=k5(a);return o(function(a){return kY(x,I,a)},b)},P):aN,aP=aO?D?kY(x,I,h(D[1])):1:aO;if(aP){var
-bC=e(function(a){return 1},P),bD=f(aJ,aK),bE=w(h,D),bF=f($[1],ad[1]);return k_(a,aA,M,f(Z[1],bF),P,x,x,bE,bD,bC,a9)}var
-aQ=aP}else
-var
-aQ=ae;var
+N=aN;var
+aO=u(h(f(aK,aL)),x),aP=aO?p(function(a){var
+b=k8(a);return p(function(a){return k1(x,H,a)},b)},N):aO,aQ=aP?D?k1(x,H,i(D[1])):1:aP;if(aQ){var
+bC=e(function(a){return 1},N),bD=f(aK,aL),bE=w(i,D),bF=f($[1],ad[1]);return lb(a,aA,aB,f(Y[1],bF),N,x,x,bE,bD,bC,a_)}var
 aR=aQ}else
 var
-aR=ad;var
+aR=ae;var
 aS=aR}else
 var
-aS=ab;var
+aS=ad;var
 aT=aS}else
 var
-aT=aa;var
+aT=ab;var
 aU=aT}else
 var
-aU=$;var
+aU=aa;var
 aV=aU}else
 var
-aV=Z;var
+aV=$;var
 aW=aV}else
 var
-aW=Y;return aW}function
-eq(b,a){return ba(b,a[1],a[2])}function
-ll(b,a){var
-c=eq(b,a[1]),d=c?eq(b,a[2]):c;return d?eq(b,a[3]):d}function
-a3(a){return typeof
-a==="number"?a?q9:q_:ds(a[1])}function
-lm(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hk(b[1],a,c)}function
-fI(a){if(0===a[0]){var
+aW=Y;var
+aX=aW}else
+var
+aX=X;return aX}function
+er(b,a){return ba(b,a[1],a[2])}function
+lo(b,a){var
+c=er(b,a[1]),d=c?er(b,a[2]):c;return d?er(b,a[3]):d}function
+a4(a){return typeof
+a==="number"?a?rc:rd:cq(a[1])}function
+lp(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hi(b[1],a,c)}function
+fK(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hu(b,c,a){return b?fA(b[1],c,a):a}function
+hs(b,c,a){return b?fB(b[1],c,a):a}function
 b3(d,c,b,a){var
-e=fI(a),f=hu(d,c,fI(a)),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
-ln(b,a){var
+e=fK(a),f=hs(d,c,fK(a)),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
+lq(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lo(b,w,v){var
+lr(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kh(b,j[1],f[1]):0;else
+h=0===f[0]?kj(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a0(b,c[1],a[1]),l=k?a0(b,c[2],a[2]):k,m=l?a0(b,c[3],a[3]):l,n=m?a0(b,c[4],a[4]):m,o=n?cL(b,c[5],a[5]):n,p=o?cL(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
-u=ha(a),i=g(b,1,O(ha(a),u));else
+a=f[1],c=j[1],k=a1(b,c[1],a[1]),l=k?a1(b,c[2],a[2]):k,m=l?a1(b,c[3],a[3]):l,n=m?a1(b,c[4],a[4]):m,o=n?cN(b,c[5],a[5]):n,p=o?cN(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
+u=g_(a),i=g(b,1,O(g_(a),u));else
 var
 i=s;var
 h=i?cb(c[7],a[7]):i}if(h){var
@@ -3918,47 +3941,47 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-lp(a){return typeof
-a==="number"?a?eo(0):cI:eo(a[1])}function
-hv(b,d,c){if(0===c[0])return ft(b,d[1],c[1]);var
+ls(a){return typeof
+a==="number"?a?ep(0):cK:ep(a[1])}function
+ht(b,d,c){if(0===c[0])return fu(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aM(a[4],b),e),h=f(aM(a[3],b),g),i=f(aM(a[2],d[2]),h);return f(aM(a[1],d[1]),i)}function
-hw(b,a){if(b){var
-c=b[1],d=c[2];return cl(en(c[1],a),d)}return a}function
-lq(f,u,am,K,ak,r,aj){if(r){var
-i=r[1],an=bE([0,d,d],ak),a=b1(aj,hv(K,an,i)),y=function(c,b){var
-d=$(a,c);return ai(s,ai(C,lp(f),b),d)};if(0===i[0]){var
-z=i[1];switch(z[0]){case
+hu(b,a){if(b){var
+c=b[1],d=c[2];return cl(eo(c[1],a),d)}return a}function
+lt(f,u,am,J,ak,r,aj){if(r){var
+j=r[1],an=bn([0,d,d],ak),a=b1(aj,ht(J,an,j)),y=function(c,b){var
+d=aa(a,c);return ai(s,ai(C,ls(f),b),d)};if(0===j[0]){var
+z=j[1];switch(z[0]){case
 0:var
-aa=hw(u,$(a,q$)),aE=z[1][5],A=t(ra,a,l(d)),B=$(a,0),ab=y(rb,aa),h=jJ(ab,cH(B),ab,A,aE),ap=[0,az(A),0],aq=[0,az(U(B,B)),ap],k=[0,[0,h[1],h[2],h[3],[0,h[4]],[0,[0,h[2],A]],aq],aa];break;case
+$=hu(u,aa(a,re)),aE=z[1][5],A=t(rf,a,l(d)),B=aa(a,0),ab=y(rg,$),i=jL(ab,cJ(B),ab,A,aE),ap=[0,az(A),0],aq=[0,az(V(B,B)),ap],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ac=hw(u,$(a,rc)),ad=z[3],D=ad?[0,$(a,rd)]:ad,ae=y(0,ac),m=jK(ae,ae,0);if(D)var
-L=D[1],M=[0,az(U(L,L)),0];else
+ac=hu(u,aa(a,rh)),ad=z[3],D=ad?[0,aa(a,ri)]:ad,ae=y(0,ac),m=jM(ae,ae,0);if(D)var
+L=D[1],M=[0,az(V(L,L)),0];else
 var
 M=D;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=$(a,0),aI=lp(f),n=jL(aI,cH(E)),ar=[0,az(U(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=aa(a,0),aI=ls(f),n=jN(aI,cJ(E)),ar=[0,az(V(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hw(u,$(a,re)),F=i[1][7],G=t(rf,a,l(d)),e=t(rg,a,l(d)),ag=$(a,rh),I=$(a,0),p=y(ri,af),o=cH(I),v=ai(s,ag,aT(U(o,ag),o)),w=cH(v),O=fF(o,w),P=U(p,w),Q=U(p,O),as=U(o,p),at=H(Q),R=C(H(P),at),au=H(as),S=s(H(G),au),av=q(l(b(2,c)),e),x=s(R,H(al(C(R,s(H(e),S)),av))),aw=fi(F,q(e,az(x))),T=al(P,e),V=fi(F,al(Q,e)),W=al(S,H(e)),X=ji(0,T,V,W),Y=fi(F,ji(1,T,V,W)),ax=aT(Y,O),Z=ai(s,p,aT(e,ai(C,aT(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(U(v,v)),aA],aC=[0,az(U(I,I)),aB],aD=cl(Z,aw),k=[0,[0,Z,q(H(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=N(aj,j(hv(K,an,i))),aQ=r[2],aR=lq(f,u,am,K,bV(ak),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cl(fF(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bJ(a):k$(f[1],a,b)},J=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:bJ(J):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hu(u,aa(a,rj)),F=j[1][7],G=t(rk,a,l(d)),e=t(rl,a,l(d)),ag=aa(a,rm),H=aa(a,0),p=y(rn,af),o=cJ(H),v=ai(s,ag,aW(V(o,ag),o)),w=cJ(v),N=fH(o,w),O=V(p,w),P=V(p,N),as=V(o,p),at=K(P),R=C(K(O),at),au=K(as),S=s(K(G),au),av=q(l(b(2,c)),e),x=s(R,K(al(C(R,s(K(e),S)),av))),aw=fj(F,q(e,az(x))),T=al(O,e),U=fj(F,al(P,e)),W=al(S,K(e)),X=jj(0,T,U,W),Y=fj(F,jj(1,T,U,W)),ax=aW(Y,N),Z=ai(s,p,aW(e,ai(C,aW(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(V(v,v)),aA],aC=[0,az(V(H,H)),aB],aD=cl(Z,aw),k=[0,[0,Z,q(K(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=Q(aj,h(ht(J,an,j))),aQ=r[2],aR=lt(f,u,am,J,bE(ak),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cl(fH(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bI(a):lc(f[1],a,b)},I=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bI(I):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
-hx(c,b,a){if(a){var
-e=a[2],g=hx(c,bV(b),e),h=a[1];return f(hv(c,bE([0,d,d],b),h),g)}return a}function
-lr(a){if(a){var
+hv(c,b,a){if(a){var
+e=a[2],g=hv(c,bE(b),e),h=a[1];return f(ht(c,bn([0,d,d],b),h),g)}return a}function
+lu(a){if(a){var
 b=a[1][6];if(b)var
-c=lr(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=lu(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return rj}function
-ls(y,V,b){function
+d=b;return d}return ro}function
+lv(y,V,b){function
 c(a){return t(a,V,l(d))}function
 N(a){var
-e=a[2],f=q(H(c(0)),e),b=0,d=0,g=a[1];return[0,[0,da(function(b,a){return s(b,H(a))},g,f),d],b]}function
+e=a[2],f=q(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dd(function(b,a){return s(b,K(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
-b=a[1],f=H(b[2]),g=q(H(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=K(b[2]),g=q(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
 var
 d=a;return d}var
 D=0;if(typeof
@@ -3978,7 +4001,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(rk),b),g=[0,[0,s(q(c(rl),d),f),0],0],h=q(d,c(rm));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(rp),b),g=[0,[0,s(q(c(rq),d),f),0],0],h=q(d,c(rr));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -3994,24 +4017,24 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lr(y);if(A){var
-aa=c(0),P=da(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=lu(y);if(A){var
+aa=c(0),P=dd(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],E=i[1];if(j){var
 k=j[2],F=j[1];if(k)if(k[2]||!h)var
 a=l(d);else{var
 m=h[2],n=h[1];if(n){var
 o=n[2],G=n[1];if(o){var
-p=o[2],I=o[1];if(p){var
-J=p[1];if(p[2]||!m)var
+p=o[2],H=o[1];if(p){var
+I=p[1];if(p[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
-u=r[2],K=r[1];if(u){var
+u=r[2],J=r[1];if(u){var
 v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-S=cK(G,I,K,L),T=q(k[1],S),U=q(F,cK(G,J,K,M)),a=C(s(q(E,cK(I,J,L,M)),U),T)}else
+R=cM(G,H,J,L),T=q(k[1],R),U=q(F,cM(G,I,J,M)),a=C(s(q(E,cM(H,I,L,M)),U),T)}else
 var
 a=l(d)}else
 var
@@ -4026,7 +4049,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cK(E,F,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cM(E,F,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -4037,18 +4060,18 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bn(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+ab=[0,bo(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:D=1}if(D)return 0;var
-z=R(y,f);return z?g(z[1]):z}function
-fJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-er(a){return e(function(a){var
+z=S(y,f);return z?g(z[1]):z}function
+fL(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+es(a){return e(function(a){var
 b=l(c);return[0,a[3],b]},a)}function
-lt(a,b){return e(function(a){var
+lw(a,b){return e(function(a){var
 c=q(a[2],b);return[0,a[1],c]},a)}function
-lu(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bt(lt(c,t(0,b,l(d))));return ja(ls(c,b,a))}function
-lv(f,h,m,I,H,r,a){if(typeof
+lx(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bt(lw(c,t(0,b,l(d))));return jb(lv(c,b,a))}function
+ly(f,h,m,I,H,r,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
@@ -4056,15 +4079,15 @@ J=[5,[0,c,c],a[1]],i=J,o=function(a){return[0,a]};break;case
 1:var
 M=[5,[0,c,c],a[1]],i=M,o=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,W(f,a)]},Q),P];case
+y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,_(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!R(m,C))return rp;var
+z=a[3],A=a[2],C=a[1];if(!S(m,C))return ru;var
 G=0;if(g(f,1,A)&&g(f,1,z))var
-S=[5,A,z],i=S,o=function(a){return[7,C,a]};else
-G=1;if(G)return ro;break;case
+R=[5,A,z],i=R,o=function(a){return[7,C,a]};else
+G=1;if(G)return rt;break;case
 8:var
 D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=_(f,c),V=lt(m,t(0,r,l(d))),F=[0,[4,k(ar(h),V),U]];else
+U=Z(f,c),V=lw(m,t(0,r,l(d))),F=[0,[4,k(as(h),V),U]];else
 var
 F=E;return[0,F,T];default:var
 q=0;if(typeof
@@ -4076,89 +4099,86 @@ s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(
 9:var
 x=g(f,1,a[2]),j=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
 j=1;var
-p=j?ls(m,r,a):j;if(p){var
+p=j?lv(m,r,a):j;if(p){var
 N=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=k(h,b[1]);return[0,[5,k(h,c),e]]}var
 d=[0,[3,k(h,c)]]}else
 var
-d=a;return d},N)}return rn}var
-K=0,L=ah(f,[0,[0,i,i],hh(I,H)]);return[0,w(function(a){return o(W(f,a))},L),K]}function
-lw(a){if(typeof
+d=a;return d},N)}return rs}var
+K=0,L=ah(f,[0,[0,i,i],hf(I,H)]);return[0,w(function(a){return o(_(f,a))},L),K]}function
+lz(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-rr(b){if(0===b[0])return[0,kq(b[1])];var
+rw(b){if(0===b[0])return[0,ks(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bb(a[4]),g=bb(a[3]),h=bb(a[2]);return[1,[0,bb(a[1]),h,g,f,e,d,c]]}function
-rs(K,c,a,h,an,aT){var
-aU=e(rr,a[2]),ao=lo(K,a[2],aU);if(ao)var
-aV=g$(a[4]),L=ec(K,a[4],aV);else
+rx(J,c,a,i,ao,aT){var
+aU=e(rw,a[2]),aq=lr(J,a[2],aU);if(aq)var
+aV=g9(a[4]),K=cO(J,a[4],aV);else
 var
-L=ao;if(L){var
-aq=a[5];if(aq)var
-aW=fE(aq[1]),as=o(function(a){return eq(K,a)},aW);else
+K=aq;if(K){var
+ar=a[5];if(ar)var
+aW=fG(ar[1]),at=p(function(a){return er(J,a)},aW);else
 var
-as=1;var
-M=as}else
+at=1;var
+L=at}else
 var
-M=L;if(M){var
-b=a[1],aw=a3(b),q=a[6],z=hx(h,an,a[2]),R=a[3],S=[0,[0,R,R],h],T=[0,j(z)],A=a[2],n=A?0===A[1][0]?0:1:A,ax=a[5],az=w(function(a){var
+L=K;if(L){var
+b=a[1],ax=a4(b),q=a[6],y=hv(i,ao,a[2]),Q=a[3],R=[0,[0,Q,Q],i],S=[0,h(y)],A=a[2],n=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
 c=typeof
-b==="number"?0:fG(b[1]);return k0(a,c)},ax),aA=a[2],i=lq(b,az,co(S,j(z)),h,an,aA,0),U=y(function(a){return a[7]},i),aB=f(U,cp(function(a,b){return lu(i,a,b)},n,h,T,q)),aC=f(bt(er(i)),aB),V=f(bt(fJ(i)),aC),B=cG(V)[1],aD=bH(B),p=function(a){return a8(aD,a)},W=o(function(a){var
-b=l(d),c=bH(B);return ay(t(p(a),c,b),a)},V),X=W?ap(lw,q):W;if(X){var
-Y=a[4];if(typeof
+b==="number"?0:fI(b[1]);return k3(a,c)},az),aB=a[2],j=lt(b,aA,co(R,h(y)),i,ao,aB,0),T=z(function(a){return a[7]},j),aC=f(T,cp(function(a,b){return lx(j,a,b)},n,i,S,q)),aD=f(bt(es(j)),aC),U=f(bt(fL(j)),aD),V=cI(U)[1],W=cG(V),o=function(a){return a9(W,a)},X=p(function(a){var
+b=l(d);return ay(t(o(a),W,b),a)},U),Y=X?ap(lz,q):X;if(Y){var
+Z=a[4];if(typeof
 b==="number")var
-Z=b?ht(0,dp(Y)):1;else
+_=b?hr(0,du(Z)):1;else
 var
-au=dp(Y),Z=ht(b[1],au);var
-C=Z}else
+av=du(Z),_=hr(b[1],av);var
+B=_}else
 var
-C=X;if(C){var
-O=a[1];if(typeof
-O==="number")var
+B=Y;if(B){var
+N=a[1];if(typeof
+N==="number")var
 r=a[5]?0:1;else
-if(2<=O[1])var
+if(2<=N[1])var
 r=0;else{var
-v=a[5],N=0;if(v){var
-P=g(c,1,a[3]);if(P)var
-av=fE(v[1]),r=o(function(a){var
-b=ej(c,a[1]);return b?ej(c,a[2]):b},av);else{var
-Q=P;N=1}}else{var
-Q=v;N=1}if(N)var
-r=Q}var
-D=r}else
+v=a[5],M=0;if(v){var
+O=g(c,1,a[3]);if(O)var
+aw=fG(v[1]),r=p(function(a){var
+b=ek(c,a[1]);return b?ek(c,a[2]):b},aw);else{var
+P=O;M=1}}else{var
+P=v;M=1}if(M)var
+r=P}var
+C=r}else
 var
-D=C;if(D)var
-aE=a[2],E=o(function(a){var
+C=B;if(C)var
+aE=a[2],D=p(function(a){var
 b=0===a[0]?0:1;return cb(b,n)},aE);else
 var
-E=D;if(E){var
-aF=f(z,[0,S,0]),F=aj(e(function(a){return ah(c,a)},aF));if(F){var
-aG=y(function(a){return eg(n,h,a)},q),G=aj(e(function(a){return hi(c,a)},aG));if(G){var
-m=dp(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lk(b[1],m),H=aj(e(function(a){return ah(c,[0,a,h])},aH));if(H){var
-_=H[1],$=a[5];if($)var
-aI=k2($[1]),s=aj(e(function(a){return k4(c,a)},aI));else
+D=C;if(D){var
+aF=f(y,[0,R,0]),E=aj(e(function(a){return ah(c,a)},aF));if(E){var
+aG=z(function(a){return eh(n,i,a)},q),F=aj(e(function(a){return hg(c,a)},aG));if(F){var
+m=du(a[4]),aH=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:ln(b[1],m),G=aj(e(function(a){return ah(c,[0,a,i])},aH));if(G){var
+$=G[1],aa=a[5];if(aa)var
+aI=k5(aa[1]),s=aj(e(function(a){return k7(c,a)},aI));else
 var
-s=rq;if(s){var
-aa=s[1],x=a[5],aJ=x?k1(x[1]):x,I=aj(e(function(a){return dr(c,a)},aJ));if(I){var
-J=aj(cp(function(a,b){return lv(c,p,i,n,h,a,b)},n,h,T,q));if(J){var
-ab=J[1],ac=u(j(f(_,aa)),aw);if(ac){var
-aK=g4(ab),aL=f(_,aa),at=0,aM=a[4];if(typeof
+s=rv;if(s){var
+ab=s[1],x=a[5],aJ=x?k4(x[1]):x,H=aj(e(function(a){return dw(c,a)},aJ));if(H){var
+I=aj(cp(function(a,b){return ly(c,o,j,n,i,a,b)},n,i,S,q));if(I){var
+ac=I[1],ad=u(h(f($,ab)),ax);if(ad){var
+aK=g2(ac),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-ad=function(a){return kg(c,aM,h,a)};at=1}if(!at)var
-ad=function(a){return 0};var
-aN=f(G[1],I[1]),aO=f(F[1],aN),aP=e(p,U),aQ=er(i),aR=k(ar(p),aQ),aS=fJ(i);return fs(c,B,k(ar(p),aS),aR,aP,aO,ab,ad,aL,aK,aT)}var
-ae=ac}else
-var
-ae=J;var
-af=ae}else
+ae=function(a){return ki(c,aM,i,a)};au=1}if(!au)var
+ae=function(a){return 0};var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(o,T),aQ=es(j),aR=k(as(o),aQ),aS=fL(j);return ft(c,V,k(as(o),aS),aR,aP,aO,ac,ae,aL,aK,aT)}var
+af=ad}else
 var
 af=I;var
 ag=af}else
 var
-ag=s;var
+ag=H;var
 ai=ag}else
 var
-ai=H;var
+ai=s;var
 ak=ai}else
 var
 ak=G;var
@@ -4167,7 +4187,10 @@ var
 al=F;var
 am=al}else
 var
-am=E;return am}return M}function
+am=E;var
+an=am}else
+var
+an=D;return an}return L}function
 bu(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
@@ -4183,77 +4206,77 @@ bc(e,a,b){switch(a[0]){case
 r=a[1];return co([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(oM(n[1],u))return n[2];var
+n=g[1];if(oW(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bn(bc(e,a[1],b));case
+2:return bo(bc(e,a[1],b));case
 3:var
-i=a[2],f=a[1],h=C;break;case
+j=a[2],f=a[1],i=C;break;case
 4:var
-i=a[2],f=a[1],h=s;break;case
+j=a[2],f=a[1],i=s;break;case
 5:var
-i=a[2],f=a[1],h=q;break;case
+j=a[2],f=a[1],i=q;break;case
 6:var
-i=a[2],f=a[1],h=al;break;case
+j=a[2],f=a[1],i=al;break;case
 7:var
-k=dX(a[2]),m=bc(e,a[1],b);if(k){if(k[1]){var
-o=H(m),t=function(a){return q(a,o)},p=eX(bD(i4(k)),t,o);return i3(k)?p:q(p,m)}return m}return l(c);default:return az(bc(e,a[1],b))}var
-w=bc(e,i,N(b,j(bu(f))));return h(bc(e,f,b),w)}function
-cs(c,g,b){var
+k=d0(a[2]),m=bc(e,a[1],b);if(k){if(k[1]){var
+o=K(m),t=function(a){return q(a,o)},p=eZ(bD(i3(k)),t,o);return i2(k)?p:q(p,m)}return m}return l(c);default:return az(bc(e,a[1],b))}var
+w=bc(e,j,Q(b,h(bu(f))));return i(bc(e,f,b),w)}function
+ct(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,j(bu(e))),l=cs(c,a[2],k),m=f(cs(c,e,b),l);return[0,bc(c,a,b),m];case
+e=a[1],k=Q(b,h(bu(e))),l=ct(c,a[2],k),m=f(ct(c,e,b),l);return[0,bc(c,a,b),m];case
 8:var
-n=cs(c,a[1],b);return[0,bc(c,a,b),n];case
+n=ct(c,a[1],b);return[0,bc(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,j(bu(d))),i=cs(c,a[2],h);return f(cs(c,d,b),i)}}function
-lx(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,j(bu(d))),h=a[2],i=bc(c,d,b),k=lx([0,[0,e[1],i],c],h,g);return f(cs(c,d,b),k)}return a}function
-hy(a){return y(bu,a)}function
-ly(c,a,b){if(a)var
-d=a[1],f=N(b,j(bu(d))),g=ly(c,a[2],f),e=[0,bc(c,d,b),g];else
+d=a[1],i=Q(b,h(bu(d))),j=ct(c,a[2],i);return f(ct(c,d,b),j)}}function
+lA(c,a,b){if(a){var
+e=a[1],d=e[2],g=Q(b,h(bu(d))),i=a[2],j=bc(c,d,b),k=lA([0,[0,e[1],j],c],i,g);return f(ct(c,d,b),k)}return a}function
+hw(a){return z(bu,a)}function
+lB(c,a,b){if(a)var
+d=a[1],f=Q(b,h(bu(d))),g=lB(c,a[2],f),e=[0,bc(c,d,b),g];else
 var
 e=a;return e}function
-lz(c,a,b){if(a){var
-d=a[1],e=N(b,j(bu(d))),g=lz(c,a[2],e);return f(cs(c,d,b),g)}return a}function
-hz(a){return 0===a[0]?hy(a[1]):bu(a[1])}function
-lA(c,b,a){if(b){var
-d=b[1],i=N(a,j(hz(d))),k=lA(c,b[2],i);if(0===d[0])var
-g=lz(c,d[1],a);else
+lC(c,a,b){if(a){var
+d=a[1],e=Q(b,h(bu(d))),g=lC(c,a[2],e);return f(ct(c,d,b),g)}return a}function
+hx(a){return 0===a[0]?hw(a[1]):bu(a[1])}function
+lD(c,b,a){if(b){var
+d=b[1],j=Q(a,h(hx(d))),k=lD(c,b[2],j);if(0===d[0])var
+g=lC(c,d[1],a);else
 var
-e=d[1],h=cs(c,e,a),g=[0,bc(c,e,a),h];return f(g,k)}return b}function
-fK(c){var
+e=d[1],i=ct(c,e,a),g=[0,bc(c,e,a),i];return f(g,k)}return b}function
+fM(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cE(fK,a)}return[0,b]}function
-hA(c){var
+b=cF(fM,a)}return[0,b]}function
+hy(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hA(a[2]);return q(hA(a[1]),d);case
-9:return a[1];default:return H(b)}}}function
-lB(n,g,a,f){if(a){var
-b=a[1],w=N(f,j(hz(b))),x=lB(n,g,a[2],w);if(0===b[0])var
-k=ly(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+d=hy(a[2]);return q(hy(a[1]),d);case
+9:return a[1];default:return K(b)}}}function
+lE(n,g,a,f){if(a){var
+b=a[1],w=Q(f,h(hx(b))),x=lE(n,g,a[2],w);if(0===b[0])var
+k=lB(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=bc(g,b[1],f),q=fK(m),h=aL(aX(0,n),q),d=fK(h[2]),i=e(fK,h[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?l(c):al(a,d)},i),o=[0,i,hA(d),v,u,t,s,r];var
+m=bc(g,b[1],f),q=fM(m),i=aL(aZ(0,n),q),d=fM(i[2]),j=e(fM,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?l(c):al(a,d)},j),o=[0,j,hy(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-lC(a){return e(function(a){return[0,a[2],d]},a)}function
-lD(a){var
-b=y(hz,a[4]),c=f(hy(e(ca,a[3])),b);return f(lC(a[2]),c)}function
-lE(a){var
-c=b1(0,lC(a[2])),d=aX(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aI,a[2]),c);return f(aJ(a[1],g),b)}function
-hB(b,d){var
+lF(a){return e(function(a){return[0,a[2],d]},a)}function
+lG(a){var
+b=z(hx,a[4]),c=f(hw(e(ca,a[3])),b);return f(lF(a[2]),c)}function
+lH(a){var
+c=b1(0,lF(a[2])),d=aZ(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
+hz(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4262,27 +4285,41 @@ e=a[1];return ap(function(a){return ao(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hB(b,a[1]);if(c){var
+c=hz(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-lF(d){var
+lI(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ap(function(b){return function(a){return oM(b,a)}}(e),b));if(c){var
-a=b;continue}return c}return 1}}var
-fM=s(l(c),fL);function
-lG(e){var
-a=H(fM);if(e)var
+b=a[2],e=a[1],c=ac(ap(function(b){return function(a){return oW(b,a)}}(e),b));if(c){var
+a=b;continue}return c}return 1}}function
+lJ(b,h,g,d,c,a){if(a){var
+i=a[2],j=a[1],l=lJ(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bE,f(c,i)));return aq(h,aq(g,bn(b,j),m),l)}return b}function
+lK(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return lJ(a,e,d,function(b){return lK(a,f,e,d,h,b)},g,b)}return b?a:f}function
+lL(d,a){if(a){var
+b=aU(d,a[1]);if(b)var
+c=lL(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return rB}function
+lM(d,a){if(a){var
+b=lL(d,a[1]);if(b)var
+c=lM(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return rC}var
+fO=s(l(c),fN);function
+lN(e){var
+a=K(fO);if(e)var
 f=q(l(b(2,c)),a),g=C(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=al(C(l(c),h),g);else
 var
-i=C(l(b(2,c)),a),j=H(fL),d=al(C(q(l(b(2,c)),j),a),i);return az(d)}function
-lH(d,b,a){if(d){var
-e=lG(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=lG(b),j=al(l(c),i);return s(q(a,C(l(c),j)),h)}function
-dy(f,e,d,a){var
-g=H(a),h=H(d),i=s(s(l(b(2,c)),h),g),j=f?e?fM:al(fM,q(l(b(2,c)),fL)):al(fM,l(b(2,c))),k=q(H(j),i);return az(C(l(c),k))}function
-lI(g,d){var
+i=C(l(b(2,c)),a),j=K(fN),d=al(C(q(l(b(2,c)),j),a),i);return az(d)}function
+lO(d,b,a){if(d){var
+e=lN(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=lN(b),j=al(l(c),i);return s(q(a,C(l(c),j)),h)}function
+dC(f,e,d,a){var
+g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fO:al(fO,q(l(b(2,c)),fN)):al(fO,l(b(2,c))),k=q(K(j),i);return az(C(l(c),k))}function
+lP(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?F(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hC(v,u,s){var
+hA(v,u,s){var
 a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4291,8 +4328,8 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
-w=i[1],x=h[1],y=g[1],z=f[1];return o(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return ff([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+w=i[1],x=h[1],y=g[1],z=f[1];return p(function(a){var
+c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return dl([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
 j=i}else
 var
 j=d;var
@@ -4305,21 +4342,21 @@ m=c;var
 n=m}else
 var
 n=g;var
-p=n}else
+o=n}else
 var
-p=b;var
-q=p}else
+o=b;var
+q=o}else
 var
 q=f;var
 r=q}else
 var
 r=a;return r}function
-lJ(f,i,e,b,h){var
-j=f?c:d,a=_(i,j);function
+lQ(f,i,e,b,h){var
+j=f?c:d,a=Z(i,j);function
 g(b){var
-c=f?e_(b):de(b);return K(c,a)}var
+c=f?e$(b):di(b);return J(c,a)}var
 k=[0,ag(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-lK(r,g,q,p,f,o,n){if(o){var
+lR(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4328,16 +4365,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aS,bq(ry)),a=hC(p,g1(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aV,br(rF)),a=hA(p,gZ(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=G(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lI,rz),a=hC(p,bG(0,ch(g,lJ(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(lP,rG),a=hA(p,bG(0,ch(g,lQ(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lI,rA),a=hC(p,bG(0,ch(g,lJ(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(lP,rH),a=hA(p,bG(0,ch(g,lQ(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4347,27 +4384,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?rB:a}else
+y=a?rI:a}else
 var
 y=n;return y}return[0,n]}function
-lL(f,e,d,c,p,o,n){var
+lS(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=lK(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
-i=lK(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d9(a[2],b),l=lL(f,e,d,c,k[1],j,a[3]);if(l){var
+h=lR(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
+i=lR(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=d$(a[2],b),l=lS(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hD(a){return i8(b(2,c),aD(a,c))}function
-dz(i,a,e,w,v){var
-m=a?c:M(c),f=l(m),g=lH(a,e,rw),h=lH(a,e,rx),n=al(g,dy(a,e,f,g)),o=[0,C(al(h,dy(a,e,h,f)),n),0],p=al(f,dy(a,e,f,g)),r=[0,C(al(h,dy(a,e,g,h)),p),o],s=al(f,dy(a,e,h,f)),t=[0,C(al(g,dy(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fL):l(b(2,b(2,c))),j=cG([0,u,t]),k=[0,d,cD(i)];return lL(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lM(a,g,b){if(V(g,hD(a))){if(b){var
+hB(a){return i9(b(2,c),aE(a,c))}function
+dD(i,a,e,w,v){var
+m=a?c:N(c),f=l(m),g=lO(a,e,rD),h=lO(a,e,rE),n=al(g,dC(a,e,f,g)),o=[0,C(al(h,dC(a,e,h,f)),n),0],p=al(f,dC(a,e,f,g)),r=[0,C(al(h,dC(a,e,g,h)),p),o],s=al(f,dC(a,e,h,f)),t=[0,C(al(g,dC(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fN):l(b(2,b(2,c))),j=cI([0,u,t]),k=[0,d,cD(i)];return lS(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+lT(a,g,b){if(L(g,hB(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hD(a)],v=cD(a),i=[0,hD(a),v],j=dz(a,0,1,h,b[1]),k=j?dz(a,0,0,i,c[1]):j;if(k){var
-l=dz(a,1,1,h,d[1]);if(l)return dz(a,1,0,i,e[1]);var
+h=[0,g,hB(a)],v=cD(a),i=[0,hB(a),v],j=dD(a,0,1,h,b[1]),k=j?dD(a,0,0,i,c[1]):j;if(k){var
+l=dD(a,1,1,h,d[1]);if(l)return dD(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4384,259 +4421,262 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cD(a)],s=dz(a,0,0,r,b[1]);if(s)return dz(a,1,0,r,f[1]);var
+r=[0,g,cD(a)],s=dD(a,0,0,r,b[1]);if(s)return dD(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hE(a){var
-b=[1,[2,d]];return da(function(b,a){return[1,[3,b,a]]},a,b)}function
-fN(a){return hE(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fO(a,c){return hE(e(function(a){var
-d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hE(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lN(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cE(function(a){return lN(e,d,c,b,a)},f);return k(ch(e,d,c),g)}function
-lO(a){return a?V(d,a[1][2][1]):a}function
-rC(a){var
-b=u(j(a),rD);return b?ap(function(a){return ac(Z(a,d))},a):b}function
-lP(c,f,b,a){if(b)if(a)var
-d=b[1],g=x(c,_(c,a[1]),f),h=lP(c,f,b[2],a[2]),i=d[3],j=F(d[2],g),e=[0,[0,F(d[1],g),j,i],h];else
+hC(a){var
+b=[1,[2,d]];return dd(function(b,a){return[1,[3,b,a]]},a,b)}function
+fP(a){return hC(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fQ(a,c){return hC(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hC(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+lU(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=cF(function(a){return lU(e,d,c,b,a)},f);return k(ch(e,d,c),g)}function
+lV(a){return a?L(d,a[1][2][1]):a}function
+rJ(a){var
+b=u(h(a),rK);return b?ap(function(a){return ac(Y(a,d))},a):b}function
+lW(c,f,b,a){if(b)if(a)var
+d=b[1],g=x(c,Z(c,a[1]),f),h=lW(c,f,b[2],a[2]),i=d[3],j=F(d[2],g),e=[0,[0,F(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fP(b,a){return e4(e4(b,0),a)}function
-hF(a){if(a){var
-b=a[2],c=a[1];if(b)return fP(c,[0,rF,hF(b)]);var
+fR(b,a){return e6(e6(b,0),a)}function
+hD(a){if(a){var
+b=a[2],c=a[1];if(b)return fR(c,[0,rM,hD(b)]);var
 d=c}else
 var
 d=a;return d}function
-A(a){return[0,rH,fP(hF(a),rG)]}function
-X(a){return[0,rJ,fP(hF(a),rI)]}function
-ak(a){return[0,rL,[0,a,rK]]}function
-h(b,a){return[0,aP(rN,aP(b,rM)),a]}function
-I(b,a){return X([0,h(b,a),0])}function
+A(a){return[0,rO,fR(hD(a),rN)]}function
+$(a){return[0,rQ,fR(hD(a),rP)]}function
+ak(a){return[0,rS,[0,a,rR]]}function
+j(b,a){return[0,aP(rU,aP(b,rT)),a]}function
+H(b,a){return $([0,j(b,a),0])}function
 b4(d){var
-b=d,a=pf,e=0;for(;;){if(b){var
-c=i2(a),b=b[1],a=c;continue}return[0,d0(eW(a)),e]}}function
-hG(a){return[0,d0(e2(a)),0]}function
-fQ(a){var
-c=a5(a),f=0,b=0===c?pk:0<c?[0,e2(a)]:[1,e2(M(a))];if(0===b[0])var
-d=d0(b[1]);else
+b=d,a=pp,e=0;for(;;){if(b){var
+c=i0(a),b=b[1],a=c;continue}return[0,d3(eY(a)),e]}}function
+hE(a){return[0,d3(e4(a)),0]}function
+fS(a){var
+c=a6(a),f=0,b=0===c?pu:0<c?[0,e4(a)]:[1,e4(N(a))];if(0===b[0])var
+d=d3(b[1]);else
 var
-e=d0(b[1]),d=aP(bj(1,45),e);return[0,d,f]}function
-hH(a){var
-b=0,c=0<a5(a)?e2(a):pj;return[0,d0(c),b]}function
-hI(a){switch(a[0]){case
-2:return rP;case
-3:return 2<=a[1]?rQ:rR;case
-4:return rS;default:return rO}}function
-es(b,a){function
-c(c,a){return Q(c,hI(a))?es(b,a):[0,rY,f(es(b,a),rX)]}switch(a[0]){case
+e=d3(b[1]),d=aP(bj(1,45),e);return[0,d,f]}function
+hF(a){var
+b=0,c=0<a6(a)?e4(a):pt;return[0,d3(c),b]}function
+hG(a){switch(a[0]){case
+2:return rW;case
+3:return 2<=a[1]?rX:rY;case
+4:return rZ;default:return rV}}function
+et(b,a){function
+c(c,a){return R(c,hG(a))?et(b,a):[0,r5,f(et(b,a),r4)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,aY(g),0];var
-h=[0,rZ,[0,aY(e),0]];return[0,aY(g),h];case
+e==="number")return[0,a0(g),0];var
+h=[0,r6,[0,a0(e),0]];return[0,a0(g),h];case
 1:return[0,k(b,a[1]),0];case
-2:return[0,r1,c(r0,a[1])];case
+2:return[0,r8,c(r7,a[1])];case
 3:var
-i=a[3],j=c([0,hI(a)],i);switch(a[1]){case
+i=a[3],j=c([0,hG(a)],i);switch(a[1]){case
 0:var
-d=rT;break;case
+d=r0;break;case
 1:var
-d=rU;break;case
+d=r1;break;case
 2:var
-d=rV;break;default:var
-d=rW}var
-l=a[2];return f(c(hI(a),l),[0,d,j]);case
+d=r2;break;default:var
+d=r3}var
+l=a[2];return f(c(hG(a),l),[0,d,j]);case
 4:var
-m=[0,r2,hG(a[2])];return f(c(r3,a[1]),m);default:return[0,r5,f(es(b,a[1]),r4)]}}function
-J(a){return[0,r8,f(es(function(a){return 0===a[0]?a[1]:r7},a),r6)]}function
-hJ(a){return[0,r_,f(es(function(a){return a},a),r9)]}function
-b5(a){if(0===a[0])return J(a[1]);var
-b=[0,h(r$,J(a[2])),0];return X([0,h(sa,J(a[1])),b])}function
-fR(b,a){var
+m=[0,r9,hE(a[2])];return f(c(r_,a[1]),m);default:return[0,sa,f(et(b,a[1]),r$)]}}function
+I(a){return[0,sd,f(et(function(a){return 0===a[0]?a[1]:sc},a),sb)]}function
+hH(a){return[0,sf,f(et(function(a){return a},a),se)]}function
+b5(a){if(0===a[0])return I(a[1]);var
+b=[0,j(sg,I(a[2])),0];return $([0,j(sh,I(a[1])),b])}function
+fT(b,a){var
 c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
-sb(a){function
-b(a){return fR(b5,a)}switch(a[0]){case
+si(a){function
+b(a){return fT(b5,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?sc:sk,i=[0,h(sd,ak(g)),e],j=[0,h(se,b5(a[4])),i],k=[0,h(sf,b(a[3])),j],l=[0,h(sg,b(a[2])),k],m=[0,h(sh,b(a[1])),l],c=[0,h(sj,ak(si)),m];break;case
+e=0,g=a[5]?sj:sr,h=[0,j(sk,ak(g)),e],i=[0,j(sl,b5(a[4])),h],k=[0,j(sm,b(a[3])),i],l=[0,j(sn,b(a[2])),k],m=[0,j(so,b(a[1])),l],c=[0,j(sq,ak(sp)),m];break;case
 1:var
-d=a[3],n=d?[0,h(sl,b(d[1])),0]:d,o=[0,h(sm,b(a[2])),0],p=[0,h(sn,b(a[1])),o],c=f([0,h(sp,ak(so)),p],n);break;default:var
-q=[0,h(sq,b(a[1])),0],c=[0,h(ss,ak(sr)),q]}return X(c)}function
-st(a){function
+d=a[3],n=d?[0,j(ss,b(d[1])),0]:d,o=[0,j(st,b(a[2])),0],p=[0,j(su,b(a[1])),o],c=f([0,j(sw,ak(sv)),p],n);break;default:var
+q=[0,j(sx,b(a[1])),0],c=[0,j(sz,ak(sy)),q]}return $(c)}function
+sA(a){function
 b(a){return A(e(b5,a))}function
 d(a){var
-b=a?su:sw;return h(sv,ak(b))}switch(a[0]){case
+b=a?sB:sD;return j(sC,ak(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,h(sx,b5(a[4])),f],i=[0,h(sy,b(a[3])),g],j=[0,h(sz,b(a[2])),i],k=[0,h(sA,b(a[1])),j],c=[0,h(sC,ak(sB)),k];break;case
+f=[0,d(a[5]),0],g=[0,j(sE,b5(a[4])),f],h=[0,j(sF,b(a[3])),g],i=[0,j(sG,b(a[2])),h],k=[0,j(sH,b(a[1])),i],c=[0,j(sJ,ak(sI)),k];break;case
 1:var
-l=[0,h(sD,b(a[2])),0],m=[0,h(sE,b(a[1])),l],c=[0,h(sG,ak(sF)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,h(sH,b5(a[6])),n],p=[0,h(sI,b5(a[5])),o],q=[0,h(sJ,b(a[4])),p],r=[0,h(sK,b(a[3])),q],s=[0,h(sL,b(a[2])),r],t=[0,h(sM,b(a[1])),s],c=[0,h(sO,ak(sN)),t]}return X(c)}function
-hK(a){switch(a){case
-0:return sP;case
-1:return sQ;case
-2:return sR;case
-3:return sS;case
-4:return sT;case
-5:return sU;case
-6:return sV;case
-7:return sW;case
-8:return sX;case
-9:return sY;case
-10:return sZ;case
-11:return s0;case
-12:return s1;case
-13:return s2;case
-14:return s3;default:return s4}}function
-hL(a){if(typeof
-a==="number")return s5;else
+l=[0,j(sK,b(a[2])),0],m=[0,j(sL,b(a[1])),l],c=[0,j(sN,ak(sM)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,j(sO,b5(a[6])),n],p=[0,j(sP,b5(a[5])),o],q=[0,j(sQ,b(a[4])),p],r=[0,j(sR,b(a[3])),q],s=[0,j(sS,b(a[2])),r],t=[0,j(sT,b(a[1])),s],c=[0,j(sV,ak(sU)),t]}return $(c)}function
+hI(a){switch(a){case
+0:return sW;case
+1:return sX;case
+2:return sY;case
+3:return sZ;case
+4:return s0;case
+5:return s1;case
+6:return s2;case
+7:return s3;case
+8:return s4;case
+9:return s5;case
+10:return s6;case
+11:return s7;case
+12:return s8;case
+13:return s9;case
+14:return s_;default:return s$}}function
+hJ(a){if(typeof
+a==="number")return ta;else
 switch(a[0]){case
-0:return s6;case
-1:return s7;default:return s8}}function
-et(a){var
+0:return tb;case
+1:return tc;default:return td}}function
+eu(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,h(s9,J(b[1])),0];break;case
+d=[0,j(te,I(b[1])),0];break;case
 1:var
-d=[0,h(s_,J(b[1])),0];break;default:var
-n=[0,J(b[2]),0],d=[0,h(s$,A([0,J(b[1]),n])),0]}var
-o=[0,h(ta,ak(hL(a[4]))),d],g=a[3];if(g){var
+d=[0,j(tf,I(b[1])),0];break;default:var
+n=[0,I(b[2]),0],d=[0,j(tg,A([0,I(b[1]),n])),0]}var
+o=[0,j(th,ak(hJ(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-q=A([0,J(c[1]),0]),k=a[1],p=0,r=6===k?tb:12===k?tf:tg,i=[0,h(tc,I(r,q)),p];break;case
+q=A([0,I(c[1]),0]),k=a[1],p=0,r=6===k?ti:12===k?tm:tn,h=[0,j(tj,H(r,q)),p];break;case
 1:var
-w=A(e(J,c[1])),m=a[1],v=0,x=14===m?th:15<=m?tj:tk,i=[0,h(ti,I(x,w)),v];break;default:var
-y=[0,h(tl,A([0,J(c[2]),0])),0],i=[0,h(tn,X([0,h(tm,A([0,J(c[1]),0])),y])),0]}var
-l=i}else
+w=A(e(I,c[1])),m=a[1],v=0,x=14===m?to:15<=m?tq:tr,h=[0,j(tp,H(x,w)),v];break;default:var
+y=[0,j(ts,A([0,I(c[2]),0])),0],h=[0,j(tu,$([0,j(tt,A([0,I(c[1]),0])),y])),0]}var
+l=h}else
 var
 l=g;var
-s=f(l,o),j=a[2],t=j?[0,h(td,b4(j[1])),0]:j,u=f(t,s);return X([0,h(te,ak(hK(a[1]))),u])}function
-lQ(a){if(0===a[0]){var
-b=[0,h(to,fR(J,a[2])),0];return I(tq,X([0,h(tp,fR(J,a[1])),b]))}var
-c=[0,J(a[5]),0],d=[0,h(tr,A([0,J(a[4]),c])),0],e=[0,h(ts,J(a[3])),d],f=[0,J(a[2]),0];return I(tu,X([0,h(tt,A([0,J(a[1]),f])),e]))}function
-lR(a){if(0===a[0]){var
-b=[0,h(tv,A(e(J,a[2]))),0];return I(tx,X([0,h(tw,A(e(J,a[1]))),b]))}return lQ([1,a[1],a[2],a[3],a[4],a[5]])}function
-lS(a){switch(a){case
-0:return ty;case
-1:return tz;default:return tA}}function
-tB(a){function
+s=f(l,o),i=a[2],t=i?[0,j(tk,b4(i[1])),0]:i,u=f(t,s);return $([0,j(tl,ak(hI(a[1]))),u])}function
+lX(a){if(0===a[0]){var
+b=[0,j(tv,fT(I,a[2])),0];return H(tx,$([0,j(tw,fT(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,j(ty,A([0,I(a[4]),c])),0],e=[0,j(tz,I(a[3])),d],f=[0,I(a[2]),0];return H(tB,$([0,j(tA,A([0,I(a[1]),f])),e]))}function
+lY(a){if(0===a[0]){var
+b=[0,j(tC,A(e(I,a[2]))),0];return H(tE,$([0,j(tD,A(e(I,a[1]))),b]))}return lX([1,a[1],a[2],a[3],a[4],a[5]])}function
+lZ(a){switch(a){case
+0:return tF;case
+1:return tG;default:return tH}}function
+tI(a){function
 b(a){return A(e(b5,a))}var
-c=[0,h(tC,b(a[2])),0],d=[0,h(tD,b(a[1])),c];return X([0,h(tF,ak(tE)),d])}function
-lT(a){function
+c=[0,j(tJ,b(a[2])),0],d=[0,j(tK,b(a[1])),c];return $([0,j(tM,ak(tL)),d])}function
+l0(a){function
 b(b,a){var
-c=[0,J(a),0];return A([0,J(b),c])}switch(a[0]){case
-0:return I(tG,b(a[1],a[2]));case
+c=[0,I(a),0];return A([0,I(b),c])}switch(a[0]){case
+0:return H(tN,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,h(tH,b(c[1],c[2])),0],g=[0,h(tI,b(d[1],d[2])),f];return I(tK,X([0,h(tJ,b(e[1],e[2])),g]));case
-2:return I(tL,J(a[1]));default:var
-i=[0,h(tM,J(a[2])),0];return I(tO,X([0,h(tN,J(a[1])),i]))}}function
-tP(a){function
-b(a){return fR(J,a)}if(0===a[0])var
-c=a[5],e=c?[0,h(tQ,b(c[1])),0]:c,g=[0,J(a[4]),0],i=[0,h(tR,A([0,J(a[3]),g])),0],j=[0,h(tS,J(a[2])),i],k=[0,h(tT,b4(a[1])),j],d=f([0,h(tV,ak(tU)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,j(tO,b(c[1],c[2])),0],g=[0,j(tP,b(d[1],d[2])),f];return H(tR,$([0,j(tQ,b(e[1],e[2])),g]));case
+2:return H(tS,I(a[1]));default:var
+h=[0,j(tT,I(a[2])),0];return H(tV,$([0,j(tU,I(a[1])),h]))}}function
+tW(a){function
+b(a){return fT(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,j(tX,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,j(tY,A([0,I(a[3]),g])),0],i=[0,j(tZ,I(a[2])),h],k=[0,j(t0,b4(a[1])),i],d=f([0,j(t2,ak(t1)),k],e);else
 var
-l=[0,h(tW,J(a[4])),0],m=[0,h(tX,b(a[3])),l],n=[0,h(tY,b(a[2])),m],o=a[1]?tZ:t1,d=[0,h(t0,ak(o)),n];return X(d)}function
-lU(a){var
-b=a?[0,h(t2,A(e(tP,a))),0]:a;return b}function
-hM(d,c,b,a){var
-g=[0,h(t3,A(e(et,a))),0],i=f(lU(b),g),j=[0,h(t4,lQ(c)),0];return X(f([0,h(t6,I(t5,A(e(sb,d)))),j],i))}function
-t7(a){switch(a[0]){case
-0:return I(t8,hM(a[1],a[2],a[3],a[4]));case
+l=[0,j(t3,I(a[4])),0],m=[0,j(t4,b(a[3])),l],n=[0,j(t5,b(a[2])),m],o=a[1]?t6:t8,d=[0,j(t7,ak(o)),n];return $(d)}function
+l1(a){var
+b=a?[0,j(t9,A(e(tW,a))),0]:a;return b}function
+hK(d,c,b,a){var
+g=[0,j(t_,A(e(eu,a))),0],h=f(l1(b),g),i=[0,j(t$,lX(c)),0];return $(f([0,j(ub,H(ua,A(e(si,d)))),i],h))}function
+uc(a){switch(a[0]){case
+0:return H(ud,hK(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=A(e(st,a[2])),m=[0,h(t9,A(e(et,a[6]))),0],n=b?[0,h(t_,lT(b[1])),0]:b,o=f(n,m),l=0,p=[0,h(t$,lR(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=A(e(sA,a[2])),m=[0,j(ue,A(e(eu,a[6]))),0],n=b?[0,j(uf,l0(b[1])),0]:b,o=f(n,m),l=0,p=[0,j(ug,lY(a[4])),o];if(typeof
 d==="number")if(d)var
-i=ua;else{var
-j=I(uf,g);l=1}else
+h=uh;else{var
+i=H(um,g);l=1}else
 var
-i=lS(d[1]);if(!l)var
-q=c?[0,h(ub,J(c[1])),0]:c,j=I(i,X([0,h(uc,g),q]));return I(ue,X([0,h(ud,j),p]));case
+h=lZ(d[1]);if(!l)var
+q=c?[0,j(ui,I(c[1])),0]:c,i=H(h,$([0,j(uj,g),q]));return H(ul,$([0,j(uk,i),p]));case
 2:var
-r=[0,h(ug,A(e(et,a[7]))),0],s=f(lU(a[6]),r),t=[0,h(uh,lT(a[5])),0],u=[0,h(ui,lR(a[4])),t],v=[0,h(uj,J(a[3])),0],w=X([0,h(uk,A(e(tB,a[2]))),v]);return I(um,X(f([0,h(ul,I(lS(a[1]),w)),u],s)));case
+r=[0,j(un,A(e(eu,a[7]))),0],s=f(l1(a[6]),r),t=[0,j(uo,l0(a[5])),0],u=[0,j(up,lY(a[4])),t],v=[0,j(uq,I(a[3])),0],w=$([0,j(ur,A(e(tI,a[2]))),v]);return H(ut,$(f([0,j(us,H(lZ(a[1]),w)),u],s)));case
 3:var
-x=[0,h(un,A(e(et,a[7]))),0],y=[0,h(uo,A(e(J,a[6]))),0],z=[0,h(ur,I(uq,X([0,h(up,A(e(J,a[5]))),y]))),x],B=0,C=a[4],D=[0,h(uu,A(e(function(a){return 0===a[0]?I(us,A(e(hJ,a[1]))):I(ut,hJ(a[1]))},C))),B],E=a[3],F=[0,h(uv,A(e(function(a){var
-b=[0,hJ(a[2]),0];return A([0,ak(a[1]),b])},E))),D],G=a[2],H=[0,h(uw,A(e(function(a){var
-b=[0,b5(a[2]),0];return A([0,ak(a[1]),b])},G))),F];return I(uA,X([0,h(uz,I(uy,X([0,h(ux,A(e(ak,a[1]))),H]))),z]));case
+x=[0,j(uu,A(e(eu,a[7]))),0],y=[0,j(uv,A(e(I,a[6]))),0],z=[0,j(uy,H(ux,$([0,j(uw,A(e(I,a[5]))),y]))),x],B=0,C=a[4],D=[0,j(uB,A(e(function(a){return 0===a[0]?H(uz,A(e(hH,a[1]))):H(uA,hH(a[1]))},C))),B],E=a[3],F=[0,j(uC,A(e(function(a){var
+b=[0,hH(a[2]),0];return A([0,ak(a[1]),b])},E))),D],G=a[2],J=[0,j(uD,A(e(function(a){var
+b=[0,b5(a[2]),0];return A([0,ak(a[1]),b])},G))),F];return H(uH,$([0,j(uG,H(uF,$([0,j(uE,A(e(ak,a[1]))),J]))),z]));case
 4:var
-K=[0,h(uB,A(e(et,a[3]))),0],L=[0,h(uE,I(uD,X([0,h(uC,J(a[2])),0]))),K];return I(uI,X([0,h(uH,I(uG,X([0,h(uF,J(a[1])),0]))),L]));case
+K=[0,j(uI,A(e(eu,a[3]))),0],L=[0,j(uL,H(uK,$([0,j(uJ,I(a[2])),0]))),K];return H(uP,$([0,j(uO,H(uN,$([0,j(uM,I(a[1])),0]))),L]));case
 5:var
-M=[0,h(uJ,J(a[5])),0];return I(uL,X([0,h(uK,hM(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,j(uQ,I(a[5])),0];return H(uS,$([0,j(uR,hK(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-k=a[1],N=0,O=k?b5(k[1]):ak(uO);return I(uN,X([0,h(uM,O),N]));default:var
-P=[0,h(uP,J(a[6])),0],Q=[0,h(uQ,J(a[5])),P],R=[0,h(uR,hM(a[2],a[3],0,a[4])),Q],S=a[1];return I(uW,X([0,h(uV,A(e(function(a){var
-b=[0,h(uS,J(a[2][2])),0],c=[0,h(uT,J(a[2][1])),b];return X([0,h(uU,ak(a[1])),c])},S))),R]))}}function
-eu(a){return A(e(fQ,a))}function
-fS(b,a){var
-c=[0,h(uX,hH(a)),0];return X([0,h(uY,A(e(eu,b))),c])}function
-ev(a){switch(a[0]){case
+k=a[1],N=0,O=k?b5(k[1]):ak(uV);return H(uU,$([0,j(uT,O),N]));default:var
+P=[0,j(uW,I(a[6])),0],Q=[0,j(uX,I(a[5])),P],R=[0,j(uY,hK(a[2],a[3],0,a[4])),Q],S=a[1];return H(u3,$([0,j(u2,A(e(function(a){var
+b=[0,j(uZ,I(a[2][2])),0],c=[0,j(u0,I(a[2][1])),b];return $([0,j(u1,ak(a[1])),c])},S))),R]))}}function
+ev(a){return A(e(fS,a))}function
+fU(b,a){var
+c=[0,j(u4,hF(a)),0];return $([0,j(u5,A(e(ev,b))),c])}function
+ew(a){switch(a[0]){case
 0:return ak(a[1]);case
 1:var
-b=fS(a[2],a[3]);return I(a[1],b);case
+b=fU(a[2],a[3]);return H(a[1],b);case
 2:var
-c=a[1]?uZ:u1;return I(u0,ak(c));case
+c=a[1]?u6:u8;return H(u7,ak(c));case
 3:var
-d=[0,eu(a[3]),0];return I(u2,A([0,fS(a[1],a[2]),d]));case
+d=[0,ev(a[3]),0];return H(u9,A([0,fU(a[1],a[2]),d]));case
 4:var
-f=[0,b4(0),0],g=[0,fQ(a[3]),f];return I(u3,A([0,fS(a[1],a[2]),g]));case
+f=[0,b4(0),0],g=[0,fS(a[3]),f];return H(u_,A([0,fU(a[1],a[2]),g]));case
 5:var
-h=[0,hH(a[3]),0],i=[0,fQ(a[2]),h];return I(u4,A([0,ev(a[1]),i]));case
+h=[0,hF(a[3]),0],i=[0,fS(a[2]),h];return H(u$,A([0,ew(a[1]),i]));case
 6:var
-j=[0,hH(a[3]),0],k=[0,fQ(a[2]),j];return I(u5,A([0,ev(a[1]),k]));case
-7:return I(u6,ev(a[1]));default:var
-l=[0,A(e(eu,a[3])),0],m=[0,ak(a[2]),l];return I(u7,A([0,ev(a[1]),m]))}}function
-u8(a){var
-b=[0,ev(a[2]),0];return A([0,b4(a[1]),b])}function
-lV(a){if(typeof
-a==="number")return 0===a?ak(u9):ak(u_);else{if(0===a[0]){var
-b=[0,A(e(eu,a[2])),0];return I(u$,A([0,b4(a[1]),b]))}var
-c=[0,b4(a[2]),0];return I(va,A([0,b4(a[1]),c]))}}function
-vb(a){var
-b=a[4],i=b?[0,h(vc,eu([0,b[1],b[2]])),0]:b,d=a[3],j=d?[0,h(vd,lV(d[1])),0]:d,k=f(j,i),g=a[2],l=g?[0,h(ve,b4(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,h(vf,A(e(u8,[0,c[1],c[2]]))),0]:c;return X(f(n,m))}function
-lW(g,a,d){var
-i=[0,h(vg,A(e(vb,d))),0];if(a)var
-b=a[1],c=[0,h(vh,fS(b[1],b[2])),0];else
+j=[0,hF(a[3]),0],k=[0,fS(a[2]),j];return H(va,A([0,ew(a[1]),k]));case
+7:return H(vb,ew(a[1]));default:var
+l=[0,A(e(ev,a[3])),0],m=[0,ak(a[2]),l];return H(vc,A([0,ew(a[1]),m]))}}function
+vd(a){var
+b=[0,ew(a[2]),0];return A([0,b4(a[1]),b])}function
+l2(a){if(typeof
+a==="number")return 0===a?ak(ve):ak(vf);else
+switch(a[0]){case
+0:var
+b=[0,A(e(ev,a[2])),0];return H(vg,A([0,b4(a[1]),b]));case
+1:var
+c=[0,b4(a[2]),0];return H(vh,A([0,b4(a[1]),c]));default:return H(vi,A(e(I,a[1])))}}function
+vj(a){var
+b=a[4],h=b?[0,j(vk,ev([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,j(vl,l2(d[1])),0]:d,k=f(i,h),g=a[2],l=g?[0,j(vm,b4(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,j(vn,A(e(vd,[0,c[1],c[2]]))),0]:c;return $(f(n,m))}function
+l3(g,a,d){var
+h=[0,j(vo,A(e(vj,d))),0];if(a)var
+b=a[1],c=[0,j(vp,fU(b[1],b[2])),0];else
 var
 c=a;var
-j=f(c,i);return X([0,h(vi,hG(g)),j])}function
-lX(d,c,a,b){var
-g=[0,h(vj,lV(b)),0],i=a?[0,h(vk,A(e(J,a))),0]:a,j=f(i,g),k=[0,h(vl,A(e(J,c))),0];return X(f([0,h(vm,hG(d)),k],j))}function
-vn(a){if(typeof
-a==="number")return ak(vo);else
+i=f(c,h);return $([0,j(vq,hE(g)),i])}function
+l4(d,c,a,b){var
+g=[0,j(vr,l2(b)),0],h=a?[0,j(vs,A(e(I,a))),0]:a,i=f(h,g),k=[0,j(vt,A(e(I,c))),0];return $(f([0,j(vu,hE(d)),k],i))}function
+vv(a){if(typeof
+a==="number")return ak(vw);else
 switch(a[0]){case
-0:return I(vp,b4(a[1]));case
-1:return I(vq,lW(a[1],a[2],a[3]));default:return I(vr,lX(a[1],a[2],a[3],a[4]))}}function
-fT(a){var
-b=gD(gC(an(a),function(b){return aH(a,b)}));return o(function(a){var
-b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?Q(vG,e6(a)):c;return d?Q(e6(a),vH):d},b)}function
-ew(b){function
+0:return H(vx,b4(a[1]));case
+1:return H(vy,l3(a[1],a[2],a[3]));default:return H(vz,l4(a[1],a[2],a[3],a[4]))}}function
+fV(a){var
+b=gE(gD(an(a),function(b){return aI(a,b)}));return p(function(a){var
+b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?R(vO,e7(a)):c;return d?R(e7(a),vP):d},b)}function
+ex(b){function
 c(f){var
-a=e6(f),b=Q(vI,a),c=b?Q(a,vJ):b;if(c)var
+a=e7(f),b=R(vQ,a),c=b?R(a,vR):b;if(c)var
 d=c;else{var
-e=Q(vK,a);if(e)return Q(a,vL);var
+e=R(vS,a);if(e)return R(a,vT);var
 d=e}return d}var
-a=gD(gC(an(b),function(a){return aH(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?o(function(a){var
+a=gE(gD(an(b),function(a){return aI(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?p(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=e6(a),f=Q(vM,e),h=f?Q(e,vN):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?Q(j(d),vO):f;if(g)return ac(ao(b,vP));var
-h=g}else
+e=e7(a),f=R(vU,e),h=f?R(e,vV):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?R(h(d),vW):f;if(g)return ac(ao(b,vX));var
+i=g}else
 var
-h=a;return h}function
-hN(c){var
+i=a;return i}function
+hL(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ew(a[1]);case
+1:return ex(a[1]);case
 3:var
-b=hN(a[2]);if(b){var
+b=hL(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-ex(m){var
+ey(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4647,40 +4687,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eW(a[2]);if(typeof
+f=eY(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=ex(a[2]);if(i){var
+i=ey(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=ex(a[1]),l=k?e0(b(2,c),j):k;return l?e0(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=ey(a[1]),l=k?e2(b(2,c),j):k;return l?e2(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dA(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+dE(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cS(a){return y(dA,bv(a))}function
-hO(a){switch(a[0]){case
+cV(a){return z(dE,bv(a))}function
+hM(a){switch(a[0]){case
 0:var
-c=dA(a[4]),d=f(cS(a[3]),c),e=f(cS(a[2]),d);return f(cS(a[1]),e);case
+c=dE(a[4]),d=f(cV(a[3]),c),e=f(cV(a[2]),d);return f(cV(a[1]),e);case
 1:var
-b=a[3],g=b?cS(b[1]):b,h=f(cS(a[2]),g);return f(cS(a[1]),h);default:return cS(a[1])}}function
-vQ(a){switch(a[0]){case
+b=a[3],g=b?cV(b[1]):b,h=f(cV(a[2]),g);return f(cV(a[1]),h);default:return cV(a[1])}}function
+vY(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return y(dA,b)}function
-lY(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-lZ(a){if(0===a[0]){var
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(dE,b)}function
+l5(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+l6(a){if(0===a[0]){var
 b=bv(a[2]);return f(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-l0(a){switch(a[0]){case
+l7(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cT(e){var
+cW(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -4692,66 +4732,68 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-l1(a){if(0===a[0]){var
+l8(a){if(0===a[0]){var
 b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bv(a[3]),d);return f(bv(a[2]),e)}function
-l2(b,e){var
+l9(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ap(function(a){return ao(f,a)},b)}return 0;case
 3:var
-d=l2(b,a[2]);if(d){var
+d=l9(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fU(c,a){return o(function(a){var
-b=ex(a);return b?l2(c,a):b},a)}function
-l3(a){var
-d=e0(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e0(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-l4(a,b){return b?[4,l4(a,b[1]),a]:a}function
+ez(c,a){return p(function(a){var
+b=ey(a);return b?l9(c,a):b},a)}function
+l_(a){if(typeof
+a!=="number"&&2===a[0])return a[1];return 0}function
+l$(a){var
+d=e2(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e2(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+ma(a,b){return b?[4,ma(a,b[1]),a]:a}function
 i(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,n(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eX(i0(j),l,c);return[0,i_(i1(eW(a[1]),j)),m];case
+j=a[2],k=b(2,n(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eZ(iY(j),l,c);return[0,i$(iZ(eY(a[1]),j)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=i(a[1]);return 0===f[0]?[0,M(f[1]),f[2]]:[3,[0,d,c],f];case
+f=i(a[1]);return 0===f[0]?[0,N(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
 g=i(a[2]),h=i(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-o=bD(dX(a[2]));return l4(i(a[1]),o);default:return[6,i(a[1])]}}function
+o=bD(d0(a[2]));return ma(i(a[1]),o);default:return[6,i(a[1])]}}function
 bw(a){if(0===a[0]){var
 b=i(a[1]);return[0,b,b]}var
 c=i(a[2]);return[0,i(a[1]),c]}function
-cU(a){var
+cX(a){var
 b=bw(a[3]),c=bw(a[2]);return[0,bw(a[1]),c,b]}function
-vR(a){switch(a[0]){case
+vZ(a){switch(a[0]){case
 0:var
-b=a[5],c=bw(a[4]),d=cU(a[3]),e=cU(a[2]);return[0,[0,cU(a[1]),e,d,c,b]];case
+b=a[5],c=bw(a[4]),d=cX(a[3]),e=cX(a[2]);return[0,[0,cX(a[1]),e,d,c,b]];case
 1:var
-f=w(cU,a[3]),g=cU(a[2]);return[1,cU(a[1]),g,f];default:return[2,cU(a[1])]}}function
-l5(a){if(0===a[0]){var
+f=w(cX,a[3]),g=cX(a[2]);return[1,cX(a[1]),g,f];default:return[2,cX(a[1])]}}function
+mb(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=i(k(a,c));return[0,i(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=i(a[5]),h=[0,i(a[4]),g],j=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,j,h]}function
-dB(a){var
+dF(a){var
 b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-ct(a){if(0===a[0]){var
-b=a[5],h=b?dB(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bD(a[1]),l,k,j,h]}var
+cu(a){if(0===a[0]){var
+b=a[5],h=b?dF(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bD(a[1]),l,k,j,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dB(f),n=dB(g);return[2,i(e),n,m]}var
-o=dB(f),p=dB(g);return[1,i(e),p,o]}function
-fV(b,a){if(a){var
-c=a[1],d=a[2],g=fV(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bF(function(c){var
+m=dF(f),n=dF(g);return[2,i(e),n,m]}var
+o=dF(f),p=dF(g);return[1,i(e),p,o]}function
+fW(b,a){if(a){var
+c=a[1],d=a[2],g=fW(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bF(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:cb(b[1],a[1]);return ac(d)},h),g)}return a}function
-vS(b){if(b[1])return 0;var
+v0(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-vT(T,S,a){switch(a[1]){case
+v1(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
@@ -4811,14 +4853,14 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=fV(0,S);return e(function(h){var
+ac=t[1],ad=fW(0,S);return e(function(h){var
 e=i(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dB(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+g=function(a){return a?dF(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
 j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bD(f),m,l,k]}var
-n=ct(a);return[10,ct(b),n,e]}var
-o=ct(a);return[10,ct(b),o,e]}var
-p=ct(a);return[10,ct(b),p,e]},ad)}return 0;case
+n=cu(a);return[10,cu(b),n,e]}var
+o=cu(a);return[10,cu(b),o,e]}var
+p=cu(a);return[10,cu(b),p,e]},ad)}return 0;case
 10:var
 v=a[4],Q=0;if(typeof
 v==="number"||!(1===v[0]))Q=1;else{var
@@ -4832,7 +4874,7 @@ var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?vU:I;return ah;case
+a[4]==="number"?1:0,ah=I?v2:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -4842,8 +4884,8 @@ ai=i(y[1]);return[0,[14,i(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bD(B[1]),0]:aX(0,T);return e(b,V)}function
-vV(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bD(B[1]),0]:aZ(0,T);return e(b,V)}function
+v3(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4853,8 +4895,8 @@ m==="number"||2===m[0])P=1;else{var
 n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
 b=n[1]}if(P)return 0;break;case
 2:var
-R=0,p=a[4];if(typeof
-p==="number"||!(1===p[0]))R=1;else{var
+Q=0,p=a[4];if(typeof
+p==="number"||!(1===p[0]))Q=1;else{var
 q=a[2];if(!q){var
 e=a[3];if(e){if(0===e[1][0])return 1;var
 s=0}else
@@ -4865,7 +4907,7 @@ b=q[1];S=1}else
 var
 r=0;else
 var
-r=d;if(!S)return r}if(R)return 0;break;case
+r=d;if(!S)return r}if(Q)return 0;break;case
 3:var
 t=a[4];if(typeof
 t!=="number"&&1===t[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4883,7 +4925,7 @@ y!=="number"&&0===y[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
-1:return u(j(z[1]),c);default:return 0}}return f}return 0;case
+1:return u(h(z[1]),c);default:return 0}}return f}return 0;case
 7:var
 A=a[4];if(typeof
 A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4891,7 +4933,7 @@ A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 U=0,B=a[4];if(typeof
 B==="number"||!(1===B[0]))U=1;else{var
 g=a[3],V=0;if(g)if(0===g[1][0]){var
-C=u(c,vX),W=0;if(C){var
+C=u(c,v5),W=0;if(C){var
 D=a[2];if(D){var
 b=D[1];V=1;W=1}else
 var
@@ -4909,16 +4951,16 @@ G!=="number"&&0===G[0])return a[2]?0:a[3]?0:1;return 0;case
 X=0,H=a[4];if(typeof
 H==="number"||!(1===H[0]))X=1;else{var
 I=a[2];if(!I){var
-i=a[3];if(i){if(2===i[1][0])return 1;var
+j=a[3];if(j){if(2===j[1][0])return 1;var
 K=0}else
 var
-K=i;return K}var
-h=a[3],Y=0;if(h)if(2===h[1][0]){var
+K=j;return K}var
+i=a[3],Y=0;if(i)if(2===i[1][0]){var
 b=I[1];Y=1}else
 var
 J=0;else
 var
-J=h;if(!Y)return J}if(X)return 0;break;case
+J=i;if(!Y)return J}if(X)return 0;break;case
 11:var
 L=typeof
 a[4]==="number"?1:0;if(L){if(a[2])return 0;if(a[3])return 0;var
@@ -4928,20 +4970,20 @@ M=L;return M;case
 12:var
 N=a[4];if(typeof
 N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,vY);var
+k=a[3];if(k){if(0===k[1][0])return u(c,v6);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=Q(vW,b);return o?Q(b,c):o}function
-hP(c,k,i,b){var
-l=j(c),d=y(function(a){return vT(l,i,a)},b),a=y(vS,b),g=a?[0,a[1],a[2]]:vZ,h=f(g,d),m=l5(k);return[0,e(vR,c),m,h]}function
-l6(b){if(b[1])return 0;var
+o=R(v4,b);return o?R(b,c):o}function
+hN(c,k,j,b){var
+l=h(c),d=z(function(a){return v1(l,j,a)},b),a=z(v0,b),g=a?[0,a[1],a[2]]:v7,i=f(g,d),m=mb(k);return[0,e(vZ,c),m,i]}function
+mc(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-l7(b){function
+md(b){function
 a(a){return t(a,e(i,b),[0,d,c])}var
-f=a(v0),g=a(v1);return[0,a(0),g,f]}function
-hQ(S,R,Q,a){switch(a[1]){case
+f=a(v8),g=a(v9);return[0,a(0),g,f]}function
+hO(S,R,Q,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
@@ -5000,8 +5042,8 @@ B=o;if(!K)return B}if(J)return 0;break;case
 9:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0]){var
-ac=p[1],ad=fV(0,Q);return e(function(a){var
-b=i(ac),c=ct(a[2]);return[14,ct(a[1]),c,b]},ad)}return 0;case
+ac=p[1],ad=fW(0,Q);return e(function(a){var
+b=i(ac),c=cu(a[2]);return[14,cu(a[1]),c,b]},ad)}return 0;case
 13:var
 q=a[4],L=0;if(typeof
 q==="number"||!(1===q[0]))L=1;else
@@ -5013,7 +5055,7 @@ r==="number"||!(1===r[0]))M=1;else{var
 s=a[3],N=0,af=r[1];if(s){var
 C=s[1];if(1===C[0]){var
 ag=C[1],b=function(a){var
-b=i(af);return[13,a,0,l7(ag),b]};N=1}else
+b=i(af);return[13,a,0,md(ag),b]};N=1}else
 var
 D=0}else
 var
@@ -5024,15 +5066,15 @@ t==="number"||!(1===t[0]))O=1;else{var
 u=a[3],P=0,ah=t[1];if(u){var
 E=u[1];if(1===E[0]){var
 ai=E[1],b=function(a){var
-b=i(ah);return[13,a,1,l7(ai),b]};P=1}else
+b=i(ah);return[13,a,1,md(ai),b]};P=1}else
 var
 F=0}else
 var
 F=u;if(!P)return F}if(O)return 0;break;default:return 0}var
-v=a[2],U=v?[0,bD(v[1]),0]:aX(0,R);return e(b,U)}function
-dC(e,d,c,b){var
-g=y(function(a){return hQ(e,d,c,a)},b),a=y(l6,b),h=a?[0,a[1],a[2]]:v2;return f(h,g)}function
-fW(a){return 11===a[1]?1:0}function
+v=a[2],U=v?[0,bD(v[1]),0]:aZ(0,R);return e(b,U)}function
+dG(e,d,c,b){var
+g=z(function(a){return hO(e,d,c,a)},b),a=z(mc,b),h=a?[0,a[1],a[2]]:v_;return f(h,g)}function
+fX(a){return 11===a[1]?1:0}function
 bN(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -5045,7 +5087,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cb(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Q(v3,h);return i?Q(h,m):i}var
+h=g[1],i=R(v$,h);return i?R(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -5054,7 +5096,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 bd(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Q(v4,e),o=f?Q(e,b):f,c=o;else
+e=d[1],f=R(wa,e),o=f?R(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
@@ -5072,49 +5114,49 @@ l!=="number"&&1===l[0]){var
 m=a[3];return m?0===m[1][0]?c?u(b,n):c:bN(0,b,a):bN(0,b,a)}return bN(0,b,a)}return bN(0,b,a)}function
 bx(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bd(c,b,a):a[3]?bd(c,b,a):1:bd(c,b,a):bd(c,b,a)}function
-l8(f,c,b,a){var
+me(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Q(v7,h),r=i?Q(h,b):i,d=r;else
+h=g[1],i=R(wd,h),r=i?R(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bd(a3(c),b,a);if(d){var
+1:if(a[3])return bd(a4(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
 k=0;return cb(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bd(a3(c),b,a):d;return bd(a3(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bd(a4(c),b,a):d;return bd(a4(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bd(a3(c),b,a);var
-n=u(b,a3(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bd(a4(c),b,a);var
+n=u(b,a4(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bd(a3(c),b,a);case
+e=n;return e}return bd(a4(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bd(a3(c),b,a):d?ac(f):d;return bd(a3(c),b,a);default:return bd(a3(c),b,a)}}function
-cu(a){switch(a[0]){case
+p!=="number"&&1===p[0])return a[3]?bd(a4(c),b,a):d?ac(f):d;return bd(a4(c),b,a);default:return bd(a4(c),b,a)}}function
+cv(a){switch(a[0]){case
 0:return[0,i([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cu(a[1])];case
+2:return[2,cv(a[1])];case
 3:var
-b=cu(a[2]),c=cu(a[3]);switch(a[1]){case
+b=cv(a[2]),c=cv(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cu(a[1]),d];default:return[8,cu(a[1])]}}function
-hR(b){function
+d=a[2];return[7,cv(a[1]),d];default:return[8,cv(a[1])]}}function
+hP(b){function
 a(e){var
 a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(v8),f=a(v9);return[0,a(0),f,e]}function
-cV(a){function
+e=a(we),f=a(wf);return[0,a(0),f,e]}function
+cY(a){function
 b(a){var
 b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5122,17 +5164,17 @@ b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,i(a[1])];default:var
 e=i(a[2]);return[3,i(a[1]),e]}}function
-l9(a){if(0===a[0]){var
-b=aJ(a[1],a[2]);return[0,hR(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},b))]}return l5([1,a[1],a[2],a[3],a[4],a[5]])}function
-l_(k,b,h,g,f,d,a){function
-c(a){return hR(e(bw,a))}var
-l=ap(fW,a),m=dC(0,j(b),d,a),n=cV(f),o=l9(g),p=i(h);return[0,k,e(function(a){var
+mf(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,hP(e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},b))]}return mb([1,a[1],a[2],a[3],a[4],a[5]])}function
+mg(k,b,j,g,f,d,a){function
+c(a){return hP(e(bw,a))}var
+l=ap(fX,a),m=dG(0,h(b),d,a),n=cY(f),o=mf(g),p=i(j);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-l$(a){return ap(function(a){return 2===a[0]?1:0},a)}function
-ma(k,a,b,h,g,f){var
-l=j(a),m=dC(l$(a),l,0,f),n=w(cV,g),o=l9(h),p=b?i(b[1]):[0,c,c];return[0,k,e(function(a){function
-b(a){return hR(e(bw,a))}switch(a[0]){case
+mh(a){return ap(function(a){return 2===a[0]?1:0},a)}function
+mi(k,a,b,j,g,f){var
+l=h(a),m=dG(mh(a),l,0,f),n=w(cY,g),o=mf(j),p=b?i(b[1]):[0,c,c];return[0,k,e(function(a){function
+b(a){return hP(e(bw,a))}switch(a[0]){case
 0:var
 k=a[5],l=bw(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
@@ -5142,39 +5184,39 @@ g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 p=a[7],q=bw(a[6]),r=bw(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mb(a){return a[1]?0:1}function
-mc(a){var
-c=mb(a);if(c)return c;if(1===a[1]){var
+mj(a){return a[1]?0:1}function
+mk(a){var
+c=mj(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-fX(i,h,b){function
+fY(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(fY,a(fY,b)),j=a(f,hS),k=i?f:a(c(b,fY),hS);function
-g(b){return a(b,[5,e(fY,d(hS,d(b,b)))])}var
+f=c(fZ,a(fZ,b)),j=a(f,hQ),k=i?f:a(c(b,fZ),hQ);function
+g(b){return a(b,[5,e(fZ,d(hQ,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-fZ(f,e,d){function
+f0(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,hT,a(hT,d)],md),g=a(c,[5,[3,0,hT,b(md,b(c,c))]]);return[2,b(fX(f,e,d),g)]}function
-hU(e,g,a){function
+c=a([3,1,hR,a(hR,d)],ml),g=a(c,[5,[3,0,hR,b(ml,b(c,c))]]);return[2,b(fY(f,e,d),g)]}function
+hS(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f0,b(f0,a)),d=e?h:b(f(a,f0),me),i=b(d,[5,[3,0,f0,c(me,c(d,d))]]);return c(fX(e,g,a),i)}function
-mf(o,e,a){if(e)if(a){var
+h=f(f1,b(f1,a)),d=e?h:b(f(a,f1),mm),i=b(d,[5,[3,0,f1,c(mm,c(d,d))]]);return c(fY(e,g,a),i)}function
+mn(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=ci(i(g[2][1]));if(k){var
 l=k[1],m=ci(i(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,eX(h[2],d,c)];return dc(l,bW(e7(p,l),e))},q=n(z(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,eZ(h[2],d,c)];return dg(l,bW(e8(p,l),e))},q=n(y(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mf([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mn([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 j=a;else
 var
@@ -5183,21 +5225,21 @@ am(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jb(function(a){return ao(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=jc(function(a){return ao(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,am(b,a[1])];case
 3:var
 f=am(b,a[3]),g=am(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,am(b,a[1]),h];default:return[5,am(b,a[1])]}}function
-mg(b,a){if(0===a[0])return[0,am(b,a[1])];var
+mo(b,a){if(0===a[0])return[0,am(b,a[1])];var
 c=am(b,a[2]);return[1,am(b,a[1]),c]}function
-hV(b,a){var
+hT(b,a){var
 c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hW(c,a){if(c)if(a){var
+hU(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hW(h,g);if(e){var
-i=e[1],f=hW(h,i[2]);if(f)var
+e=hU(h,g);if(e){var
+i=e[1],f=hU(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5209,76 +5251,76 @@ var
 d=a;else
 var
 d=c;return d}function
-hX(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hX(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(v(b(2,c),l),k),j],h]}else
+hV(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,hV(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,y(v(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-wc(a){if(typeof
+wk(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-wd(a){if(typeof
+wl(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f1(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=f1(e,a[3]);return bW(dc(f1(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}function
-mh(a){return 0===a[0]?dq(a[1][4]):0}function
-mi(a){switch(a[0]){case
+f2(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=f2(e,a[3]);return bW(dg(f2(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}function
+mp(a){return 0===a[0]?dv(a[1][4]):0}function
+mq(a){switch(a[0]){case
 0:var
-b=a[1],c=a1(b[3]);return f(a1(b[2]),c);case
+b=a[1],c=a2(b[3]);return f(a2(b[2]),c);case
 1:var
-d=a1(a[2]);return f(a1(a[1]),d);default:return 0}}function
-f2(a){switch(a[0]){case
-0:return bL(a1(a[1][1]));case
+d=a2(a[2]);return f(a2(a[1]),d);default:return 0}}function
+f3(a){switch(a[0]){case
+0:return bL(a2(a[1][1]));case
 1:var
-b=a[3];return b?bL(a1(b[1])):d;default:return bL(a1(a[1]))}}function
-hY(b){var
-a=y(mh,b),d=a?[0,a[1],a[2]]:y(mi,b);return z(c,bL(d))}function
-mj(c,a){if(c){if(a){var
+b=a[3];return b?bL(a2(b[1])):d;default:return bL(a2(a[1]))}}function
+hW(b){var
+a=z(mp,b),d=a?[0,a[1],a[2]]:z(mq,b);return y(c,bL(d))}function
+mr(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=we;else
+b=wm;else
 if(43===d)var
-b=wf;else
+b=wn;else
 var
-f=48===d?1:0,i=f?wg:f,b=i;if(b)var
-e=mj(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?wo:f,b=i;if(b)var
+e=mr(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:wh}function
-ey(b,a){switch(a[0]){case
+h=a;return h}return a?0:wp}function
+eA(b,a){switch(a[0]){case
 0:var
-c=a[1];if(ao(c,wi))return wj;if(ao(c,wk))return wl;if(ao(c,wm))return wn;if(ao(c,wo))return wp;if(ao(c,wq))return wr;var
-k=ao(c,ws),p=k?wt:k;return p;case
+c=a[1];if(ao(c,wq))return wr;if(ao(c,ws))return wt;if(ao(c,wu))return wv;if(ao(c,ww))return wx;if(ao(c,wy))return wz;var
+k=ao(c,wA),p=k?wB:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(ao(f,wu))return[0,[0,d,e]];if(ao(f,wv))return[0,[1,d,e]];if(ao(f,ww))return[0,[2,d,e]];var
-l=ao(f,wx),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(ao(f,wC))return[0,[0,d,e]];if(ao(f,wD))return[0,[1,d,e]];if(ao(f,wE))return[0,[2,d,e]];var
+l=ao(f,wF),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=ey(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eA(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=ey(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eA(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=ey(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=ey(b,a[1]);if(i)var
-j=mj(b,gD(gC(an(m),function(a){return aH(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eA(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eA(b,a[1]);if(i)var
+j=mr(b,gE(gD(an(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mk(d,a){if(a){var
-e=a[1],b=ey(d,e[2]);if(b)var
-c=mk(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+ms(d,a){if(a){var
+e=a[1],b=eA(d,e[2]);if(b)var
+c=ms(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return wy}function
-cW(d,c,a){if(c)if(a){var
+f=b;return f}return wG}function
+cZ(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mk(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=ms(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cW(d,k,j);if(f){var
-m=f[1],g=cW(d,k,m[2]);if(g)var
+f=cZ(d,k,j);if(f){var
+m=f[1],g=cZ(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5293,114 +5335,118 @@ var
 h=a;else
 var
 h=c;return h}function
-hZ(e,d,a){if(d){if(a){var
-b=cW(e,j(a),a);if(b)var
-f=b[1],c=hZ(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+hX(e,d,a){if(d){if(a){var
+b=cZ(e,h(a),a);if(b)var
+f=b[1],c=hX(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return wz}return a?0:wA}function
-h0(a){return typeof
-a==="number"?0===a?0:1:0===a[0]?[0,a[1],a[2]]:[1,a[1],a[2]]}function
-h1(d,a){if(d)if(a){var
+g=b;return g}return wH}return a?0:wI}function
+hY(a){if(typeof
+a==="number")return 0===a?wJ:wK;else
+switch(a[0]){case
+0:return[0,[0,a[1],a[2]]];case
+1:return[0,[1,a[1],a[2]]];default:return 0}}function
+hZ(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=h1(k,j);if(e){var
-l=e[1],f=h1(k,l[2]);if(f)var
+e=hZ(k,j);if(e){var
+l=e[1],f=hZ(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
-o=e;return o}var
-p=c?[0,[0,[0,h,h0(c[1])],j]]:c,g=p}else
+o=e;return o}if(c){var
+p=hY(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
+g=c}else
 var
 g=a;else
 var
 g=d;return g}function
-cv(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-cX(a,e){var
-b=cv(a[1],e),c=cv(a[2],b[2]),d=cv(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-ml(d,c){if(d){var
+cw(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
+c0(a,e){var
+b=cw(a[1],e),c=cw(a[2],b[2]),d=cw(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+mt(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=cX(a[1],c),f=cX(a[2],e[2]),g=cX(a[3],f[2]),h=cv(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=c0(a[1],c),f=c0(a[2],e[2]),g=c0(a[3],f[2]),h=cw(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=cX(a[1],c),k=j[1],l=cX(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=cX(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=c0(a[1],c),k=j[1],l=c0(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=c0(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=cX(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=ml(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-wB(a){if(typeof
+p=c0(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=mt(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+wL(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return wD;case
+5:return wN;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return wC}function
+11:return 0}return wM}function
 be(a,b){if(a){var
-c=cv(a[1],b),d=be(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a$(b){function
+c=cw(a[1],b),d=be(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aX(b){function
 a(a){return t(a,b,[0,d,c])}var
-e=a(wG),f=a(wH);return[0,a(0),f,e]}function
-mm(a,b){if(a){var
-c=a[1],d=be(c[1],b),e=be(c[2],d[2]),f=mm(a[2],e[2]),g=f[2],h=f[1],i=a$(e[1]);return[0,[0,[0,a$(d[1]),i],h],g]}return[0,0,b]}function
-mn(f,b){if(f){var
+e=a(wQ),f=a(wR);return[0,a(0),f,e]}function
+mu(a,b){if(a){var
+c=a[1],d=be(c[1],b),e=be(c[2],d[2]),f=mu(a[2],e[2]),g=f[2],h=f[1],i=aX(e[1]);return[0,[0,[0,aX(d[1]),i],h],g]}return[0,0,b]}function
+mv(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=be(a[1],b),h=be(a[2],g[2]),i=be(a[3],h[2]),j=cv(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a$(i[1]),y=a$(h[1]),e=[0,[0,[0,a$(g[1]),y,x,w,v]],u];break;case
+g=be(a[1],b),h=be(a[2],g[2]),i=be(a[3],h[2]),j=cw(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=aX(i[1]),y=aX(h[1]),e=[0,[0,[0,aX(g[1]),y,x,w,v]],u];break;case
 1:var
-k=be(a[1],b),l=be(a[2],k[2]),z=l[2],A=a$(l[1]),e=[0,[0,[1,a$(k[1]),A,0]],z];break;default:var
-m=a[1],n=be(m,b),o=be(a[2],n[2]),p=be(a[3],o[2]),q=be(a[4],p[2]),r=cv(a[5],q[2]),s=cv(a[6],r[2]),B=m?a$(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a$(q[1]),H=a$(p[1]),e=[0,[1,[0,B,a$(o[1]),H,G,F,E,D]],C]}var
-t=mn(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dD(a){return jv(p,a)}function
-wI(a){if(typeof
+k=be(a[1],b),l=be(a[2],k[2]),z=l[2],A=aX(l[1]),e=[0,[0,[1,aX(k[1]),A,0]],z];break;default:var
+m=a[1],n=be(m,b),o=be(a[2],n[2]),p=be(a[3],o[2]),q=be(a[4],p[2]),r=cw(a[5],q[2]),s=cw(a[6],r[2]),B=m?aX(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=aX(q[1]),H=aX(p[1]),e=[0,[1,[0,B,aX(o[1]),H,G,F,E,D]],C]}var
+t=mv(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dH(a){return jx(o,a)}function
+wS(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(p,1,[3,a[1],[0,c,c]]);case
-6:return g(p,1,a[2]);case
+5:return g(o,1,[3,a[1],[0,c,c]]);case
+6:return g(o,1,a[2]);case
 8:var
-d=g(p,1,a[1]);return d?g(p,1,a[2]):d;case
-10:return g(p,0,a[3]);case
+d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
+10:return g(o,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?g(p,0,e[2]):0;case
+e=a[4];return 2===e[0]?g(o,0,e[2]):0;case
 12:var
-f=g(p,0,a[2]),h=f?g(p,0,a[3]):f;return h?g(p,1,a[4]):h;case
+f=g(o,0,a[2]),h=f?g(o,0,a[3]):f;return h?g(o,1,a[4]):h;case
 14:var
-i=g(p,0,a[1]);return i?g(p,1,a[2]):i;case
+i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return o(function(a){return g(p,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return p(function(a){return g(o,k,a)},j);case
 2:case
-3:return dD(a[2]);case
+3:return dH(a[2]);case
 4:case
 13:var
-b=g(p,1,a[2]);return b?g(p,1,a[3]):b;default:return g(p,1,a[1])}}function
-h2(a){if(typeof
+b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
+h0(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(p,1,[3,d,e]),h=f?g(p,1,[3,[2,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(p,0,[2,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):h;return i?g(p,0,[3,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):i;case
-5:return g(p,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(o,0,[2,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):h;return i?g(o,0,[3,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):i;case
+5:return g(o,1,[3,a[1],[0,c,c]]);case
 8:var
-k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
-10:return g(p,1,a[2]);case
+k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
+10:return g(o,1,a[2]);case
 11:var
-l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],l]):m;case
+l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],l]):m;case
 13:var
-o=a[4],q=lj(a[3]),r=q?g(p,1,o):q;return r?g(p,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],o]):r;case
-14:return g(p,0,a[3]);case
+p=a[4],q=lm(a[3]),r=q?g(o,1,p):q;return r?g(o,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],p]):r;case
+14:return g(o,0,a[3]);case
 2:case
-3:return dD(a[2]);case
+3:return dH(a[2]);case
 6:case
 7:case
 9:var
-j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
-f3(d){var
+j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
+f4(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=ac(ap(function(d){return function(a){var
-h=hK(a[1]),e=ao(hK(d[1]),h);if(e)var
-i=hL(a[4]),b=ao(hL(d[4]),i);else
+h=hI(a[1]),e=ao(hI(d[1]),h);if(e)var
+i=hJ(a[4]),b=ao(hJ(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5409,78 +5455,78 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ez(a){if(0===a[0])return dD(i(a[1]));var
-b=a[2],c=a[1];if(!d6(i(c))&&!d6(i(b))){var
-e=i(c);return g(p,1,[3,i(b),e])}var
-d=i(b);return ba(p,i(c),d)}function
-cY(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-mo(a){switch(a[0]){case
+eB(a){if(0===a[0])return dH(i(a[1]));var
+b=a[2],c=a[1];if(!d8(i(c))&&!d8(i(b))){var
+e=i(c);return g(o,1,[3,i(b),e])}var
+d=i(b);return ba(o,i(c),d)}function
+c1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+mw(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(cY(a[3]),c),e=f(cY(a[2]),d);return f(cY(a[1]),e);case
+c=[0,a[4],0],d=f(c1(a[3]),c),e=f(c1(a[2]),d);return f(c1(a[1]),e);case
 1:var
-b=a[3],g=b?cY(b[1]):b,h=f(cY(a[2]),g);return f(cY(a[1]),h);default:return cY(a[1])}}function
-mp(s,a,h){if(ap(function(a){return 9===a[1]?1:0},h)){var
-b=Q(j(a),wL),c=b?o(function(a){if(0===a[0]){var
-d=a[5],e=g(p,1,i(a[2])),h=e?g(p,0,i(a[3])):e,j=h?g(p,0,i(a[4])):h,c=0;if(j)if(d)var
-n=bv(d[1]),b=o(function(a){return dD(i(a))},n);else{var
+b=a[3],g=b?c1(b[1]):b,h=f(c1(a[2]),g);return f(c1(a[1]),h);default:return c1(a[1])}}function
+mx(s,a,j){if(ap(function(a){return 9===a[1]?1:0},j)){var
+b=R(h(a),wV),c=b?p(function(a){if(0===a[0]){var
+d=a[5],e=g(o,1,i(a[2])),h=e?g(o,0,i(a[3])):e,j=h?g(o,0,i(a[4])):h,c=0;if(j)if(d)var
+n=bv(d[1]),b=p(function(a){return dH(i(a))},n);else{var
 l=1;c=1}else{var
 l=j;c=1}if(c)var
 b=l}else{var
-m=g(p,1,i(a[4]));if(m)var
-q=bv(a[3]),r=f(bv(a[2]),q),b=o(function(a){return dD(i(a))},r);else
+m=g(o,1,i(a[4]));if(m)var
+q=bv(a[3]),r=f(bv(a[2]),q),b=p(function(a){return dH(i(a))},r);else
 var
 b=m}return b?k(s,a):b},a):b;if(c)var
-d=fV(0,a),l=d?1:d,e=l;else
+d=fW(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-mq(a){return a?wM:wN}function
-h3(a){switch(a){case
-0:return wO;case
-1:return wP;default:return 0}}function
-cw(a){var
-f=a[1],d=g(p,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?ba(p,a[1],a[2]):d;if(e){var
-h=a[2];return g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],h])}return e}function
-dE(a){var
-e=ba(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-mr(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
-l=aJ(e,d);return o(function(a){var
-b=i(a[2]);return ba(p,i(a[1]),b)},l)}return h}var
-k=b?g(p,1,i(a[3])):b;if(k){var
-m=i(a[5]);return ba(p,i(a[4]),m)}return k}function
-ms(a,e,F,E,s,r,f){function
+my(a){return a?wW:wX}function
+h1(a){switch(a){case
+0:return wY;case
+1:return wZ;default:return 0}}function
+cx(a){var
+f=a[1],d=g(o,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?ba(o,a[1],a[2]):d;if(e){var
+h=a[2];return g(o,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],h])}return e}function
+dI(a){var
+e=ba(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
+mz(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=u(h(e),c),j=f?u(h(d),c):f;if(j){var
+l=aK(e,d);return p(function(a){var
+b=i(a[2]);return ba(o,i(a[1]),b)},l)}return j}var
+k=b?g(o,1,i(a[3])):b;if(k){var
+m=i(a[5]);return ba(o,i(a[4]),m)}return k}function
+mA(a,e,F,E,s,r,f){function
 t(b){var
-d=mq(a),c=u(j(b),d);return c?o(ez,b):c}var
-v=o(function(a){var
+d=my(a),c=u(h(b),d);return c?p(eB,b):c}var
+v=p(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
-G=j(e),l=Q(ds(a),G);else
+G=h(e),l=R(cq(a),G);else
 var
 l=v;var
-w=l?Q(j(e),wQ):l,x=w?g(p,1,i(F)):w;if(x)var
-H=1===a?1:0,m=mr(h3(a),H,E);else
+w=l?R(h(e),w0):l,x=w?g(o,1,i(F)):w;if(x)var
+H=1===a?1:0,m=mz(h1(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=cV(s);switch(d[0]){case
+d=cY(s);switch(d[0]){case
 0:var
-h=0;break;case
+j=0;break;case
 1:var
-A=cw(d[1]),B=A?cw(d[2]):A,h=B?cw(d[3]):B;break;case
+A=cx(d[1]),B=A?cx(d[2]):A,j=B?cx(d[3]):B;break;case
 2:var
-h=dE(d[1]);break;default:var
-C=dE(d[1]),h=C?dE(d[2]):C}var
-k=h}else
+j=dI(d[1]);break;default:var
+C=dI(d[1]),j=C?dI(d[2]):C}var
+k=j}else
 var
-D=cV(s),J=0===D[0]?cw(D[1]):0,k=J;else
+D=cY(s),J=0===D[0]?cx(D[1]):0,k=J;else
 var
 k=m;if(k)var
-I=j(e),n=mp(function(a){if(0===a[0]){var
-b=a[1],c=Q(wK,b),d=c?Q(b,I):c;if(d){if(a[5])return 0;var
+I=h(e),n=mx(function(a){if(0===a[0]){var
+b=a[1],c=R(wU,b),d=c?R(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 n=k;if(n)var
-b=j(e),c=ds(a),y=mq(a),q=o(function(a){var
+b=h(e),c=cq(a),y=my(a),q=p(function(a){var
 d=a[1];if(9<=d)switch(d-9|0){case
 0:var
 e=a[4];if(typeof
@@ -5489,67 +5535,67 @@ e!=="number"&&0===e[0])return a[2]?bx(c,b,a):a[3]?bx(c,b,a):1;return bx(c,b,a);c
 f=a[4];if(typeof
 f!=="number"&&1===f[0]){var
 g=a[3];if(g){var
-h=g[1];if(1===h[0]){var
-i=u(j(h[1]),y);if(i){var
+i=g[1];if(1===i[0]){var
+j=u(h(i[1]),y);if(j){var
 k=a[2];if(k){var
-l=k[1],m=Q(v5,l);return m?Q(l,b):m}var
+l=k[1],m=R(wb,l);return m?R(l,b):m}var
 n=1}else
 var
-n=i;return n}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a);case
+n=j;return n}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a);case
 6:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=u(j(q[1]),y);if(r){var
+r=u(h(q[1]),y);if(r){var
 s=a[2];if(s){var
-t=s[1],v=Q(v6,t);return v?Q(t,b):v}var
+t=s[1],v=R(wc,t);return v?R(t,b):v}var
 w=1}else
 var
 w=r;return w}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)},f);else
 var
 q=n;var
-z=q?f3(f):q;return z?o(h2,dC(0,j(e),r,f)):z}function
-mt(a){switch(a[0]){case
+z=q?f4(f):q;return z?p(h0,dG(0,h(e),r,f)):z}function
+mB(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-mu(a,e,d,R,m,l){var
+mC(a,e,d,Q,m,l){var
 n=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=n?wR:wS;return u(j(a),b)}var
-h=l$(e),z=o(function(b){switch(b[0]){case
+b=n?w1:w2;return u(h(a),b)}var
+j=mh(e),y=p(function(b){switch(b[0]){case
 0:var
-d=ac(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=ac(j),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=ac(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
+g=ac(j),h=g?c(b[1]):g,i=h?c(b[2]):h;if(i)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
-l=j;return l;default:var
-m=b[1],o=n?m?0:1:c(m),p=o?c(b[2]):o,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(z)var
-S=j(e),q=Q(a3(a),S);else
+l=i;return l;default:var
+m=b[1],o=n?m?0:1:c(m),p=o?c(b[2]):o,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(y)var
+S=h(e),q=R(a4(a),S);else
 var
-q=z;var
-A=q?Q(j(e),wT):q,B=A?o(ez,y(mt,e)):A;if(B){var
+q=y;var
+A=q?R(h(e),w3):q,B=A?p(eB,z(mB,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-T=n?wU:wV,r=mr(T,C,R)}else
+T=n?w4:w5,r=mz(T,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=w(cV,m)?0:1,b=V;else
+V=w(cY,m)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=w(cV,m);if(t){var
+t=w(cY,m);if(t){var
 E=t[1];if(0===E[0])var
-F=g(p,1,i(d[1])),G=F?cw(E[1]):F;else
+F=g(o,1,i(d[1])),G=F?cx(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -5559,15 +5605,15 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],x=w(cV,m);if(x){var
+v=d[1],x=w(cY,m);if(x){var
 f=x[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-J=g(p,1,i(v)),K=J?cw(f[1]):J,L=K?cw(f[2]):K,k=L?cw(f[3]):L;break;case
+J=g(o,1,i(v)),K=J?cx(f[1]):J,L=K?cx(f[2]):K,k=L?cx(f[3]):L;break;case
 2:var
-M=g(p,1,i(v)),k=M?dE(f[1]):M;break;default:var
-N=g(p,1,i(v)),O=N?dE(f[1]):N,k=O?dE(f[2]):O}var
+M=g(o,1,i(v)),k=M?dI(f[1]):M;break;default:var
+N=g(o,1,i(v)),O=N?dI(f[1]):N,k=O?dI(f[2]):O}var
 I=k}else
 var
 I=x;var
@@ -5577,125 +5623,126 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-U=j(e),s=o(function(b){return l8(h,a,U,b)},l);else
+U=h(e),s=p(function(b){return me(j,a,U,b)},l);else
 var
 s=b;var
-D=s?f3(l):s;return D?o(h2,dC(h,j(e),0,l)):D}function
-wW(a){switch(a[0]){case
-0:return fz(a[1][1]);case
+D=s?f4(l):s;return D?p(h0,dG(j,h(e),0,l)):D}function
+w6(a){switch(a[0]){case
+0:return fA(a[1][1]);case
 1:var
-b=a[3];return b?fz(b[1]):1;default:return fz(a[1])}}function
-h4(a,k,b,d){var
-e=mp(function(g){if(0===g[0]){var
-c=g[1],d=Q(wJ,c);if(d){var
-b=R(a,bD(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?fA(b[1]):1;default:return fA(a[1])}}function
+h2(a,k,b,d){var
+e=mx(function(g){if(0===g[0]){var
+c=g[1],d=R(wT,c);if(d){var
+b=S(a,bD(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?o(wW,d[1]):e,g=f?Q(wX,j(a)):f;if(g)var
-l=j(a),c=o(function(a){return vV(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?p(w6,d[1]):e,g=f?R(w7,h(a)):f;if(g)var
+l=h(a),c=p(function(a){return v3(l,a)},b);else
 var
 c=g;var
-h=c?f3(b):c,i=h?o(ez,y(mo,a)):h;return i?o(wI,d[3]):i}function
-f4(b,a){return o(function(c){var
-a=c[2];return a?dW(a[1],b):1},a)}function
-mv(a){if(a){var
-b=a[1];if(fW(b))return 0;var
-c=[0,b,mv(a[2])]}else
+i=c?f4(b):c,j=i?p(eB,z(mw,a)):i;return j?p(wS,d[3]):j}function
+f5(b,a){return p(function(c){var
+a=c[2];return a?dZ(a[1],b):1},a)}function
+mD(a){if(a){var
+b=a[1];if(fX(b))return 0;var
+c=[0,b,mD(a[2])]}else
 var
 c=a;return c}function
-wY(a){if(typeof
+w8(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ep(d)&&ac(g(p,0,[3,d,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])))return w0;return w1}return wZ}function
-mw(f,d,b){var
-g=mv(b),h=0,c=aW(N,0,e(wY,y(function(a){return hQ(h,f,d,a)},g))),a=y(l6,b),i=a?[0,a[1],a[2]]:w2;return N(j(i),c)}function
-h5(b,a){var
-c=j(bF(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
-h6(a){if(a){var
+d=a[4];if(eq(d)&&ac(g(o,0,[3,d,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])))return w_;return w$}return w9}function
+mE(f,d,b){var
+g=mD(b),i=0,c=aR(Q,0,e(w8,z(function(a){return hO(i,f,d,a)},g))),a=z(mc,b),j=a?[0,a[1],a[2]]:xa;return Q(h(j),c)}function
+h3(b,a){var
+c=h(bF(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
+h4(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-mx(aL,Z,aK,Y,X,b,aH,B){var
-a=hP(Z,aK,Y,X),aN=j(B);if(aL)var
+mF(aL,Z,aI,Y,X,b,aH,B){var
+a=hN(Z,aI,Y,X),aN=h(B);if(aL)var
 _=0;else
 var
-aE=a[1],aF=e(f2,a[1]),W=fu(hY(a[1]),aF,aE),aG=aJ(aX(0,j(W)),W),_=e(aI,bF(function(a){return g8(a[2])},aG));var
-C=cW(_,aN,B);if(C){var
+aE=a[1],aF=e(f3,a[1]),W=fv(hW(a[1]),aF,aE),aG=aK(aZ(0,h(W)),W),_=e(aJ,bF(function(a){return g6(a[2])},aG));var
+C=cZ(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=h4(Z,Y,X,a),ab=aa?f4(w3,B):aa;if(ab){var
-aO=$[1],D=e(f2,a[1]),c=hY(a[1]),aP=h6(aH),U=kr(p,a);if(U){var
-i=fu(c,D,a[1]),g=g5(c,D,a[1],0),ae=j(a[3]),af=N(j(i),ae),K=[0,j(i),af],ag=a[3],F=ap(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?y(function(a){var
-b=e(ca,kd(i,a));return[0,a[4],b]},g):F,ak=f(g7(g,c,K,a[3]),ai),al=f(bt(jM(g)),ak),L=f(bt(d8(g)),al),M=cG(L)[1],m=bH(M),O=o(function(a){var
-b=l(d);return ay(t(a8(m,a),m,b),a)},L);if(O){var
-P=ap(qp,a[3]);if(P){var
+aa=h2(Z,Y,X,a),ab=aa?f5(xb,B):aa;if(ab){var
+aO=$[1],D=e(f3,a[1]),c=hW(a[1]),aP=h4(aH),V=kt(o,a);if(V){var
+j=fv(c,D,a[1]),g=g3(c,D,a[1],0),ae=h(a[3]),af=Q(h(j),ae),K=[0,h(j),af],ag=a[3],F=ap(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?z(function(a){var
+b=e(ca,kf(j,a));return[0,a[4],b]},g):F,ak=f(g5(g,c,K,a[3]),ai),al=f(bt(jO(g)),ak),M=f(bt(d_(g)),al),N=cI(M)[1],m=cG(N),O=p(function(a){var
+b=l(d);return ay(t(a9(m,a),m,b),a)},M);if(O){var
+P=ap(qu,a[3]);if(P){var
 s=D,n=a[1];for(;;){if(n){var
-q=n[1],u=bE(d,s);switch(q[0]){case
+q=n[1],u=bn(d,s);switch(q[0]){case
 0:var
-G=q[1],H=fw(b,G[1],u),E=0;if(H){var
+G=q[1],H=fx(b,G[1],u),E=0;if(H){var
 r=ah(b,[0,G[4],c]);if(r)var
-h=V(d,r[1][1]);else{var
+i=L(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
-h=I;break;case
+i=I;break;case
 1:var
-J=q[3],h=J?fw(b,J[1],u):1;break;default:var
-h=fw(b,q[1],u)}if(h){var
-ad=n[2],s=bV(s),n=ad;continue}var
-Q=h}else
+J=q[3],i=J?fx(b,J[1],u):1;break;default:var
+i=fx(b,q[1],u)}if(i){var
+ad=n[2],s=bE(s),n=ad;continue}var
+R=i}else
 var
-Q=1;var
-v=Q;break}}else
+R=1;var
+v=R;break}}else
 var
 v=P;if(v){var
-am=a[3],an=y(function(a){return cJ(c,a)},am),ao=a[3],aq=f(i,f(e(function(a){return bs(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
-as=aM(dp(a[2]),c),x=aj(e(function(a){return ah(b,a)},as));if(x){var
-at=a[3],z=aj(kf(b,aP,function(a){return a8(m,a)},i,g,c,K,at));if(z){var
-R=z[1],au=g4(R),av=x[1],aw=a[2],ax=function(a){return kg(b,aw,c,a)},az=w[1],aA=0,aB=jM(g),aC=k(ar(function(a){return a8(m,a)}),aB),aD=d8(g);return fs(b,M,k(ar(function(a){return a8(m,a)}),aD),aC,aA,az,R,ax,av,au,aO)}var
-S=z}else
+am=a[3],an=z(function(a){return cL(c,a)},am),ao=a[3],aq=f(j,f(e(function(a){return bs(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
+ar=aM(du(a[2]),c),x=aj(e(function(a){return ah(b,a)},ar));if(x){var
+at=a[3],y=aj(kh(b,aP,function(a){return a9(m,a)},j,g,c,K,at));if(y){var
+S=y[1],au=g2(S),av=x[1],aw=a[2],ax=function(a){return ki(b,aw,c,a)},az=w[1],aA=0,aB=jO(g),aC=k(as(function(a){return a9(m,a)}),aB),aD=d_(g);return ft(b,N,k(as(function(a){return a9(m,a)}),aD),aC,aA,az,S,ax,av,au,aO)}var
+T=y}else
 var
-S=x;var
-T=S}else
+T=x;var
+U=T}else
 var
-T=w;var
-A=T}else
+U=w;var
+A=U}else
 var
 A=v}else
 var
-A=O;return A}return U}var
+A=O;return A}return V}var
 ac=ab}else
 var
 ac=C;return ac}function
-w4(a){if(0===a[0])return mh(a[1]);var
-b=a[1],c=dq(b[6]);return f(dq(b[5]),c)}function
-w5(a){if(0===a[0])return mi(a[1]);var
-b=a[1],c=a1(b[4]);return f(a1(b[3]),c)}function
-w6(a){if(0===a[0])return[0,f2(a[1]),d];var
-b=a[1],c=bL(a1(b[2]));return[0,bL(a1(b[1])),c]}function
-my(f,n,m,l,k,i,x,d){var
-a=ma(f,n,m,l,k,i),o=a[2],b=y(w4,o),w=b?[0,b[1],b[2]]:y(w5,o),h=z(c,bL(w)),q=e(w6,a[2]),r=hx(h,q,a[2]),A=j(d),B=aJ(aX(0,j(r)),r),g=cW(e(aI,bF(function(a){return g8(a[2])},B)),A,d);if(g){var
+xc(a){if(0===a[0])return mp(a[1]);var
+b=a[1],c=dv(b[6]);return f(dv(b[5]),c)}function
+xd(a){if(0===a[0])return mq(a[1]);var
+b=a[1],c=a2(b[4]);return f(a2(b[3]),c)}function
+xe(a){if(0===a[0])return[0,f3(a[1]),d];var
+b=a[1],c=bL(a2(b[2]));return[0,bL(a2(b[1])),c]}function
+mG(f,n,m,l,k,j,x,d){var
+a=mi(f,n,m,l,k,j),p=a[2],b=z(xc,p),w=b?[0,b[1],b[2]]:z(xd,p),i=y(c,bL(w)),q=e(xe,a[2]),r=hv(i,q,a[2]),A=h(d),B=aK(aZ(0,h(r)),r),g=cZ(e(aJ,bF(function(a){return g6(a[2])},B)),A,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=mu(f,n,m,l,k,i),u=t?f4(a3(f),d):t;if(u)return rs(p,x,a,h,q,s[1]);var
+t=mC(f,n,m,l,k,j),u=t?f5(a4(f),d):t;if(u)return rx(o,x,a,i,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-mz(B,aM,aq,ao,A,an,h){var
-l=hP(B,aM,aq,ao);if(A){var
+mH(B,aM,aq,ao,A,an,h){var
+l=hN(B,aM,aq,ao);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=ml(B,e(i,an));if(ar[2])return 0;var
+ar=mt(B,e(i,an));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?wE:wF;else
-if(0===h[0]){var
-b=h[2],m=h[1],H=w(wB,R(as,m)),J=0;if(H){var
+a=0===h?wO:wP;else
+switch(h[0]){case
+0:var
+b=h[2],m=h[1],H=w(wL,S(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
 K=0;if(b){var
 n=b[1],L=0;if(n){var
-o=n[2],M=0;if(o){var
-q=o[2],N=0;if(q)if(q[2]){var
+p=n[2],M=0;if(p){var
+q=p[2],N=0;if(q)if(q[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
 r=b[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
@@ -5703,7 +5750,7 @@ t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
 a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
-V=[0,[0,m,[0,[0,n[1],o[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+V=[0,[0,m,[0,[0,n[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 V=u;if(!aC)var
 W=V}else
@@ -5720,7 +5767,7 @@ var
 Z=q;if(!N)var
 _=Z}else
 var
-_=o;if(!M)var
+_=p;if(!M)var
 $=_}else
 var
 $=n;if(!L)var
@@ -5731,12 +5778,12 @@ a=aa}else{var
 aD=0;if(b){var
 v=b[1],aE=0;if(v){var
 x=v[2],aF=0;if(x){var
-z=x[2],aG=0;if(z)if(z[2]||b[2]){var
+y=x[2],aG=0;if(y)if(y[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=z[1],ac=x[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=y[1],ac=x[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-ae=z;if(!aG)var
+ae=y;if(!aG)var
 af=ae}else
 var
 af=x;if(!aF)var
@@ -5751,27 +5798,29 @@ if(b)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
-a=aj}else{var
-ak=h[1],I=R(as,ak),O=0;if(I){var
+a=aj;break;case
+1:var
+ak=h[1],I=S(as,ak),O=0;if(I){var
 aH=0,al=I[1];if(typeof
 al!=="number"&&1===al[0]){var
 a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
 am=0;O=1}}else{var
 am=I;O=1}if(O)var
-a=am}if(a){var
-at=h5(y(mo,B),an),au=at?h4(B,aq,ao,l):at;if(au){var
-f=a[1],aN=i(D[1]),aO=i(C[1]),j=[0,i(A[1]),aO,aN],k=ar[1],P=ki(p,l,k,j);if(P)if(typeof
+a=am;break;default:var
+a=0}if(a){var
+at=h3(z(mw,B),an),au=at?h2(B,aq,ao,l):at;if(au){var
+f=a[1],aN=i(D[1]),aO=i(C[1]),j=[0,i(A[1]),aO,aN],k=ar[1],P=kk(o,l,k,j);if(P)if(typeof
 f==="number")return 0===f?ap(function(b){var
-a=kj(b,j);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jB(qr,e(function(b){var
-a=ee(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=R(l[3],f[1]);if(E){var
-aI=E[1],aJ=kk(f[3]);return kp(p,k,j,kk(f[2]),aJ,aI)}return E}var
-F=R(l[3],f[1]);if(F){var
-G=R(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cO(Q,j);return kp(p,k,j,cO(Q,j),aL,aK)}var
-S=G}else
+a=kl(b,j);return a?g(o,0,[3,[0,d,c],a[1]]):a},k):jD(qw,e(function(b){var
+a=ef(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+E=S(l[3],f[1]);if(E){var
+aI=E[1],aJ=km(f[3]);return kr(o,k,j,km(f[2]),aJ,aI)}return E}var
+F=S(l[3],f[1]);if(F){var
+G=S(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cR(Q,j);return kr(o,k,j,cR(Q,j),aL,aK)}var
+R=G}else
 var
-S=F;return S}return P}var
+R=F;return R}return P}var
 av=au}else
 var
 av=a;var
@@ -5784,21 +5833,21 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-mA(m,l,b,k,z,y){var
+mI(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=R(f,g),n=h?dW(h[1][2],w9):h;if(n)var
-A=d[2],i=mA(m,l,b,k,hX(0,g,f),A);else
+g=d[1],h=S(f,g),n=h?dZ(h[1][2],xh):h;if(n)var
+A=d[2],i=mI(m,l,b,k,hV(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hX(1,g,f),d=B;continue}return i}var
-c=d[1],a=mf(0,m,f),o=e(function(b){function
-d(b){return mg(a,b)}function
-c(a){return hV(d,a)}switch(b[0]){case
+B=d[3],f=hV(1,g,f),d=B;continue}return i}var
+c=d[1],a=mn(0,m,f),o=e(function(b){function
+d(b){return mo(a,b)}function
+c(a){return hT(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mg(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mo(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hV(function(b){return am(a,b)},q),s=b[1],j=[0,hV(function(b){return am(a,b)},s),r];else
+q=b[2],r=hT(function(b){return am(a,b)},q),s=b[1],j=[0,hT(function(b){return am(a,b)},s),r];else
 var
 t=am(a,b[5]),u=am(a,b[4]),v=am(a,b[3]),x=am(a,b[2]),j=[1,am(a,b[1]),x,v,u,t];var
 p=e(function(f){var
@@ -5824,321 +5873,345 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mx(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return am(a,b)},D),F=c[2];return mz(o,j,0,p,e(function(b){return am(a,b)},F),E,C)}}}function
-mB(h,g){var
+1:return mF(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return am(a,b)},D),F=c[2];return mH(o,j,0,p,e(function(b){return am(a,b)},F),E,C)}}}function
+mJ(h,g){var
 a=ci(i(h));if(a){var
 b=a[1],e=cC([0,d,c],b);if(e)return cC(b,g);var
 f=e}else
 var
 f=a;return f}function
-xd(n){var
-dI=fT(n[3]),dJ=dI?fT(n[4]):dI;if(dJ){var
-H=n[1];switch(H[0]){case
+xn(q){var
+d4=fV(q[3]),d5=d4?fV(q[4]):d4;if(d5){var
+P=q[1];switch(P[0]){case
 3:var
-dQ=o(ew,H[1]);if(dQ)var
-gU=H[2],bN=o(function(a){return ew(a[1])},gU);else
+eb=p(ex,P[1]);if(eb)var
+hr=P[2],bT=p(function(a){return ex(a[1])},hr);else
 var
-bN=dQ;if(bN)var
-gV=H[3],bO=o(function(a){var
-b=ew(a[1]),c=b?hN(a[2]):b;return c?ex(a[2]):c},gV);else
+bT=eb;if(bT)var
+ht=P[3],bU=p(function(a){var
+b=ex(a[1]),c=b?hL(a[2]):b;return c?ey(a[2]):c},ht);else
 var
-bO=bN;if(bO)var
-gW=H[4],aO=o(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0];return o(function(a){var
-b=hN(a);return b?ex(a):b},b)},gW);else
+bU=bT;if(bU)var
+hu=P[4],aR=p(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return p(function(a){var
+b=hL(a);return b?ey(a):b},b)},hu);else
 var
-aO=bO;break;case
+aR=bU;break;case
 7:var
-gX=H[1],dR=o(function(a){var
-b=ew(a[1]);return b?fU(0,[0,a[2][1],[0,a[2][2],0]]):b},gX),aO=dR?fU(0,[0,H[5],[0,H[6],0]]):dR;break;default:var
-aO=1}var
-bM=aO}else
+hv=P[1],ec=p(function(a){var
+b=ex(a[1]);return b?ez(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aR=ec?ez(0,[0,P[5],[0,P[6],0]]):ec;break;default:var
+aR=1}var
+bR=aR}else
 var
-bM=dJ;var
-cs=0;if(bM){var
-dK=n[1],dL=7===dK[0]?e(aI,dK[1]):0,dM=function(c,b){var
-a=l3(c);return a?o(function(a){var
-b=a[1];return o(function(c){var
+bR=d5;var
+cF=0;if(bR){var
+d6=q[1],bS=7===d6[0]?e(aJ,d6[1]):0,d7=function(c,b){var
+a=l$(c);return a?p(function(a){var
+e=a[1],b=p(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fT(a[2]);if(b){var
+b=fV(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fT(a[1]);case
+1:return fV(a[1]);case
 5:case
 6:case
 7:var
-a=a[1];continue;default:return 1}},b)},b):a},dN=function(d,c,b){var
-a=l3(d);return a?fU(dL,f(c,b)):a},h=n[1];switch(h[0]){case
+a=a[1];continue;default:return 1}},e);if(b){var
+c=a[3];if(c)return ez(bS,l_(c[1]));var
+d=1}else
+var
+d=b;return d},b):a},d8=function(e,d,c,b){var
+a=l$(e);return a?ez(bS,f(d,f(c,l_(b)))):a},j=q[1];switch(j[0]){case
 0:var
-gt=y(cT,h[4]),gu=f(y(l1,h[3]),gt),gv=f(lZ(h[2]),gu),I=f(y(hO,h[1]),gv);break;case
+gV=z(cW,j[4]),gW=f(z(l8,j[3]),gV),gX=f(l6(j[2]),gW),T=f(z(hM,j[1]),gX);break;case
 1:var
-bE=h[5],bI=h[3],gw=y(cT,h[6]),gx=bE?l0(bE[1]):bE,gy=f(gx,gw),gz=f(lY(h[4]),gy),gA=bI?[0,bI[1],0]:bI,gB=f(gA,gz),I=f(y(vQ,h[2]),gB);break;case
+bO=j[5],bP=j[3],gY=z(cW,j[6]),gZ=bO?l7(bO[1]):bO,g0=f(gZ,gY),g1=f(l5(j[4]),g0),g4=bP?[0,bP[1],0]:bP,g6=f(g4,g1),T=f(z(vY,j[2]),g6);break;case
 2:var
-gC=y(cT,h[7]),gD=f(y(l1,h[6]),gC),gE=f(l0(h[5]),gD),gF=f(lY(h[4]),gE),gG=[0,h[3],gF],gH=h[2],I=f(y(function(a){return y(dA,f(a[1],a[2]))},gH),gG);break;case
+g8=z(cW,j[7]),g_=f(z(l8,j[6]),g8),g$=f(l7(j[5]),g_),ha=f(l5(j[4]),g$),hb=[0,j[3],ha],hc=j[2],T=f(z(function(a){return z(dE,f(a[1],a[2]))},hc),hb);break;case
 3:var
-gI=y(cT,h[7]),gJ=f(h[6],gI),gK=f(h[5],gJ),gL=h[2],I=f(y(function(a){return dA(a[2])},gL),gK);break;case
+hd=z(cW,j[7]),he=f(j[6],hd),hf=f(j[5],he),hh=j[2],T=f(z(function(a){return dE(a[2])},hh),hf);break;case
 4:var
-gM=y(cT,h[3]),I=[0,h[1],[0,h[2],gM]];break;case
+hj=z(cW,j[3]),T=[0,j[1],[0,j[2],hj]];break;case
 5:var
-gN=y(cT,h[4]),gO=f(bv(h[3]),gN),gP=f(bv(h[2]),gO),gQ=f(y(hO,h[1]),gP),I=[0,h[5],gQ];break;case
+hk=z(cW,j[4]),hl=f(bv(j[3]),hk),hm=f(bv(j[2]),hl),hn=f(z(hM,j[1]),hm),T=[0,j[5],hn];break;case
 6:var
-bJ=h[1],I=bJ?dA(bJ[1]):bJ;break;default:var
-gR=y(cT,h[4]),gS=f(lZ(h[3]),gR),I=f(y(hO,h[2]),gS)}var
-dO=fU(dL,I);if(dO){var
-U=n[2];switch(U[0]){case
+bQ=j[1],T=bQ?dE(bQ[1]):bQ;break;default:var
+ho=z(cW,j[4]),hp=f(l6(j[3]),ho),T=f(z(hM,j[2]),hp)}var
+d9=ez(bS,T);if(d9){var
+U=q[2];switch(U[0]){case
 0:var
-aw=dM(U[1],U[3]);break;case
+aB=d7(U[1],U[3]);break;case
 1:var
-aw=dN(U[1],U[2],U[3]);break;default:var
-gT=U[1],aw=o(function(a){if(typeof
+aB=d8(U[1],U[2],U[3],U[4]);break;default:var
+hq=U[1],aB=p(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dM(a[1],a[3]);case
-2:return dN(a[1],a[2],a[3])}return 1},gT)}}else{var
-dP=dO;cs=1}}else{var
-dP=bM;cs=1}if(cs)var
-aw=dP;if(aw){var
-a=n[1];switch(a[0]){case
+1:return d7(a[1],a[3]);case
+2:return d8(a[1],a[2],a[3],a[4])}return 1},hq)}}else{var
+ea=d9;cF=1}}else{var
+ea=bR;cF=1}if(cF)var
+aB=ea;if(aB){var
+a=q[1];switch(a[0]){case
 0:var
-en=a[4],eo=a[3],ep=a[2],es=a[1],W=n[2];switch(W[0]){case
-0:return mx(0,es,ep,eo,en,W[1],W[2],W[3]);case
-1:return mz(es,ep,eo,en,W[2],W[3],W[4]);default:return 0}case
+eO=a[4],eP=a[3],eQ=a[2],eR=a[1],aa=q[2];switch(aa[0]){case
+0:return mF(0,eR,eQ,eP,eO,aa[1],aa[2],aa[3]);case
+1:return mH(eR,eQ,eP,eO,aa[2],aa[3],aa[4]);default:return 0}case
 1:var
-b1=a[6],b2=a[5],b4=a[4],b5=a[3],ax=a[2],X=a[1],ai=n[2];switch(ai[0]){case
-0:return my(X,ax,b5,b4,b2,b1,ai[1],ai[3]);case
+b_=a[6],b$=a[5],cb=a[4],cc=a[3],aC=a[2],ab=a[1],al=q[2];switch(al[0]){case
+0:return mG(ab,aC,cc,cb,b$,b_,al[1],al[3]);case
 1:var
-et=ai[3],hq=ai[4],hr=ai[2],d0=typeof
-X==="number"?X?w7:w8:h3(X[1]),bX=e(i,hr),d1=mn(ax,e(i,et));if(d1[2])return 0;var
-d2=h5(y(mt,ax),et),d3=d2?mu(X,ax,b5,b4,b2,b1):d2;if(d3)var
-hd=a3(X),bY=u(j(bX),hd);else
+eS=al[3],h_=al[4],h$=al[2],eq=typeof
+ab==="number"?ab?xf:xg:h1(ab[1]),b5=e(i,h$),et=mv(aC,e(i,eS));if(et[2])return 0;var
+b6=hY(h_);if(b6){var
+eu=h3(z(mB,aC),eS),ev=eu?mC(ab,aC,cc,cb,b$,b_):eu;if(ev)var
+hK=a4(ab),b7=u(h(b5),hK);else
 var
-bY=d3;if(bY){var
-he=h0(hq),q=e5(d0,bX),B=a$(cB(d0,bX)),af=d1[1],K=ma(X,ax,b5,b4,b2,b1),cV=lo(p,K[2],af);if(cV){var
-cR=ec(p,K[4],B),ct=0;if(cR){var
-cS=K[5];if(cS)var
-a6=kN(p,cS[1],q);else
-if(q)var
-a6=0;else{var
-cU=1;ct=1}}else{var
-cU=cR;ct=1}if(ct)var
-a6=cU;var
-a7=a6}else
+b7=ev;if(b7){var
+hP=b6[1],r=de(eq,b5),E=aX(bV(eq,b5)),ak=et[1],W=mi(ab,aC,cc,cb,b$,b_),c3=lr(o,W[2],ak);if(c3){var
+c0=cO(o,W[4],E),cH=0;if(c0){var
+c1=W[5];if(c1)var
+a$=fC(o,c1[1],r);else
+if(r)var
+a$=0;else{var
+c2=1;cH=1}}else{var
+c2=c0;cH=1}if(cH)var
+a$=c2;var
+bb=a$}else
 var
-a7=cV;if(a7){var
-x=K[5],cX=K[3],aF=K[1],fn=K[6],fh=e(function(a){if(0===a[0]){var
-d=b3(x,q,B,a),b=ee(a[1],d);return[0,lm(aF,b,as([5,[0,c,c],cX],eh(hu(x,q,fI(a)),b)))]}return 0},af),fi=y(function(a){if(0===a[0]){var
-c=b3(x,q,B,a),b=kj(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=b3(x,q,B,a);return[0,kB(a[1],e),0]},af),fj=e(function(d){var
-b=b3(x,q,B,d);if(0===d[0]){var
+bb=c3;if(bb){var
+C=W[5],c4=W[3],aI=W[1],f6=W[6],fT=e(function(a){if(0===a[0]){var
+d=b3(C,r,E,a),b=ef(a[1],d);return[0,lp(aI,b,at([5,[0,c,c],c4],ei(hs(C,r,fK(a)),b)))]}return 0},ak),fU=z(function(a){if(0===a[0]){var
+c=b3(C,r,E,a),b=kl(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=b3(C,r,E,a);return[0,kD(a[1],e),0]},ak),fW=e(function(d){var
+b=b3(C,r,E,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cM(e,h,g,f,b),i=cN(a[5],j),k=as(i,av(e)),l=ed(e,h,g,b);return[0,[0,ln(aF,ad(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fy(c,b),o=kE(c,b),p=c[4],r=ad(function(b,a){return[2,b,a]},b,p);return[0,[0,ln(aF,ad(function(b,a){return[3,b,a]},r,o)),n,m]]},af),fl=e(function(a){if(0===a[0]){var
-c=b3(x,q,B,a);return[0,g9(a[1],c)]}var
-b=a[1],d=kD(b,b3(x,q,B,a));return[1,kC(b,b3(x,q,B,a)),d]},af),fm=[0,e(function(a){if(0===a[0])var
-k=b3(x,q,B,a),d=cO(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cP(e,h,g,f,b),i=cQ(a[5],j),k=at(i,aw(e)),l=ee(e,h,g,b);return[0,[0,lq(aI,ad(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fz(c,b),o=kG(c,b),p=c[4],q=ad(function(b,a){return[2,b,a]},b,p);return[0,[0,lq(aI,ad(function(b,a){return[3,b,a]},q,o)),n,m]]},ak),fZ=e(function(a){if(0===a[0]){var
+c=b3(C,r,E,a);return[0,g7(a[1],c)]}var
+b=a[1],d=kF(b,b3(C,r,E,a));return[1,kE(b,b3(C,r,E,a)),d]},ak),f1=[0,e(function(a){if(0===a[0])var
+k=b3(C,r,E,a),d=cR(a[1],k);else
 var
-e=b3(x,q,B,a),b=a[1],f=kE(b,e),g=b[4],h=ad(function(b,a){return[2,b,a]},e,g),i=ad(function(b,a){return[3,b,a]},h,f),j=fy(b,e),d=as([5,[0,c,c],[4,b[5],j]],i);return lm(aF,d,as([5,[0,c,c],cX],eh(hu(x,q,fI(a)),d)))},af),fl,fj,fi,fh];return ky(p,a3(K[1]),fm,fn,he)}return a7}return bY;default:return 0}case
+e=b3(C,r,E,a),b=a[1],f=kG(b,e),g=b[4],h=ad(function(b,a){return[2,b,a]},e,g),i=ad(function(b,a){return[3,b,a]},h,f),j=fz(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lp(aI,d,at([5,[0,c,c],c4],ei(hs(C,r,fK(a)),d)))},ak),fZ,fW,fU,fT];return kA(o,a4(W[1]),f1,f6,hP)}return bb}var
+ew=b7}else
+var
+ew=b6;return ew;default:return 0}case
 2:var
-az=a[7],aA=a[6],aS=a[5],aT=a[4],aU=a[3],Y=a[2],ak=a[1],_=n[2];switch(_[0]){case
+aD=a[7],aE=a[6],aV=a[5],aW=a[4],aY=a[3],ae=a[2],am=a[1],af=q[2];switch(af[0]){case
 0:var
-b6=_[3],al=l_(ak,Y,aU,aT,aS,aA,az),b7=cW(0,j(b6),b6);if(b7){var
-eu=b7[1];if(eu[2])return 0;var
-ev=ms(ak,Y,aU,aT,aS,aA,az),ey=ev?f4(ds(ak),b6):ev;if(ey){var
-hs=eu[1],ht=al[2],hv=z(c,bL(y(function(a){var
-b=a1(a[2]);return f(a1(a[1]),b)},ht))),hw=mw(j(Y),aA,az),hx=h6(_[2]),hz=_[1],fe=al[2],cQ=o(function(a){var
-b=ll(p,a[1]);return b?ll(p,a[2]):b},fe);if(cQ)var
-ff=g$(al[4]),a4=ec(p,al[4],ff);else
+cd=af[3],an=mg(am,ae,aY,aW,aV,aE,aD),ce=cZ(0,h(cd),cd);if(ce){var
+eT=ce[1];if(eT[2])return 0;var
+eU=mA(am,ae,aY,aW,aV,aE,aD),eV=eU?f5(cq(am),cd):eU;if(eV){var
+ia=eT[1],ib=an[2],ic=y(c,bL(z(function(a){var
+b=a2(a[2]);return f(a2(a[1]),b)},ib))),id=mE(h(ae),aE,aD),ie=h4(af[2]),ig=af[1],fO=an[2],cY=p(function(a){var
+b=lo(o,a[1]);return b?lo(o,a[2]):b},fO);if(cY)var
+fR=g9(an[4]),a8=cO(o,an[4],fR);else
 var
-a4=cQ;if(a4)var
-fg=fE(al[5]),a5=o(function(a){return eq(p,a)},fg);else
+a8=cY;if(a8)var
+fS=fG(an[5]),a_=p(function(a){return er(o,a)},fS);else
 var
-a5=a4;return a5?q8(hz,hx,hw,al,hv,hs):a5}var
-eA=ey}else
+a_=a8;return a_?rb(ig,ie,id,an,ic,ia):a_}var
+eW=eV}else
 var
-eA=b7;return eA;case
+eW=ce;return eW;case
 1:var
-eB=_[3],eC=e(i,_[2]),eD=h3(ak),eE=mm(Y,e(i,eB));if(eE[2])return 0;var
-eF=h5(y(function(a){return f(a[1],a[2])},Y),eB),eG=eF?ms(ak,Y,aU,aT,aS,aA,az):eF;if(eG){var
-hA=h0(_[4]),$=e5(eD,eC),aB=a$(cB(eD,eC)),am=eE[1],L=l_(ak,Y,aU,aT,aS,aA,az),aE=L[2],aa=am;for(;;){if(aE){if(aa){var
-cz=aa[1],cA=aE[1],cE=a0(p,cA[1],cz[1]),cF=cE?a0(p,cA[2],cz[2]):cE;if(cF){var
-aE=aE[2],aa=aa[2];continue}var
-cH=cF}else
+a0=af[4],eX=af[3],a1=e(i,af[2]),aq=h1(am),eY=mu(ae,e(i,eX));if(eY[2])return 0;var
+I=eY[1],eZ=h3(z(function(a){return f(a[1],a[2])},ae),eX),e0=eZ?mA(am,ae,aY,aW,aV,aE,aD):eZ;if(e0){var
+n=mg(am,ae,aY,aW,aV,aE,aD);if(typeof
+a0!=="number"&&2===a0[0]){var
+e2=e(i,a0[1]),e3=de(aq,e2),e4=aX(bV(aq,e2)),e5=de(aq,a1),e6=aX(bV(aq,a1)),dF=kQ(o,n[2],I);if(dF)var
+gA=cq(n[1]),bA=u(h(I),gA);else
 var
-cH=aa;var
-a2=cH}else
+bA=dF;var
+dI=bA?cO(o,n[4],e6):bA,dJ=dI?cO(o,n[4],e4):dI,dK=dJ?fC(o,n[5],e5):dJ,dL=dK?fC(o,n[5],e3):dK;if(dL){var
+dM=n[1],gB=n[5],gC=n[3],dv=function(g,f){var
+h=e(function(a){return kP(dM,gC,gB,f,g,a)},I),i=cq(dM),a=lM(o,h);function
+b(a,b){return x(o,a,b)}var
+d=Z(o,c);return w(function(a){return lK(B,d,J,b,i,a)},a)},by=dv(e6,e5);if(by){var
+dw=by[1],bz=dv(e4,e3);if(bz){var
+dx=bz[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
+dA=dz;else{var
+dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
+dA=dD}var
+dB=dA}else
 var
-a2=aa?0:1;var
-cI=a2?ec(p,L[4],aB):a2,cK=cI?kN(p,L[5],$):cI;if(cK){var
-ab=L[5],cL=L[3],cP=L[1],fd=L[6],cy=function(a){var
-b=fB(ab,$,aB,a);return O(fB(ab,$,aB,a),b)},e_=e(function(b){var
-a=fB(ab,$,aB,b);return[0,hk(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))]},am),e$=e(cy,am),fa=e(function(a){return 0},am),fb=e(function(a){return[0,[6,cy(a)]]},am),fc=[0,e(function(b){var
-a=av(fB(ab,$,aB,b));return hk(cP,a,as([5,[0,c,c],cL],eh(fA(ab,$,b[2]),a)))},am),fb,fa,e$,e_];return ky(p,ds(L[1]),fc,fd,hA)}return cK}}return eG;default:return 0}case
+dB=bz;var
+dC=dB}else
+var
+dC=by;return dC}return dL}var
+cf=hY(a0);if(cf){var
+ih=cf[1],ar=de(aq,a1),aF=aX(bV(aq,a1)),cS=kQ(o,n[2],I),cT=cS?cO(o,n[4],aF):cS,cU=cT?fC(o,n[5],ar):cT;if(cU){var
+ax=n[5],cV=n[3],cX=n[1],fN=n[6],cN=function(a){var
+b=fD(ax,ar,aF,a);return O(fD(ax,ar,aF,a),b)},fF=e(function(a){return[0,kP(cX,cV,ax,ar,aF,a)]},I),fH=e(cN,I),fI=e(function(a){return 0},I),fJ=e(function(a){return[0,[6,cN(a)]]},I),fM=[0,e(function(b){var
+a=aw(fD(ax,ar,aF,b));return hi(cX,a,at([5,[0,c,c],cV],ei(fB(ax,ar,b[2]),a)))},I),fJ,fI,fH,fF];return kA(o,cq(n[1]),fM,fN,ih)}return cU}var
+e1=cf}else
+var
+e1=e0;return e1;default:return 0}case
 3:var
-an=a[7],eH=a[6],eI=a[5],P=a[4],eJ=a[2],b8=a[1],aV=n[2];if(0===aV[0]){var
-b9=aV[3],b_=cW(0,j(b9),b9);if(b_){var
-eK=b_[1];if(eK[2])return 0;var
-hb=j(b8),hc=j(eH),dW=u(j(eI),hc),dX=dW?o(function(a){var
-b=bx(hb,j(P),a);if(b){var
+au=a[7],e7=a[6],e8=a[5],X=a[4],e9=a[2],cg=a[1],a3=q[2];if(0===a3[0]){var
+ck=a3[3],cl=cZ(0,h(ck),ck);if(cl){var
+e_=cl[1];if(e_[2])return 0;var
+hI=h(cg),hJ=h(e7),em=u(h(e8),hJ),en=em?p(function(a){var
+b=bx(hI,h(X),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bD(d[1]),0]:aX(0,j(P));return o(function(b){var
-a=R(P,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?o(function(a){return 0===a[0]?0:1},P):1}return b},an):dW,dY=dX?f3(an):dX,dZ=dY?o(function(a){return ez(a[2])},eJ):dY,eL=dZ?o(h2,dC(0,j(P),0,an)):dZ,eM=eL?f4(j(b8),b9):eL;if(eM){var
-hC=eK[1],hD=a[3],dS=ap(fW,an),aP=dC(0,j(P),0,an),gY=aJ(eI,eH),bP=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},gY),gZ=e(function(a){return 0===a[0]?[0,e(cu,a[1])]:[1,cu(a[1])]},P),g0=e(function(a){var
-b=cu(a[2]);return[0,a[1],b]},hD),m=[0,b8,e(function(a){var
-b=bw(a[2]);return[0,a[1],b]},eJ),g0,gZ],hE=mw(j(P),0,an),eN=h6(aV[2]),aC=aV[1],f_=e(aI,m[2]),bk=f(m[1],f_),bl=j(m[1]),df=Q(rt,bl),dg=df?Q(bl,ru):df,dh=dg?Q(bl,j(m[4])):dg,di=dh?Q(j(m[4]),rv):dh,dj=di?lF(bk):di;if(dj){var
-aL=bk,aK=m[3];for(;;){if(aK){var
-db=aK[1],dc=db[1],dd=ac(ap(function(b){return function(a){return ao(b,a)}}(dc),aL)),de=dd?hB(aL,db[2]):dd;if(de){var
-aL=[0,dc,aL],aK=aK[2];continue}var
-dk=de}else
+d=a[2],e=d?[0,bD(d[1]),0]:aZ(0,h(X));return p(function(b){var
+a=S(X,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?p(function(a){return 0===a[0]?0:1},X):1}return b},au):em,eo=en?f4(au):en,ep=eo?p(function(a){return eB(a[2])},e9):eo,e$=ep?p(h0,dG(0,h(X),0,au)):ep,fa=e$?f5(h(cg),ck):e$;if(fa){var
+ii=e_[1],ij=a[3],eg=ap(fX,au),aS=dG(0,h(X),0,au),hx=aK(e8,e7),bW=e(function(a){var
+b=i(a[2]);return[0,i(a[1]),b]},hx),hy=e(function(a){return 0===a[0]?[0,e(cv,a[1])]:[1,cv(a[1])]},X),hA=e(function(a){var
+b=cv(a[2]);return[0,a[1],b]},ij),m=[0,cg,e(function(a){var
+b=bw(a[2]);return[0,a[1],b]},e9),hA,hy],ik=mE(h(X),0,au),fb=h4(a3[2]),aG=a3[1],gx=e(aJ,m[2]),bn=f(m[1],gx),bo=h(m[1]),dn=R(ry,bo),dp=dn?R(bo,rz):dn,dq=dp?R(bo,h(m[4])):dp,dr=dq?R(h(m[4]),rA):dq,ds=dr?lI(bn):dr;if(ds){var
+aP=bn,aO=m[3];for(;;){if(aO){var
+dj=aO[1],dk=dj[1],dl=ac(ap(function(b){return function(a){return ao(b,a)}}(dk),aP)),dm=dl?hz(aP,dj[2]):dl;if(dm){var
+aP=[0,dk,aP],aO=aO[2];continue}var
+dt=dm}else
 var
-dk=1;var
-bm=dk;break}}else
+dt=1;var
+bp=dt;break}}else
 var
-bm=dj;if(bm)var
-f$=m[4],bn=o(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bk);return o(function(a){return hB(c,a)},b)},f$);else
+bp=ds;if(bp)var
+gy=m[4],bq=p(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bn);return p(function(a){return hz(c,a)},b)},gy);else
 var
-bn=bm;if(bn)var
-ga=m[2],bo=o(function(a){return ba(p,a[2][1],a[2][2])},ga);else
+bq=bp;if(bq)var
+gz=m[2],br=p(function(a){return ba(o,a[2][1],a[2][2])},gz);else
 var
-bo=bn;var
-dl=bo?o(function(a){return ba(p,a[1],a[2])},bP):bo;if(dl){var
-a_=j(m[1]),bb=j(m[2]),c0=N(bb,j(hy(e(ca,m[3])))),fr=m[3],at=lE(m),aG=fr,a9=bb;for(;;){if(aG){var
-cY=aG[1],cZ=cY[2],fo=N(a9,j(bu(cZ))),fp=aG[2],fq=bc(at,cZ,a9),at=[0,[0,cY[1],fq],at],aG=fp,a9=fo;continue}var
-T=lB(a_,at,m[4],c0),ft=lA(at,m[4],c0),fw=m[3],c1=f(lx(lE(m),fw,bb),ft),c2=j(lD(m)),fx=0,fz=f(c1,cp(function(a,b){return lu(T,a,b)},fx,d,c2,aP)),fC=f(bt(er(T)),fz),c3=f(bt(fJ(T)),fC),bd=cG(c3)[1],fD=bH(bd),ae=function(a){return a8(fD,a)},c4=u(j(bP),a_);if(c4)var
-fF=m[4],be=o(function(a){return 0===a[0]?u(j(a[1]),a_):1},fF);else
+br=bq;var
+du=br?p(function(a){return ba(o,a[1],a[2])},bW):br;if(du){var
+be=h(m[1]),bf=h(m[2]),c7=Q(bf,h(hw(e(ca,m[3])))),f_=m[3],az=lH(m),aL=f_,bd=bf;for(;;){if(aL){var
+c5=aL[1],c6=c5[2],f7=Q(bd,h(bu(c6))),f8=aL[2],f9=bc(az,c6,bd),az=[0,[0,c5[1],f9],az],aL=f8,bd=f7;continue}var
+$=lE(be,az,m[4],c7),f$=lD(az,m[4],c7),ga=m[3],c8=f(lA(lH(m),ga,bf),f$),c9=h(lG(m)),gb=0,gc=f(c8,cp(function(a,b){return lx($,a,b)},gb,d,c9,aS)),gd=f(bt(es($)),gc),c_=f(bt(fL($)),gd),bg=cI(c_)[1],ge=cG(bg),ai=function(a){return a9(ge,a)},c$=u(h(bW),be);if(c$)var
+gf=m[4],bh=p(function(a){return 0===a[0]?u(h(a[1]),be):1},gf);else
 var
-be=c4;var
-c5=be?o(function(a){var
-b=l(d),c=bH(bd);return ay(t(ae(a),c,b),a)},c3):be,c6=c5?ap(lw,aP):c5;if(c6){var
-c7=ac(dS);if(c7)var
-aH=c7;else
+bh=c$;var
+da=bh?p(function(a){var
+b=l(d),c=cG(bg);return ay(t(ai(a),c,b),a)},c_):bh,db=da?ap(lz,aS):da;if(db){var
+dc=ac(eg);if(dc)var
+aN=dc;else
 var
-f9=m[4],aH=o(function(a){return 0===a[0]?0:1},f9)}else
+gw=m[4],aN=p(function(a){return 0===a[0]?0:1},gw)}else
 var
-aH=c6;if(aH){var
-fG=lD(m),bf=aj(e(function(a){return ah(aC,a)},fG));if(bf){var
-fH=0,fK=y(function(a){return eg(fH,d,a)},aP),bg=aj(e(function(a){return hi(aC,a)},fK));if(bg){var
-bh=aj(e(function(a){return ah(aC,[0,a,d])},bP));if(bh){var
-fL=0,fM=0,bi=aj(cp(function(a,b){return lv(aC,ae,T,fM,d,a,b)},fL,d,c2,aP));if(bi){var
-c8=bi[1];if(dS)var
-fP=eN[2],fQ=eN[1],fR=er(T),bj=ks(hE,c8,[8,k(ar(ae),fR),fQ,fP]);else
+aN=db;if(aN){var
+gg=lG(m),bi=aj(e(function(a){return ah(aG,a)},gg));if(bi){var
+gh=0,gi=z(function(a){return eh(gh,d,a)},aS),bj=aj(e(function(a){return hg(aG,a)},gi));if(bj){var
+bk=aj(e(function(a){return ah(aG,[0,a,d])},bW));if(bk){var
+gj=0,gk=0,bl=aj(cp(function(a,b){return ly(aG,ai,$,gk,d,a,b)},gj,d,c9,aS));if(bl){var
+dd=bl[1];if(eg)var
+gl=fb[2],gm=fb[1],gn=es($),bm=ku(ik,dd,[8,k(as(ai),gn),gm,gl]);else
 var
-bj=c8;var
-fS=g4(bj),fV=bh[1],fY=function(a){return 0},f0=f(bf[1],bg[1]),f5=e(ae,c1),f6=er(T),f7=k(ar(ae),f6),f8=fJ(T);return fs(aC,bd,k(ar(ae),f8),f7,f5,f0,bj,fY,fV,fS,hC)}var
-c9=bi}else
+bm=dd;var
+go=g2(bm),gp=bk[1],gq=function(a){return 0},gr=f(bi[1],bj[1]),gs=e(ai,c8),gt=es($),gu=k(as(ai),gt),gv=fL($);return ft(aG,bg,k(as(ai),gv),gu,gs,gr,bm,gq,gp,go,ii)}var
+df=bl}else
 var
-c9=bh;var
-c_=c9}else
+df=bk;var
+dg=df}else
 var
-c_=bg;var
-c$=c_}else
+dg=bj;var
+dh=dg}else
 var
-c$=bf;var
-da=c$}else
+dh=bi;var
+di=dh}else
 var
-da=aH;return da}}return dl}var
-eO=eM}else
+di=aN;return di}}return du}var
+fc=fa}else
 var
-eO=b_;return eO}return 0;case
+fc=cl;return fc}return 0;case
 4:var
-b$=n[2];if(0===b$[0]){var
-aD=a[3],C=a[2],cb=a[1],hF=b$[3],hG=b$[1],d_=dD(i(cb));if(d_){var
-aQ=bF(mb,aD),cv=0;if(aQ){var
-bQ=aQ[1];if(bQ[2]||bQ[3])var
-s=0;else{var
-aR=bQ[4],J=aQ[2],E=0;if(typeof
-aR!=="number")switch(aR[0]){case
+cn=q[2];if(0===cn[0]){var
+aH=a[3],F=a[2],co=a[1],il=cn[3],im=cn[1],eF=dH(i(co));if(eF){var
+aT=bF(mj,aH),cJ=0;if(aT){var
+bX=aT[1];if(bX[2]||bX[3])var
+v=0;else{var
+aU=bX[4],V=aT[2],K=0;if(typeof
+aU!=="number")switch(aU[0]){case
 0:var
-aY=0;if(J){var
-bR=J[1];if(bR[2]||bR[3]){var
-s=0;E=1;aY=1}else{var
-bS=bR[4],cw=0;if(typeof
-bS!=="number"&&1===bS[0])if(J[2]){var
-s=0;E=1;aY=1;cw=1}else{var
-s=[0,[0,aR[1],bS[1]]];E=1;aY=1;cw=1}if(!cw)var
-dU=0}}else
+a6=0;if(V){var
+bY=V[1];if(bY[2]||bY[3]){var
+v=0;K=1;a6=1}else{var
+bZ=bY[4],cK=0;if(typeof
+bZ!=="number"&&1===bZ[0])if(V[2]){var
+v=0;K=1;a6=1;cK=1}else{var
+v=[0,[0,aU[1],bZ[1]]];K=1;a6=1;cK=1}if(!cK)var
+ek=0}}else
 var
-dU=J;if(!aY){var
-s=dU;E=1}break;case
+ek=V;if(!a6){var
+v=ek;K=1}break;case
 1:var
-aZ=0;if(J){var
-bT=J[1];if(bT[2]||bT[3]){var
-s=0;E=1;aZ=1}else{var
-bU=bT[4],cx=0;if(typeof
-bU!=="number"&&0===bU[0])if(J[2]){var
-s=0;E=1;aZ=1;cx=1}else{var
-s=[0,[0,bU[1],aR[1]]];E=1;aZ=1;cx=1}if(!cx)var
-dV=0}}else
+a7=0;if(V){var
+b0=V[1];if(b0[2]||b0[3]){var
+v=0;K=1;a7=1}else{var
+b1=b0[4],cM=0;if(typeof
+b1!=="number"&&0===b1[0])if(V[2]){var
+v=0;K=1;a7=1;cM=1}else{var
+v=[0,[0,b1[1],aU[1]]];K=1;a7=1;cM=1}if(!cM)var
+el=0}}else
 var
-dV=J;if(!aZ){var
-s=dV;E=1}break}if(!E){var
-dT=0;cv=1}}}else{var
-dT=aQ;cv=1}if(cv)var
-s=dT;if(s){var
-d$=s[1],v=d$[2],ea=i(v),ef=i(d$[1]),dq=g(p,1,i(C)),dr=dq?g(p,1,[3,ea,[0,c,c]]):dq,dt=dr?g(p,1,ef):dr,ei=dt?g(p,0,[3,[5,[0,c,c],ea],ef]):dt;if(ei)var
-hh=0,hj=0,bZ=o(function(a){return l8(hj,hh,xc,a)},aD);else
+el=V;if(!a7){var
+v=el;K=1}break}if(!K){var
+ej=0;cJ=1}}}else{var
+ej=aT;cJ=1}if(cJ)var
+v=ej;if(v){var
+eG=v[1],A=eG[2],eH=i(A),eI=i(eG[1]),dQ=g(o,1,i(F)),dR=dQ?g(o,1,[3,eH,[0,c,c]]):dQ,dS=dR?g(o,1,eI):dR,eJ=dS?g(o,0,[3,[5,[0,c,c],eH],eI]):dS;if(eJ)var
+hT=0,hV=0,b8=p(function(a){return me(hV,hT,xm,a)},aH);else
 var
-bZ=ei;var
-ej=bZ?o(function(b){if(1===b[1]){var
+b8=eJ;var
+eK=b8?p(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],i(a[1])]);return 1}return 1},aD):bZ;if(ej){var
-bV=bF(function(a){return ac(mc(a))},aD);if(bV){var
-hl=[0,b(2,c),c],A=g(p,0,[3,i(v),hl]);if(A)var
-b0=A;else
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],i(a[1])]);return 1}return 1},aH):b8;if(eK){var
+b2=bF(function(a){return ac(mk(a))},aH);if(b2){var
+h5=[0,b(2,c),c],D=g(o,0,[3,i(A),h5]);if(D)var
+b9=D;else
 var
-hp=i(v),b0=g(p,0,[3,[0,b(2,c),c],hp]);if(b0){var
-d7=y(function(a){var
-b=hQ(0,w$,0,a);return e(function(b){return ac(mc(a))},b)},aD),hf=function(f){var
+h9=i(A),b9=g(o,0,[3,[0,b(2,c),c],h9]);if(b9){var
+eE=z(function(a){var
+b=hO(0,xj,0,a);return e(function(b){return ac(mk(a))},b)},aH),hQ=function(f){var
 g=f[1];if(g){var
-h=g[1],i=t(h,d7,0);if(i)var
-l=cB(h,d7),k=[0,[0,j(bF(function(a){return a},l))]];else
+i=g[1],j=t(i,eE,0);if(j)var
+l=bV(i,eE),k=[0,[0,h(bF(function(a){return a},l))]];else
 var
-k=i;var
+k=j;var
 a=k}else
 var
-a=xb;if(a){var
+a=xl;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,xa,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hg=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,y(hf,a[1]),d,c,b]},hF),hm=[0,bV[1],bV[2]],g1=[0,hU(A,C,v),0],g2=[0,hU(A,C,v),g1],g3=[0,hU(A,C,v),g2],g6=[0,fZ(A,C,v),0],g8=[0,fZ(A,C,v),g6],hn=0,g_=[0,[0,fZ(A,C,v),g8],g3],ho=0,bW=function(b,a){return e(function(c){var
-d=u(b,c)?a:v_;return[0,d]},wa)};return my(0,e(function(a){var
-e=[0,fX(A,C,v)],d=1,f=bW(a,[2,cb]);function
+2:return[0,[0,b,[1,xk,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hR=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,z(hQ,a[1]),d,c,b]},il),h6=[0,b2[1],b2[2]],hB=[0,hS(D,F,A),0],hC=[0,hS(D,F,A),hB],hD=[0,hS(D,F,A),hC],hE=[0,f0(D,F,A),0],hF=[0,f0(D,F,A),hE],h7=0,hG=[0,[0,f0(D,F,A),hF],hD],h8=0,b4=function(b,a){return e(function(c){var
+d=u(b,c)?a:wg;return[0,d]},wi)};return mG(0,e(function(a){var
+e=[0,fY(D,F,A)],d=1,f=b4(a,[2,co]);function
 b(b,a){return[3,1,b,a]}var
-c=fX(A,C,v),g=bW(a,b(b(fZ(A,C,v),cb),c));return[0,bW(a,v$),g,f,e,d]},wb),ho,g_,hn,hm,hG,hg)}return b0}var
-ek=1}else
+c=fY(D,F,A),g=b4(a,b(b(f0(D,F,A),co),c));return[0,b4(a,wh),g,f,e,d]},wj),h8,hG,h7,h6,im,hR)}return b9}var
+eL=1}else
 var
-ek=ej;var
-el=ek}else
+eL=eK;var
+eM=eL}else
 var
-el=s;var
-em=el}else
+eM=v;var
+eN=eM}else
 var
-em=d_;return em}return 0;case
+eN=eF;return eN}return 0;case
 5:var
-cc=a[4],eP=a[1],cd=n[2];if(0===cd[0]){var
-eQ=cd[3],r=hP(eP,[0,a[2],a[3]],0,cc),ce=h1(j(eQ),eQ);if(ce){var
-eR=ce[1];if(eR[2])return 0;var
-eS=h4(eP,0,cc,r),eT=eS?ac(ap(fW,cc)):eS;if(eT){var
-eU=kr(p,r);if(eU){var
-hH=eR[1],eV=e(f2,r[1]),D=hY(r[1]),eW=i(a[5]),S=cd[1],br=fu(D,eV,r[1]),F=g5(D,eV,r[1],0),gf=j(r[3]),gg=N(j(br),gf),aN=[0,j(br),gg],gh=g7(F,D,aN,r[3]),gi=f(e(cm,F),gh),dx=f(bt(d8(F)),gi),dy=cG(dx)[1],by=bH(dy),dz=r[2];if(0===dz[0]){var
-dB=o(function(a){var
-b=l(d);return ay(t(a8(by,a),by,b),a)},dx),dE=dB?g(p,1,eW):dB;if(dE){var
-gj=r[3],gk=y(function(a){return cJ(D,a)},gj),gl=r[3],gm=f(br,f(e(function(a){return bs(D,a)},gl),gk)),bz=aj(e(function(a){return ah(S,a)},gm));if(bz){var
-gn=aM(dz[1],D),bA=aj(e(function(a){return ah(S,a)},gn));if(bA){var
-bB=cj(S,D,[5,eW,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bB){var
-bC=r[3],go=bA[1],gp=bB[1],gq=bz[1],au=function(a){return a8(by,a)},gc=aX(0,j(bC)),gd=e(function(i){var
-l=R(bC,i);if(l){var
-a=l[1],u=cB(i,bC),v=j(y(function(a){return cJ(D,a)},u)),x=N(aN[2],v),h=[0,N(aN[1],i),x],r=d8(F),f=k(ar(au),r),b=[1,[8,[1,[1,h[1]]]]],d=fv(F,D,h,a),n=d?[0,[3,e(au,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cr=a[4],fd=a[1],cs=q[2];if(0===cs[0]){var
+fe=cs[3],s=hN(fd,[0,a[2],a[3]],0,cr),ct=hZ(h(fe),fe);if(ct){var
+ff=ct[1];if(ff[2])return 0;var
+fg=h2(fd,0,cr,s),fh=fg?ac(ap(fX,cr)):fg;if(fh){var
+fi=kt(o,s);if(fi){var
+io=ff[1],fj=e(f3,s[1]),H=hW(s[1]),fk=i(a[5]),_=cs[1],bE=fv(H,fj,s[1]),M=g3(H,fj,s[1],0),gH=h(s[3]),gI=Q(h(bE),gH),aQ=[0,h(bE),gI],gJ=g5(M,H,aQ,s[3]),gK=f(e(cm,M),gJ),dW=f(bt(d_(M)),gK),dX=cI(dW)[1],bH=cG(dX),dY=s[2];if(0===dY[0]){var
+dZ=p(function(a){var
+b=l(d);return ay(t(a9(bH,a),bH,b),a)},dW),d0=dZ?g(o,1,fk):dZ;if(d0){var
+gL=s[3],gM=z(function(a){return cL(H,a)},gL),gN=s[3],gO=f(bE,f(e(function(a){return bs(H,a)},gN),gM)),bI=aj(e(function(a){return ah(_,a)},gO));if(bI){var
+gP=aM(dY[1],H),bK=aj(e(function(a){return ah(_,a)},gP));if(bK){var
+bM=cj(_,H,[5,fk,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bM){var
+bN=s[3],gQ=bK[1],gR=bM[1],gS=bI[1],aA=function(a){return a9(bH,a)},gE=aZ(0,h(bN)),gF=e(function(j){var
+l=S(bN,j);if(l){var
+a=l[1],u=bV(j,bN),v=h(z(function(a){return cL(H,a)},u)),x=Q(aQ[2],v),i=[0,Q(aQ[1],j),x],r=d_(M),f=k(as(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fw(M,H,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
 4:var
-o=g(S,1,a[2]),s=o?n:o;return s;case
+o=g(_,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,b]];case
 8:var
-p=g(S,1,[5,a[2],a[1]]);if(!p)return p;var
+p=g(_,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,c]];m=1;break;case
 9:var
 q=b;m=1;break;case
@@ -6146,26 +6219,26 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eb(F,D,h,a);return w(function(a){return[0,k(ar(au),a),q]},t)}return 0}return l},gc),ge=e(function(a){return au(cm(a))},F),du=e(function(a){return au(a[2])},F),gr=r[3],gs=aN[1],dv=e(ag,gq),dw=function(az,ay){var
-l=az,h=ay;for(;;){if(0===h[0]){var
-s=h[1],aa=u(j(s),rE),ab=aa?o(function(a){var
-d=G(M(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},s):aa;if(ab){var
-ad=lP(S,gp,fk(0,l),s),i=h[2],v=bG(0,ch(S,ad,dv),dy,0),L=function(a){return lO(lN(S,ad,dv,v,a))};if(typeof
-i==="number")return 0===i?ap(function(b){var
-a=t(b,v,0);return a?G(a[1][2][2],d):a},du):0;else{if(0===i[0]){var
-a=i[2],O=o(rC,a);if(O){var
-n=t(i[1],gd,0);if(n){var
+t=ed(M,H,i,a);return w(function(a){return[0,k(as(aA),a),q]},t)}return 0}return l},gE),gG=e(function(a){return aA(cm(a))},M),dT=e(function(a){return aA(a[2])},M),gT=s[3],gU=aQ[1],dU=e(ag,gS),dV=function(az,ay){var
+l=az,i=ay;for(;;){if(0===i[0]){var
+s=i[1],aa=u(h(s),rL),ab=aa?p(function(a){var
+d=G(N(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},s):aa;if(ab){var
+ad=lW(_,gR,fl(0,l),s),j=i[2],v=bG(0,ch(_,ad,dU),dX,0),L=function(a){return lV(lU(_,ad,dU,v,a))};if(typeof
+j==="number")return 0===j?ap(function(b){var
+a=t(b,v,0);return a?G(a[1][2][2],d):a},dT):0;else{if(0===j[0]){var
+a=j[2],M=p(rJ,a);if(M){var
+n=t(j[1],gF,0);if(n){var
 g=n[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fO(B,A),an=fN(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],am=fQ(B,A),an=fP(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fN(D),aq=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fO(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ao=fP(D),aq=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fQ(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6173,7 +6246,7 @@ z=0;if(a){var
 k=a[2],al=0;if(k)if(k[2]){var
 f=0;al=1}else
 var
-H=k[1],I=a[1],m=g[1],ar=fN(I),as=[1,[6,fO(m,H),ar]],at=[1,[6,g[2],as]],au=fN(H),J=[0,[0,m,[0,[1,[4,[1,[6,fO(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],ar=fP(I),as=[1,[6,fQ(m,H),ar]],at=[1,[6,g[2],as]],au=fP(H),J=[0,[0,m,[0,[1,[4,[1,[6,fQ(m,I),au]],at]],0]]];else
 var
 J=k;if(!al){var
 K=J;z=1}}else{var
@@ -6182,125 +6255,125 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],Q=o(function(a){return lO(t(a[2],v,0))},aw);if(Q)return o(L,P[2]);var
-T=Q}else
+O=f[1],aw=O[1],P=p(function(a){return lV(t(a[2],v,0))},aw);if(P)return p(L,O[2]);var
+R=P}else
 var
-T=f;var
+R=f;var
+T=R}else
+var
+T=n;var
 U=T}else
 var
-U=n;var
-V=U}else
-var
-V=O;return V}var
-W=i[2],X=i[1],p=R(gr,X);if(p){var
-Y=p[1];if(typeof
-Y!=="number"&&1===Y[0]){var
-q=R(du,W);if(q){var
-r=R(ge,W);if(r){var
-ax=N(gs,X);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+U=M;return U}var
+V=j[2],W=j[1],o=S(gT,W);if(o){var
+X=o[1];if(typeof
+X!=="number"&&1===X[0]){var
+q=S(dT,V);if(q){var
+r=S(gG,V);if(r){var
+ax=Q(gU,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 $=r}else
 var
 $=q;return $}var
-_=0}else
+Z=0}else
 var
-_=p;return _}}return ab}var
-ae=h[1],w=R(l,ae);if(w){var
-af=w[1],aA=af[1],ag=ac(Z(bK(af),aA));if(ag){var
-ah=d9(ae,l),ai=dw(ah[1],h[2]);if(ai){var
-l=ah[2],h=h[3];continue}var
+Z=o;return Z}}return ab}var
+ae=i[1],w=S(l,ae);if(w){var
+af=w[1],aA=af[1],ag=ac(Y(bJ(af),aA));if(ag){var
+ah=d$(ae,l),ai=dV(ah[1],i[2]);if(ai){var
+l=ah[2],i=i[3];continue}var
 aj=ai}else
 var
 aj=ag;var
 ak=aj}else
 var
-ak=w;return ak}};return dw(go,hH)}var
-dF=bB}else
+ak=w;return ak}};return dV(gQ,io)}var
+d1=bM}else
 var
-dF=bA;var
-dG=dF}else
+d1=bK;var
+d2=d1}else
 var
-dG=bz;var
-dH=dG}else
+d2=bI;var
+d3=d2}else
 var
-dH=dE;return dH}return 0}var
-eX=eU}else
+d3=d0;return d3}return 0}var
+fm=fi}else
 var
-eX=eT;var
-eY=eX}else
+fm=fh;var
+fn=fm}else
 var
-eY=ce;return eY}return 0;case
+fn=ct;return fn}return 0;case
 6:var
-eZ=a[1];if(eZ){var
-e0=eZ[1],cf=n[2];if(0===cf[0]){var
-cg=hZ(0,xe,cf[3]);if(cg){var
-e1=ez(e0);if(e1){var
-hI=cg[1],e2=bw(e0)[2],aW=cf[1],bp=cj(aW,d,e2);if(bp){var
-bq=cj(aW,d,[5,[0,c,c],e2]);if(bq){var
-gb=bp[1][1],dm=V(cD(aW),gb);if(dm)return lM(aW,bq[1][1],hI);var
-dn=dm}else
+fo=a[1];if(fo){var
+fp=fo[1],cu=q[2];if(0===cu[0]){var
+cw=hX(0,xo,cu[3]);if(cw){var
+fq=eB(fp);if(fq){var
+ip=cw[1],fr=bw(fp)[2],a5=cu[1],bB=cj(a5,d,fr);if(bB){var
+bC=cj(a5,d,[5,[0,c,c],fr]);if(bC){var
+gD=bB[1][1],dN=L(cD(a5),gD);if(dN)return lT(a5,bC[1][1],ip);var
+dO=dN}else
 var
-dn=bq;var
-dp=dn}else
+dO=bC;var
+dP=dO}else
 var
-dp=bp;return dp}var
-e3=e1}else
+dP=bB;return dP}var
+fs=fq}else
 var
-e3=cg;return e3}return 0}var
-ck=n[2];if(0===ck[0]){var
-cl=hZ(0,xf,ck[3]);return cl?lM(ck[1],d,cl[1]):cl}return 0;default:var
-aq=a[1],e4=n[2];if(2===e4[0]){var
-e6=e4[1],cn=hW(j(e6),e6);if(cn){var
-e7=cn[1];if(e7[2])return 0;var
-co=e7[1],d4=Q(w_,j(aq)),d5=d4?Q(j(aq),jl):d4,d6=d5?lF(e(aI,aq)):d5,e8=d6?o(function(c){var
+fs=cw;return fs}return 0}var
+cx=q[2];if(0===cx[0]){var
+cy=hX(0,xp,cx[3]);return cy?lT(cx[1],d,cy[1]):cy}return 0;default:var
+av=a[1],fu=q[2];if(2===fu[0]){var
+fx=fu[1],cz=hU(h(fx),fx);if(cz){var
+fy=cz[1];if(fy[2])return 0;var
+cA=fy[1],eA=R(xi,h(av)),eC=eA?R(h(av),jm):eA,eD=eC?lI(e(aJ,av)):eC,fA=eD?p(function(c){var
 a=ci(i(c[2][1]));if(a){var
 b=ci(i(c[2][2]));if(b)return ac(cC(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aq):d6;if(e8)var
-hJ=f1(wc,co),cq=mB(a[5],hJ);else
+d=a;return d},av):eD;if(fA)var
+iq=f2(wk,cA),cB=mJ(a[5],iq);else
 var
-cq=e8;if(cq)var
-hK=f1(wd,co),cr=mB(a[6],hK);else
+cB=fA;if(cB)var
+ir=f2(wl,cA),cE=mJ(a[6],ir);else
 var
-cr=cq;if(cr){var
-ha=e(function(a){return[0,d,0]},aq);return mA(aq,a[2],a[3],a[4],ha,co)}var
-e9=cr}else
+cE=cB;if(cE){var
+hH=e(function(a){return[0,d,0]},av);return mI(av,a[2],a[3],a[4],hH,cA)}var
+fE=cE}else
 var
-e9=cn;return e9}return 0}}return aw}var
-L=[aG,xi,oO(0)],mC=[aG,xj,oO(0)];function
-xg(m,b){var
-f=[0,h(vw,ak(b[4])),0],g=[0,h(vy,X([0,h(vx,ak(b[3])),f])),0],a=b[2];switch(a[0]){case
+fE=cz;return fE}return 0}}return aB}var
+M=[aH,xs,oY(0)],mK=[aH,xt,oY(0)];function
+xq(m,b){var
+f=[0,j(vE,ak(b[4])),0],g=[0,j(vG,$([0,j(vF,ak(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(vs,lW(a[1],a[2],a[3]));break;case
+c=H(vA,l3(a[1],a[2],a[3]));break;case
 1:var
-c=I(vt,lX(a[1],a[2],a[3],a[4]));break;default:var
-c=I(vu,A(e(vn,a[1])))}var
-i=[0,h(vz,c),g],j=1===b[2][0]?vF:vA,k=[0,h(vB,ak(j)),i],l=[0,h(vC,t7(b[1])),k],d=ao(iY(xh,fP(X([0,h(vE,ak(vD)),l]),vv)),m);return d?xd(b):d}function
-ab(a){if(0===a[0])return a[1];throw L}function
-Y(a){if(1===a[0])return a[1];throw L}function
-aE(a){if(2===a[0])return a[1];throw L}function
-dF(a){if(3===a[0])return a[1];throw L}function
+c=H(vB,l4(a[1],a[2],a[3],a[4]));break;default:var
+c=H(vC,A(e(vv,a[1])))}var
+h=[0,j(vH,c),g],i=1===b[2][0]?vN:vI,k=[0,j(vJ,ak(i)),h],l=[0,j(vK,uc(b[1])),k],d=ao(iW(xr,fR($([0,j(vM,ak(vL)),l]),vD)),m);return d?xn(b):d}function
+ab(a){if(0===a[0])return a[1];throw M}function
+W(a){if(1===a[0])return a[1];throw M}function
+aF(a){if(2===a[0])return a[1];throw M}function
+dJ(a){if(3===a[0])return a[1];throw M}function
 aN(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Df(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Ds(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
-a=aN(c,b);if(a)return a[1];throw L}function
+a=aN(c,b);if(a)return a[1];throw M}function
 b6(b,a){var
 c=a?[0,k(b,a[1])]:a;return c}function
-cZ(a){switch(a[0]){case
+c2(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],xk]}throw L}function
-eA(e,d){var
-a=T(e,Y(d));if(a){var
+2:return[0,a[1],xu]}throw M}function
+eC(e,d){var
+a=U(e,W(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw L}function
-f5(i){var
-f=dQ(i),d=[0,0],e=gx(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw M}function
+f6(i){var
+f=dU(i),d=[0,0],e=gy(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iD(f,c)-48|0;if(9<g>>>0)throw L;switch(g){case
+a=d[1],g=iB(f,c)-48|0;if(9<g>>>0)throw M;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6322,96 +6395,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eB(a){return i_(f5(a))}function
-eC(b){var
-a=dF(b);return 45===aH(a,0)?M(eB(c_(a,1,an(a)-1|0))):eB(a)}function
-mD(a){return dY(eB(dF(a)))}function
-f6(a){return i9(eB(dF(a)))}function
-cx(c){var
-a=dF(c);if(6<an(a))throw L;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iL(a))}function
-mE(a){var
-b=97<=a?1:0,c=b?a<=os?1:0:b;if(c)var
+eD(a){return i$(f6(a))}function
+eE(b){var
+a=dJ(b);return 45===aI(a,0)?N(eD(db(a,1,an(a)-1|0))):eD(a)}function
+mL(a){return d1(eD(dJ(a)))}function
+f7(a){return i_(eD(dJ(a)))}function
+cy(c){var
+a=dJ(c);if(6<an(a))throw M;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iJ(a))}function
+mM(a){var
+b=97<=a?1:0,c=b?a<=oB?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mF(y,b){var
+mN(y,b){var
 d=an(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aH(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aH(b,a[1])&&!(57<aH(b,a[1]))){a[1]++;continue}return c_(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return db(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw L}function
-h(i){if(64<i)throw L;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw M}function
+h(i){if(64<i)throw M;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&ao(c_(b,a[1],5),xm)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&ao(db(b,a[1],5),xw)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&mE(aH(b,a[1]))){var
+v=0;if(a[1]<d&&mM(aI(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!mE(aH(b,a[1]))&&95!==aH(b,a[1])&&(!(48<=aH(b,a[1]))||57<aH(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,c_(b,o,a[1]-o|0))];break}}else
+w=0;if(!mM(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,k(y,db(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ao(g,xn);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ao(g,xx);if(r)var
 s=r;else
 var
-t=1<an(g)?1:0,s=t?48===aH(g,0)?1:0:t;if(s)throw L;if(q){var
-j=q[1],x=0;if(ao(j,xo)||48===aH(j,an(j)-1|0))x=1;else
+t=1<an(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw M;if(q){var
+j=q[1],x=0;if(ao(j,xy)||48===aI(j,an(j)-1|0))x=1;else
 var
-z=f5(j),e=[0,f5(g),z];if(x)throw L}else
+z=f6(j),e=[0,f6(g),z];if(x)throw M}else
 var
-e=[0,f5(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,xl)){if(!(2<an(f))&&2<=iL(f)&&!(64<iL(f)))return[4,e,dY(eB(f))];throw L}throw L}return e}function
+e=[0,f6(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,xv)){if(!(2<an(f))&&2<=iJ(f)&&!(64<iJ(f)))return[4,e,d1(eD(f))];throw M}throw M}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw L;var
+f(d){if(64<d)throw M;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw L;return g}function
-f7(a){return mF(function(a){return[0,a]},a)}function
-h7(a){var
-b=aE(a);return mF(function(a){return a},b)}function
-P(a){return f7(aE(a))}function
-bO(a){if(2===a[0])return[0,f7(a[1])];var
-b=ab(a),c=P(r(b,xp));return[1,P(r(b,xq)),c]}function
-aa(a){throw[0,mC,aP(iY(xs,a),xr)]}function
-h8(c){var
-a=aE(c);if(m(a,xt)){var
-b=m(a,xu);if(b)throw L;return b}return 1}function
-xv(d){var
+g=f(0);if(a[1]<d)throw M;return g}function
+f8(a){return mN(function(a){return[0,a]},a)}function
+h5(a){var
+b=aF(a);return mN(function(a){return a},b)}function
+P(a){return f8(aF(a))}function
+bO(a){if(2===a[0])return[0,f8(a[1])];var
+b=ab(a),c=P(r(b,xz));return[1,P(r(b,xA)),c]}function
+X(a){throw[0,mK,aP(iW(xC,a),xB)]}function
+h6(c){var
+a=aF(c);if(m(a,xD)){var
+b=m(a,xE);if(b)throw M;return b}return 1}function
+xF(d){var
 b=ab(d);function
-a(a){return eA(bO,r(b,a))}var
-c=aE(r(b,xw));if(m(c,xx)){if(m(c,xy)){if(m(c,xz))return aa([0,xB,[0,c,xA]]);var
-e=aN(b,xC),f=b6(function(a){return eA(bO,a)},e),g=a(xD);return[1,a(xE),g,f]}var
-h=h8(r(b,xF)),i=bO(r(b,xG)),j=a(xH),k=a(xI);return[0,a(xJ),k,j,i,h]}return[2,a(xK)]}function
-xL(d){var
+a(a){return eC(bO,r(b,a))}var
+c=aF(r(b,xG));if(m(c,xH)){if(m(c,xI)){if(m(c,xJ))return X([0,xL,[0,c,xK]]);var
+e=aN(b,xM),f=b6(function(a){return eC(bO,a)},e),g=a(xN);return[1,a(xO),g,f]}var
+h=h6(r(b,xP)),i=bO(r(b,xQ)),j=a(xR),k=a(xS);return[0,a(xT),k,j,i,h]}return[2,a(xU)]}function
+xV(d){var
 a=ab(d);if(a){var
-b=a[1];if(!m(b[1],xM)){var
-c=b[2];if(2===c[0]&&!m(c[1],xN))return 1}}return 0}function
-mG(e){var
+b=a[1];if(!m(b[1],xW)){var
+c=b[2];if(2===c[0]&&!m(c[1],xX))return 1}}return 0}function
+mO(e){var
 b=ab(e);function
-a(a){return T(bO,Y(r(b,a)))}var
-c=aE(r(b,xO)),d=aN(b,xP);if(m(c,xQ)){if(m(c,xR)){if(!m(c,xS)&&!d){var
-f=a(xV);return[1,a(xW),f]}}else
+a(a){return U(bO,W(r(b,a)))}var
+c=aF(r(b,xY)),d=aN(b,xZ);if(m(c,x0)){if(m(c,x1)){if(!m(c,x2)&&!d){var
+f=a(x5);return[1,a(x6),f]}}else
 if(!d){var
-g=h8(r(b,xX)),h=bO(r(b,xY)),i=a(xZ),j=a(x0);return[0,a(x1),j,i,h,g]}}else
+g=h6(r(b,x7)),h=bO(r(b,x8)),i=a(x9),j=a(x_);return[0,a(x$),j,i,h,g]}}else
 if(!d){var
-k=h8(r(b,x2)),l=bO(r(b,x3)),n=bO(r(b,x4)),o=a(x5),p=a(x6),q=a(x7);return[2,a(x8),q,p,o,n,l,k]}return aa([0,xU,[0,c,xT]])}function
-mH(d){var
+k=h6(r(b,ya)),l=bO(r(b,yb)),n=bO(r(b,yc)),o=a(yd),p=a(ye),q=a(yf);return[2,a(yg),q,p,o,n,l,k]}return X([0,x4,[0,c,x3]])}function
+mP(d){var
 a=ab(d);if(a){var
-b=a[1];if(!m(b[1],x9)){var
-c=b[2];if(2===c[0]&&!m(c[1],x_))return 1}}return 0}function
-cy(c,d){var
-a=Y(d);if(a){var
+b=a[1];if(!m(b[1],yh)){var
+c=b[2];if(2===c[0]&&!m(c[1],yi))return 1}}return 0}function
+cz(c,d){var
+a=W(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw L}function
-dG(h,p){var
-g=h?h[1]:h,c=ab(p),a=aE(r(c,x$)),j=o1(a,ya),f=0;if(0<=j)if(0<j)if(m(a,yb))if(m(a,yc))if(m(a,yd))if(m(a,ye))if(m(a,yf))if(m(a,yg)){var
-k=m(a,yh);if(k)f=1;else
+e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw M}function
+dK(h,p){var
+g=h?h[1]:h,c=ab(p),a=aF(r(c,yj)),j=o$(a,yk),f=0;if(0<=j)if(0<j)if(m(a,yl))if(m(a,ym))if(m(a,yn))if(m(a,yo))if(m(a,yp))if(m(a,yq)){var
+k=m(a,yr);if(k)f=1;else
 var
 b=k}else
 var
@@ -6429,7 +6502,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,yD))if(m(a,yE))if(m(a,yF))if(m(a,yG))if(m(a,yH))if(m(a,yI))if(m(a,yJ))if(m(a,yK))f=1;else
+if(m(a,yN))if(m(a,yO))if(m(a,yP))if(m(a,yQ))if(m(a,yR))if(m(a,yS))if(m(a,yT))if(m(a,yU))f=1;else
 var
 b=1;else
 var
@@ -6447,12 +6520,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?aa([0,yj,[0,a,yi]]):b;function
-i(a){return r(c,yk)}var
-d=aE(r(c,yl)),l=m(d,ym);if(l)if(m(d,yn))if(m(d,yo))if(m(d,yp))var
-e=aa([0,yr,[0,d,yq]]);else
+n=f?X([0,yt,[0,a,ys]]):b;function
+i(a){return r(c,yu)}var
+d=aF(r(c,yv)),l=m(d,yw);if(l)if(m(d,yx))if(m(d,yy))if(m(d,yz))var
+e=X([0,yB,[0,d,yA]]);else
 var
-o=cy(P,i(0)),e=[2,o[1],o[2]];else
+o=cz(P,i(0)),e=[2,o[1],o[2]];else
 var
 e=[0,P(i(0))];else
 var
@@ -6462,88 +6535,88 @@ e=l;function
 q(A){var
 a=ab(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],yt)){var
+q=a[1];if(!m(q[1],yD)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return g?aa(yu):[1,T(P,b)]}}}break;case
+e=b[1];c=1;l=1}if(!l&&!a[2])return g?X(yE):[1,U(P,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],yv)){var
+s=a[1];if(!m(s[1],yF)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 h=a[2];if(h){var
-u=h[1];if(!m(u[1],yw)){var
+u=h[1];if(!m(u[1],yG)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!h[2]){var
 B=P(i[1]);return[2,P(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],yx)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],yy)&&!j[2]&&g)return aa(yz)}else
+w=a[1];if(!m(w[1],yH)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],yI)&&!j[2]&&g)return X(yJ)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],yA)){var
-z=y[2];if(1===z[0]&&!a[2])return[1,T(P,z[1])]}}break;case
+y=a[1];if(!m(y[1],yK)){var
+z=y[2];if(1===z[0]&&!a[2])return[1,U(P,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],ys)){var
+o=a[1];if(!m(o[1],yC)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw L}var
-s=b6(q,aN(c,yB));return[0,n,b6(cx,aN(c,yC)),s,e]}function
-mI(c){var
-d=dG(yN,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw M}var
+s=b6(q,aN(c,yL));return[0,n,b6(cy,aN(c,yM)),s,e]}function
+mQ(c){var
+d=dK(yX,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dG(yL,c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(yM)}function
-mJ(a){var
-b=dG(yO,a);return 11===b[1]?b:mI(a)}function
-yP(a){var
-b=dG(yQ,a),c=b[1];if(9!==c&&!(14<=c))return mJ(a);return b}function
-h9(c){var
-d=dG(yR,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:mI(c)}function
-h_(b){var
-a=ab(b[2]);if(m(b[1],yY)){var
-c=cy(P,r(a,yZ)),d=cy(P,r(a,y0)),e=d[2],f=d[1],g=P(r(a,y1));return[1,c[1],c[2],g,f,e]}var
-h=T(P,Y(r(a,y2)));return[0,T(P,Y(r(a,y3))),h]}function
-y4(f){var
+a=dK(yV,c),b=a[1];if(2!==b&&!(4<=b))return a;return X(yW)}function
+mR(a){var
+b=dK(yY,a);return 11===b[1]?b:mQ(a)}function
+yZ(a){var
+b=dK(y0,a),c=b[1];if(9!==c&&!(14<=c))return mR(a);return b}function
+h7(c){var
+d=dK(y1,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:mQ(c)}function
+h8(b){var
+a=ab(b[2]);if(m(b[1],y8)){var
+c=cz(P,r(a,y9)),d=cz(P,r(a,y_)),e=d[2],f=d[1],g=P(r(a,y$));return[1,c[1],c[2],g,f,e]}var
+h=U(P,W(r(a,za)));return[0,U(P,W(r(a,zb))),h]}function
+zc(f){var
 a=ab(f);function
 d(b){return P(r(a,b))}function
-c(b){return eA(P,r(a,b))}var
-b=aE(r(a,y5));if(m(b,y6)){if(!m(b,y7)){var
-j=r(a,zb),e=cy(function(a){return a},j),k=aN(a,zc),l=b6(function(a){return c(zd)},k),n=f7(aE(e[2])),o=f7(aE(e[1])),p=d(ze);return[0,cx(r(a,zf)),p,o,n,l]}if(m(b,y8))throw L}var
-g=d(y9),h=c(y_),i=c(y$);return[1,ao(b,za),i,h,g]}function
-h$(ar){var
-g=cZ(ar),h=g[1];if(m(h,zg)){if(m(h,zh)){if(m(h,zi)){if(m(h,zj))return aa([0,zl,[0,h,zk]]);var
-w=r(ab(g[2]),zm),ag=0;if(2===w[0]){var
-M=m(w[1],zn);if(!M){var
-K=M;ag=1}}if(!ag)var
+c(b){return eC(P,r(a,b))}var
+b=aF(r(a,zd));if(m(b,ze)){if(!m(b,zf)){var
+j=r(a,zl),e=cz(function(a){return a},j),k=aN(a,zm),l=b6(function(a){return c(zn)},k),n=f8(aF(e[2])),o=f8(aF(e[1])),p=d(zo);return[0,cy(r(a,zp)),p,o,n,l]}if(m(b,zg))throw M}var
+g=d(zh),h=c(zi),i=c(zj);return[1,ao(b,zk),i,h,g]}function
+h9(ar){var
+g=c2(ar),h=g[1];if(m(h,zq)){if(m(h,zr)){if(m(h,zs)){if(m(h,zt))return X([0,zv,[0,h,zu]]);var
+w=r(ab(g[2]),zw),ag=0;if(2===w[0]){var
+L=m(w[1],zx);if(!L){var
+K=L;ag=1}}if(!ag)var
 K=[0,bO(w)];return[6,K]}var
-N=ab(g[2]),i=h$([0,[0,[0,zp,r(N,zo)],0]]);if(0===i[0]){var
+N=ab(g[2]),i=h9([0,[0,[0,zz,r(N,zy)],0]]);if(0===i[0]){var
 x=i[2];if(0===x[0]&&!i[3]){var
-as=P(r(N,zr));return[5,i[1],x[1],x[2],i[4],as]}}return aa(zq)}var
-a=ab(g[2]),y=aN(a,zs),z=y?T(y4,Y(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?aa(zt):a},j=cZ(r(a,zu)),b=cZ(r(a,zv)),c=j[1];if(m(c,zw)&&m(c,zx)&&m(c,zy)){if(0===aN(a,zz)){if(m(c,zA)){var
-ah=0;if(m(c,zB)){if(!m(c,zC)){var
-O=b[1],ai=0;if(m(O,zF)&&m(O,zG)){ah=1;ai=1}if(!ai){var
-A=Y(j[2]),at=Y(r(a,zJ)),Q=T(function(a){return dG(0,a)},at);if(!ax(xL,A)&&!ax(function(a){return 13===a[1]?1:0},Q)){var
-aw=T(xv,A),f=ab(b[2]);if(m(b[1],yS))var
-I=cy(P,r(f,yT)),J=cy(P,r(f,yU)),am=J[2],an=J[1],ap=P(r(f,yV)),R=[1,I[1],I[2],ap,an,am];else
+as=P(r(N,zB));return[5,i[1],x[1],x[2],i[4],as]}}return X(zA)}var
+a=ab(g[2]),y=aN(a,zC),z=y?U(zc,W(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?X(zD):a},j=c2(r(a,zE)),b=c2(r(a,zF)),c=j[1];if(m(c,zG)&&m(c,zH)&&m(c,zI)){if(0===aN(a,zJ)){if(m(c,zK)){var
+ah=0;if(m(c,zL)){if(!m(c,zM)){var
+O=b[1],ai=0;if(m(O,zP)&&m(O,zQ)){ah=1;ai=1}if(!ai){var
+A=W(j[2]),at=W(r(a,zT)),Q=U(function(a){return dK(0,a)},at);if(!au(xV,A)&&!au(function(a){return 13===a[1]?1:0},Q)){var
+ax=U(xF,A),f=ab(b[2]);if(m(b[1],y2))var
+I=cz(P,r(f,y3)),J=cz(P,r(f,y4)),am=J[2],an=J[1],ap=P(r(f,y5)),R=[1,I[1],I[2],ap,an,am];else
 var
-aq=eA(P,r(f,yW)),R=[0,eA(P,r(f,yX)),aq];return[0,aw,R,z,Q]}o(0);var
-au=T(h9,Y(r(a,zK))),av=h_(b);return[1,0,T(mG,A),0,av,0,au]}}}else
-if(!m(b[1],zL)){o(0);var
-S=T(h9,Y(r(a,zM))),v=0,e=S;for(;;){if(e){var
+aq=eC(P,r(f,y6)),R=[0,eC(P,r(f,y7)),aq];return[0,ax,R,z,Q]}o(0);var
+av=U(h7,W(r(a,zU))),aw=h8(b);return[1,0,U(mO,A),0,aw,0,av]}}}else
+if(!m(b[1],zV)){o(0);var
+S=U(h7,W(r(a,zW))),v=0,e=S;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=iX(v),aj=0;if(n){var
-d=0,U=n[1][4];if(typeof
-U==="number")d=1;else
-switch(U[0]){case
+n=iV(v),aj=0;if(n){var
+d=0,T=n[1][4];if(typeof
+T==="number")d=1;else
+switch(T[0]){case
 0:var
 B=n[2];if(B){var
 E=0,V=B[1][4];if(typeof
@@ -6552,57 +6625,57 @@ E=1;if(!E)d=1}else
 d=1;break;case
 1:var
 C=n[2];if(C){var
-F=0,W=C[1][4];if(typeof
-W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
+F=0,Y=C[1][4];if(typeof
+Y!=="number"&&0===Y[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)aa(zN);var
-ay=P(r(ab(b[2]),zO));return[4,P(r(ab(j[2]),zP)),ay,S]}}if(!ah)return aa([0,zE,[0,c,zD]])}else
-if(!m(b[1],zQ)){o(0);var
-p=ab(j[2]),X=ab(b[2]),Z=function(c,a){var
-b=Y(a);return T(function(d){var
-a=Y(d);if(a){var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)X(zX);var
+ay=P(r(ab(b[2]),zY));return[4,P(r(ab(j[2]),zZ)),ay,S]}}if(!ah)return X([0,zO,[0,c,zN]])}else
+if(!m(b[1],z0)){o(0);var
+p=ab(j[2]),Z=ab(b[2]),_=function(c,a){var
+b=W(a);return U(function(d){var
+a=W(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aE(a[1]),e]}}throw L},b)},az=function(d){var
+e=k(c,b[1]);return[0,aF(a[1]),e]}}throw M},b)},az=function(d){var
 a=ab(d);if(a){var
-b=a[1],c=b[1];if(m(c,zR)){if(!m(c,zS)&&!a[2])return[0,T(h7,Y(b[2]))]}else
-if(!a[2])return[1,h7(b[2])]}throw L},aA=T(mJ,Y(r(a,zT))),aB=T(P,Y(r(X,zU))),aC=T(P,Y(r(X,zV))),aD=T(az,Y(r(p,zW))),aF=Z(h7,r(p,zX)),aG=Z(bO,r(p,zY));return[3,T(aE,Y(r(p,zZ))),aG,aF,aD,aC,aB,aA]}return aa([0,zI,[0,b[1],zH]])}throw L}var
-_=ab(j[2]),q=b6(P,aN(_,z0)),aH=function(f){var
-a=cZ(f),b=a[1];if(m(b,z1)){if(m(b,z2)){if(m(b,z3)){if(m(b,z4))throw L;var
-d=a[2],g=P(r(ab(d),z5));return[3,P(r(ab(d),z6)),g]}var
-h=a[2],c=function(a){return cy(P,r(ab(h),a))},i=c(z7),j=c(z8);return[1,c(z9),j,i]}var
-e=cy(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},s=b6(aH,aN(a,z_)),$=m(c,z$),D=$?m(c,Aa)?2:1:$,t=Y(r(_,Ab));if(q&&s){var
-ac=s[1];if(gB(mH,t)){var
+b=a[1],c=b[1];if(m(c,z1)){if(!m(c,z2)&&!a[2])return[0,U(h5,W(b[2]))]}else
+if(!a[2])return[1,h5(b[2])]}throw M},aA=U(mR,W(r(a,z3))),aB=U(P,W(r(Z,z4))),aC=U(P,W(r(Z,z5))),aD=U(az,W(r(p,z6))),aE=_(h5,r(p,z7)),aG=_(bO,r(p,z8));return[3,U(aF,W(r(p,z9))),aG,aE,aD,aC,aB,aA]}return X([0,zS,[0,b[1],zR]])}throw M}var
+$=ab(j[2]),q=b6(P,aN($,z_)),aH=function(f){var
+a=c2(f),b=a[1];if(m(b,z$)){if(m(b,Aa)){if(m(b,Ab)){if(m(b,Ac))throw M;var
+d=a[2],g=P(r(ab(d),Ad));return[3,P(r(ab(d),Ae)),g]}var
+h=a[2],c=function(a){return cz(P,r(ab(h),a))},i=c(Af),j=c(Ag);return[1,c(Ah),j,i]}var
+e=cz(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},s=b6(aH,aN(a,Ai)),aa=m(c,Aj),D=aa?m(c,Ak)?2:1:aa,t=W(r($,Al));if(q&&s){var
+ac=s[1];if(gC(mP,t)){var
 aI=function(c){var
 a=ab(c);function
-b(b){return T(bO,Y(r(a,b)))}if(0!==aN(a,Ac))aa(Ad);var
-d=b(Ae);return[0,b(Af),d]},ad=T(yP,Y(r(a,Ag))),ak=0;if(1!==D||2!==ac[0])ak=1;if(ak&&ax(function(a){return 11===a[1]?1:0},ad))aa(Ah);var
-aJ=h_(b),aK=q[1];return[2,D,T(aI,t),aK,aJ,ac,z,ad]}}o(0);var
-al=0;if(!q&&ao(c,Ak)){var
+b(b){return U(bO,W(r(a,b)))}if(0!==aN(a,Am))X(An);var
+d=b(Ao);return[0,b(Ap),d]},ad=U(yZ,W(r(a,Aq))),ak=0;if(1!==D||2!==ac[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ad))X(Ar);var
+aJ=h8(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ac,z,ad]}}o(0);var
+al=0;if(!q&&ao(c,Au)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==s?1:0,aL=af?ax(mH,t):af;if(aL)aa(Ai);var
-aM=T(h9,Y(r(a,Aj))),aO=h_(b);return[1,ae,T(mG,t),q,aO,s,aM]}var
+af=0!==s?1:0,aL=af?au(mP,t):af;if(aL)X(As);var
+aM=U(h7,W(r(a,At))),aO=h8(b);return[1,ae,U(mO,t),q,aO,s,aM]}var
 u=ab(g[2]);function
 aP(b){var
-a=ab(b),c=P(r(a,Al)),d=[0,P(r(a,Am)),c];return[0,aE(r(a,An)),d]}var
-l=h$([0,[0,[0,Ap,r(u,Ao)],0]]);if(0===l[0]&&!l[3]){var
-aQ=P(r(u,Ar)),aR=P(r(u,As)),aS=l[4],aT=l[2],aU=l[1];return[7,T(aP,Y(r(u,At))),aU,aT,aS,aR,aQ]}return aa(Aq)}function
-ia(a){return T(eC,Y(a))}function
-ib(c,b){var
-a=ia(b);if(b$(a)!==c)throw L;return a}function
-mK(a,d){var
-b=ab(d),e=Y(r(b,Aw)),f=a[2],c=T(function(a){return ib(f,a)},e),g=a[1];if(b$(c)!==g)throw L;return[0,c,f6(r(b,Ax))]}function
-eD(g,o){var
+a=ab(b),c=P(r(a,Av)),d=[0,P(r(a,Aw)),c];return[0,aF(r(a,Ax)),d]}var
+l=h9([0,[0,[0,Az,r(u,Ay)],0]]);if(0===l[0]&&!l[3]){var
+aQ=P(r(u,AB)),aR=P(r(u,AC)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aP,W(r(u,AD))),aU,aT,aS,aR,aQ]}return X(AA)}function
+h_(a){return U(eE,W(a))}function
+h$(c,b){var
+a=h_(b);if(b$(a)!==c)throw M;return a}function
+mS(a,d){var
+b=ab(d),e=W(r(b,AG)),f=a[2],c=U(function(a){return h$(f,a)},e),g=a[1];if(b$(c)!==g)throw M;return[0,c,f7(r(b,AH))]}function
+eF(g,o){var
 N=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=o1(a,Ay),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,Az)&&m(a,AA)&&m(a,AB))if(m(a,AC))f=1;else{var
+e=d[1],a=e[1],O=o$(a,AI),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,AJ)&&m(a,AK)&&m(a,AL))if(m(a,AM))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ae=T(ia,Y(s[1])),af=aE(q[1]);return[8,eD(g,p[1]),af,ae]}b=1;f=1}else
+ae=U(h_,W(s[1])),af=aF(q[1]);return[8,eF(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6612,247 +6685,266 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=f6(x[1]),ai=eC(w[1]);return[5,eD(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,AF))if(m(a,AG))if(m(a,AH))if(m(a,AI)){if(!m(a,AJ)){if(!d[2]){var
-S=ab(e[2]),aj=Y(r(S,AK)),ak=N+1|0,U=T(function(a){return ib(ak,a)},aj);if(3===b$(U))return[1,AM,U,f6(r(S,AL))];throw L}b=1}}else{if(!d[2]){var
-J=aE(e[2]),K=m(J,Au);if(K){if(m(J,Av))throw L;var
-M=1}else
+ah=f7(x[1]),ai=eE(w[1]);return[5,eF(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,AP))if(m(a,AQ))if(m(a,AR))if(m(a,AS)){if(!m(a,AT)){if(!d[2]){var
+S=ab(e[2]),aj=W(r(S,AU)),ak=N+1|0,T=U(function(a){return h$(ak,a)},aj);if(3===b$(T))return[1,AW,T,f7(r(S,AV))];throw M}b=1}}else{if(!d[2]){var
+J=aF(e[2]),K=m(J,AE);if(K){if(m(J,AF))throw M;var
+L=1}else
 var
-M=K;return[2,M]}b=1}else{if(!d[2]){var
-i=e[2],X=function(l,a){if(0===a[0]){var
+L=K;return[2,L]}b=1}else{if(!d[2]){var
+i=e[2],Z=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],AO)){var
+e=b[1];if(!m(e[1],AY)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],AP)){var
+g=c[1];if(!m(g[1],AZ)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eD(AQ,a)}}}}}}}}}}return eD(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eF(A0,a)}}}}}}}}}}return eF(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-Z=j[1],k=Z[1],c=0;if(m(k,AR)&&m(k,AS)&&m(k,AT))if(m(k,AU))c=1;else{var
-_=Z[2];if(1===_[0]){var
-E=_[1];if(E){var
+_=j[1],k=_[1],c=0;if(m(k,A1)&&m(k,A2)&&m(k,A3))if(m(k,A4))c=1;else{var
+$=_[2];if(1===$[0]){var
+E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ad=0;if(m(G,AW)&&m(G,AX)&&m(G,AY)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ad=0;if(m(G,A6)&&m(G,A7)&&m(G,A8)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-$=l[1];if(m($,AZ)&&m($,A0)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,A9)&&m(aa,A_)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=f6(I[1]),aq=eC(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
+ap=f7(I[1]),aq=eE(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ac=i[1];if(!m(ac,A1)||!m(ac,A2))n=1;break}switch(n){case
+ac=i[1];if(!m(ac,A$)||!m(ac,Ba))n=1;break}switch(n){case
 0:var
-y=aa(AV);break;case
+y=X(A5);break;case
 1:var
-y=X(g,i);break}return[7,y]}b=1}else{var
+y=Z(g,i);break}return[7,y]}b=1}else{var
 V=e[2];if(1===V[0]){var
 z=V[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,ib(N+1|0,al)]};b=2}}}}else{var
-W=e[2];if(1===W[0]){var
-B=W[1];if(B){var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,h$(N+1|0,al)]};b=2}}}}else{var
+Y=e[2];if(1===Y[0]){var
+B=Y[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dF(D[1]),AN))throw L;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eC(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return aa([0,AE,[0,a,AD]]);break;case
+an=C[1];if(m(dJ(D[1]),AX))throw M;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eE(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return X([0,AO,[0,a,AN]]);break;case
 1:break;default:var
-Q=mK(g,u);return t(Q[1],Q[2])}}break;case
-2:return[0,o[1]]}throw L}function
-mL(k){var
-b=cZ(k),a=b[1];if(m(a,A5))if(m(a,A6)){var
-g=m(a,A7);if(!g)return g;if(!m(a,A8)){var
+Q=mS(g,u);return t(Q[1],Q[2])}}break;case
+2:return[0,o[1]]}throw M}function
+mT(k){var
+b=c2(k),a=b[1];if(m(a,Bd))if(m(a,Be)){var
+g=m(a,Bf);if(!g)return g;if(m(a,Bg)){if(!m(a,Bh))return[2,U(P,W(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cx(d[1]);return[1,cx(c[1]),l]}}}}}else{var
+l=cy(d[1]);return[1,cy(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=T(ia,Y(f[1]));return[0,cx(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return aa([0,A_,[0,a,A9]])}function
-mM(f,b){var
-a=ab(b),c=Y(r(a,Bd)),d=T(function(g){var
+n=U(h_,W(f[1]));return[0,cy(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return X([0,Bj,[0,a,Bi]])}function
+mU(f,b){var
+a=ab(b),c=W(r(a,Bo)),d=U(function(g){var
 a=ab(g);function
 b(d,c){var
-b=aN(a,c);return b?T(d,Y(b[1])):b}var
-c=b(eC,A$),d=b6(mL,aN(a,Ba)),e=b6(cx,aN(a,Bb));return[0,b(function(h){var
-b=Y(h);if(b){var
+b=aN(a,c);return b?U(d,W(b[1])):b}var
+c=b(eE,Bk),d=b6(mT,aN(a,Bl)),e=b6(cy,aN(a,Bm));return[0,b(function(h){var
+b=W(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],A3)){if(!a[2]){if(m(dF(e),A4))throw L;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Bb)){if(!a[2]){if(m(dJ(e),Bc))throw M;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eD(f,c);return[0,cx(e),g]}}}throw L},Bc),e,d,c]},c),e=aN(a,Be),g=b6(function(a){return mK(f,a)},e);return[0,mD(r(a,Bf)),g,d]}function
-mN(c){var
-a=ab(c),b=aN(a,Bg),d=b?T(P,Y(b[1])):b,e=mL(r(a,Bh)),f=T(P,Y(r(a,Bi)));return[0,mD(r(a,Bj)),f,d,e]}function
-mO(c){var
+g=eF(f,c);return[0,cy(e),g]}}}throw M},Bn),e,d,c]},c),e=aN(a,Bp),g=b6(function(a){return mS(f,a)},e);return[0,mL(r(a,Bq)),g,d]}function
+mV(c){var
+a=ab(c),b=aN(a,Br),d=b?U(P,W(b[1])):b,e=mT(r(a,Bs)),f=U(P,W(r(a,Bt)));return[0,mL(r(a,Bu)),f,d,e]}function
+mW(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Bt(b){var
+BE(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Bu(b){var
+BF(b){var
 a=b[4];if(14<=b[1]&&typeof
-a!=="number"&&1===a[0])return 1-ep(i(a[1]));return 0}function
-By(g){var
-i=an(g),c=[0,0];function
-j(a){if(c[1]<i)return aH(g,c[1]);throw L}function
-l(a){if(j(0)===a){c[1]++;return 0}throw L}function
-C(a,b){for(;;){if(c[1]<i&&k(b,aH(g,c[1]))){c[1]++;continue}return c_(g,a,c[1]-a|0)}}function
-D(d){l(34);function
+a!=="number"&&1===a[0])return 1-eq(i(a[1]));return 0}function
+BJ(i){var
+n=an(i),c=[0,0];function
+o(a){if(c[1]<n)return aI(i,c[1]);throw M}function
+p(a){if(o(0)===a){c[1]++;return 0}throw M}function
+F(a,b){for(;;){if(c[1]<n&&k(b,aI(i,c[1]))){c[1]++;continue}return db(i,a,c[1]-a|0)}}function
+G(d){p(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=C(c[1],a);l(34);return b}function
-E(e,a){if(j(0)===a){c[1]++;return 0}var
+b=F(c[1],a);p(34);return b}function
+H(e,a){if(o(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,k(e,0),b];if(44===j(0)){c[1]++;var
-b=d;continue}l(a);return iX(d)}}function
-t(b,i){if(64<b)throw L;var
-a=j(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,E(function(a){return t(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,E(function(c){var
-a=D(0);l(58);return[0,a,t(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,D(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,C(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw L}var
-Q=t(0,0),F=c[1]<i?1:0,R=F?10===aH(g,c[1])?1:0:F;if(R)c[1]++;if(c[1]<i)throw L;var
-q=ab(Q);if(m(aE(r(q,Bz)),BA))throw L;var
-a=h$(r(q,BB)),y=0;switch(a[0]){case
+d=[0,k(e,0),b];if(44===o(0)){c[1]++;var
+b=d;continue}p(a);return iV(d)}}function
+w(b,i){if(64<b)throw M;var
+a=o(0),d=0;if(48<=a){if(91===a){c[1]++;var
+e=93,f=b+1|0;return[1,H(function(a){return w(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,H(function(c){var
+a=G(0);p(58);return[0,a,w(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,G(0)];if(45===a)d=1}if(d){var
+h=c[1];c[1]++;return[3,F(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw M}var
+V=w(0,0),I=c[1]<n?1:0,Y=I?10===aI(i,c[1])?1:0:I;if(Y)c[1]++;if(c[1]<n)throw M;var
+u=ab(V);if(m(aF(r(u,BK)),BL))throw M;var
+a=h9(r(u,BM)),B=0;switch(a[0]){case
 1:var
-w=a[1],z=0;if(typeof
-w==="number")if(w)var
-x=2;else
-z=1;else
-if(1===w[1])var
-x=6;else
-z=1;if(z)var
-x=3;var
-f=[0,b$(a[2]),x];break;case
+z=a[1],C=0;if(typeof
+z==="number")if(z)var
+A=2;else
+C=1;else
+if(1===z[1])var
+A=6;else
+C=1;if(C)var
+A=3;var
+g=[0,b$(a[2]),A];break;case
 2:var
-ag=1===a[1]?6:3,f=[0,b$(a[2]),ag];break;case
+al=1===a[1]?6:3,g=[0,b$(a[2]),al];break;case
 3:var
-ah=b$(a[1]),f=[0,b$(a[4]),ah];break;case
+am=b$(a[1]),g=[0,b$(a[4]),am];break;case
 7:var
-G=a[2];y=1;break;case
+J=a[2];B=1;break;case
 0:case
 5:var
-G=a[1];y=1;break;default:var
-f=BS}if(y)var
-f=[0,b$(G),3];var
-n=cZ(r(q,BC)),o=n[1];if(m(o,Bo))if(m(o,Bp))if(m(o,Bq))var
-b=aa([0,Bs,[0,o,Br]]);else
+J=a[1];B=1;break;default:var
+g=B5}if(B)var
+g=[0,b$(J),3];var
+q=c2(r(u,BN)),s=q[1];if(m(s,Bz))if(m(s,BA))if(m(s,BB))var
+b=X([0,BD,[0,s,BC]]);else
 var
-p=mN(n[2]),b=[1,p[1],p[2],p[3],p[4]];else
+t=mV(q[2]),b=[1,t[1],t[2],t[3],t[4]];else
 var
-u=mM(f,n[2]),b=[0,u[1],u[2],u[3]];else
+x=mU(g,q[2]),b=[0,x[1],x[2],x[3]];else
 var
-S=Y(n[2]),b=[2,T(function(g){var
-a=cZ(g),b=a[1];if(m(b,Bk)){if(m(b,Bl)){if(m(b,Bm)){var
-e=m(b,Bn);if(e)throw L;return e}return[0,cx(a[2])]}var
-c=mN(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=mM(f,a[2]);return[1,d[1],d[2],d[3]]},S)];function
-U(a){var
-b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
-V(a){return 0!==a[3]?1:0}function
-H(a){return ax(V,a)}var
+Z=W(q[2]),b=[2,U(function(f){var
+a=c2(f),b=a[1];if(m(b,Bv)){if(m(b,Bw)){if(m(b,Bx)){var
+e=m(b,By);if(e)throw M;return e}return[0,cy(a[2])]}var
+c=mV(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=mU(g,a[2]);return[1,d[1],d[2],d[3]]},Z)];function
+_(a){var
+b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
+$(a){return 0!==a[3]?1:0}function
+K(a){return au($,a)}function
+L(a){if(typeof
+a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
+0:switch(b[0]){case
 0:var
-I=a[4];switch(b[0]){case
-0:var
-K=I,J=a[1];d=4;break;case
-1:var
-N=I;d=5;break}break;case
+O=a[4],N=a[1];d=5;break;case
+2:d=1;break;default:d=3}break;case
 1:switch(b[0]){case
 0:var
-$=b[3];if(ax(function(a){var
-b=a[1];return ax(function(a){switch(a[2][0]){case
+ah=b[3];if(au(function(a){var
+b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},$)){aa(BM);d=1}else
+7:return 1;default:return 0}},b)},ah))X(B1);else
 d=2;break;case
 1:var
-ac=a[6];if(ax(function(a){return 8===a[1]?1:0},ac)){aa(BN);d=1}break}break;case
+ai=a[6];if(au(function(a){return 8===a[1]?1:0},ai))X(B2);else
+d=3;break;default:d=1}break;case
 2:if(1===b[0]){var
-af=a[7];if(ax(function(c){var
+R=0,Q=b[4];if(typeof
+Q!=="number"&&2!==Q[0]){var
+aj=a[7];if(au(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},af)){aa(BQ);d=1}else
-d=3}else
-d=3;break;case
-3:if(1===b[0]){aa(BR);d=1}else
-d=3;break;case
-5:var
-N=a[4];d=5;break;case
+b=4<=a?1:0;if(!b)return b}return 1},aj)){X(B3);R=1}else{d=3;R=1}}}else
+d=4;break;case
+7:switch(b[0]){case
+2:var
+ak=b[1];if(au(function(a){if(typeof
+a!=="number"&&2===a[0])return L(a[4]);return 0},ak))X(B4);else
+d=4;break;case
+1:d=3;break;default:d=4}break;default:d=3}var
+h=0;switch(d){case
+3:if(1===b[0]&&L(b[4]))X(B0);else
+h=3;break;case
+4:h=3;break;case
+0:break;case
+5:h=4;break;case
+2:h=1;break;default:h=2}var
+e=0;switch(h){case
+3:var
+f=0;switch(a[0]){case
+1:e=1;f=1;break;case
+3:if(1===b[0]){X(BZ);e=2;f=1}break;case
 7:var
-K=a[4],J=a[2];d=4;break;default:d=2}var
-e=0;switch(d){case
-3:if(0===b[0])if(ax(U,b[3])){aa(BO);e=3}else
-if(3===a[0])e=1;else{var
-ad=a[7],ae=b[3];if(gB(function(a){var
-b=a[1];return gB(function(d){var
+O=a[4],N=a[2];e=3;f=1;break;case
+2:break;case
+4:case
+6:f=1;break;default:if(au(mW,a[4])){X(BW);e=2;f=1}else{e=4;f=1}}if(!f)if(0===b[0]){if(au(_,b[3])){X(BX);e=2}else
+if(3!==a[0]){var
+af=a[7],ag=b[3];if(!gC(function(a){var
+b=a[1];return gC(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,Bv)){if(!m(c,Bw))return ax(Bu,ad)}else
+c=b[1];if(m(c,BG)){if(!m(c,BH))return au(BF,af)}else
 a=1;break;case
-1:if(!m(b[1],Bx))a=1;break;case
-7:a=1;break}return a?1:0},b)},ae))e=1;else{aa(BP);e=3}}else
-e=2;break;case
-1:e=3;break;case
-4:var
-O=0;if(ax(function(a){return 10===a[1]?1:0},K)&&ax(function(a){return 2===a[0]?1:0},J)){aa(BD);O=1}if(!O)e=4;break;case
-5:if(ax(mO,N))aa(BL);else
-e=4;break;case
-2:e=1;break;default:e=2}var
-h=0;switch(e){case
-3:break;case
-4:var
-A=0;switch(a[0]){case
+1:if(!m(b[1],BI))a=1;break;case
+7:a=1;break}return a?1:0},b)},ag)){X(BY);e=2}}}else
+e=1;break;case
+0:e=2;break;case
+4:e=3;break;case
+1:break;default:e=1}var
+j=0;switch(e){case
+2:break;case
+3:var
+S=0;if(au(function(a){return 10===a[1]?1:0},O)&&au(function(a){return 2===a[0]?1:0},N)){X(BO);S=1}if(!S)j=3;break;case
+4:j=3;break;case
+0:j=2;break;default:j=1}var
+l=0;switch(j){case
+3:var
+D=0;switch(a[0]){case
 5:var
-P=0;if(0===b[0]){var
-_=b[3];if(ax(function(a){return 0!==a[1]?1:0},_)){aa(BK);A=1;P=1}}if(!P)var
-v=a[4];break;case
+T=0;if(0===b[0]){var
+ae=b[3];if(au(function(a){return 0!==a[1]?1:0},ae)){X(BV);D=1;T=1}}if(!T)var
+y=a[4];break;case
 7:var
-v=a[4];break;default:if(1===b[0])var
-v=a[4];else{h=2;A=1}}if(!A)if(ax(Bt,v))aa(BJ);else
-h=2;break;case
-1:h=2;break;case
-2:h=1;break}var
-B=0;switch(h){case
+y=a[4];break;default:if(1===b[0])var
+y=a[4];else{l=2;D=1}}if(!D)if(au(BE,y))X(BU);else
+l=2;break;case
+2:l=2;break;case
+1:l=1;break}var
+E=0;switch(l){case
 2:var
-s=0;switch(a[0]){case
-5:s=1;break;case
+v=0;switch(a[0]){case
+5:v=1;break;case
 7:var
-X=a[4];switch(b[0]){case
+ac=a[4];switch(b[0]){case
 0:break;case
-1:B=1;s=1;break;default:var
-Z=function(a){if(typeof
+1:E=1;v=1;break;default:var
+ad=function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return H(a[3]);case
-2:return ax(mO,X)}return 0};if(ax(Z,b[1]))aa(BI);s=1}break}if(!s)if(0===b[0]&&H(b[3]))aa(BH);else
-B=1;break;case
-1:B=1;break}var
-M=ab(r(q,BE)),W=aE(r(M,BF));return[0,a,b,aE(r(M,BG)),W]}function
-BT(b){var
-c=an(b),g=64,h=Du(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+1:return K(a[3]);case
+2:return au(mW,ac)}return 0};if(au(ad,b[1]))X(BT);v=1}break}if(!v)if(0===b[0]&&K(b[3]))X(BS);else
+E=1;break;case
+1:E=1;break}var
+P=ab(r(u,BP)),aa=aF(r(P,BQ));return[0,a,b,aF(r(P,BR)),aa]}function
+B6(b){var
+c=an(b),g=64,h=DH(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ao(c_(b,a,18),BU);if(!e){var
+e=ao(db(b,a,18),B7);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}DP(function(b){try{if(BT(b))var
-a=BW;else{try{var
-e=0,d=By(b);e=1}catch(a){a=o3(a);if(a[1]===mC)var
-c=[0,a[2]];else{if(a!==L)throw a;var
+f=d;return f}}D2(function(b){try{if(B6(b))var
+a=B9;else{try{var
+e=0,d=BJ(b);e=1}catch(a){a=pb(a);if(a[1]===mK)var
+c=[0,a[2]];else{if(a!==M)throw a;var
 c=2}}if(e)var
-c=xg(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return BV}if(typeof
+c=xq(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return B8}if(typeof
 a==="number")switch(a){case
-0:return BX;case
-1:return BY;default:return BZ}return aP(B0,a[1])});iW(0);return}(globalThis));
+0:return B_;case
+1:return B$;default:return Ca}return aP(Cb,a[1])});iU(0);return}(globalThis));

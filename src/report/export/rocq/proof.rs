@@ -42,6 +42,8 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         AtlasCell::Refuted(_) => holds_alone(),
         AtlasCell::Split(_) | AtlasCell::Undecided => false,
     };
+    let is_singular = |cell: &AtlasCell| matches!(cell, AtlasCell::Refuted(w) if matches!(w.fails, Failure::Singular(_)));
+    const SINGULAR: &str = "the failure \"singular\" of such a mechanism";
     let what = match (subject.kind, proof) {
         (Kind::Turning | Kind::Formulas, _)
             if has(&|by| matches!(by, Evidence::Tolerances(..))) =>
@@ -59,6 +61,9 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         {
             "a step of a platform that turns that is not at control points"
         }
+        (Kind::Turning, Proof::Witness(Witness { fails, .. })) if is_whatever_is_asked(fails) => {
+            return Ok(())
+        }
         (Kind::Turning, Proof::Witness(_))
             if subject.requirements.iter().any(|r| {
                 !["transmission", "joint_range", "conditioning"].contains(&r.quantity.as_str())
@@ -66,6 +71,8 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         {
             "this quantity of such a mechanism in a claim that is refuted"
         }
+        (_, Proof::Witness(Witness { fails: Failure::Singular(_), .. })) => SINGULAR,
+        (_, Proof::Atlas(cells)) if cells.iter().any(is_singular) => SINGULAR,
         (Kind::Machine, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
             "the acceleration of a joint of a machine with a plane"
         }
@@ -89,6 +96,11 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         _ => return Ok(()),
     };
     not_covered(what)
+}
+
+/// Whatever is required, the claim fails there.
+fn is_whatever_is_asked(fails: &Failure) -> bool {
+    matches!(fails, Failure::Reach | Failure::Dependent | Failure::Singular(_))
 }
 
 fn is_no_step_of_pose(by: &Evidence) -> bool {
@@ -193,6 +205,8 @@ fn failure(fails: &Failure) -> Exported<String> {
         Failure::Row(number, leg) => format!("(Row {number} {leg})"),
         Failure::Dependent => "Dependent_".to_owned(),
         Failure::Same { .. } => return not_covered("the failure \"same\""),
-        Failure::Singular(_) => return not_covered("the failure \"singular\""),
+        Failure::Singular(other) => {
+            format!("(Singular_ {}%written)", list(other.iter().map(expression)))
+        }
     })
 }
