@@ -1404,9 +1404,10 @@ Definition accept (c : certificate) : bool :=
       end
   | Turning_ k ls ell w o bs rs, Nodes bits chords nodes =>
       let c := turning_claim_of k ls ell w o bs rs in
-      match tree_of [] (length nodes) nodes with
+      let s := (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l))%list (struts c)))%Z in
+      match tree_of (free_struts s (struts c)) (length nodes) nodes with
       | Some (t, []) => is_turning k ls ell w o bs rs && splits_below (dimension k) nodes &&
-          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points (length ls) bs rs) c (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l)) (struts c))%list) t
+          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points (length ls) bs rs) c s t
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>

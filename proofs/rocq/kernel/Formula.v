@@ -233,27 +233,25 @@ End Relation.
 
     Nothing here needs a proof: its result is compared with the formulas. *)
 
-Fixpoint position (e : formula) (l : list formula) : option nat :=
-  match l with [] => None | f :: l' => if same e f then Some O else option_map S (position e l') end.
-Definition place (l : list formula) (e : formula) : nat := match position e l with Some i => i | None => O end.
+Fixpoint position (e : formula) (l : list formula) (i : nat) : nat :=
+  match l with [] => O | f :: l' => if same e f then i else position e l' (S i) end.
+Definition place (l : list formula) (e : formula) : nat := position e l O.
 
 (** Formulas placed so far, last first, and the tape, last first. *)
 Fixpoint put (e : formula) (st : list formula * list (op nat)) {struct e} : list formula * list (op nat) :=
-  match position e (fst st) with
-  | Some _ => st
-  | None =>
-      match e with
-      | F o =>
-          let st' :=
-            match o with
-            | Coord _ | Param _ | Integer _ => st
-            | Add a b | Sub a b | Mul a b | Div a b => put b (put a st)
-            | Sqr a | Sqrt a | Neg a => put a st
-            | Elbow _ a b t => put t (put b (put a st))
-            end in
-          (e :: fst st', map_op (place (fst st')) o :: snd st')
-      end
-  end.
+  if existsb (same e) (fst st) then st
+  else
+    match e with
+    | F o =>
+        let st' :=
+          match o with
+          | Coord _ | Param _ | Integer _ => st
+          | Add a b | Sub a b | Mul a b | Div a b => put b (put a st)
+          | Sqr a | Sqrt a | Neg a => put a st
+          | Elbow _ a b t => put t (put b (put a st))
+          end in
+        (e :: fst st', map_op (place (fst st')) o :: snd st')
+    end.
 
 (** A tape of some formulas, and where they are on it. *)
 Definition compile (l : list formula) : list (op nat) * list nat :=

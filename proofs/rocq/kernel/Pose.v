@@ -6,7 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert.kernel Require Import Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Chart.
+From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Varied Chart.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -53,7 +53,8 @@ Variable tests : list pose_test.
 Variables m n : nat.
 (** Where it is curved, what is not negative at the orientations. *)
 Variable g : option nat.
-
+(** Rows and their factor, of whose least singular value something is shown of a cell with tolerances apart. *)
+Variables (main : rows nat) (main_w : nat) (varied : list fixed -> fixed -> nat -> evidence -> bool).
 
 Definition shows_less (ts : list tensor) (l : multiple) (t : pose_test) (e : evidence) : bool :=
   let at_all e good r w := everywhere e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
@@ -70,12 +71,16 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : pose_test) (e : evi
   | AxisOf r w, ByTest => at_all 0%nat (upper_at bits 3 (Fixed.integer bits 1)) r w
   | _, _ => false
   end.
-Definition shows_at (ts : list tensor) (values : list (option slope)) (t : pose_test) (e : evidence) : bool :=
+Definition same_row : forall p q : list nat * nat, {p = q} + {p <> q}.
+Proof. decide equality; [apply Nat.eq_dec | apply (list_eq_dec Nat.eq_dec)]. Defined.
+Definition same_rows (r s : rows nat) : bool := if list_eq_dec same_row r s then true else false.
+Definition shows_at (cell : list fixed) (ts : list tensor) (values : list (option slope)) (t : pose_test) (e : evidence) : bool :=
   match e with
   | AtControls (Turned e k places) =>
       match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less ts (Some (g, k, places)) t e | None => false end
   | AtControls e => shows_less ts None t e
   | ByTest | ByDirection _ _ => match t with OnSlopes t => shows bits [] [] [] values m None t e | _ => false end
+  | ByTolerances _ _ _ => match t with LeastOf r w k ends => same_rows r main && Nat.eqb w main_w && varied cell k ends e | _ => false end
   | _ => false
   end.
 (** No orientation of the set is in the cell. *)
@@ -90,7 +95,7 @@ Fixpoint discharged (cell : list fixed) (ts : list tensor) (values : list (optio
   | (O, Outside) :: rest => if is_outside_at cell then discharged cell ts values rest (map (fun _ => false) open) else None
   | (i, e) :: rest =>
       match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at ts values t e then discharged cell ts values rest (clear i open) else None
+      | true, Some t => if shows_at cell ts values t e then discharged cell ts values rest (clear i open) else None
       | _, _ => None
       end
   end.
@@ -144,6 +149,9 @@ Definition test_holds (x : list R) (t : pose_test) : Prop :=
   | ChordsOf r w places Y => forall v, length v = n -> nonzero v -> 0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows here r)) v
   end.
 
+Hypothesis varied_holds : forall cell x k ends e, In (LeastOf main main_w k ends) tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  varied cell k ends e = true -> test_holds x (LeastOf main main_w k ends).
+
 Section Thin.
 Variable thin : list (op nat).
 Hypothesis thin_is : is_thinned thin tape.
@@ -179,14 +187,17 @@ Proof.
 Qed.
 
 Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
-  shows_at (tensors_here cell) (evaluate bits plain params cell) t e = true -> test_holds x t.
+  shows_at cell (tensors_here cell) (evaluate bits plain params cell) t e = true -> test_holds x t.
 Proof.
   intros cell x t e it hx len ht h.
   assert (None_ : forall e, shows_less (tensors_here cell) None t e = true -> test_holds x t)
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
   assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate bits plain params cell) m None t e | _ => false end) = true -> test_holds x t).
   { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in cell x _ e' hx k). }
-  destruct e as [| | | | | | | | | | | e | | | | |]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h). destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
+  destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
+  2: { destruct t as [r w k ends | | | | | | | |]; try discriminate. apply andb_true_iff in h as [h v]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h2. subst w.
+    unfold same_rows in h1. destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]. exact (varied_holds cell x k ends _ it hx len ht v). }
+  destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
   assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors_here cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
@@ -211,7 +222,7 @@ Proof.
   intros cell ts ts' vs vs'. induction steps as [| [i e] steps IH]; intros open hc hs; [reflexivity |]. cbn [existsb] in hc, hs.
   assert (Rest : forall open, discharged cell ts vs steps open = discharged cell ts' vs' steps open)
     by (intro o; apply IH; intro k; [apply hc | apply hs]; rewrite k; apply orb_true_r).
-  assert (E : forall t, shows_at ts vs t e = shows_at ts' vs' t e).
+  assert (E : forall t, shows_at cell ts vs t e = shows_at cell ts' vs' t e).
   { intro t. destruct e; try reflexivity; [rewrite (hs eq_refl) | rewrite (hc eq_refl) | rewrite (hs eq_refl)]; reflexivity. }
   destruct i, e; cbn [discharged]; try (destruct (is_outside_at cell); [apply Rest | reflexivity]);
     match goal with |- match nth ?j open false with _ => _ end = _ => destruct (nth j open false); [destruct (nth_error tests j); [rewrite E, Rest |] |]; reflexivity end.
@@ -226,10 +237,10 @@ Proof.
   assert (TI : is_thinned thin tape) by apply thinned_is. clearbody thin.
   assert (Own : forall i e steps, (forall open, discharged cell ts vs steps open = Some rest -> is_done x open -> is_done x rest) ->
     forall open, match nth i open false, nth_error tests i with
-      | true, Some t => if shows_at ts vs t e then discharged cell ts vs steps (clear i open) else None
+      | true, Some t => if shows_at cell ts vs t e then discharged cell ts vs steps (clear i open) else None
       | _, _ => None end = Some rest -> is_done x open -> is_done x rest).
   { intros i e steps' IH open' h D. destruct (nth i open' false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
-    destruct (shows_at _ _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
+    destruct (shows_at _ _ _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
     destruct (nth_clear i j open' o) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
     exact (shows_at_sound thin TI cell x t e (nth_error_In _ _ nt) hx len ht s). }
   revert open h'. induction steps as [| [i e] steps IH]; intros open h D; cbn [discharged] in h; [injection h as <-; exact D |].
@@ -660,6 +671,13 @@ Definition ends_of (fs : list formula) (m : nat) (k : motion) (r : rows nat) (w 
   let e := first_angle k in
   if Nat.eqb (length r) m && eased_in m fs e r w (option_map (fun g => (g, 0%Z, 0%N)) g) then e else O.
 
+(** The parameters of struts with tolerances, where these are apart somewhere in a tree. *)
+Definition free_struts (s : Z) (ts : list (tolerances * tolerances)) : list nat :=
+  let lay := flat_map (strut_layout s) ts in map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length lay)) lay)).
+Definition is_apart (s : nat * evidence) : bool := match snd s with ByTolerances _ _ _ => true | _ => false end.
+Fixpoint has_apart (t : tree) : bool :=
+  match t with Leaf steps => existsb is_apart steps | Split steps _ lower upper => existsb is_apart steps || has_apart lower || has_apart upper end.
+
 Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let k := motion_of c in let m := dimension k in let ds := turning_demands c in
   let lay := flat_map (strut_layout s) (struts c) in let pl := (exactly (characteristic_length c), s) in let j := S (length lay) in
@@ -687,7 +705,15 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
       let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
       match g with Some g => affine_in m fs (place g) | None => true end &&
-      check_poses bits tape plain (params ++ inputs ++ tangents) tests m m (option_map place g) (box ++ angles) (map (fun _ => true) tests) t
+      let all := params ++ inputs ++ tangents in
+      let apart := has_apart t in let free := free_struts s (struts c) in
+      let F := if apart then own_multis m rows free else [] in
+      let apart_tape := if apart then fst (compile (varied_wanted m w g F)) else [] in
+      let apart_fs := formulas apart_tape in let apart_place := Formula.place apart_fs in
+      let apart_rows := map_multis apart_place apart_place F in let apart_w := apart_place (image m w) in let apart_g := option_map (fun g => apart_place (image m g)) g in
+      let fit := negb apart || (Nat.eqb (length rows) m && are_fit m ends rows w g all free F apart_fs) in
+      fit && check_poses bits tape plain all tests m m (option_map place g) (map_rows place rows) (place w)
+        (fun cell k e by_ => apart && shows_varied bits m ends all free apart_tape apart_rows apart_w apart_g cell k e by_) (box ++ angles) (map (fun _ => true) tests) t
   | _, _, _, _, _, _ => false
   end.
 
@@ -879,7 +905,7 @@ Proof.
   assert (Sub : forall u, In u tests -> In u all_tests) by (intros u iu; unfold all_tests; destruct (one_pose c); [apply inserted_in; right |]; exact iu).
   assert (Own : forall u, In u all_tests -> In u tests \/ with_ends u = None)
     by (intros u iu; unfold all_tests in iu; destruct (one_pose c); [apply inserted_in in iu as [-> | iu]; [right; reflexivity |] |]; left; exact iu).
-  apply andb_true_iff in C as [C tree_ok]. apply andb_true_iff in C as [C gaff]. apply andb_true_iff in C as [len aff]. apply Nat.eqb_eq in len.
+  apply andb_true_iff in C as [C tree_ok]. apply andb_true_iff in tree_ok as [fits tree_ok]. apply andb_true_iff in C as [C gaff]. apply andb_true_iff in C as [len aff]. apply Nat.eqb_eq in len.
   apply positive_sound in L0. set (L := Claim.value (characteristic_length c)) in *.
   assert (ok : are_angles (turned c)).
   { unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros u iu. specialize (ang u iu). apply andb_true_iff in ang as [a b].
@@ -952,7 +978,7 @@ Proof.
   assert (eased : forall u r v e, In u all_tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
     forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
   { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (LT u r v _ i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
-    unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
+    clear fits tree_ok. unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
     split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
       apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
@@ -962,7 +988,38 @@ Proof.
       [rewrite Rows; exact (rows_grounded x theta k P Q W _ L rows m W0 ST) | rewrite Weight; exact W0]].
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
-  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) theta T aff gaff' eased t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
+  cbv zeta in fits, tree_ok. set (apart := has_apart t) in *. set (multis := if apart then own_multis _ _ _ else []) in *. set (apart_tape := if apart then fst (compile _) else []) in *.
+  assert (VH : forall cell y k' e by_, In (LeastOf (map_rows place rows) (place w) k' e) all_tests -> Forall2 (contains bits) cell y -> length cell = dimension k ->
+    is_turned tape all_tests (option_map place g) theta y -> apart && shows_varied bits (dimension k) ends (params ++ inputs ++ tangents) (free_struts s ts) apart_tape
+      (map_multis (Formula.place (formulas apart_tape)) (Formula.place (formulas apart_tape)) multis) (Formula.place (formulas apart_tape) (image (dimension k) w))
+      (option_map (fun g => Formula.place (formulas apart_tape) (image (dimension k) g)) g) cell k' e by_ = true ->
+    test_holds bits tape plain (params ++ inputs ++ tangents) (dimension k) (dimension k) theta y (LeastOf (map_rows place rows) (place w) k' e)).
+  { intros cell y k' e by_ it hy ly [hg' hturn] h'. apply andb_true_iff in h' as [ha h']. rewrite ha in fits. cbn [negb orb] in fits. apply andb_true_iff in fits as [lr fit]. apply Nat.eqb_eq in lr.
+    assert (eF : multis = own_multis (dimension k) rows (free_struts s ts)) by (unfold multis; rewrite ha; reflexivity). rewrite eF in fit, h'.
+    assert (ly' : length y = dimension k) by (rewrite <- (related_length _ _ _ _ _ hy); exact ly).
+    assert (FoundY : forall f, In f wanted -> at_pairs theta (entry_at tape (place f)) (parabola y) = Formula.value y theta f).
+    { intros f i. assert (E : entry_at tape (place f) = image (dimension k) f) by (apply Formula.same_sound, found, i). rewrite E, <- ly'. apply image_value. rewrite ly'. apply below_, i. }
+    assert (RowsY : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola y)) (map_rows place rows) = map_rows (Formula.value y theta) rows).
+    { assert (G : forall r, (forall f, In f (entries r) -> In f wanted) -> map_rows (fun i => at_pairs theta (entry_at tape i) (parabola y)) (map_rows place r) = map_rows (Formula.value y theta) r).
+      { induction r as [| [A D] r IH]; intro i; [reflexivity |]. rewrite !map_rows_cons. f_equal.
+        - f_equal; [rewrite map_map; apply map_ext_in; intros f q; apply FoundY, i; cbn [entries flat_map fst]; apply in_or_app; left; apply in_or_app; left; exact q |].
+          apply FoundY, i. cbn [entries flat_map snd]. apply in_or_app. left. apply in_or_app. right. left. reflexivity.
+        - apply IH. intros f q. apply i. cbn [entries flat_map]. apply in_or_app. right. exact q. }
+      apply G. intros f q. apply in_or_app. left. exact q. }
+    assert (iw : In w wanted) by (apply in_or_app; right; left; reflexivity).
+    assert (ig : forall f, g = Some f -> In f wanted) by (intros f ef; unfold wanted, gs; rewrite ef; apply in_or_app; right; right; apply in_or_app; right; left; reflexivity).
+    (* ends alone *)
+    assert (e1 : e = ends /\ (0 < ends)%nat).
+    { unfold shows_varied in h'. cbv zeta in h'. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs]; try discriminate. destruct inner; try discriminate. destruct dirs as [| ? [|]]; try discriminate.
+      do 5 apply andb_true_iff in h' as [h' _]. apply andb_true_iff in h' as [q1 q2].
+      apply Nat.eqb_eq in q1. apply Nat.ltb_lt in q2. split; assumption. }
+    destruct e1 as [ee e0]. destruct (hturn _ _ _ _ it eq_refl) as [z | [gr w1]]; [lia |]. cbv zeta in gr, w1. rewrite RowsY in gr. rewrite (FoundY w iw) in w1.
+    intros kappa v hk k0 lv nz. cbv zeta. rewrite RowsY, (FoundY w iw).
+    apply (shows_varied_sound bits (dimension k) ends rows w g (params ++ inputs ++ tangents) (free_struts s ts) apart_tape fit theta cell y T hy ly k' e by_ kappa h' lr gr w1); try assumption.
+    - intros f ef _. rewrite <- (FoundY f (ig f ef)). apply hg'. rewrite ef. reflexivity.
+    - apply below_, iw.
+    - destruct g as [f |]; [apply below_, ig; reflexivity | reflexivity]. }
+  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) (map_rows place rows) (place w) _ theta T aff gaff' eased VH t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
   pose proof (fun u iu => HT0 u (Sub u iu)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)

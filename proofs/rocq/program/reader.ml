@@ -416,7 +416,7 @@ let has_each = List.exists (fun r -> match r.given_ with Some (Each_ _) -> true 
 (* A sign by slopes is of angles of more than 90 degrees at joints. *)
 let is_wide r = match r.about_, r.end_ with (BaseJoint_ | PlatformJoint_), AtMost_ b -> not (up_to_90 (denoted b)) | _ -> false
 let is_pose_step rs (_, s) = match s with
-  | AtControls_ _ | Plain "outside" | Multiplied ("direction", _, _) -> true
+  | AtControls_ _ | Plain "outside" | Multiplied ("direction", _, _) | Apart_ _ -> true
   | Plain "test" -> List.exists is_wide rs
   | _ -> false
 
@@ -436,10 +436,20 @@ let certificate text =
   let plane_accelerates legs rs =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
   let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ -> true | _ -> false) n.by_) in
+  (* Apart are all that is shown of M, at control points, of as many struts as coordinates, over a box. *)
+  let has_other_apart kind legs w nodes =
+    let is_square = List.length legs = (match kind with InSpace -> 6 | _ -> 3) && (match kind, w with AboutPoint, _ | _, AnyCylinder_ _ -> false | _ -> true) in
+    let is_other = function
+      | O, Apart_ (AtControls_ (Multiplied ("lower", _, _) | Turned_ (Multiplied ("lower", _, _), _, _)), _, _) -> not is_square
+      | _, Apart_ _ -> true
+      | _ -> false in
+    List.exists (fun n -> List.exists is_other n.by_) nodes in
   let has_failure = List.exists (fun n -> n.fails_ <> None) in
   let is_singular = function Singular_ _ -> true | _ -> false in
   (match subject_, proof_ with
-   | (Turning_ _ | Formulas_ _), Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
+   | Formulas_ _, Nodes (_, _, nodes) when has_apart nodes -> not_covered [ "the evidence \"tolerances\" of such a mechanism" ]
+   | Turning_ (kind, legs, _, w, _, _, _), Nodes (_, _, nodes) when has_other_apart kind legs w nodes ->
+     not_covered [ "this evidence \"tolerances\" of a platform that turns" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
    | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]

@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-ip="spatial",oI="Invalid_argument",gk="precision",ax='"',io=1255,oH="inside",nN="(",nO=0x800,oG="yaw",nK="range",nL="tree",nM="jsError",bP=0x8000,oF="sqrt(",nJ=256,nI="obligation",eR="offset",a5="machine",nG="this quantity of such a mechanism in a claim that is refuted",nH="End_of_file",dR="strut",im="center",eQ="arm",il="Failure",oE="serial_margin",gt="parameters",b8=0xff,oD="bodies",iz="outside",gs="base_axis",ik="ENOENT",oC="singular",oB=122,nF="([^/]+)",iy="0",ij=0xf,eP=128,nE=0xdc00,oz="Sys_blocked_io",oA="fd ",gj="given",nD="ENOTEMPTY",aH=248,gi="bound",nC="Division_by_zero",ox="by",oy=1027,nB="Sys_error",gr="slider",nA="torsion",ow="postulate",nz="proof",ov="joint_error",eO="refuted",dM="mechanism",gh="row",ny="EEXIST",ou="roll_pitch_yaw",gq="y",nx="cube",eH="lower",ot="within",nw="clearance",os="turned",nv="control",gg="int_of_string",oq="definitions",or="dependent",eN=1024,nt="from",nu="name",op=" : flags Open_rdonly and Open_wronly are not compatible",ns="orthocert/2",oo="reach",nr=512,om="base_joint",on="witness",eM="-",aY="platform",nq=0x7ff0,np="pitch",ix=": Not a directory",bg="min",ok="trim",dQ="workspace",ol=" : file already exists",gf="split",oi='the failure "singular" of such a mechanism',iw="legs",oj="claim",ii="joint",c6=0xffffff,no="platform_joint",nn="formulas",nm="roll",ge="atlas",og="nodes",oh="Out_of_memory",nl="psi_max",gp="orientation",gd=254,of="angle",iv="index out of bounds",nk="end",oe="one_to_one",go="_bigarr02",nj=" : flags Open_text and Open_binary are not compatible",bz="drive",ni="coordinates",od="holds",nh="lower_divided",ng="speed",ob="cylinder",oc="joints",b7=0xffff,n$="acceleration",eK="certified",eL="chords",oa=12520,ih="on",gc="accuracy",eJ="axis",n_="no_cube",n9="parallel_margin",nf='the drive "',ig="Unix.Unix_error",gn="fails",gb="tool",ie="mkdir",n8="rho",gm=1000,id="translational",n7="tolerances",ne="Stack_overflow",iu="characteristic_length",T="",it="^",ic="places",ga=": No such file or directory",nd="/static/",dP=0x3f,nb="stiffness",nc="Not_found",c5="planar",eG="mode",n6="joint_speed",n5="Match_failure",na="transmission",bf="anchor",n4="at",m$="joint_force",dO="leg",m_="joint_acceleration",gl="+",ib="rmdir",n3=0xf0,n2="spherical",m9=1026,n0="REJECTED",n1="undecided",bh="max",bQ="direction",m7="leg_angle",m8="orthoglide",eI="rank",nZ="constraint_margin",f$="test",m5="Pervasives.do_at_exit",m6="utf8",by=0x80,dN="conditioning",dL="length",m4="Undefined_recursive_module",is=")",m3="base",nY="quantity",m2="joint_range",f_="tilt",m1="Q2",nX="reference",m0="point",nV="corner",nW=0xe0,mZ="version",ir="z",nT="to",nU=0xdfff,ia="compare: functional value",nS="Assert_failure",bB="/",nR="provenance",c4="radius",f9="side",bA="require",nQ="format",mY="Q1",iq="ENOTDIR",mX="all",c3="box",nP=250;function
-iM(c,b,a){var
+iC="spatial",o4="Invalid_argument",gp="precision",ay='"',iB=1255,o3="inside",n9="(",n_=0x800,o2="yaw",n6="range",n7="tree",n8="jsError",bR=0x8000,o1="sqrt(",n5=256,n4="obligation",eS="offset",a6="machine",n2="this quantity of such a mechanism in a claim that is refuted",n3="End_of_file",dW="strut",iA="center",eR="arm",iz="Failure",o0="serial_margin",gy="parameters",ca=0xff,oZ="bodies",iM="outside",gx="base_axis",iy="ENOENT",oY="singular",oX=122,n1="([^/]+)",iL="0",ix=0xf,eQ=128,n0=0xdc00,oV="Sys_blocked_io",oW="fd ",go="given",nZ="ENOTEMPTY",aK=248,gn="bound",nY="Division_by_zero",oT="by",oU=1027,nX="Sys_error",gw="slider",nW="torsion",oS="postulate",nV="proof",oR="joint_error",eP="refuted",dR="mechanism",gm="row",nU="EEXIST",oQ="roll_pitch_yaw",gv="y",nT="cube",da="lower",oP="within",nS="clearance",oO="turned",nR="control",gl="int_of_string",oM="definitions",oN="dependent",eO=1024,nP="from",nQ="name",oL=" : flags Open_rdonly and Open_wronly are not compatible",nO="orthocert/2",oK="reach",nN=512,oI="base_joint",oJ="witness",eN="-",a0="platform",nM=0x7ff0,nL="pitch",iK=": Not a directory",bj="min",oG="trim",dV="workspace",oH=" : file already exists",gk="split",oE='the failure "singular" of such a mechanism',iJ="legs",oF="claim",iw="joint",db=0xffffff,nK="platform_joint",nJ="formulas",nI="roll",gj="atlas",oC="nodes",oD="Out_of_memory",nH="psi_max",gu="orientation",gi=254,oB="angle",iI="index out of bounds",nG="end",oA="one_to_one",gt="_bigarr02",nF=" : flags Open_text and Open_binary are not compatible",bE="drive",nE="coordinates",oz="holds",nD="lower_divided",nC="speed",ox="cylinder",oy="joints",b$=0xffff,ov="acceleration",eL="certified",eM="chords",ow=12520,iv="on",gh="accuracy",eK="axis",ou="no_cube",ot="parallel_margin",nB='the drive "',iu="Unix.Unix_error",gs="fails",gg="tool",it="mkdir",os="rho",gr=1000,is="translational",or="tolerances",nA="Stack_overflow",iH="characteristic_length",T="",iG="^",ir="places",gf=": No such file or directory",nz="/static/",dU=0x3f,nx="stiffness",ny="Not_found",c$="planar",eI="mode",oq="joint_speed",op="Match_failure",nw="transmission",bi="anchor",oo="at",nv="joint_force",dT="leg",nu="joint_acceleration",gq="+",iq="rmdir",on=0xf0,om="spherical",nt=1026,ok="REJECTED",ol="undecided",bk="max",bS="direction",nr="leg_angle",ns="orthoglide",eJ="rank",oj="constraint_margin",ge="test",np="Pervasives.do_at_exit",nq="utf8",bD=0x80,dS="conditioning",dQ="length",no="Undefined_recursive_module",iF=")",nn="base",oi="quantity",nm="joint_range",gd="tilt",nl="Q2",oh="reference",nk="point",of="corner",og=0xe0,nj="version",iE="z",od="to",oe=0xdfff,ip="compare: functional value",oc="Assert_failure",bG="/",ob="provenance",c_="radius",gc="side",bF="require",oa="format",ni="Q1",iD="ENOTDIR",nh="all",c9="box",n$=250;function
+iZ(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eN,a-=eN)e+=d.apply(null,c.slice(b,b+Math.min(a,eN)));return e}function
-gv(b){if(E.Uint8Array)var
+e=T;for(;0<a;b+=eO,a-=eO)e+=d.apply(null,c.slice(b,b+Math.min(a,eO)));return e}function
+gA(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eS(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iM(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iM(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gv(b);var
+eT(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gA(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dU(a){return a}function
-dT(a,b,c,d,e){eS(dU(a),b,c,d,e);return 0}function
-iB(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+dZ(a){return a}function
+dY(a,b,c,d,e){eT(dZ(a),b,c,d,e);return 0}function
+iO(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c7(c,a){if(c.fun)return c7(c.fun,a);if(typeof
+cG(c,a){if(c.fun)return cG(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c7(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cG(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c7(c,d)}}function
-o_(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cG(c,d)}}function
+pu(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
 d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-dV(a){if(a.t==2)a.c+=o_(a.l-a.c.length,"\0");else
-a.c=iM(a.c,0,a.c.length);a.t=0}function
-dW(a){a.t&6&&dV(a);return a.c}var
-D0=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-DZ(a){if(D0)return Math.floor(Math.log2(a));var
+d0(a){if(a.t==2)a.c+=pu(a.l-a.c.length,"\0");else
+a.c=iZ(a.c,0,a.c.length);a.t=0}function
+d1(a){a.t&6&&d0(a);return a.c}var
+Er=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Eq(a){if(Er)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iE(c){var
+iR(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-o1=Math.pow(2,-24);function
-DQ(a){throw a}var
-ar=[0];function
-o7(){DQ(ar.Division_by_zero)}function
-D(b,c,a){this.lo=b&c6;this.mi=c&c6;this.hi=a&b7}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+pl=Math.pow(2,-24);function
+Eh(a){throw a}var
+as=[0];function
+pr(){Eh(as.Division_by_zero)}function
+D(b,c,a){this.lo=b&db;this.mi=c&db;this.hi=a&b$}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*o1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*o1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*pl|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pl|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b7);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&c6;this.lo=this.lo<<1&c6};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&c6;this.mi=(this.mi>>>1|this.hi<<23)&c6;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b$);return new
+D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&db;this.lo=this.lo<<1&db};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&db;this.mi=(this.mi>>>1|this.hi<<23)&db;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())o7();var
-d=b.hi^a.hi;if(b.hi&bP)b=b.neg();if(a.hi&bP)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bP)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())o7();var
-d=a.hi;if(a.hi&bP)a=a.neg();if(b.hi&bP)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bP)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&b8,this.mi>>16,this.mi>>8&b8,this.mi&b8,this.lo>>16,this.lo>>8&b8,this.lo&b8]};D.prototype.lo32=function(){return this.lo|(this.mi&b8)<<24};D.prototype.hi32=function(){return this.mi>>>8&b7|this.hi<<16};function
-gx(b,c,a){return new
+b=this;if(a.isZero())pr();var
+d=b.hi^a.hi;if(b.hi&bR)b=b.neg();if(a.hi&bR)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bR)c=c.neg();return c};D.prototype.mod=function(b){var
+a=this;if(b.isZero())pr();var
+d=a.hi;if(a.hi&bR)a=a.neg();if(b.hi&bR)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&ca,this.mi>>16,this.mi>>8&ca,this.mi&ca,this.lo>>16,this.lo>>8&ca,this.lo&ca]};D.prototype.lo32=function(){return this.lo|(this.mi&ca)<<24};D.prototype.hi32=function(){return this.mi>>>8&b$|this.hi<<16};function
+gC(b,c,a){return new
 D(b,c,a)}function
-gw(a){if(!isFinite(a)){if(isNaN(a))return gx(1,0,nq);return a>0?gx(0,0,nq):gx(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bP:a>=0?0:bP;if(f)a=-a;var
-b=DZ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-m9)}else{a/=Math.pow(2,b-oy);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gB(a){if(!isFinite(a)){if(isNaN(a))return gC(1,0,nM);return a>0?gC(0,0,nM):gC(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bR:a>=0?0:bR;if(f)a=-a;var
+b=Eq(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nt)}else{a/=Math.pow(2,b-oU);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&ij|f|b<<4;return gx(g,e,c)}function
-eV(a){return a.toArray()}function
-oP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==go)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b7)c.write(16,b.dims[a]);else{c.write(16,b7);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&ix|f|b<<4;return gC(g,e,c)}function
+eW(a){return a.toArray()}function
+o$(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gt)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<b$)c.write(16,b.dims[a]);else{c.write(16,b$);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eV(b.get(a));for(var
+e=eW(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eV(gw(b.get(a)));for(var
+e=eW(gB(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iE(b.get(a));c.write(32,e)}break;case
+e=iR(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iE(d[1]));c.write(32,iE(d[2]))}break;case
+d=b.get(a);c.write(32,iR(d[1]));c.write(32,iR(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eV(gw(f[1]));for(var
+f=b.get(a),e=eW(gB(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eV(gw(f[2]));for(var
+e=eW(gB(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-DS(b,a){throw[0,b,a]}function
-pd(a){if(a.length<24){for(var
+Ej(b,a){throw[0,b,a]}function
+pz(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-iN(e){for(var
-j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<by){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<by;d++);if(d-b>nr){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eP){g=h+(f<<6);if(f<nW){a=g-0x3080;if(a<by)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eP){g=h+(g<<6);if(f<n3){a=g-0xe2080;if(a<nO||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eP&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b7)c+=String.fromCharCode(0xd7c0+(a>>10),nE+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eN){c.substr(0,1);j+=c;c=T}}return j+c}function
-bR(c,a,b){this.t=c;this.c=a;this.l=b}bR.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:dV(this);case
-0:if(pd(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bR.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return iN(a)};bR.prototype.slice=function(){var
+i0(e){for(var
+j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bD){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bD;d++);if(d-b>nN){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eQ){g=h+(f<<6);if(f<og){a=g-0x3080;if(a<bD)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eQ){g=h+(g<<6);if(f<on){a=g-0xe2080;if(a<n_||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eQ&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>b$)c+=String.fromCharCode(0xd7c0+(a>>10),n0+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eO){c.substr(0,1);j+=c;c=T}}return j+c}function
+bT(c,a,b){this.t=c;this.c=a;this.l=b}bT.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:d0(this);case
+0:if(pz(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bT.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return i0(a)};bT.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bR(this.t,a,this.l)};function
-oS(a){return new
-bR(0,a,a.length)}function
-a(a){return oS(a)}function
-iL(c,b){DS(c,a(b))}function
-aC(a){iL(ar.Invalid_argument,a)}function
-oN(a){switch(a){case
+bT(this.t,a,this.l)};function
+pc(a){return new
+bT(0,a,a.length)}function
+a(a){return pc(a)}function
+iY(c,b){Ej(c,a(b))}function
+aC(a){iY(as.Invalid_argument,a)}function
+o9(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Dk(c,e){var
+DN(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,50 +173,50 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aC("Bigarray.create: unsupported kind");var
 d=new
-a(e*oN(c));return d}function
-iF(c){var
+a(e*o9(c));return d}function
+iS(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eU(a){return new
+eV(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iG(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ij)==0?b&bP?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&ij);if(c>0){a+=16;a*=Math.pow(2,c-oy)}else
-a*=Math.pow(2,-m9);if(b&bP)a=-a;return a}function
-iA(b){var
+iT(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ix)==0?b&bR?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ix);if(c>0){a+=16;a*=Math.pow(2,c-oU)}else
+a*=Math.pow(2,-nt);if(b&bR)a=-a;return a}function
+iN(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aC("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-DA(b,a){return new
-D(b&c6,b>>>24&b8|(a&b7)<<8,a>>>16&b7)}function
-iH(a){return a.hi32()}function
-iI(a){return a.lo32()}function
-gu(){aC(iv)}var
-Dl=go;function
-cA(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cA.prototype.caml_custom=Dl;cA.prototype.offset=function(b){var
+D3(b,a){return new
+D(b&db,b>>>24&ca|(a&b$)<<8,a>>>16&b$)}function
+iU(a){return a.hi32()}function
+iV(a){return a.lo32()}function
+gz(){aC(iI)}var
+DO=gt;function
+cF(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cF.prototype.caml_custom=DO;cF.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aC("bigarray.js: invalid offset");if(this.dims.length!=b.length)aC("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gu();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gz();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gu();c=c*this.dims[a]+(b[a]-1)}return c};cA.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gz();c=c*this.dims[a]+(b[a]-1)}return c};cF.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return DA(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return D3(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gd,e,c];default:return this.data[a]}};cA.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iI(b);this.data[a*2+1]=iH(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gi,e,c];default:return this.data[a]}};cF.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=iV(b);this.data[a*2+1]=iU(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cA.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cF.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iI(b),e=iH(b);if(c==e)this.data.fill(c);else
+c=iV(b),e=iU(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cA.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cF.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dS(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dS.prototype=new
-cA();dS.prototype.offset=function(a){if(typeof
+dX(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dX.prototype=new
+cF();dX.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gu();return a};dS.prototype.get=function(a){return this.data[a]};dS.prototype.set=function(a,b){this.data[a]=b;return 0};dS.prototype.fill=function(a){this.data.fill(a);return 0};function
-oL(c,d,a,b){var
-e=oN(c);if(iA(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dS(c,d,a,b);return new
-cA(c,d,a,b)}function
-bC(b){if(!ar.Failure)ar.Failure=[aH,a(il),-3];iL(ar.Failure,b)}function
-oM(b,v,r){var
-i=b.read32s();if(i<0||i>16)bC("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&b8,o=p>>8&1,h=[];if(r==go)for(var
+aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gz();return a};dX.prototype.get=function(a){return this.data[a]};dX.prototype.set=function(a,b){this.data[a]=b;return 0};dX.prototype.fill=function(a){this.data.fill(a);return 0};function
+o7(c,d,a,b){var
+e=o9(c);if(iN(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dX(c,d,a,b);return new
+cF(c,d,a,b)}function
+bH(b){if(!as.Failure)as.Failure=[aK,a(iz),-3];iY(as.Failure,b)}function
+o8(b,v,r){var
+i=b.read32s();if(i<0||i>16)bH("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ca,o=p>>8&1,h=[];if(r==gt)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b7){var
-t=b.read32u(),u=b.read32u();if(t!=0)bC("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==b$){var
+t=b.read32u(),u=b.read32u();if(t!=0)bH("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iA(h),f=Dk(j,d),g=oL(j,o,h,f);switch(j){case
+d=iN(h),f=DN(j,d),g=o7(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bC("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bH("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eU(e);g.set(a,q)}break;case
+q=eV(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iG(eU(e));g.set(a,k)}break;case
+k=iT(eV(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iF(b.read32s());g.set(a,k)}break;case
+k=iS(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iF(b.read32s()),l=iF(b.read32s());g.set(a,[gd,m,l])}break;case
+m=iS(b.read32s()),l=iS(b.read32s());g.set(a,[gi,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iG(eU(e));for(var
+m=iT(eV(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iG(eU(e));g.set(a,[gd,m,l])}break}v[0]=(4+i)*4;return oL(j,o,h,f)}function
-oK(a,b,c){return a.compare(b,c)}function
-o4(a,b){return Math.imul(a,b)}function
-b9(b,a){a=o4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=o4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Dx(a,b){a=b9(a,iI(b));a=b9(a,iH(b));return a}function
-o0(a,b){return Dx(a,gw(b))}function
-oO(c){var
-b=iA(c.dims),d=0;switch(c.kind){case
+l=iT(eV(e));g.set(a,[gi,m,l])}break}v[0]=(4+i)*4;return o7(j,o,h,f)}function
+o6(a,b,c){return a.compare(b,c)}function
+po(a,b){return Math.imul(a,b)}function
+cb(b,a){a=po(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=po(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+D0(a,b){a=cb(a,iV(b));a=cb(a,iU(b));return a}function
+pk(a,b){return D0(a,gB(b))}function
+o_(c){var
+b=iN(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>nJ)b=nJ;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=b9(d,e)}e=0;switch(b&3){case
+12:if(b>n5)b=n5;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cb(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=b9(d,e)}break;case
+1:e|=c.data[a+0];d=cb(d,e)}break;case
 4:case
-5:if(b>eP)b=eP;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=b9(d,e)}if((b&1)!=0)d=b9(d,c.data[a]);break;case
+5:if(b>eQ)b=eQ;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cb(d,e)}if((b&1)!=0)d=cb(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b9(d,c.data[a]);break;case
+a=0;a<b;a++)d=cb(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=b9(d,c.data[a]);break;case
+a=0;a<b;a++)d=cb(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=b9(d,c.data[a]);break;case
+a=0;a<b;a++)d=cb(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=o0(d,c.data[a]);break;case
+a=0;a<b;a++)d=pk(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=o0(d,c.data[a]);break}return d}function
-Dy(a,b){b[0]=4;return a.read32s()}function
-DN(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=pk(d,c.data[a]);break}return d}function
+D1(a,b){b[0]=4;return a.read32s()}function
+Ee(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bC("input_value: native integer value too large");default:bC("input_value: ill-formed native integer")}}function
-DD(c,d){var
+2:bH("input_value: native integer value too large");default:bH("input_value: ill-formed native integer")}}function
+D6(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eU(b)}function
-DC(e,d,b){var
-c=eV(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eV(b)}function
+D5(e,d,b){var
+c=eW(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Dz(a,b,c){return a.compare(b)}function
-DB(a){return a.lo32()^a.hi32()}var
-oV={"_j":{deserialize:DD,serialize:DC,fixed_length:8,compare:Dz,hash:DB},"_i":{deserialize:Dy,fixed_length:4},"_n":{deserialize:DN,fixed_length:4},"_bigarray":{deserialize:function(a,b){return oM(a,b,"_bigarray")},serialize:oP,compare:oK,hash:oO},"_bigarr02":{deserialize:function(a,b){return oM(a,b,go)},serialize:oP,compare:oK,hash:oO}};function
-iD(a){return oV[a.caml_custom]&&oV[a.caml_custom].compare}function
-oT(f,c,d,e){var
-b=iD(c);if(b){var
+D2(a,b,c){return a.compare(b)}function
+D4(a){return a.lo32()^a.hi32()}var
+pf={"_j":{deserialize:D6,serialize:D5,fixed_length:8,compare:D2,hash:D4},"_i":{deserialize:D1,fixed_length:4},"_n":{deserialize:Ee,fixed_length:4},"_bigarray":{deserialize:function(a,b){return o8(a,b,"_bigarray")},serialize:o$,compare:o6,hash:o_},"_bigarr02":{deserialize:function(a,b){return o8(a,b,gt)},serialize:o$,compare:o6,hash:o_}};function
+iQ(a){return pf[a.caml_custom]&&pf[a.caml_custom].compare}function
+pd(f,c,d,e){var
+b=iQ(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-iK(a){return a
+iX(a){return a
 instanceof
-bR}function
-o2(a){return iK(a)}function
-oU(a){if(typeof
-a==="number")return gm;else
-if(iK(a))return 252;else
-if(o2(a))return 1252;else
+bT}function
+pm(a){return iX(a)}function
+pe(a){if(typeof
+a==="number")return gr;else
+if(iX(a))return 252;else
+if(pm(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gd?0:b}else
+b=a[0]|0;return b==gi?0:b}else
 if(a
 instanceof
-String)return oa;else
+String)return ow;else
 if(typeof
-a=="string")return oa;else
+a=="string")return ow;else
 if(a
 instanceof
-Number)return gm;else
-if(a&&a.caml_custom)return io;else
+Number)return gr;else
+if(a&&a.caml_custom)return iB;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-DE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-oR(a,b){a.t&6&&dV(a);b.t&6&&dV(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-o$(a,b){return oR(a,b)}function
-iC(a,b,d){var
+D7(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pb(a,b){a.t&6&&d0(a);b.t&6&&d0(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+pv(a,b){return pb(a,b)}function
+iP(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=oU(a);if(f==nP){a=a[1];continue}var
-g=oU(b);if(g==nP){b=b[1];continue}if(f!==g){if(f==gm){if(g==io)return oT(a,b,-1,d);return-1}if(g==gm){if(f==io)return oT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aC(ia);break;case
+f=pe(a);if(f==n$){a=a[1];continue}var
+g=pe(b);if(g==n$){b=b[1];continue}if(f!==g){if(f==gr){if(g==iB)return pd(a,b,-1,d);return-1}if(g==gr){if(f==iB)return pd(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aC(ip);break;case
 248:var
-c=DE(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aC(ia);break;case
+c=D7(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aC(ip);break;case
 250:aC("equal: got Forward_tag, should not happen");break;case
 251:aC("equal: abstract value");break;case
 252:if(a!==b){var
-c=oR(a,b);if(c!=0)return c|0}break;case
+c=pb(a,b);if(c!=0)return c|0}break;case
 253:aC("equal: got Double_tag, should not happen");break;case
 254:aC("equal: got Double_array_tag, should not happen");break;case
 255:aC("equal: got Custom_tag, should not happen");break;case
-1247:aC(ia);break;case
+1247:aC(ip);break;case
 1255:var
-i=iD(a);if(i!=iD(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aC("compare: abstract value");var
+i=iQ(a);if(i!=iQ(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aC("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,150 +399,150 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=dW(a),b=dW(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=d1(a),b=d1(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Ds(a,b){return iC(a,b,true)}function
-bT(a){if(a<0)aC("Bytes.create");return new
-bR(a?2:9,T,a)}function
-oW(a,b){return+(iC(a,b,false)==0)}function
-Du(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=o_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gv(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-DO=0;function
-oY(){return DO++}function
-DG(a){return a.toUtf16()}function
-eW(){return typeof
+DV(a,b){return iP(a,b,true)}function
+bV(a){if(a<0)aC("Bytes.create");return new
+bT(a?2:9,T,a)}function
+pg(a,b){return+(iP(a,b,false)==0)}function
+DX(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pu(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gA(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Ef=0;function
+pi(){return Ef++}function
+D9(a){return a.toUtf16()}function
+eX(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-D1(){function
-a(a){if(a.charAt(0)===bB)return[T,a.substring(1)];return}function
+Es(){function
+a(a){if(a.charAt(0)===bG)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return eW()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-iR=D1();function
-pa(a){return a.slice(-1)!==bB?a+bB:a}if(eW()&&E.process&&E.process.cwd)var
-eT=E.process.cwd().replace(/\\/g,bB);else
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return eX()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+i4=Es();function
+pw(a){return a.slice(-1)!==bG?a+bG:a}if(eX()&&E.process&&E.process.cwd)var
+eU=E.process.cwd().replace(/\\/g,bG);else
 var
-eT="/static";eT=pa(eT);function
-DI(a){a=DG(a);if(!iR(a))a=eT+a;var
-e=iR(a),d=e[1].split(bB),b=[];for(var
+eU="/static";eU=pw(eU);function
+D$(a){a=D9(a);if(!i4(a))a=eU+a;var
+e=i4(a),d=e[1].split(bG),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-DW(e){for(var
-f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<by){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<by;d++);if(d-c>nr){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<nO){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(by|a&dP)}else
-if(a<0xd800||a>=nU)b+=String.fromCharCode(nW|a>>12,by|a>>6&dP,by|a&dP);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<nE||h>nU)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(n3|a>>18,by|a>>12&dP,by|a>>6&dP,by|a&dP)}if(b.length>eN){b.substr(0,1);f+=b;b=T}}return f+b}function
-Dp(a){var
-b=9;if(!pd(a))b=8,a=DW(a);return new
-bR(b,a,a.length)}function
-dX(a){return Dp(a)}var
-D4=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",ny,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",ik,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iq,nD,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-c$(d,f,e,a){var
-b=D4.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,dX(f||T),dX(e||T)];return c}var
-o5={};function
-c8(a){return o5[a]}function
-c9(b,a){throw[0,b].concat(a)}function
-Do(a){return new
-bR(4,a,a.length)}function
-ae(a){iL(ar.Sys_error,a)}function
-DR(a){ae(a+ga)}function
-oQ(){aC(iv)}function
-Dn(b,a){if(a>>>0>=b.l)oQ();return iB(b,a)}function
-gy(a){return a.l}function
-oJ(){}function
+En(e){for(var
+f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bD){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bD;d++);if(d-c>nN){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<n_){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bD|a&dU)}else
+if(a<0xd800||a>=oe)b+=String.fromCharCode(og|a>>12,bD|a>>6&dU,bD|a&dU);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n0||h>oe)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(on|a>>18,bD|a>>12&dU,bD|a>>6&dU,bD|a&dU)}if(b.length>eO){b.substr(0,1);f+=b;b=T}}return f+b}function
+DS(a){var
+b=9;if(!pz(a))b=8,a=En(a);return new
+bT(b,a,a.length)}function
+d2(a){return DS(a)}var
+Ev=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nU,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iD,nZ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+df(d,f,e,a){var
+b=Ev.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,d2(f||T),d2(e||T)];return c}var
+pp={};function
+dc(a){return pp[a]}function
+dd(b,a){throw[0,b].concat(a)}function
+DR(a){return new
+bT(4,a,a.length)}function
+ah(a){iY(as.Sys_error,a)}function
+Ei(a){ah(a+gf)}function
+pa(){aC(iI)}function
+DQ(b,a){if(a>>>0>=b.l)pa();return iO(b,a)}function
+gD(a){return a.l}function
+o5(){}function
 aA(a){this.data=a}aA.prototype=new
-oJ();aA.prototype.truncate=function(a){var
-b=this.data;this.data=bT(a|0);eS(b,0,this.data,0,a)};aA.prototype.length=function(){return gy(this.data)};aA.prototype.write=function(b,d,g,a){var
+o5();aA.prototype.truncate=function(a){var
+b=this.data;this.data=bV(a|0);eT(b,0,this.data,0,a)};aA.prototype.length=function(){return gD(this.data)};aA.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bT(b+a),f=this.data;this.data=e;eS(f,0,this.data,0,c)}dT(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
-e=this.length();eS(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return Dn(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
-aO(b,a){this.content={};this.root=b;this.lookupFun=a}aO.prototype.nm=function(a){return this.root+a};aO.prototype.create_dir_if_needed=function(d){var
-c=d.split(bB),b=T;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bB;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aO.prototype.slash=function(a){return/\/$/.test(a)?a:a+bB};aO.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bV(b+a),f=this.data;this.data=e;eT(f,0,this.data,0,c)}dY(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
+e=this.length();eT(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return DQ(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
+aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
+c=d.split(bG),b=T;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bG;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bG};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aA(dU(c[1]))}}};aO.prototype.exists=function(a){if(a==T)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aO.prototype.mkdir=function(c,e,d){var
-b=d&&c8(ig);if(this.exists(c))if(b)c9(b,c$(ny,ie,this.nm(c)));else
-ae(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)c9(b,c$(ik,ie,this.nm(a)));else
-ae(a+ga);if(!this.is_dir(a))if(b)c9(b,c$(iq,ie,this.nm(a)));else
-ae(a+ix);this.create_dir_if_needed(this.slash(c))};aO.prototype.rmdir=function(a,f){var
-b=f&&c8(ig),c=a==T?T:this.slash(a),e=new
-RegExp(it+c+nF);if(!this.exists(a))if(b)c9(b,c$(ik,ib,this.nm(a)));else
-ae(a+ga);if(!this.is_dir(a))if(b)c9(b,c$(iq,ib,this.nm(a)));else
-ae(a+ix);for(var
+aA(dZ(c[1]))}}};aQ.prototype.exists=function(a){if(a==T)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
+b=d&&dc(iu);if(this.exists(c))if(b)dd(b,df(nU,it,this.nm(c)));else
+ah(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)dd(b,df(iy,it,this.nm(a)));else
+ah(a+gf);if(!this.is_dir(a))if(b)dd(b,df(iD,it,this.nm(a)));else
+ah(a+iK);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+b=f&&dc(iu),c=a==T?T:this.slash(a),e=new
+RegExp(iG+c+n1);if(!this.exists(a))if(b)dd(b,df(iy,iq,this.nm(a)));else
+ah(a+gf);if(!this.is_dir(a))if(b)dd(b,df(iD,iq,this.nm(a)));else
+ah(a+iK);for(var
 d
 in
-this.content)if(d.match(e))if(b)c9(b,c$(nD,ib,this.nm(a)));else
-ae(this.nm(a)+": Directory not empty");delete
-this.content[c]};aO.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))ae(a+ga);if(!this.is_dir(a))ae(a+ix);var
+this.content)if(d.match(e))if(b)dd(b,df(nZ,iq,this.nm(a)));else
+ah(this.nm(a)+": Directory not empty");delete
+this.content[c]};aQ.prototype.readdir=function(a){var
+f=a==T?T:this.slash(a);if(!this.exists(a))ah(a+gf);if(!this.is_dir(a))ah(a+iK);var
 g=new
-RegExp(it+f+nF),d={},c=[];for(var
+RegExp(iG+f+n1),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aO.prototype.is_dir=function(a){if(a==T)return true;var
-b=this.slash(a);return this.content[b]?1:0};aO.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==T)return true;var
+b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aO.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ae(this.nm(a)+op);if(b.text&&b.binary)ae(this.nm(a)+nj);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ae(this.nm(a)+" : is a directory");if(b.create&&b.excl)ae(this.nm(a)+ol);var
+this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ah(this.nm(a)+oL);if(b.text&&b.binary)ah(this.nm(a)+nF);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ah(this.nm(a)+" : is a directory");if(b.create&&b.excl)ah(this.nm(a)+oH);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aA(bT(0));return this.content[a]}else
-DR(this.nm(a))};aO.prototype.register=function(c,a){var
-b;if(this.content[c])ae(this.nm(c)+ol);if(iK(a))b=new
-aA(a);if(o2(a))b=new
-aA(dU(a));else
+aA(bV(0));return this.content[a]}else
+Ei(this.nm(a))};aQ.prototype.register=function(c,a){var
+b;if(this.content[c])ah(this.nm(c)+oH);if(iX(a))b=new
+aA(a);if(pm(a))b=new
+aA(dZ(a));else
 if(a
 instanceof
 Array)b=new
-aA(Do(a));else
+aA(DR(a));else
 if(typeof
 a==="string")b=new
-aA(oS(a));else
+aA(pc(a));else
 if(a.toString){var
-d=dU(dX(a.toString()));b=new
+d=dZ(d2(a.toString()));b=new
 aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ae(this.nm(c)+" : registering file with invalid content type")};aO.prototype.constructor=aO;function
-an(a){return gy(a)}function
-c_(b,a){return iB(b,a)}function
-Dj(d){var
-c=an(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=c_(d,a);return b}function
-Di(a){if(a.t!=4)gv(a);return a.c}function
-Dr(a,c,b){b&=b8;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gv(a)}a.c[c]=b;return 0}function
-Dq(b,a,c){if(a>>>0>=b.l)oQ();return Dr(b,a,c)}function
-bS(a){this.fs=require("fs");this.fd=a}bS.prototype=new
-oJ();bS.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ae(a.toString())}};bS.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ae(a.toString())}};bS.prototype.write=function(f,b,c,e){var
-a=Dj(b);if(!(a
+ah(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
+ap(a){return gD(a)}function
+de(b,a){return iO(b,a)}function
+DM(d){var
+c=ap(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=de(d,a);return b}function
+DL(a){if(a.t!=4)gA(a);return a.c}function
+DU(a,c,b){b&=ca;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gA(a)}a.c[c]=b;return 0}function
+DT(b,a,c){if(a>>>0>=b.l)pa();return DU(b,a,c)}function
+bU(a){this.fs=require("fs");this.fd=a}bU.prototype=new
+o5();bU.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ah(a.toString())}};bU.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ah(a.toString())}};bU.prototype.write=function(f,b,c,e){var
+a=DM(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ae(a.toString())}return 0};bS.prototype.read=function(g,d,c,f){var
-a=Di(d);if(!(a
+d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ah(a.toString())}return 0};bU.prototype.read=function(g,d,c,f){var
+a=DL(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ae(a.toString())}for(var
-b=0;b<f;b++)Dq(d,c+b,e[c+b]);return 0};bS.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ae(a.toString())}return a[0]};bS.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ae(a.toString())}};bS.prototype.constructor=bS;function
-aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ae(a.toString())}};aB.prototype.unlink=function(a,c){try{var
+e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ah(a.toString())}for(var
+b=0;b<f;b++)DT(d,c+b,e[c+b]);return 0};bU.prototype.read_one=function(c){var
+b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ah(a.toString())}return a[0]};bU.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ah(a.toString())}};bU.prototype.constructor=bU;function
+aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ah(a.toString())}};aB.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bS(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
+bU(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),m6);return dX(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
-b=c8(ig);if(d&&b){var
-c=c$(a.code,a.syscall,a.path,a.errno);c9(b,c)}else
-ae(a.toString())};aB.prototype.stats_from_js=function(a){var
+a=this.fs.readlinkSync(this.nm(b),nq);return d2(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
+b=dc(iu);if(d&&b){var
+c=df(a.code,a.syscall,a.path,a.errno);dd(b,c)}else
+ah(a.toString())};aB.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
@@ -550,31 +550,31 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
-oZ(b){var
-a=iR(b);if(!a)return;return a[0]+bB}var
-gz=oZ(eT)||bC("unable to compute caml_root"),dY=[];if(eW())dY.push({path:gz,device:new
-aB(gz)});else
-dY.push({path:gz,device:new
-aO(gz)});dY.push({path:nd,device:new
-aO(nd)});function
-ph(b){var
-g=DI(b),b=g.join(bB),f=pa(b),c;for(var
-e=0;e<dY.length;e++){var
-a=dY[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eW()){var
-d=oZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+pj(b){var
+a=i4(b);if(!a)return;return a[0]+bG}var
+gE=pj(eU)||bH("unable to compute caml_root"),d3=[];if(eX())d3.push({path:gE,device:new
+aB(gE)});else
+d3.push({path:gE,device:new
+aQ(gE)});d3.push({path:nz,device:new
+aQ(nz)});function
+pD(b){var
+g=D$(b),b=g.join(bG),f=pw(b),c;for(var
+e=0;e<d3.length;e++){var
+a=d3[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eX()){var
+d=pj(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aB(d)};dY.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ae("no device found for "+f)}function
-Dt(c,b){var
-a=ph(c);if(!a.device.register)bC("cannot register file");a.device.register(a.rest,b);return 0}function
-pc(c,b){var
-c=a(c),b=a(b);return Dt(c,b)}function
-Dw(){var
+aB(d)};d3.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ah("no device found for "+f)}function
+DW(c,b){var
+a=pD(c);if(!a.device.register)bH("cannot register file");a.device.register(a.rest,b);return 0}function
+py(c,b){var
+c=a(c),b=a(b);return DW(c,b)}function
+DZ(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pc(b[a].name,b[a].content);E.jsoo_create_file=pc;E.caml_fs_tmp=[];return 0}function
-DP(c){var
-a=0,e=an(c),b=10,d=1;if(e>0)switch(c_(c,a)){case
+a=0;a<b.length;a++)py(b[a].name,b[a].content);E.jsoo_create_file=py;E.caml_fs_tmp=[];return 0}function
+Eg(c){var
+a=0,e=ap(c),b=10,d=1;if(e>0)switch(de(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&c_(c,a)==48)switch(c_(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&de(c,a)==48)switch(de(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=an(c),b=10,d=1;if(e>0)switch(c_(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-o6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oB)return a-87;return-1}function
-iJ(f){var
-h=DP(f),c=h[0],i=h[1],d=h[2],g=an(f),j=-1>>>0,e=c<g?c_(f,c):0,b=o6(e);if(b<0||b>=d)bC(gg);var
-a=b;for(c++;c<g;c++){e=c_(f,c);if(e==95)continue;b=o6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bC(gg)}if(c!=g)bC(gg);a=i*a;if(d==10&&(a|0)!=a)bC(gg);return a|0}function
-DH(a,b){return+(iC(a,b,false)<=0)}function
-DJ(a,d){if(a<0)gu();var
+pq(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oX)return a-87;return-1}function
+iW(f){var
+h=Eg(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?de(f,c):0,b=pq(e);if(b<0||b>=d)bH(gl);var
+a=b;for(c++;c<g;c++){e=de(f,c);if(e==95)continue;b=pq(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bH(gl)}if(c!=g)bH(gl);a=i*a;if(d==10&&(a|0)!=a)bH(gl);return a|0}function
+D_(a,b){return+(iP(a,b,false)<=0)}function
+Ea(a,d){if(a<0)gz();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-b_=new
+cc=new
 Array();function
-DK(c){var
-a=b_[c];if(!a.opened)ae("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&ar.fds[a.fd]&&ar.fds[a.fd].output){var
-b=ar.fds[a.fd].output;switch(b.length){case
+Eb(c){var
+a=cc[c];if(!a.opened)ah("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
+b=as.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
-o9(e,f){var
-b=b_[e],d=a(f),c=an(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-DX(a){var
-a=iN(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+pt(e,f){var
+b=cc[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Eo(a){var
+a=i0(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-DY(a){var
-a=iN(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Ep(a){var
+a=i0(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gB(c,e,d,a){if(ar.fds===undefined)ar.fds=new
+gG(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ar.fds[c]=b;if(!ar.fd_last_idx||c>ar.fd_last_idx)ar.fd_last_idx=c;return c}function
-D5(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
+Ew(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,160 +619,161 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ae(dW(c)+op);if(a.text&&a.binary)ae(dW(c)+nj);var
-d=ph(c),e=d.device.open(d.rest,a),f=ar.fd_last_idx?ar.fd_last_idx:0;return gB(f+1,o9,e,a)}gB(0,o9,new
-aA(bT(0)));gB(1,DY,new
-aA(bT(0)));gB(2,DX,new
-aA(bT(0)));function
-DL(a){var
-c=ar.fds[a];if(c.flags.wronly)ae(oA+a+" is writeonly");var
-d=null;if(a==0&&eW()){var
-e=require("fs");d=function(){return dX(e.readFileSync(0,m6))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};b_[b.fd]=b;return b.fd}function
-o3(c){var
-b=ar.fds[c];if(b.flags.rdonly)ae(oA+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};b_[a.fd]=a;return a.fd}function
-DM(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ah(d1(c)+oL);if(a.text&&a.binary)ah(d1(c)+nF);var
+d=pD(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gG(f+1,pt,e,a)}gG(0,pt,new
+aA(bV(0)));gG(1,Ep,new
+aA(bV(0)));gG(2,Eo,new
+aA(bV(0)));function
+Ec(a){var
+c=as.fds[a];if(c.flags.wronly)ah(oW+a+" is writeonly");var
+d=null;if(a==0&&eX()){var
+e=require("fs");d=function(){return d2(e.readFileSync(0,nq))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cc[b.fd]=b;return b.fd}function
+pn(c){var
+b=as.fds[c];if(b.flags.rdonly)ah(oW+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cc[a.fd]=a;return a.fd}function
+Ed(){var
 b=0;for(var
-a=0;a<b_.length;a++)if(b_[a]&&b_[a].opened&&b_[a].out)b=[0,b_[a].fd,b];return b}function
-bi(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);ar[b+1]=c;if(a)ar[a]=c}function
-DT(a,b){o5[dW(a)]=b;return 0}function
-Dm(a,b){if(a===b)return 1;a.t&6&&dV(a);b.t&6&&dV(b);return a.c==b.c?1:0}function
-ao(a,b){return Dm(a,b)}function
-DV(){aC(iv)}function
-aI(b,a){if(a>>>0>=an(b))DV();return c_(b,a)}function
-m(a,b){return 1-ao(a,b)}function
-gA(a){return a}function
-o8(a){return a}function
-pb(a){if(a
+a=0;a<cc.length;a++)if(cc[a]&&cc[a].opened&&cc[a].out)b=[0,cc[a].fd,b];return b}function
+bl(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
+Ek(a,b){pp[d1(a)]=b;return 0}function
+DP(a,b){if(a===b)return 1;a.t&6&&d0(a);b.t&6&&d0(b);return a.c==b.c?1:0}function
+aq(a,b){return DP(a,b)}function
+Em(){aC(iI)}function
+aL(b,a){if(a>>>0>=ap(b))Em();return de(b,a)}function
+m(a,b){return 1-aq(a,b)}function
+gF(a){return a}function
+ps(a){return a}function
+px(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return o8(ar.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ps(as.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return o8(ar.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return ps(as.Stack_overflow);if(a
 instanceof
-E.Error&&c8(nM))return[0,c8(nM),a];return[0,ar.Failure,dX(String(a))]}function
-da(a){return a<0?-a:a}function
-y(a,b){return a+b}function
-iO(a,b){return a<b?-1:a>b?1:0}function
-pe(c,b){var
-a=c%b;return a<0?a+da(b):a}function
-iP(a,b){return(a-pe(a,b))/b}function
-Y(a,b){return a==b?1:0}function
-D2(c){E.orthocert_verify=function(b){return dW(c7(c,[a(b)]))}}function
-G(a,b){return a<=b?1:0}function
+E.Error&&dc(n8))return[0,dc(n8),a];return[0,as.Failure,d2(String(a))]}function
+dg(a){return a<0?-a:a}function
+z(a,b){return a+b}function
+i1(a,b){return a<b?-1:a>b?1:0}function
+pA(c,b){var
+a=c%b;return a<0?a+dg(b):a}function
+i2(a,b){return(a-pA(a,b))/b}function
+Z(a,b){return a==b?1:0}function
+Et(c){E.orthocert_verify=function(b){return d1(cG(c,[a(b)]))}}function
+F(a,b){return a<=b?1:0}function
 L(a,b){return a<b?1:0}function
-v(a,b){return a*b}function
-N(a){return-a}function
+w(a,b){return a*b}function
+O(a){return-a}function
 aD(a){return E.BigInt(a)}function
-pf(a,b){return a<<E.BigInt(b)}function
-pg(a,b){return a>>E.BigInt(b)}function
-a6(a){return a<0?-1:a>0?1:0}function
-D3(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+pB(a,b){return a<<E.BigInt(b)}function
+pC(a,b){return a>>E.BigInt(b)}function
+a7(a){return a<0?-1:a>0?1:0}function
+Eu(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aE(a,b){return a-b}function
-iQ(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-DF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Dv(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&DF(b[1]))var
+i3(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
+D8(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+DY(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&D8(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=nN;for(var
+f=2,e=b;a+=n9;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bR)a+=ax+c.toString()+ax;else
+bT)a+=ay+c.toString()+ay;else
 if(typeof
-c=="string")a+=ax+c.toString()+ax;else
-a+="_"}a+=is}else
-if(b[0]==aH)a+=b[1];return a}function
-oX(a){if(a
+c=="string")a+=ay+c.toString()+ay;else
+a+="_"}a+=iF}else
+if(b[0]==aK)a+=b[1];return a}function
+ph(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aH)){var
-c=c8("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Dv(a),b=c8(m5);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aK)){var
+c=dc("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=DY(a),b=dc(np);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-DU(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){oX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)oX(a.error)})}DU();function
-k(a,b){return a.length==1?a(b):c7(a,[b])}function
-aq(a,b,c){return a.length==2?a(b,c):c7(a,[b,c])}function
-Dh(a,b,c,d){return a.length==3?a(b,c,d):c7(a,[b,c,d])}Dw();var
-iT=[aH,a(nB),-2],iS=[aH,a(oI),-4],Cc=[0,0],Cd=[0,0],Ce=[0,[0,0]],Cf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ce]]]]]]]]]]],f1=[0,[1,0],0],mm=[0,[2,0],0],hR=[0,[1,0],0],ml=[0,[2,0],0],fZ=[0,[1,0],0],hQ=[0,[2,0],0],Cg=[0,[0,[0,[0,0]]]],Ch=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cg]]]]]]]]]]],Ci=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ch]]]]]]]]]]],Cj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ci]]]]]]]]]]],Ck=[0,[0,0]],Cl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ck]]]]]]]]]]],Cm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cl]]]]]]]]]]],Cn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cm]]]]]]]]]]],Co=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cn]]]]]]]]]]],Cp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Cq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cp]]]]]]]]]]],Cr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cq]]]]]]]]]]],Cs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cr]]]]]]]]]]],Ct=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cs]]]]]]]]]]],Cu=[0,[0,0]],Cv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cu]]]]]]]]]]],Cw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cv]]]]]]]]]]],Cx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cw]]]]]]]]]]],Cy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cx]]]]]]]]]]],Cz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cy]]]]]]]]]]],CA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cz]]]]]]]]]]],CB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CA]]]]]]]]]]],CC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CC]]]]]]]]]]],CE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CD]]]]]]]]]]],CF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],CG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],CI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,0],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,0]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,0],C$=[0,[0,0]],Da=[0,0],Db=[0,[0,[0,[0,[0,0]]]]],jm=[0,[0,[0,0]]],cK=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fN=[0,[0,[0,[0,0]]]],Dc=[0,[0,[0,[0,[0,0]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]];bi(11,[aH,a(m4),-12],m4);bi(10,[aH,a(nS),-11],nS);bi(9,[aH,a(oz),-10],oz);bi(8,[aH,a(ne),-9],ne);bi(7,[aH,a(n5),-8],n5);bi(6,[aH,a(nc),-7],nc);bi(5,[aH,a(nC),-6],nC);bi(4,[aH,a(nH),-5],nH);bi(3,iS,oI);bi(2,[aH,a(il),-3],il);bi(1,iT,nB);bi(0,[aH,a(oh),-1],oh);var
-pi=a("String.sub / Bytes.sub"),pk=a(T),pj=a("String.concat"),pl=a("Array.init"),pm=a("power"),px=[0,0],pF=[0,0],pG=[0,0],pM=[0,0,0],pN=[0,0,0],pO=[0,0],p7=[0,0],p8=[0,0],p$=[0,0],qs=[0,0],qv=[0,0],qx=[0,0],qy=[0,0],qF=[0,0],qG=[0,0],q4=[0,[0,[0,0]]],ro=[0,0],rB=[0,0],rC=[0,0],rM=a(","),r4=[0,a(is),0],r5=a(nN),r6=a("."),r7=[0,[0,[0,0]]],r8=a(eM),r9=a(it),r_=[0,[0,[0,[0,[0,0]]]]],r$=[0,a(is),0],sa=a(oF),u6=a(m1),u8=a(mY),u7=a(nV),u9=a(dN),u_=a(gc),u$=a(oH),va=a(os),vb=a(nv),vc=a(n7),wp=[0,0],wq=a(f$),wr=[0,0],ws=a("divided"),wt=[0,1],wu=a("mirror"),wv=[0,3],ww=a("negative"),wx=[0,2],wy=a(eL),wz=[0,5],wA=a(iz),wB=[0,4],wC=a(eH),wD=a(nh),wE=a(eI),wF=a(bQ),wG=[0,0],wH=[0,0],wI=[0,0],xr=a(T),xo=[0,[0,[0,[0,0]]]],xp=[0,[0,[0,[0,0]]]],xm=[0,[0,[0,0]]],xl=[0,0],xk=a(eI),xj=[0,[0,[0,0]]],xi=[0,0],xf=[0,[0,0]],xg=[0,[0,[0,0]]],xb=[0,[0,[0,0]]],xa=[0,0,0],w_=[0,[0,0]],w$=[0,0],w9=[0,0],w7=[0,[0,[0,0]]],w1=[0,[0,0]],w2=[0,[0,[0,0]]],w3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cc]]]]]]]]]]],w4=[0,[0,0]],w5=[0,[0,[0,0]]],w0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cd]]]]]]]]]]],wY=[0,[0,0]],wZ=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wX=[0,[0,0]],wV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cf]]]]]]]]]]],wU=[0,0],wT=[0,0],wQ=[0,[0,0]],wR=[0,0],wO=[0,0],wP=[0,1],wN=[0,[0,0]],wM=[0,0],wJ=[0,0],wK=[0,1],wm=[0,0],wn=[0,1],wo=[0,2],wi=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wg=[0,[0,0],0],wh=[0,[1,0],0],wj=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],we=[0,[0,0]],wf=[0,0],wd=[0,0],wb=[0,0],wc=[0,0],wa=[0,0],v$=[0,0],v_=[0,0,0],v8=[0,[0,0]],v9=[0,0],v7=[0,0,0],v5=[0,[0,[0,0]]],v6=[0,[0,[0,0]]],v4=[0,0],v2=[0,1,0],vU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Cj]]]]]]]]]]],vV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Co]]]]]]]]]]],vQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ct]]]]]]]]]]],vR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CB]]]]]]]]]]],vS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],vT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],vW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],vX=a("sqrt"),vO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],vP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],vD=[0,a("\n"),0],vE=a(mZ),vF=a(gb),vG=a(nR),vH=a(nz),vN=a(eO),vI=a(eK),vJ=a("verdict"),vK=a(oj),vL=a(ns),vM=a(nQ),vA=a(nL),vB=a(on),vC=a(ge),vw=a(n1),vx=a(gf),vy=a(eK),vz=a(eO),vr=a(gn),vs=a(a5),vt=a(m0),vu=a(gk),vo=a(og),vp=a(eL),vq=a(gk),vk=a(n4),vl=a(gn),vm=a(gf),vn=a(ox),ve=a(oo),vf=a(or),vg=a(nI),vh=a(gh),vi=a(oC),u4=a(ic),u5=a(gq),uZ=a(bh),u0=a(bg),u1=a(nu),uz=a(gh),uA=a(n8),ud=a(a5),ue=a(bA),uf=a(gp),ug=a(dQ),uh=a(c5),um=a(id),ui=a(iu),uj=a(iw),uk=a(dM),ul=a(a5),un=a(bA),uo=a(gp),up=a(dQ),uq=a(iu),ur=a(iw),us=a(dM),ut=a(a5),uu=a(bA),uv=a(bh),uw=a(bg),ux=a(c3),uy=a(dQ),uB=a(oc),uC=a(oq),uD=a(gt),uE=a(ni),uF=a(nn),uG=a(dM),uH=a(a5),uI=a(bA),uJ=a(f9),uK=a(nx),uL=a(dQ),uM=a(eR),uN=a(m8),uO=a(dM),uP=a(a5),uQ=a(f9),uR=a(a5),uS=a(n_),uV=a(mX),uT=a(nl),uU=a(ow),uW=a(eO),uX=a(eK),uY=a(a5),u2=a(gt),u3=a(ge),t_=a(bA),t$=a(dQ),ua=a(id),ub=a(dM),t9=a(oD),tX=a(eR),tY=a(ok),tZ=a(c4),t0=a(dO),t1=a(dO),t2=a(ih),t3=a(c4),t4=a(nT),t5=a(nt),t6=a(aY),t8=a(m3),t7=a(ih),tN=a(nK),tO=a(oG),tP=a(np),tQ=a(nm),tR=a(ou),tS=a(of),tT=a(nA),tU=a(f_),tV=a(f_),tJ=a(aY),tK=a(bf),tL=a(dR),tM=a(bz),tF=a(c5),tG=a(ip),tH=a(n2),tC=a(bh),tD=a(bg),tE=a(c3),tv=a(bh),tw=a(bg),tx=a(c3),ty=a(ir),tz=a(c4),tA=a(im),tB=a(ob),th=a(nk),tn=a(gb),tm=a(ov),ti=a(ii),tj=a(gj),tq=a(eJ),tr=a(ii),to=a(eJ),tp=a(gj),ts=a(ng),tt=a(n$),tu=a(gj),tk=a(dO),tl=a(nY),te=a(gi),tf=a(gi),tg=a(gi),ta=a(od),tb=a(bg),tc=a(bh),td=a(ot),sW=a(na),sX=a(m2),sY=a(n6),sZ=a(dN),s0=a(oE),s1=a(n9),s2=a(nb),s3=a(nZ),s4=a(m$),s5=a(nw),s6=a(m_),s7=a(oe),s8=a(gc),s9=a(m7),s_=a(om),s$=a(no),sB=a(gl),sD=a(eM),sC=a(eG),sE=a(dL),sF=a(aY),sG=a(bf),sH=a(bQ),sI=a(gr),sJ=a(bz),sK=a(aY),sL=a(bf),sM=a(dR),sN=a(bz),sO=a(dL),sP=a(eQ),sQ=a(aY),sR=a(bf),sS=a(nX),sT=a(eJ),sU=a(eQ),sV=a(bz),sj=a(gl),sr=a(eM),sk=a(eG),sl=a(dL),sm=a(aY),sn=a(bf),so=a(bQ),sp=a(gr),sq=a(bz),ss=a(gs),st=a(aY),su=a(bf),sv=a(dR),sw=a(bz),sx=a(bQ),sy=a(c5),sz=a(bz),sg=a(bh),sh=a(bg),se=[0,a(ax),0],sf=a(ax),sc=a(T),sb=[0,a(ax),0],sd=a(ax),r0=a(gl),r1=a(eM),r2=a("*"),r3=a(bB),rV=[0,[0,[0,[0,[0,0]]]]],rW=[0,[0,[0,0]]],rX=[0,[0,0]],rY=[0,0],rZ=[0,[0,[0,[0,0]]]],rT=a('":'),rU=a(ax),rR=[0,a(ax),0],rS=a(ax),rP=[0,a("}"),0],rQ=a("{"),rN=[0,a("]"),0],rO=a("["),rL=[0,[0,[0,0]]],rK=[0,[0,[0,0]]],rI=[0,0],rF=[0,[0,[0,0]]],rG=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rH=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],rD=[0,[0,0]],rE=[0,[0,[0,0]]],ry=[0,0],rz=[0,[0,[0,[0,[0,[0,0]]]]]],rA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],rv=[0,0],rs=[0,0,0],rt=[0,0,0],ru=[0,0,0],rp=[0,[0,0]],rq=[0,[0,[0,0]]],rr=[0,0],re=[0,[0,[0,[0,[0,[0,0]]]]]],rf=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rg=[0,[0,[0,0]]],rh=[0,[0,[0,0]]],ri=[0,[0,[0,[0,[0,[0,0]]]]]],rj=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],rl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],rm=[0,[0,[0,0]]],rn=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,0]],rd=[0,[0,[0,0]]],q_=[0,0,0],q$=[0,0,0],q8=[0,0],q9=[0,0],q7=[0,0],q5=[0,0],q6=[0,0],q2=[0,[0,0]],q3=[0,[0,[0,0]]],q0=[0,[0,[0,0]]],q1=[0,[0,0]],qV=[0,0],qW=[0,0],qX=[0,0],qY=[0,[0,[0,0]]],qR=[0,[0,0]],qS=[0,0],qT=[0,0],qU=[0,[0,0]],qI=[0,[0,0]],qJ=[0,0],qK=[0,[0,0]],qL=[0,0],qM=[0,0],qN=[0,[0,0]],qO=[0,[0,0]],qP=[0,[0,0]],qQ=[0,0],qE=[0,0],qD=[0,0],qB=[0,[0,[0,0]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qp=[0,[0,[0,[0,[0,[0,0]]]]]],qq=[0,[0,[0,[0,[0,[0,0]]]]]],qk=[0,[0,0]],ql=[0,0],qm=[0,[0,0]],qn=[0,[0,[0,0]]],qo=[0,[0,[0,0]]],qd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qe=[0,[0,[0,[0,[0,[0,0]]]]]],qf=[0,[0,[0,[0,[0,[0,0]]]]]],qg=[0,[0,[0,0]]],qh=[0,[0,[0,[0,[0,[0,0]]]]]],qi=[0,[0,[0,0]]],qj=[0,[0,[0,0]]],qb=[0,[0,0]],qc=[0,0],qa=[0,0,0],p_=[0,0,0],p9=[0,[0,[0,0]]],p5=[0,0],p6=[0,0],p0=[0,[0,[0,0]]],p1=[0,[0,[0,0]]],p2=[0,[0,[0,0]]],pZ=[0,[0,[0,[0,0]]]],pV=[0,[0,[0,0]]],pW=[0,[0,[0,0]]],pX=[0,[0,[0,0]]],pY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],pT=[0,[0,0]],pU=[0,0],pR=[0,[0,0]],pS=[0,0],pP=[0,[0,0]],pQ=[0,0],pC=[0,0],pD=[0,[0,0]],pA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],py=[0,0,0],pw=a(iy),pv=a(T),pu=[0,[0,0]],pt=[0,0],pq=[0,0],ps=[1,0],pr=[0,0],pp=[0,0],pn=[1,0],po=[1,0],qC=[10,0,0,0,0],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Av=a(bh),Aw=a(bg),Ax=a(nu),Am=a(gs),An=[0,a("a base axis of such a platform"),0],Ao=a(aY),Ap=a(bf),z$=a(of),Aa=a(nK),Ab=a(ou),Ac=a(f_),Ad=a(nA),Ae=a(f_),Af=a(oG),Ag=a(np),Ah=a(nm),z1=a(n8),z2=a(gh),zD=[0,a("such a machine with bodies"),0],zq=a(ge),zr=a(a5),zs=a(n_),zt=a(ow),zw=a(nl),zx=a(mX),zy=a(a5),zz=a(a5),zB=a(f9),zA=[0,a("a claim that no cube of such a machine fits"),0],zC=a(oD),zE=a(dM),zF=a(dQ),zG=a(c5),zH=a(ip),zI=a(n2),zJ=a(gp),zK=a(nn),zL=a(m8),zM=a(id),zP=a(c3),zQ=a(ob),zT=a(bA),zU=a(bA),zV=a(nx),zW=a(bA),zX=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],zY=a(f9),zZ=a(eR),z0=a(c3),z3=a(bA),z4=a(bh),z5=a(bg),z6=a(oc),z7=a(oq),z8=a(gt),z9=a(ni),zN=[0,a(ax),0],zO=a('the mechanism "'),z_=a(iu),Ai=a(gp),Aj=a(c5),Ak=a(ip),Al=a(iw),Aq=a(bA),Ar=[0,a('"one_to_one" of this set of orientations'),0],Au=a(c5),As=[0,a("a platform that turns on struts and other drives"),0],At=a(bA),zR=[0,a(ax),0],zS=a('the workspace "'),Ay=a(a5),Az=a(a5),AB=a(eO),AC=a(eK),AD=a(gt),AA=[0,a("an atlas of such a machine"),0],zu=[0,a(ax),0],zv=a('a claim of the kind "'),AI=a(oH),AP=a(gc),AQ=a(dN),AR=a(nv),AS=a(nV),AT=a(bQ),AU=a(gq),AV=a(ic),AW=a(bQ),AX=a(iy),AJ=a(eH),AK=a(nh),AL=a(eI),AM=a(n7),AN=[0,a(ax),0],AO=a('the evidence "'),AY=a(eH),AZ=a(gq),A0=[0,1,1],A1=a(dN),A2=a(eH),A3=a(eI),A4=a(os),A6=a(dN),A7=a(eH),A8=a(eI),A9=a(eL),A_=a(f$),A$=a(eL),Ba=a(f$),A5=[0,a("this evidence at control points"),0],B7=a('"orthocert-paving/'),BK=a(nQ),BL=a(ns),BM=a(oj),B5=[0,3,3],BN=a(nz),B1=[0,a("this set of orientations with such drives"),0],B2=[0,a(nG),0],B3=[0,a(nG),0],B4=[0,a(oi),0],B0=[0,a(oi),0],BZ=[0,a("a mechanism by formulas in a claim that is refuted"),0],BW=[0,a("this quantity in a claim that is refuted"),0],BX=[0,a('the evidence "tolerances" of such a mechanism'),0],BY=[0,a("a step of a platform that turns that is not at control points"),0],BO=[0,a("the acceleration of a joint of a machine with a plane"),0],BV=[0,a("a step in a proof that no cube fits"),0],BU=[0,a("a stiffness for each joint in such a claim"),0],BT=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],BS=[0,a("a leaf that fails"),0],BP=a(nR),BQ=a(mZ),BR=a(gb),BG=a(iz),BH=a(f$),BI=a(bQ),Bz=a(ge),BA=a(nL),BB=a(on),BC=[0,a(ax),0],BD=a('a proof of the kind "'),Bv=a(eK),Bw=a(eO),Bx=a(gf),By=a(n1),Br=a(a5),Bs=a(gn),Bt=a(m0),Bu=a(gk),Bo=a(og),Bp=a(eL),Bq=a(gk),Bk=a(n4),Bl=a(gn),Bm=a(gf),Bn=a(ox),Bd=a(or),Be=a(nI),Bf=a(oo),Bg=a(gh),Bh=a(oC),Bi=[0,a(ax),0],Bj=a('the failure "'),Bb=a(iz),Bc=a(iy),AG=a(gq),AH=a(ic),AE=a(mY),AF=a(m1),zn=a(eR),zd=a(ih),ze=a(m3),zf=a(dO),zg=a(aY),zl=a(ok),zm=a(eR),zo=a(c4),zp=a(dO),zh=a(c4),zi=a(nT),zj=a(nt),zk=a(aY),y8=a(c3),za=a(bh),zb=a(bg),y9=a(im),y_=a(ir),y$=a(c4),y2=a(c3),y6=a(bh),y7=a(bg),y3=a(im),y4=a(ir),y5=a(c4),y1=[0,1],y0=[0,1],yY=[0,1],yX=[0,1],yV=[0,1],yW=[0,a("this quantity of such a mechanism"),0],yD=a(ii),yE=[0,a("a stiffness for each joint of such a mechanism"),0],yF=a(n$),yG=a(ng),yH=a(ov),yI=a("max_angle"),yJ=[0,a("accuracy of a platform that turns"),0],yK=a(eJ),yC=a(gb),yu=a(gi),yj=a(nY),yk=a(n6),yN=a(gc),yO=a(om),yP=a(nw),yQ=a(dN),yR=a(nZ),yS=a(m_),yT=a(m$),yU=a(m2),yl=a(m7),ym=a(oe),yn=a(n9),yo=a(no),yp=a(oE),yq=a(nb),yr=a(na),ys=[0,a(ax),0],yt=a('the quantity "'),yv=a(nk),yw=a(od),yx=a(bh),yy=a(bg),yz=a(ot),yA=[0,a(ax),0],yB=a('a bound "'),yL=a(gj),yM=a(dO),yh=a(bz),yi=a(dR),xY=a(bz),xZ=a(gs),x0=a(eQ),x1=a(gr),x2=a(dR),x5=a(aY),x6=a(bf),x7=a(eG),x8=a(dL),x9=a(aY),x_=a(bf),x$=a(bQ),ya=a(eG),yb=a(dL),yc=a(eQ),yd=a(aY),ye=a(bf),yf=a(nX),yg=a(eJ),x3=[0,a('" of such a machine'),0],x4=a(nf),xW=a(bz),xX=a(eQ),xG=a(bz),xH=a(c5),xI=a(gr),xJ=a(dR),xM=a(gs),xN=a(aY),xO=a(bf),xP=a(eG),xQ=a(dL),xR=a(aY),xS=a(bf),xT=a(bQ),xU=a(bQ),xK=[0,a(ax),0],xL=a(nf),xD=a(gl),xE=a(eM),xB=a(" is not covered by the verified checker"),xC=a(T),xz=a(bh),xA=a(bg),xv=a(T),xw=a(oF),xx=a(T),xy=a(T),xu=[1,0],xs=a("Reader.Malformed"),xt=a("Reader.Not_covered"),B9=[0,a("a paving is checked by orthocert-verified")],B8=a(n0),B_=a("CERTIFIED"),B$=a("REFUTED"),Ca=a(n0),Cb=a("NOT COVERED: ");function
-eX(a){throw[0,iS,a]}function
-aP(d,c){var
-a=an(d),e=an(c),b=bT(a+e|0);dT(d,0,b,0,a);dT(c,0,b,a,e);return gA(b)}DL(0);o3(1);o3(2);function
-iU(b){function
+El(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ph(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ph(a.error)})}El();function
+i(a,b){return a.length==1?a(b):cG(a,[b])}function
+ao(a,b,c){return a.length==2?a(b,c):cG(a,[b,c])}function
+DJ(a,b,c,d){return a.length==3?a(b,c,d):cG(a,[b,c,d])}function
+DK(a,b,c,d,e){return a.length==4?a(b,c,d,e):cG(a,[b,c,d,e])}DZ();var
+i6=[aK,a(nX),-2],i5=[aK,a(o4),-4],CE=[0,0],CF=[0,0],CG=[0,[0,0]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],f6=[0,[1,0],0],mI=[0,[2,0],0],h4=[0,[1,0],0],mH=[0,[2,0],0],f4=[0,[1,0],0],h3=[0,[2,0],0],CI=[0,[0,[0,[0,0]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,0]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,0]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,0],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,0]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,0],DB=[0,[0,0]],DC=[0,0],DD=[0,[0,[0,[0,[0,0]]]]],jz=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fS=[0,[0,[0,[0,0]]]],DE=[0,[0,[0,[0,[0,0]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]];bl(11,[aK,a(no),-12],no);bl(10,[aK,a(oc),-11],oc);bl(9,[aK,a(oV),-10],oV);bl(8,[aK,a(nA),-9],nA);bl(7,[aK,a(op),-8],op);bl(6,[aK,a(ny),-7],ny);bl(5,[aK,a(nY),-6],nY);bl(4,[aK,a(n3),-5],n3);bl(3,i5,o4);bl(2,[aK,a(iz),-3],iz);bl(1,i6,nX);bl(0,[aK,a(oD),-1],oD);var
+pE=a("String.sub / Bytes.sub"),pG=a(T),pF=a("String.concat"),pH=a("Array.init"),pI=a("power"),p0=[0,0],p1=[0,0],p7=[0,0,0],p8=[0,0,0],p9=[0,0],qq=[0,0],qr=[0,0],qu=[0,0],qN=[0,0],qQ=[0,0],qS=[0,0],qT=[0,0],q0=[0,0],q1=[0,0],rr=[0,[0,[0,0]]],rN=[0,0],r0=[0,0],r1=[0,0],r$=a(","),sr=[0,a(iF),0],ss=a(n9),st=a("."),su=[0,[0,[0,0]]],sv=a(eN),sw=a(iG),sx=[0,[0,[0,[0,[0,0]]]]],sy=[0,a(iF),0],sz=a(o1),vt=a(nl),vv=a(ni),vu=a(of),vw=a(dS),vx=a(gh),vy=a(o3),vz=a(oO),vA=a(nR),vB=a(or),wO=[0,0],wP=a(ge),wQ=[0,0],wR=a("divided"),wS=[0,1],wT=a("mirror"),wU=[0,3],wV=a("negative"),wW=[0,2],wX=a(eM),wY=[0,5],wZ=a(iM),w0=[0,4],w1=a(da),w2=a(nD),w3=a(eJ),w4=a(bS),w5=[0,0],w6=[0,0],w7=[0,0],xQ=a(T),xN=[0,[0,[0,[0,0]]]],xO=[0,[0,[0,[0,0]]]],xL=[0,[0,[0,0]]],xK=[0,0],xJ=a(eJ),xI=[0,[0,[0,0]]],xH=[0,0],xE=[0,[0,0]],xF=[0,[0,[0,0]]],xA=[0,[0,[0,0]]],xz=[0,0,0],xx=[0,[0,0]],xy=[0,0],xw=[0,0],xu=[0,[0,[0,0]]],xo=[0,[0,0]],xp=[0,[0,[0,0]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],xr=[0,[0,0]],xs=[0,[0,[0,0]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],xl=[0,[0,0]],xm=[0,[0,[0,0]]],xj=[0,[0,[0,0]]],xk=[0,[0,0]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],xh=[0,0],xg=[0,0],xd=[0,[0,0]],xe=[0,0],xb=[0,0],xc=[0,1],xa=[0,[0,0]],w$=[0,0],w8=[0,0],w9=[0,1],wL=[0,0],wM=[0,1],wN=[0,2],wH=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wF=[0,[0,0],0],wG=[0,[1,0],0],wI=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wD=[0,[0,0]],wE=[0,0],wC=[0,0],wA=[0,0],wB=[0,0],wz=[0,0],wy=[0,0],wx=[0,0,0],wv=[0,[0,0]],ww=[0,0],wu=[0,0,0],ws=[0,[0,[0,0]]],wt=[0,[0,[0,0]]],wr=[0,0],wp=[0,1,0],wh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],we=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],wg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],wk=a("sqrt"),wb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],wc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],v2=[0,a("\n"),0],v3=a(nj),v4=a(gg),v5=a(ob),v6=a(nV),wa=a(eP),v7=a(eL),v8=a("verdict"),v9=a(oF),v_=a(nO),v$=a(oa),vZ=a(n7),v0=a(oJ),v1=a(gj),vV=a(ol),vW=a(gk),vX=a(eL),vY=a(eP),vQ=a(gs),vR=a(a6),vS=a(nk),vT=a(gp),vN=a(oC),vO=a(eM),vP=a(gp),vJ=a(oo),vK=a(gs),vL=a(gk),vM=a(oT),vD=a(oK),vE=a(oN),vF=a(n4),vG=a(gm),vH=a(oY),vr=a(ir),vs=a(gv),vm=a(bk),vn=a(bj),vo=a(nQ),uY=a(gm),uZ=a(os),uC=a(a6),uD=a(bF),uE=a(gu),uF=a(dV),uG=a(c$),uL=a(is),uH=a(iH),uI=a(iJ),uJ=a(dR),uK=a(a6),uM=a(bF),uN=a(gu),uO=a(dV),uP=a(iH),uQ=a(iJ),uR=a(dR),uS=a(a6),uT=a(bF),uU=a(bk),uV=a(bj),uW=a(c9),uX=a(dV),u0=a(oy),u1=a(oM),u2=a(gy),u3=a(nE),u4=a(nJ),u5=a(dR),u6=a(a6),u7=a(bF),u8=a(gc),u9=a(nT),u_=a(dV),u$=a(eS),va=a(ns),vb=a(dR),vc=a(a6),vd=a(gc),ve=a(a6),vf=a(ou),vi=a(nh),vg=a(nH),vh=a(oS),vj=a(eP),vk=a(eL),vl=a(a6),vp=a(gy),vq=a(gj),ux=a(bF),uy=a(dV),uz=a(is),uA=a(dR),uw=a(oZ),uk=a(eS),ul=a(oG),um=a(c_),un=a(dT),uo=a(dT),up=a(iv),uq=a(c_),ur=a(od),us=a(nP),ut=a(a0),uv=a(nn),uu=a(iv),ua=a(n6),ub=a(o2),uc=a(nL),ud=a(nI),ue=a(oQ),uf=a(oB),ug=a(nW),uh=a(gd),ui=a(gd),t8=a(a0),t9=a(bi),t_=a(dW),t$=a(bE),t4=a(c$),t5=a(iC),t6=a(om),t1=a(bk),t2=a(bj),t3=a(c9),tU=a(bk),tV=a(bj),tW=a(c9),tX=a(iE),tY=a(c_),tZ=a(iA),t0=a(ox),tG=a(nG),tM=a(gg),tL=a(oR),tH=a(iw),tI=a(go),tP=a(eK),tQ=a(iw),tN=a(eK),tO=a(go),tR=a(nC),tS=a(ov),tT=a(go),tJ=a(dT),tK=a(oi),tD=a(gn),tE=a(gn),tF=a(gn),tz=a(oz),tA=a(bj),tB=a(bk),tC=a(oP),tj=a(nw),tk=a(nm),tl=a(oq),tm=a(dS),tn=a(o0),to=a(ot),tp=a(nx),tq=a(oj),tr=a(nv),ts=a(nS),tt=a(nu),tu=a(oA),tv=a(gh),tw=a(nr),tx=a(oI),ty=a(nK),s0=a(gq),s2=a(eN),s1=a(eI),s3=a(dQ),s4=a(a0),s5=a(bi),s6=a(bS),s7=a(gw),s8=a(bE),s9=a(a0),s_=a(bi),s$=a(dW),ta=a(bE),tb=a(dQ),tc=a(eR),td=a(a0),te=a(bi),tf=a(oh),tg=a(eK),th=a(eR),ti=a(bE),sI=a(gq),sQ=a(eN),sJ=a(eI),sK=a(dQ),sL=a(a0),sM=a(bi),sN=a(bS),sO=a(gw),sP=a(bE),sR=a(gx),sS=a(a0),sT=a(bi),sU=a(dW),sV=a(bE),sW=a(bS),sX=a(c$),sY=a(bE),sF=a(bk),sG=a(bj),sD=[0,a(ay),0],sE=a(ay),sB=a(T),sA=[0,a(ay),0],sC=a(ay),sn=a(gq),so=a(eN),sp=a("*"),sq=a(bG),si=[0,[0,[0,[0,[0,0]]]]],sj=[0,[0,[0,0]]],sk=[0,[0,0]],sl=[0,0],sm=[0,[0,[0,[0,0]]]],sg=a('":'),sh=a(ay),se=[0,a(ay),0],sf=a(ay),sc=[0,a("}"),0],sd=a("{"),sa=[0,a("]"),0],sb=a("["),r_=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r7=[0,0],r4=[0,[0,[0,0]]],r5=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r2=[0,[0,0]],r3=[0,[0,[0,0]]],rX=[0,0],rY=[0,[0,[0,[0,[0,[0,0]]]]]],rZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],rU=[0,0],rR=[0,0,0],rS=[0,0,0],rT=[0,0,0],rO=[0,[0,0]],rP=[0,[0,[0,0]]],rQ=[0,0],rD=[0,[0,[0,[0,[0,[0,0]]]]]],rE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rF=[0,[0,[0,0]]],rG=[0,[0,[0,0]]],rH=[0,[0,[0,[0,[0,[0,0]]]]]],rI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],rK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],rL=[0,[0,[0,0]]],rM=[0,[0,[0,[0,[0,[0,0]]]]]],rB=[0,[0,0]],rC=[0,[0,[0,0]]],rx=[0,0,0],ry=[0,0,0],rv=[0,0],rw=[0,0],ru=[0,0],rs=[0,0],rt=[0,0],rp=[0,[0,0]],rq=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],ro=[0,[0,0]],rh=[0,0],ri=[0,0],rj=[0,0],rk=[0,[0,[0,0]]],rg=[0,0],ra=[0,[0,0]],rb=[0,0],rc=[0,0],rd=[0,[0,0]],q3=[0,[0,0]],q4=[0,0],q5=[0,[0,0]],q6=[0,0],q7=[0,0],q8=[0,[0,0]],q9=[0,[0,0]],q_=[0,[0,0]],q$=[0,0],qZ=[0,0],qY=[0,0],qW=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qR=[0,[0,[0,0]]],qO=[0,[0,[0,0]]],qM=[0,[0,[0,0]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qF=[0,[0,0]],qG=[0,0],qH=[0,[0,0]],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,0]]],qy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qz=[0,[0,[0,[0,[0,[0,0]]]]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,[0,0]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qw=[0,[0,0]],qx=[0,0],qv=[0,0,0],qt=[0,0,0],qs=[0,[0,[0,0]]],qo=[0,0],qp=[0,0],qj=[0,[0,[0,0]]],qk=[0,[0,[0,0]]],ql=[0,[0,[0,0]]],qi=[0,[0,[0,[0,0]]]],qe=[0,[0,[0,0]]],qf=[0,[0,[0,0]]],qg=[0,[0,[0,0]]],qh=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qc=[0,[0,0]],qd=[0,0],qa=[0,[0,0]],qb=[0,0],p_=[0,[0,0]],p$=[0,0],pX=[0,0],pY=[0,[0,0]],pV=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],pT=[0,0,0],pS=a(iL),pR=a(T),pQ=[0,[0,0]],pP=[0,0],pM=[0,0],pO=[1,0],pN=[0,0],pL=[0,0],pJ=[1,0],pK=[1,0],qX=[10,0,0,0,0],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],AU=a(bk),AV=a(bj),AW=a(nQ),AL=a(gx),AM=[0,a("a base axis of such a platform"),0],AN=a(a0),AO=a(bi),Ay=a(oB),Az=a(n6),AA=a(oQ),AB=a(gd),AC=a(nW),AD=a(gd),AE=a(o2),AF=a(nL),AG=a(nI),Ao=a(os),Ap=a(gm),z2=[0,a("such a machine with bodies"),0],zP=a(gj),zQ=a(a6),zR=a(ou),zS=a(oS),zV=a(nH),zW=a(nh),zX=a(a6),zY=a(a6),z0=a(gc),zZ=[0,a("a claim that no cube of such a machine fits"),0],z1=a(oZ),z3=a(dR),z4=a(dV),z5=a(c$),z6=a(iC),z7=a(om),z8=a(gu),z9=a(nJ),z_=a(ns),z$=a(is),Ac=a(c9),Ad=a(ox),Ag=a(bF),Ah=a(bF),Ai=a(nT),Aj=a(bF),Ak=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Al=a(gc),Am=a(eS),An=a(c9),Aq=a(bF),Ar=a(bk),As=a(bj),At=a(oy),Au=a(oM),Av=a(gy),Aw=a(nE),Aa=[0,a(ay),0],Ab=a('the mechanism "'),Ax=a(iH),AH=a(gu),AI=a(c$),AJ=a(iC),AK=a(iJ),AP=a(bF),AQ=[0,a('"one_to_one" of this set of orientations'),0],AT=a(c$),AR=[0,a("a platform that turns on struts and other drives"),0],AS=a(bF),Ae=[0,a(ay),0],Af=a('the workspace "'),AX=a(a6),AY=a(a6),A0=a(eP),A1=a(eL),A2=a(gy),AZ=[0,a("an atlas of such a machine"),0],zT=[0,a(ay),0],zU=a('a claim of the kind "'),A7=a(o3),Bc=a(gh),Bd=a(dS),Be=a(nR),Bf=a(of),Bg=a(bS),Bh=a(gv),Bi=a(ir),Bj=a(bS),Bk=a(iL),A8=a(da),A9=a(nD),A_=a(eJ),A$=a(or),Ba=[0,a(ay),0],Bb=a('the evidence "'),Bl=a(da),Bm=a(gv),Bn=[0,1,1],Bo=a(dS),Bp=a(da),Bq=a(eJ),Br=a(oO),Bt=a(dS),Bu=a(da),Bv=a(eJ),Bw=a(eM),Bx=a(ge),By=a(eM),Bz=a(ge),Bs=[0,a("this evidence at control points"),0],Cx=a('"orthocert-paving/'),Co=a(da),Cp=a(da),B9=a(oa),B_=a(nO),B$=a(oF),Cv=[0,3,3],Ca=a(nV),Cm=[0,a("this set of orientations with such drives"),0],Cn=[0,a(n2),0],Cq=[0,a('this evidence "tolerances" of a platform that turns'),0],Cr=[0,a("a step of a platform that turns that is not at control points"),0],Cs=[0,a(n2),0],Ct=[0,a('the evidence "tolerances" of such a mechanism'),0],Cu=[0,a(oE),0],Cl=[0,a(oE),0],Ck=[0,a("a mechanism by formulas in a claim that is refuted"),0],Cj=[0,a("this quantity in a claim that is refuted"),0],Cb=[0,a("the acceleration of a joint of a machine with a plane"),0],Ci=[0,a("a step in a proof that no cube fits"),0],Ch=[0,a("a stiffness for each joint in such a claim"),0],Cg=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Cf=[0,a("a leaf that fails"),0],Cc=a(ob),Cd=a(nj),Ce=a(gg),B5=a(iM),B6=a(ge),B7=a(bS),BY=a(gj),BZ=a(n7),B0=a(oJ),B1=[0,a(ay),0],B2=a('a proof of the kind "'),BU=a(eL),BV=a(eP),BW=a(gk),BX=a(ol),BQ=a(a6),BR=a(gs),BS=a(nk),BT=a(gp),BN=a(oC),BO=a(eM),BP=a(gp),BJ=a(oo),BK=a(gs),BL=a(gk),BM=a(oT),BC=a(oN),BD=a(n4),BE=a(oK),BF=a(gm),BG=a(oY),BH=[0,a(ay),0],BI=a('the failure "'),BA=a(iM),BB=a(iL),A5=a(gv),A6=a(ir),A3=a(ni),A4=a(nl),zM=a(eS),zC=a(iv),zD=a(nn),zE=a(dT),zF=a(a0),zK=a(oG),zL=a(eS),zN=a(c_),zO=a(dT),zG=a(c_),zH=a(od),zI=a(nP),zJ=a(a0),zv=a(c9),zz=a(bk),zA=a(bj),zw=a(iA),zx=a(iE),zy=a(c_),zp=a(c9),zt=a(bk),zu=a(bj),zq=a(iA),zr=a(iE),zs=a(c_),zo=[0,1],zn=[0,1],zl=[0,1],zk=[0,1],zi=[0,1],zj=[0,a("this quantity of such a mechanism"),0],y2=a(iw),y3=[0,a("a stiffness for each joint of such a mechanism"),0],y4=a(ov),y5=a(nC),y6=a(oR),y7=a("max_angle"),y8=[0,a("accuracy of a platform that turns"),0],y9=a(eK),y1=a(gg),yT=a(gn),yI=a(oi),yJ=a(oq),za=a(gh),zb=a(oI),zc=a(nS),zd=a(dS),ze=a(oj),zf=a(nu),zg=a(nv),zh=a(nm),yK=a(nr),yL=a(oA),yM=a(ot),yN=a(nK),yO=a(o0),yP=a(nx),yQ=a(nw),yR=[0,a(ay),0],yS=a('the quantity "'),yU=a(nG),yV=a(oz),yW=a(bk),yX=a(bj),yY=a(oP),yZ=[0,a(ay),0],y0=a('a bound "'),y_=a(go),y$=a(dT),yG=a(bE),yH=a(dW),yl=a(bE),ym=a(gx),yn=a(eR),yo=a(gw),yp=a(dW),ys=a(a0),yt=a(bi),yu=a(eI),yv=a(dQ),yw=a(a0),yx=a(bi),yy=a(bS),yz=a(eI),yA=a(dQ),yB=a(eR),yC=a(a0),yD=a(bi),yE=a(oh),yF=a(eK),yq=[0,a('" of such a machine'),0],yr=a(nB),yj=a(bE),yk=a(eR),x5=a(bE),x6=a(c$),x7=a(gw),x8=a(dW),x$=a(gx),ya=a(a0),yb=a(bi),yc=a(eI),yd=a(dQ),ye=a(a0),yf=a(bi),yg=a(bS),yh=a(bS),x9=[0,a(ay),0],x_=a(nB),x2=a(gq),x3=a(eN),x0=a(" is not covered by the verified checker"),x1=a(T),xY=a(bk),xZ=a(bj),xU=a(T),xV=a(o1),xW=a(T),xX=a(T),xT=[1,0],xR=a("Reader.Malformed"),xS=a("Reader.Not_covered"),Cz=[0,a("a paving is checked by orthocert-verified")],Cy=a(ok),CA=a("CERTIFIED"),CB=a("REFUTED"),CC=a(ok),CD=a("NOT COVERED: ");function
+eY(a){throw[0,i5,a]}function
+aR(d,c){var
+a=ap(d),e=ap(c),b=bV(a+e|0);dY(d,0,b,0,a);dY(c,0,b,a,e);return gF(b)}Ec(0);pn(1);pn(2);function
+i7(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{DK(d)}catch(a){a=pb(a);if(a[1]!==iT)throw a;var
+c=a[2],d=a[1];try{Eb(d)}catch(a){a=px(a);if(a[1]!==i6)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(DM(0))}DT(a(m5),iU);function
-b$(c){var
+a=c;continue}return 0}}return a(Ed(0))}Ek(a(np),i7);function
+bW(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-iV(d){var
+i8(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
-c=a[2],d=k(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gC(d,c){var
+c=a[2],d=i(b,a[1]);return[0,d,U(b,c)]}return 0}function
+gH(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=k(d,a[1]);if(b){var
+e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
 au(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=k(d,a[1]);if(b)return b;var
+e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bj(b,c){var
-a=bT(b);Du(a,0,b,c);return gA(a)}function
-db(g,b,a){var
-d=dU(g),f=0;if(0<=b&&0<=a&&!((gy(d)-a|0)<b)){var
-c=bT(a);eS(d,b,c,0,a);var
+bm(b,c){var
+a=bV(b);DX(a,0,b,c);return gF(a)}function
+dh(g,b,a){var
+d=dZ(g),f=0;if(0<=b&&0<=a&&!((gD(d)-a|0)<b)){var
+c=bV(a);eT(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eX(pi);return gA(e)}function
-iW(k,g){if(g){var
-h=an(k),c=0,b=g,p=0;for(;;){if(b){var
+e=eY(pE);return gF(e)}function
+i9(k,g){if(g){var
+h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(an(i)+h|0)+c|0,m=b[2],n=c<=j?j:eX(pj),c=n,b=m;continue}var
-l=an(i)+c|0}else
+j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:eY(pF),c=n,b=m;continue}var
+l=ap(i)+c|0}else
 var
 l=c;var
-f=bT(l),e=p,d=g;for(;;){if(d){var
+f=bV(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dT(a,0,f,e,an(a));dT(k,0,f,e+an(a)|0,h);var
-e=(e+an(a)|0)+h|0,d=o;continue}dT(a,0,f,e,an(a))}return gA(f)}}}return pk}function
-gD(b,c){if(0===b)return[0];if(0<=b){var
-d=DJ(b,k(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=k(c,a);var
+o=d[2];dY(a,0,f,e,ap(a));dY(k,0,f,e+ap(a)|0,h);var
+e=(e+ap(a)|0)+h|0,d=o;continue}dY(a,0,f,e,ap(a))}return gF(f)}}}return pG}function
+gI(b,c){if(0===b)return[0];if(0<=b){var
+d=Ea(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eX(pl)}function
-gE(c){var
+a=g;continue}break}}return d}return eY(pH)}function
+gJ(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aD(0),c=aD(1);function
-n(a){return y(a,c)}function
-iX(b,a){return y(aD(b),a)}function
-b(b,a){return v(aD(b),a)}function
-aQ(b,a){return[0,iP(b,a),pe(b,a)]}function
-gF(b,a){return G(b,a)?b:a}function
-bk(b,a){return G(b,a)?a:b}function
-ac(a){return a?0:1}function
-w(b,a){var
-c=a?[0,k(b,a[1])]:a;return c}function
-aJ(a){return a[1]}function
-ca(a){return a[2]}function
+o(a){return z(a,c)}function
+i_(b,a){return z(aD(b),a)}function
+b(b,a){return w(aD(b),a)}function
+aS(b,a){return[0,i2(b,a),pA(b,a)]}function
+gK(b,a){return F(b,a)?b:a}function
+bn(b,a){return F(b,a)?a:b}function
+_(a){return a?0:1}function
+v(b,a){var
+c=a?[0,i(b,a[1])]:a;return c}function
+aF(a){return a[1]}function
+cd(a){return a[2]}function
 h(a){var
 b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-iY(a){return typeof
-a==="number"?0:[0,iY(a[1])]}function
-iZ(d,c){var
+i$(a){return typeof
+a==="number"?0:[0,i$(a[1])]}function
+ja(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -795,9 +796,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eY(a){return iZ(a,0)}function
-i0(a){if(typeof
-a==="number")return pn;else
+eZ(a){return ja(a,0)}function
+jb(a){if(typeof
+a==="number")return pJ;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -807,441 +808,451 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,i0(a[1])]}}function
-bm(a){if(typeof
-a==="number")return po;else
+8:return[9,a[1]];default:return[0,jb(a[1])]}}function
+bp(a){if(typeof
+a==="number")return pK;else
 switch(a[0]){case
-0:return[1,bl(a[1])];case
-1:return[3,bl(a[1])];case
-2:return[5,bl(a[1])];case
-3:return[7,bl(a[1])];case
-4:return[9,bl(a[1])];case
-5:return[1,bm(a[1])];case
-6:return[3,bm(a[1])];case
-7:return[5,bm(a[1])];case
-8:return[7,bm(a[1])];default:return[9,bm(a[1])]}}function
-bl(a){if(typeof
+0:return[1,bo(a[1])];case
+1:return[3,bo(a[1])];case
+2:return[5,bo(a[1])];case
+3:return[7,bo(a[1])];case
+4:return[9,bo(a[1])];case
+5:return[1,bp(a[1])];case
+6:return[3,bp(a[1])];case
+7:return[5,bp(a[1])];case
+8:return[7,bp(a[1])];default:return[9,bp(a[1])]}}function
+bo(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bl(a[1])];case
-1:return[2,bl(a[1])];case
-2:return[4,bl(a[1])];case
-3:return[6,bl(a[1])];case
-4:return[8,bl(a[1])];case
-5:return[0,bm(a[1])];case
-6:return[2,bm(a[1])];case
-7:return[4,bm(a[1])];case
-8:return[6,bm(a[1])];default:return[8,bm(a[1])]}}function
-bD(a){return a?a[1]:a}function
-Q(b,a){return b?[0,Q(b[1],a)]:a}function
-i1(a,b){return a?Q(b,i1(a[1],b)):a}function
-cb(b,a){return b?a:a?0:1}function
-u(d,c){var
+0:return[0,bo(a[1])];case
+1:return[2,bo(a[1])];case
+2:return[4,bo(a[1])];case
+3:return[6,bo(a[1])];case
+4:return[8,bo(a[1])];case
+5:return[0,bp(a[1])];case
+6:return[2,bp(a[1])];case
+7:return[4,bp(a[1])];case
+8:return[6,bp(a[1])];default:return[8,bp(a[1])]}}function
+bq(a){return a?a[1]:a}function
+M(b,a){return b?[0,M(b[1],a)]:a}function
+jc(a,b){return a?M(b,jc(a[1],b)):a}function
+ce(b,a){return b?a:a?0:1}function
+t(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 R(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-dZ(b,a){return R([0,b],a)}function
-i2(c){var
+cH(b,a){return R([0,b],a)}function
+jd(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-eZ(c,b,a){return c?k(b,eZ(c[1],b,a)):a}function
-i3(a){if(a)var
-b=a[1],d=b?[0,i3(b[1])]:b,c=d;else
+e0(c,b,a){return c?i(b,e0(c[1],b,a)):a}function
+je(a){if(a)var
+b=a[1],d=b?[0,je(b[1])]:b,c=d;else
 var
 c=a;return c}function
-i4(a){if(G(a,c))return c;var
-e=aQ(a,aD(2)),f=e[1];return Y(e[2],d)?n(b(2,i4(f))):n(b(2,b(2,f)))}function
-i5(b,a){return bk(c,aE(b,a))}function
-e0(a){if(G(a,c))return pq;var
-b=aQ(a,aD(2)),e=b[1];return Y(b[2],d)?[0,e0(e)]:[0,e0(e)]}function
-e1(a){if(G(a,c))return c;var
-b=aQ(a,aD(2)),e=b[1];return Y(b[2],d)?n(e1(e)):n(e1(e))}function
-i6(c,b){var
-a=iO(c,b);return 0===a?0:0<=a?2:1}function
-gG(j,i){var
-b=j,a=i;for(;;){if(G(b,c))return G(a,c)?1:Y(aQ(a,aD(2))[2],d)?0:0;var
-g=aQ(b,aD(2)),h=g[1];if(Y(g[2],d)){if(G(a,c))return 0;var
-e=aQ(a,aD(2)),k=e[1];if(Y(e[2],d)){var
-b=h,a=k;continue}return 0}if(G(a,c))return 0;var
-f=aQ(a,aD(2)),l=f[1];if(Y(f[2],d))return 0;var
+gL(d,c){var
+b=d,a=c;for(;;){if(b){if(a){var
+b=b[1],a=a[1];continue}return a}return a?0:1}}function
+jf(a){if(F(a,c))return c;var
+e=aS(a,aD(2)),f=e[1];return Z(e[2],d)?o(b(2,jf(f))):o(b(2,b(2,f)))}function
+jg(b,a){return bn(c,aE(b,a))}function
+e1(a){if(F(a,c))return pM;var
+b=aS(a,aD(2)),e=b[1];return Z(b[2],d)?[0,e1(e)]:[0,e1(e)]}function
+e2(a){if(F(a,c))return c;var
+b=aS(a,aD(2)),e=b[1];return Z(b[2],d)?o(e2(e)):o(e2(e))}function
+jh(c,b){var
+a=i1(c,b);return 0===a?0:0<=a?2:1}function
+gM(j,i){var
+b=j,a=i;for(;;){if(F(b,c))return F(a,c)?1:Z(aS(a,aD(2))[2],d)?0:0;var
+g=aS(b,aD(2)),h=g[1];if(Z(g[2],d)){if(F(a,c))return 0;var
+e=aS(a,aD(2)),k=e[1];if(Z(e[2],d)){var
+b=h,a=k;continue}return 0}if(F(a,c))return 0;var
+f=aS(a,aD(2)),l=f[1];if(Z(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e2(b,a){return 2<=i6(b,a)?0:1}function
-dc(i,e,a){if(i){var
-f=i[1];if(G(e,c))return[0,c,[0,c,a]];var
-w=aQ(e,aD(2)),g=w[1];if(Y(w[2],d)){if(G(a,c))return[0,c,[0,e,c]];var
-m=aQ(a,aD(2)),B=m[1];if(Y(m[2],d)){var
-j=dc(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
-k=dc(f,g,a),l=k[2],z=l[2],A=[0,b(2,l[1]),z];return[0,k[1],A]}if(G(a,c))return[0,c,[0,e,c]];var
-v=aQ(a,aD(2)),h=v[1];if(Y(v[2],d)){var
-n=dc(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(i6(g,h)){case
+e3(b,a){return 2<=jh(b,a)?0:1}function
+di(i,e,a){if(i){var
+f=i[1];if(F(e,c))return[0,c,[0,c,a]];var
+w=aS(e,aD(2)),g=w[1];if(Z(w[2],d)){if(F(a,c))return[0,c,[0,e,c]];var
+m=aS(a,aD(2)),B=m[1];if(Z(m[2],d)){var
+j=di(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
+k=di(f,g,a),l=k[2],y=l[2],A=[0,b(2,l[1]),y];return[0,k[1],A]}if(F(a,c))return[0,c,[0,e,c]];var
+v=aS(a,aD(2)),h=v[1];if(Z(v[2],d)){var
+n=di(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jh(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=dc(f,i5(h,g),e),q=p[2],r=q[2],D=[0,r,y(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=dc(f,i5(g,h),a),t=s[2],u=t[2],E=[0,y(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e3(b,a){var
-c=e0(a);return dc(Q(e0(b),c),b,a)}function
-i7(b,i,h){var
-e=i,a=h;for(;;){if(G(e,c))return a;var
-f=aQ(e,aD(2)),g=f[1];if(Y(f[2],d)){var
-e=g,a=aq(b,a,a);continue}return aq(b,a,i7(b,g,aq(b,a,a)))}}function
-d0(a){return i7(Q,a,pr)}function
-i8(a){return a?n(i8(a[1])):c}function
-bU(f,e){var
+p=di(f,jg(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=di(f,jg(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+e4(b,a){var
+c=e1(a);return di(M(e1(b),c),b,a)}function
+ji(b,i,h){var
+e=i,a=h;for(;;){if(F(e,c))return a;var
+f=aS(e,aD(2)),g=f[1];if(Z(f[2],d)){var
+e=g,a=ao(b,a,a);continue}return ao(b,a,ji(b,g,ao(b,a,a)))}}function
+d4(a){return ji(M,a,pN)}function
+jj(a){return a?o(jj(a[1])):c}function
+bX(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=v(b(2,n(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=w(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=y(c,v(b(2,n(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=z(c,w(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=v(b(2,n(b(2,b(2,c)))),d),j=y(b(2,c),i),a=a[1],d=j;continue;case
+i=w(b(2,o(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=v(b(2,n(b(2,b(2,c)))),d),l=y(n(b(2,c)),k),a=a[1],d=l;continue;case
+k=w(b(2,o(b(2,b(2,c)))),d),l=z(o(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=v(b(2,n(b(2,b(2,c)))),d),o=y(b(2,b(2,c)),m),a=a[1],d=o;continue;case
+m=w(b(2,o(b(2,b(2,c)))),d),n=z(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-p=v(b(2,n(b(2,b(2,c)))),d),q=y(n(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+p=w(b(2,o(b(2,b(2,c)))),d),q=z(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-r=v(b(2,n(b(2,b(2,c)))),d),s=y(b(2,n(b(2,c))),r),a=a[1],d=s;continue;case
+r=w(b(2,o(b(2,b(2,c)))),d),s=z(b(2,o(b(2,c))),r),a=a[1],d=s;continue;case
 7:var
-t=v(b(2,n(b(2,b(2,c)))),d),u=y(n(b(2,n(b(2,c)))),t),a=a[1],d=u;continue;case
+t=w(b(2,o(b(2,b(2,c)))),d),u=z(o(b(2,o(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
-w=v(b(2,n(b(2,b(2,c)))),d),x=y(b(2,b(2,b(2,c))),w),a=a[1],d=x;continue;default:var
-z=v(b(2,n(b(2,b(2,c)))),d),A=y(n(b(2,b(2,b(2,c)))),z),a=a[1],d=A;continue}}function
-gH(a){if(G(a,c))return ps;var
-b=aQ(a,aD(2)),e=b[1];return Y(b[2],d)?bl(gH(e)):bm(gH(e))}function
-e4(a){return eY(gH(a))}function
-i9(k,f){if(0<=a6(f)){var
-g=iQ(f);if(0<=g){var
+v=w(b(2,o(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),v),a=a[1],d=x;continue;default:var
+y=w(b(2,o(b(2,b(2,c)))),d),A=z(o(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+gN(a){if(F(a,c))return pO;var
+b=aS(a,aD(2)),e=b[1];return Z(b[2],d)?bo(gN(e)):bp(gN(e))}function
+e5(a){return eZ(gN(a))}function
+jk(k,f){if(0<=a7(f)){var
+g=i3(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=v(b,b),j=1===(a&1)?v(e,b):e,e=j,b=i,a=h;continue}}return eX(pm)}return d}function
-gI(b){var
-a=a6(b);return 0===a?d:0<a?c:N(c)}function
-i_(a){return 0<=a6(a)?a:d}function
-d1(a){var
-b=a6(a);return 0===b?c:0<b?a:c}function
-i$(m){var
+h=a>>>1|0,i=w(b,b),j=1===(a&1)?w(e,b):e,e=j,b=i,a=h;continue}}return eY(pI)}return d}function
+gO(b){var
+a=a7(b);return 0===a?d:0<a?c:O(c)}function
+jl(a){return 0<=a7(a)?a:d}function
+d5(a){var
+b=a7(a);return 0===b?c:0<b?a:c}function
+jm(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bU(a[1],c);case
+1:return bX(a[1],c);case
 2:var
-e=b(2,c);return bU(a[1],e);case
+e=b(2,c);return bX(a[1],e);case
 3:var
-f=n(b(2,c));return bU(a[1],f);case
+f=o(b(2,c));return bX(a[1],f);case
 4:var
-g=b(2,b(2,c));return bU(a[1],g);case
+g=b(2,b(2,c));return bX(a[1],g);case
 5:var
-h=n(b(2,b(2,c)));return bU(a[1],h);case
+h=o(b(2,b(2,c)));return bX(a[1],h);case
 6:var
-i=b(2,n(b(2,c)));return bU(a[1],i);case
+i=b(2,o(b(2,c)));return bX(a[1],i);case
 7:var
-j=n(b(2,n(b(2,c))));return bU(a[1],j);case
+j=o(b(2,o(b(2,c))));return bX(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bU(a[1],k);default:var
-l=n(b(2,b(2,b(2,c))));return bU(a[1],l)}}function
-cc(b,a){var
-c=a6(a);return 0===c?d:1===c?iP(b,a):iX(-1,iP(iX(-1,b),a))}function
-e5(a){return 0<a6(a)?D3(a):d}function
-d2(b,c){var
-a=iQ(c);return 0<=a?pf(b,a):pg(b,-a|0)}function
-cB(b,c){var
-a=iQ(c);return 0<=a?pg(b,a):pf(b,-a|0)}function
-bn(b,a){return a?a[1]:b}function
-bE(a){var
+k=b(2,b(2,b(2,c)));return bX(a[1],k);default:var
+l=o(b(2,b(2,b(2,c))));return bX(a[1],l)}}function
+cf(b,a){var
+c=a7(a);return 0===c?d:1===c?i2(b,a):i_(-1,i2(i_(-1,b),a))}function
+e6(a){return 0<a7(a)?Eu(a):d}function
+d6(b,c){var
+a=i3(c);return 0<=a?pB(b,a):pC(b,-a|0)}function
+cI(b,c){var
+a=i3(c);return 0<=a?pC(b,a):pB(b,-a|0)}function
+br(b,a){return a?a[1]:b}function
+bI(a){var
 b=a?a[2]:a;return b}function
-t(e,d,c){var
+u(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
 S(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ja(a){if(a){var
-b=[0,a[1],0];return f(ja(a[2]),b)}return a}function
-e6(d,c){var
+jn(a){if(a){var
+b=[0,a[1],0];return f(jn(a[2]),b)}return a}function
+e7(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-jb(a){if(a){var
-b=jb(a[2]);return f(a[1],b)}return a}function
+jo(a){if(a){var
+b=jo(a[2]);return f(a[1],b)}return a}function
+gP(g,f,e){var
+b=f,a=e;for(;;){if(b){if(a){var
+c=ao(g,b[1],a[1]);if(c){var
+b=b[2],a=a[2];continue}var
+d=c}else
+var
+d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,k(b,a[1]),d];else
+d=e(b,a[2]),c=[0,i(b,a[1]),d];else
 var
 c=a;return c}function
-z(b,a){if(a){var
-c=z(b,a[2]);return f(k(b,a[1]),c)}return a}function
-dd(e,d,c){var
+x(b,a){if(a){var
+c=x(b,a[2]);return f(i(b,a[1]),c)}return a}function
+dj(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=aq(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aR(c,b,a){if(a){var
-d=aR(c,b,a[2]);return aq(c,a[1],d)}return b}function
-ap(e,d){var
+f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aT(c,b,a){if(a){var
+d=aT(c,b,a[2]);return ao(c,a[1],d)}return b}function
+ai(e,d){var
 a=d;for(;;){if(a){var
-b=k(e,a[1]);if(!b){var
+b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-p(d,c){var
+n(d,c){var
 a=c;for(;;){if(a){var
-b=k(d,a[1]);if(b){var
+b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bF(b,e){var
+bb(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(k(b,d))return[0,d,bF(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bb(b,c)];var
 a=c;continue}return a}}function
-jc(d,c){var
+jp(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(k(d,b))return[0,b];var
+b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aK(b,a){if(b)if(a)var
-d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aI(b,a){if(b)if(a)var
+d=aI(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bV(b,a){if(b)if(a)var
-d=bV(b[1],a[2]),c=[0,a[1],d];else
+bY(b,a){if(b)if(a)var
+d=bY(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-de(d,c){var
+dk(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aZ(b,a){var
-c=a?[0,b,aZ([0,b],a[1])]:a;return c}function
+aJ(b,a){var
+c=a?[0,b,aJ([0,b],a[1])]:a;return c}function
 aG(b,a){var
 c=a?[0,b,aG(b,a[1])]:a;return c}function
-jd(a){if(a){var
-e=jd(a[2]),f=v(b(2,c),e),g=a[1]?c:d;return y(g,f)}return d}function
-e7(j){function
+jq(a){if(a){var
+e=jq(a[2]),f=w(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+e8(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jd([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a6(b)?d0(b):0}function
-df(c,b){var
-a=iO(v(c[1],b[2]),v(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cC(b,a){return G(v(b[1],a[2]),v(a[1],b[2]))}function
-dg(b,a){return[0,y(v(b[1],a[2]),v(a[1],b[2])),v(b[2],a[2])]}function
-bW(b,a){return[0,v(b[1],a[1]),v(b[2],a[2])]}function
-je(a){return[0,N(a[1]),a[2]]}function
-e8(b,a){return dg(b,je(a))}function
-gJ(f,b){var
-a=b[1],e=a6(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,N(b[2]),N(a)];return bW(f,g)}function
-e9(q){var
-a=q[2],b=q[1],o=a6(b);if(0===o)var
-c=[0,da(a),[0,d,gI(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jq([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a7(b)?d4(b):0}function
+dl(c,b){var
+a=i1(w(c[1],b[2]),w(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cJ(b,a){return F(w(b[1],a[2]),w(a[1],b[2]))}function
+dm(b,a){return[0,z(w(b[1],a[2]),w(a[1],b[2])),w(b[2],a[2])]}function
+bZ(b,a){return[0,w(b[1],a[1]),w(b[2],a[2])]}function
+jr(a){return[0,O(a[1]),a[2]]}function
+e9(b,a){return dm(b,jr(a))}function
+gQ(f,b){var
+a=b[1],e=a7(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,O(b[2]),O(a)];return bZ(f,g)}function
+e_(q){var
+a=q[2],b=q[1],o=a7(b);if(0===o)var
+c=[0,dg(a),[0,d,gO(a)]];else
 if(0<o){var
-n=a6(a);if(0===n)var
-c=[0,da(b),[0,gI(b),d]];else
+n=a7(a);if(0===n)var
+c=[0,dg(b),[0,gO(b),d]];else
 if(0<n)var
-l=e3(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e4(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e3(b,N(a)),k=j[2],c=[0,j[1],[0,k[1],N(k[2])]]}else{var
-p=N(b),i=a6(a);if(0===i)var
-c=[0,da(b),[0,gI(b),d]];else
+j=e4(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
+p=O(b),i=a7(a);if(0===i)var
+c=[0,dg(b),[0,gO(b),d]];else
 if(0<i)var
-g=e3(p,a),h=g[2],c=[0,g[1],[0,N(h[1]),h[2]]];else
+g=e4(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
 var
-e=e3(p,N(a)),f=e[2],c=[0,e[1],[0,N(f[1]),N(f[2])]]}var
-r=c[2],s=d1(r[2]);return[0,r[1],s]}function
-a0(a){if(typeof
-a==="number")return pv;else
+e=e4(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
+r=c[2],s=d5(r[2]);return[0,r[1],s]}function
+a1(a){if(typeof
+a==="number")return pR;else
 switch(a[0]){case
 0:var
-b=a0(a[1]);return aP(bj(1,48),b);case
+b=a1(a[1]);return aR(bm(1,48),b);case
 1:var
-c=a0(a[1]);return aP(bj(1,49),c);case
+c=a1(a[1]);return aR(bm(1,49),c);case
 2:var
-d=a0(a[1]);return aP(bj(1,50),d);case
+d=a1(a[1]);return aR(bm(1,50),d);case
 3:var
-e=a0(a[1]);return aP(bj(1,51),e);case
+e=a1(a[1]);return aR(bm(1,51),e);case
 4:var
-f=a0(a[1]);return aP(bj(1,52),f);case
+f=a1(a[1]);return aR(bm(1,52),f);case
 5:var
-g=a0(a[1]);return aP(bj(1,53),g);case
+g=a1(a[1]);return aR(bm(1,53),g);case
 6:var
-h=a0(a[1]);return aP(bj(1,54),h);case
+h=a1(a[1]);return aR(bm(1,54),h);case
 7:var
-i=a0(a[1]);return aP(bj(1,55),i);case
+i=a1(a[1]);return aR(bm(1,55),i);case
 8:var
-j=a0(a[1]);return aP(bj(1,56),j);default:var
-k=a0(a[1]);return aP(bj(1,57),k)}}function
-d3(a){return typeof
-a==="number"?pw:a0(a)}function
-cD(a){return i9(b(2,c),a)}function
-jf(b,a){return cB(a,b)}function
-jg(b,a){return N(cB(N(a),b))}function
-e_(b,a){return N(cc(N(b),a))}function
-Z(c,b){var
-a=d2(b,c);return[0,a,a]}function
-jh(d,c,a){var
-b=d2(c,d),e=e_(b,a);return[0,cc(b,a),e]}function
-F(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-J(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
-af(a){return[0,N(a[2]),N(a[1])]}function
-ji(e,c,b,a){if(G(d,e))return G(d,b)?[0,v(e,b),v(c,a)]:G(a,d)?[0,v(c,b),v(e,a)]:[0,v(c,b),v(c,a)];if(G(c,d))return G(d,b)?[0,v(e,a),v(c,b)]:G(a,d)?[0,v(c,a),v(e,b)]:[0,v(e,a),v(e,b)];if(G(d,b))return[0,v(e,a),v(c,a)];if(G(a,d))return[0,v(c,b),v(e,b)];var
-f=bk(v(e,b),v(c,a));return[0,gF(v(e,a),v(c,b)),f]}function
-x(c,b,a){var
-d=ji(b[1],b[2],a[1],a[2]),e=jg(c,d[2]);return[0,jf(c,d[1]),e]}function
-_(b,a){var
-c=v(a[1],a[1]),e=v(a[2],a[2]),h=jg(b,bk(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+j=a1(a[1]);return aR(bm(1,56),j);default:var
+k=a1(a[1]);return aR(bm(1,57),k)}}function
+d7(a){return typeof
+a==="number"?pS:a1(a)}function
+cK(a){return jk(b(2,c),a)}function
+js(b,a){return cI(a,b)}function
+jt(b,a){return O(cI(O(a),b))}function
+e$(b,a){return O(cf(O(b),a))}function
+W(c,b){var
+a=d6(b,c);return[0,a,a]}function
+ju(d,c,a){var
+b=d6(c,d),e=e$(b,a);return[0,cf(b,a),e]}function
+G(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+H(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
+ag(a){return[0,O(a[2]),O(a[1])]}function
+jv(e,c,b,a){if(F(d,e))return F(d,b)?[0,w(e,b),w(c,a)]:F(a,d)?[0,w(c,b),w(e,a)]:[0,w(c,b),w(c,a)];if(F(c,d))return F(d,b)?[0,w(e,a),w(c,b)]:F(a,d)?[0,w(c,a),w(e,b)]:[0,w(e,a),w(e,b)];if(F(d,b))return[0,w(e,a),w(c,a)];if(F(a,d))return[0,w(c,b),w(e,b)];var
+f=bn(w(e,b),w(c,a));return[0,gK(w(e,a),w(c,b)),f]}function
+y(c,b,a){var
+d=jv(b[1],b[2],a[1],a[2]),e=jt(c,d[2]);return[0,js(c,d[1]),e]}function
+$(b,a){var
+c=w(a[1],a[1]),e=w(a[2],a[2]),h=jt(b,bn(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jf(b,gF(c,e));return[0,f,h]}function
-gK(b,a){var
-c=d2(cD(b),b),d=e_(c,a[1]);return[0,cc(c,a[2]),d]}function
-cd(b,a){if(L(d,a[1]))return[0,gK(b,a)];var
-c=L(a[2],d),e=c?[0,af(gK(b,af(a)))]:c;return e}function
-ce(f,b){var
+f=js(b,gK(c,e));return[0,f,h]}function
+gR(b,a){var
+c=d6(cK(b),b),d=e$(c,a[1]);return[0,cf(c,a[2]),d]}function
+cg(b,a){if(L(d,a[1]))return[0,gR(b,a)];var
+c=L(a[2],d),e=c?[0,ag(gR(b,ag(a)))]:c;return e}function
+ch(f,b){var
 g=L(d,b[1]);if(g)var
-e=d2(b[2],f),a=e5(e),i=Y(v(a,a),e)?a:y(a,c),h=[0,[0,e5(d2(b[1],f)),i]];else
+e=d6(b[2],f),a=e6(e),i=Z(w(a,a),e)?a:z(a,c),h=[0,[0,e6(d6(b[1],f)),i]];else
 var
 h=g;return h}function
-dh(a){return 0===a[0]?a[2]:a[1]}function
-aS(f,d,c,b,a){if(b){if(a){var
-g=aS(f,d,c,b[2],a[2]);return[0,aq(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cf(b,a){return cB(b,a)}function
-a7(a,c,b){if(G(d,a)){var
-e=b[1],f=N(cf(N(v(a,b[2])),c));return[0,cf(v(a,e),c),f]}var
-g=b[2],h=N(cf(N(v(a,b[1])),c));return[0,cf(v(a,g),c),h]}function
-a8(a){var
-b=N(cB(N(a[2]),c));return[0,cB(a[1],c),b]}function
-d4(c,b,a){var
-e=ji(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=e_(f,h),j=L(g,d)?a[1]:a[2];return[0,cc(g,j),i]}function
-cE(a){return bk(a[2],N(a[1]))}var
-B=[0,d,d];function
-e$(a){return[0,a[1],a[1]]}function
-di(a){return[0,a[2],a[2]]}function
-cF(b,a){switch(a[0]){case
+dn(a){return 0===a[0]?a[2]:a[1]}function
+aU(f,d,c,b,a){if(b){if(a){var
+g=aU(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+ci(b,a){return cI(b,a)}function
+a8(a,c,b){if(F(d,a)){var
+e=b[1],f=O(ci(O(w(a,b[2])),c));return[0,ci(w(a,e),c),f]}var
+g=b[2],h=O(ci(O(w(a,b[1])),c));return[0,ci(w(a,g),c),h]}function
+a9(a){var
+b=O(cI(O(a[2]),c));return[0,cI(a[1],c),b]}function
+d8(c,b,a){var
+e=jv(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=e$(f,h),j=L(g,d)?a[1]:a[2];return[0,cf(g,j),i]}function
+cL(a){return bn(a[2],O(a[1]))}var
+A=[0,d,d];function
+fa(a){return[0,a[1],a[1]]}function
+dp(a){return[0,a[2],a[2]]}function
+cM(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=k(b,a[2]);return[3,k(b,a[1]),c];case
+c=i(b,a[2]);return[3,i(b,a[1]),c];case
 4:var
-d=k(b,a[2]);return[4,k(b,a[1]),d];case
-5:return[5,k(b,a[1])];case
+d=i(b,a[2]);return[4,i(b,a[1]),d];case
+5:return[5,i(b,a[1])];case
 6:var
-e=k(b,a[2]);return[6,k(b,a[1]),e];case
+e=i(b,a[2]);return[6,i(b,a[1]),e];case
 7:var
-f=k(b,a[2]);return[7,k(b,a[1]),f];case
-8:return[8,k(b,a[1])];case
-9:return[9,k(b,a[1])];default:var
-g=k(b,a[4]),h=k(b,a[3]),i=k(b,a[2]);return[10,a[1],i,h,g]}}function
-ay(n,m){var
+f=i(b,a[2]);return[7,i(b,a[1]),f];case
+8:return[8,i(b,a[1])];case
+9:return[9,i(b,a[1])];default:var
+g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
+av(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?u(b[1],a[1]):0;case
-1:return 1===a[0]?u(b[1],a[1]):0;case
-2:return 2===a[0]?Y(b[1],a[1]):0;case
+0:return 0===a[0]?t(b[1],a[1]):0;case
+1:return 1===a[0]?t(b[1],a[1]):0;case
+2:return 2===a[0]?Z(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=ay(b[1],a[1]);if(f){var
+f=av(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=ay(b[1],a[1]);if(g){var
+g=av(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=ay(b[1],a[1]);if(h){var
+h=av(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=ay(b[1],a[1]);if(i){var
+i=av(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cb(b[1],a[1]);if(j){var
-k=ay(b[2],a[2]);if(k){var
-l=ay(b[3],a[3]);if(l){var
+j=ce(b[1],a[1]);if(j){var
+k=av(b[2],a[2]);if(k){var
+l=av(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fa(b){var
+fb(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aT(c,b){var
-a=fa(b);return a?Y(c,a[1]):a}function
-d5(a){return L(da(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+aM(c,b){var
+a=fb(b);return a?Z(c,a[1]):a}function
+d9(a){return L(dg(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-C(b,a){if(aT(d,b))return a;if(aT(d,a))return b;var
-c=fa(b);if(c){var
-e=c[1],f=fa(a);if(f){var
-g=f[1];if(d5(e)&&d5(g))return l(y(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bo(a){var
+C(b,a){if(aM(d,b))return a;if(aM(d,a))return b;var
+c=fb(b);if(c){var
+e=c[1],f=fb(a);if(f){var
+g=f[1];if(d9(e)&&d9(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bc(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return d5(c)?l(N(c)):[0,[5,a]];case
+c=b[1];return d9(c)?l(O(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aT(d,a))return b;if(aT(d,b))return bo(a);var
+s(b,a){if(aM(d,a))return b;if(aM(d,b))return bc(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+e=a[1];return 0===e[0]?t(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 K(a){var
-c=fa(a);if(c){var
-b=c[1];return d5(b)?l(v(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aT(d,a)&&!aT(c,b)){if(!aT(d,b)&&!aT(c,a))return ay(a,b)?K(a):[0,[6,a,b]];return b}return a}function
-al(b,a){return aT(c,a)?b:[0,[7,b,a]]}function
-az(a){return aT(c,a)?a:[0,[9,a]]}function
-jj(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bG(f,e,d,c){var
+c=fb(a);if(c){var
+b=c[1];return d9(b)?l(w(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,b){if(!aM(d,a)&&!aM(c,b)){if(!aM(d,b)&&!aM(c,a))return av(a,b)?K(a):[0,[6,a,b]];return b}return a}function
+am(b,a){return aM(c,a)?b:[0,[7,b,a]]}function
+az(a){return aM(c,a)?a:[0,[9,a]]}function
+jw(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bJ(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,k(e,cF(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cG(a){var
+g=b[1],h=[0,i(e,cM(function(b){return function(a){return u(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+cj(a){var
 b=0;function
-c(a){return[0,a]}return bG(l(d),c,a,b)}function
-gL(b,a){if(a){if(ay(b,a[1]))return px;var
-c=gL(b,a[2]);return w(function(a){return[0,a]},c)}return a}function
-a9(c,b){var
-a=gL(b,c),d=a?a[1]:a;return d}function
-cH(d,b){if(gL(d,b[1]))return b;var
+c(a){return[0,a]}return bJ(l(d),c,a,b)}function
+aV(d,c){var
+a=d,b=0;for(;;){if(a){if(av(c,a[1]))return b;var
+a=a[2],b=[0,b];continue}return a}}function
+cN(d,b){var
+e=b[1];if(ai(function(a){return av(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-i=cH(a[2],b),j=cH(a[3],i),c=cH(a[4],j);break;case
+j=cN(a[2],b),k=cN(a[3],j),c=cN(a[4],k);break;case
 5:case
 8:case
 9:var
-c=cH(a[1],b);break;case
+c=cN(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-h=cH(a[1],b),c=cH(a[2],h)}var
-e=c[2],f=c[1],g=[0,cF(function(a){return a9(f,a)},a),e];return[0,[0,d,c[1]],g]}function
-cI(a){var
-b=dd(function(b,a){return cH(a,b)},a,py),c=b[1],d=e(function(a){return a9(c,a)},a);return[0,ja(b[2]),d]}function
-fb(a){return aR(function(b,a){return y(cE(b),a)},d,a)}function
-bX(b,c,a){var
-d=fb(a),e=gF(c[2],y(b[2],d)),f=fb(a);return[0,b,[0,bk(c[1],aE(b[1],f)),e],a]}function
-ag(a){return[0,a,a,0]}function
-bH(b,a){var
+i=cN(a[1],b),c=cN(a[2],i)}var
+f=c[2],g=c[1],h=[0,cM(function(a){return aV(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+ck(a){var
+b=dj(function(b,a){return cN(a,b)},a,pT),c=b[1],d=e(function(a){return aV(c,a)},a);return[0,jn(b[2]),d]}function
+fc(a){return aT(function(b,a){return z(cL(b),a)},d,a)}function
+b0(b,c,a){var
+d=fc(a),e=gK(c[2],z(b[2],d)),f=fc(a);return[0,b,[0,bn(c[1],aE(b[1],f)),e],a]}function
+ad(a){return[0,a,a,0]}function
+bK(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aS(function(a){return a},e,F,d,c),g=F(b[2],a[2]);return bX(F(b[1],a[1]),g,f)}function
+f=aU(function(a){return a},e,G,d,c),g=G(b[2],a[2]);return b0(G(b[1],a[1]),g,f)}function
 a_(b,a){var
-c=a[3],d=b[3],e=aS(function(a){return a},af,J,d,c),f=J(b[2],a[2]);return bX(J(b[1],a[1]),f,e)}function
-d6(a){var
-b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
-av(a,c,b){var
-d=F(b[2],b[1]),e=F(c[2],c[1]),f=b[3],g=c[3];function
+c=a[3],d=b[3],e=aU(function(a){return a},ag,H,d,c),f=H(b[2],a[2]);return b0(H(b[1],a[1]),f,e)}function
+d_(a){var
+b=e(ag,a[3]),c=ag(a[2]);return[0,ag(a[1]),c,b]}function
+aw(a,c,b){var
+d=G(b[2],b[1]),e=G(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=x(a,e,b);return a8(F(x(a,d,c),f))}function
-i(b){return a8(x(a,e,b))}var
-j=aS(function(b){return a8(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return bX(x(a,c[1],b[1]),k,j)}function
-d7(b,a){var
-c=a[3],d=F(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=_(b,a[2]);return bX(_(b,a[1]),g,f)}function
-gM(a,b){var
-c=ce(a,b[1]);if(c){var
-g=c[1],d=ce(a,b[2]);if(d){var
-h=d[1],f=cd(a,F(h,g));if(f)var
-l=b[3],m=f[1],i=[0,bX(g,h,e(function(b){return x(a,m,b)},l))];else
+f=y(a,e,b);return a9(G(y(a,d,c),f))}function
+i(b){return a9(y(a,e,b))}var
+j=aU(function(b){return a9(y(a,d,b))},i,h,g,f),k=y(a,c[2],b[2]);return b0(y(a,c[1],b[1]),k,j)}function
+d$(b,a){var
+c=a[3],d=G(a[2],a[1]),f=e(function(a){return y(b,d,a)},c),g=$(b,a[2]);return b0($(b,a[1]),g,f)}function
+gS(a,b){var
+c=ch(a,b[1]);if(c){var
+g=c[1],d=ch(a,b[2]);if(d){var
+h=d[1],f=cg(a,G(h,g));if(f)var
+l=b[3],m=f[1],i=[0,b0(g,h,e(function(b){return y(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1250,507 +1261,520 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dj(a,c,b){var
-d=cd(a,b[1]);if(d){var
-f=cd(a,b[2]);if(f)var
-h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return J(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,bX(g,x(a,c[2],h),p)];else
+dq(a,c,b){var
+d=cg(a,b[1]);if(d){var
+f=cg(a,b[2]);if(f)var
+h=f[1],g=y(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,y(a,g,b))},n=function(b){return ag(y(a,g,b))},o=aU(function(a){return a},n,m,l,k),p=e(function(b){return y(a,h,b)},o),i=[0,b0(g,y(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cg(b,a){return a?k(b,a[1]):a}function
-fc(a){var
-b=e(a8,a[3]),c=a8(F(a[2],a[1]));return bX(a[1],c,b)}function
-jk(a,k,j,r,b){var
-l=fc(k),m=fc(j),g=fc(b[1]),h=fc(b[2]),s=av(a,l,h),t=a_(av(a,m,g),s),i=dj(a,ag(Z(a,c)),t);if(i)var
-f=i[1],n=av(a,a_(l,g),f),o=av(a,a_(m,h),f),d=function(c,b){return av(a,c,ag(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bH(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a_(b,d(f,a8(a)))[2]},C=function(a){return d6(d(f,a8(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=bX(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,bX(b[1][1],b[1][2],H),F]];else
+cl(b,a){return a?i(b,a[1]):a}function
+fd(a){var
+b=e(a9,a[3]),c=a9(G(a[2],a[1]));return b0(a[1],c,b)}function
+jx(a,k,j,r,b){var
+l=fd(k),m=fd(j),g=fd(b[1]),h=fd(b[2]),s=aw(a,l,h),t=a_(aw(a,m,g),s),i=dq(a,ad(W(a,c)),t);if(i)var
+f=i[1],n=aw(a,a_(l,g),f),o=aw(a,a_(m,h),f),d=function(c,b){return aw(a,c,ad(b))},u=j[3],v=k[3],w=function(b,a){var
+c=d(o,a);return bK(d(n,b),c)},x=function(a){return d(o,a)},z=aU(function(a){return d(n,a)},x,w,v,u),A=r[3],B=function(b,a){return a_(b,d(f,a9(a)))[2]},C=function(a){return d_(d(f,a9(a)))[2]},p=aU(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return y(a,D,b)},p),F=b0(b[2][1],b[2][2],E),G=ag(h[2]),H=e(function(b){return y(a,G,b)},p),q=[0,[0,b0(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jl(a,e,d,k){var
-p=d7(a,d),f=bH(d7(a,e),p),g=a_(bH(f,ag(Z(a,c))),k),l=av(a,ag(Z(a,b(2,c))),f),q=d7(a,g),h=gM(a,a_(av(a,ag(Z(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=av(a,m,d),i=dj(a,bH(av(a,g,e),r),l);if(i)var
-s=av(a,m,e),j=dj(a,a_(av(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jy(a,e,d,k){var
+p=d$(a,d),f=bK(d$(a,e),p),g=a_(bK(f,ad(W(a,c))),k),l=aw(a,ad(W(a,b(2,c))),f),q=d$(a,g),h=gS(a,a_(aw(a,ad(W(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=aw(a,m,d),i=dq(a,bK(aw(a,g,e),r),l);if(i)var
+s=aw(a,m,e),j=dq(a,a_(aw(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cg(function(b){return jk(a,e,d,k,b)},o);return cg(function(b){return jk(a,e,d,k,b)},u)}function
-bY(d,b,a){if(b){if(a)return aq(d,b[1],a[1]);var
+u=cl(function(b){return jx(a,e,d,k,b)},o);return cl(function(b){return jx(a,e,d,k,b)},u)}function
+b1(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-ch(b,j,i){var
-f=ag(B);return function(a){switch(a[0]){case
-0:return[0,t(a[1],j,f)];case
-1:return[0,t(a[1],i,f)];case
-2:return[0,ag(Z(b,a[1]))];case
+cm(b,j,i){var
+f=ad(A);return function(a){switch(a[0]){case
+0:return[0,u(a[1],j,f)];case
+1:return[0,u(a[1],i,f)];case
+2:return[0,ad(W(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return bY(function(b,a){return[0,bH(b,a)]},l,k);case
+k=a[2],l=a[1];return b1(function(b,a){return[0,bK(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return bY(function(b,a){return[0,a_(b,a)]},n,m);case
+m=a[2],n=a[1];return b1(function(b,a){return[0,a_(b,a)]},n,m);case
 5:var
-o=a[1];return cg(function(a){return[0,d6(a)]},o);case
+o=a[1];return cl(function(a){return[0,d_(a)]},o);case
 6:var
-p=a[2],q=a[1];return bY(function(c,a){return[0,av(b,c,a)]},q,p);case
+p=a[2],q=a[1];return b1(function(c,a){return[0,aw(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return bY(function(a,c){return dj(b,a,c)},s,r);case
+r=a[2],s=a[1];return b1(function(a,c){return dq(b,a,c)},s,r);case
 8:var
-u=a[1];return cg(function(a){return[0,d7(b,a)]},u);case
+t=a[1];return cl(function(a){return[0,d$(b,a)]},t);case
 9:var
-v=a[1];return cg(function(a){return gM(b,a)},v);default:var
+w=a[1];return cl(function(a){return gS(b,a)},w);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jl(b,c[1],d[1],e[1]),y=a[1]?ca:aJ;return w(y,x)}var
+x=jy(b,c[1],d[1],e[1]),y=a[1]?cd:aF;return v(y,x)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-d8(c){var
+ea(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=d8(a[1]);if(b)return b;var
+b=ea(a[1]);if(b)return b;var
 a=a[2];continue}}function
-bZ(q,p){var
+b2(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Y(b[1],a[1]);return c?gG(b[2],a[2]):c}return 0;case
+c=Z(b[1],a[1]);return c?gM(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Y(e[1],g[1]):h,j=i?gG(e[2],g[2]):i,k=j?Y(d[1],f[1]):j;return k?gG(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=t(b[1],a[1]),i=h?Z(e[1],g[1]):h,j=i?gM(e[2],g[2]):i,k=j?Z(d[1],f[1]):j;return k?gM(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=bZ(b[1],a[1]);if(l){var
+l=b2(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=bZ(b[1],a[1]);if(m){var
+m=b2(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=bZ(b[1],a[1]);if(n){var
+n=b2(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=bZ(b[1],a[1]);if(o){var
+o=b2(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-d9(b,a){switch(a[0]){case
+eb(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dg(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dm(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e8(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e9(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bW(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bZ(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return df(a,[0,d,c])?0:[0,gJ(b,a)]};break;default:var
-j=d9(b,a[1]);return j?k(b,j[1]):j}var
-h=d9(b,f);if(h){var
-i=d9(b,g);if(i)return e(h[1],i[1]);var
-l=i}else
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dl(a,[0,d,c])?0:[0,gQ(b,a)]};break;default:var
+k=eb(b,a[1]);return k?i(b,k[1]):k}var
+h=eb(b,f);if(h){var
+j=eb(b,g);if(j)return e(h[1],j[1]);var
+l=j}else
 var
 l=h;return l}function
-pz(a){return 0}function
-ci(a){return d9(pz,a)}function
-bp(a,b){switch(b[0]){case
-0:return[0,jh(a,b[1],b[2])];case
+pU(a){return 0}function
+cn(a){return eb(pU,a)}function
+bs(a,b){switch(b[0]){case
+0:return[0,ju(a,b[1],b[2])];case
 1:return 0;case
 2:var
-g=bp(a,b[1]);if(g)var
-h=bp(a,b[2]),C=h?[0,F(g[1],h[1])]:h,r=C;else
+g=bs(a,b[1]);if(g)var
+h=bs(a,b[2]),C=h?[0,G(g[1],h[1])]:h,r=C;else
 var
 r=g;return r;case
 3:var
-i=bp(a,b[1]);if(i)var
-j=bp(a,b[2]),D=j?[0,J(i[1],j[1])]:j,s=D;else
+i=bs(a,b[1]);if(i)var
+j=bs(a,b[2]),D=j?[0,H(i[1],j[1])]:j,s=D;else
 var
 s=i;return s;case
 4:var
-k=bp(a,b[1]);if(k)var
-l=bp(a,b[2]),E=l?[0,x(a,k[1],l[1])]:l,t=E;else
+k=bs(a,b[1]);if(k)var
+l=bs(a,b[2]),E=l?[0,y(a,k[1],l[1])]:l,t=E;else
 var
 t=k;return t;case
 5:var
-m=bp(a,b[1]);if(m){var
-n=bp(a,b[2]);if(n)var
-o=cd(a,n[1]),G=o?[0,x(a,m[1],o[1])]:o,u=G;else
+m=bs(a,b[1]);if(m){var
+n=bs(a,b[2]);if(n)var
+o=cg(a,n[1]),F=o?[0,y(a,m[1],o[1])]:o,u=F;else
 var
 u=n;var
-v=u}else
+w=u}else
 var
-v=m;return v;default:var
-y=b[1],p=bp(a,y);if(p){var
-e=p[1];if(L(d,e[1]))return ce(a,e);var
-f=ci(y),H=f?ac(cC([0,d,c],f[1])):f;if(H)return 0;if(L(d,e[2])){var
-z=ce(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
-q=Y(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fd(b,a){return jh(b,a[1],a[2])}function
-bq(a,d){if(d8(d))switch(d[0]){case
+w=m;return w;default:var
+x=b[1],p=bs(a,x);if(p){var
+e=p[1];if(L(d,e[1]))return ch(a,e);var
+f=cn(x),I=f?_(cJ([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
+z=ch(a,[0,e[2],e[2]]);return v(function(a){return[0,d,a[2]]},z)}var
+q=Z(e[2],d),B=q?[0,A]:q;return B}return p}}function
+fe(b,a){return ju(b,a[1],a[2])}function
+bt(a,d){if(ea(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=dZ(i,jm),k=j?cC(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fd(a,bW(e8(e,g),n)),0],p=f(aG(B,i),o),q=fd(a,e)[2],r=[0,fd(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fd(a,bW(dg(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=cH(i,jz),k=j?cJ(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fe(a,bZ(e9(e,g),n)),0],p=f(aG(A,i),o),q=fe(a,e)[2],r=[0,fe(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fe(a,bZ(dm(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bq(a,d[2]),u=bq(a,d[1]);return bY(function(b,a){return[0,bH(b,a)]},u,t);case
+t=bt(a,d[2]),u=bt(a,d[1]);return b1(function(b,a){return[0,bK(b,a)]},u,t);case
 3:var
-v=bq(a,d[2]),x=bq(a,d[1]);return bY(function(b,a){return[0,a_(b,a)]},x,v);case
+w=bt(a,d[2]),x=bt(a,d[1]);return b1(function(b,a){return[0,a_(b,a)]},x,w);case
 4:var
-m=d[2],h=d[1];if(bZ(h,m)){var
-y=bq(a,h);return cg(function(b){return[0,d7(a,b)]},y)}var
-z=bq(a,m),A=bq(a,h);return bY(function(c,b){return[0,av(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(b2(h,m)){var
+y=bt(a,h);return cl(function(b){return[0,d$(a,b)]},y)}var
+z=bt(a,m),B=bt(a,h);return b1(function(c,b){return[0,aw(a,c,b)]},B,z);case
 5:var
-C=bq(a,d[2]),D=bq(a,d[1]);return bY(function(b,c){return dj(a,b,c)},D,C);default:var
-E=bq(a,d[1]);return cg(function(b){return gM(a,b)},E)}return w(ag,bp(a,d))}function
-aU(b,a){if(d8(a)){var
-c=bq(b,a);return w(function(a){return a[2]},c)}return bp(b,a)}function
-jn(a){var
-e=bk(N(a),d);return d1(y(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jo(a){return i_(y(jn(a),a))}function
-cj(f,a,e){var
-b=aU(y(f,jn(a)),e);if(b)var
-c=b[1],g=jo(a),h=N(cf(N(c[2]),g)),i=jo(a),d=[0,[0,cf(c[1],i),h]];else
+C=bt(a,d[2]),D=bt(a,d[1]);return b1(function(b,c){return dq(a,b,c)},D,C);default:var
+E=bt(a,d[1]);return cl(function(b){return gS(a,b)},E)}return v(ad,bs(a,d))}function
+aW(b,a){if(ea(a)){var
+c=bt(b,a);return v(function(a){return a[2]},c)}return bs(b,a)}function
+jA(a){var
+e=bn(O(a),d);return d5(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jB(a){return jl(z(jA(a),a))}function
+co(f,a,e){var
+b=aW(z(f,jA(a)),e);if(b)var
+c=b[1],g=jB(a),h=O(ci(O(c[2]),g)),i=jB(a),d=[0,[0,ci(c[1],i),h]];else
 var
 d=b;return d}function
-ah(d,a){var
-b=cj(d,a[2],a[1][1]);if(b)var
-c=cj(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+aj(d,a){var
+b=co(d,a[2],a[1][1]);if(b)var
+c=co(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gN(b,a){var
-c=N(cf(N(a[2]),b));return[0,cf(a[1],b),c]}function
-fe(b,a){var
-c=e_(b[2],a);return[0,cc(b[1],a),c]}function
-jp(h,g,d,c){var
-e=c[2],f=i8(d),i=b(2,f),j=v(i4(f),i),a=fe(x(h,c[1],g),j),k=i2(d)?J(e,a):F(e,a);return[0,a,k]}function
-jq(a,d,b){if(b){var
-e=b[1];return jp(a,d,e,jq(a,d,e))}var
-f=Z(a,c);return[0,Z(a,c),f]}function
-jr(e,g){var
-o=cD(e),p=v(b(2,b(2,c)),o),j=G(g[2],p);if(j){var
-n=d0(e),i=pA[1],d=n,f=0,a=i;for(;;){if(d){var
+gT(b,a){var
+c=O(ci(O(a[2]),b));return[0,ci(a[1],b),c]}function
+ff(b,a){var
+c=e$(b[2],a);return[0,cf(b[1],a),c]}function
+jC(h,g,d,c){var
+e=c[2],f=jj(d),i=b(2,f),j=w(jf(f),i),a=ff(y(h,c[1],g),j),k=jd(d)?H(e,a):G(e,a);return[0,a,k]}function
+jD(a,d,b){if(b){var
+e=b[1];return jC(a,d,e,jD(a,d,e))}var
+f=W(a,c);return[0,W(a,c),f]}function
+jE(e,g){var
+o=cK(e),p=w(b(2,b(2,c)),o),j=F(g[2],p);if(j){var
+n=d4(e),i=pV[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=Q(i1(pD,Q(pB,f)),pC),l=jq(e,g,k),q=jp(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=M(jc(pY,M(pW,f)),pX),l=jD(e,g,k),q=jC(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-js(i){function
+jF(i){function
 a(h){var
-m=cc(cD(i),h),g=d0(i),f=m,e=d,a=c;for(;;){if(g){var
-j=y(a,b(2,c)),k=y(e,cc(f,a)),l=N(cc(f,v(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(n(b(2,n(b(2,n(b(2,n(b(2,b(2,n(b(2,n(b(2,c)))))))))))))),f=v(b(2,b(2,c)),e),g=a(n(b(2,b(2,c))));return aE(v(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jt(e,a){var
-f=G(d,a);if(f){var
-g=b(2,b(2,c));return jr(e,fe(_(e,[0,a,a]),g))}return f}function
-ju(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aE(js(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=y(js(a),n),e=jt(a,g);if(e){var
-f=jt(a,h);if(f)var
+m=cf(cK(i),h),g=d4(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,cf(f,a)),l=O(cf(f,w(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=w(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return aE(w(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jG(e,a){var
+f=F(d,a);if(f){var
+g=b(2,b(2,c));return jE(e,ff($(e,[0,a,a]),g))}return f}function
+jH(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aE(jF(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jF(a),n),e=jG(a,g);if(e){var
+f=jG(a,h);if(f)var
 i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jv(a,d){var
-b=_(a,d),e=Z(a,c);return J(F(b,b),e)}function
-dk(f,j){var
-e=aU(y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=y(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=ju(a);if(d)var
-h=b(2,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))))),i=jr(a,_(a,fe(x(a,k,d[1]),h))),g=w(function(b){return jv(a,jv(a,b))},i);else
+jI(a,d){var
+b=$(a,d),e=W(a,c);return H(G(b,b),e)}function
+dr(f,j){var
+e=aW(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jH(a);if(d)var
+h=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),i=jE(a,$(a,ff(y(a,k,d[1]),h))),g=v(function(b){return jI(a,jI(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gN(l,a)},g)}return e}function
-jw(a,d){var
-e=ju(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
-f=b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))));return fe(x(a,d,gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-ff(d,a){return dk(d,[3,a,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return v(function(a){return gT(l,a)},g)}return e}function
+jJ(a,d){var
+e=jH(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return v(function(e){var
+f=b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))));return ff(y(a,d,gT(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fg(d,a){return dr(d,[3,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
-f=ci(b);if(f){var
-g=f[1];return e?ac(cC(g,[0,d,c])):cC([0,d,c],g)}var
-a=aU(i,b);if(a){var
-h=a[1];return e?L(d,h[1]):G(d,h[1])}return a}function
-jx(c,b){var
-a=aU(c,b),d=a?1:a;return d}function
-ba(c,a,b){var
-d=bZ(a,b),e=d?jx(c,a):d;return e?e:g(c,0,[3,b,a])}function
-pE(c){var
-a=e9(c),g=d1(e5(a[2])),b=[0,e5(a[1]),g],e=L(d,a[1]),f=e?df(bW(b,b),c):e,h=f?[0,b]:f;return h}function
-jy(a){if(a){var
-e=a[2],b=a[1];if(df(bn([0,d,c],b),[0,d,c])){var
-g=jy(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+f=cn(b);if(f){var
+g=f[1];return e?_(cJ(g,[0,d,c])):cJ([0,d,c],g)}var
+a=aW(i,b);if(a){var
+h=a[1];return e?L(d,h[1]):F(d,h[1])}return a}function
+jK(c,b){var
+a=aW(c,b),d=a?1:a;return d}function
+bd(c,a,b){var
+d=b2(a,b),e=d?jK(c,a):d;return e?e:g(c,0,[3,b,a])}function
+pZ(c){var
+a=e_(c),g=d5(e6(a[2])),b=[0,e6(a[1]),g],e=L(d,a[1]),f=e?dl(bZ(b,b),c):e,h=f?[0,b]:f;return h}function
+jL(a){if(a){var
+e=a[2],b=a[1];if(dl(br([0,d,c],b),[0,d,c])){var
+g=jL(e);return v(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jz(b,a){var
-e=aK(b,a),f=[0,d,c];return aR(function(a,b){return e9(dg(bW(a[1],a[2]),b))},f,e)}function
-jA(b,j){if(b){var
-f=b[1],g=jy(j);if(g){var
+jM(b,a){var
+e=aI(b,a),f=[0,d,c];return aT(function(a,b){return e_(dm(bZ(a[1],a[2]),b))},f,e)}function
+jN(b,j){if(b){var
+f=b[1],g=jL(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bn([0,d,c],a),g=gJ(bn([0,d,c],b),f),h=bE(a),i=aK(bE(b),h);return e(function(a){var
-b=bW(g,a[2]);return e9(e8(a[1],b))},i)},l=jA(f,e(k,h[2]));return w(function(b){var
-e=bn([0,d,c],a);return[0,e9(gJ(je(jz(bE(a),b)),e)),b]},l)}var
+f=br([0,d,c],a),g=gQ(br([0,d,c],b),f),h=bI(a),i=aI(bI(b),h);return e(function(a){var
+b=bZ(g,a[2]);return e_(e9(a[1],b))},i)},l=jN(f,e(k,h[2]));return v(function(b){var
+e=br([0,d,c],a);return[0,e_(gQ(jr(jM(bI(a),b)),e)),b]},l)}var
 i=[0,[0,[0,c,c],aG([0,d,c],f)]]}else
 var
 i=b;return i}function
-jB(a){if(a){var
-b=d9(pE,a[1]);if(b)var
-c=jB(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+jO(a){if(a){var
+b=eb(pZ,a[1]);if(b)var
+c=jO(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pF}function
-jC(a){if(a){var
-b=jB(a[1]);if(b)var
-c=jC(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return p0}function
+jP(a){if(a){var
+b=jO(a[1]);if(b)var
+c=jP(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return pG}function
-jD(i,l){var
-a=jC(l);if(a){var
-j=a[1],b=jA(i,j);if(b){var
-e=b[1],f=u(h(e),i),g=f?ap(function(a){return ac(df(a,[0,d,c]))},e):f;return g?p(function(a){return df(jz(a,e),[0,d,c])},j):g}var
+d=b;return d}return p1}function
+jQ(i,l){var
+a=jP(l);if(a){var
+j=a[1],b=jN(i,j);if(b){var
+e=b[1],f=t(h(e),i),g=f?ai(function(a){return _(dl(a,[0,d,c]))},e):f;return g?n(function(a){return dl(jM(a,e),[0,d,c])},j):g}var
 k=b}else
 var
 k=a;return k}function
-pH(a){return a}function
-pI(a){return a}function
-pJ(a,b){return aS(pI,pH,F,a,b)}function
-pK(a){return a}function
-pL(a){return a}function
-ck(a,b){return aS(pL,pK,pJ,a,b)}function
-gO(b,a,c){if(a){var
+p2(a){return a}function
+p3(a){return a}function
+p4(a,b){return aU(p3,p2,G,a,b)}function
+p5(a){return a}function
+p6(a){return a}function
+cp(a,b){return aU(p6,p5,p4,a,b)}function
+gU(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gO(b,f,c[2]),h=c[1],i=function(c,a){return J(c,d4(d,a,b))},j=function(a){return af(d4(d,a,b))};return[0,aS(function(a){return a},j,i,h,a),g]}var
-k=gO(b,f,0);return[0,e(function(a){return af(d4(d,a,b))},a),k]}return c}function
-gP(a){if(a){var
+g=gU(b,f,c[2]),h=c[1],i=function(c,a){return H(c,d8(d,a,b))},j=function(a){return ag(d8(d,a,b))};return[0,aU(function(a){return a},j,i,h,a),g]}var
+k=gU(b,f,0);return[0,e(function(a){return ag(d8(d,a,b))},a),k]}return c}function
+gV(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),h=e?[0,gO(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),h=e?[0,gU(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jE(f,e){var
+jR(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gP(b);if(c){var
+c=gV(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jF(d,b,a){if(b)if(a)var
-e=a[1],f=jF(d,b[2],a[2]),g=cb(d,b[1])?e$(e):di(e),c=[0,g,f];else
+jS(d,b,a){if(b)if(a)var
+e=a[1],f=jS(d,b[2],a[2]),g=ce(d,b[1])?fa(e):dp(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jG(a,b){if(a)if(b)var
-d=jG(a[2],b[2]),c=[0,jF(a[1],a,b[1]),d];else
+jT(a,b){if(a)if(b)var
+d=jT(a[2],b[2]),c=[0,jS(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-br(a){if(a){var
-b=a[1],c=br(b),d=e(function(a){return[0,1,a]},c),g=br(b);return f(e(function(a){return[0,0,a]},g),d)}return pM}function
-dl(a){var
-b=h(a);if(jE(b,a))return 1;var
-c=br(bD(b));return p(function(c){return jE(b,jG([0,0,c],a))},c)}function
-as(a){function
+bu(a){if(a){var
+b=a[1],c=bu(b),d=e(function(a){return[0,1,a]},c),g=bu(b);return f(e(function(a){return[0,0,a]},g),d)}return p7}function
+ds(a){var
+b=h(a);if(jR(b,a))return 1;var
+c=bu(bq(b));return n(function(c){return jR(b,jT([0,0,c],a))},c)}function
+ar(a){function
 b(b){var
-c=k(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aV(h,e){var
+c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aX(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?F(a,d):J(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gQ(c,b,a){var
-d=br(c);return p(function(c){return k(a,k(as(function(a){return aV(c,a)}),b))},d)}function
-gR(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a7(b,y(h,c),a)},k=gR(h,j,i),l=function(c,b){var
-d=a(b,e);return F(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,F(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?G(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+gW(c,b,a){var
+d=bu(c);return n(function(c){return i(a,i(ar(function(a){return aX(c,a)}),b))},d)}function
+gX(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a8(b,z(h,c),a)},k=gX(h,j,i),l=function(c,b){var
+d=a(b,e);return G(a(f,c),d)},m=function(b){return a(b,e)},n=aU(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,G(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fg(b,d,a,c){function
+fh(b,d,a,c){function
 e(c,d){var
-e=a7(d,b,a);return J(F(c,c),e)}function
-f(c){return af(a7(c,b,a))}return aS(function(a){return F(a,a)},f,e,d,c)}function
-fh(d,i,h,g){var
+e=a8(d,b,a);return H(G(c,c),e)}function
+f(c){return ag(a8(c,b,a))}return aU(function(a){return G(a,a)},f,e,d,c)}function
+fi(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=di(e[2]),k=ck(a,gR(d,f,fg(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gS(b,a){return[0,[0,0,b],a]}function
-dm(b,c,g,f,a){function
+e=b[1],f=c[1],j=dp(e[2]),k=cp(a,gX(d,f,fh(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gY(b,a){return[0,[0,0,b],a]}function
+dt(b,c,g,f,a){function
 d(a){if(a){var
-i=aG([0,af(a[1][2]),0],b),c=fh(g,f,a[2],i),d=u(h(c),b);if(d)return dl(c);var
+i=aG([0,ag(a[1][2]),0],b),c=fi(g,f,a[2],i),d=t(h(c),b);if(d)return ds(c);var
 e=d}else
 var
-e=a;return e}return gQ(b,gS(c,a),d)}function
-fi(f,e){var
+e=a;return e}return gW(b,gY(c,a),d)}function
+fj(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gP([0,[0,e$(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gV([0,[0,fa(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gT(b,c,a){function
+gZ(b,c,a){function
 d(a){if(a){var
-i=aG([0,a[1][2],0],b),c=fi(a[2],i);if(c){var
-d=c[1],e=u(h(d),b);if(e)return dl(d);var
+i=aG([0,a[1][2],0],b),c=fj(a[2],i);if(c){var
+d=c[1],e=t(h(d),b);if(e)return ds(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gQ(b,gS(c,a),d)}function
-jH(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jI(b,a){var
-c=br(b);return p(function(b){return L(d,aV(b,a)[1])},c)}function
-jJ(c,b,a){var
-d=a[3],f=e(function(a){return a7(c,b,a)},d),g=a[2];return[0,a7(c,b,a[1]),g,f]}function
-jK(a,b){var
-c=b[3],d=a[3],e=aS(function(a){return a},af,J,d,c),f=a[2];return[0,J(a[1],b[1]),f,e]}function
-bI(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ai(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-aW(b,a){var
+g=a;return g}return gW(b,gY(c,a),d)}function
+jU(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jV(b,a){var
+c=bu(b);return n(function(b){return L(d,aX(b,a)[1])},c)}function
+jW(c,b,a){var
+d=a[3],f=e(function(a){return a8(c,b,a)},d),g=a[2];return[0,a8(c,b,a[1]),g,f]}function
+jX(a,b){var
+c=b[3],d=a[3],e=aU(function(a){return a},ag,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
+bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ak(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+aY(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
-cl(b,a){var
-c=al(b[3],a),d=al(b[2],a);return[0,al(b[1],a),d,c]}function
-V(b,a){var
+cq(b,a){var
+c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
+X(b,a){var
 c=q(b[3],a[3]),d=q(b[2],a[2]);return C(C(q(b[1],a[1]),d),c)}function
-cJ(a){return cl(a,az(V(a,a)))}function
-cm(a){var
+cO(a){return cq(a,az(X(a,a)))}function
+cr(a){var
 b=a[5];return b?b[1]:az(a[2])}function
-fj(b,a){return b?a:bo(a)}function
-jL(e,a,i,d,h){var
-f=V(a,e),b=ai(s,e,aW(f,a)),j=V(b,b),g=s(K(d),j),c=fj(h,az(g)),k=s(f,c),l=ai(C,a,cl(b,c));return[0,ai(C,b,aW(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jM(a,e,d){var
-b=V(a,a),c=az(b),f=[0,e],g=w(function(b){return ai(s,a,aW(V(b,a),b))},d);return[0,a,b,cl(a,c),c,0,g,f]}function
-jN(b,a){var
-d=V(a,b);return[0,a,l(c),a,d,0,0,0]}function
-d_(a){return e(function(a){var
-b=a[2];return[0,bI(a[1]),b]},a)}function
-jO(a){return e(function(a){var
-b=l(c);return[0,bI(a[3]),b]},a)}function
-jP(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-jQ(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
-gU(d,a){var
-b=ce(d,[0,a[2],a[2]]);if(b){var
+fk(b,a){return b?a:bc(a)}function
+jY(e,a,i,d,h){var
+f=X(a,e),b=ak(s,e,aY(f,a)),j=X(b,b),g=s(K(d),j),c=fk(h,az(g)),k=s(f,c),l=ak(C,a,cq(b,c));return[0,ak(C,b,aY(c,a)),g,l,k,[0,d],0,[0,i]]}function
+jZ(a,e,d){var
+b=X(a,a),c=az(b),f=[0,e],g=v(function(b){return ak(s,a,aY(X(b,a),b))},d);return[0,a,b,cq(a,c),c,0,g,f]}function
+j0(b,a){var
+d=X(a,b);return[0,a,l(c),a,d,0,0,0]}function
+ec(a){return e(function(a){var
+b=a[2];return[0,bL(a[1]),b]},a)}function
+j1(a){return e(function(a){var
+b=l(c);return[0,bL(a[3]),b]},a)}function
+j2(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+j3(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+g0(d,a){var
+b=ch(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fk(a,m,f,l,e,k,j){var
-n=jQ(a_,k,j),b=jQ(function(b,c){return av(a,b,c)},e,n),c=b[3],g=b[2],h=b[1],i=bH(bH(bH(ag(Z(a,d)),h),g),c),o=br(m);return p(function(c){var
-b=jP(function(b){return _(a,aV(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,gU(a,F(F(F(Z(a,d),k),j),h))),g=J(aV(c,i),m),n=f?J(g,aV(c,f[1])):g;return L(d,n[1])},o)}function
-bJ(a){return cB(y(a[1],a[2]),c)}function
-dn(a){var
-b=bJ(a);return aE(a[2],b)}function
-fl(c,b){if(b)var
-a=b[1],e=fl([0,c],b[2]),g=dn(a),h=[0,[0,dn(a),g],0],i=f(aG(B,c),h),j=bJ(a),d=[0,[0,[0,bJ(a),j],a,i],e];else
+fl(a,m,f,l,e,k,j){var
+o=j3(a_,k,j),b=j3(function(b,c){return aw(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bK(bK(bK(ad(W(a,d)),h),g),c),p=bu(m);return n(function(c){var
+b=j2(function(b){return $(a,aX(c,b))},e),h=b[3],j=b[2],k=b[1],m=y(a,l,g0(a,G(G(G(W(a,d),k),j),h))),g=H(aX(c,i),m),n=f?H(g,aX(c,f[1])):g;return L(d,n[1])},p)}function
+bM(a){return cI(z(a[1],a[2]),c)}function
+du(a){var
+b=bM(a);return aE(a[2],b)}function
+fm(c,b){if(b)var
+a=b[1],e=fm([0,c],b[2]),g=du(a),h=[0,[0,du(a),g],0],i=f(aG(A,c),h),j=bM(a),d=[0,[0,[0,bM(a),j],a,i],e];else
 var
 d=b;return d}function
-d$(d,b){if(b){var
+ed(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=d$(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bJ(a),f],c],h=bJ(a);return[0,[0,[0,a[1],h],c],g]}return pN}function
-jR(d,b,a){if(b){if(a){var
-e=jR(d,b[2],a[2]);return F(a7(b[1],y(d,c),a[1]),e)}return B}return B}function
-ea(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return jR(f,a,b)},j=ea(f,h),k=e(function(a){var
-e=b(d,a[2]);return F(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,F(b(d,c),l),k],j];else
+e=ed(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bM(a),f],c],h=bM(a);return[0,[0,[0,a[1],h],c],g]}return p8}function
+j4(d,b,a){if(b){if(a){var
+e=j4(d,b[2],a[2]);return G(a8(b[1],z(d,c),a[1]),e)}return A}return A}function
+ee(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return j4(f,a,b)},j=ee(f,h),k=e(function(a){var
+e=b(d,a[2]);return G(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,G(b(d,c),l),k],j];else
 var
 i=a;return i}function
-eb(e,b,d,a){if(b)if(a)var
-f=b[1],g=eb(e,b[2],d,a[2]),c=[0,[0,f,fg(e,a[1][1],d,f)],g];else
+ef(e,b,d,a){if(b)if(a)var
+f=b[1],g=ef(e,b[2],d,a[2]),c=[0,[0,f,fh(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fm(f,d,c,b,a){if(a){var
+fn(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fm(f,d[1],c,b,g);return[0,[0,J(B,b),0],i]}var
-j=e(function(a){return[0,J(B,b),0]},g),h=[0,[0,J(af(x(f,c,di(a[1][2]))),b),0],j]}else
+i=fn(f,d[1],c,b,g);return[0,[0,H(A,b),0],i]}var
+j=e(function(a){return[0,H(A,b),0]},g),h=[0,[0,H(ag(y(f,c,dp(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bK(c,a){var
-b=u(h(a),c);return b?dl(a):b}function
-jS(d,b,a){if(b)var
-c=b[1],g=jS([0,d],b[2],a),h=f(aG(B,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),y(c[2],a[2])],h],g];else
+bv(c,a){var
+b=t(h(a),c);return b?ds(a):b}function
+j5(d,b,a){if(b)var
+c=b[1],g=j5([0,d],b[2],a),h=f(aG(A,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),z(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-jT(d){if(d){var
+j6(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=jT(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=j6(d[2]);return v(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return pO}function
-gV(a){return w(function(a){return w(d6,a)},a)}function
-cn(c,b,a){function
-d(a){return av(c,b,a)}return w(function(a){return w(d,a)},a)}function
-gW(c,b,a){function
-d(a){return dj(c,a,b)}return w(function(a){return cg(d,a)},a)}function
-dp(b,a){var
-c=aK(b,a);return e(function(c){var
+f=a;return f}return p9}function
+g1(a){return v(function(a){return v(d_,a)},a)}function
+cs(c,b,a){function
+d(a){return aw(c,b,a)}return v(function(a){return v(d,a)},a)}function
+g2(c,b,a){function
+d(a){return dq(c,a,b)}return v(function(a){return cl(d,a)},a)}function
+dv(b,a){var
+c=aI(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,bY(function(b,a){return[0,bH(b,a)]},e,d)]}return b}return a},c)}function
-fn(a){return ag(Z(a,b(2,c)))}function
-jU(b,c,a){if(a)var
-f=a[1],g=jU(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,b1(function(b,a){return[0,bK(b,a)]},e,d)]}return b}return a},c)}function
+fo(a){return ad(W(a,b(2,c)))}function
+j7(b,c,a){if(a)var
+f=a[1],g=j7(b,c,a[2]),d=[0,e(function(a){return ag(y(b,y(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-jV(a){return p(function(a){var
-b=Y(a[1],d);return b?Y(a[2],d):b},a)}function
-jW(c,b,a){var
-d=aK(b,a);return aR(function(a,b){return F(x(c,a[1],a[2]),b)},B,d)}function
-gX(c,b,a){var
-d=cE(jW(c,a,b));return aR(function(b,a){return y(cE(b),a)},d,a)}function
-dq(a){return Z(a,c)}function
-gY(a,i,c,u,t){var
+g3(a){return n(function(a){var
+b=Z(a[1],d);return b?Z(a[2],d):b},a)}function
+j8(c,b,a){var
+d=aI(b,a);return aT(function(a,b){return G(y(c,a[1],a[2]),b)},A,d)}function
+g4(c,b,a){var
+d=cL(j8(c,a,b));return aT(function(b,a){return z(cL(b),a)},d,a)}function
+dw(a){return W(a,c)}function
+g5(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!jV(c)&&!jV(j)){var
-h=gX(a,i,j),o=dq(a),p=gX(a,i,c),b=d4([0,gX(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=a8(gK(a,[0,b,b])),r=function(b){return function(d,c){return J(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,ck(e,jU(a,q,aS(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!g3(c)&&!g3(j)){var
+h=g4(a,i,j),o=dw(a),p=g4(a,i,c),b=d8([0,g4(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=a9(gR(a,[0,b,b])),r=function(b){return function(d,c){return H(y(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cp(e,j7(a,q,aU(function(c){return function(b){return y(a,c,b)}}(s),ag,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-p3(a){var
-b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-jX(c,b,a){if(b){if(a){var
-d=jX(c,b[2],a[2]);return F(a7(b[1],c,a[1]),d)}return B}return B}function
-jY(a,j){switch(j){case
+qm(a){var
+b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
+j9(h,n,a,m,l,k){var
+d=m,c=l,b=k;for(;;){if(d){if(c){var
+i=c[1],j=i[1],f=d[1],o=dp(j[2]),p=cp(b,gX(a,f,fh(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(a9,fh(a,b[1],b[2],c))}}(f),q),g=g5(h,n,e(function(b){return a8(b,a,dw(h))},f),r,p);if(g){var
+d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
+j_(c,b,a){if(b){if(a){var
+d=j_(c,b[2],a[2]);return G(a8(b[1],c,a[1]),d)}return A}return A}function
+j$(a,j){switch(j){case
 0:var
 d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cB(y(a[1],a[2]),c),h=aE(b,a[2]),i=aE(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-jZ(d,c,a){if(a)var
-e=a[1],g=jZ(d,[0,c],a[2]),b=w(ca,jc(function(a){return u(a[1],c)},d)),h=b?jY(e,b[1])[1]:e,f=[0,h,g];else
+b=cI(z(a[1],a[2]),c),h=aE(b,a[2]),i=aE(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+g6(d,c,a){if(a)var
+e=a[1],g=g6(d,[0,c],a[2]),b=v(cd,jp(function(a){return t(a[1],c)},d)),h=b?j$(e,b[1])[1]:e,f=[0,h,g];else
 var
-f=a;return f}var
-p4=ag(B);function
-j0(e,d,c){if(d){var
-f=t(e,c[2],p5),a=f?f[1]:[0,p4];if(a)var
-b=j0([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+f=a;return f}function
+ka(a,b){return e(function(a){var
+c=a[2];return j$(u(a[1],b,A),c)[2]},a)}function
+kb(i,b,g,a){function
+d(a){return aX(b,a[1])}var
+h=0,j=ad(A);function
+c(g,d,a,b){if(a){var
+h=function(a){return aX(g,u(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+b=y(i,a,l);return[0,e(function(b){return y(i,a,b)},k),b]},n),m)}return a}var
+k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
+qn=ad(A);function
+kc(e,d,c){if(d){var
+f=u(e,c[2],qo),a=f?f[1]:[0,qn];if(a)var
+b=kc([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return p6}function
-gZ(d,c,b,a){var
-f=e(ag,b);return bG(0,ch(d,fl(0,a),f),c,0)}function
-aj(a){if(a){var
+g=a;return g}return qp}function
+g7(d,c,b,a){var
+f=e(ad,b);return bJ(0,cm(d,fm(0,a),f),c,0)}function
+ae(a){if(a){var
 b=a[1];if(b)var
-c=aj(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ae(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p7}function
-fo(b,a){if(a){var
-h=a[1],n=h[1],c=aj(e(function(a){return t(a,b,0)},n));if(c){var
-f=t(h[2],b,0);if(f){var
-i=f[1],g=fo(b,a[2]);if(g)var
+d=b;return d}return qq}function
+fp(b,a){if(a){var
+h=a[1],n=h[1],c=ae(e(function(a){return u(a,b,0)},n));if(c){var
+f=u(h[2],b,0);if(f){var
+i=f[1],g=fp(b,a[2]);if(g)var
 j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1759,91 +1783,91 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return p8}function
-b0(d,c,b){var
-a=fo(d,c);return a?k(b,a[1]):a}function
-dr(a,b){return p(function(c){var
-a=t(c,b,0),d=a?1:a;return d},a)}function
-fp(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,F,e,d),h=a[2];return[0,F(a[1],c[1]),h,g]}return a}function
-g0(b,a){return b?jK(a,b[1]):a}function
-g1(h,g,b,f){var
-a=t(f,h,0);if(a){var
+m=c;return m}return qr}function
+b3(d,c,b){var
+a=fp(d,c);return a?i(b,a[1]):a}function
+dx(a,b){return n(function(c){var
+a=u(c,b,0),d=a?1:a;return d},a)}function
+fq(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aU(function(a){return a},f,G,e,d),h=a[2];return[0,G(a[1],c[1]),h,g]}return a}function
+g8(b,a){return b?jX(a,b[1]):a}function
+g9(h,g,b,f){var
+a=u(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jK(c,b[1]),e=br(g);return p(function(a){return G(d,aV(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-j1(f,d,a){function
-b(a){return a7(a,d,Z(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),B,g]}return ag(B)}function
-fq(b,a){var
-c=t(a[1],b,0);if(c){var
-d=t(a[2],b,0);if(d)var
-e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=jX(c,b[1]),e=bu(g);return n(function(a){return F(d,aX(a,i)[1])},e)}return F(d,c[2][1])}return a}function
+kd(f,d,a){function
+b(a){return a8(a,d,W(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),A,g]}return ad(A)}function
+fr(b,a){var
+c=u(a[1],b,0);if(c){var
+d=u(a[2],b,0);if(d)var
+e=u(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-fr(j,k,J,t,i,b,g,f,a){switch(f[0]){case
+fs(j,k,J,u,i,b,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dr(t,i);if(K){var
-ad=a[2],ae=a[1],af=fp(g,ag(r));return b0(i,k,function(a){return dm(b,af,ae,ad,a)})}return K;case
+K=dx(u,i);if(K){var
+ae=a[2],af=a[1],ag=fq(g,ad(r));return b3(i,k,function(a){return dt(b,ag,af,ae,a)})}return K;case
 1:var
-L=dr(t,i);if(L){var
-ah=a[2],ai=a[1],aj=fp(g,ag(r));return b0(i,J,function(a){return dm(b,aj,ai,ah,a)})}return L;case
+L=dx(u,i);if(L){var
+ah=a[2],ai=a[1],aj=fq(g,ad(r));return b3(i,J,function(a){return dt(b,aj,ai,ah,a)})}return L;case
 2:var
-M=dr(t,i);if(M){if(g)return 0;var
-N=Y(r[1],d),O=N?Y(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return b0(i,k,function(a){return dm(b,[0,B,B,0],al,ak,jH([0,B,B,0],a))})}var
+M=dx(u,i);if(M){if(g)return 0;var
+N=Z(r[1],d),O=N?Z(r[2],d):N;if(O){var
+ak=a[2],al=a[1];return b3(i,k,function(a){return dt(b,[0,A,A,0],al,ak,jU([0,A,A,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=g0(g,ag(Q));return b0(i,J,function(a){return gT(b,am,a)})}if(!a){var
-an=g0(g,ag(Q));return b0(i,k,function(a){return gT(b,an,a)})}}return 0;case
+am=g8(g,ad(Q));return b3(i,J,function(a){return gZ(b,am,a)})}if(!a){var
+an=g8(g,ad(Q));return b3(i,k,function(a){return gZ(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=j1(j,R,a[3]),S=f[1],ao=a[2];return b0(i,k,function(d){var
-a=jI(b,l),c=a?dm(b,fp(g,l),R,ao,d):a;if(c){var
-f=l[3],h=e(function(a){return x(j,S,a)},f),i=l[2];return gT(b,g0(g,[0,x(j,S,l[1]),i,h]),d)}return c})}return 0;case
+R=a[1],l=kd(j,R,a[3]),S=f[1],ao=a[2];return b3(i,k,function(d){var
+a=jV(b,l),c=a?dt(b,fq(g,l),R,ao,d):a;if(c){var
+f=l[3],h=e(function(a){return y(j,S,a)},f),i=l[2];return gZ(b,g8(g,[0,y(j,S,l[1]),i,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return g1(i,b,g,f[1]);return 0;case
+a==="number"&&!a)return g9(i,b,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fp(g,ag(f[2])),as=function(a){return dm(b,ar,aq,ap,a)};return b0(i,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fq(g,ad(f[2])),as=function(a){return dt(b,ar,aq,ap,a)};return b3(i,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return g1(i,b,g,f[1]);case
-2:return g1(i,b,g,f[2])}return 0;case
+0:return g9(i,b,g,f[1]);case
+2:return g9(i,b,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fq(i,f[1]);if(v){var
-w=fq(i,f[2]);if(w){var
-z=fq(i,f[3]);if(z){var
-A=fq(i,f[4]);if(A){var
-T=A[1],U=z[1],V=w[1],W=v[1],m=a[2],s=f[5],at=a[1];if(m){var
-n=m[2];if(n){var
-o=n[2];if(o){if(o[2])return 0;var
-ac=[0,m[1],n[1],o[1]],q=jP(function(d){function
-f(a){return a7(a,at,Z(j,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fb(a),h=y(b[2],g),i=fb(a);return[0,b,[0,aE(b[1],i),h],a]}return ag(B)},ac),C=p(function(a){return u(h(a),[0,b])},m),D=C?fk(j,b,g,s,q,W,U):C,E=D?fk(j,b,g,s,q,W,T):D,F=E?fk(j,b,g,s,q,V,U):E;if(F)return fk(j,b,g,s,q,V,T);var
+v=fr(i,f[1]);if(v){var
+w=fr(i,f[2]);if(w){var
+x=fr(i,f[3]);if(x){var
+B=fr(i,f[4]);if(B){var
+T=B[1],U=x[1],V=w[1],X=v[1],m=a[2],s=f[5],at=a[1];if(m){var
+o=m[2];if(o){var
+p=o[2];if(p){if(p[2])return 0;var
+ac=[0,m[1],o[1],p[1]],q=j2(function(d){function
+f(a){return a8(a,at,W(j,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fc(a),h=z(b[2],g),i=fc(a);return[0,b,[0,aE(b[1],i),h],a]}return ad(A)},ac),C=n(function(a){return t(h(a),[0,b])},m),D=C?fl(j,b,g,s,q,X,U):C,E=D?fl(j,b,g,s,q,X,T):D,F=E?fl(j,b,g,s,q,V,U):E;if(F)return fl(j,b,g,s,q,V,T);var
 G=F}else
 var
-G=o;var
+G=p;var
 H=G}else
 var
-H=n;var
+H=o;var
 I=H}else
 var
 I=m;return I}var
-X=A}else
+Y=B}else
 var
-X=z;var
-_=X}else
+Y=x;var
+_=Y}else
 var
 _=w;var
 $=_}else
@@ -1851,47 +1875,47 @@ var
 $=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],au=f[2],av=f[1];return b0(i,k,function(e){var
-a=u(h(e),b),d=a?u(h(aa),b):a;if(d){var
+aa=a[2],ab=a[1],au=f[2],av=f[1];return b3(i,k,function(e){var
+a=t(h(e),b),d=a?t(h(aa),b):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=u(h(d),b);if(e){var
-g=ea(ab,eb(ab,aa,Z(j,c),d));return bK(b,ck(fm(j,av,au,a[1][2],d),g))}var
+d=a[2],e=t(h(d),b);if(e){var
+g=ee(ab,ef(ab,aa,W(j,c),d));return bv(b,cp(fn(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},i=g?g[1]:ag(B);return gQ(b,gS(i,e),f)}return d})}return 0;case
+f=a;return f},i=g?g[1]:ad(A);return gW(b,gY(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jH([0,B,B,0],d),c=g?g[1]:[0,B,B,0];return dm(b,c,ax,aw,a)};return b0(i,f[1],ay)}return 0;default:return 0}}function
-j2(a,Y,I,l,o,X,g,j,i,f,b){if(9===f[0]){if(typeof
+a=jU([0,A,A,0],d),c=g?g[1]:[0,A,A,0];return dt(b,c,ax,aw,a)};return b3(i,f[1],ay)}return 0;default:return 0}}function
+ke(a,Z,J,l,p,Y,g,k,j,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-$=f[1],T=e(ag,X),A=bG(0,ch(a,jS(0,j,$),T),Y,0),K=u(h(j),p9),M=K?dr(o,A):K;if(M){var
-q=fo(A,l);if(q){var
-r=fo(g,l);if(r){var
-aa=f[2],s=aj(e(function(b){var
-c=t(b[1],g,0);if(c)var
-f=b[2][2],a=aj(e(function(a){var
-b=t(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+_=f[1],T=e(ad,Y),B=bJ(0,cm(a,j5(0,k,_),T),Z,0),K=t(h(k),qs),M=K?dx(p,B):K;if(M){var
+q=fp(B,l);if(q){var
+r=fp(g,l);if(r){var
+aa=f[2],s=ae(e(function(b){var
+c=u(b[1],g,0);if(c)var
+f=b[2][2],a=ae(e(function(a){var
+b=u(a[2],g,0);return v(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(s){var
-v=jT(q[1]);if(v){var
-N=b[2],z=b[1],O=r[1],ab=b[3],ac=s[1],ad=v[1],C=gU(a,aR(function(f,h){function
+w=j6(q[1]);if(w){var
+N=b[2],x=b[1],O=r[1],ab=b[3],ac=s[1],af=w[1],C=g0(a,aT(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cE(t(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cL(u(d,c[3],A))}function
 c(a){var
-b=k(a,pP),c=bk(k(a,pQ),b);return bk(k(a,0),c)}var
+b=i(a,p_),c=bn(i(a,p$),b);return bn(i(a,0),c)}var
 d=c(function(a){var
-c=b(pR,a),d=b(pS,a);return y(y(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,pT),d=b(a,pU);return y(y(b(a,0),d),c)});return F(h,_(a,gU(a,x(a,[0,e,e],g))))},B,ad)),m=a7(ab,z,Z(a,c)),D=L(d,J(m,C)[1]),E=D?u(h(N),p0):D,G=E?u(h(O),p1):E;if(G){var
-n=cd(a,m);if(n){var
-U=a8(x(a,C,n[1])),V=J(Z(a,c),U),W=br(p2);return p(function(h){var
+c=b(qa,a),d=b(qb,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qc),d=b(a,qd);return z(z(b(a,0),d),c)});return G(h,$(a,g0(a,y(a,[0,e,e],g))))},A,af)),m=a8(ab,x,W(a,c)),D=L(d,H(m,C)[1]),E=D?t(h(N),qj):D,F=E?t(h(O),qk):E;if(F){var
+o=cg(a,m);if(o){var
+U=a9(y(a,C,o[1])),V=H(W(a,c),U),X=bu(ql);return n(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return di(dd(function(d,b){var
-c=cE(aV(h,b[2]));return F(d,x(a,b[1],[0,c,c]))},c,d))},ac),r=k(as(function(a){return aV(h,a)}),O),D=i?aV(h,i[1]):B,L=_(a,V),s=_(a,m),q=ea(z,eb(z,N,Z(a,c),r)),b=ck(aG([0,af(D),0],pV),q);if(g){var
+c=b[2],d=b[1];return dp(dj(function(d,b){var
+c=cL(aX(h,b[2]));return G(d,y(a,b[1],[0,c,c]))},c,d))},ac),r=i(ar(function(a){return aX(h,a)}),O),D=j?aX(h,j[1]):A,L=$(a,V),s=$(a,m),q=ee(x,ef(x,N,W(a,c),r)),b=cp(aG([0,ag(D),0],qe),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],C=g[1],G=f[1],j=bK(pX,ck(aG([0,af(s),0],pW),b));if(j)return p(function(B){var
-H=J(L,D),I=B[2]?A:af(A),K=B[1]?C:af(C),n=0;if(b){var
+B=d[1],C=g[1],I=f[1],k=bv(qg,cp(aG([0,ag(s),0],qf),b));if(k)return n(function(A){var
+G=H(L,D),J=A[2]?B:ag(B),K=A[1]?C:ag(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -1904,7 +1928,7 @@ h=e[2],E=0;if(h){var
 i=h[1],F=0;if(i)if(i[2]||h[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,I,0]]],[0,[0,i[1],[0,G,0]],[0,[0,H,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,I,0]],[0,[0,G,0],0]]]];else
 var
 r=i;if(!F)var
 s=r}else
@@ -1930,20 +1954,20 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return bK(pZ,j)},pY);var
-l=j}else
+j=z;return bv(qi,j)},qh);var
+l=k}else
 var
 l=f;var
-n=l}else
+o=l}else
 var
-n=d;var
-o=n}else
+o=d;var
+p=o}else
 var
-o=g;return o},W)}var
-H=n}else
+p=g;return p},X)}var
+I=o}else
 var
-H=G;return H}var
-P=v}else
+I=F;return I}var
+P=w}else
 var
 P=s;var
 Q=P}else
@@ -1954,12 +1978,16 @@ var
 R=q;var
 S=R}else
 var
-S=M;return S}return fr(a,I,l,o,g,h(j),i,f,b)}return fr(a,I,l,o,g,h(j),i,f,b)}function
-j3(i,b,a){if(a){var
-j=a[1],l=j[2],c=aj(e(b,j[1]));if(c){var
-f=k(b,l);if(f){var
-g=t(l,i,0);if(g){var
-h=j3(i,b,a[2]);if(h)var
+S=M;return S}return fs(a,J,l,p,g,h(k),j,f,b)}return fs(a,J,l,p,g,h(k),j,f,b)}function
+kf(d){var
+a=d;for(;;){if(a){var
+b=a[2],e=a[1],c=_(ai(function(b){return function(a){return t(b,a)}}(e),b));if(c){var
+a=b;continue}return c}return 1}}function
+kg(j,b,a){if(a){var
+k=a[1],l=k[2],c=ae(e(b,k[1]));if(c){var
+f=i(b,l);if(f){var
+g=u(l,j,0);if(g){var
+h=kg(j,b,a[2]);if(h)var
 m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -1971,48 +1999,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return p$}function
-j4(a,V,m,U,v,s,T,C,i,g,l,b){var
-j=h(T),W=fl(0,T),aT=bG(0,ch(a,W,e(ag,jZ(l,0,v))),V,0),X=e(aJ,l),aU=0,aW=e(ag,v),aX=bG(qa,function(b){var
-au=cF(aJ,b),f=k(ch(a,W,aW),au);switch(b[0]){case
+q=c;return q}return qu}function
+kh(a,Q,l,P,r,q,N,x,g,f,k,b){var
+j=h(N),R=fm(0,N),aK=bJ(0,cm(a,R,e(ad,g6(k,0,r))),Q,0),S=e(aF,k),aL=0,aM=e(ad,r),aN=bJ(qv,function(b){var
+au=cM(aF,b),f=i(cm(a,R,aM),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
-b=u(M,d),e=b?[0,[0,ag(Z(a,c))]]:b;return e},X);break;case
+b=t(M,d),e=b?[0,[0,ad(W(a,c))]]:b;return e},S);break;case
 3:var
-d=dp(b[1][2],b[2][2]);break;case
+d=dv(b[1][2],b[2][2]);break;case
 4:var
-N=e(gV,b[2][2]),d=dp(b[1][2],N);break;case
+N=e(g1,b[2][2]),d=dv(b[1][2],N);break;case
 5:var
-d=e(gV,b[1][2]);break;case
+d=e(g1,b[1][2]);break;case
 6:var
-x=b[2],y=b[1],g=y[1],t=0;if(g){var
+x=b[2],y=b[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return cn(a,P,b)},O),R=y[2],S=h[1],d=dp(e(function(b){return cn(a,S,b)},R),Q);else{var
-z=h;t=1}}else{var
-z=g;t=1}if(t)var
+O=x[2],P=g[1],Q=e(function(b){return cs(a,P,b)},O),T=y[2],U=h[1],d=dv(e(function(b){return cs(a,U,b)},T),Q);else{var
+z=h;u=1}}else{var
+z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=b[2],i=A[1];if(i)var
-T=A[2],U=d6(f[1]),V=e(function(b){return cn(a,U,b)},T),Y=dp(b[1][2],V),_=i[1],d=e(function(b){return gW(a,_,b)},Y);else{var
-B=i;v=1}}else{var
+A=b[2],j=A[1];if(j)var
+V=A[2],X=d_(f[1]),Y=e(function(b){return cs(a,X,b)},V),Z=dv(b[1][2],Y),_=j[1],d=e(function(b){return g2(a,_,b)},Z);else{var
+B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=b[1],j=C[1];if(j)var
-$=C[2],aa=j[1],ab=av(a,fn(a),aa),d=e(function(b){return cn(a,ab,b)},$);else
+C=b[1],k=C[1];if(k)var
+$=C[2],aa=k[1],ab=aw(a,fo(a),aa),d=e(function(b){return cs(a,ab,b)},$);else
 var
-d=j;break;case
+d=k;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],ae=av(a,fn(a),ad),d=e(function(b){return gW(a,ae,b)},ac);else
+ac=b[1][2],ae=f[1],af=aw(a,fo(a),ae),d=e(function(b){return g2(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jl(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],af=E[2],ah=a_(o,r),ai=e(function(b){return cn(a,ah,b)},af),aj=F[2],ak=a_(m,s),al=dp(e(function(b){return cn(a,ak,b)},aj),ai),am=e(gV,D[2]),an=fn(a),ao=dp(e(function(b){return cn(a,an,b)},al),am),ap=b[1]?s:d6(r),aq=e(function(b){return cn(a,ap,b)},ao),ar=av(a,m,r),as=a_(av(a,o,s),ar),at=av(a,fn(a),as),d=e(function(b){return gW(a,at,b)},aq);K=1;L=1}else
+q=jy(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a_(o,r),ai=e(function(b){return cs(a,ah,b)},ag),aj=F[2],ak=a_(m,s),al=dv(e(function(b){return cs(a,ak,b)},aj),ai),am=e(g1,D[2]),an=fo(a),ao=dv(e(function(b){return cs(a,an,b)},al),am),ap=b[1]?s:d_(r),aq=e(function(b){return cs(a,ap,b)},ao),ar=aw(a,m,r),as=a_(aw(a,o,s),ar),at=aw(a,fo(a),as),d=e(function(b){return g2(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2023,291 +2051,269 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},X)}return[0,f,d]},V,aU),aQ=e(function(a){var
-b=a[2];return jY(t(a[1],v,B),b)[2]},l);function
-_(c){var
-d=t(c,s,0);if(d){var
-a=t(c,aT,0);if(a)var
-b=j0(0,l,t(c,aX,p_)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=e(function(a){return 0},S)}return[0,f,d]},Q,aL),aO=ka(k,r);function
+T(c){var
+d=u(c,q,0);if(d){var
+a=u(c,aK,0);if(a)var
+b=kc(0,k,u(c,aN,qt)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-D(b){return e(function(b){return Z(a,b)},b)}var
-aY=C?C[1]:ag(B);function
-$(a){return a?bK(j,a[1]):a}function
-w(t,s,f,r,q){var
-u=aG([0,af(s),0],j),c=r,b=q,g=u,v=D(t);for(;;){if(c&&b){var
-i=b[1],k=i[1],d=c[1],m=di(k[2]),n=ck(g,gR(f,d,fg(f,k[1],m,d))),o=i[2],p=e(function(b){return function(a){return e(a8,fg(f,a[1],a[2],b))}}(d),o),h=gY(a,v,e(function(b){return a7(b,f,dq(a))},d),p,n);if(h){var
-c=c[2],b=b[2],g=h[1];continue}var
-l=h}else
-var
-l=[0,g];return $(l)}}function
-aa(y,x,w){var
-z=aG([0,x,0],j),q=D(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,e$(g),h],f];if(m){var
+B(b){return e(function(b){return W(a,b)},b)}var
+aP=x?x[1]:ad(A);function
+U(a){return a?bv(j,a[1]):a}function
+s(f,e,d,c,b){var
+g=aG([0,ag(e),0],j);return U(j9(a,B(f),d,c,b,g))}function
+V(y,x,w){var
+z=aG([0,x,0],j),q=B(y),c=w,f=z;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,fa(g),h],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a8(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dq(a),t],v=dq(a),b=gY(a,[0,af(d4(jW(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a9(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dw(a),t],v=dw(a),b=g5(a,[0,ag(d8(j8(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gP(b[1]);if(i){var
+i=gV(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return $(r)}}var
-a0=e(aJ,l),ab=p(function(a){return dZ(a,h(v))},a0);if(ab){var
-r=e(aJ,l);for(;;){if(r){var
-R=r[2],aS=r[1],S=ac(ap(function(b){return function(a){return u(b,a)}}(aS),R));if(S){var
-r=R;continue}var
-ad=S}else
-var
-ad=1;var
-E=ad;break}}else
-var
-E=ab;var
-ae=E?p(function(a){return u(h(a),j)},b):E;if(ae){var
-A=0;switch(i[0]){case
+r=[0,f];return U(r)}}var
+aQ=e(aF,k),X=n(function(a){return cH(a,h(r))},aQ),Y=X?kf(e(aF,k)):X,_=Y?n(function(a){return t(h(a),j)},b):Y;if(_){var
+w=0;switch(g[0]){case
 0:var
-H=i[1],P=0;if(typeof
-g!=="number")switch(g[0]){case
+C=g[1],K=0;if(typeof
+f!=="number")switch(f[0]){case
 0:var
-aB=0;if(b){if(b[2])return 0;var
-a1=b[1],a2=g[2],a3=g[1],ah=dr(U,s);if(ah){var
+at=0;if(b){if(b[2])return 0;var
+aR=b[1],aS=f[2],aU=f[1],$=dx(P,q);if($){var
 o=function(c,a){var
-b=F(H,a);return function(a){return w(a1,b,a3,a2,a)}},n=m;P=1;aB=1}else
+b=G(C,a);return function(a){return s(aR,b,aU,aS,a)}},m=l;K=1;at=1}else
 var
-ak=ah}else
+ac=$}else
 var
-ak=b;if(!aB)return ak;break;case
+ac=b;if(!at)return ac;break;case
 2:var
-aC=0;if(b){if(b[2])return 0;var
-a5=b[1],a6=g[2],a9=g[1],al=dr(U,s),aD=0;if(al){if(C)return 0;var
-am=Y(H[1],d),an=am?Y(H[2],d):am;if(an){var
-o=function(c,b,a){return w(a5,B,a9,a6,e(p3,a))},n=m;P=1;aC=1;aD=1}else
+au=0;if(b){if(b[2])return 0;var
+aW=b[1],aY=f[2],aZ=f[1],ae=dx(P,q),av=0;if(ae){if(x)return 0;var
+af=Z(C[1],d),ah=af?Z(C[2],d):af;if(ah){var
+o=function(c,b,a){return s(aW,A,aZ,aY,e(qm,a))},m=l;K=1;au=1;av=1}else
 var
+ai=ah}else
+var
+ai=ae;if(!av)var
+aj=ai}else
+var
+aj=b;if(!au)return aj;break}if(!K)return 0;break;case
+1:var
+ax=0,a0=g[1];if(typeof
+f==="number"&&!f){if(!b)return b;if(b[2])return 0;var
+a1=b[1],o=function(c,a){var
+b=H(a0,a);return function(a){return V(a1,b,a)}},m=l;ax=1}if(!ax)return 0;break;case
+2:var
+ay=0,a2=g[1];if(typeof
+f==="number"||!(3===f[0]))ay=1;else{var
+az=0;if(b){var
+v=b[2],aA=0;if(v){if(v[2])return 0;var
+ak=f[1],a3=v[1],a4=b[1],a5=f[2],al=kd(a,ak,f[3]),am=jV(j,al);if(am){var
+o=function(f,c,b){var
+d=aX(f,al),e=s(a4,G(d,c),ak,a5,b);return e?V(a3,H(y(a,a2,d),c),b):e},m=l;az=1;aA=1}else
+var
+an=am}else
+var
+an=v;if(!aA)var
 ao=an}else
 var
-ao=al;if(!aD)var
-aq=ao}else
-var
-aq=b;if(!aC)return aq;break}if(!P)return 0;break;case
-1:var
-aF=0,a$=i[1];if(typeof
-g==="number"&&!g){if(!b)return b;if(b[2])return 0;var
-ba=b[1],o=function(c,a){var
-b=J(a$,a);return function(a){return aa(ba,b,a)}},n=m;aF=1}if(!aF)return 0;break;case
-2:var
-aH=0,bb=i[1];if(typeof
-g==="number"||!(3===g[0]))aH=1;else{var
-aI=0;if(b){var
-z=b[2],aL=0;if(z){if(z[2])return 0;var
-ar=g[1],bc=z[1],bd=b[1],be=g[2],as=j1(a,ar,g[3]),at=jI(j,as);if(at){var
-o=function(f,c,b){var
-d=aV(f,as),e=w(bd,F(d,c),ar,be,b);return e?aa(bc,J(x(a,bb,d),c),b):e},n=m;aI=1;aL=1}else
-var
-au=at}else
-var
-au=z;if(!aL)var
-aw=au}else
-var
-aw=b;if(!aI)return aw}if(aH)return 0;break;case
+ao=b;if(!az)return ao}if(ay)return 0;break;case
 3:var
-aM=0;if(typeof
-g==="number"&&!g){if(b)return 0;var
-K=i[1];A=1}else
-aM=1;if(aM)return 0;break;case
+aB=0;if(typeof
+f==="number"&&!f){if(b)return 0;var
+E=g[1];w=1}else
+aB=1;if(aB)return 0;break;case
 4:var
-aN=0,bg=i[2];if(typeof
-g==="number"||!(0===g[0]))aN=1;else{if(!b)return b;if(b[2])return 0;var
-bh=b[1],bi=g[2],bj=g[1],bl=function(c,a){var
-b=F(bg,a);return function(a){return w(bh,b,bj,bi,a)}},o=bl,n=i[1]}if(aN)return 0;break;case
+aC=0,a7=g[2];if(typeof
+f==="number"||!(0===f[0]))aC=1;else{if(!b)return b;if(b[2])return 0;var
+a8=b[1],a$=f[2],ba=f[1],bb=function(c,a){var
+b=G(a7,a);return function(a){return s(a8,b,ba,a$,a)}},o=bb,m=g[1]}if(aC)return 0;break;case
 5:var
-Q=0;if(typeof
-g==="number"&&!(3<=g))switch(g){case
+M=0;if(typeof
+f==="number"&&!(3<=f))switch(f){case
 0:if(b)return 0;var
-K=i[1];A=1;break;case
+E=g[1];w=1;break;case
 2:if(b)return 0;var
-K=i[2];A=1;break;default:Q=1}else
-Q=1;if(Q)return 0;break;case
+E=g[2];w=1;break;default:M=1}else
+M=1;if(M)return 0;break;case
 7:var
-ax=i[2],ay=i[1],aO=0;if(typeof
-g==="number"||!(0===g[0]))aO=1;else{var
-aP=0;if(b){if(b[2])return 0;var
-q=g[2],O=g[1],bm=b[1],az=u(h(m),j);if(az){var
-o=function(b,y){var
-z=D(bm);return function(f){var
-k=u(h(f),j),l=k?u(h(q),j):k;if(l){var
-s=e(aJ,f),t=ea(O,eb(O,q,dq(a),s)),v=ck(fm(a,ay,ax,y,e(aJ,f)),t),b=0,c=f,g=v,w=h(q);for(;;){if(c){var
-o=c[1][2],p=u(b,ay),r=e(function(f,g){return function(d){var
-b=aK(aZ(0,h(q)),q);return e(function(b){var
-c=jX(O,b[2],d[1]);if(g&&u(b[1],f))return J(c,a8(x(a,ax,d[2])));return c},b)}}(b,p),o),n=aZ(0,w),i=gY(a,z,e(function(c){return function(b){return u(b,c)?dq(a):B}}(b),n),r,g);if(i){var
+ap=g[2],aq=g[1],aD=0;if(typeof
+f==="number"||!(0===f[0]))aD=1;else{var
+aH=0;if(b){if(b[2])return 0;var
+p=f[2],J=f[1],bc=b[1],ar=t(h(l),j);if(ar){var
+o=function(b,x){var
+z=B(bc);return function(f){var
+k=t(h(f),j),l=k?t(h(p),j):k;if(l){var
+s=e(aF,f),u=ee(J,ef(J,p,dw(a),s)),v=cp(fn(a,aq,ap,x,e(aF,f)),u),b=0,c=f,g=v,w=h(p);for(;;){if(c){var
+o=c[1][2],q=t(b,aq),r=e(function(f,g){return function(d){var
+b=aI(aJ(0,h(p)),p);return e(function(b){var
+c=j_(J,b[2],d[1]);if(g&&t(b[1],f))return H(c,a9(y(a,ap,d[2])));return c},b)}}(b,q),o),n=aJ(0,w),i=g5(a,z,e(function(c){return function(b){return t(b,c)?dw(a):A}}(b),n),r,g);if(i){var
 b=[0,b],c=c[2],g=i[1];continue}var
 d=i}else
 var
-d=[0,g];if(d)return bK(j,d[1]);var
+d=[0,g];if(d)return bv(j,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},n=m;aP=1}else
+m=l;return m}},m=l;aH=1}else
 var
-aA=az}else
+as=ar}else
 var
-aA=b;if(!aP)return aA}if(aO)return 0;break;default:return 0}if(A){var
-M=_(K);if(!M)return M;var
-bf=function(b,f,a){return p(function(a){var
-b=f[2],c=a[2],e=aR(function(b,a){return y(bk(d,N(b[2][1])),a)},d,c);return G(d,aE(aE(a[1][2][1],e),b))},a)},aj=bf,ai=[0,[0,0,M[1]],0]}else{var
-I=j3(s,_,n);if(!I)return I;var
-aj=o,ai=I[1]}var
-a4=br(j);return p(function(b){var
-c=e(function(c){function
-g(a){return aV(b,a[1])}var
-h=0,j=ag(B);function
-d(h,g,b,c){if(b){var
-i=function(a){return aV(h,t(g,a[2],j))},k=e(i,c[1]),l=i(c[2]),m=d(h,[0,g],b[2],c),n=b[1];return f(e(function(b){var
-c=x(a,b,l);return[0,e(function(c){return x(a,b,c)},k),c]},n),m)}return b}var
-i=d(b,h,aQ,c),k=g(c[2]);return[0,[0,e(g,c[1]),k],i]},ai);return Dh(aj,b,aV(b,aY),c)},a4)}return ae}function
-fs(b,a){if(a){var
+as=b;if(!aH)return as}if(aD)return 0;break;default:return 0}if(w){var
+I=T(E);if(!I)return I;var
+a6=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=aT(function(b,a){return z(bn(d,O(b[2][1])),a)},d,c);return F(d,aE(aE(a[1][2][1],e),b))},a)},ab=a6,aa=[0,[0,0,I[1]],0]}else{var
+D=kg(q,T,m);if(!D)return D;var
+ab=o,aa=D[1]}var
+aV=bu(j);return n(function(b){var
+c=e(function(c){return kb(a,b,aO,c)},aa);return DJ(ab,b,aX(b,aP),c)},aV)}return _}function
+ft(b,a){if(a){var
 c=a[2];if(b){var
-e=fs(b[1],c);return[0,a[1],e]}var
+e=ft(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-j5(m,l,q,U,o,j,$,z,b,T,R){if(T){var
-r=gZ(m,l,j,b),i=T,g=R;for(;;){if(i){var
-M=i[1],a=M[2],w=M[1],N=i[2];if(typeof
+ki(m,l,q,U,p,k,$,z,b,T,R){if(T){var
+r=g7(m,l,k,b),j=T,g=R;for(;;){if(j){var
+M=j[1],a=M[2],w=M[1],N=j[2];if(typeof
 a==="number"&&4===a){var
-v=k(z,b);if(v)var
-_=v[1],X=br(h(b)),x=p(function(b){return function(a){return L(aV(a,b)[2],d)}}(_),X);else
+v=i(z,b);if(v)var
+_=v[1],X=bu(h(b)),x=n(function(b){return function(a){return L(aX(a,b)[2],d)}}(_),X);else
 var
 x=v;if(x){var
-i=N,g=e(function(a){return 0},g);continue}return x}var
-O=t(w,g,0);if(O){var
+j=N,g=e(function(a){return 0},g);continue}return x}var
+O=u(w,g,0);if(O){var
 y=S($,w);if(y){var
-n=y[1],A=0;if(typeof
+o=y[1],A=0;if(typeof
 a==="number")A=1;else
 switch(a[0]){case
 5:var
-C=a[2],s=k(z,b),V=0;if(s){var
-D=G(d,C);if(D){var
-Y=a[1],c=j2(m,l,q,U,o,j,r,b,[0,jJ(C,a[3],s[1])],n,Y);V=1}else
+C=a[2],s=i(z,b),V=0;if(s){var
+D=F(d,C);if(D){var
+Y=a[1],c=ke(m,l,q,U,p,k,r,b,[0,jW(C,a[3],s[1])],o,Y);V=1}else
 var
 E=D}else
 var
 E=s;if(!V)var
 c=E;break;case
 10:var
-F=a[3],H=a[2],f=a[1],B=0;if(typeof
+G=a[3],H=a[2],f=a[1],B=0;if(typeof
 f!=="number"&&5===f[0]){var
-I=f[2],u=k(z,b),W=0;if(u){var
-J=G(d,I);if(J){var
-Z=f[1],c=j4(m,l,q,o,j,r,b,[0,jJ(I,f[3],u[1])],n,Z,H,F);B=1;W=1}else
+I=f[2],t=i(z,b),W=0;if(t){var
+J=F(d,I);if(J){var
+Z=f[1],c=kh(m,l,q,p,k,r,b,[0,jW(I,f[3],t[1])],o,Z,H,G);B=1;W=1}else
 var
 K=J}else
 var
-K=u;if(!W){var
+K=t;if(!W){var
 c=K;B=1}}if(!B)var
-c=j4(m,l,q,o,j,r,b,0,n,f,H,F);break;default:A=1}if(A)var
-c=j2(m,l,q,U,o,j,r,b,0,n,a);if(c){var
-i=N,g=fs(w,g);continue}var
+c=kh(m,l,q,p,k,r,b,0,o,f,H,G);break;default:A=1}if(A)var
+c=ke(m,l,q,U,p,k,r,b,0,o,a);if(c){var
+j=N,g=ft(w,g);continue}var
 P=c}else
 var
 P=y;var
 Q=P}else
 var
 Q=O;return Q}return[0,g]}}return[0,R]}function
-ft(j,i,h,g,f,e,d,c,u,t,s){var
+fu(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=j5(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(ac,l[1]):l}var
-m=j5(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d$(a[2],b),q=ft(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
-b=o[2],k=n,a=a[4];continue}var
+l=ki(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(_,l[1]):l}var
+m=ki(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=ed(a[2],b),q=fu(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-g2(a){return e(function(a){return 1},a)}function
-ds(a,d,b,c){function
+g_(a){return e(function(a){return 1},a)}function
+dy(a,d,b,c){function
 f(d,c){var
-f=aK(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return C(q(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
+f=aI(a[1],b[1]);return e(function(a){var
+b=q(c,a[2]);return C(q(d,a[1]),b)},f)}if(av(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-j6(a){var
+kj(a){var
 b=l(c);return[0,e(function(a){return l(d)},a),b]}function
-aL(a,k){var
+aN(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-v=f[1];if(ap(function(a){return u(v,a)},a)){var
+v=f[1];if(ai(function(a){return t(v,a)},a)){var
 C=l(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return l(b)},a),C]}return j6(a);case
+b=t(a,v)?c:d;return l(b)},a),C]}return kj(a);case
 3:var
-D=l(c),E=aL(a,f[2]),F=l(c);return ds(aL(a,f[1]),F,E,D);case
+D=l(c),E=aN(a,f[2]),F=l(c);return dy(aN(a,f[1]),F,E,D);case
 4:var
-G=l(N(c)),H=aL(a,f[2]),I=l(c);return ds(aL(a,f[1]),I,H,G);case
+G=l(O(c)),H=aN(a,f[2]),I=l(c);return dy(aN(a,f[1]),I,H,G);case
 5:var
-w=aL(a,f[1]),J=w[2];return[0,e(bo,w[1]),J];case
+w=aN(a,f[1]),J=w[2];return[0,e(bc,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aL(a,x);return ds(aL(a,y),x,K,y);case
+x=f[2],y=f[1],K=aN(a,x);return dy(aN(a,y),x,K,y);case
 7:var
-z=f[2],L=bo(k),M=aL(a,z),O=l(c),i=ds(aL(a,f[1]),O,M,L),P=i[1];if(p(function(a){return aT(d,a)},P))return i;var
+z=f[2],L=bc(k),M=aN(a,z),N=l(c),i=dy(aN(a,f[1]),N,M,L),P=i[1];if(n(function(a){return aM(d,a)},P))return i;var
 Q=q(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aL(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
+A=f[1],B=aN(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
 9:var
-j=aL(a,f[1]),U=j[1];if(p(function(a){return aT(d,a)},U)){var
+j=aN(a,f[1]),U=j[1];if(n(function(a){return aM(d,a)},U)){var
 V=l(c);return[0,j[1],V]}var
 W=q(l(b(2,c)),k),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],n=[0,[10,0,h,g,m]],o=[0,[10,1,h,g,m]],Y=s(g,o),Z=aL(a,g),_=s(h,n),$=ds(aL(a,h),_,Z,Y),aa=l(N(c)),ab=aL(a,m),r=ds($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?n:bo(o),t=e(function(a){return q(ad,a)},ac);if(p(function(a){return aT(d,a)},t))return[0,t,r[2]];var
-ae=q(h,o),af=s(q(g,n),ae),ag=q(l(b(2,c)),af);return[0,t,q(r[2],ag)];default:return j6(a)}}function
-co(n,r){var
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=s(g,p),Z=aN(a,g),_=s(h,o),$=dy(aN(a,h),_,Z,Y),aa=l(O(c)),ab=aN(a,m),r=dy($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bc(p),u=e(function(a){return q(ad,a)},ac);if(n(function(a){return aM(d,a)},u))return[0,u,r[2]];var
+ae=q(h,p),af=s(q(g,o),ae),ag=q(l(b(2,c)),af);return[0,u,q(r[2],ag)];default:return kj(a)}}function
+ct(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(G(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(G(j,c)){var
-k=Y(b,o),m=k?d5(b):k;if(m)var
-p=Y(n[2],d),g=p||Y(b,d);else
+i=f[2],b=f[1];if(F(i,c))if(0===e[0]){var
+j=e[2],o=e[1];if(F(j,c)){var
+k=Z(b,o),m=k?d9(b):k;if(m)var
+p=Z(n[2],d),g=p||Z(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=Y(aQ(j,aD(2))[2],d)?0:0}else
+a=Z(aS(j,aD(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=Y(aQ(i,aD(2))[2],d)?0:0}else
+a=Z(aS(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-b1(b,a){if(a)var
-d=b1([0,b],a[2]),c=[0,co(a[1],b),d];else
+b4(b,a){if(a)var
+d=b4([0,b],a[2]),c=[0,ct(a[1],b),d];else
 var
 c=a;return c}function
-aM(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fu(b,d,a){switch(a[0]){case
+aO(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fv(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aM(c[3],b),g),i=f(aM(c[2],b),h);return f(aM(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aO(c[3],b),g),i=f(aO(c[2],b),h);return f(aO(c[1],d),i);case
 1:var
-e=a[3],j=e?aM(e[1],d):e,k=f(aM(a[2],b),j);return f(aM(a[1],b),k);default:return aM(a[1],d)}}function
-aa(b,a){var
-c=l(d),e=t(Q(qb,a),b,c),f=l(d),g=t(Q(qc,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-j7(b,a){return ai(s,ai(C,cK,a),b)}function
-fv(c,b,a){if(a){var
-e=a[2],g=fv(c,bE(b),e),h=a[1];return f(fu(c,bn(d,b),h),g)}return a}function
-g3(f,e,c,j){if(c){var
-b=c[1],v=Q(j,h(fu(f,bn(d,e),b))),w=c[2],x=g3(f,bE(e),w,v),a=b1(j,fu(f,bn(d,e),b));switch(b[0]){case
+e=a[3],j=e?aO(e[1],d):e,k=f(aO(a[2],b),j);return f(aO(a[1],b),k);default:return aO(a[1],d)}}function
+ab(b,a){var
+c=l(d),e=u(M(qw,a),b,c),f=l(d),g=u(M(qx,a),b,f);return[0,u(a,b,l(d)),g,e]}function
+kk(b,a){return ak(s,ak(C,cP,a),b)}function
+fw(c,b,a){if(a){var
+e=a[2],g=fw(c,bI(b),e),h=a[1];return f(fv(c,br(d,b),h),g)}return a}function
+g$(f,e,c,j){if(c){var
+b=c[1],v=M(j,h(fv(f,br(d,e),b))),w=c[2],x=g$(f,bI(e),w,v),a=b4(j,fv(f,br(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(qd,a,l(d)),o=ai(C,cK,aa(a,qe)),p=cJ(aa(a,0)),q=aa(a,qf),g=jL(j7(aa(a,qg),q),p,o,n,m);break;case
+m=b[1][5],n=u(qy,a,l(d)),o=ak(C,cP,ab(a,qz)),p=cO(ab(a,0)),q=ab(a,qA),g=jY(kk(ab(a,qB),q),p,o,n,m);break;case
 1:var
-i=b[3],r=i?[0,cJ(aa(a,qh))]:i,s=ai(C,cK,aa(a,qi)),u=aa(a,qj),g=jM(j7(aa(a,0),u),s,r);break;default:var
-g=jN(cK,cJ(aa(a,0)))}var
+i=b[3],r=i?[0,cO(ab(a,qC))]:i,s=ak(C,cP,ab(a,qD)),t=ab(a,qE),g=jZ(kk(ab(a,0),t),s,r);break;default:var
+g=j0(cP,cO(ab(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bs(b,a){if(typeof
+bw(b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2316,7 +2322,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dh(a[2]),l=[2,[2,dh(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=dn(a[2]),l=[2,[2,dn(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -2333,91 +2339,91 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-ec(b,a){var
+eg(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dt(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(ec(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=ec(b,a[3]);return f(ec(b,a[2]),j)}function
-cL(b,a){if(typeof
+dz(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(eg(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=eg(b,a[3]);return f(eg(b,a[2]),j)}function
+cQ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dt(b,a[2]);return f(dt(b,a[1]),h);case
+h=dz(b,a[2]);return f(dz(b,a[1]),h);case
 11:var
-i=ec(b,a[3]);return f(ec(b,a[2]),i);case
+i=eg(b,a[3]);return f(eg(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-j8(c,b,a){var
-d=h(cL(c,b)),e=Q(a[2],d);return[0,[0,a[1]],e]}function
-g4(c,b){if(ay(b,c))return[0,l(d)];var
+kl(c,b,a){var
+d=h(cQ(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
+ha(c,b){if(av(b,c))return[0,l(d)];var
 a=b[1];if(4===a[0]){var
-e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-j9(y,p,a,o){switch(o[0]){case
+e=av(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+km(y,p,a,o){switch(o[0]){case
 0:var
 h=S(y,o[1]);if(h){var
-i=h[1];if(i){var
-q=i[1],r=q[1],b=r[2],e=r[1],u=q[2],z=aa(a,qk),A=ai(C,ai(s,e,aW(al(t(ql,a,l(d)),u),b)),z),B=aa(a,qm),f=al(t(0,a,l(d)),u),j=g4(e[1],b[1]);if(j){var
-m=g4(e[2],b[2]);if(m){var
-n=g4(e[3],b[3]);if(n)var
-x=aW(f,b),g=ai(C,[0,j[1],m[1],n[1]],x);else
+j=h[1];if(j){var
+q=j[1],r=q[1],b=r[2],e=r[1],t=q[2],z=ab(a,qF),A=ak(C,ak(s,e,aY(am(u(qG,a,l(d)),t),b)),z),B=ab(a,qH),f=am(u(0,a,l(d)),t),k=ha(e[1],b[1]);if(k){var
+m=ha(e[2],b[2]);if(m){var
+n=ha(e[3],b[3]);if(n)var
+x=aY(f,b),g=ak(C,[0,k[1],m[1],n[1]],x);else
 var
-g=ai(s,e,aW(s(l(c),f),b))}else
+g=ak(s,e,aY(s(l(c),f),b))}else
 var
-g=ai(s,e,aW(s(l(c),f),b))}else
+g=ak(s,e,aY(s(l(c),f),b))}else
 var
-g=ai(s,e,aW(s(l(c),f),b));var
-v=[0,[0,ai(C,g,B),A]]}else
+g=ak(s,e,aY(s(l(c),f),b));var
+v=[0,[0,ak(C,g,B),A]]}else
 var
-v=i;var
+v=j;var
 w=v}else
 var
 w=h;return w;case
 1:var
-D=aa(a,qn);return[0,[0,aa(a,0),D]];default:var
-E=k(p,aa(a,qo));return[0,[0,k(p,aa(a,0)),E]]}}function
-j_(e,d,c,h,g){var
-a=j9(e,d,bV(qp,c),h);if(a)var
-b=j9(e,d,de(qq,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ab(a,qI);return[0,[0,ab(a,0),D]];default:var
+E=i(p,ab(a,qJ));return[0,[0,i(p,ab(a,0)),E]]}}function
+kn(e,d,c,h,g){var
+a=km(e,d,bY(qK,c),h);if(a)var
+b=km(e,d,dk(qL,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-j$(g,c,d,b,a){var
-h=dt(c,a),i=b1(d,f(dt(c,b),h));function
-j(a){return ai(C,cK,a)}return j_(e(function(a){var
-b=a[7];return w(function(b){var
-c=cm(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-cM(d,c,b,a){var
+ko(g,c,d,b,a){var
+h=dz(c,a),i=b4(d,f(dz(c,b),h));function
+j(a){return ak(C,cP,a)}return kn(e(function(a){var
+b=a[7];return v(function(b){var
+c=cr(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+cR(d,c,b,a){var
 e=q(c,b);return s(q(d,a),e)}function
-bt(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-ka(b,a){if(b)if(a)var
-d=b[1],e=ka(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bI(d[1]),f],e];else
+bx(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+kp(b,a){if(b)if(a)var
+d=b[1],e=kp(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kb(a){if(a){var
+kq(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kb(a[2]);if(d)var
-g=d[1],h=V(c,c),e=[0,[0,[0,bI(c),h],g]];else
+c=b[1],d=kq(a[2]);if(d)var
+g=d[1],h=X(c,c),e=[0,[0,[0,bL(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qs}function
-ed(b,d,c,a){if(typeof
+f=b;return f}return qN}function
+eh(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=co(bs(d,a),i);return[0,e(function(a){var
-b=q(a[2],j);return[0,bI(a[1]),b]},b)];case
-9:return kb(b);case
+i=c[1],j=ct(bw(d,a),i);return[0,e(function(a){var
+b=q(a[2],j);return[0,bL(a[1]),b]},b)];case
+9:return kq(b);case
 15:var
-k=h(b),f=u(h(a[1]),k);if(f)var
-l=cL(d,a),g=[0,ka(b,b1(c[2],l))];else
+k=h(b),f=t(h(a[1]),k);if(f)var
+l=cQ(d,a),g=[0,kp(b,b4(c[2],l))];else
 var
 g=f;return g}return 0}function
-fw(e,k,j,a){var
-P=j[1],b=co(bs(k,a),P),v=0;if(typeof
+fx(e,k,j,a){var
+P=j[1],b=ct(bw(k,a),P),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
@@ -2436,7 +2442,7 @@ d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-x=n[1],y=m[1],A=e[1],h=x[1],i=y[1],p=A[1],J=cM(i[1],i[2],h[1],h[2]),L=q(p[3],J),M=cM(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cM(i[2],i[3],h[2],h[3]),w=C(s(q(p[1],O),N),L),W=cm(x),X=cm(y),B=q(q(q(b,cm(A)),X),W),Y=[0,bo(C(w,B)),0],D=[0,s(w,B),Y]}else
+y=n[1],z=m[1],A=e[1],h=y[1],i=z[1],p=A[1],J=cR(i[1],i[2],h[1],h[2]),L=q(p[3],J),M=cR(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cR(i[2],i[3],h[2],h[3]),w=C(s(q(p[1],O),N),L),V=cr(y),W=cr(z),B=q(q(q(b,cr(A)),W),V),Y=[0,bc(C(w,B)),0],D=[0,s(w,B),Y]}else
 var
 D=n;var
 E=D}else
@@ -2446,138 +2452,138 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=j$(e,k,j[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],I=G[1];return z(bI,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
+t=ko(e,k,j[2],a[1],a[2]);if(t){var
+G=t[1],H=G[2],I=G[1];return x(bL,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cL(k,a),f=b1(j[2],n),h=aa(f,qr),c=ai(s,aa(f,0),h),i=K(b),l=K(cm(d)),m=al(K(V(c,d[1])),l),g=[0,s(s(V(c,c),m),i),0];else
+n=cQ(k,a),f=b4(j[2],n),h=ab(f,qM),c=ak(s,ab(f,0),h),i=K(b),l=K(cr(d)),m=am(K(X(c,d[1])),l),g=[0,s(s(X(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),r=cL(k,a),u=t(0,b1(j[2],r),p),f=al(u,cm(e)),g=e[5];if(g){var
-m=az(e[2]),h=al(g[1],m),n=q(h,C(b,q(f,K(h))));return[0,s(l(c),n),0]}var
+p=l(d),r=cQ(k,a),t=u(0,b4(j[2],r),p),f=am(t,cr(e)),g=e[5];if(g){var
+m=az(e[2]),h=am(g[1],m),n=q(h,C(b,q(f,K(h))));return[0,s(l(c),n),0]}var
 i=e[7],o=i?[0,s(s(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=ed(e,k,j,a);return r?bt(r[1]):r;default:v=1}if(v)return 0;var
+r=eh(e,k,j,a);return r?bx(r[1]):r;default:v=1}if(v)return 0;var
 o=S(e,f);return o?g(o[1]):o}function
-g5(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=g5(d,b,j8(b,e,c),g);return f(fw(d,b,c,e),h)}return a}var
-kc=[0,d,c],kd=[0,[0,kc,kc],d];function
-g6(a){return ac(bZ(a[1][1],a[1][2]))}function
-ke(a){var
-b=aZ(0,h(a));return bF(function(b){return g6(t(b,a,kd))},b)}function
-kf(a,g){var
-h=g[4],b=aL(ke(a),h),c=b[1],f=e(function(a){return aT(d,a)?a:al(a,b[2])},c),i=aK(ke(a),f);return bF(function(a){return ac(aT(d,a[2]))},i)}function
-kg(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-kh(f,J,l,I,m,j,n,s){if(s){var
-a=s[1],aK=s[2],aL=kh(f,J,l,I,m,j,j8(j,a,n),aK);if(typeof
+hb(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hb(d,b,kl(b,e,c),g);return f(fx(d,b,c,e),h)}return a}var
+kr=[0,d,c],ks=[0,[0,kr,kr],d];function
+fy(a){return _(b2(a[1][1],a[1][2]))}function
+kt(a){var
+b=aJ(0,h(a));return bb(function(b){return fy(u(b,a,ks))},b)}function
+ku(a,g){var
+h=g[4],b=aN(kt(a),h),c=b[1],f=e(function(a){return aM(d,a)?a:am(a,b[2])},c),i=aI(kt(a),f);return bb(function(a){return _(aM(d,a[2]))},i)}function
+kv(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+kw(f,J,l,I,m,k,o,s){if(s){var
+a=s[1],aK=s[2],aL=kw(f,J,l,I,m,k,kl(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
-i=[0,[0,B]];else
+j=[0,[0,A]];else
 var
-aq=J[2],ar=J[1],at=d_(m),i=[0,[8,k(as(l),at),ar,aq]];else
+aq=J[2],as=J[1],at=ec(m),j=[0,[8,i(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
-au=ah(f,bs(j,a)),i=w(function(a){return[0,_(f,a)]},au);break;case
+au=aj(f,bw(k,a)),j=v(function(a){return[0,$(f,a)]},au);break;case
 1:var
-av=ah(f,bs(j,a)),i=w(function(a){return[1,_(f,a)]},av);break;case
+av=aj(f,bw(k,a)),j=v(function(a){return[1,$(f,a)]},av);break;case
 5:var
-ax=ah(f,bs(j,a)),i=w(function(a){return[2,_(f,a)]},ax);break;case
+ax=aj(f,bw(k,a)),j=v(function(a){return[2,$(f,a)]},ax);break;case
 8:var
-ay=ed(m,j,n,a),i=w(function(a){var
-b=Z(f,c);return[4,k(as(l),a),b]},ay);break;case
+ay=eh(m,k,o,a),j=v(function(a){var
+b=W(f,c);return[4,i(ar(l),a),b]},ay);break;case
 9:var
-y=ed(m,j,n,a);if(y){var
-z=ah(f,bs(j,a));if(z)var
-az=_(f,z[1]),aA=y[1],O=[0,[4,k(as(l),aA),az]];else
+y=eh(m,k,o,a);if(y){var
+z=aj(f,bw(k,a));if(z)var
+az=$(f,z[1]),aA=y[1],O=[0,[4,i(ar(l),aA),az]];else
 var
 O=z;var
 P=O}else
 var
 P=y;var
-i=P;break;case
+j=P;break;case
 10:var
-A=j$(m,j,n[2],a[1],a[2]);if(A){var
-Q=A[1],R=Q[2],T=Q[1],C=ah(f,bs(j,a));if(C){var
-U=C[1],V=G(d,U[1]);if(V)var
-q=function(a){return kg(l,a)},aB=q(R[2]),aC=q(R[1]),aD=q(T[2]),W=[0,[6,q(T[1]),aD,aC,aB,U]];else
+B=ko(m,k,o[2],a[1],a[2]);if(B){var
+Q=B[1],R=Q[2],T=Q[1],C=aj(f,bw(k,a));if(C){var
+U=C[1],V=F(d,U[1]);if(V)var
+q=function(a){return kv(l,a)},aB=q(R[2]),aC=q(R[1]),aD=q(T[2]),X=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
-W=V;var
-X=W}else
-var
-X=C;var
+X=V;var
 Y=X}else
 var
-Y=A;var
-i=Y;break;case
+Y=C;var
+Z=Y}else
+var
+Z=B;var
+j=Z;break;case
 12:var
-r=fw(m,j,n,a),v=0;if(r)if(r[2])var
-i=0;else{var
-$=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
-D=[0,[3,k(l,r[1])]];v=1}else{var
-D=aa;v=1}}else{var
-D=r;v=1}if(v)var
-i=D;break;case
+r=fx(m,k,o,a),w=0;if(r)if(r[2])var
+j=0;else{var
+_=g(f,0,a[2]),aa=_?g(f,1,a[4]):_;if(aa){var
+D=[0,[3,i(l,r[1])]];w=1}else{var
+D=aa;w=1}}else{var
+D=r;w=1}if(w)var
+j=D;break;case
 13:var
 ab=a[1],ac=S(m,ab),K=0;if(ac){var
-ad=g(f,1,a[2]),ae=ad?g(f,1,a[3]):ad;if(ae)var
-aF=ah(f,bs(j,a)),i=w(function(a){return[7,ab,_(f,a)]},aF);else{var
-af=ae;K=1}}else{var
-af=ac;K=1}if(K)var
-i=af;break;case
+ad=g(f,1,a[2]),af=ad?g(f,1,a[3]):ad;if(af)var
+aF=aj(f,bw(k,a)),j=v(function(a){return[7,ab,$(f,a)]},aF);else{var
+ag=af;K=1}}else{var
+ag=ac;K=1}if(K)var
+j=ag;break;case
 14:var
-E=a[2],ag=a[1],ai=u(h(m),qt),ak=ai?g(f,0,ag):ai,al=ak?g(f,1,E):ak;if(al){var
-F=ah(f,bs(j,a));if(F)var
-H=aj(e(function(n){var
-h=[5,ag,E],a=ah(f,[0,[0,h,h],d]);if(a){var
-o=kf(I,n),g=aj(e(function(e){var
-a=t(e[1],I,kd),g=aE(a[2],j),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=ah(f,[0,[0,d,d],g]);return w(function(a){return[0,a,k(l,e[2])]},i)},o));if(g)var
-p=[0,a[1],g[1]],i=[0,[0,k(l,n[4]),p]];else
+E=a[2],ah=a[1],ai=t(h(m),qO),ak=ai?g(f,0,ah):ai,al=ak?g(f,1,E):ak;if(al){var
+G=aj(f,bw(k,a));if(G)var
+H=ae(e(function(n){var
+h=[5,ah,E],a=aj(f,[0,[0,h,h],d]);if(a){var
+o=ku(I,n),g=ae(e(function(e){var
+a=u(e[1],I,ks),g=aE(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=aj(f,[0,[0,d,d],g]);return v(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
+p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
 var
-i=g;var
-m=i}else
+j=g;var
+m=j}else
 var
-m=a;return m},m)),aG=H?[0,[9,F[1],H[1]]]:H,am=aG;else
+m=a;return m},m)),aG=H?[0,[9,G[1],H[1]]]:H,am=aG;else
 var
-am=F;var
+am=G;var
 an=am}else
 var
 an=al;var
-i=an;break;case
+j=an;break;case
 15:var
-aH=[0,a[2],a[1]],aI=1,ao=p(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=ed(m,j,n,a),i=w(function(a){var
-b=Z(f,c);return[4,k(as(l),a),b]},aJ);else
+aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
+aJ=eh(m,k,o,a),j=v(function(a){var
+b=W(f,c);return[4,i(ar(l),a),b]},aJ);else
 var
-i=ao;break;default:var
-o=fw(m,j,n,a),L=0;if(o){var
-x=o[2],M=o[1];if(x)if(x[2])var
-i=0;else
+j=ao;break;default:var
+p=fx(m,k,o,a),L=0;if(p){var
+x=p[2],M=p[1];if(x)if(x[2])var
+j=0;else
 var
-aw=k(l,x[1]),i=[0,[5,k(l,M),aw]];else{var
-N=[0,[3,k(l,M)]];L=1}}else{var
-N=o;L=1}if(L)var
-i=N}var
-ap=[0,i,aL]}else
+aw=i(l,x[1]),j=[0,[5,i(l,M),aw]];else{var
+N=[0,[3,i(l,M)]];L=1}}else{var
+N=p;L=1}if(L)var
+j=N}var
+ap=[0,j,aL]}else
 var
 ap=s;return ap}function
-qu(a){var
+qP(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-du(a){if(0===a[0])return a[1];var
+dA(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-ki(a,c,g,b){if(0===c[0])return 0;if(b){var
+kx(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cj(a,g,c[1]);if(i){var
-j=cj(a,g,c[2]);if(j){var
-k=cj(a,g,c[3]);if(k)var
-t=i[1],u=bJ(f),l=J([0,bJ(f),u],t),v=j[1],w=bJ(e),m=J([0,bJ(e),w],v),y=dn(e),z=[0,dn(e),y],A=[0,x(a,af(F(m,m)),z),0],C=dn(f),D=[0,dn(f),C],E=[0,x(a,af(F(l,l)),D),A],G=_(a,m),H=_(a,l),n=[0,[0,J(J(_(a,k[1]),H),G),B,E]];else
+e=d[1],f=b[1],i=co(a,g,c[1]);if(i){var
+j=co(a,g,c[2]);if(j){var
+k=co(a,g,c[3]);if(k)var
+t=i[1],u=bM(f),l=H([0,bM(f),u],t),v=j[1],w=bM(e),m=H([0,bM(e),w],v),x=du(e),z=[0,du(e),x],B=[0,y(a,ag(G(m,m)),z),0],C=du(f),D=[0,du(f),C],E=[0,y(a,ag(G(l,l)),D),B],F=$(a,m),I=$(a,l),n=[0,[0,H(H($(a,k[1]),I),F),A,E]];else
 var
 n=k;var
 o=n}else
@@ -2595,14 +2601,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fx(a,p,o){var
-q=aM(p,o),b=e(function(b){return ah(a,b)},q);if(b){var
+fz(a,p,o){var
+q=aO(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=_(a,i[1]),s=_(a,h[1]);return L(d,F(F(_(a,g[1]),s),r)[1])}var
+r=$(a,i[1]),s=$(a,h[1]);return L(d,G(G($(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2618,138 +2624,138 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ad(c,b,a){var
-d=aq(c,b[3],a[3]),e=aq(c,b[2],a[2]);return[0,aq(c,b[1],a[1]),e,d]}function
+af(c,b,a){var
+d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-O(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aw(a){return at([5,[0,c,c],[6,O(a,a)]],a)}function
-cN(c,b,a){var
-d=ba(c,b[1],a);return d?ba(c,a,b[2]):d}function
-a1(c,b,a){var
-d=cN(c,b[1],a[1]),e=d?cN(c,b[2],a[2]):d;return e?cN(c,b[3],a[3]):e}function
-kj(b,c,a){switch(c[0]){case
+P(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ax(a){return at([5,[0,c,c],[6,P(a,a)]],a)}function
+cS(c,b,a){var
+d=bd(c,b[1],a);return d?bd(c,a,b[2]):d}function
+a2(c,b,a){var
+d=cS(c,b[1],a[1]),e=d?cS(c,b[2],a[2]):d;return e?cS(c,b[3],a[3]):e}function
+ky(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a1(b,d[1],f),l=k?g(b,1,O(f,f)):k,m=l?a1(b,d[2],a[2]):l,n=m?a1(b,d[3],a[3]):m,o=n?cN(b,d[4],j):n,p=o?g(b,1,j):o;return p?cb(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a2(b,d[1],f),l=k?g(b,1,P(f,f)):k,m=l?a2(b,d[2],a[2]):l,n=m?a2(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?ce(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a1(b,c[1],a[1]),s=r?a1(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a1(b,q[1],h);if(t)return g(b,1,O(h,h));var
+e=a[3],r=a2(b,c[1],a[1]),s=r?a2(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=a2(b,q[1],h);if(t)return g(b,1,P(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a1(b,c[1],i);return w?g(b,1,O(i,i)):w}return 0}}function
-cO(c,a,b){if(0===a[0])return a1(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cN(c,a[4],b[3]):i}function
-kk(g,f,i,h){var
+i=a[1],w=a2(b,c[1],i);return w?g(b,1,P(i,i)):w}return 0}}function
+cT(c,a,b){if(0===a[0])return a2(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cS(c,a[4],b[3]):i}function
+kz(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kj(g,b[1],a[1]);if(d){var
+d=ky(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cO(g,f[2],h):c}}function
+c=a?0:1;return c?cT(g,f[2],h):c}}function
 a$(c,b,a){var
-d=ad(function(b,a){return[2,b,a]},a,b);return ad(function(b,a){return[3,b,a]},d,c)}function
-ee(a,e,d,c){var
-b=a$(e,d,c),f=aw(a),g=at(O(aw(a),b),f);return ad(function(b,a){return[3,b,a]},b,g)}function
-cP(f,e,d,a,c){var
-b=ee(f,e,d,c);return[3,[4,a,a],O(b,b)]}function
-cQ(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cR(a,b){switch(a[0]){case
+d=af(function(b,a){return[2,b,a]},a,b);return af(function(b,a){return[3,b,a]},d,c)}function
+ei(a,e,d,c){var
+b=a$(e,d,c),f=ax(a),g=at(P(ax(a),b),f);return af(function(b,a){return[3,b,a]},b,g)}function
+cU(f,e,d,a,c){var
+b=ei(f,e,d,c);return[3,[4,a,a],P(b,b)]}function
+cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ee(d,f,e,b),h=cP(d,f,e,a[4],b),i=at([5,[0,c,c],cQ(a[5],h)],g),j=aw(d);return ad(function(b,a){return[2,b,a]},j,i);case
-1:return aw(a$(a[1],a[2],b));default:return aw(a[1])}}function
-ef(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ei(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=ax(d);return af(function(b,a){return[2,b,a]},j,i);case
+1:return ax(a$(a[1],a[2],b));default:return ax(a[1])}}function
+ej(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aw(c),g=cP(c,e,d,a[4],b),h=at(cQ(a[5],g),f),i=ee(c,e,d,b);return ad(function(b,a){return[2,b,a]},i,h);case
-1:return a$(a[1],a[2],b);default:return aw(a[1])}}function
-g7(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ax(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ei(c,e,d,b);return af(function(b,a){return[2,b,a]},i,h);case
+1:return a$(a[1],a[2],b);default:return ax(a[1])}}function
+hc(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cP(e,d,c,a[4],b),i=cQ(a[5],h),j=a$(d,c,b);return[3,O(aw(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=a$(d,c,b);return[3,P(ax(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a$(g,f,b);return[6,O(a$(g,f,b),k)];default:return O(aw(a[1]),b)}}function
-kl(a,b){switch(a[0]){case
-0:return[0,cP(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=a$(g,f,b);return[6,P(a$(g,f,b),k)];default:return P(ax(a[1]),b)}}function
+kA(a,b){switch(a[0]){case
+0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a$(d,c,b);return[0,O(a$(d,c,b),e)];default:return 0}}function
-eg(e,b,a){var
-f=[0,d,c];return aR(function(c,d){var
-e=O(cR(c,b),a);return[2,[4,O(cR(c,b),a),e],d]},f,e)}function
-km(a){var
+c=a[2],d=a[1],e=a$(d,c,b);return[0,P(a$(d,c,b),e)];default:return 0}}function
+ek(e,b,a){var
+f=[0,d,c];return aT(function(c,d){var
+e=P(cW(c,b),a);return[2,[4,P(cW(c,b),a),e],d]},f,e)}function
+kB(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-g8(a,b){switch(a[0]){case
+hd(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a$(e,d,b);return[6,O(a$(e,d,b),f)];default:return[0,c,c]}}function
-kn(d,i){if(d){var
+d=a[2],e=a[1],f=a$(e,d,b);return[6,P(a$(e,d,b),f)];default:return[0,c,c]}}function
+kC(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a$(a[1],a[2],i),k=aw(f),l=at(O(aw(f),g),k),h=[0,ad(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a$(a[1],a[2],i),k=ax(f),l=at(P(ax(f),g),k),h=[0,af(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kn(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kC(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qv}function
-cS(a){return[0,a[1],a[2],a[3]]}function
-ko(a,b){switch(a[0]){case
+j=b;return j}return qQ}function
+cX(a){return[0,a[1],a[2],a[3]]}function
+kD(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aw(d),j=cP(d,g,c,f,b),k=at(cQ(a[5],j),i),l=ee(d,g,c,b),m=ad(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ei(d,g,c,b),m=af(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a$(a[1],h,b),n=[6,O(e,e)];return[0,[0,[0,ad(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kp(l,b,a){switch(a[0]){case
+h=a[2],e=a$(a[1],h,b),n=[6,P(e,e)];return[0,[0,[0,af(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+kE(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=S(l,a[1]);if(d){var
-e=ko(d[1],b);if(e)var
+e=kD(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cS(m),c=at(a,n),d=ad(function(b,a){return[3,b,a]},o,c);return ad(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cX(m),c=at(a,n),d=af(function(b,a){return[3,b,a]},o,c);return af(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cS(a[3]);return[0,[0,cS(a[2]),q]];default:var
-r=cS(a[3]),s=ad(function(b,a){return[2,b,a]},b,r),t=cS(a[2]);return[0,[0,ad(function(b,a){return[2,b,a]},b,t),s]]}}function
-kq(d,a,c,b){var
-e=at(a,b),f=at([3,d,a],c);return ad(function(b,a){return[2,b,a]},f,e)}function
-kr(f,h,b,e,q,a){function
-F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],O(e,e)]}var
+q=cX(a[3]);return[0,[0,cX(a[2]),q]];default:var
+r=cX(a[3]),s=af(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,af(function(b,a){return[2,b,a]},b,t),s]]}}function
+kF(d,a,c,b){var
+e=at(a,b),f=at([3,d,a],c);return af(function(b,a){return[2,b,a]},f,e)}function
+kG(f,h,b,e,q,a){function
+F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],P(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=eg(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=ek(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,eg(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,ek(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,g7(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hc(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,g7(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hc(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
-c=cR(a,b);return[3,[4,[4,H,H],O(cR(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
+c=cW(a,b);return[3,[4,[4,H,H],P(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],ax=O(e,e),ay=[4,[4,I,I],[4,eg(h,b,q),ax]],az=O(q,q);return g(f,1,[3,[4,eg(h,b,e),az],ay]);case
+I=a[1],aw=P(e,e),ay=[4,[4,I,I],[4,ek(h,b,q),aw]],az=P(q,q);return g(f,1,[3,[4,ek(h,b,e),az],ay]);case
 6:var
 J=a[2],u=S(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cP(i[1],i[2],i[3],v,b),K=cQ(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=cU(i[1],i[2],i[3],v,b),K=cV(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],P=h[1],aB=g8(M,b),aC=g8(N,b),aD=g8(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ef(M,b),k=ef(N,b),aE=ef(P,b),E=O(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
+M=o[1],N=n[1],O=h[1],aB=hd(M,b),aC=hd(N,b),aD=hd(O,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ej(M,b),k=ej(N,b),aE=ej(O,b),E=P(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
 T=R}else
 var
 T=o;var
@@ -2760,15 +2766,15 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=eg(h,b,e),aG=O(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=ek(h,b,e),aG=P(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kn(h,b);if(w){var
-aH=w[1],an=[0,d,c],ao=aR(function(a,b){var
-c=O(aw(a),e);return[2,[4,O(aw(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],O(e,e)],ao])}return w;case
+W=a[1],w=kC(h,b);if(w){var
+aH=w[1],an=[0,d,c],ao=aT(function(a,b){var
+c=P(ax(a),e);return[2,[4,P(ax(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],P(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kp(h,b,Y);if(x){var
-Z=x[1],y=kp(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=kq(l,A,_[1],_[2]),aJ=kq(l,z,Z[1],Z[2]),$=ad(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dh(X),aa=[4,l,[2,[2,dh(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ae=ac?g(f,0,[3,l,z]):ac,af=ae?g(f,0,A):ae,ag=af?g(f,0,[3,l,A]):af;if(ag)return g(f,1,[3,[4,aa,aa],O($,$)]);var
+X=a[2],Y=a[1],x=kE(h,b,Y);if(x){var
+Z=x[1],y=kE(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=kF(l,A,_[1],_[2]),aJ=kF(l,z,Z[1],Z[2]),$=af(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dn(X),aa=[4,l,[2,[2,dn(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,ag=ae?g(f,0,[3,l,A]):ae;if(ag)return g(f,1,[3,[4,aa,aa],P($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2777,9 +2783,9 @@ var
 ai=x;return ai;case
 11:var
 aj=a[4],B=S(h,a[1]);if(B){var
-C=ko(B[1],b);if(C){var
-m=C[1][1][2],aM=cS(a[3]),aN=cS(a[2]),p=ad(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,O(m,m));if(ak){var
-aO=O(m,m),aP=O(p,m),aQ=[5,[4,O(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,O(p,p),aQ]])}var
+C=kD(B[1],b);if(C){var
+m=C[1][1][2],aM=cX(a[3]),aN=cX(a[2]),p=af(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,P(m,m));if(ak){var
+aO=P(m,m),aP=P(p,m),aQ=[5,[4,P(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,P(p,p),aQ]])}var
 al=ak}else
 var
 al=C;var
@@ -2787,28 +2793,28 @@ am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
 t=S(h,r);return t?g(f,1,s(t[1])):t}function
-bb(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-ks(a){switch(a[0]){case
+be(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+kH(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bb(b[3]),f=bb(b[2]);return[0,bb(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=be(b[3]),f=be(b[2]);return[0,be(b[1]),f,e,d,c];case
 1:var
-g=w(bb,a[3]),h=bb(a[2]);return[1,bb(a[1]),h,g];default:return[2,bb(a[1])]}}function
-g9(a){return 0===a[0]?bb(a[1]):[0,a[1],a[2],a[4][1]]}function
-kt(b,a){var
-c=g9(a[2]);return kk(b,a,e(ks,a[1]),c)}function
-ku(b,a,c){var
-d=[0,c,de(b,a)];return f(bV(b,a),d)}function
-b2(b,a){if(b){if(a){var
-e=b2(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kv(a){if(a){var
+g=v(be,a[3]),h=be(a[2]);return[1,be(a[1]),h,g];default:return[2,be(a[1])]}}function
+he(a){return 0===a[0]?be(a[1]):[0,a[1],a[2],a[4][1]]}function
+kI(b,a){var
+c=he(a[2]);return kz(b,a,e(kH,a[1]),c)}function
+kJ(b,a,c){var
+d=[0,c,dk(b,a)];return f(bY(b,a),d)}function
+b5(b,a){if(b){if(a){var
+e=b5(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+kK(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kv(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qx}function
-kw(a,l,k,f){var
-b=aU(a,l);if(b){var
-c=aU(a,k);if(c){var
-d=dk(a,f);if(d){var
-e=ff(a,f);if(e)var
-m=x(a,b[1],e[1]),g=[0,J(x(a,c[1],d[1]),m)];else
+c=b[1],d=kK(a[2]);return v(function(a){return[0,c,a]},d)}return b}return qS}function
+kL(a,l,k,f){var
+b=aW(a,l);if(b){var
+c=aW(a,k);if(c){var
+d=dr(a,f);if(d){var
+e=fg(a,f);if(e)var
+m=y(a,b[1],e[1]),g=[0,H(y(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2820,50 +2826,50 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fy(a){return a?L(d,a[1][1]):a}function
-kx(a,ab,m,aD,i,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b2(a,a)]}var
+fA(a){return a?L(d,a[1][1]):a}function
+kM(a,ab,m,aD,i,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b5(a,a)]}var
 aE=m[1];function
-o(b){var
-a=[0,d,c];return aR(function(a,c){var
-d=b2(a,b);return[2,[4,b2(a,b),d],c]},a,aE)}var
-ad=p(function(a){return u(h(a),ab)},i);if(ad){var
+p(b){var
+a=[0,d,c];return aT(function(a,c){var
+d=b5(a,b);return[2,[4,b5(a,b),d],c]},a,aE)}var
+ad=n(function(a){return t(h(a),ab)},i);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
 0:if(i){if(i[2])return 0;var
-af=i[1],aF=o(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
+af=i[1],aF=p(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
 1:if(i){if(i[2])return 0;var
-ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,o(ag),aG])}return i;case
+ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,p(ag),aG])}return i;case
 2:if(i)return 0;var
 aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},H=aI,G=f[1];break;case
+b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aI,G=f[1];break;case
 3:if(i)return 0;var
 aJ=f[2],aK=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},H=aK,G=f[1];break;case
+b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},I=aK,G=f[1];break;case
 4:if(i)return 0;var
 ah=f[3],ai=f[2],aL=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kw(a,i,h,ai);return f?L(f[1][2],d):f}return fy(kw(a,i,h,ah))}return j}return 0},H=aL,G=f[1];break;case
+h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
+f=kL(a,i,h,ai);return f?L(f[1][2],d):f}return fA(kL(a,i,h,ah))}return j}return 0},I=aL,G=f[1];break;case
 5:if(i){var
 r=i[2];if(r){if(r[2])return 0;var
-K=r[1],M=i[1],aj=f[1],aM=b2(M,M),aN=[4,[4,aj,aj],[4,o(K),aM]],aO=b2(K,K);return g(a,1,[3,[4,o(M),aO],aN])}var
+K=r[1],M=i[1],aj=f[1],aM=b5(M,M),aN=[4,[4,aj,aj],[4,p(K),aM]],aO=b5(K,K);return g(a,1,[3,[4,p(M),aO],aN])}var
 ak=r}else
 var
 ak=i;return ak;case
 6:if(i)return 0;var
 al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,b2(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,b5(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
 8:if(i){if(i[2])return 0;var
-O=i[1],aS=o(O),aT=[4,f[1],aS],aV=b2(O,O);return g(a,1,[3,[4,f[2],aV],aT])}return i;case
+O=i[1],aR=p(O),aS=[4,f[1],aR],aU=b5(O,O);return g(a,1,[3,[4,f[2],aU],aS])}return i;case
 9:if(i)return 0;var
-ar=f[3],as=f[2],aW=function(e){var
+ar=f[3],as=f[2],aV=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aU(a,b2(e,e));if(b){var
-c=aU(a,[5,ar,as]);if(c){var
-d=jw(a,c[1]);if(d){var
-l=_(a,d[1]);return fy([0,J(b[1],l)])}var
+b=aW(a,b5(e,e));if(b){var
+c=aW(a,[5,ar,as]);if(c){var
+d=jJ(a,c[1]);if(d){var
+l=$(a,d[1]);return fA([0,H(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2872,17 +2878,17 @@ var
 j=b;var
 k=j}else
 var
-k=h;return k},an=aW,am=f[1];k=3;break;case
+k=h;return k},an=aV,am=f[1];k=3;break;case
 10:if(i)return 0;var
 aX=f[2],aY=function(b){var
 c=[4,aX,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aY,at=f[1];k=2;break;case
 11:if(i)return 0;var
 aZ=f[2],a0=function(e){var
-b=dk(a,aZ);if(b){var
-c=aU(a,e[3]);if(c){var
-d=aU(a,e[2]);if(d){var
-f=x(a,b[1],c[1]),g=fy([0,f]);if(g){var
-k=_(a,d[1]);return fy([0,J(_(a,f),k)])}var
+b=dr(a,aZ);if(b){var
+c=aW(a,e[3]);if(c){var
+d=aW(a,e[2]);if(d){var
+f=y(a,b[1],c[1]),g=fA([0,f]);if(g){var
+k=$(a,d[1]);return fA([0,H($(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2893,20 +2899,20 @@ j=i}else
 var
 j=b;return j},au=a0,at=f[1];k=2;break;case
 12:if(i)return 0;var
-R=kv(m[3]);if(R){var
-aw=R[1],a1=f[1],ax=dd(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
+R=kK(m[3]);if(R){var
+aw=R[1],a1=f[1],ax=dj(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
-t=s[2];if(t){var
-v=t[2],U=t[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
+u=s[2];if(u){var
+v=u[2],U=u[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
 j=[0,d,c];else{var
 w=l[1];if(w){var
-y=w[2];if(y){var
-z=y[2];if(z&&!z[2]){var
+x=w[2];if(x){var
+z=x[2];if(z&&!z[2]){var
 A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!(D[2]||A[2]))var
-W=D[1],X=C[1],Y=B[1],Z=z[1],$=y[1],aa=w[1],aA=q(aa,$,Y,X),aB=[4,v[1],aA],aC=[4,U,q(aa,Z,Y,W)],j=[2,[3,[4,V,q($,Z,X,W)],aC],aB];else
+W=D[1],X=C[1],Y=B[1],Z=z[1],_=x[1],aa=w[1],aA=q(aa,_,Y,X),aB=[4,v[1],aA],aC=[4,U,q(aa,Z,Y,W)],j=[2,[3,[4,V,q(_,Z,X,W)],aC],aB];else
 var
 j=[0,d,c]}else
 var
@@ -2948,14 +2954,14 @@ var
 av=P;return av;case
 3:var
 N=S(m[1],am);if(N){var
-ao=N[1],ap=u(h(ao),ab);if(ap)return an(ao);var
+ao=N[1],ap=t(h(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=N;return aq;default:var
-I=S(m[2],G);return I?H(I[1]):I}}else
+J=S(m[2],G);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-ky(h,g){var
+kN(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2965,124 +2971,124 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kz(a){if(a){var
+kO(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kz(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qy}function
-qz(a){return e(function(a){return[0,a,c]},a)}function
-kA(h,f,b,n,a){if(typeof
+c=b[1],d=kO(a[2]);return v(function(a){return[0,c,a]},d)}return b}return qT}function
+qU(a){return e(function(a){return[0,a,c]},a)}function
+kP(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
-r=b[4];return ap(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=kz(b[5]);return i?jD(f,i[1]):i}else{if(0===a[0]){var
-j=ky(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(qz,a[2]);return kx(h,f,b,o[2],t,s)}return j}var
-k=ky(a[1],n);if(k){var
+r=b[4];return ai(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
+i=kO(b[5]);return i?jQ(f,i[1]):i}else{if(0===a[0]){var
+j=kN(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(qU,a[2]);return kM(h,f,b,o[2],t,s)}return j}var
+k=kN(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=S(b[1],a[2]);return m?kx(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=S(b[1],a[2]);return m?kM(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-g_(a){var
-b=aw(a[1]),c=at(O(b,a[2]),b),d=a[2];return ad(function(b,a){return[3,b,a]},d,c)}function
-g$(a){return aw(g_(a))}function
-kB(c){var
-a=g$(c),b=aw(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-ha(a,b){return a$(a[3],a[4],b)}function
-hb(a,b){var
-c=ha(a,b);return O(g$(a),c)}function
-hc(a,b){var
-c=ha(a,b);return O(kB(a),c)}function
-kC(a,b){var
-c=ha(a,b);return O(aw(a[1]),c)}function
-hd(b,a){var
-c=hc(b,a),d=hb(b,a);return[2,[4,d,d],[4,c,c]]}function
-he(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kC(a,d);return[5,[2,hd(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kD(a,b){var
-f=a[5],c=[3,he(a,b),f],d=kC(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fz(a,b){var
-c=kD(a,b);return cQ(a[7],c)}function
-kE(b,a){var
-c=hd(b,a),d=hc(b,a),e=[4,fz(b,a),d],f=hb(b,a);return[5,[2,[4,he(b,a),f],e],c]}function
-kF(b,a){var
-c=hd(b,a),d=hb(b,a),e=[4,fz(b,a),d],f=hc(b,a);return[5,[3,[4,he(b,a),f],e],c]}function
-kG(a,b){var
-c=kB(a),d=at(kF(a,b),c),e=g$(a),f=at(kE(a,b),e),g=ad(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ad(function(b,a){return[2,b,a]},i,h)}var
-o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-bL(h){var
-a=aR(function(f,e){var
-a=aU(o,f);if(a)var
-b=a[1],c=bk(da(b[1]),da(b[2]));else
+hf(a){var
+b=ax(a[1]),c=at(P(b,a[2]),b),d=a[2];return af(function(b,a){return[3,b,a]},d,c)}function
+hg(a){return ax(hf(a))}function
+kQ(c){var
+a=hg(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hh(a,b){return a$(a[3],a[4],b)}function
+hi(a,b){var
+c=hh(a,b);return P(hg(a),c)}function
+hj(a,b){var
+c=hh(a,b);return P(kQ(a),c)}function
+kR(a,b){var
+c=hh(a,b);return P(ax(a[1]),c)}function
+hk(b,a){var
+c=hj(b,a),d=hi(b,a);return[2,[4,d,d],[4,c,c]]}function
+hl(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kR(a,d);return[5,[2,hk(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kS(a,b){var
+f=a[5],c=[3,hl(a,b),f],d=kR(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fB(a,b){var
+c=kS(a,b);return cV(a[7],c)}function
+kT(b,a){var
+c=hk(b,a),d=hj(b,a),e=[4,fB(b,a),d],f=hi(b,a);return[5,[2,[4,hl(b,a),f],e],c]}function
+kU(b,a){var
+c=hk(b,a),d=hi(b,a),e=[4,fB(b,a),d],f=hj(b,a);return[5,[3,[4,hl(b,a),f],e],c]}function
+kV(a,b){var
+c=kQ(a),d=at(kU(a,b),c),e=hg(a),f=at(kT(a,b),e),g=af(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return af(function(b,a){return[2,b,a]},i,h)}var
+p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+bN(h){var
+a=aT(function(f,e){var
+a=aW(p,f);if(a)var
+b=a[1],c=bn(dg(b[1]),dg(b[2]));else
 var
-c=d;return bk(c,e)},d,h);if(L(d,a)){var
-f=a6(a);if(0===f||!(0<f&&!G(a,c)))var
+c=d;return bn(c,e)},d,h);if(L(d,a)){var
+f=a7(a);if(0===f||!(0<f&&!F(a,c)))var
 g=d;else
 var
-b=aQ(a,aD(2)),e=b[1],g=Y(b[2],d)?e1(e):e1(e);return aE(g,o)}return d}function
-dv(a){return[0,a[1],[0,a[2],0]]}function
-a2(a){var
-b=dv(a[3]),c=f(dv(a[2]),b);return f(dv(a[1]),c)}function
-fA(a){return fx(o,a,bL(a2(a)))}function
-kH(b,a){if(a){var
-g=kH([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=co([0,[0,d,d],c[2]],b);else
+b=aS(a,aD(2)),e=b[1],g=Z(b[2],d)?e2(e):e2(e);return aE(g,p)}return d}function
+dB(a){return[0,a[1],[0,a[2],0]]}function
+a3(a){var
+b=dB(a[3]),c=f(dB(a[2]),b);return f(dB(a[1]),c)}function
+fC(a){return fz(p,a,bN(a3(a)))}function
+kW(b,a){if(a){var
+g=kW([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=ct([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-kI(c,b,a){var
-d=dh(b);return[2,[2,dh(c),d],a]}function
-hf(b,a){return b?N(a):d}function
-eh(h,b,a){if(typeof
+kX(c,b,a){var
+d=dn(b);return[2,[2,dn(c),d],a]}function
+hm(b,a){return b?O(a):d}function
+el(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-m=hf(h,b),n=y(hf(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
-9:return[0,[1,[5,a[3],a[2]],N(b)],0];case
+m=hm(h,b),n=z(hm(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
+9:return[0,[1,[5,a[3],a[2]],O(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bL([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bN([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],o=dt(b,k),p=f(dt(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kI(l,k,a[3]),b],q];case
+k=a[2],l=a[1],o=dz(b,k),p=f(dz(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kX(l,k,a[3]),b],q];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cp(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cp(g,c,b,Q(e,h(eh(c,b,d))),i);return f(aq(g,kH(e,eh(c,b,d)),d),j)}return a}function
-hg(b,a){switch(a[0]){case
+cu(g,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=cu(g,c,b,M(e,h(el(c,b,d))),i);return f(ao(g,kW(e,el(c,b,d)),d),j)}return a}function
+hn(b,a){switch(a[0]){case
 0:var
-d=a[1];return ah(b,[0,[0,d,d],a[2]]);case
+d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ah(b,[0,[0,e,e],a[2]]);return c?jw(b,c[1]):c;case
-2:return dk(b,a[1]);default:return ff(b,a[1])}}function
-kJ(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-kK(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hh(a,c,b){var
-d=[4,kJ(a),b],e=[2,[4,kK(a),c],d],f=[4,kK(a),b];return[0,[3,[4,kJ(a),c],f],e]}function
-kL(c,a){var
-b=hh(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-ei(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fB(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:kL(d[1],a):a;case
+e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?jJ(b,c[1]):c;case
+2:return dr(b,a[1]);default:return fg(b,a[1])}}function
+kY(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+kZ(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+ho(a,c,b){var
+d=[4,kY(a),b],e=[2,[4,kZ(a),c],d],f=[4,kZ(a),b];return[0,[3,[4,kY(a),c],f],e]}function
+k0(c,a){var
+b=ho(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+em(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fD(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:k0(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hh(d[1],a[2],a[3]),m=j[1],k=hh(f[1],j[2],a[1]);return kL(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=ho(d[1],a[2],a[3]),m=j[1],k=ho(f[1],j[2],a[1]);return k0(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=O(e,e),n=ei(e,a),o=at([0,b(2,c),c],n),p=O(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ad(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ad(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-kM(b){var
-a=ci(b);return a?df(a[1],[0,d,c]):a}function
-kN(a,n,k,j){if(kM(j)){var
+e=[0,d[1],h[1],i[1]],l=P(e,e),n=em(e,a),o=at([0,b(2,c),c],n),p=P(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=af(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],af(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+k1(b){var
+a=cn(b);return a?dl(a[1],[0,d,c]):a}function
+k2(a,n,k,j){if(k1(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
-f=aU(a,k);if(f){var
-h=dk(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=ff(a,[5,j,[0,b(2,c),c]]);if(i)var
-p=x(a,f[1],h[1]),l=[0,J(i[1],p)];else
+f=aW(a,k);if(f){var
+h=dr(a,[5,j,[0,b(2,c),c]]);if(h){var
+i=fg(a,[5,j,[0,b(2,c),c]]);if(i)var
+p=y(a,f[1],h[1]),l=[0,H(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3091,26 +3097,26 @@ m=h;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
-ej(b,a,c){var
-d=ba(b,a[1],a[2]),e=d?kN(b,0,c,a[1]):d;return e?kN(b,1,c,a[2]):e}function
-dw(a,d){if(kM(d))return[0,B];var
-e=dk(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=ff(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=F(Z(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cd(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
-e=x(y(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gN(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
+en(b,a,c){var
+d=bd(b,a[1],a[2]),e=d?k2(b,0,c,a[1]):d;return e?k2(b,1,c,a[2]):e}function
+dC(a,d){if(k1(d))return[0,A];var
+e=dr(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=G(W(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return v(function(d){var
+e=y(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gT(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ek(d,a){var
-e=g(d,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-cT(a){return[0,[3,[0,d,c],a],a]}function
-kO(a,b,n,m){var
-h=ba(a,[0,d,c],b),i=h?ek(a,b):h;if(i){var
-e=dw(a,b);if(e){var
-f=aU(a,n);if(f){var
-g=aU(a,m);if(g){var
-o=f[1],p=g[1];return G(d,J(x(a,_(a,e[1]),p),o)[1])}var
+eo(d,a){var
+e=g(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+cY(a){return[0,[3,[0,d,c],a],a]}function
+k3(a,b,n,m){var
+h=bd(a,[0,d,c],b),i=h?eo(a,b):h;if(i){var
+e=dC(a,b);if(e){var
+f=aW(a,n);if(f){var
+g=aW(a,m);if(g){var
+o=f[1],p=g[1];return F(d,H(y(a,$(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3120,12 +3126,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-fC(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:ej(d,b[1],a[1]):a;case
+fE(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:en(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ej(d,b[1],a[1]),m=l?ej(d,b[2],e[1]):l;if(m)return ej(d,b[3],f[1]);var
+l=en(d,b[1],a[1]),m=l?en(d,b[2],e[1]):l;if(m)return en(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3138,7 +3144,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=O([0,s,r,q],[0,s,r,q]);return kO(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=P([0,s,r,q],[0,s,r,q]);return k3(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3147,7 +3153,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=kO(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ej(d,cT(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=k3(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return en(d,cY(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3157,29 +3163,29 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-cq(a){return 1===a?qA:qB}function
-fD(d,c,b,a){var
-e=a[1],f=fB(d,c,a[2]),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
-hi(c,b,a){switch(c){case
+cv(a){return 1===a?qV:qW}function
+fF(d,c,b,a){var
+e=a[1],f=fD(d,c,a[2]),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
+hp(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-kP(h,g,d,b,f,a){var
-e=fD(d,b,f,a);return hi(h,e,at([5,[0,c,c],g],ei(fB(d,b,a[2]),e)))}function
-kQ(c,j,i){var
+k4(h,g,d,b,f,a){var
+e=fF(d,b,f,a);return hp(h,e,at([5,[0,c,c],g],em(fD(d,b,a[2]),e)))}function
+k5(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=a1(c,e[1],d[1]),g=f?a1(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=a2(c,e[1],d[1]),g=f?a2(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-el(b,d){var
+ba(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,Q(b,c[1])]]:[0,cF(function(a){return el(b,a)},a)]}return[0,cF(function(a){return el(b,a)},a)]}function
-dx(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,cM(function(a){return ba(b,a)},a)]}return[0,cM(function(a){return ba(b,a)},a)]}function
+cZ(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ac(u(e,b));return f?ac(u(e,Q(d,b))):f;case
+e=a[1],f=_(t(e,b));return f?_(t(e,M(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3187,31 +3193,31 @@ e=a[1],f=ac(u(e,b));return f?ac(u(e,Q(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dx(d,b,a[1]);if(g){var
+g=cZ(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-em(c,b,m){var
+dD(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dx(c,b,g),i=h?em(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cZ(c,b,g),i=h?dD(c,b,f):h;if(i)var
 j=i;else{var
-k=em(c,b,g);if(k)return dx(c,b,f);var
+k=dD(c,b,g);if(k)return cZ(c,b,f);var
 j=k}return j;case
 7:var
-l=em(c,b,a[1]);return l?dx(c,b,a[2]):l;case
+l=dD(c,b,a[1]);return l?cZ(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=em(c,b,a[1]);if(e){var
+e=dD(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dx(c,b,a[1]);default:return 1}}}function
-cU(c,e){var
+9:return cZ(c,b,a[1]);default:return 1}}}function
+b6(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ac(u(a[1],c));case
+0:return _(t(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3219,32 +3225,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cU(c,a[1]);if(d){var
+d=b6(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hj(d,b,m){var
+fG(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=hj(d,b,a[1]);if(f){var
+f=fG(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=hj(d,b,a[1]);return g?cU(b,a[2]):g;case
+g=fG(d,b,a[1]);return g?b6(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cU(b,i);if(j){var
-k=cU(b,h);if(k)var
+h=a[2],i=a[1],j=b6(b,i);if(j){var
+k=b6(b,h);if(k)var
 e=k;else{var
-l=ay(i,d);if(l){var
+l=av(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cU(b,c)}}}function
-kR(c,e){var
+2:return 1;default:return b6(b,c)}}}function
+fH(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return dZ(a[1],c);case
+0:return cH(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3252,15 +3258,15 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=kR(c,a[1]);if(d){var
+d=fH(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hk(b,a){if(a){var
+hq(b,a){if(a){var
 c=a[2];if(b){var
-e=hk(b[1],c);return[0,a[1],e]}var
+e=hq(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-fE(b,d){if(b){var
+fI(b,d){if(b){var
 e=b[2],a=b[1];if(d){var
 f=d[2];if(d[1]){switch(a[0]){case
 10:var
@@ -3273,55 +3279,75 @@ c=[0,a[1],0];break;case
 1:case
 2:var
 c=0;break;default:var
-c=[0,a[1],[0,a[2],0]]}return[0,a,fE(e,aR(hk,f,c))]}return[0,qC,fE(e,f)]}var
-g=[0,a,fE(e,0)]}else
+c=[0,a[1],[0,a[2],0]]}return[0,a,fI(e,aT(hq,f,c))]}return[0,qX,fI(e,f)]}var
+g=[0,a,fI(e,0)]}else
 var
 g=b;return g}function
-cr(b,a){return a?k(b,a[1]):a}function
-cs(c,b,a){return cr(function(b){return cr(k(c,b),a)},b)}function
-kS(b,a){switch(a[0]){case
+cw(b,a){return a?i(b,a[1]):a}function
+cx(c,b,a){return cw(function(b){return cw(i(c,b),a)},b)}function
+hr(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-kT(a){return 0===a[0]?a[1]:0}function
-bM(b,a){switch(a[0]){case
-0:return[0,k(b,a[1])];case
-1:return[1,bM(b,a[1])];default:var
-c=bM(b,a[3]),d=bM(b,a[2]);return[2,bM(b,a[1]),d,c]}}function
-a3(b,c,a){switch(c[0]){case
-0:return bM(k(b,c[1]),a);case
+hs(a){return 0===a[0]?a[1]:0}function
+bO(b,a){switch(a[0]){case
+0:return[0,i(b,a[1])];case
+1:return[1,bO(b,a[1])];default:var
+c=bO(b,a[3]),d=bO(b,a[2]);return[2,bO(b,a[1]),d,c]}}function
+a4(b,c,a){switch(c[0]){case
+0:return bO(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-j=a[1];return[1,bM(function(a){return aq(b,a,j)},d)];case
-1:return[1,a3(b,d,a[1])];default:var
-l=a3(b,d,a[3]),m=a3(b,d,a[2]);return[2,a3(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bO(function(a){return ao(b,a,k)},d)];case
+1:return[1,a4(b,d,a[1])];default:var
+l=a4(b,d,a[3]),m=a4(b,d,a[2]);return[2,a4(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return aq(b,a,n)},h=function(a){return bM(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bO(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=a3(b,e,i),s=a3(b,f,i);return[2,a3(b,g,i),s,r];default:var
-t=a3(b,e,a[3]),u=a3(b,f,a[2]);return[2,a3(b,g,a[1]),u,t]}}}function
-hl(c,f,a){if(a)var
+j=a[1],r=a4(b,e,j),s=a4(b,f,j);return[2,a4(b,g,j),s,r];default:var
+t=a4(b,e,a[3]),u=a4(b,f,a[2]);return[2,a4(b,g,a[1]),u,t]}}}function
+ht(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,_(c,a)];break;case
+e=[0,a,$(c,a)];break;case
 1:var
-g=x(c,a,b),e=[0,a8(F(a,b)),g];break;default:var
-e=[0,b,_(c,b)]}return[0,[0,k(f,e)]]},h=hl(c,f,a[2]),i=e(function(a){return[1,a]},h),j=b(2),l=b(1),g=[0,[2,b(0),l,j],i];else
+g=y(c,a,b),e=[0,a9(G(a,b)),g];break;default:var
+e=[0,b,$(c,b)]}return[0,[0,i(f,e)]]},h=ht(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-kU(a){if(a){var
+hu(b,w,c,a){var
+e=ht(b,cd,a),d=0,x=f(ht(b,aF,a),e);return bJ(qZ,function(a){switch(a[0]){case
+0:return u(a[1],x,[0,[0,A]]);case
+1:return[0,[0,u(a[1],w,A)]];case
+2:return[0,[0,W(b,a[1])]];case
+3:var
+c=a[2],d=a[1],e=function(b,a){return[0,G(b,a)]};return a4(function(a,b){return cx(e,a,b)},d,c);case
+4:var
+f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return a4(function(a,b){return cx(h,a,b)},g,f);case
+5:var
+i=a[1],j=function(a){return[0,ag(a)]};return bO(function(a){return cw(j,a)},i);case
+6:var
+k=a[2],l=a[1],m=function(c,a){return[0,y(b,c,a)]};return a4(function(a,b){return cx(m,a,b)},l,k);case
+7:var
+n=a[2],o=a[1],p=function(c,a){var
+d=cg(b,a);return v(function(a){return y(b,c,a)},d)};return a4(function(a,b){return cx(p,a,b)},o,n);case
+8:var
+q=a[1],r=function(a){return[0,$(b,a)]};return bO(function(a){return cw(r,a)},q);case
+9:var
+s=a[1],t=function(a){return ch(b,a)};return bO(function(a){return cw(t,a)},s);default:return qY}},c,d)}function
+hv(a){if(a){var
 b=a[1];if(b)var
-c=kU(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qF}function
-dy(a){if(a){var
-g=a[1],b=g[2],c=kU(g[1]);if(c)if(b){var
-h=b[1],e=dy(a[2]);if(e)var
+d=b;return d}return q0}function
+dE(a){if(a){var
+g=a[1],b=g[2],c=hv(g[1]);if(c)if(b){var
+h=b[1],e=dE(a[2]);if(e)var
 i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -3329,157 +3355,240 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return qG}function
-dz(b,a){var
-c=a[3],d=w(function(a){var
-c=a[2],d=a[1][2];return[0,[0,k(b,a[1][1]),d],c]},c),e=k(b,a[2]),f=a[1];return[0,k(as(b),f),e,d]}function
-kV(e,d,c,b){if(d){var
-i=d[1],a=function(a){var
-d=dz(function(b){return kS(a,b)},b);return kV(bD(e),i,c,d)},f=a(0);if(f){var
+f=c;return f}return q1}function
+dF(b,a){var
+c=a[3],d=v(function(a){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ar(b),f),e,d]}function
+k6(e,d,c,b){if(d){var
+j=d[1],a=function(a){var
+d=dF(function(b){return hr(a,b)},b);return k6(bq(e),j,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return k(c,dz(kT,b))}function
-kW(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return kW(m,e,l,a,dz(function(a){return kS(b,a)},d))},h=c(0,aE(b,g));if(h){var
-i=c(2,y(b,g));if(i)return c(1,b);var
+h=f;return h}return i(c,dF(hs,b))}function
+k7(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return k7(m,e,l,a,dF(function(a){return hr(b,a)},d))},h=c(0,aE(b,g));if(h){var
+i=c(2,z(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:aq(e,b,dz(kT,d))}function
-dA(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a7(f,e,a)},d)}return[0,B]}function
-kX(k,e,j,i,h,a){var
-b=dy(a[1]);if(b){var
+k=a;return k}return a?0:ao(e,b,dF(hs,d))}function
+c0(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return v(function(a){return a8(f,e,a)},d)}return[0,A]}function
+k8(k,e,j,i,h,a){var
+b=dE(a[1]);if(b){var
 c=a[2];if(c){var
-d=dA(a[3]);if(d){var
-l=d[1],m=aG([0,J(af(x(k,h,c[1])),l),0],e);return bK(e,fh(j,i,b[1],m))}var
+d=c0(a[3]);if(d){var
+l=d[1],m=aG([0,H(ag(y(k,h,c[1])),l),0],e);return bv(e,fi(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
 g=f}else
 var
 g=b;return g}function
-kY(d,h,g,c){var
-a=dy(c[1]);if(a){var
-b=dA(c[3]);if(b){var
-i=aG([0,J(B,b[1]),0],d),j=a[1];return bK(d,fh(h,g,e(function(a){return[0,a[1],B]},j),i))}var
+k9(d,h,g,c){var
+a=dE(c[1]);if(a){var
+b=c0(c[3]);if(b){var
+i=aG([0,H(A,b[1]),0],d),j=a[1];return bv(d,fi(h,g,e(function(a){return[0,a[1],A]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-kZ(E,b,D,g){var
-i=dy(g[1]);if(i){var
+k_(E,b,D,g){var
+i=dE(g[1]);if(i){var
 j=g[2];if(j){var
-k=dA(g[3]);if(k){var
-F=k[1],c=J(x(E,D,j[1]),F),a=i[1];if(a){var
+k=c0(g[3]);if(k){var
+F=k[1],c=H(y(E,D,j[1]),F),a=i[1];if(a){var
 l=a[1],m=l[2];if(a[2]){var
-e=fi(a,aG([0,c,0],b));if(e){var
-n=e[1],o=u(h(n),b);if(o)return dl(n);var
+e=fj(a,aG([0,c,0],b));if(e){var
+n=e[1],o=t(h(n),b);if(o)return ds(n);var
 p=o}else
 var
 p=e;return p}var
 q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
-B=v(c[1],m[1]),C=l[1];return L(aR(function(a,b){var
-c=cE(a);return y(v(cE(a),c),b)},d,C),B)}return r}var
-f=fi(a,aG([0,c,0],b));if(f){var
-s=f[1],t=u(h(s),b);if(t)return dl(s);var
-w=t}else
+B=w(c[1],m[1]),C=l[1];return L(aT(function(a,b){var
+c=cL(a);return z(w(cL(a),c),b)},d,C),B)}return r}var
+f=fj(a,aG([0,c,0],b));if(f){var
+s=f[1],u=t(h(s),b);if(u)return ds(s);var
+v=u}else
 var
-w=f;return w}var
-z=k}else
+v=f;return v}var
+x=k}else
 var
-z=j;var
-A=z}else
+x=j;var
+A=x}else
 var
 A=i;return A}function
-qH(c){var
+q2(c){var
 a=c[2];if(a){var
-b=dA(c[3]);if(b)return G(d,J(a[1],b[1])[1]);var
+b=c0(c[3]);if(b)return F(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-k0(a){return z(function(a){return f(a[1],[0,a[2],0])},a)}function
-k1(a,c,b){var
-e=t(b,c,l(d)),f=aZ(0,a);return p(function(b){return em(a,b,e)},f)}function
-en(a){var
+k$(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+la(a,c,b){var
+e=u(b,c,l(d)),f=aJ(0,a);return n(function(b){return dD(a,b,e)},f)}function
+ep(a){var
 b=K(a);return C(l(c),b)}function
-fF(i,g){var
-h=en(g),j=K(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bo(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bo(f),a,e]]:[0,[0,h,a,a],[0,a,e,bo(f)],[0,a,f,e]]}function
-eo(b,a){var
-c=V(b[3],a),d=V(b[2],a);return[0,V(b[1],a),d,c]}function
-k2(b,a){function
+fJ(i,g){var
+h=ep(g),j=K(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bc(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bc(f),a,e]]:[0,[0,h,a,a],[0,a,e,bc(f)],[0,a,f,e]]}function
+eq(b,a){var
+c=X(b[3],a),d=X(b[2],a);return[0,X(b[1],a),d,c]}function
+lb(b,a){function
 c(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=V(a,c(function(a){return a[3]})),d=V(a,c(function(a){return a[2]}));return[0,V(a,c(function(a){return a[1]})),d,b]}var
+b=X(a,c(function(a){return a[3]})),d=X(a,c(function(a){return a[2]}));return[0,X(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-k3(w,v){function
-a(a){return[0,[0,Q(v,a)]]}switch(w[0]){case
+lc(w,v){function
+a(a){return[0,[0,M(v,a)]]}switch(w[0]){case
 0:var
-x=en(a(0));return[0,fF(qI,a(0)),x];case
+x=ep(a(0));return[0,fJ(q3,a(0)),x];case
 1:var
-y=en(a(0)),z=q(en(a(qJ)),y),A=q(en(a(qK)),z),B=fF(0,a(0)),D=k2(fF(qM,a(qL)),B);return[0,k2(fF(qO,a(qN)),D),A];default:var
-E=a(qP),F=a(qQ),g=[0,a(0),F,E],G=V(g,g),H=C(l(c),G),j=V(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=ep(a(0)),z=q(ep(a(q4)),y),A=q(ep(a(q5)),z),B=fJ(0,a(0)),D=lb(fJ(q7,a(q6)),B);return[0,lb(fJ(q9,a(q8)),D),A];default:var
+E=a(q_),F=a(q$),g=[0,a(0),F,E],G=X(g,g),H=C(l(c),G),j=X(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=K(a),e=q(l(b(2,c)),d);return C(s(l(c),j),e)},h=function(f,e,d,a){var
-g=aq(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-k4(a){return 1<a[0]?[0,a[1],0]:0}function
-fG(a){switch(a[0]){case
+g=ao(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
+ld(a){return 1<a[0]?[0,a[1],0]:0}function
+fK(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cT(a[1]),0];default:var
-b=[0,cT(a[2]),0];return[0,cT(a[1]),b]}}function
-dB(a){return[0,[0,a[1]],[0,a[2]]]}function
-k5(a){switch(a[0]){case
-0:return[0,dB(a[1]),0];case
+2:return[0,cY(a[1]),0];default:var
+b=[0,cY(a[2]),0];return[0,cY(a[1]),b]}}function
+dG(a){return[0,[0,a[1]],[0,a[2]]]}function
+le(a){switch(a[0]){case
+0:return[0,dG(a[1]),0];case
 1:var
-f=[0,dB(a[3]),0],g=[0,dB(a[2]),f];return[0,dB(a[1]),g];case
+f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
 2:var
-b=dB(cT(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cT(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dB(cT(c)),0]]]}}function
-k6(a,b){if(0===b[0])return dw(a,b[1]);var
-d=dw(a,b[1]);if(d){var
-e=dw(a,b[2]);if(e){var
-g=_(a,e[1]),h=ce(a,F(Z(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
+b=dG(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}function
+lf(a,b){if(0===b[0])return dC(a,b[1]);var
+d=dC(a,b[1]);if(d){var
+e=dC(a,b[2]);if(e){var
+g=$(a,e[1]),h=ch(a,G(W(a,c),g)),i=d[1];return v(function(b){return y(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-k7(d,c){var
-a=k6(d,c[1]);if(a)var
-b=k6(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lg(d,c){var
+a=lf(d,c[1]);if(a)var
+b=lf(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-k8(a){switch(a[0]){case
+by(e,j){var
+a=j[1];switch(a[0]){case
+1:var
+k=t(a[1],e)?c:d;return l(k);case
 3:var
-c=k0(a[2]);return[0,a[3],c];case
+m=by(e,a[2]);return C(by(e,a[1]),m);case
+4:var
+n=by(e,a[2]);return s(by(e,a[1]),n);case
+5:return bc(by(e,a[1]));case
+6:var
+g=a[2],h=a[1],o=q(h,by(e,g));return C(q(g,by(e,h)),o);case
+7:var
+f=by(e,a[1]);return aM(d,f)?f:am(f,a[2]);case
+8:var
+i=a[1],p=by(e,i);return q(q(l(b(2,c)),i),p);default:return l(d)}}function
+hw(c,b,k){var
+e=k;for(;;){var
+a=e[1];switch(a[0]){case
+7:var
+g=hw(c,b,a[1]);if(g){var
+h=a[2][1];if(1===h[0]){var
+i=h[1],j=L(d,u(i,c,A)[1]);return j?_(ai(function(a){return t(i,a)},b)):j}return 0}return g;case
+5:case
+8:var
+e=a[1];continue;case
+9:case
+10:return 0;case
+3:case
+4:case
+6:var
+f=hw(c,b,a[1]);if(f){var
+e=a[2];continue}return f;default:return 1}}}function
+lh(d){var
+b=d;for(;;){var
+a=b[1];switch(a[0]){case
+0:case
+2:return 1;case
+1:case
+10:return 0;case
+5:case
+8:case
+9:var
+b=a[1];continue;default:var
+c=lh(a[1]);if(c){var
+b=a[2];continue}return c}}}function
+li(c,b,a){var
+d=e(b,a[2]);return[0,i(c,a[1]),d]}function
+hx(b,a,c){return e(function(c){var
+d=li(b,a,c[2]),f=c[1];return[0,e(function(c){return li(b,a,c)},f),d]},c)}function
+lj(b,a){return v(function(a){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
+lk(a,b){var
+c=lj(a,b[3]),d=i(a,b[2]);return[0,hx(a,a,b[1]),d,c]}function
+ll(e,d,c,b){if(d){var
+j=d[1],a=function(a){var
+d=lk(function(b){return hr(a,b)},b);return ll(bq(e),j,c,d)},f=a(0);if(f){var
+g=a(2);if(g)return e?1:a(1);var
+h=g}else
+var
+h=f;return h}return i(c,lk(hs,b))}function
+lm(c){var
+a=c[1];if(a){var
+b=hv(c[2]);if(b)var
+g=e(ad,b[1]),d=[0,[0,ad(a[1]),g]];else
+var
+d=b;var
+f=d}else
+var
+f=a;return f}function
+re(c){var
+a=ae(e(lm,c[1]));if(a)var
+b=lm(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+var
+d=a;return d}function
+rf(a){return _(g3([0,a[2],a[1]]))}function
+hy(a){return[0,a[1],a[2]]}function
+ln(b,c,a){var
+d=e(function(c){return ba(b,by(c,a))},c);return[0,ba(b,a),d]}function
+hz(b,e,a,d){var
+c=x(function(a){var
+b=hy(a[2]);return f(x(hy,a[1]),b)},d),g=a?[0,ba(b,a[1]),0]:a,h=f(g,c);return[0,ba(b,e),h]}function
+lo(c,f,b,a){var
+d=hw(f,b,a),e=d?fH(c,a):d;return e?n(function(b){return fH(c,by(b,a))},b):e}function
+lp(a){switch(a[0]){case
+3:var
+c=k$(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=k0(a[1]);return[0,a[2],b]}}function
-k9(f,s,e,r,q,b,a){switch(b[0]){case
+b=k$(a[1]);return[0,a[2],b]}}function
+lq(f,s,e,r,q,b,a){switch(b[0]){case
 0:var
-v=b[4],o=b[3],w=b[2],y=b[1],p=0;if(typeof
+v=b[4],o=b[3],w=b[2],x=b[1],p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 0:var
-P=a[2],Q=a[1],k=w,j=y,i=function(a){return kX(f,e,Q,P,o,a)},g=v;break;case
+P=a[2],Q=a[1],k=w,j=x,i=function(a){return k8(f,e,Q,P,o,a)},g=v;break;case
 2:var
-z=Y(o[1],d),A=z?Y(o[2],d):z;if(!A)return A;var
-S=a[2],T=a[1],k=w,j=y,i=function(a){return kY(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
+z=Z(o[1],d),A=z?Z(o[2],d):z;if(!A)return A;var
+S=a[2],T=a[1],k=w,j=x,i=function(a){return k9(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
 1:var
-G=0;if(typeof
+F=0;if(typeof
 a==="number"&&!a)var
-U=b[2],V=b[1],W=b[3],k=U,j=V,X=0,i=function(a){return kZ(f,e,W,a)},g=X;else
-G=1;if(G)return 0;break;case
+U=b[2],V=b[1],X=b[3],k=U,j=V,Y=0,i=function(a){return k_(f,e,X,a)},g=Y;else
+F=1;if(F)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-_=[0,b[1],b[2],q],$=dz(function(a){return t(a,r,qW)},_),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return kW(s,function(v,j){var
-a=dy(j[1]);if(a){var
+_=[0,b[1],b[2],q],$=dF(function(a){return u(a,r,ri)},_),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return k7(s,function(v,j){var
+a=dE(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
-g=dA(j[3]);if(g){var
-l=g[1],m=function(a){return a7(a,B,Z(f,c))},t=m(v),u=b[1],h=F(x(f,m(ab),u),t),n=L(d,h[1]),o=n?bK(e,fh(B,ac,k,aG([0,J(af(h),l),0],e))):n;if(o){var
-i=fi(k,aG([0,J(x(f,ad,h),l),0],e));if(i)return bK(e,i[1]);var
+g=c0(j[3]);if(g){var
+l=g[1],m=function(a){return a8(a,B,W(f,c))},t=m(v),u=b[1],h=G(y(f,m(ab),u),t),n=L(d,h[1]),o=n?bv(e,fi(B,ac,k,aG([0,H(ag(h),l),0],e))):n;if(o){var
+i=fj(k,aG([0,H(y(f,ad,h),l),0],e));if(i)return bv(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3493,15 +3602,15 @@ s=r}else
 var
 s=a;return s},aa,d,$)}return l}return 0;case
 3:var
-H=0;if(typeof
-a==="number"||!(0===a[0]))H=1;else
+I=0;if(typeof
+a==="number"||!(0===a[0]))I=1;else
 var
-C=a[2],D=a[1],ae=b[3],ag=b[2],ah=b[4],ai=b[1],aj=function(g){var
-a=dy(g[1]);if(a){var
+C=a[2],D=a[1],ae=b[3],af=b[2],ah=b[4],ai=b[1],aj=function(g){var
+a=dE(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
-d=dA(g[3]);if(d){var
-i=u(h(b),e),j=i?u(h(C),e):i;if(j){var
-n=ea(D,eb(D,C,c[1],b));return bK(e,ck(fm(f,ai,ah,d[1],b),n))}var
+d=c0(g[3]);if(d){var
+i=t(h(b),e),j=i?t(h(C),e):i;if(j){var
+n=ee(D,ef(D,C,c[1],b));return bv(e,cp(fn(f,ai,ah,d[1],b),n))}var
 k=j}else
 var
 k=d;var
@@ -3510,18 +3619,18 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=ae,j=ag,i=aj,g=b[5];if(H)return 0;break;case
+m=a;return m},k=ae,j=af,i=aj,g=b[5];if(I)return 0;break;case
 4:var
-I=0;if(typeof
+J=0;if(typeof
 a==="number"&&!a)var
-k=b[1],j=0,i=qH,g=0;else
-I=1;if(I)return 0;break;case
+k=b[1],j=0,i=q2,g=0;else
+J=1;if(J)return 0;break;case
 5:var
 K=0;if(typeof
 a==="number"||!(0===a[0]))K=1;else{var
 m=a[2],M=0;if(m){var
 n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-ak=b[2],al=b[1],am=Z(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,j=al,ap=0,i=function(a){return kX(f,qX,ao,an,am,a)},g=ap;M=1}else
+ak=b[2],al=b[1],am=W(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,j=al,ap=0,i=function(a){return k8(f,rj,ao,an,am,a)},g=ap;M=1}else
 var
 E=n}else
 var
@@ -3529,154 +3638,140 @@ E=m;if(!M)return E}if(K)return 0;break;case
 6:var
 N=0;if(typeof
 a==="number"&&!a)var
-aq=b[2],ar=b[1],as=Z(f,c),k=aq,j=ar,at=0,i=function(a){return kZ(f,qY,as,a)},g=at;else
+aq=b[2],ar=b[1],as=W(f,c),k=aq,j=ar,at=0,i=function(a){return k_(f,rk,as,a)},g=at;else
 N=1;if(N)return 0;break;case
 7:var
 O=0;if(typeof
 a==="number"&&5<=a)var
-au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,j=av,ay=0,i=function(a){return kY(e,ax,aw,a)},g=ay;else
+au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,j=av,ay=0,i=function(a){return k9(e,ax,aw,a)},g=ay;else
 O=1;if(O)return 0;break;default:return 0}var
-R=[0,j,k,q];return kV(g,s,i,dz(function(a){return t(a,r,qV)},R))}function
-k_(h,g,n,i,m,l,e,a){if(typeof
-a==="number"){if(0===a)return 8===e[0]?fr(h,0,0,0,l,g,0,e[1],a):0}else
-switch(a[0]){case
+R=[0,j,k,q];return k6(g,s,i,dF(function(a){return u(a,r,rh)},R))}function
+rl(b,a){var
+c=gP(gL,b[1],a[1]);return c?gL(b[2],a[2]):c}function
+lr(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
+e==="number"){if(0===e)return 8===a[0]?fs(h,0,0,0,n,g,0,a[1],e):0}else
+switch(e[0]){case
 6:var
-f=a[1];if(typeof
+f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
-o=f[3],p=f[2],q=G(d,p);if(q)var
-k=iO(o,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),s=0===k?0:0<=k?2:1,t=1===s?1:0,j=t;else
+q=f[3],r=f[2],s=F(d,r);if(s)var
+k=i1(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
 var
-j=q;if(j)return k9(h,g,n,m,[0,[0,[0,i[1],p],o]],e,f[1]);var
-r=j}else
+j=s;if(j)return lq(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
+u=j}else
 var
-r=i;return r}return k9(h,g,n,m,0,e,f);case
-8:return 8===e[0]?fr(h,0,0,0,l,g,0,e[1],a):0}return 0}function
-k$(b){var
+u=i;return u}return lq(h,g,p,o,0,a,f);case
+8:return 8===a[0]?fs(h,0,0,0,n,g,0,a[1],e):0;case
+10:if(0===a[0]){var
+l=gP(rl,a[1],A),m=l?1:l,v=m?t(a[2],z):m;return v?DK(y,x,a[3],a[4],e):v}return 0}return 0}function
+ls(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-qZ(c){var
+rm(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-la(a,s,ak,r,q,O,N,c,k,j,aj){var
-P=ap(qZ,j),Q=P?gZ(a,ak,r,k):P,R=ap(k$,j);if(R)var
-ag=z(function(b){var
-c=k$(b);if(c){var
-a=S(q,b[1]);if(a)return k8(a[1]);var
+lt(b,s,ak,r,q,R,Q,c,P,O,N,i,k,aj){var
+T=ai(rm,k),U=T?g7(b,ak,r,i):T,V=ai(ls,k);if(V)var
+ae=x(function(b){var
+c=ls(b);if(c){var
+a=S(q,b[1]);if(a)return lp(a[1]);var
 d=a}else
 var
-d=c;return d},j),ah=c?[0,c[1],0]:c,ai=f(ah,ag),U=0,V=aR(hk,e(function(a){return 0},s),ai),W=e6(fE(e6(s,0),V),U),ac=hl(a,ca,k),ab=0,ad=f(hl(a,aJ,k),ac),u=bG(qE,function(b){switch(b[0]){case
-0:return t(b[1],ad,[0,[0,B]]);case
-1:return[0,[0,t(b[1],r,B)]];case
-2:return[0,[0,Z(a,b[1])]];case
-3:var
-c=b[2],d=b[1],e=function(b,a){return[0,F(b,a)]};return a3(function(a,b){return cs(e,a,b)},d,c);case
-4:var
-f=b[2],g=b[1],h=function(b,a){return[0,J(b,a)]};return a3(function(a,b){return cs(h,a,b)},g,f);case
-5:var
-i=b[1],j=function(a){return[0,af(a)]};return bM(function(a){return cr(j,a)},i);case
-6:var
-k=b[2],l=b[1],m=function(c,b){return[0,x(a,c,b)]};return a3(function(a,b){return cs(m,a,b)},l,k);case
-7:var
-n=b[2],o=b[1],p=function(c,b){var
-d=cd(a,b);return w(function(b){return x(a,c,b)},d)};return a3(function(a,b){return cs(p,a,b)},o,n);case
-8:var
-q=b[1],s=function(b){return[0,_(a,b)]};return bM(function(a){return cr(s,a)},q);case
-9:var
-u=b[1],v=function(b){return ce(a,b)};return bM(function(a){return cr(v,a)},u);default:return qD}},W,ab);else
+d=c;return d},k),af=c?[0,c[1],0]:c,ah=f(af,ae),Y=0,Z=aT(hq,e(function(a){return 0},s),ah),t=hu(b,r,e7(fI(e7(s,0),Z),Y),i);else
 var
-u=R;var
-h=j,b=aj;for(;;){if(h){var
-A=h[1],i=A[2],g=A[1],m=h[2];if(g){var
-C=t(g,b,0);if(C){var
+t=V;var
+h=k,a=aj;for(;;){if(h){var
+B=h[1],j=B[2],g=B[1],m=h[2];if(g){var
+C=u(g,a,0);if(C){var
 n=S(q,g);if(n){var
-D=k_(a,O,N,c,u,Q,n[1],i);if(D){var
-h=m,b=fs(g,b);continue}var
+D=lr(b,R,Q,c,P,O,N,i,t,U,n[1],j);if(D){var
+h=m,a=ft(g,a);continue}var
 E=D}else
 var
 E=n;var
-G=E}else
+F=E}else
 var
-G=C;return G}if(typeof
-i==="number"&&4===i){var
-T=0;if(c){var
-ae=0,v=e(function(b){return[0,b,_(a,b)]},k),Y=e(ca,v),X=0,$=f(e(aJ,v),Y),aa=bG(0,function(n){return function(b){switch(b[0]){case
-0:return[0,t(b[1],n,B)];case
-1:return[0,t(b[1],r,B)];case
-2:return[0,Z(a,b[1])];case
+F=C;return F}if(typeof
+j==="number"&&4===j){var
+X=0;if(c){var
+ad=0,w=e(function(a){return[0,a,$(b,a)]},i),aa=e(cd,w),_=0,ab=f(e(aF,w),aa),ac=bJ(0,function(n){return function(a){switch(a[0]){case
+0:return[0,u(a[1],n,A)];case
+1:return[0,u(a[1],r,A)];case
+2:return[0,W(b,a[1])];case
 3:var
-c=b[2],d=b[1];return cs(function(b,a){return[0,F(b,a)]},d,c);case
+c=a[2],d=a[1];return cx(function(b,a){return[0,G(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cs(function(b,a){return[0,J(b,a)]},f,e);case
+e=a[2],f=a[1];return cx(function(b,a){return[0,H(b,a)]},f,e);case
 5:var
-g=b[1];return cr(function(a){return[0,af(a)]},g);case
+g=a[1];return cw(function(a){return[0,ag(a)]},g);case
 6:var
-h=b[2],i=b[1];return cs(function(c,b){return[0,x(a,c,b)]},i,h);case
+h=a[2],i=a[1];return cx(function(c,a){return[0,y(b,c,a)]},i,h);case
 7:var
-j=b[2],k=b[1];return cs(function(c,b){var
-d=cd(a,b);return w(function(b){return x(a,c,b)},d)},k,j);case
+j=a[2],k=a[1];return cx(function(c,a){var
+d=cg(b,a);return v(function(a){return y(b,c,a)},d)},k,j);case
 8:var
-l=b[1];return cr(function(b){return[0,_(a,b)]},l);case
+l=a[1];return cw(function(a){return[0,$(b,a)]},l);case
 9:var
-m=b[1];return cr(function(b){return ce(a,b)},m);default:return 0}}}($),s,X),l=t(c[1],aa,ae);if(l){var
-o=L(l[1][2],d);T=1}else
+m=a[1];return cw(function(a){return ch(b,a)},m);default:return 0}}}(ab),s,_),l=u(c[1],ac,ad);if(l){var
+o=L(l[1][2],d);X=1}else
 var
-y=l}else
+z=l}else
 var
-y=c;if(!T)var
-o=y;if(o){var
-h=m,b=e(function(a){return 0},b);continue}return o}var
-H=t(g,b,0);if(H){var
+z=c;if(!X)var
+o=z;if(o){var
+h=m,a=e(function(a){return 0},a);continue}return o}var
+I=u(g,a,0);if(I){var
 p=S(q,g);if(p){var
-I=k_(a,O,N,c,u,Q,p[1],i);if(I){var
-h=m,b=fs(g,b);continue}var
-K=I}else
+J=lr(b,R,Q,c,P,O,N,i,t,U,p[1],j);if(J){var
+h=m,a=ft(g,a);continue}var
+K=J}else
 var
 K=p;var
 M=K}else
 var
-M=H;return M}return[0,b]}}function
-lb(j,i,h,g,f,e,d,c,u,t,s){var
-b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=la(j,i,h,g,f,e,d,c,b,a[1],k);return l?p(ac,l[1]):l}var
-m=la(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-n=m[1],o=d$(a[2],b),q=lb(j,i,h,g,f,e,d,c,o[1],n,a[3]);if(q){var
-b=o[2],k=n,a=a[4];continue}var
-r=q}else
+M=I;return M}return[0,a]}}function
+lu(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+b=x,o=w,a=v;for(;;){if(0===a[0]){var
+p=lt(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(_,p[1]):p}var
+q=lt(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=ed(a[2],b),t=lu(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+b=s[2],o=r,a=a[4];continue}var
+u=t}else
 var
-r=m;return r}}function
-fH(b,a){var
+u=q;return u}}function
+fL(b,a){var
 c=q(b[2],a[1]),d=s(q(b[1],a[2]),c),e=q(b[1],a[3]),f=s(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,s(q(b[2],a[3]),g),f,d]}function
-hm(d,a){var
+hA(d,a){var
 e=K(a),f=q(q(l(b(2,c)),a),d);return C(s(K(d),f),e)}function
-lc(c,b,a){switch(c){case
+lv(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-ep(a){switch(a){case
-0:return[0,q1,q0,l(d)];case
-1:return cK;default:var
+er(a){switch(a){case
+0:return[0,ro,rn,l(d)];case
+1:return cP;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fI(a){switch(a){case
-0:return q2;case
-1:return q3;default:return 0}}function
-hn(j,a,d,i,c,h){var
-e=ai(s,ep(j),i);if(h){var
+fM(a){switch(a){case
+0:return rp;case
+1:return rq;default:return 0}}function
+hB(k,a,d,j,c,h){var
+e=ak(s,er(k),j);if(h){var
 b=function(b){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eo([0,b(function(a){return a[1]}),g,f],e);return ai(C,aW(d,c),l)}var
-m=eo(a,c);return ai(C,aW(d,e),m)}function
-ld(f,h,g,k,a,d){var
-e=ep(f),i=ai(s,e,a),j=eo(h,d),m=hm(e[3],a[3]),n=hm(e[2],a[2]),o=hm(e[1],a[1]),p=C(C(C(V(d,d),o),n),m),r=V(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cl(fH(j,i),k);return[0,lc(f,hn(f,h,g,a,d,0),v),u]}function
-le(c,b,a){return cl(eo(c,a),b)}function
-lf(d,c,b,a){var
-e=le(c,b,a);return ai(C,ep(d),e)}function
-ho(b,a){var
-c=aM(a[2],b);return f(aM(a[1],b),c)}function
-hp(d,b,a,c){if(a)var
-e=a[1],f=b1(c,ho(b,e)),i=Q(c,h(ho(b,e))),j=hp(d,b,a[2],i),k=aa(f,q4),g=[0,aq(d,aa(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eq([0,b(function(a){return a[1]}),g,f],e);return ak(C,aY(d,c),l)}var
+m=eq(a,c);return ak(C,aY(d,e),m)}function
+lw(f,h,g,k,a,d){var
+e=er(f),i=ak(s,e,a),j=eq(h,d),m=hA(e[3],a[3]),n=hA(e[2],a[2]),o=hA(e[1],a[1]),p=C(C(C(X(d,d),o),n),m),r=X(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cq(fL(j,i),k);return[0,lv(f,hB(f,h,g,a,d,0),v),u]}function
+lx(c,b,a){return cq(eq(c,a),b)}function
+ly(d,c,b,a){var
+e=lx(c,b,a);return ak(C,er(d),e)}function
+fN(b,a){var
+c=aO(a[2],b);return f(aO(a[1],b),c)}function
+hC(d,b,a,c){if(a)var
+e=a[1],f=b4(c,fN(b,e)),i=M(c,h(fN(b,e))),j=hC(d,b,a[2],i),k=ab(f,rr),g=[0,ao(d,ab(f,0),k),j];else
 var
 g=a;return g}function
-hq(f,o,e,n,a){var
-h=q(K(t(0,n,l(d))),o);if(typeof
+hD(f,o,e,n,a){var
+h=q(K(u(0,n,l(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=S(e,a[1]);if(b)var
@@ -3688,297 +3783,380 @@ c=S(e,a[1]);if(c)var
 k=g(f,0,a[2]),m=k?[0,s(h,c[1][1][2])]:k;else
 var
 m=c;return m}return 0}function
-lg(a){var
+lz(a){var
 b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
-b=t(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-lh(c,b,a){if(typeof
+b=u(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
+lA(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=S(c,a[1]);return w(function(a){var
-c=t(0,b,l(d)),e=k(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-eq(a){return g(o,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a])}function
-li(a){var
-b=aa(a,q5),c=az(V(aa(a,q6),b));return q(t(0,a,l(d)),c)}function
-lj(b,a){var
-c=V(a,aa(b,q7));return[0,bI(aW(li(b),a)),c]}function
-lk(e,d,a,c,b){var
-f=b[2],g=q(li(a),f),h=c?le(e,d,aa(a,q8)):aa(a,q9);return s(V(b[1][2],h),g)}function
-ll(h,g,f,d,c,b,a){var
-i=bE(c);function
-j(a){return lf(h,g,f,a)}return j_(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lm(a){var
-b=a[3],c=a[2],d=a[1];return fA([0,[0,d,d],[0,c,c],[0,b,b]])}function
-ra(a){if(typeof
+e=S(c,a[1]);return v(function(a){var
+c=u(0,b,l(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+es(a){return g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],a])}function
+lB(a){var
+b=ab(a,rs),c=az(X(ab(a,rt),b));return q(u(0,a,l(d)),c)}function
+lC(b,a){var
+c=X(a,ab(b,ru));return[0,bL(aY(lB(b),a)),c]}function
+lD(e,d,a,c,b){var
+f=b[2],g=q(lB(a),f),h=c?lx(e,d,ab(a,rv)):ab(a,rw);return s(X(b[1][2],h),g)}function
+lE(h,g,f,d,c,b,a){var
+i=bI(c);function
+j(a){return ly(h,g,f,a)}return kn(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lF(a){var
+b=a[3],c=a[2],d=a[1];return fC([0,[0,d,d],[0,c,c],[0,b,b]])}function
+rz(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-ln(b,a){switch(b){case
+lG(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fJ(a){var
-b=bZ(a[1],[0,d,c]);return b?bZ(a[2],[0,d,c]):b}function
-hr(d,a){switch(d){case
-0:return fJ(a[3]);case
+fO(a){var
+b=b2(a[1],[0,d,c]);return b?b2(a[2],[0,d,c]):b}function
+hE(d,a){switch(d){case
+0:return fO(a[3]);case
 1:return 1;default:var
-b=fJ(a[1]),c=b?fJ(a[2]):b;return c?fJ(a[3]):c}}function
-rb(a,ao,a$,m,y,a_){var
-v=m[1],x=cq(v),F=m[6],ba=m[2],J=z(function(a){return ho(y,a)},ba),aq=m[3],P=[0,[0,aq,aq],y],L=[0,h(J)],bb=0,ar=z(function(a){return eh(bb,y,a)},F),bc=fI(v),at=k3(m[5],bc),j=at[2],A=at[1],be=m[2],au=co(P,h(J)),bd=0,r=hp(function(b,a){var
-f=lf(v,A,j,a),e=ai(s,f,b),k=[0,[0,f,e],az(V(e,e))];function
-m(c){return hn(v,A,j,b,a,c)}var
-g=2<=v?d:c;function
+b=fO(a[1]),c=b?fO(a[2]):b;return c?fO(a[3]):c}}function
+lH(c,b){var
+a=x(function(a){return fN(c,a)},b),d=aI(aJ(0,h(a)),a);return e(aF,bb(function(a){return fy(a[2])},d))}function
+lI(b){var
+a=b[2];if(typeof
+a!=="number"&&10===a[0])return 1;return 0}function
+lJ(c){var
+a=c;for(;;){if(0===a[0])return ai(lI,a[1]);var
+d=ai(lI,a[1]),b=d||lJ(a[3]);if(b)return b;var
+a=a[4];continue}}function
+rA(j,aQ,bE,r,D,aP){var
+z=r[1],a=cv(z),P=r[6],bF=r[2],U=x(function(a){return fN(D,a)},bF),aR=r[3],al=[0,[0,aR,aR],D],V=[0,h(U)],bG=0,aS=x(function(a){return el(bG,D,a)},P),bH=fM(z),aT=lc(r[5],bH),m=aT[2],E=aT[1],bJ=r[2],aU=ct(al,h(U)),bI=0,w=hC(function(b,a){var
+f=ly(z,E,m,a),e=ak(s,f,b),j=[0,[0,f,e],az(X(e,e))];function
+k(c){return hB(z,E,m,b,a,c)}var
+g=2<=z?d:c;function
 h(b){var
-c=K(au),d=l(g),e=q(s(K(b),d),c);return q(j,s(V(a,a),e))}var
-i=[0,V(hn(v,A,j,b,a,1),a),h];return[0,ld(v,A,j,au,b,a),i,m,k]},y,be,bd),av=e(function(a){return a[1]},r),bf=Q(L,h(ar)),bg=fI(v),bh=m[5];function
-E(a){return[0,[0,Q(bg,a)]]}var
-ag=K([0,[1,bf]]);switch(bh[0]){case
+c=K(aU),d=l(g),e=q(s(K(b),d),c);return q(m,s(X(a,a),e))}var
+i=[0,X(hB(z,E,m,b,a,1),a),h];return[0,lw(z,E,m,aU,b,a),i,k,j]},D,bJ,bI),O=e(function(a){return a[1]},w),bK=M(V,h(aS)),bM=fM(z),bN=r[5];function
+N(a){return[0,[0,M(bM,a)]]}var
+aD=K([0,[1,bK]]);switch(bN[0]){case
 2:var
-a2=E(qR),a3=E(qS),ak=[0,E(0),a3,a2],D=[0,s(ag,V(ak,ak))];break;case
+bs=N(ra),bt=N(rb),aE=[0,N(0),bt,bs],B=[0,s(aD,X(aE,aE))];break;case
 3:var
-a4=K(E(qT)),a5=K(E(0)),a6=K(E(qU)),D=[0,s(s(q(ag,C(l(c),a6)),a5),a4)];break;default:var
-D=0}var
-aw=m[7];if(aw)var
-bi=0,bj=m[2],R=hp(function(k,l){var
-a=ld(v,A,j,co(P,h(J)),k,l),c=a[1];if(c){var
+bu=K(N(rc)),bw=K(N(0)),by=K(N(rd)),B=[0,s(s(q(aD,C(l(c),by)),bw),bu)];break;default:var
+B=0}var
+aW=r[7];if(aW)var
+bO=0,bP=r[2],am=hC(function(j,k){var
+a=lw(z,E,m,ct(al,h(U)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-i=g[1],f=fH(k,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},y,bj,bi);else
+i=g[1],f=fL(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bP,bO);else
 var
-R=aw;var
-bk=bt(R),bl=D?[0,D[1],0]:D,bm=f(bl,bk),bn=0,bo=[0,j,f(cp(function(c,b){if(typeof
-b!=="number")switch(b[0]){case
+am=aW;var
+bQ=bx(am),bR=B?[0,B[1],0]:B,bS=f(bR,bQ),bT=0,bU=[0,m,f(cu(function(b,a){if(typeof
+a!=="number")switch(a[0]){case
 6:var
-g=lh(r,c,b);if(g)var
-i=g[1],l=[0,i[1],[0,i[2],0]];else
+d=lA(w,b,a);if(d)var
+h=d[1],k=[0,h[1],[0,h[2],0]];else
 var
-l=g;return l;case
-8:return e(ca,k(lg(r),c));case
+k=d;return k;case
+8:return e(cd,i(lz(w),b));case
 13:var
-h=S(r,b[1]);if(h){var
-m=eq(b[4]);if(m){var
-n=lj(c,k(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
-o=m}else
+g=S(w,a[1]);if(g){var
+l=es(a[4]);if(l){var
+n=lC(b,i(g[1][3],a[2]));return f(n[1],[0,n[2],0])}var
+o=l}else
 var
-o=h;return o}var
-d=hq(a,j,r,c,b),p=d?[0,d[1],0]:d;return p},bn,y,L,F),bm)],T=f(bt(av),bo),bp=0,ax=cp(function(h,a){if(typeof
+o=g;return o}var
+c=hD(j,m,w,b,a),p=c?[0,c[1],0]:c;return p},bT,D,V,P),bS)],an=f(bx(O),bU),bV=0,aX=cu(function(h,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-b=S(r,a[1]);if(b){if(eq(a[4]))return 0;var
-d=[0,lk(A,j,h,a[2],b[1][4]),0]}else
+b=S(w,a[1]);if(b){if(es(a[4]))return 0;var
+d=[0,lD(E,m,h,a[2],b[1][4]),0]}else
 var
 d=b;return d;case
 14:var
-c=ll(v,A,j,r,h,a[1],a[2]);if(c){var
-e=c[1],f=e[2],g=e[1];return z(bI,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bp,y,L,F),aA=cI(e(function(a){return el(x,a)},T))[1],aB=cI(ax)[1],H=cG(aA),U=cG(aB);function
-i(a){return a9(H,el(x,a))}if(0===m[4][0]){var
-bq=w(i,D),br=i(j),aC=k(as(i),av),al=fI(v),am=u(h(aC),x);if(am)var
-an=w(function(a){return[0,[0,a,d],d]},bq),I=function(a){return t(a,H,l(d))},af=I(br),a1=aZ(0,al),O=p(function(a){var
-b=dx(x,a,af),c=b?p(function(b){var
-d=b[1],c=p(function(b){var
-c=I(b);return cU(Q(x,a),c)},d);if(c){var
-e=I(b[2]);return hj(af,Q(x,a),e)}return c},aC):b;if(c){if(an){var
-e=I(an[1][1][1]);return cU(Q(x,a),e)}var
-d=1}else
+c=lE(z,E,m,w,h,a[1],a[2]);if(c){var
+e=c[1],f=e[2],g=e[1];return x(bL,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bV,D,V,P),aY=ck(e(function(b){return ba(a,b)},an))[1],aZ=ck(aX)[1],Q=cj(aY),ao=cj(aZ);function
+k(b){return aV(Q,ba(a,b))}if(0===r[4][0]){var
+bW=v(k,B),bX=k(m),a0=i(ar(k),O),aM=fM(z),aN=t(h(a0),a);if(aN)var
+aO=v(function(a){return[0,[0,a,d],d]},bW),T=function(a){return u(a,Q,l(d))},aC=T(bX),br=aJ(0,aM),ah=n(function(b){var
+c=cZ(a,b,aC),d=c?n(function(c){var
+e=c[1],d=n(function(c){var
+d=T(c);return b6(M(a,b),d)},e);if(d){var
+f=T(c[2]);return fG(aC,M(a,b),f)}return d},a0):c;if(d){if(aO){var
+f=T(aO[1][1][1]);return b6(M(a,b),f)}var
+e=1}else
 var
-d=c;return d},a1);else
+e=d;return e},br);else
 var
-O=am;var
-a8=O?al:O,W=a8}else
+ah=aN;var
+bD=ah?aM:ah,G=bD}else
 var
-W=0;var
-aD=p(function(a){var
-b=el(x,a),c=l(d);return ay(t(i(a),H,c),b)},T),aE=aD?p(function(a){return kR(x,a)},T):aD,aF=aE?p(function(a){var
-b=l(d);return ay(t(a9(U,a),U,b),a)},ax):aE,aG=aF?ap(ra,F):aF;if(aG){var
-aH=ac(m[7]);if(aH)var
-M=aH;else{var
-aY=m[5];if(1===v&&2===aY[0])var
-a7=aY[1],a0=g(a,1,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],a7]);else
+G=0;var
+a1=n(function(b){var
+c=ba(a,b),e=l(d);return av(u(k(b),Q,e),c)},an),a2=a1?n(function(b){return fH(a,b)},an):a1,a3=a2?n(function(a){var
+b=l(d);return av(u(aV(ao,a),ao,b),a)},aX):a2,a4=a3?ai(rz,P):a3;if(a4){var
+a5=_(r[7]);if(a5)var
+Y=a5;else{var
+bp=r[5];if(1===z&&2===bp[0])var
+bC=bp[1],bq=g(j,1,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],bC]);else
 var
-a0=0;var
-M=a0}}else
+bq=0;var
+Y=bq}}else
 var
-M=aG;var
-aI=M?hr(v,du(m[4])):M,aJ=aI?g(a,1,m[3]):aI;if(aJ)var
-bs=fG(m[5]),X=p(function(b){var
-c=ek(a,b[1]);return c?ek(a,b[2]):c},bs);else
+Y=a4;var
+a6=Y?hE(z,dA(r[4])):Y,a7=a6?g(j,1,r[3]):a6;if(a7)var
+bY=fK(r[5]),ap=n(function(a){var
+b=eo(j,a[1]);return b?eo(j,a[2]):b},bY);else
 var
-X=aJ;if(X){var
-bu=f(J,[0,P,0]),Y=aj(e(function(b){return ah(a,b)},bu));if(Y){var
-$=aj(e(function(b){return hg(a,b)},ar));if($){var
-bv=ln(v,du(m[4])),aa=aj(e(function(b){return ah(a,[0,b,y])},bv));if(aa){var
-aK=aa[1],bw=k5(m[5]),ab=aj(e(function(b){return k7(a,b)},bw));if(ab){var
-aL=ab[1],bx=k4(m[5]),ad=aj(e(function(b){return dw(a,b)},bx));if(ad){var
-by=0,aM=function(a){return a9(U,a)},ae=aj(cp(function(l,f){if(typeof
-f!=="number"&&13===f[0]){var
-q=f[4],ao=S(r,f[1]);if(ao){if(lm(f[3])&&g(a,0,q)&&g(a,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],q])){var
-ap=f[2],aq=ao[1];if(eq(q)){var
-am=lj(l,k(aq[3],ap)),E=am[2];if(g(o,0,[3,q,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]]))var
+ap=a7;if(ap){var
+bZ=f(U,[0,al,0]),aq=ae(e(function(a){return aj(j,a)},bZ));if(aq){var
+as=ae(e(function(a){return hn(j,a)},aS));if(as){var
+b0=lG(z,dA(r[4])),at=ae(e(function(a){return aj(j,[0,a,D])},b0));if(at){var
+a8=at[1],b1=le(r[5]),au=ae(e(function(a){return lg(j,a)},b1));if(au){var
+a9=au[1],b2=ld(r[5]),aw=ae(e(function(a){return dC(j,a)},b2));if(aw){var
+b3=0,a_=function(a){return aV(ao,a)},ax=ae(cu(function(h,a){if(typeof
+a!=="number"&&13===a[0]){var
+q=a[4],ao=S(w,a[1]);if(ao){if(lF(a[3])&&g(j,0,q)&&g(j,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],q])){var
+ap=a[2],aq=ao[1];if(es(q)){var
+am=lC(h,i(aq[3],ap)),C=am[2];if(g(p,0,[3,q,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]]))var
 an=0;else
 var
-aJ=i(E),aK=i(E),an=[0,[6,[0,[0,e(i,am[1]),aK],0],aJ],0];var
-ar=[0,[4,i(E)],an]}else
+aJ=k(C),aK=k(C),an=[0,[6,[0,[0,e(k,am[1]),aK],0],aJ],0];var
+as=[0,[4,k(C)],an]}else
 var
-ar=[0,[8,[3,aM(lk(A,j,l,ap,aq[4]))]],0];return e(function(a){return[0,a]},ar)}return q_}return q$}var
-aL=0,t=e(function(a){return a[1]},r);function
-F(c,b,a){return[0,c,b,a,W]}var
-s=0;if(typeof
-f==="number")var
-au=i(j),h=[0,F(k(as(i),t),au,B)];else
-switch(f[0]){case
+as=[0,[8,[3,a_(lD(E,m,h,ap,aq[4]))]],0];return e(function(a){return[0,a]},as)}return rx}return ry}var
+aL=0,s=e(function(a){return a[1]},w);function
+H(c,b,a){return[0,c,b,a,G]}var
+r=0;if(typeof
+a==="number")var
+au=k(m),f=[0,H(i(ar(k),s),au,A)];else
+switch(a[0]){case
 0:var
-m=[5,[0,c,c],f[1]],u=F;s=1;break;case
+l=[5,[0,c,c],a[1]],t=H;r=1;break;case
 1:var
-aw=[5,[0,c,c],f[1]],m=aw,u=function(c,b,a){return[1,c,b,a]};s=1;break;case
+aw=[5,[0,c,c],a[1]],l=aw,t=function(c,b,a){return[1,c,b,a]};r=1;break;case
 2:var
-ax=hq(a,j,r,l,f),h=w(function(a){return[4,i(a)]},ax);break;case
+ax=hD(j,m,w,h,a),f=v(function(a){return[4,k(a)]},ax);break;case
 3:var
-ay=hq(a,j,r,l,f),h=w(function(a){return[4,i(a)]},ay);break;case
+ay=hD(j,m,w,h,a),f=v(function(a){return[4,k(a)]},ay);break;case
 5:var
-H=f[1],az=ah(a,[0,[0,H,H],d]),h=w(function(b){var
-c=_(a,b),d=i(j);return[2,k(as(i),t),d,c]},az);break;case
+I=a[1],az=aj(j,[0,[0,I,I],d]),f=v(function(a){var
+b=$(j,a),c=k(m);return[2,i(ar(k),s),c,b]},az);break;case
 6:var
-x=S(r,f[1]);if(x){var
-z=lh(r,l,f);if(z){var
-I=z[1],J=g(a,1,f[2]),K=J?g(a,1,f[3]):J;if(K)var
-aA=i(I[2]),aB=i(x[1][1][2]),L=[0,[5,[0,[0,[0,i(I[1]),0],aB],0],aA]];else
+u=S(w,a[1]);if(u){var
+x=lA(w,h,a);if(x){var
+J=x[1],K=g(j,1,a[2]),L=K?g(j,1,a[3]):K;if(L)var
+aA=k(J[2]),aB=k(u[1][1][2]),M=[0,[5,[0,[0,[0,k(J[1]),0],aB],0],aA]];else
 var
-L=K;var
-M=L}else
-var
-M=z;var
+M=L;var
 N=M}else
 var
 N=x;var
-h=N;break;case
+O=N}else
+var
+O=u;var
+f=O;break;case
 7:var
-O=f[3],P=f[2],Q=f[1],R=S(r,Q),at=0;if(R){var
-T=g(a,1,P),U=T?g(a,1,O):T;if(U){var
-aC=[5,P,O],m=aC,u=function(c,b,a){return[3,Q,c,b,a,W]};s=1;at=1}else
+P=a[3],Q=a[2],R=a[1],T=S(w,R),at=0;if(T){var
+U=g(j,1,Q),V=U?g(j,1,P):U;if(V){var
+aC=[5,Q,P],l=aC,t=function(c,b,a){return[3,R,c,b,a,G]};r=1;at=1}else
 var
-V=U}else
+X=V}else
 var
-V=R;if(!at)var
-h=V;break;case
+X=T;if(!at)var
+f=X;break;case
 8:var
-X=g(a,1,f[1]),Y=X?g(a,1,f[2]):X;if(Y)var
-aD=Z(a,c),aE=i(j),aF=k(lg(r),l),$=[0,[0,k(as(i),aF),aE,aD,0]];else
+Y=g(j,1,a[1]),Z=Y?g(j,1,a[2]):Y;if(Z)var
+aD=W(j,c),aE=k(m),aF=i(lz(w),h),_=[0,[0,i(ar(k),aF),aE,aD,0]];else
 var
-$=Y;var
-h=$;break;case
+_=Z;var
+f=_;break;case
 14:var
-aa=f[2],ab=f[1],C=ll(v,A,j,r,l,ab,aa);if(C){var
-ac=C[1],ad=ac[2],ae=ac[1],af=kI(ab,aa,f[3]),D=ah(a,[0,[0,af,af],y]);if(D){var
-ag=D[1],ai=G(d,ag[1]);if(ai)var
-p=function(a){return kg(aM,a)},aG=p(ad[2]),aH=p(ad[1]),aI=p(ae[2]),aj=[0,[8,[6,p(ae[1]),aI,aH,aG,ag]]];else
+aa=a[2],ab=a[1],y=lE(z,E,m,w,h,ab,aa);if(y){var
+ac=y[1],ad=ac[2],ae=ac[1],af=kX(ab,aa,a[3]),B=aj(j,[0,[0,af,af],D]);if(B){var
+ag=B[1],ah=F(d,ag[1]);if(ah)var
+n=function(a){return kv(a_,a)},aG=n(ad[2]),aH=n(ad[1]),aI=n(ae[2]),ai=[0,[8,[6,n(ae[1]),aI,aH,aG,ag]]];else
 var
-aj=ai;var
-ak=aj}else
+ai=ah;var
+ak=ai}else
 var
-ak=D;var
+ak=B;var
 al=ak}else
 var
-al=C;var
-h=al;break;default:var
-h=0}if(s)var
-av=ah(a,[0,[0,m,m],d]),h=w(function(b){var
-c=_(a,b),d=i(j);return u(k(as(i),t),d,c)},av);return[0,h,aL]},by,y,L,F));if(ae){var
-aN=ae[1];if(m[7])var
-bz=ao[2],bA=ao[1],bB=i(j),N=ku(a$,aN,[7,k(as(i),R),bB,bA,bz]);else
+al=y;var
+f=al;break;default:var
+f=0}if(r)var
+av=aj(j,[0,[0,l,l],d]),f=v(function(a){var
+b=$(j,a),c=k(m);return t(i(ar(k),s),c,b)},av);return[0,f,aL]},b3,D,V,P));if(ax){var
+a$=ax[1];if(r[7])var
+b4=aQ[2],b5=aQ[1],b7=k(m),Z=kJ(bE,a$,[7,i(ar(k),am),b7,b5,b4]);else
 var
-N=aN;var
-aO=u(h(f(aK,aL)),x),aP=aO?p(function(a){var
-b=k8(a);return p(function(a){return k1(x,H,a)},b)},N):aO,aQ=aP?D?k1(x,H,i(D[1])):1:aP;if(aQ){var
-bC=e(function(a){return 1},N),bD=f(aK,aL),bE=w(i,D),bF=f($[1],ad[1]);return lb(a,aA,aB,f(Y[1],bF),N,x,x,bE,bD,bC,a_)}var
-aR=aQ}else
+Z=a$;var
+bc=t(h(f(a8,a9)),a),bd=bc?n(function(b){var
+c=lp(b);return n(function(b){return la(a,Q,b)},c)},Z):bc,be=bd?B?la(a,Q,k(B[1])):1:bd;if(be){var
+b8=f(as[1],aw[1]),I=f(aq[1],b8),J=lJ(aP),L=lH(D,r[2]),R=J?e(function(b){var
+c=ln(a,L,b[2]),d=b[1];return[0,e(function(b){return ln(a,L,b)},d),c]},O):J,ay=J?ck(hz(a,m,B,R))[1]:J,aA=cj(ay),aa=function(a){return aV(aA,a)},b9=hx(aa,aa,R),b_=aa(ba(a,m)),aB=v(function(b){return aa(ba(a,b))},B),bf=_(J);if(bf)var
+ab=bf;else{var
+bo=t(h(O),a);if(bo){var
+bA=hz(a,m,B,R),aI=n(function(a){var
+b=l(d);return av(u(aV(aA,a),aA,b),a)},bA);if(aI)var
+bB=hz(a,m,B,R),ac=n(function(b){var
+c=aJ(0,a);return n(function(c){return dD(a,c,b)},c)},bB);else
 var
-aR=ae;var
-aS=aR}else
+ac=aI;if(ac){var
+aK=v(function(b){return ba(a,b)},B),ad=ba(a,m),aH=lh(ad);if(aH)var
+bz=aJ(0,G),aL=n(function(b){var
+c=cZ(a,b,ad),d=c?n(function(c){var
+e=c[2][2],g=f(x(hy,c[1]),e),h=M(a,b),d=n(function(a){return b6(h,a)},g);if(d){var
+i=c[2][1];return fG(ad,M(a,b),i)}return d},R):c;if(d){if(aK){var
+g=aK[1];return b6(M(a,b),g)}var
+e=1}else
 var
-aS=ad;var
-aT=aS}else
+e=d;return e},bz);else
 var
-aT=ab;var
-aU=aT}else
+aL=aH;var
+af=aL}else
 var
-aU=aa;var
-aV=aU}else
+af=ac;var
+cf=af?n(function(b){var
+d=b[1],c=n(function(b){return lo(a,I,L,b)},d);return c?lo(a,I,L,b[2]):c},O):af,ab=cf}else
 var
-aV=$;var
-aW=aV}else
+ab=bo}if(ab){var
+b$=e(function(a){return 1},Z),ca=f(a8,a9),cb=function(O,_,Z,c){if(J){if(typeof
+c!=="number"&&10===c[0]){var
+g=c[3],l=c[2],m=c[1];if(typeof
+m!=="number"&&6===m[0]){if(g){if(g[2])return 0;var
+r=g[1],b=m[1],s=t(Z,G),v=s?cH(0,G):s;if(v)var
+q=gP(gL,e(aF,l),L),X=q?1:q,o=X;else
 var
-aW=Y;var
-aX=aW}else
+o=v;var
+w=o?kf(L):o,x=w?n(function(a){return cH(a,h(I))},L):w,z=x?t(h(r),a):x;if(z){var
+p=0;if(typeof
+b!=="number")switch(b[0]){case
+0:var
+E=b[2],D=b[1],C=0;p=1;break;case
+7:var
+K=b[2],i=b[1],P=0;if(typeof
+i!=="number"&&0===i[0]){var
+Q=0;if(aB){var
+M=F(d,K);if(M){var
+E=i[2],D=i[1],C=[0,[0,[0,aB[1],K],b[3]]];p=1;P=1;Q=1}else
 var
-aX=X;return aX}function
-er(b,a){return ba(b,a[1],a[2])}function
-lo(b,a){var
-c=er(b,a[1]),d=c?er(b,a[2]):c;return d?er(b,a[3]):d}function
-a4(a){return typeof
-a==="number"?a?rc:rd:cq(a[1])}function
-lp(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hi(b[1],a,c)}function
-fK(a){if(0===a[0]){var
+N=M}else
+var
+N=aB;if(!Q)return N}if(!P)return 0;break}if(p){var
+R=hu(j,g6(l,0,I),ay,O),k=hu(j,I,ay,O),f=function(b,a){return u(a,b,rg)},S=lj(function(a){return f(k,a)},C),T=f(k,b_),U=function(a){return f(k,a)},V=[0,hx(function(a){return f(R,a)},U,b9),T,S],Y=ka(l,I);return ll(G,a,function(g){var
+b=ae(e(re,g[1]));if(b){var
+c=g[2];if(c){var
+d=c0(g[3]);if(d){var
+l=d[1],m=aG([0,H(ag(y(j,_,c[1])),l),0],a),n=b[1],o=e(function(c){var
+a=kb(j,0,Y,c),b=bb(rf,a[2]);return[0,a[1],b]},n),f=j9(j,e(function(a){return W(j,a)},r),D,E,o,m);if(f)return bv(a,f[1]);var
+h=f}else
+var
+h=d;var
+i=h}else
+var
+i=c;var
+k=i}else
+var
+k=b;return k},V)}var
+A=0}else
+var
+A=z;var
+B=A}else
+var
+B=g;return B}return 0}return 0}return J},cc=k(m),ce=i(ar(k),O);return lu(j,aY,aZ,I,Z,a,a,v(k,B),ce,cc,cb,ca,b$,aP)}var
+bg=ab}else
+var
+bg=be;var
+bh=bg}else
+var
+bh=ax;var
+bi=bh}else
+var
+bi=aw;var
+bj=bi}else
+var
+bj=au;var
+bk=bj}else
+var
+bk=at;var
+bl=bk}else
+var
+bl=as;var
+bm=bl}else
+var
+bm=aq;var
+bn=bm}else
+var
+bn=ap;return bn}function
+et(b,a){return bd(b,a[1],a[2])}function
+lK(b,a){var
+c=et(b,a[1]),d=c?et(b,a[2]):c;return d?et(b,a[3]):d}function
+a5(a){return typeof
+a==="number"?a?rB:rC:cv(a[1])}function
+lL(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hp(b[1],a,c)}function
+fP(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hs(b,c,a){return b?fB(b[1],c,a):a}function
-b3(d,c,b,a){var
-e=fK(a),f=hs(d,c,fK(a)),g=ad(function(b,a){return[2,b,a]},b,f);return ad(function(b,a){return[3,b,a]},g,e)}function
-lq(b,a){var
+hF(b,c,a){return b?fD(b[1],c,a):a}function
+b7(d,c,b,a){var
+e=fP(a),f=hF(d,c,fP(a)),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
+lM(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lr(b,w,v){var
+lN(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kj(b,j[1],f[1]):0;else
+h=0===f[0]?ky(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a1(b,c[1],a[1]),l=k?a1(b,c[2],a[2]):k,m=l?a1(b,c[3],a[3]):l,n=m?a1(b,c[4],a[4]):m,o=n?cN(b,c[5],a[5]):n,p=o?cN(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,O(a[1],a[1])):r;if(s)var
-u=g_(a),i=g(b,1,O(g_(a),u));else
+a=f[1],c=j[1],k=a2(b,c[1],a[1]),l=k?a2(b,c[2],a[2]):k,m=l?a2(b,c[3],a[3]):l,n=m?a2(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,P(a[1],a[1])):r;if(s)var
+u=hf(a),i=g(b,1,P(hf(a),u));else
 var
 i=s;var
-h=i?cb(c[7],a[7]):i}if(h){var
+h=i?ce(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-ls(a){return typeof
-a==="number"?a?ep(0):cK:ep(a[1])}function
-ht(b,d,c){if(0===c[0])return fu(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aM(a[4],b),e),h=f(aM(a[3],b),g),i=f(aM(a[2],d[2]),h);return f(aM(a[1],d[1]),i)}function
-hu(b,a){if(b){var
-c=b[1],d=c[2];return cl(eo(c[1],a),d)}return a}function
-lt(f,u,am,J,ak,r,aj){if(r){var
-j=r[1],an=bn([0,d,d],ak),a=b1(aj,ht(J,an,j)),y=function(c,b){var
-d=aa(a,c);return ai(s,ai(C,ls(f),b),d)};if(0===j[0]){var
+lO(a){return typeof
+a==="number"?a?er(0):cP:er(a[1])}function
+hG(b,d,c){if(0===c[0])return fv(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aO(a[4],b),e),h=f(aO(a[3],b),g),i=f(aO(a[2],d[2]),h);return f(aO(a[1],d[1]),i)}function
+hH(b,a){if(b){var
+c=b[1],d=c[2];return cq(eq(c[1],a),d)}return a}function
+lP(f,t,al,J,aj,r,ai){if(r){var
+j=r[1],an=br([0,d,d],aj),a=b4(ai,hG(J,an,j)),y=function(c,b){var
+d=ab(a,c);return ak(s,ak(C,lO(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=hu(u,aa(a,re)),aE=z[1][5],A=t(rf,a,l(d)),B=aa(a,0),ab=y(rg,$),i=jL(ab,cJ(B),ab,A,aE),ap=[0,az(A),0],aq=[0,az(V(B,B)),ap],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=hH(t,ab(a,rD)),aE=z[1][5],A=u(rE,a,l(d)),B=ab(a,0),aa=y(rF,$),i=jY(aa,cO(B),aa,A,aE),ap=[0,az(A),0],aq=[0,az(X(B,B)),ap],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ac=hu(u,aa(a,rh)),ad=z[3],D=ad?[0,aa(a,ri)]:ad,ae=y(0,ac),m=jM(ae,ae,0);if(D)var
-L=D[1],M=[0,az(V(L,L)),0];else
+ac=hH(t,ab(a,rG)),ad=z[3],D=ad?[0,ab(a,rH)]:ad,ae=y(0,ac),m=jZ(ae,ae,0);if(D)var
+L=D[1],N=[0,az(X(L,L)),0];else
 var
-M=D;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=aa(a,0),aI=ls(f),n=jN(aI,cJ(E)),ar=[0,az(V(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+N=D;var
+k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,N],ac];break;default:var
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=ab(a,0),aI=lO(f),n=j0(aI,cO(E)),ar=[0,az(X(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hu(u,aa(a,rj)),F=j[1][7],G=t(rk,a,l(d)),e=t(rl,a,l(d)),ag=aa(a,rm),H=aa(a,0),p=y(rn,af),o=cJ(H),v=ai(s,ag,aW(V(o,ag),o)),w=cJ(v),N=fH(o,w),O=V(p,w),P=V(p,N),as=V(o,p),at=K(P),R=C(K(O),at),au=K(as),S=s(K(G),au),av=q(l(b(2,c)),e),x=s(R,K(al(C(R,s(K(e),S)),av))),aw=fj(F,q(e,az(x))),T=al(O,e),U=fj(F,al(P,e)),W=al(S,K(e)),X=jj(0,T,U,W),Y=fj(F,jj(1,T,U,W)),ax=aW(Y,N),Z=ai(s,p,aW(e,ai(C,aW(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(V(v,v)),aA],aC=[0,az(V(H,H)),aB],aD=cl(Z,aw),k=[0,[0,Z,q(K(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=Q(aj,h(ht(J,an,j))),aQ=r[2],aR=lt(f,u,am,J,bE(ak),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cl(fH(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bI(a):lc(f[1],a,b)},I=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bI(I):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hH(t,ab(a,rI)),F=j[1][7],G=u(rJ,a,l(d)),e=u(rK,a,l(d)),ag=ab(a,rL),H=ab(a,0),p=y(rM,af),o=cO(H),v=ak(s,ag,aY(X(o,ag),o)),w=cO(v),O=fL(o,w),P=X(p,w),Q=X(p,O),as=X(o,p),at=K(Q),R=C(K(P),at),au=K(as),S=s(K(G),au),av=q(l(b(2,c)),e),x=s(R,K(am(C(R,s(K(e),S)),av))),aw=fk(F,q(e,az(x))),T=am(P,e),U=fk(F,am(Q,e)),V=am(S,K(e)),W=jw(0,T,U,V),Y=fk(F,jw(1,T,U,V)),ax=aY(Y,O),Z=ak(s,p,aY(e,ak(C,aY(W,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(X(v,v)),aA],aC=[0,az(X(H,H)),aB],aD=cq(Z,aw),k=[0,[0,Z,q(K(e),x),aD,[1,W,Y],[0,[0,x,G]],aC],af];var
+aP=M(ai,h(hG(J,an,j))),aQ=r[2],aR=lP(f,t,al,J,bI(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cq(fL(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):lv(f[1],a,b)},I=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bL(I):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
-hv(c,b,a){if(a){var
-e=a[2],g=hv(c,bE(b),e),h=a[1];return f(ht(c,bn([0,d,d],b),h),g)}return a}function
-lu(a){if(a){var
+hI(c,b,a){if(a){var
+e=a[2],g=hI(c,bI(b),e),h=a[1];return f(hG(c,br([0,d,d],b),h),g)}return a}function
+lQ(a){if(a){var
 b=a[1][6];if(b)var
-c=lu(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=lQ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return ro}function
-lv(y,V,b){function
-c(a){return t(a,V,l(d))}function
+d=b;return d}return rN}function
+lR(y,V,b){function
+c(a){return u(a,V,l(d))}function
 N(a){var
-e=a[2],f=q(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dd(function(b,a){return s(b,K(a))},g,f),d],b]}function
+e=a[2],f=q(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dj(function(b,a){return s(b,K(a))},g,f),d],b]}function
 O(e){var
 a=e[6];if(a)var
 b=a[1],f=K(b[2]),g=q(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
@@ -4001,7 +4179,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(rp),b),g=[0,[0,s(q(c(rq),d),f),0],0],h=q(d,c(rr));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(rO),b),g=[0,[0,s(q(c(rP),d),f),0],0],h=q(d,c(rQ));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4017,8 +4195,8 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lu(y);if(A){var
-aa=c(0),P=dd(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
+A=lQ(y);if(A){var
+aa=c(0),P=dj(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],E=i[1];if(j){var
 k=j[2],F=j[1];if(k)if(k[2]||!h)var
@@ -4029,12 +4207,12 @@ p=o[2],H=o[1];if(p){var
 I=p[1];if(p[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
-u=r[2],J=r[1];if(u){var
-v=u[2],L=u[1];if(v){var
+t=r[2],J=r[1];if(t){var
+v=t[2],L=t[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cM(G,H,J,L),T=q(k[1],R),U=q(F,cM(G,I,J,M)),a=C(s(q(E,cM(H,I,L,M)),U),T)}else
+R=cR(G,H,J,L),T=q(k[1],R),U=q(F,cR(G,I,J,M)),a=C(s(q(E,cR(H,I,L,M)),U),T)}else
 var
 a=l(d)}else
 var
@@ -4049,7 +4227,7 @@ var
 a=l(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cM(E,F,w[1],x[1]):l(d);else
+x=w[2],a=x?x[2]?l(d):h[2]?l(d):cR(E,F,w[1],x[1]):l(d);else
 var
 a=l(d)}else
 var
@@ -4060,78 +4238,78 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bo(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+ab=[0,bc(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:D=1}if(D)return 0;var
 z=S(y,f);return z?g(z[1]):z}function
-fL(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-es(a){return e(function(a){var
+fQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eu(a){return e(function(a){var
 b=l(c);return[0,a[3],b]},a)}function
-lw(a,b){return e(function(a){var
+lS(a,b){return e(function(a){var
 c=q(a[2],b);return[0,a[1],c]},a)}function
-lx(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bt(lw(c,t(0,b,l(d))));return jb(lv(c,b,a))}function
-ly(f,h,m,I,H,r,a){if(typeof
-a==="number")return[0,[0,[0,B]],0];else
+lT(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bx(lS(c,u(0,b,l(d))));return jo(lR(c,b,a))}function
+lU(f,h,m,I,H,r,a){if(typeof
+a==="number")return[0,[0,[0,A]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,c,c],a[1]],i=J,o=function(a){return[0,a]};break;case
+J=[5,[0,c,c],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,c,c],a[1]],i=M,o=function(a){return[1,a]};break;case
+M=[5,[0,c,c],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=ah(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,_(f,a)]},Q),P];case
+y=a[1],P=0,Q=aj(f,[0,[0,y,y],d]);return[0,v(function(a){return[2,$(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!S(m,C))return ru;var
-G=0;if(g(f,1,A)&&g(f,1,z))var
-R=[5,A,z],i=R,o=function(a){return[7,C,a]};else
-G=1;if(G)return rt;break;case
+z=a[3],B=a[2],C=a[1];if(!S(m,C))return rT;var
+G=0;if(g(f,1,B)&&g(f,1,z))var
+R=[5,B,z],j=R,n=function(a){return[7,C,a]};else
+G=1;if(G)return rS;break;case
 8:var
 D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=Z(f,c),V=lw(m,t(0,r,l(d))),F=[0,[4,k(as(h),V),U]];else
+U=W(f,c),V=lS(m,u(0,r,l(d))),F=[0,[4,i(ar(h),V),U]];else
 var
 F=E;return[0,F,T];default:var
 q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],s]):v,j=O;break;case
+s=a[3],t=a[2],w=g(f,1,[3,s,t]),O=w?g(f,1,[3,[2,t,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],s]):w,k=O;break;case
 6:case
 9:var
-x=g(f,1,a[2]),j=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
-j=1;var
-p=j?lv(m,r,a):j;if(p){var
+x=g(f,1,a[2]),k=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
+k=1;var
+p=k?lR(m,r,a):k;if(p){var
 N=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=k(h,b[1]);return[0,[5,k(h,c),e]]}var
-d=[0,[3,k(h,c)]]}else
+e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
+d=[0,[3,i(h,c)]]}else
 var
-d=a;return d},N)}return rs}var
-K=0,L=ah(f,[0,[0,i,i],hf(I,H)]);return[0,w(function(a){return o(_(f,a))},L),K]}function
-lz(a){if(typeof
+d=a;return d},N)}return rR}var
+K=0,L=aj(f,[0,[0,j,j],hm(I,H)]);return[0,v(function(a){return n($(f,a))},L),K]}function
+lV(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-rw(b){if(0===b[0])return[0,ks(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bb(a[4]),g=bb(a[3]),h=bb(a[2]);return[1,[0,bb(a[1]),h,g,f,e,d,c]]}function
-rx(J,c,a,i,ao,aT){var
-aU=e(rw,a[2]),aq=lr(J,a[2],aU);if(aq)var
-aV=g9(a[4]),K=cO(J,a[4],aV);else
+rV(b){if(0===b[0])return[0,kH(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=be(a[4]),g=be(a[3]),h=be(a[2]);return[1,[0,be(a[1]),h,g,f,e,d,c]]}function
+rW(J,c,a,j,ap,aT){var
+aU=e(rV,a[2]),aq=lN(J,a[2],aU);if(aq)var
+aW=he(a[4]),K=cT(J,a[4],aW);else
 var
 K=aq;if(K){var
-ar=a[5];if(ar)var
-aW=fG(ar[1]),at=p(function(a){return er(J,a)},aW);else
+as=a[5];if(as)var
+aX=fK(as[1]),at=n(function(a){return et(J,a)},aX);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ax=a4(b),q=a[6],y=hv(i,ao,a[2]),Q=a[3],R=[0,[0,Q,Q],i],S=[0,h(y)],A=a[2],n=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
+b=a[1],ay=a5(b),q=a[6],z=hI(j,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],j],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=v(function(a){var
 c=typeof
-b==="number"?0:fI(b[1]);return k3(a,c)},az),aB=a[2],j=lt(b,aA,co(R,h(y)),i,ao,aB,0),T=z(function(a){return a[7]},j),aC=f(T,cp(function(a,b){return lx(j,a,b)},n,i,S,q)),aD=f(bt(es(j)),aC),U=f(bt(fL(j)),aD),V=cI(U)[1],W=cG(V),o=function(a){return a9(W,a)},X=p(function(a){var
-b=l(d);return ay(t(o(a),W,b),a)},U),Y=X?ap(lz,q):X;if(Y){var
+b==="number"?0:fM(b[1]);return lc(a,c)},az),aB=a[2],k=lP(b,aA,ct(R,h(z)),j,ap,aB,0),T=x(function(a){return a[7]},k),aC=f(T,cu(function(a,b){return lT(k,a,b)},o,j,S,q)),aD=f(bx(eu(k)),aC),U=f(bx(fQ(k)),aD),V=ck(U)[1],W=cj(V),p=function(a){return aV(W,a)},X=n(function(a){var
+b=l(d);return av(u(p(a),W,b),a)},U),Y=X?ai(lV,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
-_=b?hr(0,du(Z)):1;else
+_=b?hE(0,dA(Z)):1;else
 var
-av=du(Z),_=hr(b[1],av);var
+aw=dA(Z),_=hE(b[1],aw);var
 B=_}else
 var
 B=Y;if(B){var
@@ -4140,58 +4318,58 @@ N==="number")var
 r=a[5]?0:1;else
 if(2<=N[1])var
 r=0;else{var
-v=a[5],M=0;if(v){var
+w=a[5],M=0;if(w){var
 O=g(c,1,a[3]);if(O)var
-aw=fG(v[1]),r=p(function(a){var
-b=ek(c,a[1]);return b?ek(c,a[2]):b},aw);else{var
+ax=fK(w[1]),r=n(function(a){var
+b=eo(c,a[1]);return b?eo(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
-P=v;M=1}if(M)var
+P=w;M=1}if(M)var
 r=P}var
 C=r}else
 var
 C=B;if(C)var
-aE=a[2],D=p(function(a){var
-b=0===a[0]?0:1;return cb(b,n)},aE);else
+aE=a[2],D=n(function(a){var
+b=0===a[0]?0:1;return ce(b,o)},aE);else
 var
 D=C;if(D){var
-aF=f(y,[0,R,0]),E=aj(e(function(a){return ah(c,a)},aF));if(E){var
-aG=z(function(a){return eh(n,i,a)},q),F=aj(e(function(a){return hg(c,a)},aG));if(F){var
-m=du(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:ln(b[1],m),G=aj(e(function(a){return ah(c,[0,a,i])},aH));if(G){var
+aF=f(z,[0,R,0]),E=ae(e(function(a){return aj(c,a)},aF));if(E){var
+aG=x(function(a){return el(o,j,a)},q),F=ae(e(function(a){return hn(c,a)},aG));if(F){var
+m=dA(a[4]),aH=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lG(b[1],m),G=ae(e(function(a){return aj(c,[0,a,j])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
-aI=k5(aa[1]),s=aj(e(function(a){return k7(c,a)},aI));else
+aI=le(aa[1]),s=ae(e(function(a){return lg(c,a)},aI));else
 var
-s=rv;if(s){var
-ab=s[1],x=a[5],aJ=x?k4(x[1]):x,H=aj(e(function(a){return dw(c,a)},aJ));if(H){var
-I=aj(cp(function(a,b){return ly(c,o,j,n,i,a,b)},n,i,S,q));if(I){var
-ac=I[1],ad=u(h(f($,ab)),ax);if(ad){var
-aK=g2(ac),aL=f($,ab),au=0,aM=a[4];if(typeof
+s=rU;if(s){var
+ab=s[1],y=a[5],aJ=y?ld(y[1]):y,H=ae(e(function(a){return dC(c,a)},aJ));if(H){var
+I=ae(cu(function(a,b){return lU(c,p,k,o,j,a,b)},o,j,S,q));if(I){var
+ac=I[1],ad=t(h(f($,ab)),ay);if(ad){var
+aK=g_(ac),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-ae=function(a){return ki(c,aM,i,a)};au=1}if(!au)var
-ae=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(o,T),aQ=es(j),aR=k(as(o),aQ),aS=fL(j);return ft(c,V,k(as(o),aS),aR,aP,aO,ac,ae,aL,aK,aT)}var
-af=ad}else
+af=function(a){return kx(c,aM,j,a)};au=1}if(!au)var
+af=function(a){return 0};var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eu(k),aR=i(ar(p),aQ),aS=fQ(k);return fu(c,V,i(ar(p),aS),aR,aP,aO,ac,af,aL,aK,aT)}var
+ag=ad}else
 var
-af=I;var
-ag=af}else
+ag=I;var
+ah=ag}else
 var
-ag=H;var
-ai=ag}else
+ah=H;var
+ak=ah}else
 var
-ai=s;var
-ak=ai}else
-var
-ak=G;var
+ak=s;var
 al=ak}else
 var
-al=F;var
+al=G;var
 am=al}else
 var
-am=E;var
+am=F;var
 an=am}else
 var
-an=D;return an}return L}function
-bu(c){var
+an=E;var
+ao=an}else
+var
+ao=D;return ao}return L}function
+bz(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4200,15 +4378,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bu(a[2]);return f(bu(a[1]),e)}}function
-bc(e,a,b){switch(a[0]){case
+e=bz(a[2]);return f(bz(a[1]),e)}}function
+bf(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return co([0,[0,r,r],d],b);case
+r=a[1];return ct([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(oW(n[1],u))return n[2];var
+n=g[1];if(pg(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bo(bc(e,a[1],b));case
+2:return bc(bf(e,a[1],b));case
 3:var
 j=a[2],f=a[1],i=C;break;case
 4:var
@@ -4216,147 +4394,147 @@ j=a[2],f=a[1],i=s;break;case
 5:var
 j=a[2],f=a[1],i=q;break;case
 6:var
-j=a[2],f=a[1],i=al;break;case
+j=a[2],f=a[1],i=am;break;case
 7:var
-k=d0(a[2]),m=bc(e,a[1],b);if(k){if(k[1]){var
-o=K(m),t=function(a){return q(a,o)},p=eZ(bD(i3(k)),t,o);return i2(k)?p:q(p,m)}return m}return l(c);default:return az(bc(e,a[1],b))}var
-w=bc(e,j,Q(b,h(bu(f))));return i(bc(e,f,b),w)}function
-ct(c,g,b){var
+k=d4(a[2]),m=bf(e,a[1],b);if(k){if(k[1]){var
+o=K(m),t=function(a){return q(a,o)},p=e0(bq(je(k)),t,o);return jd(k)?p:q(p,m)}return m}return l(c);default:return az(bf(e,a[1],b))}var
+w=bf(e,j,M(b,h(bz(f))));return i(bf(e,f,b),w)}function
+cy(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=Q(b,h(bu(e))),l=ct(c,a[2],k),m=f(ct(c,e,b),l);return[0,bc(c,a,b),m];case
+e=a[1],k=M(b,h(bz(e))),l=cy(c,a[2],k),m=f(cy(c,e,b),l);return[0,bf(c,a,b),m];case
 8:var
-n=ct(c,a[1],b);return[0,bc(c,a,b),n];case
+n=cy(c,a[1],b);return[0,bf(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=Q(b,h(bu(d))),j=ct(c,a[2],i);return f(ct(c,d,b),j)}}function
-lA(c,a,b){if(a){var
-e=a[1],d=e[2],g=Q(b,h(bu(d))),i=a[2],j=bc(c,d,b),k=lA([0,[0,e[1],j],c],i,g);return f(ct(c,d,b),k)}return a}function
-hw(a){return z(bu,a)}function
-lB(c,a,b){if(a)var
-d=a[1],f=Q(b,h(bu(d))),g=lB(c,a[2],f),e=[0,bc(c,d,b),g];else
+d=a[1],i=M(b,h(bz(d))),j=cy(c,a[2],i);return f(cy(c,d,b),j)}}function
+lW(c,a,b){if(a){var
+e=a[1],d=e[2],g=M(b,h(bz(d))),i=a[2],j=bf(c,d,b),k=lW([0,[0,e[1],j],c],i,g);return f(cy(c,d,b),k)}return a}function
+hJ(a){return x(bz,a)}function
+lX(c,a,b){if(a)var
+d=a[1],f=M(b,h(bz(d))),g=lX(c,a[2],f),e=[0,bf(c,d,b),g];else
 var
 e=a;return e}function
-lC(c,a,b){if(a){var
-d=a[1],e=Q(b,h(bu(d))),g=lC(c,a[2],e);return f(ct(c,d,b),g)}return a}function
-hx(a){return 0===a[0]?hw(a[1]):bu(a[1])}function
-lD(c,b,a){if(b){var
-d=b[1],j=Q(a,h(hx(d))),k=lD(c,b[2],j);if(0===d[0])var
-g=lC(c,d[1],a);else
+lY(c,a,b){if(a){var
+d=a[1],e=M(b,h(bz(d))),g=lY(c,a[2],e);return f(cy(c,d,b),g)}return a}function
+hK(a){return 0===a[0]?hJ(a[1]):bz(a[1])}function
+lZ(c,b,a){if(b){var
+d=b[1],j=M(a,h(hK(d))),k=lZ(c,b[2],j);if(0===d[0])var
+g=lY(c,d[1],a);else
 var
-e=d[1],i=ct(c,e,a),g=[0,bc(c,e,a),i];return f(g,k)}return b}function
-fM(c){var
+e=d[1],i=cy(c,e,a),g=[0,bf(c,e,a),i];return f(g,k)}return b}function
+fR(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cF(fM,a)}return[0,b]}function
-hy(c){var
+b=cM(fR,a)}return[0,b]}function
+hL(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hy(a[2]);return q(hy(a[1]),d);case
+d=hL(a[2]);return q(hL(a[1]),d);case
 9:return a[1];default:return K(b)}}}function
-lE(n,g,a,f){if(a){var
-b=a[1],w=Q(f,h(hx(b))),x=lE(n,g,a[2],w);if(0===b[0])var
-k=lB(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+l0(n,g,a,f){if(a){var
+b=a[1],w=M(f,h(hK(b))),x=l0(n,g,a[2],w);if(0===b[0])var
+k=lX(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=bc(g,b[1],f),q=fM(m),i=aL(aZ(0,n),q),d=fM(i[2]),j=e(fM,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?l(c):al(a,d)},j),o=[0,j,hy(d),v,u,t,s,r];var
+m=bf(g,b[1],f),q=fR(m),i=aN(aJ(0,n),q),d=fR(i[2]),j=e(fR,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?l(c):am(a,d)},j),o=[0,j,hL(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-lF(a){return e(function(a){return[0,a[2],d]},a)}function
-lG(a){var
-b=z(hx,a[4]),c=f(hw(e(ca,a[3])),b);return f(lF(a[2]),c)}function
-lH(a){var
-c=b1(0,lF(a[2])),d=aZ(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aJ,a[2]),c);return f(aK(a[1],g),b)}function
-hz(b,d){var
+l1(a){return e(function(a){return[0,a[2],d]},a)}function
+l2(a){var
+b=x(hK,a[4]),c=f(hJ(e(cd,a[3])),b);return f(l1(a[2]),c)}function
+l3(a){var
+c=b4(0,l1(a[2])),d=aJ(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aI(e(aF,a[2]),c);return f(aI(a[1],g),b)}function
+hM(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ap(function(a){return ao(e,a)},b);case
+e=a[1];return ai(function(a){return aq(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hz(b,a[1]);if(c){var
+c=hM(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-lI(d){var
+l4(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ap(function(b){return function(a){return oW(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=_(ai(function(b){return function(a){return pg(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-lJ(b,h,g,d,c,a){if(a){var
-i=a[2],j=a[1],l=lJ(b,h,g,d,f(c,[0,j,0]),i),m=k(d,e(bE,f(c,i)));return aq(h,aq(g,bn(b,j),m),l)}return b}function
-lK(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return lJ(a,e,d,function(b){return lK(a,f,e,d,h,b)},g,b)}return b?a:f}function
-lL(d,a){if(a){var
-b=aU(d,a[1]);if(b)var
-c=lL(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+l5(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=l5(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bI,f(c,j)));return ao(h,ao(g,br(b,k),m),l)}return b}function
+l6(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return l5(a,e,d,function(b){return l6(a,f,e,d,h,b)},g,b)}return b?a:f}function
+l7(d,a){if(a){var
+b=aW(d,a[1]);if(b)var
+c=l7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return rB}function
-lM(d,a){if(a){var
-b=lL(d,a[1]);if(b)var
-c=lM(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return r0}function
+l8(d,a){if(a){var
+b=l7(d,a[1]);if(b)var
+c=l8(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return rC}var
-fO=s(l(c),fN);function
-lN(e){var
-a=K(fO);if(e)var
-f=q(l(b(2,c)),a),g=C(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=al(C(l(c),h),g);else
+e=b;return e}return r1}var
+fT=s(l(c),fS);function
+l9(e){var
+a=K(fT);if(e)var
+f=q(l(b(2,c)),a),g=C(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=am(C(l(c),h),g);else
 var
-i=C(l(b(2,c)),a),j=K(fN),d=al(C(q(l(b(2,c)),j),a),i);return az(d)}function
-lO(d,b,a){if(d){var
-e=lN(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=lN(b),j=al(l(c),i);return s(q(a,C(l(c),j)),h)}function
-dC(f,e,d,a){var
-g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fO:al(fO,q(l(b(2,c)),fN)):al(fO,l(b(2,c))),k=q(K(j),i);return az(C(l(c),k))}function
-lP(g,d){var
+i=C(l(b(2,c)),a),j=K(fS),d=am(C(q(l(b(2,c)),j),a),i);return az(d)}function
+l_(d,b,a){if(d){var
+e=l9(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=l9(b),j=am(l(c),i);return s(q(a,C(l(c),j)),h)}function
+dH(f,e,d,a){var
+g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fT:am(fT,q(l(b(2,c)),fS)):am(fT,l(b(2,c))),k=q(K(j),i);return az(C(l(c),k))}function
+l$(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?F(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hA(v,u,s){var
-a=e(function(a){return t(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?G(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+hN(v,t,s){var
+a=e(function(a){return u(a,t,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
-i=d[1];if(i){if(d[2])return 0;var
-w=i[1],x=h[1],y=g[1],z=f[1];return p(function(a){var
-c=k(a,w),d=k(a,x),e=k(a,y),b=k(a,z);return dl([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
-j=i}else
+j=d[1];if(j){if(d[2])return 0;var
+w=j[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
+c=i(a,w),d=i(a,x),e=i(a,y),b=i(a,z);return ds([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+k=j}else
 var
-j=d;var
-l=j}else
+k=d;var
+l=k}else
 var
 l=h;var
 m=l}else
 var
 m=c;var
-n=m}else
+o=m}else
 var
-n=g;var
-o=n}else
+o=g;var
+p=o}else
 var
-o=b;var
-q=o}else
+p=b;var
+q=p}else
 var
 q=f;var
 r=q}else
 var
 r=a;return r}function
-lQ(f,i,e,b,h){var
-j=f?c:d,a=Z(i,j);function
+ma(f,i,e,b,h){var
+j=f?c:d,a=W(i,j);function
 g(b){var
-c=f?e$(b):di(b);return J(c,a)}var
-k=[0,ag(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-lR(r,g,q,p,f,o,n){if(o){var
+c=f?fa(b):dp(b);return H(c,a)}var
+k=[0,ad(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+mb(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4365,16 +4543,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aV,br(rF)),a=hA(p,gZ(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aX,bu(r4)),a=hN(p,g7(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
-a=G(k[2],l[1]);b=1;c=1;d=1;break}else
+a=F(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(lP,rG),a=hA(p,bG(0,ch(g,lQ(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(l$,r5),a=hN(p,bJ(0,cm(g,ma(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(lP,rH),a=hA(p,bG(0,ch(g,lQ(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(l$,r6),a=hN(p,bJ(0,cm(g,ma(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4384,27 +4562,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?rI:a}else
+y=a?r7:a}else
 var
 y=n;return y}return[0,n]}function
-lS(f,e,d,c,p,o,n){var
+mc(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=lR(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
-i=lR(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=d$(a[2],b),l=lS(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mb(f,e,d,c,b,a[1],g);return h?_(h[1]):h}var
+i=mb(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ed(a[2],b),l=mc(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hB(a){return i9(b(2,c),aE(a,c))}function
-dD(i,a,e,w,v){var
-m=a?c:N(c),f=l(m),g=lO(a,e,rD),h=lO(a,e,rE),n=al(g,dC(a,e,f,g)),o=[0,C(al(h,dC(a,e,h,f)),n),0],p=al(f,dC(a,e,f,g)),r=[0,C(al(h,dC(a,e,g,h)),p),o],s=al(f,dC(a,e,h,f)),t=[0,C(al(g,dC(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fN):l(b(2,b(2,c))),j=cI([0,u,t]),k=[0,d,cD(i)];return lS(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-lT(a,g,b){if(L(g,hB(a))){if(b){var
+hO(a){return jk(b(2,c),aE(a,c))}function
+dI(i,a,e,w,v){var
+m=a?c:O(c),f=l(m),g=l_(a,e,r2),h=l_(a,e,r3),n=am(g,dH(a,e,f,g)),o=[0,C(am(h,dH(a,e,h,f)),n),0],p=am(f,dH(a,e,f,g)),r=[0,C(am(h,dH(a,e,g,h)),p),o],s=am(f,dH(a,e,h,f)),t=[0,C(am(g,dH(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fS):l(b(2,b(2,c))),j=ck([0,u,t]),k=[0,d,cK(i)];return mc(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+md(a,g,b){if(L(g,hO(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hB(a)],v=cD(a),i=[0,hB(a),v],j=dD(a,0,1,h,b[1]),k=j?dD(a,0,0,i,c[1]):j;if(k){var
-l=dD(a,1,1,h,d[1]);if(l)return dD(a,1,0,i,e[1]);var
+h=[0,g,hO(a)],v=cK(a),i=[0,hO(a),v],j=dI(a,0,1,h,b[1]),k=j?dI(a,0,0,i,c[1]):j;if(k){var
+l=dI(a,1,1,h,d[1]);if(l)return dI(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4421,262 +4599,262 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cD(a)],s=dD(a,0,0,r,b[1]);if(s)return dD(a,1,0,r,f[1]);var
+r=[0,g,cK(a)],s=dI(a,0,0,r,b[1]);if(s)return dI(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hC(a){var
-b=[1,[2,d]];return dd(function(b,a){return[1,[3,b,a]]},a,b)}function
-fP(a){return hC(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fQ(a,c){return hC(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hC(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-lU(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=cF(function(a){return lU(e,d,c,b,a)},f);return k(ch(e,d,c),g)}function
-lV(a){return a?L(d,a[1][2][1]):a}function
-rJ(a){var
-b=u(h(a),rK);return b?ap(function(a){return ac(Y(a,d))},a):b}function
-lW(c,f,b,a){if(b)if(a)var
-d=b[1],g=x(c,Z(c,a[1]),f),h=lW(c,f,b[2],a[2]),i=d[3],j=F(d[2],g),e=[0,[0,F(d[1],g),j,i],h];else
+hP(a){var
+b=[1,[2,d]];return dj(function(b,a){return[1,[3,b,a]]},a,b)}function
+fU(a){return hP(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fV(a,c){return hP(e(function(a){var
+d=[0,a[2]],b=aI(a[1],c);return[1,[7,[1,[8,hP(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+me(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
+f=a[1],g=cM(function(a){return me(e,d,c,b,a)},f);return i(cm(e,d,c),g)}function
+mf(a){return a?L(d,a[1][2][1]):a}function
+r8(a){var
+b=t(h(a),r9);return b?ai(function(a){return _(Z(a,d))},a):b}function
+mg(c,f,b,a){if(b)if(a)var
+d=b[1],g=y(c,W(c,a[1]),f),h=mg(c,f,b[2],a[2]),i=d[3],j=G(d[2],g),e=[0,[0,G(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fR(b,a){return e6(e6(b,0),a)}function
-hD(a){if(a){var
-b=a[2],c=a[1];if(b)return fR(c,[0,rM,hD(b)]);var
+fW(b,a){return e7(e7(b,0),a)}function
+hQ(a){if(a){var
+b=a[2],c=a[1];if(b)return fW(c,[0,r$,hQ(b)]);var
 d=c}else
 var
 d=a;return d}function
-A(a){return[0,rO,fR(hD(a),rN)]}function
-$(a){return[0,rQ,fR(hD(a),rP)]}function
-ak(a){return[0,rS,[0,a,rR]]}function
-j(b,a){return[0,aP(rU,aP(b,rT)),a]}function
-H(b,a){return $([0,j(b,a),0])}function
-b4(d){var
-b=d,a=pp,e=0;for(;;){if(b){var
-c=i0(a),b=b[1],a=c;continue}return[0,d3(eY(a)),e]}}function
-hE(a){return[0,d3(e4(a)),0]}function
-fS(a){var
-c=a6(a),f=0,b=0===c?pu:0<c?[0,e4(a)]:[1,e4(N(a))];if(0===b[0])var
-d=d3(b[1]);else
+B(a){return[0,sb,fW(hQ(a),sa)]}function
+aa(a){return[0,sd,fW(hQ(a),sc)]}function
+al(a){return[0,sf,[0,a,se]]}function
+k(b,a){return[0,aR(sh,aR(b,sg)),a]}function
+I(b,a){return aa([0,k(b,a),0])}function
+b8(d){var
+b=d,a=pL,e=0;for(;;){if(b){var
+c=jb(a),b=b[1],a=c;continue}return[0,d7(eZ(a)),e]}}function
+hR(a){return[0,d7(e5(a)),0]}function
+fX(a){var
+c=a7(a),f=0,b=0===c?pQ:0<c?[0,e5(a)]:[1,e5(O(a))];if(0===b[0])var
+d=d7(b[1]);else
 var
-e=d3(b[1]),d=aP(bj(1,45),e);return[0,d,f]}function
-hF(a){var
-b=0,c=0<a6(a)?e4(a):pt;return[0,d3(c),b]}function
-hG(a){switch(a[0]){case
-2:return rW;case
-3:return 2<=a[1]?rX:rY;case
-4:return rZ;default:return rV}}function
-et(b,a){function
-c(c,a){return R(c,hG(a))?et(b,a):[0,r5,f(et(b,a),r4)]}switch(a[0]){case
+e=d7(b[1]),d=aR(bm(1,45),e);return[0,d,f]}function
+hS(a){var
+b=0,c=0<a7(a)?e5(a):pP;return[0,d7(c),b]}function
+hT(a){switch(a[0]){case
+2:return sj;case
+3:return 2<=a[1]?sk:sl;case
+4:return sm;default:return si}}function
+ev(b,a){function
+c(c,a){return R(c,hT(a))?ev(b,a):[0,ss,f(ev(b,a),sr)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,a0(g),0];var
-h=[0,r6,[0,a0(e),0]];return[0,a0(g),h];case
-1:return[0,k(b,a[1]),0];case
-2:return[0,r8,c(r7,a[1])];case
+e==="number")return[0,a1(g),0];var
+h=[0,st,[0,a1(e),0]];return[0,a1(g),h];case
+1:return[0,i(b,a[1]),0];case
+2:return[0,sv,c(su,a[1])];case
 3:var
-i=a[3],j=c([0,hG(a)],i);switch(a[1]){case
+j=a[3],k=c([0,hT(a)],j);switch(a[1]){case
 0:var
-d=r0;break;case
+d=sn;break;case
 1:var
-d=r1;break;case
+d=so;break;case
 2:var
-d=r2;break;default:var
-d=r3}var
-l=a[2];return f(c(hG(a),l),[0,d,j]);case
+d=sp;break;default:var
+d=sq}var
+l=a[2];return f(c(hT(a),l),[0,d,k]);case
 4:var
-m=[0,r9,hE(a[2])];return f(c(r_,a[1]),m);default:return[0,sa,f(et(b,a[1]),r$)]}}function
-I(a){return[0,sd,f(et(function(a){return 0===a[0]?a[1]:sc},a),sb)]}function
-hH(a){return[0,sf,f(et(function(a){return a},a),se)]}function
-b5(a){if(0===a[0])return I(a[1]);var
-b=[0,j(sg,I(a[2])),0];return $([0,j(sh,I(a[1])),b])}function
-fT(b,a){var
-c=[0,k(b,a[3]),0],d=[0,k(b,a[2]),c];return A([0,k(b,a[1]),d])}function
-si(a){function
-b(a){return fT(b5,a)}switch(a[0]){case
+m=[0,sw,hR(a[2])];return f(c(sx,a[1]),m);default:return[0,sz,f(ev(b,a[1]),sy)]}}function
+J(a){return[0,sC,f(ev(function(a){return 0===a[0]?a[1]:sB},a),sA)]}function
+hU(a){return[0,sE,f(ev(function(a){return a},a),sD)]}function
+b9(a){if(0===a[0])return J(a[1]);var
+b=[0,k(sF,J(a[2])),0];return aa([0,k(sG,J(a[1])),b])}function
+fY(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return B([0,i(b,a[1]),d])}function
+sH(a){function
+b(a){return fY(b9,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?sj:sr,h=[0,j(sk,ak(g)),e],i=[0,j(sl,b5(a[4])),h],k=[0,j(sm,b(a[3])),i],l=[0,j(sn,b(a[2])),k],m=[0,j(so,b(a[1])),l],c=[0,j(sq,ak(sp)),m];break;case
+e=0,g=a[5]?sI:sQ,h=[0,k(sJ,al(g)),e],i=[0,k(sK,b9(a[4])),h],j=[0,k(sL,b(a[3])),i],l=[0,k(sM,b(a[2])),j],m=[0,k(sN,b(a[1])),l],c=[0,k(sP,al(sO)),m];break;case
 1:var
-d=a[3],n=d?[0,j(ss,b(d[1])),0]:d,o=[0,j(st,b(a[2])),0],p=[0,j(su,b(a[1])),o],c=f([0,j(sw,ak(sv)),p],n);break;default:var
-q=[0,j(sx,b(a[1])),0],c=[0,j(sz,ak(sy)),q]}return $(c)}function
-sA(a){function
-b(a){return A(e(b5,a))}function
+d=a[3],n=d?[0,k(sR,b(d[1])),0]:d,o=[0,k(sS,b(a[2])),0],p=[0,k(sT,b(a[1])),o],c=f([0,k(sV,al(sU)),p],n);break;default:var
+q=[0,k(sW,b(a[1])),0],c=[0,k(sY,al(sX)),q]}return aa(c)}function
+sZ(a){function
+b(a){return B(e(b9,a))}function
 d(a){var
-b=a?sB:sD;return j(sC,ak(b))}switch(a[0]){case
+b=a?s0:s2;return k(s1,al(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,j(sE,b5(a[4])),f],h=[0,j(sF,b(a[3])),g],i=[0,j(sG,b(a[2])),h],k=[0,j(sH,b(a[1])),i],c=[0,j(sJ,ak(sI)),k];break;case
+f=[0,d(a[5]),0],g=[0,k(s3,b9(a[4])),f],h=[0,k(s4,b(a[3])),g],i=[0,k(s5,b(a[2])),h],j=[0,k(s6,b(a[1])),i],c=[0,k(s8,al(s7)),j];break;case
 1:var
-l=[0,j(sK,b(a[2])),0],m=[0,j(sL,b(a[1])),l],c=[0,j(sN,ak(sM)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,j(sO,b5(a[6])),n],p=[0,j(sP,b5(a[5])),o],q=[0,j(sQ,b(a[4])),p],r=[0,j(sR,b(a[3])),q],s=[0,j(sS,b(a[2])),r],t=[0,j(sT,b(a[1])),s],c=[0,j(sV,ak(sU)),t]}return $(c)}function
-hI(a){switch(a){case
-0:return sW;case
-1:return sX;case
-2:return sY;case
-3:return sZ;case
-4:return s0;case
-5:return s1;case
-6:return s2;case
-7:return s3;case
-8:return s4;case
-9:return s5;case
-10:return s6;case
-11:return s7;case
-12:return s8;case
-13:return s9;case
-14:return s_;default:return s$}}function
-hJ(a){if(typeof
-a==="number")return ta;else
+l=[0,k(s9,b(a[2])),0],m=[0,k(s_,b(a[1])),l],c=[0,k(ta,al(s$)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,k(tb,b9(a[6])),n],p=[0,k(tc,b9(a[5])),o],q=[0,k(td,b(a[4])),p],r=[0,k(te,b(a[3])),q],s=[0,k(tf,b(a[2])),r],t=[0,k(tg,b(a[1])),s],c=[0,k(ti,al(th)),t]}return aa(c)}function
+hV(a){switch(a){case
+0:return tj;case
+1:return tk;case
+2:return tl;case
+3:return tm;case
+4:return tn;case
+5:return to;case
+6:return tp;case
+7:return tq;case
+8:return tr;case
+9:return ts;case
+10:return tt;case
+11:return tu;case
+12:return tv;case
+13:return tw;case
+14:return tx;default:return ty}}function
+hW(a){if(typeof
+a==="number")return tz;else
 switch(a[0]){case
-0:return tb;case
-1:return tc;default:return td}}function
-eu(a){var
+0:return tA;case
+1:return tB;default:return tC}}function
+ew(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,j(te,I(b[1])),0];break;case
+d=[0,k(tD,J(b[1])),0];break;case
 1:var
-d=[0,j(tf,I(b[1])),0];break;default:var
-n=[0,I(b[2]),0],d=[0,j(tg,A([0,I(b[1]),n])),0]}var
-o=[0,j(th,ak(hJ(a[4]))),d],g=a[3];if(g){var
+d=[0,k(tE,J(b[1])),0];break;default:var
+n=[0,J(b[2]),0],d=[0,k(tF,B([0,J(b[1]),n])),0]}var
+o=[0,k(tG,al(hW(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-q=A([0,I(c[1]),0]),k=a[1],p=0,r=6===k?ti:12===k?tm:tn,h=[0,j(tj,H(r,q)),p];break;case
+q=B([0,J(c[1]),0]),j=a[1],p=0,r=6===j?tH:12===j?tL:tM,h=[0,k(tI,I(r,q)),p];break;case
 1:var
-w=A(e(I,c[1])),m=a[1],v=0,x=14===m?to:15<=m?tq:tr,h=[0,j(tp,H(x,w)),v];break;default:var
-y=[0,j(ts,A([0,I(c[2]),0])),0],h=[0,j(tu,$([0,j(tt,A([0,I(c[1]),0])),y])),0]}var
+w=B(e(J,c[1])),m=a[1],v=0,x=14===m?tN:15<=m?tP:tQ,h=[0,k(tO,I(x,w)),v];break;default:var
+y=[0,k(tR,B([0,J(c[2]),0])),0],h=[0,k(tT,aa([0,k(tS,B([0,J(c[1]),0])),y])),0]}var
 l=h}else
 var
 l=g;var
-s=f(l,o),i=a[2],t=i?[0,j(tk,b4(i[1])),0]:i,u=f(t,s);return $([0,j(tl,ak(hI(a[1]))),u])}function
-lX(a){if(0===a[0]){var
-b=[0,j(tv,fT(I,a[2])),0];return H(tx,$([0,j(tw,fT(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,j(ty,A([0,I(a[4]),c])),0],e=[0,j(tz,I(a[3])),d],f=[0,I(a[2]),0];return H(tB,$([0,j(tA,A([0,I(a[1]),f])),e]))}function
-lY(a){if(0===a[0]){var
-b=[0,j(tC,A(e(I,a[2]))),0];return H(tE,$([0,j(tD,A(e(I,a[1]))),b]))}return lX([1,a[1],a[2],a[3],a[4],a[5]])}function
-lZ(a){switch(a){case
-0:return tF;case
-1:return tG;default:return tH}}function
-tI(a){function
-b(a){return A(e(b5,a))}var
-c=[0,j(tJ,b(a[2])),0],d=[0,j(tK,b(a[1])),c];return $([0,j(tM,ak(tL)),d])}function
-l0(a){function
+s=f(l,o),i=a[2],t=i?[0,k(tJ,b8(i[1])),0]:i,u=f(t,s);return aa([0,k(tK,al(hV(a[1]))),u])}function
+mh(a){if(0===a[0]){var
+b=[0,k(tU,fY(J,a[2])),0];return I(tW,aa([0,k(tV,fY(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,k(tX,B([0,J(a[4]),c])),0],e=[0,k(tY,J(a[3])),d],f=[0,J(a[2]),0];return I(t0,aa([0,k(tZ,B([0,J(a[1]),f])),e]))}function
+mi(a){if(0===a[0]){var
+b=[0,k(t1,B(e(J,a[2]))),0];return I(t3,aa([0,k(t2,B(e(J,a[1]))),b]))}return mh([1,a[1],a[2],a[3],a[4],a[5]])}function
+mj(a){switch(a){case
+0:return t4;case
+1:return t5;default:return t6}}function
+t7(a){function
+b(a){return B(e(b9,a))}var
+c=[0,k(t8,b(a[2])),0],d=[0,k(t9,b(a[1])),c];return aa([0,k(t$,al(t_)),d])}function
+mk(a){function
 b(b,a){var
-c=[0,I(a),0];return A([0,I(b),c])}switch(a[0]){case
-0:return H(tN,b(a[1],a[2]));case
+c=[0,J(a),0];return B([0,J(b),c])}switch(a[0]){case
+0:return I(ua,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,j(tO,b(c[1],c[2])),0],g=[0,j(tP,b(d[1],d[2])),f];return H(tR,$([0,j(tQ,b(e[1],e[2])),g]));case
-2:return H(tS,I(a[1]));default:var
-h=[0,j(tT,I(a[2])),0];return H(tV,$([0,j(tU,I(a[1])),h]))}}function
-tW(a){function
-b(a){return fT(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,j(tX,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,j(tY,A([0,I(a[3]),g])),0],i=[0,j(tZ,I(a[2])),h],k=[0,j(t0,b4(a[1])),i],d=f([0,j(t2,ak(t1)),k],e);else
+c=a[3],d=a[2],e=a[1],f=[0,k(ub,b(c[1],c[2])),0],g=[0,k(uc,b(d[1],d[2])),f];return I(ue,aa([0,k(ud,b(e[1],e[2])),g]));case
+2:return I(uf,J(a[1]));default:var
+h=[0,k(ug,J(a[2])),0];return I(ui,aa([0,k(uh,J(a[1])),h]))}}function
+uj(a){function
+b(a){return fY(J,a)}if(0===a[0])var
+c=a[5],e=c?[0,k(uk,b(c[1])),0]:c,g=[0,J(a[4]),0],h=[0,k(ul,B([0,J(a[3]),g])),0],i=[0,k(um,J(a[2])),h],j=[0,k(un,b8(a[1])),i],d=f([0,k(up,al(uo)),j],e);else
 var
-l=[0,j(t3,I(a[4])),0],m=[0,j(t4,b(a[3])),l],n=[0,j(t5,b(a[2])),m],o=a[1]?t6:t8,d=[0,j(t7,ak(o)),n];return $(d)}function
-l1(a){var
-b=a?[0,j(t9,A(e(tW,a))),0]:a;return b}function
-hK(d,c,b,a){var
-g=[0,j(t_,A(e(eu,a))),0],h=f(l1(b),g),i=[0,j(t$,lX(c)),0];return $(f([0,j(ub,H(ua,A(e(si,d)))),i],h))}function
-uc(a){switch(a[0]){case
-0:return H(ud,hK(a[1],a[2],a[3],a[4]));case
+l=[0,k(uq,J(a[4])),0],m=[0,k(ur,b(a[3])),l],n=[0,k(us,b(a[2])),m],o=a[1]?ut:uv,d=[0,k(uu,al(o)),n];return aa(d)}function
+ml(a){var
+b=a?[0,k(uw,B(e(uj,a))),0]:a;return b}function
+hX(d,c,b,a){var
+g=[0,k(ux,B(e(ew,a))),0],h=f(ml(b),g),i=[0,k(uy,mh(c)),0];return aa(f([0,k(uA,I(uz,B(e(sH,d)))),i],h))}function
+uB(a){switch(a[0]){case
+0:return I(uC,hX(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=A(e(sA,a[2])),m=[0,j(ue,A(e(eu,a[6]))),0],n=b?[0,j(uf,l0(b[1])),0]:b,o=f(n,m),l=0,p=[0,j(ug,lY(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=B(e(sZ,a[2])),m=[0,k(uD,B(e(ew,a[6]))),0],n=b?[0,k(uE,mk(b[1])),0]:b,o=f(n,m),l=0,p=[0,k(uF,mi(a[4])),o];if(typeof
 d==="number")if(d)var
-h=uh;else{var
-i=H(um,g);l=1}else
+h=uG;else{var
+i=I(uL,g);l=1}else
 var
-h=lZ(d[1]);if(!l)var
-q=c?[0,j(ui,I(c[1])),0]:c,i=H(h,$([0,j(uj,g),q]));return H(ul,$([0,j(uk,i),p]));case
+h=mj(d[1]);if(!l)var
+q=c?[0,k(uH,J(c[1])),0]:c,i=I(h,aa([0,k(uI,g),q]));return I(uK,aa([0,k(uJ,i),p]));case
 2:var
-r=[0,j(un,A(e(eu,a[7]))),0],s=f(l1(a[6]),r),t=[0,j(uo,l0(a[5])),0],u=[0,j(up,lY(a[4])),t],v=[0,j(uq,I(a[3])),0],w=$([0,j(ur,A(e(tI,a[2]))),v]);return H(ut,$(f([0,j(us,H(lZ(a[1]),w)),u],s)));case
+r=[0,k(uM,B(e(ew,a[7]))),0],s=f(ml(a[6]),r),t=[0,k(uN,mk(a[5])),0],u=[0,k(uO,mi(a[4])),t],v=[0,k(uP,J(a[3])),0],w=aa([0,k(uQ,B(e(t7,a[2]))),v]);return I(uS,aa(f([0,k(uR,I(mj(a[1]),w)),u],s)));case
 3:var
-x=[0,j(uu,A(e(eu,a[7]))),0],y=[0,j(uv,A(e(I,a[6]))),0],z=[0,j(uy,H(ux,$([0,j(uw,A(e(I,a[5]))),y]))),x],B=0,C=a[4],D=[0,j(uB,A(e(function(a){return 0===a[0]?H(uz,A(e(hH,a[1]))):H(uA,hH(a[1]))},C))),B],E=a[3],F=[0,j(uC,A(e(function(a){var
-b=[0,hH(a[2]),0];return A([0,ak(a[1]),b])},E))),D],G=a[2],J=[0,j(uD,A(e(function(a){var
-b=[0,b5(a[2]),0];return A([0,ak(a[1]),b])},G))),F];return H(uH,$([0,j(uG,H(uF,$([0,j(uE,A(e(ak,a[1]))),J]))),z]));case
+x=[0,k(uT,B(e(ew,a[7]))),0],y=[0,k(uU,B(e(J,a[6]))),0],z=[0,k(uX,I(uW,aa([0,k(uV,B(e(J,a[5]))),y]))),x],A=0,C=a[4],D=[0,k(u0,B(e(function(a){return 0===a[0]?I(uY,B(e(hU,a[1]))):I(uZ,hU(a[1]))},C))),A],E=a[3],F=[0,k(u1,B(e(function(a){var
+b=[0,hU(a[2]),0];return B([0,al(a[1]),b])},E))),D],G=a[2],H=[0,k(u2,B(e(function(a){var
+b=[0,b9(a[2]),0];return B([0,al(a[1]),b])},G))),F];return I(u6,aa([0,k(u5,I(u4,aa([0,k(u3,B(e(al,a[1]))),H]))),z]));case
 4:var
-K=[0,j(uI,A(e(eu,a[3]))),0],L=[0,j(uL,H(uK,$([0,j(uJ,I(a[2])),0]))),K];return H(uP,$([0,j(uO,H(uN,$([0,j(uM,I(a[1])),0]))),L]));case
+K=[0,k(u7,B(e(ew,a[3]))),0],L=[0,k(u_,I(u9,aa([0,k(u8,J(a[2])),0]))),K];return I(vc,aa([0,k(vb,I(va,aa([0,k(u$,J(a[1])),0]))),L]));case
 5:var
-M=[0,j(uQ,I(a[5])),0];return H(uS,$([0,j(uR,hK(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,k(vd,J(a[5])),0];return I(vf,aa([0,k(ve,hX(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-k=a[1],N=0,O=k?b5(k[1]):ak(uV);return H(uU,$([0,j(uT,O),N]));default:var
-P=[0,j(uW,I(a[6])),0],Q=[0,j(uX,I(a[5])),P],R=[0,j(uY,hK(a[2],a[3],0,a[4])),Q],S=a[1];return H(u3,$([0,j(u2,A(e(function(a){var
-b=[0,j(uZ,I(a[2][2])),0],c=[0,j(u0,I(a[2][1])),b];return $([0,j(u1,ak(a[1])),c])},S))),R]))}}function
-ev(a){return A(e(fS,a))}function
-fU(b,a){var
-c=[0,j(u4,hF(a)),0];return $([0,j(u5,A(e(ev,b))),c])}function
-ew(a){switch(a[0]){case
-0:return ak(a[1]);case
+j=a[1],N=0,O=j?b9(j[1]):al(vi);return I(vh,aa([0,k(vg,O),N]));default:var
+P=[0,k(vj,J(a[6])),0],Q=[0,k(vk,J(a[5])),P],R=[0,k(vl,hX(a[2],a[3],0,a[4])),Q],S=a[1];return I(vq,aa([0,k(vp,B(e(function(a){var
+b=[0,k(vm,J(a[2][2])),0],c=[0,k(vn,J(a[2][1])),b];return aa([0,k(vo,al(a[1])),c])},S))),R]))}}function
+ex(a){return B(e(fX,a))}function
+fZ(b,a){var
+c=[0,k(vr,hS(a)),0];return aa([0,k(vs,B(e(ex,b))),c])}function
+ey(a){switch(a[0]){case
+0:return al(a[1]);case
 1:var
-b=fU(a[2],a[3]);return H(a[1],b);case
+b=fZ(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?u6:u8;return H(u7,ak(c));case
+c=a[1]?vt:vv;return I(vu,al(c));case
 3:var
-d=[0,ev(a[3]),0];return H(u9,A([0,fU(a[1],a[2]),d]));case
+d=[0,ex(a[3]),0];return I(vw,B([0,fZ(a[1],a[2]),d]));case
 4:var
-f=[0,b4(0),0],g=[0,fS(a[3]),f];return H(u_,A([0,fU(a[1],a[2]),g]));case
+f=[0,b8(0),0],g=[0,fX(a[3]),f];return I(vx,B([0,fZ(a[1],a[2]),g]));case
 5:var
-h=[0,hF(a[3]),0],i=[0,fS(a[2]),h];return H(u$,A([0,ew(a[1]),i]));case
+h=[0,hS(a[3]),0],i=[0,fX(a[2]),h];return I(vy,B([0,ey(a[1]),i]));case
 6:var
-j=[0,hF(a[3]),0],k=[0,fS(a[2]),j];return H(va,A([0,ew(a[1]),k]));case
-7:return H(vb,ew(a[1]));default:var
-l=[0,A(e(ev,a[3])),0],m=[0,ak(a[2]),l];return H(vc,A([0,ew(a[1]),m]))}}function
-vd(a){var
-b=[0,ew(a[2]),0];return A([0,b4(a[1]),b])}function
-l2(a){if(typeof
-a==="number")return 0===a?ak(ve):ak(vf);else
+j=[0,hS(a[3]),0],k=[0,fX(a[2]),j];return I(vz,B([0,ey(a[1]),k]));case
+7:return I(vA,ey(a[1]));default:var
+l=[0,B(e(ex,a[3])),0],m=[0,al(a[2]),l];return I(vB,B([0,ey(a[1]),m]))}}function
+vC(a){var
+b=[0,ey(a[2]),0];return B([0,b8(a[1]),b])}function
+mm(a){if(typeof
+a==="number")return 0===a?al(vD):al(vE);else
 switch(a[0]){case
 0:var
-b=[0,A(e(ev,a[2])),0];return H(vg,A([0,b4(a[1]),b]));case
+b=[0,B(e(ex,a[2])),0];return I(vF,B([0,b8(a[1]),b]));case
 1:var
-c=[0,b4(a[2]),0];return H(vh,A([0,b4(a[1]),c]));default:return H(vi,A(e(I,a[1])))}}function
-vj(a){var
-b=a[4],h=b?[0,j(vk,ev([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,j(vl,l2(d[1])),0]:d,k=f(i,h),g=a[2],l=g?[0,j(vm,b4(g[1])),0]:g,m=f(l,k),c=a[1],n=c?[0,j(vn,A(e(vd,[0,c[1],c[2]]))),0]:c;return $(f(n,m))}function
-l3(g,a,d){var
-h=[0,j(vo,A(e(vj,d))),0];if(a)var
-b=a[1],c=[0,j(vp,fU(b[1],b[2])),0];else
+c=[0,b8(a[2]),0];return I(vG,B([0,b8(a[1]),c]));default:return I(vH,B(e(J,a[1])))}}function
+vI(a){var
+b=a[4],h=b?[0,k(vJ,ex([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,k(vK,mm(d[1])),0]:d,j=f(i,h),g=a[2],l=g?[0,k(vL,b8(g[1])),0]:g,m=f(l,j),c=a[1],n=c?[0,k(vM,B(e(vC,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+mn(g,a,d){var
+h=[0,k(vN,B(e(vI,d))),0];if(a)var
+b=a[1],c=[0,k(vO,fZ(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return $([0,j(vq,hE(g)),i])}function
-l4(d,c,a,b){var
-g=[0,j(vr,l2(b)),0],h=a?[0,j(vs,A(e(I,a))),0]:a,i=f(h,g),k=[0,j(vt,A(e(I,c))),0];return $(f([0,j(vu,hE(d)),k],i))}function
-vv(a){if(typeof
-a==="number")return ak(vw);else
+i=f(c,h);return aa([0,k(vP,hR(g)),i])}function
+mo(d,c,a,b){var
+g=[0,k(vQ,mm(b)),0],h=a?[0,k(vR,B(e(J,a))),0]:a,i=f(h,g),j=[0,k(vS,B(e(J,c))),0];return aa(f([0,k(vT,hR(d)),j],i))}function
+vU(a){if(typeof
+a==="number")return al(vV);else
 switch(a[0]){case
-0:return H(vx,b4(a[1]));case
-1:return H(vy,l3(a[1],a[2],a[3]));default:return H(vz,l4(a[1],a[2],a[3],a[4]))}}function
-fV(a){var
-b=gE(gD(an(a),function(b){return aI(a,b)}));return p(function(a){var
-b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?R(vO,e7(a)):c;return d?R(e7(a),vP):d},b)}function
-ex(b){function
+0:return I(vW,b8(a[1]));case
+1:return I(vX,mn(a[1],a[2],a[3]));default:return I(vY,mo(a[1],a[2],a[3],a[4]))}}function
+f0(a){var
+b=gJ(gI(ap(a),function(b){return aL(a,b)}));return n(function(a){var
+b=_(34===a?1:0),c=b?_(92===a?1:0):b,d=c?R(wb,e8(a)):c;return d?R(e8(a),wc):d},b)}function
+ez(b){function
 c(f){var
-a=e7(f),b=R(vQ,a),c=b?R(a,vR):b;if(c)var
+a=e8(f),b=R(wd,a),c=b?R(a,we):b;if(c)var
 d=c;else{var
-e=R(vS,a);if(e)return R(a,vT);var
+e=R(wf,a);if(e)return R(a,wg);var
 d=e}return d}var
-a=gE(gD(an(b),function(a){return aI(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?p(function(a){var
+a=gJ(gI(ap(b),function(a){return aL(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=e7(a),f=R(vU,e),h=f?R(e,vV):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?R(h(d),vW):f;if(g)return ac(ao(b,vX));var
+e=e8(a),f=R(wh,e),h=f?R(e,wi):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?R(h(d),wj):f;if(g)return _(aq(b,wk));var
 i=g}else
 var
 i=a;return i}function
-hL(c){var
+hY(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ex(a[1]);case
+1:return ez(a[1]);case
 3:var
-b=hL(a[2]);if(b){var
+b=hY(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-ey(m){var
+eA(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4687,40 +4865,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eY(a[2]);if(typeof
+f=eZ(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=ey(a[2]);if(i){var
+i=eA(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=ey(a[1]),l=k?e2(b(2,c),j):k;return l?e2(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eA(a[1]),l=k?e3(b(2,c),j):k;return l?e3(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dE(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bv(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-cV(a){return z(dE,bv(a))}function
-hM(a){switch(a[0]){case
+dJ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bA(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+c1(a){return x(dJ,bA(a))}function
+hZ(a){switch(a[0]){case
 0:var
-c=dE(a[4]),d=f(cV(a[3]),c),e=f(cV(a[2]),d);return f(cV(a[1]),e);case
+c=dJ(a[4]),d=f(c1(a[3]),c),e=f(c1(a[2]),d);return f(c1(a[1]),e);case
 1:var
-b=a[3],g=b?cV(b[1]):b,h=f(cV(a[2]),g);return f(cV(a[1]),h);default:return cV(a[1])}}function
-vY(a){switch(a[0]){case
+b=a[3],g=b?c1(b[1]):b,h=f(c1(a[2]),g);return f(c1(a[1]),h);default:return c1(a[1])}}function
+wl(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return z(dE,b)}function
-l5(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-l6(a){if(0===a[0]){var
-b=bv(a[2]);return f(bv(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-l7(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return x(dJ,b)}function
+mp(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mq(a){if(0===a[0]){var
+b=bA(a[2]);return f(bA(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mr(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-cW(e){var
+c2(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -4732,160 +4910,160 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-l8(a){if(0===a[0]){var
-b=a[5],c=b?bv(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bv(a[3]),d);return f(bv(a[2]),e)}function
-l9(b,e){var
+ms(a){if(0===a[0]){var
+b=a[5],c=b?bA(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bA(a[3]),d);return f(bA(a[2]),e)}function
+mt(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ap(function(a){return ao(f,a)},b)}return 0;case
+f=c[1];return ai(function(a){return aq(f,a)},b)}return 0;case
 3:var
-d=l9(b,a[2]);if(d){var
+d=mt(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-ez(c,a){return p(function(a){var
-b=ey(a);return b?l9(c,a):b},a)}function
-l_(a){if(typeof
+eB(c,a){return n(function(a){var
+b=eA(a);return b?mt(c,a):b},a)}function
+mu(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-l$(a){var
-d=e2(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e2(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-ma(a,b){return b?[4,ma(a,b[1]),a]:a}function
-i(a){switch(a[0]){case
+mv(a){var
+d=e3(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e3(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+mw(a,b){return b?[4,mw(a,b[1]),a]:a}function
+j(a){switch(a[0]){case
 0:var
-j=a[2],k=b(2,n(b(2,b(2,c)))),l=function(a){return v(k,a)},m=eZ(iY(j),l,c);return[0,i$(iZ(eY(a[1]),j)),m];case
+i=a[2],k=b(2,o(b(2,b(2,c)))),l=function(a){return w(k,a)},m=e0(i$(i),l,c);return[0,jm(ja(eZ(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=i(a[1]);return 0===f[0]?[0,N(f[1]),f[2]]:[3,[0,d,c],f];case
+f=j(a[1]);return 0===f[0]?[0,O(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
-g=i(a[2]),h=i(a[3]);switch(a[1]){case
+g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-o=bD(d0(a[2]));return ma(i(a[1]),o);default:return[6,i(a[1])]}}function
-bw(a){if(0===a[0]){var
-b=i(a[1]);return[0,b,b]}var
-c=i(a[2]);return[0,i(a[1]),c]}function
-cX(a){var
-b=bw(a[3]),c=bw(a[2]);return[0,bw(a[1]),c,b]}function
-vZ(a){switch(a[0]){case
+n=bq(d4(a[2]));return mw(j(a[1]),n);default:return[6,j(a[1])]}}function
+bB(a){if(0===a[0]){var
+b=j(a[1]);return[0,b,b]}var
+c=j(a[2]);return[0,j(a[1]),c]}function
+c3(a){var
+b=bB(a[3]),c=bB(a[2]);return[0,bB(a[1]),c,b]}function
+wm(a){switch(a[0]){case
 0:var
-b=a[5],c=bw(a[4]),d=cX(a[3]),e=cX(a[2]);return[0,[0,cX(a[1]),e,d,c,b]];case
+b=a[5],c=bB(a[4]),d=c3(a[3]),e=c3(a[2]);return[0,[0,c3(a[1]),e,d,c,b]];case
 1:var
-f=w(cX,a[3]),g=cX(a[2]);return[1,cX(a[1]),g,f];default:return[2,cX(a[1])]}}function
-mb(a){if(0===a[0]){var
+f=v(c3,a[3]),g=c3(a[2]);return[1,c3(a[1]),g,f];default:return[2,c3(a[1])]}}function
+mx(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=i(k(a,c));return[0,i(k(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=i(a[5]),h=[0,i(a[4]),g],j=i(a[3]),l=i(a[2]);return[1,i(a[1]),l,j,h]}function
-dF(a){var
-b=i(a[3]),c=i(a[2]);return[0,i(a[1]),c,b]}function
-cu(a){if(0===a[0]){var
-b=a[5],h=b?dF(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],j=i(a[4]),k=i(a[3]),l=i(a[2]);return[0,bD(a[1]),l,k,j,h]}var
+b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
+dK(a){var
+b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
+cz(a){if(0===a[0]){var
+b=a[5],h=b?dK(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bq(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dF(f),n=dF(g);return[2,i(e),n,m]}var
-o=dF(f),p=dF(g);return[1,i(e),p,o]}function
-fW(b,a){if(a){var
-c=a[1],d=a[2],g=fW(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bF(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:cb(b[1],a[1]);return ac(d)},h),g)}return a}function
-v0(b){if(b[1])return 0;var
+m=dK(f),n=dK(g);return[2,j(e),n,m]}var
+o=dK(f),p=dK(g);return[1,j(e),p,o]}function
+f1(b,a){if(a){var
+c=a[1],d=a[2],g=f1(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bb(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:ce(b[1],a[1]);return _(d)},h),g)}return a}function
+wn(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-v1(T,S,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+wo(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,i(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-U=f[1],b=function(a){return[2,a,i(U)]};break;case
+U=f[1],b=function(a){return[2,a,j(U)]};break;case
 1:var
-W=f[1],b=function(a){return[3,a,i(W)]};break;default:A=1}if(A)return 0;break;case
+W=f[1],b=function(a){return[3,a,j(W)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],L=0;if(typeof
 h==="number"||!(1===h[0]))L=1;else{var
-j=a[3],M=0,X=h[1];if(j){var
-C=j[1];if(0===C[0]){var
+i=a[3],M=0,X=h[1];if(i){var
+C=i[1];if(0===C[0]){var
 Y=C[1],b=function(a){var
-b=i(X);return[4,a,i(Y),b]};M=1}else
+b=j(X);return[4,a,j(Y),b]};M=1}else
 var
 D=0}else
 var
-D=j;if(!M)return D}if(L)return 0;break;case
+D=i;if(!M)return D}if(L)return 0;break;case
 3:var
 k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,i(k[1])],0];return 0;case
+k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
 4:var
 l=a[4],N=0;if(typeof
 l==="number"||!(0===l[0]))N=1;else
 var
-Z=l[1],b=function(a){return[6,a,i(Z)]};if(N)return 0;break;case
+Z=l[1],b=function(a){return[6,a,j(Z)]};if(N)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,i(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 E=n[1],o=a[3];if(o){var
 p=o[1];switch(p[0]){case
 0:var
-_=i(E);return[0,[8,i(p[1]),_],0];case
+_=j(E);return[0,[8,j(p[1]),_],0];case
 1:var
-$=i(E);return[0,[15,e(i,p[1]),$],0];default:return 0}}return o}return 0;case
+$=j(E);return[0,[15,e(j,p[1]),$],0];default:return 0}}return o}return 0;case
 7:var
 q=a[4];if(typeof
-q!=="number"&&0===q[0])return[0,[9,i(q[1])],0];return 0;case
+q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
 8:var
 r=a[4],O=0;if(typeof
 r==="number"||!(1===r[0]))O=1;else{var
 s=a[3],P=0,aa=r[1];if(s){var
 F=s[1];if(0===F[0]){var
 ab=F[1],b=function(a){var
-b=i(aa);return[13,a,i(ab),b]};P=1}else
+b=j(aa);return[13,a,j(ab),b]};P=1}else
 var
 G=0}else
 var
 G=s;if(!P)return G}if(O)return 0;break;case
 9:var
-t=a[4];if(typeof
-t!=="number"&&0===t[0]){var
-ac=t[1],ad=fW(0,S);return e(function(h){var
-e=i(ac),a=h[2],b=h[1];if(0===b[0]){var
+u=a[4];if(typeof
+u!=="number"&&0===u[0]){var
+ac=u[1],ad=f1(0,S);return e(function(h){var
+e=j(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dF(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-j=i(a[2]),k=[2,[2,i(b[2]),j],e],l=g(a[5]),m=g(b[5]);return[11,bD(f),m,l,k]}var
-n=cu(a);return[10,cu(b),n,e]}var
-o=cu(a);return[10,cu(b),o,e]}var
-p=cu(a);return[10,cu(b),p,e]},ad)}return 0;case
+g=function(a){return a?dK(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(t(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bq(f),m,l,k]}var
+n=cz(a);return[10,cz(b),n,e]}var
+o=cz(a);return[10,cz(b),o,e]}var
+p=cz(a);return[10,cz(b),p,e]},ad)}return 0;case
 10:var
 v=a[4],Q=0;if(typeof
 v==="number"||!(1===v[0]))Q=1;else{var
 w=a[3],R=0,ae=v[1];if(w){var
 x=w[1];if(2===x[0]){var
 af=x[2],ag=x[1],b=function(a){var
-b=i(ae),c=i(af);return[12,a,i(ag),c,b]};R=1}else
+b=j(ae),c=j(af);return[12,a,j(ag),c,b]};R=1}else
 var
 H=0}else
 var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?v2:I;return ah;case
+a[4]==="number"?1:0,ah=I?wp:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 J=z[1];if(0===J[0]){var
-ai=i(y[1]);return[0,[14,i(J[1]),ai],0]}var
+ai=j(y[1]);return[0,[14,j(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bD(B[1]),0]:aZ(0,T);return e(b,V)}function
-v3(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bq(B[1]),0]:aJ(0,T);return e(b,V)}function
+wq(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4909,8 +5087,8 @@ r=0;else
 var
 r=d;if(!S)return r}if(Q)return 0;break;case
 3:var
-t=a[4];if(typeof
-t!=="number"&&1===t[0])return a[2]?0:a[3]?0:1;return 0;case
+u=a[4];if(typeof
+u!=="number"&&1===u[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
 T=0,v=a[4];if(typeof
 v==="number"||!(0===v[0]))T=1;else{var
@@ -4925,7 +5103,7 @@ y!=="number"&&0===y[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
-1:return u(h(z[1]),c);default:return 0}}return f}return 0;case
+1:return t(h(z[1]),c);default:return 0}}return f}return 0;case
 7:var
 A=a[4];if(typeof
 A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -4933,7 +5111,7 @@ A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 U=0,B=a[4];if(typeof
 B==="number"||!(1===B[0]))U=1;else{var
 g=a[3],V=0;if(g)if(0===g[1][0]){var
-C=u(c,v5),W=0;if(C){var
+C=t(c,ws),W=0;if(C){var
 D=a[2];if(D){var
 b=D[1];V=1;W=1}else
 var
@@ -4970,61 +5148,61 @@ M=L;return M;case
 12:var
 N=a[4];if(typeof
 N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,v6);var
+k=a[3];if(k){if(0===k[1][0])return t(c,wt);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=R(v4,b);return o?R(b,c):o}function
-hN(c,k,j,b){var
-l=h(c),d=z(function(a){return v1(l,j,a)},b),a=z(v0,b),g=a?[0,a[1],a[2]]:v7,i=f(g,d),m=mb(k);return[0,e(vZ,c),m,i]}function
-mc(b){if(b[1])return 0;var
+o=R(wr,b);return o?R(b,c):o}function
+h0(c,k,j,b){var
+l=h(c),d=x(function(a){return wo(l,j,a)},b),a=x(wn,b),g=a?[0,a[1],a[2]]:wu,i=f(g,d),m=mx(k);return[0,e(wm,c),m,i]}function
+my(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,i(a[1])],0];return 0}function
-md(b){function
-a(a){return t(a,e(i,b),[0,d,c])}var
-f=a(v8),g=a(v9);return[0,a(0),g,f]}function
-hO(S,R,Q,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+mz(b){function
+a(a){return u(a,e(j,b),[0,d,c])}var
+f=a(wv),g=a(ww);return[0,a(0),g,f]}function
+h1(S,R,Q,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,i(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-T=c[1],b=function(a){return[2,a,i(T)]};break;case
+T=c[1],b=function(a){return[2,a,j(T)]};break;case
 1:var
-V=c[1],b=function(a){return[3,a,i(V)]};break;default:var
+V=c[1],b=function(a){return[3,a,j(V)]};break;default:var
 W=c[2],X=c[1],b=function(a){var
-b=i(W);return[4,a,i(X),b]}}break;case
+b=j(W);return[4,a,j(X),b]}}break;case
 2:var
 f=a[4],G=0;if(typeof
 f==="number"||!(1===f[0]))G=1;else{var
 g=a[3],H=0,Y=f[1];if(g){var
 w=g[1];if(0===w[0]){var
 Z=w[1],b=function(a){var
-b=i(Z),c=i(Y);return S?[9,a,b,c]:[6,a,b,c]};H=1}else
+b=j(Z),c=j(Y);return S?[9,a,b,c]:[6,a,b,c]};H=1}else
 var
 x=0}else
 var
 x=g;if(!H)return x}if(G)return 0;break;case
 3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,i(h[1])],0];return 0;case
+h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
 4:var
-j=a[4],I=0;if(typeof
-j==="number"||!(0===j[0]))I=1;else
+i=a[4],I=0;if(typeof
+i==="number"||!(0===i[0]))I=1;else
 var
-_=j[1],b=function(a){return[10,a,i(_)]};if(I)return 0;break;case
+_=i[1],b=function(a){return[10,a,j(_)]};if(I)return 0;break;case
 5:var
 k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,i(k[1])],0];return 0;case
+k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
 y=m[1];if(0===y[0]){var
-$=i(l[1]);return[0,[8,i(y[1]),$],0]}var
+$=j(l[1]);return[0,[8,j(y[1]),$],0]}var
 z=0}else
 var
 z=m;return z}return 0;case
@@ -5034,7 +5212,7 @@ n==="number"||!(1===n[0]))J=1;else{var
 o=a[3],K=0,aa=n[1];if(o){var
 A=o[1];if(0===A[0]){var
 ab=A[1],b=function(a){var
-b=i(aa);return[7,a,i(ab),b]};K=1}else
+b=j(aa);return[7,a,j(ab),b]};K=1}else
 var
 B=0}else
 var
@@ -5042,20 +5220,20 @@ B=o;if(!K)return B}if(J)return 0;break;case
 9:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0]){var
-ac=p[1],ad=fW(0,Q);return e(function(a){var
-b=i(ac),c=cu(a[2]);return[14,cu(a[1]),c,b]},ad)}return 0;case
+ac=p[1],ad=f1(0,Q);return e(function(a){var
+b=j(ac),c=cz(a[2]);return[14,cz(a[1]),c,b]},ad)}return 0;case
 13:var
 q=a[4],L=0;if(typeof
 q==="number"||!(1===q[0]))L=1;else
 var
-ae=q[1],b=function(a){return[11,a,i(ae)]};if(L)return 0;break;case
+ae=q[1],b=function(a){return[11,a,j(ae)]};if(L)return 0;break;case
 14:var
 r=a[4],M=0;if(typeof
 r==="number"||!(1===r[0]))M=1;else{var
 s=a[3],N=0,af=r[1];if(s){var
 C=s[1];if(1===C[0]){var
 ag=C[1],b=function(a){var
-b=i(af);return[13,a,0,md(ag),b]};N=1}else
+b=j(af);return[13,a,0,mz(ag),b]};N=1}else
 var
 D=0}else
 var
@@ -5066,16 +5244,16 @@ t==="number"||!(1===t[0]))O=1;else{var
 u=a[3],P=0,ah=t[1];if(u){var
 E=u[1];if(1===E[0]){var
 ai=E[1],b=function(a){var
-b=i(ah);return[13,a,1,md(ai),b]};P=1}else
+b=j(ah);return[13,a,1,mz(ai),b]};P=1}else
 var
 F=0}else
 var
 F=u;if(!P)return F}if(O)return 0;break;default:return 0}var
-v=a[2],U=v?[0,bD(v[1]),0]:aZ(0,R);return e(b,U)}function
-dG(e,d,c,b){var
-g=z(function(a){return hO(e,d,c,a)},b),a=z(mc,b),h=a?[0,a[1],a[2]]:v_;return f(h,g)}function
-fX(a){return 11===a[1]?1:0}function
-bN(n,m,a){var
+v=a[2],U=v?[0,bq(v[1]),0]:aJ(0,R);return e(b,U)}function
+dL(e,d,c,b){var
+g=x(function(a){return h1(e,d,c,a)},b),a=x(my,b),h=a?[0,a[1],a[2]]:wx;return f(h,g)}function
+f2(a){return 11===a[1]?1:0}function
+bP(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5085,161 +5263,161 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cb(n,e);if(f){var
+f=ce(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=R(v$,h);return i?R(h,m):i}var
+h=g[1],i=R(wy,h);return i?R(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bd(n,b,a){var
+bg(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=R(wa,e),o=f?R(e,b):f,c=o;else
+e=d[1],f=R(wz,e),o=f?R(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
 2:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bN(0,b,a):bN(0,b,a)}return bN(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bP(0,b,a):bP(0,b,a)}return bP(0,b,a);case
 6:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bN(0,b,a):bN(0,b,a)}return bN(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bP(0,b,a):bP(0,b,a)}return bP(0,b,a);case
 8:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,n):c:bN(0,b,a):bN(0,b,a)}return bN(0,b,a)}return bN(0,b,a)}function
-bx(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bd(c,b,a):a[3]?bd(c,b,a):1:bd(c,b,a):bd(c,b,a)}function
-me(f,c,b,a){var
+m=a[3];return m?0===m[1][0]?c?t(b,n):c:bP(0,b,a):bP(0,b,a)}return bP(0,b,a)}return bP(0,b,a)}function
+bC(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bg(c,b,a):a[3]?bg(c,b,a):1:bg(c,b,a):bg(c,b,a)}function
+mA(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=R(wd,h),r=i?R(h,b):i,d=r;else
+h=g[1],i=R(wC,h),r=i?R(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bd(a4(c),b,a);if(d){var
+1:if(a[3])return bg(a5(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return cb(f,k)}return d;case
+k=0;return ce(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bd(a4(c),b,a):d;return bd(a4(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bg(a5(c),b,a):d;return bg(a5(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bd(a4(c),b,a);var
-n=u(b,a4(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bg(a5(c),b,a);var
+n=t(b,a5(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bd(a4(c),b,a);case
+e=n;return e}return bg(a5(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bd(a4(c),b,a):d?ac(f):d;return bd(a4(c),b,a);default:return bd(a4(c),b,a)}}function
-cv(a){switch(a[0]){case
-0:return[0,i([0,a[1],a[2]])];case
+p!=="number"&&1===p[0])return a[3]?bg(a5(c),b,a):d?_(f):d;return bg(a5(c),b,a);default:return bg(a5(c),b,a)}}function
+cA(a){switch(a[0]){case
+0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cv(a[1])];case
+2:return[2,cA(a[1])];case
 3:var
-b=cv(a[2]),c=cv(a[3]);switch(a[1]){case
+b=cA(a[2]),c=cA(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cv(a[1]),d];default:return[8,cv(a[1])]}}function
-hP(b){function
+d=a[2];return[7,cA(a[1]),d];default:return[8,cA(a[1])]}}function
+h2(b){function
 a(e){var
-a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(we),f=a(wf);return[0,a(0),f,e]}function
-cY(a){function
+a=[0,d,c];return u(e,b,[0,a,a])}var
+e=a(wD),f=a(wE);return[0,a(0),f,e]}function
+c4(a){function
 b(a){var
-b=i(a[2]);return[0,i(a[1]),b]}switch(a[0]){case
+b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,i(a[1])];default:var
-e=i(a[2]);return[3,i(a[1]),e]}}function
-mf(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,hP(e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},b))]}return mb([1,a[1],a[2],a[3],a[4],a[5]])}function
-mg(k,b,j,g,f,d,a){function
-c(a){return hP(e(bw,a))}var
-l=ap(fX,a),m=dG(0,h(b),d,a),n=cY(f),o=mf(g),p=i(j);return[0,k,e(function(a){var
+2:return[2,j(a[1])];default:var
+e=j(a[2]);return[3,j(a[1]),e]}}function
+mB(a){if(0===a[0]){var
+b=aI(a[1],a[2]);return[0,h2(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return mx([1,a[1],a[2],a[3],a[4],a[5]])}function
+mC(k,b,i,g,f,d,a){function
+c(a){return h2(e(bB,a))}var
+l=ai(f2,a),m=dL(0,h(b),d,a),n=c4(f),o=mB(g),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-mh(a){return ap(function(a){return 2===a[0]?1:0},a)}function
-mi(k,a,b,j,g,f){var
-l=h(a),m=dG(mh(a),l,0,f),n=w(cY,g),o=mf(j),p=b?i(b[1]):[0,c,c];return[0,k,e(function(a){function
-b(a){return hP(e(bw,a))}switch(a[0]){case
+mD(a){return ai(function(a){return 2===a[0]?1:0},a)}function
+mE(k,a,b,i,g,f){var
+l=h(a),m=dL(mD(a),l,0,f),n=v(c4,g),o=mB(i),p=b?j(b[1]):[0,c,c];return[0,k,e(function(a){function
+b(a){return h2(e(bB,a))}switch(a[0]){case
 0:var
-k=a[5],l=bw(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bB(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bw(a[6]),r=bw(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mj(a){return a[1]?0:1}function
-mk(a){var
-c=mj(a);if(c)return c;if(1===a[1]){var
+p=a[7],q=bB(a[6]),r=bB(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+mF(a){return a[1]?0:1}function
+mG(a){var
+c=mF(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-fY(i,h,b){function
+f3(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(fZ,a(fZ,b)),j=a(f,hQ),k=i?f:a(c(b,fZ),hQ);function
-g(b){return a(b,[5,e(fZ,d(hQ,d(b,b)))])}var
+f=c(f4,a(f4,b)),j=a(f,h3),k=i?f:a(c(b,f4),h3);function
+g(b){return a(b,[5,e(f4,d(h3,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f0(f,e,d){function
+f5(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,hR,a(hR,d)],ml),g=a(c,[5,[3,0,hR,b(ml,b(c,c))]]);return[2,b(fY(f,e,d),g)]}function
-hS(e,g,a){function
+c=a([3,1,h4,a(h4,d)],mH),g=a(c,[5,[3,0,h4,b(mH,b(c,c))]]);return[2,b(f3(f,e,d),g)]}function
+h5(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f1,b(f1,a)),d=e?h:b(f(a,f1),mm),i=b(d,[5,[3,0,f1,c(mm,c(d,d))]]);return c(fY(e,g,a),i)}function
-mn(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=ci(i(g[2][1]));if(k){var
-l=k[1],m=ci(i(g[2][2]));if(m)var
+h=f(f6,b(f6,a)),d=e?h:b(f(a,f6),mI),i=b(d,[5,[3,0,f6,c(mI,c(d,d))]]);return c(f3(e,g,a),i)}function
+mJ(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cn(j(g[2][1]));if(k){var
+l=k[1],m=cn(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,eZ(h[2],d,c)];return dg(l,bW(e8(p,l),e))},q=n(y(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,e0(h[2],d,c)];return dm(l,bZ(e9(p,l),e))},q=n(z(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mn([0,o],e[2],a[2]),j=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mJ([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
-j=a;else
+i=a;else
 var
-j=e;return j}function
-am(b,a){switch(a[0]){case
+i=e;return i}function
+an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jc(function(a){return ao(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,am(b,a[1])];case
+e=c[1],d=jp(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,an(b,a[1])];case
 3:var
-f=am(b,a[3]),g=am(b,a[2]);return[3,a[1],g,f];case
+f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,am(b,a[1]),h];default:return[5,am(b,a[1])]}}function
-mo(b,a){if(0===a[0])return[0,am(b,a[1])];var
-c=am(b,a[2]);return[1,am(b,a[1]),c]}function
-hT(b,a){var
-c=k(b,a[3]),d=k(b,a[2]);return[0,k(b,a[1]),d,c]}function
-hU(c,a){if(c)if(a){var
+h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
+mK(b,a){if(0===a[0])return[0,an(b,a[1])];var
+c=an(b,a[2]);return[1,an(b,a[1]),c]}function
+h6(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+h7(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=hU(h,g);if(e){var
-i=e[1],f=hU(h,i[2]);if(f)var
+e=h7(h,g);if(e){var
+i=e[1],f=h7(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5251,76 +5429,76 @@ var
 d=a;else
 var
 d=c;return d}function
-hV(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,hV(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,y(v(b(2,c),l),k),j],h]}else
+h8(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,h8(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(w(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-wk(a){if(typeof
+wJ(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-wl(a){if(typeof
+wK(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f2(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=f2(e,a[3]);return bW(dg(f2(e,a[2]),g),f)}return k(e,a[1])?[0,c,c]:[0,d,c]}function
-mp(a){return 0===a[0]?dv(a[1][4]):0}function
-mq(a){switch(a[0]){case
+f7(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=f7(e,a[3]);return bZ(dm(f7(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
+mL(a){return 0===a[0]?dB(a[1][4]):0}function
+mM(a){switch(a[0]){case
 0:var
-b=a[1],c=a2(b[3]);return f(a2(b[2]),c);case
+b=a[1],c=a3(b[3]);return f(a3(b[2]),c);case
 1:var
-d=a2(a[2]);return f(a2(a[1]),d);default:return 0}}function
-f3(a){switch(a[0]){case
-0:return bL(a2(a[1][1]));case
+d=a3(a[2]);return f(a3(a[1]),d);default:return 0}}function
+f8(a){switch(a[0]){case
+0:return bN(a3(a[1][1]));case
 1:var
-b=a[3];return b?bL(a2(b[1])):d;default:return bL(a2(a[1]))}}function
-hW(b){var
-a=z(mp,b),d=a?[0,a[1],a[2]]:z(mq,b);return y(c,bL(d))}function
-mr(c,a){if(c){if(a){var
+b=a[3];return b?bN(a3(b[1])):d;default:return bN(a3(a[1]))}}function
+h9(b){var
+a=x(mL,b),d=a?[0,a[1],a[2]]:x(mM,b);return z(c,bN(d))}function
+mN(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=wm;else
+b=wL;else
 if(43===d)var
-b=wn;else
+b=wM;else
 var
-f=48===d?1:0,i=f?wo:f,b=i;if(b)var
-e=mr(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?wN:f,b=i;if(b)var
+e=mN(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:wp}function
-eA(b,a){switch(a[0]){case
+h=a;return h}return a?0:wO}function
+eC(b,a){switch(a[0]){case
 0:var
-c=a[1];if(ao(c,wq))return wr;if(ao(c,ws))return wt;if(ao(c,wu))return wv;if(ao(c,ww))return wx;if(ao(c,wy))return wz;var
-k=ao(c,wA),p=k?wB:k;return p;case
+c=a[1];if(aq(c,wP))return wQ;if(aq(c,wR))return wS;if(aq(c,wT))return wU;if(aq(c,wV))return wW;if(aq(c,wX))return wY;var
+k=aq(c,wZ),p=k?w0:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(ao(f,wC))return[0,[0,d,e]];if(ao(f,wD))return[0,[1,d,e]];if(ao(f,wE))return[0,[2,d,e]];var
-l=ao(f,wF),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(aq(f,w1))return[0,[0,d,e]];if(aq(f,w2))return[0,[1,d,e]];if(aq(f,w3))return[0,[2,d,e]];var
+l=aq(f,w4),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eA(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eC(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eA(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eC(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eA(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eA(b,a[1]);if(i)var
-j=mr(b,gE(gD(an(m),function(a){return aI(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eC(b,a[1]);return v(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eC(b,a[1]);if(i)var
+j=mN(b,gJ(gI(ap(m),function(a){return aL(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-ms(d,a){if(a){var
-e=a[1],b=eA(d,e[2]);if(b)var
-c=ms(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+mO(d,a){if(a){var
+e=a[1],b=eC(d,e[2]);if(b)var
+c=mO(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return wG}function
-cZ(d,c,a){if(c)if(a){var
+f=b;return f}return w5}function
+c5(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=ms(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=mO(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=cZ(d,k,j);if(f){var
-m=f[1],g=cZ(d,k,m[2]);if(g)var
+f=c5(d,k,j);if(f){var
+m=f[1],g=c5(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5335,372 +5513,372 @@ var
 h=a;else
 var
 h=c;return h}function
-hX(e,d,a){if(d){if(a){var
-b=cZ(e,h(a),a);if(b)var
-f=b[1],c=hX(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
+h_(e,d,a){if(d){if(a){var
+b=c5(e,h(a),a);if(b)var
+f=b[1],c=h_(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return wH}return a?0:wI}function
-hY(a){if(typeof
-a==="number")return 0===a?wJ:wK;else
+g=b;return g}return w6}return a?0:w7}function
+h$(a){if(typeof
+a==="number")return 0===a?w8:w9;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-hZ(d,a){if(d)if(a){var
+ia(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=hZ(k,j);if(e){var
-l=e[1],f=hZ(k,l[2]);if(f)var
+e=ia(k,j);if(e){var
+l=e[1],f=ia(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=hY(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
+p=h$(c[1]);return v(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
 var
 g=d;return g}function
-cw(b,a){return 0===b[0]?[0,i(b[1]),a]:a?[0,a[1],a[2]]:[0,i(b[1]),0]}function
-c0(a,e){var
-b=cw(a[1],e),c=cw(a[2],b[2]),d=cw(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-mt(d,c){if(d){var
+cB(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+c6(a,e){var
+b=cB(a[1],e),c=cB(a[2],b[2]),d=cB(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+mP(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=c0(a[1],c),f=c0(a[2],e[2]),g=c0(a[3],f[2]),h=cw(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=c6(a[1],c),f=c6(a[2],e[2]),g=c6(a[3],f[2]),h=cB(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=c0(a[1],c),k=j[1],l=c0(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=c0(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=c6(a[1],c),k=j[1],l=c6(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=c6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=c0(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=mt(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-wL(a){if(typeof
+p=c6(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=mP(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+w_(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return wN;case
+5:return xa;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return wM}function
-be(a,b){if(a){var
-c=cw(a[1],b),d=be(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aX(b){function
-a(a){return t(a,b,[0,d,c])}var
-e=a(wQ),f=a(wR);return[0,a(0),f,e]}function
-mu(a,b){if(a){var
-c=a[1],d=be(c[1],b),e=be(c[2],d[2]),f=mu(a[2],e[2]),g=f[2],h=f[1],i=aX(e[1]);return[0,[0,[0,aX(d[1]),i],h],g]}return[0,0,b]}function
-mv(f,b){if(f){var
+11:return 0}return w$}function
+bh(a,b){if(a){var
+c=cB(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+aZ(b){function
+a(a){return u(a,b,[0,d,c])}var
+e=a(xd),f=a(xe);return[0,a(0),f,e]}function
+mQ(a,b){if(a){var
+c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=mQ(a[2],e[2]),g=f[2],h=f[1],i=aZ(e[1]);return[0,[0,[0,aZ(d[1]),i],h],g]}return[0,0,b]}function
+mR(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=be(a[1],b),h=be(a[2],g[2]),i=be(a[3],h[2]),j=cw(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=aX(i[1]),y=aX(h[1]),e=[0,[0,[0,aX(g[1]),y,x,w,v]],u];break;case
+g=bh(a[1],b),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=cB(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=aZ(i[1]),y=aZ(h[1]),e=[0,[0,[0,aZ(g[1]),y,x,w,v]],u];break;case
 1:var
-k=be(a[1],b),l=be(a[2],k[2]),z=l[2],A=aX(l[1]),e=[0,[0,[1,aX(k[1]),A,0]],z];break;default:var
-m=a[1],n=be(m,b),o=be(a[2],n[2]),p=be(a[3],o[2]),q=be(a[4],p[2]),r=cw(a[5],q[2]),s=cw(a[6],r[2]),B=m?aX(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=aX(q[1]),H=aX(p[1]),e=[0,[1,[0,B,aX(o[1]),H,G,F,E,D]],C]}var
-t=mv(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dH(a){return jx(o,a)}function
-wS(a){if(typeof
+k=bh(a[1],b),l=bh(a[2],k[2]),z=l[2],A=aZ(l[1]),e=[0,[0,[1,aZ(k[1]),A,0]],z];break;default:var
+m=a[1],n=bh(m,b),o=bh(a[2],n[2]),p=bh(a[3],o[2]),q=bh(a[4],p[2]),r=cB(a[5],q[2]),s=cB(a[6],r[2]),B=m?aZ(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=aZ(q[1]),H=aZ(p[1]),e=[0,[1,[0,B,aZ(o[1]),H,G,F,E,D]],C]}var
+t=mR(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dM(a){return jK(p,a)}function
+xf(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(o,1,[3,a[1],[0,c,c]]);case
-6:return g(o,1,a[2]);case
+5:return g(p,1,[3,a[1],[0,c,c]]);case
+6:return g(p,1,a[2]);case
 8:var
-d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
-10:return g(o,0,a[3]);case
+d=g(p,1,a[1]);return d?g(p,1,a[2]):d;case
+10:return g(p,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?g(o,0,e[2]):0;case
+e=a[4];return 2===e[0]?g(p,0,e[2]):0;case
 12:var
-f=g(o,0,a[2]),h=f?g(o,0,a[3]):f;return h?g(o,1,a[4]):h;case
+f=g(p,0,a[2]),h=f?g(p,0,a[3]):f;return h?g(p,1,a[4]):h;case
 14:var
-i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
+i=g(p,0,a[1]);return i?g(p,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return p(function(a){return g(o,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return n(function(a){return g(p,k,a)},j);case
 2:case
-3:return dH(a[2]);case
+3:return dM(a[2]);case
 4:case
 13:var
-b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
-h0(a){if(typeof
+b=g(p,1,a[2]);return b?g(p,1,a[3]):b;default:return g(p,1,a[1])}}function
+ib(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(o,0,[2,e,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c]]):h;return i?g(o,0,[3,[0,b(2,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))))),c],d]):i;case
-5:return g(o,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=g(p,1,[3,d,e]),h=f?g(p,1,[3,[2,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(p,0,[2,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):h;return i?g(p,0,[3,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):i;case
+5:return g(p,1,[3,a[1],[0,c,c]]);case
 8:var
-k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
-10:return g(o,1,a[2]);case
+k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
+10:return g(p,1,a[2]);case
 11:var
-l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c],l]):m;case
+l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],l]):m;case
 13:var
-p=a[4],q=lm(a[3]),r=q?g(o,1,p):q;return r?g(o,0,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],p]):r;case
-14:return g(o,0,a[3]);case
+n=a[4],q=lF(a[3]),r=q?g(p,1,n):q;return r?g(p,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],n]):r;case
+14:return g(p,0,a[3]);case
 2:case
-3:return dH(a[2]);case
+3:return dM(a[2]);case
 6:case
 7:case
 9:var
-j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
-f4(d){var
+j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
+f9(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(ap(function(d){return function(a){var
-h=hI(a[1]),e=ao(hI(d[1]),h);if(e)var
-i=hJ(a[4]),b=ao(hJ(d[4]),i);else
+b=a[2],e=a[1],c=_(ai(function(d){return function(a){var
+h=hV(a[1]),e=aq(hV(d[1]),h);if(e)var
+i=hW(a[4]),b=aq(hW(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?u(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?t(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eB(a){if(0===a[0])return dH(i(a[1]));var
-b=a[2],c=a[1];if(!d8(i(c))&&!d8(i(b))){var
-e=i(c);return g(o,1,[3,i(b),e])}var
-d=i(b);return ba(o,i(c),d)}function
-c1(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-mw(a){switch(a[0]){case
+eD(a){if(0===a[0])return dM(j(a[1]));var
+b=a[2],c=a[1];if(!ea(j(c))&&!ea(j(b))){var
+e=j(c);return g(p,1,[3,j(b),e])}var
+d=j(b);return bd(p,j(c),d)}function
+c7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+mS(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(c1(a[3]),c),e=f(c1(a[2]),d);return f(c1(a[1]),e);case
+c=[0,a[4],0],d=f(c7(a[3]),c),e=f(c7(a[2]),d);return f(c7(a[1]),e);case
 1:var
-b=a[3],g=b?c1(b[1]):b,h=f(c1(a[2]),g);return f(c1(a[1]),h);default:return c1(a[1])}}function
-mx(s,a,j){if(ap(function(a){return 9===a[1]?1:0},j)){var
-b=R(h(a),wV),c=b?p(function(a){if(0===a[0]){var
-d=a[5],e=g(o,1,i(a[2])),h=e?g(o,0,i(a[3])):e,j=h?g(o,0,i(a[4])):h,c=0;if(j)if(d)var
-n=bv(d[1]),b=p(function(a){return dH(i(a))},n);else{var
+b=a[3],g=b?c7(b[1]):b,h=f(c7(a[2]),g);return f(c7(a[1]),h);default:return c7(a[1])}}function
+mT(s,a,k){if(ai(function(a){return 9===a[1]?1:0},k)){var
+b=R(h(a),xi),c=b?n(function(a){if(0===a[0]){var
+d=a[5],e=g(p,1,j(a[2])),h=e?g(p,0,j(a[3])):e,k=h?g(p,0,j(a[4])):h,c=0;if(k)if(d)var
+o=bA(d[1]),b=n(function(a){return dM(j(a))},o);else{var
 l=1;c=1}else{var
-l=j;c=1}if(c)var
+l=k;c=1}if(c)var
 b=l}else{var
-m=g(o,1,i(a[4]));if(m)var
-q=bv(a[3]),r=f(bv(a[2]),q),b=p(function(a){return dH(i(a))},r);else
+m=g(p,1,j(a[4]));if(m)var
+q=bA(a[3]),r=f(bA(a[2]),q),b=n(function(a){return dM(j(a))},r);else
 var
-b=m}return b?k(s,a):b},a):b;if(c)var
-d=fW(0,a),l=d?1:d,e=l;else
+b=m}return b?i(s,a):b},a):b;if(c)var
+d=f1(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-my(a){return a?wW:wX}function
-h1(a){switch(a){case
-0:return wY;case
-1:return wZ;default:return 0}}function
-cx(a){var
-f=a[1],d=g(o,1,[2,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],f]),e=d?ba(o,a[1],a[2]):d;if(e){var
-h=a[2];return g(o,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],h])}return e}function
-dI(a){var
-e=ba(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c)))))))))),c],a]):e}function
-mz(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(h(e),c),j=f?u(h(d),c):f;if(j){var
-l=aK(e,d);return p(function(a){var
-b=i(a[2]);return ba(o,i(a[1]),b)},l)}return j}var
-k=b?g(o,1,i(a[3])):b;if(k){var
-m=i(a[5]);return ba(o,i(a[4]),m)}return k}function
-mA(a,e,F,E,s,r,f){function
-t(b){var
-d=my(a),c=u(h(b),d);return c?p(eB,b):c}var
-v=p(function(a){var
-b=t(a[1]);return b?t(a[2]):b},e);if(v)var
-G=h(e),l=R(cq(a),G);else
+mU(a){return a?xj:xk}function
+ic(a){switch(a){case
+0:return xl;case
+1:return xm;default:return 0}}function
+cC(a){var
+f=a[1],d=g(p,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?bd(p,a[1],a[2]):d;if(e){var
+h=a[2];return g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],h])}return e}function
+dN(a){var
+e=bd(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+mV(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=t(h(e),c),i=f?t(h(d),c):f;if(i){var
+l=aI(e,d);return n(function(a){var
+b=j(a[2]);return bd(p,j(a[1]),b)},l)}return i}var
+k=b?g(p,1,j(a[3])):b;if(k){var
+m=j(a[5]);return bd(p,j(a[4]),m)}return k}function
+mW(a,e,F,E,s,r,f){function
+u(b){var
+d=mU(a),c=t(h(b),d);return c?n(eD,b):c}var
+v=n(function(a){var
+b=u(a[1]);return b?u(a[2]):b},e);if(v)var
+G=h(e),l=R(cv(a),G);else
 var
 l=v;var
-w=l?R(h(e),w0):l,x=w?g(o,1,i(F)):w;if(x)var
-H=1===a?1:0,m=mz(h1(a),H,E);else
+w=l?R(h(e),xn):l,x=w?g(p,1,j(F)):w;if(x)var
+H=1===a?1:0,m=mV(ic(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=cY(s);switch(d[0]){case
+d=c4(s);switch(d[0]){case
 0:var
-j=0;break;case
+i=0;break;case
 1:var
-A=cx(d[1]),B=A?cx(d[2]):A,j=B?cx(d[3]):B;break;case
+A=cC(d[1]),B=A?cC(d[2]):A,i=B?cC(d[3]):B;break;case
 2:var
-j=dI(d[1]);break;default:var
-C=dI(d[1]),j=C?dI(d[2]):C}var
-k=j}else
+i=dN(d[1]);break;default:var
+C=dN(d[1]),i=C?dN(d[2]):C}var
+k=i}else
 var
-D=cY(s),J=0===D[0]?cx(D[1]):0,k=J;else
+D=c4(s),J=0===D[0]?cC(D[1]):0,k=J;else
 var
 k=m;if(k)var
-I=h(e),n=mx(function(a){if(0===a[0]){var
-b=a[1],c=R(wU,b),d=c?R(b,I):c;if(d){if(a[5])return 0;var
+I=h(e),o=mT(function(a){if(0===a[0]){var
+b=a[1],c=R(xh,b),d=c?R(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
-n=k;if(n)var
-b=h(e),c=cq(a),y=my(a),q=p(function(a){var
+o=k;if(o)var
+b=h(e),c=cv(a),y=mU(a),q=n(function(a){var
 d=a[1];if(9<=d)switch(d-9|0){case
 0:var
 e=a[4];if(typeof
-e!=="number"&&0===e[0])return a[2]?bx(c,b,a):a[3]?bx(c,b,a):1;return bx(c,b,a);case
+e!=="number"&&0===e[0])return a[2]?bC(c,b,a):a[3]?bC(c,b,a):1;return bC(c,b,a);case
 5:var
 f=a[4];if(typeof
 f!=="number"&&1===f[0]){var
 g=a[3];if(g){var
 i=g[1];if(1===i[0]){var
-j=u(h(i[1]),y);if(j){var
+j=t(h(i[1]),y);if(j){var
 k=a[2];if(k){var
-l=k[1],m=R(wb,l);return m?R(l,b):m}var
+l=k[1],m=R(wA,l);return m?R(l,b):m}var
 n=1}else
 var
-n=j;return n}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a);case
+n=j;return n}return bC(c,b,a)}return bC(c,b,a)}return bC(c,b,a);case
 6:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=u(h(q[1]),y);if(r){var
+r=t(h(q[1]),y);if(r){var
 s=a[2];if(s){var
-t=s[1],v=R(wc,t);return v?R(t,b):v}var
+u=s[1],v=R(wB,u);return v?R(u,b):v}var
 w=1}else
 var
-w=r;return w}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)}return bx(c,b,a)},f);else
+w=r;return w}return bC(c,b,a)}return bC(c,b,a)}return bC(c,b,a)}return bC(c,b,a)},f);else
 var
-q=n;var
-z=q?f4(f):q;return z?p(h0,dG(0,h(e),r,f)):z}function
-mB(a){switch(a[0]){case
+q=o;var
+z=q?f9(f):q;return z?n(ib,dL(0,h(e),r,f)):z}function
+mX(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-mC(a,e,d,Q,m,l){var
-n=typeof
+mY(a,e,d,Q,m,l){var
+o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=n?w1:w2;return u(h(a),b)}var
-j=mh(e),y=p(function(b){switch(b[0]){case
+b=o?xo:xp;return t(h(a),b)}var
+i=mD(e),z=n(function(b){switch(b[0]){case
 0:var
-d=ac(j),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=_(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=ac(j),h=g?c(b[1]):g,i=h?c(b[2]):h;if(i)var
+g=_(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
-l=i;return l;default:var
-m=b[1],o=n?m?0:1:c(m),p=o?c(b[2]):o,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(y)var
-S=h(e),q=R(a4(a),S);else
+l=j;return l;default:var
+m=b[1],n=o?m?0:1:c(m),p=n?c(b[2]):n,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(z)var
+S=h(e),q=R(a5(a),S);else
 var
-q=y;var
-A=q?R(h(e),w3):q,B=A?p(eB,z(mB,e)):A;if(B){var
+q=z;var
+A=q?R(h(e),xq):q,B=A?n(eD,x(mX,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-T=n?w4:w5,r=mz(T,C,Q)}else
+T=o?xr:xs,r=mV(T,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=w(cY,m)?0:1,b=V;else
+V=v(c4,m)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=w(cY,m);if(t){var
-E=t[1];if(0===E[0])var
-F=g(o,1,i(d[1])),G=F?cx(E[1]):F;else
+u=v(c4,m);if(u){var
+E=u[1];if(0===E[0])var
+F=g(p,1,j(d[1])),G=F?cC(E[1]):F;else
 var
 G=0;var
 H=G}else
 var
-H=t;var
+H=u;var
 b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],x=w(cY,m);if(x){var
-f=x[1];switch(f[0]){case
+w=d[1],y=v(c4,m);if(y){var
+f=y[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-J=g(o,1,i(v)),K=J?cx(f[1]):J,L=K?cx(f[2]):K,k=L?cx(f[3]):L;break;case
+J=g(p,1,j(w)),K=J?cC(f[1]):J,L=K?cC(f[2]):K,k=L?cC(f[3]):L;break;case
 2:var
-M=g(o,1,i(v)),k=M?dI(f[1]):M;break;default:var
-N=g(o,1,i(v)),O=N?dI(f[1]):N,k=O?dI(f[2]):O}var
+M=g(p,1,j(w)),k=M?dN(f[1]):M;break;default:var
+N=g(p,1,j(w)),O=N?dN(f[1]):N,k=O?dN(f[2]):O}var
 I=k}else
 var
-I=x;var
+I=y;var
 b=I}else
 var
 b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-U=h(e),s=p(function(b){return me(j,a,U,b)},l);else
+U=h(e),s=n(function(b){return mA(i,a,U,b)},l);else
 var
 s=b;var
-D=s?f4(l):s;return D?p(h0,dG(j,h(e),0,l)):D}function
-w6(a){switch(a[0]){case
-0:return fA(a[1][1]);case
+D=s?f9(l):s;return D?n(ib,dL(i,h(e),0,l)):D}function
+xt(a){switch(a[0]){case
+0:return fC(a[1][1]);case
 1:var
-b=a[3];return b?fA(b[1]):1;default:return fA(a[1])}}function
-h2(a,k,b,d){var
-e=mx(function(g){if(0===g[0]){var
-c=g[1],d=R(wT,c);if(d){var
-b=S(a,bD(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?fC(b[1]):1;default:return fC(a[1])}}function
+id(a,k,b,d){var
+e=mT(function(g){if(0===g[0]){var
+c=g[1],d=R(xg,c);if(d){var
+b=S(a,bq(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?p(w6,d[1]):e,g=f?R(w7,h(a)):f;if(g)var
-l=h(a),c=p(function(a){return v3(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(xt,d[1]):e,g=f?R(xu,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return wq(l,a)},b);else
 var
 c=g;var
-i=c?f4(b):c,j=i?p(eB,z(mw,a)):i;return j?p(wS,d[3]):j}function
-f5(b,a){return p(function(c){var
-a=c[2];return a?dZ(a[1],b):1},a)}function
-mD(a){if(a){var
-b=a[1];if(fX(b))return 0;var
-c=[0,b,mD(a[2])]}else
+i=c?f9(b):c,j=i?n(eD,x(mS,a)):i;return j?n(xf,d[3]):j}function
+f_(b,a){return n(function(c){var
+a=c[2];return a?cH(a[1],b):1},a)}function
+mZ(a){if(a){var
+b=a[1];if(f2(b))return 0;var
+c=[0,b,mZ(a[2])]}else
 var
 c=a;return c}function
-w8(a){if(typeof
+xv(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(eq(d)&&ac(g(o,0,[3,d,[0,b(2,n(b(2,b(2,n(b(2,n(b(2,b(2,c))))))))),c]])))return w_;return w$}return w9}function
-mE(f,d,b){var
-g=mD(b),i=0,c=aR(Q,0,e(w8,z(function(a){return hO(i,f,d,a)},g))),a=z(mc,b),j=a?[0,a[1],a[2]]:xa;return Q(h(j),c)}function
-h3(b,a){var
-c=h(bF(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
-h4(a){if(a){var
+d=a[4];if(es(d)&&_(g(p,0,[3,d,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])))return xx;return xy}return xw}function
+m0(f,d,b){var
+g=mZ(b),i=0,c=aT(M,0,e(xv,x(function(a){return h1(i,f,d,a)},g))),a=x(my,b),j=a?[0,a[1],a[2]]:xz;return M(h(j),c)}function
+ie(b,a){var
+c=h(bb(function(a){return 0===a[0]?0:1},b));return t(h(a),c)}function
+ig(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-mF(aL,Z,aI,Y,X,b,aH,B){var
-a=hN(Z,aI,Y,X),aN=h(B);if(aL)var
+m1(aM,Z,aL,Y,X,b,aK,B){var
+a=h0(Z,aL,Y,X),aN=h(B);if(aM)var
 _=0;else
 var
-aE=a[1],aF=e(f3,a[1]),W=fv(hW(a[1]),aF,aE),aG=aK(aZ(0,h(W)),W),_=e(aJ,bF(function(a){return g6(a[2])},aG));var
-C=cZ(_,aN,B);if(C){var
+aE=a[1],aG=e(f8,a[1]),W=fw(h9(a[1]),aG,aE),aH=aI(aJ(0,h(W)),W),_=e(aF,bb(function(a){return fy(a[2])},aH));var
+C=c5(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=h2(Z,Y,X,a),ab=aa?f5(xb,B):aa;if(ab){var
-aO=$[1],D=e(f3,a[1]),c=hW(a[1]),aP=h4(aH),V=kt(o,a);if(V){var
-j=fv(c,D,a[1]),g=g3(c,D,a[1],0),ae=h(a[3]),af=Q(h(j),ae),K=[0,h(j),af],ag=a[3],F=ap(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ag),ai=F?z(function(a){var
-b=e(ca,kf(j,a));return[0,a[4],b]},g):F,ak=f(g5(g,c,K,a[3]),ai),al=f(bt(jO(g)),ak),M=f(bt(d_(g)),al),N=cI(M)[1],m=cG(N),O=p(function(a){var
-b=l(d);return ay(t(a9(m,a),m,b),a)},M);if(O){var
-P=ap(qu,a[3]);if(P){var
-s=D,n=a[1];for(;;){if(n){var
-q=n[1],u=bn(d,s);switch(q[0]){case
+aa=id(Z,Y,X,a),ab=aa?f_(xA,B):aa;if(ab){var
+aP=$[1],D=e(f8,a[1]),c=h9(a[1]),aQ=ig(aK),V=kI(p,a);if(V){var
+k=fw(c,D,a[1]),g=g$(c,D,a[1],0),af=h(a[3]),ag=M(h(k),af),K=[0,h(k),ag],ah=a[3],F=ai(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ah),ak=F?x(function(a){var
+b=e(cd,ku(k,a));return[0,a[4],b]},g):F,al=f(hb(g,c,K,a[3]),ak),am=f(bx(j1(g)),al),N=f(bx(ec(g)),am),O=ck(N)[1],m=cj(O),P=n(function(a){var
+b=l(d);return av(u(aV(m,a),m,b),a)},N);if(P){var
+Q=ai(qP,a[3]);if(Q){var
+s=D,o=a[1];for(;;){if(o){var
+q=o[1],t=br(d,s);switch(q[0]){case
 0:var
-G=q[1],H=fx(b,G[1],u),E=0;if(H){var
-r=ah(b,[0,G[4],c]);if(r)var
-i=L(d,r[1][1]);else{var
+G=q[1],H=fz(b,G[1],t),E=0;if(H){var
+r=aj(b,[0,G[4],c]);if(r)var
+j=L(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
-i=I;break;case
+j=I;break;case
 1:var
-J=q[3],i=J?fx(b,J[1],u):1;break;default:var
-i=fx(b,q[1],u)}if(i){var
-ad=n[2],s=bE(s),n=ad;continue}var
-R=i}else
+J=q[3],j=J?fz(b,J[1],t):1;break;default:var
+j=fz(b,q[1],t)}if(j){var
+ad=o[2],s=bI(s),o=ad;continue}var
+R=j}else
 var
 R=1;var
 v=R;break}}else
 var
-v=P;if(v){var
-am=a[3],an=z(function(a){return cL(c,a)},am),ao=a[3],aq=f(j,f(e(function(a){return bs(c,a)},ao),an)),w=aj(e(function(a){return ah(b,a)},aq));if(w){var
-ar=aM(du(a[2]),c),x=aj(e(function(a){return ah(b,a)},ar));if(x){var
-at=a[3],y=aj(kh(b,aP,function(a){return a9(m,a)},j,g,c,K,at));if(y){var
-S=y[1],au=g2(S),av=x[1],aw=a[2],ax=function(a){return ki(b,aw,c,a)},az=w[1],aA=0,aB=jO(g),aC=k(as(function(a){return a9(m,a)}),aB),aD=d_(g);return ft(b,N,k(as(function(a){return a9(m,a)}),aD),aC,aA,az,S,ax,av,au,aO)}var
-T=y}else
+v=Q;if(v){var
+an=a[3],ao=x(function(a){return cQ(c,a)},an),ap=a[3],aq=f(k,f(e(function(a){return bw(c,a)},ap),ao)),w=ae(e(function(a){return aj(b,a)},aq));if(w){var
+as=aO(dA(a[2]),c),y=ae(e(function(a){return aj(b,a)},as));if(y){var
+at=a[3],z=ae(kw(b,aQ,function(a){return aV(m,a)},k,g,c,K,at));if(z){var
+S=z[1],au=g_(S),aw=y[1],ax=a[2],ay=function(a){return kx(b,ax,c,a)},az=w[1],aA=0,aB=j1(g),aC=i(ar(function(a){return aV(m,a)}),aB),aD=ec(g);return fu(b,O,i(ar(function(a){return aV(m,a)}),aD),aC,aA,az,S,ay,aw,au,aP)}var
+T=z}else
 var
-T=x;var
+T=y;var
 U=T}else
 var
 U=w;var
@@ -5708,41 +5886,41 @@ A=U}else
 var
 A=v}else
 var
-A=O;return A}return V}var
+A=P;return A}return V}var
 ac=ab}else
 var
 ac=C;return ac}function
-xc(a){if(0===a[0])return mp(a[1]);var
-b=a[1],c=dv(b[6]);return f(dv(b[5]),c)}function
-xd(a){if(0===a[0])return mq(a[1]);var
-b=a[1],c=a2(b[4]);return f(a2(b[3]),c)}function
-xe(a){if(0===a[0])return[0,f3(a[1]),d];var
-b=a[1],c=bL(a2(b[2]));return[0,bL(a2(b[1])),c]}function
-mG(f,n,m,l,k,j,x,d){var
-a=mi(f,n,m,l,k,j),p=a[2],b=z(xc,p),w=b?[0,b[1],b[2]]:z(xd,p),i=y(c,bL(w)),q=e(xe,a[2]),r=hv(i,q,a[2]),A=h(d),B=aK(aZ(0,h(r)),r),g=cZ(e(aJ,bF(function(a){return g6(a[2])},B)),A,d);if(g){var
+xB(a){if(0===a[0])return mL(a[1]);var
+b=a[1],c=dB(b[6]);return f(dB(b[5]),c)}function
+xC(a){if(0===a[0])return mM(a[1]);var
+b=a[1],c=a3(b[4]);return f(a3(b[3]),c)}function
+xD(a){if(0===a[0])return[0,f8(a[1]),d];var
+b=a[1],c=bN(a3(b[2]));return[0,bN(a3(b[1])),c]}function
+m2(f,n,m,l,k,j,y,d){var
+a=mE(f,n,m,l,k,j),o=a[2],b=x(xB,o),w=b?[0,b[1],b[2]]:x(xC,o),i=z(c,bN(w)),q=e(xD,a[2]),r=hI(i,q,a[2]),A=h(d),B=aI(aJ(0,h(r)),r),g=c5(e(aF,bb(function(a){return fy(a[2])},B)),A,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=mC(f,n,m,l,k,j),u=t?f5(a4(f),d):t;if(u)return rx(o,x,a,i,q,s[1]);var
+t=mY(f,n,m,l,k,j),u=t?f_(a5(f),d):t;if(u)return rW(p,y,a,i,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-mH(B,aM,aq,ao,A,an,h){var
-l=hN(B,aM,aq,ao);if(A){var
+m3(B,aM,aq,ap,A,ao,h){var
+l=h0(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=mt(B,e(i,an));if(ar[2])return 0;var
+ar=mP(B,e(j,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?wO:wP;else
+a=0===h?xb:xc;else
 switch(h[0]){case
 0:var
-b=h[2],m=h[1],H=w(wL,S(as,m)),J=0;if(H){var
+b=h[2],m=h[1],H=v(w_,S(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
 K=0;if(b){var
 n=b[1],L=0;if(n){var
-p=n[2],M=0;if(p){var
-q=p[2],N=0;if(q)if(q[2]){var
+o=n[2],M=0;if(o){var
+q=o[2],N=0;if(q)if(q[2]){var
 a=0;K=1;L=1;M=1;N=1}else{var
 r=b[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
@@ -5750,7 +5928,7 @@ t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
 a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
 var
-V=[0,[0,m,[0,[0,n[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+V=[0,[0,m,[0,[0,n[1],o[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 V=u;if(!aC)var
 W=V}else
@@ -5767,7 +5945,7 @@ var
 Z=q;if(!N)var
 _=Z}else
 var
-_=p;if(!M)var
+_=o;if(!M)var
 $=_}else
 var
 $=n;if(!L)var
@@ -5776,48 +5954,48 @@ var
 aa=b;if(!K)var
 a=aa}else{var
 aD=0;if(b){var
-v=b[1],aE=0;if(v){var
-x=v[2],aF=0;if(x){var
-y=x[2],aG=0;if(y)if(y[2]||b[2]){var
+w=b[1],aE=0;if(w){var
+y=w[2],aF=0;if(y){var
+z=y[2],aG=0;if(z)if(z[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=y[1],ac=x[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=z[1],ac=y[1],ad=w[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
-ae=y;if(!aG)var
+ae=z;if(!aG)var
 af=ae}else
 var
-af=x;if(!aF)var
+af=y;if(!aF)var
 ag=af}else
 var
-ag=v;if(!aE)var
+ag=w;if(!aE)var
 ah=ag}else
 var
 ah=b;if(!aD)var
 a=ah}}else
 if(b)var
 a=0;else{var
-ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
-aj=H;J=1}if(J)var
-a=aj;break;case
+aj=[0,[0,d,d],d],ak=[0,[0,m,aj,aj]];J=1}}else{var
+ak=H;J=1}if(J)var
+a=ak;break;case
 1:var
-ak=h[1],I=S(as,ak),O=0;if(I){var
-aH=0,al=I[1];if(typeof
-al!=="number"&&1===al[0]){var
-a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
-am=0;O=1}}else{var
-am=I;O=1}if(O)var
-a=am;break;default:var
+al=h[1],I=S(as,al),O=0;if(I){var
+aH=0,am=I[1];if(typeof
+am!=="number"&&1===am[0]){var
+a=[0,[1,al,h[2]]];aH=1}if(!aH){var
+an=0;O=1}}else{var
+an=I;O=1}if(O)var
+a=an;break;default:var
 a=0}if(a){var
-at=h3(z(mw,B),an),au=at?h2(B,aq,ao,l):at;if(au){var
-f=a[1],aN=i(D[1]),aO=i(C[1]),j=[0,i(A[1]),aO,aN],k=ar[1],P=kk(o,l,k,j);if(P)if(typeof
-f==="number")return 0===f?ap(function(b){var
-a=kl(b,j);return a?g(o,0,[3,[0,d,c],a[1]]):a},k):jD(qw,e(function(b){var
-a=ef(b,j);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+at=ie(x(mS,B),ao),au=at?id(B,aq,ap,l):at;if(au){var
+f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=kz(p,l,k,i);if(P)if(typeof
+f==="number")return 0===f?ai(function(b){var
+a=kA(b,i);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jQ(qR,e(function(b){var
+a=ej(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
 E=S(l[3],f[1]);if(E){var
-aI=E[1],aJ=km(f[3]);return kr(o,k,j,km(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=kB(f[3]);return kG(p,k,i,kB(f[2]),aJ,aI)}return E}var
 F=S(l[3],f[1]);if(F){var
 G=S(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cR(Q,j);return kr(o,k,j,cR(Q,j),aL,aK)}var
+Q=G[1],aK=F[1],aL=cW(Q,i);return kG(p,k,i,cW(Q,i),aL,aK)}var
 R=G}else
 var
 R=F;return R}return P}var
@@ -5833,274 +6011,277 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-mI(m,l,b,k,z,y){var
+m4(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=S(f,g),n=h?dZ(h[1][2],xh):h;if(n)var
-A=d[2],i=mI(m,l,b,k,hV(0,g,f),A);else
+g=d[1],h=S(f,g),n=h?cH(h[1][2],xG):h;if(n)var
+A=d[2],i=m4(m,l,b,k,h8(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=hV(1,g,f),d=B;continue}return i}var
-c=d[1],a=mn(0,m,f),o=e(function(b){function
-d(b){return mo(a,b)}function
-c(a){return hT(d,a)}switch(b[0]){case
+B=d[3],f=h8(1,g,f),d=B;continue}return i}var
+c=d[1],a=mJ(0,m,f),o=e(function(b){function
+d(b){return mK(a,b)}function
+c(a){return h6(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mo(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mK(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=hT(function(b){return am(a,b)},q),s=b[1],j=[0,hT(function(b){return am(a,b)},s),r];else
+i=v(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=h6(function(b){return an(a,b)},q),s=b[1],j=[0,h6(function(b){return an(a,b)},s),r];else
 var
-t=am(a,b[5]),u=am(a,b[4]),v=am(a,b[3]),x=am(a,b[2]),j=[1,am(a,b[1]),x,v,u,t];var
+t=an(a,b[5]),u=an(a,b[4]),w=an(a,b[3]),x=an(a,b[2]),j=[1,an(a,b[1]),x,w,u,t];var
 p=e(function(f){var
 b=f[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,am(a,b[1])];break;case
+d=[0,an(a,b[1])];break;case
 1:var
-d=[1,am(a,b[1])];break;default:var
-l=am(a,b[2]),d=[2,am(a,b[1]),l]}var
+d=[1,an(a,b[1])];break;default:var
+l=an(a,b[2]),d=[2,an(a,b[1]),l]}var
 g=f[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-h=[0,[0,am(a,c[1])]];break;case
+h=[0,[0,an(a,c[1])]];break;case
 1:var
-j=c[1],h=[0,[1,e(function(b){return am(a,b)},j)]];break;default:var
-k=am(a,c[2]),h=[0,[2,am(a,c[1]),k]]}var
+j=c[1],h=[0,[1,e(function(b){return an(a,b)},j)]];break;default:var
+k=an(a,c[2]),h=[0,[2,an(a,c[1]),k]]}var
 i=h}else
 var
 i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return mF(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return am(a,b)},D),F=c[2];return mH(o,j,0,p,e(function(b){return am(a,b)},F),E,C)}}}function
-mJ(h,g){var
-a=ci(i(h));if(a){var
-b=a[1],e=cC([0,d,c],b);if(e)return cC(b,g);var
+1:return m1(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return m3(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+m5(h,g){var
+a=cn(j(h));if(a){var
+b=a[1],e=cJ([0,d,c],b);if(e)return cJ(b,g);var
 f=e}else
 var
 f=a;return f}function
-xn(q){var
-d4=fV(q[3]),d5=d4?fV(q[4]):d4;if(d5){var
-P=q[1];switch(P[0]){case
+xM(q){var
+d4=f0(q[3]),d5=d4?f0(q[4]):d4;if(d5){var
+Q=q[1];switch(Q[0]){case
 3:var
-eb=p(ex,P[1]);if(eb)var
-hr=P[2],bT=p(function(a){return ex(a[1])},hr);else
+d$=n(ez,Q[1]);if(d$)var
+hs=Q[2],bT=n(function(a){return ez(a[1])},hs);else
 var
-bT=eb;if(bT)var
-ht=P[3],bU=p(function(a){var
-b=ex(a[1]),c=b?hL(a[2]):b;return c?ey(a[2]):c},ht);else
+bT=d$;if(bT)var
+ht=Q[3],bU=n(function(a){var
+b=ez(a[1]),c=b?hY(a[2]):b;return c?eA(a[2]):c},ht);else
 var
 bU=bT;if(bU)var
-hu=P[4],aR=p(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0];return p(function(a){var
-b=hL(a);return b?ey(a):b},b)},hu);else
+hu=Q[4],aS=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
+b=hY(a);return b?eA(a):b},b)},hu);else
 var
-aR=bU;break;case
+aS=bU;break;case
 7:var
-hv=P[1],ec=p(function(a){var
-b=ex(a[1]);return b?ez(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aR=ec?ez(0,[0,P[5],[0,P[6],0]]):ec;break;default:var
-aR=1}var
-bR=aR}else
+hv=Q[1],ea=n(function(a){var
+b=ez(a[1]);return b?eB(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aS=ea?eB(0,[0,Q[5],[0,Q[6],0]]):ea;break;default:var
+aS=1}var
+bR=aS}else
 var
 bR=d5;var
 cF=0;if(bR){var
-d6=q[1],bS=7===d6[0]?e(aJ,d6[1]):0,d7=function(c,b){var
-a=l$(c);return a?p(function(a){var
-e=a[1],b=p(function(c){var
+d6=q[1],bS=7===d6[0]?e(aF,d6[1]):0,d7=function(c,b){var
+a=mv(c);return a?n(function(a){var
+e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=fV(a[2]);if(b){var
+b=f0(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return fV(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return ez(bS,l_(c[1]));var
+1:return f0(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}},e);if(b){var
+c=a[3];if(c)return eB(bS,mu(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d8=function(e,d,c,b){var
-a=l$(e);return a?ez(bS,f(d,f(c,l_(b)))):a},j=q[1];switch(j[0]){case
+a=mv(e);return a?eB(bS,f(d,f(c,mu(b)))):a},k=q[1];switch(k[0]){case
 0:var
-gV=z(cW,j[4]),gW=f(z(l8,j[3]),gV),gX=f(l6(j[2]),gW),T=f(z(hM,j[1]),gX);break;case
+gW=x(c2,k[4]),gX=f(x(ms,k[3]),gW),gY=f(mq(k[2]),gX),T=f(x(hZ,k[1]),gY);break;case
 1:var
-bO=j[5],bP=j[3],gY=z(cW,j[6]),gZ=bO?l7(bO[1]):bO,g0=f(gZ,gY),g1=f(l5(j[4]),g0),g4=bP?[0,bP[1],0]:bP,g6=f(g4,g1),T=f(z(vY,j[2]),g6);break;case
+bO=k[5],bP=k[3],gZ=x(c2,k[6]),g0=bO?mr(bO[1]):bO,g1=f(g0,gZ),g2=f(mp(k[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),T=f(x(wl,k[2]),g4);break;case
 2:var
-g8=z(cW,j[7]),g_=f(z(l8,j[6]),g8),g$=f(l7(j[5]),g_),ha=f(l5(j[4]),g$),hb=[0,j[3],ha],hc=j[2],T=f(z(function(a){return z(dE,f(a[1],a[2]))},hc),hb);break;case
+g5=x(c2,k[7]),g6=f(x(ms,k[6]),g5),g7=f(mr(k[5]),g6),g8=f(mp(k[4]),g7),g9=[0,k[3],g8],ha=k[2],T=f(x(function(a){return x(dJ,f(a[1],a[2]))},ha),g9);break;case
 3:var
-hd=z(cW,j[7]),he=f(j[6],hd),hf=f(j[5],he),hh=j[2],T=f(z(function(a){return dE(a[2])},hh),hf);break;case
+hd=x(c2,k[7]),hf=f(k[6],hd),hg=f(k[5],hf),hh=k[2],T=f(x(function(a){return dJ(a[2])},hh),hg);break;case
 4:var
-hj=z(cW,j[3]),T=[0,j[1],[0,j[2],hj]];break;case
+hi=x(c2,k[3]),T=[0,k[1],[0,k[2],hi]];break;case
 5:var
-hk=z(cW,j[4]),hl=f(bv(j[3]),hk),hm=f(bv(j[2]),hl),hn=f(z(hM,j[1]),hm),T=[0,j[5],hn];break;case
+hj=x(c2,k[4]),hk=f(bA(k[3]),hj),hl=f(bA(k[2]),hk),hm=f(x(hZ,k[1]),hl),T=[0,k[5],hm];break;case
 6:var
-bQ=j[1],T=bQ?dE(bQ[1]):bQ;break;default:var
-ho=z(cW,j[4]),hp=f(l6(j[3]),ho),T=f(z(hM,j[2]),hp)}var
-d9=ez(bS,T);if(d9){var
+bQ=k[1],T=bQ?dJ(bQ[1]):bQ;break;default:var
+ho=x(c2,k[4]),hq=f(mq(k[3]),ho),T=f(x(hZ,k[2]),hq)}var
+d9=eB(bS,T);if(d9){var
 U=q[2];switch(U[0]){case
 0:var
 aB=d7(U[1],U[3]);break;case
 1:var
 aB=d8(U[1],U[2],U[3],U[4]);break;default:var
-hq=U[1],aB=p(function(a){if(typeof
+hr=U[1],aB=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return d7(a[1],a[3]);case
-2:return d8(a[1],a[2],a[3],a[4])}return 1},hq)}}else{var
-ea=d9;cF=1}}else{var
-ea=bR;cF=1}if(cF)var
-aB=ea;if(aB){var
+2:return d8(a[1],a[2],a[3],a[4])}return 1},hr)}}else{var
+d_=d9;cF=1}}else{var
+d_=bR;cF=1}if(cF)var
+aB=d_;if(aB){var
 a=q[1];switch(a[0]){case
 0:var
-eO=a[4],eP=a[3],eQ=a[2],eR=a[1],aa=q[2];switch(aa[0]){case
-0:return mF(0,eR,eQ,eP,eO,aa[1],aa[2],aa[3]);case
-1:return mH(eR,eQ,eP,eO,aa[2],aa[3],aa[4]);default:return 0}case
+eO=a[4],eP=a[3],eQ=a[2],eR=a[1],ab=q[2];switch(ab[0]){case
+0:return m1(0,eR,eQ,eP,eO,ab[1],ab[2],ab[3]);case
+1:return m3(eR,eQ,eP,eO,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
-b_=a[6],b$=a[5],cb=a[4],cc=a[3],aC=a[2],ab=a[1],al=q[2];switch(al[0]){case
-0:return mG(ab,aC,cc,cb,b$,b_,al[1],al[3]);case
+b_=a[6],b$=a[5],ca=a[4],cb=a[3],aC=a[2],ac=a[1],an=q[2];switch(an[0]){case
+0:return m2(ac,aC,cb,ca,b$,b_,an[1],an[3]);case
 1:var
-eS=al[3],h_=al[4],h$=al[2],eq=typeof
-ab==="number"?ab?xf:xg:h1(ab[1]),b5=e(i,h$),et=mv(aC,e(i,eS));if(et[2])return 0;var
-b6=hY(h_);if(b6){var
-eu=h3(z(mB,aC),eS),ev=eu?mC(ab,aC,cc,cb,b$,b_):eu;if(ev)var
-hK=a4(ab),b7=u(h(b5),hK);else
+eS=an[3],hW=an[4],hX=an[2],eq=typeof
+ac==="number"?ac?xE:xF:ic(ac[1]),b4=e(j,hX),er=mR(aC,e(j,eS));if(er[2])return 0;var
+b5=h$(hW);if(b5){var
+es=ie(x(mX,aC),eS),ev=es?mY(ac,aC,cb,ca,b$,b_):es;if(ev)var
+hK=a5(ac),b6=t(h(b4),hK);else
 var
-b7=ev;if(b7){var
-hP=b6[1],r=de(eq,b5),E=aX(bV(eq,b5)),ak=et[1],W=mi(ab,aC,cc,cb,b$,b_),c3=lr(o,W[2],ak);if(c3){var
-c0=cO(o,W[4],E),cH=0;if(c0){var
-c1=W[5];if(c1)var
-a$=fC(o,c1[1],r);else
+b6=ev;if(b6){var
+hL=b5[1],r=dk(eq,b4),E=aZ(bY(eq,b4)),am=er[1],X=mE(ac,aC,cb,ca,b$,b_),c1=lN(p,X[2],am);if(c1){var
+cY=cT(p,X[4],E),cG=0;if(cY){var
+cZ=X[5];if(cZ)var
+a$=fE(p,cZ[1],r);else
 if(r)var
 a$=0;else{var
-c2=1;cH=1}}else{var
-c2=c0;cH=1}if(cH)var
-a$=c2;var
-bb=a$}else
+c0=1;cG=1}}else{var
+c0=cY;cG=1}if(cG)var
+a$=c0;var
+ba=a$}else
 var
-bb=c3;if(bb){var
-C=W[5],c4=W[3],aI=W[1],f6=W[6],fT=e(function(a){if(0===a[0]){var
-d=b3(C,r,E,a),b=ef(a[1],d);return[0,lp(aI,b,at([5,[0,c,c],c4],ei(hs(C,r,fK(a)),b)))]}return 0},ak),fU=z(function(a){if(0===a[0]){var
-c=b3(C,r,E,a),b=kl(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=b3(C,r,E,a);return[0,kD(a[1],e),0]},ak),fW=e(function(d){var
-b=b3(C,r,E,d);if(0===d[0]){var
+ba=c1;if(ba){var
+C=X[5],c3=X[3],aL=X[1],fZ=X[6],fS=e(function(a){if(0===a[0]){var
+d=b7(C,r,E,a),b=ej(a[1],d);return[0,lL(aL,b,at([5,[0,c,c],c3],em(hF(C,r,fP(a)),b)))]}return 0},am),fT=x(function(a){if(0===a[0]){var
+c=b7(C,r,E,a),b=kA(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=b7(C,r,E,a);return[0,kS(a[1],e),0]},am),fW=e(function(d){var
+b=b7(C,r,E,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cP(e,h,g,f,b),i=cQ(a[5],j),k=at(i,aw(e)),l=ee(e,h,g,b);return[0,[0,lq(aI,ad(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fz(c,b),o=kG(c,b),p=c[4],q=ad(function(b,a){return[2,b,a]},b,p);return[0,[0,lq(aI,ad(function(b,a){return[3,b,a]},q,o)),n,m]]},ak),fZ=e(function(a){if(0===a[0]){var
-c=b3(C,r,E,a);return[0,g7(a[1],c)]}var
-b=a[1],d=kF(b,b3(C,r,E,a));return[1,kE(b,b3(C,r,E,a)),d]},ak),f1=[0,e(function(a){if(0===a[0])var
-k=b3(C,r,E,a),d=cR(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,ax(e)),l=ei(e,h,g,b);return[0,[0,lM(aL,af(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fB(c,b),o=kV(c,b),p=c[4],q=af(function(b,a){return[2,b,a]},b,p);return[0,[0,lM(aL,af(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fX=e(function(a){if(0===a[0]){var
+c=b7(C,r,E,a);return[0,hc(a[1],c)]}var
+b=a[1],d=kU(b,b7(C,r,E,a));return[1,kT(b,b7(C,r,E,a)),d]},am),fY=[0,e(function(a){if(0===a[0])var
+k=b7(C,r,E,a),d=cW(a[1],k);else
 var
-e=b3(C,r,E,a),b=a[1],f=kG(b,e),g=b[4],h=ad(function(b,a){return[2,b,a]},e,g),i=ad(function(b,a){return[3,b,a]},h,f),j=fz(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lp(aI,d,at([5,[0,c,c],c4],ei(hs(C,r,fK(a)),d)))},ak),fZ,fW,fU,fT];return kA(o,a4(W[1]),f1,f6,hP)}return bb}var
-ew=b7}else
+e=b7(C,r,E,a),b=a[1],f=kV(b,e),g=b[4],h=af(function(b,a){return[2,b,a]},e,g),i=af(function(b,a){return[3,b,a]},h,f),j=fB(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lL(aL,d,at([5,[0,c,c],c3],em(hF(C,r,fP(a)),d)))},am),fX,fW,fT,fS];return kP(p,a5(X[1]),fY,fZ,hL)}return ba}var
+ew=b6}else
 var
-ew=b6;return ew;default:return 0}case
+ew=b5;return ew;default:return 0}case
 2:var
-aD=a[7],aE=a[6],aV=a[5],aW=a[4],aY=a[3],ae=a[2],am=a[1],af=q[2];switch(af[0]){case
+aD=a[7],aE=a[6],aX=a[5],aY=a[4],a0=a[3],ag=a[2],ao=a[1],ah=q[2];switch(ah[0]){case
 0:var
-cd=af[3],an=mg(am,ae,aY,aW,aV,aE,aD),ce=cZ(0,h(cd),cd);if(ce){var
-eT=ce[1];if(eT[2])return 0;var
-eU=mA(am,ae,aY,aW,aV,aE,aD),eV=eU?f5(cq(am),cd):eU;if(eV){var
-ia=eT[1],ib=an[2],ic=y(c,bL(z(function(a){var
-b=a2(a[2]);return f(a2(a[1]),b)},ib))),id=mE(h(ae),aE,aD),ie=h4(af[2]),ig=af[1],fO=an[2],cY=p(function(a){var
-b=lo(o,a[1]);return b?lo(o,a[2]):b},fO);if(cY)var
-fR=g9(an[4]),a8=cO(o,an[4],fR);else
+cc=ah[3],ak=mC(ao,ag,a0,aY,aX,aE,aD),h2=ak[2],eT=z(c,bN(x(function(a){var
+b=a3(a[2]);return f(a3(a[1]),b)},h2))),h3=h(cc),ce=c5(lH(eT,ak[2]),h3,cc);if(ce){var
+eU=ce[1];if(eU[2])return 0;var
+eV=mW(ao,ag,a0,aY,aX,aE,aD),eW=eV?f_(cv(ao),cc):eV;if(eW){var
+h4=eU[1],h6=m0(h(ag),aE,aD),h8=ig(ah[2]),ih=ah[1],fN=ak[2],cX=n(function(a){var
+b=lK(p,a[1]);return b?lK(p,a[2]):b},fN);if(cX)var
+fO=he(ak[4]),a9=cT(p,ak[4],fO);else
 var
-a8=cY;if(a8)var
-fS=fG(an[5]),a_=p(function(a){return er(o,a)},fS);else
+a9=cX;if(a9)var
+fR=fK(ak[5]),a_=n(function(a){return et(p,a)},fR);else
 var
-a_=a8;return a_?rb(ig,ie,id,an,ic,ia):a_}var
-eW=eV}else
+a_=a9;return a_?rA(ih,h8,h6,ak,eT,h4):a_}var
+eX=eW}else
 var
-eW=ce;return eW;case
+eX=ce;return eX;case
 1:var
-a0=af[4],eX=af[3],a1=e(i,af[2]),aq=h1(am),eY=mu(ae,e(i,eX));if(eY[2])return 0;var
-I=eY[1],eZ=h3(z(function(a){return f(a[1],a[2])},ae),eX),e0=eZ?mA(am,ae,aY,aW,aV,aE,aD):eZ;if(e0){var
-n=mg(am,ae,aY,aW,aV,aE,aD);if(typeof
-a0!=="number"&&2===a0[0]){var
-e2=e(i,a0[1]),e3=de(aq,e2),e4=aX(bV(aq,e2)),e5=de(aq,a1),e6=aX(bV(aq,a1)),dF=kQ(o,n[2],I);if(dF)var
-gA=cq(n[1]),bA=u(h(I),gA);else
+a1=ah[4],eY=ah[3],a2=e(j,ah[2]),ap=ic(ao),eZ=mQ(ag,e(j,eY));if(eZ[2])return 0;var
+J=eZ[1],e0=ie(x(function(a){return f(a[1],a[2])},ag),eY),e1=e0?mW(ao,ag,a0,aY,aX,aE,aD):e0;if(e1){var
+o=mC(ao,ag,a0,aY,aX,aE,aD);if(typeof
+a1!=="number"&&2===a1[0]){var
+e3=e(j,a1[1]),e4=dk(ap,e3),e5=aZ(bY(ap,e3)),e6=dk(ap,a2),e7=aZ(bY(ap,a2)),dE=k5(p,o[2],J);if(dE)var
+gB=cv(o[1]),by=t(h(J),gB);else
 var
-bA=dF;var
-dI=bA?cO(o,n[4],e6):bA,dJ=dI?cO(o,n[4],e4):dI,dK=dJ?fC(o,n[5],e5):dJ,dL=dK?fC(o,n[5],e3):dK;if(dL){var
-dM=n[1],gB=n[5],gC=n[3],dv=function(g,f){var
-h=e(function(a){return kP(dM,gC,gB,f,g,a)},I),i=cq(dM),a=lM(o,h);function
-b(a,b){return x(o,a,b)}var
-d=Z(o,c);return w(function(a){return lK(B,d,J,b,i,a)},a)},by=dv(e6,e5);if(by){var
-dw=by[1],bz=dv(e4,e3);if(bz){var
-dx=bz[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
+by=dE;var
+dF=by?cT(p,o[4],e7):by,dG=dF?cT(p,o[4],e5):dF,dH=dG?fE(p,o[5],e6):dG,dI=dH?fE(p,o[5],e4):dH;if(dI){var
+dK=o[1],gC=o[5],gD=o[3],dv=function(g,f){var
+h=e(function(a){return k4(dK,gD,gC,f,g,a)},J),i=cv(dK),a=l8(p,h);function
+b(a,b){return y(p,a,b)}var
+d=W(p,c);return v(function(a){return l6(A,d,H,b,i,a)},a)},bu=dv(e7,e6);if(bu){var
+dw=bu[1],bv=dv(e5,e4);if(bv){var
+dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
 dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
 dA=dD}var
 dB=dA}else
 var
-dB=bz;var
+dB=bv;var
 dC=dB}else
 var
-dC=by;return dC}return dL}var
-cf=hY(a0);if(cf){var
-ih=cf[1],ar=de(aq,a1),aF=aX(bV(aq,a1)),cS=kQ(o,n[2],I),cT=cS?cO(o,n[4],aF):cS,cU=cT?fC(o,n[5],ar):cT;if(cU){var
-ax=n[5],cV=n[3],cX=n[1],fN=n[6],cN=function(a){var
-b=fD(ax,ar,aF,a);return O(fD(ax,ar,aF,a),b)},fF=e(function(a){return[0,kP(cX,cV,ax,ar,aF,a)]},I),fH=e(cN,I),fI=e(function(a){return 0},I),fJ=e(function(a){return[0,[6,cN(a)]]},I),fM=[0,e(function(b){var
-a=aw(fD(ax,ar,aF,b));return hi(cX,a,at([5,[0,c,c],cV],ei(fB(ax,ar,b[2]),a)))},I),fJ,fI,fH,fF];return kA(o,cq(n[1]),fM,fN,ih)}return cU}var
-e1=cf}else
+dC=bu;return dC}return dI}var
+cf=h$(a1);if(cf){var
+ii=cf[1],as=dk(ap,a2),aG=aZ(bY(ap,a2)),cN=k5(p,o[2],J),cO=cN?cT(p,o[4],aG):cN,cP=cO?fE(p,o[5],as):cO;if(cP){var
+ay=o[5],cR=o[3],cS=o[1],fM=o[6],cM=function(a){var
+b=fF(ay,as,aG,a);return P(fF(ay,as,aG,a),b)},fG=e(function(a){return[0,k4(cS,cR,ay,as,aG,a)]},J),fH=e(cM,J),fI=e(function(a){return 0},J),fJ=e(function(a){return[0,[6,cM(a)]]},J),fL=[0,e(function(b){var
+a=ax(fF(ay,as,aG,b));return hp(cS,a,at([5,[0,c,c],cR],em(fD(ay,as,b[2]),a)))},J),fJ,fI,fH,fG];return kP(p,cv(o[1]),fL,fM,ii)}return cP}var
+e2=cf}else
 var
-e1=e0;return e1;default:return 0}case
+e2=e1;return e2;default:return 0}case
 3:var
-au=a[7],e7=a[6],e8=a[5],X=a[4],e9=a[2],cg=a[1],a3=q[2];if(0===a3[0]){var
-ck=a3[3],cl=cZ(0,h(ck),ck);if(cl){var
-e_=cl[1];if(e_[2])return 0;var
-hI=h(cg),hJ=h(e7),em=u(h(e8),hJ),en=em?p(function(a){var
-b=bx(hI,h(X),a);if(b){var
+au=a[7],e8=a[6],e9=a[5],Y=a[4],e_=a[2],cg=a[1],a4=q[2];if(0===a4[0]){var
+ch=a4[3],ci=c5(0,h(ch),ch);if(ci){var
+e$=ci[1];if(e$[2])return 0;var
+hH=h(cg),hI=h(e8),ek=t(h(e9),hI),en=ek?n(function(a){var
+b=bC(hH,h(Y),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bD(d[1]),0]:aZ(0,h(X));return p(function(b){var
-a=S(X,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?p(function(a){return 0===a[0]?0:1},X):1}return b},au):em,eo=en?f4(au):en,ep=eo?p(function(a){return eB(a[2])},e9):eo,e$=ep?p(h0,dG(0,h(X),0,au)):ep,fa=e$?f5(h(cg),ck):e$;if(fa){var
-ii=e_[1],ij=a[3],eg=ap(fX,au),aS=dG(0,h(X),0,au),hx=aK(e8,e7),bW=e(function(a){var
-b=i(a[2]);return[0,i(a[1]),b]},hx),hy=e(function(a){return 0===a[0]?[0,e(cv,a[1])]:[1,cv(a[1])]},X),hA=e(function(a){var
-b=cv(a[2]);return[0,a[1],b]},ij),m=[0,cg,e(function(a){var
-b=bw(a[2]);return[0,a[1],b]},e9),hA,hy],ik=mE(h(X),0,au),fb=h4(a3[2]),aG=a3[1],gx=e(aJ,m[2]),bn=f(m[1],gx),bo=h(m[1]),dn=R(ry,bo),dp=dn?R(bo,rz):dn,dq=dp?R(bo,h(m[4])):dp,dr=dq?R(h(m[4]),rA):dq,ds=dr?lI(bn):dr;if(ds){var
-aP=bn,aO=m[3];for(;;){if(aO){var
-dj=aO[1],dk=dj[1],dl=ac(ap(function(b){return function(a){return ao(b,a)}}(dk),aP)),dm=dl?hz(aP,dj[2]):dl;if(dm){var
-aP=[0,dk,aP],aO=aO[2];continue}var
+d=a[2],e=d?[0,bq(d[1]),0]:aJ(0,h(Y));return n(function(b){var
+a=S(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ek,eo=en?f9(au):en,ep=eo?n(function(a){return eD(a[2])},e_):eo,fa=ep?n(ib,dL(0,h(Y),0,au)):ep,fb=fa?f_(h(cg),ch):fa;if(fb){var
+ij=e$[1],ik=a[3],eb=ai(f2,au),aT=dL(0,h(Y),0,au),hw=aI(e9,e8),bV=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cA,a[1])]:[1,cA(a[1])]},Y),hy=e(function(a){var
+b=cA(a[2]);return[0,a[1],b]},ik),m=[0,cg,e(function(a){var
+b=bB(a[2]);return[0,a[1],b]},e_),hy,hx],il=m0(h(Y),0,au),fc=ig(a4[2]),aH=a4[1],gy=e(aF,m[2]),bo=f(m[1],gy),bp=h(m[1]),dn=R(rX,bp),dp=dn?R(bp,rY):dn,dq=dp?R(bp,h(m[4])):dp,dr=dq?R(h(m[4]),rZ):dq,ds=dr?l4(bo):dr;if(ds){var
+aQ=bo,aP=m[3];for(;;){if(aP){var
+di=aP[1],dj=di[1],dl=_(ai(function(b){return function(a){return aq(b,a)}}(dj),aQ)),dm=dl?hM(aQ,di[2]):dl;if(dm){var
+aQ=[0,dj,aQ],aP=aP[2];continue}var
 dt=dm}else
 var
 dt=1;var
-bp=dt;break}}else
+br=dt;break}}else
 var
-bp=ds;if(bp)var
-gy=m[4],bq=p(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aJ,m[3]),bn);return p(function(a){return hz(c,a)},b)},gy);else
+br=ds;if(br)var
+gz=m[4],bs=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aF,m[3]),bo);return n(function(a){return hM(c,a)},b)},gz);else
 var
-bq=bp;if(bq)var
-gz=m[2],br=p(function(a){return ba(o,a[2][1],a[2][2])},gz);else
+bs=br;if(bs)var
+gA=m[2],bt=n(function(a){return bd(p,a[2][1],a[2][2])},gA);else
 var
-br=bq;var
-du=br?p(function(a){return ba(o,a[1],a[2])},bW):br;if(du){var
-be=h(m[1]),bf=h(m[2]),c7=Q(bf,h(hw(e(ca,m[3])))),f_=m[3],az=lH(m),aL=f_,bd=bf;for(;;){if(aL){var
-c5=aL[1],c6=c5[2],f7=Q(bd,h(bu(c6))),f8=aL[2],f9=bc(az,c6,bd),az=[0,[0,c5[1],f9],az],aL=f8,bd=f7;continue}var
-$=lE(be,az,m[4],c7),f$=lD(az,m[4],c7),ga=m[3],c8=f(lA(lH(m),ga,bf),f$),c9=h(lG(m)),gb=0,gc=f(c8,cp(function(a,b){return lx($,a,b)},gb,d,c9,aS)),gd=f(bt(es($)),gc),c_=f(bt(fL($)),gd),bg=cI(c_)[1],ge=cG(bg),ai=function(a){return a9(ge,a)},c$=u(h(bW),be);if(c$)var
-gf=m[4],bh=p(function(a){return 0===a[0]?u(h(a[1]),be):1},gf);else
+bt=bs;var
+du=bt?n(function(a){return bd(p,a[1],a[2])},bV):bt;if(du){var
+be=h(m[1]),bg=h(m[2]),c7=M(bg,h(hJ(e(cd,m[3])))),f$=m[3],az=l3(m),aM=f$,bc=bg;for(;;){if(aM){var
+c4=aM[1],c6=c4[2],f1=M(bc,h(bz(c6))),f4=aM[2],f6=bf(az,c6,bc),az=[0,[0,c4[1],f6],az],aM=f4,bc=f1;continue}var
+aa=l0(be,az,m[4],c7),ga=lZ(az,m[4],c7),gb=m[3],c8=f(lW(l3(m),gb,bg),ga),c9=h(l2(m)),gc=0,gd=f(c8,cu(function(a,b){return lT(aa,a,b)},gc,d,c9,aT)),ge=f(bx(eu(aa)),gd),c_=f(bx(fQ(aa)),ge),bh=ck(c_)[1],gf=cj(bh),al=function(a){return aV(gf,a)},c$=t(h(bV),be);if(c$)var
+gg=m[4],bi=n(function(a){return 0===a[0]?t(h(a[1]),be):1},gg);else
 var
-bh=c$;var
-da=bh?p(function(a){var
-b=l(d),c=cG(bg);return ay(t(ai(a),c,b),a)},c_):bh,db=da?ap(lz,aS):da;if(db){var
-dc=ac(eg);if(dc)var
+bi=c$;var
+da=bi?n(function(a){var
+b=l(d),c=cj(bh);return av(u(al(a),c,b),a)},c_):bi,db=da?ai(lV,aT):da;if(db){var
+dc=_(eb);if(dc)var
 aN=dc;else
 var
-gw=m[4],aN=p(function(a){return 0===a[0]?0:1},gw)}else
+gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
-gg=lG(m),bi=aj(e(function(a){return ah(aG,a)},gg));if(bi){var
-gh=0,gi=z(function(a){return eh(gh,d,a)},aS),bj=aj(e(function(a){return hg(aG,a)},gi));if(bj){var
-bk=aj(e(function(a){return ah(aG,[0,a,d])},bW));if(bk){var
-gj=0,gk=0,bl=aj(cp(function(a,b){return ly(aG,ai,$,gk,d,a,b)},gj,d,c9,aS));if(bl){var
-dd=bl[1];if(eg)var
-gl=fb[2],gm=fb[1],gn=es($),bm=ku(ik,dd,[8,k(as(ai),gn),gm,gl]);else
+gh=l2(m),bj=ae(e(function(a){return aj(aH,a)},gh));if(bj){var
+gi=0,gj=x(function(a){return el(gi,d,a)},aT),bk=ae(e(function(a){return hn(aH,a)},gj));if(bk){var
+bl=ae(e(function(a){return aj(aH,[0,a,d])},bV));if(bl){var
+gk=0,gl=0,bm=ae(cu(function(a,b){return lU(aH,al,aa,gl,d,a,b)},gk,d,c9,aT));if(bm){var
+dd=bm[1];if(eb)var
+gm=fc[2],gn=fc[1],go=eu(aa),bn=kJ(il,dd,[8,i(ar(al),go),gn,gm]);else
 var
-bm=dd;var
-go=g2(bm),gp=bk[1],gq=function(a){return 0},gr=f(bi[1],bj[1]),gs=e(ai,c8),gt=es($),gu=k(as(ai),gt),gv=fL($);return ft(aG,bg,k(as(ai),gv),gu,gs,gr,bm,gq,gp,go,ii)}var
-df=bl}else
+bn=dd;var
+gp=g_(bn),gq=bl[1],gr=function(a){return 0},gs=f(bj[1],bk[1]),gt=e(al,c8),gu=eu(aa),gv=i(ar(al),gu),gw=fQ(aa);return fu(aH,bh,i(ar(al),gw),gv,gt,gs,bn,gr,gq,gp,ij)}var
+de=bm}else
+var
+de=bl;var
+df=de}else
 var
 df=bk;var
 dg=df}else
@@ -6108,110 +6289,107 @@ var
 dg=bj;var
 dh=dg}else
 var
-dh=bi;var
-di=dh}else
+dh=aN;return dh}}return du}var
+fd=fb}else
 var
-di=aN;return di}}return du}var
-fc=fa}else
-var
-fc=cl;return fc}return 0;case
+fd=ci;return fd}return 0;case
 4:var
-cn=q[2];if(0===cn[0]){var
-aH=a[3],F=a[2],co=a[1],il=cn[3],im=cn[1],eF=dH(i(co));if(eF){var
-aT=bF(mj,aH),cJ=0;if(aT){var
-bX=aT[1];if(bX[2]||bX[3])var
-v=0;else{var
-aU=bX[4],V=aT[2],K=0;if(typeof
-aU!=="number")switch(aU[0]){case
+cl=q[2];if(0===cl[0]){var
+aK=a[3],G=a[2],cp=a[1],im=cl[3],io=cl[1],eF=dM(j(cp));if(eF){var
+aU=bb(mF,aK),cH=0;if(aU){var
+bW=aU[1];if(bW[2]||bW[3])var
+w=0;else{var
+aW=bW[4],V=aU[2],K=0;if(typeof
+aW!=="number")switch(aW[0]){case
 0:var
-a6=0;if(V){var
-bY=V[1];if(bY[2]||bY[3]){var
-v=0;K=1;a6=1}else{var
-bZ=bY[4],cK=0;if(typeof
-bZ!=="number"&&1===bZ[0])if(V[2]){var
-v=0;K=1;a6=1;cK=1}else{var
-v=[0,[0,aU[1],bZ[1]]];K=1;a6=1;cK=1}if(!cK)var
-ek=0}}else
-var
-ek=V;if(!a6){var
-v=ek;K=1}break;case
-1:var
 a7=0;if(V){var
-b0=V[1];if(b0[2]||b0[3]){var
-v=0;K=1;a7=1}else{var
-b1=b0[4],cM=0;if(typeof
-b1!=="number"&&0===b1[0])if(V[2]){var
-v=0;K=1;a7=1;cM=1}else{var
-v=[0,[0,b1[1],aU[1]]];K=1;a7=1;cM=1}if(!cM)var
-el=0}}else
+bX=V[1];if(bX[2]||bX[3]){var
+w=0;K=1;a7=1}else{var
+bZ=bX[4],cI=0;if(typeof
+bZ!=="number"&&1===bZ[0])if(V[2]){var
+w=0;K=1;a7=1;cI=1}else{var
+w=[0,[0,aW[1],bZ[1]]];K=1;a7=1;cI=1}if(!cI)var
+ef=0}}else
 var
-el=V;if(!a7){var
-v=el;K=1}break}if(!K){var
-ej=0;cJ=1}}}else{var
-ej=aT;cJ=1}if(cJ)var
-v=ej;if(v){var
-eG=v[1],A=eG[2],eH=i(A),eI=i(eG[1]),dQ=g(o,1,i(F)),dR=dQ?g(o,1,[3,eH,[0,c,c]]):dQ,dS=dR?g(o,1,eI):dR,eJ=dS?g(o,0,[3,[5,[0,c,c],eH],eI]):dS;if(eJ)var
-hT=0,hV=0,b8=p(function(a){return me(hV,hT,xm,a)},aH);else
+ef=V;if(!a7){var
+w=ef;K=1}break;case
+1:var
+a8=0;if(V){var
+b0=V[1];if(b0[2]||b0[3]){var
+w=0;K=1;a8=1}else{var
+b1=b0[4],cL=0;if(typeof
+b1!=="number"&&0===b1[0])if(V[2]){var
+w=0;K=1;a8=1;cL=1}else{var
+w=[0,[0,b1[1],aW[1]]];K=1;a8=1;cL=1}if(!cL)var
+eg=0}}else
+var
+eg=V;if(!a8){var
+w=eg;K=1}break}if(!K){var
+ee=0;cH=1}}}else{var
+ee=aU;cH=1}if(cH)var
+w=ee;if(w){var
+eG=w[1],B=eG[2],eH=j(B),eI=j(eG[1]),dQ=g(p,1,j(G)),dR=dQ?g(p,1,[3,eH,[0,c,c]]):dQ,dS=dR?g(p,1,eI):dR,eJ=dS?g(p,0,[3,[5,[0,c,c],eH],eI]):dS;if(eJ)var
+hP=0,hQ=0,b8=n(function(a){return mA(hQ,hP,xL,a)},aK);else
 var
 b8=eJ;var
-eK=b8?p(function(b){if(1===b[1]){var
+eK=b8?n(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],i(a[1])]);return 1}return 1},aH):b8;if(eK){var
-b2=bF(function(a){return ac(mk(a))},aH);if(b2){var
-h5=[0,b(2,c),c],D=g(o,0,[3,i(A),h5]);if(D)var
+a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],j(a[1])]);return 1}return 1},aK):b8;if(eK){var
+b2=bb(function(a){return _(mG(a))},aK);if(b2){var
+hR=[0,b(2,c),c],D=g(p,0,[3,j(B),hR]);if(D)var
 b9=D;else
 var
-h9=i(A),b9=g(o,0,[3,[0,b(2,c),c],h9]);if(b9){var
-eE=z(function(a){var
-b=hO(0,xj,0,a);return e(function(b){return ac(mk(a))},b)},aH),hQ=function(f){var
+hV=j(B),b9=g(p,0,[3,[0,b(2,c),c],hV]);if(b9){var
+eE=x(function(a){var
+b=h1(0,xI,0,a);return e(function(b){return _(mG(a))},b)},aK),hN=function(f){var
 g=f[1];if(g){var
-i=g[1],j=t(i,eE,0);if(j)var
-l=bV(i,eE),k=[0,[0,h(bF(function(a){return a},l))]];else
+i=g[1],j=u(i,eE,0);if(j)var
+l=bY(i,eE),k=[0,[0,h(bb(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=xl;if(a){var
+a=xK;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,xk,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hR=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,z(hQ,a[1]),d,c,b]},il),h6=[0,b2[1],b2[2]],hB=[0,hS(D,F,A),0],hC=[0,hS(D,F,A),hB],hD=[0,hS(D,F,A),hC],hE=[0,f0(D,F,A),0],hF=[0,f0(D,F,A),hE],h7=0,hG=[0,[0,f0(D,F,A),hF],hD],h8=0,b4=function(b,a){return e(function(c){var
-d=u(b,c)?a:wg;return[0,d]},wi)};return mG(0,e(function(a){var
-e=[0,fY(D,F,A)],d=1,f=b4(a,[2,co]);function
+2:return[0,[0,b,[1,xJ,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hO=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,x(hN,a[1]),d,c,b]},im),hS=[0,b2[1],b2[2]],hz=[0,h5(D,G,B),0],hA=[0,h5(D,G,B),hz],hB=[0,h5(D,G,B),hA],hC=[0,f5(D,G,B),0],hD=[0,f5(D,G,B),hC],hT=0,hE=[0,[0,f5(D,G,B),hD],hB],hU=0,b3=function(b,a){return e(function(c){var
+d=t(b,c)?a:wF;return[0,d]},wH)};return m2(0,e(function(a){var
+e=[0,f3(D,G,B)],d=1,f=b3(a,[2,cp]);function
 b(b,a){return[3,1,b,a]}var
-c=fY(D,F,A),g=b4(a,b(b(f0(D,F,A),co),c));return[0,b4(a,wh),g,f,e,d]},wj),h8,hG,h7,h6,im,hR)}return b9}var
+c=f3(D,G,B),g=b3(a,b(b(f5(D,G,B),cp),c));return[0,b3(a,wG),g,f,e,d]},wI),hU,hE,hT,hS,io,hO)}return b9}var
 eL=1}else
 var
 eL=eK;var
 eM=eL}else
 var
-eM=v;var
+eM=w;var
 eN=eM}else
 var
 eN=eF;return eN}return 0;case
 5:var
-cr=a[4],fd=a[1],cs=q[2];if(0===cs[0]){var
-fe=cs[3],s=hN(fd,[0,a[2],a[3]],0,cr),ct=hZ(h(fe),fe);if(ct){var
-ff=ct[1];if(ff[2])return 0;var
-fg=h2(fd,0,cr,s),fh=fg?ac(ap(fX,cr)):fg;if(fh){var
-fi=kt(o,s);if(fi){var
-io=ff[1],fj=e(f3,s[1]),H=hW(s[1]),fk=i(a[5]),_=cs[1],bE=fv(H,fj,s[1]),M=g3(H,fj,s[1],0),gH=h(s[3]),gI=Q(h(bE),gH),aQ=[0,h(bE),gI],gJ=g5(M,H,aQ,s[3]),gK=f(e(cm,M),gJ),dW=f(bt(d_(M)),gK),dX=cI(dW)[1],bH=cG(dX),dY=s[2];if(0===dY[0]){var
-dZ=p(function(a){var
-b=l(d);return ay(t(a9(bH,a),bH,b),a)},dW),d0=dZ?g(o,1,fk):dZ;if(d0){var
-gL=s[3],gM=z(function(a){return cL(H,a)},gL),gN=s[3],gO=f(bE,f(e(function(a){return bs(H,a)},gN),gM)),bI=aj(e(function(a){return ah(_,a)},gO));if(bI){var
-gP=aM(dY[1],H),bK=aj(e(function(a){return ah(_,a)},gP));if(bK){var
-bM=cj(_,H,[5,fk,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bM){var
-bN=s[3],gQ=bK[1],gR=bM[1],gS=bI[1],aA=function(a){return a9(bH,a)},gE=aZ(0,h(bN)),gF=e(function(j){var
-l=S(bN,j);if(l){var
-a=l[1],u=bV(j,bN),v=h(z(function(a){return cL(H,a)},u)),x=Q(aQ[2],v),i=[0,Q(aQ[1],j),x],r=d_(M),f=k(as(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fw(M,H,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+cq=a[4],fe=a[1],cs=q[2];if(0===cs[0]){var
+ff=cs[3],s=h0(fe,[0,a[2],a[3]],0,cq),ct=ia(h(ff),ff);if(ct){var
+fg=ct[1];if(fg[2])return 0;var
+fh=id(fe,0,cq,s),fi=fh?_(ai(f2,cq)):fh;if(fi){var
+fj=kI(p,s);if(fj){var
+ip=fg[1],fk=e(f8,s[1]),I=h9(s[1]),fl=j(a[5]),$=cs[1],bF=fw(I,fk,s[1]),N=g$(I,fk,s[1],0),gI=h(s[3]),gJ=M(h(bF),gI),aR=[0,h(bF),gJ],gK=hb(N,I,aR,s[3]),gL=f(e(cr,N),gK),dW=f(bx(ec(N)),gL),dX=ck(dW)[1],bG=cj(dX),dY=s[2];if(0===dY[0]){var
+dZ=n(function(a){var
+b=l(d);return av(u(aV(bG,a),bG,b),a)},dW),d0=dZ?g(p,1,fl):dZ;if(d0){var
+gM=s[3],gN=x(function(a){return cQ(I,a)},gM),gO=s[3],gP=f(bF,f(e(function(a){return bw(I,a)},gO),gN)),bH=ae(e(function(a){return aj($,a)},gP));if(bH){var
+gQ=aO(dY[1],I),bI=ae(e(function(a){return aj($,a)},gQ));if(bI){var
+bK=co($,I,[5,fl,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bK){var
+bL=s[3],gR=bI[1],gS=bK[1],gT=bH[1],aA=function(a){return aV(bG,a)},gF=aJ(0,h(bL)),gG=e(function(k){var
+l=S(bL,k);if(l){var
+a=l[1],u=bY(k,bL),w=h(x(function(a){return cQ(I,a)},u)),y=M(aR[2],w),j=[0,M(aR[1],k),y],r=ec(N),f=i(ar(aA),r),b=[1,[8,[1,[1,j[1]]]]],d=fx(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
 4:var
-o=g(_,1,a[2]),s=o?n:o;return s;case
+o=g($,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,b]];case
 8:var
-p=g(_,1,[5,a[2],a[1]]);if(!p)return p;var
+p=g($,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,c]];m=1;break;case
 9:var
 q=b;m=1;break;case
@@ -6219,161 +6397,161 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=ed(M,H,i,a);return w(function(a){return[0,k(as(aA),a),q]},t)}return 0}return l},gE),gG=e(function(a){return aA(cm(a))},M),dT=e(function(a){return aA(a[2])},M),gT=s[3],gU=aQ[1],dU=e(ag,gS),dV=function(az,ay){var
+t=eh(N,I,j,a);return v(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cr(a))},N),dT=e(function(a){return aA(a[2])},N),gU=s[3],gV=aR[1],dU=e(ad,gT),dV=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
-s=i[1],aa=u(h(s),rL),ab=aa?p(function(a){var
-d=G(N(b(2,b(2,b(2,c)))),a);return d?G(a,b(2,b(2,b(2,c)))):d},s):aa;if(ab){var
-ad=lW(_,gR,fl(0,l),s),j=i[2],v=bG(0,ch(_,ad,dU),dX,0),L=function(a){return lV(lU(_,ad,dU,v,a))};if(typeof
-j==="number")return 0===j?ap(function(b){var
-a=t(b,v,0);return a?G(a[1][2][2],d):a},dT):0;else{if(0===j[0]){var
-a=j[2],M=p(rJ,a);if(M){var
-n=t(j[1],gF,0);if(n){var
-g=n[1];switch(g[0]){case
+s=i[1],ab=t(h(s),r_),ac=ab?n(function(a){var
+d=F(O(b(2,b(2,b(2,c)))),a);return d?F(a,b(2,b(2,b(2,c)))):d},s):ab;if(ac){var
+ad=mg($,gS,fm(0,l),s),j=i[2],v=bJ(0,cm($,ad,dU),dX,0),L=function(a){return mf(me($,ad,dU,v,a))};if(typeof
+j==="number")return 0===j?ai(function(b){var
+a=u(b,v,0);return a?F(a[1][2][2],d):a},dT):0;else{if(0===j[0]){var
+a=j[2],N=n(r8,a);if(N){var
+o=u(j[1],gG,0);if(o){var
+g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],am=fQ(B,A),an=fP(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],an]],am]],0]]];x=1}else{var
+A=a[1],B=g[1],an=fV(B,A),ao=fU(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ao=fP(D),aq=[1,[6,g[2],ao]],F=[0,[0,E,[0,[1,[4,fQ(E,D),aq]],0]]];y=1}else{var
-F=a;y=1}if(y)var
-f=F;break;case
+D=a[1],E=g[1],ap=fU(D),aq=[1,[6,g[2],ap]],G=[0,[0,E,[0,[1,[4,fV(E,D),aq]],0]]];y=1}else{var
+G=a;y=1}if(y)var
+f=G;break;case
 2:var
 z=0;if(a){var
-k=a[2],al=0;if(k)if(k[2]){var
-f=0;al=1}else
+k=a[2],am=0;if(k)if(k[2]){var
+f=0;am=1}else
 var
-H=k[1],I=a[1],m=g[1],ar=fP(I),as=[1,[6,fQ(m,H),ar]],at=[1,[6,g[2],as]],au=fP(H),J=[0,[0,m,[0,[1,[4,[1,[6,fQ(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],ar=fU(I),as=[1,[6,fV(m,H),ar]],at=[1,[6,g[2],as]],au=fU(H),J=[0,[0,m,[0,[1,[4,[1,[6,fV(m,I),au]],at]],0]]];else
 var
-J=k;if(!al){var
+J=k;if(!am){var
 K=J;z=1}}else{var
 K=a;z=1}if(z)var
 f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-O=f[1],aw=O[1],P=p(function(a){return lV(t(a[2],v,0))},aw);if(P)return p(L,O[2]);var
-R=P}else
+P=f[1],aw=P[1],Q=n(function(a){return mf(u(a[2],v,0))},aw);if(Q)return n(L,P[2]);var
+R=Q}else
 var
 R=f;var
 T=R}else
 var
-T=n;var
+T=o;var
 U=T}else
 var
-U=M;return U}var
-V=j[2],W=j[1],o=S(gT,W);if(o){var
-X=o[1];if(typeof
+U=N;return U}var
+V=j[2],W=j[1],p=S(gU,W);if(p){var
+X=p[1];if(typeof
 X!=="number"&&1===X[0]){var
 q=S(dT,V);if(q){var
-r=S(gG,V);if(r){var
-ax=Q(gU,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
-$=r}else
+r=S(gH,V);if(r){var
+ax=M(gV,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+aa=r}else
 var
-$=q;return $}var
-Z=0}else
+aa=q;return aa}var
+Y=0}else
 var
-Z=o;return Z}}return ab}var
+Y=p;return Y}}return ac}var
 ae=i[1],w=S(l,ae);if(w){var
-af=w[1],aA=af[1],ag=ac(Y(bJ(af),aA));if(ag){var
-ah=d$(ae,l),ai=dV(ah[1],i[2]);if(ai){var
+af=w[1],aA=af[1],ag=_(Z(bM(af),aA));if(ag){var
+ah=ed(ae,l),aj=dV(ah[1],i[2]);if(aj){var
 l=ah[2],i=i[3];continue}var
-aj=ai}else
-var
-aj=ag;var
 ak=aj}else
 var
-ak=w;return ak}};return dV(gQ,io)}var
-d1=bM}else
+ak=ag;var
+al=ak}else
 var
-d1=bK;var
+al=w;return al}};return dV(gR,ip)}var
+d1=bK}else
+var
+d1=bI;var
 d2=d1}else
 var
-d2=bI;var
+d2=bH;var
 d3=d2}else
 var
 d3=d0;return d3}return 0}var
-fm=fi}else
+fn=fj}else
 var
-fm=fh;var
-fn=fm}else
+fn=fi;var
+fo=fn}else
 var
-fn=ct;return fn}return 0;case
+fo=ct;return fo}return 0;case
 6:var
-fo=a[1];if(fo){var
-fp=fo[1],cu=q[2];if(0===cu[0]){var
-cw=hX(0,xo,cu[3]);if(cw){var
-fq=eB(fp);if(fq){var
-ip=cw[1],fr=bw(fp)[2],a5=cu[1],bB=cj(a5,d,fr);if(bB){var
-bC=cj(a5,d,[5,[0,c,c],fr]);if(bC){var
-gD=bB[1][1],dN=L(cD(a5),gD);if(dN)return lT(a5,bC[1][1],ip);var
+fp=a[1];if(fp){var
+fq=fp[1],cw=q[2];if(0===cw[0]){var
+cx=h_(0,xN,cw[3]);if(cx){var
+fr=eD(fq);if(fr){var
+iq=cx[1],fs=bB(fq)[2],a6=cw[1],bD=co(a6,d,fs);if(bD){var
+bE=co(a6,d,[5,[0,c,c],fs]);if(bE){var
+gE=bD[1][1],dN=L(cK(a6),gE);if(dN)return md(a6,bE[1][1],iq);var
 dO=dN}else
 var
-dO=bC;var
+dO=bE;var
 dP=dO}else
 var
-dP=bB;return dP}var
-fs=fq}else
+dP=bD;return dP}var
+ft=fr}else
 var
-fs=cw;return fs}return 0}var
-cx=q[2];if(0===cx[0]){var
-cy=hX(0,xp,cx[3]);return cy?lT(cx[1],d,cy[1]):cy}return 0;default:var
-av=a[1],fu=q[2];if(2===fu[0]){var
-fx=fu[1],cz=hU(h(fx),fx);if(cz){var
-fy=cz[1];if(fy[2])return 0;var
-cA=fy[1],eA=R(xi,h(av)),eC=eA?R(h(av),jm):eA,eD=eC?lI(e(aJ,av)):eC,fA=eD?p(function(c){var
-a=ci(i(c[2][1]));if(a){var
-b=ci(i(c[2][2]));if(b)return ac(cC(b[1],a[1]));var
+ft=cx;return ft}return 0}var
+cy=q[2];if(0===cy[0]){var
+cz=h_(0,xO,cy[3]);return cz?md(cy[1],d,cz[1]):cz}return 0;default:var
+aw=a[1],fv=q[2];if(2===fv[0]){var
+fy=fv[1],cB=h7(h(fy),fy);if(cB){var
+fz=cB[1];if(fz[2])return 0;var
+cC=fz[1],ex=R(xH,h(aw)),ey=ex?R(h(aw),jz):ex,eC=ey?l4(e(aF,aw)):ey,fA=eC?n(function(c){var
+a=cn(j(c[2][1]));if(a){var
+b=cn(j(c[2][2]));if(b)return _(cJ(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},av):eD;if(fA)var
-iq=f2(wk,cA),cB=mJ(a[5],iq);else
+d=a;return d},aw):eC;if(fA)var
+ir=f7(wJ,cC),cD=m5(a[5],ir);else
 var
-cB=fA;if(cB)var
-ir=f2(wl,cA),cE=mJ(a[6],ir);else
+cD=fA;if(cD)var
+is=f7(wK,cC),cE=m5(a[6],is);else
 var
-cE=cB;if(cE){var
-hH=e(function(a){return[0,d,0]},av);return mI(av,a[2],a[3],a[4],hH,cA)}var
-fE=cE}else
+cE=cD;if(cE){var
+hG=e(function(a){return[0,d,0]},aw);return m4(aw,a[2],a[3],a[4],hG,cC)}var
+fC=cE}else
 var
-fE=cz;return fE}return 0}}return aB}var
-M=[aH,xs,oY(0)],mK=[aH,xt,oY(0)];function
-xq(m,b){var
-f=[0,j(vE,ak(b[4])),0],g=[0,j(vG,$([0,j(vF,ak(b[3])),f])),0],a=b[2];switch(a[0]){case
+fC=cB;return fC}return 0}}return aB}var
+N=[aK,xR,pi(0)],m6=[aK,xS,pi(0)];function
+xP(m,b){var
+f=[0,k(v3,al(b[4])),0],g=[0,k(v5,aa([0,k(v4,al(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=H(vA,l3(a[1],a[2],a[3]));break;case
+c=I(vZ,mn(a[1],a[2],a[3]));break;case
 1:var
-c=H(vB,l4(a[1],a[2],a[3],a[4]));break;default:var
-c=H(vC,A(e(vv,a[1])))}var
-h=[0,j(vH,c),g],i=1===b[2][0]?vN:vI,k=[0,j(vJ,ak(i)),h],l=[0,j(vK,uc(b[1])),k],d=ao(iW(xr,fR($([0,j(vM,ak(vL)),l]),vD)),m);return d?xn(b):d}function
-ab(a){if(0===a[0])return a[1];throw M}function
-W(a){if(1===a[0])return a[1];throw M}function
-aF(a){if(2===a[0])return a[1];throw M}function
-dJ(a){if(3===a[0])return a[1];throw M}function
-aN(f,e){var
+c=I(v0,mo(a[1],a[2],a[3],a[4]));break;default:var
+c=I(v1,B(e(vU,a[1])))}var
+h=[0,k(v6,c),g],i=1===b[2][0]?wa:v7,j=[0,k(v8,al(i)),h],l=[0,k(v9,uB(b[1])),j],d=aq(i9(xQ,fW(aa([0,k(v$,al(v_)),l]),v2)),m);return d?xM(b):d}function
+ac(a){if(0===a[0])return a[1];throw N}function
+Y(a){if(1===a[0])return a[1];throw N}function
+aH(a){if(2===a[0])return a[1];throw N}function
+dO(a){if(3===a[0])return a[1];throw N}function
+aP(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Ds(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===DV(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
-a=aN(c,b);if(a)return a[1];throw M}function
-b6(b,a){var
-c=a?[0,k(b,a[1])]:a;return c}function
-c2(a){switch(a[0]){case
+a=aP(c,b);if(a)return a[1];throw N}function
+b_(b,a){var
+c=a?[0,i(b,a[1])]:a;return c}function
+c8(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],xu]}throw M}function
-eC(e,d){var
-a=U(e,W(d));if(a){var
+2:return[0,a[1],xT]}throw N}function
+eE(e,d){var
+a=U(e,Y(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw M}function
-f6(i){var
-f=dU(i),d=[0,0],e=gy(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw N}function
+f$(i){var
+f=dZ(i),d=[0,0],e=gD(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iB(f,c)-48|0;if(9<g>>>0)throw M;switch(g){case
+a=d[1],g=iO(f,c)-48|0;if(9<g>>>0)throw N;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6395,96 +6573,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eD(a){return i$(f6(a))}function
-eE(b){var
-a=dJ(b);return 45===aI(a,0)?N(eD(db(a,1,an(a)-1|0))):eD(a)}function
-mL(a){return d1(eD(dJ(a)))}function
-f7(a){return i_(eD(dJ(a)))}function
-cy(c){var
-a=dJ(c);if(6<an(a))throw M;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iJ(a))}function
-mM(a){var
-b=97<=a?1:0,c=b?a<=oB?1:0:b;if(c)var
+eF(a){return jm(f$(a))}function
+eG(b){var
+a=dO(b);return 45===aL(a,0)?O(eF(dh(a,1,ap(a)-1|0))):eF(a)}function
+m7(a){return d5(eF(dO(a)))}function
+ga(a){return jl(eF(dO(a)))}function
+cD(c){var
+a=dO(c);if(6<ap(a))throw N;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(iW(a))}function
+m8(a){var
+b=97<=a?1:0,c=b?a<=oX?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-mN(y,b){var
-d=an(b),a=[0,0];function
+m9(y,b){var
+d=ap(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aI(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aL(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aI(b,a[1])&&!(57<aI(b,a[1]))){a[1]++;continue}return db(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aL(b,a[1])&&!(57<aL(b,a[1]))){a[1]++;continue}return dh(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw M}function
-h(i){if(64<i)throw M;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
-e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&ao(db(b,a[1],5),xw)){a[1]=a[1]+4|0;var
-e=[5,n(i)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw N}function
+h(j){if(64<j)throw N;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+e=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&aq(dh(b,a[1],5),xV)){a[1]=a[1]+4|0;var
+e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&mM(aI(b,a[1]))){var
+v=0;if(a[1]<d&&m8(aL(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!mM(aI(b,a[1]))&&95!==aI(b,a[1])&&(!(48<=aI(b,a[1]))||57<aI(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,k(y,db(b,o,a[1]-o|0))];break}}else
+w=0;if(!m8(aL(b,a[1]))&&95!==aL(b,a[1])&&(!(48<=aL(b,a[1]))||57<aL(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dh(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=ao(g,xx);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,xW);if(r)var
 s=r;else
 var
-t=1<an(g)?1:0,s=t?48===aI(g,0)?1:0:t;if(s)throw M;if(q){var
-j=q[1],x=0;if(ao(j,xy)||48===aI(j,an(j)-1|0))x=1;else
+t=1<ap(g)?1:0,s=t?48===aL(g,0)?1:0:t;if(s)throw N;if(q){var
+k=q[1],x=0;if(aq(k,xX)||48===aL(k,ap(k)-1|0))x=1;else
 var
-z=f6(j),e=[0,f6(g),z];if(x)throw M}else
+z=f$(k),e=[0,f$(g),z];if(x)throw N}else
 var
-e=[0,f6(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,xv)){if(!(2<an(f))&&2<=iJ(f)&&!(64<iJ(f)))return[4,e,d1(eD(f))];throw M}throw M}return e}function
+e=[0,f$(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,xU)){if(!(2<ap(f))&&2<=iW(f)&&!(64<iW(f)))return[4,e,d5(eF(f))];throw N}throw N}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw M;var
+f(d){if(64<d)throw N;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw M;return g}function
-f8(a){return mN(function(a){return[0,a]},a)}function
-h5(a){var
-b=aF(a);return mN(function(a){return a},b)}function
-P(a){return f8(aF(a))}function
-bO(a){if(2===a[0])return[0,f8(a[1])];var
-b=ab(a),c=P(r(b,xz));return[1,P(r(b,xA)),c]}function
-X(a){throw[0,mK,aP(iW(xC,a),xB)]}function
-h6(c){var
-a=aF(c);if(m(a,xD)){var
-b=m(a,xE);if(b)throw M;return b}return 1}function
-xF(d){var
-b=ab(d);function
-a(a){return eC(bO,r(b,a))}var
-c=aF(r(b,xG));if(m(c,xH)){if(m(c,xI)){if(m(c,xJ))return X([0,xL,[0,c,xK]]);var
-e=aN(b,xM),f=b6(function(a){return eC(bO,a)},e),g=a(xN);return[1,a(xO),g,f]}var
-h=h6(r(b,xP)),i=bO(r(b,xQ)),j=a(xR),k=a(xS);return[0,a(xT),k,j,i,h]}return[2,a(xU)]}function
-xV(d){var
-a=ab(d);if(a){var
-b=a[1];if(!m(b[1],xW)){var
-c=b[2];if(2===c[0]&&!m(c[1],xX))return 1}}return 0}function
-mO(e){var
-b=ab(e);function
-a(a){return U(bO,W(r(b,a)))}var
-c=aF(r(b,xY)),d=aN(b,xZ);if(m(c,x0)){if(m(c,x1)){if(!m(c,x2)&&!d){var
-f=a(x5);return[1,a(x6),f]}}else
+g=f(0);if(a[1]<d)throw N;return g}function
+gb(a){return m9(function(a){return[0,a]},a)}function
+ih(a){var
+b=aH(a);return m9(function(a){return a},b)}function
+Q(a){return gb(aH(a))}function
+bQ(a){if(2===a[0])return[0,gb(a[1])];var
+b=ac(a),c=Q(r(b,xY));return[1,Q(r(b,xZ)),c]}function
+V(a){throw[0,m6,aR(i9(x1,a),x0)]}function
+ii(c){var
+a=aH(c);if(m(a,x2)){var
+b=m(a,x3);if(b)throw N;return b}return 1}function
+x4(d){var
+b=ac(d);function
+a(a){return eE(bQ,r(b,a))}var
+c=aH(r(b,x5));if(m(c,x6)){if(m(c,x7)){if(m(c,x8))return V([0,x_,[0,c,x9]]);var
+e=aP(b,x$),f=b_(function(a){return eE(bQ,a)},e),g=a(ya);return[1,a(yb),g,f]}var
+h=ii(r(b,yc)),i=bQ(r(b,yd)),j=a(ye),k=a(yf);return[0,a(yg),k,j,i,h]}return[2,a(yh)]}function
+yi(d){var
+a=ac(d);if(a){var
+b=a[1];if(!m(b[1],yj)){var
+c=b[2];if(2===c[0]&&!m(c[1],yk))return 1}}return 0}function
+m_(e){var
+b=ac(e);function
+a(a){return U(bQ,Y(r(b,a)))}var
+c=aH(r(b,yl)),d=aP(b,ym);if(m(c,yn)){if(m(c,yo)){if(!m(c,yp)&&!d){var
+f=a(ys);return[1,a(yt),f]}}else
 if(!d){var
-g=h6(r(b,x7)),h=bO(r(b,x8)),i=a(x9),j=a(x_);return[0,a(x$),j,i,h,g]}}else
+g=ii(r(b,yu)),h=bQ(r(b,yv)),i=a(yw),j=a(yx);return[0,a(yy),j,i,h,g]}}else
 if(!d){var
-k=h6(r(b,ya)),l=bO(r(b,yb)),n=bO(r(b,yc)),o=a(yd),p=a(ye),q=a(yf);return[2,a(yg),q,p,o,n,l,k]}return X([0,x4,[0,c,x3]])}function
-mP(d){var
-a=ab(d);if(a){var
-b=a[1];if(!m(b[1],yh)){var
-c=b[2];if(2===c[0]&&!m(c[1],yi))return 1}}return 0}function
-cz(c,d){var
-a=W(d);if(a){var
+k=ii(r(b,yz)),l=bQ(r(b,yA)),n=bQ(r(b,yB)),o=a(yC),p=a(yD),q=a(yE);return[2,a(yF),q,p,o,n,l,k]}return V([0,yr,[0,c,yq]])}function
+m$(d){var
+a=ac(d);if(a){var
+b=a[1];if(!m(b[1],yG)){var
+c=b[2];if(2===c[0]&&!m(c[1],yH))return 1}}return 0}function
+cE(c,d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,k(c,a[1]),e]}}throw M}function
-dK(h,p){var
-g=h?h[1]:h,c=ab(p),a=aF(r(c,yj)),j=o$(a,yk),f=0;if(0<=j)if(0<j)if(m(a,yl))if(m(a,ym))if(m(a,yn))if(m(a,yo))if(m(a,yp))if(m(a,yq)){var
-k=m(a,yr);if(k)f=1;else
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw N}function
+dP(h,p){var
+g=h?h[1]:h,c=ac(p),a=aH(r(c,yI)),j=pv(a,yJ),f=0;if(0<=j)if(0<j)if(m(a,yK))if(m(a,yL))if(m(a,yM))if(m(a,yN))if(m(a,yO))if(m(a,yP)){var
+k=m(a,yQ);if(k)f=1;else
 var
 b=k}else
 var
@@ -6502,7 +6680,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,yN))if(m(a,yO))if(m(a,yP))if(m(a,yQ))if(m(a,yR))if(m(a,yS))if(m(a,yT))if(m(a,yU))f=1;else
+if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf))if(m(a,zg))if(m(a,zh))f=1;else
 var
 b=1;else
 var
@@ -6520,162 +6698,162 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?X([0,yt,[0,a,ys]]):b;function
-i(a){return r(c,yu)}var
-d=aF(r(c,yv)),l=m(d,yw);if(l)if(m(d,yx))if(m(d,yy))if(m(d,yz))var
-e=X([0,yB,[0,d,yA]]);else
+n=f?V([0,yS,[0,a,yR]]):b;function
+i(a){return r(c,yT)}var
+d=aH(r(c,yU)),l=m(d,yV);if(l)if(m(d,yW))if(m(d,yX))if(m(d,yY))var
+e=V([0,y0,[0,d,yZ]]);else
 var
-o=cz(P,i(0)),e=[2,o[1],o[2]];else
+o=cE(Q,i(0)),e=[2,o[1],o[2]];else
 var
-e=[0,P(i(0))];else
+e=[0,Q(i(0))];else
 var
-e=[1,P(i(0))];else
+e=[1,Q(i(0))];else
 var
 e=l;function
 q(A){var
-a=ab(A),c=0;switch(n){case
+a=ac(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],yD)){var
+q=a[1];if(!m(q[1],y2)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return g?X(yE):[1,U(P,b)]}}}break;case
+e=b[1];c=1;l=1}if(!l&&!a[2])return g?V(y3):[1,U(Q,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],yF)){var
+s=a[1];if(!m(s[1],y4)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 h=a[2];if(h){var
-u=h[1];if(!m(u[1],yG)){var
+u=h[1];if(!m(u[1],y5)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!h[2]){var
-B=P(i[1]);return[2,P(f[1]),B]}}}}}}}}break;case
+B=Q(i[1]);return[2,Q(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],yH)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],yI)&&!j[2]&&g)return X(yJ)}else
+w=a[1];if(!m(w[1],y6)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],y7)&&!j[2]&&g)return V(y8)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],yK)){var
-z=y[2];if(1===z[0]&&!a[2])return[1,U(P,z[1])]}}break;case
+y=a[1];if(!m(y[1],y9)){var
+z=y[2];if(1===z[0]&&!a[2])return[1,U(Q,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],yC)){var
+o=a[1];if(!m(o[1],y1)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,P(e)];throw M}var
-s=b6(q,aN(c,yL));return[0,n,b6(cy,aN(c,yM)),s,e]}function
-mQ(c){var
-d=dK(yX,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,Q(e)];throw N}var
+s=b_(q,aP(c,y_));return[0,n,b_(cD,aP(c,y$)),s,e]}function
+na(c){var
+d=dP(zk,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dK(yV,c),b=a[1];if(2!==b&&!(4<=b))return a;return X(yW)}function
-mR(a){var
-b=dK(yY,a);return 11===b[1]?b:mQ(a)}function
-yZ(a){var
-b=dK(y0,a),c=b[1];if(9!==c&&!(14<=c))return mR(a);return b}function
-h7(c){var
-d=dK(y1,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:mQ(c)}function
-h8(b){var
-a=ab(b[2]);if(m(b[1],y8)){var
-c=cz(P,r(a,y9)),d=cz(P,r(a,y_)),e=d[2],f=d[1],g=P(r(a,y$));return[1,c[1],c[2],g,f,e]}var
-h=U(P,W(r(a,za)));return[0,U(P,W(r(a,zb))),h]}function
-zc(f){var
-a=ab(f);function
-d(b){return P(r(a,b))}function
-c(b){return eC(P,r(a,b))}var
-b=aF(r(a,zd));if(m(b,ze)){if(!m(b,zf)){var
-j=r(a,zl),e=cz(function(a){return a},j),k=aN(a,zm),l=b6(function(a){return c(zn)},k),n=f8(aF(e[2])),o=f8(aF(e[1])),p=d(zo);return[0,cy(r(a,zp)),p,o,n,l]}if(m(b,zg))throw M}var
-g=d(zh),h=c(zi),i=c(zj);return[1,ao(b,zk),i,h,g]}function
-h9(ar){var
-g=c2(ar),h=g[1];if(m(h,zq)){if(m(h,zr)){if(m(h,zs)){if(m(h,zt))return X([0,zv,[0,h,zu]]);var
-w=r(ab(g[2]),zw),ag=0;if(2===w[0]){var
-L=m(w[1],zx);if(!L){var
+a=dP(zi,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(zj)}function
+nb(a){var
+b=dP(zl,a);return 11===b[1]?b:na(a)}function
+zm(a){var
+b=dP(zn,a),c=b[1];if(9!==c&&!(14<=c))return nb(a);return b}function
+ij(c){var
+d=dP(zo,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:na(c)}function
+ik(b){var
+a=ac(b[2]);if(m(b[1],zv)){var
+c=cE(Q,r(a,zw)),d=cE(Q,r(a,zx)),e=d[2],f=d[1],g=Q(r(a,zy));return[1,c[1],c[2],g,f,e]}var
+h=U(Q,Y(r(a,zz)));return[0,U(Q,Y(r(a,zA))),h]}function
+zB(f){var
+a=ac(f);function
+d(b){return Q(r(a,b))}function
+c(b){return eE(Q,r(a,b))}var
+b=aH(r(a,zC));if(m(b,zD)){if(!m(b,zE)){var
+j=r(a,zK),e=cE(function(a){return a},j),k=aP(a,zL),l=b_(function(a){return c(zM)},k),n=gb(aH(e[2])),o=gb(aH(e[1])),p=d(zN);return[0,cD(r(a,zO)),p,o,n,l]}if(m(b,zF))throw N}var
+g=d(zG),h=c(zH),i=c(zI);return[1,aq(b,zJ),i,h,g]}function
+il(ar){var
+g=c8(ar),h=g[1];if(m(h,zP)){if(m(h,zQ)){if(m(h,zR)){if(m(h,zS))return V([0,zU,[0,h,zT]]);var
+w=r(ac(g[2]),zV),ag=0;if(2===w[0]){var
+L=m(w[1],zW);if(!L){var
 K=L;ag=1}}if(!ag)var
-K=[0,bO(w)];return[6,K]}var
-N=ab(g[2]),i=h9([0,[0,[0,zz,r(N,zy)],0]]);if(0===i[0]){var
-x=i[2];if(0===x[0]&&!i[3]){var
-as=P(r(N,zB));return[5,i[1],x[1],x[2],i[4],as]}}return X(zA)}var
-a=ab(g[2]),y=aN(a,zC),z=y?U(zc,W(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?X(zD):a},j=c2(r(a,zE)),b=c2(r(a,zF)),c=j[1];if(m(c,zG)&&m(c,zH)&&m(c,zI)){if(0===aN(a,zJ)){if(m(c,zK)){var
-ah=0;if(m(c,zL)){if(!m(c,zM)){var
-O=b[1],ai=0;if(m(O,zP)&&m(O,zQ)){ah=1;ai=1}if(!ai){var
-A=W(j[2]),at=W(r(a,zT)),Q=U(function(a){return dK(0,a)},at);if(!au(xV,A)&&!au(function(a){return 13===a[1]?1:0},Q)){var
-ax=U(xF,A),f=ab(b[2]);if(m(b[1],y2))var
-I=cz(P,r(f,y3)),J=cz(P,r(f,y4)),am=J[2],an=J[1],ap=P(r(f,y5)),R=[1,I[1],I[2],ap,an,am];else
+K=[0,bQ(w)];return[6,K]}var
+M=ac(g[2]),j=il([0,[0,[0,zY,r(M,zX)],0]]);if(0===j[0]){var
+x=j[2];if(0===x[0]&&!j[3]){var
+as=Q(r(M,z0));return[5,j[1],x[1],x[2],j[4],as]}}return V(zZ)}var
+a=ac(g[2]),y=aP(a,z1),z=y?U(zB,Y(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?V(z2):a},k=c8(r(a,z3)),b=c8(r(a,z4)),c=k[1];if(m(c,z5)&&m(c,z6)&&m(c,z7)){if(0===aP(a,z8)){if(m(c,z9)){var
+ah=0;if(m(c,z_)){if(!m(c,z$)){var
+O=b[1],ai=0;if(m(O,Ac)&&m(O,Ad)){ah=1;ai=1}if(!ai){var
+A=Y(k[2]),at=Y(r(a,Ag)),P=U(function(a){return dP(0,a)},at);if(!au(yi,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+ax=U(x4,A),f=ac(b[2]);if(m(b[1],zp))var
+I=cE(Q,r(f,zq)),J=cE(Q,r(f,zr)),am=J[2],an=J[1],ao=Q(r(f,zs)),R=[1,I[1],I[2],ao,an,am];else
 var
-aq=eC(P,r(f,y6)),R=[0,eC(P,r(f,y7)),aq];return[0,ax,R,z,Q]}o(0);var
-av=U(h7,W(r(a,zU))),aw=h8(b);return[1,0,U(mO,A),0,aw,0,av]}}}else
-if(!m(b[1],zV)){o(0);var
-S=U(h7,W(r(a,zW))),v=0,e=S;for(;;){if(e){var
+ap=eE(Q,r(f,zt)),R=[0,eE(Q,r(f,zu)),ap];return[0,ax,R,z,P]}o(0);var
+av=U(ij,Y(r(a,Ah))),aw=ik(b);return[1,0,U(m_,A),0,aw,0,av]}}}else
+if(!m(b[1],Ai)){o(0);var
+S=U(ij,Y(r(a,Aj))),v=0,e=S;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=iV(v),aj=0;if(n){var
+n=i8(v),aj=0;if(n){var
 d=0,T=n[1][4];if(typeof
 T==="number")d=1;else
 switch(T[0]){case
 0:var
 B=n[2];if(B){var
-E=0,V=B[1][4];if(typeof
-V!=="number"&&1===V[0])if(B[2]){d=1;E=1}else
+E=0,W=B[1][4];if(typeof
+W!=="number"&&1===W[0])if(B[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
 d=1;break;case
 1:var
 C=n[2];if(C){var
-F=0,Y=C[1][4];if(typeof
-Y!=="number"&&0===Y[0])if(C[2]){d=1;F=1}else
+F=0,X=C[1][4];if(typeof
+X!=="number"&&0===X[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)X(zX);var
-ay=P(r(ab(b[2]),zY));return[4,P(r(ab(j[2]),zZ)),ay,S]}}if(!ah)return X([0,zO,[0,c,zN]])}else
-if(!m(b[1],z0)){o(0);var
-p=ab(j[2]),Z=ab(b[2]),_=function(c,a){var
-b=W(a);return U(function(d){var
-a=W(d);if(a){var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)V(Ak);var
+ay=Q(r(ac(b[2]),Al));return[4,Q(r(ac(k[2]),Am)),ay,S]}}if(!ah)return V([0,Ab,[0,c,Aa]])}else
+if(!m(b[1],An)){o(0);var
+p=ac(k[2]),Z=ac(b[2]),_=function(c,a){var
+b=Y(a);return U(function(d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=k(c,b[1]);return[0,aF(a[1]),e]}}throw M},b)},az=function(d){var
-a=ab(d);if(a){var
-b=a[1],c=b[1];if(m(c,z1)){if(!m(c,z2)&&!a[2])return[0,U(h5,W(b[2]))]}else
-if(!a[2])return[1,h5(b[2])]}throw M},aA=U(mR,W(r(a,z3))),aB=U(P,W(r(Z,z4))),aC=U(P,W(r(Z,z5))),aD=U(az,W(r(p,z6))),aE=_(h5,r(p,z7)),aG=_(bO,r(p,z8));return[3,U(aF,W(r(p,z9))),aG,aE,aD,aC,aB,aA]}return X([0,zS,[0,b[1],zR]])}throw M}var
-$=ab(j[2]),q=b6(P,aN($,z_)),aH=function(f){var
-a=c2(f),b=a[1];if(m(b,z$)){if(m(b,Aa)){if(m(b,Ab)){if(m(b,Ac))throw M;var
-d=a[2],g=P(r(ab(d),Ad));return[3,P(r(ab(d),Ae)),g]}var
-h=a[2],c=function(a){return cz(P,r(ab(h),a))},i=c(Af),j=c(Ag);return[1,c(Ah),j,i]}var
-e=cz(P,a[2]);return[0,e[1],e[2]]}return[2,P(a[2])]},s=b6(aH,aN(a,Ai)),aa=m(c,Aj),D=aa?m(c,Ak)?2:1:aa,t=W(r($,Al));if(q&&s){var
-ac=s[1];if(gC(mP,t)){var
+e=i(c,b[1]);return[0,aH(a[1]),e]}}throw N},b)},az=function(d){var
+a=ac(d);if(a){var
+b=a[1],c=b[1];if(m(c,Ao)){if(!m(c,Ap)&&!a[2])return[0,U(ih,Y(b[2]))]}else
+if(!a[2])return[1,ih(b[2])]}throw N},aA=U(nb,Y(r(a,Aq))),aB=U(Q,Y(r(Z,Ar))),aC=U(Q,Y(r(Z,As))),aD=U(az,Y(r(p,At))),aE=_(ih,r(p,Au)),aF=_(bQ,r(p,Av));return[3,U(aH,Y(r(p,Aw))),aF,aE,aD,aC,aB,aA]}return V([0,Af,[0,b[1],Ae]])}throw N}var
+$=ac(k[2]),q=b_(Q,aP($,Ax)),aG=function(f){var
+a=c8(f),b=a[1];if(m(b,Ay)){if(m(b,Az)){if(m(b,AA)){if(m(b,AB))throw N;var
+d=a[2],g=Q(r(ac(d),AC));return[3,Q(r(ac(d),AD)),g]}var
+h=a[2],c=function(a){return cE(Q,r(ac(h),a))},i=c(AE),j=c(AF);return[1,c(AG),j,i]}var
+e=cE(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},s=b_(aG,aP(a,AH)),aa=m(c,AI),D=aa?m(c,AJ)?2:1:aa,t=Y(r($,AK));if(q&&s){var
+ab=s[1];if(gH(m$,t)){var
 aI=function(c){var
-a=ab(c);function
-b(b){return U(bO,W(r(a,b)))}if(0!==aN(a,Am))X(An);var
-d=b(Ao);return[0,b(Ap),d]},ad=U(yZ,W(r(a,Aq))),ak=0;if(1!==D||2!==ac[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ad))X(Ar);var
-aJ=h8(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ac,z,ad]}}o(0);var
-al=0;if(!q&&ao(c,Au)){var
+a=ac(c);function
+b(b){return U(bQ,Y(r(a,b)))}if(0!==aP(a,AL))V(AM);var
+d=b(AN);return[0,b(AO),d]},ad=U(zm,Y(r(a,AP))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ad))V(AQ);var
+aJ=ik(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ab,z,ad]}}o(0);var
+al=0;if(!q&&aq(c,AT)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==s?1:0,aL=af?au(mP,t):af;if(aL)X(As);var
-aM=U(h7,W(r(a,At))),aO=h8(b);return[1,ae,U(mO,t),q,aO,s,aM]}var
-u=ab(g[2]);function
-aP(b){var
-a=ab(b),c=P(r(a,Av)),d=[0,P(r(a,Aw)),c];return[0,aF(r(a,Ax)),d]}var
-l=h9([0,[0,[0,Az,r(u,Ay)],0]]);if(0===l[0]&&!l[3]){var
-aQ=P(r(u,AB)),aR=P(r(u,AC)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aP,W(r(u,AD))),aU,aT,aS,aR,aQ]}return X(AA)}function
-h_(a){return U(eE,W(a))}function
-h$(c,b){var
-a=h_(b);if(b$(a)!==c)throw M;return a}function
-mS(a,d){var
-b=ab(d),e=W(r(b,AG)),f=a[2],c=U(function(a){return h$(f,a)},e),g=a[1];if(b$(c)!==g)throw M;return[0,c,f7(r(b,AH))]}function
-eF(g,o){var
-N=g[2];switch(o[0]){case
+af=0!==s?1:0,aL=af?au(m$,t):af;if(aL)V(AR);var
+aM=U(ij,Y(r(a,AS))),aN=ik(b);return[1,ae,U(m_,t),q,aN,s,aM]}var
+u=ac(g[2]);function
+aO(b){var
+a=ac(b),c=Q(r(a,AU)),d=[0,Q(r(a,AV)),c];return[0,aH(r(a,AW)),d]}var
+l=il([0,[0,[0,AY,r(u,AX)],0]]);if(0===l[0]&&!l[3]){var
+aQ=Q(r(u,A0)),aR=Q(r(u,A1)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(r(u,A2))),aU,aT,aS,aR,aQ]}return V(AZ)}function
+im(a){return U(eG,Y(a))}function
+io(c,b){var
+a=im(b);if(bW(a)!==c)throw N;return a}function
+nc(a,d){var
+b=ac(d),e=Y(r(b,A5)),f=a[2],c=U(function(a){return io(f,a)},e),g=a[1];if(bW(c)!==g)throw N;return[0,c,ga(r(b,A6))]}function
+eH(g,o){var
+M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=o$(a,AI),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,AJ)&&m(a,AK)&&m(a,AL))if(m(a,AM))f=1;else{var
+e=d[1],a=e[1],O=pv(a,A7),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,A8)&&m(a,A9)&&m(a,A_))if(m(a,A$))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ae=U(h_,W(s[1])),af=aF(q[1]);return[8,eF(g,p[1]),af,ae]}b=1;f=1}else
+ae=U(im,Y(s[1])),af=aH(q[1]);return[8,eH(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6685,121 +6863,121 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=f7(x[1]),ai=eE(w[1]);return[5,eF(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,AP))if(m(a,AQ))if(m(a,AR))if(m(a,AS)){if(!m(a,AT)){if(!d[2]){var
-S=ab(e[2]),aj=W(r(S,AU)),ak=N+1|0,T=U(function(a){return h$(ak,a)},aj);if(3===b$(T))return[1,AW,T,f7(r(S,AV))];throw M}b=1}}else{if(!d[2]){var
-J=aF(e[2]),K=m(J,AE);if(K){if(m(J,AF))throw M;var
+ah=ga(x[1]),ai=eG(w[1]);return[5,eH(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,Bc))if(m(a,Bd))if(m(a,Be))if(m(a,Bf)){if(!m(a,Bg)){if(!d[2]){var
+S=ac(e[2]),aj=Y(r(S,Bh)),ak=M+1|0,T=U(function(a){return io(ak,a)},aj);if(3===bW(T))return[1,Bj,T,ga(r(S,Bi))];throw N}b=1}}else{if(!d[2]){var
+J=aH(e[2]),K=m(J,A3);if(K){if(m(J,A4))throw N;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],Z=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],AY)){var
+e=b[1];if(!m(e[1],Bl)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],AZ)){var
+g=c[1];if(!m(g[1],Bm)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eF(A0,a)}}}}}}}}}}return eF(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eH(Bn,a)}}}}}}}}}}return eH(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-_=j[1],k=_[1],c=0;if(m(k,A1)&&m(k,A2)&&m(k,A3))if(m(k,A4))c=1;else{var
+_=j[1],k=_[1],c=0;if(m(k,Bo)&&m(k,Bp)&&m(k,Bq))if(m(k,Br))c=1;else{var
 $=_[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ad=0;if(m(G,A6)&&m(G,A7)&&m(G,A8)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ad=0;if(m(G,Bt)&&m(G,Bu)&&m(G,Bv)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,A9)&&m(aa,A_)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,Bw)&&m(aa,Bx)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=f7(I[1]),aq=eE(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
+ap=ga(I[1]),aq=eG(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ac=i[1];if(!m(ac,A$)||!m(ac,Ba))n=1;break}switch(n){case
+ab=i[1];if(!m(ab,By)||!m(ab,Bz))n=1;break}switch(n){case
 0:var
-y=X(A5);break;case
+y=V(Bs);break;case
 1:var
 y=Z(g,i);break}return[7,y]}b=1}else{var
-V=e[2];if(1===V[0]){var
-z=V[1];if(z){var
+W=e[2];if(1===W[0]){var
+z=W[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,h$(N+1|0,al)]};b=2}}}}else{var
-Y=e[2];if(1===Y[0]){var
-B=Y[1];if(B){var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,io(M+1|0,al)]};b=2}}}}else{var
+X=e[2];if(1===X[0]){var
+B=X[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dJ(D[1]),AX))throw M;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eE(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return X([0,AO,[0,a,AN]]);break;case
+an=C[1];if(m(dO(D[1]),Bk))throw N;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eG(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return V([0,Bb,[0,a,Ba]]);break;case
 1:break;default:var
-Q=mS(g,u);return t(Q[1],Q[2])}}break;case
-2:return[0,o[1]]}throw M}function
-mT(k){var
-b=c2(k),a=b[1];if(m(a,Bd))if(m(a,Be)){var
-g=m(a,Bf);if(!g)return g;if(m(a,Bg)){if(!m(a,Bh))return[2,U(P,W(b[2]))]}else{var
+Q=nc(g,u);return t(Q[1],Q[2])}}break;case
+2:return[0,o[1]]}throw N}function
+nd(k){var
+b=c8(k),a=b[1];if(m(a,BC))if(m(a,BD)){var
+g=m(a,BE);if(!g)return g;if(m(a,BF)){if(!m(a,BG))return[2,U(Q,Y(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cy(d[1]);return[1,cy(c[1]),l]}}}}}else{var
+l=cD(d[1]);return[1,cD(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(h_,W(f[1]));return[0,cy(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return X([0,Bj,[0,a,Bi]])}function
-mU(f,b){var
-a=ab(b),c=W(r(a,Bo)),d=U(function(g){var
-a=ab(g);function
+n=U(im,Y(f[1]));return[0,cD(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,BI,[0,a,BH]])}function
+ne(f,b){var
+a=ac(b),c=Y(r(a,BN)),d=U(function(g){var
+a=ac(g);function
 b(d,c){var
-b=aN(a,c);return b?U(d,W(b[1])):b}var
-c=b(eE,Bk),d=b6(mT,aN(a,Bl)),e=b6(cy,aN(a,Bm));return[0,b(function(h){var
-b=W(h);if(b){var
+b=aP(a,c);return b?U(d,Y(b[1])):b}var
+c=b(eG,BJ),d=b_(nd,aP(a,BK)),e=b_(cD,aP(a,BL));return[0,b(function(h){var
+b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],Bb)){if(!a[2]){if(m(dJ(e),Bc))throw M;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],BA)){if(!a[2]){if(m(dO(e),BB))throw N;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eF(f,c);return[0,cy(e),g]}}}throw M},Bn),e,d,c]},c),e=aN(a,Bp),g=b6(function(a){return mS(f,a)},e);return[0,mL(r(a,Bq)),g,d]}function
-mV(c){var
-a=ab(c),b=aN(a,Br),d=b?U(P,W(b[1])):b,e=mT(r(a,Bs)),f=U(P,W(r(a,Bt)));return[0,mL(r(a,Bu)),f,d,e]}function
-mW(c){var
+g=eH(f,c);return[0,cD(e),g]}}}throw N},BM),e,d,c]},c),e=aP(a,BO),g=b_(function(a){return nc(f,a)},e);return[0,m7(r(a,BP)),g,d]}function
+nf(c){var
+a=ac(c),b=aP(a,BQ),d=b?U(Q,Y(b[1])):b,e=nd(r(a,BR)),f=U(Q,Y(r(a,BS)));return[0,m7(r(a,BT)),f,d,e]}function
+ng(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-BE(b){var
+B3(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-BF(b){var
+B4(b){var
 a=b[4];if(14<=b[1]&&typeof
-a!=="number"&&1===a[0])return 1-eq(i(a[1]));return 0}function
-BJ(i){var
-n=an(i),c=[0,0];function
-o(a){if(c[1]<n)return aI(i,c[1]);throw M}function
-p(a){if(o(0)===a){c[1]++;return 0}throw M}function
-F(a,b){for(;;){if(c[1]<n&&k(b,aI(i,c[1]))){c[1]++;continue}return db(i,a,c[1]-a|0)}}function
-G(d){p(34);function
+a!=="number"&&1===a[0])return 1-es(j(a[1]));return 0}function
+B8(h){var
+l=ap(h),c=[0,0];function
+n(a){if(c[1]<l)return aL(h,c[1]);throw N}function
+o(a){if(n(0)===a){c[1]++;return 0}throw N}function
+G(a,b){for(;;){if(c[1]<l&&i(b,aL(h,c[1]))){c[1]++;continue}return dh(h,a,c[1]-a|0)}}function
+H(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=F(c[1],a);p(34);return b}function
-H(e,a){if(o(0)===a){c[1]++;return 0}var
+b=G(c[1],a);o(34);return b}function
+I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,k(e,0),b];if(44===o(0)){c[1]++;var
-b=d;continue}p(a);return iV(d)}}function
-w(b,i){if(64<b)throw M;var
-a=o(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,H(function(a){return w(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,H(function(c){var
-a=G(0);p(58);return[0,a,w(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,G(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,F(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw M}var
-V=w(0,0),I=c[1]<n?1:0,Y=I?10===aI(i,c[1])?1:0:I;if(Y)c[1]++;if(c[1]<n)throw M;var
-u=ab(V);if(m(aF(r(u,BK)),BL))throw M;var
-a=h9(r(u,BM)),B=0;switch(a[0]){case
+d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
+b=d;continue}o(a);return i8(d)}}function
+v(b,i){if(64<b)throw N;var
+a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
+e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,I(function(c){var
+a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,H(0)];if(45===a)d=1}if(d){var
+h=c[1];c[1]++;return[3,G(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw N}var
+aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aL(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw N;var
+t=ac(aa);if(m(aH(r(t,B9)),B_))throw N;var
+a=il(r(t,B$)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -6809,142 +6987,163 @@ if(1===z[1])var
 A=6;else
 C=1;if(C)var
 A=3;var
-g=[0,b$(a[2]),A];break;case
+g=[0,bW(a[2]),A];break;case
 2:var
-al=1===a[1]?6:3,g=[0,b$(a[2]),al];break;case
+as=1===a[1]?6:3,g=[0,bW(a[2]),as];break;case
 3:var
-am=b$(a[1]),g=[0,b$(a[4]),am];break;case
+at=bW(a[1]),g=[0,bW(a[4]),at];break;case
 7:var
-J=a[2];B=1;break;case
+K=a[2];B=1;break;case
 0:case
 5:var
-J=a[1];B=1;break;default:var
-g=B5}if(B)var
-g=[0,b$(J),3];var
-q=c2(r(u,BN)),s=q[1];if(m(s,Bz))if(m(s,BA))if(m(s,BB))var
-b=X([0,BD,[0,s,BC]]);else
+K=a[1];B=1;break;default:var
+g=Cv}if(B)var
+g=[0,bW(K),3];var
+p=c8(r(t,Ca)),q=p[1];if(m(q,BY))if(m(q,BZ))if(m(q,B0))var
+b=V([0,B2,[0,q,B1]]);else
 var
-t=mV(q[2]),b=[1,t[1],t[2],t[3],t[4]];else
+s=nf(p[2]),b=[1,s[1],s[2],s[3],s[4]];else
 var
-x=mU(g,q[2]),b=[0,x[1],x[2],x[3]];else
+w=ne(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
-Z=W(q[2]),b=[2,U(function(f){var
-a=c2(f),b=a[1];if(m(b,Bv)){if(m(b,Bw)){if(m(b,Bx)){var
-e=m(b,By);if(e)throw M;return e}return[0,cy(a[2])]}var
-c=mV(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=mU(g,a[2]);return[1,d[1],d[2],d[3]]},Z)];function
-_(a){var
+ad=Y(p[2]),b=[2,U(function(f){var
+a=c8(f),b=a[1];if(m(b,BU)){if(m(b,BV)){if(m(b,BW)){var
+e=m(b,BX);if(e)throw N;return e}return[0,cD(a[2])]}var
+c=nf(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=ne(g,a[2]);return[1,d[1],d[2],d[3]]},ad)];function
+ae(a){var
 b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
-$(a){return 0!==a[3]?1:0}function
-K(a){return au($,a)}function
-L(a){if(typeof
+af(a){return 0!==a[3]?1:0}function
+L(a){return au(af,a)}function
+M(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
 0:switch(b[0]){case
 0:var
-O=a[4],N=a[1];d=5;break;case
-2:d=1;break;default:d=3}break;case
+P=a[4],O=a[1];d=5;break;case
+2:d=1;break;default:d=2}break;case
 1:switch(b[0]){case
 0:var
-ah=b[3];if(au(function(a){var
+ak=b[3];if(au(function(a){var
 b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ah))X(B1);else
-d=2;break;case
+7:return 1;default:return 0}},b)},ak))V(Cm);else
+d=3;break;case
 1:var
-ai=a[6];if(au(function(a){return 8===a[1]?1:0},ai))X(B2);else
-d=3;break;default:d=1}break;case
-2:if(1===b[0]){var
-R=0,Q=b[4];if(typeof
-Q!=="number"&&2!==Q[0]){var
-aj=a[7];if(au(function(c){var
-a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},aj)){X(B3);R=1}else{d=3;R=1}}}else
-d=4;break;case
-7:switch(b[0]){case
+al=a[6];if(au(function(a){return 8===a[1]?1:0},al))V(Cn);else
+d=2;break;default:d=1}break;case
 2:var
-ak=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return L(a[4]);return 0},ak))X(B4);else
-d=4;break;case
-1:d=3;break;default:d=4}break;default:d=3}var
-h=0;switch(d){case
-3:if(1===b[0]&&L(b[4]))X(B0);else
-h=3;break;case
-4:h=3;break;case
-0:break;case
-5:h=4;break;case
-2:h=1;break;default:h=2}var
-e=0;switch(h){case
-3:var
-f=0;switch(a[0]){case
-1:e=1;f=1;break;case
-3:if(1===b[0]){X(BZ);e=2;f=1}break;case
-7:var
-O=a[4],N=a[2];e=3;f=1;break;case
-2:break;case
-4:case
-6:f=1;break;default:if(au(mW,a[4])){X(BW);e=2;f=1}else{e=4;f=1}}if(!f)if(0===b[0]){if(au(_,b[3])){X(BX);e=2}else
-if(3!==a[0]){var
-af=a[7],ag=b[3];if(!gC(function(a){var
-b=a[1];return gC(function(d){var
+R=a[7],S=a[1],D=0;switch(b[0]){case
+0:var
+am=1===S?6:3,T=bW(a[2])===am?1:0;if(T){var
+X=0;if(2<=S||!(0===a[4][0]))X=1;else
+var
+y=1;if(X)var
+y=0}else
+var
+y=T;var
+an=function(b){var
+g=0;if(!b[1]){var
+d=b[2];if(8===d[0]){var
+e=d[1];if(7===e[0]){var
+c=e[1],a=0;switch(c[0]){case
+1:if(m(c[1],Co))a=1;break;case
+6:var
+f=c[1];if(1!==f[0]||m(f[1],Cp))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))V(Cq);else{var
+aq=b[3];if(gH(function(a){var
+b=a[1];return gH(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,BG)){if(!m(c,BH))return au(BF,af)}else
+c=b[1];if(m(c,B5)){if(!m(c,B6))return au(B4,R)}else
 a=1;break;case
-1:if(!m(b[1],BI))a=1;break;case
-7:a=1;break}return a?1:0},b)},ag)){X(BY);e=2}}}else
-e=1;break;case
-0:e=2;break;case
+1:if(!m(b[1],B7))a=1;break;case
+7:case
+8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
+V(Cr)}break;case
+1:var
+Z=0,W=b[4];if(typeof
+W!=="number"&&2!==W[0])if(au(function(c){var
+a=c[1];if(2!==a){var
+b=4<=a?1:0;if(!b)return b}return 1},R)){V(Cs);Z=1}else{d=2;D=1;Z=1}break;default:d=1;D=1}break;case
+3:switch(b[0]){case
+0:if(au(ae,b[3]))V(Ct);else
+d=3;break;case
+2:d=1;break;default:d=2}break;case
+7:switch(b[0]){case
+2:var
+ar=b[1];if(au(function(a){if(typeof
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))V(Cu);else
+d=4;break;case
+1:d=2;break;default:d=4}break;default:d=2}var
+f=0;switch(d){case
+2:if(1===b[0]&&M(b[4])){V(Cl);f=1}else
+f=3;break;case
+4:f=3;break;case
+0:f=1;break;case
+5:f=4;break;case
+3:f=2;break}var
+e=0;switch(f){case
+3:switch(a[0]){case
+3:V(Ck);e=2;break;case
+7:var
+P=a[4],O=a[2];e=3;break;case
+1:case
+2:break;case
+4:case
+6:e=1;break;default:if(au(ng,a[4])){V(Cj);e=2}else
+e=4}break;case
+1:e=2;break;case
 4:e=3;break;case
-1:break;default:e=1}var
+2:e=1;break}var
 j=0;switch(e){case
 2:break;case
 3:var
-S=0;if(au(function(a){return 10===a[1]?1:0},O)&&au(function(a){return 2===a[0]?1:0},N)){X(BO);S=1}if(!S)j=3;break;case
+_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},O)){V(Cb);_=1}if(!_)j=3;break;case
 4:j=3;break;case
-0:j=2;break;default:j=1}var
-l=0;switch(j){case
+1:j=2;break;default:j=1}var
+k=0;switch(j){case
 3:var
-D=0;switch(a[0]){case
+E=0;switch(a[0]){case
 5:var
-T=0;if(0===b[0]){var
-ae=b[3];if(au(function(a){return 0!==a[1]?1:0},ae)){X(BV);D=1;T=1}}if(!T)var
-y=a[4];break;case
+$=0;if(0===b[0]){var
+aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){V(Ci);E=1;$=1}}if(!$)var
+x=a[4];break;case
 7:var
-y=a[4];break;default:if(1===b[0])var
-y=a[4];else{l=2;D=1}}if(!D)if(au(BE,y))X(BU);else
-l=2;break;case
-2:l=2;break;case
-1:l=1;break}var
-E=0;switch(l){case
+x=a[4];break;default:if(1===b[0])var
+x=a[4];else{k=2;E=1}}if(!E)if(au(B3,x))V(Ch);else
+k=2;break;case
+2:k=2;break;case
+1:k=1;break}var
+F=0;switch(k){case
 2:var
-v=0;switch(a[0]){case
-5:v=1;break;case
+u=0;switch(a[0]){case
+5:u=1;break;case
 7:var
-ac=a[4];switch(b[0]){case
+ah=a[4];switch(b[0]){case
 0:break;case
-1:E=1;v=1;break;default:var
-ad=function(a){if(typeof
+1:F=1;u=1;break;default:var
+ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return K(a[3]);case
-2:return au(mW,ac)}return 0};if(au(ad,b[1]))X(BT);v=1}break}if(!v)if(0===b[0]&&K(b[3]))X(BS);else
-E=1;break;case
-1:E=1;break}var
-P=ab(r(u,BP)),aa=aF(r(P,BQ));return[0,a,b,aF(r(P,BR)),aa]}function
-B6(b){var
-c=an(b),g=64,h=DH(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+1:return L(a[3]);case
+2:return au(ng,ah)}return 0};if(au(ai,b[1]))V(Cg);u=1}break}if(!u)if(0===b[0]&&L(b[3]))V(Cf);else
+F=1;break;case
+1:F=1;break}var
+Q=ac(r(t,Cc)),ag=aH(r(Q,Cd));return[0,a,b,aH(r(Q,Ce)),ag]}function
+Cw(b){var
+c=ap(b),g=64,h=D_(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=ao(db(b,a,18),B7);if(!e){var
+e=aq(dh(b,a,18),Cx);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}D2(function(b){try{if(B6(b))var
-a=B9;else{try{var
-e=0,d=BJ(b);e=1}catch(a){a=pb(a);if(a[1]===mK)var
-c=[0,a[2]];else{if(a!==M)throw a;var
+f=d;return f}}Et(function(b){try{if(Cw(b))var
+a=Cz;else{try{var
+e=0,d=B8(b);e=1}catch(a){a=px(a);if(a[1]===m6)var
+c=[0,a[2]];else{if(a!==N)throw a;var
 c=2}}if(e)var
-c=xq(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return B8}if(typeof
+c=xP(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Cy}if(typeof
 a==="number")switch(a){case
-0:return B_;case
-1:return B$;default:return Ca}return aP(Cb,a[1])});iU(0);return}(globalThis));
+0:return CA;case
+1:return CB;default:return CC}return aR(CD,a[1])});i7(0);return}(globalThis));

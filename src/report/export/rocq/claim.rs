@@ -31,6 +31,8 @@ pub struct Subject<'a> {
     /// The legs of its machine, if it has any.
     pub legs: &'a [Leg],
     pub requirements: &'a [Requirement],
+    /// Over a box, of as many legs as there are coordinates, of place and of orientation.
+    pub is_square_over_box: bool,
 }
 
 impl Subject<'_> {
@@ -112,7 +114,13 @@ pub fn subject(claim: &Claim) -> Exported<Subject<'_>> {
                 PsiMax::Every(_) => Vec::new(),
                 PsiMax::Of(psi) => vec![("the_psi", "quantity", quantity(psi))],
             };
-            Ok(Subject { kind: Kind::Postulate, arguments, legs: &[], requirements: &[] })
+            Ok(Subject {
+                kind: Kind::Postulate,
+                arguments,
+                legs: &[],
+                requirements: &[],
+                is_square_over_box: false,
+            })
         }
         Claim::NoCube(claim) => {
             const WHAT: &str = "a claim that no cube of such a machine fits";
@@ -208,7 +216,14 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
         (_, Workspace::Cube { .. }) => return not_covered("the workspace \"cube\""),
         (_, Workspace::Cylinder { .. }) => return not_covered("the workspace \"cylinder\""),
     };
-    Ok(Subject { kind, arguments, legs, requirements: require })
+    let coordinates = match mechanism {
+        Mechanism::Planar(_) => Some(3),
+        Mechanism::Spatial(_) => Some(6),
+        _ => None,
+    };
+    let is_square_over_box =
+        coordinates == Some(legs.len()) && matches!(workspace, Workspace::Box { .. });
+    Ok(Subject { kind, arguments, legs, requirements: require, is_square_over_box })
 }
 
 fn without_bodies(claim: &MachineClaim) -> Exported<()> {

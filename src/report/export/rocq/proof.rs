@@ -45,10 +45,11 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     let is_singular = |cell: &AtlasCell| matches!(cell, AtlasCell::Refuted(w) if matches!(w.fails, Failure::Singular(_)));
     const SINGULAR: &str = "the failure \"singular\" of such a mechanism";
     let what = match (subject.kind, proof) {
-        (Kind::Turning | Kind::Formulas, _)
-            if has(&|by| matches!(by, Evidence::Tolerances(..))) =>
-        {
+        (Kind::Formulas, _) if has(&|by| matches!(by, Evidence::Tolerances(..))) => {
             "the evidence \"tolerances\" of such a mechanism"
+        }
+        (Kind::Turning, Proof::Tree(tree)) if has_other_apart(tree, subject) => {
+            "this evidence \"tolerances\" of a platform that turns"
         }
         (Kind::Legs, _) if has(&|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
             "this set of orientations with such drives"
@@ -104,8 +105,26 @@ fn is_whatever_is_asked(fails: &Failure) -> bool {
 }
 
 fn is_no_step_of_pose(by: &Evidence) -> bool {
-    use Evidence::{Control, Direction, Outside, Test};
-    !matches!(by, Control(_) | Outside | Direction(_) | Test)
+    use Evidence::{Control, Direction, Outside, Test, Tolerances};
+    !matches!(by, Control(_) | Outside | Direction(_) | Test | Tolerances(..))
+}
+
+/// Apart are tolerances in what is shown of `M`, at control points.
+fn has_other_apart(tree: &Tree, subject: &Subject<'_>) -> bool {
+    let is_lower = |by: &Evidence| match by {
+        Evidence::Turned(by, ..) => matches!(**by, Evidence::Lower(_)),
+        by => matches!(by, Evidence::Lower(_)),
+    };
+    let is_other = |Step(obligation, by): &Step| match by {
+        Evidence::Tolerances(by, ..) => match &**by {
+            Evidence::Control(by) => {
+                *obligation != 0 || !is_lower(by) || !subject.is_square_over_box
+            }
+            _ => true,
+        },
+        _ => false,
+    };
+    tree.nodes.iter().flat_map(|node| &node.by).any(is_other)
 }
 
 /// An angle at a joint of more than 90 degrees, of which slopes show a sign.
