@@ -45,19 +45,7 @@ impl Builder {
 
     /// A number as a formula of an atlas's names, where it has such: each of these is one input.
     fn of_names(&mut self, place: &str, x: &Expression, scale: i64) -> Option<Formula> {
-        if !x.varies() {
-            return None;
-        }
-        if let (Expression::Varying(_), 0) = (x, scale) {
-            let value = Value::Quantity(Quantity::Exactly(x.clone()));
-            let known =
-                self.inputs.iter().position(|input| input.scale == 0 && input.value == value);
-            return Some(match known {
-                Some(j) => self.tape.parameter(j),
-                None => self.input(place, value, 0),
-            });
-        }
-        let whole = self.compiled(&Names::new(), x).ok()?;
+        let whole = x.varies().then(|| self.compiled(&Names::new(), x).ok())??;
         let unit = self.number(place, &Expression::integer(1), scale);
         self.few().is_ok().then(|| self.tape.mul(whole, unit))
     }
@@ -194,8 +182,14 @@ impl Builder {
     /// An expression as a formula.
     pub fn compiled(&mut self, names: &Names<'_>, x: &Expression) -> Result<Formula, ClaimError> {
         Ok(match x {
-            Expression::Literal { .. } | Expression::Varying(_) => {
-                self.number("a formula's number", x, 0)
+            Expression::Literal { .. } => self.number("a formula's number", x, 0),
+            Expression::Varying(range) => {
+                let value = Value::Quantity(Quantity::Exactly(x.clone()));
+                let same = |input: &Input| input.scale == 0 && input.value == value;
+                match self.inputs.iter().position(same) {
+                    Some(j) => self.tape.parameter(j),
+                    None => self.input(&range.name, value, 0),
+                }
             }
             Expression::Name(name) => {
                 *names.get(name.as_str()).ok_or_else(|| malformed(name, "a name given before"))?
