@@ -2,7 +2,7 @@
 //! where the other is of one size with what is so.
 
 use super::End;
-use crate::search::solver::extremes::{beyond, reached, Extreme, NotEnclosed};
+use crate::search::solver::extremes::{beyond, reached, seen, Extreme, NotEnclosed};
 use crate::search::solver::{proof, value};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -21,21 +21,25 @@ pub fn is_one_of_two(claim: &MachineClaim, own: &Requirement) -> bool {
 }
 
 /// The ends of the distance and of the angle that go with `own`, an accuracy of which
-/// [`is_one_of_two`] holds: one claim with both bounds, certified.
+/// [`is_one_of_two`] holds: one claim with both bounds, certified; without a `gap`, not what is reached.
 ///
 /// # Errors
 /// See [`NotEnclosed`].
 pub fn deviation(
     claim: &MachineClaim,
     own: &Requirement,
-    gap: &BigRational,
+    gap: Option<&BigRational>,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<[End; 2], NotEnclosed> {
     let claim = value::alone(claim, vec![own.clone()]);
     let distance = Extreme::on(own.clone(), None).ok_or(NotEnclosed::Undecided)?;
     let angle = Extreme::angle(&claim, own).ok_or(NotEnclosed::Undecided)?;
-    let worst = [reached(&claim, &distance, gap)?, reached(&claim, &angle, gap)?];
+    let worst = |extreme: &Extreme| match gap {
+        Some(gap) => reached(&claim, extreme, gap),
+        None => Ok((seen(&claim, extreme)?, None)),
+    };
+    let worst = [worst(&distance)?, worst(&angle)?];
     let mut steps = Steps::default();
     let mut best = Err(NotEnclosed::Undecided);
     for (number, part) in OF_WORST.into_iter().enumerate() {

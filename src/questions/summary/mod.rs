@@ -187,7 +187,7 @@ pub fn summary(
                 let both = off.get_or_insert_with(|| {
                     let own = own.ok_or(NotEnclosed::Undecided)?;
                     steps.next(control, left, |control| {
-                        deviation::deviation(claim, own, &question.gap, budget, control)
+                        deviation::deviation(claim, own, Some(&question.gap), budget, control)
                     })
                 });
                 let at = usize::from(extreme.bounded().angle);

@@ -309,7 +309,7 @@ pub fn enclose(
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
     let problem = Problem::new(&probe)?;
     let (budget, tolerances) = (of_one_width(budget, &problem), turns_with_tolerances(&problem));
-    let mut known = Found::worst(&probe, extreme)?;
+    let mut known = Found::worst(&probe, extreme, ROUNDS)?;
     let mut width = relative.clone();
     let mut steps = Steps::default();
     while width <= loosest() {
@@ -360,7 +360,7 @@ pub fn reached(
     relative: &BigRational,
 ) -> Result<(f64, Option<BigRational>), NotEnclosed> {
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let known = Found::worst(&probe, extreme)?;
+    let known = Found::worst(&probe, extreme, ROUNDS)?;
     let mut width = relative.clone();
     while width <= loosest() {
         let (inner, _) =
@@ -372,6 +372,15 @@ pub fn reached(
         width *= BigRational::from_integer(2.into());
     }
     Ok((known.value, None))
+}
+
+/// What the first sampling finds of an extreme.
+///
+/// # Errors
+/// See [`NotEnclosed`].
+pub fn seen(claim: &MachineClaim, extreme: &Extreme) -> Result<f64, NotEnclosed> {
+    let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
+    Ok(Found::worst(&probe, extreme, 1)?.value)
 }
 
 /// A decimal near a value times `factor`; none of zero.
@@ -403,10 +412,10 @@ struct Found {
 impl Found {
     /// By sampling: of a bound that is met with equality at the worst place found so far, the place at
     /// which it is violated most, until there is none.
-    fn worst(probe: &MachineClaim, extreme: &Extreme) -> Result<Self, NotEnclosed> {
+    fn worst(probe: &MachineClaim, extreme: &Extreme, rounds: usize) -> Result<Self, NotEnclosed> {
         let mut claim = probe.clone();
         let mut best: Option<Found> = None;
-        for _ in 0..ROUNDS {
+        for _ in 0..rounds {
             let problem = Problem::new(&claim)?;
             let sampler = Sampler::new(&claim, &problem)?;
             let mut found: Option<(f64, Place)> = None;
