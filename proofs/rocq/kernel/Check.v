@@ -71,8 +71,12 @@ Variable tests : list test.
 
 (** ** Formulas over a cell *)
 
+Definition evaluate_kept (keep : list bool) (cell : list fixed) : list (option slope) :=
+  run_kept (option slope) None (slope_op bits (coords_from 0 cell) (map constant params)) keep tape [].
 Definition evaluate (cell : list fixed) : list (option slope) :=
   run (option slope) None (slope_op bits (coords_from 0 cell) (map constant params)) tape [].
+Lemma evaluate_all : forall cell, evaluate_kept [] cell = evaluate cell.
+Proof. intro cell. apply run_kept_all. Qed.
 
 Fixpoint all_some {A : Type} (l : list (option A)) : option (list A) :=
   match l with
@@ -258,8 +262,26 @@ Fixpoint discharge (values : list (option slope)) (cell : list fixed) (steps : l
       end
   end.
 
+(** What is looked at of the formulas. *)
+Fixpoint is_of_divided (e : evidence) : bool :=
+  match e with ByLowerDivided _ _ | ByDivided => true | Inside e _ _ | ByTolerances e _ _ => is_of_divided e | _ => false end.
+Definition places_of_rows (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
+Definition wanted_by (t : test) (e : evidence) : list nat :=
+  let own := places_of_rows (if is_of_divided e then divided else whole) in
+  match t with
+  | SigmaMin _ => partial ++ own
+  | SigmaMax _ | Conditioning _ | Solved _ _ => own
+  | AtLeast f => [f]
+  | Either f g => [f; g]
+  | Least r _ | Chords r _ _ => places_of_rows r
+  | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
+  | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
+  end.
+Definition wanted_at (steps : list (nat * evidence)) : list nat :=
+  flat_map (fun s => match snd s, nth_error tests (fst s) with Outside, _ | _, None => [] | e, Some t => wanted_by t e end) steps.
+
 Definition steps_on (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  match steps with [] => Some open | _ => discharge (evaluate cell) cell steps open end.
+  match steps with [] => Some open | _ => discharge (evaluate_kept (kept (wanted_at steps) tape) cell) cell steps open end.
 
 Fixpoint check (cell : list fixed) (open : list bool) (t : tree) : bool :=
   match t with
@@ -336,7 +358,8 @@ Variables (cell : list fixed) (x lambda : list R).
 Hypothesis lambda_length : length lambda = length cell.
 Hypothesis lambda_in : Forall (fun t => -1 <= t <= 1) lambda.
 Let cs := map (centre_of bits) cell.
-Let values := evaluate cell.
+Variable keep : list bool.
+Let values := evaluate_kept keep cell.
 Hypothesis enclosed_at : forall i, encloses bits lambda x cs theta (nth i values None) (formula_at i).
 
 (** The slope that belongs to [x]. *)
@@ -543,7 +566,8 @@ Variable ends : list (nat * Tolerances.choice).
 Hypothesis ends_exist : forallb (fun j => Nat.ltb j (length params)) (map fst ends) = true.
 Hypothesis ends_once : are_once (map fst ends) = true.
 
-Let values := evaluate cell.
+Variable keep : list bool.
+Let values := evaluate_kept keep cell.
 Let coords := coords_from 0 cell.
 Let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [].
 Let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [].
@@ -569,7 +593,7 @@ Qed.
 Lemma encloses_all : forall th, Forall2 contains params th -> forall i, encloses bits lambda x cs th (nth i values None) (formula_at i).
 Proof.
   intros th h i. apply (nth_related _ _ _ _ (encloses bits lambda x cs th)); [exact I |].
-  exact (evaluate_sound bits lambda lambda_in x cs th _ _ coords_hold (params_hold bits lambda params th h) tape).
+  exact (evaluate_kept_sound bits lambda lambda_in x cs th _ _ coords_hold (params_hold bits lambda params th h) keep tape).
 Qed.
 
 (** The value of a formula, of a machine that differs so from the one. *)
@@ -753,12 +777,12 @@ Proof.
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
   destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints],
     e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0]; try discriminate; try (destruct directions; discriminate).
-  - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda (encloses_all theta theta_in) hd') |].
+  - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
     assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
     split; [exact Reg |]. intros kappa2 v hk len nz. exact (proj2 (Low (fun _ => low) (fun _ => kappa2) _ places Y whole v (Still _) (Constant _ _ hk) len nz h)).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
-    cbn [holds]. split; [exact (are_defined_sound cell x lambda (encloses_all theta theta_in) hd') |].
+    cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
     destruct (Over whole (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y (map Tolerances.without_D i) (repeat [neg zero] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h) as [reg G].
     split; [exact reg |]. intros kappa2 v [k1 k2] len nz. rewrite z1 in k1. rewrite z2 in k2. pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
@@ -872,12 +896,12 @@ Proof.
     destruct X as [r [x1 x2]]. exists ((e, r) :: rs). split; [constructor; [split; [exact he | exact x1] | exact I1] |]. cbn [map]. f_equal. rewrite eb, x2. reflexivity.
 Qed.
 
-Lemma accuracy_holds : forall cell x lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> Forall2 contains cell x ->
-  (forall th, Forall2 contains params th -> forall i, encloses bits lambda x (map (centre_of bits) cell) th (nth i (evaluate cell) None) (formula_at i)) ->
+Lemma accuracy_holds : forall keep cell x lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> Forall2 contains cell x ->
+  (forall th, Forall2 contains params th -> forall i, encloses bits lambda x (map (centre_of bits) cell) th (nth i (evaluate_kept keep cell) None) (formula_at i)) ->
   forall less distance joints places Y kappa, harmless lambda less ->
-  shows_there (evaluate cell) cell less (Accurate distance joints) (ByAccuracy places Y kappa) = true -> (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints.
+  shows_there (evaluate_kept keep cell) cell less (Accurate distance joints) (ByAccuracy places Y kappa) = true -> (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints.
 Proof.
-  intros cell x lambda el hlam hx E less distance joints places Y k hless h [d0 [hd0 d00]]. cbn [shows_there] in h. set (values := evaluate cell) in *. cbv zeta in h.
+  intros keep cell x lambda el hlam hx E less distance joints places Y k hless h [d0 [hd0 d00]]. cbn [shows_there] in h. set (values := evaluate_kept keep cell) in *. cbv zeta in h.
   set (near := Near.evaluate_near bits tape params cell distance) in *.
   apply andb_true_iff in h as [h1 h]. apply andb_true_iff in h1 as [l3 _]. apply Nat.eqb_eq in l3.
   destruct (rows_over near divided) as [far |] eqn:efar; [| discriminate]. destruct (rows_over values divided) as [here |] eqn:ehere; [| discriminate].
@@ -900,7 +924,7 @@ Proof.
     { destruct b1 as [_ b1]. unfold g. pose proof (unit_R_pos bits) as u0. apply Rmult_le_reg_r with (unit_R bits); [exact u0 |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra. }
     apply Rmult_le_compat_r; [| nra]. pose proof (pow2_ge_0 w0). pose proof (pow2_ge_0 w1). pose proof (pow2_ge_0 w2). pose proof (pow2_ge_0 l0). pose proof (pow2_ge_0 l1). pose proof (pow2_ge_0 l2). apply Rmult_le_pos; lra.
   - intros w0 w1 w2 w p.
-    destruct (rows_over_sound cell x lambda (E theta theta_in) divided here ehere) as [_ [es [r1 r2]]].
+    destruct (rows_over_sound cell x lambda keep (E theta theta_in) divided here ehere) as [_ [es [r1 r2]]].
     assert (Ap : divided_at x = map fst (map_rows (at_lambda lambda) es)).
     { rewrite <- r2. unfold divided_at, map_rows. rewrite !map_map. apply map_ext. intros [a d]. cbn [fst snd]. rewrite map_map. reflexivity. }
     specialize (a5 es r1). cbv zeta in a5. rewrite <- Ap in a5. destruct (a5 w0 w1 w2) as [c1 c2]. split; [exact c1 |]. intros bs s hb nz.
@@ -910,31 +934,31 @@ Qed.
 (** Where nothing is subtracted. *)
 Theorem shows_holds : forall cell x t e, Forall2 contains cell x -> shows (evaluate cell) (length cell) None t e = true -> holds (length cell) x t.
 Proof.
-  intros cell x t e hx h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [_ C]]]]. specialize (C []). cbn [app length] in C.
-  apply (shows_sound cell x lambda el hlam) with None e; [| exact I | exact h]. intro i.
+  intros cell x t e hx h. rewrite <- evaluate_all in h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [_ C]]]]. specialize (C []). cbn [app length] in C.
+  apply (shows_sound cell x lambda el hlam []) with None e; [| exact I | exact h]. intro i.
   apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I |].
-  exact (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C (params_hold bits lambda params theta theta_in) tape).
+  exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C (params_hold bits lambda params theta theta_in) [] tape).
 Qed.
 
-Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x ->
-  shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
+Lemma kept_holds : forall keep cell x t e, Forall2 contains cell x -> allowed x ->
+  shows_on (evaluate_kept keep cell) cell t e = true -> holds (length cell) x t.
 Proof.
-  intros cell x t e hx ok h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]].
+  intros keep cell x t e hx ok h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]].
   specialize (C []). cbn [app length] in C.
-  pose proof (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C
-    (params_hold bits lambda params theta theta_in) tape) as S.
-  assert (K : forall less e, harmless lambda less -> shows_there (evaluate cell) cell less t e = true -> holds (length cell) x t).
+  pose proof (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C
+    (params_hold bits lambda params theta theta_in) keep tape) as S.
+  assert (K : forall less e, harmless lambda less -> shows_there (evaluate_kept keep cell) cell less t e = true -> holds (length cell) x t).
   { intros less e' hl k.
-    assert (Other : shows (evaluate cell) (length cell) less t e' = true -> holds (length cell) x t).
-    { clear k. intro k. apply (shows_sound cell x lambda el hlam) with less e'; [| exact hl | exact k].
+    assert (Other : shows (evaluate_kept keep cell) (length cell) less t e' = true -> holds (length cell) x t).
+    { clear k. intro k. apply (shows_sound cell x lambda el hlam keep) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
     destruct t; try exact (Other k). destruct e'; try exact (Other k). cbn [holds].
-    refine (accuracy_holds cell x lambda el hlam hx _ less _ _ _ _ _ hl k).
+    refine (accuracy_holds keep cell x lambda el hlam hx _ less _ _ _ _ _ hl k).
     intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
-    exact (evaluate_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) tape). }
-  assert (Apart : forall less e ends directions, harmless lambda less -> shows_apart (evaluate cell) cell less t e ends directions = true -> holds (length cell) x t).
+    exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep tape). }
+  assert (Apart : forall less e ends directions, harmless lambda less -> shows_apart (evaluate_kept keep cell) cell less t e ends directions = true -> holds (length cell) x t).
   { intros less e' ends directions hl k. assert (k' := k). unfold shows_apart in k'. cbv zeta in k'. apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k' _].
-    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 less t e' directions hl k). }
+    apply andb_true_iff in k' as [k1 k2]. exact (shows_apart_sound cell x lambda el hlam C ends k1 k2 keep less t e' directions hl k). }
   assert (Tangent : forall tangent n places, inside cell = Some tangent -> (0 <=? n)%Z = true -> harmless lambda (Some (dyadic_slope n places tangent))).
   { intros tangent n places i n0. destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
     destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
@@ -947,6 +971,9 @@ Proof.
     destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (Apart _ _ _ _ (Tangent tangent n places eq_refl n0) h).
 Qed.
+
+Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x -> shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
+Proof. intros cell x t e hx ok h. rewrite <- evaluate_all in h. exact (kept_holds [] cell x t e hx ok h). Qed.
 
 Lemma outside_none : forall cell x, Forall2 contains cell x -> allowed x -> is_outside cell = true -> False.
 Proof.
@@ -966,22 +993,27 @@ Proof.
   destruct (IH j open h); auto.
 Qed.
 
+Lemma discharge_sound : forall keep cell x steps open rest, Forall2 contains cell x -> allowed x -> discharge (evaluate_kept keep cell) cell steps open = Some rest ->
+  done (length cell) x open -> done (length cell) x rest.
+Proof.
+  intros keep cell x steps open rest hx ok h. revert open h.
+  induction steps as [| [i e] steps IH]; intros open h D; cbn [discharge] in h; [injection h as <-; exact D |].
+  assert (Other : match nth i open false, nth_error tests i with
+    | true, Some t => if shows_on (evaluate_kept keep cell) cell t e then discharge (evaluate_kept keep cell) cell steps (clear i open) else None
+    | _, _ => None end = Some rest -> done (length cell) x rest).
+  { clear h. intro h. destruct (nth i open false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:n; [| discriminate].
+    destruct (shows_on (evaluate_kept keep cell) cell t e) eqn:s; [| discriminate]. apply (IH _ h).
+    intros j u nj o. destruct (nth_clear i j open o) as [-> | o']; [| exact (D j u nj o')].
+    rewrite n in nj. injection nj as <-. exact (kept_holds keep cell x t e hx ok s). }
+  destruct e; try exact (Other h). destruct (is_outside cell) eqn:o; [| discriminate].
+  destruct (outside_none cell x hx ok o).
+Qed.
+
 Lemma steps_on_sound : forall cell x steps open rest, Forall2 contains cell x -> allowed x -> steps_on cell steps open = Some rest ->
   done (length cell) x open -> done (length cell) x rest.
 Proof.
-  intros cell x steps open rest hx ok h.
-  assert (h' : discharge (evaluate cell) cell steps open = Some rest) by (destruct steps; exact h).
-  clear h. revert open h'.
-  induction steps as [| [i e] steps IH]; intros open h D; cbn [discharge] in h; [injection h as <-; exact D |].
-  assert (Other : match nth i open false, nth_error tests i with
-    | true, Some t => if shows_on (evaluate cell) cell t e then discharge (evaluate cell) cell steps (clear i open) else None
-    | _, _ => None end = Some rest -> done (length cell) x rest).
-  { clear h. intro h. destruct (nth i open false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:n; [| discriminate].
-    destruct (shows_on (evaluate cell) cell t e) eqn:s; [| discriminate]. apply (IH _ h).
-    intros j u nj o. destruct (nth_clear i j open o) as [-> | o']; [| exact (D j u nj o')].
-    rewrite n in nj. injection nj as <-. exact (evaluate_holds cell x t e hx ok s). }
-  destruct e; try exact (Other h). destruct (is_outside cell) eqn:o; [| discriminate].
-  destruct (outside_none cell x hx ok o).
+  intros cell x steps open rest hx ok h. destruct steps as [| s steps]; [apply (discharge_sound []) with []; assumption |].
+  exact (discharge_sound _ cell x (s :: steps) open rest hx ok h).
 Qed.
 
 (** Soundness: where the tree is accepted, every test holds at every point of the cell. *)

@@ -388,15 +388,6 @@ Qed.
 
 Definition nothing : op nat := Elbow false 0%nat 0%nat 0%nat.
 Definition is_thinned : list (op nat) -> list (op nat) -> Prop := Forall2 (fun o' o => o' = o \/ o' = nothing).
-Fixpoint mark (i : nat) (l : list bool) : list bool :=
-  match l, i with [], _ => [] | _ :: l', O => true :: l' | b :: l', S j => b :: mark j l' end.
-Definition parts_of (o : op nat) : list nat :=
-  match o with
-  | Coord _ | Param _ | Integer _ => []
-  | Add a b | Sub a b | Mul a b | Div a b => [a; b]
-  | Neg a | Sqr a | Sqrt a => [a]
-  | Elbow _ a b c => [a; b; c]
-  end.
 (** Last first. *)
 Fixpoint thinned_back (l : list (op nat)) (needed : list bool) : list (op nat) :=
   match l, needed with

@@ -210,7 +210,40 @@ Fixpoint run (tape : list (op nat)) (entries : list V) : list V :=
   | [] => entries
   | o :: rest => run rest (eval (map_op (fun i => nth i entries default) o) :: entries)
   end.
+
+(** The entries alone that are kept; once the list is at its end, all. *)
+Fixpoint run_kept (keep : list bool) (tape : list (op nat)) (entries : list V) : list V :=
+  match tape with
+  | [] => entries
+  | o :: rest =>
+      match keep with
+      | false :: keep' => run_kept keep' rest (default :: entries)
+      | _ => run_kept (tl keep) rest (eval (map_op (fun i => nth i entries default) o) :: entries)
+      end
+  end.
+Lemma run_kept_all : forall tape entries, run_kept [] tape entries = run tape entries.
+Proof. induction tape as [| o rest IH]; intro entries; cbn [run run_kept tl]; [reflexivity | apply IH]. Qed.
 End Run.
+
+(** *** Which entries some others are made of *)
+
+Fixpoint mark (i : nat) (l : list bool) : list bool :=
+  match l, i with [], _ => [] | _ :: l', O => true :: l' | b :: l', S j => b :: mark j l' end.
+Definition parts_of (o : op nat) : list nat :=
+  match o with
+  | Coord _ | Param _ | Integer _ => []
+  | Add a b | Sub a b | Mul a b | Div a b => [a; b]
+  | Neg a | Sqr a | Sqrt a => [a]
+  | Elbow _ a b c => [a; b; c]
+  end.
+(** Of a tape and of what is needed, both last first, what is kept, first first. *)
+Fixpoint kept_back (l : list (op nat)) (needed : list bool) (keep : list bool) : list bool :=
+  match l, needed with
+  | o :: l', b :: rest => kept_back l' (if b then fold_right mark rest (parts_of o) else rest) (b :: keep)
+  | _, _ => keep
+  end.
+Definition kept (wanted : list nat) (tape : list (op nat)) : list bool :=
+  kept_back (rev_append tape []) (fold_right mark (map (fun _ => false) tape) wanted) [].
 
 (** The formulas a tape stands for, last first. *)
 Definition formulas (tape : list (op nat)) : list formula := run formula (integer 0) F tape [].
@@ -227,6 +260,13 @@ Proof. induction 1; intros [| i]; cbn; auto. Qed.
 (** What every operation respects, a tape respects. *)
 Theorem run_related : forall tape vs ws, Forall2 P vs ws -> Forall2 P (run V dv ev tape vs) (run W dw ew tape ws).
 Proof. induction tape as [| o rest IH]; intros vs ws h; cbn [run]; auto using nth_related. Qed.
+
+(** And what is not kept is nothing. *)
+Theorem run_kept_related : (forall w, P dv w) -> forall tape keep vs ws, Forall2 P vs ws -> Forall2 P (run_kept V dv ev keep tape vs) (run W dw ew tape ws).
+Proof.
+  intro never. induction tape as [| o rest IH]; intros keep vs ws h; cbn [run run_kept]; [exact h |].
+  destruct keep as [| [|] keep]; apply IH; constructor; auto using nth_related.
+Qed.
 End Relation.
 
 (** ** From formulas to a tape

@@ -476,11 +476,11 @@ Lemma discharged_sound : forall rs steps open open' u, Forall2 (contains bits) r
 Proof.
   intros rs steps open open' u hr h D theta T. unfold discharged in h.
   assert (l : length rs = 3%nat) by (rewrite (related_length _ _ _ _ _ hr); reflexivity). rewrite <- l.
-  set (steps' := map _ steps) in h. apply (steps_on_sound bits _ _ _ [] params (its_tests b) (fun _ => None) theta T (fun _ => True)) with (steps := steps') (open := open).
+  set (steps' := map _ steps) in h. apply (discharge_sound bits _ _ _ [] params (its_tests b) (fun _ => None) theta T (fun _ => True)) with (keep := []) (steps := steps') (open := open).
   - discriminate.
   - exact hr.
   - exact I.
-  - unfold steps_on. destruct steps'; exact h.
+  - rewrite evaluate_all. exact h.
   - rewrite l. exact (D theta T).
 Qed.
 

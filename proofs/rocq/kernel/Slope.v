@@ -383,5 +383,12 @@ Proof.
     [exact I | exact slope_op_sound | constructor].
 Qed.
 
+
+Theorem evaluate_kept_sound : forall keep tape, Forall2 encloses (run_kept (option slope) None slope_op keep tape []) (formulas tape).
+Proof.
+  intros keep tape. apply (run_kept_related (option slope) formula None (integer 0) slope_op F encloses);
+    [exact I | exact slope_op_sound | intro; exact I | constructor].
+Qed.
+
 End Cell.
 End Precision.

@@ -570,9 +570,10 @@ const atlases = [
   [{ certified: "0", refuted: "1/9" }, "CERTIFIED"],
   [{ cells: ["undecided"], certified: "0", refuted: "0" }, "CERTIFIED"],
   [{ workspace: round, cells: [{ split: 0 }, "undecided", proved], refuted: "0" }, "CERTIFIED"],
-  [{ bound: "psi+(r-r)/9" }, "CERTIFIED"],
   [{ bound: "sqrt(psi*psi)" }, "CERTIFIED"],
-  [{ bound: "psi^2/psi" }, "CERTIFIED"],
+  // What cancels does so by slopes, and not in a tree of inputs.
+  [{ bound: "psi+(r-r)/9" }, "CERTIFIED", "REJECTED"],
+  [{ bound: "psi^2/psi" }, "CERTIFIED", "REJECTED"],
   // The tree of cells, and the shares that they have.
   [{ certified: "3/5" }, "REJECTED"], [{ refuted: "1/7" }, "REJECTED"], [{ certified: "-1" }, "REJECTED"], [{ certified: "1/0" }, "REJECTED"], [{ refuted: "psi-psi" }, "REJECTED"],
   [{ certified: "sqrt(1/4)" }, "REJECTED"], [{ cells: [] }, "REJECTED"], [{ cells: some.slice(1) }, "REJECTED"], [{ cells: some.slice(0, -1) }, "REJECTED"],
@@ -600,12 +601,12 @@ const atlases = [
   [{ legs: sliders('{"min":"r","max":"310"}') }, "REJECTED"], [{ legs: sliders('{"min":"r","max":"r"}') }, "REJECTED"],
   [{ workspace: box.replace('"-20"', '"r-310"').replace('"30"', '"0"') }, "REJECTED"],
 ];
-for (const [parts, right] of atlases) {
+for (const [parts, right, exact = right] of atlases) {
   const text = atlas(parts), answers = all(text);
-  if (answers.some((answer) => answer !== right)) fail(`atlas: ${answers}, and not ${right}: ${text}`);
+  if (answers.some((answer, i) => answer !== (i ? exact : right))) fail(`atlas: ${answers}, and not ${right}: ${text}`);
 }
 read.push(atlas({}), atlas(atlases[3][0]));
-console.log(`atlases: ${atlases.length}, with one answer`);
+console.log(`atlases: ${atlases.length}, with the answers that they have to have`);
 
 // Tolerances apart, in the same way: wide ones, of lengths, and of all that legs have.
 const apartly = (e, ends, ...directions) => `{"tolerances":[${e},"${ends}",${JSON.stringify(directions)}]}`;

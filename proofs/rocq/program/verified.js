@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(E){"use strict";var
-iC="spatial",o4="Invalid_argument",gp="precision",ay='"',iB=1255,o3="inside",n9="(",n_=0x800,o2="yaw",n6="range",n7="tree",n8="jsError",bR=0x8000,o1="sqrt(",n5=256,n4="obligation",eS="offset",a6="machine",n2="this quantity of such a mechanism in a claim that is refuted",n3="End_of_file",dW="strut",iA="center",eR="arm",iz="Failure",o0="serial_margin",gy="parameters",ca=0xff,oZ="bodies",iM="outside",gx="base_axis",iy="ENOENT",oY="singular",oX=122,n1="([^/]+)",iL="0",ix=0xf,eQ=128,n0=0xdc00,oV="Sys_blocked_io",oW="fd ",go="given",nZ="ENOTEMPTY",aK=248,gn="bound",nY="Division_by_zero",oT="by",oU=1027,nX="Sys_error",gw="slider",nW="torsion",oS="postulate",nV="proof",oR="joint_error",eP="refuted",dR="mechanism",gm="row",nU="EEXIST",oQ="roll_pitch_yaw",gv="y",nT="cube",da="lower",oP="within",nS="clearance",oO="turned",nR="control",gl="int_of_string",oM="definitions",oN="dependent",eO=1024,nP="from",nQ="name",oL=" : flags Open_rdonly and Open_wronly are not compatible",nO="orthocert/2",oK="reach",nN=512,oI="base_joint",oJ="witness",eN="-",a0="platform",nM=0x7ff0,nL="pitch",iK=": Not a directory",bj="min",oG="trim",dV="workspace",oH=" : file already exists",gk="split",oE='the failure "singular" of such a mechanism',iJ="legs",oF="claim",iw="joint",db=0xffffff,nK="platform_joint",nJ="formulas",nI="roll",gj="atlas",oC="nodes",oD="Out_of_memory",nH="psi_max",gu="orientation",gi=254,oB="angle",iI="index out of bounds",nG="end",oA="one_to_one",gt="_bigarr02",nF=" : flags Open_text and Open_binary are not compatible",bE="drive",nE="coordinates",oz="holds",nD="lower_divided",nC="speed",ox="cylinder",oy="joints",b$=0xffff,ov="acceleration",eL="certified",eM="chords",ow=12520,iv="on",gh="accuracy",eK="axis",ou="no_cube",ot="parallel_margin",nB='the drive "',iu="Unix.Unix_error",gs="fails",gg="tool",it="mkdir",os="rho",gr=1000,is="translational",or="tolerances",nA="Stack_overflow",iH="characteristic_length",T="",iG="^",ir="places",gf=": No such file or directory",nz="/static/",dU=0x3f,nx="stiffness",ny="Not_found",c$="planar",eI="mode",oq="joint_speed",op="Match_failure",nw="transmission",bi="anchor",oo="at",nv="joint_force",dT="leg",nu="joint_acceleration",gq="+",iq="rmdir",on=0xf0,om="spherical",nt=1026,ok="REJECTED",ol="undecided",bk="max",bS="direction",nr="leg_angle",ns="orthoglide",eJ="rank",oj="constraint_margin",ge="test",np="Pervasives.do_at_exit",nq="utf8",bD=0x80,dS="conditioning",dQ="length",no="Undefined_recursive_module",iF=")",nn="base",oi="quantity",nm="joint_range",gd="tilt",nl="Q2",oh="reference",nk="point",of="corner",og=0xe0,nj="version",iE="z",od="to",oe=0xdfff,ip="compare: functional value",oc="Assert_failure",bG="/",ob="provenance",c_="radius",gc="side",bF="require",oa="format",ni="Q1",iD="ENOTDIR",nh="all",c9="box",n$=250;function
+iC="spatial",o6="Invalid_argument",gq="precision",ay='"',iB=1255,o5="inside",n$="(",oa=0x800,o4="yaw",n8="range",n9="tree",n_="jsError",bR=0x8000,o3="sqrt(",n7=256,n6="obligation",eV="offset",a6="machine",n4="this quantity of such a mechanism in a claim that is refuted",n5="End_of_file",dW="strut",iA="center",eU="arm",iz="Failure",o2="serial_margin",gz="parameters",cd=0xff,o1="bodies",iM="outside",gy="base_axis",iy="ENOENT",o0="singular",oZ=122,n3="([^/]+)",iL="0",ix=0xf,eT=128,n2=0xdc00,oX="Sys_blocked_io",oY="fd ",gp="given",n1="ENOTEMPTY",aL=248,go="bound",n0="Division_by_zero",oV="by",oW=1027,nZ="Sys_error",gx="slider",nY="torsion",oU="postulate",nX="proof",oT="joint_error",eS="refuted",dR="mechanism",gn="row",nW="EEXIST",oS="roll_pitch_yaw",gw="y",nV="cube",da="lower",oR="within",nU="clearance",oQ="turned",nT="control",gm="int_of_string",oO="definitions",oP="dependent",eR=1024,nR="from",nS="name",oN=" : flags Open_rdonly and Open_wronly are not compatible",nQ="orthocert/2",oM="reach",nP=512,oK="base_joint",oL="witness",eQ="-",a0="platform",nO=0x7ff0,nN="pitch",iK=": Not a directory",bk="min",oI="trim",dV="workspace",oJ=" : file already exists",gl="split",oG='the failure "singular" of such a mechanism',iJ="legs",oH="claim",iw="joint",db=0xffffff,nM="platform_joint",nL="formulas",nK="roll",gk="atlas",oE="nodes",oF="Out_of_memory",nJ="psi_max",gv="orientation",gj=254,oD="angle",iI="index out of bounds",nI="end",oC="one_to_one",gu="_bigarr02",nH=" : flags Open_text and Open_binary are not compatible",bF="drive",nG="coordinates",oB="holds",nF="lower_divided",nE="speed",oz="cylinder",oA="joints",cc=0xffff,ox="acceleration",eO="certified",eP="chords",oy=12520,iv="on",gi="accuracy",eN="axis",ow="no_cube",ov="parallel_margin",nD='the drive "',iu="Unix.Unix_error",gt="fails",gh="tool",it="mkdir",ou="rho",gs=1000,is="translational",ot="tolerances",nC="Stack_overflow",iH="characteristic_length",T="",iG="^",ir="places",gg=": No such file or directory",nB="/static/",dU=0x3f,nz="stiffness",nA="Not_found",c$="planar",eL="mode",os="joint_speed",or="Match_failure",ny="transmission",bj="anchor",oq="at",nx="joint_force",dT="leg",nw="joint_acceleration",gr="+",iq="rmdir",op=0xf0,oo="spherical",nv=1026,om="REJECTED",on="undecided",bl="max",bS="direction",nt="leg_angle",nu="orthoglide",eM="rank",ol="constraint_margin",gf="test",nr="Pervasives.do_at_exit",ns="utf8",bE=0x80,dS="conditioning",dQ="length",nq="Undefined_recursive_module",iF=")",np="base",ok="quantity",no="joint_range",ge="tilt",nn="Q2",oj="reference",nm="point",oh="corner",oi=0xe0,nl="version",iE="z",of="to",og=0xdfff,ip="compare: functional value",oe="Assert_failure",bH="/",od="provenance",c_="radius",gd="side",bG="require",oc="format",nk="Q1",iD="ENOTDIR",nj="all",c9="box",ob=250;function
 iZ(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eO,a-=eO)e+=d.apply(null,c.slice(b,b+Math.min(a,eO)));return e}function
-gA(b){if(E.Uint8Array)var
+e=T;for(;0<a;b+=eR,a-=eR)e+=d.apply(null,c.slice(b,b+Math.min(a,eR)));return e}function
+gB(b){if(E.Uint8Array)var
 c=new(E.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eT(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gA(b);var
+eW(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gB(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,37 +23,37 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 dZ(a){return a}function
-dY(a,b,c,d,e){eT(dZ(a),b,c,d,e);return 0}function
+dY(a,b,c,d,e){eW(dZ(a),b,c,d,e);return 0}function
 iO(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cG(c,a){if(c.fun)return cG(c.fun,a);if(typeof
+cH(c,a){if(c.fun)return cH(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cG(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cH(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cG(c,d)}}function
-pu(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cH(c,d)}}function
+pw(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
 d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d0(a){if(a.t==2)a.c+=pu(a.l-a.c.length,"\0");else
+d0(a){if(a.t==2)a.c+=pw(a.l-a.c.length,"\0");else
 a.c=iZ(a.c,0,a.c.length);a.t=0}function
 d1(a){a.t&6&&d0(a);return a.c}var
-Er=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Eq(a){if(Er)return Math.floor(Math.log2(a));var
+Et=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Es(a){if(Et)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
 iR(c){var
 a=new(E.Float32Array)(1);a[0]=c;var
 b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-pl=Math.pow(2,-24);function
-Eh(a){throw a}var
+pn=Math.pow(2,-24);function
+Ej(a){throw a}var
 as=[0];function
-pr(){Eh(as.Division_by_zero)}function
-D(b,c,a){this.lo=b&db;this.mi=c&db;this.hi=a&b$}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
+pt(){Ej(as.Division_by_zero)}function
+D(b,c,a){this.lo=b&db;this.mi=c&db;this.hi=a&cc}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
 D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*pl|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pl|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*pn|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pn|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
 D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
 D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&b$);return new
+D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cc);return new
 D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&db;this.lo=this.lo<<1&db};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&db;this.mi=(this.mi>>>1|this.hi<<23)&db;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())pr();var
+b=this;if(a.isZero())pt();var
 d=b.hi^a.hi;if(b.hi&bR)b=b.neg();if(a.hi&bR)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bR)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())pr();var
+a=this;if(b.isZero())pt();var
 d=a.hi;if(a.hi&bR)a=a.neg();if(b.hi&bR)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&ca,this.mi>>16,this.mi>>8&ca,this.mi&ca,this.lo>>16,this.lo>>8&ca,this.lo&ca]};D.prototype.lo32=function(){return this.lo|(this.mi&ca)<<24};D.prototype.hi32=function(){return this.mi>>>8&b$|this.hi<<16};function
-gC(b,c,a){return new
+c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&cd,this.mi>>16,this.mi>>8&cd,this.mi&cd,this.lo>>16,this.lo>>8&cd,this.lo&cd]};D.prototype.lo32=function(){return this.lo|(this.mi&cd)<<24};D.prototype.hi32=function(){return this.mi>>>8&cc|this.hi<<16};function
+gD(b,c,a){return new
 D(b,c,a)}function
-gB(a){if(!isFinite(a)){if(isNaN(a))return gC(1,0,nM);return a>0?gC(0,0,nM):gC(0,0,0xfff0)}var
+gC(a){if(!isFinite(a)){if(isNaN(a))return gD(1,0,nO);return a>0?gD(0,0,nO):gD(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bR:a>=0?0:bR;if(f)a=-a;var
-b=Eq(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nt)}else{a/=Math.pow(2,b-oU);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Es(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nv)}else{a/=Math.pow(2,b-oW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&ix|f|b<<4;return gC(g,e,c)}function
-eW(a){return a.toArray()}function
-o$(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gt)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<b$)c.write(16,b.dims[a]);else{c.write(16,b$);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&ix|f|b<<4;return gD(g,e,c)}function
+eZ(a){return a.toArray()}function
+pb(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gu)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cc)c.write(16,b.dims[a]);else{c.write(16,cc);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,11 +113,11 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eW(b.get(a));for(var
+e=eZ(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eW(gB(b.get(a)));for(var
+e=eZ(gC(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
@@ -127,37 +127,37 @@ a=0;a<b.data.length/2;a++){var
 d=b.get(a);c.write(32,iR(d[1]));c.write(32,iR(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eW(gB(f[1]));for(var
+f=b.get(a),e=eZ(gC(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eW(gB(f[2]));for(var
+e=eZ(gC(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Ej(b,a){throw[0,b,a]}function
-pz(a){if(a.length<24){for(var
+El(b,a){throw[0,b,a]}function
+pB(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
 i0(e){for(var
-j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bD){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bD;d++);if(d-b>nN){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eQ){g=h+(f<<6);if(f<og){a=g-0x3080;if(a<bD)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eQ){g=h+(g<<6);if(f<on){a=g-0xe2080;if(a<n_||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eQ&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>b$)c+=String.fromCharCode(0xd7c0+(a>>10),n0+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eO){c.substr(0,1);j+=c;c=T}}return j+c}function
+j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bE){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bE;d++);if(d-b>nP){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eT){g=h+(f<<6);if(f<oi){a=g-0x3080;if(a<bE)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eT){g=h+(g<<6);if(f<op){a=g-0xe2080;if(a<oa||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eT&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cc)c+=String.fromCharCode(0xd7c0+(a>>10),n2+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eR){c.substr(0,1);j+=c;c=T}}return j+c}function
 bT(c,a,b){this.t=c;this.c=a;this.l=b}bT.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:d0(this);case
-0:if(pz(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(pB(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bT.prototype.toUtf16=function(){var
 a=this.toString();if(this.t==9)return a;return i0(a)};bT.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bT(this.t,a,this.l)};function
-pc(a){return new
+pe(a){return new
 bT(0,a,a.length)}function
-a(a){return pc(a)}function
-iY(c,b){Ej(c,a(b))}function
+a(a){return pe(a)}function
+iY(c,b){El(c,a(b))}function
 aC(a){iY(as.Invalid_argument,a)}function
-o9(a){switch(a){case
+o$(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-DN(c,e){var
+DP(c,e){var
 b=E,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,41 +173,41 @@ b=E,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aC("Bigarray.create: unsupported kind");var
 d=new
-a(e*o9(c));return d}function
+a(e*o$(c));return d}function
 iS(c){var
 a=new(E.Int32Array)(1);a[0]=c;var
 b=new(E.Float32Array)(a.buffer);return b[0]}function
-eV(a){return new
+eY(a){return new
 D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
 iT(d){var
 f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ix)==0?b&bR?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&ix);if(c>0){a+=16;a*=Math.pow(2,c-oU)}else
-a*=Math.pow(2,-nt);if(b&bR)a=-a;return a}function
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&ix);if(c>0){a+=16;a*=Math.pow(2,c-oW)}else
+a*=Math.pow(2,-nv);if(b&bR)a=-a;return a}function
 iN(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aC("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-D3(b,a){return new
-D(b&db,b>>>24&ca|(a&b$)<<8,a>>>16&b$)}function
+D5(b,a){return new
+D(b&db,b>>>24&cd|(a&cc)<<8,a>>>16&cc)}function
 iU(a){return a.hi32()}function
 iV(a){return a.lo32()}function
-gz(){aC(iI)}var
-DO=gt;function
-cF(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cF.prototype.caml_custom=DO;cF.prototype.offset=function(b){var
+gA(){aC(iI)}var
+DQ=gu;function
+cG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cG.prototype.caml_custom=DQ;cG.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aC("bigarray.js: invalid offset");if(this.dims.length!=b.length)aC("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gz();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gA();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gz();c=c*this.dims[a]+(b[a]-1)}return c};cF.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gA();c=c*this.dims[a]+(b[a]-1)}return c};cG.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return D3(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return D5(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gi,e,c];default:return this.data[a]}};cF.prototype.set=function(a,b){switch(this.kind){case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gj,e,c];default:return this.data[a]}};cG.prototype.set=function(a,b){switch(this.kind){case
 7:this.data[a*2+0]=iV(b);this.data[a*2+1]=iU(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cF.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cG.prototype.fill=function(b){switch(this.kind){case
 7:var
 c=iV(b),e=iU(b);if(c==e)this.data.fill(c);else
 for(var
@@ -216,7 +216,7 @@ a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cF.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cG.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -237,25 +237,25 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
 dX(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dX.prototype=new
-cF();dX.prototype.offset=function(a){if(typeof
+cG();dX.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gz();return a};dX.prototype.get=function(a){return this.data[a]};dX.prototype.set=function(a,b){this.data[a]=b;return 0};dX.prototype.fill=function(a){this.data.fill(a);return 0};function
-o7(c,d,a,b){var
-e=o9(c);if(iN(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gA();return a};dX.prototype.get=function(a){return this.data[a]};dX.prototype.set=function(a,b){this.data[a]=b;return 0};dX.prototype.fill=function(a){this.data.fill(a);return 0};function
+o9(c,d,a,b){var
+e=o$(c);if(iN(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 dX(c,d,a,b);return new
-cF(c,d,a,b)}function
-bH(b){if(!as.Failure)as.Failure=[aK,a(iz),-3];iY(as.Failure,b)}function
-o8(b,v,r){var
-i=b.read32s();if(i<0||i>16)bH("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ca,o=p>>8&1,h=[];if(r==gt)for(var
+cG(c,d,a,b)}function
+bI(b){if(!as.Failure)as.Failure=[aL,a(iz),-3];iY(as.Failure,b)}function
+o_(b,v,r){var
+i=b.read32s();if(i<0||i>16)bI("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cd,o=p>>8&1,h=[];if(r==gu)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==b$){var
-t=b.read32u(),u=b.read32u();if(t!=0)bH("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cc){var
+t=b.read32u(),u=b.read32u();if(t!=0)bI("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iN(h),f=DN(j,d),g=o7(j,o,h,f);switch(j){case
+d=iN(h),f=DP(j,d),g=o9(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,123 +269,123 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bH("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bI("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eV(e);g.set(a,q)}break;case
+q=eY(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iT(eV(e));g.set(a,k)}break;case
+k=iT(eY(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
 k=iS(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iS(b.read32s()),l=iS(b.read32s());g.set(a,[gi,m,l])}break;case
+m=iS(b.read32s()),l=iS(b.read32s());g.set(a,[gj,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iT(eV(e));for(var
+m=iT(eY(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iT(eV(e));g.set(a,[gi,m,l])}break}v[0]=(4+i)*4;return o7(j,o,h,f)}function
-o6(a,b,c){return a.compare(b,c)}function
-po(a,b){return Math.imul(a,b)}function
-cb(b,a){a=po(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=po(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-D0(a,b){a=cb(a,iV(b));a=cb(a,iU(b));return a}function
-pk(a,b){return D0(a,gB(b))}function
-o_(c){var
+l=iT(eY(e));g.set(a,[gj,m,l])}break}v[0]=(4+i)*4;return o9(j,o,h,f)}function
+o8(a,b,c){return a.compare(b,c)}function
+pq(a,b){return Math.imul(a,b)}function
+ce(b,a){a=pq(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pq(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+D2(a,b){a=ce(a,iV(b));a=ce(a,iU(b));return a}function
+pm(a,b){return D2(a,gC(b))}function
+pa(c){var
 b=iN(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>n5)b=n5;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cb(d,e)}e=0;switch(b&3){case
+12:if(b>n7)b=n7;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ce(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cb(d,e)}break;case
+1:e|=c.data[a+0];d=ce(d,e)}break;case
 4:case
-5:if(b>eQ)b=eQ;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cb(d,e)}if((b&1)!=0)d=cb(d,c.data[a]);break;case
+5:if(b>eT)b=eT;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ce(d,e)}if((b&1)!=0)d=ce(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cb(d,c.data[a]);break;case
+a=0;a<b;a++)d=ce(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cb(d,c.data[a]);break;case
+a=0;a<b;a++)d=ce(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cb(d,c.data[a]);break;case
+a=0;a<b;a++)d=ce(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=pk(d,c.data[a]);break;case
+a=0;a<b;a++)d=pm(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=pk(d,c.data[a]);break}return d}function
-D1(a,b){b[0]=4;return a.read32s()}function
-Ee(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=pm(d,c.data[a]);break}return d}function
+D3(a,b){b[0]=4;return a.read32s()}function
+Eg(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bH("input_value: native integer value too large");default:bH("input_value: ill-formed native integer")}}function
-D6(c,d){var
+2:bI("input_value: native integer value too large");default:bI("input_value: ill-formed native integer")}}function
+D8(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eV(b)}function
-D5(e,d,b){var
-c=eW(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eY(b)}function
+D7(e,d,b){var
+c=eZ(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-D2(a,b,c){return a.compare(b)}function
-D4(a){return a.lo32()^a.hi32()}var
-pf={"_j":{deserialize:D6,serialize:D5,fixed_length:8,compare:D2,hash:D4},"_i":{deserialize:D1,fixed_length:4},"_n":{deserialize:Ee,fixed_length:4},"_bigarray":{deserialize:function(a,b){return o8(a,b,"_bigarray")},serialize:o$,compare:o6,hash:o_},"_bigarr02":{deserialize:function(a,b){return o8(a,b,gt)},serialize:o$,compare:o6,hash:o_}};function
-iQ(a){return pf[a.caml_custom]&&pf[a.caml_custom].compare}function
-pd(f,c,d,e){var
+D4(a,b,c){return a.compare(b)}function
+D6(a){return a.lo32()^a.hi32()}var
+ph={"_j":{deserialize:D8,serialize:D7,fixed_length:8,compare:D4,hash:D6},"_i":{deserialize:D3,fixed_length:4},"_n":{deserialize:Eg,fixed_length:4},"_bigarray":{deserialize:function(a,b){return o_(a,b,"_bigarray")},serialize:pb,compare:o8,hash:pa},"_bigarr02":{deserialize:function(a,b){return o_(a,b,gu)},serialize:pb,compare:o8,hash:pa}};function
+iQ(a){return ph[a.caml_custom]&&ph[a.caml_custom].compare}function
+pf(f,c,d,e){var
 b=iQ(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 iX(a){return a
 instanceof
 bT}function
-pm(a){return iX(a)}function
-pe(a){if(typeof
-a==="number")return gr;else
+po(a){return iX(a)}function
+pg(a){if(typeof
+a==="number")return gs;else
 if(iX(a))return 252;else
-if(pm(a))return 1252;else
+if(po(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gi?0:b}else
+b=a[0]|0;return b==gj?0:b}else
 if(a
 instanceof
-String)return ow;else
+String)return oy;else
 if(typeof
-a=="string")return ow;else
+a=="string")return oy;else
 if(a
 instanceof
-Number)return gr;else
+Number)return gs;else
 if(a&&a.caml_custom)return iB;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-D7(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pb(a,b){a.t&6&&d0(a);b.t&6&&d0(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-pv(a,b){return pb(a,b)}function
+D9(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pd(a,b){a.t&6&&d0(a);b.t&6&&d0(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+px(a,b){return pd(a,b)}function
 iP(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pe(a);if(f==n$){a=a[1];continue}var
-g=pe(b);if(g==n$){b=b[1];continue}if(f!==g){if(f==gr){if(g==iB)return pd(a,b,-1,d);return-1}if(g==gr){if(f==iB)return pd(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+f=pg(a);if(f==ob){a=a[1];continue}var
+g=pg(b);if(g==ob){b=b[1];continue}if(f!==g){if(f==gs){if(g==iB)return pf(a,b,-1,d);return-1}if(g==gs){if(f==iB)return pf(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
 247:aC(ip);break;case
 248:var
-c=D7(a[2],b[2]);if(c!=0)return c|0;break;case
+c=D9(a[2],b[2]);if(c!=0)return c|0;break;case
 249:aC(ip);break;case
 250:aC("equal: got Forward_tag, should not happen");break;case
 251:aC("equal: abstract value");break;case
 252:if(a!==b){var
-c=pb(a,b);if(c!=0)return c|0}break;case
+c=pd(a,b);if(c!=0)return c|0}break;case
 253:aC("equal: got Double_tag, should not happen");break;case
 254:aC("equal: got Double_array_tag, should not happen");break;case
 255:aC("equal: got Custom_tag, should not happen");break;case
@@ -405,129 +405,129 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-DV(a,b){return iP(a,b,true)}function
+DX(a,b){return iP(a,b,true)}function
 bV(a){if(a<0)aC("Bytes.create");return new
 bT(a?2:9,T,a)}function
-pg(a,b){return+(iP(a,b,false)==0)}function
-DX(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pu(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gA(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Ef=0;function
-pi(){return Ef++}function
-D9(a){return a.toUtf16()}function
-eX(){return typeof
+pi(a,b){return+(iP(a,b,false)==0)}function
+DZ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pw(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gB(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Eh=0;function
+pk(){return Eh++}function
+D$(a){return a.toUtf16()}function
+e0(){return typeof
 E.process!=="undefined"&&typeof
 E.process.versions!=="undefined"&&typeof
 E.process.versions.node!=="undefined"}function
-Es(){function
-a(a){if(a.charAt(0)===bG)return[T,a.substring(1)];return}function
+Eu(){function
+a(a){if(a.charAt(0)===bH)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return eX()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-i4=Es();function
-pw(a){return a.slice(-1)!==bG?a+bG:a}if(eX()&&E.process&&E.process.cwd)var
-eU=E.process.cwd().replace(/\\/g,bG);else
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e0()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
+i4=Eu();function
+py(a){return a.slice(-1)!==bH?a+bH:a}if(e0()&&E.process&&E.process.cwd)var
+eX=E.process.cwd().replace(/\\/g,bH);else
 var
-eU="/static";eU=pw(eU);function
-D$(a){a=D9(a);if(!i4(a))a=eU+a;var
-e=i4(a),d=e[1].split(bG),b=[];for(var
+eX="/static";eX=py(eX);function
+Eb(a){a=D$(a);if(!i4(a))a=eX+a;var
+e=i4(a),d=e[1].split(bH),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-En(e){for(var
-f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bD){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bD;d++);if(d-c>nN){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<n_){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bD|a&dU)}else
-if(a<0xd800||a>=oe)b+=String.fromCharCode(og|a>>12,bD|a>>6&dU,bD|a&dU);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n0||h>oe)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(on|a>>18,bD|a>>12&dU,bD|a>>6&dU,bD|a&dU)}if(b.length>eO){b.substr(0,1);f+=b;b=T}}return f+b}function
-DS(a){var
-b=9;if(!pz(a))b=8,a=En(a);return new
+Ep(e){for(var
+f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bE){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bE;d++);if(d-c>nP){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<oa){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bE|a&dU)}else
+if(a<0xd800||a>=og)b+=String.fromCharCode(oi|a>>12,bE|a>>6&dU,bE|a&dU);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n2||h>og)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(op|a>>18,bE|a>>12&dU,bE|a>>6&dU,bE|a&dU)}if(b.length>eR){b.substr(0,1);f+=b;b=T}}return f+b}function
+DU(a){var
+b=9;if(!pB(a))b=8,a=Ep(a);return new
 bT(b,a,a.length)}function
-d2(a){return DS(a)}var
-Ev=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nU,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iD,nZ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d2(a){return DU(a)}var
+Ex=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nW,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iD,n1,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 df(d,f,e,a){var
-b=Ev.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=Ex.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,d2(f||T),d2(e||T)];return c}var
-pp={};function
-dc(a){return pp[a]}function
+pr={};function
+dc(a){return pr[a]}function
 dd(b,a){throw[0,b].concat(a)}function
-DR(a){return new
+DT(a){return new
 bT(4,a,a.length)}function
 ah(a){iY(as.Sys_error,a)}function
-Ei(a){ah(a+gf)}function
-pa(){aC(iI)}function
-DQ(b,a){if(a>>>0>=b.l)pa();return iO(b,a)}function
-gD(a){return a.l}function
-o5(){}function
+Ek(a){ah(a+gg)}function
+pc(){aC(iI)}function
+DS(b,a){if(a>>>0>=b.l)pc();return iO(b,a)}function
+gE(a){return a.l}function
+o7(){}function
 aA(a){this.data=a}aA.prototype=new
-o5();aA.prototype.truncate=function(a){var
-b=this.data;this.data=bV(a|0);eT(b,0,this.data,0,a)};aA.prototype.length=function(){return gD(this.data)};aA.prototype.write=function(b,d,g,a){var
+o7();aA.prototype.truncate=function(a){var
+b=this.data;this.data=bV(a|0);eW(b,0,this.data,0,a)};aA.prototype.length=function(){return gE(this.data)};aA.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bV(b+a),f=this.data;this.data=e;eT(f,0,this.data,0,c)}dY(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
-e=this.length();eT(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return DQ(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
-aQ(b,a){this.content={};this.root=b;this.lookupFun=a}aQ.prototype.nm=function(a){return this.root+a};aQ.prototype.create_dir_if_needed=function(d){var
-c=d.split(bG),b=T;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bG;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aQ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bG};aQ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bV(b+a),f=this.data;this.data=e;eW(f,0,this.data,0,c)}dY(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
+e=this.length();eW(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return DS(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
+aR(b,a){this.content={};this.root=b;this.lookupFun=a}aR.prototype.nm=function(a){return this.root+a};aR.prototype.create_dir_if_needed=function(d){var
+c=d.split(bH),b=T;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bH;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aR.prototype.slash=function(a){return/\/$/.test(a)?a:a+bH};aR.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aA(dZ(c[1]))}}};aQ.prototype.exists=function(a){if(a==T)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aQ.prototype.mkdir=function(c,e,d){var
-b=d&&dc(iu);if(this.exists(c))if(b)dd(b,df(nU,it,this.nm(c)));else
+aA(dZ(c[1]))}}};aR.prototype.exists=function(a){if(a==T)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aR.prototype.mkdir=function(c,e,d){var
+b=d&&dc(iu);if(this.exists(c))if(b)dd(b,df(nW,it,this.nm(c)));else
 ah(c+": File exists");var
 a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)dd(b,df(iy,it,this.nm(a)));else
-ah(a+gf);if(!this.is_dir(a))if(b)dd(b,df(iD,it,this.nm(a)));else
-ah(a+iK);this.create_dir_if_needed(this.slash(c))};aQ.prototype.rmdir=function(a,f){var
+ah(a+gg);if(!this.is_dir(a))if(b)dd(b,df(iD,it,this.nm(a)));else
+ah(a+iK);this.create_dir_if_needed(this.slash(c))};aR.prototype.rmdir=function(a,f){var
 b=f&&dc(iu),c=a==T?T:this.slash(a),e=new
-RegExp(iG+c+n1);if(!this.exists(a))if(b)dd(b,df(iy,iq,this.nm(a)));else
-ah(a+gf);if(!this.is_dir(a))if(b)dd(b,df(iD,iq,this.nm(a)));else
+RegExp(iG+c+n3);if(!this.exists(a))if(b)dd(b,df(iy,iq,this.nm(a)));else
+ah(a+gg);if(!this.is_dir(a))if(b)dd(b,df(iD,iq,this.nm(a)));else
 ah(a+iK);for(var
 d
 in
-this.content)if(d.match(e))if(b)dd(b,df(nZ,iq,this.nm(a)));else
+this.content)if(d.match(e))if(b)dd(b,df(n1,iq,this.nm(a)));else
 ah(this.nm(a)+": Directory not empty");delete
-this.content[c]};aQ.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))ah(a+gf);if(!this.is_dir(a))ah(a+iK);var
+this.content[c]};aR.prototype.readdir=function(a){var
+f=a==T?T:this.slash(a);if(!this.exists(a))ah(a+gg);if(!this.is_dir(a))ah(a+iK);var
 g=new
-RegExp(iG+f+n1),d={},c=[];for(var
+RegExp(iG+f+n3),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aQ.prototype.is_dir=function(a){if(a==T)return true;var
-b=this.slash(a);return this.content[b]?1:0};aQ.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aR.prototype.is_dir=function(a){if(a==T)return true;var
+b=this.slash(a);return this.content[b]?1:0};aR.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aQ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ah(this.nm(a)+oL);if(b.text&&b.binary)ah(this.nm(a)+nF);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ah(this.nm(a)+" : is a directory");if(b.create&&b.excl)ah(this.nm(a)+oH);var
+this.content[a];return b};aR.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ah(this.nm(a)+oN);if(b.text&&b.binary)ah(this.nm(a)+nH);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ah(this.nm(a)+" : is a directory");if(b.create&&b.excl)ah(this.nm(a)+oJ);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aA(bV(0));return this.content[a]}else
-Ei(this.nm(a))};aQ.prototype.register=function(c,a){var
-b;if(this.content[c])ah(this.nm(c)+oH);if(iX(a))b=new
-aA(a);if(pm(a))b=new
+Ek(this.nm(a))};aR.prototype.register=function(c,a){var
+b;if(this.content[c])ah(this.nm(c)+oJ);if(iX(a))b=new
+aA(a);if(po(a))b=new
 aA(dZ(a));else
 if(a
 instanceof
 Array)b=new
-aA(DR(a));else
+aA(DT(a));else
 if(typeof
 a==="string")b=new
-aA(pc(a));else
+aA(pe(a));else
 if(a.toString){var
 d=dZ(d2(a.toString()));b=new
 aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ah(this.nm(c)+" : registering file with invalid content type")};aQ.prototype.constructor=aQ;function
-ap(a){return gD(a)}function
+ah(this.nm(c)+" : registering file with invalid content type")};aR.prototype.constructor=aR;function
+ap(a){return gE(a)}function
 de(b,a){return iO(b,a)}function
-DM(d){var
+DO(d){var
 c=ap(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=de(d,a);return b}function
-DL(a){if(a.t!=4)gA(a);return a.c}function
-DU(a,c,b){b&=ca;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gA(a)}a.c[c]=b;return 0}function
-DT(b,a,c){if(a>>>0>=b.l)pa();return DU(b,a,c)}function
+DN(a){if(a.t!=4)gB(a);return a.c}function
+DW(a,c,b){b&=cd;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gB(a)}a.c[c]=b;return 0}function
+DV(b,a,c){if(a>>>0>=b.l)pc();return DW(b,a,c)}function
 bU(a){this.fs=require("fs");this.fd=a}bU.prototype=new
-o5();bU.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ah(a.toString())}};bU.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ah(a.toString())}};bU.prototype.write=function(f,b,c,e){var
-a=DM(b);if(!(a
+o7();bU.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ah(a.toString())}};bU.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ah(a.toString())}};bU.prototype.write=function(f,b,c,e){var
+a=DO(b);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ah(a.toString())}return 0};bU.prototype.read=function(g,d,c,f){var
-a=DL(d);if(!(a
+a=DN(d);if(!(a
 instanceof
 E.Uint8Array))a=new(E.Uint8Array)(a);var
 e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ah(a.toString())}for(var
-b=0;b<f;b++)DT(d,c+b,e[c+b]);return 0};bU.prototype.read_one=function(c){var
+b=0;b<f;b++)DV(d,c+b,e[c+b]);return 0};bU.prototype.read_one=function(c){var
 b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ah(a.toString())}return a[0]};bU.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ah(a.toString())}};bU.prototype.constructor=bU;function
 aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ah(a.toString())}};aB.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
@@ -539,7 +539,7 @@ d=this.fs.openSync(this.nm(f),b);return new
 bU(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nq);return d2(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
+a=this.fs.readlinkSync(this.nm(b),ns);return d2(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
 b=dc(iu);if(d&&b){var
 c=df(a.code,a.syscall,a.path,a.errno);dd(b,c)}else
 ah(a.toString())};aB.prototype.stats_from_js=function(a){var
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
-pj(b){var
-a=i4(b);if(!a)return;return a[0]+bG}var
-gE=pj(eU)||bH("unable to compute caml_root"),d3=[];if(eX())d3.push({path:gE,device:new
-aB(gE)});else
-d3.push({path:gE,device:new
-aQ(gE)});d3.push({path:nz,device:new
-aQ(nz)});function
-pD(b){var
-g=D$(b),b=g.join(bG),f=pw(b),c;for(var
+pl(b){var
+a=i4(b);if(!a)return;return a[0]+bH}var
+gF=pl(eX)||bI("unable to compute caml_root"),d3=[];if(e0())d3.push({path:gF,device:new
+aB(gF)});else
+d3.push({path:gF,device:new
+aR(gF)});d3.push({path:nB,device:new
+aR(nB)});function
+pF(b){var
+g=Eb(b),b=g.join(bH),f=py(b),c;for(var
 e=0;e<d3.length;e++){var
-a=d3[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&eX()){var
-d=pj(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=d3[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e0()){var
+d=pl(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aB(d)};d3.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ah("no device found for "+f)}function
-DW(c,b){var
-a=pD(c);if(!a.device.register)bH("cannot register file");a.device.register(a.rest,b);return 0}function
-py(c,b){var
-c=a(c),b=a(b);return DW(c,b)}function
-DZ(){var
+DY(c,b){var
+a=pF(c);if(!a.device.register)bI("cannot register file");a.device.register(a.rest,b);return 0}function
+pA(c,b){var
+c=a(c),b=a(b);return DY(c,b)}function
+D1(){var
 b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)py(b[a].name,b[a].content);E.jsoo_create_file=py;E.caml_fs_tmp=[];return 0}function
-Eg(c){var
+a=0;a<b.length;a++)pA(b[a].name,b[a].content);E.jsoo_create_file=pA;E.caml_fs_tmp=[];return 0}function
+Ei(c){var
 a=0,e=ap(c),b=10,d=1;if(e>0)switch(de(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&de(c,a)==48)switch(de(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=ap(c),b=10,d=1;if(e>0)switch(de(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pq(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oX)return a-87;return-1}function
+ps(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oZ)return a-87;return-1}function
 iW(f){var
-h=Eg(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?de(f,c):0,b=pq(e);if(b<0||b>=d)bH(gl);var
-a=b;for(c++;c<g;c++){e=de(f,c);if(e==95)continue;b=pq(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bH(gl)}if(c!=g)bH(gl);a=i*a;if(d==10&&(a|0)!=a)bH(gl);return a|0}function
-D_(a,b){return+(iP(a,b,false)<=0)}function
-Ea(a,d){if(a<0)gz();var
+h=Ei(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?de(f,c):0,b=ps(e);if(b<0||b>=d)bI(gm);var
+a=b;for(c++;c<g;c++){e=de(f,c);if(e==95)continue;b=ps(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bI(gm)}if(c!=g)bI(gm);a=i*a;if(d==10&&(a|0)!=a)bI(gm);return a|0}function
+Ea(a,b){return+(iP(a,b,false)<=0)}function
+Ec(a,d){if(a<0)gA();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cc=new
+cf=new
 Array();function
-Eb(c){var
-a=cc[c];if(!a.opened)ah("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
+Ed(c){var
+a=cf[c];if(!a.opened)ah("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
 b=as.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
-pt(e,f){var
-b=cc[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Eo(a){var
+pv(e,f){var
+b=cf[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Eq(a){var
 a=i0(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Ep(a){var
+Er(a){var
 a=i0(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gG(c,e,d,a){if(as.fds===undefined)as.fds=new
+gH(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
-Ew(c,b,g){var
+Ey(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,66 +619,66 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ah(d1(c)+oL);if(a.text&&a.binary)ah(d1(c)+nF);var
-d=pD(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gG(f+1,pt,e,a)}gG(0,pt,new
-aA(bV(0)));gG(1,Ep,new
-aA(bV(0)));gG(2,Eo,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ah(d1(c)+oN);if(a.text&&a.binary)ah(d1(c)+nH);var
+d=pF(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gH(f+1,pv,e,a)}gH(0,pv,new
+aA(bV(0)));gH(1,Er,new
+aA(bV(0)));gH(2,Eq,new
 aA(bV(0)));function
-Ec(a){var
-c=as.fds[a];if(c.flags.wronly)ah(oW+a+" is writeonly");var
-d=null;if(a==0&&eX()){var
-e=require("fs");d=function(){return d2(e.readFileSync(0,nq))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cc[b.fd]=b;return b.fd}function
-pn(c){var
-b=as.fds[c];if(b.flags.rdonly)ah(oW+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cc[a.fd]=a;return a.fd}function
-Ed(){var
+Ee(a){var
+c=as.fds[a];if(c.flags.wronly)ah(oY+a+" is writeonly");var
+d=null;if(a==0&&e0()){var
+e=require("fs");d=function(){return d2(e.readFileSync(0,ns))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cf[b.fd]=b;return b.fd}function
+pp(c){var
+b=as.fds[c];if(b.flags.rdonly)ah(oY+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cf[a.fd]=a;return a.fd}function
+Ef(){var
 b=0;for(var
-a=0;a<cc.length;a++)if(cc[a]&&cc[a].opened&&cc[a].out)b=[0,cc[a].fd,b];return b}function
-bl(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
-Ek(a,b){pp[d1(a)]=b;return 0}function
-DP(a,b){if(a===b)return 1;a.t&6&&d0(a);b.t&6&&d0(b);return a.c==b.c?1:0}function
-aq(a,b){return DP(a,b)}function
-Em(){aC(iI)}function
-aL(b,a){if(a>>>0>=ap(b))Em();return de(b,a)}function
+a=0;a<cf.length;a++)if(cf[a]&&cf[a].opened&&cf[a].out)b=[0,cf[a].fd,b];return b}function
+bm(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
+Em(a,b){pr[d1(a)]=b;return 0}function
+DR(a,b){if(a===b)return 1;a.t&6&&d0(a);b.t&6&&d0(b);return a.c==b.c?1:0}function
+aq(a,b){return DR(a,b)}function
+Eo(){aC(iI)}function
+aM(b,a){if(a>>>0>=ap(b))Eo();return de(b,a)}function
 m(a,b){return 1-aq(a,b)}function
-gF(a){return a}function
-ps(a){return a}function
-px(a){if(a
+gG(a){return a}function
+pu(a){return a}function
+pz(a){if(a
 instanceof
 Array)return a;if(E.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return ps(as.Stack_overflow);if(E.InternalError&&a
+E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pu(as.Stack_overflow);if(E.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return ps(as.Stack_overflow);if(a
+E.InternalError&&a.message&&a.message.match(/too much recursion/i))return pu(as.Stack_overflow);if(a
 instanceof
-E.Error&&dc(n8))return[0,dc(n8),a];return[0,as.Failure,d2(String(a))]}function
+E.Error&&dc(n_))return[0,dc(n_),a];return[0,as.Failure,d2(String(a))]}function
 dg(a){return a<0?-a:a}function
 z(a,b){return a+b}function
 i1(a,b){return a<b?-1:a>b?1:0}function
-pA(c,b){var
+pC(c,b){var
 a=c%b;return a<0?a+dg(b):a}function
-i2(a,b){return(a-pA(a,b))/b}function
+i2(a,b){return(a-pC(a,b))/b}function
 Z(a,b){return a==b?1:0}function
-Et(c){E.orthocert_verify=function(b){return d1(cG(c,[a(b)]))}}function
+Ev(c){E.orthocert_verify=function(b){return d1(cH(c,[a(b)]))}}function
 F(a,b){return a<=b?1:0}function
 L(a,b){return a<b?1:0}function
-w(a,b){return a*b}function
+x(a,b){return a*b}function
 O(a){return-a}function
 aD(a){return E.BigInt(a)}function
-pB(a,b){return a<<E.BigInt(b)}function
-pC(a,b){return a>>E.BigInt(b)}function
+pD(a,b){return a<<E.BigInt(b)}function
+pE(a,b){return a>>E.BigInt(b)}function
 a7(a){return a<0?-1:a>0?1:0}function
-Eu(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
+Ew(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
 d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aE(a,b){return a-b}function
 i3(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-D8(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-DY(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&D8(b[1]))var
+D_(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+D0(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&D_(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=n9;for(var
+f=2,e=b;a+=n$;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -688,31 +688,31 @@ bT)a+=ay+c.toString()+ay;else
 if(typeof
 c=="string")a+=ay+c.toString()+ay;else
 a+="_"}a+=iF}else
-if(b[0]==aK)a+=b[1];return a}function
-ph(a){if(a
+if(b[0]==aL)a+=b[1];return a}function
+pj(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aK)){var
+Array&&(a[0]==0||a[0]==aL)){var
 c=dc("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=DY(a),b=dc(np);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+d=D0(a),b=dc(nr);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-El(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ph(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ph(a.error)})}El();function
-i(a,b){return a.length==1?a(b):cG(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):cG(a,[b,c])}function
-DJ(a,b,c,d){return a.length==3?a(b,c,d):cG(a,[b,c,d])}function
-DK(a,b,c,d,e){return a.length==4?a(b,c,d,e):cG(a,[b,c,d,e])}DZ();var
-i6=[aK,a(nX),-2],i5=[aK,a(o4),-4],CE=[0,0],CF=[0,0],CG=[0,[0,0]],CH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],f6=[0,[1,0],0],mI=[0,[2,0],0],h4=[0,[1,0],0],mH=[0,[2,0],0],f4=[0,[1,0],0],h3=[0,[2,0],0],CI=[0,[0,[0,[0,0]]]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],CK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,0]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,0]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,0],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,0]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,0],DB=[0,[0,0]],DC=[0,0],DD=[0,[0,[0,[0,[0,0]]]]],jz=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fS=[0,[0,[0,[0,0]]]],DE=[0,[0,[0,[0,[0,0]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]];bl(11,[aK,a(no),-12],no);bl(10,[aK,a(oc),-11],oc);bl(9,[aK,a(oV),-10],oV);bl(8,[aK,a(nA),-9],nA);bl(7,[aK,a(op),-8],op);bl(6,[aK,a(ny),-7],ny);bl(5,[aK,a(nY),-6],nY);bl(4,[aK,a(n3),-5],n3);bl(3,i5,o4);bl(2,[aK,a(iz),-3],iz);bl(1,i6,nX);bl(0,[aK,a(oD),-1],oD);var
-pE=a("String.sub / Bytes.sub"),pG=a(T),pF=a("String.concat"),pH=a("Array.init"),pI=a("power"),p0=[0,0],p1=[0,0],p7=[0,0,0],p8=[0,0,0],p9=[0,0],qq=[0,0],qr=[0,0],qu=[0,0],qN=[0,0],qQ=[0,0],qS=[0,0],qT=[0,0],q0=[0,0],q1=[0,0],rr=[0,[0,[0,0]]],rN=[0,0],r0=[0,0],r1=[0,0],r$=a(","),sr=[0,a(iF),0],ss=a(n9),st=a("."),su=[0,[0,[0,0]]],sv=a(eN),sw=a(iG),sx=[0,[0,[0,[0,[0,0]]]]],sy=[0,a(iF),0],sz=a(o1),vt=a(nl),vv=a(ni),vu=a(of),vw=a(dS),vx=a(gh),vy=a(o3),vz=a(oO),vA=a(nR),vB=a(or),wO=[0,0],wP=a(ge),wQ=[0,0],wR=a("divided"),wS=[0,1],wT=a("mirror"),wU=[0,3],wV=a("negative"),wW=[0,2],wX=a(eM),wY=[0,5],wZ=a(iM),w0=[0,4],w1=a(da),w2=a(nD),w3=a(eJ),w4=a(bS),w5=[0,0],w6=[0,0],w7=[0,0],xQ=a(T),xN=[0,[0,[0,[0,0]]]],xO=[0,[0,[0,[0,0]]]],xL=[0,[0,[0,0]]],xK=[0,0],xJ=a(eJ),xI=[0,[0,[0,0]]],xH=[0,0],xE=[0,[0,0]],xF=[0,[0,[0,0]]],xA=[0,[0,[0,0]]],xz=[0,0,0],xx=[0,[0,0]],xy=[0,0],xw=[0,0],xu=[0,[0,[0,0]]],xo=[0,[0,0]],xp=[0,[0,[0,0]]],xq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CE]]]]]]]]]]],xr=[0,[0,0]],xs=[0,[0,[0,0]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CF]]]]]]]]]]],xl=[0,[0,0]],xm=[0,[0,[0,0]]],xj=[0,[0,[0,0]]],xk=[0,[0,0]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],xh=[0,0],xg=[0,0],xd=[0,[0,0]],xe=[0,0],xb=[0,0],xc=[0,1],xa=[0,[0,0]],w$=[0,0],w8=[0,0],w9=[0,1],wL=[0,0],wM=[0,1],wN=[0,2],wH=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wF=[0,[0,0],0],wG=[0,[1,0],0],wI=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wD=[0,[0,0]],wE=[0,0],wC=[0,0],wA=[0,0],wB=[0,0],wz=[0,0],wy=[0,0],wx=[0,0,0],wv=[0,[0,0]],ww=[0,0],wu=[0,0,0],ws=[0,[0,[0,0]]],wt=[0,[0,[0,0]]],wr=[0,0],wp=[0,1,0],wh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],we=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],wg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],wk=a("sqrt"),wb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],wc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],v2=[0,a("\n"),0],v3=a(nj),v4=a(gg),v5=a(ob),v6=a(nV),wa=a(eP),v7=a(eL),v8=a("verdict"),v9=a(oF),v_=a(nO),v$=a(oa),vZ=a(n7),v0=a(oJ),v1=a(gj),vV=a(ol),vW=a(gk),vX=a(eL),vY=a(eP),vQ=a(gs),vR=a(a6),vS=a(nk),vT=a(gp),vN=a(oC),vO=a(eM),vP=a(gp),vJ=a(oo),vK=a(gs),vL=a(gk),vM=a(oT),vD=a(oK),vE=a(oN),vF=a(n4),vG=a(gm),vH=a(oY),vr=a(ir),vs=a(gv),vm=a(bk),vn=a(bj),vo=a(nQ),uY=a(gm),uZ=a(os),uC=a(a6),uD=a(bF),uE=a(gu),uF=a(dV),uG=a(c$),uL=a(is),uH=a(iH),uI=a(iJ),uJ=a(dR),uK=a(a6),uM=a(bF),uN=a(gu),uO=a(dV),uP=a(iH),uQ=a(iJ),uR=a(dR),uS=a(a6),uT=a(bF),uU=a(bk),uV=a(bj),uW=a(c9),uX=a(dV),u0=a(oy),u1=a(oM),u2=a(gy),u3=a(nE),u4=a(nJ),u5=a(dR),u6=a(a6),u7=a(bF),u8=a(gc),u9=a(nT),u_=a(dV),u$=a(eS),va=a(ns),vb=a(dR),vc=a(a6),vd=a(gc),ve=a(a6),vf=a(ou),vi=a(nh),vg=a(nH),vh=a(oS),vj=a(eP),vk=a(eL),vl=a(a6),vp=a(gy),vq=a(gj),ux=a(bF),uy=a(dV),uz=a(is),uA=a(dR),uw=a(oZ),uk=a(eS),ul=a(oG),um=a(c_),un=a(dT),uo=a(dT),up=a(iv),uq=a(c_),ur=a(od),us=a(nP),ut=a(a0),uv=a(nn),uu=a(iv),ua=a(n6),ub=a(o2),uc=a(nL),ud=a(nI),ue=a(oQ),uf=a(oB),ug=a(nW),uh=a(gd),ui=a(gd),t8=a(a0),t9=a(bi),t_=a(dW),t$=a(bE),t4=a(c$),t5=a(iC),t6=a(om),t1=a(bk),t2=a(bj),t3=a(c9),tU=a(bk),tV=a(bj),tW=a(c9),tX=a(iE),tY=a(c_),tZ=a(iA),t0=a(ox),tG=a(nG),tM=a(gg),tL=a(oR),tH=a(iw),tI=a(go),tP=a(eK),tQ=a(iw),tN=a(eK),tO=a(go),tR=a(nC),tS=a(ov),tT=a(go),tJ=a(dT),tK=a(oi),tD=a(gn),tE=a(gn),tF=a(gn),tz=a(oz),tA=a(bj),tB=a(bk),tC=a(oP),tj=a(nw),tk=a(nm),tl=a(oq),tm=a(dS),tn=a(o0),to=a(ot),tp=a(nx),tq=a(oj),tr=a(nv),ts=a(nS),tt=a(nu),tu=a(oA),tv=a(gh),tw=a(nr),tx=a(oI),ty=a(nK),s0=a(gq),s2=a(eN),s1=a(eI),s3=a(dQ),s4=a(a0),s5=a(bi),s6=a(bS),s7=a(gw),s8=a(bE),s9=a(a0),s_=a(bi),s$=a(dW),ta=a(bE),tb=a(dQ),tc=a(eR),td=a(a0),te=a(bi),tf=a(oh),tg=a(eK),th=a(eR),ti=a(bE),sI=a(gq),sQ=a(eN),sJ=a(eI),sK=a(dQ),sL=a(a0),sM=a(bi),sN=a(bS),sO=a(gw),sP=a(bE),sR=a(gx),sS=a(a0),sT=a(bi),sU=a(dW),sV=a(bE),sW=a(bS),sX=a(c$),sY=a(bE),sF=a(bk),sG=a(bj),sD=[0,a(ay),0],sE=a(ay),sB=a(T),sA=[0,a(ay),0],sC=a(ay),sn=a(gq),so=a(eN),sp=a("*"),sq=a(bG),si=[0,[0,[0,[0,[0,0]]]]],sj=[0,[0,[0,0]]],sk=[0,[0,0]],sl=[0,0],sm=[0,[0,[0,[0,0]]]],sg=a('":'),sh=a(ay),se=[0,a(ay),0],sf=a(ay),sc=[0,a("}"),0],sd=a("{"),sa=[0,a("]"),0],sb=a("["),r_=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r7=[0,0],r4=[0,[0,[0,0]]],r5=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r2=[0,[0,0]],r3=[0,[0,[0,0]]],rX=[0,0],rY=[0,[0,[0,[0,[0,[0,0]]]]]],rZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],rU=[0,0],rR=[0,0,0],rS=[0,0,0],rT=[0,0,0],rO=[0,[0,0]],rP=[0,[0,[0,0]]],rQ=[0,0],rD=[0,[0,[0,[0,[0,[0,0]]]]]],rE=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rF=[0,[0,[0,0]]],rG=[0,[0,[0,0]]],rH=[0,[0,[0,[0,[0,[0,0]]]]]],rI=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],rK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],rL=[0,[0,[0,0]]],rM=[0,[0,[0,[0,[0,[0,0]]]]]],rB=[0,[0,0]],rC=[0,[0,[0,0]]],rx=[0,0,0],ry=[0,0,0],rv=[0,0],rw=[0,0],ru=[0,0],rs=[0,0],rt=[0,0],rp=[0,[0,0]],rq=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],ro=[0,[0,0]],rh=[0,0],ri=[0,0],rj=[0,0],rk=[0,[0,[0,0]]],rg=[0,0],ra=[0,[0,0]],rb=[0,0],rc=[0,0],rd=[0,[0,0]],q3=[0,[0,0]],q4=[0,0],q5=[0,[0,0]],q6=[0,0],q7=[0,0],q8=[0,[0,0]],q9=[0,[0,0]],q_=[0,[0,0]],q$=[0,0],qZ=[0,0],qY=[0,0],qW=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qR=[0,[0,[0,0]]],qO=[0,[0,[0,0]]],qM=[0,[0,[0,0]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qF=[0,[0,0]],qG=[0,0],qH=[0,[0,0]],qI=[0,[0,[0,0]]],qJ=[0,[0,[0,0]]],qy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qz=[0,[0,[0,[0,[0,[0,0]]]]]],qA=[0,[0,[0,[0,[0,[0,0]]]]]],qB=[0,[0,[0,0]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,[0,0]]],qE=[0,[0,[0,0]]],qw=[0,[0,0]],qx=[0,0],qv=[0,0,0],qt=[0,0,0],qs=[0,[0,[0,0]]],qo=[0,0],qp=[0,0],qj=[0,[0,[0,0]]],qk=[0,[0,[0,0]]],ql=[0,[0,[0,0]]],qi=[0,[0,[0,[0,0]]]],qe=[0,[0,[0,0]]],qf=[0,[0,[0,0]]],qg=[0,[0,[0,0]]],qh=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qc=[0,[0,0]],qd=[0,0],qa=[0,[0,0]],qb=[0,0],p_=[0,[0,0]],p$=[0,0],pX=[0,0],pY=[0,[0,0]],pV=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],pT=[0,0,0],pS=a(iL),pR=a(T),pQ=[0,[0,0]],pP=[0,0],pM=[0,0],pO=[1,0],pN=[0,0],pL=[0,0],pJ=[1,0],pK=[1,0],qX=[10,0,0,0,0],xG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],AU=a(bk),AV=a(bj),AW=a(nQ),AL=a(gx),AM=[0,a("a base axis of such a platform"),0],AN=a(a0),AO=a(bi),Ay=a(oB),Az=a(n6),AA=a(oQ),AB=a(gd),AC=a(nW),AD=a(gd),AE=a(o2),AF=a(nL),AG=a(nI),Ao=a(os),Ap=a(gm),z2=[0,a("such a machine with bodies"),0],zP=a(gj),zQ=a(a6),zR=a(ou),zS=a(oS),zV=a(nH),zW=a(nh),zX=a(a6),zY=a(a6),z0=a(gc),zZ=[0,a("a claim that no cube of such a machine fits"),0],z1=a(oZ),z3=a(dR),z4=a(dV),z5=a(c$),z6=a(iC),z7=a(om),z8=a(gu),z9=a(nJ),z_=a(ns),z$=a(is),Ac=a(c9),Ad=a(ox),Ag=a(bF),Ah=a(bF),Ai=a(nT),Aj=a(bF),Ak=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Al=a(gc),Am=a(eS),An=a(c9),Aq=a(bF),Ar=a(bk),As=a(bj),At=a(oy),Au=a(oM),Av=a(gy),Aw=a(nE),Aa=[0,a(ay),0],Ab=a('the mechanism "'),Ax=a(iH),AH=a(gu),AI=a(c$),AJ=a(iC),AK=a(iJ),AP=a(bF),AQ=[0,a('"one_to_one" of this set of orientations'),0],AT=a(c$),AR=[0,a("a platform that turns on struts and other drives"),0],AS=a(bF),Ae=[0,a(ay),0],Af=a('the workspace "'),AX=a(a6),AY=a(a6),A0=a(eP),A1=a(eL),A2=a(gy),AZ=[0,a("an atlas of such a machine"),0],zT=[0,a(ay),0],zU=a('a claim of the kind "'),A7=a(o3),Bc=a(gh),Bd=a(dS),Be=a(nR),Bf=a(of),Bg=a(bS),Bh=a(gv),Bi=a(ir),Bj=a(bS),Bk=a(iL),A8=a(da),A9=a(nD),A_=a(eJ),A$=a(or),Ba=[0,a(ay),0],Bb=a('the evidence "'),Bl=a(da),Bm=a(gv),Bn=[0,1,1],Bo=a(dS),Bp=a(da),Bq=a(eJ),Br=a(oO),Bt=a(dS),Bu=a(da),Bv=a(eJ),Bw=a(eM),Bx=a(ge),By=a(eM),Bz=a(ge),Bs=[0,a("this evidence at control points"),0],Cx=a('"orthocert-paving/'),Co=a(da),Cp=a(da),B9=a(oa),B_=a(nO),B$=a(oF),Cv=[0,3,3],Ca=a(nV),Cm=[0,a("this set of orientations with such drives"),0],Cn=[0,a(n2),0],Cq=[0,a('this evidence "tolerances" of a platform that turns'),0],Cr=[0,a("a step of a platform that turns that is not at control points"),0],Cs=[0,a(n2),0],Ct=[0,a('the evidence "tolerances" of such a mechanism'),0],Cu=[0,a(oE),0],Cl=[0,a(oE),0],Ck=[0,a("a mechanism by formulas in a claim that is refuted"),0],Cj=[0,a("this quantity in a claim that is refuted"),0],Cb=[0,a("the acceleration of a joint of a machine with a plane"),0],Ci=[0,a("a step in a proof that no cube fits"),0],Ch=[0,a("a stiffness for each joint in such a claim"),0],Cg=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Cf=[0,a("a leaf that fails"),0],Cc=a(ob),Cd=a(nj),Ce=a(gg),B5=a(iM),B6=a(ge),B7=a(bS),BY=a(gj),BZ=a(n7),B0=a(oJ),B1=[0,a(ay),0],B2=a('a proof of the kind "'),BU=a(eL),BV=a(eP),BW=a(gk),BX=a(ol),BQ=a(a6),BR=a(gs),BS=a(nk),BT=a(gp),BN=a(oC),BO=a(eM),BP=a(gp),BJ=a(oo),BK=a(gs),BL=a(gk),BM=a(oT),BC=a(oN),BD=a(n4),BE=a(oK),BF=a(gm),BG=a(oY),BH=[0,a(ay),0],BI=a('the failure "'),BA=a(iM),BB=a(iL),A5=a(gv),A6=a(ir),A3=a(ni),A4=a(nl),zM=a(eS),zC=a(iv),zD=a(nn),zE=a(dT),zF=a(a0),zK=a(oG),zL=a(eS),zN=a(c_),zO=a(dT),zG=a(c_),zH=a(od),zI=a(nP),zJ=a(a0),zv=a(c9),zz=a(bk),zA=a(bj),zw=a(iA),zx=a(iE),zy=a(c_),zp=a(c9),zt=a(bk),zu=a(bj),zq=a(iA),zr=a(iE),zs=a(c_),zo=[0,1],zn=[0,1],zl=[0,1],zk=[0,1],zi=[0,1],zj=[0,a("this quantity of such a mechanism"),0],y2=a(iw),y3=[0,a("a stiffness for each joint of such a mechanism"),0],y4=a(ov),y5=a(nC),y6=a(oR),y7=a("max_angle"),y8=[0,a("accuracy of a platform that turns"),0],y9=a(eK),y1=a(gg),yT=a(gn),yI=a(oi),yJ=a(oq),za=a(gh),zb=a(oI),zc=a(nS),zd=a(dS),ze=a(oj),zf=a(nu),zg=a(nv),zh=a(nm),yK=a(nr),yL=a(oA),yM=a(ot),yN=a(nK),yO=a(o0),yP=a(nx),yQ=a(nw),yR=[0,a(ay),0],yS=a('the quantity "'),yU=a(nG),yV=a(oz),yW=a(bk),yX=a(bj),yY=a(oP),yZ=[0,a(ay),0],y0=a('a bound "'),y_=a(go),y$=a(dT),yG=a(bE),yH=a(dW),yl=a(bE),ym=a(gx),yn=a(eR),yo=a(gw),yp=a(dW),ys=a(a0),yt=a(bi),yu=a(eI),yv=a(dQ),yw=a(a0),yx=a(bi),yy=a(bS),yz=a(eI),yA=a(dQ),yB=a(eR),yC=a(a0),yD=a(bi),yE=a(oh),yF=a(eK),yq=[0,a('" of such a machine'),0],yr=a(nB),yj=a(bE),yk=a(eR),x5=a(bE),x6=a(c$),x7=a(gw),x8=a(dW),x$=a(gx),ya=a(a0),yb=a(bi),yc=a(eI),yd=a(dQ),ye=a(a0),yf=a(bi),yg=a(bS),yh=a(bS),x9=[0,a(ay),0],x_=a(nB),x2=a(gq),x3=a(eN),x0=a(" is not covered by the verified checker"),x1=a(T),xY=a(bk),xZ=a(bj),xU=a(T),xV=a(o1),xW=a(T),xX=a(T),xT=[1,0],xR=a("Reader.Malformed"),xS=a("Reader.Not_covered"),Cz=[0,a("a paving is checked by orthocert-verified")],Cy=a(ok),CA=a("CERTIFIED"),CB=a("REFUTED"),CC=a(ok),CD=a("NOT COVERED: ");function
-eY(a){throw[0,i5,a]}function
-aR(d,c){var
-a=ap(d),e=ap(c),b=bV(a+e|0);dY(d,0,b,0,a);dY(c,0,b,a,e);return gF(b)}Ec(0);pn(1);pn(2);function
+En(){var
+a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pj(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pj(a.error)})}En();function
+i(a,b){return a.length==1?a(b):cH(a,[b])}function
+ao(a,b,c){return a.length==2?a(b,c):cH(a,[b,c])}function
+DL(a,b,c,d){return a.length==3?a(b,c,d):cH(a,[b,c,d])}function
+DM(a,b,c,d,e){return a.length==4?a(b,c,d,e):cH(a,[b,c,d,e])}D1();var
+i6=[aL,a(nZ),-2],i5=[aL,a(o6),-4],CG=[0,0],CH=[0,0],CI=[0,[0,0]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],f7=[0,[1,0],0],mK=[0,[2,0],0],h4=[0,[1,0],0],mJ=[0,[2,0],0],f5=[0,[1,0],0],h3=[0,[2,0],0],CK=[0,[0,[0,[0,0]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,0]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,0]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,0],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,0]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,0],DD=[0,[0,0]],DE=[0,0],DF=[0,[0,[0,[0,[0,0]]]]],jA=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fT=[0,[0,[0,[0,0]]]],DG=[0,[0,[0,[0,[0,0]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]];bm(11,[aL,a(nq),-12],nq);bm(10,[aL,a(oe),-11],oe);bm(9,[aL,a(oX),-10],oX);bm(8,[aL,a(nC),-9],nC);bm(7,[aL,a(or),-8],or);bm(6,[aL,a(nA),-7],nA);bm(5,[aL,a(n0),-6],n0);bm(4,[aL,a(n5),-5],n5);bm(3,i5,o6);bm(2,[aL,a(iz),-3],iz);bm(1,i6,nZ);bm(0,[aL,a(oF),-1],oF);var
+pG=a("String.sub / Bytes.sub"),pI=a(T),pH=a("String.concat"),pJ=a("Array.init"),pK=a("power"),p2=[0,0],p3=[0,0],p9=[0,0,0],p_=[0,0,0],p$=[0,0],qs=[0,0],qt=[0,0],qw=[0,0],qP=[0,0],qS=[0,0],qU=[0,0],qV=[0,0],q2=[0,0],q3=[0,0],rt=[0,[0,[0,0]]],rP=[0,0],r2=[0,0],r3=[0,0],sb=a(","),st=[0,a(iF),0],su=a(n$),sv=a("."),sw=[0,[0,[0,0]]],sx=a(eQ),sy=a(iG),sz=[0,[0,[0,[0,[0,0]]]]],sA=[0,a(iF),0],sB=a(o3),vv=a(nn),vx=a(nk),vw=a(oh),vy=a(dS),vz=a(gi),vA=a(o5),vB=a(oQ),vC=a(nT),vD=a(ot),wQ=[0,0],wR=a(gf),wS=[0,0],wT=a("divided"),wU=[0,1],wV=a("mirror"),wW=[0,3],wX=a("negative"),wY=[0,2],wZ=a(eP),w0=[0,5],w1=a(iM),w2=[0,4],w3=a(da),w4=a(nF),w5=a(eM),w6=a(bS),w7=[0,0],w8=[0,0],w9=[0,0],xS=a(T),xP=[0,[0,[0,[0,0]]]],xQ=[0,[0,[0,[0,0]]]],xN=[0,[0,[0,0]]],xM=[0,0],xL=a(eM),xK=[0,[0,[0,0]]],xJ=[0,0],xG=[0,[0,0]],xH=[0,[0,[0,0]]],xC=[0,[0,[0,0]]],xB=[0,0,0],xz=[0,[0,0]],xA=[0,0],xy=[0,0],xw=[0,[0,[0,0]]],xq=[0,[0,0]],xr=[0,[0,[0,0]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],xt=[0,[0,0]],xu=[0,[0,[0,0]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],xn=[0,[0,0]],xo=[0,[0,[0,0]]],xl=[0,[0,[0,0]]],xm=[0,[0,0]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],xj=[0,0],xi=[0,0],xf=[0,[0,0]],xg=[0,0],xd=[0,0],xe=[0,1],xc=[0,[0,0]],xb=[0,0],w_=[0,0],w$=[0,1],wN=[0,0],wO=[0,1],wP=[0,2],wJ=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wH=[0,[0,0],0],wI=[0,[1,0],0],wK=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wF=[0,[0,0]],wG=[0,0],wE=[0,0],wC=[0,0],wD=[0,0],wB=[0,0],wA=[0,0],wz=[0,0,0],wx=[0,[0,0]],wy=[0,0],ww=[0,0,0],wu=[0,[0,[0,0]]],wv=[0,[0,[0,0]]],wt=[0,0],wr=[0,1,0],wj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],wk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],wg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],wh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],wl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],wm=a("sqrt"),wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],we=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],v4=[0,a("\n"),0],v5=a(nl),v6=a(gh),v7=a(od),v8=a(nX),wc=a(eS),v9=a(eO),v_=a("verdict"),v$=a(oH),wa=a(nQ),wb=a(oc),v1=a(n9),v2=a(oL),v3=a(gk),vX=a(on),vY=a(gl),vZ=a(eO),v0=a(eS),vS=a(gt),vT=a(a6),vU=a(nm),vV=a(gq),vP=a(oE),vQ=a(eP),vR=a(gq),vL=a(oq),vM=a(gt),vN=a(gl),vO=a(oV),vF=a(oM),vG=a(oP),vH=a(n6),vI=a(gn),vJ=a(o0),vt=a(ir),vu=a(gw),vo=a(bl),vp=a(bk),vq=a(nS),u0=a(gn),u1=a(ou),uE=a(a6),uF=a(bG),uG=a(gv),uH=a(dV),uI=a(c$),uN=a(is),uJ=a(iH),uK=a(iJ),uL=a(dR),uM=a(a6),uO=a(bG),uP=a(gv),uQ=a(dV),uR=a(iH),uS=a(iJ),uT=a(dR),uU=a(a6),uV=a(bG),uW=a(bl),uX=a(bk),uY=a(c9),uZ=a(dV),u2=a(oA),u3=a(oO),u4=a(gz),u5=a(nG),u6=a(nL),u7=a(dR),u8=a(a6),u9=a(bG),u_=a(gd),u$=a(nV),va=a(dV),vb=a(eV),vc=a(nu),vd=a(dR),ve=a(a6),vf=a(gd),vg=a(a6),vh=a(ow),vk=a(nj),vi=a(nJ),vj=a(oU),vl=a(eS),vm=a(eO),vn=a(a6),vr=a(gz),vs=a(gk),uz=a(bG),uA=a(dV),uB=a(is),uC=a(dR),uy=a(o1),um=a(eV),un=a(oI),uo=a(c_),up=a(dT),uq=a(dT),ur=a(iv),us=a(c_),ut=a(of),uu=a(nR),uv=a(a0),ux=a(np),uw=a(iv),uc=a(n8),ud=a(o4),ue=a(nN),uf=a(nK),ug=a(oS),uh=a(oD),ui=a(nY),uj=a(ge),uk=a(ge),t_=a(a0),t$=a(bj),ua=a(dW),ub=a(bF),t6=a(c$),t7=a(iC),t8=a(oo),t3=a(bl),t4=a(bk),t5=a(c9),tW=a(bl),tX=a(bk),tY=a(c9),tZ=a(iE),t0=a(c_),t1=a(iA),t2=a(oz),tI=a(nI),tO=a(gh),tN=a(oT),tJ=a(iw),tK=a(gp),tR=a(eN),tS=a(iw),tP=a(eN),tQ=a(gp),tT=a(nE),tU=a(ox),tV=a(gp),tL=a(dT),tM=a(ok),tF=a(go),tG=a(go),tH=a(go),tB=a(oB),tC=a(bk),tD=a(bl),tE=a(oR),tl=a(ny),tm=a(no),tn=a(os),to=a(dS),tp=a(o2),tq=a(ov),tr=a(nz),ts=a(ol),tt=a(nx),tu=a(nU),tv=a(nw),tw=a(oC),tx=a(gi),ty=a(nt),tz=a(oK),tA=a(nM),s2=a(gr),s4=a(eQ),s3=a(eL),s5=a(dQ),s6=a(a0),s7=a(bj),s8=a(bS),s9=a(gx),s_=a(bF),s$=a(a0),ta=a(bj),tb=a(dW),tc=a(bF),td=a(dQ),te=a(eU),tf=a(a0),tg=a(bj),th=a(oj),ti=a(eN),tj=a(eU),tk=a(bF),sK=a(gr),sS=a(eQ),sL=a(eL),sM=a(dQ),sN=a(a0),sO=a(bj),sP=a(bS),sQ=a(gx),sR=a(bF),sT=a(gy),sU=a(a0),sV=a(bj),sW=a(dW),sX=a(bF),sY=a(bS),sZ=a(c$),s0=a(bF),sH=a(bl),sI=a(bk),sF=[0,a(ay),0],sG=a(ay),sD=a(T),sC=[0,a(ay),0],sE=a(ay),sp=a(gr),sq=a(eQ),sr=a("*"),ss=a(bH),sk=[0,[0,[0,[0,[0,0]]]]],sl=[0,[0,[0,0]]],sm=[0,[0,0]],sn=[0,0],so=[0,[0,[0,[0,0]]]],si=a('":'),sj=a(ay),sg=[0,a(ay),0],sh=a(ay),se=[0,a("}"),0],sf=a("{"),sc=[0,a("]"),0],sd=a("["),sa=[0,[0,[0,0]]],r$=[0,[0,[0,0]]],r9=[0,0],r6=[0,[0,[0,0]]],r7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r8=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],rZ=[0,0],r0=[0,[0,[0,[0,[0,[0,0]]]]]],r1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],rW=[0,0],rT=[0,0,0],rU=[0,0,0],rV=[0,0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rS=[0,0],rF=[0,[0,[0,[0,[0,[0,0]]]]]],rG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rH=[0,[0,[0,0]]],rI=[0,[0,[0,0]]],rJ=[0,[0,[0,[0,[0,[0,0]]]]]],rK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],rM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],rN=[0,[0,[0,0]]],rO=[0,[0,[0,[0,[0,[0,0]]]]]],rD=[0,[0,0]],rE=[0,[0,[0,0]]],rz=[0,0,0],rA=[0,0,0],rx=[0,0],ry=[0,0],rw=[0,0],ru=[0,0],rv=[0,0],rr=[0,[0,0]],rs=[0,[0,[0,0]]],rp=[0,[0,[0,0]]],rq=[0,[0,0]],rj=[0,0],rk=[0,0],rl=[0,0],rm=[0,[0,[0,0]]],ri=[0,0],rc=[0,[0,0]],rd=[0,0],re=[0,0],rf=[0,[0,0]],q5=[0,[0,0]],q6=[0,0],q7=[0,[0,0]],q8=[0,0],q9=[0,0],q_=[0,[0,0]],q$=[0,[0,0]],ra=[0,[0,0]],rb=[0,0],q1=[0,0],q0=[0,0],qY=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qT=[0,[0,[0,0]]],qQ=[0,[0,[0,0]]],qO=[0,[0,[0,0]]],qM=[0,[0,[0,[0,[0,[0,0]]]]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qH=[0,[0,0]],qI=[0,0],qJ=[0,[0,0]],qK=[0,[0,[0,0]]],qL=[0,[0,[0,0]]],qA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,[0,0]]],qE=[0,[0,[0,[0,[0,[0,0]]]]]],qF=[0,[0,[0,0]]],qG=[0,[0,[0,0]]],qy=[0,[0,0]],qz=[0,0],qx=[0,0,0],qv=[0,0,0],qu=[0,[0,[0,0]]],qq=[0,0],qr=[0,0],ql=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qn=[0,[0,[0,0]]],qk=[0,[0,[0,[0,0]]]],qg=[0,[0,[0,0]]],qh=[0,[0,[0,0]]],qi=[0,[0,[0,0]]],qj=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qe=[0,[0,0]],qf=[0,0],qc=[0,[0,0]],qd=[0,0],qa=[0,[0,0]],qb=[0,0],pZ=[0,0],p0=[0,[0,0]],pX=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],pV=[0,0,0],pU=a(iL),pT=a(T),pS=[0,[0,0]],pR=[0,0],pO=[0,0],pQ=[1,0],pP=[0,0],pN=[0,0],pL=[1,0],pM=[1,0],qZ=[10,0,0,0,0],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],AW=a(bl),AX=a(bk),AY=a(nS),AN=a(gy),AO=[0,a("a base axis of such a platform"),0],AP=a(a0),AQ=a(bj),AA=a(oD),AB=a(n8),AC=a(oS),AD=a(ge),AE=a(nY),AF=a(ge),AG=a(o4),AH=a(nN),AI=a(nK),Aq=a(ou),Ar=a(gn),z4=[0,a("such a machine with bodies"),0],zR=a(gk),zS=a(a6),zT=a(ow),zU=a(oU),zX=a(nJ),zY=a(nj),zZ=a(a6),z0=a(a6),z2=a(gd),z1=[0,a("a claim that no cube of such a machine fits"),0],z3=a(o1),z5=a(dR),z6=a(dV),z7=a(c$),z8=a(iC),z9=a(oo),z_=a(gv),z$=a(nL),Aa=a(nu),Ab=a(is),Ae=a(c9),Af=a(oz),Ai=a(bG),Aj=a(bG),Ak=a(nV),Al=a(bG),Am=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],An=a(gd),Ao=a(eV),Ap=a(c9),As=a(bG),At=a(bl),Au=a(bk),Av=a(oA),Aw=a(oO),Ax=a(gz),Ay=a(nG),Ac=[0,a(ay),0],Ad=a('the mechanism "'),Az=a(iH),AJ=a(gv),AK=a(c$),AL=a(iC),AM=a(iJ),AR=a(bG),AS=[0,a('"one_to_one" of this set of orientations'),0],AV=a(c$),AT=[0,a("a platform that turns on struts and other drives"),0],AU=a(bG),Ag=[0,a(ay),0],Ah=a('the workspace "'),AZ=a(a6),A0=a(a6),A2=a(eS),A3=a(eO),A4=a(gz),A1=[0,a("an atlas of such a machine"),0],zV=[0,a(ay),0],zW=a('a claim of the kind "'),A9=a(o5),Be=a(gi),Bf=a(dS),Bg=a(nT),Bh=a(oh),Bi=a(bS),Bj=a(gw),Bk=a(ir),Bl=a(bS),Bm=a(iL),A_=a(da),A$=a(nF),Ba=a(eM),Bb=a(ot),Bc=[0,a(ay),0],Bd=a('the evidence "'),Bn=a(da),Bo=a(gw),Bp=[0,1,1],Bq=a(dS),Br=a(da),Bs=a(eM),Bt=a(oQ),Bv=a(dS),Bw=a(da),Bx=a(eM),By=a(eP),Bz=a(gf),BA=a(eP),BB=a(gf),Bu=[0,a("this evidence at control points"),0],Cz=a('"orthocert-paving/'),Cq=a(da),Cr=a(da),B$=a(oc),Ca=a(nQ),Cb=a(oH),Cx=[0,3,3],Cc=a(nX),Co=[0,a("this set of orientations with such drives"),0],Cp=[0,a(n4),0],Cs=[0,a('this evidence "tolerances" of a platform that turns'),0],Ct=[0,a("a step of a platform that turns that is not at control points"),0],Cu=[0,a(n4),0],Cv=[0,a('the evidence "tolerances" of such a mechanism'),0],Cw=[0,a(oG),0],Cn=[0,a(oG),0],Cm=[0,a("a mechanism by formulas in a claim that is refuted"),0],Cl=[0,a("this quantity in a claim that is refuted"),0],Cd=[0,a("the acceleration of a joint of a machine with a plane"),0],Ck=[0,a("a step in a proof that no cube fits"),0],Cj=[0,a("a stiffness for each joint in such a claim"),0],Ci=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ch=[0,a("a leaf that fails"),0],Ce=a(od),Cf=a(nl),Cg=a(gh),B7=a(iM),B8=a(gf),B9=a(bS),B0=a(gk),B1=a(n9),B2=a(oL),B3=[0,a(ay),0],B4=a('a proof of the kind "'),BW=a(eO),BX=a(eS),BY=a(gl),BZ=a(on),BS=a(a6),BT=a(gt),BU=a(nm),BV=a(gq),BP=a(oE),BQ=a(eP),BR=a(gq),BL=a(oq),BM=a(gt),BN=a(gl),BO=a(oV),BE=a(oP),BF=a(n6),BG=a(oM),BH=a(gn),BI=a(o0),BJ=[0,a(ay),0],BK=a('the failure "'),BC=a(iM),BD=a(iL),A7=a(gw),A8=a(ir),A5=a(nk),A6=a(nn),zO=a(eV),zE=a(iv),zF=a(np),zG=a(dT),zH=a(a0),zM=a(oI),zN=a(eV),zP=a(c_),zQ=a(dT),zI=a(c_),zJ=a(of),zK=a(nR),zL=a(a0),zx=a(c9),zB=a(bl),zC=a(bk),zy=a(iA),zz=a(iE),zA=a(c_),zr=a(c9),zv=a(bl),zw=a(bk),zs=a(iA),zt=a(iE),zu=a(c_),zq=[0,1],zp=[0,1],zn=[0,1],zm=[0,1],zk=[0,1],zl=[0,a("this quantity of such a mechanism"),0],y4=a(iw),y5=[0,a("a stiffness for each joint of such a mechanism"),0],y6=a(ox),y7=a(nE),y8=a(oT),y9=a("max_angle"),y_=[0,a("accuracy of a platform that turns"),0],y$=a(eN),y3=a(gh),yV=a(go),yK=a(ok),yL=a(os),zc=a(gi),zd=a(oK),ze=a(nU),zf=a(dS),zg=a(ol),zh=a(nw),zi=a(nx),zj=a(no),yM=a(nt),yN=a(oC),yO=a(ov),yP=a(nM),yQ=a(o2),yR=a(nz),yS=a(ny),yT=[0,a(ay),0],yU=a('the quantity "'),yW=a(nI),yX=a(oB),yY=a(bl),yZ=a(bk),y0=a(oR),y1=[0,a(ay),0],y2=a('a bound "'),za=a(gp),zb=a(dT),yI=a(bF),yJ=a(dW),yn=a(bF),yo=a(gy),yp=a(eU),yq=a(gx),yr=a(dW),yu=a(a0),yv=a(bj),yw=a(eL),yx=a(dQ),yy=a(a0),yz=a(bj),yA=a(bS),yB=a(eL),yC=a(dQ),yD=a(eU),yE=a(a0),yF=a(bj),yG=a(oj),yH=a(eN),ys=[0,a('" of such a machine'),0],yt=a(nD),yl=a(bF),ym=a(eU),x7=a(bF),x8=a(c$),x9=a(gx),x_=a(dW),yb=a(gy),yc=a(a0),yd=a(bj),ye=a(eL),yf=a(dQ),yg=a(a0),yh=a(bj),yi=a(bS),yj=a(bS),x$=[0,a(ay),0],ya=a(nD),x4=a(gr),x5=a(eQ),x2=a(" is not covered by the verified checker"),x3=a(T),x0=a(bl),x1=a(bk),xW=a(T),xX=a(o3),xY=a(T),xZ=a(T),xV=[1,0],xT=a("Reader.Malformed"),xU=a("Reader.Not_covered"),CB=[0,a("a paving is checked by orthocert-verified")],CA=a(om),CC=a("CERTIFIED"),CD=a("REFUTED"),CE=a(om),CF=a("NOT COVERED: ");function
+e1(a){throw[0,i5,a]}function
+aS(d,c){var
+a=ap(d),e=ap(c),b=bV(a+e|0);dY(d,0,b,0,a);dY(c,0,b,a,e);return gG(b)}Ee(0);pp(1);pp(2);function
 i7(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Eb(d)}catch(a){a=px(a);if(a[1]!==i6)throw a;var
+c=a[2],d=a[1];try{Ed(d)}catch(a){a=pz(a);if(a[1]!==i6)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Ed(0))}Ek(a(np),i7);function
+a=c;continue}return 0}}return a(Ef(0))}Em(a(nr),i7);function
 bW(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
@@ -721,7 +721,7 @@ a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gH(d,c){var
+gI(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -729,44 +729,44 @@ au(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bm(b,c){var
-a=bV(b);DX(a,0,b,c);return gF(a)}function
+bn(b,c){var
+a=bV(b);DZ(a,0,b,c);return gG(a)}function
 dh(g,b,a){var
-d=dZ(g),f=0;if(0<=b&&0<=a&&!((gD(d)-a|0)<b)){var
-c=bV(a);eT(d,b,c,0,a);var
+d=dZ(g),f=0;if(0<=b&&0<=a&&!((gE(d)-a|0)<b)){var
+c=bV(a);eW(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eY(pE);return gF(e)}function
+e=e1(pG);return gG(e)}function
 i9(k,g){if(g){var
 h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:eY(pF),c=n,b=m;continue}var
+j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e1(pH),c=n,b=m;continue}var
 l=ap(i)+c|0}else
 var
 l=c;var
 f=bV(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];dY(a,0,f,e,ap(a));dY(k,0,f,e+ap(a)|0,h);var
-e=(e+ap(a)|0)+h|0,d=o;continue}dY(a,0,f,e,ap(a))}return gF(f)}}}return pG}function
-gI(b,c){if(0===b)return[0];if(0<=b){var
-d=Ea(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+e=(e+ap(a)|0)+h|0,d=o;continue}dY(a,0,f,e,ap(a))}return gG(f)}}}return pI}function
+gJ(b,c){if(0===b)return[0];if(0<=b){var
+d=Ec(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eY(pH)}function
-gJ(c){var
+a=g;continue}break}}return d}return e1(pJ)}function
+gK(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aD(0),c=aD(1);function
 o(a){return z(a,c)}function
 i_(b,a){return z(aD(b),a)}function
-b(b,a){return w(aD(b),a)}function
-aS(b,a){return[0,i2(b,a),pA(b,a)]}function
-gK(b,a){return F(b,a)?b:a}function
-bn(b,a){return F(b,a)?a:b}function
+b(b,a){return x(aD(b),a)}function
+aT(b,a){return[0,i2(b,a),pC(b,a)]}function
+gL(b,a){return F(b,a)?b:a}function
+bo(b,a){return F(b,a)?a:b}function
 _(a){return a?0:1}function
-v(b,a){var
+w(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 aF(a){return a[1]}function
-cd(a){return a[2]}function
+bX(a){return a[2]}function
 h(a){var
 b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
@@ -796,9 +796,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-eZ(a){return ja(a,0)}function
+e2(a){return ja(a,0)}function
 jb(a){if(typeof
-a==="number")return pJ;else
+a==="number")return pL;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,121 +809,121 @@ switch(a[0]){case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
 8:return[9,a[1]];default:return[0,jb(a[1])]}}function
-bp(a){if(typeof
-a==="number")return pK;else
+bq(a){if(typeof
+a==="number")return pM;else
 switch(a[0]){case
-0:return[1,bo(a[1])];case
-1:return[3,bo(a[1])];case
-2:return[5,bo(a[1])];case
-3:return[7,bo(a[1])];case
-4:return[9,bo(a[1])];case
-5:return[1,bp(a[1])];case
-6:return[3,bp(a[1])];case
-7:return[5,bp(a[1])];case
-8:return[7,bp(a[1])];default:return[9,bp(a[1])]}}function
-bo(a){if(typeof
+0:return[1,bp(a[1])];case
+1:return[3,bp(a[1])];case
+2:return[5,bp(a[1])];case
+3:return[7,bp(a[1])];case
+4:return[9,bp(a[1])];case
+5:return[1,bq(a[1])];case
+6:return[3,bq(a[1])];case
+7:return[5,bq(a[1])];case
+8:return[7,bq(a[1])];default:return[9,bq(a[1])]}}function
+bp(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bo(a[1])];case
-1:return[2,bo(a[1])];case
-2:return[4,bo(a[1])];case
-3:return[6,bo(a[1])];case
-4:return[8,bo(a[1])];case
-5:return[0,bp(a[1])];case
-6:return[2,bp(a[1])];case
-7:return[4,bp(a[1])];case
-8:return[6,bp(a[1])];default:return[8,bp(a[1])]}}function
-bq(a){return a?a[1]:a}function
+0:return[0,bp(a[1])];case
+1:return[2,bp(a[1])];case
+2:return[4,bp(a[1])];case
+3:return[6,bp(a[1])];case
+4:return[8,bp(a[1])];case
+5:return[0,bq(a[1])];case
+6:return[2,bq(a[1])];case
+7:return[4,bq(a[1])];case
+8:return[6,bq(a[1])];default:return[8,bq(a[1])]}}function
+br(a){return a?a[1]:a}function
 M(b,a){return b?[0,M(b[1],a)]:a}function
 jc(a,b){return a?M(b,jc(a[1],b)):a}function
-ce(b,a){return b?a:a?0:1}function
-t(d,c){var
+cg(b,a){return b?a:a?0:1}function
+u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-R(d,c){var
+S(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-cH(b,a){return R([0,b],a)}function
+cI(b,a){return S([0,b],a)}function
 jd(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e0(c,b,a){return c?i(b,e0(c[1],b,a)):a}function
+e3(c,b,a){return c?i(b,e3(c[1],b,a)):a}function
 je(a){if(a)var
 b=a[1],d=b?[0,je(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gL(d,c){var
+gM(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 jf(a){if(F(a,c))return c;var
-e=aS(a,aD(2)),f=e[1];return Z(e[2],d)?o(b(2,jf(f))):o(b(2,b(2,f)))}function
-jg(b,a){return bn(c,aE(b,a))}function
-e1(a){if(F(a,c))return pM;var
-b=aS(a,aD(2)),e=b[1];return Z(b[2],d)?[0,e1(e)]:[0,e1(e)]}function
-e2(a){if(F(a,c))return c;var
-b=aS(a,aD(2)),e=b[1];return Z(b[2],d)?o(e2(e)):o(e2(e))}function
+e=aT(a,aD(2)),f=e[1];return Z(e[2],d)?o(b(2,jf(f))):o(b(2,b(2,f)))}function
+jg(b,a){return bo(c,aE(b,a))}function
+e4(a){if(F(a,c))return pO;var
+b=aT(a,aD(2)),e=b[1];return Z(b[2],d)?[0,e4(e)]:[0,e4(e)]}function
+e5(a){if(F(a,c))return c;var
+b=aT(a,aD(2)),e=b[1];return Z(b[2],d)?o(e5(e)):o(e5(e))}function
 jh(c,b){var
 a=i1(c,b);return 0===a?0:0<=a?2:1}function
-gM(j,i){var
-b=j,a=i;for(;;){if(F(b,c))return F(a,c)?1:Z(aS(a,aD(2))[2],d)?0:0;var
-g=aS(b,aD(2)),h=g[1];if(Z(g[2],d)){if(F(a,c))return 0;var
-e=aS(a,aD(2)),k=e[1];if(Z(e[2],d)){var
+gN(j,i){var
+b=j,a=i;for(;;){if(F(b,c))return F(a,c)?1:Z(aT(a,aD(2))[2],d)?0:0;var
+g=aT(b,aD(2)),h=g[1];if(Z(g[2],d)){if(F(a,c))return 0;var
+e=aT(a,aD(2)),k=e[1];if(Z(e[2],d)){var
 b=h,a=k;continue}return 0}if(F(a,c))return 0;var
-f=aS(a,aD(2)),l=f[1];if(Z(f[2],d))return 0;var
+f=aT(a,aD(2)),l=f[1];if(Z(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e3(b,a){return 2<=jh(b,a)?0:1}function
+e6(b,a){return 2<=jh(b,a)?0:1}function
 di(i,e,a){if(i){var
 f=i[1];if(F(e,c))return[0,c,[0,c,a]];var
-w=aS(e,aD(2)),g=w[1];if(Z(w[2],d)){if(F(a,c))return[0,c,[0,e,c]];var
-m=aS(a,aD(2)),B=m[1];if(Z(m[2],d)){var
+w=aT(e,aD(2)),g=w[1];if(Z(w[2],d)){if(F(a,c))return[0,c,[0,e,c]];var
+m=aT(a,aD(2)),B=m[1];if(Z(m[2],d)){var
 j=di(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
 k=di(f,g,a),l=k[2],y=l[2],A=[0,b(2,l[1]),y];return[0,k[1],A]}if(F(a,c))return[0,c,[0,e,c]];var
-v=aS(a,aD(2)),h=v[1];if(Z(v[2],d)){var
+v=aT(a,aD(2)),h=v[1];if(Z(v[2],d)){var
 n=di(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jh(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
 p=di(f,jg(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
 s=di(f,jg(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e4(b,a){var
-c=e1(a);return di(M(e1(b),c),b,a)}function
+e7(b,a){var
+c=e4(a);return di(M(e4(b),c),b,a)}function
 ji(b,i,h){var
 e=i,a=h;for(;;){if(F(e,c))return a;var
-f=aS(e,aD(2)),g=f[1];if(Z(f[2],d)){var
+f=aT(e,aD(2)),g=f[1];if(Z(f[2],d)){var
 e=g,a=ao(b,a,a);continue}return ao(b,a,ji(b,g,ao(b,a,a)))}}function
-d4(a){return ji(M,a,pN)}function
+d4(a){return ji(M,a,pP)}function
 jj(a){return a?o(jj(a[1])):c}function
-bX(f,e){var
+bY(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=w(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=x(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,w(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=z(c,x(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=w(b(2,o(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
+i=x(b(2,o(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=w(b(2,o(b(2,b(2,c)))),d),l=z(o(b(2,c)),k),a=a[1],d=l;continue;case
+k=x(b(2,o(b(2,b(2,c)))),d),l=z(o(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=w(b(2,o(b(2,b(2,c)))),d),n=z(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=x(b(2,o(b(2,b(2,c)))),d),n=z(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-p=w(b(2,o(b(2,b(2,c)))),d),q=z(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+p=x(b(2,o(b(2,b(2,c)))),d),q=z(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
 6:var
-r=w(b(2,o(b(2,b(2,c)))),d),s=z(b(2,o(b(2,c))),r),a=a[1],d=s;continue;case
+r=x(b(2,o(b(2,b(2,c)))),d),s=z(b(2,o(b(2,c))),r),a=a[1],d=s;continue;case
 7:var
-t=w(b(2,o(b(2,b(2,c)))),d),u=z(o(b(2,o(b(2,c)))),t),a=a[1],d=u;continue;case
+t=x(b(2,o(b(2,b(2,c)))),d),u=z(o(b(2,o(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
-v=w(b(2,o(b(2,b(2,c)))),d),x=z(b(2,b(2,b(2,c))),v),a=a[1],d=x;continue;default:var
-y=w(b(2,o(b(2,b(2,c)))),d),A=z(o(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-gN(a){if(F(a,c))return pO;var
-b=aS(a,aD(2)),e=b[1];return Z(b[2],d)?bo(gN(e)):bp(gN(e))}function
-e5(a){return eZ(gN(a))}function
+v=x(b(2,o(b(2,b(2,c)))),d),w=z(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
+y=x(b(2,o(b(2,b(2,c)))),d),A=z(o(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
+gO(a){if(F(a,c))return pQ;var
+b=aT(a,aD(2)),e=b[1];return Z(b[2],d)?bp(gO(e)):bq(gO(e))}function
+e8(a){return e2(gO(a))}function
 jk(k,f){if(0<=a7(f)){var
 g=i3(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=w(b,b),j=1===(a&1)?w(e,b):e,e=j,b=i,a=h;continue}}return eY(pI)}return d}function
-gO(b){var
+h=a>>>1|0,i=x(b,b),j=1===(a&1)?x(e,b):e,e=j,b=i,a=h;continue}}return e1(pK)}return d}function
+gP(b){var
 a=a7(b);return 0===a?d:0<a?c:O(c)}function
 jl(a){return 0<=a7(a)?a:d}function
 d5(a){var
@@ -934,47 +934,47 @@ a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bX(a[1],c);case
+1:return bY(a[1],c);case
 2:var
-e=b(2,c);return bX(a[1],e);case
+e=b(2,c);return bY(a[1],e);case
 3:var
-f=o(b(2,c));return bX(a[1],f);case
+f=o(b(2,c));return bY(a[1],f);case
 4:var
-g=b(2,b(2,c));return bX(a[1],g);case
+g=b(2,b(2,c));return bY(a[1],g);case
 5:var
-h=o(b(2,b(2,c)));return bX(a[1],h);case
+h=o(b(2,b(2,c)));return bY(a[1],h);case
 6:var
-i=b(2,o(b(2,c)));return bX(a[1],i);case
+i=b(2,o(b(2,c)));return bY(a[1],i);case
 7:var
-j=o(b(2,o(b(2,c))));return bX(a[1],j);case
+j=o(b(2,o(b(2,c))));return bY(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bX(a[1],k);default:var
-l=o(b(2,b(2,b(2,c))));return bX(a[1],l)}}function
-cf(b,a){var
+k=b(2,b(2,b(2,c)));return bY(a[1],k);default:var
+l=o(b(2,b(2,b(2,c))));return bY(a[1],l)}}function
+ch(b,a){var
 c=a7(a);return 0===c?d:1===c?i2(b,a):i_(-1,i2(i_(-1,b),a))}function
-e6(a){return 0<a7(a)?Eu(a):d}function
+e9(a){return 0<a7(a)?Ew(a):d}function
 d6(b,c){var
-a=i3(c);return 0<=a?pB(b,a):pC(b,-a|0)}function
-cI(b,c){var
-a=i3(c);return 0<=a?pC(b,a):pB(b,-a|0)}function
-br(b,a){return a?a[1]:b}function
-bI(a){var
+a=i3(c);return 0<=a?pD(b,a):pE(b,-a|0)}function
+cJ(b,c){var
+a=i3(c);return 0<=a?pE(b,a):pD(b,-a|0)}function
+bs(b,a){return a?a[1]:b}function
+bb(a){var
 b=a?a[2]:a;return b}function
-u(e,d,c){var
+t(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-S(d,c){var
+R(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
 jn(a){if(a){var
 b=[0,a[1],0];return f(jn(a[2]),b)}return a}function
-e7(d,c){var
+d7(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 jo(a){if(a){var
 b=jo(a[2]);return f(a[1],b)}return a}function
-gP(g,f,e){var
+gQ(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -985,13 +985,13 @@ e(b,a){if(a)var
 d=e(b,a[2]),c=[0,i(b,a[1]),d];else
 var
 c=a;return c}function
-x(b,a){if(a){var
-c=x(b,a[2]);return f(i(b,a[1]),c)}return a}function
+v(b,a){if(a){var
+c=v(b,a[2]);return f(i(b,a[1]),c)}return a}function
 dj(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aT(c,b,a){if(a){var
-d=aT(c,b,a[2]);return ao(c,a[1],d)}return b}function
+aI(c,b,a){if(a){var
+d=aI(c,b,a[2]);return ao(c,a[1],d)}return b}function
 ai(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
@@ -1003,22 +1003,22 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bb(b,e){var
+bc(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bb(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bc(b,c)];var
 a=c;continue}return a}}function
 jp(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aI(b,a){if(b)if(a)var
-d=aI(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aJ(b,a){if(b)if(a)var
+d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bY(b,a){if(b)if(a)var
-d=bY(b[1],a[2]),c=[0,a[1],d];else
+bZ(b,a){if(b)if(a)var
+d=bZ(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
@@ -1026,109 +1026,109 @@ c=b;return c}function
 dk(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aJ(b,a){var
-c=a?[0,b,aJ([0,b],a[1])]:a;return c}function
+aK(b,a){var
+c=a?[0,b,aK([0,b],a[1])]:a;return c}function
 aG(b,a){var
 c=a?[0,b,aG(b,a[1])]:a;return c}function
 jq(a){if(a){var
-e=jq(a[2]),f=w(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-e8(j){function
+e=jq(a[2]),f=x(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
+e_(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
 c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jq([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a7(b)?d4(b):0}function
 dl(c,b){var
-a=i1(w(c[1],b[2]),w(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cJ(b,a){return F(w(b[1],a[2]),w(a[1],b[2]))}function
-dm(b,a){return[0,z(w(b[1],a[2]),w(a[1],b[2])),w(b[2],a[2])]}function
-bZ(b,a){return[0,w(b[1],a[1]),w(b[2],a[2])]}function
+a=i1(x(c[1],b[2]),x(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cK(b,a){return F(x(b[1],a[2]),x(a[1],b[2]))}function
+dm(b,a){return[0,z(x(b[1],a[2]),x(a[1],b[2])),x(b[2],a[2])]}function
+b0(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
 jr(a){return[0,O(a[1]),a[2]]}function
-e9(b,a){return dm(b,jr(a))}function
-gQ(f,b){var
-a=b[1],e=a7(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,O(b[2]),O(a)];return bZ(f,g)}function
-e_(q){var
+e$(b,a){return dm(b,jr(a))}function
+gR(f,b){var
+a=b[1],e=a7(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,O(b[2]),O(a)];return b0(f,g)}function
+fa(q){var
 a=q[2],b=q[1],o=a7(b);if(0===o)var
-c=[0,dg(a),[0,d,gO(a)]];else
+c=[0,dg(a),[0,d,gP(a)]];else
 if(0<o){var
 n=a7(a);if(0===n)var
-c=[0,dg(b),[0,gO(b),d]];else
+c=[0,dg(b),[0,gP(b),d]];else
 if(0<n)var
-l=e4(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e7(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e4(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
+j=e7(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
 p=O(b),i=a7(a);if(0===i)var
-c=[0,dg(b),[0,gO(b),d]];else
+c=[0,dg(b),[0,gP(b),d]];else
 if(0<i)var
-g=e4(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
+g=e7(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
 var
-e=e4(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
+e=e7(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
 r=c[2],s=d5(r[2]);return[0,r[1],s]}function
 a1(a){if(typeof
-a==="number")return pR;else
+a==="number")return pT;else
 switch(a[0]){case
 0:var
-b=a1(a[1]);return aR(bm(1,48),b);case
+b=a1(a[1]);return aS(bn(1,48),b);case
 1:var
-c=a1(a[1]);return aR(bm(1,49),c);case
+c=a1(a[1]);return aS(bn(1,49),c);case
 2:var
-d=a1(a[1]);return aR(bm(1,50),d);case
+d=a1(a[1]);return aS(bn(1,50),d);case
 3:var
-e=a1(a[1]);return aR(bm(1,51),e);case
+e=a1(a[1]);return aS(bn(1,51),e);case
 4:var
-f=a1(a[1]);return aR(bm(1,52),f);case
+f=a1(a[1]);return aS(bn(1,52),f);case
 5:var
-g=a1(a[1]);return aR(bm(1,53),g);case
+g=a1(a[1]);return aS(bn(1,53),g);case
 6:var
-h=a1(a[1]);return aR(bm(1,54),h);case
+h=a1(a[1]);return aS(bn(1,54),h);case
 7:var
-i=a1(a[1]);return aR(bm(1,55),i);case
+i=a1(a[1]);return aS(bn(1,55),i);case
 8:var
-j=a1(a[1]);return aR(bm(1,56),j);default:var
-k=a1(a[1]);return aR(bm(1,57),k)}}function
-d7(a){return typeof
-a==="number"?pS:a1(a)}function
-cK(a){return jk(b(2,c),a)}function
-js(b,a){return cI(a,b)}function
-jt(b,a){return O(cI(O(a),b))}function
-e$(b,a){return O(cf(O(b),a))}function
+j=a1(a[1]);return aS(bn(1,56),j);default:var
+k=a1(a[1]);return aS(bn(1,57),k)}}function
+d8(a){return typeof
+a==="number"?pU:a1(a)}function
+cL(a){return jk(b(2,c),a)}function
+js(b,a){return cJ(a,b)}function
+jt(b,a){return O(cJ(O(a),b))}function
+fb(b,a){return O(ch(O(b),a))}function
 W(c,b){var
 a=d6(b,c);return[0,a,a]}function
 ju(d,c,a){var
-b=d6(c,d),e=e$(b,a);return[0,cf(b,a),e]}function
+b=d6(c,d),e=fb(b,a);return[0,ch(b,a),e]}function
 G(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
 H(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
 ag(a){return[0,O(a[2]),O(a[1])]}function
-jv(e,c,b,a){if(F(d,e))return F(d,b)?[0,w(e,b),w(c,a)]:F(a,d)?[0,w(c,b),w(e,a)]:[0,w(c,b),w(c,a)];if(F(c,d))return F(d,b)?[0,w(e,a),w(c,b)]:F(a,d)?[0,w(c,a),w(e,b)]:[0,w(e,a),w(e,b)];if(F(d,b))return[0,w(e,a),w(c,a)];if(F(a,d))return[0,w(c,b),w(e,b)];var
-f=bn(w(e,b),w(c,a));return[0,gK(w(e,a),w(c,b)),f]}function
+jv(e,c,b,a){if(F(d,e))return F(d,b)?[0,x(e,b),x(c,a)]:F(a,d)?[0,x(c,b),x(e,a)]:[0,x(c,b),x(c,a)];if(F(c,d))return F(d,b)?[0,x(e,a),x(c,b)]:F(a,d)?[0,x(c,a),x(e,b)]:[0,x(e,a),x(e,b)];if(F(d,b))return[0,x(e,a),x(c,a)];if(F(a,d))return[0,x(c,b),x(e,b)];var
+f=bo(x(e,b),x(c,a));return[0,gL(x(e,a),x(c,b)),f]}function
 y(c,b,a){var
 d=jv(b[1],b[2],a[1],a[2]),e=jt(c,d[2]);return[0,js(c,d[1]),e]}function
 $(b,a){var
-c=w(a[1],a[1]),e=w(a[2],a[2]),h=jt(b,bn(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+c=x(a[1],a[1]),e=x(a[2],a[2]),h=jt(b,bo(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=js(b,gK(c,e));return[0,f,h]}function
-gR(b,a){var
-c=d6(cK(b),b),d=e$(c,a[1]);return[0,cf(c,a[2]),d]}function
-cg(b,a){if(L(d,a[1]))return[0,gR(b,a)];var
-c=L(a[2],d),e=c?[0,ag(gR(b,ag(a)))]:c;return e}function
-ch(f,b){var
+f=js(b,gL(c,e));return[0,f,h]}function
+gS(b,a){var
+c=d6(cL(b),b),d=fb(c,a[1]);return[0,ch(c,a[2]),d]}function
+ci(b,a){if(L(d,a[1]))return[0,gS(b,a)];var
+c=L(a[2],d),e=c?[0,ag(gS(b,ag(a)))]:c;return e}function
+cj(f,b){var
 g=L(d,b[1]);if(g)var
-e=d6(b[2],f),a=e6(e),i=Z(w(a,a),e)?a:z(a,c),h=[0,[0,e6(d6(b[1],f)),i]];else
+e=d6(b[2],f),a=e9(e),i=Z(x(a,a),e)?a:z(a,c),h=[0,[0,e9(d6(b[1],f)),i]];else
 var
 h=g;return h}function
 dn(a){return 0===a[0]?a[2]:a[1]}function
 aU(f,d,c,b,a){if(b){if(a){var
 g=aU(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-ci(b,a){return cI(b,a)}function
+ck(b,a){return cJ(b,a)}function
 a8(a,c,b){if(F(d,a)){var
-e=b[1],f=O(ci(O(w(a,b[2])),c));return[0,ci(w(a,e),c),f]}var
-g=b[2],h=O(ci(O(w(a,b[1])),c));return[0,ci(w(a,g),c),h]}function
+e=b[1],f=O(ck(O(x(a,b[2])),c));return[0,ck(x(a,e),c),f]}var
+g=b[2],h=O(ck(O(x(a,b[1])),c));return[0,ck(x(a,g),c),h]}function
 a9(a){var
-b=O(cI(O(a[2]),c));return[0,cI(a[1],c),b]}function
-d8(c,b,a){var
-e=jv(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=e$(f,h),j=L(g,d)?a[1]:a[2];return[0,cf(g,j),i]}function
-cL(a){return bn(a[2],O(a[1]))}var
+b=O(cJ(O(a[2]),c));return[0,cJ(a[1],c),b]}function
+d9(c,b,a){var
+e=jv(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=fb(f,h),j=L(g,d)?a[1]:a[2];return[0,ch(g,j),i]}function
+cM(a){return bo(a[2],O(a[1]))}var
 A=[0,d,d];function
-fa(a){return[0,a[1],a[1]]}function
+fc(a){return[0,a[1],a[1]]}function
 dp(a){return[0,a[2],a[2]]}function
-cM(b,a){switch(a[0]){case
+b1(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1147,8 +1147,8 @@ g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
 av(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?t(b[1],a[1]):0;case
-1:return 1===a[0]?t(b[1],a[1]):0;case
+0:return 0===a[0]?u(b[1],a[1]):0;case
+1:return 1===a[0]?u(b[1],a[1]):0;case
 2:return 2===a[0]?Z(b[1],a[1]):0;case
 3:if(3===a[0]){var
 f=av(b[1],a[1]);if(f){var
@@ -1168,7 +1168,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=ce(b[1],a[1]);if(j){var
+j=cg(b[1],a[1]);if(j){var
 k=av(b[2],a[2]);if(k){var
 l=av(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1177,35 +1177,49 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fb(b){var
+fd(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aM(c,b){var
-a=fb(b);return a?Z(c,a[1]):a}function
-d9(a){return L(dg(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+aN(c,b){var
+a=fd(b);return a?Z(c,a[1]):a}function
+d_(a){return L(dg(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 l(a){return[0,[2,a]]}function
-C(b,a){if(aM(d,b))return a;if(aM(d,a))return b;var
-c=fb(b);if(c){var
-e=c[1],f=fb(a);if(f){var
-g=f[1];if(d9(e)&&d9(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bc(a){var
+C(b,a){if(aN(d,b))return a;if(aN(d,a))return b;var
+c=fd(b);if(c){var
+e=c[1],f=fd(a);if(f){var
+g=f[1];if(d_(e)&&d_(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bd(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return d9(c)?l(O(c)):[0,[5,a]];case
+c=b[1];return d_(c)?l(O(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aM(d,a))return b;if(aM(d,b))return bc(a);var
+s(b,a){if(aN(d,a))return b;if(aN(d,b))return bd(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?t(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 K(a){var
-c=fb(a);if(c){var
-b=c[1];return d9(b)?l(w(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aM(d,a)&&!aM(c,b)){if(!aM(d,b)&&!aM(c,a))return av(a,b)?K(a):[0,[6,a,b]];return b}return a}function
-am(b,a){return aM(c,a)?b:[0,[7,b,a]]}function
-az(a){return aM(c,a)?a:[0,[9,a]]}function
+c=fd(a);if(c){var
+b=c[1];return d_(b)?l(x(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,b){if(!aN(d,a)&&!aN(c,b)){if(!aN(d,b)&&!aN(c,a))return av(a,b)?K(a):[0,[6,a,b]];return b}return a}function
+am(b,a){return aN(c,a)?b:[0,[7,b,a]]}function
+az(a){return aN(c,a)?a:[0,[9,a]]}function
 jw(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bJ(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,cM(function(b){return function(a){return u(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-cj(a){var
+g=b[1],h=[0,i(e,b1(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+d$(b,a){if(a){var
+c=a[2];if(b){var
+e=d$(b[1],c);return[0,a[1],e]}var
+d=[0,1,c]}else
+var
+d=a;return d}function
+jx(a){switch(a[0]){case
+10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
+5:case
+8:case
+9:return[0,a[1],0];case
+0:case
+1:case
+2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
+cl(a){var
 b=0;function
 c(a){return[0,a]}return bJ(l(d),c,a,b)}function
 aV(d,c){var
@@ -1225,34 +1239,34 @@ c=cN(a[1],b);break;case
 2:var
 c=b;break;default:var
 i=cN(a[1],b),c=cN(a[2],i)}var
-f=c[2],g=c[1],h=[0,cM(function(a){return aV(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-ck(a){var
-b=dj(function(b,a){return cN(a,b)},a,pT),c=b[1],d=e(function(a){return aV(c,a)},a);return[0,jn(b[2]),d]}function
-fc(a){return aT(function(b,a){return z(cL(b),a)},d,a)}function
-b0(b,c,a){var
-d=fc(a),e=gK(c[2],z(b[2],d)),f=fc(a);return[0,b,[0,bn(c[1],aE(b[1],f)),e],a]}function
+f=c[2],g=c[1],h=[0,b1(function(a){return aV(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cm(a){var
+b=dj(function(b,a){return cN(a,b)},a,pV),c=b[1],d=e(function(a){return aV(c,a)},a);return[0,jn(b[2]),d]}function
+fe(a){return aI(function(b,a){return z(cM(b),a)},d,a)}function
+b2(b,c,a){var
+d=fe(a),e=gL(c[2],z(b[2],d)),f=fe(a);return[0,b,[0,bo(c[1],aE(b[1],f)),e],a]}function
 ad(a){return[0,a,a,0]}function
 bK(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aU(function(a){return a},e,G,d,c),g=G(b[2],a[2]);return b0(G(b[1],a[1]),g,f)}function
+f=aU(function(a){return a},e,G,d,c),g=G(b[2],a[2]);return b2(G(b[1],a[1]),g,f)}function
 a_(b,a){var
-c=a[3],d=b[3],e=aU(function(a){return a},ag,H,d,c),f=H(b[2],a[2]);return b0(H(b[1],a[1]),f,e)}function
-d_(a){var
+c=a[3],d=b[3],e=aU(function(a){return a},ag,H,d,c),f=H(b[2],a[2]);return b2(H(b[1],a[1]),f,e)}function
+ea(a){var
 b=e(ag,a[3]),c=ag(a[2]);return[0,ag(a[1]),c,b]}function
 aw(a,c,b){var
 d=G(b[2],b[1]),e=G(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=y(a,e,b);return a9(G(y(a,d,c),f))}function
 i(b){return a9(y(a,e,b))}var
-j=aU(function(b){return a9(y(a,d,b))},i,h,g,f),k=y(a,c[2],b[2]);return b0(y(a,c[1],b[1]),k,j)}function
-d$(b,a){var
-c=a[3],d=G(a[2],a[1]),f=e(function(a){return y(b,d,a)},c),g=$(b,a[2]);return b0($(b,a[1]),g,f)}function
-gS(a,b){var
-c=ch(a,b[1]);if(c){var
-g=c[1],d=ch(a,b[2]);if(d){var
-h=d[1],f=cg(a,G(h,g));if(f)var
-l=b[3],m=f[1],i=[0,b0(g,h,e(function(b){return y(a,m,b)},l))];else
+j=aU(function(b){return a9(y(a,d,b))},i,h,g,f),k=y(a,c[2],b[2]);return b2(y(a,c[1],b[1]),k,j)}function
+eb(b,a){var
+c=a[3],d=G(a[2],a[1]),f=e(function(a){return y(b,d,a)},c),g=$(b,a[2]);return b2($(b,a[1]),g,f)}function
+gT(a,b){var
+c=cj(a,b[1]);if(c){var
+g=c[1],d=cj(a,b[2]);if(d){var
+h=d[1],f=ci(a,G(h,g));if(f)var
+l=b[3],m=f[1],i=[0,b2(g,h,e(function(b){return y(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1262,25 +1276,25 @@ k=j}else
 var
 k=c;return k}function
 dq(a,c,b){var
-d=cg(a,b[1]);if(d){var
-f=cg(a,b[2]);if(f)var
-h=f[1],g=y(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,y(a,g,b))},n=function(b){return ag(y(a,g,b))},o=aU(function(a){return a},n,m,l,k),p=e(function(b){return y(a,h,b)},o),i=[0,b0(g,y(a,c[2],h),p)];else
+d=ci(a,b[1]);if(d){var
+f=ci(a,b[2]);if(f)var
+h=f[1],g=y(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,y(a,g,b))},n=function(b){return ag(y(a,g,b))},o=aU(function(a){return a},n,m,l,k),p=e(function(b){return y(a,h,b)},o),i=[0,b2(g,y(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cl(b,a){return a?i(b,a[1]):a}function
-fd(a){var
-b=e(a9,a[3]),c=a9(G(a[2],a[1]));return b0(a[1],c,b)}function
-jx(a,k,j,r,b){var
-l=fd(k),m=fd(j),g=fd(b[1]),h=fd(b[2]),s=aw(a,l,h),t=a_(aw(a,m,g),s),i=dq(a,ad(W(a,c)),t);if(i)var
+cn(b,a){return a?i(b,a[1]):a}function
+ff(a){var
+b=e(a9,a[3]),c=a9(G(a[2],a[1]));return b2(a[1],c,b)}function
+jy(a,k,j,r,b){var
+l=ff(k),m=ff(j),g=ff(b[1]),h=ff(b[2]),s=aw(a,l,h),t=a_(aw(a,m,g),s),i=dq(a,ad(W(a,c)),t);if(i)var
 f=i[1],n=aw(a,a_(l,g),f),o=aw(a,a_(m,h),f),d=function(c,b){return aw(a,c,ad(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bK(d(n,b),c)},x=function(a){return d(o,a)},z=aU(function(a){return d(n,a)},x,w,v,u),A=r[3],B=function(b,a){return a_(b,d(f,a9(a)))[2]},C=function(a){return d_(d(f,a9(a)))[2]},p=aU(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return y(a,D,b)},p),F=b0(b[2][1],b[2][2],E),G=ag(h[2]),H=e(function(b){return y(a,G,b)},p),q=[0,[0,b0(b[1][1],b[1][2],H),F]];else
+c=d(o,a);return bK(d(n,b),c)},x=function(a){return d(o,a)},z=aU(function(a){return d(n,a)},x,w,v,u),A=r[3],B=function(b,a){return a_(b,d(f,a9(a)))[2]},C=function(a){return ea(d(f,a9(a)))[2]},p=aU(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return y(a,D,b)},p),F=b2(b[2][1],b[2][2],E),G=ag(h[2]),H=e(function(b){return y(a,G,b)},p),q=[0,[0,b2(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jy(a,e,d,k){var
-p=d$(a,d),f=bK(d$(a,e),p),g=a_(bK(f,ad(W(a,c))),k),l=aw(a,ad(W(a,b(2,c))),f),q=d$(a,g),h=gS(a,a_(aw(a,ad(W(a,b(2,b(2,c)))),f),q));if(h){var
+jz(a,e,d,k){var
+p=eb(a,d),f=bK(eb(a,e),p),g=a_(bK(f,ad(W(a,c))),k),l=aw(a,ad(W(a,b(2,c))),f),q=eb(a,g),h=gT(a,a_(aw(a,ad(W(a,b(2,b(2,c)))),f),q));if(h){var
 m=h[1],r=aw(a,m,d),i=dq(a,bK(aw(a,g,e),r),l);if(i)var
 s=aw(a,m,e),j=dq(a,a_(aw(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
@@ -1288,493 +1302,493 @@ n=i;var
 o=n}else
 var
 o=h;var
-u=cl(function(b){return jx(a,e,d,k,b)},o);return cl(function(b){return jx(a,e,d,k,b)},u)}function
-b1(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
+u=cn(function(b){return jy(a,e,d,k,b)},o);return cn(function(b){return jy(a,e,d,k,b)},u)}function
+b3(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-cm(b,j,i){var
+b4(b,j,i){var
 f=ad(A);return function(a){switch(a[0]){case
-0:return[0,u(a[1],j,f)];case
-1:return[0,u(a[1],i,f)];case
+0:return[0,t(a[1],j,f)];case
+1:return[0,t(a[1],i,f)];case
 2:return[0,ad(W(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return b1(function(b,a){return[0,bK(b,a)]},l,k);case
+k=a[2],l=a[1];return b3(function(b,a){return[0,bK(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return b1(function(b,a){return[0,a_(b,a)]},n,m);case
+m=a[2],n=a[1];return b3(function(b,a){return[0,a_(b,a)]},n,m);case
 5:var
-o=a[1];return cl(function(a){return[0,d_(a)]},o);case
+o=a[1];return cn(function(a){return[0,ea(a)]},o);case
 6:var
-p=a[2],q=a[1];return b1(function(c,a){return[0,aw(b,c,a)]},q,p);case
+p=a[2],q=a[1];return b3(function(c,a){return[0,aw(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return b1(function(a,c){return dq(b,a,c)},s,r);case
+r=a[2],s=a[1];return b3(function(a,c){return dq(b,a,c)},s,r);case
 8:var
-t=a[1];return cl(function(a){return[0,d$(b,a)]},t);case
+u=a[1];return cn(function(a){return[0,eb(b,a)]},u);case
 9:var
-w=a[1];return cl(function(a){return gS(b,a)},w);default:var
+v=a[1];return cn(function(a){return gT(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jy(b,c[1],d[1],e[1]),y=a[1]?cd:aF;return v(y,x)}var
+x=jz(b,c[1],d[1],e[1]),y=a[1]?bX:aF;return w(y,x)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-ea(c){var
+ec(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=ea(a[1]);if(b)return b;var
+b=ec(a[1]);if(b)return b;var
 a=a[2];continue}}function
-b2(q,p){var
+b5(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Z(b[1],a[1]);return c?gM(b[2],a[2]):c}return 0;case
+c=Z(b[1],a[1]);return c?gN(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=t(b[1],a[1]),i=h?Z(e[1],g[1]):h,j=i?gM(e[2],g[2]):i,k=j?Z(d[1],f[1]):j;return k?gM(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Z(e[1],g[1]):h,j=i?gN(e[2],g[2]):i,k=j?Z(d[1],f[1]):j;return k?gN(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=b2(b[1],a[1]);if(l){var
+l=b5(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=b2(b[1],a[1]);if(m){var
+m=b5(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=b2(b[1],a[1]);if(n){var
+n=b5(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=b2(b[1],a[1]);if(o){var
+o=b5(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eb(b,a){switch(a[0]){case
+ed(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
 m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dm(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e9(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e$(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,bZ(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b0(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dl(a,[0,d,c])?0:[0,gQ(b,a)]};break;default:var
-k=eb(b,a[1]);return k?i(b,k[1]):k}var
-h=eb(b,f);if(h){var
-j=eb(b,g);if(j)return e(h[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dl(a,[0,d,c])?0:[0,gR(b,a)]};break;default:var
+k=ed(b,a[1]);return k?i(b,k[1]):k}var
+h=ed(b,f);if(h){var
+j=ed(b,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-pU(a){return 0}function
-cn(a){return eb(pU,a)}function
-bs(a,b){switch(b[0]){case
+pW(a){return 0}function
+co(a){return ed(pW,a)}function
+bt(a,b){switch(b[0]){case
 0:return[0,ju(a,b[1],b[2])];case
 1:return 0;case
 2:var
-g=bs(a,b[1]);if(g)var
-h=bs(a,b[2]),C=h?[0,G(g[1],h[1])]:h,r=C;else
+g=bt(a,b[1]);if(g)var
+h=bt(a,b[2]),C=h?[0,G(g[1],h[1])]:h,r=C;else
 var
 r=g;return r;case
 3:var
-i=bs(a,b[1]);if(i)var
-j=bs(a,b[2]),D=j?[0,H(i[1],j[1])]:j,s=D;else
+i=bt(a,b[1]);if(i)var
+j=bt(a,b[2]),D=j?[0,H(i[1],j[1])]:j,s=D;else
 var
 s=i;return s;case
 4:var
-k=bs(a,b[1]);if(k)var
-l=bs(a,b[2]),E=l?[0,y(a,k[1],l[1])]:l,t=E;else
+k=bt(a,b[1]);if(k)var
+l=bt(a,b[2]),E=l?[0,y(a,k[1],l[1])]:l,t=E;else
 var
 t=k;return t;case
 5:var
-m=bs(a,b[1]);if(m){var
-n=bs(a,b[2]);if(n)var
-o=cg(a,n[1]),F=o?[0,y(a,m[1],o[1])]:o,u=F;else
+m=bt(a,b[1]);if(m){var
+n=bt(a,b[2]);if(n)var
+o=ci(a,n[1]),F=o?[0,y(a,m[1],o[1])]:o,u=F;else
 var
 u=n;var
-w=u}else
+v=u}else
 var
-w=m;return w;default:var
-x=b[1],p=bs(a,x);if(p){var
-e=p[1];if(L(d,e[1]))return ch(a,e);var
-f=cn(x),I=f?_(cJ([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
-z=ch(a,[0,e[2],e[2]]);return v(function(a){return[0,d,a[2]]},z)}var
+v=m;return v;default:var
+x=b[1],p=bt(a,x);if(p){var
+e=p[1];if(L(d,e[1]))return cj(a,e);var
+f=co(x),I=f?_(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
+z=cj(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
 q=Z(e[2],d),B=q?[0,A]:q;return B}return p}}function
-fe(b,a){return ju(b,a[1],a[2])}function
-bt(a,d){if(ea(d))switch(d[0]){case
+fg(b,a){return ju(b,a[1],a[2])}function
+bu(a,d){if(ec(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=cH(i,jz),k=j?cJ(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fe(a,bZ(e9(e,g),n)),0],p=f(aG(A,i),o),q=fe(a,e)[2],r=[0,fe(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fe(a,bZ(dm(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=cI(i,jA),k=j?cK(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fg(a,b0(e$(e,g),n)),0],p=f(aG(A,i),o),q=fg(a,e)[2],r=[0,fg(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fg(a,b0(dm(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bt(a,d[2]),u=bt(a,d[1]);return b1(function(b,a){return[0,bK(b,a)]},u,t);case
+t=bu(a,d[2]),u=bu(a,d[1]);return b3(function(b,a){return[0,bK(b,a)]},u,t);case
 3:var
-w=bt(a,d[2]),x=bt(a,d[1]);return b1(function(b,a){return[0,a_(b,a)]},x,w);case
+v=bu(a,d[2]),x=bu(a,d[1]);return b3(function(b,a){return[0,a_(b,a)]},x,v);case
 4:var
-m=d[2],h=d[1];if(b2(h,m)){var
-y=bt(a,h);return cl(function(b){return[0,d$(a,b)]},y)}var
-z=bt(a,m),B=bt(a,h);return b1(function(c,b){return[0,aw(a,c,b)]},B,z);case
+m=d[2],h=d[1];if(b5(h,m)){var
+y=bu(a,h);return cn(function(b){return[0,eb(a,b)]},y)}var
+z=bu(a,m),B=bu(a,h);return b3(function(c,b){return[0,aw(a,c,b)]},B,z);case
 5:var
-C=bt(a,d[2]),D=bt(a,d[1]);return b1(function(b,c){return dq(a,b,c)},D,C);default:var
-E=bt(a,d[1]);return cl(function(b){return gS(a,b)},E)}return v(ad,bs(a,d))}function
-aW(b,a){if(ea(a)){var
-c=bt(b,a);return v(function(a){return a[2]},c)}return bs(b,a)}function
-jA(a){var
-e=bn(O(a),d);return d5(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jB(a){return jl(z(jA(a),a))}function
-co(f,a,e){var
-b=aW(z(f,jA(a)),e);if(b)var
-c=b[1],g=jB(a),h=O(ci(O(c[2]),g)),i=jB(a),d=[0,[0,ci(c[1],i),h]];else
+C=bu(a,d[2]),D=bu(a,d[1]);return b3(function(b,c){return dq(a,b,c)},D,C);default:var
+E=bu(a,d[1]);return cn(function(b){return gT(a,b)},E)}return w(ad,bt(a,d))}function
+aW(b,a){if(ec(a)){var
+c=bu(b,a);return w(function(a){return a[2]},c)}return bt(b,a)}function
+jB(a){var
+e=bo(O(a),d);return d5(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jC(a){return jl(z(jB(a),a))}function
+cp(f,a,e){var
+b=aW(z(f,jB(a)),e);if(b)var
+c=b[1],g=jC(a),h=O(ck(O(c[2]),g)),i=jC(a),d=[0,[0,ck(c[1],i),h]];else
 var
 d=b;return d}function
 aj(d,a){var
-b=co(d,a[2],a[1][1]);if(b)var
-c=co(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=cp(d,a[2],a[1][1]);if(b)var
+c=cp(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gT(b,a){var
-c=O(ci(O(a[2]),b));return[0,ci(a[1],b),c]}function
-ff(b,a){var
-c=e$(b[2],a);return[0,cf(b[1],a),c]}function
-jC(h,g,d,c){var
-e=c[2],f=jj(d),i=b(2,f),j=w(jf(f),i),a=ff(y(h,c[1],g),j),k=jd(d)?H(e,a):G(e,a);return[0,a,k]}function
-jD(a,d,b){if(b){var
-e=b[1];return jC(a,d,e,jD(a,d,e))}var
+gU(b,a){var
+c=O(ck(O(a[2]),b));return[0,ck(a[1],b),c]}function
+fh(b,a){var
+c=fb(b[2],a);return[0,ch(b[1],a),c]}function
+jD(h,g,d,c){var
+e=c[2],f=jj(d),i=b(2,f),j=x(jf(f),i),a=fh(y(h,c[1],g),j),k=jd(d)?H(e,a):G(e,a);return[0,a,k]}function
+jE(a,d,b){if(b){var
+e=b[1];return jD(a,d,e,jE(a,d,e))}var
 f=W(a,c);return[0,W(a,c),f]}function
-jE(e,g){var
-o=cK(e),p=w(b(2,b(2,c)),o),j=F(g[2],p);if(j){var
-n=d4(e),i=pV[1],d=n,f=0,a=i;for(;;){if(d){var
+jF(e,g){var
+o=cL(e),p=x(b(2,b(2,c)),o),j=F(g[2],p);if(j){var
+n=d4(e),i=pX[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=M(jc(pY,M(pW,f)),pX),l=jD(e,g,k),q=jC(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=M(jc(p0,M(pY,f)),pZ),l=jE(e,g,k),q=jD(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-jF(i){function
+jG(i){function
 a(h){var
-m=cf(cK(i),h),g=d4(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,cf(f,a)),l=O(cf(f,w(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=w(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return aE(w(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jG(e,a){var
+m=ch(cL(i),h),g=d4(i),f=m,e=d,a=c;for(;;){if(g){var
+j=z(a,b(2,c)),k=z(e,ch(f,a)),l=O(ch(f,x(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=x(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return aE(x(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jH(e,a){var
 f=F(d,a);if(f){var
-g=b(2,b(2,c));return jE(e,ff($(e,[0,a,a]),g))}return f}function
-jH(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aE(jF(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jF(a),n),e=jG(a,g);if(e){var
-f=jG(a,h);if(f)var
+g=b(2,b(2,c));return jF(e,fh($(e,[0,a,a]),g))}return f}function
+jI(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aE(jG(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jG(a),n),e=jH(a,g);if(e){var
+f=jH(a,h);if(f)var
 i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jI(a,d){var
+jJ(a,d){var
 b=$(a,d),e=W(a,c);return H(G(b,b),e)}function
 dr(f,j){var
 e=aW(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jH(a);if(d)var
-h=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),i=jE(a,$(a,ff(y(a,k,d[1]),h))),g=v(function(b){return jI(a,jI(a,b))},i);else
+k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jI(a);if(d)var
+h=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),i=jF(a,$(a,fh(y(a,k,d[1]),h))),g=w(function(b){return jJ(a,jJ(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return v(function(a){return gT(l,a)},g)}return e}function
-jJ(a,d){var
-e=jH(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return v(function(e){var
-f=b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))));return ff(y(a,d,gT(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fg(d,a){return dr(d,[3,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gU(l,a)},g)}return e}function
+jK(a,d){var
+e=jI(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+f=b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))));return fh(y(a,d,gU(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fi(d,a){return dr(d,[3,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
-f=cn(b);if(f){var
-g=f[1];return e?_(cJ(g,[0,d,c])):cJ([0,d,c],g)}var
+f=co(b);if(f){var
+g=f[1];return e?_(cK(g,[0,d,c])):cK([0,d,c],g)}var
 a=aW(i,b);if(a){var
 h=a[1];return e?L(d,h[1]):F(d,h[1])}return a}function
-jK(c,b){var
+jL(c,b){var
 a=aW(c,b),d=a?1:a;return d}function
-bd(c,a,b){var
-d=b2(a,b),e=d?jK(c,a):d;return e?e:g(c,0,[3,b,a])}function
-pZ(c){var
-a=e_(c),g=d5(e6(a[2])),b=[0,e6(a[1]),g],e=L(d,a[1]),f=e?dl(bZ(b,b),c):e,h=f?[0,b]:f;return h}function
-jL(a){if(a){var
-e=a[2],b=a[1];if(dl(br([0,d,c],b),[0,d,c])){var
-g=jL(e);return v(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+be(c,a,b){var
+d=b5(a,b),e=d?jL(c,a):d;return e?e:g(c,0,[3,b,a])}function
+p1(c){var
+a=fa(c),g=d5(e9(a[2])),b=[0,e9(a[1]),g],e=L(d,a[1]),f=e?dl(b0(b,b),c):e,h=f?[0,b]:f;return h}function
+jM(a){if(a){var
+e=a[2],b=a[1];if(dl(bs([0,d,c],b),[0,d,c])){var
+g=jM(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jM(b,a){var
-e=aI(b,a),f=[0,d,c];return aT(function(a,b){return e_(dm(bZ(a[1],a[2]),b))},f,e)}function
-jN(b,j){if(b){var
-f=b[1],g=jL(j);if(g){var
+jN(b,a){var
+e=aJ(b,a),f=[0,d,c];return aI(function(a,b){return fa(dm(b0(a[1],a[2]),b))},f,e)}function
+jO(b,j){if(b){var
+f=b[1],g=jM(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=br([0,d,c],a),g=gQ(br([0,d,c],b),f),h=bI(a),i=aI(bI(b),h);return e(function(a){var
-b=bZ(g,a[2]);return e_(e9(a[1],b))},i)},l=jN(f,e(k,h[2]));return v(function(b){var
-e=br([0,d,c],a);return[0,e_(gQ(jr(jM(bI(a),b)),e)),b]},l)}var
+f=bs([0,d,c],a),g=gR(bs([0,d,c],b),f),h=bb(a),i=aJ(bb(b),h);return e(function(a){var
+b=b0(g,a[2]);return fa(e$(a[1],b))},i)},l=jO(f,e(k,h[2]));return w(function(b){var
+e=bs([0,d,c],a);return[0,fa(gR(jr(jN(bb(a),b)),e)),b]},l)}var
 i=[0,[0,[0,c,c],aG([0,d,c],f)]]}else
 var
 i=b;return i}function
-jO(a){if(a){var
-b=eb(pZ,a[1]);if(b)var
-c=jO(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return p0}function
 jP(a){if(a){var
-b=jO(a[1]);if(b)var
+b=ed(p1,a[1]);if(b)var
 c=jP(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p1}function
-jQ(i,l){var
-a=jP(l);if(a){var
-j=a[1],b=jN(i,j);if(b){var
-e=b[1],f=t(h(e),i),g=f?ai(function(a){return _(dl(a,[0,d,c]))},e):f;return g?n(function(a){return dl(jM(a,e),[0,d,c])},j):g}var
+d=b;return d}return p2}function
+jQ(a){if(a){var
+b=jP(a[1]);if(b)var
+c=jQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return p3}function
+jR(i,l){var
+a=jQ(l);if(a){var
+j=a[1],b=jO(i,j);if(b){var
+e=b[1],f=u(h(e),i),g=f?ai(function(a){return _(dl(a,[0,d,c]))},e):f;return g?n(function(a){return dl(jN(a,e),[0,d,c])},j):g}var
 k=b}else
 var
 k=a;return k}function
-p2(a){return a}function
-p3(a){return a}function
-p4(a,b){return aU(p3,p2,G,a,b)}function
+p4(a){return a}function
 p5(a){return a}function
-p6(a){return a}function
-cp(a,b){return aU(p6,p5,p4,a,b)}function
-gU(b,a,c){if(a){var
+p6(a,b){return aU(p5,p4,G,a,b)}function
+p7(a){return a}function
+p8(a){return a}function
+cq(a,b){return aU(p8,p7,p6,a,b)}function
+gV(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gU(b,f,c[2]),h=c[1],i=function(c,a){return H(c,d8(d,a,b))},j=function(a){return ag(d8(d,a,b))};return[0,aU(function(a){return a},j,i,h,a),g]}var
-k=gU(b,f,0);return[0,e(function(a){return ag(d8(d,a,b))},a),k]}return c}function
-gV(a){if(a){var
+g=gV(b,f,c[2]),h=c[1],i=function(c,a){return H(c,d9(d,a,b))},j=function(a){return ag(d9(d,a,b))};return[0,aU(function(a){return a},j,i,h,a),g]}var
+k=gV(b,f,0);return[0,e(function(a){return ag(d9(d,a,b))},a),k]}return c}function
+gW(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),h=e?[0,gU(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),h=e?[0,gV(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jR(f,e){var
+jS(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gV(b);if(c){var
+c=gW(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jS(d,b,a){if(b)if(a)var
-e=a[1],f=jS(d,b[2],a[2]),g=ce(d,b[1])?fa(e):dp(e),c=[0,g,f];else
+jT(d,b,a){if(b)if(a)var
+e=a[1],f=jT(d,b[2],a[2]),g=cg(d,b[1])?fc(e):dp(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jT(a,b){if(a)if(b)var
-d=jT(a[2],b[2]),c=[0,jS(a[1],a,b[1]),d];else
+jU(a,b){if(a)if(b)var
+d=jU(a[2],b[2]),c=[0,jT(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bu(a){if(a){var
-b=a[1],c=bu(b),d=e(function(a){return[0,1,a]},c),g=bu(b);return f(e(function(a){return[0,0,a]},g),d)}return p7}function
+bv(a){if(a){var
+b=a[1],c=bv(b),d=e(function(a){return[0,1,a]},c),g=bv(b);return f(e(function(a){return[0,0,a]},g),d)}return p9}function
 ds(a){var
-b=h(a);if(jR(b,a))return 1;var
-c=bu(bq(b));return n(function(c){return jR(b,jT([0,0,c],a))},c)}function
+b=h(a);if(jS(b,a))return 1;var
+c=bv(br(b));return n(function(c){return jS(b,jU([0,0,c],a))},c)}function
 ar(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aX(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?G(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gW(c,b,a){var
-d=bu(c);return n(function(c){return i(a,i(ar(function(a){return aX(c,a)}),b))},d)}function
-gX(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a8(b,z(h,c),a)},k=gX(h,j,i),l=function(c,b){var
+gX(c,b,a){var
+d=bv(c);return n(function(c){return i(a,i(ar(function(a){return aX(c,a)}),b))},d)}function
+gY(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a8(b,z(h,c),a)},k=gY(h,j,i),l=function(c,b){var
 d=a(b,e);return G(a(f,c),d)},m=function(b){return a(b,e)},n=aU(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,G(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fh(b,d,a,c){function
+fj(b,d,a,c){function
 e(c,d){var
 e=a8(d,b,a);return H(G(c,c),e)}function
 f(c){return ag(a8(c,b,a))}return aU(function(a){return G(a,a)},f,e,d,c)}function
-fi(d,i,h,g){var
+fk(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dp(e[2]),k=cp(a,gX(d,f,fh(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gY(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=dp(e[2]),k=cq(a,gY(d,f,fj(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+gZ(b,a){return[0,[0,0,b],a]}function
 dt(b,c,g,f,a){function
 d(a){if(a){var
-i=aG([0,ag(a[1][2]),0],b),c=fi(g,f,a[2],i),d=t(h(c),b);if(d)return ds(c);var
+i=aG([0,ag(a[1][2]),0],b),c=fk(g,f,a[2],i),d=u(h(c),b);if(d)return ds(c);var
 e=d}else
 var
-e=a;return e}return gW(b,gY(c,a),d)}function
-fj(f,e){var
+e=a;return e}return gX(b,gZ(c,a),d)}function
+fl(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gV([0,[0,fa(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gW([0,[0,fc(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-gZ(b,c,a){function
+g0(b,c,a){function
 d(a){if(a){var
-i=aG([0,a[1][2],0],b),c=fj(a[2],i);if(c){var
-d=c[1],e=t(h(d),b);if(e)return ds(d);var
+i=aG([0,a[1][2],0],b),c=fl(a[2],i);if(c){var
+d=c[1],e=u(h(d),b);if(e)return ds(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gW(b,gY(c,a),d)}function
-jU(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jV(b,a){var
-c=bu(b);return n(function(b){return L(d,aX(b,a)[1])},c)}function
-jW(c,b,a){var
+g=a;return g}return gX(b,gZ(c,a),d)}function
+jV(b,a){return e(function(a){return[0,a[1],b]},a)}function
+jW(b,a){var
+c=bv(b);return n(function(b){return L(d,aX(b,a)[1])},c)}function
+jX(c,b,a){var
 d=a[3],f=e(function(a){return a8(c,b,a)},d),g=a[2];return[0,a8(c,b,a[1]),g,f]}function
-jX(a,b){var
+jY(a,b){var
 c=b[3],d=a[3],e=aU(function(a){return a},ag,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
 bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ak(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 aY(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
-cq(b,a){var
+cr(b,a){var
 c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
 X(b,a){var
 c=q(b[3],a[3]),d=q(b[2],a[2]);return C(C(q(b[1],a[1]),d),c)}function
-cO(a){return cq(a,az(X(a,a)))}function
-cr(a){var
+cO(a){return cr(a,az(X(a,a)))}function
+cs(a){var
 b=a[5];return b?b[1]:az(a[2])}function
-fk(b,a){return b?a:bc(a)}function
-jY(e,a,i,d,h){var
-f=X(a,e),b=ak(s,e,aY(f,a)),j=X(b,b),g=s(K(d),j),c=fk(h,az(g)),k=s(f,c),l=ak(C,a,cq(b,c));return[0,ak(C,b,aY(c,a)),g,l,k,[0,d],0,[0,i]]}function
-jZ(a,e,d){var
-b=X(a,a),c=az(b),f=[0,e],g=v(function(b){return ak(s,a,aY(X(b,a),b))},d);return[0,a,b,cq(a,c),c,0,g,f]}function
-j0(b,a){var
+fm(b,a){return b?a:bd(a)}function
+jZ(e,a,i,d,h){var
+f=X(a,e),b=ak(s,e,aY(f,a)),j=X(b,b),g=s(K(d),j),c=fm(h,az(g)),k=s(f,c),l=ak(C,a,cr(b,c));return[0,ak(C,b,aY(c,a)),g,l,k,[0,d],0,[0,i]]}function
+j0(a,e,d){var
+b=X(a,a),c=az(b),f=[0,e],g=w(function(b){return ak(s,a,aY(X(b,a),b))},d);return[0,a,b,cr(a,c),c,0,g,f]}function
+j1(b,a){var
 d=X(a,b);return[0,a,l(c),a,d,0,0,0]}function
-ec(a){return e(function(a){var
+ee(a){return e(function(a){var
 b=a[2];return[0,bL(a[1]),b]},a)}function
-j1(a){return e(function(a){var
+j2(a){return e(function(a){var
 b=l(c);return[0,bL(a[3]),b]},a)}function
-j2(b,a){var
+j3(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-j3(c,b,a){var
+j4(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-g0(d,a){var
-b=ch(d,[0,a[2],a[2]]);if(b){var
+g1(d,a){var
+b=cj(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fl(a,m,f,l,e,k,j){var
-o=j3(a_,k,j),b=j3(function(b,c){return aw(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bK(bK(bK(ad(W(a,d)),h),g),c),p=bu(m);return n(function(c){var
-b=j2(function(b){return $(a,aX(c,b))},e),h=b[3],j=b[2],k=b[1],m=y(a,l,g0(a,G(G(G(W(a,d),k),j),h))),g=H(aX(c,i),m),n=f?H(g,aX(c,f[1])):g;return L(d,n[1])},p)}function
-bM(a){return cI(z(a[1],a[2]),c)}function
+fn(a,m,f,l,e,k,j){var
+o=j4(a_,k,j),b=j4(function(b,c){return aw(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bK(bK(bK(ad(W(a,d)),h),g),c),p=bv(m);return n(function(c){var
+b=j3(function(b){return $(a,aX(c,b))},e),h=b[3],j=b[2],k=b[1],m=y(a,l,g1(a,G(G(G(W(a,d),k),j),h))),g=H(aX(c,i),m),n=f?H(g,aX(c,f[1])):g;return L(d,n[1])},p)}function
+bM(a){return cJ(z(a[1],a[2]),c)}function
 du(a){var
 b=bM(a);return aE(a[2],b)}function
-fm(c,b){if(b)var
-a=b[1],e=fm([0,c],b[2]),g=du(a),h=[0,[0,du(a),g],0],i=f(aG(A,c),h),j=bM(a),d=[0,[0,[0,bM(a),j],a,i],e];else
+ef(c,b){if(b)var
+a=b[1],e=ef([0,c],b[2]),g=du(a),h=[0,[0,du(a),g],0],i=f(aG(A,c),h),j=bM(a),d=[0,[0,[0,bM(a),j],a,i],e];else
 var
 d=b;return d}function
-ed(d,b){if(b){var
+eg(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=ed(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bM(a),f],c],h=bM(a);return[0,[0,[0,a[1],h],c],g]}return p8}function
-j4(d,b,a){if(b){if(a){var
-e=j4(d,b[2],a[2]);return G(a8(b[1],z(d,c),a[1]),e)}return A}return A}function
-ee(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return j4(f,a,b)},j=ee(f,h),k=e(function(a){var
+e=eg(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bM(a),f],c],h=bM(a);return[0,[0,[0,a[1],h],c],g]}return p_}function
+j5(d,b,a){if(b){if(a){var
+e=j5(d,b[2],a[2]);return G(a8(b[1],z(d,c),a[1]),e)}return A}return A}function
+eh(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return j5(f,a,b)},j=eh(f,h),k=e(function(a){var
 e=b(d,a[2]);return G(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,G(b(d,c),l),k],j];else
 var
 i=a;return i}function
-ef(e,b,d,a){if(b)if(a)var
-f=b[1],g=ef(e,b[2],d,a[2]),c=[0,[0,f,fh(e,a[1][1],d,f)],g];else
+ei(e,b,d,a){if(b)if(a)var
+f=b[1],g=ei(e,b[2],d,a[2]),c=[0,[0,f,fj(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fn(f,d,c,b,a){if(a){var
+fo(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fn(f,d[1],c,b,g);return[0,[0,H(A,b),0],i]}var
+i=fo(f,d[1],c,b,g);return[0,[0,H(A,b),0],i]}var
 j=e(function(a){return[0,H(A,b),0]},g),h=[0,[0,H(ag(y(f,c,dp(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bv(c,a){var
-b=t(h(a),c);return b?ds(a):b}function
-j5(d,b,a){if(b)var
-c=b[1],g=j5([0,d],b[2],a),h=f(aG(A,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),z(c[2],a[2])],h],g];else
+bw(c,a){var
+b=u(h(a),c);return b?ds(a):b}function
+j6(d,b,a){if(b)var
+c=b[1],g=j6([0,d],b[2],a),h=f(aG(A,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),z(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-j6(d){if(d){var
+j7(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=j6(d[2]);return v(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=j7(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return p9}function
-g1(a){return v(function(a){return v(d_,a)},a)}function
-cs(c,b,a){function
-d(a){return aw(c,b,a)}return v(function(a){return v(d,a)},a)}function
-g2(c,b,a){function
-d(a){return dq(c,a,b)}return v(function(a){return cl(d,a)},a)}function
+f=a;return f}return p$}function
+g2(a){return w(function(a){return w(ea,a)},a)}function
+ct(c,b,a){function
+d(a){return aw(c,b,a)}return w(function(a){return w(d,a)},a)}function
+g3(c,b,a){function
+d(a){return dq(c,a,b)}return w(function(a){return cn(d,a)},a)}function
 dv(b,a){var
-c=aI(b,a);return e(function(c){var
+c=aJ(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,b1(function(b,a){return[0,bK(b,a)]},e,d)]}return b}return a},c)}function
-fo(a){return ad(W(a,b(2,c)))}function
-j7(b,c,a){if(a)var
-f=a[1],g=j7(b,c,a[2]),d=[0,e(function(a){return ag(y(b,y(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,b3(function(b,a){return[0,bK(b,a)]},e,d)]}return b}return a},c)}function
+fp(a){return ad(W(a,b(2,c)))}function
+j8(b,c,a){if(a)var
+f=a[1],g=j8(b,c,a[2]),d=[0,e(function(a){return ag(y(b,y(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-g3(a){return n(function(a){var
+g4(a){return n(function(a){var
 b=Z(a[1],d);return b?Z(a[2],d):b},a)}function
-j8(c,b,a){var
-d=aI(b,a);return aT(function(a,b){return G(y(c,a[1],a[2]),b)},A,d)}function
-g4(c,b,a){var
-d=cL(j8(c,a,b));return aT(function(b,a){return z(cL(b),a)},d,a)}function
+j9(c,b,a){var
+d=aJ(b,a);return aI(function(a,b){return G(y(c,a[1],a[2]),b)},A,d)}function
+g5(c,b,a){var
+d=cM(j9(c,a,b));return aI(function(b,a){return z(cM(b),a)},d,a)}function
 dw(a){return W(a,c)}function
-g5(a,i,c,u,t){var
+g6(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!g3(c)&&!g3(j)){var
-h=g4(a,i,j),o=dw(a),p=g4(a,i,c),b=d8([0,g4(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=a9(gR(a,[0,b,b])),r=function(b){return function(d,c){return H(y(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cp(e,j7(a,q,aU(function(c){return function(b){return y(a,c,b)}}(s),ag,r,j,c)))];else
+j=f[1],n=0;if(!g4(c)&&!g4(j)){var
+h=g5(a,i,j),o=dw(a),p=g5(a,i,c),b=d9([0,g5(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=a9(gS(a,[0,b,b])),r=function(b){return function(d,c){return H(y(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cq(e,j8(a,q,aU(function(c){return function(b){return y(a,c,b)}}(s),ag,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qm(a){var
+qo(a){var
 b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
-j9(h,n,a,m,l,k){var
+j_(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dp(j[2]),p=cp(b,gX(a,f,fh(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(a9,fh(a,b[1],b[2],c))}}(f),q),g=g5(h,n,e(function(b){return a8(b,a,dw(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=dp(j[2]),p=cq(b,gY(a,f,fj(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(a9,fj(a,b[1],b[2],c))}}(f),q),g=g6(h,n,e(function(b){return a8(b,a,dw(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-j_(c,b,a){if(b){if(a){var
-d=j_(c,b[2],a[2]);return G(a8(b[1],c,a[1]),d)}return A}return A}function
-j$(a,j){switch(j){case
+j$(c,b,a){if(b){if(a){var
+d=j$(c,b[2],a[2]);return G(a8(b[1],c,a[1]),d)}return A}return A}function
+ka(a,j){switch(j){case
 0:var
 d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cI(z(a[1],a[2]),c),h=aE(b,a[2]),i=aE(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-g6(d,c,a){if(a)var
-e=a[1],g=g6(d,[0,c],a[2]),b=v(cd,jp(function(a){return t(a[1],c)},d)),h=b?j$(e,b[1])[1]:e,f=[0,h,g];else
+b=cJ(z(a[1],a[2]),c),h=aE(b,a[2]),i=aE(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+g7(d,c,a){if(a)var
+e=a[1],g=g7(d,[0,c],a[2]),b=w(bX,jp(function(a){return u(a[1],c)},d)),h=b?ka(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-ka(a,b){return e(function(a){var
-c=a[2];return j$(u(a[1],b,A),c)[2]},a)}function
-kb(i,b,g,a){function
+kb(a,b){return e(function(a){var
+c=a[2];return ka(t(a[1],b,A),c)[2]},a)}function
+kc(i,b,g,a){function
 d(a){return aX(b,a[1])}var
 h=0,j=ad(A);function
 c(g,d,a,b){if(a){var
-h=function(a){return aX(g,u(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aX(g,t(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=y(i,a,l);return[0,e(function(b){return y(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qn=ad(A);function
-kc(e,d,c){if(d){var
-f=u(e,c[2],qo),a=f?f[1]:[0,qn];if(a)var
-b=kc([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+qp=ad(A);function
+kd(e,d,c){if(d){var
+f=t(e,c[2],qq),a=f?f[1]:[0,qp];if(a)var
+b=kd([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return qp}function
-g7(d,c,b,a){var
-f=e(ad,b);return bJ(0,cm(d,fm(0,a),f),c,0)}function
+g=a;return g}return qr}function
+ke(d,c,b,a){var
+f=e(ad,b);return bJ(0,b4(d,ef(0,a),f),c,0)}function
 ae(a){if(a){var
 b=a[1];if(b)var
 c=ae(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qq}function
-fp(b,a){if(a){var
-h=a[1],n=h[1],c=ae(e(function(a){return u(a,b,0)},n));if(c){var
-f=u(h[2],b,0);if(f){var
-i=f[1],g=fp(b,a[2]);if(g)var
+d=b;return d}return qs}function
+fq(b,a){if(a){var
+h=a[1],n=h[1],c=ae(e(function(a){return t(a,b,0)},n));if(c){var
+f=t(h[2],b,0);if(f){var
+i=f[1],g=fq(b,a[2]);if(g)var
 j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1783,78 +1797,78 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return qr}function
-b3(d,c,b){var
-a=fp(d,c);return a?i(b,a[1]):a}function
+m=c;return m}return qt}function
+b6(d,c,b){var
+a=fq(d,c);return a?i(b,a[1]):a}function
 dx(a,b){return n(function(c){var
-a=u(c,b,0),d=a?1:a;return d},a)}function
-fq(b,a){if(b){var
+a=t(c,b,0),d=a?1:a;return d},a)}function
+fr(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aU(function(a){return a},f,G,e,d),h=a[2];return[0,G(a[1],c[1]),h,g]}return a}function
-g8(b,a){return b?jX(a,b[1]):a}function
+g8(b,a){return b?jY(a,b[1]):a}function
 g9(h,g,b,f){var
-a=u(f,h,0);if(a){var
+a=t(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jX(c,b[1]),e=bu(g);return n(function(a){return F(d,aX(a,i)[1])},e)}return F(d,c[2][1])}return a}function
-kd(f,d,a){function
+i=jY(c,b[1]),e=bv(g);return n(function(a){return F(d,aX(a,i)[1])},e)}return F(d,c[2][1])}return a}function
+kf(f,d,a){function
 b(a){return a8(a,d,W(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),A,g]}return ad(A)}function
-fr(b,a){var
-c=u(a[1],b,0);if(c){var
-d=u(a[2],b,0);if(d)var
-e=u(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+fs(b,a){var
+c=t(a[1],b,0);if(c){var
+d=t(a[2],b,0);if(d)var
+e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-fs(j,k,J,u,i,b,g,f,a){switch(f[0]){case
+ft(j,k,J,t,i,b,g,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dx(u,i);if(K){var
-ae=a[2],af=a[1],ag=fq(g,ad(r));return b3(i,k,function(a){return dt(b,ag,af,ae,a)})}return K;case
+K=dx(t,i);if(K){var
+ae=a[2],af=a[1],ag=fr(g,ad(r));return b6(i,k,function(a){return dt(b,ag,af,ae,a)})}return K;case
 1:var
-L=dx(u,i);if(L){var
-ah=a[2],ai=a[1],aj=fq(g,ad(r));return b3(i,J,function(a){return dt(b,aj,ai,ah,a)})}return L;case
+L=dx(t,i);if(L){var
+ah=a[2],ai=a[1],aj=fr(g,ad(r));return b6(i,J,function(a){return dt(b,aj,ai,ah,a)})}return L;case
 2:var
-M=dx(u,i);if(M){if(g)return 0;var
+M=dx(t,i);if(M){if(g)return 0;var
 N=Z(r[1],d),O=N?Z(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return b3(i,k,function(a){return dt(b,[0,A,A,0],al,ak,jU([0,A,A,0],a))})}var
+ak=a[2],al=a[1];return b6(i,k,function(a){return dt(b,[0,A,A,0],al,ak,jV([0,A,A,0],a))})}var
 P=O}else
 var
 P=M;return P}return 0;case
 1:var
 Q=f[1];if(typeof
 a==="number"){if(1===a){var
-am=g8(g,ad(Q));return b3(i,J,function(a){return gZ(b,am,a)})}if(!a){var
-an=g8(g,ad(Q));return b3(i,k,function(a){return gZ(b,an,a)})}}return 0;case
+am=g8(g,ad(Q));return b6(i,J,function(a){return g0(b,am,a)})}if(!a){var
+an=g8(g,ad(Q));return b6(i,k,function(a){return g0(b,an,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=kd(j,R,a[3]),S=f[1],ao=a[2];return b3(i,k,function(d){var
-a=jV(b,l),c=a?dt(b,fq(g,l),R,ao,d):a;if(c){var
-f=l[3],h=e(function(a){return y(j,S,a)},f),i=l[2];return gZ(b,g8(g,[0,y(j,S,l[1]),i,h]),d)}return c})}return 0;case
+R=a[1],l=kf(j,R,a[3]),S=f[1],ao=a[2];return b6(i,k,function(d){var
+a=jW(b,l),c=a?dt(b,fr(g,l),R,ao,d):a;if(c){var
+f=l[3],h=e(function(a){return y(j,S,a)},f),i=l[2];return g0(b,g8(g,[0,y(j,S,l[1]),i,h]),d)}return c})}return 0;case
 3:if(typeof
 a==="number"&&!a)return g9(i,b,g,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fq(g,ad(f[2])),as=function(a){return dt(b,ar,aq,ap,a)};return b3(i,f[1],as)}return 0;case
+ap=a[2],aq=a[1],ar=fr(g,ad(f[2])),as=function(a){return dt(b,ar,aq,ap,a)};return b6(i,f[1],as)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
 0:return g9(i,b,g,f[1]);case
 2:return g9(i,b,g,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fr(i,f[1]);if(v){var
-w=fr(i,f[2]);if(w){var
-x=fr(i,f[3]);if(x){var
-B=fr(i,f[4]);if(B){var
+v=fs(i,f[1]);if(v){var
+w=fs(i,f[2]);if(w){var
+x=fs(i,f[3]);if(x){var
+B=fs(i,f[4]);if(B){var
 T=B[1],U=x[1],V=w[1],X=v[1],m=a[2],s=f[5],at=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=j2(function(d){function
+ac=[0,m[1],o[1],p[1]],q=j3(function(d){function
 f(a){return a8(a,at,W(j,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fc(a),h=z(b[2],g),i=fc(a);return[0,b,[0,aE(b[1],i),h],a]}return ad(A)},ac),C=n(function(a){return t(h(a),[0,b])},m),D=C?fl(j,b,g,s,q,X,U):C,E=D?fl(j,b,g,s,q,X,T):D,F=E?fl(j,b,g,s,q,V,U):E;if(F)return fl(j,b,g,s,q,V,T);var
+a=e(f,d[2]),b=f(d[1]),g=fe(a),h=z(b[2],g),i=fe(a);return[0,b,[0,aE(b[1],i),h],a]}return ad(A)},ac),C=n(function(a){return u(h(a),[0,b])},m),D=C?fn(j,b,g,s,q,X,U):C,E=D?fn(j,b,g,s,q,X,T):D,F=E?fn(j,b,g,s,q,V,U):E;if(F)return fn(j,b,g,s,q,V,T);var
 G=F}else
 var
 G=p;var
@@ -1875,46 +1889,46 @@ var
 $=v;return $}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],au=f[2],av=f[1];return b3(i,k,function(e){var
-a=t(h(e),b),d=a?t(h(aa),b):a;if(d){var
+aa=a[2],ab=a[1],au=f[2],av=f[1];return b6(i,k,function(e){var
+a=u(h(e),b),d=a?u(h(aa),b):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=t(h(d),b);if(e){var
-g=ee(ab,ef(ab,aa,W(j,c),d));return bv(b,cp(fn(j,av,au,a[1][2],d),g))}var
+d=a[2],e=u(h(d),b);if(e){var
+g=eh(ab,ei(ab,aa,W(j,c),d));return bw(b,cq(fo(j,av,au,a[1][2],d),g))}var
 f=e}else
 var
-f=a;return f},i=g?g[1]:ad(A);return gW(b,gY(i,e),f)}return d})}return 0;case
+f=a;return f},i=g?g[1]:ad(A);return gX(b,gZ(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aw=f[3],ax=f[2],ay=function(d){var
-a=jU([0,A,A,0],d),c=g?g[1]:[0,A,A,0];return dt(b,c,ax,aw,a)};return b3(i,f[1],ay)}return 0;default:return 0}}function
-ke(a,Z,J,l,p,Y,g,k,j,f,b){if(9===f[0]){if(typeof
+a=jV([0,A,A,0],d),c=g?g[1]:[0,A,A,0];return dt(b,c,ax,aw,a)};return b6(i,f[1],ay)}return 0;default:return 0}}function
+kg(a,Z,J,l,p,Y,g,k,j,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-_=f[1],T=e(ad,Y),B=bJ(0,cm(a,j5(0,k,_),T),Z,0),K=t(h(k),qs),M=K?dx(p,B):K;if(M){var
-q=fp(B,l);if(q){var
-r=fp(g,l);if(r){var
+_=f[1],T=e(ad,Y),B=bJ(0,b4(a,j6(0,k,_),T),Z,0),K=u(h(k),qu),M=K?dx(p,B):K;if(M){var
+q=fq(B,l);if(q){var
+r=fq(g,l);if(r){var
 aa=f[2],s=ae(e(function(b){var
-c=u(b[1],g,0);if(c)var
+c=t(b[1],g,0);if(c)var
 f=b[2][2],a=ae(e(function(a){var
-b=u(a[2],g,0);return v(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+b=t(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(s){var
-w=j6(q[1]);if(w){var
-N=b[2],x=b[1],O=r[1],ab=b[3],ac=s[1],af=w[1],C=g0(a,aT(function(f,h){function
+v=j7(q[1]);if(v){var
+N=b[2],x=b[1],O=r[1],ab=b[3],ac=s[1],af=v[1],C=g1(a,aI(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cL(u(d,c[3],A))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(t(d,c[3],A))}function
 c(a){var
-b=i(a,p_),c=bn(i(a,p$),b);return bn(i(a,0),c)}var
+b=i(a,qa),c=bo(i(a,qb),b);return bo(i(a,0),c)}var
 d=c(function(a){var
-c=b(qa,a),d=b(qb,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qc),d=b(a,qd);return z(z(b(a,0),d),c)});return G(h,$(a,g0(a,y(a,[0,e,e],g))))},A,af)),m=a8(ab,x,W(a,c)),D=L(d,H(m,C)[1]),E=D?t(h(N),qj):D,F=E?t(h(O),qk):E;if(F){var
-o=cg(a,m);if(o){var
-U=a9(y(a,C,o[1])),V=H(W(a,c),U),X=bu(ql);return n(function(h){var
+c=b(qc,a),d=b(qd,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qe),d=b(a,qf);return z(z(b(a,0),d),c)});return G(h,$(a,g1(a,y(a,[0,e,e],g))))},A,af)),m=a8(ab,x,W(a,c)),D=L(d,H(m,C)[1]),E=D?u(h(N),ql):D,F=E?u(h(O),qm):E;if(F){var
+o=ci(a,m);if(o){var
+U=a9(y(a,C,o[1])),V=H(W(a,c),U),X=bv(qn);return n(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return dp(dj(function(d,b){var
-c=cL(aX(h,b[2]));return G(d,y(a,b[1],[0,c,c]))},c,d))},ac),r=i(ar(function(a){return aX(h,a)}),O),D=j?aX(h,j[1]):A,L=$(a,V),s=$(a,m),q=ee(x,ef(x,N,W(a,c),r)),b=cp(aG([0,ag(D),0],qe),q);if(g){var
+c=cM(aX(h,b[2]));return G(d,y(a,b[1],[0,c,c]))},c,d))},ac),r=i(ar(function(a){return aX(h,a)}),O),D=j?aX(h,j[1]):A,L=$(a,V),s=$(a,m),q=eh(x,ei(x,N,W(a,c),r)),b=cq(aG([0,ag(D),0],qg),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=bv(qg,cp(aG([0,ag(s),0],qf),b));if(k)return n(function(A){var
+B=d[1],C=g[1],I=f[1],k=bw(qi,cq(aG([0,ag(s),0],qh),b));if(k)return n(function(A){var
 G=H(L,D),J=A[2]?B:ag(B),K=A[1]?C:ag(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
@@ -1954,7 +1968,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return bv(qi,j)},qh);var
+j=z;return bw(qk,j)},qj);var
 l=k}else
 var
 l=f;var
@@ -1967,7 +1981,7 @@ p=g;return p},X)}var
 I=o}else
 var
 I=F;return I}var
-P=w}else
+P=v}else
 var
 P=s;var
 Q=P}else
@@ -1978,16 +1992,16 @@ var
 R=q;var
 S=R}else
 var
-S=M;return S}return fs(a,J,l,p,g,h(k),j,f,b)}return fs(a,J,l,p,g,h(k),j,f,b)}function
-kf(d){var
+S=M;return S}return ft(a,J,l,p,g,h(k),j,f,b)}return ft(a,J,l,p,g,h(k),j,f,b)}function
+kh(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(ai(function(b){return function(a){return t(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=_(ai(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kg(j,b,a){if(a){var
+ki(j,b,a){if(a){var
 k=a[1],l=k[2],c=ae(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
-g=u(l,j,0);if(g){var
-h=kg(j,b,a[2]);if(h)var
+g=t(l,j,0);if(g){var
+h=ki(j,b,a[2]);if(h)var
 m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -1999,48 +2013,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return qu}function
-kh(a,Q,l,P,r,q,N,x,g,f,k,b){var
-j=h(N),R=fm(0,N),aK=bJ(0,cm(a,R,e(ad,g6(k,0,r))),Q,0),S=e(aF,k),aL=0,aM=e(ad,r),aN=bJ(qv,function(b){var
-au=cM(aF,b),f=i(cm(a,R,aM),au);switch(b[0]){case
+q=c;return q}return qw}function
+kj(a,Q,l,P,r,q,N,x,g,f,k,b){var
+j=h(N),R=ef(0,N),aL=bJ(0,b4(a,R,e(ad,g7(k,0,r))),Q,0),S=e(aF,k),aM=0,aN=e(ad,r),aO=bJ(qx,function(b){var
+au=b1(aF,b),f=i(b4(a,R,aN),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
-b=t(M,d),e=b?[0,[0,ad(W(a,c))]]:b;return e},S);break;case
+b=u(M,d),e=b?[0,[0,ad(W(a,c))]]:b;return e},S);break;case
 3:var
 d=dv(b[1][2],b[2][2]);break;case
 4:var
-N=e(g1,b[2][2]),d=dv(b[1][2],N);break;case
+N=e(g2,b[2][2]),d=dv(b[1][2],N);break;case
 5:var
-d=e(g1,b[1][2]);break;case
+d=e(g2,b[1][2]);break;case
 6:var
-x=b[2],y=b[1],g=y[1],u=0;if(g){var
+x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return cs(a,P,b)},O),T=y[2],U=h[1],d=dv(e(function(b){return cs(a,U,b)},T),Q);else{var
-z=h;u=1}}else{var
-z=g;u=1}if(u)var
+O=x[2],P=g[1],Q=e(function(b){return ct(a,P,b)},O),T=y[2],U=h[1],d=dv(e(function(b){return ct(a,U,b)},T),Q);else{var
+z=h;t=1}}else{var
+z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=b[2],j=A[1];if(j)var
-V=A[2],X=d_(f[1]),Y=e(function(b){return cs(a,X,b)},V),Z=dv(b[1][2],Y),_=j[1],d=e(function(b){return g2(a,_,b)},Z);else{var
+V=A[2],X=ea(f[1]),Y=e(function(b){return ct(a,X,b)},V),Z=dv(b[1][2],Y),_=j[1],d=e(function(b){return g3(a,_,b)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=b[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aw(a,fo(a),aa),d=e(function(b){return cs(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=aw(a,fp(a),aa),d=e(function(b){return ct(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ae=f[1],af=aw(a,fo(a),ae),d=e(function(b){return g2(a,af,b)},ac);else
+ac=b[1][2],ae=f[1],af=aw(a,fp(a),ae),d=e(function(b){return g3(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jy(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a_(o,r),ai=e(function(b){return cs(a,ah,b)},ag),aj=F[2],ak=a_(m,s),al=dv(e(function(b){return cs(a,ak,b)},aj),ai),am=e(g1,D[2]),an=fo(a),ao=dv(e(function(b){return cs(a,an,b)},al),am),ap=b[1]?s:d_(r),aq=e(function(b){return cs(a,ap,b)},ao),ar=aw(a,m,r),as=a_(aw(a,o,s),ar),at=aw(a,fo(a),as),d=e(function(b){return g2(a,at,b)},aq);K=1;L=1}else
+q=jz(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a_(o,r),ai=e(function(b){return ct(a,ah,b)},ag),aj=F[2],ak=a_(m,s),al=dv(e(function(b){return ct(a,ak,b)},aj),ai),am=e(g2,D[2]),an=fp(a),ao=dv(e(function(b){return ct(a,an,b)},al),am),ap=b[1]?s:ea(r),aq=e(function(b){return ct(a,ap,b)},ao),ar=aw(a,m,r),as=a_(aw(a,o,s),ar),at=aw(a,fp(a),as),d=e(function(b){return g3(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2051,32 +2065,32 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},Q,aL),aO=ka(k,r);function
+d=e(function(a){return 0},S)}return[0,f,d]},Q,aM),aP=kb(k,r);function
 T(c){var
-d=u(c,q,0);if(d){var
-a=u(c,aK,0);if(a)var
-b=kc(0,k,u(c,aN,qt)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=t(c,q,0);if(d){var
+a=t(c,aL,0);if(a)var
+b=kd(0,k,t(c,aO,qv)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
 B(b){return e(function(b){return W(a,b)},b)}var
-aP=x?x[1]:ad(A);function
-U(a){return a?bv(j,a[1]):a}function
+aQ=x?x[1]:ad(A);function
+U(a){return a?bw(j,a[1]):a}function
 s(f,e,d,c,b){var
-g=aG([0,ag(e),0],j);return U(j9(a,B(f),d,c,b,g))}function
+g=aG([0,ag(e),0],j);return U(j_(a,B(f),d,c,b,g))}function
 V(y,x,w){var
 z=aG([0,x,0],j),q=B(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,fa(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,fc(g),h],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a9(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dw(a),t],v=dw(a),b=g5(a,[0,ag(d8(j8(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,a9(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dw(a),t],v=dw(a),b=g6(a,[0,ag(d9(j9(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gV(b[1]);if(i){var
+i=gW(b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
@@ -2084,16 +2098,16 @@ p=b;var
 r=p}else
 var
 r=[0,f];return U(r)}}var
-aQ=e(aF,k),X=n(function(a){return cH(a,h(r))},aQ),Y=X?kf(e(aF,k)):X,_=Y?n(function(a){return t(h(a),j)},b):Y;if(_){var
+aR=e(aF,k),X=n(function(a){return cI(a,h(r))},aR),Y=X?kh(e(aF,k)):X,_=Y?n(function(a){return u(h(a),j)},b):Y;if(_){var
 w=0;switch(g[0]){case
 0:var
 C=g[1],K=0;if(typeof
 f!=="number")switch(f[0]){case
 0:var
 at=0;if(b){if(b[2])return 0;var
-aR=b[1],aS=f[2],aU=f[1],$=dx(P,q);if($){var
+aS=b[1],aT=f[2],aU=f[1],$=dx(P,q);if($){var
 o=function(c,a){var
-b=G(C,a);return function(a){return s(aR,b,aU,aS,a)}},m=l;K=1;at=1}else
+b=G(C,a);return function(a){return s(aS,b,aU,aT,a)}},m=l;K=1;at=1}else
 var
 ac=$}else
 var
@@ -2102,7 +2116,7 @@ ac=b;if(!at)return ac;break;case
 au=0;if(b){if(b[2])return 0;var
 aW=b[1],aY=f[2],aZ=f[1],ae=dx(P,q),av=0;if(ae){if(x)return 0;var
 af=Z(C[1],d),ah=af?Z(C[2],d):af;if(ah){var
-o=function(c,b,a){return s(aW,A,aZ,aY,e(qm,a))},m=l;K=1;au=1;av=1}else
+o=function(c,b,a){return s(aW,A,aZ,aY,e(qo,a))},m=l;K=1;au=1;av=1}else
 var
 ai=ah}else
 var
@@ -2120,7 +2134,7 @@ ay=0,a2=g[1];if(typeof
 f==="number"||!(3===f[0]))ay=1;else{var
 az=0;if(b){var
 v=b[2],aA=0;if(v){if(v[2])return 0;var
-ak=f[1],a3=v[1],a4=b[1],a5=f[2],al=kd(a,ak,f[3]),am=jV(j,al);if(am){var
+ak=f[1],a3=v[1],a4=b[1],a5=f[2],al=kf(a,ak,f[3]),am=jW(j,al);if(am){var
 o=function(f,c,b){var
 d=aX(f,al),e=s(a4,G(d,c),ak,a5,b);return e?V(a3,H(y(a,a2,d),c),b):e},m=l;az=1;aA=1}else
 var
@@ -2152,18 +2166,18 @@ M=1;if(M)return 0;break;case
 ap=g[2],aq=g[1],aD=0;if(typeof
 f==="number"||!(0===f[0]))aD=1;else{var
 aH=0;if(b){if(b[2])return 0;var
-p=f[2],J=f[1],bc=b[1],ar=t(h(l),j);if(ar){var
+p=f[2],J=f[1],bc=b[1],ar=u(h(l),j);if(ar){var
 o=function(b,x){var
 z=B(bc);return function(f){var
-k=t(h(f),j),l=k?t(h(p),j):k;if(l){var
-s=e(aF,f),u=ee(J,ef(J,p,dw(a),s)),v=cp(fn(a,aq,ap,x,e(aF,f)),u),b=0,c=f,g=v,w=h(p);for(;;){if(c){var
-o=c[1][2],q=t(b,aq),r=e(function(f,g){return function(d){var
-b=aI(aJ(0,h(p)),p);return e(function(b){var
-c=j_(J,b[2],d[1]);if(g&&t(b[1],f))return H(c,a9(y(a,ap,d[2])));return c},b)}}(b,q),o),n=aJ(0,w),i=g5(a,z,e(function(c){return function(b){return t(b,c)?dw(a):A}}(b),n),r,g);if(i){var
+k=u(h(f),j),l=k?u(h(p),j):k;if(l){var
+s=e(aF,f),t=eh(J,ei(J,p,dw(a),s)),v=cq(fo(a,aq,ap,x,e(aF,f)),t),b=0,c=f,g=v,w=h(p);for(;;){if(c){var
+o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
+b=aJ(aK(0,h(p)),p);return e(function(b){var
+c=j$(J,b[2],d[1]);if(g&&u(b[1],f))return H(c,a9(y(a,ap,d[2])));return c},b)}}(b,q),o),n=aK(0,w),i=g6(a,z,e(function(c){return function(b){return u(b,c)?dw(a):A}}(b),n),r,g);if(i){var
 b=[0,b],c=c[2],g=i[1];continue}var
 d=i}else
 var
-d=[0,g];if(d)return bv(j,d[1]);var
+d=[0,g];if(d)return bw(j,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},m=l;aH=1}else
@@ -2173,147 +2187,178 @@ var
 as=b;if(!aH)return as}if(aD)return 0;break;default:return 0}if(w){var
 I=T(E);if(!I)return I;var
 a6=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=aT(function(b,a){return z(bn(d,O(b[2][1])),a)},d,c);return F(d,aE(aE(a[1][2][1],e),b))},a)},ab=a6,aa=[0,[0,0,I[1]],0]}else{var
-D=kg(q,T,m);if(!D)return D;var
+b=f[2],c=a[2],e=aI(function(b,a){return z(bo(d,O(b[2][1])),a)},d,c);return F(d,aE(aE(a[1][2][1],e),b))},a)},ab=a6,aa=[0,[0,0,I[1]],0]}else{var
+D=ki(q,T,m);if(!D)return D;var
 ab=o,aa=D[1]}var
-aV=bu(j);return n(function(b){var
-c=e(function(c){return kb(a,b,aO,c)},aa);return DJ(ab,b,aX(b,aP),c)},aV)}return _}function
-ft(b,a){if(a){var
+aV=bv(j);return n(function(b){var
+c=e(function(c){return kc(a,b,aP,c)},aa);return DL(ab,b,aX(b,aQ),c)},aV)}return _}function
+fu(b,a){if(a){var
 c=a[2];if(b){var
-e=ft(b[1],c);return[0,a[1],e]}var
+e=fu(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-ki(m,l,q,U,p,k,$,z,b,T,R){if(T){var
-r=g7(m,l,k,b),j=T,g=R;for(;;){if(j){var
-M=j[1],a=M[2],w=M[1],N=j[2];if(typeof
-a==="number"&&4===a){var
-v=i(z,b);if(v)var
-_=v[1],X=bu(h(b)),x=n(function(b){return function(a){return L(aX(a,b)[2],d)}}(_),X);else
-var
-x=v;if(x){var
-j=N,g=e(function(a){return 0},g);continue}return x}var
-O=u(w,g,0);if(O){var
-y=S($,w);if(y){var
-o=y[1],A=0;if(typeof
-a==="number")A=1;else
-switch(a[0]){case
-5:var
-C=a[2],s=i(z,b),V=0;if(s){var
-D=F(d,C);if(D){var
-Y=a[1],c=ke(m,l,q,U,p,k,r,b,[0,jW(C,a[3],s[1])],o,Y);V=1}else
-var
-E=D}else
-var
-E=s;if(!V)var
-c=E;break;case
+g_(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+kk(u,k,s,z,r,q,ah,M,c,K,ag){if(K){var
+av=v(function(i){var
+c=i[2];if(typeof
+c==="number"){var
+j=4!==c?1:0;if(!j)return j}var
+d=R(ah,i[1]);if(d){var
+a=d[1],b=c;for(;;){var
+g=0;if(typeof
+b==="number"){if(1!==b)g=1}else
+switch(b[0]){case
+1:break;case
+5:case
 10:var
-G=a[3],H=a[2],f=a[1],B=0;if(typeof
-f!=="number"&&5===f[0]){var
-I=f[2],t=i(z,b),W=0;if(t){var
-J=F(d,I);if(J){var
-Z=f[1],c=kh(m,l,q,p,k,r,b,[0,jW(I,f[3],t[1])],o,Z,H,G);B=1;W=1}else
+b=b[1];continue;default:g=1}var
+k=g?0:1,l=k?z:s,h=g_(l);switch(a[0]){case
+0:return f(r,h);case
+3:return[0,a[1],0];case
+5:return[0,a[1],[0,a[2],0]];case
+6:var
+m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return v(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
+9:var
+n=a[2],o=v(function(a){var
+b=e(bX,a[2][2]);return[0,a[1],b]},n);return f(g_(z),o);case
+4:case
+8:return g_(a[1]);default:return h}}}return d},K),ao=0,ap=aI(d$,e(function(a){return 0},k),av),x=d7(k,0),w=ap,B=ao;for(;;){if(x&&w){var
+Q=w[2],S=w[1],am=[0,S,B],an=S?aI(d$,Q,jx(x[1])):Q,x=x[2],w=an,B=am;continue}var
+ar=e(ad,q),T=b4(u,ef(0,c),ar),g=B,l=k,a=0,C=0;for(;;){if(l){var
+A=l[2],P=l[1];if(g){if(g[1]){var
+ak=[0,i(T,b1(function(b){return function(a){return t(a,b,C)}}(a),P)),a],g=bb(g),l=A,a=ak;continue}var
+g=g[2],l=A,a=[0,C,a];continue}var
+al=[0,i(T,b1(function(b){return function(a){return t(a,b,C)}}(a),P)),a],g=bb(g),l=A,a=al;continue}var
+p=K,o=ag;for(;;){if(p){var
+aa=p[1],b=aa[2],H=aa[1],ab=p[2];if(typeof
+b==="number"&&4===b){var
+G=i(M,c);if(G)var
+au=G[1],aq=bv(h(c)),I=n(function(b){return function(a){return L(aX(a,b)[2],d)}}(au),aq);else
 var
-K=J}else
+I=G;if(I){var
+p=ab,o=e(function(a){return 0},o);continue}return I}var
+ac=t(H,o,0);if(ac){var
+J=R(ah,H);if(J){var
+y=J[1],N=0;if(typeof
+b==="number")N=1;else
+switch(b[0]){case
+5:var
+U=b[2],D=i(M,c),ai=0;if(D){var
+V=F(d,U);if(V){var
+as=b[1],j=kg(u,k,s,z,r,q,a,c,[0,jX(U,b[3],D[1])],y,as);ai=1}else
 var
-K=t;if(!W){var
-c=K;B=1}}if(!B)var
-c=kh(m,l,q,p,k,r,b,0,o,f,H,G);break;default:A=1}if(A)var
-c=ke(m,l,q,U,p,k,r,b,0,o,a);if(c){var
-j=N,g=ft(w,g);continue}var
-P=c}else
+W=V}else
 var
-P=y;var
-Q=P}else
+W=D;if(!ai)var
+j=W;break;case
+10:var
+X=b[3],Y=b[2],m=b[1],O=0;if(typeof
+m!=="number"&&5===m[0]){var
+Z=m[2],E=i(M,c),aj=0;if(E){var
+_=F(d,Z);if(_){var
+at=m[1],j=kj(u,k,s,r,q,a,c,[0,jX(Z,m[3],E[1])],y,at,Y,X);O=1;aj=1}else
 var
-Q=O;return Q}return[0,g]}}return[0,R]}function
-fu(j,i,h,g,f,e,d,c,u,t,s){var
+$=_}else
+var
+$=E;if(!aj){var
+j=$;O=1}}if(!O)var
+j=kj(u,k,s,r,q,a,c,0,y,m,Y,X);break;default:N=1}if(N)var
+j=kg(u,k,s,z,r,q,a,c,0,y,b);if(j){var
+p=ab,o=fu(H,o);continue}var
+ae=j}else
+var
+ae=J;var
+af=ae}else
+var
+af=ac;return af}return[0,o]}}}}return[0,ag]}function
+fv(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=ki(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(_,l[1]):l}var
-m=ki(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=ed(a[2],b),q=fu(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=kk(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(_,l[1]):l}var
+m=kk(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=eg(a[2],b),q=fv(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-g_(a){return e(function(a){return 1},a)}function
+g$(a){return e(function(a){return 1},a)}function
 dy(a,d,b,c){function
 f(d,c){var
-f=aI(a[1],b[1]);return e(function(a){var
+f=aJ(a[1],b[1]);return e(function(a){var
 b=q(c,a[2]);return C(q(d,a[1]),b)},f)}if(av(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-kj(a){var
+kl(a){var
 b=l(c);return[0,e(function(a){return l(d)},a),b]}function
-aN(a,k){var
+aO(a,k){var
 f=k[1];switch(f[0]){case
 1:var
-v=f[1];if(ai(function(a){return t(v,a)},a)){var
+v=f[1];if(ai(function(a){return u(v,a)},a)){var
 C=l(c);return[0,e(function(a){var
-b=t(a,v)?c:d;return l(b)},a),C]}return kj(a);case
+b=u(a,v)?c:d;return l(b)},a),C]}return kl(a);case
 3:var
-D=l(c),E=aN(a,f[2]),F=l(c);return dy(aN(a,f[1]),F,E,D);case
+D=l(c),E=aO(a,f[2]),F=l(c);return dy(aO(a,f[1]),F,E,D);case
 4:var
-G=l(O(c)),H=aN(a,f[2]),I=l(c);return dy(aN(a,f[1]),I,H,G);case
+G=l(O(c)),H=aO(a,f[2]),I=l(c);return dy(aO(a,f[1]),I,H,G);case
 5:var
-w=aN(a,f[1]),J=w[2];return[0,e(bc,w[1]),J];case
+w=aO(a,f[1]),J=w[2];return[0,e(bd,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aN(a,x);return dy(aN(a,y),x,K,y);case
+x=f[2],y=f[1],K=aO(a,x);return dy(aO(a,y),x,K,y);case
 7:var
-z=f[2],L=bc(k),M=aN(a,z),N=l(c),i=dy(aN(a,f[1]),N,M,L),P=i[1];if(n(function(a){return aM(d,a)},P))return i;var
+z=f[2],L=bd(k),M=aO(a,z),N=l(c),i=dy(aO(a,f[1]),N,M,L),P=i[1];if(n(function(a){return aN(d,a)},P))return i;var
 Q=q(i[2],z);return[0,i[1],Q];case
 8:var
-A=f[1],B=aN(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
+A=f[1],B=aO(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
 9:var
-j=aN(a,f[1]),U=j[1];if(n(function(a){return aM(d,a)},U)){var
+j=aO(a,f[1]),U=j[1];if(n(function(a){return aN(d,a)},U)){var
 V=l(c);return[0,j[1],V]}var
 W=q(l(b(2,c)),k),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=s(g,p),Z=aN(a,g),_=s(h,o),$=dy(aN(a,h),_,Z,Y),aa=l(O(c)),ab=aN(a,m),r=dy($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bc(p),u=e(function(a){return q(ad,a)},ac);if(n(function(a){return aM(d,a)},u))return[0,u,r[2]];var
-ae=q(h,p),af=s(q(g,o),ae),ag=q(l(b(2,c)),af);return[0,u,q(r[2],ag)];default:return kj(a)}}function
-ct(n,r){var
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=s(g,p),Z=aO(a,g),_=s(h,o),$=dy(aO(a,h),_,Z,Y),aa=l(O(c)),ab=aO(a,m),r=dy($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bd(p),t=e(function(a){return q(ad,a)},ac);if(n(function(a){return aN(d,a)},t))return[0,t,r[2]];var
+ae=q(h,p),af=s(q(g,o),ae),ag=q(l(b(2,c)),af);return[0,t,q(r[2],ag)];default:return kl(a)}}function
+cu(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],b=f[1];if(F(i,c))if(0===e[0]){var
 j=e[2],o=e[1];if(F(j,c)){var
-k=Z(b,o),m=k?d9(b):k;if(m)var
+k=Z(b,o),m=k?d_(b):k;if(m)var
 p=Z(n[2],d),g=p||Z(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=Z(aS(j,aD(2))[2],d)?0:0}else
+a=Z(aT(j,aD(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=Z(aS(i,aD(2))[2],d)?0:0}else
+a=Z(aT(i,aD(2))[2],d)?0:0}else
 var
 a=0;return a?l(a[1]):[0,[1,r]]}function
-b4(b,a){if(a)var
-d=b4([0,b],a[2]),c=[0,ct(a[1],b),d];else
+b7(b,a){if(a)var
+d=b7([0,b],a[2]),c=[0,cu(a[1],b),d];else
 var
 c=a;return c}function
-aO(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fv(b,d,a){switch(a[0]){case
+aP(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fw(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aO(c[3],b),g),i=f(aO(c[2],b),h);return f(aO(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aP(c[3],b),g),i=f(aP(c[2],b),h);return f(aP(c[1],d),i);case
 1:var
-e=a[3],j=e?aO(e[1],d):e,k=f(aO(a[2],b),j);return f(aO(a[1],b),k);default:return aO(a[1],d)}}function
+e=a[3],j=e?aP(e[1],d):e,k=f(aP(a[2],b),j);return f(aP(a[1],b),k);default:return aP(a[1],d)}}function
 ab(b,a){var
-c=l(d),e=u(M(qw,a),b,c),f=l(d),g=u(M(qx,a),b,f);return[0,u(a,b,l(d)),g,e]}function
-kk(b,a){return ak(s,ak(C,cP,a),b)}function
-fw(c,b,a){if(a){var
-e=a[2],g=fw(c,bI(b),e),h=a[1];return f(fv(c,br(d,b),h),g)}return a}function
-g$(f,e,c,j){if(c){var
-b=c[1],v=M(j,h(fv(f,br(d,e),b))),w=c[2],x=g$(f,bI(e),w,v),a=b4(j,fv(f,br(d,e),b));switch(b[0]){case
+c=l(d),e=t(M(qy,a),b,c),f=l(d),g=t(M(qz,a),b,f);return[0,t(a,b,l(d)),g,e]}function
+km(b,a){return ak(s,ak(C,cP,a),b)}function
+fx(c,b,a){if(a){var
+e=a[2],g=fx(c,bb(b),e),h=a[1];return f(fw(c,bs(d,b),h),g)}return a}function
+ha(f,e,c,j){if(c){var
+b=c[1],v=M(j,h(fw(f,bs(d,e),b))),w=c[2],x=ha(f,bb(e),w,v),a=b7(j,fw(f,bs(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=u(qy,a,l(d)),o=ak(C,cP,ab(a,qz)),p=cO(ab(a,0)),q=ab(a,qA),g=jY(kk(ab(a,qB),q),p,o,n,m);break;case
+m=b[1][5],n=t(qA,a,l(d)),o=ak(C,cP,ab(a,qB)),p=cO(ab(a,0)),q=ab(a,qC),g=jZ(km(ab(a,qD),q),p,o,n,m);break;case
 1:var
-i=b[3],r=i?[0,cO(ab(a,qC))]:i,s=ak(C,cP,ab(a,qD)),t=ab(a,qE),g=jZ(kk(ab(a,0),t),s,r);break;default:var
-g=j0(cP,cO(ab(a,0)))}var
+i=b[3],r=i?[0,cO(ab(a,qE))]:i,s=ak(C,cP,ab(a,qF)),u=ab(a,qG),g=j0(km(ab(a,0),u),s,r);break;default:var
+g=j1(cP,cO(ab(a,0)))}var
 k=[0,g,x]}else
 var
 k=c;return k}function
-bw(b,a){if(typeof
+bx(b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2339,34 +2384,34 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 g=a[2];return[0,[0,g,g],b];default:var
 i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-eg(b,a){var
+ej(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 dz(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(eg(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=eg(b,a[3]);return f(eg(b,a[2]),j)}function
+e=[0,d,c],i=f(ej(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=ej(b,a[3]);return f(ej(b,a[2]),j)}function
 cQ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=dz(b,a[2]);return f(dz(b,a[1]),h);case
 11:var
-i=eg(b,a[3]);return f(eg(b,a[2]),i);case
+i=ej(b,a[3]);return f(ej(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kl(c,b,a){var
+kn(c,b,a){var
 d=h(cQ(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
-ha(c,b){if(av(b,c))return[0,l(d)];var
+hb(c,b){if(av(b,c))return[0,l(d)];var
 a=b[1];if(4===a[0]){var
 e=av(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-km(y,p,a,o){switch(o[0]){case
+ko(y,p,a,o){switch(o[0]){case
 0:var
-h=S(y,o[1]);if(h){var
+h=R(y,o[1]);if(h){var
 j=h[1];if(j){var
-q=j[1],r=q[1],b=r[2],e=r[1],t=q[2],z=ab(a,qF),A=ak(C,ak(s,e,aY(am(u(qG,a,l(d)),t),b)),z),B=ab(a,qH),f=am(u(0,a,l(d)),t),k=ha(e[1],b[1]);if(k){var
-m=ha(e[2],b[2]);if(m){var
-n=ha(e[3],b[3]);if(n)var
+q=j[1],r=q[1],b=r[2],e=r[1],u=q[2],z=ab(a,qH),A=ak(C,ak(s,e,aY(am(t(qI,a,l(d)),u),b)),z),B=ab(a,qJ),f=am(t(0,a,l(d)),u),k=hb(e[1],b[1]);if(k){var
+m=hb(e[2],b[2]);if(m){var
+n=hb(e[3],b[3]);if(n)var
 x=aY(f,b),g=ak(C,[0,k[1],m[1],n[1]],x);else
 var
 g=ak(s,e,aY(s(l(c),f),b))}else
@@ -2381,55 +2426,55 @@ w=v}else
 var
 w=h;return w;case
 1:var
-D=ab(a,qI);return[0,[0,ab(a,0),D]];default:var
-E=i(p,ab(a,qJ));return[0,[0,i(p,ab(a,0)),E]]}}function
-kn(e,d,c,h,g){var
-a=km(e,d,bY(qK,c),h);if(a)var
-b=km(e,d,dk(qL,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ab(a,qK);return[0,[0,ab(a,0),D]];default:var
+E=i(p,ab(a,qL));return[0,[0,i(p,ab(a,0)),E]]}}function
+kp(e,d,c,h,g){var
+a=ko(e,d,bZ(qM,c),h);if(a)var
+b=ko(e,d,dk(qN,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-ko(g,c,d,b,a){var
-h=dz(c,a),i=b4(d,f(dz(c,b),h));function
-j(a){return ak(C,cP,a)}return kn(e(function(a){var
-b=a[7];return v(function(b){var
-c=cr(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+kq(g,c,d,b,a){var
+h=dz(c,a),i=b7(d,f(dz(c,b),h));function
+j(a){return ak(C,cP,a)}return kp(e(function(a){var
+b=a[7];return w(function(b){var
+c=cs(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 cR(d,c,b,a){var
 e=q(c,b);return s(q(d,a),e)}function
-bx(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-kp(b,a){if(b)if(a)var
-d=b[1],e=kp(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
+by(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+kr(b,a){if(b)if(a)var
+d=b[1],e=kr(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kq(a){if(a){var
+ks(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kq(a[2]);if(d)var
+c=b[1],d=ks(a[2]);if(d)var
 g=d[1],h=X(c,c),e=[0,[0,[0,bL(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qN}function
-eh(b,d,c,a){if(typeof
+f=b;return f}return qP}function
+ek(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=ct(bw(d,a),i);return[0,e(function(a){var
+i=c[1],j=cu(bx(d,a),i);return[0,e(function(a){var
 b=q(a[2],j);return[0,bL(a[1]),b]},b)];case
-9:return kq(b);case
+9:return ks(b);case
 15:var
-k=h(b),f=t(h(a[1]),k);if(f)var
-l=cQ(d,a),g=[0,kp(b,b4(c[2],l))];else
+k=h(b),f=u(h(a[1]),k);if(f)var
+l=cQ(d,a),g=[0,kr(b,b7(c[2],l))];else
 var
 g=f;return g}return 0}function
-fx(e,k,j,a){var
-P=j[1],b=ct(bw(k,a),P),v=0;if(typeof
-a==="number")v=1;else
+fy(e,k,j,a){var
+P=j[1],b=cu(bx(k,a),P),w=0;if(typeof
+a==="number")w=1;else
 switch(a[0]){case
 2:var
 Q=function(a){return[0,s(a[4],b),0]},g=Q,f=a[1];break;case
 3:var
-R=function(a){return[0,s(b,a[4]),0]},g=R,f=a[1];break;case
+S=function(a){return[0,s(b,a[4]),0]},g=S,f=a[1];break;case
 4:var
 T=function(c){var
 a=c[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=c[2];return[0,s(s(s(q(K(b),g),f),e),d),0]},g=T,f=a[1];break;case
@@ -2442,7 +2487,7 @@ d=a;return d},g=U,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],z=m[1],A=e[1],h=y[1],i=z[1],p=A[1],J=cR(i[1],i[2],h[1],h[2]),L=q(p[3],J),M=cR(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cR(i[2],i[3],h[2],h[3]),w=C(s(q(p[1],O),N),L),V=cr(y),W=cr(z),B=q(q(q(b,cr(A)),W),V),Y=[0,bc(C(w,B)),0],D=[0,s(w,B),Y]}else
+y=n[1],z=m[1],A=e[1],h=y[1],i=z[1],p=A[1],J=cR(i[1],i[2],h[1],h[2]),L=q(p[3],J),M=cR(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cR(i[2],i[3],h[2],h[3]),x=C(s(q(p[1],O),N),L),V=cs(y),W=cs(z),B=q(q(q(b,cs(A)),W),V),Y=[0,bd(C(x,B)),0],D=[0,s(x,B),Y]}else
 var
 D=n;var
 E=D}else
@@ -2452,53 +2497,53 @@ F=E}else
 var
 F=e;return F;case
 10:var
-t=ko(e,k,j[2],a[1],a[2]);if(t){var
-G=t[1],H=G[2],I=G[1];return x(bL,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return t;case
+u=kq(e,k,j[2],a[1],a[2]);if(u){var
+G=u[1],H=G[2],I=G[1];return v(bL,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cQ(k,a),f=b4(j[2],n),h=ab(f,qM),c=ak(s,ab(f,0),h),i=K(b),l=K(cr(d)),m=am(K(X(c,d[1])),l),g=[0,s(s(X(c,c),m),i),0];else
+n=cQ(k,a),f=b7(j[2],n),h=ab(f,qO),c=ak(s,ab(f,0),h),i=K(b),l=K(cs(d)),m=am(K(X(c,d[1])),l),g=[0,s(s(X(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),r=cQ(k,a),t=u(0,b4(j[2],r),p),f=am(t,cr(e)),g=e[5];if(g){var
+p=l(d),r=cQ(k,a),u=t(0,b7(j[2],r),p),f=am(u,cs(e)),g=e[5];if(g){var
 m=az(e[2]),h=am(g[1],m),n=q(h,C(b,q(f,K(h))));return[0,s(l(c),n),0]}var
 i=e[7],o=i?[0,s(s(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=eh(e,k,j,a);return r?bx(r[1]):r;default:v=1}if(v)return 0;var
-o=S(e,f);return o?g(o[1]):o}function
-hb(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hb(d,b,kl(b,e,c),g);return f(fx(d,b,c,e),h)}return a}var
-kr=[0,d,c],ks=[0,[0,kr,kr],d];function
-fy(a){return _(b2(a[1][1],a[1][2]))}function
-kt(a){var
-b=aJ(0,h(a));return bb(function(b){return fy(u(b,a,ks))},b)}function
-ku(a,g){var
-h=g[4],b=aN(kt(a),h),c=b[1],f=e(function(a){return aM(d,a)?a:am(a,b[2])},c),i=aI(kt(a),f);return bb(function(a){return _(aM(d,a[2]))},i)}function
-kv(b,a){var
+r=ek(e,k,j,a);return r?by(r[1]):r;default:w=1}if(w)return 0;var
+o=R(e,f);return o?g(o[1]):o}function
+hc(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hc(d,b,kn(b,e,c),g);return f(fy(d,b,c,e),h)}return a}var
+kt=[0,d,c],ku=[0,[0,kt,kt],d];function
+fz(a){return _(b5(a[1][1],a[1][2]))}function
+kv(a){var
+b=aK(0,h(a));return bc(function(b){return fz(t(b,a,ku))},b)}function
+kw(a,g){var
+h=g[4],b=aO(kv(a),h),c=b[1],f=e(function(a){return aN(d,a)?a:am(a,b[2])},c),i=aJ(kv(a),f);return bc(function(a){return _(aN(d,a[2]))},i)}function
+kx(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kw(f,J,l,I,m,k,o,s){if(s){var
-a=s[1],aK=s[2],aL=kw(f,J,l,I,m,k,kl(k,a,o),aK);if(typeof
+ky(f,J,l,I,m,k,o,s){if(s){var
+a=s[1],aK=s[2],aL=ky(f,J,l,I,m,k,kn(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
 j=[0,[0,A]];else
 var
-aq=J[2],as=J[1],at=ec(m),j=[0,[8,i(ar(l),at),as,aq]];else
+aq=J[2],as=J[1],at=ee(m),j=[0,[8,i(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
-au=aj(f,bw(k,a)),j=v(function(a){return[0,$(f,a)]},au);break;case
+au=aj(f,bx(k,a)),j=w(function(a){return[0,$(f,a)]},au);break;case
 1:var
-av=aj(f,bw(k,a)),j=v(function(a){return[1,$(f,a)]},av);break;case
+av=aj(f,bx(k,a)),j=w(function(a){return[1,$(f,a)]},av);break;case
 5:var
-ax=aj(f,bw(k,a)),j=v(function(a){return[2,$(f,a)]},ax);break;case
+ax=aj(f,bx(k,a)),j=w(function(a){return[2,$(f,a)]},ax);break;case
 8:var
-ay=eh(m,k,o,a),j=v(function(a){var
+ay=ek(m,k,o,a),j=w(function(a){var
 b=W(f,c);return[4,i(ar(l),a),b]},ay);break;case
 9:var
-y=eh(m,k,o,a);if(y){var
-z=aj(f,bw(k,a));if(z)var
+y=ek(m,k,o,a);if(y){var
+z=aj(f,bx(k,a));if(z)var
 az=$(f,z[1]),aA=y[1],O=[0,[4,i(ar(l),aA),az]];else
 var
 O=z;var
@@ -2507,10 +2552,10 @@ var
 P=y;var
 j=P;break;case
 10:var
-B=ko(m,k,o[2],a[1],a[2]);if(B){var
-Q=B[1],R=Q[2],T=Q[1],C=aj(f,bw(k,a));if(C){var
+B=kq(m,k,o[2],a[1],a[2]);if(B){var
+Q=B[1],S=Q[2],T=Q[1],C=aj(f,bx(k,a));if(C){var
 U=C[1],V=F(d,U[1]);if(V)var
-q=function(a){return kv(l,a)},aB=q(R[2]),aC=q(R[1]),aD=q(T[2]),X=[0,[6,q(T[1]),aD,aC,aB,U]];else
+q=function(a){return kx(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),X=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
 X=V;var
 Y=X}else
@@ -2521,27 +2566,27 @@ var
 Z=B;var
 j=Z;break;case
 12:var
-r=fx(m,k,o,a),w=0;if(r)if(r[2])var
+r=fy(m,k,o,a),v=0;if(r)if(r[2])var
 j=0;else{var
 _=g(f,0,a[2]),aa=_?g(f,1,a[4]):_;if(aa){var
-D=[0,[3,i(l,r[1])]];w=1}else{var
-D=aa;w=1}}else{var
-D=r;w=1}if(w)var
+D=[0,[3,i(l,r[1])]];v=1}else{var
+D=aa;v=1}}else{var
+D=r;v=1}if(v)var
 j=D;break;case
 13:var
-ab=a[1],ac=S(m,ab),K=0;if(ac){var
+ab=a[1],ac=R(m,ab),K=0;if(ac){var
 ad=g(f,1,a[2]),af=ad?g(f,1,a[3]):ad;if(af)var
-aF=aj(f,bw(k,a)),j=v(function(a){return[7,ab,$(f,a)]},aF);else{var
+aF=aj(f,bx(k,a)),j=w(function(a){return[7,ab,$(f,a)]},aF);else{var
 ag=af;K=1}}else{var
 ag=ac;K=1}if(K)var
 j=ag;break;case
 14:var
-E=a[2],ah=a[1],ai=t(h(m),qO),ak=ai?g(f,0,ah):ai,al=ak?g(f,1,E):ak;if(al){var
-G=aj(f,bw(k,a));if(G)var
+E=a[2],ah=a[1],ai=u(h(m),qQ),ak=ai?g(f,0,ah):ai,al=ak?g(f,1,E):ak;if(al){var
+G=aj(f,bx(k,a));if(G)var
 H=ae(e(function(n){var
 h=[5,ah,E],a=aj(f,[0,[0,h,h],d]);if(a){var
-o=ku(I,n),g=ae(e(function(e){var
-a=u(e[1],I,ks),g=aE(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=aj(f,[0,[0,d,d],g]);return v(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
+o=kw(I,n),g=ae(e(function(e){var
+a=t(e[1],I,ku),g=aE(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=aj(f,[0,[0,d,d],g]);return w(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
 p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
 var
 j=g;var
@@ -2556,11 +2601,11 @@ an=al;var
 j=an;break;case
 15:var
 aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=eh(m,k,o,a),j=v(function(a){var
+aJ=ek(m,k,o,a),j=w(function(a){var
 b=W(f,c);return[4,i(ar(l),a),b]},aJ);else
 var
 j=ao;break;default:var
-p=fx(m,k,o,a),L=0;if(p){var
+p=fy(m,k,o,a),L=0;if(p){var
 x=p[2],M=p[1];if(x)if(x[2])var
 j=0;else
 var
@@ -2571,18 +2616,18 @@ j=N}var
 ap=[0,j,aL]}else
 var
 ap=s;return ap}function
-qP(a){var
+qR(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dA(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kx(a,c,g,b){if(0===c[0])return 0;if(b){var
+kz(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=co(a,g,c[1]);if(i){var
-j=co(a,g,c[2]);if(j){var
-k=co(a,g,c[3]);if(k)var
+e=d[1],f=b[1],i=cp(a,g,c[1]);if(i){var
+j=cp(a,g,c[2]);if(j){var
+k=cp(a,g,c[3]);if(k)var
 t=i[1],u=bM(f),l=H([0,bM(f),u],t),v=j[1],w=bM(e),m=H([0,bM(e),w],v),x=du(e),z=[0,du(e),x],B=[0,y(a,ag(G(m,m)),z),0],C=du(f),D=[0,du(f),C],E=[0,y(a,ag(G(l,l)),D),B],F=$(a,m),I=$(a,l),n=[0,[0,H(H($(a,k[1]),I),F),A,E]];else
 var
 n=k;var
@@ -2601,8 +2646,8 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fz(a,p,o){var
-q=aO(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
+fA(a,p,o){var
+q=aP(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
@@ -2630,13 +2675,13 @@ at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 P(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
 ax(a){return at([5,[0,c,c],[6,P(a,a)]],a)}function
 cS(c,b,a){var
-d=bd(c,b[1],a);return d?bd(c,a,b[2]):d}function
+d=be(c,b[1],a);return d?be(c,a,b[2]):d}function
 a2(c,b,a){var
 d=cS(c,b[1],a[1]),e=d?cS(c,b[2],a[2]):d;return e?cS(c,b[3],a[3]):e}function
-ky(b,c,a){switch(c[0]){case
+kA(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a2(b,d[1],f),l=k?g(b,1,P(f,f)):k,m=l?a2(b,d[2],a[2]):l,n=m?a2(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?ce(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a2(b,d[1],f),l=k?g(b,1,P(f,f)):k,m=l?a2(b,d[2],a[2]):l,n=m?a2(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?cg(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=a2(b,c[1],a[1]),s=r?a2(b,c[2],a[2]):r;if(s){if(q){if(e){var
@@ -2650,9 +2695,9 @@ v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=a2(b,c[1],i);return w?g(b,1,P(i,i)):w}return 0}}function
 cT(c,a,b){if(0===a[0])return a2(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cS(c,a[4],b[3]):i}function
-kz(g,f,i,h){var
+kB(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=ky(g,b[1],a[1]);if(d){var
+d=kA(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2662,38 +2707,38 @@ var
 c=a?0:1;return c?cT(g,f[2],h):c}}function
 a$(c,b,a){var
 d=af(function(b,a){return[2,b,a]},a,b);return af(function(b,a){return[3,b,a]},d,c)}function
-ei(a,e,d,c){var
+el(a,e,d,c){var
 b=a$(e,d,c),f=ax(a),g=at(P(ax(a),b),f);return af(function(b,a){return[3,b,a]},b,g)}function
 cU(f,e,d,a,c){var
-b=ei(f,e,d,c);return[3,[4,a,a],P(b,b)]}function
+b=el(f,e,d,c);return[3,[4,a,a],P(b,b)]}function
 cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
 cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ei(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=ax(d);return af(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=el(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=ax(d);return af(function(b,a){return[2,b,a]},j,i);case
 1:return ax(a$(a[1],a[2],b));default:return ax(a[1])}}function
-ej(a,b){switch(a[0]){case
+em(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ax(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ei(c,e,d,b);return af(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=ax(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=el(c,e,d,b);return af(function(b,a){return[2,b,a]},i,h);case
 1:return a$(a[1],a[2],b);default:return ax(a[1])}}function
-hc(a,b){switch(a[0]){case
+hd(a,b){switch(a[0]){case
 0:var
 c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=a$(d,c,b);return[3,P(ax(e),j),i];case
 1:var
 f=a[2],g=a[1],k=a$(g,f,b);return[6,P(a$(g,f,b),k)];default:return P(ax(a[1]),b)}}function
-kA(a,b){switch(a[0]){case
+kC(a,b){switch(a[0]){case
 0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=a$(d,c,b);return[0,P(a$(d,c,b),e)];default:return 0}}function
-ek(e,b,a){var
-f=[0,d,c];return aT(function(c,d){var
+en(e,b,a){var
+f=[0,d,c];return aI(function(c,d){var
 e=P(cW(c,b),a);return[2,[4,P(cW(c,b),a),e],d]},f,e)}function
-kB(a){var
+kD(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hd(a,b){switch(a[0]){case
+he(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=a$(e,d,b);return[6,P(a$(e,d,b),f)];default:return[0,c,c]}}function
-kC(d,i){if(d){var
+kE(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=a$(a[1],a[2],i),k=ax(f),l=at(P(ax(f),g),k),h=[0,af(function(b,a){return[3,b,a]},g,l)];else
@@ -2702,19 +2747,19 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kC(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kE(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qQ}function
+j=b;return j}return qS}function
 cX(a){return[0,a[1],a[2],a[3]]}function
-kD(a,b){switch(a[0]){case
+kF(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ei(d,g,c,b),m=af(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=el(d,g,c,b),m=af(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=a$(a[1],h,b),n=[6,P(e,e)];return[0,[0,[0,af(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kE(l,b,a){switch(a[0]){case
+kG(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=S(l,a[1]);if(d){var
-e=kD(d[1],b);if(e)var
+m=a[5],d=R(l,a[1]);if(d){var
+e=kF(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
 b=cX(m),c=at(a,n),d=af(function(b,a){return[3,b,a]},o,c);return af(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
@@ -2725,28 +2770,28 @@ k=d;return k;case
 1:var
 q=cX(a[3]);return[0,[0,cX(a[2]),q]];default:var
 r=cX(a[3]),s=af(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,af(function(b,a){return[2,b,a]},b,t),s]]}}function
-kF(d,a,c,b){var
+kH(d,a,c,b){var
 e=at(a,b),f=at([3,d,a],c);return af(function(b,a){return[2,b,a]},f,e)}function
-kG(f,h,b,e,q,a){function
+kI(f,h,b,e,q,a){function
 F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],P(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=ek(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=en(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,ek(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,en(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hc(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hd(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hc(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hd(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
 c=cW(a,b);return[3,[4,[4,H,H],P(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=P(e,e),ay=[4,[4,I,I],[4,ek(h,b,q),aw]],az=P(q,q);return g(f,1,[3,[4,ek(h,b,e),az],ay]);case
+I=a[1],aw=P(e,e),ay=[4,[4,I,I],[4,en(h,b,q),aw]],az=P(q,q);return g(f,1,[3,[4,en(h,b,e),az],ay]);case
 6:var
-J=a[2],u=S(h,a[1]);if(u){var
+J=a[2],u=R(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
 v=i[4],aA=cU(i[1],i[2],i[3],v,b),K=cV(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
@@ -2755,8 +2800,8 @@ L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],O=h[1],aB=hd(M,b),aC=hd(N,b),aD=hd(O,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=ej(M,b),k=ej(N,b),aE=ej(O,b),E=P(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
-T=R}else
+M=o[1],N=n[1],O=h[1],aB=he(M,b),aC=he(N,b),aD=he(O,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=em(M,b),k=em(N,b),aE=em(O,b),E=P(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+T=S}else
 var
 T=o;var
 U=T}else
@@ -2766,15 +2811,15 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=ek(h,b,e),aG=P(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=en(h,b,e),aG=P(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kC(h,b);if(w){var
-aH=w[1],an=[0,d,c],ao=aT(function(a,b){var
+W=a[1],w=kE(h,b);if(w){var
+aH=w[1],an=[0,d,c],ao=aI(function(a,b){var
 c=P(ax(a),e);return[2,[4,P(ax(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],P(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kE(h,b,Y);if(x){var
-Z=x[1],y=kE(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=kF(l,A,_[1],_[2]),aJ=kF(l,z,Z[1],Z[2]),$=af(function(b,a){return[3,b,a]},aJ,aI),aK=a[3],aL=dn(X),aa=[4,l,[2,[2,dn(Y),aL],aK]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,ag=ae?g(f,0,[3,l,A]):ae;if(ag)return g(f,1,[3,[4,aa,aa],P($,$)]);var
+X=a[2],Y=a[1],x=kG(h,b,Y);if(x){var
+Z=x[1],y=kG(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aJ=kH(l,A,_[1],_[2]),aK=kH(l,z,Z[1],Z[2]),$=af(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dn(X),aa=[4,l,[2,[2,dn(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,ag=ae?g(f,0,[3,l,A]):ae;if(ag)return g(f,1,[3,[4,aa,aa],P($,$)]);var
 ah=ag}else
 var
 ah=y;var
@@ -2782,38 +2827,38 @@ ai=ah}else
 var
 ai=x;return ai;case
 11:var
-aj=a[4],B=S(h,a[1]);if(B){var
-C=kD(B[1],b);if(C){var
-m=C[1][1][2],aM=cX(a[3]),aN=cX(a[2]),p=af(function(b,a){return[3,b,a]},aN,aM),ak=g(f,1,P(m,m));if(ak){var
-aO=P(m,m),aP=P(p,m),aQ=[5,[4,P(p,m),aP],aO];return g(f,1,[3,[4,aj,aj],[3,P(p,p),aQ]])}var
+aj=a[4],B=R(h,a[1]);if(B){var
+C=kF(B[1],b);if(C){var
+m=C[1][1][2],aN=cX(a[3]),aO=cX(a[2]),p=af(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,P(m,m));if(ak){var
+aP=P(m,m),aQ=P(p,m),aR=[5,[4,P(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,P(p,p),aR]])}var
 al=ak}else
 var
 al=C;var
 am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
-t=S(h,r);return t?g(f,1,s(t[1])):t}function
-be(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kH(a){switch(a[0]){case
+t=R(h,r);return t?g(f,1,s(t[1])):t}function
+bf(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+kJ(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=be(b[3]),f=be(b[2]);return[0,be(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bf(b[3]),f=bf(b[2]);return[0,bf(b[1]),f,e,d,c];case
 1:var
-g=v(be,a[3]),h=be(a[2]);return[1,be(a[1]),h,g];default:return[2,be(a[1])]}}function
-he(a){return 0===a[0]?be(a[1]):[0,a[1],a[2],a[4][1]]}function
-kI(b,a){var
-c=he(a[2]);return kz(b,a,e(kH,a[1]),c)}function
-kJ(b,a,c){var
-d=[0,c,dk(b,a)];return f(bY(b,a),d)}function
-b5(b,a){if(b){if(a){var
-e=b5(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kK(a){if(a){var
+g=w(bf,a[3]),h=bf(a[2]);return[1,bf(a[1]),h,g];default:return[2,bf(a[1])]}}function
+hf(a){return 0===a[0]?bf(a[1]):[0,a[1],a[2],a[4][1]]}function
+kK(b,a){var
+c=hf(a[2]);return kB(b,a,e(kJ,a[1]),c)}function
+kL(b,a,c){var
+d=[0,c,dk(b,a)];return f(bZ(b,a),d)}function
+b8(b,a){if(b){if(a){var
+e=b8(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+kM(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kK(a[2]);return v(function(a){return[0,c,a]},d)}return b}return qS}function
-kL(a,l,k,f){var
+c=b[1],d=kM(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qU}function
+kN(a,l,k,f){var
 b=aW(a,l);if(b){var
 c=aW(a,k);if(c){var
 d=dr(a,f);if(d){var
-e=fg(a,f);if(e)var
+e=fi(a,f);if(e)var
 m=y(a,b[1],e[1]),g=[0,H(y(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -2826,14 +2871,14 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fA(a){return a?L(d,a[1][1]):a}function
-kM(a,ab,m,aD,i,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b5(a,a)]}var
+fB(a){return a?L(d,a[1][1]):a}function
+kO(a,ab,m,aD,i,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b8(a,a)]}var
 aE=m[1];function
 p(b){var
-a=[0,d,c];return aT(function(a,c){var
-d=b5(a,b);return[2,[4,b5(a,b),d],c]},a,aE)}var
-ad=n(function(a){return t(h(a),ab)},i);if(ad){var
+a=[0,d,c];return aI(function(a,c){var
+d=b8(a,b);return[2,[4,b8(a,b),d],c]},a,aE)}var
+ad=n(function(a){return u(h(a),ab)},i);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
@@ -2842,34 +2887,34 @@ af=i[1],aF=p(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
 1:if(i){if(i[2])return 0;var
 ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,p(ag),aG])}return i;case
 2:if(i)return 0;var
-aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aI,G=f[1];break;case
+aH=f[2],aJ=function(b){if(typeof
+b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aJ,G=f[1];break;case
 3:if(i)return 0;var
-aJ=f[2],aK=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,b[1],aJ]);return 0},I=aK,G=f[1];break;case
+aK=f[2],aL=function(b){if(typeof
+b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,G=f[1];break;case
 4:if(i)return 0;var
-ah=f[3],ai=f[2],aL=function(e){if(typeof
+ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kL(a,i,h,ai);return f?L(f[1][2],d):f}return fA(kL(a,i,h,ah))}return j}return 0},I=aL,G=f[1];break;case
+f=kN(a,i,h,ai);return f?L(f[1][2],d):f}return fB(kN(a,i,h,ah))}return j}return 0},I=aM,G=f[1];break;case
 5:if(i){var
 r=i[2];if(r){if(r[2])return 0;var
-K=r[1],M=i[1],aj=f[1],aM=b5(M,M),aN=[4,[4,aj,aj],[4,p(K),aM]],aO=b5(K,K);return g(a,1,[3,[4,p(M),aO],aN])}var
+K=r[1],M=i[1],aj=f[1],aN=b8(M,M),aO=[4,[4,aj,aj],[4,p(K),aN]],aP=b8(K,K);return g(a,1,[3,[4,p(M),aP],aO])}var
 ak=r}else
 var
 ak=i;return ak;case
 6:if(i)return 0;var
-al=f[2],aP=f[3],aQ=function(b){var
-c=[5,aP,al],d=g(a,1,al);return d?g(a,1,[3,b5(b,b),[4,c,c]]):d},an=aQ,am=f[1];k=3;break;case
+al=f[2],aQ=f[3],aR=function(b){var
+c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,b8(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
 8:if(i){if(i[2])return 0;var
-O=i[1],aR=p(O),aS=[4,f[1],aR],aU=b5(O,O);return g(a,1,[3,[4,f[2],aU],aS])}return i;case
+O=i[1],aS=p(O),aT=[4,f[1],aS],aU=b8(O,O);return g(a,1,[3,[4,f[2],aU],aT])}return i;case
 9:if(i)return 0;var
 ar=f[3],as=f[2],aV=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aW(a,b5(e,e));if(b){var
+b=aW(a,b8(e,e));if(b){var
 c=aW(a,[5,ar,as]);if(c){var
-d=jJ(a,c[1]);if(d){var
-l=$(a,d[1]);return fA([0,H(b[1],l)])}var
+d=jK(a,c[1]);if(d){var
+l=$(a,d[1]);return fB([0,H(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2887,8 +2932,8 @@ aZ=f[2],a0=function(e){var
 b=dr(a,aZ);if(b){var
 c=aW(a,e[3]);if(c){var
 d=aW(a,e[2]);if(d){var
-f=y(a,b[1],c[1]),g=fA([0,f]);if(g){var
-k=$(a,d[1]);return fA([0,H($(a,f),k)])}var
+f=y(a,b[1],c[1]),g=fB([0,f]);if(g){var
+k=$(a,d[1]);return fB([0,H($(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2899,11 +2944,11 @@ j=i}else
 var
 j=b;return j},au=a0,at=f[1];k=2;break;case
 12:if(i)return 0;var
-R=kK(m[3]);if(R){var
-aw=R[1],a1=f[1],ax=dj(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
+S=kM(m[3]);if(S){var
+aw=S[1],a1=f[1],ax=dj(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
-u=s[2];if(u){var
-v=u[2],U=u[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
+t=s[2];if(t){var
+v=t[2],U=t[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
 j=[0,d,c];else{var
 w=l[1];if(w){var
 x=w[2];if(x){var
@@ -2943,25 +2988,25 @@ j=[0,d,c];var
 ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
 az=ay}else
 var
-az=R;return az;default:k=1}switch(k){case
+az=S;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-P=S(m[3],at);if(P){var
+P=R(m[3],at);if(P){var
 Q=P[1];if(Q)return au(Q[1]);var
 av=Q}else
 var
 av=P;return av;case
 3:var
-N=S(m[1],am);if(N){var
-ao=N[1],ap=t(h(ao),ab);if(ap)return an(ao);var
+N=R(m[1],am);if(N){var
+ao=N[1],ap=u(h(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=N;return aq;default:var
-J=S(m[2],G);return J?I(J[1]):J}}else
+J=R(m[2],G);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-kN(h,g){var
+kP(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -2971,82 +3016,82 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kO(a){if(a){var
+kQ(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kO(a[2]);return v(function(a){return[0,c,a]},d)}return b}return qT}function
-qU(a){return e(function(a){return[0,a,c]},a)}function
-kP(h,f,b,n,a){if(typeof
+c=b[1],d=kQ(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qV}function
+qW(a){return e(function(a){return[0,a,c]},a)}function
+kR(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
 r=b[4];return ai(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=kO(b[5]);return i?jQ(f,i[1]):i}else{if(0===a[0]){var
-j=kN(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(qU,a[2]);return kM(h,f,b,o[2],t,s)}return j}var
-k=kN(a[1],n);if(k){var
+i=kQ(b[5]);return i?jR(f,i[1]):i}else{if(0===a[0]){var
+j=kP(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(qW,a[2]);return kO(h,f,b,o[2],t,s)}return j}var
+k=kP(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=S(b[1],a[2]);return m?kM(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=R(b[1],a[2]);return m?kO(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hf(a){var
+hg(a){var
 b=ax(a[1]),c=at(P(b,a[2]),b),d=a[2];return af(function(b,a){return[3,b,a]},d,c)}function
-hg(a){return ax(hf(a))}function
-kQ(c){var
-a=hg(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hh(a,b){return a$(a[3],a[4],b)}function
-hi(a,b){var
-c=hh(a,b);return P(hg(a),c)}function
+hh(a){return ax(hg(a))}function
+kS(c){var
+a=hh(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hi(a,b){return a$(a[3],a[4],b)}function
 hj(a,b){var
-c=hh(a,b);return P(kQ(a),c)}function
-kR(a,b){var
-c=hh(a,b);return P(ax(a[1]),c)}function
-hk(b,a){var
-c=hj(b,a),d=hi(b,a);return[2,[4,d,d],[4,c,c]]}function
-hl(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kR(a,d);return[5,[2,hk(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kS(a,b){var
-f=a[5],c=[3,hl(a,b),f],d=kR(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fB(a,b){var
-c=kS(a,b);return cV(a[7],c)}function
-kT(b,a){var
-c=hk(b,a),d=hj(b,a),e=[4,fB(b,a),d],f=hi(b,a);return[5,[2,[4,hl(b,a),f],e],c]}function
-kU(b,a){var
-c=hk(b,a),d=hi(b,a),e=[4,fB(b,a),d],f=hj(b,a);return[5,[3,[4,hl(b,a),f],e],c]}function
-kV(a,b){var
-c=kQ(a),d=at(kU(a,b),c),e=hg(a),f=at(kT(a,b),e),g=af(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return af(function(b,a){return[2,b,a]},i,h)}var
+c=hi(a,b);return P(hh(a),c)}function
+hk(a,b){var
+c=hi(a,b);return P(kS(a),c)}function
+kT(a,b){var
+c=hi(a,b);return P(ax(a[1]),c)}function
+hl(b,a){var
+c=hk(b,a),d=hj(b,a);return[2,[4,d,d],[4,c,c]]}function
+hm(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kT(a,d);return[5,[2,hl(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+kU(a,b){var
+f=a[5],c=[3,hm(a,b),f],d=kT(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fC(a,b){var
+c=kU(a,b);return cV(a[7],c)}function
+kV(b,a){var
+c=hl(b,a),d=hk(b,a),e=[4,fC(b,a),d],f=hj(b,a);return[5,[2,[4,hm(b,a),f],e],c]}function
+kW(b,a){var
+c=hl(b,a),d=hj(b,a),e=[4,fC(b,a),d],f=hk(b,a);return[5,[3,[4,hm(b,a),f],e],c]}function
+kX(a,b){var
+c=kS(a),d=at(kW(a,b),c),e=hh(a),f=at(kV(a,b),e),g=af(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return af(function(b,a){return[2,b,a]},i,h)}var
 p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 bN(h){var
-a=aT(function(f,e){var
+a=aI(function(f,e){var
 a=aW(p,f);if(a)var
-b=a[1],c=bn(dg(b[1]),dg(b[2]));else
+b=a[1],c=bo(dg(b[1]),dg(b[2]));else
 var
-c=d;return bn(c,e)},d,h);if(L(d,a)){var
+c=d;return bo(c,e)},d,h);if(L(d,a)){var
 f=a7(a);if(0===f||!(0<f&&!F(a,c)))var
 g=d;else
 var
-b=aS(a,aD(2)),e=b[1],g=Z(b[2],d)?e2(e):e2(e);return aE(g,p)}return d}function
+b=aT(a,aD(2)),e=b[1],g=Z(b[2],d)?e5(e):e5(e);return aE(g,p)}return d}function
 dB(a){return[0,a[1],[0,a[2],0]]}function
 a3(a){var
 b=dB(a[3]),c=f(dB(a[2]),b);return f(dB(a[1]),c)}function
-fC(a){return fz(p,a,bN(a3(a)))}function
-kW(b,a){if(a){var
-g=kW([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=ct([0,[0,d,d],c[2]],b);else
+fD(a){return fA(p,a,bN(a3(a)))}function
+kY(b,a){if(a){var
+g=kY([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cu([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-kX(c,b,a){var
+kZ(c,b,a){var
 d=dn(b);return[2,[2,dn(c),d],a]}function
-hm(b,a){return b?O(a):d}function
-el(h,b,a){if(typeof
+hn(b,a){return b?O(a):d}function
+eo(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-m=hm(h,b),n=z(hm(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
+m=hn(h,b),n=z(hn(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
 9:return[0,[1,[5,a[3],a[2]],O(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3054,40 +3099,40 @@ m=hm(h,b),n=z(hm(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
 13:var
 c=a[3],g=bN([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],o=dz(b,k),p=f(dz(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kX(l,k,a[3]),b],q];case
+k=a[2],l=a[1],o=dz(b,k),p=f(dz(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kZ(l,k,a[3]),b],q];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cu(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cu(g,c,b,M(e,h(el(c,b,d))),i);return f(ao(g,kW(e,el(c,b,d)),d),j)}return a}function
-hn(b,a){switch(a[0]){case
+cv(g,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=cv(g,c,b,M(e,h(eo(c,b,d))),i);return f(ao(g,kY(e,eo(c,b,d)),d),j)}return a}function
+ho(b,a){switch(a[0]){case
 0:var
 d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?jJ(b,c[1]):c;case
-2:return dr(b,a[1]);default:return fg(b,a[1])}}function
-kY(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-kZ(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-ho(a,c,b){var
-d=[4,kY(a),b],e=[2,[4,kZ(a),c],d],f=[4,kZ(a),b];return[0,[3,[4,kY(a),c],f],e]}function
-k0(c,a){var
-b=ho(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-em(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fD(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:k0(d[1],a):a;case
+e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?jK(b,c[1]):c;case
+2:return dr(b,a[1]);default:return fi(b,a[1])}}function
+k0(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+k1(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hp(a,c,b){var
+d=[4,k0(a),b],e=[2,[4,k1(a),c],d],f=[4,k1(a),b];return[0,[3,[4,k0(a),c],f],e]}function
+k2(c,a){var
+b=hp(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+ep(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fE(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:k2(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=ho(d[1],a[2],a[3]),m=j[1],k=ho(f[1],j[2],a[1]);return k0(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hp(d[1],a[2],a[3]),m=j[1],k=hp(f[1],j[2],a[1]);return k2(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=P(e,e),n=em(e,a),o=at([0,b(2,c),c],n),p=P(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=af(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],af(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-k1(b){var
-a=cn(b);return a?dl(a[1],[0,d,c]):a}function
-k2(a,n,k,j){if(k1(j)){var
+e=[0,d[1],h[1],i[1]],l=P(e,e),n=ep(e,a),o=at([0,b(2,c),c],n),p=P(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=af(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],af(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+k3(b){var
+a=co(b);return a?dl(a[1],[0,d,c]):a}function
+k4(a,n,k,j){if(k3(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
 f=aW(a,k);if(f){var
 h=dr(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=fg(a,[5,j,[0,b(2,c),c]]);if(i)var
+i=fi(a,[5,j,[0,b(2,c),c]]);if(i)var
 p=y(a,f[1],h[1]),l=[0,H(i[1],p)];else
 var
 l=i;var
@@ -3098,21 +3143,21 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
-en(b,a,c){var
-d=bd(b,a[1],a[2]),e=d?k2(b,0,c,a[1]):d;return e?k2(b,1,c,a[2]):e}function
-dC(a,d){if(k1(d))return[0,A];var
+eq(b,a,c){var
+d=be(b,a[1],a[2]),e=d?k4(b,0,c,a[1]):d;return e?k4(b,1,c,a[2]):e}function
+dC(a,d){if(k3(d))return[0,A];var
 e=dr(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=G(W(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=cg(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return v(function(d){var
-e=y(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gT(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+f=fi(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=G(W(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=ci(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
+e=y(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gU(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-eo(d,a){var
+er(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
 cY(a){return[0,[3,[0,d,c],a],a]}function
-k3(a,b,n,m){var
-h=bd(a,[0,d,c],b),i=h?eo(a,b):h;if(i){var
+k5(a,b,n,m){var
+h=be(a,[0,d,c],b),i=h?er(a,b):h;if(i){var
 e=dC(a,b);if(e){var
 f=aW(a,n);if(f){var
 g=aW(a,m);if(g){var
@@ -3126,12 +3171,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-fE(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:en(d,b[1],a[1]):a;case
+fF(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:eq(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=en(d,b[1],a[1]),m=l?en(d,b[2],e[1]):l;if(m)return en(d,b[3],f[1]);var
+l=eq(d,b[1],a[1]),m=l?eq(d,b[2],e[1]):l;if(m)return eq(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3144,7 +3189,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=P([0,s,r,q],[0,s,r,q]);return k3(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=P([0,s,r,q],[0,s,r,q]);return k5(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3153,7 +3198,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=k3(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return en(d,cY(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=k5(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eq(d,cY(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3163,15 +3208,15 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-cv(a){return 1===a?qV:qW}function
-fF(d,c,b,a){var
-e=a[1],f=fD(d,c,a[2]),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
-hp(c,b,a){switch(c){case
+cw(a){return 1===a?qX:qY}function
+fG(d,c,b,a){var
+e=a[1],f=fE(d,c,a[2]),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
+hq(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-k4(h,g,d,b,f,a){var
-e=fF(d,b,f,a);return hp(h,e,at([5,[0,c,c],g],em(fD(d,b,a[2]),e)))}function
-k5(c,j,i){var
+k6(h,g,d,b,f,a){var
+e=fG(d,b,f,a);return hq(h,e,at([5,[0,c,c],g],ep(fE(d,b,a[2]),e)))}function
+k7(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=a2(c,e[1],d[1]),g=f?a2(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3180,12 +3225,12 @@ var
 h=a;return h}return a?0:1}}function
 ba(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,cM(function(a){return ba(b,a)},a)]}return[0,cM(function(a){return ba(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,b1(function(a){return ba(b,a)},a)]}return[0,b1(function(a){return ba(b,a)},a)]}function
 cZ(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=_(t(e,b));return f?_(t(e,M(d,b))):f;case
+e=a[1],f=_(u(e,b));return f?_(u(e,M(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3214,10 +3259,10 @@ e=dD(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return cZ(c,b,a[1]);default:return 1}}}function
-b6(c,e){var
+b9(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return _(t(a[1],c));case
+0:return _(u(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3225,19 +3270,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=b6(c,a[1]);if(d){var
+d=b9(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fG(d,b,m){var
+fH(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fG(d,b,a[1]);if(f){var
+f=fH(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fG(d,b,a[1]);return g?b6(b,a[2]):g;case
+g=fH(d,b,a[1]);return g?b9(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=b6(b,i);if(j){var
-k=b6(b,h);if(k)var
+h=a[2],i=a[1],j=b9(b,i);if(j){var
+k=b9(b,h);if(k)var
 e=k;else{var
 l=av(i,d);if(l){var
 c=h;continue}var
@@ -3246,11 +3291,11 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return b6(b,c)}}}function
-fH(c,e){var
+2:return 1;default:return b9(b,c)}}}function
+fI(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return cH(a[1],c);case
+0:return cI(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3258,33 +3303,16 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fH(c,a[1]);if(d){var
+d=fI(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-hq(b,a){if(a){var
-c=a[2];if(b){var
-e=hq(b[1],c);return[0,a[1],e]}var
-d=[0,1,c]}else
+fJ(a,b){if(a){var
+c=a[2],d=a[1];if(b){var
+e=b[2];return b[1]?[0,d,fJ(c,aI(d$,e,jx(d)))]:[0,qZ,fJ(c,e)]}var
+f=[0,d,fJ(c,0)]}else
 var
-d=a;return d}function
-fI(b,d){if(b){var
-e=b[2],a=b[1];if(d){var
-f=d[2];if(d[1]){switch(a[0]){case
-10:var
-c=[0,a[2],[0,a[3],[0,a[4],0]]];break;case
-5:case
-8:case
-9:var
-c=[0,a[1],0];break;case
-0:case
-1:case
-2:var
-c=0;break;default:var
-c=[0,a[1],[0,a[2],0]]}return[0,a,fI(e,aT(hq,f,c))]}return[0,qX,fI(e,f)]}var
-g=[0,a,fI(e,0)]}else
-var
-g=b;return g}function
-cw(b,a){return a?i(b,a[1]):a}function
-cx(c,b,a){return cw(function(b){return cw(i(c,b),a)},b)}function
+f=a;return f}function
+cx(b,a){return a?i(b,a[1]):a}function
+cy(c,b,a){return cx(function(b){return cx(i(c,b),a)},b)}function
 hr(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
@@ -3320,31 +3348,31 @@ g=y(c,a,b),e=[0,a9(G(a,b)),g];break;default:var
 e=[0,b,$(c,b)]}return[0,[0,i(f,e)]]},h=ht(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hu(b,w,c,a){var
-e=ht(b,cd,a),d=0,x=f(ht(b,aF,a),e);return bJ(qZ,function(a){switch(a[0]){case
-0:return u(a[1],x,[0,[0,A]]);case
-1:return[0,[0,u(a[1],w,A)]];case
+hu(b,v,c,a){var
+e=ht(b,bX,a),d=0,x=f(ht(b,aF,a),e);return bJ(q1,function(a){switch(a[0]){case
+0:return t(a[1],x,[0,[0,A]]);case
+1:return[0,[0,t(a[1],v,A)]];case
 2:return[0,[0,W(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,G(b,a)]};return a4(function(a,b){return cx(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,G(b,a)]};return a4(function(a,b){return cy(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return a4(function(a,b){return cx(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return a4(function(a,b){return cy(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ag(a)]};return bO(function(a){return cw(j,a)},i);case
+i=a[1],j=function(a){return[0,ag(a)]};return bO(function(a){return cx(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,y(b,c,a)]};return a4(function(a,b){return cx(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,y(b,c,a)]};return a4(function(a,b){return cy(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=cg(b,a);return v(function(a){return y(b,c,a)},d)};return a4(function(a,b){return cx(p,a,b)},o,n);case
+d=ci(b,a);return w(function(a){return y(b,c,a)},d)};return a4(function(a,b){return cy(p,a,b)},o,n);case
 8:var
-q=a[1],r=function(a){return[0,$(b,a)]};return bO(function(a){return cw(r,a)},q);case
+q=a[1],r=function(a){return[0,$(b,a)]};return bO(function(a){return cx(r,a)},q);case
 9:var
-s=a[1],t=function(a){return ch(b,a)};return bO(function(a){return cw(t,a)},s);default:return qY}},c,d)}function
+s=a[1],u=function(a){return cj(b,a)};return bO(function(a){return cx(u,a)},s);default:return q0}},c,d)}function
 hv(a){if(a){var
 b=a[1];if(b)var
 c=hv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return q0}function
+d=b;return d}return q2}function
 dE(a){if(a){var
 g=a[1],b=g[2],c=hv(g[1]);if(c)if(b){var
 h=b[1],e=dE(a[2]);if(e)var
@@ -3355,19 +3383,19 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return q1}function
+f=c;return f}return q3}function
 dF(b,a){var
-c=a[3],d=v(function(a){var
+c=a[3],d=w(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ar(b),f),e,d]}function
-k6(e,d,c,b){if(d){var
+k8(e,d,c,b){if(d){var
 j=d[1],a=function(a){var
-d=dF(function(b){return hr(a,b)},b);return k6(bq(e),j,c,d)},f=a(0);if(f){var
+d=dF(function(b){return hr(a,b)},b);return k8(br(e),j,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
 h=f;return h}return i(c,dF(hs,b))}function
-k7(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return k7(m,e,l,a,dF(function(a){return hr(b,a)},d))},h=c(0,aE(b,g));if(h){var
+k9(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return k9(m,e,l,a,dF(function(a){return hr(b,a)},d))},h=c(0,aE(b,g));if(h){var
 i=c(2,z(b,g));if(i)return c(1,b);var
 j=i}else
 var
@@ -3376,139 +3404,139 @@ k=j}else
 var
 k=a;return k}return a?0:ao(e,b,dF(hs,d))}function
 c0(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return v(function(a){return a8(f,e,a)},d)}return[0,A]}function
-k8(k,e,j,i,h,a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a8(f,e,a)},d)}return[0,A]}function
+k_(k,e,j,i,h,a){var
 b=dE(a[1]);if(b){var
 c=a[2];if(c){var
 d=c0(a[3]);if(d){var
-l=d[1],m=aG([0,H(ag(y(k,h,c[1])),l),0],e);return bv(e,fi(j,i,b[1],m))}var
+l=d[1],m=aG([0,H(ag(y(k,h,c[1])),l),0],e);return bw(e,fk(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
 g=f}else
 var
 g=b;return g}function
-k9(d,h,g,c){var
+k$(d,h,g,c){var
 a=dE(c[1]);if(a){var
 b=c0(c[3]);if(b){var
-i=aG([0,H(A,b[1]),0],d),j=a[1];return bv(d,fi(h,g,e(function(a){return[0,a[1],A]},j),i))}var
+i=aG([0,H(A,b[1]),0],d),j=a[1];return bw(d,fk(h,g,e(function(a){return[0,a[1],A]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-k_(E,b,D,g){var
+la(E,b,D,g){var
 i=dE(g[1]);if(i){var
 j=g[2];if(j){var
 k=c0(g[3]);if(k){var
 F=k[1],c=H(y(E,D,j[1]),F),a=i[1];if(a){var
 l=a[1],m=l[2];if(a[2]){var
-e=fj(a,aG([0,c,0],b));if(e){var
-n=e[1],o=t(h(n),b);if(o)return ds(n);var
+e=fl(a,aG([0,c,0],b));if(e){var
+n=e[1],o=u(h(n),b);if(o)return ds(n);var
 p=o}else
 var
 p=e;return p}var
 q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
-B=w(c[1],m[1]),C=l[1];return L(aT(function(a,b){var
-c=cL(a);return z(w(cL(a),c),b)},d,C),B)}return r}var
-f=fj(a,aG([0,c,0],b));if(f){var
-s=f[1],u=t(h(s),b);if(u)return ds(s);var
-v=u}else
+B=x(c[1],m[1]),C=l[1];return L(aI(function(a,b){var
+c=cM(a);return z(x(cM(a),c),b)},d,C),B)}return r}var
+f=fl(a,aG([0,c,0],b));if(f){var
+s=f[1],t=u(h(s),b);if(t)return ds(s);var
+v=t}else
 var
 v=f;return v}var
-x=k}else
+w=k}else
 var
-x=j;var
-A=x}else
+w=j;var
+A=w}else
 var
 A=i;return A}function
-q2(c){var
+q4(c){var
 a=c[2];if(a){var
 b=c0(c[3]);if(b)return F(d,H(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-k$(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-la(a,c,b){var
-e=u(b,c,l(d)),f=aJ(0,a);return n(function(b){return dD(a,b,e)},f)}function
-ep(a){var
+lb(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+lc(a,c,b){var
+e=t(b,c,l(d)),f=aK(0,a);return n(function(b){return dD(a,b,e)},f)}function
+es(a){var
 b=K(a);return C(l(c),b)}function
-fJ(i,g){var
-h=ep(g),j=K(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bc(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bc(f),a,e]]:[0,[0,h,a,a],[0,a,e,bc(f)],[0,a,f,e]]}function
-eq(b,a){var
+fK(i,g){var
+h=es(g),j=K(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bd(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bd(f),a,e]]:[0,[0,h,a,a],[0,a,e,bd(f)],[0,a,f,e]]}function
+et(b,a){var
 c=X(b[3],a),d=X(b[2],a);return[0,X(b[1],a),d,c]}function
-lb(b,a){function
+ld(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
 b=X(a,c(function(a){return a[3]})),d=X(a,c(function(a){return a[2]}));return[0,X(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-lc(w,v){function
+le(w,v){function
 a(a){return[0,[0,M(v,a)]]}switch(w[0]){case
 0:var
-x=ep(a(0));return[0,fJ(q3,a(0)),x];case
+x=es(a(0));return[0,fK(q5,a(0)),x];case
 1:var
-y=ep(a(0)),z=q(ep(a(q4)),y),A=q(ep(a(q5)),z),B=fJ(0,a(0)),D=lb(fJ(q7,a(q6)),B);return[0,lb(fJ(q9,a(q8)),D),A];default:var
-E=a(q_),F=a(q$),g=[0,a(0),F,E],G=X(g,g),H=C(l(c),G),j=X(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=es(a(0)),z=q(es(a(q6)),y),A=q(es(a(q7)),z),B=fK(0,a(0)),D=ld(fK(q9,a(q8)),B);return[0,ld(fK(q$,a(q_)),D),A];default:var
+E=a(ra),F=a(rb),g=[0,a(0),F,E],G=X(g,g),H=C(l(c),G),j=X(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=K(a),e=q(l(b(2,c)),d);return C(s(l(c),j),e)},h=function(f,e,d,a){var
 g=ao(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-ld(a){return 1<a[0]?[0,a[1],0]:0}function
-fK(a){switch(a[0]){case
+lf(a){return 1<a[0]?[0,a[1],0]:0}function
+fL(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cY(a[1]),0];default:var
 b=[0,cY(a[2]),0];return[0,cY(a[1]),b]}}function
 dG(a){return[0,[0,a[1]],[0,a[2]]]}function
-le(a){switch(a[0]){case
+lg(a){switch(a[0]){case
 0:return[0,dG(a[1]),0];case
 1:var
 f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
 2:var
 b=dG(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}function
-lf(a,b){if(0===b[0])return dC(a,b[1]);var
+lh(a,b){if(0===b[0])return dC(a,b[1]);var
 d=dC(a,b[1]);if(d){var
 e=dC(a,b[2]);if(e){var
-g=$(a,e[1]),h=ch(a,G(W(a,c),g)),i=d[1];return v(function(b){return y(a,i,b)},h)}var
+g=$(a,e[1]),h=cj(a,G(W(a,c),g)),i=d[1];return w(function(b){return y(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-lg(d,c){var
-a=lf(d,c[1]);if(a)var
-b=lf(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+li(d,c){var
+a=lh(d,c[1]);if(a)var
+b=lh(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-by(e,j){var
+bz(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-k=t(a[1],e)?c:d;return l(k);case
+k=u(a[1],e)?c:d;return l(k);case
 3:var
-m=by(e,a[2]);return C(by(e,a[1]),m);case
+m=bz(e,a[2]);return C(bz(e,a[1]),m);case
 4:var
-n=by(e,a[2]);return s(by(e,a[1]),n);case
-5:return bc(by(e,a[1]));case
+n=bz(e,a[2]);return s(bz(e,a[1]),n);case
+5:return bd(bz(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=q(h,by(e,g));return C(q(g,by(e,h)),o);case
+g=a[2],h=a[1],o=q(h,bz(e,g));return C(q(g,bz(e,h)),o);case
 7:var
-f=by(e,a[1]);return aM(d,f)?f:am(f,a[2]);case
+f=bz(e,a[1]);return aN(d,f)?f:am(f,a[2]);case
 8:var
-i=a[1],p=by(e,i);return q(q(l(b(2,c)),i),p);default:return l(d)}}function
+i=a[1],p=bz(e,i);return q(q(l(b(2,c)),i),p);default:return l(d)}}function
 hw(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
 g=hw(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=L(d,u(i,c,A)[1]);return j?_(ai(function(a){return t(i,a)},b)):j}return 0}return g;case
+i=h[1],j=L(d,t(i,c,A)[1]);return j?_(ai(function(a){return u(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-3:case
-4:case
-6:var
+0:case
+1:case
+2:return 1;default:var
 f=hw(c,b,a[1]);if(f){var
-e=a[2];continue}return f;default:return 1}}}function
-lh(d){var
+e=a[2];continue}return f}}}function
+lj(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3519,24 +3547,24 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lh(a[1]);if(c){var
+c=lj(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-li(c,b,a){var
+lk(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
 hx(b,a,c){return e(function(c){var
-d=li(b,a,c[2]),f=c[1];return[0,e(function(c){return li(b,a,c)},f),d]},c)}function
-lj(b,a){return v(function(a){var
+d=lk(b,a,c[2]),f=c[1];return[0,e(function(c){return lk(b,a,c)},f),d]},c)}function
+ll(b,a){return w(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-lk(a,b){var
-c=lj(a,b[3]),d=i(a,b[2]);return[0,hx(a,a,b[1]),d,c]}function
-ll(e,d,c,b){if(d){var
+lm(a,b){var
+c=ll(a,b[3]),d=i(a,b[2]);return[0,hx(a,a,b[1]),d,c]}function
+ln(e,d,c,b){if(d){var
 j=d[1],a=function(a){var
-d=lk(function(b){return hr(a,b)},b);return ll(bq(e),j,c,d)},f=a(0);if(f){var
+d=lm(function(b){return hr(a,b)},b);return ln(br(e),j,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return i(c,lk(hs,b))}function
-lm(c){var
+h=f;return h}return i(c,lm(hs,b))}function
+lo(c){var
 a=c[1];if(a){var
 b=hv(c[2]);if(b)var
 g=e(ad,b[1]),d=[0,[0,ad(a[1]),g]];else
@@ -3545,50 +3573,50 @@ d=b;var
 f=d}else
 var
 f=a;return f}function
-re(c){var
-a=ae(e(lm,c[1]));if(a)var
-b=lm(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+rg(c){var
+a=ae(e(lo,c[1]));if(a)var
+b=lo(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-rf(a){return _(g3([0,a[2],a[1]]))}function
+rh(a){return _(g4([0,a[2],a[1]]))}function
 hy(a){return[0,a[1],a[2]]}function
-ln(b,c,a){var
-d=e(function(c){return ba(b,by(c,a))},c);return[0,ba(b,a),d]}function
+lp(b,c,a){var
+d=e(function(c){return ba(b,bz(c,a))},c);return[0,ba(b,a),d]}function
 hz(b,e,a,d){var
-c=x(function(a){var
-b=hy(a[2]);return f(x(hy,a[1]),b)},d),g=a?[0,ba(b,a[1]),0]:a,h=f(g,c);return[0,ba(b,e),h]}function
-lo(c,f,b,a){var
-d=hw(f,b,a),e=d?fH(c,a):d;return e?n(function(b){return fH(c,by(b,a))},b):e}function
-lp(a){switch(a[0]){case
+c=v(function(a){var
+b=hy(a[2]);return f(v(hy,a[1]),b)},d),g=a?[0,ba(b,a[1]),0]:a,h=f(g,c);return[0,ba(b,e),h]}function
+lq(c,f,b,a){var
+d=hw(f,b,a),e=d?fI(c,a):d;return e?n(function(b){return fI(c,bz(b,a))},b):e}function
+lr(a){switch(a[0]){case
 3:var
-c=k$(a[2]);return[0,a[3],c];case
+c=lb(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=k$(a[1]);return[0,a[2],b]}}function
-lq(f,s,e,r,q,b,a){switch(b[0]){case
+b=lb(a[1]);return[0,a[2],b]}}function
+ls(f,s,e,r,q,b,a){switch(b[0]){case
 0:var
 v=b[4],o=b[3],w=b[2],x=b[1],p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 0:var
-P=a[2],Q=a[1],k=w,j=x,i=function(a){return k8(f,e,Q,P,o,a)},g=v;break;case
+P=a[2],Q=a[1],k=w,j=x,i=function(a){return k_(f,e,Q,P,o,a)},g=v;break;case
 2:var
 z=Z(o[1],d),A=z?Z(o[2],d):z;if(!A)return A;var
-S=a[2],T=a[1],k=w,j=x,i=function(a){return k9(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
+S=a[2],T=a[1],k=w,j=x,i=function(a){return k$(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
 1:var
 F=0;if(typeof
 a==="number"&&!a)var
-U=b[2],V=b[1],X=b[3],k=U,j=V,Y=0,i=function(a){return k_(f,e,X,a)},g=Y;else
+U=b[2],V=b[1],X=b[3],k=U,j=V,Y=0,i=function(a){return la(f,e,X,a)},g=Y;else
 F=1;if(F)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-_=[0,b[1],b[2],q],$=dF(function(a){return u(a,r,ri)},_),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return k7(s,function(v,j){var
+_=[0,b[1],b[2],q],$=dF(function(a){return t(a,r,rk)},_),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return k9(s,function(v,j){var
 a=dE(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
 g=c0(j[3]);if(g){var
-l=g[1],m=function(a){return a8(a,B,W(f,c))},t=m(v),u=b[1],h=G(y(f,m(ab),u),t),n=L(d,h[1]),o=n?bv(e,fi(B,ac,k,aG([0,H(ag(h),l),0],e))):n;if(o){var
-i=fj(k,aG([0,H(y(f,ad,h),l),0],e));if(i)return bv(e,i[1]);var
+l=g[1],m=function(a){return a8(a,B,W(f,c))},t=m(v),u=b[1],h=G(y(f,m(ab),u),t),n=L(d,h[1]),o=n?bw(e,fk(B,ac,k,aG([0,H(ag(h),l),0],e))):n;if(o){var
+i=fl(k,aG([0,H(y(f,ad,h),l),0],e));if(i)return bw(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3609,8 +3637,8 @@ C=a[2],D=a[1],ae=b[3],af=b[2],ah=b[4],ai=b[1],aj=function(g){var
 a=dE(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-i=t(h(b),e),j=i?t(h(C),e):i;if(j){var
-n=ee(D,ef(D,C,c[1],b));return bv(e,cp(fn(f,ai,ah,d[1],b),n))}var
+i=u(h(b),e),j=i?u(h(C),e):i;if(j){var
+n=eh(D,ei(D,C,c[1],b));return bw(e,cq(fo(f,ai,ah,d[1],b),n))}var
 k=j}else
 var
 k=d;var
@@ -3623,14 +3651,14 @@ m=a;return m},k=ae,j=af,i=aj,g=b[5];if(I)return 0;break;case
 4:var
 J=0;if(typeof
 a==="number"&&!a)var
-k=b[1],j=0,i=q2,g=0;else
+k=b[1],j=0,i=q4,g=0;else
 J=1;if(J)return 0;break;case
 5:var
 K=0;if(typeof
 a==="number"||!(0===a[0]))K=1;else{var
 m=a[2],M=0;if(m){var
 n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-ak=b[2],al=b[1],am=W(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,j=al,ap=0,i=function(a){return k8(f,rj,ao,an,am,a)},g=ap;M=1}else
+ak=b[2],al=b[1],am=W(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,j=al,ap=0,i=function(a){return k_(f,rl,ao,an,am,a)},g=ap;M=1}else
 var
 E=n}else
 var
@@ -3638,18 +3666,18 @@ E=m;if(!M)return E}if(K)return 0;break;case
 6:var
 N=0;if(typeof
 a==="number"&&!a)var
-aq=b[2],ar=b[1],as=W(f,c),k=aq,j=ar,at=0,i=function(a){return k_(f,rk,as,a)},g=at;else
+aq=b[2],ar=b[1],as=W(f,c),k=aq,j=ar,at=0,i=function(a){return la(f,rm,as,a)},g=at;else
 N=1;if(N)return 0;break;case
 7:var
 O=0;if(typeof
 a==="number"&&5<=a)var
-au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,j=av,ay=0,i=function(a){return k9(e,ax,aw,a)},g=ay;else
+au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,j=av,ay=0,i=function(a){return k$(e,ax,aw,a)},g=ay;else
 O=1;if(O)return 0;break;default:return 0}var
-R=[0,j,k,q];return k6(g,s,i,dF(function(a){return u(a,r,rh)},R))}function
-rl(b,a){var
-c=gP(gL,b[1],a[1]);return c?gL(b[2],a[2]):c}function
-lr(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
-e==="number"){if(0===e)return 8===a[0]?fs(h,0,0,0,n,g,0,a[1],e):0}else
+R=[0,j,k,q];return k8(g,s,i,dF(function(a){return t(a,r,rj)},R))}function
+rn(b,a){var
+c=gQ(gM,b[1],a[1]);return c?gM(b[2],a[2]):c}function
+lt(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
+e==="number"){if(0===e)return 8===a[0]?ft(h,0,0,0,n,g,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
@@ -3657,36 +3685,36 @@ f!=="number"&&7===f[0]){if(i){var
 q=f[3],r=f[2],s=F(d,r);if(s)var
 k=i1(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
 var
-j=s;if(j)return lq(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
-u=j}else
+j=s;if(j)return ls(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
+t=j}else
 var
-u=i;return u}return lq(h,g,p,o,0,a,f);case
-8:return 8===a[0]?fs(h,0,0,0,n,g,0,a[1],e):0;case
+t=i;return t}return ls(h,g,p,o,0,a,f);case
+8:return 8===a[0]?ft(h,0,0,0,n,g,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gP(rl,a[1],A),m=l?1:l,v=m?t(a[2],z):m;return v?DK(y,x,a[3],a[4],e):v}return 0}return 0}function
-ls(b){var
+l=gQ(rn,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?DM(y,x,a[3],a[4],e):v}return 0}return 0}function
+lu(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-rm(c){var
+ro(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-lt(b,s,ak,r,q,R,Q,c,P,O,N,i,k,aj){var
-T=ai(rm,k),U=T?g7(b,ak,r,i):T,V=ai(ls,k);if(V)var
-ae=x(function(b){var
-c=ls(b);if(c){var
-a=S(q,b[1]);if(a)return lp(a[1]);var
+lv(b,s,ak,r,q,S,Q,c,P,O,N,i,k,aj){var
+T=ai(ro,k),U=T?ke(b,ak,r,i):T,V=ai(lu,k);if(V)var
+ae=v(function(b){var
+c=lu(b);if(c){var
+a=R(q,b[1]);if(a)return lr(a[1]);var
 d=a}else
 var
-d=c;return d},k),af=c?[0,c[1],0]:c,ah=f(af,ae),Y=0,Z=aT(hq,e(function(a){return 0},s),ah),t=hu(b,r,e7(fI(e7(s,0),Z),Y),i);else
+d=c;return d},k),af=c?[0,c[1],0]:c,ah=f(af,ae),Y=0,Z=aI(d$,e(function(a){return 0},s),ah),u=hu(b,r,d7(fJ(d7(s,0),Z),Y),i);else
 var
-t=V;var
+u=V;var
 h=k,a=aj;for(;;){if(h){var
 B=h[1],j=B[2],g=B[1],m=h[2];if(g){var
-C=u(g,a,0);if(C){var
-n=S(q,g);if(n){var
-D=lr(b,R,Q,c,P,O,N,i,t,U,n[1],j);if(D){var
-h=m,a=ft(g,a);continue}var
+C=t(g,a,0);if(C){var
+n=R(q,g);if(n){var
+D=lt(b,S,Q,c,P,O,N,i,u,U,n[1],j);if(D){var
+h=m,a=fu(g,a);continue}var
 E=D}else
 var
 E=n;var
@@ -3695,25 +3723,25 @@ var
 F=C;return F}if(typeof
 j==="number"&&4===j){var
 X=0;if(c){var
-ad=0,w=e(function(a){return[0,a,$(b,a)]},i),aa=e(cd,w),_=0,ab=f(e(aF,w),aa),ac=bJ(0,function(n){return function(a){switch(a[0]){case
-0:return[0,u(a[1],n,A)];case
-1:return[0,u(a[1],r,A)];case
+ad=0,x=e(function(a){return[0,a,$(b,a)]},i),aa=e(bX,x),_=0,ab=f(e(aF,x),aa),ac=bJ(0,function(n){return function(a){switch(a[0]){case
+0:return[0,t(a[1],n,A)];case
+1:return[0,t(a[1],r,A)];case
 2:return[0,W(b,a[1])];case
 3:var
-c=a[2],d=a[1];return cx(function(b,a){return[0,G(b,a)]},d,c);case
+c=a[2],d=a[1];return cy(function(b,a){return[0,G(b,a)]},d,c);case
 4:var
-e=a[2],f=a[1];return cx(function(b,a){return[0,H(b,a)]},f,e);case
+e=a[2],f=a[1];return cy(function(b,a){return[0,H(b,a)]},f,e);case
 5:var
-g=a[1];return cw(function(a){return[0,ag(a)]},g);case
+g=a[1];return cx(function(a){return[0,ag(a)]},g);case
 6:var
-h=a[2],i=a[1];return cx(function(c,a){return[0,y(b,c,a)]},i,h);case
+h=a[2],i=a[1];return cy(function(c,a){return[0,y(b,c,a)]},i,h);case
 7:var
-j=a[2],k=a[1];return cx(function(c,a){var
-d=cg(b,a);return v(function(a){return y(b,c,a)},d)},k,j);case
+j=a[2],k=a[1];return cy(function(c,a){var
+d=ci(b,a);return w(function(a){return y(b,c,a)},d)},k,j);case
 8:var
-l=a[1];return cw(function(a){return[0,$(b,a)]},l);case
+l=a[1];return cx(function(a){return[0,$(b,a)]},l);case
 9:var
-m=a[1];return cw(function(a){return ch(b,a)},m);default:return 0}}}(ab),s,_),l=u(c[1],ac,ad);if(l){var
+m=a[1];return cx(function(a){return cj(b,a)},m);default:return 0}}}(ab),s,_),l=t(c[1],ac,ad);if(l){var
 o=L(l[1][2],d);X=1}else
 var
 z=l}else
@@ -3721,163 +3749,163 @@ var
 z=c;if(!X)var
 o=z;if(o){var
 h=m,a=e(function(a){return 0},a);continue}return o}var
-I=u(g,a,0);if(I){var
-p=S(q,g);if(p){var
-J=lr(b,R,Q,c,P,O,N,i,t,U,p[1],j);if(J){var
-h=m,a=ft(g,a);continue}var
+I=t(g,a,0);if(I){var
+p=R(q,g);if(p){var
+J=lt(b,S,Q,c,P,O,N,i,u,U,p[1],j);if(J){var
+h=m,a=fu(g,a);continue}var
 K=J}else
 var
 K=p;var
 M=K}else
 var
 M=I;return M}return[0,a]}}function
-lu(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+lw(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=lt(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(_,p[1]):p}var
-q=lt(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=ed(a[2],b),t=lu(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=lv(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(_,p[1]):p}var
+q=lv(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=eg(a[2],b),t=lw(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
-fL(b,a){var
+fM(b,a){var
 c=q(b[2],a[1]),d=s(q(b[1],a[2]),c),e=q(b[1],a[3]),f=s(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,s(q(b[2],a[3]),g),f,d]}function
 hA(d,a){var
 e=K(a),f=q(q(l(b(2,c)),a),d);return C(s(K(d),f),e)}function
-lv(c,b,a){switch(c){case
+lx(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-er(a){switch(a){case
-0:return[0,ro,rn,l(d)];case
+eu(a){switch(a){case
+0:return[0,rq,rp,l(d)];case
 1:return cP;default:var
 b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fM(a){switch(a){case
-0:return rp;case
-1:return rq;default:return 0}}function
+fN(a){switch(a){case
+0:return rr;case
+1:return rs;default:return 0}}function
 hB(k,a,d,j,c,h){var
-e=ak(s,er(k),j);if(h){var
+e=ak(s,eu(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eq([0,b(function(a){return a[1]}),g,f],e);return ak(C,aY(d,c),l)}var
-m=eq(a,c);return ak(C,aY(d,e),m)}function
-lw(f,h,g,k,a,d){var
-e=er(f),i=ak(s,e,a),j=eq(h,d),m=hA(e[3],a[3]),n=hA(e[2],a[2]),o=hA(e[1],a[1]),p=C(C(C(X(d,d),o),n),m),r=X(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cq(fL(j,i),k);return[0,lv(f,hB(f,h,g,a,d,0),v),u]}function
-lx(c,b,a){return cq(eq(c,a),b)}function
-ly(d,c,b,a){var
-e=lx(c,b,a);return ak(C,er(d),e)}function
-fN(b,a){var
-c=aO(a[2],b);return f(aO(a[1],b),c)}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=et([0,b(function(a){return a[1]}),g,f],e);return ak(C,aY(d,c),l)}var
+m=et(a,c);return ak(C,aY(d,e),m)}function
+ly(f,h,g,k,a,d){var
+e=eu(f),i=ak(s,e,a),j=et(h,d),m=hA(e[3],a[3]),n=hA(e[2],a[2]),o=hA(e[1],a[1]),p=C(C(C(X(d,d),o),n),m),r=X(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cr(fM(j,i),k);return[0,lx(f,hB(f,h,g,a,d,0),v),u]}function
+lz(c,b,a){return cr(et(c,a),b)}function
+lA(d,c,b,a){var
+e=lz(c,b,a);return ak(C,eu(d),e)}function
+fO(b,a){var
+c=aP(a[2],b);return f(aP(a[1],b),c)}function
 hC(d,b,a,c){if(a)var
-e=a[1],f=b4(c,fN(b,e)),i=M(c,h(fN(b,e))),j=hC(d,b,a[2],i),k=ab(f,rr),g=[0,ao(d,ab(f,0),k),j];else
+e=a[1],f=b7(c,fO(b,e)),i=M(c,h(fO(b,e))),j=hC(d,b,a[2],i),k=ab(f,rt),g=[0,ao(d,ab(f,0),k),j];else
 var
 g=a;return g}function
 hD(f,o,e,n,a){var
-h=q(K(u(0,n,l(d))),o);if(typeof
+h=q(K(t(0,n,l(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=S(e,a[1]);if(b)var
+b=R(e,a[1]);if(b)var
 i=g(f,0,a[2]),j=i?[0,s(b[1][1][2],h)]:i;else
 var
 j=b;return j;case
 3:var
-c=S(e,a[1]);if(c)var
+c=R(e,a[1]);if(c)var
 k=g(f,0,a[2]),m=k?[0,s(h,c[1][1][2])]:k;else
 var
 m=c;return m}return 0}function
-lz(a){var
-b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
-b=u(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-lA(c,b,a){if(typeof
-a!=="number"&&6===a[0]){var
-e=S(c,a[1]);return v(function(a){var
-c=u(0,b,l(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-es(a){return g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],a])}function
 lB(a){var
-b=ab(a,rs),c=az(X(ab(a,rt),b));return q(u(0,a,l(d)),c)}function
-lC(b,a){var
-c=X(a,ab(b,ru));return[0,bL(aY(lB(b),a)),c]}function
-lD(e,d,a,c,b){var
-f=b[2],g=q(lB(a),f),h=c?lx(e,d,ab(a,rv)):ab(a,rw);return s(X(b[1][2],h),g)}function
-lE(h,g,f,d,c,b,a){var
-i=bI(c);function
-j(a){return ly(h,g,f,a)}return kn(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lF(a){var
-b=a[3],c=a[2],d=a[1];return fC([0,[0,d,d],[0,c,c],[0,b,b]])}function
-rz(a){if(typeof
+b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
+b=t(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
+lC(c,b,a){if(typeof
+a!=="number"&&6===a[0]){var
+e=R(c,a[1]);return w(function(a){var
+c=t(0,b,l(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+ev(a){return g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],a])}function
+lD(a){var
+b=ab(a,ru),c=az(X(ab(a,rv),b));return q(t(0,a,l(d)),c)}function
+lE(b,a){var
+c=X(a,ab(b,rw));return[0,bL(aY(lD(b),a)),c]}function
+lF(e,d,a,c,b){var
+f=b[2],g=q(lD(a),f),h=c?lz(e,d,ab(a,rx)):ab(a,ry);return s(X(b[1][2],h),g)}function
+lG(h,g,f,d,c,b,a){var
+i=bb(c);function
+j(a){return lA(h,g,f,a)}return kp(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lH(a){var
+b=a[3],c=a[2],d=a[1];return fD([0,[0,d,d],[0,c,c],[0,b,b]])}function
+rB(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lG(b,a){switch(b){case
+lI(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fO(a){var
-b=b2(a[1],[0,d,c]);return b?b2(a[2],[0,d,c]):b}function
+fP(a){var
+b=b5(a[1],[0,d,c]);return b?b5(a[2],[0,d,c]):b}function
 hE(d,a){switch(d){case
-0:return fO(a[3]);case
+0:return fP(a[3]);case
 1:return 1;default:var
-b=fO(a[1]),c=b?fO(a[2]):b;return c?fO(a[3]):c}}function
-lH(c,b){var
-a=x(function(a){return fN(c,a)},b),d=aI(aJ(0,h(a)),a);return e(aF,bb(function(a){return fy(a[2])},d))}function
-lI(b){var
+b=fP(a[1]),c=b?fP(a[2]):b;return c?fP(a[3]):c}}function
+lJ(c,b){var
+a=v(function(a){return fO(c,a)},b),d=aJ(aK(0,h(a)),a);return e(aF,bc(function(a){return fz(a[2])},d))}function
+lK(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-lJ(c){var
-a=c;for(;;){if(0===a[0])return ai(lI,a[1]);var
-d=ai(lI,a[1]),b=d||lJ(a[3]);if(b)return b;var
+lL(c){var
+a=c;for(;;){if(0===a[0])return ai(lK,a[1]);var
+d=ai(lK,a[1]),b=d||lL(a[3]);if(b)return b;var
 a=a[4];continue}}function
-rA(j,aQ,bE,r,D,aP){var
-z=r[1],a=cv(z),P=r[6],bF=r[2],U=x(function(a){return fN(D,a)},bF),aR=r[3],al=[0,[0,aR,aR],D],V=[0,h(U)],bG=0,aS=x(function(a){return el(bG,D,a)},P),bH=fM(z),aT=lc(r[5],bH),m=aT[2],E=aT[1],bJ=r[2],aU=ct(al,h(U)),bI=0,w=hC(function(b,a){var
-f=ly(z,E,m,a),e=ak(s,f,b),j=[0,[0,f,e],az(X(e,e))];function
+rC(j,aQ,bE,r,D,aP){var
+z=r[1],a=cw(z),P=r[6],bF=r[2],U=v(function(a){return fO(D,a)},bF),aR=r[3],al=[0,[0,aR,aR],D],V=[0,h(U)],bG=0,aS=v(function(a){return eo(bG,D,a)},P),bH=fN(z),aT=le(r[5],bH),m=aT[2],E=aT[1],bJ=r[2],aU=cu(al,h(U)),bI=0,x=hC(function(b,a){var
+f=lA(z,E,m,a),e=ak(s,f,b),j=[0,[0,f,e],az(X(e,e))];function
 k(c){return hB(z,E,m,b,a,c)}var
 g=2<=z?d:c;function
 h(b){var
 c=K(aU),d=l(g),e=q(s(K(b),d),c);return q(m,s(X(a,a),e))}var
-i=[0,X(hB(z,E,m,b,a,1),a),h];return[0,lw(z,E,m,aU,b,a),i,k,j]},D,bJ,bI),O=e(function(a){return a[1]},w),bK=M(V,h(aS)),bM=fM(z),bN=r[5];function
+i=[0,X(hB(z,E,m,b,a,1),a),h];return[0,ly(z,E,m,aU,b,a),i,k,j]},D,bJ,bI),O=e(function(a){return a[1]},x),bK=M(V,h(aS)),bM=fN(z),bN=r[5];function
 N(a){return[0,[0,M(bM,a)]]}var
 aD=K([0,[1,bK]]);switch(bN[0]){case
 2:var
-bs=N(ra),bt=N(rb),aE=[0,N(0),bt,bs],B=[0,s(aD,X(aE,aE))];break;case
+bs=N(rc),bt=N(rd),aE=[0,N(0),bt,bs],B=[0,s(aD,X(aE,aE))];break;case
 3:var
-bu=K(N(rc)),bw=K(N(0)),by=K(N(rd)),B=[0,s(s(q(aD,C(l(c),by)),bw),bu)];break;default:var
+bu=K(N(re)),bv=K(N(0)),bx=K(N(rf)),B=[0,s(s(q(aD,C(l(c),bx)),bv),bu)];break;default:var
 B=0}var
 aW=r[7];if(aW)var
 bO=0,bP=r[2],am=hC(function(j,k){var
-a=lw(z,E,m,ct(al,h(U)),j,k),c=a[1];if(c){var
+a=ly(z,E,m,cu(al,h(U)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-i=g[1],f=fL(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bP,bO);else
+i=g[1],f=fM(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bP,bO);else
 var
 am=aW;var
-bQ=bx(am),bR=B?[0,B[1],0]:B,bS=f(bR,bQ),bT=0,bU=[0,m,f(cu(function(b,a){if(typeof
+bQ=by(am),bR=B?[0,B[1],0]:B,bS=f(bR,bQ),bT=0,bU=[0,m,f(cv(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 6:var
-d=lA(w,b,a);if(d)var
+d=lC(x,b,a);if(d)var
 h=d[1],k=[0,h[1],[0,h[2],0]];else
 var
 k=d;return k;case
-8:return e(cd,i(lz(w),b));case
+8:return e(bX,i(lB(x),b));case
 13:var
-g=S(w,a[1]);if(g){var
-l=es(a[4]);if(l){var
-n=lC(b,i(g[1][3],a[2]));return f(n[1],[0,n[2],0])}var
+g=R(x,a[1]);if(g){var
+l=ev(a[4]);if(l){var
+n=lE(b,i(g[1][3],a[2]));return f(n[1],[0,n[2],0])}var
 o=l}else
 var
 o=g;return o}var
-c=hD(j,m,w,b,a),p=c?[0,c[1],0]:c;return p},bT,D,V,P),bS)],an=f(bx(O),bU),bV=0,aX=cu(function(h,a){if(typeof
+c=hD(j,m,x,b,a),p=c?[0,c[1],0]:c;return p},bT,D,V,P),bS)],an=f(by(O),bU),bV=0,aX=cv(function(h,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-b=S(w,a[1]);if(b){if(es(a[4]))return 0;var
-d=[0,lD(E,m,h,a[2],b[1][4]),0]}else
+b=R(x,a[1]);if(b){if(ev(a[4]))return 0;var
+d=[0,lF(E,m,h,a[2],b[1][4]),0]}else
 var
 d=b;return d;case
 14:var
-c=lE(z,E,m,w,h,a[1],a[2]);if(c){var
-e=c[1],f=e[2],g=e[1];return x(bL,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bV,D,V,P),aY=ck(e(function(b){return ba(a,b)},an))[1],aZ=ck(aX)[1],Q=cj(aY),ao=cj(aZ);function
+c=lG(z,E,m,x,h,a[1],a[2]);if(c){var
+e=c[1],f=e[2],g=e[1];return v(bL,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bV,D,V,P),aY=cm(e(function(b){return ba(a,b)},an))[1],aZ=cm(aX)[1],Q=cl(aY),ao=cl(aZ);function
 k(b){return aV(Q,ba(a,b))}if(0===r[4][0]){var
-bW=v(k,B),bX=k(m),a0=i(ar(k),O),aM=fM(z),aN=t(h(a0),a);if(aN)var
-aO=v(function(a){return[0,[0,a,d],d]},bW),T=function(a){return u(a,Q,l(d))},aC=T(bX),br=aJ(0,aM),ah=n(function(b){var
+bW=w(k,B),bY=k(m),a0=i(ar(k),O),aM=fN(z),aN=u(h(a0),a);if(aN)var
+aO=w(function(a){return[0,[0,a,d],d]},bW),T=function(a){return t(a,Q,l(d))},aC=T(bY),br=aK(0,aM),ah=n(function(b){var
 c=cZ(a,b,aC),d=c?n(function(c){var
 e=c[1],d=n(function(c){var
-d=T(c);return b6(M(a,b),d)},e);if(d){var
-f=T(c[2]);return fG(aC,M(a,b),f)}return d},a0):c;if(d){if(aO){var
-f=T(aO[1][1][1]);return b6(M(a,b),f)}var
+d=T(c);return b9(M(a,b),d)},e);if(d){var
+f=T(c[2]);return fH(aC,M(a,b),f)}return d},a0):c;if(d){if(aO){var
+f=T(aO[1][1][1]);return b9(M(a,b),f)}var
 e=1}else
 var
 e=d;return e},br);else
@@ -3887,8 +3915,8 @@ bD=ah?aM:ah,G=bD}else
 var
 G=0;var
 a1=n(function(b){var
-c=ba(a,b),e=l(d);return av(u(k(b),Q,e),c)},an),a2=a1?n(function(b){return fH(a,b)},an):a1,a3=a2?n(function(a){var
-b=l(d);return av(u(aV(ao,a),ao,b),a)},aX):a2,a4=a3?ai(rz,P):a3;if(a4){var
+c=ba(a,b),e=l(d);return av(t(k(b),Q,e),c)},an),a2=a1?n(function(b){return fI(a,b)},an):a1,a3=a2?n(function(a){var
+b=l(d);return av(t(aV(ao,a),ao,b),a)},aX):a2,a4=a3?ai(rB,P):a3;if(a4){var
 a5=_(r[7]);if(a5)var
 Y=a5;else{var
 bp=r[5];if(1===z&&2===bp[0])var
@@ -3899,27 +3927,27 @@ Y=bq}}else
 var
 Y=a4;var
 a6=Y?hE(z,dA(r[4])):Y,a7=a6?g(j,1,r[3]):a6;if(a7)var
-bY=fK(r[5]),ap=n(function(a){var
-b=eo(j,a[1]);return b?eo(j,a[2]):b},bY);else
+bZ=fL(r[5]),ap=n(function(a){var
+b=er(j,a[1]);return b?er(j,a[2]):b},bZ);else
 var
 ap=a7;if(ap){var
-bZ=f(U,[0,al,0]),aq=ae(e(function(a){return aj(j,a)},bZ));if(aq){var
-as=ae(e(function(a){return hn(j,a)},aS));if(as){var
-b0=lG(z,dA(r[4])),at=ae(e(function(a){return aj(j,[0,a,D])},b0));if(at){var
-a8=at[1],b1=le(r[5]),au=ae(e(function(a){return lg(j,a)},b1));if(au){var
-a9=au[1],b2=ld(r[5]),aw=ae(e(function(a){return dC(j,a)},b2));if(aw){var
-b3=0,a_=function(a){return aV(ao,a)},ax=ae(cu(function(h,a){if(typeof
+b0=f(U,[0,al,0]),aq=ae(e(function(a){return aj(j,a)},b0));if(aq){var
+as=ae(e(function(a){return ho(j,a)},aS));if(as){var
+b1=lI(z,dA(r[4])),at=ae(e(function(a){return aj(j,[0,a,D])},b1));if(at){var
+a8=at[1],b2=lg(r[5]),au=ae(e(function(a){return li(j,a)},b2));if(au){var
+a9=au[1],b3=lf(r[5]),aw=ae(e(function(a){return dC(j,a)},b3));if(aw){var
+b4=0,a_=function(a){return aV(ao,a)},ax=ae(cv(function(h,a){if(typeof
 a!=="number"&&13===a[0]){var
-q=a[4],ao=S(w,a[1]);if(ao){if(lF(a[3])&&g(j,0,q)&&g(j,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],q])){var
-ap=a[2],aq=ao[1];if(es(q)){var
-am=lC(h,i(aq[3],ap)),C=am[2];if(g(p,0,[3,q,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]]))var
+q=a[4],ao=R(x,a[1]);if(ao){if(lH(a[3])&&g(j,0,q)&&g(j,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],q])){var
+ap=a[2],aq=ao[1];if(ev(q)){var
+am=lE(h,i(aq[3],ap)),C=am[2];if(g(p,0,[3,q,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]]))var
 an=0;else
 var
 aJ=k(C),aK=k(C),an=[0,[6,[0,[0,e(k,am[1]),aK],0],aJ],0];var
 as=[0,[4,k(C)],an]}else
 var
-as=[0,[8,[3,a_(lD(E,m,h,ap,aq[4]))]],0];return e(function(a){return[0,a]},as)}return rx}return ry}var
-aL=0,s=e(function(a){return a[1]},w);function
+as=[0,[8,[3,a_(lF(E,m,h,ap,aq[4]))]],0];return e(function(a){return[0,a]},as)}return rz}return rA}var
+aL=0,s=e(function(a){return a[1]},x);function
 H(c,b,a){return[0,c,b,a,G]}var
 r=0;if(typeof
 a==="number")var
@@ -3930,30 +3958,30 @@ l=[5,[0,c,c],a[1]],t=H;r=1;break;case
 1:var
 aw=[5,[0,c,c],a[1]],l=aw,t=function(c,b,a){return[1,c,b,a]};r=1;break;case
 2:var
-ax=hD(j,m,w,h,a),f=v(function(a){return[4,k(a)]},ax);break;case
+ax=hD(j,m,x,h,a),f=w(function(a){return[4,k(a)]},ax);break;case
 3:var
-ay=hD(j,m,w,h,a),f=v(function(a){return[4,k(a)]},ay);break;case
+ay=hD(j,m,x,h,a),f=w(function(a){return[4,k(a)]},ay);break;case
 5:var
-I=a[1],az=aj(j,[0,[0,I,I],d]),f=v(function(a){var
+I=a[1],az=aj(j,[0,[0,I,I],d]),f=w(function(a){var
 b=$(j,a),c=k(m);return[2,i(ar(k),s),c,b]},az);break;case
 6:var
-u=S(w,a[1]);if(u){var
-x=lA(w,h,a);if(x){var
-J=x[1],K=g(j,1,a[2]),L=K?g(j,1,a[3]):K;if(L)var
+u=R(x,a[1]);if(u){var
+v=lC(x,h,a);if(v){var
+J=v[1],K=g(j,1,a[2]),L=K?g(j,1,a[3]):K;if(L)var
 aA=k(J[2]),aB=k(u[1][1][2]),M=[0,[5,[0,[0,[0,k(J[1]),0],aB],0],aA]];else
 var
 M=L;var
 N=M}else
 var
-N=x;var
+N=v;var
 O=N}else
 var
 O=u;var
 f=O;break;case
 7:var
-P=a[3],Q=a[2],R=a[1],T=S(w,R),at=0;if(T){var
+P=a[3],Q=a[2],S=a[1],T=R(x,S),at=0;if(T){var
 U=g(j,1,Q),V=U?g(j,1,P):U;if(V){var
-aC=[5,Q,P],l=aC,t=function(c,b,a){return[3,R,c,b,a,G]};r=1;at=1}else
+aC=[5,Q,P],l=aC,t=function(c,b,a){return[3,S,c,b,a,G]};r=1;at=1}else
 var
 X=V}else
 var
@@ -3961,15 +3989,15 @@ X=T;if(!at)var
 f=X;break;case
 8:var
 Y=g(j,1,a[1]),Z=Y?g(j,1,a[2]):Y;if(Z)var
-aD=W(j,c),aE=k(m),aF=i(lz(w),h),_=[0,[0,i(ar(k),aF),aE,aD,0]];else
+aD=W(j,c),aE=k(m),aF=i(lB(x),h),_=[0,[0,i(ar(k),aF),aE,aD,0]];else
 var
 _=Z;var
 f=_;break;case
 14:var
-aa=a[2],ab=a[1],y=lE(z,E,m,w,h,ab,aa);if(y){var
-ac=y[1],ad=ac[2],ae=ac[1],af=kX(ab,aa,a[3]),B=aj(j,[0,[0,af,af],D]);if(B){var
+aa=a[2],ab=a[1],y=lG(z,E,m,x,h,ab,aa);if(y){var
+ac=y[1],ad=ac[2],ae=ac[1],af=kZ(ab,aa,a[3]),B=aj(j,[0,[0,af,af],D]);if(B){var
 ag=B[1],ah=F(d,ag[1]);if(ah)var
-n=function(a){return kv(a_,a)},aG=n(ad[2]),aH=n(ad[1]),aI=n(ae[2]),ai=[0,[8,[6,n(ae[1]),aI,aH,aG,ag]]];else
+n=function(a){return kx(a_,a)},aG=n(ad[2]),aH=n(ad[1]),aI=n(ae[2]),ai=[0,[8,[6,n(ae[1]),aI,aH,aG,ag]]];else
 var
 ai=ah;var
 ak=ai}else
@@ -3980,30 +4008,30 @@ var
 al=y;var
 f=al;break;default:var
 f=0}if(r)var
-av=aj(j,[0,[0,l,l],d]),f=v(function(a){var
-b=$(j,a),c=k(m);return t(i(ar(k),s),c,b)},av);return[0,f,aL]},b3,D,V,P));if(ax){var
+av=aj(j,[0,[0,l,l],d]),f=w(function(a){var
+b=$(j,a),c=k(m);return t(i(ar(k),s),c,b)},av);return[0,f,aL]},b4,D,V,P));if(ax){var
 a$=ax[1];if(r[7])var
-b4=aQ[2],b5=aQ[1],b7=k(m),Z=kJ(bE,a$,[7,i(ar(k),am),b7,b5,b4]);else
+b5=aQ[2],b6=aQ[1],b7=k(m),Z=kL(bE,a$,[7,i(ar(k),am),b7,b6,b5]);else
 var
 Z=a$;var
-bc=t(h(f(a8,a9)),a),bd=bc?n(function(b){var
-c=lp(b);return n(function(b){return la(a,Q,b)},c)},Z):bc,be=bd?B?la(a,Q,k(B[1])):1:bd;if(be){var
-b8=f(as[1],aw[1]),I=f(aq[1],b8),J=lJ(aP),L=lH(D,r[2]),R=J?e(function(b){var
-c=ln(a,L,b[2]),d=b[1];return[0,e(function(b){return ln(a,L,b)},d),c]},O):J,ay=J?ck(hz(a,m,B,R))[1]:J,aA=cj(ay),aa=function(a){return aV(aA,a)},b9=hx(aa,aa,R),b_=aa(ba(a,m)),aB=v(function(b){return aa(ba(a,b))},B),bf=_(J);if(bf)var
+bb=u(h(f(a8,a9)),a),bd=bb?n(function(b){var
+c=lr(b);return n(function(b){return lc(a,Q,b)},c)},Z):bb,be=bd?B?lc(a,Q,k(B[1])):1:bd;if(be){var
+b8=f(as[1],aw[1]),I=f(aq[1],b8),J=lL(aP),L=lJ(D,r[2]),S=J?e(function(b){var
+c=lp(a,L,b[2]),d=b[1];return[0,e(function(b){return lp(a,L,b)},d),c]},O):J,ay=J?cm(hz(a,m,B,S))[1]:J,aA=cl(ay),aa=function(a){return aV(aA,a)},b_=hx(aa,aa,S),b$=aa(ba(a,m)),aB=w(function(b){return aa(ba(a,b))},B),bf=_(J);if(bf)var
 ab=bf;else{var
-bo=t(h(O),a);if(bo){var
-bA=hz(a,m,B,R),aI=n(function(a){var
-b=l(d);return av(u(aV(aA,a),aA,b),a)},bA);if(aI)var
-bB=hz(a,m,B,R),ac=n(function(b){var
-c=aJ(0,a);return n(function(c){return dD(a,c,b)},c)},bB);else
+bo=u(h(O),a);if(bo){var
+bA=hz(a,m,B,S),aI=n(function(a){var
+b=l(d);return av(t(aV(aA,a),aA,b),a)},bA);if(aI)var
+bB=hz(a,m,B,S),ac=n(function(b){var
+c=aK(0,a);return n(function(c){return dD(a,c,b)},c)},bB);else
 var
 ac=aI;if(ac){var
-aK=v(function(b){return ba(a,b)},B),ad=ba(a,m),aH=lh(ad);if(aH)var
-bz=aJ(0,G),aL=n(function(b){var
+aJ=w(function(b){return ba(a,b)},B),ad=ba(a,m),aH=lj(ad);if(aH)var
+bz=aK(0,G),aL=n(function(b){var
 c=cZ(a,b,ad),d=c?n(function(c){var
-e=c[2][2],g=f(x(hy,c[1]),e),h=M(a,b),d=n(function(a){return b6(h,a)},g);if(d){var
-i=c[2][1];return fG(ad,M(a,b),i)}return d},R):c;if(d){if(aK){var
-g=aK[1];return b6(M(a,b),g)}var
+e=c[2][2],g=f(v(hy,c[1]),e),h=M(a,b),d=n(function(a){return b9(h,a)},g);if(d){var
+i=c[2][1];return fH(ad,M(a,b),i)}return d},S):c;if(d){if(aJ){var
+g=aJ[1];return b9(M(a,b),g)}var
 e=1}else
 var
 e=d;return e},bz);else
@@ -4013,18 +4041,18 @@ af=aL}else
 var
 af=ac;var
 cf=af?n(function(b){var
-d=b[1],c=n(function(b){return lo(a,I,L,b)},d);return c?lo(a,I,L,b[2]):c},O):af,ab=cf}else
+d=b[1],c=n(function(b){return lq(a,I,L,b)},d);return c?lq(a,I,L,b[2]):c},O):af,ab=cf}else
 var
 ab=bo}if(ab){var
-b$=e(function(a){return 1},Z),ca=f(a8,a9),cb=function(O,_,Z,c){if(J){if(typeof
+ca=e(function(a){return 1},Z),cb=f(a8,a9),cc=function(O,_,Z,c){if(J){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],l=c[2],m=c[1];if(typeof
 m!=="number"&&6===m[0]){if(g){if(g[2])return 0;var
-r=g[1],b=m[1],s=t(Z,G),v=s?cH(0,G):s;if(v)var
-q=gP(gL,e(aF,l),L),X=q?1:q,o=X;else
+r=g[1],b=m[1],s=u(Z,G),v=s?cI(0,G):s;if(v)var
+q=gQ(gM,e(aF,l),L),X=q?1:q,o=X;else
 var
 o=v;var
-w=o?kf(L):o,x=w?n(function(a){return cH(a,h(I))},L):w,z=x?t(h(r),a):x;if(z){var
+w=o?kh(L):o,x=w?n(function(a){return cI(a,h(I))},L):w,z=x?u(h(r),a):x;if(z){var
 p=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4039,12 +4067,12 @@ var
 N=M}else
 var
 N=aB;if(!Q)return N}if(!P)return 0;break}if(p){var
-R=hu(j,g6(l,0,I),ay,O),k=hu(j,I,ay,O),f=function(b,a){return u(a,b,rg)},S=lj(function(a){return f(k,a)},C),T=f(k,b_),U=function(a){return f(k,a)},V=[0,hx(function(a){return f(R,a)},U,b9),T,S],Y=ka(l,I);return ll(G,a,function(g){var
-b=ae(e(re,g[1]));if(b){var
+R=hu(j,g7(l,0,I),ay,O),k=hu(j,I,ay,O),f=function(b,a){return t(a,b,ri)},S=ll(function(a){return f(k,a)},C),T=f(k,b$),U=function(a){return f(k,a)},V=[0,hx(function(a){return f(R,a)},U,b_),T,S],Y=kb(l,I);return ln(G,a,function(g){var
+b=ae(e(rg,g[1]));if(b){var
 c=g[2];if(c){var
 d=c0(g[3]);if(d){var
 l=d[1],m=aG([0,H(ag(y(j,_,c[1])),l),0],a),n=b[1],o=e(function(c){var
-a=kb(j,0,Y,c),b=bb(rf,a[2]);return[0,a[1],b]},n),f=j9(j,e(function(a){return W(j,a)},r),D,E,o,m);if(f)return bv(a,f[1]);var
+a=kc(j,0,Y,c),b=bc(rh,a[2]);return[0,a[1],b]},n),f=j_(j,e(function(a){return W(j,a)},r),D,E,o,m);if(f)return bw(a,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4059,7 +4087,7 @@ var
 A=z;var
 B=A}else
 var
-B=g;return B}return 0}return 0}return J},cc=k(m),ce=i(ar(k),O);return lu(j,aY,aZ,I,Z,a,a,v(k,B),ce,cc,cb,ca,b$,aP)}var
+B=g;return B}return 0}return 0}return J},cd=k(m),ce=i(ar(k),O);return lw(j,aY,aZ,I,Z,a,a,w(k,B),ce,cd,cc,cb,ca,aP)}var
 bg=ab}else
 var
 bg=be;var
@@ -4084,77 +4112,77 @@ bm=aq;var
 bn=bm}else
 var
 bn=ap;return bn}function
-et(b,a){return bd(b,a[1],a[2])}function
-lK(b,a){var
-c=et(b,a[1]),d=c?et(b,a[2]):c;return d?et(b,a[3]):d}function
+ew(b,a){return be(b,a[1],a[2])}function
+lM(b,a){var
+c=ew(b,a[1]),d=c?ew(b,a[2]):c;return d?ew(b,a[3]):d}function
 a5(a){return typeof
-a==="number"?a?rB:rC:cv(a[1])}function
-lL(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hp(b[1],a,c)}function
-fP(a){if(0===a[0]){var
+a==="number"?a?rD:rE:cw(a[1])}function
+lN(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hq(b[1],a,c)}function
+fQ(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hF(b,c,a){return b?fD(b[1],c,a):a}function
-b7(d,c,b,a){var
-e=fP(a),f=hF(d,c,fP(a)),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
-lM(b,a){var
+hF(b,c,a){return b?fE(b[1],c,a):a}function
+b_(d,c,b,a){var
+e=fQ(a),f=hF(d,c,fQ(a)),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
+lO(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lN(b,w,v){var
+lP(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?ky(b,j[1],f[1]):0;else
+h=0===f[0]?kA(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
 a=f[1],c=j[1],k=a2(b,c[1],a[1]),l=k?a2(b,c[2],a[2]):k,m=l?a2(b,c[3],a[3]):l,n=m?a2(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,P(a[1],a[1])):r;if(s)var
-u=hf(a),i=g(b,1,P(hf(a),u));else
+u=hg(a),i=g(b,1,P(hg(a),u));else
 var
 i=s;var
-h=i?ce(c[7],a[7]):i}if(h){var
+h=i?cg(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-lO(a){return typeof
-a==="number"?a?er(0):cP:er(a[1])}function
-hG(b,d,c){if(0===c[0])return fv(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aO(a[4],b),e),h=f(aO(a[3],b),g),i=f(aO(a[2],d[2]),h);return f(aO(a[1],d[1]),i)}function
+lQ(a){return typeof
+a==="number"?a?eu(0):cP:eu(a[1])}function
+hG(b,d,c){if(0===c[0])return fw(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aP(a[4],b),e),h=f(aP(a[3],b),g),i=f(aP(a[2],d[2]),h);return f(aP(a[1],d[1]),i)}function
 hH(b,a){if(b){var
-c=b[1],d=c[2];return cq(eq(c[1],a),d)}return a}function
-lP(f,t,al,J,aj,r,ai){if(r){var
-j=r[1],an=br([0,d,d],aj),a=b4(ai,hG(J,an,j)),y=function(c,b){var
-d=ab(a,c);return ak(s,ak(C,lO(f),b),d)};if(0===j[0]){var
+c=b[1],d=c[2];return cr(et(c[1],a),d)}return a}function
+lR(f,u,al,J,aj,r,ai){if(r){var
+j=r[1],an=bs([0,d,d],aj),a=b7(ai,hG(J,an,j)),y=function(c,b){var
+d=ab(a,c);return ak(s,ak(C,lQ(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=hH(t,ab(a,rD)),aE=z[1][5],A=u(rE,a,l(d)),B=ab(a,0),aa=y(rF,$),i=jY(aa,cO(B),aa,A,aE),ap=[0,az(A),0],aq=[0,az(X(B,B)),ap],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=hH(u,ab(a,rF)),aE=z[1][5],A=t(rG,a,l(d)),B=ab(a,0),aa=y(rH,$),i=jZ(aa,cO(B),aa,A,aE),ap=[0,az(A),0],aq=[0,az(X(B,B)),ap],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ac=hH(t,ab(a,rG)),ad=z[3],D=ad?[0,ab(a,rH)]:ad,ae=y(0,ac),m=jZ(ae,ae,0);if(D)var
+ac=hH(u,ab(a,rI)),ad=z[3],D=ad?[0,ab(a,rJ)]:ad,ae=y(0,ac),m=j0(ae,ae,0);if(D)var
 L=D[1],N=[0,az(X(L,L)),0];else
 var
 N=D;var
 k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,N],ac];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=ab(a,0),aI=lO(f),n=j0(aI,cO(E)),ar=[0,az(X(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=ab(a,0),aI=lQ(f),n=j1(aI,cO(E)),ar=[0,az(X(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hH(t,ab(a,rI)),F=j[1][7],G=u(rJ,a,l(d)),e=u(rK,a,l(d)),ag=ab(a,rL),H=ab(a,0),p=y(rM,af),o=cO(H),v=ak(s,ag,aY(X(o,ag),o)),w=cO(v),O=fL(o,w),P=X(p,w),Q=X(p,O),as=X(o,p),at=K(Q),R=C(K(P),at),au=K(as),S=s(K(G),au),av=q(l(b(2,c)),e),x=s(R,K(am(C(R,s(K(e),S)),av))),aw=fk(F,q(e,az(x))),T=am(P,e),U=fk(F,am(Q,e)),V=am(S,K(e)),W=jw(0,T,U,V),Y=fk(F,jw(1,T,U,V)),ax=aY(Y,O),Z=ak(s,p,aY(e,ak(C,aY(W,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(X(v,v)),aA],aC=[0,az(X(H,H)),aB],aD=cq(Z,aw),k=[0,[0,Z,q(K(e),x),aD,[1,W,Y],[0,[0,x,G]],aC],af];var
-aP=M(ai,h(hG(J,an,j))),aQ=r[2],aR=lP(f,t,al,J,bI(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cq(fL(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):lv(f[1],a,b)},I=g[1],_=typeof
+af=hH(u,ab(a,rK)),F=j[1][7],G=t(rL,a,l(d)),e=t(rM,a,l(d)),ag=ab(a,rN),H=ab(a,0),p=y(rO,af),o=cO(H),v=ak(s,ag,aY(X(o,ag),o)),w=cO(v),O=fM(o,w),P=X(p,w),Q=X(p,O),as=X(o,p),at=K(Q),R=C(K(P),at),au=K(as),S=s(K(G),au),av=q(l(b(2,c)),e),x=s(R,K(am(C(R,s(K(e),S)),av))),aw=fm(F,q(e,az(x))),T=am(P,e),U=fm(F,am(Q,e)),V=am(S,K(e)),W=jw(0,T,U,V),Y=fm(F,jw(1,T,U,V)),ax=aY(Y,O),Z=ak(s,p,aY(e,ak(C,aY(W,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(X(v,v)),aA],aC=[0,az(X(H,H)),aB],aD=cr(Z,aw),k=[0,[0,Z,q(K(e),x),aD,[1,W,Y],[0,[0,x,G]],aC],af];var
+aP=M(ai,h(hG(J,an,j))),aQ=r[2],aR=lR(f,u,al,J,bb(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
+b=cr(fM(aS,a),al);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):lx(f[1],a,b)},I=g[1],_=typeof
 f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bL(I):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
 hI(c,b,a){if(a){var
-e=a[2],g=hI(c,bI(b),e),h=a[1];return f(hG(c,br([0,d,d],b),h),g)}return a}function
-lQ(a){if(a){var
+e=a[2],g=hI(c,bb(b),e),h=a[1];return f(hG(c,bs([0,d,d],b),h),g)}return a}function
+lS(a){if(a){var
 b=a[1][6];if(b)var
-c=lQ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=lS(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return rN}function
-lR(y,V,b){function
-c(a){return u(a,V,l(d))}function
+d=b;return d}return rP}function
+lT(y,V,b){function
+c(a){return t(a,V,l(d))}function
 N(a){var
 e=a[2],f=q(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dj(function(b,a){return s(b,K(a))},g,f),d],b]}function
 O(e){var
@@ -4179,7 +4207,7 @@ d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(rO),b),g=[0,[0,s(q(c(rP),d),f),0],0],h=q(d,c(rQ));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(rQ),b),g=[0,[0,s(q(c(rR),d),f),0],0],h=q(d,c(rS));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4195,7 +4223,7 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lQ(y);if(A){var
+A=lS(y);if(A){var
 aa=c(0),P=dj(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
 h=B[2],i=B[1];if(i){var
 j=i[2],E=i[1];if(j){var
@@ -4207,12 +4235,12 @@ p=o[2],H=o[1];if(p){var
 I=p[1];if(p[2]||!m)var
 a=l(d);else{var
 r=m[1];if(r){var
-t=r[2],J=r[1];if(t){var
-v=t[2],L=t[1];if(v){var
+u=r[2],J=r[1];if(u){var
+v=u[2],L=u[1];if(v){var
 M=v[1];if(v[2]||m[2])var
 a=l(d);else
 var
-R=cR(G,H,J,L),T=q(k[1],R),U=q(F,cR(G,I,J,M)),a=C(s(q(E,cR(H,I,L,M)),U),T)}else
+S=cR(G,H,J,L),T=q(k[1],S),U=q(F,cR(G,I,J,M)),a=C(s(q(E,cR(H,I,L,M)),U),T)}else
 var
 a=l(d)}else
 var
@@ -4238,18 +4266,18 @@ var
 a=l(d)}else
 var
 a=l(d);var
-ab=[0,bc(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+ab=[0,bd(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
 var
 Q=A;return Q;default:D=1}if(D)return 0;var
-z=S(y,f);return z?g(z[1]):z}function
-fQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eu(a){return e(function(a){var
+z=R(y,f);return z?g(z[1]):z}function
+fR(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+ex(a){return e(function(a){var
 b=l(c);return[0,a[3],b]},a)}function
-lS(a,b){return e(function(a){var
+lU(a,b){return e(function(a){var
 c=q(a[2],b);return[0,a[1],c]},a)}function
-lT(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bx(lS(c,u(0,b,l(d))));return jo(lR(c,b,a))}function
-lU(f,h,m,I,H,r,a){if(typeof
+lV(c,b,a){if(typeof
+a!=="number"&&8===a[0])return by(lU(c,t(0,b,l(d))));return jo(lT(c,b,a))}function
+lW(f,h,m,I,H,r,a){if(typeof
 a==="number")return[0,[0,[0,A]],0];else
 switch(a[0]){case
 0:var
@@ -4257,54 +4285,54 @@ J=[5,[0,c,c],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
 M=[5,[0,c,c],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=aj(f,[0,[0,y,y],d]);return[0,v(function(a){return[2,$(f,a)]},Q),P];case
+y=a[1],P=0,Q=aj(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,$(f,a)]},Q),P];case
 7:var
-z=a[3],B=a[2],C=a[1];if(!S(m,C))return rT;var
+z=a[3],B=a[2],C=a[1];if(!R(m,C))return rV;var
 G=0;if(g(f,1,B)&&g(f,1,z))var
-R=[5,B,z],j=R,n=function(a){return[7,C,a]};else
-G=1;if(G)return rS;break;case
+S=[5,B,z],j=S,n=function(a){return[7,C,a]};else
+G=1;if(G)return rU;break;case
 8:var
 D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=W(f,c),V=lS(m,u(0,r,l(d))),F=[0,[4,i(ar(h),V),U]];else
+U=W(f,c),V=lU(m,t(0,r,l(d))),F=[0,[4,i(ar(h),V),U]];else
 var
 F=E;return[0,F,T];default:var
 q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 4:var
-s=a[3],t=a[2],w=g(f,1,[3,s,t]),O=w?g(f,1,[3,[2,t,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],s]):w,k=O;break;case
+s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],s]):v,k=O;break;case
 6:case
 9:var
 x=g(f,1,a[2]),k=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
 k=1;var
-p=k?lR(m,r,a):k;if(p){var
+p=k?lT(m,r,a):k;if(p){var
 N=[0,p[1],p[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
 d=[0,[3,i(h,c)]]}else
 var
-d=a;return d},N)}return rR}var
-K=0,L=aj(f,[0,[0,j,j],hm(I,H)]);return[0,v(function(a){return n($(f,a))},L),K]}function
-lV(a){if(typeof
+d=a;return d},N)}return rT}var
+K=0,L=aj(f,[0,[0,j,j],hn(I,H)]);return[0,w(function(a){return n($(f,a))},L),K]}function
+lX(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-rV(b){if(0===b[0])return[0,kH(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=be(a[4]),g=be(a[3]),h=be(a[2]);return[1,[0,be(a[1]),h,g,f,e,d,c]]}function
-rW(J,c,a,j,ap,aT){var
-aU=e(rV,a[2]),aq=lN(J,a[2],aU);if(aq)var
-aW=he(a[4]),K=cT(J,a[4],aW);else
+rX(b){if(0===b[0])return[0,kJ(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bf(a[4]),g=bf(a[3]),h=bf(a[2]);return[1,[0,bf(a[1]),h,g,f,e,d,c]]}function
+rY(J,c,a,j,ap,aT){var
+aU=e(rX,a[2]),aq=lP(J,a[2],aU);if(aq)var
+aW=hf(a[4]),K=cT(J,a[4],aW);else
 var
 K=aq;if(K){var
 as=a[5];if(as)var
-aX=fK(as[1]),at=n(function(a){return et(J,a)},aX);else
+aX=fL(as[1]),at=n(function(a){return ew(J,a)},aX);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ay=a5(b),q=a[6],z=hI(j,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],j],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=v(function(a){var
+b=a[1],ay=a5(b),q=a[6],z=hI(j,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],j],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
 c=typeof
-b==="number"?0:fM(b[1]);return lc(a,c)},az),aB=a[2],k=lP(b,aA,ct(R,h(z)),j,ap,aB,0),T=x(function(a){return a[7]},k),aC=f(T,cu(function(a,b){return lT(k,a,b)},o,j,S,q)),aD=f(bx(eu(k)),aC),U=f(bx(fQ(k)),aD),V=ck(U)[1],W=cj(V),p=function(a){return aV(W,a)},X=n(function(a){var
-b=l(d);return av(u(p(a),W,b),a)},U),Y=X?ai(lV,q):X;if(Y){var
+b==="number"?0:fN(b[1]);return le(a,c)},az),aB=a[2],k=lR(b,aA,cu(R,h(z)),j,ap,aB,0),T=v(function(a){return a[7]},k),aC=f(T,cv(function(a,b){return lV(k,a,b)},o,j,S,q)),aD=f(by(ex(k)),aC),U=f(by(fR(k)),aD),V=cm(U)[1],W=cl(V),p=function(a){return aV(W,a)},X=n(function(a){var
+b=l(d);return av(t(p(a),W,b),a)},U),Y=X?ai(lX,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
 _=b?hE(0,dA(Z)):1;else
@@ -4318,36 +4346,36 @@ N==="number")var
 r=a[5]?0:1;else
 if(2<=N[1])var
 r=0;else{var
-w=a[5],M=0;if(w){var
+x=a[5],M=0;if(x){var
 O=g(c,1,a[3]);if(O)var
-ax=fK(w[1]),r=n(function(a){var
-b=eo(c,a[1]);return b?eo(c,a[2]):b},ax);else{var
+ax=fL(x[1]),r=n(function(a){var
+b=er(c,a[1]);return b?er(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
-P=w;M=1}if(M)var
+P=x;M=1}if(M)var
 r=P}var
 C=r}else
 var
 C=B;if(C)var
 aE=a[2],D=n(function(a){var
-b=0===a[0]?0:1;return ce(b,o)},aE);else
+b=0===a[0]?0:1;return cg(b,o)},aE);else
 var
 D=C;if(D){var
 aF=f(z,[0,R,0]),E=ae(e(function(a){return aj(c,a)},aF));if(E){var
-aG=x(function(a){return el(o,j,a)},q),F=ae(e(function(a){return hn(c,a)},aG));if(F){var
+aG=v(function(a){return eo(o,j,a)},q),F=ae(e(function(a){return ho(c,a)},aG));if(F){var
 m=dA(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lG(b[1],m),G=ae(e(function(a){return aj(c,[0,a,j])},aH));if(G){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lI(b[1],m),G=ae(e(function(a){return aj(c,[0,a,j])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
-aI=le(aa[1]),s=ae(e(function(a){return lg(c,a)},aI));else
+aI=lg(aa[1]),s=ae(e(function(a){return li(c,a)},aI));else
 var
-s=rU;if(s){var
-ab=s[1],y=a[5],aJ=y?ld(y[1]):y,H=ae(e(function(a){return dC(c,a)},aJ));if(H){var
-I=ae(cu(function(a,b){return lU(c,p,k,o,j,a,b)},o,j,S,q));if(I){var
-ac=I[1],ad=t(h(f($,ab)),ay);if(ad){var
-aK=g_(ac),aL=f($,ab),au=0,aM=a[4];if(typeof
+s=rW;if(s){var
+ab=s[1],y=a[5],aJ=y?lf(y[1]):y,H=ae(e(function(a){return dC(c,a)},aJ));if(H){var
+I=ae(cv(function(a,b){return lW(c,p,k,o,j,a,b)},o,j,S,q));if(I){var
+ac=I[1],ad=u(h(f($,ab)),ay);if(ad){var
+aK=g$(ac),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kx(c,aM,j,a)};au=1}if(!au)var
+af=function(a){return kz(c,aM,j,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eu(k),aR=i(ar(p),aQ),aS=fQ(k);return fu(c,V,i(ar(p),aS),aR,aP,aO,ac,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=ex(k),aR=i(ar(p),aQ),aS=fR(k);return fv(c,V,i(ar(p),aS),aR,aP,aO,ac,af,aL,aK,aT)}var
 ag=ad}else
 var
 ag=I;var
@@ -4369,7 +4397,7 @@ an=E;var
 ao=an}else
 var
 ao=D;return ao}return L}function
-bz(c){var
+bA(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4378,15 +4406,15 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bz(a[2]);return f(bz(a[1]),e)}}function
-bf(e,a,b){switch(a[0]){case
+e=bA(a[2]);return f(bA(a[1]),e)}}function
+bg(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return ct([0,[0,r,r],d],b);case
+r=a[1];return cu([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(pg(n[1],u))return n[2];var
+n=g[1];if(pi(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bc(bf(e,a[1],b));case
+2:return bd(bg(e,a[1],b));case
 3:var
 j=a[2],f=a[1],i=C;break;case
 4:var
@@ -4396,43 +4424,43 @@ j=a[2],f=a[1],i=q;break;case
 6:var
 j=a[2],f=a[1],i=am;break;case
 7:var
-k=d4(a[2]),m=bf(e,a[1],b);if(k){if(k[1]){var
-o=K(m),t=function(a){return q(a,o)},p=e0(bq(je(k)),t,o);return jd(k)?p:q(p,m)}return m}return l(c);default:return az(bf(e,a[1],b))}var
-w=bf(e,j,M(b,h(bz(f))));return i(bf(e,f,b),w)}function
-cy(c,g,b){var
+k=d4(a[2]),m=bg(e,a[1],b);if(k){if(k[1]){var
+o=K(m),t=function(a){return q(a,o)},p=e3(br(je(k)),t,o);return jd(k)?p:q(p,m)}return m}return l(c);default:return az(bg(e,a[1],b))}var
+w=bg(e,j,M(b,h(bA(f))));return i(bg(e,f,b),w)}function
+cz(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=M(b,h(bz(e))),l=cy(c,a[2],k),m=f(cy(c,e,b),l);return[0,bf(c,a,b),m];case
+e=a[1],k=M(b,h(bA(e))),l=cz(c,a[2],k),m=f(cz(c,e,b),l);return[0,bg(c,a,b),m];case
 8:var
-n=cy(c,a[1],b);return[0,bf(c,a,b),n];case
+n=cz(c,a[1],b);return[0,bg(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=M(b,h(bz(d))),j=cy(c,a[2],i);return f(cy(c,d,b),j)}}function
-lW(c,a,b){if(a){var
-e=a[1],d=e[2],g=M(b,h(bz(d))),i=a[2],j=bf(c,d,b),k=lW([0,[0,e[1],j],c],i,g);return f(cy(c,d,b),k)}return a}function
-hJ(a){return x(bz,a)}function
-lX(c,a,b){if(a)var
-d=a[1],f=M(b,h(bz(d))),g=lX(c,a[2],f),e=[0,bf(c,d,b),g];else
+d=a[1],i=M(b,h(bA(d))),j=cz(c,a[2],i);return f(cz(c,d,b),j)}}function
+lY(c,a,b){if(a){var
+e=a[1],d=e[2],g=M(b,h(bA(d))),i=a[2],j=bg(c,d,b),k=lY([0,[0,e[1],j],c],i,g);return f(cz(c,d,b),k)}return a}function
+hJ(a){return v(bA,a)}function
+lZ(c,a,b){if(a)var
+d=a[1],f=M(b,h(bA(d))),g=lZ(c,a[2],f),e=[0,bg(c,d,b),g];else
 var
 e=a;return e}function
-lY(c,a,b){if(a){var
-d=a[1],e=M(b,h(bz(d))),g=lY(c,a[2],e);return f(cy(c,d,b),g)}return a}function
-hK(a){return 0===a[0]?hJ(a[1]):bz(a[1])}function
-lZ(c,b,a){if(b){var
-d=b[1],j=M(a,h(hK(d))),k=lZ(c,b[2],j);if(0===d[0])var
-g=lY(c,d[1],a);else
+l0(c,a,b){if(a){var
+d=a[1],e=M(b,h(bA(d))),g=l0(c,a[2],e);return f(cz(c,d,b),g)}return a}function
+hK(a){return 0===a[0]?hJ(a[1]):bA(a[1])}function
+l1(c,b,a){if(b){var
+d=b[1],j=M(a,h(hK(d))),k=l1(c,b[2],j);if(0===d[0])var
+g=l0(c,d[1],a);else
 var
-e=d[1],i=cy(c,e,a),g=[0,bf(c,e,a),i];return f(g,k)}return b}function
-fR(c){var
+e=d[1],i=cz(c,e,a),g=[0,bg(c,e,a),i];return f(g,k)}return b}function
+fS(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=cM(fR,a)}return[0,b]}function
+b=b1(fS,a)}return[0,b]}function
 hL(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
@@ -4441,19 +4469,19 @@ b=a[1];continue;case
 6:var
 d=hL(a[2]);return q(hL(a[1]),d);case
 9:return a[1];default:return K(b)}}}function
-l0(n,g,a,f){if(a){var
-b=a[1],w=M(f,h(hK(b))),x=l0(n,g,a[2],w);if(0===b[0])var
-k=lX(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+l2(n,g,a,f){if(a){var
+b=a[1],w=M(f,h(hK(b))),x=l2(n,g,a[2],w);if(0===b[0])var
+k=lZ(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
 var
-m=bf(g,b[1],f),q=fR(m),i=aN(aJ(0,n),q),d=fR(i[2]),j=e(fR,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?l(c):am(a,d)},j),o=[0,j,hL(d),v,u,t,s,r];var
+m=bg(g,b[1],f),q=fS(m),i=aO(aK(0,n),q),d=fS(i[2]),j=e(fS,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?l(c):am(a,d)},j),o=[0,j,hL(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-l1(a){return e(function(a){return[0,a[2],d]},a)}function
-l2(a){var
-b=x(hK,a[4]),c=f(hJ(e(cd,a[3])),b);return f(l1(a[2]),c)}function
-l3(a){var
-c=b4(0,l1(a[2])),d=aJ(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aI(e(aF,a[2]),c);return f(aI(a[1],g),b)}function
+l3(a){return e(function(a){return[0,a[2],d]},a)}function
+l4(a){var
+b=v(hK,a[4]),c=f(hJ(e(bX,a[3])),b);return f(l3(a[2]),c)}function
+l5(a){var
+c=b7(0,l3(a[2])),d=aK(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aF,a[2]),c);return f(aJ(a[1],g),b)}function
 hM(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
@@ -4465,40 +4493,40 @@ e=a[1];return ai(function(a){return aq(e,a)},b);case
 a=a[1];continue;default:var
 c=hM(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-l4(d){var
+l6(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(ai(function(b){return function(a){return pg(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=_(ai(function(b){return function(a){return pi(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-l5(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=l5(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bI,f(c,j)));return ao(h,ao(g,br(b,k),m),l)}return b}function
-l6(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return l5(a,e,d,function(b){return l6(a,f,e,d,h,b)},g,b)}return b?a:f}function
-l7(d,a){if(a){var
+l7(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=l7(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bb,f(c,j)));return ao(h,ao(g,bs(b,k),m),l)}return b}function
+l8(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return l7(a,e,d,function(b){return l8(a,f,e,d,h,b)},g,b)}return b?a:f}function
+l9(d,a){if(a){var
 b=aW(d,a[1]);if(b)var
-c=l7(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=l9(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return r0}function
-l8(d,a){if(a){var
-b=l7(d,a[1]);if(b)var
-c=l8(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return r2}function
+l_(d,a){if(a){var
+b=l9(d,a[1]);if(b)var
+c=l_(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return r1}var
-fT=s(l(c),fS);function
-l9(e){var
-a=K(fT);if(e)var
+e=b;return e}return r3}var
+fU=s(l(c),fT);function
+l$(e){var
+a=K(fU);if(e)var
 f=q(l(b(2,c)),a),g=C(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=am(C(l(c),h),g);else
 var
-i=C(l(b(2,c)),a),j=K(fS),d=am(C(q(l(b(2,c)),j),a),i);return az(d)}function
-l_(d,b,a){if(d){var
-e=l9(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=l9(b),j=am(l(c),i);return s(q(a,C(l(c),j)),h)}function
+i=C(l(b(2,c)),a),j=K(fT),d=am(C(q(l(b(2,c)),j),a),i);return az(d)}function
+ma(d,b,a){if(d){var
+e=l$(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
+h=l(c),i=l$(b),j=am(l(c),i);return s(q(a,C(l(c),j)),h)}function
 dH(f,e,d,a){var
-g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fT:am(fT,q(l(b(2,c)),fS)):am(fT,l(b(2,c))),k=q(K(j),i);return az(C(l(c),k))}function
-l$(g,d){var
+g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fU:am(fU,q(l(b(2,c)),fT)):am(fU,l(b(2,c))),k=q(K(j),i);return az(C(l(c),k))}function
+mb(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?G(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hN(v,t,s){var
-a=e(function(a){return u(a,t,0)},v);if(a){var
+hN(v,u,s){var
+a=e(function(a){return t(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -4529,12 +4557,12 @@ q=f;var
 r=q}else
 var
 r=a;return r}function
-ma(f,i,e,b,h){var
+mc(f,i,e,b,h){var
 j=f?c:d,a=W(i,j);function
 g(b){var
-c=f?fa(b):dp(b);return H(c,a)}var
+c=f?fc(b):dp(b);return H(c,a)}var
 k=[0,ad(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mb(r,g,q,p,f,o,n){if(o){var
+md(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4543,16 +4571,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aX,bu(r4)),a=hN(p,g7(g,q,0,f),z);b=1;c=1;d=1;break;case
+z=e(aX,bv(r6)),a=hN(p,ke(g,q,0,f),z);b=1;c=1;d=1;break;case
 3:var
 a=F(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(l$,r5),a=hN(p,bJ(0,cm(g,ma(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+A=e(mb,r7),a=hN(p,bJ(0,b4(g,mc(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(l$,r6),a=hN(p,bJ(0,cm(g,ma(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+B=e(mb,r8),a=hN(p,bJ(0,b4(g,mc(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4562,26 +4590,26 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?r7:a}else
+y=a?r9:a}else
 var
 y=n;return y}return[0,n]}function
-mc(f,e,d,c,p,o,n){var
+me(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mb(f,e,d,c,b,a[1],g);return h?_(h[1]):h}var
-i=mb(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ed(a[2],b),l=mc(f,e,d,c,k[1],j,a[3]);if(l){var
+h=md(f,e,d,c,b,a[1],g);return h?_(h[1]):h}var
+i=md(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=eg(a[2],b),l=me(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
 hO(a){return jk(b(2,c),aE(a,c))}function
 dI(i,a,e,w,v){var
-m=a?c:O(c),f=l(m),g=l_(a,e,r2),h=l_(a,e,r3),n=am(g,dH(a,e,f,g)),o=[0,C(am(h,dH(a,e,h,f)),n),0],p=am(f,dH(a,e,f,g)),r=[0,C(am(h,dH(a,e,g,h)),p),o],s=am(f,dH(a,e,h,f)),t=[0,C(am(g,dH(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fS):l(b(2,b(2,c))),j=ck([0,u,t]),k=[0,d,cK(i)];return mc(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-md(a,g,b){if(L(g,hO(a))){if(b){var
+m=a?c:O(c),f=l(m),g=ma(a,e,r4),h=ma(a,e,r5),n=am(g,dH(a,e,f,g)),o=[0,C(am(h,dH(a,e,h,f)),n),0],p=am(f,dH(a,e,f,g)),r=[0,C(am(h,dH(a,e,g,h)),p),o],s=am(f,dH(a,e,h,f)),t=[0,C(am(g,dH(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fT):l(b(2,b(2,c))),j=cm([0,u,t]),k=[0,d,cL(i)];return me(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
+mf(a,g,b){if(L(g,hO(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hO(a)],v=cK(a),i=[0,hO(a),v],j=dI(a,0,1,h,b[1]),k=j?dI(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,hO(a)],v=cL(a),i=[0,hO(a),v],j=dI(a,0,1,h,b[1]),k=j?dI(a,0,0,i,c[1]):j;if(k){var
 l=dI(a,1,1,h,d[1]);if(l)return dI(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4599,7 +4627,7 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cK(a)],s=dI(a,0,0,r,b[1]);if(s)return dI(a,1,0,r,f[1]);var
+r=[0,g,cL(a)],s=dI(a,0,0,r,b[1]);if(s)return dI(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
@@ -4608,253 +4636,253 @@ var
 u=b;return u}function
 hP(a){var
 b=[1,[2,d]];return dj(function(b,a){return[1,[3,b,a]]},a,b)}function
-fU(a){return hP(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fV(a,c){return hP(e(function(a){var
-d=[0,a[2]],b=aI(a[1],c);return[1,[7,[1,[8,hP(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-me(e,d,c,b,a){if(0===a[0])return u(a[1],b,0);var
-f=a[1],g=cM(function(a){return me(e,d,c,b,a)},f);return i(cm(e,d,c),g)}function
-mf(a){return a?L(d,a[1][2][1]):a}function
-r8(a){var
-b=t(h(a),r9);return b?ai(function(a){return _(Z(a,d))},a):b}function
-mg(c,f,b,a){if(b)if(a)var
-d=b[1],g=y(c,W(c,a[1]),f),h=mg(c,f,b[2],a[2]),i=d[3],j=G(d[2],g),e=[0,[0,G(d[1],g),j,i],h];else
+fV(a){return hP(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fW(a,c){return hP(e(function(a){var
+d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hP(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+mg(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
+f=a[1],g=b1(function(a){return mg(e,d,c,b,a)},f);return i(b4(e,d,c),g)}function
+mh(a){return a?L(d,a[1][2][1]):a}function
+r_(a){var
+b=u(h(a),r$);return b?ai(function(a){return _(Z(a,d))},a):b}function
+mi(c,f,b,a){if(b)if(a)var
+d=b[1],g=y(c,W(c,a[1]),f),h=mi(c,f,b[2],a[2]),i=d[3],j=G(d[2],g),e=[0,[0,G(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fW(b,a){return e7(e7(b,0),a)}function
+fX(b,a){return d7(d7(b,0),a)}function
 hQ(a){if(a){var
-b=a[2],c=a[1];if(b)return fW(c,[0,r$,hQ(b)]);var
+b=a[2],c=a[1];if(b)return fX(c,[0,sb,hQ(b)]);var
 d=c}else
 var
 d=a;return d}function
-B(a){return[0,sb,fW(hQ(a),sa)]}function
-aa(a){return[0,sd,fW(hQ(a),sc)]}function
-al(a){return[0,sf,[0,a,se]]}function
-k(b,a){return[0,aR(sh,aR(b,sg)),a]}function
+B(a){return[0,sd,fX(hQ(a),sc)]}function
+aa(a){return[0,sf,fX(hQ(a),se)]}function
+al(a){return[0,sh,[0,a,sg]]}function
+k(b,a){return[0,aS(sj,aS(b,si)),a]}function
 I(b,a){return aa([0,k(b,a),0])}function
-b8(d){var
-b=d,a=pL,e=0;for(;;){if(b){var
-c=jb(a),b=b[1],a=c;continue}return[0,d7(eZ(a)),e]}}function
-hR(a){return[0,d7(e5(a)),0]}function
-fX(a){var
-c=a7(a),f=0,b=0===c?pQ:0<c?[0,e5(a)]:[1,e5(O(a))];if(0===b[0])var
-d=d7(b[1]);else
+b$(d){var
+b=d,a=pN,e=0;for(;;){if(b){var
+c=jb(a),b=b[1],a=c;continue}return[0,d8(e2(a)),e]}}function
+hR(a){return[0,d8(e8(a)),0]}function
+fY(a){var
+c=a7(a),f=0,b=0===c?pS:0<c?[0,e8(a)]:[1,e8(O(a))];if(0===b[0])var
+d=d8(b[1]);else
 var
-e=d7(b[1]),d=aR(bm(1,45),e);return[0,d,f]}function
+e=d8(b[1]),d=aS(bn(1,45),e);return[0,d,f]}function
 hS(a){var
-b=0,c=0<a7(a)?e5(a):pP;return[0,d7(c),b]}function
+b=0,c=0<a7(a)?e8(a):pR;return[0,d8(c),b]}function
 hT(a){switch(a[0]){case
-2:return sj;case
-3:return 2<=a[1]?sk:sl;case
-4:return sm;default:return si}}function
-ev(b,a){function
-c(c,a){return R(c,hT(a))?ev(b,a):[0,ss,f(ev(b,a),sr)]}switch(a[0]){case
+2:return sl;case
+3:return 2<=a[1]?sm:sn;case
+4:return so;default:return sk}}function
+ey(b,a){function
+c(c,a){return S(c,hT(a))?ey(b,a):[0,su,f(ey(b,a),st)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,a1(g),0];var
-h=[0,st,[0,a1(e),0]];return[0,a1(g),h];case
+h=[0,sv,[0,a1(e),0]];return[0,a1(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,sv,c(su,a[1])];case
+2:return[0,sx,c(sw,a[1])];case
 3:var
 j=a[3],k=c([0,hT(a)],j);switch(a[1]){case
 0:var
-d=sn;break;case
+d=sp;break;case
 1:var
-d=so;break;case
+d=sq;break;case
 2:var
-d=sp;break;default:var
-d=sq}var
+d=sr;break;default:var
+d=ss}var
 l=a[2];return f(c(hT(a),l),[0,d,k]);case
 4:var
-m=[0,sw,hR(a[2])];return f(c(sx,a[1]),m);default:return[0,sz,f(ev(b,a[1]),sy)]}}function
-J(a){return[0,sC,f(ev(function(a){return 0===a[0]?a[1]:sB},a),sA)]}function
-hU(a){return[0,sE,f(ev(function(a){return a},a),sD)]}function
-b9(a){if(0===a[0])return J(a[1]);var
-b=[0,k(sF,J(a[2])),0];return aa([0,k(sG,J(a[1])),b])}function
-fY(b,a){var
+m=[0,sy,hR(a[2])];return f(c(sz,a[1]),m);default:return[0,sB,f(ey(b,a[1]),sA)]}}function
+J(a){return[0,sE,f(ey(function(a){return 0===a[0]?a[1]:sD},a),sC)]}function
+hU(a){return[0,sG,f(ey(function(a){return a},a),sF)]}function
+ca(a){if(0===a[0])return J(a[1]);var
+b=[0,k(sH,J(a[2])),0];return aa([0,k(sI,J(a[1])),b])}function
+fZ(b,a){var
 c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return B([0,i(b,a[1]),d])}function
-sH(a){function
-b(a){return fY(b9,a)}switch(a[0]){case
+sJ(a){function
+b(a){return fZ(ca,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?sI:sQ,h=[0,k(sJ,al(g)),e],i=[0,k(sK,b9(a[4])),h],j=[0,k(sL,b(a[3])),i],l=[0,k(sM,b(a[2])),j],m=[0,k(sN,b(a[1])),l],c=[0,k(sP,al(sO)),m];break;case
+e=0,g=a[5]?sK:sS,h=[0,k(sL,al(g)),e],i=[0,k(sM,ca(a[4])),h],j=[0,k(sN,b(a[3])),i],l=[0,k(sO,b(a[2])),j],m=[0,k(sP,b(a[1])),l],c=[0,k(sR,al(sQ)),m];break;case
 1:var
-d=a[3],n=d?[0,k(sR,b(d[1])),0]:d,o=[0,k(sS,b(a[2])),0],p=[0,k(sT,b(a[1])),o],c=f([0,k(sV,al(sU)),p],n);break;default:var
-q=[0,k(sW,b(a[1])),0],c=[0,k(sY,al(sX)),q]}return aa(c)}function
-sZ(a){function
-b(a){return B(e(b9,a))}function
+d=a[3],n=d?[0,k(sT,b(d[1])),0]:d,o=[0,k(sU,b(a[2])),0],p=[0,k(sV,b(a[1])),o],c=f([0,k(sX,al(sW)),p],n);break;default:var
+q=[0,k(sY,b(a[1])),0],c=[0,k(s0,al(sZ)),q]}return aa(c)}function
+s1(a){function
+b(a){return B(e(ca,a))}function
 d(a){var
-b=a?s0:s2;return k(s1,al(b))}switch(a[0]){case
+b=a?s2:s4;return k(s3,al(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,k(s3,b9(a[4])),f],h=[0,k(s4,b(a[3])),g],i=[0,k(s5,b(a[2])),h],j=[0,k(s6,b(a[1])),i],c=[0,k(s8,al(s7)),j];break;case
+f=[0,d(a[5]),0],g=[0,k(s5,ca(a[4])),f],h=[0,k(s6,b(a[3])),g],i=[0,k(s7,b(a[2])),h],j=[0,k(s8,b(a[1])),i],c=[0,k(s_,al(s9)),j];break;case
 1:var
-l=[0,k(s9,b(a[2])),0],m=[0,k(s_,b(a[1])),l],c=[0,k(ta,al(s$)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,k(tb,b9(a[6])),n],p=[0,k(tc,b9(a[5])),o],q=[0,k(td,b(a[4])),p],r=[0,k(te,b(a[3])),q],s=[0,k(tf,b(a[2])),r],t=[0,k(tg,b(a[1])),s],c=[0,k(ti,al(th)),t]}return aa(c)}function
+l=[0,k(s$,b(a[2])),0],m=[0,k(ta,b(a[1])),l],c=[0,k(tc,al(tb)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,k(td,ca(a[6])),n],p=[0,k(te,ca(a[5])),o],q=[0,k(tf,b(a[4])),p],r=[0,k(tg,b(a[3])),q],s=[0,k(th,b(a[2])),r],t=[0,k(ti,b(a[1])),s],c=[0,k(tk,al(tj)),t]}return aa(c)}function
 hV(a){switch(a){case
-0:return tj;case
-1:return tk;case
-2:return tl;case
-3:return tm;case
-4:return tn;case
-5:return to;case
-6:return tp;case
-7:return tq;case
-8:return tr;case
-9:return ts;case
-10:return tt;case
-11:return tu;case
-12:return tv;case
-13:return tw;case
-14:return tx;default:return ty}}function
+0:return tl;case
+1:return tm;case
+2:return tn;case
+3:return to;case
+4:return tp;case
+5:return tq;case
+6:return tr;case
+7:return ts;case
+8:return tt;case
+9:return tu;case
+10:return tv;case
+11:return tw;case
+12:return tx;case
+13:return ty;case
+14:return tz;default:return tA}}function
 hW(a){if(typeof
-a==="number")return tz;else
+a==="number")return tB;else
 switch(a[0]){case
-0:return tA;case
-1:return tB;default:return tC}}function
-ew(a){var
+0:return tC;case
+1:return tD;default:return tE}}function
+ez(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,k(tD,J(b[1])),0];break;case
+d=[0,k(tF,J(b[1])),0];break;case
 1:var
-d=[0,k(tE,J(b[1])),0];break;default:var
-n=[0,J(b[2]),0],d=[0,k(tF,B([0,J(b[1]),n])),0]}var
-o=[0,k(tG,al(hW(a[4]))),d],g=a[3];if(g){var
+d=[0,k(tG,J(b[1])),0];break;default:var
+n=[0,J(b[2]),0],d=[0,k(tH,B([0,J(b[1]),n])),0]}var
+o=[0,k(tI,al(hW(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-q=B([0,J(c[1]),0]),j=a[1],p=0,r=6===j?tH:12===j?tL:tM,h=[0,k(tI,I(r,q)),p];break;case
+q=B([0,J(c[1]),0]),j=a[1],p=0,r=6===j?tJ:12===j?tN:tO,h=[0,k(tK,I(r,q)),p];break;case
 1:var
-w=B(e(J,c[1])),m=a[1],v=0,x=14===m?tN:15<=m?tP:tQ,h=[0,k(tO,I(x,w)),v];break;default:var
-y=[0,k(tR,B([0,J(c[2]),0])),0],h=[0,k(tT,aa([0,k(tS,B([0,J(c[1]),0])),y])),0]}var
+w=B(e(J,c[1])),m=a[1],v=0,x=14===m?tP:15<=m?tR:tS,h=[0,k(tQ,I(x,w)),v];break;default:var
+y=[0,k(tT,B([0,J(c[2]),0])),0],h=[0,k(tV,aa([0,k(tU,B([0,J(c[1]),0])),y])),0]}var
 l=h}else
 var
 l=g;var
-s=f(l,o),i=a[2],t=i?[0,k(tJ,b8(i[1])),0]:i,u=f(t,s);return aa([0,k(tK,al(hV(a[1]))),u])}function
-mh(a){if(0===a[0]){var
-b=[0,k(tU,fY(J,a[2])),0];return I(tW,aa([0,k(tV,fY(J,a[1])),b]))}var
-c=[0,J(a[5]),0],d=[0,k(tX,B([0,J(a[4]),c])),0],e=[0,k(tY,J(a[3])),d],f=[0,J(a[2]),0];return I(t0,aa([0,k(tZ,B([0,J(a[1]),f])),e]))}function
-mi(a){if(0===a[0]){var
-b=[0,k(t1,B(e(J,a[2]))),0];return I(t3,aa([0,k(t2,B(e(J,a[1]))),b]))}return mh([1,a[1],a[2],a[3],a[4],a[5]])}function
-mj(a){switch(a){case
-0:return t4;case
-1:return t5;default:return t6}}function
-t7(a){function
-b(a){return B(e(b9,a))}var
-c=[0,k(t8,b(a[2])),0],d=[0,k(t9,b(a[1])),c];return aa([0,k(t$,al(t_)),d])}function
-mk(a){function
+s=f(l,o),i=a[2],t=i?[0,k(tL,b$(i[1])),0]:i,u=f(t,s);return aa([0,k(tM,al(hV(a[1]))),u])}function
+mj(a){if(0===a[0]){var
+b=[0,k(tW,fZ(J,a[2])),0];return I(tY,aa([0,k(tX,fZ(J,a[1])),b]))}var
+c=[0,J(a[5]),0],d=[0,k(tZ,B([0,J(a[4]),c])),0],e=[0,k(t0,J(a[3])),d],f=[0,J(a[2]),0];return I(t2,aa([0,k(t1,B([0,J(a[1]),f])),e]))}function
+mk(a){if(0===a[0]){var
+b=[0,k(t3,B(e(J,a[2]))),0];return I(t5,aa([0,k(t4,B(e(J,a[1]))),b]))}return mj([1,a[1],a[2],a[3],a[4],a[5]])}function
+ml(a){switch(a){case
+0:return t6;case
+1:return t7;default:return t8}}function
+t9(a){function
+b(a){return B(e(ca,a))}var
+c=[0,k(t_,b(a[2])),0],d=[0,k(t$,b(a[1])),c];return aa([0,k(ub,al(ua)),d])}function
+mm(a){function
 b(b,a){var
 c=[0,J(a),0];return B([0,J(b),c])}switch(a[0]){case
-0:return I(ua,b(a[1],a[2]));case
+0:return I(uc,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,k(ub,b(c[1],c[2])),0],g=[0,k(uc,b(d[1],d[2])),f];return I(ue,aa([0,k(ud,b(e[1],e[2])),g]));case
-2:return I(uf,J(a[1]));default:var
-h=[0,k(ug,J(a[2])),0];return I(ui,aa([0,k(uh,J(a[1])),h]))}}function
-uj(a){function
-b(a){return fY(J,a)}if(0===a[0])var
-c=a[5],e=c?[0,k(uk,b(c[1])),0]:c,g=[0,J(a[4]),0],h=[0,k(ul,B([0,J(a[3]),g])),0],i=[0,k(um,J(a[2])),h],j=[0,k(un,b8(a[1])),i],d=f([0,k(up,al(uo)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,k(ud,b(c[1],c[2])),0],g=[0,k(ue,b(d[1],d[2])),f];return I(ug,aa([0,k(uf,b(e[1],e[2])),g]));case
+2:return I(uh,J(a[1]));default:var
+h=[0,k(ui,J(a[2])),0];return I(uk,aa([0,k(uj,J(a[1])),h]))}}function
+ul(a){function
+b(a){return fZ(J,a)}if(0===a[0])var
+c=a[5],e=c?[0,k(um,b(c[1])),0]:c,g=[0,J(a[4]),0],h=[0,k(un,B([0,J(a[3]),g])),0],i=[0,k(uo,J(a[2])),h],j=[0,k(up,b$(a[1])),i],d=f([0,k(ur,al(uq)),j],e);else
 var
-l=[0,k(uq,J(a[4])),0],m=[0,k(ur,b(a[3])),l],n=[0,k(us,b(a[2])),m],o=a[1]?ut:uv,d=[0,k(uu,al(o)),n];return aa(d)}function
-ml(a){var
-b=a?[0,k(uw,B(e(uj,a))),0]:a;return b}function
+l=[0,k(us,J(a[4])),0],m=[0,k(ut,b(a[3])),l],n=[0,k(uu,b(a[2])),m],o=a[1]?uv:ux,d=[0,k(uw,al(o)),n];return aa(d)}function
+mn(a){var
+b=a?[0,k(uy,B(e(ul,a))),0]:a;return b}function
 hX(d,c,b,a){var
-g=[0,k(ux,B(e(ew,a))),0],h=f(ml(b),g),i=[0,k(uy,mh(c)),0];return aa(f([0,k(uA,I(uz,B(e(sH,d)))),i],h))}function
-uB(a){switch(a[0]){case
-0:return I(uC,hX(a[1],a[2],a[3],a[4]));case
+g=[0,k(uz,B(e(ez,a))),0],h=f(mn(b),g),i=[0,k(uA,mj(c)),0];return aa(f([0,k(uC,I(uB,B(e(sJ,d)))),i],h))}function
+uD(a){switch(a[0]){case
+0:return I(uE,hX(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=B(e(sZ,a[2])),m=[0,k(uD,B(e(ew,a[6]))),0],n=b?[0,k(uE,mk(b[1])),0]:b,o=f(n,m),l=0,p=[0,k(uF,mi(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=B(e(s1,a[2])),m=[0,k(uF,B(e(ez,a[6]))),0],n=b?[0,k(uG,mm(b[1])),0]:b,o=f(n,m),l=0,p=[0,k(uH,mk(a[4])),o];if(typeof
 d==="number")if(d)var
-h=uG;else{var
-i=I(uL,g);l=1}else
+h=uI;else{var
+i=I(uN,g);l=1}else
 var
-h=mj(d[1]);if(!l)var
-q=c?[0,k(uH,J(c[1])),0]:c,i=I(h,aa([0,k(uI,g),q]));return I(uK,aa([0,k(uJ,i),p]));case
+h=ml(d[1]);if(!l)var
+q=c?[0,k(uJ,J(c[1])),0]:c,i=I(h,aa([0,k(uK,g),q]));return I(uM,aa([0,k(uL,i),p]));case
 2:var
-r=[0,k(uM,B(e(ew,a[7]))),0],s=f(ml(a[6]),r),t=[0,k(uN,mk(a[5])),0],u=[0,k(uO,mi(a[4])),t],v=[0,k(uP,J(a[3])),0],w=aa([0,k(uQ,B(e(t7,a[2]))),v]);return I(uS,aa(f([0,k(uR,I(mj(a[1]),w)),u],s)));case
+r=[0,k(uO,B(e(ez,a[7]))),0],s=f(mn(a[6]),r),t=[0,k(uP,mm(a[5])),0],u=[0,k(uQ,mk(a[4])),t],v=[0,k(uR,J(a[3])),0],w=aa([0,k(uS,B(e(t9,a[2]))),v]);return I(uU,aa(f([0,k(uT,I(ml(a[1]),w)),u],s)));case
 3:var
-x=[0,k(uT,B(e(ew,a[7]))),0],y=[0,k(uU,B(e(J,a[6]))),0],z=[0,k(uX,I(uW,aa([0,k(uV,B(e(J,a[5]))),y]))),x],A=0,C=a[4],D=[0,k(u0,B(e(function(a){return 0===a[0]?I(uY,B(e(hU,a[1]))):I(uZ,hU(a[1]))},C))),A],E=a[3],F=[0,k(u1,B(e(function(a){var
-b=[0,hU(a[2]),0];return B([0,al(a[1]),b])},E))),D],G=a[2],H=[0,k(u2,B(e(function(a){var
-b=[0,b9(a[2]),0];return B([0,al(a[1]),b])},G))),F];return I(u6,aa([0,k(u5,I(u4,aa([0,k(u3,B(e(al,a[1]))),H]))),z]));case
+x=[0,k(uV,B(e(ez,a[7]))),0],y=[0,k(uW,B(e(J,a[6]))),0],z=[0,k(uZ,I(uY,aa([0,k(uX,B(e(J,a[5]))),y]))),x],A=0,C=a[4],D=[0,k(u2,B(e(function(a){return 0===a[0]?I(u0,B(e(hU,a[1]))):I(u1,hU(a[1]))},C))),A],E=a[3],F=[0,k(u3,B(e(function(a){var
+b=[0,hU(a[2]),0];return B([0,al(a[1]),b])},E))),D],G=a[2],H=[0,k(u4,B(e(function(a){var
+b=[0,ca(a[2]),0];return B([0,al(a[1]),b])},G))),F];return I(u8,aa([0,k(u7,I(u6,aa([0,k(u5,B(e(al,a[1]))),H]))),z]));case
 4:var
-K=[0,k(u7,B(e(ew,a[3]))),0],L=[0,k(u_,I(u9,aa([0,k(u8,J(a[2])),0]))),K];return I(vc,aa([0,k(vb,I(va,aa([0,k(u$,J(a[1])),0]))),L]));case
+K=[0,k(u9,B(e(ez,a[3]))),0],L=[0,k(va,I(u$,aa([0,k(u_,J(a[2])),0]))),K];return I(ve,aa([0,k(vd,I(vc,aa([0,k(vb,J(a[1])),0]))),L]));case
 5:var
-M=[0,k(vd,J(a[5])),0];return I(vf,aa([0,k(ve,hX(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,k(vf,J(a[5])),0];return I(vh,aa([0,k(vg,hX(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-j=a[1],N=0,O=j?b9(j[1]):al(vi);return I(vh,aa([0,k(vg,O),N]));default:var
-P=[0,k(vj,J(a[6])),0],Q=[0,k(vk,J(a[5])),P],R=[0,k(vl,hX(a[2],a[3],0,a[4])),Q],S=a[1];return I(vq,aa([0,k(vp,B(e(function(a){var
-b=[0,k(vm,J(a[2][2])),0],c=[0,k(vn,J(a[2][1])),b];return aa([0,k(vo,al(a[1])),c])},S))),R]))}}function
-ex(a){return B(e(fX,a))}function
-fZ(b,a){var
-c=[0,k(vr,hS(a)),0];return aa([0,k(vs,B(e(ex,b))),c])}function
-ey(a){switch(a[0]){case
+j=a[1],N=0,O=j?ca(j[1]):al(vk);return I(vj,aa([0,k(vi,O),N]));default:var
+P=[0,k(vl,J(a[6])),0],Q=[0,k(vm,J(a[5])),P],R=[0,k(vn,hX(a[2],a[3],0,a[4])),Q],S=a[1];return I(vs,aa([0,k(vr,B(e(function(a){var
+b=[0,k(vo,J(a[2][2])),0],c=[0,k(vp,J(a[2][1])),b];return aa([0,k(vq,al(a[1])),c])},S))),R]))}}function
+eA(a){return B(e(fY,a))}function
+f0(b,a){var
+c=[0,k(vt,hS(a)),0];return aa([0,k(vu,B(e(eA,b))),c])}function
+eB(a){switch(a[0]){case
 0:return al(a[1]);case
 1:var
-b=fZ(a[2],a[3]);return I(a[1],b);case
+b=f0(a[2],a[3]);return I(a[1],b);case
 2:var
-c=a[1]?vt:vv;return I(vu,al(c));case
+c=a[1]?vv:vx;return I(vw,al(c));case
 3:var
-d=[0,ex(a[3]),0];return I(vw,B([0,fZ(a[1],a[2]),d]));case
+d=[0,eA(a[3]),0];return I(vy,B([0,f0(a[1],a[2]),d]));case
 4:var
-f=[0,b8(0),0],g=[0,fX(a[3]),f];return I(vx,B([0,fZ(a[1],a[2]),g]));case
+f=[0,b$(0),0],g=[0,fY(a[3]),f];return I(vz,B([0,f0(a[1],a[2]),g]));case
 5:var
-h=[0,hS(a[3]),0],i=[0,fX(a[2]),h];return I(vy,B([0,ey(a[1]),i]));case
+h=[0,hS(a[3]),0],i=[0,fY(a[2]),h];return I(vA,B([0,eB(a[1]),i]));case
 6:var
-j=[0,hS(a[3]),0],k=[0,fX(a[2]),j];return I(vz,B([0,ey(a[1]),k]));case
-7:return I(vA,ey(a[1]));default:var
-l=[0,B(e(ex,a[3])),0],m=[0,al(a[2]),l];return I(vB,B([0,ey(a[1]),m]))}}function
-vC(a){var
-b=[0,ey(a[2]),0];return B([0,b8(a[1]),b])}function
-mm(a){if(typeof
-a==="number")return 0===a?al(vD):al(vE);else
+j=[0,hS(a[3]),0],k=[0,fY(a[2]),j];return I(vB,B([0,eB(a[1]),k]));case
+7:return I(vC,eB(a[1]));default:var
+l=[0,B(e(eA,a[3])),0],m=[0,al(a[2]),l];return I(vD,B([0,eB(a[1]),m]))}}function
+vE(a){var
+b=[0,eB(a[2]),0];return B([0,b$(a[1]),b])}function
+mo(a){if(typeof
+a==="number")return 0===a?al(vF):al(vG);else
 switch(a[0]){case
 0:var
-b=[0,B(e(ex,a[2])),0];return I(vF,B([0,b8(a[1]),b]));case
+b=[0,B(e(eA,a[2])),0];return I(vH,B([0,b$(a[1]),b]));case
 1:var
-c=[0,b8(a[2]),0];return I(vG,B([0,b8(a[1]),c]));default:return I(vH,B(e(J,a[1])))}}function
-vI(a){var
-b=a[4],h=b?[0,k(vJ,ex([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,k(vK,mm(d[1])),0]:d,j=f(i,h),g=a[2],l=g?[0,k(vL,b8(g[1])),0]:g,m=f(l,j),c=a[1],n=c?[0,k(vM,B(e(vC,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
-mn(g,a,d){var
-h=[0,k(vN,B(e(vI,d))),0];if(a)var
-b=a[1],c=[0,k(vO,fZ(b[1],b[2])),0];else
+c=[0,b$(a[2]),0];return I(vI,B([0,b$(a[1]),c]));default:return I(vJ,B(e(J,a[1])))}}function
+vK(a){var
+b=a[4],h=b?[0,k(vL,eA([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,k(vM,mo(d[1])),0]:d,j=f(i,h),g=a[2],l=g?[0,k(vN,b$(g[1])),0]:g,m=f(l,j),c=a[1],n=c?[0,k(vO,B(e(vE,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+mp(g,a,d){var
+h=[0,k(vP,B(e(vK,d))),0];if(a)var
+b=a[1],c=[0,k(vQ,f0(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return aa([0,k(vP,hR(g)),i])}function
-mo(d,c,a,b){var
-g=[0,k(vQ,mm(b)),0],h=a?[0,k(vR,B(e(J,a))),0]:a,i=f(h,g),j=[0,k(vS,B(e(J,c))),0];return aa(f([0,k(vT,hR(d)),j],i))}function
-vU(a){if(typeof
-a==="number")return al(vV);else
+i=f(c,h);return aa([0,k(vR,hR(g)),i])}function
+mq(d,c,a,b){var
+g=[0,k(vS,mo(b)),0],h=a?[0,k(vT,B(e(J,a))),0]:a,i=f(h,g),j=[0,k(vU,B(e(J,c))),0];return aa(f([0,k(vV,hR(d)),j],i))}function
+vW(a){if(typeof
+a==="number")return al(vX);else
 switch(a[0]){case
-0:return I(vW,b8(a[1]));case
-1:return I(vX,mn(a[1],a[2],a[3]));default:return I(vY,mo(a[1],a[2],a[3],a[4]))}}function
-f0(a){var
-b=gJ(gI(ap(a),function(b){return aL(a,b)}));return n(function(a){var
-b=_(34===a?1:0),c=b?_(92===a?1:0):b,d=c?R(wb,e8(a)):c;return d?R(e8(a),wc):d},b)}function
-ez(b){function
+0:return I(vY,b$(a[1]));case
+1:return I(vZ,mp(a[1],a[2],a[3]));default:return I(v0,mq(a[1],a[2],a[3],a[4]))}}function
+f1(a){var
+b=gK(gJ(ap(a),function(b){return aM(a,b)}));return n(function(a){var
+b=_(34===a?1:0),c=b?_(92===a?1:0):b,d=c?S(wd,e_(a)):c;return d?S(e_(a),we):d},b)}function
+eC(b){function
 c(f){var
-a=e8(f),b=R(wd,a),c=b?R(a,we):b;if(c)var
+a=e_(f),b=S(wf,a),c=b?S(a,wg):b;if(c)var
 d=c;else{var
-e=R(wf,a);if(e)return R(a,wg);var
+e=S(wh,a);if(e)return S(a,wi);var
 d=e}return d}var
-a=gJ(gI(ap(b),function(a){return aL(b,a)}));if(a){var
+a=gK(gJ(ap(b),function(a){return aM(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=e8(a),f=R(wh,e),h=f?R(e,wi):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?R(h(d),wj):f;if(g)return _(aq(b,wk));var
+e=e_(a),f=S(wj,e),h=f?S(e,wk):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?S(h(d),wl):f;if(g)return _(aq(b,wm));var
 i=g}else
 var
 i=a;return i}function
 hY(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return ez(a[1]);case
+1:return eC(a[1]);case
 3:var
 b=hY(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eA(m){var
+eD(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4865,36 +4893,36 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=eZ(a[2]);if(typeof
+f=e2(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eA(a[2]);if(i){var
+i=eD(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eA(a[1]),l=k?e3(b(2,c),j):k;return l?e3(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eD(a[1]),l=k?e6(b(2,c),j):k;return l?e6(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
 dJ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bA(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c1(a){return x(dJ,bA(a))}function
+bB(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+c1(a){return v(dJ,bB(a))}function
 hZ(a){switch(a[0]){case
 0:var
 c=dJ(a[4]),d=f(c1(a[3]),c),e=f(c1(a[2]),d);return f(c1(a[1]),e);case
 1:var
 b=a[3],g=b?c1(b[1]):b,h=f(c1(a[2]),g);return f(c1(a[1]),h);default:return c1(a[1])}}function
-wl(a){switch(a[0]){case
+wn(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return x(dJ,b)}function
-mp(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mq(a){if(0===a[0]){var
-b=bA(a[2]);return f(bA(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mr(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dJ,b)}function
+mr(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+ms(a){if(0===a[0]){var
+b=bB(a[2]);return f(bB(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mt(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -4910,29 +4938,29 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-ms(a){if(0===a[0]){var
-b=a[5],c=b?bA(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bA(a[3]),d);return f(bA(a[2]),e)}function
-mt(b,e){var
+mu(a){if(0===a[0]){var
+b=a[5],c=b?bB(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bB(a[3]),d);return f(bB(a[2]),e)}function
+mv(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ai(function(a){return aq(f,a)},b)}return 0;case
 3:var
-d=mt(b,a[2]);if(d){var
+d=mv(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eB(c,a){return n(function(a){var
-b=eA(a);return b?mt(c,a):b},a)}function
-mu(a){if(typeof
+eE(c,a){return n(function(a){var
+b=eD(a);return b?mv(c,a):b},a)}function
+mw(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-mv(a){var
-d=e3(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e3(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-mw(a,b){return b?[4,mw(a,b[1]),a]:a}function
+mx(a){var
+d=e6(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e6(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+my(a,b){return b?[4,my(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=b(2,o(b(2,b(2,c)))),l=function(a){return w(k,a)},m=e0(i$(i),l,c);return[0,jm(ja(eZ(a[1]),i)),m];case
+i=a[2],k=b(2,o(b(2,b(2,c)))),l=function(a){return x(k,a)},m=e3(i$(i),l,c);return[0,jm(ja(e2(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -4943,35 +4971,35 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bq(d4(a[2]));return mw(j(a[1]),n);default:return[6,j(a[1])]}}function
-bB(a){if(0===a[0]){var
+n=br(d4(a[2]));return my(j(a[1]),n);default:return[6,j(a[1])]}}function
+bC(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
 c3(a){var
-b=bB(a[3]),c=bB(a[2]);return[0,bB(a[1]),c,b]}function
-wm(a){switch(a[0]){case
+b=bC(a[3]),c=bC(a[2]);return[0,bC(a[1]),c,b]}function
+wo(a){switch(a[0]){case
 0:var
-b=a[5],c=bB(a[4]),d=c3(a[3]),e=c3(a[2]);return[0,[0,c3(a[1]),e,d,c,b]];case
+b=a[5],c=bC(a[4]),d=c3(a[3]),e=c3(a[2]);return[0,[0,c3(a[1]),e,d,c,b]];case
 1:var
-f=v(c3,a[3]),g=c3(a[2]);return[1,c3(a[1]),g,f];default:return[2,c3(a[1])]}}function
-mx(a){if(0===a[0]){var
+f=w(c3,a[3]),g=c3(a[2]);return[1,c3(a[1]),g,f];default:return[2,c3(a[1])]}}function
+mz(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
 dK(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-cz(a){if(0===a[0]){var
-b=a[5],h=b?dK(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bq(a[1]),l,k,i,h]}var
+cA(a){if(0===a[0]){var
+b=a[5],h=b?dK(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,br(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=dK(f),n=dK(g);return[2,j(e),n,m]}var
 o=dK(f),p=dK(g);return[1,j(e),p,o]}function
-f1(b,a){if(a){var
-c=a[1],d=a[2],g=f1(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bb(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:t(b[1],a[1]):0:0===a[0]?0:ce(b[1],a[1]);return _(d)},h),g)}return a}function
-wn(b){if(b[1])return 0;var
+f2(b,a){if(a){var
+c=a[1],d=a[2],g=f2(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bc(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:cg(b[1],a[1]);return _(d)},h),g)}return a}function
+wp(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-wo(T,S,a){switch(a[1]){case
+wq(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -5029,16 +5057,16 @@ G=0}else
 var
 G=s;if(!P)return G}if(O)return 0;break;case
 9:var
-u=a[4];if(typeof
-u!=="number"&&0===u[0]){var
-ac=u[1],ad=f1(0,S);return e(function(h){var
+t=a[4];if(typeof
+t!=="number"&&0===t[0]){var
+ac=t[1],ad=f2(0,S);return e(function(h){var
 e=j(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dK(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(t(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bq(f),m,l,k]}var
-n=cz(a);return[10,cz(b),n,e]}var
-o=cz(a);return[10,cz(b),o,e]}var
-p=cz(a);return[10,cz(b),p,e]},ad)}return 0;case
+g=function(a){return a?dK(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,br(f),m,l,k]}var
+n=cA(a);return[10,cA(b),n,e]}var
+o=cA(a);return[10,cA(b),o,e]}var
+p=cA(a);return[10,cA(b),p,e]},ad)}return 0;case
 10:var
 v=a[4],Q=0;if(typeof
 v==="number"||!(1===v[0]))Q=1;else{var
@@ -5052,7 +5080,7 @@ var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?wp:I;return ah;case
+a[4]==="number"?1:0,ah=I?wr:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -5062,8 +5090,8 @@ ai=j(y[1]);return[0,[14,j(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bq(B[1]),0]:aJ(0,T);return e(b,V)}function
-wq(c,a){switch(a[1]){case
+B=a[2],V=B?[0,br(B[1]),0]:aK(0,T);return e(b,V)}function
+ws(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5080,15 +5108,15 @@ e=a[3];if(e){if(0===e[1][0])return 1;var
 s=0}else
 var
 s=e;return s}var
-d=a[3],S=0;if(d)if(0===d[1][0]){var
-b=q[1];S=1}else
+d=a[3],R=0;if(d)if(0===d[1][0]){var
+b=q[1];R=1}else
 var
 r=0;else
 var
-r=d;if(!S)return r}if(Q)return 0;break;case
+r=d;if(!R)return r}if(Q)return 0;break;case
 3:var
-u=a[4];if(typeof
-u!=="number"&&1===u[0])return a[2]?0:a[3]?0:1;return 0;case
+t=a[4];if(typeof
+t!=="number"&&1===t[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
 T=0,v=a[4];if(typeof
 v==="number"||!(0===v[0]))T=1;else{var
@@ -5103,7 +5131,7 @@ y!=="number"&&0===y[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
-1:return t(h(z[1]),c);default:return 0}}return f}return 0;case
+1:return u(h(z[1]),c);default:return 0}}return f}return 0;case
 7:var
 A=a[4];if(typeof
 A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5111,7 +5139,7 @@ A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 U=0,B=a[4];if(typeof
 B==="number"||!(1===B[0]))U=1;else{var
 g=a[3],V=0;if(g)if(0===g[1][0]){var
-C=t(c,ws),W=0;if(C){var
+C=u(c,wu),W=0;if(C){var
 D=a[2];if(D){var
 b=D[1];V=1;W=1}else
 var
@@ -5148,19 +5176,19 @@ M=L;return M;case
 12:var
 N=a[4];if(typeof
 N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return t(c,wt);var
+k=a[3];if(k){if(0===k[1][0])return u(c,wv);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=R(wr,b);return o?R(b,c):o}function
+o=S(wt,b);return o?S(b,c):o}function
 h0(c,k,j,b){var
-l=h(c),d=x(function(a){return wo(l,j,a)},b),a=x(wn,b),g=a?[0,a[1],a[2]]:wu,i=f(g,d),m=mx(k);return[0,e(wm,c),m,i]}function
-my(b){if(b[1])return 0;var
+l=h(c),d=v(function(a){return wq(l,j,a)},b),a=v(wp,b),g=a?[0,a[1],a[2]]:ww,i=f(g,d),m=mz(k);return[0,e(wo,c),m,i]}function
+mA(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-mz(b){function
-a(a){return u(a,e(j,b),[0,d,c])}var
-f=a(wv),g=a(ww);return[0,a(0),g,f]}function
+mB(b){function
+a(a){return t(a,e(j,b),[0,d,c])}var
+f=a(wx),g=a(wy);return[0,a(0),g,f]}function
 h1(S,R,Q,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
@@ -5220,8 +5248,8 @@ B=o;if(!K)return B}if(J)return 0;break;case
 9:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0]){var
-ac=p[1],ad=f1(0,Q);return e(function(a){var
-b=j(ac),c=cz(a[2]);return[14,cz(a[1]),c,b]},ad)}return 0;case
+ac=p[1],ad=f2(0,Q);return e(function(a){var
+b=j(ac),c=cA(a[2]);return[14,cA(a[1]),c,b]},ad)}return 0;case
 13:var
 q=a[4],L=0;if(typeof
 q==="number"||!(1===q[0]))L=1;else
@@ -5233,7 +5261,7 @@ r==="number"||!(1===r[0]))M=1;else{var
 s=a[3],N=0,af=r[1];if(s){var
 C=s[1];if(1===C[0]){var
 ag=C[1],b=function(a){var
-b=j(af);return[13,a,0,mz(ag),b]};N=1}else
+b=j(af);return[13,a,0,mB(ag),b]};N=1}else
 var
 D=0}else
 var
@@ -5244,15 +5272,15 @@ t==="number"||!(1===t[0]))O=1;else{var
 u=a[3],P=0,ah=t[1];if(u){var
 E=u[1];if(1===E[0]){var
 ai=E[1],b=function(a){var
-b=j(ah);return[13,a,1,mz(ai),b]};P=1}else
+b=j(ah);return[13,a,1,mB(ai),b]};P=1}else
 var
 F=0}else
 var
 F=u;if(!P)return F}if(O)return 0;break;default:return 0}var
-v=a[2],U=v?[0,bq(v[1]),0]:aJ(0,R);return e(b,U)}function
+v=a[2],U=v?[0,br(v[1]),0]:aK(0,R);return e(b,U)}function
 dL(e,d,c,b){var
-g=x(function(a){return h1(e,d,c,a)},b),a=x(my,b),h=a?[0,a[1],a[2]]:wx;return f(h,g)}function
-f2(a){return 11===a[1]?1:0}function
+g=v(function(a){return h1(e,d,c,a)},b),a=v(mA,b),h=a?[0,a[1],a[2]]:wz;return f(h,g)}function
+f3(a){return 11===a[1]?1:0}function
 bP(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -5263,18 +5291,18 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=ce(n,e);if(f){var
+f=cg(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=R(wy,h);return i?R(h,m):i}var
+h=g[1],i=S(wA,h);return i?S(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bg(n,b,a){var
+bh(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=R(wz,e),o=f?R(e,b):f,c=o;else
+e=d[1],f=S(wB,e),o=f?S(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
@@ -5289,51 +5317,51 @@ k=a[3];return k?0===k[1][0]?a[2]?0:1:bP(0,b,a):bP(0,b,a)}return bP(0,b,a);case
 8:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?t(b,n):c:bP(0,b,a):bP(0,b,a)}return bP(0,b,a)}return bP(0,b,a)}function
-bC(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bg(c,b,a):a[3]?bg(c,b,a):1:bg(c,b,a):bg(c,b,a)}function
-mA(f,c,b,a){var
+m=a[3];return m?0===m[1][0]?c?u(b,n):c:bP(0,b,a):bP(0,b,a)}return bP(0,b,a)}return bP(0,b,a)}function
+bD(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bh(c,b,a):a[3]?bh(c,b,a):1:bh(c,b,a):bh(c,b,a)}function
+mC(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=R(wC,h),r=i?R(h,b):i,d=r;else
+h=g[1],i=S(wE,h),r=i?S(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bg(a5(c),b,a);if(d){var
+1:if(a[3])return bh(a5(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return ce(f,k)}return d;case
+k=0;return cg(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bg(a5(c),b,a):d;return bg(a5(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bh(a5(c),b,a):d;return bh(a5(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bg(a5(c),b,a);var
-n=t(b,a5(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bh(a5(c),b,a);var
+n=u(b,a5(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bg(a5(c),b,a);case
+e=n;return e}return bh(a5(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bg(a5(c),b,a):d?_(f):d;return bg(a5(c),b,a);default:return bg(a5(c),b,a)}}function
-cA(a){switch(a[0]){case
+p!=="number"&&1===p[0])return a[3]?bh(a5(c),b,a):d?_(f):d;return bh(a5(c),b,a);default:return bh(a5(c),b,a)}}function
+cB(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cA(a[1])];case
+2:return[2,cB(a[1])];case
 3:var
-b=cA(a[2]),c=cA(a[3]);switch(a[1]){case
+b=cB(a[2]),c=cB(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cA(a[1]),d];default:return[8,cA(a[1])]}}function
+d=a[2];return[7,cB(a[1]),d];default:return[8,cB(a[1])]}}function
 h2(b){function
 a(e){var
-a=[0,d,c];return u(e,b,[0,a,a])}var
-e=a(wD),f=a(wE);return[0,a(0),f,e]}function
+a=[0,d,c];return t(e,b,[0,a,a])}var
+e=a(wF),f=a(wG);return[0,a(0),f,e]}function
 c4(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
@@ -5342,59 +5370,59 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-mB(a){if(0===a[0]){var
-b=aI(a[1],a[2]);return[0,h2(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return mx([1,a[1],a[2],a[3],a[4],a[5]])}function
-mC(k,b,i,g,f,d,a){function
-c(a){return h2(e(bB,a))}var
-l=ai(f2,a),m=dL(0,h(b),d,a),n=c4(f),o=mB(g),p=j(i);return[0,k,e(function(a){var
+mD(a){if(0===a[0]){var
+b=aJ(a[1],a[2]);return[0,h2(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return mz([1,a[1],a[2],a[3],a[4],a[5]])}function
+mE(k,b,i,g,f,d,a){function
+c(a){return h2(e(bC,a))}var
+l=ai(f3,a),m=dL(0,h(b),d,a),n=c4(f),o=mD(g),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-mD(a){return ai(function(a){return 2===a[0]?1:0},a)}function
-mE(k,a,b,i,g,f){var
-l=h(a),m=dL(mD(a),l,0,f),n=v(c4,g),o=mB(i),p=b?j(b[1]):[0,c,c];return[0,k,e(function(a){function
-b(a){return h2(e(bB,a))}switch(a[0]){case
+mF(a){return ai(function(a){return 2===a[0]?1:0},a)}function
+mG(k,a,b,i,g,f){var
+l=h(a),m=dL(mF(a),l,0,f),n=w(c4,g),o=mD(i),p=b?j(b[1]):[0,c,c];return[0,k,e(function(a){function
+b(a){return h2(e(bC,a))}switch(a[0]){case
 0:var
-k=a[5],l=bB(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bC(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bB(a[6]),r=bB(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mF(a){return a[1]?0:1}function
-mG(a){var
-c=mF(a);if(c)return c;if(1===a[1]){var
+p=a[7],q=bC(a[6]),r=bC(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+mH(a){return a[1]?0:1}function
+mI(a){var
+c=mH(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-f3(i,h,b){function
+f4(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f4,a(f4,b)),j=a(f,h3),k=i?f:a(c(b,f4),h3);function
-g(b){return a(b,[5,e(f4,d(h3,d(b,b)))])}var
+f=c(f5,a(f5,b)),j=a(f,h3),k=i?f:a(c(b,f5),h3);function
+g(b){return a(b,[5,e(f5,d(h3,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f5(f,e,d){function
+f6(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,h4,a(h4,d)],mH),g=a(c,[5,[3,0,h4,b(mH,b(c,c))]]);return[2,b(f3(f,e,d),g)]}function
+c=a([3,1,h4,a(h4,d)],mJ),g=a(c,[5,[3,0,h4,b(mJ,b(c,c))]]);return[2,b(f4(f,e,d),g)]}function
 h5(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f6,b(f6,a)),d=e?h:b(f(a,f6),mI),i=b(d,[5,[3,0,f6,c(mI,c(d,d))]]);return c(f3(e,g,a),i)}function
-mJ(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cn(j(g[2][1]));if(k){var
-l=k[1],m=cn(j(g[2][2]));if(m)var
+h=f(f7,b(f7,a)),d=e?h:b(f(a,f7),mK),i=b(d,[5,[3,0,f7,c(mK,c(d,d))]]);return c(f4(e,g,a),i)}function
+mL(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=co(j(g[2][1]));if(k){var
+l=k[1],m=co(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,e0(h[2],d,c)];return dm(l,bZ(e9(p,l),e))},q=n(z(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,e3(h[2],d,c)];return dm(l,b0(e$(p,l),e))},q=n(z(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mJ([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mL([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -5409,7 +5437,7 @@ e=c[1],d=jp(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;ca
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-mK(b,a){if(0===a[0])return[0,an(b,a[1])];var
+mM(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
 h6(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
@@ -5431,71 +5459,71 @@ var
 d=c;return d}function
 h8(g,f,a){if(a){var
 e=a[1],h=a[2];if(f)return[0,e,h8(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(w(b(2,c),l),k),j],h]}else
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(x(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-wJ(a){if(typeof
+wL(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-wK(a){if(typeof
+wM(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f7(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=f7(e,a[3]);return bZ(dm(f7(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
-mL(a){return 0===a[0]?dB(a[1][4]):0}function
-mM(a){switch(a[0]){case
+f8(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=f8(e,a[3]);return b0(dm(f8(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
+mN(a){return 0===a[0]?dB(a[1][4]):0}function
+mO(a){switch(a[0]){case
 0:var
 b=a[1],c=a3(b[3]);return f(a3(b[2]),c);case
 1:var
 d=a3(a[2]);return f(a3(a[1]),d);default:return 0}}function
-f8(a){switch(a[0]){case
+f9(a){switch(a[0]){case
 0:return bN(a3(a[1][1]));case
 1:var
 b=a[3];return b?bN(a3(b[1])):d;default:return bN(a3(a[1]))}}function
 h9(b){var
-a=x(mL,b),d=a?[0,a[1],a[2]]:x(mM,b);return z(c,bN(d))}function
-mN(c,a){if(c){if(a){var
+a=v(mN,b),d=a?[0,a[1],a[2]]:v(mO,b);return z(c,bN(d))}function
+mP(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=wL;else
+b=wN;else
 if(43===d)var
-b=wM;else
+b=wO;else
 var
-f=48===d?1:0,i=f?wN:f,b=i;if(b)var
-e=mN(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?wP:f,b=i;if(b)var
+e=mP(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:wO}function
-eC(b,a){switch(a[0]){case
+h=a;return h}return a?0:wQ}function
+eF(b,a){switch(a[0]){case
 0:var
-c=a[1];if(aq(c,wP))return wQ;if(aq(c,wR))return wS;if(aq(c,wT))return wU;if(aq(c,wV))return wW;if(aq(c,wX))return wY;var
-k=aq(c,wZ),p=k?w0:k;return p;case
+c=a[1];if(aq(c,wR))return wS;if(aq(c,wT))return wU;if(aq(c,wV))return wW;if(aq(c,wX))return wY;if(aq(c,wZ))return w0;var
+k=aq(c,w1),p=k?w2:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(aq(f,w1))return[0,[0,d,e]];if(aq(f,w2))return[0,[1,d,e]];if(aq(f,w3))return[0,[2,d,e]];var
-l=aq(f,w4),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(aq(f,w3))return[0,[0,d,e]];if(aq(f,w4))return[0,[1,d,e]];if(aq(f,w5))return[0,[2,d,e]];var
+l=aq(f,w6),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eC(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eF(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eC(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eF(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eC(b,a[1]);return v(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eC(b,a[1]);if(i)var
-j=mN(b,gJ(gI(ap(m),function(a){return aL(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eF(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eF(b,a[1]);if(i)var
+j=mP(b,gK(gJ(ap(m),function(a){return aM(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mO(d,a){if(a){var
-e=a[1],b=eC(d,e[2]);if(b)var
-c=mO(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+mQ(d,a){if(a){var
+e=a[1],b=eF(d,e[2]);if(b)var
+c=mQ(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return w5}function
+f=b;return f}return w7}function
 c5(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mO(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=mQ(d,b[1]);if(e){var
 l=e[1];if(i){var
 f=c5(d,k,j);if(f){var
 m=f[1],g=c5(d,k,m[2]);if(g)var
@@ -5517,9 +5545,9 @@ h_(e,d,a){if(d){if(a){var
 b=c5(e,h(a),a);if(b)var
 f=b[1],c=h_(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return w6}return a?0:w7}function
+g=b;return g}return w8}return a?0:w9}function
 h$(a){if(typeof
-a==="number")return 0===a?w8:w9;else
+a==="number")return 0===a?w_:w$;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
@@ -5534,52 +5562,52 @@ n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=h$(c[1]);return v(function(a){return[0,[0,h,a],j]},p)}var
+p=h$(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
 var
 g=d;return g}function
-cB(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+cC(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
 c6(a,e){var
-b=cB(a[1],e),c=cB(a[2],b[2]),d=cB(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-mP(d,c){if(d){var
+b=cC(a[1],e),c=cC(a[2],b[2]),d=cC(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+mR(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=c6(a[1],c),f=c6(a[2],e[2]),g=c6(a[3],f[2]),h=cB(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=c6(a[1],c),f=c6(a[2],e[2]),g=c6(a[3],f[2]),h=cC(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
 i=a[3],j=c6(a[1],c),k=j[1],l=c6(a[2],j[2]),m=l[2],n=l[1];if(i)var
 o=c6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=c6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=mP(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-w_(a){if(typeof
+q=mR(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+xa(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return xa;case
+5:return xc;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return w$}function
-bh(a,b){if(a){var
-c=cB(a[1],b),d=bh(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+11:return 0}return xb}function
+bi(a,b){if(a){var
+c=cC(a[1],b),d=bi(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 aZ(b){function
-a(a){return u(a,b,[0,d,c])}var
-e=a(xd),f=a(xe);return[0,a(0),f,e]}function
-mQ(a,b){if(a){var
-c=a[1],d=bh(c[1],b),e=bh(c[2],d[2]),f=mQ(a[2],e[2]),g=f[2],h=f[1],i=aZ(e[1]);return[0,[0,[0,aZ(d[1]),i],h],g]}return[0,0,b]}function
-mR(f,b){if(f){var
+a(a){return t(a,b,[0,d,c])}var
+e=a(xf),f=a(xg);return[0,a(0),f,e]}function
+mS(a,b){if(a){var
+c=a[1],d=bi(c[1],b),e=bi(c[2],d[2]),f=mS(a[2],e[2]),g=f[2],h=f[1],i=aZ(e[1]);return[0,[0,[0,aZ(d[1]),i],h],g]}return[0,0,b]}function
+mT(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bh(a[1],b),h=bh(a[2],g[2]),i=bh(a[3],h[2]),j=cB(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=aZ(i[1]),y=aZ(h[1]),e=[0,[0,[0,aZ(g[1]),y,x,w,v]],u];break;case
+g=bi(a[1],b),h=bi(a[2],g[2]),i=bi(a[3],h[2]),j=cC(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=aZ(i[1]),y=aZ(h[1]),e=[0,[0,[0,aZ(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bh(a[1],b),l=bh(a[2],k[2]),z=l[2],A=aZ(l[1]),e=[0,[0,[1,aZ(k[1]),A,0]],z];break;default:var
-m=a[1],n=bh(m,b),o=bh(a[2],n[2]),p=bh(a[3],o[2]),q=bh(a[4],p[2]),r=cB(a[5],q[2]),s=cB(a[6],r[2]),B=m?aZ(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=aZ(q[1]),H=aZ(p[1]),e=[0,[1,[0,B,aZ(o[1]),H,G,F,E,D]],C]}var
-t=mR(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dM(a){return jK(p,a)}function
-xf(a){if(typeof
+k=bi(a[1],b),l=bi(a[2],k[2]),z=l[2],A=aZ(l[1]),e=[0,[0,[1,aZ(k[1]),A,0]],z];break;default:var
+m=a[1],n=bi(m,b),o=bi(a[2],n[2]),p=bi(a[3],o[2]),q=bi(a[4],p[2]),r=cC(a[5],q[2]),s=cC(a[6],r[2]),B=m?aZ(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=aZ(q[1]),H=aZ(p[1]),e=[0,[1,[0,B,aZ(o[1]),H,G,F,E,D]],C]}var
+t=mT(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dM(a){return jL(p,a)}function
+xh(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return g(p,1,[3,a[1],[0,c,c]]);case
@@ -5612,7 +5640,7 @@ k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
 11:var
 l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],l]):m;case
 13:var
-n=a[4],q=lF(a[3]),r=q?g(p,1,n):q;return r?g(p,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],n]):r;case
+n=a[4],q=lH(a[3]),r=q?g(p,1,n):q;return r?g(p,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],n]):r;case
 14:return g(p,0,a[3]);case
 2:case
 3:return dM(a[2]);case
@@ -5620,7 +5648,7 @@ n=a[4],q=lF(a[3]),r=q?g(p,1,n):q;return r?g(p,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(
 7:case
 9:var
 j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
-f9(d){var
+f_(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=_(ai(function(d){return function(a){var
 h=hV(a[1]),e=aq(hV(d[1]),h);if(e)var
@@ -5628,123 +5656,123 @@ i=hW(a[4]),b=aq(hW(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?t(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?u(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eD(a){if(0===a[0])return dM(j(a[1]));var
-b=a[2],c=a[1];if(!ea(j(c))&&!ea(j(b))){var
+eG(a){if(0===a[0])return dM(j(a[1]));var
+b=a[2],c=a[1];if(!ec(j(c))&&!ec(j(b))){var
 e=j(c);return g(p,1,[3,j(b),e])}var
-d=j(b);return bd(p,j(c),d)}function
+d=j(b);return be(p,j(c),d)}function
 c7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-mS(a){switch(a[0]){case
+mU(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(c7(a[3]),c),e=f(c7(a[2]),d);return f(c7(a[1]),e);case
 1:var
 b=a[3],g=b?c7(b[1]):b,h=f(c7(a[2]),g);return f(c7(a[1]),h);default:return c7(a[1])}}function
-mT(s,a,k){if(ai(function(a){return 9===a[1]?1:0},k)){var
-b=R(h(a),xi),c=b?n(function(a){if(0===a[0]){var
+mV(s,a,k){if(ai(function(a){return 9===a[1]?1:0},k)){var
+b=S(h(a),xk),c=b?n(function(a){if(0===a[0]){var
 d=a[5],e=g(p,1,j(a[2])),h=e?g(p,0,j(a[3])):e,k=h?g(p,0,j(a[4])):h,c=0;if(k)if(d)var
-o=bA(d[1]),b=n(function(a){return dM(j(a))},o);else{var
+o=bB(d[1]),b=n(function(a){return dM(j(a))},o);else{var
 l=1;c=1}else{var
 l=k;c=1}if(c)var
 b=l}else{var
 m=g(p,1,j(a[4]));if(m)var
-q=bA(a[3]),r=f(bA(a[2]),q),b=n(function(a){return dM(j(a))},r);else
+q=bB(a[3]),r=f(bB(a[2]),q),b=n(function(a){return dM(j(a))},r);else
 var
 b=m}return b?i(s,a):b},a):b;if(c)var
-d=f1(0,a),l=d?1:d,e=l;else
+d=f2(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-mU(a){return a?xj:xk}function
+mW(a){return a?xl:xm}function
 ic(a){switch(a){case
-0:return xl;case
-1:return xm;default:return 0}}function
-cC(a){var
-f=a[1],d=g(p,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?bd(p,a[1],a[2]):d;if(e){var
+0:return xn;case
+1:return xo;default:return 0}}function
+cD(a){var
+f=a[1],d=g(p,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?be(p,a[1],a[2]):d;if(e){var
 h=a[2];return g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],h])}return e}function
 dN(a){var
-e=bd(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-mV(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=t(h(e),c),i=f?t(h(d),c):f;if(i){var
-l=aI(e,d);return n(function(a){var
-b=j(a[2]);return bd(p,j(a[1]),b)},l)}return i}var
+e=be(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+mX(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=u(h(e),c),i=f?u(h(d),c):f;if(i){var
+l=aJ(e,d);return n(function(a){var
+b=j(a[2]);return be(p,j(a[1]),b)},l)}return i}var
 k=b?g(p,1,j(a[3])):b;if(k){var
-m=j(a[5]);return bd(p,j(a[4]),m)}return k}function
-mW(a,e,F,E,s,r,f){function
-u(b){var
-d=mU(a),c=t(h(b),d);return c?n(eD,b):c}var
+m=j(a[5]);return be(p,j(a[4]),m)}return k}function
+mY(a,e,F,E,s,r,f){function
+t(b){var
+d=mW(a),c=u(h(b),d);return c?n(eG,b):c}var
 v=n(function(a){var
-b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=h(e),l=R(cv(a),G);else
+b=t(a[1]);return b?t(a[2]):b},e);if(v)var
+G=h(e),l=S(cw(a),G);else
 var
 l=v;var
-w=l?R(h(e),xn):l,x=w?g(p,1,j(F)):w;if(x)var
-H=1===a?1:0,m=mV(ic(a),H,E);else
+w=l?S(h(e),xp):l,x=w?g(p,1,j(F)):w;if(x)var
+H=1===a?1:0,m=mX(ic(a),H,E);else
 var
 m=x;if(m)if(a){var
 d=c4(s);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=cC(d[1]),B=A?cC(d[2]):A,i=B?cC(d[3]):B;break;case
+A=cD(d[1]),B=A?cD(d[2]):A,i=B?cD(d[3]):B;break;case
 2:var
 i=dN(d[1]);break;default:var
 C=dN(d[1]),i=C?dN(d[2]):C}var
 k=i}else
 var
-D=c4(s),J=0===D[0]?cC(D[1]):0,k=J;else
+D=c4(s),J=0===D[0]?cD(D[1]):0,k=J;else
 var
 k=m;if(k)var
-I=h(e),o=mT(function(a){if(0===a[0]){var
-b=a[1],c=R(xh,b),d=c?R(b,I):c;if(d){if(a[5])return 0;var
+I=h(e),o=mV(function(a){if(0===a[0]){var
+b=a[1],c=S(xj,b),d=c?S(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 o=k;if(o)var
-b=h(e),c=cv(a),y=mU(a),q=n(function(a){var
+b=h(e),c=cw(a),y=mW(a),q=n(function(a){var
 d=a[1];if(9<=d)switch(d-9|0){case
 0:var
 e=a[4];if(typeof
-e!=="number"&&0===e[0])return a[2]?bC(c,b,a):a[3]?bC(c,b,a):1;return bC(c,b,a);case
+e!=="number"&&0===e[0])return a[2]?bD(c,b,a):a[3]?bD(c,b,a):1;return bD(c,b,a);case
 5:var
 f=a[4];if(typeof
 f!=="number"&&1===f[0]){var
 g=a[3];if(g){var
 i=g[1];if(1===i[0]){var
-j=t(h(i[1]),y);if(j){var
+j=u(h(i[1]),y);if(j){var
 k=a[2];if(k){var
-l=k[1],m=R(wA,l);return m?R(l,b):m}var
+l=k[1],m=S(wC,l);return m?S(l,b):m}var
 n=1}else
 var
-n=j;return n}return bC(c,b,a)}return bC(c,b,a)}return bC(c,b,a);case
+n=j;return n}return bD(c,b,a)}return bD(c,b,a)}return bD(c,b,a);case
 6:var
 o=a[4];if(typeof
 o!=="number"&&1===o[0]){var
 p=a[3];if(p){var
 q=p[1];if(1===q[0]){var
-r=t(h(q[1]),y);if(r){var
+r=u(h(q[1]),y);if(r){var
 s=a[2];if(s){var
-u=s[1],v=R(wB,u);return v?R(u,b):v}var
+t=s[1],v=S(wD,t);return v?S(t,b):v}var
 w=1}else
 var
-w=r;return w}return bC(c,b,a)}return bC(c,b,a)}return bC(c,b,a)}return bC(c,b,a)},f);else
+w=r;return w}return bD(c,b,a)}return bD(c,b,a)}return bD(c,b,a)}return bD(c,b,a)},f);else
 var
 q=o;var
-z=q?f9(f):q;return z?n(ib,dL(0,h(e),r,f)):z}function
-mX(a){switch(a[0]){case
+z=q?f_(f):q;return z?n(ib,dL(0,h(e),r,f)):z}function
+mZ(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-mY(a,e,d,Q,m,l){var
+m0(a,e,d,Q,m,l){var
 o=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=o?xo:xp;return t(h(a),b)}var
-i=mD(e),z=n(function(b){switch(b[0]){case
+b=o?xq:xr;return u(h(a),b)}var
+i=mF(e),z=n(function(b){switch(b[0]){case
 0:var
 d=_(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
@@ -5754,44 +5782,44 @@ a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=o?m?0:1:c(m),p=n?c(b[2]):n,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(z)var
-S=h(e),q=R(a5(a),S);else
+R=h(e),q=S(a5(a),R);else
 var
 q=z;var
-A=q?R(h(e),xq):q,B=A?n(eD,x(mX,e)):A;if(B){var
+A=q?S(h(e),xs):q,B=A?n(eG,v(mZ,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-T=o?xr:xs,r=mV(T,C,Q)}else
+T=o?xt:xu,r=mX(T,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=v(c4,m)?0:1,b=V;else
+V=w(c4,m)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-u=v(c4,m);if(u){var
-E=u[1];if(0===E[0])var
-F=g(p,1,j(d[1])),G=F?cC(E[1]):F;else
+t=w(c4,m);if(t){var
+E=t[1];if(0===E[0])var
+F=g(p,1,j(d[1])),G=F?cD(E[1]):F;else
 var
 G=0;var
 H=G}else
 var
-H=u;var
+H=t;var
 b=H}else
 var
 b=d;break;case
 1:if(d){var
-w=d[1],y=v(c4,m);if(y){var
+x=d[1],y=w(c4,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-J=g(p,1,j(w)),K=J?cC(f[1]):J,L=K?cC(f[2]):K,k=L?cC(f[3]):L;break;case
+J=g(p,1,j(x)),K=J?cD(f[1]):J,L=K?cD(f[2]):K,k=L?cD(f[3]):L;break;case
 2:var
-M=g(p,1,j(w)),k=M?dN(f[1]):M;break;default:var
-N=g(p,1,j(w)),O=N?dN(f[1]):N,k=O?dN(f[2]):O}var
+M=g(p,1,j(x)),k=M?dN(f[1]):M;break;default:var
+N=g(p,1,j(x)),O=N?dN(f[1]):N,k=O?dN(f[2]):O}var
 I=k}else
 var
 I=y;var
@@ -5801,119 +5829,119 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-U=h(e),s=n(function(b){return mA(i,a,U,b)},l);else
+U=h(e),s=n(function(b){return mC(i,a,U,b)},l);else
 var
 s=b;var
-D=s?f9(l):s;return D?n(ib,dL(i,h(e),0,l)):D}function
-xt(a){switch(a[0]){case
-0:return fC(a[1][1]);case
+D=s?f_(l):s;return D?n(ib,dL(i,h(e),0,l)):D}function
+xv(a){switch(a[0]){case
+0:return fD(a[1][1]);case
 1:var
-b=a[3];return b?fC(b[1]):1;default:return fC(a[1])}}function
+b=a[3];return b?fD(b[1]):1;default:return fD(a[1])}}function
 id(a,k,b,d){var
-e=mT(function(g){if(0===g[0]){var
-c=g[1],d=R(xg,c);if(d){var
-b=S(a,bq(c));if(b){if(2===b[1][0])return 0;var
+e=mV(function(g){if(0===g[0]){var
+c=g[1],d=S(xi,c);if(d){var
+b=R(a,br(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(xt,d[1]):e,g=f?R(xu,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return wq(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(xv,d[1]):e,g=f?S(xw,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return ws(l,a)},b);else
 var
 c=g;var
-i=c?f9(b):c,j=i?n(eD,x(mS,a)):i;return j?n(xf,d[3]):j}function
-f_(b,a){return n(function(c){var
-a=c[2];return a?cH(a[1],b):1},a)}function
-mZ(a){if(a){var
-b=a[1];if(f2(b))return 0;var
-c=[0,b,mZ(a[2])]}else
+i=c?f_(b):c,j=i?n(eG,v(mU,a)):i;return j?n(xh,d[3]):j}function
+f$(b,a){return n(function(c){var
+a=c[2];return a?cI(a[1],b):1},a)}function
+m1(a){if(a){var
+b=a[1];if(f3(b))return 0;var
+c=[0,b,m1(a[2])]}else
 var
 c=a;return c}function
-xv(a){if(typeof
+xx(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(es(d)&&_(g(p,0,[3,d,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])))return xx;return xy}return xw}function
-m0(f,d,b){var
-g=mZ(b),i=0,c=aT(M,0,e(xv,x(function(a){return h1(i,f,d,a)},g))),a=x(my,b),j=a?[0,a[1],a[2]]:xz;return M(h(j),c)}function
+d=a[4];if(ev(d)&&_(g(p,0,[3,d,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])))return xz;return xA}return xy}function
+m2(f,d,b){var
+g=m1(b),i=0,c=aI(M,0,e(xx,v(function(a){return h1(i,f,d,a)},g))),a=v(mA,b),j=a?[0,a[1],a[2]]:xB;return M(h(j),c)}function
 ie(b,a){var
-c=h(bb(function(a){return 0===a[0]?0:1},b));return t(h(a),c)}function
+c=h(bc(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
 ig(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-m1(aM,Z,aL,Y,X,b,aK,B){var
+m3(aM,Z,aL,Y,X,b,aI,B){var
 a=h0(Z,aL,Y,X),aN=h(B);if(aM)var
 _=0;else
 var
-aE=a[1],aG=e(f8,a[1]),W=fw(h9(a[1]),aG,aE),aH=aI(aJ(0,h(W)),W),_=e(aF,bb(function(a){return fy(a[2])},aH));var
+aE=a[1],aG=e(f9,a[1]),W=fx(h9(a[1]),aG,aE),aH=aJ(aK(0,h(W)),W),_=e(aF,bc(function(a){return fz(a[2])},aH));var
 C=c5(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=id(Z,Y,X,a),ab=aa?f_(xA,B):aa;if(ab){var
-aP=$[1],D=e(f8,a[1]),c=h9(a[1]),aQ=ig(aK),V=kI(p,a);if(V){var
-k=fw(c,D,a[1]),g=g$(c,D,a[1],0),af=h(a[3]),ag=M(h(k),af),K=[0,h(k),ag],ah=a[3],F=ai(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ah),ak=F?x(function(a){var
-b=e(cd,ku(k,a));return[0,a[4],b]},g):F,al=f(hb(g,c,K,a[3]),ak),am=f(bx(j1(g)),al),N=f(bx(ec(g)),am),O=ck(N)[1],m=cj(O),P=n(function(a){var
-b=l(d);return av(u(aV(m,a),m,b),a)},N);if(P){var
-Q=ai(qP,a[3]);if(Q){var
+aa=id(Z,Y,X,a),ab=aa?f$(xC,B):aa;if(ab){var
+aO=$[1],D=e(f9,a[1]),c=h9(a[1]),aQ=ig(aI),V=kK(p,a);if(V){var
+k=fx(c,D,a[1]),g=ha(c,D,a[1],0),af=h(a[3]),ag=M(h(k),af),K=[0,h(k),ag],ah=a[3],F=ai(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ah),ak=F?v(function(a){var
+b=e(bX,kw(k,a));return[0,a[4],b]},g):F,al=f(hc(g,c,K,a[3]),ak),am=f(by(j2(g)),al),N=f(by(ee(g)),am),O=cm(N)[1],m=cl(O),P=n(function(a){var
+b=l(d);return av(t(aV(m,a),m,b),a)},N);if(P){var
+Q=ai(qR,a[3]);if(Q){var
 s=D,o=a[1];for(;;){if(o){var
-q=o[1],t=br(d,s);switch(q[0]){case
+q=o[1],u=bs(d,s);switch(q[0]){case
 0:var
-G=q[1],H=fz(b,G[1],t),E=0;if(H){var
+G=q[1],H=fA(b,G[1],u),E=0;if(H){var
 r=aj(b,[0,G[4],c]);if(r)var
 j=L(d,r[1][1]);else{var
 I=r;E=1}}else{var
 I=H;E=1}if(E)var
 j=I;break;case
 1:var
-J=q[3],j=J?fz(b,J[1],t):1;break;default:var
-j=fz(b,q[1],t)}if(j){var
-ad=o[2],s=bI(s),o=ad;continue}var
+J=q[3],j=J?fA(b,J[1],u):1;break;default:var
+j=fA(b,q[1],u)}if(j){var
+ad=o[2],s=bb(s),o=ad;continue}var
 R=j}else
 var
 R=1;var
-v=R;break}}else
+w=R;break}}else
 var
-v=Q;if(v){var
-an=a[3],ao=x(function(a){return cQ(c,a)},an),ap=a[3],aq=f(k,f(e(function(a){return bw(c,a)},ap),ao)),w=ae(e(function(a){return aj(b,a)},aq));if(w){var
-as=aO(dA(a[2]),c),y=ae(e(function(a){return aj(b,a)},as));if(y){var
-at=a[3],z=ae(kw(b,aQ,function(a){return aV(m,a)},k,g,c,K,at));if(z){var
-S=z[1],au=g_(S),aw=y[1],ax=a[2],ay=function(a){return kx(b,ax,c,a)},az=w[1],aA=0,aB=j1(g),aC=i(ar(function(a){return aV(m,a)}),aB),aD=ec(g);return fu(b,O,i(ar(function(a){return aV(m,a)}),aD),aC,aA,az,S,ay,aw,au,aP)}var
+w=Q;if(w){var
+an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(k,f(e(function(a){return bx(c,a)},ap),ao)),x=ae(e(function(a){return aj(b,a)},aq));if(x){var
+as=aP(dA(a[2]),c),y=ae(e(function(a){return aj(b,a)},as));if(y){var
+at=a[3],z=ae(ky(b,aQ,function(a){return aV(m,a)},k,g,c,K,at));if(z){var
+S=z[1],au=g$(S),aw=y[1],ax=a[2],ay=function(a){return kz(b,ax,c,a)},az=x[1],aA=0,aB=j2(g),aC=i(ar(function(a){return aV(m,a)}),aB),aD=ee(g);return fv(b,O,i(ar(function(a){return aV(m,a)}),aD),aC,aA,az,S,ay,aw,au,aO)}var
 T=z}else
 var
 T=y;var
 U=T}else
 var
-U=w;var
+U=x;var
 A=U}else
 var
-A=v}else
+A=w}else
 var
 A=P;return A}return V}var
 ac=ab}else
 var
 ac=C;return ac}function
-xB(a){if(0===a[0])return mL(a[1]);var
+xD(a){if(0===a[0])return mN(a[1]);var
 b=a[1],c=dB(b[6]);return f(dB(b[5]),c)}function
-xC(a){if(0===a[0])return mM(a[1]);var
+xE(a){if(0===a[0])return mO(a[1]);var
 b=a[1],c=a3(b[4]);return f(a3(b[3]),c)}function
-xD(a){if(0===a[0])return[0,f8(a[1]),d];var
+xF(a){if(0===a[0])return[0,f9(a[1]),d];var
 b=a[1],c=bN(a3(b[2]));return[0,bN(a3(b[1])),c]}function
-m2(f,n,m,l,k,j,y,d){var
-a=mE(f,n,m,l,k,j),o=a[2],b=x(xB,o),w=b?[0,b[1],b[2]]:x(xC,o),i=z(c,bN(w)),q=e(xD,a[2]),r=hI(i,q,a[2]),A=h(d),B=aI(aJ(0,h(r)),r),g=c5(e(aF,bb(function(a){return fy(a[2])},B)),A,d);if(g){var
+m4(f,n,m,l,k,j,y,d){var
+a=mG(f,n,m,l,k,j),o=a[2],b=v(xD,o),x=b?[0,b[1],b[2]]:v(xE,o),i=z(c,bN(x)),q=e(xF,a[2]),r=hI(i,q,a[2]),A=h(d),B=aJ(aK(0,h(r)),r),g=c5(e(aF,bc(function(a){return fz(a[2])},B)),A,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=mY(f,n,m,l,k,j),u=t?f_(a5(f),d):t;if(u)return rW(p,y,a,i,q,s[1]);var
-v=u}else
+t=m0(f,n,m,l,k,j),u=t?f$(a5(f),d):t;if(u)return rY(p,y,a,i,q,s[1]);var
+w=u}else
 var
-v=g;return v}function
-m3(B,aM,aq,ap,A,ao,h){var
+w=g;return w}function
+m5(B,aM,aq,ap,A,ao,h){var
 l=h0(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=mP(B,e(j,ao));if(ar[2])return 0;var
+ar=mR(B,e(j,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?xb:xc;else
+a=0===h?xd:xe;else
 switch(h[0]){case
 0:var
-b=h[2],m=h[1],H=v(w_,S(as,m)),J=0;if(H){var
+b=h[2],m=h[1],H=w(xa,R(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
@@ -5954,12 +5982,12 @@ var
 aa=b;if(!K)var
 a=aa}else{var
 aD=0;if(b){var
-w=b[1],aE=0;if(w){var
-y=w[2],aF=0;if(y){var
+x=b[1],aE=0;if(x){var
+y=x[2],aF=0;if(y){var
 z=y[2],aG=0;if(z)if(z[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=z[1],ac=y[1],ad=w[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=z[1],ac=y[1],ad=x[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
 ae=z;if(!aG)var
 af=ae}else
@@ -5967,7 +5995,7 @@ var
 af=y;if(!aF)var
 ag=af}else
 var
-ag=w;if(!aE)var
+ag=x;if(!aE)var
 ah=ag}else
 var
 ah=b;if(!aD)var
@@ -5978,7 +6006,7 @@ aj=[0,[0,d,d],d],ak=[0,[0,m,aj,aj]];J=1}}else{var
 ak=H;J=1}if(J)var
 a=ak;break;case
 1:var
-al=h[1],I=S(as,al),O=0;if(I){var
+al=h[1],I=R(as,al),O=0;if(I){var
 aH=0,am=I[1];if(typeof
 am!=="number"&&1===am[0]){var
 a=[0,[1,al,h[2]]];aH=1}if(!aH){var
@@ -5986,19 +6014,19 @@ an=0;O=1}}else{var
 an=I;O=1}if(O)var
 a=an;break;default:var
 a=0}if(a){var
-at=ie(x(mS,B),ao),au=at?id(B,aq,ap,l):at;if(au){var
-f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=kz(p,l,k,i);if(P)if(typeof
+at=ie(v(mU,B),ao),au=at?id(B,aq,ap,l):at;if(au){var
+f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=kB(p,l,k,i);if(P)if(typeof
 f==="number")return 0===f?ai(function(b){var
-a=kA(b,i);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jQ(qR,e(function(b){var
-a=ej(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=S(l[3],f[1]);if(E){var
-aI=E[1],aJ=kB(f[3]);return kG(p,k,i,kB(f[2]),aJ,aI)}return E}var
-F=S(l[3],f[1]);if(F){var
-G=S(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cW(Q,i);return kG(p,k,i,cW(Q,i),aL,aK)}var
-R=G}else
+a=kC(b,i);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jR(qT,e(function(b){var
+a=em(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
+E=R(l[3],f[1]);if(E){var
+aI=E[1],aJ=kD(f[3]);return kI(p,k,i,kD(f[2]),aJ,aI)}return E}var
+F=R(l[3],f[1]);if(F){var
+G=R(k,f[2]);if(G){var
+Q=G[1],aK=F[1],aL=cW(Q,i);return kI(p,k,i,cW(Q,i),aL,aK)}var
+S=G}else
 var
-R=F;return R}return P}var
+S=F;return S}return P}var
 av=au}else
 var
 av=a;var
@@ -6011,23 +6039,23 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-m4(m,l,b,k,z,y){var
+m6(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=S(f,g),n=h?cH(h[1][2],xG):h;if(n)var
-A=d[2],i=m4(m,l,b,k,h8(0,g,f),A);else
+g=d[1],h=R(f,g),n=h?cI(h[1][2],xI):h;if(n)var
+A=d[2],i=m6(m,l,b,k,h8(0,g,f),A);else
 var
 i=n;if(i){var
 B=d[3],f=h8(1,g,f),d=B;continue}return i}var
-c=d[1],a=mJ(0,m,f),o=e(function(b){function
-d(b){return mK(a,b)}function
+c=d[1],a=mL(0,m,f),o=e(function(b){function
+d(b){return mM(a,b)}function
 c(a){return h6(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mK(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mM(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=v(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
 q=b[2],r=h6(function(b){return an(a,b)},q),s=b[1],j=[0,h6(function(b){return an(a,b)},s),r];else
 var
-t=an(a,b[5]),u=an(a,b[4]),w=an(a,b[3]),x=an(a,b[2]),j=[1,an(a,b[1]),x,w,u,t];var
+t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),x=an(a,b[2]),j=[1,an(a,b[1]),x,v,u,t];var
 p=e(function(f){var
 b=f[4];if(typeof
 b==="number")var
@@ -6051,73 +6079,73 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return m1(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return m3(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-m5(h,g){var
-a=cn(j(h));if(a){var
-b=a[1],e=cJ([0,d,c],b);if(e)return cJ(b,g);var
+1:return m3(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return m5(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+m7(h,g){var
+a=co(j(h));if(a){var
+b=a[1],e=cK([0,d,c],b);if(e)return cK(b,g);var
 f=e}else
 var
 f=a;return f}function
-xM(q){var
-d4=f0(q[3]),d5=d4?f0(q[4]):d4;if(d5){var
+xO(q){var
+d4=f1(q[3]),d5=d4?f1(q[4]):d4;if(d5){var
 Q=q[1];switch(Q[0]){case
 3:var
-d$=n(ez,Q[1]);if(d$)var
-hs=Q[2],bT=n(function(a){return ez(a[1])},hs);else
+d$=n(eC,Q[1]);if(d$)var
+hs=Q[2],bT=n(function(a){return eC(a[1])},hs);else
 var
 bT=d$;if(bT)var
 ht=Q[3],bU=n(function(a){var
-b=ez(a[1]),c=b?hY(a[2]):b;return c?eA(a[2]):c},ht);else
+b=eC(a[1]),c=b?hY(a[2]):b;return c?eD(a[2]):c},ht);else
 var
 bU=bT;if(bU)var
 hu=Q[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hY(a);return b?eA(a):b},b)},hu);else
+b=hY(a);return b?eD(a):b},b)},hu);else
 var
 aS=bU;break;case
 7:var
 hv=Q[1],ea=n(function(a){var
-b=ez(a[1]);return b?eB(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aS=ea?eB(0,[0,Q[5],[0,Q[6],0]]):ea;break;default:var
+b=eC(a[1]);return b?eE(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aS=ea?eE(0,[0,Q[5],[0,Q[6],0]]):ea;break;default:var
 aS=1}var
 bR=aS}else
 var
 bR=d5;var
 cF=0;if(bR){var
 d6=q[1],bS=7===d6[0]?e(aF,d6[1]):0,d7=function(c,b){var
-a=mv(c);return a?n(function(a){var
+a=mx(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f0(a[2]);if(b){var
+b=f1(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f0(a[1]);case
+1:return f1(a[1]);case
 2:case
 3:case
 4:return 1;default:var
 a=a[1];continue}},e);if(b){var
-c=a[3];if(c)return eB(bS,mu(c[1]));var
+c=a[3];if(c)return eE(bS,mw(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d8=function(e,d,c,b){var
-a=mv(e);return a?eB(bS,f(d,f(c,mu(b)))):a},k=q[1];switch(k[0]){case
+a=mx(e);return a?eE(bS,f(d,f(c,mw(b)))):a},k=q[1];switch(k[0]){case
 0:var
-gW=x(c2,k[4]),gX=f(x(ms,k[3]),gW),gY=f(mq(k[2]),gX),T=f(x(hZ,k[1]),gY);break;case
+gW=v(c2,k[4]),gX=f(v(mu,k[3]),gW),gY=f(ms(k[2]),gX),T=f(v(hZ,k[1]),gY);break;case
 1:var
-bO=k[5],bP=k[3],gZ=x(c2,k[6]),g0=bO?mr(bO[1]):bO,g1=f(g0,gZ),g2=f(mp(k[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),T=f(x(wl,k[2]),g4);break;case
+bO=k[5],bP=k[3],gZ=v(c2,k[6]),g0=bO?mt(bO[1]):bO,g1=f(g0,gZ),g2=f(mr(k[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),T=f(v(wn,k[2]),g4);break;case
 2:var
-g5=x(c2,k[7]),g6=f(x(ms,k[6]),g5),g7=f(mr(k[5]),g6),g8=f(mp(k[4]),g7),g9=[0,k[3],g8],ha=k[2],T=f(x(function(a){return x(dJ,f(a[1],a[2]))},ha),g9);break;case
+g5=v(c2,k[7]),g6=f(v(mu,k[6]),g5),g7=f(mt(k[5]),g6),g8=f(mr(k[4]),g7),g9=[0,k[3],g8],g_=k[2],T=f(v(function(a){return v(dJ,f(a[1],a[2]))},g_),g9);break;case
 3:var
-hd=x(c2,k[7]),hf=f(k[6],hd),hg=f(k[5],hf),hh=k[2],T=f(x(function(a){return dJ(a[2])},hh),hg);break;case
+hb=v(c2,k[7]),he=f(k[6],hb),hg=f(k[5],he),hh=k[2],T=f(v(function(a){return dJ(a[2])},hh),hg);break;case
 4:var
-hi=x(c2,k[3]),T=[0,k[1],[0,k[2],hi]];break;case
+hi=v(c2,k[3]),T=[0,k[1],[0,k[2],hi]];break;case
 5:var
-hj=x(c2,k[4]),hk=f(bA(k[3]),hj),hl=f(bA(k[2]),hk),hm=f(x(hZ,k[1]),hl),T=[0,k[5],hm];break;case
+hj=v(c2,k[4]),hk=f(bB(k[3]),hj),hl=f(bB(k[2]),hk),hm=f(v(hZ,k[1]),hl),T=[0,k[5],hm];break;case
 6:var
 bQ=k[1],T=bQ?dJ(bQ[1]):bQ;break;default:var
-ho=x(c2,k[4]),hq=f(mq(k[3]),ho),T=f(x(hZ,k[2]),hq)}var
-d9=eB(bS,T);if(d9){var
+hn=v(c2,k[4]),hp=f(ms(k[3]),hn),T=f(v(hZ,k[2]),hp)}var
+d9=eE(bS,T);if(d9){var
 U=q[2];switch(U[0]){case
 0:var
 aB=d7(U[1],U[3]);break;case
@@ -6132,24 +6160,24 @@ d_=bR;cF=1}if(cF)var
 aB=d_;if(aB){var
 a=q[1];switch(a[0]){case
 0:var
-eO=a[4],eP=a[3],eQ=a[2],eR=a[1],ab=q[2];switch(ab[0]){case
-0:return m1(0,eR,eQ,eP,eO,ab[1],ab[2],ab[3]);case
-1:return m3(eR,eQ,eP,eO,ab[2],ab[3],ab[4]);default:return 0}case
+eP=a[4],eQ=a[3],eR=a[2],eS=a[1],ab=q[2];switch(ab[0]){case
+0:return m3(0,eS,eR,eQ,eP,ab[1],ab[2],ab[3]);case
+1:return m5(eS,eR,eQ,eP,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
-b_=a[6],b$=a[5],ca=a[4],cb=a[3],aC=a[2],ac=a[1],an=q[2];switch(an[0]){case
-0:return m2(ac,aC,cb,ca,b$,b_,an[1],an[3]);case
+ca=a[6],cb=a[5],cc=a[4],cd=a[3],aC=a[2],ac=a[1],an=q[2];switch(an[0]){case
+0:return m4(ac,aC,cd,cc,cb,ca,an[1],an[3]);case
 1:var
-eS=an[3],hW=an[4],hX=an[2],eq=typeof
-ac==="number"?ac?xE:xF:ic(ac[1]),b4=e(j,hX),er=mR(aC,e(j,eS));if(er[2])return 0;var
-b5=h$(hW);if(b5){var
-es=ie(x(mX,aC),eS),ev=es?mY(ac,aC,cb,ca,b$,b_):es;if(ev)var
-hK=a5(ac),b6=t(h(b4),hK);else
+eT=an[3],hW=an[4],hX=an[2],er=typeof
+ac==="number"?ac?xG:xH:ic(ac[1]),b6=e(j,hX),es=mT(aC,e(j,eT));if(es[2])return 0;var
+b7=h$(hW);if(b7){var
+et=ie(v(mZ,aC),eT),eu=et?m0(ac,aC,cd,cc,cb,ca):et;if(eu)var
+hK=a5(ac),b8=u(h(b6),hK);else
 var
-b6=ev;if(b6){var
-hL=b5[1],r=dk(eq,b4),E=aZ(bY(eq,b4)),am=er[1],X=mE(ac,aC,cb,ca,b$,b_),c1=lN(p,X[2],am);if(c1){var
+b8=eu;if(b8){var
+hL=b7[1],r=dk(er,b6),E=aZ(bZ(er,b6)),am=es[1],X=mG(ac,aC,cd,cc,cb,ca),c1=lP(p,X[2],am);if(c1){var
 cY=cT(p,X[4],E),cG=0;if(cY){var
 cZ=X[5];if(cZ)var
-a$=fE(p,cZ[1],r);else
+a$=fF(p,cZ[1],r);else
 if(r)var
 a$=0;else{var
 c0=1;cG=1}}else{var
@@ -6159,54 +6187,54 @@ ba=a$}else
 var
 ba=c1;if(ba){var
 C=X[5],c3=X[3],aL=X[1],fZ=X[6],fS=e(function(a){if(0===a[0]){var
-d=b7(C,r,E,a),b=ej(a[1],d);return[0,lL(aL,b,at([5,[0,c,c],c3],em(hF(C,r,fP(a)),b)))]}return 0},am),fT=x(function(a){if(0===a[0]){var
-c=b7(C,r,E,a),b=kA(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=b7(C,r,E,a);return[0,kS(a[1],e),0]},am),fW=e(function(d){var
-b=b7(C,r,E,d);if(0===d[0]){var
+d=b_(C,r,E,a),b=em(a[1],d);return[0,lN(aL,b,at([5,[0,c,c],c3],ep(hF(C,r,fQ(a)),b)))]}return 0},am),fT=v(function(a){if(0===a[0]){var
+c=b_(C,r,E,a),b=kC(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=b_(C,r,E,a);return[0,kU(a[1],e),0]},am),fU=e(function(d){var
+b=b_(C,r,E,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,ax(e)),l=ei(e,h,g,b);return[0,[0,lM(aL,af(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fB(c,b),o=kV(c,b),p=c[4],q=af(function(b,a){return[2,b,a]},b,p);return[0,[0,lM(aL,af(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fX=e(function(a){if(0===a[0]){var
-c=b7(C,r,E,a);return[0,hc(a[1],c)]}var
-b=a[1],d=kU(b,b7(C,r,E,a));return[1,kT(b,b7(C,r,E,a)),d]},am),fY=[0,e(function(a){if(0===a[0])var
-k=b7(C,r,E,a),d=cW(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,ax(e)),l=el(e,h,g,b);return[0,[0,lO(aL,af(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fC(c,b),o=kX(c,b),p=c[4],q=af(function(b,a){return[2,b,a]},b,p);return[0,[0,lO(aL,af(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fX=e(function(a){if(0===a[0]){var
+c=b_(C,r,E,a);return[0,hd(a[1],c)]}var
+b=a[1],d=kW(b,b_(C,r,E,a));return[1,kV(b,b_(C,r,E,a)),d]},am),fY=[0,e(function(a){if(0===a[0])var
+k=b_(C,r,E,a),d=cW(a[1],k);else
 var
-e=b7(C,r,E,a),b=a[1],f=kV(b,e),g=b[4],h=af(function(b,a){return[2,b,a]},e,g),i=af(function(b,a){return[3,b,a]},h,f),j=fB(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lL(aL,d,at([5,[0,c,c],c3],em(hF(C,r,fP(a)),d)))},am),fX,fW,fT,fS];return kP(p,a5(X[1]),fY,fZ,hL)}return ba}var
-ew=b6}else
+e=b_(C,r,E,a),b=a[1],f=kX(b,e),g=b[4],h=af(function(b,a){return[2,b,a]},e,g),i=af(function(b,a){return[3,b,a]},h,f),j=fC(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lN(aL,d,at([5,[0,c,c],c3],ep(hF(C,r,fQ(a)),d)))},am),fX,fU,fT,fS];return kR(p,a5(X[1]),fY,fZ,hL)}return ba}var
+ev=b8}else
 var
-ew=b5;return ew;default:return 0}case
+ev=b7;return ev;default:return 0}case
 2:var
 aD=a[7],aE=a[6],aX=a[5],aY=a[4],a0=a[3],ag=a[2],ao=a[1],ah=q[2];switch(ah[0]){case
 0:var
-cc=ah[3],ak=mC(ao,ag,a0,aY,aX,aE,aD),h2=ak[2],eT=z(c,bN(x(function(a){var
-b=a3(a[2]);return f(a3(a[1]),b)},h2))),h3=h(cc),ce=c5(lH(eT,ak[2]),h3,cc);if(ce){var
-eU=ce[1];if(eU[2])return 0;var
-eV=mW(ao,ag,a0,aY,aX,aE,aD),eW=eV?f_(cv(ao),cc):eV;if(eW){var
-h4=eU[1],h6=m0(h(ag),aE,aD),h8=ig(ah[2]),ih=ah[1],fN=ak[2],cX=n(function(a){var
-b=lK(p,a[1]);return b?lK(p,a[2]):b},fN);if(cX)var
-fO=he(ak[4]),a9=cT(p,ak[4],fO);else
+ce=ah[3],ak=mE(ao,ag,a0,aY,aX,aE,aD),h2=ak[2],eU=z(c,bN(v(function(a){var
+b=a3(a[2]);return f(a3(a[1]),b)},h2))),h3=h(ce),cf=c5(lJ(eU,ak[2]),h3,ce);if(cf){var
+eV=cf[1];if(eV[2])return 0;var
+eW=mY(ao,ag,a0,aY,aX,aE,aD),eX=eW?f$(cw(ao),ce):eW;if(eX){var
+h4=eV[1],h6=m2(h(ag),aE,aD),h8=ig(ah[2]),ih=ah[1],fN=ak[2],cX=n(function(a){var
+b=lM(p,a[1]);return b?lM(p,a[2]):b},fN);if(cX)var
+fO=hf(ak[4]),a9=cT(p,ak[4],fO);else
 var
 a9=cX;if(a9)var
-fR=fK(ak[5]),a_=n(function(a){return et(p,a)},fR);else
+fP=fL(ak[5]),a_=n(function(a){return ew(p,a)},fP);else
 var
-a_=a9;return a_?rA(ih,h8,h6,ak,eT,h4):a_}var
-eX=eW}else
+a_=a9;return a_?rC(ih,h8,h6,ak,eU,h4):a_}var
+eY=eX}else
 var
-eX=ce;return eX;case
+eY=cf;return eY;case
 1:var
-a1=ah[4],eY=ah[3],a2=e(j,ah[2]),ap=ic(ao),eZ=mQ(ag,e(j,eY));if(eZ[2])return 0;var
-J=eZ[1],e0=ie(x(function(a){return f(a[1],a[2])},ag),eY),e1=e0?mW(ao,ag,a0,aY,aX,aE,aD):e0;if(e1){var
-o=mC(ao,ag,a0,aY,aX,aE,aD);if(typeof
+a1=ah[4],eZ=ah[3],a2=e(j,ah[2]),ap=ic(ao),e0=mS(ag,e(j,eZ));if(e0[2])return 0;var
+J=e0[1],e1=ie(v(function(a){return f(a[1],a[2])},ag),eZ),e2=e1?mY(ao,ag,a0,aY,aX,aE,aD):e1;if(e2){var
+o=mE(ao,ag,a0,aY,aX,aE,aD);if(typeof
 a1!=="number"&&2===a1[0]){var
-e3=e(j,a1[1]),e4=dk(ap,e3),e5=aZ(bY(ap,e3)),e6=dk(ap,a2),e7=aZ(bY(ap,a2)),dE=k5(p,o[2],J);if(dE)var
-gB=cv(o[1]),by=t(h(J),gB);else
+e4=e(j,a1[1]),e5=dk(ap,e4),e6=aZ(bZ(ap,e4)),e7=dk(ap,a2),e8=aZ(bZ(ap,a2)),dE=k7(p,o[2],J);if(dE)var
+gB=cw(o[1]),bw=u(h(J),gB);else
 var
-by=dE;var
-dF=by?cT(p,o[4],e7):by,dG=dF?cT(p,o[4],e5):dF,dH=dG?fE(p,o[5],e6):dG,dI=dH?fE(p,o[5],e4):dH;if(dI){var
+bw=dE;var
+dF=bw?cT(p,o[4],e8):bw,dG=dF?cT(p,o[4],e6):dF,dH=dG?fF(p,o[5],e7):dG,dI=dH?fF(p,o[5],e5):dH;if(dI){var
 dK=o[1],gC=o[5],gD=o[3],dv=function(g,f){var
-h=e(function(a){return k4(dK,gD,gC,f,g,a)},J),i=cv(dK),a=l8(p,h);function
+h=e(function(a){return k6(dK,gD,gC,f,g,a)},J),i=cw(dK),a=l_(p,h);function
 b(a,b){return y(p,a,b)}var
-d=W(p,c);return v(function(a){return l6(A,d,H,b,i,a)},a)},bu=dv(e7,e6);if(bu){var
-dw=bu[1],bv=dv(e5,e4);if(bv){var
+d=W(p,c);return w(function(a){return l8(A,d,H,b,i,a)},a)},bu=dv(e8,e7);if(bu){var
+dw=bu[1],bv=dv(e6,e5);if(bv){var
 dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
 dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
@@ -6217,67 +6245,67 @@ dB=bv;var
 dC=dB}else
 var
 dC=bu;return dC}return dI}var
-cf=h$(a1);if(cf){var
-ii=cf[1],as=dk(ap,a2),aG=aZ(bY(ap,a2)),cN=k5(p,o[2],J),cO=cN?cT(p,o[4],aG):cN,cP=cO?fE(p,o[5],as):cO;if(cP){var
+cg=h$(a1);if(cg){var
+ii=cg[1],as=dk(ap,a2),aG=aZ(bZ(ap,a2)),cN=k7(p,o[2],J),cO=cN?cT(p,o[4],aG):cN,cP=cO?fF(p,o[5],as):cO;if(cP){var
 ay=o[5],cR=o[3],cS=o[1],fM=o[6],cM=function(a){var
-b=fF(ay,as,aG,a);return P(fF(ay,as,aG,a),b)},fG=e(function(a){return[0,k4(cS,cR,ay,as,aG,a)]},J),fH=e(cM,J),fI=e(function(a){return 0},J),fJ=e(function(a){return[0,[6,cM(a)]]},J),fL=[0,e(function(b){var
-a=ax(fF(ay,as,aG,b));return hp(cS,a,at([5,[0,c,c],cR],em(fD(ay,as,b[2]),a)))},J),fJ,fI,fH,fG];return kP(p,cv(o[1]),fL,fM,ii)}return cP}var
-e2=cf}else
+b=fG(ay,as,aG,a);return P(fG(ay,as,aG,a),b)},fD=e(function(a){return[0,k6(cS,cR,ay,as,aG,a)]},J),fH=e(cM,J),fI=e(function(a){return 0},J),fJ=e(function(a){return[0,[6,cM(a)]]},J),fK=[0,e(function(b){var
+a=ax(fG(ay,as,aG,b));return hq(cS,a,at([5,[0,c,c],cR],ep(fE(ay,as,b[2]),a)))},J),fJ,fI,fH,fD];return kR(p,cw(o[1]),fK,fM,ii)}return cP}var
+e3=cg}else
 var
-e2=e1;return e2;default:return 0}case
+e3=e2;return e3;default:return 0}case
 3:var
-au=a[7],e8=a[6],e9=a[5],Y=a[4],e_=a[2],cg=a[1],a4=q[2];if(0===a4[0]){var
-ch=a4[3],ci=c5(0,h(ch),ch);if(ci){var
-e$=ci[1];if(e$[2])return 0;var
-hH=h(cg),hI=h(e8),ek=t(h(e9),hI),en=ek?n(function(a){var
-b=bC(hH,h(Y),a);if(b){var
+au=a[7],e9=a[6],e_=a[5],Y=a[4],e$=a[2],ch=a[1],a4=q[2];if(0===a4[0]){var
+ci=a4[3],cj=c5(0,h(ci),ci);if(cj){var
+fa=cj[1];if(fa[2])return 0;var
+hH=h(ch),hI=h(e9),ei=u(h(e_),hI),ej=ei?n(function(a){var
+b=bD(hH,h(Y),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bq(d[1]),0]:aJ(0,h(Y));return n(function(b){var
-a=S(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ek,eo=en?f9(au):en,ep=eo?n(function(a){return eD(a[2])},e_):eo,fa=ep?n(ib,dL(0,h(Y),0,au)):ep,fb=fa?f_(h(cg),ch):fa;if(fb){var
-ij=e$[1],ik=a[3],eb=ai(f2,au),aT=dL(0,h(Y),0,au),hw=aI(e9,e8),bV=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cA,a[1])]:[1,cA(a[1])]},Y),hy=e(function(a){var
-b=cA(a[2]);return[0,a[1],b]},ik),m=[0,cg,e(function(a){var
-b=bB(a[2]);return[0,a[1],b]},e_),hy,hx],il=m0(h(Y),0,au),fc=ig(a4[2]),aH=a4[1],gy=e(aF,m[2]),bo=f(m[1],gy),bp=h(m[1]),dn=R(rX,bp),dp=dn?R(bp,rY):dn,dq=dp?R(bp,h(m[4])):dp,dr=dq?R(h(m[4]),rZ):dq,ds=dr?l4(bo):dr;if(ds){var
-aQ=bo,aP=m[3];for(;;){if(aP){var
-di=aP[1],dj=di[1],dl=_(ai(function(b){return function(a){return aq(b,a)}}(dj),aQ)),dm=dl?hM(aQ,di[2]):dl;if(dm){var
-aQ=[0,dj,aQ],aP=aP[2];continue}var
+d=a[2],e=d?[0,br(d[1]),0]:aK(0,h(Y));return n(function(b){var
+a=R(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ei,en=ej?f_(au):ej,eq=en?n(function(a){return eG(a[2])},e$):en,fb=eq?n(ib,dL(0,h(Y),0,au)):eq,fc=fb?f$(h(ch),ci):fb;if(fc){var
+ij=fa[1],ik=a[3],eb=ai(f3,au),aT=dL(0,h(Y),0,au),hw=aJ(e_,e9),bV=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cB,a[1])]:[1,cB(a[1])]},Y),hy=e(function(a){var
+b=cB(a[2]);return[0,a[1],b]},ik),m=[0,ch,e(function(a){var
+b=bC(a[2]);return[0,a[1],b]},e$),hy,hx],il=m2(h(Y),0,au),fd=ig(a4[2]),aH=a4[1],gy=e(aF,m[2]),bo=f(m[1],gy),bp=h(m[1]),dn=S(rZ,bp),dp=dn?S(bp,r0):dn,dq=dp?S(bp,h(m[4])):dp,dr=dq?S(h(m[4]),r1):dq,ds=dr?l6(bo):dr;if(ds){var
+aQ=bo,aO=m[3];for(;;){if(aO){var
+di=aO[1],dj=di[1],dl=_(ai(function(b){return function(a){return aq(b,a)}}(dj),aQ)),dm=dl?hM(aQ,di[2]):dl;if(dm){var
+aQ=[0,dj,aQ],aO=aO[2];continue}var
 dt=dm}else
 var
 dt=1;var
-br=dt;break}}else
+bq=dt;break}}else
 var
-br=ds;if(br)var
+bq=ds;if(bq)var
 gz=m[4],bs=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aF,m[3]),bo);return n(function(a){return hM(c,a)},b)},gz);else
 var
-bs=br;if(bs)var
-gA=m[2],bt=n(function(a){return bd(p,a[2][1],a[2][2])},gA);else
+bs=bq;if(bs)var
+gA=m[2],bt=n(function(a){return be(p,a[2][1],a[2][2])},gA);else
 var
 bt=bs;var
-du=bt?n(function(a){return bd(p,a[1],a[2])},bV):bt;if(du){var
-be=h(m[1]),bg=h(m[2]),c7=M(bg,h(hJ(e(cd,m[3])))),f$=m[3],az=l3(m),aM=f$,bc=bg;for(;;){if(aM){var
-c4=aM[1],c6=c4[2],f1=M(bc,h(bz(c6))),f4=aM[2],f6=bf(az,c6,bc),az=[0,[0,c4[1],f6],az],aM=f4,bc=f1;continue}var
-aa=l0(be,az,m[4],c7),ga=lZ(az,m[4],c7),gb=m[3],c8=f(lW(l3(m),gb,bg),ga),c9=h(l2(m)),gc=0,gd=f(c8,cu(function(a,b){return lT(aa,a,b)},gc,d,c9,aT)),ge=f(bx(eu(aa)),gd),c_=f(bx(fQ(aa)),ge),bh=ck(c_)[1],gf=cj(bh),al=function(a){return aV(gf,a)},c$=t(h(bV),be);if(c$)var
-gg=m[4],bi=n(function(a){return 0===a[0]?t(h(a[1]),be):1},gg);else
+du=bt?n(function(a){return be(p,a[1],a[2])},bV):bt;if(du){var
+bd=h(m[1]),bf=h(m[2]),c7=M(bf,h(hJ(e(bX,m[3])))),f7=m[3],az=l5(m),aM=f7,bb=bf;for(;;){if(aM){var
+c4=aM[1],c6=c4[2],f0=M(bb,h(bA(c6))),f2=aM[2],f5=bg(az,c6,bb),az=[0,[0,c4[1],f5],az],aM=f2,bb=f0;continue}var
+aa=l2(bd,az,m[4],c7),ga=l1(az,m[4],c7),gb=m[3],c8=f(lY(l5(m),gb,bf),ga),c9=h(l4(m)),gc=0,gd=f(c8,cv(function(a,b){return lV(aa,a,b)},gc,d,c9,aT)),ge=f(by(ex(aa)),gd),c_=f(by(fR(aa)),ge),bh=cm(c_)[1],gf=cl(bh),al=function(a){return aV(gf,a)},c$=u(h(bV),bd);if(c$)var
+gg=m[4],bi=n(function(a){return 0===a[0]?u(h(a[1]),bd):1},gg);else
 var
 bi=c$;var
 da=bi?n(function(a){var
-b=l(d),c=cj(bh);return av(u(al(a),c,b),a)},c_):bi,db=da?ai(lV,aT):da;if(db){var
+b=l(d),c=cl(bh);return av(t(al(a),c,b),a)},c_):bi,db=da?ai(lX,aT):da;if(db){var
 dc=_(eb);if(dc)var
 aN=dc;else
 var
 gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
-gh=l2(m),bj=ae(e(function(a){return aj(aH,a)},gh));if(bj){var
-gi=0,gj=x(function(a){return el(gi,d,a)},aT),bk=ae(e(function(a){return hn(aH,a)},gj));if(bk){var
+gh=l4(m),bj=ae(e(function(a){return aj(aH,a)},gh));if(bj){var
+gi=0,gj=v(function(a){return eo(gi,d,a)},aT),bk=ae(e(function(a){return ho(aH,a)},gj));if(bk){var
 bl=ae(e(function(a){return aj(aH,[0,a,d])},bV));if(bl){var
-gk=0,gl=0,bm=ae(cu(function(a,b){return lU(aH,al,aa,gl,d,a,b)},gk,d,c9,aT));if(bm){var
+gk=0,gl=0,bm=ae(cv(function(a,b){return lW(aH,al,aa,gl,d,a,b)},gk,d,c9,aT));if(bm){var
 dd=bm[1];if(eb)var
-gm=fc[2],gn=fc[1],go=eu(aa),bn=kJ(il,dd,[8,i(ar(al),go),gn,gm]);else
+gm=fd[2],gn=fd[1],go=ex(aa),bn=kL(il,dd,[8,i(ar(al),go),gn,gm]);else
 var
 bn=dd;var
-gp=g_(bn),gq=bl[1],gr=function(a){return 0},gs=f(bj[1],bk[1]),gt=e(al,c8),gu=eu(aa),gv=i(ar(al),gu),gw=fQ(aa);return fu(aH,bh,i(ar(al),gw),gv,gt,gs,bn,gr,gq,gp,ij)}var
+gp=g$(bn),gq=bl[1],gr=function(a){return 0},gs=f(bj[1],bk[1]),gt=e(al,c8),gu=ex(aa),gv=i(ar(al),gu),gw=fR(aa);return fv(aH,bh,i(ar(al),gw),gv,gt,gs,bn,gr,gq,gp,ij)}var
 de=bm}else
 var
 de=bl;var
@@ -6290,98 +6318,98 @@ dg=bj;var
 dh=dg}else
 var
 dh=aN;return dh}}return du}var
-fd=fb}else
+fe=fc}else
 var
-fd=ci;return fd}return 0;case
+fe=cj;return fe}return 0;case
 4:var
-cl=q[2];if(0===cl[0]){var
-aK=a[3],G=a[2],cp=a[1],im=cl[3],io=cl[1],eF=dM(j(cp));if(eF){var
-aU=bb(mF,aK),cH=0;if(aU){var
+ck=q[2];if(0===ck[0]){var
+aI=a[3],G=a[2],cn=a[1],im=ck[3],io=ck[1],eF=dM(j(cn));if(eF){var
+aU=bc(mH,aI),cH=0;if(aU){var
 bW=aU[1];if(bW[2]||bW[3])var
-w=0;else{var
+x=0;else{var
 aW=bW[4],V=aU[2],K=0;if(typeof
 aW!=="number")switch(aW[0]){case
 0:var
 a7=0;if(V){var
-bX=V[1];if(bX[2]||bX[3]){var
-w=0;K=1;a7=1}else{var
-bZ=bX[4],cI=0;if(typeof
-bZ!=="number"&&1===bZ[0])if(V[2]){var
-w=0;K=1;a7=1;cI=1}else{var
-w=[0,[0,aW[1],bZ[1]]];K=1;a7=1;cI=1}if(!cI)var
-ef=0}}else
+bY=V[1];if(bY[2]||bY[3]){var
+x=0;K=1;a7=1}else{var
+b0=bY[4],cI=0;if(typeof
+b0!=="number"&&1===b0[0])if(V[2]){var
+x=0;K=1;a7=1;cI=1}else{var
+x=[0,[0,aW[1],b0[1]]];K=1;a7=1;cI=1}if(!cI)var
+ed=0}}else
 var
-ef=V;if(!a7){var
-w=ef;K=1}break;case
+ed=V;if(!a7){var
+x=ed;K=1}break;case
 1:var
 a8=0;if(V){var
-b0=V[1];if(b0[2]||b0[3]){var
-w=0;K=1;a8=1}else{var
-b1=b0[4],cL=0;if(typeof
-b1!=="number"&&0===b1[0])if(V[2]){var
-w=0;K=1;a8=1;cL=1}else{var
-w=[0,[0,b1[1],aW[1]]];K=1;a8=1;cL=1}if(!cL)var
-eg=0}}else
+b1=V[1];if(b1[2]||b1[3]){var
+x=0;K=1;a8=1}else{var
+b2=b1[4],cJ=0;if(typeof
+b2!=="number"&&0===b2[0])if(V[2]){var
+x=0;K=1;a8=1;cJ=1}else{var
+x=[0,[0,b2[1],aW[1]]];K=1;a8=1;cJ=1}if(!cJ)var
+eh=0}}else
 var
-eg=V;if(!a8){var
-w=eg;K=1}break}if(!K){var
-ee=0;cH=1}}}else{var
-ee=aU;cH=1}if(cH)var
-w=ee;if(w){var
-eG=w[1],B=eG[2],eH=j(B),eI=j(eG[1]),dQ=g(p,1,j(G)),dR=dQ?g(p,1,[3,eH,[0,c,c]]):dQ,dS=dR?g(p,1,eI):dR,eJ=dS?g(p,0,[3,[5,[0,c,c],eH],eI]):dS;if(eJ)var
-hP=0,hQ=0,b8=n(function(a){return mA(hQ,hP,xL,a)},aK);else
+eh=V;if(!a8){var
+x=eh;K=1}break}if(!K){var
+ec=0;cH=1}}}else{var
+ec=aU;cH=1}if(cH)var
+x=ec;if(x){var
+eH=x[1],B=eH[2],eI=j(B),eJ=j(eH[1]),dQ=g(p,1,j(G)),dR=dQ?g(p,1,[3,eI,[0,c,c]]):dQ,dS=dR?g(p,1,eJ):dR,eK=dS?g(p,0,[3,[5,[0,c,c],eI],eJ]):dS;if(eK)var
+hP=0,hQ=0,b9=n(function(a){return mC(hQ,hP,xN,a)},aI);else
 var
-b8=eJ;var
-eK=b8?n(function(b){if(1===b[1]){var
+b9=eK;var
+eL=b9?n(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],j(a[1])]);return 1}return 1},aK):b8;if(eK){var
-b2=bb(function(a){return _(mG(a))},aK);if(b2){var
+a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],j(a[1])]);return 1}return 1},aI):b9;if(eL){var
+b3=bc(function(a){return _(mI(a))},aI);if(b3){var
 hR=[0,b(2,c),c],D=g(p,0,[3,j(B),hR]);if(D)var
-b9=D;else
+b$=D;else
 var
-hV=j(B),b9=g(p,0,[3,[0,b(2,c),c],hV]);if(b9){var
-eE=x(function(a){var
-b=h1(0,xI,0,a);return e(function(b){return _(mG(a))},b)},aK),hN=function(f){var
+hV=j(B),b$=g(p,0,[3,[0,b(2,c),c],hV]);if(b$){var
+eB=v(function(a){var
+b=h1(0,xK,0,a);return e(function(b){return _(mI(a))},b)},aI),hN=function(f){var
 g=f[1];if(g){var
-i=g[1],j=u(i,eE,0);if(j)var
-l=bY(i,eE),k=[0,[0,h(bb(function(a){return a},l))]];else
+i=g[1],j=t(i,eB,0);if(j)var
+l=bZ(i,eB),k=[0,[0,h(bc(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=xK;if(a){var
+a=xM;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,xJ,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hO=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,x(hN,a[1]),d,c,b]},im),hS=[0,b2[1],b2[2]],hz=[0,h5(D,G,B),0],hA=[0,h5(D,G,B),hz],hB=[0,h5(D,G,B),hA],hC=[0,f5(D,G,B),0],hD=[0,f5(D,G,B),hC],hT=0,hE=[0,[0,f5(D,G,B),hD],hB],hU=0,b3=function(b,a){return e(function(c){var
-d=t(b,c)?a:wF;return[0,d]},wH)};return m2(0,e(function(a){var
-e=[0,f3(D,G,B)],d=1,f=b3(a,[2,cp]);function
+2:return[0,[0,b,[1,xL,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hO=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,v(hN,a[1]),d,c,b]},im),hS=[0,b3[1],b3[2]],hz=[0,h5(D,G,B),0],hA=[0,h5(D,G,B),hz],hB=[0,h5(D,G,B),hA],hC=[0,f6(D,G,B),0],hD=[0,f6(D,G,B),hC],hT=0,hE=[0,[0,f6(D,G,B),hD],hB],hU=0,b5=function(b,a){return e(function(c){var
+d=u(b,c)?a:wH;return[0,d]},wJ)};return m4(0,e(function(a){var
+e=[0,f4(D,G,B)],d=1,f=b5(a,[2,cn]);function
 b(b,a){return[3,1,b,a]}var
-c=f3(D,G,B),g=b3(a,b(b(f5(D,G,B),cp),c));return[0,b3(a,wG),g,f,e,d]},wI),hU,hE,hT,hS,io,hO)}return b9}var
-eL=1}else
+c=f4(D,G,B),g=b5(a,b(b(f6(D,G,B),cn),c));return[0,b5(a,wI),g,f,e,d]},wK),hU,hE,hT,hS,io,hO)}return b$}var
+eM=1}else
 var
-eL=eK;var
-eM=eL}else
-var
-eM=w;var
+eM=eL;var
 eN=eM}else
 var
-eN=eF;return eN}return 0;case
+eN=x;var
+eO=eN}else
+var
+eO=eF;return eO}return 0;case
 5:var
-cq=a[4],fe=a[1],cs=q[2];if(0===cs[0]){var
-ff=cs[3],s=h0(fe,[0,a[2],a[3]],0,cq),ct=ia(h(ff),ff);if(ct){var
-fg=ct[1];if(fg[2])return 0;var
-fh=id(fe,0,cq,s),fi=fh?_(ai(f2,cq)):fh;if(fi){var
-fj=kI(p,s);if(fj){var
-ip=fg[1],fk=e(f8,s[1]),I=h9(s[1]),fl=j(a[5]),$=cs[1],bF=fw(I,fk,s[1]),N=g$(I,fk,s[1],0),gI=h(s[3]),gJ=M(h(bF),gI),aR=[0,h(bF),gJ],gK=hb(N,I,aR,s[3]),gL=f(e(cr,N),gK),dW=f(bx(ec(N)),gL),dX=ck(dW)[1],bG=cj(dX),dY=s[2];if(0===dY[0]){var
+cq=a[4],ff=a[1],cr=q[2];if(0===cr[0]){var
+fg=cr[3],s=h0(ff,[0,a[2],a[3]],0,cq),ct=ia(h(fg),fg);if(ct){var
+fh=ct[1];if(fh[2])return 0;var
+fi=id(ff,0,cq,s),fj=fi?_(ai(f3,cq)):fi;if(fj){var
+fk=kK(p,s);if(fk){var
+ip=fh[1],fl=e(f9,s[1]),I=h9(s[1]),fm=j(a[5]),$=cr[1],bF=fx(I,fl,s[1]),N=ha(I,fl,s[1],0),gI=h(s[3]),gJ=M(h(bF),gI),aR=[0,h(bF),gJ],gK=hc(N,I,aR,s[3]),gL=f(e(cs,N),gK),dW=f(by(ee(N)),gL),dX=cm(dW)[1],bG=cl(dX),dY=s[2];if(0===dY[0]){var
 dZ=n(function(a){var
-b=l(d);return av(u(aV(bG,a),bG,b),a)},dW),d0=dZ?g(p,1,fl):dZ;if(d0){var
-gM=s[3],gN=x(function(a){return cQ(I,a)},gM),gO=s[3],gP=f(bF,f(e(function(a){return bw(I,a)},gO),gN)),bH=ae(e(function(a){return aj($,a)},gP));if(bH){var
-gQ=aO(dY[1],I),bI=ae(e(function(a){return aj($,a)},gQ));if(bI){var
-bK=co($,I,[5,fl,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bK){var
-bL=s[3],gR=bI[1],gS=bK[1],gT=bH[1],aA=function(a){return aV(bG,a)},gF=aJ(0,h(bL)),gG=e(function(k){var
-l=S(bL,k);if(l){var
-a=l[1],u=bY(k,bL),w=h(x(function(a){return cQ(I,a)},u)),y=M(aR[2],w),j=[0,M(aR[1],k),y],r=ec(N),f=i(ar(aA),r),b=[1,[8,[1,[1,j[1]]]]],d=fx(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=l(d);return av(t(aV(bG,a),bG,b),a)},dW),d0=dZ?g(p,1,fm):dZ;if(d0){var
+gM=s[3],gN=v(function(a){return cQ(I,a)},gM),gO=s[3],gP=f(bF,f(e(function(a){return bx(I,a)},gO),gN)),bH=ae(e(function(a){return aj($,a)},gP));if(bH){var
+gQ=aP(dY[1],I),bI=ae(e(function(a){return aj($,a)},gQ));if(bI){var
+bK=cp($,I,[5,fm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bK){var
+bL=s[3],gR=bI[1],gS=bK[1],gT=bH[1],aA=function(a){return aV(bG,a)},gF=aK(0,h(bL)),gG=e(function(k){var
+l=R(bL,k);if(l){var
+a=l[1],u=bZ(k,bL),x=h(v(function(a){return cQ(I,a)},u)),y=M(aR[2],x),j=[0,M(aR[1],k),y],r=ee(N),f=i(ar(aA),r),b=[1,[8,[1,[1,j[1]]]]],d=fy(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -6397,26 +6425,26 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eh(N,I,j,a);return v(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cr(a))},N),dT=e(function(a){return aA(a[2])},N),gU=s[3],gV=aR[1],dU=e(ad,gT),dV=function(az,ay){var
+t=ek(N,I,j,a);return w(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cs(a))},N),dT=e(function(a){return aA(a[2])},N),gU=s[3],gV=aR[1],dU=e(ad,gT),dV=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
-s=i[1],ab=t(h(s),r_),ac=ab?n(function(a){var
+s=i[1],ab=u(h(s),sa),ac=ab?n(function(a){var
 d=F(O(b(2,b(2,b(2,c)))),a);return d?F(a,b(2,b(2,b(2,c)))):d},s):ab;if(ac){var
-ad=mg($,gS,fm(0,l),s),j=i[2],v=bJ(0,cm($,ad,dU),dX,0),L=function(a){return mf(me($,ad,dU,v,a))};if(typeof
+ad=mi($,gS,ef(0,l),s),j=i[2],v=bJ(0,b4($,ad,dU),dX,0),L=function(a){return mh(mg($,ad,dU,v,a))};if(typeof
 j==="number")return 0===j?ai(function(b){var
-a=u(b,v,0);return a?F(a[1][2][2],d):a},dT):0;else{if(0===j[0]){var
-a=j[2],N=n(r8,a);if(N){var
-o=u(j[1],gG,0);if(o){var
+a=t(b,v,0);return a?F(a[1][2][2],d):a},dT):0;else{if(0===j[0]){var
+a=j[2],N=n(r_,a);if(N){var
+o=t(j[1],gG,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=fV(B,A),ao=fU(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=fW(B,A),ao=fV(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=fU(D),aq=[1,[6,g[2],ap]],G=[0,[0,E,[0,[1,[4,fV(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=fV(D),aq=[1,[6,g[2],ap]],G=[0,[0,E,[0,[1,[4,fW(E,D),aq]],0]]];y=1}else{var
 G=a;y=1}if(y)var
 f=G;break;case
 2:var
@@ -6424,7 +6452,7 @@ z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-H=k[1],I=a[1],m=g[1],ar=fU(I),as=[1,[6,fV(m,H),ar]],at=[1,[6,g[2],as]],au=fU(H),J=[0,[0,m,[0,[1,[4,[1,[6,fV(m,I),au]],at]],0]]];else
+H=k[1],I=a[1],m=g[1],ar=fV(I),as=[1,[6,fW(m,H),ar]],at=[1,[6,g[2],as]],au=fV(H),J=[0,[0,m,[0,[1,[4,[1,[6,fW(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6433,21 +6461,21 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],Q=n(function(a){return mf(u(a[2],v,0))},aw);if(Q)return n(L,P[2]);var
-R=Q}else
+P=f[1],aw=P[1],Q=n(function(a){return mh(t(a[2],v,0))},aw);if(Q)return n(L,P[2]);var
+S=Q}else
 var
-R=f;var
-T=R}else
+S=f;var
+T=S}else
 var
 T=o;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],W=j[1],p=S(gU,W);if(p){var
+V=j[2],W=j[1],p=R(gU,W);if(p){var
 X=p[1];if(typeof
 X!=="number"&&1===X[0]){var
-q=S(dT,V);if(q){var
-r=S(gH,V);if(r){var
+q=R(dT,V);if(q){var
+r=R(gH,V);if(r){var
 ax=M(gV,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 aa=r}else
 var
@@ -6455,9 +6483,9 @@ aa=q;return aa}var
 Y=0}else
 var
 Y=p;return Y}}return ac}var
-ae=i[1],w=S(l,ae);if(w){var
+ae=i[1],w=R(l,ae);if(w){var
 af=w[1],aA=af[1],ag=_(Z(bM(af),aA));if(ag){var
-ah=ed(ae,l),aj=dV(ah[1],i[2]);if(aj){var
+ah=eg(ae,l),aj=dV(ah[1],i[2]);if(aj){var
 l=ah[2],i=i[3];continue}var
 ak=aj}else
 var
@@ -6474,82 +6502,82 @@ d2=bH;var
 d3=d2}else
 var
 d3=d0;return d3}return 0}var
-fn=fj}else
+fn=fk}else
 var
-fn=fi;var
+fn=fj;var
 fo=fn}else
 var
 fo=ct;return fo}return 0;case
 6:var
 fp=a[1];if(fp){var
-fq=fp[1],cw=q[2];if(0===cw[0]){var
-cx=h_(0,xN,cw[3]);if(cx){var
-fr=eD(fq);if(fr){var
-iq=cx[1],fs=bB(fq)[2],a6=cw[1],bD=co(a6,d,fs);if(bD){var
-bE=co(a6,d,[5,[0,c,c],fs]);if(bE){var
-gE=bD[1][1],dN=L(cK(a6),gE);if(dN)return md(a6,bE[1][1],iq);var
+fq=fp[1],cu=q[2];if(0===cu[0]){var
+cx=h_(0,xP,cu[3]);if(cx){var
+fr=eG(fq);if(fr){var
+iq=cx[1],fs=bC(fq)[2],a6=cu[1],bz=cp(a6,d,fs);if(bz){var
+bE=cp(a6,d,[5,[0,c,c],fs]);if(bE){var
+gE=bz[1][1],dN=L(cL(a6),gE);if(dN)return mf(a6,bE[1][1],iq);var
 dO=dN}else
 var
 dO=bE;var
 dP=dO}else
 var
-dP=bD;return dP}var
+dP=bz;return dP}var
 ft=fr}else
 var
 ft=cx;return ft}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=h_(0,xO,cy[3]);return cz?md(cy[1],d,cz[1]):cz}return 0;default:var
-aw=a[1],fv=q[2];if(2===fv[0]){var
-fy=fv[1],cB=h7(h(fy),fy);if(cB){var
-fz=cB[1];if(fz[2])return 0;var
-cC=fz[1],ex=R(xH,h(aw)),ey=ex?R(h(aw),jz):ex,eC=ey?l4(e(aF,aw)):ey,fA=eC?n(function(c){var
-a=cn(j(c[2][1]));if(a){var
-b=cn(j(c[2][2]));if(b)return _(cJ(b[1],a[1]));var
+cz=h_(0,xQ,cy[3]);return cz?mf(cy[1],d,cz[1]):cz}return 0;default:var
+aw=a[1],fu=q[2];if(2===fu[0]){var
+fw=fu[1],cA=h7(h(fw),fw);if(cA){var
+fz=cA[1];if(fz[2])return 0;var
+cC=fz[1],ey=S(xJ,h(aw)),ez=ey?S(h(aw),jA):ey,eA=ez?l6(e(aF,aw)):ez,fA=eA?n(function(c){var
+a=co(j(c[2][1]));if(a){var
+b=co(j(c[2][2]));if(b)return _(cK(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aw):eC;if(fA)var
-ir=f7(wJ,cC),cD=m5(a[5],ir);else
+d=a;return d},aw):eA;if(fA)var
+ir=f8(wL,cC),cD=m7(a[5],ir);else
 var
 cD=fA;if(cD)var
-is=f7(wK,cC),cE=m5(a[6],is);else
+is=f8(wM,cC),cE=m7(a[6],is);else
 var
 cE=cD;if(cE){var
-hG=e(function(a){return[0,d,0]},aw);return m4(aw,a[2],a[3],a[4],hG,cC)}var
-fC=cE}else
+hG=e(function(a){return[0,d,0]},aw);return m6(aw,a[2],a[3],a[4],hG,cC)}var
+fB=cE}else
 var
-fC=cB;return fC}return 0}}return aB}var
-N=[aK,xR,pi(0)],m6=[aK,xS,pi(0)];function
-xP(m,b){var
-f=[0,k(v3,al(b[4])),0],g=[0,k(v5,aa([0,k(v4,al(b[3])),f])),0],a=b[2];switch(a[0]){case
+fB=cA;return fB}return 0}}return aB}var
+N=[aL,xT,pk(0)],m8=[aL,xU,pk(0)];function
+xR(m,b){var
+f=[0,k(v5,al(b[4])),0],g=[0,k(v7,aa([0,k(v6,al(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(vZ,mn(a[1],a[2],a[3]));break;case
+c=I(v1,mp(a[1],a[2],a[3]));break;case
 1:var
-c=I(v0,mo(a[1],a[2],a[3],a[4]));break;default:var
-c=I(v1,B(e(vU,a[1])))}var
-h=[0,k(v6,c),g],i=1===b[2][0]?wa:v7,j=[0,k(v8,al(i)),h],l=[0,k(v9,uB(b[1])),j],d=aq(i9(xQ,fW(aa([0,k(v$,al(v_)),l]),v2)),m);return d?xM(b):d}function
+c=I(v2,mq(a[1],a[2],a[3],a[4]));break;default:var
+c=I(v3,B(e(vW,a[1])))}var
+h=[0,k(v8,c),g],i=1===b[2][0]?wc:v9,j=[0,k(v_,al(i)),h],l=[0,k(v$,uD(b[1])),j],d=aq(i9(xS,fX(aa([0,k(wb,al(wa)),l]),v4)),m);return d?xO(b):d}function
 ac(a){if(0===a[0])return a[1];throw N}function
 Y(a){if(1===a[0])return a[1];throw N}function
 aH(a){if(2===a[0])return a[1];throw N}function
 dO(a){if(3===a[0])return a[1];throw N}function
-aP(f,e){var
+aQ(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===DV(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===DX(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 r(c,b){var
-a=aP(c,b);if(a)return a[1];throw N}function
-b_(b,a){var
+a=aQ(c,b);if(a)return a[1];throw N}function
+cb(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 c8(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],xT]}throw N}function
-eE(e,d){var
+2:return[0,a[1],xV]}throw N}function
+eH(e,d){var
 a=U(e,Y(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw N}function
-f$(i){var
-f=dZ(i),d=[0,0],e=gD(f)-1|0;if(!(e<0)){var
+ga(i){var
+f=dZ(i),d=[0,0],e=gE(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
 a=d[1],g=iO(f,c)-48|0;if(9<g>>>0)throw N;switch(g){case
 0:var
@@ -6573,47 +6601,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eF(a){return jm(f$(a))}function
-eG(b){var
-a=dO(b);return 45===aL(a,0)?O(eF(dh(a,1,ap(a)-1|0))):eF(a)}function
-m7(a){return d5(eF(dO(a)))}function
-ga(a){return jl(eF(dO(a)))}function
-cD(c){var
+eI(a){return jm(ga(a))}function
+eJ(b){var
+a=dO(b);return 45===aM(a,0)?O(eI(dh(a,1,ap(a)-1|0))):eI(a)}function
+m9(a){return d5(eI(dO(a)))}function
+gb(a){return jl(eI(dO(a)))}function
+cE(c){var
 a=dO(c);if(6<ap(a))throw N;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(iW(a))}function
-m8(a){var
-b=97<=a?1:0,c=b?a<=oX?1:0:b;if(c)var
+m_(a){var
+b=97<=a?1:0,c=b?a<=oZ?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-m9(y,b){var
+m$(y,b){var
 d=ap(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aL(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aM(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aL(b,a[1])&&!(57<aL(b,a[1]))){a[1]++;continue}return dh(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aM(b,a[1])&&!(57<aM(b,a[1]))){a[1]++;continue}return dh(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw N}function
 h(j){if(64<j)throw N;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&aq(dh(b,a[1],5),xV)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aq(dh(b,a[1],5),xX)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&m8(aL(b,a[1]))){var
+v=0;if(a[1]<d&&m_(aM(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!m8(aL(b,a[1]))&&95!==aL(b,a[1])&&(!(48<=aL(b,a[1]))||57<aL(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!m_(aM(b,a[1]))&&95!==aM(b,a[1])&&(!(48<=aM(b,a[1]))||57<aM(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,i(y,dh(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,xW);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,xY);if(r)var
 s=r;else
 var
-t=1<ap(g)?1:0,s=t?48===aL(g,0)?1:0:t;if(s)throw N;if(q){var
-k=q[1],x=0;if(aq(k,xX)||48===aL(k,ap(k)-1|0))x=1;else
+t=1<ap(g)?1:0,s=t?48===aM(g,0)?1:0:t;if(s)throw N;if(q){var
+k=q[1],x=0;if(aq(k,xZ)||48===aM(k,ap(k)-1|0))x=1;else
 var
-z=f$(k),e=[0,f$(g),z];if(x)throw N}else
+z=ga(k),e=[0,ga(g),z];if(x)throw N}else
 var
-e=[0,f$(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,xU)){if(!(2<ap(f))&&2<=iW(f)&&!(64<iW(f)))return[4,e,d5(eF(f))];throw N}throw N}return e}function
+e=[0,ga(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,xW)){if(!(2<ap(f))&&2<=iW(f)&&!(64<iW(f)))return[4,e,d5(eI(f))];throw N}throw N}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6623,46 +6651,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw N;return g}function
-gb(a){return m9(function(a){return[0,a]},a)}function
+gc(a){return m$(function(a){return[0,a]},a)}function
 ih(a){var
-b=aH(a);return m9(function(a){return a},b)}function
-Q(a){return gb(aH(a))}function
-bQ(a){if(2===a[0])return[0,gb(a[1])];var
-b=ac(a),c=Q(r(b,xY));return[1,Q(r(b,xZ)),c]}function
-V(a){throw[0,m6,aR(i9(x1,a),x0)]}function
+b=aH(a);return m$(function(a){return a},b)}function
+Q(a){return gc(aH(a))}function
+bQ(a){if(2===a[0])return[0,gc(a[1])];var
+b=ac(a),c=Q(r(b,x0));return[1,Q(r(b,x1)),c]}function
+V(a){throw[0,m8,aS(i9(x3,a),x2)]}function
 ii(c){var
-a=aH(c);if(m(a,x2)){var
-b=m(a,x3);if(b)throw N;return b}return 1}function
-x4(d){var
+a=aH(c);if(m(a,x4)){var
+b=m(a,x5);if(b)throw N;return b}return 1}function
+x6(d){var
 b=ac(d);function
-a(a){return eE(bQ,r(b,a))}var
-c=aH(r(b,x5));if(m(c,x6)){if(m(c,x7)){if(m(c,x8))return V([0,x_,[0,c,x9]]);var
-e=aP(b,x$),f=b_(function(a){return eE(bQ,a)},e),g=a(ya);return[1,a(yb),g,f]}var
-h=ii(r(b,yc)),i=bQ(r(b,yd)),j=a(ye),k=a(yf);return[0,a(yg),k,j,i,h]}return[2,a(yh)]}function
-yi(d){var
+a(a){return eH(bQ,r(b,a))}var
+c=aH(r(b,x7));if(m(c,x8)){if(m(c,x9)){if(m(c,x_))return V([0,ya,[0,c,x$]]);var
+e=aQ(b,yb),f=cb(function(a){return eH(bQ,a)},e),g=a(yc);return[1,a(yd),g,f]}var
+h=ii(r(b,ye)),i=bQ(r(b,yf)),j=a(yg),k=a(yh);return[0,a(yi),k,j,i,h]}return[2,a(yj)]}function
+yk(d){var
 a=ac(d);if(a){var
-b=a[1];if(!m(b[1],yj)){var
-c=b[2];if(2===c[0]&&!m(c[1],yk))return 1}}return 0}function
-m_(e){var
+b=a[1];if(!m(b[1],yl)){var
+c=b[2];if(2===c[0]&&!m(c[1],ym))return 1}}return 0}function
+na(e){var
 b=ac(e);function
 a(a){return U(bQ,Y(r(b,a)))}var
-c=aH(r(b,yl)),d=aP(b,ym);if(m(c,yn)){if(m(c,yo)){if(!m(c,yp)&&!d){var
-f=a(ys);return[1,a(yt),f]}}else
+c=aH(r(b,yn)),d=aQ(b,yo);if(m(c,yp)){if(m(c,yq)){if(!m(c,yr)&&!d){var
+f=a(yu);return[1,a(yv),f]}}else
 if(!d){var
-g=ii(r(b,yu)),h=bQ(r(b,yv)),i=a(yw),j=a(yx);return[0,a(yy),j,i,h,g]}}else
+g=ii(r(b,yw)),h=bQ(r(b,yx)),i=a(yy),j=a(yz);return[0,a(yA),j,i,h,g]}}else
 if(!d){var
-k=ii(r(b,yz)),l=bQ(r(b,yA)),n=bQ(r(b,yB)),o=a(yC),p=a(yD),q=a(yE);return[2,a(yF),q,p,o,n,l,k]}return V([0,yr,[0,c,yq]])}function
-m$(d){var
+k=ii(r(b,yB)),l=bQ(r(b,yC)),n=bQ(r(b,yD)),o=a(yE),p=a(yF),q=a(yG);return[2,a(yH),q,p,o,n,l,k]}return V([0,yt,[0,c,ys]])}function
+nb(d){var
 a=ac(d);if(a){var
-b=a[1];if(!m(b[1],yG)){var
-c=b[2];if(2===c[0]&&!m(c[1],yH))return 1}}return 0}function
-cE(c,d){var
+b=a[1];if(!m(b[1],yI)){var
+c=b[2];if(2===c[0]&&!m(c[1],yJ))return 1}}return 0}function
+cF(c,d){var
 a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw N}function
 dP(h,p){var
-g=h?h[1]:h,c=ac(p),a=aH(r(c,yI)),j=pv(a,yJ),f=0;if(0<=j)if(0<j)if(m(a,yK))if(m(a,yL))if(m(a,yM))if(m(a,yN))if(m(a,yO))if(m(a,yP)){var
-k=m(a,yQ);if(k)f=1;else
+g=h?h[1]:h,c=ac(p),a=aH(r(c,yK)),j=px(a,yL),f=0;if(0<=j)if(0<j)if(m(a,yM))if(m(a,yN))if(m(a,yO))if(m(a,yP))if(m(a,yQ))if(m(a,yR)){var
+k=m(a,yS);if(k)f=1;else
 var
 b=k}else
 var
@@ -6680,7 +6708,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf))if(m(a,zg))if(m(a,zh))f=1;else
+if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf))if(m(a,zg))if(m(a,zh))if(m(a,zi))if(m(a,zj))f=1;else
 var
 b=1;else
 var
@@ -6698,12 +6726,12 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?V([0,yS,[0,a,yR]]):b;function
-i(a){return r(c,yT)}var
-d=aH(r(c,yU)),l=m(d,yV);if(l)if(m(d,yW))if(m(d,yX))if(m(d,yY))var
-e=V([0,y0,[0,d,yZ]]);else
+n=f?V([0,yU,[0,a,yT]]):b;function
+i(a){return r(c,yV)}var
+d=aH(r(c,yW)),l=m(d,yX);if(l)if(m(d,yY))if(m(d,yZ))if(m(d,y0))var
+e=V([0,y2,[0,d,y1]]);else
 var
-o=cE(Q,i(0)),e=[2,o[1],o[2]];else
+o=cF(Q,i(0)),e=[2,o[1],o[2]];else
 var
 e=[0,Q(i(0))];else
 var
@@ -6713,81 +6741,81 @@ e=l;function
 q(A){var
 a=ac(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],y2)){var
+q=a[1];if(!m(q[1],y4)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return g?V(y3):[1,U(Q,b)]}}}break;case
+e=b[1];c=1;l=1}if(!l&&!a[2])return g?V(y5):[1,U(Q,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],y4)){var
+s=a[1];if(!m(s[1],y6)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 h=a[2];if(h){var
-u=h[1];if(!m(u[1],y5)){var
+u=h[1];if(!m(u[1],y7)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!h[2]){var
 B=Q(i[1]);return[2,Q(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],y6)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],y7)&&!j[2]&&g)return V(y8)}else
+w=a[1];if(!m(w[1],y8)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],y9)&&!j[2]&&g)return V(y_)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],y9)){var
+y=a[1];if(!m(y[1],y$)){var
 z=y[2];if(1===z[0]&&!a[2])return[1,U(Q,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],y1)){var
+o=a[1];if(!m(o[1],y3)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];c=1}}}}break}if(c)return[0,Q(e)];throw N}var
-s=b_(q,aP(c,y_));return[0,n,b_(cD,aP(c,y$)),s,e]}function
-na(c){var
-d=dP(zk,c),e=d[1];if(!(9<=e))switch(e){case
+s=cb(q,aQ(c,za));return[0,n,cb(cE,aQ(c,zb)),s,e]}function
+nc(c){var
+d=dP(zm,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dP(zi,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(zj)}function
-nb(a){var
-b=dP(zl,a);return 11===b[1]?b:na(a)}function
-zm(a){var
-b=dP(zn,a),c=b[1];if(9!==c&&!(14<=c))return nb(a);return b}function
+a=dP(zk,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(zl)}function
+nd(a){var
+b=dP(zn,a);return 11===b[1]?b:nc(a)}function
+zo(a){var
+b=dP(zp,a),c=b[1];if(9!==c&&!(14<=c))return nd(a);return b}function
 ij(c){var
-d=dP(zo,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:na(c)}function
+d=dP(zq,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:nc(c)}function
 ik(b){var
-a=ac(b[2]);if(m(b[1],zv)){var
-c=cE(Q,r(a,zw)),d=cE(Q,r(a,zx)),e=d[2],f=d[1],g=Q(r(a,zy));return[1,c[1],c[2],g,f,e]}var
-h=U(Q,Y(r(a,zz)));return[0,U(Q,Y(r(a,zA))),h]}function
-zB(f){var
+a=ac(b[2]);if(m(b[1],zx)){var
+c=cF(Q,r(a,zy)),d=cF(Q,r(a,zz)),e=d[2],f=d[1],g=Q(r(a,zA));return[1,c[1],c[2],g,f,e]}var
+h=U(Q,Y(r(a,zB)));return[0,U(Q,Y(r(a,zC))),h]}function
+zD(f){var
 a=ac(f);function
 d(b){return Q(r(a,b))}function
-c(b){return eE(Q,r(a,b))}var
-b=aH(r(a,zC));if(m(b,zD)){if(!m(b,zE)){var
-j=r(a,zK),e=cE(function(a){return a},j),k=aP(a,zL),l=b_(function(a){return c(zM)},k),n=gb(aH(e[2])),o=gb(aH(e[1])),p=d(zN);return[0,cD(r(a,zO)),p,o,n,l]}if(m(b,zF))throw N}var
-g=d(zG),h=c(zH),i=c(zI);return[1,aq(b,zJ),i,h,g]}function
+c(b){return eH(Q,r(a,b))}var
+b=aH(r(a,zE));if(m(b,zF)){if(!m(b,zG)){var
+j=r(a,zM),e=cF(function(a){return a},j),k=aQ(a,zN),l=cb(function(a){return c(zO)},k),n=gc(aH(e[2])),o=gc(aH(e[1])),p=d(zP);return[0,cE(r(a,zQ)),p,o,n,l]}if(m(b,zH))throw N}var
+g=d(zI),h=c(zJ),i=c(zK);return[1,aq(b,zL),i,h,g]}function
 il(ar){var
-g=c8(ar),h=g[1];if(m(h,zP)){if(m(h,zQ)){if(m(h,zR)){if(m(h,zS))return V([0,zU,[0,h,zT]]);var
-w=r(ac(g[2]),zV),ag=0;if(2===w[0]){var
-L=m(w[1],zW);if(!L){var
+g=c8(ar),h=g[1];if(m(h,zR)){if(m(h,zS)){if(m(h,zT)){if(m(h,zU))return V([0,zW,[0,h,zV]]);var
+w=r(ac(g[2]),zX),ag=0;if(2===w[0]){var
+L=m(w[1],zY);if(!L){var
 K=L;ag=1}}if(!ag)var
 K=[0,bQ(w)];return[6,K]}var
-M=ac(g[2]),j=il([0,[0,[0,zY,r(M,zX)],0]]);if(0===j[0]){var
+M=ac(g[2]),j=il([0,[0,[0,z0,r(M,zZ)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-as=Q(r(M,z0));return[5,j[1],x[1],x[2],j[4],as]}}return V(zZ)}var
-a=ac(g[2]),y=aP(a,z1),z=y?U(zB,Y(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?V(z2):a},k=c8(r(a,z3)),b=c8(r(a,z4)),c=k[1];if(m(c,z5)&&m(c,z6)&&m(c,z7)){if(0===aP(a,z8)){if(m(c,z9)){var
-ah=0;if(m(c,z_)){if(!m(c,z$)){var
-O=b[1],ai=0;if(m(O,Ac)&&m(O,Ad)){ah=1;ai=1}if(!ai){var
-A=Y(k[2]),at=Y(r(a,Ag)),P=U(function(a){return dP(0,a)},at);if(!au(yi,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
-ax=U(x4,A),f=ac(b[2]);if(m(b[1],zp))var
-I=cE(Q,r(f,zq)),J=cE(Q,r(f,zr)),am=J[2],an=J[1],ao=Q(r(f,zs)),R=[1,I[1],I[2],ao,an,am];else
+as=Q(r(M,z2));return[5,j[1],x[1],x[2],j[4],as]}}return V(z1)}var
+a=ac(g[2]),y=aQ(a,z3),z=y?U(zD,Y(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?V(z4):a},k=c8(r(a,z5)),b=c8(r(a,z6)),c=k[1];if(m(c,z7)&&m(c,z8)&&m(c,z9)){if(0===aQ(a,z_)){if(m(c,z$)){var
+ah=0;if(m(c,Aa)){if(!m(c,Ab)){var
+O=b[1],ai=0;if(m(O,Ae)&&m(O,Af)){ah=1;ai=1}if(!ai){var
+A=Y(k[2]),at=Y(r(a,Ai)),P=U(function(a){return dP(0,a)},at);if(!au(yk,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+ax=U(x6,A),f=ac(b[2]);if(m(b[1],zr))var
+I=cF(Q,r(f,zs)),J=cF(Q,r(f,zt)),am=J[2],an=J[1],ao=Q(r(f,zu)),R=[1,I[1],I[2],ao,an,am];else
 var
-ap=eE(Q,r(f,zt)),R=[0,eE(Q,r(f,zu)),ap];return[0,ax,R,z,P]}o(0);var
-av=U(ij,Y(r(a,Ah))),aw=ik(b);return[1,0,U(m_,A),0,aw,0,av]}}}else
-if(!m(b[1],Ai)){o(0);var
-S=U(ij,Y(r(a,Aj))),v=0,e=S;for(;;){if(e){var
+ap=eH(Q,r(f,zv)),R=[0,eH(Q,r(f,zw)),ap];return[0,ax,R,z,P]}o(0);var
+av=U(ij,Y(r(a,Aj))),aw=ik(b);return[1,0,U(na,A),0,aw,0,av]}}}else
+if(!m(b[1],Ak)){o(0);var
+S=U(ij,Y(r(a,Al))),v=0,e=S;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
@@ -6806,54 +6834,54 @@ C=n[2];if(C){var
 F=0,X=C[1][4];if(typeof
 X!=="number"&&0===X[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)V(Ak);var
-ay=Q(r(ac(b[2]),Al));return[4,Q(r(ac(k[2]),Am)),ay,S]}}if(!ah)return V([0,Ab,[0,c,Aa]])}else
-if(!m(b[1],An)){o(0);var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)V(Am);var
+ay=Q(r(ac(b[2]),An));return[4,Q(r(ac(k[2]),Ao)),ay,S]}}if(!ah)return V([0,Ad,[0,c,Ac]])}else
+if(!m(b[1],Ap)){o(0);var
 p=ac(k[2]),Z=ac(b[2]),_=function(c,a){var
 b=Y(a);return U(function(d){var
 a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,aH(a[1]),e]}}throw N},b)},az=function(d){var
 a=ac(d);if(a){var
-b=a[1],c=b[1];if(m(c,Ao)){if(!m(c,Ap)&&!a[2])return[0,U(ih,Y(b[2]))]}else
-if(!a[2])return[1,ih(b[2])]}throw N},aA=U(nb,Y(r(a,Aq))),aB=U(Q,Y(r(Z,Ar))),aC=U(Q,Y(r(Z,As))),aD=U(az,Y(r(p,At))),aE=_(ih,r(p,Au)),aF=_(bQ,r(p,Av));return[3,U(aH,Y(r(p,Aw))),aF,aE,aD,aC,aB,aA]}return V([0,Af,[0,b[1],Ae]])}throw N}var
-$=ac(k[2]),q=b_(Q,aP($,Ax)),aG=function(f){var
-a=c8(f),b=a[1];if(m(b,Ay)){if(m(b,Az)){if(m(b,AA)){if(m(b,AB))throw N;var
-d=a[2],g=Q(r(ac(d),AC));return[3,Q(r(ac(d),AD)),g]}var
-h=a[2],c=function(a){return cE(Q,r(ac(h),a))},i=c(AE),j=c(AF);return[1,c(AG),j,i]}var
-e=cE(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},s=b_(aG,aP(a,AH)),aa=m(c,AI),D=aa?m(c,AJ)?2:1:aa,t=Y(r($,AK));if(q&&s){var
-ab=s[1];if(gH(m$,t)){var
+b=a[1],c=b[1];if(m(c,Aq)){if(!m(c,Ar)&&!a[2])return[0,U(ih,Y(b[2]))]}else
+if(!a[2])return[1,ih(b[2])]}throw N},aA=U(nd,Y(r(a,As))),aB=U(Q,Y(r(Z,At))),aC=U(Q,Y(r(Z,Au))),aD=U(az,Y(r(p,Av))),aE=_(ih,r(p,Aw)),aF=_(bQ,r(p,Ax));return[3,U(aH,Y(r(p,Ay))),aF,aE,aD,aC,aB,aA]}return V([0,Ah,[0,b[1],Ag]])}throw N}var
+$=ac(k[2]),q=cb(Q,aQ($,Az)),aG=function(f){var
+a=c8(f),b=a[1];if(m(b,AA)){if(m(b,AB)){if(m(b,AC)){if(m(b,AD))throw N;var
+d=a[2],g=Q(r(ac(d),AE));return[3,Q(r(ac(d),AF)),g]}var
+h=a[2],c=function(a){return cF(Q,r(ac(h),a))},i=c(AG),j=c(AH);return[1,c(AI),j,i]}var
+e=cF(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},s=cb(aG,aQ(a,AJ)),aa=m(c,AK),D=aa?m(c,AL)?2:1:aa,t=Y(r($,AM));if(q&&s){var
+ab=s[1];if(gI(nb,t)){var
 aI=function(c){var
 a=ac(c);function
-b(b){return U(bQ,Y(r(a,b)))}if(0!==aP(a,AL))V(AM);var
-d=b(AN);return[0,b(AO),d]},ad=U(zm,Y(r(a,AP))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ad))V(AQ);var
+b(b){return U(bQ,Y(r(a,b)))}if(0!==aQ(a,AN))V(AO);var
+d=b(AP);return[0,b(AQ),d]},ad=U(zo,Y(r(a,AR))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ad))V(AS);var
 aJ=ik(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ab,z,ad]}}o(0);var
-al=0;if(!q&&aq(c,AT)){var
+al=0;if(!q&&aq(c,AV)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==s?1:0,aL=af?au(m$,t):af;if(aL)V(AR);var
-aM=U(ij,Y(r(a,AS))),aN=ik(b);return[1,ae,U(m_,t),q,aN,s,aM]}var
+af=0!==s?1:0,aL=af?au(nb,t):af;if(aL)V(AT);var
+aM=U(ij,Y(r(a,AU))),aN=ik(b);return[1,ae,U(na,t),q,aN,s,aM]}var
 u=ac(g[2]);function
 aO(b){var
-a=ac(b),c=Q(r(a,AU)),d=[0,Q(r(a,AV)),c];return[0,aH(r(a,AW)),d]}var
-l=il([0,[0,[0,AY,r(u,AX)],0]]);if(0===l[0]&&!l[3]){var
-aQ=Q(r(u,A0)),aR=Q(r(u,A1)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(r(u,A2))),aU,aT,aS,aR,aQ]}return V(AZ)}function
-im(a){return U(eG,Y(a))}function
+a=ac(b),c=Q(r(a,AW)),d=[0,Q(r(a,AX)),c];return[0,aH(r(a,AY)),d]}var
+l=il([0,[0,[0,A0,r(u,AZ)],0]]);if(0===l[0]&&!l[3]){var
+aP=Q(r(u,A2)),aR=Q(r(u,A3)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(r(u,A4))),aU,aT,aS,aR,aP]}return V(A1)}function
+im(a){return U(eJ,Y(a))}function
 io(c,b){var
 a=im(b);if(bW(a)!==c)throw N;return a}function
-nc(a,d){var
-b=ac(d),e=Y(r(b,A5)),f=a[2],c=U(function(a){return io(f,a)},e),g=a[1];if(bW(c)!==g)throw N;return[0,c,ga(r(b,A6))]}function
-eH(g,o){var
+ne(a,d){var
+b=ac(d),e=Y(r(b,A7)),f=a[2],c=U(function(a){return io(f,a)},e),g=a[1];if(bW(c)!==g)throw N;return[0,c,gb(r(b,A8))]}function
+eK(g,o){var
 M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=pv(a,A7),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,A8)&&m(a,A9)&&m(a,A_))if(m(a,A$))f=1;else{var
+e=d[1],a=e[1],O=px(a,A9),b=0;if(0<=O)if(0<O){var
+f=0;if(m(a,A_)&&m(a,A$)&&m(a,Ba))if(m(a,Bb))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 s=q[2];if(s&&!s[2]){if(!d[2]){var
-ae=U(im,Y(s[1])),af=aH(q[1]);return[8,eH(g,p[1]),af,ae]}b=1;f=1}else
+ae=U(im,Y(s[1])),af=aH(q[1]);return[8,eK(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6863,46 +6891,46 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=ga(x[1]),ai=eG(w[1]);return[5,eH(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,Bc))if(m(a,Bd))if(m(a,Be))if(m(a,Bf)){if(!m(a,Bg)){if(!d[2]){var
-S=ac(e[2]),aj=Y(r(S,Bh)),ak=M+1|0,T=U(function(a){return io(ak,a)},aj);if(3===bW(T))return[1,Bj,T,ga(r(S,Bi))];throw N}b=1}}else{if(!d[2]){var
-J=aH(e[2]),K=m(J,A3);if(K){if(m(J,A4))throw N;var
+ah=gb(x[1]),ai=eJ(w[1]);return[5,eK(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,Be))if(m(a,Bf))if(m(a,Bg))if(m(a,Bh)){if(!m(a,Bi)){if(!d[2]){var
+S=ac(e[2]),aj=Y(r(S,Bj)),ak=M+1|0,T=U(function(a){return io(ak,a)},aj);if(3===bW(T))return[1,Bl,T,gb(r(S,Bk))];throw N}b=1}}else{if(!d[2]){var
+J=aH(e[2]),K=m(J,A5);if(K){if(m(J,A6))throw N;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],Z=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],Bl)){var
+e=b[1];if(!m(e[1],Bn)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],Bm)){var
+g=c[1];if(!m(g[1],Bo)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eH(Bn,a)}}}}}}}}}}return eH(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eK(Bp,a)}}}}}}}}}}return eK(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-_=j[1],k=_[1],c=0;if(m(k,Bo)&&m(k,Bp)&&m(k,Bq))if(m(k,Br))c=1;else{var
+_=j[1],k=_[1],c=0;if(m(k,Bq)&&m(k,Br)&&m(k,Bs))if(m(k,Bt))c=1;else{var
 $=_[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ad=0;if(m(G,Bt)&&m(G,Bu)&&m(G,Bv)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ad=0;if(m(G,Bv)&&m(G,Bw)&&m(G,Bx)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,Bw)&&m(aa,Bx)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,By)&&m(aa,Bz)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=ga(I[1]),aq=eG(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
+ap=gb(I[1]),aq=eJ(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ab=i[1];if(!m(ab,By)||!m(ab,Bz))n=1;break}switch(n){case
+ab=i[1];if(!m(ab,BA)||!m(ab,BB))n=1;break}switch(n){case
 0:var
-y=V(Bs);break;case
+y=V(Bu);break;case
 1:var
 y=Z(g,i);break}return[7,y]}b=1}else{var
 W=e[2];if(1===W[0]){var
@@ -6913,50 +6941,50 @@ X=e[2];if(1===X[0]){var
 B=X[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dO(D[1]),Bk))throw N;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eG(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return V([0,Bb,[0,a,Ba]]);break;case
+an=C[1];if(m(dO(D[1]),Bm))throw N;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eJ(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return V([0,Bd,[0,a,Bc]]);break;case
 1:break;default:var
-Q=nc(g,u);return t(Q[1],Q[2])}}break;case
+Q=ne(g,u);return t(Q[1],Q[2])}}break;case
 2:return[0,o[1]]}throw N}function
-nd(k){var
-b=c8(k),a=b[1];if(m(a,BC))if(m(a,BD)){var
-g=m(a,BE);if(!g)return g;if(m(a,BF)){if(!m(a,BG))return[2,U(Q,Y(b[2]))]}else{var
+nf(k){var
+b=c8(k),a=b[1];if(m(a,BE))if(m(a,BF)){var
+g=m(a,BG);if(!g)return g;if(m(a,BH)){if(!m(a,BI))return[2,U(Q,Y(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cD(d[1]);return[1,cD(c[1]),l]}}}}}else{var
+l=cE(d[1]);return[1,cE(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(im,Y(f[1]));return[0,cD(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,BI,[0,a,BH]])}function
-ne(f,b){var
-a=ac(b),c=Y(r(a,BN)),d=U(function(g){var
+n=U(im,Y(f[1]));return[0,cE(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,BK,[0,a,BJ]])}function
+ng(f,b){var
+a=ac(b),c=Y(r(a,BP)),d=U(function(g){var
 a=ac(g);function
 b(d,c){var
-b=aP(a,c);return b?U(d,Y(b[1])):b}var
-c=b(eG,BJ),d=b_(nd,aP(a,BK)),e=b_(cD,aP(a,BL));return[0,b(function(h){var
+b=aQ(a,c);return b?U(d,Y(b[1])):b}var
+c=b(eJ,BL),d=cb(nf,aQ(a,BM)),e=cb(cE,aQ(a,BN));return[0,b(function(h){var
 b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],BA)){if(!a[2]){if(m(dO(e),BB))throw N;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],BC)){if(!a[2]){if(m(dO(e),BD))throw N;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eH(f,c);return[0,cD(e),g]}}}throw N},BM),e,d,c]},c),e=aP(a,BO),g=b_(function(a){return nc(f,a)},e);return[0,m7(r(a,BP)),g,d]}function
-nf(c){var
-a=ac(c),b=aP(a,BQ),d=b?U(Q,Y(b[1])):b,e=nd(r(a,BR)),f=U(Q,Y(r(a,BS)));return[0,m7(r(a,BT)),f,d,e]}function
-ng(c){var
+g=eK(f,c);return[0,cE(e),g]}}}throw N},BO),e,d,c]},c),e=aQ(a,BQ),g=cb(function(a){return ne(f,a)},e);return[0,m9(r(a,BR)),g,d]}function
+nh(c){var
+a=ac(c),b=aQ(a,BS),d=b?U(Q,Y(b[1])):b,e=nf(r(a,BT)),f=U(Q,Y(r(a,BU)));return[0,m9(r(a,BV)),f,d,e]}function
+ni(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-B3(b){var
+B5(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-B4(b){var
+B6(b){var
 a=b[4];if(14<=b[1]&&typeof
-a!=="number"&&1===a[0])return 1-es(j(a[1]));return 0}function
-B8(h){var
+a!=="number"&&1===a[0])return 1-ev(j(a[1]));return 0}function
+B_(h){var
 l=ap(h),c=[0,0];function
-n(a){if(c[1]<l)return aL(h,c[1]);throw N}function
+n(a){if(c[1]<l)return aM(h,c[1]);throw N}function
 o(a){if(n(0)===a){c[1]++;return 0}throw N}function
-G(a,b){for(;;){if(c[1]<l&&i(b,aL(h,c[1]))){c[1]++;continue}return dh(h,a,c[1]-a|0)}}function
+G(a,b){for(;;){if(c[1]<l&&i(b,aM(h,c[1]))){c[1]++;continue}return dh(h,a,c[1]-a|0)}}function
 H(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6975,9 +7003,9 @@ g=125;return[0,I(function(c){var
 a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,H(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,G(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw N}var
-aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aL(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw N;var
-t=ac(aa);if(m(aH(r(t,B9)),B_))throw N;var
-a=il(r(t,B$)),B=0;switch(a[0]){case
+aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aM(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw N;var
+t=ac(aa);if(m(aH(r(t,B$)),Ca))throw N;var
+a=il(r(t,Cb)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -6997,20 +7025,20 @@ K=a[2];B=1;break;case
 0:case
 5:var
 K=a[1];B=1;break;default:var
-g=Cv}if(B)var
+g=Cx}if(B)var
 g=[0,bW(K),3];var
-p=c8(r(t,Ca)),q=p[1];if(m(q,BY))if(m(q,BZ))if(m(q,B0))var
-b=V([0,B2,[0,q,B1]]);else
+p=c8(r(t,Cc)),q=p[1];if(m(q,B0))if(m(q,B1))if(m(q,B2))var
+b=V([0,B4,[0,q,B3]]);else
 var
-s=nf(p[2]),b=[1,s[1],s[2],s[3],s[4]];else
+s=nh(p[2]),b=[1,s[1],s[2],s[3],s[4]];else
 var
-w=ne(g,p[2]),b=[0,w[1],w[2],w[3]];else
+w=ng(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
 ad=Y(p[2]),b=[2,U(function(f){var
-a=c8(f),b=a[1];if(m(b,BU)){if(m(b,BV)){if(m(b,BW)){var
-e=m(b,BX);if(e)throw N;return e}return[0,cD(a[2])]}var
-c=nf(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=ne(g,a[2]);return[1,d[1],d[2],d[3]]},ad)];function
+a=c8(f),b=a[1];if(m(b,BW)){if(m(b,BX)){if(m(b,BY)){var
+e=m(b,BZ);if(e)throw N;return e}return[0,cE(a[2])]}var
+c=nh(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=ng(g,a[2]);return[1,d[1],d[2],d[3]]},ad)];function
 ae(a){var
 b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
 af(a){return 0!==a[3]?1:0}function
@@ -7027,10 +7055,10 @@ P=a[4],O=a[1];d=5;break;case
 ak=b[3];if(au(function(a){var
 b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))V(Cm);else
+7:return 1;default:return 0}},b)},ak))V(Co);else
 d=3;break;case
 1:var
-al=a[6];if(au(function(a){return 8===a[1]?1:0},al))V(Cn);else
+al=a[6];if(au(function(a){return 8===a[1]?1:0},al))V(Cp);else
 d=2;break;default:d=1}break;case
 2:var
 R=a[7],S=a[1],D=0;switch(b[0]){case
@@ -7047,37 +7075,37 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],Co))a=1;break;case
+1:if(m(c[1],Cq))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],Cp))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))V(Cq);else{var
-aq=b[3];if(gH(function(a){var
-b=a[1];return gH(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],Cr))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))V(Cs);else{var
+aq=b[3];if(gI(function(a){var
+b=a[1];return gI(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,B5)){if(!m(c,B6))return au(B4,R)}else
+c=b[1];if(m(c,B7)){if(!m(c,B8))return au(B6,R)}else
 a=1;break;case
-1:if(!m(b[1],B7))a=1;break;case
+1:if(!m(b[1],B9))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-V(Cr)}break;case
+V(Ct)}break;case
 1:var
 Z=0,W=b[4];if(typeof
 W!=="number"&&2!==W[0])if(au(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},R)){V(Cs);Z=1}else{d=2;D=1;Z=1}break;default:d=1;D=1}break;case
+b=4<=a?1:0;if(!b)return b}return 1},R)){V(Cu);Z=1}else{d=2;D=1;Z=1}break;default:d=1;D=1}break;case
 3:switch(b[0]){case
-0:if(au(ae,b[3]))V(Ct);else
+0:if(au(ae,b[3]))V(Cv);else
 d=3;break;case
 2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
 ar=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))V(Cu);else
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))V(Cw);else
 d=4;break;case
 1:d=2;break;default:d=4}break;default:d=2}var
 f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){V(Cl);f=1}else
+2:if(1===b[0]&&M(b[4])){V(Cn);f=1}else
 f=3;break;case
 4:f=3;break;case
 0:f=1;break;case
@@ -7085,13 +7113,13 @@ f=3;break;case
 3:f=2;break}var
 e=0;switch(f){case
 3:switch(a[0]){case
-3:V(Ck);e=2;break;case
+3:V(Cm);e=2;break;case
 7:var
 P=a[4],O=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(ng,a[4])){V(Cj);e=2}else
+6:e=1;break;default:if(au(ni,a[4])){V(Cl);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
@@ -7099,7 +7127,7 @@ e=4}break;case
 j=0;switch(e){case
 2:break;case
 3:var
-_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},O)){V(Cb);_=1}if(!_)j=3;break;case
+_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},O)){V(Cd);_=1}if(!_)j=3;break;case
 4:j=3;break;case
 1:j=2;break;default:j=1}var
 k=0;switch(j){case
@@ -7107,11 +7135,11 @@ k=0;switch(j){case
 E=0;switch(a[0]){case
 5:var
 $=0;if(0===b[0]){var
-aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){V(Ci);E=1;$=1}}if(!$)var
+aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){V(Ck);E=1;$=1}}if(!$)var
 x=a[4];break;case
 7:var
 x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(au(B3,x))V(Ch);else
+x=a[4];else{k=2;E=1}}if(!E)if(au(B5,x))V(Cj);else
 k=2;break;case
 2:k=2;break;case
 1:k=1;break}var
@@ -7126,24 +7154,24 @@ ah=a[4];switch(b[0]){case
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(ng,ah)}return 0};if(au(ai,b[1]))V(Cg);u=1}break}if(!u)if(0===b[0]&&L(b[3]))V(Cf);else
+2:return au(ni,ah)}return 0};if(au(ai,b[1]))V(Ci);u=1}break}if(!u)if(0===b[0]&&L(b[3]))V(Ch);else
 F=1;break;case
 1:F=1;break}var
-Q=ac(r(t,Cc)),ag=aH(r(Q,Cd));return[0,a,b,aH(r(Q,Ce)),ag]}function
-Cw(b){var
-c=ap(b),g=64,h=D_(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+Q=ac(r(t,Ce)),ag=aH(r(Q,Cf));return[0,a,b,aH(r(Q,Cg)),ag]}function
+Cy(b){var
+c=ap(b),g=64,h=Ea(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aq(dh(b,a,18),Cx);if(!e){var
+e=aq(dh(b,a,18),Cz);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Et(function(b){try{if(Cw(b))var
-a=Cz;else{try{var
-e=0,d=B8(b);e=1}catch(a){a=px(a);if(a[1]===m6)var
+f=d;return f}}Ev(function(b){try{if(Cy(b))var
+a=CB;else{try{var
+e=0,d=B_(b);e=1}catch(a){a=pz(a);if(a[1]===m8)var
 c=[0,a[2]];else{if(a!==N)throw a;var
 c=2}}if(e)var
-c=xP(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Cy}if(typeof
+c=xR(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return CA}if(typeof
 a==="number")switch(a){case
-0:return CA;case
-1:return CB;default:return CC}return aR(CD,a[1])});i7(0);return}(globalThis));
+0:return CC;case
+1:return CD;default:return CE}return aS(CF,a[1])});i7(0);return}(globalThis));
