@@ -326,7 +326,7 @@ fn bad_usage_is_refused() {
         (flags("map.toml", &["--pave", "--precision", "0.1"]), "--pave: found an atlas"),
         (
             flags("orthoglide-prototype.toml", &["--pave", "--precision", "1"]),
-            "[workspace]: found a",
+            "workspace.cube: found a cube",
         ),
     ] {
         folder.run(&arguments).exits(2).complains(&[complaint]);
