@@ -909,7 +909,7 @@ const edited = (text) => {
   return JSON.stringify(certificate) + "\n";
 };
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "mutants-"));
-const count = { accepted: 0, rejected: 0, "not covered": 0, "by theorem": 0, "of the exact checker alone": 0 };
+const count = { accepted: 0, rejected: 0, "not covered": 0, "by theorem": 0, "atlases here alone": 0, "of the exact checker alone": 0 };
 try {
   const paths = [], texts = [];
   for (let i = 0; i < Number(mutants); i++) {
@@ -924,6 +924,8 @@ try {
       if (answer.startsWith("NOT COVERED")) count["not covered"]++;
       else if (answer === right) count[answer === "REJECTED" ? "rejected" : "accepted"]++;
       else if (right === "REJECTED" && isTheorem(texts[i])) count["by theorem"]++;
+      // Names are coordinates of slopes here, and inputs there.
+      else if (right === "REJECTED" && texts[i].includes('"claim":{"atlas":')) count["atlases here alone"]++;
       else if (answer === "REJECTED") {
         count["of the exact checker alone"]++;
         console.log(`accepted by orthocert-check alone: ${texts[i].trim()}`);
