@@ -5,7 +5,7 @@ use crate::design::{written, Design};
 use crate::exact::decimal::{grouped, readable, significant};
 use crate::exact::Exact;
 use crate::files::output;
-use crate::files::read::beside;
+use crate::files::read::named_after;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
 use crate::report::text::{duration, labelled, verbatim};
 use crate::report::{counterexample, CertificateFile, Counterexample};
@@ -208,13 +208,7 @@ fn side(text: &str) -> Result<Expression, Failure> {
 
 impl Arguments {
     fn target(&self, name: &str) -> PathBuf {
-        let design = beside(&self.design);
-        let mut file = design.file_stem().unwrap_or_default().to_owned();
-        file.push(format!(".{name}.cert.json"));
-        match &self.output {
-            Some(folder) => folder.join(file),
-            None => design.with_file_name(file),
-        }
+        named_after(&self.design, &format!("{name}.cert.json"), self.output.as_deref())
     }
 }
 

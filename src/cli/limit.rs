@@ -6,7 +6,7 @@ use crate::design::{text_of, Design, Variable};
 use crate::exact::decimal::{exact, grouped, significant};
 use crate::exact::Exact;
 use crate::files::output;
-use crate::files::read::beside;
+use crate::files::read::named_after;
 use crate::files::shown::Shown;
 use crate::questions::limit::Side;
 use crate::questions::limit::{
@@ -214,13 +214,11 @@ const ENDS: [(&str, &str); 4] =
 
 impl Arguments {
     fn target(&self, side: &str, verdict: &str) -> PathBuf {
-        let design = beside(&self.design);
-        let mut file = design.file_stem().unwrap_or_default().to_owned();
-        file.push(format!(".limit-{side}-{verdict}.cert.json"));
-        match &self.output {
-            Some(folder) => folder.join(file),
-            None => design.with_file_name(file),
-        }
+        named_after(
+            &self.design,
+            &format!("limit-{side}-{verdict}.cert.json"),
+            self.output.as_deref(),
+        )
     }
 }
 

@@ -155,8 +155,9 @@ impl Design {
                 "{key}, line {line}: nothing is claimed of {about}, as [requirements] has no {requirement}"
             ))
         };
-        let kernel::Workspace::Box { min, max } = &self.claim.workspace else {
-            return UNASKED.iter().filter_map(note).collect();
+        let (min, max) = match &self.claim.workspace {
+            kernel::Workspace::Box { min, max } => (&min[..], &max[..]),
+            _ => (&[][..], &[][..]),
         };
         let flat = min.iter().zip(max).enumerate().filter(|(_, (min, max))| min == max);
         let flat = flat.filter_map(|(at, _)| {

@@ -4,7 +4,7 @@ use crate::files::open::{is_stream, open};
 use crate::files::shown::Shown;
 use std::ffi::OsStr;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The file that a name stands for: `-` for standard input.
 pub fn meant(path: &Path) -> &Path {
@@ -22,6 +22,17 @@ pub fn beside(path: &Path) -> &Path {
         Path::new("stdin.toml")
     } else {
         path
+    }
+}
+
+/// `DESIGN.NAME`, of a design without its ending: in the folder, or beside the design.
+pub fn named_after(design: &Path, name: &str, folder: Option<&Path>) -> PathBuf {
+    let design = beside(design);
+    let mut file = design.file_stem().unwrap_or_default().to_owned();
+    file.push(format!(".{name}"));
+    match folder {
+        Some(folder) => folder.join(file),
+        None => design.with_file_name(file),
     }
 }
 

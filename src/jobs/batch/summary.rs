@@ -35,11 +35,9 @@ pub fn table(batch: &Batch, style: Style) -> String {
     for (entry, name) in batch.designs.iter().zip(&names) {
         let _ = write!(out, "{}  {name:longest$}  ", verdict(entry.verdict, style));
         let remark = match entry.remark() {
-            text if entry.cached && entry.counterexample.is_none() => {
-                let text = Some(text).filter(|text| !text.is_empty());
-                std::iter::once("re-checked".to_owned()).chain(text).collect::<Vec<_>>().join("; ")
-            }
-            text => text,
+            text if !entry.cached || entry.counterexample.is_some() => text,
+            text if text.is_empty() => "re-checked".to_owned(),
+            text => format!("re-checked; {text}"),
         };
         let _ = writeln!(out, "{:>8}  {remark}", duration(entry.seconds));
     }

@@ -3,7 +3,7 @@
 
 use super::End;
 use crate::search::solver::extremes::{beyond, reached, seen, Extreme, NotEnclosed};
-use crate::search::solver::{proof, value};
+use crate::search::solver::{number, proof, value};
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -66,7 +66,6 @@ pub fn deviation(
 
 /// The requirement with both bounds.
 fn bounded(own: &Requirement, [off, turned]: [&BigRational; 2]) -> Option<Requirement> {
-    let number = crate::search::solver::number;
     let mut own = own.clone();
     own.bound = Bound::Max(number(off)?);
     own.given.insert("max_angle".to_owned(), vec![number(turned)?]);

@@ -200,8 +200,12 @@ impl Extreme {
     fn probe(&self, claim: &MachineClaim) -> Option<MachineClaim> {
         let two = BigRational::from_integer(2.into());
         let half = two.recip();
-        let all = [two, half].map(|bound| self.claim(claim, &bound));
-        all.into_iter().flatten().find(|claim| Problem::new(claim).is_ok())
+        [two, half].iter().find_map(|bound| self.well_formed(claim, bound))
+    }
+
+    /// [`claim`](Self::claim), where it is well formed.
+    fn well_formed(&self, claim: &MachineClaim, bound: &BigRational) -> Option<MachineClaim> {
+        self.claim(claim, bound).filter(|claim| Problem::new(claim).is_ok())
     }
 
     /// "The quantity stays within `bound`", and nothing else but what defines the paper's cube.
@@ -323,9 +327,7 @@ pub fn enclose(
             });
             match found? {
                 Attempt::Certified(certified, boxes) => {
-                    let inner_claim = extreme.claim(claim, &inner);
-                    let well_formed = inner_claim.filter(|claim| Problem::new(claim).is_ok());
-                    let refuted = match well_formed {
+                    let refuted = match extreme.well_formed(claim, &inner) {
                         Some(claim) => match refute(&claim, &known.place) {
                             // What is too near to its bound to be refuted may not be at a looser width.
                             None => break,
@@ -365,7 +367,7 @@ pub fn reached(
     while width <= loosest() {
         let (inner, _) =
             ends(extreme, known.value, &(&width * known.size()?)).ok_or(NotEnclosed::Undecided)?;
-        let claim = extreme.claim(claim, &inner).filter(|claim| Problem::new(claim).is_ok());
+        let claim = extreme.well_formed(claim, &inner);
         if claim.is_some_and(|claim| refute(&claim, &known.place).is_some()) {
             return Ok((known.value, Some(inner)));
         }
@@ -439,9 +441,9 @@ impl Found {
                 break;
             }
             let least_size = extreme.size(&claim, &problem, &sampler, value);
-            let tight = BigRational::from_f64(value).and_then(|value| extreme.claim(probe, &value));
             best = Some(Found { place, value, least_size });
-            match tight.filter(|claim| Problem::new(claim).is_ok()) {
+            let value = BigRational::from_f64(value);
+            match value.and_then(|value| extreme.well_formed(probe, &value)) {
                 Some(tight) => claim = tight,
                 None => break,
             }
