@@ -619,6 +619,7 @@ Definition demand_of (are_angles : bool) (legs : nat) (bs : list written_body) (
   | BaseJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i false (axis_of xs) (denoted b)) | _ => [] end
   | PlatformJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i true (axis_of xs) (denoted b)) | _ => [] end
   | Clearance_, AtLeast_ b => map (fun p => Clear (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
+  | Acceleration_, AtMost_ b => match given_ r with Some (Motion_ a v) => each (fun i => AccelerationMax i (denoted a) (denoted v) (denoted b)) | _ => [] end
   | _, _ => []
   end.
 Definition demands (are_angles : bool) (legs : nat) (bs : list written_body) (rs : list written_requirement) : list demand :=
@@ -646,11 +647,12 @@ Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) 
 Definition is_asked (coordinates legs : nat) (r : written_requirement) : bool :=
   match about_ r, end_ r, leg_ r, given_ r with OneToOne_, Holds_, None, None => true | _, _, _, _ => is_turning_demand coordinates legs r end.
 
-(** Or of bodies and angles at joints; an axis has [n] numbers. *)
+(** Or of bodies, of accelerations, and of angles at joints; an axis has [n] numbers. *)
 Definition is_asked_of_struts (n coordinates legs : nat) (r : written_requirement) : bool :=
+  let is_leg := match leg_ r with Some i => Nat.leb 1 i && Nat.leb i legs | None => true end in
   match about_ r, end_ r, leg_ r, given_ r with
-  | BaseJoint_, AtMost_ _, leg, Some (Each_ xs) | PlatformJoint_, AtMost_ _, leg, Some (Each_ xs) =>
-      Nat.eqb (length xs) n && match leg with Some i => Nat.leb 1 i && Nat.leb i legs | None => true end
+  | BaseJoint_, AtMost_ _, _, Some (Each_ xs) | PlatformJoint_, AtMost_ _, _, Some (Each_ xs) => Nat.eqb (length xs) n && is_leg
+  | Acceleration_, AtMost_ _, _, Some (Motion_ _ _) => is_leg
   | Clearance_, AtLeast_ _, None, None => true
   | _, _, _, _ => is_asked coordinates legs r
   end.
@@ -1144,6 +1146,7 @@ Definition is_demand_bound (d : demand) : bool :=
   | SpeedMax _ a b | TurnMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
   | JointAngleMax _ _ j b => is_axis j && certainly exact_bits true b && certainly exact_bits false (Minus (180 // 1) b)
   | Clear _ _ b => certainly exact_bits false b
+  | AccelerationMax _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)

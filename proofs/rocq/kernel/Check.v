@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near Tolerances.
+From Orthocert.kernel Require Solve Near Tolerances Curvature.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -50,12 +50,14 @@ Inductive tree :=
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
     least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
     [Chords]: Y^T A + A^T Y > 0 of these rows A, by one matrix for all cells; [Accurate]: of each joint its coordinate, its error and, of each tolerance, the
-    half-width with the derivative by it, errors and half-widths over the distance. *)
+    half-width with the derivative by it, errors and half-widths over the distance; [Curved]: a |row| + b |H| < 1, of 2 H, and K^2 and s with
+    |row|^2 <= K^2 - s^2. *)
 Inductive test :=
   | SigmaMin (kappa2 : fixed) | SigmaMax (k2 : fixed) | Conditioning (c2 : fixed) | AtLeast (f : nat)
   | Least (r : rows nat) (kappa2 : fixed) | Either (f g : nat) | Apart (p p' q q' : spatial nat) (distance : fixed)
   | Solved (i : nat) (k2 : fixed) | Chords (r : rows nat) (places : N) (Y : list (list Z))
-  | Accurate (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat)))).
+  | Accurate (distance : fixed) (joints : list (nat * (fixed * list (fixed * nat))))
+  | Curved (row : list nat) (twice : list (list nat)) (a b k2 s : nat).
 
 Section Precision.
 Variable bits : positive.
@@ -128,6 +130,8 @@ Definition end_there (values : list (option slope)) (p : spatial nat) : option (
   | _, _, _ => None
   end.
 
+Definition slopes_of (values : list (option slope)) (l : list nat) : option (list slope) := all_some (map (fun i => nth i values None) l).
+
 Definition shows (values : list (option slope)) (m : nat) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
   | SigmaMin low, ByLower places Y => are_defined values && over_rows values whole (sigma_min m (raised less (constant low)) places Y)
@@ -146,6 +150,11 @@ Definition shows (values : list (option slope)) (m : nat) (less : option slope) 
       end
   | Chords r places Y, ByChords => over_rows values r (chords m less places Y)
   | Solved i k2, ByLower places Y => over_rows values whole (Solve.solved bits m i k2 less places Y)
+  | Curved row twice a b k2 s, ByTest =>
+      match slopes_of values row, all_some (map (slopes_of values) twice), slopes_of values [a; b; k2; s] with
+      | Some row, Some twice, Some [a; b; k2; s] => Curvature.curved bits m less row twice (range a) (range b) (Some (range k2, s))
+      | _, _, _ => false
+      end
   | _, _ => false
   end.
 
@@ -276,6 +285,7 @@ Definition wanted_by (t : test) (e : evidence) : list nat :=
   | Least r _ | Chords r _ _ => places_of_rows r
   | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
   | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
+  | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
   end.
 Definition wanted_at (steps : list (nat * evidence)) : list nat :=
   flat_map (fun s => match snd s, nth_error tests (fst s) with Outside, _ | _, None => [] | e, Some t => wanted_by t e end) steps.
@@ -351,6 +361,9 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
       let p := Solve.weighted_sum u (map fst r) in k * (nth i (map snd r) 0 * nth i u 0 ^ 2) < dot p p)
   | Chords r places Y => of_these x (map_rows formula_at r) (fun r => forall v, length v = m -> nonzero v ->
       0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) r) v)
+  | Curved row twice a b k2 s => let at_ i := value x theta (formula_at i) in
+      0 <= at_ a -> dot (map at_ row) (map at_ row) <= at_ k2 - at_ s ^ 2 -> forall e v, dot e e <= 1 -> length v = m -> nonzero v ->
+      Rabs (at_ b / 2 * quad (map (map at_) twice) v) < (1 - at_ a * dot (map at_ row) e) * dot v v
   end.
 
 Section Cell.
@@ -488,7 +501,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -545,6 +558,25 @@ Proof.
   - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos. apply (Solve.solved_sound bits _ _ _ _ _ _ _ _ sm rel lambda_in).
     destruct less as [t |]; [exact hs | exact I].
   - eapply over_these_sound; [exact h |]. cbn beta. intros s es sm rel pos v len nz. eapply chords_sound; eassumption.
+  - destruct (slopes_of values row) as [srow |] eqn:er; [| discriminate]. destruct (all_some (map (slopes_of values) twice)) as [sh |] eqn:eh; [| discriminate].
+    destruct (slopes_of values [a; b; k2; ls]) as [[| sa [| sb [| sk [| sl [|]]]]] |] eqn:e4; try discriminate.
+    assert (S : forall l s, slopes_of values l = Some s -> exists e, Forall2 (entry_in bits) s e /\ map (fun i => value x theta (formula_at i)) l = map (at_lambda lambda) e).
+    { intros l s el. destruct (all_some_entries l s el) as [_ E]. rewrite map_map in E. exact E. }
+    assert (T : exists H, Forall2 (Forall2 (entry_in bits)) sh H /\ map (map (fun i => value x theta (formula_at i))) twice = map (map (at_lambda lambda)) H).
+    { clear h e4. revert sh eh. induction twice as [| l twice IH]; intros sh eh; cbn [map all_some] in eh; [injection eh as <-; exists []; split; [constructor | reflexivity] |].
+      destruct (slopes_of values l) as [s |] eqn:el; [| discriminate]. destruct (all_some _) as [sh' |]; [| discriminate]. injection eh as <-.
+      destruct (IH _ eq_refl) as [H [H1 H2]]. destruct (S l s el) as [e [k1 k2']]. exists (e :: H). split; [constructor; assumption |]. cbn [map]. congruence. }
+    destruct T as [H [hH eqH]]. destruct (S row srow er) as [es [hes eqes]]. rewrite eqH, eqes.
+    assert (One : forall i s, nth i values None = Some s -> contains (range s) (value x theta (formula_at i)) /\ exists e, entry_in bits s e /\ value x theta (formula_at i) = at_lambda lambda e).
+    { intros i s ei. destruct (entry_exists i s ei) as [_ [c [e [k1 k2']]]]. split; [exact c | exists e; split; assumption]. }
+    unfold slopes_of in e4. cbn [map all_some] in e4.
+    destruct (nth a values None) as [s1 |] eqn:n1; [| discriminate]. destruct (nth b values None) as [s2 |] eqn:n2; [| discriminate].
+    destruct (nth k2 values None) as [s3 |] eqn:n3; [| discriminate]. destruct (nth ls values None) as [s4 |] eqn:n4; [| discriminate]. injection e4 as <- <- <- <-.
+    destruct (One _ _ n1) as [c1 _]. destruct (One _ _ n2) as [c2 _]. destruct (One _ _ n3) as [c3 _]. destruct (One _ _ n4) as [_ [e4 [k4 q4]]].
+    intros a0 D e v he len nz.
+    refine (Curvature.curved_sound bits lambda lambda_in less srow es sh H _ _ _ _ _ h _ hes hH c1 a0 c2 _ e v he len nz).
+    + destruct less as [t |]; [exact hs | exact I].
+    + exists (value x theta (formula_at k2)), e4. split; [exact c3 |]. split; [exact k4 |]. rewrite <- q4. exact D.
 Qed.
 End Cell.
 
@@ -775,7 +807,7 @@ Proof.
       cbn [forallb] in hh. apply andb_true_iff in hh as [hh _]. pose proof (Tolerances.sign_apart_sound bits _ _ _ _ hh hv ht). destruct A as [A0 A1]. cbn [snd form fst] in *.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints],
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls],
     e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
@@ -932,12 +964,12 @@ Proof.
 Qed.
 
 (** Where nothing is subtracted. *)
-Theorem shows_holds : forall cell x t e, Forall2 contains cell x -> shows (evaluate cell) (length cell) None t e = true -> holds (length cell) x t.
+Theorem shows_holds : forall keep cell x t e, Forall2 contains cell x -> shows (evaluate_kept keep cell) (length cell) None t e = true -> holds (length cell) x t.
 Proof.
-  intros cell x t e hx h. rewrite <- evaluate_all in h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [_ C]]]]. specialize (C []). cbn [app length] in C.
-  apply (shows_sound cell x lambda el hlam []) with None e; [| exact I | exact h]. intro i.
+  intros keep cell x t e hx h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [_ C]]]]. specialize (C []). cbn [app length] in C.
+  apply (shows_sound cell x lambda el hlam keep) with None e; [| exact I | exact h]. intro i.
   apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I |].
-  exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C (params_hold bits lambda params theta theta_in) [] tape).
+  exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) theta _ _ C (params_hold bits lambda params theta theta_in) keep tape).
 Qed.
 
 Lemma kept_holds : forall keep cell x t e, Forall2 contains cell x -> allowed x ->

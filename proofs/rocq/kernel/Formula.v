@@ -192,6 +192,28 @@ Proof.
   split; [apply (N _ _ e) | apply (N _ _ f)].
 Qed.
 
+Lemma plus_defined : forall a b, defined a -> defined b -> defined (plus a b).
+Proof.
+  intros a b ha hb. unfold plus. destruct (is 0 a); [exact hb |]. destruct (is 0 b); [exact ha |]. assert (S : defined (F (Add a b))) by (cbn; auto).
+  destruct (integer_of a); [| exact S]. destruct (integer_of b); [| exact S]. destruct (_ && _); [cbn; auto | exact S].
+Qed.
+Lemma opposite_defined : forall a, defined a -> defined (opposite a).
+Proof. intros [o] h. destruct o; cbn in *; try tauto. destruct (is_small n); cbn; auto. Qed.
+Lemma minus_defined : forall a b, defined a -> defined b -> defined (minus a b).
+Proof.
+  intros a b ha hb. unfold minus. destruct (is 0 b); [exact ha |]. destruct (is 0 a); [apply opposite_defined, hb |].
+  assert (S : defined (F (Sub a b))) by (cbn; auto). destruct a as [[]]; try exact S. destruct b as [[]]; try exact S. destruct (Nat.eqb _ _); [cbn; auto | exact S].
+Qed.
+Lemma times_defined : forall a b, defined a -> defined b -> defined (times a b).
+Proof.
+  intros a b ha hb. unfold times. destruct (_ || _); [exact ha |]. destruct (_ || _); [exact hb |]. destruct (same a b); [| cbn; auto].
+  unfold square. destruct (integer_of a); [destruct (is_small z) |]; cbn; auto.
+Qed.
+Lemma over_defined : forall a b, defined a -> defined b -> value b <> 0 -> defined (over a b).
+Proof. intros a b ha hb n. unfold over. destruct (is 1 b); [exact ha | cbn; auto]. Qed.
+Lemma root_defined : forall a, defined a -> 0 < value a -> defined (root a).
+Proof. intros a h p. unfold root. destruct (is 1 a); [exact h | cbn; auto]. Qed.
+
 Lemma defined_over : forall a b, defined (over a b) -> value b <> 0.
 Proof.
   intros a b. unfold over. destruct (is 1 b) eqn:q; [rewrite (is_value _ _ q); intros; lra | intros [h _]; exact h].

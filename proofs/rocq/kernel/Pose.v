@@ -6,7 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert.kernel Require Import Linear Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Varied Chart.
+From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Varied Chart Bend.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -104,8 +104,11 @@ Definition of_controls (s : nat * evidence) : bool := match snd s with AtControl
 Definition of_slopes (s : nat * evidence) : bool := match snd s with ByTest | ByDirection _ _ => true | _ => false end.
 Definition places_in (steps : list (nat * evidence)) : list nat :=
   match g with Some i => [i] | None => [] end ++ flat_map (fun s => if of_controls s then match nth_error tests (fst s) with Some t => test_places t | None => [] end else []) steps.
+Definition slopes_in (steps : list (nat * evidence)) : list nat :=
+  flat_map (fun s => match nth_error tests (fst s) with Some (OnSlopes t) => wanted_by [] [] [] t (snd s) | _ => [] end) steps.
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  discharged cell (if existsb of_controls steps then tensors bits params (thinned (places_in steps) tape) cell else []) (if existsb of_slopes steps then evaluate bits plain params cell else []) steps open.
+  discharged cell (if existsb of_controls steps then tensors bits params (thinned (places_in steps) tape) cell else [])
+    (if existsb of_slopes steps then evaluate_kept bits plain params (kept (slopes_in steps) plain) cell else []) steps open.
 Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
   match t with
   | Leaf steps => match steps_at cell steps open with Some last => forallb negb last | None => false end
@@ -155,6 +158,7 @@ Hypothesis varied_holds : forall cell x k ends e, In (LeastOf main main_w k ends
 Section Thin.
 Variable thin : list (op nat).
 Hypothesis thin_is : is_thinned thin tape.
+Variable keep : list bool.
 Local Notation tensors_here cell := (tensors bits params thin cell).
 
 Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
@@ -187,13 +191,13 @@ Proof.
 Qed.
 
 Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
-  shows_at cell (tensors_here cell) (evaluate bits plain params cell) t e = true -> test_holds x t.
+  shows_at cell (tensors_here cell) (evaluate_kept bits plain params keep cell) t e = true -> test_holds x t.
 Proof.
   intros cell x t e it hx len ht h.
   assert (None_ : forall e, shows_less (tensors_here cell) None t e = true -> test_holds x t)
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
-  assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate bits plain params cell) m None t e | _ => false end) = true -> test_holds x t).
-  { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in cell x _ e' hx k). }
+  assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate_kept bits plain params keep cell) m None t e | _ => false end) = true -> test_holds x t).
+  { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in keep cell x _ e' hx k). }
   destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
   2: { destruct t as [r w k ends | | | | | | | |]; try discriminate. apply andb_true_iff in h as [h v]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h2. subst w.
     unfold same_rows in h1. destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]. exact (varied_holds cell x k ends _ it hx len ht v). }
@@ -231,10 +235,10 @@ Qed.
 Lemma steps_at_sound : forall cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   steps_at cell steps open = Some rest -> is_done x open -> is_done x rest.
 Proof.
-  intros cell x steps open rest hx len ht h. set (thin := thinned (places_in steps) tape) in *. set (ts := tensors bits params thin cell) in *. set (vs := evaluate bits plain params cell) in *.
+  intros cell x steps open rest hx len ht h. set (thin := thinned (places_in steps) tape) in *. set (ts := tensors bits params thin cell) in *. set (keep := kept (slopes_in steps) plain) in *. set (vs := evaluate_kept bits plain params keep cell) in *.
   assert (h' : discharged cell ts vs steps open = Some rest)
-    by (rewrite <- h; unfold steps_at; fold thin; fold ts vs; apply discharged_needs; intros ->; reflexivity). clear h.
-  assert (TI : is_thinned thin tape) by apply thinned_is. clearbody thin.
+    by (rewrite <- h; unfold steps_at; fold thin; fold keep; fold ts vs; apply discharged_needs; intros ->; reflexivity). clear h.
+  assert (TI : is_thinned thin tape) by apply thinned_is. clearbody thin keep.
   assert (Own : forall i e steps, (forall open, discharged cell ts vs steps open = Some rest -> is_done x open -> is_done x rest) ->
     forall open, match nth i open false, nth_error tests i with
       | true, Some t => if shows_at cell ts vs t e then discharged cell ts vs steps (clear i open) else None
@@ -242,7 +246,7 @@ Proof.
   { intros i e steps' IH open' h D. destruct (nth i open' false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
     destruct (shows_at _ _ _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
     destruct (nth_clear i j open' o) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
-    exact (shows_at_sound thin TI cell x t e (nth_error_In _ _ nt) hx len ht s). }
+    exact (shows_at_sound thin TI keep cell x t e (nth_error_In _ _ nt) hx len ht s). }
   revert open h'. induction steps as [| [i e] steps IH]; intros open h D; cbn [discharged] in h; [injection h as <-; exact D |].
   pose proof (Own i e steps IH open) as O1. destruct i as [| i], e; try exact (O1 h D).
   destruct (is_outside_at cell) eqn:o; [| discriminate h]. exfalso. exact (is_outside_at_sound cell x hx o ht).
@@ -270,17 +274,7 @@ End Tree.
 
 (** ** Formulas *)
 
-Definition ecross (a b : evec) : evec :=
-  EVec (minus (times (ey a) (ez b)) (times (ez a) (ey b))) (minus (times (ez a) (ex b)) (times (ex a) (ez b)))
-    (minus (times (ex a) (ey b)) (times (ey a) (ex b))).
 Definition expanded (a b : formula) : formula := plus (minus (square a) (times (times (integer 2) b) a)) (square b).
-Definition etwist (k : motion) (v w : evec) : list formula :=
-  match k with
-  | InPlane => [ex v; ey v; ez w]
-  | InSpace => [ex v; ey v; ez v; ex w; ey w; ez w]
-  | AboutPoint => [ex w; ey w; ez w]
-  end.
-
 Definition eposition (k : motion) : evec :=
   match k with
   | InPlane => EVec (F (Coord 0)) (F (Coord 1)) (integer 0)
@@ -321,22 +315,6 @@ Definition origin_row (a : evec) (row : list formula * formula) : list formula *
   | x :: y :: z :: _ => let m := ecross a (EVec x y z) in ([x; y; z; ex m; ey m; ez m], snd row)
   | A => (A, snd row)
   end.
-
-Section Values.
-Variables x theta : list R.
-Local Notation value := (Formula.value x theta).
-Local Notation val3 := (val3 x theta).
-Lemma val3_minus : forall u v, val3 (map2 minus u v) = vsub (val3 u) (val3 v).
-Proof. intros. unfold val3, map2, vsub. cbn [ex ey ez vx vy vz]. rewrite !value_minus. reflexivity. Qed.
-Lemma val3_plus : forall u v, val3 (map2 plus u v) = vadd (val3 u) (val3 v).
-Proof. intros. unfold val3, map2, vadd. cbn [ex ey ez vx vy vz]. rewrite !value_plus. reflexivity. Qed.
-Lemma val3_scaled : forall a u, val3 (Machine.scaled a u) = vscale (value a) (val3 u).
-Proof. intros. unfold val3, Machine.scaled, vscale. cbn [ex ey ez vx vy vz]. rewrite !value_times. reflexivity. Qed.
-Lemma val3_divided : forall u a, val3 (divided_by u a) = vscale (/ value a) (val3 u).
-Proof. intros. unfold val3, divided_by, vscale. cbn [ex ey ez vx vy vz]. rewrite !value_over. unfold Rdiv. f_equal; ring. Qed.
-Lemma val3_cross : forall u v, val3 (ecross u v) = cross (val3 u) (val3 v).
-Proof. intros. unfold val3, ecross, cross. cbn [ex ey ez vx vy vz]. rewrite !value_minus, !value_times. reflexivity. Qed.
-End Values.
 
 (** ** What they stand for *)
 
@@ -398,8 +376,6 @@ Qed.
 
 Lemma twist_scaled : forall k c a b, twist k (vscale c a) (vscale c b) = map (Rmult c) (twist k a b).
 Proof. intros [] c a b; reflexivity. Qed.
-Lemma twist_values : forall x theta k a b, map (Formula.value x theta) (etwist k a b) = twist k (val3 x theta a) (val3 x theta b).
-Proof. intros x theta [] a b; reflexivity. Qed.
 
 Definition position_list (k : motion) (P : vec) : list R :=
   match k with InPlane => [vx P; vy P] | InSpace => [vx P; vy P; vz P] | AboutPoint => [] end.
@@ -556,9 +532,11 @@ Fixpoint each_strut {A : Type} (f : evec -> evec -> A) (s : Z) (ts : list (toler
   | [] => []
   | t :: ts' => let q := numbered j (strut_layout s t) in f (vector_at q 0) (vector_at q 3) :: each_strut f s ts' (j + length (strut_layout s t))
   end.
-Record posed_strut := PosedStrut { z_row : list formula * formula; z_lever : formula * (formula -> formula); z_way : bool -> evec; z_limb : evec * evec * formula }.
-Definition formulas_of (k : motion) (N : emat) (w ell : formula) (a b : evec) : posed_strut :=
-  PosedStrut (scaled_row k N w ell a b) (lever k N w ell a b) (way k N w a b) (limb k N w a b).
+Record posed_strut := PosedStrut { z_row : list formula * formula; z_lever : formula * (formula -> formula); z_way : bool -> evec; z_limb : evec * evec * formula; z_bend : unit -> bend }.
+(** [p]: the first of three parameters that are no others. *)
+Definition formulas_of (k : motion) (N : emat) (w ell : formula) (p : nat) (a b : evec) : posed_strut :=
+  PosedStrut (scaled_row k N w ell a b) (lever k N w ell a b) (way k N w a b) (limb k N w a b)
+    (fun _ => let '(C, A, len) := limb k N w a b in bend_of k ell a b (eturned N w b) C A len (map2 minus (eposition k) a) p).
 
 Section Precision.
 Variable bits : positive.
@@ -614,6 +592,10 @@ Definition plain_formulas (q : list formula) (d : demand) : list formula :=
   match d with
   | JointAngleMax i on _ b => match nth_error zs i with Some z => if up_to_90 b then [] else [angle_sign q on (z_limb z)] | None => [] end
   | Clear one other _ => match limb_segments q one other with Some ((a, b), (c, d)) => flat_map list_of [a; b; c; d] | None => [] end
+  | AccelerationMax i _ _ _ => match nth_error zs i with
+      | Some z => let t := z_bend z tt in bend_row t ++ concat (bend_twice t) ++ [nth 0 q (integer 0); nth 1 q (integer 0); bend_square t; bend_along t]
+      | None => []
+      end
   | _ => []
   end.
 
@@ -641,6 +623,12 @@ Definition pose_test_of (q : list formula) (d : demand) : option pose_test :=
       | Some ((a, b), (c, d)), Some distance => if (0 <=? lo distance)%Z then
           let at_ := ends_at plain in Some (OnSlopes (Apart (at_ a) (at_ b) (at_ c) (at_ d) distance)) else None
       | _, _ => None
+      end
+  | AccelerationMax i a v b => match nth_error zs i with
+      | Some z => if certainly bits true b && (certainly bits false a && certainly bits false v) then let t := z_bend z tt in
+          Some (OnSlopes (Curved (map plain (bend_row t)) (map (map plain) (bend_twice t)) (plain (nth 0 q (integer 0))) (plain (nth 1 q (integer 0))) (plain (bend_square t)) (plain (bend_along t))))
+          else None
+      | None => None
       end
   | _ => None
   end.
@@ -683,7 +671,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let lay := flat_map (strut_layout s) (struts c) in let pl := (exactly (characteristic_length c), s) in let j := S (length lay) in
   let ins := flat_map (inputs_of false s) ds in
   let (N, w) := chart (turned c) (first_angle k) in
-  let zs := each_strut (formulas_of k N w (quantity pl (length lay))) s (struts c) 0 in let rows := map z_row zs in
+  let zs := each_strut (formulas_of k N w (quantity pl (length lay)) (length lay)) s (struts c) 0 in let rows := map z_row zs in
   let g := curve (turned c) (first_angle k) (j + length ins) in
   let about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
   let wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
@@ -726,26 +714,39 @@ Definition stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R
   Formula.value x theta D = W * r ^ 2 * norm2 (strut_vector l P Q) /\
   (Formula.value x theta D = 0 -> forall v, Linear.dot (map (Formula.value x theta) A) v = 0) /\ length A = dimension k.
 
+Definition are_numbers (front : list R) (a : evec) (v : vec) : Prop :=
+  (forall x back, val3 x (front ++ back) a = v) /\ forall x theta, Forall (Formula.defined x theta) (list_of a).
 Lemma each_strut_stands : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
-  forall A (f : evec -> evec -> A) (good : A -> strut -> Prop) x front back,
-    (forall a b l, val3 x (front ++ th ++ back) a = vscale (/ two_to s) (strut_base l) -> val3 x (front ++ th ++ back) b = vscale (/ two_to s) (strut_joint l) -> good (f a b) l) ->
+  forall A (f : evec -> evec -> A) (good : A -> strut -> Prop) front,
+    (forall a b l, are_numbers (front ++ th) a (vscale (/ two_to s) (strut_base l)) -> are_numbers (front ++ th) b (vscale (/ two_to s) (strut_joint l)) -> good (f a b) l) ->
     Forall2 good (each_strut f s ts (length front)) m.
 Proof.
   intros s. induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; constructor |].
   set (th1 := coordinates (vscale (/ two_to s) (strut_base l)) ++ coordinates (vscale (/ two_to s) (strut_joint l))).
   assert (L1 : Forall2 scaled_within (strut_layout s t) th1) by (apply Forall2_app; apply three_within; assumption).
   exists (th1 ++ th2). split; [cbn [flat_map]; apply Forall2_app; assumption |].
-  intros A f good x front back h. rewrite <- app_assoc in h. cbn [each_strut]. cbv zeta. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V. constructor.
-  - assert (Own : forall i, val3 x (front ++ th1 ++ th2 ++ back) (vector_at (numbered (length front) (strut_layout s t)) i) = Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0)).
-    { intro i. unfold val3, vector_at. cbn [ex ey ez]. rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V. reflexivity. }
-    apply h; rewrite Own; reflexivity.
-  - specialize (R2 A f good x (front ++ th1) back). rewrite app_length, <- (related_length _ _ _ _ _ L1), <- !app_assoc in R2. exact (R2 h).
+  intros A f good front h. rewrite app_assoc in h. cbn [each_strut]. cbv zeta. constructor.
+  - assert (Own : forall i v, Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0) = v -> are_numbers ((front ++ th1) ++ th2) (vector_at (numbered (length front) (strut_layout s t)) i) v).
+    { intros i v <-. split.
+      - intros x back. rewrite <- !app_assoc. pose proof (numbered_values _ _ x front (th2 ++ back) L1) as V.
+        unfold val3, vector_at. cbn [ex ey ez]. rewrite <- !(map_nth (Formula.value x (front ++ th1 ++ th2 ++ back))), V. reflexivity.
+      - intros x theta. assert (D : forall l j, Forall (Formula.defined x theta) (numbered j l)).
+        { induction l0 as [| q l' IH]; intro j; cbn [numbered]; constructor; [| apply IH]. unfold quantity. destruct (small q); cbn; auto. }
+        assert (N : forall j, Formula.defined x theta (nth j (numbered (length front) (strut_layout s t)) (integer 0))).
+        { intro j. destruct (nth_in_or_default j (numbered (length front) (strut_layout s t)) (integer 0)) as [i' | ->]; [| cbn; auto].
+          pose proof (D (strut_layout s t) (length front)) as F0. rewrite Forall_forall in F0. exact (F0 _ i'). }
+        unfold vector_at, list_of. cbn [ex ey ez]. repeat apply Forall_cons; try apply Forall_nil; apply N. }
+    apply h; apply Own; reflexivity.
+  - specialize (R2 A f good (front ++ th1)). rewrite app_length, <- (related_length _ _ _ _ _ L1) in R2. exact (R2 h).
 Qed.
 
 Definition strut_stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R) (z : posed_strut) (l : strut) : Prop :=
   stands x theta k P Q W r L (z_row z) l /\ is_lever x theta k P Q W r L l (z_lever z) /\
   (forall on, val3 x theta (z_way z on) = vscale (W * r) (if on then mulv (transpose Q) (strut_vector l P Q) else strut_vector l P Q)) /\
-  rod_stands x theta r (Some (z_limb z)) (Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)).
+  rod_stands x theta r (Some (z_limb z)) (Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)) /\
+  (0 < norm2 (strut_vector l P Q) -> let t := z_bend z tt in let at_ := Formula.value x theta in map at_ (bend_row t) = strut_row k L l P Q /\
+    Linear.dot (strut_row k L l P Q) (strut_row k L l P Q) <= at_ (bend_square t) - at_ (bend_along t) ^ 2 /\
+    forall v a, strut_accelerates k L l P Q v a (Linear.dot (strut_row k L l P Q) a + r / 2 * quad (map (map at_) (bend_twice t)) v)).
 
 Lemma rows_speed : forall x theta k P Q W r L rows m, Forall2 (stands x theta k P Q W r L) rows m -> positive_D (map_rows (Formula.value x theta) rows) ->
   Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
@@ -812,7 +813,7 @@ Proof.
     destruct i as [i | []]; cbn [pose_test_of] in i; try discriminate; try (destruct (length_sign _ _ _ _); [cbn [option_map] in i | discriminate]);
     try (destruct (nth_error _ _) as [? |]; [| discriminate]); try (destruct (lever_of _ _ _) as [[? ?] |]; [| discriminate]); try (destruct (limb_segments _ _ _ _ _ _ _) as [[[? ?] [? ?]] |]; [| discriminate]);
     try (destruct (certainly _ _ _ && _); [| discriminate]);
-    try (destruct (enclose_parameter bits _); [cbn [option_map] in i |]; try discriminate); try (destruct (0 <=? lo _)%Z; [| discriminate]); injection i as <-; cbn [with_ends] in we; try discriminate;
+    try (destruct (enclose_parameter bits _); [cbn [option_map] in i |]; try discriminate); try (destruct (0 <=? lo _)%Z; [| discriminate]); cbv zeta in i; injection i as <-; cbn [with_ends] in we; try discriminate;
     injection we; intros; subst; auto.
 Qed.
 
@@ -887,7 +888,7 @@ Proof.
   intros c s t h m P Q [hm hPQ]. unfold check_turning in h. cbv zeta in h. destruct (chart (turned c) (first_angle (motion_of c))) as [N w] eqn:ch.
   set (k := motion_of c) in *. set (ts := struts c) in *. set (ds := turning_demands c) in *. set (lay := flat_map (strut_layout s) ts) in *.
   set (pl := (exactly (characteristic_length c), s)) in *. set (j := S (length lay)) in *. set (ell := quantity pl (length lay)) in *. set (ins := flat_map (inputs_of false s) ds) in *.
-  set (zs := each_strut (formulas_of k N w ell) s ts 0) in *. set (rows := map z_row zs) in *.
+  set (zs := each_strut (formulas_of k N w ell (length lay)) s ts 0) in *. set (rows := map z_row zs) in *.
   set (g := curve (turned c) (first_angle k) (j + length ins)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
   set (about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0 else []) in *.
   set (wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs) false s j ds) in *.
@@ -911,9 +912,9 @@ Proof.
   { unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros u iu. specialize (ang u iu). apply andb_true_iff in ang as [a b].
     split; apply (is_angle_number_sound bits); assumption. }
   destruct (each_strut_stands s ts m hm) as [th [TH RS]].
-  set (tt := map (fun a => tangent (Claim.value a)) (curved (turned c))).
-  set (theta := th ++ [/ two_to s * L] ++ map input_value ins ++ tt).
-  assert (TT : Forall2 (contains bits) tangents tt).
+  set (ts_ := map (fun a => tangent (Claim.value a)) (curved (turned c))).
+  set (theta := th ++ [/ two_to s * L] ++ map input_value ins ++ ts_).
+  assert (TT : Forall2 (contains bits) tangents ts_).
   { apply (tangents_in bits); [intros a i; exact (curved_angles _ a ok i) | exact eg]. }
   assert (T : Forall2 (contains bits) (params ++ inputs ++ tangents) theta).
   { unfold theta. rewrite (app_assoc th). apply Forall2_app; [| apply Forall2_app; [exact (inputs_enclosed bits _ _ ei) | exact TT]].
@@ -922,7 +923,7 @@ Proof.
   assert (tangent_at : forall a, In a (curved (turned c)) -> nth (j + length ins) theta 0 = tangent (Claim.value a)).
   { intros a i. unfold theta. rewrite !app_assoc. replace (j + length ins)%nat with (length ((th ++ [(/ two_to s * L)%R]) ++ map input_value ins) + 0)%nat
       by (unfold j; rewrite !app_length, map_length, lt; cbn [length]; lia).
-    rewrite app_nth2_plus. unfold tt. destruct (turned c); cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
+    rewrite app_nth2_plus. unfold ts_. destruct (turned c); cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
   (* at one pose *)
   enough (At : forall P Q, in_region (positions c) P /\ in_orientations (turned c) Q -> meets_turning c m P Q /\ (one_pose c = true ->
     exists u, rodrigues u = mscale (1 + norm2 u) Q /\ norm2 u < 1 /\
@@ -943,16 +944,26 @@ Proof.
   set (ratio := / two_to s) in *. assert (r0 : 0 < ratio) by apply Rinv_0_lt_compat, two_to_pos.
   pose proof (orientation_keeps _ _ hQ) as keeps. assert (hPv : val3 x theta (eposition k) = vscale ratio P) by exact (position_value k P _ cs _ (flat_position _ _ _ flat hP)).
   assert (ZS : Forall2 (strut_stands x theta k P Q W ratio L) zs m).
-  { apply (RS _ _ _ x [] ([ratio * L] ++ map input_value ins ++ tt)). intros a b l hsa hsb. cbn [app] in hsa, hsb. fold theta in hsa, hsb.
+  { apply (RS _ _ _ []). intros a b l [Ha Da] [Hb _]. cbn [app] in Ha, Hb. pose proof (Ha x ([ratio * L] ++ map input_value ins ++ ts_)) as hsa. pose proof (Hb x ([ratio * L] ++ map input_value ins ++ ts_)) as hsb. fold theta in hsa, hsb.
     split; [exact (scaled_row_speed x theta k P Q W ratio L N a b w ell l r0 W0 L0 keeps hPv hN hw hl hsa hsb) |].
     split; [exact (lever_values x theta k P Q W ratio L N a b w ell l keeps hPv hN hw hl hsa hsb) |].
-    split; [exact (way_values x theta k P Q W ratio N a b w l keeps hPv hN hw hsa hsb) | exact (limb_values x theta k P Q W ratio N a b w l r0 W0 hPv hN hw hsa hsb)]. }
+    split; [exact (way_values x theta k P Q W ratio N a b w l keeps hPv hN hw hsa hsb) |].
+    pose proof (limb_values x theta k P Q W ratio N a b w l r0 W0 hPv hN hw hsa hsb) as LV. split; [exact LV |]. intro reach_. cbv zeta. cbn [z_bend formulas_of].
+    destruct (limb k N w a b) as [[C A] len_] eqn:el. cbn [rod_stands] in LV. destruct LV as [C' [A' [n' [e1 [e2 [e3 e4]]]]]]. injection e1 as <- <- <-.
+    assert (hn : (length lay <= length theta)%nat) by (unfold theta; rewrite app_length, lt; lia).
+    assert (hf : firstn (length lay) theta = th) by (unfold theta; rewrite firstn_app, lt, Nat.sub_diag, <- lt, firstn_all; apply app_nil_r).
+    assert (ha' : forall back, val3 x (firstn (length lay) theta ++ back) a = vscale ratio (strut_base l)) by (intro back; rewrite hf; apply Ha).
+    pose proof (turned_values x theta Q W ratio N w W0 hN hw b (strut_joint l) hsb) as hr. fold (arm_of_joint l Q) in hr.
+    assert (hh : val3 x theta (map2 minus (eposition k) a) = vscale ratio (vsub P (strut_base l))) by (rewrite val3_minus, hPv, hsa; apply vsub_vscale).
+    split; [exact (bend_row_is x theta (length lay) k l P Q ratio L ell a b _ C A len_ _ r0 L0 hl hr (eq_sym e3) (eq_sym e4) hh reach_) |].
+    split; [exact (bend_lever x theta (length lay) k l P Q ratio L ell a b _ C A len_ _ r0 L0 keeps hl hsb hr (eq_sym e3) (eq_sym e4) reach_) |].
+    exact (bend_accelerates x theta (length lay) k l P Q ratio L ell a b _ C A len_ _ r0 L0 hn ha' Da hl hr (eq_sym e2) (eq_sym e3) (eq_sym e4) reach_). }
   assert (ST : Forall2 (stands x theta k P Q W ratio L) rows m)
     by (unfold rows; clear - ZS; induction ZS as [| z l zs' m' [h _] hs IH]; constructor; assumption).
   assert (ORIGIN : k = InSpace -> map (fun row => map (Formula.value x theta) (fst row)) (each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0) =
     map (fun l => map (Rmult (W * ratio)) (about_origin ratio l P Q)) m).
   { intro hk. assert (F : Forall2 (fun row l => map (Formula.value x theta) (fst row) = map (Rmult (W * ratio)) (about_origin ratio l P Q)) (each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0) m).
-    { apply (RS _ _ _ x [] ([ratio * L] ++ map input_value ins ++ tt)). intros a b l hsa hsb. cbn [app] in hsa, hsb. fold theta in hsa, hsb.
+    { apply (RS _ _ _ []). intros a b l [Ha _] [Hb _]. cbn [app] in Ha, Hb. pose proof (Ha x ([ratio * L] ++ map input_value ins ++ ts_)) as hsa. pose proof (Hb x ([ratio * L] ++ map input_value ins ++ ts_)) as hsb. fold theta in hsa, hsb.
       exact (origin_row_values x theta k P Q W ratio L N a b w ell l r0 L0 keeps hPv hN hw hl hsa hsb hk). }
     clear - F. induction F as [| row l rs m' h hs IH]; [reflexivity |]. cbn [map]. rewrite h, IH. reflexivity. }
   (* the tape *)
@@ -1041,7 +1052,7 @@ Proof.
   assert (Test : forall d, In d ds -> exists q, map (Formula.value x theta) q = map input_value (inputs_of false s d) /\
     (forall f, In f (own_formulas w zs q d) -> In f wanted) /\ (forall f, In f (plain_formulas k N w zs q d) -> formula_at plain (plain_place f) = f) /\
     forall o, In o (tests_of_demand s k N w zs place plain_place ends q d) -> exists u, o = Some u /\ In u tests).
-  { intros d id. destruct (of_each_at false s ds d x (th ++ [ratio * L]) tt id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1. rewrite <- app_assoc in q1. fold theta in q1.
+  { intros d id. destruct (of_each_at false s ds d x (th ++ [ratio * L]) ts_ id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1. rewrite <- app_assoc in q1. fold theta in q1.
     rewrite app_length, lt in q2. cbn [length] in q2. rewrite Nat.add_1_r in q2. fold j in q2. exists q. split; [exact q1 |].
     split; [intros f i; apply in_or_app; right; right; apply in_or_app; left; exact (q2 _ _ _ i) |].
     split; [intros f i; apply Formula.same_sound, there; exact (q2 _ _ _ i) |]. intros o i. exact (all_some_in _ _ _ _ et (q2 _ _ _ i)). }
@@ -1094,7 +1105,7 @@ Proof.
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   assert (Over1 : forall y, y / 1 = y) by (intro; field). pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b]; cbn [Configuration.fulfils];
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b | n p q b]; cbn [Configuration.fulfils];
     try (destruct (shown _ (or_introl eq_refl)) as [u [pu iu]]; cbn [pose_test_of] in pu; fold rows in pu; try discriminate).
   4-5: cbn [own_formulas length_sign] in *; destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (LegOf n z nz) as [l [nl sl]]; pose proof (Size z l sl) as vD;
@@ -1224,7 +1235,7 @@ Proof.
         unfold C, E in M. apply Rmult_le_reg_l with (W * ratio * / two_to o); [exact wo | lra].
     + destruct (shown _ (or_introl eq_refl)) as [u0 [e0 i0]]. injection e0 as <-. pose proof (HT _ i0) as H0. cbn [test_holds Check.holds] in H0. unfold is_nonneg in H0. destruct H0 as [_ H0].
       rewrite (plains _ (or_introl eq_refl)) in H0. unfold angle_sign in H0. destruct (z_limb z) as [[tip eA] size] eqn:ez. cbn [rod_stands] in LIMB.
-      destruct LIMB as [C [V [size0 [e1 [_ [e2 e3]]]]]]. injection e1 as e4 e5 e6. fold A in e5. unfold strut_length in e6. fold A in e6. rewrite <- e5 in e2. rewrite <- e6 in e3.
+      destruct LIMB as [[C [V [size0 [e1 [_ [e2 e3]]]]]] _]. injection e1 as e4 e5 e6. fold A in e5. unfold strut_length in e6. fold A in e6. rewrite <- e5 in e2. rewrite <- e6 in e3.
       assert (TV : val3 x theta (if on then eturned N w (vector_at ns 1) else vector_at ns 1) = vscale (/ two_to o) a).
       { unfold a. destruct on; [| exact AX]. exact (turned_values x theta Q W (/ two_to o) N w W0 hN hw _ _ AX). }
       rewrite value_minus, value_times, value_dot, TV, LC, <- e3 in H0. change (val3 x theta eA) with (located_at x theta eA) in H0. rewrite <- e2 in H0.
@@ -1235,7 +1246,7 @@ Proof.
     destruct (enclose_parameter bits _) as [distance |] eqn:ed; [| discriminate]. destruct (0 <=? lo distance)%Z eqn:d0; [| discriminate]. apply Z.leb_le in d0. injection pu as <-.
     pose proof (HT _ iu) as H. cbn [test_holds] in H.
     assert (RODS : Forall2 (rod_stands x theta (/ two_to s)) (map (fun z => Some (z_limb z)) zs) (limbs conf)).
-    { unfold conf, struts_at. cbn [limbs]. fold ratio. clear - ZS. induction ZS as [| z l zs' m' [_ [_ [_ h]]] hs IH]; cbn [map]; constructor; assumption. }
+    { unfold conf, struts_at. cbn [limbs]. fold ratio. clear - ZS. induction ZS as [| z l zs' m' [_ [_ [_ [h _]]]] hs IH]; cbn [map]; constructor; assumption. }
     assert (QV : map (Formula.value x theta) (tl ns) = map exact_value (body_numbers s one ++ body_numbers s other)).
     { destruct ns as [| q0 ns']; [discriminate qv |]. cbn [inputs_of map] in qv. cbn [tl]. apply (f_equal (@tl R)) in qv. cbn [tl map] in qv. rewrite qv, map_map. reflexivity. }
     assert (PL : forall u v, located_at x theta u = vscale (/ two_to s) v -> located_at x theta (eplaced k N w u) = vscale (/ two_to s) (placed conf v))
@@ -1244,6 +1255,23 @@ Proof.
     + intros f i. exact (f_equal (Formula.value x theta) (plains f i)).
     + replace (/ two_to s * _) with (Claim.value (distance_of one other b) / two_to s) by (cbn [distance_of Claim.value]; unfold Rdiv; ring).
       exact (enclose_parameter_sound bits _ _ _ ed (exact_within _ _)).
+  - cbn [plain_formulas] in plains. destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]. destruct (certainly bits true b && _) eqn:ce; [| discriminate].
+    apply andb_true_iff in ce as [b0 ce]. apply andb_true_iff in ce as [p0 q0]. apply nonneg_sound in p0, q0. apply positive_sound in b0. injection pu as <-.
+    destruct (LegOf n z nz) as [l [nl [_ [_ [_ [_ BEND]]]]]]. rewrite Forall_forall in reach_. destruct (BEND (reach_ l (nth_error_In _ _ nl))) as [B1 [B2 B3]]. clear BEND. cbv zeta in plains.
+    pose proof (HT _ iu) as H. cbn [test_holds Check.holds] in H. cbv zeta in H. set (t' := z_bend z tt) in *.
+    assert (V : forall f, In f (bend_row t' ++ concat (bend_twice t') ++ [nth 0 ns (integer 0); nth 1 ns (integer 0); bend_square t'; bend_along t']) ->
+      Formula.value x theta (Check.formula_at plain (plain_place f)) = Formula.value x theta f) by (intros f i; exact (f_equal (Formula.value x theta) (plains f i))).
+    rewrite !(V (nth 0 ns (integer 0))), !(V (nth 1 ns (integer 0))), !(V (bend_square t')), !(V (bend_along t')) in H by (do 2 (apply in_or_app; right); cbn [In]; tauto).
+    assert (R1 : map (fun i => Formula.value x theta (Check.formula_at plain i)) (map plain_place (bend_row t')) = strut_row k L l P Q)
+      by (rewrite map_map, <- B1; apply map_ext_in; intros f i; apply V, in_or_app; left; exact i).
+    assert (R2 : map (map (fun i => Formula.value x theta (Check.formula_at plain i))) (map (map plain_place) (bend_twice t')) = map (map (Formula.value x theta)) (bend_twice t')).
+    { rewrite map_map. apply map_ext_in. intros r ir. rewrite map_map. apply map_ext_in. intros f i. apply V, in_or_app. right. apply in_or_app. left. apply in_concat. exists r. split; assumption. }
+    rewrite R1, R2, !Num in H. cbn [inputs_of map nth input_value Claim.value] in H. change (two_to 0) with 1 in H. rewrite Over1 in H.
+    specialize (H ltac:(apply Rmult_le_pos; [exact p0 | apply Rlt_le, Rinv_0_lt_compat, b0]) B2). intros v a lv la hv ha.
+    exists (Linear.dot (strut_row k L l P Q) a + ratio / 2 * quad (map (map (Formula.value x theta)) (bend_twice t')) v). split.
+    + unfold conf, struts_at. cbn [accelerates]. rewrite nl. exact (B3 v a).
+    + assert (units : Claim.value q * Claim.value q / Claim.value b / two_to s = ratio * (Claim.value q * Claim.value q / Claim.value b)) by (unfold ratio, Rdiv; ring).
+      exact (acceleration_bounded (dimension k) _ a _ v _ _ ratio (Claim.value p) (Claim.value q) (Claim.value b) ltac:(destruct k; cbn; lia) p0 q0 b0 eq_refl units H lv hv ha).
 Qed.
 End Precision.
 

@@ -38,11 +38,6 @@ Definition dimension (k : motion) : nat := match k with InSpace => 6 | _ => 3 en
 Definition strut_row (k : motion) (ell : R) (l : strut) (P : vec) (Q : mat) : list R :=
   let u := normalised (strut_vector l P Q) in twist k u (vscale (/ ell) (cross (arm_of_joint l Q) u)).
 
-Definition struts_at (k : motion) (ell : R) (m : list strut) (P : vec) (Q : mat) : configuration :=
-  Configuration (map (fun l => strut_row k ell l P Q) m) (map (fun l => Length (strut_length l P Q)) m) (map (fun _ => None) m)
-    (map (fun l => Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)) m) (fun b => vadd P (mulv Q b))
-    (Forall (fun l => 0 < norm2 (strut_vector l P Q)) m).
-
 (** The motion's own velocities. *)
 Definition is_of (k : motion) (v omega : vec) : Prop :=
   match k with InPlane => vz v = 0 /\ vx omega = 0 /\ vy omega = 0 | InSpace => True | AboutPoint => v = vzero end.
@@ -50,18 +45,35 @@ Definition is_of (k : motion) (v omega : vec) : Prop :=
 Definition turns (Q : R -> mat) (t : R) (omega : vec) : Prop :=
   forall b, has_velocity (fun u => mulv (Q u) b) t (cross omega (mulv (Q t) b)).
 
+(** The leg's acceleration: along every motion through the pose with the twist v, whose rate is a, row . twist, the leg's speed, has the derivative y. *)
+Definition strut_accelerates (k : motion) (ell : R) (l : strut) (P : vec) (Q : mat) (v a : list R) (y : R) : Prop :=
+  forall position turn velocity omega acceleration alpha, position 0 = P -> turn 0 = Q ->
+    has_velocity position 0 (velocity 0) -> turns turn 0 (omega 0) -> has_velocity velocity 0 acceleration -> has_velocity omega 0 alpha -> is_of k (velocity 0) (omega 0) ->
+    v = twist k (velocity 0) (vscale ell (omega 0)) -> a = twist k acceleration (vscale ell alpha) ->
+    derivable_pt_lim (fun t => Linear.dot (strut_row k ell l (position t) (turn t)) (twist k (velocity t) (vscale ell (omega t)))) 0 y.
+
+Definition struts_at (k : motion) (ell : R) (m : list strut) (P : vec) (Q : mat) : configuration :=
+  Configuration (map (fun l => strut_row k ell l P Q) m) (map (fun l => Length (strut_length l P Q)) m) (map (fun _ => None) m)
+    (map (fun l => Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)) m) (fun b => vadd P (mulv Q b))
+    (fun i v a y => match nth_error m i with Some l => strut_accelerates k ell l P Q v a y | None => False end)
+    (Forall (fun l => 0 < norm2 (strut_vector l P Q)) m).
+
+Lemma vector_velocity : forall l P Q t v omega, has_velocity P t v -> turns Q t omega ->
+  has_velocity (fun u => strut_vector l (P u) (Q u)) t (vadd v (cross omega (arm_of_joint l (Q t)))).
+Proof.
+  intros l P Q t v omega [p1 [p2 p3]] hQ. destruct (hQ (strut_joint l)) as [q1 [q2 q3]].
+  assert (K : forall f g d e c, derivable_pt_lim f t d -> derivable_pt_lim g t e -> derivable_pt_lim (fun u => f u + g u - c) t (d + e)).
+  { intros f g d e c hf hg. apply derivable_eq with (fun u => f u + g u + - c) (d + e + 0); try (intros; ring).
+    apply derivable_add; [apply derivable_add; assumption | apply derivable_const]. }
+  split; [| split]; unfold strut_vector, arm_of_joint; cbn [vsub vadd vx vy vz] in *; apply K; assumption.
+Qed.
+
 (** A guard on the model: along any differentiable motion, the leg's length changes at the speed row . twist. *)
 Theorem length_velocity : forall k ell l P Q t v omega, ell <> 0 -> 0 < norm2 (strut_vector l (P t) (Q t)) ->
   has_velocity P t v -> turns Q t omega -> is_of k v omega ->
   derivable_pt_lim (fun u => strut_length l (P u) (Q u)) t (Linear.dot (strut_row k ell l (P t) (Q t)) (twist k v (vscale ell omega))).
 Proof.
-  intros k ell l P Q t v omega e0 reach hP hQ hk. set (r := arm_of_joint l (Q t)).
-  assert (W : has_velocity (fun u => strut_vector l (P u) (Q u)) t (vadd v (cross omega r))).
-  { destruct hP as [p1 [p2 p3]]. destruct (hQ (strut_joint l)) as [q1 [q2 q3]].
-    assert (K : forall f g d e c, derivable_pt_lim f t d -> derivable_pt_lim g t e -> derivable_pt_lim (fun u => f u + g u - c) t (d + e)).
-    { intros f g d e c hf hg. apply derivable_eq with (fun u => f u + g u + - c) (d + e + 0); try (intros; ring).
-      apply derivable_add; [apply derivable_add; assumption | apply derivable_const]. }
-    split; [| split]; unfold strut_vector, arm_of_joint; cbn [vsub vadd vx vy vz] in *; apply K; assumption. }
+  intros k ell l P Q t v omega e0 reach hP hQ hk. set (r := arm_of_joint l (Q t)). pose proof (vector_velocity l P Q t v omega hP hQ) as W. fold r in W.
   pose proof (velocity_norm2 _ t _ W) as N. cbn beta in N. set (w := strut_vector l (P t) (Q t)) in *.
   apply derivable_eq with (comp sqrt (fun u => norm2 (strut_vector l (P u) (Q u))))
     (/ (2 * sqrt (norm2 w)) * (2 * Vec3.dot w (vadd v (cross omega r)))).

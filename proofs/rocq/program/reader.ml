@@ -218,7 +218,7 @@ let two_points_demand v =
 let strut_demand v =
   let r = requirement ~turns:true v in
   match r.about_ with
-  | BaseJoint_ | PlatformJoint_ | Clearance_ -> r
+  | BaseJoint_ | PlatformJoint_ | Clearance_ | Acceleration_ -> r
   | _ -> two_points_demand v
 let driven_demand v =
   let r = requirement ~turns:true v in
@@ -413,11 +413,13 @@ let proof n v =
 
 let is_certified_only r = match r.about_ with Force_ | Acceleration_ | OneToOne_ | Accuracy_ -> true | _ -> false
 let has_each = List.exists (fun r -> match r.given_ with Some (Each_ _) -> true | _ -> false)
-(* A sign by slopes is of angles of more than 90 degrees at joints. *)
-let is_wide r = match r.about_, r.end_ with (BaseJoint_ | PlatformJoint_), AtMost_ b -> not (up_to_90 (denoted b)) | _ -> false
+(* By slopes are angles of more than 90 degrees at joints, and accelerations. *)
+let is_by_slopes r = match r.about_, r.end_ with
+  | (BaseJoint_ | PlatformJoint_), AtMost_ b -> not (up_to_90 (denoted b))
+  | about, _ -> about = Acceleration_
 let is_pose_step rs (_, s) = match s with
   | AtControls_ _ | Plain "outside" | Multiplied ("direction", _, _) | Apart_ _ -> true
-  | Plain "test" -> List.exists is_wide rs
+  | Plain "test" -> List.exists is_by_slopes rs
   | _ -> false
 
 let certificate text =

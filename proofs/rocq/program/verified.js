@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(E){"use strict";var
-iC="spatial",o6="Invalid_argument",gq="precision",ay='"',iB=1255,o5="inside",n$="(",oa=0x800,o4="yaw",n8="range",n9="tree",n_="jsError",bR=0x8000,o3="sqrt(",n7=256,n6="obligation",eV="offset",a6="machine",n4="this quantity of such a mechanism in a claim that is refuted",n5="End_of_file",dW="strut",iA="center",eU="arm",iz="Failure",o2="serial_margin",gz="parameters",cd=0xff,o1="bodies",iM="outside",gy="base_axis",iy="ENOENT",o0="singular",oZ=122,n3="([^/]+)",iL="0",ix=0xf,eT=128,n2=0xdc00,oX="Sys_blocked_io",oY="fd ",gp="given",n1="ENOTEMPTY",aL=248,go="bound",n0="Division_by_zero",oV="by",oW=1027,nZ="Sys_error",gx="slider",nY="torsion",oU="postulate",nX="proof",oT="joint_error",eS="refuted",dR="mechanism",gn="row",nW="EEXIST",oS="roll_pitch_yaw",gw="y",nV="cube",da="lower",oR="within",nU="clearance",oQ="turned",nT="control",gm="int_of_string",oO="definitions",oP="dependent",eR=1024,nR="from",nS="name",oN=" : flags Open_rdonly and Open_wronly are not compatible",nQ="orthocert/2",oM="reach",nP=512,oK="base_joint",oL="witness",eQ="-",a0="platform",nO=0x7ff0,nN="pitch",iK=": Not a directory",bk="min",oI="trim",dV="workspace",oJ=" : file already exists",gl="split",oG='the failure "singular" of such a mechanism',iJ="legs",oH="claim",iw="joint",db=0xffffff,nM="platform_joint",nL="formulas",nK="roll",gk="atlas",oE="nodes",oF="Out_of_memory",nJ="psi_max",gv="orientation",gj=254,oD="angle",iI="index out of bounds",nI="end",oC="one_to_one",gu="_bigarr02",nH=" : flags Open_text and Open_binary are not compatible",bF="drive",nG="coordinates",oB="holds",nF="lower_divided",nE="speed",oz="cylinder",oA="joints",cc=0xffff,ox="acceleration",eO="certified",eP="chords",oy=12520,iv="on",gi="accuracy",eN="axis",ow="no_cube",ov="parallel_margin",nD='the drive "',iu="Unix.Unix_error",gt="fails",gh="tool",it="mkdir",ou="rho",gs=1000,is="translational",ot="tolerances",nC="Stack_overflow",iH="characteristic_length",T="",iG="^",ir="places",gg=": No such file or directory",nB="/static/",dU=0x3f,nz="stiffness",nA="Not_found",c$="planar",eL="mode",os="joint_speed",or="Match_failure",ny="transmission",bj="anchor",oq="at",nx="joint_force",dT="leg",nw="joint_acceleration",gr="+",iq="rmdir",op=0xf0,oo="spherical",nv=1026,om="REJECTED",on="undecided",bl="max",bS="direction",nt="leg_angle",nu="orthoglide",eM="rank",ol="constraint_margin",gf="test",nr="Pervasives.do_at_exit",ns="utf8",bE=0x80,dS="conditioning",dQ="length",nq="Undefined_recursive_module",iF=")",np="base",ok="quantity",no="joint_range",ge="tilt",nn="Q2",oj="reference",nm="point",oh="corner",oi=0xe0,nl="version",iE="z",of="to",og=0xdfff,ip="compare: functional value",oe="Assert_failure",bH="/",od="provenance",c_="radius",gd="side",bG="require",oc="format",nk="Q1",iD="ENOTDIR",nj="all",c9="box",ob=250;function
-iZ(c,b,a){var
+a.prototype._T_}}(Object));(function(G){"use strict";var
+iI="spatial",pf="Invalid_argument",gt="precision",az='"',iH=1255,pe="inside",ok="(",ol=0x800,pd="yaw",oh="range",oi="tree",oj="jsError",bT=0x8000,pc="sqrt(",og=256,of="obligation",eY="offset",a8="machine",od="this quantity of such a mechanism in a claim that is refuted",oe="End_of_file",dZ="strut",iG="center",eX="arm",iF="Failure",pb="serial_margin",gC="parameters",ch=0xff,pa="bodies",iS="outside",gB="base_axis",iE="ENOENT",o$="singular",o_=122,oc="([^/]+)",iR="0",iD=0xf,eW=128,ob=0xdc00,o8="Sys_blocked_io",o9="fd ",gs="given",oa="ENOTEMPTY",aM=248,gr="bound",n$="Division_by_zero",o6="by",o7=1027,n_="Sys_error",gA="slider",n9="torsion",o5="postulate",n8="proof",o4="joint_error",eV="refuted",dU="mechanism",gq="row",n7="EEXIST",o3="roll_pitch_yaw",gz="y",n6="cube",db="lower",o2="within",n5="clearance",o1="turned",n4="control",gp="int_of_string",oZ="definitions",o0="dependent",eU=1024,n2="from",n3="name",oY=" : flags Open_rdonly and Open_wronly are not compatible",n1="orthocert/2",oX="reach",n0=512,oV="base_joint",oW="witness",eT="-",a1="platform",nZ=0x7ff0,nY="pitch",iQ=": Not a directory",bo="min",oT="trim",dY="workspace",oU=" : file already exists",go="split",oR='the failure "singular" of such a mechanism',iP="legs",oS="claim",iC="joint",dc=0xffffff,nX="platform_joint",nW="formulas",nV="roll",gn="atlas",oP="nodes",oQ="Out_of_memory",nU="psi_max",gy="orientation",gm=254,oO="angle",iO="index out of bounds",nT="end",oN="one_to_one",gx="_bigarr02",nS=" : flags Open_text and Open_binary are not compatible",bH="drive",nR="coordinates",oM="holds",nQ="lower_divided",nP="speed",oK="cylinder",oL="joints",cg=0xffff,oI="acceleration",eR="certified",eS="chords",oJ=12520,iB="on",gl="accuracy",eQ="axis",oH="no_cube",oG="parallel_margin",nO='the drive "',iA="Unix.Unix_error",gw="fails",gk="tool",iz="mkdir",oF="rho",gv=1000,iy="translational",oE="tolerances",nN="Stack_overflow",iN="characteristic_length",T="",iM="^",ix="places",gj=": No such file or directory",nM="/static/",dX=0x3f,nK="stiffness",nL="Not_found",da="planar",eO="mode",oD="joint_speed",oC="Match_failure",nJ="transmission",bn="anchor",oB="at",nI="joint_force",dW="leg",nH="joint_acceleration",gu="+",iw="rmdir",oA=0xf0,oz="spherical",nG=1026,ox="REJECTED",oy="undecided",bp="max",bU="direction",nE="leg_angle",nF="orthoglide",eP="rank",ow="constraint_margin",gi="test",nC="Pervasives.do_at_exit",nD="utf8",bG=0x80,dV="conditioning",dT="length",nB="Undefined_recursive_module",iL=")",nA="base",ov="quantity",nz="joint_range",gh="tilt",ny="Q2",ou="reference",nx="point",os="corner",ot=0xe0,nw="version",iK="z",oq="to",or=0xdfff,iv="compare: functional value",op="Assert_failure",bJ="/",oo="provenance",c$="radius",gg="side",bI="require",on="format",nv="Q1",iJ="ENOTDIR",nu="all",c_="box",om=250;function
+i5(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eR,a-=eR)e+=d.apply(null,c.slice(b,b+Math.min(a,eR)));return e}function
-gB(b){if(E.Uint8Array)var
-c=new(E.Uint8Array)(b.l);else
+e=T;for(;0<a;b+=eU,a-=eU)e+=d.apply(null,c.slice(b,b+Math.min(a,eU)));return e}function
+gE(b){if(G.Uint8Array)var
+c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eW(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?iZ(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gB(b);var
+eZ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i5(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?i5(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gE(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-dZ(a){return a}function
-dY(a,b,c,d,e){eW(dZ(a),b,c,d,e);return 0}function
-iO(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+d2(a){return a}function
+d1(a,b,c,d,e){eZ(d2(a),b,c,d,e);return 0}function
+iU(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cH(c,a){if(c.fun)return cH(c.fun,a);if(typeof
+cI(c,a){if(c.fun)return cI(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cH(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cI(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cH(c,d)}}function
-pw(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cI(c,d)}}function
+pH(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
 d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d0(a){if(a.t==2)a.c+=pw(a.l-a.c.length,"\0");else
-a.c=iZ(a.c,0,a.c.length);a.t=0}function
-d1(a){a.t&6&&d0(a);return a.c}var
-Et=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Es(a){if(Et)return Math.floor(Math.log2(a));var
+d3(a){if(a.t==2)a.c+=pH(a.l-a.c.length,"\0");else
+a.c=i5(a.c,0,a.c.length);a.t=0}function
+d4(a){a.t&6&&d3(a);return a.c}var
+ET=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+ES(a){if(ET)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iR(c){var
-a=new(E.Float32Array)(1);a[0]=c;var
-b=new(E.Int32Array)(a.buffer);return b[0]|0}var
-pn=Math.pow(2,-24);function
-Ej(a){throw a}var
+iX(c){var
+a=new(G.Float32Array)(1);a[0]=c;var
+b=new(G.Int32Array)(a.buffer);return b[0]|0}var
+py=Math.pow(2,-24);function
+EJ(a){throw a}var
 as=[0];function
-pt(){Ej(as.Division_by_zero)}function
-D(b,c,a){this.lo=b&db;this.mi=c&db;this.hi=a&cc}D.prototype.caml_custom="_j";D.prototype.copy=function(){return new
-D(this.lo,this.mi,this.hi)};D.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};D.prototype.neg=function(){var
+pE(){EJ(as.Division_by_zero)}function
+F(b,c,a){this.lo=b&dc;this.mi=c&dc;this.hi=a&cg}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
+F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-D(a,b,c)};D.prototype.add=function(a){var
+F(a,b,c)};F.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-D(b,c,d)};D.prototype.sub=function(a){var
+F(b,c,d)};F.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-D(b,c,d)};D.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*pn|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pn|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-D(b,c,d)};D.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};D.prototype.isNeg=function(){return this.hi<<16<0};D.prototype.and=function(a){return new
-D(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};D.prototype.or=function(a){return new
-D(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};D.prototype.xor=function(a){return new
-D(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};D.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-D(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-D(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-D(0,0,this.lo<<a-48)};D.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-D(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-D(this.hi>>a-48,0,0)};D.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+F(b,c,d)};F.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*py|0)+this.mi*a.lo+this.lo*a.mi,d=(c*py|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+F(b,c,d)};F.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};F.prototype.isNeg=function(){return this.hi<<16<0};F.prototype.and=function(a){return new
+F(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};F.prototype.or=function(a){return new
+F(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};F.prototype.xor=function(a){return new
+F(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};F.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+F(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+F(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+F(0,0,this.lo<<a-48)};F.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+F(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+F(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+F(this.hi>>a-48,0,0)};F.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-D(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+F(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-D(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cc);return new
-D(this.hi<<16>>a-32,b,b)};D.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&db;this.lo=this.lo<<1&db};D.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&db;this.mi=(this.mi>>>1|this.hi<<23)&db;this.hi=this.hi>>>1};D.prototype.udivmod=function(e){var
+F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cg);return new
+F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dc;this.lo=this.lo<<1&dc};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dc;this.mi=(this.mi>>>1|this.hi<<23)&dc;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-D(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};D.prototype.div=function(a){var
-b=this;if(a.isZero())pt();var
-d=b.hi^a.hi;if(b.hi&bR)b=b.neg();if(a.hi&bR)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bR)c=c.neg();return c};D.prototype.mod=function(b){var
-a=this;if(b.isZero())pt();var
-d=a.hi;if(a.hi&bR)a=a.neg();if(b.hi&bR)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bR)c=c.neg();return c};D.prototype.toInt=function(){return this.lo|this.mi<<24};D.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};D.prototype.toArray=function(){return[this.hi>>8,this.hi&cd,this.mi>>16,this.mi>>8&cd,this.mi&cd,this.lo>>16,this.lo>>8&cd,this.lo&cd]};D.prototype.lo32=function(){return this.lo|(this.mi&cd)<<24};D.prototype.hi32=function(){return this.mi>>>8&cc|this.hi<<16};function
-gD(b,c,a){return new
-D(b,c,a)}function
-gC(a){if(!isFinite(a)){if(isNaN(a))return gD(1,0,nO);return a>0?gD(0,0,nO):gD(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bR:a>=0?0:bR;if(f)a=-a;var
-b=Es(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nv)}else{a/=Math.pow(2,b-oW);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
+b=this;if(a.isZero())pE();var
+d=b.hi^a.hi;if(b.hi&bT)b=b.neg();if(a.hi&bT)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bT)c=c.neg();return c};F.prototype.mod=function(b){var
+a=this;if(b.isZero())pE();var
+d=a.hi;if(a.hi&bT)a=a.neg();if(b.hi&bT)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bT)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
+gG(b,c,a){return new
+F(b,c,a)}function
+gF(a){if(!isFinite(a)){if(isNaN(a))return gG(1,0,nZ);return a>0?gG(0,0,nZ):gG(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bT:a>=0?0:bT;if(f)a=-a;var
+b=ES(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nG)}else{a/=Math.pow(2,b-o7);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&ix|f|b<<4;return gD(g,e,c)}function
-eZ(a){return a.toArray()}function
-pb(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gu)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cc)c.write(16,b.dims[a]);else{c.write(16,cc);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&iD|f|b<<4;return gG(g,e,c)}function
+e2(a){return a.toArray()}function
+pm(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gx)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cg)c.write(16,b.dims[a]);else{c.write(16,cg);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=eZ(b.get(a));for(var
+e=e2(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=eZ(gC(b.get(a)));for(var
+e=e2(gF(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iR(b.get(a));c.write(32,e)}break;case
+e=iX(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iR(d[1]));c.write(32,iR(d[2]))}break;case
+d=b.get(a);c.write(32,iX(d[1]));c.write(32,iX(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=eZ(gC(f[1]));for(var
+f=b.get(a),e=e2(gF(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=eZ(gC(f[2]));for(var
+e=e2(gF(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-El(b,a){throw[0,b,a]}function
-pB(a){if(a.length<24){for(var
+EL(b,a){throw[0,b,a]}function
+pM(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-i0(e){for(var
-j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bE){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bE;d++);if(d-b>nP){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eT){g=h+(f<<6);if(f<oi){a=g-0x3080;if(a<bE)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eT){g=h+(g<<6);if(f<op){a=g-0xe2080;if(a<oa||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eT&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cc)c+=String.fromCharCode(0xd7c0+(a>>10),n2+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eR){c.substr(0,1);j+=c;c=T}}return j+c}function
-bT(c,a,b){this.t=c;this.c=a;this.l=b}bT.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d0(this);case
-0:if(pB(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bT.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return i0(a)};bT.prototype.slice=function(){var
+i6(e){for(var
+j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bG){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>n0){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(f<<6);if(f<ot){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(g<<6);if(f<oA){a=g-0xe2080;if(a<ol||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),ob+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eU){c.substr(0,1);j+=c;c=T}}return j+c}function
+bV(c,a,b){this.t=c;this.c=a;this.l=b}bV.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:d3(this);case
+0:if(pM(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};bV.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return i6(a)};bV.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bT(this.t,a,this.l)};function
-pe(a){return new
-bT(0,a,a.length)}function
-a(a){return pe(a)}function
-iY(c,b){El(c,a(b))}function
-aC(a){iY(as.Invalid_argument,a)}function
-o$(a){switch(a){case
+bV(this.t,a,this.l)};function
+pp(a){return new
+bV(0,a,a.length)}function
+a(a){return pp(a)}function
+i4(c,b){EL(c,a(b))}function
+aE(a){i4(as.Invalid_argument,a)}function
+pk(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-DP(c,e){var
-b=E,a;switch(c){case
+Ed(c,e){var
+b=G,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=E,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aC("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aE("Bigarray.create: unsupported kind");var
 d=new
-a(e*o$(c));return d}function
-iS(c){var
-a=new(E.Int32Array)(1);a[0]=c;var
-b=new(E.Float32Array)(a.buffer);return b[0]}function
-eY(a){return new
-D(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iT(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&ix)==0?b&bR?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&ix);if(c>0){a+=16;a*=Math.pow(2,c-oW)}else
-a*=Math.pow(2,-nv);if(b&bR)a=-a;return a}function
-iN(b){var
+a(e*pk(c));return d}function
+iY(c){var
+a=new(G.Int32Array)(1);a[0]=c;var
+b=new(G.Float32Array)(a.buffer);return b[0]}function
+e1(a){return new
+F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+iZ(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iD)==0?b&bT?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iD);if(c>0){a+=16;a*=Math.pow(2,c-o7)}else
+a*=Math.pow(2,-nG);if(b&bT)a=-a;return a}function
+iT(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aC("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-D5(b,a){return new
-D(b&db,b>>>24&cd|(a&cc)<<8,a>>>16&cc)}function
-iU(a){return a.hi32()}function
-iV(a){return a.lo32()}function
-gA(){aC(iI)}var
-DQ=gu;function
-cG(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cG.prototype.caml_custom=DQ;cG.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aE("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Et(b,a){return new
+F(b&dc,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
+i0(a){return a.hi32()}function
+i1(a){return a.lo32()}function
+gD(){aE(iO)}var
+Ee=gx;function
+cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ee;cH.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aC("bigarray.js: invalid offset");if(this.dims.length!=b.length)aC("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gA();c=c*this.dims[a]+b[a]}else
+Array))aE("bigarray.js: invalid offset");if(this.dims.length!=b.length)aE("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gD();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gA();c=c*this.dims[a]+(b[a]-1)}return c};cG.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gD();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return D5(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Et(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gj,e,c];default:return this.data[a]}};cG.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=iV(b);this.data[a*2+1]=iU(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gm,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=i1(b);this.data[a*2+1]=i0(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cG.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cH.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=iV(b),e=iU(b);if(c==e)this.data.fill(c);else
+c=i1(b),e=i0(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cG.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cH.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dX(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dX.prototype=new
-cG();dX.prototype.offset=function(a){if(typeof
+d0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d0.prototype=new
+cH();d0.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aC("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gA();return a};dX.prototype.get=function(a){return this.data[a]};dX.prototype.set=function(a,b){this.data[a]=b;return 0};dX.prototype.fill=function(a){this.data.fill(a);return 0};function
-o9(c,d,a,b){var
-e=o$(c);if(iN(a)*e!=b.length)aC("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dX(c,d,a,b);return new
-cG(c,d,a,b)}function
-bI(b){if(!as.Failure)as.Failure=[aL,a(iz),-3];iY(as.Failure,b)}function
-o_(b,v,r){var
-i=b.read32s();if(i<0||i>16)bI("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cd,o=p>>8&1,h=[];if(r==gu)for(var
+aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gD();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
+pi(c,d,a,b){var
+e=pk(c);if(iT(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+d0(c,d,a,b);return new
+cH(c,d,a,b)}function
+bK(b){if(!as.Failure)as.Failure=[aM,a(iF),-3];i4(as.Failure,b)}function
+pj(b,v,r){var
+i=b.read32s();if(i<0||i>16)bK("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gx)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cc){var
-t=b.read32u(),u=b.read32u();if(t!=0)bI("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cg){var
+t=b.read32u(),u=b.read32u();if(t!=0)bK("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iN(h),f=DP(j,d),g=o9(j,o,h,f);switch(j){case
+d=iT(h),f=Ed(j,d),g=pi(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bI("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bK("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=eY(e);g.set(a,q)}break;case
+q=e1(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iT(eY(e));g.set(a,k)}break;case
+k=iZ(e1(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iS(b.read32s());g.set(a,k)}break;case
+k=iY(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iS(b.read32s()),l=iS(b.read32s());g.set(a,[gj,m,l])}break;case
+m=iY(b.read32s()),l=iY(b.read32s());g.set(a,[gm,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iT(eY(e));for(var
+m=iZ(e1(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iT(eY(e));g.set(a,[gj,m,l])}break}v[0]=(4+i)*4;return o9(j,o,h,f)}function
-o8(a,b,c){return a.compare(b,c)}function
-pq(a,b){return Math.imul(a,b)}function
-ce(b,a){a=pq(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pq(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-D2(a,b){a=ce(a,iV(b));a=ce(a,iU(b));return a}function
-pm(a,b){return D2(a,gC(b))}function
-pa(c){var
-b=iN(c.dims),d=0;switch(c.kind){case
+l=iZ(e1(e));g.set(a,[gm,m,l])}break}v[0]=(4+i)*4;return pi(j,o,h,f)}function
+ph(a,b,c){return a.compare(b,c)}function
+pB(a,b){return Math.imul(a,b)}function
+ci(b,a){a=pB(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pB(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Eq(a,b){a=ci(a,i1(b));a=ci(a,i0(b));return a}function
+px(a,b){return Eq(a,gF(b))}function
+pl(c){var
+b=iT(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>n7)b=n7;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ce(d,e)}e=0;switch(b&3){case
+12:if(b>og)b=og;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ci(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=ce(d,e)}break;case
+1:e|=c.data[a+0];d=ci(d,e)}break;case
 4:case
-5:if(b>eT)b=eT;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ce(d,e)}if((b&1)!=0)d=ce(d,c.data[a]);break;case
+5:if(b>eW)b=eW;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ci(d,e)}if((b&1)!=0)d=ci(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ce(d,c.data[a]);break;case
+a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ce(d,c.data[a]);break;case
+a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=ce(d,c.data[a]);break;case
+a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=pm(d,c.data[a]);break;case
+a=0;a<b;a++)d=px(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=pm(d,c.data[a]);break}return d}function
-D3(a,b){b[0]=4;return a.read32s()}function
-Eg(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=px(d,c.data[a]);break}return d}function
+Er(a,b){b[0]=4;return a.read32s()}function
+EG(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bI("input_value: native integer value too large");default:bI("input_value: ill-formed native integer")}}function
-D8(c,d){var
+2:bK("input_value: native integer value too large");default:bK("input_value: ill-formed native integer")}}function
+Ew(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return eY(b)}function
-D7(e,d,b){var
-c=eZ(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e1(b)}function
+Ev(e,d,b){var
+c=e2(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-D4(a,b,c){return a.compare(b)}function
-D6(a){return a.lo32()^a.hi32()}var
-ph={"_j":{deserialize:D8,serialize:D7,fixed_length:8,compare:D4,hash:D6},"_i":{deserialize:D3,fixed_length:4},"_n":{deserialize:Eg,fixed_length:4},"_bigarray":{deserialize:function(a,b){return o_(a,b,"_bigarray")},serialize:pb,compare:o8,hash:pa},"_bigarr02":{deserialize:function(a,b){return o_(a,b,gu)},serialize:pb,compare:o8,hash:pa}};function
-iQ(a){return ph[a.caml_custom]&&ph[a.caml_custom].compare}function
-pf(f,c,d,e){var
-b=iQ(c);if(b){var
+Es(a,b,c){return a.compare(b)}function
+Eu(a){return a.lo32()^a.hi32()}var
+ps={"_j":{deserialize:Ew,serialize:Ev,fixed_length:8,compare:Es,hash:Eu},"_i":{deserialize:Er,fixed_length:4},"_n":{deserialize:EG,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pj(a,b,"_bigarray")},serialize:pm,compare:ph,hash:pl},"_bigarr02":{deserialize:function(a,b){return pj(a,b,gx)},serialize:pm,compare:ph,hash:pl}};function
+iW(a){return ps[a.caml_custom]&&ps[a.caml_custom].compare}function
+pq(f,c,d,e){var
+b=iW(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-iX(a){return a
+i3(a){return a
 instanceof
-bT}function
-po(a){return iX(a)}function
-pg(a){if(typeof
-a==="number")return gs;else
-if(iX(a))return 252;else
-if(po(a))return 1252;else
+bV}function
+pz(a){return i3(a)}function
+pr(a){if(typeof
+a==="number")return gv;else
+if(i3(a))return 252;else
+if(pz(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gj?0:b}else
+b=a[0]|0;return b==gm?0:b}else
 if(a
 instanceof
-String)return oy;else
+String)return oJ;else
 if(typeof
-a=="string")return oy;else
+a=="string")return oJ;else
 if(a
 instanceof
-Number)return gs;else
-if(a&&a.caml_custom)return iB;else
+Number)return gv;else
+if(a&&a.caml_custom)return iH;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-D9(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pd(a,b){a.t&6&&d0(a);b.t&6&&d0(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-px(a,b){return pd(a,b)}function
-iP(a,b,d){var
+Ex(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+po(a,b){a.t&6&&d3(a);b.t&6&&d3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+pI(a,b){return po(a,b)}function
+iV(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pg(a);if(f==ob){a=a[1];continue}var
-g=pg(b);if(g==ob){b=b[1];continue}if(f!==g){if(f==gs){if(g==iB)return pf(a,b,-1,d);return-1}if(g==gs){if(f==iB)return pf(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aC(ip);break;case
+f=pr(a);if(f==om){a=a[1];continue}var
+g=pr(b);if(g==om){b=b[1];continue}if(f!==g){if(f==gv){if(g==iH)return pq(a,b,-1,d);return-1}if(g==gv){if(f==iH)return pq(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aE(iv);break;case
 248:var
-c=D9(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aC(ip);break;case
-250:aC("equal: got Forward_tag, should not happen");break;case
-251:aC("equal: abstract value");break;case
+c=Ex(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aE(iv);break;case
+250:aE("equal: got Forward_tag, should not happen");break;case
+251:aE("equal: abstract value");break;case
 252:if(a!==b){var
-c=pd(a,b);if(c!=0)return c|0}break;case
-253:aC("equal: got Double_tag, should not happen");break;case
-254:aC("equal: got Double_array_tag, should not happen");break;case
-255:aC("equal: got Custom_tag, should not happen");break;case
-1247:aC(ip);break;case
+c=po(a,b);if(c!=0)return c|0}break;case
+253:aE("equal: got Double_tag, should not happen");break;case
+254:aE("equal: got Double_array_tag, should not happen");break;case
+255:aE("equal: got Custom_tag, should not happen");break;case
+1247:aE(iv);break;case
 1255:var
-i=iQ(a);if(i!=iQ(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aC("compare: abstract value");var
+i=iW(a);if(i!=iW(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aE("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=d1(a),b=d1(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=d4(a),b=d4(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-DX(a,b){return iP(a,b,true)}function
-bV(a){if(a<0)aC("Bytes.create");return new
-bT(a?2:9,T,a)}function
-pi(a,b){return+(iP(a,b,false)==0)}function
-DZ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pw(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gB(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Eh=0;function
-pk(){return Eh++}function
-D$(a){return a.toUtf16()}function
-e0(){return typeof
-E.process!=="undefined"&&typeof
-E.process.versions!=="undefined"&&typeof
-E.process.versions.node!=="undefined"}function
-Eu(){function
-a(a){if(a.charAt(0)===bH)return[T,a.substring(1)];return}function
+El(a,b){return iV(a,b,true)}function
+bX(a){if(a<0)aE("Bytes.create");return new
+bV(a?2:9,T,a)}function
+pt(a,b){return+(iV(a,b,false)==0)}function
+En(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gE(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+EH=0;function
+pv(){return EH++}function
+Ez(a){return a.toUtf16()}function
+e3(){return typeof
+G.process!=="undefined"&&typeof
+G.process.versions!=="undefined"&&typeof
+G.process.versions.node!=="undefined"}function
+EU(){function
+a(a){if(a.charAt(0)===bJ)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e0()&&E.process&&E.process.platform?E.process.platform==="win32"?b:a:a}var
-i4=Eu();function
-py(a){return a.slice(-1)!==bH?a+bH:a}if(e0()&&E.process&&E.process.cwd)var
-eX=E.process.cwd().replace(/\\/g,bH);else
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e3()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
+i_=EU();function
+pJ(a){return a.slice(-1)!==bJ?a+bJ:a}if(e3()&&G.process&&G.process.cwd)var
+e0=G.process.cwd().replace(/\\/g,bJ);else
 var
-eX="/static";eX=py(eX);function
-Eb(a){a=D$(a);if(!i4(a))a=eX+a;var
-e=i4(a),d=e[1].split(bH),b=[];for(var
+e0="/static";e0=pJ(e0);function
+EB(a){a=Ez(a);if(!i_(a))a=e0+a;var
+e=i_(a),d=e[1].split(bJ),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Ep(e){for(var
-f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bE){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bE;d++);if(d-c>nP){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oa){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bE|a&dU)}else
-if(a<0xd800||a>=og)b+=String.fromCharCode(oi|a>>12,bE|a>>6&dU,bE|a&dU);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n2||h>og)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(op|a>>18,bE|a>>12&dU,bE|a>>6&dU,bE|a&dU)}if(b.length>eR){b.substr(0,1);f+=b;b=T}}return f+b}function
-DU(a){var
-b=9;if(!pB(a))b=8,a=Ep(a);return new
-bT(b,a,a.length)}function
-d2(a){return DU(a)}var
-Ex=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",nW,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iy,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iD,n1,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-df(d,f,e,a){var
-b=Ex.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,d2(f||T),d2(e||T)];return c}var
-pr={};function
-dc(a){return pr[a]}function
-dd(b,a){throw[0,b].concat(a)}function
-DT(a){return new
-bT(4,a,a.length)}function
-ah(a){iY(as.Sys_error,a)}function
-Ek(a){ah(a+gg)}function
-pc(){aC(iI)}function
-DS(b,a){if(a>>>0>=b.l)pc();return iO(b,a)}function
-gE(a){return a.l}function
-o7(){}function
-aA(a){this.data=a}aA.prototype=new
-o7();aA.prototype.truncate=function(a){var
-b=this.data;this.data=bV(a|0);eW(b,0,this.data,0,a)};aA.prototype.length=function(){return gE(this.data)};aA.prototype.write=function(b,d,g,a){var
+EP(e){for(var
+f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bG){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>n0){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<ol){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
+if(a<0xd800||a>=or)b+=String.fromCharCode(ot|a>>12,bG|a>>6&dX,bG|a&dX);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ob||h>or)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oA|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eU){b.substr(0,1);f+=b;b=T}}return f+b}function
+Ei(a){var
+b=9;if(!pM(a))b=8,a=EP(a);return new
+bV(b,a,a.length)}function
+d5(a){return Ei(a)}var
+EX=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iE,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iJ,oa,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dg(d,f,e,a){var
+b=EX.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,d5(f||T),d5(e||T)];return c}var
+pC={};function
+dd(a){return pC[a]}function
+de(b,a){throw[0,b].concat(a)}function
+Eh(a){return new
+bV(4,a,a.length)}function
+aj(a){i4(as.Sys_error,a)}function
+EK(a){aj(a+gj)}function
+pn(){aE(iO)}function
+Eg(b,a){if(a>>>0>=b.l)pn();return iU(b,a)}function
+gH(a){return a.l}function
+pg(){}function
+aC(a){this.data=a}aC.prototype=new
+pg();aC.prototype.truncate=function(a){var
+b=this.data;this.data=bX(a|0);eZ(b,0,this.data,0,a)};aC.prototype.length=function(){return gH(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bV(b+a),f=this.data;this.data=e;eW(f,0,this.data,0,c)}dY(d,g,this.data,b,a);return 0};aA.prototype.read=function(c,a,d,b){var
-e=this.length();eW(this.data,c,a,d,b);return 0};aA.prototype.read_one=function(a){return DS(this.data,a)};aA.prototype.close=function(){};aA.prototype.constructor=aA;function
-aR(b,a){this.content={};this.root=b;this.lookupFun=a}aR.prototype.nm=function(a){return this.root+a};aR.prototype.create_dir_if_needed=function(d){var
-c=d.split(bH),b=T;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bH;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aR.prototype.slash=function(a){return/\/$/.test(a)?a:a+bH};aR.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=bX(b+a),f=this.data;this.data=e;eZ(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();eZ(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Eg(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
+aS(b,a){this.content={};this.root=b;this.lookupFun=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.create_dir_if_needed=function(d){var
+c=d.split(bJ),b=T;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bJ;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bJ};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aA(dZ(c[1]))}}};aR.prototype.exists=function(a){if(a==T)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aR.prototype.mkdir=function(c,e,d){var
-b=d&&dc(iu);if(this.exists(c))if(b)dd(b,df(nW,it,this.nm(c)));else
-ah(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)dd(b,df(iy,it,this.nm(a)));else
-ah(a+gg);if(!this.is_dir(a))if(b)dd(b,df(iD,it,this.nm(a)));else
-ah(a+iK);this.create_dir_if_needed(this.slash(c))};aR.prototype.rmdir=function(a,f){var
-b=f&&dc(iu),c=a==T?T:this.slash(a),e=new
-RegExp(iG+c+n3);if(!this.exists(a))if(b)dd(b,df(iy,iq,this.nm(a)));else
-ah(a+gg);if(!this.is_dir(a))if(b)dd(b,df(iD,iq,this.nm(a)));else
-ah(a+iK);for(var
+aC(d2(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aS.prototype.mkdir=function(c,e,d){var
+b=d&&dd(iA);if(this.exists(c))if(b)de(b,dg(n7,iz,this.nm(c)));else
+aj(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iE,iz,this.nm(a)));else
+aj(a+gj);if(!this.is_dir(a))if(b)de(b,dg(iJ,iz,this.nm(a)));else
+aj(a+iQ);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
+b=f&&dd(iA),c=a==T?T:this.slash(a),e=new
+RegExp(iM+c+oc);if(!this.exists(a))if(b)de(b,dg(iE,iw,this.nm(a)));else
+aj(a+gj);if(!this.is_dir(a))if(b)de(b,dg(iJ,iw,this.nm(a)));else
+aj(a+iQ);for(var
 d
 in
-this.content)if(d.match(e))if(b)dd(b,df(n1,iq,this.nm(a)));else
-ah(this.nm(a)+": Directory not empty");delete
-this.content[c]};aR.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))ah(a+gg);if(!this.is_dir(a))ah(a+iK);var
+this.content)if(d.match(e))if(b)de(b,dg(oa,iw,this.nm(a)));else
+aj(this.nm(a)+": Directory not empty");delete
+this.content[c]};aS.prototype.readdir=function(a){var
+f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gj);if(!this.is_dir(a))aj(a+iQ);var
 g=new
-RegExp(iG+f+n3),d={},c=[];for(var
+RegExp(iM+f+oc),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aR.prototype.is_dir=function(a){if(a==T)return true;var
-b=this.slash(a);return this.content[b]?1:0};aR.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aS.prototype.is_dir=function(a){if(a==T)return true;var
+b=this.slash(a);return this.content[b]?1:0};aS.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aR.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ah(this.nm(a)+oN);if(b.text&&b.binary)ah(this.nm(a)+nH);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ah(this.nm(a)+" : is a directory");if(b.create&&b.excl)ah(this.nm(a)+oJ);var
+this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oY);if(b.text&&b.binary)aj(this.nm(a)+nS);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oU);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aA(bV(0));return this.content[a]}else
-Ek(this.nm(a))};aR.prototype.register=function(c,a){var
-b;if(this.content[c])ah(this.nm(c)+oJ);if(iX(a))b=new
-aA(a);if(po(a))b=new
-aA(dZ(a));else
+aC(bX(0));return this.content[a]}else
+EK(this.nm(a))};aS.prototype.register=function(c,a){var
+b;if(this.content[c])aj(this.nm(c)+oU);if(i3(a))b=new
+aC(a);if(pz(a))b=new
+aC(d2(a));else
 if(a
 instanceof
 Array)b=new
-aA(DT(a));else
+aC(Eh(a));else
 if(typeof
 a==="string")b=new
-aA(pe(a));else
+aC(pp(a));else
 if(a.toString){var
-d=dZ(d2(a.toString()));b=new
-aA(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ah(this.nm(c)+" : registering file with invalid content type")};aR.prototype.constructor=aR;function
-ap(a){return gE(a)}function
-de(b,a){return iO(b,a)}function
-DO(d){var
+d=d2(d5(a.toString()));b=new
+aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aj(this.nm(c)+" : registering file with invalid content type")};aS.prototype.constructor=aS;function
+ap(a){return gH(a)}function
+df(b,a){return iU(b,a)}function
+Ec(d){var
 c=ap(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=de(d,a);return b}function
-DN(a){if(a.t!=4)gB(a);return a.c}function
-DW(a,c,b){b&=cd;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gB(a)}a.c[c]=b;return 0}function
-DV(b,a,c){if(a>>>0>=b.l)pc();return DW(b,a,c)}function
-bU(a){this.fs=require("fs");this.fd=a}bU.prototype=new
-o7();bU.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ah(a.toString())}};bU.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ah(a.toString())}};bU.prototype.write=function(f,b,c,e){var
-a=DO(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=df(d,a);return b}function
+Eb(a){if(a.t!=4)gE(a);return a.c}function
+Ek(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gE(a)}a.c[c]=b;return 0}function
+Ej(b,a,c){if(a>>>0>=b.l)pn();return Ek(b,a,c)}function
+bW(a){this.fs=require("fs");this.fd=a}bW.prototype=new
+pg();bW.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bW.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bW.prototype.write=function(f,b,c,e){var
+a=Ec(b);if(!(a
 instanceof
-E.Uint8Array))a=new(E.Uint8Array)(a);var
-d=E.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ah(a.toString())}return 0};bU.prototype.read=function(g,d,c,f){var
-a=DN(d);if(!(a
+G.Uint8Array))a=new(G.Uint8Array)(a);var
+d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aj(a.toString())}return 0};bW.prototype.read=function(g,d,c,f){var
+a=Eb(d);if(!(a
 instanceof
-E.Uint8Array))a=new(E.Uint8Array)(a);var
-e=E.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ah(a.toString())}for(var
-b=0;b<f;b++)DV(d,c+b,e[c+b]);return 0};bU.prototype.read_one=function(c){var
-b=new(E.Uint8Array)(1),a=E.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ah(a.toString())}return a[0]};bU.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ah(a.toString())}};bU.prototype.constructor=bU;function
-aB(a){this.fs=require("fs");this.root=a}aB.prototype.nm=function(a){return this.root+a};aB.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aB.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ah(a.toString())}};aB.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.open=function(f,c,g){var
+G.Uint8Array))a=new(G.Uint8Array)(a);var
+e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aj(a.toString())}for(var
+b=0;b<f;b++)Ej(d,c+b,e[c+b]);return 0};bW.prototype.read_one=function(c){var
+b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aj(a.toString())}return a[0]};bW.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aj(a.toString())}};bW.prototype.constructor=bW;function
+aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aj(a.toString())}};aD.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bU(d)}catch(a){this.raise_nodejs_error(a,g)}};aB.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aB.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),ns);return d2(a)}catch(a){this.raise_nodejs_error(a,c)}};aB.prototype.raise_nodejs_error=function(a,d){var
-b=dc(iu);if(d&&b){var
-c=df(a.code,a.syscall,a.path,a.errno);dd(b,c)}else
-ah(a.toString())};aB.prototype.stats_from_js=function(a){var
+bW(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),nD);return d5(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
+b=dd(iA);if(d&&b){var
+c=dg(a.code,a.syscall,a.path,a.errno);de(b,c)}else
+aj(a.toString())};aD.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aB.prototype.constructor=aB;function
-pl(b){var
-a=i4(b);if(!a)return;return a[0]+bH}var
-gF=pl(eX)||bI("unable to compute caml_root"),d3=[];if(e0())d3.push({path:gF,device:new
-aB(gF)});else
-d3.push({path:gF,device:new
-aR(gF)});d3.push({path:nB,device:new
-aR(nB)});function
-pF(b){var
-g=Eb(b),b=g.join(bH),f=py(b),c;for(var
-e=0;e<d3.length;e++){var
-a=d3[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e0()){var
-d=pl(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
+pw(b){var
+a=i_(b);if(!a)return;return a[0]+bJ}var
+gI=pw(e0)||bK("unable to compute caml_root"),d6=[];if(e3())d6.push({path:gI,device:new
+aD(gI)});else
+d6.push({path:gI,device:new
+aS(gI)});d6.push({path:nM,device:new
+aS(nM)});function
+pQ(b){var
+g=EB(b),b=g.join(bJ),f=pJ(b),c;for(var
+e=0;e<d6.length;e++){var
+a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e3()){var
+d=pw(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aB(d)};d3.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ah("no device found for "+f)}function
-DY(c,b){var
-a=pF(c);if(!a.device.register)bI("cannot register file");a.device.register(a.rest,b);return 0}function
-pA(c,b){var
-c=a(c),b=a(b);return DY(c,b)}function
-D1(){var
-b=E.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pA(b[a].name,b[a].content);E.jsoo_create_file=pA;E.caml_fs_tmp=[];return 0}function
-Ei(c){var
-a=0,e=ap(c),b=10,d=1;if(e>0)switch(de(c,a)){case
+aD(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
+Em(c,b){var
+a=pQ(c);if(!a.device.register)bK("cannot register file");a.device.register(a.rest,b);return 0}function
+pL(c,b){var
+c=a(c),b=a(b);return Em(c,b)}function
+Ep(){var
+b=G.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)pL(b[a].name,b[a].content);G.jsoo_create_file=pL;G.caml_fs_tmp=[];return 0}function
+EI(c){var
+a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&de(c,a)==48)switch(de(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&df(c,a)==48)switch(df(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=ap(c),b=10,d=1;if(e>0)switch(de(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-ps(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=oZ)return a-87;return-1}function
-iW(f){var
-h=Ei(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?de(f,c):0,b=ps(e);if(b<0||b>=d)bI(gm);var
-a=b;for(c++;c<g;c++){e=de(f,c);if(e==95)continue;b=ps(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bI(gm)}if(c!=g)bI(gm);a=i*a;if(d==10&&(a|0)!=a)bI(gm);return a|0}function
-Ea(a,b){return+(iP(a,b,false)<=0)}function
-Ec(a,d){if(a<0)gA();var
+pD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o_)return a-87;return-1}function
+i2(f){var
+h=EI(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pD(e);if(b<0||b>=d)bK(gp);var
+a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gp)}if(c!=g)bK(gp);a=i*a;if(d==10&&(a|0)!=a)bK(gp);return a|0}function
+EA(a,b){return+(iV(a,b,false)<=0)}function
+EC(a,d){if(a<0)gD();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cf=new
+cj=new
 Array();function
-Ed(c){var
-a=cf[c];if(!a.opened)ah("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
+ED(c){var
+a=cj[c];if(!a.opened)aj("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
 b=as.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
-pv(e,f){var
-b=cf[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Eq(a){var
-a=i0(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+pG(e,f){var
+b=cj[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+EQ(a){var
+a=i6(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Er(a){var
-a=i0(a),b=E;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+ER(a){var
+a=i6(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gH(c,e,d,a){if(as.fds===undefined)as.fds=new
+gK(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
-Ey(c,b,g){var
+EY(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,109 +619,109 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ah(d1(c)+oN);if(a.text&&a.binary)ah(d1(c)+nH);var
-d=pF(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gH(f+1,pv,e,a)}gH(0,pv,new
-aA(bV(0)));gH(1,Er,new
-aA(bV(0)));gH(2,Eq,new
-aA(bV(0)));function
-Ee(a){var
-c=as.fds[a];if(c.flags.wronly)ah(oY+a+" is writeonly");var
-d=null;if(a==0&&e0()){var
-e=require("fs");d=function(){return d2(e.readFileSync(0,ns))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cf[b.fd]=b;return b.fd}function
-pp(c){var
-b=as.fds[c];if(b.flags.rdonly)ah(oY+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cf[a.fd]=a;return a.fd}function
-Ef(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oY);if(a.text&&a.binary)aj(d4(c)+nS);var
+d=pQ(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gK(f+1,pG,e,a)}gK(0,pG,new
+aC(bX(0)));gK(1,ER,new
+aC(bX(0)));gK(2,EQ,new
+aC(bX(0)));function
+EE(a){var
+c=as.fds[a];if(c.flags.wronly)aj(o9+a+" is writeonly");var
+d=null;if(a==0&&e3()){var
+e=require("fs");d=function(){return d5(e.readFileSync(0,nD))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cj[b.fd]=b;return b.fd}function
+pA(c){var
+b=as.fds[c];if(b.flags.rdonly)aj(o9+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cj[a.fd]=a;return a.fd}function
+EF(){var
 b=0;for(var
-a=0;a<cf.length;a++)if(cf[a]&&cf[a].opened&&cf[a].out)b=[0,cf[a].fd,b];return b}function
-bm(b,c,a){if(a&&E.toplevelReloc)b=E.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
-Em(a,b){pr[d1(a)]=b;return 0}function
-DR(a,b){if(a===b)return 1;a.t&6&&d0(a);b.t&6&&d0(b);return a.c==b.c?1:0}function
-aq(a,b){return DR(a,b)}function
-Eo(){aC(iI)}function
-aM(b,a){if(a>>>0>=ap(b))Eo();return de(b,a)}function
+a=0;a<cj.length;a++)if(cj[a]&&cj[a].opened&&cj[a].out)b=[0,cj[a].fd,b];return b}function
+bq(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
+EM(a,b){pC[d4(a)]=b;return 0}function
+Ef(a,b){if(a===b)return 1;a.t&6&&d3(a);b.t&6&&d3(b);return a.c==b.c?1:0}function
+aq(a,b){return Ef(a,b)}function
+EO(){aE(iO)}function
+aN(b,a){if(a>>>0>=ap(b))EO();return df(b,a)}function
 m(a,b){return 1-aq(a,b)}function
-gG(a){return a}function
-pu(a){return a}function
-pz(a){if(a
+gJ(a){return a}function
+pF(a){return a}function
+pK(a){if(a
 instanceof
-Array)return a;if(E.RangeError&&a
+Array)return a;if(G.RangeError&&a
 instanceof
-E.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pu(as.Stack_overflow);if(E.InternalError&&a
+G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pF(as.Stack_overflow);if(G.InternalError&&a
 instanceof
-E.InternalError&&a.message&&a.message.match(/too much recursion/i))return pu(as.Stack_overflow);if(a
+G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pF(as.Stack_overflow);if(a
 instanceof
-E.Error&&dc(n_))return[0,dc(n_),a];return[0,as.Failure,d2(String(a))]}function
-dg(a){return a<0?-a:a}function
-z(a,b){return a+b}function
-i1(a,b){return a<b?-1:a>b?1:0}function
-pC(c,b){var
-a=c%b;return a<0?a+dg(b):a}function
-i2(a,b){return(a-pC(a,b))/b}function
-Z(a,b){return a==b?1:0}function
-Ev(c){E.orthocert_verify=function(b){return d1(cH(c,[a(b)]))}}function
-F(a,b){return a<=b?1:0}function
+G.Error&&dd(oj))return[0,dd(oj),a];return[0,as.Failure,d5(String(a))]}function
+dh(a){return a<0?-a:a}function
+A(a,b){return a+b}function
+i7(a,b){return a<b?-1:a>b?1:0}function
+pN(c,b){var
+a=c%b;return a<0?a+dh(b):a}function
+i8(a,b){return(a-pN(a,b))/b}function
+_(a,b){return a==b?1:0}function
+EV(c){G.orthocert_verify=function(b){return d4(cI(c,[a(b)]))}}function
+H(a,b){return a<=b?1:0}function
 L(a,b){return a<b?1:0}function
-x(a,b){return a*b}function
-O(a){return-a}function
-aD(a){return E.BigInt(a)}function
-pD(a,b){return a<<E.BigInt(b)}function
-pE(a,b){return a>>E.BigInt(b)}function
-a7(a){return a<0?-1:a>0?1:0}function
-Ew(a){if(a<0)throw new(E.Error)("a root of a negative number");if(a<2)return a;var
-d=E.BigInt(1),b=d<<E.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aE(a,b){return a-b}function
-i3(a){if(a>0x7fffffff||a<-0x80000000)throw new(E.Error)("a number of more than 32 bits");return E.Number(a)}function
-D_(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-D0(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&D_(b[1]))var
+y(a,b){return a*b}function
+P(a){return-a}function
+aF(a){return G.BigInt(a)}function
+pO(a,b){return a<<G.BigInt(b)}function
+pP(a,b){return a>>G.BigInt(b)}function
+a9(a){return a<0?-1:a>0?1:0}function
+EW(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
+d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aG(a,b){return a-b}function
+i9(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
+Ey(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Eo(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ey(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=n$;for(var
+f=2,e=b;a+=ok;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bT)a+=ay+c.toString()+ay;else
+bV)a+=az+c.toString()+az;else
 if(typeof
-c=="string")a+=ay+c.toString()+ay;else
-a+="_"}a+=iF}else
-if(b[0]==aL)a+=b[1];return a}function
-pj(a){if(a
+c=="string")a+=az+c.toString()+az;else
+a+="_"}a+=iL}else
+if(b[0]==aM)a+=b[1];return a}function
+pu(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aL)){var
-c=dc("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=D0(a),b=dc(nr);if(b)b(0);E.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aM)){var
+c=dd("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Eo(a),b=dd(nC);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-En(){var
-a=E;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pj(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pj(a.error)})}En();function
-i(a,b){return a.length==1?a(b):cH(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):cH(a,[b,c])}function
-DL(a,b,c,d){return a.length==3?a(b,c,d):cH(a,[b,c,d])}function
-DM(a,b,c,d,e){return a.length==4?a(b,c,d,e):cH(a,[b,c,d,e])}D1();var
-i6=[aL,a(nZ),-2],i5=[aL,a(o6),-4],CG=[0,0],CH=[0,0],CI=[0,[0,0]],CJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CI]]]]]]]]]]],f7=[0,[1,0],0],mK=[0,[2,0],0],h4=[0,[1,0],0],mJ=[0,[2,0],0],f5=[0,[1,0],0],h3=[0,[2,0],0],CK=[0,[0,[0,[0,0]]]],CL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CK]]]]]]]]]]],CM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CL]]]]]]]]]]],CN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CM]]]]]]]]]]],CO=[0,[0,0]],CP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CO]]]]]]]]]]],CQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CP]]]]]]]]]]],CR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CQ]]]]]]]]]]],CS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CR]]]]]]]]]]],CT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],CU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CT]]]]]]]]]]],CV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CU]]]]]]]]]]],CW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CV]]]]]]]]]]],CX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CW]]]]]]]]]]],CY=[0,[0,0]],CZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CY]]]]]]]]]]],C0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CZ]]]]]]]]]]],C1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C0]]]]]]]]]]],C2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C1]]]]]]]]]]],C3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C2]]]]]]]]]]],C4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C3]]]]]]]]]]],C5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C4]]]]]]]]]]],C6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],C7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,0],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,0]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,0],DD=[0,[0,0]],DE=[0,0],DF=[0,[0,[0,[0,[0,0]]]]],jA=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fT=[0,[0,[0,[0,0]]]],DG=[0,[0,[0,[0,[0,0]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]];bm(11,[aL,a(nq),-12],nq);bm(10,[aL,a(oe),-11],oe);bm(9,[aL,a(oX),-10],oX);bm(8,[aL,a(nC),-9],nC);bm(7,[aL,a(or),-8],or);bm(6,[aL,a(nA),-7],nA);bm(5,[aL,a(n0),-6],n0);bm(4,[aL,a(n5),-5],n5);bm(3,i5,o6);bm(2,[aL,a(iz),-3],iz);bm(1,i6,nZ);bm(0,[aL,a(oF),-1],oF);var
-pG=a("String.sub / Bytes.sub"),pI=a(T),pH=a("String.concat"),pJ=a("Array.init"),pK=a("power"),p2=[0,0],p3=[0,0],p9=[0,0,0],p_=[0,0,0],p$=[0,0],qs=[0,0],qt=[0,0],qw=[0,0],qP=[0,0],qS=[0,0],qU=[0,0],qV=[0,0],q2=[0,0],q3=[0,0],rt=[0,[0,[0,0]]],rP=[0,0],r2=[0,0],r3=[0,0],sb=a(","),st=[0,a(iF),0],su=a(n$),sv=a("."),sw=[0,[0,[0,0]]],sx=a(eQ),sy=a(iG),sz=[0,[0,[0,[0,[0,0]]]]],sA=[0,a(iF),0],sB=a(o3),vv=a(nn),vx=a(nk),vw=a(oh),vy=a(dS),vz=a(gi),vA=a(o5),vB=a(oQ),vC=a(nT),vD=a(ot),wQ=[0,0],wR=a(gf),wS=[0,0],wT=a("divided"),wU=[0,1],wV=a("mirror"),wW=[0,3],wX=a("negative"),wY=[0,2],wZ=a(eP),w0=[0,5],w1=a(iM),w2=[0,4],w3=a(da),w4=a(nF),w5=a(eM),w6=a(bS),w7=[0,0],w8=[0,0],w9=[0,0],xS=a(T),xP=[0,[0,[0,[0,0]]]],xQ=[0,[0,[0,[0,0]]]],xN=[0,[0,[0,0]]],xM=[0,0],xL=a(eM),xK=[0,[0,[0,0]]],xJ=[0,0],xG=[0,[0,0]],xH=[0,[0,[0,0]]],xC=[0,[0,[0,0]]],xB=[0,0,0],xz=[0,[0,0]],xA=[0,0],xy=[0,0],xw=[0,[0,[0,0]]],xq=[0,[0,0]],xr=[0,[0,[0,0]]],xs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CG]]]]]]]]]]],xt=[0,[0,0]],xu=[0,[0,[0,0]]],xp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CH]]]]]]]]]]],xn=[0,[0,0]],xo=[0,[0,[0,0]]],xl=[0,[0,[0,0]]],xm=[0,[0,0]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CJ]]]]]]]]]]],xj=[0,0],xi=[0,0],xf=[0,[0,0]],xg=[0,0],xd=[0,0],xe=[0,1],xc=[0,[0,0]],xb=[0,0],w_=[0,0],w$=[0,1],wN=[0,0],wO=[0,1],wP=[0,2],wJ=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wH=[0,[0,0],0],wI=[0,[1,0],0],wK=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],wF=[0,[0,0]],wG=[0,0],wE=[0,0],wC=[0,0],wD=[0,0],wB=[0,0],wA=[0,0],wz=[0,0,0],wx=[0,[0,0]],wy=[0,0],ww=[0,0,0],wu=[0,[0,[0,0]]],wv=[0,[0,[0,0]]],wt=[0,0],wr=[0,1,0],wj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CN]]]]]]]]]]],wk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CS]]]]]]]]]]],wf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,CX]]]]]]]]]]],wg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],wh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],wi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],wl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],wm=a("sqrt"),wd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],we=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],v4=[0,a("\n"),0],v5=a(nl),v6=a(gh),v7=a(od),v8=a(nX),wc=a(eS),v9=a(eO),v_=a("verdict"),v$=a(oH),wa=a(nQ),wb=a(oc),v1=a(n9),v2=a(oL),v3=a(gk),vX=a(on),vY=a(gl),vZ=a(eO),v0=a(eS),vS=a(gt),vT=a(a6),vU=a(nm),vV=a(gq),vP=a(oE),vQ=a(eP),vR=a(gq),vL=a(oq),vM=a(gt),vN=a(gl),vO=a(oV),vF=a(oM),vG=a(oP),vH=a(n6),vI=a(gn),vJ=a(o0),vt=a(ir),vu=a(gw),vo=a(bl),vp=a(bk),vq=a(nS),u0=a(gn),u1=a(ou),uE=a(a6),uF=a(bG),uG=a(gv),uH=a(dV),uI=a(c$),uN=a(is),uJ=a(iH),uK=a(iJ),uL=a(dR),uM=a(a6),uO=a(bG),uP=a(gv),uQ=a(dV),uR=a(iH),uS=a(iJ),uT=a(dR),uU=a(a6),uV=a(bG),uW=a(bl),uX=a(bk),uY=a(c9),uZ=a(dV),u2=a(oA),u3=a(oO),u4=a(gz),u5=a(nG),u6=a(nL),u7=a(dR),u8=a(a6),u9=a(bG),u_=a(gd),u$=a(nV),va=a(dV),vb=a(eV),vc=a(nu),vd=a(dR),ve=a(a6),vf=a(gd),vg=a(a6),vh=a(ow),vk=a(nj),vi=a(nJ),vj=a(oU),vl=a(eS),vm=a(eO),vn=a(a6),vr=a(gz),vs=a(gk),uz=a(bG),uA=a(dV),uB=a(is),uC=a(dR),uy=a(o1),um=a(eV),un=a(oI),uo=a(c_),up=a(dT),uq=a(dT),ur=a(iv),us=a(c_),ut=a(of),uu=a(nR),uv=a(a0),ux=a(np),uw=a(iv),uc=a(n8),ud=a(o4),ue=a(nN),uf=a(nK),ug=a(oS),uh=a(oD),ui=a(nY),uj=a(ge),uk=a(ge),t_=a(a0),t$=a(bj),ua=a(dW),ub=a(bF),t6=a(c$),t7=a(iC),t8=a(oo),t3=a(bl),t4=a(bk),t5=a(c9),tW=a(bl),tX=a(bk),tY=a(c9),tZ=a(iE),t0=a(c_),t1=a(iA),t2=a(oz),tI=a(nI),tO=a(gh),tN=a(oT),tJ=a(iw),tK=a(gp),tR=a(eN),tS=a(iw),tP=a(eN),tQ=a(gp),tT=a(nE),tU=a(ox),tV=a(gp),tL=a(dT),tM=a(ok),tF=a(go),tG=a(go),tH=a(go),tB=a(oB),tC=a(bk),tD=a(bl),tE=a(oR),tl=a(ny),tm=a(no),tn=a(os),to=a(dS),tp=a(o2),tq=a(ov),tr=a(nz),ts=a(ol),tt=a(nx),tu=a(nU),tv=a(nw),tw=a(oC),tx=a(gi),ty=a(nt),tz=a(oK),tA=a(nM),s2=a(gr),s4=a(eQ),s3=a(eL),s5=a(dQ),s6=a(a0),s7=a(bj),s8=a(bS),s9=a(gx),s_=a(bF),s$=a(a0),ta=a(bj),tb=a(dW),tc=a(bF),td=a(dQ),te=a(eU),tf=a(a0),tg=a(bj),th=a(oj),ti=a(eN),tj=a(eU),tk=a(bF),sK=a(gr),sS=a(eQ),sL=a(eL),sM=a(dQ),sN=a(a0),sO=a(bj),sP=a(bS),sQ=a(gx),sR=a(bF),sT=a(gy),sU=a(a0),sV=a(bj),sW=a(dW),sX=a(bF),sY=a(bS),sZ=a(c$),s0=a(bF),sH=a(bl),sI=a(bk),sF=[0,a(ay),0],sG=a(ay),sD=a(T),sC=[0,a(ay),0],sE=a(ay),sp=a(gr),sq=a(eQ),sr=a("*"),ss=a(bH),sk=[0,[0,[0,[0,[0,0]]]]],sl=[0,[0,[0,0]]],sm=[0,[0,0]],sn=[0,0],so=[0,[0,[0,[0,0]]]],si=a('":'),sj=a(ay),sg=[0,a(ay),0],sh=a(ay),se=[0,a("}"),0],sf=a("{"),sc=[0,a("]"),0],sd=a("["),sa=[0,[0,[0,0]]],r$=[0,[0,[0,0]]],r9=[0,0],r6=[0,[0,[0,0]]],r7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r8=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],rZ=[0,0],r0=[0,[0,[0,[0,[0,[0,0]]]]]],r1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],rW=[0,0],rT=[0,0,0],rU=[0,0,0],rV=[0,0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rS=[0,0],rF=[0,[0,[0,[0,[0,[0,0]]]]]],rG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rH=[0,[0,[0,0]]],rI=[0,[0,[0,0]]],rJ=[0,[0,[0,[0,[0,[0,0]]]]]],rK=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],rM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],rN=[0,[0,[0,0]]],rO=[0,[0,[0,[0,[0,[0,0]]]]]],rD=[0,[0,0]],rE=[0,[0,[0,0]]],rz=[0,0,0],rA=[0,0,0],rx=[0,0],ry=[0,0],rw=[0,0],ru=[0,0],rv=[0,0],rr=[0,[0,0]],rs=[0,[0,[0,0]]],rp=[0,[0,[0,0]]],rq=[0,[0,0]],rj=[0,0],rk=[0,0],rl=[0,0],rm=[0,[0,[0,0]]],ri=[0,0],rc=[0,[0,0]],rd=[0,0],re=[0,0],rf=[0,[0,0]],q5=[0,[0,0]],q6=[0,0],q7=[0,[0,0]],q8=[0,0],q9=[0,0],q_=[0,[0,0]],q$=[0,[0,0]],ra=[0,[0,0]],rb=[0,0],q1=[0,0],q0=[0,0],qY=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qT=[0,[0,[0,0]]],qQ=[0,[0,[0,0]]],qO=[0,[0,[0,0]]],qM=[0,[0,[0,[0,[0,[0,0]]]]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qH=[0,[0,0]],qI=[0,0],qJ=[0,[0,0]],qK=[0,[0,[0,0]]],qL=[0,[0,[0,0]]],qA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qB=[0,[0,[0,[0,[0,[0,0]]]]]],qC=[0,[0,[0,[0,[0,[0,0]]]]]],qD=[0,[0,[0,0]]],qE=[0,[0,[0,[0,[0,[0,0]]]]]],qF=[0,[0,[0,0]]],qG=[0,[0,[0,0]]],qy=[0,[0,0]],qz=[0,0],qx=[0,0,0],qv=[0,0,0],qu=[0,[0,[0,0]]],qq=[0,0],qr=[0,0],ql=[0,[0,[0,0]]],qm=[0,[0,[0,0]]],qn=[0,[0,[0,0]]],qk=[0,[0,[0,[0,0]]]],qg=[0,[0,[0,0]]],qh=[0,[0,[0,0]]],qi=[0,[0,[0,0]]],qj=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qe=[0,[0,0]],qf=[0,0],qc=[0,[0,0]],qd=[0,0],qa=[0,[0,0]],qb=[0,0],pZ=[0,0],p0=[0,[0,0]],pX=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],pY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],pV=[0,0,0],pU=a(iL),pT=a(T),pS=[0,[0,0]],pR=[0,0],pO=[0,0],pQ=[1,0],pP=[0,0],pN=[0,0],pL=[1,0],pM=[1,0],qZ=[10,0,0,0,0],xI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],AW=a(bl),AX=a(bk),AY=a(nS),AN=a(gy),AO=[0,a("a base axis of such a platform"),0],AP=a(a0),AQ=a(bj),AA=a(oD),AB=a(n8),AC=a(oS),AD=a(ge),AE=a(nY),AF=a(ge),AG=a(o4),AH=a(nN),AI=a(nK),Aq=a(ou),Ar=a(gn),z4=[0,a("such a machine with bodies"),0],zR=a(gk),zS=a(a6),zT=a(ow),zU=a(oU),zX=a(nJ),zY=a(nj),zZ=a(a6),z0=a(a6),z2=a(gd),z1=[0,a("a claim that no cube of such a machine fits"),0],z3=a(o1),z5=a(dR),z6=a(dV),z7=a(c$),z8=a(iC),z9=a(oo),z_=a(gv),z$=a(nL),Aa=a(nu),Ab=a(is),Ae=a(c9),Af=a(oz),Ai=a(bG),Aj=a(bG),Ak=a(nV),Al=a(bG),Am=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],An=a(gd),Ao=a(eV),Ap=a(c9),As=a(bG),At=a(bl),Au=a(bk),Av=a(oA),Aw=a(oO),Ax=a(gz),Ay=a(nG),Ac=[0,a(ay),0],Ad=a('the mechanism "'),Az=a(iH),AJ=a(gv),AK=a(c$),AL=a(iC),AM=a(iJ),AR=a(bG),AS=[0,a('"one_to_one" of this set of orientations'),0],AV=a(c$),AT=[0,a("a platform that turns on struts and other drives"),0],AU=a(bG),Ag=[0,a(ay),0],Ah=a('the workspace "'),AZ=a(a6),A0=a(a6),A2=a(eS),A3=a(eO),A4=a(gz),A1=[0,a("an atlas of such a machine"),0],zV=[0,a(ay),0],zW=a('a claim of the kind "'),A9=a(o5),Be=a(gi),Bf=a(dS),Bg=a(nT),Bh=a(oh),Bi=a(bS),Bj=a(gw),Bk=a(ir),Bl=a(bS),Bm=a(iL),A_=a(da),A$=a(nF),Ba=a(eM),Bb=a(ot),Bc=[0,a(ay),0],Bd=a('the evidence "'),Bn=a(da),Bo=a(gw),Bp=[0,1,1],Bq=a(dS),Br=a(da),Bs=a(eM),Bt=a(oQ),Bv=a(dS),Bw=a(da),Bx=a(eM),By=a(eP),Bz=a(gf),BA=a(eP),BB=a(gf),Bu=[0,a("this evidence at control points"),0],Cz=a('"orthocert-paving/'),Cq=a(da),Cr=a(da),B$=a(oc),Ca=a(nQ),Cb=a(oH),Cx=[0,3,3],Cc=a(nX),Co=[0,a("this set of orientations with such drives"),0],Cp=[0,a(n4),0],Cs=[0,a('this evidence "tolerances" of a platform that turns'),0],Ct=[0,a("a step of a platform that turns that is not at control points"),0],Cu=[0,a(n4),0],Cv=[0,a('the evidence "tolerances" of such a mechanism'),0],Cw=[0,a(oG),0],Cn=[0,a(oG),0],Cm=[0,a("a mechanism by formulas in a claim that is refuted"),0],Cl=[0,a("this quantity in a claim that is refuted"),0],Cd=[0,a("the acceleration of a joint of a machine with a plane"),0],Ck=[0,a("a step in a proof that no cube fits"),0],Cj=[0,a("a stiffness for each joint in such a claim"),0],Ci=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Ch=[0,a("a leaf that fails"),0],Ce=a(od),Cf=a(nl),Cg=a(gh),B7=a(iM),B8=a(gf),B9=a(bS),B0=a(gk),B1=a(n9),B2=a(oL),B3=[0,a(ay),0],B4=a('a proof of the kind "'),BW=a(eO),BX=a(eS),BY=a(gl),BZ=a(on),BS=a(a6),BT=a(gt),BU=a(nm),BV=a(gq),BP=a(oE),BQ=a(eP),BR=a(gq),BL=a(oq),BM=a(gt),BN=a(gl),BO=a(oV),BE=a(oP),BF=a(n6),BG=a(oM),BH=a(gn),BI=a(o0),BJ=[0,a(ay),0],BK=a('the failure "'),BC=a(iM),BD=a(iL),A7=a(gw),A8=a(ir),A5=a(nk),A6=a(nn),zO=a(eV),zE=a(iv),zF=a(np),zG=a(dT),zH=a(a0),zM=a(oI),zN=a(eV),zP=a(c_),zQ=a(dT),zI=a(c_),zJ=a(of),zK=a(nR),zL=a(a0),zx=a(c9),zB=a(bl),zC=a(bk),zy=a(iA),zz=a(iE),zA=a(c_),zr=a(c9),zv=a(bl),zw=a(bk),zs=a(iA),zt=a(iE),zu=a(c_),zq=[0,1],zp=[0,1],zn=[0,1],zm=[0,1],zk=[0,1],zl=[0,a("this quantity of such a mechanism"),0],y4=a(iw),y5=[0,a("a stiffness for each joint of such a mechanism"),0],y6=a(ox),y7=a(nE),y8=a(oT),y9=a("max_angle"),y_=[0,a("accuracy of a platform that turns"),0],y$=a(eN),y3=a(gh),yV=a(go),yK=a(ok),yL=a(os),zc=a(gi),zd=a(oK),ze=a(nU),zf=a(dS),zg=a(ol),zh=a(nw),zi=a(nx),zj=a(no),yM=a(nt),yN=a(oC),yO=a(ov),yP=a(nM),yQ=a(o2),yR=a(nz),yS=a(ny),yT=[0,a(ay),0],yU=a('the quantity "'),yW=a(nI),yX=a(oB),yY=a(bl),yZ=a(bk),y0=a(oR),y1=[0,a(ay),0],y2=a('a bound "'),za=a(gp),zb=a(dT),yI=a(bF),yJ=a(dW),yn=a(bF),yo=a(gy),yp=a(eU),yq=a(gx),yr=a(dW),yu=a(a0),yv=a(bj),yw=a(eL),yx=a(dQ),yy=a(a0),yz=a(bj),yA=a(bS),yB=a(eL),yC=a(dQ),yD=a(eU),yE=a(a0),yF=a(bj),yG=a(oj),yH=a(eN),ys=[0,a('" of such a machine'),0],yt=a(nD),yl=a(bF),ym=a(eU),x7=a(bF),x8=a(c$),x9=a(gx),x_=a(dW),yb=a(gy),yc=a(a0),yd=a(bj),ye=a(eL),yf=a(dQ),yg=a(a0),yh=a(bj),yi=a(bS),yj=a(bS),x$=[0,a(ay),0],ya=a(nD),x4=a(gr),x5=a(eQ),x2=a(" is not covered by the verified checker"),x3=a(T),x0=a(bl),x1=a(bk),xW=a(T),xX=a(o3),xY=a(T),xZ=a(T),xV=[1,0],xT=a("Reader.Malformed"),xU=a("Reader.Not_covered"),CB=[0,a("a paving is checked by orthocert-verified")],CA=a(om),CC=a("CERTIFIED"),CD=a("REFUTED"),CE=a(om),CF=a("NOT COVERED: ");function
-e1(a){throw[0,i5,a]}function
-aS(d,c){var
-a=ap(d),e=ap(c),b=bV(a+e|0);dY(d,0,b,0,a);dY(c,0,b,a,e);return gG(b)}Ee(0);pp(1);pp(2);function
-i7(b){function
+EN(){var
+a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pu(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pu(a.error)})}EN();function
+i(a,b){return a.length==1?a(b):cI(a,[b])}function
+ao(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
+D$(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
+Ea(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}Ep();var
+ja=[aM,a(n_),-2],i$=[aM,a(pf),-4],C6=[0,0],C7=[0,0],C8=[0,[0,0]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],f_=[0,[1,0],0],mV=[0,[2,0],0],h_=[0,[1,0],0],mU=[0,[2,0],0],f8=[0,[1,0],0],h9=[0,[2,0],0],C_=[0,[0,[0,[0,0]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,[0,0]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],Dm=[0,[0,0]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,0],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,0]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,0],D3=[0,[0,0]],D4=[0,0],D5=[0,[0,[0,[0,[0,0]]]]],jG=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fW=[0,[0,[0,[0,0]]]],D6=[0,[0,[0,[0,[0,0]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]];bq(11,[aM,a(nB),-12],nB);bq(10,[aM,a(op),-11],op);bq(9,[aM,a(o8),-10],o8);bq(8,[aM,a(nN),-9],nN);bq(7,[aM,a(oC),-8],oC);bq(6,[aM,a(nL),-7],nL);bq(5,[aM,a(n$),-6],n$);bq(4,[aM,a(oe),-5],oe);bq(3,i$,pf);bq(2,[aM,a(iF),-3],iF);bq(1,ja,n_);bq(0,[aM,a(oQ),-1],oQ);var
+pR=a("String.sub / Bytes.sub"),pT=a(T),pS=a("String.concat"),pU=a("Array.init"),pV=a("power"),qb=[0,0],qc=[0,0],qi=[0,0,0],qj=[0,0,0],qk=[0,0],qD=[0,0],qE=[0,0],qH=[0,0],q0=[0,0],q3=[0,0],q5=[0,0],q6=[0,0],rb=[0,0],rc=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iL),0],sV=a(ok),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eT),sZ=a(iM),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iL),0],s2=a(pc),vW=a(ny),vY=a(nv),vX=a(os),vZ=a(dV),v0=a(gl),v1=a(pe),v2=a(o1),v3=a(n4),v4=a(oE),xe=[0,0],xf=a(gi),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eS),xo=[0,5],xp=a(iS),xq=[0,4],xr=a(db),xs=a(nQ),xt=a(eP),xu=a(bU),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eP),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nw),wv=a(gk),ww=a(oo),wx=a(n8),wD=a(eV),wy=a(eR),wz=a("verdict"),wA=a(oS),wB=a(n1),wC=a(on),wq=a(oi),wr=a(oW),ws=a(gn),wm=a(oy),wn=a(go),wo=a(eR),wp=a(eV),wh=a(gw),wi=a(a8),wj=a(nx),wk=a(gt),we=a(oP),wf=a(eS),wg=a(gt),wa=a(oB),wb=a(gw),wc=a(go),wd=a(o6),v6=a(oX),v7=a(o0),v8=a(of),v9=a(gq),v_=a(o$),vU=a(ix),vV=a(gz),vP=a(bp),vQ=a(bo),vR=a(n3),vp=a(gq),vq=a(oF),u5=a(a8),u6=a(bI),u7=a(gy),u8=a(dY),u9=a(da),vc=a(iy),u_=a(iN),u$=a(iP),va=a(dU),vb=a(a8),vd=a(bI),ve=a(gy),vf=a(dY),vg=a(iN),vh=a(iP),vi=a(dU),vj=a(a8),vk=a(bI),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dY),vr=a(oL),vs=a(oZ),vt=a(gC),vu=a(nR),vv=a(nW),vw=a(dU),vx=a(a8),vy=a(bI),vz=a(gg),vA=a(n6),vB=a(dY),vC=a(eY),vD=a(nF),vE=a(dU),vF=a(a8),vG=a(gg),vH=a(a8),vI=a(oH),vL=a(nu),vJ=a(nU),vK=a(o5),vM=a(eV),vN=a(eR),vO=a(a8),vS=a(gC),vT=a(gn),u0=a(bI),u1=a(dY),u2=a(iy),u3=a(dU),uZ=a(pa),uN=a(eY),uO=a(oT),uP=a(c$),uQ=a(dW),uR=a(dW),uS=a(iB),uT=a(c$),uU=a(oq),uV=a(n2),uW=a(a1),uY=a(nA),uX=a(iB),uD=a(oh),uE=a(pd),uF=a(nY),uG=a(nV),uH=a(o3),uI=a(oO),uJ=a(n9),uK=a(gh),uL=a(gh),uz=a(a1),uA=a(bn),uB=a(dZ),uC=a(bH),uv=a(da),uw=a(iI),ux=a(oz),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iK),up=a(c$),uq=a(iG),ur=a(oK),t9=a(nT),ud=a(gk),uc=a(o4),t_=a(iC),t$=a(gs),ug=a(eQ),uh=a(iC),ue=a(eQ),uf=a(gs),ui=a(nP),uj=a(oI),uk=a(gs),ua=a(dW),ub=a(ov),t6=a(gr),t7=a(gr),t8=a(gr),t2=a(oM),t3=a(bo),t4=a(bp),t5=a(o2),tM=a(nJ),tN=a(nz),tO=a(oD),tP=a(dV),tQ=a(pb),tR=a(oG),tS=a(nK),tT=a(ow),tU=a(nI),tV=a(n5),tW=a(nH),tX=a(oN),tY=a(gl),tZ=a(nE),t0=a(oV),t1=a(nX),tr=a(gu),tt=a(eT),ts=a(eO),tu=a(dT),tv=a(a1),tw=a(bn),tx=a(bU),ty=a(gA),tz=a(bH),tA=a(a1),tB=a(bn),tC=a(dZ),tD=a(bH),tE=a(dT),tF=a(eX),tG=a(a1),tH=a(bn),tI=a(ou),tJ=a(eQ),tK=a(eX),tL=a(bH),s$=a(gu),th=a(eT),ta=a(eO),tb=a(dT),tc=a(a1),td=a(bn),te=a(bU),tf=a(gA),tg=a(bH),ti=a(gB),tj=a(a1),tk=a(bn),tl=a(dZ),tm=a(bH),tn=a(bU),to=a(da),tp=a(bH),s8=a(bp),s9=a(bo),s6=[0,a(az),0],s7=a(az),s4=a(T),s3=[0,a(az),0],s5=a(az),sQ=a(gu),sR=a(eT),sS=a("*"),sT=a(bJ),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(az),sH=[0,a(az),0],sI=a(az),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rD=[0,[0,0]],rE=[0,0],rv=[0,[0,0]],rw=[0,0],rx=[0,[0,0]],ry=[0,0],rz=[0,[0,0]],rA=[0,0],rB=[0,[0,0]],rC=[0,0],rt=[0,[0,0]],ru=[0,0],rr=[0,[0,0]],rs=[0,0],rn=[0,[0,0]],ro=[0,0],rp=[0,0],rq=[0,[0,0]],re=[0,[0,0]],rf=[0,0],rg=[0,[0,0]],rh=[0,0],ri=[0,0],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,[0,0]],rm=[0,0],ra=[0,0],q$=[0,0],q9=[0,[0,[0,0]]],q8=[0,[0,[0,[0,[0,[0,0]]]]]],q4=[0,[0,[0,0]]],q1=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qY=[0,[0,[0,[0,[0,[0,0]]]]]],qS=[0,[0,0]],qT=[0,0],qU=[0,[0,0]],qV=[0,[0,[0,0]]],qW=[0,[0,[0,0]]],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qM=[0,[0,[0,[0,[0,[0,0]]]]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,0]]],qJ=[0,[0,0]],qK=[0,0],qI=[0,0,0],qG=[0,0,0],qF=[0,[0,[0,0]]],qB=[0,0],qC=[0,0],qw=[0,[0,[0,0]]],qx=[0,[0,[0,0]]],qy=[0,[0,[0,0]]],qv=[0,[0,[0,[0,0]]]],qr=[0,[0,[0,0]]],qs=[0,[0,[0,0]]],qt=[0,[0,[0,0]]],qu=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qp=[0,[0,0]],qq=[0,0],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],p_=[0,0],p$=[0,[0,0]],p8=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],p6=[0,0,0],p5=a(iR),p4=a(T),p3=[0,[0,0]],p2=[0,0],pZ=[0,0],p1=[1,0],p0=[0,0],pY=[0,0],pW=[1,0],pX=[1,0],q_=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Bk=a(bp),Bl=a(bo),Bm=a(n3),Bb=a(gB),Bc=[0,a("a base axis of such a platform"),0],Bd=a(a1),Be=a(bn),A0=a(oO),A1=a(oh),A2=a(o3),A3=a(gh),A4=a(n9),A5=a(gh),A6=a(pd),A7=a(nY),A8=a(nV),AQ=a(oF),AR=a(gq),As=[0,a("such a machine with bodies"),0],Af=a(gn),Ag=a(a8),Ah=a(oH),Ai=a(o5),Al=a(nU),Am=a(nu),An=a(a8),Ao=a(a8),Aq=a(gg),Ap=[0,a("a claim that no cube of such a machine fits"),0],Ar=a(pa),At=a(dU),Au=a(dY),Av=a(da),Aw=a(iI),Ax=a(oz),Ay=a(gy),Az=a(nW),AA=a(nF),AB=a(iy),AE=a(c_),AF=a(oK),AI=a(bI),AJ=a(bI),AK=a(n6),AL=a(bI),AM=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AN=a(gg),AO=a(eY),AP=a(c_),AS=a(bI),AT=a(bp),AU=a(bo),AV=a(oL),AW=a(oZ),AX=a(gC),AY=a(nR),AC=[0,a(az),0],AD=a('the mechanism "'),AZ=a(iN),A9=a(gy),A_=a(da),A$=a(iI),Ba=a(iP),Bf=a(bI),Bg=[0,a('"one_to_one" of this set of orientations'),0],Bj=a(da),Bh=[0,a("a platform that turns on struts and other drives"),0],Bi=a(bI),AG=[0,a(az),0],AH=a('the workspace "'),Bn=a(a8),Bo=a(a8),Bq=a(eV),Br=a(eR),Bs=a(gC),Bp=[0,a("an atlas of such a machine"),0],Aj=[0,a(az),0],Ak=a('a claim of the kind "'),Bx=a(pe),BE=a(gl),BF=a(dV),BG=a(n4),BH=a(os),BI=a(bU),BJ=a(gz),BK=a(ix),BL=a(bU),BM=a(iR),By=a(db),Bz=a(nQ),BA=a(eP),BB=a(oE),BC=[0,a(az),0],BD=a('the evidence "'),BN=a(db),BO=a(gz),BP=[0,1,1],BQ=a(dV),BR=a(db),BS=a(eP),BT=a(o1),BV=a(dV),BW=a(db),BX=a(eP),BY=a(eS),BZ=a(gi),B0=a(eS),B1=a(gi),BU=[0,a("this evidence at control points"),0],CZ=a('"orthocert-paving/'),CQ=a(db),CR=a(db),Cz=a(on),CA=a(n1),CB=a(oS),CX=[0,3,3],CC=a(n8),CO=[0,a("this set of orientations with such drives"),0],CP=[0,a(od),0],CS=[0,a('this evidence "tolerances" of a platform that turns'),0],CT=[0,a("a step of a platform that turns that is not at control points"),0],CU=[0,a(od),0],CV=[0,a('the evidence "tolerances" of such a mechanism'),0],CW=[0,a(oR),0],CN=[0,a(oR),0],CM=[0,a("a mechanism by formulas in a claim that is refuted"),0],CL=[0,a("this quantity in a claim that is refuted"),0],CD=[0,a("the acceleration of a joint of a machine with a plane"),0],CK=[0,a("a step in a proof that no cube fits"),0],CJ=[0,a("a stiffness for each joint in such a claim"),0],CI=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CH=[0,a("a leaf that fails"),0],CE=a(oo),CF=a(nw),CG=a(gk),Cv=a(iS),Cw=a(gi),Cx=a(bU),Co=a(gn),Cp=a(oi),Cq=a(oW),Cr=[0,a(az),0],Cs=a('a proof of the kind "'),Ck=a(eR),Cl=a(eV),Cm=a(go),Cn=a(oy),Cg=a(a8),Ch=a(gw),Ci=a(nx),Cj=a(gt),Cd=a(oP),Ce=a(eS),Cf=a(gt),B$=a(oB),Ca=a(gw),Cb=a(go),Cc=a(o6),B4=a(o0),B5=a(of),B6=a(oX),B7=a(gq),B8=a(o$),B9=[0,a(az),0],B_=a('the failure "'),B2=a(iS),B3=a(iR),Bv=a(gz),Bw=a(ix),Bt=a(nv),Bu=a(ny),Ac=a(eY),z4=a(iB),z5=a(nA),z6=a(dW),z7=a(a1),Aa=a(oT),Ab=a(eY),Ad=a(c$),Ae=a(dW),z8=a(c$),z9=a(oq),z_=a(n2),z$=a(a1),zX=a(c_),z1=a(bp),z2=a(bo),zY=a(iG),zZ=a(iK),z0=a(c$),zR=a(c_),zV=a(bp),zW=a(bo),zS=a(iG),zT=a(iK),zU=a(c$),zQ=[0,1],zP=[0,1],zN=[0,1],zM=[0,1],zK=[0,1],zL=[0,a("this quantity of such a mechanism"),0],zs=a(iC),zt=[0,a("a stiffness for each joint of such a mechanism"),0],zu=a(oI),zv=a(nP),zw=a(o4),zx=a("max_angle"),zy=[0,a("accuracy of a platform that turns"),0],zz=a(eQ),zr=a(gk),zj=a(gr),y_=a(ov),y$=a(oD),zC=a(gl),zD=a(oV),zE=a(n5),zF=a(dV),zG=a(ow),zH=a(nH),zI=a(nI),zJ=a(nz),za=a(nE),zb=a(oN),zc=a(oG),zd=a(nX),ze=a(pb),zf=a(nK),zg=a(nJ),zh=[0,a(az),0],zi=a('the quantity "'),zk=a(nT),zl=a(oM),zm=a(bp),zn=a(bo),zo=a(o2),zp=[0,a(az),0],zq=a('a bound "'),zA=a(gs),zB=a(dW),y8=a(bH),y9=a(dZ),yN=a(bH),yO=a(gB),yP=a(eX),yQ=a(gA),yR=a(dZ),yU=a(a1),yV=a(bn),yW=a(eO),yX=a(dT),yY=a(a1),yZ=a(bn),y0=a(bU),y1=a(eO),y2=a(dT),y3=a(eX),y4=a(a1),y5=a(bn),y6=a(ou),y7=a(eQ),yS=[0,a('" of such a machine'),0],yT=a(nO),yL=a(bH),yM=a(eX),yv=a(bH),yw=a(da),yx=a(gA),yy=a(dZ),yB=a(gB),yC=a(a1),yD=a(bn),yE=a(eO),yF=a(dT),yG=a(a1),yH=a(bn),yI=a(bU),yJ=a(bU),yz=[0,a(az),0],yA=a(nO),ys=a(gu),yt=a(eT),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pc),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C1=[0,a("a paving is checked by orthocert-verified")],C0=a(ox),C2=a("CERTIFIED"),C3=a("REFUTED"),C4=a(ox),C5=a("NOT COVERED: ");function
+e4(a){throw[0,i$,a]}function
+aT(d,c){var
+a=ap(d),e=ap(c),b=bX(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gJ(b)}EE(0);pA(1);pA(2);function
+jb(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Ed(d)}catch(a){a=pz(a);if(a[1]!==i6)throw a;var
+c=a[2],d=a[1];try{ED(d)}catch(a){a=pK(a);if(a[1]!==ja)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Ef(0))}Em(a(nr),i7);function
-bW(c){var
+a=c;continue}return 0}}return a(EF(0))}EM(a(nC),jb);function
+bY(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-i8(d){var
+jc(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gI(d,c){var
+gL(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -729,51 +729,51 @@ au(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bn(b,c){var
-a=bV(b);DZ(a,0,b,c);return gG(a)}function
-dh(g,b,a){var
-d=dZ(g),f=0;if(0<=b&&0<=a&&!((gE(d)-a|0)<b)){var
-c=bV(a);eW(d,b,c,0,a);var
+br(b,c){var
+a=bX(b);En(a,0,b,c);return gJ(a)}function
+di(g,b,a){var
+d=d2(g),f=0;if(0<=b&&0<=a&&!((gH(d)-a|0)<b)){var
+c=bX(a);eZ(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=e1(pG);return gG(e)}function
-i9(k,g){if(g){var
+e=e4(pR);return gJ(e)}function
+jd(k,g){if(g){var
 h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e1(pH),c=n,b=m;continue}var
+j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e4(pS),c=n,b=m;continue}var
 l=ap(i)+c|0}else
 var
 l=c;var
-f=bV(l),e=p,d=g;for(;;){if(d){var
+f=bX(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];dY(a,0,f,e,ap(a));dY(k,0,f,e+ap(a)|0,h);var
-e=(e+ap(a)|0)+h|0,d=o;continue}dY(a,0,f,e,ap(a))}return gG(f)}}}return pI}function
-gJ(b,c){if(0===b)return[0];if(0<=b){var
-d=Ec(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];d1(a,0,f,e,ap(a));d1(k,0,f,e+ap(a)|0,h);var
+e=(e+ap(a)|0)+h|0,d=o;continue}d1(a,0,f,e,ap(a))}return gJ(f)}}}return pT}function
+gM(b,c){if(0===b)return[0];if(0<=b){var
+d=EC(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return e1(pJ)}function
-gK(c){var
+a=g;continue}break}}return d}return e4(pU)}function
+gN(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aD(0),c=aD(1);function
-o(a){return z(a,c)}function
-i_(b,a){return z(aD(b),a)}function
-b(b,a){return x(aD(b),a)}function
-aT(b,a){return[0,i2(b,a),pC(b,a)]}function
-gL(b,a){return F(b,a)?b:a}function
-bo(b,a){return F(b,a)?a:b}function
-_(a){return a?0:1}function
+d=aF(0),c=aF(1);function
+p(a){return A(a,c)}function
+je(b,a){return A(aF(b),a)}function
+b(b,a){return y(aF(b),a)}function
+aU(b,a){return[0,i8(b,a),pN(b,a)]}function
+gO(b,a){return H(b,a)?b:a}function
+bs(b,a){return H(b,a)?a:b}function
+$(a){return a?0:1}function
 w(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-aF(a){return a[1]}function
-bX(a){return a[2]}function
-h(a){var
-b=a?[0,h(a[2])]:a;return b}function
+aH(a){return a[1]}function
+bZ(a){return a[2]}function
+j(a){var
+b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-i$(a){return typeof
-a==="number"?0:[0,i$(a[1])]}function
-ja(d,c){var
+jf(a){return typeof
+a==="number"?0:[0,jf(a[1])]}function
+jg(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -796,9 +796,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-e2(a){return ja(a,0)}function
-jb(a){if(typeof
-a==="number")return pL;else
+e5(a){return jg(a,0)}function
+jh(a){if(typeof
+a==="number")return pW;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -808,173 +808,173 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jb(a[1])]}}function
-bq(a){if(typeof
-a==="number")return pM;else
+8:return[9,a[1]];default:return[0,jh(a[1])]}}function
+bu(a){if(typeof
+a==="number")return pX;else
 switch(a[0]){case
-0:return[1,bp(a[1])];case
-1:return[3,bp(a[1])];case
-2:return[5,bp(a[1])];case
-3:return[7,bp(a[1])];case
-4:return[9,bp(a[1])];case
-5:return[1,bq(a[1])];case
-6:return[3,bq(a[1])];case
-7:return[5,bq(a[1])];case
-8:return[7,bq(a[1])];default:return[9,bq(a[1])]}}function
-bp(a){if(typeof
+0:return[1,bt(a[1])];case
+1:return[3,bt(a[1])];case
+2:return[5,bt(a[1])];case
+3:return[7,bt(a[1])];case
+4:return[9,bt(a[1])];case
+5:return[1,bu(a[1])];case
+6:return[3,bu(a[1])];case
+7:return[5,bu(a[1])];case
+8:return[7,bu(a[1])];default:return[9,bu(a[1])]}}function
+bt(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bp(a[1])];case
-1:return[2,bp(a[1])];case
-2:return[4,bp(a[1])];case
-3:return[6,bp(a[1])];case
-4:return[8,bp(a[1])];case
-5:return[0,bq(a[1])];case
-6:return[2,bq(a[1])];case
-7:return[4,bq(a[1])];case
-8:return[6,bq(a[1])];default:return[8,bq(a[1])]}}function
-br(a){return a?a[1]:a}function
-M(b,a){return b?[0,M(b[1],a)]:a}function
-jc(a,b){return a?M(b,jc(a[1],b)):a}function
-cg(b,a){return b?a:a?0:1}function
+0:return[0,bt(a[1])];case
+1:return[2,bt(a[1])];case
+2:return[4,bt(a[1])];case
+3:return[6,bt(a[1])];case
+4:return[8,bt(a[1])];case
+5:return[0,bu(a[1])];case
+6:return[2,bu(a[1])];case
+7:return[4,bu(a[1])];case
+8:return[6,bu(a[1])];default:return[8,bu(a[1])]}}function
+bv(a){return a?a[1]:a}function
+N(b,a){return b?[0,N(b[1],a)]:a}function
+ji(a,b){return a?N(b,ji(a[1],b)):a}function
+ck(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-S(d,c){var
+V(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-cI(b,a){return S([0,b],a)}function
-jd(c){var
+cl(b,a){return V([0,b],a)}function
+jj(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e3(c,b,a){return c?i(b,e3(c[1],b,a)):a}function
-je(a){if(a)var
-b=a[1],d=b?[0,je(b[1])]:b,c=d;else
+e6(c,b,a){return c?i(b,e6(c[1],b,a)):a}function
+jk(a){if(a)var
+b=a[1],d=b?[0,jk(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gM(d,c){var
+gP(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jf(a){if(F(a,c))return c;var
-e=aT(a,aD(2)),f=e[1];return Z(e[2],d)?o(b(2,jf(f))):o(b(2,b(2,f)))}function
-jg(b,a){return bo(c,aE(b,a))}function
-e4(a){if(F(a,c))return pO;var
-b=aT(a,aD(2)),e=b[1];return Z(b[2],d)?[0,e4(e)]:[0,e4(e)]}function
-e5(a){if(F(a,c))return c;var
-b=aT(a,aD(2)),e=b[1];return Z(b[2],d)?o(e5(e)):o(e5(e))}function
-jh(c,b){var
-a=i1(c,b);return 0===a?0:0<=a?2:1}function
-gN(j,i){var
-b=j,a=i;for(;;){if(F(b,c))return F(a,c)?1:Z(aT(a,aD(2))[2],d)?0:0;var
-g=aT(b,aD(2)),h=g[1];if(Z(g[2],d)){if(F(a,c))return 0;var
-e=aT(a,aD(2)),k=e[1];if(Z(e[2],d)){var
-b=h,a=k;continue}return 0}if(F(a,c))return 0;var
-f=aT(a,aD(2)),l=f[1];if(Z(f[2],d))return 0;var
+jl(a){if(H(a,c))return c;var
+e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jl(f))):p(b(2,b(2,f)))}function
+jm(b,a){return bs(c,aG(b,a))}function
+e7(a){if(H(a,c))return pZ;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
+e8(a){if(H(a,c))return c;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
+jn(c,b){var
+a=i7(c,b);return 0===a?0:0<=a?2:1}function
+gQ(j,i){var
+b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aF(2))[2],d)?0:0;var
+g=aU(b,aF(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
+e=aU(a,aF(2)),k=e[1];if(_(e[2],d)){var
+b=h,a=k;continue}return 0}if(H(a,c))return 0;var
+f=aU(a,aF(2)),l=f[1];if(_(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e6(b,a){return 2<=jh(b,a)?0:1}function
-di(i,e,a){if(i){var
-f=i[1];if(F(e,c))return[0,c,[0,c,a]];var
-w=aT(e,aD(2)),g=w[1];if(Z(w[2],d)){if(F(a,c))return[0,c,[0,e,c]];var
-m=aT(a,aD(2)),B=m[1];if(Z(m[2],d)){var
-j=di(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
-k=di(f,g,a),l=k[2],y=l[2],A=[0,b(2,l[1]),y];return[0,k[1],A]}if(F(a,c))return[0,c,[0,e,c]];var
-v=aT(a,aD(2)),h=v[1];if(Z(v[2],d)){var
-n=di(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jh(g,h)){case
+e9(b,a){return 2<=jn(b,a)?0:1}function
+dj(i,e,a){if(i){var
+f=i[1];if(H(e,c))return[0,c,[0,c,a]];var
+w=aU(e,aF(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
+m=aU(a,aF(2)),B=m[1];if(_(m[2],d)){var
+j=dj(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
+k=dj(f,g,a),l=k[2],y=l[2],z=[0,b(2,l[1]),y];return[0,k[1],z]}if(H(a,c))return[0,c,[0,e,c]];var
+v=aU(a,aF(2)),h=v[1];if(_(v[2],d)){var
+n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jn(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=di(f,jg(h,g),e),q=p[2],r=q[2],D=[0,r,z(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=di(f,jg(g,h),a),t=s[2],u=t[2],E=[0,z(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e7(b,a){var
-c=e4(a);return di(M(e4(b),c),b,a)}function
-ji(b,i,h){var
-e=i,a=h;for(;;){if(F(e,c))return a;var
-f=aT(e,aD(2)),g=f[1];if(Z(f[2],d)){var
-e=g,a=ao(b,a,a);continue}return ao(b,a,ji(b,g,ao(b,a,a)))}}function
-d4(a){return ji(M,a,pP)}function
-jj(a){return a?o(jj(a[1])):c}function
-bY(f,e){var
+p=dj(f,jm(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=dj(f,jm(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+e_(b,a){var
+c=e7(a);return dj(N(e7(b),c),b,a)}function
+jo(b,i,h){var
+e=i,a=h;for(;;){if(H(e,c))return a;var
+f=aU(e,aF(2)),g=f[1];if(_(f[2],d)){var
+e=g,a=ao(b,a,a);continue}return ao(b,a,jo(b,g,ao(b,a,a)))}}function
+d7(a){return jo(N,a,p0)}function
+jp(a){return a?p(jp(a[1])):c}function
+b0(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=x(b(2,o(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=y(b(2,p(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
 1:var
-h=z(c,x(b(2,o(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=A(c,y(b(2,p(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
 2:var
-i=x(b(2,o(b(2,b(2,c)))),d),j=z(b(2,c),i),a=a[1],d=j;continue;case
+i=y(b(2,p(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
 3:var
-k=x(b(2,o(b(2,b(2,c)))),d),l=z(o(b(2,c)),k),a=a[1],d=l;continue;case
+k=y(b(2,p(b(2,b(2,c)))),d),l=A(p(b(2,c)),k),a=a[1],d=l;continue;case
 4:var
-m=x(b(2,o(b(2,b(2,c)))),d),n=z(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=y(b(2,p(b(2,b(2,c)))),d),n=A(b(2,b(2,c)),m),a=a[1],d=n;continue;case
 5:var
-p=x(b(2,o(b(2,b(2,c)))),d),q=z(o(b(2,b(2,c))),p),a=a[1],d=q;continue;case
+o=y(b(2,p(b(2,b(2,c)))),d),q=A(p(b(2,b(2,c))),o),a=a[1],d=q;continue;case
 6:var
-r=x(b(2,o(b(2,b(2,c)))),d),s=z(b(2,o(b(2,c))),r),a=a[1],d=s;continue;case
+r=y(b(2,p(b(2,b(2,c)))),d),s=A(b(2,p(b(2,c))),r),a=a[1],d=s;continue;case
 7:var
-t=x(b(2,o(b(2,b(2,c)))),d),u=z(o(b(2,o(b(2,c)))),t),a=a[1],d=u;continue;case
+t=y(b(2,p(b(2,b(2,c)))),d),u=A(p(b(2,p(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
-v=x(b(2,o(b(2,b(2,c)))),d),w=z(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
-y=x(b(2,o(b(2,b(2,c)))),d),A=z(o(b(2,b(2,b(2,c)))),y),a=a[1],d=A;continue}}function
-gO(a){if(F(a,c))return pQ;var
-b=aT(a,aD(2)),e=b[1];return Z(b[2],d)?bp(gO(e)):bq(gO(e))}function
-e8(a){return e2(gO(a))}function
-jk(k,f){if(0<=a7(f)){var
-g=i3(f);if(0<=g){var
+v=y(b(2,p(b(2,b(2,c)))),d),w=A(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
+x=y(b(2,p(b(2,b(2,c)))),d),z=A(p(b(2,b(2,b(2,c)))),x),a=a[1],d=z;continue}}function
+gR(a){if(H(a,c))return p1;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gR(e)):bu(gR(e))}function
+e$(a){return e5(gR(a))}function
+jq(k,f){if(0<=a9(f)){var
+g=i9(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=x(b,b),j=1===(a&1)?x(e,b):e,e=j,b=i,a=h;continue}}return e1(pK)}return d}function
-gP(b){var
-a=a7(b);return 0===a?d:0<a?c:O(c)}function
-jl(a){return 0<=a7(a)?a:d}function
-d5(a){var
-b=a7(a);return 0===b?c:0<b?a:c}function
-jm(m){var
+h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e4(pV)}return d}function
+gS(b){var
+a=a9(b);return 0===a?d:0<a?c:P(c)}function
+jr(a){return 0<=a9(a)?a:d}function
+d8(a){var
+b=a9(a);return 0===b?c:0<b?a:c}function
+js(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return bY(a[1],c);case
+1:return b0(a[1],c);case
 2:var
-e=b(2,c);return bY(a[1],e);case
+e=b(2,c);return b0(a[1],e);case
 3:var
-f=o(b(2,c));return bY(a[1],f);case
+f=p(b(2,c));return b0(a[1],f);case
 4:var
-g=b(2,b(2,c));return bY(a[1],g);case
+g=b(2,b(2,c));return b0(a[1],g);case
 5:var
-h=o(b(2,b(2,c)));return bY(a[1],h);case
+h=p(b(2,b(2,c)));return b0(a[1],h);case
 6:var
-i=b(2,o(b(2,c)));return bY(a[1],i);case
+i=b(2,p(b(2,c)));return b0(a[1],i);case
 7:var
-j=o(b(2,o(b(2,c))));return bY(a[1],j);case
+j=p(b(2,p(b(2,c))));return b0(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return bY(a[1],k);default:var
-l=o(b(2,b(2,b(2,c))));return bY(a[1],l)}}function
-ch(b,a){var
-c=a7(a);return 0===c?d:1===c?i2(b,a):i_(-1,i2(i_(-1,b),a))}function
-e9(a){return 0<a7(a)?Ew(a):d}function
-d6(b,c){var
-a=i3(c);return 0<=a?pD(b,a):pE(b,-a|0)}function
+k=b(2,b(2,b(2,c)));return b0(a[1],k);default:var
+l=p(b(2,b(2,b(2,c))));return b0(a[1],l)}}function
+cm(b,a){var
+c=a9(a);return 0===c?d:1===c?i8(b,a):je(-1,i8(je(-1,b),a))}function
+fa(a){return 0<a9(a)?EW(a):d}function
+d9(b,c){var
+a=i9(c);return 0<=a?pO(b,a):pP(b,-a|0)}function
 cJ(b,c){var
-a=i3(c);return 0<=a?pE(b,a):pD(b,-a|0)}function
-bs(b,a){return a?a[1]:b}function
-bb(a){var
+a=i9(c);return 0<=a?pP(b,a):pO(b,-a|0)}function
+bw(b,a){return a?a[1]:b}function
+bd(a){var
 b=a?a[2]:a;return b}function
-t(e,d,c){var
+r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-R(d,c){var
+M(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jn(a){if(a){var
-b=[0,a[1],0];return f(jn(a[2]),b)}return a}function
-d7(d,c){var
+jt(a){if(a){var
+b=[0,a[1],0];return f(jt(a[2]),b)}return a}function
+d_(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-jo(a){if(a){var
-b=jo(a[2]);return f(a[1],b)}return a}function
-gQ(g,f,e){var
+fb(a){if(a){var
+b=fb(a[2]);return f(a[1],b)}return a}function
+gT(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -987,12 +987,12 @@ var
 c=a;return c}function
 v(b,a){if(a){var
 c=v(b,a[2]);return f(i(b,a[1]),c)}return a}function
-dj(e,d,c){var
+dk(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
 aI(c,b,a){if(a){var
 d=aI(c,b,a[2]);return ao(c,a[1],d)}return b}function
-ai(e,d){var
+ak(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1003,132 +1003,132 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bc(b,e){var
+be(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bc(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,be(b,c)];var
 a=c;continue}return a}}function
-jp(d,c){var
+ju(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aJ(b,a){if(b)if(a)var
-d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aK(b,a){if(b)if(a)var
+d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bZ(b,a){if(b)if(a)var
-d=bZ(b[1],a[2]),c=[0,a[1],d];else
+b1(b,a){if(b)if(a)var
+d=b1(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-dk(d,c){var
+dl(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aK(b,a){var
-c=a?[0,b,aK([0,b],a[1])]:a;return c}function
-aG(b,a){var
-c=a?[0,b,aG(b,a[1])]:a;return c}function
-jq(a){if(a){var
-e=jq(a[2]),f=x(b(2,c),e),g=a[1]?c:d;return z(g,f)}return d}function
-e_(j){function
+aL(b,a){var
+c=a?[0,b,aL([0,b],a[1])]:a;return c}function
+aA(b,a){var
+c=a?[0,b,aA(b,a[1])]:a;return c}function
+jv(a){if(a){var
+e=jv(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+fc(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jq([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a7(b)?d4(b):0}function
-dl(c,b){var
-a=i1(x(c[1],b[2]),x(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cK(b,a){return F(x(b[1],a[2]),x(a[1],b[2]))}function
-dm(b,a){return[0,z(x(b[1],a[2]),x(a[1],b[2])),x(b[2],a[2])]}function
-b0(b,a){return[0,x(b[1],a[1]),x(b[2],a[2])]}function
-jr(a){return[0,O(a[1]),a[2]]}function
-e$(b,a){return dm(b,jr(a))}function
-gR(f,b){var
-a=b[1],e=a7(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,O(b[2]),O(a)];return b0(f,g)}function
-fa(q){var
-a=q[2],b=q[1],o=a7(b);if(0===o)var
-c=[0,dg(a),[0,d,gP(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jv([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d7(b):0}function
+dm(c,b){var
+a=i7(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cK(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
+dn(b,a){return[0,A(y(b[1],a[2]),y(a[1],b[2])),y(b[2],a[2])]}function
+b2(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+jw(a){return[0,P(a[1]),a[2]]}function
+fd(b,a){return dn(b,jw(a))}function
+gU(f,b){var
+a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b2(f,g)}function
+fe(q){var
+a=q[2],b=q[1],o=a9(b);if(0===o)var
+c=[0,dh(a),[0,d,gS(a)]];else
 if(0<o){var
-n=a7(a);if(0===n)var
-c=[0,dg(b),[0,gP(b),d]];else
+n=a9(a);if(0===n)var
+c=[0,dh(b),[0,gS(b),d]];else
 if(0<n)var
-l=e7(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e_(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e7(b,O(a)),k=j[2],c=[0,j[1],[0,k[1],O(k[2])]]}else{var
-p=O(b),i=a7(a);if(0===i)var
-c=[0,dg(b),[0,gP(b),d]];else
+j=e_(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
+p=P(b),i=a9(a);if(0===i)var
+c=[0,dh(b),[0,gS(b),d]];else
 if(0<i)var
-g=e7(p,a),h=g[2],c=[0,g[1],[0,O(h[1]),h[2]]];else
+g=e_(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
-e=e7(p,O(a)),f=e[2],c=[0,e[1],[0,O(f[1]),O(f[2])]]}var
-r=c[2],s=d5(r[2]);return[0,r[1],s]}function
-a1(a){if(typeof
-a==="number")return pT;else
+e=e_(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
+r=c[2],s=d8(r[2]);return[0,r[1],s]}function
+a2(a){if(typeof
+a==="number")return p4;else
 switch(a[0]){case
 0:var
-b=a1(a[1]);return aS(bn(1,48),b);case
+b=a2(a[1]);return aT(br(1,48),b);case
 1:var
-c=a1(a[1]);return aS(bn(1,49),c);case
+c=a2(a[1]);return aT(br(1,49),c);case
 2:var
-d=a1(a[1]);return aS(bn(1,50),d);case
+d=a2(a[1]);return aT(br(1,50),d);case
 3:var
-e=a1(a[1]);return aS(bn(1,51),e);case
+e=a2(a[1]);return aT(br(1,51),e);case
 4:var
-f=a1(a[1]);return aS(bn(1,52),f);case
+f=a2(a[1]);return aT(br(1,52),f);case
 5:var
-g=a1(a[1]);return aS(bn(1,53),g);case
+g=a2(a[1]);return aT(br(1,53),g);case
 6:var
-h=a1(a[1]);return aS(bn(1,54),h);case
+h=a2(a[1]);return aT(br(1,54),h);case
 7:var
-i=a1(a[1]);return aS(bn(1,55),i);case
+i=a2(a[1]);return aT(br(1,55),i);case
 8:var
-j=a1(a[1]);return aS(bn(1,56),j);default:var
-k=a1(a[1]);return aS(bn(1,57),k)}}function
-d8(a){return typeof
-a==="number"?pU:a1(a)}function
-cL(a){return jk(b(2,c),a)}function
-js(b,a){return cJ(a,b)}function
-jt(b,a){return O(cJ(O(a),b))}function
-fb(b,a){return O(ch(O(b),a))}function
+j=a2(a[1]);return aT(br(1,56),j);default:var
+k=a2(a[1]);return aT(br(1,57),k)}}function
+d$(a){return typeof
+a==="number"?p5:a2(a)}function
+cL(a){return jq(b(2,c),a)}function
+jx(b,a){return cJ(a,b)}function
+jy(b,a){return P(cJ(P(a),b))}function
+ff(b,a){return P(cm(P(b),a))}function
 W(c,b){var
-a=d6(b,c);return[0,a,a]}function
-ju(d,c,a){var
-b=d6(c,d),e=fb(b,a);return[0,ch(b,a),e]}function
-G(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-H(b,a){return[0,aE(b[1],a[2]),aE(b[2],a[1])]}function
-ag(a){return[0,O(a[2]),O(a[1])]}function
-jv(e,c,b,a){if(F(d,e))return F(d,b)?[0,x(e,b),x(c,a)]:F(a,d)?[0,x(c,b),x(e,a)]:[0,x(c,b),x(c,a)];if(F(c,d))return F(d,b)?[0,x(e,a),x(c,b)]:F(a,d)?[0,x(c,a),x(e,b)]:[0,x(e,a),x(e,b)];if(F(d,b))return[0,x(e,a),x(c,a)];if(F(a,d))return[0,x(c,b),x(e,b)];var
-f=bo(x(e,b),x(c,a));return[0,gL(x(e,a),x(c,b)),f]}function
-y(c,b,a){var
-d=jv(b[1],b[2],a[1],a[2]),e=jt(c,d[2]);return[0,js(c,d[1]),e]}function
-$(b,a){var
-c=x(a[1],a[1]),e=x(a[2],a[2]),h=jt(b,bo(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+a=d9(b,c);return[0,a,a]}function
+jz(d,c,a){var
+b=d9(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
+E(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
+D(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
+af(a){return[0,P(a[2]),P(a[1])]}function
+jA(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
+f=bs(y(e,b),y(c,a));return[0,gO(y(e,a),y(c,b)),f]}function
+x(c,b,a){var
+d=jA(b[1],b[2],a[1],a[2]),e=jy(c,d[2]);return[0,jx(c,d[1]),e]}function
+X(b,a){var
+c=y(a[1],a[1]),e=y(a[2],a[2]),h=jy(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=js(b,gL(c,e));return[0,f,h]}function
-gS(b,a){var
-c=d6(cL(b),b),d=fb(c,a[1]);return[0,ch(c,a[2]),d]}function
-ci(b,a){if(L(d,a[1]))return[0,gS(b,a)];var
-c=L(a[2],d),e=c?[0,ag(gS(b,ag(a)))]:c;return e}function
-cj(f,b){var
+f=jx(b,gO(c,e));return[0,f,h]}function
+gV(b,a){var
+c=d9(cL(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
+b3(b,a){if(L(d,a[1]))return[0,gV(b,a)];var
+c=L(a[2],d),e=c?[0,af(gV(b,af(a)))]:c;return e}function
+b4(f,b){var
 g=L(d,b[1]);if(g)var
-e=d6(b[2],f),a=e9(e),i=Z(x(a,a),e)?a:z(a,c),h=[0,[0,e9(d6(b[1],f)),i]];else
+e=d9(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d9(b[1],f)),i]];else
 var
 h=g;return h}function
-dn(a){return 0===a[0]?a[2]:a[1]}function
-aU(f,d,c,b,a){if(b){if(a){var
-g=aU(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-ck(b,a){return cJ(b,a)}function
-a8(a,c,b){if(F(d,a)){var
-e=b[1],f=O(ck(O(x(a,b[2])),c));return[0,ck(x(a,e),c),f]}var
-g=b[2],h=O(ck(O(x(a,b[1])),c));return[0,ck(x(a,g),c),h]}function
-a9(a){var
-b=O(cJ(O(a[2]),c));return[0,cJ(a[1],c),b]}function
-d9(c,b,a){var
-e=jv(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=fb(f,h),j=L(g,d)?a[1]:a[2];return[0,ch(g,j),i]}function
-cM(a){return bo(a[2],O(a[1]))}var
-A=[0,d,d];function
-fc(a){return[0,a[1],a[1]]}function
-dp(a){return[0,a[2],a[2]]}function
-b1(b,a){switch(a[0]){case
+dp(a){return 0===a[0]?a[2]:a[1]}function
+aV(f,d,c,b,a){if(b){if(a){var
+g=aV(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cn(b,a){return cJ(b,a)}function
+a_(a,c,b){if(H(d,a)){var
+e=b[1],f=P(cn(P(y(a,b[2])),c));return[0,cn(y(a,e),c),f]}var
+g=b[2],h=P(cn(P(y(a,b[1])),c));return[0,cn(y(a,g),c),h]}function
+aW(a){var
+b=P(cJ(P(a[2]),c));return[0,cJ(a[1],c),b]}function
+ea(c,b,a){var
+e=jA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
+cM(a){return bs(a[2],P(a[1]))}var
+B=[0,d,d];function
+eb(a){return[0,a[1],a[1]]}function
+dq(a){return[0,a[2],a[2]]}function
+bL(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1149,7 +1149,7 @@ d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?u(b[1],a[1]):0;case
 1:return 1===a[0]?u(b[1],a[1]):0;case
-2:return 2===a[0]?Z(b[1],a[1]):0;case
+2:return 2===a[0]?_(b[1],a[1]):0;case
 3:if(3===a[0]){var
 f=av(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
@@ -1168,7 +1168,7 @@ d=b[2],c=a[2];continue}return i}return 0;case
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=cg(b[1],a[1]);if(j){var
+j=ck(b[1],a[1]);if(j){var
 k=av(b[2],a[2]);if(k){var
 l=av(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
@@ -1177,41 +1177,41 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fd(b){var
+fg(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aN(c,b){var
-a=fd(b);return a?Z(c,a[1]):a}function
-d_(a){return L(dg(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-l(a){return[0,[2,a]]}function
-C(b,a){if(aN(d,b))return a;if(aN(d,a))return b;var
-c=fd(b);if(c){var
-e=c[1],f=fd(a);if(f){var
-g=f[1];if(d_(e)&&d_(g))return l(z(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bd(a){var
+aO(c,b){var
+a=fg(b);return a?_(c,a[1]):a}function
+ec(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+h(a){return[0,[2,a]]}function
+z(b,a){if(aO(d,b))return a;if(aO(d,a))return b;var
+c=fg(b);if(c){var
+e=c[1],f=fg(a);if(f){var
+g=f[1];if(ec(e)&&ec(g))return h(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bf(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return d_(c)?l(O(c)):[0,[5,a]];case
+c=b[1];return ec(c)?h(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-s(b,a){if(aN(d,a))return b;if(aN(d,b))return bd(a);var
+t(b,a){if(aO(d,a))return b;if(aO(d,b))return bf(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?u(c[1],e[1])?l(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-K(a){var
-c=fd(a);if(c){var
-b=c[1];return d_(b)?l(x(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aN(d,a)&&!aN(c,b)){if(!aN(d,b)&&!aN(c,a))return av(a,b)?K(a):[0,[6,a,b]];return b}return a}function
-am(b,a){return aN(c,a)?b:[0,[7,b,a]]}function
-az(a){return aN(c,a)?a:[0,[9,a]]}function
-jw(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bJ(f,e,d,c){var
+e=a[1];return 0===e[0]?u(c[1],e[1])?h(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+I(a){var
+c=fg(a);if(c){var
+b=c[1];return ec(b)?h(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return av(a,b)?I(a):[0,[6,a,b]];return b}return a}function
+ag(b,a){return aO(c,a)?b:[0,[7,b,a]]}function
+aw(a){return aO(c,a)?a:[0,[9,a]]}function
+jB(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bM(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,b1(function(b){return function(a){return t(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-d$(b,a){if(a){var
+g=b[1],h=[0,i(e,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+ed(b,a){if(a){var
 c=a[2];if(b){var
-e=d$(b[1],c);return[0,a[1],e]}var
+e=ed(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-jx(a){switch(a[0]){case
+jC(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1219,14 +1219,17 @@ jx(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-cl(a){var
+jD(j,g){var
+k=0,l=aI(ed,e(function(a){return 0},g),j),c=d_(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aI(ed,d,jC(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+co(a){var
 b=0;function
-c(a){return[0,a]}return bJ(l(d),c,a,b)}function
-aV(d,c){var
+c(a){return[0,a]}return bM(h(d),c,a,b)}function
+aX(d,c){var
 a=d,b=0;for(;;){if(a){if(av(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
 cN(d,b){var
-e=b[1];if(ai(function(a){return av(d,a)},e))return b;var
+e=b[1];if(ak(function(a){return av(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
 j=cN(a[2],b),k=cN(a[3],j),c=cN(a[4],k);break;case
@@ -1239,34 +1242,34 @@ c=cN(a[1],b);break;case
 2:var
 c=b;break;default:var
 i=cN(a[1],b),c=cN(a[2],i)}var
-f=c[2],g=c[1],h=[0,b1(function(a){return aV(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cm(a){var
-b=dj(function(b,a){return cN(a,b)},a,pV),c=b[1],d=e(function(a){return aV(c,a)},a);return[0,jn(b[2]),d]}function
-fe(a){return aI(function(b,a){return z(cM(b),a)},d,a)}function
-b2(b,c,a){var
-d=fe(a),e=gL(c[2],z(b[2],d)),f=fe(a);return[0,b,[0,bo(c[1],aE(b[1],f)),e],a]}function
-ad(a){return[0,a,a,0]}function
-bK(b,a){var
+f=c[2],g=c[1],h=[0,bL(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cp(a){var
+b=dk(function(b,a){return cN(a,b)},a,p6),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jt(b[2]),d]}function
+fh(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
+b5(b,c,a){var
+d=fh(a),e=gO(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
+ae(a){return[0,a,a,0]}function
+bN(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aU(function(a){return a},e,G,d,c),g=G(b[2],a[2]);return b2(G(b[1],a[1]),g,f)}function
-a_(b,a){var
-c=a[3],d=b[3],e=aU(function(a){return a},ag,H,d,c),f=H(b[2],a[2]);return b2(H(b[1],a[1]),f,e)}function
-ea(a){var
-b=e(ag,a[3]),c=ag(a[2]);return[0,ag(a[1]),c,b]}function
-aw(a,c,b){var
-d=G(b[2],b[1]),e=G(c[2],c[1]),f=b[3],g=c[3];function
+f=aV(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return b5(E(b[1],a[1]),g,f)}function
+a$(b,a){var
+c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b5(D(b[1],a[1]),f,e)}function
+ee(a){var
+b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
+ax(a,c,b){var
+d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=y(a,e,b);return a9(G(y(a,d,c),f))}function
-i(b){return a9(y(a,e,b))}var
-j=aU(function(b){return a9(y(a,d,b))},i,h,g,f),k=y(a,c[2],b[2]);return b2(y(a,c[1],b[1]),k,j)}function
-eb(b,a){var
-c=a[3],d=G(a[2],a[1]),f=e(function(a){return y(b,d,a)},c),g=$(b,a[2]);return b2($(b,a[1]),g,f)}function
-gT(a,b){var
-c=cj(a,b[1]);if(c){var
-g=c[1],d=cj(a,b[2]);if(d){var
-h=d[1],f=ci(a,G(h,g));if(f)var
-l=b[3],m=f[1],i=[0,b2(g,h,e(function(b){return y(a,m,b)},l))];else
+f=x(a,e,b);return aW(E(x(a,d,c),f))}function
+i(b){return aW(x(a,e,b))}var
+j=aV(function(b){return aW(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return b5(x(a,c[1],b[1]),k,j)}function
+ef(b,a){var
+c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=X(b,a[2]);return b5(X(b,a[1]),g,f)}function
+gW(a,b){var
+c=b4(a,b[1]);if(c){var
+g=c[1],d=b4(a,b[2]);if(d){var
+h=d[1],f=b3(a,E(h,g));if(f)var
+l=b[3],m=f[1],i=[0,b5(g,h,e(function(b){return x(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1275,520 +1278,533 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dq(a,c,b){var
-d=ci(a,b[1]);if(d){var
-f=ci(a,b[2]);if(f)var
-h=f[1],g=y(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return H(c,y(a,g,b))},n=function(b){return ag(y(a,g,b))},o=aU(function(a){return a},n,m,l,k),p=e(function(b){return y(a,h,b)},o),i=[0,b2(g,y(a,c[2],h),p)];else
+dr(a,c,b){var
+d=b3(a,b[1]);if(d){var
+f=b3(a,b[2]);if(f)var
+h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aV(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,b5(g,x(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cn(b,a){return a?i(b,a[1]):a}function
-ff(a){var
-b=e(a9,a[3]),c=a9(G(a[2],a[1]));return b2(a[1],c,b)}function
-jy(a,k,j,r,b){var
-l=ff(k),m=ff(j),g=ff(b[1]),h=ff(b[2]),s=aw(a,l,h),t=a_(aw(a,m,g),s),i=dq(a,ad(W(a,c)),t);if(i)var
-f=i[1],n=aw(a,a_(l,g),f),o=aw(a,a_(m,h),f),d=function(c,b){return aw(a,c,ad(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bK(d(n,b),c)},x=function(a){return d(o,a)},z=aU(function(a){return d(n,a)},x,w,v,u),A=r[3],B=function(b,a){return a_(b,d(f,a9(a)))[2]},C=function(a){return ea(d(f,a9(a)))[2]},p=aU(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return y(a,D,b)},p),F=b2(b[2][1],b[2][2],E),G=ag(h[2]),H=e(function(b){return y(a,G,b)},p),q=[0,[0,b2(b[1][1],b[1][2],H),F]];else
+cq(b,a){return a?i(b,a[1]):a}function
+fi(a){var
+b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b5(a[1],c,b)}function
+jE(a,k,j,r,b){var
+l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ax(a,l,h),t=a$(ax(a,m,g),s),i=dr(a,ae(W(a,c)),t);if(i)var
+f=i[1],n=ax(a,a$(l,g),f),o=ax(a,a$(m,h),f),d=function(c,b){return ax(a,c,ae(b))},u=j[3],v=k[3],w=function(b,a){var
+c=d(o,a);return bN(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ee(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=b5(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,b5(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jz(a,e,d,k){var
-p=eb(a,d),f=bK(eb(a,e),p),g=a_(bK(f,ad(W(a,c))),k),l=aw(a,ad(W(a,b(2,c))),f),q=eb(a,g),h=gT(a,a_(aw(a,ad(W(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=aw(a,m,d),i=dq(a,bK(aw(a,g,e),r),l);if(i)var
-s=aw(a,m,e),j=dq(a,a_(aw(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jF(a,e,d,k){var
+p=ef(a,d),f=bN(ef(a,e),p),g=a$(bN(f,ae(W(a,c))),k),l=ax(a,ae(W(a,b(2,c))),f),q=ef(a,g),h=gW(a,a$(ax(a,ae(W(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=ax(a,m,d),i=dr(a,bN(ax(a,g,e),r),l);if(i)var
+s=ax(a,m,e),j=dr(a,a$(ax(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cn(function(b){return jy(a,e,d,k,b)},o);return cn(function(b){return jy(a,e,d,k,b)},u)}function
-b3(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
+u=cq(function(b){return jE(a,e,d,k,b)},o);return cq(function(b){return jE(a,e,d,k,b)},u)}function
+b6(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-b4(b,j,i){var
-f=ad(A);return function(a){switch(a[0]){case
-0:return[0,t(a[1],j,f)];case
-1:return[0,t(a[1],i,f)];case
-2:return[0,ad(W(b,a[1]))];case
+b7(b,j,i){var
+f=ae(B);return function(a){switch(a[0]){case
+0:return[0,r(a[1],j,f)];case
+1:return[0,r(a[1],i,f)];case
+2:return[0,ae(W(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return b3(function(b,a){return[0,bK(b,a)]},l,k);case
+k=a[2],l=a[1];return b6(function(b,a){return[0,bN(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return b3(function(b,a){return[0,a_(b,a)]},n,m);case
+m=a[2],n=a[1];return b6(function(b,a){return[0,a$(b,a)]},n,m);case
 5:var
-o=a[1];return cn(function(a){return[0,ea(a)]},o);case
+o=a[1];return cq(function(a){return[0,ee(a)]},o);case
 6:var
-p=a[2],q=a[1];return b3(function(c,a){return[0,aw(b,c,a)]},q,p);case
+p=a[2],q=a[1];return b6(function(c,a){return[0,ax(b,c,a)]},q,p);case
 7:var
-r=a[2],s=a[1];return b3(function(a,c){return dq(b,a,c)},s,r);case
+s=a[2],t=a[1];return b6(function(a,c){return dr(b,a,c)},t,s);case
 8:var
-u=a[1];return cn(function(a){return[0,eb(b,a)]},u);case
+u=a[1];return cq(function(a){return[0,ef(b,a)]},u);case
 9:var
-v=a[1];return cn(function(a){return gT(b,a)},v);default:var
+v=a[1];return cq(function(a){return gW(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jz(b,c[1],d[1],e[1]),y=a[1]?bX:aF;return w(y,x)}var
+x=jF(b,c[1],d[1],e[1]),y=a[1]?bZ:aH;return w(y,x)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-ec(c){var
+eg(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=ec(a[1]);if(b)return b;var
+b=eg(a[1]);if(b)return b;var
 a=a[2];continue}}function
-b5(q,p){var
+b8(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=Z(b[1],a[1]);return c?gN(b[2],a[2]):c}return 0;case
+c=_(b[1],a[1]);return c?gQ(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?Z(e[1],g[1]):h,j=i?gN(e[2],g[2]):i,k=j?Z(d[1],f[1]):j;return k?gN(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gQ(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gQ(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=b5(b[1],a[1]);if(l){var
+l=b8(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=b5(b[1],a[1]);if(m){var
+m=b8(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=b5(b[1],a[1]);if(n){var
+n=b8(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=b5(b[1],a[1]);if(o){var
+o=b8(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ed(b,a){switch(a[0]){case
+eh(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dm(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dn(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,e$(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fd(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b0(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b2(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dl(a,[0,d,c])?0:[0,gR(b,a)]};break;default:var
-k=ed(b,a[1]);return k?i(b,k[1]):k}var
-h=ed(b,f);if(h){var
-j=ed(b,g);if(j)return e(h[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gU(b,a)]};break;default:var
+k=eh(b,a[1]);return k?i(b,k[1]):k}var
+h=eh(b,f);if(h){var
+j=eh(b,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-pW(a){return 0}function
-co(a){return ed(pW,a)}function
-bt(a,b){switch(b[0]){case
-0:return[0,ju(a,b[1],b[2])];case
+p7(a){return 0}function
+cr(a){return eh(p7,a)}function
+bx(a,b){switch(b[0]){case
+0:return[0,jz(a,b[1],b[2])];case
 1:return 0;case
 2:var
-g=bt(a,b[1]);if(g)var
-h=bt(a,b[2]),C=h?[0,G(g[1],h[1])]:h,r=C;else
+g=bx(a,b[1]);if(g)var
+h=bx(a,b[2]),C=h?[0,E(g[1],h[1])]:h,r=C;else
 var
 r=g;return r;case
 3:var
-i=bt(a,b[1]);if(i)var
-j=bt(a,b[2]),D=j?[0,H(i[1],j[1])]:j,s=D;else
+i=bx(a,b[1]);if(i)var
+j=bx(a,b[2]),F=j?[0,D(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bt(a,b[1]);if(k)var
-l=bt(a,b[2]),E=l?[0,y(a,k[1],l[1])]:l,t=E;else
+k=bx(a,b[1]);if(k)var
+l=bx(a,b[2]),G=l?[0,x(a,k[1],l[1])]:l,t=G;else
 var
 t=k;return t;case
 5:var
-m=bt(a,b[1]);if(m){var
-n=bt(a,b[2]);if(n)var
-o=ci(a,n[1]),F=o?[0,y(a,m[1],o[1])]:o,u=F;else
+m=bx(a,b[1]);if(m){var
+n=bx(a,b[2]);if(n)var
+o=b3(a,n[1]),H=o?[0,x(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
 v=u}else
 var
 v=m;return v;default:var
-x=b[1],p=bt(a,x);if(p){var
-e=p[1];if(L(d,e[1]))return cj(a,e);var
-f=co(x),I=f?_(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
-z=cj(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
-q=Z(e[2],d),B=q?[0,A]:q;return B}return p}}function
-fg(b,a){return ju(b,a[1],a[2])}function
-bu(a,d){if(ec(d))switch(d[0]){case
+y=b[1],p=bx(a,y);if(p){var
+e=p[1];if(L(d,e[1]))return b4(a,e);var
+f=cr(y),I=f?$(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
+z=b4(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
+q=_(e[2],d),A=q?[0,B]:q;return A}return p}}function
+fj(b,a){return jz(b,a[1],a[2])}function
+by(a,d){if(eg(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=cI(i,jA),k=j?cK(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fg(a,b0(e$(e,g),n)),0],p=f(aG(A,i),o),q=fg(a,e)[2],r=[0,fg(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fg(a,b0(dm(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=cl(i,jG),k=j?cK(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fj(a,b2(fd(e,g),n)),0],p=f(aA(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b2(dn(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bu(a,d[2]),u=bu(a,d[1]);return b3(function(b,a){return[0,bK(b,a)]},u,t);case
+t=by(a,d[2]),u=by(a,d[1]);return b6(function(b,a){return[0,bN(b,a)]},u,t);case
 3:var
-v=bu(a,d[2]),x=bu(a,d[1]);return b3(function(b,a){return[0,a_(b,a)]},x,v);case
+v=by(a,d[2]),x=by(a,d[1]);return b6(function(b,a){return[0,a$(b,a)]},x,v);case
 4:var
-m=d[2],h=d[1];if(b5(h,m)){var
-y=bu(a,h);return cn(function(b){return[0,eb(a,b)]},y)}var
-z=bu(a,m),B=bu(a,h);return b3(function(c,b){return[0,aw(a,c,b)]},B,z);case
+m=d[2],h=d[1];if(b8(h,m)){var
+y=by(a,h);return cq(function(b){return[0,ef(a,b)]},y)}var
+z=by(a,m),A=by(a,h);return b6(function(c,b){return[0,ax(a,c,b)]},A,z);case
 5:var
-C=bu(a,d[2]),D=bu(a,d[1]);return b3(function(b,c){return dq(a,b,c)},D,C);default:var
-E=bu(a,d[1]);return cn(function(b){return gT(a,b)},E)}return w(ad,bt(a,d))}function
-aW(b,a){if(ec(a)){var
-c=bu(b,a);return w(function(a){return a[2]},c)}return bt(b,a)}function
-jB(a){var
-e=bo(O(a),d);return d5(z(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jC(a){return jl(z(jB(a),a))}function
-cp(f,a,e){var
-b=aW(z(f,jB(a)),e);if(b)var
-c=b[1],g=jC(a),h=O(ck(O(c[2]),g)),i=jC(a),d=[0,[0,ck(c[1],i),h]];else
+C=by(a,d[2]),D=by(a,d[1]);return b6(function(b,c){return dr(a,b,c)},D,C);default:var
+E=by(a,d[1]);return cq(function(b){return gW(a,b)},E)}return w(ae,bx(a,d))}function
+aY(b,a){if(eg(a)){var
+c=by(b,a);return w(function(a){return a[2]},c)}return bx(b,a)}function
+jH(a){var
+e=bs(P(a),d);return d8(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jI(a){return jr(A(jH(a),a))}function
+cs(f,a,e){var
+b=aY(A(f,jH(a)),e);if(b)var
+c=b[1],g=jI(a),h=P(cn(P(c[2]),g)),i=jI(a),d=[0,[0,cn(c[1],i),h]];else
 var
 d=b;return d}function
-aj(d,a){var
-b=cp(d,a[2],a[1][1]);if(b)var
-c=cp(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+al(d,a){var
+b=cs(d,a[2],a[1][1]);if(b)var
+c=cs(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gU(b,a){var
-c=O(ck(O(a[2]),b));return[0,ck(a[1],b),c]}function
-fh(b,a){var
-c=fb(b[2],a);return[0,ch(b[1],a),c]}function
-jD(h,g,d,c){var
-e=c[2],f=jj(d),i=b(2,f),j=x(jf(f),i),a=fh(y(h,c[1],g),j),k=jd(d)?H(e,a):G(e,a);return[0,a,k]}function
-jE(a,d,b){if(b){var
-e=b[1];return jD(a,d,e,jE(a,d,e))}var
+gX(b,a){var
+c=P(cn(P(a[2]),b));return[0,cn(a[1],b),c]}function
+fk(b,a){var
+c=ff(b[2],a);return[0,cm(b[1],a),c]}function
+jJ(h,g,d,c){var
+e=c[2],f=jp(d),i=b(2,f),j=y(jl(f),i),a=fk(x(h,c[1],g),j),k=jj(d)?D(e,a):E(e,a);return[0,a,k]}function
+jK(a,d,b){if(b){var
+e=b[1];return jJ(a,d,e,jK(a,d,e))}var
 f=W(a,c);return[0,W(a,c),f]}function
-jF(e,g){var
-o=cL(e),p=x(b(2,b(2,c)),o),j=F(g[2],p);if(j){var
-n=d4(e),i=pX[1],d=n,f=0,a=i;for(;;){if(d){var
+jL(e,g){var
+o=cL(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
+n=d7(e),i=p8[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=M(jc(p0,M(pY,f)),pZ),l=jE(e,g,k),q=jD(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(ji(p$,N(p9,f)),p_),l=jK(e,g,k),q=jJ(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-jG(i){function
+jM(i){function
 a(h){var
-m=ch(cL(i),h),g=d4(i),f=m,e=d,a=c;for(;;){if(g){var
-j=z(a,b(2,c)),k=z(e,ch(f,a)),l=O(ch(f,x(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(o(b(2,o(b(2,o(b(2,o(b(2,b(2,o(b(2,o(b(2,c)))))))))))))),f=x(b(2,b(2,c)),e),g=a(o(b(2,b(2,c))));return aE(x(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jH(e,a){var
-f=F(d,a);if(f){var
-g=b(2,b(2,c));return jF(e,fh($(e,[0,a,a]),g))}return f}function
-jI(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aE(jG(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=z(jG(a),n),e=jH(a,g);if(e){var
-f=jH(a,h);if(f)var
+m=cm(cL(i),h),g=d7(i),f=m,e=d,a=c;for(;;){if(g){var
+j=A(a,b(2,c)),k=A(e,cm(f,a)),l=P(cm(f,y(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aG(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jN(e,a){var
+f=H(d,a);if(f){var
+g=b(2,b(2,c));return jL(e,fk(X(e,[0,a,a]),g))}return f}function
+jO(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jM(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jM(a),n),e=jN(a,g);if(e){var
+f=jN(a,h);if(f)var
 i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jJ(a,d){var
-b=$(a,d),e=W(a,c);return H(G(b,b),e)}function
-dr(f,j){var
-e=aW(z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=z(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jI(a);if(d)var
-h=b(2,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))))),i=jF(a,$(a,fh(y(a,k,d[1]),h))),g=w(function(b){return jJ(a,jJ(a,b))},i);else
+jP(a,d){var
+b=X(a,d),e=W(a,c);return D(E(b,b),e)}function
+ds(f,j){var
+e=aY(A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
+k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jO(a);if(d)var
+h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jL(a,X(a,fk(x(a,k,d[1]),h))),g=w(function(b){return jP(a,jP(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gU(l,a)},g)}return e}function
-jK(a,d){var
-e=jI(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
-f=b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))));return fh(y(a,d,gU(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fi(d,a){return dr(d,[3,a,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gX(l,a)},g)}return e}function
+jQ(a,d){var
+e=jO(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(x(a,d,gX(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fl(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
-f=co(b);if(f){var
-g=f[1];return e?_(cK(g,[0,d,c])):cK([0,d,c],g)}var
-a=aW(i,b);if(a){var
-h=a[1];return e?L(d,h[1]):F(d,h[1])}return a}function
-jL(c,b){var
-a=aW(c,b),d=a?1:a;return d}function
-be(c,a,b){var
-d=b5(a,b),e=d?jL(c,a):d;return e?e:g(c,0,[3,b,a])}function
-p1(c){var
-a=fa(c),g=d5(e9(a[2])),b=[0,e9(a[1]),g],e=L(d,a[1]),f=e?dl(b0(b,b),c):e,h=f?[0,b]:f;return h}function
-jM(a){if(a){var
-e=a[2],b=a[1];if(dl(bs([0,d,c],b),[0,d,c])){var
-g=jM(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+f=cr(b);if(f){var
+g=f[1];return e?$(cK(g,[0,d,c])):cK([0,d,c],g)}var
+a=aY(i,b);if(a){var
+h=a[1];return e?L(d,h[1]):H(d,h[1])}return a}function
+jR(c,b){var
+a=aY(c,b),d=a?1:a;return d}function
+bg(c,a,b){var
+d=b8(a,b),e=d?jR(c,a):d;return e?e:g(c,0,[3,b,a])}function
+qa(c){var
+a=fe(c),g=d8(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b2(b,b),c):e,h=f?[0,b]:f;return h}function
+jS(a){if(a){var
+e=a[2],b=a[1];if(dm(bw([0,d,c],b),[0,d,c])){var
+g=jS(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jN(b,a){var
-e=aJ(b,a),f=[0,d,c];return aI(function(a,b){return fa(dm(b0(a[1],a[2]),b))},f,e)}function
-jO(b,j){if(b){var
-f=b[1],g=jM(j);if(g){var
+jT(b,a){var
+e=aK(b,a),f=[0,d,c];return aI(function(a,b){return fe(dn(b2(a[1],a[2]),b))},f,e)}function
+jU(b,j){if(b){var
+f=b[1],g=jS(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bs([0,d,c],a),g=gR(bs([0,d,c],b),f),h=bb(a),i=aJ(bb(b),h);return e(function(a){var
-b=b0(g,a[2]);return fa(e$(a[1],b))},i)},l=jO(f,e(k,h[2]));return w(function(b){var
-e=bs([0,d,c],a);return[0,fa(gR(jr(jN(bb(a),b)),e)),b]},l)}var
-i=[0,[0,[0,c,c],aG([0,d,c],f)]]}else
+f=bw([0,d,c],a),g=gU(bw([0,d,c],b),f),h=bd(a),i=aK(bd(b),h);return e(function(a){var
+b=b2(g,a[2]);return fe(fd(a[1],b))},i)},l=jU(f,e(k,h[2]));return w(function(b){var
+e=bw([0,d,c],a);return[0,fe(gU(jw(jT(bd(a),b)),e)),b]},l)}var
+i=[0,[0,[0,c,c],aA([0,d,c],f)]]}else
 var
 i=b;return i}function
-jP(a){if(a){var
-b=ed(p1,a[1]);if(b)var
-c=jP(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+jV(a){if(a){var
+b=eh(qa,a[1]);if(b)var
+c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p2}function
-jQ(a){if(a){var
-b=jP(a[1]);if(b)var
-c=jQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return qb}function
+jW(a){if(a){var
+b=jV(a[1]);if(b)var
+c=jW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p3}function
-jR(i,l){var
-a=jQ(l);if(a){var
-j=a[1],b=jO(i,j);if(b){var
-e=b[1],f=u(h(e),i),g=f?ai(function(a){return _(dl(a,[0,d,c]))},e):f;return g?n(function(a){return dl(jN(a,e),[0,d,c])},j):g}var
+d=b;return d}return qc}function
+jX(h,l){var
+a=jW(l);if(a){var
+i=a[1],b=jU(h,i);if(b){var
+e=b[1],f=u(j(e),h),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jT(a,e),[0,d,c])},i):g}var
 k=b}else
 var
 k=a;return k}function
-p4(a){return a}function
-p5(a){return a}function
-p6(a,b){return aU(p5,p4,G,a,b)}function
-p7(a){return a}function
-p8(a){return a}function
-cq(a,b){return aU(p8,p7,p6,a,b)}function
-gV(b,a,c){if(a){var
+qd(a){return a}function
+qe(a){return a}function
+qf(a,b){return aV(qe,qd,E,a,b)}function
+qg(a){return a}function
+qh(a){return a}function
+b9(a,b){return aV(qh,qg,qf,a,b)}function
+gY(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gV(b,f,c[2]),h=c[1],i=function(c,a){return H(c,d9(d,a,b))},j=function(a){return ag(d9(d,a,b))};return[0,aU(function(a){return a},j,i,h,a),g]}var
-k=gV(b,f,0);return[0,e(function(a){return ag(d9(d,a,b))},a),k]}return c}function
-gW(a){if(a){var
+g=gY(b,f,c[2]),h=c[1],i=function(c,a){return D(c,ea(d,a,b))},j=function(a){return af(ea(d,a,b))};return[0,aV(function(a){return a},j,i,h,a),g]}var
+k=gY(b,f,0);return[0,e(function(a){return af(ea(d,a,b))},a),k]}return c}function
+gZ(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),h=e?[0,gV(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),h=e?[0,gY(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jS(f,e){var
+jY(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gW(b);if(c){var
+c=gZ(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jT(d,b,a){if(b)if(a)var
-e=a[1],f=jT(d,b[2],a[2]),g=cg(d,b[1])?fc(e):dp(e),c=[0,g,f];else
+jZ(d,b,a){if(b)if(a)var
+e=a[1],f=jZ(d,b[2],a[2]),g=ck(d,b[1])?eb(e):dq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-jU(a,b){if(a)if(b)var
-d=jU(a[2],b[2]),c=[0,jT(a[1],a,b[1]),d];else
+j0(a,b){if(a)if(b)var
+d=j0(a[2],b[2]),c=[0,jZ(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bv(a){if(a){var
-b=a[1],c=bv(b),d=e(function(a){return[0,1,a]},c),g=bv(b);return f(e(function(a){return[0,0,a]},g),d)}return p9}function
-ds(a){var
-b=h(a);if(jS(b,a))return 1;var
-c=bv(br(b));return n(function(c){return jS(b,jU([0,0,c],a))},c)}function
+bh(a){if(a){var
+b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qi}function
+dt(a){var
+b=j(a);if(jY(b,a))return 1;var
+c=bh(bv(b));return n(function(c){return jY(b,j0([0,0,c],a))},c)}function
 ar(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aX(h,e){var
+aB(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?G(a,d):H(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-gX(c,b,a){var
-d=bv(c);return n(function(c){return i(a,i(ar(function(a){return aX(c,a)}),b))},d)}function
-gY(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a8(b,z(h,c),a)},k=gY(h,j,i),l=function(c,b){var
-d=a(b,e);return G(a(f,c),d)},m=function(b){return a(b,e)},n=aU(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,G(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?E(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+g0(c,b,a){var
+d=bh(c);return n(function(c){return i(a,i(ar(function(a){return aB(c,a)}),b))},d)}function
+g1(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g1(h,j,i),l=function(c,b){var
+d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aV(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fj(b,d,a,c){function
+fm(b,d,a,c){function
 e(c,d){var
-e=a8(d,b,a);return H(G(c,c),e)}function
-f(c){return ag(a8(c,b,a))}return aU(function(a){return G(a,a)},f,e,d,c)}function
-fk(d,i,h,g){var
+e=a_(d,b,a);return D(E(c,c),e)}function
+f(c){return af(a_(c,b,a))}return aV(function(a){return E(a,a)},f,e,d,c)}function
+fn(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dp(e[2]),k=cq(a,gY(d,f,fj(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-gZ(b,a){return[0,[0,0,b],a]}function
-dt(b,c,g,f,a){function
+e=b[1],f=c[1],j=dq(e[2]),k=b9(a,g1(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+g2(b,a){return[0,[0,0,b],a]}function
+du(b,c,g,f,a){function
 d(a){if(a){var
-i=aG([0,ag(a[1][2]),0],b),c=fk(g,f,a[2],i),d=u(h(c),b);if(d)return ds(c);var
+h=aA([0,af(a[1][2]),0],b),c=fn(g,f,a[2],h),d=u(j(c),b);if(d)return dt(c);var
 e=d}else
 var
-e=a;return e}return gX(b,gZ(c,a),d)}function
-fl(f,e){var
+e=a;return e}return g0(b,g2(c,a),d)}function
+fo(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gW([0,[0,fc(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=gZ([0,[0,eb(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-g0(b,c,a){function
+g3(b,c,a){function
 d(a){if(a){var
-i=aG([0,a[1][2],0],b),c=fl(a[2],i);if(c){var
-d=c[1],e=u(h(d),b);if(e)return ds(d);var
+h=aA([0,a[1][2],0],b),c=fo(a[2],h);if(c){var
+d=c[1],e=u(j(d),b);if(e)return dt(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return gX(b,gZ(c,a),d)}function
-jV(b,a){return e(function(a){return[0,a[1],b]},a)}function
-jW(b,a){var
-c=bv(b);return n(function(b){return L(d,aX(b,a)[1])},c)}function
-jX(c,b,a){var
-d=a[3],f=e(function(a){return a8(c,b,a)},d),g=a[2];return[0,a8(c,b,a[1]),g,f]}function
-jY(a,b){var
-c=b[3],d=a[3],e=aU(function(a){return a},ag,H,d,c),f=a[2];return[0,H(a[1],b[1]),f,e]}function
-bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ak(c,b,a){var
+g=a;return g}return g0(b,g2(c,a),d)}function
+j1(b,a){return e(function(a){return[0,a[1],b]},a)}function
+j2(b,a){var
+c=bh(b);return n(function(b){return L(d,aB(b,a)[1])},c)}function
+j3(c,b,a){var
+d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
+j4(a,b){var
+c=b[3],d=a[3],e=aV(function(a){return a},af,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
+bz(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ah(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-aY(b,a){var
+aZ(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
-cr(b,a){var
-c=am(b[3],a),d=am(b[2],a);return[0,am(b[1],a),d,c]}function
-X(b,a){var
-c=q(b[3],a[3]),d=q(b[2],a[2]);return C(C(q(b[1],a[1]),d),c)}function
-cO(a){return cr(a,az(X(a,a)))}function
-cs(a){var
-b=a[5];return b?b[1]:az(a[2])}function
-fm(b,a){return b?a:bd(a)}function
-jZ(e,a,i,d,h){var
-f=X(a,e),b=ak(s,e,aY(f,a)),j=X(b,b),g=s(K(d),j),c=fm(h,az(g)),k=s(f,c),l=ak(C,a,cr(b,c));return[0,ak(C,b,aY(c,a)),g,l,k,[0,d],0,[0,i]]}function
-j0(a,e,d){var
-b=X(a,a),c=az(b),f=[0,e],g=w(function(b){return ak(s,a,aY(X(b,a),b))},d);return[0,a,b,cr(a,c),c,0,g,f]}function
-j1(b,a){var
-d=X(a,b);return[0,a,l(c),a,d,0,0,0]}function
-ee(a){return e(function(a){var
-b=a[2];return[0,bL(a[1]),b]},a)}function
-j2(a){return e(function(a){var
-b=l(c);return[0,bL(a[3]),b]},a)}function
-j3(b,a){var
+ba(b,a){var
+c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
+Q(b,a){var
+c=q(b[3],a[3]),d=q(b[2],a[2]);return z(z(q(b[1],a[1]),d),c)}function
+cO(a){return ba(a,aw(Q(a,a)))}function
+ct(a){var
+b=a[5];return b?b[1]:aw(a[2])}function
+fp(b,a){return b?a:bf(a)}function
+j5(e,a,i,d,h){var
+f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,aw(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+j6(a,e,d){var
+b=Q(a,a),c=aw(b),f=[0,e],g=w(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
+j7(b,a){var
+d=Q(a,b);return[0,a,h(c),a,d,0,0,0]}function
+ei(a){return e(function(a){var
+b=a[2];return[0,bz(a[1]),b]},a)}function
+j8(a){return e(function(a){var
+b=h(c);return[0,bz(a[3]),b]},a)}function
+j9(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-j4(c,b,a){var
+j_(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-g1(d,a){var
-b=cj(d,[0,a[2],a[2]]);if(b){var
+fq(d,a){var
+b=b4(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fn(a,m,f,l,e,k,j){var
-o=j4(a_,k,j),b=j4(function(b,c){return aw(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bK(bK(bK(ad(W(a,d)),h),g),c),p=bv(m);return n(function(c){var
-b=j3(function(b){return $(a,aX(c,b))},e),h=b[3],j=b[2],k=b[1],m=y(a,l,g1(a,G(G(G(W(a,d),k),j),h))),g=H(aX(c,i),m),n=f?H(g,aX(c,f[1])):g;return L(d,n[1])},p)}function
-bM(a){return cJ(z(a[1],a[2]),c)}function
-du(a){var
-b=bM(a);return aE(a[2],b)}function
-ef(c,b){if(b)var
-a=b[1],e=ef([0,c],b[2]),g=du(a),h=[0,[0,du(a),g],0],i=f(aG(A,c),h),j=bM(a),d=[0,[0,[0,bM(a),j],a,i],e];else
+fr(a,m,f,l,e,k,j){var
+o=j_(a$,k,j),b=j_(function(b,c){return ax(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bN(bN(bN(ae(W(a,d)),h),g),c),p=bh(m);return n(function(c){var
+b=j9(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,fq(a,E(E(E(W(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
+bO(a){return cJ(A(a[1],a[2]),c)}function
+dv(a){var
+b=bO(a);return aG(a[2],b)}function
+ej(c,b){if(b)var
+a=b[1],e=ej([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(aA(B,c),h),j=bO(a),d=[0,[0,[0,bO(a),j],a,i],e];else
 var
 d=b;return d}function
-eg(d,b){if(b){var
+ek(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=eg(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bM(a),f],c],h=bM(a);return[0,[0,[0,a[1],h],c],g]}return p_}function
-j5(d,b,a){if(b){if(a){var
-e=j5(d,b[2],a[2]);return G(a8(b[1],z(d,c),a[1]),e)}return A}return A}function
-eh(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return j5(f,a,b)},j=eh(f,h),k=e(function(a){var
-e=b(d,a[2]);return G(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,G(b(d,c),l),k],j];else
+e=ek(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bO(a),f],c],h=bO(a);return[0,[0,[0,a[1],h],c],g]}return qj}function
+j$(d,b,a){if(b){if(a){var
+e=j$(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
+el(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return j$(f,a,b)},j=el(f,h),k=e(function(a){var
+e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
-ei(e,b,d,a){if(b)if(a)var
-f=b[1],g=ei(e,b[2],d,a[2]),c=[0,[0,f,fj(e,a[1][1],d,f)],g];else
+em(e,b,d,a){if(b)if(a)var
+f=b[1],g=em(e,b[2],d,a[2]),c=[0,[0,f,fm(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fo(f,d,c,b,a){if(a){var
+fs(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fo(f,d[1],c,b,g);return[0,[0,H(A,b),0],i]}var
-j=e(function(a){return[0,H(A,b),0]},g),h=[0,[0,H(ag(y(f,c,dp(a[1][2]))),b),0],j]}else
+i=fs(f,d[1],c,b,g);return[0,[0,D(B,b),0],i]}var
+j=e(function(a){return[0,D(B,b),0]},g),h=[0,[0,D(af(x(f,c,dq(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bw(c,a){var
-b=u(h(a),c);return b?ds(a):b}function
-j6(d,b,a){if(b)var
-c=b[1],g=j6([0,d],b[2],a),h=f(aG(A,d),[0,a,0]),e=[0,[0,c,[0,aE(c[1],a[2]),z(c[2],a[2])],h],g];else
+bi(c,a){var
+b=u(j(a),c);return b?dt(a):b}function
+ka(d,b,a){if(b)var
+c=b[1],g=ka([0,d],b[2],a),h=f(aA(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-j7(d){if(d){var
+kb(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=j7(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kb(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return p$}function
-g2(a){return w(function(a){return w(ea,a)},a)}function
-ct(c,b,a){function
-d(a){return aw(c,b,a)}return w(function(a){return w(d,a)},a)}function
-g3(c,b,a){function
-d(a){return dq(c,a,b)}return w(function(a){return cn(d,a)},a)}function
-dv(b,a){var
-c=aJ(b,a);return e(function(c){var
+f=a;return f}return qk}function
+g4(a){return w(function(a){return w(ee,a)},a)}function
+cu(c,b,a){function
+d(a){return ax(c,b,a)}return w(function(a){return w(d,a)},a)}function
+g5(c,b,a){function
+d(a){return dr(c,a,b)}return w(function(a){return cq(d,a)},a)}function
+dw(b,a){var
+c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,b3(function(b,a){return[0,bK(b,a)]},e,d)]}return b}return a},c)}function
-fp(a){return ad(W(a,b(2,c)))}function
-j8(b,c,a){if(a)var
-f=a[1],g=j8(b,c,a[2]),d=[0,e(function(a){return ag(y(b,y(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,b6(function(b,a){return[0,bN(b,a)]},e,d)]}return b}return a},c)}function
+ft(a){return ae(W(a,b(2,c)))}function
+kc(b,c,a){if(a)var
+f=a[1],g=kc(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-g4(a){return n(function(a){var
-b=Z(a[1],d);return b?Z(a[2],d):b},a)}function
-j9(c,b,a){var
-d=aJ(b,a);return aI(function(a,b){return G(y(c,a[1],a[2]),b)},A,d)}function
-g5(c,b,a){var
-d=cM(j9(c,a,b));return aI(function(b,a){return z(cM(b),a)},d,a)}function
-dw(a){return W(a,c)}function
-g6(a,i,c,u,t){var
+g6(a){return n(function(a){var
+b=_(a[1],d);return b?_(a[2],d):b},a)}function
+kd(c,b,a){var
+d=aK(b,a);return aI(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
+g7(c,b,a){var
+d=cM(kd(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
+dx(a){return W(a,c)}function
+g8(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!g4(c)&&!g4(j)){var
-h=g5(a,i,j),o=dw(a),p=g5(a,i,c),b=d9([0,g5(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=a9(gS(a,[0,b,b])),r=function(b){return function(d,c){return H(y(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,cq(e,j8(a,q,aU(function(c){return function(b){return y(a,c,b)}}(s),ag,r,j,c)))];else
+j=f[1],n=0;if(!g6(c)&&!g6(j)){var
+h=g7(a,i,j),o=dx(a),p=g7(a,i,c),b=ea([0,g7(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=aW(gV(a,[0,b,b])),r=function(b){return function(d,c){return D(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b9(e,kc(a,q,aV(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qo(a){var
-b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
-j_(h,n,a,m,l,k){var
+qz(a){var
+b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
+ke(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dp(j[2]),p=cq(b,gY(a,f,fj(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(a9,fj(a,b[1],b[2],c))}}(f),q),g=g6(h,n,e(function(b){return a8(b,a,dw(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b9(b,g1(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g8(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-j$(c,b,a){if(b){if(a){var
-d=j$(c,b[2],a[2]);return G(a8(b[1],c,a[1]),d)}return A}return A}function
-ka(a,j){switch(j){case
+kf(c,b,a){if(b){if(a){var
+d=kf(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
+kg(a,j){switch(j){case
 0:var
-d=aE(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aE(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cJ(z(a[1],a[2]),c),h=aE(b,a[2]),i=aE(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-g7(d,c,a){if(a)var
-e=a[1],g=g7(d,[0,c],a[2]),b=w(bX,jp(function(a){return u(a[1],c)},d)),h=b?ka(e,b[1])[1]:e,f=[0,h,g];else
+f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cJ(A(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+g9(d,c,a){if(a)var
+e=a[1],g=g9(d,[0,c],a[2]),b=w(bZ,ju(function(a){return u(a[1],c)},d)),h=b?kg(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-kb(a,b){return e(function(a){var
-c=a[2];return ka(t(a[1],b,A),c)[2]},a)}function
-kc(i,b,g,a){function
-d(a){return aX(b,a[1])}var
-h=0,j=ad(A);function
+kh(a,b){return e(function(a){var
+c=a[2];return kg(r(a[1],b,B),c)[2]},a)}function
+ki(i,b,g,a){function
+d(a){return aB(b,a[1])}var
+h=0,j=ae(B);function
 c(g,d,a,b){if(a){var
-h=function(a){return aX(g,t(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
-b=y(i,a,l);return[0,e(function(b){return y(i,a,b)},k),b]},n),m)}return a}var
+h=function(a){return aB(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+b=x(i,a,l);return[0,e(function(b){return x(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qp=ad(A);function
-kd(e,d,c){if(d){var
-f=t(e,c[2],qq),a=f?f[1]:[0,qp];if(a)var
-b=kd([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+qA=ae(B);function
+kj(e,d,c){if(d){var
+f=r(e,c[2],qB),a=f?f[1]:[0,qA];if(a)var
+b=kj([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return qr}function
-ke(d,c,b,a){var
-f=e(ad,b);return bJ(0,b4(d,ef(0,a),f),c,0)}function
-ae(a){if(a){var
+g=a;return g}return qC}function
+kk(b,a,h,q,p,g,o){var
+d=bh(a);return n(function(d){var
+f=i(o,d);if(f){var
+n=x(b,p,f[1]),j=D(W(b,c),n),r=h?D(j,aB(d,h[1])):j,k=function(c){function
+f(a){return x(b,c,aB(d,a))}var
+g=e(function(a){return e(f,a)},q);return bi(a,b9(aA([0,r,0],a),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
+m=l}else
+var
+m=f;return m},d)}function
+kl(p,o,n,m,l){var
+q=e(ae,n),h=b7(p,ej(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
+d=c[2],g=c[1];if(b){if(b[1]){var
+j=[0,i(h,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=j;continue}var
+b=b[2],c=d,a=[0,f,a];continue}var
+k=[0,i(h,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=k;continue}return a}}function
+ac(a){if(a){var
 b=a[1];if(b)var
-c=ae(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qs}function
-fq(b,a){if(a){var
-h=a[1],n=h[1],c=ae(e(function(a){return t(a,b,0)},n));if(c){var
-f=t(h[2],b,0);if(f){var
-i=f[1],g=fq(b,a[2]);if(g)var
+d=b;return d}return qD}function
+fu(b,a){if(a){var
+h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
+f=r(h[2],b,0);if(f){var
+i=f[1],g=fu(b,a[2]);if(g)var
 j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1797,139 +1813,170 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return qt}function
-b6(d,c,b){var
-a=fq(d,c);return a?i(b,a[1]):a}function
-dx(a,b){return n(function(c){var
-a=t(c,b,0),d=a?1:a;return d},a)}function
-fr(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aU(function(a){return a},f,G,e,d),h=a[2];return[0,G(a[1],c[1]),h,g]}return a}function
-g8(b,a){return b?jY(a,b[1]):a}function
-g9(h,g,b,f){var
-a=t(f,h,0);if(a){var
+m=c;return m}return qE}function
+b_(d,c,b){var
+a=fu(d,c);return a?i(b,a[1]):a}function
+dy(a,b){return n(function(c){var
+a=r(c,b,0),d=a?1:a;return d},a)}function
+fv(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aV(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
+g_(b,a){return b?j4(a,b[1]):a}function
+g$(h,g,b,f){var
+a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=jY(c,b[1]),e=bv(g);return n(function(a){return F(d,aX(a,i)[1])},e)}return F(d,c[2][1])}return a}function
-kf(f,d,a){function
-b(a){return a8(a,d,W(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),A,g]}return ad(A)}function
-fs(b,a){var
-c=t(a[1],b,0);if(c){var
-d=t(a[2],b,0);if(d)var
-e=t(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=j4(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+km(f,d,a){function
+b(a){return a_(a,d,W(f,c))}if(a){var
+g=e(b,a[2]);return[0,b(a[1]),B,g]}return ae(B)}function
+fw(b,a){var
+c=r(a[1],b,0);if(c){var
+d=r(a[2],b,0);if(d)var
+e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-ft(j,k,J,t,i,b,g,f,a){switch(f[0]){case
+ha(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+fx(i,k,U,C,g,f,h,b,a){switch(b[0]){case
 0:var
-r=f[1];if(typeof
+r=b[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-K=dx(t,i);if(K){var
-ae=a[2],af=a[1],ag=fr(g,ad(r));return b6(i,k,function(a){return dt(b,ag,af,ae,a)})}return K;case
+V=dy(C,g);if(V){var
+aD=a[2],aE=a[1],aF=fv(h,ae(r));return b_(g,k,function(a){return du(f,aF,aE,aD,a)})}return V;case
 1:var
-L=dx(t,i);if(L){var
-ah=a[2],ai=a[1],aj=fr(g,ad(r));return b6(i,J,function(a){return dt(b,aj,ai,ah,a)})}return L;case
+Y=dy(C,g);if(Y){var
+aH=a[2],aJ=a[1],aK=fv(h,ae(r));return b_(g,U,function(a){return du(f,aK,aJ,aH,a)})}return Y;case
 2:var
-M=dx(t,i);if(M){if(g)return 0;var
-N=Z(r[1],d),O=N?Z(r[2],d):N;if(O){var
-ak=a[2],al=a[1];return b6(i,k,function(a){return dt(b,[0,A,A,0],al,ak,jV([0,A,A,0],a))})}var
-P=O}else
+Z=dy(C,g);if(Z){if(h)return 0;var
+$=_(r[1],d),aa=$?_(r[2],d):$;if(aa){var
+aL=a[2],aM=a[1];return b_(g,k,function(a){return du(f,[0,B,B,0],aM,aL,j1([0,B,B,0],a))})}var
+ab=aa}else
 var
-P=M;return P}return 0;case
+ab=Z;return ab}return 0;case
 1:var
-Q=f[1];if(typeof
+ad=b[1];if(typeof
 a==="number"){if(1===a){var
-am=g8(g,ad(Q));return b6(i,J,function(a){return g0(b,am,a)})}if(!a){var
-an=g8(g,ad(Q));return b6(i,k,function(a){return g0(b,an,a)})}}return 0;case
+aN=g_(h,ae(ad));return b_(g,U,function(a){return g3(f,aN,a)})}if(!a){var
+aO=g_(h,ae(ad));return b_(g,k,function(a){return g3(f,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-R=a[1],l=kf(j,R,a[3]),S=f[1],ao=a[2];return b6(i,k,function(d){var
-a=jW(b,l),c=a?dt(b,fr(g,l),R,ao,d):a;if(c){var
-f=l[3],h=e(function(a){return y(j,S,a)},f),i=l[2];return g0(b,g8(g,[0,y(j,S,l[1]),i,h]),d)}return c})}return 0;case
+af=a[1],l=km(i,af,a[3]),ag=b[1],aP=a[2];return b_(g,k,function(c){var
+a=j2(f,l),b=a?du(f,fv(h,l),af,aP,c):a;if(b){var
+d=l[3],g=e(function(a){return x(i,ag,a)},d),j=l[2];return g3(f,g_(h,[0,x(i,ag,l[1]),j,g]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return g9(i,b,g,f[1]);return 0;case
+a==="number"&&!a)return g$(g,f,h,b[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-ap=a[2],aq=a[1],ar=fr(g,ad(f[2])),as=function(a){return dt(b,ar,aq,ap,a)};return b6(i,f[1],as)}return 0;case
+aQ=a[2],aR=a[1],aS=fv(h,ae(b[2])),aT=function(a){return du(f,aS,aR,aQ,a)};return b_(g,b[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return g9(i,b,g,f[1]);case
-2:return g9(i,b,g,f[2])}return 0;case
+0:return g$(g,f,h,b[1]);case
+2:return g$(g,f,h,b[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-v=fs(i,f[1]);if(v){var
-w=fs(i,f[2]);if(w){var
-x=fs(i,f[3]);if(x){var
-B=fs(i,f[4]);if(B){var
-T=B[1],U=x[1],V=w[1],X=v[1],m=a[2],s=f[5],at=a[1];if(m){var
+F=fw(g,b[1]);if(F){var
+G=fw(g,b[2]);if(G){var
+H=fw(g,b[3]);if(H){var
+I=fw(g,b[4]);if(I){var
+ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=b[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-ac=[0,m[1],o[1],p[1]],q=j3(function(d){function
-f(a){return a8(a,at,W(j,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fe(a),h=z(b[2],g),i=fe(a);return[0,b,[0,aE(b[1],i),h],a]}return ad(A)},ac),C=n(function(a){return u(h(a),[0,b])},m),D=C?fn(j,b,g,s,q,X,U):C,E=D?fn(j,b,g,s,q,X,T):D,F=E?fn(j,b,g,s,q,V,U):E;if(F)return fn(j,b,g,s,q,V,T);var
-G=F}else
+aC=[0,m[1],o[1],p[1]],q=j9(function(d){function
+f(a){return a_(a,aU,W(i,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fh(a),h=A(b[2],g),j=fh(a);return[0,b,[0,aG(b[1],j),h],a]}return ae(B)},aC),M=n(function(a){return u(j(a),[0,f])},m),N=M?fr(i,f,h,s,q,ak,ai):M,O=N?fr(i,f,h,s,q,ak,ah):N,P=O?fr(i,f,h,s,q,aj,ai):O;if(P)return fr(i,f,h,s,q,aj,ah);var
+Q=P}else
 var
-G=p;var
-H=G}else
+Q=p;var
+R=Q}else
 var
-H=o;var
-I=H}else
+R=o;var
+S=R}else
 var
-I=m;return I}var
-Y=B}else
+S=m;return S}var
+al=I}else
 var
-Y=x;var
-_=Y}else
+al=H;var
+am=al}else
 var
-_=w;var
-$=_}else
+am=G;var
+an=am}else
 var
-$=v;return $}return 0;case
+an=F;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-aa=a[2],ab=a[1],au=f[2],av=f[1];return b6(i,k,function(e){var
-a=u(h(e),b),d=a?u(h(aa),b):a;if(d){var
-f=function(a){if(a){var
-d=a[2],e=u(h(d),b);if(e){var
-g=eh(ab,ei(ab,aa,W(j,c),d));return bw(b,cq(fo(j,av,au,a[1][2],d),g))}var
-f=e}else
+ao=a[2],ap=a[1],aV=b[2],aW=b[1];return b_(g,k,function(d){var
+a=u(j(d),f),b=a?u(j(ao),f):a;if(b){var
+e=function(a){if(a){var
+b=a[2],d=u(j(b),f);if(d){var
+g=el(ap,em(ap,ao,W(i,c),b));return bi(f,b9(fs(i,aW,aV,a[1][2],b),g))}var
+e=d}else
 var
-f=a;return f},i=g?g[1]:ad(A);return gX(b,gZ(i,e),f)}return d})}return 0;case
+e=a;return e},g=h?h[1]:ae(B);return g0(f,g2(g,d),e)}return b})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aw=f[3],ax=f[2],ay=function(d){var
-a=jV([0,A,A,0],d),c=g?g[1]:[0,A,A,0];return dt(b,c,ax,aw,a)};return b6(i,f[1],ay)}return 0;default:return 0}}function
-kg(a,Z,J,l,p,Y,g,k,j,f,b){if(9===f[0]){if(typeof
-b!=="number"&&9===b[0]){var
-_=f[1],T=e(ad,Y),B=bJ(0,b4(a,j6(0,k,_),T),Z,0),K=u(h(k),qu),M=K?dx(p,B):K;if(M){var
-q=fq(B,l);if(q){var
-r=fq(g,l);if(r){var
-aa=f[2],s=ae(e(function(b){var
-c=t(b[1],g,0);if(c)var
-f=b[2][2],a=ae(e(function(a){var
-b=t(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+aX=b[3],aY=b[2],aZ=function(c){var
+a=j1([0,B,B,0],c),b=h?h[1]:[0,B,B,0];return du(f,b,aY,aX,a)};return b_(g,b[1],aZ)}return 0;case
+9:return 0;default:if(typeof
+a==="number"&&!a){var
+J=ha(g,b[1]);if(J){var
+a0=b[2],K=ac(e(function(a){return ha(g,a)},a0));if(K){var
+L=ha(g,[0,b[3],[0,b[4],[0,b[5],[0,b[6],0]]]]);if(L){var
+t=L[1];if(t){var
+v=t[2];if(v){var
+y=v[2];if(y){var
+z=y[2];if(z){if(z[2])return 0;var
+aq=z[1],ar=y[1][2],as=v[1][2],at=t[1][2],au=K[1],a1=J[1],T=kk(i,f,h,au,at,as,function(c){return[0,fq(i,aI(function(b,a){return E(X(i,aB(c,b)),a)},B,a1))]});return T?T:kk(i,f,h,au,at,as,function(e){var
+b=eb(aq[1]),a=b4(i,D(ar,X(i,b)));if(a){var
+c=b3(i,a[1]),d=D(ar,x(i,b,aB(e,aq)));return w(function(a){return x(i,d,a)},c)}return a})}var
+av=z}else
 var
-d=c;return d},aa));if(s){var
-v=j7(q[1]);if(v){var
-N=b[2],x=b[1],O=r[1],ab=b[3],ac=s[1],af=v[1],C=g1(a,aI(function(f,h){function
+av=y;var
+aw=av}else
+var
+aw=v;var
+ax=aw}else
+var
+ax=t;var
+ay=ax}else
+var
+ay=L;var
+az=ay}else
+var
+az=K;var
+aA=az}else
+var
+aA=J;return aA}return 0}}function
+kn(a,_,J,l,p,Z,g,k,h,f,b){if(9===f[0]){if(typeof
+b!=="number"&&9===b[0]){var
+$=f[1],T=e(ae,Z),z=bM(0,b7(a,ka(0,k,$),T),_,0),K=u(j(k),qF),M=K?dy(p,z):K;if(M){var
+q=fu(z,l);if(q){var
+s=fu(g,l);if(s){var
+aa=f[2],t=ac(e(function(b){var
+c=r(b[1],g,0);if(c)var
+f=b[2][2],a=ac(e(function(a){var
+b=r(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+var
+d=c;return d},aa));if(t){var
+v=kb(q[1]);if(v){var
+N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=v[1],C=fq(a,aI(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(t(d,c[3],A))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(r(d,c[3],B))}function
 c(a){var
-b=i(a,qa),c=bo(i(a,qb),b);return bo(i(a,0),c)}var
+b=i(a,ql),c=bs(i(a,qm),b);return bs(i(a,0),c)}var
 d=c(function(a){var
-c=b(qc,a),d=b(qd,a);return z(z(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qe),d=b(a,qf);return z(z(b(a,0),d),c)});return G(h,$(a,g1(a,y(a,[0,e,e],g))))},A,af)),m=a8(ab,x,W(a,c)),D=L(d,H(m,C)[1]),E=D?u(h(N),ql):D,F=E?u(h(O),qm):E;if(F){var
-o=ci(a,m);if(o){var
-U=a9(y(a,C,o[1])),V=H(W(a,c),U),X=bv(qn);return n(function(h){var
+c=b(qn,a),d=b(qo,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qp),d=b(a,qq);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,x(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,W(a,c)),F=L(d,D(m,C)[1]),G=F?u(j(N),qw):F,H=G?u(j(O),qx):G;if(H){var
+o=b3(a,m);if(o){var
+U=aW(x(a,C,o[1])),V=D(W(a,c),U),Y=bh(qy);return n(function(j){var
 g=e(function(b){var
-c=b[2],d=b[1];return dp(dj(function(d,b){var
-c=cM(aX(h,b[2]));return G(d,y(a,b[1],[0,c,c]))},c,d))},ac),r=i(ar(function(a){return aX(h,a)}),O),D=j?aX(h,j[1]):A,L=$(a,V),s=$(a,m),q=eh(x,ei(x,N,W(a,c),r)),b=cq(aG([0,ag(D),0],qg),q);if(g){var
+c=b[2],d=b[1];return dq(dk(function(d,b){var
+c=cM(aB(j,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ad),r=i(ar(function(a){return aB(j,a)}),O),F=h?aB(j,h[1]):B,L=X(a,V),s=X(a,m),q=el(y,em(y,N,W(a,c),r)),b=b9(aA([0,af(F),0],qr),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=bw(qi,cq(aG([0,ag(s),0],qh),b));if(k)return n(function(A){var
-G=H(L,D),J=A[2]?B:ag(B),K=A[1]?C:ag(C),n=0;if(b){var
+A=d[1],C=g[1],H=f[1],k=bi(qt,b9(aA([0,af(s),0],qs),b));if(k)return n(function(B){var
+I=D(L,F),J=B[2]?A:af(A),K=B[1]?C:af(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
 d=c[2],m=0;if(d)if(d[2]){var
@@ -1939,12 +1986,12 @@ f=e[1],p=0;if(f){var
 g=f[2],q=0;if(g)if(g[2]){var
 j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
 h=e[2],E=0;if(h){var
-i=h[1],F=0;if(i)if(i[2]||h[2]){var
-j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;F=1}else
+i=h[1],G=0;if(i)if(i[2]||h[2]){var
+j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;G=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,I,0]],[0,[0,G,0],0]]]];else
+r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,H,0]],[0,[0,I,0],0]]]];else
 var
-r=i;if(!F)var
+r=i;if(!G)var
 s=r}else
 var
 s=h;if(!E)var
@@ -1968,7 +2015,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return bw(qk,j)},qj);var
+j=z;return bi(qv,j)},qu);var
 l=k}else
 var
 l=f;var
@@ -1977,31 +2024,31 @@ var
 o=d;var
 p=o}else
 var
-p=g;return p},X)}var
+p=g;return p},Y)}var
 I=o}else
 var
-I=F;return I}var
+I=H;return I}var
 P=v}else
 var
-P=s;var
+P=t;var
 Q=P}else
 var
-Q=r;var
+Q=s;var
 R=Q}else
 var
 R=q;var
 S=R}else
 var
-S=M;return S}return ft(a,J,l,p,g,h(k),j,f,b)}return ft(a,J,l,p,g,h(k),j,f,b)}function
-kh(d){var
+S=M;return S}return fx(a,J,l,p,g,j(k),h,f,b)}return fx(a,J,l,p,g,j(k),h,f,b)}function
+ko(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(ai(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=$(ak(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-ki(j,b,a){if(a){var
-k=a[1],l=k[2],c=ae(e(b,k[1]));if(c){var
+kp(j,b,a){if(a){var
+k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
-g=t(l,j,0);if(g){var
-h=ki(j,b,a[2]);if(h)var
+g=r(l,j,0);if(g){var
+h=kp(j,b,a[2]);if(h)var
 m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2013,48 +2060,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return qw}function
-kj(a,Q,l,P,r,q,N,x,g,f,k,b){var
-j=h(N),R=ef(0,N),aL=bJ(0,b4(a,R,e(ad,g7(k,0,r))),Q,0),S=e(aF,k),aM=0,aN=e(ad,r),aO=bJ(qx,function(b){var
-au=b1(aF,b),f=i(b4(a,R,aN),au);switch(b[0]){case
+q=c;return q}return qH}function
+kq(a,Q,l,O,s,q,N,y,g,f,k,b){var
+h=j(N),R=ej(0,N),aM=bM(0,b7(a,R,e(ae,g9(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bM(qI,function(b){var
+au=bL(aH,b),f=i(b7(a,R,aO),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
-b=u(M,d),e=b?[0,[0,ad(W(a,c))]]:b;return e},S);break;case
+b=u(M,d),e=b?[0,[0,ae(W(a,c))]]:b;return e},S);break;case
 3:var
-d=dv(b[1][2],b[2][2]);break;case
+d=dw(b[1][2],b[2][2]);break;case
 4:var
-N=e(g2,b[2][2]),d=dv(b[1][2],N);break;case
+N=e(g4,b[2][2]),d=dw(b[1][2],N);break;case
 5:var
-d=e(g2,b[1][2]);break;case
+d=e(g4,b[1][2]);break;case
 6:var
 x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return ct(a,P,b)},O),T=y[2],U=h[1],d=dv(e(function(b){return ct(a,U,b)},T),Q);else{var
+O=x[2],P=g[1],Q=e(function(b){return cu(a,P,b)},O),T=y[2],U=h[1],d=dw(e(function(b){return cu(a,U,b)},T),Q);else{var
 z=h;t=1}}else{var
 z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=b[2],j=A[1];if(j)var
-V=A[2],X=ea(f[1]),Y=e(function(b){return ct(a,X,b)},V),Z=dv(b[1][2],Y),_=j[1],d=e(function(b){return g3(a,_,b)},Z);else{var
+V=A[2],X=ee(f[1]),Y=e(function(b){return cu(a,X,b)},V),Z=dw(b[1][2],Y),_=j[1],d=e(function(b){return g5(a,_,b)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=b[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aw(a,fp(a),aa),d=e(function(b){return ct(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=ax(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ae=f[1],af=aw(a,fp(a),ae),d=e(function(b){return g3(a,af,b)},ac);else
+ac=b[1][2],ad=f[1],af=ax(a,ft(a),ad),d=e(function(b){return g5(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jz(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a_(o,r),ai=e(function(b){return ct(a,ah,b)},ag),aj=F[2],ak=a_(m,s),al=dv(e(function(b){return ct(a,ak,b)},aj),ai),am=e(g2,D[2]),an=fp(a),ao=dv(e(function(b){return ct(a,an,b)},al),am),ap=b[1]?s:ea(r),aq=e(function(b){return ct(a,ap,b)},ao),ar=aw(a,m,r),as=a_(aw(a,o,s),ar),at=aw(a,fp(a),as),d=e(function(b){return g3(a,at,b)},aq);K=1;L=1}else
+q=jF(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g4,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ee(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ax(a,m,r),as=a$(ax(a,o,s),ar),at=ax(a,ft(a),as),d=e(function(b){return g5(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2065,300 +2112,298 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},Q,aM),aP=kb(k,r);function
+d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=kh(k,s);function
 T(c){var
-d=t(c,q,0);if(d){var
-a=t(c,aL,0);if(a)var
-b=kd(0,k,t(c,aO,qv)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=r(c,q,0);if(d){var
+a=r(c,aM,0);if(a)var
+b=kj(0,k,r(c,aP,qG)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-B(b){return e(function(b){return W(a,b)},b)}var
-aQ=x?x[1]:ad(A);function
-U(a){return a?bw(j,a[1]):a}function
-s(f,e,d,c,b){var
-g=aG([0,ag(e),0],j);return U(j_(a,B(f),d,c,b,g))}function
+z(b){return e(function(b){return W(a,b)},b)}var
+aR=y?y[1]:ae(B);function
+U(a){return a?bi(h,a[1]):a}function
+t(f,e,d,c,b){var
+g=aA([0,af(e),0],h);return U(ke(a,z(f),d,c,b,g))}function
 V(y,x,w){var
-z=aG([0,x,0],j),q=B(y),c=w,f=z;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,fc(g),h],f];if(m){var
+A=aA([0,x,0],h),q=z(y),c=w,f=A;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,eb(g),i],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,a9(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dw(a),t],v=dw(a),b=g6(a,[0,ag(d9(j9(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},i),u=[0,dx(a),t],v=dx(a),b=g8(a,[0,af(ea(kd(a,i,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=gW(b[1]);if(i){var
-c=c[2],f=i[1];continue}var
-p=i}else
+j=gZ(b[1]);if(j){var
+c=c[2],f=j[1];continue}var
+p=j}else
 var
 p=b;var
 r=p}else
 var
 r=[0,f];return U(r)}}var
-aR=e(aF,k),X=n(function(a){return cI(a,h(r))},aR),Y=X?kh(e(aF,k)):X,_=Y?n(function(a){return u(h(a),j)},b):Y;if(_){var
+aS=e(aH,k),X=n(function(a){return cl(a,j(s))},aS),Y=X?ko(e(aH,k)):X,Z=Y?n(function(a){return u(j(a),h)},b):Y;if(Z){var
 w=0;switch(g[0]){case
 0:var
 C=g[1],K=0;if(typeof
 f!=="number")switch(f[0]){case
 0:var
 at=0;if(b){if(b[2])return 0;var
-aS=b[1],aT=f[2],aU=f[1],$=dx(P,q);if($){var
+aT=b[1],aU=f[2],aV=f[1],$=dy(O,q);if($){var
 o=function(c,a){var
-b=G(C,a);return function(a){return s(aS,b,aU,aT,a)}},m=l;K=1;at=1}else
+b=E(C,a);return function(a){return t(aT,b,aV,aU,a)}},m=l;K=1;at=1}else
 var
 ac=$}else
 var
 ac=b;if(!at)return ac;break;case
 2:var
 au=0;if(b){if(b[2])return 0;var
-aW=b[1],aY=f[2],aZ=f[1],ae=dx(P,q),av=0;if(ae){if(x)return 0;var
-af=Z(C[1],d),ah=af?Z(C[2],d):af;if(ah){var
-o=function(c,b,a){return s(aW,A,aZ,aY,e(qo,a))},m=l;K=1;au=1;av=1}else
+aY=b[1],aZ=f[2],a0=f[1],ad=dy(O,q),av=0;if(ad){if(y)return 0;var
+ag=_(C[1],d),ah=ag?_(C[2],d):ag;if(ah){var
+o=function(c,b,a){return t(aY,B,a0,aZ,e(qz,a))},m=l;K=1;au=1;av=1}else
 var
 ai=ah}else
 var
-ai=ae;if(!av)var
+ai=ad;if(!av)var
 aj=ai}else
 var
 aj=b;if(!au)return aj;break}if(!K)return 0;break;case
 1:var
-ax=0,a0=g[1];if(typeof
+aw=0,a1=g[1];if(typeof
 f==="number"&&!f){if(!b)return b;if(b[2])return 0;var
-a1=b[1],o=function(c,a){var
-b=H(a0,a);return function(a){return V(a1,b,a)}},m=l;ax=1}if(!ax)return 0;break;case
+a2=b[1],o=function(c,a){var
+b=D(a1,a);return function(a){return V(a2,b,a)}},m=l;aw=1}if(!aw)return 0;break;case
 2:var
-ay=0,a2=g[1];if(typeof
+ay=0,a3=g[1];if(typeof
 f==="number"||!(3===f[0]))ay=1;else{var
 az=0;if(b){var
-v=b[2],aA=0;if(v){if(v[2])return 0;var
-ak=f[1],a3=v[1],a4=b[1],a5=f[2],al=kf(a,ak,f[3]),am=jW(j,al);if(am){var
+v=b[2],aC=0;if(v){if(v[2])return 0;var
+ak=f[1],a4=v[1],a5=b[1],a6=f[2],al=km(a,ak,f[3]),am=j2(h,al);if(am){var
 o=function(f,c,b){var
-d=aX(f,al),e=s(a4,G(d,c),ak,a5,b);return e?V(a3,H(y(a,a2,d),c),b):e},m=l;az=1;aA=1}else
+d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?V(a4,D(x(a,a3,d),c),b):e},m=l;az=1;aC=1}else
 var
 an=am}else
 var
-an=v;if(!aA)var
+an=v;if(!aC)var
 ao=an}else
 var
 ao=b;if(!az)return ao}if(ay)return 0;break;case
 3:var
-aB=0;if(typeof
+aD=0;if(typeof
 f==="number"&&!f){if(b)return 0;var
-E=g[1];w=1}else
-aB=1;if(aB)return 0;break;case
+G=g[1];w=1}else
+aD=1;if(aD)return 0;break;case
 4:var
-aC=0,a7=g[2];if(typeof
-f==="number"||!(0===f[0]))aC=1;else{if(!b)return b;if(b[2])return 0;var
-a8=b[1],a$=f[2],ba=f[1],bb=function(c,a){var
-b=G(a7,a);return function(a){return s(a8,b,ba,a$,a)}},o=bb,m=g[1]}if(aC)return 0;break;case
+aE=0,a8=g[2];if(typeof
+f==="number"||!(0===f[0]))aE=1;else{if(!b)return b;if(b[2])return 0;var
+a9=b[1],a_=f[2],ba=f[1],bb=function(c,a){var
+b=E(a8,a);return function(a){return t(a9,b,ba,a_,a)}},o=bb,m=g[1]}if(aE)return 0;break;case
 5:var
 M=0;if(typeof
 f==="number"&&!(3<=f))switch(f){case
 0:if(b)return 0;var
-E=g[1];w=1;break;case
+G=g[1];w=1;break;case
 2:if(b)return 0;var
-E=g[2];w=1;break;default:M=1}else
+G=g[2];w=1;break;default:M=1}else
 M=1;if(M)return 0;break;case
 7:var
-ap=g[2],aq=g[1],aD=0;if(typeof
-f==="number"||!(0===f[0]))aD=1;else{var
-aH=0;if(b){if(b[2])return 0;var
-p=f[2],J=f[1],bc=b[1],ar=u(h(l),j);if(ar){var
-o=function(b,x){var
-z=B(bc);return function(f){var
-k=u(h(f),j),l=k?u(h(p),j):k;if(l){var
-s=e(aF,f),t=eh(J,ei(J,p,dw(a),s)),v=cq(fo(a,aq,ap,x,e(aF,f)),t),b=0,c=f,g=v,w=h(p);for(;;){if(c){var
+ap=g[2],aq=g[1],aF=0;if(typeof
+f==="number"||!(0===f[0]))aF=1;else{var
+aJ=0;if(b){if(b[2])return 0;var
+p=f[2],J=f[1],bc=b[1],ar=u(j(l),h);if(ar){var
+o=function(b,y){var
+A=z(bc);return function(f){var
+k=u(j(f),h),l=k?u(j(p),h):k;if(l){var
+s=e(aH,f),t=el(J,em(J,p,dx(a),s)),v=b9(fs(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=v,w=j(p);for(;;){if(c){var
 o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
-b=aJ(aK(0,h(p)),p);return e(function(b){var
-c=j$(J,b[2],d[1]);if(g&&u(b[1],f))return H(c,a9(y(a,ap,d[2])));return c},b)}}(b,q),o),n=aK(0,w),i=g6(a,z,e(function(c){return function(b){return u(b,c)?dw(a):A}}(b),n),r,g);if(i){var
+b=aK(aL(0,j(p)),p);return e(function(b){var
+c=kf(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(x(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,w),i=g8(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(i){var
 b=[0,b],c=c[2],g=i[1];continue}var
 d=i}else
 var
-d=[0,g];if(d)return bw(j,d[1]);var
+d=[0,g];if(d)return bi(h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},m=l;aH=1}else
+m=l;return m}},m=l;aJ=1}else
 var
 as=ar}else
 var
-as=b;if(!aH)return as}if(aD)return 0;break;default:return 0}if(w){var
-I=T(E);if(!I)return I;var
-a6=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=aI(function(b,a){return z(bo(d,O(b[2][1])),a)},d,c);return F(d,aE(aE(a[1][2][1],e),b))},a)},ab=a6,aa=[0,[0,0,I[1]],0]}else{var
-D=ki(q,T,m);if(!D)return D;var
-ab=o,aa=D[1]}var
-aV=bv(j);return n(function(b){var
-c=e(function(c){return kc(a,b,aP,c)},aa);return DL(ab,b,aX(b,aQ),c)},aV)}return _}function
-fu(b,a){if(a){var
+as=b;if(!aJ)return as}if(aF)return 0;break;default:return 0}if(w){var
+I=T(G);if(!I)return I;var
+a7=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=aI(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aG(aG(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
+F=kp(q,T,m);if(!F)return F;var
+ab=o,aa=F[1]}var
+aX=bh(h);return n(function(b){var
+c=e(function(c){return ki(a,b,aQ,c)},aa);return D$(ab,b,aB(b,aR),c)},aX)}return Z}function
+fy(b,a){if(a){var
 c=a[2];if(b){var
-e=fu(b[1],c);return[0,a[1],e]}var
+e=fy(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-g_(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-kk(u,k,s,z,r,q,ah,M,c,K,ag){if(K){var
-av=v(function(i){var
-c=i[2];if(typeof
-c==="number"){var
-j=4!==c?1:0;if(!j)return j}var
-d=R(ah,i[1]);if(d){var
-a=d[1],b=c;for(;;){var
-g=0;if(typeof
-b==="number"){if(1!==b)g=1}else
+hb(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+kr(j,d,i,a,h){var
+b=h;for(;;){var
+c=0;if(typeof
+b==="number"){if(1!==b)c=1}else
 switch(b[0]){case
 1:break;case
 5:case
 10:var
-b=b[1];continue;default:g=1}var
-k=g?0:1,l=k?z:s,h=g_(l);switch(a[0]){case
-0:return f(r,h);case
+b=b[1];continue;default:c=1}var
+k=c?0:1,l=k?d:j,g=hb(l);switch(a[0]){case
+0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return v(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=v(function(a){var
-b=e(bX,a[2][2]);return[0,a[1],b]},n);return f(g_(z),o);case
-4:case
-8:return g_(a[1]);default:return h}}}return d},K),ao=0,ap=aI(d$,e(function(a){return 0},k),av),x=d7(k,0),w=ap,B=ao;for(;;){if(x&&w){var
-Q=w[2],S=w[1],am=[0,S,B],an=S?aI(d$,Q,jx(x[1])):Q,x=x[2],w=an,B=am;continue}var
-ar=e(ad,q),T=b4(u,ef(0,c),ar),g=B,l=k,a=0,C=0;for(;;){if(l){var
-A=l[2],P=l[1];if(g){if(g[1]){var
-ak=[0,i(T,b1(function(b){return function(a){return t(a,b,C)}}(a),P)),a],g=bb(g),l=A,a=ak;continue}var
-g=g[2],l=A,a=[0,C,a];continue}var
-al=[0,i(T,b1(function(b){return function(a){return t(a,b,C)}}(a),P)),a],g=bb(g),l=A,a=al;continue}var
-p=K,o=ag;for(;;){if(p){var
-aa=p[1],b=aa[2],H=aa[1],ab=p[2];if(typeof
-b==="number"&&4===b){var
-G=i(M,c);if(G)var
-au=G[1],aq=bv(h(c)),I=n(function(b){return function(a){return L(aX(a,b)[2],d)}}(au),aq);else
-var
-I=G;if(I){var
-p=ab,o=e(function(a){return 0},o);continue}return I}var
-ac=t(H,o,0);if(ac){var
-J=R(ah,H);if(J){var
-y=J[1],N=0;if(typeof
-b==="number")N=1;else
-switch(b[0]){case
-5:var
-U=b[2],D=i(M,c),ai=0;if(D){var
-V=F(d,U);if(V){var
-as=b[1],j=kg(u,k,s,z,r,q,a,c,[0,jX(U,b[3],D[1])],y,as);ai=1}else
-var
-W=V}else
-var
-W=D;if(!ai)var
-j=W;break;case
+b=e(bZ,a[2][2]);return[0,a[1],b]},n);return f(hb(d),o);case
 10:var
-X=b[3],Y=b[2],m=b[1],O=0;if(typeof
-m!=="number"&&5===m[0]){var
-Z=m[2],E=i(M,c),aj=0;if(E){var
-_=F(d,Z);if(_){var
-at=m[1],j=kj(u,k,s,r,q,a,c,[0,jX(Z,m[3],E[1])],y,at,Y,X);O=1;aj=1}else
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fb(a[2]),p);return f(a[1],q);case
+4:case
+8:return hb(a[1]);default:return g}}}function
+ks(p,h,o,C,m,l,W,B,b,A,V){if(A){var
+s=kl(p,h,l,jD(v(function(c){var
+a=c[2];if(typeof
+a==="number"){var
+d=4!==a?1:0;if(!d)return d}var
+b=M(W,c[1]);return b?kr(o,C,m,b[1],a):b},A),h),b),k=A,g=V;for(;;){if(k){var
+Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
+a==="number"&&4===a){var
+w=i(B,b);if(w)var
+aa=w[1],Z=bh(j(b)),y=n(function(b){return function(a){return L(aB(a,b)[2],d)}}(aa),Z);else
 var
-$=_}else
+y=w;if(y){var
+k=R,g=e(function(a){return 0},g);continue}return y}var
+S=r(x,g,0);if(S){var
+z=M(W,x);if(z){var
+q=z[1],D=0;if(typeof
+a==="number")D=1;else
+switch(a[0]){case
+5:var
+F=a[2],t=i(B,b),X=0;if(t){var
+G=H(d,F);if(G){var
+_=a[1],c=kn(p,h,o,C,m,l,s,b,[0,j3(F,a[3],t[1])],q,_);X=1}else
 var
-$=E;if(!aj){var
-j=$;O=1}}if(!O)var
-j=kj(u,k,s,r,q,a,c,0,y,m,Y,X);break;default:N=1}if(N)var
-j=kg(u,k,s,z,r,q,a,c,0,y,b);if(j){var
-p=ab,o=fu(H,o);continue}var
-ae=j}else
+I=G}else
 var
-ae=J;var
-af=ae}else
+I=t;if(!X)var
+c=I;break;case
+10:var
+J=a[3],K=a[2],f=a[1],E=0;if(typeof
+f!=="number"&&5===f[0]){var
+N=f[2],u=i(B,b),Y=0;if(u){var
+O=H(d,N);if(O){var
+$=f[1],c=kq(p,h,o,m,l,s,b,[0,j3(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
 var
-af=ac;return af}return[0,o]}}}}return[0,ag]}function
-fv(j,i,h,g,f,e,d,c,u,t,s){var
+P=O}else
+var
+P=u;if(!Y){var
+c=P;E=1}}if(!E)var
+c=kq(p,h,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
+c=kn(p,h,o,C,m,l,s,b,0,q,a);if(c){var
+k=R,g=fy(x,g);continue}var
+T=c}else
+var
+T=z;var
+U=T}else
+var
+U=S;return U}return[0,g]}}return[0,V]}function
+fz(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kk(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(_,l[1]):l}var
-m=kk(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=eg(a[2],b),q=fv(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=ks(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
+m=ks(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=ek(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-g$(a){return e(function(a){return 1},a)}function
-dy(a,d,b,c){function
+hc(a){return e(function(a){return 1},a)}function
+dz(a,d,b,c){function
 f(d,c){var
-f=aJ(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return C(q(d,a[1]),b)},f)}if(av(a[2],b[2])){var
+f=aK(a[1],b[1]);return e(function(a){var
+b=q(c,a[2]);return z(q(d,a[1]),b)},f)}if(av(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-kl(a){var
-b=l(c);return[0,e(function(a){return l(d)},a),b]}function
-aO(a,k){var
-f=k[1];switch(f[0]){case
+kt(a){var
+b=h(c);return[0,e(function(a){return h(d)},a),b]}function
+aP(a,l){var
+f=l[1];switch(f[0]){case
 1:var
-v=f[1];if(ai(function(a){return u(v,a)},a)){var
-C=l(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return l(b)},a),C]}return kl(a);case
+v=f[1];if(ak(function(a){return u(v,a)},a)){var
+C=h(c);return[0,e(function(a){var
+b=u(a,v)?c:d;return h(b)},a),C]}return kt(a);case
 3:var
-D=l(c),E=aO(a,f[2]),F=l(c);return dy(aO(a,f[1]),F,E,D);case
+D=h(c),E=aP(a,f[2]),F=h(c);return dz(aP(a,f[1]),F,E,D);case
 4:var
-G=l(O(c)),H=aO(a,f[2]),I=l(c);return dy(aO(a,f[1]),I,H,G);case
+G=h(P(c)),H=aP(a,f[2]),I=h(c);return dz(aP(a,f[1]),I,H,G);case
 5:var
-w=aO(a,f[1]),J=w[2];return[0,e(bd,w[1]),J];case
+w=aP(a,f[1]),J=w[2];return[0,e(bf,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aO(a,x);return dy(aO(a,y),x,K,y);case
+x=f[2],y=f[1],K=aP(a,x);return dz(aP(a,y),x,K,y);case
 7:var
-z=f[2],L=bd(k),M=aO(a,z),N=l(c),i=dy(aO(a,f[1]),N,M,L),P=i[1];if(n(function(a){return aN(d,a)},P))return i;var
-Q=q(i[2],z);return[0,i[1],Q];case
+z=f[2],L=bf(l),M=aP(a,z),N=h(c),j=dz(aP(a,f[1]),N,M,L),O=j[1];if(n(function(a){return aO(d,a)},O))return j;var
+Q=q(j[2],z);return[0,j[1],Q];case
 8:var
-A=f[1],B=aO(a,A),R=B[2],S=B[1],T=q(l(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
+A=f[1],B=aP(a,A),R=B[2],S=B[1],T=q(h(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
 9:var
-j=aO(a,f[1]),U=j[1];if(n(function(a){return aN(d,a)},U)){var
-V=l(c);return[0,j[1],V]}var
-W=q(l(b(2,c)),k),X=q(j[2],W);return[0,j[1],X];case
+k=aP(a,f[1]),U=k[1];if(n(function(a){return aO(d,a)},U)){var
+V=h(c);return[0,k[1],V]}var
+W=q(h(b(2,c)),l),X=q(k[2],W);return[0,k[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=s(g,p),Z=aO(a,g),_=s(h,o),$=dy(aO(a,h),_,Z,Y),aa=l(O(c)),ab=aO(a,m),r=dy($,l(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bd(p),t=e(function(a){return q(ad,a)},ac);if(n(function(a){return aN(d,a)},t))return[0,t,r[2]];var
-ae=q(h,p),af=s(q(g,o),ae),ag=q(l(b(2,c)),af);return[0,t,q(r[2],ag)];default:return kl(a)}}function
-cu(n,r){var
-h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],b=f[1];if(F(i,c))if(0===e[0]){var
-j=e[2],o=e[1];if(F(j,c)){var
-k=Z(b,o),m=k?d_(b):k;if(m)var
-p=Z(n[2],d),g=p||Z(b,d);else
+m=f[4],g=f[3],i=f[2],o=[0,[10,0,i,g,m]],p=[0,[10,1,i,g,m]],Y=t(g,p),Z=aP(a,g),_=t(i,o),$=dz(aP(a,i),_,Z,Y),aa=h(P(c)),ab=aP(a,m),r=dz($,h(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bf(p),s=e(function(a){return q(ad,a)},ac);if(n(function(a){return aO(d,a)},s))return[0,s,r[2]];var
+ae=q(i,p),af=t(q(g,o),ae),ag=q(h(b(2,c)),af);return[0,s,q(r[2],ag)];default:return kt(a)}}function
+ku(c,a){var
+b=aP(c,a),f=b[1];return e(function(a){return aO(d,a)?a:ag(a,b[2])},f)}function
+cv(n,r){var
+i=n[1],e=i[2],f=i[1];if(0===f[0]){var
+j=f[2],b=f[1];if(H(j,c))if(0===e[0]){var
+k=e[2],o=e[1];if(H(k,c)){var
+l=_(b,o),m=l?ec(b):l;if(m)var
+p=_(n[2],d),g=p||_(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=Z(aT(j,aD(2))[2],d)?0:0}else
+a=_(aU(k,aF(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=Z(aT(i,aD(2))[2],d)?0:0}else
+a=_(aU(j,aF(2))[2],d)?0:0}else
 var
-a=0;return a?l(a[1]):[0,[1,r]]}function
-b7(b,a){if(a)var
-d=b7([0,b],a[2]),c=[0,cu(a[1],b),d];else
+a=0;return a?h(a[1]):[0,[1,r]]}function
+b$(b,a){if(a)var
+d=b$([0,b],a[2]),c=[0,cv(a[1],b),d];else
 var
 c=a;return c}function
-aP(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fw(b,d,a){switch(a[0]){case
+aQ(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fA(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aP(c[3],b),g),i=f(aP(c[2],b),h);return f(aP(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aQ(c[3],b),g),i=f(aQ(c[2],b),h);return f(aQ(c[1],d),i);case
 1:var
-e=a[3],j=e?aP(e[1],d):e,k=f(aP(a[2],b),j);return f(aP(a[1],b),k);default:return aP(a[1],d)}}function
+e=a[3],j=e?aQ(e[1],d):e,k=f(aQ(a[2],b),j);return f(aQ(a[1],b),k);default:return aQ(a[1],d)}}function
 ab(b,a){var
-c=l(d),e=t(M(qy,a),b,c),f=l(d),g=t(M(qz,a),b,f);return[0,t(a,b,l(d)),g,e]}function
-km(b,a){return ak(s,ak(C,cP,a),b)}function
-fx(c,b,a){if(a){var
-e=a[2],g=fx(c,bb(b),e),h=a[1];return f(fw(c,bs(d,b),h),g)}return a}function
-ha(f,e,c,j){if(c){var
-b=c[1],v=M(j,h(fw(f,bs(d,e),b))),w=c[2],x=ha(f,bb(e),w,v),a=b7(j,fw(f,bs(d,e),b));switch(b[0]){case
+c=h(d),e=r(N(qJ,a),b,c),f=h(d),g=r(N(qK,a),b,f);return[0,r(a,b,h(d)),g,e]}function
+kv(b,a){return ah(t,ah(z,cP,a),b)}function
+fB(c,b,a){if(a){var
+e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bw(d,b),h),g)}return a}function
+hd(f,e,c,k){if(c){var
+b=c[1],v=N(k,j(fA(f,bw(d,e),b))),w=c[2],x=hd(f,bd(e),w,v),a=b$(k,fA(f,bw(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=t(qA,a,l(d)),o=ak(C,cP,ab(a,qB)),p=cO(ab(a,0)),q=ab(a,qC),g=jZ(km(ab(a,qD),q),p,o,n,m);break;case
+m=b[1][5],n=r(qL,a,h(d)),o=ah(z,cP,ab(a,qM)),p=cO(ab(a,0)),q=ab(a,qN),g=j5(kv(ab(a,qO),q),p,o,n,m);break;case
 1:var
-i=b[3],r=i?[0,cO(ab(a,qE))]:i,s=ak(C,cP,ab(a,qF)),u=ab(a,qG),g=j0(km(ab(a,0),u),s,r);break;default:var
-g=j1(cP,cO(ab(a,0)))}var
-k=[0,g,x]}else
+i=b[3],s=i?[0,cO(ab(a,qP))]:i,t=ah(z,cP,ab(a,qQ)),u=ab(a,qR),g=j6(kv(ab(a,0),u),t,s);break;default:var
+g=j7(cP,cO(ab(a,0)))}var
+l=[0,g,x]}else
 var
-k=c;return k}function
-bx(b,a){if(typeof
+l=c;return l}function
+bA(b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2367,7 +2412,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dn(a[2]),l=[2,[2,dn(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=dp(a[2]),l=[2,[2,dp(a[1]),q],p];return[0,[0,l,l],b];case
 11:var
 m=a[4];return[0,[0,m,m],b];case
 12:var
@@ -2378,116 +2423,116 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
-2:case
-3:case
-14:var
-g=a[2];return[0,[0,g,g],b];default:var
-i=a[1];return[0,[0,i,i],d]}var
+5:case
+7:case
+9:var
+i=a[1];return[0,[0,i,i],d];default:var
+g=a[2];return[0,[0,g,g],b]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-ej(b,a){var
+en(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dz(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(ej(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=ej(b,a[3]);return f(ej(b,a[2]),j)}function
+dA(b,a){if(0===a[0]){var
+e=[0,d,c],i=f(en(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=en(b,a[3]);return f(en(b,a[2]),j)}function
 cQ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dz(b,a[2]);return f(dz(b,a[1]),h);case
+h=dA(b,a[2]);return f(dA(b,a[1]),h);case
 11:var
-i=ej(b,a[3]);return f(ej(b,a[2]),i);case
+i=en(b,a[3]);return f(en(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kn(c,b,a){var
-d=h(cQ(c,b)),e=M(a[2],d);return[0,[0,a[1]],e]}function
-hb(c,b){if(av(b,c))return[0,l(d)];var
+kw(c,b,a){var
+d=j(cQ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+he(c,b){if(av(b,c))return[0,h(d)];var
 a=b[1];if(4===a[0]){var
 e=av(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-ko(y,p,a,o){switch(o[0]){case
+kx(y,p,a,o){switch(o[0]){case
 0:var
-h=R(y,o[1]);if(h){var
-j=h[1];if(j){var
-q=j[1],r=q[1],b=r[2],e=r[1],u=q[2],z=ab(a,qH),A=ak(C,ak(s,e,aY(am(t(qI,a,l(d)),u),b)),z),B=ab(a,qJ),f=am(t(0,a,l(d)),u),k=hb(e[1],b[1]);if(k){var
-m=hb(e[2],b[2]);if(m){var
-n=hb(e[3],b[3]);if(n)var
-x=aY(f,b),g=ak(C,[0,k[1],m[1],n[1]],x);else
+j=M(y,o[1]);if(j){var
+k=j[1];if(k){var
+q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qS),B=ah(z,ah(t,e,aZ(ag(r(qT,a,h(d)),u),b)),A),C=ab(a,qU),f=ag(r(0,a,h(d)),u),l=he(e[1],b[1]);if(l){var
+m=he(e[2],b[2]);if(m){var
+n=he(e[3],b[3]);if(n)var
+x=aZ(f,b),g=ah(z,[0,l[1],m[1],n[1]],x);else
 var
-g=ak(s,e,aY(s(l(c),f),b))}else
+g=ah(t,e,aZ(t(h(c),f),b))}else
 var
-g=ak(s,e,aY(s(l(c),f),b))}else
+g=ah(t,e,aZ(t(h(c),f),b))}else
 var
-g=ak(s,e,aY(s(l(c),f),b));var
-v=[0,[0,ak(C,g,B),A]]}else
+g=ah(t,e,aZ(t(h(c),f),b));var
+v=[0,[0,ah(z,g,C),B]]}else
 var
-v=j;var
+v=k;var
 w=v}else
 var
-w=h;return w;case
+w=j;return w;case
 1:var
-D=ab(a,qK);return[0,[0,ab(a,0),D]];default:var
-E=i(p,ab(a,qL));return[0,[0,i(p,ab(a,0)),E]]}}function
-kp(e,d,c,h,g){var
-a=ko(e,d,bZ(qM,c),h);if(a)var
-b=ko(e,d,dk(qN,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ab(a,qV);return[0,[0,ab(a,0),D]];default:var
+E=i(p,ab(a,qW));return[0,[0,i(p,ab(a,0)),E]]}}function
+ky(e,d,c,h,g){var
+a=kx(e,d,b1(qX,c),h);if(a)var
+b=kx(e,d,dl(qY,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-kq(g,c,d,b,a){var
-h=dz(c,a),i=b7(d,f(dz(c,b),h));function
-j(a){return ak(C,cP,a)}return kp(e(function(a){var
+kz(g,c,d,b,a){var
+h=dA(c,a),i=b$(d,f(dA(c,b),h));function
+j(a){return ah(z,cP,a)}return ky(e(function(a){var
 b=a[7];return w(function(b){var
-c=cs(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+c=ct(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 cR(d,c,b,a){var
-e=q(c,b);return s(q(d,a),e)}function
-by(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-kr(b,a){if(b)if(a)var
-d=b[1],e=kr(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
+e=q(c,b);return t(q(d,a),e)}function
+bB(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+kA(b,a){if(b)if(a)var
+d=b[1],e=kA(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bz(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-ks(a){if(a){var
+kB(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=ks(a[2]);if(d)var
-g=d[1],h=X(c,c),e=[0,[0,[0,bL(c),h],g]];else
+c=b[1],d=kB(a[2]);if(d)var
+g=d[1],h=Q(c,c),e=[0,[0,[0,bz(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qP}function
-ek(b,d,c,a){if(typeof
+f=b;return f}return q0}function
+eo(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cu(bx(d,a),i);return[0,e(function(a){var
-b=q(a[2],j);return[0,bL(a[1]),b]},b)];case
-9:return ks(b);case
+h=c[1],i=cv(bA(d,a),h);return[0,e(function(a){var
+b=q(a[2],i);return[0,bz(a[1]),b]},b)];case
+9:return kB(b);case
 15:var
-k=h(b),f=u(h(a[1]),k);if(f)var
-l=cQ(d,a),g=[0,kr(b,b7(c[2],l))];else
+k=j(b),f=u(j(a[1]),k);if(f)var
+l=cQ(d,a),g=[0,kA(b,b$(c[2],l))];else
 var
 g=f;return g}return 0}function
-fy(e,k,j,a){var
-P=j[1],b=cu(bx(k,a),P),w=0;if(typeof
+fC(e,l,k,a){var
+R=k[1],b=cv(bA(l,a),R),w=0;if(typeof
 a==="number")w=1;else
 switch(a[0]){case
 2:var
-Q=function(a){return[0,s(a[4],b),0]},g=Q,f=a[1];break;case
+S=function(a){return[0,t(a[4],b),0]},g=S,f=a[1];break;case
 3:var
-S=function(a){return[0,s(b,a[4]),0]},g=S,f=a[1];break;case
+T=function(a){return[0,t(b,a[4]),0]},g=T,f=a[1];break;case
 4:var
-T=function(c){var
-a=c[1],d=K(a[3]),e=K(a[2]),f=K(a[1]),g=c[2];return[0,s(s(s(q(K(b),g),f),e),d),0]},g=T,f=a[1];break;case
-6:var
 U=function(c){var
+a=c[1],d=I(a[3]),e=I(a[2]),f=I(a[1]),g=c[2];return[0,t(t(t(q(I(b),g),f),e),d),0]},g=U,f=a[1];break;case
+6:var
+V=function(c){var
 a=c[5];if(a)var
-e=K(a[1]),f=q(K(b),e),d=[0,s(c[2],f),0];else
+e=I(a[1]),f=q(I(b),e),d=[0,t(c[2],f),0];else
 var
-d=a;return d},g=U,f=a[1];break;case
+d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],z=m[1],A=e[1],h=y[1],i=z[1],p=A[1],J=cR(i[1],i[2],h[1],h[2]),L=q(p[3],J),M=cR(i[1],i[3],h[1],h[3]),N=q(p[2],M),O=cR(i[2],i[3],h[2],h[3]),x=C(s(q(p[1],O),N),L),V=cs(y),W=cs(z),B=q(q(q(b,cs(A)),W),V),Y=[0,bd(C(x,B)),0],D=[0,s(x,B),Y]}else
+y=n[1],A=m[1],B=e[1],i=y[1],j=A[1],p=B[1],K=cR(j[1],j[2],i[1],i[2]),L=q(p[3],K),N=cR(j[1],j[3],i[1],i[3]),O=q(p[2],N),P=cR(j[2],j[3],i[2],i[3]),x=z(t(q(p[1],P),O),L),W=ct(y),X=ct(A),C=q(q(q(b,ct(B)),X),W),Y=[0,bf(z(x,C)),0],D=[0,t(x,C),Y]}else
 var
 D=n;var
 E=D}else
@@ -2497,138 +2542,138 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=kq(e,k,j[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],I=G[1];return v(bL,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return u;case
+u=kz(e,l,k[2],a[1],a[2]);if(u){var
+G=u[1],H=G[2],J=G[1];return v(bz,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cQ(k,a),f=b7(j[2],n),h=ab(f,qO),c=ak(s,ab(f,0),h),i=K(b),l=K(cs(d)),m=am(K(X(c,d[1])),l),g=[0,s(s(X(c,c),m),i),0];else
+n=cQ(l,a),f=b$(k[2],n),h=ab(f,qZ),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=l(d),r=cQ(k,a),u=t(0,b7(j[2],r),p),f=am(u,cs(e)),g=e[5];if(g){var
-m=az(e[2]),h=am(g[1],m),n=q(h,C(b,q(f,K(h))));return[0,s(l(c),n),0]}var
-i=e[7],o=i?[0,s(s(l(c),b),f),0]:i;return o},g=_,f=a[1];break;case
+p=h(d),s=cQ(l,a),u=r(0,b$(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
+m=aw(e[2]),i=ag(g[1],m),n=q(i,z(b,q(f,I(i))));return[0,t(h(c),n),0]}var
+j=e[7],o=j?[0,t(t(h(c),b),f),0]:j;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=ek(e,k,j,a);return r?by(r[1]):r;default:w=1}if(w)return 0;var
-o=R(e,f);return o?g(o[1]):o}function
-hc(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hc(d,b,kn(b,e,c),g);return f(fy(d,b,c,e),h)}return a}var
-kt=[0,d,c],ku=[0,[0,kt,kt],d];function
-fz(a){return _(b5(a[1][1],a[1][2]))}function
-kv(a){var
-b=aK(0,h(a));return bc(function(b){return fz(t(b,a,ku))},b)}function
-kw(a,g){var
-h=g[4],b=aO(kv(a),h),c=b[1],f=e(function(a){return aN(d,a)?a:am(a,b[2])},c),i=aJ(kv(a),f);return bc(function(a){return _(aN(d,a[2]))},i)}function
-kx(b,a){var
+s=eo(e,l,k,a);return s?bB(s[1]):s;default:w=1}if(w)return 0;var
+o=M(e,f);return o?g(o[1]):o}function
+hf(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hf(d,b,kw(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
+kC=[0,d,c],kD=[0,[0,kC,kC],d];function
+fD(a){return $(b8(a[1][1],a[1][2]))}function
+kE(a){var
+b=aL(0,j(a));return be(function(b){return fD(r(b,a,kD))},b)}function
+kF(a,b){var
+c=b[4],e=ku(kE(a),c),f=aK(kE(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
+kG(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-ky(f,J,l,I,m,k,o,s){if(s){var
-a=s[1],aK=s[2],aL=ky(f,J,l,I,m,k,kn(k,a,o),aK);if(typeof
+kH(f,J,l,I,m,k,o,t){if(t){var
+a=t[1],aK=t[2],aL=kH(f,J,l,I,m,k,kw(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
-j=[0,[0,A]];else
+h=[0,[0,B]];else
 var
-aq=J[2],as=J[1],at=ee(m),j=[0,[8,i(ar(l),at),as,aq]];else
+aq=J[2],as=J[1],at=ei(m),h=[0,[8,i(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
-au=aj(f,bx(k,a)),j=w(function(a){return[0,$(f,a)]},au);break;case
+au=al(f,bA(k,a)),h=w(function(a){return[0,X(f,a)]},au);break;case
 1:var
-av=aj(f,bx(k,a)),j=w(function(a){return[1,$(f,a)]},av);break;case
+av=al(f,bA(k,a)),h=w(function(a){return[1,X(f,a)]},av);break;case
 5:var
-ax=aj(f,bx(k,a)),j=w(function(a){return[2,$(f,a)]},ax);break;case
+ax=al(f,bA(k,a)),h=w(function(a){return[2,X(f,a)]},ax);break;case
 8:var
-ay=ek(m,k,o,a),j=w(function(a){var
+ay=eo(m,k,o,a),h=w(function(a){var
 b=W(f,c);return[4,i(ar(l),a),b]},ay);break;case
 9:var
-y=ek(m,k,o,a);if(y){var
-z=aj(f,bx(k,a));if(z)var
-az=$(f,z[1]),aA=y[1],O=[0,[4,i(ar(l),aA),az]];else
+y=eo(m,k,o,a);if(y){var
+z=al(f,bA(k,a));if(z)var
+az=X(f,z[1]),aA=y[1],P=[0,[4,i(ar(l),aA),az]];else
 var
-O=z;var
-P=O}else
+P=z;var
+Q=P}else
 var
-P=y;var
-j=P;break;case
+Q=y;var
+h=Q;break;case
 10:var
-B=kq(m,k,o[2],a[1],a[2]);if(B){var
-Q=B[1],S=Q[2],T=Q[1],C=aj(f,bx(k,a));if(C){var
-U=C[1],V=F(d,U[1]);if(V)var
-q=function(a){return kx(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),X=[0,[6,q(T[1]),aD,aC,aB,U]];else
+A=kz(m,k,o[2],a[1],a[2]);if(A){var
+R=A[1],S=R[2],T=R[1],C=al(f,bA(k,a));if(C){var
+U=C[1],V=H(d,U[1]);if(V)var
+q=function(a){return kG(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
-X=V;var
-Y=X}else
-var
-Y=C;var
+Y=V;var
 Z=Y}else
 var
-Z=B;var
-j=Z;break;case
+Z=C;var
+_=Z}else
+var
+_=A;var
+h=_;break;case
 12:var
-r=fy(m,k,o,a),v=0;if(r)if(r[2])var
-j=0;else{var
-_=g(f,0,a[2]),aa=_?g(f,1,a[4]):_;if(aa){var
-D=[0,[3,i(l,r[1])]];v=1}else{var
+s=fC(m,k,o,a),v=0;if(s)if(s[2])var
+h=0;else{var
+$=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
+D=[0,[3,i(l,s[1])]];v=1}else{var
 D=aa;v=1}}else{var
-D=r;v=1}if(v)var
-j=D;break;case
+D=s;v=1}if(v)var
+h=D;break;case
 13:var
-ab=a[1],ac=R(m,ab),K=0;if(ac){var
-ad=g(f,1,a[2]),af=ad?g(f,1,a[3]):ad;if(af)var
-aF=aj(f,bx(k,a)),j=w(function(a){return[7,ab,$(f,a)]},aF);else{var
+ab=a[1],ad=M(m,ab),K=0;if(ad){var
+ae=g(f,1,a[2]),af=ae?g(f,1,a[3]):ae;if(af)var
+aE=al(f,bA(k,a)),h=w(function(a){return[7,ab,X(f,a)]},aE);else{var
 ag=af;K=1}}else{var
-ag=ac;K=1}if(K)var
-j=ag;break;case
+ag=ad;K=1}if(K)var
+h=ag;break;case
 14:var
-E=a[2],ah=a[1],ai=u(h(m),qQ),ak=ai?g(f,0,ah):ai,al=ak?g(f,1,E):ak;if(al){var
-G=aj(f,bx(k,a));if(G)var
-H=ae(e(function(n){var
-h=[5,ah,E],a=aj(f,[0,[0,h,h],d]);if(a){var
-o=kw(I,n),g=ae(e(function(e){var
-a=t(e[1],I,ku),g=aE(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=aj(f,[0,[0,d,d],g]);return w(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
+E=a[2],ah=a[1],ai=u(j(m),q1),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
+F=al(f,bA(k,a));if(F)var
+G=ac(e(function(n){var
+h=[5,ah,E],a=al(f,[0,[0,h,h],d]);if(a){var
+o=kF(I,n),g=ac(e(function(e){var
+a=r(e[1],I,kD),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=al(f,[0,[0,d,d],g]);return w(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
 p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
 var
 j=g;var
 m=j}else
 var
-m=a;return m},m)),aG=H?[0,[9,G[1],H[1]]]:H,am=aG;else
+m=a;return m},m)),aF=G?[0,[9,F[1],G[1]]]:G,am=aF;else
 var
-am=G;var
+am=F;var
 an=am}else
 var
-an=al;var
-j=an;break;case
+an=ak;var
+h=an;break;case
 15:var
 aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=ek(m,k,o,a),j=w(function(a){var
+aJ=eo(m,k,o,a),h=w(function(a){var
 b=W(f,c);return[4,i(ar(l),a),b]},aJ);else
 var
-j=ao;break;default:var
-p=fy(m,k,o,a),L=0;if(p){var
-x=p[2],M=p[1];if(x)if(x[2])var
-j=0;else
+h=ao;break;default:var
+p=fC(m,k,o,a),L=0;if(p){var
+x=p[2],N=p[1];if(x)if(x[2])var
+h=0;else
 var
-aw=i(l,x[1]),j=[0,[5,i(l,M),aw]];else{var
-N=[0,[3,i(l,M)]];L=1}}else{var
-N=p;L=1}if(L)var
-j=N}var
-ap=[0,j,aL]}else
+aw=i(l,x[1]),h=[0,[5,i(l,N),aw]];else{var
+O=[0,[3,i(l,N)]];L=1}}else{var
+O=p;L=1}if(L)var
+h=O}var
+ap=[0,h,aL]}else
 var
-ap=s;return ap}function
-qR(a){var
+ap=t;return ap}function
+q2(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dA(a){if(0===a[0])return a[1];var
+dB(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kz(a,c,g,b){if(0===c[0])return 0;if(b){var
+kI(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cp(a,g,c[1]);if(i){var
-j=cp(a,g,c[2]);if(j){var
-k=cp(a,g,c[3]);if(k)var
-t=i[1],u=bM(f),l=H([0,bM(f),u],t),v=j[1],w=bM(e),m=H([0,bM(e),w],v),x=du(e),z=[0,du(e),x],B=[0,y(a,ag(G(m,m)),z),0],C=du(f),D=[0,du(f),C],E=[0,y(a,ag(G(l,l)),D),B],F=$(a,m),I=$(a,l),n=[0,[0,H(H($(a,k[1]),I),F),A,E]];else
+e=d[1],f=b[1],i=cs(a,g,c[1]);if(i){var
+j=cs(a,g,c[2]);if(j){var
+k=cs(a,g,c[3]);if(k)var
+t=i[1],u=bO(f),l=D([0,bO(f),u],t),v=j[1],w=bO(e),m=D([0,bO(e),w],v),y=dv(e),z=[0,dv(e),y],A=[0,x(a,af(E(m,m)),z),0],C=dv(f),F=[0,dv(f),C],G=[0,x(a,af(E(l,l)),F),A],H=X(a,m),I=X(a,l),n=[0,[0,D(D(X(a,k[1]),I),H),B,G]];else
 var
 n=k;var
 o=n}else
@@ -2646,14 +2691,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fA(a,p,o){var
-q=aP(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
+fE(a,p,o){var
+q=aQ(p,o),b=e(function(b){return al(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=$(a,i[1]),s=$(a,h[1]);return L(d,G(G($(a,g[1]),s),r)[1])}var
+r=X(a,i[1]),s=X(a,h[1]);return L(d,E(E(X(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2669,35 +2714,35 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-af(c,b,a){var
+ai(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-P(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ax(a){return at([5,[0,c,c],[6,P(a,a)]],a)}function
+R(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+ay(a){return at([5,[0,c,c],[6,R(a,a)]],a)}function
 cS(c,b,a){var
-d=be(c,b[1],a);return d?be(c,a,b[2]):d}function
-a2(c,b,a){var
+d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
+a3(c,b,a){var
 d=cS(c,b[1],a[1]),e=d?cS(c,b[2],a[2]):d;return e?cS(c,b[3],a[3]):e}function
-kA(b,c,a){switch(c[0]){case
+kJ(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a2(b,d[1],f),l=k?g(b,1,P(f,f)):k,m=l?a2(b,d[2],a[2]):l,n=m?a2(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?cg(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a3(b,d[1],f),l=k?g(b,1,R(f,f)):k,m=l?a3(b,d[2],a[2]):l,n=m?a3(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?ck(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a2(b,c[1],a[1]),s=r?a2(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a2(b,q[1],h);if(t)return g(b,1,P(h,h));var
+e=a[3],r=a3(b,c[1],a[1]),s=r?a3(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=a3(b,q[1],h);if(t)return g(b,1,R(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a2(b,c[1],i);return w?g(b,1,P(i,i)):w}return 0}}function
-cT(c,a,b){if(0===a[0])return a2(c,a[1],b);var
+i=a[1],w=a3(b,c[1],i);return w?g(b,1,R(i,i)):w}return 0}}function
+cT(c,a,b){if(0===a[0])return a3(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cS(c,a[4],b[3]):i}function
-kB(g,f,i,h){var
+kK(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kA(g,b[1],a[1]);if(d){var
+d=kJ(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2705,63 +2750,63 @@ e=a;var
 c=e}else
 var
 c=a?0:1;return c?cT(g,f[2],h):c}}function
-a$(c,b,a){var
-d=af(function(b,a){return[2,b,a]},a,b);return af(function(b,a){return[3,b,a]},d,c)}function
-el(a,e,d,c){var
-b=a$(e,d,c),f=ax(a),g=at(P(ax(a),b),f);return af(function(b,a){return[3,b,a]},b,g)}function
+bb(c,b,a){var
+d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
+ep(a,e,d,c){var
+b=bb(e,d,c),f=ay(a),g=at(R(ay(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
 cU(f,e,d,a,c){var
-b=el(f,e,d,c);return[3,[4,a,a],P(b,b)]}function
+b=ep(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
 cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
 cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=el(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=ax(d);return af(function(b,a){return[2,b,a]},j,i);case
-1:return ax(a$(a[1],a[2],b));default:return ax(a[1])}}function
-em(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ep(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=ay(d);return ai(function(b,a){return[2,b,a]},j,i);case
+1:return ay(bb(a[1],a[2],b));default:return ay(a[1])}}function
+eq(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ax(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=el(c,e,d,b);return af(function(b,a){return[2,b,a]},i,h);case
-1:return a$(a[1],a[2],b);default:return ax(a[1])}}function
-hd(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=ay(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ep(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+1:return bb(a[1],a[2],b);default:return ay(a[1])}}function
+hg(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=a$(d,c,b);return[3,P(ax(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bb(d,c,b);return[3,R(ay(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a$(g,f,b);return[6,P(a$(g,f,b),k)];default:return P(ax(a[1]),b)}}function
-kC(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=bb(g,f,b);return[6,R(bb(g,f,b),k)];default:return R(ay(a[1]),b)}}function
+kL(a,b){switch(a[0]){case
 0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a$(d,c,b);return[0,P(a$(d,c,b),e)];default:return 0}}function
-en(e,b,a){var
+c=a[2],d=a[1],e=bb(d,c,b);return[0,R(bb(d,c,b),e)];default:return 0}}function
+er(e,b,a){var
 f=[0,d,c];return aI(function(c,d){var
-e=P(cW(c,b),a);return[2,[4,P(cW(c,b),a),e],d]},f,e)}function
-kD(a){var
+e=R(cW(c,b),a);return[2,[4,R(cW(c,b),a),e],d]},f,e)}function
+kM(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-he(a,b){switch(a[0]){case
+hh(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a$(e,d,b);return[6,P(a$(e,d,b),f)];default:return[0,c,c]}}function
-kE(d,i){if(d){var
+d=a[2],e=a[1],f=bb(e,d,b);return[6,R(bb(e,d,b),f)];default:return[0,c,c]}}function
+kN(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a$(a[1],a[2],i),k=ax(f),l=at(P(ax(f),g),k),h=[0,af(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bb(a[1],a[2],i),k=ay(f),l=at(R(ay(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kE(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kN(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return qS}function
+j=b;return j}return q3}function
 cX(a){return[0,a[1],a[2],a[3]]}function
-kF(a,b){switch(a[0]){case
+kO(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ax(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=el(d,g,c,b),m=af(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,af(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ep(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a$(a[1],h,b),n=[6,P(e,e)];return[0,[0,[0,af(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kG(l,b,a){switch(a[0]){case
+h=a[2],e=bb(a[1],h,b),n=[6,R(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+kP(l,b,a){switch(a[0]){case
 0:var
-m=a[5],d=R(l,a[1]);if(d){var
-e=kF(d[1],b);if(e)var
+m=a[5],d=M(l,a[1]);if(d){var
+e=kO(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cX(m),c=at(a,n),d=af(function(b,a){return[3,b,a]},o,c);return af(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cX(m),c=at(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
@@ -2769,29 +2814,29 @@ var
 k=d;return k;case
 1:var
 q=cX(a[3]);return[0,[0,cX(a[2]),q]];default:var
-r=cX(a[3]),s=af(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,af(function(b,a){return[2,b,a]},b,t),s]]}}function
-kH(d,a,c,b){var
-e=at(a,b),f=at([3,d,a],c);return af(function(b,a){return[2,b,a]},f,e)}function
-kI(f,h,b,e,q,a){function
-F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],P(e,e)]}var
+r=cX(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
+kQ(d,a,c,b){var
+e=at(a,b),f=at([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
+kR(f,h,b,e,q,a){function
+F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],R(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=en(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=er(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,en(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,er(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hd(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hg(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hd(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hg(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
-c=cW(a,b);return[3,[4,[4,H,H],P(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
+c=cW(a,b);return[3,[4,[4,H,H],R(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=P(e,e),ay=[4,[4,I,I],[4,en(h,b,q),aw]],az=P(q,q);return g(f,1,[3,[4,en(h,b,e),az],ay]);case
+I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,er(h,b,q),aw]],az=R(q,q);return g(f,1,[3,[4,er(h,b,e),az],ax]);case
 6:var
-J=a[2],u=R(h,a[1]);if(u){var
+J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
 v=i[4],aA=cU(i[1],i[2],i[3],v,b),K=cV(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
@@ -2800,7 +2845,7 @@ L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-M=o[1],N=n[1],O=h[1],aB=he(M,b),aC=he(N,b),aD=he(O,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=em(M,b),k=em(N,b),aE=em(O,b),E=P(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+N=o[1],O=n[1],P=h[1],aB=hh(N,b),aC=hh(O,b),aD=hh(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=eq(N,b),k=eq(O,b),aE=eq(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
 T=S}else
 var
 T=o;var
@@ -2811,55 +2856,55 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=en(h,b,e),aG=P(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=er(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kE(h,b);if(w){var
+W=a[1],w=kN(h,b);if(w){var
 aH=w[1],an=[0,d,c],ao=aI(function(a,b){var
-c=P(ax(a),e);return[2,[4,P(ax(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],P(e,e)],ao])}return w;case
+c=R(ay(a),e);return[2,[4,R(ay(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],R(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kG(h,b,Y);if(x){var
-Z=x[1],y=kG(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aJ=kH(l,A,_[1],_[2]),aK=kH(l,z,Z[1],Z[2]),$=af(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dn(X),aa=[4,l,[2,[2,dn(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,ag=ae?g(f,0,[3,l,A]):ae;if(ag)return g(f,1,[3,[4,aa,aa],P($,$)]);var
+X=a[2],Y=a[1],x=kP(h,b,Y);if(x){var
+Z=x[1],y=kP(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aJ=kQ(l,A,_[1],_[2]),aK=kQ(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
+ag=af}else
+var
+ag=y;var
 ah=ag}else
 var
-ah=y;var
-ai=ah}else
-var
-ai=x;return ai;case
+ah=x;return ah;case
 11:var
-aj=a[4],B=R(h,a[1]);if(B){var
-C=kF(B[1],b);if(C){var
-m=C[1][1][2],aN=cX(a[3]),aO=cX(a[2]),p=af(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,P(m,m));if(ak){var
-aP=P(m,m),aQ=P(p,m),aR=[5,[4,P(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,P(p,p),aR]])}var
+aj=a[4],B=M(h,a[1]);if(B){var
+C=kO(B[1],b);if(C){var
+m=C[1][1][2],aN=cX(a[3]),aO=cX(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,R(m,m));if(ak){var
+aP=R(m,m),aQ=R(p,m),aR=[5,[4,R(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,R(p,p),aR]])}var
 al=ak}else
 var
 al=C;var
 am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
-t=R(h,r);return t?g(f,1,s(t[1])):t}function
-bf(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kJ(a){switch(a[0]){case
+t=M(h,r);return t?g(f,1,s(t[1])):t}function
+bj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+kS(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bf(b[3]),f=bf(b[2]);return[0,bf(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bj(b[3]),f=bj(b[2]);return[0,bj(b[1]),f,e,d,c];case
 1:var
-g=w(bf,a[3]),h=bf(a[2]);return[1,bf(a[1]),h,g];default:return[2,bf(a[1])]}}function
-hf(a){return 0===a[0]?bf(a[1]):[0,a[1],a[2],a[4][1]]}function
-kK(b,a){var
-c=hf(a[2]);return kB(b,a,e(kJ,a[1]),c)}function
-kL(b,a,c){var
-d=[0,c,dk(b,a)];return f(bZ(b,a),d)}function
-b8(b,a){if(b){if(a){var
-e=b8(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kM(a){if(a){var
+g=w(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
+hi(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
+kT(b,a){var
+c=hi(a[2]);return kK(b,a,e(kS,a[1]),c)}function
+kU(b,a,c){var
+d=[0,c,dl(b,a)];return f(b1(b,a),d)}function
+ca(b,a){if(b){if(a){var
+e=ca(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+kV(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kM(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qU}function
-kN(a,l,k,f){var
-b=aW(a,l);if(b){var
-c=aW(a,k);if(c){var
-d=dr(a,f);if(d){var
-e=fi(a,f);if(e)var
-m=y(a,b[1],e[1]),g=[0,H(y(a,c[1],d[1]),m)];else
+c=b[1],d=kV(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q5}function
+kW(a,l,k,f){var
+b=aY(a,l);if(b){var
+c=aY(a,k);if(c){var
+d=ds(a,f);if(d){var
+e=fl(a,f);if(e)var
+m=x(a,b[1],e[1]),g=[0,D(x(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2871,50 +2916,50 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fB(a){return a?L(d,a[1][1]):a}function
-kO(a,ab,m,aD,i,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],b8(a,a)]}var
+fF(a){return a?L(d,a[1][1]):a}function
+kX(a,ab,m,aD,h,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],ca(a,a)]}var
 aE=m[1];function
-p(b){var
+o(b){var
 a=[0,d,c];return aI(function(a,c){var
-d=b8(a,b);return[2,[4,b8(a,b),d],c]},a,aE)}var
-ad=n(function(a){return u(h(a),ab)},i);if(ad){var
+d=ca(a,b);return[2,[4,ca(a,b),d],c]},a,aE)}var
+ad=n(function(a){return u(j(a),ab)},h);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
-0:if(i){if(i[2])return 0;var
-af=i[1],aF=p(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
-1:if(i){if(i[2])return 0;var
-ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,p(ag),aG])}return i;case
-2:if(i)return 0;var
+0:if(h){if(h[2])return 0;var
+af=h[1],aF=o(af);return g(a,1,[3,ac(f[1],af),aF])}return h;case
+1:if(h){if(h[2])return 0;var
+ag=h[1],aG=ac(f[1],ag);return g(a,1,[3,o(ag),aG])}return h;case
+2:if(h)return 0;var
 aH=f[2],aJ=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aJ,G=f[1];break;case
-3:if(i)return 0;var
+b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aJ,H=f[1];break;case
+3:if(h)return 0;var
 aK=f[2],aL=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,G=f[1];break;case
-4:if(i)return 0;var
+b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;case
+4:if(h)return 0;var
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kN(a,i,h,ai);return f?L(f[1][2],d):f}return fB(kN(a,i,h,ah))}return j}return 0},I=aM,G=f[1];break;case
-5:if(i){var
-r=i[2];if(r){if(r[2])return 0;var
-K=r[1],M=i[1],aj=f[1],aN=b8(M,M),aO=[4,[4,aj,aj],[4,p(K),aN]],aP=b8(K,K);return g(a,1,[3,[4,p(M),aP],aO])}var
+h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
+f=kW(a,i,h,ai);return f?L(f[1][2],d):f}return fF(kW(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+5:if(h){var
+r=h[2];if(r){if(r[2])return 0;var
+K=r[1],N=h[1],aj=f[1],aN=ca(N,N),aO=[4,[4,aj,aj],[4,o(K),aN]],aP=ca(K,K);return g(a,1,[3,[4,o(N),aP],aO])}var
 ak=r}else
 var
-ak=i;return ak;case
-6:if(i)return 0;var
+ak=h;return ak;case
+6:if(h)return 0;var
 al=f[2],aQ=f[3],aR=function(b){var
-c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,b8(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
-8:if(i){if(i[2])return 0;var
-O=i[1],aS=p(O),aT=[4,f[1],aS],aU=b8(O,O);return g(a,1,[3,[4,f[2],aU],aT])}return i;case
-9:if(i)return 0;var
+c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,ca(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
+8:if(h){if(h[2])return 0;var
+P=h[1],aS=o(P),aT=[4,f[1],aS],aU=ca(P,P);return g(a,1,[3,[4,f[2],aU],aT])}return h;case
+9:if(h)return 0;var
 ar=f[3],as=f[2],aV=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aW(a,b8(e,e));if(b){var
-c=aW(a,[5,ar,as]);if(c){var
-d=jK(a,c[1]);if(d){var
-l=$(a,d[1]);return fB([0,H(b[1],l)])}var
+b=aY(a,ca(e,e));if(b){var
+c=aY(a,[5,ar,as]);if(c){var
+d=jQ(a,c[1]);if(d){var
+l=X(a,d[1]);return fF([0,D(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2924,16 +2969,16 @@ j=b;var
 k=j}else
 var
 k=h;return k},an=aV,am=f[1];k=3;break;case
-10:if(i)return 0;var
-aX=f[2],aY=function(b){var
-c=[4,aX,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aY,at=f[1];k=2;break;case
-11:if(i)return 0;var
+10:if(h)return 0;var
+aW=f[2],aX=function(b){var
+c=[4,aW,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
+11:if(h)return 0;var
 aZ=f[2],a0=function(e){var
-b=dr(a,aZ);if(b){var
-c=aW(a,e[3]);if(c){var
-d=aW(a,e[2]);if(d){var
-f=y(a,b[1],c[1]),g=fB([0,f]);if(g){var
-k=$(a,d[1]);return fB([0,H($(a,f),k)])}var
+b=ds(a,aZ);if(b){var
+c=aY(a,e[3]);if(c){var
+d=aY(a,e[2]);if(d){var
+f=x(a,b[1],c[1]),g=fF([0,f]);if(g){var
+k=X(a,d[1]);return fF([0,D(X(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2943,70 +2988,70 @@ i=c;var
 j=i}else
 var
 j=b;return j},au=a0,at=f[1];k=2;break;case
-12:if(i)return 0;var
-S=kM(m[3]);if(S){var
-aw=S[1],a1=f[1],ax=dj(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
+12:if(h)return 0;var
+S=kV(m[3]);if(S){var
+aw=S[1],a1=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
 t=s[2];if(t){var
 v=t[2],U=t[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
-j=[0,d,c];else{var
+i=[0,d,c];else{var
 w=l[1];if(w){var
-x=w[2];if(x){var
-z=x[2];if(z&&!z[2]){var
+y=w[2];if(y){var
+z=y[2];if(z&&!z[2]){var
 A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
-D=C[2];if(D&&!(D[2]||A[2]))var
-W=D[1],X=C[1],Y=B[1],Z=z[1],_=x[1],aa=w[1],aA=q(aa,_,Y,X),aB=[4,v[1],aA],aC=[4,U,q(aa,Z,Y,W)],j=[2,[3,[4,V,q(_,Z,X,W)],aC],aB];else
+E=C[2];if(E&&!(E[2]||A[2]))var
+W=E[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=w[1],aA=q(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,U,q(aa,_,Z,W)],i=[2,[3,[4,V,q($,_,Y,W)],aC],aB];else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 if(l){var
-E=l[1];if(E)var
-F=E[2],j=F?F[2]?[0,d,c]:l[2]?[0,d,c]:q(V,U,E[1],F[1]):[0,d,c];else
+F=l[1];if(F)var
+G=F[2],i=G?G[2]?[0,d,c]:l[2]?[0,d,c]:q(V,U,F[1],G[1]):[0,d,c];else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c]}else
+i=[0,d,c]}else
 var
-j=[0,d,c];var
-ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
+i=[0,d,c];var
+ay=g(a,1,[3,ax,i]);if(ay)return g(a,1,[2,ax,i]);var
 az=ay}else
 var
 az=S;return az;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
-P=R(m[3],at);if(P){var
-Q=P[1];if(Q)return au(Q[1]);var
-av=Q}else
+Q=M(m[3],at);if(Q){var
+R=Q[1];if(R)return au(R[1]);var
+av=R}else
 var
-av=P;return av;case
+av=Q;return av;case
 3:var
-N=R(m[1],am);if(N){var
-ao=N[1],ap=u(h(ao),ab);if(ap)return an(ao);var
+O=M(m[1],am);if(O){var
+ao=O[1],ap=u(j(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
-aq=N;return aq;default:var
-J=R(m[2],G);return J?I(J[1]):J}}else
+aq=O;return aq;default:var
+J=M(m[2],H);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-kP(h,g){var
+kY(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3016,124 +3061,126 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kQ(a){if(a){var
+kZ(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kQ(a[2]);return w(function(a){return[0,c,a]},d)}return b}return qV}function
-qW(a){return e(function(a){return[0,a,c]},a)}function
-kR(h,f,b,n,a){if(typeof
+c=b[1],d=kZ(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q6}function
+q7(a){return e(function(a){return[0,a,c]},a)}function
+k0(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
-r=b[4];return ai(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=kQ(b[5]);return i?jR(f,i[1]):i}else{if(0===a[0]){var
-j=kP(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(qW,a[2]);return kO(h,f,b,o[2],t,s)}return j}var
-k=kP(a[1],n);if(k){var
+r=b[4];return ak(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
+i=kZ(b[5]);return i?jX(f,i[1]):i}else{if(0===a[0]){var
+j=kY(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(q7,a[2]);return kX(h,f,b,o[2],t,s)}return j}var
+k=kY(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=R(b[1],a[2]);return m?kO(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=M(b[1],a[2]);return m?kX(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hg(a){var
-b=ax(a[1]),c=at(P(b,a[2]),b),d=a[2];return af(function(b,a){return[3,b,a]},d,c)}function
-hh(a){return ax(hg(a))}function
-kS(c){var
-a=hh(c),b=ax(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hi(a,b){return a$(a[3],a[4],b)}function
-hj(a,b){var
-c=hi(a,b);return P(hh(a),c)}function
-hk(a,b){var
-c=hi(a,b);return P(kS(a),c)}function
-kT(a,b){var
-c=hi(a,b);return P(ax(a[1]),c)}function
-hl(b,a){var
-c=hk(b,a),d=hj(b,a);return[2,[4,d,d],[4,c,c]]}function
-hm(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=kT(a,d);return[5,[2,hl(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-kU(a,b){var
-f=a[5],c=[3,hm(a,b),f],d=kT(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fC(a,b){var
-c=kU(a,b);return cV(a[7],c)}function
-kV(b,a){var
-c=hl(b,a),d=hk(b,a),e=[4,fC(b,a),d],f=hj(b,a);return[5,[2,[4,hm(b,a),f],e],c]}function
-kW(b,a){var
-c=hl(b,a),d=hj(b,a),e=[4,fC(b,a),d],f=hk(b,a);return[5,[3,[4,hm(b,a),f],e],c]}function
-kX(a,b){var
-c=kS(a),d=at(kW(a,b),c),e=hh(a),f=at(kV(a,b),e),g=af(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return af(function(b,a){return[2,b,a]},i,h)}var
-p=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-bN(h){var
+hj(a){var
+b=ay(a[1]),c=at(R(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
+hk(a){return ay(hj(a))}function
+k1(c){var
+a=hk(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hl(a,b){return bb(a[3],a[4],b)}function
+hm(a,b){var
+c=hl(a,b);return R(hk(a),c)}function
+hn(a,b){var
+c=hl(a,b);return R(k1(a),c)}function
+k2(a,b){var
+c=hl(a,b);return R(ay(a[1]),c)}function
+ho(b,a){var
+c=hn(b,a),d=hm(b,a);return[2,[4,d,d],[4,c,c]]}function
+hp(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k2(a,d);return[5,[2,ho(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+k3(a,b){var
+f=a[5],c=[3,hp(a,b),f],d=k2(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fG(a,b){var
+c=k3(a,b);return cV(a[7],c)}function
+k4(b,a){var
+c=ho(b,a),d=hn(b,a),e=[4,fG(b,a),d],f=hm(b,a);return[5,[2,[4,hp(b,a),f],e],c]}function
+k5(b,a){var
+c=ho(b,a),d=hm(b,a),e=[4,fG(b,a),d],f=hn(b,a);return[5,[3,[4,hp(b,a),f],e],c]}function
+k6(a,b){var
+c=k1(a),d=at(k5(a,b),c),e=hk(a),f=at(k4(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
+o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
+bP(h){var
 a=aI(function(f,e){var
-a=aW(p,f);if(a)var
-b=a[1],c=bo(dg(b[1]),dg(b[2]));else
+a=aY(o,f);if(a)var
+b=a[1],c=bs(dh(b[1]),dh(b[2]));else
 var
-c=d;return bo(c,e)},d,h);if(L(d,a)){var
-f=a7(a);if(0===f||!(0<f&&!F(a,c)))var
+c=d;return bs(c,e)},d,h);if(L(d,a)){var
+f=a9(a);if(0===f||!(0<f&&!H(a,c)))var
 g=d;else
 var
-b=aT(a,aD(2)),e=b[1],g=Z(b[2],d)?e5(e):e5(e);return aE(g,p)}return d}function
-dB(a){return[0,a[1],[0,a[2],0]]}function
-a3(a){var
-b=dB(a[3]),c=f(dB(a[2]),b);return f(dB(a[1]),c)}function
-fD(a){return fA(p,a,bN(a3(a)))}function
-kY(b,a){if(a){var
-g=kY([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cu([0,[0,d,d],c[2]],b);else
+b=aU(a,aF(2)),e=b[1],g=_(b[2],d)?e8(e):e8(e);return aG(g,o)}return d}function
+dC(a){return[0,a[1],[0,a[2],0]]}function
+a4(a){var
+b=dC(a[3]),c=f(dC(a[2]),b);return f(dC(a[1]),c)}function
+fH(a){return fE(o,a,bP(a4(a)))}function
+k7(b,a){if(a){var
+g=k7([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cv([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-kZ(c,b,a){var
-d=dn(b);return[2,[2,dn(c),d],a]}function
-hn(b,a){return b?O(a):d}function
-eo(h,b,a){if(typeof
+k8(c,b,a){var
+d=dp(b);return[2,[2,dp(c),d],a]}function
+hq(b,a){return b?P(a):d}function
+es(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-m=hn(h,b),n=z(hn(h,b),m);return[0,[0,[5,a[2],a[1]],n],0];case
-9:return[0,[1,[5,a[3],a[2]],O(b)],0];case
+o=hq(h,b),p=A(hq(h,b),o);return[0,[0,[5,a[2],a[1]],p],0];case
+9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bN([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bP([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],o=dz(b,k),p=f(dz(b,l),o),q=e(function(a){return[0,a[1][2],a[2]]},p);return[0,[0,kZ(l,k,a[3]),b],q];case
+k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,k8(l,k,a[3]),b],s];case
+15:var
+m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cv(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cv(g,c,b,M(e,h(eo(c,b,d))),i);return f(ao(g,kY(e,eo(c,b,d)),d),j)}return a}function
-ho(b,a){switch(a[0]){case
+cw(g,c,b,e,a){if(a){var
+d=a[1],h=a[2],i=cw(g,c,b,N(e,j(es(c,b,d))),h);return f(ao(g,k7(e,es(c,b,d)),d),i)}return a}function
+hr(b,a){switch(a[0]){case
 0:var
-d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
+d=a[1];return al(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?jK(b,c[1]):c;case
-2:return dr(b,a[1]);default:return fi(b,a[1])}}function
-k0(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-k1(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hp(a,c,b){var
-d=[4,k0(a),b],e=[2,[4,k1(a),c],d],f=[4,k1(a),b];return[0,[3,[4,k0(a),c],f],e]}function
-k2(c,a){var
-b=hp(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-ep(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fE(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:k2(d[1],a):a;case
+e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jQ(b,c[1]):c;case
+2:return ds(b,a[1]);default:return fl(b,a[1])}}function
+k9(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+k_(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hs(a,c,b){var
+d=[4,k9(a),b],e=[2,[4,k_(a),c],d],f=[4,k_(a),b];return[0,[3,[4,k9(a),c],f],e]}function
+k$(c,a){var
+b=hs(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+et(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fI(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:k$(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hp(d[1],a[2],a[3]),m=j[1],k=hp(f[1],j[2],a[1]);return k2(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hs(d[1],a[2],a[3]),m=j[1],k=hs(f[1],j[2],a[1]);return k$(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=P(e,e),n=ep(e,a),o=at([0,b(2,c),c],n),p=P(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=af(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],af(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-k3(b){var
-a=co(b);return a?dl(a[1],[0,d,c]):a}function
-k4(a,n,k,j){if(k3(j)){var
+e=[0,d[1],h[1],i[1]],l=R(e,e),n=et(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+la(b){var
+a=cr(b);return a?dm(a[1],[0,d,c]):a}function
+lb(a,n,k,j){if(la(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
-f=aW(a,k);if(f){var
-h=dr(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=fi(a,[5,j,[0,b(2,c),c]]);if(i)var
-p=y(a,f[1],h[1]),l=[0,H(i[1],p)];else
+f=aY(a,k);if(f){var
+h=ds(a,[5,j,[0,b(2,c),c]]);if(h){var
+i=fl(a,[5,j,[0,b(2,c),c]]);if(i)var
+p=x(a,f[1],h[1]),l=[0,D(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3142,26 +3189,26 @@ m=h;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?F(d,o[1]):F(o[2],d)}return e}function
-eq(b,a,c){var
-d=be(b,a[1],a[2]),e=d?k4(b,0,c,a[1]):d;return e?k4(b,1,c,a[2]):e}function
-dC(a,d){if(k3(d))return[0,A];var
-e=dr(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fi(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=G(W(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=ci(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
-e=y(z(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gU(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
+eu(b,a,c){var
+d=bg(b,a[1],a[2]),e=d?lb(b,0,c,a[1]):d;return e?lb(b,1,c,a[2]):e}function
+dD(a,d){if(la(d))return[0,B];var
+e=ds(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
+f=fl(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=E(W(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b3(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
+e=x(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gX(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-er(d,a){var
-e=g(d,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
+ev(d,a){var
+e=g(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
 cY(a){return[0,[3,[0,d,c],a],a]}function
-k5(a,b,n,m){var
-h=be(a,[0,d,c],b),i=h?er(a,b):h;if(i){var
-e=dC(a,b);if(e){var
-f=aW(a,n);if(f){var
-g=aW(a,m);if(g){var
-o=f[1],p=g[1];return F(d,H(y(a,$(a,e[1]),p),o)[1])}var
+lc(a,b,n,m){var
+h=bg(a,[0,d,c],b),i=h?ev(a,b):h;if(i){var
+e=dD(a,b);if(e){var
+f=aY(a,n);if(f){var
+g=aY(a,m);if(g){var
+o=f[1],p=g[1];return H(d,D(x(a,X(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3171,12 +3218,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-fF(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:eq(d,b[1],a[1]):a;case
+fJ(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:eu(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=eq(d,b[1],a[1]),m=l?eq(d,b[2],e[1]):l;if(m)return eq(d,b[3],f[1]);var
+l=eu(d,b[1],a[1]),m=l?eu(d,b[2],e[1]):l;if(m)return eu(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3189,7 +3236,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=P([0,s,r,q],[0,s,r,q]);return k5(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return lc(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3198,7 +3245,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=k5(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eq(d,cY(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lc(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eu(d,cY(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3208,29 +3255,29 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-cw(a){return 1===a?qX:qY}function
-fG(d,c,b,a){var
-e=a[1],f=fE(d,c,a[2]),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
-hq(c,b,a){switch(c){case
+cx(a){return 1===a?q8:q9}function
+fK(d,c,b,a){var
+e=a[1],f=fI(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+ht(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-k6(h,g,d,b,f,a){var
-e=fG(d,b,f,a);return hq(h,e,at([5,[0,c,c],g],ep(fE(d,b,a[2]),e)))}function
-k7(c,j,i){var
+ld(h,g,d,b,f,a){var
+e=fK(d,b,f,a);return ht(h,e,at([5,[0,c,c],g],et(fI(d,b,a[2]),e)))}function
+le(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=a2(c,e[1],d[1]),g=f?a2(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=a3(c,e[1],d[1]),g=f?a3(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-ba(b,d){var
+bc(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,M(b,c[1])]]:[0,b1(function(a){return ba(b,a)},a)]}return[0,b1(function(a){return ba(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bL(function(a){return bc(b,a)},a)]}return[0,bL(function(a){return bc(b,a)},a)]}function
 cZ(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=_(u(e,b));return f?_(u(e,M(d,b))):f;case
+e=a[1],f=$(u(e,b));return f?$(u(e,N(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3240,29 +3287,29 @@ e=a[1],f=_(u(e,b));return f?_(u(e,M(d,b))):f;case
 c=a[1];continue;default:var
 g=cZ(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dD(c,b,m){var
+dE(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cZ(c,b,g),i=h?dD(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=cZ(c,b,g),i=h?dE(c,b,f):h;if(i)var
 j=i;else{var
-k=dD(c,b,g);if(k)return cZ(c,b,f);var
+k=dE(c,b,g);if(k)return cZ(c,b,f);var
 j=k}return j;case
 7:var
-l=dD(c,b,a[1]);return l?cZ(c,b,a[2]):l;case
+l=dE(c,b,a[1]);return l?cZ(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=dD(c,b,a[1]);if(e){var
+e=dE(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
 9:return cZ(c,b,a[1]);default:return 1}}}function
-b9(c,e){var
+cb(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return _(u(a[1],c));case
+0:return $(u(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3270,19 +3317,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=b9(c,a[1]);if(d){var
+d=cb(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fH(d,b,m){var
+fL(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fH(d,b,a[1]);if(f){var
+f=fL(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fH(d,b,a[1]);return g?b9(b,a[2]):g;case
+g=fL(d,b,a[1]);return g?cb(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=b9(b,i);if(j){var
-k=b9(b,h);if(k)var
+h=a[2],i=a[1],j=cb(b,i);if(j){var
+k=cb(b,h);if(k)var
 e=k;else{var
 l=av(i,d);if(l){var
 c=h;continue}var
@@ -3291,11 +3338,11 @@ var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return b9(b,c)}}}function
-fI(c,e){var
+2:return 1;default:return cb(b,c)}}}function
+fM(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return cI(a[1],c);case
+0:return cl(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3303,79 +3350,79 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fI(c,a[1]);if(d){var
+d=fM(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fJ(a,b){if(a){var
+fN(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fJ(c,aI(d$,e,jx(d)))]:[0,qZ,fJ(c,e)]}var
-f=[0,d,fJ(c,0)]}else
+e=b[2];return b[1]?[0,d,fN(c,aI(ed,e,jC(d)))]:[0,q_,fN(c,e)]}var
+f=[0,d,fN(c,0)]}else
 var
 f=a;return f}function
-cx(b,a){return a?i(b,a[1]):a}function
-cy(c,b,a){return cx(function(b){return cx(i(c,b),a)},b)}function
-hr(b,a){switch(a[0]){case
+cy(b,a){return a?i(b,a[1]):a}function
+cz(c,b,a){return cy(function(b){return cy(i(c,b),a)},b)}function
+hu(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-hs(a){return 0===a[0]?a[1]:0}function
-bO(b,a){switch(a[0]){case
+hv(a){return 0===a[0]?a[1]:0}function
+bQ(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,bO(b,a[1])];default:var
-c=bO(b,a[3]),d=bO(b,a[2]);return[2,bO(b,a[1]),d,c]}}function
-a4(b,c,a){switch(c[0]){case
-0:return bO(i(b,c[1]),a);case
+1:return[1,bQ(b,a[1])];default:var
+c=bQ(b,a[3]),d=bQ(b,a[2]);return[2,bQ(b,a[1]),d,c]}}function
+a5(b,c,a){switch(c[0]){case
+0:return bQ(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bO(function(a){return ao(b,a,k)},d)];case
-1:return[1,a4(b,d,a[1])];default:var
-l=a4(b,d,a[3]),m=a4(b,d,a[2]);return[2,a4(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bQ(function(a){return ao(b,a,k)},d)];case
+1:return[1,a5(b,d,a[1])];default:var
+l=a5(b,d,a[3]),m=a5(b,d,a[2]);return[2,a5(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bO(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bQ(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=a4(b,e,j),s=a4(b,f,j);return[2,a4(b,g,j),s,r];default:var
-t=a4(b,e,a[3]),u=a4(b,f,a[2]);return[2,a4(b,g,a[1]),u,t]}}}function
-ht(c,f,a){if(a)var
+j=a[1],r=a5(b,e,j),s=a5(b,f,j);return[2,a5(b,g,j),s,r];default:var
+t=a5(b,e,a[3]),u=a5(b,f,a[2]);return[2,a5(b,g,a[1]),u,t]}}}function
+hw(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,$(c,a)];break;case
+e=[0,a,X(c,a)];break;case
 1:var
-g=y(c,a,b),e=[0,a9(G(a,b)),g];break;default:var
-e=[0,b,$(c,b)]}return[0,[0,i(f,e)]]},h=ht(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=x(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
+e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=hw(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hu(b,v,c,a){var
-e=ht(b,bX,a),d=0,x=f(ht(b,aF,a),e);return bJ(q1,function(a){switch(a[0]){case
-0:return t(a[1],x,[0,[0,A]]);case
-1:return[0,[0,t(a[1],v,A)]];case
+hx(b,v,c,a){var
+e=hw(b,bZ,a),d=0,y=f(hw(b,aH,a),e);return bM(ra,function(a){switch(a[0]){case
+0:return r(a[1],y,[0,[0,B]]);case
+1:return[0,[0,r(a[1],v,B)]];case
 2:return[0,[0,W(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,G(b,a)]};return a4(function(a,b){return cy(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,E(b,a)]};return a5(function(a,b){return cz(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,H(b,a)]};return a4(function(a,b){return cy(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,D(b,a)]};return a5(function(a,b){return cz(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ag(a)]};return bO(function(a){return cx(j,a)},i);case
+i=a[1],j=function(a){return[0,af(a)]};return bQ(function(a){return cy(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,y(b,c,a)]};return a4(function(a,b){return cy(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,x(b,c,a)]};return a5(function(a,b){return cz(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=ci(b,a);return w(function(a){return y(b,c,a)},d)};return a4(function(a,b){return cy(p,a,b)},o,n);case
+d=b3(b,a);return w(function(a){return x(b,c,a)},d)};return a5(function(a,b){return cz(p,a,b)},o,n);case
 8:var
-q=a[1],r=function(a){return[0,$(b,a)]};return bO(function(a){return cx(r,a)},q);case
+q=a[1],s=function(a){return[0,X(b,a)]};return bQ(function(a){return cy(s,a)},q);case
 9:var
-s=a[1],u=function(a){return cj(b,a)};return bO(function(a){return cx(u,a)},s);default:return q0}},c,d)}function
-hv(a){if(a){var
+t=a[1],u=function(a){return b4(b,a)};return bQ(function(a){return cy(u,a)},t);default:return q$}},c,d)}function
+hy(a){if(a){var
 b=a[1];if(b)var
-c=hv(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hy(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return q2}function
-dE(a){if(a){var
-g=a[1],b=g[2],c=hv(g[1]);if(c)if(b){var
-h=b[1],e=dE(a[2]);if(e)var
+d=b;return d}return rb}function
+dF(a){if(a){var
+g=a[1],b=g[2],c=hy(g[1]);if(c)if(b){var
+h=b[1],e=dF(a[2]);if(e)var
 i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
@@ -3383,160 +3430,181 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return q3}function
-dF(b,a){var
+f=c;return f}return rc}function
+dG(b,a){var
 c=a[3],d=w(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ar(b),f),e,d]}function
-k8(e,d,c,b){if(d){var
+lf(e,d,c,b){if(d){var
 j=d[1],a=function(a){var
-d=dF(function(b){return hr(a,b)},b);return k8(br(e),j,c,d)},f=a(0);if(f){var
+d=dG(function(b){return hu(a,b)},b);return lf(bv(e),j,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return i(c,dF(hs,b))}function
-k9(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return k9(m,e,l,a,dF(function(a){return hr(b,a)},d))},h=c(0,aE(b,g));if(h){var
-i=c(2,z(b,g));if(i)return c(1,b);var
+h=f;return h}return i(c,dG(hv,b))}function
+lg(f,e,a,b,d){if(f){if(a){var
+g=a[1],l=a[2],m=f[1],c=function(b,a){return lg(m,e,l,a,dG(function(a){return hu(b,a)},d))},h=c(0,aG(b,g));if(h){var
+i=c(2,A(b,g));if(i)return c(1,b);var
 j=i}else
 var
 j=h;var
 k=j}else
 var
-k=a;return k}return a?0:ao(e,b,dF(hs,d))}function
+k=a;return k}return a?0:ao(e,b,dG(hv,d))}function
 c0(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a8(f,e,a)},d)}return[0,A]}function
-k_(k,e,j,i,h,a){var
-b=dE(a[1]);if(b){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a_(f,e,a)},d)}return[0,B]}function
+lh(k,e,j,i,h,a){var
+b=dF(a[1]);if(b){var
 c=a[2];if(c){var
 d=c0(a[3]);if(d){var
-l=d[1],m=aG([0,H(ag(y(k,h,c[1])),l),0],e);return bw(e,fk(j,i,b[1],m))}var
+l=d[1],m=aA([0,D(af(x(k,h,c[1])),l),0],e);return bi(e,fn(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
 g=f}else
 var
 g=b;return g}function
-k$(d,h,g,c){var
-a=dE(c[1]);if(a){var
+li(d,h,g,c){var
+a=dF(c[1]);if(a){var
 b=c0(c[3]);if(b){var
-i=aG([0,H(A,b[1]),0],d),j=a[1];return bw(d,fk(h,g,e(function(a){return[0,a[1],A]},j),i))}var
+i=aA([0,D(B,b[1]),0],d),j=a[1];return bi(d,fn(h,g,e(function(a){return[0,a[1],B]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-la(E,b,D,g){var
-i=dE(g[1]);if(i){var
-j=g[2];if(j){var
+lj(F,b,E,g){var
+h=dF(g[1]);if(h){var
+i=g[2];if(i){var
 k=c0(g[3]);if(k){var
-F=k[1],c=H(y(E,D,j[1]),F),a=i[1];if(a){var
+G=k[1],c=D(x(F,E,i[1]),G),a=h[1];if(a){var
 l=a[1],m=l[2];if(a[2]){var
-e=fl(a,aG([0,c,0],b));if(e){var
-n=e[1],o=u(h(n),b);if(o)return ds(n);var
+e=fo(a,aA([0,c,0],b));if(e){var
+n=e[1],o=u(j(n),b);if(o)return dt(n);var
 p=o}else
 var
 p=e;return p}var
 q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
-B=x(c[1],m[1]),C=l[1];return L(aI(function(a,b){var
-c=cM(a);return z(x(cM(a),c),b)},d,C),B)}return r}var
-f=fl(a,aG([0,c,0],b));if(f){var
-s=f[1],t=u(h(s),b);if(t)return ds(s);var
+B=y(c[1],m[1]),C=l[1];return L(aI(function(a,b){var
+c=cM(a);return A(y(cM(a),c),b)},d,C),B)}return r}var
+f=fo(a,aA([0,c,0],b));if(f){var
+s=f[1],t=u(j(s),b);if(t)return dt(s);var
 v=t}else
 var
 v=f;return v}var
 w=k}else
 var
-w=j;var
-A=w}else
+w=i;var
+z=w}else
 var
-A=i;return A}function
-q4(c){var
+z=h;return z}function
+rd(c){var
 a=c[2];if(a){var
-b=c0(c[3]);if(b)return F(d,H(a[1],b[1])[1]);var
+b=c0(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lb(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-lc(a,c,b){var
-e=t(b,c,l(d)),f=aK(0,a);return n(function(b){return dD(a,b,e)},f)}function
-es(a){var
-b=K(a);return C(l(c),b)}function
-fK(i,g){var
-h=es(g),j=K(g),e=s(l(c),j),f=q(l(b(2,c)),g),a=l(d);return i?i[1]?[0,[0,e,bd(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bd(f),a,e]]:[0,[0,h,a,a],[0,a,e,bd(f)],[0,a,f,e]]}function
-et(b,a){var
-c=X(b[3],a),d=X(b[2],a);return[0,X(b[1],a),d,c]}function
-ld(b,a){function
+lk(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+ll(a,c,b){var
+e=r(b,c,h(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
+ew(a){var
+b=I(a);return z(h(c),b)}function
+fO(j,g){var
+i=ew(g),k=I(g),e=t(h(c),k),f=q(h(b(2,c)),g),a=h(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,i]]:[0,[0,e,a,f],[0,a,i,a],[0,bf(f),a,e]]:[0,[0,i,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
+ex(b,a){var
+c=Q(b[3],a),d=Q(b[2],a);return[0,Q(b[1],a),d,c]}function
+lm(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=X(a,c(function(a){return a[3]})),d=X(a,c(function(a){return a[2]}));return[0,X(a,c(function(a){return a[1]})),d,b]}var
+b=Q(a,c(function(a){return a[3]})),d=Q(a,c(function(a){return a[2]}));return[0,Q(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-le(w,v){function
-a(a){return[0,[0,M(v,a)]]}switch(w[0]){case
+ln(w,v){function
+a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=es(a(0));return[0,fK(q5,a(0)),x];case
+x=ew(a(0));return[0,fO(re,a(0)),x];case
 1:var
-y=es(a(0)),z=q(es(a(q6)),y),A=q(es(a(q7)),z),B=fK(0,a(0)),D=ld(fK(q9,a(q8)),B);return[0,ld(fK(q$,a(q_)),D),A];default:var
-E=a(ra),F=a(rb),g=[0,a(0),F,E],G=X(g,g),H=C(l(c),G),j=X(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=K(a),e=q(l(b(2,c)),d);return C(s(l(c),j),e)},h=function(f,e,d,a){var
-g=ao(f,q(e,d),a);return q(l(b(2,c)),g)},k=i(f),m=h(C,e,f,d),n=[0,h(s,d,f,e),m,k],o=h(s,e,f,d),p=i(e),r=[0,h(C,d,e,f),p,o],t=h(C,d,f,e),u=h(s,d,e,f);return[0,[0,[0,i(d),u,t],r,n],H]}}function
-lf(a){return 1<a[0]?[0,a[1],0]:0}function
-fL(a){switch(a[0]){case
+y=ew(a(0)),A=q(ew(a(rf)),y),B=q(ew(a(rg)),A),C=fO(0,a(0)),D=lm(fO(ri,a(rh)),C);return[0,lm(fO(rk,a(rj)),D),B];default:var
+E=a(rl),F=a(rm),g=[0,a(0),F,E],G=Q(g,g),H=z(h(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
+d=I(a),e=q(h(b(2,c)),d);return z(t(h(c),k),e)},i=function(f,e,d,a){var
+g=ao(f,q(e,d),a);return q(h(b(2,c)),g)},l=j(f),m=i(z,e,f,d),n=[0,i(t,d,f,e),m,l],o=i(t,e,f,d),p=j(e),r=[0,i(z,d,e,f),p,o],s=i(z,d,f,e),u=i(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
+lo(a){return 1<a[0]?[0,a[1],0]:0}function
+fP(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cY(a[1]),0];default:var
 b=[0,cY(a[2]),0];return[0,cY(a[1]),b]}}function
-dG(a){return[0,[0,a[1]],[0,a[2]]]}function
-lg(a){switch(a[0]){case
-0:return[0,dG(a[1]),0];case
+dH(a){return[0,[0,a[1]],[0,a[2]]]}function
+lp(a){switch(a[0]){case
+0:return[0,dH(a[1]),0];case
 1:var
-f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
+f=[0,dH(a[3]),0],g=[0,dH(a[2]),f];return[0,dH(a[1]),g];case
 2:var
-b=dG(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}function
-lh(a,b){if(0===b[0])return dC(a,b[1]);var
-d=dC(a,b[1]);if(d){var
-e=dC(a,b[2]);if(e){var
-g=$(a,e[1]),h=cj(a,G(W(a,c),g)),i=d[1];return w(function(b){return y(a,i,b)},h)}var
+b=dH(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dH(cY(c)),0]]]}}function
+lq(a,b){if(0===b[0])return dD(a,b[1]);var
+d=dD(a,b[1]);if(d){var
+e=dD(a,b[2]);if(e){var
+g=X(a,e[1]),h=b4(a,E(W(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-li(d,c){var
-a=lh(d,c[1]);if(a)var
-b=lh(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lr(d,c){var
+a=lq(d,c[1]);if(a)var
+b=lq(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-bz(e,j){var
-a=j[1];switch(a[0]){case
+ls(c,g,f){var
+e=f[1];if(1===e[0]){var
+i=e[1];if(cl(i,c))return f;var
+a=i,b=c,j=h(d);for(;;){if(a&&b){var
+a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bL(function(a){return ls(c,g,a)},e)]}function
+hz(g,a,n,f,c){var
+i=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=ku(i,c),k=bz(f),b=e(function(b){return ls(a,k,b)},j),l=r(rr,b,h(d)),m=r(rs,b,h(d));return[0,r(0,b,h(d)),m,l]}function
+dI(b,a){var
+c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
+c1(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+lt(b){function
+a(a){var
+e=u(b,a)?c:d;return h(e)}var
+e=a(rt),f=a(ru);return[0,a(0),f,e]}function
+lu(b,a){if(a)var
+d=lu(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+var
+c=a;return c}function
+hA(c,b,a){switch(c){case
+0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
+1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
+bC(e,k){var
+a=k[1];switch(a[0]){case
 1:var
-k=u(a[1],e)?c:d;return l(k);case
+l=u(a[1],e)?c:d;return h(l);case
 3:var
-m=bz(e,a[2]);return C(bz(e,a[1]),m);case
+m=bC(e,a[2]);return z(bC(e,a[1]),m);case
 4:var
-n=bz(e,a[2]);return s(bz(e,a[1]),n);case
-5:return bd(bz(e,a[1]));case
+n=bC(e,a[2]);return t(bC(e,a[1]),n);case
+5:return bf(bC(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=q(h,bz(e,g));return C(q(g,bz(e,h)),o);case
+g=a[2],i=a[1],o=q(i,bC(e,g));return z(q(g,bC(e,i)),o);case
 7:var
-f=bz(e,a[1]);return aN(d,f)?f:am(f,a[2]);case
+f=bC(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
 8:var
-i=a[1],p=bz(e,i);return q(q(l(b(2,c)),i),p);default:return l(d)}}function
-hw(c,b,k){var
+j=a[1],p=bC(e,j);return q(q(h(b(2,c)),j),p);default:return h(d)}}function
+hB(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hw(c,b,a[1]);if(g){var
+g=hB(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=L(d,t(i,c,A)[1]);return j?_(ai(function(a){return u(i,a)},b)):j}return 0}return g;case
+i=h[1],j=L(d,r(i,c,B)[1]);return j?$(ak(function(a){return u(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-0:case
-1:case
-2:return 1;default:var
-f=hw(c,b,a[1]);if(f){var
-e=a[2];continue}return f}}}function
-lj(d){var
+3:case
+4:case
+6:var
+f=hB(c,b,a[1]);if(f){var
+e=a[2];continue}return f;default:return 1}}}function
+lv(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3547,76 +3615,76 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lj(a[1]);if(c){var
+c=lv(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-lk(c,b,a){var
+lw(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-hx(b,a,c){return e(function(c){var
-d=lk(b,a,c[2]),f=c[1];return[0,e(function(c){return lk(b,a,c)},f),d]},c)}function
-ll(b,a){return w(function(a){var
+hC(b,a,c){return e(function(c){var
+d=lw(b,a,c[2]),f=c[1];return[0,e(function(c){return lw(b,a,c)},f),d]},c)}function
+lx(b,a){return w(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-lm(a,b){var
-c=ll(a,b[3]),d=i(a,b[2]);return[0,hx(a,a,b[1]),d,c]}function
-ln(e,d,c,b){if(d){var
+ly(a,b){var
+c=lx(a,b[3]),d=i(a,b[2]);return[0,hC(a,a,b[1]),d,c]}function
+lz(e,d,c,b){if(d){var
 j=d[1],a=function(a){var
-d=lm(function(b){return hr(a,b)},b);return ln(br(e),j,c,d)},f=a(0);if(f){var
+d=ly(function(b){return hu(a,b)},b);return lz(bv(e),j,c,d)},f=a(0);if(f){var
 g=a(2);if(g)return e?1:a(1);var
 h=g}else
 var
-h=f;return h}return i(c,lm(hs,b))}function
-lo(c){var
+h=f;return h}return i(c,ly(hv,b))}function
+lA(c){var
 a=c[1];if(a){var
-b=hv(c[2]);if(b)var
-g=e(ad,b[1]),d=[0,[0,ad(a[1]),g]];else
+b=hy(c[2]);if(b)var
+g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-rg(c){var
-a=ae(e(lo,c[1]));if(a)var
-b=lo(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+rF(c){var
+a=ac(e(lA,c[1]));if(a)var
+b=lA(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-rh(a){return _(g4([0,a[2],a[1]]))}function
-hy(a){return[0,a[1],a[2]]}function
-lp(b,c,a){var
-d=e(function(c){return ba(b,bz(c,a))},c);return[0,ba(b,a),d]}function
-hz(b,e,a,d){var
+rG(a){return $(g6([0,a[2],a[1]]))}function
+hD(a){return[0,a[1],a[2]]}function
+lB(b,c,a){var
+d=e(function(c){return bc(b,bC(c,a))},c);return[0,bc(b,a),d]}function
+hE(b,e,a,d){var
 c=v(function(a){var
-b=hy(a[2]);return f(v(hy,a[1]),b)},d),g=a?[0,ba(b,a[1]),0]:a,h=f(g,c);return[0,ba(b,e),h]}function
-lq(c,f,b,a){var
-d=hw(f,b,a),e=d?fI(c,a):d;return e?n(function(b){return fI(c,bz(b,a))},b):e}function
-lr(a){switch(a[0]){case
+b=hD(a[2]);return f(v(hD,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
+lC(c,f,b,a){var
+d=hB(f,b,a),e=d?fM(c,a):d;return e?n(function(b){return fM(c,bC(b,a))},b):e}function
+lD(a){switch(a[0]){case
 3:var
-c=lb(a[2]);return[0,a[3],c];case
+c=lk(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=lb(a[1]);return[0,a[2],b]}}function
-ls(f,s,e,r,q,b,a){switch(b[0]){case
+b=lk(a[1]);return[0,a[2],b]}}function
+lE(f,t,e,s,q,b,a){switch(b[0]){case
 0:var
-v=b[4],o=b[3],w=b[2],x=b[1],p=0;if(typeof
+v=b[4],o=b[3],w=b[2],y=b[1],p=0;if(typeof
 a==="number")p=1;else
 switch(a[0]){case
 0:var
-P=a[2],Q=a[1],k=w,j=x,i=function(a){return k_(f,e,Q,P,o,a)},g=v;break;case
+P=a[2],Q=a[1],k=w,i=y,h=function(a){return lh(f,e,Q,P,o,a)},g=v;break;case
 2:var
-z=Z(o[1],d),A=z?Z(o[2],d):z;if(!A)return A;var
-S=a[2],T=a[1],k=w,j=x,i=function(a){return k$(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
+z=_(o[1],d),A=z?_(o[2],d):z;if(!A)return A;var
+S=a[2],T=a[1],k=w,i=y,h=function(a){return li(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
 1:var
-F=0;if(typeof
+H=0;if(typeof
 a==="number"&&!a)var
-U=b[2],V=b[1],X=b[3],k=U,j=V,Y=0,i=function(a){return la(f,e,X,a)},g=Y;else
-F=1;if(F)return 0;break;case
+U=b[2],V=b[1],X=b[3],k=U,i=V,Y=0,h=function(a){return lj(f,e,X,a)},g=Y;else
+H=1;if(H)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 l=a[3];if(l){var
-_=[0,b[1],b[2],q],$=dF(function(a){return t(a,r,rk)},_),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return k9(s,function(v,j){var
-a=dE(j[1]);if(a){var
+Z=[0,b[1],b[2],q],$=dG(function(a){return r(a,s,rJ)},Z),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return lg(t,function(v,j){var
+a=dF(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
 g=c0(j[3]);if(g){var
-l=g[1],m=function(a){return a8(a,B,W(f,c))},t=m(v),u=b[1],h=G(y(f,m(ab),u),t),n=L(d,h[1]),o=n?bw(e,fk(B,ac,k,aG([0,H(ag(h),l),0],e))):n;if(o){var
-i=fl(k,aG([0,H(y(f,ad,h),l),0],e));if(i)return bw(e,i[1]);var
+l=g[1],m=function(a){return a_(a,B,W(f,c))},t=m(v),u=b[1],h=E(x(f,m(ab),u),t),n=L(d,h[1]),o=n?bi(e,fn(B,ac,k,aA([0,D(af(h),l),0],e))):n;if(o){var
+i=fo(k,aA([0,D(x(f,ad,h),l),0],e));if(i)return bi(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3633,13 +3701,13 @@ s=a;return s},aa,d,$)}return l}return 0;case
 I=0;if(typeof
 a==="number"||!(0===a[0]))I=1;else
 var
-C=a[2],D=a[1],ae=b[3],af=b[2],ah=b[4],ai=b[1],aj=function(g){var
-a=dE(g[1]);if(a){var
+C=a[2],F=a[1],ae=b[3],ag=b[2],ah=b[4],ai=b[1],aj=function(g){var
+a=dF(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-i=u(h(b),e),j=i?u(h(C),e):i;if(j){var
-n=eh(D,ei(D,C,c[1],b));return bw(e,cq(fo(f,ai,ah,d[1],b),n))}var
-k=j}else
+h=u(j(b),e),i=h?u(j(C),e):h;if(i){var
+n=el(F,em(F,C,c[1],b));return bi(e,b9(fs(f,ai,ah,d[1],b),n))}var
+k=i}else
 var
 k=d;var
 l=k}else
@@ -3647,547 +3715,584 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=ae,j=af,i=aj,g=b[5];if(I)return 0;break;case
+m=a;return m},k=ae,i=ag,h=aj,g=b[5];if(I)return 0;break;case
 4:var
 J=0;if(typeof
 a==="number"&&!a)var
-k=b[1],j=0,i=q4,g=0;else
+k=b[1],i=0,h=rd,g=0;else
 J=1;if(J)return 0;break;case
 5:var
 K=0;if(typeof
 a==="number"||!(0===a[0]))K=1;else{var
 m=a[2],M=0;if(m){var
 n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-ak=b[2],al=b[1],am=W(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,j=al,ap=0,i=function(a){return k_(f,rl,ao,an,am,a)},g=ap;M=1}else
+ak=b[2],al=b[1],am=W(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,i=al,ap=0,h=function(a){return lh(f,rK,ao,an,am,a)},g=ap;M=1}else
 var
-E=n}else
+G=n}else
 var
-E=m;if(!M)return E}if(K)return 0;break;case
+G=m;if(!M)return G}if(K)return 0;break;case
 6:var
 N=0;if(typeof
 a==="number"&&!a)var
-aq=b[2],ar=b[1],as=W(f,c),k=aq,j=ar,at=0,i=function(a){return la(f,rm,as,a)},g=at;else
+aq=b[2],ar=b[1],as=W(f,c),k=aq,i=ar,at=0,h=function(a){return lj(f,rL,as,a)},g=at;else
 N=1;if(N)return 0;break;case
 7:var
 O=0;if(typeof
 a==="number"&&5<=a)var
-au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,j=av,ay=0,i=function(a){return k$(e,ax,aw,a)},g=ay;else
+au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,i=av,ay=0,h=function(a){return li(e,ax,aw,a)},g=ay;else
 O=1;if(O)return 0;break;default:return 0}var
-R=[0,j,k,q];return k8(g,s,i,dF(function(a){return t(a,r,rj)},R))}function
-rn(b,a){var
-c=gQ(gM,b[1],a[1]);return c?gM(b[2],a[2]):c}function
-lt(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
-e==="number"){if(0===e)return 8===a[0]?ft(h,0,0,0,n,g,0,a[1],e):0}else
+R=[0,i,k,q];return lf(g,t,h,dG(function(a){return r(a,s,rI)},R))}function
+rM(b,a){var
+c=gT(gP,b[1],a[1]);return c?gP(b[2],a[2]):c}function
+lF(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
+e==="number"){if(0===e)return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
-q=f[3],r=f[2],s=F(d,r);if(s)var
-k=i1(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
+q=f[3],r=f[2],s=H(d,r);if(s)var
+k=i7(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
 var
-j=s;if(j)return ls(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
+j=s;if(j)return lE(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
 t=j}else
 var
-t=i;return t}return ls(h,g,p,o,0,a,f);case
-8:return 8===a[0]?ft(h,0,0,0,n,g,0,a[1],e):0;case
+t=i;return t}return lE(h,g,p,o,0,a,f);case
+8:return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gQ(rn,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?DM(y,x,a[3],a[4],e):v}return 0}return 0}function
-lu(b){var
+l=gT(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?Ea(y,x,a[3],a[4],e):v}return 0}return 0}function
+lG(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-ro(c){var
+rN(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-lv(b,s,ak,r,q,S,Q,c,P,O,N,i,k,aj){var
-T=ai(ro,k),U=T?ke(b,ak,r,i):T,V=ai(lu,k);if(V)var
-ae=v(function(b){var
-c=lu(b);if(c){var
-a=R(q,b[1]);if(a)return lr(a[1]);var
+lH(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
+U=ak(rN,i),V=U?kl(b,T,s,jD(v(function(b){var
+a=M(l,b[1]);if(a){var
+c=a[1];return 8===c[0]?kr(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lG,i);if(Y)var
+ag=v(function(b){var
+c=lG(b);if(c){var
+a=M(l,b[1]);if(a)return lD(a[1]);var
 d=a}else
 var
-d=c;return d},k),af=c?[0,c[1],0]:c,ah=f(af,ae),Y=0,Z=aI(d$,e(function(a){return 0},s),ah),u=hu(b,r,d7(fJ(d7(s,0),Z),Y),i);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ed,e(function(a){return 0},t),ai),u=hx(b,s,d_(fN(d_(t,0),$),_),j);else
 var
-u=V;var
-h=k,a=aj;for(;;){if(h){var
-B=h[1],j=B[2],g=B[1],m=h[2];if(g){var
-C=t(g,a,0);if(C){var
-n=R(q,g);if(n){var
-D=lt(b,S,Q,c,P,O,N,i,u,U,n[1],j);if(D){var
-h=m,a=fu(g,a);continue}var
-E=D}else
+u=Y;var
+h=i,a=aj;for(;;){if(h){var
+A=h[1],k=A[2],g=A[1],n=h[2];if(g){var
+C=r(g,a,0);if(C){var
+o=M(l,g);if(o){var
+F=lF(b,S,R,c,Q,P,O,j,u,V,o[1],k);if(F){var
+h=n,a=fy(g,a);continue}var
+G=F}else
 var
-E=n;var
-F=E}else
+G=o;var
+H=G}else
 var
-F=C;return F}if(typeof
-j==="number"&&4===j){var
-X=0;if(c){var
-ad=0,x=e(function(a){return[0,a,$(b,a)]},i),aa=e(bX,x),_=0,ab=f(e(aF,x),aa),ac=bJ(0,function(n){return function(a){switch(a[0]){case
-0:return[0,t(a[1],n,A)];case
-1:return[0,t(a[1],r,A)];case
+H=C;return H}if(typeof
+k==="number"&&4===k){var
+Z=0;if(c){var
+ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(bZ,y),aa=0,ac=f(e(aH,y),ab),ad=bM(0,function(n){return function(a){switch(a[0]){case
+0:return[0,r(a[1],n,B)];case
+1:return[0,r(a[1],s,B)];case
 2:return[0,W(b,a[1])];case
 3:var
-c=a[2],d=a[1];return cy(function(b,a){return[0,G(b,a)]},d,c);case
+c=a[2],d=a[1];return cz(function(b,a){return[0,E(b,a)]},d,c);case
 4:var
-e=a[2],f=a[1];return cy(function(b,a){return[0,H(b,a)]},f,e);case
+e=a[2],f=a[1];return cz(function(b,a){return[0,D(b,a)]},f,e);case
 5:var
-g=a[1];return cx(function(a){return[0,ag(a)]},g);case
+g=a[1];return cy(function(a){return[0,af(a)]},g);case
 6:var
-h=a[2],i=a[1];return cy(function(c,a){return[0,y(b,c,a)]},i,h);case
+h=a[2],i=a[1];return cz(function(c,a){return[0,x(b,c,a)]},i,h);case
 7:var
-j=a[2],k=a[1];return cy(function(c,a){var
-d=ci(b,a);return w(function(a){return y(b,c,a)},d)},k,j);case
+j=a[2],k=a[1];return cz(function(c,a){var
+d=b3(b,a);return w(function(a){return x(b,c,a)},d)},k,j);case
 8:var
-l=a[1];return cx(function(a){return[0,$(b,a)]},l);case
+l=a[1];return cy(function(a){return[0,X(b,a)]},l);case
 9:var
-m=a[1];return cx(function(a){return cj(b,a)},m);default:return 0}}}(ab),s,_),l=t(c[1],ac,ad);if(l){var
-o=L(l[1][2],d);X=1}else
+m=a[1];return cy(function(a){return b4(b,a)},m);default:return 0}}}(ac),t,aa),m=r(c[1],ad,ae);if(m){var
+p=L(m[1][2],d);Z=1}else
 var
-z=l}else
+z=m}else
 var
-z=c;if(!X)var
-o=z;if(o){var
-h=m,a=e(function(a){return 0},a);continue}return o}var
-I=t(g,a,0);if(I){var
-p=R(q,g);if(p){var
-J=lt(b,S,Q,c,P,O,N,i,u,U,p[1],j);if(J){var
-h=m,a=fu(g,a);continue}var
+z=c;if(!Z)var
+p=z;if(p){var
+h=n,a=e(function(a){return 0},a);continue}return p}var
+I=r(g,a,0);if(I){var
+q=M(l,g);if(q){var
+J=lF(b,S,R,c,Q,P,O,j,u,V,q[1],k);if(J){var
+h=n,a=fy(g,a);continue}var
 K=J}else
 var
-K=p;var
-M=K}else
+K=q;var
+N=K}else
 var
-M=I;return M}return[0,a]}}function
-lw(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+N=I;return N}return[0,a]}}function
+lI(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=lv(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(_,p[1]):p}var
-q=lv(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=eg(a[2],b),t=lw(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
+q=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=ek(a[2],b),t=lI(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
-fM(b,a){var
-c=q(b[2],a[1]),d=s(q(b[1],a[2]),c),e=q(b[1],a[3]),f=s(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,s(q(b[2],a[3]),g),f,d]}function
-hA(d,a){var
-e=K(a),f=q(q(l(b(2,c)),a),d);return C(s(K(d),f),e)}function
-lx(c,b,a){switch(c){case
-0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
-1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-eu(a){switch(a){case
-0:return[0,rq,rp,l(d)];case
+hF(d,a){var
+e=I(a),f=q(q(h(b(2,c)),a),d);return z(t(I(d),f),e)}function
+dJ(a){switch(a){case
+0:return[0,rP,rO,h(d)];case
 1:return cP;default:var
-b=l(d),c=l(d);return[0,l(d),c,b]}}function
-fN(a){switch(a){case
-0:return rr;case
-1:return rs;default:return 0}}function
-hB(k,a,d,j,c,h){var
-e=ak(s,eu(k),j);if(h){var
+b=h(d),c=h(d);return[0,h(d),c,b]}}function
+fQ(a){switch(a){case
+0:return rQ;case
+1:return rR;default:return 0}}function
+hG(k,a,d,j,c,h){var
+e=ah(t,dJ(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=et([0,b(function(a){return a[1]}),g,f],e);return ak(C,aY(d,c),l)}var
-m=et(a,c);return ak(C,aY(d,e),m)}function
-ly(f,h,g,k,a,d){var
-e=eu(f),i=ak(s,e,a),j=et(h,d),m=hA(e[3],a[3]),n=hA(e[2],a[2]),o=hA(e[1],a[1]),p=C(C(C(X(d,d),o),n),m),r=X(j,i),t=q(l(b(2,c)),r),u=C(q(g,p),t),v=cr(fM(j,i),k);return[0,lx(f,hB(f,h,g,a,d,0),v),u]}function
-lz(c,b,a){return cr(et(c,a),b)}function
-lA(d,c,b,a){var
-e=lz(c,b,a);return ak(C,eu(d),e)}function
-fO(b,a){var
-c=aP(a[2],b);return f(aP(a[1],b),c)}function
-hC(d,b,a,c){if(a)var
-e=a[1],f=b7(c,fO(b,e)),i=M(c,h(fO(b,e))),j=hC(d,b,a[2],i),k=ab(f,rt),g=[0,ao(d,ab(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ex([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
+m=ex(a,c);return ah(z,aZ(d,e),m)}function
+lJ(f,i,g,l,a,d){var
+e=dJ(f),j=ah(t,e,a),k=ex(i,d),m=hF(e[3],a[3]),n=hF(e[2],a[2]),o=hF(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(h(b(2,c)),r),u=z(q(g,p),s),v=ba(dI(k,j),l);return[0,hA(f,hG(f,i,g,a,d,0),v),u]}function
+hH(c,b,a){return ba(ex(c,a),b)}function
+lK(d,c,b,a){var
+e=hH(c,b,a);return ah(z,dJ(d),e)}function
+lL(g,f,e,d,c){var
+b=lK(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],aw(Q(a,a))]}function
+fR(b,a){var
+c=aQ(a[2],b);return f(aQ(a[1],b),c)}function
+hI(d,b,a,c){if(a)var
+e=a[1],f=b$(c,fR(b,e)),h=N(c,j(fR(b,e))),i=hI(d,b,a[2],h),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),i];else
 var
 g=a;return g}function
-hD(f,o,e,n,a){var
-h=q(K(t(0,n,l(d))),o);if(typeof
+hJ(f,o,e,n,a){var
+i=q(I(r(0,n,h(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=R(e,a[1]);if(b)var
-i=g(f,0,a[2]),j=i?[0,s(b[1][1][2],h)]:i;else
+b=M(e,a[1]);if(b)var
+j=g(f,0,a[2]),k=j?[0,t(b[1][1][2],i)]:j;else
 var
-j=b;return j;case
+k=b;return k;case
 3:var
-c=R(e,a[1]);if(c)var
-k=g(f,0,a[2]),m=k?[0,s(h,c[1][1][2])]:k;else
+c=M(e,a[1]);if(c)var
+l=g(f,0,a[2]),m=l?[0,t(i,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-lB(a){var
+lM(a){var
 b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
-b=t(0,c,l(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-lC(c,b,a){if(typeof
+b=r(0,c,h(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
+lN(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=R(c,a[1]);return w(function(a){var
-c=t(0,b,l(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ev(a){return g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],a])}function
-lD(a){var
-b=ab(a,ru),c=az(X(ab(a,rv),b));return q(t(0,a,l(d)),c)}function
-lE(b,a){var
-c=X(a,ab(b,rw));return[0,bL(aY(lD(b),a)),c]}function
-lF(e,d,a,c,b){var
-f=b[2],g=q(lD(a),f),h=c?lz(e,d,ab(a,rx)):ab(a,ry);return s(X(b[1][2],h),g)}function
-lG(h,g,f,d,c,b,a){var
-i=bb(c);function
-j(a){return lA(h,g,f,a)}return kp(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lH(a){var
-b=a[3],c=a[2],d=a[1];return fD([0,[0,d,d],[0,c,c],[0,b,b]])}function
-rB(a){if(typeof
+e=M(c,a[1]);return w(function(a){var
+c=r(0,b,h(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+ey(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
+lO(a){var
+b=ab(a,rT),c=aw(Q(ab(a,rU),b));return q(r(0,a,h(d)),c)}function
+lP(b,a){var
+c=Q(a,ab(b,rV));return[0,bz(aZ(lO(b),a)),c]}function
+lQ(e,d,a,c,b){var
+f=b[2],g=q(lO(a),f),h=c?hH(e,d,ab(a,rW)):ab(a,rX);return t(Q(b[1][2],h),g)}function
+lR(h,g,f,d,c,b,a){var
+i=bd(c);function
+j(a){return lK(h,g,f,a)}return ky(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lS(a){var
+b=a[3],c=a[2],d=a[1];return fH([0,[0,d,d],[0,c,c],[0,b,b]])}function
+r2(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lI(b,a){switch(b){case
+lT(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fP(a){var
-b=b5(a[1],[0,d,c]);return b?b5(a[2],[0,d,c]):b}function
-hE(d,a){switch(d){case
-0:return fP(a[3]);case
+fS(a){var
+b=b8(a[1],[0,d,c]);return b?b8(a[2],[0,d,c]):b}function
+hK(d,a){switch(d){case
+0:return fS(a[3]);case
 1:return 1;default:var
-b=fP(a[1]),c=b?fP(a[2]):b;return c?fP(a[3]):c}}function
-lJ(c,b){var
-a=v(function(a){return fO(c,a)},b),d=aJ(aK(0,h(a)),a);return e(aF,bc(function(a){return fz(a[2])},d))}function
-lK(b){var
+b=fS(a[1]),c=b?fS(a[2]):b;return c?fS(a[3]):c}}function
+lU(c,b){var
+a=v(function(a){return fR(c,a)},b),d=aK(aL(0,j(a)),a);return e(aH,be(function(a){return fD(a[2])},d))}function
+lV(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-lL(c){var
-a=c;for(;;){if(0===a[0])return ai(lK,a[1]);var
-d=ai(lK,a[1]),b=d||lL(a[3]);if(b)return b;var
+lW(c){var
+a=c;for(;;){if(0===a[0])return ak(lV,a[1]);var
+d=ak(lV,a[1]),b=d||lW(a[3]);if(b)return b;var
 a=a[4];continue}}function
-rC(j,aQ,bE,r,D,aP){var
-z=r[1],a=cw(z),P=r[6],bF=r[2],U=v(function(a){return fO(D,a)},bF),aR=r[3],al=[0,[0,aR,aR],D],V=[0,h(U)],bG=0,aS=v(function(a){return eo(bG,D,a)},P),bH=fN(z),aT=le(r[5],bH),m=aT[2],E=aT[1],bJ=r[2],aU=cu(al,h(U)),bI=0,x=hC(function(b,a){var
-f=lA(z,E,m,a),e=ak(s,f,b),j=[0,[0,f,e],az(X(e,e))];function
-k(c){return hB(z,E,m,b,a,c)}var
-g=2<=z?d:c;function
-h(b){var
-c=K(aU),d=l(g),e=q(s(K(b),d),c);return q(m,s(X(a,a),e))}var
-i=[0,X(hB(z,E,m,b,a,1),a),h];return[0,ly(z,E,m,aU,b,a),i,k,j]},D,bJ,bI),O=e(function(a){return a[1]},x),bK=M(V,h(aS)),bM=fN(z),bN=r[5];function
-N(a){return[0,[0,M(bM,a)]]}var
-aD=K([0,[1,bK]]);switch(bN[0]){case
+r3(a,aU,bI,y,E,aT){var
+s=y[1],k=cx(s),U=y[6],bJ=y[2],V=v(function(a){return fR(E,a)},bJ),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,j(V)],bK=0,aW=v(function(a){return es(bK,E,a)},U),bL=fQ(s),aY=ln(y[5],bL),l=aY[2],F=aY[1],bN=y[2],S=j(V),J=cv(ap,j(V)),bM=0,A=hI(function(e,a){function
+j(Y){var
+w=lL(s,F,l,e,a),x=w[1],W=ah(t,dJ(s),e),y=w[2],p=x[1],X=x[2],g=hH(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(h(T),R);function
+i(a){return[0,lt(a),0]}function
+f(a){return[0,ba(dI(lt(a),g),J),[0,a]]}switch(s){case
+0:var
+C=[0,f(rv),0],D=[0,i(rw),C],o=[0,i(0),D];break;case
+1:var
+E=[0,f(rx),0],G=[0,f(ry),E],H=[0,f(0),G],K=[0,i(rz),H],L=[0,i(rA),K],o=[0,i(0),L];break;default:var
+M=[0,f(rB),0],N=[0,f(rC),M],o=[0,f(0),N]}var
+k=ah(t,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=ba(k,aw(Q(k,k)));if(s)var
+n=hz(s,S,e,p,m[3]);else
+var
+A=h(d),B=h(d),n=[0,h(d),B,A];var
+r=hz(s,S,e,p,m[2]),v=hz(s,S,e,p,m[1]),V=lu(function(s,w){var
+e=w[1];function
+a(b,a){var
+c=e[3],f=c1(a,n),g=q(z(b[3],f),c),i=e[2],j=c1(a,r),k=q(z(b[2],j),i),l=e[1],m=c1(a,v),o=q(z(b[1],m),l);return z(z(z(h(d),o),k),g)}var
+x=a(n,rD),y=a(r,rE),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
+i=l[1],m=w[2];if(m){var
+k=m[1],B=c1(i,g),C=q(c1(k,j),B),D=c1(k,g),o=z(q(c1(i,j),D),C),E=I(J);if(u(i,k))var
+F=Q(j,g),p=t(o,q(h(b(2,c)),F));else
+var
+p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hA(s,j,ba(dI(g,ba(W,y)),J)),V,U,O]}var
+k=lL(s,F,l,e,a);function
+m(b){return hG(s,F,l,e,a,b)}var
+f=2<=s?d:c;function
+g(b){var
+c=I(J),d=h(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
+i=[0,Q(hG(s,F,l,e,a,1),a),g];return[0,lJ(s,F,l,J,e,a),i,m,k,j]},E,bN,bM),T=e(function(a){return a[1]},A),bO=N(aa,j(aW)),bP=fQ(s),bQ=y[5];function
+R(a){return[0,[0,N(bP,a)]]}var
+aJ=I([0,[1,bO]]);switch(bQ[0]){case
 2:var
-bs=N(rc),bt=N(rd),aE=[0,N(0),bt,bs],B=[0,s(aD,X(aE,aE))];break;case
+bw=R(rn),bx=R(ro),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
 3:var
-bu=K(N(re)),bv=K(N(0)),bx=K(N(rf)),B=[0,s(s(q(aD,C(l(c),bx)),bv),bu)];break;default:var
-B=0}var
-aW=r[7];if(aW)var
-bO=0,bP=r[2],am=hC(function(j,k){var
-a=ly(z,E,m,cu(al,h(U)),j,k),c=a[1];if(c){var
+by=I(R(rp)),bA=I(R(0)),bC=I(R(rq)),C=[0,t(t(q(aJ,z(h(c),bC)),bA),by)];break;default:var
+C=0}var
+aZ=y[7];if(aZ)var
+bR=0,bS=y[2],aq=hI(function(i,k){var
+a=lJ(s,F,l,cv(ap,j(V)),i,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-i=g[1],f=fM(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bP,bO);else
+h=g[1],f=dI(i,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bS,bR);else
 var
-am=aW;var
-bQ=by(am),bR=B?[0,B[1],0]:B,bS=f(bR,bQ),bT=0,bU=[0,m,f(cv(function(b,a){if(typeof
-a!=="number")switch(a[0]){case
+aq=aZ;var
+bT=bB(aq),bU=C?[0,C[1],0]:C,bV=f(bU,bT),bW=0,bX=[0,l,f(cw(function(c,b){if(typeof
+b!=="number")switch(b[0]){case
 6:var
-d=lC(x,b,a);if(d)var
-h=d[1],k=[0,h[1],[0,h[2],0]];else
+g=lN(A,c,b);if(g)var
+j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
-k=d;return k;case
-8:return e(bX,i(lB(x),b));case
+k=g;return k;case
+8:return e(bZ,i(lM(A),c));case
 13:var
-g=R(x,a[1]);if(g){var
-l=ev(a[4]);if(l){var
-n=lE(b,i(g[1][3],a[2]));return f(n[1],[0,n[2],0])}var
-o=l}else
+h=M(A,b[1]);if(h){var
+m=ey(b[4]);if(m){var
+n=lP(c,i(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+o=m}else
 var
-o=g;return o}var
-c=hD(j,m,x,b,a),p=c?[0,c[1],0]:c;return p},bT,D,V,P),bS)],an=f(by(O),bU),bV=0,aX=cv(function(h,a){if(typeof
+o=h;return o}var
+d=hJ(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bW,E,aa,U),bV)],as=f(bB(T),bX),bY=0,a0=cw(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-b=R(x,a[1]);if(b){if(ev(a[4]))return 0;var
-d=[0,lF(E,m,h,a[2],b[1][4]),0]}else
+e=M(A,a[1]);if(e){if(ey(a[4]))return 0;var
+k=[0,lQ(F,l,c,a[2],e[1][4]),0]}else
 var
-d=b;return d;case
+k=e;return k;case
 14:var
-c=lG(z,E,m,x,h,a[1],a[2]);if(c){var
-e=c[1],f=e[2],g=e[1];return v(bL,[0,g[1],[0,g[2],[0,f[1],[0,f[2],0]]]])}return c}return 0},bV,D,V,P),aY=cm(e(function(b){return ba(a,b)},an))[1],aZ=cm(aX)[1],Q=cl(aY),ao=cl(aZ);function
-k(b){return aV(Q,ba(a,b))}if(0===r[4][0]){var
-bW=w(k,B),bY=k(m),a0=i(ar(k),O),aM=fN(z),aN=u(h(a0),a);if(aN)var
-aO=w(function(a){return[0,[0,a,d],d]},bW),T=function(a){return t(a,Q,l(d))},aC=T(bY),br=aK(0,aM),ah=n(function(b){var
-c=cZ(a,b,aC),d=c?n(function(c){var
-e=c[1],d=n(function(c){var
-d=T(c);return b9(M(a,b),d)},e);if(d){var
-f=T(c[2]);return fH(aC,M(a,b),f)}return d},a0):c;if(d){if(aO){var
-f=T(aO[1][1][1]);return b9(M(a,b),f)}var
-e=1}else
+g=lR(s,F,l,A,c,a[1],a[2]);if(g){var
+m=g[1],n=m[2],o=m[1];return v(bz,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
+15:var
+j=M(A,a[1]);if(j){var
+b=i(j[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,h(d)),p],t=[0,r(0,c,h(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return j}return 0},bY,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
+m(a){return aX(Y,bc(k,a))}if(0===y[4][0]){var
+b0=w(m,C),b1=m(l),a3=i(ar(m),T),aQ=fQ(s),aR=u(j(a3),k);if(aR)var
+aS=w(function(a){return[0,[0,a,d],d]},b0),_=function(a){return r(a,Y,h(d))},aI=_(b1),bv=aL(0,aQ),ao=n(function(a){var
+b=cZ(k,a,aI),c=b?n(function(b){var
+d=b[1],c=n(function(b){var
+c=_(b);return cb(N(k,a),c)},d);if(c){var
+e=_(b[2]);return fL(aI,N(k,a),e)}return c},a3):b;if(c){if(aS){var
+e=_(aS[1][1][1]);return cb(N(k,a),e)}var
+d=1}else
 var
-e=d;return e},br);else
+d=c;return d},bv);else
 var
-ah=aN;var
-bD=ah?aM:ah,G=bD}else
+ao=aR;var
+bH=ao?aQ:ao,K=bH}else
 var
-G=0;var
-a1=n(function(b){var
-c=ba(a,b),e=l(d);return av(t(k(b),Q,e),c)},an),a2=a1?n(function(b){return fI(a,b)},an):a1,a3=a2?n(function(a){var
-b=l(d);return av(t(aV(ao,a),ao,b),a)},aX):a2,a4=a3?ai(rB,P):a3;if(a4){var
-a5=_(r[7]);if(a5)var
-Y=a5;else{var
-bp=r[5];if(1===z&&2===bp[0])var
-bC=bp[1],bq=g(j,1,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],bC]);else
+K=0;var
+a4=n(function(a){var
+b=bc(k,a),c=h(d);return av(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fM(k,a)},as):a4,a6=a5?n(function(a){var
+b=h(d);return av(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r2,U):a6;if(a7){var
+a8=$(y[7]);if(a8)var
+ab=a8;else{var
+bt=y[5];if(1===s&&2===bt[0])var
+bG=bt[1],bu=g(a,1,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],bG]);else
 var
-bq=0;var
-Y=bq}}else
+bu=0;var
+ab=bu}}else
 var
-Y=a4;var
-a6=Y?hE(z,dA(r[4])):Y,a7=a6?g(j,1,r[3]):a6;if(a7)var
-bZ=fL(r[5]),ap=n(function(a){var
-b=er(j,a[1]);return b?er(j,a[2]):b},bZ);else
+ab=a7;var
+a9=ab?hK(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
+b2=fP(y[5]),au=n(function(b){var
+c=ev(a,b[1]);return c?ev(a,b[2]):c},b2);else
 var
-ap=a7;if(ap){var
-b0=f(U,[0,al,0]),aq=ae(e(function(a){return aj(j,a)},b0));if(aq){var
-as=ae(e(function(a){return ho(j,a)},aS));if(as){var
-b1=lI(z,dA(r[4])),at=ae(e(function(a){return aj(j,[0,a,D])},b1));if(at){var
-a8=at[1],b2=lg(r[5]),au=ae(e(function(a){return li(j,a)},b2));if(au){var
-a9=au[1],b3=lf(r[5]),aw=ae(e(function(a){return dC(j,a)},b3));if(aw){var
-b4=0,a_=function(a){return aV(ao,a)},ax=ae(cv(function(h,a){if(typeof
-a!=="number"&&13===a[0]){var
-q=a[4],ao=R(x,a[1]);if(ao){if(lH(a[3])&&g(j,0,q)&&g(j,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],q])){var
-ap=a[2],aq=ao[1];if(ev(q)){var
-am=lE(h,i(aq[3],ap)),C=am[2];if(g(p,0,[3,q,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]]))var
-an=0;else
+au=a_;if(au){var
+b3=f(V,[0,ap,0]),ax=ac(e(function(b){return al(a,b)},b3));if(ax){var
+ay=ac(e(function(b){return hr(a,b)},aW));if(ay){var
+b4=lT(s,dB(y[4])),az=ac(e(function(b){return al(a,[0,b,E])},b4));if(az){var
+a$=az[1],b5=lp(y[5]),aB=ac(e(function(b){return lr(a,b)},b5));if(aB){var
+bb=aB[1],b6=lo(y[5]),aC=ac(e(function(b){return dD(a,b)},b6));if(aC){var
+b7=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
+f!=="number"&&13===f[0]){var
+u=f[4],ay=M(A,f[1]);if(ay){if(lS(f[3])&&g(a,0,u)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],u])){var
+az=f[2],aA=ay[1];if(ey(u)){var
+aw=lP(k,i(aA[3],az)),O=aw[2];if(g(o,0,[3,u,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
+ax=0;else
 var
-aJ=k(C),aK=k(C),an=[0,[6,[0,[0,e(k,am[1]),aK],0],aJ],0];var
-as=[0,[4,k(C)],an]}else
+aY=m(O),aZ=m(O),ax=[0,[6,[0,[0,e(m,aw[1]),aZ],0],aY],0];var
+aB=[0,[4,m(O)],ax]}else
 var
-as=[0,[8,[3,a_(lF(E,m,h,ap,aq[4]))]],0];return e(function(a){return[0,a]},as)}return rz}return rA}var
-aL=0,s=e(function(a){return a[1]},x);function
-H(c,b,a){return[0,c,b,a,G]}var
-r=0;if(typeof
-a==="number")var
-au=k(m),f=[0,H(i(ar(k),s),au,A)];else
-switch(a[0]){case
+aB=[0,[8,[3,G(lQ(F,l,k,az,aA[4]))]],0];return e(function(a){return[0,a]},aB)}return r0}return r1}var
+a0=0,x=e(function(a){return a[1]},A);function
+P(c,b,a){return[0,c,b,a,K]}var
+v=0;if(typeof
+f==="number")var
+aD=m(l),j=[0,P(i(ar(m),x),aD,B)];else
+switch(f[0]){case
 0:var
-l=[5,[0,c,c],a[1]],t=H;r=1;break;case
+n=[5,[0,c,c],f[1]],y=P;v=1;break;case
 1:var
-aw=[5,[0,c,c],a[1]],l=aw,t=function(c,b,a){return[1,c,b,a]};r=1;break;case
+aF=[5,[0,c,c],f[1]],n=aF,y=function(c,b,a){return[1,c,b,a]};v=1;break;case
 2:var
-ax=hD(j,m,x,h,a),f=w(function(a){return[4,k(a)]},ax);break;case
+aG=hJ(a,l,A,k,f),j=w(function(a){return[4,m(a)]},aG);break;case
 3:var
-ay=hD(j,m,x,h,a),f=w(function(a){return[4,k(a)]},ay);break;case
+aH=hJ(a,l,A,k,f),j=w(function(a){return[4,m(a)]},aH);break;case
 5:var
-I=a[1],az=aj(j,[0,[0,I,I],d]),f=w(function(a){var
-b=$(j,a),c=k(m);return[2,i(ar(k),s),c,b]},az);break;case
+Q=f[1],aI=al(a,[0,[0,Q,Q],d]),j=w(function(b){var
+c=X(a,b),d=m(l);return[2,i(ar(m),x),d,c]},aI);break;case
 6:var
-u=R(x,a[1]);if(u){var
-v=lC(x,h,a);if(v){var
-J=v[1],K=g(j,1,a[2]),L=K?g(j,1,a[3]):K;if(L)var
-aA=k(J[2]),aB=k(u[1][1][2]),M=[0,[5,[0,[0,[0,k(J[1]),0],aB],0],aA]];else
+z=M(A,f[1]);if(z){var
+C=lN(A,k,f);if(C){var
+R=C[1],S=g(a,1,f[2]),T=S?g(a,1,f[3]):S;if(T)var
+aJ=m(R[2]),aK=m(z[1][1][2]),U=[0,[5,[0,[0,[0,m(R[1]),0],aK],0],aJ]];else
 var
-M=L;var
-N=M}else
+U=T;var
+V=U}else
 var
-N=v;var
-O=N}else
+V=C;var
+Y=V}else
 var
-O=u;var
-f=O;break;case
+Y=z;var
+j=Y;break;case
 7:var
-P=a[3],Q=a[2],S=a[1],T=R(x,S),at=0;if(T){var
-U=g(j,1,Q),V=U?g(j,1,P):U;if(V){var
-aC=[5,Q,P],l=aC,t=function(c,b,a){return[3,S,c,b,a,G]};r=1;at=1}else
+Z=f[3],_=f[2],$=f[1],aa=M(A,$),aC=0;if(aa){var
+ab=g(a,1,_),ac=ab?g(a,1,Z):ab;if(ac){var
+aL=[5,_,Z],n=aL,y=function(c,b,a){return[3,$,c,b,a,K]};v=1;aC=1}else
 var
-X=V}else
+ad=ac}else
 var
-X=T;if(!at)var
-f=X;break;case
+ad=aa;if(!aC)var
+j=ad;break;case
 8:var
-Y=g(j,1,a[1]),Z=Y?g(j,1,a[2]):Y;if(Z)var
-aD=W(j,c),aE=k(m),aF=i(lB(x),h),_=[0,[0,i(ar(k),aF),aE,aD,0]];else
+ae=g(a,1,f[1]),af=ae?g(a,1,f[2]):ae;if(af)var
+aM=W(a,c),aN=m(l),aO=i(lM(A),k),ag=[0,[0,i(ar(m),aO),aN,aM,0]];else
 var
-_=Z;var
-f=_;break;case
+ag=af;var
+j=ag;break;case
 14:var
-aa=a[2],ab=a[1],y=lG(z,E,m,x,h,ab,aa);if(y){var
-ac=y[1],ad=ac[2],ae=ac[1],af=kZ(ab,aa,a[3]),B=aj(j,[0,[0,af,af],D]);if(B){var
-ag=B[1],ah=F(d,ag[1]);if(ah)var
-n=function(a){return kx(a_,a)},aG=n(ad[2]),aH=n(ad[1]),aI=n(ae[2]),ai=[0,[8,[6,n(ae[1]),aI,aH,aG,ag]]];else
+ah=f[2],ai=f[1],D=lR(s,F,l,A,k,ai,ah);if(D){var
+aj=D[1],ak=aj[2],am=aj[1],an=k8(ai,ah,f[3]),I=al(a,[0,[0,an,an],E]);if(I){var
+ao=I[1],ap=H(d,ao[1]);if(ap)var
+q=function(a){return kG(G,a)},aP=q(ak[2]),aQ=q(ak[1]),aR=q(am[2]),aq=[0,[8,[6,q(am[1]),aR,aQ,aP,ao]]];else
 var
-ai=ah;var
-ak=ai}else
+aq=ap;var
+as=aq}else
 var
-ak=B;var
-al=ak}else
+as=I;var
+at=as}else
 var
-al=y;var
-f=al;break;default:var
-f=0}if(r)var
-av=aj(j,[0,[0,l,l],d]),f=w(function(a){var
-b=$(j,a),c=k(m);return t(i(ar(k),s),c,b)},av);return[0,f,aL]},b4,D,V,P));if(ax){var
-a$=ax[1];if(r[7])var
-b5=aQ[2],b6=aQ[1],b7=k(m),Z=kL(bE,a$,[7,i(ar(k),am),b7,b6,b5]);else
+at=D;var
+j=at;break;case
+15:var
+J=M(A,f[1]);if(J){var
+au=g(a,1,f[4]);if(au)var
+av=g(a,0,f[2]),L=av?g(a,0,f[3]):av;else
 var
-Z=a$;var
-bb=u(h(f(a8,a9)),a),bd=bb?n(function(b){var
-c=lr(b);return n(function(b){return lc(a,Q,b)},c)},Z):bb,be=bd?B?lc(a,Q,k(B[1])):1:bd;if(be){var
-b8=f(as[1],aw[1]),I=f(aq[1],b8),J=lL(aP),L=lJ(D,r[2]),S=J?e(function(b){var
-c=lp(a,L,b[2]),d=b[1];return[0,e(function(b){return lp(a,L,b)},d),c]},O):J,ay=J?cm(hz(a,m,B,S))[1]:J,aA=cl(ay),aa=function(a){return aV(aA,a)},b_=hx(aa,aa,S),b$=aa(ba(a,m)),aB=w(function(b){return aa(ba(a,b))},B),bf=_(J);if(bf)var
-ab=bf;else{var
-bo=u(h(O),a);if(bo){var
-bA=hz(a,m,B,S),aI=n(function(a){var
-b=l(d);return av(t(aV(aA,a),aA,b),a)},bA);if(aI)var
-bB=hz(a,m,B,S),ac=n(function(b){var
-c=aK(0,a);return n(function(c){return dD(a,c,b)},c)},bB);else
+L=au;if(L)var
+t=i(J[1][5],0),aS=G(t[4]),aT=G(t[3]),aU=G(r(rZ,k,h(d))),aV=G(r(0,k,h(d))),aW=t[2],aX=e(function(a){return e(G,a)},aW),N=[0,[8,[10,e(G,t[1]),aX,aV,aU,aT,aS]]];else
 var
-ac=aI;if(ac){var
-aJ=w(function(b){return ba(a,b)},B),ad=ba(a,m),aH=lj(ad);if(aH)var
-bz=aK(0,G),aL=n(function(b){var
-c=cZ(a,b,ad),d=c?n(function(c){var
-e=c[2][2],g=f(v(hy,c[1]),e),h=M(a,b),d=n(function(a){return b9(h,a)},g);if(d){var
-i=c[2][1];return fH(ad,M(a,b),i)}return d},S):c;if(d){if(aJ){var
-g=aJ[1];return b9(M(a,b),g)}var
-e=1}else
+N=L}else
 var
-e=d;return e},bz);else
+N=J;var
+j=N;break;default:var
+j=0}if(v)var
+aE=al(a,[0,[0,n,n],d]),j=w(function(b){var
+c=X(a,b),d=m(l);return y(i(ar(m),x),d,c)},aE);return[0,j,a0]},b7,E,aa,U));if(aD){var
+bd=aD[1];if(y[7])var
+b8=aU[2],b9=aU[1],b_=m(l),ad=kU(bI,bd,[7,i(ar(m),aq),b_,b9,b8]);else
 var
-aL=aH;var
-af=aL}else
+ad=bd;var
+bf=u(j(f(a$,bb)),k),bg=bf?n(function(a){var
+b=lD(a);return n(function(a){return ll(k,Y,a)},b)},ad):bf,bh=bg?C?ll(k,Y,m(C[1])):1:bg;if(bh){var
+b$=f(ay[1],aC[1]),L=f(ax[1],b$),O=lW(aT),P=lU(E,y[2]),Z=O?e(function(a){var
+b=lB(k,P,a[2]),c=a[1];return[0,e(function(a){return lB(k,P,a)},c),b]},T):O,aE=O?cp(hE(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},ca=hC(ae,ae,Z),cc=ae(bc(k,l)),aG=w(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
+ai=bj;else{var
+bs=u(j(T),k);if(bs){var
+bE=hE(k,l,C,Z),aN=n(function(a){var
+b=h(d);return av(r(aX(aF,a),aF,b),a)},bE);if(aN)var
+bF=hE(k,l,C,Z),aj=n(function(a){var
+b=aL(0,k);return n(function(b){return dE(k,b,a)},b)},bF);else
 var
-af=ac;var
-cf=af?n(function(b){var
-d=b[1],c=n(function(b){return lq(a,I,L,b)},d);return c?lq(a,I,L,b[2]):c},O):af,ab=cf}else
+aj=aN;if(aj){var
+aO=w(function(a){return bc(k,a)},C),am=bc(k,l),aM=lv(am);if(aM)var
+bD=aL(0,K),aP=n(function(a){var
+b=cZ(k,a,am),c=b?n(function(b){var
+d=b[2][2],e=f(v(hD,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
+h=b[2][1];return fL(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
+e=aO[1];return cb(N(k,a),e)}var
+d=1}else
 var
-ab=bo}if(ab){var
-ca=e(function(a){return 1},Z),cb=f(a8,a9),cc=function(O,_,Z,c){if(J){if(typeof
+d=c;return d},bD);else
+var
+aP=aM;var
+an=aP}else
+var
+an=aj;var
+ci=an?n(function(a){var
+c=a[1],b=n(function(a){return lC(k,L,P,a)},c);return b?lC(k,L,P,a[2]):b},T):an,ai=ci}else
+var
+ai=bs}if(ai){var
+cd=e(function(a){return 1},ad),ce=f(a$,bb),cf=function(M,_,Z,c){if(O){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],l=c[2],m=c[1];if(typeof
 m!=="number"&&6===m[0]){if(g){if(g[2])return 0;var
-r=g[1],b=m[1],s=u(Z,G),v=s?cI(0,G):s;if(v)var
-q=gQ(gM,e(aF,l),L),X=q?1:q,o=X;else
+s=g[1],b=m[1],t=u(Z,K),v=t?cl(0,K):t;if(v)var
+q=gT(gP,e(aH,l),P),X=q?1:q,o=X;else
 var
 o=v;var
-w=o?kh(L):o,x=w?n(function(a){return cI(a,h(I))},L):w,z=x?u(h(r),a):x;if(z){var
+w=o?ko(P):o,y=w?n(function(a){return cl(a,j(L))},P):w,z=y?u(j(s),k):y;if(z){var
 p=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-E=b[2],D=b[1],C=0;p=1;break;case
+F=b[2],E=b[1],C=0;p=1;break;case
 7:var
-K=b[2],i=b[1],P=0;if(typeof
-i!=="number"&&0===i[0]){var
-Q=0;if(aB){var
-M=F(d,K);if(M){var
-E=i[2],D=i[1],C=[0,[0,[0,aB[1],K],b[3]]];p=1;P=1;Q=1}else
+G=b[2],h=b[1],N=0;if(typeof
+h!=="number"&&0===h[0]){var
+Q=0;if(aG){var
+I=H(d,G);if(I){var
+F=h[2],E=h[1],C=[0,[0,[0,aG[1],G],b[3]]];p=1;N=1;Q=1}else
 var
-N=M}else
+J=I}else
 var
-N=aB;if(!Q)return N}if(!P)return 0;break}if(p){var
-R=hu(j,g7(l,0,I),ay,O),k=hu(j,I,ay,O),f=function(b,a){return t(a,b,ri)},S=ll(function(a){return f(k,a)},C),T=f(k,b$),U=function(a){return f(k,a)},V=[0,hx(function(a){return f(R,a)},U,b_),T,S],Y=kb(l,I);return ln(G,a,function(g){var
-b=ae(e(rg,g[1]));if(b){var
+J=aG;if(!Q)return J}if(!N)return 0;break}if(p){var
+R=hx(a,g9(l,0,L),aE,M),i=hx(a,L,aE,M),f=function(b,a){return r(a,b,rH)},S=lx(function(a){return f(i,a)},C),T=f(i,cc),U=function(a){return f(i,a)},V=[0,hC(function(a){return f(R,a)},U,ca),T,S],Y=kh(l,L);return lz(K,k,function(g){var
+b=ac(e(rF,g[1]));if(b){var
 c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-l=d[1],m=aG([0,H(ag(y(j,_,c[1])),l),0],a),n=b[1],o=e(function(c){var
-a=kc(j,0,Y,c),b=bc(rh,a[2]);return[0,a[1],b]},n),f=j_(j,e(function(a){return W(j,a)},r),D,E,o,m);if(f)return bw(a,f[1]);var
+l=d[1],m=aA([0,D(af(x(a,_,c[1])),l),0],k),n=b[1],o=e(function(d){var
+b=ki(a,0,Y,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=ke(a,e(function(b){return W(a,b)},s),E,F,o,m);if(f)return bi(k,f[1]);var
 h=f}else
 var
 h=d;var
 i=h}else
 var
 i=c;var
-k=i}else
+j=i}else
 var
-k=b;return k},V)}var
+j=b;return j},V)}var
 A=0}else
 var
 A=z;var
 B=A}else
 var
-B=g;return B}return 0}return 0}return J},cd=k(m),ce=i(ar(k),O);return lw(j,aY,aZ,I,Z,a,a,w(k,B),ce,cd,cc,cb,ca,aP)}var
-bg=ab}else
+B=g;return B}return 0}return 0}return O},cg=m(l),ch=i(ar(m),T);return lI(a,a1,a2,L,ad,k,k,w(m,C),ch,cg,cf,ce,cd,aT)}var
+bk=ai}else
 var
-bg=be;var
-bh=bg}else
-var
-bh=ax;var
-bi=bh}else
-var
-bi=aw;var
-bj=bi}else
-var
-bj=au;var
-bk=bj}else
-var
-bk=at;var
+bk=bh;var
 bl=bk}else
 var
-bl=as;var
+bl=aD;var
 bm=bl}else
 var
-bm=aq;var
+bm=aC;var
 bn=bm}else
 var
-bn=ap;return bn}function
-ew(b,a){return be(b,a[1],a[2])}function
-lM(b,a){var
-c=ew(b,a[1]),d=c?ew(b,a[2]):c;return d?ew(b,a[3]):d}function
-a5(a){return typeof
-a==="number"?a?rD:rE:cw(a[1])}function
-lN(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hq(b[1],a,c)}function
-fQ(a){if(0===a[0]){var
+bn=aB;var
+bo=bn}else
+var
+bo=az;var
+bp=bo}else
+var
+bp=ay;var
+bq=bp}else
+var
+bq=ax;var
+br=bq}else
+var
+br=au;return br}function
+ez(b,a){return bg(b,a[1],a[2])}function
+lX(b,a){var
+c=ez(b,a[1]),d=c?ez(b,a[2]):c;return d?ez(b,a[3]):d}function
+a6(a){return typeof
+a==="number"?a?r4:r5:cx(a[1])}function
+lY(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ht(b[1],a,c)}function
+fT(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hF(b,c,a){return b?fE(b[1],c,a):a}function
-b_(d,c,b,a){var
-e=fQ(a),f=hF(d,c,fQ(a)),g=af(function(b,a){return[2,b,a]},b,f);return af(function(b,a){return[3,b,a]},g,e)}function
-lO(b,a){var
+hL(b,c,a){return b?fI(b[1],c,a):a}function
+cc(d,c,b,a){var
+e=fT(a),f=hL(d,c,fT(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+lZ(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lP(b,w,v){var
+l0(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kA(b,j[1],f[1]):0;else
+h=0===f[0]?kJ(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a2(b,c[1],a[1]),l=k?a2(b,c[2],a[2]):k,m=l?a2(b,c[3],a[3]):l,n=m?a2(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,P(a[1],a[1])):r;if(s)var
-u=hg(a),i=g(b,1,P(hg(a),u));else
+a=f[1],c=j[1],k=a3(b,c[1],a[1]),l=k?a3(b,c[2],a[2]):k,m=l?a3(b,c[3],a[3]):l,n=m?a3(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,R(a[1],a[1])):r;if(s)var
+u=hj(a),i=g(b,1,R(hj(a),u));else
 var
 i=s;var
-h=i?cg(c[7],a[7]):i}if(h){var
+h=i?ck(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-lQ(a){return typeof
-a==="number"?a?eu(0):cP:eu(a[1])}function
-hG(b,d,c){if(0===c[0])return fw(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aP(a[4],b),e),h=f(aP(a[3],b),g),i=f(aP(a[2],d[2]),h);return f(aP(a[1],d[1]),i)}function
-hH(b,a){if(b){var
-c=b[1],d=c[2];return cr(et(c[1],a),d)}return a}function
-lR(f,u,al,J,aj,r,ai){if(r){var
-j=r[1],an=bs([0,d,d],aj),a=b7(ai,hG(J,an,j)),y=function(c,b){var
-d=ab(a,c);return ak(s,ak(C,lQ(f),b),d)};if(0===j[0]){var
-z=j[1];switch(z[0]){case
+l1(a){return typeof
+a==="number"?a?dJ(0):cP:dJ(a[1])}function
+hM(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aQ(a[4],b),e),h=f(aQ(a[3],b),g),i=f(aQ(a[2],d[2]),h);return f(aQ(a[1],d[1]),i)}function
+hN(b,a){if(b){var
+c=b[1],d=c[2];return ba(ex(c[1],a),d)}return a}function
+l2(f,u,am,K,al,s,ak){if(s){var
+k=s[1],an=bw([0,d,d],al),a=b$(ak,hM(K,an,k)),y=function(c,b){var
+d=ab(a,c);return ah(t,ah(z,l1(f),b),d)};if(0===k[0]){var
+A=k[1];switch(A[0]){case
 0:var
-$=hH(u,ab(a,rF)),aE=z[1][5],A=t(rG,a,l(d)),B=ab(a,0),aa=y(rH,$),i=jZ(aa,cO(B),aa,A,aE),ap=[0,az(A),0],aq=[0,az(X(B,B)),ap],k=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=hN(u,ab(a,r6)),aE=A[1][5],B=r(r7,a,h(d)),C=ab(a,0),aa=y(r8,$),i=j5(aa,cO(C),aa,B,aE),ap=[0,aw(B),0],aq=[0,aw(Q(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],$];break;case
 1:var
-ac=hH(u,ab(a,rI)),ad=z[3],D=ad?[0,ab(a,rJ)]:ad,ae=y(0,ac),m=j0(ae,ae,0);if(D)var
-L=D[1],N=[0,az(X(L,L)),0];else
+ac=hN(u,ab(a,r9)),ad=A[3],D=ad?[0,ab(a,r_)]:ad,ae=y(0,ac),m=j6(ae,ae,0);if(D)var
+L=D[1],M=[0,aw(Q(L,L)),0];else
 var
-N=D;var
-k=[0,[0,m[1],m[2],m[3],[0,m[4]],0,N],ac];break;default:var
-aF=l(d),aG=l(d),aH=[0,l(d),aG,aF],E=ab(a,0),aI=lQ(f),n=j1(aI,cO(E)),ar=[0,az(X(E,E)),0],k=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+M=D;var
+l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
+aF=h(d),aG=h(d),aH=[0,h(d),aG,aF],E=ab(a,0),aI=l1(f),n=j7(aI,cO(E)),ar=[0,aw(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hH(u,ab(a,rK)),F=j[1][7],G=t(rL,a,l(d)),e=t(rM,a,l(d)),ag=ab(a,rN),H=ab(a,0),p=y(rO,af),o=cO(H),v=ak(s,ag,aY(X(o,ag),o)),w=cO(v),O=fM(o,w),P=X(p,w),Q=X(p,O),as=X(o,p),at=K(Q),R=C(K(P),at),au=K(as),S=s(K(G),au),av=q(l(b(2,c)),e),x=s(R,K(am(C(R,s(K(e),S)),av))),aw=fm(F,q(e,az(x))),T=am(P,e),U=fm(F,am(Q,e)),V=am(S,K(e)),W=jw(0,T,U,V),Y=fm(F,jw(1,T,U,V)),ax=aY(Y,O),Z=ak(s,p,aY(e,ak(C,aY(W,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(X(v,v)),aA],aC=[0,az(X(H,H)),aB],aD=cr(Z,aw),k=[0,[0,Z,q(K(e),x),aD,[1,W,Y],[0,[0,x,G]],aC],af];var
-aP=M(ai,h(hG(J,an,j))),aQ=r[2],aR=lR(f,u,al,J,bb(aj),aQ,aP),g=k[1],aS=k[2],ah=function(a){var
-b=cr(fM(aS,a),al);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):lx(f[1],a,b)},I=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bL(I):_,aM=g[4],aN=ah(g[3]),aO=g[2],ao=[0,[0,ah(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hN(u,ab(a,r$)),F=k[1][7],G=r(sa,a,h(d)),e=r(sb,a,h(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dI(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(h(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),ax=fp(F,q(e,aw(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jB(0,U,V,W),Y=fp(F,jB(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,aw(G),0],aA=[0,aw(e),az],aB=[0,aw(Q(v,v)),aA],aC=[0,aw(Q(H,H)),aB],aD=ba(Z,ax),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=N(ak,j(hM(K,an,k))),aQ=s[2],aR=l2(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
+b=ba(dI(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bz(a):hA(f[1],a,b)},J=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:bz(J):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
-ao=r;return ao}function
-hI(c,b,a){if(a){var
-e=a[2],g=hI(c,bb(b),e),h=a[1];return f(hG(c,bs([0,d,d],b),h),g)}return a}function
-lS(a){if(a){var
+ao=s;return ao}function
+hO(c,b,a){if(a){var
+e=a[2],g=hO(c,bd(b),e),h=a[1];return f(hM(c,bw([0,d,d],b),h),g)}return a}function
+l3(a){if(a){var
 b=a[1][6];if(b)var
-c=lS(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=l3(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return rP}function
-lT(y,V,b){function
-c(a){return t(a,V,l(d))}function
-N(a){var
-e=a[2],f=q(K(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dj(function(b,a){return s(b,K(a))},g,f),d],b]}function
-O(e){var
+d=b;return d}return se}function
+l4(y,V,b){function
+c(a){return r(a,V,h(d))}function
+O(a){var
+e=a[2],f=q(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dk(function(b,a){return t(b,I(a))},g,f),d],b]}function
+P(e){var
 a=e[6];if(a)var
-b=a[1],f=K(b[2]),g=q(K(c(0)),f),d=[0,[0,s(b[1],g),0],0];else
+b=a[1],f=I(b[2]),g=q(I(c(0)),f),d=[0,[0,t(b[1],g),0],0];else
 var
 d=a;return d}var
 D=0;if(typeof
@@ -4197,198 +4302,198 @@ switch(b[0]){case
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,s(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,t(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,s(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,t(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(rQ),b),g=[0,[0,s(q(c(rR),d),f),0],0],h=q(d,c(rS));return[0,[0,s(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(sf),b),g=[0,[0,t(q(c(sg),d),f),0],0],h=q(d,c(sh));return[0,[0,t(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return N(a)},g=Z,f=b[1];break;case
+b!=="number"&&1===b[0])return 0;return O(a)},g=Z,f=b[1];break;case
 9:var
 _=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return N(a);return 0},g=_,f=b[1];break;case
+b!=="number"&&1===b[0])return O(a);return 0},g=_,f=b[1];break;case
 10:var
-g=O,f=b[1];break;case
+g=P,f=b[1];break;case
 11:var
 $=function(a){var
 b=a[4];if(typeof
-b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
+b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-A=lS(y);if(A){var
-aa=c(0),P=dj(q,A[1],aa),B=e(function(a){return a[5]},y);if(B){var
-h=B[2],i=B[1];if(i){var
-j=i[2],E=i[1];if(j){var
-k=j[2],F=j[1];if(k)if(k[2]||!h)var
-a=l(d);else{var
-m=h[2],n=h[1];if(n){var
+B=l3(y);if(B){var
+aa=c(0),Q=dk(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
+i=C[2],j=C[1];if(j){var
+k=j[2],E=j[1];if(k){var
+l=k[2],F=k[1];if(l)if(l[2]||!i)var
+a=h(d);else{var
+m=i[2],n=i[1];if(n){var
 o=n[2],G=n[1];if(o){var
 p=o[2],H=o[1];if(p){var
-I=p[1];if(p[2]||!m)var
-a=l(d);else{var
-r=m[1];if(r){var
-u=r[2],J=r[1];if(u){var
+J=p[1];if(p[2]||!m)var
+a=h(d);else{var
+s=m[1];if(s){var
+u=s[2],K=s[1];if(u){var
 v=u[2],L=u[1];if(v){var
-M=v[1];if(v[2]||m[2])var
-a=l(d);else
+N=v[1];if(v[2]||m[2])var
+a=h(d);else
 var
-S=cR(G,H,J,L),T=q(k[1],S),U=q(F,cR(G,I,J,M)),a=C(s(q(E,cR(H,I,L,M)),U),T)}else
+S=cR(G,H,K,L),T=q(l[1],S),U=q(F,cR(G,J,K,N)),a=z(t(q(E,cR(H,J,L,N)),U),T)}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}}else
+a=h(d)}}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}else
-if(h){var
-w=h[1];if(w)var
-x=w[2],a=x?x[2]?l(d):h[2]?l(d):cR(E,F,w[1],x[1]):l(d);else
+a=h(d)}else
+if(i){var
+w=i[1];if(w)var
+x=w[2],a=x?x[2]?h(d):i[2]?h(d):cR(E,F,w[1],x[1]):h(d);else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d)}else
+a=h(d)}else
 var
-a=l(d);var
-ab=[0,bd(C(a,P)),0],Q=[0,[0,s(a,P),ab],0]}else
+a=h(d);var
+ab=[0,bf(z(a,Q)),0],R=[0,[0,t(a,Q),ab],0]}else
 var
-Q=A;return Q;default:D=1}if(D)return 0;var
-z=R(y,f);return z?g(z[1]):z}function
-fR(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-ex(a){return e(function(a){var
-b=l(c);return[0,a[3],b]},a)}function
-lU(a,b){return e(function(a){var
+R=B;return R;default:D=1}if(D)return 0;var
+A=M(y,f);return A?g(A[1]):A}function
+fU(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eA(a){return e(function(a){var
+b=h(c);return[0,a[3],b]},a)}function
+l5(a,b){return e(function(a){var
 c=q(a[2],b);return[0,a[1],c]},a)}function
-lV(c,b,a){if(typeof
-a!=="number"&&8===a[0])return by(lU(c,t(0,b,l(d))));return jo(lT(c,b,a))}function
-lW(f,h,m,I,H,r,a){if(typeof
-a==="number")return[0,[0,[0,A]],0];else
+l6(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bB(l5(c,r(0,b,h(d))));return fb(l4(c,b,a))}function
+l7(f,j,m,I,H,s,a){if(typeof
+a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,c,c],a[1]],j=J,n=function(a){return[0,a]};break;case
+J=[5,[0,c,c],a[1]],k=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,c,c],a[1]],j=M,n=function(a){return[1,a]};break;case
+N=[5,[0,c,c],a[1]],k=N,n=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=aj(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,$(f,a)]},Q),P];case
+y=a[1],Q=0,R=al(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,X(f,a)]},R),Q];case
 7:var
-z=a[3],B=a[2],C=a[1];if(!R(m,C))return rV;var
-G=0;if(g(f,1,B)&&g(f,1,z))var
-S=[5,B,z],j=S,n=function(a){return[7,C,a]};else
-G=1;if(G)return rU;break;case
+z=a[3],A=a[2],C=a[1];if(!M(m,C))return sk;var
+G=0;if(g(f,1,A)&&g(f,1,z))var
+S=[5,A,z],k=S,n=function(a){return[7,C,a]};else
+G=1;if(G)return sj;break;case
 8:var
 D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=W(f,c),V=lU(m,t(0,r,l(d))),F=[0,[4,i(ar(h),V),U]];else
+U=W(f,c),V=l5(m,r(0,s,h(d))),F=[0,[4,i(ar(j),V),U]];else
 var
 F=E;return[0,F,T];default:var
 q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 4:var
-s=a[3],u=a[2],v=g(f,1,[3,s,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],s]):v,k=O;break;case
+t=a[3],u=a[2],v=g(f,1,[3,t,u]),P=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],t]):v,l=P;break;case
 6:case
 9:var
-x=g(f,1,a[2]),k=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
-k=1;var
-p=k?lT(m,r,a):k;if(p){var
-N=[0,p[1],p[2]];return e(function(a){if(a){var
+x=g(f,1,a[2]),l=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
+l=1;var
+o=l?l4(m,s,a):l;if(o){var
+O=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
-d=[0,[3,i(h,c)]]}else
+e=i(j,b[1]);return[0,[5,i(j,c),e]]}var
+d=[0,[3,i(j,c)]]}else
 var
-d=a;return d},N)}return rT}var
-K=0,L=aj(f,[0,[0,j,j],hn(I,H)]);return[0,w(function(a){return n($(f,a))},L),K]}function
-lX(a){if(typeof
+d=a;return d},O)}return si}var
+K=0,L=al(f,[0,[0,k,k],hq(I,H)]);return[0,w(function(a){return n(X(f,a))},L),K]}function
+l8(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-rX(b){if(0===b[0])return[0,kJ(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bf(a[4]),g=bf(a[3]),h=bf(a[2]);return[1,[0,bf(a[1]),h,g,f,e,d,c]]}function
-rY(J,c,a,j,ap,aT){var
-aU=e(rX,a[2]),aq=lP(J,a[2],aU);if(aq)var
-aW=hf(a[4]),K=cT(J,a[4],aW);else
+sm(b){if(0===b[0])return[0,kS(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bj(a[4]),g=bj(a[3]),h=bj(a[2]);return[1,[0,bj(a[1]),h,g,f,e,d,c]]}function
+sn(J,c,a,k,ap,aT){var
+aU=e(sm,a[2]),aq=l0(J,a[2],aU);if(aq)var
+aV=hi(a[4]),K=cT(J,a[4],aV);else
 var
 K=aq;if(K){var
 as=a[5];if(as)var
-aX=fL(as[1]),at=n(function(a){return ew(J,a)},aX);else
+aW=fP(as[1]),at=n(function(a){return ez(J,a)},aW);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ay=a5(b),q=a[6],z=hI(j,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],j],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
+b=a[1],ay=a6(b),q=a[6],z=hO(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,j(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
 c=typeof
-b==="number"?0:fN(b[1]);return le(a,c)},az),aB=a[2],k=lR(b,aA,cu(R,h(z)),j,ap,aB,0),T=v(function(a){return a[7]},k),aC=f(T,cv(function(a,b){return lV(k,a,b)},o,j,S,q)),aD=f(by(ex(k)),aC),U=f(by(fR(k)),aD),V=cm(U)[1],W=cl(V),p=function(a){return aV(W,a)},X=n(function(a){var
-b=l(d);return av(t(p(a),W,b),a)},U),Y=X?ai(lX,q):X;if(Y){var
+b==="number"?0:fQ(b[1]);return ln(a,c)},az),aB=a[2],l=l2(b,aA,cv(R,j(z)),k,ap,aB,0),T=v(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l6(l,a,b)},o,k,S,q)),aD=f(bB(eA(l)),aC),U=f(bB(fU(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
+b=h(d);return av(r(p(a),W,b),a)},U),Y=X?ak(l8,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
-_=b?hE(0,dA(Z)):1;else
+_=b?hK(0,dB(Z)):1;else
 var
-aw=dA(Z),_=hE(b[1],aw);var
+aw=dB(Z),_=hK(b[1],aw);var
 B=_}else
 var
 B=Y;if(B){var
 N=a[1];if(typeof
 N==="number")var
-r=a[5]?0:1;else
+s=a[5]?0:1;else
 if(2<=N[1])var
-r=0;else{var
+s=0;else{var
 x=a[5],M=0;if(x){var
 O=g(c,1,a[3]);if(O)var
-ax=fL(x[1]),r=n(function(a){var
-b=er(c,a[1]);return b?er(c,a[2]):b},ax);else{var
+ax=fP(x[1]),s=n(function(a){var
+b=ev(c,a[1]);return b?ev(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
 P=x;M=1}if(M)var
-r=P}var
-C=r}else
+s=P}var
+C=s}else
 var
 C=B;if(C)var
 aE=a[2],D=n(function(a){var
-b=0===a[0]?0:1;return cg(b,o)},aE);else
+b=0===a[0]?0:1;return ck(b,o)},aE);else
 var
 D=C;if(D){var
-aF=f(z,[0,R,0]),E=ae(e(function(a){return aj(c,a)},aF));if(E){var
-aG=v(function(a){return eo(o,j,a)},q),F=ae(e(function(a){return ho(c,a)},aG));if(F){var
-m=dA(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lI(b[1],m),G=ae(e(function(a){return aj(c,[0,a,j])},aH));if(G){var
+aF=f(z,[0,R,0]),E=ac(e(function(a){return al(c,a)},aF));if(E){var
+aG=v(function(a){return es(o,k,a)},q),F=ac(e(function(a){return hr(c,a)},aG));if(F){var
+m=dB(a[4]),aH=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lT(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
-aI=lg(aa[1]),s=ae(e(function(a){return li(c,a)},aI));else
+aI=lp(aa[1]),t=ac(e(function(a){return lr(c,a)},aI));else
 var
-s=rW;if(s){var
-ab=s[1],y=a[5],aJ=y?lf(y[1]):y,H=ae(e(function(a){return dC(c,a)},aJ));if(H){var
-I=ae(cv(function(a,b){return lW(c,p,k,o,j,a,b)},o,j,S,q));if(I){var
-ac=I[1],ad=u(h(f($,ab)),ay);if(ad){var
-aK=g$(ac),aL=f($,ab),au=0,aM=a[4];if(typeof
+t=sl;if(t){var
+ab=t[1],y=a[5],aJ=y?lo(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
+I=ac(cw(function(a,b){return l7(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
+ad=I[1],ae=u(j(f($,ab)),ay);if(ae){var
+aK=hc(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kz(c,aM,j,a)};au=1}if(!au)var
+af=function(a){return kI(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=ex(k),aR=i(ar(p),aQ),aS=fR(k);return fv(c,V,i(ar(p),aS),aR,aP,aO,ac,af,aL,aK,aT)}var
-ag=ad}else
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eA(l),aR=i(ar(p),aQ),aS=fU(l);return fz(c,V,i(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+ag=ae}else
 var
 ag=I;var
 ah=ag}else
 var
 ah=H;var
-ak=ah}else
+ai=ah}else
 var
-ak=s;var
-al=ak}else
+ai=t;var
+aj=ai}else
 var
-al=G;var
-am=al}else
+aj=G;var
+am=aj}else
 var
 am=F;var
 an=am}else
@@ -4397,7 +4502,7 @@ an=E;var
 ao=an}else
 var
 ao=D;return ao}return L}function
-bA(c){var
+bD(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4406,127 +4511,127 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bA(a[2]);return f(bA(a[1]),e)}}function
-bg(e,a,b){switch(a[0]){case
+e=bD(a[2]);return f(bD(a[1]),e)}}function
+bk(e,a,b){switch(a[0]){case
 0:var
-r=a[1];return cu([0,[0,r,r],d],b);case
+r=a[1];return cv([0,[0,r,r],d],b);case
 1:var
-u=a[1],g=e,v=l(d);for(;;){if(g){var
-n=g[1];if(pi(n[1],u))return n[2];var
+u=a[1],g=e,v=h(d);for(;;){if(g){var
+n=g[1];if(pt(n[1],u))return n[2];var
 g=g[2];continue}return v}case
-2:return bd(bg(e,a[1],b));case
+2:return bf(bk(e,a[1],b));case
 3:var
-j=a[2],f=a[1],i=C;break;case
+k=a[2],f=a[1],i=z;break;case
 4:var
-j=a[2],f=a[1],i=s;break;case
+k=a[2],f=a[1],i=t;break;case
 5:var
-j=a[2],f=a[1],i=q;break;case
+k=a[2],f=a[1],i=q;break;case
 6:var
-j=a[2],f=a[1],i=am;break;case
+k=a[2],f=a[1],i=ag;break;case
 7:var
-k=d4(a[2]),m=bg(e,a[1],b);if(k){if(k[1]){var
-o=K(m),t=function(a){return q(a,o)},p=e3(br(je(k)),t,o);return jd(k)?p:q(p,m)}return m}return l(c);default:return az(bg(e,a[1],b))}var
-w=bg(e,j,M(b,h(bA(f))));return i(bg(e,f,b),w)}function
-cz(c,g,b){var
+l=d7(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
+o=I(m),s=function(a){return q(a,o)},p=e6(bv(jk(l)),s,o);return jj(l)?p:q(p,m)}return m}return h(c);default:return aw(bk(e,a[1],b))}var
+w=bk(e,k,N(b,j(bD(f))));return i(bk(e,f,b),w)}function
+cA(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=M(b,h(bA(e))),l=cz(c,a[2],k),m=f(cz(c,e,b),l);return[0,bg(c,a,b),m];case
+e=a[1],k=N(b,j(bD(e))),l=cA(c,a[2],k),m=f(cA(c,e,b),l);return[0,bk(c,a,b),m];case
 8:var
-n=cz(c,a[1],b);return[0,bg(c,a,b),n];case
+n=cA(c,a[1],b);return[0,bk(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=M(b,h(bA(d))),j=cz(c,a[2],i);return f(cz(c,d,b),j)}}function
-lY(c,a,b){if(a){var
-e=a[1],d=e[2],g=M(b,h(bA(d))),i=a[2],j=bg(c,d,b),k=lY([0,[0,e[1],j],c],i,g);return f(cz(c,d,b),k)}return a}function
-hJ(a){return v(bA,a)}function
-lZ(c,a,b){if(a)var
-d=a[1],f=M(b,h(bA(d))),g=lZ(c,a[2],f),e=[0,bg(c,d,b),g];else
+d=a[1],h=N(b,j(bD(d))),i=cA(c,a[2],h);return f(cA(c,d,b),i)}}function
+l9(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,j(bD(d))),h=a[2],i=bk(c,d,b),k=l9([0,[0,e[1],i],c],h,g);return f(cA(c,d,b),k)}return a}function
+hP(a){return v(bD,a)}function
+l_(c,a,b){if(a)var
+d=a[1],f=N(b,j(bD(d))),g=l_(c,a[2],f),e=[0,bk(c,d,b),g];else
 var
 e=a;return e}function
-l0(c,a,b){if(a){var
-d=a[1],e=M(b,h(bA(d))),g=l0(c,a[2],e);return f(cz(c,d,b),g)}return a}function
-hK(a){return 0===a[0]?hJ(a[1]):bA(a[1])}function
-l1(c,b,a){if(b){var
-d=b[1],j=M(a,h(hK(d))),k=l1(c,b[2],j);if(0===d[0])var
-g=l0(c,d[1],a);else
+l$(c,a,b){if(a){var
+d=a[1],e=N(b,j(bD(d))),g=l$(c,a[2],e);return f(cA(c,d,b),g)}return a}function
+hQ(a){return 0===a[0]?hP(a[1]):bD(a[1])}function
+ma(c,b,a){if(b){var
+d=b[1],i=N(a,j(hQ(d))),k=ma(c,b[2],i);if(0===d[0])var
+g=l$(c,d[1],a);else
 var
-e=d[1],i=cz(c,e,a),g=[0,bg(c,e,a),i];return f(g,k)}return b}function
-fS(c){var
+e=d[1],h=cA(c,e,a),g=[0,bk(c,e,a),h];return f(g,k)}return b}function
+fV(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=b1(fS,a)}return[0,b]}function
-hL(c){var
+b=bL(fV,a)}return[0,b]}function
+hR(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hL(a[2]);return q(hL(a[1]),d);case
-9:return a[1];default:return K(b)}}}function
-l2(n,g,a,f){if(a){var
-b=a[1],w=M(f,h(hK(b))),x=l2(n,g,a[2],w);if(0===b[0])var
-k=lZ(g,b[1],f),o=[0,k,l(c),k,0,0,0,0];else
+d=hR(a[2]);return q(hR(a[1]),d);case
+9:return a[1];default:return I(b)}}}function
+mb(n,g,a,f){if(a){var
+b=a[1],w=N(f,j(hQ(b))),x=mb(n,g,a[2],w);if(0===b[0])var
+l=l_(g,b[1],f),o=[0,l,h(c),l,0,0,0,0];else
 var
-m=bg(g,b[1],f),q=fS(m),i=aO(aK(0,n),q),d=fS(i[2]),j=e(fS,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?l(c):am(a,d)},j),o=[0,j,hL(d),v,u,t,s,r];var
+m=bk(g,b[1],f),q=fV(m),i=aP(aL(0,n),q),d=fV(i[2]),k=e(fV,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?h(c):ag(a,d)},k),o=[0,k,hR(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-l3(a){return e(function(a){return[0,a[2],d]},a)}function
-l4(a){var
-b=v(hK,a[4]),c=f(hJ(e(bX,a[3])),b);return f(l3(a[2]),c)}function
-l5(a){var
-c=b7(0,l3(a[2])),d=aK(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aF,a[2]),c);return f(aJ(a[1],g),b)}function
-hM(b,d){var
+mc(a){return e(function(a){return[0,a[2],d]},a)}function
+md(a){var
+b=v(hQ,a[4]),c=f(hP(e(bZ,a[3])),b);return f(mc(a[2]),c)}function
+me(a){var
+c=b$(0,mc(a[2])),d=aL(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aH,a[2]),c);return f(aK(a[1],g),b)}function
+hS(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ai(function(a){return aq(e,a)},b);case
+e=a[1];return ak(function(a){return aq(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hM(b,a[1]);if(c){var
+c=hS(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-l6(d){var
+mf(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(ai(function(b){return function(a){return pi(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pt(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-l7(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=l7(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bb,f(c,j)));return ao(h,ao(g,bs(b,k),m),l)}return b}function
-l8(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return l7(a,e,d,function(b){return l8(a,f,e,d,h,b)},g,b)}return b?a:f}function
-l9(d,a){if(a){var
-b=aW(d,a[1]);if(b)var
-c=l9(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+mg(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=mg(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bd,f(c,j)));return ao(h,ao(g,bw(b,k),m),l)}return b}function
+mh(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return mg(a,e,d,function(b){return mh(a,f,e,d,h,b)},g,b)}return b?a:f}function
+mi(d,a){if(a){var
+b=aY(d,a[1]);if(b)var
+c=mi(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return r2}function
-l_(d,a){if(a){var
-b=l9(d,a[1]);if(b)var
-c=l_(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return sr}function
+mj(d,a){if(a){var
+b=mi(d,a[1]);if(b)var
+c=mj(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return r3}var
-fU=s(l(c),fT);function
-l$(e){var
-a=K(fU);if(e)var
-f=q(l(b(2,c)),a),g=C(l(b(2,b(2,c))),f),h=q(l(b(2,c)),a),d=am(C(l(c),h),g);else
+e=b;return e}return ss}var
+fX=t(h(c),fW);function
+mk(e){var
+a=I(fX);if(e)var
+f=q(h(b(2,c)),a),g=z(h(b(2,b(2,c))),f),i=q(h(b(2,c)),a),d=ag(z(h(c),i),g);else
 var
-i=C(l(b(2,c)),a),j=K(fT),d=am(C(q(l(b(2,c)),j),a),i);return az(d)}function
-ma(d,b,a){if(d){var
-e=l$(b),f=C(l(c),e),g=q(s(l(c),a),f);return s(l(c),g)}var
-h=l(c),i=l$(b),j=am(l(c),i);return s(q(a,C(l(c),j)),h)}function
-dH(f,e,d,a){var
-g=K(a),h=K(d),i=s(s(l(b(2,c)),h),g),j=f?e?fU:am(fU,q(l(b(2,c)),fT)):am(fU,l(b(2,c))),k=q(K(j),i);return az(C(l(c),k))}function
-mb(g,d){var
+j=z(h(b(2,c)),a),k=I(fW),d=ag(z(q(h(b(2,c)),k),a),j);return aw(d)}function
+ml(d,b,a){if(d){var
+e=mk(b),f=z(h(c),e),g=q(t(h(c),a),f);return t(h(c),g)}var
+i=h(c),j=mk(b),k=ag(h(c),j);return t(q(a,z(h(c),k)),i)}function
+dK(f,e,d,a){var
+g=I(a),i=I(d),j=t(t(h(b(2,c)),i),g),k=f?e?fX:ag(fX,q(h(b(2,c)),fW)):ag(fX,h(b(2,c))),l=q(I(k),j);return aw(z(h(c),l))}function
+mm(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?G(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hN(v,u,s){var
-a=e(function(a){return t(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+hT(v,u,t){var
+a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -4535,7 +4640,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 w=j[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=i(a,w),d=i(a,x),e=i(a,y),b=i(a,z);return ds([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},s)}var
+c=i(a,w),d=i(a,x),e=i(a,y),b=i(a,z);return dt([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -4554,15 +4659,15 @@ p=b;var
 q=p}else
 var
 q=f;var
-r=q}else
+s=q}else
 var
-r=a;return r}function
-mc(f,i,e,b,h){var
+s=a;return s}function
+mn(f,i,e,b,h){var
 j=f?c:d,a=W(i,j);function
 g(b){var
-c=f?fc(b):dp(b);return H(c,a)}var
-k=[0,ad(h),0],l=[0,[0,a,b,[0,A,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-md(r,g,q,p,f,o,n){if(o){var
+c=f?eb(b):dq(b);return D(c,a)}var
+k=[0,ae(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+mo(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4571,16 +4676,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-z=e(aX,bv(r6)),a=hN(p,ke(g,q,0,f),z);b=1;c=1;d=1;break;case
+A=e(aB,bh(sv)),z=e(ae,0),a=hT(p,bM(0,b7(g,ej(0,f),z),q,0),A);b=1;c=1;d=1;break;case
 3:var
-a=F(k[2],l[1]);b=1;c=1;d=1;break}else
+a=H(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-A=e(mb,r7),a=hN(p,bJ(0,b4(g,mc(r,g,l,k,t),0),q,0),A);b=1;c=1;d=1}else{var
+B=e(mm,sw),a=hT(p,bM(0,b7(g,mn(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-B=e(mb,r8),a=hN(p,bJ(0,b4(g,mc(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}}if(!d)var
+C=e(mm,sx),a=hT(p,bM(0,b7(g,mn(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4590,27 +4695,27 @@ v=h;if(!b){var
 w=v;s=1}}else{var
 w=f;s=1}if(s)var
 a=w;var
-y=a?r9:a}else
+y=a?sy:a}else
 var
 y=n;return y}return[0,n]}function
-me(f,e,d,c,p,o,n){var
+mp(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=md(f,e,d,c,b,a[1],g);return h?_(h[1]):h}var
-i=md(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=eg(a[2],b),l=me(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mo(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
+i=mo(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ek(a[2],b),l=mp(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hO(a){return jk(b(2,c),aE(a,c))}function
-dI(i,a,e,w,v){var
-m=a?c:O(c),f=l(m),g=ma(a,e,r4),h=ma(a,e,r5),n=am(g,dH(a,e,f,g)),o=[0,C(am(h,dH(a,e,h,f)),n),0],p=am(f,dH(a,e,f,g)),r=[0,C(am(h,dH(a,e,g,h)),p),o],s=am(f,dH(a,e,h,f)),t=[0,C(am(g,dH(a,e,g,h)),s),r],u=a?e?l(b(2,c)):q(l(b(2,b(2,c))),fT):l(b(2,b(2,c))),j=cm([0,u,t]),k=[0,d,cL(i)];return me(a,i,j[1],j[2],[0,k,[0,k,[0,w,0]]],1,v)}function
-mf(a,g,b){if(L(g,hO(a))){if(b){var
+hU(a){return jq(b(2,c),aG(a,c))}function
+dL(j,a,e,w,v){var
+m=a?c:P(c),f=h(m),g=ml(a,e,st),i=ml(a,e,su),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(i,dK(a,e,i,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(i,dK(a,e,g,i)),p),o],s=ag(f,dK(a,e,i,f)),t=[0,z(ag(g,dK(a,e,g,i)),s),r],u=a?e?h(b(2,c)):q(h(b(2,b(2,c))),fW):h(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mp(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+mq(a,g,b){if(L(g,hU(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hO(a)],v=cL(a),i=[0,hO(a),v],j=dI(a,0,1,h,b[1]),k=j?dI(a,0,0,i,c[1]):j;if(k){var
-l=dI(a,1,1,h,d[1]);if(l)return dI(a,1,0,i,e[1]);var
+h=[0,g,hU(a)],v=cL(a),i=[0,hU(a),v],j=dL(a,0,1,h,b[1]),k=j?dL(a,0,0,i,c[1]):j;if(k){var
+l=dL(a,1,1,h,d[1]);if(l)return dL(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4627,262 +4732,262 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cL(a)],s=dI(a,0,0,r,b[1]);if(s)return dI(a,1,0,r,f[1]);var
+r=[0,g,cL(a)],s=dL(a,0,0,r,b[1]);if(s)return dL(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hP(a){var
-b=[1,[2,d]];return dj(function(b,a){return[1,[3,b,a]]},a,b)}function
-fV(a){return hP(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fW(a,c){return hP(e(function(a){var
-d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hP(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mg(e,d,c,b,a){if(0===a[0])return t(a[1],b,0);var
-f=a[1],g=b1(function(a){return mg(e,d,c,b,a)},f);return i(b4(e,d,c),g)}function
-mh(a){return a?L(d,a[1][2][1]):a}function
-r_(a){var
-b=u(h(a),r$);return b?ai(function(a){return _(Z(a,d))},a):b}function
-mi(c,f,b,a){if(b)if(a)var
-d=b[1],g=y(c,W(c,a[1]),f),h=mi(c,f,b[2],a[2]),i=d[3],j=G(d[2],g),e=[0,[0,G(d[1],g),j,i],h];else
+hV(a){var
+b=[1,[2,d]];return dk(function(b,a){return[1,[3,b,a]]},a,b)}function
+fY(a){return hV(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+fZ(a,c){return hV(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hV(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+mr(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bL(function(a){return mr(e,d,c,b,a)},f);return i(b7(e,d,c),g)}function
+ms(a){return a?L(d,a[1][2][1]):a}function
+sz(a){var
+b=u(j(a),sA);return b?ak(function(a){return $(_(a,d))},a):b}function
+mt(c,f,b,a){if(b)if(a)var
+d=b[1],g=x(c,W(c,a[1]),f),h=mt(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-fX(b,a){return d7(d7(b,0),a)}function
-hQ(a){if(a){var
-b=a[2],c=a[1];if(b)return fX(c,[0,sb,hQ(b)]);var
+f0(b,a){return d_(d_(b,0),a)}function
+hW(a){if(a){var
+b=a[2],c=a[1];if(b)return f0(c,[0,sC,hW(b)]);var
 d=c}else
 var
 d=a;return d}function
-B(a){return[0,sd,fX(hQ(a),sc)]}function
-aa(a){return[0,sf,fX(hQ(a),se)]}function
-al(a){return[0,sh,[0,a,sg]]}function
-k(b,a){return[0,aS(sj,aS(b,si)),a]}function
-I(b,a){return aa([0,k(b,a),0])}function
-b$(d){var
-b=d,a=pN,e=0;for(;;){if(b){var
-c=jb(a),b=b[1],a=c;continue}return[0,d8(e2(a)),e]}}function
-hR(a){return[0,d8(e8(a)),0]}function
-fY(a){var
-c=a7(a),f=0,b=0===c?pS:0<c?[0,e8(a)]:[1,e8(O(a))];if(0===b[0])var
-d=d8(b[1]);else
+C(a){return[0,sE,f0(hW(a),sD)]}function
+aa(a){return[0,sG,f0(hW(a),sF)]}function
+am(a){return[0,sI,[0,a,sH]]}function
+l(b,a){return[0,aT(sK,aT(b,sJ)),a]}function
+J(b,a){return aa([0,l(b,a),0])}function
+cd(d){var
+b=d,a=pY,e=0;for(;;){if(b){var
+c=jh(a),b=b[1],a=c;continue}return[0,d$(e5(a)),e]}}function
+hX(a){return[0,d$(e$(a)),0]}function
+f1(a){var
+c=a9(a),f=0,b=0===c?p3:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
+d=d$(b[1]);else
 var
-e=d8(b[1]),d=aS(bn(1,45),e);return[0,d,f]}function
-hS(a){var
-b=0,c=0<a7(a)?e8(a):pR;return[0,d8(c),b]}function
-hT(a){switch(a[0]){case
-2:return sl;case
-3:return 2<=a[1]?sm:sn;case
-4:return so;default:return sk}}function
-ey(b,a){function
-c(c,a){return S(c,hT(a))?ey(b,a):[0,su,f(ey(b,a),st)]}switch(a[0]){case
+e=d$(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
+hY(a){var
+b=0,c=0<a9(a)?e$(a):p2;return[0,d$(c),b]}function
+hZ(a){switch(a[0]){case
+2:return sM;case
+3:return 2<=a[1]?sN:sO;case
+4:return sP;default:return sL}}function
+eB(b,a){function
+c(c,a){return V(c,hZ(a))?eB(b,a):[0,sV,f(eB(b,a),sU)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,a1(g),0];var
-h=[0,sv,[0,a1(e),0]];return[0,a1(g),h];case
+e==="number")return[0,a2(g),0];var
+h=[0,sW,[0,a2(e),0]];return[0,a2(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,sx,c(sw,a[1])];case
+2:return[0,sY,c(sX,a[1])];case
 3:var
-j=a[3],k=c([0,hT(a)],j);switch(a[1]){case
+j=a[3],k=c([0,hZ(a)],j);switch(a[1]){case
 0:var
-d=sp;break;case
+d=sQ;break;case
 1:var
-d=sq;break;case
+d=sR;break;case
 2:var
-d=sr;break;default:var
-d=ss}var
-l=a[2];return f(c(hT(a),l),[0,d,k]);case
+d=sS;break;default:var
+d=sT}var
+l=a[2];return f(c(hZ(a),l),[0,d,k]);case
 4:var
-m=[0,sy,hR(a[2])];return f(c(sz,a[1]),m);default:return[0,sB,f(ey(b,a[1]),sA)]}}function
-J(a){return[0,sE,f(ey(function(a){return 0===a[0]?a[1]:sD},a),sC)]}function
-hU(a){return[0,sG,f(ey(function(a){return a},a),sF)]}function
-ca(a){if(0===a[0])return J(a[1]);var
-b=[0,k(sH,J(a[2])),0];return aa([0,k(sI,J(a[1])),b])}function
-fZ(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return B([0,i(b,a[1]),d])}function
-sJ(a){function
-b(a){return fZ(ca,a)}switch(a[0]){case
+m=[0,sZ,hX(a[2])];return f(c(s0,a[1]),m);default:return[0,s2,f(eB(b,a[1]),s1)]}}function
+K(a){return[0,s5,f(eB(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
+h0(a){return[0,s7,f(eB(function(a){return a},a),s6)]}function
+ce(a){if(0===a[0])return K(a[1]);var
+b=[0,l(s8,K(a[2])),0];return aa([0,l(s9,K(a[1])),b])}function
+f2(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return C([0,i(b,a[1]),d])}function
+s_(a){function
+b(a){return f2(ce,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?sK:sS,h=[0,k(sL,al(g)),e],i=[0,k(sM,ca(a[4])),h],j=[0,k(sN,b(a[3])),i],l=[0,k(sO,b(a[2])),j],m=[0,k(sP,b(a[1])),l],c=[0,k(sR,al(sQ)),m];break;case
+e=0,g=a[5]?s$:th,h=[0,l(ta,am(g)),e],i=[0,l(tb,ce(a[4])),h],j=[0,l(tc,b(a[3])),i],k=[0,l(td,b(a[2])),j],m=[0,l(te,b(a[1])),k],c=[0,l(tg,am(tf)),m];break;case
 1:var
-d=a[3],n=d?[0,k(sT,b(d[1])),0]:d,o=[0,k(sU,b(a[2])),0],p=[0,k(sV,b(a[1])),o],c=f([0,k(sX,al(sW)),p],n);break;default:var
-q=[0,k(sY,b(a[1])),0],c=[0,k(s0,al(sZ)),q]}return aa(c)}function
-s1(a){function
-b(a){return B(e(ca,a))}function
+d=a[3],n=d?[0,l(ti,b(d[1])),0]:d,o=[0,l(tj,b(a[2])),0],p=[0,l(tk,b(a[1])),o],c=f([0,l(tm,am(tl)),p],n);break;default:var
+q=[0,l(tn,b(a[1])),0],c=[0,l(tp,am(to)),q]}return aa(c)}function
+tq(a){function
+b(a){return C(e(ce,a))}function
 d(a){var
-b=a?s2:s4;return k(s3,al(b))}switch(a[0]){case
+b=a?tr:tt;return l(ts,am(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,k(s5,ca(a[4])),f],h=[0,k(s6,b(a[3])),g],i=[0,k(s7,b(a[2])),h],j=[0,k(s8,b(a[1])),i],c=[0,k(s_,al(s9)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(tu,ce(a[4])),f],h=[0,l(tv,b(a[3])),g],i=[0,l(tw,b(a[2])),h],j=[0,l(tx,b(a[1])),i],c=[0,l(tz,am(ty)),j];break;case
 1:var
-l=[0,k(s$,b(a[2])),0],m=[0,k(ta,b(a[1])),l],c=[0,k(tc,al(tb)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,k(td,ca(a[6])),n],p=[0,k(te,ca(a[5])),o],q=[0,k(tf,b(a[4])),p],r=[0,k(tg,b(a[3])),q],s=[0,k(th,b(a[2])),r],t=[0,k(ti,b(a[1])),s],c=[0,k(tk,al(tj)),t]}return aa(c)}function
-hV(a){switch(a){case
-0:return tl;case
-1:return tm;case
-2:return tn;case
-3:return to;case
-4:return tp;case
-5:return tq;case
-6:return tr;case
-7:return ts;case
-8:return tt;case
-9:return tu;case
-10:return tv;case
-11:return tw;case
-12:return tx;case
-13:return ty;case
-14:return tz;default:return tA}}function
-hW(a){if(typeof
-a==="number")return tB;else
+k=[0,l(tA,b(a[2])),0],m=[0,l(tB,b(a[1])),k],c=[0,l(tD,am(tC)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(tE,ce(a[6])),n],p=[0,l(tF,ce(a[5])),o],q=[0,l(tG,b(a[4])),p],r=[0,l(tH,b(a[3])),q],s=[0,l(tI,b(a[2])),r],t=[0,l(tJ,b(a[1])),s],c=[0,l(tL,am(tK)),t]}return aa(c)}function
+h1(a){switch(a){case
+0:return tM;case
+1:return tN;case
+2:return tO;case
+3:return tP;case
+4:return tQ;case
+5:return tR;case
+6:return tS;case
+7:return tT;case
+8:return tU;case
+9:return tV;case
+10:return tW;case
+11:return tX;case
+12:return tY;case
+13:return tZ;case
+14:return t0;default:return t1}}function
+h2(a){if(typeof
+a==="number")return t2;else
 switch(a[0]){case
-0:return tC;case
-1:return tD;default:return tE}}function
-ez(a){var
+0:return t3;case
+1:return t4;default:return t5}}function
+eC(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,k(tF,J(b[1])),0];break;case
+d=[0,l(t6,K(b[1])),0];break;case
 1:var
-d=[0,k(tG,J(b[1])),0];break;default:var
-n=[0,J(b[2]),0],d=[0,k(tH,B([0,J(b[1]),n])),0]}var
-o=[0,k(tI,al(hW(a[4]))),d],g=a[3];if(g){var
+d=[0,l(t7,K(b[1])),0];break;default:var
+n=[0,K(b[2]),0],d=[0,l(t8,C([0,K(b[1]),n])),0]}var
+o=[0,l(t9,am(h2(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-q=B([0,J(c[1]),0]),j=a[1],p=0,r=6===j?tJ:12===j?tN:tO,h=[0,k(tK,I(r,q)),p];break;case
+q=C([0,K(c[1]),0]),j=a[1],p=0,r=6===j?t_:12===j?uc:ud,h=[0,l(t$,J(r,q)),p];break;case
 1:var
-w=B(e(J,c[1])),m=a[1],v=0,x=14===m?tP:15<=m?tR:tS,h=[0,k(tQ,I(x,w)),v];break;default:var
-y=[0,k(tT,B([0,J(c[2]),0])),0],h=[0,k(tV,aa([0,k(tU,B([0,J(c[1]),0])),y])),0]}var
-l=h}else
+w=C(e(K,c[1])),m=a[1],v=0,x=14===m?ue:15<=m?ug:uh,h=[0,l(uf,J(x,w)),v];break;default:var
+y=[0,l(ui,C([0,K(c[2]),0])),0],h=[0,l(uk,aa([0,l(uj,C([0,K(c[1]),0])),y])),0]}var
+k=h}else
 var
-l=g;var
-s=f(l,o),i=a[2],t=i?[0,k(tL,b$(i[1])),0]:i,u=f(t,s);return aa([0,k(tM,al(hV(a[1]))),u])}function
-mj(a){if(0===a[0]){var
-b=[0,k(tW,fZ(J,a[2])),0];return I(tY,aa([0,k(tX,fZ(J,a[1])),b]))}var
-c=[0,J(a[5]),0],d=[0,k(tZ,B([0,J(a[4]),c])),0],e=[0,k(t0,J(a[3])),d],f=[0,J(a[2]),0];return I(t2,aa([0,k(t1,B([0,J(a[1]),f])),e]))}function
-mk(a){if(0===a[0]){var
-b=[0,k(t3,B(e(J,a[2]))),0];return I(t5,aa([0,k(t4,B(e(J,a[1]))),b]))}return mj([1,a[1],a[2],a[3],a[4],a[5]])}function
-ml(a){switch(a){case
-0:return t6;case
-1:return t7;default:return t8}}function
-t9(a){function
-b(a){return B(e(ca,a))}var
-c=[0,k(t_,b(a[2])),0],d=[0,k(t$,b(a[1])),c];return aa([0,k(ub,al(ua)),d])}function
-mm(a){function
+k=g;var
+s=f(k,o),i=a[2],t=i?[0,l(ua,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(ub,am(h1(a[1]))),u])}function
+mu(a){if(0===a[0]){var
+b=[0,l(ul,f2(K,a[2])),0];return J(un,aa([0,l(um,f2(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,l(uo,C([0,K(a[4]),c])),0],e=[0,l(up,K(a[3])),d],f=[0,K(a[2]),0];return J(ur,aa([0,l(uq,C([0,K(a[1]),f])),e]))}function
+mv(a){if(0===a[0]){var
+b=[0,l(us,C(e(K,a[2]))),0];return J(uu,aa([0,l(ut,C(e(K,a[1]))),b]))}return mu([1,a[1],a[2],a[3],a[4],a[5]])}function
+mw(a){switch(a){case
+0:return uv;case
+1:return uw;default:return ux}}function
+uy(a){function
+b(a){return C(e(ce,a))}var
+c=[0,l(uz,b(a[2])),0],d=[0,l(uA,b(a[1])),c];return aa([0,l(uC,am(uB)),d])}function
+mx(a){function
 b(b,a){var
-c=[0,J(a),0];return B([0,J(b),c])}switch(a[0]){case
-0:return I(uc,b(a[1],a[2]));case
+c=[0,K(a),0];return C([0,K(b),c])}switch(a[0]){case
+0:return J(uD,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,k(ud,b(c[1],c[2])),0],g=[0,k(ue,b(d[1],d[2])),f];return I(ug,aa([0,k(uf,b(e[1],e[2])),g]));case
-2:return I(uh,J(a[1]));default:var
-h=[0,k(ui,J(a[2])),0];return I(uk,aa([0,k(uj,J(a[1])),h]))}}function
-ul(a){function
-b(a){return fZ(J,a)}if(0===a[0])var
-c=a[5],e=c?[0,k(um,b(c[1])),0]:c,g=[0,J(a[4]),0],h=[0,k(un,B([0,J(a[3]),g])),0],i=[0,k(uo,J(a[2])),h],j=[0,k(up,b$(a[1])),i],d=f([0,k(ur,al(uq)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,l(uE,b(c[1],c[2])),0],g=[0,l(uF,b(d[1],d[2])),f];return J(uH,aa([0,l(uG,b(e[1],e[2])),g]));case
+2:return J(uI,K(a[1]));default:var
+h=[0,l(uJ,K(a[2])),0];return J(uL,aa([0,l(uK,K(a[1])),h]))}}function
+uM(a){function
+b(a){return f2(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,l(uN,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uO,C([0,K(a[3]),g])),0],i=[0,l(uP,K(a[2])),h],j=[0,l(uQ,cd(a[1])),i],d=f([0,l(uS,am(uR)),j],e);else
 var
-l=[0,k(us,J(a[4])),0],m=[0,k(ut,b(a[3])),l],n=[0,k(uu,b(a[2])),m],o=a[1]?uv:ux,d=[0,k(uw,al(o)),n];return aa(d)}function
-mn(a){var
-b=a?[0,k(uy,B(e(ul,a))),0]:a;return b}function
-hX(d,c,b,a){var
-g=[0,k(uz,B(e(ez,a))),0],h=f(mn(b),g),i=[0,k(uA,mj(c)),0];return aa(f([0,k(uC,I(uB,B(e(sJ,d)))),i],h))}function
-uD(a){switch(a[0]){case
-0:return I(uE,hX(a[1],a[2],a[3],a[4]));case
+k=[0,l(uT,K(a[4])),0],m=[0,l(uU,b(a[3])),k],n=[0,l(uV,b(a[2])),m],o=a[1]?uW:uY,d=[0,l(uX,am(o)),n];return aa(d)}function
+my(a){var
+b=a?[0,l(uZ,C(e(uM,a))),0]:a;return b}function
+h3(d,c,b,a){var
+g=[0,l(u0,C(e(eC,a))),0],h=f(my(b),g),i=[0,l(u1,mu(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
+u4(a){switch(a[0]){case
+0:return J(u5,h3(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=B(e(s1,a[2])),m=[0,k(uF,B(e(ez,a[6]))),0],n=b?[0,k(uG,mm(b[1])),0]:b,o=f(n,m),l=0,p=[0,k(uH,mk(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eC,a[6]))),0],n=b?[0,l(u7,mx(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mv(a[4])),o];if(typeof
 d==="number")if(d)var
-h=uI;else{var
-i=I(uN,g);l=1}else
+h=u9;else{var
+i=J(vc,g);k=1}else
 var
-h=ml(d[1]);if(!l)var
-q=c?[0,k(uJ,J(c[1])),0]:c,i=I(h,aa([0,k(uK,g),q]));return I(uM,aa([0,k(uL,i),p]));case
+h=mw(d[1]);if(!k)var
+q=c?[0,l(u_,K(c[1])),0]:c,i=J(h,aa([0,l(u$,g),q]));return J(vb,aa([0,l(va,i),p]));case
 2:var
-r=[0,k(uO,B(e(ez,a[7]))),0],s=f(mn(a[6]),r),t=[0,k(uP,mm(a[5])),0],u=[0,k(uQ,mk(a[4])),t],v=[0,k(uR,J(a[3])),0],w=aa([0,k(uS,B(e(t9,a[2]))),v]);return I(uU,aa(f([0,k(uT,I(ml(a[1]),w)),u],s)));case
+r=[0,l(vd,C(e(eC,a[7]))),0],s=f(my(a[6]),r),t=[0,l(ve,mx(a[5])),0],u=[0,l(vf,mv(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mw(a[1]),w)),u],s)));case
 3:var
-x=[0,k(uV,B(e(ez,a[7]))),0],y=[0,k(uW,B(e(J,a[6]))),0],z=[0,k(uZ,I(uY,aa([0,k(uX,B(e(J,a[5]))),y]))),x],A=0,C=a[4],D=[0,k(u2,B(e(function(a){return 0===a[0]?I(u0,B(e(hU,a[1]))):I(u1,hU(a[1]))},C))),A],E=a[3],F=[0,k(u3,B(e(function(a){var
-b=[0,hU(a[2]),0];return B([0,al(a[1]),b])},E))),D],G=a[2],H=[0,k(u4,B(e(function(a){var
-b=[0,ca(a[2]),0];return B([0,al(a[1]),b])},G))),F];return I(u8,aa([0,k(u7,I(u6,aa([0,k(u5,B(e(al,a[1]))),H]))),z]));case
+x=[0,l(vk,C(e(eC,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h0,a[1]))):J(vq,h0(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
+b=[0,h0(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vt,C(e(function(a){var
+b=[0,ce(a[2]),0];return C([0,am(a[1]),b])},G))),F];return J(vx,aa([0,l(vw,J(vv,aa([0,l(vu,C(e(am,a[1]))),H]))),z]));case
 4:var
-K=[0,k(u9,B(e(ez,a[3]))),0],L=[0,k(va,I(u$,aa([0,k(u_,J(a[2])),0]))),K];return I(ve,aa([0,k(vd,I(vc,aa([0,k(vb,J(a[1])),0]))),L]));case
+I=[0,l(vy,C(e(eC,a[3]))),0],L=[0,l(vB,J(vA,aa([0,l(vz,K(a[2])),0]))),I];return J(vF,aa([0,l(vE,J(vD,aa([0,l(vC,K(a[1])),0]))),L]));case
 5:var
-M=[0,k(vf,J(a[5])),0];return I(vh,aa([0,k(vg,hX(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,l(vG,K(a[5])),0];return J(vI,aa([0,l(vH,h3(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-j=a[1],N=0,O=j?ca(j[1]):al(vk);return I(vj,aa([0,k(vi,O),N]));default:var
-P=[0,k(vl,J(a[6])),0],Q=[0,k(vm,J(a[5])),P],R=[0,k(vn,hX(a[2],a[3],0,a[4])),Q],S=a[1];return I(vs,aa([0,k(vr,B(e(function(a){var
-b=[0,k(vo,J(a[2][2])),0],c=[0,k(vp,J(a[2][1])),b];return aa([0,k(vq,al(a[1])),c])},S))),R]))}}function
-eA(a){return B(e(fY,a))}function
-f0(b,a){var
-c=[0,k(vt,hS(a)),0];return aa([0,k(vu,B(e(eA,b))),c])}function
-eB(a){switch(a[0]){case
-0:return al(a[1]);case
+j=a[1],N=0,O=j?ce(j[1]):am(vL);return J(vK,aa([0,l(vJ,O),N]));default:var
+P=[0,l(vM,K(a[6])),0],Q=[0,l(vN,K(a[5])),P],R=[0,l(vO,h3(a[2],a[3],0,a[4])),Q],S=a[1];return J(vT,aa([0,l(vS,C(e(function(a){var
+b=[0,l(vP,K(a[2][2])),0],c=[0,l(vQ,K(a[2][1])),b];return aa([0,l(vR,am(a[1])),c])},S))),R]))}}function
+eD(a){return C(e(f1,a))}function
+f3(b,a){var
+c=[0,l(vU,hY(a)),0];return aa([0,l(vV,C(e(eD,b))),c])}function
+eE(a){switch(a[0]){case
+0:return am(a[1]);case
 1:var
-b=f0(a[2],a[3]);return I(a[1],b);case
+b=f3(a[2],a[3]);return J(a[1],b);case
 2:var
-c=a[1]?vv:vx;return I(vw,al(c));case
+c=a[1]?vW:vY;return J(vX,am(c));case
 3:var
-d=[0,eA(a[3]),0];return I(vy,B([0,f0(a[1],a[2]),d]));case
+d=[0,eD(a[3]),0];return J(vZ,C([0,f3(a[1],a[2]),d]));case
 4:var
-f=[0,b$(0),0],g=[0,fY(a[3]),f];return I(vz,B([0,f0(a[1],a[2]),g]));case
+f=[0,cd(0),0],g=[0,f1(a[3]),f];return J(v0,C([0,f3(a[1],a[2]),g]));case
 5:var
-h=[0,hS(a[3]),0],i=[0,fY(a[2]),h];return I(vA,B([0,eB(a[1]),i]));case
+h=[0,hY(a[3]),0],i=[0,f1(a[2]),h];return J(v1,C([0,eE(a[1]),i]));case
 6:var
-j=[0,hS(a[3]),0],k=[0,fY(a[2]),j];return I(vB,B([0,eB(a[1]),k]));case
-7:return I(vC,eB(a[1]));default:var
-l=[0,B(e(eA,a[3])),0],m=[0,al(a[2]),l];return I(vD,B([0,eB(a[1]),m]))}}function
-vE(a){var
-b=[0,eB(a[2]),0];return B([0,b$(a[1]),b])}function
-mo(a){if(typeof
-a==="number")return 0===a?al(vF):al(vG);else
+j=[0,hY(a[3]),0],k=[0,f1(a[2]),j];return J(v2,C([0,eE(a[1]),k]));case
+7:return J(v3,eE(a[1]));default:var
+l=[0,C(e(eD,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eE(a[1]),m]))}}function
+v5(a){var
+b=[0,eE(a[2]),0];return C([0,cd(a[1]),b])}function
+mz(a){if(typeof
+a==="number")return 0===a?am(v6):am(v7);else
 switch(a[0]){case
 0:var
-b=[0,B(e(eA,a[2])),0];return I(vH,B([0,b$(a[1]),b]));case
+b=[0,C(e(eD,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
 1:var
-c=[0,b$(a[2]),0];return I(vI,B([0,b$(a[1]),c]));default:return I(vJ,B(e(J,a[1])))}}function
-vK(a){var
-b=a[4],h=b?[0,k(vL,eA([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,k(vM,mo(d[1])),0]:d,j=f(i,h),g=a[2],l=g?[0,k(vN,b$(g[1])),0]:g,m=f(l,j),c=a[1],n=c?[0,k(vO,B(e(vE,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
-mp(g,a,d){var
-h=[0,k(vP,B(e(vK,d))),0];if(a)var
-b=a[1],c=[0,k(vQ,f0(b[1],b[2])),0];else
+c=[0,cd(a[2]),0];return J(v9,C([0,cd(a[1]),c]));default:return J(v_,C(e(K,a[1])))}}function
+v$(a){var
+b=a[4],h=b?[0,l(wa,eD([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mz(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+mA(g,a,d){var
+h=[0,l(we,C(e(v$,d))),0];if(a)var
+b=a[1],c=[0,l(wf,f3(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return aa([0,k(vR,hR(g)),i])}function
-mq(d,c,a,b){var
-g=[0,k(vS,mo(b)),0],h=a?[0,k(vT,B(e(J,a))),0]:a,i=f(h,g),j=[0,k(vU,B(e(J,c))),0];return aa(f([0,k(vV,hR(d)),j],i))}function
-vW(a){if(typeof
-a==="number")return al(vX);else
+i=f(c,h);return aa([0,l(wg,hX(g)),i])}function
+mB(d,c,a,b){var
+g=[0,l(wh,mz(b)),0],h=a?[0,l(wi,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wj,C(e(K,c))),0];return aa(f([0,l(wk,hX(d)),j],i))}function
+wl(a){if(typeof
+a==="number")return am(wm);else
 switch(a[0]){case
-0:return I(vY,b$(a[1]));case
-1:return I(vZ,mp(a[1],a[2],a[3]));default:return I(v0,mq(a[1],a[2],a[3],a[4]))}}function
-f1(a){var
-b=gK(gJ(ap(a),function(b){return aM(a,b)}));return n(function(a){var
-b=_(34===a?1:0),c=b?_(92===a?1:0):b,d=c?S(wd,e_(a)):c;return d?S(e_(a),we):d},b)}function
-eC(b){function
+0:return J(wn,cd(a[1]));case
+1:return J(wo,mA(a[1],a[2],a[3]));default:return J(wp,mB(a[1],a[2],a[3],a[4]))}}function
+f4(a){var
+b=gN(gM(ap(a),function(b){return aN(a,b)}));return n(function(a){var
+b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?V(wE,fc(a)):c;return d?V(fc(a),wF):d},b)}function
+eF(b){function
 c(f){var
-a=e_(f),b=S(wf,a),c=b?S(a,wg):b;if(c)var
+a=fc(f),b=V(wG,a),c=b?V(a,wH):b;if(c)var
 d=c;else{var
-e=S(wh,a);if(e)return S(a,wi);var
+e=V(wI,a);if(e)return V(a,wJ);var
 d=e}return d}var
-a=gK(gJ(ap(b),function(a){return aM(b,a)}));if(a){var
+a=gN(gM(ap(b),function(a){return aN(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=e_(a),f=S(wj,e),h=f?S(e,wk):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?S(h(d),wl):f;if(g)return _(aq(b,wm));var
-i=g}else
+e=fc(a),f=V(wK,e),h=f?V(e,wL):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?V(j(d),wM):f;if(g)return $(aq(b,wN));var
+h=g}else
 var
-i=a;return i}function
-hY(c){var
+h=a;return h}function
+h4(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eC(a[1]);case
+1:return eF(a[1]);case
 3:var
-b=hY(a[2]);if(b){var
+b=h4(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eD(m){var
+eG(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4893,40 +4998,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=e2(a[2]);if(typeof
+f=e5(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eD(a[2]);if(i){var
+i=eG(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eD(a[1]),l=k?e6(b(2,c),j):k;return l?e6(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eG(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dJ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bB(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c1(a){return v(dJ,bB(a))}function
-hZ(a){switch(a[0]){case
+dM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+c2(a){return v(dM,bE(a))}function
+h5(a){switch(a[0]){case
 0:var
-c=dJ(a[4]),d=f(c1(a[3]),c),e=f(c1(a[2]),d);return f(c1(a[1]),e);case
+c=dM(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
 1:var
-b=a[3],g=b?c1(b[1]):b,h=f(c1(a[2]),g);return f(c1(a[1]),h);default:return c1(a[1])}}function
-wn(a){switch(a[0]){case
+b=a[3],g=b?c2(b[1]):b,h=f(c2(a[2]),g);return f(c2(a[1]),h);default:return c2(a[1])}}function
+wO(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dJ,b)}function
-mr(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-ms(a){if(0===a[0]){var
-b=bB(a[2]);return f(bB(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mt(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dM,b)}function
+mC(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mD(a){if(0===a[0]){var
+b=bE(a[2]);return f(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mE(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-c2(e){var
+c3(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -4938,120 +5043,120 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-mu(a){if(0===a[0]){var
-b=a[5],c=b?bB(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bB(a[3]),d);return f(bB(a[2]),e)}function
-mv(b,e){var
+mF(a){if(0===a[0]){var
+b=a[5],c=b?bE(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bE(a[3]),d);return f(bE(a[2]),e)}function
+mG(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ai(function(a){return aq(f,a)},b)}return 0;case
+f=c[1];return ak(function(a){return aq(f,a)},b)}return 0;case
 3:var
-d=mv(b,a[2]);if(d){var
+d=mG(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eE(c,a){return n(function(a){var
-b=eD(a);return b?mv(c,a):b},a)}function
-mw(a){if(typeof
+eH(c,a){return n(function(a){var
+b=eG(a);return b?mG(c,a):b},a)}function
+mH(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-mx(a){var
-d=e6(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e6(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-my(a,b){return b?[4,my(a,b[1]),a]:a}function
-j(a){switch(a[0]){case
+mI(a){var
+d=e9(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e9(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+mJ(a,b){return b?[4,mJ(a,b[1]),a]:a}function
+k(a){switch(a[0]){case
 0:var
-i=a[2],k=b(2,o(b(2,b(2,c)))),l=function(a){return x(k,a)},m=e3(i$(i),l,c);return[0,jm(ja(e2(a[1]),i)),m];case
+i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jf(i),l,c);return[0,js(jg(e5(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,O(f[1]),f[2]]:[3,[0,d,c],f];case
+f=k(a[1]);return 0===f[0]?[0,P(f[1]),f[2]]:[3,[0,d,c],f];case
 3:var
-g=j(a[2]),h=j(a[3]);switch(a[1]){case
+g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=br(d4(a[2]));return my(j(a[1]),n);default:return[6,j(a[1])]}}function
-bC(a){if(0===a[0]){var
-b=j(a[1]);return[0,b,b]}var
-c=j(a[2]);return[0,j(a[1]),c]}function
-c3(a){var
-b=bC(a[3]),c=bC(a[2]);return[0,bC(a[1]),c,b]}function
-wo(a){switch(a[0]){case
+n=bv(d7(a[2]));return mJ(k(a[1]),n);default:return[6,k(a[1])]}}function
+bF(a){if(0===a[0]){var
+b=k(a[1]);return[0,b,b]}var
+c=k(a[2]);return[0,k(a[1]),c]}function
+c4(a){var
+b=bF(a[3]),c=bF(a[2]);return[0,bF(a[1]),c,b]}function
+wP(a){switch(a[0]){case
 0:var
-b=a[5],c=bC(a[4]),d=c3(a[3]),e=c3(a[2]);return[0,[0,c3(a[1]),e,d,c,b]];case
+b=a[5],c=bF(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
 1:var
-f=w(c3,a[3]),g=c3(a[2]);return[1,c3(a[1]),g,f];default:return[2,c3(a[1])]}}function
-mz(a){if(0===a[0]){var
+f=w(c4,a[3]),g=c4(a[2]);return[1,c4(a[1]),g,f];default:return[2,c4(a[1])]}}function
+mK(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
-dK(a){var
-b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-cA(a){if(0===a[0]){var
-b=a[5],h=b?dK(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,br(a[1]),l,k,i,h]}var
+b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
+dN(a){var
+b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
+cB(a){if(0===a[0]){var
+b=a[5],h=b?dN(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bv(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dK(f),n=dK(g);return[2,j(e),n,m]}var
-o=dK(f),p=dK(g);return[1,j(e),p,o]}function
-f2(b,a){if(a){var
-c=a[1],d=a[2],g=f2(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bc(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:cg(b[1],a[1]);return _(d)},h),g)}return a}function
-wp(b){if(b[1])return 0;var
+m=dN(f),n=dN(g);return[2,k(e),n,m]}var
+o=dN(f),p=dN(g);return[1,k(e),p,o]}function
+f5(b,a){if(a){var
+c=a[1],d=a[2],g=f5(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:ck(b[1],a[1]);return $(d)},h),g)}return a}function
+wQ(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-wq(T,S,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
+wR(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-U=f[1],b=function(a){return[2,a,j(U)]};break;case
+U=f[1],b=function(a){return[2,a,k(U)]};break;case
 1:var
-W=f[1],b=function(a){return[3,a,j(W)]};break;default:A=1}if(A)return 0;break;case
+W=f[1],b=function(a){return[3,a,k(W)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],L=0;if(typeof
 h==="number"||!(1===h[0]))L=1;else{var
 i=a[3],M=0,X=h[1];if(i){var
 C=i[1];if(0===C[0]){var
 Y=C[1],b=function(a){var
-b=j(X);return[4,a,j(Y),b]};M=1}else
+b=k(X);return[4,a,k(Y),b]};M=1}else
 var
 D=0}else
 var
 D=i;if(!M)return D}if(L)return 0;break;case
 3:var
-k=a[4];if(typeof
-k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
+j=a[4];if(typeof
+j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
 4:var
 l=a[4],N=0;if(typeof
 l==="number"||!(0===l[0]))N=1;else
 var
-Z=l[1],b=function(a){return[6,a,j(Z)]};if(N)return 0;break;case
+Z=l[1],b=function(a){return[6,a,k(Z)]};if(N)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 E=n[1],o=a[3];if(o){var
 p=o[1];switch(p[0]){case
 0:var
-_=j(E);return[0,[8,j(p[1]),_],0];case
+_=k(E);return[0,[8,k(p[1]),_],0];case
 1:var
-$=j(E);return[0,[15,e(j,p[1]),$],0];default:return 0}}return o}return 0;case
+$=k(E);return[0,[15,e(k,p[1]),$],0];default:return 0}}return o}return 0;case
 7:var
 q=a[4];if(typeof
-q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
+q!=="number"&&0===q[0])return[0,[9,k(q[1])],0];return 0;case
 8:var
 r=a[4],O=0;if(typeof
 r==="number"||!(1===r[0]))O=1;else{var
 s=a[3],P=0,aa=r[1];if(s){var
 F=s[1];if(0===F[0]){var
 ab=F[1],b=function(a){var
-b=j(aa);return[13,a,j(ab),b]};P=1}else
+b=k(aa);return[13,a,k(ab),b]};P=1}else
 var
 G=0}else
 var
@@ -5059,39 +5164,39 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=f2(0,S);return e(function(h){var
-e=j(ac),a=h[2],b=h[1];if(0===b[0]){var
+ac=t[1],ad=f5(0,S);return e(function(h){var
+e=k(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dK(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,br(f),m,l,k]}var
-n=cA(a);return[10,cA(b),n,e]}var
-o=cA(a);return[10,cA(b),o,e]}var
-p=cA(a);return[10,cA(b),p,e]},ad)}return 0;case
+g=function(a){return a?dN(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bv(f),m,l,j]}var
+n=cB(a);return[10,cB(b),n,e]}var
+o=cB(a);return[10,cB(b),o,e]}var
+p=cB(a);return[10,cB(b),p,e]},ad)}return 0;case
 10:var
 v=a[4],Q=0;if(typeof
 v==="number"||!(1===v[0]))Q=1;else{var
 w=a[3],R=0,ae=v[1];if(w){var
 x=w[1];if(2===x[0]){var
 af=x[2],ag=x[1],b=function(a){var
-b=j(ae),c=j(af);return[12,a,j(ag),c,b]};R=1}else
+b=k(ae),c=k(af);return[12,a,k(ag),c,b]};R=1}else
 var
 H=0}else
 var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?wr:I;return ah;case
+a[4]==="number"?1:0,ah=I?wS:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 J=z[1];if(0===J[0]){var
-ai=j(y[1]);return[0,[14,j(J[1]),ai],0]}var
+ai=k(y[1]);return[0,[14,k(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,br(B[1]),0]:aK(0,T);return e(b,V)}function
-ws(c,a){switch(a[1]){case
+B=a[2],V=B?[0,bv(B[1]),0]:aL(0,T);return e(b,V)}function
+wT(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5118,10 +5223,10 @@ r=d;if(!R)return r}if(Q)return 0;break;case
 t=a[4];if(typeof
 t!=="number"&&1===t[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
-T=0,v=a[4];if(typeof
-v==="number"||!(0===v[0]))T=1;else{var
+S=0,v=a[4];if(typeof
+v==="number"||!(0===v[0]))S=1;else{var
 w=a[2];if(!w)return a[3]?0:1;if(a[3])return 0;var
-b=w[1]}if(T)return 0;break;case
+b=w[1]}if(S)return 0;break;case
 5:var
 x=a[4];if(typeof
 x!=="number"&&0===x[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5131,17 +5236,17 @@ y!=="number"&&0===y[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
-1:return u(h(z[1]),c);default:return 0}}return f}return 0;case
+1:return u(j(z[1]),c);default:return 0}}return f}return 0;case
 7:var
 A=a[4];if(typeof
 A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 8:var
-U=0,B=a[4];if(typeof
-B==="number"||!(1===B[0]))U=1;else{var
-g=a[3],V=0;if(g)if(0===g[1][0]){var
-C=u(c,wu),W=0;if(C){var
+T=0,B=a[4];if(typeof
+B==="number"||!(1===B[0]))T=1;else{var
+g=a[3],U=0;if(g)if(0===g[1][0]){var
+C=u(c,wV),W=0;if(C){var
 D=a[2];if(D){var
-b=D[1];V=1;W=1}else
+b=D[1];U=1;W=1}else
 var
 E=1}else
 var
@@ -5149,7 +5254,7 @@ E=C;if(!W)return E}else
 var
 F=0;else
 var
-F=g;if(!V)return F}if(U)return 0;break;case
+F=g;if(!U)return F}if(T)return 0;break;case
 9:var
 G=a[4];if(typeof
 G!=="number"&&0===G[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5157,16 +5262,16 @@ G!=="number"&&0===G[0])return a[2]?0:a[3]?0:1;return 0;case
 X=0,H=a[4];if(typeof
 H==="number"||!(1===H[0]))X=1;else{var
 I=a[2];if(!I){var
-j=a[3];if(j){if(2===j[1][0])return 1;var
+i=a[3];if(i){if(2===i[1][0])return 1;var
 K=0}else
 var
-K=j;return K}var
-i=a[3],Y=0;if(i)if(2===i[1][0]){var
+K=i;return K}var
+h=a[3],Y=0;if(h)if(2===h[1][0]){var
 b=I[1];Y=1}else
 var
 J=0;else
 var
-J=i;if(!Y)return J}if(X)return 0;break;case
+J=h;if(!Y)return J}if(X)return 0;break;case
 11:var
 L=typeof
 a[4]==="number"?1:0;if(L){if(a[2])return 0;if(a[3])return 0;var
@@ -5176,112 +5281,123 @@ M=L;return M;case
 12:var
 N=a[4];if(typeof
 N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,wv);var
+k=a[3];if(k){if(0===k[1][0])return u(c,wW);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=S(wt,b);return o?S(b,c):o}function
-h0(c,k,j,b){var
-l=h(c),d=v(function(a){return wq(l,j,a)},b),a=v(wp,b),g=a?[0,a[1],a[2]]:ww,i=f(g,d),m=mz(k);return[0,e(wo,c),m,i]}function
-mA(b){if(b[1])return 0;var
+o=V(wU,b);return o?V(b,c):o}function
+h6(c,k,i,b){var
+l=j(c),d=v(function(a){return wR(l,i,a)},b),a=v(wQ,b),g=a?[0,a[1],a[2]]:wX,h=f(g,d),m=mK(k);return[0,e(wP,c),m,h]}function
+mL(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-mB(b){function
-a(a){return t(a,e(j,b),[0,d,c])}var
-f=a(wx),g=a(wy);return[0,a(0),g,f]}function
-h1(S,R,Q,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
+mM(b){function
+a(a){return r(a,e(k,b),[0,d,c])}var
+f=a(wY),g=a(wZ);return[0,a(0),g,f]}function
+h7(Y,X,W,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-T=c[1],b=function(a){return[2,a,j(T)]};break;case
+Z=c[1],b=function(a){return[2,a,k(Z)]};break;case
 1:var
-V=c[1],b=function(a){return[3,a,j(V)]};break;default:var
-W=c[2],X=c[1],b=function(a){var
-b=j(W);return[4,a,j(X),b]}}break;case
+$=c[1],b=function(a){return[3,a,k($)]};break;default:var
+aa=c[2],ab=c[1],b=function(a){var
+b=k(aa);return[4,a,k(ab),b]}}break;case
 2:var
-f=a[4],G=0;if(typeof
-f==="number"||!(1===f[0]))G=1;else{var
-g=a[3],H=0,Y=f[1];if(g){var
-w=g[1];if(0===w[0]){var
-Z=w[1],b=function(a){var
-b=j(Z),c=j(Y);return S?[9,a,b,c]:[6,a,b,c]};H=1}else
+f=a[4],K=0;if(typeof
+f==="number"||!(1===f[0]))K=1;else{var
+g=a[3],L=0,ac=f[1];if(g){var
+z=g[1];if(0===z[0]){var
+ad=z[1],b=function(a){var
+b=k(ad),c=k(ac);return Y?[9,a,b,c]:[6,a,b,c]};L=1}else
 var
-x=0}else
+A=0}else
 var
-x=g;if(!H)return x}if(G)return 0;break;case
+A=g;if(!L)return A}if(K)return 0;break;case
 3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
+h!=="number"&&1===h[0])return[0,[5,k(h[1])],0];return 0;case
 4:var
-i=a[4],I=0;if(typeof
-i==="number"||!(0===i[0]))I=1;else
+i=a[4],M=0;if(typeof
+i==="number"||!(0===i[0]))M=1;else
 var
-_=i[1],b=function(a){return[10,a,j(_)]};if(I)return 0;break;case
+ae=i[1],b=function(a){return[10,a,k(ae)]};if(M)return 0;break;case
 5:var
-k=a[4];if(typeof
-k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
+j=a[4];if(typeof
+j!=="number"&&0===j[0])return[0,[12,k(j[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 m=a[3];if(m){var
-y=m[1];if(0===y[0]){var
-$=j(l[1]);return[0,[8,j(y[1]),$],0]}var
-z=0}else
+B=m[1];if(0===B[0]){var
+af=k(l[1]);return[0,[8,k(B[1]),af],0]}var
+C=0}else
 var
-z=m;return z}return 0;case
+C=m;return C}return 0;case
 8:var
-n=a[4],J=0;if(typeof
-n==="number"||!(1===n[0]))J=1;else{var
-o=a[3],K=0,aa=n[1];if(o){var
-A=o[1];if(0===A[0]){var
-ab=A[1],b=function(a){var
-b=j(aa);return[7,a,j(ab),b]};K=1}else
+n=a[4],N=0;if(typeof
+n==="number"||!(1===n[0]))N=1;else{var
+o=a[3],O=0,ag=n[1];if(o){var
+D=o[1];if(0===D[0]){var
+ah=D[1],b=function(a){var
+b=k(ag);return[7,a,k(ah),b]};O=1}else
 var
-B=0}else
+E=0}else
 var
-B=o;if(!K)return B}if(J)return 0;break;case
+E=o;if(!O)return E}if(N)return 0;break;case
 9:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0]){var
-ac=p[1],ad=f2(0,Q);return e(function(a){var
-b=j(ac),c=cA(a[2]);return[14,cA(a[1]),c,b]},ad)}return 0;case
-13:var
-q=a[4],L=0;if(typeof
-q==="number"||!(1===q[0]))L=1;else
-var
-ae=q[1],b=function(a){return[11,a,j(ae)]};if(L)return 0;break;case
-14:var
-r=a[4],M=0;if(typeof
-r==="number"||!(1===r[0]))M=1;else{var
-s=a[3],N=0,af=r[1];if(s){var
-C=s[1];if(1===C[0]){var
-ag=C[1],b=function(a){var
-b=j(af);return[13,a,0,mB(ag),b]};N=1}else
-var
-D=0}else
-var
-D=s;if(!N)return D}if(M)return 0;break;case
-15:var
-t=a[4],O=0;if(typeof
-t==="number"||!(1===t[0]))O=1;else{var
-u=a[3],P=0,ah=t[1];if(u){var
-E=u[1];if(1===E[0]){var
-ai=E[1],b=function(a){var
-b=j(ah);return[13,a,1,mB(ai),b]};P=1}else
+ai=p[1],aj=f5(0,W);return e(function(a){var
+b=k(ai),c=cB(a[2]);return[14,cB(a[1]),c,b]},aj)}return 0;case
+10:var
+q=a[4],P=0;if(typeof
+q==="number"||!(1===q[0]))P=1;else{var
+r=a[3],Q=0,ak=q[1];if(r){var
+s=r[1];if(2===s[0]){var
+al=s[2],am=s[1],b=function(a){var
+b=k(ak),c=k(al);return[15,a,k(am),c,b]};Q=1}else
 var
 F=0}else
 var
-F=u;if(!P)return F}if(O)return 0;break;default:return 0}var
-v=a[2],U=v?[0,br(v[1]),0]:aK(0,R);return e(b,U)}function
-dL(e,d,c,b){var
-g=v(function(a){return h1(e,d,c,a)},b),a=v(mA,b),h=a?[0,a[1],a[2]]:wz;return f(h,g)}function
-f3(a){return 11===a[1]?1:0}function
-bP(n,m,a){var
+F=r;if(!Q)return F}if(P)return 0;break;case
+13:var
+t=a[4],R=0;if(typeof
+t==="number"||!(1===t[0]))R=1;else
+var
+an=t[1],b=function(a){return[11,a,k(an)]};if(R)return 0;break;case
+14:var
+u=a[4],S=0;if(typeof
+u==="number"||!(1===u[0]))S=1;else{var
+v=a[3],T=0,ao=u[1];if(v){var
+G=v[1];if(1===G[0]){var
+ap=G[1],b=function(a){var
+b=k(ao);return[13,a,0,mM(ap),b]};T=1}else
+var
+H=0}else
+var
+H=v;if(!T)return H}if(S)return 0;break;case
+15:var
+w=a[4],U=0;if(typeof
+w==="number"||!(1===w[0]))U=1;else{var
+x=a[3],V=0,aq=w[1];if(x){var
+I=x[1];if(1===I[0]){var
+ar=I[1],b=function(a){var
+b=k(aq);return[13,a,1,mM(ar),b]};V=1}else
+var
+J=0}else
+var
+J=x;if(!V)return J}if(U)return 0;break;default:return 0}var
+y=a[2],_=y?[0,bv(y[1]),0]:aL(0,X);return e(b,_)}function
+dO(e,d,c,b){var
+g=v(function(a){return h7(e,d,c,a)},b),a=v(mL,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
+f6(a){return 11===a[1]?1:0}function
+bR(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5291,138 +5407,138 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=cg(n,e);if(f){var
+f=ck(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=S(wA,h);return i?S(h,m):i}var
+h=g[1],i=V(w1,h);return i?V(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bh(n,b,a){var
+bl(n,b,a){var
 d=a[2];if(d)var
-e=d[1],f=S(wB,e),o=f?S(e,b):f,c=o;else
+e=d[1],f=V(w2,e),o=f?V(e,b):f,c=o;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
 2:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bP(0,b,a):bP(0,b,a)}return bP(0,b,a);case
+i=a[3];return i?0===i[1][0]?c:bR(0,b,a):bR(0,b,a)}return bR(0,b,a);case
 6:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bP(0,b,a):bP(0,b,a)}return bP(0,b,a);case
+k=a[3];return k?0===k[1][0]?a[2]?0:1:bR(0,b,a):bR(0,b,a)}return bR(0,b,a);case
 8:var
 l=a[4];if(typeof
 l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,n):c:bP(0,b,a):bP(0,b,a)}return bP(0,b,a)}return bP(0,b,a)}function
-bD(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bh(c,b,a):a[3]?bh(c,b,a):1:bh(c,b,a):bh(c,b,a)}function
-mC(f,c,b,a){var
+m=a[3];return m?0===m[1][0]?c?u(b,n):c:bR(0,b,a):bR(0,b,a)}return bR(0,b,a)}return bR(0,b,a)}function
+a7(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bl(c,b,a):a[3]?bl(c,b,a):1:bl(c,b,a):bl(c,b,a)}function
+mN(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=S(wE,h),r=i?S(h,b):i,d=r;else
+h=g[1],i=V(w4,h),r=i?V(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bh(a5(c),b,a);if(d){var
+1:if(a[3])return bl(a6(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return cg(f,k)}return d;case
+k=0;return ck(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bh(a5(c),b,a):d;return bh(a5(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bl(a6(c),b,a):d;return bl(a6(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bh(a5(c),b,a);var
-n=u(b,a5(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bl(a6(c),b,a);var
+n=u(b,a6(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bh(a5(c),b,a);case
+e=n;return e}return bl(a6(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bh(a5(c),b,a):d?_(f):d;return bh(a5(c),b,a);default:return bh(a5(c),b,a)}}function
-cB(a){switch(a[0]){case
-0:return[0,j([0,a[1],a[2]])];case
+p!=="number"&&1===p[0])return a[3]?bl(a6(c),b,a):d?$(f):d;return bl(a6(c),b,a);default:return bl(a6(c),b,a)}}function
+cC(a){switch(a[0]){case
+0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cB(a[1])];case
+2:return[2,cC(a[1])];case
 3:var
-b=cB(a[2]),c=cB(a[3]);switch(a[1]){case
+b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cB(a[1]),d];default:return[8,cB(a[1])]}}function
-h2(b){function
+d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
+h8(b){function
 a(e){var
-a=[0,d,c];return t(e,b,[0,a,a])}var
-e=a(wF),f=a(wG);return[0,a(0),f,e]}function
-c4(a){function
+a=[0,d,c];return r(e,b,[0,a,a])}var
+e=a(w5),f=a(w6);return[0,a(0),f,e]}function
+c5(a){function
 b(a){var
-b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
+b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,j(a[1])];default:var
-e=j(a[2]);return[3,j(a[1]),e]}}function
-mD(a){if(0===a[0]){var
-b=aJ(a[1],a[2]);return[0,h2(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return mz([1,a[1],a[2],a[3],a[4],a[5]])}function
-mE(k,b,i,g,f,d,a){function
-c(a){return h2(e(bC,a))}var
-l=ai(f3,a),m=dL(0,h(b),d,a),n=c4(f),o=mD(g),p=j(i);return[0,k,e(function(a){var
+2:return[2,k(a[1])];default:var
+e=k(a[2]);return[3,k(a[1]),e]}}function
+mO(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,h8(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return mK([1,a[1],a[2],a[3],a[4],a[5]])}function
+mP(i,b,h,g,f,d,a){function
+c(a){return h8(e(bF,a))}var
+l=ak(f6,a),m=dO(0,j(b),d,a),n=c5(f),o=mO(g),p=k(h);return[0,i,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-mF(a){return ai(function(a){return 2===a[0]?1:0},a)}function
-mG(k,a,b,i,g,f){var
-l=h(a),m=dL(mF(a),l,0,f),n=w(c4,g),o=mD(i),p=b?j(b[1]):[0,c,c];return[0,k,e(function(a){function
-b(a){return h2(e(bC,a))}switch(a[0]){case
+mQ(a){return ak(function(a){return 2===a[0]?1:0},a)}function
+mR(i,a,b,h,g,f){var
+l=j(a),m=dO(mQ(a),l,0,f),n=w(c5,g),o=mO(h),p=b?k(b[1]):[0,c,c];return[0,i,e(function(a){function
+b(a){return h8(e(bF,a))}switch(a[0]){case
 0:var
-k=a[5],l=bC(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bF(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bC(a[6]),r=bC(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mH(a){return a[1]?0:1}function
-mI(a){var
-c=mH(a);if(c)return c;if(1===a[1]){var
+p=a[7],q=bF(a[6]),r=bF(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+mS(a){return a[1]?0:1}function
+mT(a){var
+c=mS(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-f4(i,h,b){function
+f7(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f5,a(f5,b)),j=a(f,h3),k=i?f:a(c(b,f5),h3);function
-g(b){return a(b,[5,e(f5,d(h3,d(b,b)))])}var
+f=c(f8,a(f8,b)),j=a(f,h9),k=i?f:a(c(b,f8),h9);function
+g(b){return a(b,[5,e(f8,d(h9,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f6(f,e,d){function
+f9(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,h4,a(h4,d)],mJ),g=a(c,[5,[3,0,h4,b(mJ,b(c,c))]]);return[2,b(f4(f,e,d),g)]}function
-h5(e,g,a){function
+c=a([3,1,h_,a(h_,d)],mU),g=a(c,[5,[3,0,h_,b(mU,b(c,c))]]);return[2,b(f7(f,e,d),g)]}function
+h$(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f7,b(f7,a)),d=e?h:b(f(a,f7),mK),i=b(d,[5,[3,0,f7,c(mK,c(d,d))]]);return c(f4(e,g,a),i)}function
-mL(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=co(j(g[2][1]));if(k){var
-l=k[1],m=co(j(g[2][2]));if(m)var
+h=f(f_,b(f_,a)),d=e?h:b(f(a,f_),mV),i=b(d,[5,[3,0,f_,c(mV,c(d,d))]]);return c(f7(e,g,a),i)}function
+mW(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cr(k(g[2][1]));if(j){var
+l=j[1],m=cr(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,e3(h[2],d,c)];return dm(l,b0(e$(p,l),e))},q=n(z(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,e6(h[2],d,c)];return dn(l,b2(fd(p,l),e))},q=n(A(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mL([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mW([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -5431,21 +5547,21 @@ an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jp(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=ju(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,an(b,a[1])];case
 3:var
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-mM(b,a){if(0===a[0])return[0,an(b,a[1])];var
+mX(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-h6(b,a){var
+ia(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-h7(c,a){if(c)if(a){var
+ib(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=h7(h,g);if(e){var
-i=e[1],f=h7(h,i[2]);if(f)var
+e=ib(h,g);if(e){var
+i=e[1],f=ib(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5457,76 +5573,76 @@ var
 d=a;else
 var
 d=c;return d}function
-h8(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,h8(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,z(x(b(2,c),l),k),j],h]}else
+ic(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,ic(g,f[1],h)];var
+j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,A(y(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-wL(a){if(typeof
+w$(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-wM(a){if(typeof
+xa(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f8(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=f8(e,a[3]);return b0(dm(f8(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
-mN(a){return 0===a[0]?dB(a[1][4]):0}function
-mO(a){switch(a[0]){case
+f$(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=f$(e,a[3]);return b2(dn(f$(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
+mY(a){return 0===a[0]?dC(a[1][4]):0}function
+mZ(a){switch(a[0]){case
 0:var
-b=a[1],c=a3(b[3]);return f(a3(b[2]),c);case
+b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
 1:var
-d=a3(a[2]);return f(a3(a[1]),d);default:return 0}}function
-f9(a){switch(a[0]){case
-0:return bN(a3(a[1][1]));case
+d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
+ga(a){switch(a[0]){case
+0:return bP(a4(a[1][1]));case
 1:var
-b=a[3];return b?bN(a3(b[1])):d;default:return bN(a3(a[1]))}}function
-h9(b){var
-a=v(mN,b),d=a?[0,a[1],a[2]]:v(mO,b);return z(c,bN(d))}function
-mP(c,a){if(c){if(a){var
+b=a[3];return b?bP(a4(b[1])):d;default:return bP(a4(a[1]))}}function
+id(b){var
+a=v(mY,b),d=a?[0,a[1],a[2]]:v(mZ,b);return A(c,bP(d))}function
+m0(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=wN;else
+b=xb;else
 if(43===d)var
-b=wO;else
+b=xc;else
 var
-f=48===d?1:0,i=f?wP:f,b=i;if(b)var
-e=mP(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?xd:f,b=i;if(b)var
+e=m0(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:wQ}function
-eF(b,a){switch(a[0]){case
+h=a;return h}return a?0:xe}function
+eI(b,a){switch(a[0]){case
 0:var
-c=a[1];if(aq(c,wR))return wS;if(aq(c,wT))return wU;if(aq(c,wV))return wW;if(aq(c,wX))return wY;if(aq(c,wZ))return w0;var
-k=aq(c,w1),p=k?w2:k;return p;case
+c=a[1];if(aq(c,xf))return xg;if(aq(c,xh))return xi;if(aq(c,xj))return xk;if(aq(c,xl))return xm;if(aq(c,xn))return xo;var
+k=aq(c,xp),p=k?xq:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(aq(f,w3))return[0,[0,d,e]];if(aq(f,w4))return[0,[1,d,e]];if(aq(f,w5))return[0,[2,d,e]];var
-l=aq(f,w6),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(aq(f,xr))return[0,[0,d,e]];if(aq(f,xs))return[0,[1,d,e]];if(aq(f,xt))return[0,[2,d,e]];var
+l=aq(f,xu),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eF(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eI(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eF(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eI(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eF(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eF(b,a[1]);if(i)var
-j=mP(b,gK(gJ(ap(m),function(a){return aM(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eI(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eI(b,a[1]);if(i)var
+j=m0(b,gN(gM(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mQ(d,a){if(a){var
-e=a[1],b=eF(d,e[2]);if(b)var
-c=mQ(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+m1(d,a){if(a){var
+e=a[1],b=eI(d,e[2]);if(b)var
+c=m1(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return w7}function
-c5(d,c,a){if(c)if(a){var
+f=b;return f}return xv}function
+c6(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mQ(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=m1(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=c5(d,k,j);if(f){var
-m=f[1],g=c5(d,k,m[2]);if(g)var
+f=c6(d,k,j);if(f){var
+m=f[1],g=c6(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5541,118 +5657,120 @@ var
 h=a;else
 var
 h=c;return h}function
-h_(e,d,a){if(d){if(a){var
-b=c5(e,h(a),a);if(b)var
-f=b[1],c=h_(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
+ie(e,d,a){if(d){if(a){var
+b=c6(e,j(a),a);if(b)var
+f=b[1],c=ie(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
 var
-g=b;return g}return w8}return a?0:w9}function
-h$(a){if(typeof
-a==="number")return 0===a?w_:w$;else
+g=b;return g}return xw}return a?0:xx}function
+ig(a){if(typeof
+a==="number")return 0===a?xy:xz;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-ia(d,a){if(d)if(a){var
+ih(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=ia(k,j);if(e){var
-l=e[1],f=ia(k,l[2]);if(f)var
+e=ih(k,j);if(e){var
+l=e[1],f=ih(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=h$(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
+p=ig(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
 var
 g=d;return g}function
-cC(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-c6(a,e){var
-b=cC(a[1],e),c=cC(a[2],b[2]),d=cC(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-mR(d,c){if(d){var
+cD(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+c7(a,e){var
+b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+m2(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=c6(a[1],c),f=c6(a[2],e[2]),g=c6(a[3],f[2]),h=cC(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=c7(a[1],c),f=c7(a[2],e[2]),g=c7(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=c6(a[1],c),k=j[1],l=c6(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=c6(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=c7(a[1],c),k=j[1],l=c7(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=c7(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=c6(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=mR(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-xa(a){if(typeof
+p=c7(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=m2(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+xA(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return xc;case
+5:return xC;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return xb}function
-bi(a,b){if(a){var
-c=cC(a[1],b),d=bi(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-aZ(b){function
-a(a){return t(a,b,[0,d,c])}var
-e=a(xf),f=a(xg);return[0,a(0),f,e]}function
-mS(a,b){if(a){var
-c=a[1],d=bi(c[1],b),e=bi(c[2],d[2]),f=mS(a[2],e[2]),g=f[2],h=f[1],i=aZ(e[1]);return[0,[0,[0,aZ(d[1]),i],h],g]}return[0,0,b]}function
-mT(f,b){if(f){var
+11:return 0}return xB}function
+bm(a,b){if(a){var
+c=cD(a[1],b),d=bm(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a0(b){function
+a(a){return r(a,b,[0,d,c])}var
+e=a(xF),f=a(xG);return[0,a(0),f,e]}function
+m3(a,b){if(a){var
+c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=m3(a[2],e[2]),g=f[2],h=f[1],i=a0(e[1]);return[0,[0,[0,a0(d[1]),i],h],g]}return[0,0,b]}function
+m4(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bi(a[1],b),h=bi(a[2],g[2]),i=bi(a[3],h[2]),j=cC(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=aZ(i[1]),y=aZ(h[1]),e=[0,[0,[0,aZ(g[1]),y,x,w,v]],u];break;case
+g=bm(a[1],b),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cD(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a0(i[1]),y=a0(h[1]),e=[0,[0,[0,a0(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bi(a[1],b),l=bi(a[2],k[2]),z=l[2],A=aZ(l[1]),e=[0,[0,[1,aZ(k[1]),A,0]],z];break;default:var
-m=a[1],n=bi(m,b),o=bi(a[2],n[2]),p=bi(a[3],o[2]),q=bi(a[4],p[2]),r=cC(a[5],q[2]),s=cC(a[6],r[2]),B=m?aZ(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=aZ(q[1]),H=aZ(p[1]),e=[0,[1,[0,B,aZ(o[1]),H,G,F,E,D]],C]}var
-t=mT(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dM(a){return jL(p,a)}function
-xh(a){if(typeof
+k=bm(a[1],b),l=bm(a[2],k[2]),z=l[2],A=a0(l[1]),e=[0,[0,[1,a0(k[1]),A,0]],z];break;default:var
+m=a[1],n=bm(m,b),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cD(a[5],q[2]),s=cD(a[6],r[2]),B=m?a0(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a0(q[1]),H=a0(p[1]),e=[0,[1,[0,B,a0(o[1]),H,G,F,E,D]],C]}var
+t=m4(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dP(a){return jR(o,a)}function
+xH(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(p,1,[3,a[1],[0,c,c]]);case
-6:return g(p,1,a[2]);case
+5:return g(o,1,[3,a[1],[0,c,c]]);case
+6:return g(o,1,a[2]);case
 8:var
-d=g(p,1,a[1]);return d?g(p,1,a[2]):d;case
-10:return g(p,0,a[3]);case
+d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
+10:return g(o,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?g(p,0,e[2]):0;case
+e=a[4];return 2===e[0]?g(o,0,e[2]):0;case
 12:var
-f=g(p,0,a[2]),h=f?g(p,0,a[3]):f;return h?g(p,1,a[4]):h;case
+f=g(o,0,a[2]),h=f?g(o,0,a[3]):f;return h?g(o,1,a[4]):h;case
 14:var
-i=g(p,0,a[1]);return i?g(p,1,a[2]):i;case
+i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return n(function(a){return g(p,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 2:case
-3:return dM(a[2]);case
+3:return dP(a[2]);case
 4:case
 13:var
-b=g(p,1,a[2]);return b?g(p,1,a[3]):b;default:return g(p,1,a[1])}}function
-ib(a){if(typeof
+b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
+ii(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(p,1,[3,d,e]),h=f?g(p,1,[3,[2,e,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(p,0,[2,e,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c]]):h;return i?g(p,0,[3,[0,b(2,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))))),c],d]):i;case
-5:return g(p,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(o,0,[2,e,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c]]):h;return i?g(o,0,[3,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c],d]):i;case
+5:return g(o,1,[3,a[1],[0,c,c]]);case
 8:var
-k=g(p,1,a[1]);return k?g(p,1,a[2]):k;case
-10:return g(p,1,a[2]);case
+k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
+10:return g(o,1,a[2]);case
 11:var
-l=a[2],m=g(p,1,l);return m?g(p,0,[3,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c],l]):m;case
+l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],l]):m;case
 13:var
-n=a[4],q=lH(a[3]),r=q?g(p,1,n):q;return r?g(p,0,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],n]):r;case
-14:return g(p,0,a[3]);case
+n=a[4],q=lS(a[3]),r=q?g(o,1,n):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],n]):r;case
+14:return g(o,0,a[3]);case
+15:var
+s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
 2:case
-3:return dM(a[2]);case
-6:case
-7:case
-9:var
-j=g(p,1,a[2]);return j?g(p,1,a[3]):j;default:return g(p,1,a[1])}}function
-f_(d){var
+3:return dP(a[2]);case
+0:case
+1:case
+12:return g(o,1,a[1]);default:var
+j=g(o,1,a[2]);return j?g(o,1,a[3]):j}}function
+gb(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(ai(function(d){return function(a){var
-h=hV(a[1]),e=aq(hV(d[1]),h);if(e)var
-i=hW(a[4]),b=aq(hW(d[4]),i);else
+b=a[2],e=a[1],c=$(ak(function(d){return function(a){var
+h=h1(a[1]),e=aq(h1(d[1]),h);if(e)var
+i=h2(a[4]),b=aq(h2(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5661,147 +5779,145 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eG(a){if(0===a[0])return dM(j(a[1]));var
-b=a[2],c=a[1];if(!ec(j(c))&&!ec(j(b))){var
-e=j(c);return g(p,1,[3,j(b),e])}var
-d=j(b);return be(p,j(c),d)}function
-c7(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-mU(a){switch(a[0]){case
+eJ(a){if(0===a[0])return dP(k(a[1]));var
+b=a[2],c=a[1];if(!eg(k(c))&&!eg(k(b))){var
+e=k(c);return g(o,1,[3,k(b),e])}var
+d=k(b);return bg(o,k(c),d)}function
+c8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+m5(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(c7(a[3]),c),e=f(c7(a[2]),d);return f(c7(a[1]),e);case
+c=[0,a[4],0],d=f(c8(a[3]),c),e=f(c8(a[2]),d);return f(c8(a[1]),e);case
 1:var
-b=a[3],g=b?c7(b[1]):b,h=f(c7(a[2]),g);return f(c7(a[1]),h);default:return c7(a[1])}}function
-mV(s,a,k){if(ai(function(a){return 9===a[1]?1:0},k)){var
-b=S(h(a),xk),c=b?n(function(a){if(0===a[0]){var
-d=a[5],e=g(p,1,j(a[2])),h=e?g(p,0,j(a[3])):e,k=h?g(p,0,j(a[4])):h,c=0;if(k)if(d)var
-o=bB(d[1]),b=n(function(a){return dM(j(a))},o);else{var
+b=a[3],g=b?c8(b[1]):b,h=f(c8(a[2]),g);return f(c8(a[1]),h);default:return c8(a[1])}}function
+m6(s,a,h){if(ak(function(a){return 9===a[1]?1:0},h)){var
+b=V(j(a),xK),c=b?n(function(a){if(0===a[0]){var
+d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,j=h?g(o,0,k(a[4])):h,c=0;if(j)if(d)var
+p=bE(d[1]),b=n(function(a){return dP(k(a))},p);else{var
 l=1;c=1}else{var
-l=k;c=1}if(c)var
+l=j;c=1}if(c)var
 b=l}else{var
-m=g(p,1,j(a[4]));if(m)var
-q=bB(a[3]),r=f(bB(a[2]),q),b=n(function(a){return dM(j(a))},r);else
+m=g(o,1,k(a[4]));if(m)var
+q=bE(a[3]),r=f(bE(a[2]),q),b=n(function(a){return dP(k(a))},r);else
 var
 b=m}return b?i(s,a):b},a):b;if(c)var
-d=f2(0,a),l=d?1:d,e=l;else
+d=f5(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-mW(a){return a?xl:xm}function
-ic(a){switch(a){case
-0:return xn;case
-1:return xo;default:return 0}}function
-cD(a){var
-f=a[1],d=g(p,1,[2,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],f]),e=d?be(p,a[1],a[2]):d;if(e){var
-h=a[2];return g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],h])}return e}function
-dN(a){var
-e=be(p,[0,d,c],a);return e?g(p,1,[3,[0,b(2,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c)))))))))),c],a]):e}function
-mX(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(h(e),c),i=f?u(h(d),c):f;if(i){var
-l=aJ(e,d);return n(function(a){var
-b=j(a[2]);return be(p,j(a[1]),b)},l)}return i}var
-k=b?g(p,1,j(a[3])):b;if(k){var
-m=j(a[5]);return be(p,j(a[4]),m)}return k}function
-mY(a,e,F,E,s,r,f){function
+m7(a){return a?xL:xM}function
+ij(a){switch(a){case
+0:return xN;case
+1:return xO;default:return 0}}function
+cE(a){var
+f=a[1],d=g(o,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bg(o,a[1],a[2]):d;if(e){var
+h=a[2];return g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],h])}return e}function
+dQ(a){var
+e=bg(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
+m8(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
+l=aK(e,d);return n(function(a){var
+b=k(a[2]);return bg(o,k(a[1]),b)},l)}return h}var
+i=b?g(o,1,k(a[3])):b;if(i){var
+m=k(a[5]);return bg(o,k(a[4]),m)}return i}function
+m9(a,e,F,E,s,r,f){function
 t(b){var
-d=mW(a),c=u(h(b),d);return c?n(eG,b):c}var
+d=m7(a),c=u(j(b),d);return c?n(eJ,b):c}var
 v=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
-G=h(e),l=S(cw(a),G);else
+G=j(e),l=V(cx(a),G);else
 var
 l=v;var
-w=l?S(h(e),xp):l,x=w?g(p,1,j(F)):w;if(x)var
-H=1===a?1:0,m=mX(ic(a),H,E);else
+w=l?V(j(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
+H=1===a?1:0,m=m8(ij(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=c4(s);switch(d[0]){case
+d=c5(s);switch(d[0]){case
 0:var
-i=0;break;case
+h=0;break;case
 1:var
-A=cD(d[1]),B=A?cD(d[2]):A,i=B?cD(d[3]):B;break;case
+A=cE(d[1]),B=A?cE(d[2]):A,h=B?cE(d[3]):B;break;case
 2:var
-i=dN(d[1]);break;default:var
-C=dN(d[1]),i=C?dN(d[2]):C}var
-k=i}else
+h=dQ(d[1]);break;default:var
+C=dQ(d[1]),h=C?dQ(d[2]):C}var
+i=h}else
 var
-D=c4(s),J=0===D[0]?cD(D[1]):0,k=J;else
+D=c5(s),J=0===D[0]?cE(D[1]):0,i=J;else
 var
-k=m;if(k)var
-I=h(e),o=mV(function(a){if(0===a[0]){var
-b=a[1],c=S(xj,b),d=c?S(b,I):c;if(d){if(a[5])return 0;var
+i=m;if(i)var
+I=j(e),p=m6(function(a){if(0===a[0]){var
+b=a[1],c=V(xJ,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
-o=k;if(o)var
-b=h(e),c=cw(a),y=mW(a),q=n(function(a){var
-d=a[1];if(9<=d)switch(d-9|0){case
+p=i;if(p)var
+b=j(e),c=cx(a),y=m7(a),q=n(function(a){var
+e=a[2];if(e)var
+f=e[1],g=V(w3,f),v=g?V(f,b):g,d=v;else
+var
+d=1;var
+h=a[1];if(9<=h)switch(h-9|0){case
 0:var
-e=a[4];if(typeof
-e!=="number"&&0===e[0])return a[2]?bD(c,b,a):a[3]?bD(c,b,a):1;return bD(c,b,a);case
+i=a[4];if(typeof
+i!=="number"&&0===i[0])return a[2]?a7(c,b,a):a[3]?a7(c,b,a):1;return a7(c,b,a);case
+1:var
+k=a[4];if(typeof
+k!=="number"&&1===k[0]){var
+l=a[3];return l?2===l[1][0]?d:a7(c,b,a):a7(c,b,a)}return a7(c,b,a);case
 5:var
-f=a[4];if(typeof
-f!=="number"&&1===f[0]){var
-g=a[3];if(g){var
-i=g[1];if(1===i[0]){var
-j=u(h(i[1]),y);if(j){var
-k=a[2];if(k){var
-l=k[1],m=S(wC,l);return m?S(l,b):m}var
-n=1}else
-var
-n=j;return n}return bD(c,b,a)}return bD(c,b,a)}return bD(c,b,a);case
+m=a[4];if(typeof
+m!=="number"&&1===m[0]){var
+n=a[3];if(n){var
+o=n[1];if(1===o[0]){var
+p=u(j(o[1]),y),w=p?d:p;return w}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a);case
 6:var
-o=a[4];if(typeof
-o!=="number"&&1===o[0]){var
-p=a[3];if(p){var
-q=p[1];if(1===q[0]){var
-r=u(h(q[1]),y);if(r){var
-s=a[2];if(s){var
-t=s[1],v=S(wD,t);return v?S(t,b):v}var
-w=1}else
+q=a[4];if(typeof
+q!=="number"&&1===q[0]){var
+r=a[3];if(r){var
+s=r[1];if(1===s[0]){var
+t=u(j(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
 var
-w=r;return w}return bD(c,b,a)}return bD(c,b,a)}return bD(c,b,a)}return bD(c,b,a)},f);else
-var
-q=o;var
-z=q?f_(f):q;return z?n(ib,dL(0,h(e),r,f)):z}function
-mZ(a){switch(a[0]){case
+q=p;var
+z=q?gb(f):q;return z?n(ii,dO(0,j(e),r,f)):z}function
+m_(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-m0(a,e,d,Q,m,l){var
-o=typeof
+m$(a,e,d,Q,m,l){var
+p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=o?xq:xr;return u(h(a),b)}var
-i=mF(e),z=n(function(b){switch(b[0]){case
+b=p?xQ:xR;return u(j(a),b)}var
+h=mQ(e),z=n(function(b){switch(b[0]){case
 0:var
-d=_(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=$(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=_(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=$(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
-m=b[1],n=o?m?0:1:c(m),p=n?c(b[2]):n,q=p?c(b[3]):p;return q?c(b[4]):q}},e);if(z)var
-R=h(e),q=S(a5(a),R);else
+m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
+R=j(e),q=V(a6(a),R);else
 var
 q=z;var
-A=q?S(h(e),xs):q,B=A?n(eG,v(mZ,e)):A;if(B){var
+A=q?V(j(e),xS):q,B=A?n(eJ,v(m_,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-T=o?xt:xu,r=mX(T,C,Q)}else
+S=p?xT:xU,r=m8(S,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=w(c4,m)?0:1,b=V;else
+U=w(c5,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=w(c4,m);if(t){var
+t=w(c5,m);if(t){var
 E=t[1];if(0===E[0])var
-F=g(p,1,j(d[1])),G=F?cD(E[1]):F;else
+F=g(o,1,k(d[1])),G=F?cE(E[1]):F;else
 var
 G=0;var
 H=G}else
@@ -5811,16 +5927,16 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-x=d[1],y=w(c4,m);if(y){var
+x=d[1],y=w(c5,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
-k=0;break;case
+i=0;break;case
 1:var
-J=g(p,1,j(x)),K=J?cD(f[1]):J,L=K?cD(f[2]):K,k=L?cD(f[3]):L;break;case
+J=g(o,1,k(x)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,i=L?cE(f[3]):L;break;case
 2:var
-M=g(p,1,j(x)),k=M?dN(f[1]):M;break;default:var
-N=g(p,1,j(x)),O=N?dN(f[1]):N,k=O?dN(f[2]):O}var
-I=k}else
+M=g(o,1,k(x)),i=M?dQ(f[1]):M;break;default:var
+N=g(o,1,k(x)),O=N?dQ(f[1]):N,i=O?dQ(f[2]):O}var
+I=i}else
 var
 I=y;var
 b=I}else
@@ -5829,81 +5945,81 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-U=h(e),s=n(function(b){return mC(i,a,U,b)},l);else
+T=j(e),s=n(function(b){return mN(h,a,T,b)},l);else
 var
 s=b;var
-D=s?f_(l):s;return D?n(ib,dL(i,h(e),0,l)):D}function
-xv(a){switch(a[0]){case
-0:return fD(a[1][1]);case
+D=s?gb(l):s;return D?n(ii,dO(h,j(e),0,l)):D}function
+xV(a){switch(a[0]){case
+0:return fH(a[1][1]);case
 1:var
-b=a[3];return b?fD(b[1]):1;default:return fD(a[1])}}function
-id(a,k,b,d){var
-e=mV(function(g){if(0===g[0]){var
-c=g[1],d=S(xi,c);if(d){var
-b=R(a,br(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?fH(b[1]):1;default:return fH(a[1])}}function
+ik(a,k,b,d){var
+e=m6(function(g){if(0===g[0]){var
+c=g[1],d=V(xI,c);if(d){var
+b=M(a,bv(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(xv,d[1]):e,g=f?S(xw,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return ws(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?V(xW,j(a)):f;if(g)var
+l=j(a),c=n(function(a){return wT(l,a)},b);else
 var
 c=g;var
-i=c?f_(b):c,j=i?n(eG,v(mU,a)):i;return j?n(xh,d[3]):j}function
-f$(b,a){return n(function(c){var
-a=c[2];return a?cI(a[1],b):1},a)}function
-m1(a){if(a){var
-b=a[1];if(f3(b))return 0;var
-c=[0,b,m1(a[2])]}else
+h=c?gb(b):c,i=h?n(eJ,v(m5,a)):h;return i?n(xH,d[3]):i}function
+gc(b,a){return n(function(c){var
+a=c[2];return a?cl(a[1],b):1},a)}function
+na(a){if(a){var
+b=a[1];if(f6(b))return 0;var
+c=[0,b,na(a[2])]}else
 var
 c=a;return c}function
-xx(a){if(typeof
+xX(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ev(d)&&_(g(p,0,[3,d,[0,b(2,o(b(2,b(2,o(b(2,o(b(2,b(2,c))))))))),c]])))return xz;return xA}return xy}function
-m2(f,d,b){var
-g=m1(b),i=0,c=aI(M,0,e(xx,v(function(a){return h1(i,f,d,a)},g))),a=v(mA,b),j=a?[0,a[1],a[2]]:xB;return M(h(j),c)}function
-ie(b,a){var
-c=h(bc(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
-ig(a){if(a){var
+d=a[4];if(ey(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
+nb(f,d,b){var
+g=na(b),h=0,c=aI(N,0,e(xX,v(function(a){return h7(h,f,d,a)},g))),a=v(mL,b),i=a?[0,a[1],a[2]]:x1;return N(j(i),c)}function
+il(b,a){var
+c=j(be(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
+im(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-m3(aM,Z,aL,Y,X,b,aI,B){var
-a=h0(Z,aL,Y,X),aN=h(B);if(aM)var
+nc(aM,Z,aJ,Y,X,b,aI,B){var
+a=h6(Z,aJ,Y,X),aN=j(B);if(aM)var
 _=0;else
 var
-aE=a[1],aG=e(f9,a[1]),W=fx(h9(a[1]),aG,aE),aH=aJ(aK(0,h(W)),W),_=e(aF,bc(function(a){return fz(a[2])},aH));var
-C=c5(_,aN,B);if(C){var
+aE=a[1],aF=e(ga,a[1]),W=fB(id(a[1]),aF,aE),aG=aK(aL(0,j(W)),W),_=e(aH,be(function(a){return fD(a[2])},aG));var
+C=c6(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=id(Z,Y,X,a),ab=aa?f$(xC,B):aa;if(ab){var
-aO=$[1],D=e(f9,a[1]),c=h9(a[1]),aQ=ig(aI),V=kK(p,a);if(V){var
-k=fx(c,D,a[1]),g=ha(c,D,a[1],0),af=h(a[3]),ag=M(h(k),af),K=[0,h(k),ag],ah=a[3],F=ai(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ah),ak=F?v(function(a){var
-b=e(bX,kw(k,a));return[0,a[4],b]},g):F,al=f(hc(g,c,K,a[3]),ak),am=f(by(j2(g)),al),N=f(by(ee(g)),am),O=cm(N)[1],m=cl(O),P=n(function(a){var
-b=l(d);return av(t(aV(m,a),m,b),a)},N);if(P){var
-Q=ai(qR,a[3]);if(Q){var
-s=D,o=a[1];for(;;){if(o){var
-q=o[1],u=bs(d,s);switch(q[0]){case
+aa=ik(Z,Y,X,a),ab=aa?gc(x2,B):aa;if(ab){var
+aO=$[1],D=e(ga,a[1]),c=id(a[1]),aP=im(aI),V=kT(o,a);if(V){var
+l=fB(c,D,a[1]),g=hd(c,D,a[1],0),af=j(a[3]),ag=N(j(l),af),K=[0,j(l),ag],ah=a[3],F=ak(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?v(function(a){var
+b=e(bZ,kF(l,a));return[0,a[4],b]},g):F,aj=f(hf(g,c,K,a[3]),ai),am=f(bB(j8(g)),aj),M=f(bB(ei(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
+b=h(d);return av(r(aX(m,a),m,b),a)},M);if(P){var
+Q=ak(q2,a[3]);if(Q){var
+t=D,p=a[1];for(;;){if(p){var
+q=p[1],u=bw(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fA(b,G[1],u),E=0;if(H){var
-r=aj(b,[0,G[4],c]);if(r)var
-j=L(d,r[1][1]);else{var
-I=r;E=1}}else{var
+G=q[1],H=fE(b,G[1],u),E=0;if(H){var
+s=al(b,[0,G[4],c]);if(s)var
+k=L(d,s[1][1]);else{var
+I=s;E=1}}else{var
 I=H;E=1}if(E)var
-j=I;break;case
+k=I;break;case
 1:var
-J=q[3],j=J?fA(b,J[1],u):1;break;default:var
-j=fA(b,q[1],u)}if(j){var
-ad=o[2],s=bb(s),o=ad;continue}var
-R=j}else
+J=q[3],k=J?fE(b,J[1],u):1;break;default:var
+k=fE(b,q[1],u)}if(k){var
+ae=p[2],t=bd(t),p=ae;continue}var
+R=k}else
 var
 R=1;var
 w=R;break}}else
 var
 w=Q;if(w){var
-an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(k,f(e(function(a){return bx(c,a)},ap),ao)),x=ae(e(function(a){return aj(b,a)},aq));if(x){var
-as=aP(dA(a[2]),c),y=ae(e(function(a){return aj(b,a)},as));if(y){var
-at=a[3],z=ae(ky(b,aQ,function(a){return aV(m,a)},k,g,c,K,at));if(z){var
-S=z[1],au=g$(S),aw=y[1],ax=a[2],ay=function(a){return kz(b,ax,c,a)},az=x[1],aA=0,aB=j2(g),aC=i(ar(function(a){return aV(m,a)}),aB),aD=ee(g);return fv(b,O,i(ar(function(a){return aV(m,a)}),aD),aC,aA,az,S,ay,aw,au,aO)}var
+an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bA(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
+as=aQ(dB(a[2]),c),y=ac(e(function(a){return al(b,a)},as));if(y){var
+at=a[3],z=ac(kH(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
+S=z[1],au=hc(S),aw=y[1],ax=a[2],ay=function(a){return kI(b,ax,c,a)},az=x[1],aA=0,aB=j8(g),aC=i(ar(function(a){return aX(m,a)}),aB),aD=ei(g);return fz(b,O,i(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,aw,au,aO)}var
 T=z}else
 var
 T=y;var
@@ -5915,48 +6031,48 @@ var
 A=w}else
 var
 A=P;return A}return V}var
-ac=ab}else
+ad=ab}else
 var
-ac=C;return ac}function
-xD(a){if(0===a[0])return mN(a[1]);var
-b=a[1],c=dB(b[6]);return f(dB(b[5]),c)}function
-xE(a){if(0===a[0])return mO(a[1]);var
-b=a[1],c=a3(b[4]);return f(a3(b[3]),c)}function
-xF(a){if(0===a[0])return[0,f9(a[1]),d];var
-b=a[1],c=bN(a3(b[2]));return[0,bN(a3(b[1])),c]}function
-m4(f,n,m,l,k,j,y,d){var
-a=mG(f,n,m,l,k,j),o=a[2],b=v(xD,o),x=b?[0,b[1],b[2]]:v(xE,o),i=z(c,bN(x)),q=e(xF,a[2]),r=hI(i,q,a[2]),A=h(d),B=aJ(aK(0,h(r)),r),g=c5(e(aF,bc(function(a){return fz(a[2])},B)),A,d);if(g){var
+ad=C;return ad}function
+x3(a){if(0===a[0])return mY(a[1]);var
+b=a[1],c=dC(b[6]);return f(dC(b[5]),c)}function
+x4(a){if(0===a[0])return mZ(a[1]);var
+b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
+x5(a){if(0===a[0])return[0,ga(a[1]),d];var
+b=a[1],c=bP(a4(b[2]));return[0,bP(a4(b[1])),c]}function
+nd(f,n,m,l,k,i,y,d){var
+a=mR(f,n,m,l,k,i),p=a[2],b=v(x3,p),x=b?[0,b[1],b[2]]:v(x4,p),h=A(c,bP(x)),q=e(x5,a[2]),r=hO(h,q,a[2]),z=j(d),B=aK(aL(0,j(r)),r),g=c6(e(aH,be(function(a){return fD(a[2])},B)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=m0(f,n,m,l,k,j),u=t?f$(a5(f),d):t;if(u)return rY(p,y,a,i,q,s[1]);var
+t=m$(f,n,m,l,k,i),u=t?gc(a6(f),d):t;if(u)return sn(o,y,a,h,q,s[1]);var
 w=u}else
 var
 w=g;return w}function
-m5(B,aM,aq,ap,A,ao,h){var
-l=h0(B,aM,aq,ap);if(A){var
+ne(B,aM,aq,ap,A,ao,h){var
+l=h6(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=mR(B,e(j,ao));if(ar[2])return 0;var
+ar=m2(B,e(k,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?xd:xe;else
+a=0===h?xD:xE;else
 switch(h[0]){case
 0:var
-b=h[2],m=h[1],H=w(xa,R(as,m)),J=0;if(H){var
+b=h[2],m=h[1],H=w(xA,M(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
 K=0;if(b){var
 n=b[1],L=0;if(n){var
-o=n[2],M=0;if(o){var
-q=o[2],N=0;if(q)if(q[2]){var
-a=0;K=1;L=1;M=1;N=1}else{var
+p=n[2],N=0;if(p){var
+q=p[2],O=0;if(q)if(q[2]){var
+a=0;K=1;L=1;N=1;O=1}else{var
 r=b[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
-a=0;K=1;L=1;M=1;N=1;az=1;aA=1;aB=1;aC=1}else
+a=0;K=1;L=1;N=1;O=1;az=1;aA=1;aB=1;aC=1}else
 var
-V=[0,[0,m,[0,[0,n[1],o[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+V=[0,[0,m,[0,[0,n[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
 var
 V=u;if(!aC)var
 W=V}else
@@ -5970,10 +6086,10 @@ var
 Y=r;if(!az)var
 Z=Y}else
 var
-Z=q;if(!N)var
+Z=q;if(!O)var
 _=Z}else
 var
-_=o;if(!M)var
+_=p;if(!N)var
 $=_}else
 var
 $=n;if(!L)var
@@ -6002,31 +6118,31 @@ ah=b;if(!aD)var
 a=ah}}else
 if(b)var
 a=0;else{var
-aj=[0,[0,d,d],d],ak=[0,[0,m,aj,aj]];J=1}}else{var
-ak=H;J=1}if(J)var
-a=ak;break;case
+ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
+aj=H;J=1}if(J)var
+a=aj;break;case
 1:var
-al=h[1],I=R(as,al),O=0;if(I){var
+al=h[1],I=M(as,al),P=0;if(I){var
 aH=0,am=I[1];if(typeof
 am!=="number"&&1===am[0]){var
 a=[0,[1,al,h[2]]];aH=1}if(!aH){var
-an=0;O=1}}else{var
-an=I;O=1}if(O)var
+an=0;P=1}}else{var
+an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=ie(v(mU,B),ao),au=at?id(B,aq,ap,l):at;if(au){var
-f=a[1],aN=j(D[1]),aO=j(C[1]),i=[0,j(A[1]),aO,aN],k=ar[1],P=kB(p,l,k,i);if(P)if(typeof
-f==="number")return 0===f?ai(function(b){var
-a=kC(b,i);return a?g(p,0,[3,[0,d,c],a[1]]):a},k):jR(qT,e(function(b){var
-a=em(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},k));else{if(0===f[0]){var
-E=R(l[3],f[1]);if(E){var
-aI=E[1],aJ=kD(f[3]);return kI(p,k,i,kD(f[2]),aJ,aI)}return E}var
-F=R(l[3],f[1]);if(F){var
-G=R(k,f[2]);if(G){var
-Q=G[1],aK=F[1],aL=cW(Q,i);return kI(p,k,i,cW(Q,i),aL,aK)}var
+at=il(v(m5,B),ao),au=at?ik(B,aq,ap,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kK(o,l,j,i);if(Q)if(typeof
+f==="number")return 0===f?ak(function(b){var
+a=kL(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jX(q4,e(function(b){var
+a=eq(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
+E=M(l[3],f[1]);if(E){var
+aI=E[1],aJ=kM(f[3]);return kR(o,j,i,kM(f[2]),aJ,aI)}return E}var
+F=M(l[3],f[1]);if(F){var
+G=M(j,f[2]);if(G){var
+R=G[1],aK=F[1],aL=cW(R,i);return kR(o,j,i,cW(R,i),aL,aK)}var
 S=G}else
 var
-S=F;return S}return P}var
+S=F;return S}return Q}var
 av=au}else
 var
 av=a;var
@@ -6039,21 +6155,21 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-m6(m,l,b,k,z,y){var
+nf(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=R(f,g),n=h?cI(h[1][2],xI):h;if(n)var
-A=d[2],i=m6(m,l,b,k,h8(0,g,f),A);else
+g=d[1],h=M(f,g),n=h?cl(h[1][2],x8):h;if(n)var
+A=d[2],i=nf(m,l,b,k,ic(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=h8(1,g,f),d=B;continue}return i}var
-c=d[1],a=mL(0,m,f),o=e(function(b){function
-d(b){return mM(a,b)}function
-c(a){return h6(d,a)}switch(b[0]){case
+B=d[3],f=ic(1,g,f),d=B;continue}return i}var
+c=d[1],a=mW(0,m,f),o=e(function(b){function
+d(b){return mX(a,b)}function
+c(a){return ia(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mM(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mX(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=h6(function(b){return an(a,b)},q),s=b[1],j=[0,h6(function(b){return an(a,b)},s),r];else
+q=b[2],r=ia(function(b){return an(a,b)},q),s=b[1],j=[0,ia(function(b){return an(a,b)},s),r];else
 var
 t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),x=an(a,b[2]),j=[1,an(a,b[1]),x,v,u,t];var
 p=e(function(f){var
@@ -6079,239 +6195,239 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return m3(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return m5(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-m7(h,g){var
-a=co(j(h));if(a){var
+1:return nc(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return ne(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+ng(h,g){var
+a=cr(k(h));if(a){var
 b=a[1],e=cK([0,d,c],b);if(e)return cK(b,g);var
 f=e}else
 var
 f=a;return f}function
-xO(q){var
-d4=f1(q[3]),d5=d4?f1(q[4]):d4;if(d5){var
+yc(q){var
+d4=f4(q[3]),d5=d4?f4(q[4]):d4;if(d5){var
 Q=q[1];switch(Q[0]){case
 3:var
-d$=n(eC,Q[1]);if(d$)var
-hs=Q[2],bT=n(function(a){return eC(a[1])},hs);else
+d$=n(eF,Q[1]);if(d$)var
+hq=Q[2],bT=n(function(a){return eF(a[1])},hq);else
 var
 bT=d$;if(bT)var
-ht=Q[3],bU=n(function(a){var
-b=eC(a[1]),c=b?hY(a[2]):b;return c?eD(a[2]):c},ht);else
+hs=Q[3],bU=n(function(a){var
+b=eF(a[1]),c=b?h4(a[2]):b;return c?eG(a[2]):c},hs);else
 var
 bU=bT;if(bU)var
 hu=Q[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=hY(a);return b?eD(a):b},b)},hu);else
+b=h4(a);return b?eG(a):b},b)},hu);else
 var
 aS=bU;break;case
 7:var
 hv=Q[1],ea=n(function(a){var
-b=eC(a[1]);return b?eE(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aS=ea?eE(0,[0,Q[5],[0,Q[6],0]]):ea;break;default:var
+b=eF(a[1]);return b?eH(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aS=ea?eH(0,[0,Q[5],[0,Q[6],0]]):ea;break;default:var
 aS=1}var
 bR=aS}else
 var
 bR=d5;var
 cF=0;if(bR){var
-d6=q[1],bS=7===d6[0]?e(aF,d6[1]):0,d7=function(c,b){var
-a=mx(c);return a?n(function(a){var
+d6=q[1],bS=7===d6[0]?e(aH,d6[1]):0,d7=function(c,b){var
+a=mI(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f1(a[2]);if(b){var
+b=f4(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f1(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}},e);if(b){var
-c=a[3];if(c)return eE(bS,mw(c[1]));var
+1:return f4(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}},e);if(b){var
+c=a[3];if(c)return eH(bS,mH(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d8=function(e,d,c,b){var
-a=mx(e);return a?eE(bS,f(d,f(c,mw(b)))):a},k=q[1];switch(k[0]){case
+a=mI(e);return a?eH(bS,f(d,f(c,mH(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=v(c2,k[4]),gX=f(v(mu,k[3]),gW),gY=f(ms(k[2]),gX),T=f(v(hZ,k[1]),gY);break;case
+gW=v(c3,l[4]),gX=f(v(mF,l[3]),gW),gY=f(mD(l[2]),gX),S=f(v(h5,l[1]),gY);break;case
 1:var
-bO=k[5],bP=k[3],gZ=v(c2,k[6]),g0=bO?mt(bO[1]):bO,g1=f(g0,gZ),g2=f(mr(k[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),T=f(v(wn,k[2]),g4);break;case
+bL=l[5],bN=l[3],gZ=v(c3,l[6]),g0=bL?mE(bL[1]):bL,g1=f(g0,gZ),g2=f(mC(l[4]),g1),g3=bN?[0,bN[1],0]:bN,g4=f(g3,g2),S=f(v(wO,l[2]),g4);break;case
 2:var
-g5=v(c2,k[7]),g6=f(v(mu,k[6]),g5),g7=f(mt(k[5]),g6),g8=f(mr(k[4]),g7),g9=[0,k[3],g8],g_=k[2],T=f(v(function(a){return v(dJ,f(a[1],a[2]))},g_),g9);break;case
+g5=v(c3,l[7]),g6=f(v(mF,l[6]),g5),g7=f(mE(l[5]),g6),g8=f(mC(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(v(function(a){return v(dM,f(a[1],a[2]))},g_),g9);break;case
 3:var
-hb=v(c2,k[7]),he=f(k[6],hb),hg=f(k[5],he),hh=k[2],T=f(v(function(a){return dJ(a[2])},hh),hg);break;case
+g$=v(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),he=l[2],S=f(v(function(a){return dM(a[2])},he),hb);break;case
 4:var
-hi=v(c2,k[3]),T=[0,k[1],[0,k[2],hi]];break;case
+hh=v(c3,l[3]),S=[0,l[1],[0,l[2],hh]];break;case
 5:var
-hj=v(c2,k[4]),hk=f(bB(k[3]),hj),hl=f(bB(k[2]),hk),hm=f(v(hZ,k[1]),hl),T=[0,k[5],hm];break;case
+hj=v(c3,l[4]),hk=f(bE(l[3]),hj),hl=f(bE(l[2]),hk),hm=f(v(h5,l[1]),hl),S=[0,l[5],hm];break;case
 6:var
-bQ=k[1],T=bQ?dJ(bQ[1]):bQ;break;default:var
-hn=v(c2,k[4]),hp=f(ms(k[3]),hn),T=f(v(hZ,k[2]),hp)}var
-d9=eE(bS,T);if(d9){var
-U=q[2];switch(U[0]){case
+bQ=l[1],S=bQ?dM(bQ[1]):bQ;break;default:var
+hn=v(c3,l[4]),ho=f(mD(l[3]),hn),S=f(v(h5,l[2]),ho)}var
+d9=eH(bS,S);if(d9){var
+T=q[2];switch(T[0]){case
 0:var
-aB=d7(U[1],U[3]);break;case
+aB=d7(T[1],T[3]);break;case
 1:var
-aB=d8(U[1],U[2],U[3],U[4]);break;default:var
-hr=U[1],aB=n(function(a){if(typeof
+aB=d8(T[1],T[2],T[3],T[4]);break;default:var
+hp=T[1],aB=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return d7(a[1],a[3]);case
-2:return d8(a[1],a[2],a[3],a[4])}return 1},hr)}}else{var
+2:return d8(a[1],a[2],a[3],a[4])}return 1},hp)}}else{var
 d_=d9;cF=1}}else{var
 d_=bR;cF=1}if(cF)var
 aB=d_;if(aB){var
 a=q[1];switch(a[0]){case
 0:var
 eP=a[4],eQ=a[3],eR=a[2],eS=a[1],ab=q[2];switch(ab[0]){case
-0:return m3(0,eS,eR,eQ,eP,ab[1],ab[2],ab[3]);case
-1:return m5(eS,eR,eQ,eP,ab[2],ab[3],ab[4]);default:return 0}case
+0:return nc(0,eS,eR,eQ,eP,ab[1],ab[2],ab[3]);case
+1:return ne(eS,eR,eQ,eP,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
-ca=a[6],cb=a[5],cc=a[4],cd=a[3],aC=a[2],ac=a[1],an=q[2];switch(an[0]){case
-0:return m4(ac,aC,cd,cc,cb,ca,an[1],an[3]);case
+b$=a[6],ca=a[5],cb=a[4],cd=a[3],aC=a[2],ad=a[1],an=q[2];switch(an[0]){case
+0:return nd(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
 1:var
-eT=an[3],hW=an[4],hX=an[2],er=typeof
-ac==="number"?ac?xG:xH:ic(ac[1]),b6=e(j,hX),es=mT(aC,e(j,eT));if(es[2])return 0;var
-b7=h$(hW);if(b7){var
-et=ie(v(mZ,aC),eT),eu=et?m0(ac,aC,cd,cc,cb,ca):et;if(eu)var
-hK=a5(ac),b8=u(h(b6),hK);else
+eT=an[3],hW=an[4],hX=an[2],em=typeof
+ad==="number"?ad?x6:x7:ij(ad[1]),b5=e(k,hX),en=m4(aC,e(k,eT));if(en[2])return 0;var
+b6=ig(hW);if(b6){var
+er=il(v(m_,aC),eT),eu=er?m$(ad,aC,cd,cb,ca,b$):er;if(eu)var
+hI=a6(ad),b8=u(j(b5),hI);else
 var
 b8=eu;if(b8){var
-hL=b7[1],r=dk(er,b6),E=aZ(bZ(er,b6)),am=es[1],X=mG(ac,aC,cd,cc,cb,ca),c1=lP(p,X[2],am);if(c1){var
-cY=cT(p,X[4],E),cG=0;if(cY){var
+hJ=b6[1],s=dl(em,b5),F=a0(b1(em,b5)),am=en[1],X=mR(ad,aC,cd,cb,ca,b$),c1=l0(o,X[2],am);if(c1){var
+cY=cT(o,X[4],F),cG=0;if(cY){var
 cZ=X[5];if(cZ)var
-a$=fF(p,cZ[1],r);else
-if(r)var
-a$=0;else{var
+ba=fJ(o,cZ[1],s);else
+if(s)var
+ba=0;else{var
 c0=1;cG=1}}else{var
 c0=cY;cG=1}if(cG)var
-a$=c0;var
-ba=a$}else
+ba=c0;var
+bb=ba}else
 var
-ba=c1;if(ba){var
-C=X[5],c3=X[3],aL=X[1],fZ=X[6],fS=e(function(a){if(0===a[0]){var
-d=b_(C,r,E,a),b=em(a[1],d);return[0,lN(aL,b,at([5,[0,c,c],c3],ep(hF(C,r,fQ(a)),b)))]}return 0},am),fT=v(function(a){if(0===a[0]){var
-c=b_(C,r,E,a),b=kC(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=b_(C,r,E,a);return[0,kU(a[1],e),0]},am),fU=e(function(d){var
-b=b_(C,r,E,d);if(0===d[0]){var
+bb=c1;if(bb){var
+C=X[5],c2=X[3],aJ=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
+d=cc(C,s,F,a),b=eq(a[1],d);return[0,lY(aJ,b,at([5,[0,c,c],c2],et(hL(C,s,fT(a)),b)))]}return 0},am),fR=v(function(a){if(0===a[0]){var
+c=cc(C,s,F,a),b=kL(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=cc(C,s,F,a);return[0,k3(a[1],e),0]},am),fS=e(function(d){var
+b=cc(C,s,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,ax(e)),l=el(e,h,g,b);return[0,[0,lO(aL,af(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fC(c,b),o=kX(c,b),p=c[4],q=af(function(b,a){return[2,b,a]},b,p);return[0,[0,lO(aL,af(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fX=e(function(a){if(0===a[0]){var
-c=b_(C,r,E,a);return[0,hd(a[1],c)]}var
-b=a[1],d=kW(b,b_(C,r,E,a));return[1,kV(b,b_(C,r,E,a)),d]},am),fY=[0,e(function(a){if(0===a[0])var
-k=b_(C,r,E,a),d=cW(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,ay(e)),l=ep(e,h,g,b);return[0,[0,lZ(aJ,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fG(c,b),o=k6(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lZ(aJ,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fV=e(function(a){if(0===a[0]){var
+c=cc(C,s,F,a);return[0,hg(a[1],c)]}var
+b=a[1],d=k5(b,cc(C,s,F,a));return[1,k4(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
+k=cc(C,s,F,a),d=cW(a[1],k);else
 var
-e=b_(C,r,E,a),b=a[1],f=kX(b,e),g=b[4],h=af(function(b,a){return[2,b,a]},e,g),i=af(function(b,a){return[3,b,a]},h,f),j=fC(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lN(aL,d,at([5,[0,c,c],c3],ep(hF(C,r,fQ(a)),d)))},am),fX,fU,fT,fS];return kR(p,a5(X[1]),fY,fZ,hL)}return ba}var
+e=cc(C,s,F,a),b=a[1],f=k6(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lY(aJ,d,at([5,[0,c,c],c2],et(hL(C,s,fT(a)),d)))},am),fV,fS,fR,fQ];return k0(o,a6(X[1]),fW,fX,hJ)}return bb}var
 ev=b8}else
 var
-ev=b7;return ev;default:return 0}case
+ev=b6;return ev;default:return 0}case
 2:var
-aD=a[7],aE=a[6],aX=a[5],aY=a[4],a0=a[3],ag=a[2],ao=a[1],ah=q[2];switch(ah[0]){case
+aD=a[7],aE=a[6],aW=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-ce=ah[3],ak=mE(ao,ag,a0,aY,aX,aE,aD),h2=ak[2],eU=z(c,bN(v(function(a){var
-b=a3(a[2]);return f(a3(a[1]),b)},h2))),h3=h(ce),cf=c5(lJ(eU,ak[2]),h3,ce);if(cf){var
+ce=ag[3],ah=mP(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eU=A(c,bP(v(function(a){var
+b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=j(ce),cf=c6(lU(eU,ah[2]),hZ,ce);if(cf){var
 eV=cf[1];if(eV[2])return 0;var
-eW=mY(ao,ag,a0,aY,aX,aE,aD),eX=eW?f$(cw(ao),ce):eW;if(eX){var
-h4=eV[1],h6=m2(h(ag),aE,aD),h8=ig(ah[2]),ih=ah[1],fN=ak[2],cX=n(function(a){var
-b=lM(p,a[1]);return b?lM(p,a[2]):b},fN);if(cX)var
-fO=hf(ak[4]),a9=cT(p,ak[4],fO);else
+eW=m9(ao,af,aZ,aY,aW,aE,aD),eX=eW?gc(cx(ao),ce):eW;if(eX){var
+h0=eV[1],h1=nb(j(af),aE,aD),h2=im(ag[2]),h3=ag[1],fM=ah[2],cX=n(function(a){var
+b=lX(o,a[1]);return b?lX(o,a[2]):b},fM);if(cX)var
+fN=hi(ah[4]),a_=cT(o,ah[4],fN);else
 var
-a9=cX;if(a9)var
-fP=fL(ak[5]),a_=n(function(a){return ew(p,a)},fP);else
+a_=cX;if(a_)var
+fO=fP(ah[5]),a$=n(function(a){return ez(o,a)},fO);else
 var
-a_=a9;return a_?rC(ih,h8,h6,ak,eU,h4):a_}var
+a$=a_;return a$?r3(h3,h2,h1,ah,eU,h0):a$}var
 eY=eX}else
 var
 eY=cf;return eY;case
 1:var
-a1=ah[4],eZ=ah[3],a2=e(j,ah[2]),ap=ic(ao),e0=mS(ag,e(j,eZ));if(e0[2])return 0;var
-J=e0[1],e1=ie(v(function(a){return f(a[1],a[2])},ag),eZ),e2=e1?mY(ao,ag,a0,aY,aX,aE,aD):e1;if(e2){var
-o=mE(ao,ag,a0,aY,aX,aE,aD);if(typeof
+a1=ag[4],eZ=ag[3],a2=e(k,ag[2]),ap=ij(ao),e0=m3(af,e(k,eZ));if(e0[2])return 0;var
+J=e0[1],e1=il(v(function(a){return f(a[1],a[2])},af),eZ),e2=e1?m9(ao,af,aZ,aY,aW,aE,aD):e1;if(e2){var
+p=mP(ao,af,aZ,aY,aW,aE,aD);if(typeof
 a1!=="number"&&2===a1[0]){var
-e4=e(j,a1[1]),e5=dk(ap,e4),e6=aZ(bZ(ap,e4)),e7=dk(ap,a2),e8=aZ(bZ(ap,a2)),dE=k7(p,o[2],J);if(dE)var
-gB=cw(o[1]),bw=u(h(J),gB);else
+e4=e(k,a1[1]),e5=dl(ap,e4),e6=a0(b1(ap,e4)),e7=dl(ap,a2),e8=a0(b1(ap,a2)),dE=le(o,p[2],J);if(dE)var
+gB=cx(p[1]),bx=u(j(J),gB);else
 var
-bw=dE;var
-dF=bw?cT(p,o[4],e8):bw,dG=dF?cT(p,o[4],e6):dF,dH=dG?fF(p,o[5],e7):dG,dI=dH?fF(p,o[5],e5):dH;if(dI){var
-dK=o[1],gC=o[5],gD=o[3],dv=function(g,f){var
-h=e(function(a){return k6(dK,gD,gC,f,g,a)},J),i=cw(dK),a=l_(p,h);function
-b(a,b){return y(p,a,b)}var
-d=W(p,c);return w(function(a){return l8(A,d,H,b,i,a)},a)},bu=dv(e8,e7);if(bu){var
-dw=bu[1],bv=dv(e6,e5);if(bv){var
-dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
+bx=dE;var
+dF=bx?cT(o,p[4],e8):bx,dG=dF?cT(o,p[4],e6):dF,dH=dG?fJ(o,p[5],e7):dG,dI=dH?fJ(o,p[5],e5):dH;if(dI){var
+dJ=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
+h=e(function(a){return ld(dJ,gD,gC,f,g,a)},J),i=cx(dJ),a=mj(o,h);function
+b(a,b){return x(o,a,b)}var
+d=W(o,c);return w(function(a){return mh(B,d,D,b,i,a)},a)},bu=dv(e8,e7);if(bu){var
+dw=bu[1],bw=dv(e6,e5);if(bw){var
+dx=bw[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
 dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
 dA=dD}var
 dB=dA}else
 var
-dB=bv;var
+dB=bw;var
 dC=dB}else
 var
 dC=bu;return dC}return dI}var
-cg=h$(a1);if(cg){var
-ii=cg[1],as=dk(ap,a2),aG=aZ(bZ(ap,a2)),cN=k7(p,o[2],J),cO=cN?cT(p,o[4],aG):cN,cP=cO?fF(p,o[5],as):cO;if(cP){var
-ay=o[5],cR=o[3],cS=o[1],fM=o[6],cM=function(a){var
-b=fG(ay,as,aG,a);return P(fG(ay,as,aG,a),b)},fD=e(function(a){return[0,k6(cS,cR,ay,as,aG,a)]},J),fH=e(cM,J),fI=e(function(a){return 0},J),fJ=e(function(a){return[0,[6,cM(a)]]},J),fK=[0,e(function(b){var
-a=ax(fG(ay,as,aG,b));return hq(cS,a,at([5,[0,c,c],cR],ep(fE(ay,as,b[2]),a)))},J),fJ,fI,fH,fD];return kR(p,cw(o[1]),fK,fM,ii)}return cP}var
+cg=ig(a1);if(cg){var
+h8=cg[1],as=dl(ap,a2),aF=a0(b1(ap,a2)),cN=le(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fJ(o,p[5],as):cO;if(cP){var
+ax=p[5],cR=p[3],cS=p[1],fL=p[6],cM=function(a){var
+b=fK(ax,as,aF,a);return R(fK(ax,as,aF,a),b)},fA=e(function(a){return[0,ld(cS,cR,ax,as,aF,a)]},J),fD=e(cM,J),fE=e(function(a){return 0},J),fF=e(function(a){return[0,[6,cM(a)]]},J),fH=[0,e(function(b){var
+a=ay(fK(ax,as,aF,b));return ht(cS,a,at([5,[0,c,c],cR],et(fI(ax,as,b[2]),a)))},J),fF,fE,fD,fA];return k0(o,cx(p[1]),fH,fL,h8)}return cP}var
 e3=cg}else
 var
 e3=e2;return e3;default:return 0}case
 3:var
-au=a[7],e9=a[6],e_=a[5],Y=a[4],e$=a[2],ch=a[1],a4=q[2];if(0===a4[0]){var
-ci=a4[3],cj=c5(0,h(ci),ci);if(cj){var
+au=a[7],e9=a[6],e_=a[5],Y=a[4],e$=a[2],ch=a[1],a3=q[2];if(0===a3[0]){var
+ci=a3[3],cj=c6(0,j(ci),ci);if(cj){var
 fa=cj[1];if(fa[2])return 0;var
-hH=h(ch),hI=h(e9),ei=u(h(e_),hI),ej=ei?n(function(a){var
-b=bD(hH,h(Y),a);if(b){var
+hG=j(ch),hH=j(e9),ef=u(j(e_),hH),eg=ef?n(function(a){var
+b=a7(hG,j(Y),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,br(d[1]),0]:aK(0,h(Y));return n(function(b){var
-a=R(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ei,en=ej?f_(au):ej,eq=en?n(function(a){return eG(a[2])},e$):en,fb=eq?n(ib,dL(0,h(Y),0,au)):eq,fc=fb?f$(h(ch),ci):fb;if(fc){var
-ij=fa[1],ik=a[3],eb=ai(f3,au),aT=dL(0,h(Y),0,au),hw=aJ(e_,e9),bV=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cB,a[1])]:[1,cB(a[1])]},Y),hy=e(function(a){var
-b=cB(a[2]);return[0,a[1],b]},ik),m=[0,ch,e(function(a){var
-b=bC(a[2]);return[0,a[1],b]},e$),hy,hx],il=m2(h(Y),0,au),fd=ig(a4[2]),aH=a4[1],gy=e(aF,m[2]),bo=f(m[1],gy),bp=h(m[1]),dn=S(rZ,bp),dp=dn?S(bp,r0):dn,dq=dp?S(bp,h(m[4])):dp,dr=dq?S(h(m[4]),r1):dq,ds=dr?l6(bo):dr;if(ds){var
-aQ=bo,aO=m[3];for(;;){if(aO){var
-di=aO[1],dj=di[1],dl=_(ai(function(b){return function(a){return aq(b,a)}}(dj),aQ)),dm=dl?hM(aQ,di[2]):dl;if(dm){var
-aQ=[0,dj,aQ],aO=aO[2];continue}var
+d=a[2],e=d?[0,bv(d[1]),0]:aL(0,j(Y));return n(function(b){var
+a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ef,eh=eg?gb(au):eg,el=eh?n(function(a){return eJ(a[2])},e$):eh,fb=el?n(ii,dO(0,j(Y),0,au)):el,fc=fb?gc(j(ch),ci):fb;if(fc){var
+h9=fa[1],h_=a[3],eb=ak(f6,au),aT=dO(0,j(Y),0,au),hw=aK(e_,e9),bV=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
+b=cC(a[2]);return[0,a[1],b]},h_),m=[0,ch,e(function(a){var
+b=bF(a[2]);return[0,a[1],b]},e$),hy,hx],ia=nb(j(Y),0,au),fd=im(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=j(m[1]),dn=V(so,bq),dp=dn?V(bq,sp):dn,dq=dp?V(bq,j(m[4])):dp,dr=dq?V(j(m[4]),sq):dq,ds=dr?mf(bp):dr;if(ds){var
+aP=bp,aO=m[3];for(;;){if(aO){var
+di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hS(aP,di[2]):dk;if(dm){var
+aP=[0,dj,aP],aO=aO[2];continue}var
 dt=dm}else
 var
 dt=1;var
-bq=dt;break}}else
+br=dt;break}}else
 var
-bq=ds;if(bq)var
+br=ds;if(br)var
 gz=m[4],bs=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aF,m[3]),bo);return n(function(a){return hM(c,a)},b)},gz);else
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aH,m[3]),bp);return n(function(a){return hS(c,a)},b)},gz);else
 var
-bs=bq;if(bs)var
-gA=m[2],bt=n(function(a){return be(p,a[2][1],a[2][2])},gA);else
+bs=br;if(bs)var
+gA=m[2],bt=n(function(a){return bg(o,a[2][1],a[2][2])},gA);else
 var
 bt=bs;var
-du=bt?n(function(a){return be(p,a[1],a[2])},bV):bt;if(du){var
-bd=h(m[1]),bf=h(m[2]),c7=M(bf,h(hJ(e(bX,m[3])))),f7=m[3],az=l5(m),aM=f7,bb=bf;for(;;){if(aM){var
-c4=aM[1],c6=c4[2],f0=M(bb,h(bA(c6))),f2=aM[2],f5=bg(az,c6,bb),az=[0,[0,c4[1],f5],az],aM=f2,bb=f0;continue}var
-aa=l2(bd,az,m[4],c7),ga=l1(az,m[4],c7),gb=m[3],c8=f(lY(l5(m),gb,bf),ga),c9=h(l4(m)),gc=0,gd=f(c8,cv(function(a,b){return lV(aa,a,b)},gc,d,c9,aT)),ge=f(by(ex(aa)),gd),c_=f(by(fR(aa)),ge),bh=cm(c_)[1],gf=cl(bh),al=function(a){return aV(gf,a)},c$=u(h(bV),bd);if(c$)var
-gg=m[4],bi=n(function(a){return 0===a[0]?u(h(a[1]),bd):1},gg);else
+du=bt?n(function(a){return bg(o,a[1],a[2])},bV):bt;if(du){var
+bd=j(m[1]),bf=j(m[2]),c7=N(bf,j(hP(e(bZ,m[3])))),f3=m[3],az=me(m),aM=f3,bc=bf;for(;;){if(aM){var
+c4=aM[1],c5=c4[2],f0=N(bc,j(bD(c5))),f1=aM[2],f2=bk(az,c5,bc),az=[0,[0,c4[1],f2],az],aM=f1,bc=f0;continue}var
+aa=mb(bd,az,m[4],c7),f5=ma(az,m[4],c7),f8=m[3],c8=f(l9(me(m),f8,bf),f5),c9=j(md(m)),f_=0,gd=f(c8,cw(function(a,b){return l6(aa,a,b)},f_,d,c9,aT)),ge=f(bB(eA(aa)),gd),c_=f(bB(fU(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(j(bV),bd);if(c$)var
+gg=m[4],bi=n(function(a){return 0===a[0]?u(j(a[1]),bd):1},gg);else
 var
 bi=c$;var
 da=bi?n(function(a){var
-b=l(d),c=cl(bh);return av(t(al(a),c,b),a)},c_):bi,db=da?ai(lX,aT):da;if(db){var
-dc=_(eb);if(dc)var
+b=h(d),c=co(bh);return av(r(aj(a),c,b),a)},c_):bi,db=da?ak(l8,aT):da;if(db){var
+dc=$(eb);if(dc)var
 aN=dc;else
 var
 gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
-gh=l4(m),bj=ae(e(function(a){return aj(aH,a)},gh));if(bj){var
-gi=0,gj=v(function(a){return eo(gi,d,a)},aT),bk=ae(e(function(a){return ho(aH,a)},gj));if(bk){var
-bl=ae(e(function(a){return aj(aH,[0,a,d])},bV));if(bl){var
-gk=0,gl=0,bm=ae(cv(function(a,b){return lW(aH,al,aa,gl,d,a,b)},gk,d,c9,aT));if(bm){var
-dd=bm[1];if(eb)var
-gm=fd[2],gn=fd[1],go=ex(aa),bn=kL(il,dd,[8,i(ar(al),go),gn,gm]);else
+gh=md(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
+gi=0,gj=v(function(a){return es(gi,d,a)},aT),bl=ac(e(function(a){return hr(aG,a)},gj));if(bl){var
+bm=ac(e(function(a){return al(aG,[0,a,d])},bV));if(bm){var
+gk=0,gl=0,bn=ac(cw(function(a,b){return l7(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
+dd=bn[1];if(eb)var
+gm=fd[2],gn=fd[1],go=eA(aa),bo=kU(ia,dd,[8,i(ar(aj),go),gn,gm]);else
 var
-bn=dd;var
-gp=g$(bn),gq=bl[1],gr=function(a){return 0},gs=f(bj[1],bk[1]),gt=e(al,c8),gu=ex(aa),gv=i(ar(al),gu),gw=fR(aa);return fv(aH,bh,i(ar(al),gw),gv,gt,gs,bn,gr,gq,gp,ij)}var
-de=bm}else
+bo=dd;var
+gp=hc(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eA(aa),gv=i(ar(aj),gu),gw=fU(aa);return fz(aG,bh,i(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
+de=bn}else
 var
-de=bl;var
+de=bm;var
 df=de}else
 var
-df=bk;var
+df=bl;var
 dg=df}else
 var
 dg=bj;var
@@ -6323,101 +6439,101 @@ var
 fe=cj;return fe}return 0;case
 4:var
 ck=q[2];if(0===ck[0]){var
-aI=a[3],G=a[2],cn=a[1],im=ck[3],io=ck[1],eF=dM(j(cn));if(eF){var
-aU=bc(mH,aI),cH=0;if(aU){var
+aI=a[3],G=a[2],cl=a[1],ic=ck[3],io=ck[1],eC=dP(k(cl));if(eC){var
+aU=be(mS,aI),cH=0;if(aU){var
 bW=aU[1];if(bW[2]||bW[3])var
-x=0;else{var
-aW=bW[4],V=aU[2],K=0;if(typeof
-aW!=="number")switch(aW[0]){case
+y=0;else{var
+aV=bW[4],U=aU[2],K=0;if(typeof
+aV!=="number")switch(aV[0]){case
 0:var
-a7=0;if(V){var
-bY=V[1];if(bY[2]||bY[3]){var
-x=0;K=1;a7=1}else{var
-b0=bY[4],cI=0;if(typeof
-b0!=="number"&&1===b0[0])if(V[2]){var
-x=0;K=1;a7=1;cI=1}else{var
-x=[0,[0,aW[1],b0[1]]];K=1;a7=1;cI=1}if(!cI)var
+a8=0;if(U){var
+bX=U[1];if(bX[2]||bX[3]){var
+y=0;K=1;a8=1}else{var
+bY=bX[4],cI=0;if(typeof
+bY!=="number"&&1===bY[0])if(U[2]){var
+y=0;K=1;a8=1;cI=1}else{var
+y=[0,[0,aV[1],bY[1]]];K=1;a8=1;cI=1}if(!cI)var
 ed=0}}else
 var
-ed=V;if(!a7){var
-x=ed;K=1}break;case
+ed=U;if(!a8){var
+y=ed;K=1}break;case
 1:var
-a8=0;if(V){var
-b1=V[1];if(b1[2]||b1[3]){var
-x=0;K=1;a8=1}else{var
-b2=b1[4],cJ=0;if(typeof
-b2!=="number"&&0===b2[0])if(V[2]){var
-x=0;K=1;a8=1;cJ=1}else{var
-x=[0,[0,b2[1],aW[1]]];K=1;a8=1;cJ=1}if(!cJ)var
-eh=0}}else
+a9=0;if(U){var
+b0=U[1];if(b0[2]||b0[3]){var
+y=0;K=1;a9=1}else{var
+b2=b0[4],cJ=0;if(typeof
+b2!=="number"&&0===b2[0])if(U[2]){var
+y=0;K=1;a9=1;cJ=1}else{var
+y=[0,[0,b2[1],aV[1]]];K=1;a9=1;cJ=1}if(!cJ)var
+ee=0}}else
 var
-eh=V;if(!a8){var
-x=eh;K=1}break}if(!K){var
+ee=U;if(!a9){var
+y=ee;K=1}break}if(!K){var
 ec=0;cH=1}}}else{var
 ec=aU;cH=1}if(cH)var
-x=ec;if(x){var
-eH=x[1],B=eH[2],eI=j(B),eJ=j(eH[1]),dQ=g(p,1,j(G)),dR=dQ?g(p,1,[3,eI,[0,c,c]]):dQ,dS=dR?g(p,1,eJ):dR,eK=dS?g(p,0,[3,[5,[0,c,c],eI],eJ]):dS;if(eK)var
-hP=0,hQ=0,b9=n(function(a){return mC(hQ,hP,xN,a)},aI);else
+y=ec;if(y){var
+eD=y[1],z=eD[2],eE=k(z),eI=k(eD[1]),dQ=g(o,1,k(G)),dR=dQ?g(o,1,[3,eE,[0,c,c]]):dQ,dS=dR?g(o,1,eI):dR,eK=dS?g(o,0,[3,[5,[0,c,c],eE],eI]):dS;if(eK)var
+hN=0,hO=0,b9=n(function(a){return mN(hO,hN,yb,a)},aI);else
 var
 b9=eK;var
 eL=b9?n(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(p,0,[3,[0,d,c],j(a[1])]);return 1}return 1},aI):b9;if(eL){var
-b3=bc(function(a){return _(mI(a))},aI);if(b3){var
-hR=[0,b(2,c),c],D=g(p,0,[3,j(B),hR]);if(D)var
-b$=D;else
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aI):b9;if(eL){var
+b3=be(function(a){return $(mT(a))},aI);if(b3){var
+hQ=[0,b(2,c),c],E=g(o,0,[3,k(z),hQ]);if(E)var
+b_=E;else
 var
-hV=j(B),b$=g(p,0,[3,[0,b(2,c),c],hV]);if(b$){var
+hV=k(z),b_=g(o,0,[3,[0,b(2,c),c],hV]);if(b_){var
 eB=v(function(a){var
-b=h1(0,xK,0,a);return e(function(b){return _(mI(a))},b)},aI),hN=function(f){var
+b=h7(0,x_,0,a);return e(function(b){return $(mT(a))},b)},aI),hK=function(f){var
 g=f[1];if(g){var
-i=g[1],j=t(i,eB,0);if(j)var
-l=bZ(i,eB),k=[0,[0,h(bc(function(a){return a},l))]];else
+h=g[1],i=r(h,eB,0);if(i)var
+l=b1(h,eB),k=[0,[0,j(be(function(a){return a},l))]];else
 var
-k=j;var
+k=i;var
 a=k}else
 var
-a=xM;if(a){var
+a=ya;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,xL,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hO=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,v(hN,a[1]),d,c,b]},im),hS=[0,b3[1],b3[2]],hz=[0,h5(D,G,B),0],hA=[0,h5(D,G,B),hz],hB=[0,h5(D,G,B),hA],hC=[0,f6(D,G,B),0],hD=[0,f6(D,G,B),hC],hT=0,hE=[0,[0,f6(D,G,B),hD],hB],hU=0,b5=function(b,a){return e(function(c){var
-d=u(b,c)?a:wH;return[0,d]},wJ)};return m4(0,e(function(a){var
-e=[0,f4(D,G,B)],d=1,f=b5(a,[2,cn]);function
+2:return[0,[0,b,[1,x$,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hM=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,v(hK,a[1]),d,c,b]},ic),hR=[0,b3[1],b3[2]],hz=[0,h$(E,G,z),0],hA=[0,h$(E,G,z),hz],hB=[0,h$(E,G,z),hA],hC=[0,f9(E,G,z),0],hD=[0,f9(E,G,z),hC],hT=0,hE=[0,[0,f9(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
+d=u(b,c)?a:w7;return[0,d]},w9)};return nd(0,e(function(a){var
+e=[0,f7(E,G,z)],d=1,f=b4(a,[2,cl]);function
 b(b,a){return[3,1,b,a]}var
-c=f4(D,G,B),g=b5(a,b(b(f6(D,G,B),cn),c));return[0,b5(a,wI),g,f,e,d]},wK),hU,hE,hT,hS,io,hO)}return b$}var
+c=f7(E,G,z),g=b4(a,b(b(f9(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hT,hR,io,hM)}return b_}var
 eM=1}else
 var
 eM=eL;var
 eN=eM}else
 var
-eN=x;var
+eN=y;var
 eO=eN}else
 var
-eO=eF;return eO}return 0;case
+eO=eC;return eO}return 0;case
 5:var
-cq=a[4],ff=a[1],cr=q[2];if(0===cr[0]){var
-fg=cr[3],s=h0(ff,[0,a[2],a[3]],0,cq),ct=ia(h(fg),fg);if(ct){var
-fh=ct[1];if(fh[2])return 0;var
-fi=id(ff,0,cq,s),fj=fi?_(ai(f3,cq)):fi;if(fj){var
-fk=kK(p,s);if(fk){var
-ip=fh[1],fl=e(f9,s[1]),I=h9(s[1]),fm=j(a[5]),$=cr[1],bF=fx(I,fl,s[1]),N=ha(I,fl,s[1],0),gI=h(s[3]),gJ=M(h(bF),gI),aR=[0,h(bF),gJ],gK=hc(N,I,aR,s[3]),gL=f(e(cs,N),gK),dW=f(by(ee(N)),gL),dX=cm(dW)[1],bG=cl(dX),dY=s[2];if(0===dY[0]){var
+cm=a[4],ff=a[1],cn=q[2];if(0===cn[0]){var
+fg=cn[3],t=h6(ff,[0,a[2],a[3]],0,cm),cq=ih(j(fg),fg);if(cq){var
+fh=cq[1];if(fh[2])return 0;var
+fi=ik(ff,0,cm,t),fj=fi?$(ak(f6,cm)):fi;if(fj){var
+fk=kT(o,t);if(fk){var
+ip=fh[1],fl=e(ga,t[1]),I=id(t[1]),fm=k(a[5]),Z=cn[1],bC=fB(I,fl,t[1]),O=hd(I,fl,t[1],0),gI=j(t[3]),gJ=N(j(bC),gI),aR=[0,j(bC),gJ],gK=hf(O,I,aR,t[3]),gL=f(e(ct,O),gK),dW=f(bB(ei(O)),gL),dX=cp(dW)[1],bG=co(dX),dY=t[2];if(0===dY[0]){var
 dZ=n(function(a){var
-b=l(d);return av(t(aV(bG,a),bG,b),a)},dW),d0=dZ?g(p,1,fm):dZ;if(d0){var
-gM=s[3],gN=v(function(a){return cQ(I,a)},gM),gO=s[3],gP=f(bF,f(e(function(a){return bx(I,a)},gO),gN)),bH=ae(e(function(a){return aj($,a)},gP));if(bH){var
-gQ=aP(dY[1],I),bI=ae(e(function(a){return aj($,a)},gQ));if(bI){var
-bK=cp($,I,[5,fm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bK){var
-bL=s[3],gR=bI[1],gS=bK[1],gT=bH[1],aA=function(a){return aV(bG,a)},gF=aK(0,h(bL)),gG=e(function(k){var
-l=R(bL,k);if(l){var
-a=l[1],u=bZ(k,bL),x=h(v(function(a){return cQ(I,a)},u)),y=M(aR[2],x),j=[0,M(aR[1],k),y],r=ee(N),f=i(ar(aA),r),b=[1,[8,[1,[1,j[1]]]]],d=fy(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=h(d);return av(r(aX(bG,a),bG,b),a)},dW),d0=dZ?g(o,1,fm):dZ;if(d0){var
+gM=t[3],gN=v(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bC,f(e(function(a){return bA(I,a)},gO),gN)),bH=ac(e(function(a){return al(Z,a)},gP));if(bH){var
+gQ=aQ(dY[1],I),bI=ac(e(function(a){return al(Z,a)},gQ));if(bI){var
+bJ=cs(Z,I,[5,fm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bJ){var
+bK=t[3],gR=bI[1],gS=bJ[1],gT=bH[1],aA=function(a){return aX(bG,a)},gF=aL(0,j(bK)),gG=e(function(k){var
+l=M(bK,k);if(l){var
+a=l[1],u=b1(k,bK),x=j(v(function(a){return cQ(I,a)},u)),y=N(aR[2],x),h=[0,N(aR[1],k),y],r=ei(O),f=i(ar(aA),r),b=[1,[8,[1,[1,h[1]]]]],d=fC(O,I,h,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
 4:var
-o=g($,1,a[2]),s=o?n:o;return s;case
+o=g(Z,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,b]];case
 8:var
-p=g($,1,[5,a[2],a[1]]);if(!p)return p;var
+p=g(Z,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,c]];m=1;break;case
 9:var
 q=b;m=1;break;case
@@ -6425,34 +6541,34 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=ek(N,I,j,a);return w(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cs(a))},N),dT=e(function(a){return aA(a[2])},N),gU=s[3],gV=aR[1],dU=e(ad,gT),dV=function(az,ay){var
-l=az,i=ay;for(;;){if(0===i[0]){var
-s=i[1],ab=u(h(s),sa),ac=ab?n(function(a){var
-d=F(O(b(2,b(2,b(2,c)))),a);return d?F(a,b(2,b(2,b(2,c)))):d},s):ab;if(ac){var
-ad=mi($,gS,ef(0,l),s),j=i[2],v=bJ(0,b4($,ad,dU),dX,0),L=function(a){return mh(mg($,ad,dU,v,a))};if(typeof
-j==="number")return 0===j?ai(function(b){var
-a=t(b,v,0);return a?F(a[1][2][2],d):a},dT):0;else{if(0===j[0]){var
-a=j[2],N=n(r_,a);if(N){var
-o=t(j[1],gG,0);if(o){var
+t=eo(O,I,h,a);return w(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dT=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dU=e(ae,gT),dV=function(az,ay){var
+l=az,h=ay;for(;;){if(0===h[0]){var
+t=h[1],ab=u(j(t),sB),ac=ab?n(function(a){var
+d=H(P(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},t):ab;if(ac){var
+ad=mt(Z,gS,ej(0,l),t),i=h[2],v=bM(0,b7(Z,ad,dU),dX,0),L=function(a){return ms(mr(Z,ad,dU,v,a))};if(typeof
+i==="number")return 0===i?ak(function(b){var
+a=r(b,v,0);return a?H(a[1][2][2],d):a},dT):0;else{if(0===i[0]){var
+a=i[2],O=n(sz,a);if(O){var
+o=r(i[1],gG,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=fW(B,A),ao=fV(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=fZ(B,A),ao=fY(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=fV(D),aq=[1,[6,g[2],ap]],G=[0,[0,E,[0,[1,[4,fW(E,D),aq]],0]]];y=1}else{var
-G=a;y=1}if(y)var
-f=G;break;case
+D=a[1],E=g[1],ap=fY(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,fZ(E,D),aq]],0]]];y=1}else{var
+F=a;y=1}if(y)var
+f=F;break;case
 2:var
 z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-H=k[1],I=a[1],m=g[1],ar=fV(I),as=[1,[6,fW(m,H),ar]],at=[1,[6,g[2],as]],au=fV(H),J=[0,[0,m,[0,[1,[4,[1,[6,fW(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=fY(I),as=[1,[6,fZ(m,G),ar]],at=[1,[6,g[2],as]],au=fY(G),J=[0,[0,m,[0,[1,[4,[1,[6,fZ(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6461,8 +6577,8 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],Q=n(function(a){return mh(t(a[2],v,0))},aw);if(Q)return n(L,P[2]);var
-S=Q}else
+Q=f[1],aw=Q[1],R=n(function(a){return ms(r(a[2],v,0))},aw);if(R)return n(L,Q[2]);var
+S=R}else
 var
 S=f;var
 T=S}else
@@ -6470,30 +6586,30 @@ var
 T=o;var
 U=T}else
 var
-U=N;return U}var
-V=j[2],W=j[1],p=R(gU,W);if(p){var
+U=O;return U}var
+V=i[2],W=i[1],p=M(gU,W);if(p){var
 X=p[1];if(typeof
 X!=="number"&&1===X[0]){var
-q=R(dT,V);if(q){var
-r=R(gH,V);if(r){var
-ax=M(gV,W);return L([1,[4,[1,[8,[0,r[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
-aa=r}else
+q=M(dT,V);if(q){var
+s=M(gH,V);if(s){var
+ax=N(gV,W);return L([1,[4,[1,[8,[0,s[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+aa=s}else
 var
 aa=q;return aa}var
 Y=0}else
 var
 Y=p;return Y}}return ac}var
-ae=i[1],w=R(l,ae);if(w){var
-af=w[1],aA=af[1],ag=_(Z(bM(af),aA));if(ag){var
-ah=eg(ae,l),aj=dV(ah[1],i[2]);if(aj){var
-l=ah[2],i=i[3];continue}var
-ak=aj}else
+ae=h[1],w=M(l,ae);if(w){var
+af=w[1],aA=af[1],ag=$(_(bO(af),aA));if(ag){var
+ah=ek(ae,l),ai=dV(ah[1],h[2]);if(ai){var
+l=ah[2],h=h[3];continue}var
+aj=ai}else
 var
-ak=ag;var
-al=ak}else
+aj=ag;var
+al=aj}else
 var
 al=w;return al}};return dV(gR,ip)}var
-d1=bK}else
+d1=bJ}else
 var
 d1=bI;var
 d2=d1}else
@@ -6507,79 +6623,79 @@ var
 fn=fj;var
 fo=fn}else
 var
-fo=ct;return fo}return 0;case
+fo=cq;return fo}return 0;case
 6:var
 fp=a[1];if(fp){var
 fq=fp[1],cu=q[2];if(0===cu[0]){var
-cx=h_(0,xP,cu[3]);if(cx){var
-fr=eG(fq);if(fr){var
-iq=cx[1],fs=bC(fq)[2],a6=cu[1],bz=cp(a6,d,fs);if(bz){var
-bE=cp(a6,d,[5,[0,c,c],fs]);if(bE){var
-gE=bz[1][1],dN=L(cL(a6),gE);if(dN)return mf(a6,bE[1][1],iq);var
-dO=dN}else
+cv=ie(0,yd,cu[3]);if(cv){var
+fr=eJ(fq);if(fr){var
+iq=cv[1],fs=bF(fq)[2],a5=cu[1],by=cs(a5,d,fs);if(by){var
+bz=cs(a5,d,[5,[0,c,c],fs]);if(bz){var
+gE=by[1][1],dK=L(cL(a5),gE);if(dK)return mq(a5,bz[1][1],iq);var
+dL=dK}else
 var
-dO=bE;var
-dP=dO}else
+dL=bz;var
+dN=dL}else
 var
-dP=bz;return dP}var
+dN=by;return dN}var
 ft=fr}else
 var
-ft=cx;return ft}return 0}var
+ft=cv;return ft}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=h_(0,xQ,cy[3]);return cz?mf(cy[1],d,cz[1]):cz}return 0;default:var
+cz=ie(0,ye,cy[3]);return cz?mq(cy[1],d,cz[1]):cz}return 0;default:var
 aw=a[1],fu=q[2];if(2===fu[0]){var
-fw=fu[1],cA=h7(h(fw),fw);if(cA){var
-fz=cA[1];if(fz[2])return 0;var
-cC=fz[1],ey=S(xJ,h(aw)),ez=ey?S(h(aw),jA):ey,eA=ez?l6(e(aF,aw)):ez,fA=eA?n(function(c){var
-a=co(j(c[2][1]));if(a){var
-b=co(j(c[2][2]));if(b)return _(cK(b[1],a[1]));var
+fv=fu[1],cA=ib(j(fv),fv);if(cA){var
+fw=cA[1];if(fw[2])return 0;var
+cB=fw[1],ew=V(x9,j(aw)),ex=ew?V(j(aw),jG):ew,ey=ex?mf(e(aH,aw)):ex,fx=ey?n(function(c){var
+a=cr(k(c[2][1]));if(a){var
+b=cr(k(c[2][2]));if(b)return $(cK(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aw):eA;if(fA)var
-ir=f8(wL,cC),cD=m7(a[5],ir);else
+d=a;return d},aw):ey;if(fx)var
+ir=f$(w$,cB),cD=ng(a[5],ir);else
 var
-cD=fA;if(cD)var
-is=f8(wM,cC),cE=m7(a[6],is);else
+cD=fx;if(cD)var
+is=f$(xa,cB),cE=ng(a[6],is);else
 var
 cE=cD;if(cE){var
-hG=e(function(a){return[0,d,0]},aw);return m6(aw,a[2],a[3],a[4],hG,cC)}var
-fB=cE}else
+hF=e(function(a){return[0,d,0]},aw);return nf(aw,a[2],a[3],a[4],hF,cB)}var
+fy=cE}else
 var
-fB=cA;return fB}return 0}}return aB}var
-N=[aL,xT,pk(0)],m8=[aL,xU,pk(0)];function
-xR(m,b){var
-f=[0,k(v5,al(b[4])),0],g=[0,k(v7,aa([0,k(v6,al(b[3])),f])),0],a=b[2];switch(a[0]){case
+fy=cA;return fy}return 0}}return aB}var
+O=[aM,yh,pv(0)],nh=[aM,yi,pv(0)];function
+yf(m,b){var
+f=[0,l(wu,am(b[4])),0],g=[0,l(ww,aa([0,l(wv,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=I(v1,mp(a[1],a[2],a[3]));break;case
+c=J(wq,mA(a[1],a[2],a[3]));break;case
 1:var
-c=I(v2,mq(a[1],a[2],a[3],a[4]));break;default:var
-c=I(v3,B(e(vW,a[1])))}var
-h=[0,k(v8,c),g],i=1===b[2][0]?wc:v9,j=[0,k(v_,al(i)),h],l=[0,k(v$,uD(b[1])),j],d=aq(i9(xS,fX(aa([0,k(wb,al(wa)),l]),v4)),m);return d?xO(b):d}function
-ac(a){if(0===a[0])return a[1];throw N}function
-Y(a){if(1===a[0])return a[1];throw N}function
-aH(a){if(2===a[0])return a[1];throw N}function
-dO(a){if(3===a[0])return a[1];throw N}function
-aQ(f,e){var
+c=J(wr,mB(a[1],a[2],a[3],a[4]));break;default:var
+c=J(ws,C(e(wl,a[1])))}var
+h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(jd(yg,f0(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
+ad(a){if(0===a[0])return a[1];throw O}function
+Z(a){if(1===a[0])return a[1];throw O}function
+aJ(a){if(2===a[0])return a[1];throw O}function
+dR(a){if(3===a[0])return a[1];throw O}function
+aR(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===DX(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===El(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-r(c,b){var
-a=aQ(c,b);if(a)return a[1];throw N}function
-cb(b,a){var
+s(c,b){var
+a=aR(c,b);if(a)return a[1];throw O}function
+cf(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-c8(a){switch(a[0]){case
+c9(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],xV]}throw N}function
-eH(e,d){var
-a=U(e,Y(d));if(a){var
+2:return[0,a[1],yj]}throw O}function
+eK(e,d){var
+a=U(e,Z(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw N}function
-ga(i){var
-f=dZ(i),d=[0,0],e=gE(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw O}function
+gd(i){var
+f=d2(i),d=[0,0],e=gH(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iO(f,c)-48|0;if(9<g>>>0)throw N;switch(g){case
+a=d[1],g=iU(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6601,96 +6717,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eI(a){return jm(ga(a))}function
-eJ(b){var
-a=dO(b);return 45===aM(a,0)?O(eI(dh(a,1,ap(a)-1|0))):eI(a)}function
-m9(a){return d5(eI(dO(a)))}function
-gb(a){return jl(eI(dO(a)))}function
-cE(c){var
-a=dO(c);if(6<ap(a))throw N;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(iW(a))}function
-m_(a){var
-b=97<=a?1:0,c=b?a<=oZ?1:0:b;if(c)var
+eL(a){return js(gd(a))}function
+eM(b){var
+a=dR(b);return 45===aN(a,0)?P(eL(di(a,1,ap(a)-1|0))):eL(a)}function
+ni(a){return d8(eL(dR(a)))}function
+ge(a){return jr(eL(dR(a)))}function
+cF(c){var
+a=dR(c);if(6<ap(a))throw O;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i2(a))}function
+nj(a){var
+b=97<=a?1:0,c=b?a<=o_?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-m$(y,b){var
+nk(y,b){var
 d=ap(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aM(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aN(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aM(b,a[1])&&!(57<aM(b,a[1]))){a[1]++;continue}return dh(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aN(b,a[1])&&!(57<aN(b,a[1]))){a[1]++;continue}return di(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw N}function
-h(j){if(64<j)throw N;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw O}function
+h(j){if(64<j)throw O;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&aq(dh(b,a[1],5),xX)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aq(di(b,a[1],5),yl)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&m_(aM(b,a[1]))){var
+v=0;if(a[1]<d&&nj(aN(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!m_(aM(b,a[1]))&&95!==aM(b,a[1])&&(!(48<=aM(b,a[1]))||57<aM(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dh(b,o,a[1]-o|0))];break}}else
+w=0;if(!nj(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,di(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,xY);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,ym);if(r)var
 s=r;else
 var
-t=1<ap(g)?1:0,s=t?48===aM(g,0)?1:0:t;if(s)throw N;if(q){var
-k=q[1],x=0;if(aq(k,xZ)||48===aM(k,ap(k)-1|0))x=1;else
+t=1<ap(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
+k=q[1],x=0;if(aq(k,yn)||48===aN(k,ap(k)-1|0))x=1;else
 var
-z=ga(k),e=[0,ga(g),z];if(x)throw N}else
+z=gd(k),e=[0,gd(g),z];if(x)throw O}else
 var
-e=[0,ga(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,xW)){if(!(2<ap(f))&&2<=iW(f)&&!(64<iW(f)))return[4,e,d5(eI(f))];throw N}throw N}return e}function
+e=[0,gd(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i2(f)&&!(64<i2(f)))return[4,e,d8(eL(f))];throw O}throw O}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw N;var
+f(d){if(64<d)throw O;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw N;return g}function
-gc(a){return m$(function(a){return[0,a]},a)}function
-ih(a){var
-b=aH(a);return m$(function(a){return a},b)}function
-Q(a){return gc(aH(a))}function
-bQ(a){if(2===a[0])return[0,gc(a[1])];var
-b=ac(a),c=Q(r(b,x0));return[1,Q(r(b,x1)),c]}function
-V(a){throw[0,m8,aS(i9(x3,a),x2)]}function
-ii(c){var
-a=aH(c);if(m(a,x4)){var
-b=m(a,x5);if(b)throw N;return b}return 1}function
-x6(d){var
-b=ac(d);function
-a(a){return eH(bQ,r(b,a))}var
-c=aH(r(b,x7));if(m(c,x8)){if(m(c,x9)){if(m(c,x_))return V([0,ya,[0,c,x$]]);var
-e=aQ(b,yb),f=cb(function(a){return eH(bQ,a)},e),g=a(yc);return[1,a(yd),g,f]}var
-h=ii(r(b,ye)),i=bQ(r(b,yf)),j=a(yg),k=a(yh);return[0,a(yi),k,j,i,h]}return[2,a(yj)]}function
-yk(d){var
-a=ac(d);if(a){var
-b=a[1];if(!m(b[1],yl)){var
-c=b[2];if(2===c[0]&&!m(c[1],ym))return 1}}return 0}function
-na(e){var
-b=ac(e);function
-a(a){return U(bQ,Y(r(b,a)))}var
-c=aH(r(b,yn)),d=aQ(b,yo);if(m(c,yp)){if(m(c,yq)){if(!m(c,yr)&&!d){var
-f=a(yu);return[1,a(yv),f]}}else
+g=f(0);if(a[1]<d)throw O;return g}function
+gf(a){return nk(function(a){return[0,a]},a)}function
+io(a){var
+b=aJ(a);return nk(function(a){return a},b)}function
+S(a){return gf(aJ(a))}function
+bS(a){if(2===a[0])return[0,gf(a[1])];var
+b=ad(a),c=S(s(b,yo));return[1,S(s(b,yp)),c]}function
+Y(a){throw[0,nh,aT(jd(yr,a),yq)]}function
+ip(c){var
+a=aJ(c);if(m(a,ys)){var
+b=m(a,yt);if(b)throw O;return b}return 1}function
+yu(d){var
+b=ad(d);function
+a(a){return eK(bS,s(b,a))}var
+c=aJ(s(b,yv));if(m(c,yw)){if(m(c,yx)){if(m(c,yy))return Y([0,yA,[0,c,yz]]);var
+e=aR(b,yB),f=cf(function(a){return eK(bS,a)},e),g=a(yC);return[1,a(yD),g,f]}var
+h=ip(s(b,yE)),i=bS(s(b,yF)),j=a(yG),k=a(yH);return[0,a(yI),k,j,i,h]}return[2,a(yJ)]}function
+yK(d){var
+a=ad(d);if(a){var
+b=a[1];if(!m(b[1],yL)){var
+c=b[2];if(2===c[0]&&!m(c[1],yM))return 1}}return 0}function
+nl(e){var
+b=ad(e);function
+a(a){return U(bS,Z(s(b,a)))}var
+c=aJ(s(b,yN)),d=aR(b,yO);if(m(c,yP)){if(m(c,yQ)){if(!m(c,yR)&&!d){var
+f=a(yU);return[1,a(yV),f]}}else
 if(!d){var
-g=ii(r(b,yw)),h=bQ(r(b,yx)),i=a(yy),j=a(yz);return[0,a(yA),j,i,h,g]}}else
+g=ip(s(b,yW)),h=bS(s(b,yX)),i=a(yY),j=a(yZ);return[0,a(y0),j,i,h,g]}}else
 if(!d){var
-k=ii(r(b,yB)),l=bQ(r(b,yC)),n=bQ(r(b,yD)),o=a(yE),p=a(yF),q=a(yG);return[2,a(yH),q,p,o,n,l,k]}return V([0,yt,[0,c,ys]])}function
-nb(d){var
-a=ac(d);if(a){var
-b=a[1];if(!m(b[1],yI)){var
-c=b[2];if(2===c[0]&&!m(c[1],yJ))return 1}}return 0}function
-cF(c,d){var
-a=Y(d);if(a){var
+k=ip(s(b,y1)),l=bS(s(b,y2)),n=bS(s(b,y3)),o=a(y4),p=a(y5),q=a(y6);return[2,a(y7),q,p,o,n,l,k]}return Y([0,yT,[0,c,yS]])}function
+nm(d){var
+a=ad(d);if(a){var
+b=a[1];if(!m(b[1],y8)){var
+c=b[2];if(2===c[0]&&!m(c[1],y9))return 1}}return 0}function
+cG(c,d){var
+a=Z(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw N}function
-dP(h,p){var
-g=h?h[1]:h,c=ac(p),a=aH(r(c,yK)),j=px(a,yL),f=0;if(0<=j)if(0<j)if(m(a,yM))if(m(a,yN))if(m(a,yO))if(m(a,yP))if(m(a,yQ))if(m(a,yR)){var
-k=m(a,yS);if(k)f=1;else
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw O}function
+dS(h,p){var
+g=h?h[1]:h,c=ad(p),a=aJ(s(c,y_)),j=pI(a,y$),f=0;if(0<=j)if(0<j)if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf)){var
+k=m(a,zg);if(k)f=1;else
 var
 b=k}else
 var
@@ -6708,7 +6824,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf))if(m(a,zg))if(m(a,zh))if(m(a,zi))if(m(a,zj))f=1;else
+if(m(a,zC))if(m(a,zD))if(m(a,zE))if(m(a,zF))if(m(a,zG))if(m(a,zH))if(m(a,zI))if(m(a,zJ))f=1;else
 var
 b=1;else
 var
@@ -6726,162 +6842,163 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?V([0,yU,[0,a,yT]]):b;function
-i(a){return r(c,yV)}var
-d=aH(r(c,yW)),l=m(d,yX);if(l)if(m(d,yY))if(m(d,yZ))if(m(d,y0))var
-e=V([0,y2,[0,d,y1]]);else
+n=f?Y([0,zi,[0,a,zh]]):b;function
+i(a){return s(c,zj)}var
+d=aJ(s(c,zk)),l=m(d,zl);if(l)if(m(d,zm))if(m(d,zn))if(m(d,zo))var
+e=Y([0,zq,[0,d,zp]]);else
 var
-o=cF(Q,i(0)),e=[2,o[1],o[2]];else
+o=cG(S,i(0)),e=[2,o[1],o[2]];else
 var
-e=[0,Q(i(0))];else
+e=[0,S(i(0))];else
 var
-e=[1,Q(i(0))];else
+e=[1,S(i(0))];else
 var
 e=l;function
 q(A){var
-a=ac(A),c=0;switch(n){case
+a=ad(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],y4)){var
+q=a[1];if(!m(q[1],zs)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return g?V(y5):[1,U(Q,b)]}}}break;case
+e=b[1];c=1;l=1}if(!l&&!a[2])return g?Y(zt):[1,U(S,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],y6)){var
+s=a[1];if(!m(s[1],zu)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 h=a[2];if(h){var
-u=h[1];if(!m(u[1],y7)){var
+u=h[1];if(!m(u[1],zv)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!h[2]){var
-B=Q(i[1]);return[2,Q(f[1]),B]}}}}}}}}break;case
+B=S(i[1]);return[2,S(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],y8)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],y9)&&!j[2]&&g)return V(y_)}else
+w=a[1];if(!m(w[1],zw)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],zx)&&!j[2]&&g)return Y(zy)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],y$)){var
-z=y[2];if(1===z[0]&&!a[2])return[1,U(Q,z[1])]}}break;case
+y=a[1];if(!m(y[1],zz)){var
+z=y[2];if(1===z[0]&&!a[2])return[1,U(S,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],y3)){var
+o=a[1];if(!m(o[1],zr)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,Q(e)];throw N}var
-s=cb(q,aQ(c,za));return[0,n,cb(cE,aQ(c,zb)),s,e]}function
-nc(c){var
-d=dP(zm,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw O}var
+r=cf(q,aR(c,zA));return[0,n,cf(cF,aR(c,zB)),r,e]}function
+nn(c){var
+d=dS(zM,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dP(zk,c),b=a[1];if(2!==b&&!(4<=b))return a;return V(zl)}function
-nd(a){var
-b=dP(zn,a);return 11===b[1]?b:nc(a)}function
-zo(a){var
-b=dP(zp,a),c=b[1];if(9!==c&&!(14<=c))return nd(a);return b}function
-ij(c){var
-d=dP(zq,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:nc(c)}function
-ik(b){var
-a=ac(b[2]);if(m(b[1],zx)){var
-c=cF(Q,r(a,zy)),d=cF(Q,r(a,zz)),e=d[2],f=d[1],g=Q(r(a,zA));return[1,c[1],c[2],g,f,e]}var
-h=U(Q,Y(r(a,zB)));return[0,U(Q,Y(r(a,zC))),h]}function
-zD(f){var
-a=ac(f);function
-d(b){return Q(r(a,b))}function
-c(b){return eH(Q,r(a,b))}var
-b=aH(r(a,zE));if(m(b,zF)){if(!m(b,zG)){var
-j=r(a,zM),e=cF(function(a){return a},j),k=aQ(a,zN),l=cb(function(a){return c(zO)},k),n=gc(aH(e[2])),o=gc(aH(e[1])),p=d(zP);return[0,cE(r(a,zQ)),p,o,n,l]}if(m(b,zH))throw N}var
-g=d(zI),h=c(zJ),i=c(zK);return[1,aq(b,zL),i,h,g]}function
-il(ar){var
-g=c8(ar),h=g[1];if(m(h,zR)){if(m(h,zS)){if(m(h,zT)){if(m(h,zU))return V([0,zW,[0,h,zV]]);var
-w=r(ac(g[2]),zX),ag=0;if(2===w[0]){var
-L=m(w[1],zY);if(!L){var
+a=dS(zK,c),b=a[1];if(2!==b&&!(4<=b))return a;return Y(zL)}function
+no(a){var
+b=dS(zN,a);return 11===b[1]?b:nn(a)}function
+zO(c){var
+d=dS(zP,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
+if(9<=a)b=1;return b?d:no(c)}function
+iq(c){var
+d=dS(zQ,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:nn(c)}function
+ir(b){var
+a=ad(b[2]);if(m(b[1],zX)){var
+c=cG(S,s(a,zY)),d=cG(S,s(a,zZ)),e=d[2],f=d[1],g=S(s(a,z0));return[1,c[1],c[2],g,f,e]}var
+h=U(S,Z(s(a,z1)));return[0,U(S,Z(s(a,z2))),h]}function
+z3(f){var
+a=ad(f);function
+d(b){return S(s(a,b))}function
+c(b){return eK(S,s(a,b))}var
+b=aJ(s(a,z4));if(m(b,z5)){if(!m(b,z6)){var
+j=s(a,Aa),e=cG(function(a){return a},j),k=aR(a,Ab),l=cf(function(a){return c(Ac)},k),n=gf(aJ(e[2])),o=gf(aJ(e[1])),p=d(Ad);return[0,cF(s(a,Ae)),p,o,n,l]}if(m(b,z7))throw O}var
+g=d(z8),h=c(z9),i=c(z_);return[1,aq(b,z$),i,h,g]}function
+is(ar){var
+g=c9(ar),h=g[1];if(m(h,Af)){if(m(h,Ag)){if(m(h,Ah)){if(m(h,Ai))return Y([0,Ak,[0,h,Aj]]);var
+w=s(ad(g[2]),Al),ag=0;if(2===w[0]){var
+L=m(w[1],Am);if(!L){var
 K=L;ag=1}}if(!ag)var
-K=[0,bQ(w)];return[6,K]}var
-M=ac(g[2]),j=il([0,[0,[0,z0,r(M,zZ)],0]]);if(0===j[0]){var
+K=[0,bS(w)];return[6,K]}var
+M=ad(g[2]),j=is([0,[0,[0,Ao,s(M,An)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-as=Q(r(M,z2));return[5,j[1],x[1],x[2],j[4],as]}}return V(z1)}var
-a=ac(g[2]),y=aQ(a,z3),z=y?U(zD,Y(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?V(z4):a},k=c8(r(a,z5)),b=c8(r(a,z6)),c=k[1];if(m(c,z7)&&m(c,z8)&&m(c,z9)){if(0===aQ(a,z_)){if(m(c,z$)){var
-ah=0;if(m(c,Aa)){if(!m(c,Ab)){var
-O=b[1],ai=0;if(m(O,Ae)&&m(O,Af)){ah=1;ai=1}if(!ai){var
-A=Y(k[2]),at=Y(r(a,Ai)),P=U(function(a){return dP(0,a)},at);if(!au(yk,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
-ax=U(x6,A),f=ac(b[2]);if(m(b[1],zr))var
-I=cF(Q,r(f,zs)),J=cF(Q,r(f,zt)),am=J[2],an=J[1],ao=Q(r(f,zu)),R=[1,I[1],I[2],ao,an,am];else
+as=S(s(M,Aq));return[5,j[1],x[1],x[2],j[4],as]}}return Y(Ap)}var
+a=ad(g[2]),y=aR(a,Ar),z=y?U(z3,Z(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?Y(As):a},k=c9(s(a,At)),b=c9(s(a,Au)),c=k[1];if(m(c,Av)&&m(c,Aw)&&m(c,Ax)){if(0===aR(a,Ay)){if(m(c,Az)){var
+ah=0;if(m(c,AA)){if(!m(c,AB)){var
+N=b[1],ai=0;if(m(N,AE)&&m(N,AF)){ah=1;ai=1}if(!ai){var
+A=Z(k[2]),at=Z(s(a,AI)),P=U(function(a){return dS(0,a)},at);if(!au(yK,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+ax=U(yu,A),f=ad(b[2]);if(m(b[1],zR))var
+I=cG(S,s(f,zS)),J=cG(S,s(f,zT)),am=J[2],an=J[1],ao=S(s(f,zU)),Q=[1,I[1],I[2],ao,an,am];else
 var
-ap=eH(Q,r(f,zv)),R=[0,eH(Q,r(f,zw)),ap];return[0,ax,R,z,P]}o(0);var
-av=U(ij,Y(r(a,Aj))),aw=ik(b);return[1,0,U(na,A),0,aw,0,av]}}}else
-if(!m(b[1],Ak)){o(0);var
-S=U(ij,Y(r(a,Al))),v=0,e=S;for(;;){if(e){var
+ap=eK(S,s(f,zV)),Q=[0,eK(S,s(f,zW)),ap];return[0,ax,Q,z,P]}o(0);var
+av=U(iq,Z(s(a,AJ))),aw=ir(b);return[1,0,U(nl,A),0,aw,0,av]}}}else
+if(!m(b[1],AK)){o(0);var
+R=U(iq,Z(s(a,AL))),v=0,e=R;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=i8(v),aj=0;if(n){var
+n=jc(v),aj=0;if(n){var
 d=0,T=n[1][4];if(typeof
 T==="number")d=1;else
 switch(T[0]){case
 0:var
 B=n[2];if(B){var
-E=0,W=B[1][4];if(typeof
-W!=="number"&&1===W[0])if(B[2]){d=1;E=1}else
+E=0,V=B[1][4];if(typeof
+V!=="number"&&1===V[0])if(B[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
 d=1;break;case
 1:var
 C=n[2];if(C){var
-F=0,X=C[1][4];if(typeof
-X!=="number"&&0===X[0])if(C[2]){d=1;F=1}else
+F=0,W=C[1][4];if(typeof
+W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)V(Am);var
-ay=Q(r(ac(b[2]),An));return[4,Q(r(ac(k[2]),Ao)),ay,S]}}if(!ah)return V([0,Ad,[0,c,Ac]])}else
-if(!m(b[1],Ap)){o(0);var
-p=ac(k[2]),Z=ac(b[2]),_=function(c,a){var
-b=Y(a);return U(function(d){var
-a=Y(d);if(a){var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)Y(AM);var
+ay=S(s(ad(b[2]),AN));return[4,S(s(ad(k[2]),AO)),ay,R]}}if(!ah)return Y([0,AD,[0,c,AC]])}else
+if(!m(b[1],AP)){o(0);var
+p=ad(k[2]),X=ad(b[2]),_=function(c,a){var
+b=Z(a);return U(function(d){var
+a=Z(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aH(a[1]),e]}}throw N},b)},az=function(d){var
-a=ac(d);if(a){var
-b=a[1],c=b[1];if(m(c,Aq)){if(!m(c,Ar)&&!a[2])return[0,U(ih,Y(b[2]))]}else
-if(!a[2])return[1,ih(b[2])]}throw N},aA=U(nd,Y(r(a,As))),aB=U(Q,Y(r(Z,At))),aC=U(Q,Y(r(Z,Au))),aD=U(az,Y(r(p,Av))),aE=_(ih,r(p,Aw)),aF=_(bQ,r(p,Ax));return[3,U(aH,Y(r(p,Ay))),aF,aE,aD,aC,aB,aA]}return V([0,Ah,[0,b[1],Ag]])}throw N}var
-$=ac(k[2]),q=cb(Q,aQ($,Az)),aG=function(f){var
-a=c8(f),b=a[1];if(m(b,AA)){if(m(b,AB)){if(m(b,AC)){if(m(b,AD))throw N;var
-d=a[2],g=Q(r(ac(d),AE));return[3,Q(r(ac(d),AF)),g]}var
-h=a[2],c=function(a){return cF(Q,r(ac(h),a))},i=c(AG),j=c(AH);return[1,c(AI),j,i]}var
-e=cF(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},s=cb(aG,aQ(a,AJ)),aa=m(c,AK),D=aa?m(c,AL)?2:1:aa,t=Y(r($,AM));if(q&&s){var
-ab=s[1];if(gI(nb,t)){var
-aI=function(c){var
-a=ac(c);function
-b(b){return U(bQ,Y(r(a,b)))}if(0!==aQ(a,AN))V(AO);var
-d=b(AP);return[0,b(AQ),d]},ad=U(zo,Y(r(a,AR))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ad))V(AS);var
-aJ=ik(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ab,z,ad]}}o(0);var
-al=0;if(!q&&aq(c,AV)){var
+e=i(c,b[1]);return[0,aJ(a[1]),e]}}throw O},b)},az=function(d){var
+a=ad(d);if(a){var
+b=a[1],c=b[1];if(m(c,AQ)){if(!m(c,AR)&&!a[2])return[0,U(io,Z(b[2]))]}else
+if(!a[2])return[1,io(b[2])]}throw O},aA=U(no,Z(s(a,AS))),aB=U(S,Z(s(X,AT))),aC=U(S,Z(s(X,AU))),aD=U(az,Z(s(p,AV))),aE=_(io,s(p,AW)),aF=_(bS,s(p,AX));return[3,U(aJ,Z(s(p,AY))),aF,aE,aD,aC,aB,aA]}return Y([0,AH,[0,b[1],AG]])}throw O}var
+$=ad(k[2]),q=cf(S,aR($,AZ)),aG=function(f){var
+a=c9(f),b=a[1];if(m(b,A0)){if(m(b,A1)){if(m(b,A2)){if(m(b,A3))throw O;var
+d=a[2],g=S(s(ad(d),A4));return[3,S(s(ad(d),A5)),g]}var
+h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A6),j=c(A7);return[1,c(A8),j,i]}var
+e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aG,aR(a,A9)),aa=m(c,A_),D=aa?m(c,A$)?2:1:aa,t=Z(s($,Ba));if(q&&r){var
+ab=r[1];if(gL(nm,t)){var
+aH=function(c){var
+a=ad(c);function
+b(b){return U(bS,Z(s(a,b)))}if(0!==aR(a,Bb))Y(Bc);var
+d=b(Bd);return[0,b(Be),d]},ac=U(zO,Z(s(a,Bf))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))Y(Bg);var
+aI=ir(b),aK=q[1];return[2,D,U(aH,t),aK,aI,ab,z,ac]}}o(0);var
+al=0;if(!q&&aq(c,Bj)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==s?1:0,aL=af?au(nb,t):af;if(aL)V(AT);var
-aM=U(ij,Y(r(a,AU))),aN=ik(b);return[1,ae,U(na,t),q,aN,s,aM]}var
-u=ac(g[2]);function
+af=0!==r?1:0,aL=af?au(nm,t):af;if(aL)Y(Bh);var
+aM=U(iq,Z(s(a,Bi))),aN=ir(b);return[1,ae,U(nl,t),q,aN,r,aM]}var
+u=ad(g[2]);function
 aO(b){var
-a=ac(b),c=Q(r(a,AW)),d=[0,Q(r(a,AX)),c];return[0,aH(r(a,AY)),d]}var
-l=il([0,[0,[0,A0,r(u,AZ)],0]]);if(0===l[0]&&!l[3]){var
-aP=Q(r(u,A2)),aR=Q(r(u,A3)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(r(u,A4))),aU,aT,aS,aR,aP]}return V(A1)}function
-im(a){return U(eJ,Y(a))}function
-io(c,b){var
-a=im(b);if(bW(a)!==c)throw N;return a}function
-ne(a,d){var
-b=ac(d),e=Y(r(b,A7)),f=a[2],c=U(function(a){return io(f,a)},e),g=a[1];if(bW(c)!==g)throw N;return[0,c,gb(r(b,A8))]}function
-eK(g,o){var
+a=ad(b),c=S(s(a,Bk)),d=[0,S(s(a,Bl)),c];return[0,aJ(s(a,Bm)),d]}var
+l=is([0,[0,[0,Bo,s(u,Bn)],0]]);if(0===l[0]&&!l[3]){var
+aP=S(s(u,Bq)),aQ=S(s(u,Br)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Z(s(u,Bs))),aU,aT,aS,aQ,aP]}return Y(Bp)}function
+it(a){return U(eM,Z(a))}function
+iu(c,b){var
+a=it(b);if(bY(a)!==c)throw O;return a}function
+np(a,d){var
+b=ad(d),e=Z(s(b,Bv)),f=a[2],c=U(function(a){return iu(f,a)},e),g=a[1];if(bY(c)!==g)throw O;return[0,c,ge(s(b,Bw))]}function
+eN(g,o){var
 M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],O=px(a,A9),b=0;if(0<=O)if(0<O){var
-f=0;if(m(a,A_)&&m(a,A$)&&m(a,Ba))if(m(a,Bb))f=1;else{var
+e=d[1],a=e[1],N=pI(a,Bx),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,By)&&m(a,Bz)&&m(a,BA))if(m(a,BB))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
-s=q[2];if(s&&!s[2]){if(!d[2]){var
-ae=U(im,Y(s[1])),af=aH(q[1]);return[8,eK(g,p[1]),af,ae]}b=1;f=1}else
+r=q[2];if(r&&!r[2]){if(!d[2]){var
+ae=U(it,Z(r[1])),af=aJ(q[1]);return[8,eN(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6891,100 +7008,100 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=gb(x[1]),ai=eJ(w[1]);return[5,eK(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,Be))if(m(a,Bf))if(m(a,Bg))if(m(a,Bh)){if(!m(a,Bi)){if(!d[2]){var
-S=ac(e[2]),aj=Y(r(S,Bj)),ak=M+1|0,T=U(function(a){return io(ak,a)},aj);if(3===bW(T))return[1,Bl,T,gb(r(S,Bk))];throw N}b=1}}else{if(!d[2]){var
-J=aH(e[2]),K=m(J,A5);if(K){if(m(J,A6))throw N;var
+ah=ge(x[1]),ai=eM(w[1]);return[5,eN(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,BE))if(m(a,BF))if(m(a,BG))if(m(a,BH)){if(!m(a,BI)){if(!d[2]){var
+S=ad(e[2]),aj=Z(s(S,BJ)),ak=M+1|0,T=U(function(a){return iu(ak,a)},aj);if(3===bY(T))return[1,BL,T,ge(s(S,BK))];throw O}b=1}}else{if(!d[2]){var
+J=aJ(e[2]),K=m(J,Bt);if(K){if(m(J,Bu))throw O;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
-i=e[2],Z=function(l,a){if(0===a[0]){var
+i=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],Bn)){var
+e=b[1];if(!m(e[1],BN)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],Bo)){var
+g=c[1];if(!m(g[1],BO)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eK(Bp,a)}}}}}}}}}}return eK(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eN(BP,a)}}}}}}}}}}return eN(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-_=j[1],k=_[1],c=0;if(m(k,Bq)&&m(k,Br)&&m(k,Bs))if(m(k,Bt))c=1;else{var
+_=j[1],k=_[1],c=0;if(m(k,BQ)&&m(k,BR)&&m(k,BS))if(m(k,BT))c=1;else{var
 $=_[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ad=0;if(m(G,Bv)&&m(G,Bw)&&m(G,Bx)){c=1;h=1;ad=1}if(!ad&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ac=0;if(m(G,BV)&&m(G,BW)&&m(G,BX)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,By)&&m(aa,Bz)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,BY)&&m(aa,BZ)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=gb(I[1]),aq=eJ(H[1]),y=[6,Z(g,l),aq,ap];n=2;c=1}else
+ap=ge(I[1]),aq=eM(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ab=i[1];if(!m(ab,BA)||!m(ab,BB))n=1;break}switch(n){case
+ab=i[1];if(!m(ab,B0)||!m(ab,B1))n=1;break}switch(n){case
 0:var
-y=V(Bu);break;case
+y=Y(BU);break;case
 1:var
-y=Z(g,i);break}return[7,y]}b=1}else{var
-W=e[2];if(1===W[0]){var
-z=W[1];if(z){var
+y=X(g,i);break}return[7,y]}b=1}else{var
+V=e[2];if(1===V[0]){var
+z=V[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,io(M+1|0,al)]};b=2}}}}else{var
-X=e[2];if(1===X[0]){var
-B=X[1];if(B){var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,iu(M+1|0,al)]};b=2}}}}else{var
+W=e[2];if(1===W[0]){var
+B=W[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dO(D[1]),Bm))throw N;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eJ(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return V([0,Bd,[0,a,Bc]]);break;case
+an=C[1];if(m(dR(D[1]),BM))throw O;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eM(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return Y([0,BD,[0,a,BC]]);break;case
 1:break;default:var
-Q=ne(g,u);return t(Q[1],Q[2])}}break;case
-2:return[0,o[1]]}throw N}function
-nf(k){var
-b=c8(k),a=b[1];if(m(a,BE))if(m(a,BF)){var
-g=m(a,BG);if(!g)return g;if(m(a,BH)){if(!m(a,BI))return[2,U(Q,Y(b[2]))]}else{var
+Q=np(g,u);return t(Q[1],Q[2])}}break;case
+2:return[0,o[1]]}throw O}function
+nq(k){var
+b=c9(k),a=b[1];if(m(a,B4))if(m(a,B5)){var
+g=m(a,B6);if(!g)return g;if(m(a,B7)){if(!m(a,B8))return[2,U(S,Z(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cE(d[1]);return[1,cE(c[1]),l]}}}}}else{var
+l=cF(d[1]);return[1,cF(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(im,Y(f[1]));return[0,cE(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return V([0,BK,[0,a,BJ]])}function
-ng(f,b){var
-a=ac(b),c=Y(r(a,BP)),d=U(function(g){var
-a=ac(g);function
+n=U(it,Z(f[1]));return[0,cF(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return Y([0,B_,[0,a,B9]])}function
+nr(f,b){var
+a=ad(b),c=Z(s(a,Cd)),d=U(function(g){var
+a=ad(g);function
 b(d,c){var
-b=aQ(a,c);return b?U(d,Y(b[1])):b}var
-c=b(eJ,BL),d=cb(nf,aQ(a,BM)),e=cb(cE,aQ(a,BN));return[0,b(function(h){var
-b=Y(h);if(b){var
+b=aR(a,c);return b?U(d,Z(b[1])):b}var
+c=b(eM,B$),d=cf(nq,aR(a,Ca)),e=cf(cF,aR(a,Cb));return[0,b(function(h){var
+b=Z(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],BC)){if(!a[2]){if(m(dO(e),BD))throw N;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B2)){if(!a[2]){if(m(dR(e),B3))throw O;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eK(f,c);return[0,cE(e),g]}}}throw N},BO),e,d,c]},c),e=aQ(a,BQ),g=cb(function(a){return ne(f,a)},e);return[0,m9(r(a,BR)),g,d]}function
-nh(c){var
-a=ac(c),b=aQ(a,BS),d=b?U(Q,Y(b[1])):b,e=nf(r(a,BT)),f=U(Q,Y(r(a,BU)));return[0,m9(r(a,BV)),f,d,e]}function
-ni(c){var
+g=eN(f,c);return[0,cF(e),g]}}}throw O},Cc),e,d,c]},c),e=aR(a,Ce),g=cf(function(a){return np(f,a)},e);return[0,ni(s(a,Cf)),g,d]}function
+ns(c){var
+a=ad(c),b=aR(a,Cg),d=b?U(S,Z(b[1])):b,e=nq(s(a,Ch)),f=U(S,Z(s(a,Ci)));return[0,ni(s(a,Cj)),f,d,e]}function
+nt(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-B5(b){var
+Ct(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-B6(b){var
-a=b[4];if(14<=b[1]&&typeof
-a!=="number"&&1===a[0])return 1-ev(j(a[1]));return 0}function
-B_(h){var
+Cu(b){var
+c=b[1],a=b[4];if(14<=c&&typeof
+a!=="number"&&1===a[0])return 1-ey(k(a[1]));return 10===c?1:0}function
+Cy(h){var
 l=ap(h),c=[0,0];function
-n(a){if(c[1]<l)return aM(h,c[1]);throw N}function
-o(a){if(n(0)===a){c[1]++;return 0}throw N}function
-G(a,b){for(;;){if(c[1]<l&&i(b,aM(h,c[1]))){c[1]++;continue}return dh(h,a,c[1]-a|0)}}function
+n(a){if(c[1]<l)return aN(h,c[1]);throw O}function
+o(a){if(n(0)===a){c[1]++;return 0}throw O}function
+G(a,b){for(;;){if(c[1]<l&&i(b,aN(h,c[1]))){c[1]++;continue}return di(h,a,c[1]-a|0)}}function
 H(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -6995,17 +7112,17 @@ b=G(c[1],a);o(34);return b}function
 I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return i8(d)}}function
-v(b,i){if(64<b)throw N;var
+b=d;continue}o(a);return jc(d)}}function
+v(b,i){if(64<b)throw O;var
 a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
 g=125;return[0,I(function(c){var
 a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,H(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,G(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw N}var
-aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aM(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw N;var
-t=ac(aa);if(m(aH(r(t,B$)),Ca))throw N;var
-a=il(r(t,Cb)),B=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw O}var
+aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aN(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw O;var
+t=ad(aa);if(m(aJ(s(t,Cz)),CA))throw O;var
+a=is(s(t,CB)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -7015,30 +7132,30 @@ if(1===z[1])var
 A=6;else
 C=1;if(C)var
 A=3;var
-g=[0,bW(a[2]),A];break;case
+g=[0,bY(a[2]),A];break;case
 2:var
-as=1===a[1]?6:3,g=[0,bW(a[2]),as];break;case
+as=1===a[1]?6:3,g=[0,bY(a[2]),as];break;case
 3:var
-at=bW(a[1]),g=[0,bW(a[4]),at];break;case
+at=bY(a[1]),g=[0,bY(a[4]),at];break;case
 7:var
 K=a[2];B=1;break;case
 0:case
 5:var
 K=a[1];B=1;break;default:var
-g=Cx}if(B)var
-g=[0,bW(K),3];var
-p=c8(r(t,Cc)),q=p[1];if(m(q,B0))if(m(q,B1))if(m(q,B2))var
-b=V([0,B4,[0,q,B3]]);else
+g=CX}if(B)var
+g=[0,bY(K),3];var
+p=c9(s(t,CC)),q=p[1];if(m(q,Co))if(m(q,Cp))if(m(q,Cq))var
+b=Y([0,Cs,[0,q,Cr]]);else
 var
-s=nh(p[2]),b=[1,s[1],s[2],s[3],s[4]];else
+r=ns(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
-w=ng(g,p[2]),b=[0,w[1],w[2],w[3]];else
+w=nr(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
-ad=Y(p[2]),b=[2,U(function(f){var
-a=c8(f),b=a[1];if(m(b,BW)){if(m(b,BX)){if(m(b,BY)){var
-e=m(b,BZ);if(e)throw N;return e}return[0,cE(a[2])]}var
-c=nh(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=ng(g,a[2]);return[1,d[1],d[2],d[3]]},ad)];function
+ac=Z(p[2]),b=[2,U(function(f){var
+a=c9(f),b=a[1];if(m(b,Ck)){if(m(b,Cl)){if(m(b,Cm)){var
+e=m(b,Cn);if(e)throw O;return e}return[0,cF(a[2])]}var
+c=ns(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=nr(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
 ae(a){var
 b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
 af(a){return 0!==a[3]?1:0}function
@@ -7048,25 +7165,25 @@ a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
 0:switch(b[0]){case
 0:var
-P=a[4],O=a[1];d=5;break;case
+P=a[4],N=a[1];d=5;break;case
 2:d=1;break;default:d=2}break;case
 1:switch(b[0]){case
 0:var
 ak=b[3];if(au(function(a){var
 b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))V(Co);else
+7:return 1;default:return 0}},b)},ak))Y(CO);else
 d=3;break;case
 1:var
-al=a[6];if(au(function(a){return 8===a[1]?1:0},al))V(Cp);else
+al=a[6];if(au(function(a){return 8===a[1]?1:0},al))Y(CP);else
 d=2;break;default:d=1}break;case
 2:var
 R=a[7],S=a[1],D=0;switch(b[0]){case
 0:var
-am=1===S?6:3,T=bW(a[2])===am?1:0;if(T){var
-X=0;if(2<=S||!(0===a[4][0]))X=1;else
+am=1===S?6:3,T=bY(a[2])===am?1:0;if(T){var
+W=0;if(2<=S||!(0===a[4][0]))W=1;else
 var
-y=1;if(X)var
+y=1;if(W)var
 y=0}else
 var
 y=T;var
@@ -7075,37 +7192,37 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],Cq))a=1;break;case
+1:if(m(c[1],CQ))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],Cr))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))V(Cs);else{var
-aq=b[3];if(gI(function(a){var
-b=a[1];return gI(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],CR))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))Y(CS);else{var
+aq=b[3];if(gL(function(a){var
+b=a[1];return gL(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,B7)){if(!m(c,B8))return au(B6,R)}else
+c=b[1];if(m(c,Cv)){if(!m(c,Cw))return au(Cu,R)}else
 a=1;break;case
-1:if(!m(b[1],B9))a=1;break;case
+1:if(!m(b[1],Cx))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-V(Ct)}break;case
+Y(CT)}break;case
 1:var
-Z=0,W=b[4];if(typeof
-W!=="number"&&2!==W[0])if(au(function(c){var
+X=0,V=b[4];if(typeof
+V!=="number"&&2!==V[0])if(au(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},R)){V(Cu);Z=1}else{d=2;D=1;Z=1}break;default:d=1;D=1}break;case
+b=4<=a?1:0;if(!b)return b}return 1},R)){Y(CU);X=1}else{d=2;D=1;X=1}break;default:d=1;D=1}break;case
 3:switch(b[0]){case
-0:if(au(ae,b[3]))V(Cv);else
+0:if(au(ae,b[3]))Y(CV);else
 d=3;break;case
 2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
 ar=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))V(Cw);else
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))Y(CW);else
 d=4;break;case
 1:d=2;break;default:d=4}break;default:d=2}var
 f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){V(Cn);f=1}else
+2:if(1===b[0]&&M(b[4])){Y(CN);f=1}else
 f=3;break;case
 4:f=3;break;case
 0:f=1;break;case
@@ -7113,13 +7230,13 @@ f=3;break;case
 3:f=2;break}var
 e=0;switch(f){case
 3:switch(a[0]){case
-3:V(Cm);e=2;break;case
+3:Y(CM);e=2;break;case
 7:var
-P=a[4],O=a[2];e=3;break;case
+P=a[4],N=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(ni,a[4])){V(Cl);e=2}else
+6:e=1;break;default:if(au(nt,a[4])){Y(CL);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
@@ -7127,7 +7244,7 @@ e=4}break;case
 j=0;switch(e){case
 2:break;case
 3:var
-_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},O)){V(Cd);_=1}if(!_)j=3;break;case
+_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},N)){Y(CD);_=1}if(!_)j=3;break;case
 4:j=3;break;case
 1:j=2;break;default:j=1}var
 k=0;switch(j){case
@@ -7135,11 +7252,11 @@ k=0;switch(j){case
 E=0;switch(a[0]){case
 5:var
 $=0;if(0===b[0]){var
-aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){V(Ck);E=1;$=1}}if(!$)var
+aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){Y(CK);E=1;$=1}}if(!$)var
 x=a[4];break;case
 7:var
 x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(au(B5,x))V(Cj);else
+x=a[4];else{k=2;E=1}}if(!E)if(au(Ct,x))Y(CJ);else
 k=2;break;case
 2:k=2;break;case
 1:k=1;break}var
@@ -7154,24 +7271,24 @@ ah=a[4];switch(b[0]){case
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(ni,ah)}return 0};if(au(ai,b[1]))V(Ci);u=1}break}if(!u)if(0===b[0]&&L(b[3]))V(Ch);else
+2:return au(nt,ah)}return 0};if(au(ai,b[1]))Y(CI);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Y(CH);else
 F=1;break;case
 1:F=1;break}var
-Q=ac(r(t,Ce)),ag=aH(r(Q,Cf));return[0,a,b,aH(r(Q,Cg)),ag]}function
-Cy(b){var
-c=ap(b),g=64,h=Ea(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+Q=ad(s(t,CE)),ag=aJ(s(Q,CF));return[0,a,b,aJ(s(Q,CG)),ag]}function
+CY(b){var
+c=ap(b),g=64,h=EA(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aq(dh(b,a,18),Cz);if(!e){var
+e=aq(di(b,a,18),CZ);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Ev(function(b){try{if(Cy(b))var
-a=CB;else{try{var
-e=0,d=B_(b);e=1}catch(a){a=pz(a);if(a[1]===m8)var
-c=[0,a[2]];else{if(a!==N)throw a;var
+f=d;return f}}EV(function(b){try{if(CY(b))var
+a=C1;else{try{var
+e=0,d=Cy(b);e=1}catch(a){a=pK(a);if(a[1]===nh)var
+c=[0,a[2]];else{if(a!==O)throw a;var
 c=2}}if(e)var
-c=xR(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return CA}if(typeof
+c=yf(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return C0}if(typeof
 a==="number")switch(a){case
-0:return CC;case
-1:return CD;default:return CE}return aS(CF,a[1])});i7(0);return}(globalThis));
+0:return C2;case
+1:return C3;default:return C4}return aT(C5,a[1])});jb(0);return}(globalThis));

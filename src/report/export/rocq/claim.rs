@@ -480,7 +480,7 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         "Serial_" | "Parallel_" | "LegAngle_" => asked < Asked::OfTwoPoints,
         "OneToOne_" => asked != Asked::OfLegs,
         "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
-        "Clearance_" => matches!(asked, Asked::Anything | Asked::OfStruts),
+        "Clearance_" | "Acceleration_" => matches!(asked, Asked::Anything | Asked::OfStruts),
         _ => asked == Asked::Anything,
     };
     if !is_asked {

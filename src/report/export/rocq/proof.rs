@@ -35,7 +35,7 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         Proof::Tree(tree) => tree.nodes.iter().flat_map(|node| &node.by).any(|Step(_, by)| is(by)),
         _ => false,
     };
-    let has_sign = subject.requirements.iter().any(is_wide);
+    let has_sign = subject.requirements.iter().any(is_by_slopes);
     let fails = |tree: &Tree| tree.nodes.iter().any(|node| node.fails.is_some());
     let is_outside = |cell: &AtlasCell| match cell {
         AtlasCell::Certified(tree) => fails(tree),
@@ -127,12 +127,13 @@ fn has_other_apart(tree: &Tree, subject: &Subject<'_>) -> bool {
     tree.nodes.iter().flat_map(|node| &node.by).any(is_other)
 }
 
-/// An angle at a joint of more than 90 degrees, of which slopes show a sign.
-fn is_wide(requirement: &Requirement) -> bool {
+/// An angle at a joint of more than 90 degrees, or an acceleration: slopes show these.
+fn is_by_slopes(requirement: &Requirement) -> bool {
     let of_joint = matches!(requirement.quantity.as_str(), "base_joint" | "platform_joint");
     let Bound::Max(bound) = &requirement.bound else { return false };
     let more = &Expression::integer(90) - bound;
-    of_joint && more.enclose(512).is_none_or(|more| more.lo.sign() == num_bigint::Sign::Minus)
+    let is_wide = || more.enclose(512).is_none_or(|more| more.lo.sign() == num_bigint::Sign::Minus);
+    requirement.quantity == "joint_acceleration" || (of_joint && is_wide())
 }
 
 fn written_tree(Tree { precision, chords, nodes }: &Tree) -> Exported<String> {
