@@ -306,7 +306,7 @@ fn a_page_proves_its_claim_again() {
     let page = folder.report_of_kernel("biglide");
     browser.open(&page);
     assert_eq!(browser.evaluate(PROVED), "accepted");
-    let (page, _) = folder.report_of_design("kernel/hexapod-forces");
+    let (page, _) = folder.report_of_design("kernel/hexapod-accuracy");
     browser.open(&page);
     assert_eq!(browser.evaluate(PROVED), "not-covered");
     let why = browser.text("#reproved");
