@@ -111,7 +111,7 @@ Example in_the_inequality : ends 3 x d w (Some (minus w (square 1))) = 0%nat. Pr
 (** A middle node that is looked at, or not. *)
 Definition sign (low middle high : Z) : tensor :=
   let at_ n := Constant (Some (Fixed.Fixed n n)) in Each (at_ low) (at_ middle) (at_ high).
-Definition everywhere_positive (e : nat) (t : tensor) : bool := everywhere e 1 sign_at (Sample _ [] t None).
+Definition everywhere_positive (e : nat) (t : tensor) : bool := everywhere (@map_sample) e 1 sign_at (Sample _ [] t None).
 Example at_ends : everywhere_positive 1 (sign 1 (-1) 1) = true. Proof. reflexivity. Qed.
 Example at_all : everywhere_positive 0 (sign 1 (-1) 1) = false. Proof. reflexivity. Qed.
 Example at_low : everywhere_positive 1 (sign (-1) 1 1) = false. Proof. reflexivity. Qed.

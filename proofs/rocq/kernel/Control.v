@@ -602,43 +602,39 @@ Proof.
   - destruct l as [[[x n] places] |]; cbn; rewrite ?e; reflexivity.
 Qed.
 
-(** At all control points of [m] coordinates, at ends alone of the first [e]. *)
-Fixpoint everywhere (e m : nat) (good : sample (option fixed) -> bool) (s : sample tensor) : bool :=
-  match m with
-  | O => good (map_sample last_value s)
-  | S m' =>
-      let at_ j := everywhere (pred e) m' good (map_sample (branch j) s) in
-      if at_ Low then if at_ High then match e with O => at_ Middle | S _ => true end else false else false
-  end.
-Lemma everywhere_sound : forall good m e s, everywhere e m good s = true ->
-  forall p, length p = m -> ends_first e p -> good (map_sample (fun t => value_at t p) s) = true.
-Proof.
-  intro good. induction m as [| m IH]; intros e s h [| j p] l i; try discriminate; [exact h |]. cbn [everywhere] in h. cbv zeta in h.
-  destruct (everywhere _ _ _ (map_sample (branch Low) s)) eqn:lw; [| discriminate].
-  destruct (everywhere _ _ _ (map_sample (branch High) s)) eqn:hg; [| discriminate].
-  assert (K : everywhere (pred e) m good (map_sample (branch j) s) = true).
-  { destruct j; [exact lw | | exact hg]. destruct e; [exact h | exfalso; exact (proj1 i eq_refl)]. }
-  rewrite <- (IH _ _ K p) by (try (destruct e; [destruct p; exact I | exact (proj2 i)]); cbn in l; congruence).
-  rewrite map_sample_map. reflexivity.
-Qed.
+(** At all control points, at ends alone of the first [e] coordinates, with a number of each point: the sum of the [mus], one a coordinate, times -1, 0 or 1
+    as its node is the first, the middle or the last. [K]: samples of whatever kind. *)
+Section Everywhere.
+Context {K : Type -> Type}.
+Variable map_K : forall A B, (A -> B) -> K A -> K B.
+Arguments map_K {A B}.
+Hypothesis map_K_map : forall A B C (f : A -> B) (g : B -> C) s, map_K g (map_K f s) = map_K (fun a => g (f a)) s.
 
-(** The same with a number of each control point: the sum of the [mus], times -1, 0 or 1 as its node is the first, the middle or the last. *)
-Fixpoint everywhere_by (m : nat) (good : Z -> sample (option fixed) -> bool) (mus : list Z) (sum : Z) (s : sample tensor) : bool :=
-  match m, mus with
-  | O, [] => good sum (map_sample last_value s)
-  | S m', mu :: rest =>
-      let at_ j sum := everywhere_by m' good rest sum (map_sample (branch j) s) in
-      if at_ Low (sum - mu)%Z then if at_ High (sum + mu)%Z then at_ Middle sum else false else false
-  | _, _ => false
+Fixpoint everywhere_by (good : Z -> K (option fixed) -> bool) (e : nat) (mus : list Z) (sum : Z) (s : K tensor) : bool :=
+  match mus with
+  | [] => good sum (map_K last_value s)
+  | mu :: rest =>
+      let at_ j sum := everywhere_by good (pred e) rest sum (map_K (branch j) s) in
+      if at_ Low (sum - mu)%Z then if at_ High (sum + mu)%Z then match e with O => at_ Middle sum | S _ => true end else false else false
   end.
-Lemma everywhere_by_sound : forall good m mus sum s, everywhere_by m good mus sum s = true ->
-  forall p, length p = m -> exists mu, good mu (map_sample (fun t => value_at t p) s) = true.
+Definition everywhere (e m : nat) (good : K (option fixed) -> bool) : K tensor -> bool := everywhere_by (fun _ => good) e (repeat 0%Z m) 0.
+
+Lemma everywhere_by_sound : forall good mus e sum s, everywhere_by good e mus sum s = true ->
+  forall p, length p = length mus -> ends_first e p -> exists mu, good mu (map_K (fun t => value_at t p) s) = true.
 Proof.
-  intro good. induction m as [| m IH]; intros [| mu mus] sum s h [| j p] l; try discriminate; [exists sum; exact h |]. cbn [everywhere_by] in h. cbv zeta in h.
+  intro good. induction mus as [| mu mus IH]; intros e sum s h [| j p] l i; try discriminate; [exists sum; exact h |]. cbn [everywhere_by] in h. cbv zeta in h.
   destruct (everywhere_by _ _ _ (sum - mu) _) eqn:lw; [| discriminate]. destruct (everywhere_by _ _ _ (sum + mu) _) eqn:hg; [| discriminate].
-  assert (K : exists sum, everywhere_by m good mus sum (map_sample (branch j) s) = true) by (destruct j; eexists; eassumption).
-  destruct K as [q K]. destruct (IH _ _ _ K p ltac:(cbn in l; congruence)) as [z G]. exists z. rewrite <- G, map_sample_map. reflexivity.
+  assert (E : exists sum, everywhere_by good (pred e) mus sum (map_K (branch j) s) = true)
+    by (destruct j; [eexists; exact lw | destruct e; [eexists; exact h | exfalso; exact (proj1 i eq_refl)] | eexists; exact hg]).
+  destruct E as [q E]. destruct (IH _ _ _ E p ltac:(cbn in l; congruence)) as [z G]; [destruct e; [destruct p; exact I | exact (proj2 i)] |].
+  exists z. rewrite <- G, map_K_map. reflexivity.
 Qed.
+Lemma everywhere_sound : forall good m e s, everywhere e m good s = true ->
+  forall p, length p = m -> ends_first e p -> good (map_K (fun t => value_at t p) s) = true.
+Proof.
+  intros good m e s h p l i. destruct (everywhere_by_sound _ _ _ _ _ h p ltac:(rewrite repeat_length; exact l) i) as [_ G]. exact G.
+Qed.
+End Everywhere.
 
 Definition known_multiple (l : option (option fixed * Z * N)) : option fixed :=
   match l with None => Some zero | Some (g, n, places) => option_map (Arithmetic.dyadic n places) g end.
@@ -758,9 +754,9 @@ Local Notation here i := (at_pairs theta (entry_at i) (parabola x)).
 Definition at_controls (e : nat) (good : sample (option fixed) -> bool) (s : sample nat) : Prop :=
   forall p, length p = m -> ends_first e p -> good (map_sample (look (points cell p)) s) = true.
 
-Lemma everywhere_shown : forall e good s, everywhere e m good (map_sample (fun i => nth i (tensors cell) (Constant None)) s) = true -> at_controls e good s.
+Lemma everywhere_shown : forall e good s, everywhere (@map_sample) e m good (map_sample (fun i => nth i (tensors cell) (Constant None)) s) = true -> at_controls e good s.
 Proof.
-  intros e good s h p l i. pose proof (everywhere_sound good m e _ h p l i) as K. rewrite map_sample_map in K. rewrite <- K. f_equal.
+  intros e good s h p l i. pose proof (everywhere_sound _ map_sample_map good m e _ h p l i) as K. rewrite map_sample_map in K. rewrite <- K. f_equal.
   apply map_sample_ext. intro j. symmetry. apply tensors_value. congruence.
 Qed.
 
@@ -1023,13 +1019,13 @@ Qed.
 
 (** The number of each control point is that of both bounds, and so is no number of the two together. *)
 Theorem conditioned_shown : forall n places Y r w c2 mu mus c u v, forallb is_affine_at (w :: all_places r) = true ->
-  everywhere_by m (conditioned_at n c2 places Y mu) mus 0 (map_sample (fun i => nth i (tensors cell) (Constant None)) (sample_of r w l)) = true ->
+  Nat.eqb (length mus) m && everywhere_by (@map_sample) (conditioned_at n c2 places Y mu) 0 mus 0 (map_sample (fun i => nth i (tensors cell) (Constant None)) (sample_of r w l)) = true ->
   contains bits c2 c -> 0 <= c -> length u = n -> length v = n -> nonzero u -> nonzero v ->
   positive_D (map_rows (fun i => here i) r) /\ energy (map_rows (fun i => here i) r) u * dot v v < c * energy (map_rows (fun i => here i) r) v * dot u u.
 Proof.
-  intros n places Y r w c2 mu mus c u v ha h hc c0 lu lv nu nv. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
+  intros n places Y r w c2 mu mus c u v ha h hc c0 lu lv nu nv. apply andb_true_iff in h as [lm h]. apply Nat.eqb_eq in lm. assert (ha' := ha). cbn [forallb] in ha'. apply andb_true_iff in ha' as [_ hr].
   assert (H : forall p, length p = m -> exists sum, conditioned_at n c2 places Y mu sum (map_sample (look (points cell p)) (sample_of r w l)) = true).
-  { intros p lp. destruct (everywhere_by_sound _ _ _ _ _ h p lp) as [sum K]. exists sum. rewrite map_sample_map in K. rewrite <- K. f_equal.
+  { intros p lp. destruct (everywhere_by_sound _ map_sample_map _ _ _ _ _ h p ltac:(congruence) ltac:(destruct p; exact I)) as [sum K]. exists sum. rewrite map_sample_map in K. rewrite <- K. f_equal.
     apply map_sample_ext. intro j. symmetry. apply tensors_value. congruence. }
   assert (P : positive_D (map_rows (fun i => here i) r)).
   { apply (regular_here r w l hr). intros p lp _. destruct (H p lp) as [sum K]. unfold conditioned_at in K. destruct (known_rows _); [reflexivity | discriminate]. }

@@ -121,26 +121,6 @@ Proof. intros A B C f g [[[a n] p] |]; reflexivity. Qed.
 Lemma map_vsample_map : forall (A B C : Type) (f : A -> B) (g : B -> C) s, map_vsample g (map_vsample f s) = map_vsample (fun a => g (f a)) s.
 Proof. intros A B C f g [r w l]. unfold map_vsample. cbn [v_rows v_weight v_less]. rewrite map_multis_map, map_less_map. reflexivity. Qed.
 
-(** At all control points of [m] coordinates, at ends alone of the first [e]. *)
-Fixpoint everywhere_varied (e m : nat) (good : vsample (option fixed) -> bool) (s : vsample tensor) : bool :=
-  match m with
-  | O => good (map_vsample last_value s)
-  | S m' =>
-      let at_ j := everywhere_varied (pred e) m' good (map_vsample (branch j) s) in
-      if at_ Low then if at_ High then match e with O => at_ Middle | S _ => true end else false else false
-  end.
-Lemma everywhere_varied_sound : forall good m e s, everywhere_varied e m good s = true ->
-  forall p, length p = m -> ends_first e p -> good (map_vsample (fun t => value_at t p) s) = true.
-Proof.
-  intro good. induction m as [| m IH]; intros e s h [| j p] l i; try discriminate; [exact h |]. cbn [everywhere_varied] in h. cbv zeta in h.
-  destruct (everywhere_varied _ _ _ (map_vsample (branch Low) s)) eqn:lw; [| discriminate].
-  destruct (everywhere_varied _ _ _ (map_vsample (branch High) s)) eqn:hg; [| discriminate].
-  assert (K : everywhere_varied (pred e) m good (map_vsample (branch j) s) = true).
-  { destruct j; [exact lw | | exact hg]. destruct e; [exact h | exfalso; exact (proj1 i eq_refl)]. }
-  rewrite <- (IH _ _ K p) by (try (destruct e; [destruct p; exact I | exact (proj2 i)]); cbn in l; congruence).
-  rewrite map_vsample_map. reflexivity.
-Qed.
-
 Section Precision.
 Variable bits : positive.
 
@@ -371,7 +351,7 @@ End Machine.
 
 Theorem varied_form : forall rows fs w l e n places Y direction kappa2 k v, Forall2 row_stands rows fs -> is_varied_affine rows w l = true ->
   is_eased_varied e rows w l = true -> 0 <= at_pairs theta (entry_at tape w) (parabola x) ->
-  everywhere_varied e m (varied_lower_at n places Y direction (Tolerances.steps ends params) kappa2) (varied_tensors cell rows w l) = true ->
+  everywhere (@map_vsample) e m (varied_lower_at n places Y direction (Tolerances.steps ends params) kappa2) (varied_tensors cell rows w l) = true ->
   contains bits kappa2 k -> length v = n -> nonzero v ->
   0 < form (lower_weights places Y v) (map_rows (value x theta) fs) v + - (k * dot v v) * at_pairs theta (entry_at tape w) (parabola x) + - dot v v * less_at tape theta (parabola x) l.
 Proof.
@@ -385,7 +365,7 @@ Proof.
       (entry_affine tape theta m w hw before after a b c p q s len su), (multiple_affine tape theta m l hl before after a b c p q s len su). ring.
   - apply (form_varied_falls theta0 mss); [rewrite L1; exact he | exact lx | exact w0 |]. unfold lower_weights. rewrite Forall_map. apply Forall_forall. intros y _. cbn [snd].
     pose proof (pow2_ge_0 (dot (map (Y_value places) y) v)). lra.
-  - intros p ps lp ep rq. pose proof (everywhere_varied_sound _ _ _ _ H p lp ep) as G. unfold varied_tensors in G. cbv zeta in G. unfold map_vsample in G. cbn [v_rows v_weight v_less] in G.
+  - intros p ps lp ep rq. pose proof (everywhere_sound _ map_vsample_map _ _ _ _ H p lp ep) as G. unfold varied_tensors in G. cbv zeta in G. unfold map_vsample in G. cbn [v_rows v_weight v_less] in G.
     rewrite map_multis_map, map_less_map in G.
     rewrite (map_multis_ext _ _ _ (fun i => nth i (evaluate_at bits (Tolerances.starts_from ends 0 params) thin (points bits cell p)) None) _ (fun i => nth i (evaluate_at bits params thin (points bits cell p)) None)) in G
       by (intro i; apply tensors_value; congruence).
@@ -434,7 +414,7 @@ Definition are_fit (F : multi_rows formula) (all : list formula) : bool :=
 
 (** [k]: the square of the least singular value, [e]: of how many coordinates the test has ends alone. *)
 Definition shows_varied (tape : list (op nat)) (placed : multi_rows nat) (placed_w : nat) (placed_g : option nat) (cell : list fixed) (k : fixed) (e : nat) (by_ : evidence) : bool :=
-  let shows es v l places Y := everywhere_varied ends m (varied_lower_at bits m places Y v (Tolerances.steps es params) k) (varied_tensors bits params tape es cell placed placed_w l) in
+  let shows es v l places Y := everywhere (@map_vsample) ends m (varied_lower_at bits m places Y v (Tolerances.steps es params) k) (varied_tensors bits params tape es cell placed placed_w l) in
   match by_ with
   | ByTolerances (AtControls inner) es [v] =>
       Nat.eqb e ends && Nat.ltb 0 ends && same_numbers (map fst es) free && Check.are_once free && forallb (fun j => Nat.ltb j (length params)) free && Nat.eqb (length v) m &&
@@ -566,7 +546,7 @@ Proof.
   { intros l hl. unfold is_varied_affine. apply andb_true_iff. split; [| exact hl]. apply affine_entries. cbn [map]. rewrite (found_at (image m w) (or_introl eq_refl)).
     rewrite placed_formulas by (intros f i; apply found_at; right; apply in_or_app; right; exact i). unfold are_affine in *. cbn [forallb] in *. rewrite AF. apply andb_true_iff in Aw as [-> _]. reflexivity. }
   assert (Go : forall l places Y, is_affine_multiple tape m l = true -> match l with Some (i, _, _) => exists f, g = Some f /\ i = placed_at (image m f) | None => True end ->
-    everywhere_varied ends m (varied_lower_at bits m places Y dir (Tolerances.steps es params) k) (varied_tensors bits params tape es cell (map_multis placed_at placed_at own_multis) (placed_at (image m w)) l) = true ->
+    everywhere (@map_vsample) ends m (varied_lower_at bits m places Y dir (Tolerances.steps es params) k) (varied_tensors bits params tape es cell (map_multis placed_at placed_at own_multis) (placed_at (image m w)) l) = true ->
     forall v, length v = m -> nonzero v -> 0 < form (lower_weights places Y v) (map_rows (value x theta) rs) v + - (kappa * dot v v) * value x theta w + - dot v v * less_at tape theta (parabola x) l).
   { intros l places Y al hl q v lv nz. rewrite <- Wv.
     apply (varied_form bits tape params tape (thinned_not_at_all tape) es m theta theta_in cell x x_in dimension on ex (map_multis placed_at placed_at own_multis) rs (placed_at (image m w)) l ends m places Y dir k kappa v);

@@ -4,27 +4,27 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(G){"use strict";var
-iI="spatial",pf="Invalid_argument",gt="precision",az='"',iH=1255,pe="inside",ok="(",ol=0x800,pd="yaw",oh="range",oi="tree",oj="jsError",bT=0x8000,pc="sqrt(",og=256,of="obligation",eY="offset",a8="machine",od="this quantity of such a mechanism in a claim that is refuted",oe="End_of_file",dZ="strut",iG="center",eX="arm",iF="Failure",pb="serial_margin",gC="parameters",ch=0xff,pa="bodies",iS="outside",gB="base_axis",iE="ENOENT",o$="singular",o_=122,oc="([^/]+)",iR="0",iD=0xf,eW=128,ob=0xdc00,o8="Sys_blocked_io",o9="fd ",gs="given",oa="ENOTEMPTY",aM=248,gr="bound",n$="Division_by_zero",o6="by",o7=1027,n_="Sys_error",gA="slider",n9="torsion",o5="postulate",n8="proof",o4="joint_error",eV="refuted",dU="mechanism",gq="row",n7="EEXIST",o3="roll_pitch_yaw",gz="y",n6="cube",db="lower",o2="within",n5="clearance",o1="turned",n4="control",gp="int_of_string",oZ="definitions",o0="dependent",eU=1024,n2="from",n3="name",oY=" : flags Open_rdonly and Open_wronly are not compatible",n1="orthocert/2",oX="reach",n0=512,oV="base_joint",oW="witness",eT="-",a1="platform",nZ=0x7ff0,nY="pitch",iQ=": Not a directory",bo="min",oT="trim",dY="workspace",oU=" : file already exists",go="split",oR='the failure "singular" of such a mechanism',iP="legs",oS="claim",iC="joint",dc=0xffffff,nX="platform_joint",nW="formulas",nV="roll",gn="atlas",oP="nodes",oQ="Out_of_memory",nU="psi_max",gy="orientation",gm=254,oO="angle",iO="index out of bounds",nT="end",oN="one_to_one",gx="_bigarr02",nS=" : flags Open_text and Open_binary are not compatible",bH="drive",nR="coordinates",oM="holds",nQ="lower_divided",nP="speed",oK="cylinder",oL="joints",cg=0xffff,oI="acceleration",eR="certified",eS="chords",oJ=12520,iB="on",gl="accuracy",eQ="axis",oH="no_cube",oG="parallel_margin",nO='the drive "',iA="Unix.Unix_error",gw="fails",gk="tool",iz="mkdir",oF="rho",gv=1000,iy="translational",oE="tolerances",nN="Stack_overflow",iN="characteristic_length",T="",iM="^",ix="places",gj=": No such file or directory",nM="/static/",dX=0x3f,nK="stiffness",nL="Not_found",da="planar",eO="mode",oD="joint_speed",oC="Match_failure",nJ="transmission",bn="anchor",oB="at",nI="joint_force",dW="leg",nH="joint_acceleration",gu="+",iw="rmdir",oA=0xf0,oz="spherical",nG=1026,ox="REJECTED",oy="undecided",bp="max",bU="direction",nE="leg_angle",nF="orthoglide",eP="rank",ow="constraint_margin",gi="test",nC="Pervasives.do_at_exit",nD="utf8",bG=0x80,dV="conditioning",dT="length",nB="Undefined_recursive_module",iL=")",nA="base",ov="quantity",nz="joint_range",gh="tilt",ny="Q2",ou="reference",nx="point",os="corner",ot=0xe0,nw="version",iK="z",oq="to",or=0xdfff,iv="compare: functional value",op="Assert_failure",bJ="/",oo="provenance",c$="radius",gg="side",bI="require",on="format",nv="Q1",iJ="ENOTDIR",nu="all",c_="box",om=250;function
-i5(c,b,a){var
+iJ="spatial",pd="Invalid_argument",gu="precision",aA='"',iI=1255,pc="inside",oi="(",oj=0x800,pb="yaw",of="range",og="tree",oh="jsError",bT=0x8000,pa="sqrt(",oe=256,od="obligation",eY="offset",a8="machine",ob="this quantity of such a mechanism in a claim that is refuted",oc="End_of_file",dY="strut",iH="center",eX="arm",iG="Failure",o$="serial_margin",gD="parameters",ch=0xff,o_="bodies",iT="outside",gC="base_axis",iF="ENOENT",o9="singular",o8=122,oa="([^/]+)",iS="0",iE=0xf,eW=128,n$=0xdc00,o6="Sys_blocked_io",o7="fd ",gt="given",n_="ENOTEMPTY",aM=248,gs="bound",n9="Division_by_zero",o4="by",o5=1027,n8="Sys_error",gB="slider",n7="torsion",o3="postulate",n6="proof",o2="joint_error",eV="refuted",dT="mechanism",gr="row",n5="EEXIST",o1="roll_pitch_yaw",gA="y",n4="cube",db="lower",o0="within",n3="clearance",oZ="turned",n2="control",gq="int_of_string",oX="definitions",oY="dependent",eU=1024,n0="from",n1="name",oW=" : flags Open_rdonly and Open_wronly are not compatible",nZ="orthocert/2",oV="reach",nY=512,oT="base_joint",oU="witness",eT="-",a1="platform",nX=0x7ff0,nW="pitch",iR=": Not a directory",bo="min",oR="trim",dX="workspace",oS=" : file already exists",gp="split",oP='the failure "singular" of such a mechanism',iQ="legs",oQ="claim",iD="joint",dc=0xffffff,nV="platform_joint",nU="formulas",nT="roll",go="atlas",oN="nodes",oO="Out_of_memory",nS="psi_max",gz="orientation",gn=254,oM="angle",iP="index out of bounds",nR="end",oL="one_to_one",gy="_bigarr02",nQ=" : flags Open_text and Open_binary are not compatible",bG="drive",nP="coordinates",oK="holds",nO="lower_divided",nN="speed",oI="cylinder",oJ="joints",cg=0xffff,oG="acceleration",eR="certified",eS="chords",oH=12520,iC="on",gm="accuracy",eQ="axis",oF="no_cube",oE="parallel_margin",nM='the drive "',iB="Unix.Unix_error",gx="fails",gl="tool",iA="mkdir",oD="rho",gw=1000,iz="translational",oC="tolerances",nL="Stack_overflow",iO="characteristic_length",T="",iN="^",iy="places",gk=": No such file or directory",nK="/static/",dW=0x3f,nI="stiffness",nJ="Not_found",da="planar",eO="mode",oB="joint_speed",oA="Match_failure",nH="transmission",bn="anchor",oz="at",nG="joint_force",dV="leg",nF="joint_acceleration",gv="+",ix="rmdir",oy=0xf0,ox="spherical",nE=1026,ov="REJECTED",ow="undecided",bp="max",bU="direction",nC="leg_angle",nD="orthoglide",eP="rank",ou="constraint_margin",gj="test",nA="Pervasives.do_at_exit",nB="utf8",bF=0x80,dU="conditioning",dS="length",nz="Undefined_recursive_module",iM=")",ny="base",ot="quantity",nx="joint_range",gi="tilt",nw="Q2",os="reference",nv="point",oq="corner",or=0xe0,nu="version",iL="z",oo="to",op=0xdfff,iw="compare: functional value",on="Assert_failure",bI="/",om="provenance",c$="radius",gh="side",bH="require",ol="format",nt="Q1",iK="ENOTDIR",ns="all",c_="box",ok=250;function
+i6(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=T;for(;0<a;b+=eU,a-=eU)e+=d.apply(null,c.slice(b,b+Math.min(a,eU)));return e}function
-gE(b){if(G.Uint8Array)var
+gF(b){if(G.Uint8Array)var
 c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eZ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i5(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?i5(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gE(b);var
+eZ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i6(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?i6(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gF(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-d2(a){return a}function
-d1(a,b,c,d,e){eZ(d2(a),b,c,d,e);return 0}function
-iU(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+d1(a){return a}function
+d0(a,b,c,d,e){eZ(d1(a),b,c,d,e);return 0}function
+iV(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 cI(c,a){if(c.fun)return cI(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cI(c,d)}}function
-pH(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
+pF(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
 d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d3(a){if(a.t==2)a.c+=pH(a.l-a.c.length,"\0");else
-a.c=i5(a.c,0,a.c.length);a.t=0}function
-d4(a){a.t&6&&d3(a);return a.c}var
-ET=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-ES(a){if(ET)return Math.floor(Math.log2(a));var
+d2(a){if(a.t==2)a.c+=pF(a.l-a.c.length,"\0");else
+a.c=i6(a.c,0,a.c.length);a.t=0}function
+d3(a){a.t&6&&d2(a);return a.c}var
+ES=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+ER(a){if(ES)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iX(c){var
+iY(c){var
 a=new(G.Float32Array)(1);a[0]=c;var
 b=new(G.Int32Array)(a.buffer);return b[0]|0}var
-py=Math.pow(2,-24);function
-EJ(a){throw a}var
+pw=Math.pow(2,-24);function
+EI(a){throw a}var
 as=[0];function
-pE(){EJ(as.Division_by_zero)}function
+pC(){EI(as.Division_by_zero)}function
 F(b,c,a){this.lo=b&dc;this.mi=c&dc;this.hi=a&cg}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
 F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*py|0)+this.mi*a.lo+this.lo*a.mi,d=(c*py|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*pw|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pw|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 F(b,c,d)};F.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};F.prototype.isNeg=function(){return this.hi<<16<0};F.prototype.and=function(a){return new
 F(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};F.prototype.or=function(a){return new
 F(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};F.prototype.xor=function(a){return new
@@ -80,22 +80,22 @@ F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cg);return new
 F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dc;this.lo=this.lo<<1&dc};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dc;this.mi=(this.mi>>>1|this.hi<<23)&dc;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
-b=this;if(a.isZero())pE();var
+b=this;if(a.isZero())pC();var
 d=b.hi^a.hi;if(b.hi&bT)b=b.neg();if(a.hi&bT)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bT)c=c.neg();return c};F.prototype.mod=function(b){var
-a=this;if(b.isZero())pE();var
+a=this;if(b.isZero())pC();var
 d=a.hi;if(a.hi&bT)a=a.neg();if(b.hi&bT)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&bT)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
-gG(b,c,a){return new
+gH(b,c,a){return new
 F(b,c,a)}function
-gF(a){if(!isFinite(a)){if(isNaN(a))return gG(1,0,nZ);return a>0?gG(0,0,nZ):gG(0,0,0xfff0)}var
+gG(a){if(!isFinite(a)){if(isNaN(a))return gH(1,0,nX);return a>0?gH(0,0,nX):gH(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bT:a>=0?0:bT;if(f)a=-a;var
-b=ES(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nG)}else{a/=Math.pow(2,b-o7);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=ER(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nE)}else{a/=Math.pow(2,b-o5);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iD|f|b<<4;return gG(g,e,c)}function
+g=a|0;c=c&iE|f|b<<4;return gH(g,e,c)}function
 e2(a){return a.toArray()}function
-pm(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gx)for(var
+pk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gy)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cg)c.write(16,b.dims[a]);else{c.write(16,cg);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -117,47 +117,47 @@ e=e2(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e2(gF(b.get(a)));for(var
+e=e2(gG(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iX(b.get(a));c.write(32,e)}break;case
+e=iY(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iX(d[1]));c.write(32,iX(d[2]))}break;case
+d=b.get(a);c.write(32,iY(d[1]));c.write(32,iY(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e2(gF(f[1]));for(var
+f=b.get(a),e=e2(gG(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e2(gF(f[2]));for(var
+e=e2(gG(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-EL(b,a){throw[0,b,a]}function
-pM(a){if(a.length<24){for(var
+EK(b,a){throw[0,b,a]}function
+pK(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-i6(e){for(var
-j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bG){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>n0){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(f<<6);if(f<ot){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(g<<6);if(f<oA){a=g-0xe2080;if(a<ol||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),ob+(a&0x3FF));else
+i7(e){for(var
+j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bF){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bF;d++);if(d-b>nY){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(f<<6);if(f<or){a=g-0x3080;if(a<bF)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(g<<6);if(f<oy){a=g-0xe2080;if(a<oj||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),n$+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>eU){c.substr(0,1);j+=c;c=T}}return j+c}function
 bV(c,a,b){this.t=c;this.c=a;this.l=b}bV.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d3(this);case
-0:if(pM(this.c)){this.t=9;return this.c}this.t=8;case
+9:return this.c;default:d2(this);case
+0:if(pK(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bV.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return i6(a)};bV.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return i7(a)};bV.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bV(this.t,a,this.l)};function
-pp(a){return new
+pn(a){return new
 bV(0,a,a.length)}function
-a(a){return pp(a)}function
-i4(c,b){EL(c,a(b))}function
-aE(a){i4(as.Invalid_argument,a)}function
-pk(a){switch(a){case
+a(a){return pn(a)}function
+i5(c,b){EK(c,a(b))}function
+aE(a){i5(as.Invalid_argument,a)}function
+pi(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ed(c,e){var
+Ec(c,e){var
 b=G,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -173,43 +173,43 @@ b=G,a;switch(c){case
 11:a=b.Float64Array;break;case
 12:a=b.Uint8Array;break}if(!a)aE("Bigarray.create: unsupported kind");var
 d=new
-a(e*pk(c));return d}function
-iY(c){var
+a(e*pi(c));return d}function
+iZ(c){var
 a=new(G.Int32Array)(1);a[0]=c;var
 b=new(G.Float32Array)(a.buffer);return b[0]}function
 e1(a){return new
 F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-iZ(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iD)==0?b&bT?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iD);if(c>0){a+=16;a*=Math.pow(2,c-o7)}else
-a*=Math.pow(2,-nG);if(b&bT)a=-a;return a}function
-iT(b){var
+i0(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iE)==0?b&bT?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iE);if(c>0){a+=16;a*=Math.pow(2,c-o5)}else
+a*=Math.pow(2,-nE);if(b&bT)a=-a;return a}function
+iU(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aE("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Et(b,a){return new
+Es(b,a){return new
 F(b&dc,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
-i0(a){return a.hi32()}function
-i1(a){return a.lo32()}function
-gD(){aE(iO)}var
-Ee=gx;function
-cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ee;cH.prototype.offset=function(b){var
+i1(a){return a.hi32()}function
+i2(a){return a.lo32()}function
+gE(){aE(iP)}var
+Ed=gy;function
+cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ed;cH.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aE("bigarray.js: invalid offset");if(this.dims.length!=b.length)aE("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gD();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gE();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gD();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gE();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Et(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Es(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gm,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=i1(b);this.data[a*2+1]=i0(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gn,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=i2(b);this.data[a*2+1]=i1(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cH.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=i1(b),e=i0(b);if(c==e)this.data.fill(c);else
+c=i2(b),e=i1(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-d0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d0.prototype=new
-cH();d0.prototype.offset=function(a){if(typeof
+dZ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dZ.prototype=new
+cH();dZ.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gD();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
-pi(c,d,a,b){var
-e=pk(c);if(iT(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-d0(c,d,a,b);return new
+aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gE();return a};dZ.prototype.get=function(a){return this.data[a]};dZ.prototype.set=function(a,b){this.data[a]=b;return 0};dZ.prototype.fill=function(a){this.data.fill(a);return 0};function
+pg(c,d,a,b){var
+e=pi(c);if(iU(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+dZ(c,d,a,b);return new
 cH(c,d,a,b)}function
-bK(b){if(!as.Failure)as.Failure=[aM,a(iF),-3];i4(as.Failure,b)}function
-pj(b,v,r){var
-i=b.read32s();if(i<0||i>16)bK("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gx)for(var
+bJ(b){if(!as.Failure)as.Failure=[aM,a(iG),-3];i5(as.Failure,b)}function
+ph(b,v,r){var
+i=b.read32s();if(i<0||i>16)bJ("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gy)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cg){var
-t=b.read32u(),u=b.read32u();if(t!=0)bK("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)bJ("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iT(h),f=Ed(j,d),g=pi(j,o,h,f);switch(j){case
+d=iU(h),f=Ec(j,d),g=pg(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,7 +269,7 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bK("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bJ("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
@@ -282,31 +282,31 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=iZ(e1(e));g.set(a,k)}break;case
+k=i0(e1(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iY(b.read32s());g.set(a,k)}break;case
+k=iZ(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iY(b.read32s()),l=iY(b.read32s());g.set(a,[gm,m,l])}break;case
+m=iZ(b.read32s()),l=iZ(b.read32s());g.set(a,[gn,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=iZ(e1(e));for(var
+m=i0(e1(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=iZ(e1(e));g.set(a,[gm,m,l])}break}v[0]=(4+i)*4;return pi(j,o,h,f)}function
-ph(a,b,c){return a.compare(b,c)}function
-pB(a,b){return Math.imul(a,b)}function
-ci(b,a){a=pB(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pB(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Eq(a,b){a=ci(a,i1(b));a=ci(a,i0(b));return a}function
-px(a,b){return Eq(a,gF(b))}function
-pl(c){var
-b=iT(c.dims),d=0;switch(c.kind){case
+l=i0(e1(e));g.set(a,[gn,m,l])}break}v[0]=(4+i)*4;return pg(j,o,h,f)}function
+pf(a,b,c){return a.compare(b,c)}function
+pz(a,b){return Math.imul(a,b)}function
+ci(b,a){a=pz(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pz(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Ep(a,b){a=ci(a,i2(b));a=ci(a,i1(b));return a}function
+pv(a,b){return Ep(a,gG(b))}function
+pj(c){var
+b=iU(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>og)b=og;var
+12:if(b>oe)b=oe;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ci(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=px(d,c.data[a]);break;case
+a=0;a<b;a++)d=pv(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=px(d,c.data[a]);break}return d}function
-Er(a,b){b[0]=4;return a.read32s()}function
-EG(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=pv(d,c.data[a]);break}return d}function
+Eq(a,b){b[0]=4;return a.read32s()}function
+EF(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bK("input_value: native integer value too large");default:bK("input_value: ill-formed native integer")}}function
-Ew(c,d){var
+2:bJ("input_value: native integer value too large");default:bJ("input_value: ill-formed native integer")}}function
+Ev(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e1(b)}function
-Ev(e,d,b){var
+Eu(e,d,b){var
 c=e2(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Es(a,b,c){return a.compare(b)}function
-Eu(a){return a.lo32()^a.hi32()}var
-ps={"_j":{deserialize:Ew,serialize:Ev,fixed_length:8,compare:Es,hash:Eu},"_i":{deserialize:Er,fixed_length:4},"_n":{deserialize:EG,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pj(a,b,"_bigarray")},serialize:pm,compare:ph,hash:pl},"_bigarr02":{deserialize:function(a,b){return pj(a,b,gx)},serialize:pm,compare:ph,hash:pl}};function
-iW(a){return ps[a.caml_custom]&&ps[a.caml_custom].compare}function
-pq(f,c,d,e){var
-b=iW(c);if(b){var
+Er(a,b,c){return a.compare(b)}function
+Et(a){return a.lo32()^a.hi32()}var
+pq={"_j":{deserialize:Ev,serialize:Eu,fixed_length:8,compare:Er,hash:Et},"_i":{deserialize:Eq,fixed_length:4},"_n":{deserialize:EF,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ph(a,b,"_bigarray")},serialize:pk,compare:pf,hash:pj},"_bigarr02":{deserialize:function(a,b){return ph(a,b,gy)},serialize:pk,compare:pf,hash:pj}};function
+iX(a){return pq[a.caml_custom]&&pq[a.caml_custom].compare}function
+po(f,c,d,e){var
+b=iX(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-i3(a){return a
+i4(a){return a
 instanceof
 bV}function
-pz(a){return i3(a)}function
-pr(a){if(typeof
-a==="number")return gv;else
-if(i3(a))return 252;else
-if(pz(a))return 1252;else
+px(a){return i4(a)}function
+pp(a){if(typeof
+a==="number")return gw;else
+if(i4(a))return 252;else
+if(px(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gm?0:b}else
+b=a[0]|0;return b==gn?0:b}else
 if(a
 instanceof
-String)return oJ;else
+String)return oH;else
 if(typeof
-a=="string")return oJ;else
+a=="string")return oH;else
 if(a
 instanceof
-Number)return gv;else
-if(a&&a.caml_custom)return iH;else
+Number)return gw;else
+if(a&&a.caml_custom)return iI;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ex(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-po(a,b){a.t&6&&d3(a);b.t&6&&d3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-pI(a,b){return po(a,b)}function
-iV(a,b,d){var
+Ew(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pm(a,b){a.t&6&&d2(a);b.t&6&&d2(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+pG(a,b){return pm(a,b)}function
+iW(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pr(a);if(f==om){a=a[1];continue}var
-g=pr(b);if(g==om){b=b[1];continue}if(f!==g){if(f==gv){if(g==iH)return pq(a,b,-1,d);return-1}if(g==gv){if(f==iH)return pq(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aE(iv);break;case
+f=pp(a);if(f==ok){a=a[1];continue}var
+g=pp(b);if(g==ok){b=b[1];continue}if(f!==g){if(f==gw){if(g==iI)return po(a,b,-1,d);return-1}if(g==gw){if(f==iI)return po(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aE(iw);break;case
 248:var
-c=Ex(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aE(iv);break;case
+c=Ew(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aE(iw);break;case
 250:aE("equal: got Forward_tag, should not happen");break;case
 251:aE("equal: abstract value");break;case
 252:if(a!==b){var
-c=po(a,b);if(c!=0)return c|0}break;case
+c=pm(a,b);if(c!=0)return c|0}break;case
 253:aE("equal: got Double_tag, should not happen");break;case
 254:aE("equal: got Double_array_tag, should not happen");break;case
 255:aE("equal: got Custom_tag, should not happen");break;case
-1247:aE(iv);break;case
+1247:aE(iw);break;case
 1255:var
-i=iW(a);if(i!=iW(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aE("compare: abstract value");var
+i=iX(a);if(i!=iX(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aE("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,135 +399,135 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=d4(a),b=d4(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=d3(a),b=d3(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-El(a,b){return iV(a,b,true)}function
+Ek(a,b){return iW(a,b,true)}function
 bX(a){if(a<0)aE("Bytes.create");return new
 bV(a?2:9,T,a)}function
-pt(a,b){return+(iV(a,b,false)==0)}function
-En(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gE(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-EH=0;function
-pv(){return EH++}function
-Ez(a){return a.toUtf16()}function
+pr(a,b){return+(iW(a,b,false)==0)}function
+Em(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pF(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+EG=0;function
+pt(){return EG++}function
+Ey(a){return a.toUtf16()}function
 e3(){return typeof
 G.process!=="undefined"&&typeof
 G.process.versions!=="undefined"&&typeof
 G.process.versions.node!=="undefined"}function
-EU(){function
-a(a){if(a.charAt(0)===bJ)return[T,a.substring(1)];return}function
+ET(){function
+a(a){if(a.charAt(0)===bI)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e3()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
-i_=EU();function
-pJ(a){return a.slice(-1)!==bJ?a+bJ:a}if(e3()&&G.process&&G.process.cwd)var
-e0=G.process.cwd().replace(/\\/g,bJ);else
+i$=ET();function
+pH(a){return a.slice(-1)!==bI?a+bI:a}if(e3()&&G.process&&G.process.cwd)var
+e0=G.process.cwd().replace(/\\/g,bI);else
 var
-e0="/static";e0=pJ(e0);function
-EB(a){a=Ez(a);if(!i_(a))a=e0+a;var
-e=i_(a),d=e[1].split(bJ),b=[];for(var
+e0="/static";e0=pH(e0);function
+EA(a){a=Ey(a);if(!i$(a))a=e0+a;var
+e=i$(a),d=e[1].split(bI),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-EP(e){for(var
-f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bG){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>n0){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<ol){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
-if(a<0xd800||a>=or)b+=String.fromCharCode(ot|a>>12,bG|a>>6&dX,bG|a&dX);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ob||h>or)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oA|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eU){b.substr(0,1);f+=b;b=T}}return f+b}function
-Ei(a){var
-b=9;if(!pM(a))b=8,a=EP(a);return new
+EO(e){for(var
+f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bF){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bF;d++);if(d-c>nY){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<oj){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bF|a&dW)}else
+if(a<0xd800||a>=op)b+=String.fromCharCode(or|a>>12,bF|a>>6&dW,bF|a&dW);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n$||h>op)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oy|a>>18,bF|a>>12&dW,bF|a>>6&dW,bF|a&dW)}if(b.length>eU){b.substr(0,1);f+=b;b=T}}return f+b}function
+Eh(a){var
+b=9;if(!pK(a))b=8,a=EO(a);return new
 bV(b,a,a.length)}function
-d5(a){return Ei(a)}var
-EX=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iE,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iJ,oa,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d4(a){return Eh(a)}var
+EW=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iF,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iK,n_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 dg(d,f,e,a){var
-b=EX.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,d5(f||T),d5(e||T)];return c}var
-pC={};function
-dd(a){return pC[a]}function
+b=EW.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,d4(f||T),d4(e||T)];return c}var
+pA={};function
+dd(a){return pA[a]}function
 de(b,a){throw[0,b].concat(a)}function
-Eh(a){return new
+Eg(a){return new
 bV(4,a,a.length)}function
-aj(a){i4(as.Sys_error,a)}function
-EK(a){aj(a+gj)}function
-pn(){aE(iO)}function
-Eg(b,a){if(a>>>0>=b.l)pn();return iU(b,a)}function
-gH(a){return a.l}function
-pg(){}function
+aj(a){i5(as.Sys_error,a)}function
+EJ(a){aj(a+gk)}function
+pl(){aE(iP)}function
+Ef(b,a){if(a>>>0>=b.l)pl();return iV(b,a)}function
+gI(a){return a.l}function
+pe(){}function
 aC(a){this.data=a}aC.prototype=new
-pg();aC.prototype.truncate=function(a){var
-b=this.data;this.data=bX(a|0);eZ(b,0,this.data,0,a)};aC.prototype.length=function(){return gH(this.data)};aC.prototype.write=function(b,d,g,a){var
+pe();aC.prototype.truncate=function(a){var
+b=this.data;this.data=bX(a|0);eZ(b,0,this.data,0,a)};aC.prototype.length=function(){return gI(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bX(b+a),f=this.data;this.data=e;eZ(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
-e=this.length();eZ(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Eg(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
+e=bX(b+a),f=this.data;this.data=e;eZ(f,0,this.data,0,c)}d0(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();eZ(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Ef(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
 aS(b,a){this.content={};this.root=b;this.lookupFun=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.create_dir_if_needed=function(d){var
-c=d.split(bJ),b=T;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bJ;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bJ};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bI),b=T;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bI;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bI};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aC(d2(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
+aC(d1(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aS.prototype.mkdir=function(c,e,d){var
-b=d&&dd(iA);if(this.exists(c))if(b)de(b,dg(n7,iz,this.nm(c)));else
+b=d&&dd(iB);if(this.exists(c))if(b)de(b,dg(n5,iA,this.nm(c)));else
 aj(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iE,iz,this.nm(a)));else
-aj(a+gj);if(!this.is_dir(a))if(b)de(b,dg(iJ,iz,this.nm(a)));else
-aj(a+iQ);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
-b=f&&dd(iA),c=a==T?T:this.slash(a),e=new
-RegExp(iM+c+oc);if(!this.exists(a))if(b)de(b,dg(iE,iw,this.nm(a)));else
-aj(a+gj);if(!this.is_dir(a))if(b)de(b,dg(iJ,iw,this.nm(a)));else
-aj(a+iQ);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iF,iA,this.nm(a)));else
+aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iK,iA,this.nm(a)));else
+aj(a+iR);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
+b=f&&dd(iB),c=a==T?T:this.slash(a),e=new
+RegExp(iN+c+oa);if(!this.exists(a))if(b)de(b,dg(iF,ix,this.nm(a)));else
+aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iK,ix,this.nm(a)));else
+aj(a+iR);for(var
 d
 in
-this.content)if(d.match(e))if(b)de(b,dg(oa,iw,this.nm(a)));else
+this.content)if(d.match(e))if(b)de(b,dg(n_,ix,this.nm(a)));else
 aj(this.nm(a)+": Directory not empty");delete
 this.content[c]};aS.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gj);if(!this.is_dir(a))aj(a+iQ);var
+f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gk);if(!this.is_dir(a))aj(a+iR);var
 g=new
-RegExp(iM+f+oc),d={},c=[];for(var
+RegExp(iN+f+oa),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aS.prototype.is_dir=function(a){if(a==T)return true;var
 b=this.slash(a);return this.content[b]?1:0};aS.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oY);if(b.text&&b.binary)aj(this.nm(a)+nS);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oU);var
+this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oW);if(b.text&&b.binary)aj(this.nm(a)+nQ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oS);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aC(bX(0));return this.content[a]}else
-EK(this.nm(a))};aS.prototype.register=function(c,a){var
-b;if(this.content[c])aj(this.nm(c)+oU);if(i3(a))b=new
-aC(a);if(pz(a))b=new
-aC(d2(a));else
+EJ(this.nm(a))};aS.prototype.register=function(c,a){var
+b;if(this.content[c])aj(this.nm(c)+oS);if(i4(a))b=new
+aC(a);if(px(a))b=new
+aC(d1(a));else
 if(a
 instanceof
 Array)b=new
-aC(Eh(a));else
+aC(Eg(a));else
 if(typeof
 a==="string")b=new
-aC(pp(a));else
+aC(pn(a));else
 if(a.toString){var
-d=d2(d5(a.toString()));b=new
+d=d1(d4(a.toString()));b=new
 aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 aj(this.nm(c)+" : registering file with invalid content type")};aS.prototype.constructor=aS;function
-ap(a){return gH(a)}function
-df(b,a){return iU(b,a)}function
-Ec(d){var
+ap(a){return gI(a)}function
+df(b,a){return iV(b,a)}function
+Eb(d){var
 c=ap(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=df(d,a);return b}function
-Eb(a){if(a.t!=4)gE(a);return a.c}function
-Ek(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gE(a)}a.c[c]=b;return 0}function
-Ej(b,a,c){if(a>>>0>=b.l)pn();return Ek(b,a,c)}function
+Ea(a){if(a.t!=4)gF(a);return a.c}function
+Ej(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gF(a)}a.c[c]=b;return 0}function
+Ei(b,a,c){if(a>>>0>=b.l)pl();return Ej(b,a,c)}function
 bW(a){this.fs=require("fs");this.fd=a}bW.prototype=new
-pg();bW.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bW.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bW.prototype.write=function(f,b,c,e){var
-a=Ec(b);if(!(a
+pe();bW.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bW.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bW.prototype.write=function(f,b,c,e){var
+a=Eb(b);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
 d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aj(a.toString())}return 0};bW.prototype.read=function(g,d,c,f){var
-a=Eb(d);if(!(a
+a=Ea(d);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
 e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aj(a.toString())}for(var
-b=0;b<f;b++)Ej(d,c+b,e[c+b]);return 0};bW.prototype.read_one=function(c){var
+b=0;b<f;b++)Ei(d,c+b,e[c+b]);return 0};bW.prototype.read_one=function(c){var
 b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aj(a.toString())}return a[0]};bW.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aj(a.toString())}};bW.prototype.constructor=bW;function
 aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aj(a.toString())}};aD.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
@@ -539,8 +539,8 @@ d=this.fs.openSync(this.nm(f),b);return new
 bW(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nD);return d5(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
-b=dd(iA);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),nB);return d4(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
+b=dd(iB);if(d&&b){var
 c=dg(a.code,a.syscall,a.path,a.errno);de(b,c)}else
 aj(a.toString())};aD.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -550,28 +550,28 @@ if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
-pw(b){var
-a=i_(b);if(!a)return;return a[0]+bJ}var
-gI=pw(e0)||bK("unable to compute caml_root"),d6=[];if(e3())d6.push({path:gI,device:new
-aD(gI)});else
-d6.push({path:gI,device:new
-aS(gI)});d6.push({path:nM,device:new
-aS(nM)});function
-pQ(b){var
-g=EB(b),b=g.join(bJ),f=pJ(b),c;for(var
-e=0;e<d6.length;e++){var
-a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e3()){var
-d=pw(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+pu(b){var
+a=i$(b);if(!a)return;return a[0]+bI}var
+gJ=pu(e0)||bJ("unable to compute caml_root"),d5=[];if(e3())d5.push({path:gJ,device:new
+aD(gJ)});else
+d5.push({path:gJ,device:new
+aS(gJ)});d5.push({path:nK,device:new
+aS(nK)});function
+pO(b){var
+g=EA(b),b=g.join(bI),f=pH(b),c;for(var
+e=0;e<d5.length;e++){var
+a=d5[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e3()){var
+d=pu(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aD(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
-Em(c,b){var
-a=pQ(c);if(!a.device.register)bK("cannot register file");a.device.register(a.rest,b);return 0}function
-pL(c,b){var
-c=a(c),b=a(b);return Em(c,b)}function
-Ep(){var
+aD(d)};d5.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
+El(c,b){var
+a=pO(c);if(!a.device.register)bJ("cannot register file");a.device.register(a.rest,b);return 0}function
+pJ(c,b){var
+c=a(c),b=a(b);return El(c,b)}function
+Eo(){var
 b=G.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pL(b[a].name,b[a].content);G.jsoo_create_file=pL;G.caml_fs_tmp=[];return 0}function
-EI(c){var
+a=0;a<b.length;a++)pJ(b[a].name,b[a].content);G.jsoo_create_file=pJ;G.caml_fs_tmp=[];return 0}function
+EH(c){var
 a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&df(c,a)==48)switch(df(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o_)return a-87;return-1}function
-i2(f){var
-h=EI(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pD(e);if(b<0||b>=d)bK(gp);var
-a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gp)}if(c!=g)bK(gp);a=i*a;if(d==10&&(a|0)!=a)bK(gp);return a|0}function
-EA(a,b){return+(iV(a,b,false)<=0)}function
-EC(a,d){if(a<0)gD();var
+pB(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o8)return a-87;return-1}function
+i3(f){var
+h=EH(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pB(e);if(b<0||b>=d)bJ(gq);var
+a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pB(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bJ(gq)}if(c!=g)bJ(gq);a=i*a;if(d==10&&(a|0)!=a)bJ(gq);return a|0}function
+Ez(a,b){return+(iW(a,b,false)<=0)}function
+EB(a,d){if(a<0)gE();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cj=new
 Array();function
-ED(c){var
+EC(c){var
 a=cj[c];if(!a.opened)aj("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
 b=as.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
-pG(e,f){var
+pE(e,f){var
 b=cj[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-EQ(a){var
-a=i6(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+EP(a){var
+a=i7(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-ER(a){var
-a=i6(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+EQ(a){var
+a=i7(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gK(c,e,d,a){if(as.fds===undefined)as.fds=new
+gL(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
-EY(c,b,g){var
+EX(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,109 +619,109 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oY);if(a.text&&a.binary)aj(d4(c)+nS);var
-d=pQ(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gK(f+1,pG,e,a)}gK(0,pG,new
-aC(bX(0)));gK(1,ER,new
-aC(bX(0)));gK(2,EQ,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d3(c)+oW);if(a.text&&a.binary)aj(d3(c)+nQ);var
+d=pO(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gL(f+1,pE,e,a)}gL(0,pE,new
+aC(bX(0)));gL(1,EQ,new
+aC(bX(0)));gL(2,EP,new
 aC(bX(0)));function
-EE(a){var
-c=as.fds[a];if(c.flags.wronly)aj(o9+a+" is writeonly");var
+ED(a){var
+c=as.fds[a];if(c.flags.wronly)aj(o7+a+" is writeonly");var
 d=null;if(a==0&&e3()){var
-e=require("fs");d=function(){return d5(e.readFileSync(0,nD))}}var
+e=require("fs");d=function(){return d4(e.readFileSync(0,nB))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cj[b.fd]=b;return b.fd}function
-pA(c){var
-b=as.fds[c];if(b.flags.rdonly)aj(o9+c+" is readonly");var
+py(c){var
+b=as.fds[c];if(b.flags.rdonly)aj(o7+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cj[a.fd]=a;return a.fd}function
-EF(){var
+EE(){var
 b=0;for(var
 a=0;a<cj.length;a++)if(cj[a]&&cj[a].opened&&cj[a].out)b=[0,cj[a].fd,b];return b}function
 bq(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
-EM(a,b){pC[d4(a)]=b;return 0}function
-Ef(a,b){if(a===b)return 1;a.t&6&&d3(a);b.t&6&&d3(b);return a.c==b.c?1:0}function
-aq(a,b){return Ef(a,b)}function
-EO(){aE(iO)}function
-aN(b,a){if(a>>>0>=ap(b))EO();return df(b,a)}function
+EL(a,b){pA[d3(a)]=b;return 0}function
+Ee(a,b){if(a===b)return 1;a.t&6&&d2(a);b.t&6&&d2(b);return a.c==b.c?1:0}function
+aq(a,b){return Ee(a,b)}function
+EN(){aE(iP)}function
+aN(b,a){if(a>>>0>=ap(b))EN();return df(b,a)}function
 m(a,b){return 1-aq(a,b)}function
-gJ(a){return a}function
-pF(a){return a}function
-pK(a){if(a
+gK(a){return a}function
+pD(a){return a}function
+pI(a){if(a
 instanceof
 Array)return a;if(G.RangeError&&a
 instanceof
-G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pF(as.Stack_overflow);if(G.InternalError&&a
+G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pD(as.Stack_overflow);if(G.InternalError&&a
 instanceof
-G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pF(as.Stack_overflow);if(a
+G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pD(as.Stack_overflow);if(a
 instanceof
-G.Error&&dd(oj))return[0,dd(oj),a];return[0,as.Failure,d5(String(a))]}function
+G.Error&&dd(oh))return[0,dd(oh),a];return[0,as.Failure,d4(String(a))]}function
 dh(a){return a<0?-a:a}function
 A(a,b){return a+b}function
-i7(a,b){return a<b?-1:a>b?1:0}function
-pN(c,b){var
+i8(a,b){return a<b?-1:a>b?1:0}function
+pL(c,b){var
 a=c%b;return a<0?a+dh(b):a}function
-i8(a,b){return(a-pN(a,b))/b}function
+i9(a,b){return(a-pL(a,b))/b}function
 _(a,b){return a==b?1:0}function
-EV(c){G.orthocert_verify=function(b){return d4(cI(c,[a(b)]))}}function
+EU(c){G.orthocert_verify=function(b){return d3(cI(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
 L(a,b){return a<b?1:0}function
 y(a,b){return a*b}function
 P(a){return-a}function
 aF(a){return G.BigInt(a)}function
-pO(a,b){return a<<G.BigInt(b)}function
-pP(a,b){return a>>G.BigInt(b)}function
+pM(a,b){return a<<G.BigInt(b)}function
+pN(a,b){return a>>G.BigInt(b)}function
 a9(a){return a<0?-1:a>0?1:0}function
-EW(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
+EV(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
 d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aG(a,b){return a-b}function
-i9(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
-Ey(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Eo(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ey(b[1]))var
+i_(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
+Ex(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+En(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ex(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ok;for(var
+f=2,e=b;a+=oi;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bV)a+=az+c.toString()+az;else
+bV)a+=aA+c.toString()+aA;else
 if(typeof
-c=="string")a+=az+c.toString()+az;else
-a+="_"}a+=iL}else
+c=="string")a+=aA+c.toString()+aA;else
+a+="_"}a+=iM}else
 if(b[0]==aM)a+=b[1];return a}function
-pu(a){if(a
+ps(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aM)){var
 c=dd("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Eo(a),b=dd(nC);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
+d=En(a),b=dd(nA);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-EN(){var
-a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pu(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pu(a.error)})}EN();function
+EM(){var
+a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ps(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ps(a.error)})}EM();function
 i(a,b){return a.length==1?a(b):cI(a,[b])}function
 ao(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
 D$(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
-Ea(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}Ep();var
-ja=[aM,a(n_),-2],i$=[aM,a(pf),-4],C6=[0,0],C7=[0,0],C8=[0,[0,0]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],f_=[0,[1,0],0],mV=[0,[2,0],0],h_=[0,[1,0],0],mU=[0,[2,0],0],f8=[0,[1,0],0],h9=[0,[2,0],0],C_=[0,[0,[0,[0,0]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,[0,0]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],Dm=[0,[0,0]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,0],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,0]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,0],D3=[0,[0,0]],D4=[0,0],D5=[0,[0,[0,[0,[0,0]]]]],jG=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fW=[0,[0,[0,[0,0]]]],D6=[0,[0,[0,[0,[0,0]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]];bq(11,[aM,a(nB),-12],nB);bq(10,[aM,a(op),-11],op);bq(9,[aM,a(o8),-10],o8);bq(8,[aM,a(nN),-9],nN);bq(7,[aM,a(oC),-8],oC);bq(6,[aM,a(nL),-7],nL);bq(5,[aM,a(n$),-6],n$);bq(4,[aM,a(oe),-5],oe);bq(3,i$,pf);bq(2,[aM,a(iF),-3],iF);bq(1,ja,n_);bq(0,[aM,a(oQ),-1],oQ);var
-pR=a("String.sub / Bytes.sub"),pT=a(T),pS=a("String.concat"),pU=a("Array.init"),pV=a("power"),qb=[0,0],qc=[0,0],qi=[0,0,0],qj=[0,0,0],qk=[0,0],qD=[0,0],qE=[0,0],qH=[0,0],q0=[0,0],q3=[0,0],q5=[0,0],q6=[0,0],rb=[0,0],rc=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iL),0],sV=a(ok),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eT),sZ=a(iM),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iL),0],s2=a(pc),vW=a(ny),vY=a(nv),vX=a(os),vZ=a(dV),v0=a(gl),v1=a(pe),v2=a(o1),v3=a(n4),v4=a(oE),xe=[0,0],xf=a(gi),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eS),xo=[0,5],xp=a(iS),xq=[0,4],xr=a(db),xs=a(nQ),xt=a(eP),xu=a(bU),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eP),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nw),wv=a(gk),ww=a(oo),wx=a(n8),wD=a(eV),wy=a(eR),wz=a("verdict"),wA=a(oS),wB=a(n1),wC=a(on),wq=a(oi),wr=a(oW),ws=a(gn),wm=a(oy),wn=a(go),wo=a(eR),wp=a(eV),wh=a(gw),wi=a(a8),wj=a(nx),wk=a(gt),we=a(oP),wf=a(eS),wg=a(gt),wa=a(oB),wb=a(gw),wc=a(go),wd=a(o6),v6=a(oX),v7=a(o0),v8=a(of),v9=a(gq),v_=a(o$),vU=a(ix),vV=a(gz),vP=a(bp),vQ=a(bo),vR=a(n3),vp=a(gq),vq=a(oF),u5=a(a8),u6=a(bI),u7=a(gy),u8=a(dY),u9=a(da),vc=a(iy),u_=a(iN),u$=a(iP),va=a(dU),vb=a(a8),vd=a(bI),ve=a(gy),vf=a(dY),vg=a(iN),vh=a(iP),vi=a(dU),vj=a(a8),vk=a(bI),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dY),vr=a(oL),vs=a(oZ),vt=a(gC),vu=a(nR),vv=a(nW),vw=a(dU),vx=a(a8),vy=a(bI),vz=a(gg),vA=a(n6),vB=a(dY),vC=a(eY),vD=a(nF),vE=a(dU),vF=a(a8),vG=a(gg),vH=a(a8),vI=a(oH),vL=a(nu),vJ=a(nU),vK=a(o5),vM=a(eV),vN=a(eR),vO=a(a8),vS=a(gC),vT=a(gn),u0=a(bI),u1=a(dY),u2=a(iy),u3=a(dU),uZ=a(pa),uN=a(eY),uO=a(oT),uP=a(c$),uQ=a(dW),uR=a(dW),uS=a(iB),uT=a(c$),uU=a(oq),uV=a(n2),uW=a(a1),uY=a(nA),uX=a(iB),uD=a(oh),uE=a(pd),uF=a(nY),uG=a(nV),uH=a(o3),uI=a(oO),uJ=a(n9),uK=a(gh),uL=a(gh),uz=a(a1),uA=a(bn),uB=a(dZ),uC=a(bH),uv=a(da),uw=a(iI),ux=a(oz),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iK),up=a(c$),uq=a(iG),ur=a(oK),t9=a(nT),ud=a(gk),uc=a(o4),t_=a(iC),t$=a(gs),ug=a(eQ),uh=a(iC),ue=a(eQ),uf=a(gs),ui=a(nP),uj=a(oI),uk=a(gs),ua=a(dW),ub=a(ov),t6=a(gr),t7=a(gr),t8=a(gr),t2=a(oM),t3=a(bo),t4=a(bp),t5=a(o2),tM=a(nJ),tN=a(nz),tO=a(oD),tP=a(dV),tQ=a(pb),tR=a(oG),tS=a(nK),tT=a(ow),tU=a(nI),tV=a(n5),tW=a(nH),tX=a(oN),tY=a(gl),tZ=a(nE),t0=a(oV),t1=a(nX),tr=a(gu),tt=a(eT),ts=a(eO),tu=a(dT),tv=a(a1),tw=a(bn),tx=a(bU),ty=a(gA),tz=a(bH),tA=a(a1),tB=a(bn),tC=a(dZ),tD=a(bH),tE=a(dT),tF=a(eX),tG=a(a1),tH=a(bn),tI=a(ou),tJ=a(eQ),tK=a(eX),tL=a(bH),s$=a(gu),th=a(eT),ta=a(eO),tb=a(dT),tc=a(a1),td=a(bn),te=a(bU),tf=a(gA),tg=a(bH),ti=a(gB),tj=a(a1),tk=a(bn),tl=a(dZ),tm=a(bH),tn=a(bU),to=a(da),tp=a(bH),s8=a(bp),s9=a(bo),s6=[0,a(az),0],s7=a(az),s4=a(T),s3=[0,a(az),0],s5=a(az),sQ=a(gu),sR=a(eT),sS=a("*"),sT=a(bJ),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(az),sH=[0,a(az),0],sI=a(az),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rD=[0,[0,0]],rE=[0,0],rv=[0,[0,0]],rw=[0,0],rx=[0,[0,0]],ry=[0,0],rz=[0,[0,0]],rA=[0,0],rB=[0,[0,0]],rC=[0,0],rt=[0,[0,0]],ru=[0,0],rr=[0,[0,0]],rs=[0,0],rn=[0,[0,0]],ro=[0,0],rp=[0,0],rq=[0,[0,0]],re=[0,[0,0]],rf=[0,0],rg=[0,[0,0]],rh=[0,0],ri=[0,0],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,[0,0]],rm=[0,0],ra=[0,0],q$=[0,0],q9=[0,[0,[0,0]]],q8=[0,[0,[0,[0,[0,[0,0]]]]]],q4=[0,[0,[0,0]]],q1=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,[0,[0,[0,0]]]]]],qY=[0,[0,[0,[0,[0,[0,0]]]]]],qS=[0,[0,0]],qT=[0,0],qU=[0,[0,0]],qV=[0,[0,[0,0]]],qW=[0,[0,[0,0]]],qL=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qM=[0,[0,[0,[0,[0,[0,0]]]]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,0]]],qJ=[0,[0,0]],qK=[0,0],qI=[0,0,0],qG=[0,0,0],qF=[0,[0,[0,0]]],qB=[0,0],qC=[0,0],qw=[0,[0,[0,0]]],qx=[0,[0,[0,0]]],qy=[0,[0,[0,0]]],qv=[0,[0,[0,[0,0]]]],qr=[0,[0,[0,0]]],qs=[0,[0,[0,0]]],qt=[0,[0,[0,0]]],qu=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qp=[0,[0,0]],qq=[0,0],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],p_=[0,0],p$=[0,[0,0]],p8=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],p6=[0,0,0],p5=a(iR),p4=a(T),p3=[0,[0,0]],p2=[0,0],pZ=[0,0],p1=[1,0],p0=[0,0],pY=[0,0],pW=[1,0],pX=[1,0],q_=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Bk=a(bp),Bl=a(bo),Bm=a(n3),Bb=a(gB),Bc=[0,a("a base axis of such a platform"),0],Bd=a(a1),Be=a(bn),A0=a(oO),A1=a(oh),A2=a(o3),A3=a(gh),A4=a(n9),A5=a(gh),A6=a(pd),A7=a(nY),A8=a(nV),AQ=a(oF),AR=a(gq),As=[0,a("such a machine with bodies"),0],Af=a(gn),Ag=a(a8),Ah=a(oH),Ai=a(o5),Al=a(nU),Am=a(nu),An=a(a8),Ao=a(a8),Aq=a(gg),Ap=[0,a("a claim that no cube of such a machine fits"),0],Ar=a(pa),At=a(dU),Au=a(dY),Av=a(da),Aw=a(iI),Ax=a(oz),Ay=a(gy),Az=a(nW),AA=a(nF),AB=a(iy),AE=a(c_),AF=a(oK),AI=a(bI),AJ=a(bI),AK=a(n6),AL=a(bI),AM=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AN=a(gg),AO=a(eY),AP=a(c_),AS=a(bI),AT=a(bp),AU=a(bo),AV=a(oL),AW=a(oZ),AX=a(gC),AY=a(nR),AC=[0,a(az),0],AD=a('the mechanism "'),AZ=a(iN),A9=a(gy),A_=a(da),A$=a(iI),Ba=a(iP),Bf=a(bI),Bg=[0,a('"one_to_one" of this set of orientations'),0],Bj=a(da),Bh=[0,a("a platform that turns on struts and other drives"),0],Bi=a(bI),AG=[0,a(az),0],AH=a('the workspace "'),Bn=a(a8),Bo=a(a8),Bq=a(eV),Br=a(eR),Bs=a(gC),Bp=[0,a("an atlas of such a machine"),0],Aj=[0,a(az),0],Ak=a('a claim of the kind "'),Bx=a(pe),BE=a(gl),BF=a(dV),BG=a(n4),BH=a(os),BI=a(bU),BJ=a(gz),BK=a(ix),BL=a(bU),BM=a(iR),By=a(db),Bz=a(nQ),BA=a(eP),BB=a(oE),BC=[0,a(az),0],BD=a('the evidence "'),BN=a(db),BO=a(gz),BP=[0,1,1],BQ=a(dV),BR=a(db),BS=a(eP),BT=a(o1),BV=a(dV),BW=a(db),BX=a(eP),BY=a(eS),BZ=a(gi),B0=a(eS),B1=a(gi),BU=[0,a("this evidence at control points"),0],CZ=a('"orthocert-paving/'),CQ=a(db),CR=a(db),Cz=a(on),CA=a(n1),CB=a(oS),CX=[0,3,3],CC=a(n8),CO=[0,a("this set of orientations with such drives"),0],CP=[0,a(od),0],CS=[0,a('this evidence "tolerances" of a platform that turns'),0],CT=[0,a("a step of a platform that turns that is not at control points"),0],CU=[0,a(od),0],CV=[0,a('the evidence "tolerances" of such a mechanism'),0],CW=[0,a(oR),0],CN=[0,a(oR),0],CM=[0,a("a mechanism by formulas in a claim that is refuted"),0],CL=[0,a("this quantity in a claim that is refuted"),0],CD=[0,a("the acceleration of a joint of a machine with a plane"),0],CK=[0,a("a step in a proof that no cube fits"),0],CJ=[0,a("a stiffness for each joint in such a claim"),0],CI=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CH=[0,a("a leaf that fails"),0],CE=a(oo),CF=a(nw),CG=a(gk),Cv=a(iS),Cw=a(gi),Cx=a(bU),Co=a(gn),Cp=a(oi),Cq=a(oW),Cr=[0,a(az),0],Cs=a('a proof of the kind "'),Ck=a(eR),Cl=a(eV),Cm=a(go),Cn=a(oy),Cg=a(a8),Ch=a(gw),Ci=a(nx),Cj=a(gt),Cd=a(oP),Ce=a(eS),Cf=a(gt),B$=a(oB),Ca=a(gw),Cb=a(go),Cc=a(o6),B4=a(o0),B5=a(of),B6=a(oX),B7=a(gq),B8=a(o$),B9=[0,a(az),0],B_=a('the failure "'),B2=a(iS),B3=a(iR),Bv=a(gz),Bw=a(ix),Bt=a(nv),Bu=a(ny),Ac=a(eY),z4=a(iB),z5=a(nA),z6=a(dW),z7=a(a1),Aa=a(oT),Ab=a(eY),Ad=a(c$),Ae=a(dW),z8=a(c$),z9=a(oq),z_=a(n2),z$=a(a1),zX=a(c_),z1=a(bp),z2=a(bo),zY=a(iG),zZ=a(iK),z0=a(c$),zR=a(c_),zV=a(bp),zW=a(bo),zS=a(iG),zT=a(iK),zU=a(c$),zQ=[0,1],zP=[0,1],zN=[0,1],zM=[0,1],zK=[0,1],zL=[0,a("this quantity of such a mechanism"),0],zs=a(iC),zt=[0,a("a stiffness for each joint of such a mechanism"),0],zu=a(oI),zv=a(nP),zw=a(o4),zx=a("max_angle"),zy=[0,a("accuracy of a platform that turns"),0],zz=a(eQ),zr=a(gk),zj=a(gr),y_=a(ov),y$=a(oD),zC=a(gl),zD=a(oV),zE=a(n5),zF=a(dV),zG=a(ow),zH=a(nH),zI=a(nI),zJ=a(nz),za=a(nE),zb=a(oN),zc=a(oG),zd=a(nX),ze=a(pb),zf=a(nK),zg=a(nJ),zh=[0,a(az),0],zi=a('the quantity "'),zk=a(nT),zl=a(oM),zm=a(bp),zn=a(bo),zo=a(o2),zp=[0,a(az),0],zq=a('a bound "'),zA=a(gs),zB=a(dW),y8=a(bH),y9=a(dZ),yN=a(bH),yO=a(gB),yP=a(eX),yQ=a(gA),yR=a(dZ),yU=a(a1),yV=a(bn),yW=a(eO),yX=a(dT),yY=a(a1),yZ=a(bn),y0=a(bU),y1=a(eO),y2=a(dT),y3=a(eX),y4=a(a1),y5=a(bn),y6=a(ou),y7=a(eQ),yS=[0,a('" of such a machine'),0],yT=a(nO),yL=a(bH),yM=a(eX),yv=a(bH),yw=a(da),yx=a(gA),yy=a(dZ),yB=a(gB),yC=a(a1),yD=a(bn),yE=a(eO),yF=a(dT),yG=a(a1),yH=a(bn),yI=a(bU),yJ=a(bU),yz=[0,a(az),0],yA=a(nO),ys=a(gu),yt=a(eT),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pc),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C1=[0,a("a paving is checked by orthocert-verified")],C0=a(ox),C2=a("CERTIFIED"),C3=a("REFUTED"),C4=a(ox),C5=a("NOT COVERED: ");function
-e4(a){throw[0,i$,a]}function
+iv(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}Eo();var
+jb=[aM,a(n8),-2],ja=[aM,a(pd),-4],C6=[0,0],C7=[0,0],C8=[0,[0,0]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],f$=[0,[1,0],0],mT=[0,[2,0],0],h_=[0,[1,0],0],mS=[0,[2,0],0],f9=[0,[1,0],0],h9=[0,[2,0],0],C_=[0,[0,[0,[0,0]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,[0,0]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],Dm=[0,[0,0]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,0],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,0]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,0],D3=[0,[0,0]],D4=[0,0],D5=[0,[0,[0,[0,[0,0]]]]],jH=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fX=[0,[0,[0,[0,0]]]],D6=[0,[0,[0,[0,[0,0]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]];bq(11,[aM,a(nz),-12],nz);bq(10,[aM,a(on),-11],on);bq(9,[aM,a(o6),-10],o6);bq(8,[aM,a(nL),-9],nL);bq(7,[aM,a(oA),-8],oA);bq(6,[aM,a(nJ),-7],nJ);bq(5,[aM,a(n9),-6],n9);bq(4,[aM,a(oc),-5],oc);bq(3,ja,pd);bq(2,[aM,a(iG),-3],iG);bq(1,jb,n8);bq(0,[aM,a(oO),-1],oO);var
+pP=a("String.sub / Bytes.sub"),pR=a(T),pQ=a("String.concat"),pS=a("Array.init"),pT=a("power"),p$=[0,0],qa=[0,0],qg=[0,0,0],qh=[0,0,0],qi=[0,0],qB=[0,0],qC=[0,0],qF=[0,0],qY=[0,0],q1=[0,0],q3=[0,0],q4=[0,0],ra=[0,0],rb=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iM),0],sV=a(oi),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eT),sZ=a(iN),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iM),0],s2=a(pa),vW=a(nw),vY=a(nt),vX=a(oq),vZ=a(dU),v0=a(gm),v1=a(pc),v2=a(oZ),v3=a(n2),v4=a(oC),xe=[0,0],xf=a(gj),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eS),xo=[0,5],xp=a(iT),xq=[0,4],xr=a(db),xs=a(nO),xt=a(eP),xu=a(bU),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eP),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nu),wv=a(gl),ww=a(om),wx=a(n6),wD=a(eV),wy=a(eR),wz=a("verdict"),wA=a(oQ),wB=a(nZ),wC=a(ol),wq=a(og),wr=a(oU),ws=a(go),wm=a(ow),wn=a(gp),wo=a(eR),wp=a(eV),wh=a(gx),wi=a(a8),wj=a(nv),wk=a(gu),we=a(oN),wf=a(eS),wg=a(gu),wa=a(oz),wb=a(gx),wc=a(gp),wd=a(o4),v6=a(oV),v7=a(oY),v8=a(od),v9=a(gr),v_=a(o9),vU=a(iy),vV=a(gA),vP=a(bp),vQ=a(bo),vR=a(n1),vp=a(gr),vq=a(oD),u5=a(a8),u6=a(bH),u7=a(gz),u8=a(dX),u9=a(da),vc=a(iz),u_=a(iO),u$=a(iQ),va=a(dT),vb=a(a8),vd=a(bH),ve=a(gz),vf=a(dX),vg=a(iO),vh=a(iQ),vi=a(dT),vj=a(a8),vk=a(bH),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dX),vr=a(oJ),vs=a(oX),vt=a(gD),vu=a(nP),vv=a(nU),vw=a(dT),vx=a(a8),vy=a(bH),vz=a(gh),vA=a(n4),vB=a(dX),vC=a(eY),vD=a(nD),vE=a(dT),vF=a(a8),vG=a(gh),vH=a(a8),vI=a(oF),vL=a(ns),vJ=a(nS),vK=a(o3),vM=a(eV),vN=a(eR),vO=a(a8),vS=a(gD),vT=a(go),u0=a(bH),u1=a(dX),u2=a(iz),u3=a(dT),uZ=a(o_),uN=a(eY),uO=a(oR),uP=a(c$),uQ=a(dV),uR=a(dV),uS=a(iC),uT=a(c$),uU=a(oo),uV=a(n0),uW=a(a1),uY=a(ny),uX=a(iC),uD=a(of),uE=a(pb),uF=a(nW),uG=a(nT),uH=a(o1),uI=a(oM),uJ=a(n7),uK=a(gi),uL=a(gi),uz=a(a1),uA=a(bn),uB=a(dY),uC=a(bG),uv=a(da),uw=a(iJ),ux=a(ox),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iL),up=a(c$),uq=a(iH),ur=a(oI),t9=a(nR),ud=a(gl),uc=a(o2),t_=a(iD),t$=a(gt),ug=a(eQ),uh=a(iD),ue=a(eQ),uf=a(gt),ui=a(nN),uj=a(oG),uk=a(gt),ua=a(dV),ub=a(ot),t6=a(gs),t7=a(gs),t8=a(gs),t2=a(oK),t3=a(bo),t4=a(bp),t5=a(o0),tM=a(nH),tN=a(nx),tO=a(oB),tP=a(dU),tQ=a(o$),tR=a(oE),tS=a(nI),tT=a(ou),tU=a(nG),tV=a(n3),tW=a(nF),tX=a(oL),tY=a(gm),tZ=a(nC),t0=a(oT),t1=a(nV),tr=a(gv),tt=a(eT),ts=a(eO),tu=a(dS),tv=a(a1),tw=a(bn),tx=a(bU),ty=a(gB),tz=a(bG),tA=a(a1),tB=a(bn),tC=a(dY),tD=a(bG),tE=a(dS),tF=a(eX),tG=a(a1),tH=a(bn),tI=a(os),tJ=a(eQ),tK=a(eX),tL=a(bG),s$=a(gv),th=a(eT),ta=a(eO),tb=a(dS),tc=a(a1),td=a(bn),te=a(bU),tf=a(gB),tg=a(bG),ti=a(gC),tj=a(a1),tk=a(bn),tl=a(dY),tm=a(bG),tn=a(bU),to=a(da),tp=a(bG),s8=a(bp),s9=a(bo),s6=[0,a(aA),0],s7=a(aA),s4=a(T),s3=[0,a(aA),0],s5=a(aA),sQ=a(gv),sR=a(eT),sS=a("*"),sT=a(bI),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(aA),sH=[0,a(aA),0],sI=a(aA),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rC=[0,[0,0]],rD=[0,0],ru=[0,[0,0]],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rs=[0,[0,0]],rt=[0,0],rq=[0,[0,0]],rr=[0,0],rm=[0,[0,0]],rn=[0,0],ro=[0,0],rp=[0,[0,0]],rd=[0,[0,0]],re=[0,0],rf=[0,[0,0]],rg=[0,0],rh=[0,0],ri=[0,[0,0]],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,0],q$=[0,0],q_=[0,0],q7=[0,[0,[0,0]]],q6=[0,[0,[0,[0,[0,[0,0]]]]]],q2=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,0]],qR=[0,0],qS=[0,[0,0]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qH=[0,[0,0]],qI=[0,0],qG=[0,0,0],qE=[0,0,0],qD=[0,[0,[0,0]]],qz=[0,0],qA=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,[0,0]]]],qp=[0,[0,[0,0]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],qj=[0,[0,0]],qk=[0,0],p8=[0,0],p9=[0,[0,0]],p6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],p4=[0,0,0],p3=a(iS),p2=a(T),p1=[0,[0,0]],p0=[0,0],pX=[0,0],pZ=[1,0],pY=[0,0],pW=[0,0],pU=[1,0],pV=[1,0],q8=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Bk=a(bp),Bl=a(bo),Bm=a(n1),Bb=a(gC),Bc=[0,a("a base axis of such a platform"),0],Bd=a(a1),Be=a(bn),A0=a(oM),A1=a(of),A2=a(o1),A3=a(gi),A4=a(n7),A5=a(gi),A6=a(pb),A7=a(nW),A8=a(nT),AQ=a(oD),AR=a(gr),As=[0,a("such a machine with bodies"),0],Af=a(go),Ag=a(a8),Ah=a(oF),Ai=a(o3),Al=a(nS),Am=a(ns),An=a(a8),Ao=a(a8),Aq=a(gh),Ap=[0,a("a claim that no cube of such a machine fits"),0],Ar=a(o_),At=a(dT),Au=a(dX),Av=a(da),Aw=a(iJ),Ax=a(ox),Ay=a(gz),Az=a(nU),AA=a(nD),AB=a(iz),AE=a(c_),AF=a(oI),AI=a(bH),AJ=a(bH),AK=a(n4),AL=a(bH),AM=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AN=a(gh),AO=a(eY),AP=a(c_),AS=a(bH),AT=a(bp),AU=a(bo),AV=a(oJ),AW=a(oX),AX=a(gD),AY=a(nP),AC=[0,a(aA),0],AD=a('the mechanism "'),AZ=a(iO),A9=a(gz),A_=a(da),A$=a(iJ),Ba=a(iQ),Bf=a(bH),Bg=[0,a('"one_to_one" of this set of orientations'),0],Bj=a(da),Bh=[0,a("a platform that turns on struts and other drives"),0],Bi=a(bH),AG=[0,a(aA),0],AH=a('the workspace "'),Bn=a(a8),Bo=a(a8),Bq=a(eV),Br=a(eR),Bs=a(gD),Bp=[0,a("an atlas of such a machine"),0],Aj=[0,a(aA),0],Ak=a('a claim of the kind "'),Bx=a(pc),BE=a(gm),BF=a(dU),BG=a(n2),BH=a(oq),BI=a(bU),BJ=a(gA),BK=a(iy),BL=a(bU),BM=a(iS),By=a(db),Bz=a(nO),BA=a(eP),BB=a(oC),BC=[0,a(aA),0],BD=a('the evidence "'),BN=a(db),BO=a(gA),BP=[0,1,1],BQ=a(dU),BR=a(db),BS=a(eP),BT=a(oZ),BV=a(dU),BW=a(db),BX=a(eP),BY=a(eS),BZ=a(gj),B0=a(eS),B1=a(gj),BU=[0,a("this evidence at control points"),0],CZ=a('"orthocert-paving/'),CQ=a(db),CR=a(db),Cz=a(ol),CA=a(nZ),CB=a(oQ),CX=[0,3,3],CC=a(n6),CO=[0,a("this set of orientations with such drives"),0],CP=[0,a(ob),0],CS=[0,a('this evidence "tolerances" of a platform that turns'),0],CT=[0,a("a step of a platform that turns that is not at control points"),0],CU=[0,a(ob),0],CV=[0,a('the evidence "tolerances" of such a mechanism'),0],CW=[0,a(oP),0],CN=[0,a(oP),0],CM=[0,a("a mechanism by formulas in a claim that is refuted"),0],CL=[0,a("this quantity in a claim that is refuted"),0],CD=[0,a("the acceleration of a joint of a machine with a plane"),0],CK=[0,a("a step in a proof that no cube fits"),0],CJ=[0,a("a stiffness for each joint in such a claim"),0],CI=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CH=[0,a("a leaf that fails"),0],CE=a(om),CF=a(nu),CG=a(gl),Cv=a(iT),Cw=a(gj),Cx=a(bU),Co=a(go),Cp=a(og),Cq=a(oU),Cr=[0,a(aA),0],Cs=a('a proof of the kind "'),Ck=a(eR),Cl=a(eV),Cm=a(gp),Cn=a(ow),Cg=a(a8),Ch=a(gx),Ci=a(nv),Cj=a(gu),Cd=a(oN),Ce=a(eS),Cf=a(gu),B$=a(oz),Ca=a(gx),Cb=a(gp),Cc=a(o4),B4=a(oY),B5=a(od),B6=a(oV),B7=a(gr),B8=a(o9),B9=[0,a(aA),0],B_=a('the failure "'),B2=a(iT),B3=a(iS),Bv=a(gA),Bw=a(iy),Bt=a(nt),Bu=a(nw),Ac=a(eY),z4=a(iC),z5=a(ny),z6=a(dV),z7=a(a1),Aa=a(oR),Ab=a(eY),Ad=a(c$),Ae=a(dV),z8=a(c$),z9=a(oo),z_=a(n0),z$=a(a1),zX=a(c_),z1=a(bp),z2=a(bo),zY=a(iH),zZ=a(iL),z0=a(c$),zR=a(c_),zV=a(bp),zW=a(bo),zS=a(iH),zT=a(iL),zU=a(c$),zQ=[0,1],zP=[0,1],zN=[0,1],zM=[0,1],zK=[0,1],zL=[0,a("this quantity of such a mechanism"),0],zs=a(iD),zt=[0,a("a stiffness for each joint of such a mechanism"),0],zu=a(oG),zv=a(nN),zw=a(o2),zx=a("max_angle"),zy=[0,a("accuracy of a platform that turns"),0],zz=a(eQ),zr=a(gl),zj=a(gs),y_=a(ot),y$=a(oB),zC=a(gm),zD=a(oT),zE=a(n3),zF=a(dU),zG=a(ou),zH=a(nF),zI=a(nG),zJ=a(nx),za=a(nC),zb=a(oL),zc=a(oE),zd=a(nV),ze=a(o$),zf=a(nI),zg=a(nH),zh=[0,a(aA),0],zi=a('the quantity "'),zk=a(nR),zl=a(oK),zm=a(bp),zn=a(bo),zo=a(o0),zp=[0,a(aA),0],zq=a('a bound "'),zA=a(gt),zB=a(dV),y8=a(bG),y9=a(dY),yN=a(bG),yO=a(gC),yP=a(eX),yQ=a(gB),yR=a(dY),yU=a(a1),yV=a(bn),yW=a(eO),yX=a(dS),yY=a(a1),yZ=a(bn),y0=a(bU),y1=a(eO),y2=a(dS),y3=a(eX),y4=a(a1),y5=a(bn),y6=a(os),y7=a(eQ),yS=[0,a('" of such a machine'),0],yT=a(nM),yL=a(bG),yM=a(eX),yv=a(bG),yw=a(da),yx=a(gB),yy=a(dY),yB=a(gC),yC=a(a1),yD=a(bn),yE=a(eO),yF=a(dS),yG=a(a1),yH=a(bn),yI=a(bU),yJ=a(bU),yz=[0,a(aA),0],yA=a(nM),ys=a(gv),yt=a(eT),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pa),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C1=[0,a("a paving is checked by orthocert-verified")],C0=a(ov),C2=a("CERTIFIED"),C3=a("REFUTED"),C4=a(ov),C5=a("NOT COVERED: ");function
+e4(a){throw[0,ja,a]}function
 aT(d,c){var
-a=ap(d),e=ap(c),b=bX(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gJ(b)}EE(0);pA(1);pA(2);function
-jb(b){function
+a=ap(d),e=ap(c),b=bX(a+e|0);d0(d,0,b,0,a);d0(c,0,b,a,e);return gK(b)}ED(0);py(1);py(2);function
+jc(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{ED(d)}catch(a){a=pK(a);if(a[1]!==ja)throw a;var
+c=a[2],d=a[1];try{EC(d)}catch(a){a=pI(a);if(a[1]!==jb)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(EF(0))}EM(a(nC),jb);function
+a=c;continue}return 0}}return a(EE(0))}EL(a(nA),jc);function
 bY(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-jc(d){var
+jd(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gL(d,c){var
+gM(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -730,38 +730,39 @@ a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 br(b,c){var
-a=bX(b);En(a,0,b,c);return gJ(a)}function
+a=bX(b);Em(a,0,b,c);return gK(a)}function
 di(g,b,a){var
-d=d2(g),f=0;if(0<=b&&0<=a&&!((gH(d)-a|0)<b)){var
+d=d1(g),f=0;if(0<=b&&0<=a&&!((gI(d)-a|0)<b)){var
 c=bX(a);eZ(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=e4(pR);return gJ(e)}function
-jd(k,g){if(g){var
+e=e4(pP);return gK(e)}function
+je(k,g){if(g){var
 h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e4(pS),c=n,b=m;continue}var
+j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e4(pQ),c=n,b=m;continue}var
 l=ap(i)+c|0}else
 var
 l=c;var
 f=bX(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];d1(a,0,f,e,ap(a));d1(k,0,f,e+ap(a)|0,h);var
-e=(e+ap(a)|0)+h|0,d=o;continue}d1(a,0,f,e,ap(a))}return gJ(f)}}}return pT}function
-gM(b,c){if(0===b)return[0];if(0<=b){var
-d=EC(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];d0(a,0,f,e,ap(a));d0(k,0,f,e+ap(a)|0,h);var
+e=(e+ap(a)|0)+h|0,d=o;continue}d0(a,0,f,e,ap(a))}return gK(f)}}}return pR}function
+gN(b,c){if(0===b)return[0];if(0<=b){var
+d=EB(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return e4(pU)}function
-gN(c){var
+a=g;continue}break}}return d}return e4(pS)}function
+gO(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aF(0),c=aF(1);function
 p(a){return A(a,c)}function
-je(b,a){return A(aF(b),a)}function
+jf(b,a){return A(aF(b),a)}function
 b(b,a){return y(aF(b),a)}function
-aU(b,a){return[0,i8(b,a),pN(b,a)]}function
-gO(b,a){return H(b,a)?b:a}function
+aU(b,a){return[0,i9(b,a),pL(b,a)]}function
+gP(b,a){return H(b,a)?b:a}function
 bs(b,a){return H(b,a)?a:b}function
+d6(a){return d6}function
 $(a){return a?0:1}function
 w(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
@@ -771,9 +772,9 @@ j(a){var
 b=a?[0,j(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-jf(a){return typeof
-a==="number"?0:[0,jf(a[1])]}function
-jg(d,c){var
+jg(a){return typeof
+a==="number"?0:[0,jg(a[1])]}function
+jh(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -796,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-e5(a){return jg(a,0)}function
-jh(a){if(typeof
-a==="number")return pW;else
+e5(a){return jh(a,0)}function
+ji(a){if(typeof
+a==="number")return pU;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -808,9 +809,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jh(a[1])]}}function
+8:return[9,a[1]];default:return[0,ji(a[1])]}}function
 bu(a){if(typeof
-a==="number")return pX;else
+a==="number")return pV;else
 switch(a[0]){case
 0:return[1,bt(a[1])];case
 1:return[3,bt(a[1])];case
@@ -833,9 +834,9 @@ switch(a[0]){case
 6:return[2,bu(a[1])];case
 7:return[4,bu(a[1])];case
 8:return[6,bu(a[1])];default:return[8,bu(a[1])]}}function
-bv(a){return a?a[1]:a}function
+bK(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-ji(a,b){return a?N(b,ji(a[1],b)):a}function
+jj(a,b){return a?N(b,jj(a[1],b)):a}function
 ck(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
@@ -844,35 +845,35 @@ V(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 cl(b,a){return V([0,b],a)}function
-jj(c){var
+jk(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 e6(c,b,a){return c?i(b,e6(c[1],b,a)):a}function
-jk(a){if(a)var
-b=a[1],d=b?[0,jk(b[1])]:b,c=d;else
+jl(a){if(a)var
+b=a[1],d=b?[0,jl(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gP(d,c){var
+gQ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jl(a){if(H(a,c))return c;var
-e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jl(f))):p(b(2,b(2,f)))}function
-jm(b,a){return bs(c,aG(b,a))}function
-e7(a){if(H(a,c))return pZ;var
+jm(a){if(H(a,c))return c;var
+e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jm(f))):p(b(2,b(2,f)))}function
+jn(b,a){return bs(c,aG(b,a))}function
+e7(a){if(H(a,c))return pX;var
 b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
 e8(a){if(H(a,c))return c;var
 b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
-jn(c,b){var
-a=i7(c,b);return 0===a?0:0<=a?2:1}function
-gQ(j,i){var
+jo(c,b){var
+a=i8(c,b);return 0===a?0:0<=a?2:1}function
+gR(j,i){var
 b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aF(2))[2],d)?0:0;var
 g=aU(b,aF(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
 e=aU(a,aF(2)),k=e[1];if(_(e[2],d)){var
 b=h,a=k;continue}return 0}if(H(a,c))return 0;var
 f=aU(a,aF(2)),l=f[1];if(_(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e9(b,a){return 2<=jn(b,a)?0:1}function
+e9(b,a){return 2<=jo(b,a)?0:1}function
 dj(i,e,a){if(i){var
 f=i[1];if(H(e,c))return[0,c,[0,c,a]];var
 w=aU(e,aF(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
@@ -880,19 +881,19 @@ m=aU(a,aF(2)),B=m[1];if(_(m[2],d)){var
 j=dj(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
 k=dj(f,g,a),l=k[2],y=l[2],z=[0,b(2,l[1]),y];return[0,k[1],z]}if(H(a,c))return[0,c,[0,e,c]];var
 v=aU(a,aF(2)),h=v[1];if(_(v[2],d)){var
-n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jn(g,h)){case
+n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jo(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=dj(f,jm(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=dj(f,jm(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+p=dj(f,jn(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=dj(f,jn(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
 e_(b,a){var
 c=e7(a);return dj(N(e7(b),c),b,a)}function
-jo(b,i,h){var
+jp(b,i,h){var
 e=i,a=h;for(;;){if(H(e,c))return a;var
 f=aU(e,aF(2)),g=f[1];if(_(f[2],d)){var
-e=g,a=ao(b,a,a);continue}return ao(b,a,jo(b,g,ao(b,a,a)))}}function
-d7(a){return jo(N,a,p0)}function
-jp(a){return a?p(jp(a[1])):c}function
+e=g,a=ao(b,a,a);continue}return ao(b,a,jp(b,g,ao(b,a,a)))}}function
+d7(a){return jp(N,a,pY)}function
+jq(a){return a?p(jq(a[1])):c}function
 b0(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -916,19 +917,19 @@ t=y(b(2,p(b(2,b(2,c)))),d),u=A(p(b(2,p(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
 v=y(b(2,p(b(2,b(2,c)))),d),w=A(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
 x=y(b(2,p(b(2,b(2,c)))),d),z=A(p(b(2,b(2,b(2,c)))),x),a=a[1],d=z;continue}}function
-gR(a){if(H(a,c))return p1;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gR(e)):bu(gR(e))}function
-e$(a){return e5(gR(a))}function
-jq(k,f){if(0<=a9(f)){var
-g=i9(f);if(0<=g){var
+gS(a){if(H(a,c))return pZ;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gS(e)):bu(gS(e))}function
+e$(a){return e5(gS(a))}function
+jr(k,f){if(0<=a9(f)){var
+g=i_(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e4(pV)}return d}function
-gS(b){var
+h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e4(pT)}return d}function
+gT(b){var
 a=a9(b);return 0===a?d:0<a?c:P(c)}function
-jr(a){return 0<=a9(a)?a:d}function
+js(a){return 0<=a9(a)?a:d}function
 d8(a){var
 b=a9(a);return 0===b?c:0<b?a:c}function
-js(m){var
+jt(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -951,13 +952,13 @@ j=p(b(2,p(b(2,c))));return b0(a[1],j);case
 k=b(2,b(2,b(2,c)));return b0(a[1],k);default:var
 l=p(b(2,b(2,b(2,c))));return b0(a[1],l)}}function
 cm(b,a){var
-c=a9(a);return 0===c?d:1===c?i8(b,a):je(-1,i8(je(-1,b),a))}function
-fa(a){return 0<a9(a)?EW(a):d}function
+c=a9(a);return 0===c?d:1===c?i9(b,a):jf(-1,i9(jf(-1,b),a))}function
+fa(a){return 0<a9(a)?EV(a):d}function
 d9(b,c){var
-a=i9(c);return 0<=a?pO(b,a):pP(b,-a|0)}function
+a=i_(c);return 0<=a?pM(b,a):pN(b,-a|0)}function
 cJ(b,c){var
-a=i9(c);return 0<=a?pP(b,a):pO(b,-a|0)}function
-bw(b,a){return a?a[1]:b}function
+a=i_(c);return 0<=a?pN(b,a):pM(b,-a|0)}function
+bv(b,a){return a?a[1]:b}function
 bd(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
@@ -967,14 +968,14 @@ M(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jt(a){if(a){var
-b=[0,a[1],0];return f(jt(a[2]),b)}return a}function
+ju(a){if(a){var
+b=[0,a[1],0];return f(ju(a[2]),b)}return a}function
 d_(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 fb(a){if(a){var
 b=fb(a[2]);return f(a[1],b)}return a}function
-gT(g,f,e){var
+gU(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1007,7 +1008,7 @@ be(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(i(b,d))return[0,d,be(b,c)];var
 a=c;continue}return a}}function
-ju(d,c){var
+jv(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
@@ -1028,41 +1029,41 @@ b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aL(b,a){var
 c=a?[0,b,aL([0,b],a[1])]:a;return c}function
-aA(b,a){var
-c=a?[0,b,aA(b,a[1])]:a;return c}function
-jv(a){if(a){var
-e=jv(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+aw(b,a){var
+c=a?[0,b,aw(b,a[1])]:a;return c}function
+jw(a){if(a){var
+e=jw(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
 fc(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jv([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d7(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jw([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d7(b):0}function
 dm(c,b){var
-a=i7(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=i8(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 cK(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
 dn(b,a){return[0,A(y(b[1],a[2]),y(a[1],b[2])),y(b[2],a[2])]}function
 b2(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-jw(a){return[0,P(a[1]),a[2]]}function
-fd(b,a){return dn(b,jw(a))}function
-gU(f,b){var
+jx(a){return[0,P(a[1]),a[2]]}function
+fd(b,a){return dn(b,jx(a))}function
+gV(f,b){var
 a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b2(f,g)}function
 fe(q){var
 a=q[2],b=q[1],o=a9(b);if(0===o)var
-c=[0,dh(a),[0,d,gS(a)]];else
+c=[0,dh(a),[0,d,gT(a)]];else
 if(0<o){var
 n=a9(a);if(0===n)var
-c=[0,dh(b),[0,gS(b),d]];else
+c=[0,dh(b),[0,gT(b),d]];else
 if(0<n)var
 l=e_(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=e_(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
 p=P(b),i=a9(a);if(0===i)var
-c=[0,dh(b),[0,gS(b),d]];else
+c=[0,dh(b),[0,gT(b),d]];else
 if(0<i)var
 g=e_(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
 e=e_(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
 r=c[2],s=d8(r[2]);return[0,r[1],s]}function
 a2(a){if(typeof
-a==="number")return p4;else
+a==="number")return p2;else
 switch(a[0]){case
 0:var
 b=a2(a[1]);return aT(br(1,48),b);case
@@ -1084,30 +1085,30 @@ i=a2(a[1]);return aT(br(1,55),i);case
 j=a2(a[1]);return aT(br(1,56),j);default:var
 k=a2(a[1]);return aT(br(1,57),k)}}function
 d$(a){return typeof
-a==="number"?p5:a2(a)}function
-cL(a){return jq(b(2,c),a)}function
-jx(b,a){return cJ(a,b)}function
-jy(b,a){return P(cJ(P(a),b))}function
+a==="number"?p3:a2(a)}function
+cL(a){return jr(b(2,c),a)}function
+jy(b,a){return cJ(a,b)}function
+jz(b,a){return P(cJ(P(a),b))}function
 ff(b,a){return P(cm(P(b),a))}function
 W(c,b){var
 a=d9(b,c);return[0,a,a]}function
-jz(d,c,a){var
+jA(d,c,a){var
 b=d9(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
 E(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
 D(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
 af(a){return[0,P(a[2]),P(a[1])]}function
-jA(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
-f=bs(y(e,b),y(c,a));return[0,gO(y(e,a),y(c,b)),f]}function
+jB(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
+f=bs(y(e,b),y(c,a));return[0,gP(y(e,a),y(c,b)),f]}function
 x(c,b,a){var
-d=jA(b[1],b[2],a[1],a[2]),e=jy(c,d[2]);return[0,jx(c,d[1]),e]}function
+d=jB(b[1],b[2],a[1],a[2]),e=jz(c,d[2]);return[0,jy(c,d[1]),e]}function
 X(b,a){var
-c=y(a[1],a[1]),e=y(a[2],a[2]),h=jy(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+c=y(a[1],a[1]),e=y(a[2],a[2]),h=jz(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jx(b,gO(c,e));return[0,f,h]}function
-gV(b,a){var
+f=jy(b,gP(c,e));return[0,f,h]}function
+gW(b,a){var
 c=d9(cL(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
-b3(b,a){if(L(d,a[1]))return[0,gV(b,a)];var
-c=L(a[2],d),e=c?[0,af(gV(b,af(a)))]:c;return e}function
+b3(b,a){if(L(d,a[1]))return[0,gW(b,a)];var
+c=L(a[2],d),e=c?[0,af(gW(b,af(a)))]:c;return e}function
 b4(f,b){var
 g=L(d,b[1]);if(g)var
 e=d9(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d9(b[1],f)),i]];else
@@ -1123,7 +1124,7 @@ g=b[2],h=P(cn(P(y(a,b[1])),c));return[0,cn(y(a,g),c),h]}function
 aW(a){var
 b=P(cJ(P(a[2]),c));return[0,cJ(a[1],c),b]}function
 ea(c,b,a){var
-e=jA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
+e=jB(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
 cM(a){return bs(a[2],P(a[1]))}var
 B=[0,d,d];function
 eb(a){return[0,a[1],a[1]]}function
@@ -1200,8 +1201,8 @@ c=fg(a);if(c){var
 b=c[1];return ec(b)?h(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return av(a,b)?I(a):[0,[6,a,b]];return b}return a}function
 ag(b,a){return aO(c,a)?b:[0,[7,b,a]]}function
-aw(a){return aO(c,a)?a:[0,[9,a]]}function
-jB(d,c,b,a){return[0,[10,d,c,b,a]]}function
+ax(a){return aO(c,a)?a:[0,[9,a]]}function
+jC(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bM(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,i(e,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
@@ -1211,7 +1212,7 @@ e=ed(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-jC(a){switch(a[0]){case
+jD(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1219,9 +1220,9 @@ jC(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-jD(j,g){var
+jE(j,g){var
 k=0,l=aI(ed,e(function(a){return 0},g),j),c=d_(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aI(ed,d,jC(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+d=b[2],f=b[1],h=[0,f,a],i=f?aI(ed,d,jD(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 co(a){var
 b=0;function
 c(a){return[0,a]}return bM(h(d),c,a,b)}function
@@ -1244,10 +1245,10 @@ c=b;break;default:var
 i=cN(a[1],b),c=cN(a[2],i)}var
 f=c[2],g=c[1],h=[0,bL(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cp(a){var
-b=dk(function(b,a){return cN(a,b)},a,p6),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jt(b[2]),d]}function
+b=dk(function(b,a){return cN(a,b)},a,p4),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,ju(b[2]),d]}function
 fh(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
 b5(b,c,a){var
-d=fh(a),e=gO(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
+d=fh(a),e=gP(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
 ae(a){return[0,a,a,0]}function
 bN(b,a){var
 c=a[3],d=b[3];function
@@ -1257,7 +1258,7 @@ a$(b,a){var
 c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b5(D(b[1],a[1]),f,e)}function
 ee(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
-ax(a,c,b){var
+ay(a,c,b){var
 d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=x(a,e,b);return aW(E(x(a,d,c),f))}function
@@ -1265,7 +1266,7 @@ i(b){return aW(x(a,e,b))}var
 j=aV(function(b){return aW(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return b5(x(a,c[1],b[1]),k,j)}function
 ef(b,a){var
 c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=X(b,a[2]);return b5(X(b,a[1]),g,f)}function
-gW(a,b){var
+gX(a,b){var
 c=b4(a,b[1]);if(c){var
 g=c[1],d=b4(a,b[2]);if(d){var
 h=d[1],f=b3(a,E(h,g));if(f)var
@@ -1290,22 +1291,22 @@ j=d;return j}function
 cq(b,a){return a?i(b,a[1]):a}function
 fi(a){var
 b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b5(a[1],c,b)}function
-jE(a,k,j,r,b){var
-l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ax(a,l,h),t=a$(ax(a,m,g),s),i=dr(a,ae(W(a,c)),t);if(i)var
-f=i[1],n=ax(a,a$(l,g),f),o=ax(a,a$(m,h),f),d=function(c,b){return ax(a,c,ae(b))},u=j[3],v=k[3],w=function(b,a){var
+jF(a,k,j,r,b){var
+l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(W(a,c)),t);if(i)var
+f=i[1],n=ay(a,a$(l,g),f),o=ay(a,a$(m,h),f),d=function(c,b){return ay(a,c,ae(b))},u=j[3],v=k[3],w=function(b,a){var
 c=d(o,a);return bN(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ee(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=b5(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,b5(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jF(a,e,d,k){var
-p=ef(a,d),f=bN(ef(a,e),p),g=a$(bN(f,ae(W(a,c))),k),l=ax(a,ae(W(a,b(2,c))),f),q=ef(a,g),h=gW(a,a$(ax(a,ae(W(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=ax(a,m,d),i=dr(a,bN(ax(a,g,e),r),l);if(i)var
-s=ax(a,m,e),j=dr(a,a$(ax(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jG(a,e,d,k){var
+p=ef(a,d),f=bN(ef(a,e),p),g=a$(bN(f,ae(W(a,c))),k),l=ay(a,ae(W(a,b(2,c))),f),q=ef(a,g),h=gX(a,a$(ay(a,ae(W(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=ay(a,m,d),i=dr(a,bN(ay(a,g,e),r),l);if(i)var
+s=ay(a,m,e),j=dr(a,a$(ay(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cq(function(b){return jE(a,e,d,k,b)},o);return cq(function(b){return jE(a,e,d,k,b)},u)}function
+u=cq(function(b){return jF(a,e,d,k,b)},o);return cq(function(b){return jF(a,e,d,k,b)},u)}function
 b6(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
@@ -1322,17 +1323,17 @@ m=a[2],n=a[1];return b6(function(b,a){return[0,a$(b,a)]},n,m);case
 5:var
 o=a[1];return cq(function(a){return[0,ee(a)]},o);case
 6:var
-p=a[2],q=a[1];return b6(function(c,a){return[0,ax(b,c,a)]},q,p);case
+p=a[2],q=a[1];return b6(function(c,a){return[0,ay(b,c,a)]},q,p);case
 7:var
 s=a[2],t=a[1];return b6(function(a,c){return dr(b,a,c)},t,s);case
 8:var
 u=a[1];return cq(function(a){return[0,ef(b,a)]},u);case
 9:var
-v=a[1];return cq(function(a){return gW(b,a)},v);default:var
+v=a[1];return cq(function(a){return gX(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jF(b,c[1],d[1],e[1]),y=a[1]?bZ:aH;return w(y,x)}var
+x=jG(b,c[1],d[1],e[1]),y=a[1]?bZ:aH;return w(y,x)}var
 g=e}else
 var
 g=d;var
@@ -1350,10 +1351,10 @@ a=a[2];continue}}function
 b8(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=_(b[1],a[1]);return c?gQ(b[2],a[2]):c}return 0;case
+c=_(b[1],a[1]);return c?gR(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gQ(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gQ(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gR(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gR(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=b8(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1377,74 +1378,74 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fd(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b2(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gU(b,a)]};break;default:var
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gV(b,a)]};break;default:var
 k=eh(b,a[1]);return k?i(b,k[1]):k}var
 h=eh(b,f);if(h){var
 j=eh(b,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-p7(a){return 0}function
-cr(a){return eh(p7,a)}function
-bx(a,b){switch(b[0]){case
-0:return[0,jz(a,b[1],b[2])];case
+p5(a){return 0}function
+cr(a){return eh(p5,a)}function
+bw(a,b){switch(b[0]){case
+0:return[0,jA(a,b[1],b[2])];case
 1:return 0;case
 2:var
-g=bx(a,b[1]);if(g)var
-h=bx(a,b[2]),C=h?[0,E(g[1],h[1])]:h,r=C;else
+g=bw(a,b[1]);if(g)var
+h=bw(a,b[2]),C=h?[0,E(g[1],h[1])]:h,r=C;else
 var
 r=g;return r;case
 3:var
-i=bx(a,b[1]);if(i)var
-j=bx(a,b[2]),F=j?[0,D(i[1],j[1])]:j,s=F;else
+i=bw(a,b[1]);if(i)var
+j=bw(a,b[2]),F=j?[0,D(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bx(a,b[1]);if(k)var
-l=bx(a,b[2]),G=l?[0,x(a,k[1],l[1])]:l,t=G;else
+k=bw(a,b[1]);if(k)var
+l=bw(a,b[2]),G=l?[0,x(a,k[1],l[1])]:l,t=G;else
 var
 t=k;return t;case
 5:var
-m=bx(a,b[1]);if(m){var
-n=bx(a,b[2]);if(n)var
+m=bw(a,b[1]);if(m){var
+n=bw(a,b[2]);if(n)var
 o=b3(a,n[1]),H=o?[0,x(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
 v=u}else
 var
 v=m;return v;default:var
-y=b[1],p=bx(a,y);if(p){var
+y=b[1],p=bw(a,y);if(p){var
 e=p[1];if(L(d,e[1]))return b4(a,e);var
 f=cr(y),I=f?$(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
 z=b4(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
 q=_(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fj(b,a){return jz(b,a[1],a[2])}function
-by(a,d){if(eg(d))switch(d[0]){case
+fj(b,a){return jA(b,a[1],a[2])}function
+bx(a,d){if(eg(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=cl(i,jG),k=j?cK(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fj(a,b2(fd(e,g),n)),0],p=f(aA(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b2(dn(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=cl(i,jH),k=j?cK(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fj(a,b2(fd(e,g),n)),0],p=f(aw(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b2(dn(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=by(a,d[2]),u=by(a,d[1]);return b6(function(b,a){return[0,bN(b,a)]},u,t);case
+t=bx(a,d[2]),u=bx(a,d[1]);return b6(function(b,a){return[0,bN(b,a)]},u,t);case
 3:var
-v=by(a,d[2]),x=by(a,d[1]);return b6(function(b,a){return[0,a$(b,a)]},x,v);case
+v=bx(a,d[2]),x=bx(a,d[1]);return b6(function(b,a){return[0,a$(b,a)]},x,v);case
 4:var
 m=d[2],h=d[1];if(b8(h,m)){var
-y=by(a,h);return cq(function(b){return[0,ef(a,b)]},y)}var
-z=by(a,m),A=by(a,h);return b6(function(c,b){return[0,ax(a,c,b)]},A,z);case
+y=bx(a,h);return cq(function(b){return[0,ef(a,b)]},y)}var
+z=bx(a,m),A=bx(a,h);return b6(function(c,b){return[0,ay(a,c,b)]},A,z);case
 5:var
-C=by(a,d[2]),D=by(a,d[1]);return b6(function(b,c){return dr(a,b,c)},D,C);default:var
-E=by(a,d[1]);return cq(function(b){return gW(a,b)},E)}return w(ae,bx(a,d))}function
+C=bx(a,d[2]),D=bx(a,d[1]);return b6(function(b,c){return dr(a,b,c)},D,C);default:var
+E=bx(a,d[1]);return cq(function(b){return gX(a,b)},E)}return w(ae,bw(a,d))}function
 aY(b,a){if(eg(a)){var
-c=by(b,a);return w(function(a){return a[2]},c)}return bx(b,a)}function
-jH(a){var
+c=bx(b,a);return w(function(a){return a[2]},c)}return bw(b,a)}function
+jI(a){var
 e=bs(P(a),d);return d8(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jI(a){return jr(A(jH(a),a))}function
+jJ(a){return js(A(jI(a),a))}function
 cs(f,a,e){var
-b=aY(A(f,jH(a)),e);if(b)var
-c=b[1],g=jI(a),h=P(cn(P(c[2]),g)),i=jI(a),d=[0,[0,cn(c[1],i),h]];else
+b=aY(A(f,jI(a)),e);if(b)var
+c=b[1],g=jJ(a),h=P(cn(P(c[2]),g)),i=jJ(a),d=[0,[0,cn(c[1],i),h]];else
 var
 d=b;return d}function
 al(d,a){var
@@ -1452,151 +1453,151 @@ b=cs(d,a[2],a[1][1]);if(b)var
 c=cs(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gX(b,a){var
+gY(b,a){var
 c=P(cn(P(a[2]),b));return[0,cn(a[1],b),c]}function
 fk(b,a){var
 c=ff(b[2],a);return[0,cm(b[1],a),c]}function
-jJ(h,g,d,c){var
-e=c[2],f=jp(d),i=b(2,f),j=y(jl(f),i),a=fk(x(h,c[1],g),j),k=jj(d)?D(e,a):E(e,a);return[0,a,k]}function
-jK(a,d,b){if(b){var
-e=b[1];return jJ(a,d,e,jK(a,d,e))}var
+jK(h,g,d,c){var
+e=c[2],f=jq(d),i=b(2,f),j=y(jm(f),i),a=fk(x(h,c[1],g),j),k=jk(d)?D(e,a):E(e,a);return[0,a,k]}function
+jL(a,d,b){if(b){var
+e=b[1];return jK(a,d,e,jL(a,d,e))}var
 f=W(a,c);return[0,W(a,c),f]}function
-jL(e,g){var
+jM(e,g){var
 o=cL(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
-n=d7(e),i=p8[1],d=n,f=0,a=i;for(;;){if(d){var
+n=d7(e),i=p6[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(ji(p$,N(p9,f)),p_),l=jK(e,g,k),q=jJ(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(jj(p9,N(p7,f)),p8),l=jL(e,g,k),q=jK(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-jM(i){function
+jN(i){function
 a(h){var
 m=cm(cL(i),h),g=d7(i),f=m,e=d,a=c;for(;;){if(g){var
 j=A(a,b(2,c)),k=A(e,cm(f,a)),l=P(cm(f,y(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aG(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jN(e,a){var
+jO(e,a){var
 f=H(d,a);if(f){var
-g=b(2,b(2,c));return jL(e,fk(X(e,[0,a,a]),g))}return f}function
-jO(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jM(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jM(a),n),e=jN(a,g);if(e){var
-f=jN(a,h);if(f)var
+g=b(2,b(2,c));return jM(e,fk(X(e,[0,a,a]),g))}return f}function
+jP(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jN(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jN(a),n),e=jO(a,g);if(e){var
+f=jO(a,h);if(f)var
 i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jP(a,d){var
+jQ(a,d){var
 b=X(a,d),e=W(a,c);return D(E(b,b),e)}function
 ds(f,j){var
 e=aY(A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jO(a);if(d)var
-h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jL(a,X(a,fk(x(a,k,d[1]),h))),g=w(function(b){return jP(a,jP(a,b))},i);else
+k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jP(a);if(d)var
+h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jM(a,X(a,fk(x(a,k,d[1]),h))),g=w(function(b){return jQ(a,jQ(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gX(l,a)},g)}return e}function
-jQ(a,d){var
-e=jO(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
-f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(x(a,d,gX(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gY(l,a)},g)}return e}function
+jR(a,d){var
+e=jP(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(x(a,d,gY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
 fl(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
 f=cr(b);if(f){var
 g=f[1];return e?$(cK(g,[0,d,c])):cK([0,d,c],g)}var
 a=aY(i,b);if(a){var
 h=a[1];return e?L(d,h[1]):H(d,h[1])}return a}function
-jR(c,b){var
+jS(c,b){var
 a=aY(c,b),d=a?1:a;return d}function
 bg(c,a,b){var
-d=b8(a,b),e=d?jR(c,a):d;return e?e:g(c,0,[3,b,a])}function
-qa(c){var
+d=b8(a,b),e=d?jS(c,a):d;return e?e:g(c,0,[3,b,a])}function
+p_(c){var
 a=fe(c),g=d8(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b2(b,b),c):e,h=f?[0,b]:f;return h}function
-jS(a){if(a){var
-e=a[2],b=a[1];if(dm(bw([0,d,c],b),[0,d,c])){var
-g=jS(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+jT(a){if(a){var
+e=a[2],b=a[1];if(dm(bv([0,d,c],b),[0,d,c])){var
+g=jT(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jT(b,a){var
+jU(b,a){var
 e=aK(b,a),f=[0,d,c];return aI(function(a,b){return fe(dn(b2(a[1],a[2]),b))},f,e)}function
-jU(b,j){if(b){var
-f=b[1],g=jS(j);if(g){var
+jV(b,j){if(b){var
+f=b[1],g=jT(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bw([0,d,c],a),g=gU(bw([0,d,c],b),f),h=bd(a),i=aK(bd(b),h);return e(function(a){var
-b=b2(g,a[2]);return fe(fd(a[1],b))},i)},l=jU(f,e(k,h[2]));return w(function(b){var
-e=bw([0,d,c],a);return[0,fe(gU(jw(jT(bd(a),b)),e)),b]},l)}var
-i=[0,[0,[0,c,c],aA([0,d,c],f)]]}else
+f=bv([0,d,c],a),g=gV(bv([0,d,c],b),f),h=bd(a),i=aK(bd(b),h);return e(function(a){var
+b=b2(g,a[2]);return fe(fd(a[1],b))},i)},l=jV(f,e(k,h[2]));return w(function(b){var
+e=bv([0,d,c],a);return[0,fe(gV(jx(jU(bd(a),b)),e)),b]},l)}var
+i=[0,[0,[0,c,c],aw([0,d,c],f)]]}else
 var
 i=b;return i}function
-jV(a){if(a){var
-b=eh(qa,a[1]);if(b)var
-c=jV(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return qb}function
 jW(a){if(a){var
-b=jV(a[1]);if(b)var
+b=eh(p_,a[1]);if(b)var
 c=jW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qc}function
-jX(h,l){var
-a=jW(l);if(a){var
-i=a[1],b=jU(h,i);if(b){var
-e=b[1],f=u(j(e),h),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jT(a,e),[0,d,c])},i):g}var
+d=b;return d}return p$}function
+jX(a){if(a){var
+b=jW(a[1]);if(b)var
+c=jX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return qa}function
+jY(h,l){var
+a=jX(l);if(a){var
+i=a[1],b=jV(h,i);if(b){var
+e=b[1],f=u(j(e),h),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jU(a,e),[0,d,c])},i):g}var
 k=b}else
 var
 k=a;return k}function
-qd(a){return a}function
+qb(a){return a}function
+qc(a){return a}function
+qd(a,b){return aV(qc,qb,E,a,b)}function
 qe(a){return a}function
-qf(a,b){return aV(qe,qd,E,a,b)}function
-qg(a){return a}function
-qh(a){return a}function
-b9(a,b){return aV(qh,qg,qf,a,b)}function
-gY(b,a,c){if(a){var
+qf(a){return a}function
+b9(a,b){return aV(qf,qe,qd,a,b)}function
+gZ(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gY(b,f,c[2]),h=c[1],i=function(c,a){return D(c,ea(d,a,b))},j=function(a){return af(ea(d,a,b))};return[0,aV(function(a){return a},j,i,h,a),g]}var
-k=gY(b,f,0);return[0,e(function(a){return af(ea(d,a,b))},a),k]}return c}function
-gZ(a){if(a){var
+g=gZ(b,f,c[2]),h=c[1],i=function(c,a){return D(c,ea(d,a,b))},j=function(a){return af(ea(d,a,b))};return[0,aV(function(a){return a},j,i,h,a),g]}var
+k=gZ(b,f,0);return[0,e(function(a){return af(ea(d,a,b))},a),k]}return c}function
+g0(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),h=e?[0,gY(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),h=e?[0,gZ(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jY(f,e){var
+jZ(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=gZ(b);if(c){var
+c=g0(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-jZ(d,b,a){if(b)if(a)var
-e=a[1],f=jZ(d,b[2],a[2]),g=ck(d,b[1])?eb(e):dq(e),c=[0,g,f];else
+j0(d,b,a){if(b)if(a)var
+e=a[1],f=j0(d,b[2],a[2]),g=ck(d,b[1])?eb(e):dq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-j0(a,b){if(a)if(b)var
-d=j0(a[2],b[2]),c=[0,jZ(a[1],a,b[1]),d];else
+j1(a,b){if(a)if(b)var
+d=j1(a[2],b[2]),c=[0,j0(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bh(a){if(a){var
-b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qi}function
+b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qg}function
 dt(a){var
-b=j(a);if(jY(b,a))return 1;var
-c=bh(bv(b));return n(function(c){return jY(b,j0([0,0,c],a))},c)}function
+b=j(a);if(jZ(b,a))return 1;var
+c=bh(bK(b));return n(function(c){return jZ(b,j1([0,0,c],a))},c)}function
 ar(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aB(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?E(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-g0(c,b,a){var
+g1(c,b,a){var
 d=bh(c);return n(function(c){return i(a,i(ar(function(a){return aB(c,a)}),b))},d)}function
-g1(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g1(h,j,i),l=function(c,b){var
+g2(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g2(h,j,i),l=function(c,b){var
 d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aV(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
 var
 g=b;else
@@ -1608,36 +1609,36 @@ e=a_(d,b,a);return D(E(c,c),e)}function
 f(c){return af(a_(c,b,a))}return aV(function(a){return E(a,a)},f,e,d,c)}function
 fn(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dq(e[2]),k=b9(a,g1(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-g2(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=dq(e[2]),k=b9(a,g2(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+g3(b,a){return[0,[0,0,b],a]}function
 du(b,c,g,f,a){function
 d(a){if(a){var
-h=aA([0,af(a[1][2]),0],b),c=fn(g,f,a[2],h),d=u(j(c),b);if(d)return dt(c);var
+h=aw([0,af(a[1][2]),0],b),c=fn(g,f,a[2],h),d=u(j(c),b);if(d)return dt(c);var
 e=d}else
 var
-e=a;return e}return g0(b,g2(c,a),d)}function
+e=a;return e}return g1(b,g3(c,a),d)}function
 fo(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=gZ([0,[0,eb(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=g0([0,[0,eb(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-g3(b,c,a){function
+g4(b,c,a){function
 d(a){if(a){var
-h=aA([0,a[1][2],0],b),c=fo(a[2],h);if(c){var
+h=aw([0,a[1][2],0],b),c=fo(a[2],h);if(c){var
 d=c[1],e=u(j(d),b);if(e)return dt(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return g0(b,g2(c,a),d)}function
-j1(b,a){return e(function(a){return[0,a[1],b]},a)}function
-j2(b,a){var
+g=a;return g}return g1(b,g3(c,a),d)}function
+j2(b,a){return e(function(a){return[0,a[1],b]},a)}function
+j3(b,a){var
 c=bh(b);return n(function(b){return L(d,aB(b,a)[1])},c)}function
-j3(c,b,a){var
+j4(c,b,a){var
 d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
-j4(a,b){var
+j5(a,b){var
 c=b[3],d=a[3],e=aV(function(a){return a},af,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
-bz(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+by(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 aZ(b,a){var
@@ -1646,45 +1647,45 @@ ba(b,a){var
 c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
 Q(b,a){var
 c=q(b[3],a[3]),d=q(b[2],a[2]);return z(z(q(b[1],a[1]),d),c)}function
-cO(a){return ba(a,aw(Q(a,a)))}function
+cO(a){return ba(a,ax(Q(a,a)))}function
 ct(a){var
-b=a[5];return b?b[1]:aw(a[2])}function
+b=a[5];return b?b[1]:ax(a[2])}function
 fp(b,a){return b?a:bf(a)}function
-j5(e,a,i,d,h){var
-f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,aw(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
-j6(a,e,d){var
-b=Q(a,a),c=aw(b),f=[0,e],g=w(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
-j7(b,a){var
+j6(e,a,i,d,h){var
+f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+j7(a,e,d){var
+b=Q(a,a),c=ax(b),f=[0,e],g=w(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
+j8(b,a){var
 d=Q(a,b);return[0,a,h(c),a,d,0,0,0]}function
 ei(a){return e(function(a){var
-b=a[2];return[0,bz(a[1]),b]},a)}function
-j8(a){return e(function(a){var
-b=h(c);return[0,bz(a[3]),b]},a)}function
-j9(b,a){var
+b=a[2];return[0,by(a[1]),b]},a)}function
+j9(a){return e(function(a){var
+b=h(c);return[0,by(a[3]),b]},a)}function
+j_(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-j_(c,b,a){var
+j$(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 fq(d,a){var
 b=b4(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 fr(a,m,f,l,e,k,j){var
-o=j_(a$,k,j),b=j_(function(b,c){return ax(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bN(bN(bN(ae(W(a,d)),h),g),c),p=bh(m);return n(function(c){var
-b=j9(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,fq(a,E(E(E(W(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
+o=j$(a$,k,j),b=j$(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bN(bN(bN(ae(W(a,d)),h),g),c),p=bh(m);return n(function(c){var
+b=j_(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,fq(a,E(E(E(W(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
 bO(a){return cJ(A(a[1],a[2]),c)}function
 dv(a){var
 b=bO(a);return aG(a[2],b)}function
 ej(c,b){if(b)var
-a=b[1],e=ej([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(aA(B,c),h),j=bO(a),d=[0,[0,[0,bO(a),j],a,i],e];else
+a=b[1],e=ej([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(aw(B,c),h),j=bO(a),d=[0,[0,[0,bO(a),j],a,i],e];else
 var
 d=b;return d}function
 ek(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=ek(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bO(a),f],c],h=bO(a);return[0,[0,[0,a[1],h],c],g]}return qj}function
-j$(d,b,a){if(b){if(a){var
-e=j$(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
+f=a[2],g=[0,[0,bO(a),f],c],h=bO(a);return[0,[0,[0,a[1],h],c],g]}return qh}function
+ka(d,b,a){if(b){if(a){var
+e=ka(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
 el(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return j$(f,a,b)},j=el(f,h),k=e(function(a){var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ka(f,a,b)},j=el(f,h),k=e(function(a){var
 e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
@@ -1702,95 +1703,95 @@ var
 h=a;return h}function
 bi(c,a){var
 b=u(j(a),c);return b?dt(a):b}function
-ka(d,b,a){if(b)var
-c=b[1],g=ka([0,d],b[2],a),h=f(aA(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
+kb(d,b,a){if(b)var
+c=b[1],g=kb([0,d],b[2],a),h=f(aw(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kb(d){if(d){var
+kc(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kb(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kc(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return qk}function
-g4(a){return w(function(a){return w(ee,a)},a)}function
+f=a;return f}return qi}function
+g5(a){return w(function(a){return w(ee,a)},a)}function
 cu(c,b,a){function
-d(a){return ax(c,b,a)}return w(function(a){return w(d,a)},a)}function
-g5(c,b,a){function
+d(a){return ay(c,b,a)}return w(function(a){return w(d,a)},a)}function
+g6(c,b,a){function
 d(a){return dr(c,a,b)}return w(function(a){return cq(d,a)},a)}function
 dw(b,a){var
 c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,b6(function(b,a){return[0,bN(b,a)]},e,d)]}return b}return a},c)}function
 ft(a){return ae(W(a,b(2,c)))}function
-kc(b,c,a){if(a)var
-f=a[1],g=kc(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
+kd(b,c,a){if(a)var
+f=a[1],g=kd(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-g6(a){return n(function(a){var
+g7(a){return n(function(a){var
 b=_(a[1],d);return b?_(a[2],d):b},a)}function
-kd(c,b,a){var
+ke(c,b,a){var
 d=aK(b,a);return aI(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
-g7(c,b,a){var
-d=cM(kd(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
+g8(c,b,a){var
+d=cM(ke(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
 dx(a){return W(a,c)}function
-g8(a,i,c,u,t){var
+g9(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!g6(c)&&!g6(j)){var
-h=g7(a,i,j),o=dx(a),p=g7(a,i,c),b=ea([0,g7(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=aW(gV(a,[0,b,b])),r=function(b){return function(d,c){return D(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b9(e,kc(a,q,aV(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!g7(c)&&!g7(j)){var
+h=g8(a,i,j),o=dx(a),p=g8(a,i,c),b=ea([0,g8(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=aW(gW(a,[0,b,b])),r=function(b){return function(d,c){return D(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b9(e,kd(a,q,aV(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qz(a){var
+qx(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-ke(h,n,a,m,l,k){var
+kf(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b9(b,g1(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g8(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b9(b,g2(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g9(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-kf(c,b,a){if(b){if(a){var
-d=kf(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
-kg(a,j){switch(j){case
+kg(c,b,a){if(b){if(a){var
+d=kg(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
+kh(a,j){switch(j){case
 0:var
 d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 b=cJ(A(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-g9(d,c,a){if(a)var
-e=a[1],g=g9(d,[0,c],a[2]),b=w(bZ,ju(function(a){return u(a[1],c)},d)),h=b?kg(e,b[1])[1]:e,f=[0,h,g];else
+g_(d,c,a){if(a)var
+e=a[1],g=g_(d,[0,c],a[2]),b=w(bZ,jv(function(a){return u(a[1],c)},d)),h=b?kh(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-kh(a,b){return e(function(a){var
-c=a[2];return kg(r(a[1],b,B),c)[2]},a)}function
-ki(i,b,g,a){function
+ki(a,b){return e(function(a){var
+c=a[2];return kh(r(a[1],b,B),c)[2]},a)}function
+kj(i,b,g,a){function
 d(a){return aB(b,a[1])}var
 h=0,j=ae(B);function
 c(g,d,a,b){if(a){var
 h=function(a){return aB(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=x(i,a,l);return[0,e(function(b){return x(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qA=ae(B);function
-kj(e,d,c){if(d){var
-f=r(e,c[2],qB),a=f?f[1]:[0,qA];if(a)var
-b=kj([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+qy=ae(B);function
+kk(e,d,c){if(d){var
+f=r(e,c[2],qz),a=f?f[1]:[0,qy];if(a)var
+b=kk([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return qC}function
-kk(b,a,h,q,p,g,o){var
+g=a;return g}return qA}function
+kl(b,a,h,q,p,g,o){var
 d=bh(a);return n(function(d){var
 f=i(o,d);if(f){var
 n=x(b,p,f[1]),j=D(W(b,c),n),r=h?D(j,aB(d,h[1])):j,k=function(c){function
 f(a){return x(b,c,aB(d,a))}var
-g=e(function(a){return e(f,a)},q);return bi(a,b9(aA([0,r,0],a),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
+g=e(function(a){return e(f,a)},q);return bi(a,b9(aw([0,r,0],a),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-kl(p,o,n,m,l){var
+km(p,o,n,m,l){var
 q=e(ae,n),h=b7(p,ej(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
 d=c[2],g=c[1];if(b){if(b[1]){var
 j=[0,i(h,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=j;continue}var
@@ -1800,7 +1801,7 @@ ac(a){if(a){var
 b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qD}function
+d=b;return d}return qB}function
 fu(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
@@ -1813,19 +1814,19 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return qE}function
+m=c;return m}return qC}function
 b_(d,c,b){var
 a=fu(d,c);return a?i(b,a[1]):a}function
 dy(a,b){return n(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
 fv(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aV(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
-g_(b,a){return b?j4(a,b[1]):a}function
-g$(h,g,b,f){var
+g$(b,a){return b?j5(a,b[1]):a}function
+ha(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=j4(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-km(f,d,a){function
+i=j5(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+kn(f,d,a){function
 b(a){return a_(a,d,W(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),B,g]}return ae(B)}function
 fw(b,a){var
@@ -1837,7 +1838,7 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-ha(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+hb(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
 fx(i,k,U,C,g,f,h,b,a){switch(b[0]){case
 0:var
 r=b[1];if(typeof
@@ -1851,29 +1852,29 @@ aH=a[2],aJ=a[1],aK=fv(h,ae(r));return b_(g,U,function(a){return du(f,aK,aJ,aH,a)
 2:var
 Z=dy(C,g);if(Z){if(h)return 0;var
 $=_(r[1],d),aa=$?_(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return b_(g,k,function(a){return du(f,[0,B,B,0],aM,aL,j1([0,B,B,0],a))})}var
+aL=a[2],aM=a[1];return b_(g,k,function(a){return du(f,[0,B,B,0],aM,aL,j2([0,B,B,0],a))})}var
 ab=aa}else
 var
 ab=Z;return ab}return 0;case
 1:var
 ad=b[1];if(typeof
 a==="number"){if(1===a){var
-aN=g_(h,ae(ad));return b_(g,U,function(a){return g3(f,aN,a)})}if(!a){var
-aO=g_(h,ae(ad));return b_(g,k,function(a){return g3(f,aO,a)})}}return 0;case
+aN=g$(h,ae(ad));return b_(g,U,function(a){return g4(f,aN,a)})}if(!a){var
+aO=g$(h,ae(ad));return b_(g,k,function(a){return g4(f,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=km(i,af,a[3]),ag=b[1],aP=a[2];return b_(g,k,function(c){var
-a=j2(f,l),b=a?du(f,fv(h,l),af,aP,c):a;if(b){var
-d=l[3],g=e(function(a){return x(i,ag,a)},d),j=l[2];return g3(f,g_(h,[0,x(i,ag,l[1]),j,g]),c)}return b})}return 0;case
+af=a[1],l=kn(i,af,a[3]),ag=b[1],aP=a[2];return b_(g,k,function(c){var
+a=j3(f,l),b=a?du(f,fv(h,l),af,aP,c):a;if(b){var
+d=l[3],g=e(function(a){return x(i,ag,a)},d),j=l[2];return g4(f,g$(h,[0,x(i,ag,l[1]),j,g]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return g$(g,f,h,b[1]);return 0;case
+a==="number"&&!a)return ha(g,f,h,b[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
 aQ=a[2],aR=a[1],aS=fv(h,ae(b[2])),aT=function(a){return du(f,aS,aR,aQ,a)};return b_(g,b[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return g$(g,f,h,b[1]);case
-2:return g$(g,f,h,b[2])}return 0;case
+0:return ha(g,f,h,b[1]);case
+2:return ha(g,f,h,b[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 F=fw(g,b[1]);if(F){var
@@ -1883,7 +1884,7 @@ I=fw(g,b[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=b[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=j9(function(d){function
+aC=[0,m[1],o[1],p[1]],q=j_(function(d){function
 f(a){return a_(a,aU,W(i,c))}if(d){var
 a=e(f,d[2]),b=f(d[1]),g=fh(a),h=A(b[2],g),j=fh(a);return[0,b,[0,aG(b[1],j),h],a]}return ae(B)},aC),M=n(function(a){return u(j(a),[0,f])},m),N=M?fr(i,f,h,s,q,ak,ai):M,O=N?fr(i,f,h,s,q,ak,ah):N,P=O?fr(i,f,h,s,q,aj,ai):O;if(P)return fr(i,f,h,s,q,aj,ah);var
 Q=P}else
@@ -1913,21 +1914,21 @@ b=a[2],d=u(j(b),f);if(d){var
 g=el(ap,em(ap,ao,W(i,c),b));return bi(f,b9(fs(i,aW,aV,a[1][2],b),g))}var
 e=d}else
 var
-e=a;return e},g=h?h[1]:ae(B);return g0(f,g2(g,d),e)}return b})}return 0;case
+e=a;return e},g=h?h[1]:ae(B);return g1(f,g3(g,d),e)}return b})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aX=b[3],aY=b[2],aZ=function(c){var
-a=j1([0,B,B,0],c),b=h?h[1]:[0,B,B,0];return du(f,b,aY,aX,a)};return b_(g,b[1],aZ)}return 0;case
+a=j2([0,B,B,0],c),b=h?h[1]:[0,B,B,0];return du(f,b,aY,aX,a)};return b_(g,b[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=ha(g,b[1]);if(J){var
-a0=b[2],K=ac(e(function(a){return ha(g,a)},a0));if(K){var
-L=ha(g,[0,b[3],[0,b[4],[0,b[5],[0,b[6],0]]]]);if(L){var
+J=hb(g,b[1]);if(J){var
+a0=b[2],K=ac(e(function(a){return hb(g,a)},a0));if(K){var
+L=hb(g,[0,b[3],[0,b[4],[0,b[5],[0,b[6],0]]]]);if(L){var
 t=L[1];if(t){var
 v=t[2];if(v){var
 y=v[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=v[1][2],at=t[1][2],au=K[1],a1=J[1],T=kk(i,f,h,au,at,as,function(c){return[0,fq(i,aI(function(b,a){return E(X(i,aB(c,b)),a)},B,a1))]});return T?T:kk(i,f,h,au,at,as,function(e){var
+aq=z[1],ar=y[1][2],as=v[1][2],at=t[1][2],au=K[1],a1=J[1],T=kl(i,f,h,au,at,as,function(c){return[0,fq(i,aI(function(b,a){return E(X(i,aB(c,b)),a)},B,a1))]});return T?T:kl(i,f,h,au,at,as,function(e){var
 b=eb(aq[1]),a=b4(i,D(ar,X(i,b)));if(a){var
 c=b3(i,a[1]),d=D(ar,x(i,b,aB(e,aq)));return w(function(a){return x(i,d,a)},c)}return a})}var
 av=z}else
@@ -1948,9 +1949,9 @@ az=K;var
 aA=az}else
 var
 aA=J;return aA}return 0}}function
-kn(a,_,J,l,p,Z,g,k,h,f,b){if(9===f[0]){if(typeof
+ko(a,_,J,l,p,Z,g,k,h,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-$=f[1],T=e(ae,Z),z=bM(0,b7(a,ka(0,k,$),T),_,0),K=u(j(k),qF),M=K?dy(p,z):K;if(M){var
+$=f[1],T=e(ae,Z),z=bM(0,b7(a,kb(0,k,$),T),_,0),K=u(j(k),qD),M=K?dy(p,z):K;if(M){var
 q=fu(z,l);if(q){var
 s=fu(g,l);if(s){var
 aa=f[2],t=ac(e(function(b){var
@@ -1959,23 +1960,23 @@ f=b[2][2],a=ac(e(function(a){var
 b=r(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(t){var
-v=kb(q[1]);if(v){var
+v=kc(q[1]);if(v){var
 N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=v[1],C=fq(a,aI(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(r(d,c[3],B))}function
 c(a){var
-b=i(a,ql),c=bs(i(a,qm),b);return bs(i(a,0),c)}var
+b=i(a,qj),c=bs(i(a,qk),b);return bs(i(a,0),c)}var
 d=c(function(a){var
-c=b(qn,a),d=b(qo,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qp),d=b(a,qq);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,x(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,W(a,c)),F=L(d,D(m,C)[1]),G=F?u(j(N),qw):F,H=G?u(j(O),qx):G;if(H){var
+c=b(ql,a),d=b(qm,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qn),d=b(a,qo);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,x(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,W(a,c)),F=L(d,D(m,C)[1]),G=F?u(j(N),qu):F,H=G?u(j(O),qv):G;if(H){var
 o=b3(a,m);if(o){var
-U=aW(x(a,C,o[1])),V=D(W(a,c),U),Y=bh(qy);return n(function(j){var
+U=aW(x(a,C,o[1])),V=D(W(a,c),U),Y=bh(qw);return n(function(j){var
 g=e(function(b){var
 c=b[2],d=b[1];return dq(dk(function(d,b){var
-c=cM(aB(j,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ad),r=i(ar(function(a){return aB(j,a)}),O),F=h?aB(j,h[1]):B,L=X(a,V),s=X(a,m),q=el(y,em(y,N,W(a,c),r)),b=b9(aA([0,af(F),0],qr),q);if(g){var
+c=cM(aB(j,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ad),r=i(ar(function(a){return aB(j,a)}),O),F=h?aB(j,h[1]):B,L=X(a,V),s=X(a,m),q=el(y,em(y,N,W(a,c),r)),b=b9(aw([0,af(F),0],qp),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],C=g[1],H=f[1],k=bi(qt,b9(aA([0,af(s),0],qs),b));if(k)return n(function(B){var
+A=d[1],C=g[1],H=f[1],k=bi(qr,b9(aw([0,af(s),0],qq),b));if(k)return n(function(B){var
 I=D(L,F),J=B[2]?A:af(A),K=B[1]?C:af(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
@@ -2015,7 +2016,7 @@ var
 y=a;if(!k){var
 z=y;n=1}}else{var
 z=b;n=1}if(n)var
-j=z;return bi(qv,j)},qu);var
+j=z;return bi(qt,j)},qs);var
 l=k}else
 var
 l=f;var
@@ -2040,15 +2041,15 @@ R=q;var
 S=R}else
 var
 S=M;return S}return fx(a,J,l,p,g,j(k),h,f,b)}return fx(a,J,l,p,g,j(k),h,f,b)}function
-ko(d){var
+kp(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kp(j,b,a){if(a){var
+kq(j,b,a){if(a){var
 k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
 g=r(l,j,0);if(g){var
-h=kp(j,b,a[2]);if(h)var
+h=kq(j,b,a[2]);if(h)var
 m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2060,9 +2061,9 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return qH}function
-kq(a,Q,l,O,s,q,N,y,g,f,k,b){var
-h=j(N),R=ej(0,N),aM=bM(0,b7(a,R,e(ae,g9(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bM(qI,function(b){var
+q=c;return q}return qF}function
+kr(a,Q,l,O,s,q,N,y,g,f,k,b){var
+h=j(N),R=ej(0,N),aM=bM(0,b7(a,R,e(ae,g_(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bM(qG,function(b){var
 au=bL(aH,b),f=i(b7(a,R,aO),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
@@ -2070,9 +2071,9 @@ b=u(M,d),e=b?[0,[0,ae(W(a,c))]]:b;return e},S);break;case
 3:var
 d=dw(b[1][2],b[2][2]);break;case
 4:var
-N=e(g4,b[2][2]),d=dw(b[1][2],N);break;case
+N=e(g5,b[2][2]),d=dw(b[1][2],N);break;case
 5:var
-d=e(g4,b[1][2]);break;case
+d=e(g5,b[1][2]);break;case
 6:var
 x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
@@ -2083,25 +2084,25 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=b[2],j=A[1];if(j)var
-V=A[2],X=ee(f[1]),Y=e(function(b){return cu(a,X,b)},V),Z=dw(b[1][2],Y),_=j[1],d=e(function(b){return g5(a,_,b)},Z);else{var
+V=A[2],X=ee(f[1]),Y=e(function(b){return cu(a,X,b)},V),Z=dw(b[1][2],Y),_=j[1],d=e(function(b){return g6(a,_,b)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=b[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=ax(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=ay(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],af=ax(a,ft(a),ad),d=e(function(b){return g5(a,af,b)},ac);else
+ac=b[1][2],ad=f[1],af=ay(a,ft(a),ad),d=e(function(b){return g6(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jF(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g4,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ee(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ax(a,m,r),as=a$(ax(a,o,s),ar),at=ax(a,ft(a),as),d=e(function(b){return g5(a,at,b)},aq);K=1;L=1}else
+q=jG(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g5,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ee(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,ft(a),as),d=e(function(b){return g6(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2112,11 +2113,11 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=kh(k,s);function
+d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=ki(k,s);function
 T(c){var
 d=r(c,q,0);if(d){var
 a=r(c,aM,0);if(a)var
-b=kj(0,k,r(c,aP,qG)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=kk(0,k,r(c,aP,qE)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
@@ -2126,18 +2127,18 @@ z(b){return e(function(b){return W(a,b)},b)}var
 aR=y?y[1]:ae(B);function
 U(a){return a?bi(h,a[1]):a}function
 t(f,e,d,c,b){var
-g=aA([0,af(e),0],h);return U(ke(a,z(f),d,c,b,g))}function
+g=aw([0,af(e),0],h);return U(kf(a,z(f),d,c,b,g))}function
 V(y,x,w){var
-A=aA([0,x,0],h),q=z(y),c=w,f=A;for(;;){if(c){var
+A=aw([0,x,0],h),q=z(y),c=w,f=A;for(;;){if(c){var
 k=c[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,eb(g),i],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},i),u=[0,dx(a),t],v=dx(a),b=g8(a,[0,af(ea(kd(a,i,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},i),u=[0,dx(a),t],v=dx(a),b=g9(a,[0,af(ea(ke(a,i,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=gZ(b[1]);if(j){var
+j=g0(b[1]);if(j){var
 c=c[2],f=j[1];continue}var
 p=j}else
 var
@@ -2145,7 +2146,7 @@ p=b;var
 r=p}else
 var
 r=[0,f];return U(r)}}var
-aS=e(aH,k),X=n(function(a){return cl(a,j(s))},aS),Y=X?ko(e(aH,k)):X,Z=Y?n(function(a){return u(j(a),h)},b):Y;if(Z){var
+aS=e(aH,k),X=n(function(a){return cl(a,j(s))},aS),Y=X?kp(e(aH,k)):X,Z=Y?n(function(a){return u(j(a),h)},b):Y;if(Z){var
 w=0;switch(g[0]){case
 0:var
 C=g[1],K=0;if(typeof
@@ -2163,7 +2164,7 @@ ac=b;if(!at)return ac;break;case
 au=0;if(b){if(b[2])return 0;var
 aY=b[1],aZ=f[2],a0=f[1],ad=dy(O,q),av=0;if(ad){if(y)return 0;var
 ag=_(C[1],d),ah=ag?_(C[2],d):ag;if(ah){var
-o=function(c,b,a){return t(aY,B,a0,aZ,e(qz,a))},m=l;K=1;au=1;av=1}else
+o=function(c,b,a){return t(aY,B,a0,aZ,e(qx,a))},m=l;K=1;au=1;av=1}else
 var
 ai=ah}else
 var
@@ -2172,25 +2173,25 @@ aj=ai}else
 var
 aj=b;if(!au)return aj;break}if(!K)return 0;break;case
 1:var
-aw=0,a1=g[1];if(typeof
+ax=0,a1=g[1];if(typeof
 f==="number"&&!f){if(!b)return b;if(b[2])return 0;var
 a2=b[1],o=function(c,a){var
-b=D(a1,a);return function(a){return V(a2,b,a)}},m=l;aw=1}if(!aw)return 0;break;case
+b=D(a1,a);return function(a){return V(a2,b,a)}},m=l;ax=1}if(!ax)return 0;break;case
 2:var
-ay=0,a3=g[1];if(typeof
-f==="number"||!(3===f[0]))ay=1;else{var
-az=0;if(b){var
+az=0,a3=g[1];if(typeof
+f==="number"||!(3===f[0]))az=1;else{var
+aA=0;if(b){var
 v=b[2],aC=0;if(v){if(v[2])return 0;var
-ak=f[1],a4=v[1],a5=b[1],a6=f[2],al=km(a,ak,f[3]),am=j2(h,al);if(am){var
+ak=f[1],a4=v[1],a5=b[1],a6=f[2],al=kn(a,ak,f[3]),am=j3(h,al);if(am){var
 o=function(f,c,b){var
-d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?V(a4,D(x(a,a3,d),c),b):e},m=l;az=1;aC=1}else
+d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?V(a4,D(x(a,a3,d),c),b):e},m=l;aA=1;aC=1}else
 var
 an=am}else
 var
 an=v;if(!aC)var
 ao=an}else
 var
-ao=b;if(!az)return ao}if(ay)return 0;break;case
+ao=b;if(!aA)return ao}if(az)return 0;break;case
 3:var
 aD=0;if(typeof
 f==="number"&&!f){if(b)return 0;var
@@ -2220,7 +2221,7 @@ k=u(j(f),h),l=k?u(j(p),h):k;if(l){var
 s=e(aH,f),t=el(J,em(J,p,dx(a),s)),v=b9(fs(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=v,w=j(p);for(;;){if(c){var
 o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
 b=aK(aL(0,j(p)),p);return e(function(b){var
-c=kf(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(x(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,w),i=g8(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(i){var
+c=kg(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(x(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,w),i=g9(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(i){var
 b=[0,b],c=c[2],g=i[1];continue}var
 d=i}else
 var
@@ -2235,18 +2236,18 @@ as=b;if(!aJ)return as}if(aF)return 0;break;default:return 0}if(w){var
 I=T(G);if(!I)return I;var
 a7=function(b,f,a){return n(function(a){var
 b=f[2],c=a[2],e=aI(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aG(aG(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
-F=kp(q,T,m);if(!F)return F;var
+F=kq(q,T,m);if(!F)return F;var
 ab=o,aa=F[1]}var
 aX=bh(h);return n(function(b){var
-c=e(function(c){return ki(a,b,aQ,c)},aa);return D$(ab,b,aB(b,aR),c)},aX)}return Z}function
+c=e(function(c){return kj(a,b,aQ,c)},aa);return D$(ab,b,aB(b,aR),c)},aX)}return Z}function
 fy(b,a){if(a){var
 c=a[2];if(b){var
 e=fy(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hb(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-kr(j,d,i,a,h){var
+hc(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+ks(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2255,7 +2256,7 @@ switch(b[0]){case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=hb(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=hc(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2263,17 +2264,17 @@ k=c?0:1,l=k?d:j,g=hb(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return v(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=v(function(a){var
-b=e(bZ,a[2][2]);return[0,a[1],b]},n);return f(hb(d),o);case
+b=e(bZ,a[2][2]);return[0,a[1],b]},n);return f(hc(d),o);case
 10:var
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fb(a[2]),p);return f(a[1],q);case
 4:case
-8:return hb(a[1]);default:return g}}}function
-ks(p,h,o,C,m,l,W,B,b,A,V){if(A){var
-s=kl(p,h,l,jD(v(function(c){var
+8:return hc(a[1]);default:return g}}}function
+kt(p,h,o,C,m,l,W,B,b,A,V){if(A){var
+s=km(p,h,l,jE(v(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
-b=M(W,c[1]);return b?kr(o,C,m,b[1],a):b},A),h),b),k=A,g=V;for(;;){if(k){var
+b=M(W,c[1]);return b?ks(o,C,m,b[1],a):b},A),h),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
 w=i(B,b);if(w)var
@@ -2289,7 +2290,7 @@ switch(a[0]){case
 5:var
 F=a[2],t=i(B,b),X=0;if(t){var
 G=H(d,F);if(G){var
-_=a[1],c=kn(p,h,o,C,m,l,s,b,[0,j3(F,a[3],t[1])],q,_);X=1}else
+_=a[1],c=ko(p,h,o,C,m,l,s,b,[0,j4(F,a[3],t[1])],q,_);X=1}else
 var
 I=G}else
 var
@@ -2300,14 +2301,14 @@ J=a[3],K=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){var
 N=f[2],u=i(B,b),Y=0;if(u){var
 O=H(d,N);if(O){var
-$=f[1],c=kq(p,h,o,m,l,s,b,[0,j3(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
+$=f[1],c=kr(p,h,o,m,l,s,b,[0,j4(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
 var
 P=O}else
 var
 P=u;if(!Y){var
 c=P;E=1}}if(!E)var
-c=kq(p,h,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
-c=kn(p,h,o,C,m,l,s,b,0,q,a);if(c){var
+c=kr(p,h,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
+c=ko(p,h,o,C,m,l,s,b,0,q,a);if(c){var
 k=R,g=fy(x,g);continue}var
 T=c}else
 var
@@ -2317,28 +2318,28 @@ var
 U=S;return U}return[0,g]}}return[0,V]}function
 fz(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=ks(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
-m=ks(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+l=kt(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
+m=kt(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
 o=m[1],p=ek(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-hc(a){return e(function(a){return 1},a)}function
+hd(a){return e(function(a){return 1},a)}function
 dz(a,d,b,c){function
 f(d,c){var
 f=aK(a[1],b[1]);return e(function(a){var
 b=q(c,a[2]);return z(q(d,a[1]),b)},f)}if(av(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-kt(a){var
+ku(a){var
 b=h(c);return[0,e(function(a){return h(d)},a),b]}function
 aP(a,l){var
 f=l[1];switch(f[0]){case
 1:var
 v=f[1];if(ak(function(a){return u(v,a)},a)){var
 C=h(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return h(b)},a),C]}return kt(a);case
+b=u(a,v)?c:d;return h(b)},a),C]}return ku(a);case
 3:var
 D=h(c),E=aP(a,f[2]),F=h(c);return dz(aP(a,f[1]),F,E,D);case
 4:var
@@ -2358,8 +2359,8 @@ V=h(c);return[0,k[1],V]}var
 W=q(h(b(2,c)),l),X=q(k[2],W);return[0,k[1],X];case
 10:var
 m=f[4],g=f[3],i=f[2],o=[0,[10,0,i,g,m]],p=[0,[10,1,i,g,m]],Y=t(g,p),Z=aP(a,g),_=t(i,o),$=dz(aP(a,i),_,Z,Y),aa=h(P(c)),ab=aP(a,m),r=dz($,h(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bf(p),s=e(function(a){return q(ad,a)},ac);if(n(function(a){return aO(d,a)},s))return[0,s,r[2]];var
-ae=q(i,p),af=t(q(g,o),ae),ag=q(h(b(2,c)),af);return[0,s,q(r[2],ag)];default:return kt(a)}}function
-ku(c,a){var
+ae=q(i,p),af=t(q(g,o),ae),ag=q(h(b(2,c)),af);return[0,s,q(r[2],ag)];default:return ku(a)}}function
+kv(c,a){var
 b=aP(c,a),f=b[1];return e(function(a){return aO(d,a)?a:ag(a,b[2])},f)}function
 cv(n,r){var
 i=n[1],e=i[2],f=i[1];if(0===f[0]){var
@@ -2389,21 +2390,21 @@ c=a[1],g=[0,[0,c[4],b],0],h=f(aQ(c[3],b),g),i=f(aQ(c[2],b),h);return f(aQ(c[1],d
 1:var
 e=a[3],j=e?aQ(e[1],d):e,k=f(aQ(a[2],b),j);return f(aQ(a[1],b),k);default:return aQ(a[1],d)}}function
 ab(b,a){var
-c=h(d),e=r(N(qJ,a),b,c),f=h(d),g=r(N(qK,a),b,f);return[0,r(a,b,h(d)),g,e]}function
-kv(b,a){return ah(t,ah(z,cP,a),b)}function
+c=h(d),e=r(N(qH,a),b,c),f=h(d),g=r(N(qI,a),b,f);return[0,r(a,b,h(d)),g,e]}function
+kw(b,a){return ah(t,ah(z,cP,a),b)}function
 fB(c,b,a){if(a){var
-e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bw(d,b),h),g)}return a}function
-hd(f,e,c,k){if(c){var
-b=c[1],v=N(k,j(fA(f,bw(d,e),b))),w=c[2],x=hd(f,bd(e),w,v),a=b$(k,fA(f,bw(d,e),b));switch(b[0]){case
+e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bv(d,b),h),g)}return a}function
+he(f,e,c,k){if(c){var
+b=c[1],v=N(k,j(fA(f,bv(d,e),b))),w=c[2],x=he(f,bd(e),w,v),a=b$(k,fA(f,bv(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(qL,a,h(d)),o=ah(z,cP,ab(a,qM)),p=cO(ab(a,0)),q=ab(a,qN),g=j5(kv(ab(a,qO),q),p,o,n,m);break;case
+m=b[1][5],n=r(qJ,a,h(d)),o=ah(z,cP,ab(a,qK)),p=cO(ab(a,0)),q=ab(a,qL),g=j6(kw(ab(a,qM),q),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,cO(ab(a,qP))]:i,t=ah(z,cP,ab(a,qQ)),u=ab(a,qR),g=j6(kv(ab(a,0),u),t,s);break;default:var
-g=j7(cP,cO(ab(a,0)))}var
+i=b[3],s=i?[0,cO(ab(a,qN))]:i,t=ah(z,cP,ab(a,qO)),u=ab(a,qP),g=j7(kw(ab(a,0),u),t,s);break;default:var
+g=j8(cP,cO(ab(a,0)))}var
 l=[0,g,x]}else
 var
 l=c;return l}function
-bA(b,a){if(typeof
+bz(b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2445,18 +2446,18 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kw(c,b,a){var
+kx(c,b,a){var
 d=j(cQ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-he(c,b){if(av(b,c))return[0,h(d)];var
+hf(c,b){if(av(b,c))return[0,h(d)];var
 a=b[1];if(4===a[0]){var
 e=av(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-kx(y,p,a,o){switch(o[0]){case
+ky(y,p,a,o){switch(o[0]){case
 0:var
 j=M(y,o[1]);if(j){var
 k=j[1];if(k){var
-q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qS),B=ah(z,ah(t,e,aZ(ag(r(qT,a,h(d)),u),b)),A),C=ab(a,qU),f=ag(r(0,a,h(d)),u),l=he(e[1],b[1]);if(l){var
-m=he(e[2],b[2]);if(m){var
-n=he(e[3],b[3]);if(n)var
+q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qQ),B=ah(z,ah(t,e,aZ(ag(r(qR,a,h(d)),u),b)),A),C=ab(a,qS),f=ag(r(0,a,h(d)),u),l=hf(e[1],b[1]);if(l){var
+m=hf(e[2],b[2]);if(m){var
+n=hf(e[3],b[3]);if(n)var
 x=aZ(f,b),g=ah(z,[0,l[1],m[1],n[1]],x);else
 var
 g=ah(t,e,aZ(t(h(c),f),b))}else
@@ -2471,49 +2472,49 @@ w=v}else
 var
 w=j;return w;case
 1:var
-D=ab(a,qV);return[0,[0,ab(a,0),D]];default:var
-E=i(p,ab(a,qW));return[0,[0,i(p,ab(a,0)),E]]}}function
-ky(e,d,c,h,g){var
-a=kx(e,d,b1(qX,c),h);if(a)var
-b=kx(e,d,dl(qY,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ab(a,qT);return[0,[0,ab(a,0),D]];default:var
+E=i(p,ab(a,qU));return[0,[0,i(p,ab(a,0)),E]]}}function
+kz(e,d,c,h,g){var
+a=ky(e,d,b1(qV,c),h);if(a)var
+b=ky(e,d,dl(qW,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-kz(g,c,d,b,a){var
+kA(g,c,d,b,a){var
 h=dA(c,a),i=b$(d,f(dA(c,b),h));function
-j(a){return ah(z,cP,a)}return ky(e(function(a){var
+j(a){return ah(z,cP,a)}return kz(e(function(a){var
 b=a[7];return w(function(b){var
 c=ct(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 cR(d,c,b,a){var
 e=q(c,b);return t(q(d,a),e)}function
-bB(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-kA(b,a){if(b)if(a)var
-d=b[1],e=kA(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bz(d[1]),f],e];else
+bA(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+kB(b,a){if(b)if(a)var
+d=b[1],e=kB(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kB(a){if(a){var
+kC(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kB(a[2]);if(d)var
-g=d[1],h=Q(c,c),e=[0,[0,[0,bz(c),h],g]];else
+c=b[1],d=kC(a[2]);if(d)var
+g=d[1],h=Q(c,c),e=[0,[0,[0,by(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return q0}function
+f=b;return f}return qY}function
 eo(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-h=c[1],i=cv(bA(d,a),h);return[0,e(function(a){var
-b=q(a[2],i);return[0,bz(a[1]),b]},b)];case
-9:return kB(b);case
+h=c[1],i=cv(bz(d,a),h);return[0,e(function(a){var
+b=q(a[2],i);return[0,by(a[1]),b]},b)];case
+9:return kC(b);case
 15:var
 k=j(b),f=u(j(a[1]),k);if(f)var
-l=cQ(d,a),g=[0,kA(b,b$(c[2],l))];else
+l=cQ(d,a),g=[0,kB(b,b$(c[2],l))];else
 var
 g=f;return g}return 0}function
 fC(e,l,k,a){var
-R=k[1],b=cv(bA(l,a),R),w=0;if(typeof
+R=k[1],b=cv(bz(l,a),R),w=0;if(typeof
 a==="number")w=1;else
 switch(a[0]){case
 2:var
@@ -2542,53 +2543,53 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=kz(e,l,k[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],J=G[1];return v(bz,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
+u=kA(e,l,k[2],a[1],a[2]);if(u){var
+G=u[1],H=G[2],J=G[1];return v(by,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cQ(l,a),f=b$(k[2],n),h=ab(f,qZ),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
+n=cQ(l,a),f=b$(k[2],n),h=ab(f,qX),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
 p=h(d),s=cQ(l,a),u=r(0,b$(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
-m=aw(e[2]),i=ag(g[1],m),n=q(i,z(b,q(f,I(i))));return[0,t(h(c),n),0]}var
+m=ax(e[2]),i=ag(g[1],m),n=q(i,z(b,q(f,I(i))));return[0,t(h(c),n),0]}var
 j=e[7],o=j?[0,t(t(h(c),b),f),0]:j;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-s=eo(e,l,k,a);return s?bB(s[1]):s;default:w=1}if(w)return 0;var
+s=eo(e,l,k,a);return s?bA(s[1]):s;default:w=1}if(w)return 0;var
 o=M(e,f);return o?g(o[1]):o}function
-hf(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hf(d,b,kw(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
-kC=[0,d,c],kD=[0,[0,kC,kC],d];function
+hg(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hg(d,b,kx(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
+kD=[0,d,c],kE=[0,[0,kD,kD],d];function
 fD(a){return $(b8(a[1][1],a[1][2]))}function
-kE(a){var
-b=aL(0,j(a));return be(function(b){return fD(r(b,a,kD))},b)}function
-kF(a,b){var
-c=b[4],e=ku(kE(a),c),f=aK(kE(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
-kG(b,a){var
+kF(a){var
+b=aL(0,j(a));return be(function(b){return fD(r(b,a,kE))},b)}function
+kG(a,b){var
+c=b[4],e=kv(kF(a),c),f=aK(kF(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
+kH(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kH(f,J,l,I,m,k,o,t){if(t){var
-a=t[1],aK=t[2],aL=kH(f,J,l,I,m,k,kw(k,a,o),aK);if(typeof
+kI(f,J,l,I,m,k,o,t){if(t){var
+a=t[1],aK=t[2],aL=kI(f,J,l,I,m,k,kx(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
 h=[0,[0,B]];else
 var
 aq=J[2],as=J[1],at=ei(m),h=[0,[8,i(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
-au=al(f,bA(k,a)),h=w(function(a){return[0,X(f,a)]},au);break;case
+au=al(f,bz(k,a)),h=w(function(a){return[0,X(f,a)]},au);break;case
 1:var
-av=al(f,bA(k,a)),h=w(function(a){return[1,X(f,a)]},av);break;case
+av=al(f,bz(k,a)),h=w(function(a){return[1,X(f,a)]},av);break;case
 5:var
-ax=al(f,bA(k,a)),h=w(function(a){return[2,X(f,a)]},ax);break;case
+ax=al(f,bz(k,a)),h=w(function(a){return[2,X(f,a)]},ax);break;case
 8:var
 ay=eo(m,k,o,a),h=w(function(a){var
 b=W(f,c);return[4,i(ar(l),a),b]},ay);break;case
 9:var
 y=eo(m,k,o,a);if(y){var
-z=al(f,bA(k,a));if(z)var
+z=al(f,bz(k,a));if(z)var
 az=X(f,z[1]),aA=y[1],P=[0,[4,i(ar(l),aA),az]];else
 var
 P=z;var
@@ -2597,10 +2598,10 @@ var
 Q=y;var
 h=Q;break;case
 10:var
-A=kz(m,k,o[2],a[1],a[2]);if(A){var
-R=A[1],S=R[2],T=R[1],C=al(f,bA(k,a));if(C){var
+A=kA(m,k,o[2],a[1],a[2]);if(A){var
+R=A[1],S=R[2],T=R[1],C=al(f,bz(k,a));if(C){var
 U=C[1],V=H(d,U[1]);if(V)var
-q=function(a){return kG(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
+q=function(a){return kH(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
 Y=V;var
 Z=Y}else
@@ -2621,17 +2622,17 @@ h=D;break;case
 13:var
 ab=a[1],ad=M(m,ab),K=0;if(ad){var
 ae=g(f,1,a[2]),af=ae?g(f,1,a[3]):ae;if(af)var
-aE=al(f,bA(k,a)),h=w(function(a){return[7,ab,X(f,a)]},aE);else{var
+aE=al(f,bz(k,a)),h=w(function(a){return[7,ab,X(f,a)]},aE);else{var
 ag=af;K=1}}else{var
 ag=ad;K=1}if(K)var
 h=ag;break;case
 14:var
-E=a[2],ah=a[1],ai=u(j(m),q1),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
-F=al(f,bA(k,a));if(F)var
+E=a[2],ah=a[1],ai=u(j(m),qZ),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
+F=al(f,bz(k,a));if(F)var
 G=ac(e(function(n){var
 h=[5,ah,E],a=al(f,[0,[0,h,h],d]);if(a){var
-o=kF(I,n),g=ac(e(function(e){var
-a=r(e[1],I,kD),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=al(f,[0,[0,d,d],g]);return w(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
+o=kG(I,n),g=ac(e(function(e){var
+a=r(e[1],I,kE),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=al(f,[0,[0,d,d],g]);return w(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
 p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
 var
 j=g;var
@@ -2661,13 +2662,13 @@ h=O}var
 ap=[0,h,aL]}else
 var
 ap=t;return ap}function
-q2(a){var
+q0(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dB(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kI(a,c,g,b){if(0===c[0])return 0;if(b){var
+kJ(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cs(a,g,c[1]);if(i){var
@@ -2718,12 +2719,12 @@ ai(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
 at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 R(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-ay(a){return at([5,[0,c,c],[6,R(a,a)]],a)}function
+az(a){return at([5,[0,c,c],[6,R(a,a)]],a)}function
 cS(c,b,a){var
 d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
 a3(c,b,a){var
 d=cS(c,b[1],a[1]),e=d?cS(c,b[2],a[2]):d;return e?cS(c,b[3],a[3]):e}function
-kJ(b,c,a){switch(c[0]){case
+kK(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
 j=a[4],f=a[1],k=a3(b,d[1],f),l=k?g(b,1,R(f,f)):k,m=l?a3(b,d[2],a[2]):l,n=m?a3(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?ck(d[5],a[5]):p}return 0;case
@@ -2740,9 +2741,9 @@ v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=a3(b,c[1],i);return w?g(b,1,R(i,i)):w}return 0}}function
 cT(c,a,b){if(0===a[0])return a3(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cS(c,a[4],b[3]):i}function
-kK(g,f,i,h){var
+kL(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kJ(g,b[1],a[1]);if(d){var
+d=kK(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2753,58 +2754,58 @@ c=a?0:1;return c?cT(g,f[2],h):c}}function
 bb(c,b,a){var
 d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
 ep(a,e,d,c){var
-b=bb(e,d,c),f=ay(a),g=at(R(ay(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
+b=bb(e,d,c),f=az(a),g=at(R(az(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
 cU(f,e,d,a,c){var
 b=ep(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
 cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
 cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ep(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=ay(d);return ai(function(b,a){return[2,b,a]},j,i);case
-1:return ay(bb(a[1],a[2],b));default:return ay(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=ep(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
+1:return az(bb(a[1],a[2],b));default:return az(a[1])}}function
 eq(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=ay(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ep(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
-1:return bb(a[1],a[2],b);default:return ay(a[1])}}function
-hg(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=az(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ep(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+1:return bb(a[1],a[2],b);default:return az(a[1])}}function
+hh(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bb(d,c,b);return[3,R(ay(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bb(d,c,b);return[3,R(az(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bb(g,f,b);return[6,R(bb(g,f,b),k)];default:return R(ay(a[1]),b)}}function
-kL(a,b){switch(a[0]){case
+f=a[2],g=a[1],k=bb(g,f,b);return[6,R(bb(g,f,b),k)];default:return R(az(a[1]),b)}}function
+kM(a,b){switch(a[0]){case
 0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=bb(d,c,b);return[0,R(bb(d,c,b),e)];default:return 0}}function
 er(e,b,a){var
 f=[0,d,c];return aI(function(c,d){var
 e=R(cW(c,b),a);return[2,[4,R(cW(c,b),a),e],d]},f,e)}function
-kM(a){var
+kN(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hh(a,b){switch(a[0]){case
+hi(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=bb(e,d,b);return[6,R(bb(e,d,b),f)];default:return[0,c,c]}}function
-kN(d,i){if(d){var
+kO(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bb(a[1],a[2],i),k=ay(f),l=at(R(ay(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bb(a[1],a[2],i),k=az(f),l=at(R(az(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kN(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kO(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return q3}function
+j=b;return j}return q1}function
 cX(a){return[0,a[1],a[2],a[3]]}function
-kO(a,b){switch(a[0]){case
+kP(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=ay(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ep(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ep(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=bb(a[1],h,b),n=[6,R(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kP(l,b,a){switch(a[0]){case
+kQ(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=M(l,a[1]);if(d){var
-e=kO(d[1],b);if(e)var
+e=kP(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
 b=cX(m),c=at(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
@@ -2815,9 +2816,9 @@ k=d;return k;case
 1:var
 q=cX(a[3]);return[0,[0,cX(a[2]),q]];default:var
 r=cX(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
-kQ(d,a,c,b){var
+kR(d,a,c,b){var
 e=at(a,b),f=at([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-kR(f,h,b,e,q,a){function
+kS(f,h,b,e,q,a){function
 F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],R(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
@@ -2827,14 +2828,14 @@ ap=er(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
 aq=F(a[1]);return g(f,1,[3,er(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hg(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hh(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hg(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hh(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
 c=cW(a,b);return[3,[4,[4,H,H],R(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,er(h,b,q),aw]],az=R(q,q);return g(f,1,[3,[4,er(h,b,e),az],ax]);case
+I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,er(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,er(h,b,e),ay],ax]);case
 6:var
 J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
@@ -2845,7 +2846,7 @@ L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aB=hh(N,b),aC=hh(O,b),aD=hh(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=eq(N,b),k=eq(O,b),aE=eq(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+N=o[1],O=n[1],P=h[1],aB=hi(N,b),aC=hi(O,b),aD=hi(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=eq(N,b),k=eq(O,b),aE=eq(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
 T=S}else
 var
 T=o;var
@@ -2858,13 +2859,13 @@ V=h;return V;case
 8:var
 aF=er(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kN(h,b);if(w){var
+W=a[1],w=kO(h,b);if(w){var
 aH=w[1],an=[0,d,c],ao=aI(function(a,b){var
-c=R(ay(a),e);return[2,[4,R(ay(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],R(e,e)],ao])}return w;case
+c=R(az(a),e);return[2,[4,R(az(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],R(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kP(h,b,Y);if(x){var
-Z=x[1],y=kP(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aJ=kQ(l,A,_[1],_[2]),aK=kQ(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
+X=a[2],Y=a[1],x=kQ(h,b,Y);if(x){var
+Z=x[1],y=kQ(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aJ=kR(l,A,_[1],_[2]),aK=kR(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
 ag=af}else
 var
 ag=y;var
@@ -2873,7 +2874,7 @@ var
 ah=x;return ah;case
 11:var
 aj=a[4],B=M(h,a[1]);if(B){var
-C=kO(B[1],b);if(C){var
+C=kP(B[1],b);if(C){var
 m=C[1][1][2],aN=cX(a[3]),aO=cX(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,R(m,m));if(ak){var
 aP=R(m,m),aQ=R(p,m),aR=[5,[4,R(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,R(p,p),aR]])}var
 al=ak}else
@@ -2884,22 +2885,22 @@ var
 am=B;return am;default:D=1}if(D)return 0;var
 t=M(h,r);return t?g(f,1,s(t[1])):t}function
 bj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kS(a){switch(a[0]){case
+kT(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bj(b[3]),f=bj(b[2]);return[0,bj(b[1]),f,e,d,c];case
 1:var
 g=w(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
-hi(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
-kT(b,a){var
-c=hi(a[2]);return kK(b,a,e(kS,a[1]),c)}function
-kU(b,a,c){var
+hj(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
+kU(b,a){var
+c=hj(a[2]);return kL(b,a,e(kT,a[1]),c)}function
+kV(b,a,c){var
 d=[0,c,dl(b,a)];return f(b1(b,a),d)}function
 ca(b,a){if(b){if(a){var
 e=ca(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kV(a){if(a){var
+kW(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kV(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q5}function
-kW(a,l,k,f){var
+c=b[1],d=kW(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q3}function
+kX(a,l,k,f){var
 b=aY(a,l);if(b){var
 c=aY(a,k);if(c){var
 d=ds(a,f);if(d){var
@@ -2917,7 +2918,7 @@ j=i}else
 var
 j=b;return j}function
 fF(a){return a?L(d,a[1][1]):a}function
-kX(a,ab,m,aD,h,f){function
+kY(a,ab,m,aD,h,f){function
 ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],ca(a,a)]}var
 aE=m[1];function
 o(b){var
@@ -2941,7 +2942,7 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;cas
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kW(a,i,h,ai);return f?L(f[1][2],d):f}return fF(kW(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+f=kX(a,i,h,ai);return f?L(f[1][2],d):f}return fF(kX(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
 5:if(h){var
 r=h[2];if(r){if(r[2])return 0;var
 K=r[1],N=h[1],aj=f[1],aN=ca(N,N),aO=[4,[4,aj,aj],[4,o(K),aN]],aP=ca(K,K);return g(a,1,[3,[4,o(N),aP],aO])}var
@@ -2958,7 +2959,7 @@ ar=f[3],as=f[2],aV=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
 b=aY(a,ca(e,e));if(b){var
 c=aY(a,[5,ar,as]);if(c){var
-d=jQ(a,c[1]);if(d){var
+d=jR(a,c[1]);if(d){var
 l=X(a,d[1]);return fF([0,D(b[1],l)])}var
 i=d}else
 var
@@ -2989,7 +2990,7 @@ j=i}else
 var
 j=b;return j},au=a0,at=f[1];k=2;break;case
 12:if(h)return 0;var
-S=kV(m[3]);if(S){var
+S=kW(m[3]);if(S){var
 aw=S[1],a1=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
 t=s[2];if(t){var
@@ -3051,7 +3052,7 @@ aq=O;return aq;default:var
 J=M(m[2],H);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-kY(h,g){var
+kZ(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3061,49 +3062,49 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-kZ(a){if(a){var
+k0(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kZ(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q6}function
-q7(a){return e(function(a){return[0,a,c]},a)}function
-k0(h,f,b,n,a){if(typeof
+c=b[1],d=k0(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q4}function
+q5(a){return e(function(a){return[0,a,c]},a)}function
+k1(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
 r=b[4];return ak(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=kZ(b[5]);return i?jX(f,i[1]):i}else{if(0===a[0]){var
-j=kY(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(q7,a[2]);return kX(h,f,b,o[2],t,s)}return j}var
-k=kY(a[1],n);if(k){var
+i=k0(b[5]);return i?jY(f,i[1]):i}else{if(0===a[0]){var
+j=kZ(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(q5,a[2]);return kY(h,f,b,o[2],t,s)}return j}var
+k=kZ(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=M(b[1],a[2]);return m?kX(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=M(b[1],a[2]);return m?kY(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hj(a){var
-b=ay(a[1]),c=at(R(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-hk(a){return ay(hj(a))}function
-k1(c){var
-a=hk(c),b=ay(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hl(a,b){return bb(a[3],a[4],b)}function
-hm(a,b){var
-c=hl(a,b);return R(hk(a),c)}function
+hk(a){var
+b=az(a[1]),c=at(R(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
+hl(a){return az(hk(a))}function
+k2(c){var
+a=hl(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hm(a,b){return bb(a[3],a[4],b)}function
 hn(a,b){var
-c=hl(a,b);return R(k1(a),c)}function
-k2(a,b){var
-c=hl(a,b);return R(ay(a[1]),c)}function
-ho(b,a){var
-c=hn(b,a),d=hm(b,a);return[2,[4,d,d],[4,c,c]]}function
-hp(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k2(a,d);return[5,[2,ho(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+c=hm(a,b);return R(hl(a),c)}function
+ho(a,b){var
+c=hm(a,b);return R(k2(a),c)}function
 k3(a,b){var
-f=a[5],c=[3,hp(a,b),f],d=k2(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+c=hm(a,b);return R(az(a[1]),c)}function
+hp(b,a){var
+c=ho(b,a),d=hn(b,a);return[2,[4,d,d],[4,c,c]]}function
+hq(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k3(a,d);return[5,[2,hp(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+k4(a,b){var
+f=a[5],c=[3,hq(a,b),f],d=k3(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 fG(a,b){var
-c=k3(a,b);return cV(a[7],c)}function
-k4(b,a){var
-c=ho(b,a),d=hn(b,a),e=[4,fG(b,a),d],f=hm(b,a);return[5,[2,[4,hp(b,a),f],e],c]}function
+c=k4(a,b);return cV(a[7],c)}function
 k5(b,a){var
-c=ho(b,a),d=hm(b,a),e=[4,fG(b,a),d],f=hn(b,a);return[5,[3,[4,hp(b,a),f],e],c]}function
-k6(a,b){var
-c=k1(a),d=at(k5(a,b),c),e=hk(a),f=at(k4(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
+c=hp(b,a),d=ho(b,a),e=[4,fG(b,a),d],f=hn(b,a);return[5,[2,[4,hq(b,a),f],e],c]}function
+k6(b,a){var
+c=hp(b,a),d=hn(b,a),e=[4,fG(b,a),d],f=ho(b,a);return[5,[3,[4,hq(b,a),f],e],c]}function
+k7(a,b){var
+c=k2(a),d=at(k6(a,b),c),e=hl(a),f=at(k5(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
 o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 bP(h){var
 a=aI(function(f,e){var
@@ -3119,24 +3120,24 @@ dC(a){return[0,a[1],[0,a[2],0]]}function
 a4(a){var
 b=dC(a[3]),c=f(dC(a[2]),b);return f(dC(a[1]),c)}function
 fH(a){return fE(o,a,bP(a4(a)))}function
-k7(b,a){if(a){var
-g=k7([0,b],a[2]),c=a[1];if(0===c[0])var
+k8(b,a){if(a){var
+g=k8([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cv([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-k8(c,b,a){var
+k9(c,b,a){var
 d=dp(b);return[2,[2,dp(c),d],a]}function
-hq(b,a){return b?P(a):d}function
+hr(b,a){return b?P(a):d}function
 es(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-o=hq(h,b),p=A(hq(h,b),o);return[0,[0,[5,a[2],a[1]],p],0];case
+o=hr(h,b),p=A(hr(h,b),o);return[0,[0,[5,a[2],a[1]],p],0];case
 9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3144,38 +3145,38 @@ o=hq(h,b),p=A(hq(h,b),o);return[0,[0,[5,a[2],a[1]],p],0];case
 13:var
 c=a[3],g=bP([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,k8(l,k,a[3]),b],s];case
+k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,k9(l,k,a[3]),b],s];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cw(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=cw(g,c,b,N(e,j(es(c,b,d))),h);return f(ao(g,k7(e,es(c,b,d)),d),i)}return a}function
-hr(b,a){switch(a[0]){case
+d=a[1],h=a[2],i=cw(g,c,b,N(e,j(es(c,b,d))),h);return f(ao(g,k8(e,es(c,b,d)),d),i)}return a}function
+hs(b,a){switch(a[0]){case
 0:var
 d=a[1];return al(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jQ(b,c[1]):c;case
+e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jR(b,c[1]):c;case
 2:return ds(b,a[1]);default:return fl(b,a[1])}}function
-k9(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-k_(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hs(a,c,b){var
-d=[4,k9(a),b],e=[2,[4,k_(a),c],d],f=[4,k_(a),b];return[0,[3,[4,k9(a),c],f],e]}function
-k$(c,a){var
-b=hs(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+k_(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+k$(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+ht(a,c,b){var
+d=[4,k_(a),b],e=[2,[4,k$(a),c],d],f=[4,k$(a),b];return[0,[3,[4,k_(a),c],f],e]}function
+la(c,a){var
+b=ht(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 et(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 fI(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:k$(d[1],a):a;case
+0:return d?d[2]?a:la(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hs(d[1],a[2],a[3]),m=j[1],k=hs(f[1],j[2],a[1]);return k$(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=ht(d[1],a[2],a[3]),m=j[1],k=ht(f[1],j[2],a[1]);return la(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
 e=[0,d[1],h[1],i[1]],l=R(e,e),n=et(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-la(b){var
+lb(b){var
 a=cr(b);return a?dm(a[1],[0,d,c]):a}function
-lb(a,n,k,j){if(la(j)){var
+lc(a,n,k,j){if(lb(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
 f=aY(a,k);if(f){var
 h=ds(a,[5,j,[0,b(2,c),c]]);if(h){var
@@ -3191,19 +3192,19 @@ var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
 eu(b,a,c){var
-d=bg(b,a[1],a[2]),e=d?lb(b,0,c,a[1]):d;return e?lb(b,1,c,a[2]):e}function
-dD(a,d){if(la(d))return[0,B];var
+d=bg(b,a[1],a[2]),e=d?lc(b,0,c,a[1]):d;return e?lc(b,1,c,a[2]):e}function
+dD(a,d){if(lb(d))return[0,B];var
 e=ds(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
 f=fl(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
 h=f[1],i=e[1],j=E(W(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b3(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
-e=x(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gX(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+e=x(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
 ev(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
 cY(a){return[0,[3,[0,d,c],a],a]}function
-lc(a,b,n,m){var
+ld(a,b,n,m){var
 h=bg(a,[0,d,c],b),i=h?ev(a,b):h;if(i){var
 e=dD(a,b);if(e){var
 f=aY(a,n);if(f){var
@@ -3236,7 +3237,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return lc(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return ld(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3245,7 +3246,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lc(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eu(d,cY(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=ld(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eu(d,cY(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3255,15 +3256,15 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-cx(a){return 1===a?q8:q9}function
+cx(a){return 1===a?q6:q7}function
 fK(d,c,b,a){var
 e=a[1],f=fI(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-ht(c,b,a){switch(c){case
+hu(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-ld(h,g,d,b,f,a){var
-e=fK(d,b,f,a);return ht(h,e,at([5,[0,c,c],g],et(fI(d,b,a[2]),e)))}function
-le(c,j,i){var
+le(h,g,d,b,f,a){var
+e=fK(d,b,f,a);return hu(h,e,at([5,[0,c,c],g],et(fI(d,b,a[2]),e)))}function
+lf(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=a3(c,e[1],d[1]),g=f?a3(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3354,19 +3355,13 @@ d=fM(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 fN(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fN(c,aI(ed,e,jC(d)))]:[0,q_,fN(c,e)]}var
+e=b[2];return b[1]?[0,d,fN(c,aI(ed,e,jD(d)))]:[0,q8,fN(c,e)]}var
 f=[0,d,fN(c,0)]}else
 var
 f=a;return f}function
 cy(b,a){return a?i(b,a[1]):a}function
 cz(c,b,a){return cy(function(b){return cy(i(c,b),a)},b)}function
-hu(b,a){switch(a[0]){case
-0:return a;case
-1:return a[1];default:var
-c=a[3],d=a[2],e=a[1];switch(b){case
-0:return e;case
-1:return d;default:return c}}}function
-hv(a){return 0===a[0]?a[1]:0}function
+q9(a){return 0===a[0]?a[1]:0}function
 bQ(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
 1:return[1,bQ(b,a[1])];default:var
@@ -3385,18 +3380,18 @@ n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bQ(o,a)},p=h(e),q=h(
 1:var
 j=a[1],r=a5(b,e,j),s=a5(b,f,j);return[2,a5(b,g,j),s,r];default:var
 t=a5(b,e,a[3]),u=a5(b,f,a[2]);return[2,a5(b,g,a[1]),u,t]}}}function
-hw(c,f,a){if(a)var
+hv(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,X(c,a)];break;case
 1:var
 g=x(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=hw(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=hv(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hx(b,v,c,a){var
-e=hw(b,bZ,a),d=0,y=f(hw(b,aH,a),e);return bM(ra,function(a){switch(a[0]){case
+hw(b,v,c,a){var
+e=hv(b,bZ,a),d=0,y=f(hv(b,aH,a),e);return bM(q$,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,B]]);case
 1:return[0,[0,r(a[1],v,B)]];case
 2:return[0,[0,W(b,a[1])]];case
@@ -3414,14 +3409,14 @@ d=b3(b,a);return w(function(a){return x(b,c,a)},d)};return a5(function(a,b){retu
 8:var
 q=a[1],s=function(a){return[0,X(b,a)]};return bQ(function(a){return cy(s,a)},q);case
 9:var
-t=a[1],u=function(a){return b4(b,a)};return bQ(function(a){return cy(u,a)},t);default:return q$}},c,d)}function
-hy(a){if(a){var
+t=a[1],u=function(a){return b4(b,a)};return bQ(function(a){return cy(u,a)},t);default:return q_}},c,d)}function
+hx(a){if(a){var
 b=a[1];if(b)var
-c=hy(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hx(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rb}function
+d=b;return d}return ra}function
 dF(a){if(a){var
-g=a[1],b=g[2],c=hy(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=hx(g[1]);if(c)if(b){var
 h=b[1],e=dF(a[2]);if(e)var
 i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3430,33 +3425,32 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return rc}function
-dG(b,a){var
+f=c;return f}return rb}function
+fO(b,a){var
 c=a[3],d=w(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ar(b),f),e,d]}function
-lf(e,d,c,b){if(d){var
-j=d[1],a=function(a){var
-d=dG(function(b){return hu(a,b)},b);return lf(bv(e),j,c,d)},f=a(0);if(f){var
-g=a(2);if(g)return e?1:a(1);var
-h=g}else
-var
-h=f;return h}return i(c,dG(hv,b))}function
-lg(f,e,a,b,d){if(f){if(a){var
-g=a[1],l=a[2],m=f[1],c=function(b,a){return lg(m,e,l,a,dG(function(a){return hu(b,a)},d))},h=c(0,aG(b,g));if(h){var
-i=c(2,A(b,g));if(i)return c(1,b);var
-j=i}else
-var
-j=h;var
+hy(c,g,f,b,a,e){if(b){var
+h=b[1],l=b[2],d=function(h,a){var
+b=iv(c,d6,d6,function(a){switch(a[0]){case
+0:return a;case
+1:return a[1];default:var
+b=a[3],c=a[2],d=a[1];switch(h){case
+0:return d;case
+1:return c;default:return b}}},e);return hy(c,g,bK(f),l,a,b)},i=d(0,aG(a,h));if(i){var
+j=d(2,A(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=a;return k}return a?0:ao(e,b,dG(hv,d))}function
+k=i;return k}return ao(g,a,iv(c,d6,d6,q9,e))}function
+lg(e,c,b,a){var
+f=aw(d,b);function
+g(b){return a}return function(a){return hy(e,g,c,f,d,a)}}function
 c0(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a_(f,e,a)},d)}return[0,B]}function
 lh(k,e,j,i,h,a){var
 b=dF(a[1]);if(b){var
 c=a[2];if(c){var
 d=c0(a[3]);if(d){var
-l=d[1],m=aA([0,D(af(x(k,h,c[1])),l),0],e);return bi(e,fn(j,i,b[1],m))}var
+l=d[1],m=aw([0,D(af(x(k,h,c[1])),l),0],e);return bi(e,fn(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
@@ -3466,7 +3460,7 @@ g=b;return g}function
 li(d,h,g,c){var
 a=dF(c[1]);if(a){var
 b=c0(c[3]);if(b){var
-i=aA([0,D(B,b[1]),0],d),j=a[1];return bi(d,fn(h,g,e(function(a){return[0,a[1],B]},j),i))}var
+i=aw([0,D(B,b[1]),0],d),j=a[1];return bi(d,fn(h,g,e(function(a){return[0,a[1],B]},j),i))}var
 f=b}else
 var
 f=a;return f}function
@@ -3476,7 +3470,7 @@ i=g[2];if(i){var
 k=c0(g[3]);if(k){var
 G=k[1],c=D(x(F,E,i[1]),G),a=h[1];if(a){var
 l=a[1],m=l[2];if(a[2]){var
-e=fo(a,aA([0,c,0],b));if(e){var
+e=fo(a,aw([0,c,0],b));if(e){var
 n=e[1],o=u(j(n),b);if(o)return dt(n);var
 p=o}else
 var
@@ -3484,7 +3478,7 @@ p=e;return p}var
 q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
 B=y(c[1],m[1]),C=l[1];return L(aI(function(a,b){var
 c=cM(a);return A(y(cM(a),c),b)},d,C),B)}return r}var
-f=fo(a,aA([0,c,0],b));if(f){var
+f=fo(a,aw([0,c,0],b));if(f){var
 s=f[1],t=u(j(s),b);if(t)return dt(s);var
 v=t}else
 var
@@ -3495,7 +3489,7 @@ w=i;var
 z=w}else
 var
 z=h;return z}function
-rd(c){var
+rc(c){var
 a=c[2];if(a){var
 b=c0(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
 e=b}else
@@ -3506,7 +3500,7 @@ ll(a,c,b){var
 e=r(b,c,h(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
 ew(a){var
 b=I(a);return z(h(c),b)}function
-fO(j,g){var
+fP(j,g){var
 i=ew(g),k=I(g),e=t(h(c),k),f=q(h(b(2,c)),g),a=h(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,i]]:[0,[0,e,a,f],[0,a,i,a],[0,bf(f),a,e]]:[0,[0,i,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
 ex(b,a){var
 c=Q(b[3],a),d=Q(b[2],a);return[0,Q(b[1],a),d,c]}function
@@ -3519,26 +3513,26 @@ e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
 ln(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=ew(a(0));return[0,fO(re,a(0)),x];case
+x=ew(a(0));return[0,fP(rd,a(0)),x];case
 1:var
-y=ew(a(0)),A=q(ew(a(rf)),y),B=q(ew(a(rg)),A),C=fO(0,a(0)),D=lm(fO(ri,a(rh)),C);return[0,lm(fO(rk,a(rj)),D),B];default:var
-E=a(rl),F=a(rm),g=[0,a(0),F,E],G=Q(g,g),H=z(h(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
+y=ew(a(0)),A=q(ew(a(re)),y),B=q(ew(a(rf)),A),C=fP(0,a(0)),D=lm(fP(rh,a(rg)),C);return[0,lm(fP(rj,a(ri)),D),B];default:var
+E=a(rk),F=a(rl),g=[0,a(0),F,E],G=Q(g,g),H=z(h(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
 d=I(a),e=q(h(b(2,c)),d);return z(t(h(c),k),e)},i=function(f,e,d,a){var
 g=ao(f,q(e,d),a);return q(h(b(2,c)),g)},l=j(f),m=i(z,e,f,d),n=[0,i(t,d,f,e),m,l],o=i(t,e,f,d),p=j(e),r=[0,i(z,d,e,f),p,o],s=i(z,d,f,e),u=i(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
 lo(a){return 1<a[0]?[0,a[1],0]:0}function
-fP(a){switch(a[0]){case
+fQ(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cY(a[1]),0];default:var
 b=[0,cY(a[2]),0];return[0,cY(a[1]),b]}}function
-dH(a){return[0,[0,a[1]],[0,a[2]]]}function
+dG(a){return[0,[0,a[1]],[0,a[2]]]}function
 lp(a){switch(a[0]){case
-0:return[0,dH(a[1]),0];case
+0:return[0,dG(a[1]),0];case
 1:var
-f=[0,dH(a[3]),0],g=[0,dH(a[2]),f];return[0,dH(a[1]),g];case
+f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
 2:var
-b=dH(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dH(cY(c)),0]]]}}function
+b=dG(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}function
 lq(a,b){if(0===b[0])return dD(a,b[1]);var
 d=dD(a,b[1]);if(d){var
 e=dD(a,b[2]);if(e){var
@@ -3557,14 +3551,14 @@ i=e[1];if(cl(i,c))return f;var
 a=i,b=c,j=h(d);for(;;){if(a&&b){var
 a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bL(function(a){return ls(c,g,a)},e)]}function
 hz(g,a,n,f,c){var
-i=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=ku(i,c),k=bz(f),b=e(function(b){return ls(a,k,b)},j),l=r(rr,b,h(d)),m=r(rs,b,h(d));return[0,r(0,b,h(d)),m,l]}function
-dI(b,a){var
+i=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=kv(i,c),k=by(f),b=e(function(b){return ls(a,k,b)},j),l=r(rq,b,h(d)),m=r(rr,b,h(d));return[0,r(0,b,h(d)),m,l]}function
+dH(b,a){var
 c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
 c1(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
 lt(b){function
 a(a){var
 e=u(b,a)?c:d;return h(e)}var
-e=a(rt),f=a(ru);return[0,a(0),f,e]}function
+e=a(rs),f=a(rt);return[0,a(0),f,e]}function
 lu(b,a){if(a)var
 d=lu(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
@@ -3572,21 +3566,21 @@ c=a;return c}function
 hA(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-bC(e,k){var
+bB(e,k){var
 a=k[1];switch(a[0]){case
 1:var
 l=u(a[1],e)?c:d;return h(l);case
 3:var
-m=bC(e,a[2]);return z(bC(e,a[1]),m);case
+m=bB(e,a[2]);return z(bB(e,a[1]),m);case
 4:var
-n=bC(e,a[2]);return t(bC(e,a[1]),n);case
-5:return bf(bC(e,a[1]));case
+n=bB(e,a[2]);return t(bB(e,a[1]),n);case
+5:return bf(bB(e,a[1]));case
 6:var
-g=a[2],i=a[1],o=q(i,bC(e,g));return z(q(g,bC(e,i)),o);case
+g=a[2],i=a[1],o=q(i,bB(e,g));return z(q(g,bB(e,i)),o);case
 7:var
-f=bC(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
+f=bB(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
 8:var
-j=a[1],p=bC(e,j);return q(q(h(b(2,c)),j),p);default:return h(d)}}function
+j=a[1],p=bB(e,j);return q(q(h(b(2,c)),j),p);default:return h(d)}}function
 hB(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
@@ -3623,18 +3617,11 @@ hC(b,a,c){return e(function(c){var
 d=lw(b,a,c[2]),f=c[1];return[0,e(function(c){return lw(b,a,c)},f),d]},c)}function
 lx(b,a){return w(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-ly(a,b){var
+rE(a,b){var
 c=lx(a,b[3]),d=i(a,b[2]);return[0,hC(a,a,b[1]),d,c]}function
-lz(e,d,c,b){if(d){var
-j=d[1],a=function(a){var
-d=ly(function(b){return hu(a,b)},b);return lz(bv(e),j,c,d)},f=a(0);if(f){var
-g=a(2);if(g)return e?1:a(1);var
-h=g}else
-var
-h=f;return h}return i(c,ly(hv,b))}function
-lA(c){var
+ly(c){var
 a=c[1];if(a){var
-b=hy(c[2]);if(b)var
+b=hx(c[2]);if(b)var
 g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
 var
 d=b;var
@@ -3642,49 +3629,50 @@ f=d}else
 var
 f=a;return f}function
 rF(c){var
-a=ac(e(lA,c[1]));if(a)var
-b=lA(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+a=ac(e(ly,c[1]));if(a)var
+b=ly(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-rG(a){return $(g6([0,a[2],a[1]]))}function
+rG(a){return $(g7([0,a[2],a[1]]))}function
 hD(a){return[0,a[1],a[2]]}function
-lB(b,c,a){var
-d=e(function(c){return bc(b,bC(c,a))},c);return[0,bc(b,a),d]}function
+lz(b,c,a){var
+d=e(function(c){return bc(b,bB(c,a))},c);return[0,bc(b,a),d]}function
 hE(b,e,a,d){var
 c=v(function(a){var
 b=hD(a[2]);return f(v(hD,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
-lC(c,f,b,a){var
-d=hB(f,b,a),e=d?fM(c,a):d;return e?n(function(b){return fM(c,bC(b,a))},b):e}function
-lD(a){switch(a[0]){case
+lA(c,f,b,a){var
+d=hB(f,b,a),e=d?fM(c,a):d;return e?n(function(b){return fM(c,bB(b,a))},b):e}function
+lB(a){switch(a[0]){case
 3:var
 c=lk(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
 b=lk(a[1]);return[0,a[2],b]}}function
-lE(f,t,e,s,q,b,a){switch(b[0]){case
+lC(f,v,e,t,s,b,a){switch(b[0]){case
 0:var
-v=b[4],o=b[3],w=b[2],y=b[1],p=0;if(typeof
-a==="number")p=1;else
+w=b[4],p=b[3],y=b[2],z=b[1],q=0;if(typeof
+a==="number")q=1;else
 switch(a[0]){case
 0:var
-P=a[2],Q=a[1],k=w,i=y,h=function(a){return lh(f,e,Q,P,o,a)},g=v;break;case
+T=a[2],U=a[1],l=y,k=z,h=function(a){return lh(f,e,U,T,p,a)},g=w;break;case
 2:var
-z=_(o[1],d),A=z?_(o[2],d):z;if(!A)return A;var
-S=a[2],T=a[1],k=w,i=y,h=function(a){return li(e,T,S,a)},g=v;break;default:p=1}if(p)return 0;break;case
+A=_(p[1],d),B=A?_(p[2],d):A;if(!B)return B;var
+Y=a[2],Z=a[1],l=y,k=z,h=function(a){return li(e,Z,Y,a)},g=w;break;default:q=1}if(q)return 0;break;case
 1:var
-H=0;if(typeof
+M=0;if(typeof
 a==="number"&&!a)var
-U=b[2],V=b[1],X=b[3],k=U,i=V,Y=0,h=function(a){return lj(f,e,X,a)},g=Y;else
-H=1;if(H)return 0;break;case
+$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,h=function(a){return lj(f,e,ab,a)},g=ac;else
+M=1;if(M)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-l=a[3];if(l){var
-Z=[0,b[1],b[2],q],$=dG(function(a){return r(a,s,rJ)},Z),B=a[1],aa=l[2],ab=l[1],ac=a[2],ad=b[3];return lg(t,function(v,j){var
+m=a[3];if(m){var
+C=m[2],F=u(j(C),v);if(F){var
+ad=[0,b[1],b[2],s],ae=fO(function(a){return r(a,t,rJ)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(v,j){var
 a=dF(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
 g=c0(j[3]);if(g){var
-l=g[1],m=function(a){return a_(a,B,W(f,c))},t=m(v),u=b[1],h=E(x(f,m(ab),u),t),n=L(d,h[1]),o=n?bi(e,fn(B,ac,k,aA([0,D(af(h),l),0],e))):n;if(o){var
-i=fo(k,aA([0,D(x(f,ad,h),l),0],e));if(i)return bi(e,i[1]);var
+l=g[1],m=function(a){return a_(a,G,W(f,c))},t=m(v),u=b[1],h=E(x(f,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,fn(G,ai,k,aw([0,D(af(h),l),0],e))):n;if(o){var
+i=fo(k,aw([0,D(x(f,aj,h),l),0],e));if(i)return bi(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3696,17 +3684,20 @@ var
 r=b;var
 s=r}else
 var
-s=a;return s},aa,d,$)}return l}return 0;case
-3:var
-I=0;if(typeof
-a==="number"||!(0===a[0]))I=1;else
+s=a;return s};return hy(function(b,a){return fO},ak,ag,C,d,ae)}var
+H=F}else
 var
-C=a[2],F=a[1],ae=b[3],ag=b[2],ah=b[4],ai=b[1],aj=function(g){var
+H=m;return H}return 0;case
+3:var
+N=0;if(typeof
+a==="number"||!(0===a[0]))N=1;else
+var
+I=a[2],J=a[1],al=b[3],am=b[2],an=b[4],ao=b[1],ap=function(g){var
 a=dF(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-h=u(j(b),e),i=h?u(j(C),e):h;if(i){var
-n=el(F,em(F,C,c[1],b));return bi(e,b9(fs(f,ai,ah,d[1],b),n))}var
+h=u(j(b),e),i=h?u(j(I),e):h;if(i){var
+n=el(J,em(J,I,c[1],b));return bi(e,b9(fs(f,ao,an,d[1],b),n))}var
 k=i}else
 var
 k=d;var
@@ -3715,75 +3706,75 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},k=ae,i=ag,h=aj,g=b[5];if(I)return 0;break;case
+m=a;return m},l=al,k=am,h=ap,g=b[5];if(N)return 0;break;case
 4:var
-J=0;if(typeof
-a==="number"&&!a)var
-k=b[1],i=0,h=rd,g=0;else
-J=1;if(J)return 0;break;case
-5:var
-K=0;if(typeof
-a==="number"||!(0===a[0]))K=1;else{var
-m=a[2],M=0;if(m){var
-n=m[1];if(n){if(n[2])return 0;if(m[2])return 0;var
-ak=b[2],al=b[1],am=W(f,c),an=[0,[0,n[1],0],0],ao=a[1],k=ak,i=al,ap=0,h=function(a){return lh(f,rK,ao,an,am,a)},g=ap;M=1}else
-var
-G=n}else
-var
-G=m;if(!M)return G}if(K)return 0;break;case
-6:var
-N=0;if(typeof
-a==="number"&&!a)var
-aq=b[2],ar=b[1],as=W(f,c),k=aq,i=ar,at=0,h=function(a){return lj(f,rL,as,a)},g=at;else
-N=1;if(N)return 0;break;case
-7:var
 O=0;if(typeof
+a==="number"&&!a)var
+l=b[1],k=0,h=rc,g=0;else
+O=1;if(O)return 0;break;case
+5:var
+P=0;if(typeof
+a==="number"||!(0===a[0]))P=1;else{var
+n=a[2],Q=0;if(n){var
+o=n[1];if(o){if(o[2])return 0;if(n[2])return 0;var
+aq=b[2],ar=b[1],as=W(f,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,av=0,h=function(a){return lh(f,rK,au,at,as,a)},g=av;Q=1}else
+var
+K=o}else
+var
+K=n;if(!Q)return K}if(P)return 0;break;case
+6:var
+R=0;if(typeof
+a==="number"&&!a)var
+ax=b[2],ay=b[1],az=W(f,c),l=ax,k=ay,aA=0,h=function(a){return lj(f,rL,az,a)},g=aA;else
+R=1;if(R)return 0;break;case
+7:var
+S=0;if(typeof
 a==="number"&&5<=a)var
-au=b[2],av=b[1],aw=b[4],ax=b[3],k=au,i=av,ay=0,h=function(a){return li(e,ax,aw,a)},g=ay;else
-O=1;if(O)return 0;break;default:return 0}var
-R=[0,i,k,q];return lf(g,t,h,dG(function(a){return r(a,s,rI)},R))}function
+aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,h=function(a){return li(e,aE,aD,a)},g=aF;else
+S=1;if(S)return 0;break;default:return 0}var
+V=[0,k,l,s],X=fO(function(a){return r(a,t,rI)},V);return i(lg(function(b,a){return fO},g,v,h),X)}function
 rM(b,a){var
-c=gT(gP,b[1],a[1]);return c?gP(b[2],a[2]):c}function
-lF(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
+c=gU(gQ,b[1],a[1]);return c?gQ(b[2],a[2]):c}function
+lD(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
 e==="number"){if(0===e)return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
 q=f[3],r=f[2],s=H(d,r);if(s)var
-k=i7(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
+k=i8(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
 var
-j=s;if(j)return lE(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
+j=s;if(j)return lC(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
 t=j}else
 var
-t=i;return t}return lE(h,g,p,o,0,a,f);case
+t=i;return t}return lC(h,g,p,o,0,a,f);case
 8:return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gT(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?Ea(y,x,a[3],a[4],e):v}return 0}return 0}function
-lG(b){var
+l=gU(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?iv(y,x,a[3],a[4],e):v}return 0}return 0}function
+lE(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
 rN(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-lH(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
-U=ak(rN,i),V=U?kl(b,T,s,jD(v(function(b){var
+lF(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
+U=ak(rN,i),V=U?km(b,T,s,jE(v(function(b){var
 a=M(l,b[1]);if(a){var
-c=a[1];return 8===c[0]?kr(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lG,i);if(Y)var
+c=a[1];return 8===c[0]?ks(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lE,i);if(Y)var
 ag=v(function(b){var
-c=lG(b);if(c){var
-a=M(l,b[1]);if(a)return lD(a[1]);var
+c=lE(b);if(c){var
+a=M(l,b[1]);if(a)return lB(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ed,e(function(a){return 0},t),ai),u=hx(b,s,d_(fN(d_(t,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ed,e(function(a){return 0},t),ai),u=hw(b,s,d_(fN(d_(t,0),$),_),j);else
 var
 u=Y;var
 h=i,a=aj;for(;;){if(h){var
 A=h[1],k=A[2],g=A[1],n=h[2];if(g){var
 C=r(g,a,0);if(C){var
 o=M(l,g);if(o){var
-F=lF(b,S,R,c,Q,P,O,j,u,V,o[1],k);if(F){var
+F=lD(b,S,R,c,Q,P,O,j,u,V,o[1],k);if(F){var
 h=n,a=fy(g,a);continue}var
 G=F}else
 var
@@ -3821,7 +3812,7 @@ p=z;if(p){var
 h=n,a=e(function(a){return 0},a);continue}return p}var
 I=r(g,a,0);if(I){var
 q=M(l,g);if(q){var
-J=lF(b,S,R,c,Q,P,O,j,u,V,q[1],k);if(J){var
+J=lD(b,S,R,c,Q,P,O,j,u,V,q[1],k);if(J){var
 h=n,a=fy(g,a);continue}var
 K=J}else
 var
@@ -3829,40 +3820,40 @@ K=q;var
 N=K}else
 var
 N=I;return N}return[0,a]}}function
-lI(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+lG(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
-q=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=ek(a[2],b),t=lI(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=lF(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
+q=lF(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=ek(a[2],b),t=lG(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
 hF(d,a){var
 e=I(a),f=q(q(h(b(2,c)),a),d);return z(t(I(d),f),e)}function
-dJ(a){switch(a){case
+dI(a){switch(a){case
 0:return[0,rP,rO,h(d)];case
 1:return cP;default:var
 b=h(d),c=h(d);return[0,h(d),c,b]}}function
-fQ(a){switch(a){case
+fR(a){switch(a){case
 0:return rQ;case
 1:return rR;default:return 0}}function
 hG(k,a,d,j,c,h){var
-e=ah(t,dJ(k),j);if(h){var
+e=ah(t,dI(k),j);if(h){var
 b=function(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ex([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
 m=ex(a,c);return ah(z,aZ(d,e),m)}function
-lJ(f,i,g,l,a,d){var
-e=dJ(f),j=ah(t,e,a),k=ex(i,d),m=hF(e[3],a[3]),n=hF(e[2],a[2]),o=hF(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(h(b(2,c)),r),u=z(q(g,p),s),v=ba(dI(k,j),l);return[0,hA(f,hG(f,i,g,a,d,0),v),u]}function
+lH(f,i,g,l,a,d){var
+e=dI(f),j=ah(t,e,a),k=ex(i,d),m=hF(e[3],a[3]),n=hF(e[2],a[2]),o=hF(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(h(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hA(f,hG(f,i,g,a,d,0),v),u]}function
 hH(c,b,a){return ba(ex(c,a),b)}function
-lK(d,c,b,a){var
-e=hH(c,b,a);return ah(z,dJ(d),e)}function
-lL(g,f,e,d,c){var
-b=lK(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],aw(Q(a,a))]}function
-fR(b,a){var
+lI(d,c,b,a){var
+e=hH(c,b,a);return ah(z,dI(d),e)}function
+lJ(g,f,e,d,c){var
+b=lI(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
+fS(b,a){var
 c=aQ(a[2],b);return f(aQ(a[1],b),c)}function
 hI(d,b,a,c){if(a)var
-e=a[1],f=b$(c,fR(b,e)),h=N(c,j(fR(b,e))),i=hI(d,b,a[2],h),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),i];else
+e=a[1],f=b$(c,fS(b,e)),h=N(c,j(fS(b,e))),i=hI(d,b,a[2],h),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),i];else
 var
 g=a;return g}function
 hJ(f,o,e,n,a){var
@@ -3878,57 +3869,57 @@ c=M(e,a[1]);if(c)var
 l=g(f,0,a[2]),m=l?[0,t(i,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-lM(a){var
+lK(a){var
 b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
 b=r(0,c,h(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-lN(c,b,a){if(typeof
+lL(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=M(c,a[1]);return w(function(a){var
 c=r(0,b,h(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 ey(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
-lO(a){var
-b=ab(a,rT),c=aw(Q(ab(a,rU),b));return q(r(0,a,h(d)),c)}function
-lP(b,a){var
-c=Q(a,ab(b,rV));return[0,bz(aZ(lO(b),a)),c]}function
-lQ(e,d,a,c,b){var
-f=b[2],g=q(lO(a),f),h=c?hH(e,d,ab(a,rW)):ab(a,rX);return t(Q(b[1][2],h),g)}function
-lR(h,g,f,d,c,b,a){var
+lM(a){var
+b=ab(a,rT),c=ax(Q(ab(a,rU),b));return q(r(0,a,h(d)),c)}function
+lN(b,a){var
+c=Q(a,ab(b,rV));return[0,by(aZ(lM(b),a)),c]}function
+lO(e,d,a,c,b){var
+f=b[2],g=q(lM(a),f),h=c?hH(e,d,ab(a,rW)):ab(a,rX);return t(Q(b[1][2],h),g)}function
+lP(h,g,f,d,c,b,a){var
 i=bd(c);function
-j(a){return lK(h,g,f,a)}return ky(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lS(a){var
+j(a){return lI(h,g,f,a)}return kz(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lQ(a){var
 b=a[3],c=a[2],d=a[1];return fH([0,[0,d,d],[0,c,c],[0,b,b]])}function
 r2(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lT(b,a){switch(b){case
+lR(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fS(a){var
+fT(a){var
 b=b8(a[1],[0,d,c]);return b?b8(a[2],[0,d,c]):b}function
 hK(d,a){switch(d){case
-0:return fS(a[3]);case
+0:return fT(a[3]);case
 1:return 1;default:var
-b=fS(a[1]),c=b?fS(a[2]):b;return c?fS(a[3]):c}}function
-lU(c,b){var
-a=v(function(a){return fR(c,a)},b),d=aK(aL(0,j(a)),a);return e(aH,be(function(a){return fD(a[2])},d))}function
-lV(b){var
+b=fT(a[1]),c=b?fT(a[2]):b;return c?fT(a[3]):c}}function
+lS(c,b){var
+a=v(function(a){return fS(c,a)},b),d=aK(aL(0,j(a)),a);return e(aH,be(function(a){return fD(a[2])},d))}function
+lT(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-lW(c){var
-a=c;for(;;){if(0===a[0])return ak(lV,a[1]);var
-d=ak(lV,a[1]),b=d||lW(a[3]);if(b)return b;var
+lU(c){var
+a=c;for(;;){if(0===a[0])return ak(lT,a[1]);var
+d=ak(lT,a[1]),b=d||lU(a[3]);if(b)return b;var
 a=a[4];continue}}function
 r3(a,aU,bI,y,E,aT){var
-s=y[1],k=cx(s),U=y[6],bJ=y[2],V=v(function(a){return fR(E,a)},bJ),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,j(V)],bK=0,aW=v(function(a){return es(bK,E,a)},U),bL=fQ(s),aY=ln(y[5],bL),l=aY[2],F=aY[1],bN=y[2],S=j(V),J=cv(ap,j(V)),bM=0,A=hI(function(e,a){function
+s=y[1],k=cx(s),U=y[6],bJ=y[2],V=v(function(a){return fS(E,a)},bJ),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,j(V)],bK=0,aW=v(function(a){return es(bK,E,a)},U),bL=fR(s),aY=ln(y[5],bL),l=aY[2],F=aY[1],bN=y[2],S=j(V),J=cv(ap,j(V)),bM=0,A=hI(function(e,a){function
 j(Y){var
-w=lL(s,F,l,e,a),x=w[1],W=ah(t,dJ(s),e),y=w[2],p=x[1],X=x[2],g=hH(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(h(T),R);function
+w=lJ(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hH(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(h(T),R);function
 i(a){return[0,lt(a),0]}function
-f(a){return[0,ba(dI(lt(a),g),J),[0,a]]}switch(s){case
+f(a){return[0,ba(dH(lt(a),g),J),[0,a]]}switch(s){case
 0:var
-C=[0,f(rv),0],D=[0,i(rw),C],o=[0,i(0),D];break;case
+C=[0,f(ru),0],D=[0,i(rv),C],o=[0,i(0),D];break;case
 1:var
-E=[0,f(rx),0],G=[0,f(ry),E],H=[0,f(0),G],K=[0,i(rz),H],L=[0,i(rA),K],o=[0,i(0),L];break;default:var
-M=[0,f(rB),0],N=[0,f(rC),M],o=[0,f(0),N]}var
-k=ah(t,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=ba(k,aw(Q(k,k)));if(s)var
+E=[0,f(rw),0],G=[0,f(rx),E],H=[0,f(0),G],K=[0,i(ry),H],L=[0,i(rz),K],o=[0,i(0),L];break;default:var
+M=[0,f(rA),0],N=[0,f(rB),M],o=[0,f(0),N]}var
+k=ah(t,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=ba(k,ax(Q(k,k)));if(s)var
 n=hz(s,S,e,p,m[3]);else
 var
 A=h(d),B=h(d),n=[0,h(d),B,A];var
@@ -3936,63 +3927,63 @@ r=hz(s,S,e,p,m[2]),v=hz(s,S,e,p,m[1]),V=lu(function(s,w){var
 e=w[1];function
 a(b,a){var
 c=e[3],f=c1(a,n),g=q(z(b[3],f),c),i=e[2],j=c1(a,r),k=q(z(b[2],j),i),l=e[1],m=c1(a,v),o=q(z(b[1],m),l);return z(z(z(h(d),o),k),g)}var
-x=a(n,rD),y=a(r,rE),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
+x=a(n,rC),y=a(r,rD),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
 i=l[1],m=w[2];if(m){var
 k=m[1],B=c1(i,g),C=q(c1(k,j),B),D=c1(k,g),o=z(q(c1(i,j),D),C),E=I(J);if(u(i,k))var
 F=Q(j,g),p=t(o,q(h(b(2,c)),F));else
 var
-p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hA(s,j,ba(dI(g,ba(W,y)),J)),V,U,O]}var
-k=lL(s,F,l,e,a);function
+p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hA(s,j,ba(dH(g,ba(W,y)),J)),V,U,O]}var
+k=lJ(s,F,l,e,a);function
 m(b){return hG(s,F,l,e,a,b)}var
 f=2<=s?d:c;function
 g(b){var
 c=I(J),d=h(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
-i=[0,Q(hG(s,F,l,e,a,1),a),g];return[0,lJ(s,F,l,J,e,a),i,m,k,j]},E,bN,bM),T=e(function(a){return a[1]},A),bO=N(aa,j(aW)),bP=fQ(s),bQ=y[5];function
+i=[0,Q(hG(s,F,l,e,a,1),a),g];return[0,lH(s,F,l,J,e,a),i,m,k,j]},E,bN,bM),T=e(function(a){return a[1]},A),bO=N(aa,j(aW)),bP=fR(s),bQ=y[5];function
 R(a){return[0,[0,N(bP,a)]]}var
 aJ=I([0,[1,bO]]);switch(bQ[0]){case
 2:var
-bw=R(rn),bx=R(ro),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
+bw=R(rm),bx=R(rn),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
 3:var
-by=I(R(rp)),bA=I(R(0)),bC=I(R(rq)),C=[0,t(t(q(aJ,z(h(c),bC)),bA),by)];break;default:var
+bz=I(R(ro)),bB=I(R(0)),bC=I(R(rp)),C=[0,t(t(q(aJ,z(h(c),bC)),bB),bz)];break;default:var
 C=0}var
 aZ=y[7];if(aZ)var
 bR=0,bS=y[2],aq=hI(function(i,k){var
-a=lJ(s,F,l,cv(ap,j(V)),i,k),c=a[1];if(c){var
+a=lH(s,F,l,cv(ap,j(V)),i,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-h=g[1],f=dI(i,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bS,bR);else
+h=g[1],f=dH(i,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bS,bR);else
 var
 aq=aZ;var
-bT=bB(aq),bU=C?[0,C[1],0]:C,bV=f(bU,bT),bW=0,bX=[0,l,f(cw(function(c,b){if(typeof
+bT=bA(aq),bU=C?[0,C[1],0]:C,bV=f(bU,bT),bW=0,bX=[0,l,f(cw(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=lN(A,c,b);if(g)var
+g=lL(A,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(bZ,i(lM(A),c));case
+8:return e(bZ,i(lK(A),c));case
 13:var
 h=M(A,b[1]);if(h){var
 m=ey(b[4]);if(m){var
-n=lP(c,i(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+n=lN(c,i(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 o=m}else
 var
 o=h;return o}var
-d=hJ(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bW,E,aa,U),bV)],as=f(bB(T),bX),bY=0,a0=cw(function(c,a){if(typeof
+d=hJ(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bW,E,aa,U),bV)],as=f(bA(T),bX),bY=0,a0=cw(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
 e=M(A,a[1]);if(e){if(ey(a[4]))return 0;var
-k=[0,lQ(F,l,c,a[2],e[1][4]),0]}else
+k=[0,lO(F,l,c,a[2],e[1][4]),0]}else
 var
 k=e;return k;case
 14:var
-g=lR(s,F,l,A,c,a[1],a[2]);if(g){var
-m=g[1],n=m[2],o=m[1];return v(bz,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
+g=lP(s,F,l,A,c,a[1],a[2]);if(g){var
+m=g[1],n=m[2],o=m[1];return v(by,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
 15:var
 j=M(A,a[1]);if(j){var
 b=i(j[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,h(d)),p],t=[0,r(0,c,h(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return j}return 0},bY,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
 m(a){return aX(Y,bc(k,a))}if(0===y[4][0]){var
-b0=w(m,C),b1=m(l),a3=i(ar(m),T),aQ=fQ(s),aR=u(j(a3),k);if(aR)var
+b0=w(m,C),b1=m(l),a3=i(ar(m),T),aQ=fR(s),aR=u(j(a3),k);if(aR)var
 aS=w(function(a){return[0,[0,a,d],d]},b0),_=function(a){return r(a,Y,h(d))},aI=_(b1),bv=aL(0,aQ),ao=n(function(a){var
 b=cZ(k,a,aI),c=b?n(function(b){var
 d=b[1],c=n(function(b){var
@@ -4020,26 +4011,26 @@ ab=bu}}else
 var
 ab=a7;var
 a9=ab?hK(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
-b2=fP(y[5]),au=n(function(b){var
+b2=fQ(y[5]),au=n(function(b){var
 c=ev(a,b[1]);return c?ev(a,b[2]):c},b2);else
 var
 au=a_;if(au){var
-b3=f(V,[0,ap,0]),ax=ac(e(function(b){return al(a,b)},b3));if(ax){var
-ay=ac(e(function(b){return hr(a,b)},aW));if(ay){var
-b4=lT(s,dB(y[4])),az=ac(e(function(b){return al(a,[0,b,E])},b4));if(az){var
-a$=az[1],b5=lp(y[5]),aB=ac(e(function(b){return lr(a,b)},b5));if(aB){var
+b3=f(V,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b3));if(ay){var
+az=ac(e(function(b){return hs(a,b)},aW));if(az){var
+b4=lR(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b4));if(aA){var
+a$=aA[1],b5=lp(y[5]),aB=ac(e(function(b){return lr(a,b)},b5));if(aB){var
 bb=aB[1],b6=lo(y[5]),aC=ac(e(function(b){return dD(a,b)},b6));if(aC){var
 b7=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
 f!=="number"&&13===f[0]){var
-u=f[4],ay=M(A,f[1]);if(ay){if(lS(f[3])&&g(a,0,u)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],u])){var
+u=f[4],ay=M(A,f[1]);if(ay){if(lQ(f[3])&&g(a,0,u)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],u])){var
 az=f[2],aA=ay[1];if(ey(u)){var
-aw=lP(k,i(aA[3],az)),O=aw[2];if(g(o,0,[3,u,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
+aw=lN(k,i(aA[3],az)),O=aw[2];if(g(o,0,[3,u,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
 ax=0;else
 var
 aY=m(O),aZ=m(O),ax=[0,[6,[0,[0,e(m,aw[1]),aZ],0],aY],0];var
 aB=[0,[4,m(O)],ax]}else
 var
-aB=[0,[8,[3,G(lQ(F,l,k,az,aA[4]))]],0];return e(function(a){return[0,a]},aB)}return r0}return r1}var
+aB=[0,[8,[3,G(lO(F,l,k,az,aA[4]))]],0];return e(function(a){return[0,a]},aB)}return r0}return r1}var
 a0=0,x=e(function(a){return a[1]},A);function
 P(c,b,a){return[0,c,b,a,K]}var
 v=0;if(typeof
@@ -4059,7 +4050,7 @@ Q=f[1],aI=al(a,[0,[0,Q,Q],d]),j=w(function(b){var
 c=X(a,b),d=m(l);return[2,i(ar(m),x),d,c]},aI);break;case
 6:var
 z=M(A,f[1]);if(z){var
-C=lN(A,k,f);if(C){var
+C=lL(A,k,f);if(C){var
 R=C[1],S=g(a,1,f[2]),T=S?g(a,1,f[3]):S;if(T)var
 aJ=m(R[2]),aK=m(z[1][1][2]),U=[0,[5,[0,[0,[0,m(R[1]),0],aK],0],aJ]];else
 var
@@ -4082,15 +4073,15 @@ ad=aa;if(!aC)var
 j=ad;break;case
 8:var
 ae=g(a,1,f[1]),af=ae?g(a,1,f[2]):ae;if(af)var
-aM=W(a,c),aN=m(l),aO=i(lM(A),k),ag=[0,[0,i(ar(m),aO),aN,aM,0]];else
+aM=W(a,c),aN=m(l),aO=i(lK(A),k),ag=[0,[0,i(ar(m),aO),aN,aM,0]];else
 var
 ag=af;var
 j=ag;break;case
 14:var
-ah=f[2],ai=f[1],D=lR(s,F,l,A,k,ai,ah);if(D){var
-aj=D[1],ak=aj[2],am=aj[1],an=k8(ai,ah,f[3]),I=al(a,[0,[0,an,an],E]);if(I){var
+ah=f[2],ai=f[1],D=lP(s,F,l,A,k,ai,ah);if(D){var
+aj=D[1],ak=aj[2],am=aj[1],an=k9(ai,ah,f[3]),I=al(a,[0,[0,an,an],E]);if(I){var
 ao=I[1],ap=H(d,ao[1]);if(ap)var
-q=function(a){return kG(G,a)},aP=q(ak[2]),aQ=q(ak[1]),aR=q(am[2]),aq=[0,[8,[6,q(am[1]),aR,aQ,aP,ao]]];else
+q=function(a){return kH(G,a)},aP=q(ak[2]),aQ=q(ak[1]),aR=q(am[2]),aq=[0,[8,[6,q(am[1]),aR,aQ,aP,ao]]];else
 var
 aq=ap;var
 as=aq}else
@@ -4116,13 +4107,13 @@ j=0}if(v)var
 aE=al(a,[0,[0,n,n],d]),j=w(function(b){var
 c=X(a,b),d=m(l);return y(i(ar(m),x),d,c)},aE);return[0,j,a0]},b7,E,aa,U));if(aD){var
 bd=aD[1];if(y[7])var
-b8=aU[2],b9=aU[1],b_=m(l),ad=kU(bI,bd,[7,i(ar(m),aq),b_,b9,b8]);else
+b8=aU[2],b9=aU[1],b_=m(l),ad=kV(bI,bd,[7,i(ar(m),aq),b_,b9,b8]);else
 var
 ad=bd;var
 bf=u(j(f(a$,bb)),k),bg=bf?n(function(a){var
-b=lD(a);return n(function(a){return ll(k,Y,a)},b)},ad):bf,bh=bg?C?ll(k,Y,m(C[1])):1:bg;if(bh){var
-b$=f(ay[1],aC[1]),L=f(ax[1],b$),O=lW(aT),P=lU(E,y[2]),Z=O?e(function(a){var
-b=lB(k,P,a[2]),c=a[1];return[0,e(function(a){return lB(k,P,a)},c),b]},T):O,aE=O?cp(hE(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},ca=hC(ae,ae,Z),cc=ae(bc(k,l)),aG=w(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
+b=lB(a);return n(function(a){return ll(k,Y,a)},b)},ad):bf,bh=bg?C?ll(k,Y,m(C[1])):1:bg;if(bh){var
+b$=f(az[1],aC[1]),L=f(ay[1],b$),O=lU(aT),P=lS(E,y[2]),Z=O?e(function(a){var
+b=lz(k,P,a[2]),c=a[1];return[0,e(function(a){return lz(k,P,a)},c),b]},T):O,aE=O?cp(hE(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},ca=hC(ae,ae,Z),cc=ae(bc(k,l)),aG=w(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
 ai=bj;else{var
 bs=u(j(T),k);if(bs){var
 bE=hE(k,l,C,Z),aN=n(function(a){var
@@ -4146,38 +4137,38 @@ an=aP}else
 var
 an=aj;var
 ci=an?n(function(a){var
-c=a[1],b=n(function(a){return lC(k,L,P,a)},c);return b?lC(k,L,P,a[2]):b},T):an,ai=ci}else
+c=a[1],b=n(function(a){return lA(k,L,P,a)},c);return b?lA(k,L,P,a[2]):b},T):an,ai=ci}else
 var
 ai=bs}if(ai){var
-cd=e(function(a){return 1},ad),ce=f(a$,bb),cf=function(M,_,Z,c){if(O){if(typeof
+cd=e(function(a){return 1},ad),ce=f(a$,bb),cf=function(N,aa,$,c){if(O){if(typeof
 c!=="number"&&10===c[0]){var
-g=c[3],l=c[2],m=c[1];if(typeof
-m!=="number"&&6===m[0]){if(g){if(g[2])return 0;var
-s=g[1],b=m[1],t=u(Z,K),v=t?cl(0,K):t;if(v)var
-q=gT(gP,e(aH,l),P),X=q?1:q,o=X;else
+g=c[3],m=c[2],o=c[1];if(typeof
+o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
+t=g[1],b=o[1],v=u($,K),w=v?cl(0,K):v;if(w)var
+s=gU(gQ,e(aH,m),P),Y=s?1:s,p=Y;else
 var
-o=v;var
-w=o?ko(P):o,y=w?n(function(a){return cl(a,j(L))},P):w,z=y?u(j(s),k):y;if(z){var
-p=0;if(typeof
+p=w;var
+y=p?kp(P):p,z=y?n(function(a){return cl(a,j(L))},P):y,A=z?u(j(t),k):z;if(A){var
+q=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-F=b[2],E=b[1],C=0;p=1;break;case
+G=b[2],F=b[1],E=0;q=1;break;case
 7:var
-G=b[2],h=b[1],N=0;if(typeof
+I=b[2],h=b[1],Q=0;if(typeof
 h!=="number"&&0===h[0]){var
-Q=0;if(aG){var
-I=H(d,G);if(I){var
-F=h[2],E=h[1],C=[0,[0,[0,aG[1],G],b[3]]];p=1;N=1;Q=1}else
+R=0;if(aG){var
+J=H(d,I);if(J){var
+G=h[2],F=h[1],E=[0,[0,[0,aG[1],I],b[3]]];q=1;Q=1;R=1}else
 var
-J=I}else
+M=J}else
 var
-J=aG;if(!Q)return J}if(!N)return 0;break}if(p){var
-R=hx(a,g9(l,0,L),aE,M),i=hx(a,L,aE,M),f=function(b,a){return r(a,b,rH)},S=lx(function(a){return f(i,a)},C),T=f(i,cc),U=function(a){return f(i,a)},V=[0,hC(function(a){return f(R,a)},U,ca),T,S],Y=kh(l,L);return lz(K,k,function(g){var
+M=aG;if(!R)return M}if(!Q)return 0;break}if(q){var
+S=hw(a,g_(m,0,L),aE,N),l=hw(a,L,aE,N),f=function(b,a){return r(a,b,rH)},T=lx(function(a){return f(l,a)},E),U=f(l,cc),V=function(a){return f(l,a)},X=[0,hC(function(a){return f(S,a)},V,ca),U,T],Z=ki(m,L),_=function(g){var
 b=ac(e(rF,g[1]));if(b){var
 c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-l=d[1],m=aA([0,D(af(x(a,_,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=ki(a,0,Y,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=ke(a,e(function(b){return W(a,b)},s),E,F,o,m);if(f)return bi(k,f[1]);var
+l=d[1],m=aw([0,D(af(x(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
+b=kj(a,0,Z,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=kf(a,e(function(b){return W(a,b)},t),F,G,o,m);if(f)return bi(k,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4186,13 +4177,13 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},V)}var
-A=0}else
+j=b;return j};return i(lg(function(b,a){return rE},K,k,_),X)}var
+B=0}else
 var
-A=z;var
-B=A}else
+B=A;var
+C=B}else
 var
-B=g;return B}return 0}return 0}return O},cg=m(l),ch=i(ar(m),T);return lI(a,a1,a2,L,ad,k,k,w(m,C),ch,cg,cf,ce,cd,aT)}var
+C=g;return C}return 0}return 0}return O},cg=m(l),ch=i(ar(m),T);return lG(a,a1,a2,L,ad,k,k,w(m,C),ch,cg,cf,ce,cd,aT)}var
 bk=ai}else
 var
 bk=bh;var
@@ -4207,44 +4198,44 @@ var
 bn=aB;var
 bo=bn}else
 var
-bo=az;var
+bo=aA;var
 bp=bo}else
 var
-bp=ay;var
+bp=az;var
 bq=bp}else
 var
-bq=ax;var
+bq=ay;var
 br=bq}else
 var
 br=au;return br}function
 ez(b,a){return bg(b,a[1],a[2])}function
-lX(b,a){var
+lV(b,a){var
 c=ez(b,a[1]),d=c?ez(b,a[2]):c;return d?ez(b,a[3]):d}function
 a6(a){return typeof
 a==="number"?a?r4:r5:cx(a[1])}function
-lY(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ht(b[1],a,c)}function
-fT(a){if(0===a[0]){var
+lW(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hu(b[1],a,c)}function
+fU(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
 hL(b,c,a){return b?fI(b[1],c,a):a}function
 cc(d,c,b,a){var
-e=fT(a),f=hL(d,c,fT(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-lZ(b,a){var
+e=fU(a),f=hL(d,c,fU(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+lX(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-l0(b,w,v){var
+lY(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kJ(b,j[1],f[1]):0;else
+h=0===f[0]?kK(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
 a=f[1],c=j[1],k=a3(b,c[1],a[1]),l=k?a3(b,c[2],a[2]):k,m=l?a3(b,c[3],a[3]):l,n=m?a3(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,R(a[1],a[1])):r;if(s)var
-u=hj(a),i=g(b,1,R(hj(a),u));else
+u=hk(a),i=g(b,1,R(hk(a),u));else
 var
 i=s;var
 h=i?ck(c[7],a[7]):i}if(h){var
@@ -4252,41 +4243,41 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-l1(a){return typeof
-a==="number"?a?dJ(0):cP:dJ(a[1])}function
+lZ(a){return typeof
+a==="number"?a?dI(0):cP:dI(a[1])}function
 hM(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aQ(a[4],b),e),h=f(aQ(a[3],b),g),i=f(aQ(a[2],d[2]),h);return f(aQ(a[1],d[1]),i)}function
 hN(b,a){if(b){var
 c=b[1],d=c[2];return ba(ex(c[1],a),d)}return a}function
-l2(f,u,am,K,al,s,ak){if(s){var
-k=s[1],an=bw([0,d,d],al),a=b$(ak,hM(K,an,k)),y=function(c,b){var
-d=ab(a,c);return ah(t,ah(z,l1(f),b),d)};if(0===k[0]){var
+l0(f,u,am,K,al,s,ak){if(s){var
+k=s[1],an=bv([0,d,d],al),a=b$(ak,hM(K,an,k)),y=function(c,b){var
+d=ab(a,c);return ah(t,ah(z,lZ(f),b),d)};if(0===k[0]){var
 A=k[1];switch(A[0]){case
 0:var
-$=hN(u,ab(a,r6)),aE=A[1][5],B=r(r7,a,h(d)),C=ab(a,0),aa=y(r8,$),i=j5(aa,cO(C),aa,B,aE),ap=[0,aw(B),0],aq=[0,aw(Q(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],$];break;case
+$=hN(u,ab(a,r6)),aE=A[1][5],B=r(r7,a,h(d)),C=ab(a,0),aa=y(r8,$),i=j6(aa,cO(C),aa,B,aE),ap=[0,ax(B),0],aq=[0,ax(Q(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],$];break;case
 1:var
-ac=hN(u,ab(a,r9)),ad=A[3],D=ad?[0,ab(a,r_)]:ad,ae=y(0,ac),m=j6(ae,ae,0);if(D)var
-L=D[1],M=[0,aw(Q(L,L)),0];else
+ac=hN(u,ab(a,r9)),ad=A[3],D=ad?[0,ab(a,r_)]:ad,ae=y(0,ac),m=j7(ae,ae,0);if(D)var
+L=D[1],M=[0,ax(Q(L,L)),0];else
 var
 M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=h(d),aG=h(d),aH=[0,h(d),aG,aF],E=ab(a,0),aI=l1(f),n=j7(aI,cO(E)),ar=[0,aw(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=h(d),aG=h(d),aH=[0,h(d),aG,aF],E=ab(a,0),aI=lZ(f),n=j8(aI,cO(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hN(u,ab(a,r$)),F=k[1][7],G=r(sa,a,h(d)),e=r(sb,a,h(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dI(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(h(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),ax=fp(F,q(e,aw(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jB(0,U,V,W),Y=fp(F,jB(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,aw(G),0],aA=[0,aw(e),az],aB=[0,aw(Q(v,v)),aA],aC=[0,aw(Q(H,H)),aB],aD=ba(Z,ax),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=N(ak,j(hM(K,an,k))),aQ=s[2],aR=l2(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
-b=ba(dI(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bz(a):hA(f[1],a,b)},J=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:bz(J):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=hN(u,ab(a,r$)),F=k[1][7],G=r(sa,a,h(d)),e=r(sb,a,h(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(h(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fp(F,q(e,ax(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jC(0,U,V,W),Y=fp(F,jC(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=N(ak,j(hM(K,an,k))),aQ=s[2],aR=l0(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
+b=ba(dH(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hA(f[1],a,b)},J=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:by(J):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=s;return ao}function
 hO(c,b,a){if(a){var
-e=a[2],g=hO(c,bd(b),e),h=a[1];return f(hM(c,bw([0,d,d],b),h),g)}return a}function
-l3(a){if(a){var
+e=a[2],g=hO(c,bd(b),e),h=a[1];return f(hM(c,bv([0,d,d],b),h),g)}return a}function
+l1(a){if(a){var
 b=a[1][6];if(b)var
-c=l3(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=l1(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
 d=b;return d}return se}function
-l4(y,V,b){function
+l2(y,V,b){function
 c(a){return r(a,V,h(d))}function
 O(a){var
 e=a[2],f=q(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dk(function(b,a){return t(b,I(a))},g,f),d],b]}function
@@ -4328,7 +4319,7 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=l3(y);if(B){var
+B=l1(y);if(B){var
 aa=c(0),Q=dk(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
 i=C[2],j=C[1];if(j){var
 k=j[2],E=j[1];if(k){var
@@ -4375,14 +4366,14 @@ ab=[0,bf(z(a,Q)),0],R=[0,[0,t(a,Q),ab],0]}else
 var
 R=B;return R;default:D=1}if(D)return 0;var
 A=M(y,f);return A?g(A[1]):A}function
-fU(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+fV(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 eA(a){return e(function(a){var
 b=h(c);return[0,a[3],b]},a)}function
-l5(a,b){return e(function(a){var
+l3(a,b){return e(function(a){var
 c=q(a[2],b);return[0,a[1],c]},a)}function
-l6(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bB(l5(c,r(0,b,h(d))));return fb(l4(c,b,a))}function
-l7(f,j,m,I,H,s,a){if(typeof
+l4(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bA(l3(c,r(0,b,h(d))));return fb(l2(c,b,a))}function
+l5(f,j,m,I,H,s,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
@@ -4398,7 +4389,7 @@ S=[5,A,z],k=S,n=function(a){return[7,C,a]};else
 G=1;if(G)return sj;break;case
 8:var
 D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=W(f,c),V=l5(m,r(0,s,h(d))),F=[0,[4,i(ar(j),V),U]];else
+U=W(f,c),V=l3(m,r(0,s,h(d))),F=[0,[4,i(ar(j),V),U]];else
 var
 F=E;return[0,F,T];default:var
 q=0;if(typeof
@@ -4410,25 +4401,25 @@ t=a[3],u=a[2],v=g(f,1,[3,t,u]),P=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(
 9:var
 x=g(f,1,a[2]),l=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
 l=1;var
-o=l?l4(m,s,a):l;if(o){var
+o=l?l2(m,s,a):l;if(o){var
 O=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(j,b[1]);return[0,[5,i(j,c),e]]}var
 d=[0,[3,i(j,c)]]}else
 var
 d=a;return d},O)}return si}var
-K=0,L=al(f,[0,[0,k,k],hq(I,H)]);return[0,w(function(a){return n(X(f,a))},L),K]}function
-l8(a){if(typeof
+K=0,L=al(f,[0,[0,k,k],hr(I,H)]);return[0,w(function(a){return n(X(f,a))},L),K]}function
+l6(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-sm(b){if(0===b[0])return[0,kS(b[1])];var
+sm(b){if(0===b[0])return[0,kT(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bj(a[4]),g=bj(a[3]),h=bj(a[2]);return[1,[0,bj(a[1]),h,g,f,e,d,c]]}function
 sn(J,c,a,k,ap,aT){var
-aU=e(sm,a[2]),aq=l0(J,a[2],aU);if(aq)var
-aV=hi(a[4]),K=cT(J,a[4],aV);else
+aU=e(sm,a[2]),aq=lY(J,a[2],aU);if(aq)var
+aV=hj(a[4]),K=cT(J,a[4],aV);else
 var
 K=aq;if(K){var
 as=a[5];if(as)var
-aW=fP(as[1]),at=n(function(a){return ez(J,a)},aW);else
+aW=fQ(as[1]),at=n(function(a){return ez(J,a)},aW);else
 var
 at=1;var
 L=at}else
@@ -4436,8 +4427,8 @@ var
 L=K;if(L){var
 b=a[1],ay=a6(b),q=a[6],z=hO(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,j(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
 c=typeof
-b==="number"?0:fQ(b[1]);return ln(a,c)},az),aB=a[2],l=l2(b,aA,cv(R,j(z)),k,ap,aB,0),T=v(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l6(l,a,b)},o,k,S,q)),aD=f(bB(eA(l)),aC),U=f(bB(fU(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
-b=h(d);return av(r(p(a),W,b),a)},U),Y=X?ak(l8,q):X;if(Y){var
+b==="number"?0:fR(b[1]);return ln(a,c)},az),aB=a[2],l=l0(b,aA,cv(R,j(z)),k,ap,aB,0),T=v(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l4(l,a,b)},o,k,S,q)),aD=f(bA(eA(l)),aC),U=f(bA(fV(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
+b=h(d);return av(r(p(a),W,b),a)},U),Y=X?ak(l6,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
 _=b?hK(0,dB(Z)):1;else
@@ -4453,7 +4444,7 @@ if(2<=N[1])var
 s=0;else{var
 x=a[5],M=0;if(x){var
 O=g(c,1,a[3]);if(O)var
-ax=fP(x[1]),s=n(function(a){var
+ax=fQ(x[1]),s=n(function(a){var
 b=ev(c,a[1]);return b?ev(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
 P=x;M=1}if(M)var
@@ -4466,21 +4457,21 @@ b=0===a[0]?0:1;return ck(b,o)},aE);else
 var
 D=C;if(D){var
 aF=f(z,[0,R,0]),E=ac(e(function(a){return al(c,a)},aF));if(E){var
-aG=v(function(a){return es(o,k,a)},q),F=ac(e(function(a){return hr(c,a)},aG));if(F){var
+aG=v(function(a){return es(o,k,a)},q),F=ac(e(function(a){return hs(c,a)},aG));if(F){var
 m=dB(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lT(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lR(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
 aI=lp(aa[1]),t=ac(e(function(a){return lr(c,a)},aI));else
 var
 t=sl;if(t){var
 ab=t[1],y=a[5],aJ=y?lo(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
-I=ac(cw(function(a,b){return l7(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
+I=ac(cw(function(a,b){return l5(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
 ad=I[1],ae=u(j(f($,ab)),ay);if(ae){var
-aK=hc(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
+aK=hd(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kI(c,aM,k,a)};au=1}if(!au)var
+af=function(a){return kJ(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eA(l),aR=i(ar(p),aQ),aS=fU(l);return fz(c,V,i(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eA(l),aR=i(ar(p),aQ),aS=fV(l);return fz(c,V,i(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
 var
 ag=I;var
@@ -4502,7 +4493,7 @@ an=E;var
 ao=an}else
 var
 ao=D;return ao}return L}function
-bD(c){var
+bC(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4511,13 +4502,13 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bD(a[2]);return f(bD(a[1]),e)}}function
+e=bC(a[2]);return f(bC(a[1]),e)}}function
 bk(e,a,b){switch(a[0]){case
 0:var
 r=a[1];return cv([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=h(d);for(;;){if(g){var
-n=g[1];if(pt(n[1],u))return n[2];var
+n=g[1];if(pr(n[1],u))return n[2];var
 g=g[2];continue}return v}case
 2:return bf(bk(e,a[1],b));case
 3:var
@@ -4530,12 +4521,12 @@ k=a[2],f=a[1],i=q;break;case
 k=a[2],f=a[1],i=ag;break;case
 7:var
 l=d7(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
-o=I(m),s=function(a){return q(a,o)},p=e6(bv(jk(l)),s,o);return jj(l)?p:q(p,m)}return m}return h(c);default:return aw(bk(e,a[1],b))}var
-w=bk(e,k,N(b,j(bD(f))));return i(bk(e,f,b),w)}function
+o=I(m),s=function(a){return q(a,o)},p=e6(bK(jl(l)),s,o);return jk(l)?p:q(p,m)}return m}return h(c);default:return ax(bk(e,a[1],b))}var
+w=bk(e,k,N(b,j(bC(f))));return i(bk(e,f,b),w)}function
 cA(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,j(bD(e))),l=cA(c,a[2],k),m=f(cA(c,e,b),l);return[0,bk(c,a,b),m];case
+e=a[1],k=N(b,j(bC(e))),l=cA(c,a[2],k),m=f(cA(c,e,b),l);return[0,bk(c,a,b),m];case
 8:var
 n=cA(c,a[1],b);return[0,bk(c,a,b),n];case
 2:case
@@ -4543,29 +4534,29 @@ n=cA(c,a[1],b);return[0,bk(c,a,b),n];case
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,j(bD(d))),i=cA(c,a[2],h);return f(cA(c,d,b),i)}}function
-l9(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,j(bD(d))),h=a[2],i=bk(c,d,b),k=l9([0,[0,e[1],i],c],h,g);return f(cA(c,d,b),k)}return a}function
-hP(a){return v(bD,a)}function
-l_(c,a,b){if(a)var
-d=a[1],f=N(b,j(bD(d))),g=l_(c,a[2],f),e=[0,bk(c,d,b),g];else
+d=a[1],h=N(b,j(bC(d))),i=cA(c,a[2],h);return f(cA(c,d,b),i)}}function
+l7(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,j(bC(d))),h=a[2],i=bk(c,d,b),k=l7([0,[0,e[1],i],c],h,g);return f(cA(c,d,b),k)}return a}function
+hP(a){return v(bC,a)}function
+l8(c,a,b){if(a)var
+d=a[1],f=N(b,j(bC(d))),g=l8(c,a[2],f),e=[0,bk(c,d,b),g];else
 var
 e=a;return e}function
-l$(c,a,b){if(a){var
-d=a[1],e=N(b,j(bD(d))),g=l$(c,a[2],e);return f(cA(c,d,b),g)}return a}function
-hQ(a){return 0===a[0]?hP(a[1]):bD(a[1])}function
-ma(c,b,a){if(b){var
-d=b[1],i=N(a,j(hQ(d))),k=ma(c,b[2],i);if(0===d[0])var
-g=l$(c,d[1],a);else
+l9(c,a,b){if(a){var
+d=a[1],e=N(b,j(bC(d))),g=l9(c,a[2],e);return f(cA(c,d,b),g)}return a}function
+hQ(a){return 0===a[0]?hP(a[1]):bC(a[1])}function
+l_(c,b,a){if(b){var
+d=b[1],i=N(a,j(hQ(d))),k=l_(c,b[2],i);if(0===d[0])var
+g=l9(c,d[1],a);else
 var
 e=d[1],h=cA(c,e,a),g=[0,bk(c,e,a),h];return f(g,k)}return b}function
-fV(c){var
+fW(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bL(fV,a)}return[0,b]}function
+b=bL(fW,a)}return[0,b]}function
 hR(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
@@ -4574,19 +4565,19 @@ b=a[1];continue;case
 6:var
 d=hR(a[2]);return q(hR(a[1]),d);case
 9:return a[1];default:return I(b)}}}function
-mb(n,g,a,f){if(a){var
-b=a[1],w=N(f,j(hQ(b))),x=mb(n,g,a[2],w);if(0===b[0])var
-l=l_(g,b[1],f),o=[0,l,h(c),l,0,0,0,0];else
+l$(n,g,a,f){if(a){var
+b=a[1],w=N(f,j(hQ(b))),x=l$(n,g,a[2],w);if(0===b[0])var
+l=l8(g,b[1],f),o=[0,l,h(c),l,0,0,0,0];else
 var
-m=bk(g,b[1],f),q=fV(m),i=aP(aL(0,n),q),d=fV(i[2]),k=e(fV,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?h(c):ag(a,d)},k),o=[0,k,hR(d),v,u,t,s,r];var
+m=bk(g,b[1],f),q=fW(m),i=aP(aL(0,n),q),d=fW(i[2]),k=e(fW,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?h(c):ag(a,d)},k),o=[0,k,hR(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-mc(a){return e(function(a){return[0,a[2],d]},a)}function
-md(a){var
-b=v(hQ,a[4]),c=f(hP(e(bZ,a[3])),b);return f(mc(a[2]),c)}function
-me(a){var
-c=b$(0,mc(a[2])),d=aL(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aH,a[2]),c);return f(aK(a[1],g),b)}function
+ma(a){return e(function(a){return[0,a[2],d]},a)}function
+mb(a){var
+b=v(hQ,a[4]),c=f(hP(e(bZ,a[3])),b);return f(ma(a[2]),c)}function
+mc(a){var
+c=b$(0,ma(a[2])),d=aL(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aH,a[2]),c);return f(aK(a[1],g),b)}function
 hS(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
@@ -4598,36 +4589,36 @@ e=a[1];return ak(function(a){return aq(e,a)},b);case
 a=a[1];continue;default:var
 c=hS(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-mf(d){var
+md(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pt(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pr(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-mg(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=mg(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bd,f(c,j)));return ao(h,ao(g,bw(b,k),m),l)}return b}function
-mh(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return mg(a,e,d,function(b){return mh(a,f,e,d,h,b)},g,b)}return b?a:f}function
-mi(d,a){if(a){var
+me(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=me(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bd,f(c,j)));return ao(h,ao(g,bv(b,k),m),l)}return b}function
+mf(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return me(a,e,d,function(b){return mf(a,f,e,d,h,b)},g,b)}return b?a:f}function
+mg(d,a){if(a){var
 b=aY(d,a[1]);if(b)var
-c=mi(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=mg(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return sr}function
-mj(d,a){if(a){var
-b=mi(d,a[1]);if(b)var
-c=mj(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+mh(d,a){if(a){var
+b=mg(d,a[1]);if(b)var
+c=mh(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return ss}var
-fX=t(h(c),fW);function
-mk(e){var
-a=I(fX);if(e)var
+fY=t(h(c),fX);function
+mi(e){var
+a=I(fY);if(e)var
 f=q(h(b(2,c)),a),g=z(h(b(2,b(2,c))),f),i=q(h(b(2,c)),a),d=ag(z(h(c),i),g);else
 var
-j=z(h(b(2,c)),a),k=I(fW),d=ag(z(q(h(b(2,c)),k),a),j);return aw(d)}function
-ml(d,b,a){if(d){var
-e=mk(b),f=z(h(c),e),g=q(t(h(c),a),f);return t(h(c),g)}var
-i=h(c),j=mk(b),k=ag(h(c),j);return t(q(a,z(h(c),k)),i)}function
-dK(f,e,d,a){var
-g=I(a),i=I(d),j=t(t(h(b(2,c)),i),g),k=f?e?fX:ag(fX,q(h(b(2,c)),fW)):ag(fX,h(b(2,c))),l=q(I(k),j);return aw(z(h(c),l))}function
-mm(g,d){var
+j=z(h(b(2,c)),a),k=I(fX),d=ag(z(q(h(b(2,c)),k),a),j);return ax(d)}function
+mj(d,b,a){if(d){var
+e=mi(b),f=z(h(c),e),g=q(t(h(c),a),f);return t(h(c),g)}var
+i=h(c),j=mi(b),k=ag(h(c),j);return t(q(a,z(h(c),k)),i)}function
+dJ(f,e,d,a){var
+g=I(a),i=I(d),j=t(t(h(b(2,c)),i),g),k=f?e?fY:ag(fY,q(h(b(2,c)),fX)):ag(fY,h(b(2,c))),l=q(I(k),j);return ax(z(h(c),l))}function
+mk(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 hT(v,u,t){var
@@ -4662,12 +4653,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-mn(f,i,e,b,h){var
+ml(f,i,e,b,h){var
 j=f?c:d,a=W(i,j);function
 g(b){var
 c=f?eb(b):dq(b);return D(c,a)}var
 k=[0,ae(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mo(r,g,q,p,f,o,n){if(o){var
+mm(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(f){var
 h=f[2],b=0;if(h){var
@@ -4681,11 +4672,11 @@ A=e(aB,bh(sv)),z=e(ae,0),a=hT(p,bM(0,b7(g,ej(0,f),z),q,0),A);b=1;c=1;d=1;break;c
 a=H(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mm,sw),a=hT(p,bM(0,b7(g,mn(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
+B=e(mk,sw),a=hT(p,bM(0,b7(g,ml(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=e(mm,sx),a=hT(p,bM(0,b7(g,mn(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=e(mk,sx),a=hT(p,bM(0,b7(g,ml(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4698,24 +4689,24 @@ a=w;var
 y=a?sy:a}else
 var
 y=n;return y}return[0,n]}function
-mp(f,e,d,c,p,o,n){var
+mn(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mo(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
-i=mo(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ek(a[2],b),l=mp(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mm(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
+i=mm(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ek(a[2],b),l=mn(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hU(a){return jq(b(2,c),aG(a,c))}function
-dL(j,a,e,w,v){var
-m=a?c:P(c),f=h(m),g=ml(a,e,st),i=ml(a,e,su),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(i,dK(a,e,i,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(i,dK(a,e,g,i)),p),o],s=ag(f,dK(a,e,i,f)),t=[0,z(ag(g,dK(a,e,g,i)),s),r],u=a?e?h(b(2,c)):q(h(b(2,b(2,c))),fW):h(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mp(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-mq(a,g,b){if(L(g,hU(a))){if(b){var
+hU(a){return jr(b(2,c),aG(a,c))}function
+dK(j,a,e,w,v){var
+m=a?c:P(c),f=h(m),g=mj(a,e,st),i=mj(a,e,su),n=ag(g,dJ(a,e,f,g)),o=[0,z(ag(i,dJ(a,e,i,f)),n),0],p=ag(f,dJ(a,e,f,g)),r=[0,z(ag(i,dJ(a,e,g,i)),p),o],s=ag(f,dJ(a,e,i,f)),t=[0,z(ag(g,dJ(a,e,g,i)),s),r],u=a?e?h(b(2,c)):q(h(b(2,b(2,c))),fX):h(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mn(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+mo(a,g,b){if(L(g,hU(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hU(a)],v=cL(a),i=[0,hU(a),v],j=dL(a,0,1,h,b[1]),k=j?dL(a,0,0,i,c[1]):j;if(k){var
-l=dL(a,1,1,h,d[1]);if(l)return dL(a,1,0,i,e[1]);var
+h=[0,g,hU(a)],v=cL(a),i=[0,hU(a),v],j=dK(a,0,1,h,b[1]),k=j?dK(a,0,0,i,c[1]):j;if(k){var
+l=dK(a,1,1,h,d[1]);if(l)return dK(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4732,7 +4723,7 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cL(a)],s=dL(a,0,0,r,b[1]);if(s)return dL(a,1,0,r,f[1]);var
+r=[0,g,cL(a)],s=dK(a,0,0,r,b[1]);if(s)return dK(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
@@ -4741,42 +4732,42 @@ var
 u=b;return u}function
 hV(a){var
 b=[1,[2,d]];return dk(function(b,a){return[1,[3,b,a]]},a,b)}function
-fY(a){return hV(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-fZ(a,c){return hV(e(function(a){var
+fZ(a){return hV(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+f0(a,c){return hV(e(function(a){var
 d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hV(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mr(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bL(function(a){return mr(e,d,c,b,a)},f);return i(b7(e,d,c),g)}function
-ms(a){return a?L(d,a[1][2][1]):a}function
+mp(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bL(function(a){return mp(e,d,c,b,a)},f);return i(b7(e,d,c),g)}function
+mq(a){return a?L(d,a[1][2][1]):a}function
 sz(a){var
 b=u(j(a),sA);return b?ak(function(a){return $(_(a,d))},a):b}function
-mt(c,f,b,a){if(b)if(a)var
-d=b[1],g=x(c,W(c,a[1]),f),h=mt(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+mr(c,f,b,a){if(b)if(a)var
+d=b[1],g=x(c,W(c,a[1]),f),h=mr(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-f0(b,a){return d_(d_(b,0),a)}function
+f1(b,a){return d_(d_(b,0),a)}function
 hW(a){if(a){var
-b=a[2],c=a[1];if(b)return f0(c,[0,sC,hW(b)]);var
+b=a[2],c=a[1];if(b)return f1(c,[0,sC,hW(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,sE,f0(hW(a),sD)]}function
-aa(a){return[0,sG,f0(hW(a),sF)]}function
+C(a){return[0,sE,f1(hW(a),sD)]}function
+aa(a){return[0,sG,f1(hW(a),sF)]}function
 am(a){return[0,sI,[0,a,sH]]}function
 l(b,a){return[0,aT(sK,aT(b,sJ)),a]}function
 J(b,a){return aa([0,l(b,a),0])}function
 cd(d){var
-b=d,a=pY,e=0;for(;;){if(b){var
-c=jh(a),b=b[1],a=c;continue}return[0,d$(e5(a)),e]}}function
+b=d,a=pW,e=0;for(;;){if(b){var
+c=ji(a),b=b[1],a=c;continue}return[0,d$(e5(a)),e]}}function
 hX(a){return[0,d$(e$(a)),0]}function
-f1(a){var
-c=a9(a),f=0,b=0===c?p3:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
+f2(a){var
+c=a9(a),f=0,b=0===c?p1:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
 d=d$(b[1]);else
 var
 e=d$(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
 hY(a){var
-b=0,c=0<a9(a)?e$(a):p2;return[0,d$(c),b]}function
+b=0,c=0<a9(a)?e$(a):p0;return[0,d$(c),b]}function
 hZ(a){switch(a[0]){case
 2:return sM;case
 3:return 2<=a[1]?sN:sO;case
@@ -4805,10 +4796,10 @@ K(a){return[0,s5,f(eB(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
 h0(a){return[0,s7,f(eB(function(a){return a},a),s6)]}function
 ce(a){if(0===a[0])return K(a[1]);var
 b=[0,l(s8,K(a[2])),0];return aa([0,l(s9,K(a[1])),b])}function
-f2(b,a){var
+f3(b,a){var
 c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return C([0,i(b,a[1]),d])}function
 s_(a){function
-b(a){return f2(ce,a)}switch(a[0]){case
+b(a){return f3(ce,a)}switch(a[0]){case
 0:var
 e=0,g=a[5]?s$:th,h=[0,l(ta,am(g)),e],i=[0,l(tb,ce(a[4])),h],j=[0,l(tc,b(a[3])),i],k=[0,l(td,b(a[2])),j],m=[0,l(te,b(a[1])),k],c=[0,l(tg,am(tf)),m];break;case
 1:var
@@ -4865,18 +4856,18 @@ k=h}else
 var
 k=g;var
 s=f(k,o),i=a[2],t=i?[0,l(ua,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(ub,am(h1(a[1]))),u])}function
-mu(a){if(0===a[0]){var
-b=[0,l(ul,f2(K,a[2])),0];return J(un,aa([0,l(um,f2(K,a[1])),b]))}var
+ms(a){if(0===a[0]){var
+b=[0,l(ul,f3(K,a[2])),0];return J(un,aa([0,l(um,f3(K,a[1])),b]))}var
 c=[0,K(a[5]),0],d=[0,l(uo,C([0,K(a[4]),c])),0],e=[0,l(up,K(a[3])),d],f=[0,K(a[2]),0];return J(ur,aa([0,l(uq,C([0,K(a[1]),f])),e]))}function
-mv(a){if(0===a[0]){var
-b=[0,l(us,C(e(K,a[2]))),0];return J(uu,aa([0,l(ut,C(e(K,a[1]))),b]))}return mu([1,a[1],a[2],a[3],a[4],a[5]])}function
-mw(a){switch(a){case
+mt(a){if(0===a[0]){var
+b=[0,l(us,C(e(K,a[2]))),0];return J(uu,aa([0,l(ut,C(e(K,a[1]))),b]))}return ms([1,a[1],a[2],a[3],a[4],a[5]])}function
+mu(a){switch(a){case
 0:return uv;case
 1:return uw;default:return ux}}function
 uy(a){function
 b(a){return C(e(ce,a))}var
 c=[0,l(uz,b(a[2])),0],d=[0,l(uA,b(a[1])),c];return aa([0,l(uC,am(uB)),d])}function
-mx(a){function
+mv(a){function
 b(b,a){var
 c=[0,K(a),0];return C([0,K(b),c])}switch(a[0]){case
 0:return J(uD,b(a[1],a[2]));case
@@ -4885,26 +4876,26 @@ c=a[3],d=a[2],e=a[1],f=[0,l(uE,b(c[1],c[2])),0],g=[0,l(uF,b(d[1],d[2])),f];retur
 2:return J(uI,K(a[1]));default:var
 h=[0,l(uJ,K(a[2])),0];return J(uL,aa([0,l(uK,K(a[1])),h]))}}function
 uM(a){function
-b(a){return f2(K,a)}if(0===a[0])var
+b(a){return f3(K,a)}if(0===a[0])var
 c=a[5],e=c?[0,l(uN,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uO,C([0,K(a[3]),g])),0],i=[0,l(uP,K(a[2])),h],j=[0,l(uQ,cd(a[1])),i],d=f([0,l(uS,am(uR)),j],e);else
 var
 k=[0,l(uT,K(a[4])),0],m=[0,l(uU,b(a[3])),k],n=[0,l(uV,b(a[2])),m],o=a[1]?uW:uY,d=[0,l(uX,am(o)),n];return aa(d)}function
-my(a){var
+mw(a){var
 b=a?[0,l(uZ,C(e(uM,a))),0]:a;return b}function
 h3(d,c,b,a){var
-g=[0,l(u0,C(e(eC,a))),0],h=f(my(b),g),i=[0,l(u1,mu(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
+g=[0,l(u0,C(e(eC,a))),0],h=f(mw(b),g),i=[0,l(u1,ms(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
 u4(a){switch(a[0]){case
 0:return J(u5,h3(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eC,a[6]))),0],n=b?[0,l(u7,mx(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mv(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eC,a[6]))),0],n=b?[0,l(u7,mv(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mt(a[4])),o];if(typeof
 d==="number")if(d)var
 h=u9;else{var
 i=J(vc,g);k=1}else
 var
-h=mw(d[1]);if(!k)var
+h=mu(d[1]);if(!k)var
 q=c?[0,l(u_,K(c[1])),0]:c,i=J(h,aa([0,l(u$,g),q]));return J(vb,aa([0,l(va,i),p]));case
 2:var
-r=[0,l(vd,C(e(eC,a[7]))),0],s=f(my(a[6]),r),t=[0,l(ve,mx(a[5])),0],u=[0,l(vf,mv(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mw(a[1]),w)),u],s)));case
+r=[0,l(vd,C(e(eC,a[7]))),0],s=f(mw(a[6]),r),t=[0,l(ve,mv(a[5])),0],u=[0,l(vf,mt(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mu(a[1]),w)),u],s)));case
 3:var
 x=[0,l(vk,C(e(eC,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h0,a[1]))):J(vq,h0(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
 b=[0,h0(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vt,C(e(function(a){var
@@ -4917,28 +4908,28 @@ M=[0,l(vG,K(a[5])),0];return J(vI,aa([0,l(vH,h3(a[1],[0,a[2],a[3]],0,a[4])),M]))
 j=a[1],N=0,O=j?ce(j[1]):am(vL);return J(vK,aa([0,l(vJ,O),N]));default:var
 P=[0,l(vM,K(a[6])),0],Q=[0,l(vN,K(a[5])),P],R=[0,l(vO,h3(a[2],a[3],0,a[4])),Q],S=a[1];return J(vT,aa([0,l(vS,C(e(function(a){var
 b=[0,l(vP,K(a[2][2])),0],c=[0,l(vQ,K(a[2][1])),b];return aa([0,l(vR,am(a[1])),c])},S))),R]))}}function
-eD(a){return C(e(f1,a))}function
-f3(b,a){var
+eD(a){return C(e(f2,a))}function
+f4(b,a){var
 c=[0,l(vU,hY(a)),0];return aa([0,l(vV,C(e(eD,b))),c])}function
 eE(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=f3(a[2],a[3]);return J(a[1],b);case
+b=f4(a[2],a[3]);return J(a[1],b);case
 2:var
 c=a[1]?vW:vY;return J(vX,am(c));case
 3:var
-d=[0,eD(a[3]),0];return J(vZ,C([0,f3(a[1],a[2]),d]));case
+d=[0,eD(a[3]),0];return J(vZ,C([0,f4(a[1],a[2]),d]));case
 4:var
-f=[0,cd(0),0],g=[0,f1(a[3]),f];return J(v0,C([0,f3(a[1],a[2]),g]));case
+f=[0,cd(0),0],g=[0,f2(a[3]),f];return J(v0,C([0,f4(a[1],a[2]),g]));case
 5:var
-h=[0,hY(a[3]),0],i=[0,f1(a[2]),h];return J(v1,C([0,eE(a[1]),i]));case
+h=[0,hY(a[3]),0],i=[0,f2(a[2]),h];return J(v1,C([0,eE(a[1]),i]));case
 6:var
-j=[0,hY(a[3]),0],k=[0,f1(a[2]),j];return J(v2,C([0,eE(a[1]),k]));case
+j=[0,hY(a[3]),0],k=[0,f2(a[2]),j];return J(v2,C([0,eE(a[1]),k]));case
 7:return J(v3,eE(a[1]));default:var
 l=[0,C(e(eD,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eE(a[1]),m]))}}function
 v5(a){var
 b=[0,eE(a[2]),0];return C([0,cd(a[1]),b])}function
-mz(a){if(typeof
+mx(a){if(typeof
 a==="number")return 0===a?am(v6):am(v7);else
 switch(a[0]){case
 0:var
@@ -4946,22 +4937,22 @@ b=[0,C(e(eD,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
 1:var
 c=[0,cd(a[2]),0];return J(v9,C([0,cd(a[1]),c]));default:return J(v_,C(e(K,a[1])))}}function
 v$(a){var
-b=a[4],h=b?[0,l(wa,eD([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mz(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
-mA(g,a,d){var
+b=a[4],h=b?[0,l(wa,eD([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mx(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+my(g,a,d){var
 h=[0,l(we,C(e(v$,d))),0];if(a)var
-b=a[1],c=[0,l(wf,f3(b[1],b[2])),0];else
+b=a[1],c=[0,l(wf,f4(b[1],b[2])),0];else
 var
 c=a;var
 i=f(c,h);return aa([0,l(wg,hX(g)),i])}function
-mB(d,c,a,b){var
-g=[0,l(wh,mz(b)),0],h=a?[0,l(wi,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wj,C(e(K,c))),0];return aa(f([0,l(wk,hX(d)),j],i))}function
+mz(d,c,a,b){var
+g=[0,l(wh,mx(b)),0],h=a?[0,l(wi,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wj,C(e(K,c))),0];return aa(f([0,l(wk,hX(d)),j],i))}function
 wl(a){if(typeof
 a==="number")return am(wm);else
 switch(a[0]){case
 0:return J(wn,cd(a[1]));case
-1:return J(wo,mA(a[1],a[2],a[3]));default:return J(wp,mB(a[1],a[2],a[3],a[4]))}}function
-f4(a){var
-b=gN(gM(ap(a),function(b){return aN(a,b)}));return n(function(a){var
+1:return J(wo,my(a[1],a[2],a[3]));default:return J(wp,mz(a[1],a[2],a[3],a[4]))}}function
+f5(a){var
+b=gO(gN(ap(a),function(b){return aN(a,b)}));return n(function(a){var
 b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?V(wE,fc(a)):c;return d?V(fc(a),wF):d},b)}function
 eF(b){function
 c(f){var
@@ -4969,7 +4960,7 @@ a=fc(f),b=V(wG,a),c=b?V(a,wH):b;if(c)var
 d=c;else{var
 e=V(wI,a);if(e)return V(a,wJ);var
 d=e}return d}var
-a=gN(gM(ap(b),function(a){return aN(b,a)}));if(a){var
+a=gO(gN(ap(b),function(a){return aN(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
@@ -5010,12 +5001,12 @@ a=a[3];continue}return i;case
 4:var
 j=a[2],k=eG(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c2(a){return v(dM,bE(a))}function
+dL(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bD(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+c2(a){return v(dL,bD(a))}function
 h5(a){switch(a[0]){case
 0:var
-c=dM(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
+c=dL(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
 1:var
 b=a[3],g=b?c2(b[1]):b,h=f(c2(a[2]),g);return f(c2(a[1]),h);default:return c2(a[1])}}function
 wO(a){switch(a[0]){case
@@ -5023,11 +5014,11 @@ wO(a){switch(a[0]){case
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dM,b)}function
-mC(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mD(a){if(0===a[0]){var
-b=bE(a[2]);return f(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mE(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dL,b)}function
+mA(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mB(a){if(0===a[0]){var
+b=bD(a[2]);return f(bD(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mC(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
@@ -5043,29 +5034,29 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-mF(a){if(0===a[0]){var
-b=a[5],c=b?bE(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bE(a[3]),d);return f(bE(a[2]),e)}function
-mG(b,e){var
+mD(a){if(0===a[0]){var
+b=a[5],c=b?bD(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bD(a[3]),d);return f(bD(a[2]),e)}function
+mE(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ak(function(a){return aq(f,a)},b)}return 0;case
 3:var
-d=mG(b,a[2]);if(d){var
+d=mE(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 eH(c,a){return n(function(a){var
-b=eG(a);return b?mG(c,a):b},a)}function
-mH(a){if(typeof
+b=eG(a);return b?mE(c,a):b},a)}function
+mF(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-mI(a){var
+mG(a){var
 d=e9(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e9(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-mJ(a,b){return b?[4,mJ(a,b[1]),a]:a}function
+mH(a,b){return b?[4,mH(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jf(i),l,c);return[0,js(jg(e5(a[1]),i)),m];case
+i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jg(i),l,c);return[0,jt(jh(e5(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5076,30 +5067,30 @@ g=k(a[2]),h=k(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bv(d7(a[2]));return mJ(k(a[1]),n);default:return[6,k(a[1])]}}function
-bF(a){if(0===a[0]){var
+n=bK(d7(a[2]));return mH(k(a[1]),n);default:return[6,k(a[1])]}}function
+bE(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
 c4(a){var
-b=bF(a[3]),c=bF(a[2]);return[0,bF(a[1]),c,b]}function
+b=bE(a[3]),c=bE(a[2]);return[0,bE(a[1]),c,b]}function
 wP(a){switch(a[0]){case
 0:var
-b=a[5],c=bF(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
+b=a[5],c=bE(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
 1:var
 f=w(c4,a[3]),g=c4(a[2]);return[1,c4(a[1]),g,f];default:return[2,c4(a[1])]}}function
-mK(a){if(0===a[0]){var
+mI(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
-dN(a){var
+dM(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
 cB(a){if(0===a[0]){var
-b=a[5],h=b?dN(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bv(a[1]),l,j,i,h]}var
+b=a[5],h=b?dM(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bK(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dN(f),n=dN(g);return[2,k(e),n,m]}var
-o=dN(f),p=dN(g);return[1,k(e),p,o]}function
-f5(b,a){if(a){var
-c=a[1],d=a[2],g=f5(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
+m=dM(f),n=dM(g);return[2,k(e),n,m]}var
+o=dM(f),p=dM(g);return[1,k(e),p,o]}function
+f6(b,a){if(a){var
+c=a[1],d=a[2],g=f6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:ck(b[1],a[1]);return $(d)},h),g)}return a}function
 wQ(b){if(b[1])return 0;var
 a=b[4];if(typeof
@@ -5164,11 +5155,11 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=f5(0,S);return e(function(h){var
+ac=t[1],ad=f6(0,S);return e(function(h){var
 e=k(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dN(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bv(f),m,l,j]}var
+g=function(a){return a?dM(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bK(f),m,l,j]}var
 n=cB(a);return[10,cB(b),n,e]}var
 o=cB(a);return[10,cB(b),o,e]}var
 p=cB(a);return[10,cB(b),p,e]},ad)}return 0;case
@@ -5195,7 +5186,7 @@ ai=k(y[1]);return[0,[14,k(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bv(B[1]),0]:aL(0,T);return e(b,V)}function
+B=a[2],V=B?[0,bK(B[1]),0]:aL(0,T);return e(b,V)}function
 wT(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
@@ -5287,11 +5278,11 @@ var
 O=k;return O}return 0;default:return 0}var
 o=V(wU,b);return o?V(b,c):o}function
 h6(c,k,i,b){var
-l=j(c),d=v(function(a){return wR(l,i,a)},b),a=v(wQ,b),g=a?[0,a[1],a[2]]:wX,h=f(g,d),m=mK(k);return[0,e(wP,c),m,h]}function
-mL(b){if(b[1])return 0;var
+l=j(c),d=v(function(a){return wR(l,i,a)},b),a=v(wQ,b),g=a?[0,a[1],a[2]]:wX,h=f(g,d),m=mI(k);return[0,e(wP,c),m,h]}function
+mJ(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-mM(b){function
+mK(b){function
 a(a){return r(a,e(k,b),[0,d,c])}var
 f=a(wY),g=a(wZ);return[0,a(0),g,f]}function
 h7(Y,X,W,a){switch(a[1]){case
@@ -5353,7 +5344,7 @@ E=o;if(!O)return E}if(N)return 0;break;case
 9:var
 p=a[4];if(typeof
 p!=="number"&&0===p[0]){var
-ai=p[1],aj=f5(0,W);return e(function(a){var
+ai=p[1],aj=f6(0,W);return e(function(a){var
 b=k(ai),c=cB(a[2]);return[14,cB(a[1]),c,b]},aj)}return 0;case
 10:var
 q=a[4],P=0;if(typeof
@@ -5377,7 +5368,7 @@ u==="number"||!(1===u[0]))S=1;else{var
 v=a[3],T=0,ao=u[1];if(v){var
 G=v[1];if(1===G[0]){var
 ap=G[1],b=function(a){var
-b=k(ao);return[13,a,0,mM(ap),b]};T=1}else
+b=k(ao);return[13,a,0,mK(ap),b]};T=1}else
 var
 H=0}else
 var
@@ -5388,15 +5379,15 @@ w==="number"||!(1===w[0]))U=1;else{var
 x=a[3],V=0,aq=w[1];if(x){var
 I=x[1];if(1===I[0]){var
 ar=I[1],b=function(a){var
-b=k(aq);return[13,a,1,mM(ar),b]};V=1}else
+b=k(aq);return[13,a,1,mK(ar),b]};V=1}else
 var
 J=0}else
 var
 J=x;if(!V)return J}if(U)return 0;break;default:return 0}var
-y=a[2],_=y?[0,bv(y[1]),0]:aL(0,X);return e(b,_)}function
-dO(e,d,c,b){var
-g=v(function(a){return h7(e,d,c,a)},b),a=v(mL,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
-f6(a){return 11===a[1]?1:0}function
+y=a[2],_=y?[0,bK(y[1]),0]:aL(0,X);return e(b,_)}function
+dN(e,d,c,b){var
+g=v(function(a){return h7(e,d,c,a)},b),a=v(mJ,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
+f7(a){return 11===a[1]?1:0}function
 bR(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -5436,7 +5427,7 @@ l!=="number"&&1===l[0]){var
 m=a[3];return m?0===m[1][0]?c?u(b,n):c:bR(0,b,a):bR(0,b,a)}return bR(0,b,a)}return bR(0,b,a)}function
 a7(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bl(c,b,a):a[3]?bl(c,b,a):1:bl(c,b,a):bl(c,b,a)}function
-mN(f,c,b,a){var
+mL(f,c,b,a){var
 g=a[2];if(g)var
 h=g[1],i=V(w4,h),r=i?V(h,b):i,d=r;else
 var
@@ -5486,49 +5477,49 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-mO(a){if(0===a[0]){var
+mM(a){if(0===a[0]){var
 b=aK(a[1],a[2]);return[0,h8(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return mK([1,a[1],a[2],a[3],a[4],a[5]])}function
-mP(i,b,h,g,f,d,a){function
-c(a){return h8(e(bF,a))}var
-l=ak(f6,a),m=dO(0,j(b),d,a),n=c5(f),o=mO(g),p=k(h);return[0,i,e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return mI([1,a[1],a[2],a[3],a[4],a[5]])}function
+mN(i,b,h,g,f,d,a){function
+c(a){return h8(e(bE,a))}var
+l=ak(f7,a),m=dN(0,j(b),d,a),n=c5(f),o=mM(g),p=k(h);return[0,i,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-mQ(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-mR(i,a,b,h,g,f){var
-l=j(a),m=dO(mQ(a),l,0,f),n=w(c5,g),o=mO(h),p=b?k(b[1]):[0,c,c];return[0,i,e(function(a){function
-b(a){return h8(e(bF,a))}switch(a[0]){case
+mO(a){return ak(function(a){return 2===a[0]?1:0},a)}function
+mP(i,a,b,h,g,f){var
+l=j(a),m=dN(mO(a),l,0,f),n=w(c5,g),o=mM(h),p=b?k(b[1]):[0,c,c];return[0,i,e(function(a){function
+b(a){return h8(e(bE,a))}switch(a[0]){case
 0:var
-k=a[5],l=bF(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bE(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bF(a[6]),r=bF(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mS(a){return a[1]?0:1}function
-mT(a){var
-c=mS(a);if(c)return c;if(1===a[1]){var
+p=a[7],q=bE(a[6]),r=bE(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+mQ(a){return a[1]?0:1}function
+mR(a){var
+c=mQ(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-f7(i,h,b){function
+f8(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f8,a(f8,b)),j=a(f,h9),k=i?f:a(c(b,f8),h9);function
-g(b){return a(b,[5,e(f8,d(h9,d(b,b)))])}var
+f=c(f9,a(f9,b)),j=a(f,h9),k=i?f:a(c(b,f9),h9);function
+g(b){return a(b,[5,e(f9,d(h9,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f9(f,e,d){function
+f_(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,h_,a(h_,d)],mU),g=a(c,[5,[3,0,h_,b(mU,b(c,c))]]);return[2,b(f7(f,e,d),g)]}function
+c=a([3,1,h_,a(h_,d)],mS),g=a(c,[5,[3,0,h_,b(mS,b(c,c))]]);return[2,b(f8(f,e,d),g)]}function
 h$(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f_,b(f_,a)),d=e?h:b(f(a,f_),mV),i=b(d,[5,[3,0,f_,c(mV,c(d,d))]]);return c(f7(e,g,a),i)}function
-mW(o,e,a){if(e)if(a){var
+h=f(f$,b(f$,a)),d=e?h:b(f(a,f$),mT),i=b(d,[5,[3,0,f$,c(mT,c(d,d))]]);return c(f8(e,g,a),i)}function
+mU(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],j=cr(k(g[2][1]));if(j){var
 l=j[1],m=cr(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -5538,7 +5529,7 @@ var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mW([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mU([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -5547,13 +5538,13 @@ an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=ju(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=jv(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,an(b,a[1])];case
 3:var
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-mX(b,a){if(0===a[0])return[0,an(b,a[1])];var
+mV(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
 ia(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
@@ -5582,28 +5573,28 @@ w$(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
 xa(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-f$(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=f$(e,a[3]);return b2(dn(f$(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
-mY(a){return 0===a[0]?dC(a[1][4]):0}function
-mZ(a){switch(a[0]){case
+ga(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=ga(e,a[3]);return b2(dn(ga(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
+mW(a){return 0===a[0]?dC(a[1][4]):0}function
+mX(a){switch(a[0]){case
 0:var
 b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
 1:var
 d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
-ga(a){switch(a[0]){case
+gb(a){switch(a[0]){case
 0:return bP(a4(a[1][1]));case
 1:var
 b=a[3];return b?bP(a4(b[1])):d;default:return bP(a4(a[1]))}}function
 id(b){var
-a=v(mY,b),d=a?[0,a[1],a[2]]:v(mZ,b);return A(c,bP(d))}function
-m0(c,a){if(c){if(a){var
+a=v(mW,b),d=a?[0,a[1],a[2]]:v(mX,b);return A(c,bP(d))}function
+mY(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
 b=xb;else
 if(43===d)var
 b=xc;else
 var
 f=48===d?1:0,i=f?xd:f,b=i;if(b)var
-e=m0(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+e=mY(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
@@ -5626,20 +5617,20 @@ h=eI(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
 t=eI(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
 m=a[2],i=eI(b,a[1]);if(i)var
-j=m0(b,gN(gM(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+j=mY(b,gO(gN(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-m1(d,a){if(a){var
+mZ(d,a){if(a){var
 e=a[1],b=eI(d,e[2]);if(b)var
-c=m1(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+c=mZ(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
 f=b;return f}return xv}function
 c6(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=m1(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=mZ(d,b[1]);if(e){var
 l=e[1];if(i){var
 f=c6(d,k,j);if(f){var
 m=f[1],g=c6(d,k,m[2]);if(g)var
@@ -5687,7 +5678,7 @@ g=d;return g}function
 cD(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
 c7(a,e){var
 b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-m2(d,c){if(d){var
+m0(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
 e=c7(a[1],c),f=c7(a[2],e[2]),g=c7(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
@@ -5697,7 +5688,7 @@ o=c7(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
 p=c7(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=m2(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+q=m0(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
 xA(a){if(typeof
 a!=="number")switch(a[0]){case
 5:return xC;case
@@ -5712,17 +5703,17 @@ c=cD(a[1],b),d=bm(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 a0(b){function
 a(a){return r(a,b,[0,d,c])}var
 e=a(xF),f=a(xG);return[0,a(0),f,e]}function
-m3(a,b){if(a){var
-c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=m3(a[2],e[2]),g=f[2],h=f[1],i=a0(e[1]);return[0,[0,[0,a0(d[1]),i],h],g]}return[0,0,b]}function
-m4(f,b){if(f){var
+m1(a,b){if(a){var
+c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=m1(a[2],e[2]),g=f[2],h=f[1],i=a0(e[1]);return[0,[0,[0,a0(d[1]),i],h],g]}return[0,0,b]}function
+m2(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
 g=bm(a[1],b),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cD(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a0(i[1]),y=a0(h[1]),e=[0,[0,[0,a0(g[1]),y,x,w,v]],u];break;case
 1:var
 k=bm(a[1],b),l=bm(a[2],k[2]),z=l[2],A=a0(l[1]),e=[0,[0,[1,a0(k[1]),A,0]],z];break;default:var
 m=a[1],n=bm(m,b),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cD(a[5],q[2]),s=cD(a[6],r[2]),B=m?a0(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a0(q[1]),H=a0(p[1]),e=[0,[1,[0,B,a0(o[1]),H,G,F,E,D]],C]}var
-t=m4(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dP(a){return jR(o,a)}function
+t=m2(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dO(a){return jS(o,a)}function
 xH(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
@@ -5740,7 +5731,7 @@ i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 2:case
-3:return dP(a[2]);case
+3:return dO(a[2]);case
 4:case
 13:var
 b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
@@ -5756,17 +5747,17 @@ k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
 11:var
 l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],l]):m;case
 13:var
-n=a[4],q=lS(a[3]),r=q?g(o,1,n):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],n]):r;case
+n=a[4],q=lQ(a[3]),r=q?g(o,1,n):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],n]):r;case
 14:return g(o,0,a[3]);case
 15:var
 s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
 2:case
-3:return dP(a[2]);case
+3:return dO(a[2]);case
 0:case
 1:case
 12:return g(o,1,a[1]);default:var
 j=g(o,1,a[2]);return j?g(o,1,a[3]):j}}function
-gb(d){var
+gc(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(d){return function(a){var
 h=h1(a[1]),e=aq(h1(d[1]),h);if(e)var
@@ -5779,55 +5770,55 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eJ(a){if(0===a[0])return dP(k(a[1]));var
+eJ(a){if(0===a[0])return dO(k(a[1]));var
 b=a[2],c=a[1];if(!eg(k(c))&&!eg(k(b))){var
 e=k(c);return g(o,1,[3,k(b),e])}var
 d=k(b);return bg(o,k(c),d)}function
 c8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-m5(a){switch(a[0]){case
+m3(a){switch(a[0]){case
 0:var
 c=[0,a[4],0],d=f(c8(a[3]),c),e=f(c8(a[2]),d);return f(c8(a[1]),e);case
 1:var
 b=a[3],g=b?c8(b[1]):b,h=f(c8(a[2]),g);return f(c8(a[1]),h);default:return c8(a[1])}}function
-m6(s,a,h){if(ak(function(a){return 9===a[1]?1:0},h)){var
+m4(s,a,h){if(ak(function(a){return 9===a[1]?1:0},h)){var
 b=V(j(a),xK),c=b?n(function(a){if(0===a[0]){var
 d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,j=h?g(o,0,k(a[4])):h,c=0;if(j)if(d)var
-p=bE(d[1]),b=n(function(a){return dP(k(a))},p);else{var
+p=bD(d[1]),b=n(function(a){return dO(k(a))},p);else{var
 l=1;c=1}else{var
 l=j;c=1}if(c)var
 b=l}else{var
 m=g(o,1,k(a[4]));if(m)var
-q=bE(a[3]),r=f(bE(a[2]),q),b=n(function(a){return dP(k(a))},r);else
+q=bD(a[3]),r=f(bD(a[2]),q),b=n(function(a){return dO(k(a))},r);else
 var
 b=m}return b?i(s,a):b},a):b;if(c)var
-d=f5(0,a),l=d?1:d,e=l;else
+d=f6(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-m7(a){return a?xL:xM}function
+m5(a){return a?xL:xM}function
 ij(a){switch(a){case
 0:return xN;case
 1:return xO;default:return 0}}function
 cE(a){var
 f=a[1],d=g(o,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bg(o,a[1],a[2]):d;if(e){var
 h=a[2];return g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],h])}return e}function
-dQ(a){var
+dP(a){var
 e=bg(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-m8(c,b,a){if(0===a[0]){var
+m6(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
 l=aK(e,d);return n(function(a){var
 b=k(a[2]);return bg(o,k(a[1]),b)},l)}return h}var
 i=b?g(o,1,k(a[3])):b;if(i){var
 m=k(a[5]);return bg(o,k(a[4]),m)}return i}function
-m9(a,e,F,E,s,r,f){function
+m7(a,e,F,E,s,r,f){function
 t(b){var
-d=m7(a),c=u(j(b),d);return c?n(eJ,b):c}var
+d=m5(a),c=u(j(b),d);return c?n(eJ,b):c}var
 v=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
 G=j(e),l=V(cx(a),G);else
 var
 l=v;var
 w=l?V(j(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
-H=1===a?1:0,m=m8(ij(a),H,E);else
+H=1===a?1:0,m=m6(ij(a),H,E);else
 var
 m=x;if(m)if(a){var
 d=c5(s);switch(d[0]){case
@@ -5836,21 +5827,21 @@ h=0;break;case
 1:var
 A=cE(d[1]),B=A?cE(d[2]):A,h=B?cE(d[3]):B;break;case
 2:var
-h=dQ(d[1]);break;default:var
-C=dQ(d[1]),h=C?dQ(d[2]):C}var
+h=dP(d[1]);break;default:var
+C=dP(d[1]),h=C?dP(d[2]):C}var
 i=h}else
 var
 D=c5(s),J=0===D[0]?cE(D[1]):0,i=J;else
 var
 i=m;if(i)var
-I=j(e),p=m6(function(a){if(0===a[0]){var
+I=j(e),p=m4(function(a){if(0===a[0]){var
 b=a[1],c=V(xJ,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 p=i;if(p)var
-b=j(e),c=cx(a),y=m7(a),q=n(function(a){var
+b=j(e),c=cx(a),y=m5(a),q=n(function(a){var
 e=a[2];if(e)var
 f=e[1],g=V(w3,f),v=g?V(f,b):g,d=v;else
 var
@@ -5877,18 +5868,18 @@ s=r[1];if(1===s[0]){var
 t=u(j(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
 var
 q=p;var
-z=q?gb(f):q;return z?n(ii,dO(0,j(e),r,f)):z}function
-m_(a){switch(a[0]){case
+z=q?gc(f):q;return z?n(ii,dN(0,j(e),r,f)):z}function
+m8(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-m$(a,e,d,Q,m,l){var
+m9(a,e,d,Q,m,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
 b=p?xQ:xR;return u(j(a),b)}var
-h=mQ(e),z=n(function(b){switch(b[0]){case
+h=mO(e),z=n(function(b){switch(b[0]){case
 0:var
 d=$(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
@@ -5901,12 +5892,12 @@ m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)v
 R=j(e),q=V(a6(a),R);else
 var
 q=z;var
-A=q?V(j(e),xS):q,B=A?n(eJ,v(m_,e)):A;if(B){var
+A=q?V(j(e),xS):q,B=A?n(eJ,v(m8,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-S=p?xT:xU,r=m8(S,C,Q)}else
+S=p?xT:xU,r=m6(S,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
@@ -5934,8 +5925,8 @@ i=0;break;case
 1:var
 J=g(o,1,k(x)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,i=L?cE(f[3]):L;break;case
 2:var
-M=g(o,1,k(x)),i=M?dQ(f[1]):M;break;default:var
-N=g(o,1,k(x)),O=N?dQ(f[1]):N,i=O?dQ(f[2]):O}var
+M=g(o,1,k(x)),i=M?dP(f[1]):M;break;default:var
+N=g(o,1,k(x)),O=N?dP(f[1]):N,i=O?dP(f[2]):O}var
 I=i}else
 var
 I=y;var
@@ -5945,18 +5936,18 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=j(e),s=n(function(b){return mN(h,a,T,b)},l);else
+T=j(e),s=n(function(b){return mL(h,a,T,b)},l);else
 var
 s=b;var
-D=s?gb(l):s;return D?n(ii,dO(h,j(e),0,l)):D}function
+D=s?gc(l):s;return D?n(ii,dN(h,j(e),0,l)):D}function
 xV(a){switch(a[0]){case
 0:return fH(a[1][1]);case
 1:var
 b=a[3];return b?fH(b[1]):1;default:return fH(a[1])}}function
 ik(a,k,b,d){var
-e=m6(function(g){if(0===g[0]){var
+e=m4(function(g){if(0===g[0]){var
 c=g[1],d=V(xI,c);if(d){var
-b=M(a,bv(c));if(b){if(2===b[1][0])return 0;var
+b=M(a,bK(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
@@ -5966,39 +5957,39 @@ f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?V(xW,j(a)):f;if(g)var
 l=j(a),c=n(function(a){return wT(l,a)},b);else
 var
 c=g;var
-h=c?gb(b):c,i=h?n(eJ,v(m5,a)):h;return i?n(xH,d[3]):i}function
-gc(b,a){return n(function(c){var
+h=c?gc(b):c,i=h?n(eJ,v(m3,a)):h;return i?n(xH,d[3]):i}function
+gd(b,a){return n(function(c){var
 a=c[2];return a?cl(a[1],b):1},a)}function
-na(a){if(a){var
-b=a[1];if(f6(b))return 0;var
-c=[0,b,na(a[2])]}else
+m_(a){if(a){var
+b=a[1];if(f7(b))return 0;var
+c=[0,b,m_(a[2])]}else
 var
 c=a;return c}function
 xX(a){if(typeof
 a!=="number"&&13===a[0]){var
 d=a[4];if(ey(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
-nb(f,d,b){var
-g=na(b),h=0,c=aI(N,0,e(xX,v(function(a){return h7(h,f,d,a)},g))),a=v(mL,b),i=a?[0,a[1],a[2]]:x1;return N(j(i),c)}function
+m$(f,d,b){var
+g=m_(b),h=0,c=aI(N,0,e(xX,v(function(a){return h7(h,f,d,a)},g))),a=v(mJ,b),i=a?[0,a[1],a[2]]:x1;return N(j(i),c)}function
 il(b,a){var
 c=j(be(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
 im(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-nc(aM,Z,aJ,Y,X,b,aI,B){var
+na(aM,Z,aJ,Y,X,b,aI,B){var
 a=h6(Z,aJ,Y,X),aN=j(B);if(aM)var
 _=0;else
 var
-aE=a[1],aF=e(ga,a[1]),W=fB(id(a[1]),aF,aE),aG=aK(aL(0,j(W)),W),_=e(aH,be(function(a){return fD(a[2])},aG));var
+aE=a[1],aF=e(gb,a[1]),W=fB(id(a[1]),aF,aE),aG=aK(aL(0,j(W)),W),_=e(aH,be(function(a){return fD(a[2])},aG));var
 C=c6(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=ik(Z,Y,X,a),ab=aa?gc(x2,B):aa;if(ab){var
-aO=$[1],D=e(ga,a[1]),c=id(a[1]),aP=im(aI),V=kT(o,a);if(V){var
-l=fB(c,D,a[1]),g=hd(c,D,a[1],0),af=j(a[3]),ag=N(j(l),af),K=[0,j(l),ag],ah=a[3],F=ak(function(a){if(typeof
+aa=ik(Z,Y,X,a),ab=aa?gd(x2,B):aa;if(ab){var
+aO=$[1],D=e(gb,a[1]),c=id(a[1]),aP=im(aI),V=kU(o,a);if(V){var
+l=fB(c,D,a[1]),g=he(c,D,a[1],0),af=j(a[3]),ag=N(j(l),af),K=[0,j(l),ag],ah=a[3],F=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?v(function(a){var
-b=e(bZ,kF(l,a));return[0,a[4],b]},g):F,aj=f(hf(g,c,K,a[3]),ai),am=f(bB(j8(g)),aj),M=f(bB(ei(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
+b=e(bZ,kG(l,a));return[0,a[4],b]},g):F,aj=f(hg(g,c,K,a[3]),ai),am=f(bA(j9(g)),aj),M=f(bA(ei(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
 b=h(d);return av(r(aX(m,a),m,b),a)},M);if(P){var
-Q=ak(q2,a[3]);if(Q){var
+Q=ak(q0,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
-q=p[1],u=bw(d,t);switch(q[0]){case
+q=p[1],u=bv(d,t);switch(q[0]){case
 0:var
 G=q[1],H=fE(b,G[1],u),E=0;if(H){var
 s=al(b,[0,G[4],c]);if(s)var
@@ -6016,10 +6007,10 @@ R=1;var
 w=R;break}}else
 var
 w=Q;if(w){var
-an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bA(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
+an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
 as=aQ(dB(a[2]),c),y=ac(e(function(a){return al(b,a)},as));if(y){var
-at=a[3],z=ac(kH(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
-S=z[1],au=hc(S),aw=y[1],ax=a[2],ay=function(a){return kI(b,ax,c,a)},az=x[1],aA=0,aB=j8(g),aC=i(ar(function(a){return aX(m,a)}),aB),aD=ei(g);return fz(b,O,i(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,aw,au,aO)}var
+at=a[3],z=ac(kI(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
+S=z[1],au=hd(S),aw=y[1],ax=a[2],ay=function(a){return kJ(b,ax,c,a)},az=x[1],aA=0,aB=j9(g),aC=i(ar(function(a){return aX(m,a)}),aB),aD=ei(g);return fz(b,O,i(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,aw,au,aO)}var
 T=z}else
 var
 T=y;var
@@ -6034,24 +6025,24 @@ A=P;return A}return V}var
 ad=ab}else
 var
 ad=C;return ad}function
-x3(a){if(0===a[0])return mY(a[1]);var
+x3(a){if(0===a[0])return mW(a[1]);var
 b=a[1],c=dC(b[6]);return f(dC(b[5]),c)}function
-x4(a){if(0===a[0])return mZ(a[1]);var
+x4(a){if(0===a[0])return mX(a[1]);var
 b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-x5(a){if(0===a[0])return[0,ga(a[1]),d];var
+x5(a){if(0===a[0])return[0,gb(a[1]),d];var
 b=a[1],c=bP(a4(b[2]));return[0,bP(a4(b[1])),c]}function
-nd(f,n,m,l,k,i,y,d){var
-a=mR(f,n,m,l,k,i),p=a[2],b=v(x3,p),x=b?[0,b[1],b[2]]:v(x4,p),h=A(c,bP(x)),q=e(x5,a[2]),r=hO(h,q,a[2]),z=j(d),B=aK(aL(0,j(r)),r),g=c6(e(aH,be(function(a){return fD(a[2])},B)),z,d);if(g){var
+nb(f,n,m,l,k,i,y,d){var
+a=mP(f,n,m,l,k,i),p=a[2],b=v(x3,p),x=b?[0,b[1],b[2]]:v(x4,p),h=A(c,bP(x)),q=e(x5,a[2]),r=hO(h,q,a[2]),z=j(d),B=aK(aL(0,j(r)),r),g=c6(e(aH,be(function(a){return fD(a[2])},B)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=m$(f,n,m,l,k,i),u=t?gc(a6(f),d):t;if(u)return sn(o,y,a,h,q,s[1]);var
+t=m9(f,n,m,l,k,i),u=t?gd(a6(f),d):t;if(u)return sn(o,y,a,h,q,s[1]);var
 w=u}else
 var
 w=g;return w}function
-ne(B,aM,aq,ap,A,ao,h){var
+nc(B,aM,aq,ap,A,ao,h){var
 l=h6(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=m2(B,e(k,ao));if(ar[2])return 0;var
+ar=m0(B,e(k,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
 a=0===h?xD:xE;else
@@ -6130,16 +6121,16 @@ an=0;P=1}}else{var
 an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=il(v(m5,B),ao),au=at?ik(B,aq,ap,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kK(o,l,j,i);if(Q)if(typeof
+at=il(v(m3,B),ao),au=at?ik(B,aq,ap,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kL(o,l,j,i);if(Q)if(typeof
 f==="number")return 0===f?ak(function(b){var
-a=kL(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jX(q4,e(function(b){var
+a=kM(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jY(q2,e(function(b){var
 a=eq(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
 E=M(l[3],f[1]);if(E){var
-aI=E[1],aJ=kM(f[3]);return kR(o,j,i,kM(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=kN(f[3]);return kS(o,j,i,kN(f[2]),aJ,aI)}return E}var
 F=M(l[3],f[1]);if(F){var
 G=M(j,f[2]);if(G){var
-R=G[1],aK=F[1],aL=cW(R,i);return kR(o,j,i,cW(R,i),aL,aK)}var
+R=G[1],aK=F[1],aL=cW(R,i);return kS(o,j,i,cW(R,i),aL,aK)}var
 S=G}else
 var
 S=F;return S}return Q}var
@@ -6155,18 +6146,18 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-nf(m,l,b,k,z,y){var
+nd(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
 g=d[1],h=M(f,g),n=h?cl(h[1][2],x8):h;if(n)var
-A=d[2],i=nf(m,l,b,k,ic(0,g,f),A);else
+A=d[2],i=nd(m,l,b,k,ic(0,g,f),A);else
 var
 i=n;if(i){var
 B=d[3],f=ic(1,g,f),d=B;continue}return i}var
-c=d[1],a=mW(0,m,f),o=e(function(b){function
-d(b){return mX(a,b)}function
+c=d[1],a=mU(0,m,f),o=e(function(b){function
+d(b){return mV(a,b)}function
 c(a){return ia(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mX(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mV(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
 q=b[2],r=ia(function(b){return an(a,b)},q),s=b[1],j=[0,ia(function(b){return an(a,b)},s),r];else
@@ -6195,29 +6186,29 @@ i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return nc(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return ne(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-ng(h,g){var
+1:return na(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return nc(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+ne(h,g){var
 a=cr(k(h));if(a){var
 b=a[1],e=cK([0,d,c],b);if(e)return cK(b,g);var
 f=e}else
 var
 f=a;return f}function
 yc(q){var
-d4=f4(q[3]),d5=d4?f4(q[4]):d4;if(d5){var
+d4=f5(q[3]),d5=d4?f5(q[4]):d4;if(d5){var
 Q=q[1];switch(Q[0]){case
 3:var
 d$=n(eF,Q[1]);if(d$)var
 hq=Q[2],bT=n(function(a){return eF(a[1])},hq);else
 var
 bT=d$;if(bT)var
-hs=Q[3],bU=n(function(a){var
-b=eF(a[1]),c=b?h4(a[2]):b;return c?eG(a[2]):c},hs);else
+hr=Q[3],bU=n(function(a){var
+b=eF(a[1]),c=b?h4(a[2]):b;return c?eG(a[2]):c},hr);else
 var
 bU=bT;if(bU)var
-hu=Q[4],aS=n(function(a){var
+ht=Q[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=h4(a);return b?eG(a):b},b)},hu);else
+b=h4(a);return b?eG(a):b},b)},ht);else
 var
 aS=bU;break;case
 7:var
@@ -6229,38 +6220,38 @@ var
 bR=d5;var
 cF=0;if(bR){var
 d6=q[1],bS=7===d6[0]?e(aH,d6[1]):0,d7=function(c,b){var
-a=mI(c);return a?n(function(a){var
+a=mG(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f4(a[2]);if(b){var
+b=f5(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f4(a[1]);case
+1:return f5(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eH(bS,mH(c[1]));var
+c=a[3];if(c)return eH(bS,mF(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d8=function(e,d,c,b){var
-a=mI(e);return a?eH(bS,f(d,f(c,mH(b)))):a},l=q[1];switch(l[0]){case
+a=mG(e);return a?eH(bS,f(d,f(c,mF(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=v(c3,l[4]),gX=f(v(mF,l[3]),gW),gY=f(mD(l[2]),gX),S=f(v(h5,l[1]),gY);break;case
+gW=v(c3,l[4]),gX=f(v(mD,l[3]),gW),gY=f(mB(l[2]),gX),S=f(v(h5,l[1]),gY);break;case
 1:var
-bL=l[5],bN=l[3],gZ=v(c3,l[6]),g0=bL?mE(bL[1]):bL,g1=f(g0,gZ),g2=f(mC(l[4]),g1),g3=bN?[0,bN[1],0]:bN,g4=f(g3,g2),S=f(v(wO,l[2]),g4);break;case
+bL=l[5],bN=l[3],gZ=v(c3,l[6]),g0=bL?mC(bL[1]):bL,g1=f(g0,gZ),g2=f(mA(l[4]),g1),g3=bN?[0,bN[1],0]:bN,g4=f(g3,g2),S=f(v(wO,l[2]),g4);break;case
 2:var
-g5=v(c3,l[7]),g6=f(v(mF,l[6]),g5),g7=f(mE(l[5]),g6),g8=f(mC(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(v(function(a){return v(dM,f(a[1],a[2]))},g_),g9);break;case
+g5=v(c3,l[7]),g6=f(v(mD,l[6]),g5),g7=f(mC(l[5]),g6),g8=f(mA(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(v(function(a){return v(dL,f(a[1],a[2]))},g_),g9);break;case
 3:var
-g$=v(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),he=l[2],S=f(v(function(a){return dM(a[2])},he),hb);break;case
+g$=v(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(v(function(a){return dL(a[2])},hc),hb);break;case
 4:var
-hh=v(c3,l[3]),S=[0,l[1],[0,l[2],hh]];break;case
+hf=v(c3,l[3]),S=[0,l[1],[0,l[2],hf]];break;case
 5:var
-hj=v(c3,l[4]),hk=f(bE(l[3]),hj),hl=f(bE(l[2]),hk),hm=f(v(h5,l[1]),hl),S=[0,l[5],hm];break;case
+hi=v(c3,l[4]),hk=f(bD(l[3]),hi),hl=f(bD(l[2]),hk),hm=f(v(h5,l[1]),hl),S=[0,l[5],hm];break;case
 6:var
-bQ=l[1],S=bQ?dM(bQ[1]):bQ;break;default:var
-hn=v(c3,l[4]),ho=f(mD(l[3]),hn),S=f(v(h5,l[2]),ho)}var
+bQ=l[1],S=bQ?dL(bQ[1]):bQ;break;default:var
+hn=v(c3,l[4]),ho=f(mB(l[3]),hn),S=f(v(h5,l[2]),ho)}var
 d9=eH(bS,S);if(d9){var
 T=q[2];switch(T[0]){case
 0:var
@@ -6277,20 +6268,20 @@ aB=d_;if(aB){var
 a=q[1];switch(a[0]){case
 0:var
 eP=a[4],eQ=a[3],eR=a[2],eS=a[1],ab=q[2];switch(ab[0]){case
-0:return nc(0,eS,eR,eQ,eP,ab[1],ab[2],ab[3]);case
-1:return ne(eS,eR,eQ,eP,ab[2],ab[3],ab[4]);default:return 0}case
+0:return na(0,eS,eR,eQ,eP,ab[1],ab[2],ab[3]);case
+1:return nc(eS,eR,eQ,eP,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
 b$=a[6],ca=a[5],cb=a[4],cd=a[3],aC=a[2],ad=a[1],an=q[2];switch(an[0]){case
-0:return nd(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
+0:return nb(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
 1:var
 eT=an[3],hW=an[4],hX=an[2],em=typeof
-ad==="number"?ad?x6:x7:ij(ad[1]),b5=e(k,hX),en=m4(aC,e(k,eT));if(en[2])return 0;var
+ad==="number"?ad?x6:x7:ij(ad[1]),b5=e(k,hX),en=m2(aC,e(k,eT));if(en[2])return 0;var
 b6=ig(hW);if(b6){var
-er=il(v(m_,aC),eT),eu=er?m$(ad,aC,cd,cb,ca,b$):er;if(eu)var
+er=il(v(m8,aC),eT),eu=er?m9(ad,aC,cd,cb,ca,b$):er;if(eu)var
 hI=a6(ad),b8=u(j(b5),hI);else
 var
 b8=eu;if(b8){var
-hJ=b6[1],s=dl(em,b5),F=a0(b1(em,b5)),am=en[1],X=mR(ad,aC,cd,cb,ca,b$),c1=l0(o,X[2],am);if(c1){var
+hJ=b6[1],s=dl(em,b5),F=a0(b1(em,b5)),am=en[1],X=mP(ad,aC,cd,cb,ca,b$),c1=lY(o,X[2],am);if(c1){var
 cY=cT(o,X[4],F),cG=0;if(cY){var
 cZ=X[5];if(cZ)var
 ba=fJ(o,cZ[1],s);else
@@ -6302,70 +6293,70 @@ ba=c0;var
 bb=ba}else
 var
 bb=c1;if(bb){var
-C=X[5],c2=X[3],aJ=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
-d=cc(C,s,F,a),b=eq(a[1],d);return[0,lY(aJ,b,at([5,[0,c,c],c2],et(hL(C,s,fT(a)),b)))]}return 0},am),fR=v(function(a){if(0===a[0]){var
-c=cc(C,s,F,a),b=kL(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=cc(C,s,F,a);return[0,k3(a[1],e),0]},am),fS=e(function(d){var
+C=X[5],c2=X[3],aJ=X[1],fX=X[6],fP=e(function(a){if(0===a[0]){var
+d=cc(C,s,F,a),b=eq(a[1],d);return[0,lW(aJ,b,at([5,[0,c,c],c2],et(hL(C,s,fU(a)),b)))]}return 0},am),fR=v(function(a){if(0===a[0]){var
+c=cc(C,s,F,a),b=kM(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=cc(C,s,F,a);return[0,k4(a[1],e),0]},am),fS=e(function(d){var
 b=cc(C,s,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,ay(e)),l=ep(e,h,g,b);return[0,[0,lZ(aJ,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fG(c,b),o=k6(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lZ(aJ,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fV=e(function(a){if(0===a[0]){var
-c=cc(C,s,F,a);return[0,hg(a[1],c)]}var
-b=a[1],d=k5(b,cc(C,s,F,a));return[1,k4(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
+f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,az(e)),l=ep(e,h,g,b);return[0,[0,lX(aJ,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fG(c,b),o=k7(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lX(aJ,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fT=e(function(a){if(0===a[0]){var
+c=cc(C,s,F,a);return[0,hh(a[1],c)]}var
+b=a[1],d=k6(b,cc(C,s,F,a));return[1,k5(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
 k=cc(C,s,F,a),d=cW(a[1],k);else
 var
-e=cc(C,s,F,a),b=a[1],f=k6(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lY(aJ,d,at([5,[0,c,c],c2],et(hL(C,s,fT(a)),d)))},am),fV,fS,fR,fQ];return k0(o,a6(X[1]),fW,fX,hJ)}return bb}var
+e=cc(C,s,F,a),b=a[1],f=k7(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lW(aJ,d,at([5,[0,c,c],c2],et(hL(C,s,fU(a)),d)))},am),fT,fS,fR,fP];return k1(o,a6(X[1]),fW,fX,hJ)}return bb}var
 ev=b8}else
 var
 ev=b6;return ev;default:return 0}case
 2:var
 aD=a[7],aE=a[6],aW=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-ce=ag[3],ah=mP(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eU=A(c,bP(v(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=j(ce),cf=c6(lU(eU,ah[2]),hZ,ce);if(cf){var
+ce=ag[3],ah=mN(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eU=A(c,bP(v(function(a){var
+b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=j(ce),cf=c6(lS(eU,ah[2]),hZ,ce);if(cf){var
 eV=cf[1];if(eV[2])return 0;var
-eW=m9(ao,af,aZ,aY,aW,aE,aD),eX=eW?gc(cx(ao),ce):eW;if(eX){var
-h0=eV[1],h1=nb(j(af),aE,aD),h2=im(ag[2]),h3=ag[1],fM=ah[2],cX=n(function(a){var
-b=lX(o,a[1]);return b?lX(o,a[2]):b},fM);if(cX)var
-fN=hi(ah[4]),a_=cT(o,ah[4],fN);else
+eW=m7(ao,af,aZ,aY,aW,aE,aD),eX=eW?gd(cx(ao),ce):eW;if(eX){var
+h0=eV[1],h1=m$(j(af),aE,aD),h2=im(ag[2]),h3=ag[1],fM=ah[2],cX=n(function(a){var
+b=lV(o,a[1]);return b?lV(o,a[2]):b},fM);if(cX)var
+fN=hj(ah[4]),a_=cT(o,ah[4],fN);else
 var
 a_=cX;if(a_)var
-fO=fP(ah[5]),a$=n(function(a){return ez(o,a)},fO);else
+fO=fQ(ah[5]),a$=n(function(a){return ez(o,a)},fO);else
 var
 a$=a_;return a$?r3(h3,h2,h1,ah,eU,h0):a$}var
 eY=eX}else
 var
 eY=cf;return eY;case
 1:var
-a1=ag[4],eZ=ag[3],a2=e(k,ag[2]),ap=ij(ao),e0=m3(af,e(k,eZ));if(e0[2])return 0;var
-J=e0[1],e1=il(v(function(a){return f(a[1],a[2])},af),eZ),e2=e1?m9(ao,af,aZ,aY,aW,aE,aD):e1;if(e2){var
-p=mP(ao,af,aZ,aY,aW,aE,aD);if(typeof
+a1=ag[4],eZ=ag[3],a2=e(k,ag[2]),ap=ij(ao),e0=m1(af,e(k,eZ));if(e0[2])return 0;var
+J=e0[1],e1=il(v(function(a){return f(a[1],a[2])},af),eZ),e2=e1?m7(ao,af,aZ,aY,aW,aE,aD):e1;if(e2){var
+p=mN(ao,af,aZ,aY,aW,aE,aD);if(typeof
 a1!=="number"&&2===a1[0]){var
-e4=e(k,a1[1]),e5=dl(ap,e4),e6=a0(b1(ap,e4)),e7=dl(ap,a2),e8=a0(b1(ap,a2)),dE=le(o,p[2],J);if(dE)var
-gB=cx(p[1]),bx=u(j(J),gB);else
+e4=e(k,a1[1]),e5=dl(ap,e4),e6=a0(b1(ap,e4)),e7=dl(ap,a2),e8=a0(b1(ap,a2)),dE=lf(o,p[2],J);if(dE)var
+gB=cx(p[1]),bw=u(j(J),gB);else
 var
-bx=dE;var
-dF=bx?cT(o,p[4],e8):bx,dG=dF?cT(o,p[4],e6):dF,dH=dG?fJ(o,p[5],e7):dG,dI=dH?fJ(o,p[5],e5):dH;if(dI){var
+bw=dE;var
+dF=bw?cT(o,p[4],e8):bw,dG=dF?cT(o,p[4],e6):dF,dH=dG?fJ(o,p[5],e7):dG,dI=dH?fJ(o,p[5],e5):dH;if(dI){var
 dJ=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
-h=e(function(a){return ld(dJ,gD,gC,f,g,a)},J),i=cx(dJ),a=mj(o,h);function
+h=e(function(a){return le(dJ,gD,gC,f,g,a)},J),i=cx(dJ),a=mh(o,h);function
 b(a,b){return x(o,a,b)}var
-d=W(o,c);return w(function(a){return mh(B,d,D,b,i,a)},a)},bu=dv(e8,e7);if(bu){var
-dw=bu[1],bw=dv(e6,e5);if(bw){var
-dx=bw[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
+d=W(o,c);return w(function(a){return mf(B,d,D,b,i,a)},a)},bu=dv(e8,e7);if(bu){var
+dw=bu[1],bv=dv(e6,e5);if(bv){var
+dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
 dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
 dA=dD}var
 dB=dA}else
 var
-dB=bw;var
+dB=bv;var
 dC=dB}else
 var
 dC=bu;return dC}return dI}var
 cg=ig(a1);if(cg){var
-h8=cg[1],as=dl(ap,a2),aF=a0(b1(ap,a2)),cN=le(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fJ(o,p[5],as):cO;if(cP){var
+h8=cg[1],as=dl(ap,a2),aF=a0(b1(ap,a2)),cN=lf(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fJ(o,p[5],as):cO;if(cP){var
 ax=p[5],cR=p[3],cS=p[1],fL=p[6],cM=function(a){var
-b=fK(ax,as,aF,a);return R(fK(ax,as,aF,a),b)},fA=e(function(a){return[0,ld(cS,cR,ax,as,aF,a)]},J),fD=e(cM,J),fE=e(function(a){return 0},J),fF=e(function(a){return[0,[6,cM(a)]]},J),fH=[0,e(function(b){var
-a=ay(fK(ax,as,aF,b));return ht(cS,a,at([5,[0,c,c],cR],et(fI(ax,as,b[2]),a)))},J),fF,fE,fD,fA];return k0(o,cx(p[1]),fH,fL,h8)}return cP}var
+b=fK(ax,as,aF,a);return R(fK(ax,as,aF,a),b)},fA=e(function(a){return[0,le(cS,cR,ax,as,aF,a)]},J),fD=e(cM,J),fE=e(function(a){return 0},J),fF=e(function(a){return[0,[6,cM(a)]]},J),fH=[0,e(function(b){var
+a=az(fK(ax,as,aF,b));return hu(cS,a,at([5,[0,c,c],cR],et(fI(ax,as,b[2]),a)))},J),fF,fE,fD,fA];return k1(o,cx(p[1]),fH,fL,h8)}return cP}var
 e3=cg}else
 var
 e3=e2;return e3;default:return 0}case
@@ -6376,12 +6367,12 @@ fa=cj[1];if(fa[2])return 0;var
 hG=j(ch),hH=j(e9),ef=u(j(e_),hH),eg=ef?n(function(a){var
 b=a7(hG,j(Y),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bv(d[1]),0]:aL(0,j(Y));return n(function(b){var
-a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ef,eh=eg?gb(au):eg,el=eh?n(function(a){return eJ(a[2])},e$):eh,fb=el?n(ii,dO(0,j(Y),0,au)):el,fc=fb?gc(j(ch),ci):fb;if(fc){var
-h9=fa[1],h_=a[3],eb=ak(f6,au),aT=dO(0,j(Y),0,au),hw=aK(e_,e9),bV=e(function(a){var
+d=a[2],e=d?[0,bK(d[1]),0]:aL(0,j(Y));return n(function(b){var
+a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ef,eh=eg?gc(au):eg,el=eh?n(function(a){return eJ(a[2])},e$):eh,fb=el?n(ii,dN(0,j(Y),0,au)):el,fc=fb?gd(j(ch),ci):fb;if(fc){var
+h9=fa[1],h_=a[3],eb=ak(f7,au),aT=dN(0,j(Y),0,au),hw=aK(e_,e9),bV=e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
 b=cC(a[2]);return[0,a[1],b]},h_),m=[0,ch,e(function(a){var
-b=bF(a[2]);return[0,a[1],b]},e$),hy,hx],ia=nb(j(Y),0,au),fd=im(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=j(m[1]),dn=V(so,bq),dp=dn?V(bq,sp):dn,dq=dp?V(bq,j(m[4])):dp,dr=dq?V(j(m[4]),sq):dq,ds=dr?mf(bp):dr;if(ds){var
+b=bE(a[2]);return[0,a[1],b]},e$),hy,hx],ia=m$(j(Y),0,au),fd=im(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=j(m[1]),dn=V(so,bq),dp=dn?V(bq,sp):dn,dq=dp?V(bq,j(m[4])):dp,dr=dq?V(j(m[4]),sq):dq,ds=dr?md(bp):dr;if(ds){var
 aP=bp,aO=m[3];for(;;){if(aO){var
 di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hS(aP,di[2]):dk;if(dm){var
 aP=[0,dj,aP],aO=aO[2];continue}var
@@ -6399,29 +6390,29 @@ gA=m[2],bt=n(function(a){return bg(o,a[2][1],a[2][2])},gA);else
 var
 bt=bs;var
 du=bt?n(function(a){return bg(o,a[1],a[2])},bV):bt;if(du){var
-bd=j(m[1]),bf=j(m[2]),c7=N(bf,j(hP(e(bZ,m[3])))),f3=m[3],az=me(m),aM=f3,bc=bf;for(;;){if(aM){var
-c4=aM[1],c5=c4[2],f0=N(bc,j(bD(c5))),f1=aM[2],f2=bk(az,c5,bc),az=[0,[0,c4[1],f2],az],aM=f1,bc=f0;continue}var
-aa=mb(bd,az,m[4],c7),f5=ma(az,m[4],c7),f8=m[3],c8=f(l9(me(m),f8,bf),f5),c9=j(md(m)),f_=0,gd=f(c8,cw(function(a,b){return l6(aa,a,b)},f_,d,c9,aT)),ge=f(bB(eA(aa)),gd),c_=f(bB(fU(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(j(bV),bd);if(c$)var
+bd=j(m[1]),bf=j(m[2]),c7=N(bf,j(hP(e(bZ,m[3])))),f3=m[3],ay=mc(m),aM=f3,bc=bf;for(;;){if(aM){var
+c4=aM[1],c5=c4[2],fY=N(bc,j(bC(c5))),f1=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c4[1],f2],ay],aM=f1,bc=fY;continue}var
+aa=l$(bd,ay,m[4],c7),f4=l_(ay,m[4],c7),f6=m[3],c8=f(l7(mc(m),f6,bf),f4),c9=j(mb(m)),f9=0,f$=f(c8,cw(function(a,b){return l4(aa,a,b)},f9,d,c9,aT)),ge=f(bA(eA(aa)),f$),c_=f(bA(fV(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(j(bV),bd);if(c$)var
 gg=m[4],bi=n(function(a){return 0===a[0]?u(j(a[1]),bd):1},gg);else
 var
 bi=c$;var
 da=bi?n(function(a){var
-b=h(d),c=co(bh);return av(r(aj(a),c,b),a)},c_):bi,db=da?ak(l8,aT):da;if(db){var
+b=h(d),c=co(bh);return av(r(aj(a),c,b),a)},c_):bi,db=da?ak(l6,aT):da;if(db){var
 dc=$(eb);if(dc)var
 aN=dc;else
 var
 gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
-gh=md(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
-gi=0,gj=v(function(a){return es(gi,d,a)},aT),bl=ac(e(function(a){return hr(aG,a)},gj));if(bl){var
+gh=mb(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
+gi=0,gj=v(function(a){return es(gi,d,a)},aT),bl=ac(e(function(a){return hs(aG,a)},gj));if(bl){var
 bm=ac(e(function(a){return al(aG,[0,a,d])},bV));if(bm){var
-gk=0,gl=0,bn=ac(cw(function(a,b){return l7(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
+gk=0,gl=0,bn=ac(cw(function(a,b){return l5(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
 dd=bn[1];if(eb)var
-gm=fd[2],gn=fd[1],go=eA(aa),bo=kU(ia,dd,[8,i(ar(aj),go),gn,gm]);else
+gm=fd[2],gn=fd[1],go=eA(aa),bo=kV(ia,dd,[8,i(ar(aj),go),gn,gm]);else
 var
 bo=dd;var
-gp=hc(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eA(aa),gv=i(ar(aj),gu),gw=fU(aa);return fz(aG,bh,i(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
+gp=hd(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eA(aa),gv=i(ar(aj),gu),gw=fV(aa);return fz(aG,bh,i(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
 de=bn}else
 var
 de=bm;var
@@ -6439,8 +6430,8 @@ var
 fe=cj;return fe}return 0;case
 4:var
 ck=q[2];if(0===ck[0]){var
-aI=a[3],G=a[2],cl=a[1],ic=ck[3],io=ck[1],eC=dP(k(cl));if(eC){var
-aU=be(mS,aI),cH=0;if(aU){var
+aI=a[3],G=a[2],cl=a[1],ic=ck[3],io=ck[1],eC=dO(k(cl));if(eC){var
+aU=be(mQ,aI),cH=0;if(aU){var
 bW=aU[1];if(bW[2]||bW[3])var
 y=0;else{var
 aV=bW[4],U=aU[2],K=0;if(typeof
@@ -6473,19 +6464,19 @@ ec=0;cH=1}}}else{var
 ec=aU;cH=1}if(cH)var
 y=ec;if(y){var
 eD=y[1],z=eD[2],eE=k(z),eI=k(eD[1]),dQ=g(o,1,k(G)),dR=dQ?g(o,1,[3,eE,[0,c,c]]):dQ,dS=dR?g(o,1,eI):dR,eK=dS?g(o,0,[3,[5,[0,c,c],eE],eI]):dS;if(eK)var
-hN=0,hO=0,b9=n(function(a){return mN(hO,hN,yb,a)},aI);else
+hN=0,hO=0,b9=n(function(a){return mL(hO,hN,yb,a)},aI);else
 var
 b9=eK;var
 eL=b9?n(function(b){if(1===b[1]){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aI):b9;if(eL){var
-b3=be(function(a){return $(mT(a))},aI);if(b3){var
+b3=be(function(a){return $(mR(a))},aI);if(b3){var
 hQ=[0,b(2,c),c],E=g(o,0,[3,k(z),hQ]);if(E)var
 b_=E;else
 var
 hV=k(z),b_=g(o,0,[3,[0,b(2,c),c],hV]);if(b_){var
 eB=v(function(a){var
-b=h7(0,x_,0,a);return e(function(b){return $(mT(a))},b)},aI),hK=function(f){var
+b=h7(0,x_,0,a);return e(function(b){return $(mR(a))},b)},aI),hK=function(f){var
 g=f[1];if(g){var
 h=g[1],i=r(h,eB,0);if(i)var
 l=b1(h,eB),k=[0,[0,j(be(function(a){return a},l))]];else
@@ -6497,11 +6488,11 @@ a=ya;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
 2:return[0,[0,b,[1,x$,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hM=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,v(hK,a[1]),d,c,b]},ic),hR=[0,b3[1],b3[2]],hz=[0,h$(E,G,z),0],hA=[0,h$(E,G,z),hz],hB=[0,h$(E,G,z),hA],hC=[0,f9(E,G,z),0],hD=[0,f9(E,G,z),hC],hT=0,hE=[0,[0,f9(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
-d=u(b,c)?a:w7;return[0,d]},w9)};return nd(0,e(function(a){var
-e=[0,f7(E,G,z)],d=1,f=b4(a,[2,cl]);function
+b=a[4],c=a[3],d=a[2];return[0,v(hK,a[1]),d,c,b]},ic),hR=[0,b3[1],b3[2]],hz=[0,h$(E,G,z),0],hA=[0,h$(E,G,z),hz],hB=[0,h$(E,G,z),hA],hC=[0,f_(E,G,z),0],hD=[0,f_(E,G,z),hC],hT=0,hE=[0,[0,f_(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
+d=u(b,c)?a:w7;return[0,d]},w9)};return nb(0,e(function(a){var
+e=[0,f8(E,G,z)],d=1,f=b4(a,[2,cl]);function
 b(b,a){return[3,1,b,a]}var
-c=f7(E,G,z),g=b4(a,b(b(f9(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hT,hR,io,hM)}return b_}var
+c=f8(E,G,z),g=b4(a,b(b(f_(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hT,hR,io,hM)}return b_}var
 eM=1}else
 var
 eM=eL;var
@@ -6515,17 +6506,17 @@ eO=eC;return eO}return 0;case
 cm=a[4],ff=a[1],cn=q[2];if(0===cn[0]){var
 fg=cn[3],t=h6(ff,[0,a[2],a[3]],0,cm),cq=ih(j(fg),fg);if(cq){var
 fh=cq[1];if(fh[2])return 0;var
-fi=ik(ff,0,cm,t),fj=fi?$(ak(f6,cm)):fi;if(fj){var
-fk=kT(o,t);if(fk){var
-ip=fh[1],fl=e(ga,t[1]),I=id(t[1]),fm=k(a[5]),Z=cn[1],bC=fB(I,fl,t[1]),O=hd(I,fl,t[1],0),gI=j(t[3]),gJ=N(j(bC),gI),aR=[0,j(bC),gJ],gK=hf(O,I,aR,t[3]),gL=f(e(ct,O),gK),dW=f(bB(ei(O)),gL),dX=cp(dW)[1],bG=co(dX),dY=t[2];if(0===dY[0]){var
+fi=ik(ff,0,cm,t),fj=fi?$(ak(f7,cm)):fi;if(fj){var
+fk=kU(o,t);if(fk){var
+ip=fh[1],fl=e(gb,t[1]),I=id(t[1]),fm=k(a[5]),Z=cn[1],bB=fB(I,fl,t[1]),O=he(I,fl,t[1],0),gI=j(t[3]),gJ=N(j(bB),gI),aR=[0,j(bB),gJ],gK=hg(O,I,aR,t[3]),gL=f(e(ct,O),gK),dW=f(bA(ei(O)),gL),dX=cp(dW)[1],bF=co(dX),dY=t[2];if(0===dY[0]){var
 dZ=n(function(a){var
-b=h(d);return av(r(aX(bG,a),bG,b),a)},dW),d0=dZ?g(o,1,fm):dZ;if(d0){var
-gM=t[3],gN=v(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bC,f(e(function(a){return bA(I,a)},gO),gN)),bH=ac(e(function(a){return al(Z,a)},gP));if(bH){var
-gQ=aQ(dY[1],I),bI=ac(e(function(a){return al(Z,a)},gQ));if(bI){var
-bJ=cs(Z,I,[5,fm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bJ){var
-bK=t[3],gR=bI[1],gS=bJ[1],gT=bH[1],aA=function(a){return aX(bG,a)},gF=aL(0,j(bK)),gG=e(function(k){var
-l=M(bK,k);if(l){var
-a=l[1],u=b1(k,bK),x=j(v(function(a){return cQ(I,a)},u)),y=N(aR[2],x),h=[0,N(aR[1],k),y],r=ei(O),f=i(ar(aA),r),b=[1,[8,[1,[1,h[1]]]]],d=fC(O,I,h,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=h(d);return av(r(aX(bF,a),bF,b),a)},dW),d0=dZ?g(o,1,fm):dZ;if(d0){var
+gM=t[3],gN=v(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
+gQ=aQ(dY[1],I),bH=ac(e(function(a){return al(Z,a)},gQ));if(bH){var
+bI=cs(Z,I,[5,fm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bI){var
+bJ=t[3],gR=bH[1],gS=bI[1],gT=bG[1],aA=function(a){return aX(bF,a)},gF=aL(0,j(bJ)),gG=e(function(k){var
+l=M(bJ,k);if(l){var
+a=l[1],u=b1(k,bJ),x=j(v(function(a){return cQ(I,a)},u)),y=N(aR[2],x),h=[0,N(aR[1],k),y],r=ei(O),f=i(ar(aA),r),b=[1,[8,[1,[1,h[1]]]]],d=fC(O,I,h,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -6545,7 +6536,7 @@ t=eo(O,I,h,a);return w(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l
 l=az,h=ay;for(;;){if(0===h[0]){var
 t=h[1],ab=u(j(t),sB),ac=ab?n(function(a){var
 d=H(P(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},t):ab;if(ac){var
-ad=mt(Z,gS,ej(0,l),t),i=h[2],v=bM(0,b7(Z,ad,dU),dX,0),L=function(a){return ms(mr(Z,ad,dU,v,a))};if(typeof
+ad=mr(Z,gS,ej(0,l),t),i=h[2],v=bM(0,b7(Z,ad,dU),dX,0),L=function(a){return mq(mp(Z,ad,dU,v,a))};if(typeof
 i==="number")return 0===i?ak(function(b){var
 a=r(b,v,0);return a?H(a[1][2][2],d):a},dT):0;else{if(0===i[0]){var
 a=i[2],O=n(sz,a);if(O){var
@@ -6554,13 +6545,13 @@ g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=fZ(B,A),ao=fY(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=f0(B,A),ao=fZ(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=fY(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,fZ(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=fZ(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f0(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6568,7 +6559,7 @@ z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=fY(I),as=[1,[6,fZ(m,G),ar]],at=[1,[6,g[2],as]],au=fY(G),J=[0,[0,m,[0,[1,[4,[1,[6,fZ(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=fZ(I),as=[1,[6,f0(m,G),ar]],at=[1,[6,g[2],as]],au=fZ(G),J=[0,[0,m,[0,[1,[4,[1,[6,f0(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6577,7 +6568,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return ms(r(a[2],v,0))},aw);if(R)return n(L,Q[2]);var
+Q=f[1],aw=Q[1],R=n(function(a){return mq(r(a[2],v,0))},aw);if(R)return n(L,Q[2]);var
 S=R}else
 var
 S=f;var
@@ -6609,12 +6600,12 @@ aj=ag;var
 al=aj}else
 var
 al=w;return al}};return dV(gR,ip)}var
-d1=bJ}else
+d1=bI}else
 var
-d1=bI;var
+d1=bH;var
 d2=d1}else
 var
-d2=bH;var
+d2=bG;var
 d3=d2}else
 var
 d3=d0;return d3}return 0}var
@@ -6629,55 +6620,55 @@ fp=a[1];if(fp){var
 fq=fp[1],cu=q[2];if(0===cu[0]){var
 cv=ie(0,yd,cu[3]);if(cv){var
 fr=eJ(fq);if(fr){var
-iq=cv[1],fs=bF(fq)[2],a5=cu[1],by=cs(a5,d,fs);if(by){var
-bz=cs(a5,d,[5,[0,c,c],fs]);if(bz){var
-gE=by[1][1],dK=L(cL(a5),gE);if(dK)return mq(a5,bz[1][1],iq);var
-dL=dK}else
+iq=cv[1],fs=bE(fq)[2],a5=cu[1],bx=cs(a5,d,fs);if(bx){var
+by=cs(a5,d,[5,[0,c,c],fs]);if(by){var
+gE=bx[1][1],dK=L(cL(a5),gE);if(dK)return mo(a5,by[1][1],iq);var
+dM=dK}else
 var
-dL=bz;var
-dN=dL}else
+dM=by;var
+dP=dM}else
 var
-dN=by;return dN}var
+dP=bx;return dP}var
 ft=fr}else
 var
 ft=cv;return ft}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=ie(0,ye,cy[3]);return cz?mq(cy[1],d,cz[1]):cz}return 0;default:var
+cz=ie(0,ye,cy[3]);return cz?mo(cy[1],d,cz[1]):cz}return 0;default:var
 aw=a[1],fu=q[2];if(2===fu[0]){var
 fv=fu[1],cA=ib(j(fv),fv);if(cA){var
 fw=cA[1];if(fw[2])return 0;var
-cB=fw[1],ew=V(x9,j(aw)),ex=ew?V(j(aw),jG):ew,ey=ex?mf(e(aH,aw)):ex,fx=ey?n(function(c){var
+cB=fw[1],ew=V(x9,j(aw)),ex=ew?V(j(aw),jH):ew,ey=ex?md(e(aH,aw)):ex,fx=ey?n(function(c){var
 a=cr(k(c[2][1]));if(a){var
 b=cr(k(c[2][2]));if(b)return $(cK(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},aw):ey;if(fx)var
-ir=f$(w$,cB),cD=ng(a[5],ir);else
+ir=ga(w$,cB),cD=ne(a[5],ir);else
 var
 cD=fx;if(cD)var
-is=f$(xa,cB),cE=ng(a[6],is);else
+is=ga(xa,cB),cE=ne(a[6],is);else
 var
 cE=cD;if(cE){var
-hF=e(function(a){return[0,d,0]},aw);return nf(aw,a[2],a[3],a[4],hF,cB)}var
+hF=e(function(a){return[0,d,0]},aw);return nd(aw,a[2],a[3],a[4],hF,cB)}var
 fy=cE}else
 var
 fy=cA;return fy}return 0}}return aB}var
-O=[aM,yh,pv(0)],nh=[aM,yi,pv(0)];function
+O=[aM,yh,pt(0)],nf=[aM,yi,pt(0)];function
 yf(m,b){var
 f=[0,l(wu,am(b[4])),0],g=[0,l(ww,aa([0,l(wv,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=J(wq,mA(a[1],a[2],a[3]));break;case
+c=J(wq,my(a[1],a[2],a[3]));break;case
 1:var
-c=J(wr,mB(a[1],a[2],a[3],a[4]));break;default:var
+c=J(wr,mz(a[1],a[2],a[3],a[4]));break;default:var
 c=J(ws,C(e(wl,a[1])))}var
-h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(jd(yg,f0(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
+h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(je(yg,f1(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
 ad(a){if(0===a[0])return a[1];throw O}function
 Z(a){if(1===a[0])return a[1];throw O}function
 aJ(a){if(2===a[0])return a[1];throw O}function
-dR(a){if(3===a[0])return a[1];throw O}function
+dQ(a){if(3===a[0])return a[1];throw O}function
 aR(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===El(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Ek(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 s(c,b){var
 a=aR(c,b);if(a)return a[1];throw O}function
@@ -6692,10 +6683,10 @@ eK(e,d){var
 a=U(e,Z(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw O}function
-gd(i){var
-f=d2(i),d=[0,0],e=gH(f)-1|0;if(!(e<0)){var
+ge(i){var
+f=d1(i),d=[0,0],e=gI(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iU(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
+a=d[1],g=iV(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6717,20 +6708,20 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eL(a){return js(gd(a))}function
+eL(a){return jt(ge(a))}function
 eM(b){var
-a=dR(b);return 45===aN(a,0)?P(eL(di(a,1,ap(a)-1|0))):eL(a)}function
-ni(a){return d8(eL(dR(a)))}function
-ge(a){return jr(eL(dR(a)))}function
+a=dQ(b);return 45===aN(a,0)?P(eL(di(a,1,ap(a)-1|0))):eL(a)}function
+ng(a){return d8(eL(dQ(a)))}function
+gf(a){return js(eL(dQ(a)))}function
 cF(c){var
-a=dR(c);if(6<ap(a))throw O;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(i2(a))}function
-nj(a){var
-b=97<=a?1:0,c=b?a<=o_?1:0:b;if(c)var
+a=dQ(c);if(6<ap(a))throw O;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i3(a))}function
+nh(a){var
+b=97<=a?1:0,c=b?a<=o8?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-nk(y,b){var
+ni(y,b){var
 d=ap(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aN(b,a[1])===e?1:0:c;return f}function
@@ -6743,9 +6734,9 @@ e=n(j);else{var
 u=0;if((a[1]+5|0)<=d&&aq(di(b,a[1],5),yl)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&nj(aN(b,a[1]))){var
+v=0;if(a[1]<d&&nh(aN(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!nj(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!nh(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,i(y,di(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
 g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,ym);if(r)var
@@ -6754,10 +6745,10 @@ var
 t=1<ap(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
 k=q[1],x=0;if(aq(k,yn)||48===aN(k,ap(k)-1|0))x=1;else
 var
-z=gd(k),e=[0,gd(g),z];if(x)throw O}else
+z=ge(k),e=[0,ge(g),z];if(x)throw O}else
 var
-e=[0,gd(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i2(f)&&!(64<i2(f)))return[4,e,d8(eL(f))];throw O}throw O}return e}function
+e=[0,ge(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i3(f)&&!(64<i3(f)))return[4,e,d8(eL(f))];throw O}throw O}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6767,13 +6758,13 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw O;return g}function
-gf(a){return nk(function(a){return[0,a]},a)}function
+gg(a){return ni(function(a){return[0,a]},a)}function
 io(a){var
-b=aJ(a);return nk(function(a){return a},b)}function
-S(a){return gf(aJ(a))}function
-bS(a){if(2===a[0])return[0,gf(a[1])];var
+b=aJ(a);return ni(function(a){return a},b)}function
+S(a){return gg(aJ(a))}function
+bS(a){if(2===a[0])return[0,gg(a[1])];var
 b=ad(a),c=S(s(b,yo));return[1,S(s(b,yp)),c]}function
-Y(a){throw[0,nh,aT(jd(yr,a),yq)]}function
+Y(a){throw[0,nf,aT(je(yr,a),yq)]}function
 ip(c){var
 a=aJ(c);if(m(a,ys)){var
 b=m(a,yt);if(b)throw O;return b}return 1}function
@@ -6787,7 +6778,7 @@ yK(d){var
 a=ad(d);if(a){var
 b=a[1];if(!m(b[1],yL)){var
 c=b[2];if(2===c[0]&&!m(c[1],yM))return 1}}return 0}function
-nl(e){var
+nj(e){var
 b=ad(e);function
 a(a){return U(bS,Z(s(b,a)))}var
 c=aJ(s(b,yN)),d=aR(b,yO);if(m(c,yP)){if(m(c,yQ)){if(!m(c,yR)&&!d){var
@@ -6796,7 +6787,7 @@ if(!d){var
 g=ip(s(b,yW)),h=bS(s(b,yX)),i=a(yY),j=a(yZ);return[0,a(y0),j,i,h,g]}}else
 if(!d){var
 k=ip(s(b,y1)),l=bS(s(b,y2)),n=bS(s(b,y3)),o=a(y4),p=a(y5),q=a(y6);return[2,a(y7),q,p,o,n,l,k]}return Y([0,yT,[0,c,yS]])}function
-nm(d){var
+nk(d){var
 a=ad(d);if(a){var
 b=a[1];if(!m(b[1],y8)){var
 c=b[2];if(2===c[0]&&!m(c[1],y9))return 1}}return 0}function
@@ -6804,8 +6795,8 @@ cG(c,d){var
 a=Z(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw O}function
-dS(h,p){var
-g=h?h[1]:h,c=ad(p),a=aJ(s(c,y_)),j=pI(a,y$),f=0;if(0<=j)if(0<j)if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf)){var
+dR(h,p){var
+g=h?h[1]:h,c=ad(p),a=aJ(s(c,y_)),j=pG(a,y$),f=0;if(0<=j)if(0<j)if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf)){var
 k=m(a,zg);if(k)f=1;else
 var
 b=k}else
@@ -6887,20 +6878,20 @@ p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw O}var
 r=cf(q,aR(c,zA));return[0,n,cf(cF,aR(c,zB)),r,e]}function
-nn(c){var
-d=dS(zM,c),e=d[1];if(!(9<=e))switch(e){case
+nl(c){var
+d=dR(zM,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dS(zK,c),b=a[1];if(2!==b&&!(4<=b))return a;return Y(zL)}function
-no(a){var
-b=dS(zN,a);return 11===b[1]?b:nn(a)}function
+a=dR(zK,c),b=a[1];if(2!==b&&!(4<=b))return a;return Y(zL)}function
+nm(a){var
+b=dR(zN,a);return 11===b[1]?b:nl(a)}function
 zO(c){var
-d=dS(zP,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
-if(9<=a)b=1;return b?d:no(c)}function
+d=dR(zP,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
+if(9<=a)b=1;return b?d:nm(c)}function
 iq(c){var
-d=dS(zQ,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:nn(c)}function
+d=dR(zQ,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:nl(c)}function
 ir(b){var
 a=ad(b[2]);if(m(b[1],zX)){var
 c=cG(S,s(a,zY)),d=cG(S,s(a,zZ)),e=d[2],f=d[1],g=S(s(a,z0));return[1,c[1],c[2],g,f,e]}var
@@ -6910,7 +6901,7 @@ a=ad(f);function
 d(b){return S(s(a,b))}function
 c(b){return eK(S,s(a,b))}var
 b=aJ(s(a,z4));if(m(b,z5)){if(!m(b,z6)){var
-j=s(a,Aa),e=cG(function(a){return a},j),k=aR(a,Ab),l=cf(function(a){return c(Ac)},k),n=gf(aJ(e[2])),o=gf(aJ(e[1])),p=d(Ad);return[0,cF(s(a,Ae)),p,o,n,l]}if(m(b,z7))throw O}var
+j=s(a,Aa),e=cG(function(a){return a},j),k=aR(a,Ab),l=cf(function(a){return c(Ac)},k),n=gg(aJ(e[2])),o=gg(aJ(e[1])),p=d(Ad);return[0,cF(s(a,Ae)),p,o,n,l]}if(m(b,z7))throw O}var
 g=d(z8),h=c(z9),i=c(z_);return[1,aq(b,z$),i,h,g]}function
 is(ar){var
 g=c9(ar),h=g[1];if(m(h,Af)){if(m(h,Ag)){if(m(h,Ah)){if(m(h,Ai))return Y([0,Ak,[0,h,Aj]]);var
@@ -6925,18 +6916,18 @@ a=ad(g[2]),y=aR(a,Ar),z=y?U(z3,Z(y[1])):y,o=function(b){var
 a=0!==z?1:0;return a?Y(As):a},k=c9(s(a,At)),b=c9(s(a,Au)),c=k[1];if(m(c,Av)&&m(c,Aw)&&m(c,Ax)){if(0===aR(a,Ay)){if(m(c,Az)){var
 ah=0;if(m(c,AA)){if(!m(c,AB)){var
 N=b[1],ai=0;if(m(N,AE)&&m(N,AF)){ah=1;ai=1}if(!ai){var
-A=Z(k[2]),at=Z(s(a,AI)),P=U(function(a){return dS(0,a)},at);if(!au(yK,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+A=Z(k[2]),at=Z(s(a,AI)),P=U(function(a){return dR(0,a)},at);if(!au(yK,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
 ax=U(yu,A),f=ad(b[2]);if(m(b[1],zR))var
 I=cG(S,s(f,zS)),J=cG(S,s(f,zT)),am=J[2],an=J[1],ao=S(s(f,zU)),Q=[1,I[1],I[2],ao,an,am];else
 var
 ap=eK(S,s(f,zV)),Q=[0,eK(S,s(f,zW)),ap];return[0,ax,Q,z,P]}o(0);var
-av=U(iq,Z(s(a,AJ))),aw=ir(b);return[1,0,U(nl,A),0,aw,0,av]}}}else
+av=U(iq,Z(s(a,AJ))),aw=ir(b);return[1,0,U(nj,A),0,aw,0,av]}}}else
 if(!m(b[1],AK)){o(0);var
 R=U(iq,Z(s(a,AL))),v=0,e=R;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=jc(v),aj=0;if(n){var
+n=jd(v),aj=0;if(n){var
 d=0,T=n[1][4];if(typeof
 T==="number")d=1;else
 switch(T[0]){case
@@ -6961,13 +6952,13 @@ b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,aJ(a[1]),e]}}throw O},b)},az=function(d){var
 a=ad(d);if(a){var
 b=a[1],c=b[1];if(m(c,AQ)){if(!m(c,AR)&&!a[2])return[0,U(io,Z(b[2]))]}else
-if(!a[2])return[1,io(b[2])]}throw O},aA=U(no,Z(s(a,AS))),aB=U(S,Z(s(X,AT))),aC=U(S,Z(s(X,AU))),aD=U(az,Z(s(p,AV))),aE=_(io,s(p,AW)),aF=_(bS,s(p,AX));return[3,U(aJ,Z(s(p,AY))),aF,aE,aD,aC,aB,aA]}return Y([0,AH,[0,b[1],AG]])}throw O}var
+if(!a[2])return[1,io(b[2])]}throw O},aA=U(nm,Z(s(a,AS))),aB=U(S,Z(s(X,AT))),aC=U(S,Z(s(X,AU))),aD=U(az,Z(s(p,AV))),aE=_(io,s(p,AW)),aF=_(bS,s(p,AX));return[3,U(aJ,Z(s(p,AY))),aF,aE,aD,aC,aB,aA]}return Y([0,AH,[0,b[1],AG]])}throw O}var
 $=ad(k[2]),q=cf(S,aR($,AZ)),aG=function(f){var
 a=c9(f),b=a[1];if(m(b,A0)){if(m(b,A1)){if(m(b,A2)){if(m(b,A3))throw O;var
 d=a[2],g=S(s(ad(d),A4));return[3,S(s(ad(d),A5)),g]}var
 h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A6),j=c(A7);return[1,c(A8),j,i]}var
 e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aG,aR(a,A9)),aa=m(c,A_),D=aa?m(c,A$)?2:1:aa,t=Z(s($,Ba));if(q&&r){var
-ab=r[1];if(gL(nm,t)){var
+ab=r[1];if(gM(nk,t)){var
 aH=function(c){var
 a=ad(c);function
 b(b){return U(bS,Z(s(a,b)))}if(0!==aR(a,Bb))Y(Bc);var
@@ -6976,8 +6967,8 @@ aI=ir(b),aK=q[1];return[2,D,U(aH,t),aK,aI,ab,z,ac]}}o(0);var
 al=0;if(!q&&aq(c,Bj)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==r?1:0,aL=af?au(nm,t):af;if(aL)Y(Bh);var
-aM=U(iq,Z(s(a,Bi))),aN=ir(b);return[1,ae,U(nl,t),q,aN,r,aM]}var
+af=0!==r?1:0,aL=af?au(nk,t):af;if(aL)Y(Bh);var
+aM=U(iq,Z(s(a,Bi))),aN=ir(b);return[1,ae,U(nj,t),q,aN,r,aM]}var
 u=ad(g[2]);function
 aO(b){var
 a=ad(b),c=S(s(a,Bk)),d=[0,S(s(a,Bl)),c];return[0,aJ(s(a,Bm)),d]}var
@@ -6986,13 +6977,13 @@ aP=S(s(u,Bq)),aQ=S(s(u,Br)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Z(s(u,Bs))),aU
 it(a){return U(eM,Z(a))}function
 iu(c,b){var
 a=it(b);if(bY(a)!==c)throw O;return a}function
-np(a,d){var
-b=ad(d),e=Z(s(b,Bv)),f=a[2],c=U(function(a){return iu(f,a)},e),g=a[1];if(bY(c)!==g)throw O;return[0,c,ge(s(b,Bw))]}function
+nn(a,d){var
+b=ad(d),e=Z(s(b,Bv)),f=a[2],c=U(function(a){return iu(f,a)},e),g=a[1];if(bY(c)!==g)throw O;return[0,c,gf(s(b,Bw))]}function
 eN(g,o){var
 M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],N=pI(a,Bx),b=0;if(0<=N)if(0<N){var
+e=d[1],a=e[1],N=pG(a,Bx),b=0;if(0<=N)if(0<N){var
 f=0;if(m(a,By)&&m(a,Bz)&&m(a,BA))if(m(a,BB))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
@@ -7008,9 +6999,9 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=ge(x[1]),ai=eM(w[1]);return[5,eN(g,v[1]),ai,ah]}b=1}}}}}else
+ah=gf(x[1]),ai=eM(w[1]);return[5,eN(g,v[1]),ai,ah]}b=1}}}}}else
 if(m(a,BE))if(m(a,BF))if(m(a,BG))if(m(a,BH)){if(!m(a,BI)){if(!d[2]){var
-S=ad(e[2]),aj=Z(s(S,BJ)),ak=M+1|0,T=U(function(a){return iu(ak,a)},aj);if(3===bY(T))return[1,BL,T,ge(s(S,BK))];throw O}b=1}}else{if(!d[2]){var
+S=ad(e[2]),aj=Z(s(S,BJ)),ak=M+1|0,T=U(function(a){return iu(ak,a)},aj);if(3===bY(T))return[1,BL,T,gf(s(S,BK))];throw O}b=1}}else{if(!d[2]){var
 J=aJ(e[2]),K=m(J,Bt);if(K){if(m(J,Bu))throw O;var
 L=1}else
 var
@@ -7039,7 +7030,7 @@ G=F[1][1],ac=0;if(m(G,BV)&&m(G,BW)&&m(G,BX)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}
 aa=l[1];if(m(aa,BY)&&m(aa,BZ)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=ge(I[1]),aq=eM(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
+ap=gf(I[1]),aq=eM(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
@@ -7058,13 +7049,13 @@ W=e[2];if(1===W[0]){var
 B=W[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dR(D[1]),BM))throw O;var
+an=C[1];if(m(dQ(D[1]),BM))throw O;var
 ao=B[1],u=ao,t=function(b,a){return[4,b,a,eM(an)]};b=2}}}}}switch(b){case
 0:if(!d[2])return Y([0,BD,[0,a,BC]]);break;case
 1:break;default:var
-Q=np(g,u);return t(Q[1],Q[2])}}break;case
+Q=nn(g,u);return t(Q[1],Q[2])}}break;case
 2:return[0,o[1]]}throw O}function
-nq(k){var
+no(k){var
 b=c9(k),a=b[1];if(m(a,B4))if(m(a,B5)){var
 g=m(a,B6);if(!g)return g;if(m(a,B7)){if(!m(a,B8))return[2,U(S,Z(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
@@ -7076,20 +7067,20 @@ e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
 n=U(it,Z(f[1]));return[0,cF(e[1]),n]}}}}else{var
 j=b[2];if(1===j[0]&&!j[1])return 1}return Y([0,B_,[0,a,B9]])}function
-nr(f,b){var
+np(f,b){var
 a=ad(b),c=Z(s(a,Cd)),d=U(function(g){var
 a=ad(g);function
 b(d,c){var
 b=aR(a,c);return b?U(d,Z(b[1])):b}var
-c=b(eM,B$),d=cf(nq,aR(a,Ca)),e=cf(cF,aR(a,Cb));return[0,b(function(h){var
+c=b(eM,B$),d=cf(no,aR(a,Ca)),e=cf(cF,aR(a,Cb));return[0,b(function(h){var
 b=Z(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B2)){if(!a[2]){if(m(dR(e),B3))throw O;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B2)){if(!a[2]){if(m(dQ(e),B3))throw O;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eN(f,c);return[0,cF(e),g]}}}throw O},Cc),e,d,c]},c),e=aR(a,Ce),g=cf(function(a){return np(f,a)},e);return[0,ni(s(a,Cf)),g,d]}function
-ns(c){var
-a=ad(c),b=aR(a,Cg),d=b?U(S,Z(b[1])):b,e=nq(s(a,Ch)),f=U(S,Z(s(a,Ci)));return[0,ni(s(a,Cj)),f,d,e]}function
-nt(c){var
+g=eN(f,c);return[0,cF(e),g]}}}throw O},Cc),e,d,c]},c),e=aR(a,Ce),g=cf(function(a){return nn(f,a)},e);return[0,ng(s(a,Cf)),g,d]}function
+nq(c){var
+a=ad(c),b=aR(a,Cg),d=b?U(S,Z(b[1])):b,e=no(s(a,Ch)),f=U(S,Z(s(a,Ci)));return[0,ng(s(a,Cj)),f,d,e]}function
+nr(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
 Ct(b){var
@@ -7112,7 +7103,7 @@ b=G(c[1],a);o(34);return b}function
 I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return jc(d)}}function
+b=d;continue}o(a);return jd(d)}}function
 v(b,i){if(64<b)throw O;var
 a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
@@ -7147,15 +7138,15 @@ g=[0,bY(K),3];var
 p=c9(s(t,CC)),q=p[1];if(m(q,Co))if(m(q,Cp))if(m(q,Cq))var
 b=Y([0,Cs,[0,q,Cr]]);else
 var
-r=ns(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
+r=nq(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
-w=nr(g,p[2]),b=[0,w[1],w[2],w[3]];else
+w=np(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
 ac=Z(p[2]),b=[2,U(function(f){var
 a=c9(f),b=a[1];if(m(b,Ck)){if(m(b,Cl)){if(m(b,Cm)){var
 e=m(b,Cn);if(e)throw O;return e}return[0,cF(a[2])]}var
-c=ns(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=nr(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
+c=nq(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=np(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
 ae(a){var
 b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
 af(a){return 0!==a[3]?1:0}function
@@ -7196,8 +7187,8 @@ c=e[1],a=0;switch(c[0]){case
 6:var
 f=c[1];if(1!==f[0]||m(f[1],CR))a=1;break;default:a=1}if(!a)return 1-y}}else
 g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))Y(CS);else{var
-aq=b[3];if(gL(function(a){var
-b=a[1];return gL(function(d){var
+aq=b[3];if(gM(function(a){var
+b=a[1];return gM(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
 c=b[1];if(m(c,Cv)){if(!m(c,Cw))return au(Cu,R)}else
@@ -7236,7 +7227,7 @@ P=a[4],N=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(nt,a[4])){Y(CL);e=2}else
+6:e=1;break;default:if(au(nr,a[4])){Y(CL);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
@@ -7271,24 +7262,24 @@ ah=a[4];switch(b[0]){case
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(nt,ah)}return 0};if(au(ai,b[1]))Y(CI);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Y(CH);else
+2:return au(nr,ah)}return 0};if(au(ai,b[1]))Y(CI);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Y(CH);else
 F=1;break;case
 1:F=1;break}var
 Q=ad(s(t,CE)),ag=aJ(s(Q,CF));return[0,a,b,aJ(s(Q,CG)),ag]}function
 CY(b){var
-c=ap(b),g=64,h=EA(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+c=ap(b),g=64,h=Ez(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
 e=aq(di(b,a,18),CZ);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}EV(function(b){try{if(CY(b))var
+f=d;return f}}EU(function(b){try{if(CY(b))var
 a=C1;else{try{var
-e=0,d=Cy(b);e=1}catch(a){a=pK(a);if(a[1]===nh)var
+e=0,d=Cy(b);e=1}catch(a){a=pI(a);if(a[1]===nf)var
 c=[0,a[2]];else{if(a!==O)throw a;var
 c=2}}if(e)var
 c=yf(b,d)?1===d[2][0]?1:0:2;var
 a=c}}catch(a){return C0}if(typeof
 a==="number")switch(a){case
 0:return C2;case
-1:return C3;default:return C4}return aT(C5,a[1])});jb(0);return}(globalThis));
+1:return C3;default:return C4}return aT(C5,a[1])});jc(0);return}(globalThis));
