@@ -6,7 +6,7 @@
 
 use super::flat::Flat;
 use super::others::ForAll;
-use crate::search::paving::spectrum::Spectrum;
+use super::spectrum::{Spectrum, PAIRS};
 use crate::search::solver::doubles::{magnitude, middle, Pair, Single};
 use crate::search::solver::evidence::{Over, Prover};
 use crate::search::solver::refute::directions;
@@ -98,14 +98,14 @@ impl Margin {
         std::array::from_fn(|k| self.along[k].abs() + self.beyond[k].abs())
     }
 
-    fn times(self, factor: f64) -> Self {
+    pub(super) fn times(self, factor: f64) -> Self {
         let times = |all: [f64; 3]| all.map(|x| x * factor);
         let Margin { centre, along, beyond } = self;
         let beyond = times(beyond).map(f64::abs);
         Margin { centre: centre * factor, along: times(along), beyond }
     }
 
-    fn plus(self, other: Self) -> Self {
+    pub(super) fn plus(self, other: Self) -> Self {
         let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
         let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
         Margin { centre: self.centre + other.centre, along, beyond }
@@ -148,14 +148,14 @@ impl View for Over<'_> {
 }
 
 /// `M` at a cell's centre, and what its rows are made of.
-struct Local<'a> {
+pub(super) struct Local<'a> {
     rows: Vec<(&'a Row<Formula>, [f64; 3], f64)>,
     spectrum: Spectrum,
 }
 
 impl<'a> Local<'a> {
     /// `None` unless all is defined there.
-    fn of(
+    pub(super) fn of(
         rows: impl Iterator<Item = &'a Row<Formula>>,
         centre: impl Fn(Formula) -> Option<f64>,
     ) -> Option<Self> {
@@ -168,19 +168,26 @@ impl<'a> Local<'a> {
             for (a, &f) in a.iter_mut().zip(&row.a) {
                 *a = centre(f)?;
             }
-            let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-            for (sum, (j, k)) in gram.iter_mut().zip(pairs) {
+            for (sum, (j, k)) in gram.iter_mut().zip(PAIRS) {
                 *sum += a[j] * a[k] / d;
             }
             own.push((row, a, d));
         }
-        // Of fewer than three coordinates, the others take nothing away and add nothing: the mean of
-        // the eigenvalues is neither the least nor the greatest alone.
-        let mean = gram.iter().take(m).sum::<f64>() / m as f64;
-        gram[m.min(3)..3].fill(mean);
-        gram.iter()
-            .all(|x| x.is_finite())
-            .then(|| Local { rows: own, spectrum: Spectrum::of(gram) })
+        let is_finite = gram.iter().all(|x| x.is_finite());
+        is_finite.then(|| Local { rows: own, spectrum: Spectrum::of_first(m, gram) })
+    }
+
+    /// The rows.
+    pub(super) fn rows(&self) -> impl Iterator<Item = &'a Row<Formula>> + '_ {
+        self.rows.iter().map(|(row, ..)| *row)
+    }
+
+    /// The direction that is stretched most, or least.
+    pub(super) fn direction(&self, greatest: bool) -> [f64; 3] {
+        match greatest {
+            true => self.spectrum.greatest_direction(),
+            false => self.spectrum.least_direction(),
+        }
     }
 
     /// `|M v|^2/|v|^2`.
@@ -263,7 +270,7 @@ impl<'a> Decider<'a> {
         self.subject.header.share(cell)
     }
 
-    fn test(&self, obligation: usize) -> &'a Test {
+    pub(super) fn test(&self, obligation: usize) -> &'a Test {
         &self.subject.problem.obligations[obligation].test
     }
 
@@ -304,26 +311,35 @@ impl<'a> Decider<'a> {
         self.prover.root.len()
     }
 
-    /// The obligation that is nearest to failing on a cell on which `inherited` is discharged; `None` where
-    /// not all that are open have margins, and of cells that may not be cut.
-    pub(super) fn nearest(&self, cell: &Cell, inherited: u128) -> Option<(usize, Margin)> {
+    /// Whether a cell may be cut.
+    pub(super) fn may_cut(&self, cell: &Cell) -> bool {
+        self.subject.header.may_cut(cell)
+    }
+
+    /// What is so of the formulas over a cell.
+    pub(super) fn view<T>(&self, cell: &Cell, then: impl FnOnce(&dyn View) -> T) -> T {
         let ends = self.ends(cell);
-        let least = |over: &dyn View| {
-            let margins = self.margins(over, &self.local(over)?, inherited);
-            let margins: Vec<(usize, Margin)> =
-                margins.into_iter().map(|(o, own)| Some((o, own?))).collect::<Option<_>>()?;
-            margins.into_iter().min_by(|(_, a), (_, b)| a.room().total_cmp(&b.room()))
-        };
-        if !self.cuts || !self.subject.header.may_cut(cell) {
-            return None;
-        }
         match self.flat.as_ref().and_then(|flat| flat.over(&ends)) {
-            Some(over) => least(&over),
+            Some(over) => then(&over),
             None => {
                 let place = ends.into_iter().take(self.dimension()).collect();
-                self.prover.on_own(&place, |over| least(over))
+                self.prover.on_own(&place, |over| then(over))
             }
         }
+    }
+
+    /// The obligation that is nearest to failing over a cell on which `inherited` is discharged; `None` where
+    /// not all that are open have margins.
+    pub(super) fn nearest(
+        &self,
+        over: &dyn View,
+        local: &Local<'_>,
+        inherited: u128,
+    ) -> Option<(usize, Margin)> {
+        let margins = self.margins(over, local, inherited);
+        let margins: Vec<(usize, Margin)> =
+            margins.into_iter().map(|(o, own)| Some((o, own?))).collect::<Option<_>>()?;
+        margins.into_iter().min_by(|(_, a), (_, b)| a.room().total_cmp(&b.room()))
     }
 
     /// Decides a cell on which all is defined and every open test has a margin; another is not.
@@ -365,7 +381,7 @@ impl<'a> Decider<'a> {
     }
 
     /// `M` at the centre, if every leg certainly reaches the cell.
-    fn local(&self, over: &(impl View + ?Sized)) -> Option<Local<'a>> {
+    pub(super) fn local(&self, over: &(impl View + ?Sized)) -> Option<Local<'a>> {
         let legs = || self.subject.problem.legs.iter().map(|leg| &leg.row);
         let reaches = |row: &Row<Formula>| over.range(row.d).is_some_and(|d| d.0 > 0.0);
         legs().all(reaches).then(|| Local::of(legs(), |f| over.centre(f)))?

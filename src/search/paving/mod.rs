@@ -4,6 +4,7 @@
 //! |------------|-------------------------------------------------------------------|
 //! | `decide`   | what becomes of one cell                                          |
 //! | `cut`      | where one is cut that is neither inner nor outer                  |
+//! | `seen`     | how far from a test's end the judge sees it decided               |
 //! | `flat`     | formulas over cells, in doubles                                   |
 //! | `others`   | the same of some coordinates, for all values of the others        |
 //! | `spectrum` | extreme singular values of a matrix                               |
@@ -31,6 +32,7 @@ mod parts;
 mod pass;
 mod plan;
 mod search_box;
+mod seen;
 mod spectrum;
 mod surface;
 mod tree;

@@ -11,7 +11,19 @@ pub struct Spectrum {
     gram: [f64; 6],
 }
 
+/// The entries of a symmetric matrix, in the order that is used here.
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
 impl Spectrum {
+    /// Of the first `m` rows and columns. The others take nothing away and add nothing: the mean of the eigenvalues
+    /// is neither the least nor the greatest alone.
+    pub(super) fn of_first(m: usize, mut gram: [f64; 6]) -> Self {
+        let m = m.min(3);
+        let mean = gram.iter().take(m).sum::<f64>() / m as f64;
+        gram[m..3].fill(mean);
+        Spectrum::of(gram)
+    }
+
     /// Of `G_11, G_22, G_33, G_12, G_13, G_23`, by the closed formula for symmetric 3x3 matrices.
     pub fn of(gram: [f64; 6]) -> Self {
         let [a, b, c, x, y, z] = gram;
