@@ -60,7 +60,7 @@ impl<N: Clone + Default> Triangle<N> {
     /// **Lemma.** A symmetric matrix `[[a, b^T], [b, C]]` is positive definite if and only if `a > 0` and
     /// its Schur complement `C - b b^T/a` is. *Proof.* `a t^2 + 2 t b.w + w^T C w
     /// = a (t + b.w/a)^2 + w^T (C - b b^T/a) w`. ∎ The first row is eliminated so, in intervals, as
-    /// `c_jk - b_j b_k/a`, until none is left: what is enclosed before is enclosed after. Where an entry
+    /// `c_jk - (b_j/a) b_k`, until none is left: what is enclosed before is enclosed after. Where an entry
     /// is undefined, the answer is no.
     #[inline]
     fn eliminate<E: Enclosure<Number = N>>(&mut self, e: &E) -> Option<()> {
@@ -88,8 +88,9 @@ pub(crate) fn eliminate<E: Enclosure>(
     }
     while let Some((from, next)) = b.split_first() {
         let (entries, rest) = below.split_at_mut_checked(b.len())?;
+        let part = e.ratio(from, &e.integer(1)?, a)?;
         for (c, b) in entries.iter_mut().zip(b) {
-            *c = e.sub(c, &e.ratio(from, b, a)?)?;
+            *c = e.sub(c, &e.mul(&part, b)?)?;
         }
         (b, below) = (next, rest);
     }
@@ -133,10 +134,11 @@ pub(crate) fn are_positive_definite<E: Enclosure>(
         for at in 0..n {
             let (a, row) = steps.row(at).split_first()?;
             let own = b.get(at)?.clone();
+            let part = e.ratio(&own, &e.integer(1)?, a)?;
             for (b, from) in b.iter_mut().skip(at + 1).zip(row) {
-                *b = e.sub(b, &e.ratio(from, &own, a)?)?;
+                *b = e.sub(b, &e.mul(from, &part)?)?;
             }
-            corner = e.sub(&corner, &e.ratio(&own, &own, a)?)?;
+            corner = e.sub(&corner, &e.mul(&part, &own)?)?;
         }
         Some(e.is_positive(&corner))
     };

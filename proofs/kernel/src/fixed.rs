@@ -155,7 +155,7 @@ fn by_digits(size: u128, divisor: u64) -> Option<u64> {
     let (high, low) = (by >> 32, by & 0xffff_ffff);
     // A digit of the quotient from the upper half of the divisor is at most two too great.
     let digit = |rest: u64, next: u64| {
-        let (mut digit, mut over) = (rest / high, rest % high);
+        let (mut digit, mut over) = (rest / high, rest - rest / high * high);
         while over >> 32 == 0 && (digit >> 32 != 0 || digit * low > (over << 32 | next)) {
             (digit, over) = (digit - 1, over + high);
         }
