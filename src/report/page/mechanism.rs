@@ -207,9 +207,20 @@ pub fn formula(requirement: &Requirement) -> String {
     text + &of
 }
 
-/// The same over a picture.
+/// The table's symbols of a leg, and how the paper writes them.
+const GREEK: [(&str, char); 3] = [("psi_i", '\u{3c8}'), ("rho_i", '\u{3c1}'), ("eta_i", '\u{3b7}')];
+
+/// A formula in Greek letters, with this index.
+pub fn greek(formula: &str, index: &str) -> String {
+    let written = |text: String, (name, letter): (&str, char)| {
+        text.replace(name, &format!("{letter}{index}"))
+    };
+    GREEK.into_iter().fold(formula.to_owned(), written)
+}
+
+/// A requirement's formula over a picture.
 pub fn heading(requirement: &Requirement) -> String {
-    formula(requirement).replace("psi_i", "\u{3c8}\u{1d62}").replace("rho_i", "\u{3c1}\u{1d62}")
+    greek(&formula(requirement), "\u{1d62}")
 }
 
 /// The machine's numbers, exactly.

@@ -136,11 +136,7 @@ fn asserted(claim: &Claim) -> Vec<String> {
 
 /// The table's symbols as the paper writes them.
 pub(super) fn symbols(formula: &str) -> String {
-    let greek = [("psi_i", '\u{3c8}'), ("rho_i", '\u{3c1}'), ("eta_i", '\u{3b7}')];
-    let written = |text: String, (name, letter): (&str, char)| {
-        text.replace(name, &format!("{letter}<sub>i</sub>"))
-    };
-    greek.into_iter().fold(formula.to_owned(), written).replace("L_i", "<var>L</var><sub>i</sub>")
+    mechanism::greek(formula, "<sub>i</sub>").replace("L_i", "<var>L</var><sub>i</sub>")
 }
 
 /// Definitions, as markup.
