@@ -612,7 +612,7 @@ Definition demand_of (are_angles : bool) (legs : nat) (bs : list written_body) (
   | Condition_, AtMost_ b => [Conditioned (denoted b)]
   | Speed_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => (if are_angles then TurnMax else SpeedMax) i (denoted tool) (denoted b)) | _ => [] end
   | Force_, AtMost_ b => match given_ r with Some (Given_ tool) => each (fun i => ForceMax i (denoted tool) (denoted b)) | _ => [] end
-  | Stiffness_, AtLeast_ b => match given_ r with Some (Given_ k) => [StiffnessMin (denoted k) (denoted b)] | _ => [] end
+  | Stiffness_, AtLeast_ b => match given_ r with Some (Given_ k) => [StiffnessMin (repeat (denoted k) legs) (denoted b)] | Some (Each_ ks) => [StiffnessMin (map denoted ks) (denoted b)] | _ => [] end
   | Serial_, AtLeast_ b => each (fun i => SerialMin i (denoted b))
   | LegAngle_, AtMost_ b => each (fun i => LegAngleMax i (denoted b))
   | Parallel_, AtLeast_ b => [ParallelMin (denoted b)]
@@ -640,6 +640,7 @@ Definition is_turning_demand (coordinates legs : nat) (r : written_requirement) 
   | Speed_, AtMost_ _, Some (Given_ _) => is_leg
   | Force_, AtMost_ _, Some (Given_ _) => is_leg && Nat.eqb legs coordinates
   | Stiffness_, AtLeast_ _, Some (Given_ _) => match leg_ r with None => true | Some _ => false end
+  | Stiffness_, AtLeast_ _, Some (Each_ ks) => Nat.eqb (length ks) legs && match leg_ r with None => true | Some _ => false end
   | _, _, _ => is_demand false legs r
   end.
 
@@ -1143,7 +1144,8 @@ Definition is_demand_bound (d : demand) : bool :=
   | LengthMin _ b | LengthMax _ b => is_number b
   | SerialMin _ b | ParallelMin b => certainly exact_bits true b
   | LegAngleMax _ b => certainly exact_bits true b && certainly exact_bits false (Minus (90 // 1) b)
-  | SpeedMax _ a b | TurnMax _ a b | ForceMax _ a b | StiffnessMin a b => certainly exact_bits true a && certainly exact_bits true b
+  | SpeedMax _ a b | TurnMax _ a b | ForceMax _ a b => certainly exact_bits true a && certainly exact_bits true b
+  | StiffnessMin ks b => forallb (certainly exact_bits true) (b :: ks)
   | JointAngleMax _ _ j b => is_axis j && certainly exact_bits true b && certainly exact_bits false (Minus (180 // 1) b)
   | Clear _ _ b => certainly exact_bits false b
   | AccelerationMax _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b

@@ -33,6 +33,16 @@ Record configuration := Configuration { jacobian : list (list R); joints : list 
 (** |M v|^2 *)
 Definition speed2 (M : list (list R)) (v : list R) : R := fold_right (fun row sum => dot row v ^ 2 + sum) 0 M.
 
+(** v . M^T diag(ks) M v *)
+Fixpoint elastic (ks : list R) (M : list (list R)) (v : list R) : R :=
+  match ks, M with k :: ks', row :: M' => k * dot row v ^ 2 + elastic ks' M' v | _, _ => 0 end.
+
+Lemma elastic_nonneg : forall ks M v, Forall (fun k => 0 < k) ks -> 0 <= elastic ks M v.
+Proof.
+  intros ks M v h. revert M. induction h as [| k ks k0 _ IH]; intros [| row M]; cbn [elastic]; try lra. specialize (IH M).
+  assert (0 <= k * dot row v ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]). lra.
+Qed.
+
 (** Joints are counted from zero. *)
 Inductive demand :=
   | Nonsingular
@@ -42,7 +52,7 @@ Inductive demand :=
   | Conditioned (b : number)                           (* sigma_max / sigma_min *)
   (* of joints that are lengths: a joint's speed, and its static force, at a speed of the platform, or a force on it, up to [tool] *)
   | SpeedMax (joint : nat) (tool b : number) | ForceMax (joint : nat) (tool b : number)
-  | StiffnessMin (k b : number)                        (* the least eigenvalue of k M^T M *)
+  | StiffnessMin (joints : list number) (b : number)   (* the least eigenvalue of M^T diag(joints) M *)
   | TurnMax (joint : nat) (tool b : number)            (* of joints that are angles, degrees: their speed *)
   (* of legs of fixed length: |eta|/L, its arc cosine in degrees, and |det A| over the product of all lengths *)
   | SerialMin (leg : nat) (b : number) | LegAngleMax (leg : nat) (b : number) | ParallelMin (b : number)
@@ -83,7 +93,7 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
   | SpeedMax i tool b => exists row, nth_error (jacobian c) i = Some row /\
       forall v, length v = n -> dot v v <= value tool ^ 2 -> Rabs (dot row v) <= value b
   | ForceMax i tool b => forall tau F, holds_force n (jacobian c) tau F -> dot F F <= value tool ^ 2 -> Rabs (nth i tau 0) <= value b
-  | StiffnessMin k b => forall v, length v = n -> value b * dot v v <= value k * speed2 (jacobian c) v
+  | StiffnessMin ks b => forall v, length v = n -> value b * dot v v <= elastic (map value ks) (jacobian c) v
   | TurnMax i tool b => exists row, nth_error (jacobian c) i = Some row /\
       forall v, length v = n -> dot v v <= value tool ^ 2 -> Rabs (dot row v) <= in_degrees (value b)
   | SerialMin i b => exists l, nth_error (rods c) i = Some (Some l) /\ value b * rod_size l <= Rabs (rod_eta l)
@@ -139,6 +149,13 @@ Lemma value_nspeed2 : forall M v, value (nspeed2 M v) = speed2 (map (map value) 
 Proof.
   intros M v. induction M as [| row M IH]; [exact zero_value |]. cbn [nspeed2 speed2 map fold_right value].
   unfold nspeed2, speed2 in IH. rewrite IH, value_ndot. ring.
+Qed.
+
+Fixpoint nelastic (ks : list number) (M : list (list number)) (v : list number) : number :=
+  match ks, M with k :: ks', row :: M' => Plus (Times k (Times (ndot row v) (ndot row v))) (nelastic ks' M' v) | _, _ => 0 // 1 end.
+Lemma value_nelastic : forall ks M v, value (nelastic ks M v) = elastic (map value ks) (map (map value) M) (map value v).
+Proof.
+  induction ks as [| k ks IH]; intros [| row M] v; try exact zero_value. cbn [nelastic elastic map value]. rewrite IH, value_ndot. ring.
 Qed.
 
 Definition ndeterminant (rows : list (list number)) : number :=
@@ -215,7 +232,7 @@ Definition fails (n : nat) (c : nconfiguration) (least : bool) (vs : list (list 
       | Some s, Some k => match radians bits k with Some k => is_positive (Some (sub s (sqr bits k))) | None => false end
       | _, _ => false
       end)
-  | StiffnessMin k b, [v] => certainly true (Minus (Times b (ndot v v)) (Times k (speed v)))
+  | StiffnessMin ks b, [v] => certainly true (Minus (Times b (ndot v v)) (nelastic ks (njacobian c) v))
   | SerialMin i b, [] => of_rod i (fun l => let least := Times b (nrod_size l) in
       certainly true least && certainly true (Minus (Times least least) (Times (nrod_eta l) (nrod_eta l))))
   | LegAngleMax i b, [] => of_rod i (fun l =>
@@ -302,7 +319,7 @@ Proof.
     assert (value b <= Rabs (value b / value tool) * value tool).
     { replace (value b) with (value b / value tool * value tool) at 1 by (field; lra). apply Rmult_le_compat_r; [lra | apply Rle_abs]. }
     lra.
-  - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite J, <- value_nspeed2, <- value_ndot in F. cbn [value] in h. lra.
+  - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite J, <- value_nelastic, <- value_ndot in F. cbn [value] in h. lra.
   - destruct F as [row [e F]]. destruct (AtRow i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [hl h]. apply Nat.eqb_eq in hl.
     apply andb_true_iff in h as [t0 h]. apply andb_true_iff in t0 as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
     destruct (enclose bits (ndot y y)) as [sq |] eqn:e1; [| discriminate]. destruct (enclose bits (Over b tool)) as [q |] eqn:e2; [| discriminate].

@@ -47,9 +47,8 @@ Definition signs_of (fs : list pose_formulas) (q : list formula) (d : demand) : 
   end.
 Definition pose_rows (fs : list pose_formulas) : rows formula := map (fun f => (d_A f, d_D f)) fs.
 Definition pose_divided (fs : list pose_formulas) : rows formula := map (fun f => (d_divided f, integer 1)) fs.
-Definition stiffened (fs : list pose_formulas) (q : formula) : rows formula := map (fun f => (d_A f, times (d_D f) q)) fs.
 Definition own_of (fs : list pose_formulas) (q : list formula) (d : demand) : list formula :=
-  match d with StiffnessMin _ _ => entries (stiffened fs (nth 0 q (integer 0))) | _ => concat (signs_of fs q d) end.
+  match d with StiffnessMin _ _ => entries (stiffened (pose_rows fs) q) | _ => concat (signs_of fs q d) end.
 
 Section Precision.
 Variable bits : positive.
@@ -62,8 +61,8 @@ Definition tests_for (place : formula -> nat) (fs : list pose_formulas) (are_ang
   | FactorMax b => squared SigmaMin (Over (1 // 1) b)
   | FactorMin b => squared SigmaMax (Over (1 // 1) b)
   | Conditioned b => [option_map (fun a => Conditioning (sqr bits a)) (enclose_parameter bits (exactly b, 0%Z))]
-  | StiffnessMin k b => [if certainly bits true k && certainly bits true b
-      then Some (Least (map_rows place (stiffened fs (nth 0 q (integer 0)))) (Fixed.integer bits 1)) else None]
+  | StiffnessMin ks b => [if certainly bits true b && forallb (certainly bits true) ks
+      then Some (Least (map_rows place (stiffened (pose_rows fs) q)) (Fixed.integer bits 1)) else None]
   | ForceMax i tool b => match nth_error fs i with
       | Some _ => if certainly bits true tool && certainly bits true b then squared (Solved i) (Over tool b) else [None]
       | None => [None]
@@ -459,23 +458,18 @@ Proof.
     + pose proof (zero_vector u ltac:(apply Rnot_lt_le; exact z)) as Z0. assert (un : nth i u 0 = 0).
       { destruct (nth_in_or_default i u 0) as [i' | e']; [| exact e']. rewrite Forall_forall in Z0. symmetry. exact (Z0 _ i'). }
       rewrite <- hi. unfold du. rewrite un. pose proof (pow2_ge_0 y). nra.
-  - intros v lv. destruct (is_zero_or_not v) as [nz | z]; [| destruct (zero_speed v z) as [-> ->]; lra].
-    destruct (shown _ ltac:(left; reflexivity)) as [t [e h]]. destruct (certainly bits true a && certainly bits true b) eqn:ce; [| discriminate]. injection e as <-.
-    apply andb_true_iff in ce as [a0 b0]. apply positive_sound in a0, b0. cbn [Check.holds] in h. destruct h as [[_ pos] H].
-    assert (F : map_rows (formula_at tape) (map_rows found (stiffened fs (nth 0 q (integer 0)))) = stiffened fs (nth 0 q (integer 0))) by (apply rows_found; exact own_found).
-    rewrite F in pos, H. specialize (H 1 v (Fixed.integer_sound bits 1) lv nz). rewrite Rmult_1_l in H.
-    pose proof (Num 0%nat) as N0. cbn [inputs_of map nth input_value] in N0. cbn [Claim.value] in N0. rewrite twice_rate in N0.
-    set (c := nth 0 q (integer 0)) in *. assert (NC : value c = Claim.value b / Claim.value a * mu ^ 2) by (rewrite N0; unfold mu, Rdiv; rewrite pow_inv; ring).
-    assert (c0 : 0 < value c) by (rewrite NC; apply Rmult_lt_0_compat; [apply Rdiv_lt_0_compat; assumption | exact m2]).
-    assert (E : forall fs, positive_D (map_rows value (stiffened fs c)) -> positive_D (map_rows value (pose_rows fs)) /\
-      energy (map_rows value (pose_rows fs)) v = value c * energy (map_rows value (stiffened fs c)) v).
-    { clear - c0. intro fs0. induction fs0 as [| f fs0 IH]; intro p; [split; [constructor | cbn; ring] |]. cbn [stiffened pose_rows map] in p |- *. rewrite map_rows_cons in p |- *. rewrite map_rows_cons.
-      inversion p as [| ? ? p1 p2]; subst. cbn [snd] in p1. rewrite value_times in p1. destruct (IH p2) as [I1 I2].
-      assert (D0 : 0 < value (d_D f)) by (apply Rmult_lt_reg_r with (value c); lra). split; [constructor; assumption |]. cbn [energy]. fold (stiffened fs0 c) (pose_rows fs0). rewrite value_times, I2. field. split; lra. }
-    destruct (E fs pos) as [E1 E2]. destruct (rows_energy E1) as [_ E3]. rewrite E3 in E2.
-    assert (K : value c * Linear.dot v v < mu ^ 2 * Configuration.speed2 (jacobian conf) v) by (rewrite E2; apply Rmult_lt_compat_l; assumption).
-    rewrite NC in K. assert (K2 : Claim.value b / Claim.value a * Linear.dot v v < Configuration.speed2 (jacobian conf) v) by (apply Rmult_lt_reg_l with (mu ^ 2); [exact m2 | lra]).
-    replace (Claim.value b * Linear.dot v v) with (Claim.value a * (Claim.value b / Claim.value a * Linear.dot v v)) by (field; lra). apply Rmult_le_compat_l; lra.
+  - intros v lv. destruct (shown _ ltac:(left; reflexivity)) as [t [e h]]. destruct (certainly bits true b && forallb _ _) eqn:ce; [| discriminate]. injection e as <-.
+    apply andb_true_iff in ce as [b0 ks0]. apply positive_sound in b0. rewrite forallb_forall in ks0. cbn [Check.holds] in h. destruct h as [_ H].
+    assert (KS : Forall (fun y => 0 < y) (map Claim.value a)) by (apply Forall_forall; intros y iy; apply in_map_iff in iy as [y' [<- iy]]; eapply positive_sound, ks0, iy).
+    destruct (is_zero_or_not v) as [nz | z]; [| destruct (zero_speed v z) as [-> _]; rewrite Rmult_0_r; apply elastic_nonneg, KS].
+    rewrite (rows_found tape _ own_found) in H. specialize (H 1 v (Fixed.integer_sound bits 1) lv nz). rewrite Rmult_1_l in H.
+    assert (ROWS : Forall2 (fun p row => 0 < value (snd p) /\ Linear.dot (map value (fst p)) v ^ 2 / value (snd p) = mu ^ 2 * Linear.dot row v ^ 2) (pose_rows fs) (map seen_row m)).
+    { clear - good reach. induction good as [| f l fs' m' [_ [_ [_ [s2 [_ s4]]]]] hs IH]; [constructor |]. cbn [pose_rows map]. inversion reach as [| ? ? r1 r2]; subst. constructor; [| exact (IH hs r2)].
+      cbn [fst snd]. specialize (s2 r1). split; [exact s2 |]. destruct (s4 r1) as [[q [q2 qA]] _]. fold mu in qA. rewrite qA, dot_map, <- q2. rewrite <- q2 in s2. assert (q <> 0) by (intros ->; lra). field. exact H. }
+    pose proof (stiffened_energy x theta (mu ^ 2) (mu ^ 2) (Claim.value b) v b0 m2 (pose_rows fs) _ ROWS (map Claim.value a) q KS) as E.
+    specialize (E ltac:(rewrite numbers; cbn [inputs_of]; rewrite !map_map; apply map_ext; intro y; cbn [input_value Claim.value]; rewrite twice_rate; unfold mu, Rdiv; rewrite pow_inv; ring)).
+    unfold conf. cbn [jacobian]. apply Rmult_le_reg_l with (mu ^ 2); [exact m2 |]. rewrite <- E. replace (mu ^ 2 * (Claim.value b * Linear.dot v v)) with (Linear.dot v v * (Claim.value b * mu ^ 2)) by ring.
+    apply Rmult_le_compat_r; [apply Rlt_le, Rmult_lt_0_compat; assumption | lra].
   - destruct (Signs I) as [ne [ok _]]. cbn [signs_of] in ne, One. destruct (nth_error fs i) as [f |] eqn:ef; [| contradiction].
     destruct (leg_at_pose i f ef) as [l [nl [D0 [A [J [K _]]]]]]. destruct (d_joint f) as [? | ? ? |]; try contradiction.
     destruct (seen_joint l) as [? | ? ? |]; cbn [joint_is] in J; try contradiction. destruct K as [M0 _].

@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra List Bool.
 From Orthocert Require Import Vec3 Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Check Number Trig Formula Machine Problem Configuration.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Test Check Number Trig Formula Machine Problem Configuration.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -57,7 +57,7 @@ Definition inputs_of (are_angles : bool) (s : Z) (d : demand) : list input :=
   | AngleWithin _ a b => [Cosine a; Sine a; Cosine b; Sine b]
   | SpeedMax _ tool b => [InUnit (Over b tool) 0]
   | TurnMax _ tool b => [Radians (Over b tool) (- s)]
-  | StiffnessMin k b => [InUnit (Over b k) (rate are_angles s + rate are_angles s)]
+  | StiffnessMin ks b => map (fun k => InUnit (Over b k) (rate are_angles s + rate are_angles s)) ks
   | SerialMin _ b | ParallelMin b => [InUnit b 0]
   | LegAngleMax _ b => [Cosine b]
   | JointAngleMax _ _ j b => let u := order_of [px j; py j; pz j] in [Cosine b; InUnit (px j) u; InUnit (py j) u; InUnit (pz j) u]
@@ -83,6 +83,23 @@ Proof.
     intros A g a k. apply in_or_app. left. exact k.
   - destruct (IH d x (front ++ map input_value (inputs_of are_angles s d0)) back i) as [q [h1 h2]]. exists q. rewrite map_app, <- !app_assoc in *.
     split; [exact h1 |]. intros A g a k. apply in_or_app. right. specialize (h2 A g a k). rewrite app_length, map_length in h2. exact h2.
+Qed.
+
+(** M^T diag(k_i) M >= b I is sigma_min >= 1 of the rows with D_i b/k_i. *)
+Definition stiffened (r : rows formula) (q : list formula) : rows formula := map (fun p => (fst (fst p), times (snd (fst p)) (snd p))) (combine r q).
+Lemma stiffened_energy : forall x theta w u b v, 0 < b -> 0 < u -> forall r M,
+  Forall2 (fun p row => 0 < Formula.value x theta (snd p) /\ Linear.dot (map (Formula.value x theta) (fst p)) v ^ 2 / Formula.value x theta (snd p) = w * Linear.dot row v ^ 2) r M ->
+  forall ks q, Forall (fun k => 0 < k) ks -> map (Formula.value x theta) q = map (fun k => b / k * u) ks ->
+  energy (map_rows (Formula.value x theta) (stiffened r q)) v * (b * u) = w * elastic ks M v.
+Proof.
+  intros x theta w u b v b0 u0. unfold stiffened. induction 1 as [| [A D] row r M [d0 e] hs IH]; intros [| k ks] [| f q] hk hq; try discriminate; cbn [combine map elastic]; try (cbn [map_rows map energy]; ring).
+  cbn [map] in hq. injection hq as h1 h2. inversion hk as [| ? ? k0 hk']; subst. specialize (IH ks q hk' h2). cbn [fst snd] in *. rewrite map_rows_cons. cbn [energy]. rewrite value_times, h1.
+  rewrite Rmult_plus_distr_r, IH, Rmult_plus_distr_l. f_equal. replace (w * (k * Linear.dot row v ^ 2)) with (k * (w * Linear.dot row v ^ 2)) by ring. rewrite <- e. field. repeat split; lra.
+Qed.
+Lemma entries_stiffened : forall r q f, In f (entries (stiffened r q)) -> In f (entries r) \/ In f (map snd (stiffened r q)).
+Proof.
+  intros r q f i. apply in_flat_map in i as [[A D] [i1 i2]]. apply in_app_or in i2 as [i2 | [<- | []]]; [left | right; apply in_map_iff; exists (A, D); split; [reflexivity | exact i1]].
+  apply in_map_iff in i1 as [[[A' D'] g] [e1 i1]]. injection e1 as <- _. apply in_flat_map. exists (A', D'). split; [exact (in_combine_l _ _ _ _ i1) | apply in_or_app; left; exact i2].
 Qed.
 
 Section Precision.

@@ -558,8 +558,6 @@ Definition length_sign (q : list formula) (d : demand) : option formula :=
   | LengthMax i b => match nth_error zs i with Some z => if certainly bits false b then Some (minus bound (snd (z_row z))) else None | None => None end
   | _ => None
   end.
-(** M^T k M >= b I is sigma_min >= 1 of the rows with D b/k. *)
-Definition stiff_rows (q : list formula) : Test.rows formula := map (fun p => (fst p, times (snd p) (nth 0 q (integer 0)))) rows.
 (** Of a joint's speed: w r . A, and what is less than its square over w D. *)
 Definition lever_of (q : list formula) (d : demand) : option (formula * formula) :=
   match d with SpeedMax i _ _ => option_map (fun z => (fst (z_lever z), snd (z_lever z) (nth 0 q (integer 0)))) (nth_error zs i) | _ => None end.
@@ -579,7 +577,7 @@ Definition limb_segments (q : list formula) (one other : body) : option (evec * 
 
 Definition own_formulas (q : list formula) (d : demand) : list formula :=
   match d with
-  | StiffnessMin _ _ => map snd (stiff_rows q)
+  | StiffnessMin _ _ => map snd (stiffened rows q)
   | SpeedMax _ _ _ => match lever_of q d with Some (f, b) => [f; b] | None => [] end
   | JointAngleMax i on _ b => match nth_error zs i with
       | Some z => if up_to_90 b then let (A, D) := angle_row q (z_way z on) in A ++ [D] else []
@@ -612,8 +610,8 @@ Definition pose_test_of (q : list formula) (d : demand) : option pose_test :=
       | Some z, Some (f, b') => if certainly bits true tool && certainly bits true b then Some (LeverOf [([place f], place (snd (z_row z)))] (place b')) else None
       | _, _ => None
       end
-  | StiffnessMin k b => if certainly bits true k && certainly bits true b
-      then Some (LeastOf (map_rows place (stiff_rows q)) (place w) (Fixed.integer bits 1) O) else None
+  | StiffnessMin ks b => if certainly bits true b && forallb (certainly bits true) ks
+      then Some (LeastOf (map_rows place (stiffened rows q)) (place w) (Fixed.integer bits 1) O) else None
   | ForceMax i tool b => match nth_error zs i with
       | Some _ => if certainly bits true tool && certainly bits true b then squared (fun r w k => SolveOf i r w k ends) rows (Over tool b) else None
       | None => None
@@ -815,19 +813,6 @@ Proof.
     try (destruct (certainly _ _ _ && _); [| discriminate]);
     try (destruct (enclose_parameter bits _); [cbn [option_map] in i |]; try discriminate); try (destruct (0 <=? lo _)%Z; [| discriminate]); cbv zeta in i; injection i as <-; cbn [with_ends] in we; try discriminate;
     injection we; intros; subst; auto.
-Qed.
-
-(** Rows with D times q. *)
-Lemma stiff_energy : forall x theta zs l q v, Formula.value x theta (nth 0 l (integer 0)) = q -> 0 < q ->
-  positive_D (map_rows (Formula.value x theta) (stiff_rows zs l)) ->
-  positive_D (map_rows (Formula.value x theta) (map z_row zs)) /\
-  energy (map_rows (Formula.value x theta) (map z_row zs)) v = q * energy (map_rows (Formula.value x theta) (stiff_rows zs l)) v.
-Proof.
-  intros x theta zs l q v hq q0. unfold stiff_rows. induction (map z_row zs) as [| [A D] rows IH]; intro p; [split; [constructor | cbn; ring] |].
-  cbn [map fst snd] in p |- *. rewrite map_rows_cons in p |- *. rewrite map_rows_cons. inversion p as [| ? ? p1 p2]; subst.
-  cbn [snd] in p1. rewrite value_times in p1. destruct (IH p2) as [I1 I2]. set (q := Formula.value x theta (nth 0 l (integer 0))) in *.
-  assert (D0 : 0 < Formula.value x theta D) by (apply Rmult_lt_reg_r with q; lra).
-  split; [constructor; assumption |]. cbn [energy]. rewrite value_times, I2. fold q. field. split; lra.
 Qed.
 
 (** An angle whose cosine is not less than that of the greatest. *)
@@ -1170,20 +1155,19 @@ Proof.
     + pose proof (zero_vector u ltac:(apply Rnot_lt_le; exact z)) as Z0. assert (un : nth n u 0 = 0).
       { destruct (nth_in_or_default n u 0) as [i' | e']; [| exact e']. rewrite Forall_forall in Z0. symmetry. exact (Z0 _ i'). }
       rewrite <- hi. unfold du. rewrite un. pose proof (pow2_ge_0 y). lra.
-  - destruct (certainly bits true b && certainly bits true b') eqn:ce; [| discriminate]. apply andb_true_iff in ce as [k0' b0]. apply positive_sound in k0', b0.
-    injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. cbn [own_formulas] in signs. intros v lv.
-    pose proof (Num 0%nat) as Number. cbn [inputs_of rate Z.add map nth input_value Claim.value] in Number. change (two_to 0) with 1 in Number. rewrite Over1 in Number.
-    assert (q0 : 0 < Claim.value b' / Claim.value b) by (apply Rdiv_lt_0_compat; assumption).
-    destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> q]; unfold conf, struts_at; cbn [jacobian]; rewrite q; lra].
-    destruct (H 1 v (Fixed.integer_sound bits 1) ltac:(lra) lv nz) as [p q].
-    rewrite RowsOf in p, q by (intros f i'; apply in_flat_map in i' as [[A D] [i1 i2]]; apply in_app_or in i2 as [i2 | [<- | []]];
-      [apply in_map_iff in i1 as [[A' D'] [e1 i1]]; injection e1 as <- <-; apply in_or_app; left; apply in_flat_map; exists (A', D'); split; [exact i1 | apply in_or_app; left; exact i2]
-      | apply signs, in_map_iff; exists (A, D); split; [reflexivity | exact i1]]).
-    destruct (stiff_energy x theta zs ns _ v Number q0 p) as [p' E]. rewrite (proj2 (Speed p')) in E. rewrite Weight in q.
-    unfold conf, struts_at. cbn [jacobian]. set (S2 := Configuration.speed2 _ v) in *. set (y := Claim.value b') in *. set (e := Claim.value b) in *.
-    assert (y / e * (W * Linear.dot v v) < W * S2) by (rewrite E; apply Rmult_lt_compat_l; [exact q0 | lra]).
-    assert (y / e * Linear.dot v v < S2) by (apply Rmult_lt_reg_l with W; lra).
-    replace (y * Linear.dot v v) with (e * (y / e * Linear.dot v v)) by (field; lra). apply Rmult_le_compat_l; lra.
+  - destruct (certainly bits true b' && forallb _ _) eqn:ce; [| discriminate]. apply andb_true_iff in ce as [b0 ks0]. apply positive_sound in b0. rewrite forallb_forall in ks0.
+    injection pu as <-. pose proof (HT _ iu) as H. cbn [test_holds] in H. cbn [own_formulas] in signs. fold rows in signs. intros v lv.
+    assert (KS : Forall (fun y => 0 < y) (map Claim.value b)) by (apply Forall_forall; intros y iy; apply in_map_iff in iy as [y' [<- iy]]; eapply positive_sound, ks0, iy).
+    destruct (NZ v) as [nz | z]; [| destruct (Z v z) as [-> _]; rewrite Rmult_0_r; apply elastic_nonneg, KS].
+    destruct (H 1 v (Fixed.integer_sound bits 1) ltac:(lra) lv nz) as [_ q].
+    rewrite RowsOf in q by (intros f i'; destruct (entries_stiffened _ _ _ i') as [i2 | i2]; [apply in_or_app; left; exact i2 | exact (signs _ i2)]). rewrite Weight in q.
+    assert (ROWS : Forall2 (fun p row => 0 < Formula.value x theta (snd p) /\ Linear.dot (map (Formula.value x theta) (fst p)) v ^ 2 / Formula.value x theta (snd p) = W * Linear.dot row v ^ 2) rows (map (fun l => strut_row k L l P Q) m)).
+    { clear - ST PDR W0. revert PDR. induction ST as [| [A D] l rows' m' [h _] hs IH]; intro p; cbn [map]; constructor; rewrite map_rows_cons in p; inversion p as [| ? ? p1 p2]; subst; [| exact (IH p2)].
+      cbn [fst snd] in p1 |- *. split; [exact p1 |]. destruct (h p1) as [_ [y [y2 hy]]]. rewrite hy, Rpow_mult_distr, y2. field. lra. }
+    pose proof (stiffened_energy x theta W 1 (Claim.value b') v b0 Rlt_0_1 rows _ ROWS (map Claim.value b) ns) as E. unfold conf, struts_at. cbn [jacobian].
+    specialize (E KS ltac:(rewrite qv; cbn [inputs_of]; rewrite !map_map; apply map_ext; intro y; cbn [input_value Claim.value]; change (two_to (rate false s + rate false s)) with 1; rewrite Over1; ring)).
+    rewrite !Rmult_1_r in E. apply Rmult_le_reg_l with W; [exact W0 |]. rewrite <- E. rewrite Rmult_1_l in q. replace (W * (Claim.value b' * Linear.dot v v)) with (W * Linear.dot v v * Claim.value b') by ring.
+    apply Rmult_le_compat_r; lra.
   - cbn [tests_of_demand own_formulas plain_formulas] in *. destruct (nth_error zs n) as [z |] eqn:nz; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
     destruct (is_axis ax && certainly bits false b && certainly bits false (Minus (180 // 1) b)) eqn:ce; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
     apply andb_true_iff in ce as [ce b1]. apply andb_true_iff in ce as [axis b0]. apply nonneg_sound in b0, b1. cbn [Claim.value] in b1.

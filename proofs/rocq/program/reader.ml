@@ -196,7 +196,7 @@ let requirement ?(turns = false) v =
     | Acceleration_, [ ("acceleration", Array [ a ]); ("speed", Array [ v ]) ] -> Motion_ (number a, number v)
     | (BaseJoint_ | PlatformJoint_), [ ("axis", Array l) ] -> Each_ (List.map number l)
     | Accuracy_, [ ("joint_error", _); ("max_angle", _) ] when turns -> not_covered [ "accuracy of a platform that turns" ]
-    | Stiffness_, [ ("joint", Array l) ] -> if turns then not_covered [ "a stiffness for each joint of such a mechanism" ] else Each_ (List.map number l)
+    | Stiffness_, [ ("joint", Array l) ] -> Each_ (List.map number l)
     | _ -> raise Malformed in
   { about_; leg_ = optional count (find l "leg"); given_ = optional given (find l "given"); end_ }
 

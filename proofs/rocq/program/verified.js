@@ -4,27 +4,27 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(G){"use strict";var
-iJ="spatial",pd="Invalid_argument",gu="precision",aA='"',iI=1255,pc="inside",oi="(",oj=0x800,pb="yaw",of="range",og="tree",oh="jsError",bT=0x8000,pa="sqrt(",oe=256,od="obligation",eY="offset",a8="machine",ob="this quantity of such a mechanism in a claim that is refuted",oc="End_of_file",dY="strut",iH="center",eX="arm",iG="Failure",o$="serial_margin",gD="parameters",ch=0xff,o_="bodies",iT="outside",gC="base_axis",iF="ENOENT",o9="singular",o8=122,oa="([^/]+)",iS="0",iE=0xf,eW=128,n$=0xdc00,o6="Sys_blocked_io",o7="fd ",gt="given",n_="ENOTEMPTY",aM=248,gs="bound",n9="Division_by_zero",o4="by",o5=1027,n8="Sys_error",gB="slider",n7="torsion",o3="postulate",n6="proof",o2="joint_error",eV="refuted",dT="mechanism",gr="row",n5="EEXIST",o1="roll_pitch_yaw",gA="y",n4="cube",db="lower",o0="within",n3="clearance",oZ="turned",n2="control",gq="int_of_string",oX="definitions",oY="dependent",eU=1024,n0="from",n1="name",oW=" : flags Open_rdonly and Open_wronly are not compatible",nZ="orthocert/2",oV="reach",nY=512,oT="base_joint",oU="witness",eT="-",a1="platform",nX=0x7ff0,nW="pitch",iR=": Not a directory",bo="min",oR="trim",dX="workspace",oS=" : file already exists",gp="split",oP='the failure "singular" of such a mechanism',iQ="legs",oQ="claim",iD="joint",dc=0xffffff,nV="platform_joint",nU="formulas",nT="roll",go="atlas",oN="nodes",oO="Out_of_memory",nS="psi_max",gz="orientation",gn=254,oM="angle",iP="index out of bounds",nR="end",oL="one_to_one",gy="_bigarr02",nQ=" : flags Open_text and Open_binary are not compatible",bG="drive",nP="coordinates",oK="holds",nO="lower_divided",nN="speed",oI="cylinder",oJ="joints",cg=0xffff,oG="acceleration",eR="certified",eS="chords",oH=12520,iC="on",gm="accuracy",eQ="axis",oF="no_cube",oE="parallel_margin",nM='the drive "',iB="Unix.Unix_error",gx="fails",gl="tool",iA="mkdir",oD="rho",gw=1000,iz="translational",oC="tolerances",nL="Stack_overflow",iO="characteristic_length",T="",iN="^",iy="places",gk=": No such file or directory",nK="/static/",dW=0x3f,nI="stiffness",nJ="Not_found",da="planar",eO="mode",oB="joint_speed",oA="Match_failure",nH="transmission",bn="anchor",oz="at",nG="joint_force",dV="leg",nF="joint_acceleration",gv="+",ix="rmdir",oy=0xf0,ox="spherical",nE=1026,ov="REJECTED",ow="undecided",bp="max",bU="direction",nC="leg_angle",nD="orthoglide",eP="rank",ou="constraint_margin",gj="test",nA="Pervasives.do_at_exit",nB="utf8",bF=0x80,dU="conditioning",dS="length",nz="Undefined_recursive_module",iM=")",ny="base",ot="quantity",nx="joint_range",gi="tilt",nw="Q2",os="reference",nv="point",oq="corner",or=0xe0,nu="version",iL="z",oo="to",op=0xdfff,iw="compare: functional value",on="Assert_failure",bI="/",om="provenance",c$="radius",gh="side",bH="require",ol="format",nt="Q1",iK="ENOTDIR",ns="all",c_="box",ok=250;function
-i6(c,b,a){var
+iK="spatial",pd="Invalid_argument",gv="precision",aA='"',iJ=1255,pc="inside",oi="(",oj=0x800,pb="yaw",of="range",og="tree",oh="jsError",bU=0x8000,pa="sqrt(",oe=256,od="obligation",eZ="offset",a8="machine",ob="this quantity of such a mechanism in a claim that is refuted",oc="End_of_file",dZ="strut",iI="center",eY="arm",iH="Failure",o$="serial_margin",gE="parameters",ch=0xff,o_="bodies",iU="outside",gD="base_axis",iG="ENOENT",o9="singular",o8=122,oa="([^/]+)",iT="0",iF=0xf,eX=128,n$=0xdc00,o6="Sys_blocked_io",o7="fd ",gu="given",n_="ENOTEMPTY",aM=248,gt="bound",n9="Division_by_zero",o4="by",o5=1027,n8="Sys_error",gC="slider",n7="torsion",o3="postulate",n6="proof",o2="joint_error",eW="refuted",dU="mechanism",gs="row",n5="EEXIST",o1="roll_pitch_yaw",gB="y",n4="cube",db="lower",o0="within",n3="clearance",oZ="turned",n2="control",gr="int_of_string",oX="definitions",oY="dependent",eV=1024,n0="from",n1="name",oW=" : flags Open_rdonly and Open_wronly are not compatible",nZ="orthocert/2",oV="reach",nY=512,oT="base_joint",oU="witness",eU="-",a1="platform",nX=0x7ff0,nW="pitch",iS=": Not a directory",bo="min",oR="trim",dY="workspace",oS=" : file already exists",gq="split",oP='the failure "singular" of such a mechanism',iR="legs",oQ="claim",iE="joint",dc=0xffffff,nV="platform_joint",nU="formulas",nT="roll",gp="atlas",oN="nodes",oO="Out_of_memory",nS="psi_max",gA="orientation",go=254,oM="angle",iQ="index out of bounds",nR="end",oL="one_to_one",gz="_bigarr02",nQ=" : flags Open_text and Open_binary are not compatible",bH="drive",nP="coordinates",oK="holds",nO="lower_divided",nN="speed",oI="cylinder",oJ="joints",cg=0xffff,oG="acceleration",eS="certified",eT="chords",oH=12520,iD="on",gn="accuracy",eR="axis",oF="no_cube",oE="parallel_margin",nM='the drive "',iC="Unix.Unix_error",gy="fails",gm="tool",iB="mkdir",oD="rho",gx=1000,iA="translational",oC="tolerances",nL="Stack_overflow",iP="characteristic_length",T="",iO="^",iz="places",gl=": No such file or directory",nK="/static/",dX=0x3f,nI="stiffness",nJ="Not_found",da="planar",eP="mode",oB="joint_speed",oA="Match_failure",nH="transmission",bn="anchor",oz="at",nG="joint_force",dW="leg",nF="joint_acceleration",gw="+",iy="rmdir",oy=0xf0,ox="spherical",nE=1026,ov="REJECTED",ow="undecided",bp="max",bV="direction",nC="leg_angle",nD="orthoglide",eQ="rank",ou="constraint_margin",gk="test",nA="Pervasives.do_at_exit",nB="utf8",bG=0x80,dV="conditioning",dT="length",nz="Undefined_recursive_module",iN=")",ny="base",ot="quantity",nx="joint_range",gj="tilt",nw="Q2",os="reference",nv="point",oq="corner",or=0xe0,nu="version",iM="z",oo="to",op=0xdfff,ix="compare: functional value",on="Assert_failure",bJ="/",om="provenance",c$="radius",gi="side",bI="require",ol="format",nt="Q1",iL="ENOTDIR",ns="all",c_="box",ok=250;function
+i7(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eU,a-=eU)e+=d.apply(null,c.slice(b,b+Math.min(a,eU)));return e}function
-gF(b){if(G.Uint8Array)var
+e=T;for(;0<a;b+=eV,a-=eV)e+=d.apply(null,c.slice(b,b+Math.min(a,eV)));return e}function
+gG(b){if(G.Uint8Array)var
 c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eZ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i6(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?i6(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gF(b);var
+e0(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gG(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-d1(a){return a}function
-d0(a,b,c,d,e){eZ(d1(a),b,c,d,e);return 0}function
-iV(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+d2(a){return a}function
+d1(a,b,c,d,e){e0(d2(a),b,c,d,e);return 0}function
+iW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 cI(c,a){if(c.fun)return cI(c.fun,a);if(typeof
@@ -39,20 +39,20 @@ b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cI(c,d)}}function
 pF(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
 d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d2(a){if(a.t==2)a.c+=pF(a.l-a.c.length,"\0");else
-a.c=i6(a.c,0,a.c.length);a.t=0}function
-d3(a){a.t&6&&d2(a);return a.c}var
-ES=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-ER(a){if(ES)return Math.floor(Math.log2(a));var
+d3(a){if(a.t==2)a.c+=pF(a.l-a.c.length,"\0");else
+a.c=i7(a.c,0,a.c.length);a.t=0}function
+d4(a){a.t&6&&d3(a);return a.c}var
+ER=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+EQ(a){if(ER)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iY(c){var
+iZ(c){var
 a=new(G.Float32Array)(1);a[0]=c;var
 b=new(G.Int32Array)(a.buffer);return b[0]|0}var
 pw=Math.pow(2,-24);function
-EI(a){throw a}var
+EH(a){throw a}var
 as=[0];function
-pC(){EI(as.Division_by_zero)}function
+pC(){EH(as.Division_by_zero)}function
 F(b,c,a){this.lo=b&dc;this.mi=c&dc;this.hi=a&cg}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
 F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
@@ -81,21 +81,21 @@ F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi
 c=0,b=this.copy(),a=e.copy(),d=new
 F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
 b=this;if(a.isZero())pC();var
-d=b.hi^a.hi;if(b.hi&bT)b=b.neg();if(a.hi&bT)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bT)c=c.neg();return c};F.prototype.mod=function(b){var
+d=b.hi^a.hi;if(b.hi&bU)b=b.neg();if(a.hi&bU)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&bU)c=c.neg();return c};F.prototype.mod=function(b){var
 a=this;if(b.isZero())pC();var
-d=a.hi;if(a.hi&bT)a=a.neg();if(b.hi&bT)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bT)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
-gH(b,c,a){return new
+d=a.hi;if(a.hi&bU)a=a.neg();if(b.hi&bU)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&bU)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
+gI(b,c,a){return new
 F(b,c,a)}function
-gG(a){if(!isFinite(a)){if(isNaN(a))return gH(1,0,nX);return a>0?gH(0,0,nX):gH(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bT:a>=0?0:bT;if(f)a=-a;var
-b=ER(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nE)}else{a/=Math.pow(2,b-o5);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gH(a){if(!isFinite(a)){if(isNaN(a))return gI(1,0,nX);return a>0?gI(0,0,nX):gI(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?bU:a>=0?0:bU;if(f)a=-a;var
+b=EQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nE)}else{a/=Math.pow(2,b-o5);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iE|f|b<<4;return gH(g,e,c)}function
-e2(a){return a.toArray()}function
-pk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gy)for(var
+g=a|0;c=c&iF|f|b<<4;return gI(g,e,c)}function
+e3(a){return a.toArray()}function
+pk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gz)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cg)c.write(16,b.dims[a]);else{c.write(16,cg);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=e2(b.get(a));for(var
+e=e3(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e2(gG(b.get(a)));for(var
+e=e3(gH(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iY(b.get(a));c.write(32,e)}break;case
+e=iZ(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iY(d[1]));c.write(32,iY(d[2]))}break;case
+d=b.get(a);c.write(32,iZ(d[1]));c.write(32,iZ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e2(gG(f[1]));for(var
+f=b.get(a),e=e3(gH(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e2(gG(f[2]));for(var
+e=e3(gH(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-EK(b,a){throw[0,b,a]}function
+EJ(b,a){throw[0,b,a]}function
 pK(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-i7(e){for(var
-j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bF){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bF;d++);if(d-b>nY){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(f<<6);if(f<or){a=g-0x3080;if(a<bF)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(g<<6);if(f<oy){a=g-0xe2080;if(a<oj||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+i8(e){for(var
+j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bG){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>nY){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(f<<6);if(f<or){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(g<<6);if(f<oy){a=g-0xe2080;if(a<oj||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
 if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),n$+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eU){c.substr(0,1);j+=c;c=T}}return j+c}function
-bV(c,a,b){this.t=c;this.c=a;this.l=b}bV.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d2(this);case
+c+=String.fromCharCode(a);if(c.length>eV){c.substr(0,1);j+=c;c=T}}return j+c}function
+bW(c,a,b){this.t=c;this.c=a;this.l=b}bW.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:d3(this);case
 0:if(pK(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bV.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return i7(a)};bV.prototype.slice=function(){var
+8:return this.c}};bW.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return i8(a)};bW.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bV(this.t,a,this.l)};function
+bW(this.t,a,this.l)};function
 pn(a){return new
-bV(0,a,a.length)}function
+bW(0,a,a.length)}function
 a(a){return pn(a)}function
-i5(c,b){EK(c,a(b))}function
-aE(a){i5(as.Invalid_argument,a)}function
+i6(c,b){EJ(c,a(b))}function
+aE(a){i6(as.Invalid_argument,a)}function
 pi(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Ec(c,e){var
+Eb(c,e){var
 b=G,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -174,42 +174,42 @@ b=G,a;switch(c){case
 12:a=b.Uint8Array;break}if(!a)aE("Bigarray.create: unsupported kind");var
 d=new
 a(e*pi(c));return d}function
-iZ(c){var
+i0(c){var
 a=new(G.Int32Array)(1);a[0]=c;var
 b=new(G.Float32Array)(a.buffer);return b[0]}function
-e1(a){return new
+e2(a){return new
 F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-i0(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iE)==0?b&bT?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iE);if(c>0){a+=16;a*=Math.pow(2,c-o5)}else
-a*=Math.pow(2,-nE);if(b&bT)a=-a;return a}function
-iU(b){var
+i1(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iF)==0?b&bU?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iF);if(c>0){a+=16;a*=Math.pow(2,c-o5)}else
+a*=Math.pow(2,-nE);if(b&bU)a=-a;return a}function
+iV(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aE("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Es(b,a){return new
+Er(b,a){return new
 F(b&dc,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
-i1(a){return a.hi32()}function
-i2(a){return a.lo32()}function
-gE(){aE(iP)}var
-Ed=gy;function
-cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ed;cH.prototype.offset=function(b){var
+i2(a){return a.hi32()}function
+i3(a){return a.lo32()}function
+gF(){aE(iQ)}var
+Ec=gz;function
+cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ec;cH.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aE("bigarray.js: invalid offset");if(this.dims.length!=b.length)aE("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gE();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gF();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gE();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gF();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Es(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Er(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gn,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=i2(b);this.data[a*2+1]=i1(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[go,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=i3(b);this.data[a*2+1]=i2(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cH.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=i2(b),e=i1(b);if(c==e)this.data.fill(c);else
+c=i3(b),e=i2(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-dZ(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}dZ.prototype=new
-cH();dZ.prototype.offset=function(a){if(typeof
+d0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d0.prototype=new
+cH();d0.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gE();return a};dZ.prototype.get=function(a){return this.data[a]};dZ.prototype.set=function(a,b){this.data[a]=b;return 0};dZ.prototype.fill=function(a){this.data.fill(a);return 0};function
+aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gF();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
 pg(c,d,a,b){var
-e=pi(c);if(iU(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-dZ(c,d,a,b);return new
+e=pi(c);if(iV(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+d0(c,d,a,b);return new
 cH(c,d,a,b)}function
-bJ(b){if(!as.Failure)as.Failure=[aM,a(iG),-3];i5(as.Failure,b)}function
+bK(b){if(!as.Failure)as.Failure=[aM,a(iH),-3];i6(as.Failure,b)}function
 ph(b,v,r){var
-i=b.read32s();if(i<0||i>16)bJ("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gy)for(var
+i=b.read32s();if(i<0||i>16)bK("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gz)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cg){var
-t=b.read32u(),u=b.read32u();if(t!=0)bJ("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+t=b.read32u(),u=b.read32u();if(t!=0)bK("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iU(h),f=Ec(j,d),g=pg(j,o,h,f);switch(j){case
+d=iV(h),f=Eb(j,d),g=pg(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,41 +269,41 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bJ("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bK("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=e1(e);g.set(a,q)}break;case
+q=e2(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=i0(e1(e));g.set(a,k)}break;case
+k=i1(e2(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=iZ(b.read32s());g.set(a,k)}break;case
+k=i0(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=iZ(b.read32s()),l=iZ(b.read32s());g.set(a,[gn,m,l])}break;case
+m=i0(b.read32s()),l=i0(b.read32s());g.set(a,[go,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=i0(e1(e));for(var
+m=i1(e2(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=i0(e1(e));g.set(a,[gn,m,l])}break}v[0]=(4+i)*4;return pg(j,o,h,f)}function
+l=i1(e2(e));g.set(a,[go,m,l])}break}v[0]=(4+i)*4;return pg(j,o,h,f)}function
 pf(a,b,c){return a.compare(b,c)}function
 pz(a,b){return Math.imul(a,b)}function
 ci(b,a){a=pz(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pz(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Ep(a,b){a=ci(a,i2(b));a=ci(a,i1(b));return a}function
-pv(a,b){return Ep(a,gG(b))}function
+Eo(a,b){a=ci(a,i3(b));a=ci(a,i2(b));return a}function
+pv(a,b){return Eo(a,gH(b))}function
 pj(c){var
-b=iU(c.dims),d=0;switch(c.kind){case
+b=iV(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
 12:if(b>oe)b=oe;var
@@ -312,7 +312,7 @@ e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=ci(d,e)}break;case
 4:case
-5:if(b>eW)b=eW;var
+5:if(b>eX)b=eX;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ci(d,e)}if((b&1)!=0)d=ci(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=ci(d,c.data[a]);break;case
@@ -327,36 +327,36 @@ a=0;a<b;a++)d=pv(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
 a=0;a<b;a++)d=pv(d,c.data[a]);break}return d}function
-Eq(a,b){b[0]=4;return a.read32s()}function
-EF(a,b){switch(a.read8u()){case
+Ep(a,b){b[0]=4;return a.read32s()}function
+EE(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bJ("input_value: native integer value too large");default:bJ("input_value: ill-formed native integer")}}function
-Ev(c,d){var
+2:bK("input_value: native integer value too large");default:bK("input_value: ill-formed native integer")}}function
+Eu(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e1(b)}function
-Eu(e,d,b){var
-c=e2(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e2(b)}function
+Et(e,d,b){var
+c=e3(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Er(a,b,c){return a.compare(b)}function
-Et(a){return a.lo32()^a.hi32()}var
-pq={"_j":{deserialize:Ev,serialize:Eu,fixed_length:8,compare:Er,hash:Et},"_i":{deserialize:Eq,fixed_length:4},"_n":{deserialize:EF,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ph(a,b,"_bigarray")},serialize:pk,compare:pf,hash:pj},"_bigarr02":{deserialize:function(a,b){return ph(a,b,gy)},serialize:pk,compare:pf,hash:pj}};function
-iX(a){return pq[a.caml_custom]&&pq[a.caml_custom].compare}function
+Eq(a,b,c){return a.compare(b)}function
+Es(a){return a.lo32()^a.hi32()}var
+pq={"_j":{deserialize:Eu,serialize:Et,fixed_length:8,compare:Eq,hash:Es},"_i":{deserialize:Ep,fixed_length:4},"_n":{deserialize:EE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ph(a,b,"_bigarray")},serialize:pk,compare:pf,hash:pj},"_bigarr02":{deserialize:function(a,b){return ph(a,b,gz)},serialize:pk,compare:pf,hash:pj}};function
+iY(a){return pq[a.caml_custom]&&pq[a.caml_custom].compare}function
 po(f,c,d,e){var
-b=iX(c);if(b){var
+b=iY(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-i4(a){return a
+i5(a){return a
 instanceof
-bV}function
-px(a){return i4(a)}function
+bW}function
+px(a){return i5(a)}function
 pp(a){if(typeof
-a==="number")return gw;else
-if(i4(a))return 252;else
+a==="number")return gx;else
+if(i5(a))return 252;else
 if(px(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gn?0:b}else
+b=a[0]|0;return b==go?0:b}else
 if(a
 instanceof
 String)return oH;else
@@ -364,24 +364,24 @@ if(typeof
 a=="string")return oH;else
 if(a
 instanceof
-Number)return gw;else
-if(a&&a.caml_custom)return iI;else
+Number)return gx;else
+if(a&&a.caml_custom)return iJ;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ew(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pm(a,b){a.t&6&&d2(a);b.t&6&&d2(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+Ev(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pm(a,b){a.t&6&&d3(a);b.t&6&&d3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
 pG(a,b){return pm(a,b)}function
-iW(a,b,d){var
+iX(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
 f=pp(a);if(f==ok){a=a[1];continue}var
-g=pp(b);if(g==ok){b=b[1];continue}if(f!==g){if(f==gw){if(g==iI)return po(a,b,-1,d);return-1}if(g==gw){if(f==iI)return po(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aE(iw);break;case
+g=pp(b);if(g==ok){b=b[1];continue}if(f!==g){if(f==gx){if(g==iJ)return po(a,b,-1,d);return-1}if(g==gx){if(f==iJ)return po(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aE(ix);break;case
 248:var
-c=Ew(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aE(iw);break;case
+c=Ev(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aE(ix);break;case
 250:aE("equal: got Forward_tag, should not happen");break;case
 251:aE("equal: abstract value");break;case
 252:if(a!==b){var
@@ -389,9 +389,9 @@ c=pm(a,b);if(c!=0)return c|0}break;case
 253:aE("equal: got Double_tag, should not happen");break;case
 254:aE("equal: got Double_array_tag, should not happen");break;case
 255:aE("equal: got Custom_tag, should not happen");break;case
-1247:aE(iw);break;case
+1247:aE(ix);break;case
 1255:var
-i=iX(a);if(i!=iX(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aE("compare: abstract value");var
+i=iY(a);if(i!=iY(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aE("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,91 +399,91 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=d3(a),b=d3(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=d4(a),b=d4(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Ek(a,b){return iW(a,b,true)}function
-bX(a){if(a<0)aE("Bytes.create");return new
-bV(a?2:9,T,a)}function
-pr(a,b){return+(iW(a,b,false)==0)}function
-Em(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pF(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-EG=0;function
-pt(){return EG++}function
-Ey(a){return a.toUtf16()}function
-e3(){return typeof
+Ej(a,b){return iX(a,b,true)}function
+bY(a){if(a<0)aE("Bytes.create");return new
+bW(a?2:9,T,a)}function
+pr(a,b){return+(iX(a,b,false)==0)}function
+El(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pF(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gG(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+EF=0;function
+pt(){return EF++}function
+Ex(a){return a.toUtf16()}function
+e4(){return typeof
 G.process!=="undefined"&&typeof
 G.process.versions!=="undefined"&&typeof
 G.process.versions.node!=="undefined"}function
-ET(){function
-a(a){if(a.charAt(0)===bI)return[T,a.substring(1)];return}function
+ES(){function
+a(a){if(a.charAt(0)===bJ)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e3()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
-i$=ET();function
-pH(a){return a.slice(-1)!==bI?a+bI:a}if(e3()&&G.process&&G.process.cwd)var
-e0=G.process.cwd().replace(/\\/g,bI);else
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e4()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
+ja=ES();function
+pH(a){return a.slice(-1)!==bJ?a+bJ:a}if(e4()&&G.process&&G.process.cwd)var
+e1=G.process.cwd().replace(/\\/g,bJ);else
 var
-e0="/static";e0=pH(e0);function
-EA(a){a=Ey(a);if(!i$(a))a=e0+a;var
-e=i$(a),d=e[1].split(bI),b=[];for(var
+e1="/static";e1=pH(e1);function
+Ez(a){a=Ex(a);if(!ja(a))a=e1+a;var
+e=ja(a),d=e[1].split(bJ),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-EO(e){for(var
-f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bF){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bF;d++);if(d-c>nY){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oj){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bF|a&dW)}else
-if(a<0xd800||a>=op)b+=String.fromCharCode(or|a>>12,bF|a>>6&dW,bF|a&dW);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n$||h>op)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oy|a>>18,bF|a>>12&dW,bF|a>>6&dW,bF|a&dW)}if(b.length>eU){b.substr(0,1);f+=b;b=T}}return f+b}function
-Eh(a){var
-b=9;if(!pK(a))b=8,a=EO(a);return new
-bV(b,a,a.length)}function
-d4(a){return Eh(a)}var
-EW=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iF,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iK,n_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+EN(e){for(var
+f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bG){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>nY){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<oj){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
+if(a<0xd800||a>=op)b+=String.fromCharCode(or|a>>12,bG|a>>6&dX,bG|a&dX);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n$||h>op)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oy|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eV){b.substr(0,1);f+=b;b=T}}return f+b}function
+Eg(a){var
+b=9;if(!pK(a))b=8,a=EN(a);return new
+bW(b,a,a.length)}function
+d5(a){return Eg(a)}var
+EV=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iG,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iL,n_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 dg(d,f,e,a){var
-b=EW.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,d4(f||T),d4(e||T)];return c}var
+b=EV.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,d5(f||T),d5(e||T)];return c}var
 pA={};function
 dd(a){return pA[a]}function
 de(b,a){throw[0,b].concat(a)}function
-Eg(a){return new
-bV(4,a,a.length)}function
-aj(a){i5(as.Sys_error,a)}function
-EJ(a){aj(a+gk)}function
-pl(){aE(iP)}function
-Ef(b,a){if(a>>>0>=b.l)pl();return iV(b,a)}function
-gI(a){return a.l}function
+Ef(a){return new
+bW(4,a,a.length)}function
+aj(a){i6(as.Sys_error,a)}function
+EI(a){aj(a+gl)}function
+pl(){aE(iQ)}function
+Ee(b,a){if(a>>>0>=b.l)pl();return iW(b,a)}function
+gJ(a){return a.l}function
 pe(){}function
 aC(a){this.data=a}aC.prototype=new
 pe();aC.prototype.truncate=function(a){var
-b=this.data;this.data=bX(a|0);eZ(b,0,this.data,0,a)};aC.prototype.length=function(){return gI(this.data)};aC.prototype.write=function(b,d,g,a){var
+b=this.data;this.data=bY(a|0);e0(b,0,this.data,0,a)};aC.prototype.length=function(){return gJ(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bX(b+a),f=this.data;this.data=e;eZ(f,0,this.data,0,c)}d0(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
-e=this.length();eZ(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Ef(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
+e=bY(b+a),f=this.data;this.data=e;e0(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();e0(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Ee(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
 aS(b,a){this.content={};this.root=b;this.lookupFun=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.create_dir_if_needed=function(d){var
-c=d.split(bI),b=T;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bI;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bI};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+c=d.split(bJ),b=T;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bJ;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bJ};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aC(d1(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
+aC(d2(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aS.prototype.mkdir=function(c,e,d){var
-b=d&&dd(iB);if(this.exists(c))if(b)de(b,dg(n5,iA,this.nm(c)));else
+b=d&&dd(iC);if(this.exists(c))if(b)de(b,dg(n5,iB,this.nm(c)));else
 aj(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iF,iA,this.nm(a)));else
-aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iK,iA,this.nm(a)));else
-aj(a+iR);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
-b=f&&dd(iB),c=a==T?T:this.slash(a),e=new
-RegExp(iN+c+oa);if(!this.exists(a))if(b)de(b,dg(iF,ix,this.nm(a)));else
-aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iK,ix,this.nm(a)));else
-aj(a+iR);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iG,iB,this.nm(a)));else
+aj(a+gl);if(!this.is_dir(a))if(b)de(b,dg(iL,iB,this.nm(a)));else
+aj(a+iS);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
+b=f&&dd(iC),c=a==T?T:this.slash(a),e=new
+RegExp(iO+c+oa);if(!this.exists(a))if(b)de(b,dg(iG,iy,this.nm(a)));else
+aj(a+gl);if(!this.is_dir(a))if(b)de(b,dg(iL,iy,this.nm(a)));else
+aj(a+iS);for(var
 d
 in
-this.content)if(d.match(e))if(b)de(b,dg(n_,ix,this.nm(a)));else
+this.content)if(d.match(e))if(b)de(b,dg(n_,iy,this.nm(a)));else
 aj(this.nm(a)+": Directory not empty");delete
 this.content[c]};aS.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gk);if(!this.is_dir(a))aj(a+iR);var
+f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gl);if(!this.is_dir(a))aj(a+iS);var
 g=new
-RegExp(iN+f+oa),d={},c=[];for(var
+RegExp(iO+f+oa),d={},c=[];for(var
 e
 in
 this.content){var
@@ -493,42 +493,42 @@ b=this.content[a]?true:false;delete
 this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oW);if(b.text&&b.binary)aj(this.nm(a)+nQ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oS);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aC(bX(0));return this.content[a]}else
-EJ(this.nm(a))};aS.prototype.register=function(c,a){var
-b;if(this.content[c])aj(this.nm(c)+oS);if(i4(a))b=new
+aC(bY(0));return this.content[a]}else
+EI(this.nm(a))};aS.prototype.register=function(c,a){var
+b;if(this.content[c])aj(this.nm(c)+oS);if(i5(a))b=new
 aC(a);if(px(a))b=new
-aC(d1(a));else
+aC(d2(a));else
 if(a
 instanceof
 Array)b=new
-aC(Eg(a));else
+aC(Ef(a));else
 if(typeof
 a==="string")b=new
 aC(pn(a));else
 if(a.toString){var
-d=d1(d4(a.toString()));b=new
+d=d2(d5(a.toString()));b=new
 aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 aj(this.nm(c)+" : registering file with invalid content type")};aS.prototype.constructor=aS;function
-ap(a){return gI(a)}function
-df(b,a){return iV(b,a)}function
-Eb(d){var
+ap(a){return gJ(a)}function
+df(b,a){return iW(b,a)}function
+Ea(d){var
 c=ap(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=df(d,a);return b}function
-Ea(a){if(a.t!=4)gF(a);return a.c}function
-Ej(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gF(a)}a.c[c]=b;return 0}function
-Ei(b,a,c){if(a>>>0>=b.l)pl();return Ej(b,a,c)}function
-bW(a){this.fs=require("fs");this.fd=a}bW.prototype=new
-pe();bW.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bW.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bW.prototype.write=function(f,b,c,e){var
-a=Eb(b);if(!(a
+D$(a){if(a.t!=4)gG(a);return a.c}function
+Ei(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gG(a)}a.c[c]=b;return 0}function
+Eh(b,a,c){if(a>>>0>=b.l)pl();return Ei(b,a,c)}function
+bX(a){this.fs=require("fs");this.fd=a}bX.prototype=new
+pe();bX.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bX.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bX.prototype.write=function(f,b,c,e){var
+a=Ea(b);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
-d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aj(a.toString())}return 0};bW.prototype.read=function(g,d,c,f){var
-a=Ea(d);if(!(a
+d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aj(a.toString())}return 0};bX.prototype.read=function(g,d,c,f){var
+a=D$(d);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
 e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aj(a.toString())}for(var
-b=0;b<f;b++)Ei(d,c+b,e[c+b]);return 0};bW.prototype.read_one=function(c){var
-b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aj(a.toString())}return a[0]};bW.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aj(a.toString())}};bW.prototype.constructor=bW;function
+b=0;b<f;b++)Eh(d,c+b,e[c+b]);return 0};bX.prototype.read_one=function(c){var
+b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aj(a.toString())}return a[0]};bX.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aj(a.toString())}};bX.prototype.constructor=bX;function
 aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aj(a.toString())}};aD.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
@@ -536,11 +536,11 @@ e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bW(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
+bX(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nB);return d4(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
-b=dd(iB);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),nB);return d5(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
+b=dd(iC);if(d&&b){var
 c=dg(a.code,a.syscall,a.path,a.errno);de(b,c)}else
 aj(a.toString())};aD.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -551,27 +551,27 @@ if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
 pu(b){var
-a=i$(b);if(!a)return;return a[0]+bI}var
-gJ=pu(e0)||bJ("unable to compute caml_root"),d5=[];if(e3())d5.push({path:gJ,device:new
-aD(gJ)});else
-d5.push({path:gJ,device:new
-aS(gJ)});d5.push({path:nK,device:new
+a=ja(b);if(!a)return;return a[0]+bJ}var
+gK=pu(e1)||bK("unable to compute caml_root"),d6=[];if(e4())d6.push({path:gK,device:new
+aD(gK)});else
+d6.push({path:gK,device:new
+aS(gK)});d6.push({path:nK,device:new
 aS(nK)});function
 pO(b){var
-g=EA(b),b=g.join(bI),f=pH(b),c;for(var
-e=0;e<d5.length;e++){var
-a=d5[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e3()){var
+g=Ez(b),b=g.join(bJ),f=pH(b),c;for(var
+e=0;e<d6.length;e++){var
+a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e4()){var
 d=pu(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aD(d)};d5.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
-El(c,b){var
-a=pO(c);if(!a.device.register)bJ("cannot register file");a.device.register(a.rest,b);return 0}function
+aD(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
+Ek(c,b){var
+a=pO(c);if(!a.device.register)bK("cannot register file");a.device.register(a.rest,b);return 0}function
 pJ(c,b){var
-c=a(c),b=a(b);return El(c,b)}function
-Eo(){var
+c=a(c),b=a(b);return Ek(c,b)}function
+En(){var
 b=G.caml_fs_tmp;if(b)for(var
 a=0;a<b.length;a++)pJ(b[a].name,b[a].content);G.jsoo_create_file=pJ;G.caml_fs_tmp=[];return 0}function
-EH(c){var
+EG(c){var
 a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&df(c,a)==48)switch(df(c,a+1)){case
@@ -584,32 +584,32 @@ a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 117:case
 85:a+=2;break}return[a,d,b]}function
 pB(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o8)return a-87;return-1}function
-i3(f){var
-h=EH(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pB(e);if(b<0||b>=d)bJ(gq);var
-a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pB(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bJ(gq)}if(c!=g)bJ(gq);a=i*a;if(d==10&&(a|0)!=a)bJ(gq);return a|0}function
-Ez(a,b){return+(iW(a,b,false)<=0)}function
-EB(a,d){if(a<0)gE();var
+i4(f){var
+h=EG(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pB(e);if(b<0||b>=d)bK(gr);var
+a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pB(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gr)}if(c!=g)bK(gr);a=i*a;if(d==10&&(a|0)!=a)bK(gr);return a|0}function
+Ey(a,b){return+(iX(a,b,false)<=0)}function
+EA(a,d){if(a<0)gF();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cj=new
 Array();function
-EC(c){var
+EB(c){var
 a=cj[c];if(!a.opened)aj("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
 b=as.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
 pE(e,f){var
 b=cj[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-EP(a){var
-a=i7(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+EO(a){var
+a=i8(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-EQ(a){var
-a=i7(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+EP(a){var
+a=i8(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gL(c,e,d,a){if(as.fds===undefined)as.fds=new
+gM(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
-EX(c,b,g){var
+EW(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,30 +619,30 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d3(c)+oW);if(a.text&&a.binary)aj(d3(c)+nQ);var
-d=pO(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gL(f+1,pE,e,a)}gL(0,pE,new
-aC(bX(0)));gL(1,EQ,new
-aC(bX(0)));gL(2,EP,new
-aC(bX(0)));function
-ED(a){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oW);if(a.text&&a.binary)aj(d4(c)+nQ);var
+d=pO(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gM(f+1,pE,e,a)}gM(0,pE,new
+aC(bY(0)));gM(1,EP,new
+aC(bY(0)));gM(2,EO,new
+aC(bY(0)));function
+EC(a){var
 c=as.fds[a];if(c.flags.wronly)aj(o7+a+" is writeonly");var
-d=null;if(a==0&&e3()){var
-e=require("fs");d=function(){return d4(e.readFileSync(0,nB))}}var
+d=null;if(a==0&&e4()){var
+e=require("fs");d=function(){return d5(e.readFileSync(0,nB))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cj[b.fd]=b;return b.fd}function
 py(c){var
 b=as.fds[c];if(b.flags.rdonly)aj(o7+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cj[a.fd]=a;return a.fd}function
-EE(){var
+ED(){var
 b=0;for(var
 a=0;a<cj.length;a++)if(cj[a]&&cj[a].opened&&cj[a].out)b=[0,cj[a].fd,b];return b}function
 bq(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
-EL(a,b){pA[d3(a)]=b;return 0}function
-Ee(a,b){if(a===b)return 1;a.t&6&&d2(a);b.t&6&&d2(b);return a.c==b.c?1:0}function
-aq(a,b){return Ee(a,b)}function
-EN(){aE(iP)}function
-aN(b,a){if(a>>>0>=ap(b))EN();return df(b,a)}function
+EK(a,b){pA[d4(a)]=b;return 0}function
+Ed(a,b){if(a===b)return 1;a.t&6&&d3(a);b.t&6&&d3(b);return a.c==b.c?1:0}function
+aq(a,b){return Ed(a,b)}function
+EM(){aE(iQ)}function
+aN(b,a){if(a>>>0>=ap(b))EM();return df(b,a)}function
 m(a,b){return 1-aq(a,b)}function
-gK(a){return a}function
+gL(a){return a}function
 pD(a){return a}function
 pI(a){if(a
 instanceof
@@ -652,15 +652,15 @@ G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pD(as.Sta
 instanceof
 G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pD(as.Stack_overflow);if(a
 instanceof
-G.Error&&dd(oh))return[0,dd(oh),a];return[0,as.Failure,d4(String(a))]}function
+G.Error&&dd(oh))return[0,dd(oh),a];return[0,as.Failure,d5(String(a))]}function
 dh(a){return a<0?-a:a}function
 A(a,b){return a+b}function
-i8(a,b){return a<b?-1:a>b?1:0}function
+i9(a,b){return a<b?-1:a>b?1:0}function
 pL(c,b){var
 a=c%b;return a<0?a+dh(b):a}function
-i9(a,b){return(a-pL(a,b))/b}function
+i_(a,b){return(a-pL(a,b))/b}function
 _(a,b){return a==b?1:0}function
-EU(c){G.orthocert_verify=function(b){return d3(cI(c,[a(b)]))}}function
+ET(c){G.orthocert_verify=function(b){return d4(cI(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
 L(a,b){return a<b?1:0}function
 y(a,b){return a*b}function
@@ -669,13 +669,13 @@ aF(a){return G.BigInt(a)}function
 pM(a,b){return a<<G.BigInt(b)}function
 pN(a,b){return a>>G.BigInt(b)}function
 a9(a){return a<0?-1:a>0?1:0}function
-EV(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
+EU(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
 d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aG(a,b){return a-b}function
-i_(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
-Ex(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-En(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ex(b[1]))var
+i$(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
+Ew(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Em(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ew(b[1]))var
 e=b[2],f=1;else
 var
 f=2,e=b;a+=oi;for(var
@@ -684,97 +684,97 @@ c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bV)a+=aA+c.toString()+aA;else
+bW)a+=aA+c.toString()+aA;else
 if(typeof
 c=="string")a+=aA+c.toString()+aA;else
-a+="_"}a+=iM}else
+a+="_"}a+=iN}else
 if(b[0]==aM)a+=b[1];return a}function
 ps(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aM)){var
 c=dd("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=En(a),b=dd(nA);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
+d=Em(a),b=dd(nA);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-EM(){var
+EL(){var
 a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ps(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ps(a.error)})}EM();function
-i(a,b){return a.length==1?a(b):cI(a,[b])}function
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ps(a.error)})}EL();function
+j(a,b){return a.length==1?a(b):cI(a,[b])}function
 ao(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
-D$(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
-iv(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}Eo();var
-jb=[aM,a(n8),-2],ja=[aM,a(pd),-4],C6=[0,0],C7=[0,0],C8=[0,[0,0]],C9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],f$=[0,[1,0],0],mT=[0,[2,0],0],h_=[0,[1,0],0],mS=[0,[2,0],0],f9=[0,[1,0],0],h9=[0,[2,0],0],C_=[0,[0,[0,[0,0]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],Dc=[0,[0,0]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],Dm=[0,[0,0]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,0],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,0]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,0],D3=[0,[0,0]],D4=[0,0],D5=[0,[0,[0,[0,[0,0]]]]],jH=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fX=[0,[0,[0,[0,0]]]],D6=[0,[0,[0,[0,[0,0]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]];bq(11,[aM,a(nz),-12],nz);bq(10,[aM,a(on),-11],on);bq(9,[aM,a(o6),-10],o6);bq(8,[aM,a(nL),-9],nL);bq(7,[aM,a(oA),-8],oA);bq(6,[aM,a(nJ),-7],nJ);bq(5,[aM,a(n9),-6],n9);bq(4,[aM,a(oc),-5],oc);bq(3,ja,pd);bq(2,[aM,a(iG),-3],iG);bq(1,jb,n8);bq(0,[aM,a(oO),-1],oO);var
-pP=a("String.sub / Bytes.sub"),pR=a(T),pQ=a("String.concat"),pS=a("Array.init"),pT=a("power"),p$=[0,0],qa=[0,0],qg=[0,0,0],qh=[0,0,0],qi=[0,0],qB=[0,0],qC=[0,0],qF=[0,0],qY=[0,0],q1=[0,0],q3=[0,0],q4=[0,0],ra=[0,0],rb=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iM),0],sV=a(oi),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eT),sZ=a(iN),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iM),0],s2=a(pa),vW=a(nw),vY=a(nt),vX=a(oq),vZ=a(dU),v0=a(gm),v1=a(pc),v2=a(oZ),v3=a(n2),v4=a(oC),xe=[0,0],xf=a(gj),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eS),xo=[0,5],xp=a(iT),xq=[0,4],xr=a(db),xs=a(nO),xt=a(eP),xu=a(bU),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eP),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nu),wv=a(gl),ww=a(om),wx=a(n6),wD=a(eV),wy=a(eR),wz=a("verdict"),wA=a(oQ),wB=a(nZ),wC=a(ol),wq=a(og),wr=a(oU),ws=a(go),wm=a(ow),wn=a(gp),wo=a(eR),wp=a(eV),wh=a(gx),wi=a(a8),wj=a(nv),wk=a(gu),we=a(oN),wf=a(eS),wg=a(gu),wa=a(oz),wb=a(gx),wc=a(gp),wd=a(o4),v6=a(oV),v7=a(oY),v8=a(od),v9=a(gr),v_=a(o9),vU=a(iy),vV=a(gA),vP=a(bp),vQ=a(bo),vR=a(n1),vp=a(gr),vq=a(oD),u5=a(a8),u6=a(bH),u7=a(gz),u8=a(dX),u9=a(da),vc=a(iz),u_=a(iO),u$=a(iQ),va=a(dT),vb=a(a8),vd=a(bH),ve=a(gz),vf=a(dX),vg=a(iO),vh=a(iQ),vi=a(dT),vj=a(a8),vk=a(bH),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dX),vr=a(oJ),vs=a(oX),vt=a(gD),vu=a(nP),vv=a(nU),vw=a(dT),vx=a(a8),vy=a(bH),vz=a(gh),vA=a(n4),vB=a(dX),vC=a(eY),vD=a(nD),vE=a(dT),vF=a(a8),vG=a(gh),vH=a(a8),vI=a(oF),vL=a(ns),vJ=a(nS),vK=a(o3),vM=a(eV),vN=a(eR),vO=a(a8),vS=a(gD),vT=a(go),u0=a(bH),u1=a(dX),u2=a(iz),u3=a(dT),uZ=a(o_),uN=a(eY),uO=a(oR),uP=a(c$),uQ=a(dV),uR=a(dV),uS=a(iC),uT=a(c$),uU=a(oo),uV=a(n0),uW=a(a1),uY=a(ny),uX=a(iC),uD=a(of),uE=a(pb),uF=a(nW),uG=a(nT),uH=a(o1),uI=a(oM),uJ=a(n7),uK=a(gi),uL=a(gi),uz=a(a1),uA=a(bn),uB=a(dY),uC=a(bG),uv=a(da),uw=a(iJ),ux=a(ox),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iL),up=a(c$),uq=a(iH),ur=a(oI),t9=a(nR),ud=a(gl),uc=a(o2),t_=a(iD),t$=a(gt),ug=a(eQ),uh=a(iD),ue=a(eQ),uf=a(gt),ui=a(nN),uj=a(oG),uk=a(gt),ua=a(dV),ub=a(ot),t6=a(gs),t7=a(gs),t8=a(gs),t2=a(oK),t3=a(bo),t4=a(bp),t5=a(o0),tM=a(nH),tN=a(nx),tO=a(oB),tP=a(dU),tQ=a(o$),tR=a(oE),tS=a(nI),tT=a(ou),tU=a(nG),tV=a(n3),tW=a(nF),tX=a(oL),tY=a(gm),tZ=a(nC),t0=a(oT),t1=a(nV),tr=a(gv),tt=a(eT),ts=a(eO),tu=a(dS),tv=a(a1),tw=a(bn),tx=a(bU),ty=a(gB),tz=a(bG),tA=a(a1),tB=a(bn),tC=a(dY),tD=a(bG),tE=a(dS),tF=a(eX),tG=a(a1),tH=a(bn),tI=a(os),tJ=a(eQ),tK=a(eX),tL=a(bG),s$=a(gv),th=a(eT),ta=a(eO),tb=a(dS),tc=a(a1),td=a(bn),te=a(bU),tf=a(gB),tg=a(bG),ti=a(gC),tj=a(a1),tk=a(bn),tl=a(dY),tm=a(bG),tn=a(bU),to=a(da),tp=a(bG),s8=a(bp),s9=a(bo),s6=[0,a(aA),0],s7=a(aA),s4=a(T),s3=[0,a(aA),0],s5=a(aA),sQ=a(gv),sR=a(eT),sS=a("*"),sT=a(bI),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(aA),sH=[0,a(aA),0],sI=a(aA),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rC=[0,[0,0]],rD=[0,0],ru=[0,[0,0]],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rs=[0,[0,0]],rt=[0,0],rq=[0,[0,0]],rr=[0,0],rm=[0,[0,0]],rn=[0,0],ro=[0,0],rp=[0,[0,0]],rd=[0,[0,0]],re=[0,0],rf=[0,[0,0]],rg=[0,0],rh=[0,0],ri=[0,[0,0]],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,0],q$=[0,0],q_=[0,0],q7=[0,[0,[0,0]]],q6=[0,[0,[0,[0,[0,[0,0]]]]]],q2=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,0]],qR=[0,0],qS=[0,[0,0]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qH=[0,[0,0]],qI=[0,0],qG=[0,0,0],qE=[0,0,0],qD=[0,[0,[0,0]]],qz=[0,0],qA=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,[0,0]]]],qp=[0,[0,[0,0]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],qj=[0,[0,0]],qk=[0,0],p8=[0,0],p9=[0,[0,0]],p6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],p4=[0,0,0],p3=a(iS),p2=a(T),p1=[0,[0,0]],p0=[0,0],pX=[0,0],pZ=[1,0],pY=[0,0],pW=[0,0],pU=[1,0],pV=[1,0],q8=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Bk=a(bp),Bl=a(bo),Bm=a(n1),Bb=a(gC),Bc=[0,a("a base axis of such a platform"),0],Bd=a(a1),Be=a(bn),A0=a(oM),A1=a(of),A2=a(o1),A3=a(gi),A4=a(n7),A5=a(gi),A6=a(pb),A7=a(nW),A8=a(nT),AQ=a(oD),AR=a(gr),As=[0,a("such a machine with bodies"),0],Af=a(go),Ag=a(a8),Ah=a(oF),Ai=a(o3),Al=a(nS),Am=a(ns),An=a(a8),Ao=a(a8),Aq=a(gh),Ap=[0,a("a claim that no cube of such a machine fits"),0],Ar=a(o_),At=a(dT),Au=a(dX),Av=a(da),Aw=a(iJ),Ax=a(ox),Ay=a(gz),Az=a(nU),AA=a(nD),AB=a(iz),AE=a(c_),AF=a(oI),AI=a(bH),AJ=a(bH),AK=a(n4),AL=a(bH),AM=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AN=a(gh),AO=a(eY),AP=a(c_),AS=a(bH),AT=a(bp),AU=a(bo),AV=a(oJ),AW=a(oX),AX=a(gD),AY=a(nP),AC=[0,a(aA),0],AD=a('the mechanism "'),AZ=a(iO),A9=a(gz),A_=a(da),A$=a(iJ),Ba=a(iQ),Bf=a(bH),Bg=[0,a('"one_to_one" of this set of orientations'),0],Bj=a(da),Bh=[0,a("a platform that turns on struts and other drives"),0],Bi=a(bH),AG=[0,a(aA),0],AH=a('the workspace "'),Bn=a(a8),Bo=a(a8),Bq=a(eV),Br=a(eR),Bs=a(gD),Bp=[0,a("an atlas of such a machine"),0],Aj=[0,a(aA),0],Ak=a('a claim of the kind "'),Bx=a(pc),BE=a(gm),BF=a(dU),BG=a(n2),BH=a(oq),BI=a(bU),BJ=a(gA),BK=a(iy),BL=a(bU),BM=a(iS),By=a(db),Bz=a(nO),BA=a(eP),BB=a(oC),BC=[0,a(aA),0],BD=a('the evidence "'),BN=a(db),BO=a(gA),BP=[0,1,1],BQ=a(dU),BR=a(db),BS=a(eP),BT=a(oZ),BV=a(dU),BW=a(db),BX=a(eP),BY=a(eS),BZ=a(gj),B0=a(eS),B1=a(gj),BU=[0,a("this evidence at control points"),0],CZ=a('"orthocert-paving/'),CQ=a(db),CR=a(db),Cz=a(ol),CA=a(nZ),CB=a(oQ),CX=[0,3,3],CC=a(n6),CO=[0,a("this set of orientations with such drives"),0],CP=[0,a(ob),0],CS=[0,a('this evidence "tolerances" of a platform that turns'),0],CT=[0,a("a step of a platform that turns that is not at control points"),0],CU=[0,a(ob),0],CV=[0,a('the evidence "tolerances" of such a mechanism'),0],CW=[0,a(oP),0],CN=[0,a(oP),0],CM=[0,a("a mechanism by formulas in a claim that is refuted"),0],CL=[0,a("this quantity in a claim that is refuted"),0],CD=[0,a("the acceleration of a joint of a machine with a plane"),0],CK=[0,a("a step in a proof that no cube fits"),0],CJ=[0,a("a stiffness for each joint in such a claim"),0],CI=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CH=[0,a("a leaf that fails"),0],CE=a(om),CF=a(nu),CG=a(gl),Cv=a(iT),Cw=a(gj),Cx=a(bU),Co=a(go),Cp=a(og),Cq=a(oU),Cr=[0,a(aA),0],Cs=a('a proof of the kind "'),Ck=a(eR),Cl=a(eV),Cm=a(gp),Cn=a(ow),Cg=a(a8),Ch=a(gx),Ci=a(nv),Cj=a(gu),Cd=a(oN),Ce=a(eS),Cf=a(gu),B$=a(oz),Ca=a(gx),Cb=a(gp),Cc=a(o4),B4=a(oY),B5=a(od),B6=a(oV),B7=a(gr),B8=a(o9),B9=[0,a(aA),0],B_=a('the failure "'),B2=a(iT),B3=a(iS),Bv=a(gA),Bw=a(iy),Bt=a(nt),Bu=a(nw),Ac=a(eY),z4=a(iC),z5=a(ny),z6=a(dV),z7=a(a1),Aa=a(oR),Ab=a(eY),Ad=a(c$),Ae=a(dV),z8=a(c$),z9=a(oo),z_=a(n0),z$=a(a1),zX=a(c_),z1=a(bp),z2=a(bo),zY=a(iH),zZ=a(iL),z0=a(c$),zR=a(c_),zV=a(bp),zW=a(bo),zS=a(iH),zT=a(iL),zU=a(c$),zQ=[0,1],zP=[0,1],zN=[0,1],zM=[0,1],zK=[0,1],zL=[0,a("this quantity of such a mechanism"),0],zs=a(iD),zt=[0,a("a stiffness for each joint of such a mechanism"),0],zu=a(oG),zv=a(nN),zw=a(o2),zx=a("max_angle"),zy=[0,a("accuracy of a platform that turns"),0],zz=a(eQ),zr=a(gl),zj=a(gs),y_=a(ot),y$=a(oB),zC=a(gm),zD=a(oT),zE=a(n3),zF=a(dU),zG=a(ou),zH=a(nF),zI=a(nG),zJ=a(nx),za=a(nC),zb=a(oL),zc=a(oE),zd=a(nV),ze=a(o$),zf=a(nI),zg=a(nH),zh=[0,a(aA),0],zi=a('the quantity "'),zk=a(nR),zl=a(oK),zm=a(bp),zn=a(bo),zo=a(o0),zp=[0,a(aA),0],zq=a('a bound "'),zA=a(gt),zB=a(dV),y8=a(bG),y9=a(dY),yN=a(bG),yO=a(gC),yP=a(eX),yQ=a(gB),yR=a(dY),yU=a(a1),yV=a(bn),yW=a(eO),yX=a(dS),yY=a(a1),yZ=a(bn),y0=a(bU),y1=a(eO),y2=a(dS),y3=a(eX),y4=a(a1),y5=a(bn),y6=a(os),y7=a(eQ),yS=[0,a('" of such a machine'),0],yT=a(nM),yL=a(bG),yM=a(eX),yv=a(bG),yw=a(da),yx=a(gB),yy=a(dY),yB=a(gC),yC=a(a1),yD=a(bn),yE=a(eO),yF=a(dS),yG=a(a1),yH=a(bn),yI=a(bU),yJ=a(bU),yz=[0,a(aA),0],yA=a(nM),ys=a(gv),yt=a(eT),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pa),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C1=[0,a("a paving is checked by orthocert-verified")],C0=a(ov),C2=a("CERTIFIED"),C3=a("REFUTED"),C4=a(ov),C5=a("NOT COVERED: ");function
-e4(a){throw[0,ja,a]}function
+D_(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
+iw(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}En();var
+jc=[aM,a(n8),-2],jb=[aM,a(pd),-4],C5=[0,0],C6=[0,0],C7=[0,[0,0]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],ga=[0,[1,0],0],mT=[0,[2,0],0],h$=[0,[1,0],0],mS=[0,[2,0],0],f_=[0,[1,0],0],h_=[0,[2,0],0],C9=[0,[0,[0,[0,0]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,0]],Dc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,0]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,0],DC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,0]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,0],D2=[0,[0,0]],D3=[0,0],D4=[0,[0,[0,[0,[0,0]]]]],jI=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fY=[0,[0,[0,[0,0]]]],D5=[0,[0,[0,[0,[0,0]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]];bq(11,[aM,a(nz),-12],nz);bq(10,[aM,a(on),-11],on);bq(9,[aM,a(o6),-10],o6);bq(8,[aM,a(nL),-9],nL);bq(7,[aM,a(oA),-8],oA);bq(6,[aM,a(nJ),-7],nJ);bq(5,[aM,a(n9),-6],n9);bq(4,[aM,a(oc),-5],oc);bq(3,jb,pd);bq(2,[aM,a(iH),-3],iH);bq(1,jc,n8);bq(0,[aM,a(oO),-1],oO);var
+pP=a("String.sub / Bytes.sub"),pR=a(T),pQ=a("String.concat"),pS=a("Array.init"),pT=a("power"),p$=[0,0],qa=[0,0],qg=[0,0,0],qh=[0,0,0],qi=[0,0],qB=[0,0],qC=[0,0],qF=[0,0],qY=[0,0],q1=[0,0],q3=[0,0],q4=[0,0],ra=[0,0],rb=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iN),0],sV=a(oi),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eU),sZ=a(iO),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iN),0],s2=a(pa),vW=a(nw),vY=a(nt),vX=a(oq),vZ=a(dV),v0=a(gn),v1=a(pc),v2=a(oZ),v3=a(n2),v4=a(oC),xe=[0,0],xf=a(gk),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eT),xo=[0,5],xp=a(iU),xq=[0,4],xr=a(db),xs=a(nO),xt=a(eQ),xu=a(bV),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eQ),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nu),wv=a(gm),ww=a(om),wx=a(n6),wD=a(eW),wy=a(eS),wz=a("verdict"),wA=a(oQ),wB=a(nZ),wC=a(ol),wq=a(og),wr=a(oU),ws=a(gp),wm=a(ow),wn=a(gq),wo=a(eS),wp=a(eW),wh=a(gy),wi=a(a8),wj=a(nv),wk=a(gv),we=a(oN),wf=a(eT),wg=a(gv),wa=a(oz),wb=a(gy),wc=a(gq),wd=a(o4),v6=a(oV),v7=a(oY),v8=a(od),v9=a(gs),v_=a(o9),vU=a(iz),vV=a(gB),vP=a(bp),vQ=a(bo),vR=a(n1),vp=a(gs),vq=a(oD),u5=a(a8),u6=a(bI),u7=a(gA),u8=a(dY),u9=a(da),vc=a(iA),u_=a(iP),u$=a(iR),va=a(dU),vb=a(a8),vd=a(bI),ve=a(gA),vf=a(dY),vg=a(iP),vh=a(iR),vi=a(dU),vj=a(a8),vk=a(bI),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dY),vr=a(oJ),vs=a(oX),vt=a(gE),vu=a(nP),vv=a(nU),vw=a(dU),vx=a(a8),vy=a(bI),vz=a(gi),vA=a(n4),vB=a(dY),vC=a(eZ),vD=a(nD),vE=a(dU),vF=a(a8),vG=a(gi),vH=a(a8),vI=a(oF),vL=a(ns),vJ=a(nS),vK=a(o3),vM=a(eW),vN=a(eS),vO=a(a8),vS=a(gE),vT=a(gp),u0=a(bI),u1=a(dY),u2=a(iA),u3=a(dU),uZ=a(o_),uN=a(eZ),uO=a(oR),uP=a(c$),uQ=a(dW),uR=a(dW),uS=a(iD),uT=a(c$),uU=a(oo),uV=a(n0),uW=a(a1),uY=a(ny),uX=a(iD),uD=a(of),uE=a(pb),uF=a(nW),uG=a(nT),uH=a(o1),uI=a(oM),uJ=a(n7),uK=a(gj),uL=a(gj),uz=a(a1),uA=a(bn),uB=a(dZ),uC=a(bH),uv=a(da),uw=a(iK),ux=a(ox),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iM),up=a(c$),uq=a(iI),ur=a(oI),t9=a(nR),ud=a(gm),uc=a(o2),t_=a(iE),t$=a(gu),ug=a(eR),uh=a(iE),ue=a(eR),uf=a(gu),ui=a(nN),uj=a(oG),uk=a(gu),ua=a(dW),ub=a(ot),t6=a(gt),t7=a(gt),t8=a(gt),t2=a(oK),t3=a(bo),t4=a(bp),t5=a(o0),tM=a(nH),tN=a(nx),tO=a(oB),tP=a(dV),tQ=a(o$),tR=a(oE),tS=a(nI),tT=a(ou),tU=a(nG),tV=a(n3),tW=a(nF),tX=a(oL),tY=a(gn),tZ=a(nC),t0=a(oT),t1=a(nV),tr=a(gw),tt=a(eU),ts=a(eP),tu=a(dT),tv=a(a1),tw=a(bn),tx=a(bV),ty=a(gC),tz=a(bH),tA=a(a1),tB=a(bn),tC=a(dZ),tD=a(bH),tE=a(dT),tF=a(eY),tG=a(a1),tH=a(bn),tI=a(os),tJ=a(eR),tK=a(eY),tL=a(bH),s$=a(gw),th=a(eU),ta=a(eP),tb=a(dT),tc=a(a1),td=a(bn),te=a(bV),tf=a(gC),tg=a(bH),ti=a(gD),tj=a(a1),tk=a(bn),tl=a(dZ),tm=a(bH),tn=a(bV),to=a(da),tp=a(bH),s8=a(bp),s9=a(bo),s6=[0,a(aA),0],s7=a(aA),s4=a(T),s3=[0,a(aA),0],s5=a(aA),sQ=a(gw),sR=a(eU),sS=a("*"),sT=a(bJ),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(aA),sH=[0,a(aA),0],sI=a(aA),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rC=[0,[0,0]],rD=[0,0],ru=[0,[0,0]],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rs=[0,[0,0]],rt=[0,0],rq=[0,[0,0]],rr=[0,0],rm=[0,[0,0]],rn=[0,0],ro=[0,0],rp=[0,[0,0]],rd=[0,[0,0]],re=[0,0],rf=[0,[0,0]],rg=[0,0],rh=[0,0],ri=[0,[0,0]],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,0],q$=[0,0],q_=[0,0],q7=[0,[0,[0,0]]],q6=[0,[0,[0,[0,[0,[0,0]]]]]],q2=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,0]],qR=[0,0],qS=[0,[0,0]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qH=[0,[0,0]],qI=[0,0],qG=[0,0,0],qE=[0,0,0],qD=[0,[0,[0,0]]],qz=[0,0],qA=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,[0,0]]]],qp=[0,[0,[0,0]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],qj=[0,[0,0]],qk=[0,0],p8=[0,0],p9=[0,[0,0]],p6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],p4=[0,0,0],p3=a(iT),p2=a(T),p1=[0,[0,0]],p0=[0,0],pX=[0,0],pZ=[1,0],pY=[0,0],pW=[0,0],pU=[1,0],pV=[1,0],q8=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],Bj=a(bp),Bk=a(bo),Bl=a(n1),Ba=a(gD),Bb=[0,a("a base axis of such a platform"),0],Bc=a(a1),Bd=a(bn),AZ=a(oM),A0=a(of),A1=a(o1),A2=a(gj),A3=a(n7),A4=a(gj),A5=a(pb),A6=a(nW),A7=a(nT),AP=a(oD),AQ=a(gs),Ar=[0,a("such a machine with bodies"),0],Ae=a(gp),Af=a(a8),Ag=a(oF),Ah=a(o3),Ak=a(nS),Al=a(ns),Am=a(a8),An=a(a8),Ap=a(gi),Ao=[0,a("a claim that no cube of such a machine fits"),0],Aq=a(o_),As=a(dU),At=a(dY),Au=a(da),Av=a(iK),Aw=a(ox),Ax=a(gA),Ay=a(nU),Az=a(nD),AA=a(iA),AD=a(c_),AE=a(oI),AH=a(bI),AI=a(bI),AJ=a(n4),AK=a(bI),AL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AM=a(gi),AN=a(eZ),AO=a(c_),AR=a(bI),AS=a(bp),AT=a(bo),AU=a(oJ),AV=a(oX),AW=a(gE),AX=a(nP),AB=[0,a(aA),0],AC=a('the mechanism "'),AY=a(iP),A8=a(gA),A9=a(da),A_=a(iK),A$=a(iR),Be=a(bI),Bf=[0,a('"one_to_one" of this set of orientations'),0],Bi=a(da),Bg=[0,a("a platform that turns on struts and other drives"),0],Bh=a(bI),AF=[0,a(aA),0],AG=a('the workspace "'),Bm=a(a8),Bn=a(a8),Bp=a(eW),Bq=a(eS),Br=a(gE),Bo=[0,a("an atlas of such a machine"),0],Ai=[0,a(aA),0],Aj=a('a claim of the kind "'),Bw=a(pc),BD=a(gn),BE=a(dV),BF=a(n2),BG=a(oq),BH=a(bV),BI=a(gB),BJ=a(iz),BK=a(bV),BL=a(iT),Bx=a(db),By=a(nO),Bz=a(eQ),BA=a(oC),BB=[0,a(aA),0],BC=a('the evidence "'),BM=a(db),BN=a(gB),BO=[0,1,1],BP=a(dV),BQ=a(db),BR=a(eQ),BS=a(oZ),BU=a(dV),BV=a(db),BW=a(eQ),BX=a(eT),BY=a(gk),BZ=a(eT),B0=a(gk),BT=[0,a("this evidence at control points"),0],CY=a('"orthocert-paving/'),CP=a(db),CQ=a(db),Cy=a(ol),Cz=a(nZ),CA=a(oQ),CW=[0,3,3],CB=a(n6),CN=[0,a("this set of orientations with such drives"),0],CO=[0,a(ob),0],CR=[0,a('this evidence "tolerances" of a platform that turns'),0],CS=[0,a("a step of a platform that turns that is not at control points"),0],CT=[0,a(ob),0],CU=[0,a('the evidence "tolerances" of such a mechanism'),0],CV=[0,a(oP),0],CM=[0,a(oP),0],CL=[0,a("a mechanism by formulas in a claim that is refuted"),0],CK=[0,a("this quantity in a claim that is refuted"),0],CC=[0,a("the acceleration of a joint of a machine with a plane"),0],CJ=[0,a("a step in a proof that no cube fits"),0],CI=[0,a("a stiffness for each joint in such a claim"),0],CH=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CG=[0,a("a leaf that fails"),0],CD=a(om),CE=a(nu),CF=a(gm),Cu=a(iU),Cv=a(gk),Cw=a(bV),Cn=a(gp),Co=a(og),Cp=a(oU),Cq=[0,a(aA),0],Cr=a('a proof of the kind "'),Cj=a(eS),Ck=a(eW),Cl=a(gq),Cm=a(ow),Cf=a(a8),Cg=a(gy),Ch=a(nv),Ci=a(gv),Cc=a(oN),Cd=a(eT),Ce=a(gv),B_=a(oz),B$=a(gy),Ca=a(gq),Cb=a(o4),B3=a(oY),B4=a(od),B5=a(oV),B6=a(gs),B7=a(o9),B8=[0,a(aA),0],B9=a('the failure "'),B1=a(iU),B2=a(iT),Bu=a(gB),Bv=a(iz),Bs=a(nt),Bt=a(nw),Ab=a(eZ),z3=a(iD),z4=a(ny),z5=a(dW),z6=a(a1),z$=a(oR),Aa=a(eZ),Ac=a(c$),Ad=a(dW),z7=a(c$),z8=a(oo),z9=a(n0),z_=a(a1),zW=a(c_),z0=a(bp),z1=a(bo),zX=a(iI),zY=a(iM),zZ=a(c$),zQ=a(c_),zU=a(bp),zV=a(bo),zR=a(iI),zS=a(iM),zT=a(c$),zP=[0,1],zO=[0,1],zM=[0,1],zL=[0,1],zJ=[0,1],zK=[0,a("this quantity of such a mechanism"),0],zs=a(iE),zt=a(oG),zu=a(nN),zv=a(o2),zw=a("max_angle"),zx=[0,a("accuracy of a platform that turns"),0],zy=a(eR),zr=a(gm),zj=a(gt),y_=a(ot),y$=a(oB),zB=a(gn),zC=a(oT),zD=a(n3),zE=a(dV),zF=a(ou),zG=a(nF),zH=a(nG),zI=a(nx),za=a(nC),zb=a(oL),zc=a(oE),zd=a(nV),ze=a(o$),zf=a(nI),zg=a(nH),zh=[0,a(aA),0],zi=a('the quantity "'),zk=a(nR),zl=a(oK),zm=a(bp),zn=a(bo),zo=a(o0),zp=[0,a(aA),0],zq=a('a bound "'),zz=a(gu),zA=a(dW),y8=a(bH),y9=a(dZ),yN=a(bH),yO=a(gD),yP=a(eY),yQ=a(gC),yR=a(dZ),yU=a(a1),yV=a(bn),yW=a(eP),yX=a(dT),yY=a(a1),yZ=a(bn),y0=a(bV),y1=a(eP),y2=a(dT),y3=a(eY),y4=a(a1),y5=a(bn),y6=a(os),y7=a(eR),yS=[0,a('" of such a machine'),0],yT=a(nM),yL=a(bH),yM=a(eY),yv=a(bH),yw=a(da),yx=a(gC),yy=a(dZ),yB=a(gD),yC=a(a1),yD=a(bn),yE=a(eP),yF=a(dT),yG=a(a1),yH=a(bn),yI=a(bV),yJ=a(bV),yz=[0,a(aA),0],yA=a(nM),ys=a(gw),yt=a(eU),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pa),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C0=[0,a("a paving is checked by orthocert-verified")],CZ=a(ov),C1=a("CERTIFIED"),C2=a("REFUTED"),C3=a(ov),C4=a("NOT COVERED: ");function
+e5(a){throw[0,jb,a]}function
 aT(d,c){var
-a=ap(d),e=ap(c),b=bX(a+e|0);d0(d,0,b,0,a);d0(c,0,b,a,e);return gK(b)}ED(0);py(1);py(2);function
-jc(b){function
+a=ap(d),e=ap(c),b=bY(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gL(b)}EC(0);py(1);py(2);function
+jd(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{EC(d)}catch(a){a=pI(a);if(a[1]!==jb)throw a;var
+c=a[2],d=a[1];try{EB(d)}catch(a){a=pI(a);if(a[1]!==jc)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(EE(0))}EL(a(nA),jc);function
-bY(c){var
+a=c;continue}return 0}}return a(ED(0))}EK(a(nA),jd);function
+bZ(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-jd(d){var
+je(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gM(d,c){var
+c=a[2],d=j(b,a[1]);return[0,d,U(b,c)]}return 0}function
+gN(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=i(d,a[1]);if(b){var
+e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
 au(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=i(d,a[1]);if(b)return b;var
+e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 br(b,c){var
-a=bX(b);Em(a,0,b,c);return gK(a)}function
+a=bY(b);El(a,0,b,c);return gL(a)}function
 di(g,b,a){var
-d=d1(g),f=0;if(0<=b&&0<=a&&!((gI(d)-a|0)<b)){var
-c=bX(a);eZ(d,b,c,0,a);var
+d=d2(g),f=0;if(0<=b&&0<=a&&!((gJ(d)-a|0)<b)){var
+c=bY(a);e0(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=e4(pP);return gK(e)}function
-je(k,g){if(g){var
+e=e5(pP);return gL(e)}function
+jf(k,g){if(g){var
 h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e4(pQ),c=n,b=m;continue}var
+j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e5(pQ),c=n,b=m;continue}var
 l=ap(i)+c|0}else
 var
 l=c;var
-f=bX(l),e=p,d=g;for(;;){if(d){var
+f=bY(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];d0(a,0,f,e,ap(a));d0(k,0,f,e+ap(a)|0,h);var
-e=(e+ap(a)|0)+h|0,d=o;continue}d0(a,0,f,e,ap(a))}return gK(f)}}}return pR}function
-gN(b,c){if(0===b)return[0];if(0<=b){var
-d=EB(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=i(c,a);var
+o=d[2];d1(a,0,f,e,ap(a));d1(k,0,f,e+ap(a)|0,h);var
+e=(e+ap(a)|0)+h|0,d=o;continue}d1(a,0,f,e,ap(a))}return gL(f)}}}return pR}function
+gO(b,c){if(0===b)return[0];if(0<=b){var
+d=EA(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return e4(pS)}function
-gO(c){var
+a=g;continue}break}}return d}return e5(pS)}function
+gP(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aF(0),c=aF(1);function
 p(a){return A(a,c)}function
-jf(b,a){return A(aF(b),a)}function
+jg(b,a){return A(aF(b),a)}function
 b(b,a){return y(aF(b),a)}function
-aU(b,a){return[0,i9(b,a),pL(b,a)]}function
-gP(b,a){return H(b,a)?b:a}function
+aU(b,a){return[0,i_(b,a),pL(b,a)]}function
+gQ(b,a){return H(b,a)?b:a}function
 bs(b,a){return H(b,a)?a:b}function
-d6(a){return d6}function
+d7(a){return d7}function
 $(a){return a?0:1}function
 w(b,a){var
-c=a?[0,i(b,a[1])]:a;return c}function
+c=a?[0,j(b,a[1])]:a;return c}function
 aH(a){return a[1]}function
-bZ(a){return a[2]}function
-j(a){var
-b=a?[0,j(a[2])]:a;return b}function
+b0(a){return a[2]}function
+h(a){var
+b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-jg(a){return typeof
-a==="number"?0:[0,jg(a[1])]}function
-jh(d,c){var
+jh(a){return typeof
+a==="number"?0:[0,jh(a[1])]}function
+ji(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,8 +797,8 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-e5(a){return jh(a,0)}function
-ji(a){if(typeof
+e6(a){return ji(a,0)}function
+jj(a){if(typeof
 a==="number")return pU;else
 switch(a[0]){case
 0:return[1,a[1]];case
@@ -809,7 +809,7 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,ji(a[1])]}}function
+8:return[9,a[1]];default:return[0,jj(a[1])]}}function
 bu(a){if(typeof
 a==="number")return pV;else
 switch(a[0]){case
@@ -834,9 +834,9 @@ switch(a[0]){case
 6:return[2,bu(a[1])];case
 7:return[4,bu(a[1])];case
 8:return[6,bu(a[1])];default:return[8,bu(a[1])]}}function
-bK(a){return a?a[1]:a}function
+bL(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-jj(a,b){return a?N(b,jj(a[1],b)):a}function
+jk(a,b){return a?N(b,jk(a[1],b)):a}function
 ck(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
@@ -845,35 +845,35 @@ V(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 cl(b,a){return V([0,b],a)}function
-jk(c){var
+jl(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e6(c,b,a){return c?i(b,e6(c[1],b,a)):a}function
-jl(a){if(a)var
-b=a[1],d=b?[0,jl(b[1])]:b,c=d;else
+e7(c,b,a){return c?j(b,e7(c[1],b,a)):a}function
+jm(a){if(a)var
+b=a[1],d=b?[0,jm(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gQ(d,c){var
+gR(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jm(a){if(H(a,c))return c;var
-e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jm(f))):p(b(2,b(2,f)))}function
-jn(b,a){return bs(c,aG(b,a))}function
-e7(a){if(H(a,c))return pX;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
-e8(a){if(H(a,c))return c;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
-jo(c,b){var
-a=i8(c,b);return 0===a?0:0<=a?2:1}function
-gR(j,i){var
+jn(a){if(H(a,c))return c;var
+e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jn(f))):p(b(2,b(2,f)))}function
+jo(b,a){return bs(c,aG(b,a))}function
+e8(a){if(H(a,c))return pX;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e8(e)]:[0,e8(e)]}function
+e9(a){if(H(a,c))return c;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e9(e)):p(e9(e))}function
+jp(c,b){var
+a=i9(c,b);return 0===a?0:0<=a?2:1}function
+gS(j,i){var
 b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aF(2))[2],d)?0:0;var
 g=aU(b,aF(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
 e=aU(a,aF(2)),k=e[1];if(_(e[2],d)){var
 b=h,a=k;continue}return 0}if(H(a,c))return 0;var
 f=aU(a,aF(2)),l=f[1];if(_(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e9(b,a){return 2<=jo(b,a)?0:1}function
+e_(b,a){return 2<=jp(b,a)?0:1}function
 dj(i,e,a){if(i){var
 f=i[1];if(H(e,c))return[0,c,[0,c,a]];var
 w=aU(e,aF(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
@@ -881,20 +881,20 @@ m=aU(a,aF(2)),B=m[1];if(_(m[2],d)){var
 j=dj(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
 k=dj(f,g,a),l=k[2],y=l[2],z=[0,b(2,l[1]),y];return[0,k[1],z]}if(H(a,c))return[0,c,[0,e,c]];var
 v=aU(a,aF(2)),h=v[1];if(_(v[2],d)){var
-n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jo(g,h)){case
+n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jp(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=dj(f,jn(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=dj(f,jn(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e_(b,a){var
-c=e7(a);return dj(N(e7(b),c),b,a)}function
-jp(b,i,h){var
+p=dj(f,jo(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=dj(f,jo(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+e$(b,a){var
+c=e8(a);return dj(N(e8(b),c),b,a)}function
+jq(b,i,h){var
 e=i,a=h;for(;;){if(H(e,c))return a;var
 f=aU(e,aF(2)),g=f[1];if(_(f[2],d)){var
-e=g,a=ao(b,a,a);continue}return ao(b,a,jp(b,g,ao(b,a,a)))}}function
-d7(a){return jp(N,a,pY)}function
-jq(a){return a?p(jq(a[1])):c}function
-b0(f,e){var
+e=g,a=ao(b,a,a);continue}return ao(b,a,jq(b,g,ao(b,a,a)))}}function
+d8(a){return jq(N,a,pY)}function
+jr(a){return a?p(jr(a[1])):c}function
+b1(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -917,47 +917,47 @@ t=y(b(2,p(b(2,b(2,c)))),d),u=A(p(b(2,p(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
 v=y(b(2,p(b(2,b(2,c)))),d),w=A(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
 x=y(b(2,p(b(2,b(2,c)))),d),z=A(p(b(2,b(2,b(2,c)))),x),a=a[1],d=z;continue}}function
-gS(a){if(H(a,c))return pZ;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gS(e)):bu(gS(e))}function
-e$(a){return e5(gS(a))}function
-jr(k,f){if(0<=a9(f)){var
-g=i_(f);if(0<=g){var
+gT(a){if(H(a,c))return pZ;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gT(e)):bu(gT(e))}function
+fa(a){return e6(gT(a))}function
+js(k,f){if(0<=a9(f)){var
+g=i$(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e4(pT)}return d}function
-gT(b){var
+h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e5(pT)}return d}function
+gU(b){var
 a=a9(b);return 0===a?d:0<a?c:P(c)}function
-js(a){return 0<=a9(a)?a:d}function
-d8(a){var
+jt(a){return 0<=a9(a)?a:d}function
+d9(a){var
 b=a9(a);return 0===b?c:0<b?a:c}function
-jt(m){var
+ju(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return b0(a[1],c);case
+1:return b1(a[1],c);case
 2:var
-e=b(2,c);return b0(a[1],e);case
+e=b(2,c);return b1(a[1],e);case
 3:var
-f=p(b(2,c));return b0(a[1],f);case
+f=p(b(2,c));return b1(a[1],f);case
 4:var
-g=b(2,b(2,c));return b0(a[1],g);case
+g=b(2,b(2,c));return b1(a[1],g);case
 5:var
-h=p(b(2,b(2,c)));return b0(a[1],h);case
+h=p(b(2,b(2,c)));return b1(a[1],h);case
 6:var
-i=b(2,p(b(2,c)));return b0(a[1],i);case
+i=b(2,p(b(2,c)));return b1(a[1],i);case
 7:var
-j=p(b(2,p(b(2,c))));return b0(a[1],j);case
+j=p(b(2,p(b(2,c))));return b1(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return b0(a[1],k);default:var
-l=p(b(2,b(2,b(2,c))));return b0(a[1],l)}}function
+k=b(2,b(2,b(2,c)));return b1(a[1],k);default:var
+l=p(b(2,b(2,b(2,c))));return b1(a[1],l)}}function
 cm(b,a){var
-c=a9(a);return 0===c?d:1===c?i9(b,a):jf(-1,i9(jf(-1,b),a))}function
-fa(a){return 0<a9(a)?EV(a):d}function
-d9(b,c){var
-a=i_(c);return 0<=a?pM(b,a):pN(b,-a|0)}function
+c=a9(a);return 0===c?d:1===c?i_(b,a):jg(-1,i_(jg(-1,b),a))}function
+fb(a){return 0<a9(a)?EU(a):d}function
+d_(b,c){var
+a=i$(c);return 0<=a?pM(b,a):pN(b,-a|0)}function
 cJ(b,c){var
-a=i_(c);return 0<=a?pN(b,a):pM(b,-a|0)}function
+a=i$(c);return 0<=a?pN(b,a):pM(b,-a|0)}function
 bv(b,a){return a?a[1]:b}function
 bd(a){var
 b=a?a[2]:a;return b}function
@@ -968,14 +968,14 @@ M(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-ju(a){if(a){var
-b=[0,a[1],0];return f(ju(a[2]),b)}return a}function
-d_(d,c){var
+jv(a){if(a){var
+b=[0,a[1],0];return f(jv(a[2]),b)}return a}function
+d$(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-fb(a){if(a){var
-b=fb(a[2]);return f(a[1],b)}return a}function
-gU(g,f,e){var
+fc(a){if(a){var
+b=fc(a[2]);return f(a[1],b)}return a}function
+gV(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -983,11 +983,11 @@ d=c}else
 var
 d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,i(b,a[1]),d];else
+d=e(b,a[2]),c=[0,j(b,a[1]),d];else
 var
 c=a;return c}function
 v(b,a){if(a){var
-c=v(b,a[2]);return f(i(b,a[1]),c)}return a}function
+c=v(b,a[2]);return f(j(b,a[1]),c)}return a}function
 dk(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
@@ -995,31 +995,31 @@ aI(c,b,a){if(a){var
 d=aI(c,b,a[2]);return ao(c,a[1],d)}return b}function
 ak(e,d){var
 a=d;for(;;){if(a){var
-b=i(e,a[1]);if(!b){var
+b=j(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 n(d,c){var
 a=c;for(;;){if(a){var
-b=i(d,a[1]);if(b){var
+b=j(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
 be(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,be(b,c)];var
+c=a[2],d=a[1];if(j(b,d))return[0,d,be(b,c)];var
 a=c;continue}return a}}function
-jv(d,c){var
+jw(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(i(d,b))return[0,b];var
+b=a[1];if(j(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aK(b,a){if(b)if(a)var
-d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aJ(b,a){if(b)if(a)var
+d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-b1(b,a){if(b)if(a)var
-d=b1(b[1],a[2]),c=[0,a[1],d];else
+b2(b,a){if(b)if(a)var
+d=b2(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
@@ -1029,39 +1029,39 @@ b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aL(b,a){var
 c=a?[0,b,aL([0,b],a[1])]:a;return c}function
-aw(b,a){var
-c=a?[0,b,aw(b,a[1])]:a;return c}function
-jw(a){if(a){var
-e=jw(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-fc(j){function
+av(b,a){var
+c=a?[0,b,av(b,a[1])]:a;return c}function
+jx(a){if(a){var
+e=jx(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+fd(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jw([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d7(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jx([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d8(b):0}function
 dm(c,b){var
-a=i8(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+a=i9(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
 cK(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
 dn(b,a){return[0,A(y(b[1],a[2]),y(a[1],b[2])),y(b[2],a[2])]}function
-b2(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-jx(a){return[0,P(a[1]),a[2]]}function
-fd(b,a){return dn(b,jx(a))}function
-gV(f,b){var
-a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b2(f,g)}function
-fe(q){var
+b3(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
+jy(a){return[0,P(a[1]),a[2]]}function
+fe(b,a){return dn(b,jy(a))}function
+gW(f,b){var
+a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b3(f,g)}function
+ff(q){var
 a=q[2],b=q[1],o=a9(b);if(0===o)var
-c=[0,dh(a),[0,d,gT(a)]];else
+c=[0,dh(a),[0,d,gU(a)]];else
 if(0<o){var
 n=a9(a);if(0===n)var
-c=[0,dh(b),[0,gT(b),d]];else
+c=[0,dh(b),[0,gU(b),d]];else
 if(0<n)var
-l=e_(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e$(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e_(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
+j=e$(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
 p=P(b),i=a9(a);if(0===i)var
-c=[0,dh(b),[0,gT(b),d]];else
+c=[0,dh(b),[0,gU(b),d]];else
 if(0<i)var
-g=e_(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
+g=e$(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
-e=e_(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
-r=c[2],s=d8(r[2]);return[0,r[1],s]}function
+e=e$(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
+r=c[2],s=d9(r[2]);return[0,r[1],s]}function
 a2(a){if(typeof
 a==="number")return p2;else
 switch(a[0]){case
@@ -1084,34 +1084,34 @@ i=a2(a[1]);return aT(br(1,55),i);case
 8:var
 j=a2(a[1]);return aT(br(1,56),j);default:var
 k=a2(a[1]);return aT(br(1,57),k)}}function
-d$(a){return typeof
+ea(a){return typeof
 a==="number"?p3:a2(a)}function
-cL(a){return jr(b(2,c),a)}function
-jy(b,a){return cJ(a,b)}function
-jz(b,a){return P(cJ(P(a),b))}function
-ff(b,a){return P(cm(P(b),a))}function
+cL(a){return js(b(2,c),a)}function
+jz(b,a){return cJ(a,b)}function
+jA(b,a){return P(cJ(P(a),b))}function
+fg(b,a){return P(cm(P(b),a))}function
 W(c,b){var
-a=d9(b,c);return[0,a,a]}function
-jA(d,c,a){var
-b=d9(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
+a=d_(b,c);return[0,a,a]}function
+jB(d,c,a){var
+b=d_(c,d),e=fg(b,a);return[0,cm(b,a),e]}function
 E(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
 D(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
 af(a){return[0,P(a[2]),P(a[1])]}function
-jB(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
-f=bs(y(e,b),y(c,a));return[0,gP(y(e,a),y(c,b)),f]}function
+jC(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
+f=bs(y(e,b),y(c,a));return[0,gQ(y(e,a),y(c,b)),f]}function
 x(c,b,a){var
-d=jB(b[1],b[2],a[1],a[2]),e=jz(c,d[2]);return[0,jy(c,d[1]),e]}function
+d=jC(b[1],b[2],a[1],a[2]),e=jA(c,d[2]);return[0,jz(c,d[1]),e]}function
 X(b,a){var
-c=y(a[1],a[1]),e=y(a[2],a[2]),h=jz(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+c=y(a[1],a[1]),e=y(a[2],a[2]),h=jA(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jy(b,gP(c,e));return[0,f,h]}function
-gW(b,a){var
-c=d9(cL(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
-b3(b,a){if(L(d,a[1]))return[0,gW(b,a)];var
-c=L(a[2],d),e=c?[0,af(gW(b,af(a)))]:c;return e}function
-b4(f,b){var
+f=jz(b,gQ(c,e));return[0,f,h]}function
+gX(b,a){var
+c=d_(cL(b),b),d=fg(c,a[1]);return[0,cm(c,a[2]),d]}function
+b4(b,a){if(L(d,a[1]))return[0,gX(b,a)];var
+c=L(a[2],d),e=c?[0,af(gX(b,af(a)))]:c;return e}function
+b5(f,b){var
 g=L(d,b[1]);if(g)var
-e=d9(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d9(b[1],f)),i]];else
+e=d_(b[2],f),a=fb(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fb(d_(b[1],f)),i]];else
 var
 h=g;return h}function
 dp(a){return 0===a[0]?a[2]:a[1]}function
@@ -1123,96 +1123,96 @@ e=b[1],f=P(cn(P(y(a,b[2])),c));return[0,cn(y(a,e),c),f]}var
 g=b[2],h=P(cn(P(y(a,b[1])),c));return[0,cn(y(a,g),c),h]}function
 aW(a){var
 b=P(cJ(P(a[2]),c));return[0,cJ(a[1],c),b]}function
-ea(c,b,a){var
-e=jB(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
+eb(c,b,a){var
+e=jC(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=fg(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
 cM(a){return bs(a[2],P(a[1]))}var
 B=[0,d,d];function
-eb(a){return[0,a[1],a[1]]}function
+ec(a){return[0,a[1],a[1]]}function
 dq(a){return[0,a[2],a[2]]}function
-bL(b,a){switch(a[0]){case
+bM(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=i(b,a[2]);return[3,i(b,a[1]),c];case
+c=j(b,a[2]);return[3,j(b,a[1]),c];case
 4:var
-d=i(b,a[2]);return[4,i(b,a[1]),d];case
-5:return[5,i(b,a[1])];case
+d=j(b,a[2]);return[4,j(b,a[1]),d];case
+5:return[5,j(b,a[1])];case
 6:var
-e=i(b,a[2]);return[6,i(b,a[1]),e];case
+e=j(b,a[2]);return[6,j(b,a[1]),e];case
 7:var
-f=i(b,a[2]);return[7,i(b,a[1]),f];case
-8:return[8,i(b,a[1])];case
-9:return[9,i(b,a[1])];default:var
-g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-av(n,m){var
+f=j(b,a[2]);return[7,j(b,a[1]),f];case
+8:return[8,j(b,a[1])];case
+9:return[9,j(b,a[1])];default:var
+g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
+aw(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?u(b[1],a[1]):0;case
 1:return 1===a[0]?u(b[1],a[1]):0;case
 2:return 2===a[0]?_(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=av(b[1],a[1]);if(f){var
+f=aw(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=av(b[1],a[1]);if(g){var
+g=aw(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=av(b[1],a[1]);if(h){var
+h=aw(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=av(b[1],a[1]);if(i){var
+i=aw(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
 j=ck(b[1],a[1]);if(j){var
-k=av(b[2],a[2]);if(k){var
-l=av(b[3],a[3]);if(l){var
+k=aw(b[2],a[2]);if(k){var
+l=aw(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fg(b){var
+fh(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aO(c,b){var
-a=fg(b);return a?_(c,a[1]):a}function
-ec(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-h(a){return[0,[2,a]]}function
+a=fh(b);return a?_(c,a[1]):a}function
+ed(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+i(a){return[0,[2,a]]}function
 z(b,a){if(aO(d,b))return a;if(aO(d,a))return b;var
-c=fg(b);if(c){var
-e=c[1],f=fg(a);if(f){var
-g=f[1];if(ec(e)&&ec(g))return h(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+c=fh(b);if(c){var
+e=c[1],f=fh(a);if(f){var
+g=f[1];if(ed(e)&&ed(g))return i(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bf(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return ec(c)?h(P(c)):[0,[5,a]];case
+c=b[1];return ed(c)?i(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 t(b,a){if(aO(d,a))return b;if(aO(d,b))return bf(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?u(c[1],e[1])?h(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+e=a[1];return 0===e[0]?u(c[1],e[1])?i(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 I(a){var
-c=fg(a);if(c){var
-b=c[1];return ec(b)?h(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return av(a,b)?I(a):[0,[6,a,b]];return b}return a}function
+c=fh(a);if(c){var
+b=c[1];return ed(b)?i(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return aw(a,b)?I(a):[0,[6,a,b]];return b}return a}function
 ag(b,a){return aO(c,a)?b:[0,[7,b,a]]}function
 ax(a){return aO(c,a)?a:[0,[9,a]]}function
-jC(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bM(f,e,d,c){var
+jD(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bN(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-ed(b,a){if(a){var
+g=b[1],h=[0,j(e,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+ee(b,a){if(a){var
 c=a[2];if(b){var
-e=ed(b[1],c);return[0,a[1],e]}var
+e=ee(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-jD(a){switch(a[0]){case
+jE(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1220,17 +1220,17 @@ jD(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-jE(j,g){var
-k=0,l=aI(ed,e(function(a){return 0},g),j),c=d_(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aI(ed,d,jD(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+jF(j,g){var
+k=0,l=aI(ee,e(function(a){return 0},g),j),c=d$(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aI(ee,d,jE(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 co(a){var
 b=0;function
-c(a){return[0,a]}return bM(h(d),c,a,b)}function
+c(a){return[0,a]}return bN(i(d),c,a,b)}function
 aX(d,c){var
-a=d,b=0;for(;;){if(a){if(av(c,a[1]))return b;var
+a=d,b=0;for(;;){if(a){if(aw(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
 cN(d,b){var
-e=b[1];if(ak(function(a){return av(d,a)},e))return b;var
+e=b[1];if(ak(function(a){return aw(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
 j=cN(a[2],b),k=cN(a[3],j),c=cN(a[4],k);break;case
@@ -1243,34 +1243,34 @@ c=cN(a[1],b);break;case
 2:var
 c=b;break;default:var
 i=cN(a[1],b),c=cN(a[2],i)}var
-f=c[2],g=c[1],h=[0,bL(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+f=c[2],g=c[1],h=[0,bM(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cp(a){var
-b=dk(function(b,a){return cN(a,b)},a,p4),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,ju(b[2]),d]}function
-fh(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
-b5(b,c,a){var
-d=fh(a),e=gP(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
+b=dk(function(b,a){return cN(a,b)},a,p4),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jv(b[2]),d]}function
+fi(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
+b6(b,c,a){var
+d=fi(a),e=gQ(c[2],A(b[2],d)),f=fi(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
 ae(a){return[0,a,a,0]}function
-bN(b,a){var
+bO(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aV(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return b5(E(b[1],a[1]),g,f)}function
+f=aV(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return b6(E(b[1],a[1]),g,f)}function
 a$(b,a){var
-c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b5(D(b[1],a[1]),f,e)}function
-ee(a){var
+c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b6(D(b[1],a[1]),f,e)}function
+ef(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
 ay(a,c,b){var
 d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=x(a,e,b);return aW(E(x(a,d,c),f))}function
 i(b){return aW(x(a,e,b))}var
-j=aV(function(b){return aW(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return b5(x(a,c[1],b[1]),k,j)}function
-ef(b,a){var
-c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=X(b,a[2]);return b5(X(b,a[1]),g,f)}function
-gX(a,b){var
-c=b4(a,b[1]);if(c){var
-g=c[1],d=b4(a,b[2]);if(d){var
-h=d[1],f=b3(a,E(h,g));if(f)var
-l=b[3],m=f[1],i=[0,b5(g,h,e(function(b){return x(a,m,b)},l))];else
+j=aV(function(b){return aW(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return b6(x(a,c[1],b[1]),k,j)}function
+eg(b,a){var
+c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=X(b,a[2]);return b6(X(b,a[1]),g,f)}function
+gY(a,b){var
+c=b5(a,b[1]);if(c){var
+g=c[1],d=b5(a,b[2]);if(d){var
+h=d[1],f=b4(a,E(h,g));if(f)var
+l=b[3],m=f[1],i=[0,b6(g,h,e(function(b){return x(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1280,115 +1280,115 @@ k=j}else
 var
 k=c;return k}function
 dr(a,c,b){var
-d=b3(a,b[1]);if(d){var
-f=b3(a,b[2]);if(f)var
-h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aV(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,b5(g,x(a,c[2],h),p)];else
+d=b4(a,b[1]);if(d){var
+f=b4(a,b[2]);if(f)var
+h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aV(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,b6(g,x(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cq(b,a){return a?i(b,a[1]):a}function
-fi(a){var
-b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b5(a[1],c,b)}function
-jF(a,k,j,r,b){var
-l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(W(a,c)),t);if(i)var
+cq(b,a){return a?j(b,a[1]):a}function
+fj(a){var
+b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b6(a[1],c,b)}function
+jG(a,k,j,r,b){var
+l=fj(k),m=fj(j),g=fj(b[1]),h=fj(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(W(a,c)),t);if(i)var
 f=i[1],n=ay(a,a$(l,g),f),o=ay(a,a$(m,h),f),d=function(c,b){return ay(a,c,ae(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bN(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ee(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=b5(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,b5(b[1][1],b[1][2],H),F]];else
+c=d(o,a);return bO(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ef(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=b6(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,b6(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jG(a,e,d,k){var
-p=ef(a,d),f=bN(ef(a,e),p),g=a$(bN(f,ae(W(a,c))),k),l=ay(a,ae(W(a,b(2,c))),f),q=ef(a,g),h=gX(a,a$(ay(a,ae(W(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=ay(a,m,d),i=dr(a,bN(ay(a,g,e),r),l);if(i)var
+jH(a,e,d,k){var
+p=eg(a,d),f=bO(eg(a,e),p),g=a$(bO(f,ae(W(a,c))),k),l=ay(a,ae(W(a,b(2,c))),f),q=eg(a,g),h=gY(a,a$(ay(a,ae(W(a,b(2,b(2,c)))),f),q));if(h){var
+m=h[1],r=ay(a,m,d),i=dr(a,bO(ay(a,g,e),r),l);if(i)var
 s=ay(a,m,e),j=dr(a,a$(ay(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cq(function(b){return jF(a,e,d,k,b)},o);return cq(function(b){return jF(a,e,d,k,b)},u)}function
-b6(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
+u=cq(function(b){return jG(a,e,d,k,b)},o);return cq(function(b){return jG(a,e,d,k,b)},u)}function
+b7(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-b7(b,j,i){var
+b8(b,j,i){var
 f=ae(B);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
 2:return[0,ae(W(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return b6(function(b,a){return[0,bN(b,a)]},l,k);case
+k=a[2],l=a[1];return b7(function(b,a){return[0,bO(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return b6(function(b,a){return[0,a$(b,a)]},n,m);case
+m=a[2],n=a[1];return b7(function(b,a){return[0,a$(b,a)]},n,m);case
 5:var
-o=a[1];return cq(function(a){return[0,ee(a)]},o);case
+o=a[1];return cq(function(a){return[0,ef(a)]},o);case
 6:var
-p=a[2],q=a[1];return b6(function(c,a){return[0,ay(b,c,a)]},q,p);case
+p=a[2],q=a[1];return b7(function(c,a){return[0,ay(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return b6(function(a,c){return dr(b,a,c)},t,s);case
+s=a[2],t=a[1];return b7(function(a,c){return dr(b,a,c)},t,s);case
 8:var
-u=a[1];return cq(function(a){return[0,ef(b,a)]},u);case
+u=a[1];return cq(function(a){return[0,eg(b,a)]},u);case
 9:var
-v=a[1];return cq(function(a){return gX(b,a)},v);default:var
+v=a[1];return cq(function(a){return gY(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jG(b,c[1],d[1],e[1]),y=a[1]?bZ:aH;return w(y,x)}var
+x=jH(b,c[1],d[1],e[1]),y=a[1]?b0:aH;return w(y,x)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-eg(c){var
+eh(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=eg(a[1]);if(b)return b;var
+b=eh(a[1]);if(b)return b;var
 a=a[2];continue}}function
-b8(q,p){var
+b9(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=_(b[1],a[1]);return c?gR(b[2],a[2]):c}return 0;case
+c=_(b[1],a[1]);return c?gS(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gR(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gR(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gS(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gS(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=b8(b[1],a[1]);if(l){var
+l=b9(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=b8(b[1],a[1]);if(m){var
+m=b9(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=b8(b[1],a[1]);if(n){var
+n=b9(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=b8(b[1],a[1]);if(o){var
+o=b9(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eh(b,a){switch(a[0]){case
+ei(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
 m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dn(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fd(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fe(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b2(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gV(b,a)]};break;default:var
-k=eh(b,a[1]);return k?i(b,k[1]):k}var
-h=eh(b,f);if(h){var
-j=eh(b,g);if(j)return e(h[1],j[1]);var
-l=j}else
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gW(b,a)]};break;default:var
+k=ei(b,a[1]);return k?j(b,k[1]):k}var
+h=ei(b,f);if(h){var
+i=ei(b,g);if(i)return e(h[1],i[1]);var
+l=i}else
 var
 l=h;return l}function
 p5(a){return 0}function
-cr(a){return eh(p5,a)}function
+cr(a){return ei(p5,a)}function
 bw(a,b){switch(b[0]){case
-0:return[0,jA(a,b[1],b[2])];case
+0:return[0,jB(a,b[1],b[2])];case
 1:return 0;case
 2:var
 g=bw(a,b[1]);if(g)var
@@ -1408,44 +1408,44 @@ t=k;return t;case
 5:var
 m=bw(a,b[1]);if(m){var
 n=bw(a,b[2]);if(n)var
-o=b3(a,n[1]),H=o?[0,x(a,m[1],o[1])]:o,u=H;else
+o=b4(a,n[1]),H=o?[0,x(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
 v=u}else
 var
 v=m;return v;default:var
 y=b[1],p=bw(a,y);if(p){var
-e=p[1];if(L(d,e[1]))return b4(a,e);var
+e=p[1];if(L(d,e[1]))return b5(a,e);var
 f=cr(y),I=f?$(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
-z=b4(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
+z=b5(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
 q=_(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fj(b,a){return jA(b,a[1],a[2])}function
-bx(a,d){if(eg(d))switch(d[0]){case
+fk(b,a){return jB(b,a[1],a[2])}function
+bx(a,d){if(eh(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=cl(i,jH),k=j?cK(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fj(a,b2(fd(e,g),n)),0],p=f(aw(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b2(dn(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=cl(i,jI),k=j?cK(g,e):j;if(k)var
+n=[0,c,b(2,c)],o=[0,fk(a,b3(fe(e,g),n)),0],p=f(av(B,i),o),q=fk(a,e)[2],r=[0,fk(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fk(a,b3(dn(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bx(a,d[2]),u=bx(a,d[1]);return b6(function(b,a){return[0,bN(b,a)]},u,t);case
+t=bx(a,d[2]),u=bx(a,d[1]);return b7(function(b,a){return[0,bO(b,a)]},u,t);case
 3:var
-v=bx(a,d[2]),x=bx(a,d[1]);return b6(function(b,a){return[0,a$(b,a)]},x,v);case
+v=bx(a,d[2]),x=bx(a,d[1]);return b7(function(b,a){return[0,a$(b,a)]},x,v);case
 4:var
-m=d[2],h=d[1];if(b8(h,m)){var
-y=bx(a,h);return cq(function(b){return[0,ef(a,b)]},y)}var
-z=bx(a,m),A=bx(a,h);return b6(function(c,b){return[0,ay(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(b9(h,m)){var
+y=bx(a,h);return cq(function(b){return[0,eg(a,b)]},y)}var
+z=bx(a,m),A=bx(a,h);return b7(function(c,b){return[0,ay(a,c,b)]},A,z);case
 5:var
-C=bx(a,d[2]),D=bx(a,d[1]);return b6(function(b,c){return dr(a,b,c)},D,C);default:var
-E=bx(a,d[1]);return cq(function(b){return gX(a,b)},E)}return w(ae,bw(a,d))}function
-aY(b,a){if(eg(a)){var
+C=bx(a,d[2]),D=bx(a,d[1]);return b7(function(b,c){return dr(a,b,c)},D,C);default:var
+E=bx(a,d[1]);return cq(function(b){return gY(a,b)},E)}return w(ae,bw(a,d))}function
+aY(b,a){if(eh(a)){var
 c=bx(b,a);return w(function(a){return a[2]},c)}return bw(b,a)}function
-jI(a){var
-e=bs(P(a),d);return d8(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jJ(a){return js(A(jI(a),a))}function
+jJ(a){var
+e=bs(P(a),d);return d9(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jK(a){return jt(A(jJ(a),a))}function
 cs(f,a,e){var
-b=aY(A(f,jI(a)),e);if(b)var
-c=b[1],g=jJ(a),h=P(cn(P(c[2]),g)),i=jJ(a),d=[0,[0,cn(c[1],i),h]];else
+b=aY(A(f,jJ(a)),e);if(b)var
+c=b[1],g=jK(a),h=P(cn(P(c[2]),g)),i=jK(a),d=[0,[0,cn(c[1],i),h]];else
 var
 d=b;return d}function
 al(d,a){var
@@ -1453,96 +1453,96 @@ b=cs(d,a[2],a[1][1]);if(b)var
 c=cs(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gY(b,a){var
+gZ(b,a){var
 c=P(cn(P(a[2]),b));return[0,cn(a[1],b),c]}function
-fk(b,a){var
-c=ff(b[2],a);return[0,cm(b[1],a),c]}function
-jK(h,g,d,c){var
-e=c[2],f=jq(d),i=b(2,f),j=y(jm(f),i),a=fk(x(h,c[1],g),j),k=jk(d)?D(e,a):E(e,a);return[0,a,k]}function
-jL(a,d,b){if(b){var
-e=b[1];return jK(a,d,e,jL(a,d,e))}var
+fl(b,a){var
+c=fg(b[2],a);return[0,cm(b[1],a),c]}function
+jL(h,g,d,c){var
+e=c[2],f=jr(d),i=b(2,f),j=y(jn(f),i),a=fl(x(h,c[1],g),j),k=jl(d)?D(e,a):E(e,a);return[0,a,k]}function
+jM(a,d,b){if(b){var
+e=b[1];return jL(a,d,e,jM(a,d,e))}var
 f=W(a,c);return[0,W(a,c),f]}function
-jM(e,g){var
+jN(e,g){var
 o=cL(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
-n=d7(e),i=p6[1],d=n,f=0,a=i;for(;;){if(d){var
+n=d8(e),i=p6[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(jj(p9,N(p7,f)),p8),l=jL(e,g,k),q=jK(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(jk(p9,N(p7,f)),p8),l=jM(e,g,k),q=jL(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-jN(i){function
+jO(i){function
 a(h){var
-m=cm(cL(i),h),g=d7(i),f=m,e=d,a=c;for(;;){if(g){var
+m=cm(cL(i),h),g=d8(i),f=m,e=d,a=c;for(;;){if(g){var
 j=A(a,b(2,c)),k=A(e,cm(f,a)),l=P(cm(f,y(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
 e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aG(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jO(e,a){var
+jP(e,a){var
 f=H(d,a);if(f){var
-g=b(2,b(2,c));return jM(e,fk(X(e,[0,a,a]),g))}return f}function
-jP(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jN(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jN(a),n),e=jO(a,g);if(e){var
-f=jO(a,h);if(f)var
+g=b(2,b(2,c));return jN(e,fl(X(e,[0,a,a]),g))}return f}function
+jQ(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jO(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jO(a),n),e=jP(a,g);if(e){var
+f=jP(a,h);if(f)var
 i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jQ(a,d){var
+jR(a,d){var
 b=X(a,d),e=W(a,c);return D(E(b,b),e)}function
 ds(f,j){var
 e=aY(A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jP(a);if(d)var
-h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jM(a,X(a,fk(x(a,k,d[1]),h))),g=w(function(b){return jQ(a,jQ(a,b))},i);else
+k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jQ(a);if(d)var
+h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jN(a,X(a,fl(x(a,k,d[1]),h))),g=w(function(b){return jR(a,jR(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gY(l,a)},g)}return e}function
-jR(a,d){var
-e=jP(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
-f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(x(a,d,gY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fl(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gZ(l,a)},g)}return e}function
+jS(a,d){var
+e=jQ(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
+f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fl(x(a,d,gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fm(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
 f=cr(b);if(f){var
 g=f[1];return e?$(cK(g,[0,d,c])):cK([0,d,c],g)}var
 a=aY(i,b);if(a){var
 h=a[1];return e?L(d,h[1]):H(d,h[1])}return a}function
-jS(c,b){var
+jT(c,b){var
 a=aY(c,b),d=a?1:a;return d}function
 bg(c,a,b){var
-d=b8(a,b),e=d?jS(c,a):d;return e?e:g(c,0,[3,b,a])}function
+d=b9(a,b),e=d?jT(c,a):d;return e?e:g(c,0,[3,b,a])}function
 p_(c){var
-a=fe(c),g=d8(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b2(b,b),c):e,h=f?[0,b]:f;return h}function
-jT(a){if(a){var
+a=ff(c),g=d9(fb(a[2])),b=[0,fb(a[1]),g],e=L(d,a[1]),f=e?dm(b3(b,b),c):e,h=f?[0,b]:f;return h}function
+jU(a){if(a){var
 e=a[2],b=a[1];if(dm(bv([0,d,c],b),[0,d,c])){var
-g=jT(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+g=jU(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jU(b,a){var
-e=aK(b,a),f=[0,d,c];return aI(function(a,b){return fe(dn(b2(a[1],a[2]),b))},f,e)}function
-jV(b,j){if(b){var
-f=b[1],g=jT(j);if(g){var
+jV(b,a){var
+e=aJ(b,a),f=[0,d,c];return aI(function(a,b){return ff(dn(b3(a[1],a[2]),b))},f,e)}function
+jW(b,j){if(b){var
+f=b[1],g=jU(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bv([0,d,c],a),g=gV(bv([0,d,c],b),f),h=bd(a),i=aK(bd(b),h);return e(function(a){var
-b=b2(g,a[2]);return fe(fd(a[1],b))},i)},l=jV(f,e(k,h[2]));return w(function(b){var
-e=bv([0,d,c],a);return[0,fe(gV(jx(jU(bd(a),b)),e)),b]},l)}var
-i=[0,[0,[0,c,c],aw([0,d,c],f)]]}else
+f=bv([0,d,c],a),g=gW(bv([0,d,c],b),f),h=bd(a),i=aJ(bd(b),h);return e(function(a){var
+b=b3(g,a[2]);return ff(fe(a[1],b))},i)},l=jW(f,e(k,h[2]));return w(function(b){var
+e=bv([0,d,c],a);return[0,ff(gW(jy(jV(bd(a),b)),e)),b]},l)}var
+i=[0,[0,[0,c,c],av([0,d,c],f)]]}else
 var
 i=b;return i}function
-jW(a){if(a){var
-b=eh(p_,a[1]);if(b)var
-c=jW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
-var
-d=b;return d}return p$}function
 jX(a){if(a){var
-b=jW(a[1]);if(b)var
+b=ei(p_,a[1]);if(b)var
 c=jX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
+d=b;return d}return p$}function
+jY(a){if(a){var
+b=jX(a[1]);if(b)var
+c=jY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
 d=b;return d}return qa}function
-jY(h,l){var
-a=jX(l);if(a){var
-i=a[1],b=jV(h,i);if(b){var
-e=b[1],f=u(j(e),h),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jU(a,e),[0,d,c])},i):g}var
+jZ(i,l){var
+a=jY(l);if(a){var
+j=a[1],b=jW(i,j);if(b){var
+e=b[1],f=u(h(e),i),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jV(a,e),[0,d,c])},j):g}var
 k=b}else
 var
 k=a;return k}function
@@ -1551,34 +1551,34 @@ qc(a){return a}function
 qd(a,b){return aV(qc,qb,E,a,b)}function
 qe(a){return a}function
 qf(a){return a}function
-b9(a,b){return aV(qf,qe,qd,a,b)}function
-gZ(b,a,c){if(a){var
+b_(a,b){return aV(qf,qe,qd,a,b)}function
+g0(b,a,c){if(a){var
 f=a[2],d=a[1];if(c){var
-g=gZ(b,f,c[2]),h=c[1],i=function(c,a){return D(c,ea(d,a,b))},j=function(a){return af(ea(d,a,b))};return[0,aV(function(a){return a},j,i,h,a),g]}var
-k=gZ(b,f,0);return[0,e(function(a){return af(ea(d,a,b))},a),k]}return c}function
-g0(a){if(a){var
+g=g0(b,f,c[2]),h=c[1],i=function(c,a){return D(c,eb(d,a,b))},j=function(a){return af(eb(d,a,b))};return[0,aV(function(a){return a},j,i,h,a),g]}var
+k=g0(b,f,0);return[0,e(function(a){return af(eb(d,a,b))},a),k]}return c}function
+g1(a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),h=e?[0,gZ(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),h=e?[0,g0(c,b[2],a[2])]:e,f=h;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-jZ(f,e){var
+j0(f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=g0(b);if(c){var
+c=g1(b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-j0(d,b,a){if(b)if(a)var
-e=a[1],f=j0(d,b[2],a[2]),g=ck(d,b[1])?eb(e):dq(e),c=[0,g,f];else
+j1(d,b,a){if(b)if(a)var
+e=a[1],f=j1(d,b[2],a[2]),g=ck(d,b[1])?ec(e):dq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-j1(a,b){if(a)if(b)var
-d=j1(a[2],b[2]),c=[0,j0(a[1],a,b[1]),d];else
+j2(a,b){if(a)if(b)var
+d=j2(a[2],b[2]),c=[0,j1(a[1],a,b[1]),d];else
 var
 c=b;else
 var
@@ -1586,57 +1586,57 @@ c=a;return c}function
 bh(a){if(a){var
 b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qg}function
 dt(a){var
-b=j(a);if(jZ(b,a))return 1;var
-c=bh(bK(b));return n(function(c){return jZ(b,j1([0,0,c],a))},c)}function
+b=h(a);if(j0(b,a))return 1;var
+c=bh(bL(b));return n(function(c){return j0(b,j2([0,0,c],a))},c)}function
 ar(a){function
 b(b){var
-c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aB(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?E(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-g1(c,b,a){var
-d=bh(c);return n(function(c){return i(a,i(ar(function(a){return aB(c,a)}),b))},d)}function
-g2(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g2(h,j,i),l=function(c,b){var
+g2(c,b,a){var
+d=bh(c);return n(function(c){return j(a,j(ar(function(a){return aB(c,a)}),b))},d)}function
+g3(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g3(h,j,i),l=function(c,b){var
 d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aV(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
 var
 g=b;else
 var
 g=d;return g}function
-fm(b,d,a,c){function
+fn(b,d,a,c){function
 e(c,d){var
 e=a_(d,b,a);return D(E(c,c),e)}function
 f(c){return af(a_(c,b,a))}return aV(function(a){return E(a,a)},f,e,d,c)}function
-fn(d,i,h,g){var
+fo(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dq(e[2]),k=b9(a,g2(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-g3(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=dq(e[2]),k=b_(a,g3(d,f,fn(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+g4(b,a){return[0,[0,0,b],a]}function
 du(b,c,g,f,a){function
 d(a){if(a){var
-h=aw([0,af(a[1][2]),0],b),c=fn(g,f,a[2],h),d=u(j(c),b);if(d)return dt(c);var
+i=av([0,af(a[1][2]),0],b),c=fo(g,f,a[2],i),d=u(h(c),b);if(d)return dt(c);var
 e=d}else
 var
-e=a;return e}return g1(b,g3(c,a),d)}function
-fo(f,e){var
+e=a;return e}return g2(b,g4(c,a),d)}function
+fp(f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=g0([0,[0,eb(d[2]),g],b]);if(c){var
+d=a[1],g=d[1],c=g1([0,[0,ec(d[2]),g],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-g4(b,c,a){function
+g5(b,c,a){function
 d(a){if(a){var
-h=aw([0,a[1][2],0],b),c=fo(a[2],h);if(c){var
-d=c[1],e=u(j(d),b);if(e)return dt(d);var
+i=av([0,a[1][2],0],b),c=fp(a[2],i);if(c){var
+d=c[1],e=u(h(d),b);if(e)return dt(d);var
 f=e}else
 var
 f=c;var
 g=f}else
 var
-g=a;return g}return g1(b,g3(c,a),d)}function
-j2(b,a){return e(function(a){return[0,a[1],b]},a)}function
-j3(b,a){var
+g=a;return g}return g2(b,g4(c,a),d)}function
+j3(b,a){return e(function(a){return[0,a[1],b]},a)}function
+j4(b,a){var
 c=bh(b);return n(function(b){return L(d,aB(b,a)[1])},c)}function
-j4(c,b,a){var
+j5(c,b,a){var
 d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
-j5(a,b){var
+j6(a,b){var
 c=b[3],d=a[3],e=aV(function(a){return a},af,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
 by(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
@@ -1650,100 +1650,100 @@ c=q(b[3],a[3]),d=q(b[2],a[2]);return z(z(q(b[1],a[1]),d),c)}function
 cO(a){return ba(a,ax(Q(a,a)))}function
 ct(a){var
 b=a[5];return b?b[1]:ax(a[2])}function
-fp(b,a){return b?a:bf(a)}function
-j6(e,a,i,d,h){var
-f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
-j7(a,e,d){var
+fq(b,a){return b?a:bf(a)}function
+j7(e,a,i,d,h){var
+f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fq(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+j8(a,e,d){var
 b=Q(a,a),c=ax(b),f=[0,e],g=w(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
-j8(b,a){var
-d=Q(a,b);return[0,a,h(c),a,d,0,0,0]}function
-ei(a){return e(function(a){var
+j9(b,a){var
+d=Q(a,b);return[0,a,i(c),a,d,0,0,0]}function
+ej(a){return e(function(a){var
 b=a[2];return[0,by(a[1]),b]},a)}function
-j9(a){return e(function(a){var
-b=h(c);return[0,by(a[3]),b]},a)}function
-j_(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-j$(c,b,a){var
+j_(a){return e(function(a){var
+b=i(c);return[0,by(a[3]),b]},a)}function
+j$(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+ka(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-fq(d,a){var
-b=b4(d,[0,a[2],a[2]]);if(b){var
+fr(d,a){var
+b=b5(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fr(a,m,f,l,e,k,j){var
-o=j$(a$,k,j),b=j$(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bN(bN(bN(ae(W(a,d)),h),g),c),p=bh(m);return n(function(c){var
-b=j_(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,fq(a,E(E(E(W(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
-bO(a){return cJ(A(a[1],a[2]),c)}function
+fs(a,m,f,l,e,k,j){var
+o=ka(a$,k,j),b=ka(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bO(bO(bO(ae(W(a,d)),h),g),c),p=bh(m);return n(function(c){var
+b=j$(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,fr(a,E(E(E(W(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
+bP(a){return cJ(A(a[1],a[2]),c)}function
 dv(a){var
-b=bO(a);return aG(a[2],b)}function
-ej(c,b){if(b)var
-a=b[1],e=ej([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(aw(B,c),h),j=bO(a),d=[0,[0,[0,bO(a),j],a,i],e];else
+b=bP(a);return aG(a[2],b)}function
+ek(c,b){if(b)var
+a=b[1],e=ek([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(av(B,c),h),j=bP(a),d=[0,[0,[0,bP(a),j],a,i],e];else
 var
 d=b;return d}function
-ek(d,b){if(b){var
+el(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=ek(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bO(a),f],c],h=bO(a);return[0,[0,[0,a[1],h],c],g]}return qh}function
-ka(d,b,a){if(b){if(a){var
-e=ka(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
-el(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ka(f,a,b)},j=el(f,h),k=e(function(a){var
+e=el(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bP(a),f],c],h=bP(a);return[0,[0,[0,a[1],h],c],g]}return qh}function
+kb(d,b,a){if(b){if(a){var
+e=kb(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
+em(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kb(f,a,b)},j=em(f,h),k=e(function(a){var
 e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
-em(e,b,d,a){if(b)if(a)var
-f=b[1],g=em(e,b[2],d,a[2]),c=[0,[0,f,fm(e,a[1][1],d,f)],g];else
+en(e,b,d,a){if(b)if(a)var
+f=b[1],g=en(e,b[2],d,a[2]),c=[0,[0,f,fn(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fs(f,d,c,b,a){if(a){var
+ft(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fs(f,d[1],c,b,g);return[0,[0,D(B,b),0],i]}var
+i=ft(f,d[1],c,b,g);return[0,[0,D(B,b),0],i]}var
 j=e(function(a){return[0,D(B,b),0]},g),h=[0,[0,D(af(x(f,c,dq(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 bi(c,a){var
-b=u(j(a),c);return b?dt(a):b}function
-kb(d,b,a){if(b)var
-c=b[1],g=kb([0,d],b[2],a),h=f(aw(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
+b=u(h(a),c);return b?dt(a):b}function
+kc(d,b,a){if(b)var
+c=b[1],g=kc([0,d],b[2],a),h=f(av(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kc(d){if(d){var
+kd(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kc(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kd(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
 f=a;return f}return qi}function
-g5(a){return w(function(a){return w(ee,a)},a)}function
+g6(a){return w(function(a){return w(ef,a)},a)}function
 cu(c,b,a){function
 d(a){return ay(c,b,a)}return w(function(a){return w(d,a)},a)}function
-g6(c,b,a){function
+g7(c,b,a){function
 d(a){return dr(c,a,b)}return w(function(a){return cq(d,a)},a)}function
 dw(b,a){var
-c=aK(b,a);return e(function(c){var
+c=aJ(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,b6(function(b,a){return[0,bN(b,a)]},e,d)]}return b}return a},c)}function
-ft(a){return ae(W(a,b(2,c)))}function
-kd(b,c,a){if(a)var
-f=a[1],g=kd(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,b7(function(b,a){return[0,bO(b,a)]},e,d)]}return b}return a},c)}function
+fu(a){return ae(W(a,b(2,c)))}function
+ke(b,c,a){if(a)var
+f=a[1],g=ke(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-g7(a){return n(function(a){var
+g8(a){return n(function(a){var
 b=_(a[1],d);return b?_(a[2],d):b},a)}function
-ke(c,b,a){var
-d=aK(b,a);return aI(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
-g8(c,b,a){var
-d=cM(ke(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
+kf(c,b,a){var
+d=aJ(b,a);return aI(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
+g9(c,b,a){var
+d=cM(kf(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
 dx(a){return W(a,c)}function
-g9(a,i,c,u,t){var
+g_(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!g7(c)&&!g7(j)){var
-h=g8(a,i,j),o=dx(a),p=g8(a,i,c),b=ea([0,g8(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=aW(gW(a,[0,b,b])),r=function(b){return function(d,c){return D(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b9(e,kd(a,q,aV(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!g8(c)&&!g8(j)){var
+h=g9(a,i,j),o=dx(a),p=g9(a,i,c),b=eb([0,g9(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=aW(gX(a,[0,b,b])),r=function(b){return function(d,c){return D(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b_(e,ke(a,q,aV(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
@@ -1751,25 +1751,25 @@ g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
 qx(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-kf(h,n,a,m,l,k){var
+kg(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b9(b,g2(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g9(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b_(b,g3(a,f,fn(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fn(a,b[1],b[2],c))}}(f),q),g=g_(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-kg(c,b,a){if(b){if(a){var
-d=kg(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
-kh(a,j){switch(j){case
+kh(c,b,a){if(b){if(a){var
+d=kh(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
+ki(a,j){switch(j){case
 0:var
 d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 b=cJ(A(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-g_(d,c,a){if(a)var
-e=a[1],g=g_(d,[0,c],a[2]),b=w(bZ,jv(function(a){return u(a[1],c)},d)),h=b?kh(e,b[1])[1]:e,f=[0,h,g];else
+g$(d,c,a){if(a)var
+e=a[1],g=g$(d,[0,c],a[2]),b=w(b0,jw(function(a){return u(a[1],c)},d)),h=b?ki(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-ki(a,b){return e(function(a){var
-c=a[2];return kh(r(a[1],b,B),c)[2]},a)}function
-kj(i,b,g,a){function
+kj(a,b){return e(function(a){var
+c=a[2];return ki(r(a[1],b,B),c)[2]},a)}function
+kk(i,b,g,a){function
 d(a){return aB(b,a[1])}var
 h=0,j=ae(B);function
 c(g,d,a,b){if(a){var
@@ -1777,35 +1777,35 @@ h=function(a){return aB(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b
 b=x(i,a,l);return[0,e(function(b){return x(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
 qy=ae(B);function
-kk(e,d,c){if(d){var
+kl(e,d,c){if(d){var
 f=r(e,c[2],qz),a=f?f[1]:[0,qy];if(a)var
-b=kk([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+b=kl([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
 g=a;return g}return qA}function
-kl(b,a,h,q,p,g,o){var
+km(b,a,h,q,p,g,o){var
 d=bh(a);return n(function(d){var
-f=i(o,d);if(f){var
-n=x(b,p,f[1]),j=D(W(b,c),n),r=h?D(j,aB(d,h[1])):j,k=function(c){function
+f=j(o,d);if(f){var
+n=x(b,p,f[1]),i=D(W(b,c),n),r=h?D(i,aB(d,h[1])):i,k=function(c){function
 f(a){return x(b,c,aB(d,a))}var
-g=e(function(a){return e(f,a)},q);return bi(a,b9(aw([0,r,0],a),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
+g=e(function(a){return e(f,a)},q);return bi(a,b_(av([0,r,0],a),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-km(p,o,n,m,l){var
-q=e(ae,n),h=b7(p,ej(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
+kn(p,o,n,m,l){var
+q=e(ae,n),h=b8(p,ek(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
 d=c[2],g=c[1];if(b){if(b[1]){var
-j=[0,i(h,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=j;continue}var
+i=[0,j(h,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=i;continue}var
 b=b[2],c=d,a=[0,f,a];continue}var
-k=[0,i(h,bL(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=k;continue}return a}}function
+k=[0,j(h,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=k;continue}return a}}function
 ac(a){if(a){var
 b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return qB}function
-fu(b,a){if(a){var
+fv(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=fu(b,a[2]);if(g)var
+i=f[1],g=fv(b,a[2]);if(g)var
 j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1815,21 +1815,21 @@ l=f;var
 m=l}else
 var
 m=c;return m}return qC}function
-b_(d,c,b){var
-a=fu(d,c);return a?i(b,a[1]):a}function
+b$(d,c,b){var
+a=fv(d,c);return a?j(b,a[1]):a}function
 dy(a,b){return n(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-fv(b,a){if(b){var
+fw(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aV(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
-g$(b,a){return b?j5(a,b[1]):a}function
-ha(h,g,b,f){var
+ha(b,a){return b?j6(a,b[1]):a}function
+hb(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=j5(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-kn(f,d,a){function
+i=j6(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+ko(f,d,a){function
 b(a){return a_(a,d,W(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),B,g]}return ae(B)}function
-fw(b,a){var
+fx(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1838,55 +1838,55 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-hb(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-fx(i,k,U,C,g,f,h,b,a){switch(b[0]){case
+hc(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+fy(j,k,U,C,g,f,i,b,a){switch(b[0]){case
 0:var
 r=b[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 V=dy(C,g);if(V){var
-aD=a[2],aE=a[1],aF=fv(h,ae(r));return b_(g,k,function(a){return du(f,aF,aE,aD,a)})}return V;case
+aD=a[2],aE=a[1],aF=fw(i,ae(r));return b$(g,k,function(a){return du(f,aF,aE,aD,a)})}return V;case
 1:var
 Y=dy(C,g);if(Y){var
-aH=a[2],aJ=a[1],aK=fv(h,ae(r));return b_(g,U,function(a){return du(f,aK,aJ,aH,a)})}return Y;case
+aH=a[2],aJ=a[1],aK=fw(i,ae(r));return b$(g,U,function(a){return du(f,aK,aJ,aH,a)})}return Y;case
 2:var
-Z=dy(C,g);if(Z){if(h)return 0;var
+Z=dy(C,g);if(Z){if(i)return 0;var
 $=_(r[1],d),aa=$?_(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return b_(g,k,function(a){return du(f,[0,B,B,0],aM,aL,j2([0,B,B,0],a))})}var
+aL=a[2],aM=a[1];return b$(g,k,function(a){return du(f,[0,B,B,0],aM,aL,j3([0,B,B,0],a))})}var
 ab=aa}else
 var
 ab=Z;return ab}return 0;case
 1:var
 ad=b[1];if(typeof
 a==="number"){if(1===a){var
-aN=g$(h,ae(ad));return b_(g,U,function(a){return g4(f,aN,a)})}if(!a){var
-aO=g$(h,ae(ad));return b_(g,k,function(a){return g4(f,aO,a)})}}return 0;case
+aN=ha(i,ae(ad));return b$(g,U,function(a){return g5(f,aN,a)})}if(!a){var
+aO=ha(i,ae(ad));return b$(g,k,function(a){return g5(f,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=kn(i,af,a[3]),ag=b[1],aP=a[2];return b_(g,k,function(c){var
-a=j3(f,l),b=a?du(f,fv(h,l),af,aP,c):a;if(b){var
-d=l[3],g=e(function(a){return x(i,ag,a)},d),j=l[2];return g4(f,g$(h,[0,x(i,ag,l[1]),j,g]),c)}return b})}return 0;case
+af=a[1],l=ko(j,af,a[3]),ag=b[1],aP=a[2];return b$(g,k,function(c){var
+a=j4(f,l),b=a?du(f,fw(i,l),af,aP,c):a;if(b){var
+d=l[3],g=e(function(a){return x(j,ag,a)},d),h=l[2];return g5(f,ha(i,[0,x(j,ag,l[1]),h,g]),c)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return ha(g,f,h,b[1]);return 0;case
+a==="number"&&!a)return hb(g,f,i,b[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=fv(h,ae(b[2])),aT=function(a){return du(f,aS,aR,aQ,a)};return b_(g,b[1],aT)}return 0;case
+aQ=a[2],aR=a[1],aS=fw(i,ae(b[2])),aT=function(a){return du(f,aS,aR,aQ,a)};return b$(g,b[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return ha(g,f,h,b[1]);case
-2:return ha(g,f,h,b[2])}return 0;case
+0:return hb(g,f,i,b[1]);case
+2:return hb(g,f,i,b[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-F=fw(g,b[1]);if(F){var
-G=fw(g,b[2]);if(G){var
-H=fw(g,b[3]);if(H){var
-I=fw(g,b[4]);if(I){var
+F=fx(g,b[1]);if(F){var
+G=fx(g,b[2]);if(G){var
+H=fx(g,b[3]);if(H){var
+I=fx(g,b[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=b[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=j_(function(d){function
-f(a){return a_(a,aU,W(i,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fh(a),h=A(b[2],g),j=fh(a);return[0,b,[0,aG(b[1],j),h],a]}return ae(B)},aC),M=n(function(a){return u(j(a),[0,f])},m),N=M?fr(i,f,h,s,q,ak,ai):M,O=N?fr(i,f,h,s,q,ak,ah):N,P=O?fr(i,f,h,s,q,aj,ai):O;if(P)return fr(i,f,h,s,q,aj,ah);var
+aC=[0,m[1],o[1],p[1]],q=j$(function(d){function
+f(a){return a_(a,aU,W(j,c))}if(d){var
+a=e(f,d[2]),b=f(d[1]),g=fi(a),h=A(b[2],g),i=fi(a);return[0,b,[0,aG(b[1],i),h],a]}return ae(B)},aC),M=n(function(a){return u(h(a),[0,f])},m),N=M?fs(j,f,i,s,q,ak,ai):M,O=N?fs(j,f,i,s,q,ak,ah):N,P=O?fs(j,f,i,s,q,aj,ai):O;if(P)return fs(j,f,i,s,q,aj,ah);var
 Q=P}else
 var
 Q=p;var
@@ -1907,30 +1907,30 @@ var
 an=F;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aV=b[2],aW=b[1];return b_(g,k,function(d){var
-a=u(j(d),f),b=a?u(j(ao),f):a;if(b){var
+ao=a[2],ap=a[1],aV=b[2],aW=b[1];return b$(g,k,function(d){var
+a=u(h(d),f),b=a?u(h(ao),f):a;if(b){var
 e=function(a){if(a){var
-b=a[2],d=u(j(b),f);if(d){var
-g=el(ap,em(ap,ao,W(i,c),b));return bi(f,b9(fs(i,aW,aV,a[1][2],b),g))}var
+b=a[2],d=u(h(b),f);if(d){var
+g=em(ap,en(ap,ao,W(j,c),b));return bi(f,b_(ft(j,aW,aV,a[1][2],b),g))}var
 e=d}else
 var
-e=a;return e},g=h?h[1]:ae(B);return g1(f,g3(g,d),e)}return b})}return 0;case
+e=a;return e},g=i?i[1]:ae(B);return g2(f,g4(g,d),e)}return b})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aX=b[3],aY=b[2],aZ=function(c){var
-a=j2([0,B,B,0],c),b=h?h[1]:[0,B,B,0];return du(f,b,aY,aX,a)};return b_(g,b[1],aZ)}return 0;case
+a=j3([0,B,B,0],c),b=i?i[1]:[0,B,B,0];return du(f,b,aY,aX,a)};return b$(g,b[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hb(g,b[1]);if(J){var
-a0=b[2],K=ac(e(function(a){return hb(g,a)},a0));if(K){var
-L=hb(g,[0,b[3],[0,b[4],[0,b[5],[0,b[6],0]]]]);if(L){var
+J=hc(g,b[1]);if(J){var
+a0=b[2],K=ac(e(function(a){return hc(g,a)},a0));if(K){var
+L=hc(g,[0,b[3],[0,b[4],[0,b[5],[0,b[6],0]]]]);if(L){var
 t=L[1];if(t){var
 v=t[2];if(v){var
 y=v[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=v[1][2],at=t[1][2],au=K[1],a1=J[1],T=kl(i,f,h,au,at,as,function(c){return[0,fq(i,aI(function(b,a){return E(X(i,aB(c,b)),a)},B,a1))]});return T?T:kl(i,f,h,au,at,as,function(e){var
-b=eb(aq[1]),a=b4(i,D(ar,X(i,b)));if(a){var
-c=b3(i,a[1]),d=D(ar,x(i,b,aB(e,aq)));return w(function(a){return x(i,d,a)},c)}return a})}var
+aq=z[1],ar=y[1][2],as=v[1][2],at=t[1][2],au=K[1],a1=J[1],T=km(j,f,i,au,at,as,function(c){return[0,fr(j,aI(function(b,a){return E(X(j,aB(c,b)),a)},B,a1))]});return T?T:km(j,f,i,au,at,as,function(e){var
+b=ec(aq[1]),a=b5(j,D(ar,X(j,b)));if(a){var
+c=b4(j,a[1]),d=D(ar,x(j,b,aB(e,aq)));return w(function(a){return x(j,d,a)},c)}return a})}var
 av=z}else
 var
 av=y;var
@@ -1949,34 +1949,34 @@ az=K;var
 aA=az}else
 var
 aA=J;return aA}return 0}}function
-ko(a,_,J,l,p,Z,g,k,h,f,b){if(9===f[0]){if(typeof
+kp(a,_,J,l,p,Z,g,k,i,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-$=f[1],T=e(ae,Z),z=bM(0,b7(a,kb(0,k,$),T),_,0),K=u(j(k),qD),M=K?dy(p,z):K;if(M){var
-q=fu(z,l);if(q){var
-s=fu(g,l);if(s){var
+$=f[1],T=e(ae,Z),z=bN(0,b8(a,kc(0,k,$),T),_,0),K=u(h(k),qD),M=K?dy(p,z):K;if(M){var
+q=fv(z,l);if(q){var
+s=fv(g,l);if(s){var
 aa=f[2],t=ac(e(function(b){var
 c=r(b[1],g,0);if(c)var
 f=b[2][2],a=ac(e(function(a){var
 b=r(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(t){var
-v=kc(q[1]);if(v){var
-N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=v[1],C=fq(a,aI(function(f,h){function
+v=kd(q[1]);if(v){var
+N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=v[1],C=fr(a,aI(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(r(d,c[3],B))}function
 c(a){var
-b=i(a,qj),c=bs(i(a,qk),b);return bs(i(a,0),c)}var
+b=j(a,qj),c=bs(j(a,qk),b);return bs(j(a,0),c)}var
 d=c(function(a){var
 c=b(ql,a),d=b(qm,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qn),d=b(a,qo);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,x(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,W(a,c)),F=L(d,D(m,C)[1]),G=F?u(j(N),qu):F,H=G?u(j(O),qv):G;if(H){var
-o=b3(a,m);if(o){var
-U=aW(x(a,C,o[1])),V=D(W(a,c),U),Y=bh(qw);return n(function(j){var
+c=b(a,qn),d=b(a,qo);return A(A(b(a,0),d),c)});return E(h,X(a,fr(a,x(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,W(a,c)),F=L(d,D(m,C)[1]),G=F?u(h(N),qu):F,H=G?u(h(O),qv):G;if(H){var
+o=b4(a,m);if(o){var
+U=aW(x(a,C,o[1])),V=D(W(a,c),U),Y=bh(qw);return n(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return dq(dk(function(d,b){var
-c=cM(aB(j,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ad),r=i(ar(function(a){return aB(j,a)}),O),F=h?aB(j,h[1]):B,L=X(a,V),s=X(a,m),q=el(y,em(y,N,W(a,c),r)),b=b9(aw([0,af(F),0],qp),q);if(g){var
+c=cM(aB(h,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ad),r=j(ar(function(a){return aB(h,a)}),O),F=i?aB(h,i[1]):B,L=X(a,V),s=X(a,m),q=em(y,en(y,N,W(a,c),r)),b=b_(av([0,af(F),0],qp),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],C=g[1],H=f[1],k=bi(qr,b9(aw([0,af(s),0],qq),b));if(k)return n(function(B){var
+A=d[1],C=g[1],H=f[1],k=bi(qr,b_(av([0,af(s),0],qq),b));if(k)return n(function(B){var
 I=D(L,F),J=B[2]?A:af(A),K=B[1]?C:af(C),n=0;if(b){var
 a=b[1],k=0;if(a){var
 c=a[2],l=0;if(c){var
@@ -2040,16 +2040,16 @@ var
 R=q;var
 S=R}else
 var
-S=M;return S}return fx(a,J,l,p,g,j(k),h,f,b)}return fx(a,J,l,p,g,j(k),h,f,b)}function
-kp(d){var
+S=M;return S}return fy(a,J,l,p,g,h(k),i,f,b)}return fy(a,J,l,p,g,h(k),i,f,b)}function
+kq(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kq(j,b,a){if(a){var
+kr(i,b,a){if(a){var
 k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
-f=i(b,l);if(f){var
-g=r(l,j,0);if(g){var
-h=kq(j,b,a[2]);if(h)var
+f=j(b,l);if(f){var
+g=r(l,i,0);if(g){var
+h=kr(i,b,a[2]);if(h)var
 m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2062,18 +2062,18 @@ p=f;var
 q=p}else
 var
 q=c;return q}return qF}function
-kr(a,Q,l,O,s,q,N,y,g,f,k,b){var
-h=j(N),R=ej(0,N),aM=bM(0,b7(a,R,e(ae,g_(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bM(qG,function(b){var
-au=bL(aH,b),f=i(b7(a,R,aO),au);switch(b[0]){case
+ks(a,Q,l,O,s,q,N,y,g,f,k,b){var
+i=h(N),R=ek(0,N),aM=bN(0,b8(a,R,e(ae,g$(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bN(qG,function(b){var
+au=bM(aH,b),f=j(b8(a,R,aO),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
 b=u(M,d),e=b?[0,[0,ae(W(a,c))]]:b;return e},S);break;case
 3:var
 d=dw(b[1][2],b[2][2]);break;case
 4:var
-N=e(g5,b[2][2]),d=dw(b[1][2],N);break;case
+N=e(g6,b[2][2]),d=dw(b[1][2],N);break;case
 5:var
-d=e(g5,b[1][2]);break;case
+d=e(g6,b[1][2]);break;case
 6:var
 x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
@@ -2083,26 +2083,26 @@ z=g;t=1}if(t)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=b[2],j=A[1];if(j)var
-V=A[2],X=ee(f[1]),Y=e(function(b){return cu(a,X,b)},V),Z=dw(b[1][2],Y),_=j[1],d=e(function(b){return g6(a,_,b)},Z);else{var
-B=j;v=1}}else{var
+A=b[2],i=A[1];if(i)var
+V=A[2],X=ef(f[1]),Y=e(function(b){return cu(a,X,b)},V),Z=dw(b[1][2],Y),_=i[1],d=e(function(b){return g7(a,_,b)},Z);else{var
+B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=b[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=ay(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=ay(a,fu(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],af=ay(a,ft(a),ad),d=e(function(b){return g6(a,af,b)},ac);else
+ac=b[1][2],ad=f[1],af=ay(a,fu(a),ad),d=e(function(b){return g7(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jG(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g5,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ee(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,ft(a),as),d=e(function(b){return g6(a,at,b)},aq);K=1;L=1}else
+q=jH(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g6,D[2]),an=fu(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ef(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,fu(a),as),d=e(function(b){return g7(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2113,11 +2113,11 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=ki(k,s);function
+d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=kj(k,s);function
 T(c){var
 d=r(c,q,0);if(d){var
 a=r(c,aM,0);if(a)var
-b=kk(0,k,r(c,aP,qE)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=kl(0,k,r(c,aP,qE)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
@@ -2125,20 +2125,20 @@ var
 f=d;return f}function
 z(b){return e(function(b){return W(a,b)},b)}var
 aR=y?y[1]:ae(B);function
-U(a){return a?bi(h,a[1]):a}function
+U(a){return a?bi(i,a[1]):a}function
 t(f,e,d,c,b){var
-g=aw([0,af(e),0],h);return U(kf(a,z(f),d,c,b,g))}function
+g=av([0,af(e),0],i);return U(kg(a,z(f),d,c,b,g))}function
 V(y,x,w){var
-A=aw([0,x,0],h),q=z(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,eb(g),i],f];if(m){var
+A=av([0,x,0],i),q=z(y),c=w,f=A;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ec(g),h],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},i),u=[0,dx(a),t],v=dx(a),b=g9(a,[0,af(ea(ke(a,i,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dx(a),t],v=dx(a),b=g_(a,[0,af(eb(kf(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=g0(b[1]);if(j){var
+j=g1(b[1]);if(j){var
 c=c[2],f=j[1];continue}var
 p=j}else
 var
@@ -2146,7 +2146,7 @@ p=b;var
 r=p}else
 var
 r=[0,f];return U(r)}}var
-aS=e(aH,k),X=n(function(a){return cl(a,j(s))},aS),Y=X?kp(e(aH,k)):X,Z=Y?n(function(a){return u(j(a),h)},b):Y;if(Z){var
+aS=e(aH,k),X=n(function(a){return cl(a,h(s))},aS),Y=X?kq(e(aH,k)):X,Z=Y?n(function(a){return u(h(a),i)},b):Y;if(Z){var
 w=0;switch(g[0]){case
 0:var
 C=g[1],K=0;if(typeof
@@ -2162,13 +2162,13 @@ var
 ac=b;if(!at)return ac;break;case
 2:var
 au=0;if(b){if(b[2])return 0;var
-aY=b[1],aZ=f[2],a0=f[1],ad=dy(O,q),av=0;if(ad){if(y)return 0;var
+aY=b[1],aZ=f[2],a0=f[1],ad=dy(O,q),aw=0;if(ad){if(y)return 0;var
 ag=_(C[1],d),ah=ag?_(C[2],d):ag;if(ah){var
-o=function(c,b,a){return t(aY,B,a0,aZ,e(qx,a))},m=l;K=1;au=1;av=1}else
+o=function(c,b,a){return t(aY,B,a0,aZ,e(qx,a))},m=l;K=1;au=1;aw=1}else
 var
 ai=ah}else
 var
-ai=ad;if(!av)var
+ai=ad;if(!aw)var
 aj=ai}else
 var
 aj=b;if(!au)return aj;break}if(!K)return 0;break;case
@@ -2182,7 +2182,7 @@ az=0,a3=g[1];if(typeof
 f==="number"||!(3===f[0]))az=1;else{var
 aA=0;if(b){var
 v=b[2],aC=0;if(v){if(v[2])return 0;var
-ak=f[1],a4=v[1],a5=b[1],a6=f[2],al=kn(a,ak,f[3]),am=j3(h,al);if(am){var
+ak=f[1],a4=v[1],a5=b[1],a6=f[2],al=ko(a,ak,f[3]),am=j4(i,al);if(am){var
 o=function(f,c,b){var
 d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?V(a4,D(x(a,a3,d),c),b):e},m=l;aA=1;aC=1}else
 var
@@ -2213,41 +2213,41 @@ M=1;if(M)return 0;break;case
 7:var
 ap=g[2],aq=g[1],aF=0;if(typeof
 f==="number"||!(0===f[0]))aF=1;else{var
-aJ=0;if(b){if(b[2])return 0;var
-p=f[2],J=f[1],bc=b[1],ar=u(j(l),h);if(ar){var
+aK=0;if(b){if(b[2])return 0;var
+p=f[2],J=f[1],bc=b[1],ar=u(h(l),i);if(ar){var
 o=function(b,y){var
 A=z(bc);return function(f){var
-k=u(j(f),h),l=k?u(j(p),h):k;if(l){var
-s=e(aH,f),t=el(J,em(J,p,dx(a),s)),v=b9(fs(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=v,w=j(p);for(;;){if(c){var
+k=u(h(f),i),l=k?u(h(p),i):k;if(l){var
+s=e(aH,f),t=em(J,en(J,p,dx(a),s)),v=b_(ft(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=v,w=h(p);for(;;){if(c){var
 o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
-b=aK(aL(0,j(p)),p);return e(function(b){var
-c=kg(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(x(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,w),i=g9(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(i){var
-b=[0,b],c=c[2],g=i[1];continue}var
-d=i}else
+b=aJ(aL(0,h(p)),p);return e(function(b){var
+c=kh(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(x(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,w),j=g_(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(j){var
+b=[0,b],c=c[2],g=j[1];continue}var
+d=j}else
 var
-d=[0,g];if(d)return bi(h,d[1]);var
+d=[0,g];if(d)return bi(i,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},m=l;aJ=1}else
+m=l;return m}},m=l;aK=1}else
 var
 as=ar}else
 var
-as=b;if(!aJ)return as}if(aF)return 0;break;default:return 0}if(w){var
+as=b;if(!aK)return as}if(aF)return 0;break;default:return 0}if(w){var
 I=T(G);if(!I)return I;var
 a7=function(b,f,a){return n(function(a){var
 b=f[2],c=a[2],e=aI(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aG(aG(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
-F=kq(q,T,m);if(!F)return F;var
+F=kr(q,T,m);if(!F)return F;var
 ab=o,aa=F[1]}var
-aX=bh(h);return n(function(b){var
-c=e(function(c){return kj(a,b,aQ,c)},aa);return D$(ab,b,aB(b,aR),c)},aX)}return Z}function
-fy(b,a){if(a){var
+aX=bh(i);return n(function(b){var
+c=e(function(c){return kk(a,b,aQ,c)},aa);return D_(ab,b,aB(b,aR),c)},aX)}return Z}function
+fz(b,a){if(a){var
 c=a[2];if(b){var
-e=fy(b[1],c);return[0,a[1],e]}var
+e=fz(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hc(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-ks(j,d,i,a,h){var
+hd(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+kt(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2256,7 +2256,7 @@ switch(b[0]){case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=hc(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=hd(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2264,21 +2264,21 @@ k=c?0:1,l=k?d:j,g=hc(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return v(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=v(function(a){var
-b=e(bZ,a[2][2]);return[0,a[1],b]},n);return f(hc(d),o);case
+b=e(b0,a[2][2]);return[0,a[1],b]},n);return f(hd(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fb(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fc(a[2]),p);return f(a[1],q);case
 4:case
-8:return hc(a[1]);default:return g}}}function
-kt(p,h,o,C,m,l,W,B,b,A,V){if(A){var
-s=km(p,h,l,jE(v(function(c){var
+8:return hd(a[1]);default:return g}}}function
+ku(p,i,o,C,m,l,W,B,b,A,V){if(A){var
+s=kn(p,i,l,jF(v(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
-b=M(W,c[1]);return b?ks(o,C,m,b[1],a):b},A),h),b),k=A,g=V;for(;;){if(k){var
+b=M(W,c[1]);return b?kt(o,C,m,b[1],a):b},A),i),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
-w=i(B,b);if(w)var
-aa=w[1],Z=bh(j(b)),y=n(function(b){return function(a){return L(aB(a,b)[2],d)}}(aa),Z);else
+w=j(B,b);if(w)var
+aa=w[1],Z=bh(h(b)),y=n(function(b){return function(a){return L(aB(a,b)[2],d)}}(aa),Z);else
 var
 y=w;if(y){var
 k=R,g=e(function(a){return 0},g);continue}return y}var
@@ -2288,9 +2288,9 @@ q=z[1],D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 5:var
-F=a[2],t=i(B,b),X=0;if(t){var
+F=a[2],t=j(B,b),X=0;if(t){var
 G=H(d,F);if(G){var
-_=a[1],c=ko(p,h,o,C,m,l,s,b,[0,j4(F,a[3],t[1])],q,_);X=1}else
+_=a[1],c=kp(p,i,o,C,m,l,s,b,[0,j5(F,a[3],t[1])],q,_);X=1}else
 var
 I=G}else
 var
@@ -2299,74 +2299,74 @@ c=I;break;case
 10:var
 J=a[3],K=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){var
-N=f[2],u=i(B,b),Y=0;if(u){var
+N=f[2],u=j(B,b),Y=0;if(u){var
 O=H(d,N);if(O){var
-$=f[1],c=kr(p,h,o,m,l,s,b,[0,j4(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
+$=f[1],c=ks(p,i,o,m,l,s,b,[0,j5(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
 var
 P=O}else
 var
 P=u;if(!Y){var
 c=P;E=1}}if(!E)var
-c=kr(p,h,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
-c=ko(p,h,o,C,m,l,s,b,0,q,a);if(c){var
-k=R,g=fy(x,g);continue}var
+c=ks(p,i,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
+c=kp(p,i,o,C,m,l,s,b,0,q,a);if(c){var
+k=R,g=fz(x,g);continue}var
 T=c}else
 var
 T=z;var
 U=T}else
 var
 U=S;return U}return[0,g]}}return[0,V]}function
-fz(j,i,h,g,f,e,d,c,u,t,s){var
+fA(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kt(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
-m=kt(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=ek(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=ku(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
+m=ku(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=el(a[2],b),q=fA(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-hd(a){return e(function(a){return 1},a)}function
+he(a){return e(function(a){return 1},a)}function
 dz(a,d,b,c){function
 f(d,c){var
-f=aK(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return z(q(d,a[1]),b)},f)}if(av(a[2],b[2])){var
+f=aJ(a[1],b[1]);return e(function(a){var
+b=q(c,a[2]);return z(q(d,a[1]),b)},f)}if(aw(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-ku(a){var
-b=h(c);return[0,e(function(a){return h(d)},a),b]}function
+kv(a){var
+b=i(c);return[0,e(function(a){return i(d)},a),b]}function
 aP(a,l){var
 f=l[1];switch(f[0]){case
 1:var
 v=f[1];if(ak(function(a){return u(v,a)},a)){var
-C=h(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return h(b)},a),C]}return ku(a);case
+C=i(c);return[0,e(function(a){var
+b=u(a,v)?c:d;return i(b)},a),C]}return kv(a);case
 3:var
-D=h(c),E=aP(a,f[2]),F=h(c);return dz(aP(a,f[1]),F,E,D);case
+D=i(c),E=aP(a,f[2]),F=i(c);return dz(aP(a,f[1]),F,E,D);case
 4:var
-G=h(P(c)),H=aP(a,f[2]),I=h(c);return dz(aP(a,f[1]),I,H,G);case
+G=i(P(c)),H=aP(a,f[2]),I=i(c);return dz(aP(a,f[1]),I,H,G);case
 5:var
 w=aP(a,f[1]),J=w[2];return[0,e(bf,w[1]),J];case
 6:var
 x=f[2],y=f[1],K=aP(a,x);return dz(aP(a,y),x,K,y);case
 7:var
-z=f[2],L=bf(l),M=aP(a,z),N=h(c),j=dz(aP(a,f[1]),N,M,L),O=j[1];if(n(function(a){return aO(d,a)},O))return j;var
+z=f[2],L=bf(l),M=aP(a,z),N=i(c),j=dz(aP(a,f[1]),N,M,L),O=j[1];if(n(function(a){return aO(d,a)},O))return j;var
 Q=q(j[2],z);return[0,j[1],Q];case
 8:var
-A=f[1],B=aP(a,A),R=B[2],S=B[1],T=q(h(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
+A=f[1],B=aP(a,A),R=B[2],S=B[1],T=q(i(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
 9:var
 k=aP(a,f[1]),U=k[1];if(n(function(a){return aO(d,a)},U)){var
-V=h(c);return[0,k[1],V]}var
-W=q(h(b(2,c)),l),X=q(k[2],W);return[0,k[1],X];case
+V=i(c);return[0,k[1],V]}var
+W=q(i(b(2,c)),l),X=q(k[2],W);return[0,k[1],X];case
 10:var
-m=f[4],g=f[3],i=f[2],o=[0,[10,0,i,g,m]],p=[0,[10,1,i,g,m]],Y=t(g,p),Z=aP(a,g),_=t(i,o),$=dz(aP(a,i),_,Z,Y),aa=h(P(c)),ab=aP(a,m),r=dz($,h(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bf(p),s=e(function(a){return q(ad,a)},ac);if(n(function(a){return aO(d,a)},s))return[0,s,r[2]];var
-ae=q(i,p),af=t(q(g,o),ae),ag=q(h(b(2,c)),af);return[0,s,q(r[2],ag)];default:return ku(a)}}function
-kv(c,a){var
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=t(g,p),Z=aP(a,g),_=t(h,o),$=dz(aP(a,h),_,Z,Y),aa=i(P(c)),ab=aP(a,m),r=dz($,i(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bf(p),s=e(function(a){return q(ad,a)},ac);if(n(function(a){return aO(d,a)},s))return[0,s,r[2]];var
+ae=q(h,p),af=t(q(g,o),ae),ag=q(i(b(2,c)),af);return[0,s,q(r[2],ag)];default:return kv(a)}}function
+kw(c,a){var
 b=aP(c,a),f=b[1];return e(function(a){return aO(d,a)?a:ag(a,b[2])},f)}function
 cv(n,r){var
-i=n[1],e=i[2],f=i[1];if(0===f[0]){var
+h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 j=f[2],b=f[1];if(H(j,c))if(0===e[0]){var
 k=e[2],o=e[1];if(H(k,c)){var
-l=_(b,o),m=l?ec(b):l;if(m)var
+l=_(b,o),m=l?ed(b):l;if(m)var
 p=_(n[2],d),g=p||_(b,d);else
 var
 g=m;var
@@ -2378,29 +2378,29 @@ a=0;else
 var
 a=_(aU(j,aF(2))[2],d)?0:0}else
 var
-a=0;return a?h(a[1]):[0,[1,r]]}function
-b$(b,a){if(a)var
-d=b$([0,b],a[2]),c=[0,cv(a[1],b),d];else
+a=0;return a?i(a[1]):[0,[1,r]]}function
+ca(b,a){if(a)var
+d=ca([0,b],a[2]),c=[0,cv(a[1],b),d];else
 var
 c=a;return c}function
 aQ(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fA(b,d,a){switch(a[0]){case
+fB(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aQ(c[3],b),g),i=f(aQ(c[2],b),h);return f(aQ(c[1],d),i);case
 1:var
 e=a[3],j=e?aQ(e[1],d):e,k=f(aQ(a[2],b),j);return f(aQ(a[1],b),k);default:return aQ(a[1],d)}}function
 ab(b,a){var
-c=h(d),e=r(N(qH,a),b,c),f=h(d),g=r(N(qI,a),b,f);return[0,r(a,b,h(d)),g,e]}function
-kw(b,a){return ah(t,ah(z,cP,a),b)}function
-fB(c,b,a){if(a){var
-e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bv(d,b),h),g)}return a}function
-he(f,e,c,k){if(c){var
-b=c[1],v=N(k,j(fA(f,bv(d,e),b))),w=c[2],x=he(f,bd(e),w,v),a=b$(k,fA(f,bv(d,e),b));switch(b[0]){case
+c=i(d),e=r(N(qH,a),b,c),f=i(d),g=r(N(qI,a),b,f);return[0,r(a,b,i(d)),g,e]}function
+kx(b,a){return ah(t,ah(z,cP,a),b)}function
+fC(c,b,a){if(a){var
+e=a[2],g=fC(c,bd(b),e),h=a[1];return f(fB(c,bv(d,b),h),g)}return a}function
+hf(f,e,c,k){if(c){var
+b=c[1],v=N(k,h(fB(f,bv(d,e),b))),w=c[2],x=hf(f,bd(e),w,v),a=ca(k,fB(f,bv(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(qJ,a,h(d)),o=ah(z,cP,ab(a,qK)),p=cO(ab(a,0)),q=ab(a,qL),g=j6(kw(ab(a,qM),q),p,o,n,m);break;case
+m=b[1][5],n=r(qJ,a,i(d)),o=ah(z,cP,ab(a,qK)),p=cO(ab(a,0)),q=ab(a,qL),g=j7(kx(ab(a,qM),q),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,cO(ab(a,qN))]:i,t=ah(z,cP,ab(a,qO)),u=ab(a,qP),g=j7(kw(ab(a,0),u),t,s);break;default:var
-g=j8(cP,cO(ab(a,0)))}var
+j=b[3],s=j?[0,cO(ab(a,qN))]:j,t=ah(z,cP,ab(a,qO)),u=ab(a,qP),g=j8(kx(ab(a,0),u),t,s);break;default:var
+g=j9(cP,cO(ab(a,0)))}var
 l=[0,g,x]}else
 var
 l=c;return l}function
@@ -2430,90 +2430,90 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],b]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-en(b,a){var
+eo(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 dA(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(en(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=en(b,a[3]);return f(en(b,a[2]),j)}function
+e=[0,d,c],i=f(eo(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=eo(b,a[3]);return f(eo(b,a[2]),j)}function
 cQ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=dA(b,a[2]);return f(dA(b,a[1]),h);case
 11:var
-i=en(b,a[3]);return f(en(b,a[2]),i);case
+i=eo(b,a[3]);return f(eo(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kx(c,b,a){var
-d=j(cQ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-hf(c,b){if(av(b,c))return[0,h(d)];var
+ky(c,b,a){var
+d=h(cQ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+hg(c,b){if(aw(b,c))return[0,i(d)];var
 a=b[1];if(4===a[0]){var
-e=av(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-ky(y,p,a,o){switch(o[0]){case
+e=aw(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+kz(y,p,a,o){switch(o[0]){case
 0:var
-j=M(y,o[1]);if(j){var
-k=j[1];if(k){var
-q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qQ),B=ah(z,ah(t,e,aZ(ag(r(qR,a,h(d)),u),b)),A),C=ab(a,qS),f=ag(r(0,a,h(d)),u),l=hf(e[1],b[1]);if(l){var
-m=hf(e[2],b[2]);if(m){var
-n=hf(e[3],b[3]);if(n)var
+h=M(y,o[1]);if(h){var
+k=h[1];if(k){var
+q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qQ),B=ah(z,ah(t,e,aZ(ag(r(qR,a,i(d)),u),b)),A),C=ab(a,qS),f=ag(r(0,a,i(d)),u),l=hg(e[1],b[1]);if(l){var
+m=hg(e[2],b[2]);if(m){var
+n=hg(e[3],b[3]);if(n)var
 x=aZ(f,b),g=ah(z,[0,l[1],m[1],n[1]],x);else
 var
-g=ah(t,e,aZ(t(h(c),f),b))}else
+g=ah(t,e,aZ(t(i(c),f),b))}else
 var
-g=ah(t,e,aZ(t(h(c),f),b))}else
+g=ah(t,e,aZ(t(i(c),f),b))}else
 var
-g=ah(t,e,aZ(t(h(c),f),b));var
+g=ah(t,e,aZ(t(i(c),f),b));var
 v=[0,[0,ah(z,g,C),B]]}else
 var
 v=k;var
 w=v}else
 var
-w=j;return w;case
+w=h;return w;case
 1:var
 D=ab(a,qT);return[0,[0,ab(a,0),D]];default:var
-E=i(p,ab(a,qU));return[0,[0,i(p,ab(a,0)),E]]}}function
-kz(e,d,c,h,g){var
-a=ky(e,d,b1(qV,c),h);if(a)var
-b=ky(e,d,dl(qW,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+E=j(p,ab(a,qU));return[0,[0,j(p,ab(a,0)),E]]}}function
+kA(e,d,c,h,g){var
+a=kz(e,d,b2(qV,c),h);if(a)var
+b=kz(e,d,dl(qW,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-kA(g,c,d,b,a){var
-h=dA(c,a),i=b$(d,f(dA(c,b),h));function
-j(a){return ah(z,cP,a)}return kz(e(function(a){var
+kB(g,c,d,b,a){var
+h=dA(c,a),i=ca(d,f(dA(c,b),h));function
+j(a){return ah(z,cP,a)}return kA(e(function(a){var
 b=a[7];return w(function(b){var
 c=ct(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 cR(d,c,b,a){var
 e=q(c,b);return t(q(d,a),e)}function
 bA(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-kB(b,a){if(b)if(a)var
-d=b[1],e=kB(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
+kC(b,a){if(b)if(a)var
+d=b[1],e=kC(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kC(a){if(a){var
+kD(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kC(a[2]);if(d)var
+c=b[1],d=kD(a[2]);if(d)var
 g=d[1],h=Q(c,c),e=[0,[0,[0,by(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
 f=b;return f}return qY}function
-eo(b,d,c,a){if(typeof
+ep(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-h=c[1],i=cv(bz(d,a),h);return[0,e(function(a){var
-b=q(a[2],i);return[0,by(a[1]),b]},b)];case
-9:return kC(b);case
+i=c[1],j=cv(bz(d,a),i);return[0,e(function(a){var
+b=q(a[2],j);return[0,by(a[1]),b]},b)];case
+9:return kD(b);case
 15:var
-k=j(b),f=u(j(a[1]),k);if(f)var
-l=cQ(d,a),g=[0,kB(b,b$(c[2],l))];else
+k=h(b),f=u(h(a[1]),k);if(f)var
+l=cQ(d,a),g=[0,kC(b,ca(c[2],l))];else
 var
 g=f;return g}return 0}function
-fC(e,l,k,a){var
+fD(e,l,k,a){var
 R=k[1],b=cv(bz(l,a),R),w=0;if(typeof
 a==="number")w=1;else
 switch(a[0]){case
@@ -2533,7 +2533,7 @@ d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],A=m[1],B=e[1],i=y[1],j=A[1],p=B[1],K=cR(j[1],j[2],i[1],i[2]),L=q(p[3],K),N=cR(j[1],j[3],i[1],i[3]),O=q(p[2],N),P=cR(j[2],j[3],i[2],i[3]),x=z(t(q(p[1],P),O),L),W=ct(y),X=ct(A),C=q(q(q(b,ct(B)),X),W),Y=[0,bf(z(x,C)),0],D=[0,t(x,C),Y]}else
+y=n[1],A=m[1],B=e[1],h=y[1],j=A[1],p=B[1],K=cR(j[1],j[2],h[1],h[2]),L=q(p[3],K),N=cR(j[1],j[3],h[1],h[3]),O=q(p[2],N),P=cR(j[2],j[3],h[2],h[3]),x=z(t(q(p[1],P),O),L),W=ct(y),X=ct(A),C=q(q(q(b,ct(B)),X),W),Y=[0,bf(z(x,C)),0],D=[0,t(x,C),Y]}else
 var
 D=n;var
 E=D}else
@@ -2543,65 +2543,65 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=kA(e,l,k[2],a[1],a[2]);if(u){var
+u=kB(e,l,k[2],a[1],a[2]);if(u){var
 G=u[1],H=G[2],J=G[1];return v(by,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cQ(l,a),f=b$(k[2],n),h=ab(f,qX),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
+n=cQ(l,a),f=ca(k[2],n),h=ab(f,qX),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=h(d),s=cQ(l,a),u=r(0,b$(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
-m=ax(e[2]),i=ag(g[1],m),n=q(i,z(b,q(f,I(i))));return[0,t(h(c),n),0]}var
-j=e[7],o=j?[0,t(t(h(c),b),f),0]:j;return o},g=_,f=a[1];break;case
+p=i(d),s=cQ(l,a),u=r(0,ca(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
+m=ax(e[2]),h=ag(g[1],m),n=q(h,z(b,q(f,I(h))));return[0,t(i(c),n),0]}var
+j=e[7],o=j?[0,t(t(i(c),b),f),0]:j;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-s=eo(e,l,k,a);return s?bA(s[1]):s;default:w=1}if(w)return 0;var
+s=ep(e,l,k,a);return s?bA(s[1]):s;default:w=1}if(w)return 0;var
 o=M(e,f);return o?g(o[1]):o}function
-hg(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hg(d,b,kx(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
-kD=[0,d,c],kE=[0,[0,kD,kD],d];function
-fD(a){return $(b8(a[1][1],a[1][2]))}function
-kF(a){var
-b=aL(0,j(a));return be(function(b){return fD(r(b,a,kE))},b)}function
-kG(a,b){var
-c=b[4],e=kv(kF(a),c),f=aK(kF(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
-kH(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kI(f,J,l,I,m,k,o,t){if(t){var
-a=t[1],aK=t[2],aL=kI(f,J,l,I,m,k,kx(k,a,o),aK);if(typeof
+hh(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hh(d,b,ky(b,e,c),g);return f(fD(d,b,c,e),h)}return a}var
+kE=[0,d,c],kF=[0,[0,kE,kE],d];function
+fE(a){return $(b9(a[1][1],a[1][2]))}function
+kG(a){var
+b=aL(0,h(a));return be(function(b){return fE(r(b,a,kF))},b)}function
+kH(a,b){var
+c=b[4],e=kw(kG(a),c),f=aJ(kG(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
+kI(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+kJ(f,J,l,I,m,k,o,t){if(t){var
+a=t[1],aK=t[2],aL=kJ(f,J,l,I,m,k,ky(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
-h=[0,[0,B]];else
+i=[0,[0,B]];else
 var
-aq=J[2],as=J[1],at=ei(m),h=[0,[8,i(ar(l),at),as,aq]];else
+aq=J[2],as=J[1],at=ej(m),i=[0,[8,j(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
-au=al(f,bz(k,a)),h=w(function(a){return[0,X(f,a)]},au);break;case
+au=al(f,bz(k,a)),i=w(function(a){return[0,X(f,a)]},au);break;case
 1:var
-av=al(f,bz(k,a)),h=w(function(a){return[1,X(f,a)]},av);break;case
+av=al(f,bz(k,a)),i=w(function(a){return[1,X(f,a)]},av);break;case
 5:var
-ax=al(f,bz(k,a)),h=w(function(a){return[2,X(f,a)]},ax);break;case
+ax=al(f,bz(k,a)),i=w(function(a){return[2,X(f,a)]},ax);break;case
 8:var
-ay=eo(m,k,o,a),h=w(function(a){var
-b=W(f,c);return[4,i(ar(l),a),b]},ay);break;case
+ay=ep(m,k,o,a),i=w(function(a){var
+b=W(f,c);return[4,j(ar(l),a),b]},ay);break;case
 9:var
-y=eo(m,k,o,a);if(y){var
+y=ep(m,k,o,a);if(y){var
 z=al(f,bz(k,a));if(z)var
-az=X(f,z[1]),aA=y[1],P=[0,[4,i(ar(l),aA),az]];else
+az=X(f,z[1]),aA=y[1],P=[0,[4,j(ar(l),aA),az]];else
 var
 P=z;var
 Q=P}else
 var
 Q=y;var
-h=Q;break;case
+i=Q;break;case
 10:var
-A=kA(m,k,o[2],a[1],a[2]);if(A){var
+A=kB(m,k,o[2],a[1],a[2]);if(A){var
 R=A[1],S=R[2],T=R[1],C=al(f,bz(k,a));if(C){var
 U=C[1],V=H(d,U[1]);if(V)var
-q=function(a){return kH(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
+q=function(a){return kI(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
 Y=V;var
 Z=Y}else
@@ -2610,33 +2610,33 @@ Z=C;var
 _=Z}else
 var
 _=A;var
-h=_;break;case
+i=_;break;case
 12:var
-s=fC(m,k,o,a),v=0;if(s)if(s[2])var
-h=0;else{var
+s=fD(m,k,o,a),v=0;if(s)if(s[2])var
+i=0;else{var
 $=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
-D=[0,[3,i(l,s[1])]];v=1}else{var
+D=[0,[3,j(l,s[1])]];v=1}else{var
 D=aa;v=1}}else{var
 D=s;v=1}if(v)var
-h=D;break;case
+i=D;break;case
 13:var
 ab=a[1],ad=M(m,ab),K=0;if(ad){var
 ae=g(f,1,a[2]),af=ae?g(f,1,a[3]):ae;if(af)var
-aE=al(f,bz(k,a)),h=w(function(a){return[7,ab,X(f,a)]},aE);else{var
+aE=al(f,bz(k,a)),i=w(function(a){return[7,ab,X(f,a)]},aE);else{var
 ag=af;K=1}}else{var
 ag=ad;K=1}if(K)var
-h=ag;break;case
+i=ag;break;case
 14:var
-E=a[2],ah=a[1],ai=u(j(m),qZ),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
+E=a[2],ah=a[1],ai=u(h(m),qZ),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
 F=al(f,bz(k,a));if(F)var
 G=ac(e(function(n){var
 h=[5,ah,E],a=al(f,[0,[0,h,h],d]);if(a){var
-o=kG(I,n),g=ac(e(function(e){var
-a=r(e[1],I,kE),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],j=al(f,[0,[0,d,d],g]);return w(function(a){return[0,a,i(l,e[2])]},j)},o));if(g)var
-p=[0,a[1],g[1]],j=[0,[0,i(l,n[4]),p]];else
+o=kH(I,n),g=ac(e(function(e){var
+a=r(e[1],I,kF),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=al(f,[0,[0,d,d],g]);return w(function(a){return[0,a,j(l,e[2])]},i)},o));if(g)var
+p=[0,a[1],g[1]],i=[0,[0,j(l,n[4]),p]];else
 var
-j=g;var
-m=j}else
+i=g;var
+m=i}else
 var
 m=a;return m},m)),aF=G?[0,[9,F[1],G[1]]]:G,am=aF;else
 var
@@ -2644,22 +2644,22 @@ am=F;var
 an=am}else
 var
 an=ak;var
-h=an;break;case
+i=an;break;case
 15:var
 aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=eo(m,k,o,a),h=w(function(a){var
-b=W(f,c);return[4,i(ar(l),a),b]},aJ);else
+aJ=ep(m,k,o,a),i=w(function(a){var
+b=W(f,c);return[4,j(ar(l),a),b]},aJ);else
 var
-h=ao;break;default:var
-p=fC(m,k,o,a),L=0;if(p){var
+i=ao;break;default:var
+p=fD(m,k,o,a),L=0;if(p){var
 x=p[2],N=p[1];if(x)if(x[2])var
-h=0;else
+i=0;else
 var
-aw=i(l,x[1]),h=[0,[5,i(l,N),aw]];else{var
-O=[0,[3,i(l,N)]];L=1}}else{var
+aw=j(l,x[1]),i=[0,[5,j(l,N),aw]];else{var
+O=[0,[3,j(l,N)]];L=1}}else{var
 O=p;L=1}if(L)var
-h=O}var
-ap=[0,h,aL]}else
+i=O}var
+ap=[0,i,aL]}else
 var
 ap=t;return ap}function
 q0(a){var
@@ -2668,13 +2668,13 @@ a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dB(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kJ(a,c,g,b){if(0===c[0])return 0;if(b){var
+kK(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cs(a,g,c[1]);if(i){var
 j=cs(a,g,c[2]);if(j){var
 k=cs(a,g,c[3]);if(k)var
-t=i[1],u=bO(f),l=D([0,bO(f),u],t),v=j[1],w=bO(e),m=D([0,bO(e),w],v),y=dv(e),z=[0,dv(e),y],A=[0,x(a,af(E(m,m)),z),0],C=dv(f),F=[0,dv(f),C],G=[0,x(a,af(E(l,l)),F),A],H=X(a,m),I=X(a,l),n=[0,[0,D(D(X(a,k[1]),I),H),B,G]];else
+t=i[1],u=bP(f),l=D([0,bP(f),u],t),v=j[1],w=bP(e),m=D([0,bP(e),w],v),y=dv(e),z=[0,dv(e),y],A=[0,x(a,af(E(m,m)),z),0],C=dv(f),F=[0,dv(f),C],G=[0,x(a,af(E(l,l)),F),A],H=X(a,m),I=X(a,l),n=[0,[0,D(D(X(a,k[1]),I),H),B,G]];else
 var
 n=k;var
 o=n}else
@@ -2692,7 +2692,7 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fE(a,p,o){var
+fF(a,p,o){var
 q=aQ(p,o),b=e(function(b){return al(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
@@ -2724,7 +2724,7 @@ cS(c,b,a){var
 d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
 a3(c,b,a){var
 d=cS(c,b[1],a[1]),e=d?cS(c,b[2],a[2]):d;return e?cS(c,b[3],a[3]):e}function
-kK(b,c,a){switch(c[0]){case
+kL(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
 j=a[4],f=a[1],k=a3(b,d[1],f),l=k?g(b,1,R(f,f)):k,m=l?a3(b,d[2],a[2]):l,n=m?a3(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?ck(d[5],a[5]):p}return 0;case
@@ -2741,9 +2741,9 @@ v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=a3(b,c[1],i);return w?g(b,1,R(i,i)):w}return 0}}function
 cT(c,a,b){if(0===a[0])return a3(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cS(c,a[4],b[3]):i}function
-kL(g,f,i,h){var
+kM(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kK(g,b[1],a[1]);if(d){var
+d=kL(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
@@ -2753,38 +2753,38 @@ var
 c=a?0:1;return c?cT(g,f[2],h):c}}function
 bb(c,b,a){var
 d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
-ep(a,e,d,c){var
+eq(a,e,d,c){var
 b=bb(e,d,c),f=az(a),g=at(R(az(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
 cU(f,e,d,a,c){var
-b=ep(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
+b=eq(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
 cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
 cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ep(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=eq(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
 1:return az(bb(a[1],a[2],b));default:return az(a[1])}}function
-eq(a,b){switch(a[0]){case
+er(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=az(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ep(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=az(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=eq(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
 1:return bb(a[1],a[2],b);default:return az(a[1])}}function
-hh(a,b){switch(a[0]){case
+hi(a,b){switch(a[0]){case
 0:var
 c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bb(d,c,b);return[3,R(az(e),j),i];case
 1:var
 f=a[2],g=a[1],k=bb(g,f,b);return[6,R(bb(g,f,b),k)];default:return R(az(a[1]),b)}}function
-kM(a,b){switch(a[0]){case
+kN(a,b){switch(a[0]){case
 0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=bb(d,c,b);return[0,R(bb(d,c,b),e)];default:return 0}}function
-er(e,b,a){var
+es(e,b,a){var
 f=[0,d,c];return aI(function(c,d){var
 e=R(cW(c,b),a);return[2,[4,R(cW(c,b),a),e],d]},f,e)}function
-kN(a){var
+kO(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hi(a,b){switch(a[0]){case
+hj(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=bb(e,d,b);return[6,R(bb(e,d,b),f)];default:return[0,c,c]}}function
-kO(d,i){if(d){var
+kP(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=bb(a[1],a[2],i),k=az(f),l=at(R(az(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
@@ -2793,19 +2793,19 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kO(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kP(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
 j=b;return j}return q1}function
 cX(a){return[0,a[1],a[2],a[3]]}function
-kP(a,b){switch(a[0]){case
+kQ(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ep(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=eq(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=bb(a[1],h,b),n=[6,R(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kQ(l,b,a){switch(a[0]){case
+kR(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=M(l,a[1]);if(d){var
-e=kP(d[1],b);if(e)var
+e=kQ(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
 b=cX(m),c=at(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
@@ -2816,26 +2816,26 @@ k=d;return k;case
 1:var
 q=cX(a[3]);return[0,[0,cX(a[2]),q]];default:var
 r=cX(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
-kR(d,a,c,b){var
+kS(d,a,c,b){var
 e=at(a,b),f=at([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-kS(f,h,b,e,q,a){function
+kT(f,h,b,e,q,a){function
 F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],R(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=er(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=es(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,er(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,es(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hh(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hi(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hh(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hi(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
 c=cW(a,b);return[3,[4,[4,H,H],R(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,er(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,er(h,b,e),ay],ax]);case
+I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,es(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,es(h,b,e),ay],ax]);case
 6:var
 J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
@@ -2846,7 +2846,7 @@ L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aB=hi(N,b),aC=hi(O,b),aD=hi(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=eq(N,b),k=eq(O,b),aE=eq(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+N=o[1],O=n[1],P=h[1],aB=hj(N,b),aC=hj(O,b),aD=hj(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=er(N,b),k=er(O,b),aE=er(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
 T=S}else
 var
 T=o;var
@@ -2857,15 +2857,15 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=er(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=es(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kO(h,b);if(w){var
+W=a[1],w=kP(h,b);if(w){var
 aH=w[1],an=[0,d,c],ao=aI(function(a,b){var
 c=R(az(a),e);return[2,[4,R(az(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],R(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kQ(h,b,Y);if(x){var
-Z=x[1],y=kQ(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aJ=kR(l,A,_[1],_[2]),aK=kR(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
+X=a[2],Y=a[1],x=kR(h,b,Y);if(x){var
+Z=x[1],y=kR(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aJ=kS(l,A,_[1],_[2]),aK=kS(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
 ag=af}else
 var
 ag=y;var
@@ -2874,7 +2874,7 @@ var
 ah=x;return ah;case
 11:var
 aj=a[4],B=M(h,a[1]);if(B){var
-C=kP(B[1],b);if(C){var
+C=kQ(B[1],b);if(C){var
 m=C[1][1][2],aN=cX(a[3]),aO=cX(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,R(m,m));if(ak){var
 aP=R(m,m),aQ=R(p,m),aR=[5,[4,R(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,R(p,p),aR]])}var
 al=ak}else
@@ -2885,26 +2885,28 @@ var
 am=B;return am;default:D=1}if(D)return 0;var
 t=M(h,r);return t?g(f,1,s(t[1])):t}function
 bj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kT(a){switch(a[0]){case
+kU(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bj(b[3]),f=bj(b[2]);return[0,bj(b[1]),f,e,d,c];case
 1:var
 g=w(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
-hj(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
-kU(b,a){var
-c=hj(a[2]);return kL(b,a,e(kT,a[1]),c)}function
-kV(b,a,c){var
-d=[0,c,dl(b,a)];return f(b1(b,a),d)}function
-ca(b,a){if(b){if(a){var
-e=ca(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kW(a){if(a){var
+hk(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
+kV(b,a){var
+c=hk(a[2]);return kM(b,a,e(kU,a[1]),c)}function
+kW(b,a,c){var
+d=[0,c,dl(b,a)];return f(b2(b,a),d)}function
+bB(b,a){if(b){if(a){var
+e=bB(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
+kX(e,b,a){if(e){if(b){var
+f=b[1],g=kX(e[2],b[2],a),h=bB(f,a),i=[4,bB(f,a),h];return[2,[4,e[1],i],g]}return[0,d,c]}return[0,d,c]}function
+kY(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kW(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q3}function
-kX(a,l,k,f){var
+c=b[1],d=kY(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q3}function
+kZ(a,l,k,f){var
 b=aY(a,l);if(b){var
 c=aY(a,k);if(c){var
 d=ds(a,f);if(d){var
-e=fl(a,f);if(e)var
+e=fm(a,f);if(e)var
 m=x(a,b[1],e[1]),g=[0,D(x(a,c[1],d[1]),m)];else
 var
 g=e;var
@@ -2917,50 +2919,50 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fF(a){return a?L(d,a[1][1]):a}function
-kY(a,ab,m,aD,h,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],ca(a,a)]}var
+fG(a){return a?L(d,a[1][1]):a}function
+k0(a,ab,m,aD,i,f){function
+ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bB(a,a)]}var
 aE=m[1];function
-o(b){var
+q(b){var
 a=[0,d,c];return aI(function(a,c){var
-d=ca(a,b);return[2,[4,ca(a,b),d],c]},a,aE)}var
-ad=n(function(a){return u(j(a),ab)},h);if(ad){var
+d=bB(a,b);return[2,[4,bB(a,b),d],c]},a,aE)}var
+ad=n(function(a){return u(h(a),ab)},i);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
-0:if(h){if(h[2])return 0;var
-af=h[1],aF=o(af);return g(a,1,[3,ac(f[1],af),aF])}return h;case
-1:if(h){if(h[2])return 0;var
-ag=h[1],aG=ac(f[1],ag);return g(a,1,[3,o(ag),aG])}return h;case
-2:if(h)return 0;var
+0:if(i){if(i[2])return 0;var
+af=i[1],aF=q(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
+1:if(i){if(i[2])return 0;var
+ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,q(ag),aG])}return i;case
+2:if(i)return 0;var
 aH=f[2],aJ=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aJ,H=f[1];break;case
-3:if(h)return 0;var
+3:if(i)return 0;var
 aK=f[2],aL=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;case
-4:if(h)return 0;var
+4:if(i)return 0;var
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kX(a,i,h,ai);return f?L(f[1][2],d):f}return fF(kX(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
-5:if(h){var
-r=h[2];if(r){if(r[2])return 0;var
-K=r[1],N=h[1],aj=f[1],aN=ca(N,N),aO=[4,[4,aj,aj],[4,o(K),aN]],aP=ca(K,K);return g(a,1,[3,[4,o(N),aP],aO])}var
+f=kZ(a,i,h,ai);return f?L(f[1][2],d):f}return fG(kZ(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+5:if(i){var
+r=i[2];if(r){if(r[2])return 0;var
+K=r[1],N=i[1],aj=f[1],aN=bB(N,N),aO=[4,[4,aj,aj],[4,q(K),aN]],aP=bB(K,K);return g(a,1,[3,[4,q(N),aP],aO])}var
 ak=r}else
 var
-ak=h;return ak;case
-6:if(h)return 0;var
+ak=i;return ak;case
+6:if(i)return 0;var
 al=f[2],aQ=f[3],aR=function(b){var
-c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,ca(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
-8:if(h){if(h[2])return 0;var
-P=h[1],aS=o(P),aT=[4,f[1],aS],aU=ca(P,P);return g(a,1,[3,[4,f[2],aU],aT])}return h;case
-9:if(h)return 0;var
-ar=f[3],as=f[2],aV=function(e){var
+c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,bB(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
+8:if(i){if(i[2])return 0;var
+P=i[1],aS=kX(f[1],m[1],P),aT=bB(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
+9:if(i)return 0;var
+ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aY(a,ca(e,e));if(b){var
+b=aY(a,bB(e,e));if(b){var
 c=aY(a,[5,ar,as]);if(c){var
-d=jR(a,c[1]);if(d){var
-l=X(a,d[1]);return fF([0,D(b[1],l)])}var
+d=jS(a,c[1]);if(d){var
+l=X(a,d[1]);return fG([0,D(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2969,17 +2971,17 @@ var
 j=b;var
 k=j}else
 var
-k=h;return k},an=aV,am=f[1];k=3;break;case
-10:if(h)return 0;var
-aW=f[2],aX=function(b){var
-c=[4,aW,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aX,at=f[1];k=2;break;case
-11:if(h)return 0;var
-aZ=f[2],a0=function(e){var
-b=ds(a,aZ);if(b){var
+k=h;return k},an=aU,am=f[1];k=3;break;case
+10:if(i)return 0;var
+aV=f[2],aW=function(b){var
+c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
+11:if(i)return 0;var
+aX=f[2],aZ=function(e){var
+b=ds(a,aX);if(b){var
 c=aY(a,e[3]);if(c){var
 d=aY(a,e[2]);if(d){var
-f=x(a,b[1],c[1]),g=fF([0,f]);if(g){var
-k=X(a,d[1]);return fF([0,D(X(a,f),k)])}var
+f=x(a,b[1],c[1]),g=fG([0,f]);if(g){var
+k=X(a,d[1]);return fG([0,D(X(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2988,14 +2990,14 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},au=a0,at=f[1];k=2;break;case
-12:if(h)return 0;var
-S=kW(m[3]);if(S){var
-aw=S[1],a1=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a1),T=e(function(a){return a[1]},aw),q=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
+j=b;return j},au=aZ,at=f[1];k=2;break;case
+12:if(i)return 0;var
+S=kY(m[3]);if(S){var
+aw=S[1],a0=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a0),T=e(function(a){return a[1]},aw),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
 t=s[2];if(t){var
 v=t[2],U=t[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
-i=[0,d,c];else{var
+j=[0,d,c];else{var
 w=l[1];if(w){var
 y=w[2];if(y){var
 z=y[2];if(z&&!z[2]){var
@@ -3003,35 +3005,35 @@ A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 E=C[2];if(E&&!(E[2]||A[2]))var
-W=E[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=w[1],aA=q(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,U,q(aa,_,Z,W)],i=[2,[3,[4,V,q($,_,Y,W)],aC],aB];else
+W=E[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=w[1],aA=o(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,U,o(aa,_,Z,W)],j=[2,[3,[4,V,o($,_,Y,W)],aC],aB];else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 if(l){var
 F=l[1];if(F)var
-G=F[2],i=G?G[2]?[0,d,c]:l[2]?[0,d,c]:q(V,U,F[1],G[1]):[0,d,c];else
+G=F[2],j=G?G[2]?[0,d,c]:l[2]?[0,d,c]:o(V,U,F[1],G[1]):[0,d,c];else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c]}else
+j=[0,d,c]}else
 var
-i=[0,d,c];var
-ay=g(a,1,[3,ax,i]);if(ay)return g(a,1,[2,ax,i]);var
+j=[0,d,c];var
+ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
 az=ay}else
 var
 az=S;return az;default:k=1}switch(k){case
@@ -3045,14 +3047,14 @@ var
 av=Q;return av;case
 3:var
 O=M(m[1],am);if(O){var
-ao=O[1],ap=u(j(ao),ab);if(ap)return an(ao);var
+ao=O[1],ap=u(h(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=O;return aq;default:var
 J=M(m[2],H);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-kZ(h,g){var
+k1(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3062,51 +3064,51 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-k0(a){if(a){var
+k2(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k0(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q4}function
+c=b[1],d=k2(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q4}function
 q5(a){return e(function(a){return[0,a,c]},a)}function
-k1(h,f,b,n,a){if(typeof
+k3(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
 r=b[4];return ak(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=k0(b[5]);return i?jY(f,i[1]):i}else{if(0===a[0]){var
-j=kZ(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(q5,a[2]);return kY(h,f,b,o[2],t,s)}return j}var
-k=kZ(a[1],n);if(k){var
+i=k2(b[5]);return i?jZ(f,i[1]):i}else{if(0===a[0]){var
+j=k1(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(q5,a[2]);return k0(h,f,b,o[2],t,s)}return j}var
+k=k1(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=M(b[1],a[2]);return m?kY(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=M(b[1],a[2]);return m?k0(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hk(a){var
+hl(a){var
 b=az(a[1]),c=at(R(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-hl(a){return az(hk(a))}function
-k2(c){var
-a=hl(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hm(a,b){return bb(a[3],a[4],b)}function
-hn(a,b){var
-c=hm(a,b);return R(hl(a),c)}function
+hm(a){return az(hl(a))}function
+k4(c){var
+a=hm(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hn(a,b){return bb(a[3],a[4],b)}function
 ho(a,b){var
-c=hm(a,b);return R(k2(a),c)}function
-k3(a,b){var
-c=hm(a,b);return R(az(a[1]),c)}function
-hp(b,a){var
-c=ho(b,a),d=hn(b,a);return[2,[4,d,d],[4,c,c]]}function
-hq(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k3(a,d);return[5,[2,hp(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-k4(a,b){var
-f=a[5],c=[3,hq(a,b),f],d=k3(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fG(a,b){var
-c=k4(a,b);return cV(a[7],c)}function
-k5(b,a){var
-c=hp(b,a),d=ho(b,a),e=[4,fG(b,a),d],f=hn(b,a);return[5,[2,[4,hq(b,a),f],e],c]}function
-k6(b,a){var
-c=hp(b,a),d=hn(b,a),e=[4,fG(b,a),d],f=ho(b,a);return[5,[3,[4,hq(b,a),f],e],c]}function
-k7(a,b){var
-c=k2(a),d=at(k6(a,b),c),e=hl(a),f=at(k5(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
+c=hn(a,b);return R(hm(a),c)}function
+hp(a,b){var
+c=hn(a,b);return R(k4(a),c)}function
+k5(a,b){var
+c=hn(a,b);return R(az(a[1]),c)}function
+hq(b,a){var
+c=hp(b,a),d=ho(b,a);return[2,[4,d,d],[4,c,c]]}function
+hr(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k5(a,d);return[5,[2,hq(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+k6(a,b){var
+f=a[5],c=[3,hr(a,b),f],d=k5(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fH(a,b){var
+c=k6(a,b);return cV(a[7],c)}function
+k7(b,a){var
+c=hq(b,a),d=hp(b,a),e=[4,fH(b,a),d],f=ho(b,a);return[5,[2,[4,hr(b,a),f],e],c]}function
+k8(b,a){var
+c=hq(b,a),d=ho(b,a),e=[4,fH(b,a),d],f=hp(b,a);return[5,[3,[4,hr(b,a),f],e],c]}function
+k9(a,b){var
+c=k4(a),d=at(k8(a,b),c),e=hm(a),f=at(k7(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
 o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-bP(h){var
+bQ(h){var
 a=aI(function(f,e){var
 a=aY(o,f);if(a)var
 b=a[1],c=bs(dh(b[1]),dh(b[2]));else
@@ -3115,72 +3117,76 @@ c=d;return bs(c,e)},d,h);if(L(d,a)){var
 f=a9(a);if(0===f||!(0<f&&!H(a,c)))var
 g=d;else
 var
-b=aU(a,aF(2)),e=b[1],g=_(b[2],d)?e8(e):e8(e);return aG(g,o)}return d}function
+b=aU(a,aF(2)),e=b[1],g=_(b[2],d)?e9(e):e9(e);return aG(g,o)}return d}function
 dC(a){return[0,a[1],[0,a[2],0]]}function
 a4(a){var
 b=dC(a[3]),c=f(dC(a[2]),b);return f(dC(a[1]),c)}function
-fH(a){return fE(o,a,bP(a4(a)))}function
-k8(b,a){if(a){var
-g=k8([0,b],a[2]),c=a[1];if(0===c[0])var
+fI(a){return fF(o,a,bQ(a4(a)))}function
+k_(b,a){if(a){var
+g=k_([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cv([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-k9(c,b,a){var
+k$(c,b,a){var
 d=dp(b);return[2,[2,dp(c),d],a]}function
-hr(b,a){return b?P(a):d}function
-es(h,b,a){if(typeof
+hs(b,a){return b?P(a):d}function
+et(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
-o=hr(h,b),p=A(hr(h,b),o);return[0,[0,[5,a[2],a[1]],p],0];case
+o=a[2],p=a[1];return e(function(a){var
+c=hs(h,b);return[0,[5,o,a],A(hs(h,b),c)]},p);case
 9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bP([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bQ([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,k9(l,k,a[3]),b],s];case
+k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,k$(l,k,a[3]),b],s];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cw(g,c,b,e,a){if(a){var
-d=a[1],h=a[2],i=cw(g,c,b,N(e,j(es(c,b,d))),h);return f(ao(g,k8(e,es(c,b,d)),d),i)}return a}function
-hs(b,a){switch(a[0]){case
+d=a[1],i=a[2],j=cw(g,c,b,N(e,h(et(c,b,d))),i);return f(ao(g,k_(e,et(c,b,d)),d),j)}return a}function
+fJ(b,a){var
+c=aJ(b,a);return e(function(a){var
+b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+ht(b,a){switch(a[0]){case
 0:var
 d=a[1];return al(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jR(b,c[1]):c;case
-2:return ds(b,a[1]);default:return fl(b,a[1])}}function
-k_(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-k$(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-ht(a,c,b){var
-d=[4,k_(a),b],e=[2,[4,k$(a),c],d],f=[4,k$(a),b];return[0,[3,[4,k_(a),c],f],e]}function
-la(c,a){var
-b=ht(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-et(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fI(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:la(d[1],a):a;case
+e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jS(b,c[1]):c;case
+2:return ds(b,a[1]);default:return fm(b,a[1])}}function
+la(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+lb(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hu(a,c,b){var
+d=[4,la(a),b],e=[2,[4,lb(a),c],d],f=[4,lb(a),b];return[0,[3,[4,la(a),c],f],e]}function
+lc(c,a){var
+b=hu(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+eu(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fK(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:lc(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=ht(d[1],a[2],a[3]),m=j[1],k=ht(f[1],j[2],a[1]);return la(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hu(d[1],a[2],a[3]),m=j[1],k=hu(f[1],j[2],a[1]);return lc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=R(e,e),n=et(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-lb(b){var
+e=[0,d[1],h[1],i[1]],l=R(e,e),n=eu(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+ld(b){var
 a=cr(b);return a?dm(a[1],[0,d,c]):a}function
-lc(a,n,k,j){if(lb(j)){var
+le(a,n,k,j){if(ld(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
 f=aY(a,k);if(f){var
 h=ds(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=fl(a,[5,j,[0,b(2,c),c]]);if(i)var
+i=fm(a,[5,j,[0,b(2,c),c]]);if(i)var
 p=x(a,f[1],h[1]),l=[0,D(i[1],p)];else
 var
 l=i;var
@@ -3191,21 +3197,21 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-eu(b,a,c){var
-d=bg(b,a[1],a[2]),e=d?lc(b,0,c,a[1]):d;return e?lc(b,1,c,a[2]):e}function
-dD(a,d){if(lb(d))return[0,B];var
+ev(b,a,c){var
+d=bg(b,a[1],a[2]),e=d?le(b,0,c,a[1]):d;return e?le(b,1,c,a[2]):e}function
+dD(a,d){if(ld(d))return[0,B];var
 e=ds(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fl(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=E(W(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b3(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
-e=x(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gY(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+f=fm(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=E(W(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b4(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
+e=x(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ev(d,a){var
+ew(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
 cY(a){return[0,[3,[0,d,c],a],a]}function
-ld(a,b,n,m){var
-h=bg(a,[0,d,c],b),i=h?ev(a,b):h;if(i){var
+lf(a,b,n,m){var
+h=bg(a,[0,d,c],b),i=h?ew(a,b):h;if(i){var
 e=dD(a,b);if(e){var
 f=aY(a,n);if(f){var
 g=aY(a,m);if(g){var
@@ -3219,12 +3225,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-fJ(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:eu(d,b[1],a[1]):a;case
+fL(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:ev(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=eu(d,b[1],a[1]),m=l?eu(d,b[2],e[1]):l;if(m)return eu(d,b[3],f[1]);var
+l=ev(d,b[1],a[1]),m=l?ev(d,b[2],e[1]):l;if(m)return ev(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3237,7 +3243,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return ld(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return lf(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3246,7 +3252,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=ld(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eu(d,cY(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lf(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ev(d,cY(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3257,14 +3263,14 @@ A=z}else
 var
 A=a;return A}}function
 cx(a){return 1===a?q6:q7}function
-fK(d,c,b,a){var
-e=a[1],f=fI(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-hu(c,b,a){switch(c){case
+fM(d,c,b,a){var
+e=a[1],f=fK(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+hv(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-le(h,g,d,b,f,a){var
-e=fK(d,b,f,a);return hu(h,e,at([5,[0,c,c],g],et(fI(d,b,a[2]),e)))}function
-lf(c,j,i){var
+lg(h,g,d,b,f,a){var
+e=fM(d,b,f,a);return hv(h,e,at([5,[0,c,c],g],eu(fK(d,b,a[2]),e)))}function
+lh(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=a3(c,e[1],d[1]),g=f?a3(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3273,7 +3279,7 @@ var
 h=a;return h}return a?0:1}}function
 bc(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bL(function(a){return bc(b,a)},a)]}return[0,bL(function(a){return bc(b,a)},a)]}function
+c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bM(function(a){return bc(b,a)},a)]}return[0,bM(function(a){return bc(b,a)},a)]}function
 cZ(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
@@ -3320,19 +3326,19 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cb(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fL(d,b,m){var
+fN(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fL(d,b,a[1]);if(f){var
+f=fN(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fL(d,b,a[1]);return g?cb(b,a[2]):g;case
+g=fN(d,b,a[1]);return g?cb(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cb(b,i);if(j){var
 k=cb(b,h);if(k)var
 e=k;else{var
-l=av(i,d);if(l){var
+l=aw(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3340,7 +3346,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cb(b,c)}}}function
-fM(c,e){var
+fO(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return cl(a[1],c);case
@@ -3351,47 +3357,47 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fM(c,a[1]);if(d){var
+d=fO(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fN(a,b){if(a){var
+fP(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fN(c,aI(ed,e,jD(d)))]:[0,q8,fN(c,e)]}var
-f=[0,d,fN(c,0)]}else
+e=b[2];return b[1]?[0,d,fP(c,aI(ee,e,jE(d)))]:[0,q8,fP(c,e)]}var
+f=[0,d,fP(c,0)]}else
 var
 f=a;return f}function
-cy(b,a){return a?i(b,a[1]):a}function
-cz(c,b,a){return cy(function(b){return cy(i(c,b),a)},b)}function
+cy(b,a){return a?j(b,a[1]):a}function
+cz(c,b,a){return cy(function(b){return cy(j(c,b),a)},b)}function
 q9(a){return 0===a[0]?a[1]:0}function
-bQ(b,a){switch(a[0]){case
-0:return[0,i(b,a[1])];case
-1:return[1,bQ(b,a[1])];default:var
-c=bQ(b,a[3]),d=bQ(b,a[2]);return[2,bQ(b,a[1]),d,c]}}function
+bR(b,a){switch(a[0]){case
+0:return[0,j(b,a[1])];case
+1:return[1,bR(b,a[1])];default:var
+c=bR(b,a[3]),d=bR(b,a[2]);return[2,bR(b,a[1]),d,c]}}function
 a5(b,c,a){switch(c[0]){case
-0:return bQ(i(b,c[1]),a);case
+0:return bR(j(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bQ(function(a){return ao(b,a,k)},d)];case
+k=a[1];return[1,bR(function(a){return ao(b,a,k)},d)];case
 1:return[1,a5(b,d,a[1])];default:var
 l=a5(b,d,a[3]),m=a5(b,d,a[2]);return[2,a5(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bQ(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bR(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=a5(b,e,j),s=a5(b,f,j);return[2,a5(b,g,j),s,r];default:var
+i=a[1],r=a5(b,e,i),s=a5(b,f,i);return[2,a5(b,g,i),s,r];default:var
 t=a5(b,e,a[3]),u=a5(b,f,a[2]);return[2,a5(b,g,a[1]),u,t]}}}function
-hv(c,f,a){if(a)var
+hw(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,X(c,a)];break;case
 1:var
 g=x(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,i(f,e)]]},h=hv(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,X(c,b)]}return[0,[0,j(f,e)]]},h=hw(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-hw(b,v,c,a){var
-e=hv(b,bZ,a),d=0,y=f(hv(b,aH,a),e);return bM(q$,function(a){switch(a[0]){case
+hx(b,v,c,a){var
+e=hw(b,b0,a),d=0,y=f(hw(b,aH,a),e);return bN(q$,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,B]]);case
 1:return[0,[0,r(a[1],v,B)]];case
 2:return[0,[0,W(b,a[1])]];case
@@ -3400,23 +3406,23 @@ c=a[2],d=a[1],e=function(b,a){return[0,E(b,a)]};return a5(function(a,b){return c
 4:var
 f=a[2],g=a[1],h=function(b,a){return[0,D(b,a)]};return a5(function(a,b){return cz(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,af(a)]};return bQ(function(a){return cy(j,a)},i);case
+i=a[1],j=function(a){return[0,af(a)]};return bR(function(a){return cy(j,a)},i);case
 6:var
 k=a[2],l=a[1],m=function(c,a){return[0,x(b,c,a)]};return a5(function(a,b){return cz(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b3(b,a);return w(function(a){return x(b,c,a)},d)};return a5(function(a,b){return cz(p,a,b)},o,n);case
+d=b4(b,a);return w(function(a){return x(b,c,a)},d)};return a5(function(a,b){return cz(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,X(b,a)]};return bQ(function(a){return cy(s,a)},q);case
+q=a[1],s=function(a){return[0,X(b,a)]};return bR(function(a){return cy(s,a)},q);case
 9:var
-t=a[1],u=function(a){return b4(b,a)};return bQ(function(a){return cy(u,a)},t);default:return q_}},c,d)}function
-hx(a){if(a){var
+t=a[1],u=function(a){return b5(b,a)};return bR(function(a){return cy(u,a)},t);default:return q_}},c,d)}function
+hy(a){if(a){var
 b=a[1];if(b)var
-c=hx(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hy(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return ra}function
 dF(a){if(a){var
-g=a[1],b=g[2],c=hx(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=hy(g[1]);if(c)if(b){var
 h=b[1],e=dF(a[2]);if(e)var
 i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3426,166 +3432,166 @@ var
 f=b;else
 var
 f=c;return f}return rb}function
-fO(b,a){var
+fQ(b,a){var
 c=a[3],d=w(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(ar(b),f),e,d]}function
-hy(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(ar(b),f),e,d]}function
+hz(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(h,a){var
-b=iv(c,d6,d6,function(a){switch(a[0]){case
+b=iw(c,d7,d7,function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(h){case
 0:return d;case
-1:return c;default:return b}}},e);return hy(c,g,bK(f),l,a,b)},i=d(0,aG(a,h));if(i){var
+1:return c;default:return b}}},e);return hz(c,g,bL(f),l,a,b)},i=d(0,aG(a,h));if(i){var
 j=d(2,A(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,iv(c,d6,d6,q9,e))}function
-lg(e,c,b,a){var
-f=aw(d,b);function
-g(b){return a}return function(a){return hy(e,g,c,f,d,a)}}function
+k=i;return k}return ao(g,a,iw(c,d7,d7,q9,e))}function
+li(e,c,b,a){var
+f=av(d,b);function
+g(b){return a}return function(a){return hz(e,g,c,f,d,a)}}function
 c0(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a_(f,e,a)},d)}return[0,B]}function
-lh(k,e,j,i,h,a){var
+lj(k,e,j,i,h,a){var
 b=dF(a[1]);if(b){var
 c=a[2];if(c){var
 d=c0(a[3]);if(d){var
-l=d[1],m=aw([0,D(af(x(k,h,c[1])),l),0],e);return bi(e,fn(j,i,b[1],m))}var
+l=d[1],m=av([0,D(af(x(k,h,c[1])),l),0],e);return bi(e,fo(j,i,b[1],m))}var
 f=d}else
 var
 f=c;var
 g=f}else
 var
 g=b;return g}function
-li(d,h,g,c){var
+lk(d,h,g,c){var
 a=dF(c[1]);if(a){var
 b=c0(c[3]);if(b){var
-i=aw([0,D(B,b[1]),0],d),j=a[1];return bi(d,fn(h,g,e(function(a){return[0,a[1],B]},j),i))}var
+i=av([0,D(B,b[1]),0],d),j=a[1];return bi(d,fo(h,g,e(function(a){return[0,a[1],B]},j),i))}var
 f=b}else
 var
 f=a;return f}function
-lj(F,b,E,g){var
-h=dF(g[1]);if(h){var
-i=g[2];if(i){var
+ll(F,b,E,g){var
+i=dF(g[1]);if(i){var
+j=g[2];if(j){var
 k=c0(g[3]);if(k){var
-G=k[1],c=D(x(F,E,i[1]),G),a=h[1];if(a){var
+G=k[1],c=D(x(F,E,j[1]),G),a=i[1];if(a){var
 l=a[1],m=l[2];if(a[2]){var
-e=fo(a,aw([0,c,0],b));if(e){var
-n=e[1],o=u(j(n),b);if(o)return dt(n);var
+e=fp(a,av([0,c,0],b));if(e){var
+n=e[1],o=u(h(n),b);if(o)return dt(n);var
 p=o}else
 var
 p=e;return p}var
 q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
 B=y(c[1],m[1]),C=l[1];return L(aI(function(a,b){var
 c=cM(a);return A(y(cM(a),c),b)},d,C),B)}return r}var
-f=fo(a,aw([0,c,0],b));if(f){var
-s=f[1],t=u(j(s),b);if(t)return dt(s);var
+f=fp(a,av([0,c,0],b));if(f){var
+s=f[1],t=u(h(s),b);if(t)return dt(s);var
 v=t}else
 var
 v=f;return v}var
 w=k}else
 var
-w=i;var
+w=j;var
 z=w}else
 var
-z=h;return z}function
+z=i;return z}function
 rc(c){var
 a=c[2];if(a){var
 b=c0(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lk(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
-ll(a,c,b){var
-e=r(b,c,h(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
-ew(a){var
-b=I(a);return z(h(c),b)}function
-fP(j,g){var
-i=ew(g),k=I(g),e=t(h(c),k),f=q(h(b(2,c)),g),a=h(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,i]]:[0,[0,e,a,f],[0,a,i,a],[0,bf(f),a,e]]:[0,[0,i,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
-ex(b,a){var
+lm(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+ln(a,c,b){var
+e=r(b,c,i(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
+ex(a){var
+b=I(a);return z(i(c),b)}function
+fR(j,g){var
+h=ex(g),k=I(g),e=t(i(c),k),f=q(i(b(2,c)),g),a=i(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
+ey(b,a){var
 c=Q(b[3],a),d=Q(b[2],a);return[0,Q(b[1],a),d,c]}function
-lm(b,a){function
+lo(b,a){function
 c(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 d(a){var
 b=Q(a,c(function(a){return a[3]})),d=Q(a,c(function(a){return a[2]}));return[0,Q(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-ln(w,v){function
+lp(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=ew(a(0));return[0,fP(rd,a(0)),x];case
+x=ex(a(0));return[0,fR(rd,a(0)),x];case
 1:var
-y=ew(a(0)),A=q(ew(a(re)),y),B=q(ew(a(rf)),A),C=fP(0,a(0)),D=lm(fP(rh,a(rg)),C);return[0,lm(fP(rj,a(ri)),D),B];default:var
-E=a(rk),F=a(rl),g=[0,a(0),F,E],G=Q(g,g),H=z(h(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
-d=I(a),e=q(h(b(2,c)),d);return z(t(h(c),k),e)},i=function(f,e,d,a){var
-g=ao(f,q(e,d),a);return q(h(b(2,c)),g)},l=j(f),m=i(z,e,f,d),n=[0,i(t,d,f,e),m,l],o=i(t,e,f,d),p=j(e),r=[0,i(z,d,e,f),p,o],s=i(z,d,f,e),u=i(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
-lo(a){return 1<a[0]?[0,a[1],0]:0}function
-fQ(a){switch(a[0]){case
+y=ex(a(0)),A=q(ex(a(re)),y),B=q(ex(a(rf)),A),C=fR(0,a(0)),D=lo(fR(rh,a(rg)),C);return[0,lo(fR(rj,a(ri)),D),B];default:var
+E=a(rk),F=a(rl),g=[0,a(0),F,E],G=Q(g,g),H=z(i(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
+d=I(a),e=q(i(b(2,c)),d);return z(t(i(c),k),e)},h=function(f,e,d,a){var
+g=ao(f,q(e,d),a);return q(i(b(2,c)),g)},l=j(f),m=h(z,e,f,d),n=[0,h(t,d,f,e),m,l],o=h(t,e,f,d),p=j(e),r=[0,h(z,d,e,f),p,o],s=h(z,d,f,e),u=h(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
+lq(a){return 1<a[0]?[0,a[1],0]:0}function
+fS(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cY(a[1]),0];default:var
 b=[0,cY(a[2]),0];return[0,cY(a[1]),b]}}function
 dG(a){return[0,[0,a[1]],[0,a[2]]]}function
-lp(a){switch(a[0]){case
+lr(a){switch(a[0]){case
 0:return[0,dG(a[1]),0];case
 1:var
 f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
 2:var
 b=dG(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
 c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}function
-lq(a,b){if(0===b[0])return dD(a,b[1]);var
+ls(a,b){if(0===b[0])return dD(a,b[1]);var
 d=dD(a,b[1]);if(d){var
 e=dD(a,b[2]);if(e){var
-g=X(a,e[1]),h=b4(a,E(W(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
+g=X(a,e[1]),h=b5(a,E(W(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-lr(d,c){var
-a=lq(d,c[1]);if(a)var
-b=lq(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lt(d,c){var
+a=ls(d,c[1]);if(a)var
+b=ls(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-ls(c,g,f){var
+lu(c,g,f){var
 e=f[1];if(1===e[0]){var
-i=e[1];if(cl(i,c))return f;var
-a=i,b=c,j=h(d);for(;;){if(a&&b){var
-a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bL(function(a){return ls(c,g,a)},e)]}function
-hz(g,a,n,f,c){var
-i=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=kv(i,c),k=by(f),b=e(function(b){return ls(a,k,b)},j),l=r(rq,b,h(d)),m=r(rr,b,h(d));return[0,r(0,b,h(d)),m,l]}function
+h=e[1];if(cl(h,c))return f;var
+a=h,b=c,j=i(d);for(;;){if(a&&b){var
+a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bM(function(a){return lu(c,g,a)},e)]}function
+hA(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=kw(h,c),k=by(f),b=e(function(b){return lu(a,k,b)},j),l=r(rq,b,i(d)),m=r(rr,b,i(d));return[0,r(0,b,i(d)),m,l]}function
 dH(b,a){var
 c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
 c1(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-lt(b){function
+lv(b){function
 a(a){var
-e=u(b,a)?c:d;return h(e)}var
+e=u(b,a)?c:d;return i(e)}var
 e=a(rs),f=a(rt);return[0,a(0),f,e]}function
-lu(b,a){if(a)var
-d=lu(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+lw(b,a){if(a)var
+d=lw(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
 var
 c=a;return c}function
-hA(c,b,a){switch(c){case
+hB(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-bB(e,k){var
+bC(e,k){var
 a=k[1];switch(a[0]){case
 1:var
-l=u(a[1],e)?c:d;return h(l);case
+l=u(a[1],e)?c:d;return i(l);case
 3:var
-m=bB(e,a[2]);return z(bB(e,a[1]),m);case
+m=bC(e,a[2]);return z(bC(e,a[1]),m);case
 4:var
-n=bB(e,a[2]);return t(bB(e,a[1]),n);case
-5:return bf(bB(e,a[1]));case
+n=bC(e,a[2]);return t(bC(e,a[1]),n);case
+5:return bf(bC(e,a[1]));case
 6:var
-g=a[2],i=a[1],o=q(i,bB(e,g));return z(q(g,bB(e,i)),o);case
+g=a[2],h=a[1],o=q(h,bC(e,g));return z(q(g,bC(e,h)),o);case
 7:var
-f=bB(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
+f=bC(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
 8:var
-j=a[1],p=bB(e,j);return q(q(h(b(2,c)),j),p);default:return h(d)}}function
-hB(c,b,k){var
+j=a[1],p=bC(e,j);return q(q(i(b(2,c)),j),p);default:return i(d)}}function
+hC(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hB(c,b,a[1]);if(g){var
+g=hC(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
 i=h[1],j=L(d,r(i,c,B)[1]);return j?$(ak(function(a){return u(i,a)},b)):j}return 0}return g;case
 5:case
@@ -3596,9 +3602,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=hB(c,b,a[1]);if(f){var
+f=hC(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-lv(d){var
+lx(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3609,19 +3615,19 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lv(a[1]);if(c){var
+c=lx(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-lw(c,b,a){var
-d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-hC(b,a,c){return e(function(c){var
-d=lw(b,a,c[2]),f=c[1];return[0,e(function(c){return lw(b,a,c)},f),d]},c)}function
-lx(b,a){return w(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
+ly(c,b,a){var
+d=e(b,a[2]);return[0,j(c,a[1]),d]}function
+hD(b,a,c){return e(function(c){var
+d=ly(b,a,c[2]),f=c[1];return[0,e(function(c){return ly(b,a,c)},f),d]},c)}function
+lz(b,a){return w(function(a){var
+c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
 rE(a,b){var
-c=lx(a,b[3]),d=i(a,b[2]);return[0,hC(a,a,b[1]),d,c]}function
-ly(c){var
+c=lz(a,b[3]),d=j(a,b[2]);return[0,hD(a,a,b[1]),d,c]}function
+lA(c){var
 a=c[1];if(a){var
-b=hx(c[2]);if(b)var
+b=hy(c[2]);if(b)var
 g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
 var
 d=b;var
@@ -3629,50 +3635,50 @@ f=d}else
 var
 f=a;return f}function
 rF(c){var
-a=ac(e(ly,c[1]));if(a)var
-b=ly(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+a=ac(e(lA,c[1]));if(a)var
+b=lA(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-rG(a){return $(g7([0,a[2],a[1]]))}function
-hD(a){return[0,a[1],a[2]]}function
-lz(b,c,a){var
-d=e(function(c){return bc(b,bB(c,a))},c);return[0,bc(b,a),d]}function
-hE(b,e,a,d){var
+rG(a){return $(g8([0,a[2],a[1]]))}function
+hE(a){return[0,a[1],a[2]]}function
+lB(b,c,a){var
+d=e(function(c){return bc(b,bC(c,a))},c);return[0,bc(b,a),d]}function
+hF(b,e,a,d){var
 c=v(function(a){var
-b=hD(a[2]);return f(v(hD,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
-lA(c,f,b,a){var
-d=hB(f,b,a),e=d?fM(c,a):d;return e?n(function(b){return fM(c,bB(b,a))},b):e}function
-lB(a){switch(a[0]){case
+b=hE(a[2]);return f(v(hE,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
+lC(c,f,b,a){var
+d=hC(f,b,a),e=d?fO(c,a):d;return e?n(function(b){return fO(c,bC(b,a))},b):e}function
+lD(a){switch(a[0]){case
 3:var
-c=lk(a[2]);return[0,a[3],c];case
+c=lm(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=lk(a[1]);return[0,a[2],b]}}function
-lC(f,v,e,t,s,b,a){switch(b[0]){case
+b=lm(a[1]);return[0,a[2],b]}}function
+lE(f,v,e,t,s,b,a){switch(b[0]){case
 0:var
 w=b[4],p=b[3],y=b[2],z=b[1],q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 0:var
-T=a[2],U=a[1],l=y,k=z,h=function(a){return lh(f,e,U,T,p,a)},g=w;break;case
+T=a[2],U=a[1],l=y,k=z,i=function(a){return lj(f,e,U,T,p,a)},g=w;break;case
 2:var
 A=_(p[1],d),B=A?_(p[2],d):A;if(!B)return B;var
-Y=a[2],Z=a[1],l=y,k=z,h=function(a){return li(e,Z,Y,a)},g=w;break;default:q=1}if(q)return 0;break;case
+Y=a[2],Z=a[1],l=y,k=z,i=function(a){return lk(e,Z,Y,a)},g=w;break;default:q=1}if(q)return 0;break;case
 1:var
 M=0;if(typeof
 a==="number"&&!a)var
-$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,h=function(a){return lj(f,e,ab,a)},g=ac;else
+$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,i=function(a){return ll(f,e,ab,a)},g=ac;else
 M=1;if(M)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 m=a[3];if(m){var
-C=m[2],F=u(j(C),v);if(F){var
-ad=[0,b[1],b[2],s],ae=fO(function(a){return r(a,t,rJ)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(v,j){var
+C=m[2],F=u(h(C),v);if(F){var
+ad=[0,b[1],b[2],s],ae=fQ(function(a){return r(a,t,rJ)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(v,j){var
 a=dF(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
 g=c0(j[3]);if(g){var
-l=g[1],m=function(a){return a_(a,G,W(f,c))},t=m(v),u=b[1],h=E(x(f,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,fn(G,ai,k,aw([0,D(af(h),l),0],e))):n;if(o){var
-i=fo(k,aw([0,D(x(f,aj,h),l),0],e));if(i)return bi(e,i[1]);var
+l=g[1],m=function(a){return a_(a,G,W(f,c))},t=m(v),u=b[1],h=E(x(f,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,fo(G,ai,k,av([0,D(af(h),l),0],e))):n;if(o){var
+i=fp(k,av([0,D(x(f,aj,h),l),0],e));if(i)return bi(e,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3684,7 +3690,7 @@ var
 r=b;var
 s=r}else
 var
-s=a;return s};return hy(function(b,a){return fO},ak,ag,C,d,ae)}var
+s=a;return s};return hz(function(b,a){return fQ},ak,ag,C,d,ae)}var
 H=F}else
 var
 H=m;return H}return 0;case
@@ -3696,9 +3702,9 @@ I=a[2],J=a[1],al=b[3],am=b[2],an=b[4],ao=b[1],ap=function(g){var
 a=dF(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-h=u(j(b),e),i=h?u(j(I),e):h;if(i){var
-n=el(J,em(J,I,c[1],b));return bi(e,b9(fs(f,ao,an,d[1],b),n))}var
-k=i}else
+i=u(h(b),e),j=i?u(h(I),e):i;if(j){var
+n=em(J,en(J,I,c[1],b));return bi(e,b_(ft(f,ao,an,d[1],b),n))}var
+k=j}else
 var
 k=d;var
 l=k}else
@@ -3706,18 +3712,18 @@ var
 l=c;var
 m=l}else
 var
-m=a;return m},l=al,k=am,h=ap,g=b[5];if(N)return 0;break;case
+m=a;return m},l=al,k=am,i=ap,g=b[5];if(N)return 0;break;case
 4:var
 O=0;if(typeof
 a==="number"&&!a)var
-l=b[1],k=0,h=rc,g=0;else
+l=b[1],k=0,i=rc,g=0;else
 O=1;if(O)return 0;break;case
 5:var
 P=0;if(typeof
 a==="number"||!(0===a[0]))P=1;else{var
 n=a[2],Q=0;if(n){var
 o=n[1];if(o){if(o[2])return 0;if(n[2])return 0;var
-aq=b[2],ar=b[1],as=W(f,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,av=0,h=function(a){return lh(f,rK,au,at,as,a)},g=av;Q=1}else
+aq=b[2],ar=b[1],as=W(f,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,aw=0,i=function(a){return lj(f,rK,au,at,as,a)},g=aw;Q=1}else
 var
 K=o}else
 var
@@ -3725,57 +3731,57 @@ K=n;if(!Q)return K}if(P)return 0;break;case
 6:var
 R=0;if(typeof
 a==="number"&&!a)var
-ax=b[2],ay=b[1],az=W(f,c),l=ax,k=ay,aA=0,h=function(a){return lj(f,rL,az,a)},g=aA;else
+ax=b[2],ay=b[1],az=W(f,c),l=ax,k=ay,aA=0,i=function(a){return ll(f,rL,az,a)},g=aA;else
 R=1;if(R)return 0;break;case
 7:var
 S=0;if(typeof
 a==="number"&&5<=a)var
-aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,h=function(a){return li(e,aE,aD,a)},g=aF;else
+aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,i=function(a){return lk(e,aE,aD,a)},g=aF;else
 S=1;if(S)return 0;break;default:return 0}var
-V=[0,k,l,s],X=fO(function(a){return r(a,t,rI)},V);return i(lg(function(b,a){return fO},g,v,h),X)}function
+V=[0,k,l,s],X=fQ(function(a){return r(a,t,rI)},V);return j(li(function(b,a){return fQ},g,v,i),X)}function
 rM(b,a){var
-c=gU(gQ,b[1],a[1]);return c?gQ(b[2],a[2]):c}function
-lD(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
-e==="number"){if(0===e)return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0}else
+c=gV(gR,b[1],a[1]);return c?gR(b[2],a[2]):c}function
+lF(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
+e==="number"){if(0===e)return 8===a[0]?fy(h,0,0,0,n,g,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
 q=f[3],r=f[2],s=H(d,r);if(s)var
-k=i8(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
+k=i9(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
 var
-j=s;if(j)return lC(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
+j=s;if(j)return lE(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
 t=j}else
 var
-t=i;return t}return lC(h,g,p,o,0,a,f);case
-8:return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0;case
+t=i;return t}return lE(h,g,p,o,0,a,f);case
+8:return 8===a[0]?fy(h,0,0,0,n,g,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gU(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?iv(y,x,a[3],a[4],e):v}return 0}return 0}function
-lE(b){var
+l=gV(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?iw(y,x,a[3],a[4],e):v}return 0}return 0}function
+lG(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
 rN(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-lF(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
-U=ak(rN,i),V=U?km(b,T,s,jE(v(function(b){var
+lH(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
+U=ak(rN,i),V=U?kn(b,T,s,jF(v(function(b){var
 a=M(l,b[1]);if(a){var
-c=a[1];return 8===c[0]?ks(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lE,i);if(Y)var
+c=a[1];return 8===c[0]?kt(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lG,i);if(Y)var
 ag=v(function(b){var
-c=lE(b);if(c){var
-a=M(l,b[1]);if(a)return lB(a[1]);var
+c=lG(b);if(c){var
+a=M(l,b[1]);if(a)return lD(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ed,e(function(a){return 0},t),ai),u=hw(b,s,d_(fN(d_(t,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ee,e(function(a){return 0},t),ai),u=hx(b,s,d$(fP(d$(t,0),$),_),j);else
 var
 u=Y;var
 h=i,a=aj;for(;;){if(h){var
 A=h[1],k=A[2],g=A[1],n=h[2];if(g){var
 C=r(g,a,0);if(C){var
 o=M(l,g);if(o){var
-F=lD(b,S,R,c,Q,P,O,j,u,V,o[1],k);if(F){var
-h=n,a=fy(g,a);continue}var
+F=lF(b,S,R,c,Q,P,O,j,u,V,o[1],k);if(F){var
+h=n,a=fz(g,a);continue}var
 G=F}else
 var
 G=o;var
@@ -3784,7 +3790,7 @@ var
 H=C;return H}if(typeof
 k==="number"&&4===k){var
 Z=0;if(c){var
-ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(bZ,y),aa=0,ac=f(e(aH,y),ab),ad=bM(0,function(n){return function(a){switch(a[0]){case
+ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(b0,y),aa=0,ac=f(e(aH,y),ab),ad=bN(0,function(n){return function(a){switch(a[0]){case
 0:return[0,r(a[1],n,B)];case
 1:return[0,r(a[1],s,B)];case
 2:return[0,W(b,a[1])];case
@@ -3798,11 +3804,11 @@ g=a[1];return cy(function(a){return[0,af(a)]},g);case
 h=a[2],i=a[1];return cz(function(c,a){return[0,x(b,c,a)]},i,h);case
 7:var
 j=a[2],k=a[1];return cz(function(c,a){var
-d=b3(b,a);return w(function(a){return x(b,c,a)},d)},k,j);case
+d=b4(b,a);return w(function(a){return x(b,c,a)},d)},k,j);case
 8:var
 l=a[1];return cy(function(a){return[0,X(b,a)]},l);case
 9:var
-m=a[1];return cy(function(a){return b4(b,a)},m);default:return 0}}}(ac),t,aa),m=r(c[1],ad,ae);if(m){var
+m=a[1];return cy(function(a){return b5(b,a)},m);default:return 0}}}(ac),t,aa),m=r(c[1],ad,ae);if(m){var
 p=L(m[1][2],d);Z=1}else
 var
 z=m}else
@@ -3812,195 +3818,192 @@ p=z;if(p){var
 h=n,a=e(function(a){return 0},a);continue}return p}var
 I=r(g,a,0);if(I){var
 q=M(l,g);if(q){var
-J=lD(b,S,R,c,Q,P,O,j,u,V,q[1],k);if(J){var
-h=n,a=fy(g,a);continue}var
+J=lF(b,S,R,c,Q,P,O,j,u,V,q[1],k);if(J){var
+h=n,a=fz(g,a);continue}var
 K=J}else
 var
 K=q;var
 N=K}else
 var
 N=I;return N}return[0,a]}}function
-lG(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+lI(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=lF(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
-q=lF(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=ek(a[2],b),t=lG(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
+q=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=el(a[2],b),t=lI(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
-hF(d,a){var
-e=I(a),f=q(q(h(b(2,c)),a),d);return z(t(I(d),f),e)}function
+hG(d,a){var
+e=I(a),f=q(q(i(b(2,c)),a),d);return z(t(I(d),f),e)}function
 dI(a){switch(a){case
-0:return[0,rP,rO,h(d)];case
+0:return[0,rP,rO,i(d)];case
 1:return cP;default:var
-b=h(d),c=h(d);return[0,h(d),c,b]}}function
-fR(a){switch(a){case
+b=i(d),c=i(d);return[0,i(d),c,b]}}function
+fT(a){switch(a){case
 0:return rQ;case
 1:return rR;default:return 0}}function
-hG(k,a,d,j,c,h){var
-e=ah(t,dI(k),j);if(h){var
+hH(k,a,d,i,c,h){var
+e=ah(t,dI(k),i);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ex([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
-m=ex(a,c);return ah(z,aZ(d,e),m)}function
-lH(f,i,g,l,a,d){var
-e=dI(f),j=ah(t,e,a),k=ex(i,d),m=hF(e[3],a[3]),n=hF(e[2],a[2]),o=hF(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(h(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hA(f,hG(f,i,g,a,d,0),v),u]}function
-hH(c,b,a){return ba(ex(c,a),b)}function
-lI(d,c,b,a){var
-e=hH(c,b,a);return ah(z,dI(d),e)}function
-lJ(g,f,e,d,c){var
-b=lI(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
-fS(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ey([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
+m=ey(a,c);return ah(z,aZ(d,e),m)}function
+lJ(f,h,g,l,a,d){var
+e=dI(f),j=ah(t,e,a),k=ey(h,d),m=hG(e[3],a[3]),n=hG(e[2],a[2]),o=hG(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(i(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hB(f,hH(f,h,g,a,d,0),v),u]}function
+hI(c,b,a){return ba(ey(c,a),b)}function
+lK(d,c,b,a){var
+e=hI(c,b,a);return ah(z,dI(d),e)}function
+lL(g,f,e,d,c){var
+b=lK(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
+fU(b,a){var
 c=aQ(a[2],b);return f(aQ(a[1],b),c)}function
-hI(d,b,a,c){if(a)var
-e=a[1],f=b$(c,fS(b,e)),h=N(c,j(fS(b,e))),i=hI(d,b,a[2],h),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),i];else
+hJ(d,b,a,c){if(a)var
+e=a[1],f=ca(c,fU(b,e)),i=N(c,h(fU(b,e))),j=hJ(d,b,a[2],i),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),j];else
 var
 g=a;return g}function
-hJ(f,o,e,n,a){var
-i=q(I(r(0,n,h(d))),o);if(typeof
+hK(f,o,e,n,a){var
+h=q(I(r(0,n,i(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=M(e,a[1]);if(b)var
-j=g(f,0,a[2]),k=j?[0,t(b[1][1][2],i)]:j;else
+j=g(f,0,a[2]),k=j?[0,t(b[1][1][2],h)]:j;else
 var
 k=b;return k;case
 3:var
 c=M(e,a[1]);if(c)var
-l=g(f,0,a[2]),m=l?[0,t(i,c[1][1][2])]:l;else
+l=g(f,0,a[2]),m=l?[0,t(h,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-lK(a){var
-b=e(function(a){return a[1]},a);return function(c){return e(function(a){var
-b=r(0,c,h(d)),e=q(a[2],b);return[0,a[1],e]},b)}}function
-lL(c,b,a){if(typeof
+lM(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=M(c,a[1]);return w(function(a){var
-c=r(0,b,h(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ey(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
-lM(a){var
-b=ab(a,rT),c=ax(Q(ab(a,rU),b));return q(r(0,a,h(d)),c)}function
-lN(b,a){var
-c=Q(a,ab(b,rV));return[0,by(aZ(lM(b),a)),c]}function
-lO(e,d,a,c,b){var
-f=b[2],g=q(lM(a),f),h=c?hH(e,d,ab(a,rW)):ab(a,rX);return t(Q(b[1][2],h),g)}function
-lP(h,g,f,d,c,b,a){var
+c=r(0,b,i(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+ez(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
+lN(a){var
+b=ab(a,rT),c=ax(Q(ab(a,rU),b));return q(r(0,a,i(d)),c)}function
+lO(b,a){var
+c=Q(a,ab(b,rV));return[0,by(aZ(lN(b),a)),c]}function
+lP(e,d,a,c,b){var
+f=b[2],g=q(lN(a),f),h=c?hI(e,d,ab(a,rW)):ab(a,rX);return t(Q(b[1][2],h),g)}function
+lQ(h,g,f,d,c,b,a){var
 i=bd(c);function
-j(a){return lI(h,g,f,a)}return kz(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lQ(a){var
-b=a[3],c=a[2],d=a[1];return fH([0,[0,d,d],[0,c,c],[0,b,b]])}function
+j(a){return lK(h,g,f,a)}return kA(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lR(a){var
+b=a[3],c=a[2],d=a[1];return fI([0,[0,d,d],[0,c,c],[0,b,b]])}function
 r2(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lR(b,a){switch(b){case
+lS(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fT(a){var
-b=b8(a[1],[0,d,c]);return b?b8(a[2],[0,d,c]):b}function
-hK(d,a){switch(d){case
-0:return fT(a[3]);case
+fV(a){var
+b=b9(a[1],[0,d,c]);return b?b9(a[2],[0,d,c]):b}function
+hL(d,a){switch(d){case
+0:return fV(a[3]);case
 1:return 1;default:var
-b=fT(a[1]),c=b?fT(a[2]):b;return c?fT(a[3]):c}}function
-lS(c,b){var
-a=v(function(a){return fS(c,a)},b),d=aK(aL(0,j(a)),a);return e(aH,be(function(a){return fD(a[2])},d))}function
-lT(b){var
+b=fV(a[1]),c=b?fV(a[2]):b;return c?fV(a[3]):c}}function
+lT(c,b){var
+a=v(function(a){return fU(c,a)},b),d=aJ(aL(0,h(a)),a);return e(aH,be(function(a){return fE(a[2])},d))}function
+lU(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-lU(c){var
-a=c;for(;;){if(0===a[0])return ak(lT,a[1]);var
-d=ak(lT,a[1]),b=d||lU(a[3]);if(b)return b;var
+lV(c){var
+a=c;for(;;){if(0===a[0])return ak(lU,a[1]);var
+d=ak(lU,a[1]),b=d||lV(a[3]);if(b)return b;var
 a=a[4];continue}}function
-r3(a,aU,bI,y,E,aT){var
-s=y[1],k=cx(s),U=y[6],bJ=y[2],V=v(function(a){return fS(E,a)},bJ),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,j(V)],bK=0,aW=v(function(a){return es(bK,E,a)},U),bL=fR(s),aY=ln(y[5],bL),l=aY[2],F=aY[1],bN=y[2],S=j(V),J=cv(ap,j(V)),bM=0,A=hI(function(e,a){function
+r3(a,aU,bJ,y,E,aT){var
+s=y[1],k=cx(s),U=y[6],bK=y[2],V=v(function(a){return fU(E,a)},bK),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,h(V)],bL=0,aW=v(function(a){return et(bL,E,a)},U),bM=fT(s),aY=lp(y[5],bM),l=aY[2],F=aY[1],bO=y[2],S=h(V),J=cv(ap,h(V)),bN=0,A=hJ(function(e,a){function
 j(Y){var
-w=lJ(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hH(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(h(T),R);function
-i(a){return[0,lt(a),0]}function
-f(a){return[0,ba(dH(lt(a),g),J),[0,a]]}switch(s){case
+w=lL(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hI(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(i(T),R);function
+h(a){return[0,lv(a),0]}function
+f(a){return[0,ba(dH(lv(a),g),J),[0,a]]}switch(s){case
 0:var
-C=[0,f(ru),0],D=[0,i(rv),C],o=[0,i(0),D];break;case
+C=[0,f(ru),0],D=[0,h(rv),C],o=[0,h(0),D];break;case
 1:var
-E=[0,f(rw),0],G=[0,f(rx),E],H=[0,f(0),G],K=[0,i(ry),H],L=[0,i(rz),K],o=[0,i(0),L];break;default:var
+E=[0,f(rw),0],G=[0,f(rx),E],H=[0,f(0),G],K=[0,h(ry),H],L=[0,h(rz),K],o=[0,h(0),L];break;default:var
 M=[0,f(rA),0],N=[0,f(rB),M],o=[0,f(0),N]}var
 k=ah(t,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=ba(k,ax(Q(k,k)));if(s)var
-n=hz(s,S,e,p,m[3]);else
+n=hA(s,S,e,p,m[3]);else
 var
-A=h(d),B=h(d),n=[0,h(d),B,A];var
-r=hz(s,S,e,p,m[2]),v=hz(s,S,e,p,m[1]),V=lu(function(s,w){var
+A=i(d),B=i(d),n=[0,i(d),B,A];var
+r=hA(s,S,e,p,m[2]),v=hA(s,S,e,p,m[1]),V=lw(function(s,w){var
 e=w[1];function
 a(b,a){var
-c=e[3],f=c1(a,n),g=q(z(b[3],f),c),i=e[2],j=c1(a,r),k=q(z(b[2],j),i),l=e[1],m=c1(a,v),o=q(z(b[1],m),l);return z(z(z(h(d),o),k),g)}var
+c=e[3],f=c1(a,n),g=q(z(b[3],f),c),h=e[2],j=c1(a,r),k=q(z(b[2],j),h),l=e[1],m=c1(a,v),o=q(z(b[1],m),l);return z(z(z(i(d),o),k),g)}var
 x=a(n,rC),y=a(r,rD),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
-i=l[1],m=w[2];if(m){var
-k=m[1],B=c1(i,g),C=q(c1(k,j),B),D=c1(k,g),o=z(q(c1(i,j),D),C),E=I(J);if(u(i,k))var
-F=Q(j,g),p=t(o,q(h(b(2,c)),F));else
+h=l[1],m=w[2];if(m){var
+k=m[1],B=c1(h,g),C=q(c1(k,j),B),D=c1(k,g),o=z(q(c1(h,j),D),C),E=I(J);if(u(h,k))var
+F=Q(j,g),p=t(o,q(i(b(2,c)),F));else
 var
-p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hA(s,j,ba(dH(g,ba(W,y)),J)),V,U,O]}var
-k=lJ(s,F,l,e,a);function
-m(b){return hG(s,F,l,e,a,b)}var
+p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hB(s,j,ba(dH(g,ba(W,y)),J)),V,U,O]}var
+k=lL(s,F,l,e,a);function
+m(b){return hH(s,F,l,e,a,b)}var
 f=2<=s?d:c;function
 g(b){var
-c=I(J),d=h(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
-i=[0,Q(hG(s,F,l,e,a,1),a),g];return[0,lH(s,F,l,J,e,a),i,m,k,j]},E,bN,bM),T=e(function(a){return a[1]},A),bO=N(aa,j(aW)),bP=fR(s),bQ=y[5];function
-R(a){return[0,[0,N(bP,a)]]}var
-aJ=I([0,[1,bO]]);switch(bQ[0]){case
+c=I(J),d=i(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
+h=[0,Q(hH(s,F,l,e,a,1),a),g];return[0,lJ(s,F,l,J,e,a),h,m,k,j]},E,bO,bN),T=e(function(a){return a[1]},A),bP=N(aa,h(aW)),bQ=fT(s),bR=y[5];function
+R(a){return[0,[0,N(bQ,a)]]}var
+aJ=I([0,[1,bP]]);switch(bR[0]){case
 2:var
 bw=R(rm),bx=R(rn),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
 3:var
-bz=I(R(ro)),bB=I(R(0)),bC=I(R(rp)),C=[0,t(t(q(aJ,z(h(c),bC)),bB),bz)];break;default:var
+bz=I(R(ro)),bB=I(R(0)),bC=I(R(rp)),C=[0,t(t(q(aJ,z(i(c),bC)),bB),bz)];break;default:var
 C=0}var
 aZ=y[7];if(aZ)var
-bR=0,bS=y[2],aq=hI(function(i,k){var
-a=lH(s,F,l,cv(ap,j(V)),i,k),c=a[1];if(c){var
+bS=0,bT=y[2],aq=hJ(function(j,k){var
+a=lJ(s,F,l,cv(ap,h(V)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-h=g[1],f=dH(i,[0,b,e,h]);return[0,[0,b,[0,e,[0,h,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bS,bR);else
+i=g[1],f=dH(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bT,bS);else
 var
 aq=aZ;var
-bT=bA(aq),bU=C?[0,C[1],0]:C,bV=f(bU,bT),bW=0,bX=[0,l,f(cw(function(c,b){if(typeof
+bU=bA(aq),bV=C?[0,C[1],0]:C,bW=f(bV,bU),bX=0,bH=e(function(a){return a[1]},A),bY=[0,l,f(cw(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=lL(A,c,b);if(g)var
-j=g[1],k=[0,j[1],[0,j[2],0]];else
+g=lM(A,c,b);if(g)var
+i=g[1],k=[0,i[1],[0,i[2],0]];else
 var
 k=g;return k;case
-8:return e(bZ,i(lK(A),c));case
+8:return e(b0,fJ(bH,c));case
 13:var
 h=M(A,b[1]);if(h){var
-m=ey(b[4]);if(m){var
-n=lN(c,i(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+m=ez(b[4]);if(m){var
+n=lO(c,j(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 o=m}else
 var
 o=h;return o}var
-d=hJ(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bW,E,aa,U),bV)],as=f(bA(T),bX),bY=0,a0=cw(function(c,a){if(typeof
+d=hK(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bX,E,aa,U),bW)],as=f(bA(T),bY),bZ=0,a0=cw(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=M(A,a[1]);if(e){if(ey(a[4]))return 0;var
-k=[0,lO(F,l,c,a[2],e[1][4]),0]}else
+e=M(A,a[1]);if(e){if(ez(a[4]))return 0;var
+k=[0,lP(F,l,c,a[2],e[1][4]),0]}else
 var
 k=e;return k;case
 14:var
-g=lP(s,F,l,A,c,a[1],a[2]);if(g){var
+g=lQ(s,F,l,A,c,a[1],a[2]);if(g){var
 m=g[1],n=m[2],o=m[1];return v(by,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
 15:var
-j=M(A,a[1]);if(j){var
-b=i(j[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,h(d)),p],t=[0,r(0,c,h(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return j}return 0},bY,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
+h=M(A,a[1]);if(h){var
+b=j(h[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,i(d)),p],t=[0,r(0,c,i(d)),q],u=f(fc(b[2]),t);return f(b[1],u)}return h}return 0},bZ,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
 m(a){return aX(Y,bc(k,a))}if(0===y[4][0]){var
-b0=w(m,C),b1=m(l),a3=i(ar(m),T),aQ=fR(s),aR=u(j(a3),k);if(aR)var
-aS=w(function(a){return[0,[0,a,d],d]},b0),_=function(a){return r(a,Y,h(d))},aI=_(b1),bv=aL(0,aQ),ao=n(function(a){var
+b1=w(m,C),b2=m(l),a3=j(ar(m),T),aQ=fT(s),aR=u(h(a3),k);if(aR)var
+aS=w(function(a){return[0,[0,a,d],d]},b1),_=function(a){return r(a,Y,i(d))},aI=_(b2),bv=aL(0,aQ),ao=n(function(a){var
 b=cZ(k,a,aI),c=b?n(function(b){var
 d=b[1],c=n(function(b){var
 c=_(b);return cb(N(k,a),c)},d);if(c){var
-e=_(b[2]);return fL(aI,N(k,a),e)}return c},a3):b;if(c){if(aS){var
+e=_(b[2]);return fN(aI,N(k,a),e)}return c},a3):b;if(c){if(aS){var
 e=_(aS[1][1][1]);return cb(N(k,a),e)}var
 d=1}else
 var
 d=c;return d},bv);else
 var
 ao=aR;var
-bH=ao?aQ:ao,K=bH}else
+bI=ao?aQ:ao,K=bI}else
 var
 K=0;var
 a4=n(function(a){var
-b=bc(k,a),c=h(d);return av(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fM(k,a)},as):a4,a6=a5?n(function(a){var
-b=h(d);return av(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r2,U):a6;if(a7){var
+b=bc(k,a),c=i(d);return aw(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fO(k,a)},as):a4,a6=a5?n(function(a){var
+b=i(d);return aw(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r2,U):a6;if(a7){var
 a8=$(y[7]);if(a8)var
 ab=a8;else{var
 bt=y[5];if(1===s&&2===bt[0])var
@@ -4010,123 +4013,126 @@ bu=0;var
 ab=bu}}else
 var
 ab=a7;var
-a9=ab?hK(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
-b2=fQ(y[5]),au=n(function(b){var
-c=ev(a,b[1]);return c?ev(a,b[2]):c},b2);else
+a9=ab?hL(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
+b3=fS(y[5]),au=n(function(b){var
+c=ew(a,b[1]);return c?ew(a,b[2]):c},b3);else
 var
 au=a_;if(au){var
-b3=f(V,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b3));if(ay){var
-az=ac(e(function(b){return hs(a,b)},aW));if(az){var
-b4=lR(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b4));if(aA){var
-a$=aA[1],b5=lp(y[5]),aB=ac(e(function(b){return lr(a,b)},b5));if(aB){var
-bb=aB[1],b6=lo(y[5]),aC=ac(e(function(b){return dD(a,b)},b6));if(aC){var
-b7=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
+b4=f(V,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b4));if(ay){var
+az=ac(e(function(b){return ht(a,b)},aW));if(az){var
+b5=lS(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b5));if(aA){var
+a$=aA[1],b6=lr(y[5]),aB=ac(e(function(b){return lt(a,b)},b6));if(aB){var
+bb=aB[1],b7=lq(y[5]),aC=ac(e(function(b){return dD(a,b)},b7));if(aC){var
+b8=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
 f!=="number"&&13===f[0]){var
-u=f[4],ay=M(A,f[1]);if(ay){if(lQ(f[3])&&g(a,0,u)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],u])){var
-az=f[2],aA=ay[1];if(ey(u)){var
-aw=lN(k,i(aA[3],az)),O=aw[2];if(g(o,0,[3,u,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
-ax=0;else
+x=f[4],az=M(A,f[1]);if(az){if(lR(f[3])&&g(a,0,x)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],x])){var
+aA=f[2],aB=az[1];if(ez(x)){var
+ax=lO(k,j(aB[3],aA)),Q=ax[2];if(g(o,0,[3,x,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
+ay=0;else
 var
-aY=m(O),aZ=m(O),ax=[0,[6,[0,[0,e(m,aw[1]),aZ],0],aY],0];var
-aB=[0,[4,m(O)],ax]}else
+a1=m(Q),a2=m(Q),ay=[0,[6,[0,[0,e(m,ax[1]),a2],0],a1],0];var
+aC=[0,[4,m(Q)],ay]}else
 var
-aB=[0,[8,[3,G(lO(F,l,k,az,aA[4]))]],0];return e(function(a){return[0,a]},aB)}return r0}return r1}var
-a0=0,x=e(function(a){return a[1]},A);function
-P(c,b,a){return[0,c,b,a,K]}var
-v=0;if(typeof
+aC=[0,[8,[3,G(lP(F,l,k,aA,aB[4]))]],0];return e(function(a){return[0,a]},aC)}return r0}return r1}var
+a3=0,q=e(function(a){return a[1]},A);function
+R(c,b,a){return[0,c,b,a,K]}var
+y=0;if(typeof
 f==="number")var
-aD=m(l),j=[0,P(i(ar(m),x),aD,B)];else
+aE=m(l),h=[0,R(j(ar(m),q),aE,B)];else
 switch(f[0]){case
 0:var
-n=[5,[0,c,c],f[1]],y=P;v=1;break;case
+t=[5,[0,c,c],f[1]],z=R;y=1;break;case
 1:var
-aF=[5,[0,c,c],f[1]],n=aF,y=function(c,b,a){return[1,c,b,a]};v=1;break;case
+aG=[5,[0,c,c],f[1]],t=aG,z=function(c,b,a){return[1,c,b,a]};y=1;break;case
 2:var
-aG=hJ(a,l,A,k,f),j=w(function(a){return[4,m(a)]},aG);break;case
+aH=hK(a,l,A,k,f),h=w(function(a){return[4,m(a)]},aH);break;case
 3:var
-aH=hJ(a,l,A,k,f),j=w(function(a){return[4,m(a)]},aH);break;case
+aI=hK(a,l,A,k,f),h=w(function(a){return[4,m(a)]},aI);break;case
 5:var
-Q=f[1],aI=al(a,[0,[0,Q,Q],d]),j=w(function(b){var
-c=X(a,b),d=m(l);return[2,i(ar(m),x),d,c]},aI);break;case
+S=f[1],aJ=al(a,[0,[0,S,S],d]),h=w(function(b){var
+c=X(a,b),d=m(l);return[2,j(ar(m),q),d,c]},aJ);break;case
 6:var
-z=M(A,f[1]);if(z){var
-C=lL(A,k,f);if(C){var
-R=C[1],S=g(a,1,f[2]),T=S?g(a,1,f[3]):S;if(T)var
-aJ=m(R[2]),aK=m(z[1][1][2]),U=[0,[5,[0,[0,[0,m(R[1]),0],aK],0],aJ]];else
+C=M(A,f[1]);if(C){var
+D=lM(A,k,f);if(D){var
+T=D[1],U=g(a,1,f[2]),V=U?g(a,1,f[3]):U;if(V)var
+aK=m(T[2]),aL=m(C[1][1][2]),Y=[0,[5,[0,[0,[0,m(T[1]),0],aL],0],aK]];else
 var
-U=T;var
-V=U}else
+Y=V;var
+Z=Y}else
 var
-V=C;var
-Y=V}else
+Z=D;var
+_=Z}else
 var
-Y=z;var
-j=Y;break;case
+_=C;var
+h=_;break;case
 7:var
-Z=f[3],_=f[2],$=f[1],aa=M(A,$),aC=0;if(aa){var
-ab=g(a,1,_),ac=ab?g(a,1,Z):ab;if(ac){var
-aL=[5,_,Z],n=aL,y=function(c,b,a){return[3,$,c,b,a,K]};v=1;aC=1}else
+$=f[3],aa=f[2],ab=f[1],ac=M(A,ab),aD=0;if(ac){var
+ad=g(a,1,aa),ae=ad?g(a,1,$):ad;if(ae){var
+aM=[5,aa,$],t=aM,z=function(c,b,a){return[3,ab,c,b,a,K]};y=1;aD=1}else
 var
-ad=ac}else
+af=ae}else
 var
-ad=aa;if(!aC)var
-j=ad;break;case
+af=ac;if(!aD)var
+h=af;break;case
 8:var
-ae=g(a,1,f[1]),af=ae?g(a,1,f[2]):ae;if(af)var
-aM=W(a,c),aN=m(l),aO=i(lK(A),k),ag=[0,[0,i(ar(m),aO),aN,aM,0]];else
+ag=g(a,1,f[2]);if(ag)var
+aN=f[1],aO=1,I=n(function(b){return g(a,aO,b)},aN);else
 var
-ag=af;var
-j=ag;break;case
+I=ag;if(I)var
+aP=W(a,c),aQ=m(l),aR=fJ(q,k),ah=[0,[0,j(ar(m),aR),aQ,aP,0]];else
+var
+ah=I;var
+h=ah;break;case
 14:var
-ah=f[2],ai=f[1],D=lP(s,F,l,A,k,ai,ah);if(D){var
-aj=D[1],ak=aj[2],am=aj[1],an=k9(ai,ah,f[3]),I=al(a,[0,[0,an,an],E]);if(I){var
-ao=I[1],ap=H(d,ao[1]);if(ap)var
-q=function(a){return kH(G,a)},aP=q(ak[2]),aQ=q(ak[1]),aR=q(am[2]),aq=[0,[8,[6,q(am[1]),aR,aQ,aP,ao]]];else
+ai=f[2],aj=f[1],J=lQ(s,F,l,A,k,aj,ai);if(J){var
+ak=J[1],am=ak[2],an=ak[1],ao=k$(aj,ai,f[3]),L=al(a,[0,[0,ao,ao],E]);if(L){var
+ap=L[1],aq=H(d,ap[1]);if(aq)var
+u=function(a){return kI(G,a)},aS=u(am[2]),aT=u(am[1]),aU=u(an[2]),as=[0,[8,[6,u(an[1]),aU,aT,aS,ap]]];else
 var
-aq=ap;var
-as=aq}else
-var
-as=I;var
+as=aq;var
 at=as}else
 var
-at=D;var
-j=at;break;case
+at=L;var
+au=at}else
+var
+au=J;var
+h=au;break;case
 15:var
-J=M(A,f[1]);if(J){var
-au=g(a,1,f[4]);if(au)var
-av=g(a,0,f[2]),L=av?g(a,0,f[3]):av;else
+N=M(A,f[1]);if(N){var
+av=g(a,1,f[4]);if(av)var
+aw=g(a,0,f[2]),O=aw?g(a,0,f[3]):aw;else
 var
-L=au;if(L)var
-t=i(J[1][5],0),aS=G(t[4]),aT=G(t[3]),aU=G(r(rZ,k,h(d))),aV=G(r(0,k,h(d))),aW=t[2],aX=e(function(a){return e(G,a)},aW),N=[0,[8,[10,e(G,t[1]),aX,aV,aU,aT,aS]]];else
+O=av;if(O)var
+v=j(N[1][5],0),aV=G(v[4]),aW=G(v[3]),aX=G(r(rZ,k,i(d))),aY=G(r(0,k,i(d))),aZ=v[2],a0=e(function(a){return e(G,a)},aZ),P=[0,[8,[10,e(G,v[1]),a0,aY,aX,aW,aV]]];else
 var
-N=L}else
+P=O}else
 var
-N=J;var
-j=N;break;default:var
-j=0}if(v)var
-aE=al(a,[0,[0,n,n],d]),j=w(function(b){var
-c=X(a,b),d=m(l);return y(i(ar(m),x),d,c)},aE);return[0,j,a0]},b7,E,aa,U));if(aD){var
+P=N;var
+h=P;break;default:var
+h=0}if(y)var
+aF=al(a,[0,[0,t,t],d]),h=w(function(b){var
+c=X(a,b),d=m(l);return z(j(ar(m),q),d,c)},aF);return[0,h,a3]},b8,E,aa,U));if(aD){var
 bd=aD[1];if(y[7])var
-b8=aU[2],b9=aU[1],b_=m(l),ad=kV(bI,bd,[7,i(ar(m),aq),b_,b9,b8]);else
+b9=aU[2],b_=aU[1],b$=m(l),ad=kW(bJ,bd,[7,j(ar(m),aq),b$,b_,b9]);else
 var
 ad=bd;var
-bf=u(j(f(a$,bb)),k),bg=bf?n(function(a){var
-b=lB(a);return n(function(a){return ll(k,Y,a)},b)},ad):bf,bh=bg?C?ll(k,Y,m(C[1])):1:bg;if(bh){var
-b$=f(az[1],aC[1]),L=f(ay[1],b$),O=lU(aT),P=lS(E,y[2]),Z=O?e(function(a){var
-b=lz(k,P,a[2]),c=a[1];return[0,e(function(a){return lz(k,P,a)},c),b]},T):O,aE=O?cp(hE(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},ca=hC(ae,ae,Z),cc=ae(bc(k,l)),aG=w(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
+bf=u(h(f(a$,bb)),k),bg=bf?n(function(a){var
+b=lD(a);return n(function(a){return ln(k,Y,a)},b)},ad):bf,bh=bg?C?ln(k,Y,m(C[1])):1:bg;if(bh){var
+ca=f(az[1],aC[1]),L=f(ay[1],ca),O=lV(aT),P=lT(E,y[2]),Z=O?e(function(a){var
+b=lB(k,P,a[2]),c=a[1];return[0,e(function(a){return lB(k,P,a)},c),b]},T):O,aE=O?cp(hF(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},cc=hD(ae,ae,Z),cd=ae(bc(k,l)),aG=w(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
 ai=bj;else{var
-bs=u(j(T),k);if(bs){var
-bE=hE(k,l,C,Z),aN=n(function(a){var
-b=h(d);return av(r(aX(aF,a),aF,b),a)},bE);if(aN)var
-bF=hE(k,l,C,Z),aj=n(function(a){var
+bs=u(h(T),k);if(bs){var
+bE=hF(k,l,C,Z),aN=n(function(a){var
+b=i(d);return aw(r(aX(aF,a),aF,b),a)},bE);if(aN)var
+bF=hF(k,l,C,Z),aj=n(function(a){var
 b=aL(0,k);return n(function(b){return dE(k,b,a)},b)},bF);else
 var
 aj=aN;if(aj){var
-aO=w(function(a){return bc(k,a)},C),am=bc(k,l),aM=lv(am);if(aM)var
+aO=w(function(a){return bc(k,a)},C),am=bc(k,l),aM=lx(am);if(aM)var
 bD=aL(0,K),aP=n(function(a){var
 b=cZ(k,a,am),c=b?n(function(b){var
-d=b[2][2],e=f(v(hD,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
-h=b[2][1];return fL(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
+d=b[2][2],e=f(v(hE,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
+h=b[2][1];return fN(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
 e=aO[1];return cb(N(k,a),e)}var
 d=1}else
 var
@@ -4136,39 +4142,39 @@ aP=aM;var
 an=aP}else
 var
 an=aj;var
-ci=an?n(function(a){var
-c=a[1],b=n(function(a){return lA(k,L,P,a)},c);return b?lA(k,L,P,a[2]):b},T):an,ai=ci}else
+cj=an?n(function(a){var
+c=a[1],b=n(function(a){return lC(k,L,P,a)},c);return b?lC(k,L,P,a[2]):b},T):an,ai=cj}else
 var
 ai=bs}if(ai){var
-cd=e(function(a){return 1},ad),ce=f(a$,bb),cf=function(N,aa,$,c){if(O){if(typeof
+ce=e(function(a){return 1},ad),cf=f(a$,bb),cg=function(N,aa,$,c){if(O){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],m=c[2],o=c[1];if(typeof
 o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
 t=g[1],b=o[1],v=u($,K),w=v?cl(0,K):v;if(w)var
-s=gU(gQ,e(aH,m),P),Y=s?1:s,p=Y;else
+s=gV(gR,e(aH,m),P),Y=s?1:s,p=Y;else
 var
 p=w;var
-y=p?kp(P):p,z=y?n(function(a){return cl(a,j(L))},P):y,A=z?u(j(t),k):z;if(A){var
+y=p?kq(P):p,z=y?n(function(a){return cl(a,h(L))},P):y,A=z?u(h(t),k):z;if(A){var
 q=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
 G=b[2],F=b[1],E=0;q=1;break;case
 7:var
-I=b[2],h=b[1],Q=0;if(typeof
-h!=="number"&&0===h[0]){var
+I=b[2],i=b[1],Q=0;if(typeof
+i!=="number"&&0===i[0]){var
 R=0;if(aG){var
 J=H(d,I);if(J){var
-G=h[2],F=h[1],E=[0,[0,[0,aG[1],I],b[3]]];q=1;Q=1;R=1}else
+G=i[2],F=i[1],E=[0,[0,[0,aG[1],I],b[3]]];q=1;Q=1;R=1}else
 var
 M=J}else
 var
 M=aG;if(!R)return M}if(!Q)return 0;break}if(q){var
-S=hw(a,g_(m,0,L),aE,N),l=hw(a,L,aE,N),f=function(b,a){return r(a,b,rH)},T=lx(function(a){return f(l,a)},E),U=f(l,cc),V=function(a){return f(l,a)},X=[0,hC(function(a){return f(S,a)},V,ca),U,T],Z=ki(m,L),_=function(g){var
+S=hx(a,g$(m,0,L),aE,N),l=hx(a,L,aE,N),f=function(b,a){return r(a,b,rH)},T=lz(function(a){return f(l,a)},E),U=f(l,cd),V=function(a){return f(l,a)},X=[0,hD(function(a){return f(S,a)},V,cc),U,T],Z=kj(m,L),_=function(g){var
 b=ac(e(rF,g[1]));if(b){var
 c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-l=d[1],m=aw([0,D(af(x(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=kj(a,0,Z,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=kf(a,e(function(b){return W(a,b)},t),F,G,o,m);if(f)return bi(k,f[1]);var
+l=d[1],m=av([0,D(af(x(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
+b=kk(a,0,Z,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=kg(a,e(function(b){return W(a,b)},t),F,G,o,m);if(f)return bi(k,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4177,13 +4183,13 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j};return i(lg(function(b,a){return rE},K,k,_),X)}var
+j=b;return j};return j(li(function(b,a){return rE},K,k,_),X)}var
 B=0}else
 var
 B=A;var
 C=B}else
 var
-C=g;return C}return 0}return 0}return O},cg=m(l),ch=i(ar(m),T);return lG(a,a1,a2,L,ad,k,k,w(m,C),ch,cg,cf,ce,cd,aT)}var
+C=g;return C}return 0}return 0}return O},ch=m(l),ci=j(ar(m),T);return lI(a,a1,a2,L,ad,k,k,w(m,C),ci,ch,cg,cf,ce,aT)}var
 bk=ai}else
 var
 bk=bh;var
@@ -4208,34 +4214,34 @@ bq=ay;var
 br=bq}else
 var
 br=au;return br}function
-ez(b,a){return bg(b,a[1],a[2])}function
-lV(b,a){var
-c=ez(b,a[1]),d=c?ez(b,a[2]):c;return d?ez(b,a[3]):d}function
+eA(b,a){return bg(b,a[1],a[2])}function
+lW(b,a){var
+c=eA(b,a[1]),d=c?eA(b,a[2]):c;return d?eA(b,a[3]):d}function
 a6(a){return typeof
 a==="number"?a?r4:r5:cx(a[1])}function
-lW(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hu(b[1],a,c)}function
-fU(a){if(0===a[0]){var
+lX(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hv(b[1],a,c)}function
+fW(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hL(b,c,a){return b?fI(b[1],c,a):a}function
+hM(b,c,a){return b?fK(b[1],c,a):a}function
 cc(d,c,b,a){var
-e=fU(a),f=hL(d,c,fU(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-lX(b,a){var
+e=fW(a),f=hM(d,c,fW(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+lY(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lY(b,w,v){var
+lZ(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kK(b,j[1],f[1]):0;else
+h=0===f[0]?kL(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
 a=f[1],c=j[1],k=a3(b,c[1],a[1]),l=k?a3(b,c[2],a[2]):k,m=l?a3(b,c[3],a[3]):l,n=m?a3(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,R(a[1],a[1])):r;if(s)var
-u=hk(a),i=g(b,1,R(hk(a),u));else
+u=hl(a),i=g(b,1,R(hl(a),u));else
 var
 i=s;var
 h=i?ck(c[7],a[7]):i}if(h){var
@@ -4243,42 +4249,42 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-lZ(a){return typeof
+l0(a){return typeof
 a==="number"?a?dI(0):cP:dI(a[1])}function
-hM(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
+hN(b,d,c){if(0===c[0])return fB(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aQ(a[4],b),e),h=f(aQ(a[3],b),g),i=f(aQ(a[2],d[2]),h);return f(aQ(a[1],d[1]),i)}function
-hN(b,a){if(b){var
-c=b[1],d=c[2];return ba(ex(c[1],a),d)}return a}function
-l0(f,u,am,K,al,s,ak){if(s){var
-k=s[1],an=bv([0,d,d],al),a=b$(ak,hM(K,an,k)),y=function(c,b){var
-d=ab(a,c);return ah(t,ah(z,lZ(f),b),d)};if(0===k[0]){var
+hO(b,a){if(b){var
+c=b[1],d=c[2];return ba(ey(c[1],a),d)}return a}function
+l1(f,u,am,K,al,s,ak){if(s){var
+k=s[1],an=bv([0,d,d],al),a=ca(ak,hN(K,an,k)),y=function(c,b){var
+d=ab(a,c);return ah(t,ah(z,l0(f),b),d)};if(0===k[0]){var
 A=k[1];switch(A[0]){case
 0:var
-$=hN(u,ab(a,r6)),aE=A[1][5],B=r(r7,a,h(d)),C=ab(a,0),aa=y(r8,$),i=j6(aa,cO(C),aa,B,aE),ap=[0,ax(B),0],aq=[0,ax(Q(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],$];break;case
+$=hO(u,ab(a,r6)),aE=A[1][5],B=r(r7,a,i(d)),C=ab(a,0),aa=y(r8,$),j=j7(aa,cO(C),aa,B,aE),ap=[0,ax(B),0],aq=[0,ax(Q(C,C)),ap],l=[0,[0,j[1],j[2],j[3],[0,j[4]],[0,[0,j[2],B]],aq],$];break;case
 1:var
-ac=hN(u,ab(a,r9)),ad=A[3],D=ad?[0,ab(a,r_)]:ad,ae=y(0,ac),m=j7(ae,ae,0);if(D)var
+ac=hO(u,ab(a,r9)),ad=A[3],D=ad?[0,ab(a,r_)]:ad,ae=y(0,ac),m=j8(ae,ae,0);if(D)var
 L=D[1],M=[0,ax(Q(L,L)),0];else
 var
 M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=h(d),aG=h(d),aH=[0,h(d),aG,aF],E=ab(a,0),aI=lZ(f),n=j8(aI,cO(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=i(d),aG=i(d),aH=[0,i(d),aG,aF],E=ab(a,0),aI=l0(f),n=j9(aI,cO(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hN(u,ab(a,r$)),F=k[1][7],G=r(sa,a,h(d)),e=r(sb,a,h(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(h(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fp(F,q(e,ax(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jC(0,U,V,W),Y=fp(F,jC(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=N(ak,j(hM(K,an,k))),aQ=s[2],aR=l0(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
+af=hO(u,ab(a,r$)),F=k[1][7],G=r(sa,a,i(d)),e=r(sb,a,i(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(i(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fq(F,q(e,ax(x))),U=ag(P,e),V=fq(F,ag(R,e)),W=ag(T,I(e)),X=jD(0,U,V,W),Y=fq(F,jD(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=N(ak,h(hN(K,an,k))),aQ=s[2],aR=l1(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
 b=ba(dH(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hA(f[1],a,b)},J=g[1],_=typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hB(f[1],a,b)},J=g[1],_=typeof
 f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:by(J):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=s;return ao}function
-hO(c,b,a){if(a){var
-e=a[2],g=hO(c,bd(b),e),h=a[1];return f(hM(c,bv([0,d,d],b),h),g)}return a}function
-l1(a){if(a){var
+hP(c,b,a){if(a){var
+e=a[2],g=hP(c,bd(b),e),h=a[1];return f(hN(c,bv([0,d,d],b),h),g)}return a}function
+l2(a){if(a){var
 b=a[1][6];if(b)var
-c=l1(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=l2(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
 d=b;return d}return se}function
-l2(y,V,b){function
-c(a){return r(a,V,h(d))}function
+l3(y,V,b){function
+c(a){return r(a,V,i(d))}function
 O(a){var
 e=a[2],f=q(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dk(function(b,a){return t(b,I(a))},g,f),d],b]}function
 P(e){var
@@ -4319,121 +4325,122 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=l1(y);if(B){var
+B=l2(y);if(B){var
 aa=c(0),Q=dk(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
-i=C[2],j=C[1];if(j){var
+h=C[2],j=C[1];if(j){var
 k=j[2],E=j[1];if(k){var
-l=k[2],F=k[1];if(l)if(l[2]||!i)var
-a=h(d);else{var
-m=i[2],n=i[1];if(n){var
+l=k[2],F=k[1];if(l)if(l[2]||!h)var
+a=i(d);else{var
+m=h[2],n=h[1];if(n){var
 o=n[2],G=n[1];if(o){var
 p=o[2],H=o[1];if(p){var
 J=p[1];if(p[2]||!m)var
-a=h(d);else{var
+a=i(d);else{var
 s=m[1];if(s){var
 u=s[2],K=s[1];if(u){var
 v=u[2],L=u[1];if(v){var
 N=v[1];if(v[2]||m[2])var
-a=h(d);else
+a=i(d);else
 var
 S=cR(G,H,K,L),T=q(l[1],S),U=q(F,cR(G,J,K,N)),a=z(t(q(E,cR(H,J,L,N)),U),T)}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}}else
+a=i(d)}}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}else
-if(i){var
-w=i[1];if(w)var
-x=w[2],a=x?x[2]?h(d):i[2]?h(d):cR(E,F,w[1],x[1]):h(d);else
+a=i(d)}else
+if(h){var
+w=h[1];if(w)var
+x=w[2],a=x?x[2]?i(d):h[2]?i(d):cR(E,F,w[1],x[1]):i(d);else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d)}else
+a=i(d)}else
 var
-a=h(d);var
+a=i(d);var
 ab=[0,bf(z(a,Q)),0],R=[0,[0,t(a,Q),ab],0]}else
 var
 R=B;return R;default:D=1}if(D)return 0;var
 A=M(y,f);return A?g(A[1]):A}function
-fV(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eA(a){return e(function(a){var
-b=h(c);return[0,a[3],b]},a)}function
-l3(a,b){return e(function(a){var
-c=q(a[2],b);return[0,a[1],c]},a)}function
+dJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eB(a){return e(function(a){var
+b=i(c);return[0,a[3],b]},a)}function
 l4(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bA(l3(c,r(0,b,h(d))));return fb(l2(c,b,a))}function
-l5(f,j,m,I,H,s,a){if(typeof
+a!=="number"&&8===a[0])return bA(fJ(dJ(c),b));return fc(l3(c,b,a))}function
+l5(f,h,l,H,G,s,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,c,c],a[1]],k=J,n=function(a){return[0,a]};break;case
+I=[5,[0,c,c],a[1]],i=I,m=function(a){return[0,a]};break;case
 1:var
-N=[5,[0,c,c],a[1]],k=N,n=function(a){return[1,a]};break;case
+L=[5,[0,c,c],a[1]],i=L,m=function(a){return[1,a]};break;case
 5:var
-y=a[1],Q=0,R=al(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,X(f,a)]},R),Q];case
+y=a[1],P=0,Q=al(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,X(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!M(m,C))return sk;var
-G=0;if(g(f,1,A)&&g(f,1,z))var
-S=[5,A,z],k=S,n=function(a){return[7,C,a]};else
-G=1;if(G)return sj;break;case
+z=a[3],A=a[2],C=a[1];if(!M(l,C))return sk;var
+F=0;if(g(f,1,A)&&g(f,1,z))var
+R=[5,A,z],i=R,m=function(a){return[7,C,a]};else
+F=1;if(F)return sj;break;case
 8:var
-D=g(f,1,a[1]),T=0,E=D?g(f,1,a[2]):D;if(E)var
-U=W(f,c),V=l3(m,r(0,s,h(d))),F=[0,[4,i(ar(j),V),U]];else
+D=g(f,1,a[2]),S=0;if(D)var
+T=a[1],U=1,q=n(function(a){return g(f,U,a)},T);else
 var
-F=E;return[0,F,T];default:var
-q=0;if(typeof
-a==="number")q=1;else
+q=D;if(q)var
+V=W(f,c),Y=fJ(dJ(l),s),E=[0,[4,j(ar(h),Y),V]];else
+var
+E=q;return[0,E,S];default:var
+r=0;if(typeof
+a==="number")r=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],v=g(f,1,[3,t,u]),P=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],t]):v,l=P;break;case
+t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],t]):v,k=O;break;case
 6:case
 9:var
-x=g(f,1,a[2]),l=x?g(f,0,a[3]):x;break;default:q=1}if(q)var
-l=1;var
-o=l?l2(m,s,a):l;if(o){var
-O=[0,o[1],o[2]];return e(function(a){if(a){var
+x=g(f,1,a[2]),k=x?g(f,0,a[3]):x;break;default:r=1}if(r)var
+k=1;var
+o=k?l3(l,s,a):k;if(o){var
+N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=i(j,b[1]);return[0,[5,i(j,c),e]]}var
-d=[0,[3,i(j,c)]]}else
+e=j(h,b[1]);return[0,[5,j(h,c),e]]}var
+d=[0,[3,j(h,c)]]}else
 var
-d=a;return d},O)}return si}var
-K=0,L=al(f,[0,[0,k,k],hr(I,H)]);return[0,w(function(a){return n(X(f,a))},L),K]}function
+d=a;return d},N)}return si}var
+J=0,K=al(f,[0,[0,i,i],hs(H,G)]);return[0,w(function(a){return m(X(f,a))},K),J]}function
 l6(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-sm(b){if(0===b[0])return[0,kT(b[1])];var
+sm(b){if(0===b[0])return[0,kU(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bj(a[4]),g=bj(a[3]),h=bj(a[2]);return[1,[0,bj(a[1]),h,g,f,e,d,c]]}function
 sn(J,c,a,k,ap,aT){var
-aU=e(sm,a[2]),aq=lY(J,a[2],aU);if(aq)var
-aV=hj(a[4]),K=cT(J,a[4],aV);else
+aU=e(sm,a[2]),aq=lZ(J,a[2],aU);if(aq)var
+aV=hk(a[4]),K=cT(J,a[4],aV);else
 var
 K=aq;if(K){var
 as=a[5];if(as)var
-aW=fQ(as[1]),at=n(function(a){return ez(J,a)},aW);else
+aW=fS(as[1]),at=n(function(a){return eA(J,a)},aW);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ay=a6(b),q=a[6],z=hO(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,j(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
+b=a[1],ay=a6(b),q=a[6],z=hP(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
 c=typeof
-b==="number"?0:fR(b[1]);return ln(a,c)},az),aB=a[2],l=l0(b,aA,cv(R,j(z)),k,ap,aB,0),T=v(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l4(l,a,b)},o,k,S,q)),aD=f(bA(eA(l)),aC),U=f(bA(fV(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
-b=h(d);return av(r(p(a),W,b),a)},U),Y=X?ak(l6,q):X;if(Y){var
+b==="number"?0:fT(b[1]);return lp(a,c)},az),aB=a[2],l=l1(b,aA,cv(R,h(z)),k,ap,aB,0),T=v(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l4(l,a,b)},o,k,S,q)),aD=f(bA(eB(l)),aC),U=f(bA(dJ(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
+b=i(d);return aw(r(p(a),W,b),a)},U),Y=X?ak(l6,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
-_=b?hK(0,dB(Z)):1;else
+_=b?hL(0,dB(Z)):1;else
 var
-aw=dB(Z),_=hK(b[1],aw);var
+av=dB(Z),_=hL(b[1],av);var
 B=_}else
 var
 B=Y;if(B){var
@@ -4444,8 +4451,8 @@ if(2<=N[1])var
 s=0;else{var
 x=a[5],M=0;if(x){var
 O=g(c,1,a[3]);if(O)var
-ax=fQ(x[1]),s=n(function(a){var
-b=ev(c,a[1]);return b?ev(c,a[2]):b},ax);else{var
+ax=fS(x[1]),s=n(function(a){var
+b=ew(c,a[1]);return b?ew(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
 P=x;M=1}if(M)var
 s=P}var
@@ -4457,21 +4464,21 @@ b=0===a[0]?0:1;return ck(b,o)},aE);else
 var
 D=C;if(D){var
 aF=f(z,[0,R,0]),E=ac(e(function(a){return al(c,a)},aF));if(E){var
-aG=v(function(a){return es(o,k,a)},q),F=ac(e(function(a){return hs(c,a)},aG));if(F){var
+aG=v(function(a){return et(o,k,a)},q),F=ac(e(function(a){return ht(c,a)},aG));if(F){var
 m=dB(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lR(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lS(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
-aI=lp(aa[1]),t=ac(e(function(a){return lr(c,a)},aI));else
+aI=lr(aa[1]),t=ac(e(function(a){return lt(c,a)},aI));else
 var
 t=sl;if(t){var
-ab=t[1],y=a[5],aJ=y?lo(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
+ab=t[1],y=a[5],aJ=y?lq(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
 I=ac(cw(function(a,b){return l5(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
-ad=I[1],ae=u(j(f($,ab)),ay);if(ae){var
-aK=hd(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
+ad=I[1],ae=u(h(f($,ab)),ay);if(ae){var
+aK=he(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kJ(c,aM,k,a)};au=1}if(!au)var
+af=function(a){return kK(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eA(l),aR=i(ar(p),aQ),aS=fV(l);return fz(c,V,i(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eB(l),aR=j(ar(p),aQ),aS=dJ(l);return fA(c,V,j(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
 var
 ag=I;var
@@ -4493,7 +4500,7 @@ an=E;var
 ao=an}else
 var
 ao=D;return ao}return L}function
-bC(c){var
+bD(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4502,31 +4509,31 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bC(a[2]);return f(bC(a[1]),e)}}function
+e=bD(a[2]);return f(bD(a[1]),e)}}function
 bk(e,a,b){switch(a[0]){case
 0:var
 r=a[1];return cv([0,[0,r,r],d],b);case
 1:var
-u=a[1],g=e,v=h(d);for(;;){if(g){var
+u=a[1],g=e,v=i(d);for(;;){if(g){var
 n=g[1];if(pr(n[1],u))return n[2];var
 g=g[2];continue}return v}case
 2:return bf(bk(e,a[1],b));case
 3:var
-k=a[2],f=a[1],i=z;break;case
+k=a[2],f=a[1],j=z;break;case
 4:var
-k=a[2],f=a[1],i=t;break;case
+k=a[2],f=a[1],j=t;break;case
 5:var
-k=a[2],f=a[1],i=q;break;case
+k=a[2],f=a[1],j=q;break;case
 6:var
-k=a[2],f=a[1],i=ag;break;case
+k=a[2],f=a[1],j=ag;break;case
 7:var
-l=d7(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
-o=I(m),s=function(a){return q(a,o)},p=e6(bK(jl(l)),s,o);return jk(l)?p:q(p,m)}return m}return h(c);default:return ax(bk(e,a[1],b))}var
-w=bk(e,k,N(b,j(bC(f))));return i(bk(e,f,b),w)}function
+l=d8(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
+o=I(m),s=function(a){return q(a,o)},p=e7(bL(jm(l)),s,o);return jl(l)?p:q(p,m)}return m}return i(c);default:return ax(bk(e,a[1],b))}var
+w=bk(e,k,N(b,h(bD(f))));return j(bk(e,f,b),w)}function
 cA(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,j(bC(e))),l=cA(c,a[2],k),m=f(cA(c,e,b),l);return[0,bk(c,a,b),m];case
+e=a[1],k=N(b,h(bD(e))),l=cA(c,a[2],k),m=f(cA(c,e,b),l);return[0,bk(c,a,b),m];case
 8:var
 n=cA(c,a[1],b);return[0,bk(c,a,b),n];case
 2:case
@@ -4534,51 +4541,51 @@ n=cA(c,a[1],b);return[0,bk(c,a,b),n];case
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],h=N(b,j(bC(d))),i=cA(c,a[2],h);return f(cA(c,d,b),i)}}function
+d=a[1],i=N(b,h(bD(d))),j=cA(c,a[2],i);return f(cA(c,d,b),j)}}function
 l7(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,j(bC(d))),h=a[2],i=bk(c,d,b),k=l7([0,[0,e[1],i],c],h,g);return f(cA(c,d,b),k)}return a}function
-hP(a){return v(bC,a)}function
+e=a[1],d=e[2],g=N(b,h(bD(d))),i=a[2],j=bk(c,d,b),k=l7([0,[0,e[1],j],c],i,g);return f(cA(c,d,b),k)}return a}function
+hQ(a){return v(bD,a)}function
 l8(c,a,b){if(a)var
-d=a[1],f=N(b,j(bC(d))),g=l8(c,a[2],f),e=[0,bk(c,d,b),g];else
+d=a[1],f=N(b,h(bD(d))),g=l8(c,a[2],f),e=[0,bk(c,d,b),g];else
 var
 e=a;return e}function
 l9(c,a,b){if(a){var
-d=a[1],e=N(b,j(bC(d))),g=l9(c,a[2],e);return f(cA(c,d,b),g)}return a}function
-hQ(a){return 0===a[0]?hP(a[1]):bC(a[1])}function
+d=a[1],e=N(b,h(bD(d))),g=l9(c,a[2],e);return f(cA(c,d,b),g)}return a}function
+hR(a){return 0===a[0]?hQ(a[1]):bD(a[1])}function
 l_(c,b,a){if(b){var
-d=b[1],i=N(a,j(hQ(d))),k=l_(c,b[2],i);if(0===d[0])var
+d=b[1],j=N(a,h(hR(d))),k=l_(c,b[2],j);if(0===d[0])var
 g=l9(c,d[1],a);else
 var
-e=d[1],h=cA(c,e,a),g=[0,bk(c,e,a),h];return f(g,k)}return b}function
-fW(c){var
+e=d[1],i=cA(c,e,a),g=[0,bk(c,e,a),i];return f(g,k)}return b}function
+fX(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bL(fW,a)}return[0,b]}function
-hR(c){var
+b=bM(fX,a)}return[0,b]}function
+hS(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hR(a[2]);return q(hR(a[1]),d);case
+d=hS(a[2]);return q(hS(a[1]),d);case
 9:return a[1];default:return I(b)}}}function
 l$(n,g,a,f){if(a){var
-b=a[1],w=N(f,j(hQ(b))),x=l$(n,g,a[2],w);if(0===b[0])var
-l=l8(g,b[1],f),o=[0,l,h(c),l,0,0,0,0];else
+b=a[1],w=N(f,h(hR(b))),x=l$(n,g,a[2],w);if(0===b[0])var
+l=l8(g,b[1],f),o=[0,l,i(c),l,0,0,0,0];else
 var
-m=bk(g,b[1],f),q=fW(m),i=aP(aL(0,n),q),d=fW(i[2]),k=e(fW,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return av(a,d)?h(c):ag(a,d)},k),o=[0,k,hR(d),v,u,t,s,r];var
+m=bk(g,b[1],f),q=fX(m),j=aP(aL(0,n),q),d=fX(j[2]),k=e(fX,j[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aw(a,d)?i(c):ag(a,d)},k),o=[0,k,hS(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
 ma(a){return e(function(a){return[0,a[2],d]},a)}function
 mb(a){var
-b=v(hQ,a[4]),c=f(hP(e(bZ,a[3])),b);return f(ma(a[2]),c)}function
+b=v(hR,a[4]),c=f(hQ(e(b0,a[3])),b);return f(ma(a[2]),c)}function
 mc(a){var
-c=b$(0,ma(a[2])),d=aL(0,j(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aH,a[2]),c);return f(aK(a[1],g),b)}function
-hS(b,d){var
+c=ca(0,ma(a[2])),d=aL(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aH,a[2]),c);return f(aJ(a[1],g),b)}function
+hT(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4587,14 +4594,14 @@ e=a[1];return ak(function(a){return aq(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hS(b,a[1]);if(c){var
+c=hT(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
 md(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pr(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
 me(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=me(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bd,f(c,j)));return ao(h,ao(g,bv(b,k),m),l)}return b}function
+i=a[2],k=a[1],l=me(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bd,f(c,i)));return ao(h,ao(g,bv(b,k),m),l)}return b}function
 mf(a,f,e,d,c,b){if(c){var
 g=0,h=c[1];return me(a,e,d,function(b){return mf(a,f,e,d,h,b)},g,b)}return b?a:f}function
 mg(d,a){if(a){var
@@ -4607,21 +4614,21 @@ b=mg(d,a[1]);if(b)var
 c=mh(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return ss}var
-fY=t(h(c),fX);function
+fZ=t(i(c),fY);function
 mi(e){var
-a=I(fY);if(e)var
-f=q(h(b(2,c)),a),g=z(h(b(2,b(2,c))),f),i=q(h(b(2,c)),a),d=ag(z(h(c),i),g);else
+a=I(fZ);if(e)var
+f=q(i(b(2,c)),a),g=z(i(b(2,b(2,c))),f),h=q(i(b(2,c)),a),d=ag(z(i(c),h),g);else
 var
-j=z(h(b(2,c)),a),k=I(fX),d=ag(z(q(h(b(2,c)),k),a),j);return ax(d)}function
+j=z(i(b(2,c)),a),k=I(fY),d=ag(z(q(i(b(2,c)),k),a),j);return ax(d)}function
 mj(d,b,a){if(d){var
-e=mi(b),f=z(h(c),e),g=q(t(h(c),a),f);return t(h(c),g)}var
-i=h(c),j=mi(b),k=ag(h(c),j);return t(q(a,z(h(c),k)),i)}function
-dJ(f,e,d,a){var
-g=I(a),i=I(d),j=t(t(h(b(2,c)),i),g),k=f?e?fY:ag(fY,q(h(b(2,c)),fX)):ag(fY,h(b(2,c))),l=q(I(k),j);return ax(z(h(c),l))}function
+e=mi(b),f=z(i(c),e),g=q(t(i(c),a),f);return t(i(c),g)}var
+h=i(c),j=mi(b),k=ag(i(c),j);return t(q(a,z(i(c),k)),h)}function
+dK(f,e,d,a){var
+g=I(a),h=I(d),j=t(t(i(b(2,c)),h),g),k=f?e?fZ:ag(fZ,q(i(b(2,c)),fY)):ag(fZ,i(b(2,c))),l=q(I(k),j);return ax(z(i(c),l))}function
 mk(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hT(v,u,t){var
+hU(v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4629,10 +4636,10 @@ g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
-j=d[1];if(j){if(d[2])return 0;var
-w=j[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=i(a,w),d=i(a,x),e=i(a,y),b=i(a,z);return dt([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-k=j}else
+i=d[1];if(i){if(d[2])return 0;var
+w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
+c=j(a,w),d=j(a,x),e=j(a,y),b=j(a,z);return dt([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+k=i}else
 var
 k=d;var
 l=k}else
@@ -4656,7 +4663,7 @@ s=a;return s}function
 ml(f,i,e,b,h){var
 j=f?c:d,a=W(i,j);function
 g(b){var
-c=f?eb(b):dq(b);return D(c,a)}var
+c=f?ec(b):dq(b);return D(c,a)}var
 k=[0,ae(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
 mm(r,g,q,p,f,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
@@ -4667,16 +4674,16 @@ a=0;b=1;c=1}else{var
 t=i[1],k=h[1],l=f[1],d=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aB,bh(sv)),z=e(ae,0),a=hT(p,bM(0,b7(g,ej(0,f),z),q,0),A);b=1;c=1;d=1;break;case
+A=e(aB,bh(sv)),z=e(ae,0),a=hU(p,bN(0,b8(g,ek(0,f),z),q,0),A);b=1;c=1;d=1;break;case
 3:var
 a=H(k[2],l[1]);b=1;c=1;d=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mk,sw),a=hT(p,bM(0,b7(g,ml(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
+B=e(mk,sw),a=hU(p,bN(0,b8(g,ml(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
 a=m;b=1;c=1;d=1}else
 if(m){var
 a=0;b=1;c=1;d=1}else{var
-C=e(mk,sx),a=hT(p,bM(0,b7(g,ml(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+C=e(mk,sx),a=hU(p,bN(0,b8(g,ml(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
 u=0}else
 var
 u=i;if(!c)var
@@ -4693,20 +4700,20 @@ mn(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
 h=mm(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
 i=mm(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ek(a[2],b),l=mn(f,e,d,c,k[1],j,a[3]);if(l){var
+j=i[1],k=el(a[2],b),l=mn(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hU(a){return jr(b(2,c),aG(a,c))}function
-dK(j,a,e,w,v){var
-m=a?c:P(c),f=h(m),g=mj(a,e,st),i=mj(a,e,su),n=ag(g,dJ(a,e,f,g)),o=[0,z(ag(i,dJ(a,e,i,f)),n),0],p=ag(f,dJ(a,e,f,g)),r=[0,z(ag(i,dJ(a,e,g,i)),p),o],s=ag(f,dJ(a,e,i,f)),t=[0,z(ag(g,dJ(a,e,g,i)),s),r],u=a?e?h(b(2,c)):q(h(b(2,b(2,c))),fX):h(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mn(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-mo(a,g,b){if(L(g,hU(a))){if(b){var
+hV(a){return js(b(2,c),aG(a,c))}function
+dL(j,a,e,w,v){var
+m=a?c:P(c),f=i(m),g=mj(a,e,st),h=mj(a,e,su),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(h,dK(a,e,h,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(h,dK(a,e,g,h)),p),o],s=ag(f,dK(a,e,h,f)),t=[0,z(ag(g,dK(a,e,g,h)),s),r],u=a?e?i(b(2,c)):q(i(b(2,b(2,c))),fY):i(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mn(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+mo(a,g,b){if(L(g,hV(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hU(a)],v=cL(a),i=[0,hU(a),v],j=dK(a,0,1,h,b[1]),k=j?dK(a,0,0,i,c[1]):j;if(k){var
-l=dK(a,1,1,h,d[1]);if(l)return dK(a,1,0,i,e[1]);var
+h=[0,g,hV(a)],v=cL(a),i=[0,hV(a),v],j=dL(a,0,1,h,b[1]),k=j?dL(a,0,0,i,c[1]):j;if(k){var
+l=dL(a,1,1,h,d[1]);if(l)return dL(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4723,65 +4730,65 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cL(a)],s=dK(a,0,0,r,b[1]);if(s)return dK(a,1,0,r,f[1]);var
+r=[0,g,cL(a)],s=dL(a,0,0,r,b[1]);if(s)return dL(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hV(a){var
+hW(a){var
 b=[1,[2,d]];return dk(function(b,a){return[1,[3,b,a]]},a,b)}function
-fZ(a){return hV(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-f0(a,c){return hV(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hV(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+f0(a){return hW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+f1(a,c){return hW(e(function(a){var
+d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
 mp(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bL(function(a){return mp(e,d,c,b,a)},f);return i(b7(e,d,c),g)}function
+f=a[1],g=bM(function(a){return mp(e,d,c,b,a)},f);return j(b8(e,d,c),g)}function
 mq(a){return a?L(d,a[1][2][1]):a}function
 sz(a){var
-b=u(j(a),sA);return b?ak(function(a){return $(_(a,d))},a):b}function
+b=u(h(a),sA);return b?ak(function(a){return $(_(a,d))},a):b}function
 mr(c,f,b,a){if(b)if(a)var
 d=b[1],g=x(c,W(c,a[1]),f),h=mr(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-f1(b,a){return d_(d_(b,0),a)}function
-hW(a){if(a){var
-b=a[2],c=a[1];if(b)return f1(c,[0,sC,hW(b)]);var
+f2(b,a){return d$(d$(b,0),a)}function
+hX(a){if(a){var
+b=a[2],c=a[1];if(b)return f2(c,[0,sC,hX(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,sE,f1(hW(a),sD)]}function
-aa(a){return[0,sG,f1(hW(a),sF)]}function
+C(a){return[0,sE,f2(hX(a),sD)]}function
+aa(a){return[0,sG,f2(hX(a),sF)]}function
 am(a){return[0,sI,[0,a,sH]]}function
 l(b,a){return[0,aT(sK,aT(b,sJ)),a]}function
 J(b,a){return aa([0,l(b,a),0])}function
 cd(d){var
 b=d,a=pW,e=0;for(;;){if(b){var
-c=ji(a),b=b[1],a=c;continue}return[0,d$(e5(a)),e]}}function
-hX(a){return[0,d$(e$(a)),0]}function
-f2(a){var
-c=a9(a),f=0,b=0===c?p1:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
-d=d$(b[1]);else
+c=jj(a),b=b[1],a=c;continue}return[0,ea(e6(a)),e]}}function
+hY(a){return[0,ea(fa(a)),0]}function
+f3(a){var
+c=a9(a),f=0,b=0===c?p1:0<c?[0,fa(a)]:[1,fa(P(a))];if(0===b[0])var
+d=ea(b[1]);else
 var
-e=d$(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
-hY(a){var
-b=0,c=0<a9(a)?e$(a):p0;return[0,d$(c),b]}function
-hZ(a){switch(a[0]){case
+e=ea(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
+hZ(a){var
+b=0,c=0<a9(a)?fa(a):p0;return[0,ea(c),b]}function
+h0(a){switch(a[0]){case
 2:return sM;case
 3:return 2<=a[1]?sN:sO;case
 4:return sP;default:return sL}}function
-eB(b,a){function
-c(c,a){return V(c,hZ(a))?eB(b,a):[0,sV,f(eB(b,a),sU)]}switch(a[0]){case
+eC(b,a){function
+c(c,a){return V(c,h0(a))?eC(b,a):[0,sV,f(eC(b,a),sU)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,a2(g),0];var
 h=[0,sW,[0,a2(e),0]];return[0,a2(g),h];case
-1:return[0,i(b,a[1]),0];case
+1:return[0,j(b,a[1]),0];case
 2:return[0,sY,c(sX,a[1])];case
 3:var
-j=a[3],k=c([0,hZ(a)],j);switch(a[1]){case
+i=a[3],k=c([0,h0(a)],i);switch(a[1]){case
 0:var
 d=sQ;break;case
 1:var
@@ -4789,17 +4796,17 @@ d=sR;break;case
 2:var
 d=sS;break;default:var
 d=sT}var
-l=a[2];return f(c(hZ(a),l),[0,d,k]);case
+l=a[2];return f(c(h0(a),l),[0,d,k]);case
 4:var
-m=[0,sZ,hX(a[2])];return f(c(s0,a[1]),m);default:return[0,s2,f(eB(b,a[1]),s1)]}}function
-K(a){return[0,s5,f(eB(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
-h0(a){return[0,s7,f(eB(function(a){return a},a),s6)]}function
+m=[0,sZ,hY(a[2])];return f(c(s0,a[1]),m);default:return[0,s2,f(eC(b,a[1]),s1)]}}function
+K(a){return[0,s5,f(eC(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
+h1(a){return[0,s7,f(eC(function(a){return a},a),s6)]}function
 ce(a){if(0===a[0])return K(a[1]);var
 b=[0,l(s8,K(a[2])),0];return aa([0,l(s9,K(a[1])),b])}function
-f3(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return C([0,i(b,a[1]),d])}function
+f4(b,a){var
+c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return C([0,j(b,a[1]),d])}function
 s_(a){function
-b(a){return f3(ce,a)}switch(a[0]){case
+b(a){return f4(ce,a)}switch(a[0]){case
 0:var
 e=0,g=a[5]?s$:th,h=[0,l(ta,am(g)),e],i=[0,l(tb,ce(a[4])),h],j=[0,l(tc,b(a[3])),i],k=[0,l(td,b(a[2])),j],m=[0,l(te,b(a[1])),k],c=[0,l(tg,am(tf)),m];break;case
 1:var
@@ -4814,7 +4821,7 @@ f=[0,d(a[5]),0],g=[0,l(tu,ce(a[4])),f],h=[0,l(tv,b(a[3])),g],i=[0,l(tw,b(a[2])),
 1:var
 k=[0,l(tA,b(a[2])),0],m=[0,l(tB,b(a[1])),k],c=[0,l(tD,am(tC)),m];break;default:var
 n=[0,d(a[7]),0],o=[0,l(tE,ce(a[6])),n],p=[0,l(tF,ce(a[5])),o],q=[0,l(tG,b(a[4])),p],r=[0,l(tH,b(a[3])),q],s=[0,l(tI,b(a[2])),r],t=[0,l(tJ,b(a[1])),s],c=[0,l(tL,am(tK)),t]}return aa(c)}function
-h1(a){switch(a){case
+h2(a){switch(a){case
 0:return tM;case
 1:return tN;case
 2:return tO;case
@@ -4830,12 +4837,12 @@ h1(a){switch(a){case
 12:return tY;case
 13:return tZ;case
 14:return t0;default:return t1}}function
-h2(a){if(typeof
+h3(a){if(typeof
 a==="number")return t2;else
 switch(a[0]){case
 0:return t3;case
 1:return t4;default:return t5}}function
-eC(a){var
+eD(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
@@ -4845,7 +4852,7 @@ d=[0,l(t6,K(b[1])),0];break;case
 1:var
 d=[0,l(t7,K(b[1])),0];break;default:var
 n=[0,K(b[2]),0],d=[0,l(t8,C([0,K(b[1]),n])),0]}var
-o=[0,l(t9,am(h2(a[4]))),d],g=a[3];if(g){var
+o=[0,l(t9,am(h3(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
 q=C([0,K(c[1]),0]),j=a[1],p=0,r=6===j?t_:12===j?uc:ud,h=[0,l(t$,J(r,q)),p];break;case
@@ -4855,9 +4862,9 @@ y=[0,l(ui,C([0,K(c[2]),0])),0],h=[0,l(uk,aa([0,l(uj,C([0,K(c[1]),0])),y])),0]}va
 k=h}else
 var
 k=g;var
-s=f(k,o),i=a[2],t=i?[0,l(ua,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(ub,am(h1(a[1]))),u])}function
+s=f(k,o),i=a[2],t=i?[0,l(ua,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(ub,am(h2(a[1]))),u])}function
 ms(a){if(0===a[0]){var
-b=[0,l(ul,f3(K,a[2])),0];return J(un,aa([0,l(um,f3(K,a[1])),b]))}var
+b=[0,l(ul,f4(K,a[2])),0];return J(un,aa([0,l(um,f4(K,a[1])),b]))}var
 c=[0,K(a[5]),0],d=[0,l(uo,C([0,K(a[4]),c])),0],e=[0,l(up,K(a[3])),d],f=[0,K(a[2]),0];return J(ur,aa([0,l(uq,C([0,K(a[1]),f])),e]))}function
 mt(a){if(0===a[0]){var
 b=[0,l(us,C(e(K,a[2]))),0];return J(uu,aa([0,l(ut,C(e(K,a[1]))),b]))}return ms([1,a[1],a[2],a[3],a[4],a[5]])}function
@@ -4876,18 +4883,18 @@ c=a[3],d=a[2],e=a[1],f=[0,l(uE,b(c[1],c[2])),0],g=[0,l(uF,b(d[1],d[2])),f];retur
 2:return J(uI,K(a[1]));default:var
 h=[0,l(uJ,K(a[2])),0];return J(uL,aa([0,l(uK,K(a[1])),h]))}}function
 uM(a){function
-b(a){return f3(K,a)}if(0===a[0])var
+b(a){return f4(K,a)}if(0===a[0])var
 c=a[5],e=c?[0,l(uN,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uO,C([0,K(a[3]),g])),0],i=[0,l(uP,K(a[2])),h],j=[0,l(uQ,cd(a[1])),i],d=f([0,l(uS,am(uR)),j],e);else
 var
 k=[0,l(uT,K(a[4])),0],m=[0,l(uU,b(a[3])),k],n=[0,l(uV,b(a[2])),m],o=a[1]?uW:uY,d=[0,l(uX,am(o)),n];return aa(d)}function
 mw(a){var
 b=a?[0,l(uZ,C(e(uM,a))),0]:a;return b}function
-h3(d,c,b,a){var
-g=[0,l(u0,C(e(eC,a))),0],h=f(mw(b),g),i=[0,l(u1,ms(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
+h4(d,c,b,a){var
+g=[0,l(u0,C(e(eD,a))),0],h=f(mw(b),g),i=[0,l(u1,ms(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
 u4(a){switch(a[0]){case
-0:return J(u5,h3(a[1],a[2],a[3],a[4]));case
+0:return J(u5,h4(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eC,a[6]))),0],n=b?[0,l(u7,mv(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mt(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eD,a[6]))),0],n=b?[0,l(u7,mv(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mt(a[4])),o];if(typeof
 d==="number")if(d)var
 h=u9;else{var
 i=J(vc,g);k=1}else
@@ -4895,90 +4902,90 @@ var
 h=mu(d[1]);if(!k)var
 q=c?[0,l(u_,K(c[1])),0]:c,i=J(h,aa([0,l(u$,g),q]));return J(vb,aa([0,l(va,i),p]));case
 2:var
-r=[0,l(vd,C(e(eC,a[7]))),0],s=f(mw(a[6]),r),t=[0,l(ve,mv(a[5])),0],u=[0,l(vf,mt(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mu(a[1]),w)),u],s)));case
+r=[0,l(vd,C(e(eD,a[7]))),0],s=f(mw(a[6]),r),t=[0,l(ve,mv(a[5])),0],u=[0,l(vf,mt(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mu(a[1]),w)),u],s)));case
 3:var
-x=[0,l(vk,C(e(eC,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h0,a[1]))):J(vq,h0(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
-b=[0,h0(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vt,C(e(function(a){var
+x=[0,l(vk,C(e(eD,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h1,a[1]))):J(vq,h1(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
+b=[0,h1(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vt,C(e(function(a){var
 b=[0,ce(a[2]),0];return C([0,am(a[1]),b])},G))),F];return J(vx,aa([0,l(vw,J(vv,aa([0,l(vu,C(e(am,a[1]))),H]))),z]));case
 4:var
-I=[0,l(vy,C(e(eC,a[3]))),0],L=[0,l(vB,J(vA,aa([0,l(vz,K(a[2])),0]))),I];return J(vF,aa([0,l(vE,J(vD,aa([0,l(vC,K(a[1])),0]))),L]));case
+I=[0,l(vy,C(e(eD,a[3]))),0],L=[0,l(vB,J(vA,aa([0,l(vz,K(a[2])),0]))),I];return J(vF,aa([0,l(vE,J(vD,aa([0,l(vC,K(a[1])),0]))),L]));case
 5:var
-M=[0,l(vG,K(a[5])),0];return J(vI,aa([0,l(vH,h3(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,l(vG,K(a[5])),0];return J(vI,aa([0,l(vH,h4(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
 j=a[1],N=0,O=j?ce(j[1]):am(vL);return J(vK,aa([0,l(vJ,O),N]));default:var
-P=[0,l(vM,K(a[6])),0],Q=[0,l(vN,K(a[5])),P],R=[0,l(vO,h3(a[2],a[3],0,a[4])),Q],S=a[1];return J(vT,aa([0,l(vS,C(e(function(a){var
+P=[0,l(vM,K(a[6])),0],Q=[0,l(vN,K(a[5])),P],R=[0,l(vO,h4(a[2],a[3],0,a[4])),Q],S=a[1];return J(vT,aa([0,l(vS,C(e(function(a){var
 b=[0,l(vP,K(a[2][2])),0],c=[0,l(vQ,K(a[2][1])),b];return aa([0,l(vR,am(a[1])),c])},S))),R]))}}function
-eD(a){return C(e(f2,a))}function
-f4(b,a){var
-c=[0,l(vU,hY(a)),0];return aa([0,l(vV,C(e(eD,b))),c])}function
-eE(a){switch(a[0]){case
+eE(a){return C(e(f3,a))}function
+f5(b,a){var
+c=[0,l(vU,hZ(a)),0];return aa([0,l(vV,C(e(eE,b))),c])}function
+eF(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=f4(a[2],a[3]);return J(a[1],b);case
+b=f5(a[2],a[3]);return J(a[1],b);case
 2:var
 c=a[1]?vW:vY;return J(vX,am(c));case
 3:var
-d=[0,eD(a[3]),0];return J(vZ,C([0,f4(a[1],a[2]),d]));case
+d=[0,eE(a[3]),0];return J(vZ,C([0,f5(a[1],a[2]),d]));case
 4:var
-f=[0,cd(0),0],g=[0,f2(a[3]),f];return J(v0,C([0,f4(a[1],a[2]),g]));case
+f=[0,cd(0),0],g=[0,f3(a[3]),f];return J(v0,C([0,f5(a[1],a[2]),g]));case
 5:var
-h=[0,hY(a[3]),0],i=[0,f2(a[2]),h];return J(v1,C([0,eE(a[1]),i]));case
+h=[0,hZ(a[3]),0],i=[0,f3(a[2]),h];return J(v1,C([0,eF(a[1]),i]));case
 6:var
-j=[0,hY(a[3]),0],k=[0,f2(a[2]),j];return J(v2,C([0,eE(a[1]),k]));case
-7:return J(v3,eE(a[1]));default:var
-l=[0,C(e(eD,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eE(a[1]),m]))}}function
+j=[0,hZ(a[3]),0],k=[0,f3(a[2]),j];return J(v2,C([0,eF(a[1]),k]));case
+7:return J(v3,eF(a[1]));default:var
+l=[0,C(e(eE,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eF(a[1]),m]))}}function
 v5(a){var
-b=[0,eE(a[2]),0];return C([0,cd(a[1]),b])}function
+b=[0,eF(a[2]),0];return C([0,cd(a[1]),b])}function
 mx(a){if(typeof
 a==="number")return 0===a?am(v6):am(v7);else
 switch(a[0]){case
 0:var
-b=[0,C(e(eD,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
+b=[0,C(e(eE,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
 1:var
 c=[0,cd(a[2]),0];return J(v9,C([0,cd(a[1]),c]));default:return J(v_,C(e(K,a[1])))}}function
 v$(a){var
-b=a[4],h=b?[0,l(wa,eD([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mx(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+b=a[4],h=b?[0,l(wa,eE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mx(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
 my(g,a,d){var
 h=[0,l(we,C(e(v$,d))),0];if(a)var
-b=a[1],c=[0,l(wf,f4(b[1],b[2])),0];else
+b=a[1],c=[0,l(wf,f5(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return aa([0,l(wg,hX(g)),i])}function
+i=f(c,h);return aa([0,l(wg,hY(g)),i])}function
 mz(d,c,a,b){var
-g=[0,l(wh,mx(b)),0],h=a?[0,l(wi,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wj,C(e(K,c))),0];return aa(f([0,l(wk,hX(d)),j],i))}function
+g=[0,l(wh,mx(b)),0],h=a?[0,l(wi,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wj,C(e(K,c))),0];return aa(f([0,l(wk,hY(d)),j],i))}function
 wl(a){if(typeof
 a==="number")return am(wm);else
 switch(a[0]){case
 0:return J(wn,cd(a[1]));case
 1:return J(wo,my(a[1],a[2],a[3]));default:return J(wp,mz(a[1],a[2],a[3],a[4]))}}function
-f5(a){var
-b=gO(gN(ap(a),function(b){return aN(a,b)}));return n(function(a){var
-b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?V(wE,fc(a)):c;return d?V(fc(a),wF):d},b)}function
-eF(b){function
+f6(a){var
+b=gP(gO(ap(a),function(b){return aN(a,b)}));return n(function(a){var
+b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?V(wE,fd(a)):c;return d?V(fd(a),wF):d},b)}function
+eG(b){function
 c(f){var
-a=fc(f),b=V(wG,a),c=b?V(a,wH):b;if(c)var
+a=fd(f),b=V(wG,a),c=b?V(a,wH):b;if(c)var
 d=c;else{var
 e=V(wI,a);if(e)return V(a,wJ);var
 d=e}return d}var
-a=gO(gN(ap(b),function(a){return aN(b,a)}));if(a){var
+a=gP(gO(ap(b),function(a){return aN(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fc(a),f=V(wK,e),h=f?V(e,wL):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?V(j(d),wM):f;if(g)return $(aq(b,wN));var
-h=g}else
+e=fd(a),f=V(wK,e),h=f?V(e,wL):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),wM):f;if(g)return $(aq(b,wN));var
+i=g}else
 var
-h=a;return h}function
-h4(c){var
+i=a;return i}function
+h5(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eF(a[1]);case
+1:return eG(a[1]);case
 3:var
-b=h4(a[2]);if(b){var
+b=h5(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eG(m){var
+eH(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4989,24 +4996,24 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=e5(a[2]);if(typeof
+f=e6(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eG(a[2]);if(i){var
+i=eH(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eG(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eH(a[1]),l=k?e_(b(2,c),j):k;return l?e_(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
-dL(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bD(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c2(a){return v(dL,bD(a))}function
-h5(a){switch(a[0]){case
+dM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+c2(a){return v(dM,bE(a))}function
+h6(a){switch(a[0]){case
 0:var
-c=dL(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
+c=dM(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
 1:var
 b=a[3],g=b?c2(b[1]):b,h=f(c2(a[2]),g);return f(c2(a[1]),h);default:return c2(a[1])}}function
 wO(a){switch(a[0]){case
@@ -5014,10 +5021,10 @@ wO(a){switch(a[0]){case
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dL,b)}function
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dM,b)}function
 mA(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 mB(a){if(0===a[0]){var
-b=bD(a[2]);return f(bD(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+b=bE(a[2]);return f(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 mC(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
@@ -5035,8 +5042,8 @@ g=d}else
 var
 g=c;return f(g,h)}function
 mD(a){if(0===a[0]){var
-b=a[5],c=b?bD(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bD(a[3]),d);return f(bD(a[2]),e)}function
+b=a[5],c=b?bE(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bE(a[3]),d);return f(bE(a[2]),e)}function
 mE(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
@@ -5047,16 +5054,16 @@ f=c[1];return ak(function(a){return aq(f,a)},b)}return 0;case
 d=mE(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eH(c,a){return n(function(a){var
-b=eG(a);return b?mE(c,a):b},a)}function
+eI(c,a){return n(function(a){var
+b=eH(a);return b?mE(c,a):b},a)}function
 mF(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
 mG(a){var
-d=e9(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e9(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+d=e_(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e_(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
 mH(a,b){return b?[4,mH(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jg(i),l,c);return[0,jt(jh(e5(a[1]),i)),m];case
+i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e7(jh(i),l,c);return[0,ju(ji(e6(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5067,30 +5074,30 @@ g=k(a[2]),h=k(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bK(d7(a[2]));return mH(k(a[1]),n);default:return[6,k(a[1])]}}function
-bE(a){if(0===a[0]){var
+n=bL(d8(a[2]));return mH(k(a[1]),n);default:return[6,k(a[1])]}}function
+bF(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
 c4(a){var
-b=bE(a[3]),c=bE(a[2]);return[0,bE(a[1]),c,b]}function
+b=bF(a[3]),c=bF(a[2]);return[0,bF(a[1]),c,b]}function
 wP(a){switch(a[0]){case
 0:var
-b=a[5],c=bE(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
+b=a[5],c=bF(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
 1:var
 f=w(c4,a[3]),g=c4(a[2]);return[1,c4(a[1]),g,f];default:return[2,c4(a[1])]}}function
 mI(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
-dM(a){var
+b=k(j(a,c));return[0,k(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=k(a[5]),h=[0,k(a[4]),g],i=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,i,h]}function
+dN(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
 cB(a){if(0===a[0]){var
-b=a[5],h=b?dM(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bK(a[1]),l,j,i,h]}var
+b=a[5],h=b?dN(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bL(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dM(f),n=dM(g);return[2,k(e),n,m]}var
-o=dM(f),p=dM(g);return[1,k(e),p,o]}function
-f6(b,a){if(a){var
-c=a[1],d=a[2],g=f6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
+m=dN(f),n=dN(g);return[2,k(e),n,m]}var
+o=dN(f),p=dN(g);return[1,k(e),p,o]}function
+f7(b,a){if(a){var
+c=a[1],d=a[2],g=f7(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:ck(b[1],a[1]);return $(d)},h),g)}return a}function
 wQ(b){if(b[1])return 0;var
 a=b[4];if(typeof
@@ -5155,11 +5162,11 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=f6(0,S);return e(function(h){var
+ac=t[1],ad=f7(0,S);return e(function(h){var
 e=k(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
-g=function(a){return a?dM(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bK(f),m,l,j]}var
+g=function(a){return a?dN(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bL(f),m,l,j]}var
 n=cB(a);return[10,cB(b),n,e]}var
 o=cB(a);return[10,cB(b),o,e]}var
 p=cB(a);return[10,cB(b),p,e]},ad)}return 0;case
@@ -5186,7 +5193,7 @@ ai=k(y[1]);return[0,[14,k(J[1]),ai],0]}var
 K=0}else
 var
 K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bK(B[1]),0]:aL(0,T);return e(b,V)}function
+B=a[2],V=B?[0,bL(B[1]),0]:aL(0,T);return e(b,V)}function
 wT(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
@@ -5227,7 +5234,7 @@ y!=="number"&&0===y[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 z=f[1];switch(z[0]){case
 0:return 1;case
-1:return u(j(z[1]),c);default:return 0}}return f}return 0;case
+1:return u(h(z[1]),c);default:return 0}}return f}return 0;case
 7:var
 A=a[4];if(typeof
 A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5253,16 +5260,16 @@ G!=="number"&&0===G[0])return a[2]?0:a[3]?0:1;return 0;case
 X=0,H=a[4];if(typeof
 H==="number"||!(1===H[0]))X=1;else{var
 I=a[2];if(!I){var
-i=a[3];if(i){if(2===i[1][0])return 1;var
+j=a[3];if(j){if(2===j[1][0])return 1;var
 K=0}else
 var
-K=i;return K}var
-h=a[3],Y=0;if(h)if(2===h[1][0]){var
+K=j;return K}var
+i=a[3],Y=0;if(i)if(2===i[1][0]){var
 b=I[1];Y=1}else
 var
 J=0;else
 var
-J=h;if(!Y)return J}if(X)return 0;break;case
+J=i;if(!Y)return J}if(X)return 0;break;case
 11:var
 L=typeof
 a[4]==="number"?1:0;if(L){if(a[2])return 0;if(a[3])return 0;var
@@ -5277,15 +5284,15 @@ O=0}else
 var
 O=k;return O}return 0;default:return 0}var
 o=V(wU,b);return o?V(b,c):o}function
-h6(c,k,i,b){var
-l=j(c),d=v(function(a){return wR(l,i,a)},b),a=v(wQ,b),g=a?[0,a[1],a[2]]:wX,h=f(g,d),m=mI(k);return[0,e(wP,c),m,h]}function
+h7(c,k,j,b){var
+l=h(c),d=v(function(a){return wR(l,j,a)},b),a=v(wQ,b),g=a?[0,a[1],a[2]]:wX,i=f(g,d),m=mI(k);return[0,e(wP,c),m,i]}function
 mJ(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
 mK(b){function
 a(a){return r(a,e(k,b),[0,d,c])}var
 f=a(wY),g=a(wZ);return[0,a(0),g,f]}function
-h7(Y,X,W,a){switch(a[1]){case
+h8(Y,z,X,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
@@ -5300,95 +5307,95 @@ $=c[1],b=function(a){return[3,a,k($)]};break;default:var
 aa=c[2],ab=c[1],b=function(a){var
 b=k(aa);return[4,a,k(ab),b]}}break;case
 2:var
-f=a[4],K=0;if(typeof
-f==="number"||!(1===f[0]))K=1;else{var
-g=a[3],L=0,ac=f[1];if(g){var
-z=g[1];if(0===z[0]){var
-ad=z[1],b=function(a){var
-b=k(ad),c=k(ac);return Y?[9,a,b,c]:[6,a,b,c]};L=1}else
+f=a[4],L=0;if(typeof
+f==="number"||!(1===f[0]))L=1;else{var
+g=a[3],M=0,ac=f[1];if(g){var
+B=g[1];if(0===B[0]){var
+ad=B[1],b=function(a){var
+b=k(ad),c=k(ac);return Y?[9,a,b,c]:[6,a,b,c]};M=1}else
 var
-A=0}else
+C=0}else
 var
-A=g;if(!L)return A}if(K)return 0;break;case
+C=g;if(!M)return C}if(L)return 0;break;case
 3:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0])return[0,[5,k(h[1])],0];return 0;case
 4:var
-i=a[4],M=0;if(typeof
-i==="number"||!(0===i[0]))M=1;else
+i=a[4],N=0;if(typeof
+i==="number"||!(0===i[0]))N=1;else
 var
-ae=i[1],b=function(a){return[10,a,k(ae)]};if(M)return 0;break;case
+ae=i[1],b=function(a){return[10,a,k(ae)]};if(N)return 0;break;case
 5:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0])return[0,[12,k(j[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
-m=a[3];if(m){var
-B=m[1];if(0===B[0]){var
-af=k(l[1]);return[0,[8,k(B[1]),af],0]}var
-C=0}else
-var
-C=m;return C}return 0;case
+D=l[1],m=a[3];if(m){var
+n=m[1];switch(n[0]){case
+0:var
+af=k(D);return[0,[8,av(k(n[1]),z),af],0];case
+1:var
+ag=k(D);return[0,[8,e(k,n[1]),ag],0];default:return 0}}return m}return 0;case
 8:var
-n=a[4],N=0;if(typeof
-n==="number"||!(1===n[0]))N=1;else{var
-o=a[3],O=0,ag=n[1];if(o){var
-D=o[1];if(0===D[0]){var
-ah=D[1],b=function(a){var
-b=k(ag);return[7,a,k(ah),b]};O=1}else
-var
-E=0}else
-var
-E=o;if(!O)return E}if(N)return 0;break;case
-9:var
-p=a[4];if(typeof
-p!=="number"&&0===p[0]){var
-ai=p[1],aj=f6(0,W);return e(function(a){var
-b=k(ai),c=cB(a[2]);return[14,cB(a[1]),c,b]},aj)}return 0;case
-10:var
-q=a[4],P=0;if(typeof
-q==="number"||!(1===q[0]))P=1;else{var
-r=a[3],Q=0,ak=q[1];if(r){var
-s=r[1];if(2===s[0]){var
-al=s[2],am=s[1],b=function(a){var
-b=k(ak),c=k(al);return[15,a,k(am),c,b]};Q=1}else
+o=a[4],O=0;if(typeof
+o==="number"||!(1===o[0]))O=1;else{var
+p=a[3],P=0,ah=o[1];if(p){var
+E=p[1];if(0===E[0]){var
+ai=E[1],b=function(a){var
+b=k(ah);return[7,a,k(ai),b]};P=1}else
 var
 F=0}else
 var
-F=r;if(!Q)return F}if(P)return 0;break;case
+F=p;if(!P)return F}if(O)return 0;break;case
+9:var
+q=a[4];if(typeof
+q!=="number"&&0===q[0]){var
+aj=q[1],ak=f7(0,X);return e(function(a){var
+b=k(aj),c=cB(a[2]);return[14,cB(a[1]),c,b]},ak)}return 0;case
+10:var
+r=a[4],Q=0;if(typeof
+r==="number"||!(1===r[0]))Q=1;else{var
+s=a[3],R=0,al=r[1];if(s){var
+t=s[1];if(2===t[0]){var
+am=t[2],an=t[1],b=function(a){var
+b=k(al),c=k(am);return[15,a,k(an),c,b]};R=1}else
+var
+G=0}else
+var
+G=s;if(!R)return G}if(Q)return 0;break;case
 13:var
-t=a[4],R=0;if(typeof
-t==="number"||!(1===t[0]))R=1;else
-var
-an=t[1],b=function(a){return[11,a,k(an)]};if(R)return 0;break;case
-14:var
 u=a[4],S=0;if(typeof
-u==="number"||!(1===u[0]))S=1;else{var
-v=a[3],T=0,ao=u[1];if(v){var
-G=v[1];if(1===G[0]){var
-ap=G[1],b=function(a){var
-b=k(ao);return[13,a,0,mK(ap),b]};T=1}else
+u==="number"||!(1===u[0]))S=1;else
 var
-H=0}else
+ao=u[1],b=function(a){return[11,a,k(ao)]};if(S)return 0;break;case
+14:var
+v=a[4],T=0;if(typeof
+v==="number"||!(1===v[0]))T=1;else{var
+w=a[3],U=0,ap=v[1];if(w){var
+H=w[1];if(1===H[0]){var
+aq=H[1],b=function(a){var
+b=k(ap);return[13,a,0,mK(aq),b]};U=1}else
 var
-H=v;if(!T)return H}if(S)return 0;break;case
+I=0}else
+var
+I=w;if(!U)return I}if(T)return 0;break;case
 15:var
-w=a[4],U=0;if(typeof
-w==="number"||!(1===w[0]))U=1;else{var
-x=a[3],V=0,aq=w[1];if(x){var
-I=x[1];if(1===I[0]){var
-ar=I[1],b=function(a){var
-b=k(aq);return[13,a,1,mK(ar),b]};V=1}else
+x=a[4],V=0;if(typeof
+x==="number"||!(1===x[0]))V=1;else{var
+y=a[3],W=0,ar=x[1];if(y){var
+J=y[1];if(1===J[0]){var
+as=J[1],b=function(a){var
+b=k(ar);return[13,a,1,mK(as),b]};W=1}else
 var
-J=0}else
+K=0}else
 var
-J=x;if(!V)return J}if(U)return 0;break;default:return 0}var
-y=a[2],_=y?[0,bK(y[1]),0]:aL(0,X);return e(b,_)}function
-dN(e,d,c,b){var
-g=v(function(a){return h7(e,d,c,a)},b),a=v(mJ,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
-f7(a){return 11===a[1]?1:0}function
-bR(n,m,a){var
+K=y;if(!W)return K}if(V)return 0;break;default:return 0}var
+A=a[2],_=A?[0,bL(A[1]),0]:aL(0,z);return e(b,_)}function
+dO(e,d,c,b){var
+g=v(function(a){return h8(e,d,c,a)},b),a=v(mJ,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
+f8(a){return 11===a[1]?1:0}function
+bS(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5407,24 +5414,31 @@ j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bl(n,b,a){var
+bl(r,b,a){var
 d=a[2];if(d)var
-e=d[1],f=V(w2,e),o=f?V(e,b):f,c=o;else
+e=d[1],f=V(w2,e),s=f?V(e,b):f,c=s;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
 2:var
-h=a[4];if(typeof
-h!=="number"&&1===h[0]){var
-i=a[3];return i?0===i[1][0]?c:bR(0,b,a):bR(0,b,a)}return bR(0,b,a);case
+i=a[4];if(typeof
+i!=="number"&&1===i[0]){var
+j=a[3];return j?0===j[1][0]?c:bS(0,b,a):bS(0,b,a)}return bS(0,b,a);case
 6:var
-j=a[4];if(typeof
-j!=="number"&&0===j[0]){var
-k=a[3];return k?0===k[1][0]?a[2]?0:1:bR(0,b,a):bR(0,b,a)}return bR(0,b,a);case
+k=a[4];if(typeof
+k!=="number"&&0===k[0]){var
+l=a[3];if(l){var
+m=l[1];switch(m[0]){case
+0:return a[2]?0:1;case
+1:var
+n=u(h(m[1]),b);if(n){if(a[2])return 0;var
+o=1}else
+var
+o=n;return o;default:return bS(0,b,a)}}return bS(0,b,a)}return bS(0,b,a);case
 8:var
-l=a[4];if(typeof
-l!=="number"&&1===l[0]){var
-m=a[3];return m?0===m[1][0]?c?u(b,n):c:bR(0,b,a):bR(0,b,a)}return bR(0,b,a)}return bR(0,b,a)}function
+p=a[4];if(typeof
+p!=="number"&&1===p[0]){var
+q=a[3];return q?0===q[1][0]?c?u(b,r):c:bS(0,b,a):bS(0,b,a)}return bS(0,b,a)}return bS(0,b,a)}function
 a7(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bl(c,b,a):a[3]?bl(c,b,a):1:bl(c,b,a):bl(c,b,a)}function
 mL(f,c,b,a){var
@@ -5465,7 +5479,7 @@ b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
-h8(b){function
+h9(b){function
 a(e){var
 a=[0,d,c];return r(e,b,[0,a,a])}var
 e=a(w5),f=a(w6);return[0,a(0),f,e]}function
@@ -5478,53 +5492,53 @@ c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
 mM(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,h8(e(function(a){var
+b=aJ(a[1],a[2]);return[0,h9(e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},b))]}return mI([1,a[1],a[2],a[3],a[4],a[5]])}function
-mN(i,b,h,g,f,d,a){function
-c(a){return h8(e(bE,a))}var
-l=ak(f7,a),m=dN(0,j(b),d,a),n=c5(f),o=mM(g),p=k(h);return[0,i,e(function(a){var
+mN(j,b,i,g,f,d,a){function
+c(a){return h9(e(bF,a))}var
+l=ak(f8,a),m=dO(0,h(b),d,a),n=c5(f),o=mM(g),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 mO(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-mP(i,a,b,h,g,f){var
-l=j(a),m=dN(mO(a),l,0,f),n=w(c5,g),o=mM(h),p=b?k(b[1]):[0,c,c];return[0,i,e(function(a){function
-b(a){return h8(e(bE,a))}switch(a[0]){case
+mP(j,a,b,i,g,f){var
+l=h(a),m=dO(mO(a),l,0,f),n=w(c5,g),o=mM(i),p=b?k(b[1]):[0,c,c];return[0,j,e(function(a){function
+b(a){return h9(e(bF,a))}switch(a[0]){case
 0:var
-k=a[5],l=bE(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bF(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
 o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bE(a[6]),r=bE(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+p=a[7],q=bF(a[6]),r=bF(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
 mQ(a){return a[1]?0:1}function
 mR(a){var
 c=mQ(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-f8(i,h,b){function
+f9(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f9,a(f9,b)),j=a(f,h9),k=i?f:a(c(b,f9),h9);function
-g(b){return a(b,[5,e(f9,d(h9,d(b,b)))])}var
+f=c(f_,a(f_,b)),j=a(f,h_),k=i?f:a(c(b,f_),h_);function
+g(b){return a(b,[5,e(f_,d(h_,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f_(f,e,d){function
+f$(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,h_,a(h_,d)],mS),g=a(c,[5,[3,0,h_,b(mS,b(c,c))]]);return[2,b(f8(f,e,d),g)]}function
-h$(e,g,a){function
+c=a([3,1,h$,a(h$,d)],mS),g=a(c,[5,[3,0,h$,b(mS,b(c,c))]]);return[2,b(f9(f,e,d),g)]}function
+ia(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f$,b(f$,a)),d=e?h:b(f(a,f$),mT),i=b(d,[5,[3,0,f$,c(mT,c(d,d))]]);return c(f8(e,g,a),i)}function
+h=f(ga,b(ga,a)),d=e?h:b(f(a,ga),mT),i=b(d,[5,[3,0,ga,c(mT,c(d,d))]]);return c(f9(e,g,a),i)}function
 mU(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],j=cr(k(g[2][1]));if(j){var
 l=j[1],m=cr(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,e6(h[2],d,c)];return dn(l,b2(fd(p,l),e))},q=n(A(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,e7(h[2],d,c)];return dn(l,b3(fe(p,l),e))},q=n(A(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
@@ -5538,7 +5552,7 @@ an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jv(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+e=c[1],d=jw(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
 2:return[2,an(b,a[1])];case
 3:var
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
@@ -5546,13 +5560,13 @@ f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
 mV(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-ia(b,a){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-ib(c,a){if(c)if(a){var
+ib(b,a){var
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+ic(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=ib(h,g);if(e){var
-i=e[1],f=ib(h,i[2]);if(f)var
+e=ic(h,g);if(e){var
+i=e[1],f=ic(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5564,8 +5578,8 @@ var
 d=a;else
 var
 d=c;return d}function
-ic(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,ic(g,f[1],h)];var
+id(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,id(g,f[1],h)];var
 j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,A(y(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
@@ -5573,20 +5587,20 @@ w$(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
 xa(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-ga(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=ga(e,a[3]);return b2(dn(ga(e,a[2]),g),f)}return i(e,a[1])?[0,c,c]:[0,d,c]}function
+gb(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=gb(e,a[3]);return b3(dn(gb(e,a[2]),g),f)}return j(e,a[1])?[0,c,c]:[0,d,c]}function
 mW(a){return 0===a[0]?dC(a[1][4]):0}function
 mX(a){switch(a[0]){case
 0:var
 b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
 1:var
 d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
-gb(a){switch(a[0]){case
-0:return bP(a4(a[1][1]));case
+gc(a){switch(a[0]){case
+0:return bQ(a4(a[1][1]));case
 1:var
-b=a[3];return b?bP(a4(b[1])):d;default:return bP(a4(a[1]))}}function
-id(b){var
-a=v(mW,b),d=a?[0,a[1],a[2]]:v(mX,b);return A(c,bP(d))}function
+b=a[3];return b?bQ(a4(b[1])):d;default:return bQ(a4(a[1]))}}function
+ie(b){var
+a=v(mW,b),d=a?[0,a[1],a[2]]:v(mX,b);return A(c,bQ(d))}function
 mY(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
 b=xb;else
@@ -5600,7 +5614,7 @@ g=b;var
 h=g}else
 var
 h=a;return h}return a?0:xe}function
-eI(b,a){switch(a[0]){case
+eJ(b,a){switch(a[0]){case
 0:var
 c=a[1];if(aq(c,xf))return xg;if(aq(c,xh))return xi;if(aq(c,xj))return xk;if(aq(c,xl))return xm;if(aq(c,xn))return xo;var
 k=aq(c,xp),p=k?xq:k;return p;case
@@ -5611,20 +5625,20 @@ l=aq(f,xu),q=l?[0,[8,d,e]]:l;return q;case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eI(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eJ(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eI(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eJ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eI(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eI(b,a[1]);if(i)var
-j=mY(b,gO(gN(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eJ(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eJ(b,a[1]);if(i)var
+j=mY(b,gP(gO(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
 mZ(d,a){if(a){var
-e=a[1],b=eI(d,e[2]);if(b)var
+e=a[1],b=eJ(d,e[2]);if(b)var
 c=mZ(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
 f=b;return f}return xv}function
@@ -5648,28 +5662,28 @@ var
 h=a;else
 var
 h=c;return h}function
-ie(e,d,a){if(d){if(a){var
-b=c6(e,j(a),a);if(b)var
-f=b[1],c=ie(e,d[1],f[2]),h=c?[0,[0,f[1],c[1]]]:c,g=h;else
+ig(e,d,a){if(d){if(a){var
+b=c6(e,h(a),a);if(b)var
+f=b[1],c=ig(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
 g=b;return g}return xw}return a?0:xx}function
-ig(a){if(typeof
+ih(a){if(typeof
 a==="number")return 0===a?xy:xz;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-ih(d,a){if(d)if(a){var
+ii(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=ih(k,j);if(e){var
-l=e[1],f=ih(k,l[2]);if(f)var
+e=ii(k,j);if(e){var
+l=e[1],f=ii(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=ig(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
+p=ih(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
@@ -5713,7 +5727,7 @@ g=bm(a[1],b),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cD(a[4],i[2]),u=j[2],v=a[5],w=j[1
 k=bm(a[1],b),l=bm(a[2],k[2]),z=l[2],A=a0(l[1]),e=[0,[0,[1,a0(k[1]),A,0]],z];break;default:var
 m=a[1],n=bm(m,b),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cD(a[5],q[2]),s=cD(a[6],r[2]),B=m?a0(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a0(q[1]),H=a0(p[1]),e=[0,[1,[0,B,a0(o[1]),H,G,F,E,D]],C]}var
 t=m2(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dO(a){return jS(o,a)}function
+dP(a){return jT(o,a)}function
 xH(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
@@ -5731,37 +5745,37 @@ i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 2:case
-3:return dO(a[2]);case
+3:return dP(a[2]);case
 4:case
 13:var
 b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
-ii(a){if(typeof
+ij(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
 d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(o,0,[2,e,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c]]):h;return i?g(o,0,[3,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c],d]):i;case
 5:return g(o,1,[3,a[1],[0,c,c]]);case
 8:var
-k=g(o,1,a[1]);return k?g(o,1,a[2]):k;case
+u=[0,a[2],a[1]],v=1;return n(function(a){return g(o,v,a)},u);case
 10:return g(o,1,a[2]);case
 11:var
-l=a[2],m=g(o,1,l);return m?g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],l]):m;case
+k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],k]):l;case
 13:var
-n=a[4],q=lQ(a[3]),r=q?g(o,1,n):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],n]):r;case
+m=a[4],q=lR(a[3]),r=q?g(o,1,m):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],m]):r;case
 14:return g(o,0,a[3]);case
 15:var
 s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
 2:case
-3:return dO(a[2]);case
-0:case
-1:case
-12:return g(o,1,a[1]);default:var
-j=g(o,1,a[2]);return j?g(o,1,a[3]):j}}function
-gc(d){var
+3:return dP(a[2]);case
+6:case
+7:case
+9:var
+j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
+gd(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(d){return function(a){var
-h=h1(a[1]),e=aq(h1(d[1]),h);if(e)var
-i=h2(a[4]),b=aq(h2(d[4]),i);else
+h=h2(a[1]),e=aq(h2(d[1]),h);if(e)var
+i=h3(a[4]),b=aq(h3(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5770,8 +5784,8 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eJ(a){if(0===a[0])return dO(k(a[1]));var
-b=a[2],c=a[1];if(!eg(k(c))&&!eg(k(b))){var
+eK(a){if(0===a[0])return dP(k(a[1]));var
+b=a[2],c=a[1];if(!eh(k(c))&&!eh(k(b))){var
 e=k(c);return g(o,1,[3,k(b),e])}var
 d=k(b);return bg(o,k(c),d)}function
 c8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
@@ -5780,76 +5794,76 @@ m3(a){switch(a[0]){case
 c=[0,a[4],0],d=f(c8(a[3]),c),e=f(c8(a[2]),d);return f(c8(a[1]),e);case
 1:var
 b=a[3],g=b?c8(b[1]):b,h=f(c8(a[2]),g);return f(c8(a[1]),h);default:return c8(a[1])}}function
-m4(s,a,h){if(ak(function(a){return 9===a[1]?1:0},h)){var
-b=V(j(a),xK),c=b?n(function(a){if(0===a[0]){var
-d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,j=h?g(o,0,k(a[4])):h,c=0;if(j)if(d)var
-p=bD(d[1]),b=n(function(a){return dO(k(a))},p);else{var
+m4(s,a,i){if(ak(function(a){return 9===a[1]?1:0},i)){var
+b=V(h(a),xK),c=b?n(function(a){if(0===a[0]){var
+d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,i=h?g(o,0,k(a[4])):h,c=0;if(i)if(d)var
+p=bE(d[1]),b=n(function(a){return dP(k(a))},p);else{var
 l=1;c=1}else{var
-l=j;c=1}if(c)var
+l=i;c=1}if(c)var
 b=l}else{var
 m=g(o,1,k(a[4]));if(m)var
-q=bD(a[3]),r=f(bD(a[2]),q),b=n(function(a){return dO(k(a))},r);else
+q=bE(a[3]),r=f(bE(a[2]),q),b=n(function(a){return dP(k(a))},r);else
 var
-b=m}return b?i(s,a):b},a):b;if(c)var
-d=f6(0,a),l=d?1:d,e=l;else
+b=m}return b?j(s,a):b},a):b;if(c)var
+d=f7(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
 m5(a){return a?xL:xM}function
-ij(a){switch(a){case
+ik(a){switch(a){case
 0:return xN;case
 1:return xO;default:return 0}}function
 cE(a){var
 f=a[1],d=g(o,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bg(o,a[1],a[2]):d;if(e){var
 h=a[2];return g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],h])}return e}function
-dP(a){var
+dQ(a){var
 e=bg(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
 m6(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(j(e),c),h=f?u(j(d),c):f;if(h){var
-l=aK(e,d);return n(function(a){var
-b=k(a[2]);return bg(o,k(a[1]),b)},l)}return h}var
-i=b?g(o,1,k(a[3])):b;if(i){var
-m=k(a[5]);return bg(o,k(a[4]),m)}return i}function
+d=a[2],e=a[1],f=u(h(e),c),i=f?u(h(d),c):f;if(i){var
+l=aJ(e,d);return n(function(a){var
+b=k(a[2]);return bg(o,k(a[1]),b)},l)}return i}var
+j=b?g(o,1,k(a[3])):b;if(j){var
+m=k(a[5]);return bg(o,k(a[4]),m)}return j}function
 m7(a,e,F,E,s,r,f){function
 t(b){var
-d=m5(a),c=u(j(b),d);return c?n(eJ,b):c}var
+d=m5(a),c=u(h(b),d);return c?n(eK,b):c}var
 v=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
-G=j(e),l=V(cx(a),G);else
+G=h(e),l=V(cx(a),G);else
 var
 l=v;var
-w=l?V(j(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
-H=1===a?1:0,m=m6(ij(a),H,E);else
+w=l?V(h(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
+H=1===a?1:0,m=m6(ik(a),H,E);else
 var
 m=x;if(m)if(a){var
 d=c5(s);switch(d[0]){case
 0:var
-h=0;break;case
+i=0;break;case
 1:var
-A=cE(d[1]),B=A?cE(d[2]):A,h=B?cE(d[3]):B;break;case
+A=cE(d[1]),B=A?cE(d[2]):A,i=B?cE(d[3]):B;break;case
 2:var
-h=dP(d[1]);break;default:var
-C=dP(d[1]),h=C?dP(d[2]):C}var
-i=h}else
+i=dQ(d[1]);break;default:var
+C=dQ(d[1]),i=C?dQ(d[2]):C}var
+j=i}else
 var
-D=c5(s),J=0===D[0]?cE(D[1]):0,i=J;else
+D=c5(s),J=0===D[0]?cE(D[1]):0,j=J;else
 var
-i=m;if(i)var
-I=j(e),p=m4(function(a){if(0===a[0]){var
+j=m;if(j)var
+I=h(e),p=m4(function(a){if(0===a[0]){var
 b=a[1],c=V(xJ,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
-p=i;if(p)var
-b=j(e),c=cx(a),y=m5(a),q=n(function(a){var
+p=j;if(p)var
+b=h(e),c=cx(a),y=m5(a),q=n(function(a){var
 e=a[2];if(e)var
 f=e[1],g=V(w3,f),v=g?V(f,b):g,d=v;else
 var
 d=1;var
-h=a[1];if(9<=h)switch(h-9|0){case
+i=a[1];if(9<=i)switch(i-9|0){case
 0:var
-i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?a7(c,b,a):a[3]?a7(c,b,a):1;return a7(c,b,a);case
+j=a[4];if(typeof
+j!=="number"&&0===j[0])return a[2]?a7(c,b,a):a[3]?a7(c,b,a):1;return a7(c,b,a);case
 1:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0]){var
@@ -5859,16 +5873,16 @@ m=a[4];if(typeof
 m!=="number"&&1===m[0]){var
 n=a[3];if(n){var
 o=n[1];if(1===o[0]){var
-p=u(j(o[1]),y),w=p?d:p;return w}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a);case
+p=u(h(o[1]),y),w=p?d:p;return w}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a);case
 6:var
 q=a[4];if(typeof
 q!=="number"&&1===q[0]){var
 r=a[3];if(r){var
 s=r[1];if(1===s[0]){var
-t=u(j(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
+t=u(h(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
 var
 q=p;var
-z=q?gc(f):q;return z?n(ii,dN(0,j(e),r,f)):z}function
+z=q?gd(f):q;return z?n(ij,dO(0,h(e),r,f)):z}function
 m8(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
@@ -5878,21 +5892,21 @@ m9(a,e,d,Q,m,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?xQ:xR;return u(j(a),b)}var
-h=mO(e),z=n(function(b){switch(b[0]){case
+b=p?xQ:xR;return u(h(a),b)}var
+i=mO(e),z=n(function(b){switch(b[0]){case
 0:var
-d=$(h),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=$(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=$(h),i=g?c(b[1]):g,j=i?c(b[2]):i;if(j)var
+g=$(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-R=j(e),q=V(a6(a),R);else
+R=h(e),q=V(a6(a),R);else
 var
 q=z;var
-A=q?V(j(e),xS):q,B=A?n(eJ,v(m8,e)):A;if(B){var
+A=q?V(h(e),xS):q,B=A?n(eK,v(m8,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
@@ -5921,13 +5935,13 @@ b=d;break;case
 x=d[1],y=w(c5,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
-i=0;break;case
+j=0;break;case
 1:var
-J=g(o,1,k(x)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,i=L?cE(f[3]):L;break;case
+J=g(o,1,k(x)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,j=L?cE(f[3]):L;break;case
 2:var
-M=g(o,1,k(x)),i=M?dP(f[1]):M;break;default:var
-N=g(o,1,k(x)),O=N?dP(f[1]):N,i=O?dP(f[2]):O}var
-I=i}else
+M=g(o,1,k(x)),j=M?dQ(f[1]):M;break;default:var
+N=g(o,1,k(x)),O=N?dQ(f[1]):N,j=O?dQ(f[2]):O}var
+I=j}else
 var
 I=y;var
 b=I}else
@@ -5936,70 +5950,70 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=j(e),s=n(function(b){return mL(h,a,T,b)},l);else
+T=h(e),s=n(function(b){return mL(i,a,T,b)},l);else
 var
 s=b;var
-D=s?gc(l):s;return D?n(ii,dN(h,j(e),0,l)):D}function
+D=s?gd(l):s;return D?n(ij,dO(i,h(e),0,l)):D}function
 xV(a){switch(a[0]){case
-0:return fH(a[1][1]);case
+0:return fI(a[1][1]);case
 1:var
-b=a[3];return b?fH(b[1]):1;default:return fH(a[1])}}function
-ik(a,k,b,d){var
+b=a[3];return b?fI(b[1]):1;default:return fI(a[1])}}function
+il(a,k,b,d){var
 e=m4(function(g){if(0===g[0]){var
 c=g[1],d=V(xI,c);if(d){var
-b=M(a,bK(c));if(b){if(2===b[1][0])return 0;var
+b=M(a,bL(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?V(xW,j(a)):f;if(g)var
-l=j(a),c=n(function(a){return wT(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?V(xW,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return wT(l,a)},b);else
 var
 c=g;var
-h=c?gc(b):c,i=h?n(eJ,v(m3,a)):h;return i?n(xH,d[3]):i}function
-gd(b,a){return n(function(c){var
+i=c?gd(b):c,j=i?n(eK,v(m3,a)):i;return j?n(xH,d[3]):j}function
+ge(b,a){return n(function(c){var
 a=c[2];return a?cl(a[1],b):1},a)}function
 m_(a){if(a){var
-b=a[1];if(f7(b))return 0;var
+b=a[1];if(f8(b))return 0;var
 c=[0,b,m_(a[2])]}else
 var
 c=a;return c}function
 xX(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ey(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
+d=a[4];if(ez(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
 m$(f,d,b){var
-g=m_(b),h=0,c=aI(N,0,e(xX,v(function(a){return h7(h,f,d,a)},g))),a=v(mJ,b),i=a?[0,a[1],a[2]]:x1;return N(j(i),c)}function
-il(b,a){var
-c=j(be(function(a){return 0===a[0]?0:1},b));return u(j(a),c)}function
-im(a){if(a){var
+g=m_(b),i=0,c=aI(N,0,e(xX,v(function(a){return h8(i,f,d,a)},g))),a=v(mJ,b),j=a?[0,a[1],a[2]]:x1;return N(h(j),c)}function
+im(b,a){var
+c=h(be(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
+io(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-na(aM,Z,aJ,Y,X,b,aI,B){var
-a=h6(Z,aJ,Y,X),aN=j(B);if(aM)var
+na(aM,Z,aK,Y,X,b,aI,B){var
+a=h7(Z,aK,Y,X),aN=h(B);if(aM)var
 _=0;else
 var
-aE=a[1],aF=e(gb,a[1]),W=fB(id(a[1]),aF,aE),aG=aK(aL(0,j(W)),W),_=e(aH,be(function(a){return fD(a[2])},aG));var
+aE=a[1],aF=e(gc,a[1]),W=fC(ie(a[1]),aF,aE),aG=aJ(aL(0,h(W)),W),_=e(aH,be(function(a){return fE(a[2])},aG));var
 C=c6(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=ik(Z,Y,X,a),ab=aa?gd(x2,B):aa;if(ab){var
-aO=$[1],D=e(gb,a[1]),c=id(a[1]),aP=im(aI),V=kU(o,a);if(V){var
-l=fB(c,D,a[1]),g=he(c,D,a[1],0),af=j(a[3]),ag=N(j(l),af),K=[0,j(l),ag],ah=a[3],F=ak(function(a){if(typeof
+aa=il(Z,Y,X,a),ab=aa?ge(x2,B):aa;if(ab){var
+aO=$[1],D=e(gc,a[1]),c=ie(a[1]),aP=io(aI),V=kV(o,a);if(V){var
+l=fC(c,D,a[1]),g=hf(c,D,a[1],0),af=h(a[3]),ag=N(h(l),af),K=[0,h(l),ag],ah=a[3],F=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?v(function(a){var
-b=e(bZ,kG(l,a));return[0,a[4],b]},g):F,aj=f(hg(g,c,K,a[3]),ai),am=f(bA(j9(g)),aj),M=f(bA(ei(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
-b=h(d);return av(r(aX(m,a),m,b),a)},M);if(P){var
+b=e(b0,kH(l,a));return[0,a[4],b]},g):F,aj=f(hh(g,c,K,a[3]),ai),am=f(bA(j_(g)),aj),M=f(bA(ej(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
+b=i(d);return aw(r(aX(m,a),m,b),a)},M);if(P){var
 Q=ak(q0,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
 q=p[1],u=bv(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fE(b,G[1],u),E=0;if(H){var
+G=q[1],H=fF(b,G[1],u),E=0;if(H){var
 s=al(b,[0,G[4],c]);if(s)var
 k=L(d,s[1][1]);else{var
 I=s;E=1}}else{var
 I=H;E=1}if(E)var
 k=I;break;case
 1:var
-J=q[3],k=J?fE(b,J[1],u):1;break;default:var
-k=fE(b,q[1],u)}if(k){var
+J=q[3],k=J?fF(b,J[1],u):1;break;default:var
+k=fF(b,q[1],u)}if(k){var
 ae=p[2],t=bd(t),p=ae;continue}var
 R=k}else
 var
@@ -6009,8 +6023,8 @@ var
 w=Q;if(w){var
 an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
 as=aQ(dB(a[2]),c),y=ac(e(function(a){return al(b,a)},as));if(y){var
-at=a[3],z=ac(kI(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
-S=z[1],au=hd(S),aw=y[1],ax=a[2],ay=function(a){return kJ(b,ax,c,a)},az=x[1],aA=0,aB=j9(g),aC=i(ar(function(a){return aX(m,a)}),aB),aD=ei(g);return fz(b,O,i(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,aw,au,aO)}var
+at=a[3],z=ac(kJ(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
+S=z[1],au=he(S),av=y[1],ax=a[2],ay=function(a){return kK(b,ax,c,a)},az=x[1],aA=0,aB=j_(g),aC=j(ar(function(a){return aX(m,a)}),aB),aD=ej(g);return fA(b,O,j(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,av,au,aO)}var
 T=z}else
 var
 T=y;var
@@ -6029,17 +6043,17 @@ x3(a){if(0===a[0])return mW(a[1]);var
 b=a[1],c=dC(b[6]);return f(dC(b[5]),c)}function
 x4(a){if(0===a[0])return mX(a[1]);var
 b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-x5(a){if(0===a[0])return[0,gb(a[1]),d];var
-b=a[1],c=bP(a4(b[2]));return[0,bP(a4(b[1])),c]}function
-nb(f,n,m,l,k,i,y,d){var
-a=mP(f,n,m,l,k,i),p=a[2],b=v(x3,p),x=b?[0,b[1],b[2]]:v(x4,p),h=A(c,bP(x)),q=e(x5,a[2]),r=hO(h,q,a[2]),z=j(d),B=aK(aL(0,j(r)),r),g=c6(e(aH,be(function(a){return fD(a[2])},B)),z,d);if(g){var
+x5(a){if(0===a[0])return[0,gc(a[1]),d];var
+b=a[1],c=bQ(a4(b[2]));return[0,bQ(a4(b[1])),c]}function
+nb(f,n,m,l,k,j,y,d){var
+a=mP(f,n,m,l,k,j),p=a[2],b=v(x3,p),x=b?[0,b[1],b[2]]:v(x4,p),i=A(c,bQ(x)),q=e(x5,a[2]),r=hP(i,q,a[2]),z=h(d),B=aJ(aL(0,h(r)),r),g=c6(e(aH,be(function(a){return fE(a[2])},B)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=m9(f,n,m,l,k,i),u=t?gd(a6(f),d):t;if(u)return sn(o,y,a,h,q,s[1]);var
+t=m9(f,n,m,l,k,j),u=t?ge(a6(f),d):t;if(u)return sn(o,y,a,i,q,s[1]);var
 w=u}else
 var
 w=g;return w}function
 nc(B,aM,aq,ap,A,ao,h){var
-l=h6(B,aM,aq,ap);if(A){var
+l=h7(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
 ar=m0(B,e(k,ao));if(ar[2])return 0;var
@@ -6121,16 +6135,16 @@ an=0;P=1}}else{var
 an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=il(v(m3,B),ao),au=at?ik(B,aq,ap,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kL(o,l,j,i);if(Q)if(typeof
+at=im(v(m3,B),ao),au=at?il(B,aq,ap,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kM(o,l,j,i);if(Q)if(typeof
 f==="number")return 0===f?ak(function(b){var
-a=kM(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jY(q2,e(function(b){var
-a=eq(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
+a=kN(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jZ(q2,e(function(b){var
+a=er(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
 E=M(l[3],f[1]);if(E){var
-aI=E[1],aJ=kN(f[3]);return kS(o,j,i,kN(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=kO(f[3]);return kT(o,j,i,kO(f[2]),aJ,aI)}return E}var
 F=M(l[3],f[1]);if(F){var
 G=M(j,f[2]);if(G){var
-R=G[1],aK=F[1],aL=cW(R,i);return kS(o,j,i,cW(R,i),aL,aK)}var
+R=G[1],aK=F[1],aL=cW(R,i);return kT(o,j,i,cW(R,i),aL,aK)}var
 S=G}else
 var
 S=F;return S}return Q}var
@@ -6149,18 +6163,18 @@ ay=A;return ay}function
 nd(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
 g=d[1],h=M(f,g),n=h?cl(h[1][2],x8):h;if(n)var
-A=d[2],i=nd(m,l,b,k,ic(0,g,f),A);else
+A=d[2],i=nd(m,l,b,k,id(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=ic(1,g,f),d=B;continue}return i}var
+B=d[3],f=id(1,g,f),d=B;continue}return i}var
 c=d[1],a=mU(0,m,f),o=e(function(b){function
 d(b){return mV(a,b)}function
-c(a){return ia(d,a)}switch(b[0]){case
+c(a){return ib(d,a)}switch(b[0]){case
 0:var
 e=b[5],f=mV(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=ia(function(b){return an(a,b)},q),s=b[1],j=[0,ia(function(b){return an(a,b)},s),r];else
+q=b[2],r=ib(function(b){return an(a,b)},q),s=b[1],j=[0,ib(function(b){return an(a,b)},s),r];else
 var
 t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),x=an(a,b[2]),j=[1,an(a,b[1]),x,v,u,t];var
 p=e(function(f){var
@@ -6195,96 +6209,96 @@ f=e}else
 var
 f=a;return f}function
 yc(q){var
-d4=f5(q[3]),d5=d4?f5(q[4]):d4;if(d5){var
+d5=f6(q[3]),d6=d5?f6(q[4]):d5;if(d6){var
 Q=q[1];switch(Q[0]){case
 3:var
-d$=n(eF,Q[1]);if(d$)var
-hq=Q[2],bT=n(function(a){return eF(a[1])},hq);else
+ea=n(eG,Q[1]);if(ea)var
+hq=Q[2],bT=n(function(a){return eG(a[1])},hq);else
 var
-bT=d$;if(bT)var
+bT=ea;if(bT)var
 hr=Q[3],bU=n(function(a){var
-b=eF(a[1]),c=b?h4(a[2]):b;return c?eG(a[2]):c},hr);else
+b=eG(a[1]),c=b?h5(a[2]):b;return c?eH(a[2]):c},hr);else
 var
 bU=bT;if(bU)var
-ht=Q[4],aS=n(function(a){var
+hs=Q[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=h4(a);return b?eG(a):b},b)},ht);else
+b=h5(a);return b?eH(a):b},b)},hs);else
 var
 aS=bU;break;case
 7:var
-hv=Q[1],ea=n(function(a){var
-b=eF(a[1]);return b?eH(0,[0,a[2][1],[0,a[2][2],0]]):b},hv),aS=ea?eH(0,[0,Q[5],[0,Q[6],0]]):ea;break;default:var
+hu=Q[1],eb=n(function(a){var
+b=eG(a[1]);return b?eI(0,[0,a[2][1],[0,a[2][2],0]]):b},hu),aS=eb?eI(0,[0,Q[5],[0,Q[6],0]]):eb;break;default:var
 aS=1}var
 bR=aS}else
 var
-bR=d5;var
+bR=d6;var
 cF=0;if(bR){var
-d6=q[1],bS=7===d6[0]?e(aH,d6[1]):0,d7=function(c,b){var
+d7=q[1],bS=7===d7[0]?e(aH,d7[1]):0,d8=function(c,b){var
 a=mG(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f5(a[2]);if(b){var
+b=f6(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f5(a[1]);case
+1:return f6(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eH(bS,mF(c[1]));var
+c=a[3];if(c)return eI(bS,mF(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},d8=function(e,d,c,b){var
-a=mG(e);return a?eH(bS,f(d,f(c,mF(b)))):a},l=q[1];switch(l[0]){case
+d=b;return d},b):a},d9=function(e,d,c,b){var
+a=mG(e);return a?eI(bS,f(d,f(c,mF(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=v(c3,l[4]),gX=f(v(mD,l[3]),gW),gY=f(mB(l[2]),gX),S=f(v(h5,l[1]),gY);break;case
+gW=v(c3,l[4]),gX=f(v(mD,l[3]),gW),gY=f(mB(l[2]),gX),S=f(v(h6,l[1]),gY);break;case
 1:var
-bL=l[5],bN=l[3],gZ=v(c3,l[6]),g0=bL?mC(bL[1]):bL,g1=f(g0,gZ),g2=f(mA(l[4]),g1),g3=bN?[0,bN[1],0]:bN,g4=f(g3,g2),S=f(v(wO,l[2]),g4);break;case
+bK=l[5],bM=l[3],gZ=v(c3,l[6]),g0=bK?mC(bK[1]):bK,g1=f(g0,gZ),g2=f(mA(l[4]),g1),g3=bM?[0,bM[1],0]:bM,g4=f(g3,g2),S=f(v(wO,l[2]),g4);break;case
 2:var
-g5=v(c3,l[7]),g6=f(v(mD,l[6]),g5),g7=f(mC(l[5]),g6),g8=f(mA(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(v(function(a){return v(dL,f(a[1],a[2]))},g_),g9);break;case
+g5=v(c3,l[7]),g6=f(v(mD,l[6]),g5),g7=f(mC(l[5]),g6),g8=f(mA(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(v(function(a){return v(dM,f(a[1],a[2]))},g_),g9);break;case
 3:var
-g$=v(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(v(function(a){return dL(a[2])},hc),hb);break;case
+g$=v(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(v(function(a){return dM(a[2])},hc),hb);break;case
 4:var
-hf=v(c3,l[3]),S=[0,l[1],[0,l[2],hf]];break;case
+hd=v(c3,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
 5:var
-hi=v(c3,l[4]),hk=f(bD(l[3]),hi),hl=f(bD(l[2]),hk),hm=f(v(h5,l[1]),hl),S=[0,l[5],hm];break;case
+hg=v(c3,l[4]),hj=f(bE(l[3]),hg),hl=f(bE(l[2]),hj),hm=f(v(h6,l[1]),hl),S=[0,l[5],hm];break;case
 6:var
-bQ=l[1],S=bQ?dL(bQ[1]):bQ;break;default:var
-hn=v(c3,l[4]),ho=f(mB(l[3]),hn),S=f(v(h5,l[2]),ho)}var
-d9=eH(bS,S);if(d9){var
+bO=l[1],S=bO?dM(bO[1]):bO;break;default:var
+hn=v(c3,l[4]),ho=f(mB(l[3]),hn),S=f(v(h6,l[2]),ho)}var
+d_=eI(bS,S);if(d_){var
 T=q[2];switch(T[0]){case
 0:var
-aB=d7(T[1],T[3]);break;case
+aB=d8(T[1],T[3]);break;case
 1:var
-aB=d8(T[1],T[2],T[3],T[4]);break;default:var
+aB=d9(T[1],T[2],T[3],T[4]);break;default:var
 hp=T[1],aB=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return d7(a[1],a[3]);case
-2:return d8(a[1],a[2],a[3],a[4])}return 1},hp)}}else{var
-d_=d9;cF=1}}else{var
-d_=bR;cF=1}if(cF)var
-aB=d_;if(aB){var
+1:return d8(a[1],a[3]);case
+2:return d9(a[1],a[2],a[3],a[4])}return 1},hp)}}else{var
+d$=d_;cF=1}}else{var
+d$=bR;cF=1}if(cF)var
+aB=d$;if(aB){var
 a=q[1];switch(a[0]){case
 0:var
-eP=a[4],eQ=a[3],eR=a[2],eS=a[1],ab=q[2];switch(ab[0]){case
-0:return na(0,eS,eR,eQ,eP,ab[1],ab[2],ab[3]);case
-1:return nc(eS,eR,eQ,eP,ab[2],ab[3],ab[4]);default:return 0}case
+eQ=a[4],eR=a[3],eS=a[2],eT=a[1],ab=q[2];switch(ab[0]){case
+0:return na(0,eT,eS,eR,eQ,ab[1],ab[2],ab[3]);case
+1:return nc(eT,eS,eR,eQ,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
 b$=a[6],ca=a[5],cb=a[4],cd=a[3],aC=a[2],ad=a[1],an=q[2];switch(an[0]){case
 0:return nb(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
 1:var
-eT=an[3],hW=an[4],hX=an[2],em=typeof
-ad==="number"?ad?x6:x7:ij(ad[1]),b5=e(k,hX),en=m2(aC,e(k,eT));if(en[2])return 0;var
-b6=ig(hW);if(b6){var
-er=il(v(m8,aC),eT),eu=er?m9(ad,aC,cd,cb,ca,b$):er;if(eu)var
-hI=a6(ad),b8=u(j(b5),hI);else
+eU=an[3],hW=an[4],hX=an[2],en=typeof
+ad==="number"?ad?x6:x7:ik(ad[1]),b5=e(k,hX),eo=m2(aC,e(k,eU));if(eo[2])return 0;var
+b6=ih(hW);if(b6){var
+es=im(v(m8,aC),eU),ev=es?m9(ad,aC,cd,cb,ca,b$):es;if(ev)var
+hI=a6(ad),b7=u(h(b5),hI);else
 var
-b8=eu;if(b8){var
-hJ=b6[1],s=dl(em,b5),F=a0(b1(em,b5)),am=en[1],X=mP(ad,aC,cd,cb,ca,b$),c1=lY(o,X[2],am);if(c1){var
+b7=ev;if(b7){var
+hJ=b6[1],s=dl(en,b5),F=a0(b2(en,b5)),am=eo[1],X=mP(ad,aC,cd,cb,ca,b$),c1=lZ(o,X[2],am);if(c1){var
 cY=cT(o,X[4],F),cG=0;if(cY){var
 cZ=X[5];if(cZ)var
-ba=fJ(o,cZ[1],s);else
+ba=fL(o,cZ[1],s);else
 if(s)var
 ba=0;else{var
 c0=1;cG=1}}else{var
@@ -6293,55 +6307,55 @@ ba=c0;var
 bb=ba}else
 var
 bb=c1;if(bb){var
-C=X[5],c2=X[3],aJ=X[1],fX=X[6],fP=e(function(a){if(0===a[0]){var
-d=cc(C,s,F,a),b=eq(a[1],d);return[0,lW(aJ,b,at([5,[0,c,c],c2],et(hL(C,s,fU(a)),b)))]}return 0},am),fR=v(function(a){if(0===a[0]){var
-c=cc(C,s,F,a),b=kM(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=cc(C,s,F,a);return[0,k4(a[1],e),0]},am),fS=e(function(d){var
+C=X[5],c2=X[3],aK=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
+d=cc(C,s,F,a),b=er(a[1],d);return[0,lX(aK,b,at([5,[0,c,c],c2],eu(hM(C,s,fW(a)),b)))]}return 0},am),fR=v(function(a){if(0===a[0]){var
+c=cc(C,s,F,a),b=kN(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=cc(C,s,F,a);return[0,k6(a[1],e),0]},am),fT=e(function(d){var
 b=cc(C,s,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,az(e)),l=ep(e,h,g,b);return[0,[0,lX(aJ,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fG(c,b),o=k7(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lX(aJ,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fT=e(function(a){if(0===a[0]){var
-c=cc(C,s,F,a);return[0,hh(a[1],c)]}var
-b=a[1],d=k6(b,cc(C,s,F,a));return[1,k5(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
+f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,az(e)),l=eq(e,h,g,b);return[0,[0,lY(aK,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fH(c,b),o=k9(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lY(aK,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fU=e(function(a){if(0===a[0]){var
+c=cc(C,s,F,a);return[0,hi(a[1],c)]}var
+b=a[1],d=k8(b,cc(C,s,F,a));return[1,k7(b,cc(C,s,F,a)),d]},am),fV=[0,e(function(a){if(0===a[0])var
 k=cc(C,s,F,a),d=cW(a[1],k);else
 var
-e=cc(C,s,F,a),b=a[1],f=k7(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lW(aJ,d,at([5,[0,c,c],c2],et(hL(C,s,fU(a)),d)))},am),fT,fS,fR,fP];return k1(o,a6(X[1]),fW,fX,hJ)}return bb}var
-ev=b8}else
+e=cc(C,s,F,a),b=a[1],f=k9(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fH(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lX(aK,d,at([5,[0,c,c],c2],eu(hM(C,s,fW(a)),d)))},am),fU,fT,fR,fQ];return k3(o,a6(X[1]),fV,fX,hJ)}return bb}var
+ew=b7}else
 var
-ev=b6;return ev;default:return 0}case
+ew=b6;return ew;default:return 0}case
 2:var
 aD=a[7],aE=a[6],aW=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-ce=ag[3],ah=mN(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eU=A(c,bP(v(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=j(ce),cf=c6(lS(eU,ah[2]),hZ,ce);if(cf){var
-eV=cf[1];if(eV[2])return 0;var
-eW=m7(ao,af,aZ,aY,aW,aE,aD),eX=eW?gd(cx(ao),ce):eW;if(eX){var
-h0=eV[1],h1=m$(j(af),aE,aD),h2=im(ag[2]),h3=ag[1],fM=ah[2],cX=n(function(a){var
-b=lV(o,a[1]);return b?lV(o,a[2]):b},fM);if(cX)var
-fN=hj(ah[4]),a_=cT(o,ah[4],fN);else
+ce=ag[3],ah=mN(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eV=A(c,bQ(v(function(a){var
+b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=h(ce),cf=c6(lT(eV,ah[2]),hZ,ce);if(cf){var
+eW=cf[1];if(eW[2])return 0;var
+eX=m7(ao,af,aZ,aY,aW,aE,aD),eY=eX?ge(cx(ao),ce):eX;if(eY){var
+h0=eW[1],h1=m$(h(af),aE,aD),h2=io(ag[2]),h3=ag[1],fN=ah[2],cX=n(function(a){var
+b=lW(o,a[1]);return b?lW(o,a[2]):b},fN);if(cX)var
+fO=hk(ah[4]),a_=cT(o,ah[4],fO);else
 var
 a_=cX;if(a_)var
-fO=fQ(ah[5]),a$=n(function(a){return ez(o,a)},fO);else
+fP=fS(ah[5]),a$=n(function(a){return eA(o,a)},fP);else
 var
-a$=a_;return a$?r3(h3,h2,h1,ah,eU,h0):a$}var
-eY=eX}else
+a$=a_;return a$?r3(h3,h2,h1,ah,eV,h0):a$}var
+eZ=eY}else
 var
-eY=cf;return eY;case
+eZ=cf;return eZ;case
 1:var
-a1=ag[4],eZ=ag[3],a2=e(k,ag[2]),ap=ij(ao),e0=m1(af,e(k,eZ));if(e0[2])return 0;var
-J=e0[1],e1=il(v(function(a){return f(a[1],a[2])},af),eZ),e2=e1?m7(ao,af,aZ,aY,aW,aE,aD):e1;if(e2){var
+a1=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=ik(ao),e1=m1(af,e(k,e0));if(e1[2])return 0;var
+J=e1[1],e2=im(v(function(a){return f(a[1],a[2])},af),e0),e3=e2?m7(ao,af,aZ,aY,aW,aE,aD):e2;if(e3){var
 p=mN(ao,af,aZ,aY,aW,aE,aD);if(typeof
 a1!=="number"&&2===a1[0]){var
-e4=e(k,a1[1]),e5=dl(ap,e4),e6=a0(b1(ap,e4)),e7=dl(ap,a2),e8=a0(b1(ap,a2)),dE=lf(o,p[2],J);if(dE)var
-gB=cx(p[1]),bw=u(j(J),gB);else
+e5=e(k,a1[1]),e6=dl(ap,e5),e7=a0(b2(ap,e5)),e8=dl(ap,a2),e9=a0(b2(ap,a2)),dE=lh(o,p[2],J);if(dE)var
+gB=cx(p[1]),bw=u(h(J),gB);else
 var
 bw=dE;var
-dF=bw?cT(o,p[4],e8):bw,dG=dF?cT(o,p[4],e6):dF,dH=dG?fJ(o,p[5],e7):dG,dI=dH?fJ(o,p[5],e5):dH;if(dI){var
-dJ=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
-h=e(function(a){return le(dJ,gD,gC,f,g,a)},J),i=cx(dJ),a=mh(o,h);function
+dF=bw?cT(o,p[4],e9):bw,dG=dF?cT(o,p[4],e7):dF,dH=dG?fL(o,p[5],e8):dG,dI=dH?fL(o,p[5],e6):dH;if(dI){var
+dK=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
+h=e(function(a){return lg(dK,gD,gC,f,g,a)},J),i=cx(dK),a=mh(o,h);function
 b(a,b){return x(o,a,b)}var
-d=W(o,c);return w(function(a){return mf(B,d,D,b,i,a)},a)},bu=dv(e8,e7);if(bu){var
-dw=bu[1],bv=dv(e6,e5);if(bv){var
+d=W(o,c);return w(function(a){return mf(B,d,D,b,i,a)},a)},bu=dv(e9,e8);if(bu){var
+dw=bu[1],bv=dv(e7,e6);if(bv){var
 dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
 dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
@@ -6352,29 +6366,29 @@ dB=bv;var
 dC=dB}else
 var
 dC=bu;return dC}return dI}var
-cg=ig(a1);if(cg){var
-h8=cg[1],as=dl(ap,a2),aF=a0(b1(ap,a2)),cN=lf(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fJ(o,p[5],as):cO;if(cP){var
-ax=p[5],cR=p[3],cS=p[1],fL=p[6],cM=function(a){var
-b=fK(ax,as,aF,a);return R(fK(ax,as,aF,a),b)},fA=e(function(a){return[0,le(cS,cR,ax,as,aF,a)]},J),fD=e(cM,J),fE=e(function(a){return 0},J),fF=e(function(a){return[0,[6,cM(a)]]},J),fH=[0,e(function(b){var
-a=az(fK(ax,as,aF,b));return hu(cS,a,at([5,[0,c,c],cR],et(fI(ax,as,b[2]),a)))},J),fF,fE,fD,fA];return k1(o,cx(p[1]),fH,fL,h8)}return cP}var
-e3=cg}else
+cg=ih(a1);if(cg){var
+h4=cg[1],as=dl(ap,a2),aF=a0(b2(ap,a2)),cN=lh(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fL(o,p[5],as):cO;if(cP){var
+ax=p[5],cR=p[3],cS=p[1],fJ=p[6],cM=function(a){var
+b=fM(ax,as,aF,a);return R(fM(ax,as,aF,a),b)},fB=e(function(a){return[0,lg(cS,cR,ax,as,aF,a)]},J),fE=e(cM,J),fF=e(function(a){return 0},J),fG=e(function(a){return[0,[6,cM(a)]]},J),fI=[0,e(function(b){var
+a=az(fM(ax,as,aF,b));return hv(cS,a,at([5,[0,c,c],cR],eu(fK(ax,as,b[2]),a)))},J),fG,fF,fE,fB];return k3(o,cx(p[1]),fI,fJ,h4)}return cP}var
+e4=cg}else
 var
-e3=e2;return e3;default:return 0}case
+e4=e3;return e4;default:return 0}case
 3:var
-au=a[7],e9=a[6],e_=a[5],Y=a[4],e$=a[2],ch=a[1],a3=q[2];if(0===a3[0]){var
-ci=a3[3],cj=c6(0,j(ci),ci);if(cj){var
-fa=cj[1];if(fa[2])return 0;var
-hG=j(ch),hH=j(e9),ef=u(j(e_),hH),eg=ef?n(function(a){var
-b=a7(hG,j(Y),a);if(b){var
+au=a[7],e_=a[6],e$=a[5],Y=a[4],fa=a[2],ch=a[1],a3=q[2];if(0===a3[0]){var
+ci=a3[3],cj=c6(0,h(ci),ci);if(cj){var
+fb=cj[1];if(fb[2])return 0;var
+hG=h(ch),hH=h(e_),eg=u(h(e$),hH),eh=eg?n(function(a){var
+b=a7(hG,h(Y),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bK(d[1]),0]:aL(0,j(Y));return n(function(b){var
-a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):ef,eh=eg?gc(au):eg,el=eh?n(function(a){return eJ(a[2])},e$):eh,fb=el?n(ii,dN(0,j(Y),0,au)):el,fc=fb?gd(j(ch),ci):fb;if(fc){var
-h9=fa[1],h_=a[3],eb=ak(f7,au),aT=dN(0,j(Y),0,au),hw=aK(e_,e9),bV=e(function(a){var
+d=a[2],e=d?[0,bL(d[1]),0]:aL(0,h(Y));return n(function(b){var
+a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):eg,ei=eh?gd(au):eh,em=ei?n(function(a){return eK(a[2])},fa):ei,fc=em?n(ij,dO(0,h(Y),0,au)):em,fd=fc?ge(h(ch),ci):fc;if(fd){var
+h9=fb[1],h_=a[3],ec=ak(f8,au),aT=dO(0,h(Y),0,au),hw=aJ(e$,e_),bV=e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
 b=cC(a[2]);return[0,a[1],b]},h_),m=[0,ch,e(function(a){var
-b=bE(a[2]);return[0,a[1],b]},e$),hy,hx],ia=m$(j(Y),0,au),fd=im(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=j(m[1]),dn=V(so,bq),dp=dn?V(bq,sp):dn,dq=dp?V(bq,j(m[4])):dp,dr=dq?V(j(m[4]),sq):dq,ds=dr?md(bp):dr;if(ds){var
+b=bF(a[2]);return[0,a[1],b]},fa),hy,hx],h$=m$(h(Y),0,au),fe=io(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=h(m[1]),dn=V(so,bq),dp=dn?V(bq,sp):dn,dq=dp?V(bq,h(m[4])):dp,dr=dq?V(h(m[4]),sq):dq,ds=dr?md(bp):dr;if(ds){var
 aP=bp,aO=m[3];for(;;){if(aO){var
-di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hS(aP,di[2]):dk;if(dm){var
+di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hT(aP,di[2]):dk;if(dm){var
 aP=[0,dj,aP],aO=aO[2];continue}var
 dt=dm}else
 var
@@ -6383,36 +6397,36 @@ br=dt;break}}else
 var
 br=ds;if(br)var
 gz=m[4],bs=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aH,m[3]),bp);return n(function(a){return hS(c,a)},b)},gz);else
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aH,m[3]),bp);return n(function(a){return hT(c,a)},b)},gz);else
 var
 bs=br;if(bs)var
 gA=m[2],bt=n(function(a){return bg(o,a[2][1],a[2][2])},gA);else
 var
 bt=bs;var
 du=bt?n(function(a){return bg(o,a[1],a[2])},bV):bt;if(du){var
-bd=j(m[1]),bf=j(m[2]),c7=N(bf,j(hP(e(bZ,m[3])))),f3=m[3],ay=mc(m),aM=f3,bc=bf;for(;;){if(aM){var
-c4=aM[1],c5=c4[2],fY=N(bc,j(bC(c5))),f1=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c4[1],f2],ay],aM=f1,bc=fY;continue}var
-aa=l$(bd,ay,m[4],c7),f4=l_(ay,m[4],c7),f6=m[3],c8=f(l7(mc(m),f6,bf),f4),c9=j(mb(m)),f9=0,f$=f(c8,cw(function(a,b){return l4(aa,a,b)},f9,d,c9,aT)),ge=f(bA(eA(aa)),f$),c_=f(bA(fV(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(j(bV),bd);if(c$)var
-gg=m[4],bi=n(function(a){return 0===a[0]?u(j(a[1]),bd):1},gg);else
+bd=h(m[1]),bf=h(m[2]),c7=N(bf,h(hQ(e(b0,m[3])))),f3=m[3],ay=mc(m),aM=f3,bc=bf;for(;;){if(aM){var
+c4=aM[1],c5=c4[2],fY=N(bc,h(bD(c5))),fZ=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c4[1],f2],ay],aM=fZ,bc=fY;continue}var
+aa=l$(bd,ay,m[4],c7),f4=l_(ay,m[4],c7),f5=m[3],c8=f(l7(mc(m),f5,bf),f4),c9=h(mb(m)),f7=0,f_=f(c8,cw(function(a,b){return l4(aa,a,b)},f7,d,c9,aT)),ga=f(bA(eB(aa)),f_),c_=f(bA(dJ(aa)),ga),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(h(bV),bd);if(c$)var
+gg=m[4],bi=n(function(a){return 0===a[0]?u(h(a[1]),bd):1},gg);else
 var
 bi=c$;var
 da=bi?n(function(a){var
-b=h(d),c=co(bh);return av(r(aj(a),c,b),a)},c_):bi,db=da?ak(l6,aT):da;if(db){var
-dc=$(eb);if(dc)var
+b=i(d),c=co(bh);return aw(r(aj(a),c,b),a)},c_):bi,db=da?ak(l6,aT):da;if(db){var
+dc=$(ec);if(dc)var
 aN=dc;else
 var
 gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
 gh=mb(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
-gi=0,gj=v(function(a){return es(gi,d,a)},aT),bl=ac(e(function(a){return hs(aG,a)},gj));if(bl){var
+gi=0,gj=v(function(a){return et(gi,d,a)},aT),bl=ac(e(function(a){return ht(aG,a)},gj));if(bl){var
 bm=ac(e(function(a){return al(aG,[0,a,d])},bV));if(bm){var
 gk=0,gl=0,bn=ac(cw(function(a,b){return l5(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
-dd=bn[1];if(eb)var
-gm=fd[2],gn=fd[1],go=eA(aa),bo=kV(ia,dd,[8,i(ar(aj),go),gn,gm]);else
+dd=bn[1];if(ec)var
+gm=fe[2],gn=fe[1],go=eB(aa),bo=kW(h$,dd,[8,j(ar(aj),go),gn,gm]);else
 var
 bo=dd;var
-gp=hd(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eA(aa),gv=i(ar(aj),gu),gw=fV(aa);return fz(aG,bh,i(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
+gp=he(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eB(aa),gv=j(ar(aj),gu),gw=dJ(aa);return fA(aG,bh,j(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
 de=bn}else
 var
 de=bm;var
@@ -6425,12 +6439,12 @@ dg=bj;var
 dh=dg}else
 var
 dh=aN;return dh}}return du}var
-fe=fc}else
+ff=fd}else
 var
-fe=cj;return fe}return 0;case
+ff=cj;return ff}return 0;case
 4:var
 ck=q[2];if(0===ck[0]){var
-aI=a[3],G=a[2],cl=a[1],ic=ck[3],io=ck[1],eC=dO(k(cl));if(eC){var
+aI=a[3],G=a[2],cl=a[1],ib=ck[3],id=ck[1],eD=dP(k(cl));if(eD){var
 aU=be(mQ,aI),cH=0;if(aU){var
 bW=aU[1];if(bW[2]||bW[3])var
 y=0;else{var
@@ -6444,79 +6458,79 @@ bY=bX[4],cI=0;if(typeof
 bY!=="number"&&1===bY[0])if(U[2]){var
 y=0;K=1;a8=1;cI=1}else{var
 y=[0,[0,aV[1],bY[1]]];K=1;a8=1;cI=1}if(!cI)var
-ed=0}}else
-var
-ed=U;if(!a8){var
-y=ed;K=1}break;case
-1:var
-a9=0;if(U){var
-b0=U[1];if(b0[2]||b0[3]){var
-y=0;K=1;a9=1}else{var
-b2=b0[4],cJ=0;if(typeof
-b2!=="number"&&0===b2[0])if(U[2]){var
-y=0;K=1;a9=1;cJ=1}else{var
-y=[0,[0,b2[1],aV[1]]];K=1;a9=1;cJ=1}if(!cJ)var
 ee=0}}else
 var
-ee=U;if(!a9){var
-y=ee;K=1}break}if(!K){var
-ec=0;cH=1}}}else{var
-ec=aU;cH=1}if(cH)var
-y=ec;if(y){var
-eD=y[1],z=eD[2],eE=k(z),eI=k(eD[1]),dQ=g(o,1,k(G)),dR=dQ?g(o,1,[3,eE,[0,c,c]]):dQ,dS=dR?g(o,1,eI):dR,eK=dS?g(o,0,[3,[5,[0,c,c],eE],eI]):dS;if(eK)var
+ee=U;if(!a8){var
+y=ee;K=1}break;case
+1:var
+a9=0;if(U){var
+bZ=U[1];if(bZ[2]||bZ[3]){var
+y=0;K=1;a9=1}else{var
+b1=bZ[4],cJ=0;if(typeof
+b1!=="number"&&0===b1[0])if(U[2]){var
+y=0;K=1;a9=1;cJ=1}else{var
+y=[0,[0,b1[1],aV[1]]];K=1;a9=1;cJ=1}if(!cJ)var
+ef=0}}else
+var
+ef=U;if(!a9){var
+y=ef;K=1}break}if(!K){var
+ed=0;cH=1}}}else{var
+ed=aU;cH=1}if(cH)var
+y=ed;if(y){var
+eE=y[1],z=eE[2],eF=k(z),eJ=k(eE[1]),dR=g(o,1,k(G)),dS=dR?g(o,1,[3,eF,[0,c,c]]):dR,dT=dS?g(o,1,eJ):dS,eL=dT?g(o,0,[3,[5,[0,c,c],eF],eJ]):dT;if(eL)var
 hN=0,hO=0,b9=n(function(a){return mL(hO,hN,yb,a)},aI);else
 var
-b9=eK;var
-eL=b9?n(function(b){if(1===b[1]){var
+b9=eL;var
+eM=b9?n(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aI):b9;if(eL){var
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aI):b9;if(eM){var
 b3=be(function(a){return $(mR(a))},aI);if(b3){var
-hQ=[0,b(2,c),c],E=g(o,0,[3,k(z),hQ]);if(E)var
+hP=[0,b(2,c),c],E=g(o,0,[3,k(z),hP]);if(E)var
 b_=E;else
 var
 hV=k(z),b_=g(o,0,[3,[0,b(2,c),c],hV]);if(b_){var
-eB=v(function(a){var
-b=h7(0,x_,0,a);return e(function(b){return $(mR(a))},b)},aI),hK=function(f){var
+eC=v(function(a){var
+b=h8(0,x_,0,a);return e(function(b){return $(mR(a))},b)},aI),hK=function(f){var
 g=f[1];if(g){var
-h=g[1],i=r(h,eB,0);if(i)var
-l=b1(h,eB),k=[0,[0,j(be(function(a){return a},l))]];else
+i=g[1],j=r(i,eC,0);if(j)var
+l=b2(i,eC),k=[0,[0,h(be(function(a){return a},l))]];else
 var
-k=i;var
+k=j;var
 a=k}else
 var
 a=ya;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,x$,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hM=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,v(hK,a[1]),d,c,b]},ic),hR=[0,b3[1],b3[2]],hz=[0,h$(E,G,z),0],hA=[0,h$(E,G,z),hz],hB=[0,h$(E,G,z),hA],hC=[0,f_(E,G,z),0],hD=[0,f_(E,G,z),hC],hT=0,hE=[0,[0,f_(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
+2:return[0,[0,b,[1,x$,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hL=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,v(hK,a[1]),d,c,b]},ib),hR=[0,b3[1],b3[2]],hz=[0,ia(E,G,z),0],hA=[0,ia(E,G,z),hz],hB=[0,ia(E,G,z),hA],hC=[0,f$(E,G,z),0],hD=[0,f$(E,G,z),hC],hS=0,hE=[0,[0,f$(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
 d=u(b,c)?a:w7;return[0,d]},w9)};return nb(0,e(function(a){var
-e=[0,f8(E,G,z)],d=1,f=b4(a,[2,cl]);function
+e=[0,f9(E,G,z)],d=1,f=b4(a,[2,cl]);function
 b(b,a){return[3,1,b,a]}var
-c=f8(E,G,z),g=b4(a,b(b(f_(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hT,hR,io,hM)}return b_}var
-eM=1}else
+c=f9(E,G,z),g=b4(a,b(b(f$(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hS,hR,id,hL)}return b_}var
+eN=1}else
 var
-eM=eL;var
-eN=eM}else
-var
-eN=y;var
+eN=eM;var
 eO=eN}else
 var
-eO=eC;return eO}return 0;case
+eO=y;var
+eP=eO}else
+var
+eP=eD;return eP}return 0;case
 5:var
-cm=a[4],ff=a[1],cn=q[2];if(0===cn[0]){var
-fg=cn[3],t=h6(ff,[0,a[2],a[3]],0,cm),cq=ih(j(fg),fg);if(cq){var
-fh=cq[1];if(fh[2])return 0;var
-fi=ik(ff,0,cm,t),fj=fi?$(ak(f7,cm)):fi;if(fj){var
-fk=kU(o,t);if(fk){var
-ip=fh[1],fl=e(gb,t[1]),I=id(t[1]),fm=k(a[5]),Z=cn[1],bB=fB(I,fl,t[1]),O=he(I,fl,t[1],0),gI=j(t[3]),gJ=N(j(bB),gI),aR=[0,j(bB),gJ],gK=hg(O,I,aR,t[3]),gL=f(e(ct,O),gK),dW=f(bA(ei(O)),gL),dX=cp(dW)[1],bF=co(dX),dY=t[2];if(0===dY[0]){var
-dZ=n(function(a){var
-b=h(d);return av(r(aX(bF,a),bF,b),a)},dW),d0=dZ?g(o,1,fm):dZ;if(d0){var
+cm=a[4],fg=a[1],cn=q[2];if(0===cn[0]){var
+fh=cn[3],t=h7(fg,[0,a[2],a[3]],0,cm),cq=ii(h(fh),fh);if(cq){var
+fi=cq[1];if(fi[2])return 0;var
+fj=il(fg,0,cm,t),fk=fj?$(ak(f8,cm)):fj;if(fk){var
+fl=kV(o,t);if(fl){var
+ip=fi[1],fm=e(gc,t[1]),I=ie(t[1]),fn=k(a[5]),Z=cn[1],bB=fC(I,fm,t[1]),O=hf(I,fm,t[1],0),gI=h(t[3]),gJ=N(h(bB),gI),aR=[0,h(bB),gJ],gK=hh(O,I,aR,t[3]),gL=f(e(ct,O),gK),dX=f(bA(ej(O)),gL),dY=cp(dX)[1],bC=co(dY),dZ=t[2];if(0===dZ[0]){var
+d0=n(function(a){var
+b=i(d);return aw(r(aX(bC,a),bC,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
 gM=t[3],gN=v(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
-gQ=aQ(dY[1],I),bH=ac(e(function(a){return al(Z,a)},gQ));if(bH){var
-bI=cs(Z,I,[5,fm,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bI){var
-bJ=t[3],gR=bH[1],gS=bI[1],gT=bG[1],aA=function(a){return aX(bF,a)},gF=aL(0,j(bJ)),gG=e(function(k){var
+gQ=aQ(dZ[1],I),bH=ac(e(function(a){return al(Z,a)},gQ));if(bH){var
+bI=cs(Z,I,[5,fn,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bI){var
+bJ=t[3],gR=bH[1],gS=bI[1],gT=bG[1],aA=function(a){return aX(bC,a)},gF=aL(0,h(bJ)),gG=e(function(k){var
 l=M(bJ,k);if(l){var
-a=l[1],u=b1(k,bJ),x=j(v(function(a){return cQ(I,a)},u)),y=N(aR[2],x),h=[0,N(aR[1],k),y],r=ei(O),f=i(ar(aA),r),b=[1,[8,[1,[1,h[1]]]]],d=fC(O,I,h,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=b2(k,bJ),x=h(v(function(a){return cQ(I,a)},u)),y=N(aR[2],x),i=[0,N(aR[1],k),y],r=ej(O),f=j(ar(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fD(O,I,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -6532,26 +6546,26 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eo(O,I,h,a);return w(function(a){return[0,i(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dT=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dU=e(ae,gT),dV=function(az,ay){var
-l=az,h=ay;for(;;){if(0===h[0]){var
-t=h[1],ab=u(j(t),sB),ac=ab?n(function(a){var
+t=ep(O,I,i,a);return w(function(a){return[0,j(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dU=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dV=e(ae,gT),dW=function(az,ay){var
+l=az,i=ay;for(;;){if(0===i[0]){var
+t=i[1],ab=u(h(t),sB),ac=ab?n(function(a){var
 d=H(P(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},t):ab;if(ac){var
-ad=mr(Z,gS,ej(0,l),t),i=h[2],v=bM(0,b7(Z,ad,dU),dX,0),L=function(a){return mq(mp(Z,ad,dU,v,a))};if(typeof
-i==="number")return 0===i?ak(function(b){var
-a=r(b,v,0);return a?H(a[1][2][2],d):a},dT):0;else{if(0===i[0]){var
-a=i[2],O=n(sz,a);if(O){var
-o=r(i[1],gG,0);if(o){var
+ad=mr(Z,gS,ek(0,l),t),j=i[2],v=bN(0,b8(Z,ad,dV),dY,0),L=function(a){return mq(mp(Z,ad,dV,v,a))};if(typeof
+j==="number")return 0===j?ak(function(b){var
+a=r(b,v,0);return a?H(a[1][2][2],d):a},dU):0;else{if(0===j[0]){var
+a=j[2],O=n(sz,a);if(O){var
+o=r(j[1],gG,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=f0(B,A),ao=fZ(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=f1(B,A),ao=f0(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=fZ(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f0(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=f0(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f1(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6559,7 +6573,7 @@ z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=fZ(I),as=[1,[6,f0(m,G),ar]],at=[1,[6,g[2],as]],au=fZ(G),J=[0,[0,m,[0,[1,[4,[1,[6,f0(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=f0(I),as=[1,[6,f1(m,G),ar]],at=[1,[6,g[2],as]],au=f0(G),J=[0,[0,m,[0,[1,[4,[1,[6,f1(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6578,10 +6592,10 @@ T=o;var
 U=T}else
 var
 U=O;return U}var
-V=i[2],W=i[1],p=M(gU,W);if(p){var
+V=j[2],W=j[1],p=M(gU,W);if(p){var
 X=p[1];if(typeof
 X!=="number"&&1===X[0]){var
-q=M(dT,V);if(q){var
+q=M(dU,V);if(q){var
 s=M(gH,V);if(s){var
 ax=N(gV,W);return L([1,[4,[1,[8,[0,s[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
 aa=s}else
@@ -6590,69 +6604,69 @@ aa=q;return aa}var
 Y=0}else
 var
 Y=p;return Y}}return ac}var
-ae=h[1],w=M(l,ae);if(w){var
-af=w[1],aA=af[1],ag=$(_(bO(af),aA));if(ag){var
-ah=ek(ae,l),ai=dV(ah[1],h[2]);if(ai){var
-l=ah[2],h=h[3];continue}var
+ae=i[1],w=M(l,ae);if(w){var
+af=w[1],aA=af[1],ag=$(_(bP(af),aA));if(ag){var
+ah=el(ae,l),ai=dW(ah[1],i[2]);if(ai){var
+l=ah[2],i=i[3];continue}var
 aj=ai}else
 var
 aj=ag;var
 al=aj}else
 var
-al=w;return al}};return dV(gR,ip)}var
-d1=bI}else
+al=w;return al}};return dW(gR,ip)}var
+d2=bI}else
 var
-d1=bH;var
-d2=d1}else
-var
-d2=bG;var
+d2=bH;var
 d3=d2}else
 var
-d3=d0;return d3}return 0}var
-fn=fk}else
+d3=bG;var
+d4=d3}else
 var
-fn=fj;var
-fo=fn}else
+d4=d1;return d4}return 0}var
+fo=fl}else
 var
-fo=cq;return fo}return 0;case
+fo=fk;var
+fp=fo}else
+var
+fp=cq;return fp}return 0;case
 6:var
-fp=a[1];if(fp){var
-fq=fp[1],cu=q[2];if(0===cu[0]){var
-cv=ie(0,yd,cu[3]);if(cv){var
-fr=eJ(fq);if(fr){var
-iq=cv[1],fs=bE(fq)[2],a5=cu[1],bx=cs(a5,d,fs);if(bx){var
-by=cs(a5,d,[5,[0,c,c],fs]);if(by){var
-gE=bx[1][1],dK=L(cL(a5),gE);if(dK)return mo(a5,by[1][1],iq);var
-dM=dK}else
+fq=a[1];if(fq){var
+fr=fq[1],cu=q[2];if(0===cu[0]){var
+cv=ig(0,yd,cu[3]);if(cv){var
+fs=eK(fr);if(fs){var
+iq=cv[1],ft=bF(fr)[2],a5=cu[1],bx=cs(a5,d,ft);if(bx){var
+by=cs(a5,d,[5,[0,c,c],ft]);if(by){var
+gE=bx[1][1],dL=L(cL(a5),gE);if(dL)return mo(a5,by[1][1],iq);var
+dN=dL}else
 var
-dM=by;var
-dP=dM}else
+dN=by;var
+dQ=dN}else
 var
-dP=bx;return dP}var
-ft=fr}else
+dQ=bx;return dQ}var
+fu=fs}else
 var
-ft=cv;return ft}return 0}var
+fu=cv;return fu}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=ie(0,ye,cy[3]);return cz?mo(cy[1],d,cz[1]):cz}return 0;default:var
-aw=a[1],fu=q[2];if(2===fu[0]){var
-fv=fu[1],cA=ib(j(fv),fv);if(cA){var
-fw=cA[1];if(fw[2])return 0;var
-cB=fw[1],ew=V(x9,j(aw)),ex=ew?V(j(aw),jH):ew,ey=ex?md(e(aH,aw)):ex,fx=ey?n(function(c){var
+cz=ig(0,ye,cy[3]);return cz?mo(cy[1],d,cz[1]):cz}return 0;default:var
+av=a[1],fv=q[2];if(2===fv[0]){var
+fw=fv[1],cA=ic(h(fw),fw);if(cA){var
+fx=cA[1];if(fx[2])return 0;var
+cB=fx[1],ex=V(x9,h(av)),ey=ex?V(h(av),jI):ex,ez=ey?md(e(aH,av)):ey,fy=ez?n(function(c){var
 a=cr(k(c[2][1]));if(a){var
 b=cr(k(c[2][2]));if(b)return $(cK(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},aw):ey;if(fx)var
-ir=ga(w$,cB),cD=ne(a[5],ir);else
+d=a;return d},av):ez;if(fy)var
+ir=gb(w$,cB),cD=ne(a[5],ir);else
 var
-cD=fx;if(cD)var
-is=ga(xa,cB),cE=ne(a[6],is);else
+cD=fy;if(cD)var
+is=gb(xa,cB),cE=ne(a[6],is);else
 var
 cE=cD;if(cE){var
-hF=e(function(a){return[0,d,0]},aw);return nd(aw,a[2],a[3],a[4],hF,cB)}var
-fy=cE}else
+hF=e(function(a){return[0,d,0]},av);return nd(av,a[2],a[3],a[4],hF,cB)}var
+fz=cE}else
 var
-fy=cA;return fy}return 0}}return aB}var
+fz=cA;return fz}return 0}}return aB}var
 O=[aM,yh,pt(0)],nf=[aM,yi,pt(0)];function
 yf(m,b){var
 f=[0,l(wu,am(b[4])),0],g=[0,l(ww,aa([0,l(wv,am(b[3])),f])),0],a=b[2];switch(a[0]){case
@@ -6661,32 +6675,32 @@ c=J(wq,my(a[1],a[2],a[3]));break;case
 1:var
 c=J(wr,mz(a[1],a[2],a[3],a[4]));break;default:var
 c=J(ws,C(e(wl,a[1])))}var
-h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(je(yg,f1(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
+h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(jf(yg,f2(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
 ad(a){if(0===a[0])return a[1];throw O}function
-Z(a){if(1===a[0])return a[1];throw O}function
-aJ(a){if(2===a[0])return a[1];throw O}function
-dQ(a){if(3===a[0])return a[1];throw O}function
+Y(a){if(1===a[0])return a[1];throw O}function
+aK(a){if(2===a[0])return a[1];throw O}function
+dR(a){if(3===a[0])return a[1];throw O}function
 aR(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Ek(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Ej(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 s(c,b){var
 a=aR(c,b);if(a)return a[1];throw O}function
 cf(b,a){var
-c=a?[0,i(b,a[1])]:a;return c}function
+c=a?[0,j(b,a[1])]:a;return c}function
 c9(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
 2:return[0,a[1],yj]}throw O}function
-eK(e,d){var
-a=U(e,Z(d));if(a){var
+eL(e,d){var
+a=U(e,Y(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw O}function
-ge(i){var
-f=d1(i),d=[0,0],e=gI(f)-1|0;if(!(e<0)){var
+gf(i){var
+f=d2(i),d=[0,0],e=gJ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iV(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
+a=d[1],g=iW(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6708,14 +6722,14 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eL(a){return jt(ge(a))}function
-eM(b){var
-a=dQ(b);return 45===aN(a,0)?P(eL(di(a,1,ap(a)-1|0))):eL(a)}function
-ng(a){return d8(eL(dQ(a)))}function
-gf(a){return js(eL(dQ(a)))}function
+eM(a){return ju(gf(a))}function
+eN(b){var
+a=dR(b);return 45===aN(a,0)?P(eM(di(a,1,ap(a)-1|0))):eM(a)}function
+ng(a){return d9(eM(dR(a)))}function
+gg(a){return jt(eM(dR(a)))}function
 cF(c){var
-a=dQ(c);if(6<ap(a))throw O;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(i3(a))}function
+a=dR(c);if(6<ap(a))throw O;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i4(a))}function
 nh(a){var
 b=97<=a?1:0,c=b?a<=o8?1:0:b;if(c)var
 d=c;else
@@ -6729,15 +6743,15 @@ l(e){var
 c=a[1];for(;;){if(a[1]<d&&48<=aN(b,a[1])&&!(57<aN(b,a[1]))){a[1]++;continue}return di(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw O}function
-h(j){if(64<j)throw O;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
-e=n(j);else{var
+h(i){if(64<i)throw O;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
+e=n(i);else{var
 u=0;if((a[1]+5|0)<=d&&aq(di(b,a[1],5),yl)){a[1]=a[1]+4|0;var
-e=[5,n(j)]}else
+e=[5,n(i)]}else
 u=1;if(u){var
 v=0;if(a[1]<d&&nh(aN(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
 w=0;if(!nh(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,di(b,o,a[1]-o|0))];break}}else
+e=[1,j(y,di(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
 g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,ym);if(r)var
 s=r;else
@@ -6745,10 +6759,10 @@ var
 t=1<ap(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
 k=q[1],x=0;if(aq(k,yn)||48===aN(k,ap(k)-1|0))x=1;else
 var
-z=ge(k),e=[0,ge(g),z];if(x)throw O}else
+z=gf(k),e=[0,gf(g),z];if(x)throw O}else
 var
-e=[0,ge(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i3(f)&&!(64<i3(f)))return[4,e,d8(eL(f))];throw O}throw O}return e}function
+e=[0,gf(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i4(f)&&!(64<i4(f)))return[4,e,d9(eM(f))];throw O}throw O}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6758,45 +6772,45 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw O;return g}function
-gg(a){return ni(function(a){return[0,a]},a)}function
-io(a){var
-b=aJ(a);return ni(function(a){return a},b)}function
-S(a){return gg(aJ(a))}function
-bS(a){if(2===a[0])return[0,gg(a[1])];var
+gh(a){return ni(function(a){return[0,a]},a)}function
+ip(a){var
+b=aK(a);return ni(function(a){return a},b)}function
+S(a){return gh(aK(a))}function
+bT(a){if(2===a[0])return[0,gh(a[1])];var
 b=ad(a),c=S(s(b,yo));return[1,S(s(b,yp)),c]}function
-Y(a){throw[0,nf,aT(je(yr,a),yq)]}function
-ip(c){var
-a=aJ(c);if(m(a,ys)){var
+Z(a){throw[0,nf,aT(jf(yr,a),yq)]}function
+iq(c){var
+a=aK(c);if(m(a,ys)){var
 b=m(a,yt);if(b)throw O;return b}return 1}function
 yu(d){var
 b=ad(d);function
-a(a){return eK(bS,s(b,a))}var
-c=aJ(s(b,yv));if(m(c,yw)){if(m(c,yx)){if(m(c,yy))return Y([0,yA,[0,c,yz]]);var
-e=aR(b,yB),f=cf(function(a){return eK(bS,a)},e),g=a(yC);return[1,a(yD),g,f]}var
-h=ip(s(b,yE)),i=bS(s(b,yF)),j=a(yG),k=a(yH);return[0,a(yI),k,j,i,h]}return[2,a(yJ)]}function
+a(a){return eL(bT,s(b,a))}var
+c=aK(s(b,yv));if(m(c,yw)){if(m(c,yx)){if(m(c,yy))return Z([0,yA,[0,c,yz]]);var
+e=aR(b,yB),f=cf(function(a){return eL(bT,a)},e),g=a(yC);return[1,a(yD),g,f]}var
+h=iq(s(b,yE)),i=bT(s(b,yF)),j=a(yG),k=a(yH);return[0,a(yI),k,j,i,h]}return[2,a(yJ)]}function
 yK(d){var
 a=ad(d);if(a){var
 b=a[1];if(!m(b[1],yL)){var
 c=b[2];if(2===c[0]&&!m(c[1],yM))return 1}}return 0}function
 nj(e){var
 b=ad(e);function
-a(a){return U(bS,Z(s(b,a)))}var
-c=aJ(s(b,yN)),d=aR(b,yO);if(m(c,yP)){if(m(c,yQ)){if(!m(c,yR)&&!d){var
+a(a){return U(bT,Y(s(b,a)))}var
+c=aK(s(b,yN)),d=aR(b,yO);if(m(c,yP)){if(m(c,yQ)){if(!m(c,yR)&&!d){var
 f=a(yU);return[1,a(yV),f]}}else
 if(!d){var
-g=ip(s(b,yW)),h=bS(s(b,yX)),i=a(yY),j=a(yZ);return[0,a(y0),j,i,h,g]}}else
+g=iq(s(b,yW)),h=bT(s(b,yX)),i=a(yY),j=a(yZ);return[0,a(y0),j,i,h,g]}}else
 if(!d){var
-k=ip(s(b,y1)),l=bS(s(b,y2)),n=bS(s(b,y3)),o=a(y4),p=a(y5),q=a(y6);return[2,a(y7),q,p,o,n,l,k]}return Y([0,yT,[0,c,yS]])}function
+k=iq(s(b,y1)),l=bT(s(b,y2)),n=bT(s(b,y3)),o=a(y4),p=a(y5),q=a(y6);return[2,a(y7),q,p,o,n,l,k]}return Z([0,yT,[0,c,yS]])}function
 nk(d){var
 a=ad(d);if(a){var
 b=a[1];if(!m(b[1],y8)){var
 c=b[2];if(2===c[0]&&!m(c[1],y9))return 1}}return 0}function
 cG(c,d){var
-a=Z(d);if(a){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw O}function
-dR(h,p){var
-g=h?h[1]:h,c=ad(p),a=aJ(s(c,y_)),j=pG(a,y$),f=0;if(0<=j)if(0<j)if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf)){var
+e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw O}function
+dS(g,p){var
+h=g?g[1]:g,c=ad(p),a=aK(s(c,y_)),j=pG(a,y$),f=0;if(0<=j)if(0<j)if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf)){var
 k=m(a,zg);if(k)f=1;else
 var
 b=k}else
@@ -6804,7 +6818,7 @@ var
 b=6;else
 var
 b=4;else
-if(g)var
+if(h)var
 b=15;else
 f=1;else
 var
@@ -6815,7 +6829,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,zC))if(m(a,zD))if(m(a,zE))if(m(a,zF))if(m(a,zG))if(m(a,zH))if(m(a,zI))if(m(a,zJ))f=1;else
+if(m(a,zB))if(m(a,zC))if(m(a,zD))if(m(a,zE))if(m(a,zF))if(m(a,zG))if(m(a,zH))if(m(a,zI))f=1;else
 var
 b=1;else
 var
@@ -6828,15 +6842,15 @@ var
 b=3;else
 var
 b=9;else
-if(g)var
+if(h)var
 b=14;else
 f=1;else
 var
 b=12;var
-n=f?Y([0,zi,[0,a,zh]]):b;function
+n=f?Z([0,zi,[0,a,zh]]):b;function
 i(a){return s(c,zj)}var
-d=aJ(s(c,zk)),l=m(d,zl);if(l)if(m(d,zm))if(m(d,zn))if(m(d,zo))var
-e=Y([0,zq,[0,d,zp]]);else
+d=aK(s(c,zk)),l=m(d,zl);if(l)if(m(d,zm))if(m(d,zn))if(m(d,zo))var
+e=Z([0,zq,[0,d,zp]]);else
 var
 o=cG(S,i(0)),e=[2,o[1],o[2]];else
 var
@@ -6851,25 +6865,25 @@ a=ad(A),c=0;switch(n){case
 q=a[1];if(!m(q[1],zs)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return g?Y(zt):[1,U(S,b)]}}}break;case
+e=b[1];c=1;l=1}if(!l&&!a[2])return[1,U(S,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],zu)){var
+s=a[1];if(!m(s[1],zt)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
-h=a[2];if(h){var
-u=h[1];if(!m(u[1],zv)){var
+g=a[2];if(g){var
+u=g[1];if(!m(u[1],zu)){var
 v=u[2];if(1===v[0]){var
-i=v[1];if(i&&!i[2]&&!h[2]){var
+i=v[1];if(i&&!i[2]&&!g[2]){var
 B=S(i[1]);return[2,S(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],zw)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],zx)&&!j[2]&&g)return Y(zy)}else
+w=a[1];if(!m(w[1],zv)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],zw)&&!j[2]&&h)return Z(zx)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],zz)){var
+y=a[1];if(!m(y[1],zy)){var
 z=y[2];if(1===z[0]&&!a[2])return[1,U(S,z[1])]}}break;case
 2:case
 8:if(a){var
@@ -6877,57 +6891,57 @@ o=a[1];if(!m(o[1],zr)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw O}var
-r=cf(q,aR(c,zA));return[0,n,cf(cF,aR(c,zB)),r,e]}function
+r=cf(q,aR(c,zz));return[0,n,cf(cF,aR(c,zA)),r,e]}function
 nl(c){var
-d=dR(zM,c),e=d[1];if(!(9<=e))switch(e){case
+d=dS(zL,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dR(zK,c),b=a[1];if(2!==b&&!(4<=b))return a;return Y(zL)}function
+a=dS(zJ,c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(zK)}function
 nm(a){var
-b=dR(zN,a);return 11===b[1]?b:nl(a)}function
-zO(c){var
-d=dR(zP,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
+b=dS(zM,a);return 11===b[1]?b:nl(a)}function
+zN(c){var
+d=dS(zO,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
 if(9<=a)b=1;return b?d:nm(c)}function
-iq(c){var
-d=dR(zQ,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+ir(c){var
+d=dS(zP,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
 if(4<=a)b=1;return b?d:nl(c)}function
-ir(b){var
-a=ad(b[2]);if(m(b[1],zX)){var
-c=cG(S,s(a,zY)),d=cG(S,s(a,zZ)),e=d[2],f=d[1],g=S(s(a,z0));return[1,c[1],c[2],g,f,e]}var
-h=U(S,Z(s(a,z1)));return[0,U(S,Z(s(a,z2))),h]}function
-z3(f){var
+is(b){var
+a=ad(b[2]);if(m(b[1],zW)){var
+c=cG(S,s(a,zX)),d=cG(S,s(a,zY)),e=d[2],f=d[1],g=S(s(a,zZ));return[1,c[1],c[2],g,f,e]}var
+h=U(S,Y(s(a,z0)));return[0,U(S,Y(s(a,z1))),h]}function
+z2(f){var
 a=ad(f);function
 d(b){return S(s(a,b))}function
-c(b){return eK(S,s(a,b))}var
-b=aJ(s(a,z4));if(m(b,z5)){if(!m(b,z6)){var
-j=s(a,Aa),e=cG(function(a){return a},j),k=aR(a,Ab),l=cf(function(a){return c(Ac)},k),n=gg(aJ(e[2])),o=gg(aJ(e[1])),p=d(Ad);return[0,cF(s(a,Ae)),p,o,n,l]}if(m(b,z7))throw O}var
-g=d(z8),h=c(z9),i=c(z_);return[1,aq(b,z$),i,h,g]}function
-is(ar){var
-g=c9(ar),h=g[1];if(m(h,Af)){if(m(h,Ag)){if(m(h,Ah)){if(m(h,Ai))return Y([0,Ak,[0,h,Aj]]);var
-w=s(ad(g[2]),Al),ag=0;if(2===w[0]){var
-L=m(w[1],Am);if(!L){var
+c(b){return eL(S,s(a,b))}var
+b=aK(s(a,z3));if(m(b,z4)){if(!m(b,z5)){var
+j=s(a,z$),e=cG(function(a){return a},j),k=aR(a,Aa),l=cf(function(a){return c(Ab)},k),n=gh(aK(e[2])),o=gh(aK(e[1])),p=d(Ac);return[0,cF(s(a,Ad)),p,o,n,l]}if(m(b,z6))throw O}var
+g=d(z7),h=c(z8),i=c(z9);return[1,aq(b,z_),i,h,g]}function
+it(ar){var
+g=c9(ar),h=g[1];if(m(h,Ae)){if(m(h,Af)){if(m(h,Ag)){if(m(h,Ah))return Z([0,Aj,[0,h,Ai]]);var
+w=s(ad(g[2]),Ak),ag=0;if(2===w[0]){var
+L=m(w[1],Al);if(!L){var
 K=L;ag=1}}if(!ag)var
-K=[0,bS(w)];return[6,K]}var
-M=ad(g[2]),j=is([0,[0,[0,Ao,s(M,An)],0]]);if(0===j[0]){var
-x=j[2];if(0===x[0]&&!j[3]){var
-as=S(s(M,Aq));return[5,j[1],x[1],x[2],j[4],as]}}return Y(Ap)}var
-a=ad(g[2]),y=aR(a,Ar),z=y?U(z3,Z(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?Y(As):a},k=c9(s(a,At)),b=c9(s(a,Au)),c=k[1];if(m(c,Av)&&m(c,Aw)&&m(c,Ax)){if(0===aR(a,Ay)){if(m(c,Az)){var
-ah=0;if(m(c,AA)){if(!m(c,AB)){var
-N=b[1],ai=0;if(m(N,AE)&&m(N,AF)){ah=1;ai=1}if(!ai){var
-A=Z(k[2]),at=Z(s(a,AI)),P=U(function(a){return dR(0,a)},at);if(!au(yK,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
-ax=U(yu,A),f=ad(b[2]);if(m(b[1],zR))var
-I=cG(S,s(f,zS)),J=cG(S,s(f,zT)),am=J[2],an=J[1],ao=S(s(f,zU)),Q=[1,I[1],I[2],ao,an,am];else
+K=[0,bT(w)];return[6,K]}var
+M=ad(g[2]),i=it([0,[0,[0,An,s(M,Am)],0]]);if(0===i[0]){var
+x=i[2];if(0===x[0]&&!i[3]){var
+as=S(s(M,Ap));return[5,i[1],x[1],x[2],i[4],as]}}return Z(Ao)}var
+a=ad(g[2]),y=aR(a,Aq),z=y?U(z2,Y(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?Z(Ar):a},k=c9(s(a,As)),b=c9(s(a,At)),c=k[1];if(m(c,Au)&&m(c,Av)&&m(c,Aw)){if(0===aR(a,Ax)){if(m(c,Ay)){var
+ah=0;if(m(c,Az)){if(!m(c,AA)){var
+N=b[1],ai=0;if(m(N,AD)&&m(N,AE)){ah=1;ai=1}if(!ai){var
+A=Y(k[2]),at=Y(s(a,AH)),P=U(function(a){return dS(0,a)},at);if(!au(yK,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+ax=U(yu,A),f=ad(b[2]);if(m(b[1],zQ))var
+I=cG(S,s(f,zR)),J=cG(S,s(f,zS)),am=J[2],an=J[1],ao=S(s(f,zT)),Q=[1,I[1],I[2],ao,an,am];else
 var
-ap=eK(S,s(f,zV)),Q=[0,eK(S,s(f,zW)),ap];return[0,ax,Q,z,P]}o(0);var
-av=U(iq,Z(s(a,AJ))),aw=ir(b);return[1,0,U(nj,A),0,aw,0,av]}}}else
-if(!m(b[1],AK)){o(0);var
-R=U(iq,Z(s(a,AL))),v=0,e=R;for(;;){if(e){var
+ap=eL(S,s(f,zU)),Q=[0,eL(S,s(f,zV)),ap];return[0,ax,Q,z,P]}o(0);var
+av=U(ir,Y(s(a,AI))),aw=is(b);return[1,0,U(nj,A),0,aw,0,av]}}}else
+if(!m(b[1],AJ)){o(0);var
+R=U(ir,Y(s(a,AK))),v=0,e=R;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=jd(v),aj=0;if(n){var
+n=je(v),aj=0;if(n){var
 d=0,T=n[1][4];if(typeof
 T==="number")d=1;else
 switch(T[0]){case
@@ -6942,54 +6956,54 @@ C=n[2];if(C){var
 F=0,W=C[1][4];if(typeof
 W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)Y(AM);var
-ay=S(s(ad(b[2]),AN));return[4,S(s(ad(k[2]),AO)),ay,R]}}if(!ah)return Y([0,AD,[0,c,AC]])}else
-if(!m(b[1],AP)){o(0);var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)Z(AL);var
+ay=S(s(ad(b[2]),AM));return[4,S(s(ad(k[2]),AN)),ay,R]}}if(!ah)return Z([0,AC,[0,c,AB]])}else
+if(!m(b[1],AO)){o(0);var
 p=ad(k[2]),X=ad(b[2]),_=function(c,a){var
-b=Z(a);return U(function(d){var
-a=Z(d);if(a){var
+b=Y(a);return U(function(d){var
+a=Y(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aJ(a[1]),e]}}throw O},b)},az=function(d){var
+e=j(c,b[1]);return[0,aK(a[1]),e]}}throw O},b)},az=function(d){var
 a=ad(d);if(a){var
-b=a[1],c=b[1];if(m(c,AQ)){if(!m(c,AR)&&!a[2])return[0,U(io,Z(b[2]))]}else
-if(!a[2])return[1,io(b[2])]}throw O},aA=U(nm,Z(s(a,AS))),aB=U(S,Z(s(X,AT))),aC=U(S,Z(s(X,AU))),aD=U(az,Z(s(p,AV))),aE=_(io,s(p,AW)),aF=_(bS,s(p,AX));return[3,U(aJ,Z(s(p,AY))),aF,aE,aD,aC,aB,aA]}return Y([0,AH,[0,b[1],AG]])}throw O}var
-$=ad(k[2]),q=cf(S,aR($,AZ)),aG=function(f){var
-a=c9(f),b=a[1];if(m(b,A0)){if(m(b,A1)){if(m(b,A2)){if(m(b,A3))throw O;var
-d=a[2],g=S(s(ad(d),A4));return[3,S(s(ad(d),A5)),g]}var
-h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A6),j=c(A7);return[1,c(A8),j,i]}var
-e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aG,aR(a,A9)),aa=m(c,A_),D=aa?m(c,A$)?2:1:aa,t=Z(s($,Ba));if(q&&r){var
-ab=r[1];if(gM(nk,t)){var
+b=a[1],c=b[1];if(m(c,AP)){if(!m(c,AQ)&&!a[2])return[0,U(ip,Y(b[2]))]}else
+if(!a[2])return[1,ip(b[2])]}throw O},aA=U(nm,Y(s(a,AR))),aB=U(S,Y(s(X,AS))),aC=U(S,Y(s(X,AT))),aD=U(az,Y(s(p,AU))),aE=_(ip,s(p,AV)),aF=_(bT,s(p,AW));return[3,U(aK,Y(s(p,AX))),aF,aE,aD,aC,aB,aA]}return Z([0,AG,[0,b[1],AF]])}throw O}var
+$=ad(k[2]),q=cf(S,aR($,AY)),aG=function(f){var
+a=c9(f),b=a[1];if(m(b,AZ)){if(m(b,A0)){if(m(b,A1)){if(m(b,A2))throw O;var
+d=a[2],g=S(s(ad(d),A3));return[3,S(s(ad(d),A4)),g]}var
+h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A5),j=c(A6);return[1,c(A7),j,i]}var
+e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aG,aR(a,A8)),aa=m(c,A9),D=aa?m(c,A_)?2:1:aa,t=Y(s($,A$));if(q&&r){var
+ab=r[1];if(gN(nk,t)){var
 aH=function(c){var
 a=ad(c);function
-b(b){return U(bS,Z(s(a,b)))}if(0!==aR(a,Bb))Y(Bc);var
-d=b(Bd);return[0,b(Be),d]},ac=U(zO,Z(s(a,Bf))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))Y(Bg);var
-aI=ir(b),aK=q[1];return[2,D,U(aH,t),aK,aI,ab,z,ac]}}o(0);var
-al=0;if(!q&&aq(c,Bj)){var
+b(b){return U(bT,Y(s(a,b)))}if(0!==aR(a,Ba))Z(Bb);var
+d=b(Bc);return[0,b(Bd),d]},ac=U(zN,Y(s(a,Be))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))Z(Bf);var
+aI=is(b),aJ=q[1];return[2,D,U(aH,t),aJ,aI,ab,z,ac]}}o(0);var
+al=0;if(!q&&aq(c,Bi)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==r?1:0,aL=af?au(nk,t):af;if(aL)Y(Bh);var
-aM=U(iq,Z(s(a,Bi))),aN=ir(b);return[1,ae,U(nj,t),q,aN,r,aM]}var
+af=0!==r?1:0,aL=af?au(nk,t):af;if(aL)Z(Bg);var
+aM=U(ir,Y(s(a,Bh))),aN=is(b);return[1,ae,U(nj,t),q,aN,r,aM]}var
 u=ad(g[2]);function
 aO(b){var
-a=ad(b),c=S(s(a,Bk)),d=[0,S(s(a,Bl)),c];return[0,aJ(s(a,Bm)),d]}var
-l=is([0,[0,[0,Bo,s(u,Bn)],0]]);if(0===l[0]&&!l[3]){var
-aP=S(s(u,Bq)),aQ=S(s(u,Br)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Z(s(u,Bs))),aU,aT,aS,aQ,aP]}return Y(Bp)}function
-it(a){return U(eM,Z(a))}function
-iu(c,b){var
-a=it(b);if(bY(a)!==c)throw O;return a}function
+a=ad(b),c=S(s(a,Bj)),d=[0,S(s(a,Bk)),c];return[0,aK(s(a,Bl)),d]}var
+l=it([0,[0,[0,Bn,s(u,Bm)],0]]);if(0===l[0]&&!l[3]){var
+aP=S(s(u,Bp)),aQ=S(s(u,Bq)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(s(u,Br))),aU,aT,aS,aQ,aP]}return Z(Bo)}function
+iu(a){return U(eN,Y(a))}function
+iv(c,b){var
+a=iu(b);if(bZ(a)!==c)throw O;return a}function
 nn(a,d){var
-b=ad(d),e=Z(s(b,Bv)),f=a[2],c=U(function(a){return iu(f,a)},e),g=a[1];if(bY(c)!==g)throw O;return[0,c,gf(s(b,Bw))]}function
-eN(g,o){var
+b=ad(d),e=Y(s(b,Bu)),f=a[2],c=U(function(a){return iv(f,a)},e),g=a[1];if(bZ(c)!==g)throw O;return[0,c,gg(s(b,Bv))]}function
+eO(g,o){var
 M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],N=pG(a,Bx),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,By)&&m(a,Bz)&&m(a,BA))if(m(a,BB))f=1;else{var
+e=d[1],a=e[1],N=pG(a,Bw),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,Bx)&&m(a,By)&&m(a,Bz))if(m(a,BA))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ae=U(it,Z(r[1])),af=aJ(q[1]);return[8,eN(g,p[1]),af,ae]}b=1;f=1}else
+ae=U(iu,Y(r[1])),af=aK(q[1]);return[8,eO(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -6999,65 +7013,65 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=gf(x[1]),ai=eM(w[1]);return[5,eN(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,BE))if(m(a,BF))if(m(a,BG))if(m(a,BH)){if(!m(a,BI)){if(!d[2]){var
-S=ad(e[2]),aj=Z(s(S,BJ)),ak=M+1|0,T=U(function(a){return iu(ak,a)},aj);if(3===bY(T))return[1,BL,T,gf(s(S,BK))];throw O}b=1}}else{if(!d[2]){var
-J=aJ(e[2]),K=m(J,Bt);if(K){if(m(J,Bu))throw O;var
+ah=gg(x[1]),ai=eN(w[1]);return[5,eO(g,v[1]),ai,ah]}b=1}}}}}else
+if(m(a,BD))if(m(a,BE))if(m(a,BF))if(m(a,BG)){if(!m(a,BH)){if(!d[2]){var
+S=ad(e[2]),aj=Y(s(S,BI)),ak=M+1|0,T=U(function(a){return iv(ak,a)},aj);if(3===bZ(T))return[1,BK,T,gg(s(S,BJ))];throw O}b=1}}else{if(!d[2]){var
+J=aK(e[2]),K=m(J,Bs);if(K){if(m(J,Bt))throw O;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 i=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],BN)){var
+e=b[1];if(!m(e[1],BM)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],BO)){var
+g=c[1];if(!m(g[1],BN)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eN(BP,a)}}}}}}}}}}return eN(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eO(BO,a)}}}}}}}}}}return eO(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-_=j[1],k=_[1],c=0;if(m(k,BQ)&&m(k,BR)&&m(k,BS))if(m(k,BT))c=1;else{var
+_=j[1],k=_[1],c=0;if(m(k,BP)&&m(k,BQ)&&m(k,BR))if(m(k,BS))c=1;else{var
 $=_[2];if(1===$[0]){var
 E=$[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ac=0;if(m(G,BV)&&m(G,BW)&&m(G,BX)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ac=0;if(m(G,BU)&&m(G,BV)&&m(G,BW)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,BY)&&m(aa,BZ)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+aa=l[1];if(m(aa,BX)&&m(aa,BY)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=gf(I[1]),aq=eM(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
+ap=gg(I[1]),aq=eN(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ab=i[1];if(!m(ab,B0)||!m(ab,B1))n=1;break}switch(n){case
+ab=i[1];if(!m(ab,BZ)||!m(ab,B0))n=1;break}switch(n){case
 0:var
-y=Y(BU);break;case
+y=Z(BT);break;case
 1:var
 y=X(g,i);break}return[7,y]}b=1}else{var
 V=e[2];if(1===V[0]){var
 z=V[1];if(z){var
 A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,iu(M+1|0,al)]};b=2}}}}else{var
+al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,iv(M+1|0,al)]};b=2}}}}else{var
 W=e[2];if(1===W[0]){var
 B=W[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dQ(D[1]),BM))throw O;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eM(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return Y([0,BD,[0,a,BC]]);break;case
+an=C[1];if(m(dR(D[1]),BL))throw O;var
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eN(an)]};b=2}}}}}switch(b){case
+0:if(!d[2])return Z([0,BC,[0,a,BB]]);break;case
 1:break;default:var
 Q=nn(g,u);return t(Q[1],Q[2])}}break;case
 2:return[0,o[1]]}throw O}function
 no(k){var
-b=c9(k),a=b[1];if(m(a,B4))if(m(a,B5)){var
-g=m(a,B6);if(!g)return g;if(m(a,B7)){if(!m(a,B8))return[2,U(S,Z(b[2]))]}else{var
+b=c9(k),a=b[1];if(m(a,B3))if(m(a,B4)){var
+g=m(a,B5);if(!g)return g;if(m(a,B6)){if(!m(a,B7))return[2,U(S,Y(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -7065,34 +7079,34 @@ l=cF(d[1]);return[1,cF(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(it,Z(f[1]));return[0,cF(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return Y([0,B_,[0,a,B9]])}function
+n=U(iu,Y(f[1]));return[0,cF(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return Z([0,B9,[0,a,B8]])}function
 np(f,b){var
-a=ad(b),c=Z(s(a,Cd)),d=U(function(g){var
+a=ad(b),c=Y(s(a,Cc)),d=U(function(g){var
 a=ad(g);function
 b(d,c){var
-b=aR(a,c);return b?U(d,Z(b[1])):b}var
-c=b(eM,B$),d=cf(no,aR(a,Ca)),e=cf(cF,aR(a,Cb));return[0,b(function(h){var
-b=Z(h);if(b){var
+b=aR(a,c);return b?U(d,Y(b[1])):b}var
+c=b(eN,B_),d=cf(no,aR(a,B$)),e=cf(cF,aR(a,Ca));return[0,b(function(h){var
+b=Y(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B2)){if(!a[2]){if(m(dQ(e),B3))throw O;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B1)){if(!a[2]){if(m(dR(e),B2))throw O;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eN(f,c);return[0,cF(e),g]}}}throw O},Cc),e,d,c]},c),e=aR(a,Ce),g=cf(function(a){return nn(f,a)},e);return[0,ng(s(a,Cf)),g,d]}function
+g=eO(f,c);return[0,cF(e),g]}}}throw O},Cb),e,d,c]},c),e=aR(a,Cd),g=cf(function(a){return nn(f,a)},e);return[0,ng(s(a,Ce)),g,d]}function
 nq(c){var
-a=ad(c),b=aR(a,Cg),d=b?U(S,Z(b[1])):b,e=no(s(a,Ch)),f=U(S,Z(s(a,Ci)));return[0,ng(s(a,Cj)),f,d,e]}function
+a=ad(c),b=aR(a,Cf),d=b?U(S,Y(b[1])):b,e=no(s(a,Cg)),f=U(S,Y(s(a,Ch)));return[0,ng(s(a,Ci)),f,d,e]}function
 nr(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Ct(b){var
+Cs(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Cu(b){var
+Ct(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-ey(k(a[1]));return 10===c?1:0}function
-Cy(h){var
+a!=="number"&&1===a[0])return 1-ez(k(a[1]));return 10===c?1:0}function
+Cx(h){var
 l=ap(h),c=[0,0];function
 n(a){if(c[1]<l)return aN(h,c[1]);throw O}function
 o(a){if(n(0)===a){c[1]++;return 0}throw O}function
-G(a,b){for(;;){if(c[1]<l&&i(b,aN(h,c[1]))){c[1]++;continue}return di(h,a,c[1]-a|0)}}function
+G(a,b){for(;;){if(c[1]<l&&j(b,aN(h,c[1]))){c[1]++;continue}return di(h,a,c[1]-a|0)}}function
 H(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -7102,8 +7116,8 @@ d=b;return d}var
 b=G(c[1],a);o(34);return b}function
 I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return jd(d)}}function
+d=[0,j(e,0),b];if(44===n(0)){c[1]++;var
+b=d;continue}o(a);return je(d)}}function
 v(b,i){if(64<b)throw O;var
 a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
@@ -7112,8 +7126,8 @@ a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2
 h=c[1];c[1]++;return[3,G(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw O}var
 aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aN(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw O;var
-t=ad(aa);if(m(aJ(s(t,Cz)),CA))throw O;var
-a=is(s(t,CB)),B=0;switch(a[0]){case
+t=ad(aa);if(m(aK(s(t,Cy)),Cz))throw O;var
+a=it(s(t,CA)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -7123,28 +7137,28 @@ if(1===z[1])var
 A=6;else
 C=1;if(C)var
 A=3;var
-g=[0,bY(a[2]),A];break;case
+g=[0,bZ(a[2]),A];break;case
 2:var
-as=1===a[1]?6:3,g=[0,bY(a[2]),as];break;case
+as=1===a[1]?6:3,g=[0,bZ(a[2]),as];break;case
 3:var
-at=bY(a[1]),g=[0,bY(a[4]),at];break;case
+at=bZ(a[1]),g=[0,bZ(a[4]),at];break;case
 7:var
 K=a[2];B=1;break;case
 0:case
 5:var
 K=a[1];B=1;break;default:var
-g=CX}if(B)var
-g=[0,bY(K),3];var
-p=c9(s(t,CC)),q=p[1];if(m(q,Co))if(m(q,Cp))if(m(q,Cq))var
-b=Y([0,Cs,[0,q,Cr]]);else
+g=CW}if(B)var
+g=[0,bZ(K),3];var
+p=c9(s(t,CB)),q=p[1];if(m(q,Cn))if(m(q,Co))if(m(q,Cp))var
+b=Z([0,Cr,[0,q,Cq]]);else
 var
 r=nq(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
 w=np(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
-ac=Z(p[2]),b=[2,U(function(f){var
-a=c9(f),b=a[1];if(m(b,Ck)){if(m(b,Cl)){if(m(b,Cm)){var
-e=m(b,Cn);if(e)throw O;return e}return[0,cF(a[2])]}var
+ac=Y(p[2]),b=[2,U(function(f){var
+a=c9(f),b=a[1];if(m(b,Cj)){if(m(b,Ck)){if(m(b,Cl)){var
+e=m(b,Cm);if(e)throw O;return e}return[0,cF(a[2])]}var
 c=nq(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
 d=np(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
 ae(a){var
@@ -7163,15 +7177,15 @@ P=a[4],N=a[1];d=5;break;case
 ak=b[3];if(au(function(a){var
 b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))Y(CO);else
+7:return 1;default:return 0}},b)},ak))Z(CN);else
 d=3;break;case
 1:var
-al=a[6];if(au(function(a){return 8===a[1]?1:0},al))Y(CP);else
+al=a[6];if(au(function(a){return 8===a[1]?1:0},al))Z(CO);else
 d=2;break;default:d=1}break;case
 2:var
 R=a[7],S=a[1],D=0;switch(b[0]){case
 0:var
-am=1===S?6:3,T=bY(a[2])===am?1:0;if(T){var
+am=1===S?6:3,T=bZ(a[2])===am?1:0;if(T){var
 W=0;if(2<=S||!(0===a[4][0]))W=1;else
 var
 y=1;if(W)var
@@ -7183,37 +7197,37 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],CQ))a=1;break;case
+1:if(m(c[1],CP))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],CR))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))Y(CS);else{var
-aq=b[3];if(gM(function(a){var
-b=a[1];return gM(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],CQ))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))Z(CR);else{var
+aq=b[3];if(gN(function(a){var
+b=a[1];return gN(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,Cv)){if(!m(c,Cw))return au(Cu,R)}else
+c=b[1];if(m(c,Cu)){if(!m(c,Cv))return au(Ct,R)}else
 a=1;break;case
-1:if(!m(b[1],Cx))a=1;break;case
+1:if(!m(b[1],Cw))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-Y(CT)}break;case
+Z(CS)}break;case
 1:var
 X=0,V=b[4];if(typeof
 V!=="number"&&2!==V[0])if(au(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},R)){Y(CU);X=1}else{d=2;D=1;X=1}break;default:d=1;D=1}break;case
+b=4<=a?1:0;if(!b)return b}return 1},R)){Z(CT);X=1}else{d=2;D=1;X=1}break;default:d=1;D=1}break;case
 3:switch(b[0]){case
-0:if(au(ae,b[3]))Y(CV);else
+0:if(au(ae,b[3]))Z(CU);else
 d=3;break;case
 2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
 ar=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))Y(CW);else
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))Z(CV);else
 d=4;break;case
 1:d=2;break;default:d=4}break;default:d=2}var
 f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){Y(CN);f=1}else
+2:if(1===b[0]&&M(b[4])){Z(CM);f=1}else
 f=3;break;case
 4:f=3;break;case
 0:f=1;break;case
@@ -7221,33 +7235,33 @@ f=3;break;case
 3:f=2;break}var
 e=0;switch(f){case
 3:switch(a[0]){case
-3:Y(CM);e=2;break;case
+3:Z(CL);e=2;break;case
 7:var
 P=a[4],N=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(nr,a[4])){Y(CL);e=2}else
+6:e=1;break;default:if(au(nr,a[4])){Z(CK);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
 2:e=1;break}var
-j=0;switch(e){case
+i=0;switch(e){case
 2:break;case
 3:var
-_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},N)){Y(CD);_=1}if(!_)j=3;break;case
-4:j=3;break;case
-1:j=2;break;default:j=1}var
-k=0;switch(j){case
+_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},N)){Z(CC);_=1}if(!_)i=3;break;case
+4:i=3;break;case
+1:i=2;break;default:i=1}var
+k=0;switch(i){case
 3:var
 E=0;switch(a[0]){case
 5:var
 $=0;if(0===b[0]){var
-aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){Y(CK);E=1;$=1}}if(!$)var
+aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){Z(CJ);E=1;$=1}}if(!$)var
 x=a[4];break;case
 7:var
 x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(au(Ct,x))Y(CJ);else
+x=a[4];else{k=2;E=1}}if(!E)if(au(Cs,x))Z(CI);else
 k=2;break;case
 2:k=2;break;case
 1:k=1;break}var
@@ -7262,24 +7276,24 @@ ah=a[4];switch(b[0]){case
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(nr,ah)}return 0};if(au(ai,b[1]))Y(CI);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Y(CH);else
+2:return au(nr,ah)}return 0};if(au(ai,b[1]))Z(CH);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Z(CG);else
 F=1;break;case
 1:F=1;break}var
-Q=ad(s(t,CE)),ag=aJ(s(Q,CF));return[0,a,b,aJ(s(Q,CG)),ag]}function
-CY(b){var
-c=ap(b),g=64,h=Ez(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+Q=ad(s(t,CD)),ag=aK(s(Q,CE));return[0,a,b,aK(s(Q,CF)),ag]}function
+CX(b){var
+c=ap(b),g=64,h=Ey(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aq(di(b,a,18),CZ);if(!e){var
+e=aq(di(b,a,18),CY);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}EU(function(b){try{if(CY(b))var
-a=C1;else{try{var
-e=0,d=Cy(b);e=1}catch(a){a=pI(a);if(a[1]===nf)var
+f=d;return f}}ET(function(b){try{if(CX(b))var
+a=C0;else{try{var
+e=0,d=Cx(b);e=1}catch(a){a=pI(a);if(a[1]===nf)var
 c=[0,a[2]];else{if(a!==O)throw a;var
 c=2}}if(e)var
 c=yf(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return C0}if(typeof
+a=c}}catch(a){return CZ}if(typeof
 a==="number")switch(a){case
-0:return C2;case
-1:return C3;default:return C4}return aT(C5,a[1])});jc(0);return}(globalThis));
+0:return C1;case
+1:return C2;default:return C3}return aT(C4,a[1])});jd(0);return}(globalThis));

@@ -467,9 +467,6 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         ("Accuracy_", [("joint_error", _), ("max_angle", _)]) if asked > Asked::Anything => {
             return not_covered("accuracy of a platform that turns")
         }
-        ("Stiffness_", [("joint", _)]) if asked > Asked::Anything => {
-            return not_covered("a stiffness for each joint of such a mechanism")
-        }
         ("Stiffness_", [("joint", all)]) | ("BaseJoint_" | "PlatformJoint_", [("axis", all)]) => {
             Some(format!("(Each_ {})", list(all.iter().map(expression))))
         }
