@@ -3,7 +3,7 @@
 
 use super::objection;
 use orthocert_kernel::certificate::{
-    Certificate, Claim, Corner, Evidence, Failure, Node, Proof, Step, Tree, Verdict, Witness,
+    Certificate, Claim, Corner, Evidence, Failure, Node, Part, Proof, Step, Tree, Verdict, Witness,
 };
 use orthocert_kernel::claim::NoCubeClaim;
 use orthocert_kernel::number::Expression;
@@ -52,6 +52,8 @@ fn it_describes_every_form_of_evidence_and_of_failure() {
         Evidence::Corner(Corner::Q2),
         Evidence::Outside,
         Evidence::Tolerances(about(Evidence::Test), "-0+".to_owned(), vec![vec![-3, i64::MAX]]),
+        Evidence::Fan(vec![Part(vec![i64::MIN, 1], 1, 63, Evidence::Test)]),
+        Evidence::Between(vec![3, 0, -1], 63, about(Evidence::Test), about(Evidence::Test)),
         Evidence::Inside(about(Evidence::Test), 1, 0),
         Evidence::Control(about(Evidence::Turned(about(Evidence::Test), 1, 63))),
     ];

@@ -75,6 +75,8 @@ impl Evidence {
             Evidence::Direction(_) => "direction",
             Evidence::Negative => "negative",
             Evidence::Tolerances(..) => "tolerances",
+            Evidence::Fan(_) => "fan",
+            Evidence::Between(..) => "between",
             Evidence::Cube => "cube",
             Evidence::Corner(_) => "corner",
             Evidence::Mirror => "mirror",

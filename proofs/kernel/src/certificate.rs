@@ -98,8 +98,7 @@ pub struct Tree {
 impl Tree {
     /// Whether a step has tolerances apart.
     pub fn takes_tolerances_apart(&self) -> bool {
-        let apart = |Step(_, by): &Step| matches!(by, Evidence::Tolerances(..));
-        self.nodes.iter().flat_map(|node| &node.by).any(apart)
+        self.nodes.iter().flat_map(|node| &node.by).any(|Step(_, by)| by.takes_tolerances_apart())
     }
 }
 
@@ -187,6 +186,11 @@ pub enum Evidence {
     /// The evidence for one machine of the tolerance, less what the others differ by: which one, and a
     /// direction for each matrix.
     Tolerances(Box<Evidence>, String, Vec<Vec<i64>>),
+    /// For singular values: evidence for the directions of each part.
+    Fan(Vec<Part>),
+    /// For a condition number: `mu_0, mu_1, .., mu_m`, over `2^places`, and evidence for `sigma_min^2 >= mu` and for
+    /// `sigma_max^2 <= c^2 mu`.
+    Between(Vec<i64>, u32, Box<Evidence>, Box<Evidence>),
     /// The evidence, where it needs the workspace's own inequality: so much of it over `2^places`.
     Inside(Box<Evidence>, i64, u32),
     /// The evidence, where it needs the orientations' own inequality: so much of it over `2^places`.
@@ -195,6 +199,27 @@ pub enum Evidence {
     /// platforms that turn.
     Control(Box<Evidence>),
 }
+
+impl Evidence {
+    /// Itself, or what is about each of its parts.
+    pub(crate) fn parts(&self) -> Vec<&Evidence> {
+        match self {
+            Evidence::Fan(parts) => parts.iter().flat_map(|Part(.., by)| by.parts()).collect(),
+            Evidence::Between(.., lower, upper) => [lower.parts(), upper.parts()].concat(),
+            by => vec![by],
+        }
+    }
+
+    /// Whether it has tolerances apart.
+    pub(crate) fn takes_tolerances_apart(&self) -> bool {
+        self.parts().into_iter().any(|by| matches!(by, Evidence::Tolerances(..)))
+    }
+}
+
+/// Evidence for the directions `v` between this and the next one, after the last part minus the first: where both have
+/// products with `v` of other signs. What says so is taken `n/2^places` times ([`crate::test::Wedge`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Part(pub Vec<i64>, pub i64, pub u32, pub Evidence);
 
 /// A cell of an atlas: a bisection tree of the box of parameters, in preorder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

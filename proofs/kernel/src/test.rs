@@ -26,7 +26,7 @@ pub mod curvature;
 pub mod solve;
 pub mod tolerances;
 
-use self::tolerances::{less_changes, Tolerances};
+use self::tolerances::{less_changes, Tolerances, Toward};
 use crate::arithmetic::{Arithmetic, Enclosure};
 use crate::cell::Vertex;
 use crate::control::Controls;
@@ -106,8 +106,43 @@ pub struct Over<'a, E: Enclosure> {
     pub inside: Option<Vec<E::Number>>,
     /// Where values at vertices are those of one machine: how the others differ. `values` and `controls` are of all.
     pub tolerances: Option<&'a Tolerances<'a, E>>,
+    /// The directions for which something is shown of singular values, where it is not of all.
+    pub wedge: Option<Wedge<'a>>,
+    /// The bound of a condition number, where not both are shown.
+    pub half: Option<Half<'a>>,
     /// The number of the vertex, or control point, at which matrices are looked at first: a search may know where they fail.
     pub first: usize,
+}
+
+/// The directions `v` with `(b . v)(c . v) <= 0`, and `lambda = n/2^places >= 0`.
+///
+/// **Lemma (fan).** Of `c_1, .., c_K` and `c_{K+1} = -c_1`, let each `T_j + lambda_j (c_j c_{j+1}^T + c_{j+1} c_j^T)/2` be positive
+/// definite. Then every `v != 0` has a `j` with `v^T T_j v > 0`. *Proof.* Where `c_1 . v` is not zero, the numbers
+/// `c_1 . v, .., c_K . v, -c_1 . v` change their sign; where it is, take `j = 1`. So `(c_j . v)(c_{j+1} . v) <= 0` for some `j`,
+/// and `v^T T_j v` is not less than what is positive. ∎ With `lambda < 0` it would be unsound: with `c_1 = (0, 1)` and
+/// `lambda_1 = -2` the identity is made of `T_1 = diag(1, -1)`. So it would be without the last wedge: with `c_1 = (1, 0)`, `c_2 = (0, 1)`
+/// and `lambda_1 = 4` of `[[1, -2], [-2, 1]]`, which is negative for `(1, 1)`.
+///
+/// A test is about each direction by itself: what it shows of `v` at a point follows from any `T_j` with `v^T T_j v > 0` there,
+/// whatever machine, multiplier or inequality of the workspace it was made with. At the vertices the same is added to all.
+#[derive(Clone, Copy)]
+pub struct Wedge<'a> {
+    /// `b` and `c`.
+    pub between: [&'a [i64]; 2],
+    /// `n`.
+    pub n: i64,
+    /// Binary places.
+    pub places: u32,
+}
+
+/// One bound of a condition number, with the `mu` of both, at the vertices: at control points `mu` is another function of
+/// the point.
+#[derive(Clone, Copy)]
+pub struct Half<'a> {
+    /// `mu_0, .., mu_m`, and their binary places.
+    pub mu: (&'a [i64], u32),
+    /// `sigma_max^2 <= c^2 mu`; else `sigma_min^2 >= mu`.
+    pub upper: bool,
 }
 
 /// A row at a vertex, `A_i` and then `D_i`, and what tolerances change of it.
@@ -123,7 +158,22 @@ impl<'a, E: Enclosure> Over<'a, E> {
         slopes: Slopes<'a, E>,
         values: &'a Formulas<E>,
     ) -> Self {
-        Over { place, slopes, values, controls: None, inside: None, tolerances: None, first: 0 }
+        Over {
+            place,
+            slopes,
+            values,
+            controls: None,
+            inside: None,
+            tolerances: None,
+            wedge: None,
+            half: None,
+            first: 0,
+        }
+    }
+
+    /// Whether it is at vertices, of all machines, with nothing subtracted.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.controls.is_none() && self.inside.is_none() && self.tolerances.is_none()
     }
 
     /// The value of a formula over the cell.
@@ -194,6 +244,21 @@ impl<'a, E: Enclosure> Over<'a, E> {
         }
         own.push(self.own_at(row.d, vertex)?);
         Some((own, self.changes(row.a.iter().chain([&row.d]), vertex)?))
+    }
+
+    /// `c I`, with what a wedge adds.
+    fn start(&self, m: usize, c: &E::Number) -> Option<Triangle<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let mut t = Triangle::scalar(e, m, c)?;
+        if let Some(Wedge { between: [b, c], n, places }) = self.wedge {
+            let one = e.integer(1)?;
+            t.change(|i, j, entry| {
+                let product = |i: usize, j: usize| b.get(i)?.checked_mul(*c.get(j)?);
+                let twice = product(i, j)?.checked_add(product(j, i)?)?.checked_mul(n)?;
+                e.add(entry, &e.dyadic(twice, places + 1, &one)?)
+            })?;
+        }
+        Some(t)
     }
 
     /// Whether every `D_i` is positive on the cell.
@@ -295,7 +360,7 @@ impl<E: Enclosure> Over<'_, E> {
             return None;
         }
         let (zero, one) = (e.integer(0)?, e.integer(1)?);
-        let mut t = Triangle::scalar(e, m, rest)?;
+        let (mut t, mut all) = (self.start(m, rest)?, Vec::new());
         for (row, y) in rows.iter().zip(&evidence.y) {
             let (row, changes) = self.row(row, v)?;
             // 2 A_i - D_i Y_i.
@@ -319,8 +384,15 @@ impl<E: Enclosure> Over<'_, E> {
                     residual(row, row.last()?)?.iter().map(|z| e.halve(z)).collect()
                 };
                 let changes: Vec<_> = changes.iter().map(half).collect::<Option<_>>()?;
-                less_changes(e, &mut t, &fixed, &changes, &self.direction(<[_]>::first)?)?;
+                all.push((fixed, changes));
             }
+        }
+        let toward = self.toward(<[_]>::first)?;
+        t = toward.matrix(e, t)?;
+        for (fixed, changes) in all {
+            let changes = changes.into_iter().map(|s| toward.vector(e, s));
+            let changes: Vec<_> = changes.collect::<Option<_>>()?;
+            less_changes(e, &mut t, &toward.vector(e, fixed)?, &changes, &toward.direction)?;
         }
         Some(is_positive_definite(e, &t))
     }
@@ -335,51 +407,53 @@ impl<E: Enclosure> Over<'_, E> {
     pub fn sigma_max(&self, rows: &[Row<Formula>], k_squared: AtVertex<'_, E::Number>) -> bool {
         let e = self.slopes.arithmetic;
         self.at_vertices(rows, |v| {
-            let mut rest = Triangle::scalar(e, width(rows), &self.less_inside(k_squared(v)?, v)?)?;
+            let toward = self.toward(<[_]>::last)?;
+            let start = self.start(width(rows), &self.less_inside(k_squared(v)?, v)?)?;
+            let mut rest = toward.matrix(e, start)?;
             // Each D_i with its row of A alone: the other D_j are not touched by its elimination.
             for row in rows {
                 let (row, changes) = self.row(row, v)?;
+                let row = toward.vector(e, row)?;
                 let (d, a) = row.split_last()?;
                 let [least, _] = e.ends(d);
                 let mut first = std::iter::once(least).chain(a.iter().cloned()).collect();
                 if !changes.is_empty() {
-                    (first, rest) = self.less_changed_row((first, rest), (d, a), &changes)?;
+                    (first, rest) = less_changed_row(e, (first, rest), (d, a), changes, &toward)?;
                 }
                 eliminate(e, &first, &mut rest.entries)?;
             }
             Some(is_positive_definite(e, &rest))
         })
     }
+}
 
-    /// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
-    /// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
-    fn less_changed_row(
-        &self,
-        (first, rest): Bordered<E::Number>,
-        (d, a): (&E::Number, &[E::Number]),
-        changes: &[Vector<E::Number>],
-    ) -> Option<Bordered<E::Number>> {
-        let e = self.slopes.arithmetic;
-        let (zero, one) = (e.integer(0)?, e.integer(1)?);
-        let mut direction = self.direction(<[_]>::last)?;
-        let along = e.dot(a, &direction)?;
-        direction.insert(0, e.neg(&e.ratio(&along, &one, d)?)?);
-        let mut fixed = vec![zero; a.len()];
-        fixed.insert(0, one);
-        let change = |row: &Vector<E::Number>| {
-            let (d, a) = row.split_last()?;
-            std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some)).collect()
-        };
-        let changes: Vec<_> = changes.iter().map(change).collect::<Option<_>>()?;
-        let m = a.len();
-        let mut bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
-            None => first.get(j).cloned(),
-            Some(i) => rest.row(i).get(j - i - 1).cloned(),
-        })?;
-        less_changes(e, &mut bordered, &fixed, &changes, &direction)?;
-        let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
-        Some((bordered.row(0).iter().cloned().collect(), rest))
-    }
+/// `[[D_i, A_i], [A_i^T, ..]]`, by its first row and the rest, less what tolerances change of the row. The direction is
+/// `(u, v)`, where `u = -A_i . v/D_i` makes the form least.
+fn less_changed_row<E: Enclosure>(
+    e: &E,
+    (first, rest): Bordered<E::Number>,
+    (d, a): (&E::Number, &[E::Number]),
+    changes: Vec<Vector<E::Number>>,
+    toward: &Toward<E::Number>,
+) -> Option<Bordered<E::Number>> {
+    let (zero, m, own) = (e.integer(0)?, a.len(), toward.bordered(e, d, a)?);
+    let fixed = (0..=m).map(|i| if i == 0 { e.integer(1) } else { Some(zero.clone()) });
+    let change = |row: Vector<E::Number>| {
+        let row = toward.vector(e, row)?;
+        let (d, a) = row.split_last()?;
+        let s = std::iter::once(e.halve(d)).chain(a.iter().cloned().map(Some));
+        own.vector(e, s.collect::<Option<_>>()?)
+    };
+    let changes: Vec<_> = changes.into_iter().map(change).collect::<Option<_>>()?;
+    let bordered = Triangle::new(m + 1, |i, j| match i.checked_sub(1) {
+        None => first.get(j).cloned(),
+        Some(i) => rest.row(i).get(j - i - 1).cloned(),
+    })?;
+    let mut bordered = own.matrix(e, bordered)?;
+    let fixed = own.vector(e, fixed.collect::<Option<_>>()?)?;
+    less_changes(e, &mut bordered, &fixed, &changes, &own.direction)?;
+    let rest = Triangle::new(m, |i, j| bordered.row(i + 1).get(j - i).cloned())?;
+    Some((bordered.row(0).iter().cloned().collect(), rest))
 }
 
 /// The columns of `A`.

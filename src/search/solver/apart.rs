@@ -17,15 +17,42 @@ use std::collections::BTreeMap;
 const LENGTHS: [f64; 3] = [64.0, 8.0, 0.0];
 
 /// Where a test is nearest to failing.
-struct Worst {
+pub(super) struct Worst {
     /// At which vertex, or control point, and where that is between the ends of each coordinate's range.
-    vertex: usize,
-    place: Vec<f64>,
+    pub vertex: usize,
+    pub place: Vec<f64>,
     /// What matrices are least, or greatest, along.
-    directions: Vec<DVector<f64>>,
+    pub directions: Vec<DVector<f64>>,
     /// Nearly the derivatives by formulas of what the test wants positive; none where no one machine is
     /// worse than all others.
     weights: Vec<(Formula, f64)>,
+}
+
+/// Where `M` stretches some direction least, or most.
+pub(super) struct Stretched {
+    rows: Vec<Row<Formula>>,
+    values: Rows,
+    sign: f64,
+    vertex: usize,
+    pub place: Vec<f64>,
+    /// All directions, from the one that is stretched least, or most, on.
+    pub directions: Vec<DVector<f64>>,
+}
+
+impl Stretched {
+    /// The same for any direction. Of `|M v|^2 = sum_i (A_i . v)^2/D_i`, the derivatives are `2 (A_i . v) v_k/D_i` by
+    /// `A_ik`, and `-(A_i . v)^2/D_i^2` by `D_i`.
+    pub fn along(&self, direction: DVector<f64>) -> Worst {
+        let (along, mut weights) = (&self.values.a * &direction, Vec::new());
+        for (i, row) in self.rows.iter().enumerate() {
+            let part = along[i] / self.values.d[i];
+            let entry = |(&f, v): (&Formula, &f64)| (f, 2.0 * self.sign * part * v);
+            weights.extend(row.a.iter().zip(direction.iter()).map(entry));
+            weights.push((row.d, -self.sign * part * part));
+        }
+        let (vertex, place) = (self.vertex, self.place.clone());
+        Worst { vertex, place, directions: vec![direction], weights }
+    }
 }
 
 impl Over<'_> {
@@ -34,25 +61,35 @@ impl Over<'_> {
     pub(super) fn with_tolerances_apart(&self, test: &Test) -> Option<Evidence> {
         self.problem().derived.as_ref()?;
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
+        let lengths = if worst.directions.is_empty() { &LENGTHS[..1] } else { &LENGTHS };
+        let machines = [self.worst_machine(&worst), Some(self.middle_machine())];
+        machines.iter().flatten().find_map(|ends| self.apart_from(test, &worst, (ends, lengths)))
+    }
+
+    /// The machine in the middle.
+    pub(super) fn middle_machine(&self) -> String {
         let differing = self.problem().inputs.iter().filter(|input| input.differs());
-        let middle = "0".repeat(differing.count());
+        "0".repeat(differing.count())
+    }
+
+    /// From one machine.
+    pub(super) fn apart_from(
+        &self,
+        test: &Test,
+        worst: &Worst,
+        (ends, lengths): (&str, &[f64]),
+    ) -> Option<Evidence> {
         // What fails mostly fails there.
         let formulas = test::Over { first: worst.vertex, inside: None, ..*self.formulas };
-        let machines = [self.worst_machine(&worst), Some(middle)];
-        let lengths = if worst.directions.is_empty() { &LENGTHS[..1] } else { &LENGTHS };
-        let all = machines.iter().flatten().flat_map(|ends| lengths.iter().map(move |l| (ends, l)));
-        all.into_iter().find_map(|(ends, length)| {
-            let in_integers = |w: &DVector<f64>| {
-                let scale = length / w.amax();
-                w.iter().map(|x| (x * scale).round() as i64).collect()
-            };
-            let directions: Vec<Vec<i64>> = worst.directions.iter().map(in_integers).collect();
+        lengths.iter().find_map(|length| {
+            let directions: Vec<Vec<i64>> =
+                worst.directions.iter().map(|w| in_integers(w, *length)).collect();
             let found =
                 self.prover.checker.apart(&formulas, (ends, &directions), |formulas| {
                     let apart = Over { formulas, ..*self };
                     apart.at_controls(test).or_else(|| apart.at_vertices(test))
                 })??;
-            Some(Evidence::Tolerances(Box::new(found), ends.clone(), directions))
+            Some(Evidence::Tolerances(Box::new(found), ends.to_owned(), directions))
         })
     }
 
@@ -65,6 +102,9 @@ impl Over<'_> {
         match test {
             Test::SigmaMin(_) => self.stretched(&own, false),
             Test::SigmaMax(_) => self.stretched(&own, true),
+            Test::Conditioning(_) if self.formulas.half.is_some() => {
+                self.stretched(&own, self.formulas.half?.upper)
+            }
             Test::Conditioning(_) => {
                 let (least, most) = (self.stretched(&own, false)?, self.stretched(&own, true)?);
                 let directions = [least.directions, most.directions].concat();
@@ -84,30 +124,29 @@ impl Over<'_> {
         }
     }
 
-    /// The vertex at which `M` stretches a direction least, or most, and that. Of
-    /// `|M v|^2 = sum_i (A_i . v)^2/D_i`, the derivatives are `2 (A_i . v) v_k/D_i` by `A_ik`, and
-    /// `-(A_i . v)^2/D_i^2` by `D_i`.
+    /// The vertex at which `M` stretches a direction least, or most, and that.
     fn stretched(&self, rows: &[&Row<Formula>], most: bool) -> Option<Worst> {
+        let rows = rows.iter().map(|&row| row.clone()).collect();
+        let mut found = self.stretched_all(rows, most)?;
+        let direction = found.directions.swap_remove(0);
+        (direction.amax() > 0.0).then(|| found.along(direction))
+    }
+
+    /// The same with all directions there.
+    pub(super) fn stretched_all(&self, rows: Vec<Row<Formula>>, most: bool) -> Option<Stretched> {
         let sign = if most { -1.0 } else { 1.0 };
         let least = |vertex| {
-            let all: Rows = self.rows(rows.iter().copied(), At::Vertex(vertex))?;
+            let all: Rows = self.rows(rows.iter(), At::Vertex(vertex))?;
             let eigen = SymmetricEigen::new(all.square() * sign);
-            let k = eigen.eigenvalues.imin();
-            let direction = eigen.eigenvectors.column(k).into_owned();
-            Some((eigen.eigenvalues[k] / self.weight(vertex)?, vertex, direction, all))
+            Some((eigen.eigenvalues.min() / self.weight(vertex)?, vertex, eigen, all))
         };
         let found = self.formulas.vertices().filter_map(least);
-        let (_, vertex, direction, all) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let along = &all.a * &direction;
-        let mut weights = Vec::new();
-        for (i, row) in rows.iter().enumerate() {
-            let part = along[i] / all.d[i];
-            let entry = |(&f, v): (&Formula, &f64)| (f, 2.0 * sign * part * v);
-            weights.extend(row.a.iter().zip(direction.iter()).map(entry));
-            weights.push((row.d, -sign * part * part));
-        }
-        let is_one = direction.amax() > 0.0;
-        is_one.then(|| self.worst_at(vertex, vec![direction], weights))
+        let (_, vertex, eigen, values) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+        let directions = order.iter().map(|&k| eigen.eigenvectors.column(k).into_owned()).collect();
+        let (place, vertex) = (self.place_of(vertex), vertex.index());
+        Some(Stretched { rows, values, sign, vertex, place, directions })
     }
 
     /// `z = A^-1 b`, `b = B_i e_i`, is longest, along `y = A^-T z`. The derivatives of `-|z|^2` are
@@ -154,24 +193,18 @@ impl Over<'_> {
         directions: Vec<DVector<f64>>,
         weights: Vec<(Formula, f64)>,
     ) -> Worst {
+        Worst { vertex: vertex.index(), place: self.place_of(vertex), directions, weights }
+    }
+
+    /// Where a vertex, or control point, is between the ends of each coordinate's range.
+    fn place_of(&self, vertex: Vertex) -> Vec<f64> {
         let place = |k| self.formulas.place(k, vertex).unwrap_or(0) as f64;
-        let place = (0..self.formulas.slopes.m).map(place).collect();
-        Worst { vertex: vertex.index(), place, directions, weights }
+        (0..self.formulas.slopes.m).map(place).collect()
     }
 
     /// The ends of all tolerances that make it worst.
-    fn worst_machine(&self, Worst { place, weights, .. }: &Worst) -> Option<String> {
-        let values = self.prover.checker.derived(self.formulas.place)?;
-        let derivatives = &self.problem().derived.as_ref()?.of;
-        let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
-        for (f, weight) in weights {
-            for (j, derivative) in derivatives.get(f)? {
-                let derivative = values.of(*derivative)?;
-                let along = derivative.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
-                let slope = middle(&derivative.at_centre) + along.sum::<f64>();
-                *slopes.entry(*j).or_default() += weight * slope;
-            }
-        }
+    pub(super) fn worst_machine(&self, worst: &Worst) -> Option<String> {
+        let slopes = self.by_parameters(worst)?;
         let inputs = self.problem().inputs.iter().enumerate();
         let differing = inputs.filter(|(_, input)| input.differs());
         let end = |(j, _)| match slopes.get(&j) {
@@ -181,4 +214,30 @@ impl Over<'_> {
         };
         (!slopes.is_empty()).then(|| differing.map(end).collect())
     }
+
+    /// By how much it changes there, about, from one end of each parameter's tolerance to the other.
+    pub(super) fn by_parameters(
+        &self,
+        Worst { place, weights, .. }: &Worst,
+    ) -> Option<BTreeMap<usize, f64>> {
+        let values = self.prover.checker.derived(self.formulas.place)?;
+        let derivatives = &self.problem().derived.as_ref()?.of;
+        let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
+        for (f, weight) in weights {
+            for (j, derivative) in derivatives.get(f)? {
+                let derivative = values.of(*derivative)?;
+                let along = derivative.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
+                let slope = middle(&derivative.at_centre) + along.sum::<f64>();
+                let (low, high) = *self.prover.parameters().get(*j)?;
+                *slopes.entry(*j).or_default() += weight * slope * (high - low);
+            }
+        }
+        Some(slopes)
+    }
+}
+
+/// A direction with this greatest component, in integers.
+pub(super) fn in_integers(w: &DVector<f64>, length: f64) -> Vec<i64> {
+    let scale = length / w.amax();
+    w.iter().map(|x| (x * scale).round() as i64).collect()
 }

@@ -70,27 +70,28 @@ impl<'a> Prover<'a> {
         formulas.map(of).chain(coordinates).fold(1.0, f64::max)
     }
 
-    /// Whether every test holds next to a point: where one does not, no tree is a proof.
-    pub fn holds_next_to(&self, point: &[f64]) -> bool {
+    /// Whether every test holds next to a point, with directions apart if they are: where one does not, no tree is a proof.
+    pub fn holds_next_to(&self, point: &[f64], apart: bool) -> bool {
         let near = |(x, &(lo, hi)): (&f64, &Pair)| {
             let off = (hi - lo) * f64::from(-FINER).exp2();
             ((x - off).max(lo), (x + off).min(hi))
         };
         let cell: Cell = point.iter().zip(&self.root).map(near).collect();
         let all: Vec<usize> = (0..self.problem.obligations.len()).collect();
-        self.trial(&cell, &all, false).open.is_empty()
+        self.tried(&cell, (&all, false), apart).open.is_empty()
     }
 
     /// Whether a test fails next to the box's centre, if that is in the workspace: it fails there,
     /// holds with equality, or the tolerances are too wide.
-    fn is_hopeless(&self, cell: &Cell, open: &[usize]) -> bool {
+    fn is_hopeless(&self, cell: &Cell, open: &[usize], apart: bool) -> bool {
         let centre = |&(lo, hi): &Pair| {
             let (middle, half) = (0.5 * (lo + hi), 0.5 * (hi - lo) * f64::from(-FINER).exp2());
             (middle - half, middle + half)
         };
         let centre: Cell = cell.iter().map(centre).collect();
         self.on(&centre, |over| {
-            let fails = |&o: &usize| over.evidence(&self.problem.obligations[o].test).is_none();
+            let fails =
+                |&o: &usize| over.evidence_of(&self.problem.obligations[o].test, apart).is_none();
             over.has_centre_inside() && open.iter().any(fails)
         })
     }
@@ -125,6 +126,29 @@ impl<'a> Prover<'a> {
     }
 }
 
+impl Prover<'_> {
+    fn tried(&self, cell: &Cell, (open, asked): (&[usize], bool), apart: bool) -> Trial {
+        self.on(cell, |over| {
+            if over.is_outside() {
+                let by = vec![Step(0, Evidence::Outside)];
+                let node = Node { by, ..Node::default() };
+                return Trial { node, open: Vec::new(), weights: Vec::new(), hopeless: false };
+            }
+            let (mut by, mut left) = (Vec::new(), Vec::new());
+            for &obligation in open {
+                match over.evidence_of(&self.problem.obligations[obligation].test, apart) {
+                    Some(evidence) => by.push(Step(obligation, evidence)),
+                    None => left.push(obligation),
+                }
+            }
+            let weights = if left.is_empty() { Vec::new() } else { over.weights(&left) };
+            let hopeless = asked && !left.is_empty() && self.is_hopeless(cell, &left, apart);
+            let node = Node { by, ..Node::default() };
+            Trial { node, open: left, weights, hopeless }
+        })
+    }
+}
+
 impl Boxes for Prover<'_> {
     fn root(&self) -> &Cell {
         &self.root
@@ -135,24 +159,24 @@ impl Boxes for Prover<'_> {
     }
 
     fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
-        self.on(cell, |over| {
-            if over.is_outside() {
-                let by = vec![Step(0, Evidence::Outside)];
-                let node = Node { by, ..Node::default() };
-                return Trial { node, open: Vec::new(), weights: Vec::new(), hopeless: false };
-            }
-            let (mut by, mut left) = (Vec::new(), Vec::new());
-            for &obligation in open {
-                match over.evidence(&self.problem.obligations[obligation].test) {
-                    Some(evidence) => by.push(Step(obligation, evidence)),
-                    None => left.push(obligation),
-                }
-            }
-            let weights = if left.is_empty() { Vec::new() } else { over.weights(&left) };
-            let hopeless = asked && !left.is_empty() && self.is_hopeless(cell, &left);
-            let node = Node { by, ..Node::default() };
-            Trial { node, open: left, weights, hopeless }
-        })
+        self.tried(cell, (open, asked), false)
+    }
+}
+
+/// The same problem with directions apart, where nothing else helps.
+pub struct Apart<'a>(pub &'a Prover<'a>);
+
+impl Boxes for Apart<'_> {
+    fn root(&self) -> &Cell {
+        &self.0.root
+    }
+
+    fn obligations(&self) -> usize {
+        self.0.obligations()
+    }
+
+    fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
+        self.0.tried(cell, (open, asked), true)
     }
 }
 

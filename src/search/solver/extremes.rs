@@ -3,12 +3,12 @@
 //! An extreme lies between a bound that is certified and one that is
 //! refuted; the claims that say so have that bound alone.
 
-use super::evidence::Prover;
+use super::evidence::{Apart, Prover};
 use super::refute::{number, witness_at};
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{search, Branch, Ends};
 use super::value::{alone, Bounded};
-use super::{accepted, look_into, refuted, verify, Answer};
+use super::{accepted, few, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -543,11 +543,19 @@ fn certify(
     let prover = Prover::new(&problem)?;
     // Tolerances may be too wide at the worst place found already.
     let sampler = Sampler::new(claim, &problem)?;
-    if !prover.holds_next_to(&sampler.point(&known.place.u)) {
-        return Ok(Attempt::Undecided(Stop::Hopeless));
+    let point = sampler.point(&known.place.u);
+    let (whole, ends) = (Branch::whole(&prover), Ends { hopeless: true, ..Ends::default() });
+    let mut found = None;
+    if prover.holds_next_to(&point, false) {
+        found = search(&prover, &whole, ends, budget, control);
     }
-    let ends = Ends { hopeless: true, ..Ends::default() };
-    let found = search(&prover, &Branch::whole(&prover), ends, budget, control);
+    if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)
+        && problem.derived.is_some()
+        && prover.holds_next_to(&point, true)
+    {
+        let apart = search(&Apart(&prover), &whole, ends, few(budget), control);
+        found = apart.filter(|apart| apart.is_proof() || apart.stop == Stop::Cancelled).or(found);
+    }
     let Some(found) = found else { return Ok(Attempt::Undecided(Stop::Hopeless)) };
     if found.stop == Stop::Cancelled {
         return Err(NotEnclosed::Cancelled);

@@ -6,6 +6,7 @@
 //! | `evidence` | a problem in doubles, over a box                                            |
 //! | `propose`  | evidence with which the kernel's tests hold on a box                        |
 //! | `apart`    | directions in which tolerances matter most                                  |
+//! | `fan`      | the directions apart, where several are worst at once                       |
 //! | `balance`  | what stands between the bounds of a condition number                         |
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
@@ -35,6 +36,7 @@ pub(crate) mod doubles;
 pub(crate) mod evidence;
 pub mod extremes;
 pub(crate) mod fails;
+mod fan;
 mod less;
 pub mod margin;
 mod needed;
@@ -51,7 +53,7 @@ pub(crate) mod violation;
 
 use crate::search::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};
-use evidence::Prover;
+use evidence::{Apart, Prover};
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use orthocert_checker::Rejected;
 use orthocert_kernel::certificate::{Claim, Node, Tree, Witness};
@@ -75,6 +77,8 @@ const GUARD_APART: u32 = 22;
 /// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
 /// others.
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
+/// Boxes with directions apart: each takes long, and few are enough where they help.
+const MOST_APART: usize = 300;
 /// Open boxes from whose centres a violation is looked for.
 const OPEN_CENTRES: usize = 64;
 
@@ -144,9 +148,21 @@ pub fn verify(
     };
     let prover = Prover::new(&derived)?;
     let whole = Branch::whole(&prover);
-    let found = control
-        .part(rest, |control| search(&prover, &whole, Ends::default(), budget, control))
-        .expect("the root is a box of the tree");
+    let first = Ends { hopeless: prover.problem.derived.is_some(), ..Ends::default() };
+    let searched = |ends, control: &mut Control<'_>| {
+        control
+            .part(rest, |control| search(&prover, &whole, ends, budget, control))
+            .expect("the root is a box of the tree")
+    };
+    let mut found = searched(first, control);
+    if found.stop == Stop::Hopeless {
+        if let Some(nodes) = control.part(rest, |control| apart(&prover, budget, control)) {
+            let boxes = found.boxes + nodes.len();
+            let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
+            return Ok(Verification { answer, worst, boxes });
+        }
+        found = searched(Ends::default(), control);
+    }
     let boxes = found.boxes;
     if found.stop == Stop::Cancelled {
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
@@ -293,11 +309,24 @@ fn from_root(
     let ends = Ends { hopeless: true, ..Ends::default() };
     let found = search(prover, &Branch::whole(prover), ends, budget, control);
     let found = found.ok_or(Stop::Hopeless)?;
-    if found.is_proof() {
-        Ok(found.nodes)
-    } else {
-        Err(found.stop)
+    match found.stop {
+        Stop::Hopeless => apart(prover, budget, control).ok_or(found.stop),
+        _ if found.is_proof() => Ok(found.nodes),
+        stop => Err(stop),
     }
+}
+
+/// The same with directions apart, where a box is hopeless without.
+fn apart(prover: &Prover<'_>, budget: Budget, control: &mut Control<'_>) -> Option<Vec<Node>> {
+    prover.problem.derived.as_ref()?;
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    let found = search(&Apart(prover), &Branch::whole(prover), ends, few(budget), control)?;
+    found.is_proof().then_some(found.nodes)
+}
+
+/// A budget of few boxes.
+fn few(budget: Budget) -> Budget {
+    Budget { max_boxes: budget.max_boxes.min(MOST_APART), ..budget }
 }
 
 /// A certificate that a claim does not hold, if sampling finds a witness; none of a claim that is not
@@ -345,7 +374,7 @@ pub(crate) fn tree(
     let derived = Some(problem.clone().with_derivatives());
     let problem = derived.as_ref().unwrap_or(problem);
     let prover = Prover::new(problem).map_err(|_| Stop::Hopeless)?;
-    if !points.iter().all(|point| prover.holds_next_to(point)) {
+    if !points.iter().all(|point| prover.holds_next_to(point, problem.derived.is_some())) {
         return Err(Stop::Hopeless);
     }
     let nodes = from_root(&prover, budget, control)?;

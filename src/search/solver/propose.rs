@@ -13,7 +13,7 @@ use orthocert_kernel::quantity::Test;
 use orthocert_kernel::test::apart::Apart;
 use orthocert_kernel::test::curvature::Curvature;
 use orthocert_kernel::test::solve::Solve;
-use orthocert_kernel::test::{Multiplier, Row};
+use orthocert_kernel::test::{Half, Multiplier, Row};
 
 /// Bits of the greatest entry of a multiplier that is tried first.
 pub(super) const FINE: i32 = 15;
@@ -25,7 +25,13 @@ const SHORT: [i32; 9] = [1, 2, 3, 4, 5, 6, 8, 10, 12];
 const OWN: [f64; 3] = [0.0, 0.3, 0.6];
 
 impl Over<'_> {
-    /// Evidence with which a test holds.
+    /// Evidence with which a test holds; with directions apart, if they are.
+    pub(super) fn evidence_of(&self, test: &Test, apart: bool) -> Option<Evidence> {
+        let in_one = self.evidence(test);
+        in_one.or_else(|| if apart { self.with_directions_apart(test) } else { None })
+    }
+
+    /// The same for all directions at once.
     pub fn evidence(&self, test: &Test) -> Option<Evidence> {
         let all_machines = self.at_controls(test).or_else(|| self.at_vertices(test));
         all_machines.or_else(|| self.with_tolerances_apart(test))
@@ -53,6 +59,7 @@ impl Over<'_> {
     /// Whether a test is of polynomials, which control points want.
     fn is_polynomial(&self, test: &Test) -> bool {
         match test {
+            Test::Conditioning(_) if self.formulas.half.is_some() => false,
             Test::SigmaMin(_)
             | Test::SigmaMax(_)
             | Test::Conditioning(_)
@@ -88,7 +95,15 @@ impl Over<'_> {
             Test::SigmaMax(_) => {
                 self.first(test, [Evidence::Cube, Evidence::Test, Evidence::Divided])
             }
-            Test::Conditioning(c) => self.conditioning(test, *c, Form::Plain),
+            Test::Conditioning(c) => match self.formulas.half {
+                None => self.conditioning(test, *c, Form::Plain),
+                Some(Half { upper: true, .. }) => self.shown(test, Evidence::Test),
+                Some(Half { mu: (mu, places), .. }) => {
+                    let kappa = (*mu.first()? as f64 * (-f64::from(places)).exp2()).sqrt();
+                    let starts = self.own(Form::Plain, At::Centre)?.starts(kappa);
+                    self.shortest_of(test, starts, Evidence::Lower)
+                }
+            },
             Test::AtLeast(_) => self.first(test, [Evidence::Cube, Evidence::Test]),
             Test::Curvature(curvature) => self.curvature(test, curvature),
             Test::Beyond(..) => self.first(test, [Evidence::Test, Evidence::Negative]),
@@ -179,10 +194,9 @@ impl Over<'_> {
         self.shortest_of(test, starts, Evidence::Lower)
     }
 
-    /// `mu` half-way between what both bounds allow: at the centre, and, by differences, along each
+    /// `mu` so far between what both bounds allow: at the centre, and, by differences, along each
     /// coordinate, of scaled rows times the weight there.
-    fn conditioning(&self, test: &Test, c_squared: Formula, form: Form) -> Option<Evidence> {
-        let c_squared = self.centre(c_squared)?;
+    pub(super) fn mu(&self, c_squared: f64, form: Form, part: f64) -> Option<Vec<f64>> {
         let weight = self.scale(form).powi(2);
         let bounds = |at| {
             let xi: DVector<f64> = self.own(Form::Plain, at)?.m().singular_values();
@@ -196,18 +210,24 @@ impl Over<'_> {
             let steps = faces.iter().map(|&[low, high]| 0.5 * (of(high) - of(low)));
             [of(centre)].into_iter().chain(steps).collect::<Vec<f64>>()
         };
-        let mut mu = along(&|[low, high]| (0.5 * (low + high)).powi(2));
+        let mut mu = along(&|[low, high]| ((1.0 - part) * low + part * high).powi(2));
         // One multiple of what is not negative in the workspace is taken off both bounds, of which one is `c^2` times the
         // other: `mu` is half-way between what is left of them.
         let mut left = along(&|[low, high]| low * low - high * high);
         for g in self.inequalities() {
             let g: Vec<f64> = g.iter().map(|g| g / weight).collect();
             let multiple = multiple(&left, &g);
-            let part = 0.5 * multiple * (c_squared - 1.0) / (c_squared + 1.0);
-            mu.iter_mut().zip(&g).for_each(|(mu, g)| *mu -= part * g);
+            let off = 0.5 * multiple * (c_squared - 1.0) / (c_squared + 1.0);
+            mu.iter_mut().zip(&g).for_each(|(mu, g)| *mu -= off * g);
             left.iter_mut().zip(&g).for_each(|(left, g)| *left -= multiple * g);
         }
         mu.iter_mut().skip(1).for_each(|mu| *mu *= weight);
+        Some(mu)
+    }
+
+    fn conditioning(&self, test: &Test, c_squared: Formula, form: Form) -> Option<Evidence> {
+        let c_squared = self.centre(c_squared)?;
+        let mu = self.mu(c_squared, form, 0.5)?;
         // As fine as what may stand between both bounds, `mu` and `c^2 mu`.
         let size = exponent(mu[0] * (1.0 - c_squared.recip()).clamp(f64::EPSILON, 0.5));
         let starts = self.own(form, At::Centre)?.starts(mu[0].sqrt() * self.scale(form));

@@ -20,6 +20,8 @@ const NAMES: [&str; 46] = [
     "accuracy",
     "direction",
     "tolerances",
+    "fan",
+    "between",
     "corner",
     "inside",
     "turned",

@@ -8,14 +8,14 @@ mod work;
 
 use crate::arithmetic::Enclosure;
 use crate::cell::Vertex;
-use crate::certificate::Evidence;
+use crate::certificate::{Evidence, Part};
 use crate::control::Control;
 use crate::formula::{Formula, Op, Values};
 use crate::problem::Problem;
 use crate::quantity::Test;
 use crate::slope::Slopes;
 use crate::test::accuracy::{near, Accuracy};
-use crate::test::{Formulas, Multiplier, Over, Row, MOST_PLACES};
+use crate::test::{width, Formulas, Half, Multiplier, Over, Row, Wedge, MOST_PLACES};
 use tolerances::{are_for, is_of_vertices};
 
 /// Checks steps; in another arithmetic than [`Fixed`](crate::fixed::Fixed), proposes them.
@@ -101,7 +101,9 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (test, Evidence::Control(evidence)) => {
                 let then = |over: &Over<'_, E>| self.shows(over, test, evidence);
                 // Of a part, control points are not known.
-                over.slopes.part.is_none() && self.at_controls(over, test, then) == Some(true)
+                over.slopes.part.is_none()
+                    && over.half.is_none()
+                    && self.at_controls(over, test, then) == Some(true)
             }
             (test, Evidence::Turned(inner, n, p) | Evidence::Inside(inner, n, p)) => {
                 use Evidence::{Control, Corner, Inside, Turned};
@@ -126,10 +128,18 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             }
             (test, Evidence::Tolerances(evidence, ends, directions)) => {
                 let plain = is_of_vertices(test, evidence)
-                    && are_for(directions, test, over.place.edges.len());
+                    && are_for(directions, (test, over.half.is_some()), over.place.edges.len());
                 let then = |over: &Over<'_, E>| self.shows(over, test, evidence);
                 plain && self.apart(over, (ends, directions), then) == Some(true)
             }
+            (Test::Conditioning(_), Evidence::Between(mu, places, lower, upper)) => {
+                let part = |evidence, upper| {
+                    let half = Some(Half { mu: (mu, *places), upper });
+                    self.shows(&Over { half, inside: None, ..*over }, test, evidence)
+                };
+                over.is_plain() && over.half.is_none() && part(lower, false) && part(upper, true)
+            }
+            (test, Evidence::Fan(parts)) => self.fan(over, test, parts) == Some(true),
             (Test::SigmaMin(kappa), Evidence::Rank(y)) => {
                 let zero = self.problem.tape.op(*kappa) == Op::Integer(0);
                 zero && self.problem.is_defined(over.values) && over.full_rank(rows, y)
@@ -141,8 +151,18 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             (Test::SigmaMax(k), Evidence::Test) => {
                 over.sigma_max(rows, &|v| self.scaled(over, over.range(*k)?, v))
             }
+            (Test::Conditioning(c), Evidence::Lower(y)) => {
+                over.half.is_some_and(|half| self.bound(over, (rows, *c), half, Some(y)))
+            }
+            (Test::Conditioning(c), Evidence::Test) => {
+                over.half.is_some_and(|half| self.bound(over, (rows, *c), half, None))
+            }
+            // It has a `mu` of its own.
             (Test::Conditioning(c), Evidence::Conditioning(y, mu)) => {
-                self.conditioning(over, rows, *c, (y, mu))
+                let half = |upper| Half { mu: (mu, y.places), upper };
+                over.half.is_none()
+                    && self.bound(over, (rows, *c), half(false), Some(y))
+                    && self.bound(over, (rows, *c), half(true), None)
             }
             (Test::OneToOne(rows), Evidence::Chords) => {
                 self.chords.as_ref().is_some_and(|y| over.full_rank(rows, y))
@@ -192,6 +212,30 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         }
     }
 
+    /// The directions of each part ([`Wedge`]), of tests that are about each direction by itself.
+    fn fan(&self, over: &Over<'_, E>, test: &Test, parts: &[Part]) -> Option<bool> {
+        let m = match test {
+            Test::SigmaMin(_) | Test::SigmaMax(_) => over.place.edges.len(),
+            // Both bounds of a condition number have the same `mu`, whatever the direction.
+            Test::Conditioning(_) if over.half.is_some() => over.place.edges.len(),
+            Test::Least(rows, _) | Test::Greatest(rows, _) => width(rows),
+            _ => return None,
+        };
+        let last = parts.first()?.0.iter().map(|x| x.checked_neg());
+        let last: Vec<i64> = last.collect::<Option<_>>()?;
+        let next = parts.iter().skip(1).map(|part| &part.0).chain([&last]);
+        let plain = over.is_plain() && over.wedge.is_none();
+        let mut all = parts.iter().zip(next);
+        Some(
+            plain
+                && all.all(|(Part(b, n, places, evidence), c)| {
+                    let wedge = Some(Wedge { between: [b, c], n: *n, places: *places });
+                    let sound = b.len() == m && *n >= 0 && *places < MOST_PLACES;
+                    sound && self.shows(&Over { wedge, inside: None, ..*over }, test, evidence)
+                }),
+        )
+    }
+
     /// The test of accuracy, with the formulas near the cell.
     fn accuracy(
         &self,
@@ -208,34 +252,42 @@ impl<'a, E: Enclosure> Checker<'a, E> {
     /// `sigma_min^2 >= mu`, `sigma_max^2 <= c^2 mu` for the same convex combination `mu` of the `mu_v`.
     /// At control points `mu_v = mu_0 w_v + sum_k t_vk mu_k`, where `t_vk` in `{-1, 0, 1}` is the place of the
     /// coordinate's node between the ends of its range, and `w sigma_min^2 >= mu`, `w sigma_max^2 <= c^2 mu`
-    /// for the same convex combination: any other `mu_v` would do.
-    fn conditioning(
+    /// for the same convex combination: any other `mu_v` would do. Each bound may have evidence of its own, with the same
+    /// `mu_v` ([`Half`]); with two of them it would be unsound.
+    fn bound(
         &self,
         over: &Over<'_, E>,
-        rows: &[Row<Formula>],
-        c_squared: Formula,
-        (y, mu): (&Multiplier, &[i64]),
+        (rows, c_squared): (&[Row<Formula>], Formula),
+        Half { mu, upper }: Half<'_>,
+        y: Option<&Multiplier>,
     ) -> bool {
-        let (e, terms) = (self.arithmetic, self.problem.dimension());
-        let Some((&first, rest)) = mu.split_first().filter(|(_, rest)| rest.len() == terms) else {
-            return false;
+        let mu = |v| self.mu(over, mu, v);
+        let above = |v| self.arithmetic.mul(&over.of(c_squared)?.range, &mu(v)?);
+        match y {
+            Some(y) => !upper && over.sigma_min(rows, &mu, y),
+            None => upper && over.sigma_max(rows, &above),
+        }
+    }
+
+    /// `mu_v`.
+    fn mu(&self, over: &Over<'_, E>, (mu, places): (&[i64], u32), v: Vertex) -> Option<E::Number> {
+        let e = self.arithmetic;
+        let (&first, rest) = mu.split_first()?;
+        if rest.len() != self.problem.dimension() || places >= MOST_PLACES {
+            return None;
+        }
+        let term = |sum: i64, (k, &mu): (usize, &i64)| match mu {
+            0 => Some(sum),
+            mu => sum.checked_add(mu.checked_mul(over.place(k, v)?)?),
         };
-        let least = |v: Vertex| {
-            let term = |sum: i64, (k, &mu): (usize, &i64)| match mu {
-                0 => Some(sum),
-                mu => sum.checked_add(mu.checked_mul(over.place(k, v)?)?),
-            };
-            let number = |n| e.dyadic(n, y.places, &e.integer(1)?);
-            match over.controls {
-                None => number(rest.iter().enumerate().try_fold(first, term).filter(|&n| n > 0)?),
-                Some(_) => {
-                    let own = self.scaled(over, number(first)?, v)?;
-                    let mu = e.add(&own, &number(rest.iter().enumerate().try_fold(0, term)?)?)?;
-                    e.is_positive(&mu).then_some(mu)
-                }
+        let number = |n| e.dyadic(n, places, &e.integer(1)?);
+        match over.controls {
+            None => number(rest.iter().enumerate().try_fold(first, term).filter(|&n| n > 0)?),
+            Some(_) => {
+                let own = self.scaled(over, number(first)?, v)?;
+                let mu = e.add(&own, &number(rest.iter().enumerate().try_fold(0, term)?)?)?;
+                e.is_positive(&mu).then_some(mu)
             }
-        };
-        let greatest = |v| e.mul(&over.of(c_squared)?.range, &least(v)?);
-        y.places < MOST_PLACES && over.sigma_min(rows, &least, y) && over.sigma_max(rows, &greatest)
+        }
     }
 }

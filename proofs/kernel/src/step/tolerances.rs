@@ -9,11 +9,11 @@ use crate::slope::evaluate;
 use crate::test::tolerances::Tolerances;
 use crate::test::{width, Formulas, Over, Place};
 
-/// Whether these are directions for a test, of `m` coordinates, one for each matrix; of other rows, of as many entries.
-pub(super) fn are_for(directions: &[Vec<i64>], test: &Test, m: usize) -> bool {
+/// Whether these are directions for a test, or half of one, of `m` coordinates, one for each matrix; of other rows, of as many entries.
+pub(super) fn are_for(directions: &[Vec<i64>], (test, half): (&Test, bool), m: usize) -> bool {
     let expected = match test {
         Test::AtLeast(_) | Test::Beyond(..) => vec![],
-        Test::Conditioning(_) => vec![m, m],
+        Test::Conditioning(_) if !half => vec![m, m],
         Test::Least(rows, _) | Test::Greatest(rows, _) => vec![width(rows)],
         _ => vec![m],
     };
@@ -49,7 +49,7 @@ impl<E: Enclosure> Checker<'_, E> {
         (ends, directions): (&str, &[Vec<i64>]),
         then: impl FnOnce(&Over<'_, E>) -> T,
     ) -> Option<T> {
-        if over.controls.is_some() || over.inside.is_some() || over.tolerances.is_some() {
+        if !over.is_plain() {
             return None;
         }
         let values = self.derived(over.place)?;

@@ -25,7 +25,7 @@ impl<E: Enclosure> Checker<'_, E> {
         let (entries, derived) = (self.problem.tape.ops().len(), self.problem.derived.as_ref());
         let tests = self.problem.obligations.iter().map(|obligation| &obligation.test);
         let at_vertices: Vec<usize> = tests.map(|test| at_vertices(test, &self.rows, m)).collect();
-        let of_step = |Step(obligation, evidence): &Step| match evidence {
+        let of_part = |obligation: &usize, evidence: &Evidence| match evidence {
             Evidence::Control(_) => self.controls.get(*obligation).map_or(0, at_controls),
             Evidence::Tolerances(inner, ends, _) => {
                 let is_control = matches!(**inner, Evidence::Control(_));
@@ -48,8 +48,12 @@ impl<E: Enclosure> Checker<'_, E> {
             }
             _ => at_vertices.get(*obligation).copied().unwrap_or(0),
         };
+        let of_step = |Step(obligation, evidence): &Step| {
+            let parts = evidence.parts().into_iter();
+            parts.map(|part| of_part(obligation, part)).fold(0, usize::saturating_add)
+        };
         let of_node = |node: &Node| {
-            let is_apart = |Step(_, evidence): &Step| matches!(evidence, Evidence::Tolerances(..));
+            let is_apart = |Step(_, evidence): &Step| evidence.takes_tolerances_apart();
             let all = derived.filter(|_| node.by.iter().any(is_apart));
             let all = all.map_or(0, |derived| derived.tape.ops().len());
             node.by.iter().map(of_step).fold(all, usize::saturating_add)

@@ -74,7 +74,7 @@ impl<E: Enclosure> Over<'_, E> {
             return Some(());
         }
         let e = self.slopes.arithmetic;
-        let direction = self.direction(<[_]>::first)?;
+        let direction = self.toward(<[_]>::first)?.direction;
         for (j, (_, changes)) in rows.iter().enumerate() {
             let change = |row: &Vector<E::Number>| {
                 let (d, a) = row.split_last()?;

@@ -111,13 +111,79 @@ impl<E: Enclosure> Over<'_, E> {
         self.slopes.arithmetic.add(&self.own_at(f, v)?, &self.greatest_loss(&[(f, true)], v)?)
     }
 
-    /// One of the directions.
-    pub(super) fn direction(
+    /// Toward one of the directions: of a wedge in coordinates in which it is `2^places` times a unit vector.
+    pub(super) fn toward(
         &self,
         which: fn(&[Vec<i64>]) -> Option<&Vec<i64>>,
-    ) -> Option<Vec<E::Number>> {
-        let direction = which(self.tolerances?.directions)?;
-        direction.iter().map(|&x| self.slopes.arithmetic.integer(x)).collect()
+    ) -> Option<Toward<E::Number>> {
+        let e = self.slopes.arithmetic;
+        let Some(tolerances) = self.tolerances else {
+            return Some(Toward { k: None, w: Vec::new(), direction: Vec::new() });
+        };
+        let own = which(tolerances.directions)?;
+        let greatest = own.iter().map(|x| x.unsigned_abs()).max()?;
+        let places = u64::BITS - greatest.leading_zeros();
+        let k = own.iter().position(|x| x.unsigned_abs() == greatest && greatest > 0);
+        let (k, one) = (k.filter(|_| self.wedge.is_some()), e.integer(1)?);
+        let w = own.iter().map(|&x| e.dyadic(x, places, &one)).collect::<Option<_>>()?;
+        let direction = own.iter().enumerate().map(|(i, &x)| match k {
+            None => e.integer(x),
+            Some(k) if i == k => e.integer(1i64.checked_shl(places)?),
+            Some(_) => e.integer(0),
+        });
+        Some(Toward { k, w, direction: direction.collect::<Option<_>>()? })
+    }
+}
+
+/// Coordinates in which `w` stands in the place of the unit vector `e_k`, if of one; and a direction there.
+///
+/// **Lemma.** If `C^T T C` is positive definite, for any square matrix `C`, so is `T`. *Proof.* `C v != 0` where
+/// `v != 0`, so that `C` is regular, and every vector is some `C v`. ∎ `C` has the column `w` in the place of `e_k`, and
+/// where `p` are intervals, `p p^T` loses nothing along `w` but what `p . w` does, an entry of `C^T p`.
+pub(super) struct Toward<N> {
+    k: Option<usize>,
+    w: Vec<N>,
+    pub direction: Vec<N>,
+}
+
+impl<N: Clone + Default> Toward<N> {
+    /// `C^T x`; with more entries after those of `x`.
+    pub fn vector<E: Enclosure<Number = N>>(&self, e: &E, mut x: Vector<N>) -> Option<Vector<N>> {
+        if let Some(k) = self.k {
+            let along = e.dot(&x, &self.w)?;
+            *x.get_mut(k)? = along;
+        }
+        Some(x)
+    }
+
+    /// `C^T T C`.
+    pub fn matrix<E: Enclosure<Number = N>>(&self, e: &E, t: Triangle<N>) -> Option<Triangle<N>> {
+        let Some(k) = self.k else { return Some(t) };
+        let n = self.w.len();
+        let at = |i: usize, j: usize| t.row(i.min(j)).get(i.abs_diff(j)).cloned();
+        let row = |i| (0..n).map(|j| at(i, j)).collect::<Option<Vec<N>>>();
+        let along = (0..n).map(|i| e.dot(&row(i)?, &self.w));
+        let along: Vec<N> = along.collect::<Option<_>>()?;
+        Triangle::new(n, |i, j| match (i == k, j == k) {
+            (false, false) => at(i, j),
+            (true, true) => e.dot(&along, &self.w),
+            _ => along.get(if i == k { j } else { i }).cloned(),
+        })
+    }
+
+    /// The direction `(u, w)` in one coordinate more, `u = -A . w/D`, in coordinates in which it is along `e_k` too.
+    pub fn bordered<E: Enclosure<Number = N>>(&self, e: &E, d: &N, a: &[N]) -> Option<Self> {
+        let (zero, one) = (e.integer(0)?, e.integer(1)?);
+        let u = e.neg(&e.ratio(&e.dot(a, &self.direction)?, &one, d)?)?;
+        let all = |first: N, rest: Vec<N>| [first].into_iter().chain(rest).collect::<Vec<N>>();
+        let Some(k) = self.k else {
+            let direction = all(u, self.direction.clone());
+            return Some(Toward { k: None, w: Vec::new(), direction });
+        };
+        let [u, _] = e.ends(&e.neg(&e.ratio(a.get(k)?, &one, d)?)?);
+        let unit = (0..a.len()).map(|i| if i == k { one.clone() } else { zero.clone() });
+        let direction = all(zero.clone(), self.direction.clone());
+        Some(Toward { k: Some(k + 1), w: all(u, unit.collect()), direction })
     }
 }
 

@@ -12,6 +12,7 @@ mod directions;
 mod document;
 mod false_claims;
 mod false_poses;
+mod fans;
 mod for_all;
 mod leaves;
 mod machines;

@@ -202,6 +202,9 @@ fn evidence(by: &Evidence) -> Exported<String> {
             by => format!("AtControls_ ({})", at_controls(by)?),
         },
         Evidence::Turned(..) => return not_covered("the evidence \"turned\""),
+        Evidence::Fan(_) | Evidence::Between(..) => {
+            return not_covered(format!("the evidence \"{}\"", by.name()))
+        }
     })
 }
 
