@@ -6,7 +6,7 @@
 use super::evidence::{Apart, Prover};
 use super::refute::{number, witness_at};
 use super::sample::{Place, Quality, Sampler, Worst};
-use super::search::{search, Branch, Ends};
+use super::search::{resume, search, Branch, Ends, Outcome};
 use super::value::{alone, Bounded};
 use super::{accepted, few, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
@@ -29,6 +29,8 @@ const OPEN_CENTRES: usize = 8;
 /// Boxes after which a width is given up for a looser one; of platforms that turn a third of that for
 /// each coordinate of orientation, as each takes three times as long, and with tolerances a sixth of what is left.
 const MOST_BOXES: usize = 20_000;
+/// One of so many boxes of a width may be open where a looser one goes on.
+const FEW_OPEN: usize = 8;
 /// Longest text of an exact number.
 const MOST_DIGITS: usize = 1000;
 /// How often a better inner end may turn up before the search is given up.
@@ -316,6 +318,7 @@ pub fn enclose(
     let mut known = Found::worst(&probe, extreme, ROUNDS)?;
     let mut width = relative.clone();
     let mut steps = Steps::default();
+    let mut begun = None;
     while width <= loosest() {
         let mut looser = 2;
         for _ in 0..ROUNDS {
@@ -323,7 +326,7 @@ pub fn enclose(
             let (inner, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
             let found = steps.next(control, 2, |control| {
-                certify(&outer_claim, &mut known, extreme, budget, control)
+                certify(&outer_claim, &mut known, extreme, &mut begun, budget, control)
             });
             match found? {
                 Attempt::Certified(certified, boxes) => {
@@ -536,6 +539,7 @@ fn certify(
     claim: &MachineClaim,
     known: &mut Found,
     extreme: &Extreme,
+    begun: &mut Option<Outcome>,
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Attempt, NotEnclosed> {
@@ -545,9 +549,13 @@ fn certify(
     let sampler = Sampler::new(claim, &problem)?;
     let point = sampler.point(&known.place.u);
     let (whole, ends) = (Branch::whole(&prover), Ends { hopeless: true, ..Ends::default() });
+    let before = begun.take();
     let mut found = None;
     if prover.holds_next_to(&point, false) {
-        found = search(&prover, &whole, ends, budget, control);
+        found = match &before {
+            Some(before) => resume(&prover, before, ends, budget, control),
+            None => search(&prover, &whole, ends, budget, control),
+        };
     }
     if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless)
         && problem.derived.is_some()
@@ -563,6 +571,9 @@ fn certify(
     if found.is_proof() {
         return Ok(match accepted(claim, &prover, found.nodes) {
             Answer::Decided { certificate, .. } => Attempt::Certified(certificate, found.boxes),
+            Answer::Undecided(_) | Answer::Cancelled if before.is_some() => {
+                return certify(claim, known, extreme, begun, budget, control);
+            }
             Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
         });
     }
@@ -573,6 +584,13 @@ fn certify(
     let unknown = |quality| Worst { quality, place: place.clone(), margin: f64::MAX };
     let mut worst: Vec<Worst> = own.map(unknown).collect();
     look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
+    let stop = found.stop;
+    // Boxes of platforms that turn are costly each: looser bounds go on from the tree of this one, unless it has
+    // so many open that a looser tree may lack most of them.
+    let open = found.open.len();
+    let waits =
+        stop == Stop::Boxes && open <= budget.max_boxes / FEW_OPEN && open == found.waiting.len();
+    *begun = Some(found).filter(|_| waits && !problem.orientation.is_empty());
     worst.retain(|found| found.margin < 0.0);
     worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
     for Worst { quality, place, .. } in worst {
@@ -585,7 +603,7 @@ fn certify(
             return Ok(Attempt::Worse);
         }
     }
-    Ok(Attempt::Undecided(found.stop))
+    Ok(Attempt::Undecided(stop))
 }
 
 /// A refutation at a known place.

@@ -8,6 +8,7 @@ use crate::search::{Budget, Control, Progress, Stop};
 use orthocert_kernel::certificate::Node;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -141,8 +142,52 @@ pub fn search(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Option<Outcome> {
-    let mut tree = vec![branch.begin(problem)?];
-    let mut level = vec![0];
+    let tree = vec![branch.begin(problem)?];
+    Some(grow(problem, (tree, vec![0]), &branch.path, ends, budget, control))
+}
+
+/// Goes on with the whole tree of a search that its budget ended, where it stopped; none of another tree.
+/// What is closed stays so, though the problem may now be an easier one.
+pub fn resume(
+    problem: &impl Boxes,
+    before: &Outcome,
+    ends: Ends,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Option<Outcome> {
+    let waiting = before.waiting.iter().map(|(position, branch)| (*position, &branch.open));
+    let waiting: HashMap<usize, &Vec<usize>> = waiting.collect();
+    let mut tree = vec![Branch::whole(problem).begin(problem)?];
+    let (mut level, mut ahead) = (Vec::new(), vec![0]);
+    for (position, node) in before.nodes.iter().enumerate() {
+        let at = ahead.pop()?;
+        if let Some(&open) = waiting.get(&position) {
+            tree[at].item.obligations.clone_from(open);
+            level.push(at);
+            continue;
+        }
+        let obligations = std::mem::take(&mut tree[at].item.obligations);
+        tree[at].node = Node { split: None, ..node.clone() };
+        tree[at].tried = true;
+        if let Some(k) = node.split {
+            tree[at].item.obligations = obligations;
+            let halves = halves(*tree[at].item.cell.get(k)?)?;
+            ahead.extend(halve(&mut tree, at, k, halves).into_iter().rev());
+        }
+    }
+    let grown = grow(problem, (tree, level), &[], ends, budget, control);
+    Some(Outcome { boxes: before.boxes + grown.boxes, ..grown })
+}
+
+/// Grows a tree from the boxes of a level on.
+fn grow(
+    problem: &impl Boxes,
+    (mut tree, mut level): (Vec<Growing>, Vec<usize>),
+    path: &[(usize, bool)],
+    ends: Ends,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Outcome {
     let (mut boxes, mut share, mut stop) = (0, 0.0f64, Stop::Exhausted);
     let cancel = control.cancel;
     let few = |level: &[usize]| ends.enough.is_none_or(|enough| level.len() < enough);
@@ -180,8 +225,8 @@ pub fn search(
         }
         level = next;
     }
-    let (nodes, open, waiting) = in_preorder(tree, &branch.path);
-    Some(Outcome { nodes, open, waiting, boxes, stop })
+    let (nodes, open, waiting) = in_preorder(tree, path);
+    Outcome { nodes, open, waiting, boxes, stop }
 }
 
 fn growing(item: Open, halvings: Vec<u32>) -> Growing {
@@ -239,11 +284,10 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
     grown.tried = true;
     grown.node = trial.node;
     grown.item.obligations = trial.open;
-    let Open { cell, depth, obligations } = grown.item.clone();
-    if obligations.is_empty() {
+    if grown.item.obligations.is_empty() {
         return;
     }
-    let halvings = grown.halvings.clone();
+    let (cell, halvings) = (&grown.item.cell, &grown.halvings);
     let splittable =
         (0..cell.len()).filter(|&k| halvings[k] < MOST_HALVINGS && halves(cell[k]).is_some());
     // Of equal weights the first coordinate's.
@@ -254,18 +298,25 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
     let axis = splittable.fold(None, greatest);
     let axis = axis.filter(|_| !trial.hopeless);
     let Some((k, edges)) = axis.and_then(|k| Some((k, halves(cell[k])?))) else { return };
+    next.extend(halve(tree, at, k, edges));
+}
+
+/// Adds the halves of a box, on which the same is open.
+fn halve(tree: &mut Vec<Growing>, at: usize, k: usize, edges: [Pair; 2]) -> [usize; 2] {
+    let grown = &mut tree[at];
     grown.node.split = Some(k);
-    let first = tree.len();
-    tree[at].halves = Some([first, first + 1]);
+    let Open { cell, depth, obligations } = grown.item.clone();
+    let mut halvings = grown.halvings.clone();
+    halvings[k] += 1;
+    let halves = [tree.len(), tree.len() + 1];
+    tree[at].halves = Some(halves);
     for edge in edges {
         let mut half =
             Open { cell: cell.clone(), depth: depth + 1, obligations: obligations.clone() };
         half.cell[k] = edge;
-        let mut halvings = halvings.clone();
-        halvings[k] += 1;
-        next.push(tree.len());
-        tree.push(growing(half, halvings));
+        tree.push(growing(half, halvings.clone()));
     }
+    halves
 }
 
 type InPreorder = (Vec<Node>, Vec<Open>, Vec<(usize, Branch)>);

@@ -88,6 +88,26 @@ fn extremes_of_a_platform_that_turns() {
 }
 
 #[test]
+fn a_looser_bound_goes_on_where_a_tighter_one_stopped() {
+    let claim = three_rpr();
+    let every = Extreme::of(&claim, 3);
+    let psi = every.iter().find(|one| one.file_stem() == "psi-greatest").expect("psi");
+    let cancel = AtomicBool::new(false);
+    let control = &mut Control { cancel: &cancel, progress: &mut |_| {} };
+    let mut enclosed = |boxes| {
+        let budget = Budget { max_boxes: boxes, deadline: None };
+        let width = BigRational::new(1.into(), 10_000_000.into());
+        enclose(&claim, psi, &width, budget, control).unwrap()
+    };
+    let most = enclosed(5_000);
+    // Short of one box at the first width, it goes on from all others.
+    let less = enclosed(most.boxes - 1);
+    assert_eq!(less.width, &most.width * BigRational::from_integer(10.into()));
+    assert!(less.boxes >= most.boxes - 1 && less.boxes <= most.boxes + 8, "{}", less.boxes);
+    assert!(less.outer > most.outer);
+}
+
+#[test]
 fn a_singular_machine_has_none() {
     let claim =
         orthoglide("\"310.7\"", r#"{"box":{"min":["-72","-72","-72"],"max":["222","222","222"]}}"#);
