@@ -88,13 +88,19 @@ pub(crate) fn eliminate<E: Enclosure>(
     }
     while let Some((from, next)) = b.split_first() {
         let (entries, rest) = below.split_at_mut_checked(b.len())?;
-        let part = e.ratio(from, &e.integer(1)?, a)?;
+        let part = over(e, from, a)?;
         for (c, b) in entries.iter_mut().zip(b) {
             *c = e.sub(c, &e.mul(&part, b)?)?;
         }
         (b, below) = (next, rest);
     }
     Some(())
+}
+
+/// `x/a`.
+#[inline]
+fn over<E: Enclosure>(e: &E, x: &E::Number, a: &E::Number) -> Option<E::Number> {
+    e.ratio(x, &e.integer(1)?, a)
 }
 
 /// Whether every symmetric matrix with entries in `matrix` is certainly positive definite: if the
@@ -128,17 +134,24 @@ pub(crate) fn are_positive_definite<E: Enclosure>(
     corner: &E::Number,
 ) -> bool {
     let (n, mut steps) = (t.n, t.clone());
-    let steps = steps.eliminate(e).map(|()| steps);
+    let mut eliminated = || {
+        steps.eliminate(e)?;
+        let row = |at: usize| steps.row(at).split_first();
+        let parts = |(a, b): (&E::Number, &[E::Number])| {
+            let parts = b.iter().map(|b| over(e, b, a)).collect::<Option<Vector<_>>>()?;
+            Some((a.clone(), parts))
+        };
+        (0..n).map(|at| parts(row(at)?)).collect::<Option<Vec<_>>>()
+    };
+    let steps = eliminated();
     let last = |mut b: Vector<E::Number>| {
-        let (steps, mut corner) = (steps.as_ref()?, corner.clone());
-        for at in 0..n {
-            let (a, row) = steps.row(at).split_first()?;
+        let mut corner = corner.clone();
+        for (at, (a, parts)) in steps.as_ref()?.iter().enumerate() {
             let own = b.get(at)?.clone();
-            let part = e.ratio(&own, &e.integer(1)?, a)?;
-            for (b, from) in b.iter_mut().skip(at + 1).zip(row) {
-                *b = e.sub(b, &e.mul(from, &part)?)?;
+            for (b, part) in b.iter_mut().skip(at + 1).zip(parts.iter()) {
+                *b = e.sub(b, &e.mul(part, &own)?)?;
             }
-            corner = e.sub(&corner, &e.mul(&part, &own)?)?;
+            corner = e.sub(&corner, &e.mul(&over(e, &own, a)?, &own)?)?;
         }
         Some(e.is_positive(&corner))
     };

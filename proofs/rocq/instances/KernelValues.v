@@ -56,7 +56,7 @@ Fixpoint matrix_of (n : nat) (seed : Z) : triangle * Z :=
 Fixpoint definite_digest (n : nat) (seed digest : Z) : Z :=
   match n with
   | O => digest
-  | S n => let (m, s) := matrix_of 3 seed in definite_digest n s (absorb digest (if is_positive_definite m then 1 else 0))
+  | S n => let (m, s) := matrix_of 3 seed in definite_digest n s (absorb digest (if is_positive_definite 10 m then 1 else 0))
   end.
 
 Definition drawn_operations := operations_digest 200 1 0.

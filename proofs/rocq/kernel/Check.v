@@ -122,7 +122,7 @@ Definition mu_slope (places : N) (mu : list Z) : slope :=
   let entry n := Arithmetic.dyadic n places (Fixed.integer bits 1) in
   match mu with n :: ns => Slope (entry n) zero (map entry ns) | [] => constant zero end.
 Definition conditioned (m : nat) (less : option slope) (c2 : fixed) (places : N) (Y : list (list Z)) (mu : slope) (r : rows slope) : bool :=
-  positive_there m mu && sigma_min m (raised less mu) places Y r && sigma_max m (lowered less (multiple bits c2 mu)) r.
+  positive_there m mu && sigma_min bits m (raised less mu) places Y r && sigma_max bits m (lowered less (multiple bits c2 mu)) r.
 
 Definition end_there (values : list (option slope)) (p : spatial nat) : option (spatial slope) :=
   match nth (along_x p) values None, nth (along_y p) values None, nth (along_z p) values None with
@@ -134,21 +134,21 @@ Definition slopes_of (values : list (option slope)) (l : list nat) : option (lis
 
 Definition shows (values : list (option slope)) (m : nat) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
-  | SigmaMin low, ByLower places Y => are_defined values && over_rows values whole (sigma_min m (raised less (constant low)) places Y)
-  | SigmaMin low, ByLowerDivided places Y => are_defined values && over_rows values divided (sigma_min m (raised less (constant low)) places Y)
+  | SigmaMin low, ByLower places Y => are_defined values && over_rows values whole (sigma_min bits m (raised less (constant low)) places Y)
+  | SigmaMin low, ByLowerDivided places Y => are_defined values && over_rows values divided (sigma_min bits m (raised less (constant low)) places Y)
   | SigmaMin low, ByRank places Y => are_defined values &&
-      match less with None => (lo low =? 0)%Z && (hi low =? 0)%Z && over_rows values whole (full_rank m places Y) | Some _ => false end
-  | SigmaMax high, ByTest => over_rows values whole (sigma_max m (lowered less (constant high)))
-  | SigmaMax high, ByDivided => over_rows values divided (sigma_max m (lowered less (constant high)))
+      match less with None => (lo low =? 0)%Z && (hi low =? 0)%Z && over_rows values whole (full_rank bits m places Y) | Some _ => false end
+  | SigmaMax high, ByTest => over_rows values whole (sigma_max bits m (lowered less (constant high)))
+  | SigmaMax high, ByDivided => over_rows values divided (sigma_max bits m (lowered less (constant high)))
   | Conditioning c2, ByConditioning places Y mu => over_rows values whole (conditioned m less c2 places Y (mu_slope places mu))
-  | Least r low, ByLower places Y => over_rows values r (sigma_min m (raised less (constant low)) places Y)
+  | Least r low, ByLower places Y => over_rows values r (sigma_min bits m (raised less (constant low)) places Y)
   | AtLeast f, ByTest | Either f _, ByTest | Either _ f, ByNegative => is_sign values m less f
   | Apart p p' q q' distance, ByDirection places Y =>
       match end_there values p, end_there values p', end_there values q, end_there values q' with
       | Some p, Some p', Some q, Some q' => are_apart bits m less distance places Y p p' q q'
       | _, _, _, _ => false
       end
-  | Chords r places Y, ByChords => over_rows values r (chords m less places Y)
+  | Chords r places Y, ByChords => over_rows values r (chords bits m less places Y)
   | Solved i k2, ByLower places Y => over_rows values whole (Solve.solved bits m i k2 less places Y)
   | Curved row twice a b k2 s, ByTest =>
       match slopes_of values row, all_some (map (slopes_of values) twice), slopes_of values [a; b; k2; s] with
@@ -210,7 +210,7 @@ Definition shows_apart (values : list (option slope)) (cell : list fixed) (less 
   let at_vertices (r : list (list (Tolerances.multi slope) * Tolerances.multi slope)) (holds : list bool -> fixed -> list (Tolerances.varied fixed) -> bool) :=
     forallb (fun s => holds s (at_vertex s subtracted) (map (Tolerances.varied_at bits s steps) r)) (signs m) in
   let over (r : rows nat) holds := match rows_apart values of r with Some r => at_vertices r holds | None => false end in
-  let definite t := match t with Some t => Solve.is_definite m t | None => false end in
+  let definite t := match t with Some t => Solve.is_definite bits m t | None => false end in
   let lower v k places Y r := definite (Tolerances.lower_apart bits (direction v) places Y r (repeat [neg k] m)) in
   let upper v k r := definite (Tolerances.upper_apart bits (direction v) r (repeat [k] m)) in
   let sign f := match of f with Some q => at_vertices [([], q)] (fun _ t r => forallb (Tolerances.sign_apart t) r) | None => false end in
@@ -714,7 +714,7 @@ Proof.
     + apply at_vertex_sound, he.
     + rewrite <- R0. eapply map_related; [| exact hr]. intros q e [k1 k2]. exact (Tolerances.varied_at_sound bits s _ q (fst e) (snd e) mss k1 k2 hm).
 Qed.
-Lemma definite_apart : forall T S v m, match T with Some t => Solve.is_definite m t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t S) ->
+Lemma definite_apart : forall T S v m, match T with Some t => Solve.is_definite bits m t | None => false end = true -> (forall t, T = Some t -> triangle_in bits t S) ->
   length v = m -> nonzero v -> 0 < quad S v.
 Proof.
   intros [t |] S v m h hS len nz; [| discriminate]. specialize (hS t eq_refl). unfold Solve.is_definite in h.
@@ -722,7 +722,7 @@ Proof.
   rewrite (related_length _ _ _ _ _ hS) in l. congruence.
 Qed.
 
-Lemma lower_apart_shows : forall u k K places Y i r v m, match Tolerances.lower_apart bits u places Y i (repeat [neg k] m) with Some t => Solve.is_definite m t | None => false end = true ->
+Lemma lower_apart_shows : forall u k K places Y i r v m, match Tolerances.lower_apart bits u places Y i (repeat [neg k] m) with Some t => Solve.is_definite bits m t | None => false end = true ->
   Forall2 (Tolerances.varied_in bits) i r -> contains k K -> length v = m -> nonzero v -> K * dot v v < form (lower_weights places Y v) r v.
 Proof.
   intros u k K places Y i r v m h hr hk len nz. destruct (Tolerances.lower_apart bits u places Y i (repeat [neg k] m)) as [t |] eqn:e; [| discriminate].
@@ -730,7 +730,7 @@ Proof.
   pose proof (definite_apart (Some t) U v m h ltac:(intros t' e'; injection e' as <-; exact hU) len nz) as P. specialize (q v). rewrite <- len, quad_diagonal in q. lra.
 Qed.
 
-Lemma upper_apart_shows : forall u k K i r v m, match Tolerances.upper_apart bits u i (repeat [k] m) with Some t => Solve.is_definite m t | None => false end = true ->
+Lemma upper_apart_shows : forall u k K i r v m, match Tolerances.upper_apart bits u i (repeat [k] m) with Some t => Solve.is_definite bits m t | None => false end = true ->
   Forall2 (Tolerances.varied_in bits) i r -> contains k K -> length v = m -> nonzero v -> forall z, 0 < K * dot v v + form (upper_weights z) r v.
 Proof.
   intros u k K i r v m h hr hk len nz z. destruct (Tolerances.upper_apart bits u i (repeat [k] m)) as [t |] eqn:e; [| discriminate].
@@ -769,10 +769,10 @@ Proof.
     (forall l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> K l = a * K l1 + b * K l2) ->
     (forall s, length s = length cell -> contains (bound s) (K (map corner s))) -> length v = length cell -> nonzero v ->
     match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.lower_apart bits u places Y (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) (repeat [neg (add (bound s) (at_vertex s subtracted))] (length cell)) with
-      Some t => Solve.is_definite (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+      Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     regular x (map_rows formula_at r) /\ K lambda * dot v v < energy (map_rows (value x theta) (map_rows formula_at r)) v).
   { intros bound K u places Y r v affine hk len nz k.
-    destruct (Over r (fun s t i => match Tolerances.lower_apart bits u places Y i (repeat [neg (add (bound s) t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) k) as [reg G].
+    destruct (Over r (fun s t i => match Tolerances.lower_apart bits u places Y i (repeat [neg (add (bound s) t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) k) as [reg G].
     split; [exact reg |]. specialize (G (fun l => - (K l * dot v v)) (- dot v v) (lower_weights places Y v) v).
     pose proof (lower_energy places Y _ v (proj2 reg)) as E. pose proof (dot_self v) as d0.
     assert (0 < - (K lambda * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights places Y v) (map_rows (value x theta) (map_rows formula_at r)) v).
@@ -784,10 +784,10 @@ Proof.
     (forall l l1 l2 a b, (forall e : entry, at_lambda l e = a * at_lambda l1 e + b * at_lambda l2 e) -> a + b = 1 -> K l = a * K l1 + b * K l2) ->
     (forall s, length s = length cell -> contains (bound s) (K (map corner s))) -> length v = length cell -> nonzero v ->
     match rows_apart values of r with Some srs => forallb (fun s => match Tolerances.upper_apart bits u (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs) (repeat [sub (bound s) (at_vertex s subtracted)] (length cell)) with
-      Some t => Solve.is_definite (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+      Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
     regular x (map_rows formula_at r) /\ energy (map_rows (value x theta) (map_rows formula_at r)) v < K lambda * dot v v).
   { intros bound K u r v affine hk len nz k.
-    destruct (Over r (fun s t i => match Tolerances.upper_apart bits u i (repeat [sub (bound s) t] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) k) as [reg G].
+    destruct (Over r (fun s t i => match Tolerances.upper_apart bits u i (repeat [sub (bound s) t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) k) as [reg G].
     split; [exact reg |]. destruct (upper_energy _ v (proj2 reg)) as [z E]. specialize (G (fun l => K l * dot v v) (- dot v v) (upper_weights z) v). pose proof (dot_self v) as d0.
     assert (0 < K lambda * dot v v + - dot v v * at_lambda lambda el + form (upper_weights z) (map_rows (value x theta) (map_rows formula_at r)) v).
     { apply G.
@@ -811,12 +811,12 @@ Proof.
     e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
-    assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
+    assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
     split; [exact Reg |]. intros kappa2 v hk len nz. exact (proj2 (Low (fun _ => low) (fun _ => kappa2) _ places Y whole v (Still _) (Constant _ _ hk) len nz h)).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
     cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
-    destruct (Over whole (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y (map Tolerances.without_D i) (repeat [neg zero] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h) as [reg G].
+    destruct (Over whole (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y (map Tolerances.without_D i) (repeat [neg zero] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h) as [reg G].
     split; [exact reg |]. intros kappa2 v [k1 k2] len nz. rewrite z1 in k1. rewrite z2 in k2. pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
     apply (rank_energy places Y _ v (proj2 reg)).
     assert (W : forall w r, form (map (fun p => (fst p, 0)) w) r v = form w (map (fun p => (fst p, 0)) r) v).
@@ -826,13 +826,13 @@ Proof.
     assert (hr' : Forall2 (Tolerances.varied_in bits) (map Tolerances.without_D i) (map (fun A => (fst A, 0)) real)) by (eapply map_related; [| exact hr]; intros; apply Tolerances.without_D_sound; assumption).
     pose proof (lower_apart_shows _ _ 0 _ _ _ _ _ _ hh hr' (zero_sound bits) len nz) as P. rewrite Rmult_0_l in P. exact P.
   - destruct directions as [| u [|]]; try discriminate. cbn [holds]. exists (map_rows formula_at whole). split; [left; reflexivity |].
-    assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.upper_apart bits (map (Fixed.integer bits) u) i (repeat [sub high t] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
+    assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.upper_apart bits (map (Fixed.integer bits) u) i (repeat [sub high t] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
     split; [exact Reg |]. intros k v hk len nz. exact (proj2 (Up (fun _ => high) (fun _ => k) _ whole v (Still _) (Constant _ _ hk) len nz h)).
   - destruct directions as [| u0 [| v0 [|]]]; try discriminate. apply andb_true_iff in h as [hp h]. cbn [holds]. exists (map_rows formula_at whole). split; [left; reflexivity |].
     pose (FL := fun (s : list bool) (t : fixed) i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u0) places Y i (repeat [neg (add (at_vertex s (mu_slope places mu)) t)] (length cell)) with
-      Some t => Solve.is_definite (length cell) t | None => false end).
+      Some t => Solve.is_definite bits (length cell) t | None => false end).
     pose (FU := fun (s : list bool) (t : fixed) i => match Tolerances.upper_apart bits (map (Fixed.integer bits) v0) i (repeat [sub (mul bits c2 (at_vertex s (mu_slope places mu))) t] (length cell)) with
-      Some t => Solve.is_definite (length cell) t | None => false end).
+      Some t => Solve.is_definite bits (length cell) t | None => false end).
     pose proof (Each whole (fun s t i => FL s t i && FU s t i) FL (fun s t i k => proj1 (andb_prop _ _ k)) h) as hl.
     pose proof (Each whole (fun s t i => FL s t i && FU s t i) FU (fun s t i k => proj2 (andb_prop _ _ k)) h) as hu.
     pose proof (proj1 (Over _ FL hl)) as Reg. unfold FL in hl. unfold FU in hu.
@@ -848,7 +848,7 @@ Proof.
     apply Rmult_lt_compat_l; [apply Rmult_lt_0_compat |]; assumption.
   - destruct directions; [| discriminate]. exact (Sign f h).
   - destruct directions as [| u [|]]; try discriminate. cbn [holds].
-    assert (Reg : regular x (map_rows formula_at r)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite (length cell) t | None => false end) h)).
+    assert (Reg : regular x (map_rows formula_at r)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
     split; [exact Reg |]. intros kappa2 v hk len nz. exact (proj2 (Low (fun _ => low) (fun _ => kappa2) _ places Y r v (Still _) (Constant _ _ hk) len nz h)).
   - destruct directions; [| discriminate]. left. exact (Sign f h).
   - destruct directions; [| discriminate]. right. exact (Sign g h).

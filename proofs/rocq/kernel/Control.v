@@ -641,18 +641,18 @@ Definition known_multiple (l : option (option fixed * Z * N)) : option fixed :=
 
 Definition lower_at (n : nat) (places : N) (Y : list (list Z)) (k : fixed) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
-  | Some rows, Some w, Some t => is_definite n (lower_triangle places Y rows (repeat [sub (neg (mul bits k w)) t] n))
+  | Some rows, Some w, Some t => is_definite bits n (lower_triangle places Y rows (repeat [sub (neg (mul bits k w)) t] n))
   | _, _, _ => false
   end.
 (** Full rank: the same with D = 0 and k = 0. *)
 Definition rank_at (n : nat) (places : N) (Y : list (list Z)) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), known_multiple (s_less s) with
-  | Some rows, Some t => is_definite n (lower_triangle places Y (map (fun p => (fst p, zero)) rows) (repeat [sub zero t] n))
+  | Some rows, Some t => is_definite bits n (lower_triangle places Y (map (fun p => (fst p, zero)) rows) (repeat [sub zero t] n))
   | _, _ => false
   end.
 Definition upper_at (n : nat) (k : fixed) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
-  | Some rows, Some w, Some t => are_below n rows (sub (mul bits k w) t)
+  | Some rows, Some w, Some t => are_below bits n rows (sub (mul bits k w) t)
   | _, _, _ => false
   end.
 (** mu = first w + sum, and both bounds: w sigma_min^2 > mu, w sigma_max^2 < c^2 mu. *)
@@ -661,15 +661,15 @@ Definition conditioned_at (n : nat) (c2 : fixed) (places : N) (Y : list (list Z)
   | Some rows, Some w, Some t =>
       let number k := Arithmetic.dyadic k places (Fixed.integer bits 1) in
       let mu := add (mul bits (number first) w) (number sum) in
-      (0 <? lo mu)%Z && is_definite n (lower_triangle places Y rows (repeat [sub (neg mu) t] n)) &&
-      match upper_triangle rows (repeat [sub (mul bits c2 mu) t] n) with Some t => is_definite n t | None => false end
+      (0 <? lo mu)%Z && is_definite bits n (lower_triangle places Y rows (repeat [sub (neg mu) t] n)) &&
+      match upper_triangle bits rows (repeat [sub (mul bits c2 mu) t] n) with Some t => is_definite bits n t | None => false end
   | _, _, _ => false
   end.
 (** As many rows of A, and of Y, as coordinates. *)
 Definition solve_at (n i : nat) (places : N) (Y : list (list Z)) (k : fixed) (s : sample (option fixed)) : bool :=
   match known_rows (s_rows s), s_weight s, known_multiple (s_less s) with
   | Some rows, Some w, Some t => Nat.eqb (length rows) n && Nat.eqb (length Y) n &&
-      is_definite n (triangle_add (solve_diagonal i k t rows) (gram places (solve_pairs places Y w rows)))
+      is_definite bits n (triangle_add (solve_diagonal i k t rows) (gram places (solve_pairs places Y w rows)))
   | _, _, _ => false
   end.
 Definition sign_at (s : sample (option fixed)) : bool :=
@@ -1052,7 +1052,7 @@ Proof.
       destruct (lower_triangle_sound bits places Y s _ _ _ v S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (neg_sound bits _ _ M) L))) as [T [hT le]].
       pose proof (is_positive_definite_sound bits _ T low hT v) as Q. rewrite <- lv, quad_diagonal in le. fold V in le. rewrite (related_length _ _ _ _ _ hT) in e. specialize (Q ltac:(congruence) nv). lra. }
     assert (Up : 0 < form (upper_weights q) (map_rows (fun i => at_ ps i) r) u + c * k * U + - less_at ps l * U).
-    { destruct (upper_triangle s (repeat [sub (mul bits c2 mu_) t] n)) as [T |] eqn:eu; [| discriminate].
+    { destruct (upper_triangle bits s (repeat [sub (mul bits c2 mu_) t] n)) as [T |] eqn:eu; [| discriminate].
       unfold is_definite in up. destruct (Nat.eqb_spec (length T) n) as [e | e]; [| discriminate].
       destruct (upper_triangle_sound bits s _ _ _ u T S (diagonal_in bits _ _ n (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ hc M) L)) eu) as [X [hX le]].
       pose proof (is_positive_definite_sound bits _ X up hX u) as Q. specialize (le q). rewrite <- lu, quad_diagonal in le. fold U in le.

@@ -30,7 +30,7 @@ Definition bent (m : nat) (less : option slope) (H : list (list slope)) (a b : f
     | Some n =>
         let d := sub (Fixed.integer bits 1) (mul bits a n) in
         let d := match less with Some t => sub d (at_vertex s t) | None => d end in
-        let part b := is_definite m (triangle_add (repeat [d] m) (map (map (fun h => mul bits b (at_vertex s h))) H)) in
+        let part b := is_definite bits m (triangle_add (repeat [d] m) (map (map (fun h => mul bits b (at_vertex s h))) H)) in
         part (halve b) && part (neg (halve b))
     | None => false
     end) (signs m).
@@ -75,7 +75,7 @@ Proof.
       { unfold d. destruct less as [t |].
         - apply sub_sound; [apply sub_sound; [apply integer_sound | apply mul_sound; assumption] | apply at_vertex_sound, he].
         - rewrite he. unfold at_lambda. cbn [fst snd dot]. replace (1 - A * y - (0 + 0)) with (1 - A * y) by ring. apply sub_sound; [apply integer_sound | apply mul_sound; assumption]. }
-      assert (K : forall b' B', contains b' B' -> is_definite m (triangle_add (repeat [d] m) (map (map (fun h => mul bits b' (at_vertex s h))) H)) = true ->
+      assert (K : forall b' B', contains b' B' -> is_definite bits m (triangle_add (repeat [d] m) (map (map (fun h => mul bits b' (at_vertex s h))) H)) = true ->
         0 < (1 - A * N (map corner s) - at_lambda (map corner s) el) * dot v v + B' * quad (real_triangle (map corner s) Hs) v).
       { intros b' B' hb' k. unfold is_definite in k. destruct (Nat.eqb_spec (length (triangle_add (repeat [d] m) (map (map (fun h => mul bits b' (at_vertex s h))) H))) m) as [lt |]; [| discriminate].
         assert (T : triangle_in bits (triangle_add (repeat [d] m) (map (map (fun h => mul bits b' (at_vertex s h))) H))

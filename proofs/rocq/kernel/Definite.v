@@ -30,16 +30,17 @@ Proof.
   intros. rewrite !Rmult_1_l. apply add_sound; assumption.
 Qed.
 
-(** ** Elimination, row by row: c_jk - b_j b_k / a *)
+(** ** Elimination, row by row: c_jk - (b_j / a) b_k *)
 
 Fixpoint eliminate (a : fixed) (b : list fixed) (C : triangle) : triangle :=
   match b with
   | [] => C
   | b1 :: b' =>
+      let part := ratio b1 (Fixed.integer bits 1) a in
       match C with
-      | [] => map (fun y => neg (ratio b1 y a)) b :: eliminate a b' []
+      | [] => map (fun y => neg (mul bits part y)) b :: eliminate a b' []
       | row :: C' =>
-          merge (fun x => x) (fun y => neg (ratio b1 y a)) (fun x y => sub x (ratio b1 y a)) row b
+          merge (fun x => x) (fun y => neg (mul bits part y)) (fun x y => sub x (mul bits part y)) row b
             :: eliminate a b' C'
       end
   end.
@@ -48,9 +49,11 @@ Lemma eliminate_sound : forall a b x v C S, (0 < lo a)%Z -> contains a x -> Fora
   triangle_in (eliminate a b C) (schur x v S).
 Proof.
   intros a b x v C S p h hb. revert C S. induction hb as [| b1 v1 b v h1 hb IH]; intros C S hC; cbn [eliminate schur]; [exact hC |].
-  assert (K : forall i y, contains i y -> contains (ratio b1 i a) (v1 * / x * y))
-    by (intros i y k; replace (v1 * / x * y) with (v1 * y / x) by (unfold Rdiv; ring); apply ratio_sound; assumption).
-  assert (N : forall i y, contains i y -> contains (neg (ratio b1 i a)) (- (v1 * / x) * y))
+  set (part := ratio b1 (Fixed.integer bits 1) a).
+  assert (K : forall i y, contains i y -> contains (mul bits part i) (v1 * / x * y)).
+  { intros i y k. apply mul_sound; [| exact k]. replace (v1 * / x) with (v1 * 1 / x) by (unfold Rdiv; ring).
+    apply ratio_sound; try assumption. apply Fixed.integer_sound. }
+  assert (N : forall i y, contains i y -> contains (neg (mul bits part i)) (- (v1 * / x) * y))
     by (intros; rewrite Ropp_mult_distr_l_reverse; apply neg_sound, K; assumption).
   destruct hC as [| row u C S hr hC].
   - constructor; [| apply IH; constructor]. eapply map_related; [exact N |]. constructor; assumption.

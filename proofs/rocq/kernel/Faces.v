@@ -154,7 +154,7 @@ Qed.
 Definition definite_at (values : list (option slope)) (vertices : list (slope -> fixed)) : bool :=
   match map (fun i => nth i values None) places with
   | [Some d; Some a; Some b; Some c] =>
-      forallb (fun at_ => is_positive_definite (upper (at_ d) (at_ a) (at_ b) (at_ c))) vertices
+      forallb (fun at_ => is_positive_definite bits (upper (at_ d) (at_ a) (at_ b) (at_ c))) vertices
   | _ => false
   end.
 

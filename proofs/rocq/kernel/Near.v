@@ -209,8 +209,8 @@ Definition at_vertex_holds (places : N) (Y : list (list Z)) (k2 z2 l : fixed) (r
   let t := triangle_add (repeat [neg l] 3) (gram places (solve_pairs places Y (Fixed.integer bits 1) rows)) in
   match b with
   | [b0; b1; b2] =>
-      is_definite 3 (triangle_add (repeat [neg k2] 3) t) &&
-      forallb (fun s : bool * bool => is_definite 4 (bordered t (if fst s then b0 else neg b0) (if snd s then b1 else neg b1) b2 (sub z2 l)))
+      is_definite bits 3 (triangle_add (repeat [neg k2] 3) t) &&
+      forallb (fun s : bool * bool => is_definite bits 4 (bordered t (if fst s then b0 else neg b0) (if snd s then b1 else neg b1) b2 (sub z2 l)))
         [(true, true); (false, true); (true, false); (false, false)]
   | _ => false
   end.
@@ -249,7 +249,7 @@ Proof.
   destruct (K error e he) as [n [n1 n2]]. destruct (upper_end_sound bits _ _ n1) as [y [y1 y2]]. exists y. split; [exact y1 | lra].
 Qed.
 
-Lemma bordered_shown : forall t S b0 b1 b2 c x0 x1 x2 C w0 w1 w2 v, is_definite 4 (bordered t b0 b1 b2 c) = true -> triangle_in bits t S ->
+Lemma bordered_shown : forall t S b0 b1 b2 c x0 x1 x2 C w0 w1 w2 v, is_definite bits 4 (bordered t b0 b1 b2 c) = true -> triangle_in bits t S ->
   contains b0 x0 -> contains b1 x1 -> contains b2 x2 -> contains c C -> 0 < w0 ^ 2 + w1 ^ 2 + w2 ^ 2 + v ^ 2 ->
   0 < quad S [w0; w1; w2] + 2 * v * (x0 * w0 + x1 * w1 + x2 * w2) + C * v ^ 2.
 Proof.

@@ -60,12 +60,12 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : pose_test) (e : evi
   let at_all e good r w := everywhere (@map_sample) e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
   match t, e with
   | LeastOf r w k ends, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
-  | LeastOf r w k ends, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at n places Y) r w
+  | LeastOf r w k ends, ByRank places Y => (lo k =? 0)%Z && (hi k =? 0)%Z && at_all ends (rank_at bits n places Y) r w
   | SolveOf i r w k ends, ByLower places Y => at_all ends (solve_at bits n i places Y k) r w
   | GreatestOf r w k, ByTest => at_all 0%nat (upper_at bits n k) r w
   | ConditionOf r w c2, ByConditioning places Y (mu :: mus) =>
       Nat.eqb (length mus) m && everywhere_by (@map_sample) (conditioned_at bits n c2 places Y mu) 0 mus 0 (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l))
-  | ChordsOf r w places Y, ByChords => at_all 0%nat (rank_at n places Y) r w
+  | ChordsOf r w places Y, ByChords => at_all 0%nat (rank_at bits n places Y) r w
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | LeverOf r w, ByLower places [[y]] => at_all 0%nat (lower_at bits 1 places [[y]] (Fixed.integer bits 1)) r w
   | AxisOf r w, ByTest => at_all 0%nat (upper_at bits 3 (Fixed.integer bits 1)) r w

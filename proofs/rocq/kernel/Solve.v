@@ -80,7 +80,7 @@ Fixpoint solve_diagonal (i : nat) (k t : fixed) (r : rows fixed) {struct r} : tr
       end
   end.
 
-Definition is_definite (n : nat) (t : triangle) : bool := if Nat.eqb (length t) n then is_positive_definite t else false.
+Definition is_definite (n : nat) (t : triangle) : bool := if Nat.eqb (length t) n then is_positive_definite bits t else false.
 Lemma half_product_sound : forall places y z v, Forall2 (contains bits) z v -> contains bits (half_product places y z) (dot (map (Y_half places) y) v).
 Proof.
   intros places y z v h. revert y. induction h as [| a b z v hb h IH]; intros [| n y]; cbn [half_product map dot]; try apply zero_sound.

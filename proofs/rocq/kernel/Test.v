@@ -246,7 +246,7 @@ Definition sigma_min (m : nat) (k : slope) (places : N) (Y : list (list Z)) (r :
     match i with
     | (_, kappa2) :: i' =>
         let t := lower_triangle places Y i' (repeat [neg kappa2] m) in
-        if Nat.eqb (length t) m then is_positive_definite t else false
+        if Nat.eqb (length t) m then is_positive_definite bits t else false
     | [] => false
     end).
 
@@ -288,7 +288,7 @@ Qed.
 Fixpoint upper_triangle (r : rows fixed) (start : triangle) : option triangle :=
   match r with
   | [] => Some start
-  | (a, d) :: r' => match eliminated ((lower_end d :: a) :: start) with Some t => upper_triangle r' t | None => None end
+  | (a, d) :: r' => match eliminated bits ((lower_end d :: a) :: start) with Some t => upper_triangle r' t | None => None end
   end.
 
 (** w^T D w + 2 w . A v *)
@@ -301,7 +301,7 @@ Proof.
   intros i r start S v T h. revert start S. induction h as [| [a d] [b e] i r [h1 h2] h IH]; intros start S hS u.
   - injection u as <-. exists S. split; [exact hS |]. intros [| t w]; cbn; lra.
   - cbn [upper_triangle] in u. cbn [fst snd] in h1, h2.
-    destruct (eliminated ((lower_end d :: a) :: start)) as [t |] eqn:el; [| discriminate].
+    destruct (eliminated bits ((lower_end d :: a) :: start)) as [t |] eqn:el; [| discriminate].
     destruct (lower_end_sound bits d e h2) as [g [hg le]].
     destruct (eliminated_sound bits _ _ _ _ _ _ _ el hg h1 hS) as [g0 ht].
     destruct (IH _ _ ht u) as [U [hU q]]. exists U. split; [exact hU |]. rewrite quad_schur in q by lra.
@@ -318,7 +318,7 @@ Definition squares (a : list fixed) : Z := fold_right (fun x sum => (magnitude x
 Definition are_below (n : nat) (r : rows fixed) (k : fixed) : bool :=
   match r with
   | [(a, d)] => (0 <? lo k)%Z && (0 <? lo d)%Z && (squares a <? lo k * lo d)%Z
-  | _ => match upper_triangle r (repeat [k] n) with Some t => Nat.eqb (length t) n && is_positive_definite t | None => false end
+  | _ => match upper_triangle r (repeat [k] n) with Some t => Nat.eqb (length t) n && is_positive_definite bits t | None => false end
   end.
 
 Lemma squares_sound : forall a b, Forall2 contains a b -> dot b b * unit_R bits ^ 2 <= IZR (squares a).
@@ -346,7 +346,7 @@ Lemma are_below_sound : forall n i r b k v w, are_below n i b = true -> rows_rel
   0 < k * dot v v + form (upper_weights w) r v.
 Proof.
   intros n i r b k v w h hr hb lv nz.
-  assert (More : match upper_triangle i (repeat [b] n) with Some t => Nat.eqb (length t) n && is_positive_definite t | None => false end = true ->
+  assert (More : match upper_triangle i (repeat [b] n) with Some t => Nat.eqb (length t) n && is_positive_definite bits t | None => false end = true ->
     0 < k * dot v v + form (upper_weights w) r v).
   { clear h. intro h. destruct (upper_triangle i (repeat [b] n)) as [T |] eqn:u; [| discriminate]. apply andb_true_iff in h as [e h]. apply Nat.eqb_eq in e.
     destruct (upper_triangle_sound i r _ _ v T hr (diagonal_in _ _ n hb) u) as [U [hU le]].
@@ -369,7 +369,7 @@ Definition sigma_max (m : nat) (k : slope) (r : rows slope) : bool :=
     match i with
     | (_, k2) :: i' =>
         match upper_triangle i' (repeat [k2] m) with
-        | Some t => if Nat.eqb (length t) m then is_positive_definite t else false
+        | Some t => if Nat.eqb (length t) m then is_positive_definite bits t else false
         | None => false
         end
     | [] => false

@@ -425,7 +425,7 @@ Fixpoint upper_apart (w : list fixed) (r : list (varied fixed)) (start : triangl
             else None
         end in
       match lessened with
-      | Some t => match eliminated t with Some t => upper_apart w r' t | None => None end
+      | Some t => match eliminated bits t with Some t => upper_apart w r' t | None => None end
       | None => None
       end
   end.
@@ -438,7 +438,7 @@ Proof.
   - cbn [upper_apart] in u. cbn [fst snd] in *. cbv zeta in u. destruct (lower_end_sound bits d d0 hd) as [g [hg le]].
     assert (hB : triangle_in bits ((lower_end d :: a) :: start) ((g :: a0) :: S)) by (constructor; [constructor; assumption | exact hS]).
     match type of u with match ?x with Some _ => _ | None => _ end = _ => destruct x as [t |] eqn:el; [| discriminate u] end.
-    destruct (eliminated t) as [t2 |] eqn:e2; [| discriminate].
+    destruct (eliminated bits t) as [t2 |] eqn:e2; [| discriminate].
     assert (L : exists S1, triangle_in bits t S1 /\ forall z v, quad S1 (z :: v) <= g * z ^ 2 + 2 * z * dot a0 v + quad S v + sum_of ms (fun c => 2 * z * dot (fst c) v + z ^ 2 * snd c)).
     { destruct hm as [| c m cs ms hc hm].
       - injection el as <-. exists ((g :: a0) :: S). split; [exact hB |]. intros z v. cbn [quad row_form sum_of fold_right]. lra.
@@ -592,7 +592,7 @@ Definition solved_apart (w : list fixed) (m i : nat) (k2 t : fixed) (places : N)
   Nat.eqb (length r) m && Nat.eqb (length Y) m &&
   match solve_changes w (length Y) i 0 k2 places Y r
     (triangle_add (Solve.solve_diagonal bits i k2 t (map fst r)) (Solve.gram places (Solve.solve_pairs places Y one (map fst r)))) with
-  | Some T => Solve.is_definite m T
+  | Some T => Solve.is_definite bits m T
   | None => false
   end.
 

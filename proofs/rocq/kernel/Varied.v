@@ -154,7 +154,7 @@ Definition varied_lower_at (n : nat) (places : N) (Y : list (list Z)) (direction
   match Check.all_some (map known_varied (v_rows s)), v_weight s, known_multiple (v_less s) with
   | Some rows, Some w, Some t =>
       match Tolerances.lower_apart bits (map (Fixed.integer bits) direction) places Y (map (fun r => only_changes (Tolerances.varied_at bits [] steps r)) rows)
-        (repeat [sub (neg (mul bits k w)) t] n) with Some t => Solve.is_definite n t | None => false end
+        (repeat [sub (neg (mul bits k w)) t] n) with Some t => Solve.is_definite bits n t | None => false end
   | _, _, _ => false
   end.
 

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(G){"use strict";var
-iK="spatial",pd="Invalid_argument",gv="precision",aA='"',iJ=1255,pc="inside",oi="(",oj=0x800,pb="yaw",of="range",og="tree",oh="jsError",bU=0x8000,pa="sqrt(",oe=256,od="obligation",eZ="offset",a8="machine",ob="this quantity of such a mechanism in a claim that is refuted",oc="End_of_file",dZ="strut",iI="center",eY="arm",iH="Failure",o$="serial_margin",gE="parameters",ch=0xff,o_="bodies",iU="outside",gD="base_axis",iG="ENOENT",o9="singular",o8=122,oa="([^/]+)",iT="0",iF=0xf,eX=128,n$=0xdc00,o6="Sys_blocked_io",o7="fd ",gu="given",n_="ENOTEMPTY",aM=248,gt="bound",n9="Division_by_zero",o4="by",o5=1027,n8="Sys_error",gC="slider",n7="torsion",o3="postulate",n6="proof",o2="joint_error",eW="refuted",dU="mechanism",gs="row",n5="EEXIST",o1="roll_pitch_yaw",gB="y",n4="cube",db="lower",o0="within",n3="clearance",oZ="turned",n2="control",gr="int_of_string",oX="definitions",oY="dependent",eV=1024,n0="from",n1="name",oW=" : flags Open_rdonly and Open_wronly are not compatible",nZ="orthocert/2",oV="reach",nY=512,oT="base_joint",oU="witness",eU="-",a1="platform",nX=0x7ff0,nW="pitch",iS=": Not a directory",bo="min",oR="trim",dY="workspace",oS=" : file already exists",gq="split",oP='the failure "singular" of such a mechanism',iR="legs",oQ="claim",iE="joint",dc=0xffffff,nV="platform_joint",nU="formulas",nT="roll",gp="atlas",oN="nodes",oO="Out_of_memory",nS="psi_max",gA="orientation",go=254,oM="angle",iQ="index out of bounds",nR="end",oL="one_to_one",gz="_bigarr02",nQ=" : flags Open_text and Open_binary are not compatible",bH="drive",nP="coordinates",oK="holds",nO="lower_divided",nN="speed",oI="cylinder",oJ="joints",cg=0xffff,oG="acceleration",eS="certified",eT="chords",oH=12520,iD="on",gn="accuracy",eR="axis",oF="no_cube",oE="parallel_margin",nM='the drive "',iC="Unix.Unix_error",gy="fails",gm="tool",iB="mkdir",oD="rho",gx=1000,iA="translational",oC="tolerances",nL="Stack_overflow",iP="characteristic_length",T="",iO="^",iz="places",gl=": No such file or directory",nK="/static/",dX=0x3f,nI="stiffness",nJ="Not_found",da="planar",eP="mode",oB="joint_speed",oA="Match_failure",nH="transmission",bn="anchor",oz="at",nG="joint_force",dW="leg",nF="joint_acceleration",gw="+",iy="rmdir",oy=0xf0,ox="spherical",nE=1026,ov="REJECTED",ow="undecided",bp="max",bV="direction",nC="leg_angle",nD="orthoglide",eQ="rank",ou="constraint_margin",gk="test",nA="Pervasives.do_at_exit",nB="utf8",bG=0x80,dV="conditioning",dT="length",nz="Undefined_recursive_module",iN=")",ny="base",ot="quantity",nx="joint_range",gj="tilt",nw="Q2",os="reference",nv="point",oq="corner",or=0xe0,nu="version",iM="z",oo="to",op=0xdfff,ix="compare: functional value",on="Assert_failure",bJ="/",om="provenance",c$="radius",gi="side",bI="require",ol="format",nt="Q1",iL="ENOTDIR",ns="all",c_="box",ok=250;function
+iK="spatial",pd="Invalid_argument",gu="precision",aA='"',iJ=1255,pc="inside",oi="(",oj=0x800,pb="yaw",of="range",og="tree",oh="jsError",bU=0x8000,pa="sqrt(",oe=256,od="obligation",eY="offset",a8="machine",ob="this quantity of such a mechanism in a claim that is refuted",oc="End_of_file",dZ="strut",iI="center",eX="arm",iH="Failure",o$="serial_margin",gD="parameters",ch=0xff,o_="bodies",iU="outside",gC="base_axis",iG="ENOENT",o9="singular",o8=122,oa="([^/]+)",iT="0",iF=0xf,eW=128,n$=0xdc00,o6="Sys_blocked_io",o7="fd ",gt="given",n_="ENOTEMPTY",aM=248,gs="bound",n9="Division_by_zero",o4="by",o5=1027,n8="Sys_error",gB="slider",n7="torsion",o3="postulate",n6="proof",o2="joint_error",eV="refuted",dU="mechanism",gr="row",n5="EEXIST",o1="roll_pitch_yaw",gA="y",n4="cube",db="lower",o0="within",n3="clearance",oZ="turned",n2="control",gq="int_of_string",oX="definitions",oY="dependent",eU=1024,n0="from",n1="name",oW=" : flags Open_rdonly and Open_wronly are not compatible",nZ="orthocert/2",oV="reach",nY=512,oT="base_joint",oU="witness",eT="-",a1="platform",nX=0x7ff0,nW="pitch",iS=": Not a directory",bo="min",oR="trim",dY="workspace",oS=" : file already exists",gp="split",oP='the failure "singular" of such a mechanism',iR="legs",oQ="claim",iE="joint",dc=0xffffff,nV="platform_joint",nU="formulas",nT="roll",go="atlas",oN="nodes",oO="Out_of_memory",nS="psi_max",gz="orientation",gn=254,oM="angle",iQ="index out of bounds",nR="end",oL="one_to_one",gy="_bigarr02",nQ=" : flags Open_text and Open_binary are not compatible",bH="drive",nP="coordinates",oK="holds",nO="lower_divided",nN="speed",oI="cylinder",oJ="joints",cg=0xffff,oG="acceleration",eR="certified",eS="chords",oH=12520,iD="on",gm="accuracy",eQ="axis",oF="no_cube",oE="parallel_margin",nM='the drive "',iC="Unix.Unix_error",gx="fails",gl="tool",iB="mkdir",oD="rho",gw=1000,iA="translational",oC="tolerances",nL="Stack_overflow",iP="characteristic_length",T="",iO="^",iz="places",gk=": No such file or directory",nK="/static/",dX=0x3f,nI="stiffness",nJ="Not_found",da="planar",eO="mode",oB="joint_speed",oA="Match_failure",nH="transmission",bn="anchor",oz="at",nG="joint_force",dW="leg",nF="joint_acceleration",gv="+",iy="rmdir",oy=0xf0,ox="spherical",nE=1026,ov="REJECTED",ow="undecided",bp="max",bV="direction",nC="leg_angle",nD="orthoglide",eP="rank",ou="constraint_margin",gj="test",nA="Pervasives.do_at_exit",nB="utf8",bG=0x80,dV="conditioning",dT="length",nz="Undefined_recursive_module",iN=")",ny="base",ot="quantity",nx="joint_range",gi="tilt",nw="Q2",os="reference",nv="point",oq="corner",or=0xe0,nu="version",iM="z",oo="to",op=0xdfff,ix="compare: functional value",on="Assert_failure",bJ="/",om="provenance",c$="radius",gh="side",bI="require",ol="format",nt="Q1",iL="ENOTDIR",ns="all",c_="box",ok=250;function
 i7(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eV,a-=eV)e+=d.apply(null,c.slice(b,b+Math.min(a,eV)));return e}function
-gG(b){if(G.Uint8Array)var
+e=T;for(;0<a;b+=eU,a-=eU)e+=d.apply(null,c.slice(b,b+Math.min(a,eU)));return e}function
+gF(b){if(G.Uint8Array)var
 c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-e0(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gG(b);var
+eZ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gF(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,7 +23,7 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 d2(a){return a}function
-d1(a,b,c,d,e){e0(d2(a),b,c,d,e);return 0}function
+d1(a,b,c,d,e){eZ(d2(a),b,c,d,e);return 0}function
 iW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
@@ -86,16 +86,16 @@ c=b.udivmod(a).quotient;if(d&bU)c=c.neg();return c};F.prototype.mod=function(b){
 a=this;if(b.isZero())pC();var
 d=a.hi;if(a.hi&bU)a=a.neg();if(b.hi&bU)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&bU)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
-gI(b,c,a){return new
+gH(b,c,a){return new
 F(b,c,a)}function
-gH(a){if(!isFinite(a)){if(isNaN(a))return gI(1,0,nX);return a>0?gI(0,0,nX):gI(0,0,0xfff0)}var
+gG(a){if(!isFinite(a)){if(isNaN(a))return gH(1,0,nX);return a>0?gH(0,0,nX):gH(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bU:a>=0?0:bU;if(f)a=-a;var
 b=EQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nE)}else{a/=Math.pow(2,b-o5);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iF|f|b<<4;return gI(g,e,c)}function
-e3(a){return a.toArray()}function
-pk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gz)for(var
+g=a|0;c=c&iF|f|b<<4;return gH(g,e,c)}function
+e2(a){return a.toArray()}function
+pk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gy)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cg)c.write(16,b.dims[a]);else{c.write(16,cg);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,11 +113,11 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=e3(b.get(a));for(var
+e=e2(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e3(gH(b.get(a)));for(var
+e=e2(gG(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
@@ -127,9 +127,9 @@ a=0;a<b.data.length/2;a++){var
 d=b.get(a);c.write(32,iZ(d[1]));c.write(32,iZ(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e3(gH(f[1]));for(var
+f=b.get(a),e=e2(gG(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e3(gH(f[2]));for(var
+e=e2(gG(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
 EJ(b,a){throw[0,b,a]}function
 pK(a){if(a.length<24){for(var
@@ -138,9 +138,9 @@ return!/[^\x00-\x7f]/.test(a)}function
 i8(e){for(var
 j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bG){for(var
 d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>nY){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(f<<6);if(f<or){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(g<<6);if(f<oy){a=g-0xe2080;if(a<oj||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(f<<6);if(f<or){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(g<<6);if(f<oy){a=g-0xe2080;if(a<oj||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
 if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),n$+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eV){c.substr(0,1);j+=c;c=T}}return j+c}function
+c+=String.fromCharCode(a);if(c.length>eU){c.substr(0,1);j+=c;c=T}}return j+c}function
 bW(c,a,b){this.t=c;this.c=a;this.l=b}bW.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:d3(this);case
 0:if(pK(this.c)){this.t=9;return this.c}this.t=8;case
@@ -177,7 +177,7 @@ a(e*pi(c));return d}function
 i0(c){var
 a=new(G.Int32Array)(1);a[0]=c;var
 b=new(G.Float32Array)(a.buffer);return b[0]}function
-e2(a){return new
+e1(a){return new
 F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
 i1(d){var
 f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iF)==0?b&bU?-Infinity:Infinity:NaN;var
@@ -190,21 +190,21 @@ Er(b,a){return new
 F(b&dc,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
 i2(a){return a.hi32()}function
 i3(a){return a.lo32()}function
-gF(){aE(iQ)}var
-Ec=gz;function
+gE(){aE(iQ)}var
+Ec=gy;function
 cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ec;cH.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
 Array))aE("bigarray.js: invalid offset");if(this.dims.length!=b.length)aE("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gF();c=c*this.dims[a]+b[a]}else
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gE();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gF();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gE();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
 7:var
 d=this.data[a*2+0],b=this.data[a*2+1];return Er(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[go,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gn,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
 7:this.data[a*2+0]=i3(b);this.data[a*2+1]=i2(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cH.prototype.fill=function(b){switch(this.kind){case
@@ -241,7 +241,7 @@ cH();d0.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gF();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
+aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gE();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
 pg(c,d,a,b){var
 e=pi(c);if(iV(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 d0(c,d,a,b);return new
@@ -249,7 +249,7 @@ cH(c,d,a,b)}function
 bK(b){if(!as.Failure)as.Failure=[aM,a(iH),-3];i6(as.Failure,b)}function
 ph(b,v,r){var
 i=b.read32s();if(i<0||i>16)bK("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gz)for(var
+p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gy)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==cg){var
 t=b.read32u(),u=b.read32u();if(t!=0)bK("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
@@ -276,32 +276,32 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=e2(e);g.set(a,q)}break;case
+q=e1(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=i1(e2(e));g.set(a,k)}break;case
+k=i1(e1(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
 k=i0(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=i0(b.read32s()),l=i0(b.read32s());g.set(a,[go,m,l])}break;case
+m=i0(b.read32s()),l=i0(b.read32s());g.set(a,[gn,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=i1(e2(e));for(var
+m=i1(e1(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=i1(e2(e));g.set(a,[go,m,l])}break}v[0]=(4+i)*4;return pg(j,o,h,f)}function
+l=i1(e1(e));g.set(a,[gn,m,l])}break}v[0]=(4+i)*4;return pg(j,o,h,f)}function
 pf(a,b,c){return a.compare(b,c)}function
 pz(a,b){return Math.imul(a,b)}function
 ci(b,a){a=pz(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pz(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
 Eo(a,b){a=ci(a,i3(b));a=ci(a,i2(b));return a}function
-pv(a,b){return Eo(a,gH(b))}function
+pv(a,b){return Eo(a,gG(b))}function
 pj(c){var
 b=iV(c.dims),d=0;switch(c.kind){case
 2:case
@@ -312,7 +312,7 @@ e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=ci(d,e)}break;case
 4:case
-5:if(b>eX)b=eX;var
+5:if(b>eW)b=eW;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ci(d,e)}if((b&1)!=0)d=ci(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=ci(d,c.data[a]);break;case
@@ -334,13 +334,13 @@ EE(a,b){switch(a.read8u()){case
 Eu(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e2(b)}function
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e1(b)}function
 Et(e,d,b){var
-c=e3(d);for(var
+c=e2(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
 Eq(a,b,c){return a.compare(b)}function
 Es(a){return a.lo32()^a.hi32()}var
-pq={"_j":{deserialize:Eu,serialize:Et,fixed_length:8,compare:Eq,hash:Es},"_i":{deserialize:Ep,fixed_length:4},"_n":{deserialize:EE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ph(a,b,"_bigarray")},serialize:pk,compare:pf,hash:pj},"_bigarr02":{deserialize:function(a,b){return ph(a,b,gz)},serialize:pk,compare:pf,hash:pj}};function
+pq={"_j":{deserialize:Eu,serialize:Et,fixed_length:8,compare:Eq,hash:Es},"_i":{deserialize:Ep,fixed_length:4},"_n":{deserialize:EE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ph(a,b,"_bigarray")},serialize:pk,compare:pf,hash:pj},"_bigarr02":{deserialize:function(a,b){return ph(a,b,gy)},serialize:pk,compare:pf,hash:pj}};function
 iY(a){return pq[a.caml_custom]&&pq[a.caml_custom].compare}function
 po(f,c,d,e){var
 b=iY(c);if(b){var
@@ -350,13 +350,13 @@ instanceof
 bW}function
 px(a){return i5(a)}function
 pp(a){if(typeof
-a==="number")return gx;else
+a==="number")return gw;else
 if(i5(a))return 252;else
 if(px(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==go?0:b}else
+b=a[0]|0;return b==gn?0:b}else
 if(a
 instanceof
 String)return oH;else
@@ -364,7 +364,7 @@ if(typeof
 a=="string")return oH;else
 if(a
 instanceof
-Number)return gx;else
+Number)return gw;else
 if(a&&a.caml_custom)return iJ;else
 if(a&&a.compare)return 1256;else
 if(typeof
@@ -377,7 +377,7 @@ pG(a,b){return pm(a,b)}function
 iX(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
 f=pp(a);if(f==ok){a=a[1];continue}var
-g=pp(b);if(g==ok){b=b[1];continue}if(f!==g){if(f==gx){if(g==iJ)return po(a,b,-1,d);return-1}if(g==gx){if(f==iJ)return po(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+g=pp(b);if(g==ok){b=b[1];continue}if(f!==g){if(f==gw){if(g==iJ)return po(a,b,-1,d);return-1}if(g==gw){if(f==iJ)return po(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
 247:aE(ix);break;case
 248:var
 c=Ev(a[2],b[2]);if(c!=0)return c|0;break;case
@@ -409,11 +409,11 @@ Ej(a,b){return iX(a,b,true)}function
 bY(a){if(a<0)aE("Bytes.create");return new
 bW(a?2:9,T,a)}function
 pr(a,b){return+(iX(a,b,false)==0)}function
-El(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pF(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gG(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+El(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pF(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
 EF=0;function
 pt(){return EF++}function
 Ex(a){return a.toUtf16()}function
-e4(){return typeof
+e3(){return typeof
 G.process!=="undefined"&&typeof
 G.process.versions!=="undefined"&&typeof
 G.process.versions.node!=="undefined"}function
@@ -421,13 +421,13 @@ ES(){function
 a(a){if(a.charAt(0)===bJ)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e4()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e3()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
 ja=ES();function
-pH(a){return a.slice(-1)!==bJ?a+bJ:a}if(e4()&&G.process&&G.process.cwd)var
-e1=G.process.cwd().replace(/\\/g,bJ);else
+pH(a){return a.slice(-1)!==bJ?a+bJ:a}if(e3()&&G.process&&G.process.cwd)var
+e0=G.process.cwd().replace(/\\/g,bJ);else
 var
-e1="/static";e1=pH(e1);function
-Ez(a){a=Ex(a);if(!ja(a))a=e1+a;var
+e0="/static";e0=pH(e0);function
+Ez(a){a=Ex(a);if(!ja(a))a=e0+a;var
 e=ja(a),d=e[1].split(bJ),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
 EN(e){for(var
@@ -435,7 +435,7 @@ f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bG){for(var
 d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>nY){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
 b+=e.slice(c,d);if(d==g)break;c=d}if(a<oj){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
 if(a<0xd800||a>=op)b+=String.fromCharCode(or|a>>12,bG|a>>6&dX,bG|a&dX);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n$||h>op)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oy|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eV){b.substr(0,1);f+=b;b=T}}return f+b}function
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n$||h>op)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oy|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eU){b.substr(0,1);f+=b;b=T}}return f+b}function
 Eg(a){var
 b=9;if(!pK(a))b=8,a=EN(a);return new
 bW(b,a,a.length)}function
@@ -450,17 +450,17 @@ de(b,a){throw[0,b].concat(a)}function
 Ef(a){return new
 bW(4,a,a.length)}function
 aj(a){i6(as.Sys_error,a)}function
-EI(a){aj(a+gl)}function
+EI(a){aj(a+gk)}function
 pl(){aE(iQ)}function
 Ee(b,a){if(a>>>0>=b.l)pl();return iW(b,a)}function
-gJ(a){return a.l}function
+gI(a){return a.l}function
 pe(){}function
 aC(a){this.data=a}aC.prototype=new
 pe();aC.prototype.truncate=function(a){var
-b=this.data;this.data=bY(a|0);e0(b,0,this.data,0,a)};aC.prototype.length=function(){return gJ(this.data)};aC.prototype.write=function(b,d,g,a){var
+b=this.data;this.data=bY(a|0);eZ(b,0,this.data,0,a)};aC.prototype.length=function(){return gI(this.data)};aC.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bY(b+a),f=this.data;this.data=e;e0(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
-e=this.length();e0(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Ee(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
+e=bY(b+a),f=this.data;this.data=e;eZ(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
+e=this.length();eZ(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Ee(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
 aS(b,a){this.content={};this.root=b;this.lookupFun=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.create_dir_if_needed=function(d){var
 c=d.split(bJ),b=T;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bJ;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bJ};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
@@ -470,18 +470,18 @@ b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a
 b=d&&dd(iC);if(this.exists(c))if(b)de(b,dg(n5,iB,this.nm(c)));else
 aj(c+": File exists");var
 a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iG,iB,this.nm(a)));else
-aj(a+gl);if(!this.is_dir(a))if(b)de(b,dg(iL,iB,this.nm(a)));else
+aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iL,iB,this.nm(a)));else
 aj(a+iS);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
 b=f&&dd(iC),c=a==T?T:this.slash(a),e=new
 RegExp(iO+c+oa);if(!this.exists(a))if(b)de(b,dg(iG,iy,this.nm(a)));else
-aj(a+gl);if(!this.is_dir(a))if(b)de(b,dg(iL,iy,this.nm(a)));else
+aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iL,iy,this.nm(a)));else
 aj(a+iS);for(var
 d
 in
 this.content)if(d.match(e))if(b)de(b,dg(n_,iy,this.nm(a)));else
 aj(this.nm(a)+": Directory not empty");delete
 this.content[c]};aS.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gl);if(!this.is_dir(a))aj(a+iS);var
+f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gk);if(!this.is_dir(a))aj(a+iS);var
 g=new
 RegExp(iO+f+oa),d={},c=[];for(var
 e
@@ -509,13 +509,13 @@ if(a.toString){var
 d=d2(d5(a.toString()));b=new
 aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 aj(this.nm(c)+" : registering file with invalid content type")};aS.prototype.constructor=aS;function
-ap(a){return gJ(a)}function
+ap(a){return gI(a)}function
 df(b,a){return iW(b,a)}function
 Ea(d){var
 c=ap(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=df(d,a);return b}function
-D$(a){if(a.t!=4)gG(a);return a.c}function
-Ei(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gG(a)}a.c[c]=b;return 0}function
+D$(a){if(a.t!=4)gF(a);return a.c}function
+Ei(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gF(a)}a.c[c]=b;return 0}function
 Eh(b,a,c){if(a>>>0>=b.l)pl();return Ei(b,a,c)}function
 bX(a){this.fs=require("fs");this.fd=a}bX.prototype=new
 pe();bX.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bX.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bX.prototype.write=function(f,b,c,e){var
@@ -552,15 +552,15 @@ if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
 pu(b){var
 a=ja(b);if(!a)return;return a[0]+bJ}var
-gK=pu(e1)||bK("unable to compute caml_root"),d6=[];if(e4())d6.push({path:gK,device:new
-aD(gK)});else
-d6.push({path:gK,device:new
-aS(gK)});d6.push({path:nK,device:new
+gJ=pu(e0)||bK("unable to compute caml_root"),d6=[];if(e3())d6.push({path:gJ,device:new
+aD(gJ)});else
+d6.push({path:gJ,device:new
+aS(gJ)});d6.push({path:nK,device:new
 aS(nK)});function
 pO(b){var
 g=Ez(b),b=g.join(bJ),f=pH(b),c;for(var
 e=0;e<d6.length;e++){var
-a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e4()){var
+a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e3()){var
 d=pu(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
 aD(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
@@ -585,10 +585,10 @@ a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 85:a+=2;break}return[a,d,b]}function
 pB(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o8)return a-87;return-1}function
 i4(f){var
-h=EG(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pB(e);if(b<0||b>=d)bK(gr);var
-a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pB(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gr)}if(c!=g)bK(gr);a=i*a;if(d==10&&(a|0)!=a)bK(gr);return a|0}function
+h=EG(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pB(e);if(b<0||b>=d)bK(gq);var
+a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pB(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gq)}if(c!=g)bK(gq);a=i*a;if(d==10&&(a|0)!=a)bK(gq);return a|0}function
 Ey(a,b){return+(iX(a,b,false)<=0)}function
-EA(a,d){if(a<0)gF();var
+EA(a,d){if(a<0)gE();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
@@ -606,7 +606,7 @@ c=b.console;c&&c.error&&c.error(a)}}function
 EP(a){var
 a=i8(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gM(c,e,d,a){if(as.fds===undefined)as.fds=new
+gL(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
 EW(c,b,g){var
@@ -620,13 +620,13 @@ a={};while(b){switch(b[1]){case
 6:a.binary=1;break;case
 7:a.text=1;break;case
 8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oW);if(a.text&&a.binary)aj(d4(c)+nQ);var
-d=pO(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gM(f+1,pE,e,a)}gM(0,pE,new
-aC(bY(0)));gM(1,EP,new
-aC(bY(0)));gM(2,EO,new
+d=pO(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gL(f+1,pE,e,a)}gL(0,pE,new
+aC(bY(0)));gL(1,EP,new
+aC(bY(0)));gL(2,EO,new
 aC(bY(0)));function
 EC(a){var
 c=as.fds[a];if(c.flags.wronly)aj(o7+a+" is writeonly");var
-d=null;if(a==0&&e4()){var
+d=null;if(a==0&&e3()){var
 e=require("fs");d=function(){return d5(e.readFileSync(0,nB))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cj[b.fd]=b;return b.fd}function
 py(c){var
@@ -642,7 +642,7 @@ aq(a,b){return Ed(a,b)}function
 EM(){aE(iQ)}function
 aN(b,a){if(a>>>0>=ap(b))EM();return df(b,a)}function
 m(a,b){return 1-aq(a,b)}function
-gL(a){return a}function
+gK(a){return a}function
 pD(a){return a}function
 pI(a){if(a
 instanceof
@@ -702,11 +702,11 @@ j(a,b){return a.length==1?a(b):cI(a,[b])}function
 ao(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
 D_(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
 iw(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}En();var
-jc=[aM,a(n8),-2],jb=[aM,a(pd),-4],C5=[0,0],C6=[0,0],C7=[0,[0,0]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],ga=[0,[1,0],0],mT=[0,[2,0],0],h$=[0,[1,0],0],mS=[0,[2,0],0],f_=[0,[1,0],0],h_=[0,[2,0],0],C9=[0,[0,[0,[0,0]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,0]],Dc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,0]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,0],DC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,0]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,0],D2=[0,[0,0]],D3=[0,0],D4=[0,[0,[0,[0,[0,0]]]]],jI=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fY=[0,[0,[0,[0,0]]]],D5=[0,[0,[0,[0,[0,0]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]];bq(11,[aM,a(nz),-12],nz);bq(10,[aM,a(on),-11],on);bq(9,[aM,a(o6),-10],o6);bq(8,[aM,a(nL),-9],nL);bq(7,[aM,a(oA),-8],oA);bq(6,[aM,a(nJ),-7],nJ);bq(5,[aM,a(n9),-6],n9);bq(4,[aM,a(oc),-5],oc);bq(3,jb,pd);bq(2,[aM,a(iH),-3],iH);bq(1,jc,n8);bq(0,[aM,a(oO),-1],oO);var
-pP=a("String.sub / Bytes.sub"),pR=a(T),pQ=a("String.concat"),pS=a("Array.init"),pT=a("power"),p$=[0,0],qa=[0,0],qg=[0,0,0],qh=[0,0,0],qi=[0,0],qB=[0,0],qC=[0,0],qF=[0,0],qY=[0,0],q1=[0,0],q3=[0,0],q4=[0,0],ra=[0,0],rb=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iN),0],sV=a(oi),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eU),sZ=a(iO),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iN),0],s2=a(pa),vW=a(nw),vY=a(nt),vX=a(oq),vZ=a(dV),v0=a(gn),v1=a(pc),v2=a(oZ),v3=a(n2),v4=a(oC),xe=[0,0],xf=a(gk),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eT),xo=[0,5],xp=a(iU),xq=[0,4],xr=a(db),xs=a(nO),xt=a(eQ),xu=a(bV),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eQ),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nu),wv=a(gm),ww=a(om),wx=a(n6),wD=a(eW),wy=a(eS),wz=a("verdict"),wA=a(oQ),wB=a(nZ),wC=a(ol),wq=a(og),wr=a(oU),ws=a(gp),wm=a(ow),wn=a(gq),wo=a(eS),wp=a(eW),wh=a(gy),wi=a(a8),wj=a(nv),wk=a(gv),we=a(oN),wf=a(eT),wg=a(gv),wa=a(oz),wb=a(gy),wc=a(gq),wd=a(o4),v6=a(oV),v7=a(oY),v8=a(od),v9=a(gs),v_=a(o9),vU=a(iz),vV=a(gB),vP=a(bp),vQ=a(bo),vR=a(n1),vp=a(gs),vq=a(oD),u5=a(a8),u6=a(bI),u7=a(gA),u8=a(dY),u9=a(da),vc=a(iA),u_=a(iP),u$=a(iR),va=a(dU),vb=a(a8),vd=a(bI),ve=a(gA),vf=a(dY),vg=a(iP),vh=a(iR),vi=a(dU),vj=a(a8),vk=a(bI),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dY),vr=a(oJ),vs=a(oX),vt=a(gE),vu=a(nP),vv=a(nU),vw=a(dU),vx=a(a8),vy=a(bI),vz=a(gi),vA=a(n4),vB=a(dY),vC=a(eZ),vD=a(nD),vE=a(dU),vF=a(a8),vG=a(gi),vH=a(a8),vI=a(oF),vL=a(ns),vJ=a(nS),vK=a(o3),vM=a(eW),vN=a(eS),vO=a(a8),vS=a(gE),vT=a(gp),u0=a(bI),u1=a(dY),u2=a(iA),u3=a(dU),uZ=a(o_),uN=a(eZ),uO=a(oR),uP=a(c$),uQ=a(dW),uR=a(dW),uS=a(iD),uT=a(c$),uU=a(oo),uV=a(n0),uW=a(a1),uY=a(ny),uX=a(iD),uD=a(of),uE=a(pb),uF=a(nW),uG=a(nT),uH=a(o1),uI=a(oM),uJ=a(n7),uK=a(gj),uL=a(gj),uz=a(a1),uA=a(bn),uB=a(dZ),uC=a(bH),uv=a(da),uw=a(iK),ux=a(ox),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iM),up=a(c$),uq=a(iI),ur=a(oI),t9=a(nR),ud=a(gm),uc=a(o2),t_=a(iE),t$=a(gu),ug=a(eR),uh=a(iE),ue=a(eR),uf=a(gu),ui=a(nN),uj=a(oG),uk=a(gu),ua=a(dW),ub=a(ot),t6=a(gt),t7=a(gt),t8=a(gt),t2=a(oK),t3=a(bo),t4=a(bp),t5=a(o0),tM=a(nH),tN=a(nx),tO=a(oB),tP=a(dV),tQ=a(o$),tR=a(oE),tS=a(nI),tT=a(ou),tU=a(nG),tV=a(n3),tW=a(nF),tX=a(oL),tY=a(gn),tZ=a(nC),t0=a(oT),t1=a(nV),tr=a(gw),tt=a(eU),ts=a(eP),tu=a(dT),tv=a(a1),tw=a(bn),tx=a(bV),ty=a(gC),tz=a(bH),tA=a(a1),tB=a(bn),tC=a(dZ),tD=a(bH),tE=a(dT),tF=a(eY),tG=a(a1),tH=a(bn),tI=a(os),tJ=a(eR),tK=a(eY),tL=a(bH),s$=a(gw),th=a(eU),ta=a(eP),tb=a(dT),tc=a(a1),td=a(bn),te=a(bV),tf=a(gC),tg=a(bH),ti=a(gD),tj=a(a1),tk=a(bn),tl=a(dZ),tm=a(bH),tn=a(bV),to=a(da),tp=a(bH),s8=a(bp),s9=a(bo),s6=[0,a(aA),0],s7=a(aA),s4=a(T),s3=[0,a(aA),0],s5=a(aA),sQ=a(gw),sR=a(eU),sS=a("*"),sT=a(bJ),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(aA),sH=[0,a(aA),0],sI=a(aA),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rC=[0,[0,0]],rD=[0,0],ru=[0,[0,0]],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rs=[0,[0,0]],rt=[0,0],rq=[0,[0,0]],rr=[0,0],rm=[0,[0,0]],rn=[0,0],ro=[0,0],rp=[0,[0,0]],rd=[0,[0,0]],re=[0,0],rf=[0,[0,0]],rg=[0,0],rh=[0,0],ri=[0,[0,0]],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,0],q$=[0,0],q_=[0,0],q7=[0,[0,[0,0]]],q6=[0,[0,[0,[0,[0,[0,0]]]]]],q2=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,0]],qR=[0,0],qS=[0,[0,0]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qH=[0,[0,0]],qI=[0,0],qG=[0,0,0],qE=[0,0,0],qD=[0,[0,[0,0]]],qz=[0,0],qA=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,[0,0]]]],qp=[0,[0,[0,0]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],qj=[0,[0,0]],qk=[0,0],p8=[0,0],p9=[0,[0,0]],p6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],p4=[0,0,0],p3=a(iT),p2=a(T),p1=[0,[0,0]],p0=[0,0],pX=[0,0],pZ=[1,0],pY=[0,0],pW=[0,0],pU=[1,0],pV=[1,0],q8=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],Bj=a(bp),Bk=a(bo),Bl=a(n1),Ba=a(gD),Bb=[0,a("a base axis of such a platform"),0],Bc=a(a1),Bd=a(bn),AZ=a(oM),A0=a(of),A1=a(o1),A2=a(gj),A3=a(n7),A4=a(gj),A5=a(pb),A6=a(nW),A7=a(nT),AP=a(oD),AQ=a(gs),Ar=[0,a("such a machine with bodies"),0],Ae=a(gp),Af=a(a8),Ag=a(oF),Ah=a(o3),Ak=a(nS),Al=a(ns),Am=a(a8),An=a(a8),Ap=a(gi),Ao=[0,a("a claim that no cube of such a machine fits"),0],Aq=a(o_),As=a(dU),At=a(dY),Au=a(da),Av=a(iK),Aw=a(ox),Ax=a(gA),Ay=a(nU),Az=a(nD),AA=a(iA),AD=a(c_),AE=a(oI),AH=a(bI),AI=a(bI),AJ=a(n4),AK=a(bI),AL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AM=a(gi),AN=a(eZ),AO=a(c_),AR=a(bI),AS=a(bp),AT=a(bo),AU=a(oJ),AV=a(oX),AW=a(gE),AX=a(nP),AB=[0,a(aA),0],AC=a('the mechanism "'),AY=a(iP),A8=a(gA),A9=a(da),A_=a(iK),A$=a(iR),Be=a(bI),Bf=[0,a('"one_to_one" of this set of orientations'),0],Bi=a(da),Bg=[0,a("a platform that turns on struts and other drives"),0],Bh=a(bI),AF=[0,a(aA),0],AG=a('the workspace "'),Bm=a(a8),Bn=a(a8),Bp=a(eW),Bq=a(eS),Br=a(gE),Bo=[0,a("an atlas of such a machine"),0],Ai=[0,a(aA),0],Aj=a('a claim of the kind "'),Bw=a(pc),BD=a(gn),BE=a(dV),BF=a(n2),BG=a(oq),BH=a(bV),BI=a(gB),BJ=a(iz),BK=a(bV),BL=a(iT),Bx=a(db),By=a(nO),Bz=a(eQ),BA=a(oC),BB=[0,a(aA),0],BC=a('the evidence "'),BM=a(db),BN=a(gB),BO=[0,1,1],BP=a(dV),BQ=a(db),BR=a(eQ),BS=a(oZ),BU=a(dV),BV=a(db),BW=a(eQ),BX=a(eT),BY=a(gk),BZ=a(eT),B0=a(gk),BT=[0,a("this evidence at control points"),0],CY=a('"orthocert-paving/'),CP=a(db),CQ=a(db),Cy=a(ol),Cz=a(nZ),CA=a(oQ),CW=[0,3,3],CB=a(n6),CN=[0,a("this set of orientations with such drives"),0],CO=[0,a(ob),0],CR=[0,a('this evidence "tolerances" of a platform that turns'),0],CS=[0,a("a step of a platform that turns that is not at control points"),0],CT=[0,a(ob),0],CU=[0,a('the evidence "tolerances" of such a mechanism'),0],CV=[0,a(oP),0],CM=[0,a(oP),0],CL=[0,a("a mechanism by formulas in a claim that is refuted"),0],CK=[0,a("this quantity in a claim that is refuted"),0],CC=[0,a("the acceleration of a joint of a machine with a plane"),0],CJ=[0,a("a step in a proof that no cube fits"),0],CI=[0,a("a stiffness for each joint in such a claim"),0],CH=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CG=[0,a("a leaf that fails"),0],CD=a(om),CE=a(nu),CF=a(gm),Cu=a(iU),Cv=a(gk),Cw=a(bV),Cn=a(gp),Co=a(og),Cp=a(oU),Cq=[0,a(aA),0],Cr=a('a proof of the kind "'),Cj=a(eS),Ck=a(eW),Cl=a(gq),Cm=a(ow),Cf=a(a8),Cg=a(gy),Ch=a(nv),Ci=a(gv),Cc=a(oN),Cd=a(eT),Ce=a(gv),B_=a(oz),B$=a(gy),Ca=a(gq),Cb=a(o4),B3=a(oY),B4=a(od),B5=a(oV),B6=a(gs),B7=a(o9),B8=[0,a(aA),0],B9=a('the failure "'),B1=a(iU),B2=a(iT),Bu=a(gB),Bv=a(iz),Bs=a(nt),Bt=a(nw),Ab=a(eZ),z3=a(iD),z4=a(ny),z5=a(dW),z6=a(a1),z$=a(oR),Aa=a(eZ),Ac=a(c$),Ad=a(dW),z7=a(c$),z8=a(oo),z9=a(n0),z_=a(a1),zW=a(c_),z0=a(bp),z1=a(bo),zX=a(iI),zY=a(iM),zZ=a(c$),zQ=a(c_),zU=a(bp),zV=a(bo),zR=a(iI),zS=a(iM),zT=a(c$),zP=[0,1],zO=[0,1],zM=[0,1],zL=[0,1],zJ=[0,1],zK=[0,a("this quantity of such a mechanism"),0],zs=a(iE),zt=a(oG),zu=a(nN),zv=a(o2),zw=a("max_angle"),zx=[0,a("accuracy of a platform that turns"),0],zy=a(eR),zr=a(gm),zj=a(gt),y_=a(ot),y$=a(oB),zB=a(gn),zC=a(oT),zD=a(n3),zE=a(dV),zF=a(ou),zG=a(nF),zH=a(nG),zI=a(nx),za=a(nC),zb=a(oL),zc=a(oE),zd=a(nV),ze=a(o$),zf=a(nI),zg=a(nH),zh=[0,a(aA),0],zi=a('the quantity "'),zk=a(nR),zl=a(oK),zm=a(bp),zn=a(bo),zo=a(o0),zp=[0,a(aA),0],zq=a('a bound "'),zz=a(gu),zA=a(dW),y8=a(bH),y9=a(dZ),yN=a(bH),yO=a(gD),yP=a(eY),yQ=a(gC),yR=a(dZ),yU=a(a1),yV=a(bn),yW=a(eP),yX=a(dT),yY=a(a1),yZ=a(bn),y0=a(bV),y1=a(eP),y2=a(dT),y3=a(eY),y4=a(a1),y5=a(bn),y6=a(os),y7=a(eR),yS=[0,a('" of such a machine'),0],yT=a(nM),yL=a(bH),yM=a(eY),yv=a(bH),yw=a(da),yx=a(gC),yy=a(dZ),yB=a(gD),yC=a(a1),yD=a(bn),yE=a(eP),yF=a(dT),yG=a(a1),yH=a(bn),yI=a(bV),yJ=a(bV),yz=[0,a(aA),0],yA=a(nM),ys=a(gw),yt=a(eU),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pa),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C0=[0,a("a paving is checked by orthocert-verified")],CZ=a(ov),C1=a("CERTIFIED"),C2=a("REFUTED"),C3=a(ov),C4=a("NOT COVERED: ");function
-e5(a){throw[0,jb,a]}function
+jc=[aM,a(n8),-2],jb=[aM,a(pd),-4],C5=[0,0],C6=[0,0],C7=[0,[0,0]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],f$=[0,[1,0],0],mT=[0,[2,0],0],h$=[0,[1,0],0],mS=[0,[2,0],0],f9=[0,[1,0],0],h_=[0,[2,0],0],C9=[0,[0,[0,[0,0]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,0]],Dc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,0]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,0],DC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,0]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,0],D2=[0,[0,0]],D3=[0,0],D4=[0,[0,[0,[0,[0,0]]]]],jI=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fX=[0,[0,[0,[0,0]]]],D5=[0,[0,[0,[0,[0,0]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]];bq(11,[aM,a(nz),-12],nz);bq(10,[aM,a(on),-11],on);bq(9,[aM,a(o6),-10],o6);bq(8,[aM,a(nL),-9],nL);bq(7,[aM,a(oA),-8],oA);bq(6,[aM,a(nJ),-7],nJ);bq(5,[aM,a(n9),-6],n9);bq(4,[aM,a(oc),-5],oc);bq(3,jb,pd);bq(2,[aM,a(iH),-3],iH);bq(1,jc,n8);bq(0,[aM,a(oO),-1],oO);var
+pP=a("String.sub / Bytes.sub"),pR=a(T),pQ=a("String.concat"),pS=a("Array.init"),pT=a("power"),p$=[0,0],qa=[0,0],qg=[0,0,0],qh=[0,0,0],qi=[0,0],qB=[0,0],qC=[0,0],qF=[0,0],qY=[0,0],q1=[0,0],q3=[0,0],q4=[0,0],ra=[0,0],rb=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iN),0],sV=a(oi),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eT),sZ=a(iO),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iN),0],s2=a(pa),vW=a(nw),vY=a(nt),vX=a(oq),vZ=a(dV),v0=a(gm),v1=a(pc),v2=a(oZ),v3=a(n2),v4=a(oC),xe=[0,0],xf=a(gj),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eS),xo=[0,5],xp=a(iU),xq=[0,4],xr=a(db),xs=a(nO),xt=a(eP),xu=a(bV),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eP),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nu),wv=a(gl),ww=a(om),wx=a(n6),wD=a(eV),wy=a(eR),wz=a("verdict"),wA=a(oQ),wB=a(nZ),wC=a(ol),wq=a(og),wr=a(oU),ws=a(go),wm=a(ow),wn=a(gp),wo=a(eR),wp=a(eV),wh=a(gx),wi=a(a8),wj=a(nv),wk=a(gu),we=a(oN),wf=a(eS),wg=a(gu),wa=a(oz),wb=a(gx),wc=a(gp),wd=a(o4),v6=a(oV),v7=a(oY),v8=a(od),v9=a(gr),v_=a(o9),vU=a(iz),vV=a(gA),vP=a(bp),vQ=a(bo),vR=a(n1),vp=a(gr),vq=a(oD),u5=a(a8),u6=a(bI),u7=a(gz),u8=a(dY),u9=a(da),vc=a(iA),u_=a(iP),u$=a(iR),va=a(dU),vb=a(a8),vd=a(bI),ve=a(gz),vf=a(dY),vg=a(iP),vh=a(iR),vi=a(dU),vj=a(a8),vk=a(bI),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dY),vr=a(oJ),vs=a(oX),vt=a(gD),vu=a(nP),vv=a(nU),vw=a(dU),vx=a(a8),vy=a(bI),vz=a(gh),vA=a(n4),vB=a(dY),vC=a(eY),vD=a(nD),vE=a(dU),vF=a(a8),vG=a(gh),vH=a(a8),vI=a(oF),vL=a(ns),vJ=a(nS),vK=a(o3),vM=a(eV),vN=a(eR),vO=a(a8),vS=a(gD),vT=a(go),u0=a(bI),u1=a(dY),u2=a(iA),u3=a(dU),uZ=a(o_),uN=a(eY),uO=a(oR),uP=a(c$),uQ=a(dW),uR=a(dW),uS=a(iD),uT=a(c$),uU=a(oo),uV=a(n0),uW=a(a1),uY=a(ny),uX=a(iD),uD=a(of),uE=a(pb),uF=a(nW),uG=a(nT),uH=a(o1),uI=a(oM),uJ=a(n7),uK=a(gi),uL=a(gi),uz=a(a1),uA=a(bn),uB=a(dZ),uC=a(bH),uv=a(da),uw=a(iK),ux=a(ox),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iM),up=a(c$),uq=a(iI),ur=a(oI),t9=a(nR),ud=a(gl),uc=a(o2),t_=a(iE),t$=a(gt),ug=a(eQ),uh=a(iE),ue=a(eQ),uf=a(gt),ui=a(nN),uj=a(oG),uk=a(gt),ua=a(dW),ub=a(ot),t6=a(gs),t7=a(gs),t8=a(gs),t2=a(oK),t3=a(bo),t4=a(bp),t5=a(o0),tM=a(nH),tN=a(nx),tO=a(oB),tP=a(dV),tQ=a(o$),tR=a(oE),tS=a(nI),tT=a(ou),tU=a(nG),tV=a(n3),tW=a(nF),tX=a(oL),tY=a(gm),tZ=a(nC),t0=a(oT),t1=a(nV),tr=a(gv),tt=a(eT),ts=a(eO),tu=a(dT),tv=a(a1),tw=a(bn),tx=a(bV),ty=a(gB),tz=a(bH),tA=a(a1),tB=a(bn),tC=a(dZ),tD=a(bH),tE=a(dT),tF=a(eX),tG=a(a1),tH=a(bn),tI=a(os),tJ=a(eQ),tK=a(eX),tL=a(bH),s$=a(gv),th=a(eT),ta=a(eO),tb=a(dT),tc=a(a1),td=a(bn),te=a(bV),tf=a(gB),tg=a(bH),ti=a(gC),tj=a(a1),tk=a(bn),tl=a(dZ),tm=a(bH),tn=a(bV),to=a(da),tp=a(bH),s8=a(bp),s9=a(bo),s6=[0,a(aA),0],s7=a(aA),s4=a(T),s3=[0,a(aA),0],s5=a(aA),sQ=a(gv),sR=a(eT),sS=a("*"),sT=a(bJ),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(aA),sH=[0,a(aA),0],sI=a(aA),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rC=[0,[0,0]],rD=[0,0],ru=[0,[0,0]],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rs=[0,[0,0]],rt=[0,0],rq=[0,[0,0]],rr=[0,0],rm=[0,[0,0]],rn=[0,0],ro=[0,0],rp=[0,[0,0]],rd=[0,[0,0]],re=[0,0],rf=[0,[0,0]],rg=[0,0],rh=[0,0],ri=[0,[0,0]],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,0],q$=[0,0],q_=[0,0],q7=[0,[0,[0,0]]],q6=[0,[0,[0,[0,[0,[0,0]]]]]],q2=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,0]],qR=[0,0],qS=[0,[0,0]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qH=[0,[0,0]],qI=[0,0],qG=[0,0,0],qE=[0,0,0],qD=[0,[0,[0,0]]],qz=[0,0],qA=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,[0,0]]]],qp=[0,[0,[0,0]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],qj=[0,[0,0]],qk=[0,0],p8=[0,0],p9=[0,[0,0]],p6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],p4=[0,0,0],p3=a(iT),p2=a(T),p1=[0,[0,0]],p0=[0,0],pX=[0,0],pZ=[1,0],pY=[0,0],pW=[0,0],pU=[1,0],pV=[1,0],q8=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],Bj=a(bp),Bk=a(bo),Bl=a(n1),Ba=a(gC),Bb=[0,a("a base axis of such a platform"),0],Bc=a(a1),Bd=a(bn),AZ=a(oM),A0=a(of),A1=a(o1),A2=a(gi),A3=a(n7),A4=a(gi),A5=a(pb),A6=a(nW),A7=a(nT),AP=a(oD),AQ=a(gr),Ar=[0,a("such a machine with bodies"),0],Ae=a(go),Af=a(a8),Ag=a(oF),Ah=a(o3),Ak=a(nS),Al=a(ns),Am=a(a8),An=a(a8),Ap=a(gh),Ao=[0,a("a claim that no cube of such a machine fits"),0],Aq=a(o_),As=a(dU),At=a(dY),Au=a(da),Av=a(iK),Aw=a(ox),Ax=a(gz),Ay=a(nU),Az=a(nD),AA=a(iA),AD=a(c_),AE=a(oI),AH=a(bI),AI=a(bI),AJ=a(n4),AK=a(bI),AL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AM=a(gh),AN=a(eY),AO=a(c_),AR=a(bI),AS=a(bp),AT=a(bo),AU=a(oJ),AV=a(oX),AW=a(gD),AX=a(nP),AB=[0,a(aA),0],AC=a('the mechanism "'),AY=a(iP),A8=a(gz),A9=a(da),A_=a(iK),A$=a(iR),Be=a(bI),Bf=[0,a('"one_to_one" of this set of orientations'),0],Bi=a(da),Bg=[0,a("a platform that turns on struts and other drives"),0],Bh=a(bI),AF=[0,a(aA),0],AG=a('the workspace "'),Bm=a(a8),Bn=a(a8),Bp=a(eV),Bq=a(eR),Br=a(gD),Bo=[0,a("an atlas of such a machine"),0],Ai=[0,a(aA),0],Aj=a('a claim of the kind "'),Bw=a(pc),BD=a(gm),BE=a(dV),BF=a(n2),BG=a(oq),BH=a(bV),BI=a(gA),BJ=a(iz),BK=a(bV),BL=a(iT),Bx=a(db),By=a(nO),Bz=a(eP),BA=a(oC),BB=[0,a(aA),0],BC=a('the evidence "'),BM=a(db),BN=a(gA),BO=[0,1,1],BP=a(dV),BQ=a(db),BR=a(eP),BS=a(oZ),BU=a(dV),BV=a(db),BW=a(eP),BX=a(eS),BY=a(gj),BZ=a(eS),B0=a(gj),BT=[0,a("this evidence at control points"),0],CY=a('"orthocert-paving/'),CP=a(db),CQ=a(db),Cy=a(ol),Cz=a(nZ),CA=a(oQ),CW=[0,3,3],CB=a(n6),CN=[0,a("this set of orientations with such drives"),0],CO=[0,a(ob),0],CR=[0,a('this evidence "tolerances" of a platform that turns'),0],CS=[0,a("a step of a platform that turns that is not at control points"),0],CT=[0,a(ob),0],CU=[0,a('the evidence "tolerances" of such a mechanism'),0],CV=[0,a(oP),0],CM=[0,a(oP),0],CL=[0,a("a mechanism by formulas in a claim that is refuted"),0],CK=[0,a("this quantity in a claim that is refuted"),0],CC=[0,a("the acceleration of a joint of a machine with a plane"),0],CJ=[0,a("a step in a proof that no cube fits"),0],CI=[0,a("a stiffness for each joint in such a claim"),0],CH=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CG=[0,a("a leaf that fails"),0],CD=a(om),CE=a(nu),CF=a(gl),Cu=a(iU),Cv=a(gj),Cw=a(bV),Cn=a(go),Co=a(og),Cp=a(oU),Cq=[0,a(aA),0],Cr=a('a proof of the kind "'),Cj=a(eR),Ck=a(eV),Cl=a(gp),Cm=a(ow),Cf=a(a8),Cg=a(gx),Ch=a(nv),Ci=a(gu),Cc=a(oN),Cd=a(eS),Ce=a(gu),B_=a(oz),B$=a(gx),Ca=a(gp),Cb=a(o4),B3=a(oY),B4=a(od),B5=a(oV),B6=a(gr),B7=a(o9),B8=[0,a(aA),0],B9=a('the failure "'),B1=a(iU),B2=a(iT),Bu=a(gA),Bv=a(iz),Bs=a(nt),Bt=a(nw),Ab=a(eY),z3=a(iD),z4=a(ny),z5=a(dW),z6=a(a1),z$=a(oR),Aa=a(eY),Ac=a(c$),Ad=a(dW),z7=a(c$),z8=a(oo),z9=a(n0),z_=a(a1),zW=a(c_),z0=a(bp),z1=a(bo),zX=a(iI),zY=a(iM),zZ=a(c$),zQ=a(c_),zU=a(bp),zV=a(bo),zR=a(iI),zS=a(iM),zT=a(c$),zP=[0,1],zO=[0,1],zM=[0,1],zL=[0,1],zJ=[0,1],zK=[0,a("this quantity of such a mechanism"),0],zs=a(iE),zt=a(oG),zu=a(nN),zv=a(o2),zw=a("max_angle"),zx=[0,a("accuracy of a platform that turns"),0],zy=a(eQ),zr=a(gl),zj=a(gs),y_=a(ot),y$=a(oB),zB=a(gm),zC=a(oT),zD=a(n3),zE=a(dV),zF=a(ou),zG=a(nF),zH=a(nG),zI=a(nx),za=a(nC),zb=a(oL),zc=a(oE),zd=a(nV),ze=a(o$),zf=a(nI),zg=a(nH),zh=[0,a(aA),0],zi=a('the quantity "'),zk=a(nR),zl=a(oK),zm=a(bp),zn=a(bo),zo=a(o0),zp=[0,a(aA),0],zq=a('a bound "'),zz=a(gt),zA=a(dW),y8=a(bH),y9=a(dZ),yN=a(bH),yO=a(gC),yP=a(eX),yQ=a(gB),yR=a(dZ),yU=a(a1),yV=a(bn),yW=a(eO),yX=a(dT),yY=a(a1),yZ=a(bn),y0=a(bV),y1=a(eO),y2=a(dT),y3=a(eX),y4=a(a1),y5=a(bn),y6=a(os),y7=a(eQ),yS=[0,a('" of such a machine'),0],yT=a(nM),yL=a(bH),yM=a(eX),yv=a(bH),yw=a(da),yx=a(gB),yy=a(dZ),yB=a(gC),yC=a(a1),yD=a(bn),yE=a(eO),yF=a(dT),yG=a(a1),yH=a(bn),yI=a(bV),yJ=a(bV),yz=[0,a(aA),0],yA=a(nM),ys=a(gv),yt=a(eT),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pa),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C0=[0,a("a paving is checked by orthocert-verified")],CZ=a(ov),C1=a("CERTIFIED"),C2=a("REFUTED"),C3=a(ov),C4=a("NOT COVERED: ");function
+e4(a){throw[0,jb,a]}function
 aT(d,c){var
-a=ap(d),e=ap(c),b=bY(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gL(b)}EC(0);py(1);py(2);function
+a=ap(d),e=ap(c),b=bY(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gK(b)}EC(0);py(1);py(2);function
 jd(b){function
 a(b){var
 a=b;for(;;){if(a){var
@@ -721,7 +721,7 @@ a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
 c=a[2],d=j(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gN(d,c){var
+gM(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -730,29 +730,29 @@ a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 br(b,c){var
-a=bY(b);El(a,0,b,c);return gL(a)}function
+a=bY(b);El(a,0,b,c);return gK(a)}function
 di(g,b,a){var
-d=d2(g),f=0;if(0<=b&&0<=a&&!((gJ(d)-a|0)<b)){var
-c=bY(a);e0(d,b,c,0,a);var
+d=d2(g),f=0;if(0<=b&&0<=a&&!((gI(d)-a|0)<b)){var
+c=bY(a);eZ(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=e5(pP);return gL(e)}function
+e=e4(pP);return gK(e)}function
 jf(k,g){if(g){var
 h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e5(pQ),c=n,b=m;continue}var
+j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e4(pQ),c=n,b=m;continue}var
 l=ap(i)+c|0}else
 var
 l=c;var
 f=bY(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];d1(a,0,f,e,ap(a));d1(k,0,f,e+ap(a)|0,h);var
-e=(e+ap(a)|0)+h|0,d=o;continue}d1(a,0,f,e,ap(a))}return gL(f)}}}return pR}function
-gO(b,c){if(0===b)return[0];if(0<=b){var
+e=(e+ap(a)|0)+h|0,d=o;continue}d1(a,0,f,e,ap(a))}return gK(f)}}}return pR}function
+gN(b,c){if(0===b)return[0];if(0<=b){var
 d=EA(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return e5(pS)}function
-gP(c){var
+a=g;continue}break}}return d}return e4(pS)}function
+gO(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aF(0),c=aF(1);function
@@ -760,11 +760,11 @@ p(a){return A(a,c)}function
 jg(b,a){return A(aF(b),a)}function
 b(b,a){return y(aF(b),a)}function
 aU(b,a){return[0,i_(b,a),pL(b,a)]}function
-gQ(b,a){return H(b,a)?b:a}function
+gP(b,a){return H(b,a)?b:a}function
 bs(b,a){return H(b,a)?a:b}function
 d7(a){return d7}function
 $(a){return a?0:1}function
-w(b,a){var
+x(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
 aH(a){return a[1]}function
 b0(a){return a[2]}function
@@ -797,7 +797,7 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-e6(a){return ji(a,0)}function
+e5(a){return ji(a,0)}function
 jj(a){if(typeof
 a==="number")return pU;else
 switch(a[0]){case
@@ -841,39 +841,39 @@ ck(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-V(d,c){var
+W(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-cl(b,a){return V([0,b],a)}function
+cl(b,a){return W([0,b],a)}function
 jl(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e7(c,b,a){return c?j(b,e7(c[1],b,a)):a}function
+e6(c,b,a){return c?j(b,e6(c[1],b,a)):a}function
 jm(a){if(a)var
 b=a[1],d=b?[0,jm(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gR(d,c){var
+gQ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 jn(a){if(H(a,c))return c;var
 e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jn(f))):p(b(2,b(2,f)))}function
 jo(b,a){return bs(c,aG(b,a))}function
-e8(a){if(H(a,c))return pX;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e8(e)]:[0,e8(e)]}function
-e9(a){if(H(a,c))return c;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e9(e)):p(e9(e))}function
+e7(a){if(H(a,c))return pX;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
+e8(a){if(H(a,c))return c;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
 jp(c,b){var
 a=i9(c,b);return 0===a?0:0<=a?2:1}function
-gS(j,i){var
+gR(j,i){var
 b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aF(2))[2],d)?0:0;var
 g=aU(b,aF(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
 e=aU(a,aF(2)),k=e[1];if(_(e[2],d)){var
 b=h,a=k;continue}return 0}if(H(a,c))return 0;var
 f=aU(a,aF(2)),l=f[1];if(_(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e_(b,a){return 2<=jp(b,a)?0:1}function
+e9(b,a){return 2<=jp(b,a)?0:1}function
 dj(i,e,a){if(i){var
 f=i[1];if(H(e,c))return[0,c,[0,c,a]];var
 w=aU(e,aF(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
@@ -886,8 +886,8 @@ n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jp(g,h)){case
 1:var
 p=dj(f,jo(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
 s=dj(f,jo(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e$(b,a){var
-c=e8(a);return dj(N(e8(b),c),b,a)}function
+e_(b,a){var
+c=e7(a);return dj(N(e7(b),c),b,a)}function
 jq(b,i,h){var
 e=i,a=h;for(;;){if(H(e,c))return a;var
 f=aU(e,aF(2)),g=f[1];if(_(f[2],d)){var
@@ -917,14 +917,14 @@ t=y(b(2,p(b(2,b(2,c)))),d),u=A(p(b(2,p(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
 v=y(b(2,p(b(2,b(2,c)))),d),w=A(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
 x=y(b(2,p(b(2,b(2,c)))),d),z=A(p(b(2,b(2,b(2,c)))),x),a=a[1],d=z;continue}}function
-gT(a){if(H(a,c))return pZ;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gT(e)):bu(gT(e))}function
-fa(a){return e6(gT(a))}function
+gS(a){if(H(a,c))return pZ;var
+b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gS(e)):bu(gS(e))}function
+e$(a){return e5(gS(a))}function
 js(k,f){if(0<=a9(f)){var
 g=i$(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e5(pT)}return d}function
-gU(b){var
+h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e4(pT)}return d}function
+gT(b){var
 a=a9(b);return 0===a?d:0<a?c:P(c)}function
 jt(a){return 0<=a9(a)?a:d}function
 d9(a){var
@@ -953,7 +953,7 @@ k=b(2,b(2,b(2,c)));return b1(a[1],k);default:var
 l=p(b(2,b(2,b(2,c))));return b1(a[1],l)}}function
 cm(b,a){var
 c=a9(a);return 0===c?d:1===c?i_(b,a):jg(-1,i_(jg(-1,b),a))}function
-fb(a){return 0<a9(a)?EU(a):d}function
+fa(a){return 0<a9(a)?EU(a):d}function
 d_(b,c){var
 a=i$(c);return 0<=a?pM(b,a):pN(b,-a|0)}function
 cJ(b,c){var
@@ -973,9 +973,9 @@ b=[0,a[1],0];return f(jv(a[2]),b)}return a}function
 d$(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-fc(a){if(a){var
-b=fc(a[2]);return f(a[1],b)}return a}function
-gV(g,f,e){var
+fb(a){if(a){var
+b=fb(a[2]);return f(a[1],b)}return a}function
+gU(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ao(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -986,8 +986,8 @@ e(b,a){if(a)var
 d=e(b,a[2]),c=[0,j(b,a[1]),d];else
 var
 c=a;return c}function
-v(b,a){if(a){var
-c=v(b,a[2]);return f(j(b,a[1]),c)}return a}function
+w(b,a){if(a){var
+c=w(b,a[2]);return f(j(b,a[1]),c)}return a}function
 dk(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
@@ -1033,7 +1033,7 @@ av(b,a){var
 c=a?[0,b,av(b,a[1])]:a;return c}function
 jx(a){if(a){var
 e=jx(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-fd(j){function
+fc(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
 c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jx([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d8(b):0}function
 dm(c,b){var
@@ -1042,25 +1042,25 @@ cK(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
 dn(b,a){return[0,A(y(b[1],a[2]),y(a[1],b[2])),y(b[2],a[2])]}function
 b3(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
 jy(a){return[0,P(a[1]),a[2]]}function
-fe(b,a){return dn(b,jy(a))}function
-gW(f,b){var
+fd(b,a){return dn(b,jy(a))}function
+gV(f,b){var
 a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b3(f,g)}function
-ff(q){var
+fe(q){var
 a=q[2],b=q[1],o=a9(b);if(0===o)var
-c=[0,dh(a),[0,d,gU(a)]];else
+c=[0,dh(a),[0,d,gT(a)]];else
 if(0<o){var
 n=a9(a);if(0===n)var
-c=[0,dh(b),[0,gU(b),d]];else
+c=[0,dh(b),[0,gT(b),d]];else
 if(0<n)var
-l=e$(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=e_(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e$(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
+j=e_(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
 p=P(b),i=a9(a);if(0===i)var
-c=[0,dh(b),[0,gU(b),d]];else
+c=[0,dh(b),[0,gT(b),d]];else
 if(0<i)var
-g=e$(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
+g=e_(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
-e=e$(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
+e=e_(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
 r=c[2],s=d9(r[2]);return[0,r[1],s]}function
 a2(a){if(typeof
 a==="number")return p2;else
@@ -1089,29 +1089,29 @@ a==="number"?p3:a2(a)}function
 cL(a){return js(b(2,c),a)}function
 jz(b,a){return cJ(a,b)}function
 jA(b,a){return P(cJ(P(a),b))}function
-fg(b,a){return P(cm(P(b),a))}function
-W(c,b){var
+ff(b,a){return P(cm(P(b),a))}function
+V(c,b){var
 a=d_(b,c);return[0,a,a]}function
 jB(d,c,a){var
-b=d_(c,d),e=fg(b,a);return[0,cm(b,a),e]}function
+b=d_(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
 E(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
 D(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
 af(a){return[0,P(a[2]),P(a[1])]}function
 jC(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
-f=bs(y(e,b),y(c,a));return[0,gQ(y(e,a),y(c,b)),f]}function
-x(c,b,a){var
+f=bs(y(e,b),y(c,a));return[0,gP(y(e,a),y(c,b)),f]}function
+v(c,b,a){var
 d=jC(b[1],b[2],a[1],a[2]),e=jA(c,d[2]);return[0,jz(c,d[1]),e]}function
 X(b,a){var
 c=y(a[1],a[1]),e=y(a[2],a[2]),h=jA(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jz(b,gQ(c,e));return[0,f,h]}function
-gX(b,a){var
-c=d_(cL(b),b),d=fg(c,a[1]);return[0,cm(c,a[2]),d]}function
-b4(b,a){if(L(d,a[1]))return[0,gX(b,a)];var
-c=L(a[2],d),e=c?[0,af(gX(b,af(a)))]:c;return e}function
+f=jz(b,gP(c,e));return[0,f,h]}function
+gW(b,a){var
+c=d_(cL(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
+b4(b,a){if(L(d,a[1]))return[0,gW(b,a)];var
+c=L(a[2],d),e=c?[0,af(gW(b,af(a)))]:c;return e}function
 b5(f,b){var
 g=L(d,b[1]);if(g)var
-e=d_(b[2],f),a=fb(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fb(d_(b[1],f)),i]];else
+e=d_(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d_(b[1],f)),i]];else
 var
 h=g;return h}function
 dp(a){return 0===a[0]?a[2]:a[1]}function
@@ -1123,11 +1123,11 @@ e=b[1],f=P(cn(P(y(a,b[2])),c));return[0,cn(y(a,e),c),f]}var
 g=b[2],h=P(cn(P(y(a,b[1])),c));return[0,cn(y(a,g),c),h]}function
 aW(a){var
 b=P(cJ(P(a[2]),c));return[0,cJ(a[1],c),b]}function
-eb(c,b,a){var
-e=jC(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=fg(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
+gX(c,b,a){var
+e=jC(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
 cM(a){return bs(a[2],P(a[1]))}var
 B=[0,d,d];function
-ec(a){return[0,a[1],a[1]]}function
+eb(a){return[0,a[1],a[1]]}function
 dq(a){return[0,a[2],a[2]]}function
 bM(b,a){switch(a[0]){case
 0:return[0,a[1]];case
@@ -1178,27 +1178,27 @@ var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fh(b){var
+fg(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aO(c,b){var
-a=fh(b);return a?_(c,a[1]):a}function
-ed(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+a=fg(b);return a?_(c,a[1]):a}function
+ec(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 i(a){return[0,[2,a]]}function
 z(b,a){if(aO(d,b))return a;if(aO(d,a))return b;var
-c=fh(b);if(c){var
-e=c[1],f=fh(a);if(f){var
-g=f[1];if(ed(e)&&ed(g))return i(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+c=fg(b);if(c){var
+e=c[1],f=fg(a);if(f){var
+g=f[1];if(ec(e)&&ec(g))return i(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bf(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return ed(c)?i(P(c)):[0,[5,a]];case
+c=b[1];return ec(c)?i(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 t(b,a){if(aO(d,a))return b;if(aO(d,b))return bf(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?i(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 I(a){var
-c=fh(a);if(c){var
-b=c[1];return ed(b)?i(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+c=fg(a);if(c){var
+b=c[1];return ec(b)?i(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return aw(a,b)?I(a):[0,[6,a,b]];return b}return a}function
 ag(b,a){return aO(c,a)?b:[0,[7,b,a]]}function
 ax(a){return aO(c,a)?a:[0,[9,a]]}function
@@ -1206,9 +1206,9 @@ jD(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bN(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,j(e,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-ee(b,a){if(a){var
+ed(b,a){if(a){var
 c=a[2];if(b){var
-e=ee(b[1],c);return[0,a[1],e]}var
+e=ed(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
@@ -1221,8 +1221,8 @@ jE(a){switch(a[0]){case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
 jF(j,g){var
-k=0,l=aI(ee,e(function(a){return 0},g),j),c=d$(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aI(ee,d,jE(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+k=0,l=aI(ed,e(function(a){return 0},g),j),c=d$(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aI(ed,d,jE(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 co(a){var
 b=0;function
 c(a){return[0,a]}return bN(i(d),c,a,b)}function
@@ -1246,9 +1246,9 @@ i=cN(a[1],b),c=cN(a[2],i)}var
 f=c[2],g=c[1],h=[0,bM(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cp(a){var
 b=dk(function(b,a){return cN(a,b)},a,p4),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jv(b[2]),d]}function
-fi(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
+fh(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
 b6(b,c,a){var
-d=fi(a),e=gQ(c[2],A(b[2],d)),f=fi(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
+d=fh(a),e=gP(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
 ae(a){return[0,a,a,0]}function
 bO(b,a){var
 c=a[3],d=b[3];function
@@ -1256,21 +1256,21 @@ e(a){return a}var
 f=aV(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return b6(E(b[1],a[1]),g,f)}function
 a$(b,a){var
 c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b6(D(b[1],a[1]),f,e)}function
-ef(a){var
+ee(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
 ay(a,c,b){var
 d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=x(a,e,b);return aW(E(x(a,d,c),f))}function
-i(b){return aW(x(a,e,b))}var
-j=aV(function(b){return aW(x(a,d,b))},i,h,g,f),k=x(a,c[2],b[2]);return b6(x(a,c[1],b[1]),k,j)}function
-eg(b,a){var
-c=a[3],d=E(a[2],a[1]),f=e(function(a){return x(b,d,a)},c),g=X(b,a[2]);return b6(X(b,a[1]),g,f)}function
+f=v(a,e,b);return aW(E(v(a,d,c),f))}function
+i(b){return aW(v(a,e,b))}var
+j=aV(function(b){return aW(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return b6(v(a,c[1],b[1]),k,j)}function
+ef(b,a){var
+c=a[3],d=E(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=X(b,a[2]);return b6(X(b,a[1]),g,f)}function
 gY(a,b){var
 c=b5(a,b[1]);if(c){var
 g=c[1],d=b5(a,b[2]);if(d){var
 h=d[1],f=b4(a,E(h,g));if(f)var
-l=b[3],m=f[1],i=[0,b6(g,h,e(function(b){return x(a,m,b)},l))];else
+l=b[3],m=f[1],i=[0,b6(g,h,e(function(b){return v(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1282,23 +1282,23 @@ k=c;return k}function
 dr(a,c,b){var
 d=b4(a,b[1]);if(d){var
 f=b4(a,b[2]);if(f)var
-h=f[1],g=x(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,x(a,g,b))},n=function(b){return af(x(a,g,b))},o=aV(function(a){return a},n,m,l,k),p=e(function(b){return x(a,h,b)},o),i=[0,b6(g,x(a,c[2],h),p)];else
+h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,v(a,g,b))},n=function(b){return af(v(a,g,b))},o=aV(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,b6(g,v(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
 cq(b,a){return a?j(b,a[1]):a}function
-fj(a){var
+fi(a){var
 b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b6(a[1],c,b)}function
 jG(a,k,j,r,b){var
-l=fj(k),m=fj(j),g=fj(b[1]),h=fj(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(W(a,c)),t);if(i)var
-f=i[1],n=ay(a,a$(l,g),f),o=ay(a,a$(m,h),f),d=function(c,b){return ay(a,c,ae(b))},u=j[3],v=k[3],w=function(b,a){var
-c=d(o,a);return bO(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,w,v,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ef(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return x(a,D,b)},p),F=b6(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return x(a,G,b)},p),q=[0,[0,b6(b[1][1],b[1][2],H),F]];else
+l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(V(a,c)),t);if(i)var
+f=i[1],n=ay(a,a$(l,g),f),o=ay(a,a$(m,h),f),d=function(c,b){return ay(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return bO(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ee(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=b6(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,b6(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
 jH(a,e,d,k){var
-p=eg(a,d),f=bO(eg(a,e),p),g=a$(bO(f,ae(W(a,c))),k),l=ay(a,ae(W(a,b(2,c))),f),q=eg(a,g),h=gY(a,a$(ay(a,ae(W(a,b(2,b(2,c)))),f),q));if(h){var
+p=ef(a,d),f=bO(ef(a,e),p),g=a$(bO(f,ae(V(a,c))),k),l=ay(a,ae(V(a,b(2,c))),f),q=ef(a,g),h=gY(a,a$(ay(a,ae(V(a,b(2,b(2,c)))),f),q));if(h){var
 m=h[1],r=ay(a,m,d),i=dr(a,bO(ay(a,g,e),r),l);if(i)var
 s=ay(a,m,e),j=dr(a,a$(ay(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
@@ -1315,46 +1315,46 @@ b8(b,j,i){var
 f=ae(B);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
-2:return[0,ae(W(b,a[1]))];case
+2:return[0,ae(V(b,a[1]))];case
 3:var
 k=a[2],l=a[1];return b7(function(b,a){return[0,bO(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return b7(function(b,a){return[0,a$(b,a)]},n,m);case
 5:var
-o=a[1];return cq(function(a){return[0,ef(a)]},o);case
+o=a[1];return cq(function(a){return[0,ee(a)]},o);case
 6:var
 p=a[2],q=a[1];return b7(function(c,a){return[0,ay(b,c,a)]},q,p);case
 7:var
 s=a[2],t=a[1];return b7(function(a,c){return dr(b,a,c)},t,s);case
 8:var
-u=a[1];return cq(function(a){return[0,eg(b,a)]},u);case
+u=a[1];return cq(function(a){return[0,ef(b,a)]},u);case
 9:var
 v=a[1];return cq(function(a){return gY(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-x=jH(b,c[1],d[1],e[1]),y=a[1]?b0:aH;return w(y,x)}var
+w=jH(b,c[1],d[1],e[1]),y=a[1]?b0:aH;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-eh(c){var
+eg(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=eh(a[1]);if(b)return b;var
+b=eg(a[1]);if(b)return b;var
 a=a[2];continue}}function
 b9(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=_(b[1],a[1]);return c?gS(b[2],a[2]):c}return 0;case
+c=_(b[1],a[1]);return c?gR(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gS(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gS(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gR(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gR(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=b9(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1368,25 +1368,25 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=b9(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ei(b,a){switch(a[0]){case
+eh(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
 m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dn(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fe(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fd(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gW(b,a)]};break;default:var
-k=ei(b,a[1]);return k?j(b,k[1]):k}var
-h=ei(b,f);if(h){var
-i=ei(b,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gV(b,a)]};break;default:var
+k=eh(b,a[1]);return k?j(b,k[1]):k}var
+h=eh(b,f);if(h){var
+i=eh(b,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
 p5(a){return 0}function
-cr(a){return ei(p5,a)}function
+cr(a){return eh(p5,a)}function
 bw(a,b){switch(b[0]){case
 0:return[0,jB(a,b[1],b[2])];case
 1:return 0;case
@@ -1402,44 +1402,44 @@ var
 s=i;return s;case
 4:var
 k=bw(a,b[1]);if(k)var
-l=bw(a,b[2]),G=l?[0,x(a,k[1],l[1])]:l,t=G;else
+l=bw(a,b[2]),G=l?[0,v(a,k[1],l[1])]:l,t=G;else
 var
 t=k;return t;case
 5:var
 m=bw(a,b[1]);if(m){var
 n=bw(a,b[2]);if(n)var
-o=b4(a,n[1]),H=o?[0,x(a,m[1],o[1])]:o,u=H;else
+o=b4(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
-v=u}else
+w=u}else
 var
-v=m;return v;default:var
+w=m;return w;default:var
 y=b[1],p=bw(a,y);if(p){var
 e=p[1];if(L(d,e[1]))return b5(a,e);var
 f=cr(y),I=f?$(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
-z=b5(a,[0,e[2],e[2]]);return w(function(a){return[0,d,a[2]]},z)}var
+z=b5(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
 q=_(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fk(b,a){return jB(b,a[1],a[2])}function
-bx(a,d){if(eh(d))switch(d[0]){case
+fj(b,a){return jB(b,a[1],a[2])}function
+bx(a,d){if(eg(d))switch(d[0]){case
 0:return 0;case
 1:var
 e=d[3],g=d[2],i=d[1],j=cl(i,jI),k=j?cK(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fk(a,b3(fe(e,g),n)),0],p=f(av(B,i),o),q=fk(a,e)[2],r=[0,fk(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fk(a,b3(dn(g,e),s)),r,p]];else
+n=[0,c,b(2,c)],o=[0,fj(a,b3(fd(e,g),n)),0],p=f(av(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b3(dn(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
 t=bx(a,d[2]),u=bx(a,d[1]);return b7(function(b,a){return[0,bO(b,a)]},u,t);case
 3:var
-v=bx(a,d[2]),x=bx(a,d[1]);return b7(function(b,a){return[0,a$(b,a)]},x,v);case
+v=bx(a,d[2]),w=bx(a,d[1]);return b7(function(b,a){return[0,a$(b,a)]},w,v);case
 4:var
 m=d[2],h=d[1];if(b9(h,m)){var
-y=bx(a,h);return cq(function(b){return[0,eg(a,b)]},y)}var
+y=bx(a,h);return cq(function(b){return[0,ef(a,b)]},y)}var
 z=bx(a,m),A=bx(a,h);return b7(function(c,b){return[0,ay(a,c,b)]},A,z);case
 5:var
 C=bx(a,d[2]),D=bx(a,d[1]);return b7(function(b,c){return dr(a,b,c)},D,C);default:var
-E=bx(a,d[1]);return cq(function(b){return gY(a,b)},E)}return w(ae,bw(a,d))}function
-aY(b,a){if(eh(a)){var
-c=bx(b,a);return w(function(a){return a[2]},c)}return bw(b,a)}function
+E=bx(a,d[1]);return cq(function(b){return gY(a,b)},E)}return x(ae,bw(a,d))}function
+aY(b,a){if(eg(a)){var
+c=bx(b,a);return x(function(a){return a[2]},c)}return bw(b,a)}function
 jJ(a){var
 e=bs(P(a),d);return d9(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
 jK(a){return jt(A(jJ(a),a))}function
@@ -1455,13 +1455,13 @@ var
 e=b;return e}function
 gZ(b,a){var
 c=P(cn(P(a[2]),b));return[0,cn(a[1],b),c]}function
-fl(b,a){var
-c=fg(b[2],a);return[0,cm(b[1],a),c]}function
+fk(b,a){var
+c=ff(b[2],a);return[0,cm(b[1],a),c]}function
 jL(h,g,d,c){var
-e=c[2],f=jr(d),i=b(2,f),j=y(jn(f),i),a=fl(x(h,c[1],g),j),k=jl(d)?D(e,a):E(e,a);return[0,a,k]}function
+e=c[2],f=jr(d),i=b(2,f),j=y(jn(f),i),a=fk(v(h,c[1],g),j),k=jl(d)?D(e,a):E(e,a);return[0,a,k]}function
 jM(a,d,b){if(b){var
 e=b[1];return jL(a,d,e,jM(a,d,e))}var
-f=W(a,c);return[0,W(a,c),f]}function
+f=V(a,c);return[0,V(a,c),f]}function
 jN(e,g){var
 o=cL(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
 n=d8(e),i=p6[1],d=n,f=0,a=i;for(;;){if(d){var
@@ -1478,7 +1478,7 @@ j=A(a,b(2,c)),k=A(e,cm(f,a)),l=P(cm(f,y(h,h))),g=g[1],f=l,e=k,a=j;continue}retur
 e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aG(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
 jP(e,a){var
 f=H(d,a);if(f){var
-g=b(2,b(2,c));return jN(e,fl(X(e,[0,a,a]),g))}return f}function
+g=b(2,b(2,c));return jN(e,fk(X(e,[0,a,a]),g))}return f}function
 jQ(a){var
 m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jO(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jO(a),n),e=jP(a,g);if(e){var
 f=jP(a,h);if(f)var
@@ -1489,18 +1489,18 @@ l=k}else
 var
 l=e;return l}function
 jR(a,d){var
-b=X(a,d),e=W(a,c);return D(E(b,b),e)}function
+b=X(a,d),e=V(a,c);return D(E(b,b),e)}function
 ds(f,j){var
 e=aY(A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
 k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jQ(a);if(d)var
-h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jN(a,X(a,fl(x(a,k,d[1]),h))),g=w(function(b){return jR(a,jR(a,b))},i);else
+h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jN(a,X(a,fk(v(a,k,d[1]),h))),g=x(function(b){return jR(a,jR(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return w(function(a){return gZ(l,a)},g)}return e}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return x(function(a){return gZ(l,a)},g)}return e}function
 jS(a,d){var
-e=jQ(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return w(function(e){var
-f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fl(x(a,d,gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fm(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
+e=jQ(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return x(function(e){var
+f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(v(a,d,gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+fl(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
 f=cr(b);if(f){var
 g=f[1];return e?$(cK(g,[0,d,c])):cK([0,d,c],g)}var
@@ -1511,26 +1511,26 @@ a=aY(c,b),d=a?1:a;return d}function
 bg(c,a,b){var
 d=b9(a,b),e=d?jT(c,a):d;return e?e:g(c,0,[3,b,a])}function
 p_(c){var
-a=ff(c),g=d9(fb(a[2])),b=[0,fb(a[1]),g],e=L(d,a[1]),f=e?dm(b3(b,b),c):e,h=f?[0,b]:f;return h}function
+a=fe(c),g=d9(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b3(b,b),c):e,h=f?[0,b]:f;return h}function
 jU(a){if(a){var
 e=a[2],b=a[1];if(dm(bv([0,d,c],b),[0,d,c])){var
-g=jU(e);return w(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+g=jU(e);return x(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
 jV(b,a){var
-e=aJ(b,a),f=[0,d,c];return aI(function(a,b){return ff(dn(b3(a[1],a[2]),b))},f,e)}function
+e=aJ(b,a),f=[0,d,c];return aI(function(a,b){return fe(dn(b3(a[1],a[2]),b))},f,e)}function
 jW(b,j){if(b){var
 f=b[1],g=jU(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bv([0,d,c],a),g=gW(bv([0,d,c],b),f),h=bd(a),i=aJ(bd(b),h);return e(function(a){var
-b=b3(g,a[2]);return ff(fe(a[1],b))},i)},l=jW(f,e(k,h[2]));return w(function(b){var
-e=bv([0,d,c],a);return[0,ff(gW(jy(jV(bd(a),b)),e)),b]},l)}var
+f=bv([0,d,c],a),g=gV(bv([0,d,c],b),f),h=bd(a),i=aJ(bd(b),h);return e(function(a){var
+b=b3(g,a[2]);return fe(fd(a[1],b))},i)},l=jW(f,e(k,h[2]));return x(function(b){var
+e=bv([0,d,c],a);return[0,fe(gV(jy(jV(bd(a),b)),e)),b]},l)}var
 i=[0,[0,[0,c,c],av([0,d,c],f)]]}else
 var
 i=b;return i}function
 jX(a){if(a){var
-b=ei(p_,a[1]);if(b)var
+b=eh(p_,a[1]);if(b)var
 c=jX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return p$}function
@@ -1552,27 +1552,27 @@ qd(a,b){return aV(qc,qb,E,a,b)}function
 qe(a){return a}function
 qf(a){return a}function
 b_(a,b){return aV(qf,qe,qd,a,b)}function
-g0(b,a,c){if(a){var
-f=a[2],d=a[1];if(c){var
-g=g0(b,f,c[2]),h=c[1],i=function(c,a){return D(c,eb(d,a,b))},j=function(a){return af(eb(d,a,b))};return[0,aV(function(a){return a},j,i,h,a),g]}var
-k=g0(b,f,0);return[0,e(function(a){return af(eb(d,a,b))},a),k]}return c}function
-g1(a){if(a){var
+g0(a,f,b,d){if(b){var
+h=b[2],i=V(a,c),g=gX(b[1],i,f);if(d){var
+j=g0(a,f,h,d[2]),k=d[1],l=function(c,b){return D(c,v(a,g,b))},m=function(b){return af(v(a,g,b))};return[0,aV(function(a){return a},m,l,k,b),j]}var
+n=g0(a,f,h,0);return[0,e(function(b){return af(v(a,g,b))},b),n]}return d}function
+g1(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),h=e?[0,g0(c,b[2],a[2])]:e,f=h;else
+c=b[1],e=L(d,c[1]),i=e?[0,g0(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-j0(f,e){var
+j0(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=g1(b);if(c){var
+c=g1(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
 j1(d,b,a){if(b)if(a)var
-e=a[1],f=j1(d,b[2],a[2]),g=ck(d,b[1])?ec(e):dq(e),c=[0,g,f];else
+e=a[1],f=j1(d,b[2],a[2]),g=ck(d,b[1])?eb(e):dq(e),c=[0,g,f];else
 var
 c=a;else
 var
@@ -1585,9 +1585,9 @@ var
 c=a;return c}function
 bh(a){if(a){var
 b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qg}function
-dt(a){var
-b=h(a);if(j0(b,a))return 1;var
-c=bh(bL(b));return n(function(c){return j0(b,j2([0,0,c],a))},c)}function
+dt(c,a){var
+b=h(a);if(j0(c,b,a))return 1;var
+d=bh(bL(b));return n(function(d){return j0(c,b,j2([0,0,d],a))},d)}function
 ar(a){function
 b(b){var
 c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
@@ -1603,34 +1603,34 @@ var
 g=b;else
 var
 g=d;return g}function
-fn(b,d,a,c){function
+fm(b,d,a,c){function
 e(c,d){var
 e=a_(d,b,a);return D(E(c,c),e)}function
 f(c){return af(a_(c,b,a))}return aV(function(a){return E(a,a)},f,e,d,c)}function
-fo(d,i,h,g){var
+fn(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dq(e[2]),k=b_(a,g3(d,f,fn(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+e=b[1],f=c[1],j=dq(e[2]),k=b_(a,g3(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
 g4(b,a){return[0,[0,0,b],a]}function
-du(b,c,g,f,a){function
+du(i,b,c,g,f,a){function
 d(a){if(a){var
-i=av([0,af(a[1][2]),0],b),c=fo(g,f,a[2],i),d=u(h(c),b);if(d)return dt(c);var
+j=av([0,af(a[1][2]),0],b),c=fn(g,f,a[2],j),d=u(h(c),b);if(d)return dt(i,c);var
 e=d}else
 var
 e=a;return e}return g2(b,g4(c,a),d)}function
-fp(f,e){var
+fo(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],g=d[1],c=g1([0,[0,ec(d[2]),g],b]);if(c){var
+d=a[1],h=d[1],c=g1(g,[0,[0,eb(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-g5(b,c,a){function
-d(a){if(a){var
-i=av([0,a[1][2],0],b),c=fp(a[2],i);if(c){var
-d=c[1],e=u(h(d),b);if(e)return dt(d);var
-f=e}else
-var
-f=c;var
+g5(d,b,c,a){function
+e(a){if(a){var
+j=av([0,a[1][2],0],b),c=fo(d,a[2],j);if(c){var
+e=c[1],f=u(h(e),b);if(f)return dt(d,e);var
 g=f}else
 var
-g=a;return g}return g2(b,g4(c,a),d)}function
+g=c;var
+i=g}else
+var
+i=a;return i}return g2(b,g4(c,a),e)}function
 j3(b,a){return e(function(a){return[0,a[1],b]},a)}function
 j4(b,a){var
 c=bh(b);return n(function(b){return L(d,aB(b,a)[1])},c)}function
@@ -1650,14 +1650,14 @@ c=q(b[3],a[3]),d=q(b[2],a[2]);return z(z(q(b[1],a[1]),d),c)}function
 cO(a){return ba(a,ax(Q(a,a)))}function
 ct(a){var
 b=a[5];return b?b[1]:ax(a[2])}function
-fq(b,a){return b?a:bf(a)}function
+fp(b,a){return b?a:bf(a)}function
 j7(e,a,i,d,h){var
-f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fq(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
+f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
 j8(a,e,d){var
-b=Q(a,a),c=ax(b),f=[0,e],g=w(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
+b=Q(a,a),c=ax(b),f=[0,e],g=x(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
 j9(b,a){var
 d=Q(a,b);return[0,a,i(c),a,d,0,0,0]}function
-ej(a){return e(function(a){var
+ei(a){return e(function(a){var
 b=a[2];return[0,by(a[1]),b]},a)}function
 j_(a){return e(function(a){var
 b=i(c);return[0,by(a[3]),b]},a)}function
@@ -1665,44 +1665,44 @@ j$(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 ka(c,b,a){var
 d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
-fr(d,a){var
+fq(d,a){var
 b=b5(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fs(a,m,f,l,e,k,j){var
-o=ka(a$,k,j),b=ka(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bO(bO(bO(ae(W(a,d)),h),g),c),p=bh(m);return n(function(c){var
-b=j$(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=x(a,l,fr(a,E(E(E(W(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
+fr(a,m,f,l,e,k,j){var
+o=ka(a$,k,j),b=ka(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bO(bO(bO(ae(V(a,d)),h),g),c),p=bh(m);return n(function(c){var
+b=j$(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,fq(a,E(E(E(V(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
 bP(a){return cJ(A(a[1],a[2]),c)}function
 dv(a){var
 b=bP(a);return aG(a[2],b)}function
-ek(c,b){if(b)var
-a=b[1],e=ek([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(av(B,c),h),j=bP(a),d=[0,[0,[0,bP(a),j],a,i],e];else
+ej(c,b){if(b)var
+a=b[1],e=ej([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(av(B,c),h),j=bP(a),d=[0,[0,[0,bP(a),j],a,i],e];else
 var
 d=b;return d}function
-el(d,b){if(b){var
+ek(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=el(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+e=ek(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
 f=a[2],g=[0,[0,bP(a),f],c],h=bP(a);return[0,[0,[0,a[1],h],c],g]}return qh}function
 kb(d,b,a){if(b){if(a){var
 e=kb(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
-em(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kb(f,a,b)},j=em(f,h),k=e(function(a){var
+el(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kb(f,a,b)},j=el(f,h),k=e(function(a){var
 e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
-en(e,b,d,a){if(b)if(a)var
-f=b[1],g=en(e,b[2],d,a[2]),c=[0,[0,f,fn(e,a[1][1],d,f)],g];else
+em(e,b,d,a){if(b)if(a)var
+f=b[1],g=em(e,b[2],d,a[2]),c=[0,[0,f,fm(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-ft(f,d,c,b,a){if(a){var
+fs(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=ft(f,d[1],c,b,g);return[0,[0,D(B,b),0],i]}var
-j=e(function(a){return[0,D(B,b),0]},g),h=[0,[0,D(af(x(f,c,dq(a[1][2]))),b),0],j]}else
+i=fs(f,d[1],c,b,g);return[0,[0,D(B,b),0],i]}var
+j=e(function(a){return[0,D(B,b),0]},g),h=[0,[0,D(af(v(f,c,dq(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bi(c,a){var
-b=u(h(a),c);return b?dt(a):b}function
+bi(d,c,a){var
+b=u(h(a),c);return b?dt(d,a):b}function
 kc(d,b,a){if(b)var
 c=b[1],g=kc([0,d],b[2],a),h=f(av(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
 var
@@ -1711,39 +1711,39 @@ kd(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kd(d[2]);return w(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kd(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
 f=a;return f}return qi}function
-g6(a){return w(function(a){return w(ef,a)},a)}function
+g6(a){return x(function(a){return x(ee,a)},a)}function
 cu(c,b,a){function
-d(a){return ay(c,b,a)}return w(function(a){return w(d,a)},a)}function
+d(a){return ay(c,b,a)}return x(function(a){return x(d,a)},a)}function
 g7(c,b,a){function
-d(a){return dr(c,a,b)}return w(function(a){return cq(d,a)},a)}function
+d(a){return dr(c,a,b)}return x(function(a){return cq(d,a)},a)}function
 dw(b,a){var
 c=aJ(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,b7(function(b,a){return[0,bO(b,a)]},e,d)]}return b}return a},c)}function
-fu(a){return ae(W(a,b(2,c)))}function
+ft(a){return ae(V(a,b(2,c)))}function
 ke(b,c,a){if(a)var
-f=a[1],g=ke(b,c,a[2]),d=[0,e(function(a){return af(x(b,x(b,c,f),a))},a),g];else
+f=a[1],g=ke(b,c,a[2]),d=[0,e(function(a){return af(v(b,v(b,c,f),a))},a),g];else
 var
 d=a;return d}function
 g8(a){return n(function(a){var
 b=_(a[1],d);return b?_(a[2],d):b},a)}function
 kf(c,b,a){var
-d=aJ(b,a);return aI(function(a,b){return E(x(c,a[1],a[2]),b)},B,d)}function
+d=aJ(b,a);return aI(function(a,b){return E(v(c,a[1],a[2]),b)},B,d)}function
 g9(c,b,a){var
 d=cM(kf(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
-dx(a){return W(a,c)}function
+dx(a){return V(a,c)}function
 g_(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
 j=f[1],n=0;if(!g8(c)&&!g8(j)){var
-h=g9(a,i,j),o=dx(a),p=g9(a,i,c),b=eb([0,g9(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=aW(gX(a,[0,b,b])),r=function(b){return function(d,c){return D(x(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b_(e,ke(a,q,aV(function(c){return function(b){return x(a,c,b)}}(s),af,r,j,c)))];else
+h=g9(a,i,j),o=dx(a),p=g9(a,i,c),b=gX([0,g9(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=aW(gW(a,[0,b,b])),r=function(b){return function(d,c){return D(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b_(e,ke(a,q,aV(function(c){return function(b){return v(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
@@ -1753,7 +1753,7 @@ qx(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
 kg(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b_(b,g3(a,f,fn(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fn(a,b[1],b[2],c))}}(f),q),g=g_(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b_(b,g3(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g_(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
 kh(c,b,a){if(b){if(a){var
 d=kh(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
@@ -1764,7 +1764,7 @@ d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
 b=cJ(A(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 g$(d,c,a){if(a)var
-e=a[1],g=g$(d,[0,c],a[2]),b=w(b0,jw(function(a){return u(a[1],c)},d)),h=b?ki(e,b[1])[1]:e,f=[0,h,g];else
+e=a[1],g=g$(d,[0,c],a[2]),b=x(b0,jw(function(a){return u(a[1],c)},d)),h=b?ki(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
 kj(a,b){return e(function(a){var
@@ -1774,7 +1774,7 @@ d(a){return aB(b,a[1])}var
 h=0,j=ae(B);function
 c(g,d,a,b){if(a){var
 h=function(a){return aB(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
-b=x(i,a,l);return[0,e(function(b){return x(i,a,b)},k),b]},n),m)}return a}var
+b=v(i,a,l);return[0,e(function(b){return v(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
 qy=ae(B);function
 kl(e,d,c){if(d){var
@@ -1782,17 +1782,17 @@ f=r(e,c[2],qz),a=f?f[1]:[0,qy];if(a)var
 b=kl([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
 g=a;return g}return qA}function
-km(b,a,h,q,p,g,o){var
-d=bh(a);return n(function(d){var
+km(a,b,h,q,p,g,o){var
+d=bh(b);return n(function(d){var
 f=j(o,d);if(f){var
-n=x(b,p,f[1]),i=D(W(b,c),n),r=h?D(i,aB(d,h[1])):i,k=function(c){function
-f(a){return x(b,c,aB(d,a))}var
-g=e(function(a){return e(f,a)},q);return bi(a,b_(av([0,r,0],a),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
+n=v(a,p,f[1]),i=D(V(a,c),n),r=h?D(i,aB(d,h[1])):i,k=function(c){function
+f(b){return v(a,c,aB(d,b))}var
+g=e(function(a){return e(f,a)},q);return bi(a,b,b_(av([0,r,0],b),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
 m=l}else
 var
 m=f;return m},d)}function
 kn(p,o,n,m,l){var
-q=e(ae,n),h=b8(p,ek(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
+q=e(ae,n),h=b8(p,ej(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
 d=c[2],g=c[1];if(b){if(b[1]){var
 i=[0,j(h,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=i;continue}var
 b=b[2],c=d,a=[0,f,a];continue}var
@@ -1802,10 +1802,10 @@ b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return qB}function
-fv(b,a){if(a){var
+fu(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=fv(b,a[2]);if(g)var
+i=f[1],g=fu(b,a[2]);if(g)var
 j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
@@ -1816,10 +1816,10 @@ m=l}else
 var
 m=c;return m}return qC}function
 b$(d,c,b){var
-a=fv(d,c);return a?j(b,a[1]):a}function
+a=fu(d,c);return a?j(b,a[1]):a}function
 dy(a,b){return n(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-fw(b,a){if(b){var
+fv(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aV(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
 ha(b,a){return b?j6(a,b[1]):a}function
 hb(h,g,b,f){var
@@ -1827,9 +1827,9 @@ a=r(f,h,0);if(a){var
 c=a[1];if(b){var
 i=j6(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
 ko(f,d,a){function
-b(a){return a_(a,d,W(f,c))}if(a){var
+b(a){return a_(a,d,V(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),B,g]}return ae(B)}function
-fx(b,a){var
+fw(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1839,54 +1839,54 @@ g=f}else
 var
 g=c;return g}function
 hc(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-fy(j,k,U,C,g,f,i,b,a){switch(b[0]){case
+fx(b,k,U,C,i,g,j,f,a){switch(f[0]){case
 0:var
-r=b[1];if(typeof
+r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-V=dy(C,g);if(V){var
-aD=a[2],aE=a[1],aF=fw(i,ae(r));return b$(g,k,function(a){return du(f,aF,aE,aD,a)})}return V;case
+W=dy(C,i);if(W){var
+aD=a[2],aE=a[1],aF=fv(j,ae(r));return b$(i,k,function(a){return du(b,g,aF,aE,aD,a)})}return W;case
 1:var
-Y=dy(C,g);if(Y){var
-aH=a[2],aJ=a[1],aK=fw(i,ae(r));return b$(g,U,function(a){return du(f,aK,aJ,aH,a)})}return Y;case
+Y=dy(C,i);if(Y){var
+aH=a[2],aJ=a[1],aK=fv(j,ae(r));return b$(i,U,function(a){return du(b,g,aK,aJ,aH,a)})}return Y;case
 2:var
-Z=dy(C,g);if(Z){if(i)return 0;var
+Z=dy(C,i);if(Z){if(j)return 0;var
 $=_(r[1],d),aa=$?_(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return b$(g,k,function(a){return du(f,[0,B,B,0],aM,aL,j3([0,B,B,0],a))})}var
+aL=a[2],aM=a[1];return b$(i,k,function(a){return du(b,g,[0,B,B,0],aM,aL,j3([0,B,B,0],a))})}var
 ab=aa}else
 var
 ab=Z;return ab}return 0;case
 1:var
-ad=b[1];if(typeof
+ad=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=ha(i,ae(ad));return b$(g,U,function(a){return g5(f,aN,a)})}if(!a){var
-aO=ha(i,ae(ad));return b$(g,k,function(a){return g5(f,aO,a)})}}return 0;case
+aN=ha(j,ae(ad));return b$(i,U,function(a){return g5(b,g,aN,a)})}if(!a){var
+aO=ha(j,ae(ad));return b$(i,k,function(a){return g5(b,g,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=ko(j,af,a[3]),ag=b[1],aP=a[2];return b$(g,k,function(c){var
-a=j4(f,l),b=a?du(f,fw(i,l),af,aP,c):a;if(b){var
-d=l[3],g=e(function(a){return x(j,ag,a)},d),h=l[2];return g5(f,ha(i,[0,x(j,ag,l[1]),h,g]),c)}return b})}return 0;case
+af=a[1],l=ko(b,af,a[3]),ag=f[1],aP=a[2];return b$(i,k,function(d){var
+a=j4(g,l),c=a?du(b,g,fv(j,l),af,aP,d):a;if(c){var
+f=l[3],h=e(function(a){return v(b,ag,a)},f),i=l[2];return g5(b,g,ha(j,[0,v(b,ag,l[1]),i,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hb(g,f,i,b[1]);return 0;case
+a==="number"&&!a)return hb(i,g,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=fw(i,ae(b[2])),aT=function(a){return du(f,aS,aR,aQ,a)};return b$(g,b[1],aT)}return 0;case
+aQ=a[2],aR=a[1],aS=fv(j,ae(f[2])),aT=function(a){return du(b,g,aS,aR,aQ,a)};return b$(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hb(g,f,i,b[1]);case
-2:return hb(g,f,i,b[2])}return 0;case
+0:return hb(i,g,j,f[1]);case
+2:return hb(i,g,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-F=fx(g,b[1]);if(F){var
-G=fx(g,b[2]);if(G){var
-H=fx(g,b[3]);if(H){var
-I=fx(g,b[4]);if(I){var
-ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=b[5],aU=a[1];if(m){var
+F=fw(i,f[1]);if(F){var
+G=fw(i,f[2]);if(G){var
+H=fw(i,f[3]);if(H){var
+I=fw(i,f[4]);if(I){var
+ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=f[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=j$(function(d){function
-f(a){return a_(a,aU,W(j,c))}if(d){var
-a=e(f,d[2]),b=f(d[1]),g=fi(a),h=A(b[2],g),i=fi(a);return[0,b,[0,aG(b[1],i),h],a]}return ae(B)},aC),M=n(function(a){return u(h(a),[0,f])},m),N=M?fs(j,f,i,s,q,ak,ai):M,O=N?fs(j,f,i,s,q,ak,ah):N,P=O?fs(j,f,i,s,q,aj,ai):O;if(P)return fs(j,f,i,s,q,aj,ah);var
+aC=[0,m[1],o[1],p[1]],q=j$(function(f){function
+g(a){return a_(a,aU,V(b,c))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=fh(a),i=A(d[2],h),j=fh(a);return[0,d,[0,aG(d[1],j),i],a]}return ae(B)},aC),M=n(function(a){return u(h(a),[0,g])},m),N=M?fr(b,g,j,s,q,ak,ai):M,O=N?fr(b,g,j,s,q,ak,ah):N,P=O?fr(b,g,j,s,q,aj,ai):O;if(P)return fr(b,g,j,s,q,aj,ah);var
 Q=P}else
 var
 Q=p;var
@@ -1907,36 +1907,36 @@ var
 an=F;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aV=b[2],aW=b[1];return b$(g,k,function(d){var
-a=u(h(d),f),b=a?u(h(ao),f):a;if(b){var
-e=function(a){if(a){var
-b=a[2],d=u(h(b),f);if(d){var
-g=em(ap,en(ap,ao,W(j,c),b));return bi(f,b_(ft(j,aW,aV,a[1][2],b),g))}var
-e=d}else
+ao=a[2],ap=a[1],aV=f[2],aW=f[1];return b$(i,k,function(e){var
+a=u(h(e),g),d=a?u(h(ao),g):a;if(d){var
+f=function(a){if(a){var
+d=a[2],e=u(h(d),g);if(e){var
+i=el(ap,em(ap,ao,V(b,c),d));return bi(b,g,b_(fs(b,aW,aV,a[1][2],d),i))}var
+f=e}else
 var
-e=a;return e},g=i?i[1]:ae(B);return g2(f,g4(g,d),e)}return b})}return 0;case
+f=a;return f},i=j?j[1]:ae(B);return g2(g,g4(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aX=b[3],aY=b[2],aZ=function(c){var
-a=j3([0,B,B,0],c),b=i?i[1]:[0,B,B,0];return du(f,b,aY,aX,a)};return b$(g,b[1],aZ)}return 0;case
+aX=f[3],aY=f[2],aZ=function(d){var
+a=j3([0,B,B,0],d),c=j?j[1]:[0,B,B,0];return du(b,g,c,aY,aX,a)};return b$(i,f[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hc(g,b[1]);if(J){var
-a0=b[2],K=ac(e(function(a){return hc(g,a)},a0));if(K){var
-L=hc(g,[0,b[3],[0,b[4],[0,b[5],[0,b[6],0]]]]);if(L){var
+J=hc(i,f[1]);if(J){var
+a0=f[2],K=ac(e(function(a){return hc(i,a)},a0));if(K){var
+L=hc(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
 t=L[1];if(t){var
-v=t[2];if(v){var
-y=v[2];if(y){var
+w=t[2];if(w){var
+y=w[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=v[1][2],at=t[1][2],au=K[1],a1=J[1],T=km(j,f,i,au,at,as,function(c){return[0,fr(j,aI(function(b,a){return E(X(j,aB(c,b)),a)},B,a1))]});return T?T:km(j,f,i,au,at,as,function(e){var
-b=ec(aq[1]),a=b5(j,D(ar,X(j,b)));if(a){var
-c=b4(j,a[1]),d=D(ar,x(j,b,aB(e,aq)));return w(function(a){return x(j,d,a)},c)}return a})}var
+aq=z[1],ar=y[1][2],as=w[1][2],at=t[1][2],au=K[1],a1=J[1],T=km(b,g,j,au,at,as,function(d){return[0,fq(b,aI(function(c,a){return E(X(b,aB(d,c)),a)},B,a1))]});return T?T:km(b,g,j,au,at,as,function(f){var
+c=eb(aq[1]),a=b5(b,D(ar,X(b,c)));if(a){var
+d=b4(b,a[1]),e=D(ar,v(b,c,aB(f,aq)));return x(function(a){return v(b,e,a)},d)}return a})}var
 av=z}else
 var
 av=y;var
 aw=av}else
 var
-aw=v;var
+aw=w;var
 ax=aw}else
 var
 ax=t;var
@@ -1952,71 +1952,71 @@ aA=J;return aA}return 0}}function
 kp(a,_,J,l,p,Z,g,k,i,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
 $=f[1],T=e(ae,Z),z=bN(0,b8(a,kc(0,k,$),T),_,0),K=u(h(k),qD),M=K?dy(p,z):K;if(M){var
-q=fv(z,l);if(q){var
-s=fv(g,l);if(s){var
+q=fu(z,l);if(q){var
+s=fu(g,l);if(s){var
 aa=f[2],t=ac(e(function(b){var
 c=r(b[1],g,0);if(c)var
 f=b[2][2],a=ac(e(function(a){var
-b=r(a[2],g,0);return w(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+b=r(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(t){var
-v=kd(q[1]);if(v){var
-N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=v[1],C=fr(a,aI(function(f,h){function
+w=kd(q[1]);if(w){var
+N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=w[1],C=fq(a,aI(function(f,h){function
 b(b,d){var
 a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(r(d,c[3],B))}function
 c(a){var
 b=j(a,qj),c=bs(j(a,qk),b);return bs(j(a,0),c)}var
 d=c(function(a){var
 c=b(ql,a),d=b(qm,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qn),d=b(a,qo);return A(A(b(a,0),d),c)});return E(h,X(a,fr(a,x(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,W(a,c)),F=L(d,D(m,C)[1]),G=F?u(h(N),qu):F,H=G?u(h(O),qv):G;if(H){var
+c=b(a,qn),d=b(a,qo);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,v(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,V(a,c)),F=L(d,D(m,C)[1]),G=F?u(h(N),qu):F,H=G?u(h(O),qv):G;if(H){var
 o=b4(a,m);if(o){var
-U=aW(x(a,C,o[1])),V=D(W(a,c),U),Y=bh(qw);return n(function(h){var
+U=aW(v(a,C,o[1])),W=D(V(a,c),U),Y=bh(qw);return n(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return dq(dk(function(d,b){var
-c=cM(aB(h,b[2]));return E(d,x(a,b[1],[0,c,c]))},c,d))},ad),r=j(ar(function(a){return aB(h,a)}),O),F=i?aB(h,i[1]):B,L=X(a,V),s=X(a,m),q=em(y,en(y,N,W(a,c),r)),b=b_(av([0,af(F),0],qp),q);if(g){var
+c=cM(aB(h,b[2]));return E(d,v(a,b[1],[0,c,c]))},c,d))},ad),r=j(ar(function(a){return aB(h,a)}),O),G=i?aB(h,i[1]):B,M=X(a,W),s=X(a,m),q=el(y,em(y,N,V(a,c),r)),b=b_(av([0,af(G),0],qp),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-A=d[1],C=g[1],H=f[1],k=bi(qr,b_(av([0,af(s),0],qq),b));if(k)return n(function(B){var
-I=D(L,F),J=B[2]?A:af(A),K=B[1]?C:af(C),n=0;if(b){var
-a=b[1],k=0;if(a){var
-c=a[2],l=0;if(c){var
-d=c[2],m=0;if(d)if(d[2]){var
-j=0;k=1;l=1;m=1}else{var
-e=b[2],o=0;if(e){var
-f=e[1],p=0;if(f){var
-g=f[2],q=0;if(g)if(g[2]){var
-j=0;k=1;l=1;m=1;o=1;p=1;q=1}else{var
-h=e[2],E=0;if(h){var
-i=h[1],G=0;if(i)if(i[2]||h[2]){var
-j=0;k=1;l=1;m=1;o=1;p=1;q=1;E=1;G=1}else
+C=d[1],F=g[1],I=f[1],k=bi(a,qr,b_(av([0,af(s),0],qq),b));if(k)return n(function(B){var
+J=D(M,G),K=B[2]?C:af(C),L=B[1]?F:af(F),o=0;if(b){var
+c=b[1],l=0;if(c){var
+d=c[2],m=0;if(d){var
+e=d[2],n=0;if(e)if(e[2]){var
+k=0;l=1;m=1;n=1}else{var
+f=b[2],p=0;if(f){var
+g=f[1],q=0;if(g){var
+h=g[2],r=0;if(h)if(h[2]){var
+k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
+i=f[2],E=0;if(i){var
+j=i[1],H=0;if(j)if(j[2]||i[2]){var
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;E=1;H=1}else
 var
-r=[0,[0,a[1],[0,c[1],[0,d[1],[0,K,0]]]],[0,[0,f[1],[0,g[1],[0,J,0]]],[0,[0,i[1],[0,H,0]],[0,[0,I,0],0]]]];else
+s=[0,[0,c[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
-r=i;if(!G)var
-s=r}else
-var
-s=h;if(!E)var
+s=j;if(!H)var
 t=s}else
 var
-t=g;if(!q)var
+t=i;if(!E)var
 u=t}else
 var
-u=f;if(!p)var
+u=h;if(!r)var
 v=u}else
 var
-v=e;if(!o)var
+v=g;if(!q)var
 w=v}else
 var
-w=d;if(!m)var
+w=f;if(!p)var
 x=w}else
 var
-x=c;if(!l)var
+x=e;if(!n)var
 y=x}else
 var
-y=a;if(!k){var
-z=y;n=1}}else{var
-z=b;n=1}if(n)var
-j=z;return bi(qt,j)},qs);var
+y=d;if(!m)var
+z=y}else
+var
+z=c;if(!l){var
+A=z;o=1}}else{var
+A=b;o=1}if(o)var
+k=A;return bi(a,qt,k)},qs);var
 l=k}else
 var
 l=f;var
@@ -2029,7 +2029,7 @@ p=g;return p},Y)}var
 I=o}else
 var
 I=H;return I}var
-P=v}else
+P=w}else
 var
 P=t;var
 Q=P}else
@@ -2040,7 +2040,7 @@ var
 R=q;var
 S=R}else
 var
-S=M;return S}return fy(a,J,l,p,g,h(k),i,f,b)}return fy(a,J,l,p,g,h(k),i,f,b)}function
+S=M;return S}return fx(a,J,l,p,g,h(k),i,f,b)}return fx(a,J,l,p,g,h(k),i,f,b)}function
 kq(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
@@ -2063,11 +2063,11 @@ q=p}else
 var
 q=c;return q}return qF}function
 ks(a,Q,l,O,s,q,N,y,g,f,k,b){var
-i=h(N),R=ek(0,N),aM=bN(0,b8(a,R,e(ae,g$(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bN(qG,function(b){var
+i=h(N),R=ej(0,N),aM=bN(0,b8(a,R,e(ae,g$(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bN(qG,function(b){var
 au=bM(aH,b),f=j(b8(a,R,aO),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
-b=u(M,d),e=b?[0,[0,ae(W(a,c))]]:b;return e},S);break;case
+b=u(M,d),e=b?[0,[0,ae(V(a,c))]]:b;return e},S);break;case
 3:var
 d=dw(b[1][2],b[2][2]);break;case
 4:var
@@ -2084,17 +2084,17 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=b[2],i=A[1];if(i)var
-V=A[2],X=ef(f[1]),Y=e(function(b){return cu(a,X,b)},V),Z=dw(b[1][2],Y),_=i[1],d=e(function(b){return g7(a,_,b)},Z);else{var
+W=A[2],X=ee(f[1]),Y=e(function(b){return cu(a,X,b)},W),Z=dw(b[1][2],Y),_=i[1],d=e(function(b){return g7(a,_,b)},Z);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=b[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=ay(a,fu(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=ay(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],af=ay(a,fu(a),ad),d=e(function(b){return g7(a,af,b)},ac);else
+ac=b[1][2],ad=f[1],af=ay(a,ft(a),ad),d=e(function(b){return g7(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
@@ -2102,7 +2102,7 @@ D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
 q=jH(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g6,D[2]),an=fu(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ef(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,fu(a),as),d=e(function(b){return g7(a,at,b)},aq);K=1;L=1}else
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g6,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ee(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,ft(a),as),d=e(function(b){return g7(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2123,22 +2123,22 @@ e=a;var
 f=e}else
 var
 f=d;return f}function
-z(b){return e(function(b){return W(a,b)},b)}var
+z(b){return e(function(b){return V(a,b)},b)}var
 aR=y?y[1]:ae(B);function
-U(a){return a?bi(i,a[1]):a}function
+U(b){return b?bi(a,i,b[1]):b}function
 t(f,e,d,c,b){var
 g=av([0,af(e),0],i);return U(kg(a,z(f),d,c,b,g))}function
-V(y,x,w){var
+W(y,x,w){var
 A=av([0,x,0],i),q=z(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ec(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eb(g),h],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dx(a),t],v=dx(a),b=g_(a,[0,af(eb(kf(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dx(a),t],v=dx(a),b=g_(a,[0,af(gX(kf(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=g1(b[1]);if(j){var
+j=g1(a,b[1]);if(j){var
 c=c[2],f=j[1];continue}var
 p=j}else
 var
@@ -2147,7 +2147,7 @@ r=p}else
 var
 r=[0,f];return U(r)}}var
 aS=e(aH,k),X=n(function(a){return cl(a,h(s))},aS),Y=X?kq(e(aH,k)):X,Z=Y?n(function(a){return u(h(a),i)},b):Y;if(Z){var
-w=0;switch(g[0]){case
+x=0;switch(g[0]){case
 0:var
 C=g[1],K=0;if(typeof
 f!=="number")switch(f[0]){case
@@ -2176,26 +2176,26 @@ aj=b;if(!au)return aj;break}if(!K)return 0;break;case
 ax=0,a1=g[1];if(typeof
 f==="number"&&!f){if(!b)return b;if(b[2])return 0;var
 a2=b[1],o=function(c,a){var
-b=D(a1,a);return function(a){return V(a2,b,a)}},m=l;ax=1}if(!ax)return 0;break;case
+b=D(a1,a);return function(a){return W(a2,b,a)}},m=l;ax=1}if(!ax)return 0;break;case
 2:var
 az=0,a3=g[1];if(typeof
 f==="number"||!(3===f[0]))az=1;else{var
 aA=0;if(b){var
-v=b[2],aC=0;if(v){if(v[2])return 0;var
-ak=f[1],a4=v[1],a5=b[1],a6=f[2],al=ko(a,ak,f[3]),am=j4(i,al);if(am){var
+w=b[2],aC=0;if(w){if(w[2])return 0;var
+ak=f[1],a4=w[1],a5=b[1],a6=f[2],al=ko(a,ak,f[3]),am=j4(i,al);if(am){var
 o=function(f,c,b){var
-d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?V(a4,D(x(a,a3,d),c),b):e},m=l;aA=1;aC=1}else
+d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?W(a4,D(v(a,a3,d),c),b):e},m=l;aA=1;aC=1}else
 var
 an=am}else
 var
-an=v;if(!aC)var
+an=w;if(!aC)var
 ao=an}else
 var
 ao=b;if(!aA)return ao}if(az)return 0;break;case
 3:var
 aD=0;if(typeof
 f==="number"&&!f){if(b)return 0;var
-G=g[1];w=1}else
+G=g[1];x=1}else
 aD=1;if(aD)return 0;break;case
 4:var
 aE=0,a8=g[2];if(typeof
@@ -2206,9 +2206,9 @@ b=E(a8,a);return function(a){return t(a9,b,ba,a_,a)}},o=bb,m=g[1]}if(aE)return 0
 M=0;if(typeof
 f==="number"&&!(3<=f))switch(f){case
 0:if(b)return 0;var
-G=g[1];w=1;break;case
+G=g[1];x=1;break;case
 2:if(b)return 0;var
-G=g[2];w=1;break;default:M=1}else
+G=g[2];x=1;break;default:M=1}else
 M=1;if(M)return 0;break;case
 7:var
 ap=g[2],aq=g[1],aF=0;if(typeof
@@ -2218,21 +2218,21 @@ p=f[2],J=f[1],bc=b[1],ar=u(h(l),i);if(ar){var
 o=function(b,y){var
 A=z(bc);return function(f){var
 k=u(h(f),i),l=k?u(h(p),i):k;if(l){var
-s=e(aH,f),t=em(J,en(J,p,dx(a),s)),v=b_(ft(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=v,w=h(p);for(;;){if(c){var
+s=e(aH,f),t=el(J,em(J,p,dx(a),s)),w=b_(fs(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
 o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
 b=aJ(aL(0,h(p)),p);return e(function(b){var
-c=kh(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(x(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,w),j=g_(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(j){var
+c=kh(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(v(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,x),j=g_(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(j){var
 b=[0,b],c=c[2],g=j[1];continue}var
 d=j}else
 var
-d=[0,g];if(d)return bi(i,d[1]);var
+d=[0,g];if(d)return bi(a,i,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},m=l;aK=1}else
 var
 as=ar}else
 var
-as=b;if(!aK)return as}if(aF)return 0;break;default:return 0}if(w){var
+as=b;if(!aK)return as}if(aF)return 0;break;default:return 0}if(x){var
 I=T(G);if(!I)return I;var
 a7=function(b,f,a){return n(function(a){var
 b=f[2],c=a[2],e=aI(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aG(aG(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
@@ -2240,13 +2240,13 @@ F=kr(q,T,m);if(!F)return F;var
 ab=o,aa=F[1]}var
 aX=bh(i);return n(function(b){var
 c=e(function(c){return kk(a,b,aQ,c)},aa);return D_(ab,b,aB(b,aR),c)},aX)}return Z}function
-fz(b,a){if(a){var
+fy(b,a){if(a){var
 c=a[2];if(b){var
-e=fz(b[1],c);return[0,a[1],e]}var
+e=fy(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hd(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+hd(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
 kt(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
@@ -2261,26 +2261,26 @@ k=c?0:1,l=k?d:j,g=hd(l);switch(a[0]){case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return v(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
+m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
-n=a[2],o=v(function(a){var
+n=a[2],o=w(function(a){var
 b=e(b0,a[2][2]);return[0,a[1],b]},n);return f(hd(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fc(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fb(a[2]),p);return f(a[1],q);case
 4:case
 8:return hd(a[1]);default:return g}}}function
 ku(p,i,o,C,m,l,W,B,b,A,V){if(A){var
-s=kn(p,i,l,jF(v(function(c){var
+s=kn(p,i,l,jF(w(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
 b=M(W,c[1]);return b?kt(o,C,m,b[1],a):b},A),i),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
-w=j(B,b);if(w)var
-aa=w[1],Z=bh(h(b)),y=n(function(b){return function(a){return L(aB(a,b)[2],d)}}(aa),Z);else
+v=j(B,b);if(v)var
+aa=v[1],Z=bh(h(b)),y=n(function(b){return function(a){return L(aB(a,b)[2],d)}}(aa),Z);else
 var
-y=w;if(y){var
+y=v;if(y){var
 k=R,g=e(function(a){return 0},g);continue}return y}var
 S=r(x,g,0);if(S){var
 z=M(W,x);if(z){var
@@ -2309,18 +2309,18 @@ P=u;if(!Y){var
 c=P;E=1}}if(!E)var
 c=ks(p,i,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
 c=kp(p,i,o,C,m,l,s,b,0,q,a);if(c){var
-k=R,g=fz(x,g);continue}var
+k=R,g=fy(x,g);continue}var
 T=c}else
 var
 T=z;var
 U=T}else
 var
 U=S;return U}return[0,g]}}return[0,V]}function
-fA(j,i,h,g,f,e,d,c,u,t,s){var
+fz(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
 l=ku(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
 m=ku(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=el(a[2],b),q=fA(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+o=m[1],p=ek(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
@@ -2366,7 +2366,7 @@ cv(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 j=f[2],b=f[1];if(H(j,c))if(0===e[0]){var
 k=e[2],o=e[1];if(H(k,c)){var
-l=_(b,o),m=l?ed(b):l;if(m)var
+l=_(b,o),m=l?ec(b):l;if(m)var
 p=_(n[2],d),g=p||_(b,d);else
 var
 g=m;var
@@ -2384,7 +2384,7 @@ d=ca([0,b],a[2]),c=[0,cv(a[1],b),d];else
 var
 c=a;return c}function
 aQ(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fB(b,d,a){switch(a[0]){case
+fA(b,d,a){switch(a[0]){case
 0:var
 c=a[1],g=[0,[0,c[4],b],0],h=f(aQ(c[3],b),g),i=f(aQ(c[2],b),h);return f(aQ(c[1],d),i);case
 1:var
@@ -2392,10 +2392,10 @@ e=a[3],j=e?aQ(e[1],d):e,k=f(aQ(a[2],b),j);return f(aQ(a[1],b),k);default:return 
 ab(b,a){var
 c=i(d),e=r(N(qH,a),b,c),f=i(d),g=r(N(qI,a),b,f);return[0,r(a,b,i(d)),g,e]}function
 kx(b,a){return ah(t,ah(z,cP,a),b)}function
-fC(c,b,a){if(a){var
-e=a[2],g=fC(c,bd(b),e),h=a[1];return f(fB(c,bv(d,b),h),g)}return a}function
+fB(c,b,a){if(a){var
+e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bv(d,b),h),g)}return a}function
 hf(f,e,c,k){if(c){var
-b=c[1],v=N(k,h(fB(f,bv(d,e),b))),w=c[2],x=hf(f,bd(e),w,v),a=ca(k,fB(f,bv(d,e),b));switch(b[0]){case
+b=c[1],v=N(k,h(fA(f,bv(d,e),b))),w=c[2],x=hf(f,bd(e),w,v),a=ca(k,fA(f,bv(d,e),b));switch(b[0]){case
 0:var
 m=b[1][5],n=r(qJ,a,i(d)),o=ah(z,cP,ab(a,qK)),p=cO(ab(a,0)),q=ab(a,qL),g=j7(kx(ab(a,qM),q),p,o,n,m);break;case
 1:var
@@ -2430,17 +2430,17 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],b]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-eo(b,a){var
+en(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 dA(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(eo(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=eo(b,a[3]);return f(eo(b,a[2]),j)}function
+e=[0,d,c],i=f(en(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=en(b,a[3]);return f(en(b,a[2]),j)}function
 cQ(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=dA(b,a[2]);return f(dA(b,a[1]),h);case
 11:var
-i=eo(b,a[3]);return f(eo(b,a[2]),i);case
+i=en(b,a[3]);return f(en(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
@@ -2482,11 +2482,11 @@ f=a;return f}function
 kB(g,c,d,b,a){var
 h=dA(c,a),i=ca(d,f(dA(c,b),h));function
 j(a){return ah(z,cP,a)}return kA(e(function(a){var
-b=a[7];return w(function(b){var
+b=a[7];return x(function(b){var
 c=ct(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
 cR(d,c,b,a){var
 e=q(c,b);return t(q(d,a),e)}function
-bA(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+bA(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
 kC(b,a){if(b)if(a)var
 d=b[1],e=kC(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
 var
@@ -2502,7 +2502,7 @@ e=d;var
 f=e}else
 var
 f=b;return f}return qY}function
-ep(b,d,c,a){if(typeof
+eo(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=cv(bz(d,a),i);return[0,e(function(a){var
@@ -2513,9 +2513,9 @@ k=h(b),f=u(h(a[1]),k);if(f)var
 l=cQ(d,a),g=[0,kC(b,ca(c[2],l))];else
 var
 g=f;return g}return 0}function
-fD(e,l,k,a){var
-R=k[1],b=cv(bz(l,a),R),w=0;if(typeof
-a==="number")w=1;else
+fC(e,l,k,a){var
+R=k[1],b=cv(bz(l,a),R),v=0;if(typeof
+a==="number")v=1;else
 switch(a[0]){case
 2:var
 S=function(a){return[0,t(a[4],b),0]},g=S,f=a[1];break;case
@@ -2544,7 +2544,7 @@ var
 F=e;return F;case
 10:var
 u=kB(e,l,k[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],J=G[1];return v(by,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
+G=u[1],H=G[2],J=G[1];return w(by,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
@@ -2559,14 +2559,14 @@ j=e[7],o=j?[0,t(t(i(c),b),f),0]:j;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-s=ep(e,l,k,a);return s?bA(s[1]):s;default:w=1}if(w)return 0;var
+s=eo(e,l,k,a);return s?bA(s[1]):s;default:v=1}if(v)return 0;var
 o=M(e,f);return o?g(o[1]):o}function
 hh(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hh(d,b,ky(b,e,c),g);return f(fD(d,b,c,e),h)}return a}var
+e=a[1],g=a[2],h=hh(d,b,ky(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
 kE=[0,d,c],kF=[0,[0,kE,kE],d];function
-fE(a){return $(b9(a[1][1],a[1][2]))}function
+fD(a){return $(b9(a[1][1],a[1][2]))}function
 kG(a){var
-b=aL(0,h(a));return be(function(b){return fE(r(b,a,kF))},b)}function
+b=aL(0,h(a));return be(function(b){return fD(r(b,a,kF))},b)}function
 kH(a,b){var
 c=b[4],e=kw(kG(a),c),f=aJ(kG(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
 kI(b,a){var
@@ -2576,19 +2576,19 @@ a=t[1],aK=t[2],aL=kJ(f,J,l,I,m,k,ky(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
 i=[0,[0,B]];else
 var
-aq=J[2],as=J[1],at=ej(m),i=[0,[8,j(ar(l),at),as,aq]];else
+aq=J[2],as=J[1],at=ei(m),i=[0,[8,j(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
-au=al(f,bz(k,a)),i=w(function(a){return[0,X(f,a)]},au);break;case
+au=al(f,bz(k,a)),i=x(function(a){return[0,X(f,a)]},au);break;case
 1:var
-av=al(f,bz(k,a)),i=w(function(a){return[1,X(f,a)]},av);break;case
+av=al(f,bz(k,a)),i=x(function(a){return[1,X(f,a)]},av);break;case
 5:var
-ax=al(f,bz(k,a)),i=w(function(a){return[2,X(f,a)]},ax);break;case
+ax=al(f,bz(k,a)),i=x(function(a){return[2,X(f,a)]},ax);break;case
 8:var
-ay=ep(m,k,o,a),i=w(function(a){var
-b=W(f,c);return[4,j(ar(l),a),b]},ay);break;case
+ay=eo(m,k,o,a),i=x(function(a){var
+b=V(f,c);return[4,j(ar(l),a),b]},ay);break;case
 9:var
-y=ep(m,k,o,a);if(y){var
+y=eo(m,k,o,a);if(y){var
 z=al(f,bz(k,a));if(z)var
 az=X(f,z[1]),aA=y[1],P=[0,[4,j(ar(l),aA),az]];else
 var
@@ -2600,10 +2600,10 @@ i=Q;break;case
 10:var
 A=kB(m,k,o[2],a[1],a[2]);if(A){var
 R=A[1],S=R[2],T=R[1],C=al(f,bz(k,a));if(C){var
-U=C[1],V=H(d,U[1]);if(V)var
+U=C[1],W=H(d,U[1]);if(W)var
 q=function(a){return kI(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
-Y=V;var
+Y=W;var
 Z=Y}else
 var
 Z=C;var
@@ -2612,7 +2612,7 @@ var
 _=A;var
 i=_;break;case
 12:var
-s=fD(m,k,o,a),v=0;if(s)if(s[2])var
+s=fC(m,k,o,a),v=0;if(s)if(s[2])var
 i=0;else{var
 $=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
 D=[0,[3,j(l,s[1])]];v=1}else{var
@@ -2622,7 +2622,7 @@ i=D;break;case
 13:var
 ab=a[1],ad=M(m,ab),K=0;if(ad){var
 ae=g(f,1,a[2]),af=ae?g(f,1,a[3]):ae;if(af)var
-aE=al(f,bz(k,a)),i=w(function(a){return[7,ab,X(f,a)]},aE);else{var
+aE=al(f,bz(k,a)),i=x(function(a){return[7,ab,X(f,a)]},aE);else{var
 ag=af;K=1}}else{var
 ag=ad;K=1}if(K)var
 i=ag;break;case
@@ -2632,7 +2632,7 @@ F=al(f,bz(k,a));if(F)var
 G=ac(e(function(n){var
 h=[5,ah,E],a=al(f,[0,[0,h,h],d]);if(a){var
 o=kH(I,n),g=ac(e(function(e){var
-a=r(e[1],I,kF),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=al(f,[0,[0,d,d],g]);return w(function(a){return[0,a,j(l,e[2])]},i)},o));if(g)var
+a=r(e[1],I,kF),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=al(f,[0,[0,d,d],g]);return x(function(a){return[0,a,j(l,e[2])]},i)},o));if(g)var
 p=[0,a[1],g[1]],i=[0,[0,j(l,n[4]),p]];else
 var
 i=g;var
@@ -2647,15 +2647,15 @@ an=ak;var
 i=an;break;case
 15:var
 aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=ep(m,k,o,a),i=w(function(a){var
-b=W(f,c);return[4,j(ar(l),a),b]},aJ);else
+aJ=eo(m,k,o,a),i=x(function(a){var
+b=V(f,c);return[4,j(ar(l),a),b]},aJ);else
 var
 i=ao;break;default:var
-p=fD(m,k,o,a),L=0;if(p){var
-x=p[2],N=p[1];if(x)if(x[2])var
+p=fC(m,k,o,a),L=0;if(p){var
+w=p[2],N=p[1];if(w)if(w[2])var
 i=0;else
 var
-aw=j(l,x[1]),i=[0,[5,j(l,N),aw]];else{var
+aw=j(l,w[1]),i=[0,[5,j(l,N),aw]];else{var
 O=[0,[3,j(l,N)]];L=1}}else{var
 O=p;L=1}if(L)var
 i=O}var
@@ -2674,7 +2674,7 @@ h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cs(a,g,c[1]);if(i){var
 j=cs(a,g,c[2]);if(j){var
 k=cs(a,g,c[3]);if(k)var
-t=i[1],u=bP(f),l=D([0,bP(f),u],t),v=j[1],w=bP(e),m=D([0,bP(e),w],v),y=dv(e),z=[0,dv(e),y],A=[0,x(a,af(E(m,m)),z),0],C=dv(f),F=[0,dv(f),C],G=[0,x(a,af(E(l,l)),F),A],H=X(a,m),I=X(a,l),n=[0,[0,D(D(X(a,k[1]),I),H),B,G]];else
+t=i[1],u=bP(f),l=D([0,bP(f),u],t),w=j[1],x=bP(e),m=D([0,bP(e),x],w),y=dv(e),z=[0,dv(e),y],A=[0,v(a,af(E(m,m)),z),0],C=dv(f),F=[0,dv(f),C],G=[0,v(a,af(E(l,l)),F),A],H=X(a,m),I=X(a,l),n=[0,[0,D(D(X(a,k[1]),I),H),B,G]];else
 var
 n=k;var
 o=n}else
@@ -2692,7 +2692,7 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fF(a,p,o){var
+fE(a,p,o){var
 q=aQ(p,o),b=e(function(b){return al(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
@@ -2753,18 +2753,18 @@ var
 c=a?0:1;return c?cT(g,f[2],h):c}}function
 bb(c,b,a){var
 d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
-eq(a,e,d,c){var
+ep(a,e,d,c){var
 b=bb(e,d,c),f=az(a),g=at(R(az(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
 cU(f,e,d,a,c){var
-b=eq(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
+b=ep(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
 cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
 cW(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eq(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=ep(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
 1:return az(bb(a[1],a[2],b));default:return az(a[1])}}function
-er(a,b){switch(a[0]){case
+eq(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=az(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=eq(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=az(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ep(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
 1:return bb(a[1],a[2],b);default:return az(a[1])}}function
 hi(a,b){switch(a[0]){case
 0:var
@@ -2775,7 +2775,7 @@ kN(a,b){switch(a[0]){case
 0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=bb(d,c,b);return[0,R(bb(d,c,b),e)];default:return 0}}function
-es(e,b,a){var
+er(e,b,a){var
 f=[0,d,c];return aI(function(c,d){var
 e=R(cW(c,b),a);return[2,[4,R(cW(c,b),a),e],d]},f,e)}function
 kO(a){var
@@ -2799,7 +2799,7 @@ j=b;return j}return q1}function
 cX(a){return[0,a[1],a[2],a[3]]}function
 kQ(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=eq(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ep(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=bb(a[1],h,b),n=[6,R(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
 kR(l,b,a){switch(a[0]){case
@@ -2824,9 +2824,9 @@ D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=es(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=er(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,es(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,er(h,b,e),aq]);case
 2:var
 ar=a[2],as=function(a){return[3,ar,hi(a,b)]},s=as,r=a[1];break;case
 3:var
@@ -2835,7 +2835,7 @@ at=a[2],au=function(a){return[3,hi(a,b),at]},s=au,r=a[1];break;case
 G=a[3],H=a[2],av=function(a){var
 c=cW(a,b);return[3,[4,[4,H,H],R(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,es(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,es(h,b,e),ay],ax]);case
+I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,er(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,er(h,b,e),ay],ax]);case
 6:var
 J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
@@ -2846,7 +2846,7 @@ L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aB=hj(N,b),aC=hj(O,b),aD=hj(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=er(N,b),k=er(O,b),aE=er(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+N=o[1],O=n[1],P=h[1],aB=hj(N,b),aC=hj(O,b),aD=hj(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=eq(N,b),k=eq(O,b),aE=eq(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
 T=S}else
 var
 T=o;var
@@ -2857,7 +2857,7 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=es(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=er(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
 W=a[1],w=kP(h,b);if(w){var
 aH=w[1],an=[0,d,c],ao=aI(function(a,b){var
@@ -2889,7 +2889,7 @@ kU(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bj(b[3]),f=bj(b[2]);return[0,bj(b[1]),f,e,d,c];case
 1:var
-g=w(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
+g=x(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
 hk(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
 kV(b,a){var
 c=hk(a[2]);return kM(b,a,e(kU,a[1]),c)}function
@@ -2901,13 +2901,13 @@ kX(e,b,a){if(e){if(b){var
 f=b[1],g=kX(e[2],b[2],a),h=bB(f,a),i=[4,bB(f,a),h];return[2,[4,e[1],i],g]}return[0,d,c]}return[0,d,c]}function
 kY(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kY(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q3}function
+c=b[1],d=kY(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q3}function
 kZ(a,l,k,f){var
 b=aY(a,l);if(b){var
 c=aY(a,k);if(c){var
 d=ds(a,f);if(d){var
-e=fm(a,f);if(e)var
-m=x(a,b[1],e[1]),g=[0,D(x(a,c[1],d[1]),m)];else
+e=fl(a,f);if(e)var
+m=v(a,b[1],e[1]),g=[0,D(v(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2919,7 +2919,7 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fG(a){return a?L(d,a[1][1]):a}function
+fF(a){return a?L(d,a[1][1]):a}function
 k0(a,ab,m,aD,i,f){function
 ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bB(a,a)]}var
 aE=m[1];function
@@ -2944,7 +2944,7 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;cas
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kZ(a,i,h,ai);return f?L(f[1][2],d):f}return fG(kZ(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+f=kZ(a,i,h,ai);return f?L(f[1][2],d):f}return fF(kZ(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
 5:if(i){var
 r=i[2];if(r){if(r[2])return 0;var
 K=r[1],N=i[1],aj=f[1],aN=bB(N,N),aO=[4,[4,aj,aj],[4,q(K),aN]],aP=bB(K,K);return g(a,1,[3,[4,q(N),aP],aO])}var
@@ -2962,7 +2962,7 @@ f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
 b=aY(a,bB(e,e));if(b){var
 c=aY(a,[5,ar,as]);if(c){var
 d=jS(a,c[1]);if(d){var
-l=X(a,d[1]);return fG([0,D(b[1],l)])}var
+l=X(a,d[1]);return fF([0,D(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2980,8 +2980,8 @@ aX=f[2],aZ=function(e){var
 b=ds(a,aX);if(b){var
 c=aY(a,e[3]);if(c){var
 d=aY(a,e[2]);if(d){var
-f=x(a,b[1],c[1]),g=fG([0,f]);if(g){var
-k=X(a,d[1]);return fG([0,D(X(a,f),k)])}var
+f=v(a,b[1],c[1]),g=fF([0,f]);if(g){var
+k=X(a,d[1]);return fF([0,D(X(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2996,16 +2996,16 @@ S=kY(m[3]);if(S){var
 aw=S[1],a0=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a0),T=e(function(a){return a[1]},aw),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
 t=s[2];if(t){var
-v=t[2],U=t[1],V=s[1],l=T[2];if(v)if(v[2]||!l)var
+w=t[2],U=t[1],V=s[1],l=T[2];if(w)if(w[2]||!l)var
 j=[0,d,c];else{var
-w=l[1];if(w){var
-y=w[2];if(y){var
+x=l[1];if(x){var
+y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
 A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
 E=C[2];if(E&&!(E[2]||A[2]))var
-W=E[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=w[1],aA=o(aa,$,Z,Y),aB=[4,v[1],aA],aC=[4,U,o(aa,_,Z,W)],j=[2,[3,[4,V,o($,_,Y,W)],aC],aB];else
+W=E[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=o(aa,$,Z,Y),aB=[4,w[1],aA],aC=[4,U,o(aa,_,Z,W)],j=[2,[3,[4,V,o($,_,Y,W)],aC],aB];else
 var
 j=[0,d,c]}else
 var
@@ -3066,7 +3066,7 @@ var
 e=b;return e}}function
 k2(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k2(a[2]);return w(function(a){return[0,c,a]},d)}return b}return q4}function
+c=b[1],d=k2(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q4}function
 q5(a){return e(function(a){return[0,a,c]},a)}function
 k3(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
@@ -3099,12 +3099,12 @@ hr(a,d){var
 h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k5(a,d);return[5,[2,hq(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 k6(a,b){var
 f=a[5],c=[3,hr(a,b),f],d=k5(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fH(a,b){var
+fG(a,b){var
 c=k6(a,b);return cV(a[7],c)}function
 k7(b,a){var
-c=hq(b,a),d=hp(b,a),e=[4,fH(b,a),d],f=ho(b,a);return[5,[2,[4,hr(b,a),f],e],c]}function
+c=hq(b,a),d=hp(b,a),e=[4,fG(b,a),d],f=ho(b,a);return[5,[2,[4,hr(b,a),f],e],c]}function
 k8(b,a){var
-c=hq(b,a),d=ho(b,a),e=[4,fH(b,a),d],f=hp(b,a);return[5,[3,[4,hr(b,a),f],e],c]}function
+c=hq(b,a),d=ho(b,a),e=[4,fG(b,a),d],f=hp(b,a);return[5,[3,[4,hr(b,a),f],e],c]}function
 k9(a,b){var
 c=k4(a),d=at(k8(a,b),c),e=hm(a),f=at(k7(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
 o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
@@ -3117,11 +3117,11 @@ c=d;return bs(c,e)},d,h);if(L(d,a)){var
 f=a9(a);if(0===f||!(0<f&&!H(a,c)))var
 g=d;else
 var
-b=aU(a,aF(2)),e=b[1],g=_(b[2],d)?e9(e):e9(e);return aG(g,o)}return d}function
+b=aU(a,aF(2)),e=b[1],g=_(b[2],d)?e8(e):e8(e);return aG(g,o)}return d}function
 dC(a){return[0,a[1],[0,a[2],0]]}function
 a4(a){var
 b=dC(a[3]),c=f(dC(a[2]),b);return f(dC(a[1]),c)}function
-fI(a){return fF(o,a,bQ(a4(a)))}function
+fH(a){return fE(o,a,bQ(a4(a)))}function
 k_(b,a){if(a){var
 g=k_([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cv([0,[0,d,d],c[2]],b);else
@@ -3133,7 +3133,7 @@ f=a;return f}function
 k$(c,b,a){var
 d=dp(b);return[2,[2,dp(c),d],a]}function
 hs(b,a){return b?P(a):d}function
-et(h,b,a){if(typeof
+es(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
@@ -3154,8 +3154,8 @@ m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cw(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cw(g,c,b,N(e,h(et(c,b,d))),i);return f(ao(g,k_(e,et(c,b,d)),d),j)}return a}function
-fJ(b,a){var
+d=a[1],i=a[2],j=cw(g,c,b,N(e,h(es(c,b,d))),i);return f(ao(g,k_(e,es(c,b,d)),d),j)}return a}function
+fI(b,a){var
 c=aJ(b,a);return e(function(a){var
 b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
 ht(b,a){switch(a[0]){case
@@ -3163,15 +3163,15 @@ ht(b,a){switch(a[0]){case
 d=a[1];return al(b,[0,[0,d,d],a[2]]);case
 1:var
 e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jS(b,c[1]):c;case
-2:return ds(b,a[1]);default:return fm(b,a[1])}}function
+2:return ds(b,a[1]);default:return fl(b,a[1])}}function
 la(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
 lb(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
 hu(a,c,b){var
 d=[4,la(a),b],e=[2,[4,lb(a),c],d],f=[4,lb(a),b];return[0,[3,[4,la(a),c],f],e]}function
 lc(c,a){var
 b=hu(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-eu(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fK(t,d,a){switch(t[0]){case
+et(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fJ(t,d,a){switch(t[0]){case
 0:return d?d[2]?a:lc(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
@@ -3179,15 +3179,15 @@ g=f[2];if(g){if(g[2])return a;var
 j=hu(d[1],a[2],a[3]),m=j[1],k=hu(f[1],j[2],a[1]);return lc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=R(e,e),n=eu(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+e=[0,d[1],h[1],i[1]],l=R(e,e),n=et(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
 ld(b){var
 a=cr(b);return a?dm(a[1],[0,d,c]):a}function
 le(a,n,k,j){if(ld(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
 f=aY(a,k);if(f){var
 h=ds(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=fm(a,[5,j,[0,b(2,c),c]]);if(i)var
-p=x(a,f[1],h[1]),l=[0,D(i[1],p)];else
+i=fl(a,[5,j,[0,b(2,c),c]]);if(i)var
+p=v(a,f[1],h[1]),l=[0,D(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3197,25 +3197,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-ev(b,a,c){var
+eu(b,a,c){var
 d=bg(b,a[1],a[2]),e=d?le(b,0,c,a[1]):d;return e?le(b,1,c,a[2]):e}function
 dD(a,d){if(ld(d))return[0,B];var
 e=ds(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fm(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=E(W(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b4(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return w(function(d){var
-e=x(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+f=fl(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
+h=f[1],i=e[1],j=E(V(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b4(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return x(function(d){var
+e=v(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ew(d,a){var
+ev(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
 cY(a){return[0,[3,[0,d,c],a],a]}function
 lf(a,b,n,m){var
-h=bg(a,[0,d,c],b),i=h?ew(a,b):h;if(i){var
+h=bg(a,[0,d,c],b),i=h?ev(a,b):h;if(i){var
 e=dD(a,b);if(e){var
 f=aY(a,n);if(f){var
 g=aY(a,m);if(g){var
-o=f[1],p=g[1];return H(d,D(x(a,X(a,e[1]),p),o)[1])}var
+o=f[1],p=g[1];return H(d,D(v(a,X(a,e[1]),p),o)[1])}var
 j=g}else
 var
 j=f;var
@@ -3225,12 +3225,12 @@ k=e;var
 l=k}else
 var
 l=i;return l}function
-fL(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:ev(d,b[1],a[1]):a;case
+fK(d,b,a){switch(b[0]){case
+0:return a?a[2]?0:eu(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ev(d,b[1],a[1]),m=l?ev(d,b[2],e[1]):l;if(m)return ev(d,b[3],f[1]);var
+l=eu(d,b[1],a[1]),m=l?eu(d,b[2],e[1]):l;if(m)return eu(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3252,7 +3252,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lf(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ev(d,cY(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lf(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eu(d,cY(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3263,13 +3263,13 @@ A=z}else
 var
 A=a;return A}}function
 cx(a){return 1===a?q6:q7}function
-fM(d,c,b,a){var
-e=a[1],f=fK(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+fL(d,c,b,a){var
+e=a[1],f=fJ(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
 hv(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 lg(h,g,d,b,f,a){var
-e=fM(d,b,f,a);return hv(h,e,at([5,[0,c,c],g],eu(fK(d,b,a[2]),e)))}function
+e=fL(d,b,f,a);return hv(h,e,at([5,[0,c,c],g],et(fJ(d,b,a[2]),e)))}function
 lh(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=a3(c,e[1],d[1]),g=f?a3(c,e[2],d[2]):f;if(g){var
@@ -3326,14 +3326,14 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cb(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fN(d,b,m){var
+fM(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fN(d,b,a[1]);if(f){var
+f=fM(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fN(d,b,a[1]);return g?cb(b,a[2]):g;case
+g=fM(d,b,a[1]);return g?cb(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cb(b,i);if(j){var
 k=cb(b,h);if(k)var
@@ -3346,7 +3346,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cb(b,c)}}}function
-fO(c,e){var
+fN(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return cl(a[1],c);case
@@ -3357,12 +3357,12 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fO(c,a[1]);if(d){var
+d=fN(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fP(a,b){if(a){var
+fO(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fP(c,aI(ee,e,jE(d)))]:[0,q8,fP(c,e)]}var
-f=[0,d,fP(c,0)]}else
+e=b[2];return b[1]?[0,d,fO(c,aI(ed,e,jE(d)))]:[0,q8,fO(c,e)]}var
+f=[0,d,fO(c,0)]}else
 var
 f=a;return f}function
 cy(b,a){return a?j(b,a[1]):a}function
@@ -3392,15 +3392,15 @@ a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,X(c,a)];break;case
 1:var
-g=x(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
+g=v(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
 e=[0,b,X(c,b)]}return[0,[0,j(f,e)]]},h=hw(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-hx(b,v,c,a){var
+hx(b,w,c,a){var
 e=hw(b,b0,a),d=0,y=f(hw(b,aH,a),e);return bN(q$,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,B]]);case
-1:return[0,[0,r(a[1],v,B)]];case
-2:return[0,[0,W(b,a[1])]];case
+1:return[0,[0,r(a[1],w,B)]];case
+2:return[0,[0,V(b,a[1])]];case
 3:var
 c=a[2],d=a[1],e=function(b,a){return[0,E(b,a)]};return a5(function(a,b){return cz(e,a,b)},d,c);case
 4:var
@@ -3408,10 +3408,10 @@ f=a[2],g=a[1],h=function(b,a){return[0,D(b,a)]};return a5(function(a,b){return c
 5:var
 i=a[1],j=function(a){return[0,af(a)]};return bR(function(a){return cy(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,x(b,c,a)]};return a5(function(a,b){return cz(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return a5(function(a,b){return cz(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b4(b,a);return w(function(a){return x(b,c,a)},d)};return a5(function(a,b){return cz(p,a,b)},o,n);case
+d=b4(b,a);return x(function(a){return v(b,c,a)},d)};return a5(function(a,b){return cz(p,a,b)},o,n);case
 8:var
 q=a[1],s=function(a){return[0,X(b,a)]};return bR(function(a){return cy(s,a)},q);case
 9:var
@@ -3432,8 +3432,8 @@ var
 f=b;else
 var
 f=c;return f}return rb}function
-fQ(b,a){var
-c=a[3],d=w(function(a){var
+fP(b,a){var
+c=a[3],d=x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(ar(b),f),e,d]}function
 hz(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(h,a){var
@@ -3451,64 +3451,64 @@ li(e,c,b,a){var
 f=av(d,b);function
 g(b){return a}return function(a){return hz(e,g,c,f,d,a)}}function
 c0(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return w(function(a){return a_(f,e,a)},d)}return[0,B]}function
-lj(k,e,j,i,h,a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a_(f,e,a)},d)}return[0,B]}function
+lj(f,e,k,j,i,a){var
 b=dF(a[1]);if(b){var
 c=a[2];if(c){var
 d=c0(a[3]);if(d){var
-l=d[1],m=av([0,D(af(x(k,h,c[1])),l),0],e);return bi(e,fo(j,i,b[1],m))}var
-f=d}else
+l=d[1],m=av([0,D(af(v(f,i,c[1])),l),0],e);return bi(f,e,fn(k,j,b[1],m))}var
+g=d}else
 var
-f=c;var
-g=f}else
+g=c;var
+h=g}else
 var
-g=b;return g}function
-lk(d,h,g,c){var
+h=b;return h}function
+lk(i,d,h,g,c){var
 a=dF(c[1]);if(a){var
 b=c0(c[3]);if(b){var
-i=av([0,D(B,b[1]),0],d),j=a[1];return bi(d,fo(h,g,e(function(a){return[0,a[1],B]},j),i))}var
+j=av([0,D(B,b[1]),0],d),k=a[1];return bi(i,d,fn(h,g,e(function(a){return[0,a[1],B]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-ll(F,b,E,g){var
-i=dF(g[1]);if(i){var
-j=g[2];if(j){var
-k=c0(g[3]);if(k){var
-G=k[1],c=D(x(F,E,j[1]),G),a=i[1];if(a){var
-l=a[1],m=l[2];if(a[2]){var
-e=fp(a,av([0,c,0],b));if(e){var
-n=e[1],o=u(h(n),b);if(o)return dt(n);var
-p=o}else
+ll(a,c,F,i){var
+j=dF(i[1]);if(j){var
+k=i[2];if(k){var
+l=c0(i[3]);if(l){var
+G=l[1],e=D(v(a,F,k[1]),G),b=j[1];if(b){var
+m=b[1],n=m[2];if(b[2]){var
+f=fo(a,b,av([0,e,0],c));if(f){var
+o=f[1],p=u(h(o),c);if(p)return dt(a,o);var
+q=p}else
 var
-p=e;return p}var
-q=L(d,c[1]),r=q?L(d,m[1]):q;if(r){var
-B=y(c[1],m[1]),C=l[1];return L(aI(function(a,b){var
-c=cM(a);return A(y(cM(a),c),b)},d,C),B)}return r}var
-f=fp(a,av([0,c,0],b));if(f){var
-s=f[1],t=u(h(s),b);if(t)return dt(s);var
-v=t}else
+q=f;return q}var
+r=L(d,e[1]),s=r?L(d,n[1]):r;if(s){var
+C=y(e[1],n[1]),E=m[1];return L(aI(function(a,b){var
+c=cM(a);return A(y(cM(a),c),b)},d,E),C)}return s}var
+g=fo(a,b,av([0,e,0],c));if(g){var
+t=g[1],w=u(h(t),c);if(w)return dt(a,t);var
+x=w}else
 var
-v=f;return v}var
-w=k}else
+x=g;return x}var
+z=l}else
 var
-w=j;var
-z=w}else
+z=k;var
+B=z}else
 var
-z=i;return z}function
+B=j;return B}function
 rc(c){var
 a=c[2];if(a){var
 b=c0(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lm(a){return v(function(a){return f(a[1],[0,a[2],0])},a)}function
+lm(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
 ln(a,c,b){var
 e=r(b,c,i(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
-ex(a){var
+ew(a){var
 b=I(a);return z(i(c),b)}function
-fR(j,g){var
-h=ex(g),k=I(g),e=t(i(c),k),f=q(i(b(2,c)),g),a=i(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
-ey(b,a){var
+fQ(j,g){var
+h=ew(g),k=I(g),e=t(i(c),k),f=q(i(b(2,c)),g),a=i(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
+ex(b,a){var
 c=Q(b[3],a),d=Q(b[2],a);return[0,Q(b[1],a),d,c]}function
 lo(b,a){function
 c(b){var
@@ -3519,14 +3519,14 @@ e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
 lp(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=ex(a(0));return[0,fR(rd,a(0)),x];case
+x=ew(a(0));return[0,fQ(rd,a(0)),x];case
 1:var
-y=ex(a(0)),A=q(ex(a(re)),y),B=q(ex(a(rf)),A),C=fR(0,a(0)),D=lo(fR(rh,a(rg)),C);return[0,lo(fR(rj,a(ri)),D),B];default:var
+y=ew(a(0)),A=q(ew(a(re)),y),B=q(ew(a(rf)),A),C=fQ(0,a(0)),D=lo(fQ(rh,a(rg)),C);return[0,lo(fQ(rj,a(ri)),D),B];default:var
 E=a(rk),F=a(rl),g=[0,a(0),F,E],G=Q(g,g),H=z(i(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
 d=I(a),e=q(i(b(2,c)),d);return z(t(i(c),k),e)},h=function(f,e,d,a){var
 g=ao(f,q(e,d),a);return q(i(b(2,c)),g)},l=j(f),m=h(z,e,f,d),n=[0,h(t,d,f,e),m,l],o=h(t,e,f,d),p=j(e),r=[0,h(z,d,e,f),p,o],s=h(z,d,f,e),u=h(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
 lq(a){return 1<a[0]?[0,a[1],0]:0}function
-fS(a){switch(a[0]){case
+fR(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
 2:return[0,cY(a[1]),0];default:var
@@ -3542,7 +3542,7 @@ c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}fu
 ls(a,b){if(0===b[0])return dD(a,b[1]);var
 d=dD(a,b[1]);if(d){var
 e=dD(a,b[2]);if(e){var
-g=X(a,e[1]),h=b5(a,E(W(a,c),g)),i=d[1];return w(function(b){return x(a,i,b)},h)}var
+g=X(a,e[1]),h=b5(a,E(V(a,c),g)),i=d[1];return x(function(b){return v(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
@@ -3621,7 +3621,7 @@ ly(c,b,a){var
 d=e(b,a[2]);return[0,j(c,a[1]),d]}function
 hD(b,a,c){return e(function(c){var
 d=ly(b,a,c[2]),f=c[1];return[0,e(function(c){return ly(b,a,c)},f),d]},c)}function
-lz(b,a){return w(function(a){var
+lz(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
 rE(a,b){var
 c=lz(a,b[3]),d=j(a,b[2]);return[0,hD(a,a,b[1]),d,c]}function
@@ -3644,41 +3644,41 @@ hE(a){return[0,a[1],a[2]]}function
 lB(b,c,a){var
 d=e(function(c){return bc(b,bC(c,a))},c);return[0,bc(b,a),d]}function
 hF(b,e,a,d){var
-c=v(function(a){var
-b=hE(a[2]);return f(v(hE,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
+c=w(function(a){var
+b=hE(a[2]);return f(w(hE,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
 lC(c,f,b,a){var
-d=hC(f,b,a),e=d?fO(c,a):d;return e?n(function(b){return fO(c,bC(b,a))},b):e}function
+d=hC(f,b,a),e=d?fN(c,a):d;return e?n(function(b){return fN(c,bC(b,a))},b):e}function
 lD(a){switch(a[0]){case
 3:var
 c=lm(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
 b=lm(a[1]);return[0,a[2],b]}}function
-lE(f,v,e,t,s,b,a){switch(b[0]){case
+lE(e,w,f,t,s,b,a){switch(b[0]){case
 0:var
-w=b[4],p=b[3],y=b[2],z=b[1],q=0;if(typeof
+x=b[4],p=b[3],y=b[2],z=b[1],q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 0:var
-T=a[2],U=a[1],l=y,k=z,i=function(a){return lj(f,e,U,T,p,a)},g=w;break;case
+T=a[2],U=a[1],l=y,k=z,i=function(a){return lj(e,f,U,T,p,a)},g=x;break;case
 2:var
 A=_(p[1],d),B=A?_(p[2],d):A;if(!B)return B;var
-Y=a[2],Z=a[1],l=y,k=z,i=function(a){return lk(e,Z,Y,a)},g=w;break;default:q=1}if(q)return 0;break;case
+Y=a[2],Z=a[1],l=y,k=z,i=function(a){return lk(e,f,Z,Y,a)},g=x;break;default:q=1}if(q)return 0;break;case
 1:var
 M=0;if(typeof
 a==="number"&&!a)var
-$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,i=function(a){return ll(f,e,ab,a)},g=ac;else
+$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,i=function(a){return ll(e,f,ab,a)},g=ac;else
 M=1;if(M)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 m=a[3];if(m){var
-C=m[2],F=u(h(C),v);if(F){var
-ad=[0,b[1],b[2],s],ae=fQ(function(a){return r(a,t,rJ)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(v,j){var
+C=m[2],F=u(h(C),w);if(F){var
+ad=[0,b[1],b[2],s],ae=fP(function(a){return r(a,t,rJ)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(w,j){var
 a=dF(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
 g=c0(j[3]);if(g){var
-l=g[1],m=function(a){return a_(a,G,W(f,c))},t=m(v),u=b[1],h=E(x(f,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,fo(G,ai,k,av([0,D(af(h),l),0],e))):n;if(o){var
-i=fp(k,av([0,D(x(f,aj,h),l),0],e));if(i)return bi(e,i[1]);var
+l=g[1],m=function(a){return a_(a,G,V(e,c))},t=m(w),u=b[1],h=E(v(e,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,f,fn(G,ai,k,av([0,D(af(h),l),0],f))):n;if(o){var
+i=fo(e,k,av([0,D(v(e,aj,h),l),0],f));if(i)return bi(e,f,i[1]);var
 p=i}else
 var
 p=o;var
@@ -3690,7 +3690,7 @@ var
 r=b;var
 s=r}else
 var
-s=a;return s};return hz(function(b,a){return fQ},ak,ag,C,d,ae)}var
+s=a;return s};return hz(function(b,a){return fP},ak,ag,C,d,ae)}var
 H=F}else
 var
 H=m;return H}return 0;case
@@ -3702,8 +3702,8 @@ I=a[2],J=a[1],al=b[3],am=b[2],an=b[4],ao=b[1],ap=function(g){var
 a=dF(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-i=u(h(b),e),j=i?u(h(I),e):i;if(j){var
-n=em(J,en(J,I,c[1],b));return bi(e,b_(ft(f,ao,an,d[1],b),n))}var
+i=u(h(b),f),j=i?u(h(I),f):i;if(j){var
+n=el(J,em(J,I,c[1],b));return bi(e,f,b_(fs(e,ao,an,d[1],b),n))}var
 k=j}else
 var
 k=d;var
@@ -3723,7 +3723,7 @@ P=0;if(typeof
 a==="number"||!(0===a[0]))P=1;else{var
 n=a[2],Q=0;if(n){var
 o=n[1];if(o){if(o[2])return 0;if(n[2])return 0;var
-aq=b[2],ar=b[1],as=W(f,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,aw=0,i=function(a){return lj(f,rK,au,at,as,a)},g=aw;Q=1}else
+aq=b[2],ar=b[1],as=V(e,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,aw=0,i=function(a){return lj(e,rK,au,at,as,a)},g=aw;Q=1}else
 var
 K=o}else
 var
@@ -3731,18 +3731,18 @@ K=n;if(!Q)return K}if(P)return 0;break;case
 6:var
 R=0;if(typeof
 a==="number"&&!a)var
-ax=b[2],ay=b[1],az=W(f,c),l=ax,k=ay,aA=0,i=function(a){return ll(f,rL,az,a)},g=aA;else
+ax=b[2],ay=b[1],az=V(e,c),l=ax,k=ay,aA=0,i=function(a){return ll(e,rL,az,a)},g=aA;else
 R=1;if(R)return 0;break;case
 7:var
 S=0;if(typeof
 a==="number"&&5<=a)var
-aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,i=function(a){return lk(e,aE,aD,a)},g=aF;else
+aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,i=function(a){return lk(e,f,aE,aD,a)},g=aF;else
 S=1;if(S)return 0;break;default:return 0}var
-V=[0,k,l,s],X=fQ(function(a){return r(a,t,rI)},V);return j(li(function(b,a){return fQ},g,v,i),X)}function
+W=[0,k,l,s],X=fP(function(a){return r(a,t,rI)},W);return j(li(function(b,a){return fP},g,w,i),X)}function
 rM(b,a){var
-c=gV(gR,b[1],a[1]);return c?gR(b[2],a[2]):c}function
+c=gU(gQ,b[1],a[1]);return c?gQ(b[2],a[2]):c}function
 lF(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
-e==="number"){if(0===e)return 8===a[0]?fy(h,0,0,0,n,g,0,a[1],e):0}else
+e==="number"){if(0===e)return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
@@ -3754,9 +3754,9 @@ j=s;if(j)return lE(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
 t=j}else
 var
 t=i;return t}return lE(h,g,p,o,0,a,f);case
-8:return 8===a[0]?fy(h,0,0,0,n,g,0,a[1],e):0;case
+8:return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gV(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?iw(y,x,a[3],a[4],e):v}return 0}return 0}function
+l=gU(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?iw(y,x,a[3],a[4],e):v}return 0}return 0}function
 lG(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
@@ -3765,23 +3765,23 @@ b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
 lH(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
-U=ak(rN,i),V=U?kn(b,T,s,jF(v(function(b){var
+U=ak(rN,i),W=U?kn(b,T,s,jF(w(function(b){var
 a=M(l,b[1]);if(a){var
 c=a[1];return 8===c[0]?kt(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lG,i);if(Y)var
-ag=v(function(b){var
+ag=w(function(b){var
 c=lG(b);if(c){var
 a=M(l,b[1]);if(a)return lD(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ee,e(function(a){return 0},t),ai),u=hx(b,s,d$(fP(d$(t,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ed,e(function(a){return 0},t),ai),u=hx(b,s,d$(fO(d$(t,0),$),_),j);else
 var
 u=Y;var
 h=i,a=aj;for(;;){if(h){var
 A=h[1],k=A[2],g=A[1],n=h[2];if(g){var
 C=r(g,a,0);if(C){var
 o=M(l,g);if(o){var
-F=lF(b,S,R,c,Q,P,O,j,u,V,o[1],k);if(F){var
-h=n,a=fz(g,a);continue}var
+F=lF(b,S,R,c,Q,P,O,j,u,W,o[1],k);if(F){var
+h=n,a=fy(g,a);continue}var
 G=F}else
 var
 G=o;var
@@ -3793,7 +3793,7 @@ Z=0;if(c){var
 ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(b0,y),aa=0,ac=f(e(aH,y),ab),ad=bN(0,function(n){return function(a){switch(a[0]){case
 0:return[0,r(a[1],n,B)];case
 1:return[0,r(a[1],s,B)];case
-2:return[0,W(b,a[1])];case
+2:return[0,V(b,a[1])];case
 3:var
 c=a[2],d=a[1];return cz(function(b,a){return[0,E(b,a)]},d,c);case
 4:var
@@ -3801,10 +3801,10 @@ e=a[2],f=a[1];return cz(function(b,a){return[0,D(b,a)]},f,e);case
 5:var
 g=a[1];return cy(function(a){return[0,af(a)]},g);case
 6:var
-h=a[2],i=a[1];return cz(function(c,a){return[0,x(b,c,a)]},i,h);case
+h=a[2],i=a[1];return cz(function(c,a){return[0,v(b,c,a)]},i,h);case
 7:var
 j=a[2],k=a[1];return cz(function(c,a){var
-d=b4(b,a);return w(function(a){return x(b,c,a)},d)},k,j);case
+d=b4(b,a);return x(function(a){return v(b,c,a)},d)},k,j);case
 8:var
 l=a[1];return cy(function(a){return[0,X(b,a)]},l);case
 9:var
@@ -3818,8 +3818,8 @@ p=z;if(p){var
 h=n,a=e(function(a){return 0},a);continue}return p}var
 I=r(g,a,0);if(I){var
 q=M(l,g);if(q){var
-J=lF(b,S,R,c,Q,P,O,j,u,V,q[1],k);if(J){var
-h=n,a=fz(g,a);continue}var
+J=lF(b,S,R,c,Q,P,O,j,u,W,q[1],k);if(J){var
+h=n,a=fy(g,a);continue}var
 K=J}else
 var
 K=q;var
@@ -3830,7 +3830,7 @@ lI(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
 p=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
 q=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=el(a[2],b),t=lI(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+r=q[1],s=ek(a[2],b),t=lI(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
@@ -3841,25 +3841,25 @@ dI(a){switch(a){case
 0:return[0,rP,rO,i(d)];case
 1:return cP;default:var
 b=i(d),c=i(d);return[0,i(d),c,b]}}function
-fT(a){switch(a){case
+fS(a){switch(a){case
 0:return rQ;case
 1:return rR;default:return 0}}function
 hH(k,a,d,i,c,h){var
 e=ah(t,dI(k),i);if(h){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ey([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
-m=ey(a,c);return ah(z,aZ(d,e),m)}function
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ex([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
+m=ex(a,c);return ah(z,aZ(d,e),m)}function
 lJ(f,h,g,l,a,d){var
-e=dI(f),j=ah(t,e,a),k=ey(h,d),m=hG(e[3],a[3]),n=hG(e[2],a[2]),o=hG(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(i(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hB(f,hH(f,h,g,a,d,0),v),u]}function
-hI(c,b,a){return ba(ey(c,a),b)}function
+e=dI(f),j=ah(t,e,a),k=ex(h,d),m=hG(e[3],a[3]),n=hG(e[2],a[2]),o=hG(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(i(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hB(f,hH(f,h,g,a,d,0),v),u]}function
+hI(c,b,a){return ba(ex(c,a),b)}function
 lK(d,c,b,a){var
 e=hI(c,b,a);return ah(z,dI(d),e)}function
 lL(g,f,e,d,c){var
 b=lK(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
-fU(b,a){var
+fT(b,a){var
 c=aQ(a[2],b);return f(aQ(a[1],b),c)}function
 hJ(d,b,a,c){if(a)var
-e=a[1],f=ca(c,fU(b,e)),i=N(c,h(fU(b,e))),j=hJ(d,b,a[2],i),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),j];else
+e=a[1],f=ca(c,fT(b,e)),i=N(c,h(fT(b,e))),j=hJ(d,b,a[2],i),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),j];else
 var
 g=a;return g}function
 hK(f,o,e,n,a){var
@@ -3877,9 +3877,9 @@ var
 m=c;return m}return 0}function
 lM(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=M(c,a[1]);return w(function(a){var
+e=M(c,a[1]);return x(function(a){var
 c=r(0,b,i(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ez(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
+ey(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
 lN(a){var
 b=ab(a,rT),c=ax(Q(ab(a,rU),b));return q(r(0,a,i(d)),c)}function
 lO(b,a){var
@@ -3890,20 +3890,20 @@ lQ(h,g,f,d,c,b,a){var
 i=bd(c);function
 j(a){return lK(h,g,f,a)}return kA(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 lR(a){var
-b=a[3],c=a[2],d=a[1];return fI([0,[0,d,d],[0,c,c],[0,b,b]])}function
+b=a[3],c=a[2],d=a[1];return fH([0,[0,d,d],[0,c,c],[0,b,b]])}function
 r2(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 lS(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fV(a){var
+fU(a){var
 b=b9(a[1],[0,d,c]);return b?b9(a[2],[0,d,c]):b}function
 hL(d,a){switch(d){case
-0:return fV(a[3]);case
+0:return fU(a[3]);case
 1:return 1;default:var
-b=fV(a[1]),c=b?fV(a[2]):b;return c?fV(a[3]):c}}function
+b=fU(a[1]),c=b?fU(a[2]):b;return c?fU(a[3]):c}}function
 lT(c,b){var
-a=v(function(a){return fU(c,a)},b),d=aJ(aL(0,h(a)),a);return e(aH,be(function(a){return fE(a[2])},d))}function
+a=w(function(a){return fT(c,a)},b),d=aJ(aL(0,h(a)),a);return e(aH,be(function(a){return fD(a[2])},d))}function
 lU(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
@@ -3912,7 +3912,7 @@ a=c;for(;;){if(0===a[0])return ak(lU,a[1]);var
 d=ak(lU,a[1]),b=d||lV(a[3]);if(b)return b;var
 a=a[4];continue}}function
 r3(a,aU,bJ,y,E,aT){var
-s=y[1],k=cx(s),U=y[6],bK=y[2],V=v(function(a){return fU(E,a)},bK),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,h(V)],bL=0,aW=v(function(a){return et(bL,E,a)},U),bM=fT(s),aY=lp(y[5],bM),l=aY[2],F=aY[1],bO=y[2],S=h(V),J=cv(ap,h(V)),bN=0,A=hJ(function(e,a){function
+s=y[1],k=cx(s),U=y[6],bK=y[2],W=w(function(a){return fT(E,a)},bK),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,h(W)],bL=0,aW=w(function(a){return es(bL,E,a)},U),bM=fS(s),aY=lp(y[5],bM),l=aY[2],F=aY[1],bO=y[2],S=h(W),J=cv(ap,h(W)),bN=0,A=hJ(function(e,a){function
 j(Y){var
 w=lL(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hI(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(i(T),R);function
 h(a){return[0,lv(a),0]}function
@@ -3941,7 +3941,7 @@ m(b){return hH(s,F,l,e,a,b)}var
 f=2<=s?d:c;function
 g(b){var
 c=I(J),d=i(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
-h=[0,Q(hH(s,F,l,e,a,1),a),g];return[0,lJ(s,F,l,J,e,a),h,m,k,j]},E,bO,bN),T=e(function(a){return a[1]},A),bP=N(aa,h(aW)),bQ=fT(s),bR=y[5];function
+h=[0,Q(hH(s,F,l,e,a,1),a),g];return[0,lJ(s,F,l,J,e,a),h,m,k,j]},E,bO,bN),T=e(function(a){return a[1]},A),bP=N(aa,h(aW)),bQ=fS(s),bR=y[5];function
 R(a){return[0,[0,N(bQ,a)]]}var
 aJ=I([0,[1,bP]]);switch(bR[0]){case
 2:var
@@ -3951,7 +3951,7 @@ bz=I(R(ro)),bB=I(R(0)),bC=I(R(rp)),C=[0,t(t(q(aJ,z(i(c),bC)),bB),bz)];break;defa
 C=0}var
 aZ=y[7];if(aZ)var
 bS=0,bT=y[2],aq=hJ(function(j,k){var
-a=lJ(s,F,l,cv(ap,h(V)),j,k),c=a[1];if(c){var
+a=lJ(s,F,l,cv(ap,h(W)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
 i=g[1],f=dH(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bT,bS);else
@@ -3964,10 +3964,10 @@ g=lM(A,c,b);if(g)var
 i=g[1],k=[0,i[1],[0,i[2],0]];else
 var
 k=g;return k;case
-8:return e(b0,fJ(bH,c));case
+8:return e(b0,fI(bH,c));case
 13:var
 h=M(A,b[1]);if(h){var
-m=ez(b[4]);if(m){var
+m=ey(b[4]);if(m){var
 n=lO(c,j(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 o=m}else
 var
@@ -3975,23 +3975,23 @@ o=h;return o}var
 d=hK(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bX,E,aa,U),bW)],as=f(bA(T),bY),bZ=0,a0=cw(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=M(A,a[1]);if(e){if(ez(a[4]))return 0;var
+e=M(A,a[1]);if(e){if(ey(a[4]))return 0;var
 k=[0,lP(F,l,c,a[2],e[1][4]),0]}else
 var
 k=e;return k;case
 14:var
 g=lQ(s,F,l,A,c,a[1],a[2]);if(g){var
-m=g[1],n=m[2],o=m[1];return v(by,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
+m=g[1],n=m[2],o=m[1];return w(by,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
 15:var
 h=M(A,a[1]);if(h){var
-b=j(h[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,i(d)),p],t=[0,r(0,c,i(d)),q],u=f(fc(b[2]),t);return f(b[1],u)}return h}return 0},bZ,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
+b=j(h[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,i(d)),p],t=[0,r(0,c,i(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return h}return 0},bZ,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
 m(a){return aX(Y,bc(k,a))}if(0===y[4][0]){var
-b1=w(m,C),b2=m(l),a3=j(ar(m),T),aQ=fT(s),aR=u(h(a3),k);if(aR)var
-aS=w(function(a){return[0,[0,a,d],d]},b1),_=function(a){return r(a,Y,i(d))},aI=_(b2),bv=aL(0,aQ),ao=n(function(a){var
+b1=x(m,C),b2=m(l),a3=j(ar(m),T),aQ=fS(s),aR=u(h(a3),k);if(aR)var
+aS=x(function(a){return[0,[0,a,d],d]},b1),_=function(a){return r(a,Y,i(d))},aI=_(b2),bv=aL(0,aQ),ao=n(function(a){var
 b=cZ(k,a,aI),c=b?n(function(b){var
 d=b[1],c=n(function(b){var
 c=_(b);return cb(N(k,a),c)},d);if(c){var
-e=_(b[2]);return fN(aI,N(k,a),e)}return c},a3):b;if(c){if(aS){var
+e=_(b[2]);return fM(aI,N(k,a),e)}return c},a3):b;if(c){if(aS){var
 e=_(aS[1][1][1]);return cb(N(k,a),e)}var
 d=1}else
 var
@@ -4002,7 +4002,7 @@ bI=ao?aQ:ao,K=bI}else
 var
 K=0;var
 a4=n(function(a){var
-b=bc(k,a),c=i(d);return aw(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fO(k,a)},as):a4,a6=a5?n(function(a){var
+b=bc(k,a),c=i(d);return aw(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fN(k,a)},as):a4,a6=a5?n(function(a){var
 b=i(d);return aw(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r2,U):a6;if(a7){var
 a8=$(y[7]);if(a8)var
 ab=a8;else{var
@@ -4014,20 +4014,20 @@ ab=bu}}else
 var
 ab=a7;var
 a9=ab?hL(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
-b3=fS(y[5]),au=n(function(b){var
-c=ew(a,b[1]);return c?ew(a,b[2]):c},b3);else
+b3=fR(y[5]),au=n(function(b){var
+c=ev(a,b[1]);return c?ev(a,b[2]):c},b3);else
 var
 au=a_;if(au){var
-b4=f(V,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b4));if(ay){var
+b4=f(W,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b4));if(ay){var
 az=ac(e(function(b){return ht(a,b)},aW));if(az){var
 b5=lS(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b5));if(aA){var
 a$=aA[1],b6=lr(y[5]),aB=ac(e(function(b){return lt(a,b)},b6));if(aB){var
 bb=aB[1],b7=lq(y[5]),aC=ac(e(function(b){return dD(a,b)},b7));if(aC){var
 b8=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
 f!=="number"&&13===f[0]){var
-x=f[4],az=M(A,f[1]);if(az){if(lR(f[3])&&g(a,0,x)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],x])){var
-aA=f[2],aB=az[1];if(ez(x)){var
-ax=lO(k,j(aB[3],aA)),Q=ax[2];if(g(o,0,[3,x,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
+w=f[4],az=M(A,f[1]);if(az){if(lR(f[3])&&g(a,0,w)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],w])){var
+aA=f[2],aB=az[1];if(ey(w)){var
+ax=lO(k,j(aB[3],aA)),Q=ax[2];if(g(o,0,[3,w,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
 ay=0;else
 var
 a1=m(Q),a2=m(Q),ay=[0,[6,[0,[0,e(m,ax[1]),a2],0],a1],0];var
@@ -4045,19 +4045,19 @@ t=[5,[0,c,c],f[1]],z=R;y=1;break;case
 1:var
 aG=[5,[0,c,c],f[1]],t=aG,z=function(c,b,a){return[1,c,b,a]};y=1;break;case
 2:var
-aH=hK(a,l,A,k,f),h=w(function(a){return[4,m(a)]},aH);break;case
+aH=hK(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aH);break;case
 3:var
-aI=hK(a,l,A,k,f),h=w(function(a){return[4,m(a)]},aI);break;case
+aI=hK(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aI);break;case
 5:var
-S=f[1],aJ=al(a,[0,[0,S,S],d]),h=w(function(b){var
+S=f[1],aJ=al(a,[0,[0,S,S],d]),h=x(function(b){var
 c=X(a,b),d=m(l);return[2,j(ar(m),q),d,c]},aJ);break;case
 6:var
 C=M(A,f[1]);if(C){var
 D=lM(A,k,f);if(D){var
-T=D[1],U=g(a,1,f[2]),V=U?g(a,1,f[3]):U;if(V)var
+T=D[1],U=g(a,1,f[2]),W=U?g(a,1,f[3]):U;if(W)var
 aK=m(T[2]),aL=m(C[1][1][2]),Y=[0,[5,[0,[0,[0,m(T[1]),0],aL],0],aK]];else
 var
-Y=V;var
+Y=W;var
 Z=Y}else
 var
 Z=D;var
@@ -4079,7 +4079,7 @@ ag=g(a,1,f[2]);if(ag)var
 aN=f[1],aO=1,I=n(function(b){return g(a,aO,b)},aN);else
 var
 I=ag;if(I)var
-aP=W(a,c),aQ=m(l),aR=fJ(q,k),ah=[0,[0,j(ar(m),aR),aQ,aP,0]];else
+aP=V(a,c),aQ=m(l),aR=fI(q,k),ah=[0,[0,j(ar(m),aR),aQ,aP,0]];else
 var
 ah=I;var
 h=ah;break;case
@@ -4110,7 +4110,7 @@ var
 P=N;var
 h=P;break;default:var
 h=0}if(y)var
-aF=al(a,[0,[0,t,t],d]),h=w(function(b){var
+aF=al(a,[0,[0,t,t],d]),h=x(function(b){var
 c=X(a,b),d=m(l);return z(j(ar(m),q),d,c)},aF);return[0,h,a3]},b8,E,aa,U));if(aD){var
 bd=aD[1];if(y[7])var
 b9=aU[2],b_=aU[1],b$=m(l),ad=kW(bJ,bd,[7,j(ar(m),aq),b$,b_,b9]);else
@@ -4119,7 +4119,7 @@ ad=bd;var
 bf=u(h(f(a$,bb)),k),bg=bf?n(function(a){var
 b=lD(a);return n(function(a){return ln(k,Y,a)},b)},ad):bf,bh=bg?C?ln(k,Y,m(C[1])):1:bg;if(bh){var
 ca=f(az[1],aC[1]),L=f(ay[1],ca),O=lV(aT),P=lT(E,y[2]),Z=O?e(function(a){var
-b=lB(k,P,a[2]),c=a[1];return[0,e(function(a){return lB(k,P,a)},c),b]},T):O,aE=O?cp(hF(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},cc=hD(ae,ae,Z),cd=ae(bc(k,l)),aG=w(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
+b=lB(k,P,a[2]),c=a[1];return[0,e(function(a){return lB(k,P,a)},c),b]},T):O,aE=O?cp(hF(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},cc=hD(ae,ae,Z),cd=ae(bc(k,l)),aG=x(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
 ai=bj;else{var
 bs=u(h(T),k);if(bs){var
 bE=hF(k,l,C,Z),aN=n(function(a){var
@@ -4128,11 +4128,11 @@ bF=hF(k,l,C,Z),aj=n(function(a){var
 b=aL(0,k);return n(function(b){return dE(k,b,a)},b)},bF);else
 var
 aj=aN;if(aj){var
-aO=w(function(a){return bc(k,a)},C),am=bc(k,l),aM=lx(am);if(aM)var
+aO=x(function(a){return bc(k,a)},C),am=bc(k,l),aM=lx(am);if(aM)var
 bD=aL(0,K),aP=n(function(a){var
 b=cZ(k,a,am),c=b?n(function(b){var
-d=b[2][2],e=f(v(hE,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
-h=b[2][1];return fN(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
+d=b[2][2],e=f(w(hE,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
+h=b[2][1];return fM(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
 e=aO[1];return cb(N(k,a),e)}var
 d=1}else
 var
@@ -4150,10 +4150,10 @@ ce=e(function(a){return 1},ad),cf=f(a$,bb),cg=function(N,aa,$,c){if(O){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],m=c[2],o=c[1];if(typeof
 o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
-t=g[1],b=o[1],v=u($,K),w=v?cl(0,K):v;if(w)var
-s=gV(gR,e(aH,m),P),Y=s?1:s,p=Y;else
+t=g[1],b=o[1],w=u($,K),x=w?cl(0,K):w;if(x)var
+s=gU(gQ,e(aH,m),P),Y=s?1:s,p=Y;else
 var
-p=w;var
+p=x;var
 y=p?kq(P):p,z=y?n(function(a){return cl(a,h(L))},P):y,A=z?u(h(t),k):z;if(A){var
 q=0;if(typeof
 b!=="number")switch(b[0]){case
@@ -4169,12 +4169,12 @@ var
 M=J}else
 var
 M=aG;if(!R)return M}if(!Q)return 0;break}if(q){var
-S=hx(a,g$(m,0,L),aE,N),l=hx(a,L,aE,N),f=function(b,a){return r(a,b,rH)},T=lz(function(a){return f(l,a)},E),U=f(l,cd),V=function(a){return f(l,a)},X=[0,hD(function(a){return f(S,a)},V,cc),U,T],Z=kj(m,L),_=function(g){var
+S=hx(a,g$(m,0,L),aE,N),l=hx(a,L,aE,N),f=function(b,a){return r(a,b,rH)},T=lz(function(a){return f(l,a)},E),U=f(l,cd),W=function(a){return f(l,a)},X=[0,hD(function(a){return f(S,a)},W,cc),U,T],Z=kj(m,L),_=function(g){var
 b=ac(e(rF,g[1]));if(b){var
 c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-l=d[1],m=av([0,D(af(x(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=kk(a,0,Z,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=kg(a,e(function(b){return W(a,b)},t),F,G,o,m);if(f)return bi(k,f[1]);var
+l=d[1],m=av([0,D(af(v(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
+b=kk(a,0,Z,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=kg(a,e(function(b){return V(a,b)},t),F,G,o,m);if(f)return bi(a,k,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4189,7 +4189,7 @@ var
 B=A;var
 C=B}else
 var
-C=g;return C}return 0}return 0}return O},ch=m(l),ci=j(ar(m),T);return lI(a,a1,a2,L,ad,k,k,w(m,C),ci,ch,cg,cf,ce,aT)}var
+C=g;return C}return 0}return 0}return O},ch=m(l),ci=j(ar(m),T);return lI(a,a1,a2,L,ad,k,k,x(m,C),ci,ch,cg,cf,ce,aT)}var
 bk=ai}else
 var
 bk=bh;var
@@ -4214,20 +4214,20 @@ bq=ay;var
 br=bq}else
 var
 br=au;return br}function
-eA(b,a){return bg(b,a[1],a[2])}function
+ez(b,a){return bg(b,a[1],a[2])}function
 lW(b,a){var
-c=eA(b,a[1]),d=c?eA(b,a[2]):c;return d?eA(b,a[3]):d}function
+c=ez(b,a[1]),d=c?ez(b,a[2]):c;return d?ez(b,a[3]):d}function
 a6(a){return typeof
 a==="number"?a?r4:r5:cx(a[1])}function
 lX(b,a,c){return typeof
 b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hv(b[1],a,c)}function
-fW(a){if(0===a[0]){var
+fV(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hM(b,c,a){return b?fK(b[1],c,a):a}function
+hM(b,c,a){return b?fJ(b[1],c,a):a}function
 cc(d,c,b,a){var
-e=fW(a),f=hM(d,c,fW(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+e=fV(a),f=hM(d,c,fV(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
 lY(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
@@ -4251,10 +4251,10 @@ var
 t=d;return t}return d?0:1}}function
 l0(a){return typeof
 a==="number"?a?dI(0):cP:dI(a[1])}function
-hN(b,d,c){if(0===c[0])return fB(b,d[1],c[1]);var
+hN(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aQ(a[4],b),e),h=f(aQ(a[3],b),g),i=f(aQ(a[2],d[2]),h);return f(aQ(a[1],d[1]),i)}function
 hO(b,a){if(b){var
-c=b[1],d=c[2];return ba(ey(c[1],a),d)}return a}function
+c=b[1],d=c[2];return ba(ex(c[1],a),d)}return a}function
 l1(f,u,am,K,al,s,ak){if(s){var
 k=s[1],an=bv([0,d,d],al),a=ca(ak,hN(K,an,k)),y=function(c,b){var
 d=ab(a,c);return ah(t,ah(z,l0(f),b),d)};if(0===k[0]){var
@@ -4269,7 +4269,7 @@ M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
 aF=i(d),aG=i(d),aH=[0,i(d),aG,aF],E=ab(a,0),aI=l0(f),n=j9(aI,cO(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hO(u,ab(a,r$)),F=k[1][7],G=r(sa,a,i(d)),e=r(sb,a,i(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(i(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fq(F,q(e,ax(x))),U=ag(P,e),V=fq(F,ag(R,e)),W=ag(T,I(e)),X=jD(0,U,V,W),Y=fq(F,jD(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+af=hO(u,ab(a,r$)),F=k[1][7],G=r(sa,a,i(d)),e=r(sb,a,i(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(i(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fp(F,q(e,ax(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jD(0,U,V,W),Y=fp(F,jD(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
 aP=N(ak,h(hN(K,an,k))),aQ=s[2],aR=l1(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
 b=ba(dH(aS,a),am);return typeof
 f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hB(f[1],a,b)},J=g[1],_=typeof
@@ -4373,10 +4373,10 @@ var
 R=B;return R;default:D=1}if(D)return 0;var
 A=M(y,f);return A?g(A[1]):A}function
 dJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eB(a){return e(function(a){var
+eA(a){return e(function(a){var
 b=i(c);return[0,a[3],b]},a)}function
 l4(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bA(fJ(dJ(c),b));return fc(l3(c,b,a))}function
+a!=="number"&&8===a[0])return bA(fI(dJ(c),b));return fb(l3(c,b,a))}function
 l5(f,h,l,H,G,s,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
@@ -4385,7 +4385,7 @@ I=[5,[0,c,c],a[1]],i=I,m=function(a){return[0,a]};break;case
 1:var
 L=[5,[0,c,c],a[1]],i=L,m=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=al(f,[0,[0,y,y],d]);return[0,w(function(a){return[2,X(f,a)]},Q),P];case
+y=a[1],P=0,Q=al(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,X(f,a)]},Q),P];case
 7:var
 z=a[3],A=a[2],C=a[1];if(!M(l,C))return sk;var
 F=0;if(g(f,1,A)&&g(f,1,z))var
@@ -4396,7 +4396,7 @@ D=g(f,1,a[2]),S=0;if(D)var
 T=a[1],U=1,q=n(function(a){return g(f,U,a)},T);else
 var
 q=D;if(q)var
-V=W(f,c),Y=fJ(dJ(l),s),E=[0,[4,j(ar(h),Y),V]];else
+W=V(f,c),Y=fI(dJ(l),s),E=[0,[4,j(ar(h),Y),W]];else
 var
 E=q;return[0,E,S];default:var
 r=0;if(typeof
@@ -4406,7 +4406,7 @@ switch(a[0]){case
 t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],t]):v,k=O;break;case
 6:case
 9:var
-x=g(f,1,a[2]),k=x?g(f,0,a[3]):x;break;default:r=1}if(r)var
+w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:r=1}if(r)var
 k=1;var
 o=k?l3(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
@@ -4415,7 +4415,7 @@ e=j(h,b[1]);return[0,[5,j(h,c),e]]}var
 d=[0,[3,j(h,c)]]}else
 var
 d=a;return d},N)}return si}var
-J=0,K=al(f,[0,[0,i,i],hs(H,G)]);return[0,w(function(a){return m(X(f,a))},K),J]}function
+J=0,K=al(f,[0,[0,i,i],hs(H,G)]);return[0,x(function(a){return m(X(f,a))},K),J]}function
 l6(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 sm(b){if(0===b[0])return[0,kU(b[1])];var
@@ -4426,15 +4426,15 @@ aV=hk(a[4]),K=cT(J,a[4],aV);else
 var
 K=aq;if(K){var
 as=a[5];if(as)var
-aW=fS(as[1]),at=n(function(a){return eA(J,a)},aW);else
+aW=fR(as[1]),at=n(function(a){return ez(J,a)},aW);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ay=a6(b),q=a[6],z=hP(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=w(function(a){var
+b=a[1],ay=a6(b),q=a[6],z=hP(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
 c=typeof
-b==="number"?0:fT(b[1]);return lp(a,c)},az),aB=a[2],l=l1(b,aA,cv(R,h(z)),k,ap,aB,0),T=v(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l4(l,a,b)},o,k,S,q)),aD=f(bA(eB(l)),aC),U=f(bA(dJ(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
+b==="number"?0:fS(b[1]);return lp(a,c)},az),aB=a[2],l=l1(b,aA,cv(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l4(l,a,b)},o,k,S,q)),aD=f(bA(eA(l)),aC),U=f(bA(dJ(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
 b=i(d);return aw(r(p(a),W,b),a)},U),Y=X?ak(l6,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
@@ -4449,12 +4449,12 @@ N==="number")var
 s=a[5]?0:1;else
 if(2<=N[1])var
 s=0;else{var
-x=a[5],M=0;if(x){var
+v=a[5],M=0;if(v){var
 O=g(c,1,a[3]);if(O)var
-ax=fS(x[1]),s=n(function(a){var
-b=ew(c,a[1]);return b?ew(c,a[2]):b},ax);else{var
+ax=fR(v[1]),s=n(function(a){var
+b=ev(c,a[1]);return b?ev(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
-P=x;M=1}if(M)var
+P=v;M=1}if(M)var
 s=P}var
 C=s}else
 var
@@ -4464,7 +4464,7 @@ b=0===a[0]?0:1;return ck(b,o)},aE);else
 var
 D=C;if(D){var
 aF=f(z,[0,R,0]),E=ac(e(function(a){return al(c,a)},aF));if(E){var
-aG=v(function(a){return et(o,k,a)},q),F=ac(e(function(a){return ht(c,a)},aG));if(F){var
+aG=w(function(a){return es(o,k,a)},q),F=ac(e(function(a){return ht(c,a)},aG));if(F){var
 m=dB(a[4]),aH=typeof
 b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lS(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
@@ -4478,7 +4478,7 @@ aK=he(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
 af=function(a){return kK(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eB(l),aR=j(ar(p),aQ),aS=dJ(l);return fA(c,V,j(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eA(l),aR=j(ar(p),aQ),aS=dJ(l);return fz(c,V,j(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
 var
 ag=I;var
@@ -4528,7 +4528,7 @@ k=a[2],f=a[1],j=q;break;case
 k=a[2],f=a[1],j=ag;break;case
 7:var
 l=d8(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
-o=I(m),s=function(a){return q(a,o)},p=e7(bL(jm(l)),s,o);return jl(l)?p:q(p,m)}return m}return i(c);default:return ax(bk(e,a[1],b))}var
+o=I(m),s=function(a){return q(a,o)},p=e6(bL(jm(l)),s,o);return jl(l)?p:q(p,m)}return m}return i(c);default:return ax(bk(e,a[1],b))}var
 w=bk(e,k,N(b,h(bD(f))));return j(bk(e,f,b),w)}function
 cA(c,g,b){var
 a=g;for(;;)switch(a[0]){case
@@ -4544,7 +4544,7 @@ a=a[1];continue;case
 d=a[1],i=N(b,h(bD(d))),j=cA(c,a[2],i);return f(cA(c,d,b),j)}}function
 l7(c,a,b){if(a){var
 e=a[1],d=e[2],g=N(b,h(bD(d))),i=a[2],j=bk(c,d,b),k=l7([0,[0,e[1],j],c],i,g);return f(cA(c,d,b),k)}return a}function
-hQ(a){return v(bD,a)}function
+hQ(a){return w(bD,a)}function
 l8(c,a,b){if(a)var
 d=a[1],f=N(b,h(bD(d))),g=l8(c,a[2],f),e=[0,bk(c,d,b),g];else
 var
@@ -4557,13 +4557,13 @@ d=b[1],j=N(a,h(hR(d))),k=l_(c,b[2],j);if(0===d[0])var
 g=l9(c,d[1],a);else
 var
 e=d[1],i=cA(c,e,a),g=[0,bk(c,e,a),i];return f(g,k)}return b}function
-fX(c){var
+fW(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bM(fX,a)}return[0,b]}function
+b=bM(fW,a)}return[0,b]}function
 hS(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
@@ -4576,13 +4576,13 @@ l$(n,g,a,f){if(a){var
 b=a[1],w=N(f,h(hR(b))),x=l$(n,g,a[2],w);if(0===b[0])var
 l=l8(g,b[1],f),o=[0,l,i(c),l,0,0,0,0];else
 var
-m=bk(g,b[1],f),q=fX(m),j=aP(aL(0,n),q),d=fX(j[2]),k=e(fX,j[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aw(a,d)?i(c):ag(a,d)},k),o=[0,k,hS(d),v,u,t,s,r];var
+m=bk(g,b[1],f),q=fW(m),j=aP(aL(0,n),q),d=fW(j[2]),k=e(fW,j[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aw(a,d)?i(c):ag(a,d)},k),o=[0,k,hS(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
 ma(a){return e(function(a){return[0,a[2],d]},a)}function
 mb(a){var
-b=v(hR,a[4]),c=f(hQ(e(b0,a[3])),b);return f(ma(a[2]),c)}function
+b=w(hR,a[4]),c=f(hQ(e(b0,a[3])),b);return f(ma(a[2]),c)}function
 mc(a){var
 c=ca(0,ma(a[2])),d=aL(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aH,a[2]),c);return f(aJ(a[1],g),b)}function
 hT(b,d){var
@@ -4614,21 +4614,21 @@ b=mg(d,a[1]);if(b)var
 c=mh(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
 e=b;return e}return ss}var
-fZ=t(i(c),fY);function
+fY=t(i(c),fX);function
 mi(e){var
-a=I(fZ);if(e)var
+a=I(fY);if(e)var
 f=q(i(b(2,c)),a),g=z(i(b(2,b(2,c))),f),h=q(i(b(2,c)),a),d=ag(z(i(c),h),g);else
 var
-j=z(i(b(2,c)),a),k=I(fY),d=ag(z(q(i(b(2,c)),k),a),j);return ax(d)}function
+j=z(i(b(2,c)),a),k=I(fX),d=ag(z(q(i(b(2,c)),k),a),j);return ax(d)}function
 mj(d,b,a){if(d){var
 e=mi(b),f=z(i(c),e),g=q(t(i(c),a),f);return t(i(c),g)}var
 h=i(c),j=mi(b),k=ag(i(c),j);return t(q(a,z(i(c),k)),h)}function
 dK(f,e,d,a){var
-g=I(a),h=I(d),j=t(t(i(b(2,c)),h),g),k=f?e?fZ:ag(fZ,q(i(b(2,c)),fY)):ag(fZ,i(b(2,c))),l=q(I(k),j);return ax(z(i(c),l))}function
+g=I(a),h=I(d),j=t(t(i(b(2,c)),h),g),k=f?e?fY:ag(fY,q(i(b(2,c)),fX)):ag(fY,i(b(2,c))),l=q(I(k),j);return ax(z(i(c),l))}function
 mk(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hU(v,u,t){var
+hU(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4637,8 +4637,8 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
 i=d[1];if(i){if(d[2])return 0;var
-w=i[1],x=h[1],y=g[1],z=f[1];return n(function(a){var
-c=j(a,w),d=j(a,x),e=j(a,y),b=j(a,z);return dt([0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+x=i[1],y=h[1],z=g[1],A=f[1];return n(function(a){var
+c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return dt(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=i}else
 var
 k=d;var
@@ -4661,37 +4661,37 @@ s=q}else
 var
 s=a;return s}function
 ml(f,i,e,b,h){var
-j=f?c:d,a=W(i,j);function
+j=f?c:d,a=V(i,j);function
 g(b){var
-c=f?ec(b):dq(b);return D(c,a)}var
+c=f?eb(b):dq(b);return D(c,a)}var
 k=[0,ae(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mm(r,g,q,p,f,o,n){if(o){var
+mm(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
-j=x[2],s=0;if(f){var
-h=f[2],b=0;if(h){var
-i=h[2],c=0;if(i)if(i[2]){var
-a=0;b=1;c=1}else{var
-t=i[1],k=h[1],l=f[1],d=0;if(typeof
+j=x[2],s=0;if(g){var
+h=g[2],c=0;if(h){var
+i=h[2],d=0;if(i)if(i[2]){var
+a=0;c=1;d=1}else{var
+t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aB,bh(sv)),z=e(ae,0),a=hU(p,bN(0,b8(g,ek(0,f),z),q,0),A);b=1;c=1;d=1;break;case
+A=e(aB,bh(sv)),z=e(ae,0),a=hU(b,p,bN(0,b8(b,ej(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
-a=H(k[2],l[1]);b=1;c=1;d=1;break}else
+a=H(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mk,sw),a=hU(p,bN(0,b8(g,ml(r,g,l,k,t),0),q,0),B);b=1;c=1;d=1}else{var
-a=m;b=1;c=1;d=1}else
+B=e(mk,sw),a=hU(b,p,bN(0,b8(b,ml(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+a=m;c=1;d=1;f=1}else
 if(m){var
-a=0;b=1;c=1;d=1}else{var
-C=e(mk,sx),a=hU(p,bN(0,b8(g,ml(r,g,l,k,t),0),q,0),C);b=1;c=1;d=1}}if(!d)var
+a=0;c=1;d=1;f=1}else{var
+C=e(mk,sx),a=hU(b,p,bN(0,b8(b,ml(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
-u=i;if(!c)var
+u=i;if(!d)var
 v=u}else
 var
-v=h;if(!b){var
+v=h;if(!c){var
 w=v;s=1}}else{var
-w=f;s=1}if(s)var
+w=g;s=1}if(s)var
 a=w;var
 y=a?sy:a}else
 var
@@ -4700,14 +4700,14 @@ mn(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
 h=mm(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
 i=mm(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=el(a[2],b),l=mn(f,e,d,c,k[1],j,a[3]);if(l){var
+j=i[1],k=ek(a[2],b),l=mn(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
 hV(a){return js(b(2,c),aG(a,c))}function
 dL(j,a,e,w,v){var
-m=a?c:P(c),f=i(m),g=mj(a,e,st),h=mj(a,e,su),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(h,dK(a,e,h,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(h,dK(a,e,g,h)),p),o],s=ag(f,dK(a,e,h,f)),t=[0,z(ag(g,dK(a,e,g,h)),s),r],u=a?e?i(b(2,c)):q(i(b(2,b(2,c))),fY):i(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mn(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+m=a?c:P(c),f=i(m),g=mj(a,e,st),h=mj(a,e,su),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(h,dK(a,e,h,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(h,dK(a,e,g,h)),p),o],s=ag(f,dK(a,e,h,f)),t=[0,z(ag(g,dK(a,e,g,h)),s),r],u=a?e?i(b(2,c)):q(i(b(2,b(2,c))),fX):i(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mn(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
 mo(a,g,b){if(L(g,hV(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
@@ -4739,8 +4739,8 @@ var
 u=b;return u}function
 hW(a){var
 b=[1,[2,d]];return dk(function(b,a){return[1,[3,b,a]]},a,b)}function
-f0(a){return hW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-f1(a,c){return hW(e(function(a){var
+fZ(a){return hW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+f0(a,c){return hW(e(function(a){var
 d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
 mp(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
 f=a[1],g=bM(function(a){return mp(e,d,c,b,a)},f);return j(b8(e,d,c),g)}function
@@ -4748,39 +4748,39 @@ mq(a){return a?L(d,a[1][2][1]):a}function
 sz(a){var
 b=u(h(a),sA);return b?ak(function(a){return $(_(a,d))},a):b}function
 mr(c,f,b,a){if(b)if(a)var
-d=b[1],g=x(c,W(c,a[1]),f),h=mr(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+d=b[1],g=v(c,V(c,a[1]),f),h=mr(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-f2(b,a){return d$(d$(b,0),a)}function
+f1(b,a){return d$(d$(b,0),a)}function
 hX(a){if(a){var
-b=a[2],c=a[1];if(b)return f2(c,[0,sC,hX(b)]);var
+b=a[2],c=a[1];if(b)return f1(c,[0,sC,hX(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,sE,f2(hX(a),sD)]}function
-aa(a){return[0,sG,f2(hX(a),sF)]}function
+C(a){return[0,sE,f1(hX(a),sD)]}function
+aa(a){return[0,sG,f1(hX(a),sF)]}function
 am(a){return[0,sI,[0,a,sH]]}function
 l(b,a){return[0,aT(sK,aT(b,sJ)),a]}function
 J(b,a){return aa([0,l(b,a),0])}function
 cd(d){var
 b=d,a=pW,e=0;for(;;){if(b){var
-c=jj(a),b=b[1],a=c;continue}return[0,ea(e6(a)),e]}}function
-hY(a){return[0,ea(fa(a)),0]}function
-f3(a){var
-c=a9(a),f=0,b=0===c?p1:0<c?[0,fa(a)]:[1,fa(P(a))];if(0===b[0])var
+c=jj(a),b=b[1],a=c;continue}return[0,ea(e5(a)),e]}}function
+hY(a){return[0,ea(e$(a)),0]}function
+f2(a){var
+c=a9(a),f=0,b=0===c?p1:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
 d=ea(b[1]);else
 var
 e=ea(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
 hZ(a){var
-b=0,c=0<a9(a)?fa(a):p0;return[0,ea(c),b]}function
+b=0,c=0<a9(a)?e$(a):p0;return[0,ea(c),b]}function
 h0(a){switch(a[0]){case
 2:return sM;case
 3:return 2<=a[1]?sN:sO;case
 4:return sP;default:return sL}}function
-eC(b,a){function
-c(c,a){return V(c,h0(a))?eC(b,a):[0,sV,f(eC(b,a),sU)]}switch(a[0]){case
+eB(b,a){function
+c(c,a){return W(c,h0(a))?eB(b,a):[0,sV,f(eB(b,a),sU)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,a2(g),0];var
@@ -4798,15 +4798,15 @@ d=sS;break;default:var
 d=sT}var
 l=a[2];return f(c(h0(a),l),[0,d,k]);case
 4:var
-m=[0,sZ,hY(a[2])];return f(c(s0,a[1]),m);default:return[0,s2,f(eC(b,a[1]),s1)]}}function
-K(a){return[0,s5,f(eC(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
-h1(a){return[0,s7,f(eC(function(a){return a},a),s6)]}function
+m=[0,sZ,hY(a[2])];return f(c(s0,a[1]),m);default:return[0,s2,f(eB(b,a[1]),s1)]}}function
+K(a){return[0,s5,f(eB(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
+h1(a){return[0,s7,f(eB(function(a){return a},a),s6)]}function
 ce(a){if(0===a[0])return K(a[1]);var
 b=[0,l(s8,K(a[2])),0];return aa([0,l(s9,K(a[1])),b])}function
-f4(b,a){var
+f3(b,a){var
 c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return C([0,j(b,a[1]),d])}function
 s_(a){function
-b(a){return f4(ce,a)}switch(a[0]){case
+b(a){return f3(ce,a)}switch(a[0]){case
 0:var
 e=0,g=a[5]?s$:th,h=[0,l(ta,am(g)),e],i=[0,l(tb,ce(a[4])),h],j=[0,l(tc,b(a[3])),i],k=[0,l(td,b(a[2])),j],m=[0,l(te,b(a[1])),k],c=[0,l(tg,am(tf)),m];break;case
 1:var
@@ -4842,7 +4842,7 @@ a==="number")return t2;else
 switch(a[0]){case
 0:return t3;case
 1:return t4;default:return t5}}function
-eD(a){var
+eC(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
@@ -4864,7 +4864,7 @@ var
 k=g;var
 s=f(k,o),i=a[2],t=i?[0,l(ua,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(ub,am(h2(a[1]))),u])}function
 ms(a){if(0===a[0]){var
-b=[0,l(ul,f4(K,a[2])),0];return J(un,aa([0,l(um,f4(K,a[1])),b]))}var
+b=[0,l(ul,f3(K,a[2])),0];return J(un,aa([0,l(um,f3(K,a[1])),b]))}var
 c=[0,K(a[5]),0],d=[0,l(uo,C([0,K(a[4]),c])),0],e=[0,l(up,K(a[3])),d],f=[0,K(a[2]),0];return J(ur,aa([0,l(uq,C([0,K(a[1]),f])),e]))}function
 mt(a){if(0===a[0]){var
 b=[0,l(us,C(e(K,a[2]))),0];return J(uu,aa([0,l(ut,C(e(K,a[1]))),b]))}return ms([1,a[1],a[2],a[3],a[4],a[5]])}function
@@ -4883,18 +4883,18 @@ c=a[3],d=a[2],e=a[1],f=[0,l(uE,b(c[1],c[2])),0],g=[0,l(uF,b(d[1],d[2])),f];retur
 2:return J(uI,K(a[1]));default:var
 h=[0,l(uJ,K(a[2])),0];return J(uL,aa([0,l(uK,K(a[1])),h]))}}function
 uM(a){function
-b(a){return f4(K,a)}if(0===a[0])var
+b(a){return f3(K,a)}if(0===a[0])var
 c=a[5],e=c?[0,l(uN,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uO,C([0,K(a[3]),g])),0],i=[0,l(uP,K(a[2])),h],j=[0,l(uQ,cd(a[1])),i],d=f([0,l(uS,am(uR)),j],e);else
 var
 k=[0,l(uT,K(a[4])),0],m=[0,l(uU,b(a[3])),k],n=[0,l(uV,b(a[2])),m],o=a[1]?uW:uY,d=[0,l(uX,am(o)),n];return aa(d)}function
 mw(a){var
 b=a?[0,l(uZ,C(e(uM,a))),0]:a;return b}function
 h4(d,c,b,a){var
-g=[0,l(u0,C(e(eD,a))),0],h=f(mw(b),g),i=[0,l(u1,ms(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
+g=[0,l(u0,C(e(eC,a))),0],h=f(mw(b),g),i=[0,l(u1,ms(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
 u4(a){switch(a[0]){case
 0:return J(u5,h4(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eD,a[6]))),0],n=b?[0,l(u7,mv(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mt(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eC,a[6]))),0],n=b?[0,l(u7,mv(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mt(a[4])),o];if(typeof
 d==="number")if(d)var
 h=u9;else{var
 i=J(vc,g);k=1}else
@@ -4902,52 +4902,52 @@ var
 h=mu(d[1]);if(!k)var
 q=c?[0,l(u_,K(c[1])),0]:c,i=J(h,aa([0,l(u$,g),q]));return J(vb,aa([0,l(va,i),p]));case
 2:var
-r=[0,l(vd,C(e(eD,a[7]))),0],s=f(mw(a[6]),r),t=[0,l(ve,mv(a[5])),0],u=[0,l(vf,mt(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mu(a[1]),w)),u],s)));case
+r=[0,l(vd,C(e(eC,a[7]))),0],s=f(mw(a[6]),r),t=[0,l(ve,mv(a[5])),0],u=[0,l(vf,mt(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mu(a[1]),w)),u],s)));case
 3:var
-x=[0,l(vk,C(e(eD,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h1,a[1]))):J(vq,h1(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
+x=[0,l(vk,C(e(eC,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h1,a[1]))):J(vq,h1(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
 b=[0,h1(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vt,C(e(function(a){var
 b=[0,ce(a[2]),0];return C([0,am(a[1]),b])},G))),F];return J(vx,aa([0,l(vw,J(vv,aa([0,l(vu,C(e(am,a[1]))),H]))),z]));case
 4:var
-I=[0,l(vy,C(e(eD,a[3]))),0],L=[0,l(vB,J(vA,aa([0,l(vz,K(a[2])),0]))),I];return J(vF,aa([0,l(vE,J(vD,aa([0,l(vC,K(a[1])),0]))),L]));case
+I=[0,l(vy,C(e(eC,a[3]))),0],L=[0,l(vB,J(vA,aa([0,l(vz,K(a[2])),0]))),I];return J(vF,aa([0,l(vE,J(vD,aa([0,l(vC,K(a[1])),0]))),L]));case
 5:var
 M=[0,l(vG,K(a[5])),0];return J(vI,aa([0,l(vH,h4(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
 j=a[1],N=0,O=j?ce(j[1]):am(vL);return J(vK,aa([0,l(vJ,O),N]));default:var
 P=[0,l(vM,K(a[6])),0],Q=[0,l(vN,K(a[5])),P],R=[0,l(vO,h4(a[2],a[3],0,a[4])),Q],S=a[1];return J(vT,aa([0,l(vS,C(e(function(a){var
 b=[0,l(vP,K(a[2][2])),0],c=[0,l(vQ,K(a[2][1])),b];return aa([0,l(vR,am(a[1])),c])},S))),R]))}}function
-eE(a){return C(e(f3,a))}function
-f5(b,a){var
-c=[0,l(vU,hZ(a)),0];return aa([0,l(vV,C(e(eE,b))),c])}function
-eF(a){switch(a[0]){case
+eD(a){return C(e(f2,a))}function
+f4(b,a){var
+c=[0,l(vU,hZ(a)),0];return aa([0,l(vV,C(e(eD,b))),c])}function
+eE(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=f5(a[2],a[3]);return J(a[1],b);case
+b=f4(a[2],a[3]);return J(a[1],b);case
 2:var
 c=a[1]?vW:vY;return J(vX,am(c));case
 3:var
-d=[0,eE(a[3]),0];return J(vZ,C([0,f5(a[1],a[2]),d]));case
+d=[0,eD(a[3]),0];return J(vZ,C([0,f4(a[1],a[2]),d]));case
 4:var
-f=[0,cd(0),0],g=[0,f3(a[3]),f];return J(v0,C([0,f5(a[1],a[2]),g]));case
+f=[0,cd(0),0],g=[0,f2(a[3]),f];return J(v0,C([0,f4(a[1],a[2]),g]));case
 5:var
-h=[0,hZ(a[3]),0],i=[0,f3(a[2]),h];return J(v1,C([0,eF(a[1]),i]));case
+h=[0,hZ(a[3]),0],i=[0,f2(a[2]),h];return J(v1,C([0,eE(a[1]),i]));case
 6:var
-j=[0,hZ(a[3]),0],k=[0,f3(a[2]),j];return J(v2,C([0,eF(a[1]),k]));case
-7:return J(v3,eF(a[1]));default:var
-l=[0,C(e(eE,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eF(a[1]),m]))}}function
+j=[0,hZ(a[3]),0],k=[0,f2(a[2]),j];return J(v2,C([0,eE(a[1]),k]));case
+7:return J(v3,eE(a[1]));default:var
+l=[0,C(e(eD,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eE(a[1]),m]))}}function
 v5(a){var
-b=[0,eF(a[2]),0];return C([0,cd(a[1]),b])}function
+b=[0,eE(a[2]),0];return C([0,cd(a[1]),b])}function
 mx(a){if(typeof
 a==="number")return 0===a?am(v6):am(v7);else
 switch(a[0]){case
 0:var
-b=[0,C(e(eE,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
+b=[0,C(e(eD,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
 1:var
 c=[0,cd(a[2]),0];return J(v9,C([0,cd(a[1]),c]));default:return J(v_,C(e(K,a[1])))}}function
 v$(a){var
-b=a[4],h=b?[0,l(wa,eE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mx(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+b=a[4],h=b?[0,l(wa,eD([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mx(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
 my(g,a,d){var
 h=[0,l(we,C(e(v$,d))),0];if(a)var
-b=a[1],c=[0,l(wf,f5(b[1],b[2])),0];else
+b=a[1],c=[0,l(wf,f4(b[1],b[2])),0];else
 var
 c=a;var
 i=f(c,h);return aa([0,l(wg,hY(g)),i])}function
@@ -4958,34 +4958,34 @@ a==="number")return am(wm);else
 switch(a[0]){case
 0:return J(wn,cd(a[1]));case
 1:return J(wo,my(a[1],a[2],a[3]));default:return J(wp,mz(a[1],a[2],a[3],a[4]))}}function
-f6(a){var
-b=gP(gO(ap(a),function(b){return aN(a,b)}));return n(function(a){var
-b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?V(wE,fd(a)):c;return d?V(fd(a),wF):d},b)}function
-eG(b){function
+f5(a){var
+b=gO(gN(ap(a),function(b){return aN(a,b)}));return n(function(a){var
+b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?W(wE,fc(a)):c;return d?W(fc(a),wF):d},b)}function
+eF(b){function
 c(f){var
-a=fd(f),b=V(wG,a),c=b?V(a,wH):b;if(c)var
+a=fc(f),b=W(wG,a),c=b?W(a,wH):b;if(c)var
 d=c;else{var
-e=V(wI,a);if(e)return V(a,wJ);var
+e=W(wI,a);if(e)return W(a,wJ);var
 d=e}return d}var
-a=gP(gO(ap(b),function(a){return aN(b,a)}));if(a){var
+a=gO(gN(ap(b),function(a){return aN(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fd(a),f=V(wK,e),h=f?V(e,wL):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),wM):f;if(g)return $(aq(b,wN));var
+e=fc(a),f=W(wK,e),h=f?W(e,wL):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?W(h(d),wM):f;if(g)return $(aq(b,wN));var
 i=g}else
 var
 i=a;return i}function
 h5(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eG(a[1]);case
+1:return eF(a[1]);case
 3:var
 b=h5(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eH(m){var
+eG(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -4996,21 +4996,21 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=e6(a[2]);if(typeof
+f=e5(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eH(a[2]);if(i){var
+i=eG(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eH(a[1]),l=k?e_(b(2,c),j):k;return l?e_(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eG(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
 dM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c2(a){return v(dM,bE(a))}function
+c2(a){return w(dM,bE(a))}function
 h6(a){switch(a[0]){case
 0:var
 c=dM(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
@@ -5021,7 +5021,7 @@ wO(a){switch(a[0]){case
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return v(dM,b)}function
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dM,b)}function
 mA(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
 mB(a){if(0===a[0]){var
 b=bE(a[2]);return f(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
@@ -5054,16 +5054,16 @@ f=c[1];return ak(function(a){return aq(f,a)},b)}return 0;case
 d=mE(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eI(c,a){return n(function(a){var
-b=eH(a);return b?mE(c,a):b},a)}function
+eH(c,a){return n(function(a){var
+b=eG(a);return b?mE(c,a):b},a)}function
 mF(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
 mG(a){var
-d=e_(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e_(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
+d=e9(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e9(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
 mH(a,b){return b?[4,mH(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e7(jh(i),l,c);return[0,ju(ji(e6(a[1]),i)),m];case
+i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jh(i),l,c);return[0,ju(ji(e5(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5084,7 +5084,7 @@ wP(a){switch(a[0]){case
 0:var
 b=a[5],c=bF(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
 1:var
-f=w(c4,a[3]),g=c4(a[2]);return[1,c4(a[1]),g,f];default:return[2,c4(a[1])]}}function
+f=x(c4,a[3]),g=c4(a[2]);return[1,c4(a[1]),g,f];default:return[2,c4(a[1])]}}function
 mI(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(j(a,c));return[0,k(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
@@ -5096,8 +5096,8 @@ b=a[5],h=b?dN(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);re
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=dN(f),n=dN(g);return[2,k(e),n,m]}var
 o=dN(f),p=dN(g);return[1,k(e),p,o]}function
-f7(b,a){if(a){var
-c=a[1],d=a[2],g=f7(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
+f6(b,a){if(a){var
+c=a[1],d=a[2],g=f6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:ck(b[1],a[1]);return $(d)},h),g)}return a}function
 wQ(b){if(b[1])return 0;var
 a=b[4];if(typeof
@@ -5162,7 +5162,7 @@ G=s;if(!P)return G}if(O)return 0;break;case
 9:var
 t=a[4];if(typeof
 t!=="number"&&0===t[0]){var
-ac=t[1],ad=f7(0,S);return e(function(h){var
+ac=t[1],ad=f6(0,S);return e(function(h){var
 e=k(ac),a=h[2],b=h[1];if(0===b[0]){var
 f=b[1];if(0===a[0]){var
 g=function(a){return a?dN(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
@@ -5242,13 +5242,13 @@ A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 T=0,B=a[4];if(typeof
 B==="number"||!(1===B[0]))T=1;else{var
 g=a[3],U=0;if(g)if(0===g[1][0]){var
-C=u(c,wV),W=0;if(C){var
+C=u(c,wV),V=0;if(C){var
 D=a[2];if(D){var
-b=D[1];U=1;W=1}else
+b=D[1];U=1;V=1}else
 var
 E=1}else
 var
-E=C;if(!W)return E}else
+E=C;if(!V)return E}else
 var
 F=0;else
 var
@@ -5283,9 +5283,9 @@ k=a[3];if(k){if(0===k[1][0])return u(c,wW);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=V(wU,b);return o?V(b,c):o}function
+o=W(wU,b);return o?W(b,c):o}function
 h7(c,k,j,b){var
-l=h(c),d=v(function(a){return wR(l,j,a)},b),a=v(wQ,b),g=a?[0,a[1],a[2]]:wX,i=f(g,d),m=mI(k);return[0,e(wP,c),m,i]}function
+l=h(c),d=w(function(a){return wR(l,j,a)},b),a=w(wQ,b),g=a?[0,a[1],a[2]]:wX,i=f(g,d),m=mI(k);return[0,e(wP,c),m,i]}function
 mJ(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
@@ -5351,7 +5351,7 @@ F=p;if(!P)return F}if(O)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-aj=q[1],ak=f7(0,X);return e(function(a){var
+aj=q[1],ak=f6(0,X);return e(function(a){var
 b=k(aj),c=cB(a[2]);return[14,cB(a[1]),c,b]},ak)}return 0;case
 10:var
 r=a[4],Q=0;if(typeof
@@ -5393,8 +5393,8 @@ var
 K=y;if(!W)return K}if(V)return 0;break;default:return 0}var
 A=a[2],_=A?[0,bL(A[1]),0]:aL(0,z);return e(b,_)}function
 dO(e,d,c,b){var
-g=v(function(a){return h8(e,d,c,a)},b),a=v(mJ,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
-f8(a){return 11===a[1]?1:0}function
+g=w(function(a){return h8(e,d,c,a)},b),a=w(mJ,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
+f7(a){return 11===a[1]?1:0}function
 bS(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
@@ -5407,7 +5407,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=ck(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=V(w1,h);return i?V(h,m):i}var
+h=g[1],i=W(w1,h);return i?W(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -5416,7 +5416,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 bl(r,b,a){var
 d=a[2];if(d)var
-e=d[1],f=V(w2,e),s=f?V(e,b):f,c=s;else
+e=d[1],f=W(w2,e),s=f?W(e,b):f,c=s;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
@@ -5443,7 +5443,7 @@ a7(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bl(c,b,a):a[3]?bl(c,b,a):1:bl(c,b,a):bl(c,b,a)}function
 mL(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=V(w4,h),r=i?V(h,b):i,d=r;else
+h=g[1],i=W(w4,h),r=i?W(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return bl(a6(c),b,a);if(d){var
@@ -5496,11 +5496,11 @@ b=aJ(a[1],a[2]);return[0,h9(e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},b))]}return mI([1,a[1],a[2],a[3],a[4],a[5]])}function
 mN(j,b,i,g,f,d,a){function
 c(a){return h9(e(bF,a))}var
-l=ak(f8,a),m=dO(0,h(b),d,a),n=c5(f),o=mM(g),p=k(i);return[0,j,e(function(a){var
+l=ak(f7,a),m=dO(0,h(b),d,a),n=c5(f),o=mM(g),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 mO(a){return ak(function(a){return 2===a[0]?1:0},a)}function
 mP(j,a,b,i,g,f){var
-l=h(a),m=dO(mO(a),l,0,f),n=w(c5,g),o=mM(i),p=b?k(b[1]):[0,c,c];return[0,j,e(function(a){function
+l=h(a),m=dO(mO(a),l,0,f),n=x(c5,g),o=mM(i),p=b?k(b[1]):[0,c,c];return[0,j,e(function(a){function
 b(a){return h9(e(bF,a))}switch(a[0]){case
 0:var
 k=a[5],l=bF(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
@@ -5516,29 +5516,29 @@ mR(a){var
 c=mQ(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-f9(i,h,b){function
+f8(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f_,a(f_,b)),j=a(f,h_),k=i?f:a(c(b,f_),h_);function
-g(b){return a(b,[5,e(f_,d(h_,d(b,b)))])}var
+f=c(f9,a(f9,b)),j=a(f,h_),k=i?f:a(c(b,f9),h_);function
+g(b){return a(b,[5,e(f9,d(h_,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f$(f,e,d){function
+f_(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,h$,a(h$,d)],mS),g=a(c,[5,[3,0,h$,b(mS,b(c,c))]]);return[2,b(f9(f,e,d),g)]}function
+c=a([3,1,h$,a(h$,d)],mS),g=a(c,[5,[3,0,h$,b(mS,b(c,c))]]);return[2,b(f8(f,e,d),g)]}function
 ia(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(ga,b(ga,a)),d=e?h:b(f(a,ga),mT),i=b(d,[5,[3,0,ga,c(mT,c(d,d))]]);return c(f9(e,g,a),i)}function
+h=f(f$,b(f$,a)),d=e?h:b(f(a,f$),mT),i=b(d,[5,[3,0,f$,c(mT,c(d,d))]]);return c(f8(e,g,a),i)}function
 mU(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],j=cr(k(g[2][1]));if(j){var
 l=j[1],m=cr(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return b(2,a)}var
-e=[0,a,e7(h[2],d,c)];return dn(l,b3(fe(p,l),e))},q=n(A(h[1],c)),f=[0,n(h[1]),q];else
+e=[0,a,e6(h[2],d,c)];return dn(l,b3(fd(p,l),e))},q=n(A(h[1],c)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,c],[0,d,c]]}else
 var
@@ -5587,20 +5587,20 @@ w$(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
 xa(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-gb(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=gb(e,a[3]);return b3(dn(gb(e,a[2]),g),f)}return j(e,a[1])?[0,c,c]:[0,d,c]}function
+ga(e,a){if(0===a[0]){var
+f=[0,c,b(2,c)],g=ga(e,a[3]);return b3(dn(ga(e,a[2]),g),f)}return j(e,a[1])?[0,c,c]:[0,d,c]}function
 mW(a){return 0===a[0]?dC(a[1][4]):0}function
 mX(a){switch(a[0]){case
 0:var
 b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
 1:var
 d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
-gc(a){switch(a[0]){case
+gb(a){switch(a[0]){case
 0:return bQ(a4(a[1][1]));case
 1:var
 b=a[3];return b?bQ(a4(b[1])):d;default:return bQ(a4(a[1]))}}function
 ie(b){var
-a=v(mW,b),d=a?[0,a[1],a[2]]:v(mX,b);return A(c,bQ(d))}function
+a=w(mW,b),d=a?[0,a[1],a[2]]:w(mX,b);return A(c,bQ(d))}function
 mY(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
 b=xb;else
@@ -5614,7 +5614,7 @@ g=b;var
 h=g}else
 var
 h=a;return h}return a?0:xe}function
-eJ(b,a){switch(a[0]){case
+eI(b,a){switch(a[0]){case
 0:var
 c=a[1];if(aq(c,xf))return xg;if(aq(c,xh))return xi;if(aq(c,xj))return xk;if(aq(c,xl))return xm;if(aq(c,xn))return xo;var
 k=aq(c,xp),p=k?xq:k;return p;case
@@ -5625,20 +5625,20 @@ l=aq(f,xu),q=l?[0,[8,d,e]]:l;return q;case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eJ(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eI(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eJ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eI(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eJ(b,a[1]);return w(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eJ(b,a[1]);if(i)var
-j=mY(b,gP(gO(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eI(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eI(b,a[1]);if(i)var
+j=mY(b,gO(gN(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
 mZ(d,a){if(a){var
-e=a[1],b=eJ(d,e[2]);if(b)var
+e=a[1],b=eI(d,e[2]);if(b)var
 c=mZ(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
 f=b;return f}return xv}function
@@ -5683,7 +5683,7 @@ n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=ih(c[1]);return w(function(a){return[0,[0,h,a],j]},p)}var
+p=ih(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
@@ -5771,7 +5771,7 @@ s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
 7:case
 9:var
 j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
-gd(d){var
+gc(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(d){return function(a){var
 h=h2(a[1]),e=aq(h2(d[1]),h);if(e)var
@@ -5784,8 +5784,8 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eK(a){if(0===a[0])return dP(k(a[1]));var
-b=a[2],c=a[1];if(!eh(k(c))&&!eh(k(b))){var
+eJ(a){if(0===a[0])return dP(k(a[1]));var
+b=a[2],c=a[1];if(!eg(k(c))&&!eg(k(b))){var
 e=k(c);return g(o,1,[3,k(b),e])}var
 d=k(b);return bg(o,k(c),d)}function
 c8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
@@ -5795,7 +5795,7 @@ c=[0,a[4],0],d=f(c8(a[3]),c),e=f(c8(a[2]),d);return f(c8(a[1]),e);case
 1:var
 b=a[3],g=b?c8(b[1]):b,h=f(c8(a[2]),g);return f(c8(a[1]),h);default:return c8(a[1])}}function
 m4(s,a,i){if(ak(function(a){return 9===a[1]?1:0},i)){var
-b=V(h(a),xK),c=b?n(function(a){if(0===a[0]){var
+b=W(h(a),xK),c=b?n(function(a){if(0===a[0]){var
 d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,i=h?g(o,0,k(a[4])):h,c=0;if(i)if(d)var
 p=bE(d[1]),b=n(function(a){return dP(k(a))},p);else{var
 l=1;c=1}else{var
@@ -5805,7 +5805,7 @@ m=g(o,1,k(a[4]));if(m)var
 q=bE(a[3]),r=f(bE(a[2]),q),b=n(function(a){return dP(k(a))},r);else
 var
 b=m}return b?j(s,a):b},a):b;if(c)var
-d=f7(0,a),l=d?1:d,e=l;else
+d=f6(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
 m5(a){return a?xL:xM}function
@@ -5825,13 +5825,13 @@ j=b?g(o,1,k(a[3])):b;if(j){var
 m=k(a[5]);return bg(o,k(a[4]),m)}return j}function
 m7(a,e,F,E,s,r,f){function
 t(b){var
-d=m5(a),c=u(h(b),d);return c?n(eK,b):c}var
+d=m5(a),c=u(h(b),d);return c?n(eJ,b):c}var
 v=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
-G=h(e),l=V(cx(a),G);else
+G=h(e),l=W(cx(a),G);else
 var
 l=v;var
-w=l?V(h(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
+w=l?W(h(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
 H=1===a?1:0,m=m6(ik(a),H,E);else
 var
 m=x;if(m)if(a){var
@@ -5849,7 +5849,7 @@ D=c5(s),J=0===D[0]?cE(D[1]):0,j=J;else
 var
 j=m;if(j)var
 I=h(e),p=m4(function(a){if(0===a[0]){var
-b=a[1],c=V(xJ,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
+b=a[1],c=W(xJ,b),d=c?W(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
@@ -5857,7 +5857,7 @@ var
 p=j;if(p)var
 b=h(e),c=cx(a),y=m5(a),q=n(function(a){var
 e=a[2];if(e)var
-f=e[1],g=V(w3,f),v=g?V(f,b):g,d=v;else
+f=e[1],g=W(w3,f),v=g?W(f,b):g,d=v;else
 var
 d=1;var
 i=a[1];if(9<=i)switch(i-9|0){case
@@ -5882,7 +5882,7 @@ s=r[1];if(1===s[0]){var
 t=u(h(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
 var
 q=p;var
-z=q?gd(f):q;return z?n(ij,dO(0,h(e),r,f)):z}function
+z=q?gc(f):q;return z?n(ij,dO(0,h(e),r,f)):z}function
 m8(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
@@ -5903,10 +5903,10 @@ a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-R=h(e),q=V(a6(a),R);else
+R=h(e),q=W(a6(a),R);else
 var
 q=z;var
-A=q?V(h(e),xS):q,B=A?n(eK,v(m8,e)):A;if(B){var
+A=q?W(h(e),xS):q,B=A?n(eJ,w(m8,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
@@ -5917,10 +5917,10 @@ r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=w(c5,m)?0:1,b=U;else
+U=x(c5,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=w(c5,m);if(t){var
+t=x(c5,m);if(t){var
 E=t[1];if(0===E[0])var
 F=g(o,1,k(d[1])),G=F?cE(E[1]):F;else
 var
@@ -5932,15 +5932,15 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-x=d[1],y=w(c5,m);if(y){var
+v=d[1],y=x(c5,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
 j=0;break;case
 1:var
-J=g(o,1,k(x)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,j=L?cE(f[3]):L;break;case
+J=g(o,1,k(v)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,j=L?cE(f[3]):L;break;case
 2:var
-M=g(o,1,k(x)),j=M?dQ(f[1]):M;break;default:var
-N=g(o,1,k(x)),O=N?dQ(f[1]):N,j=O?dQ(f[2]):O}var
+M=g(o,1,k(v)),j=M?dQ(f[1]):M;break;default:var
+N=g(o,1,k(v)),O=N?dQ(f[1]):N,j=O?dQ(f[2]):O}var
 I=j}else
 var
 I=y;var
@@ -5953,37 +5953,37 @@ b=r;if(b)var
 T=h(e),s=n(function(b){return mL(i,a,T,b)},l);else
 var
 s=b;var
-D=s?gd(l):s;return D?n(ij,dO(i,h(e),0,l)):D}function
+D=s?gc(l):s;return D?n(ij,dO(i,h(e),0,l)):D}function
 xV(a){switch(a[0]){case
-0:return fI(a[1][1]);case
+0:return fH(a[1][1]);case
 1:var
-b=a[3];return b?fI(b[1]):1;default:return fI(a[1])}}function
+b=a[3];return b?fH(b[1]):1;default:return fH(a[1])}}function
 il(a,k,b,d){var
 e=m4(function(g){if(0===g[0]){var
-c=g[1],d=V(xI,c);if(d){var
+c=g[1],d=W(xI,c);if(d){var
 b=M(a,bL(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?V(xW,h(a)):f;if(g)var
+f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?W(xW,h(a)):f;if(g)var
 l=h(a),c=n(function(a){return wT(l,a)},b);else
 var
 c=g;var
-i=c?gd(b):c,j=i?n(eK,v(m3,a)):i;return j?n(xH,d[3]):j}function
-ge(b,a){return n(function(c){var
+i=c?gc(b):c,j=i?n(eJ,w(m3,a)):i;return j?n(xH,d[3]):j}function
+gd(b,a){return n(function(c){var
 a=c[2];return a?cl(a[1],b):1},a)}function
 m_(a){if(a){var
-b=a[1];if(f8(b))return 0;var
+b=a[1];if(f7(b))return 0;var
 c=[0,b,m_(a[2])]}else
 var
 c=a;return c}function
 xX(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ez(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
+d=a[4];if(ey(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
 m$(f,d,b){var
-g=m_(b),i=0,c=aI(N,0,e(xX,v(function(a){return h8(i,f,d,a)},g))),a=v(mJ,b),j=a?[0,a[1],a[2]]:x1;return N(h(j),c)}function
+g=m_(b),i=0,c=aI(N,0,e(xX,w(function(a){return h8(i,f,d,a)},g))),a=w(mJ,b),j=a?[0,a[1],a[2]]:x1;return N(h(j),c)}function
 im(b,a){var
 c=h(be(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
 io(a){if(a){var
@@ -5992,39 +5992,39 @@ na(aM,Z,aK,Y,X,b,aI,B){var
 a=h7(Z,aK,Y,X),aN=h(B);if(aM)var
 _=0;else
 var
-aE=a[1],aF=e(gc,a[1]),W=fC(ie(a[1]),aF,aE),aG=aJ(aL(0,h(W)),W),_=e(aH,be(function(a){return fE(a[2])},aG));var
+aE=a[1],aF=e(gb,a[1]),W=fB(ie(a[1]),aF,aE),aG=aJ(aL(0,h(W)),W),_=e(aH,be(function(a){return fD(a[2])},aG));var
 C=c6(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=il(Z,Y,X,a),ab=aa?ge(x2,B):aa;if(ab){var
-aO=$[1],D=e(gc,a[1]),c=ie(a[1]),aP=io(aI),V=kV(o,a);if(V){var
-l=fC(c,D,a[1]),g=hf(c,D,a[1],0),af=h(a[3]),ag=N(h(l),af),K=[0,h(l),ag],ah=a[3],F=ak(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?v(function(a){var
-b=e(b0,kH(l,a));return[0,a[4],b]},g):F,aj=f(hh(g,c,K,a[3]),ai),am=f(bA(j_(g)),aj),M=f(bA(ej(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
+aa=il(Z,Y,X,a),ab=aa?gd(x2,B):aa;if(ab){var
+aO=$[1],D=e(gb,a[1]),c=ie(a[1]),aP=io(aI),V=kV(o,a);if(V){var
+l=fB(c,D,a[1]),g=hf(c,D,a[1],0),af=h(a[3]),ag=N(h(l),af),K=[0,h(l),ag],ah=a[3],F=ak(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?w(function(a){var
+b=e(b0,kH(l,a));return[0,a[4],b]},g):F,aj=f(hh(g,c,K,a[3]),ai),am=f(bA(j_(g)),aj),M=f(bA(ei(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
 b=i(d);return aw(r(aX(m,a),m,b),a)},M);if(P){var
 Q=ak(q0,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
 q=p[1],u=bv(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fF(b,G[1],u),E=0;if(H){var
+G=q[1],H=fE(b,G[1],u),E=0;if(H){var
 s=al(b,[0,G[4],c]);if(s)var
 k=L(d,s[1][1]);else{var
 I=s;E=1}}else{var
 I=H;E=1}if(E)var
 k=I;break;case
 1:var
-J=q[3],k=J?fF(b,J[1],u):1;break;default:var
-k=fF(b,q[1],u)}if(k){var
+J=q[3],k=J?fE(b,J[1],u):1;break;default:var
+k=fE(b,q[1],u)}if(k){var
 ae=p[2],t=bd(t),p=ae;continue}var
 R=k}else
 var
 R=1;var
-w=R;break}}else
+v=R;break}}else
 var
-w=Q;if(w){var
-an=a[3],ao=v(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
+v=Q;if(v){var
+an=a[3],ao=w(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
 as=aQ(dB(a[2]),c),y=ac(e(function(a){return al(b,a)},as));if(y){var
 at=a[3],z=ac(kJ(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
-S=z[1],au=he(S),av=y[1],ax=a[2],ay=function(a){return kK(b,ax,c,a)},az=x[1],aA=0,aB=j_(g),aC=j(ar(function(a){return aX(m,a)}),aB),aD=ej(g);return fA(b,O,j(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,av,au,aO)}var
+S=z[1],au=he(S),av=y[1],ax=a[2],ay=function(a){return kK(b,ax,c,a)},az=x[1],aA=0,aB=j_(g),aC=j(ar(function(a){return aX(m,a)}),aB),aD=ei(g);return fz(b,O,j(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,av,au,aO)}var
 T=z}else
 var
 T=y;var
@@ -6033,7 +6033,7 @@ var
 U=x;var
 A=U}else
 var
-A=w}else
+A=v}else
 var
 A=P;return A}return V}var
 ad=ab}else
@@ -6043,15 +6043,15 @@ x3(a){if(0===a[0])return mW(a[1]);var
 b=a[1],c=dC(b[6]);return f(dC(b[5]),c)}function
 x4(a){if(0===a[0])return mX(a[1]);var
 b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-x5(a){if(0===a[0])return[0,gc(a[1]),d];var
+x5(a){if(0===a[0])return[0,gb(a[1]),d];var
 b=a[1],c=bQ(a4(b[2]));return[0,bQ(a4(b[1])),c]}function
 nb(f,n,m,l,k,j,y,d){var
-a=mP(f,n,m,l,k,j),p=a[2],b=v(x3,p),x=b?[0,b[1],b[2]]:v(x4,p),i=A(c,bQ(x)),q=e(x5,a[2]),r=hP(i,q,a[2]),z=h(d),B=aJ(aL(0,h(r)),r),g=c6(e(aH,be(function(a){return fE(a[2])},B)),z,d);if(g){var
+a=mP(f,n,m,l,k,j),p=a[2],b=w(x3,p),x=b?[0,b[1],b[2]]:w(x4,p),i=A(c,bQ(x)),q=e(x5,a[2]),r=hP(i,q,a[2]),z=h(d),B=aJ(aL(0,h(r)),r),g=c6(e(aH,be(function(a){return fD(a[2])},B)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=m9(f,n,m,l,k,j),u=t?ge(a6(f),d):t;if(u)return sn(o,y,a,i,q,s[1]);var
-w=u}else
+t=m9(f,n,m,l,k,j),u=t?gd(a6(f),d):t;if(u)return sn(o,y,a,i,q,s[1]);var
+v=u}else
 var
-w=g;return w}function
+v=g;return v}function
 nc(B,aM,aq,ap,A,ao,h){var
 l=h7(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
@@ -6062,7 +6062,7 @@ h==="number")var
 a=0===h?xD:xE;else
 switch(h[0]){case
 0:var
-b=h[2],m=h[1],H=w(xA,M(as,m)),J=0;if(H){var
+b=h[2],m=h[1],H=x(xA,M(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
@@ -6103,12 +6103,12 @@ var
 aa=b;if(!K)var
 a=aa}else{var
 aD=0;if(b){var
-x=b[1],aE=0;if(x){var
-y=x[2],aF=0;if(y){var
+v=b[1],aE=0;if(v){var
+y=v[2],aF=0;if(y){var
 z=y[2],aG=0;if(z)if(z[2]||b[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
-ab=z[1],ac=y[1],ad=x[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
+ab=z[1],ac=y[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
 var
 ae=z;if(!aG)var
 af=ae}else
@@ -6116,7 +6116,7 @@ var
 af=y;if(!aF)var
 ag=af}else
 var
-ag=x;if(!aE)var
+ag=v;if(!aE)var
 ah=ag}else
 var
 ah=b;if(!aD)var
@@ -6135,11 +6135,11 @@ an=0;P=1}}else{var
 an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=im(v(m3,B),ao),au=at?il(B,aq,ap,l):at;if(au){var
+at=im(w(m3,B),ao),au=at?il(B,aq,ap,l):at;if(au){var
 f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kM(o,l,j,i);if(Q)if(typeof
 f==="number")return 0===f?ak(function(b){var
 a=kN(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jZ(q2,e(function(b){var
-a=er(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
+a=eq(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
 E=M(l[3],f[1]);if(E){var
 aI=E[1],aJ=kO(f[3]);return kT(o,j,i,kO(f[2]),aJ,aI)}return E}var
 F=M(l[3],f[1]);if(F){var
@@ -6173,10 +6173,10 @@ c(a){return ib(d,a)}switch(b[0]){case
 0:var
 e=b[5],f=mV(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=w(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
 q=b[2],r=ib(function(b){return an(a,b)},q),s=b[1],j=[0,ib(function(b){return an(a,b)},s),r];else
 var
-t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),x=an(a,b[2]),j=[1,an(a,b[1]),x,v,u,t];var
+t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
 p=e(function(f){var
 b=f[4];if(typeof
 b==="number")var
@@ -6209,25 +6209,25 @@ f=e}else
 var
 f=a;return f}function
 yc(q){var
-d5=f6(q[3]),d6=d5?f6(q[4]):d5;if(d6){var
+d5=f5(q[3]),d6=d5?f5(q[4]):d5;if(d6){var
 Q=q[1];switch(Q[0]){case
 3:var
-ea=n(eG,Q[1]);if(ea)var
-hq=Q[2],bT=n(function(a){return eG(a[1])},hq);else
+ea=n(eF,Q[1]);if(ea)var
+hq=Q[2],bT=n(function(a){return eF(a[1])},hq);else
 var
 bT=ea;if(bT)var
 hr=Q[3],bU=n(function(a){var
-b=eG(a[1]),c=b?h5(a[2]):b;return c?eH(a[2]):c},hr);else
+b=eF(a[1]),c=b?h5(a[2]):b;return c?eG(a[2]):c},hr);else
 var
 bU=bT;if(bU)var
 hs=Q[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=h5(a);return b?eH(a):b},b)},hs);else
+b=h5(a);return b?eG(a):b},b)},hs);else
 var
 aS=bU;break;case
 7:var
 hu=Q[1],eb=n(function(a){var
-b=eG(a[1]);return b?eI(0,[0,a[2][1],[0,a[2][2],0]]):b},hu),aS=eb?eI(0,[0,Q[5],[0,Q[6],0]]):eb;break;default:var
+b=eF(a[1]);return b?eH(0,[0,a[2][1],[0,a[2][2],0]]):b},hu),aS=eb?eH(0,[0,Q[5],[0,Q[6],0]]):eb;break;default:var
 aS=1}var
 bR=aS}else
 var
@@ -6238,35 +6238,35 @@ a=mG(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f6(a[2]);if(b){var
+b=f5(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f6(a[1]);case
+1:return f5(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eI(bS,mF(c[1]));var
+c=a[3];if(c)return eH(bS,mF(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d9=function(e,d,c,b){var
-a=mG(e);return a?eI(bS,f(d,f(c,mF(b)))):a},l=q[1];switch(l[0]){case
+a=mG(e);return a?eH(bS,f(d,f(c,mF(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=v(c3,l[4]),gX=f(v(mD,l[3]),gW),gY=f(mB(l[2]),gX),S=f(v(h6,l[1]),gY);break;case
+gW=w(c3,l[4]),gX=f(w(mD,l[3]),gW),gY=f(mB(l[2]),gX),S=f(w(h6,l[1]),gY);break;case
 1:var
-bK=l[5],bM=l[3],gZ=v(c3,l[6]),g0=bK?mC(bK[1]):bK,g1=f(g0,gZ),g2=f(mA(l[4]),g1),g3=bM?[0,bM[1],0]:bM,g4=f(g3,g2),S=f(v(wO,l[2]),g4);break;case
+bK=l[5],bM=l[3],gZ=w(c3,l[6]),g0=bK?mC(bK[1]):bK,g1=f(g0,gZ),g2=f(mA(l[4]),g1),g3=bM?[0,bM[1],0]:bM,g4=f(g3,g2),S=f(w(wO,l[2]),g4);break;case
 2:var
-g5=v(c3,l[7]),g6=f(v(mD,l[6]),g5),g7=f(mC(l[5]),g6),g8=f(mA(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(v(function(a){return v(dM,f(a[1],a[2]))},g_),g9);break;case
+g5=w(c3,l[7]),g6=f(w(mD,l[6]),g5),g7=f(mC(l[5]),g6),g8=f(mA(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(w(function(a){return w(dM,f(a[1],a[2]))},g_),g9);break;case
 3:var
-g$=v(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(v(function(a){return dM(a[2])},hc),hb);break;case
+g$=w(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(w(function(a){return dM(a[2])},hc),hb);break;case
 4:var
-hd=v(c3,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
+hd=w(c3,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
 5:var
-hg=v(c3,l[4]),hj=f(bE(l[3]),hg),hl=f(bE(l[2]),hj),hm=f(v(h6,l[1]),hl),S=[0,l[5],hm];break;case
+hg=w(c3,l[4]),hj=f(bE(l[3]),hg),hl=f(bE(l[2]),hj),hm=f(w(h6,l[1]),hl),S=[0,l[5],hm];break;case
 6:var
 bO=l[1],S=bO?dM(bO[1]):bO;break;default:var
-hn=v(c3,l[4]),ho=f(mB(l[3]),hn),S=f(v(h6,l[2]),ho)}var
-d_=eI(bS,S);if(d_){var
+hn=w(c3,l[4]),ho=f(mB(l[3]),hn),S=f(w(h6,l[2]),ho)}var
+d_=eH(bS,S);if(d_){var
 T=q[2];switch(T[0]){case
 0:var
 aB=d8(T[1],T[3]);break;case
@@ -6289,16 +6289,16 @@ b$=a[6],ca=a[5],cb=a[4],cd=a[3],aC=a[2],ad=a[1],an=q[2];switch(an[0]){case
 0:return nb(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
 1:var
 eU=an[3],hW=an[4],hX=an[2],en=typeof
-ad==="number"?ad?x6:x7:ik(ad[1]),b5=e(k,hX),eo=m2(aC,e(k,eU));if(eo[2])return 0;var
+ad==="number"?ad?x6:x7:ik(ad[1]),b5=e(k,hX),er=m2(aC,e(k,eU));if(er[2])return 0;var
 b6=ih(hW);if(b6){var
-es=im(v(m8,aC),eU),ev=es?m9(ad,aC,cd,cb,ca,b$):es;if(ev)var
+eu=im(w(m8,aC),eU),ev=eu?m9(ad,aC,cd,cb,ca,b$):eu;if(ev)var
 hI=a6(ad),b7=u(h(b5),hI);else
 var
 b7=ev;if(b7){var
-hJ=b6[1],s=dl(en,b5),F=a0(b2(en,b5)),am=eo[1],X=mP(ad,aC,cd,cb,ca,b$),c1=lZ(o,X[2],am);if(c1){var
+hJ=b6[1],s=dl(en,b5),F=a0(b2(en,b5)),am=er[1],X=mP(ad,aC,cd,cb,ca,b$),c1=lZ(o,X[2],am);if(c1){var
 cY=cT(o,X[4],F),cG=0;if(cY){var
 cZ=X[5];if(cZ)var
-ba=fL(o,cZ[1],s);else
+ba=fK(o,cZ[1],s);else
 if(s)var
 ba=0;else{var
 c0=1;cG=1}}else{var
@@ -6308,34 +6308,34 @@ bb=ba}else
 var
 bb=c1;if(bb){var
 C=X[5],c2=X[3],aK=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
-d=cc(C,s,F,a),b=er(a[1],d);return[0,lX(aK,b,at([5,[0,c,c],c2],eu(hM(C,s,fW(a)),b)))]}return 0},am),fR=v(function(a){if(0===a[0]){var
+d=cc(C,s,F,a),b=eq(a[1],d);return[0,lX(aK,b,at([5,[0,c,c],c2],et(hM(C,s,fV(a)),b)))]}return 0},am),fS=w(function(a){if(0===a[0]){var
 c=cc(C,s,F,a),b=kN(a[1],c),d=b?[0,b[1],0]:b;return d}var
 e=cc(C,s,F,a);return[0,k6(a[1],e),0]},am),fT=e(function(d){var
 b=cc(C,s,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,az(e)),l=eq(e,h,g,b);return[0,[0,lY(aK,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fH(c,b),o=k9(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lY(aK,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fU=e(function(a){if(0===a[0]){var
+f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,az(e)),l=ep(e,h,g,b);return[0,[0,lY(aK,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fG(c,b),o=k9(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lY(aK,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fU=e(function(a){if(0===a[0]){var
 c=cc(C,s,F,a);return[0,hi(a[1],c)]}var
-b=a[1],d=k8(b,cc(C,s,F,a));return[1,k7(b,cc(C,s,F,a)),d]},am),fV=[0,e(function(a){if(0===a[0])var
+b=a[1],d=k8(b,cc(C,s,F,a));return[1,k7(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
 k=cc(C,s,F,a),d=cW(a[1],k);else
 var
-e=cc(C,s,F,a),b=a[1],f=k9(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fH(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lX(aK,d,at([5,[0,c,c],c2],eu(hM(C,s,fW(a)),d)))},am),fU,fT,fR,fQ];return k3(o,a6(X[1]),fV,fX,hJ)}return bb}var
+e=cc(C,s,F,a),b=a[1],f=k9(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lX(aK,d,at([5,[0,c,c],c2],et(hM(C,s,fV(a)),d)))},am),fU,fT,fS,fQ];return k3(o,a6(X[1]),fW,fX,hJ)}return bb}var
 ew=b7}else
 var
 ew=b6;return ew;default:return 0}case
 2:var
 aD=a[7],aE=a[6],aW=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-ce=ag[3],ah=mN(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eV=A(c,bQ(v(function(a){var
+ce=ag[3],ah=mN(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eV=A(c,bQ(w(function(a){var
 b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=h(ce),cf=c6(lT(eV,ah[2]),hZ,ce);if(cf){var
 eW=cf[1];if(eW[2])return 0;var
-eX=m7(ao,af,aZ,aY,aW,aE,aD),eY=eX?ge(cx(ao),ce):eX;if(eY){var
+eX=m7(ao,af,aZ,aY,aW,aE,aD),eY=eX?gd(cx(ao),ce):eX;if(eY){var
 h0=eW[1],h1=m$(h(af),aE,aD),h2=io(ag[2]),h3=ag[1],fN=ah[2],cX=n(function(a){var
 b=lW(o,a[1]);return b?lW(o,a[2]):b},fN);if(cX)var
 fO=hk(ah[4]),a_=cT(o,ah[4],fO);else
 var
 a_=cX;if(a_)var
-fP=fS(ah[5]),a$=n(function(a){return eA(o,a)},fP);else
+fP=fR(ah[5]),a$=n(function(a){return ez(o,a)},fP);else
 var
 a$=a_;return a$?r3(h3,h2,h1,ah,eV,h0):a$}var
 eZ=eY}else
@@ -6343,18 +6343,18 @@ var
 eZ=cf;return eZ;case
 1:var
 a1=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=ik(ao),e1=m1(af,e(k,e0));if(e1[2])return 0;var
-J=e1[1],e2=im(v(function(a){return f(a[1],a[2])},af),e0),e3=e2?m7(ao,af,aZ,aY,aW,aE,aD):e2;if(e3){var
+J=e1[1],e2=im(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?m7(ao,af,aZ,aY,aW,aE,aD):e2;if(e3){var
 p=mN(ao,af,aZ,aY,aW,aE,aD);if(typeof
 a1!=="number"&&2===a1[0]){var
 e5=e(k,a1[1]),e6=dl(ap,e5),e7=a0(b2(ap,e5)),e8=dl(ap,a2),e9=a0(b2(ap,a2)),dE=lh(o,p[2],J);if(dE)var
 gB=cx(p[1]),bw=u(h(J),gB);else
 var
 bw=dE;var
-dF=bw?cT(o,p[4],e9):bw,dG=dF?cT(o,p[4],e7):dF,dH=dG?fL(o,p[5],e8):dG,dI=dH?fL(o,p[5],e6):dH;if(dI){var
+dF=bw?cT(o,p[4],e9):bw,dG=dF?cT(o,p[4],e7):dF,dH=dG?fK(o,p[5],e8):dG,dI=dH?fK(o,p[5],e6):dH;if(dI){var
 dK=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
 h=e(function(a){return lg(dK,gD,gC,f,g,a)},J),i=cx(dK),a=mh(o,h);function
-b(a,b){return x(o,a,b)}var
-d=W(o,c);return w(function(a){return mf(B,d,D,b,i,a)},a)},bu=dv(e9,e8);if(bu){var
+b(a,b){return v(o,a,b)}var
+d=V(o,c);return x(function(a){return mf(B,d,D,b,i,a)},a)},bu=dv(e9,e8);if(bu){var
 dw=bu[1],bv=dv(e7,e6);if(bv){var
 dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
@@ -6367,10 +6367,10 @@ dC=dB}else
 var
 dC=bu;return dC}return dI}var
 cg=ih(a1);if(cg){var
-h4=cg[1],as=dl(ap,a2),aF=a0(b2(ap,a2)),cN=lh(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fL(o,p[5],as):cO;if(cP){var
-ax=p[5],cR=p[3],cS=p[1],fJ=p[6],cM=function(a){var
-b=fM(ax,as,aF,a);return R(fM(ax,as,aF,a),b)},fB=e(function(a){return[0,lg(cS,cR,ax,as,aF,a)]},J),fE=e(cM,J),fF=e(function(a){return 0},J),fG=e(function(a){return[0,[6,cM(a)]]},J),fI=[0,e(function(b){var
-a=az(fM(ax,as,aF,b));return hv(cS,a,at([5,[0,c,c],cR],eu(fK(ax,as,b[2]),a)))},J),fG,fF,fE,fB];return k3(o,cx(p[1]),fI,fJ,h4)}return cP}var
+h4=cg[1],as=dl(ap,a2),aF=a0(b2(ap,a2)),cN=lh(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fK(o,p[5],as):cO;if(cP){var
+ax=p[5],cR=p[3],cS=p[1],fM=p[6],cM=function(a){var
+b=fL(ax,as,aF,a);return R(fL(ax,as,aF,a),b)},fD=e(function(a){return[0,lg(cS,cR,ax,as,aF,a)]},J),fE=e(cM,J),fF=e(function(a){return 0},J),fH=e(function(a){return[0,[6,cM(a)]]},J),fI=[0,e(function(b){var
+a=az(fL(ax,as,aF,b));return hv(cS,a,at([5,[0,c,c],cR],et(fJ(ax,as,b[2]),a)))},J),fH,fF,fE,fD];return k3(o,cx(p[1]),fI,fM,h4)}return cP}var
 e4=cg}else
 var
 e4=e3;return e4;default:return 0}case
@@ -6382,11 +6382,11 @@ hG=h(ch),hH=h(e_),eg=u(h(e$),hH),eh=eg?n(function(a){var
 b=a7(hG,h(Y),a);if(b){var
 c=a[1];if(1===c){var
 d=a[2],e=d?[0,bL(d[1]),0]:aL(0,h(Y));return n(function(b){var
-a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):eg,ei=eh?gd(au):eh,em=ei?n(function(a){return eK(a[2])},fa):ei,fc=em?n(ij,dO(0,h(Y),0,au)):em,fd=fc?ge(h(ch),ci):fc;if(fd){var
-h9=fb[1],h_=a[3],ec=ak(f8,au),aT=dO(0,h(Y),0,au),hw=aJ(e$,e_),bV=e(function(a){var
+a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):eg,el=eh?gc(au):eh,em=el?n(function(a){return eJ(a[2])},fa):el,fc=em?n(ij,dO(0,h(Y),0,au)):em,fd=fc?gd(h(ch),ci):fc;if(fd){var
+h9=fb[1],h_=a[3],ec=ak(f7,au),aT=dO(0,h(Y),0,au),hw=aJ(e$,e_),bV=e(function(a){var
 b=k(a[2]);return[0,k(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
 b=cC(a[2]);return[0,a[1],b]},h_),m=[0,ch,e(function(a){var
-b=bF(a[2]);return[0,a[1],b]},fa),hy,hx],h$=m$(h(Y),0,au),fe=io(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=h(m[1]),dn=V(so,bq),dp=dn?V(bq,sp):dn,dq=dp?V(bq,h(m[4])):dp,dr=dq?V(h(m[4]),sq):dq,ds=dr?md(bp):dr;if(ds){var
+b=bF(a[2]);return[0,a[1],b]},fa),hy,hx],h$=m$(h(Y),0,au),fe=io(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=h(m[1]),dn=W(so,bq),dp=dn?W(bq,sp):dn,dq=dp?W(bq,h(m[4])):dp,dr=dq?W(h(m[4]),sq):dq,ds=dr?md(bp):dr;if(ds){var
 aP=bp,aO=m[3];for(;;){if(aO){var
 di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hT(aP,di[2]):dk;if(dm){var
 aP=[0,dj,aP],aO=aO[2];continue}var
@@ -6405,8 +6405,8 @@ var
 bt=bs;var
 du=bt?n(function(a){return bg(o,a[1],a[2])},bV):bt;if(du){var
 bd=h(m[1]),bf=h(m[2]),c7=N(bf,h(hQ(e(b0,m[3])))),f3=m[3],ay=mc(m),aM=f3,bc=bf;for(;;){if(aM){var
-c4=aM[1],c5=c4[2],fY=N(bc,h(bD(c5))),fZ=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c4[1],f2],ay],aM=fZ,bc=fY;continue}var
-aa=l$(bd,ay,m[4],c7),f4=l_(ay,m[4],c7),f5=m[3],c8=f(l7(mc(m),f5,bf),f4),c9=h(mb(m)),f7=0,f_=f(c8,cw(function(a,b){return l4(aa,a,b)},f7,d,c9,aT)),ga=f(bA(eB(aa)),f_),c_=f(bA(dJ(aa)),ga),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(h(bV),bd);if(c$)var
+c4=aM[1],c5=c4[2],fY=N(bc,h(bD(c5))),f1=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c4[1],f2],ay],aM=f1,bc=fY;continue}var
+aa=l$(bd,ay,m[4],c7),f4=l_(ay,m[4],c7),f6=m[3],c8=f(l7(mc(m),f6,bf),f4),c9=h(mb(m)),f9=0,f$=f(c8,cw(function(a,b){return l4(aa,a,b)},f9,d,c9,aT)),ge=f(bA(eA(aa)),f$),c_=f(bA(dJ(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(h(bV),bd);if(c$)var
 gg=m[4],bi=n(function(a){return 0===a[0]?u(h(a[1]),bd):1},gg);else
 var
 bi=c$;var
@@ -6419,14 +6419,14 @@ gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
 gh=mb(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
-gi=0,gj=v(function(a){return et(gi,d,a)},aT),bl=ac(e(function(a){return ht(aG,a)},gj));if(bl){var
+gi=0,gj=w(function(a){return es(gi,d,a)},aT),bl=ac(e(function(a){return ht(aG,a)},gj));if(bl){var
 bm=ac(e(function(a){return al(aG,[0,a,d])},bV));if(bm){var
 gk=0,gl=0,bn=ac(cw(function(a,b){return l5(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
 dd=bn[1];if(ec)var
-gm=fe[2],gn=fe[1],go=eB(aa),bo=kW(h$,dd,[8,j(ar(aj),go),gn,gm]);else
+gm=fe[2],gn=fe[1],go=eA(aa),bo=kW(h$,dd,[8,j(ar(aj),go),gn,gm]);else
 var
 bo=dd;var
-gp=he(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eB(aa),gv=j(ar(aj),gu),gw=dJ(aa);return fA(aG,bh,j(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
+gp=he(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eA(aa),gv=j(ar(aj),gu),gw=dJ(aa);return fz(aG,bh,j(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
 de=bn}else
 var
 de=bm;var
@@ -6477,7 +6477,7 @@ y=ef;K=1}break}if(!K){var
 ed=0;cH=1}}}else{var
 ed=aU;cH=1}if(cH)var
 y=ed;if(y){var
-eE=y[1],z=eE[2],eF=k(z),eJ=k(eE[1]),dR=g(o,1,k(G)),dS=dR?g(o,1,[3,eF,[0,c,c]]):dR,dT=dS?g(o,1,eJ):dS,eL=dT?g(o,0,[3,[5,[0,c,c],eF],eJ]):dT;if(eL)var
+eE=y[1],z=eE[2],eI=k(z),eK=k(eE[1]),dR=g(o,1,k(G)),dS=dR?g(o,1,[3,eI,[0,c,c]]):dR,dT=dS?g(o,1,eK):dS,eL=dT?g(o,0,[3,[5,[0,c,c],eI],eK]):dT;if(eL)var
 hN=0,hO=0,b9=n(function(a){return mL(hO,hN,yb,a)},aI);else
 var
 b9=eL;var
@@ -6489,7 +6489,7 @@ hP=[0,b(2,c),c],E=g(o,0,[3,k(z),hP]);if(E)var
 b_=E;else
 var
 hV=k(z),b_=g(o,0,[3,[0,b(2,c),c],hV]);if(b_){var
-eC=v(function(a){var
+eC=w(function(a){var
 b=h8(0,x_,0,a);return e(function(b){return $(mR(a))},b)},aI),hK=function(f){var
 g=f[1];if(g){var
 i=g[1],j=r(i,eC,0);if(j)var
@@ -6502,11 +6502,11 @@ a=ya;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
 2:return[0,[0,b,[1,x$,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hL=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,v(hK,a[1]),d,c,b]},ib),hR=[0,b3[1],b3[2]],hz=[0,ia(E,G,z),0],hA=[0,ia(E,G,z),hz],hB=[0,ia(E,G,z),hA],hC=[0,f$(E,G,z),0],hD=[0,f$(E,G,z),hC],hS=0,hE=[0,[0,f$(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
+b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},ib),hR=[0,b3[1],b3[2]],hz=[0,ia(E,G,z),0],hA=[0,ia(E,G,z),hz],hB=[0,ia(E,G,z),hA],hC=[0,f_(E,G,z),0],hD=[0,f_(E,G,z),hC],hS=0,hE=[0,[0,f_(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
 d=u(b,c)?a:w7;return[0,d]},w9)};return nb(0,e(function(a){var
-e=[0,f9(E,G,z)],d=1,f=b4(a,[2,cl]);function
+e=[0,f8(E,G,z)],d=1,f=b4(a,[2,cl]);function
 b(b,a){return[3,1,b,a]}var
-c=f9(E,G,z),g=b4(a,b(b(f$(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hS,hR,id,hL)}return b_}var
+c=f8(E,G,z),g=b4(a,b(b(f_(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hS,hR,id,hL)}return b_}var
 eN=1}else
 var
 eN=eM;var
@@ -6520,17 +6520,17 @@ eP=eD;return eP}return 0;case
 cm=a[4],fg=a[1],cn=q[2];if(0===cn[0]){var
 fh=cn[3],t=h7(fg,[0,a[2],a[3]],0,cm),cq=ii(h(fh),fh);if(cq){var
 fi=cq[1];if(fi[2])return 0;var
-fj=il(fg,0,cm,t),fk=fj?$(ak(f8,cm)):fj;if(fk){var
+fj=il(fg,0,cm,t),fk=fj?$(ak(f7,cm)):fj;if(fk){var
 fl=kV(o,t);if(fl){var
-ip=fi[1],fm=e(gc,t[1]),I=ie(t[1]),fn=k(a[5]),Z=cn[1],bB=fC(I,fm,t[1]),O=hf(I,fm,t[1],0),gI=h(t[3]),gJ=N(h(bB),gI),aR=[0,h(bB),gJ],gK=hh(O,I,aR,t[3]),gL=f(e(ct,O),gK),dX=f(bA(ej(O)),gL),dY=cp(dX)[1],bC=co(dY),dZ=t[2];if(0===dZ[0]){var
+ip=fi[1],fm=e(gb,t[1]),I=ie(t[1]),fn=k(a[5]),Z=cn[1],bB=fB(I,fm,t[1]),O=hf(I,fm,t[1],0),gI=h(t[3]),gJ=N(h(bB),gI),aR=[0,h(bB),gJ],gK=hh(O,I,aR,t[3]),gL=f(e(ct,O),gK),dX=f(bA(ei(O)),gL),dY=cp(dX)[1],bC=co(dY),dZ=t[2];if(0===dZ[0]){var
 d0=n(function(a){var
 b=i(d);return aw(r(aX(bC,a),bC,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
-gM=t[3],gN=v(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
+gM=t[3],gN=w(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
 gQ=aQ(dZ[1],I),bH=ac(e(function(a){return al(Z,a)},gQ));if(bH){var
 bI=cs(Z,I,[5,fn,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bI){var
 bJ=t[3],gR=bH[1],gS=bI[1],gT=bG[1],aA=function(a){return aX(bC,a)},gF=aL(0,h(bJ)),gG=e(function(k){var
 l=M(bJ,k);if(l){var
-a=l[1],u=b2(k,bJ),x=h(v(function(a){return cQ(I,a)},u)),y=N(aR[2],x),i=[0,N(aR[1],k),y],r=ej(O),f=j(ar(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fD(O,I,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=b2(k,bJ),v=h(w(function(a){return cQ(I,a)},u)),y=N(aR[2],v),i=[0,N(aR[1],k),y],r=ei(O),f=j(ar(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fC(O,I,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -6546,11 +6546,11 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=ep(O,I,i,a);return w(function(a){return[0,j(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dU=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dV=e(ae,gT),dW=function(az,ay){var
+t=eo(O,I,i,a);return x(function(a){return[0,j(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dU=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dV=e(ae,gT),dW=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
 t=i[1],ab=u(h(t),sB),ac=ab?n(function(a){var
 d=H(P(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},t):ab;if(ac){var
-ad=mr(Z,gS,ek(0,l),t),j=i[2],v=bN(0,b8(Z,ad,dV),dY,0),L=function(a){return mq(mp(Z,ad,dV,v,a))};if(typeof
+ad=mr(Z,gS,ej(0,l),t),j=i[2],v=bN(0,b8(Z,ad,dV),dY,0),L=function(a){return mq(mp(Z,ad,dV,v,a))};if(typeof
 j==="number")return 0===j?ak(function(b){var
 a=r(b,v,0);return a?H(a[1][2][2],d):a},dU):0;else{if(0===j[0]){var
 a=j[2],O=n(sz,a);if(O){var
@@ -6559,13 +6559,13 @@ g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=f1(B,A),ao=f0(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=f0(B,A),ao=fZ(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=f0(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f1(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=fZ(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f0(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6573,7 +6573,7 @@ z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=f0(I),as=[1,[6,f1(m,G),ar]],at=[1,[6,g[2],as]],au=f0(G),J=[0,[0,m,[0,[1,[4,[1,[6,f1(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=fZ(I),as=[1,[6,f0(m,G),ar]],at=[1,[6,g[2],as]],au=fZ(G),J=[0,[0,m,[0,[1,[4,[1,[6,f0(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6606,7 +6606,7 @@ var
 Y=p;return Y}}return ac}var
 ae=i[1],w=M(l,ae);if(w){var
 af=w[1],aA=af[1],ag=$(_(bP(af),aA));if(ag){var
-ah=el(ae,l),ai=dW(ah[1],i[2]);if(ai){var
+ah=ek(ae,l),ai=dW(ah[1],i[2]);if(ai){var
 l=ah[2],i=i[3];continue}var
 aj=ai}else
 var
@@ -6633,7 +6633,7 @@ fp=cq;return fp}return 0;case
 fq=a[1];if(fq){var
 fr=fq[1],cu=q[2];if(0===cu[0]){var
 cv=ig(0,yd,cu[3]);if(cv){var
-fs=eK(fr);if(fs){var
+fs=eJ(fr);if(fs){var
 iq=cv[1],ft=bF(fr)[2],a5=cu[1],bx=cs(a5,d,ft);if(bx){var
 by=cs(a5,d,[5,[0,c,c],ft]);if(by){var
 gE=bx[1][1],dL=L(cL(a5),gE);if(dL)return mo(a5,by[1][1],iq);var
@@ -6651,22 +6651,22 @@ cz=ig(0,ye,cy[3]);return cz?mo(cy[1],d,cz[1]):cz}return 0;default:var
 av=a[1],fv=q[2];if(2===fv[0]){var
 fw=fv[1],cA=ic(h(fw),fw);if(cA){var
 fx=cA[1];if(fx[2])return 0;var
-cB=fx[1],ex=V(x9,h(av)),ey=ex?V(h(av),jI):ex,ez=ey?md(e(aH,av)):ey,fy=ez?n(function(c){var
+cB=fx[1],ex=W(x9,h(av)),ey=ex?W(h(av),jI):ex,eB=ey?md(e(aH,av)):ey,fy=eB?n(function(c){var
 a=cr(k(c[2][1]));if(a){var
 b=cr(k(c[2][2]));if(b)return $(cK(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},av):ez;if(fy)var
-ir=gb(w$,cB),cD=ne(a[5],ir);else
+d=a;return d},av):eB;if(fy)var
+ir=ga(w$,cB),cD=ne(a[5],ir);else
 var
 cD=fy;if(cD)var
-is=gb(xa,cB),cE=ne(a[6],is);else
+is=ga(xa,cB),cE=ne(a[6],is);else
 var
 cE=cD;if(cE){var
 hF=e(function(a){return[0,d,0]},av);return nd(av,a[2],a[3],a[4],hF,cB)}var
-fz=cE}else
+fA=cE}else
 var
-fz=cA;return fz}return 0}}return aB}var
+fA=cA;return fA}return 0}}return aB}var
 O=[aM,yh,pt(0)],nf=[aM,yi,pt(0)];function
 yf(m,b){var
 f=[0,l(wu,am(b[4])),0],g=[0,l(ww,aa([0,l(wv,am(b[3])),f])),0],a=b[2];switch(a[0]){case
@@ -6675,7 +6675,7 @@ c=J(wq,my(a[1],a[2],a[3]));break;case
 1:var
 c=J(wr,mz(a[1],a[2],a[3],a[4]));break;default:var
 c=J(ws,C(e(wl,a[1])))}var
-h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(jf(yg,f2(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
+h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(jf(yg,f1(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
 ad(a){if(0===a[0])return a[1];throw O}function
 Y(a){if(1===a[0])return a[1];throw O}function
 aK(a){if(2===a[0])return a[1];throw O}function
@@ -6693,12 +6693,12 @@ c9(a){switch(a[0]){case
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
 2:return[0,a[1],yj]}throw O}function
-eL(e,d){var
+eK(e,d){var
 a=U(e,Y(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw O}function
-gf(i){var
-f=d2(i),d=[0,0],e=gJ(f)-1|0;if(!(e<0)){var
+ge(i){var
+f=d2(i),d=[0,0],e=gI(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
 a=d[1],g=iW(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
 0:var
@@ -6722,11 +6722,11 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eM(a){return ju(gf(a))}function
-eN(b){var
-a=dR(b);return 45===aN(a,0)?P(eM(di(a,1,ap(a)-1|0))):eM(a)}function
-ng(a){return d9(eM(dR(a)))}function
-gg(a){return jt(eM(dR(a)))}function
+eL(a){return ju(ge(a))}function
+eM(b){var
+a=dR(b);return 45===aN(a,0)?P(eL(di(a,1,ap(a)-1|0))):eL(a)}function
+ng(a){return d9(eL(dR(a)))}function
+gf(a){return jt(eL(dR(a)))}function
 cF(c){var
 a=dR(c);if(6<ap(a))throw O;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(i4(a))}function
@@ -6759,10 +6759,10 @@ var
 t=1<ap(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
 k=q[1],x=0;if(aq(k,yn)||48===aN(k,ap(k)-1|0))x=1;else
 var
-z=gf(k),e=[0,gf(g),z];if(x)throw O}else
+z=ge(k),e=[0,ge(g),z];if(x)throw O}else
 var
-e=[0,gf(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i4(f)&&!(64<i4(f)))return[4,e,d9(eM(f))];throw O}throw O}return e}function
+e=[0,ge(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i4(f)&&!(64<i4(f)))return[4,e,d9(eL(f))];throw O}throw O}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6772,11 +6772,11 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw O;return g}function
-gh(a){return ni(function(a){return[0,a]},a)}function
+gg(a){return ni(function(a){return[0,a]},a)}function
 ip(a){var
 b=aK(a);return ni(function(a){return a},b)}function
-S(a){return gh(aK(a))}function
-bT(a){if(2===a[0])return[0,gh(a[1])];var
+S(a){return gg(aK(a))}function
+bT(a){if(2===a[0])return[0,gg(a[1])];var
 b=ad(a),c=S(s(b,yo));return[1,S(s(b,yp)),c]}function
 Z(a){throw[0,nf,aT(jf(yr,a),yq)]}function
 iq(c){var
@@ -6784,9 +6784,9 @@ a=aK(c);if(m(a,ys)){var
 b=m(a,yt);if(b)throw O;return b}return 1}function
 yu(d){var
 b=ad(d);function
-a(a){return eL(bT,s(b,a))}var
+a(a){return eK(bT,s(b,a))}var
 c=aK(s(b,yv));if(m(c,yw)){if(m(c,yx)){if(m(c,yy))return Z([0,yA,[0,c,yz]]);var
-e=aR(b,yB),f=cf(function(a){return eL(bT,a)},e),g=a(yC);return[1,a(yD),g,f]}var
+e=aR(b,yB),f=cf(function(a){return eK(bT,a)},e),g=a(yC);return[1,a(yD),g,f]}var
 h=iq(s(b,yE)),i=bT(s(b,yF)),j=a(yG),k=a(yH);return[0,a(yI),k,j,i,h]}return[2,a(yJ)]}function
 yK(d){var
 a=ad(d);if(a){var
@@ -6913,9 +6913,9 @@ h=U(S,Y(s(a,z0)));return[0,U(S,Y(s(a,z1))),h]}function
 z2(f){var
 a=ad(f);function
 d(b){return S(s(a,b))}function
-c(b){return eL(S,s(a,b))}var
+c(b){return eK(S,s(a,b))}var
 b=aK(s(a,z3));if(m(b,z4)){if(!m(b,z5)){var
-j=s(a,z$),e=cG(function(a){return a},j),k=aR(a,Aa),l=cf(function(a){return c(Ab)},k),n=gh(aK(e[2])),o=gh(aK(e[1])),p=d(Ac);return[0,cF(s(a,Ad)),p,o,n,l]}if(m(b,z6))throw O}var
+j=s(a,z$),e=cG(function(a){return a},j),k=aR(a,Aa),l=cf(function(a){return c(Ab)},k),n=gg(aK(e[2])),o=gg(aK(e[1])),p=d(Ac);return[0,cF(s(a,Ad)),p,o,n,l]}if(m(b,z6))throw O}var
 g=d(z7),h=c(z8),i=c(z9);return[1,aq(b,z_),i,h,g]}function
 it(ar){var
 g=c9(ar),h=g[1];if(m(h,Ae)){if(m(h,Af)){if(m(h,Ag)){if(m(h,Ah))return Z([0,Aj,[0,h,Ai]]);var
@@ -6934,7 +6934,7 @@ A=Y(k[2]),at=Y(s(a,AH)),P=U(function(a){return dS(0,a)},at);if(!au(yK,A)&&!au(fu
 ax=U(yu,A),f=ad(b[2]);if(m(b[1],zQ))var
 I=cG(S,s(f,zR)),J=cG(S,s(f,zS)),am=J[2],an=J[1],ao=S(s(f,zT)),Q=[1,I[1],I[2],ao,an,am];else
 var
-ap=eL(S,s(f,zU)),Q=[0,eL(S,s(f,zV)),ap];return[0,ax,Q,z,P]}o(0);var
+ap=eK(S,s(f,zU)),Q=[0,eK(S,s(f,zV)),ap];return[0,ax,Q,z,P]}o(0);var
 av=U(ir,Y(s(a,AI))),aw=is(b);return[1,0,U(nj,A),0,aw,0,av]}}}else
 if(!m(b[1],AJ)){o(0);var
 R=U(ir,Y(s(a,AK))),v=0,e=R;for(;;){if(e){var
@@ -6972,7 +6972,7 @@ a=c9(f),b=a[1];if(m(b,AZ)){if(m(b,A0)){if(m(b,A1)){if(m(b,A2))throw O;var
 d=a[2],g=S(s(ad(d),A3));return[3,S(s(ad(d),A4)),g]}var
 h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A5),j=c(A6);return[1,c(A7),j,i]}var
 e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aG,aR(a,A8)),aa=m(c,A9),D=aa?m(c,A_)?2:1:aa,t=Y(s($,A$));if(q&&r){var
-ab=r[1];if(gN(nk,t)){var
+ab=r[1];if(gM(nk,t)){var
 aH=function(c){var
 a=ad(c);function
 b(b){return U(bT,Y(s(a,b)))}if(0!==aR(a,Ba))Z(Bb);var
@@ -6988,12 +6988,12 @@ aO(b){var
 a=ad(b),c=S(s(a,Bj)),d=[0,S(s(a,Bk)),c];return[0,aK(s(a,Bl)),d]}var
 l=it([0,[0,[0,Bn,s(u,Bm)],0]]);if(0===l[0]&&!l[3]){var
 aP=S(s(u,Bp)),aQ=S(s(u,Bq)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(s(u,Br))),aU,aT,aS,aQ,aP]}return Z(Bo)}function
-iu(a){return U(eN,Y(a))}function
+iu(a){return U(eM,Y(a))}function
 iv(c,b){var
 a=iu(b);if(bZ(a)!==c)throw O;return a}function
 nn(a,d){var
-b=ad(d),e=Y(s(b,Bu)),f=a[2],c=U(function(a){return iv(f,a)},e),g=a[1];if(bZ(c)!==g)throw O;return[0,c,gg(s(b,Bv))]}function
-eO(g,o){var
+b=ad(d),e=Y(s(b,Bu)),f=a[2],c=U(function(a){return iv(f,a)},e),g=a[1];if(bZ(c)!==g)throw O;return[0,c,gf(s(b,Bv))]}function
+eN(g,o){var
 M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
@@ -7003,7 +7003,7 @@ P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ae=U(iu,Y(r[1])),af=aK(q[1]);return[8,eO(g,p[1]),af,ae]}b=1;f=1}else
+ae=U(iu,Y(r[1])),af=aK(q[1]);return[8,eN(g,p[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -7013,9 +7013,9 @@ R=e[2];if(1===R[0]){var
 v=R[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=gg(x[1]),ai=eN(w[1]);return[5,eO(g,v[1]),ai,ah]}b=1}}}}}else
+ah=gf(x[1]),ai=eM(w[1]);return[5,eN(g,v[1]),ai,ah]}b=1}}}}}else
 if(m(a,BD))if(m(a,BE))if(m(a,BF))if(m(a,BG)){if(!m(a,BH)){if(!d[2]){var
-S=ad(e[2]),aj=Y(s(S,BI)),ak=M+1|0,T=U(function(a){return iv(ak,a)},aj);if(3===bZ(T))return[1,BK,T,gg(s(S,BJ))];throw O}b=1}}else{if(!d[2]){var
+S=ad(e[2]),aj=Y(s(S,BI)),ak=M+1|0,T=U(function(a){return iv(ak,a)},aj);if(3===bZ(T))return[1,BK,T,gf(s(S,BJ))];throw O}b=1}}else{if(!d[2]){var
 J=aK(e[2]),K=m(J,Bs);if(K){if(m(J,Bt))throw O;var
 L=1}else
 var
@@ -7030,7 +7030,7 @@ h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eO(BO,a)}}}}}}}}}}return eO(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eN(BO,a)}}}}}}}}}}return eN(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
 _=j[1],k=_[1],c=0;if(m(k,BP)&&m(k,BQ)&&m(k,BR))if(m(k,BS))c=1;else{var
@@ -7044,7 +7044,7 @@ G=F[1][1],ac=0;if(m(G,BU)&&m(G,BV)&&m(G,BW)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}
 aa=l[1];if(m(aa,BX)&&m(aa,BY)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=gg(I[1]),aq=eN(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
+ap=gf(I[1]),aq=eM(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
@@ -7064,7 +7064,7 @@ B=W[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
 an=C[1];if(m(dR(D[1]),BL))throw O;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eN(an)]};b=2}}}}}switch(b){case
+ao=B[1],u=ao,t=function(b,a){return[4,b,a,eM(an)]};b=2}}}}}switch(b){case
 0:if(!d[2])return Z([0,BC,[0,a,BB]]);break;case
 1:break;default:var
 Q=nn(g,u);return t(Q[1],Q[2])}}break;case
@@ -7086,12 +7086,12 @@ a=ad(b),c=Y(s(a,Cc)),d=U(function(g){var
 a=ad(g);function
 b(d,c){var
 b=aR(a,c);return b?U(d,Y(b[1])):b}var
-c=b(eN,B_),d=cf(no,aR(a,B$)),e=cf(cF,aR(a,Ca));return[0,b(function(h){var
+c=b(eM,B_),d=cf(no,aR(a,B$)),e=cf(cF,aR(a,Ca));return[0,b(function(h){var
 b=Y(h);if(b){var
 a=b[2];if(a){var
 c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B1)){if(!a[2]){if(m(dR(e),B2))throw O;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eO(f,c);return[0,cF(e),g]}}}throw O},Cb),e,d,c]},c),e=aR(a,Cd),g=cf(function(a){return nn(f,a)},e);return[0,ng(s(a,Ce)),g,d]}function
+g=eN(f,c);return[0,cF(e),g]}}}throw O},Cb),e,d,c]},c),e=aR(a,Cd),g=cf(function(a){return nn(f,a)},e);return[0,ng(s(a,Ce)),g,d]}function
 nq(c){var
 a=ad(c),b=aR(a,Cf),d=b?U(S,Y(b[1])):b,e=no(s(a,Cg)),f=U(S,Y(s(a,Ch)));return[0,ng(s(a,Ci)),f,d,e]}function
 nr(c){var
@@ -7101,7 +7101,7 @@ Cs(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
 Ct(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-ez(k(a[1]));return 10===c?1:0}function
+a!=="number"&&1===a[0])return 1-ey(k(a[1]));return 10===c?1:0}function
 Cx(h){var
 l=ap(h),c=[0,0];function
 n(a){if(c[1]<l)return aN(h,c[1]);throw O}function
@@ -7201,8 +7201,8 @@ c=e[1],a=0;switch(c[0]){case
 6:var
 f=c[1];if(1!==f[0]||m(f[1],CQ))a=1;break;default:a=1}if(!a)return 1-y}}else
 g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))Z(CR);else{var
-aq=b[3];if(gN(function(a){var
-b=a[1];return gN(function(d){var
+aq=b[3];if(gM(function(a){var
+b=a[1];return gM(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
 c=b[1];if(m(c,Cu)){if(!m(c,Cv))return au(Ct,R)}else
