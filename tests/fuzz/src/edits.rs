@@ -3,7 +3,7 @@
 use serde_json::{json, Value};
 
 /// Names that stand for something in some certificate.
-const NAMES: [&str; 46] = [
+const NAMES: &[&str] = &[
     "certified",
     "refuted",
     "test",
@@ -85,7 +85,8 @@ pub fn edits(value: &Value) -> Vec<Value> {
         Value::String(text) => {
             let forms = ["0", "1", "-1", "1/3", "sqrt(2)", "1/0", "sqrt(-1)"].map(str::to_owned);
             let near = ["0*", "2*", "1/", "-", "sqrt(2)*", "1/3*"].map(|by| format!("{by}{text}"));
-            let other = forms.into_iter().chain(near).chain(NAMES.map(str::to_owned));
+            let other =
+                forms.into_iter().chain(near).chain(NAMES.iter().copied().map(str::to_owned));
             let tolerance = json!({ "min": text, "max": format!("1+{text}") });
             other.map(Value::String).chain([tolerance]).collect()
         }
@@ -108,7 +109,7 @@ pub fn edits(value: &Value) -> Vec<Value> {
                 let mut fewer = fields.clone();
                 fewer.remove(key);
                 all.push(Value::Object(fewer.clone()));
-                for name in NAMES {
+                for &name in NAMES {
                     let mut renamed = fewer.clone();
                     renamed.insert(name.to_owned(), value.clone());
                     all.push(Value::Object(renamed));
