@@ -98,14 +98,20 @@ impl Margin {
         std::array::from_fn(|k| self.along[k].abs() + self.beyond[k].abs())
     }
 
-    pub(super) fn times(self, factor: f64) -> Self {
+    fn times(self, factor: f64) -> Self {
         let times = |all: [f64; 3]| all.map(|x| x * factor);
         let Margin { centre, along, beyond } = self;
         let beyond = times(beyond).map(f64::abs);
         Margin { centre: centre * factor, along: times(along), beyond }
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
+    /// Of `|f| - b`, with the sign that `f` has at the centre.
+    pub(super) fn beyond(self, b: Self) -> Self {
+        let sign = if self.centre < 0.0 { -1.0 } else { 1.0 };
+        self.times(sign).plus(b.times(-1.0))
+    }
+
+    fn plus(self, other: Self) -> Self {
         let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
         let (along, beyond) = (sum(self.along, other.along), sum(self.beyond, other.beyond));
         Margin { centre: self.centre + other.centre, along, beyond }
@@ -578,11 +584,7 @@ impl<'a> Decider<'a> {
                 less(local.stretched(over, v), bound(*k)?).times(-1.0)
             }
             Test::AtLeast(f) => Margin::of(over, *f)?,
-            Test::Beyond(f, b) => {
-                let (f, b) = (Margin::of(over, *f)?, Margin::of(over, *b)?);
-                let sign = if f.centre < 0.0 { -1.0 } else { 1.0 };
-                f.times(sign).plus(b.times(-1.0))
-            }
+            Test::Beyond(f, b) => Margin::of(over, *f)?.beyond(Margin::of(over, *b)?),
             Test::Conditioning(_)
             | Test::OneToOne(_)
             | Test::Solve(_)

@@ -58,24 +58,20 @@ struct Singular {
 impl Seen {
     /// Of a test with a margin over a cell.
     pub fn new(over: &dyn View, local: &Local<'_>, test: &Test, margin: Margin) -> Option<Self> {
-        let own: Vec<&Row<Formula>> = local.rows().collect();
         let singular = match test {
-            Test::SigmaMin(bound) => Some(Singular::new(over, local, &own, *bound, false)?),
-            Test::SigmaMax(bound) => Some(Singular::new(over, local, &own, *bound, true)?),
+            Test::SigmaMin(bound) => Some(Singular::new(over, local, *bound, false)?),
+            Test::SigmaMax(bound) => Some(Singular::new(over, local, *bound, true)?),
             Test::Least(rows, bound) | Test::Greatest(rows, bound) => {
                 let local = Local::of(rows.iter(), |f| over.centre(f))?;
-                let (rows, is_greatest) =
-                    (rows.iter().collect::<Vec<_>>(), matches!(test, Test::Greatest(..)));
-                Some(Singular::new(over, &local, &rows, *bound, is_greatest)?)
+                let is_greatest = matches!(test, Test::Greatest(..));
+                Some(Singular::new(over, &local, *bound, is_greatest)?)
             }
             _ => None,
         };
         let margin = match test {
             Test::AtLeast(f) => Entry::of(over, *f)?.margin(),
             Test::Beyond(f, bound) => {
-                let (f, bound) = (Entry::of(over, *f)?.margin(), Entry::of(over, *bound)?.margin());
-                let sign = if f.centre < 0.0 { -1.0 } else { 1.0 };
-                f.times(sign).plus(bound.times(-1.0))
+                Entry::of(over, *f)?.margin().beyond(Entry::of(over, *bound)?.margin())
             }
             _ => margin,
         };
@@ -136,16 +132,10 @@ impl Seen {
 }
 
 impl Singular {
-    fn new(
-        over: &dyn View,
-        local: &Local<'_>,
-        rows: &[&Row<Formula>],
-        bound: Formula,
-        is_greatest: bool,
-    ) -> Option<Self> {
+    fn new(over: &dyn View, local: &Local<'_>, bound: Formula, is_greatest: bool) -> Option<Self> {
         let v = local.direction(is_greatest);
         let v = v.map(|x| x / dot(v, v).sqrt());
-        let row = |row: &&Row<Formula>| {
+        let row = |row: &Row<Formula>| {
             let mut a = [Entry::default(); 3];
             for (own, &f) in a.iter_mut().zip(&row.a) {
                 *own = Entry::of(over, f)?;
@@ -158,19 +148,19 @@ impl Singular {
             let slopes = std::array::from_fn(|k| slopes.get(k).copied().unwrap_or_default());
             Some(Slope { at_centre: (centre, centre), range: over.range(f)?, slopes })
         };
-        let term = |row: &&Row<Formula>| {
+        let term = |row: &Row<Formula>| {
             let entry = |(&f, &v): (&Formula, &f64)| e.mul(&e.constant((v, v))?, &slope(f)?);
             let product = e.sum(row.a.iter().zip(&v).map(entry))?;
             e.div(&e.sqr(&product)?, &slope(row.d)?)
         };
-        let sum = e.sum(rows.iter().map(term))?;
+        let sum = e.sum(local.rows().map(term))?;
         let part = |k: usize| sum.slopes[k];
         let stretched = Entry {
             centre: middle(&sum.at_centre),
             moved: std::array::from_fn(|k| middle(&part(k))),
             varied: std::array::from_fn(|k| 0.5 * (part(k).1 - part(k).0)),
         };
-        let rows = rows.iter().map(row).collect::<Option<_>>()?;
+        let rows = local.rows().map(row).collect::<Option<_>>()?;
         Some(Singular { is_greatest, bound: over.centre(bound)?, v, rows, stretched })
     }
 

@@ -19,7 +19,7 @@ use orthocert_kernel::witness::fails_throughout;
 
 /// Fractional bits in which a claim's numbers are enclosed for doubles.
 pub const BITS: u32 = 96;
-/// Halvings from a box to the one about its centre that tells whether it is hopeless.
+/// Halvings from a box to the one about its centre, or another point, that tells whether it is hopeless.
 const FINER: i32 = 20;
 /// What a relative change of `D` counts beside one of `A`, when a coordinate is chosen.
 const WEIGHT_OF_D: f64 = 16.0;
@@ -72,11 +72,8 @@ impl<'a> Prover<'a> {
 
     /// Whether every test holds next to a point, with directions apart if they are: where one does not, no tree is a proof.
     pub fn holds_next_to(&self, point: &[f64], apart: bool) -> bool {
-        let near = |(x, &(lo, hi)): (&f64, &Pair)| {
-            let off = (hi - lo) * f64::from(-FINER).exp2();
-            ((x - off).max(lo), (x + off).min(hi))
-        };
-        let cell: Cell = point.iter().zip(&self.root).map(near).collect();
+        let cell: Cell =
+            point.iter().zip(&self.root).map(|(&x, &range)| next_to(x, range)).collect();
         let all: Vec<usize> = (0..self.problem.obligations.len()).collect();
         self.tried(&cell, (&all, false), apart).open.is_empty()
     }
@@ -178,6 +175,12 @@ impl Boxes for Apart<'_> {
     fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
         self.0.tried(cell, (open, asked), true)
     }
+}
+
+/// What of a range is next to a point of it.
+pub(super) fn next_to(x: f64, (lo, hi): Pair) -> Pair {
+    let off = (hi - lo) * f64::from(-FINER).exp2();
+    ((x - off).max(lo), (x + off).min(hi))
 }
 
 /// Centre, range and half-width of each coordinate.

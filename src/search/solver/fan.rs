@@ -1,7 +1,8 @@
 //! Directions apart: where several are worst at once, evidence for those of each wedge.
 
 use super::apart::{in_integers, Stretched};
-use super::evidence::Over;
+use super::doubles::Pair;
+use super::evidence::{next_to, Over};
 use super::rows::{exponent, Form};
 use nalgebra::DVector;
 use orthocert_kernel::certificate::{Evidence, Part};
@@ -23,8 +24,6 @@ const TAKEN: [f64; 2] = [8.0, 2.0];
 /// Bits of `mu`, and where it is tried between what both bounds allow.
 const BITS: i32 = 24;
 const PARTS: [f64; 3] = [0.5, 0.3, 0.7];
-/// Halvings to the cell next to the worst vertex.
-const FINER: i32 = 20;
 
 impl Over<'_> {
     /// Evidence with directions apart, where tolerances fail next to the worst vertex already, so that
@@ -78,10 +77,8 @@ impl Over<'_> {
 
     /// Whether a test holds so next to a place of the box without directions apart.
     fn holds_next_to(&self, test: &Test, place: &[f64]) -> bool {
-        let edge = |(&[_, (lo, hi), _], at): (&[(f64, f64); 3], &f64)| {
-            let (x, off) =
-                (0.5 * (lo + hi) + 0.5 * at * (hi - lo), (hi - lo) * f64::from(-FINER).exp2());
-            ((x - off).max(lo), (x + off).min(hi))
+        let edge = |(&[_, (lo, hi), _], at): (&[Pair; 3], &f64)| {
+            next_to(0.5 * (lo + hi) + 0.5 * at * (hi - lo), (lo, hi))
         };
         let cell = self.formulas.place.edges.iter().zip(place).map(edge).collect();
         self.prover.on(&cell, |over| {
