@@ -340,7 +340,7 @@ impl Problem {
             use Test::{Accuracy, Conditioning, SigmaMax, SigmaMin, Solve};
             let mut wanted = match test {
                 Test::OneToOne(rows) => entries(rows),
-                Accuracy(test) => entries(&test.scaled),
+                Accuracy(test) => entries(&test.scaled).into_iter().chain(test.changes()).collect(),
                 // It has no form for control points.
                 Test::Beyond(..) => Vec::new(),
                 _ => test.rows(rows).concat(),

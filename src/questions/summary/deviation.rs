@@ -11,7 +11,7 @@ use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism, Requirement};
 
 /// What both bounds are tried at, in parts of a hundred of the worst that is seen: of one that fails, no
 /// tighter one is tried.
-const OF_WORST: [i64; 6] = [400, 200, 150, 135, 125, 115];
+const OF_WORST: [i64; 7] = [400, 200, 150, 125, 110, 105, 102];
 
 /// Whether this is one of the two bounds of an accuracy.
 pub fn is_one_of_two(claim: &MachineClaim, own: &Requirement) -> bool {

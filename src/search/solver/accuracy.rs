@@ -13,7 +13,7 @@ use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::test::accuracy::{self, Accuracy};
+use orthocert_kernel::test::accuracy::{self, Accuracy, Joint};
 
 /// Weights that are tried.
 const WEIGHTS: [u32; 5] = [0, 1, 2, 3, 5];
@@ -229,9 +229,9 @@ impl Over<'_> {
         let (mut v, n) = (self.matrix(&test.rows, At::Centre)?, test.rows.len());
         let others = (0..n).filter(|k| !test.part.contains(k));
         others.for_each(|k| v.column_mut(k).scale_mut(f64::from(p).exp2()));
-        let beta = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
+        let beta = |(error, all): &Joint| {
             let slope =
-                |[half, by]: &[Formula; 2]| Some(self.centre(*half)? * self.centre(*by)?.abs());
+                |[half, by, _]: &[Formula; 3]| Some(self.centre(*half)? * self.centre(*by)?.abs());
             Some(self.centre(*error)? + all.iter().map(slope).sum::<Option<f64>>()?)
         };
         let b: Vec<f64> = test.joints.iter().map(beta).collect::<Option<_>>()?;

@@ -46,8 +46,13 @@ fn tests(context: &mut Context<'_>) -> Result<Vec<Test>, ClaimError> {
             None => return context.refused("of joints whose coordinates the claim gives"),
         };
         let zero = context.tape().integer(0);
-        let each = tolerances.iter().zip(slopes).filter(|&(_, slope)| slope != zero);
-        joints.push((error, each.map(|(&(_, half), slope)| [half, slope]).collect()));
+        let changes = match &leg.scaled {
+            Some(row) => context.derivatives(row.d, &by)?,
+            None => slopes.clone(),
+        };
+        let each = tolerances.iter().zip(slopes).zip(changes);
+        let each = each.filter(|&((_, slope), _)| slope != zero);
+        joints.push((error, each.map(|((&(_, half), slope), by)| [half, slope, by]).collect()));
     }
     let mut rows: Vec<_> = context.legs.iter().map(|leg| leg.divided.a.clone()).collect();
     let distance = context.number(max, 1);

@@ -12,6 +12,10 @@ use std::ops::Range;
 /// Most binary places of a weight.
 const MOST_WEIGHT: u32 = 16;
 
+/// The error over `d`, and for each toleranced parameter its half-width over `d`, the derivative of the joint
+/// coordinate, and that of `w D`.
+pub type Joint = (Formula, Vec<[Formula; 3]>);
+
 /// What the platform is off by is at most `d`, and where it turns, `tau`.
 ///
 /// A pose is off by `u`: its position by `d` times the first components, and turned on from the one that
@@ -27,9 +31,8 @@ pub struct Accuracy {
     pub scaled: Vec<Row<Formula>>,
     /// `w`.
     pub weight: Option<Formula>,
-    /// Of each joint, its error over `d`, and for each toleranced parameter its half-width over `d` and
-    /// the derivative of the joint coordinate.
-    pub joints: Vec<(Formula, Vec<[Formula; 2]>)>,
+    /// The joints.
+    pub joints: Vec<Joint>,
     /// `d`.
     pub distance: Formula,
     /// `tau`, where the platform turns, and the first of its columns.
@@ -39,6 +42,11 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
+    /// Of all joints, the formulas that are wanted at control points beside scaled rows.
+    pub fn changes(&self) -> impl Iterator<Item = Formula> + use<'_> {
+        self.joints.iter().flat_map(|(_, all)| all.iter().map(|&[_, _, by]| by))
+    }
+
     /// The columns of the parts that `u` has, of `m`.
     pub fn parts(&self, m: usize) -> Vec<Range<usize>> {
         let first = self.turn.map_or(m, |(_, first)| first.min(m));
@@ -203,18 +211,24 @@ impl<E: Enclosure> Over<'_, E> {
     /// on the cell alone, or on the part of what is near it in the workspace: `u` may lead out of either. With a
     /// large `p` nothing is lost to the other part, and more to the size of the cell.
     ///
-    /// *At control points.* Let `A`, `D` be polynomials after multiplication by `w > 0`, `A` in the columns of `V`,
-    /// `beta_i` at least the error and slopes of joint `i` on all of the cell, and `q_i > 0` any numbers. The same
-    /// follows of
+    /// *At control points.* Let `A`, `D` be polynomials after multiplication by `w > 0`, `A` in the columns of `V` and
+    /// `D_i = rho_i^2` in all lengths, `q_i > 0` any numbers, and `delta_i` at least the sum of
+    /// `(r_j/d) |d rho_i/d theta_j|` on all of the cell. The same follows of
     ///
     /// ```text
-    /// T_v - kappa^2 w D    and    [[T_v, b], [b^T, w z^2]], b_i = s_i beta_i (w D_i + q_i^2 w)/(2 q_i)
+    /// T_v - kappa^2 w D    and    [[T_v, b], [b^T, w z^2]], for all signs s_i
+    ///
+    /// b_i = s_i (sum_j (r_j/d) |d(w D_i)/d theta_j|/2 + w d delta_i^2/2 + (e_i/d) (w D_i + q_i^2 w)/(2 q_i))
     /// ```
     ///
-    /// with `T_v = w (A Y^T + Y A^T - Y Y^T)`, for in place of 2: all is affine in `w A`, `w D` and `w`, so with `T`,
-    /// `b'` at the pose over `w`, `A A^T >= T > kappa^2 D`, which is `V V^T > kappa^2 I`; and
-    /// `|A^-1 y| < z` for `|y_i| <= |b'_i|`, among which is `y = sqrt(D) b`, as `D_i + q_i^2 >= 2 q_i sqrt(D_i)`. ∎
-    /// Slopes at the control points would be of another machine, see above.
+    /// with `T_v = w (A Y^T + Y A^T - Y Y^T)`, for in place of 2: all is affine in `w A`, `w D`, the derivatives of `w D`
+    /// and `w`, and absolute values are convex, so with `T`, `b'` at the pose over `w`, `A A^T >= T > kappa^2 D`,
+    /// which is `V V^T > kappa^2 I`; and `|A^-1 y| < z` for `|y_i| <= |b'_i|`, among which is `y_i = rho_i b_i`,
+    /// `rho_i = rho_i(theta)`. For `d y_i = rho_i (x - rho_i) + rho_i eps_i`, `x = rho_i(theta_0)`, where
+    /// `rho_i (x - rho_i) = (x^2 - rho_i^2)/2 - (x - rho_i)^2/2`; the first of these is by the mean value theorem
+    /// at most the sum of `r_j |d D_i/d theta_j|/2` at some `theta'`, of the second `|x - rho_i| <= d delta_i`,
+    /// and `2 q_i rho_i <= D_i + q_i^2`. ∎ With `b_i = sqrt(D_i) beta_vi` of derivatives of `rho_i` the proof would
+    /// fail: `D_i` is of `theta`, `beta_vi` of `theta'`.
     pub fn accuracy(
         &self,
         far: &Formulas<E>,
@@ -257,11 +271,17 @@ impl<E: Enclosure> Over<'_, E> {
         shape && weighted && shown().is_some()
     }
 
-    /// At control points the greatest `beta_i` and `q_i`; at vertices nothing.
+    /// At control points `d delta_i^2/2` and `q_i`; at vertices nothing.
     pub fn greatest(&self, test: &Accuracy) -> Option<Option<[Vec<E::Number>; 2]>> {
+        let e = self.slopes.arithmetic;
         let all = || {
-            let beta = self.sum(test, |by| Some(self.of(by)?.range.clone()))?;
-            Some([beta, self.roots(test)?])
+            let d = &self.of(test.distance)?.range;
+            let joint = |(_, all): &Joint| {
+                let delta = self.sum(all, |[_, by, _]| Some(self.of(by)?.range.clone()))?;
+                e.ends(&e.halve(&e.mul(d, &e.sqr(&delta)?)?)?).into_iter().nth(1)
+            };
+            let squares = test.joints.iter().map(joint).collect::<Option<_>>()?;
+            Some([squares, self.roots(test)?])
         };
         match self.controls {
             None => Some(None),
@@ -270,21 +290,16 @@ impl<E: Enclosure> Over<'_, E> {
         }
     }
 
-    /// The greatest `beta_i`, of these values of slopes.
+    /// The sum of half-widths times the magnitudes of these derivatives.
     fn sum(
         &self,
-        test: &Accuracy,
-        slope: impl Fn(Formula) -> Option<E::Number>,
-    ) -> Option<Vec<E::Number>> {
+        all: &[[Formula; 3]],
+        derivative: impl Fn([Formula; 3]) -> Option<E::Number>,
+    ) -> Option<E::Number> {
         let e = self.slopes.arithmetic;
-        let joint = |(error, all): &(Formula, Vec<[Formula; 2]>)| {
-            let part = |[half, by]: &[Formula; 2]| {
-                e.mul(&self.of(*half)?.range, &e.magnitude(&slope(*by)?)?)
-            };
-            let sum = e.add(&self.of(*error)?.range, &e.sum(all.iter().map(part))?)?;
-            e.ends(&sum).into_iter().nth(1)
-        };
-        test.joints.iter().map(joint).collect()
+        e.sum(
+            all.iter().map(|&own| e.mul(&self.of(own[0])?.range, &e.magnitude(&derivative(own)?)?)),
+        )
     }
 
     /// `q_i`: `sqrt(D_i)` at the first control point and the last, in the middle of both.
@@ -304,30 +319,39 @@ impl<E: Enclosure> Over<'_, E> {
         test.scaled.iter().map(root).collect()
     }
 
-    /// With the greatest slopes and the roots of control points.
+    /// With what is the same at all control points.
     pub fn shown(
         &self,
         test: &Accuracy,
         (v, p): (Vertex, u32),
-        slopes: Option<&[Vec<E::Number>; 2]>,
+        greatest: Option<&[Vec<E::Number>; 2]>,
     ) -> Option<Shown<E::Number>> {
         let e = self.slopes.arithmetic;
         let row = |row: &Vec<Formula>| weighted(e, test, p, row.iter().map(|&f| self.at(f, v)));
         let one = e.integer(1)?;
-        let Some([beta, q]) = slopes else {
+        let upper = |x: E::Number| e.ends(&x).into_iter().nth(1);
+        let Some([squares, q]) = greatest else {
             let rows: Vec<_> = test.rows.iter().map(row).collect::<Option<_>>()?;
-            let b = self.sum(test, |by| self.slopes.at(self.of(by)?, v))?;
+            let entry = |(error, all): &Joint| {
+                let sum = self.sum(all, |[_, by, _]| self.slopes.at(self.of(by)?, v))?;
+                upper(e.add(&self.of(*error)?.range, &sum)?)
+            };
+            let b: Vec<E::Number> = test.joints.iter().map(entry).collect::<Option<_>>()?;
             return Some((rows, one.clone(), vec![one; b.len()], b));
         };
         let weight = self.at(test.weight?, v)?;
         let rows = test.scaled.iter().map(|own| row(&own.a)).collect::<Option<_>>()?;
         let d = test.scaled.iter().map(|row| self.at(row.d, v));
         let d: Vec<E::Number> = d.collect::<Option<_>>()?;
-        let entry = |((beta, q), d): ((&E::Number, &E::Number), &E::Number)| {
-            let both = e.add(&e.halve(&e.ratio(d, &one, q)?)?, &e.halve(&e.mul(q, &weight)?)?)?;
-            e.ends(&e.mul(beta, &both)?).into_iter().nth(1)
+        let entry = |(i, (error, all)): (usize, &Joint)| {
+            let (square, q) = (squares.get(i)?, q.get(i)?);
+            let changes = e.halve(&self.sum(all, |[.., by]| self.at(by, v))?)?;
+            let changes = e.add(&changes, &e.mul(square, &weight)?)?;
+            let root = e.halve(&e.ratio(d.get(i)?, &one, q)?)?;
+            let root = e.add(&root, &e.halve(&e.mul(q, &weight)?)?)?;
+            upper(e.add(&changes, &e.mul(&self.of(*error)?.range, &root)?)?)
         };
-        let b = beta.iter().zip(q).zip(&d).map(entry).collect::<Option<_>>()?;
+        let b = test.joints.iter().enumerate().map(entry).collect::<Option<_>>()?;
         Some((rows, weight, d, b))
     }
 }

@@ -11,7 +11,7 @@ use crate::rough::{Pair, Rough};
 use crate::turning::{hexapod_legs, on_circle, planar, spatial, spherical, strut};
 use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
-use orthocert_kernel::cell::Cell;
+use orthocert_kernel::cell::{Cell, Vertex};
 use orthocert_kernel::certificate::{Evidence, Failure, Proof, Step};
 use orthocert_kernel::check::check;
 use orthocert_kernel::claim::{Bound, Leg, MachineClaim, Mechanism, Quantity};
@@ -23,11 +23,11 @@ use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slopes;
 use orthocert_kernel::step::Checker;
-use orthocert_kernel::test::accuracy::{near, spread, Accuracy};
+use orthocert_kernel::test::accuracy::{near, spread, Accuracy, Shown};
 use orthocert_kernel::test::{Multiplier, Over, Place};
 
 /// The machine with a tolerance of so much either way on each length and, but for arms, on each
-/// coordinate of the anchors.
+/// coordinate of the anchors; of struts of platforms that turn, of the platform also.
 fn toleranced(machine: &MachineClaim, half: f64) -> MachineClaim {
     let wide = |x: &mut Quantity| {
         let Quantity::Exactly(middle) = x.clone() else { return };
@@ -36,20 +36,29 @@ fn toleranced(machine: &MachineClaim, half: f64) -> MachineClaim {
         *x = Quantity::Between { min: end(Operator::Sub), max: end(Operator::Add) };
     };
     let mut machine = machine.clone();
-    if let Mechanism::Translational(legs) = &mut machine.mechanism {
-        for leg in legs {
-            match leg {
-                Leg::Slider { anchor, length, .. } => {
-                    wide(length);
-                    anchor.iter_mut().for_each(wide);
-                }
-                Leg::Strut { anchor, .. } => anchor.iter_mut().for_each(wide),
-                Leg::Arm { arm, length, .. } => {
-                    wide(arm);
-                    wide(length);
-                }
-                Leg::Planar { .. } => {}
+    let turns = machine.orientation.is_some();
+    let legs = match &mut machine.mechanism {
+        Mechanism::Translational(legs) => legs.iter_mut(),
+        Mechanism::Planar(own) | Mechanism::Spatial(own) | Mechanism::Spherical(own) => {
+            own.legs.iter_mut()
+        }
+        _ => [].iter_mut(),
+    };
+    for leg in legs {
+        match leg {
+            Leg::Slider { anchor, length, .. } => {
+                wide(length);
+                anchor.iter_mut().for_each(wide);
             }
+            Leg::Strut { anchor, platform, .. } => {
+                anchor.iter_mut().for_each(wide);
+                platform.iter_mut().filter(|_| turns).for_each(wide);
+            }
+            Leg::Arm { arm, length, .. } => {
+                wide(arm);
+                wide(length);
+            }
+            Leg::Planar { .. } => {}
         }
     }
     // As read from a certificate: canonical.
@@ -61,6 +70,15 @@ fn toleranced(machine: &MachineClaim, half: f64) -> MachineClaim {
 fn turned(difference: DVector<f64>) -> DVector<f64> {
     let turn = std::f64::consts::TAU;
     difference.map(|x| if x.abs() > 3.0 { x - turn * (x / turn).round() } else { x })
+}
+
+/// The values of the machine in the middle of the tolerance.
+fn middle(problem: &Problem) -> Vec<Expression> {
+    let all = problem.tolerances().map(|(_, min, max)| {
+        let sum = Expression::Binary(Operator::Add, min.clone().into(), max.clone().into());
+        Expression::Binary(Operator::Div, sum.into(), Expression::integer(2).into())
+    });
+    all.collect()
 }
 
 /// A machine of the tolerance, in doubles, by its values.
@@ -80,8 +98,11 @@ impl<'a> Built<'a> {
     }
 
     fn at(&self, x: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let values =
-            self.problem.tape.run(&Rough, |k| Some((x[k], x[k])), |j| Some(self.parameters[j]));
+        let values = self.problem.tape.run(
+            &Rough,
+            |k| x.get(k).map(|&x| (x, x)),
+            |j| Some(self.parameters[j]),
+        );
         let of = |f| values.of(f).expect("within reach").0;
         let n = x.len();
         let rho = |i: usize| match self.problem.legs[i].rho.expect("a joint") {
@@ -119,13 +140,7 @@ fn accuracy() {
         let problem = Problem::new(&asked.of(&machine, 1.0)).expect("a claim");
         let unit = (problem.scale as f64).exp2();
         let n = problem.dimension();
-        let middle: Vec<Expression> = problem
-            .tolerances()
-            .map(|(_, min, max)| {
-                let sum = Expression::Binary(Operator::Add, min.clone().into(), max.clone().into());
-                Expression::Binary(Operator::Div, sum.into(), Expression::integer(2).into())
-            })
-            .collect();
+        let middle = middle(&problem);
         let nominal = Built::new(&problem, &middle);
         let error = if angular { error.to_radians() } else { error / unit };
         // Sensitivities as differences over the machine's values.
@@ -537,4 +552,96 @@ fn nothing_is_shown_of_a_pose_that_is_off_by_more() {
     }
     assert!(shown.iter().all(|&n| n > 8), "{shown:?}");
     assert!(weighted > 3 && controls > 8, "{weighted} {controls}");
+}
+
+/// At poses of cells, with the weights of control points, against joint coordinates of machines of wide tolerances:
+/// `w rho_i |b_i|` is at most the sum of the `b_i` there, and nearly so for small cells.
+#[test]
+fn joints_are_off_by_no_more_than_at_control_points() {
+    let mut random = Random(31);
+    let struts = turning();
+    let cases = struts.iter().take(3).zip([0.2, 0.05, 0.05]);
+    let wide = cases.clone().map(|(own, half)| (own, half, 0.1, 0.0));
+    let narrow = cases.map(|(own, half)| (own, half / 20.0, 0.001, 0.95));
+    for ((kind, text, _), half, size, closeness) in wide.chain(narrow) {
+        let (error, max) = (0.01, 0.2);
+        let stated = toleranced(&accurate(text, [error, max, 10.0]), half);
+        let problem = Problem::new(&stated).expect("a claim");
+        let unit = (problem.scale as f64).exp2();
+        let prover = Prover::new(&problem);
+        let nominal = Built::new(&problem, &middle(&problem));
+        let ends: Vec<[Expression; 2]> =
+            problem.tolerances().map(|(_, min, max)| [min.clone(), max.clone()]).collect();
+        let m = problem.dimension();
+        let test = asked_of(&problem, 1);
+        let ranges = prover.ranges();
+        let centre: Vec<f64> = ranges.iter().map(|(l, h)| (3.0 * l + 2.0 * h) / 5.0).collect();
+        let edges: Vec<[Pair; 3]> =
+            centre.iter().map(|&c| [(c, c), (c - size, c + size), (size, size)]).collect();
+        let values = prover.checker.evaluate(&edges);
+        let place = Place::new(&edges, [false; 2]);
+        let over = Over::new(&place, Slopes::new(&Rough, m), &values);
+        let own = &problem.obligations[1].test;
+        let found = prover.checker.at_controls(&over, own, |there| {
+            let greatest = there.greatest(test).expect("enclosed");
+            let controls = there.controls.expect("control points");
+            let at = |v: Vertex| {
+                let nodes: Vec<_> = (0..m).map(|k| controls.place(k, v.index())).collect();
+                (nodes, there.shown(test, (v, 0), greatest.as_ref()).expect("enclosed"))
+            };
+            there.vertices().map(at).collect::<Vec<_>>()
+        });
+        let found = found.expect("control points");
+        let changes: Vec<DVector<f64>> = ends
+            .iter()
+            .enumerate()
+            .map(|(j, end)| {
+                let [low, high] = end.each_ref().map(|end| {
+                    let mut values = middle(&problem);
+                    values[j] = end.clone();
+                    Built::new(&problem, &values).at(&centre).0
+                });
+                high - low
+            })
+            .collect();
+        let three = |k: usize| found.iter().any(|(nodes, _)| nodes[k] == Some(0));
+        let mut closest = 0f64;
+        for round in 0..200 {
+            let t: Vec<f64> = (0..m).map(|_| random.below(1001) as f64 / 1e3).collect();
+            let x: Vec<f64> =
+                centre.iter().zip(&t).map(|(c, t)| c + size * (2.0 * t - 1.0)).collect();
+            let part = |(k, node): (usize, &Option<i64>)| match (node, three(k)) {
+                (Some(-1), true) => (1.0 - t[k]).powi(2),
+                (Some(0), _) => 2.0 * t[k] * (1.0 - t[k]),
+                (Some(_), true) => t[k].powi(2),
+                (Some(-1), false) => 1.0 - t[k],
+                (Some(_), false) => t[k],
+                (None, _) => 1.0,
+            };
+            let weight = |nodes: &[Option<i64>]| nodes.iter().enumerate().map(part).product();
+            let weights: Vec<f64> = found.iter().map(|(nodes, _)| weight(nodes)).collect();
+            let sum = |of: &dyn Fn(&Shown<Pair>) -> f64| -> f64 {
+                weights.iter().zip(&found).map(|(weight, (_, shown))| weight * of(shown)).sum()
+            };
+            let w = sum(&|(_, w, ..)| w.0);
+            // Every second machine is one that makes a joint longest or shortest.
+            let own = random.below(m as u64) as usize;
+            let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+            let worst = round % 2 == 0;
+            let end = |(change, end): (&DVector<f64>, &[Expression; 2])| match worst {
+                true => end[usize::from(sign * change[own] > 0.0)].clone(),
+                false => end[random.below(2) as usize].clone(),
+            };
+            let values: Vec<Expression> = changes.iter().zip(&ends).map(end).collect();
+            let (rho, intended) = (Built::new(&problem, &values).at(&x).0, nominal.at(&x).0);
+            for i in 0..rho.len() {
+                let off = (intended[i] - rho[i]).abs() + error / unit;
+                let b = sum(&|(.., b)| b[i].1);
+                let part = w * rho[i] * off / (max / unit) / b;
+                assert!(part <= 1.0 + 1e-9, "{kind} {i}: {part}");
+                closest = closest.max(part);
+            }
+        }
+        assert!(closest > closeness, "{kind}: {closest}");
+    }
 }
