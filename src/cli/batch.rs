@@ -1,6 +1,8 @@
 //! `orthocert verify` of several designs.
 
-use super::{effort::Effort, github, interrupt, print, prove::Task, Failure, Format, Status};
+use super::{
+    effort::Effort, github, input, interrupt, print, prove::Task, Failure, Format, Status,
+};
 use crate::design::{Design, ReadError};
 use crate::files::output;
 use crate::files::read::Named;
@@ -27,7 +29,7 @@ pub struct Flags {
     #[arg(long, value_name = "FOLDER", conflicts_with = "output")]
     out: Option<PathBuf>,
     /// Designs at a time [default: one for each core]; no certificate depends on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=1024), allow_hyphen_values = true)]
     jobs: Option<u64>,
     /// Write a JUnit report: failure = refuted, error = undecided, bad input or tool trouble,
     /// skipped = not run

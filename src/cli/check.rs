@@ -45,14 +45,15 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER", conflicts_with = "design")]
     designs: Option<PathBuf>,
     /// With a folder: certificates at a time [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=1024), allow_hyphen_values = true)]
     jobs: Option<u64>,
     /// Of a paving, evaluate the evidence of so many inner and outer boxes only, drawn at random;
     /// the others have to have evidence
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_SAMPLE))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=MAX_SAMPLE), allow_hyphen_values = true)]
     sample: Option<u64>,
     /// The seed of the draw, to repeat one [default: from the system's randomness, and printed]
-    #[arg(long, value_name = "S", requires = "sample")]
+    #[arg(long, value_name = "S", requires = "sample",
+        value_parser = input::whole(0..=u64::MAX), allow_hyphen_values = true)]
     seed: Option<u64>,
     /// Also print the formulas that the claim is about, of a machine of any kind: the inputs, and leg by
     /// leg A, D and the joint coordinate

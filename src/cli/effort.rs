@@ -20,14 +20,13 @@ pub const MAX_THREADS: u64 = 1024;
 pub struct Effort {
     /// Boxes after which a search gives up [default: 500000; in bounds, limit, size, summary and
     /// tolerance, which search many times, less]; more than 500,000 count as 500,000, the most nodes of a certificate
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=u64::MAX), allow_hyphen_values = true)]
     max_boxes: Option<u64>,
     /// Time after which the search gives up: seconds, or a number with ms, s, min or h
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     timeout: Option<String>,
     /// Threads of the search [default: one for each core]; the certificate does not depend on it
-    #[arg(long, value_name = "N",
-        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=MAX_THREADS), allow_hyphen_values = true)]
     threads: Option<u64>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]
@@ -75,8 +74,7 @@ impl Effort {
 #[derive(Debug, clap::Args)]
 pub struct Work {
     /// Threads [default: one for each core]; what is written does not depend on it
-    #[arg(long, value_name = "N",
-        value_parser = clap::value_parser!(u64).range(1..=MAX_THREADS))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=MAX_THREADS), allow_hyphen_values = true)]
     threads: Option<u64>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]

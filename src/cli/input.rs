@@ -8,6 +8,7 @@ use crate::files::read::{meant, read, Named};
 use orthocert_checker::certificate::MOST_BYTES;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Take};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// Most digits of a literal on the command line, as in design files.
@@ -90,6 +91,17 @@ pub fn number(option: &str, text: &str) -> Result<Exact, Failure> {
              as 2, 1.5, 3/2 or sqrt(2){hint}"
         ))
     })
+}
+
+/// Reads an option's value that is a whole number of this range; what begins with a sign is a value, too.
+pub fn whole(
+    range: RangeInclusive<u64>,
+) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        let (first, last) = (range.start(), range.end());
+        number.ok_or_else(|| format!("accepted: a whole number from {first} to {last}"))
+    }
 }
 
 /// Refuses an output that is one of the files that are read: it would be lost.

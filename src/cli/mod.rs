@@ -43,6 +43,7 @@ use crate::files::shown::Shown;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand, ValueEnum};
 use orthocert_checker::certificate::Verdict;
+use std::error::Error;
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
@@ -254,6 +255,9 @@ fn usage(mut message: clap::Error) -> ExitCode {
     if !message.use_stderr() {
         return message.print().map_or(ExitCode::from(4), |()| ExitCode::SUCCESS);
     }
+    if let Some(refused) = refused_value(&message) {
+        return refused.report();
+    }
     let quoted: Vec<(ContextKind, ContextValue)> = message
         .context()
         .filter(|(kind, _)| *kind != ContextKind::Usage)
@@ -264,6 +268,18 @@ fn usage(mut message: clap::Error) -> ExitCode {
     }
     print::line(message.render().to_string().trim_end());
     ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2))
+}
+
+/// What is said of a value that an option does not take, as of those that are read later.
+fn refused_value(message: &clap::Error) -> Option<Failure> {
+    let of = |kind| match message.get(kind) {
+        Some(ContextValue::String(text)) => Some(Shown(text).to_string()),
+        _ => None,
+    };
+    let (argument, found) = (of(ContextKind::InvalidArg)?, of(ContextKind::InvalidValue)?);
+    let option = argument.split(' ').next()?;
+    let accepted = message.source()?;
+    Some(Failure::Input(format!("{option}: found \"{found}\"; {accepted}")))
 }
 
 /// What an error of the parser tells of an argument, each on one line.

@@ -57,11 +57,12 @@ pub struct Arguments {
     volume_gap: Option<String>,
     /// Split no further than about so many boxes allow
     #[arg(long, value_name = "N", default_value_t = MAX_BOXES,
-        value_parser = clap::value_parser!(u64).range(1..))]
+        value_parser = input::whole(1..=u64::MAX), allow_hyphen_values = true)]
     max_boxes: u64,
     /// Megabytes for the table of components, which are left out beyond; the paving itself takes a
     /// few
-    #[arg(long, value_name = "MB", default_value_t = MEMORY)]
+    #[arg(long, value_name = "MB", default_value_t = MEMORY,
+        value_parser = input::whole(0..=u64::MAX), allow_hyphen_values = true)]
     memory: u64,
     /// Where the paving is written [default: NAME.paving beside NAME.toml]
     #[arg(short, long, value_name = "PAVING")]
@@ -71,7 +72,7 @@ pub struct Arguments {
     resume: bool,
     /// Threads [default: one for each core]; the paving does not depend on it
     #[arg(long, value_name = "N",
-        value_parser = clap::value_parser!(u64).range(1..=effort::MAX_THREADS))]
+        value_parser = input::whole(1..=effort::MAX_THREADS), allow_hyphen_values = true)]
     threads: Option<u64>,
     /// The form of the answer
     #[arg(long, value_enum, default_value_t)]

@@ -27,14 +27,14 @@ pub struct Arguments {
     #[arg(value_name = "JOB")]
     job: PathBuf,
     /// How many shards
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_SHARDS))]
+    #[arg(long, value_name = "N", value_parser = input::whole(1..=MAX_SHARDS), allow_hyphen_values = true)]
     shards: u64,
     /// The folder of the shards: a new one, or an empty one
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Of a design: boxes tried below one of the cells that are dealt out
     #[arg(long, value_name = "N", default_value_t = MOST_NODES as u64,
-        value_parser = clap::value_parser!(u64).range(1..=MOST_NODES as u64))]
+        value_parser = input::whole(1..=MOST_NODES as u64), allow_hyphen_values = true)]
     max_boxes: u64,
     /// Pave the design's box, to the precision given
     #[arg(long, requires = "precision", conflicts_with = "max_boxes")]

@@ -135,6 +135,33 @@ fn arguments_that_are_no_text_are_paths_or_refused() {
 }
 
 #[test]
+fn whole_numbers_are_refused_in_the_words_of_other_values() {
+    let folder = Folder::new();
+    for (arguments, accepted) in [
+        (&["verify", "a.toml", "--max-boxes"][..], "from 1 to 18446744073709551615"),
+        (&["verify", "a.toml", "--threads"], "from 1 to 1024"),
+        (&["verify", "a.toml", "--jobs"], "from 1 to 1024"),
+        (&["check", "a", "--jobs"], "from 1 to 1024"),
+        (&["check", "a", "--sample"], "from 1 to 1000000"),
+        (&["check", "a", "--sample", "9", "--seed"], "from 0 to 18446744073709551615"),
+        (&["pave", "a.toml", "--max-boxes"], "from 1 to 18446744073709551615"),
+        (&["pave", "a.toml", "--memory"], "from 0 to 18446744073709551615"),
+        (&["pave", "a.toml", "--threads"], "from 1 to 1024"),
+        (&["split", "a.toml", "--out", "b", "--shards"], "from 1 to"),
+        (&["split", "a.toml", "--out", "b", "--shards", "9", "--max-boxes"], "from 1 to 500000"),
+        (&["run-shard", "a", "--threads"], "from 1 to 1024"),
+    ] {
+        let option = arguments.last().unwrap();
+        for value in ["-1", "1.5", "many", "", "99999999999999999999"] {
+            let found = format!("orthocert: {option}: found \"{value}\"; accepted: a whole number");
+            let arguments: Vec<&str> = arguments.iter().copied().chain([value]).collect();
+            folder.run(&arguments).exits(2).complains(&[&found, accepted]);
+        }
+    }
+    assert!(folder.names().is_empty());
+}
+
+#[test]
 fn flags_take_no_tolerances_and_nothing_that_may_be_one() {
     let folder = Folder::new();
     folder.write("good.toml", DESIGN);
