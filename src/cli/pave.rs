@@ -7,12 +7,12 @@ use crate::files::digest::Summed;
 use crate::files::output::{self, OutputError};
 use crate::files::read::{beside, Named};
 use crate::jobs::batch::plan::identity;
-use crate::report::paving::PavingReport;
+use crate::report::paving::{unit_of_volume, PavingReport};
 use crate::search::paving::{
     are_places, components, depth_for_edge, in_box, pave, unfinished, Components, Decider, Goal,
     PaveError, Resume, DEEPEST,
 };
-use orthocert_kernel::claim::{MachineClaim, Mechanism, Orientation, Workspace};
+use orthocert_kernel::claim::{MachineClaim, Orientation, Workspace};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::paving::{names, Reader, Rejected, Subject};
 use std::cmp::Ordering;
@@ -109,10 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let mut report = PavingReport::new(claim, &paved, found.as_ref(), &target);
     report.design = arguments.design.to_string_lossy().into_owned();
     report.title = design.title;
-    let power = report.coordinates.as_ref().map_or_else(|| coordinates_of(claim).0, Vec::len);
-    let unit = design.unit.filter(|_| !matches!(claim.mechanism, Mechanism::Formulas(_)));
-    report.unit =
-        unit.map(|unit| if power == 1 { unit.to_owned() } else { format!("{unit}^{power}") });
+    report.unit = unit_of_volume(claim, coordinates, design.unit);
     report.reached = match (goal.depth, goal.gap) {
         (Some(depth), _) => paved.reaches(depth),
         (None, Some(gap)) => report.gap.is_some_and(|found| found <= gap),

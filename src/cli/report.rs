@@ -13,6 +13,7 @@ use crate::report::page::paving::{PavingPage, DEPTH};
 use crate::report::page::{File, Page, Picture};
 use crate::search::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
 use orthocert_checker::certificate::{Certificate, Verdict};
+use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::paving::{self, is_paving, Accepted, Reader, Share, Subject};
 use serde::Serialize;
 use std::fs;
@@ -147,8 +148,10 @@ fn of_paving(arguments: &Arguments, bytes: &[u8], target: &Path) -> Result<Statu
     };
     let name = arguments.certificate.file_name().unwrap_or_default().to_string_lossy();
     let file = File { name: &name, bytes };
-    let title = arguments.title.as_deref();
-    let page = PavingPage::new(&accepted, &tree, components.as_ref(), file, title);
+    let design = arguments.design_of_paving(&accepted.header.claim.machine);
+    let title = arguments.title.as_deref().or(design.as_ref().and_then(|own| own.title.as_deref()));
+    let unit = design.as_ref().and_then(|own| own.unit);
+    let page = PavingPage::new(&accepted, &tree, components.as_ref(), file, title, unit);
     let page = page.ok_or_else(|| {
         let path = arguments.shown();
         Failure::Input(format!("{path}: the box's ends are beyond what floating point can show"))
@@ -197,10 +200,20 @@ impl Arguments {
 
     /// The design beside the certificate, if the certificate is about it.
     fn design_beside(&self, certificate: &Certificate) -> Option<Design> {
-        let name = self.certificate.file_name()?.to_str()?.strip_suffix(".cert.json")?;
+        self.beside(".cert.json").filter(|design| is_of(certificate, design))
+    }
+
+    /// The design beside the paving, if that is about it, in whatever box.
+    fn design_of_paving(&self, claim: &MachineClaim) -> Option<Design> {
+        let workspace = || claim.workspace.clone();
+        let searched = |own: &Design| MachineClaim { workspace: workspace(), ..own.claim.clone() };
+        self.beside(".paving").filter(|own| searched(own) == *claim)
+    }
+
+    fn beside(&self, suffix: &str) -> Option<Design> {
+        let name = self.certificate.file_name()?.to_str()?.strip_suffix(suffix)?;
         let path = self.certificate.with_file_name(format!("{name}.toml"));
-        let design = path.is_file().then(|| Design::read(&path).ok())??;
-        is_of(certificate, &design).then_some(design)
+        path.is_file().then(|| Design::read(&path).ok())?
     }
 
     /// Writes the page, and the figures that are asked for.

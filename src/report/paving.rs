@@ -7,7 +7,7 @@ use crate::search::paving::{box_ends, box_volume, Component, Components, Paved};
 use crate::search::solver::doubles::Pair;
 use num_rational::BigRational;
 use num_traits::Zero;
-use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::claim::{MachineClaim, Mechanism};
 use orthocert_kernel::paving::{Share, Summary, SHARE_BITS};
 use serde::Serialize;
 use std::path::Path;
@@ -58,6 +58,19 @@ pub struct PavingReport {
     /// The unit of volumes, as `mm^3`, where the design names one of lengths.
     #[serde(skip)]
     pub unit: Option<String>,
+}
+
+/// The unit of volumes of a box, where lengths have this unit; none of formulas, whose coordinates have none.
+pub fn unit_of_volume(
+    claim: &MachineClaim,
+    coordinates: Option<&[String]>,
+    unit: Option<&str>,
+) -> Option<String> {
+    let unit = unit.filter(|_| !matches!(claim.mechanism, Mechanism::Formulas(_)))?;
+    match box_ends(claim, coordinates)?.len() {
+        1 => Some(unit.to_owned()),
+        power => Some(format!("{unit}^{power}")),
+    }
 }
 
 /// The components of the inner boxes: boxes that share a part of a face are connected.

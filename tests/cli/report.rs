@@ -144,7 +144,7 @@ fn a_paving_gets_a_page_with_its_volume_and_region() {
     run.says(&["ACCEPTED: paving", "d.paving.report.html", "svg/region.svg", "svg/slices.svg"]);
     let page = String::from_utf8(folder.read("d.paving.report.html")).unwrap();
     assert!(page.contains(&format!("CERTIFIED: volume {volumes}")), "{volumes}");
-    assert!(page.contains("All boxes of the paving are shown."));
+    assert!(page.contains("All boxes of the paving are shown.") && !page.contains("mm^3"));
     let digest: String =
         Sha256::digest(folder.read("d.paving")).iter().map(|b| format!("{b:02x}")).collect();
     assert!(page.contains(&digest) && page.contains("connected by shared faces"));
@@ -161,6 +161,30 @@ fn a_paving_gets_a_page_with_its_volume_and_region() {
             "{name}"
         );
     }
+}
+
+#[test]
+fn volumes_have_the_unit_of_the_design_beside_the_paving() {
+    let folder = Folder::new();
+    let design = |unit: &str, length: &str| {
+        let design = crate::paving::DESIGN.replace("leg_length = 1", length);
+        folder.write("d.toml", format!("title = \"Mine\"\nunit = \"{unit}\"\n{design}"));
+    };
+    let page = || {
+        folder.run(&["report", "d.paving"]).exits(0);
+        String::from_utf8(folder.read("d.paving.report.html")).unwrap()
+    };
+    design("mm", "leg_length = 1");
+    // Searched in another box than the workspace.
+    let pave = ["pave", "d.toml", "--precision", "0.3", "--box", "-0.7,0.6,-0.7,0.7,-0.7,0.7"];
+    let paved = folder.run(&pave).exits(0).stdout;
+    let volumes = paved.split(", gap").next().unwrap().strip_prefix("volume: ").unwrap();
+    assert!(volumes.ends_with(" mm^3"), "{volumes}");
+    let own = page();
+    assert!(own.contains(&format!("CERTIFIED: volume {volumes}")) && own.contains("Mine"));
+    design("mm", "leg_length = 2");
+    let other = page();
+    assert!(!other.contains("mm^3") && !other.contains("Mine"), "another design's");
 }
 
 /// A fine paving is drawn coarser than it is: the page says so, and claims no more than is proved.

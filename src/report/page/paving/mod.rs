@@ -15,6 +15,7 @@ use super::isomap::Mark;
 use super::legs::Point;
 use super::{drawing, mechanism, shape, stem, File, Framed, Picture};
 use crate::exact::decimal::{percent, rounded, Toward};
+use crate::report::paving::unit_of_volume;
 use crate::search::paving::{axes, box_ends, box_volume, ends, ranges, Components, Tree};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -46,6 +47,8 @@ pub struct PavingPage<'a> {
     components: Option<&'a Components>,
     file: File<'a>,
     title: String,
+    /// The unit of volumes.
+    unit: Option<String>,
     marks: Vec<Mark>,
     /// The tree of the view in space.
     tree: Tree,
@@ -60,14 +63,15 @@ pub struct PavingPage<'a> {
 }
 
 impl<'a> PavingPage<'a> {
-    /// The page of a paving that the checker has accepted; `tree` is its tree down to [`DEPTH`].
-    /// `None` if its box is beyond floating point.
+    /// The page of a paving that the checker has accepted; `tree` is its tree down to [`DEPTH`], title and unit of lengths
+    /// are the design's. `None` if its box is beyond floating point.
     pub fn new(
         accepted: &'a Accepted,
         tree: &Tree,
         components: Option<&'a Components>,
         file: File<'a>,
         title: Option<&str>,
+        unit: Option<&str>,
     ) -> Option<Self> {
         let claim = &accepted.header.claim.machine;
         let (ends, axes) = (ends(&accepted.header)?, axes(&accepted.header));
@@ -118,6 +122,7 @@ impl<'a> PavingPage<'a> {
             components,
             file,
             title: title.unwrap_or(stem(file.name)).to_owned(),
+            unit: unit_of_volume(claim, accepted.header.coordinates.as_deref(), unit),
             marks,
             tree: view,
             ends: [least, width],
@@ -176,14 +181,15 @@ impl<'a> PavingPage<'a> {
     fn volume(&self) -> [String; 2] {
         let summary = &self.accepted.summary;
         let (inner, open) = (summary.inner_share.fraction(), summary.boundary_share.fraction());
-        let (unit, whole) =
+        let unit = self.unit.iter().map(|unit| format!(" {unit}")).collect();
+        let (unit, whole): (String, _) =
             match box_volume(self.claim, self.accepted.header.coordinates.as_deref()) {
-                Some(volume) => ("", volume),
-                None => (" of the box", BigRational::from_integer(1.into())),
+                Some(volume) => (unit, volume),
+                None => (" of the box".to_owned(), BigRational::from_integer(1.into())),
             };
         let low = rounded(&(&inner * &whole), DIGITS, Toward::Below);
         let high = rounded(&((inner + open) * whole), DIGITS, Toward::Above);
-        [low + unit, high + unit]
+        [low + &unit, high + &unit]
     }
 
     /// The ends of the box along every axis, for read-outs of its parts: the least and the greatest as
