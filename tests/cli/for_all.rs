@@ -3,7 +3,7 @@
 use crate::support::Folder;
 use serde_json::Value;
 
-fn design(name: &str, changes: &[(&str, &str)]) -> String {
+pub fn design(name: &str, changes: &[(&str, &str)]) -> String {
     let path = format!("{}/tests/designs/kernel/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut text = std::fs::read_to_string(path).unwrap();
     for (from, to) in changes {

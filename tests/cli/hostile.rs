@@ -43,6 +43,19 @@ fn traps(folder: &Folder, [pipe, device, socket, endless]: [&str; 4]) {
 }
 
 #[test]
+fn numbers_beyond_doubles_do_not_keep_a_search_from_ending() {
+    let folder = Folder::new();
+    for (old, new) in [
+        ("ca = \"(1 - s^2)/(1 + s^2)\"", "ca = \"(1 - s^2)/(1e310 + s^2)\""),
+        ("sb*r - cb*platform/2", "sb*r - cb*platform/1e310"),
+    ] {
+        folder.write("d.toml", crate::for_all::design("tricept", &[(old, new)]));
+        let found = run(&folder, &["verify", "d.toml", "--timeout", "1"]);
+        assert!(matches!(found.code, Some(1 | 3)), "{new}: {}", found.stderr);
+    }
+}
+
+#[test]
 fn a_folder_of_designs_that_are_no_files_is_not_waited_for() {
     let folder = Folder::with(&[DESIGN]);
     traps(&folder, ["b.toml", "c.toml", "d.toml", "e.toml"]);

@@ -1,7 +1,7 @@
 //! The one `Y` of a machine that is to be one to one.
 
 use super::doubles::{middle, Pair, Single};
-use super::rows::{above, rounded};
+use super::rows::{above, are_moderate, rounded};
 use nalgebra::{DMatrix, SymmetricEigen};
 use orthocert_kernel::formula::{Formula, Values};
 use orthocert_kernel::problem::Problem;
@@ -61,7 +61,8 @@ pub fn common(problem: &Problem, root: &[Pair], parameters: &[Pair]) -> Option<M
             values = run(&x);
         }
         let all = rows.iter().flat_map(|row| &row.a).map(|&f| values.of(f).copied());
-        Some(DMatrix::from_row_slice(n, m, &all.collect::<Option<Vec<f64>>>()?))
+        let all = all.collect::<Option<Vec<f64>>>().filter(|all| are_moderate(all))?;
+        Some(DMatrix::from_row_slice(n, m, &all))
     };
     let affine = problem.legs.iter().all(|leg| leg.scaled.is_some());
     let points = |k: usize| match (turns, affine && k < lengths) {
@@ -96,6 +97,10 @@ fn best(all: &[DMatrix<f64>]) -> Option<DMatrix<f64>> {
     let mut y = mean.pseudo_inverse(1e-9).ok()?.transpose().normalize();
     let (mut best, mut value) = (y.clone(), f64::MIN);
     for step in 1..STEPS {
+        // There is none along nothing.
+        if !are_moderate(&y) {
+            break;
+        }
         let eigen = |a: &DMatrix<f64>| {
             let t = y.transpose() * a;
             SymmetricEigen::new(&t + t.transpose())

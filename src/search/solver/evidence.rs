@@ -2,7 +2,7 @@
 
 use super::chords;
 use super::doubles::{magnitude, middle, pair, Doubles, Pair};
-use super::rows::{Form, Rows};
+use super::rows::{are_moderate, Form, Rows};
 use super::search::{Boxes, Cell, Trial};
 use nalgebra::{DMatrix, DVector};
 use num_bigint::BigInt;
@@ -263,7 +263,8 @@ impl Over<'_> {
     pub fn matrix(&self, rows: &[Vec<Formula>], at: At) -> Option<DMatrix<f64>> {
         let all: Option<Vec<f64>> = rows.iter().flatten().map(|&f| self.at(f, at)).collect();
         let columns = rows.first().map_or(0, Vec::len);
-        Some(DMatrix::from_row_slice(rows.len(), columns, &all?))
+        let all = all.filter(|all| are_moderate(all))?;
+        Some(DMatrix::from_row_slice(rows.len(), columns, &all))
     }
 
     /// The machine's rows.
@@ -295,8 +296,7 @@ impl Over<'_> {
                 a[(i, k)] = self.at(f, at)?;
             }
         }
-        let sound = d.iter().all(|&d| d > 0.0) && a.iter().all(|a: &f64| a.is_finite());
-        sound.then_some(Rows { a, d })
+        Rows::new(a, d)
     }
 
     /// How much is gained by halving each coordinate: by how much what is open varies along it.

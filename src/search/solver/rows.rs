@@ -6,6 +6,14 @@ use orthocert_kernel::test::{Multiplier, MOST_PLACES};
 /// Where singular values are cut off for starts between `kappa U` and `M`, in `kappa`.
 const CLIPPED: [f64; 3] = [1.3, 1.1, 2.0];
 
+/// Numbers below this are moderate.
+const MODERATE: f64 = 1e50;
+
+/// Whether products of a few of these numbers are numbers: of matrices with others, iterations for eigenvalues do not end.
+pub fn are_moderate<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> bool {
+    numbers.into_iter().all(|x| x.abs() < MODERATE)
+}
+
 /// Which rows of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
@@ -26,6 +34,12 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// These, if `D > 0` and all are moderate, as are those of `M`.
+    pub fn new(a: DMatrix<f64>, d: DVector<f64>) -> Option<Self> {
+        let sound = d.iter().all(|&d| d > MODERATE.recip());
+        (sound && are_moderate(a.iter().chain(d.iter()))).then_some(Rows { a, d })
+    }
+
     /// `M = D^(-1/2) A`.
     pub fn m(&self) -> DMatrix<f64> {
         let mut m = self.a.clone();
