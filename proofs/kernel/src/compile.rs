@@ -23,6 +23,8 @@ pub(crate) struct Builder {
     pub inputs: Vec<Input>,
     pub scale: i64,
     pub partial: Vec<Formula>,
+    /// The components of directions, of which no name is a part.
+    pub directions: Vec<Vec<Formula>>,
     /// Not negative on the paper's cube.
     pub reached: Vec<Formula>,
     /// The formulas of the legs' quantities, leg by leg.
@@ -83,7 +85,12 @@ impl Builder {
                     if quantities.len() == 1 { place.clone() } else { format!("{place}.{k}") };
                 self.quantity(&place, quantity, scale)
             };
-            Ok(quantities.iter().enumerate().map(formula).collect())
+            let formulas: Vec<Formula> = quantities.iter().enumerate().map(formula).collect();
+            let has_names = quantities.iter().flat_map(Quantity::ends).any(Expression::varies);
+            if kind == Kind::Direction && !has_names {
+                self.directions.push(formulas.clone());
+            }
+            Ok(formulas)
         };
         leg.quantities().into_iter().map(formulas).collect()
     }

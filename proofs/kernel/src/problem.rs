@@ -49,6 +49,8 @@ pub struct Problem {
     pub cube_has_least: bool,
     /// Not negative on the paper's cube by its lemma (joint coordinates), see `cube`.
     pub cube_reached: Vec<Formula>,
+    /// The components of directions, of which all else is made by way of the unit vectors along them.
+    pub directions: Vec<Vec<Formula>>,
     /// Quotients and roots of a user's formulas: defined where the claim is true.
     pub partial: Vec<Formula>,
     /// The derivatives of tests by tolerances, where they are asked for.
@@ -151,6 +153,7 @@ impl Problem {
             cube_kappa,
             cube_has_least,
             cube_reached: builder.reached,
+            directions: builder.directions,
             partial: builder.partial,
             derived: None,
             offset: None,

@@ -72,14 +72,14 @@ pub struct Place<'a, N> {
     pub edges: &'a [[N; 3]],
     /// Whether it touches the root's least, and its greatest corner.
     pub touches: [bool; 2],
-    /// The formulas of all machines, with their derivatives.
-    pub(crate) derived: OnceCell<Values<Slope<N>>>,
+    /// The formulas of all machines, with their derivatives; and of those with directions of one scale.
+    pub(crate) derived: [OnceCell<Values<Slope<N>>>; 2],
 }
 
 impl<'a, N> Place<'a, N> {
     /// A cell with these edges.
     pub fn new(edges: &'a [[N; 3]], touches: [bool; 2]) -> Self {
-        Place { edges, touches, derived: OnceCell::new() }
+        Place { edges, touches, derived: [const { OnceCell::new() }; 2] }
     }
 }
 

@@ -62,14 +62,26 @@ impl Over<'_> {
         self.problem().derived.as_ref()?;
         let worst = self.there(test, |there| there.worst(test)).or_else(|| self.worst(test))?;
         let lengths = if worst.directions.is_empty() { &LENGTHS[..1] } else { &LENGTHS };
-        let machines = [self.worst_machine(&worst), Some(self.middle_machine())];
-        machines.iter().flatten().find_map(|ends| self.apart_from(test, &worst, (ends, lengths)))
+        // Of one scale are what no other evidence shows: fewer checkers know of it.
+        let scales = [false, true].into_iter().take(1 + usize::from(self.prover.has_scales()));
+        scales.into_iter().find_map(|scaled| {
+            let machines = [self.worst_machine(&worst, scaled), Some(self.middle_machine(scaled))];
+            let mut machines = machines.iter().flatten();
+            machines.find_map(|ends| self.apart_from(test, &worst, (ends, lengths)))
+        })
     }
 
-    /// The machine in the middle.
-    pub(super) fn middle_machine(&self) -> String {
-        let differing = self.problem().inputs.iter().filter(|input| input.differs());
-        "0".repeat(differing.count())
+    /// The machine in the middle; with directions of one scale, where it says so.
+    pub(super) fn middle_machine(&self, scaled: bool) -> String {
+        self.ends(scaled, |_| '0')
+    }
+
+    /// Where each quantity by which machines differ is.
+    fn ends(&self, scaled: bool, end: impl Fn(usize) -> char) -> String {
+        let is_scale = |j| scaled && self.prover.is_scale(j);
+        let inputs = self.problem().inputs.iter().enumerate();
+        let differing = inputs.filter(|(_, input)| input.differs());
+        differing.map(|(j, _)| if is_scale(j) { '1' } else { end(j) }).collect()
     }
 
     /// From one machine.
@@ -203,24 +215,23 @@ impl Over<'_> {
     }
 
     /// The ends of all tolerances that make it worst.
-    pub(super) fn worst_machine(&self, worst: &Worst) -> Option<String> {
-        let slopes = self.by_parameters(worst)?;
-        let inputs = self.problem().inputs.iter().enumerate();
-        let differing = inputs.filter(|(_, input)| input.differs());
-        let end = |(j, _)| match slopes.get(&j) {
+    pub(super) fn worst_machine(&self, worst: &Worst, scaled: bool) -> Option<String> {
+        let slopes = self.by_parameters(worst, scaled)?;
+        let end = |j| match slopes.get(&j) {
             Some(slope) if *slope > 0.0 => '-',
             Some(slope) if *slope < 0.0 => '+',
             _ => '0',
         };
-        (!slopes.is_empty()).then(|| differing.map(end).collect())
+        (!slopes.is_empty()).then(|| self.ends(scaled, end))
     }
 
     /// By how much it changes there, about, from one end of each parameter's tolerance to the other.
     pub(super) fn by_parameters(
         &self,
         Worst { place, weights, .. }: &Worst,
+        scaled: bool,
     ) -> Option<BTreeMap<usize, f64>> {
-        let values = self.prover.checker.derived(self.formulas.place)?;
+        let values = self.prover.checker.derived(self.formulas.place, scaled)?;
         let derivatives = &self.problem().derived.as_ref()?.of;
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         for (f, weight) in weights {

@@ -9,7 +9,7 @@ use num_bigint::BigInt;
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::{Evidence, Failure, Node, Step};
 use orthocert_kernel::formula::{Formula, Op, Values};
-use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::input::{ClaimError, Input};
 use orthocert_kernel::problem::{Inside, Problem};
 use orthocert_kernel::quantity::Test;
 use orthocert_kernel::slope::Slope;
@@ -57,6 +57,17 @@ impl<'a> Prover<'a> {
     /// The claim's numbers, nearly.
     pub(crate) fn parameters(&self) -> &[Pair] {
         &self.checker.parameters
+    }
+
+    /// Whether machines differ by the scale of this number of a direction.
+    pub(super) fn is_scale(&self, j: usize) -> bool {
+        let [own, scaled] = [&self.checker.parameters, &self.checker.scaled_parameters];
+        self.problem.inputs.get(j).is_some_and(Input::differs) && own.get(j) != scaled.get(j)
+    }
+
+    /// Whether they do of some.
+    pub(super) fn has_scales(&self) -> bool {
+        (0..self.problem.inputs.len()).any(|j| self.is_scale(j))
     }
 
     /// The greatest absolute value of a formula on the whole workspace, where it has one.

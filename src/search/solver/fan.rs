@@ -146,8 +146,8 @@ impl Over<'_> {
         (between, taken): ([&[i64]; 2], &[f64]),
     ) -> Option<(i64, u32, Evidence)> {
         let worst = found.along(w);
-        let changes: f64 = self.by_parameters(&worst)?.values().map(|x| x.abs()).sum();
-        let ends = [self.worst_machine(&worst)?, self.middle_machine()];
+        let changes: f64 = self.by_parameters(&worst, true)?.values().map(|x| x.abs()).sum();
+        let ends = [self.worst_machine(&worst, true)?, self.middle_machine(true)];
         taken.iter().find_map(|taken| {
             let (n, places) = power(taken * changes / (FINE * FINE))?;
             let wedge = Some(Wedge { between, n, places });

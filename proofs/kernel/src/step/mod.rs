@@ -24,6 +24,8 @@ pub struct Checker<'a, E: Enclosure> {
     arithmetic: &'a E,
     /// What it was given.
     pub parameters: Vec<E::Number>,
+    /// The same with directions of one scale.
+    pub scaled_parameters: Vec<E::Number>,
     /// `q_1` and `q_2` of the paper's cube.
     tight: Option<[E::Number; 2]>,
     rows: Vec<Row<Formula>>,
@@ -54,6 +56,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
         let mut checker = Checker {
             problem,
             arithmetic,
+            scaled_parameters: Vec::new(),
             parameters,
             tight,
             rows: problem.legs.iter().map(|leg| leg.row.clone()).collect(),
@@ -66,6 +69,7 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             constant: Values::default(),
         };
         checker.constant = checker.values(None, &[]);
+        checker.scaled_parameters = checker.of_one_scale();
         checker
     }
 

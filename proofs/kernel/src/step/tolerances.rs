@@ -4,6 +4,7 @@ use super::Checker;
 use crate::arithmetic::Enclosure;
 use crate::certificate::Evidence;
 use crate::control::{Control, Controls};
+use crate::formula::{Formula, Op};
 use crate::quantity::Test;
 use crate::slope::evaluate;
 use crate::test::tolerances::Tolerances;
@@ -32,17 +33,49 @@ pub(super) fn is_of_vertices(test: &Test, evidence: &Evidence) -> bool {
 }
 
 impl<E: Enclosure> Checker<'_, E> {
-    /// The formulas of all machines with their derivatives by tolerances, where there are some.
-    pub fn derived<'p>(&self, place: &'p Place<'_, E::Number>) -> Option<&'p Formulas<E>> {
+    /// The parameters with directions of one scale: of a component of one sign, where 0 is among the values of the
+    /// others, the end next to 0.
+    ///
+    /// **Lemma (scale).** Every machine has all formulas in common with one within these. *Proof.* Formulas are made of
+    /// the unit vector along a direction, which `s > 0` times the direction has too. With the `s` that puts the component at that end,
+    /// `s <= 1`, and the others are, between 0 and what they were, in their ranges. Nothing else is made of them. ∎ Without 0
+    /// among them it would be unsound: no direction within `{1} x {1}` is along `(2, 1)` of `[1, 2] x {1}`.
+    pub(super) fn of_one_scale(&self) -> Vec<E::Number> {
+        let (e, mut all) = (self.arithmetic, self.parameters.clone());
+        let ends = |f: &Formula| Some(e.ends(&self.constant.of(*f)?.range));
+        let is_not_positive = |x: &E::Number| e.neg(x).is_some_and(|x| e.is_nonnegative(&x));
+        let has_zero = |[lo, hi]: [_; 2]| is_not_positive(&lo) && e.is_nonnegative(&hi);
+        for direction in &self.problem.directions {
+            let mut others = direction.iter().filter(|f| !ends(f).is_some_and(has_zero));
+            let (Some(f), None) = (others.next(), others.next()) else { continue };
+            if let (Op::Parameter(j), Some([lo, hi])) = (self.problem.tape.op(*f), ends(f)) {
+                all[j] = if is_not_positive(&hi) { hi } else { lo };
+            }
+        }
+        all
+    }
+
+    /// The formulas of all machines with their derivatives by tolerances, where there are some; of directions of one scale,
+    /// where it says so.
+    pub fn derived<'p>(
+        &self,
+        place: &'p Place<'_, E::Number>,
+        of_one_scale: bool,
+    ) -> Option<&'p Formulas<E>> {
         let tape = &self.problem.derived.as_ref()?.tape;
-        Some(place.derived.get_or_init(|| {
-            evaluate(tape, &self.parameters, self.slopes(place.edges.len()), place.edges)
+        let [ranges, scaled] = &place.derived;
+        let (values, parameters) = match of_one_scale {
+            true => (scaled, &self.scaled_parameters),
+            false => (ranges, &self.parameters),
+        };
+        Some(values.get_or_init(|| {
+            evaluate(tape, parameters, self.slopes(place.edges.len()), place.edges)
         }))
     }
 
     /// What is so with tolerances apart, by the lemma of [`Tolerances`]. The one machine has the least
     /// value of each quantity with two ends, or name, the greatest or one in the middle, as its character of
-    /// `ends` says: `-`, `+` or `0`.
+    /// `ends` says: `-`, `+` or `0`. Where one is `1`, directions are of one scale, and that is what it has.
     pub fn apart<T>(
         &self,
         over: &Over<'_, E>,
@@ -52,18 +85,21 @@ impl<E: Enclosure> Checker<'_, E> {
         if !over.is_plain() {
             return None;
         }
-        let values = self.derived(over.place)?;
+        let of_one_scale = ends.contains('1');
+        let all = if of_one_scale { &self.scaled_parameters } else { &self.parameters };
+        let values = self.derived(over.place, of_one_scale)?;
         let derivatives = &self.problem.derived.as_ref()?.of;
         let mut named = ends.chars();
         let start = |(at, x): (usize, &E::Number)| match self.problem.inputs.get(at)?.differs() {
             true => start(self.arithmetic, x, named.next()?),
             false => Some((x.clone(), Vec::new())),
         };
-        let all: Vec<_> = self.parameters.iter().enumerate().map(start).collect::<Option<_>>()?;
-        let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = all.into_iter().unzip();
+        let own: Vec<_> = all.iter().enumerate().map(start).collect::<Option<_>>()?;
+        let (starts, steps): (Vec<E::Number>, Vec<Vec<E::Number>>) = own.into_iter().unzip();
         let machine = evaluate(&self.problem.tape, &starts, over.slopes, over.place.edges);
         let tolerances = Tolerances {
             machine: &machine,
+            all,
             parameters: &starts,
             controls: None,
             steps: &steps,
@@ -78,7 +114,8 @@ impl<E: Enclosure> Checker<'_, E> {
     /// tolerances are apart.
     pub fn controls(&self, over: &Over<'_, E>, test: &Test) -> Option<Controls<E::Number>> {
         let all = if over.tolerances.is_some() { &self.derived } else { &self.controls };
-        found(all, test)?.values(self.arithmetic, &self.parameters, over.place.edges)
+        let parameters = over.tolerances.map_or(&self.parameters[..], |tolerances| tolerances.all);
+        found(all, test)?.values(self.arithmetic, parameters, over.place.edges)
     }
 
     /// What is so at control points, of formulas there.
@@ -123,6 +160,8 @@ fn start<E: Enclosure>(e: &E, x: &E::Number, end: char) -> Option<(E::Number, Ve
             let back = e.neg(&half)?;
             (middle, vec![half, back])
         }
+        // It does not differ.
+        '1' => (!e.is_positive(&e.sub(&hi, &lo)?)).then(|| (lo, Vec::new()))?,
         _ => return None,
     })
 }

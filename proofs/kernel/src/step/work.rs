@@ -7,11 +7,13 @@ use crate::control::Control;
 use crate::formula::Formula;
 use crate::quantity::Test;
 use crate::test::Row;
+use std::collections::BTreeSet;
 
 impl<E: Enclosure> Checker<'_, E> {
     /// The work of all steps, beside that of formulas over cells: at vertices a quarter of the operations on
     /// matrices, with all their sign vertices; at control points the formulas there; with tolerances apart all
-    /// formulas with their derivatives once a node, and for each step those of one machine, and at each vertex or
+    /// formulas with their derivatives once a node, twice where directions are of one scale in some of its steps and not in
+    /// others, and for each step those of one machine, and at each vertex or
     /// control point all changes.
     pub(crate) fn work_of(&self, tree: &Tree) -> usize {
         let m = self.problem.dimension();
@@ -53,9 +55,13 @@ impl<E: Enclosure> Checker<'_, E> {
             parts.map(|part| of_part(obligation, part)).fold(0, usize::saturating_add)
         };
         let of_node = |node: &Node| {
-            let is_apart = |Step(_, evidence): &Step| evidence.takes_tolerances_apart();
-            let all = derived.filter(|_| node.by.iter().any(is_apart));
-            let all = all.map_or(0, |derived| derived.tape.ops().len());
+            let apart = node.by.iter().flat_map(|Step(_, by)| by.parts());
+            let of_one_scale = apart.filter_map(|by| match by {
+                Evidence::Tolerances(_, ends, _) => Some(ends.contains('1')),
+                _ => None,
+            });
+            let times = of_one_scale.collect::<BTreeSet<bool>>().len();
+            let all = derived.map_or(0, |derived| times * derived.tape.ops().len());
             node.by.iter().map(of_step).fold(all, usize::saturating_add)
         };
         tree.nodes.iter().map(of_node).fold(0, usize::saturating_add)

@@ -35,6 +35,8 @@ pub type Derivatives = HashMap<Formula, Vec<(usize, Formula)>>;
 pub struct Tolerances<'a, E: Enclosure> {
     /// The formulas of the one machine.
     pub machine: &'a Values<Slope<E::Number>>,
+    /// The parameters of all machines.
+    pub all: &'a [E::Number],
     /// Its parameters.
     pub parameters: &'a [E::Number],
     /// Its formulas at control points, where these are used.

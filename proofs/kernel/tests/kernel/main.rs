@@ -29,6 +29,7 @@ mod rejected;
 mod rocq;
 mod rough;
 mod sampled;
+mod scales;
 mod singular;
 mod slopes;
 mod statements;

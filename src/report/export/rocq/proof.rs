@@ -191,6 +191,9 @@ fn evidence(by: &Evidence) -> Exported<String> {
         }
         Evidence::Corner(Corner::Q1) => "AtCorner Check.Q1".to_owned(),
         Evidence::Corner(Corner::Q2) => "AtCorner Check.Q2".to_owned(),
+        Evidence::Tolerances(_, ends, _) if ends.contains('1') => {
+            return not_covered("evidence \"tolerances\" with directions of one scale")
+        }
         Evidence::Tolerances(by, ends, directions) => {
             format!("Apart_ ({}) {} {}", evidence(by)?, quoted(ends), matrix(directions))
         }
