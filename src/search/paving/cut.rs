@@ -5,7 +5,8 @@
 //! them is thinner than the cell in proportion to its size. How far that is, is foreseen where planes meet
 //! the cell's edges ([`Seen`]).
 
-use super::decide::{Decider, Margin, View, MOST_FAILURES};
+use super::decide::{Decider, MOST_FAILURES};
+use super::margin::{Margin, View};
 use super::seen::Seen;
 use orthocert_kernel::paving::{Cell, Cut, Item, Kind};
 

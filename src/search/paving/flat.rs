@@ -1,7 +1,7 @@
 //! Formulas over cells of up to three coordinates, in doubles: the slopes of [`Doubles`], with those of one
 //! formula side by side, so that an operation on one is one on all.
 
-use super::decide::View;
+use super::margin::View;
 use crate::search::solver::doubles::{greatest, least, middle, Doubles, Pair, ROUNDING};
 use crate::search::solver::evidence::Prover;
 use crate::search::solver::program::{Input, Program, Slot, Step};

@@ -3,6 +3,7 @@
 //! | module     | does                                                              |
 //! |------------|-------------------------------------------------------------------|
 //! | `decide`   | what becomes of one cell                                          |
+//! | `margin`   | by how much a test holds at its centre, to first order            |
 //! | `cut`      | where one is cut that is neither inner nor outer                  |
 //! | `seen`     | how far from a test's end the judge sees it decided               |
 //! | `flat`     | formulas over cells, in doubles                                   |
@@ -27,6 +28,7 @@ mod cut;
 mod decide;
 mod flat;
 mod isotropy;
+mod margin;
 mod others;
 mod parts;
 mod pass;

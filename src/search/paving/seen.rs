@@ -1,7 +1,7 @@
 //! A test over a cell, as the exact judge sees it: how far from where it ends, to first order, it is shown to hold,
 //! and to fail.
 
-use super::decide::{Local, Margin, View};
+use super::margin::{Local, Margin, View};
 use super::spectrum::{Spectrum, PAIRS};
 use crate::search::solver::doubles::{middle, Doubles};
 use orthocert_kernel::arithmetic::Arithmetic;
