@@ -14,6 +14,10 @@ use orthocert_kernel::number::{Expression, Operator};
 
 /// Most decimals of a literal; a number of more is written as a fraction.
 const MOST_PLACES: u32 = 40;
+/// Bits of a denominator by which the kernel divides: it takes the reciprocal, of which it knows few bits if it is small.
+/// Of greater ones the decimals are left in the numerator, of so many places at most.
+const MOST_BITS: u64 = 64;
+const MOST_DECIMALS: u32 = 2100;
 
 /// The exact number that `value` is.
 pub(super) fn number(value: &Value<'_>) -> Result<Expression, DesignError> {
@@ -78,39 +82,34 @@ pub(super) fn rational(x: &BigRational) -> Expression {
             positive
         }
     };
-    match places(x.denom()) {
-        // In lowest terms, with the fewest decimals: no last zero.
-        Some(places) => {
-            let power = BigInt::from(10).pow(places);
-            literal(x.numer() * (power / x.denom()), places)
-        }
-        None => Expression::Binary(
-            Operator::Div,
-            literal(x.numer().clone(), 0).into(),
-            literal(x.denom().clone(), 0).into(),
-        ),
+    let (mut places, mut rest) = places(x.denom());
+    let most = if x.denom().bits() > MOST_BITS { MOST_DECIMALS } else { MOST_PLACES };
+    if places > most || most == MOST_PLACES && !rest.is_one() {
+        (places, rest) = (0, x.denom().clone());
+    }
+    // In lowest terms, with the fewest decimals: no last zero.
+    let power = BigInt::from(10).pow(places);
+    let decimal = literal(x.numer() * (power / (x.denom() / &rest)), places);
+    match rest.is_one() {
+        true => decimal,
+        false => Expression::Binary(Operator::Div, decimal.into(), literal(rest, 0).into()),
     }
 }
 
-/// The fewest decimals with which a fraction of this denominator is written, if these are few: the
-/// least `p` such that the denominator, `2^a 5^b`, divides `10^p`.
-fn places(denominator: &BigInt) -> Option<u32> {
+/// For a denominator `2^a 5^b r`, `r` with neither factor, the least `p` such that `2^a 5^b` divides `10^p`, and `r`.
+fn places(denominator: &BigInt) -> (u32, BigInt) {
     let mut rest = denominator.clone();
     let mut count = |prime: u32| {
-        let prime = BigInt::from(prime);
-        let mut times = 0;
-        while times <= MOST_PLACES {
+        let (prime, mut times) = (BigInt::from(prime), 0);
+        loop {
             let (quotient, remainder) = rest.div_rem(&prime);
             if !remainder.is_zero() {
-                break;
+                return times;
             }
-            rest = quotient;
-            times += 1;
+            (rest, times) = (quotient, times + 1);
         }
-        times
     };
-    let places = count(2).max(count(5));
-    (rest.is_one() && places <= MOST_PLACES).then_some(places)
+    (count(2).max(count(5)), rest)
 }
 
 #[cfg(test)]
@@ -136,6 +135,9 @@ mod tests {
         ("-(sqrt(2)+1)", "-(sqrt(2)+1)"),
         ("sqrt(0.1-1/10)", "0"),
         ("1/1024", "0.0009765625"),
+        ("1-1e-50", "0.99999999999999999999999999999999999999999999999999"),
+        ("1e-30/7", "0.000000000000000000000000000001/7"),
+        ("-1e-12/7", "-1/7000000000000"),
     ];
 
     #[test]
@@ -171,6 +173,15 @@ mod tests {
             if exact.as_rational().is_none() {
                 assert!(&new.hi - &new.lo < least, "{text}");
             }
+        }
+    }
+
+    #[test]
+    fn small_numbers_are_known_to_the_bits_that_are_asked_for() {
+        for text in ["312-1e-300", "1e-41", "1e-310/3", "(2/3+1e-250)/7", "1e-1000", "2/3*1e-900"] {
+            let expression = written(&Exact::parse(text, 1000).unwrap()).unwrap();
+            let x = expression.enclose(64).unwrap();
+            assert!(&x.hi - &x.lo <= BigInt::from(4), "{text}");
         }
     }
 
