@@ -352,6 +352,7 @@ let rec evidence (n, m as shape) v =
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
   | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
+  | Object [ ("tolerances", Array [ _; ends; _ ]) ] when String.contains (string ends) '1' -> not_covered [ "directions of one scale" ]
   | Object [ ("tolerances", Array [ e; ends; directions ]) ] -> Apart_ (evidence shape e, string ends, List.map integers (array directions))
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("accuracy", Array [ y; kappa; q ]) ] ->

@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(G){"use strict";var
-iK="spatial",pd="Invalid_argument",gu="precision",aA='"',iJ=1255,pc="inside",oi="(",oj=0x800,pb="yaw",of="range",og="tree",oh="jsError",bU=0x8000,pa="sqrt(",oe=256,od="obligation",eY="offset",a8="machine",ob="this quantity of such a mechanism in a claim that is refuted",oc="End_of_file",dZ="strut",iI="center",eX="arm",iH="Failure",o$="serial_margin",gD="parameters",ch=0xff,o_="bodies",iU="outside",gC="base_axis",iG="ENOENT",o9="singular",o8=122,oa="([^/]+)",iT="0",iF=0xf,eW=128,n$=0xdc00,o6="Sys_blocked_io",o7="fd ",gt="given",n_="ENOTEMPTY",aM=248,gs="bound",n9="Division_by_zero",o4="by",o5=1027,n8="Sys_error",gB="slider",n7="torsion",o3="postulate",n6="proof",o2="joint_error",eV="refuted",dU="mechanism",gr="row",n5="EEXIST",o1="roll_pitch_yaw",gA="y",n4="cube",db="lower",o0="within",n3="clearance",oZ="turned",n2="control",gq="int_of_string",oX="definitions",oY="dependent",eU=1024,n0="from",n1="name",oW=" : flags Open_rdonly and Open_wronly are not compatible",nZ="orthocert/2",oV="reach",nY=512,oT="base_joint",oU="witness",eT="-",a1="platform",nX=0x7ff0,nW="pitch",iS=": Not a directory",bo="min",oR="trim",dY="workspace",oS=" : file already exists",gp="split",oP='the failure "singular" of such a mechanism',iR="legs",oQ="claim",iE="joint",dc=0xffffff,nV="platform_joint",nU="formulas",nT="roll",go="atlas",oN="nodes",oO="Out_of_memory",nS="psi_max",gz="orientation",gn=254,oM="angle",iQ="index out of bounds",nR="end",oL="one_to_one",gy="_bigarr02",nQ=" : flags Open_text and Open_binary are not compatible",bH="drive",nP="coordinates",oK="holds",nO="lower_divided",nN="speed",oI="cylinder",oJ="joints",cg=0xffff,oG="acceleration",eR="certified",eS="chords",oH=12520,iD="on",gm="accuracy",eQ="axis",oF="no_cube",oE="parallel_margin",nM='the drive "',iC="Unix.Unix_error",gx="fails",gl="tool",iB="mkdir",oD="rho",gw=1000,iA="translational",oC="tolerances",nL="Stack_overflow",iP="characteristic_length",T="",iO="^",iz="places",gk=": No such file or directory",nK="/static/",dX=0x3f,nI="stiffness",nJ="Not_found",da="planar",eO="mode",oB="joint_speed",oA="Match_failure",nH="transmission",bn="anchor",oz="at",nG="joint_force",dW="leg",nF="joint_acceleration",gv="+",iy="rmdir",oy=0xf0,ox="spherical",nE=1026,ov="REJECTED",ow="undecided",bp="max",bV="direction",nC="leg_angle",nD="orthoglide",eP="rank",ou="constraint_margin",gj="test",nA="Pervasives.do_at_exit",nB="utf8",bG=0x80,dV="conditioning",dT="length",nz="Undefined_recursive_module",iN=")",ny="base",ot="quantity",nx="joint_range",gi="tilt",nw="Q2",os="reference",nv="point",oq="corner",or=0xe0,nu="version",iM="z",oo="to",op=0xdfff,ix="compare: functional value",on="Assert_failure",bJ="/",om="provenance",c$="radius",gh="side",bI="require",ol="format",nt="Q1",iL="ENOTDIR",ns="all",c_="box",ok=250;function
-i7(c,b,a){var
+iL="spatial",pf="Invalid_argument",gu="precision",aA='"',iK=1255,pe="inside",ok="(",ol=0x800,pd="yaw",oh="range",oi="tree",oj="jsError",bU=0x8000,pc="sqrt(",og=256,of="obligation",eZ="offset",a8="machine",od="this quantity of such a mechanism in a claim that is refuted",oe="End_of_file",dZ="strut",iJ="center",eY="arm",iI="Failure",pb="serial_margin",gD="parameters",ch=0xff,pa="bodies",iV="outside",gC="base_axis",iH="ENOENT",o$="singular",o_=122,oc="([^/]+)",iU="0",iG=0xf,eX=128,ob=0xdc00,o8="Sys_blocked_io",o9="fd ",gt="given",oa="ENOTEMPTY",aM=248,gs="bound",n$="Division_by_zero",o6="by",o7=1027,n_="Sys_error",gB="slider",n9="torsion",o5="postulate",n8="proof",o4="joint_error",eW="refuted",dU="mechanism",gr="row",n7="EEXIST",o3="roll_pitch_yaw",gA="y",n6="cube",dc="lower",o2="within",n5="clearance",o1="turned",n4="control",gq="int_of_string",oZ="definitions",o0="dependent",eV=1024,n2="from",n3="name",oY=" : flags Open_rdonly and Open_wronly are not compatible",n1="orthocert/2",oX="reach",n0=512,oV="base_joint",oW="witness",eU="-",a1="platform",nZ=0x7ff0,nY="pitch",iT=": Not a directory",bo="min",oT="trim",dY="workspace",oU=" : file already exists",gp="split",oR='the failure "singular" of such a mechanism',iS="legs",oS="claim",iF="joint",dd=0xffffff,nX="platform_joint",nW="formulas",nV="roll",go="atlas",oP="nodes",oQ="Out_of_memory",nU="psi_max",gz="orientation",gn=254,oO="angle",iR="index out of bounds",nT="end",oN="one_to_one",gy="_bigarr02",nS=" : flags Open_text and Open_binary are not compatible",bH="drive",nR="coordinates",oM="holds",nQ="lower_divided",nP="speed",oK="cylinder",oL="joints",cg=0xffff,oI="acceleration",eS="certified",eT="chords",oJ=12520,iE="on",gm="accuracy",eR="axis",oH="no_cube",oG="parallel_margin",nO='the drive "',iD="Unix.Unix_error",gx="fails",gl="tool",iC="mkdir",oF="rho",gw=1000,iB="translational",oE="tolerances",nN="Stack_overflow",iQ="characteristic_length",T="",iP="^",iA="places",gk=": No such file or directory",nM="/static/",dX=0x3f,nK="stiffness",nL="Not_found",db="planar",eP="mode",oD="joint_speed",oC="Match_failure",nJ="transmission",bn="anchor",oB="at",nI="joint_force",dW="leg",nH="joint_acceleration",gv="+",iz="rmdir",oA=0xf0,oz="spherical",nG=1026,ox="REJECTED",oy="undecided",bp="max",bV="direction",nE="leg_angle",nF="orthoglide",eQ="rank",ow="constraint_margin",gj="test",nC="Pervasives.do_at_exit",nD="utf8",bG=0x80,dV="conditioning",dT="length",nB="Undefined_recursive_module",iO=")",nA="base",ov="quantity",nz="joint_range",gi="tilt",ny="Q2",ou="reference",nx="point",os="corner",ot=0xe0,nw="version",iN="z",oq="to",or=0xdfff,iy="compare: functional value",op="Assert_failure",bJ="/",oo="provenance",da="radius",gh="side",bI="require",on="format",nv="Q1",iM="ENOTDIR",nu="all",c$="box",om=250;function
+i8(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eU,a-=eU)e+=d.apply(null,c.slice(b,b+Math.min(a,eU)));return e}function
+e=T;for(;0<a;b+=eV,a-=eV)e+=d.apply(null,c.slice(b,b+Math.min(a,eV)));return e}function
 gF(b){if(G.Uint8Array)var
 c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-eZ(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?i7(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gF(b);var
+e0(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?i8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gF(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -23,8 +23,8 @@ a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
 d2(a){return a}function
-d1(a,b,c,d,e){eZ(d2(a),b,c,d,e);return 0}function
-iW(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+d1(a,b,c,d,e){e0(d2(a),b,c,d,e);return 0}function
+iX(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 cI(c,a){if(c.fun)return cI(c.fun,a);if(typeof
@@ -37,23 +37,23 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cI(c,d)}}function
-pF(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
+pH(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
 d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d3(a){if(a.t==2)a.c+=pF(a.l-a.c.length,"\0");else
-a.c=i7(a.c,0,a.c.length);a.t=0}function
+d3(a){if(a.t==2)a.c+=pH(a.l-a.c.length,"\0");else
+a.c=i8(a.c,0,a.c.length);a.t=0}function
 d4(a){a.t&6&&d3(a);return a.c}var
-ER=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-EQ(a){if(ER)return Math.floor(Math.log2(a));var
+EW=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+EV(a){if(EW)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-iZ(c){var
+i0(c){var
 a=new(G.Float32Array)(1);a[0]=c;var
 b=new(G.Int32Array)(a.buffer);return b[0]|0}var
-pw=Math.pow(2,-24);function
-EH(a){throw a}var
+py=Math.pow(2,-24);function
+EM(a){throw a}var
 as=[0];function
-pC(){EH(as.Division_by_zero)}function
-F(b,c,a){this.lo=b&dc;this.mi=c&dc;this.hi=a&cg}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
+pE(){EM(as.Division_by_zero)}function
+F(b,c,a){this.lo=b&dd;this.mi=c&dd;this.hi=a&cg}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
 F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*pw|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pw|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*py|0)+this.mi*a.lo+this.lo*a.mi,d=(c*py|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 F(b,c,d)};F.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};F.prototype.isNeg=function(){return this.hi<<16<0};F.prototype.and=function(a){return new
 F(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};F.prototype.or=function(a){return new
 F(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};F.prototype.xor=function(a){return new
@@ -77,25 +77,25 @@ c=this.hi<<16>>16;if(a<24)return new
 F(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cg);return new
-F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dc;this.lo=this.lo<<1&dc};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dc;this.mi=(this.mi>>>1|this.hi<<23)&dc;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
+F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dd;this.lo=this.lo<<1&dd};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dd;this.mi=(this.mi>>>1|this.hi<<23)&dd;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
-b=this;if(a.isZero())pC();var
+b=this;if(a.isZero())pE();var
 d=b.hi^a.hi;if(b.hi&bU)b=b.neg();if(a.hi&bU)a=a.neg();var
 c=b.udivmod(a).quotient;if(d&bU)c=c.neg();return c};F.prototype.mod=function(b){var
-a=this;if(b.isZero())pC();var
+a=this;if(b.isZero())pE();var
 d=a.hi;if(a.hi&bU)a=a.neg();if(b.hi&bU)b=b.neg();var
 c=a.udivmod(b).modulus;if(d&bU)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
 gH(b,c,a){return new
 F(b,c,a)}function
-gG(a){if(!isFinite(a)){if(isNaN(a))return gH(1,0,nX);return a>0?gH(0,0,nX):gH(0,0,0xfff0)}var
+gG(a){if(!isFinite(a)){if(isNaN(a))return gH(1,0,nZ);return a>0?gH(0,0,nZ):gH(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?bU:a>=0?0:bU;if(f)a=-a;var
-b=EQ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nE)}else{a/=Math.pow(2,b-o5);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=EV(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nG)}else{a/=Math.pow(2,b-o7);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iF|f|b<<4;return gH(g,e,c)}function
-e2(a){return a.toArray()}function
-pk(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gy)for(var
+g=a|0;c=c&iG|f|b<<4;return gH(g,e,c)}function
+e3(a){return a.toArray()}function
+pm(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gy)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cg)c.write(16,b.dims[a]);else{c.write(16,cg);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=e2(b.get(a));for(var
+e=e3(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e2(gG(b.get(a)));for(var
+e=e3(gG(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=iZ(b.get(a));c.write(32,e)}break;case
+e=i0(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,iZ(d[1]));c.write(32,iZ(d[2]))}break;case
+d=b.get(a);c.write(32,i0(d[1]));c.write(32,i0(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e2(gG(f[1]));for(var
+f=b.get(a),e=e3(gG(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e2(gG(f[2]));for(var
+e=e3(gG(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-EJ(b,a){throw[0,b,a]}function
-pK(a){if(a.length<24){for(var
+EO(b,a){throw[0,b,a]}function
+pL(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-i8(e){for(var
+i9(e){for(var
 j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bG){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>nY){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(f<<6);if(f<or){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW){g=h+(g<<6);if(f<oy){a=g-0xe2080;if(a<oj||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eW&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),n$+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eU){c.substr(0,1);j+=c;c=T}}return j+c}function
+d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>n0){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(f<<6);if(f<ot){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(g<<6);if(f<oA){a=g-0xe2080;if(a<ol||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),ob+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>eV){c.substr(0,1);j+=c;c=T}}return j+c}function
 bW(c,a,b){this.t=c;this.c=a;this.l=b}bW.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:d3(this);case
-0:if(pK(this.c)){this.t=9;return this.c}this.t=8;case
+0:if(pL(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};bW.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return i8(a)};bW.prototype.slice=function(){var
+a=this.toString();if(this.t==9)return a;return i9(a)};bW.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
 bW(this.t,a,this.l)};function
-pn(a){return new
+pp(a){return new
 bW(0,a,a.length)}function
-a(a){return pn(a)}function
-i6(c,b){EJ(c,a(b))}function
-aE(a){i6(as.Invalid_argument,a)}function
-pi(a){switch(a){case
+a(a){return pp(a)}function
+i7(c,b){EO(c,a(b))}function
+aF(a){i7(as.Invalid_argument,a)}function
+pk(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Eb(c,e){var
+Eg(c,e){var
 b=G,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,45 +171,45 @@ b=G,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aE("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aF("Bigarray.create: unsupported kind");var
 d=new
-a(e*pi(c));return d}function
-i0(c){var
+a(e*pk(c));return d}function
+i1(c){var
 a=new(G.Int32Array)(1);a[0]=c;var
 b=new(G.Float32Array)(a.buffer);return b[0]}function
-e1(a){return new
+e2(a){return new
 F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-i1(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iF)==0?b&bU?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iF);if(c>0){a+=16;a*=Math.pow(2,c-o5)}else
-a*=Math.pow(2,-nE);if(b&bU)a=-a;return a}function
-iV(b){var
+i2(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iG)==0?b&bU?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iG);if(c>0){a+=16;a*=Math.pow(2,c-o7)}else
+a*=Math.pow(2,-nG);if(b&bU)a=-a;return a}function
+iW(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aE("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Er(b,a){return new
-F(b&dc,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
-i2(a){return a.hi32()}function
-i3(a){return a.lo32()}function
-gE(){aE(iQ)}var
-Ec=gy;function
-cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Ec;cH.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aF("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Ew(b,a){return new
+F(b&dd,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
+i3(a){return a.hi32()}function
+i4(a){return a.lo32()}function
+gE(){aF(iR)}var
+Eh=gy;function
+cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Eh;cH.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aE("bigarray.js: invalid offset");if(this.dims.length!=b.length)aE("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+Array))aF("bigarray.js: invalid offset");if(this.dims.length!=b.length)aF("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
 a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gE();c=c*this.dims[a]+b[a]}else
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gE();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Er(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Ew(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[gn,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=i3(b);this.data[a*2+1]=i2(b);break;case
+7:this.data[a*2+0]=i4(b);this.data[a*2+1]=i3(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cH.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=i3(b),e=i2(b);if(c==e)this.data.fill(c);else
+c=i4(b),e=i3(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -241,13 +241,13 @@ cH();d0.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aE("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gE();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
-pg(c,d,a,b){var
-e=pi(c);if(iV(a)*e!=b.length)aE("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aF("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gE();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
+pi(c,d,a,b){var
+e=pk(c);if(iW(a)*e!=b.length)aF("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 d0(c,d,a,b);return new
 cH(c,d,a,b)}function
-bK(b){if(!as.Failure)as.Failure=[aM,a(iH),-3];i6(as.Failure,b)}function
-ph(b,v,r){var
+bK(b){if(!as.Failure)as.Failure=[aM,a(iI),-3];i7(as.Failure,b)}function
+pj(b,v,r){var
 i=b.read32s();if(i<0||i>16)bK("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gy)for(var
 a=0;a<i;a++){var
@@ -255,7 +255,7 @@ n=b.read16u();if(n==cg){var
 t=b.read32u(),u=b.read32u();if(t!=0)bK("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iV(h),f=Eb(j,d),g=pg(j,o,h,f);switch(j){case
+d=iW(h),f=Eg(j,d),g=pi(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -276,43 +276,43 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=e1(e);g.set(a,q)}break;case
+q=e2(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=i1(e1(e));g.set(a,k)}break;case
+k=i2(e2(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=i0(b.read32s());g.set(a,k)}break;case
+k=i1(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=i0(b.read32s()),l=i0(b.read32s());g.set(a,[gn,m,l])}break;case
+m=i1(b.read32s()),l=i1(b.read32s());g.set(a,[gn,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=i1(e1(e));for(var
+m=i2(e2(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=i1(e1(e));g.set(a,[gn,m,l])}break}v[0]=(4+i)*4;return pg(j,o,h,f)}function
-pf(a,b,c){return a.compare(b,c)}function
-pz(a,b){return Math.imul(a,b)}function
-ci(b,a){a=pz(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pz(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Eo(a,b){a=ci(a,i3(b));a=ci(a,i2(b));return a}function
-pv(a,b){return Eo(a,gG(b))}function
-pj(c){var
-b=iV(c.dims),d=0;switch(c.kind){case
+l=i2(e2(e));g.set(a,[gn,m,l])}break}v[0]=(4+i)*4;return pi(j,o,h,f)}function
+ph(a,b,c){return a.compare(b,c)}function
+pB(a,b){return Math.imul(a,b)}function
+ci(b,a){a=pB(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pB(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Et(a,b){a=ci(a,i4(b));a=ci(a,i3(b));return a}function
+px(a,b){return Et(a,gG(b))}function
+pl(c){var
+b=iW(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>oe)b=oe;var
+12:if(b>og)b=og;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ci(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
 1:e|=c.data[a+0];d=ci(d,e)}break;case
 4:case
-5:if(b>eW)b=eW;var
+5:if(b>eX)b=eX;var
 e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ci(d,e)}if((b&1)!=0)d=ci(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
 a=0;a<b;a++)d=ci(d,c.data[a]);break;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 a=0;a<b;a++)d=ci(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=pv(d,c.data[a]);break;case
+a=0;a<b;a++)d=px(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=pv(d,c.data[a]);break}return d}function
-Ep(a,b){b[0]=4;return a.read32s()}function
-EE(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=px(d,c.data[a]);break}return d}function
+Eu(a,b){b[0]=4;return a.read32s()}function
+EJ(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bK("input_value: native integer value too large");default:bK("input_value: ill-formed native integer")}}function
-Eu(c,d){var
+Ez(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e1(b)}function
-Et(e,d,b){var
-c=e2(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e2(b)}function
+Ey(e,d,b){var
+c=e3(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Eq(a,b,c){return a.compare(b)}function
-Es(a){return a.lo32()^a.hi32()}var
-pq={"_j":{deserialize:Eu,serialize:Et,fixed_length:8,compare:Eq,hash:Es},"_i":{deserialize:Ep,fixed_length:4},"_n":{deserialize:EE,fixed_length:4},"_bigarray":{deserialize:function(a,b){return ph(a,b,"_bigarray")},serialize:pk,compare:pf,hash:pj},"_bigarr02":{deserialize:function(a,b){return ph(a,b,gy)},serialize:pk,compare:pf,hash:pj}};function
-iY(a){return pq[a.caml_custom]&&pq[a.caml_custom].compare}function
-po(f,c,d,e){var
-b=iY(c);if(b){var
+Ev(a,b,c){return a.compare(b)}function
+Ex(a){return a.lo32()^a.hi32()}var
+ps={"_j":{deserialize:Ez,serialize:Ey,fixed_length:8,compare:Ev,hash:Ex},"_i":{deserialize:Eu,fixed_length:4},"_n":{deserialize:EJ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pj(a,b,"_bigarray")},serialize:pm,compare:ph,hash:pl},"_bigarr02":{deserialize:function(a,b){return pj(a,b,gy)},serialize:pm,compare:ph,hash:pl}};function
+iZ(a){return ps[a.caml_custom]&&ps[a.caml_custom].compare}function
+pq(f,c,d,e){var
+b=iZ(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-i5(a){return a
+i6(a){return a
 instanceof
 bW}function
-px(a){return i5(a)}function
-pp(a){if(typeof
+pz(a){return i6(a)}function
+pr(a){if(typeof
 a==="number")return gw;else
-if(i5(a))return 252;else
-if(px(a))return 1252;else
+if(i6(a))return 252;else
+if(pz(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
 b=a[0]|0;return b==gn?0:b}else
 if(a
 instanceof
-String)return oH;else
+String)return oJ;else
 if(typeof
-a=="string")return oH;else
+a=="string")return oJ;else
 if(a
 instanceof
 Number)return gw;else
-if(a&&a.caml_custom)return iJ;else
+if(a&&a.caml_custom)return iK;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Ev(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pm(a,b){a.t&6&&d3(a);b.t&6&&d3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-pG(a,b){return pm(a,b)}function
-iX(a,b,d){var
+EA(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+po(a,b){a.t&6&&d3(a);b.t&6&&d3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+pI(a,b){return po(a,b)}function
+iY(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pp(a);if(f==ok){a=a[1];continue}var
-g=pp(b);if(g==ok){b=b[1];continue}if(f!==g){if(f==gw){if(g==iJ)return po(a,b,-1,d);return-1}if(g==gw){if(f==iJ)return po(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aE(ix);break;case
+f=pr(a);if(f==om){a=a[1];continue}var
+g=pr(b);if(g==om){b=b[1];continue}if(f!==g){if(f==gw){if(g==iK)return pq(a,b,-1,d);return-1}if(g==gw){if(f==iK)return pq(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aF(iy);break;case
 248:var
-c=Ev(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aE(ix);break;case
-250:aE("equal: got Forward_tag, should not happen");break;case
-251:aE("equal: abstract value");break;case
+c=EA(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aF(iy);break;case
+250:aF("equal: got Forward_tag, should not happen");break;case
+251:aF("equal: abstract value");break;case
 252:if(a!==b){var
-c=pm(a,b);if(c!=0)return c|0}break;case
-253:aE("equal: got Double_tag, should not happen");break;case
-254:aE("equal: got Double_array_tag, should not happen");break;case
-255:aE("equal: got Custom_tag, should not happen");break;case
-1247:aE(ix);break;case
+c=po(a,b);if(c!=0)return c|0}break;case
+253:aF("equal: got Double_tag, should not happen");break;case
+254:aF("equal: got Double_array_tag, should not happen");break;case
+255:aF("equal: got Custom_tag, should not happen");break;case
+1247:aF(iy);break;case
 1255:var
-i=iY(a);if(i!=iY(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aE("compare: abstract value");var
+i=iZ(a);if(i!=iZ(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aF("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,176 +405,176 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Ej(a,b){return iX(a,b,true)}function
-bY(a){if(a<0)aE("Bytes.create");return new
+Eo(a,b){return iY(a,b,true)}function
+bY(a){if(a<0)aF("Bytes.create");return new
 bW(a?2:9,T,a)}function
-pr(a,b){return+(iX(a,b,false)==0)}function
-El(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pF(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-EF=0;function
-pt(){return EF++}function
-Ex(a){return a.toUtf16()}function
-e3(){return typeof
+pt(a,b){return+(iY(a,b,false)==0)}function
+Eq(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+EK=0;function
+pv(){return EK++}function
+EC(a){return a.toUtf16()}function
+e4(){return typeof
 G.process!=="undefined"&&typeof
 G.process.versions!=="undefined"&&typeof
 G.process.versions.node!=="undefined"}function
-ES(){function
+EX(){function
 a(a){if(a.charAt(0)===bJ)return[T,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e3()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
-ja=ES();function
-pH(a){return a.slice(-1)!==bJ?a+bJ:a}if(e3()&&G.process&&G.process.cwd)var
-e0=G.process.cwd().replace(/\\/g,bJ);else
+d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e4()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
+jc=EX();function
+pJ(a){return a.slice(-1)!==bJ?a+bJ:a}if(e4()&&G.process&&G.process.cwd)var
+e1=G.process.cwd().replace(/\\/g,bJ);else
 var
-e0="/static";e0=pH(e0);function
-Ez(a){a=Ex(a);if(!ja(a))a=e0+a;var
-e=ja(a),d=e[1].split(bJ),b=[];for(var
+e1="/static";e1=pJ(e1);function
+EE(a){a=EC(a);if(!jc(a))a=e1+a;var
+e=jc(a),d=e[1].split(bJ),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-EN(e){for(var
+ES(e){for(var
 f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bG){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>nY){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oj){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
-if(a<0xd800||a>=op)b+=String.fromCharCode(or|a>>12,bG|a>>6&dX,bG|a&dX);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<n$||h>op)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oy|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eU){b.substr(0,1);f+=b;b=T}}return f+b}function
-Eg(a){var
-b=9;if(!pK(a))b=8,a=EN(a);return new
+d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>n0){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<ol){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
+if(a<0xd800||a>=or)b+=String.fromCharCode(ot|a>>12,bG|a>>6&dX,bG|a&dX);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ob||h>or)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oA|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eV){b.substr(0,1);f+=b;b=T}}return f+b}function
+El(a){var
+b=9;if(!pL(a))b=8,a=ES(a);return new
 bW(b,a,a.length)}function
-d5(a){return Eg(a)}var
-EV=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n5,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iG,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iL,n_,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+d5(a){return El(a)}var
+E0=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iH,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iM,oa,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 dg(d,f,e,a){var
-b=EV.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+b=E0.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,d5(f||T),d5(e||T)];return c}var
-pA={};function
-dd(a){return pA[a]}function
-de(b,a){throw[0,b].concat(a)}function
-Ef(a){return new
+pC={};function
+de(a){return pC[a]}function
+df(b,a){throw[0,b].concat(a)}function
+Ek(a){return new
 bW(4,a,a.length)}function
-aj(a){i6(as.Sys_error,a)}function
-EI(a){aj(a+gk)}function
-pl(){aE(iQ)}function
-Ee(b,a){if(a>>>0>=b.l)pl();return iW(b,a)}function
+aj(a){i7(as.Sys_error,a)}function
+EN(a){aj(a+gk)}function
+pn(){aF(iR)}function
+Ej(b,a){if(a>>>0>=b.l)pn();return iX(b,a)}function
 gI(a){return a.l}function
-pe(){}function
-aC(a){this.data=a}aC.prototype=new
-pe();aC.prototype.truncate=function(a){var
-b=this.data;this.data=bY(a|0);eZ(b,0,this.data,0,a)};aC.prototype.length=function(){return gI(this.data)};aC.prototype.write=function(b,d,g,a){var
+pg(){}function
+aD(a){this.data=a}aD.prototype=new
+pg();aD.prototype.truncate=function(a){var
+b=this.data;this.data=bY(a|0);e0(b,0,this.data,0,a)};aD.prototype.length=function(){return gI(this.data)};aD.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bY(b+a),f=this.data;this.data=e;eZ(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aC.prototype.read=function(c,a,d,b){var
-e=this.length();eZ(this.data,c,a,d,b);return 0};aC.prototype.read_one=function(a){return Ee(this.data,a)};aC.prototype.close=function(){};aC.prototype.constructor=aC;function
+e=bY(b+a),f=this.data;this.data=e;e0(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aD.prototype.read=function(c,a,d,b){var
+e=this.length();e0(this.data,c,a,d,b);return 0};aD.prototype.read_one=function(a){return Ej(this.data,a)};aD.prototype.close=function(){};aD.prototype.constructor=aD;function
 aS(b,a){this.content={};this.root=b;this.lookupFun=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.create_dir_if_needed=function(d){var
 c=d.split(bJ),b=T;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bJ;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bJ};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aC(d2(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
+aD(d2(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aS.prototype.mkdir=function(c,e,d){var
-b=d&&dd(iC);if(this.exists(c))if(b)de(b,dg(n5,iB,this.nm(c)));else
+b=d&&de(iD);if(this.exists(c))if(b)df(b,dg(n7,iC,this.nm(c)));else
 aj(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)de(b,dg(iG,iB,this.nm(a)));else
-aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iL,iB,this.nm(a)));else
-aj(a+iS);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
-b=f&&dd(iC),c=a==T?T:this.slash(a),e=new
-RegExp(iO+c+oa);if(!this.exists(a))if(b)de(b,dg(iG,iy,this.nm(a)));else
-aj(a+gk);if(!this.is_dir(a))if(b)de(b,dg(iL,iy,this.nm(a)));else
-aj(a+iS);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)df(b,dg(iH,iC,this.nm(a)));else
+aj(a+gk);if(!this.is_dir(a))if(b)df(b,dg(iM,iC,this.nm(a)));else
+aj(a+iT);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
+b=f&&de(iD),c=a==T?T:this.slash(a),e=new
+RegExp(iP+c+oc);if(!this.exists(a))if(b)df(b,dg(iH,iz,this.nm(a)));else
+aj(a+gk);if(!this.is_dir(a))if(b)df(b,dg(iM,iz,this.nm(a)));else
+aj(a+iT);for(var
 d
 in
-this.content)if(d.match(e))if(b)de(b,dg(n_,iy,this.nm(a)));else
+this.content)if(d.match(e))if(b)df(b,dg(oa,iz,this.nm(a)));else
 aj(this.nm(a)+": Directory not empty");delete
 this.content[c]};aS.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gk);if(!this.is_dir(a))aj(a+iS);var
+f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gk);if(!this.is_dir(a))aj(a+iT);var
 g=new
-RegExp(iO+f+oa),d={},c=[];for(var
+RegExp(iP+f+oc),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aS.prototype.is_dir=function(a){if(a==T)return true;var
 b=this.slash(a);return this.content[b]?1:0};aS.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oW);if(b.text&&b.binary)aj(this.nm(a)+nQ);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oS);var
+this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oY);if(b.text&&b.binary)aj(this.nm(a)+nS);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oU);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aC(bY(0));return this.content[a]}else
-EI(this.nm(a))};aS.prototype.register=function(c,a){var
-b;if(this.content[c])aj(this.nm(c)+oS);if(i5(a))b=new
-aC(a);if(px(a))b=new
-aC(d2(a));else
+aD(bY(0));return this.content[a]}else
+EN(this.nm(a))};aS.prototype.register=function(c,a){var
+b;if(this.content[c])aj(this.nm(c)+oU);if(i6(a))b=new
+aD(a);if(pz(a))b=new
+aD(d2(a));else
 if(a
 instanceof
 Array)b=new
-aC(Ef(a));else
+aD(Ek(a));else
 if(typeof
 a==="string")b=new
-aC(pn(a));else
+aD(pp(a));else
 if(a.toString){var
 d=d2(d5(a.toString()));b=new
-aC(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aD(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 aj(this.nm(c)+" : registering file with invalid content type")};aS.prototype.constructor=aS;function
-ap(a){return gI(a)}function
-df(b,a){return iW(b,a)}function
-Ea(d){var
-c=ap(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=df(d,a);return b}function
-D$(a){if(a.t!=4)gF(a);return a.c}function
-Ei(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gF(a)}a.c[c]=b;return 0}function
-Eh(b,a,c){if(a>>>0>=b.l)pl();return Ei(b,a,c)}function
+an(a){return gI(a)}function
+cJ(b,a){return iX(b,a)}function
+Ef(d){var
+c=an(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=cJ(d,a);return b}function
+Ee(a){if(a.t!=4)gF(a);return a.c}function
+En(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gF(a)}a.c[c]=b;return 0}function
+Em(b,a,c){if(a>>>0>=b.l)pn();return En(b,a,c)}function
 bX(a){this.fs=require("fs");this.fd=a}bX.prototype=new
-pe();bX.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bX.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bX.prototype.write=function(f,b,c,e){var
-a=Ea(b);if(!(a
+pg();bX.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bX.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bX.prototype.write=function(f,b,c,e){var
+a=Ef(b);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
 d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aj(a.toString())}return 0};bX.prototype.read=function(g,d,c,f){var
-a=D$(d);if(!(a
+a=Ee(d);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
 e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aj(a.toString())}for(var
-b=0;b<f;b++)Eh(d,c+b,e[c+b]);return 0};bX.prototype.read_one=function(c){var
+b=0;b<f;b++)Em(d,c+b,e[c+b]);return 0};bX.prototype.read_one=function(c){var
 b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aj(a.toString())}return a[0]};bX.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aj(a.toString())}};bX.prototype.constructor=bX;function
-aD(a){this.fs=require("fs");this.root=a}aD.prototype.nm=function(a){return this.root+a};aD.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aD.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aj(a.toString())}};aD.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.open=function(f,c,g){var
+aE(a){this.fs=require("fs");this.root=a}aE.prototype.nm=function(a){return this.root+a};aE.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aE.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aE.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aE.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aj(a.toString())}};aE.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bX(d)}catch(a){this.raise_nodejs_error(a,g)}};aD.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aD.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nB);return d5(a)}catch(a){this.raise_nodejs_error(a,c)}};aD.prototype.raise_nodejs_error=function(a,d){var
-b=dd(iC);if(d&&b){var
-c=dg(a.code,a.syscall,a.path,a.errno);de(b,c)}else
-aj(a.toString())};aD.prototype.stats_from_js=function(a){var
+bX(d)}catch(a){this.raise_nodejs_error(a,g)}};aE.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aE.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),nD);return d5(a)}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.raise_nodejs_error=function(a,d){var
+b=de(iD);if(d&&b){var
+c=dg(a.code,a.syscall,a.path,a.errno);df(b,c)}else
+aj(a.toString())};aE.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aD.prototype.constructor=aD;function
-pu(b){var
-a=ja(b);if(!a)return;return a[0]+bJ}var
-gJ=pu(e0)||bK("unable to compute caml_root"),d6=[];if(e3())d6.push({path:gJ,device:new
-aD(gJ)});else
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aE.prototype.constructor=aE;function
+pw(b){var
+a=jc(b);if(!a)return;return a[0]+bJ}var
+gJ=pw(e1)||bK("unable to compute caml_root"),d6=[];if(e4())d6.push({path:gJ,device:new
+aE(gJ)});else
 d6.push({path:gJ,device:new
-aS(gJ)});d6.push({path:nK,device:new
-aS(nK)});function
-pO(b){var
-g=Ez(b),b=g.join(bJ),f=pH(b),c;for(var
+aS(gJ)});d6.push({path:nM,device:new
+aS(nM)});function
+pP(b){var
+g=EE(b),b=g.join(bJ),f=pJ(b),c;for(var
 e=0;e<d6.length;e++){var
-a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e3()){var
-d=pu(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e4()){var
+d=pw(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aD(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
-Ek(c,b){var
-a=pO(c);if(!a.device.register)bK("cannot register file");a.device.register(a.rest,b);return 0}function
-pJ(c,b){var
-c=a(c),b=a(b);return Ek(c,b)}function
-En(){var
+aE(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
+Ep(c,b){var
+a=pP(c);if(!a.device.register)bK("cannot register file");a.device.register(a.rest,b);return 0}function
+pK(c,b){var
+c=a(c),b=a(b);return Ep(c,b)}function
+Es(){var
 b=G.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pJ(b[a].name,b[a].content);G.jsoo_create_file=pJ;G.caml_fs_tmp=[];return 0}function
-EG(c){var
-a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
+a=0;a<b.length;a++)pK(b[a].name,b[a].content);G.jsoo_create_file=pK;G.caml_fs_tmp=[];return 0}function
+EL(c){var
+a=0,e=an(c),b=10,d=1;if(e>0)switch(cJ(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&df(c,a)==48)switch(df(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&cJ(c,a)==48)switch(cJ(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=ap(c),b=10,d=1;if(e>0)switch(df(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pB(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o8)return a-87;return-1}function
-i4(f){var
-h=EG(f),c=h[0],i=h[1],d=h[2],g=ap(f),j=-1>>>0,e=c<g?df(f,c):0,b=pB(e);if(b<0||b>=d)bK(gq);var
-a=b;for(c++;c<g;c++){e=df(f,c);if(e==95)continue;b=pB(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gq)}if(c!=g)bK(gq);a=i*a;if(d==10&&(a|0)!=a)bK(gq);return a|0}function
-Ey(a,b){return+(iX(a,b,false)<=0)}function
-EA(a,d){if(a<0)gE();var
+pD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o_)return a-87;return-1}function
+i5(f){var
+h=EL(f),c=h[0],i=h[1],d=h[2],g=an(f),j=-1>>>0,e=c<g?cJ(f,c):0,b=pD(e);if(b<0||b>=d)bK(gq);var
+a=b;for(c++;c<g;c++){e=cJ(f,c);if(e==95)continue;b=pD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gq)}if(c!=g)bK(gq);a=i*a;if(d==10&&(a|0)!=a)bK(gq);return a|0}function
+ED(a,b){return+(iY(a,b,false)<=0)}function
+EF(a,d){if(a<0)gE();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cj=new
 Array();function
-EB(c){var
+EG(c){var
 a=cj[c];if(!a.opened)aj("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
 b=as.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
-pE(e,f){var
-b=cj[e],d=a(f),c=ap(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-EO(a){var
-a=i8(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+pG(e,f){var
+b=cj[e],d=a(f),c=an(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+ET(a){var
+a=i9(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-EP(a){var
-a=i8(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+EU(a){var
+a=i9(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
 gL(c,e,d,a){if(as.fds===undefined)as.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
-EW(c,b,g){var
+E1(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,66 +619,66 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oW);if(a.text&&a.binary)aj(d4(c)+nQ);var
-d=pO(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gL(f+1,pE,e,a)}gL(0,pE,new
-aC(bY(0)));gL(1,EP,new
-aC(bY(0)));gL(2,EO,new
-aC(bY(0)));function
-EC(a){var
-c=as.fds[a];if(c.flags.wronly)aj(o7+a+" is writeonly");var
-d=null;if(a==0&&e3()){var
-e=require("fs");d=function(){return d5(e.readFileSync(0,nB))}}var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oY);if(a.text&&a.binary)aj(d4(c)+nS);var
+d=pP(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gL(f+1,pG,e,a)}gL(0,pG,new
+aD(bY(0)));gL(1,EU,new
+aD(bY(0)));gL(2,ET,new
+aD(bY(0)));function
+EH(a){var
+c=as.fds[a];if(c.flags.wronly)aj(o9+a+" is writeonly");var
+d=null;if(a==0&&e4()){var
+e=require("fs");d=function(){return d5(e.readFileSync(0,nD))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cj[b.fd]=b;return b.fd}function
-py(c){var
-b=as.fds[c];if(b.flags.rdonly)aj(o7+c+" is readonly");var
+pA(c){var
+b=as.fds[c];if(b.flags.rdonly)aj(o9+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cj[a.fd]=a;return a.fd}function
-ED(){var
+EI(){var
 b=0;for(var
 a=0;a<cj.length;a++)if(cj[a]&&cj[a].opened&&cj[a].out)b=[0,cj[a].fd,b];return b}function
 bq(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
-EK(a,b){pA[d4(a)]=b;return 0}function
-Ed(a,b){if(a===b)return 1;a.t&6&&d3(a);b.t&6&&d3(b);return a.c==b.c?1:0}function
-aq(a,b){return Ed(a,b)}function
-EM(){aE(iQ)}function
-aN(b,a){if(a>>>0>=ap(b))EM();return df(b,a)}function
+EP(a,b){pC[d4(a)]=b;return 0}function
+Ei(a,b){if(a===b)return 1;a.t&6&&d3(a);b.t&6&&d3(b);return a.c==b.c?1:0}function
+aq(a,b){return Ei(a,b)}function
+ER(){aF(iR)}function
+aN(b,a){if(a>>>0>=an(b))ER();return cJ(b,a)}function
 m(a,b){return 1-aq(a,b)}function
 gK(a){return a}function
-pD(a){return a}function
-pI(a){if(a
+pF(a){return a}function
+i_(a){if(a
 instanceof
 Array)return a;if(G.RangeError&&a
 instanceof
-G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pD(as.Stack_overflow);if(G.InternalError&&a
+G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pF(as.Stack_overflow);if(G.InternalError&&a
 instanceof
-G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pD(as.Stack_overflow);if(a
+G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pF(as.Stack_overflow);if(a
 instanceof
-G.Error&&dd(oh))return[0,dd(oh),a];return[0,as.Failure,d5(String(a))]}function
+G.Error&&de(oj))return[0,de(oj),a];return[0,as.Failure,d5(String(a))]}function
 dh(a){return a<0?-a:a}function
 A(a,b){return a+b}function
-i9(a,b){return a<b?-1:a>b?1:0}function
-pL(c,b){var
+i$(a,b){return a<b?-1:a>b?1:0}function
+pM(c,b){var
 a=c%b;return a<0?a+dh(b):a}function
-i_(a,b){return(a-pL(a,b))/b}function
+ja(a,b){return(a-pM(a,b))/b}function
 _(a,b){return a==b?1:0}function
-ET(c){G.orthocert_verify=function(b){return d4(cI(c,[a(b)]))}}function
+EY(c){G.orthocert_verify=function(b){return d4(cI(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
 L(a,b){return a<b?1:0}function
 y(a,b){return a*b}function
 P(a){return-a}function
-aF(a){return G.BigInt(a)}function
-pM(a,b){return a<<G.BigInt(b)}function
-pN(a,b){return a>>G.BigInt(b)}function
+aG(a){return G.BigInt(a)}function
+pN(a,b){return a<<G.BigInt(b)}function
+pO(a,b){return a>>G.BigInt(b)}function
 a9(a){return a<0?-1:a>0?1:0}function
-EU(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
+EZ(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
 d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aG(a,b){return a-b}function
-i$(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
-Ew(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Em(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ew(b[1]))var
+aH(a,b){return a-b}function
+jb(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
+EB(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Er(b){var
+a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&EB(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=oi;for(var
+f=2,e=b;a+=ok;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
@@ -687,41 +687,41 @@ instanceof
 bW)a+=aA+c.toString()+aA;else
 if(typeof
 c=="string")a+=aA+c.toString()+aA;else
-a+="_"}a+=iN}else
+a+="_"}a+=iO}else
 if(b[0]==aM)a+=b[1];return a}function
-ps(a){if(a
+pu(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aM)){var
-c=dd("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Em(a),b=dd(nA);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
+c=de("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Er(a),b=de(nC);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-EL(){var
-a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){ps(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)ps(a.error)})}EL();function
+EQ(){var
+a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pu(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pu(a.error)})}EQ();function
 j(a,b){return a.length==1?a(b):cI(a,[b])}function
-ao(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
-D_(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
-iw(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}En();var
-jc=[aM,a(n8),-2],jb=[aM,a(pd),-4],C5=[0,0],C6=[0,0],C7=[0,[0,0]],C8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C7]]]]]]]]]]],f$=[0,[1,0],0],mT=[0,[2,0],0],h$=[0,[1,0],0],mS=[0,[2,0],0],f9=[0,[1,0],0],h_=[0,[2,0],0],C9=[0,[0,[0,[0,0]]]],C_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C9]]]]]]]]]]],C$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],Da=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],Db=[0,[0,0]],Dc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,0]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,0],DC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,0]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,0],D2=[0,[0,0]],D3=[0,0],D4=[0,[0,[0,[0,[0,0]]]]],jI=[0,[0,[0,0]]],cP=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fX=[0,[0,[0,[0,0]]]],D5=[0,[0,[0,[0,[0,0]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]];bq(11,[aM,a(nz),-12],nz);bq(10,[aM,a(on),-11],on);bq(9,[aM,a(o6),-10],o6);bq(8,[aM,a(nL),-9],nL);bq(7,[aM,a(oA),-8],oA);bq(6,[aM,a(nJ),-7],nJ);bq(5,[aM,a(n9),-6],n9);bq(4,[aM,a(oc),-5],oc);bq(3,jb,pd);bq(2,[aM,a(iH),-3],iH);bq(1,jc,n8);bq(0,[aM,a(oO),-1],oO);var
-pP=a("String.sub / Bytes.sub"),pR=a(T),pQ=a("String.concat"),pS=a("Array.init"),pT=a("power"),p$=[0,0],qa=[0,0],qg=[0,0,0],qh=[0,0,0],qi=[0,0],qB=[0,0],qC=[0,0],qF=[0,0],qY=[0,0],q1=[0,0],q3=[0,0],q4=[0,0],ra=[0,0],rb=[0,0],rS=[0,[0,[0,0]]],se=[0,0],sr=[0,0],ss=[0,0],sC=a(","),sU=[0,a(iN),0],sV=a(oi),sW=a("."),sX=[0,[0,[0,0]]],sY=a(eT),sZ=a(iO),s0=[0,[0,[0,[0,[0,0]]]]],s1=[0,a(iN),0],s2=a(pa),vW=a(nw),vY=a(nt),vX=a(oq),vZ=a(dV),v0=a(gm),v1=a(pc),v2=a(oZ),v3=a(n2),v4=a(oC),xe=[0,0],xf=a(gj),xg=[0,0],xh=a("divided"),xi=[0,1],xj=a("mirror"),xk=[0,3],xl=a("negative"),xm=[0,2],xn=a(eS),xo=[0,5],xp=a(iU),xq=[0,4],xr=a(db),xs=a(nO),xt=a(eP),xu=a(bV),xv=[0,0],xw=[0,0],xx=[0,0],yg=a(T),yd=[0,[0,[0,[0,0]]]],ye=[0,[0,[0,[0,0]]]],yb=[0,[0,[0,0]]],ya=[0,0],x$=a(eP),x_=[0,[0,[0,0]]],x9=[0,0],x6=[0,[0,0]],x7=[0,[0,[0,0]]],x2=[0,[0,[0,0]]],x1=[0,0,0],xZ=[0,[0,0]],x0=[0,0],xY=[0,0],xW=[0,[0,[0,0]]],xQ=[0,[0,0]],xR=[0,[0,[0,0]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C5]]]]]]]]]]],xT=[0,[0,0]],xU=[0,[0,[0,0]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C6]]]]]]]]]]],xN=[0,[0,0]],xO=[0,[0,[0,0]]],xL=[0,[0,[0,0]]],xM=[0,[0,0]],xK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C8]]]]]]]]]]],xJ=[0,0],xI=[0,0],xF=[0,[0,0]],xG=[0,0],xD=[0,0],xE=[0,1],xC=[0,[0,0]],xB=[0,0],xy=[0,0],xz=[0,1],xb=[0,0],xc=[0,1],xd=[0,2],w9=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w7=[0,[0,0],0],w8=[0,[1,0],0],w_=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w5=[0,[0,0]],w6=[0,0],w4=[0,0],w3=[0,0],w2=[0,0],w1=[0,0],w0=[0,0,0],wY=[0,[0,0]],wZ=[0,0],wX=[0,0,0],wV=[0,[0,[0,0]]],wW=[0,[0,[0,0]]],wU=[0,0],wS=[0,1,0],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],wG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],wN=a("sqrt"),wE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],wF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],wt=[0,a("\n"),0],wu=a(nu),wv=a(gl),ww=a(om),wx=a(n6),wD=a(eV),wy=a(eR),wz=a("verdict"),wA=a(oQ),wB=a(nZ),wC=a(ol),wq=a(og),wr=a(oU),ws=a(go),wm=a(ow),wn=a(gp),wo=a(eR),wp=a(eV),wh=a(gx),wi=a(a8),wj=a(nv),wk=a(gu),we=a(oN),wf=a(eS),wg=a(gu),wa=a(oz),wb=a(gx),wc=a(gp),wd=a(o4),v6=a(oV),v7=a(oY),v8=a(od),v9=a(gr),v_=a(o9),vU=a(iz),vV=a(gA),vP=a(bp),vQ=a(bo),vR=a(n1),vp=a(gr),vq=a(oD),u5=a(a8),u6=a(bI),u7=a(gz),u8=a(dY),u9=a(da),vc=a(iA),u_=a(iP),u$=a(iR),va=a(dU),vb=a(a8),vd=a(bI),ve=a(gz),vf=a(dY),vg=a(iP),vh=a(iR),vi=a(dU),vj=a(a8),vk=a(bI),vl=a(bp),vm=a(bo),vn=a(c_),vo=a(dY),vr=a(oJ),vs=a(oX),vt=a(gD),vu=a(nP),vv=a(nU),vw=a(dU),vx=a(a8),vy=a(bI),vz=a(gh),vA=a(n4),vB=a(dY),vC=a(eY),vD=a(nD),vE=a(dU),vF=a(a8),vG=a(gh),vH=a(a8),vI=a(oF),vL=a(ns),vJ=a(nS),vK=a(o3),vM=a(eV),vN=a(eR),vO=a(a8),vS=a(gD),vT=a(go),u0=a(bI),u1=a(dY),u2=a(iA),u3=a(dU),uZ=a(o_),uN=a(eY),uO=a(oR),uP=a(c$),uQ=a(dW),uR=a(dW),uS=a(iD),uT=a(c$),uU=a(oo),uV=a(n0),uW=a(a1),uY=a(ny),uX=a(iD),uD=a(of),uE=a(pb),uF=a(nW),uG=a(nT),uH=a(o1),uI=a(oM),uJ=a(n7),uK=a(gi),uL=a(gi),uz=a(a1),uA=a(bn),uB=a(dZ),uC=a(bH),uv=a(da),uw=a(iK),ux=a(ox),us=a(bp),ut=a(bo),uu=a(c_),ul=a(bp),um=a(bo),un=a(c_),uo=a(iM),up=a(c$),uq=a(iI),ur=a(oI),t9=a(nR),ud=a(gl),uc=a(o2),t_=a(iE),t$=a(gt),ug=a(eQ),uh=a(iE),ue=a(eQ),uf=a(gt),ui=a(nN),uj=a(oG),uk=a(gt),ua=a(dW),ub=a(ot),t6=a(gs),t7=a(gs),t8=a(gs),t2=a(oK),t3=a(bo),t4=a(bp),t5=a(o0),tM=a(nH),tN=a(nx),tO=a(oB),tP=a(dV),tQ=a(o$),tR=a(oE),tS=a(nI),tT=a(ou),tU=a(nG),tV=a(n3),tW=a(nF),tX=a(oL),tY=a(gm),tZ=a(nC),t0=a(oT),t1=a(nV),tr=a(gv),tt=a(eT),ts=a(eO),tu=a(dT),tv=a(a1),tw=a(bn),tx=a(bV),ty=a(gB),tz=a(bH),tA=a(a1),tB=a(bn),tC=a(dZ),tD=a(bH),tE=a(dT),tF=a(eX),tG=a(a1),tH=a(bn),tI=a(os),tJ=a(eQ),tK=a(eX),tL=a(bH),s$=a(gv),th=a(eT),ta=a(eO),tb=a(dT),tc=a(a1),td=a(bn),te=a(bV),tf=a(gB),tg=a(bH),ti=a(gC),tj=a(a1),tk=a(bn),tl=a(dZ),tm=a(bH),tn=a(bV),to=a(da),tp=a(bH),s8=a(bp),s9=a(bo),s6=[0,a(aA),0],s7=a(aA),s4=a(T),s3=[0,a(aA),0],s5=a(aA),sQ=a(gv),sR=a(eT),sS=a("*"),sT=a(bJ),sL=[0,[0,[0,[0,[0,0]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,[0,[0,0]]]],sJ=a('":'),sK=a(aA),sH=[0,a(aA),0],sI=a(aA),sF=[0,a("}"),0],sG=a("{"),sD=[0,a("]"),0],sE=a("["),sB=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sy=[0,0],sv=[0,[0,[0,0]]],sw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],st=[0,[0,0]],su=[0,[0,[0,0]]],so=[0,0],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],sl=[0,0],si=[0,0,0],sj=[0,0,0],sk=[0,0,0],sf=[0,[0,0]],sg=[0,[0,[0,0]]],sh=[0,0],r6=[0,[0,[0,[0,[0,[0,0]]]]]],r7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],r8=[0,[0,[0,0]]],r9=[0,[0,[0,0]]],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],sb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],sc=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,0]],r5=[0,[0,[0,0]]],r0=[0,0,0],r1=[0,0,0],rZ=[0,0],rY=[0,0],rW=[0,0],rX=[0,0],rV=[0,0],rT=[0,0],rU=[0,0],rQ=[0,[0,0]],rR=[0,[0,[0,0]]],rO=[0,[0,[0,0]]],rP=[0,[0,0]],rI=[0,0],rJ=[0,0],rK=[0,0],rL=[0,[0,[0,0]]],rH=[0,0],rC=[0,[0,0]],rD=[0,0],ru=[0,[0,0]],rv=[0,0],rw=[0,[0,0]],rx=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rs=[0,[0,0]],rt=[0,0],rq=[0,[0,0]],rr=[0,0],rm=[0,[0,0]],rn=[0,0],ro=[0,0],rp=[0,[0,0]],rd=[0,[0,0]],re=[0,0],rf=[0,[0,0]],rg=[0,0],rh=[0,0],ri=[0,[0,0]],rj=[0,[0,0]],rk=[0,[0,0]],rl=[0,0],q$=[0,0],q_=[0,0],q7=[0,[0,[0,0]]],q6=[0,[0,[0,[0,[0,[0,0]]]]]],q2=[0,[0,[0,0]]],qZ=[0,[0,[0,0]]],qX=[0,[0,[0,0]]],qV=[0,[0,[0,[0,[0,[0,0]]]]]],qW=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,0]],qR=[0,0],qS=[0,[0,0]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qK=[0,[0,[0,[0,[0,[0,0]]]]]],qL=[0,[0,[0,[0,[0,[0,0]]]]]],qM=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,0]]]]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qH=[0,[0,0]],qI=[0,0],qG=[0,0,0],qE=[0,0,0],qD=[0,[0,[0,0]]],qz=[0,0],qA=[0,0],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,[0,0]]],qt=[0,[0,[0,[0,0]]]],qp=[0,[0,[0,0]]],qq=[0,[0,[0,0]]],qr=[0,[0,[0,0]]],qs=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qn=[0,[0,0]],qo=[0,0],ql=[0,[0,0]],qm=[0,0],qj=[0,[0,0]],qk=[0,0],p8=[0,0],p9=[0,[0,0]],p6=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],p4=[0,0,0],p3=a(iT),p2=a(T),p1=[0,[0,0]],p0=[0,0],pX=[0,0],pZ=[1,0],pY=[0,0],pW=[0,0],pU=[1,0],pV=[1,0],q8=[10,0,0,0,0],x8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],Bj=a(bp),Bk=a(bo),Bl=a(n1),Ba=a(gC),Bb=[0,a("a base axis of such a platform"),0],Bc=a(a1),Bd=a(bn),AZ=a(oM),A0=a(of),A1=a(o1),A2=a(gi),A3=a(n7),A4=a(gi),A5=a(pb),A6=a(nW),A7=a(nT),AP=a(oD),AQ=a(gr),Ar=[0,a("such a machine with bodies"),0],Ae=a(go),Af=a(a8),Ag=a(oF),Ah=a(o3),Ak=a(nS),Al=a(ns),Am=a(a8),An=a(a8),Ap=a(gh),Ao=[0,a("a claim that no cube of such a machine fits"),0],Aq=a(o_),As=a(dU),At=a(dY),Au=a(da),Av=a(iK),Aw=a(ox),Ax=a(gz),Ay=a(nU),Az=a(nD),AA=a(iA),AD=a(c_),AE=a(oI),AH=a(bI),AI=a(bI),AJ=a(n4),AK=a(bI),AL=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AM=a(gh),AN=a(eY),AO=a(c_),AR=a(bI),AS=a(bp),AT=a(bo),AU=a(oJ),AV=a(oX),AW=a(gD),AX=a(nP),AB=[0,a(aA),0],AC=a('the mechanism "'),AY=a(iP),A8=a(gz),A9=a(da),A_=a(iK),A$=a(iR),Be=a(bI),Bf=[0,a('"one_to_one" of this set of orientations'),0],Bi=a(da),Bg=[0,a("a platform that turns on struts and other drives"),0],Bh=a(bI),AF=[0,a(aA),0],AG=a('the workspace "'),Bm=a(a8),Bn=a(a8),Bp=a(eV),Bq=a(eR),Br=a(gD),Bo=[0,a("an atlas of such a machine"),0],Ai=[0,a(aA),0],Aj=a('a claim of the kind "'),Bw=a(pc),BD=a(gm),BE=a(dV),BF=a(n2),BG=a(oq),BH=a(bV),BI=a(gA),BJ=a(iz),BK=a(bV),BL=a(iT),Bx=a(db),By=a(nO),Bz=a(eP),BA=a(oC),BB=[0,a(aA),0],BC=a('the evidence "'),BM=a(db),BN=a(gA),BO=[0,1,1],BP=a(dV),BQ=a(db),BR=a(eP),BS=a(oZ),BU=a(dV),BV=a(db),BW=a(eP),BX=a(eS),BY=a(gj),BZ=a(eS),B0=a(gj),BT=[0,a("this evidence at control points"),0],CY=a('"orthocert-paving/'),CP=a(db),CQ=a(db),Cy=a(ol),Cz=a(nZ),CA=a(oQ),CW=[0,3,3],CB=a(n6),CN=[0,a("this set of orientations with such drives"),0],CO=[0,a(ob),0],CR=[0,a('this evidence "tolerances" of a platform that turns'),0],CS=[0,a("a step of a platform that turns that is not at control points"),0],CT=[0,a(ob),0],CU=[0,a('the evidence "tolerances" of such a mechanism'),0],CV=[0,a(oP),0],CM=[0,a(oP),0],CL=[0,a("a mechanism by formulas in a claim that is refuted"),0],CK=[0,a("this quantity in a claim that is refuted"),0],CC=[0,a("the acceleration of a joint of a machine with a plane"),0],CJ=[0,a("a step in a proof that no cube fits"),0],CI=[0,a("a stiffness for each joint in such a claim"),0],CH=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CG=[0,a("a leaf that fails"),0],CD=a(om),CE=a(nu),CF=a(gl),Cu=a(iU),Cv=a(gj),Cw=a(bV),Cn=a(go),Co=a(og),Cp=a(oU),Cq=[0,a(aA),0],Cr=a('a proof of the kind "'),Cj=a(eR),Ck=a(eV),Cl=a(gp),Cm=a(ow),Cf=a(a8),Cg=a(gx),Ch=a(nv),Ci=a(gu),Cc=a(oN),Cd=a(eS),Ce=a(gu),B_=a(oz),B$=a(gx),Ca=a(gp),Cb=a(o4),B3=a(oY),B4=a(od),B5=a(oV),B6=a(gr),B7=a(o9),B8=[0,a(aA),0],B9=a('the failure "'),B1=a(iU),B2=a(iT),Bu=a(gA),Bv=a(iz),Bs=a(nt),Bt=a(nw),Ab=a(eY),z3=a(iD),z4=a(ny),z5=a(dW),z6=a(a1),z$=a(oR),Aa=a(eY),Ac=a(c$),Ad=a(dW),z7=a(c$),z8=a(oo),z9=a(n0),z_=a(a1),zW=a(c_),z0=a(bp),z1=a(bo),zX=a(iI),zY=a(iM),zZ=a(c$),zQ=a(c_),zU=a(bp),zV=a(bo),zR=a(iI),zS=a(iM),zT=a(c$),zP=[0,1],zO=[0,1],zM=[0,1],zL=[0,1],zJ=[0,1],zK=[0,a("this quantity of such a mechanism"),0],zs=a(iE),zt=a(oG),zu=a(nN),zv=a(o2),zw=a("max_angle"),zx=[0,a("accuracy of a platform that turns"),0],zy=a(eQ),zr=a(gl),zj=a(gs),y_=a(ot),y$=a(oB),zB=a(gm),zC=a(oT),zD=a(n3),zE=a(dV),zF=a(ou),zG=a(nF),zH=a(nG),zI=a(nx),za=a(nC),zb=a(oL),zc=a(oE),zd=a(nV),ze=a(o$),zf=a(nI),zg=a(nH),zh=[0,a(aA),0],zi=a('the quantity "'),zk=a(nR),zl=a(oK),zm=a(bp),zn=a(bo),zo=a(o0),zp=[0,a(aA),0],zq=a('a bound "'),zz=a(gt),zA=a(dW),y8=a(bH),y9=a(dZ),yN=a(bH),yO=a(gC),yP=a(eX),yQ=a(gB),yR=a(dZ),yU=a(a1),yV=a(bn),yW=a(eO),yX=a(dT),yY=a(a1),yZ=a(bn),y0=a(bV),y1=a(eO),y2=a(dT),y3=a(eX),y4=a(a1),y5=a(bn),y6=a(os),y7=a(eQ),yS=[0,a('" of such a machine'),0],yT=a(nM),yL=a(bH),yM=a(eX),yv=a(bH),yw=a(da),yx=a(gB),yy=a(dZ),yB=a(gC),yC=a(a1),yD=a(bn),yE=a(eO),yF=a(dT),yG=a(a1),yH=a(bn),yI=a(bV),yJ=a(bV),yz=[0,a(aA),0],yA=a(nM),ys=a(gv),yt=a(eT),yq=a(" is not covered by the verified checker"),yr=a(T),yo=a(bp),yp=a(bo),yk=a(T),yl=a(pa),ym=a(T),yn=a(T),yj=[1,0],yh=a("Reader.Malformed"),yi=a("Reader.Not_covered"),C0=[0,a("a paving is checked by orthocert-verified")],CZ=a(ov),C1=a("CERTIFIED"),C2=a("REFUTED"),C3=a(ov),C4=a("NOT COVERED: ");function
-e4(a){throw[0,jb,a]}function
+ap(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
+Ed(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
+ix(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}Es();var
+je=[aM,a(n_),-2],jd=[aM,a(pf),-4],gM=[aM,a(nL),-7],C_=[0,0],C$=[0,0],Da=[0,[0,0]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],f$=[0,[1,0],0],mV=[0,[2,0],0],ia=[0,[1,0],0],mU=[0,[2,0],0],f9=[0,[1,0],0],h$=[0,[2,0],0],Dc=[0,[0,[0,[0,0]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,0]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,0]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,0],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,0]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],D3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],D4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],D6=[0,0],D7=[0,[0,0]],D8=[0,0],D9=[0,[0,[0,[0,[0,0]]]]],jK=[0,[0,[0,0]]],cQ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fX=[0,[0,[0,[0,0]]]],D_=[0,[0,[0,[0,[0,0]]]]],D$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Ea=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D$]]]]]]]]]]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ea]]]]]]]]]]],Ec=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eb]]]]]]]]]]];bq(11,[aM,a(nB),-12],nB);bq(10,[aM,a(op),-11],op);bq(9,[aM,a(o8),-10],o8);bq(8,[aM,a(nN),-9],nN);bq(7,[aM,a(oC),-8],oC);bq(6,gM,nL);bq(5,[aM,a(n$),-6],n$);bq(4,[aM,a(oe),-5],oe);bq(3,jd,pf);bq(2,[aM,a(iI),-3],iI);bq(1,je,n_);bq(0,[aM,a(oQ),-1],oQ);var
+pQ=a("String.sub / Bytes.sub"),pV=a("String.contains_from / Bytes.contains_from"),pS=a(T),pR=a("String.concat"),pW=a("Array.init"),pX=a("power"),qd=[0,0],qe=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qF=[0,0],qG=[0,0],qJ=[0,0],q2=[0,0],q5=[0,0],q7=[0,0],q8=[0,0],re=[0,0],rf=[0,0],rW=[0,[0,[0,0]]],si=[0,0],sv=[0,0],sw=[0,0],sG=a(","),sY=[0,a(iO),0],sZ=a(ok),s0=a("."),s1=[0,[0,[0,0]]],s2=a(eU),s3=a(iP),s4=[0,[0,[0,[0,[0,0]]]]],s5=[0,a(iO),0],s6=a(pc),v0=a(ny),v2=a(nv),v1=a(os),v3=a(dV),v4=a(gm),v5=a(pe),v6=a(o1),v7=a(n4),v8=a(oE),xi=[0,0],xj=a(gj),xk=[0,0],xl=a("divided"),xm=[0,1],xn=a("mirror"),xo=[0,3],xp=a("negative"),xq=[0,2],xr=a(eT),xs=[0,5],xt=a(iV),xu=[0,4],xv=a(dc),xw=a(nQ),xx=a(eQ),xy=a(bV),xz=[0,0],xA=[0,0],xB=[0,0],yk=a(T),yh=[0,[0,[0,[0,0]]]],yi=[0,[0,[0,[0,0]]]],yf=[0,[0,[0,0]]],ye=[0,0],yd=a(eQ),yc=[0,[0,[0,0]]],yb=[0,0],x_=[0,[0,0]],x$=[0,[0,[0,0]]],x6=[0,[0,[0,0]]],x5=[0,0,0],x3=[0,[0,0]],x4=[0,0],x2=[0,0],x0=[0,[0,[0,0]]],xU=[0,[0,0]],xV=[0,[0,[0,0]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],xX=[0,[0,0]],xY=[0,[0,[0,0]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],xR=[0,[0,0]],xS=[0,[0,[0,0]]],xP=[0,[0,[0,0]]],xQ=[0,[0,0]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],xN=[0,0],xM=[0,0],xJ=[0,[0,0]],xK=[0,0],xH=[0,0],xI=[0,1],xG=[0,[0,0]],xF=[0,0],xC=[0,0],xD=[0,1],xf=[0,0],xg=[0,1],xh=[0,2],xb=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w$=[0,[0,0],0],xa=[0,[1,0],0],xc=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w9=[0,[0,0]],w_=[0,0],w8=[0,0],w7=[0,0],w6=[0,0],w5=[0,0],w4=[0,0,0],w2=[0,[0,0]],w3=[0,0],w1=[0,0,0],wZ=[0,[0,[0,0]]],w0=[0,[0,[0,0]]],wY=[0,0],wW=[0,1,0],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],wR=a("sqrt"),wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],wx=[0,a("\n"),0],wy=a(nw),wz=a(gl),wA=a(oo),wB=a(n8),wH=a(eW),wC=a(eS),wD=a("verdict"),wE=a(oS),wF=a(n1),wG=a(on),wu=a(oi),wv=a(oW),ww=a(go),wq=a(oy),wr=a(gp),ws=a(eS),wt=a(eW),wl=a(gx),wm=a(a8),wn=a(nx),wo=a(gu),wi=a(oP),wj=a(eT),wk=a(gu),we=a(oB),wf=a(gx),wg=a(gp),wh=a(o6),v_=a(oX),v$=a(o0),wa=a(of),wb=a(gr),wc=a(o$),vY=a(iA),vZ=a(gA),vT=a(bp),vU=a(bo),vV=a(n3),vt=a(gr),vu=a(oF),u9=a(a8),u_=a(bI),u$=a(gz),va=a(dY),vb=a(db),vg=a(iB),vc=a(iQ),vd=a(iS),ve=a(dU),vf=a(a8),vh=a(bI),vi=a(gz),vj=a(dY),vk=a(iQ),vl=a(iS),vm=a(dU),vn=a(a8),vo=a(bI),vp=a(bp),vq=a(bo),vr=a(c$),vs=a(dY),vv=a(oL),vw=a(oZ),vx=a(gD),vy=a(nR),vz=a(nW),vA=a(dU),vB=a(a8),vC=a(bI),vD=a(gh),vE=a(n6),vF=a(dY),vG=a(eZ),vH=a(nF),vI=a(dU),vJ=a(a8),vK=a(gh),vL=a(a8),vM=a(oH),vP=a(nu),vN=a(nU),vO=a(o5),vQ=a(eW),vR=a(eS),vS=a(a8),vW=a(gD),vX=a(go),u4=a(bI),u5=a(dY),u6=a(iB),u7=a(dU),u3=a(pa),uR=a(eZ),uS=a(oT),uT=a(da),uU=a(dW),uV=a(dW),uW=a(iE),uX=a(da),uY=a(oq),uZ=a(n2),u0=a(a1),u2=a(nA),u1=a(iE),uH=a(oh),uI=a(pd),uJ=a(nY),uK=a(nV),uL=a(o3),uM=a(oO),uN=a(n9),uO=a(gi),uP=a(gi),uD=a(a1),uE=a(bn),uF=a(dZ),uG=a(bH),uz=a(db),uA=a(iL),uB=a(oz),uw=a(bp),ux=a(bo),uy=a(c$),up=a(bp),uq=a(bo),ur=a(c$),us=a(iN),ut=a(da),uu=a(iJ),uv=a(oK),ub=a(nT),uh=a(gl),ug=a(o4),uc=a(iF),ud=a(gt),uk=a(eR),ul=a(iF),ui=a(eR),uj=a(gt),um=a(nP),un=a(oI),uo=a(gt),ue=a(dW),uf=a(ov),t_=a(gs),t$=a(gs),ua=a(gs),t6=a(oM),t7=a(bo),t8=a(bp),t9=a(o2),tQ=a(nJ),tR=a(nz),tS=a(oD),tT=a(dV),tU=a(pb),tV=a(oG),tW=a(nK),tX=a(ow),tY=a(nI),tZ=a(n5),t0=a(nH),t1=a(oN),t2=a(gm),t3=a(nE),t4=a(oV),t5=a(nX),tv=a(gv),tx=a(eU),tw=a(eP),ty=a(dT),tz=a(a1),tA=a(bn),tB=a(bV),tC=a(gB),tD=a(bH),tE=a(a1),tF=a(bn),tG=a(dZ),tH=a(bH),tI=a(dT),tJ=a(eY),tK=a(a1),tL=a(bn),tM=a(ou),tN=a(eR),tO=a(eY),tP=a(bH),td=a(gv),tl=a(eU),te=a(eP),tf=a(dT),tg=a(a1),th=a(bn),ti=a(bV),tj=a(gB),tk=a(bH),tm=a(gC),tn=a(a1),to=a(bn),tp=a(dZ),tq=a(bH),tr=a(bV),ts=a(db),tt=a(bH),ta=a(bp),tb=a(bo),s_=[0,a(aA),0],s$=a(aA),s8=a(T),s7=[0,a(aA),0],s9=a(aA),sU=a(gv),sV=a(eU),sW=a("*"),sX=a(bJ),sP=[0,[0,[0,[0,[0,0]]]]],sQ=[0,[0,[0,0]]],sR=[0,[0,0]],sS=[0,0],sT=[0,[0,[0,[0,0]]]],sN=a('":'),sO=a(aA),sL=[0,a(aA),0],sM=a(aA),sJ=[0,a("}"),0],sK=a("{"),sH=[0,a("]"),0],sI=a("["),sF=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sC=[0,0],sz=[0,[0,[0,0]]],sA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,0]],sy=[0,[0,[0,0]]],ss=[0,0],st=[0,[0,[0,[0,[0,[0,0]]]]]],su=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],sp=[0,0],sm=[0,0,0],sn=[0,0,0],so=[0,0,0],sj=[0,[0,0]],sk=[0,[0,[0,0]]],sl=[0,0],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,0]]],sb=[0,[0,[0,0]]],sc=[0,[0,[0,[0,[0,[0,0]]]]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],se=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],sf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],sg=[0,[0,[0,0]]],sh=[0,[0,[0,[0,[0,[0,0]]]]]],r8=[0,[0,0]],r9=[0,[0,[0,0]]],r4=[0,0,0],r5=[0,0,0],r3=[0,0],r2=[0,0],r0=[0,0],r1=[0,0],rZ=[0,0],rX=[0,0],rY=[0,0],rU=[0,[0,0]],rV=[0,[0,[0,0]]],rS=[0,[0,[0,0]]],rT=[0,[0,0]],rM=[0,0],rN=[0,0],rO=[0,0],rP=[0,[0,[0,0]]],rL=[0,0],rG=[0,[0,0]],rH=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rC=[0,[0,0]],rD=[0,0],rE=[0,[0,0]],rF=[0,0],rw=[0,[0,0]],rx=[0,0],ru=[0,[0,0]],rv=[0,0],rq=[0,[0,0]],rr=[0,0],rs=[0,0],rt=[0,[0,0]],rh=[0,[0,0]],ri=[0,0],rj=[0,[0,0]],rk=[0,0],rl=[0,0],rm=[0,[0,0]],rn=[0,[0,0]],ro=[0,[0,0]],rp=[0,0],rd=[0,0],rc=[0,0],q$=[0,[0,[0,0]]],q_=[0,[0,[0,[0,[0,[0,0]]]]]],q6=[0,[0,[0,0]]],q3=[0,[0,[0,0]]],q1=[0,[0,[0,0]]],qZ=[0,[0,[0,[0,[0,[0,0]]]]]],q0=[0,[0,[0,[0,[0,[0,0]]]]]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,[0,[0,0]]],qY=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qO=[0,[0,[0,[0,[0,[0,0]]]]]],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,[0,[0,[0,0]]]]]],qS=[0,[0,[0,0]]],qT=[0,[0,[0,0]]],qL=[0,[0,0]],qM=[0,0],qK=[0,0,0],qI=[0,0,0],qH=[0,[0,[0,0]]],qD=[0,0],qE=[0,0],qy=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qx=[0,[0,[0,[0,0]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qr=[0,[0,0]],qs=[0,0],qp=[0,[0,0]],qq=[0,0],qn=[0,[0,0]],qo=[0,0],qa=[0,0],qb=[0,[0,0]],p_=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],p8=[0,0,0],p7=a(iU),p6=a(T),p5=[0,[0,0]],p4=[0,0],p1=[0,0],p3=[1,0],p2=[0,0],p0=[0,0],pY=[1,0],pZ=[1,0],ra=[10,0,0,0,0],ya=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],Bn=a(bp),Bo=a(bo),Bp=a(n3),Be=a(gC),Bf=[0,a("a base axis of such a platform"),0],Bg=a(a1),Bh=a(bn),A3=a(oO),A4=a(oh),A5=a(o3),A6=a(gi),A7=a(n9),A8=a(gi),A9=a(pd),A_=a(nY),A$=a(nV),AT=a(oF),AU=a(gr),Av=[0,a("such a machine with bodies"),0],Ai=a(go),Aj=a(a8),Ak=a(oH),Al=a(o5),Ao=a(nU),Ap=a(nu),Aq=a(a8),Ar=a(a8),At=a(gh),As=[0,a("a claim that no cube of such a machine fits"),0],Au=a(pa),Aw=a(dU),Ax=a(dY),Ay=a(db),Az=a(iL),AA=a(oz),AB=a(gz),AC=a(nW),AD=a(nF),AE=a(iB),AH=a(c$),AI=a(oK),AL=a(bI),AM=a(bI),AN=a(n6),AO=a(bI),AP=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AQ=a(gh),AR=a(eZ),AS=a(c$),AV=a(bI),AW=a(bp),AX=a(bo),AY=a(oL),AZ=a(oZ),A0=a(gD),A1=a(nR),AF=[0,a(aA),0],AG=a('the mechanism "'),A2=a(iQ),Ba=a(gz),Bb=a(db),Bc=a(iL),Bd=a(iS),Bi=a(bI),Bj=[0,a('"one_to_one" of this set of orientations'),0],Bm=a(db),Bk=[0,a("a platform that turns on struts and other drives"),0],Bl=a(bI),AJ=[0,a(aA),0],AK=a('the workspace "'),Bq=a(a8),Br=a(a8),Bt=a(eW),Bu=a(eS),Bv=a(gD),Bs=[0,a("an atlas of such a machine"),0],Am=[0,a(aA),0],An=a('a claim of the kind "'),BA=a(pe),BI=a(gm),BJ=a(dV),BK=a(n4),BL=a(os),BM=a(bV),BN=a(gA),BO=a(iA),BP=a(bV),BQ=a(iU),BB=a(dc),BC=a(nQ),BD=a(eQ),BE=a(oE),BH=[0,a("directions of one scale"),0],BF=[0,a(aA),0],BG=a('the evidence "'),BR=a(dc),BS=a(gA),BT=[0,1,1],BU=a(dV),BV=a(dc),BW=a(eQ),BX=a(o1),BZ=a(dV),B0=a(dc),B1=a(eQ),B2=a(eT),B3=a(gj),B4=a(eT),B5=a(gj),BY=[0,a("this evidence at control points"),0],C3=a('"orthocert-paving/'),CU=a(dc),CV=a(dc),CD=a(on),CE=a(n1),CF=a(oS),C1=[0,3,3],CG=a(n8),CS=[0,a("this set of orientations with such drives"),0],CT=[0,a(od),0],CW=[0,a('this evidence "tolerances" of a platform that turns'),0],CX=[0,a("a step of a platform that turns that is not at control points"),0],CY=[0,a(od),0],CZ=[0,a('the evidence "tolerances" of such a mechanism'),0],C0=[0,a(oR),0],CR=[0,a(oR),0],CQ=[0,a("a mechanism by formulas in a claim that is refuted"),0],CP=[0,a("this quantity in a claim that is refuted"),0],CH=[0,a("the acceleration of a joint of a machine with a plane"),0],CO=[0,a("a step in a proof that no cube fits"),0],CN=[0,a("a stiffness for each joint in such a claim"),0],CM=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CL=[0,a("a leaf that fails"),0],CI=a(oo),CJ=a(nw),CK=a(gl),Cz=a(iV),CA=a(gj),CB=a(bV),Cs=a(go),Ct=a(oi),Cu=a(oW),Cv=[0,a(aA),0],Cw=a('a proof of the kind "'),Co=a(eS),Cp=a(eW),Cq=a(gp),Cr=a(oy),Ck=a(a8),Cl=a(gx),Cm=a(nx),Cn=a(gu),Ch=a(oP),Ci=a(eT),Cj=a(gu),Cd=a(oB),Ce=a(gx),Cf=a(gp),Cg=a(o6),B8=a(o0),B9=a(of),B_=a(oX),B$=a(gr),Ca=a(o$),Cb=[0,a(aA),0],Cc=a('the failure "'),B6=a(iV),B7=a(iU),By=a(gA),Bz=a(iA),Bw=a(nv),Bx=a(ny),Af=a(eZ),z7=a(iE),z8=a(nA),z9=a(dW),z_=a(a1),Ad=a(oT),Ae=a(eZ),Ag=a(da),Ah=a(dW),z$=a(da),Aa=a(oq),Ab=a(n2),Ac=a(a1),z0=a(c$),z4=a(bp),z5=a(bo),z1=a(iJ),z2=a(iN),z3=a(da),zU=a(c$),zY=a(bp),zZ=a(bo),zV=a(iJ),zW=a(iN),zX=a(da),zT=[0,1],zS=[0,1],zQ=[0,1],zP=[0,1],zN=[0,1],zO=[0,a("this quantity of such a mechanism"),0],zw=a(iF),zx=a(oI),zy=a(nP),zz=a(o4),zA=a("max_angle"),zB=[0,a("accuracy of a platform that turns"),0],zC=a(eR),zv=a(gl),zn=a(gs),zc=a(ov),zd=a(oD),zF=a(gm),zG=a(oV),zH=a(n5),zI=a(dV),zJ=a(ow),zK=a(nH),zL=a(nI),zM=a(nz),ze=a(nE),zf=a(oN),zg=a(oG),zh=a(nX),zi=a(pb),zj=a(nK),zk=a(nJ),zl=[0,a(aA),0],zm=a('the quantity "'),zo=a(nT),zp=a(oM),zq=a(bp),zr=a(bo),zs=a(o2),zt=[0,a(aA),0],zu=a('a bound "'),zD=a(gt),zE=a(dW),za=a(bH),zb=a(dZ),yR=a(bH),yS=a(gC),yT=a(eY),yU=a(gB),yV=a(dZ),yY=a(a1),yZ=a(bn),y0=a(eP),y1=a(dT),y2=a(a1),y3=a(bn),y4=a(bV),y5=a(eP),y6=a(dT),y7=a(eY),y8=a(a1),y9=a(bn),y_=a(ou),y$=a(eR),yW=[0,a('" of such a machine'),0],yX=a(nO),yP=a(bH),yQ=a(eY),yz=a(bH),yA=a(db),yB=a(gB),yC=a(dZ),yF=a(gC),yG=a(a1),yH=a(bn),yI=a(eP),yJ=a(dT),yK=a(a1),yL=a(bn),yM=a(bV),yN=a(bV),yD=[0,a(aA),0],yE=a(nO),yw=a(gv),yx=a(eU),yu=a(" is not covered by the verified checker"),yv=a(T),ys=a(bp),yt=a(bo),yo=a(T),yp=a(pc),yq=a(T),yr=a(T),yn=[1,0],yl=a("Reader.Malformed"),ym=a("Reader.Not_covered"),C5=[0,a("a paving is checked by orthocert-verified")],C4=a(ox),C6=a("CERTIFIED"),C7=a("REFUTED"),C8=a(ox),C9=a("NOT COVERED: ");function
+d7(a){throw[0,jd,a]}function
 aT(d,c){var
-a=ap(d),e=ap(c),b=bY(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gK(b)}EC(0);py(1);py(2);function
-jd(b){function
+a=an(d),e=an(c),b=bY(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gK(b)}EH(0);pA(1);pA(2);function
+jf(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{EB(d)}catch(a){a=pI(a);if(a[1]!==jc)throw a;var
+c=a[2],d=a[1];try{EG(d)}catch(a){a=i_(a);if(a[1]!==je)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(ED(0))}EK(a(nA),jd);function
+a=c;continue}return 0}}return a(EI(0))}EP(a(nC),jf);function
 bZ(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-je(d){var
+jg(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 U(b,a){if(a){var
 c=a[2],d=j(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gM(d,c){var
+gN(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
@@ -730,51 +730,57 @@ a=c;for(;;){if(a){var
 e=a[2],b=j(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 br(b,c){var
-a=bY(b);El(a,0,b,c);return gK(a)}function
+a=bY(b);Eq(a,0,b,c);return gK(a)}function
 di(g,b,a){var
 d=d2(g),f=0;if(0<=b&&0<=a&&!((gI(d)-a|0)<b)){var
-c=bY(a);eZ(d,b,c,0,a);var
+c=bY(a);e0(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=e4(pP);return gK(e)}function
-jf(k,g){if(g){var
-h=ap(k),c=0,b=g,p=0;for(;;){if(b){var
+e=d7(pQ);return gK(e)}function
+jh(k,g){if(g){var
+h=an(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ap(i)+h|0)+c|0,m=b[2],n=c<=j?j:e4(pQ),c=n,b=m;continue}var
-l=ap(i)+c|0}else
+j=(an(i)+h|0)+c|0,m=b[2],n=c<=j?j:d7(pR),c=n,b=m;continue}var
+l=an(i)+c|0}else
 var
 l=c;var
 f=bY(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];d1(a,0,f,e,ap(a));d1(k,0,f,e+ap(a)|0,h);var
-e=(e+ap(a)|0)+h|0,d=o;continue}d1(a,0,f,e,ap(a))}return gK(f)}}}return pR}function
-gN(b,c){if(0===b)return[0];if(0<=b){var
-d=EA(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];d1(a,0,f,e,an(a));d1(k,0,f,e+an(a)|0,h);var
+e=(e+an(a)|0)+h|0,d=o;continue}d1(a,0,f,e,an(a))}return gK(f)}}}return pS}function
+pT(e,d,c,b){var
+a=c;for(;;){if(d<=a)throw gM;if(cJ(e,a)===b)return a;var
+a=a+1|0;continue}}function
+pU(b,a,d){var
+c=an(b);if(0<=a&&!(c<a))try{pT(b,c,a,d);var
+e=1;return e}catch(a){a=i_(a);if(a===gM)return 0;throw a}return d7(pV)}function
+gO(b,c){if(0===b)return[0];if(0<=b){var
+d=EF(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=j(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return e4(pS)}function
-gO(c){var
+a=g;continue}break}}return d}return d7(pW)}function
+gP(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aF(0),c=aF(1);function
+d=aG(0),c=aG(1);function
 p(a){return A(a,c)}function
-jg(b,a){return A(aF(b),a)}function
-b(b,a){return y(aF(b),a)}function
-aU(b,a){return[0,i_(b,a),pL(b,a)]}function
-gP(b,a){return H(b,a)?b:a}function
+ji(b,a){return A(aG(b),a)}function
+b(b,a){return y(aG(b),a)}function
+aU(b,a){return[0,ja(b,a),pM(b,a)]}function
+gQ(b,a){return H(b,a)?b:a}function
 bs(b,a){return H(b,a)?a:b}function
-d7(a){return d7}function
+d8(a){return d8}function
 $(a){return a?0:1}function
 x(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
-aH(a){return a[1]}function
+aI(a){return a[1]}function
 b0(a){return a[2]}function
 h(a){var
 b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-jh(a){return typeof
-a==="number"?0:[0,jh(a[1])]}function
-ji(d,c){var
+jj(a){return typeof
+a==="number"?0:[0,jj(a[1])]}function
+jk(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +803,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-e5(a){return ji(a,0)}function
-jj(a){if(typeof
-a==="number")return pU;else
+e5(a){return jk(a,0)}function
+jl(a){if(typeof
+a==="number")return pY;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,9 +815,9 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jj(a[1])]}}function
+8:return[9,a[1]];default:return[0,jl(a[1])]}}function
 bu(a){if(typeof
-a==="number")return pV;else
+a==="number")return pZ;else
 switch(a[0]){case
 0:return[1,bt(a[1])];case
 1:return[3,bt(a[1])];case
@@ -836,7 +842,7 @@ switch(a[0]){case
 8:return[6,bu(a[1])];default:return[8,bu(a[1])]}}function
 bL(a){return a?a[1]:a}function
 N(b,a){return b?[0,N(b[1],a)]:a}function
-jk(a,b){return a?N(b,jk(a[1],b)):a}function
+jm(a,b){return a?N(b,jm(a[1],b)):a}function
 ck(b,a){return b?a:a?0:1}function
 u(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
@@ -845,55 +851,55 @@ W(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
 cl(b,a){return W([0,b],a)}function
-jl(c){var
+jn(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
 e6(c,b,a){return c?j(b,e6(c[1],b,a)):a}function
-jm(a){if(a)var
-b=a[1],d=b?[0,jm(b[1])]:b,c=d;else
+jo(a){if(a)var
+b=a[1],d=b?[0,jo(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gQ(d,c){var
+gR(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jn(a){if(H(a,c))return c;var
-e=aU(a,aF(2)),f=e[1];return _(e[2],d)?p(b(2,jn(f))):p(b(2,b(2,f)))}function
-jo(b,a){return bs(c,aG(b,a))}function
-e7(a){if(H(a,c))return pX;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
+jp(a){if(H(a,c))return c;var
+e=aU(a,aG(2)),f=e[1];return _(e[2],d)?p(b(2,jp(f))):p(b(2,b(2,f)))}function
+jq(b,a){return bs(c,aH(b,a))}function
+e7(a){if(H(a,c))return p1;var
+b=aU(a,aG(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
 e8(a){if(H(a,c))return c;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
-jp(c,b){var
-a=i9(c,b);return 0===a?0:0<=a?2:1}function
-gR(j,i){var
-b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aF(2))[2],d)?0:0;var
-g=aU(b,aF(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
-e=aU(a,aF(2)),k=e[1];if(_(e[2],d)){var
+b=aU(a,aG(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
+jr(c,b){var
+a=i$(c,b);return 0===a?0:0<=a?2:1}function
+gS(j,i){var
+b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aG(2))[2],d)?0:0;var
+g=aU(b,aG(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
+e=aU(a,aG(2)),k=e[1];if(_(e[2],d)){var
 b=h,a=k;continue}return 0}if(H(a,c))return 0;var
-f=aU(a,aF(2)),l=f[1];if(_(f[2],d))return 0;var
+f=aU(a,aG(2)),l=f[1];if(_(f[2],d))return 0;var
 b=h,a=l;continue}}function
-e9(b,a){return 2<=jp(b,a)?0:1}function
+e9(b,a){return 2<=jr(b,a)?0:1}function
 dj(i,e,a){if(i){var
 f=i[1];if(H(e,c))return[0,c,[0,c,a]];var
-w=aU(e,aF(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
-m=aU(a,aF(2)),B=m[1];if(_(m[2],d)){var
+w=aU(e,aG(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
+m=aU(a,aG(2)),B=m[1];if(_(m[2],d)){var
 j=dj(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
 k=dj(f,g,a),l=k[2],y=l[2],z=[0,b(2,l[1]),y];return[0,k[1],z]}if(H(a,c))return[0,c,[0,e,c]];var
-v=aU(a,aF(2)),h=v[1];if(_(v[2],d)){var
-n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jp(g,h)){case
+v=aU(a,aG(2)),h=v[1];if(_(v[2],d)){var
+n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jr(g,h)){case
 0:return[0,e,[0,c,c]];case
 1:var
-p=dj(f,jo(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=dj(f,jo(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
+p=dj(f,jq(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
+s=dj(f,jq(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
 e_(b,a){var
 c=e7(a);return dj(N(e7(b),c),b,a)}function
-jq(b,i,h){var
+js(b,i,h){var
 e=i,a=h;for(;;){if(H(e,c))return a;var
-f=aU(e,aF(2)),g=f[1];if(_(f[2],d)){var
-e=g,a=ao(b,a,a);continue}return ao(b,a,jq(b,g,ao(b,a,a)))}}function
-d8(a){return jq(N,a,pY)}function
-jr(a){return a?p(jr(a[1])):c}function
+f=aU(e,aG(2)),g=f[1];if(_(f[2],d)){var
+e=g,a=ap(b,a,a);continue}return ap(b,a,js(b,g,ap(b,a,a)))}}function
+d9(a){return js(N,a,p2)}function
+jt(a){return a?p(jt(a[1])):c}function
 b1(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
@@ -917,19 +923,19 @@ t=y(b(2,p(b(2,b(2,c)))),d),u=A(p(b(2,p(b(2,c)))),t),a=a[1],d=u;continue;case
 8:var
 v=y(b(2,p(b(2,b(2,c)))),d),w=A(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
 x=y(b(2,p(b(2,b(2,c)))),d),z=A(p(b(2,b(2,b(2,c)))),x),a=a[1],d=z;continue}}function
-gS(a){if(H(a,c))return pZ;var
-b=aU(a,aF(2)),e=b[1];return _(b[2],d)?bt(gS(e)):bu(gS(e))}function
-e$(a){return e5(gS(a))}function
-js(k,f){if(0<=a9(f)){var
-g=i$(f);if(0<=g){var
+gT(a){if(H(a,c))return p3;var
+b=aU(a,aG(2)),e=b[1];return _(b[2],d)?bt(gT(e)):bu(gT(e))}function
+e$(a){return e5(gT(a))}function
+ju(k,f){if(0<=a9(f)){var
+g=jb(f);if(0<=g){var
 e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return e4(pT)}return d}function
-gT(b){var
+h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return d7(pX)}return d}function
+gU(b){var
 a=a9(b);return 0===a?d:0<a?c:P(c)}function
-jt(a){return 0<=a9(a)?a:d}function
-d9(a){var
+jv(a){return 0<=a9(a)?a:d}function
+d_(a){var
 b=a9(a);return 0===b?c:0<b?a:c}function
-ju(m){var
+jw(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -952,12 +958,12 @@ j=p(b(2,p(b(2,c))));return b1(a[1],j);case
 k=b(2,b(2,b(2,c)));return b1(a[1],k);default:var
 l=p(b(2,b(2,b(2,c))));return b1(a[1],l)}}function
 cm(b,a){var
-c=a9(a);return 0===c?d:1===c?i_(b,a):jg(-1,i_(jg(-1,b),a))}function
-fa(a){return 0<a9(a)?EU(a):d}function
-d_(b,c){var
-a=i$(c);return 0<=a?pM(b,a):pN(b,-a|0)}function
-cJ(b,c){var
-a=i$(c);return 0<=a?pN(b,a):pM(b,-a|0)}function
+c=a9(a);return 0===c?d:1===c?ja(b,a):ji(-1,ja(ji(-1,b),a))}function
+fa(a){return 0<a9(a)?EZ(a):d}function
+d$(b,c){var
+a=jb(c);return 0<=a?pN(b,a):pO(b,-a|0)}function
+cK(b,c){var
+a=jb(c);return 0<=a?pO(b,a):pN(b,-a|0)}function
 bv(b,a){return a?a[1]:b}function
 bd(a){var
 b=a?a[2]:a;return b}function
@@ -968,16 +974,16 @@ M(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jv(a){if(a){var
-b=[0,a[1],0];return f(jv(a[2]),b)}return a}function
-d$(d,c){var
+jx(a){if(a){var
+b=[0,a[1],0];return f(jx(a[2]),b)}return a}function
+ea(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 fb(a){if(a){var
 b=fb(a[2]);return f(a[1],b)}return a}function
-gU(g,f,e){var
+gV(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ao(g,b[1],a[1]);if(c){var
+c=ap(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -990,9 +996,9 @@ w(b,a){if(a){var
 c=w(b,a[2]);return f(j(b,a[1]),c)}return a}function
 dk(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ao(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aI(c,b,a){if(a){var
-d=aI(c,b,a[2]);return ao(c,a[1],d)}return b}function
+f=ap(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aJ(c,b,a){if(a){var
+d=aJ(c,b,a[2]);return ap(c,a[1],d)}return b}function
 ak(e,d){var
 a=d;for(;;){if(a){var
 b=j(e,a[1]);if(!b){var
@@ -1008,12 +1014,12 @@ be(b,e){var
 a=e;for(;;){if(a){var
 c=a[2],d=a[1];if(j(b,d))return[0,d,be(b,c)];var
 a=c;continue}return a}}function
-jw(d,c){var
+jy(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(j(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aJ(b,a){if(b)if(a)var
-d=aJ(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+aK(b,a){if(b)if(a)var
+d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
@@ -1031,39 +1037,39 @@ aL(b,a){var
 c=a?[0,b,aL([0,b],a[1])]:a;return c}function
 av(b,a){var
 c=a?[0,b,av(b,a[1])]:a;return c}function
-jx(a){if(a){var
-e=jx(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
+jz(a){if(a){var
+e=jz(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
 fc(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jx([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d8(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jz([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d9(b):0}function
 dm(c,b){var
-a=i9(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cK(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
+a=i$(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cL(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
 dn(b,a){return[0,A(y(b[1],a[2]),y(a[1],b[2])),y(b[2],a[2])]}function
 b3(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-jy(a){return[0,P(a[1]),a[2]]}function
-fd(b,a){return dn(b,jy(a))}function
-gV(f,b){var
+jA(a){return[0,P(a[1]),a[2]]}function
+fd(b,a){return dn(b,jA(a))}function
+gW(f,b){var
 a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b3(f,g)}function
 fe(q){var
 a=q[2],b=q[1],o=a9(b);if(0===o)var
-c=[0,dh(a),[0,d,gT(a)]];else
+c=[0,dh(a),[0,d,gU(a)]];else
 if(0<o){var
 n=a9(a);if(0===n)var
-c=[0,dh(b),[0,gT(b),d]];else
+c=[0,dh(b),[0,gU(b),d]];else
 if(0<n)var
 l=e_(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=e_(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
 p=P(b),i=a9(a);if(0===i)var
-c=[0,dh(b),[0,gT(b),d]];else
+c=[0,dh(b),[0,gU(b),d]];else
 if(0<i)var
 g=e_(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
 var
 e=e_(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
-r=c[2],s=d9(r[2]);return[0,r[1],s]}function
+r=c[2],s=d_(r[2]);return[0,r[1],s]}function
 a2(a){if(typeof
-a==="number")return p2;else
+a==="number")return p6;else
 switch(a[0]){case
 0:var
 b=a2(a[1]);return aT(br(1,48),b);case
@@ -1084,50 +1090,50 @@ i=a2(a[1]);return aT(br(1,55),i);case
 8:var
 j=a2(a[1]);return aT(br(1,56),j);default:var
 k=a2(a[1]);return aT(br(1,57),k)}}function
-ea(a){return typeof
-a==="number"?p3:a2(a)}function
-cL(a){return js(b(2,c),a)}function
-jz(b,a){return cJ(a,b)}function
-jA(b,a){return P(cJ(P(a),b))}function
+eb(a){return typeof
+a==="number"?p7:a2(a)}function
+cM(a){return ju(b(2,c),a)}function
+jB(b,a){return cK(a,b)}function
+jC(b,a){return P(cK(P(a),b))}function
 ff(b,a){return P(cm(P(b),a))}function
 V(c,b){var
-a=d_(b,c);return[0,a,a]}function
-jB(d,c,a){var
-b=d_(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
+a=d$(b,c);return[0,a,a]}function
+jD(d,c,a){var
+b=d$(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
 E(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-D(b,a){return[0,aG(b[1],a[2]),aG(b[2],a[1])]}function
+D(b,a){return[0,aH(b[1],a[2]),aH(b[2],a[1])]}function
 af(a){return[0,P(a[2]),P(a[1])]}function
-jC(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
-f=bs(y(e,b),y(c,a));return[0,gP(y(e,a),y(c,b)),f]}function
+jE(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
+f=bs(y(e,b),y(c,a));return[0,gQ(y(e,a),y(c,b)),f]}function
 v(c,b,a){var
-d=jC(b[1],b[2],a[1],a[2]),e=jA(c,d[2]);return[0,jz(c,d[1]),e]}function
+d=jE(b[1],b[2],a[1],a[2]),e=jC(c,d[2]);return[0,jB(c,d[1]),e]}function
 X(b,a){var
-c=y(a[1],a[1]),e=y(a[2],a[2]),h=jA(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+c=y(a[1],a[1]),e=y(a[2],a[2]),h=jC(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jz(b,gP(c,e));return[0,f,h]}function
-gW(b,a){var
-c=d_(cL(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
-b4(b,a){if(L(d,a[1]))return[0,gW(b,a)];var
-c=L(a[2],d),e=c?[0,af(gW(b,af(a)))]:c;return e}function
+f=jB(b,gQ(c,e));return[0,f,h]}function
+gX(b,a){var
+c=d$(cM(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
+b4(b,a){if(L(d,a[1]))return[0,gX(b,a)];var
+c=L(a[2],d),e=c?[0,af(gX(b,af(a)))]:c;return e}function
 b5(f,b){var
 g=L(d,b[1]);if(g)var
-e=d_(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d_(b[1],f)),i]];else
+e=d$(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d$(b[1],f)),i]];else
 var
 h=g;return h}function
 dp(a){return 0===a[0]?a[2]:a[1]}function
 aV(f,d,c,b,a){if(b){if(a){var
-g=aV(f,d,c,b[2],a[2]);return[0,ao(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cn(b,a){return cJ(b,a)}function
+g=aV(f,d,c,b[2],a[2]);return[0,ap(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cn(b,a){return cK(b,a)}function
 a_(a,c,b){if(H(d,a)){var
 e=b[1],f=P(cn(P(y(a,b[2])),c));return[0,cn(y(a,e),c),f]}var
 g=b[2],h=P(cn(P(y(a,b[1])),c));return[0,cn(y(a,g),c),h]}function
 aW(a){var
-b=P(cJ(P(a[2]),c));return[0,cJ(a[1],c),b]}function
-gX(c,b,a){var
-e=jC(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
-cM(a){return bs(a[2],P(a[1]))}var
+b=P(cK(P(a[2]),c));return[0,cK(a[1],c),b]}function
+gY(c,b,a){var
+e=jE(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
+cN(a){return bs(a[2],P(a[1]))}var
 B=[0,d,d];function
-eb(a){return[0,a[1],a[1]]}function
+ec(a){return[0,a[1],a[1]]}function
 dq(a){return[0,a[2],a[2]]}function
 bM(b,a){switch(a[0]){case
 0:return[0,a[1]];case
@@ -1182,37 +1188,37 @@ fg(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aO(c,b){var
 a=fg(b);return a?_(c,a[1]):a}function
-ec(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
+ed(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
 i(a){return[0,[2,a]]}function
 z(b,a){if(aO(d,b))return a;if(aO(d,a))return b;var
 c=fg(b);if(c){var
 e=c[1],f=fg(a);if(f){var
-g=f[1];if(ec(e)&&ec(g))return i(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+g=f[1];if(ed(e)&&ed(g))return i(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bf(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return ec(c)?i(P(c)):[0,[5,a]];case
+c=b[1];return ed(c)?i(P(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 t(b,a){if(aO(d,a))return b;if(aO(d,b))return bf(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?u(c[1],e[1])?i(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 I(a){var
 c=fg(a);if(c){var
-b=c[1];return ec(b)?i(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+b=c[1];return ed(b)?i(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return aw(a,b)?I(a):[0,[6,a,b]];return b}return a}function
 ag(b,a){return aO(c,a)?b:[0,[7,b,a]]}function
 ax(a){return aO(c,a)?a:[0,[9,a]]}function
-jD(d,c,b,a){return[0,[10,d,c,b,a]]}function
+jF(d,c,b,a){return[0,[10,d,c,b,a]]}function
 bN(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
 g=b[1],h=[0,j(e,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-ed(b,a){if(a){var
+ee(b,a){if(a){var
 c=a[2];if(b){var
-e=ed(b[1],c);return[0,a[1],e]}var
+e=ee(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-jE(a){switch(a[0]){case
+jG(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1220,35 +1226,35 @@ jE(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-jF(j,g){var
-k=0,l=aI(ed,e(function(a){return 0},g),j),c=d$(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aI(ed,d,jE(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+jH(j,g){var
+k=0,l=aJ(ee,e(function(a){return 0},g),j),c=ea(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aJ(ee,d,jG(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 co(a){var
 b=0;function
 c(a){return[0,a]}return bN(i(d),c,a,b)}function
 aX(d,c){var
 a=d,b=0;for(;;){if(a){if(aw(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-cN(d,b){var
+cO(d,b){var
 e=b[1];if(ak(function(a){return aw(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=cN(a[2],b),k=cN(a[3],j),c=cN(a[4],k);break;case
+j=cO(a[2],b),k=cO(a[3],j),c=cO(a[4],k);break;case
 5:case
 8:case
 9:var
-c=cN(a[1],b);break;case
+c=cO(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=cN(a[1],b),c=cN(a[2],i)}var
+i=cO(a[1],b),c=cO(a[2],i)}var
 f=c[2],g=c[1],h=[0,bM(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 cp(a){var
-b=dk(function(b,a){return cN(a,b)},a,p4),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jv(b[2]),d]}function
-fh(a){return aI(function(b,a){return A(cM(b),a)},d,a)}function
+b=dk(function(b,a){return cO(a,b)},a,p8),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jx(b[2]),d]}function
+fh(a){return aJ(function(b,a){return A(cN(b),a)},d,a)}function
 b6(b,c,a){var
-d=fh(a),e=gP(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aG(b[1],f)),e],a]}function
+d=fh(a),e=gQ(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aH(b[1],f)),e],a]}function
 ae(a){return[0,a,a,0]}function
 bO(b,a){var
 c=a[3],d=b[3];function
@@ -1256,7 +1262,7 @@ e(a){return a}var
 f=aV(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return b6(E(b[1],a[1]),g,f)}function
 a$(b,a){var
 c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b6(D(b[1],a[1]),f,e)}function
-ee(a){var
+ef(a){var
 b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
 ay(a,c,b){var
 d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
@@ -1264,9 +1270,9 @@ h(c,b){var
 f=v(a,e,b);return aW(E(v(a,d,c),f))}function
 i(b){return aW(v(a,e,b))}var
 j=aV(function(b){return aW(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return b6(v(a,c[1],b[1]),k,j)}function
-ef(b,a){var
+eg(b,a){var
 c=a[3],d=E(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=X(b,a[2]);return b6(X(b,a[1]),g,f)}function
-gY(a,b){var
+gZ(a,b){var
 c=b5(a,b[1]);if(c){var
 g=c[1],d=b5(a,b[2]);if(d){var
 h=d[1],f=b4(a,E(h,g));if(f)var
@@ -1291,14 +1297,14 @@ j=d;return j}function
 cq(b,a){return a?j(b,a[1]):a}function
 fi(a){var
 b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b6(a[1],c,b)}function
-jG(a,k,j,r,b){var
+jI(a,k,j,r,b){var
 l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(V(a,c)),t);if(i)var
 f=i[1],n=ay(a,a$(l,g),f),o=ay(a,a$(m,h),f),d=function(c,b){return ay(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return bO(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ee(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=b6(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,b6(b[1][1],b[1][2],H),F]];else
+c=d(o,a);return bO(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ef(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=b6(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,b6(b[1][1],b[1][2],H),F]];else
 var
 q=i;return q}function
-jH(a,e,d,k){var
-p=ef(a,d),f=bO(ef(a,e),p),g=a$(bO(f,ae(V(a,c))),k),l=ay(a,ae(V(a,b(2,c))),f),q=ef(a,g),h=gY(a,a$(ay(a,ae(V(a,b(2,b(2,c)))),f),q));if(h){var
+jJ(a,e,d,k){var
+p=eg(a,d),f=bO(eg(a,e),p),g=a$(bO(f,ae(V(a,c))),k),l=ay(a,ae(V(a,b(2,c))),f),q=eg(a,g),h=gZ(a,a$(ay(a,ae(V(a,b(2,b(2,c)))),f),q));if(h){var
 m=h[1],r=ay(a,m,d),i=dr(a,bO(ay(a,g,e),r),l);if(i)var
 s=ay(a,m,e),j=dr(a,a$(ay(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
@@ -1306,8 +1312,8 @@ n=i;var
 o=n}else
 var
 o=h;var
-u=cq(function(b){return jG(a,e,d,k,b)},o);return cq(function(b){return jG(a,e,d,k,b)},u)}function
-b7(d,b,a){if(b){if(a)return ao(d,b[1],a[1]);var
+u=cq(function(b){return jI(a,e,d,k,b)},o);return cq(function(b){return jI(a,e,d,k,b)},u)}function
+b7(d,b,a){if(b){if(a)return ap(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
@@ -1321,40 +1327,40 @@ k=a[2],l=a[1];return b7(function(b,a){return[0,bO(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return b7(function(b,a){return[0,a$(b,a)]},n,m);case
 5:var
-o=a[1];return cq(function(a){return[0,ee(a)]},o);case
+o=a[1];return cq(function(a){return[0,ef(a)]},o);case
 6:var
 p=a[2],q=a[1];return b7(function(c,a){return[0,ay(b,c,a)]},q,p);case
 7:var
 s=a[2],t=a[1];return b7(function(a,c){return dr(b,a,c)},t,s);case
 8:var
-u=a[1];return cq(function(a){return[0,ef(b,a)]},u);case
+u=a[1];return cq(function(a){return[0,eg(b,a)]},u);case
 9:var
-v=a[1];return cq(function(a){return gY(b,a)},v);default:var
+v=a[1];return cq(function(a){return gZ(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jH(b,c[1],d[1],e[1]),y=a[1]?b0:aH;return x(y,w)}var
+w=jJ(b,c[1],d[1],e[1]),y=a[1]?b0:aI;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-eg(c){var
+eh(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=eg(a[1]);if(b)return b;var
+b=eh(a[1]);if(b)return b;var
 a=a[2];continue}}function
 b9(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=_(b[1],a[1]);return c?gR(b[2],a[2]):c}return 0;case
+c=_(b[1],a[1]);return c?gS(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gR(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gR(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gS(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gS(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
 l=b9(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
@@ -1368,7 +1374,7 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=b9(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eh(b,a){switch(a[0]){case
+ei(b,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1378,17 +1384,17 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fd(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b3(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gV(b,a)]};break;default:var
-k=eh(b,a[1]);return k?j(b,k[1]):k}var
-h=eh(b,f);if(h){var
-i=eh(b,g);if(i)return e(h[1],i[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gW(b,a)]};break;default:var
+k=ei(b,a[1]);return k?j(b,k[1]):k}var
+h=ei(b,f);if(h){var
+i=ei(b,g);if(i)return e(h[1],i[1]);var
 l=i}else
 var
 l=h;return l}function
-p5(a){return 0}function
-cr(a){return eh(p5,a)}function
+p9(a){return 0}function
+cr(a){return ei(p9,a)}function
 bw(a,b){switch(b[0]){case
-0:return[0,jB(a,b[1],b[2])];case
+0:return[0,jD(a,b[1],b[2])];case
 1:return 0;case
 2:var
 g=bw(a,b[1]);if(g)var
@@ -1416,14 +1422,14 @@ var
 w=m;return w;default:var
 y=b[1],p=bw(a,y);if(p){var
 e=p[1];if(L(d,e[1]))return b5(a,e);var
-f=cr(y),I=f?$(cK([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
+f=cr(y),I=f?$(cL([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
 z=b5(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
 q=_(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fj(b,a){return jB(b,a[1],a[2])}function
-bx(a,d){if(eg(d))switch(d[0]){case
+fj(b,a){return jD(b,a[1],a[2])}function
+bx(a,d){if(eh(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=cl(i,jI),k=j?cK(g,e):j;if(k)var
+e=d[3],g=d[2],i=d[1],j=cl(i,jK),k=j?cL(g,e):j;if(k)var
 n=[0,c,b(2,c)],o=[0,fj(a,b3(fd(e,g),n)),0],p=f(av(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b3(dn(g,e),s)),r,p]];else
 var
 l=k;return l;case
@@ -1433,19 +1439,19 @@ t=bx(a,d[2]),u=bx(a,d[1]);return b7(function(b,a){return[0,bO(b,a)]},u,t);case
 v=bx(a,d[2]),w=bx(a,d[1]);return b7(function(b,a){return[0,a$(b,a)]},w,v);case
 4:var
 m=d[2],h=d[1];if(b9(h,m)){var
-y=bx(a,h);return cq(function(b){return[0,ef(a,b)]},y)}var
+y=bx(a,h);return cq(function(b){return[0,eg(a,b)]},y)}var
 z=bx(a,m),A=bx(a,h);return b7(function(c,b){return[0,ay(a,c,b)]},A,z);case
 5:var
 C=bx(a,d[2]),D=bx(a,d[1]);return b7(function(b,c){return dr(a,b,c)},D,C);default:var
-E=bx(a,d[1]);return cq(function(b){return gY(a,b)},E)}return x(ae,bw(a,d))}function
-aY(b,a){if(eg(a)){var
+E=bx(a,d[1]);return cq(function(b){return gZ(a,b)},E)}return x(ae,bw(a,d))}function
+aY(b,a){if(eh(a)){var
 c=bx(b,a);return x(function(a){return a[2]},c)}return bw(b,a)}function
-jJ(a){var
-e=bs(P(a),d);return d9(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jK(a){return jt(A(jJ(a),a))}function
+jL(a){var
+e=bs(P(a),d);return d_(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
+jM(a){return jv(A(jL(a),a))}function
 cs(f,a,e){var
-b=aY(A(f,jJ(a)),e);if(b)var
-c=b[1],g=jK(a),h=P(cn(P(c[2]),g)),i=jK(a),d=[0,[0,cn(c[1],i),h]];else
+b=aY(A(f,jL(a)),e);if(b)var
+c=b[1],g=jM(a),h=P(cn(P(c[2]),g)),i=jM(a),d=[0,[0,cn(c[1],i),h]];else
 var
 d=b;return d}function
 al(d,a){var
@@ -1453,151 +1459,151 @@ b=cs(d,a[2],a[1][1]);if(b)var
 c=cs(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-gZ(b,a){var
+g0(b,a){var
 c=P(cn(P(a[2]),b));return[0,cn(a[1],b),c]}function
 fk(b,a){var
 c=ff(b[2],a);return[0,cm(b[1],a),c]}function
-jL(h,g,d,c){var
-e=c[2],f=jr(d),i=b(2,f),j=y(jn(f),i),a=fk(v(h,c[1],g),j),k=jl(d)?D(e,a):E(e,a);return[0,a,k]}function
-jM(a,d,b){if(b){var
-e=b[1];return jL(a,d,e,jM(a,d,e))}var
+jN(h,g,d,c){var
+e=c[2],f=jt(d),i=b(2,f),j=y(jp(f),i),a=fk(v(h,c[1],g),j),k=jn(d)?D(e,a):E(e,a);return[0,a,k]}function
+jO(a,d,b){if(b){var
+e=b[1];return jN(a,d,e,jO(a,d,e))}var
 f=V(a,c);return[0,V(a,c),f]}function
-jN(e,g){var
-o=cL(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
-n=d8(e),i=p6[1],d=n,f=0,a=i;for(;;){if(d){var
+jP(e,g){var
+o=cM(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
+n=d9(e),i=p_[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(jk(p9,N(p7,f)),p8),l=jM(e,g,k),q=jL(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=N(jm(qb,N(p$,f)),qa),l=jO(e,g,k),q=jN(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-jO(i){function
+jQ(i){function
 a(h){var
-m=cm(cL(i),h),g=d8(i),f=m,e=d,a=c;for(;;){if(g){var
+m=cm(cM(i),h),g=d9(i),f=m,e=d,a=c;for(;;){if(g){var
 j=A(a,b(2,c)),k=A(e,cm(f,a)),l=P(cm(f,y(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aG(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jP(e,a){var
+e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aH(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
+jR(e,a){var
 f=H(d,a);if(f){var
-g=b(2,b(2,c));return jN(e,fk(X(e,[0,a,a]),g))}return f}function
-jQ(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aG(jO(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jO(a),n),e=jP(a,g);if(e){var
-f=jP(a,h);if(f)var
+g=b(2,b(2,c));return jP(e,fk(X(e,[0,a,a]),g))}return f}function
+jS(a){var
+m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aH(jQ(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jQ(a),n),e=jR(a,g);if(e){var
+f=jR(a,h);if(f)var
 i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jR(a,d){var
+jT(a,d){var
 b=X(a,d),e=V(a,c);return D(E(b,b),e)}function
 ds(f,j){var
 e=aY(A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jQ(a);if(d)var
-h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jN(a,X(a,fk(v(a,k,d[1]),h))),g=x(function(b){return jR(a,jR(a,b))},i);else
+k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jS(a);if(d)var
+h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jP(a,X(a,fk(v(a,k,d[1]),h))),g=x(function(b){return jT(a,jT(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return x(function(a){return gZ(l,a)},g)}return e}function
-jS(a,d){var
-e=jQ(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return x(function(e){var
-f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(v(a,d,gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
+l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return x(function(a){return g0(l,a)},g)}return e}function
+jU(a,d){var
+e=jS(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return x(function(e){var
+f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(v(a,d,g0(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
 fl(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
 g(i,e,b){var
 f=cr(b);if(f){var
-g=f[1];return e?$(cK(g,[0,d,c])):cK([0,d,c],g)}var
+g=f[1];return e?$(cL(g,[0,d,c])):cL([0,d,c],g)}var
 a=aY(i,b);if(a){var
 h=a[1];return e?L(d,h[1]):H(d,h[1])}return a}function
-jT(c,b){var
+jV(c,b){var
 a=aY(c,b),d=a?1:a;return d}function
 bg(c,a,b){var
-d=b9(a,b),e=d?jT(c,a):d;return e?e:g(c,0,[3,b,a])}function
-p_(c){var
-a=fe(c),g=d9(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b3(b,b),c):e,h=f?[0,b]:f;return h}function
-jU(a){if(a){var
+d=b9(a,b),e=d?jV(c,a):d;return e?e:g(c,0,[3,b,a])}function
+qc(c){var
+a=fe(c),g=d_(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b3(b,b),c):e,h=f?[0,b]:f;return h}function
+jW(a){if(a){var
 e=a[2],b=a[1];if(dm(bv([0,d,c],b),[0,d,c])){var
-g=jU(e);return x(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
+g=jW(e);return x(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
 f=[0,[0,b,e]]}else
 var
 f=a;return f}function
-jV(b,a){var
-e=aJ(b,a),f=[0,d,c];return aI(function(a,b){return fe(dn(b3(a[1],a[2]),b))},f,e)}function
-jW(b,j){if(b){var
-f=b[1],g=jU(j);if(g){var
+jX(b,a){var
+e=aK(b,a),f=[0,d,c];return aJ(function(a,b){return fe(dn(b3(a[1],a[2]),b))},f,e)}function
+jY(b,j){if(b){var
+f=b[1],g=jW(j);if(g){var
 h=g[1],a=h[1],k=function(b){var
-f=bv([0,d,c],a),g=gV(bv([0,d,c],b),f),h=bd(a),i=aJ(bd(b),h);return e(function(a){var
-b=b3(g,a[2]);return fe(fd(a[1],b))},i)},l=jW(f,e(k,h[2]));return x(function(b){var
-e=bv([0,d,c],a);return[0,fe(gV(jy(jV(bd(a),b)),e)),b]},l)}var
+f=bv([0,d,c],a),g=gW(bv([0,d,c],b),f),h=bd(a),i=aK(bd(b),h);return e(function(a){var
+b=b3(g,a[2]);return fe(fd(a[1],b))},i)},l=jY(f,e(k,h[2]));return x(function(b){var
+e=bv([0,d,c],a);return[0,fe(gW(jA(jX(bd(a),b)),e)),b]},l)}var
 i=[0,[0,[0,c,c],av([0,d,c],f)]]}else
 var
 i=b;return i}function
-jX(a){if(a){var
-b=eh(p_,a[1]);if(b)var
-c=jX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+jZ(a){if(a){var
+b=ei(qc,a[1]);if(b)var
+c=jZ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return p$}function
-jY(a){if(a){var
-b=jX(a[1]);if(b)var
-c=jY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return qd}function
+j0(a){if(a){var
+b=jZ(a[1]);if(b)var
+c=j0(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qa}function
-jZ(i,l){var
-a=jY(l);if(a){var
-j=a[1],b=jW(i,j);if(b){var
-e=b[1],f=u(h(e),i),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jV(a,e),[0,d,c])},j):g}var
+d=b;return d}return qe}function
+j1(i,l){var
+a=j0(l);if(a){var
+j=a[1],b=jY(i,j);if(b){var
+e=b[1],f=u(h(e),i),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jX(a,e),[0,d,c])},j):g}var
 k=b}else
 var
 k=a;return k}function
-qb(a){return a}function
-qc(a){return a}function
-qd(a,b){return aV(qc,qb,E,a,b)}function
-qe(a){return a}function
 qf(a){return a}function
-b_(a,b){return aV(qf,qe,qd,a,b)}function
-g0(a,f,b,d){if(b){var
-h=b[2],i=V(a,c),g=gX(b[1],i,f);if(d){var
-j=g0(a,f,h,d[2]),k=d[1],l=function(c,b){return D(c,v(a,g,b))},m=function(b){return af(v(a,g,b))};return[0,aV(function(a){return a},m,l,k,b),j]}var
-n=g0(a,f,h,0);return[0,e(function(b){return af(v(a,g,b))},b),n]}return d}function
-g1(h,a){if(a){var
+qg(a){return a}function
+qh(a,b){return aV(qg,qf,E,a,b)}function
+qi(a){return a}function
+qj(a){return a}function
+b_(a,b){return aV(qj,qi,qh,a,b)}function
+g1(a,f,b,d){if(b){var
+h=b[2],i=V(a,c),g=gY(b[1],i,f);if(d){var
+j=g1(a,f,h,d[2]),k=d[1],l=function(c,b){return D(c,v(a,g,b))},m=function(b){return af(v(a,g,b))};return[0,aV(function(a){return a},m,l,k,b),j]}var
+n=g1(a,f,h,0);return[0,e(function(b){return af(v(a,g,b))},b),n]}return d}function
+g2(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),i=e?[0,g0(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=L(d,c[1]),i=e?[0,g1(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-j0(g,f,e){var
+j2(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=g1(g,b);if(c){var
+c=g2(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-j1(d,b,a){if(b)if(a)var
-e=a[1],f=j1(d,b[2],a[2]),g=ck(d,b[1])?eb(e):dq(e),c=[0,g,f];else
+j3(d,b,a){if(b)if(a)var
+e=a[1],f=j3(d,b[2],a[2]),g=ck(d,b[1])?ec(e):dq(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-j2(a,b){if(a)if(b)var
-d=j2(a[2],b[2]),c=[0,j1(a[1],a,b[1]),d];else
+j4(a,b){if(a)if(b)var
+d=j4(a[2],b[2]),c=[0,j3(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
 bh(a){if(a){var
-b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qg}function
+b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qk}function
 dt(c,a){var
-b=h(a);if(j0(c,b,a))return 1;var
-d=bh(bL(b));return n(function(d){return j0(c,b,j2([0,0,d],a))},d)}function
+b=h(a);if(j2(c,b,a))return 1;var
+d=bh(bL(b));return n(function(d){return j2(c,b,j4([0,0,d],a))},d)}function
 ar(a){function
 b(b){var
 c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aB(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?E(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-g2(c,b,a){var
+g3(c,b,a){var
 d=bh(c);return n(function(c){return j(a,j(ar(function(a){return aB(c,a)}),b))},d)}function
-g3(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g3(h,j,i),l=function(c,b){var
+g4(h,d,b){if(d)if(b)var
+i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g4(h,j,i),l=function(c,b){var
 d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aV(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
 var
 g=b;else
@@ -1609,19 +1615,19 @@ e=a_(d,b,a);return D(E(c,c),e)}function
 f(c){return af(a_(c,b,a))}return aV(function(a){return E(a,a)},f,e,d,c)}function
 fn(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dq(e[2]),k=b_(a,g3(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-g4(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=dq(e[2]),k=b_(a,g4(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+g5(b,a){return[0,[0,0,b],a]}function
 du(i,b,c,g,f,a){function
 d(a){if(a){var
 j=av([0,af(a[1][2]),0],b),c=fn(g,f,a[2],j),d=u(h(c),b);if(d)return dt(i,c);var
 e=d}else
 var
-e=a;return e}return g2(b,g4(c,a),d)}function
+e=a;return e}return g3(b,g5(c,a),d)}function
 fo(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=g1(g,[0,[0,eb(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=g2(g,[0,[0,ec(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-g5(d,b,c,a){function
+g6(d,b,c,a){function
 e(a){if(a){var
 j=av([0,a[1][2],0],b),c=fo(d,a[2],j);if(c){var
 e=c[1],f=u(h(e),b);if(f)return dt(d,e);var
@@ -1630,67 +1636,67 @@ var
 g=c;var
 i=g}else
 var
-i=a;return i}return g2(b,g4(c,a),e)}function
-j3(b,a){return e(function(a){return[0,a[1],b]},a)}function
-j4(b,a){var
+i=a;return i}return g3(b,g5(c,a),e)}function
+j5(b,a){return e(function(a){return[0,a[1],b]},a)}function
+j6(b,a){var
 c=bh(b);return n(function(b){return L(d,aB(b,a)[1])},c)}function
-j5(c,b,a){var
+j7(c,b,a){var
 d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
-j6(a,b){var
+j8(a,b){var
 c=b[3],d=a[3],e=aV(function(a){return a},af,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
 by(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 ah(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+d=ap(c,b[3],a[3]),e=ap(c,b[2],a[2]);return[0,ap(c,b[1],a[1]),e,d]}function
 aZ(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
 ba(b,a){var
 c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
 Q(b,a){var
 c=q(b[3],a[3]),d=q(b[2],a[2]);return z(z(q(b[1],a[1]),d),c)}function
-cO(a){return ba(a,ax(Q(a,a)))}function
+cP(a){return ba(a,ax(Q(a,a)))}function
 ct(a){var
 b=a[5];return b?b[1]:ax(a[2])}function
 fp(b,a){return b?a:bf(a)}function
-j7(e,a,i,d,h){var
+j9(e,a,i,d,h){var
 f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
-j8(a,e,d){var
+j_(a,e,d){var
 b=Q(a,a),c=ax(b),f=[0,e],g=x(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
-j9(b,a){var
-d=Q(a,b);return[0,a,i(c),a,d,0,0,0]}function
-ei(a){return e(function(a){var
-b=a[2];return[0,by(a[1]),b]},a)}function
-j_(a){return e(function(a){var
-b=i(c);return[0,by(a[3]),b]},a)}function
 j$(b,a){var
+d=Q(a,b);return[0,a,i(c),a,d,0,0,0]}function
+ej(a){return e(function(a){var
+b=a[2];return[0,by(a[1]),b]},a)}function
+ka(a){return e(function(a){var
+b=i(c);return[0,by(a[3]),b]},a)}function
+kb(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-ka(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+kc(c,b,a){var
+d=ap(c,b[3],a[3]),e=ap(c,b[2],a[2]);return[0,ap(c,b[1],a[1]),e,d]}function
 fq(d,a){var
 b=b5(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 fr(a,m,f,l,e,k,j){var
-o=ka(a$,k,j),b=ka(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bO(bO(bO(ae(V(a,d)),h),g),c),p=bh(m);return n(function(c){var
-b=j$(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,fq(a,E(E(E(V(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
-bP(a){return cJ(A(a[1],a[2]),c)}function
+o=kc(a$,k,j),b=kc(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bO(bO(bO(ae(V(a,d)),h),g),c),p=bh(m);return n(function(c){var
+b=kb(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,fq(a,E(E(E(V(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
+bP(a){return cK(A(a[1],a[2]),c)}function
 dv(a){var
-b=bP(a);return aG(a[2],b)}function
-ej(c,b){if(b)var
-a=b[1],e=ej([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(av(B,c),h),j=bP(a),d=[0,[0,[0,bP(a),j],a,i],e];else
+b=bP(a);return aH(a[2],b)}function
+ek(c,b){if(b)var
+a=b[1],e=ek([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(av(B,c),h),j=bP(a),d=[0,[0,[0,bP(a),j],a,i],e];else
 var
 d=b;return d}function
-ek(d,b){if(b){var
+el(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=ek(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bP(a),f],c],h=bP(a);return[0,[0,[0,a[1],h],c],g]}return qh}function
-kb(d,b,a){if(b){if(a){var
-e=kb(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
-el(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kb(f,a,b)},j=el(f,h),k=e(function(a){var
+e=el(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bP(a),f],c],h=bP(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
+kd(d,b,a){if(b){if(a){var
+e=kd(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
+em(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kd(f,a,b)},j=em(f,h),k=e(function(a){var
 e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
 var
 i=a;return i}function
-em(e,b,d,a){if(b)if(a)var
-f=b[1],g=em(e,b[2],d,a[2]),c=[0,[0,f,fm(e,a[1][1],d,f)],g];else
+en(e,b,d,a){if(b)if(a)var
+f=b[1],g=en(e,b[2],d,a[2]),c=[0,[0,f,fm(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
@@ -1703,86 +1709,86 @@ var
 h=a;return h}function
 bi(d,c,a){var
 b=u(h(a),c);return b?dt(d,a):b}function
-kc(d,b,a){if(b)var
-c=b[1],g=kc([0,d],b[2],a),h=f(av(B,d),[0,a,0]),e=[0,[0,c,[0,aG(c[1],a[2]),A(c[2],a[2])],h],g];else
+ke(d,b,a){if(b)var
+c=b[1],g=ke([0,d],b[2],a),h=f(av(B,d),[0,a,0]),e=[0,[0,c,[0,aH(c[1],a[2]),A(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kd(d){if(d){var
+kf(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kd(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kf(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return qi}function
-g6(a){return x(function(a){return x(ee,a)},a)}function
+f=a;return f}return qm}function
+g7(a){return x(function(a){return x(ef,a)},a)}function
 cu(c,b,a){function
 d(a){return ay(c,b,a)}return x(function(a){return x(d,a)},a)}function
-g7(c,b,a){function
+g8(c,b,a){function
 d(a){return dr(c,a,b)}return x(function(a){return cq(d,a)},a)}function
 dw(b,a){var
-c=aJ(b,a);return e(function(c){var
+c=aK(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,b7(function(b,a){return[0,bO(b,a)]},e,d)]}return b}return a},c)}function
 ft(a){return ae(V(a,b(2,c)))}function
-ke(b,c,a){if(a)var
-f=a[1],g=ke(b,c,a[2]),d=[0,e(function(a){return af(v(b,v(b,c,f),a))},a),g];else
+kg(b,c,a){if(a)var
+f=a[1],g=kg(b,c,a[2]),d=[0,e(function(a){return af(v(b,v(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-g8(a){return n(function(a){var
+g9(a){return n(function(a){var
 b=_(a[1],d);return b?_(a[2],d):b},a)}function
-kf(c,b,a){var
-d=aJ(b,a);return aI(function(a,b){return E(v(c,a[1],a[2]),b)},B,d)}function
-g9(c,b,a){var
-d=cM(kf(c,a,b));return aI(function(b,a){return A(cM(b),a)},d,a)}function
+kh(c,b,a){var
+d=aK(b,a);return aJ(function(a,b){return E(v(c,a[1],a[2]),b)},B,d)}function
+g_(c,b,a){var
+d=cN(kh(c,a,b));return aJ(function(b,a){return A(cN(b),a)},d,a)}function
 dx(a){return V(a,c)}function
-g_(a,i,c,u,t){var
+g$(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!g8(c)&&!g8(j)){var
-h=g9(a,i,j),o=dx(a),p=g9(a,i,c),b=gX([0,g9(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=aW(gW(a,[0,b,b])),r=function(b){return function(d,c){return D(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b_(e,ke(a,q,aV(function(c){return function(b){return v(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!g9(c)&&!g9(j)){var
+h=g_(a,i,j),o=dx(a),p=g_(a,i,c),b=gY([0,g_(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=aW(gX(a,[0,b,b])),r=function(b){return function(d,c){return D(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b_(e,kg(a,q,aV(function(c){return function(b){return v(a,c,b)}}(s),af,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qx(a){var
+qB(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-kg(h,n,a,m,l,k){var
+ki(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b_(b,g3(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g_(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b_(b,g4(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g$(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-kh(c,b,a){if(b){if(a){var
-d=kh(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
-ki(a,j){switch(j){case
+kj(c,b,a){if(b){if(a){var
+d=kj(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
+kk(a,j){switch(j){case
 0:var
-d=aG(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aH(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aG(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cJ(A(a[1],a[2]),c),h=aG(b,a[2]),i=aG(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-g$(d,c,a){if(a)var
-e=a[1],g=g$(d,[0,c],a[2]),b=x(b0,jw(function(a){return u(a[1],c)},d)),h=b?ki(e,b[1])[1]:e,f=[0,h,g];else
+f=aH(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+b=cK(A(a[1],a[2]),c),h=aH(b,a[2]),i=aH(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+ha(d,c,a){if(a)var
+e=a[1],g=ha(d,[0,c],a[2]),b=x(b0,jy(function(a){return u(a[1],c)},d)),h=b?kk(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-kj(a,b){return e(function(a){var
-c=a[2];return ki(r(a[1],b,B),c)[2]},a)}function
-kk(i,b,g,a){function
+kl(a,b){return e(function(a){var
+c=a[2];return kk(r(a[1],b,B),c)[2]},a)}function
+km(i,b,g,a){function
 d(a){return aB(b,a[1])}var
 h=0,j=ae(B);function
 c(g,d,a,b){if(a){var
 h=function(a){return aB(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=v(i,a,l);return[0,e(function(b){return v(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qy=ae(B);function
-kl(e,d,c){if(d){var
-f=r(e,c[2],qz),a=f?f[1]:[0,qy];if(a)var
-b=kl([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+qC=ae(B);function
+kn(e,d,c){if(d){var
+f=r(e,c[2],qD),a=f?f[1]:[0,qC];if(a)var
+b=kn([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return qA}function
-km(a,b,h,q,p,g,o){var
+g=a;return g}return qE}function
+ko(a,b,h,q,p,g,o){var
 d=bh(b);return n(function(d){var
 f=j(o,d);if(f){var
 n=v(a,p,f[1]),i=D(V(a,c),n),r=h?D(i,aB(d,h[1])):i,k=function(c){function
@@ -1791,8 +1797,8 @@ g=e(function(a){return e(f,a)},q);return bi(a,b,b_(av([0,r,0],b),g))},l=k(aW(g))
 m=l}else
 var
 m=f;return m},d)}function
-kn(p,o,n,m,l){var
-q=e(ae,n),h=b8(p,ej(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
+kp(p,o,n,m,l){var
+q=e(ae,n),h=b8(p,ek(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
 d=c[2],g=c[1];if(b){if(b[1]){var
 i=[0,j(h,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=i;continue}var
 b=b[2],c=d,a=[0,f,a];continue}var
@@ -1801,7 +1807,7 @@ ac(a){if(a){var
 b=a[1];if(b)var
 c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qB}function
+d=b;return d}return qF}function
 fu(b,a){if(a){var
 h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
@@ -1814,19 +1820,19 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return qC}function
+m=c;return m}return qG}function
 b$(d,c,b){var
 a=fu(d,c);return a?j(b,a[1]):a}function
 dy(a,b){return n(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
 fv(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aV(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
-ha(b,a){return b?j6(a,b[1]):a}function
-hb(h,g,b,f){var
+hb(b,a){return b?j8(a,b[1]):a}function
+hc(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=j6(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-ko(f,d,a){function
+i=j8(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+kq(f,d,a){function
 b(a){return a_(a,d,V(f,c))}if(a){var
 g=e(b,a[2]);return[0,b(a[1]),B,g]}return ae(B)}function
 fw(b,a){var
@@ -1838,7 +1844,7 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-hc(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
+hd(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
 fx(b,k,U,C,i,g,j,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
@@ -1848,33 +1854,33 @@ W=dy(C,i);if(W){var
 aD=a[2],aE=a[1],aF=fv(j,ae(r));return b$(i,k,function(a){return du(b,g,aF,aE,aD,a)})}return W;case
 1:var
 Y=dy(C,i);if(Y){var
-aH=a[2],aJ=a[1],aK=fv(j,ae(r));return b$(i,U,function(a){return du(b,g,aK,aJ,aH,a)})}return Y;case
+aG=a[2],aI=a[1],aK=fv(j,ae(r));return b$(i,U,function(a){return du(b,g,aK,aI,aG,a)})}return Y;case
 2:var
 Z=dy(C,i);if(Z){if(j)return 0;var
 $=_(r[1],d),aa=$?_(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return b$(i,k,function(a){return du(b,g,[0,B,B,0],aM,aL,j3([0,B,B,0],a))})}var
+aL=a[2],aM=a[1];return b$(i,k,function(a){return du(b,g,[0,B,B,0],aM,aL,j5([0,B,B,0],a))})}var
 ab=aa}else
 var
 ab=Z;return ab}return 0;case
 1:var
 ad=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=ha(j,ae(ad));return b$(i,U,function(a){return g5(b,g,aN,a)})}if(!a){var
-aO=ha(j,ae(ad));return b$(i,k,function(a){return g5(b,g,aO,a)})}}return 0;case
+aN=hb(j,ae(ad));return b$(i,U,function(a){return g6(b,g,aN,a)})}if(!a){var
+aO=hb(j,ae(ad));return b$(i,k,function(a){return g6(b,g,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=ko(b,af,a[3]),ag=f[1],aP=a[2];return b$(i,k,function(d){var
-a=j4(g,l),c=a?du(b,g,fv(j,l),af,aP,d):a;if(c){var
-f=l[3],h=e(function(a){return v(b,ag,a)},f),i=l[2];return g5(b,g,ha(j,[0,v(b,ag,l[1]),i,h]),d)}return c})}return 0;case
+af=a[1],l=kq(b,af,a[3]),ag=f[1],aP=a[2];return b$(i,k,function(d){var
+a=j6(g,l),c=a?du(b,g,fv(j,l),af,aP,d):a;if(c){var
+f=l[3],h=e(function(a){return v(b,ag,a)},f),i=l[2];return g6(b,g,hb(j,[0,v(b,ag,l[1]),i,h]),d)}return c})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hb(i,g,j,f[1]);return 0;case
+a==="number"&&!a)return hc(i,g,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
 aQ=a[2],aR=a[1],aS=fv(j,ae(f[2])),aT=function(a){return du(b,g,aS,aR,aQ,a)};return b$(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hb(i,g,j,f[1]);case
-2:return hb(i,g,j,f[2])}return 0;case
+0:return hc(i,g,j,f[1]);case
+2:return hc(i,g,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 F=fw(i,f[1]);if(F){var
@@ -1884,9 +1890,9 @@ I=fw(i,f[4]);if(I){var
 ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=f[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=j$(function(f){function
+aC=[0,m[1],o[1],p[1]],q=kb(function(f){function
 g(a){return a_(a,aU,V(b,c))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fh(a),i=A(d[2],h),j=fh(a);return[0,d,[0,aG(d[1],j),i],a]}return ae(B)},aC),M=n(function(a){return u(h(a),[0,g])},m),N=M?fr(b,g,j,s,q,ak,ai):M,O=N?fr(b,g,j,s,q,ak,ah):N,P=O?fr(b,g,j,s,q,aj,ai):O;if(P)return fr(b,g,j,s,q,aj,ah);var
+a=e(g,f[2]),d=g(f[1]),h=fh(a),i=A(d[2],h),j=fh(a);return[0,d,[0,aH(d[1],j),i],a]}return ae(B)},aC),M=n(function(a){return u(h(a),[0,g])},m),N=M?fr(b,g,j,s,q,ak,ai):M,O=N?fr(b,g,j,s,q,ak,ah):N,P=O?fr(b,g,j,s,q,aj,ai):O;if(P)return fr(b,g,j,s,q,aj,ah);var
 Q=P}else
 var
 Q=p;var
@@ -1911,25 +1917,25 @@ ao=a[2],ap=a[1],aV=f[2],aW=f[1];return b$(i,k,function(e){var
 a=u(h(e),g),d=a?u(h(ao),g):a;if(d){var
 f=function(a){if(a){var
 d=a[2],e=u(h(d),g);if(e){var
-i=el(ap,em(ap,ao,V(b,c),d));return bi(b,g,b_(fs(b,aW,aV,a[1][2],d),i))}var
+i=em(ap,en(ap,ao,V(b,c),d));return bi(b,g,b_(fs(b,aW,aV,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:ae(B);return g2(g,g4(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:ae(B);return g3(g,g5(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aX=f[3],aY=f[2],aZ=function(d){var
-a=j3([0,B,B,0],d),c=j?j[1]:[0,B,B,0];return du(b,g,c,aY,aX,a)};return b$(i,f[1],aZ)}return 0;case
+a=j5([0,B,B,0],d),c=j?j[1]:[0,B,B,0];return du(b,g,c,aY,aX,a)};return b$(i,f[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hc(i,f[1]);if(J){var
-a0=f[2],K=ac(e(function(a){return hc(i,a)},a0));if(K){var
-L=hc(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
+J=hd(i,f[1]);if(J){var
+a0=f[2],K=ac(e(function(a){return hd(i,a)},a0));if(K){var
+L=hd(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
 t=L[1];if(t){var
 w=t[2];if(w){var
 y=w[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=w[1][2],at=t[1][2],au=K[1],a1=J[1],T=km(b,g,j,au,at,as,function(d){return[0,fq(b,aI(function(c,a){return E(X(b,aB(d,c)),a)},B,a1))]});return T?T:km(b,g,j,au,at,as,function(f){var
-c=eb(aq[1]),a=b5(b,D(ar,X(b,c)));if(a){var
+aq=z[1],ar=y[1][2],as=w[1][2],at=t[1][2],au=K[1],a1=J[1],T=ko(b,g,j,au,at,as,function(d){return[0,fq(b,aJ(function(c,a){return E(X(b,aB(d,c)),a)},B,a1))]});return T?T:ko(b,g,j,au,at,as,function(f){var
+c=ec(aq[1]),a=b5(b,D(ar,X(b,c)));if(a){var
 d=b4(b,a[1]),e=D(ar,v(b,c,aB(f,aq)));return x(function(a){return v(b,e,a)},d)}return a})}var
 av=z}else
 var
@@ -1949,9 +1955,9 @@ az=K;var
 aA=az}else
 var
 aA=J;return aA}return 0}}function
-kp(a,_,J,l,p,Z,g,k,i,f,b){if(9===f[0]){if(typeof
+kr(a,_,J,l,p,Z,g,k,i,f,b){if(9===f[0]){if(typeof
 b!=="number"&&9===b[0]){var
-$=f[1],T=e(ae,Z),z=bN(0,b8(a,kc(0,k,$),T),_,0),K=u(h(k),qD),M=K?dy(p,z):K;if(M){var
+$=f[1],T=e(ae,Z),z=bN(0,b8(a,ke(0,k,$),T),_,0),K=u(h(k),qH),M=K?dy(p,z):K;if(M){var
 q=fu(z,l);if(q){var
 s=fu(g,l);if(s){var
 aa=f[2],t=ac(e(function(b){var
@@ -1960,23 +1966,23 @@ f=b[2][2],a=ac(e(function(a){var
 b=r(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(t){var
-w=kd(q[1]);if(w){var
-N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=w[1],C=fq(a,aI(function(f,h){function
+w=kf(q[1]);if(w){var
+N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=w[1],C=fq(a,aJ(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cM(r(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cN(r(d,c[3],B))}function
 c(a){var
-b=j(a,qj),c=bs(j(a,qk),b);return bs(j(a,0),c)}var
+b=j(a,qn),c=bs(j(a,qo),b);return bs(j(a,0),c)}var
 d=c(function(a){var
-c=b(ql,a),d=b(qm,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qn),d=b(a,qo);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,v(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,V(a,c)),F=L(d,D(m,C)[1]),G=F?u(h(N),qu):F,H=G?u(h(O),qv):G;if(H){var
+c=b(qp,a),d=b(qq,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qr),d=b(a,qs);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,v(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,V(a,c)),F=L(d,D(m,C)[1]),G=F?u(h(N),qy):F,H=G?u(h(O),qz):G;if(H){var
 o=b4(a,m);if(o){var
-U=aW(v(a,C,o[1])),W=D(V(a,c),U),Y=bh(qw);return n(function(h){var
+U=aW(v(a,C,o[1])),W=D(V(a,c),U),Y=bh(qA);return n(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return dq(dk(function(d,b){var
-c=cM(aB(h,b[2]));return E(d,v(a,b[1],[0,c,c]))},c,d))},ad),r=j(ar(function(a){return aB(h,a)}),O),G=i?aB(h,i[1]):B,M=X(a,W),s=X(a,m),q=el(y,em(y,N,V(a,c),r)),b=b_(av([0,af(G),0],qp),q);if(g){var
+c=cN(aB(h,b[2]));return E(d,v(a,b[1],[0,c,c]))},c,d))},ad),r=j(ar(function(a){return aB(h,a)}),O),G=i?aB(h,i[1]):B,M=X(a,W),s=X(a,m),q=em(y,en(y,N,V(a,c),r)),b=b_(av([0,af(G),0],qt),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-C=d[1],F=g[1],I=f[1],k=bi(a,qr,b_(av([0,af(s),0],qq),b));if(k)return n(function(B){var
+C=d[1],F=g[1],I=f[1],k=bi(a,qv,b_(av([0,af(s),0],qu),b));if(k)return n(function(B){var
 J=D(M,G),K=B[2]?C:af(C),L=B[1]?F:af(F),o=0;if(b){var
 c=b[1],l=0;if(c){var
 d=c[2],m=0;if(d){var
@@ -2016,7 +2022,7 @@ var
 z=c;if(!l){var
 A=z;o=1}}else{var
 A=b;o=1}if(o)var
-k=A;return bi(a,qt,k)},qs);var
+k=A;return bi(a,qx,k)},qw);var
 l=k}else
 var
 l=f;var
@@ -2041,15 +2047,15 @@ R=q;var
 S=R}else
 var
 S=M;return S}return fx(a,J,l,p,g,h(k),i,f,b)}return fx(a,J,l,p,g,h(k),i,f,b)}function
-kq(d){var
+ks(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kr(i,b,a){if(a){var
+kt(i,b,a){if(a){var
 k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
 f=j(b,l);if(f){var
 g=r(l,i,0);if(g){var
-h=kr(i,b,a[2]);if(h)var
+h=kt(i,b,a[2]);if(h)var
 m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2061,19 +2067,19 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return qF}function
-ks(a,Q,l,O,s,q,N,y,g,f,k,b){var
-i=h(N),R=ej(0,N),aM=bN(0,b8(a,R,e(ae,g$(k,0,s))),Q,0),S=e(aH,k),aN=0,aO=e(ae,s),aP=bN(qG,function(b){var
-au=bM(aH,b),f=j(b8(a,R,aO),au);switch(b[0]){case
+q=c;return q}return qJ}function
+ku(a,Q,l,O,s,q,N,y,g,f,k,b){var
+i=h(N),R=ek(0,N),aM=bN(0,b8(a,R,e(ae,ha(k,0,s))),Q,0),S=e(aI,k),aN=0,aO=e(ae,s),aP=bN(qK,function(b){var
+au=bM(aI,b),f=j(b8(a,R,aO),au);switch(b[0]){case
 1:var
 M=b[1],d=e(function(d){var
 b=u(M,d),e=b?[0,[0,ae(V(a,c))]]:b;return e},S);break;case
 3:var
 d=dw(b[1][2],b[2][2]);break;case
 4:var
-N=e(g6,b[2][2]),d=dw(b[1][2],N);break;case
+N=e(g7,b[2][2]),d=dw(b[1][2],N);break;case
 5:var
-d=e(g6,b[1][2]);break;case
+d=e(g7,b[1][2]);break;case
 6:var
 x=b[2],y=b[1],g=y[1],t=0;if(g){var
 h=x[1];if(h)var
@@ -2084,7 +2090,7 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=b[2],i=A[1];if(i)var
-W=A[2],X=ee(f[1]),Y=e(function(b){return cu(a,X,b)},W),Z=dw(b[1][2],Y),_=i[1],d=e(function(b){return g7(a,_,b)},Z);else{var
+W=A[2],X=ef(f[1]),Y=e(function(b){return cu(a,X,b)},W),Z=dw(b[1][2],Y),_=i[1],d=e(function(b){return g8(a,_,b)},Z);else{var
 B=i;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
@@ -2094,15 +2100,15 @@ $=C[2],aa=k[1],ab=ay(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],af=ay(a,ft(a),ad),d=e(function(b){return g7(a,af,b)},ac);else
+ac=b[1][2],ad=f[1],af=ay(a,ft(a),ad),d=e(function(b){return g8(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
 D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jH(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g6,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ee(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,ft(a),as),d=e(function(b){return g7(a,at,b)},aq);K=1;L=1}else
+q=jJ(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g7,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ef(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,ft(a),as),d=e(function(b){return g8(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2113,11 +2119,11 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=kj(k,s);function
+d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=kl(k,s);function
 T(c){var
 d=r(c,q,0);if(d){var
 a=r(c,aM,0);if(a)var
-b=kl(0,k,r(c,aP,qE)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=kn(0,k,r(c,aP,qI)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
@@ -2127,18 +2133,18 @@ z(b){return e(function(b){return V(a,b)},b)}var
 aR=y?y[1]:ae(B);function
 U(b){return b?bi(a,i,b[1]):b}function
 t(f,e,d,c,b){var
-g=av([0,af(e),0],i);return U(kg(a,z(f),d,c,b,g))}function
+g=av([0,af(e),0],i);return U(ki(a,z(f),d,c,b,g))}function
 W(y,x,w){var
 A=av([0,x,0],i),q=z(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,eb(g),h],f];if(m){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ec(g),h],f];if(m){var
 o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dx(a),t],v=dx(a),b=g_(a,[0,af(gX(kf(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dx(a),t],v=dx(a),b=g$(a,[0,af(gY(kh(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=g1(a,b[1]);if(j){var
+j=g2(a,b[1]);if(j){var
 c=c[2],f=j[1];continue}var
 p=j}else
 var
@@ -2146,7 +2152,7 @@ p=b;var
 r=p}else
 var
 r=[0,f];return U(r)}}var
-aS=e(aH,k),X=n(function(a){return cl(a,h(s))},aS),Y=X?kq(e(aH,k)):X,Z=Y?n(function(a){return u(h(a),i)},b):Y;if(Z){var
+aS=e(aI,k),X=n(function(a){return cl(a,h(s))},aS),Y=X?ks(e(aI,k)):X,Z=Y?n(function(a){return u(h(a),i)},b):Y;if(Z){var
 x=0;switch(g[0]){case
 0:var
 C=g[1],K=0;if(typeof
@@ -2164,7 +2170,7 @@ ac=b;if(!at)return ac;break;case
 au=0;if(b){if(b[2])return 0;var
 aY=b[1],aZ=f[2],a0=f[1],ad=dy(O,q),aw=0;if(ad){if(y)return 0;var
 ag=_(C[1],d),ah=ag?_(C[2],d):ag;if(ah){var
-o=function(c,b,a){return t(aY,B,a0,aZ,e(qx,a))},m=l;K=1;au=1;aw=1}else
+o=function(c,b,a){return t(aY,B,a0,aZ,e(qB,a))},m=l;K=1;au=1;aw=1}else
 var
 ai=ah}else
 var
@@ -2182,7 +2188,7 @@ az=0,a3=g[1];if(typeof
 f==="number"||!(3===f[0]))az=1;else{var
 aA=0;if(b){var
 w=b[2],aC=0;if(w){if(w[2])return 0;var
-ak=f[1],a4=w[1],a5=b[1],a6=f[2],al=ko(a,ak,f[3]),am=j4(i,al);if(am){var
+ak=f[1],a4=w[1],a5=b[1],a6=f[2],al=kq(a,ak,f[3]),am=j6(i,al);if(am){var
 o=function(f,c,b){var
 d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?W(a4,D(v(a,a3,d),c),b):e},m=l;aA=1;aC=1}else
 var
@@ -2213,41 +2219,41 @@ M=1;if(M)return 0;break;case
 7:var
 ap=g[2],aq=g[1],aF=0;if(typeof
 f==="number"||!(0===f[0]))aF=1;else{var
-aK=0;if(b){if(b[2])return 0;var
+aG=0;if(b){if(b[2])return 0;var
 p=f[2],J=f[1],bc=b[1],ar=u(h(l),i);if(ar){var
 o=function(b,y){var
 A=z(bc);return function(f){var
 k=u(h(f),i),l=k?u(h(p),i):k;if(l){var
-s=e(aH,f),t=el(J,em(J,p,dx(a),s)),w=b_(fs(a,aq,ap,y,e(aH,f)),t),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
+s=e(aI,f),t=em(J,en(J,p,dx(a),s)),w=b_(fs(a,aq,ap,y,e(aI,f)),t),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
 o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
-b=aJ(aL(0,h(p)),p);return e(function(b){var
-c=kh(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(v(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,x),j=g_(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(j){var
+b=aK(aL(0,h(p)),p);return e(function(b){var
+c=kj(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(v(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,x),j=g$(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(j){var
 b=[0,b],c=c[2],g=j[1];continue}var
 d=j}else
 var
 d=[0,g];if(d)return bi(a,i,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},m=l;aK=1}else
+m=l;return m}},m=l;aG=1}else
 var
 as=ar}else
 var
-as=b;if(!aK)return as}if(aF)return 0;break;default:return 0}if(x){var
+as=b;if(!aG)return as}if(aF)return 0;break;default:return 0}if(x){var
 I=T(G);if(!I)return I;var
 a7=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=aI(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aG(aG(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
-F=kr(q,T,m);if(!F)return F;var
+b=f[2],c=a[2],e=aJ(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aH(aH(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
+F=kt(q,T,m);if(!F)return F;var
 ab=o,aa=F[1]}var
 aX=bh(i);return n(function(b){var
-c=e(function(c){return kk(a,b,aQ,c)},aa);return D_(ab,b,aB(b,aR),c)},aX)}return Z}function
+c=e(function(c){return km(a,b,aQ,c)},aa);return Ed(ab,b,aB(b,aR),c)},aX)}return Z}function
 fy(b,a){if(a){var
 c=a[2];if(b){var
 e=fy(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hd(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kt(j,d,i,a,h){var
+he(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+kv(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2256,7 +2262,7 @@ switch(b[0]){case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=hd(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=he(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2264,17 +2270,17 @@ k=c?0:1,l=k?d:j,g=hd(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=w(function(a){var
-b=e(b0,a[2][2]);return[0,a[1],b]},n);return f(hd(d),o);case
+b=e(b0,a[2][2]);return[0,a[1],b]},n);return f(he(d),o);case
 10:var
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fb(a[2]),p);return f(a[1],q);case
 4:case
-8:return hd(a[1]);default:return g}}}function
-ku(p,i,o,C,m,l,W,B,b,A,V){if(A){var
-s=kn(p,i,l,jF(w(function(c){var
+8:return he(a[1]);default:return g}}}function
+kw(p,i,o,C,m,l,W,B,b,A,V){if(A){var
+s=kp(p,i,l,jH(w(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
-b=M(W,c[1]);return b?kt(o,C,m,b[1],a):b},A),i),b),k=A,g=V;for(;;){if(k){var
+b=M(W,c[1]);return b?kv(o,C,m,b[1],a):b},A),i),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
 v=j(B,b);if(v)var
@@ -2290,7 +2296,7 @@ switch(a[0]){case
 5:var
 F=a[2],t=j(B,b),X=0;if(t){var
 G=H(d,F);if(G){var
-_=a[1],c=kp(p,i,o,C,m,l,s,b,[0,j5(F,a[3],t[1])],q,_);X=1}else
+_=a[1],c=kr(p,i,o,C,m,l,s,b,[0,j7(F,a[3],t[1])],q,_);X=1}else
 var
 I=G}else
 var
@@ -2301,14 +2307,14 @@ J=a[3],K=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){var
 N=f[2],u=j(B,b),Y=0;if(u){var
 O=H(d,N);if(O){var
-$=f[1],c=ks(p,i,o,m,l,s,b,[0,j5(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
+$=f[1],c=ku(p,i,o,m,l,s,b,[0,j7(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
 var
 P=O}else
 var
 P=u;if(!Y){var
 c=P;E=1}}if(!E)var
-c=ks(p,i,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
-c=kp(p,i,o,C,m,l,s,b,0,q,a);if(c){var
+c=ku(p,i,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
+c=kr(p,i,o,C,m,l,s,b,0,q,a);if(c){var
 k=R,g=fy(x,g);continue}var
 T=c}else
 var
@@ -2318,28 +2324,28 @@ var
 U=S;return U}return[0,g]}}return[0,V]}function
 fz(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=ku(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
-m=ku(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=ek(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=kw(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
+m=kw(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=el(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-he(a){return e(function(a){return 1},a)}function
+hf(a){return e(function(a){return 1},a)}function
 dz(a,d,b,c){function
 f(d,c){var
-f=aJ(a[1],b[1]);return e(function(a){var
+f=aK(a[1],b[1]);return e(function(a){var
 b=q(c,a[2]);return z(q(d,a[1]),b)},f)}if(aw(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-kv(a){var
+kx(a){var
 b=i(c);return[0,e(function(a){return i(d)},a),b]}function
 aP(a,l){var
 f=l[1];switch(f[0]){case
 1:var
 v=f[1];if(ak(function(a){return u(v,a)},a)){var
 C=i(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return i(b)},a),C]}return kv(a);case
+b=u(a,v)?c:d;return i(b)},a),C]}return kx(a);case
 3:var
 D=i(c),E=aP(a,f[2]),F=i(c);return dz(aP(a,f[1]),F,E,D);case
 4:var
@@ -2359,24 +2365,24 @@ V=i(c);return[0,k[1],V]}var
 W=q(i(b(2,c)),l),X=q(k[2],W);return[0,k[1],X];case
 10:var
 m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=t(g,p),Z=aP(a,g),_=t(h,o),$=dz(aP(a,h),_,Z,Y),aa=i(P(c)),ab=aP(a,m),r=dz($,i(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bf(p),s=e(function(a){return q(ad,a)},ac);if(n(function(a){return aO(d,a)},s))return[0,s,r[2]];var
-ae=q(h,p),af=t(q(g,o),ae),ag=q(i(b(2,c)),af);return[0,s,q(r[2],ag)];default:return kv(a)}}function
-kw(c,a){var
+ae=q(h,p),af=t(q(g,o),ae),ag=q(i(b(2,c)),af);return[0,s,q(r[2],ag)];default:return kx(a)}}function
+ky(c,a){var
 b=aP(c,a),f=b[1];return e(function(a){return aO(d,a)?a:ag(a,b[2])},f)}function
 cv(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 j=f[2],b=f[1];if(H(j,c))if(0===e[0]){var
 k=e[2],o=e[1];if(H(k,c)){var
-l=_(b,o),m=l?ec(b):l;if(m)var
+l=_(b,o),m=l?ed(b):l;if(m)var
 p=_(n[2],d),g=p||_(b,d);else
 var
 g=m;var
 q=g?[0,b]:g,a=q}else
 var
-a=_(aU(k,aF(2))[2],d)?0:0}else
+a=_(aU(k,aG(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=_(aU(j,aF(2))[2],d)?0:0}else
+a=_(aU(j,aG(2))[2],d)?0:0}else
 var
 a=0;return a?i(a[1]):[0,[1,r]]}function
 ca(b,a){if(a)var
@@ -2390,17 +2396,17 @@ c=a[1],g=[0,[0,c[4],b],0],h=f(aQ(c[3],b),g),i=f(aQ(c[2],b),h);return f(aQ(c[1],d
 1:var
 e=a[3],j=e?aQ(e[1],d):e,k=f(aQ(a[2],b),j);return f(aQ(a[1],b),k);default:return aQ(a[1],d)}}function
 ab(b,a){var
-c=i(d),e=r(N(qH,a),b,c),f=i(d),g=r(N(qI,a),b,f);return[0,r(a,b,i(d)),g,e]}function
-kx(b,a){return ah(t,ah(z,cP,a),b)}function
+c=i(d),e=r(N(qL,a),b,c),f=i(d),g=r(N(qM,a),b,f);return[0,r(a,b,i(d)),g,e]}function
+kz(b,a){return ah(t,ah(z,cQ,a),b)}function
 fB(c,b,a){if(a){var
 e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bv(d,b),h),g)}return a}function
-hf(f,e,c,k){if(c){var
-b=c[1],v=N(k,h(fA(f,bv(d,e),b))),w=c[2],x=hf(f,bd(e),w,v),a=ca(k,fA(f,bv(d,e),b));switch(b[0]){case
+hg(f,e,c,k){if(c){var
+b=c[1],v=N(k,h(fA(f,bv(d,e),b))),w=c[2],x=hg(f,bd(e),w,v),a=ca(k,fA(f,bv(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(qJ,a,i(d)),o=ah(z,cP,ab(a,qK)),p=cO(ab(a,0)),q=ab(a,qL),g=j7(kx(ab(a,qM),q),p,o,n,m);break;case
+m=b[1][5],n=r(qN,a,i(d)),o=ah(z,cQ,ab(a,qO)),p=cP(ab(a,0)),q=ab(a,qP),g=j9(kz(ab(a,qQ),q),p,o,n,m);break;case
 1:var
-j=b[3],s=j?[0,cO(ab(a,qN))]:j,t=ah(z,cP,ab(a,qO)),u=ab(a,qP),g=j8(kx(ab(a,0),u),t,s);break;default:var
-g=j9(cP,cO(ab(a,0)))}var
+j=b[3],s=j?[0,cP(ab(a,qR))]:j,t=ah(z,cQ,ab(a,qS)),u=ab(a,qT),g=j_(kz(ab(a,0),u),t,s);break;default:var
+g=j$(cQ,cP(ab(a,0)))}var
 l=[0,g,x]}else
 var
 l=c;return l}function
@@ -2430,34 +2436,34 @@ f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],b]}var
 e=[0,d,c];return[0,[0,e,e],d]}function
-en(b,a){var
+eo(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 dA(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(en(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=en(b,a[3]);return f(en(b,a[2]),j)}function
-cQ(b,a){if(typeof
+e=[0,d,c],i=f(eo(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
+j=eo(b,a[3]);return f(eo(b,a[2]),j)}function
+cR(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=dA(b,a[2]);return f(dA(b,a[1]),h);case
 11:var
-i=en(b,a[3]);return f(en(b,a[2]),i);case
+i=eo(b,a[3]);return f(eo(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-ky(c,b,a){var
-d=h(cQ(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-hg(c,b){if(aw(b,c))return[0,i(d)];var
+kA(c,b,a){var
+d=h(cR(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
+hh(c,b){if(aw(b,c))return[0,i(d)];var
 a=b[1];if(4===a[0]){var
 e=aw(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-kz(y,p,a,o){switch(o[0]){case
+kB(y,p,a,o){switch(o[0]){case
 0:var
 h=M(y,o[1]);if(h){var
 k=h[1];if(k){var
-q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qQ),B=ah(z,ah(t,e,aZ(ag(r(qR,a,i(d)),u),b)),A),C=ab(a,qS),f=ag(r(0,a,i(d)),u),l=hg(e[1],b[1]);if(l){var
-m=hg(e[2],b[2]);if(m){var
-n=hg(e[3],b[3]);if(n)var
+q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qU),B=ah(z,ah(t,e,aZ(ag(r(qV,a,i(d)),u),b)),A),C=ab(a,qW),f=ag(r(0,a,i(d)),u),l=hh(e[1],b[1]);if(l){var
+m=hh(e[2],b[2]);if(m){var
+n=hh(e[3],b[3]);if(n)var
 x=aZ(f,b),g=ah(z,[0,l[1],m[1],n[1]],x);else
 var
 g=ah(t,e,aZ(t(i(c),f),b))}else
@@ -2472,45 +2478,45 @@ w=v}else
 var
 w=h;return w;case
 1:var
-D=ab(a,qT);return[0,[0,ab(a,0),D]];default:var
-E=j(p,ab(a,qU));return[0,[0,j(p,ab(a,0)),E]]}}function
-kA(e,d,c,h,g){var
-a=kz(e,d,b2(qV,c),h);if(a)var
-b=kz(e,d,dl(qW,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ab(a,qX);return[0,[0,ab(a,0),D]];default:var
+E=j(p,ab(a,qY));return[0,[0,j(p,ab(a,0)),E]]}}function
+kC(e,d,c,h,g){var
+a=kB(e,d,b2(qZ,c),h);if(a)var
+b=kB(e,d,dl(q0,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-kB(g,c,d,b,a){var
+kD(g,c,d,b,a){var
 h=dA(c,a),i=ca(d,f(dA(c,b),h));function
-j(a){return ah(z,cP,a)}return kA(e(function(a){var
+j(a){return ah(z,cQ,a)}return kC(e(function(a){var
 b=a[7];return x(function(b){var
 c=ct(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-cR(d,c,b,a){var
+cS(d,c,b,a){var
 e=q(c,b);return t(q(d,a),e)}function
 bA(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kC(b,a){if(b)if(a)var
-d=b[1],e=kC(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
+kE(b,a){if(b)if(a)var
+d=b[1],e=kE(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kD(a){if(a){var
+kF(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kD(a[2]);if(d)var
+c=b[1],d=kF(a[2]);if(d)var
 g=d[1],h=Q(c,c),e=[0,[0,[0,by(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return qY}function
-eo(b,d,c,a){if(typeof
+f=b;return f}return q2}function
+ep(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=cv(bz(d,a),i);return[0,e(function(a){var
 b=q(a[2],j);return[0,by(a[1]),b]},b)];case
-9:return kD(b);case
+9:return kF(b);case
 15:var
 k=h(b),f=u(h(a[1]),k);if(f)var
-l=cQ(d,a),g=[0,kC(b,ca(c[2],l))];else
+l=cR(d,a),g=[0,kE(b,ca(c[2],l))];else
 var
 g=f;return g}return 0}function
 fC(e,l,k,a){var
@@ -2533,7 +2539,7 @@ d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],A=m[1],B=e[1],h=y[1],j=A[1],p=B[1],K=cR(j[1],j[2],h[1],h[2]),L=q(p[3],K),N=cR(j[1],j[3],h[1],h[3]),O=q(p[2],N),P=cR(j[2],j[3],h[2],h[3]),x=z(t(q(p[1],P),O),L),W=ct(y),X=ct(A),C=q(q(q(b,ct(B)),X),W),Y=[0,bf(z(x,C)),0],D=[0,t(x,C),Y]}else
+y=n[1],A=m[1],B=e[1],h=y[1],j=A[1],p=B[1],K=cS(j[1],j[2],h[1],h[2]),L=q(p[3],K),N=cS(j[1],j[3],h[1],h[3]),O=q(p[2],N),P=cS(j[2],j[3],h[2],h[3]),x=z(t(q(p[1],P),O),L),W=ct(y),X=ct(A),C=q(q(q(b,ct(B)),X),W),Y=[0,bf(z(x,C)),0],D=[0,t(x,C),Y]}else
 var
 D=n;var
 E=D}else
@@ -2543,40 +2549,40 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=kB(e,l,k[2],a[1],a[2]);if(u){var
+u=kD(e,l,k[2],a[1],a[2]);if(u){var
 G=u[1],H=G[2],J=G[1];return w(by,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=cQ(l,a),f=ca(k[2],n),h=ab(f,qX),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
+n=cR(l,a),f=ca(k[2],n),h=ab(f,q1),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=i(d),s=cQ(l,a),u=r(0,ca(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
+p=i(d),s=cR(l,a),u=r(0,ca(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
 m=ax(e[2]),h=ag(g[1],m),n=q(h,z(b,q(f,I(h))));return[0,t(i(c),n),0]}var
 j=e[7],o=j?[0,t(t(i(c),b),f),0]:j;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-s=eo(e,l,k,a);return s?bA(s[1]):s;default:v=1}if(v)return 0;var
+s=ep(e,l,k,a);return s?bA(s[1]):s;default:v=1}if(v)return 0;var
 o=M(e,f);return o?g(o[1]):o}function
-hh(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hh(d,b,ky(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
-kE=[0,d,c],kF=[0,[0,kE,kE],d];function
+hi(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hi(d,b,kA(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
+kG=[0,d,c],kH=[0,[0,kG,kG],d];function
 fD(a){return $(b9(a[1][1],a[1][2]))}function
-kG(a){var
-b=aL(0,h(a));return be(function(b){return fD(r(b,a,kF))},b)}function
-kH(a,b){var
-c=b[4],e=kw(kG(a),c),f=aJ(kG(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
-kI(b,a){var
+kI(a){var
+b=aL(0,h(a));return be(function(b){return fD(r(b,a,kH))},b)}function
+kJ(a,b){var
+c=b[4],e=ky(kI(a),c),f=aK(kI(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
+kK(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-kJ(f,J,l,I,m,k,o,t){if(t){var
-a=t[1],aK=t[2],aL=kJ(f,J,l,I,m,k,ky(k,a,o),aK);if(typeof
+kL(f,J,l,I,m,k,o,t){if(t){var
+a=t[1],aK=t[2],aL=kL(f,J,l,I,m,k,kA(k,a,o),aK);if(typeof
 a==="number")if(0===a)var
 i=[0,[0,B]];else
 var
-aq=J[2],as=J[1],at=ei(m),i=[0,[8,j(ar(l),at),as,aq]];else
+aq=J[2],as=J[1],at=ej(m),i=[0,[8,j(ar(l),at),as,aq]];else
 switch(a[0]){case
 0:var
 au=al(f,bz(k,a)),i=x(function(a){return[0,X(f,a)]},au);break;case
@@ -2585,10 +2591,10 @@ av=al(f,bz(k,a)),i=x(function(a){return[1,X(f,a)]},av);break;case
 5:var
 ax=al(f,bz(k,a)),i=x(function(a){return[2,X(f,a)]},ax);break;case
 8:var
-ay=eo(m,k,o,a),i=x(function(a){var
+ay=ep(m,k,o,a),i=x(function(a){var
 b=V(f,c);return[4,j(ar(l),a),b]},ay);break;case
 9:var
-y=eo(m,k,o,a);if(y){var
+y=ep(m,k,o,a);if(y){var
 z=al(f,bz(k,a));if(z)var
 az=X(f,z[1]),aA=y[1],P=[0,[4,j(ar(l),aA),az]];else
 var
@@ -2598,10 +2604,10 @@ var
 Q=y;var
 i=Q;break;case
 10:var
-A=kB(m,k,o[2],a[1],a[2]);if(A){var
+A=kD(m,k,o[2],a[1],a[2]);if(A){var
 R=A[1],S=R[2],T=R[1],C=al(f,bz(k,a));if(C){var
 U=C[1],W=H(d,U[1]);if(W)var
-q=function(a){return kI(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
+q=function(a){return kK(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
 var
 Y=W;var
 Z=Y}else
@@ -2627,12 +2633,12 @@ ag=af;K=1}}else{var
 ag=ad;K=1}if(K)var
 i=ag;break;case
 14:var
-E=a[2],ah=a[1],ai=u(h(m),qZ),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
+E=a[2],ah=a[1],ai=u(h(m),q3),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
 F=al(f,bz(k,a));if(F)var
 G=ac(e(function(n){var
 h=[5,ah,E],a=al(f,[0,[0,h,h],d]);if(a){var
-o=kH(I,n),g=ac(e(function(e){var
-a=r(e[1],I,kF),g=aG(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=al(f,[0,[0,d,d],g]);return x(function(a){return[0,a,j(l,e[2])]},i)},o));if(g)var
+o=kJ(I,n),g=ac(e(function(e){var
+a=r(e[1],I,kH),g=aH(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=al(f,[0,[0,d,d],g]);return x(function(a){return[0,a,j(l,e[2])]},i)},o));if(g)var
 p=[0,a[1],g[1]],i=[0,[0,j(l,n[4]),p]];else
 var
 i=g;var
@@ -2646,8 +2652,8 @@ var
 an=ak;var
 i=an;break;case
 15:var
-aH=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aH);if(ao)var
-aJ=eo(m,k,o,a),i=x(function(a){var
+aG=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aG);if(ao)var
+aJ=ep(m,k,o,a),i=x(function(a){var
 b=V(f,c);return[4,j(ar(l),a),b]},aJ);else
 var
 i=ao;break;default:var
@@ -2662,13 +2668,13 @@ i=O}var
 ap=[0,i,aL]}else
 var
 ap=t;return ap}function
-q0(a){var
+q4(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dB(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kK(a,c,g,b){if(0===c[0])return 0;if(b){var
+kM(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cs(a,g,c[1]);if(i){var
@@ -2716,18 +2722,18 @@ n=m}else
 var
 n=b;return n}function
 ai(c,b,a){var
-d=ao(c,b[3],a[3]),e=ao(c,b[2],a[2]);return[0,ao(c,b[1],a[1]),e,d]}function
+d=ap(c,b[3],a[3]),e=ap(c,b[2],a[2]);return[0,ap(c,b[1],a[1]),e,d]}function
 at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 R(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
 az(a){return at([5,[0,c,c],[6,R(a,a)]],a)}function
-cS(c,b,a){var
+cT(c,b,a){var
 d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
 a3(c,b,a){var
-d=cS(c,b[1],a[1]),e=d?cS(c,b[2],a[2]):d;return e?cS(c,b[3],a[3]):e}function
-kL(b,c,a){switch(c[0]){case
+d=cT(c,b[1],a[1]),e=d?cT(c,b[2],a[2]):d;return e?cT(c,b[3],a[3]):e}function
+kN(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a3(b,d[1],f),l=k?g(b,1,R(f,f)):k,m=l?a3(b,d[2],a[2]):l,n=m?a3(b,d[3],a[3]):m,o=n?cS(b,d[4],j):n,p=o?g(b,1,j):o;return p?ck(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a3(b,d[1],f),l=k?g(b,1,R(f,f)):k,m=l?a3(b,d[2],a[2]):l,n=m?a3(b,d[3],a[3]):m,o=n?cT(b,d[4],j):n,p=o?g(b,1,j):o;return p?ck(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=a3(b,c[1],a[1]),s=r?a3(b,c[2],a[2]):r;if(s){if(q){if(e){var
@@ -2739,52 +2745,52 @@ v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=a3(b,c[1],i);return w?g(b,1,R(i,i)):w}return 0}}function
-cT(c,a,b){if(0===a[0])return a3(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cS(c,a[4],b[3]):i}function
-kM(g,f,i,h){var
+cU(c,a,b){if(0===a[0])return a3(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cT(c,a[4],b[3]):i}function
+kO(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kL(g,b[1],a[1]);if(d){var
+d=kN(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cT(g,f[2],h):c}}function
+c=a?0:1;return c?cU(g,f[2],h):c}}function
 bb(c,b,a){var
 d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
-ep(a,e,d,c){var
+eq(a,e,d,c){var
 b=bb(e,d,c),f=az(a),g=at(R(az(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
-cU(f,e,d,a,c){var
-b=ep(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
-cV(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cW(a,b){switch(a[0]){case
+cV(f,e,d,a,c){var
+b=eq(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
+cW(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
+cX(a,b){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ep(d,f,e,b),h=cU(d,f,e,a[4],b),i=at([5,[0,c,c],cV(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=eq(d,f,e,b),h=cV(d,f,e,a[4],b),i=at([5,[0,c,c],cW(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
 1:return az(bb(a[1],a[2],b));default:return az(a[1])}}function
-eq(a,b){switch(a[0]){case
+er(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=az(c),g=cU(c,e,d,a[4],b),h=at(cV(a[5],g),f),i=ep(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=az(c),g=cV(c,e,d,a[4],b),h=at(cW(a[5],g),f),i=eq(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
 1:return bb(a[1],a[2],b);default:return az(a[1])}}function
-hi(a,b){switch(a[0]){case
+hj(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=cV(a[5],h),j=bb(d,c,b);return[3,R(az(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cV(e,d,c,a[4],b),i=cW(a[5],h),j=bb(d,c,b);return[3,R(az(e),j),i];case
 1:var
 f=a[2],g=a[1],k=bb(g,f,b);return[6,R(bb(g,f,b),k)];default:return R(az(a[1]),b)}}function
-kN(a,b){switch(a[0]){case
-0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
+kP(a,b){switch(a[0]){case
+0:return[0,cV(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=bb(d,c,b);return[0,R(bb(d,c,b),e)];default:return 0}}function
-er(e,b,a){var
-f=[0,d,c];return aI(function(c,d){var
-e=R(cW(c,b),a);return[2,[4,R(cW(c,b),a),e],d]},f,e)}function
-kO(a){var
+es(e,b,a){var
+f=[0,d,c];return aJ(function(c,d){var
+e=R(cX(c,b),a);return[2,[4,R(cX(c,b),a),e],d]},f,e)}function
+kQ(a){var
 b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hj(a,b){switch(a[0]){case
+hk(a,b){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=bb(e,d,b);return[6,R(bb(e,d,b),f)];default:return[0,c,c]}}function
-kP(d,i){if(d){var
+kR(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
 f=c[1],g=bb(a[1],a[2],i),k=az(f),l=at(R(az(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
@@ -2793,60 +2799,60 @@ h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kP(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=kR(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return q1}function
-cX(a){return[0,a[1],a[2],a[3]]}function
-kQ(a,b){switch(a[0]){case
+j=b;return j}return q5}function
+cY(a){return[0,a[1],a[2],a[3]]}function
+kS(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cU(d,g,c,f,b),k=at(cV(a[5],j),i),l=ep(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cV(d,g,c,f,b),k=at(cW(a[5],j),i),l=eq(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
 h=a[2],e=bb(a[1],h,b),n=[6,R(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kR(l,b,a){switch(a[0]){case
+kT(l,b,a){switch(a[0]){case
 0:var
 m=a[5],d=M(l,a[1]);if(d){var
-e=kQ(d[1],b);if(e)var
+e=kS(d[1],b);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cX(m),c=at(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=cY(m),c=at(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cX(a[3]);return[0,[0,cX(a[2]),q]];default:var
-r=cX(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cX(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
-kS(d,a,c,b){var
+q=cY(a[3]);return[0,[0,cY(a[2]),q]];default:var
+r=cY(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cY(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
+kU(d,a,c,b){var
 e=at(a,b),f=at([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-kT(f,h,b,e,q,a){function
+kV(f,h,b,e,q,a){function
 F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],R(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=er(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=es(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,er(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,es(h,b,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hi(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hj(a,b)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hi(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hj(a,b),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
-c=cW(a,b);return[3,[4,[4,H,H],R(cW(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
+c=cX(a,b);return[3,[4,[4,H,H],R(cX(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,er(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,er(h,b,e),ay],ax]);case
+I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,es(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,es(h,b,e),ay],ax]);case
 6:var
 J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cU(i[1],i[2],i[3],v,b),K=cV(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=cV(i[1],i[2],i[3],v,b),K=cW(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aB=hj(N,b),aC=hj(O,b),aD=hj(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=eq(N,b),k=eq(O,b),aE=eq(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
+N=o[1],O=n[1],P=h[1],aB=hk(N,b),aC=hk(O,b),aD=hk(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=er(N,b),k=er(O,b),aE=er(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
 T=S}else
 var
 T=o;var
@@ -2857,15 +2863,15 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=er(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aF=es(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
 9:var
-W=a[1],w=kP(h,b);if(w){var
-aH=w[1],an=[0,d,c],ao=aI(function(a,b){var
+W=a[1],w=kR(h,b);if(w){var
+aH=w[1],an=[0,d,c],ao=aJ(function(a,b){var
 c=R(az(a),e);return[2,[4,R(az(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],R(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kR(h,b,Y);if(x){var
-Z=x[1],y=kR(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aJ=kS(l,A,_[1],_[2]),aK=kS(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
+X=a[2],Y=a[1],x=kT(h,b,Y);if(x){var
+Z=x[1],y=kT(h,b,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aI=kU(l,A,_[1],_[2]),aK=kU(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aI),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
 ag=af}else
 var
 ag=y;var
@@ -2874,8 +2880,8 @@ var
 ah=x;return ah;case
 11:var
 aj=a[4],B=M(h,a[1]);if(B){var
-C=kQ(B[1],b);if(C){var
-m=C[1][1][2],aN=cX(a[3]),aO=cX(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,R(m,m));if(ak){var
+C=kS(B[1],b);if(C){var
+m=C[1][1][2],aN=cY(a[3]),aO=cY(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,R(m,m));if(ak){var
 aP=R(m,m),aQ=R(p,m),aR=[5,[4,R(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,R(p,p),aR]])}var
 al=ak}else
 var
@@ -2885,24 +2891,24 @@ var
 am=B;return am;default:D=1}if(D)return 0;var
 t=M(h,r);return t?g(f,1,s(t[1])):t}function
 bj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kU(a){switch(a[0]){case
+kW(a){switch(a[0]){case
 0:var
 b=a[1],c=b[5],d=b[4][1],e=bj(b[3]),f=bj(b[2]);return[0,bj(b[1]),f,e,d,c];case
 1:var
 g=x(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
-hk(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
-kV(b,a){var
-c=hk(a[2]);return kM(b,a,e(kU,a[1]),c)}function
-kW(b,a,c){var
+hl(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
+kX(b,a){var
+c=hl(a[2]);return kO(b,a,e(kW,a[1]),c)}function
+kY(b,a,c){var
 d=[0,c,dl(b,a)];return f(b2(b,a),d)}function
 bB(b,a){if(b){if(a){var
 e=bB(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kX(e,b,a){if(e){if(b){var
-f=b[1],g=kX(e[2],b[2],a),h=bB(f,a),i=[4,bB(f,a),h];return[2,[4,e[1],i],g]}return[0,d,c]}return[0,d,c]}function
-kY(a){if(a){var
+kZ(e,b,a){if(e){if(b){var
+f=b[1],g=kZ(e[2],b[2],a),h=bB(f,a),i=[4,bB(f,a),h];return[2,[4,e[1],i],g]}return[0,d,c]}return[0,d,c]}function
+k0(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=kY(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q3}function
-kZ(a,l,k,f){var
+c=b[1],d=k0(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q7}function
+k1(a,l,k,f){var
 b=aY(a,l);if(b){var
 c=aY(a,k);if(c){var
 d=ds(a,f);if(d){var
@@ -2920,11 +2926,11 @@ j=i}else
 var
 j=b;return j}function
 fF(a){return a?L(d,a[1][1]):a}function
-k0(a,ab,m,aD,i,f){function
+k2(a,ab,m,aD,i,f){function
 ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bB(a,a)]}var
 aE=m[1];function
 q(b){var
-a=[0,d,c];return aI(function(a,c){var
+a=[0,d,c];return aJ(function(a,c){var
 d=bB(a,b);return[2,[4,bB(a,b),d],c]},a,aE)}var
 ad=n(function(a){return u(h(a),ab)},i);if(ad){var
 k=0;if(typeof
@@ -2935,8 +2941,8 @@ af=i[1],aF=q(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
 1:if(i){if(i[2])return 0;var
 ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,q(ag),aG])}return i;case
 2:if(i)return 0;var
-aH=f[2],aJ=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aJ,H=f[1];break;case
+aH=f[2],aI=function(b){if(typeof
+b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aI,H=f[1];break;case
 3:if(i)return 0;var
 aK=f[2],aL=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;case
@@ -2944,7 +2950,7 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;cas
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=kZ(a,i,h,ai);return f?L(f[1][2],d):f}return fF(kZ(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+f=k1(a,i,h,ai);return f?L(f[1][2],d):f}return fF(k1(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
 5:if(i){var
 r=i[2];if(r){if(r[2])return 0;var
 K=r[1],N=i[1],aj=f[1],aN=bB(N,N),aO=[4,[4,aj,aj],[4,q(K),aN]],aP=bB(K,K);return g(a,1,[3,[4,q(N),aP],aO])}var
@@ -2955,13 +2961,13 @@ ak=i;return ak;case
 al=f[2],aQ=f[3],aR=function(b){var
 c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,bB(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
 8:if(i){if(i[2])return 0;var
-P=i[1],aS=kX(f[1],m[1],P),aT=bB(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
+P=i[1],aS=kZ(f[1],m[1],P),aT=bB(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
 9:if(i)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
 b=aY(a,bB(e,e));if(b){var
 c=aY(a,[5,ar,as]);if(c){var
-d=jS(a,c[1]);if(d){var
+d=jU(a,c[1]);if(d){var
 l=X(a,d[1]);return fF([0,D(b[1],l)])}var
 i=d}else
 var
@@ -2992,7 +2998,7 @@ j=i}else
 var
 j=b;return j},au=aZ,at=f[1];k=2;break;case
 12:if(i)return 0;var
-S=kY(m[3]);if(S){var
+S=k0(m[3]);if(S){var
 aw=S[1],a0=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a0),T=e(function(a){return a[1]},aw),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
 s=T[1];if(s){var
 t=s[2];if(t){var
@@ -3054,7 +3060,7 @@ aq=O;return aq;default:var
 J=M(m[2],H);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-k1(h,g){var
+k3(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3064,52 +3070,52 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-k2(a){if(a){var
+k4(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k2(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q4}function
-q5(a){return e(function(a){return[0,a,c]},a)}function
-k3(h,f,b,n,a){if(typeof
+c=b[1],d=k4(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q8}function
+q9(a){return e(function(a){return[0,a,c]},a)}function
+k5(h,f,b,n,a){if(typeof
 a==="number"){if(0===a){var
 r=b[4];return ak(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=k2(b[5]);return i?jZ(f,i[1]):i}else{if(0===a[0]){var
-j=k1(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(q5,a[2]);return k0(h,f,b,o[2],t,s)}return j}var
-k=k1(a[1],n);if(k){var
+i=k4(b[5]);return i?j1(f,i[1]):i}else{if(0===a[0]){var
+j=k3(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(q9,a[2]);return k2(h,f,b,o[2],t,s)}return j}var
+k=k3(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=M(b[1],a[2]);return m?k0(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=M(b[1],a[2]);return m?k2(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hl(a){var
+hm(a){var
 b=az(a[1]),c=at(R(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-hm(a){return az(hl(a))}function
-k4(c){var
-a=hm(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hn(a,b){return bb(a[3],a[4],b)}function
-ho(a,b){var
-c=hn(a,b);return R(hm(a),c)}function
+hn(a){return az(hm(a))}function
+k6(c){var
+a=hn(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+ho(a,b){return bb(a[3],a[4],b)}function
 hp(a,b){var
-c=hn(a,b);return R(k4(a),c)}function
-k5(a,b){var
-c=hn(a,b);return R(az(a[1]),c)}function
-hq(b,a){var
-c=hp(b,a),d=ho(b,a);return[2,[4,d,d],[4,c,c]]}function
-hr(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k5(a,d);return[5,[2,hq(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-k6(a,b){var
-f=a[5],c=[3,hr(a,b),f],d=k5(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+c=ho(a,b);return R(hn(a),c)}function
+hq(a,b){var
+c=ho(a,b);return R(k6(a),c)}function
+k7(a,b){var
+c=ho(a,b);return R(az(a[1]),c)}function
+hr(b,a){var
+c=hq(b,a),d=hp(b,a);return[2,[4,d,d],[4,c,c]]}function
+hs(a,d){var
+h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k7(a,d);return[5,[2,hr(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+k8(a,b){var
+f=a[5],c=[3,hs(a,b),f],d=k7(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 fG(a,b){var
-c=k6(a,b);return cV(a[7],c)}function
-k7(b,a){var
-c=hq(b,a),d=hp(b,a),e=[4,fG(b,a),d],f=ho(b,a);return[5,[2,[4,hr(b,a),f],e],c]}function
-k8(b,a){var
-c=hq(b,a),d=ho(b,a),e=[4,fG(b,a),d],f=hp(b,a);return[5,[3,[4,hr(b,a),f],e],c]}function
-k9(a,b){var
-c=k4(a),d=at(k8(a,b),c),e=hm(a),f=at(k7(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
+c=k8(a,b);return cW(a[7],c)}function
+k9(b,a){var
+c=hr(b,a),d=hq(b,a),e=[4,fG(b,a),d],f=hp(b,a);return[5,[2,[4,hs(b,a),f],e],c]}function
+k_(b,a){var
+c=hr(b,a),d=hp(b,a),e=[4,fG(b,a),d],f=hq(b,a);return[5,[3,[4,hs(b,a),f],e],c]}function
+k$(a,b){var
+c=k6(a),d=at(k_(a,b),c),e=hn(a),f=at(k9(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
 o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
 bQ(h){var
-a=aI(function(f,e){var
+a=aJ(function(f,e){var
 a=aY(o,f);if(a)var
 b=a[1],c=bs(dh(b[1]),dh(b[2]));else
 var
@@ -3117,30 +3123,30 @@ c=d;return bs(c,e)},d,h);if(L(d,a)){var
 f=a9(a);if(0===f||!(0<f&&!H(a,c)))var
 g=d;else
 var
-b=aU(a,aF(2)),e=b[1],g=_(b[2],d)?e8(e):e8(e);return aG(g,o)}return d}function
+b=aU(a,aG(2)),e=b[1],g=_(b[2],d)?e8(e):e8(e);return aH(g,o)}return d}function
 dC(a){return[0,a[1],[0,a[2],0]]}function
 a4(a){var
 b=dC(a[3]),c=f(dC(a[2]),b);return f(dC(a[1]),c)}function
 fH(a){return fE(o,a,bQ(a4(a)))}function
-k_(b,a){if(a){var
-g=k_([0,b],a[2]),c=a[1];if(0===c[0])var
+la(b,a){if(a){var
+g=la([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cv([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-k$(c,b,a){var
+lb(c,b,a){var
 d=dp(b);return[2,[2,dp(c),d],a]}function
-hs(b,a){return b?P(a):d}function
-es(h,b,a){if(typeof
+ht(b,a){return b?P(a):d}function
+et(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 o=a[2],p=a[1];return e(function(a){var
-c=hs(h,b);return[0,[5,o,a],A(hs(h,b),c)]},p);case
+c=ht(h,b);return[0,[5,o,a],A(ht(h,b),c)]},p);case
 9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3148,41 +3154,41 @@ c=hs(h,b);return[0,[5,o,a],A(hs(h,b),c)]},p);case
 13:var
 c=a[3],g=bQ([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,k$(l,k,a[3]),b],s];case
+k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,lb(l,k,a[3]),b],s];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cw(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cw(g,c,b,N(e,h(es(c,b,d))),i);return f(ao(g,k_(e,es(c,b,d)),d),j)}return a}function
+d=a[1],i=a[2],j=cw(g,c,b,N(e,h(et(c,b,d))),i);return f(ap(g,la(e,et(c,b,d)),d),j)}return a}function
 fI(b,a){var
-c=aJ(b,a);return e(function(a){var
+c=aK(b,a);return e(function(a){var
 b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-ht(b,a){switch(a[0]){case
+hu(b,a){switch(a[0]){case
 0:var
 d=a[1];return al(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jS(b,c[1]):c;case
+e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jU(b,c[1]):c;case
 2:return ds(b,a[1]);default:return fl(b,a[1])}}function
-la(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-lb(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hu(a,c,b){var
-d=[4,la(a),b],e=[2,[4,lb(a),c],d],f=[4,lb(a),b];return[0,[3,[4,la(a),c],f],e]}function
-lc(c,a){var
-b=hu(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-et(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+lc(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
+ld(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
+hv(a,c,b){var
+d=[4,lc(a),b],e=[2,[4,ld(a),c],d],f=[4,ld(a),b];return[0,[3,[4,lc(a),c],f],e]}function
+le(c,a){var
+b=hv(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+eu(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 fJ(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:lc(d[1],a):a;case
+0:return d?d[2]?a:le(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hu(d[1],a[2],a[3]),m=j[1],k=hu(f[1],j[2],a[1]);return lc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hv(d[1],a[2],a[3]),m=j[1],k=hv(f[1],j[2],a[1]);return le(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=R(e,e),n=et(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-ld(b){var
+e=[0,d[1],h[1],i[1]],l=R(e,e),n=eu(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+lf(b){var
 a=cr(b);return a?dm(a[1],[0,d,c]):a}function
-le(a,n,k,j){if(ld(j)){var
+lg(a,n,k,j){if(lf(j)){var
 q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
 f=aY(a,k);if(f){var
 h=ds(a,[5,j,[0,b(2,c),c]]);if(h){var
@@ -3197,21 +3203,21 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-eu(b,a,c){var
-d=bg(b,a[1],a[2]),e=d?le(b,0,c,a[1]):d;return e?le(b,1,c,a[2]):e}function
-dD(a,d){if(ld(d))return[0,B];var
+ev(b,a,c){var
+d=bg(b,a[1],a[2]),e=d?lg(b,0,c,a[1]):d;return e?lg(b,1,c,a[2]):e}function
+dD(a,d){if(lf(d))return[0,B];var
 e=ds(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
 f=fl(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
 h=f[1],i=e[1],j=E(V(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b4(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return x(function(d){var
-e=v(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return gZ(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
+e=v(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return g0(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
 g=f}else
 var
 g=e;return g}function
-ev(d,a){var
+ew(d,a){var
 e=g(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-cY(a){return[0,[3,[0,d,c],a],a]}function
-lf(a,b,n,m){var
-h=bg(a,[0,d,c],b),i=h?ev(a,b):h;if(i){var
+cZ(a){return[0,[3,[0,d,c],a],a]}function
+lh(a,b,n,m){var
+h=bg(a,[0,d,c],b),i=h?ew(a,b):h;if(i){var
 e=dD(a,b);if(e){var
 f=aY(a,n);if(f){var
 g=aY(a,m);if(g){var
@@ -3226,11 +3232,11 @@ l=k}else
 var
 l=i;return l}function
 fK(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:eu(d,b[1],a[1]):a;case
+0:return a?a[2]?0:ev(d,b[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=eu(d,b[1],a[1]),m=l?eu(d,b[2],e[1]):l;if(m)return eu(d,b[3],f[1]);var
+l=ev(d,b[1],a[1]),m=l?ev(d,b[2],e[1]):l;if(m)return ev(d,b[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3243,7 +3249,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return lf(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return lh(d,b[1],B,[0,c,c])}var
 t=h}else
 var
 t=g;var
@@ -3252,7 +3258,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lf(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return eu(d,cY(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lh(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ev(d,cZ(b[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3262,15 +3268,15 @@ z=i;var
 A=z}else
 var
 A=a;return A}}function
-cx(a){return 1===a?q6:q7}function
+cx(a){return 1===a?q_:q$}function
 fL(d,c,b,a){var
 e=a[1],f=fJ(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-hv(c,b,a){switch(c){case
+hw(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-lg(h,g,d,b,f,a){var
-e=fL(d,b,f,a);return hv(h,e,at([5,[0,c,c],g],et(fJ(d,b,a[2]),e)))}function
-lh(c,j,i){var
+li(h,g,d,b,f,a){var
+e=fL(d,b,f,a);return hw(h,e,at([5,[0,c,c],g],eu(fJ(d,b,a[2]),e)))}function
+lj(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=a3(c,e[1],d[1]),g=f?a3(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3280,7 +3286,7 @@ h=a;return h}return a?0:1}}function
 bc(b,d){var
 a=d[1];if(8===a[0]){var
 c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bM(function(a){return bc(b,a)},a)]}return[0,bM(function(a){return bc(b,a)},a)]}function
-cZ(d,b,h){var
+c0(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
@@ -3292,7 +3298,7 @@ e=a[1],f=$(u(e,b));return f?$(u(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=cZ(d,b,a[1]);if(g){var
+g=c0(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
 dE(c,b,m){var
 d=m;for(;;){var
@@ -3300,19 +3306,19 @@ a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=cZ(c,b,g),i=h?dE(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c0(c,b,g),i=h?dE(c,b,f):h;if(i)var
 j=i;else{var
-k=dE(c,b,g);if(k)return cZ(c,b,f);var
+k=dE(c,b,g);if(k)return c0(c,b,f);var
 j=k}return j;case
 7:var
-l=dE(c,b,a[1]);return l?cZ(c,b,a[2]):l;case
+l=dE(c,b,a[1]);return l?c0(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
 e=dE(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return cZ(c,b,a[1]);default:return 1}}}function
+9:return c0(c,b,a[1]);default:return 1}}}function
 cb(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
@@ -3361,13 +3367,13 @@ d=fN(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 fO(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fO(c,aI(ed,e,jE(d)))]:[0,q8,fO(c,e)]}var
+e=b[2];return b[1]?[0,d,fO(c,aJ(ee,e,jG(d)))]:[0,ra,fO(c,e)]}var
 f=[0,d,fO(c,0)]}else
 var
 f=a;return f}function
 cy(b,a){return a?j(b,a[1]):a}function
 cz(c,b,a){return cy(function(b){return cy(j(c,b),a)},b)}function
-q9(a){return 0===a[0]?a[1]:0}function
+rb(a){return 0===a[0]?a[1]:0}function
 bR(b,a){switch(a[0]){case
 0:return[0,j(b,a[1])];case
 1:return[1,bR(b,a[1])];default:var
@@ -3377,27 +3383,27 @@ a5(b,c,a){switch(c[0]){case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bR(function(a){return ao(b,a,k)},d)];case
+k=a[1];return[1,bR(function(a){return ap(b,a,k)},d)];case
 1:return[1,a5(b,d,a[1])];default:var
 l=a5(b,d,a[3]),m=a5(b,d,a[2]);return[2,a5(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ao(b,a,n)},h=function(a){return bR(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ap(b,a,n)},h=function(a){return bR(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 i=a[1],r=a5(b,e,i),s=a5(b,f,i);return[2,a5(b,g,i),s,r];default:var
 t=a5(b,e,a[3]),u=a5(b,f,a[2]);return[2,a5(b,g,a[1]),u,t]}}}function
-hw(c,f,a){if(a)var
+hx(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,X(c,a)];break;case
 1:var
 g=v(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,j(f,e)]]},h=hw(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
+e=[0,b,X(c,b)]}return[0,[0,j(f,e)]]},h=hx(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
 var
 g=a;return g}function
-hx(b,w,c,a){var
-e=hw(b,b0,a),d=0,y=f(hw(b,aH,a),e);return bN(q$,function(a){switch(a[0]){case
+hy(b,w,c,a){var
+e=hx(b,b0,a),d=0,y=f(hx(b,aI,a),e);return bN(rd,function(a){switch(a[0]){case
 0:return r(a[1],y,[0,[0,B]]);case
 1:return[0,[0,r(a[1],w,B)]];case
 2:return[0,[0,V(b,a[1])]];case
@@ -3415,14 +3421,14 @@ d=b4(b,a);return x(function(a){return v(b,c,a)},d)};return a5(function(a,b){retu
 8:var
 q=a[1],s=function(a){return[0,X(b,a)]};return bR(function(a){return cy(s,a)},q);case
 9:var
-t=a[1],u=function(a){return b5(b,a)};return bR(function(a){return cy(u,a)},t);default:return q_}},c,d)}function
-hy(a){if(a){var
+t=a[1],u=function(a){return b5(b,a)};return bR(function(a){return cy(u,a)},t);default:return rc}},c,d)}function
+hz(a){if(a){var
 b=a[1];if(b)var
-c=hy(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=hz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ra}function
+d=b;return d}return re}function
 dF(a){if(a){var
-g=a[1],b=g[2],c=hy(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=hz(g[1]);if(c)if(b){var
 h=b[1],e=dF(a[2]);if(e)var
 i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3431,31 +3437,31 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return rb}function
+f=c;return f}return rf}function
 fP(b,a){var
 c=a[3],d=x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(ar(b),f),e,d]}function
-hz(c,g,f,b,a,e){if(b){var
+hA(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(h,a){var
-b=iw(c,d7,d7,function(a){switch(a[0]){case
+b=ix(c,d8,d8,function(a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 b=a[3],c=a[2],d=a[1];switch(h){case
 0:return d;case
-1:return c;default:return b}}},e);return hz(c,g,bL(f),l,a,b)},i=d(0,aG(a,h));if(i){var
+1:return c;default:return b}}},e);return hA(c,g,bL(f),l,a,b)},i=d(0,aH(a,h));if(i){var
 j=d(2,A(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ao(g,a,iw(c,d7,d7,q9,e))}function
-li(e,c,b,a){var
+k=i;return k}return ap(g,a,ix(c,d8,d8,rb,e))}function
+lk(e,c,b,a){var
 f=av(d,b);function
-g(b){return a}return function(a){return hz(e,g,c,f,d,a)}}function
-c0(a){if(a){var
+g(b){return a}return function(a){return hA(e,g,c,f,d,a)}}function
+c1(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a_(f,e,a)},d)}return[0,B]}function
-lj(f,e,k,j,i,a){var
+ll(f,e,k,j,i,a){var
 b=dF(a[1]);if(b){var
 c=a[2];if(c){var
-d=c0(a[3]);if(d){var
+d=c1(a[3]);if(d){var
 l=d[1],m=av([0,D(af(v(f,i,c[1])),l),0],e);return bi(f,e,fn(k,j,b[1],m))}var
 g=d}else
 var
@@ -3463,17 +3469,17 @@ g=c;var
 h=g}else
 var
 h=b;return h}function
-lk(i,d,h,g,c){var
+lm(i,d,h,g,c){var
 a=dF(c[1]);if(a){var
-b=c0(c[3]);if(b){var
+b=c1(c[3]);if(b){var
 j=av([0,D(B,b[1]),0],d),k=a[1];return bi(i,d,fn(h,g,e(function(a){return[0,a[1],B]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-ll(a,c,F,i){var
+ln(a,c,F,i){var
 j=dF(i[1]);if(j){var
 k=i[2];if(k){var
-l=c0(i[3]);if(l){var
+l=c1(i[3]);if(l){var
 G=l[1],e=D(v(a,F,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
 f=fo(a,b,av([0,e,0],c));if(f){var
@@ -3482,8 +3488,8 @@ q=p}else
 var
 q=f;return q}var
 r=L(d,e[1]),s=r?L(d,n[1]):r;if(s){var
-C=y(e[1],n[1]),E=m[1];return L(aI(function(a,b){var
-c=cM(a);return A(y(cM(a),c),b)},d,E),C)}return s}var
+C=y(e[1],n[1]),E=m[1];return L(aJ(function(a,b){var
+c=cN(a);return A(y(cN(a),c),b)},d,E),C)}return s}var
 g=fo(a,b,av([0,e,0],c));if(g){var
 t=g[1],w=u(h(t),c);if(w)return dt(a,t);var
 x=w}else
@@ -3495,81 +3501,81 @@ z=k;var
 B=z}else
 var
 B=j;return B}function
-rc(c){var
+rg(c){var
 a=c[2];if(a){var
-b=c0(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
+b=c1(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lm(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-ln(a,c,b){var
+lo(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+lp(a,c,b){var
 e=r(b,c,i(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
-ew(a){var
+ex(a){var
 b=I(a);return z(i(c),b)}function
 fQ(j,g){var
-h=ew(g),k=I(g),e=t(i(c),k),f=q(i(b(2,c)),g),a=i(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
-ex(b,a){var
+h=ex(g),k=I(g),e=t(i(c),k),f=q(i(b(2,c)),g),a=i(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
+ey(b,a){var
 c=Q(b[3],a),d=Q(b[2],a);return[0,Q(b[1],a),d,c]}function
-lo(b,a){function
+lq(b,a){function
 c(b){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
 d(a){var
 b=Q(a,c(function(a){return a[3]})),d=Q(a,c(function(a){return a[2]}));return[0,Q(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-lp(w,v){function
+lr(w,v){function
 a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
 0:var
-x=ew(a(0));return[0,fQ(rd,a(0)),x];case
+x=ex(a(0));return[0,fQ(rh,a(0)),x];case
 1:var
-y=ew(a(0)),A=q(ew(a(re)),y),B=q(ew(a(rf)),A),C=fQ(0,a(0)),D=lo(fQ(rh,a(rg)),C);return[0,lo(fQ(rj,a(ri)),D),B];default:var
-E=a(rk),F=a(rl),g=[0,a(0),F,E],G=Q(g,g),H=z(i(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
+y=ex(a(0)),A=q(ex(a(ri)),y),B=q(ex(a(rj)),A),C=fQ(0,a(0)),D=lq(fQ(rl,a(rk)),C);return[0,lq(fQ(rn,a(rm)),D),B];default:var
+E=a(ro),F=a(rp),g=[0,a(0),F,E],G=Q(g,g),H=z(i(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
 d=I(a),e=q(i(b(2,c)),d);return z(t(i(c),k),e)},h=function(f,e,d,a){var
-g=ao(f,q(e,d),a);return q(i(b(2,c)),g)},l=j(f),m=h(z,e,f,d),n=[0,h(t,d,f,e),m,l],o=h(t,e,f,d),p=j(e),r=[0,h(z,d,e,f),p,o],s=h(z,d,f,e),u=h(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
-lq(a){return 1<a[0]?[0,a[1],0]:0}function
+g=ap(f,q(e,d),a);return q(i(b(2,c)),g)},l=j(f),m=h(z,e,f,d),n=[0,h(t,d,f,e),m,l],o=h(t,e,f,d),p=j(e),r=[0,h(z,d,e,f),p,o],s=h(z,d,f,e),u=h(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
+ls(a){return 1<a[0]?[0,a[1],0]:0}function
 fR(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cY(a[1]),0];default:var
-b=[0,cY(a[2]),0];return[0,cY(a[1]),b]}}function
+2:return[0,cZ(a[1]),0];default:var
+b=[0,cZ(a[2]),0];return[0,cZ(a[1]),b]}}function
 dG(a){return[0,[0,a[1]],[0,a[2]]]}function
-lr(a){switch(a[0]){case
+lt(a){switch(a[0]){case
 0:return[0,dG(a[1]),0];case
 1:var
 f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
 2:var
-b=dG(cY(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cY(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cY(c)),0]]]}}function
-ls(a,b){if(0===b[0])return dD(a,b[1]);var
+b=dG(cZ(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cZ(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cZ(c)),0]]]}}function
+lu(a,b){if(0===b[0])return dD(a,b[1]);var
 d=dD(a,b[1]);if(d){var
 e=dD(a,b[2]);if(e){var
 g=X(a,e[1]),h=b5(a,E(V(a,c),g)),i=d[1];return x(function(b){return v(a,i,b)},h)}var
 f=e}else
 var
 f=d;return f}function
-lt(d,c){var
-a=ls(d,c[1]);if(a)var
-b=ls(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lv(d,c){var
+a=lu(d,c[1]);if(a)var
+b=lu(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-lu(c,g,f){var
+lw(c,g,f){var
 e=f[1];if(1===e[0]){var
 h=e[1];if(cl(h,c))return f;var
 a=h,b=c,j=i(d);for(;;){if(a&&b){var
-a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bM(function(a){return lu(c,g,a)},e)]}function
-hA(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=kw(h,c),k=by(f),b=e(function(b){return lu(a,k,b)},j),l=r(rq,b,i(d)),m=r(rr,b,i(d));return[0,r(0,b,i(d)),m,l]}function
+a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bM(function(a){return lw(c,g,a)},e)]}function
+hB(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=ky(h,c),k=by(f),b=e(function(b){return lw(a,k,b)},j),l=r(ru,b,i(d)),m=r(rv,b,i(d));return[0,r(0,b,i(d)),m,l]}function
 dH(b,a){var
 c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
-c1(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-lv(b){function
+c2(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+lx(b){function
 a(a){var
 e=u(b,a)?c:d;return i(e)}var
-e=a(rs),f=a(rt);return[0,a(0),f,e]}function
-lw(b,a){if(a)var
-d=lw(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
+e=a(rw),f=a(rx);return[0,a(0),f,e]}function
+ly(b,a){if(a)var
+d=ly(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
 var
 c=a;return c}function
-hB(c,b,a){switch(c){case
+hC(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 bC(e,k){var
@@ -3587,11 +3593,11 @@ g=a[2],h=a[1],o=q(h,bC(e,g));return z(q(g,bC(e,h)),o);case
 f=bC(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
 8:var
 j=a[1],p=bC(e,j);return q(q(i(b(2,c)),j),p);default:return i(d)}}function
-hC(c,b,k){var
+hD(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hC(c,b,a[1]);if(g){var
+g=hD(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
 i=h[1],j=L(d,r(i,c,B)[1]);return j?$(ak(function(a){return u(i,a)},b)):j}return 0}return g;case
 5:case
@@ -3602,9 +3608,9 @@ e=a[1];continue;case
 3:case
 4:case
 6:var
-f=hC(c,b,a[1]);if(f){var
+f=hD(c,b,a[1]);if(f){var
 e=a[2];continue}return f;default:return 1}}}function
-lx(d){var
+lz(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3615,68 +3621,68 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lx(a[1]);if(c){var
+c=lz(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-ly(c,b,a){var
+lA(c,b,a){var
 d=e(b,a[2]);return[0,j(c,a[1]),d]}function
-hD(b,a,c){return e(function(c){var
-d=ly(b,a,c[2]),f=c[1];return[0,e(function(c){return ly(b,a,c)},f),d]},c)}function
-lz(b,a){return x(function(a){var
+hE(b,a,c){return e(function(c){var
+d=lA(b,a,c[2]),f=c[1];return[0,e(function(c){return lA(b,a,c)},f),d]},c)}function
+lB(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
-rE(a,b){var
-c=lz(a,b[3]),d=j(a,b[2]);return[0,hD(a,a,b[1]),d,c]}function
-lA(c){var
+rI(a,b){var
+c=lB(a,b[3]),d=j(a,b[2]);return[0,hE(a,a,b[1]),d,c]}function
+lC(c){var
 a=c[1];if(a){var
-b=hy(c[2]);if(b)var
+b=hz(c[2]);if(b)var
 g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-rF(c){var
-a=ac(e(lA,c[1]));if(a)var
-b=lA(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+rJ(c){var
+a=ac(e(lC,c[1]));if(a)var
+b=lC(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-rG(a){return $(g8([0,a[2],a[1]]))}function
-hE(a){return[0,a[1],a[2]]}function
-lB(b,c,a){var
+rK(a){return $(g9([0,a[2],a[1]]))}function
+hF(a){return[0,a[1],a[2]]}function
+lD(b,c,a){var
 d=e(function(c){return bc(b,bC(c,a))},c);return[0,bc(b,a),d]}function
-hF(b,e,a,d){var
+hG(b,e,a,d){var
 c=w(function(a){var
-b=hE(a[2]);return f(w(hE,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
-lC(c,f,b,a){var
-d=hC(f,b,a),e=d?fN(c,a):d;return e?n(function(b){return fN(c,bC(b,a))},b):e}function
-lD(a){switch(a[0]){case
+b=hF(a[2]);return f(w(hF,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
+lE(c,f,b,a){var
+d=hD(f,b,a),e=d?fN(c,a):d;return e?n(function(b){return fN(c,bC(b,a))},b):e}function
+lF(a){switch(a[0]){case
 3:var
-c=lm(a[2]);return[0,a[3],c];case
+c=lo(a[2]);return[0,a[3],c];case
 4:return[0,a[1],0];case
 8:return 0;default:var
-b=lm(a[1]);return[0,a[2],b]}}function
-lE(e,w,f,t,s,b,a){switch(b[0]){case
+b=lo(a[1]);return[0,a[2],b]}}function
+lG(e,w,f,t,s,b,a){switch(b[0]){case
 0:var
 x=b[4],p=b[3],y=b[2],z=b[1],q=0;if(typeof
 a==="number")q=1;else
 switch(a[0]){case
 0:var
-T=a[2],U=a[1],l=y,k=z,i=function(a){return lj(e,f,U,T,p,a)},g=x;break;case
+T=a[2],U=a[1],l=y,k=z,i=function(a){return ll(e,f,U,T,p,a)},g=x;break;case
 2:var
 A=_(p[1],d),B=A?_(p[2],d):A;if(!B)return B;var
-Y=a[2],Z=a[1],l=y,k=z,i=function(a){return lk(e,f,Z,Y,a)},g=x;break;default:q=1}if(q)return 0;break;case
+Y=a[2],Z=a[1],l=y,k=z,i=function(a){return lm(e,f,Z,Y,a)},g=x;break;default:q=1}if(q)return 0;break;case
 1:var
 M=0;if(typeof
 a==="number"&&!a)var
-$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,i=function(a){return ll(e,f,ab,a)},g=ac;else
+$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,i=function(a){return ln(e,f,ab,a)},g=ac;else
 M=1;if(M)return 0;break;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 m=a[3];if(m){var
 C=m[2],F=u(h(C),w);if(F){var
-ad=[0,b[1],b[2],s],ae=fP(function(a){return r(a,t,rJ)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(w,j){var
+ad=[0,b[1],b[2],s],ae=fP(function(a){return r(a,t,rN)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(w,j){var
 a=dF(j[1]);if(a){var
 k=a[1],b=j[2];if(b){var
-g=c0(j[3]);if(g){var
+g=c1(j[3]);if(g){var
 l=g[1],m=function(a){return a_(a,G,V(e,c))},t=m(w),u=b[1],h=E(v(e,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,f,fn(G,ai,k,av([0,D(af(h),l),0],f))):n;if(o){var
 i=fo(e,k,av([0,D(v(e,aj,h),l),0],f));if(i)return bi(e,f,i[1]);var
 p=i}else
@@ -3690,7 +3696,7 @@ var
 r=b;var
 s=r}else
 var
-s=a;return s};return hz(function(b,a){return fP},ak,ag,C,d,ae)}var
+s=a;return s};return hA(function(b,a){return fP},ak,ag,C,d,ae)}var
 H=F}else
 var
 H=m;return H}return 0;case
@@ -3701,9 +3707,9 @@ var
 I=a[2],J=a[1],al=b[3],am=b[2],an=b[4],ao=b[1],ap=function(g){var
 a=dF(g[1]);if(a){var
 b=a[1],c=g[2];if(c){var
-d=c0(g[3]);if(d){var
+d=c1(g[3]);if(d){var
 i=u(h(b),f),j=i?u(h(I),f):i;if(j){var
-n=el(J,em(J,I,c[1],b));return bi(e,f,b_(fs(e,ao,an,d[1],b),n))}var
+n=em(J,en(J,I,c[1],b));return bi(e,f,b_(fs(e,ao,an,d[1],b),n))}var
 k=j}else
 var
 k=d;var
@@ -3716,14 +3722,14 @@ m=a;return m},l=al,k=am,i=ap,g=b[5];if(N)return 0;break;case
 4:var
 O=0;if(typeof
 a==="number"&&!a)var
-l=b[1],k=0,i=rc,g=0;else
+l=b[1],k=0,i=rg,g=0;else
 O=1;if(O)return 0;break;case
 5:var
 P=0;if(typeof
 a==="number"||!(0===a[0]))P=1;else{var
 n=a[2],Q=0;if(n){var
 o=n[1];if(o){if(o[2])return 0;if(n[2])return 0;var
-aq=b[2],ar=b[1],as=V(e,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,aw=0,i=function(a){return lj(e,rK,au,at,as,a)},g=aw;Q=1}else
+aq=b[2],ar=b[1],as=V(e,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,aw=0,i=function(a){return ll(e,rO,au,at,as,a)},g=aw;Q=1}else
 var
 K=o}else
 var
@@ -3731,56 +3737,56 @@ K=n;if(!Q)return K}if(P)return 0;break;case
 6:var
 R=0;if(typeof
 a==="number"&&!a)var
-ax=b[2],ay=b[1],az=V(e,c),l=ax,k=ay,aA=0,i=function(a){return ll(e,rL,az,a)},g=aA;else
+ax=b[2],ay=b[1],az=V(e,c),l=ax,k=ay,aA=0,i=function(a){return ln(e,rP,az,a)},g=aA;else
 R=1;if(R)return 0;break;case
 7:var
 S=0;if(typeof
 a==="number"&&5<=a)var
-aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,i=function(a){return lk(e,f,aE,aD,a)},g=aF;else
+aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,i=function(a){return lm(e,f,aE,aD,a)},g=aF;else
 S=1;if(S)return 0;break;default:return 0}var
-W=[0,k,l,s],X=fP(function(a){return r(a,t,rI)},W);return j(li(function(b,a){return fP},g,w,i),X)}function
-rM(b,a){var
-c=gU(gQ,b[1],a[1]);return c?gQ(b[2],a[2]):c}function
-lF(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
+W=[0,k,l,s],X=fP(function(a){return r(a,t,rM)},W);return j(lk(function(b,a){return fP},g,w,i),X)}function
+rQ(b,a){var
+c=gV(gR,b[1],a[1]);return c?gR(b[2],a[2]):c}function
+lH(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
 e==="number"){if(0===e)return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(i){var
 q=f[3],r=f[2],s=H(d,r);if(s)var
-k=i9(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
+k=i$(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
 var
-j=s;if(j)return lE(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
+j=s;if(j)return lG(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
 t=j}else
 var
-t=i;return t}return lE(h,g,p,o,0,a,f);case
+t=i;return t}return lG(h,g,p,o,0,a,f);case
 8:return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gU(rM,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?iw(y,x,a[3],a[4],e):v}return 0}return 0}function
-lG(b){var
+l=gV(rQ,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?ix(y,x,a[3],a[4],e):v}return 0}return 0}function
+lI(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-rN(c){var
+rR(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 if(8!==a[0])b=1;return b?0:1}function
-lH(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
-U=ak(rN,i),W=U?kn(b,T,s,jF(w(function(b){var
+lJ(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
+U=ak(rR,i),W=U?kp(b,T,s,jH(w(function(b){var
 a=M(l,b[1]);if(a){var
-c=a[1];return 8===c[0]?kt(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lG,i);if(Y)var
+c=a[1];return 8===c[0]?kv(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lI,i);if(Y)var
 ag=w(function(b){var
-c=lG(b);if(c){var
-a=M(l,b[1]);if(a)return lD(a[1]);var
+c=lI(b);if(c){var
+a=M(l,b[1]);if(a)return lF(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aI(ed,e(function(a){return 0},t),ai),u=hx(b,s,d$(fO(d$(t,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aJ(ee,e(function(a){return 0},t),ai),u=hy(b,s,ea(fO(ea(t,0),$),_),j);else
 var
 u=Y;var
 h=i,a=aj;for(;;){if(h){var
 A=h[1],k=A[2],g=A[1],n=h[2];if(g){var
 C=r(g,a,0);if(C){var
 o=M(l,g);if(o){var
-F=lF(b,S,R,c,Q,P,O,j,u,W,o[1],k);if(F){var
+F=lH(b,S,R,c,Q,P,O,j,u,W,o[1],k);if(F){var
 h=n,a=fy(g,a);continue}var
 G=F}else
 var
@@ -3790,7 +3796,7 @@ var
 H=C;return H}if(typeof
 k==="number"&&4===k){var
 Z=0;if(c){var
-ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(b0,y),aa=0,ac=f(e(aH,y),ab),ad=bN(0,function(n){return function(a){switch(a[0]){case
+ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(b0,y),aa=0,ac=f(e(aI,y),ab),ad=bN(0,function(n){return function(a){switch(a[0]){case
 0:return[0,r(a[1],n,B)];case
 1:return[0,r(a[1],s,B)];case
 2:return[0,V(b,a[1])];case
@@ -3818,7 +3824,7 @@ p=z;if(p){var
 h=n,a=e(function(a){return 0},a);continue}return p}var
 I=r(g,a,0);if(I){var
 q=M(l,g);if(q){var
-J=lF(b,S,R,c,Q,P,O,j,u,W,q[1],k);if(J){var
+J=lH(b,S,R,c,Q,P,O,j,u,W,q[1],k);if(J){var
 h=n,a=fy(g,a);continue}var
 K=J}else
 var
@@ -3826,43 +3832,43 @@ K=q;var
 N=K}else
 var
 N=I;return N}return[0,a]}}function
-lI(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+lK(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
-q=lH(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=ek(a[2],b),t=lI(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=lJ(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
+q=lJ(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=el(a[2],b),t=lK(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
-hG(d,a){var
+hH(d,a){var
 e=I(a),f=q(q(i(b(2,c)),a),d);return z(t(I(d),f),e)}function
 dI(a){switch(a){case
-0:return[0,rP,rO,i(d)];case
-1:return cP;default:var
+0:return[0,rT,rS,i(d)];case
+1:return cQ;default:var
 b=i(d),c=i(d);return[0,i(d),c,b]}}function
 fS(a){switch(a){case
-0:return rQ;case
-1:return rR;default:return 0}}function
-hH(k,a,d,i,c,h){var
+0:return rU;case
+1:return rV;default:return 0}}function
+hI(k,a,d,i,c,h){var
 e=ah(t,dI(k),i);if(h){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ex([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
-m=ex(a,c);return ah(z,aZ(d,e),m)}function
-lJ(f,h,g,l,a,d){var
-e=dI(f),j=ah(t,e,a),k=ex(h,d),m=hG(e[3],a[3]),n=hG(e[2],a[2]),o=hG(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(i(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hB(f,hH(f,h,g,a,d,0),v),u]}function
-hI(c,b,a){return ba(ex(c,a),b)}function
-lK(d,c,b,a){var
-e=hI(c,b,a);return ah(z,dI(d),e)}function
-lL(g,f,e,d,c){var
-b=lK(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
+c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ey([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
+m=ey(a,c);return ah(z,aZ(d,e),m)}function
+lL(f,h,g,l,a,d){var
+e=dI(f),j=ah(t,e,a),k=ey(h,d),m=hH(e[3],a[3]),n=hH(e[2],a[2]),o=hH(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(i(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hC(f,hI(f,h,g,a,d,0),v),u]}function
+hJ(c,b,a){return ba(ey(c,a),b)}function
+lM(d,c,b,a){var
+e=hJ(c,b,a);return ah(z,dI(d),e)}function
+lN(g,f,e,d,c){var
+b=lM(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
 fT(b,a){var
 c=aQ(a[2],b);return f(aQ(a[1],b),c)}function
-hJ(d,b,a,c){if(a)var
-e=a[1],f=ca(c,fT(b,e)),i=N(c,h(fT(b,e))),j=hJ(d,b,a[2],i),k=ab(f,rS),g=[0,ao(d,ab(f,0),k),j];else
+hK(d,b,a,c){if(a)var
+e=a[1],f=ca(c,fT(b,e)),i=N(c,h(fT(b,e))),j=hK(d,b,a[2],i),k=ab(f,rW),g=[0,ap(d,ab(f,0),k),j];else
 var
 g=a;return g}function
-hK(f,o,e,n,a){var
+hL(f,o,e,n,a){var
 h=q(I(r(0,n,i(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -3875,83 +3881,83 @@ c=M(e,a[1]);if(c)var
 l=g(f,0,a[2]),m=l?[0,t(h,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-lM(c,b,a){if(typeof
+lO(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=M(c,a[1]);return x(function(a){var
 c=r(0,b,i(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ey(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
-lN(a){var
-b=ab(a,rT),c=ax(Q(ab(a,rU),b));return q(r(0,a,i(d)),c)}function
-lO(b,a){var
-c=Q(a,ab(b,rV));return[0,by(aZ(lN(b),a)),c]}function
-lP(e,d,a,c,b){var
-f=b[2],g=q(lN(a),f),h=c?hI(e,d,ab(a,rW)):ab(a,rX);return t(Q(b[1][2],h),g)}function
-lQ(h,g,f,d,c,b,a){var
+ez(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
+lP(a){var
+b=ab(a,rX),c=ax(Q(ab(a,rY),b));return q(r(0,a,i(d)),c)}function
+lQ(b,a){var
+c=Q(a,ab(b,rZ));return[0,by(aZ(lP(b),a)),c]}function
+lR(e,d,a,c,b){var
+f=b[2],g=q(lP(a),f),h=c?hJ(e,d,ab(a,r0)):ab(a,r1);return t(Q(b[1][2],h),g)}function
+lS(h,g,f,d,c,b,a){var
 i=bd(c);function
-j(a){return lK(h,g,f,a)}return kA(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lR(a){var
+j(a){return lM(h,g,f,a)}return kC(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+lT(a){var
 b=a[3],c=a[2],d=a[1];return fH([0,[0,d,d],[0,c,c],[0,b,b]])}function
-r2(a){if(typeof
+r6(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lS(b,a){switch(b){case
+lU(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
 fU(a){var
 b=b9(a[1],[0,d,c]);return b?b9(a[2],[0,d,c]):b}function
-hL(d,a){switch(d){case
+hM(d,a){switch(d){case
 0:return fU(a[3]);case
 1:return 1;default:var
 b=fU(a[1]),c=b?fU(a[2]):b;return c?fU(a[3]):c}}function
-lT(c,b){var
-a=w(function(a){return fT(c,a)},b),d=aJ(aL(0,h(a)),a);return e(aH,be(function(a){return fD(a[2])},d))}function
-lU(b){var
+lV(c,b){var
+a=w(function(a){return fT(c,a)},b),d=aK(aL(0,h(a)),a);return e(aI,be(function(a){return fD(a[2])},d))}function
+lW(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-lV(c){var
-a=c;for(;;){if(0===a[0])return ak(lU,a[1]);var
-d=ak(lU,a[1]),b=d||lV(a[3]);if(b)return b;var
+lX(c){var
+a=c;for(;;){if(0===a[0])return ak(lW,a[1]);var
+d=ak(lW,a[1]),b=d||lX(a[3]);if(b)return b;var
 a=a[4];continue}}function
-r3(a,aU,bJ,y,E,aT){var
-s=y[1],k=cx(s),U=y[6],bK=y[2],W=w(function(a){return fT(E,a)},bK),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,h(W)],bL=0,aW=w(function(a){return es(bL,E,a)},U),bM=fS(s),aY=lp(y[5],bM),l=aY[2],F=aY[1],bO=y[2],S=h(W),J=cv(ap,h(W)),bN=0,A=hJ(function(e,a){function
+r7(a,aU,bJ,y,E,aT){var
+s=y[1],k=cx(s),U=y[6],bK=y[2],W=w(function(a){return fT(E,a)},bK),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,h(W)],bL=0,aW=w(function(a){return et(bL,E,a)},U),bM=fS(s),aY=lr(y[5],bM),l=aY[2],F=aY[1],bO=y[2],S=h(W),J=cv(ap,h(W)),bN=0,A=hK(function(e,a){function
 j(Y){var
-w=lL(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hI(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(i(T),R);function
-h(a){return[0,lv(a),0]}function
-f(a){return[0,ba(dH(lv(a),g),J),[0,a]]}switch(s){case
+w=lN(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hJ(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(i(T),R);function
+h(a){return[0,lx(a),0]}function
+f(a){return[0,ba(dH(lx(a),g),J),[0,a]]}switch(s){case
 0:var
-C=[0,f(ru),0],D=[0,h(rv),C],o=[0,h(0),D];break;case
+C=[0,f(ry),0],D=[0,h(rz),C],o=[0,h(0),D];break;case
 1:var
-E=[0,f(rw),0],G=[0,f(rx),E],H=[0,f(0),G],K=[0,h(ry),H],L=[0,h(rz),K],o=[0,h(0),L];break;default:var
-M=[0,f(rA),0],N=[0,f(rB),M],o=[0,f(0),N]}var
+E=[0,f(rA),0],G=[0,f(rB),E],H=[0,f(0),G],K=[0,h(rC),H],L=[0,h(rD),K],o=[0,h(0),L];break;default:var
+M=[0,f(rE),0],N=[0,f(rF),M],o=[0,f(0),N]}var
 k=ah(t,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=ba(k,ax(Q(k,k)));if(s)var
-n=hA(s,S,e,p,m[3]);else
+n=hB(s,S,e,p,m[3]);else
 var
 A=i(d),B=i(d),n=[0,i(d),B,A];var
-r=hA(s,S,e,p,m[2]),v=hA(s,S,e,p,m[1]),V=lw(function(s,w){var
+r=hB(s,S,e,p,m[2]),v=hB(s,S,e,p,m[1]),V=ly(function(s,w){var
 e=w[1];function
 a(b,a){var
-c=e[3],f=c1(a,n),g=q(z(b[3],f),c),h=e[2],j=c1(a,r),k=q(z(b[2],j),h),l=e[1],m=c1(a,v),o=q(z(b[1],m),l);return z(z(z(i(d),o),k),g)}var
-x=a(n,rC),y=a(r,rD),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
+c=e[3],f=c2(a,n),g=q(z(b[3],f),c),h=e[2],j=c2(a,r),k=q(z(b[2],j),h),l=e[1],m=c2(a,v),o=q(z(b[1],m),l);return z(z(z(i(d),o),k),g)}var
+x=a(n,rG),y=a(r,rH),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
 h=l[1],m=w[2];if(m){var
-k=m[1],B=c1(h,g),C=q(c1(k,j),B),D=c1(k,g),o=z(q(c1(h,j),D),C),E=I(J);if(u(h,k))var
+k=m[1],B=c2(h,g),C=q(c2(k,j),B),D=c2(k,g),o=z(q(c2(h,j),D),C),E=I(J);if(u(h,k))var
 F=Q(j,g),p=t(o,q(i(b(2,c)),F));else
 var
-p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hB(s,j,ba(dH(g,ba(W,y)),J)),V,U,O]}var
-k=lL(s,F,l,e,a);function
-m(b){return hH(s,F,l,e,a,b)}var
+p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hC(s,j,ba(dH(g,ba(W,y)),J)),V,U,O]}var
+k=lN(s,F,l,e,a);function
+m(b){return hI(s,F,l,e,a,b)}var
 f=2<=s?d:c;function
 g(b){var
 c=I(J),d=i(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
-h=[0,Q(hH(s,F,l,e,a,1),a),g];return[0,lJ(s,F,l,J,e,a),h,m,k,j]},E,bO,bN),T=e(function(a){return a[1]},A),bP=N(aa,h(aW)),bQ=fS(s),bR=y[5];function
+h=[0,Q(hI(s,F,l,e,a,1),a),g];return[0,lL(s,F,l,J,e,a),h,m,k,j]},E,bO,bN),T=e(function(a){return a[1]},A),bP=N(aa,h(aW)),bQ=fS(s),bR=y[5];function
 R(a){return[0,[0,N(bQ,a)]]}var
 aJ=I([0,[1,bP]]);switch(bR[0]){case
 2:var
-bw=R(rm),bx=R(rn),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
+bw=R(rq),bx=R(rr),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
 3:var
-bz=I(R(ro)),bB=I(R(0)),bC=I(R(rp)),C=[0,t(t(q(aJ,z(i(c),bC)),bB),bz)];break;default:var
+bz=I(R(rs)),bB=I(R(0)),bC=I(R(rt)),C=[0,t(t(q(aJ,z(i(c),bC)),bB),bz)];break;default:var
 C=0}var
 aZ=y[7];if(aZ)var
-bS=0,bT=y[2],aq=hJ(function(j,k){var
-a=lJ(s,F,l,cv(ap,h(W)),j,k),c=a[1];if(c){var
+bS=0,bT=y[2],aq=hK(function(j,k){var
+a=lL(s,F,l,cv(ap,h(W)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
 i=g[1],f=dH(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bT,bS);else
@@ -3960,38 +3966,38 @@ aq=aZ;var
 bU=bA(aq),bV=C?[0,C[1],0]:C,bW=f(bV,bU),bX=0,bH=e(function(a){return a[1]},A),bY=[0,l,f(cw(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=lM(A,c,b);if(g)var
+g=lO(A,c,b);if(g)var
 i=g[1],k=[0,i[1],[0,i[2],0]];else
 var
 k=g;return k;case
 8:return e(b0,fI(bH,c));case
 13:var
 h=M(A,b[1]);if(h){var
-m=ey(b[4]);if(m){var
-n=lO(c,j(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
+m=ez(b[4]);if(m){var
+n=lQ(c,j(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 o=m}else
 var
 o=h;return o}var
-d=hK(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bX,E,aa,U),bW)],as=f(bA(T),bY),bZ=0,a0=cw(function(c,a){if(typeof
+d=hL(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bX,E,aa,U),bW)],as=f(bA(T),bY),bZ=0,a0=cw(function(c,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=M(A,a[1]);if(e){if(ey(a[4]))return 0;var
-k=[0,lP(F,l,c,a[2],e[1][4]),0]}else
+e=M(A,a[1]);if(e){if(ez(a[4]))return 0;var
+k=[0,lR(F,l,c,a[2],e[1][4]),0]}else
 var
 k=e;return k;case
 14:var
-g=lQ(s,F,l,A,c,a[1],a[2]);if(g){var
+g=lS(s,F,l,A,c,a[1],a[2]);if(g){var
 m=g[1],n=m[2],o=m[1];return w(by,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
 15:var
 h=M(A,a[1]);if(h){var
-b=j(h[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(rY,c,i(d)),p],t=[0,r(0,c,i(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return h}return 0},bZ,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
+b=j(h[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(r2,c,i(d)),p],t=[0,r(0,c,i(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return h}return 0},bZ,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
 m(a){return aX(Y,bc(k,a))}if(0===y[4][0]){var
 b1=x(m,C),b2=m(l),a3=j(ar(m),T),aQ=fS(s),aR=u(h(a3),k);if(aR)var
-aS=x(function(a){return[0,[0,a,d],d]},b1),_=function(a){return r(a,Y,i(d))},aI=_(b2),bv=aL(0,aQ),ao=n(function(a){var
-b=cZ(k,a,aI),c=b?n(function(b){var
+aS=x(function(a){return[0,[0,a,d],d]},b1),_=function(a){return r(a,Y,i(d))},aH=_(b2),bv=aL(0,aQ),ao=n(function(a){var
+b=c0(k,a,aH),c=b?n(function(b){var
 d=b[1],c=n(function(b){var
 c=_(b);return cb(N(k,a),c)},d);if(c){var
-e=_(b[2]);return fM(aI,N(k,a),e)}return c},a3):b;if(c){if(aS){var
+e=_(b[2]);return fM(aH,N(k,a),e)}return c},a3):b;if(c){if(aS){var
 e=_(aS[1][1][1]);return cb(N(k,a),e)}var
 d=1}else
 var
@@ -4003,7 +4009,7 @@ var
 K=0;var
 a4=n(function(a){var
 b=bc(k,a),c=i(d);return aw(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fN(k,a)},as):a4,a6=a5?n(function(a){var
-b=i(d);return aw(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r2,U):a6;if(a7){var
+b=i(d);return aw(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r6,U):a6;if(a7){var
 a8=$(y[7]);if(a8)var
 ab=a8;else{var
 bt=y[5];if(1===s&&2===bt[0])var
@@ -4013,27 +4019,27 @@ bu=0;var
 ab=bu}}else
 var
 ab=a7;var
-a9=ab?hL(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
+a9=ab?hM(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
 b3=fR(y[5]),au=n(function(b){var
-c=ev(a,b[1]);return c?ev(a,b[2]):c},b3);else
+c=ew(a,b[1]);return c?ew(a,b[2]):c},b3);else
 var
 au=a_;if(au){var
 b4=f(W,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b4));if(ay){var
-az=ac(e(function(b){return ht(a,b)},aW));if(az){var
-b5=lS(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b5));if(aA){var
-a$=aA[1],b6=lr(y[5]),aB=ac(e(function(b){return lt(a,b)},b6));if(aB){var
-bb=aB[1],b7=lq(y[5]),aC=ac(e(function(b){return dD(a,b)},b7));if(aC){var
+az=ac(e(function(b){return hu(a,b)},aW));if(az){var
+b5=lU(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b5));if(aA){var
+a$=aA[1],b6=lt(y[5]),aB=ac(e(function(b){return lv(a,b)},b6));if(aB){var
+bb=aB[1],b7=ls(y[5]),aC=ac(e(function(b){return dD(a,b)},b7));if(aC){var
 b8=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
 f!=="number"&&13===f[0]){var
-w=f[4],az=M(A,f[1]);if(az){if(lR(f[3])&&g(a,0,w)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],w])){var
-aA=f[2],aB=az[1];if(ey(w)){var
-ax=lO(k,j(aB[3],aA)),Q=ax[2];if(g(o,0,[3,w,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
+w=f[4],az=M(A,f[1]);if(az){if(lT(f[3])&&g(a,0,w)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],w])){var
+aA=f[2],aB=az[1];if(ez(w)){var
+ax=lQ(k,j(aB[3],aA)),Q=ax[2];if(g(o,0,[3,w,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
 ay=0;else
 var
 a1=m(Q),a2=m(Q),ay=[0,[6,[0,[0,e(m,ax[1]),a2],0],a1],0];var
 aC=[0,[4,m(Q)],ay]}else
 var
-aC=[0,[8,[3,G(lP(F,l,k,aA,aB[4]))]],0];return e(function(a){return[0,a]},aC)}return r0}return r1}var
+aC=[0,[8,[3,G(lR(F,l,k,aA,aB[4]))]],0];return e(function(a){return[0,a]},aC)}return r4}return r5}var
 a3=0,q=e(function(a){return a[1]},A);function
 R(c,b,a){return[0,c,b,a,K]}var
 y=0;if(typeof
@@ -4045,15 +4051,15 @@ t=[5,[0,c,c],f[1]],z=R;y=1;break;case
 1:var
 aG=[5,[0,c,c],f[1]],t=aG,z=function(c,b,a){return[1,c,b,a]};y=1;break;case
 2:var
-aH=hK(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aH);break;case
+aH=hL(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aH);break;case
 3:var
-aI=hK(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aI);break;case
+aI=hL(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aI);break;case
 5:var
 S=f[1],aJ=al(a,[0,[0,S,S],d]),h=x(function(b){var
 c=X(a,b),d=m(l);return[2,j(ar(m),q),d,c]},aJ);break;case
 6:var
 C=M(A,f[1]);if(C){var
-D=lM(A,k,f);if(D){var
+D=lO(A,k,f);if(D){var
 T=D[1],U=g(a,1,f[2]),W=U?g(a,1,f[3]):U;if(W)var
 aK=m(T[2]),aL=m(C[1][1][2]),Y=[0,[5,[0,[0,[0,m(T[1]),0],aL],0],aK]];else
 var
@@ -4084,10 +4090,10 @@ var
 ah=I;var
 h=ah;break;case
 14:var
-ai=f[2],aj=f[1],J=lQ(s,F,l,A,k,aj,ai);if(J){var
-ak=J[1],am=ak[2],an=ak[1],ao=k$(aj,ai,f[3]),L=al(a,[0,[0,ao,ao],E]);if(L){var
+ai=f[2],aj=f[1],J=lS(s,F,l,A,k,aj,ai);if(J){var
+ak=J[1],am=ak[2],an=ak[1],ao=lb(aj,ai,f[3]),L=al(a,[0,[0,ao,ao],E]);if(L){var
 ap=L[1],aq=H(d,ap[1]);if(aq)var
-u=function(a){return kI(G,a)},aS=u(am[2]),aT=u(am[1]),aU=u(an[2]),as=[0,[8,[6,u(an[1]),aU,aT,aS,ap]]];else
+u=function(a){return kK(G,a)},aS=u(am[2]),aT=u(am[1]),aU=u(an[2]),as=[0,[8,[6,u(an[1]),aU,aT,aS,ap]]];else
 var
 as=aq;var
 at=as}else
@@ -4103,7 +4109,7 @@ av=g(a,1,f[4]);if(av)var
 aw=g(a,0,f[2]),O=aw?g(a,0,f[3]):aw;else
 var
 O=av;if(O)var
-v=j(N[1][5],0),aV=G(v[4]),aW=G(v[3]),aX=G(r(rZ,k,i(d))),aY=G(r(0,k,i(d))),aZ=v[2],a0=e(function(a){return e(G,a)},aZ),P=[0,[8,[10,e(G,v[1]),a0,aY,aX,aW,aV]]];else
+v=j(N[1][5],0),aV=G(v[4]),aW=G(v[3]),aX=G(r(r3,k,i(d))),aY=G(r(0,k,i(d))),aZ=v[2],a0=e(function(a){return e(G,a)},aZ),P=[0,[8,[10,e(G,v[1]),a0,aY,aX,aW,aV]]];else
 var
 P=O}else
 var
@@ -4113,25 +4119,25 @@ h=0}if(y)var
 aF=al(a,[0,[0,t,t],d]),h=x(function(b){var
 c=X(a,b),d=m(l);return z(j(ar(m),q),d,c)},aF);return[0,h,a3]},b8,E,aa,U));if(aD){var
 bd=aD[1];if(y[7])var
-b9=aU[2],b_=aU[1],b$=m(l),ad=kW(bJ,bd,[7,j(ar(m),aq),b$,b_,b9]);else
+b9=aU[2],b_=aU[1],b$=m(l),ad=kY(bJ,bd,[7,j(ar(m),aq),b$,b_,b9]);else
 var
 ad=bd;var
 bf=u(h(f(a$,bb)),k),bg=bf?n(function(a){var
-b=lD(a);return n(function(a){return ln(k,Y,a)},b)},ad):bf,bh=bg?C?ln(k,Y,m(C[1])):1:bg;if(bh){var
-ca=f(az[1],aC[1]),L=f(ay[1],ca),O=lV(aT),P=lT(E,y[2]),Z=O?e(function(a){var
-b=lB(k,P,a[2]),c=a[1];return[0,e(function(a){return lB(k,P,a)},c),b]},T):O,aE=O?cp(hF(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},cc=hD(ae,ae,Z),cd=ae(bc(k,l)),aG=x(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
+b=lF(a);return n(function(a){return lp(k,Y,a)},b)},ad):bf,bh=bg?C?lp(k,Y,m(C[1])):1:bg;if(bh){var
+ca=f(az[1],aC[1]),L=f(ay[1],ca),O=lX(aT),P=lV(E,y[2]),Z=O?e(function(a){var
+b=lD(k,P,a[2]),c=a[1];return[0,e(function(a){return lD(k,P,a)},c),b]},T):O,aE=O?cp(hG(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},cc=hE(ae,ae,Z),cd=ae(bc(k,l)),aG=x(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
 ai=bj;else{var
 bs=u(h(T),k);if(bs){var
-bE=hF(k,l,C,Z),aN=n(function(a){var
+bE=hG(k,l,C,Z),aN=n(function(a){var
 b=i(d);return aw(r(aX(aF,a),aF,b),a)},bE);if(aN)var
-bF=hF(k,l,C,Z),aj=n(function(a){var
+bF=hG(k,l,C,Z),aj=n(function(a){var
 b=aL(0,k);return n(function(b){return dE(k,b,a)},b)},bF);else
 var
 aj=aN;if(aj){var
-aO=x(function(a){return bc(k,a)},C),am=bc(k,l),aM=lx(am);if(aM)var
+aO=x(function(a){return bc(k,a)},C),am=bc(k,l),aM=lz(am);if(aM)var
 bD=aL(0,K),aP=n(function(a){var
-b=cZ(k,a,am),c=b?n(function(b){var
-d=b[2][2],e=f(w(hE,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
+b=c0(k,a,am),c=b?n(function(b){var
+d=b[2][2],e=f(w(hF,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
 h=b[2][1];return fM(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
 e=aO[1];return cb(N(k,a),e)}var
 d=1}else
@@ -4143,7 +4149,7 @@ an=aP}else
 var
 an=aj;var
 cj=an?n(function(a){var
-c=a[1],b=n(function(a){return lC(k,L,P,a)},c);return b?lC(k,L,P,a[2]):b},T):an,ai=cj}else
+c=a[1],b=n(function(a){return lE(k,L,P,a)},c);return b?lE(k,L,P,a[2]):b},T):an,ai=cj}else
 var
 ai=bs}if(ai){var
 ce=e(function(a){return 1},ad),cf=f(a$,bb),cg=function(N,aa,$,c){if(O){if(typeof
@@ -4151,10 +4157,10 @@ c!=="number"&&10===c[0]){var
 g=c[3],m=c[2],o=c[1];if(typeof
 o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
 t=g[1],b=o[1],w=u($,K),x=w?cl(0,K):w;if(x)var
-s=gU(gQ,e(aH,m),P),Y=s?1:s,p=Y;else
+s=gV(gR,e(aI,m),P),Y=s?1:s,p=Y;else
 var
 p=x;var
-y=p?kq(P):p,z=y?n(function(a){return cl(a,h(L))},P):y,A=z?u(h(t),k):z;if(A){var
+y=p?ks(P):p,z=y?n(function(a){return cl(a,h(L))},P):y,A=z?u(h(t),k):z;if(A){var
 q=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4169,12 +4175,12 @@ var
 M=J}else
 var
 M=aG;if(!R)return M}if(!Q)return 0;break}if(q){var
-S=hx(a,g$(m,0,L),aE,N),l=hx(a,L,aE,N),f=function(b,a){return r(a,b,rH)},T=lz(function(a){return f(l,a)},E),U=f(l,cd),W=function(a){return f(l,a)},X=[0,hD(function(a){return f(S,a)},W,cc),U,T],Z=kj(m,L),_=function(g){var
-b=ac(e(rF,g[1]));if(b){var
+S=hy(a,ha(m,0,L),aE,N),l=hy(a,L,aE,N),f=function(b,a){return r(a,b,rL)},T=lB(function(a){return f(l,a)},E),U=f(l,cd),W=function(a){return f(l,a)},X=[0,hE(function(a){return f(S,a)},W,cc),U,T],Z=kl(m,L),_=function(g){var
+b=ac(e(rJ,g[1]));if(b){var
 c=g[2];if(c){var
-d=c0(g[3]);if(d){var
+d=c1(g[3]);if(d){var
 l=d[1],m=av([0,D(af(v(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=kk(a,0,Z,d),c=be(rG,b[2]);return[0,b[1],c]},n),f=kg(a,e(function(b){return V(a,b)},t),F,G,o,m);if(f)return bi(a,k,f[1]);var
+b=km(a,0,Z,d),c=be(rK,b[2]);return[0,b[1],c]},n),f=ki(a,e(function(b){return V(a,b)},t),F,G,o,m);if(f)return bi(a,k,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4183,13 +4189,13 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j};return j(li(function(b,a){return rE},K,k,_),X)}var
+j=b;return j};return j(lk(function(b,a){return rI},K,k,_),X)}var
 B=0}else
 var
 B=A;var
 C=B}else
 var
-C=g;return C}return 0}return 0}return O},ch=m(l),ci=j(ar(m),T);return lI(a,a1,a2,L,ad,k,k,x(m,C),ci,ch,cg,cf,ce,aT)}var
+C=g;return C}return 0}return 0}return O},ch=m(l),ci=j(ar(m),T);return lK(a,a1,a2,L,ad,k,k,x(m,C),ci,ch,cg,cf,ce,aT)}var
 bk=ai}else
 var
 bk=bh;var
@@ -4214,34 +4220,34 @@ bq=ay;var
 br=bq}else
 var
 br=au;return br}function
-ez(b,a){return bg(b,a[1],a[2])}function
-lW(b,a){var
-c=ez(b,a[1]),d=c?ez(b,a[2]):c;return d?ez(b,a[3]):d}function
+eA(b,a){return bg(b,a[1],a[2])}function
+lY(b,a){var
+c=eA(b,a[1]),d=c?eA(b,a[2]):c;return d?eA(b,a[3]):d}function
 a6(a){return typeof
-a==="number"?a?r4:r5:cx(a[1])}function
-lX(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hv(b[1],a,c)}function
+a==="number"?a?r8:r9:cx(a[1])}function
+lZ(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hw(b[1],a,c)}function
 fV(a){if(0===a[0]){var
 b=a[1];switch(b[0]){case
 0:return b[3];case
 1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hM(b,c,a){return b?fJ(b[1],c,a):a}function
+hN(b,c,a){return b?fJ(b[1],c,a):a}function
 cc(d,c,b,a){var
-e=fV(a),f=hM(d,c,fV(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-lY(b,a){var
+e=fV(a),f=hN(d,c,fV(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+l0(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-lZ(b,w,v){var
+l1(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kL(b,j[1],f[1]):0;else
+h=0===f[0]?kN(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a3(b,c[1],a[1]),l=k?a3(b,c[2],a[2]):k,m=l?a3(b,c[3],a[3]):l,n=m?a3(b,c[4],a[4]):m,o=n?cS(b,c[5],a[5]):n,p=o?cS(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,R(a[1],a[1])):r;if(s)var
-u=hl(a),i=g(b,1,R(hl(a),u));else
+a=f[1],c=j[1],k=a3(b,c[1],a[1]),l=k?a3(b,c[2],a[2]):k,m=l?a3(b,c[3],a[3]):l,n=m?a3(b,c[4],a[4]):m,o=n?cT(b,c[5],a[5]):n,p=o?cT(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,R(a[1],a[1])):r;if(s)var
+u=hm(a),i=g(b,1,R(hm(a),u));else
 var
 i=s;var
 h=i?ck(c[7],a[7]):i}if(h){var
@@ -4249,41 +4255,41 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-l0(a){return typeof
-a==="number"?a?dI(0):cP:dI(a[1])}function
-hN(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
+l2(a){return typeof
+a==="number"?a?dI(0):cQ:dI(a[1])}function
+hO(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aQ(a[4],b),e),h=f(aQ(a[3],b),g),i=f(aQ(a[2],d[2]),h);return f(aQ(a[1],d[1]),i)}function
-hO(b,a){if(b){var
-c=b[1],d=c[2];return ba(ex(c[1],a),d)}return a}function
-l1(f,u,am,K,al,s,ak){if(s){var
-k=s[1],an=bv([0,d,d],al),a=ca(ak,hN(K,an,k)),y=function(c,b){var
-d=ab(a,c);return ah(t,ah(z,l0(f),b),d)};if(0===k[0]){var
+hP(b,a){if(b){var
+c=b[1],d=c[2];return ba(ey(c[1],a),d)}return a}function
+l3(f,u,am,K,al,s,ak){if(s){var
+k=s[1],an=bv([0,d,d],al),a=ca(ak,hO(K,an,k)),y=function(c,b){var
+d=ab(a,c);return ah(t,ah(z,l2(f),b),d)};if(0===k[0]){var
 A=k[1];switch(A[0]){case
 0:var
-$=hO(u,ab(a,r6)),aE=A[1][5],B=r(r7,a,i(d)),C=ab(a,0),aa=y(r8,$),j=j7(aa,cO(C),aa,B,aE),ap=[0,ax(B),0],aq=[0,ax(Q(C,C)),ap],l=[0,[0,j[1],j[2],j[3],[0,j[4]],[0,[0,j[2],B]],aq],$];break;case
+$=hP(u,ab(a,r_)),aE=A[1][5],B=r(r$,a,i(d)),C=ab(a,0),aa=y(sa,$),j=j9(aa,cP(C),aa,B,aE),ap=[0,ax(B),0],aq=[0,ax(Q(C,C)),ap],l=[0,[0,j[1],j[2],j[3],[0,j[4]],[0,[0,j[2],B]],aq],$];break;case
 1:var
-ac=hO(u,ab(a,r9)),ad=A[3],D=ad?[0,ab(a,r_)]:ad,ae=y(0,ac),m=j8(ae,ae,0);if(D)var
+ac=hP(u,ab(a,sb)),ad=A[3],D=ad?[0,ab(a,sc)]:ad,ae=y(0,ac),m=j_(ae,ae,0);if(D)var
 L=D[1],M=[0,ax(Q(L,L)),0];else
 var
 M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=i(d),aG=i(d),aH=[0,i(d),aG,aF],E=ab(a,0),aI=l0(f),n=j9(aI,cO(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=i(d),aG=i(d),aH=[0,i(d),aG,aF],E=ab(a,0),aI=l2(f),n=j$(aI,cP(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hO(u,ab(a,r$)),F=k[1][7],G=r(sa,a,i(d)),e=r(sb,a,i(d)),ai=ab(a,sc),H=ab(a,0),p=y(sd,af),o=cO(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cO(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(i(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fp(F,q(e,ax(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jD(0,U,V,W),Y=fp(F,jD(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=N(ak,h(hN(K,an,k))),aQ=s[2],aR=l1(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
+af=hP(u,ab(a,sd)),F=k[1][7],G=r(se,a,i(d)),e=r(sf,a,i(d)),ai=ab(a,sg),H=ab(a,0),p=y(sh,af),o=cP(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cP(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(i(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fp(F,q(e,ax(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jF(0,U,V,W),Y=fp(F,jF(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=N(ak,h(hO(K,an,k))),aQ=s[2],aR=l3(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
 b=ba(dH(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hB(f[1],a,b)},J=g[1],_=typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hC(f[1],a,b)},J=g[1],_=typeof
 f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:by(J):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=s;return ao}function
-hP(c,b,a){if(a){var
-e=a[2],g=hP(c,bd(b),e),h=a[1];return f(hN(c,bv([0,d,d],b),h),g)}return a}function
-l2(a){if(a){var
+hQ(c,b,a){if(a){var
+e=a[2],g=hQ(c,bd(b),e),h=a[1];return f(hO(c,bv([0,d,d],b),h),g)}return a}function
+l4(a){if(a){var
 b=a[1][6];if(b)var
-c=l2(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=l4(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return se}function
-l3(y,V,b){function
+d=b;return d}return si}function
+l5(y,V,b){function
 c(a){return r(a,V,i(d))}function
 O(a){var
 e=a[2],f=q(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dk(function(b,a){return t(b,I(a))},g,f),d],b]}function
@@ -4309,7 +4315,7 @@ d=a[1];return[0,[0,t(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(sf),b),g=[0,[0,t(q(c(sg),d),f),0],0],h=q(d,c(sh));return[0,[0,t(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(sj),b),g=[0,[0,t(q(c(sk),d),f),0],0],h=q(d,c(sl));return[0,[0,t(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4325,7 +4331,7 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=l2(y);if(B){var
+B=l4(y);if(B){var
 aa=c(0),Q=dk(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
 h=C[2],j=C[1];if(j){var
 k=j[2],E=j[1];if(k){var
@@ -4342,7 +4348,7 @@ v=u[2],L=u[1];if(v){var
 N=v[1];if(v[2]||m[2])var
 a=i(d);else
 var
-S=cR(G,H,K,L),T=q(l[1],S),U=q(F,cR(G,J,K,N)),a=z(t(q(E,cR(H,J,L,N)),U),T)}else
+S=cS(G,H,K,L),T=q(l[1],S),U=q(F,cS(G,J,K,N)),a=z(t(q(E,cS(H,J,L,N)),U),T)}else
 var
 a=i(d)}else
 var
@@ -4357,7 +4363,7 @@ var
 a=i(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?i(d):h[2]?i(d):cR(E,F,w[1],x[1]):i(d);else
+x=w[2],a=x?x[2]?i(d):h[2]?i(d):cS(E,F,w[1],x[1]):i(d);else
 var
 a=i(d)}else
 var
@@ -4373,11 +4379,11 @@ var
 R=B;return R;default:D=1}if(D)return 0;var
 A=M(y,f);return A?g(A[1]):A}function
 dJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eA(a){return e(function(a){var
+eB(a){return e(function(a){var
 b=i(c);return[0,a[3],b]},a)}function
-l4(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bA(fI(dJ(c),b));return fb(l3(c,b,a))}function
-l5(f,h,l,H,G,s,a){if(typeof
+l6(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bA(fI(dJ(c),b));return fb(l5(c,b,a))}function
+l7(f,h,l,H,G,s,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
@@ -4387,10 +4393,10 @@ L=[5,[0,c,c],a[1]],i=L,m=function(a){return[1,a]};break;case
 5:var
 y=a[1],P=0,Q=al(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,X(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!M(l,C))return sk;var
+z=a[3],A=a[2],C=a[1];if(!M(l,C))return so;var
 F=0;if(g(f,1,A)&&g(f,1,z))var
 R=[5,A,z],i=R,m=function(a){return[7,C,a]};else
-F=1;if(F)return sj;break;case
+F=1;if(F)return sn;break;case
 8:var
 D=g(f,1,a[2]),S=0;if(D)var
 T=a[1],U=1,q=n(function(a){return g(f,U,a)},T);else
@@ -4408,39 +4414,39 @@ t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(
 9:var
 w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:r=1}if(r)var
 k=1;var
-o=k?l3(l,s,a):k;if(o){var
+o=k?l5(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=j(h,b[1]);return[0,[5,j(h,c),e]]}var
 d=[0,[3,j(h,c)]]}else
 var
-d=a;return d},N)}return si}var
-J=0,K=al(f,[0,[0,i,i],hs(H,G)]);return[0,x(function(a){return m(X(f,a))},K),J]}function
-l6(a){if(typeof
+d=a;return d},N)}return sm}var
+J=0,K=al(f,[0,[0,i,i],ht(H,G)]);return[0,x(function(a){return m(X(f,a))},K),J]}function
+l8(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-sm(b){if(0===b[0])return[0,kU(b[1])];var
+sq(b){if(0===b[0])return[0,kW(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bj(a[4]),g=bj(a[3]),h=bj(a[2]);return[1,[0,bj(a[1]),h,g,f,e,d,c]]}function
-sn(J,c,a,k,ap,aT){var
-aU=e(sm,a[2]),aq=lZ(J,a[2],aU);if(aq)var
-aV=hk(a[4]),K=cT(J,a[4],aV);else
+sr(J,c,a,k,ap,aT){var
+aU=e(sq,a[2]),aq=l1(J,a[2],aU);if(aq)var
+aV=hl(a[4]),K=cU(J,a[4],aV);else
 var
 K=aq;if(K){var
 as=a[5];if(as)var
-aW=fR(as[1]),at=n(function(a){return ez(J,a)},aW);else
+aW=fR(as[1]),at=n(function(a){return eA(J,a)},aW);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ay=a6(b),q=a[6],z=hP(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
+b=a[1],ay=a6(b),q=a[6],z=hQ(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
 c=typeof
-b==="number"?0:fS(b[1]);return lp(a,c)},az),aB=a[2],l=l1(b,aA,cv(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l4(l,a,b)},o,k,S,q)),aD=f(bA(eA(l)),aC),U=f(bA(dJ(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
-b=i(d);return aw(r(p(a),W,b),a)},U),Y=X?ak(l6,q):X;if(Y){var
+b==="number"?0:fS(b[1]);return lr(a,c)},az),aB=a[2],l=l3(b,aA,cv(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l6(l,a,b)},o,k,S,q)),aD=f(bA(eB(l)),aC),U=f(bA(dJ(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
+b=i(d);return aw(r(p(a),W,b),a)},U),Y=X?ak(l8,q):X;if(Y){var
 Z=a[4];if(typeof
 b==="number")var
-_=b?hL(0,dB(Z)):1;else
+_=b?hM(0,dB(Z)):1;else
 var
-av=dB(Z),_=hL(b[1],av);var
+av=dB(Z),_=hM(b[1],av);var
 B=_}else
 var
 B=Y;if(B){var
@@ -4452,7 +4458,7 @@ s=0;else{var
 v=a[5],M=0;if(v){var
 O=g(c,1,a[3]);if(O)var
 ax=fR(v[1]),s=n(function(a){var
-b=ev(c,a[1]);return b?ev(c,a[2]):b},ax);else{var
+b=ew(c,a[1]);return b?ew(c,a[2]):b},ax);else{var
 P=O;M=1}}else{var
 P=v;M=1}if(M)var
 s=P}var
@@ -4464,21 +4470,21 @@ b=0===a[0]?0:1;return ck(b,o)},aE);else
 var
 D=C;if(D){var
 aF=f(z,[0,R,0]),E=ac(e(function(a){return al(c,a)},aF));if(E){var
-aG=w(function(a){return es(o,k,a)},q),F=ac(e(function(a){return ht(c,a)},aG));if(F){var
+aG=w(function(a){return et(o,k,a)},q),F=ac(e(function(a){return hu(c,a)},aG));if(F){var
 m=dB(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lS(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lU(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
 $=G[1],aa=a[5];if(aa)var
-aI=lr(aa[1]),t=ac(e(function(a){return lt(c,a)},aI));else
+aI=lt(aa[1]),t=ac(e(function(a){return lv(c,a)},aI));else
 var
-t=sl;if(t){var
-ab=t[1],y=a[5],aJ=y?lq(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
-I=ac(cw(function(a,b){return l5(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
+t=sp;if(t){var
+ab=t[1],y=a[5],aJ=y?ls(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
+I=ac(cw(function(a,b){return l7(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
 ad=I[1],ae=u(h(f($,ab)),ay);if(ae){var
-aK=he(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
+aK=hf(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kK(c,aM,k,a)};au=1}if(!au)var
+af=function(a){return kM(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eA(l),aR=j(ar(p),aQ),aS=dJ(l);return fz(c,V,j(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eB(l),aR=j(ar(p),aQ),aS=dJ(l);return fz(c,V,j(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
 var
 ag=I;var
@@ -4515,7 +4521,7 @@ bk(e,a,b){switch(a[0]){case
 r=a[1];return cv([0,[0,r,r],d],b);case
 1:var
 u=a[1],g=e,v=i(d);for(;;){if(g){var
-n=g[1];if(pr(n[1],u))return n[2];var
+n=g[1];if(pt(n[1],u))return n[2];var
 g=g[2];continue}return v}case
 2:return bf(bk(e,a[1],b));case
 3:var
@@ -4527,8 +4533,8 @@ k=a[2],f=a[1],j=q;break;case
 6:var
 k=a[2],f=a[1],j=ag;break;case
 7:var
-l=d8(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
-o=I(m),s=function(a){return q(a,o)},p=e6(bL(jm(l)),s,o);return jl(l)?p:q(p,m)}return m}return i(c);default:return ax(bk(e,a[1],b))}var
+l=d9(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
+o=I(m),s=function(a){return q(a,o)},p=e6(bL(jo(l)),s,o);return jn(l)?p:q(p,m)}return m}return i(c);default:return ax(bk(e,a[1],b))}var
 w=bk(e,k,N(b,h(bD(f))));return j(bk(e,f,b),w)}function
 cA(c,g,b){var
 a=g;for(;;)switch(a[0]){case
@@ -4542,19 +4548,19 @@ a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=N(b,h(bD(d))),j=cA(c,a[2],i);return f(cA(c,d,b),j)}}function
-l7(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,h(bD(d))),i=a[2],j=bk(c,d,b),k=l7([0,[0,e[1],j],c],i,g);return f(cA(c,d,b),k)}return a}function
-hQ(a){return w(bD,a)}function
-l8(c,a,b){if(a)var
-d=a[1],f=N(b,h(bD(d))),g=l8(c,a[2],f),e=[0,bk(c,d,b),g];else
+l9(c,a,b){if(a){var
+e=a[1],d=e[2],g=N(b,h(bD(d))),i=a[2],j=bk(c,d,b),k=l9([0,[0,e[1],j],c],i,g);return f(cA(c,d,b),k)}return a}function
+hR(a){return w(bD,a)}function
+l_(c,a,b){if(a)var
+d=a[1],f=N(b,h(bD(d))),g=l_(c,a[2],f),e=[0,bk(c,d,b),g];else
 var
 e=a;return e}function
-l9(c,a,b){if(a){var
-d=a[1],e=N(b,h(bD(d))),g=l9(c,a[2],e);return f(cA(c,d,b),g)}return a}function
-hR(a){return 0===a[0]?hQ(a[1]):bD(a[1])}function
-l_(c,b,a){if(b){var
-d=b[1],j=N(a,h(hR(d))),k=l_(c,b[2],j);if(0===d[0])var
-g=l9(c,d[1],a);else
+l$(c,a,b){if(a){var
+d=a[1],e=N(b,h(bD(d))),g=l$(c,a[2],e);return f(cA(c,d,b),g)}return a}function
+hS(a){return 0===a[0]?hR(a[1]):bD(a[1])}function
+ma(c,b,a){if(b){var
+d=b[1],j=N(a,h(hS(d))),k=ma(c,b[2],j);if(0===d[0])var
+g=l$(c,d[1],a);else
 var
 e=d[1],i=cA(c,e,a),g=[0,bk(c,e,a),i];return f(g,k)}return b}function
 fW(c){var
@@ -4564,28 +4570,28 @@ b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
 b=bM(fW,a)}return[0,b]}function
-hS(c){var
+hT(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hS(a[2]);return q(hS(a[1]),d);case
+d=hT(a[2]);return q(hT(a[1]),d);case
 9:return a[1];default:return I(b)}}}function
-l$(n,g,a,f){if(a){var
-b=a[1],w=N(f,h(hR(b))),x=l$(n,g,a[2],w);if(0===b[0])var
-l=l8(g,b[1],f),o=[0,l,i(c),l,0,0,0,0];else
+mb(n,g,a,f){if(a){var
+b=a[1],w=N(f,h(hS(b))),x=mb(n,g,a[2],w);if(0===b[0])var
+l=l_(g,b[1],f),o=[0,l,i(c),l,0,0,0,0];else
 var
-m=bk(g,b[1],f),q=fW(m),j=aP(aL(0,n),q),d=fW(j[2]),k=e(fW,j[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aw(a,d)?i(c):ag(a,d)},k),o=[0,k,hS(d),v,u,t,s,r];var
+m=bk(g,b[1],f),q=fW(m),j=aP(aL(0,n),q),d=fW(j[2]),k=e(fW,j[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aw(a,d)?i(c):ag(a,d)},k),o=[0,k,hT(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-ma(a){return e(function(a){return[0,a[2],d]},a)}function
-mb(a){var
-b=w(hR,a[4]),c=f(hQ(e(b0,a[3])),b);return f(ma(a[2]),c)}function
-mc(a){var
-c=ca(0,ma(a[2])),d=aL(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aJ(e(aH,a[2]),c);return f(aJ(a[1],g),b)}function
-hT(b,d){var
+mc(a){return e(function(a){return[0,a[2],d]},a)}function
+md(a){var
+b=w(hS,a[4]),c=f(hR(e(b0,a[3])),b);return f(mc(a[2]),c)}function
+me(a){var
+c=ca(0,mc(a[2])),d=aL(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aI,a[2]),c);return f(aK(a[1],g),b)}function
+hU(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -4594,41 +4600,41 @@ e=a[1];return ak(function(a){return aq(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hT(b,a[1]);if(c){var
+c=hU(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-md(d){var
+mf(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pr(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pt(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-me(b,h,g,d,c,a){if(a){var
-i=a[2],k=a[1],l=me(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bd,f(c,i)));return ao(h,ao(g,bv(b,k),m),l)}return b}function
-mf(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return me(a,e,d,function(b){return mf(a,f,e,d,h,b)},g,b)}return b?a:f}function
-mg(d,a){if(a){var
+mg(b,h,g,d,c,a){if(a){var
+i=a[2],k=a[1],l=mg(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bd,f(c,i)));return ap(h,ap(g,bv(b,k),m),l)}return b}function
+mh(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return mg(a,e,d,function(b){return mh(a,f,e,d,h,b)},g,b)}return b?a:f}function
+mi(d,a){if(a){var
 b=aY(d,a[1]);if(b)var
-c=mg(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=mi(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return sr}function
-mh(d,a){if(a){var
-b=mg(d,a[1]);if(b)var
-c=mh(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return sv}function
+mj(d,a){if(a){var
+b=mi(d,a[1]);if(b)var
+c=mj(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return ss}var
+e=b;return e}return sw}var
 fY=t(i(c),fX);function
-mi(e){var
+mk(e){var
 a=I(fY);if(e)var
 f=q(i(b(2,c)),a),g=z(i(b(2,b(2,c))),f),h=q(i(b(2,c)),a),d=ag(z(i(c),h),g);else
 var
 j=z(i(b(2,c)),a),k=I(fX),d=ag(z(q(i(b(2,c)),k),a),j);return ax(d)}function
-mj(d,b,a){if(d){var
-e=mi(b),f=z(i(c),e),g=q(t(i(c),a),f);return t(i(c),g)}var
-h=i(c),j=mi(b),k=ag(i(c),j);return t(q(a,z(i(c),k)),h)}function
+ml(d,b,a){if(d){var
+e=mk(b),f=z(i(c),e),g=q(t(i(c),a),f);return t(i(c),g)}var
+h=i(c),j=mk(b),k=ag(i(c),j);return t(q(a,z(i(c),k)),h)}function
 dK(f,e,d,a){var
 g=I(a),h=I(d),j=t(t(i(b(2,c)),h),g),k=f?e?fY:ag(fY,q(i(b(2,c)),fX)):ag(fY,i(b(2,c))),l=q(I(k),j);return ax(z(i(c),l))}function
-mk(g,d){var
+mm(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hU(w,v,u,t){var
+hV(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4660,12 +4666,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-ml(f,i,e,b,h){var
+mn(f,i,e,b,h){var
 j=f?c:d,a=V(i,j);function
 g(b){var
-c=f?eb(b):dq(b);return D(c,a)}var
+c=f?ec(b):dq(b);return D(c,a)}var
 k=[0,ae(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mm(r,b,q,p,g,o,n){if(o){var
+mo(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -4674,16 +4680,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aB,bh(sv)),z=e(ae,0),a=hU(b,p,bN(0,b8(b,ej(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aB,bh(sz)),z=e(ae,0),a=hV(b,p,bN(0,b8(b,ek(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=H(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mk,sw),a=hU(b,p,bN(0,b8(b,ml(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(mm,sA),a=hV(b,p,bN(0,b8(b,mn(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(mk,sx),a=hU(b,p,bN(0,b8(b,ml(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(mm,sB),a=hV(b,p,bN(0,b8(b,mn(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -4693,26 +4699,26 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?sy:a}else
+y=a?sC:a}else
 var
 y=n;return y}return[0,n]}function
-mn(f,e,d,c,p,o,n){var
+mp(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mm(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
-i=mm(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ek(a[2],b),l=mn(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mo(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
+i=mo(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=el(a[2],b),l=mp(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hV(a){return js(b(2,c),aG(a,c))}function
+hW(a){return ju(b(2,c),aH(a,c))}function
 dL(j,a,e,w,v){var
-m=a?c:P(c),f=i(m),g=mj(a,e,st),h=mj(a,e,su),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(h,dK(a,e,h,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(h,dK(a,e,g,h)),p),o],s=ag(f,dK(a,e,h,f)),t=[0,z(ag(g,dK(a,e,g,h)),s),r],u=a?e?i(b(2,c)):q(i(b(2,b(2,c))),fX):i(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cL(j)];return mn(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-mo(a,g,b){if(L(g,hV(a))){if(b){var
+m=a?c:P(c),f=i(m),g=ml(a,e,sx),h=ml(a,e,sy),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(h,dK(a,e,h,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(h,dK(a,e,g,h)),p),o],s=ag(f,dK(a,e,h,f)),t=[0,z(ag(g,dK(a,e,g,h)),s),r],u=a?e?i(b(2,c)):q(i(b(2,b(2,c))),fX):i(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cM(j)];return mp(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+mq(a,g,b){if(L(g,hW(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hV(a)],v=cL(a),i=[0,hV(a),v],j=dL(a,0,1,h,b[1]),k=j?dL(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,hW(a)],v=cM(a),i=[0,hW(a),v],j=dL(a,0,1,h,b[1]),k=j?dL(a,0,0,i,c[1]):j;if(k){var
 l=dL(a,1,1,h,d[1]);if(l)return dL(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4730,262 +4736,262 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cL(a)],s=dL(a,0,0,r,b[1]);if(s)return dL(a,1,0,r,f[1]);var
+r=[0,g,cM(a)],s=dL(a,0,0,r,b[1]);if(s)return dL(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hW(a){var
+hX(a){var
 b=[1,[2,d]];return dk(function(b,a){return[1,[3,b,a]]},a,b)}function
-fZ(a){return hW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-f0(a,c){return hW(e(function(a){var
-d=[0,a[2]],b=aJ(a[1],c);return[1,[7,[1,[8,hW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mp(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bM(function(a){return mp(e,d,c,b,a)},f);return j(b8(e,d,c),g)}function
-mq(a){return a?L(d,a[1][2][1]):a}function
-sz(a){var
-b=u(h(a),sA);return b?ak(function(a){return $(_(a,d))},a):b}function
-mr(c,f,b,a){if(b)if(a)var
-d=b[1],g=v(c,V(c,a[1]),f),h=mr(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+fZ(a){return hX(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+f0(a,c){return hX(e(function(a){var
+d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hX(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+mr(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bM(function(a){return mr(e,d,c,b,a)},f);return j(b8(e,d,c),g)}function
+ms(a){return a?L(d,a[1][2][1]):a}function
+sD(a){var
+b=u(h(a),sE);return b?ak(function(a){return $(_(a,d))},a):b}function
+mt(c,f,b,a){if(b)if(a)var
+d=b[1],g=v(c,V(c,a[1]),f),h=mt(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-f1(b,a){return d$(d$(b,0),a)}function
-hX(a){if(a){var
-b=a[2],c=a[1];if(b)return f1(c,[0,sC,hX(b)]);var
+f1(b,a){return ea(ea(b,0),a)}function
+hY(a){if(a){var
+b=a[2],c=a[1];if(b)return f1(c,[0,sG,hY(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,sE,f1(hX(a),sD)]}function
-aa(a){return[0,sG,f1(hX(a),sF)]}function
-am(a){return[0,sI,[0,a,sH]]}function
-l(b,a){return[0,aT(sK,aT(b,sJ)),a]}function
+C(a){return[0,sI,f1(hY(a),sH)]}function
+aa(a){return[0,sK,f1(hY(a),sJ)]}function
+am(a){return[0,sM,[0,a,sL]]}function
+l(b,a){return[0,aT(sO,aT(b,sN)),a]}function
 J(b,a){return aa([0,l(b,a),0])}function
 cd(d){var
-b=d,a=pW,e=0;for(;;){if(b){var
-c=jj(a),b=b[1],a=c;continue}return[0,ea(e5(a)),e]}}function
-hY(a){return[0,ea(e$(a)),0]}function
+b=d,a=p0,e=0;for(;;){if(b){var
+c=jl(a),b=b[1],a=c;continue}return[0,eb(e5(a)),e]}}function
+hZ(a){return[0,eb(e$(a)),0]}function
 f2(a){var
-c=a9(a),f=0,b=0===c?p1:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
-d=ea(b[1]);else
+c=a9(a),f=0,b=0===c?p5:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
+d=eb(b[1]);else
 var
-e=ea(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
-hZ(a){var
-b=0,c=0<a9(a)?e$(a):p0;return[0,ea(c),b]}function
-h0(a){switch(a[0]){case
-2:return sM;case
-3:return 2<=a[1]?sN:sO;case
-4:return sP;default:return sL}}function
-eB(b,a){function
-c(c,a){return W(c,h0(a))?eB(b,a):[0,sV,f(eB(b,a),sU)]}switch(a[0]){case
+e=eb(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
+h0(a){var
+b=0,c=0<a9(a)?e$(a):p4;return[0,eb(c),b]}function
+h1(a){switch(a[0]){case
+2:return sQ;case
+3:return 2<=a[1]?sR:sS;case
+4:return sT;default:return sP}}function
+eC(b,a){function
+c(c,a){return W(c,h1(a))?eC(b,a):[0,sZ,f(eC(b,a),sY)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,a2(g),0];var
-h=[0,sW,[0,a2(e),0]];return[0,a2(g),h];case
+h=[0,s0,[0,a2(e),0]];return[0,a2(g),h];case
 1:return[0,j(b,a[1]),0];case
-2:return[0,sY,c(sX,a[1])];case
+2:return[0,s2,c(s1,a[1])];case
 3:var
-i=a[3],k=c([0,h0(a)],i);switch(a[1]){case
+i=a[3],k=c([0,h1(a)],i);switch(a[1]){case
 0:var
-d=sQ;break;case
+d=sU;break;case
 1:var
-d=sR;break;case
+d=sV;break;case
 2:var
-d=sS;break;default:var
-d=sT}var
-l=a[2];return f(c(h0(a),l),[0,d,k]);case
+d=sW;break;default:var
+d=sX}var
+l=a[2];return f(c(h1(a),l),[0,d,k]);case
 4:var
-m=[0,sZ,hY(a[2])];return f(c(s0,a[1]),m);default:return[0,s2,f(eB(b,a[1]),s1)]}}function
-K(a){return[0,s5,f(eB(function(a){return 0===a[0]?a[1]:s4},a),s3)]}function
-h1(a){return[0,s7,f(eB(function(a){return a},a),s6)]}function
+m=[0,s3,hZ(a[2])];return f(c(s4,a[1]),m);default:return[0,s6,f(eC(b,a[1]),s5)]}}function
+K(a){return[0,s9,f(eC(function(a){return 0===a[0]?a[1]:s8},a),s7)]}function
+h2(a){return[0,s$,f(eC(function(a){return a},a),s_)]}function
 ce(a){if(0===a[0])return K(a[1]);var
-b=[0,l(s8,K(a[2])),0];return aa([0,l(s9,K(a[1])),b])}function
+b=[0,l(ta,K(a[2])),0];return aa([0,l(tb,K(a[1])),b])}function
 f3(b,a){var
 c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return C([0,j(b,a[1]),d])}function
-s_(a){function
+tc(a){function
 b(a){return f3(ce,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?s$:th,h=[0,l(ta,am(g)),e],i=[0,l(tb,ce(a[4])),h],j=[0,l(tc,b(a[3])),i],k=[0,l(td,b(a[2])),j],m=[0,l(te,b(a[1])),k],c=[0,l(tg,am(tf)),m];break;case
+e=0,g=a[5]?td:tl,h=[0,l(te,am(g)),e],i=[0,l(tf,ce(a[4])),h],j=[0,l(tg,b(a[3])),i],k=[0,l(th,b(a[2])),j],m=[0,l(ti,b(a[1])),k],c=[0,l(tk,am(tj)),m];break;case
 1:var
-d=a[3],n=d?[0,l(ti,b(d[1])),0]:d,o=[0,l(tj,b(a[2])),0],p=[0,l(tk,b(a[1])),o],c=f([0,l(tm,am(tl)),p],n);break;default:var
-q=[0,l(tn,b(a[1])),0],c=[0,l(tp,am(to)),q]}return aa(c)}function
-tq(a){function
+d=a[3],n=d?[0,l(tm,b(d[1])),0]:d,o=[0,l(tn,b(a[2])),0],p=[0,l(to,b(a[1])),o],c=f([0,l(tq,am(tp)),p],n);break;default:var
+q=[0,l(tr,b(a[1])),0],c=[0,l(tt,am(ts)),q]}return aa(c)}function
+tu(a){function
 b(a){return C(e(ce,a))}function
 d(a){var
-b=a?tr:tt;return l(ts,am(b))}switch(a[0]){case
+b=a?tv:tx;return l(tw,am(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(tu,ce(a[4])),f],h=[0,l(tv,b(a[3])),g],i=[0,l(tw,b(a[2])),h],j=[0,l(tx,b(a[1])),i],c=[0,l(tz,am(ty)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(ty,ce(a[4])),f],h=[0,l(tz,b(a[3])),g],i=[0,l(tA,b(a[2])),h],j=[0,l(tB,b(a[1])),i],c=[0,l(tD,am(tC)),j];break;case
 1:var
-k=[0,l(tA,b(a[2])),0],m=[0,l(tB,b(a[1])),k],c=[0,l(tD,am(tC)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(tE,ce(a[6])),n],p=[0,l(tF,ce(a[5])),o],q=[0,l(tG,b(a[4])),p],r=[0,l(tH,b(a[3])),q],s=[0,l(tI,b(a[2])),r],t=[0,l(tJ,b(a[1])),s],c=[0,l(tL,am(tK)),t]}return aa(c)}function
-h2(a){switch(a){case
-0:return tM;case
-1:return tN;case
-2:return tO;case
-3:return tP;case
-4:return tQ;case
-5:return tR;case
-6:return tS;case
-7:return tT;case
-8:return tU;case
-9:return tV;case
-10:return tW;case
-11:return tX;case
-12:return tY;case
-13:return tZ;case
-14:return t0;default:return t1}}function
-h3(a){if(typeof
-a==="number")return t2;else
+k=[0,l(tE,b(a[2])),0],m=[0,l(tF,b(a[1])),k],c=[0,l(tH,am(tG)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(tI,ce(a[6])),n],p=[0,l(tJ,ce(a[5])),o],q=[0,l(tK,b(a[4])),p],r=[0,l(tL,b(a[3])),q],s=[0,l(tM,b(a[2])),r],t=[0,l(tN,b(a[1])),s],c=[0,l(tP,am(tO)),t]}return aa(c)}function
+h3(a){switch(a){case
+0:return tQ;case
+1:return tR;case
+2:return tS;case
+3:return tT;case
+4:return tU;case
+5:return tV;case
+6:return tW;case
+7:return tX;case
+8:return tY;case
+9:return tZ;case
+10:return t0;case
+11:return t1;case
+12:return t2;case
+13:return t3;case
+14:return t4;default:return t5}}function
+h4(a){if(typeof
+a==="number")return t6;else
 switch(a[0]){case
-0:return t3;case
-1:return t4;default:return t5}}function
-eC(a){var
+0:return t7;case
+1:return t8;default:return t9}}function
+eD(a){var
 b=a[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,l(t6,K(b[1])),0];break;case
+d=[0,l(t_,K(b[1])),0];break;case
 1:var
-d=[0,l(t7,K(b[1])),0];break;default:var
-n=[0,K(b[2]),0],d=[0,l(t8,C([0,K(b[1]),n])),0]}var
-o=[0,l(t9,am(h3(a[4]))),d],g=a[3];if(g){var
+d=[0,l(t$,K(b[1])),0];break;default:var
+n=[0,K(b[2]),0],d=[0,l(ua,C([0,K(b[1]),n])),0]}var
+o=[0,l(ub,am(h4(a[4]))),d],g=a[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-q=C([0,K(c[1]),0]),j=a[1],p=0,r=6===j?t_:12===j?uc:ud,h=[0,l(t$,J(r,q)),p];break;case
+q=C([0,K(c[1]),0]),j=a[1],p=0,r=6===j?uc:12===j?ug:uh,h=[0,l(ud,J(r,q)),p];break;case
 1:var
-w=C(e(K,c[1])),m=a[1],v=0,x=14===m?ue:15<=m?ug:uh,h=[0,l(uf,J(x,w)),v];break;default:var
-y=[0,l(ui,C([0,K(c[2]),0])),0],h=[0,l(uk,aa([0,l(uj,C([0,K(c[1]),0])),y])),0]}var
+w=C(e(K,c[1])),m=a[1],v=0,x=14===m?ui:15<=m?uk:ul,h=[0,l(uj,J(x,w)),v];break;default:var
+y=[0,l(um,C([0,K(c[2]),0])),0],h=[0,l(uo,aa([0,l(un,C([0,K(c[1]),0])),y])),0]}var
 k=h}else
 var
 k=g;var
-s=f(k,o),i=a[2],t=i?[0,l(ua,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(ub,am(h2(a[1]))),u])}function
-ms(a){if(0===a[0]){var
-b=[0,l(ul,f3(K,a[2])),0];return J(un,aa([0,l(um,f3(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,l(uo,C([0,K(a[4]),c])),0],e=[0,l(up,K(a[3])),d],f=[0,K(a[2]),0];return J(ur,aa([0,l(uq,C([0,K(a[1]),f])),e]))}function
-mt(a){if(0===a[0]){var
-b=[0,l(us,C(e(K,a[2]))),0];return J(uu,aa([0,l(ut,C(e(K,a[1]))),b]))}return ms([1,a[1],a[2],a[3],a[4],a[5]])}function
-mu(a){switch(a){case
-0:return uv;case
-1:return uw;default:return ux}}function
-uy(a){function
+s=f(k,o),i=a[2],t=i?[0,l(ue,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(uf,am(h3(a[1]))),u])}function
+mu(a){if(0===a[0]){var
+b=[0,l(up,f3(K,a[2])),0];return J(ur,aa([0,l(uq,f3(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,l(us,C([0,K(a[4]),c])),0],e=[0,l(ut,K(a[3])),d],f=[0,K(a[2]),0];return J(uv,aa([0,l(uu,C([0,K(a[1]),f])),e]))}function
+mv(a){if(0===a[0]){var
+b=[0,l(uw,C(e(K,a[2]))),0];return J(uy,aa([0,l(ux,C(e(K,a[1]))),b]))}return mu([1,a[1],a[2],a[3],a[4],a[5]])}function
+mw(a){switch(a){case
+0:return uz;case
+1:return uA;default:return uB}}function
+uC(a){function
 b(a){return C(e(ce,a))}var
-c=[0,l(uz,b(a[2])),0],d=[0,l(uA,b(a[1])),c];return aa([0,l(uC,am(uB)),d])}function
-mv(a){function
+c=[0,l(uD,b(a[2])),0],d=[0,l(uE,b(a[1])),c];return aa([0,l(uG,am(uF)),d])}function
+mx(a){function
 b(b,a){var
 c=[0,K(a),0];return C([0,K(b),c])}switch(a[0]){case
-0:return J(uD,b(a[1],a[2]));case
+0:return J(uH,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(uE,b(c[1],c[2])),0],g=[0,l(uF,b(d[1],d[2])),f];return J(uH,aa([0,l(uG,b(e[1],e[2])),g]));case
-2:return J(uI,K(a[1]));default:var
-h=[0,l(uJ,K(a[2])),0];return J(uL,aa([0,l(uK,K(a[1])),h]))}}function
-uM(a){function
+c=a[3],d=a[2],e=a[1],f=[0,l(uI,b(c[1],c[2])),0],g=[0,l(uJ,b(d[1],d[2])),f];return J(uL,aa([0,l(uK,b(e[1],e[2])),g]));case
+2:return J(uM,K(a[1]));default:var
+h=[0,l(uN,K(a[2])),0];return J(uP,aa([0,l(uO,K(a[1])),h]))}}function
+uQ(a){function
 b(a){return f3(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(uN,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uO,C([0,K(a[3]),g])),0],i=[0,l(uP,K(a[2])),h],j=[0,l(uQ,cd(a[1])),i],d=f([0,l(uS,am(uR)),j],e);else
+c=a[5],e=c?[0,l(uR,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uS,C([0,K(a[3]),g])),0],i=[0,l(uT,K(a[2])),h],j=[0,l(uU,cd(a[1])),i],d=f([0,l(uW,am(uV)),j],e);else
 var
-k=[0,l(uT,K(a[4])),0],m=[0,l(uU,b(a[3])),k],n=[0,l(uV,b(a[2])),m],o=a[1]?uW:uY,d=[0,l(uX,am(o)),n];return aa(d)}function
-mw(a){var
-b=a?[0,l(uZ,C(e(uM,a))),0]:a;return b}function
-h4(d,c,b,a){var
-g=[0,l(u0,C(e(eC,a))),0],h=f(mw(b),g),i=[0,l(u1,ms(c)),0];return aa(f([0,l(u3,J(u2,C(e(s_,d)))),i],h))}function
-u4(a){switch(a[0]){case
-0:return J(u5,h4(a[1],a[2],a[3],a[4]));case
+k=[0,l(uX,K(a[4])),0],m=[0,l(uY,b(a[3])),k],n=[0,l(uZ,b(a[2])),m],o=a[1]?u0:u2,d=[0,l(u1,am(o)),n];return aa(d)}function
+my(a){var
+b=a?[0,l(u3,C(e(uQ,a))),0]:a;return b}function
+h5(d,c,b,a){var
+g=[0,l(u4,C(e(eD,a))),0],h=f(my(b),g),i=[0,l(u5,mu(c)),0];return aa(f([0,l(u7,J(u6,C(e(tc,d)))),i],h))}function
+u8(a){switch(a[0]){case
+0:return J(u9,h5(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=C(e(tq,a[2])),m=[0,l(u6,C(e(eC,a[6]))),0],n=b?[0,l(u7,mv(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(u8,mt(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=C(e(tu,a[2])),m=[0,l(u_,C(e(eD,a[6]))),0],n=b?[0,l(u$,mx(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(va,mv(a[4])),o];if(typeof
 d==="number")if(d)var
-h=u9;else{var
-i=J(vc,g);k=1}else
+h=vb;else{var
+i=J(vg,g);k=1}else
 var
-h=mu(d[1]);if(!k)var
-q=c?[0,l(u_,K(c[1])),0]:c,i=J(h,aa([0,l(u$,g),q]));return J(vb,aa([0,l(va,i),p]));case
+h=mw(d[1]);if(!k)var
+q=c?[0,l(vc,K(c[1])),0]:c,i=J(h,aa([0,l(vd,g),q]));return J(vf,aa([0,l(ve,i),p]));case
 2:var
-r=[0,l(vd,C(e(eC,a[7]))),0],s=f(mw(a[6]),r),t=[0,l(ve,mv(a[5])),0],u=[0,l(vf,mt(a[4])),t],v=[0,l(vg,K(a[3])),0],w=aa([0,l(vh,C(e(uy,a[2]))),v]);return J(vj,aa(f([0,l(vi,J(mu(a[1]),w)),u],s)));case
+r=[0,l(vh,C(e(eD,a[7]))),0],s=f(my(a[6]),r),t=[0,l(vi,mx(a[5])),0],u=[0,l(vj,mv(a[4])),t],v=[0,l(vk,K(a[3])),0],w=aa([0,l(vl,C(e(uC,a[2]))),v]);return J(vn,aa(f([0,l(vm,J(mw(a[1]),w)),u],s)));case
 3:var
-x=[0,l(vk,C(e(eC,a[7]))),0],y=[0,l(vl,C(e(K,a[6]))),0],z=[0,l(vo,J(vn,aa([0,l(vm,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vr,C(e(function(a){return 0===a[0]?J(vp,C(e(h1,a[1]))):J(vq,h1(a[1]))},B))),A],E=a[3],F=[0,l(vs,C(e(function(a){var
-b=[0,h1(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vt,C(e(function(a){var
-b=[0,ce(a[2]),0];return C([0,am(a[1]),b])},G))),F];return J(vx,aa([0,l(vw,J(vv,aa([0,l(vu,C(e(am,a[1]))),H]))),z]));case
+x=[0,l(vo,C(e(eD,a[7]))),0],y=[0,l(vp,C(e(K,a[6]))),0],z=[0,l(vs,J(vr,aa([0,l(vq,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vv,C(e(function(a){return 0===a[0]?J(vt,C(e(h2,a[1]))):J(vu,h2(a[1]))},B))),A],E=a[3],F=[0,l(vw,C(e(function(a){var
+b=[0,h2(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vx,C(e(function(a){var
+b=[0,ce(a[2]),0];return C([0,am(a[1]),b])},G))),F];return J(vB,aa([0,l(vA,J(vz,aa([0,l(vy,C(e(am,a[1]))),H]))),z]));case
 4:var
-I=[0,l(vy,C(e(eC,a[3]))),0],L=[0,l(vB,J(vA,aa([0,l(vz,K(a[2])),0]))),I];return J(vF,aa([0,l(vE,J(vD,aa([0,l(vC,K(a[1])),0]))),L]));case
+I=[0,l(vC,C(e(eD,a[3]))),0],L=[0,l(vF,J(vE,aa([0,l(vD,K(a[2])),0]))),I];return J(vJ,aa([0,l(vI,J(vH,aa([0,l(vG,K(a[1])),0]))),L]));case
 5:var
-M=[0,l(vG,K(a[5])),0];return J(vI,aa([0,l(vH,h4(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,l(vK,K(a[5])),0];return J(vM,aa([0,l(vL,h5(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-j=a[1],N=0,O=j?ce(j[1]):am(vL);return J(vK,aa([0,l(vJ,O),N]));default:var
-P=[0,l(vM,K(a[6])),0],Q=[0,l(vN,K(a[5])),P],R=[0,l(vO,h4(a[2],a[3],0,a[4])),Q],S=a[1];return J(vT,aa([0,l(vS,C(e(function(a){var
-b=[0,l(vP,K(a[2][2])),0],c=[0,l(vQ,K(a[2][1])),b];return aa([0,l(vR,am(a[1])),c])},S))),R]))}}function
-eD(a){return C(e(f2,a))}function
+j=a[1],N=0,O=j?ce(j[1]):am(vP);return J(vO,aa([0,l(vN,O),N]));default:var
+P=[0,l(vQ,K(a[6])),0],Q=[0,l(vR,K(a[5])),P],R=[0,l(vS,h5(a[2],a[3],0,a[4])),Q],S=a[1];return J(vX,aa([0,l(vW,C(e(function(a){var
+b=[0,l(vT,K(a[2][2])),0],c=[0,l(vU,K(a[2][1])),b];return aa([0,l(vV,am(a[1])),c])},S))),R]))}}function
+eE(a){return C(e(f2,a))}function
 f4(b,a){var
-c=[0,l(vU,hZ(a)),0];return aa([0,l(vV,C(e(eD,b))),c])}function
-eE(a){switch(a[0]){case
+c=[0,l(vY,h0(a)),0];return aa([0,l(vZ,C(e(eE,b))),c])}function
+eF(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
 b=f4(a[2],a[3]);return J(a[1],b);case
 2:var
-c=a[1]?vW:vY;return J(vX,am(c));case
+c=a[1]?v0:v2;return J(v1,am(c));case
 3:var
-d=[0,eD(a[3]),0];return J(vZ,C([0,f4(a[1],a[2]),d]));case
+d=[0,eE(a[3]),0];return J(v3,C([0,f4(a[1],a[2]),d]));case
 4:var
-f=[0,cd(0),0],g=[0,f2(a[3]),f];return J(v0,C([0,f4(a[1],a[2]),g]));case
+f=[0,cd(0),0],g=[0,f2(a[3]),f];return J(v4,C([0,f4(a[1],a[2]),g]));case
 5:var
-h=[0,hZ(a[3]),0],i=[0,f2(a[2]),h];return J(v1,C([0,eE(a[1]),i]));case
+h=[0,h0(a[3]),0],i=[0,f2(a[2]),h];return J(v5,C([0,eF(a[1]),i]));case
 6:var
-j=[0,hZ(a[3]),0],k=[0,f2(a[2]),j];return J(v2,C([0,eE(a[1]),k]));case
-7:return J(v3,eE(a[1]));default:var
-l=[0,C(e(eD,a[3])),0],m=[0,am(a[2]),l];return J(v4,C([0,eE(a[1]),m]))}}function
-v5(a){var
-b=[0,eE(a[2]),0];return C([0,cd(a[1]),b])}function
-mx(a){if(typeof
-a==="number")return 0===a?am(v6):am(v7);else
+j=[0,h0(a[3]),0],k=[0,f2(a[2]),j];return J(v6,C([0,eF(a[1]),k]));case
+7:return J(v7,eF(a[1]));default:var
+l=[0,C(e(eE,a[3])),0],m=[0,am(a[2]),l];return J(v8,C([0,eF(a[1]),m]))}}function
+v9(a){var
+b=[0,eF(a[2]),0];return C([0,cd(a[1]),b])}function
+mz(a){if(typeof
+a==="number")return 0===a?am(v_):am(v$);else
 switch(a[0]){case
 0:var
-b=[0,C(e(eD,a[2])),0];return J(v8,C([0,cd(a[1]),b]));case
+b=[0,C(e(eE,a[2])),0];return J(wa,C([0,cd(a[1]),b]));case
 1:var
-c=[0,cd(a[2]),0];return J(v9,C([0,cd(a[1]),c]));default:return J(v_,C(e(K,a[1])))}}function
-v$(a){var
-b=a[4],h=b?[0,l(wa,eD([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wb,mx(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wc,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wd,C(e(v5,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
-my(g,a,d){var
-h=[0,l(we,C(e(v$,d))),0];if(a)var
-b=a[1],c=[0,l(wf,f4(b[1],b[2])),0];else
+c=[0,cd(a[2]),0];return J(wb,C([0,cd(a[1]),c]));default:return J(wc,C(e(K,a[1])))}}function
+wd(a){var
+b=a[4],h=b?[0,l(we,eE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wf,mz(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wg,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wh,C(e(v9,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+mA(g,a,d){var
+h=[0,l(wi,C(e(wd,d))),0];if(a)var
+b=a[1],c=[0,l(wj,f4(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return aa([0,l(wg,hY(g)),i])}function
-mz(d,c,a,b){var
-g=[0,l(wh,mx(b)),0],h=a?[0,l(wi,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wj,C(e(K,c))),0];return aa(f([0,l(wk,hY(d)),j],i))}function
-wl(a){if(typeof
-a==="number")return am(wm);else
+i=f(c,h);return aa([0,l(wk,hZ(g)),i])}function
+mB(d,c,a,b){var
+g=[0,l(wl,mz(b)),0],h=a?[0,l(wm,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wn,C(e(K,c))),0];return aa(f([0,l(wo,hZ(d)),j],i))}function
+wp(a){if(typeof
+a==="number")return am(wq);else
 switch(a[0]){case
-0:return J(wn,cd(a[1]));case
-1:return J(wo,my(a[1],a[2],a[3]));default:return J(wp,mz(a[1],a[2],a[3],a[4]))}}function
+0:return J(wr,cd(a[1]));case
+1:return J(ws,mA(a[1],a[2],a[3]));default:return J(wt,mB(a[1],a[2],a[3],a[4]))}}function
 f5(a){var
-b=gO(gN(ap(a),function(b){return aN(a,b)}));return n(function(a){var
-b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?W(wE,fc(a)):c;return d?W(fc(a),wF):d},b)}function
-eF(b){function
+b=gP(gO(an(a),function(b){return aN(a,b)}));return n(function(a){var
+b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?W(wI,fc(a)):c;return d?W(fc(a),wJ):d},b)}function
+eG(b){function
 c(f){var
-a=fc(f),b=W(wG,a),c=b?W(a,wH):b;if(c)var
+a=fc(f),b=W(wK,a),c=b?W(a,wL):b;if(c)var
 d=c;else{var
-e=W(wI,a);if(e)return W(a,wJ);var
+e=W(wM,a);if(e)return W(a,wN);var
 d=e}return d}var
-a=gO(gN(ap(b),function(a){return aN(b,a)}));if(a){var
+a=gP(gO(an(b),function(a){return aN(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fc(a),f=W(wK,e),h=f?W(e,wL):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?W(h(d),wM):f;if(g)return $(aq(b,wN));var
+e=fc(a),f=W(wO,e),h=f?W(e,wP):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?W(h(d),wQ):f;if(g)return $(aq(b,wR));var
 i=g}else
 var
 i=a;return i}function
-h5(c){var
+h6(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eF(a[1]);case
+1:return eG(a[1]);case
 3:var
-b=h5(a[2]);if(b){var
+b=h6(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eG(m){var
+eH(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5003,33 +5009,33 @@ var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eG(a[2]);if(i){var
+i=eH(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eG(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eH(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
 a=a[1];continue}}function
 dM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c2(a){return w(dM,bE(a))}function
-h6(a){switch(a[0]){case
+c3(a){return w(dM,bE(a))}function
+h7(a){switch(a[0]){case
 0:var
-c=dM(a[4]),d=f(c2(a[3]),c),e=f(c2(a[2]),d);return f(c2(a[1]),e);case
+c=dM(a[4]),d=f(c3(a[3]),c),e=f(c3(a[2]),d);return f(c3(a[1]),e);case
 1:var
-b=a[3],g=b?c2(b[1]):b,h=f(c2(a[2]),g);return f(c2(a[1]),h);default:return c2(a[1])}}function
-wO(a){switch(a[0]){case
+b=a[3],g=b?c3(b[1]):b,h=f(c3(a[2]),g);return f(c3(a[1]),h);default:return c3(a[1])}}function
+wS(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
 e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dM,b)}function
-mA(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mB(a){if(0===a[0]){var
+mC(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mD(a){if(0===a[0]){var
 b=bE(a[2]);return f(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mC(a){switch(a[0]){case
+mE(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-c3(e){var
+c4(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5041,29 +5047,29 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-mD(a){if(0===a[0]){var
+mF(a){if(0===a[0]){var
 b=a[5],c=b?bE(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bE(a[3]),d);return f(bE(a[2]),e)}function
-mE(b,e){var
+mG(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return ak(function(a){return aq(f,a)},b)}return 0;case
 3:var
-d=mE(b,a[2]);if(d){var
+d=mG(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eH(c,a){return n(function(a){var
-b=eG(a);return b?mE(c,a):b},a)}function
-mF(a){if(typeof
+eI(c,a){return n(function(a){var
+b=eH(a);return b?mG(c,a):b},a)}function
+mH(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-mG(a){var
+mI(a){var
 d=e9(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e9(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-mH(a,b){return b?[4,mH(a,b[1]),a]:a}function
+mJ(a,b){return b?[4,mJ(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jh(i),l,c);return[0,ju(ji(e5(a[1]),i)),m];case
+i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jj(i),l,c);return[0,jw(jk(e5(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5074,18 +5080,18 @@ g=k(a[2]),h=k(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bL(d8(a[2]));return mH(k(a[1]),n);default:return[6,k(a[1])]}}function
+n=bL(d9(a[2]));return mJ(k(a[1]),n);default:return[6,k(a[1])]}}function
 bF(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-c4(a){var
+c5(a){var
 b=bF(a[3]),c=bF(a[2]);return[0,bF(a[1]),c,b]}function
-wP(a){switch(a[0]){case
+wT(a){switch(a[0]){case
 0:var
-b=a[5],c=bF(a[4]),d=c4(a[3]),e=c4(a[2]);return[0,[0,c4(a[1]),e,d,c,b]];case
+b=a[5],c=bF(a[4]),d=c5(a[3]),e=c5(a[2]);return[0,[0,c5(a[1]),e,d,c,b]];case
 1:var
-f=x(c4,a[3]),g=c4(a[2]);return[1,c4(a[1]),g,f];default:return[2,c4(a[1])]}}function
-mI(a){if(0===a[0]){var
+f=x(c5,a[3]),g=c5(a[2]);return[1,c5(a[1]),g,f];default:return[2,c5(a[1])]}}function
+mK(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(j(a,c));return[0,k(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),h=[0,k(a[4]),g],i=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,i,h]}function
@@ -5099,10 +5105,10 @@ o=dN(f),p=dN(g);return[1,k(e),p,o]}function
 f6(b,a){if(a){var
 c=a[1],d=a[2],g=f6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:ck(b[1],a[1]);return $(d)},h),g)}return a}function
-wQ(b){if(b[1])return 0;var
+wU(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-wR(T,S,a){switch(a[1]){case
+wV(T,S,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -5183,7 +5189,7 @@ var
 H=w;if(!R)return H}if(Q)return 0;break;case
 11:var
 I=typeof
-a[4]==="number"?1:0,ah=I?wS:I;return ah;case
+a[4]==="number"?1:0,ah=I?wW:I;return ah;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
@@ -5194,7 +5200,7 @@ K=0}else
 var
 K=z;return K}return 0;default:return 0}var
 B=a[2],V=B?[0,bL(B[1]),0]:aL(0,T);return e(b,V)}function
-wT(c,a){switch(a[1]){case
+wX(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5242,7 +5248,7 @@ A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
 T=0,B=a[4];if(typeof
 B==="number"||!(1===B[0]))T=1;else{var
 g=a[3],U=0;if(g)if(0===g[1][0]){var
-C=u(c,wV),V=0;if(C){var
+C=u(c,wZ),V=0;if(C){var
 D=a[2];if(D){var
 b=D[1];U=1;V=1}else
 var
@@ -5279,20 +5285,20 @@ M=L;return M;case
 12:var
 N=a[4];if(typeof
 N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,wW);var
+k=a[3];if(k){if(0===k[1][0])return u(c,w0);var
 O=0}else
 var
 O=k;return O}return 0;default:return 0}var
-o=W(wU,b);return o?W(b,c):o}function
-h7(c,k,j,b){var
-l=h(c),d=w(function(a){return wR(l,j,a)},b),a=w(wQ,b),g=a?[0,a[1],a[2]]:wX,i=f(g,d),m=mI(k);return[0,e(wP,c),m,i]}function
-mJ(b){if(b[1])return 0;var
+o=W(wY,b);return o?W(b,c):o}function
+h8(c,k,j,b){var
+l=h(c),d=w(function(a){return wV(l,j,a)},b),a=w(wU,b),g=a?[0,a[1],a[2]]:w1,i=f(g,d),m=mK(k);return[0,e(wT,c),m,i]}function
+mL(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-mK(b){function
+mM(b){function
 a(a){return r(a,e(k,b),[0,d,c])}var
-f=a(wY),g=a(wZ);return[0,a(0),g,f]}function
-h8(Y,z,X,a){switch(a[1]){case
+f=a(w2),g=a(w3);return[0,a(0),g,f]}function
+h9(Y,z,X,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
@@ -5375,7 +5381,7 @@ v==="number"||!(1===v[0]))T=1;else{var
 w=a[3],U=0,ap=v[1];if(w){var
 H=w[1];if(1===H[0]){var
 aq=H[1],b=function(a){var
-b=k(ap);return[13,a,0,mK(aq),b]};U=1}else
+b=k(ap);return[13,a,0,mM(aq),b]};U=1}else
 var
 I=0}else
 var
@@ -5386,14 +5392,14 @@ x==="number"||!(1===x[0]))V=1;else{var
 y=a[3],W=0,ar=x[1];if(y){var
 J=y[1];if(1===J[0]){var
 as=J[1],b=function(a){var
-b=k(ar);return[13,a,1,mK(as),b]};W=1}else
+b=k(ar);return[13,a,1,mM(as),b]};W=1}else
 var
 K=0}else
 var
 K=y;if(!W)return K}if(V)return 0;break;default:return 0}var
 A=a[2],_=A?[0,bL(A[1]),0]:aL(0,z);return e(b,_)}function
 dO(e,d,c,b){var
-g=w(function(a){return h8(e,d,c,a)},b),a=w(mJ,b),h=a?[0,a[1],a[2]]:w0;return f(h,g)}function
+g=w(function(a){return h9(e,d,c,a)},b),a=w(mL,b),h=a?[0,a[1],a[2]]:w4;return f(h,g)}function
 f7(a){return 11===a[1]?1:0}function
 bS(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -5407,7 +5413,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=ck(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=W(w1,h);return i?W(h,m):i}var
+h=g[1],i=W(w5,h);return i?W(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -5416,7 +5422,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 bl(r,b,a){var
 d=a[2];if(d)var
-e=d[1],f=W(w2,e),s=f?W(e,b):f,c=s;else
+e=d[1],f=W(w6,e),s=f?W(e,b):f,c=s;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
@@ -5441,9 +5447,9 @@ p!=="number"&&1===p[0]){var
 q=a[3];return q?0===q[1][0]?c?u(b,r):c:bS(0,b,a):bS(0,b,a)}return bS(0,b,a)}return bS(0,b,a)}function
 a7(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bl(c,b,a):a[3]?bl(c,b,a):1:bl(c,b,a):bl(c,b,a)}function
-mL(f,c,b,a){var
+mN(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=W(w4,h),r=i?W(h,b):i,d=r;else
+h=g[1],i=W(w8,h),r=i?W(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return bl(a6(c),b,a);if(d){var
@@ -5479,11 +5485,11 @@ b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
-h9(b){function
+h_(b){function
 a(e){var
 a=[0,d,c];return r(e,b,[0,a,a])}var
-e=a(w5),f=a(w6);return[0,a(0),f,e]}function
-c5(a){function
+e=a(w9),f=a(w_);return[0,a(0),f,e]}function
+c6(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5491,17 +5497,17 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-mM(a){if(0===a[0]){var
-b=aJ(a[1],a[2]);return[0,h9(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return mI([1,a[1],a[2],a[3],a[4],a[5]])}function
-mN(j,b,i,g,f,d,a){function
-c(a){return h9(e(bF,a))}var
-l=ak(f7,a),m=dO(0,h(b),d,a),n=c5(f),o=mM(g),p=k(i);return[0,j,e(function(a){var
+mO(a){if(0===a[0]){var
+b=aK(a[1],a[2]);return[0,h_(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return mK([1,a[1],a[2],a[3],a[4],a[5]])}function
+mP(j,b,i,g,f,d,a){function
+c(a){return h_(e(bF,a))}var
+l=ak(f7,a),m=dO(0,h(b),d,a),n=c6(f),o=mO(g),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-mO(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-mP(j,a,b,i,g,f){var
-l=h(a),m=dO(mO(a),l,0,f),n=x(c5,g),o=mM(i),p=b?k(b[1]):[0,c,c];return[0,j,e(function(a){function
-b(a){return h9(e(bF,a))}switch(a[0]){case
+mQ(a){return ak(function(a){return 2===a[0]?1:0},a)}function
+mR(j,a,b,i,g,f){var
+l=h(a),m=dO(mQ(a),l,0,f),n=x(c6,g),o=mO(i),p=b?k(b[1]):[0,c,c];return[0,j,e(function(a){function
+b(a){return h_(e(bF,a))}switch(a[0]){case
 0:var
 k=a[5],l=bF(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
 1:var
@@ -5511,9 +5517,9 @@ g=b(f);else
 var
 h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 p=a[7],q=bF(a[6]),r=bF(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mQ(a){return a[1]?0:1}function
-mR(a){var
-c=mQ(a);if(c)return c;if(1===a[1]){var
+mS(a){return a[1]?0:1}function
+mT(a){var
+c=mS(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
 f8(i,h,b){function
@@ -5521,19 +5527,19 @@ c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f9,a(f9,b)),j=a(f,h_),k=i?f:a(c(b,f9),h_);function
-g(b){return a(b,[5,e(f9,d(h_,d(b,b)))])}var
+f=c(f9,a(f9,b)),j=a(f,h$),k=i?f:a(c(b,f9),h$);function
+g(b){return a(b,[5,e(f9,d(h$,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
 f_(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,h$,a(h$,d)],mS),g=a(c,[5,[3,0,h$,b(mS,b(c,c))]]);return[2,b(f8(f,e,d),g)]}function
-ia(e,g,a){function
+c=a([3,1,ia,a(ia,d)],mU),g=a(c,[5,[3,0,ia,b(mU,b(c,c))]]);return[2,b(f8(f,e,d),g)]}function
+ib(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f$,b(f$,a)),d=e?h:b(f(a,f$),mT),i=b(d,[5,[3,0,f$,c(mT,c(d,d))]]);return c(f8(e,g,a),i)}function
-mU(o,e,a){if(e)if(a){var
+h=f(f$,b(f$,a)),d=e?h:b(f(a,f$),mV),i=b(d,[5,[3,0,f$,c(mV,c(d,d))]]);return c(f8(e,g,a),i)}function
+mW(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],j=cr(k(g[2][1]));if(j){var
 l=j[1],m=cr(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -5543,30 +5549,30 @@ var
 f=[0,[0,d,c],[0,d,c]]}else
 var
 f=[0,[0,d,c],[0,d,c]];var
-r=mU([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=mW([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-an(b,a){switch(a[0]){case
+ao(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jw(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,an(b,a[1])];case
+e=c[1],d=jy(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,ao(b,a[1])];case
 3:var
-f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
+f=ao(b,a[3]),g=ao(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-mV(b,a){if(0===a[0])return[0,an(b,a[1])];var
-c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-ib(b,a){var
+h=a[2];return[4,ao(b,a[1]),h];default:return[5,ao(b,a[1])]}}function
+mX(b,a){if(0===a[0])return[0,ao(b,a[1])];var
+c=ao(b,a[2]);return[1,ao(b,a[1]),c]}function
+ic(b,a){var
 c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-ic(c,a){if(c)if(a){var
+id(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=ic(h,g);if(e){var
-i=e[1],f=ic(h,i[2]);if(f)var
+e=id(h,g);if(e){var
+i=e[1],f=id(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5578,19 +5584,19 @@ var
 d=a;else
 var
 d=c;return d}function
-id(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,id(g,f[1],h)];var
+ie(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,ie(g,f[1],h)];var
 j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,A(y(b(2,c),l),k),j],h]}else
 var
 i=a;return i}function
-w$(a){if(typeof
+xd(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-xa(a){if(typeof
+xe(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
 ga(e,a){if(0===a[0]){var
 f=[0,c,b(2,c)],g=ga(e,a[3]);return b3(dn(ga(e,a[2]),g),f)}return j(e,a[1])?[0,c,c]:[0,d,c]}function
-mW(a){return 0===a[0]?dC(a[1][4]):0}function
-mX(a){switch(a[0]){case
+mY(a){return 0===a[0]?dC(a[1][4]):0}function
+mZ(a){switch(a[0]){case
 0:var
 b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
 1:var
@@ -5599,55 +5605,55 @@ gb(a){switch(a[0]){case
 0:return bQ(a4(a[1][1]));case
 1:var
 b=a[3];return b?bQ(a4(b[1])):d;default:return bQ(a4(a[1]))}}function
-ie(b){var
-a=w(mW,b),d=a?[0,a[1],a[2]]:w(mX,b);return A(c,bQ(d))}function
-mY(c,a){if(c){if(a){var
+ig(b){var
+a=w(mY,b),d=a?[0,a[1],a[2]]:w(mZ,b);return A(c,bQ(d))}function
+m0(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=xb;else
+b=xf;else
 if(43===d)var
-b=xc;else
+b=xg;else
 var
-f=48===d?1:0,i=f?xd:f,b=i;if(b)var
-e=mY(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?xh:f,b=i;if(b)var
+e=m0(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:xe}function
-eI(b,a){switch(a[0]){case
+h=a;return h}return a?0:xi}function
+eJ(b,a){switch(a[0]){case
 0:var
-c=a[1];if(aq(c,xf))return xg;if(aq(c,xh))return xi;if(aq(c,xj))return xk;if(aq(c,xl))return xm;if(aq(c,xn))return xo;var
-k=aq(c,xp),p=k?xq:k;return p;case
+c=a[1];if(aq(c,xj))return xk;if(aq(c,xl))return xm;if(aq(c,xn))return xo;if(aq(c,xp))return xq;if(aq(c,xr))return xs;var
+k=aq(c,xt),p=k?xu:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(aq(f,xr))return[0,[0,d,e]];if(aq(f,xs))return[0,[1,d,e]];if(aq(f,xt))return[0,[2,d,e]];var
-l=aq(f,xu),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(aq(f,xv))return[0,[0,d,e]];if(aq(f,xw))return[0,[1,d,e]];if(aq(f,xx))return[0,[2,d,e]];var
+l=aq(f,xy),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3]]];case
 5:var
-g=eI(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eJ(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eI(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eJ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eI(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eI(b,a[1]);if(i)var
-j=mY(b,gO(gN(ap(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eJ(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eJ(b,a[1]);if(i)var
+j=m0(b,gP(gO(an(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-mZ(d,a){if(a){var
-e=a[1],b=eI(d,e[2]);if(b)var
-c=mZ(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+m1(d,a){if(a){var
+e=a[1],b=eJ(d,e[2]);if(b)var
+c=m1(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return xv}function
-c6(d,c,a){if(c)if(a){var
+f=b;return f}return xz}function
+c7(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=mZ(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=m1(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=c6(d,k,j);if(f){var
-m=f[1],g=c6(d,k,m[2]);if(g)var
+f=c7(d,k,j);if(f){var
+m=f[1],g=c7(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5662,73 +5668,73 @@ var
 h=a;else
 var
 h=c;return h}function
-ig(e,d,a){if(d){if(a){var
-b=c6(e,h(a),a);if(b)var
-f=b[1],c=ig(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
+ih(e,d,a){if(d){if(a){var
+b=c7(e,h(a),a);if(b)var
+f=b[1],c=ih(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return xw}return a?0:xx}function
-ih(a){if(typeof
-a==="number")return 0===a?xy:xz;else
+g=b;return g}return xA}return a?0:xB}function
+ii(a){if(typeof
+a==="number")return 0===a?xC:xD;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-ii(d,a){if(d)if(a){var
+ij(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=ii(k,j);if(e){var
-l=e[1],f=ii(k,l[2]);if(f)var
+e=ij(k,j);if(e){var
+l=e[1],f=ij(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=ih(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
+p=ii(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
 var
 g=d;return g}function
 cD(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-c7(a,e){var
+c8(a,e){var
 b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-m0(d,c){if(d){var
+m2(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=c7(a[1],c),f=c7(a[2],e[2]),g=c7(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=c8(a[1],c),f=c8(a[2],e[2]),g=c8(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=c7(a[1],c),k=j[1],l=c7(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=c7(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=c8(a[1],c),k=j[1],l=c8(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=c8(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=c7(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=m0(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-xA(a){if(typeof
+p=c8(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=m2(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+xE(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return xC;case
+5:return xG;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return xB}function
+11:return 0}return xF}function
 bm(a,b){if(a){var
 c=cD(a[1],b),d=bm(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 a0(b){function
 a(a){return r(a,b,[0,d,c])}var
-e=a(xF),f=a(xG);return[0,a(0),f,e]}function
-m1(a,b){if(a){var
-c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=m1(a[2],e[2]),g=f[2],h=f[1],i=a0(e[1]);return[0,[0,[0,a0(d[1]),i],h],g]}return[0,0,b]}function
-m2(f,b){if(f){var
+e=a(xJ),f=a(xK);return[0,a(0),f,e]}function
+m3(a,b){if(a){var
+c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=m3(a[2],e[2]),g=f[2],h=f[1],i=a0(e[1]);return[0,[0,[0,a0(d[1]),i],h],g]}return[0,0,b]}function
+m4(f,b){if(f){var
 a=f[1];switch(a[0]){case
 0:var
 g=bm(a[1],b),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cD(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a0(i[1]),y=a0(h[1]),e=[0,[0,[0,a0(g[1]),y,x,w,v]],u];break;case
 1:var
 k=bm(a[1],b),l=bm(a[2],k[2]),z=l[2],A=a0(l[1]),e=[0,[0,[1,a0(k[1]),A,0]],z];break;default:var
 m=a[1],n=bm(m,b),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cD(a[5],q[2]),s=cD(a[6],r[2]),B=m?a0(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a0(q[1]),H=a0(p[1]),e=[0,[1,[0,B,a0(o[1]),H,G,F,E,D]],C]}var
-t=m2(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dP(a){return jT(o,a)}function
-xH(a){if(typeof
+t=m4(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
+dP(a){return jV(o,a)}function
+xL(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return g(o,1,[3,a[1],[0,c,c]]);case
@@ -5749,7 +5755,7 @@ j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 4:case
 13:var
 b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
-ij(a){if(typeof
+ik(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -5761,7 +5767,7 @@ u=[0,a[2],a[1]],v=1;return n(function(a){return g(o,v,a)},u);case
 11:var
 k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],k]):l;case
 13:var
-m=a[4],q=lR(a[3]),r=q?g(o,1,m):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],m]):r;case
+m=a[4],q=lT(a[3]),r=q?g(o,1,m):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],m]):r;case
 14:return g(o,0,a[3]);case
 15:var
 s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
@@ -5774,8 +5780,8 @@ j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
 gc(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=$(ak(function(d){return function(a){var
-h=h2(a[1]),e=aq(h2(d[1]),h);if(e)var
-i=h3(a[4]),b=aq(h3(d[4]),i);else
+h=h3(a[1]),e=aq(h3(d[1]),h);if(e)var
+i=h4(a[4]),b=aq(h4(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -5784,18 +5790,18 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eJ(a){if(0===a[0])return dP(k(a[1]));var
-b=a[2],c=a[1];if(!eg(k(c))&&!eg(k(b))){var
+eK(a){if(0===a[0])return dP(k(a[1]));var
+b=a[2],c=a[1];if(!eh(k(c))&&!eh(k(b))){var
 e=k(c);return g(o,1,[3,k(b),e])}var
 d=k(b);return bg(o,k(c),d)}function
-c8(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-m3(a){switch(a[0]){case
+c9(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+m5(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(c8(a[3]),c),e=f(c8(a[2]),d);return f(c8(a[1]),e);case
+c=[0,a[4],0],d=f(c9(a[3]),c),e=f(c9(a[2]),d);return f(c9(a[1]),e);case
 1:var
-b=a[3],g=b?c8(b[1]):b,h=f(c8(a[2]),g);return f(c8(a[1]),h);default:return c8(a[1])}}function
-m4(s,a,i){if(ak(function(a){return 9===a[1]?1:0},i)){var
-b=W(h(a),xK),c=b?n(function(a){if(0===a[0]){var
+b=a[3],g=b?c9(b[1]):b,h=f(c9(a[2]),g);return f(c9(a[1]),h);default:return c9(a[1])}}function
+m6(s,a,i){if(ak(function(a){return 9===a[1]?1:0},i)){var
+b=W(h(a),xO),c=b?n(function(a){if(0===a[0]){var
 d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,i=h?g(o,0,k(a[4])):h,c=0;if(i)if(d)var
 p=bE(d[1]),b=n(function(a){return dP(k(a))},p);else{var
 l=1;c=1}else{var
@@ -5808,34 +5814,34 @@ b=m}return b?j(s,a):b},a):b;if(c)var
 d=f6(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-m5(a){return a?xL:xM}function
-ik(a){switch(a){case
-0:return xN;case
-1:return xO;default:return 0}}function
+m7(a){return a?xP:xQ}function
+il(a){switch(a){case
+0:return xR;case
+1:return xS;default:return 0}}function
 cE(a){var
 f=a[1],d=g(o,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bg(o,a[1],a[2]):d;if(e){var
 h=a[2];return g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],h])}return e}function
 dQ(a){var
 e=bg(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-m6(c,b,a){if(0===a[0]){var
+m8(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=u(h(e),c),i=f?u(h(d),c):f;if(i){var
-l=aJ(e,d);return n(function(a){var
+l=aK(e,d);return n(function(a){var
 b=k(a[2]);return bg(o,k(a[1]),b)},l)}return i}var
 j=b?g(o,1,k(a[3])):b;if(j){var
 m=k(a[5]);return bg(o,k(a[4]),m)}return j}function
-m7(a,e,F,E,s,r,f){function
+m9(a,e,F,E,s,r,f){function
 t(b){var
-d=m5(a),c=u(h(b),d);return c?n(eJ,b):c}var
+d=m7(a),c=u(h(b),d);return c?n(eK,b):c}var
 v=n(function(a){var
 b=t(a[1]);return b?t(a[2]):b},e);if(v)var
 G=h(e),l=W(cx(a),G);else
 var
 l=v;var
-w=l?W(h(e),xP):l,x=w?g(o,1,k(F)):w;if(x)var
-H=1===a?1:0,m=m6(ik(a),H,E);else
+w=l?W(h(e),xT):l,x=w?g(o,1,k(F)):w;if(x)var
+H=1===a?1:0,m=m8(il(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=c5(s);switch(d[0]){case
+d=c6(s);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
@@ -5845,19 +5851,19 @@ i=dQ(d[1]);break;default:var
 C=dQ(d[1]),i=C?dQ(d[2]):C}var
 j=i}else
 var
-D=c5(s),J=0===D[0]?cE(D[1]):0,j=J;else
+D=c6(s),J=0===D[0]?cE(D[1]):0,j=J;else
 var
 j=m;if(j)var
-I=h(e),p=m4(function(a){if(0===a[0]){var
-b=a[1],c=W(xJ,b),d=c?W(b,I):c;if(d){if(a[5])return 0;var
+I=h(e),p=m6(function(a){if(0===a[0]){var
+b=a[1],c=W(xN,b),d=c?W(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 p=j;if(p)var
-b=h(e),c=cx(a),y=m5(a),q=n(function(a){var
+b=h(e),c=cx(a),y=m7(a),q=n(function(a){var
 e=a[2];if(e)var
-f=e[1],g=W(w3,f),v=g?W(f,b):g,d=v;else
+f=e[1],g=W(w7,f),v=g?W(f,b):g,d=v;else
 var
 d=1;var
 i=a[1];if(9<=i)switch(i-9|0){case
@@ -5882,18 +5888,18 @@ s=r[1];if(1===s[0]){var
 t=u(h(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
 var
 q=p;var
-z=q?gc(f):q;return z?n(ij,dO(0,h(e),r,f)):z}function
-m8(a){switch(a[0]){case
+z=q?gc(f):q;return z?n(ik,dO(0,h(e),r,f)):z}function
+m_(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-m9(a,e,d,Q,m,l){var
+m$(a,e,d,Q,m,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?xQ:xR;return u(h(a),b)}var
-i=mO(e),z=n(function(b){switch(b[0]){case
+b=p?xU:xV;return u(h(a),b)}var
+i=mQ(e),z=n(function(b){switch(b[0]){case
 0:var
 d=$(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
@@ -5906,21 +5912,21 @@ m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)v
 R=h(e),q=W(a6(a),R);else
 var
 q=z;var
-A=q?W(h(e),xS):q,B=A?n(eJ,w(m8,e)):A;if(B){var
+A=q?W(h(e),xW):q,B=A?n(eK,w(m_,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-S=p?xT:xU,r=m6(S,C,Q)}else
+S=p?xX:xY,r=m8(S,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=x(c5,m)?0:1,b=U;else
+U=x(c6,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=x(c5,m);if(t){var
+t=x(c6,m);if(t){var
 E=t[1];if(0===E[0])var
 F=g(o,1,k(d[1])),G=F?cE(E[1]):F;else
 var
@@ -5932,7 +5938,7 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],y=x(c5,m);if(y){var
+v=d[1],y=x(c6,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
 j=0;break;case
@@ -5950,58 +5956,58 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=h(e),s=n(function(b){return mL(i,a,T,b)},l);else
+T=h(e),s=n(function(b){return mN(i,a,T,b)},l);else
 var
 s=b;var
-D=s?gc(l):s;return D?n(ij,dO(i,h(e),0,l)):D}function
-xV(a){switch(a[0]){case
+D=s?gc(l):s;return D?n(ik,dO(i,h(e),0,l)):D}function
+xZ(a){switch(a[0]){case
 0:return fH(a[1][1]);case
 1:var
 b=a[3];return b?fH(b[1]):1;default:return fH(a[1])}}function
-il(a,k,b,d){var
-e=m4(function(g){if(0===g[0]){var
-c=g[1],d=W(xI,c);if(d){var
+im(a,k,b,d){var
+e=m6(function(g){if(0===g[0]){var
+c=g[1],d=W(xM,c);if(d){var
 b=M(a,bL(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(xV,d[1]):e,g=f?W(xW,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return wT(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(xZ,d[1]):e,g=f?W(x0,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return wX(l,a)},b);else
 var
 c=g;var
-i=c?gc(b):c,j=i?n(eJ,w(m3,a)):i;return j?n(xH,d[3]):j}function
+i=c?gc(b):c,j=i?n(eK,w(m5,a)):i;return j?n(xL,d[3]):j}function
 gd(b,a){return n(function(c){var
 a=c[2];return a?cl(a[1],b):1},a)}function
-m_(a){if(a){var
+na(a){if(a){var
 b=a[1];if(f7(b))return 0;var
-c=[0,b,m_(a[2])]}else
+c=[0,b,na(a[2])]}else
 var
 c=a;return c}function
-xX(a){if(typeof
+x1(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ey(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return xZ;return x0}return xY}function
-m$(f,d,b){var
-g=m_(b),i=0,c=aI(N,0,e(xX,w(function(a){return h8(i,f,d,a)},g))),a=w(mJ,b),j=a?[0,a[1],a[2]]:x1;return N(h(j),c)}function
-im(b,a){var
+d=a[4];if(ez(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return x3;return x4}return x2}function
+nb(f,d,b){var
+g=na(b),i=0,c=aJ(N,0,e(x1,w(function(a){return h9(i,f,d,a)},g))),a=w(mL,b),j=a?[0,a[1],a[2]]:x5;return N(h(j),c)}function
+io(b,a){var
 c=h(be(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
-io(a){if(a){var
+ip(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-na(aM,Z,aK,Y,X,b,aI,B){var
-a=h7(Z,aK,Y,X),aN=h(B);if(aM)var
+nc(aM,Z,aJ,Y,X,b,aH,B){var
+a=h8(Z,aJ,Y,X),aN=h(B);if(aM)var
 _=0;else
 var
-aE=a[1],aF=e(gb,a[1]),W=fB(ie(a[1]),aF,aE),aG=aJ(aL(0,h(W)),W),_=e(aH,be(function(a){return fD(a[2])},aG));var
-C=c6(_,aN,B);if(C){var
+aE=a[1],aF=e(gb,a[1]),W=fB(ig(a[1]),aF,aE),aG=aK(aL(0,h(W)),W),_=e(aI,be(function(a){return fD(a[2])},aG));var
+C=c7(_,aN,B);if(C){var
 $=C[1];if($[2])return 0;var
-aa=il(Z,Y,X,a),ab=aa?gd(x2,B):aa;if(ab){var
-aO=$[1],D=e(gb,a[1]),c=ie(a[1]),aP=io(aI),V=kV(o,a);if(V){var
-l=fB(c,D,a[1]),g=hf(c,D,a[1],0),af=h(a[3]),ag=N(h(l),af),K=[0,h(l),ag],ah=a[3],F=ak(function(a){if(typeof
+aa=im(Z,Y,X,a),ab=aa?gd(x6,B):aa;if(ab){var
+aO=$[1],D=e(gb,a[1]),c=ig(a[1]),aP=ip(aH),V=kX(o,a);if(V){var
+l=fB(c,D,a[1]),g=hg(c,D,a[1],0),af=h(a[3]),ag=N(h(l),af),K=[0,h(l),ag],ah=a[3],F=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?w(function(a){var
-b=e(b0,kH(l,a));return[0,a[4],b]},g):F,aj=f(hh(g,c,K,a[3]),ai),am=f(bA(j_(g)),aj),M=f(bA(ei(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
+b=e(b0,kJ(l,a));return[0,a[4],b]},g):F,aj=f(hi(g,c,K,a[3]),ai),am=f(bA(ka(g)),aj),M=f(bA(ej(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
 b=i(d);return aw(r(aX(m,a),m,b),a)},M);if(P){var
-Q=ak(q0,a[3]);if(Q){var
+Q=ak(q4,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
 q=p[1],u=bv(d,t);switch(q[0]){case
 0:var
@@ -6021,10 +6027,10 @@ R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-an=a[3],ao=w(function(a){return cQ(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
+an=a[3],ao=w(function(a){return cR(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
 as=aQ(dB(a[2]),c),y=ac(e(function(a){return al(b,a)},as));if(y){var
-at=a[3],z=ac(kJ(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
-S=z[1],au=he(S),av=y[1],ax=a[2],ay=function(a){return kK(b,ax,c,a)},az=x[1],aA=0,aB=j_(g),aC=j(ar(function(a){return aX(m,a)}),aB),aD=ei(g);return fz(b,O,j(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,av,au,aO)}var
+at=a[3],z=ac(kL(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
+S=z[1],au=hf(S),av=y[1],ax=a[2],ay=function(a){return kM(b,ax,c,a)},az=x[1],aA=0,aB=ka(g),aC=j(ar(function(a){return aX(m,a)}),aB),aD=ej(g);return fz(b,O,j(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,av,au,aO)}var
 T=z}else
 var
 T=y;var
@@ -6039,30 +6045,30 @@ A=P;return A}return V}var
 ad=ab}else
 var
 ad=C;return ad}function
-x3(a){if(0===a[0])return mW(a[1]);var
+x7(a){if(0===a[0])return mY(a[1]);var
 b=a[1],c=dC(b[6]);return f(dC(b[5]),c)}function
-x4(a){if(0===a[0])return mX(a[1]);var
+x8(a){if(0===a[0])return mZ(a[1]);var
 b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-x5(a){if(0===a[0])return[0,gb(a[1]),d];var
+x9(a){if(0===a[0])return[0,gb(a[1]),d];var
 b=a[1],c=bQ(a4(b[2]));return[0,bQ(a4(b[1])),c]}function
-nb(f,n,m,l,k,j,y,d){var
-a=mP(f,n,m,l,k,j),p=a[2],b=w(x3,p),x=b?[0,b[1],b[2]]:w(x4,p),i=A(c,bQ(x)),q=e(x5,a[2]),r=hP(i,q,a[2]),z=h(d),B=aJ(aL(0,h(r)),r),g=c6(e(aH,be(function(a){return fD(a[2])},B)),z,d);if(g){var
+nd(f,n,m,l,k,j,y,d){var
+a=mR(f,n,m,l,k,j),p=a[2],b=w(x7,p),x=b?[0,b[1],b[2]]:w(x8,p),i=A(c,bQ(x)),q=e(x9,a[2]),r=hQ(i,q,a[2]),z=h(d),B=aK(aL(0,h(r)),r),g=c7(e(aI,be(function(a){return fD(a[2])},B)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=m9(f,n,m,l,k,j),u=t?gd(a6(f),d):t;if(u)return sn(o,y,a,i,q,s[1]);var
+t=m$(f,n,m,l,k,j),u=t?gd(a6(f),d):t;if(u)return sr(o,y,a,i,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-nc(B,aM,aq,ap,A,ao,h){var
-l=h7(B,aM,aq,ap);if(A){var
+ne(B,aM,aq,ap,A,ao,h){var
+l=h8(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=m0(B,e(k,ao));if(ar[2])return 0;var
+ar=m2(B,e(k,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?xD:xE;else
+a=0===h?xH:xI;else
 switch(h[0]){case
 0:var
-b=h[2],m=h[1],H=x(xA,M(as,m)),J=0;if(H){var
+b=h[2],m=h[1],H=x(xE,M(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
@@ -6135,16 +6141,16 @@ an=0;P=1}}else{var
 an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=im(w(m3,B),ao),au=at?il(B,aq,ap,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kM(o,l,j,i);if(Q)if(typeof
+at=io(w(m5,B),ao),au=at?im(B,aq,ap,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kO(o,l,j,i);if(Q)if(typeof
 f==="number")return 0===f?ak(function(b){var
-a=kN(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):jZ(q2,e(function(b){var
-a=eq(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
+a=kP(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):j1(q6,e(function(b){var
+a=er(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
 E=M(l[3],f[1]);if(E){var
-aI=E[1],aJ=kO(f[3]);return kT(o,j,i,kO(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=kQ(f[3]);return kV(o,j,i,kQ(f[2]),aJ,aI)}return E}var
 F=M(l[3],f[1]);if(F){var
 G=M(j,f[2]);if(G){var
-R=G[1],aK=F[1],aL=cW(R,i);return kT(o,j,i,cW(R,i),aL,aK)}var
+R=G[1],aK=F[1],aL=cX(R,i);return kV(o,j,i,cX(R,i),aL,aK)}var
 S=G}else
 var
 S=F;return S}return Q}var
@@ -6160,81 +6166,81 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-nd(m,l,b,k,z,y){var
+nf(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=M(f,g),n=h?cl(h[1][2],x8):h;if(n)var
-A=d[2],i=nd(m,l,b,k,id(0,g,f),A);else
+g=d[1],h=M(f,g),n=h?cl(h[1][2],ya):h;if(n)var
+A=d[2],i=nf(m,l,b,k,ie(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=id(1,g,f),d=B;continue}return i}var
-c=d[1],a=mU(0,m,f),o=e(function(b){function
-d(b){return mV(a,b)}function
-c(a){return ib(d,a)}switch(b[0]){case
+B=d[3],f=ie(1,g,f),d=B;continue}return i}var
+c=d[1],a=mW(0,m,f),o=e(function(b){function
+d(b){return mX(a,b)}function
+c(a){return ic(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mV(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=mX(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=ib(function(b){return an(a,b)},q),s=b[1],j=[0,ib(function(b){return an(a,b)},s),r];else
+q=b[2],r=ic(function(b){return ao(a,b)},q),s=b[1],j=[0,ic(function(b){return ao(a,b)},s),r];else
 var
-t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
+t=ao(a,b[5]),u=ao(a,b[4]),v=ao(a,b[3]),w=ao(a,b[2]),j=[1,ao(a,b[1]),w,v,u,t];var
 p=e(function(f){var
 b=f[4];if(typeof
 b==="number")var
 d=0;else
 switch(b[0]){case
 0:var
-d=[0,an(a,b[1])];break;case
+d=[0,ao(a,b[1])];break;case
 1:var
-d=[1,an(a,b[1])];break;default:var
-l=an(a,b[2]),d=[2,an(a,b[1]),l]}var
+d=[1,ao(a,b[1])];break;default:var
+l=ao(a,b[2]),d=[2,ao(a,b[1]),l]}var
 g=f[3];if(g){var
 c=g[1];switch(c[0]){case
 0:var
-h=[0,[0,an(a,c[1])]];break;case
+h=[0,[0,ao(a,c[1])]];break;case
 1:var
-j=c[1],h=[0,[1,e(function(b){return an(a,b)},j)]];break;default:var
-k=an(a,c[2]),h=[0,[2,an(a,c[1]),k]]}var
+j=c[1],h=[0,[1,e(function(b){return ao(a,b)},j)]];break;default:var
+k=ao(a,c[2]),h=[0,[2,ao(a,c[1]),k]]}var
 i=h}else
 var
 i=g;return[0,f[1],f[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return na(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return nc(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-ne(h,g){var
+1:return nc(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return ao(a,b)},D),F=c[2];return ne(o,j,0,p,e(function(b){return ao(a,b)},F),E,C)}}}function
+ng(h,g){var
 a=cr(k(h));if(a){var
-b=a[1],e=cK([0,d,c],b);if(e)return cK(b,g);var
+b=a[1],e=cL([0,d,c],b);if(e)return cL(b,g);var
 f=e}else
 var
 f=a;return f}function
-yc(q){var
+yg(q){var
 d5=f5(q[3]),d6=d5?f5(q[4]):d5;if(d6){var
 Q=q[1];switch(Q[0]){case
 3:var
-ea=n(eF,Q[1]);if(ea)var
-hq=Q[2],bT=n(function(a){return eF(a[1])},hq);else
+ea=n(eG,Q[1]);if(ea)var
+hq=Q[2],bT=n(function(a){return eG(a[1])},hq);else
 var
 bT=ea;if(bT)var
 hr=Q[3],bU=n(function(a){var
-b=eF(a[1]),c=b?h5(a[2]):b;return c?eG(a[2]):c},hr);else
+b=eG(a[1]),c=b?h6(a[2]):b;return c?eH(a[2]):c},hr);else
 var
 bU=bT;if(bU)var
 hs=Q[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=h5(a);return b?eG(a):b},b)},hs);else
+b=h6(a);return b?eH(a):b},b)},hs);else
 var
 aS=bU;break;case
 7:var
-hu=Q[1],eb=n(function(a){var
-b=eF(a[1]);return b?eH(0,[0,a[2][1],[0,a[2][2],0]]):b},hu),aS=eb?eH(0,[0,Q[5],[0,Q[6],0]]):eb;break;default:var
+ht=Q[1],eb=n(function(a){var
+b=eG(a[1]);return b?eI(0,[0,a[2][1],[0,a[2][2],0]]):b},ht),aS=eb?eI(0,[0,Q[5],[0,Q[6],0]]):eb;break;default:var
 aS=1}var
 bR=aS}else
 var
 bR=d6;var
 cF=0;if(bR){var
-d7=q[1],bS=7===d7[0]?e(aH,d7[1]):0,d8=function(c,b){var
-a=mG(c);return a?n(function(a){var
+d7=q[1],bS=7===d7[0]?e(aI,d7[1]):0,d8=function(c,b){var
+a=mI(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
@@ -6246,27 +6252,27 @@ a=a[1];continue}return b;case
 6:case
 7:var
 a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eH(bS,mF(c[1]));var
+c=a[3];if(c)return eI(bS,mH(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d9=function(e,d,c,b){var
-a=mG(e);return a?eH(bS,f(d,f(c,mF(b)))):a},l=q[1];switch(l[0]){case
+a=mI(e);return a?eI(bS,f(d,f(c,mH(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=w(c3,l[4]),gX=f(w(mD,l[3]),gW),gY=f(mB(l[2]),gX),S=f(w(h6,l[1]),gY);break;case
+gW=w(c4,l[4]),gX=f(w(mF,l[3]),gW),gY=f(mD(l[2]),gX),S=f(w(h7,l[1]),gY);break;case
 1:var
-bK=l[5],bM=l[3],gZ=w(c3,l[6]),g0=bK?mC(bK[1]):bK,g1=f(g0,gZ),g2=f(mA(l[4]),g1),g3=bM?[0,bM[1],0]:bM,g4=f(g3,g2),S=f(w(wO,l[2]),g4);break;case
+bK=l[5],bM=l[3],gZ=w(c4,l[6]),g0=bK?mE(bK[1]):bK,g1=f(g0,gZ),g2=f(mC(l[4]),g1),g3=bM?[0,bM[1],0]:bM,g4=f(g3,g2),S=f(w(wS,l[2]),g4);break;case
 2:var
-g5=w(c3,l[7]),g6=f(w(mD,l[6]),g5),g7=f(mC(l[5]),g6),g8=f(mA(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(w(function(a){return w(dM,f(a[1],a[2]))},g_),g9);break;case
+g5=w(c4,l[7]),g6=f(w(mF,l[6]),g5),g7=f(mE(l[5]),g6),g8=f(mC(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(w(function(a){return w(dM,f(a[1],a[2]))},g_),g9);break;case
 3:var
-g$=w(c3,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(w(function(a){return dM(a[2])},hc),hb);break;case
+g$=w(c4,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(w(function(a){return dM(a[2])},hc),hb);break;case
 4:var
-hd=w(c3,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
+hd=w(c4,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
 5:var
-hg=w(c3,l[4]),hj=f(bE(l[3]),hg),hl=f(bE(l[2]),hj),hm=f(w(h6,l[1]),hl),S=[0,l[5],hm];break;case
+he=w(c4,l[4]),hh=f(bE(l[3]),he),hk=f(bE(l[2]),hh),hm=f(w(h7,l[1]),hk),S=[0,l[5],hm];break;case
 6:var
 bO=l[1],S=bO?dM(bO[1]):bO;break;default:var
-hn=w(c3,l[4]),ho=f(mB(l[3]),hn),S=f(w(h6,l[2]),ho)}var
-d_=eH(bS,S);if(d_){var
+hn=w(c4,l[4]),ho=f(mD(l[3]),hn),S=f(w(h7,l[2]),ho)}var
+d_=eI(bS,S);if(d_){var
 T=q[2];switch(T[0]){case
 0:var
 aB=d8(T[1],T[3]);break;case
@@ -6282,21 +6288,21 @@ aB=d$;if(aB){var
 a=q[1];switch(a[0]){case
 0:var
 eQ=a[4],eR=a[3],eS=a[2],eT=a[1],ab=q[2];switch(ab[0]){case
-0:return na(0,eT,eS,eR,eQ,ab[1],ab[2],ab[3]);case
-1:return nc(eT,eS,eR,eQ,ab[2],ab[3],ab[4]);default:return 0}case
+0:return nc(0,eT,eS,eR,eQ,ab[1],ab[2],ab[3]);case
+1:return ne(eT,eS,eR,eQ,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
 b$=a[6],ca=a[5],cb=a[4],cd=a[3],aC=a[2],ad=a[1],an=q[2];switch(an[0]){case
-0:return nb(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
+0:return nd(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
 1:var
 eU=an[3],hW=an[4],hX=an[2],en=typeof
-ad==="number"?ad?x6:x7:ik(ad[1]),b5=e(k,hX),er=m2(aC,e(k,eU));if(er[2])return 0;var
-b6=ih(hW);if(b6){var
-eu=im(w(m8,aC),eU),ev=eu?m9(ad,aC,cd,cb,ca,b$):eu;if(ev)var
+ad==="number"?ad?x_:x$:il(ad[1]),b5=e(k,hX),eo=m4(aC,e(k,eU));if(eo[2])return 0;var
+b6=ii(hW);if(b6){var
+es=io(w(m_,aC),eU),ev=es?m$(ad,aC,cd,cb,ca,b$):es;if(ev)var
 hI=a6(ad),b7=u(h(b5),hI);else
 var
 b7=ev;if(b7){var
-hJ=b6[1],s=dl(en,b5),F=a0(b2(en,b5)),am=er[1],X=mP(ad,aC,cd,cb,ca,b$),c1=lZ(o,X[2],am);if(c1){var
-cY=cT(o,X[4],F),cG=0;if(cY){var
+hJ=b6[1],s=dl(en,b5),F=a0(b2(en,b5)),am=eo[1],X=mR(ad,aC,cd,cb,ca,b$),c1=l1(o,X[2],am);if(c1){var
+cY=cU(o,X[4],F),cG=0;if(cY){var
 cZ=X[5];if(cZ)var
 ba=fK(o,cZ[1],s);else
 if(s)var
@@ -6307,54 +6313,54 @@ ba=c0;var
 bb=ba}else
 var
 bb=c1;if(bb){var
-C=X[5],c2=X[3],aK=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
-d=cc(C,s,F,a),b=eq(a[1],d);return[0,lX(aK,b,at([5,[0,c,c],c2],et(hM(C,s,fV(a)),b)))]}return 0},am),fS=w(function(a){if(0===a[0]){var
-c=cc(C,s,F,a),b=kN(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=cc(C,s,F,a);return[0,k6(a[1],e),0]},am),fT=e(function(d){var
+C=X[5],c2=X[3],aJ=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
+d=cc(C,s,F,a),b=er(a[1],d);return[0,lZ(aJ,b,at([5,[0,c,c],c2],eu(hN(C,s,fV(a)),b)))]}return 0},am),fS=w(function(a){if(0===a[0]){var
+c=cc(C,s,F,a),b=kP(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=cc(C,s,F,a);return[0,k8(a[1],e),0]},am),fT=e(function(d){var
 b=cc(C,s,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cU(e,h,g,f,b),i=cV(a[5],j),k=at(i,az(e)),l=ep(e,h,g,b);return[0,[0,lY(aK,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fG(c,b),o=k9(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,lY(aK,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fU=e(function(a){if(0===a[0]){var
-c=cc(C,s,F,a);return[0,hi(a[1],c)]}var
-b=a[1],d=k8(b,cc(C,s,F,a));return[1,k7(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
-k=cc(C,s,F,a),d=cW(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=cV(e,h,g,f,b),i=cW(a[5],j),k=at(i,az(e)),l=eq(e,h,g,b);return[0,[0,l0(aJ,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fG(c,b),o=k$(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,l0(aJ,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fU=e(function(a){if(0===a[0]){var
+c=cc(C,s,F,a);return[0,hj(a[1],c)]}var
+b=a[1],d=k_(b,cc(C,s,F,a));return[1,k9(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
+k=cc(C,s,F,a),d=cX(a[1],k);else
 var
-e=cc(C,s,F,a),b=a[1],f=k9(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lX(aK,d,at([5,[0,c,c],c2],et(hM(C,s,fV(a)),d)))},am),fU,fT,fS,fQ];return k3(o,a6(X[1]),fW,fX,hJ)}return bb}var
+e=cc(C,s,F,a),b=a[1],f=k$(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lZ(aJ,d,at([5,[0,c,c],c2],eu(hN(C,s,fV(a)),d)))},am),fU,fT,fS,fQ];return k5(o,a6(X[1]),fW,fX,hJ)}return bb}var
 ew=b7}else
 var
 ew=b6;return ew;default:return 0}case
 2:var
 aD=a[7],aE=a[6],aW=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-ce=ag[3],ah=mN(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eV=A(c,bQ(w(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=h(ce),cf=c6(lT(eV,ah[2]),hZ,ce);if(cf){var
+ce=ag[3],ah=mP(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eV=A(c,bQ(w(function(a){var
+b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=h(ce),cf=c7(lV(eV,ah[2]),hZ,ce);if(cf){var
 eW=cf[1];if(eW[2])return 0;var
-eX=m7(ao,af,aZ,aY,aW,aE,aD),eY=eX?gd(cx(ao),ce):eX;if(eY){var
-h0=eW[1],h1=m$(h(af),aE,aD),h2=io(ag[2]),h3=ag[1],fN=ah[2],cX=n(function(a){var
-b=lW(o,a[1]);return b?lW(o,a[2]):b},fN);if(cX)var
-fO=hk(ah[4]),a_=cT(o,ah[4],fO);else
+eX=m9(ao,af,aZ,aY,aW,aE,aD),eY=eX?gd(cx(ao),ce):eX;if(eY){var
+h0=eW[1],h1=nb(h(af),aE,aD),h2=ip(ag[2]),h3=ag[1],fN=ah[2],cT=n(function(a){var
+b=lY(o,a[1]);return b?lY(o,a[2]):b},fN);if(cT)var
+fO=hl(ah[4]),a_=cU(o,ah[4],fO);else
 var
-a_=cX;if(a_)var
-fP=fR(ah[5]),a$=n(function(a){return ez(o,a)},fP);else
+a_=cT;if(a_)var
+fP=fR(ah[5]),a$=n(function(a){return eA(o,a)},fP);else
 var
-a$=a_;return a$?r3(h3,h2,h1,ah,eV,h0):a$}var
+a$=a_;return a$?r7(h3,h2,h1,ah,eV,h0):a$}var
 eZ=eY}else
 var
 eZ=cf;return eZ;case
 1:var
-a1=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=ik(ao),e1=m1(af,e(k,e0));if(e1[2])return 0;var
-J=e1[1],e2=im(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?m7(ao,af,aZ,aY,aW,aE,aD):e2;if(e3){var
-p=mN(ao,af,aZ,aY,aW,aE,aD);if(typeof
+a1=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=il(ao),e1=m3(af,e(k,e0));if(e1[2])return 0;var
+J=e1[1],e2=io(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?m9(ao,af,aZ,aY,aW,aE,aD):e2;if(e3){var
+p=mP(ao,af,aZ,aY,aW,aE,aD);if(typeof
 a1!=="number"&&2===a1[0]){var
-e5=e(k,a1[1]),e6=dl(ap,e5),e7=a0(b2(ap,e5)),e8=dl(ap,a2),e9=a0(b2(ap,a2)),dE=lh(o,p[2],J);if(dE)var
+e5=e(k,a1[1]),e6=dl(ap,e5),e7=a0(b2(ap,e5)),e8=dl(ap,a2),e9=a0(b2(ap,a2)),dE=lj(o,p[2],J);if(dE)var
 gB=cx(p[1]),bw=u(h(J),gB);else
 var
 bw=dE;var
-dF=bw?cT(o,p[4],e9):bw,dG=dF?cT(o,p[4],e7):dF,dH=dG?fK(o,p[5],e8):dG,dI=dH?fK(o,p[5],e6):dH;if(dI){var
+dF=bw?cU(o,p[4],e9):bw,dG=dF?cU(o,p[4],e7):dF,dH=dG?fK(o,p[5],e8):dG,dI=dH?fK(o,p[5],e6):dH;if(dI){var
 dK=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
-h=e(function(a){return lg(dK,gD,gC,f,g,a)},J),i=cx(dK),a=mh(o,h);function
+h=e(function(a){return li(dK,gD,gC,f,g,a)},J),i=cx(dK),a=mj(o,h);function
 b(a,b){return v(o,a,b)}var
-d=V(o,c);return x(function(a){return mf(B,d,D,b,i,a)},a)},bu=dv(e9,e8);if(bu){var
+d=V(o,c);return x(function(a){return mh(B,d,D,b,i,a)},a)},bu=dv(e9,e8);if(bu){var
 dw=bu[1],bv=dv(e7,e6);if(bv){var
 dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
 dA=dz;else{var
@@ -6366,29 +6372,29 @@ dB=bv;var
 dC=dB}else
 var
 dC=bu;return dC}return dI}var
-cg=ih(a1);if(cg){var
-h4=cg[1],as=dl(ap,a2),aF=a0(b2(ap,a2)),cN=lh(o,p[2],J),cO=cN?cT(o,p[4],aF):cN,cP=cO?fK(o,p[5],as):cO;if(cP){var
-ax=p[5],cR=p[3],cS=p[1],fM=p[6],cM=function(a){var
-b=fL(ax,as,aF,a);return R(fL(ax,as,aF,a),b)},fD=e(function(a){return[0,lg(cS,cR,ax,as,aF,a)]},J),fE=e(cM,J),fF=e(function(a){return 0},J),fH=e(function(a){return[0,[6,cM(a)]]},J),fI=[0,e(function(b){var
-a=az(fL(ax,as,aF,b));return hv(cS,a,at([5,[0,c,c],cR],et(fJ(ax,as,b[2]),a)))},J),fH,fF,fE,fD];return k3(o,cx(p[1]),fI,fM,h4)}return cP}var
+cg=ii(a1);if(cg){var
+h4=cg[1],as=dl(ap,a2),aF=a0(b2(ap,a2)),cN=lj(o,p[2],J),cO=cN?cU(o,p[4],aF):cN,cP=cO?fK(o,p[5],as):cO;if(cP){var
+ax=p[5],cQ=p[3],cS=p[1],fM=p[6],cK=function(a){var
+b=fL(ax,as,aF,a);return R(fL(ax,as,aF,a),b)},fD=e(function(a){return[0,li(cS,cQ,ax,as,aF,a)]},J),fE=e(cK,J),fF=e(function(a){return 0},J),fH=e(function(a){return[0,[6,cK(a)]]},J),fI=[0,e(function(b){var
+a=az(fL(ax,as,aF,b));return hw(cS,a,at([5,[0,c,c],cQ],eu(fJ(ax,as,b[2]),a)))},J),fH,fF,fE,fD];return k5(o,cx(p[1]),fI,fM,h4)}return cP}var
 e4=cg}else
 var
 e4=e3;return e4;default:return 0}case
 3:var
 au=a[7],e_=a[6],e$=a[5],Y=a[4],fa=a[2],ch=a[1],a3=q[2];if(0===a3[0]){var
-ci=a3[3],cj=c6(0,h(ci),ci);if(cj){var
+ci=a3[3],cj=c7(0,h(ci),ci);if(cj){var
 fb=cj[1];if(fb[2])return 0;var
 hG=h(ch),hH=h(e_),eg=u(h(e$),hH),eh=eg?n(function(a){var
 b=a7(hG,h(Y),a);if(b){var
 c=a[1];if(1===c){var
 d=a[2],e=d?[0,bL(d[1]),0]:aL(0,h(Y));return n(function(b){var
-a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):eg,el=eh?gc(au):eh,em=el?n(function(a){return eJ(a[2])},fa):el,fc=em?n(ij,dO(0,h(Y),0,au)):em,fd=fc?gd(h(ch),ci):fc;if(fd){var
-h9=fb[1],h_=a[3],ec=ak(f7,au),aT=dO(0,h(Y),0,au),hw=aJ(e$,e_),bV=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},hw),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
+a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):eg,ei=eh?gc(au):eh,em=ei?n(function(a){return eK(a[2])},fa):ei,fc=em?n(ik,dO(0,h(Y),0,au)):em,fd=fc?gd(h(ch),ci):fc;if(fd){var
+h5=fb[1],h_=a[3],ec=ak(f7,au),aT=dO(0,h(Y),0,au),hv=aK(e$,e_),bV=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},hv),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
 b=cC(a[2]);return[0,a[1],b]},h_),m=[0,ch,e(function(a){var
-b=bF(a[2]);return[0,a[1],b]},fa),hy,hx],h$=m$(h(Y),0,au),fe=io(a3[2]),aG=a3[1],gy=e(aH,m[2]),bp=f(m[1],gy),bq=h(m[1]),dn=W(so,bq),dp=dn?W(bq,sp):dn,dq=dp?W(bq,h(m[4])):dp,dr=dq?W(h(m[4]),sq):dq,ds=dr?md(bp):dr;if(ds){var
+b=bF(a[2]);return[0,a[1],b]},fa),hy,hx],h$=nb(h(Y),0,au),fe=ip(a3[2]),aG=a3[1],gy=e(aI,m[2]),bp=f(m[1],gy),bq=h(m[1]),dn=W(ss,bq),dp=dn?W(bq,st):dn,dq=dp?W(bq,h(m[4])):dp,dr=dq?W(h(m[4]),su):dq,ds=dr?mf(bp):dr;if(ds){var
 aP=bp,aO=m[3];for(;;){if(aO){var
-di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hT(aP,di[2]):dk;if(dm){var
+di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hU(aP,di[2]):dk;if(dm){var
 aP=[0,dj,aP],aO=aO[2];continue}var
 dt=dm}else
 var
@@ -6397,36 +6403,36 @@ br=dt;break}}else
 var
 br=ds;if(br)var
 gz=m[4],bs=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aH,m[3]),bp);return n(function(a){return hT(c,a)},b)},gz);else
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bp);return n(function(a){return hU(c,a)},b)},gz);else
 var
 bs=br;if(bs)var
 gA=m[2],bt=n(function(a){return bg(o,a[2][1],a[2][2])},gA);else
 var
 bt=bs;var
 du=bt?n(function(a){return bg(o,a[1],a[2])},bV):bt;if(du){var
-bd=h(m[1]),bf=h(m[2]),c7=N(bf,h(hQ(e(b0,m[3])))),f3=m[3],ay=mc(m),aM=f3,bc=bf;for(;;){if(aM){var
-c4=aM[1],c5=c4[2],fY=N(bc,h(bD(c5))),f1=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c4[1],f2],ay],aM=f1,bc=fY;continue}var
-aa=l$(bd,ay,m[4],c7),f4=l_(ay,m[4],c7),f6=m[3],c8=f(l7(mc(m),f6,bf),f4),c9=h(mb(m)),f9=0,f$=f(c8,cw(function(a,b){return l4(aa,a,b)},f9,d,c9,aT)),ge=f(bA(eA(aa)),f$),c_=f(bA(dJ(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(h(bV),bd);if(c$)var
+bd=h(m[1]),bf=h(m[2]),c6=N(bf,h(hR(e(b0,m[3])))),f3=m[3],ay=me(m),aM=f3,bc=bf;for(;;){if(aM){var
+c3=aM[1],c5=c3[2],fY=N(bc,h(bD(c5))),f1=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c3[1],f2],ay],aM=f1,bc=fY;continue}var
+aa=mb(bd,ay,m[4],c6),f4=ma(ay,m[4],c6),f6=m[3],c8=f(l9(me(m),f6,bf),f4),c9=h(md(m)),f9=0,f$=f(c8,cw(function(a,b){return l6(aa,a,b)},f9,d,c9,aT)),ge=f(bA(eB(aa)),f$),c_=f(bA(dJ(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(h(bV),bd);if(c$)var
 gg=m[4],bi=n(function(a){return 0===a[0]?u(h(a[1]),bd):1},gg);else
 var
 bi=c$;var
 da=bi?n(function(a){var
-b=i(d),c=co(bh);return aw(r(aj(a),c,b),a)},c_):bi,db=da?ak(l6,aT):da;if(db){var
+b=i(d),c=co(bh);return aw(r(aj(a),c,b),a)},c_):bi,db=da?ak(l8,aT):da;if(db){var
 dc=$(ec);if(dc)var
 aN=dc;else
 var
 gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
 var
 aN=db;if(aN){var
-gh=mb(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
-gi=0,gj=w(function(a){return es(gi,d,a)},aT),bl=ac(e(function(a){return ht(aG,a)},gj));if(bl){var
+gh=md(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
+gi=0,gj=w(function(a){return et(gi,d,a)},aT),bl=ac(e(function(a){return hu(aG,a)},gj));if(bl){var
 bm=ac(e(function(a){return al(aG,[0,a,d])},bV));if(bm){var
-gk=0,gl=0,bn=ac(cw(function(a,b){return l5(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
+gk=0,gl=0,bn=ac(cw(function(a,b){return l7(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
 dd=bn[1];if(ec)var
-gm=fe[2],gn=fe[1],go=eA(aa),bo=kW(h$,dd,[8,j(ar(aj),go),gn,gm]);else
+gm=fe[2],gn=fe[1],go=eB(aa),bo=kY(h$,dd,[8,j(ar(aj),go),gn,gm]);else
 var
 bo=dd;var
-gp=he(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eA(aa),gv=j(ar(aj),gu),gw=dJ(aa);return fz(aG,bh,j(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h9)}var
+gp=hf(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eB(aa),gv=j(ar(aj),gu),gw=dJ(aa);return fz(aG,bh,j(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h5)}var
 de=bn}else
 var
 de=bm;var
@@ -6444,8 +6450,8 @@ var
 ff=cj;return ff}return 0;case
 4:var
 ck=q[2];if(0===ck[0]){var
-aI=a[3],G=a[2],cl=a[1],ib=ck[3],id=ck[1],eD=dP(k(cl));if(eD){var
-aU=be(mQ,aI),cH=0;if(aU){var
+aH=a[3],G=a[2],cl=a[1],ia=ck[3],ic=ck[1],eD=dP(k(cl));if(eD){var
+aU=be(mS,aH),cH=0;if(aU){var
 bW=aU[1];if(bW[2]||bW[3])var
 y=0;else{var
 aV=bW[4],U=aU[2],K=0;if(typeof
@@ -6477,20 +6483,20 @@ y=ef;K=1}break}if(!K){var
 ed=0;cH=1}}}else{var
 ed=aU;cH=1}if(cH)var
 y=ed;if(y){var
-eE=y[1],z=eE[2],eI=k(z),eK=k(eE[1]),dR=g(o,1,k(G)),dS=dR?g(o,1,[3,eI,[0,c,c]]):dR,dT=dS?g(o,1,eK):dS,eL=dT?g(o,0,[3,[5,[0,c,c],eI],eK]):dT;if(eL)var
-hN=0,hO=0,b9=n(function(a){return mL(hO,hN,yb,a)},aI);else
+eE=y[1],z=eE[2],eF=k(z),eJ=k(eE[1]),dR=g(o,1,k(G)),dS=dR?g(o,1,[3,eF,[0,c,c]]):dR,dT=dS?g(o,1,eJ):dS,eL=dT?g(o,0,[3,[5,[0,c,c],eF],eJ]):dT;if(eL)var
+hM=0,hO=0,b9=n(function(a){return mN(hO,hM,yf,a)},aH);else
 var
 b9=eL;var
 eM=b9?n(function(b){if(1===b[1]){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aI):b9;if(eM){var
-b3=be(function(a){return $(mR(a))},aI);if(b3){var
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aH):b9;if(eM){var
+b3=be(function(a){return $(mT(a))},aH);if(b3){var
 hP=[0,b(2,c),c],E=g(o,0,[3,k(z),hP]);if(E)var
 b_=E;else
 var
 hV=k(z),b_=g(o,0,[3,[0,b(2,c),c],hV]);if(b_){var
 eC=w(function(a){var
-b=h8(0,x_,0,a);return e(function(b){return $(mR(a))},b)},aI),hK=function(f){var
+b=h9(0,yc,0,a);return e(function(b){return $(mT(a))},b)},aH),hK=function(f){var
 g=f[1];if(g){var
 i=g[1],j=r(i,eC,0);if(j)var
 l=b2(i,eC),k=[0,[0,h(be(function(a){return a},l))]];else
@@ -6498,15 +6504,15 @@ var
 k=j;var
 a=k}else
 var
-a=ya;if(a){var
+a=ye;if(a){var
 b=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,x$,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hL=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},ib),hR=[0,b3[1],b3[2]],hz=[0,ia(E,G,z),0],hA=[0,ia(E,G,z),hz],hB=[0,ia(E,G,z),hA],hC=[0,f_(E,G,z),0],hD=[0,f_(E,G,z),hC],hS=0,hE=[0,[0,f_(E,G,z),hD],hB],hU=0,b4=function(b,a){return e(function(c){var
-d=u(b,c)?a:w7;return[0,d]},w9)};return nb(0,e(function(a){var
+2:return[0,[0,b,[1,yd,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hL=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},ia),hQ=[0,b3[1],b3[2]],hz=[0,ib(E,G,z),0],hA=[0,ib(E,G,z),hz],hB=[0,ib(E,G,z),hA],hC=[0,f_(E,G,z),0],hD=[0,f_(E,G,z),hC],hS=0,hE=[0,[0,f_(E,G,z),hD],hB],hT=0,b4=function(b,a){return e(function(c){var
+d=u(b,c)?a:w$;return[0,d]},xb)};return nd(0,e(function(a){var
 e=[0,f8(E,G,z)],d=1,f=b4(a,[2,cl]);function
 b(b,a){return[3,1,b,a]}var
-c=f8(E,G,z),g=b4(a,b(b(f_(E,G,z),cl),c));return[0,b4(a,w8),g,f,e,d]},w_),hU,hE,hS,hR,id,hL)}return b_}var
+c=f8(E,G,z),g=b4(a,b(b(f_(E,G,z),cl),c));return[0,b4(a,xa),g,f,e,d]},xc),hT,hE,hS,hQ,ic,hL)}return b_}var
 eN=1}else
 var
 eN=eM;var
@@ -6518,19 +6524,19 @@ var
 eP=eD;return eP}return 0;case
 5:var
 cm=a[4],fg=a[1],cn=q[2];if(0===cn[0]){var
-fh=cn[3],t=h7(fg,[0,a[2],a[3]],0,cm),cq=ii(h(fh),fh);if(cq){var
+fh=cn[3],t=h8(fg,[0,a[2],a[3]],0,cm),cq=ij(h(fh),fh);if(cq){var
 fi=cq[1];if(fi[2])return 0;var
-fj=il(fg,0,cm,t),fk=fj?$(ak(f7,cm)):fj;if(fk){var
-fl=kV(o,t);if(fl){var
-ip=fi[1],fm=e(gb,t[1]),I=ie(t[1]),fn=k(a[5]),Z=cn[1],bB=fB(I,fm,t[1]),O=hf(I,fm,t[1],0),gI=h(t[3]),gJ=N(h(bB),gI),aR=[0,h(bB),gJ],gK=hh(O,I,aR,t[3]),gL=f(e(ct,O),gK),dX=f(bA(ei(O)),gL),dY=cp(dX)[1],bC=co(dY),dZ=t[2];if(0===dZ[0]){var
+fj=im(fg,0,cm,t),fk=fj?$(ak(f7,cm)):fj;if(fk){var
+fl=kX(o,t);if(fl){var
+ie=fi[1],fm=e(gb,t[1]),I=ig(t[1]),fn=k(a[5]),Z=cn[1],bB=fB(I,fm,t[1]),O=hg(I,fm,t[1],0),gI=h(t[3]),gJ=N(h(bB),gI),aR=[0,h(bB),gJ],gK=hi(O,I,aR,t[3]),gL=f(e(ct,O),gK),dX=f(bA(ej(O)),gL),dY=cp(dX)[1],bC=co(dY),dZ=t[2];if(0===dZ[0]){var
 d0=n(function(a){var
 b=i(d);return aw(r(aX(bC,a),bC,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
-gM=t[3],gN=w(function(a){return cQ(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
+gM=t[3],gN=w(function(a){return cR(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
 gQ=aQ(dZ[1],I),bH=ac(e(function(a){return al(Z,a)},gQ));if(bH){var
 bI=cs(Z,I,[5,fn,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bI){var
 bJ=t[3],gR=bH[1],gS=bI[1],gT=bG[1],aA=function(a){return aX(bC,a)},gF=aL(0,h(bJ)),gG=e(function(k){var
 l=M(bJ,k);if(l){var
-a=l[1],u=b2(k,bJ),v=h(w(function(a){return cQ(I,a)},u)),y=N(aR[2],v),i=[0,N(aR[1],k),y],r=ei(O),f=j(ar(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fC(O,I,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=b2(k,bJ),v=h(w(function(a){return cR(I,a)},u)),y=N(aR[2],v),i=[0,N(aR[1],k),y],r=ej(O),f=j(ar(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fC(O,I,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,b]];case
 1:return[0,[1,f,b]];case
@@ -6546,14 +6552,14 @@ q=b;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eo(O,I,i,a);return x(function(a){return[0,j(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dU=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dV=e(ae,gT),dW=function(az,ay){var
+t=ep(O,I,i,a);return x(function(a){return[0,j(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dU=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dV=e(ae,gT),dW=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
-t=i[1],ab=u(h(t),sB),ac=ab?n(function(a){var
+t=i[1],ab=u(h(t),sF),ac=ab?n(function(a){var
 d=H(P(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},t):ab;if(ac){var
-ad=mr(Z,gS,ej(0,l),t),j=i[2],v=bN(0,b8(Z,ad,dV),dY,0),L=function(a){return mq(mp(Z,ad,dV,v,a))};if(typeof
+ad=mt(Z,gS,ek(0,l),t),j=i[2],v=bN(0,b8(Z,ad,dV),dY,0),L=function(a){return ms(mr(Z,ad,dV,v,a))};if(typeof
 j==="number")return 0===j?ak(function(b){var
 a=r(b,v,0);return a?H(a[1][2][2],d):a},dU):0;else{if(0===j[0]){var
-a=j[2],O=n(sz,a);if(O){var
+a=j[2],O=n(sD,a);if(O){var
 o=r(j[1],gG,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
@@ -6582,7 +6588,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return mq(r(a[2],v,0))},aw);if(R)return n(L,Q[2]);var
+Q=f[1],aw=Q[1],R=n(function(a){return ms(r(a[2],v,0))},aw);if(R)return n(L,Q[2]);var
 S=R}else
 var
 S=f;var
@@ -6606,14 +6612,14 @@ var
 Y=p;return Y}}return ac}var
 ae=i[1],w=M(l,ae);if(w){var
 af=w[1],aA=af[1],ag=$(_(bP(af),aA));if(ag){var
-ah=ek(ae,l),ai=dW(ah[1],i[2]);if(ai){var
+ah=el(ae,l),ai=dW(ah[1],i[2]);if(ai){var
 l=ah[2],i=i[3];continue}var
 aj=ai}else
 var
 aj=ag;var
 al=aj}else
 var
-al=w;return al}};return dW(gR,ip)}var
+al=w;return al}};return dW(gR,ie)}var
 d2=bI}else
 var
 d2=bH;var
@@ -6632,11 +6638,11 @@ fp=cq;return fp}return 0;case
 6:var
 fq=a[1];if(fq){var
 fr=fq[1],cu=q[2];if(0===cu[0]){var
-cv=ig(0,yd,cu[3]);if(cv){var
-fs=eJ(fr);if(fs){var
+cv=ih(0,yh,cu[3]);if(cv){var
+fs=eK(fr);if(fs){var
 iq=cv[1],ft=bF(fr)[2],a5=cu[1],bx=cs(a5,d,ft);if(bx){var
 by=cs(a5,d,[5,[0,c,c],ft]);if(by){var
-gE=bx[1][1],dL=L(cL(a5),gE);if(dL)return mo(a5,by[1][1],iq);var
+gE=bx[1][1],dL=L(cM(a5),gE);if(dL)return mq(a5,by[1][1],iq);var
 dN=dL}else
 var
 dN=by;var
@@ -6647,60 +6653,60 @@ fu=fs}else
 var
 fu=cv;return fu}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=ig(0,ye,cy[3]);return cz?mo(cy[1],d,cz[1]):cz}return 0;default:var
+cz=ih(0,yi,cy[3]);return cz?mq(cy[1],d,cz[1]):cz}return 0;default:var
 av=a[1],fv=q[2];if(2===fv[0]){var
-fw=fv[1],cA=ic(h(fw),fw);if(cA){var
+fw=fv[1],cA=id(h(fw),fw);if(cA){var
 fx=cA[1];if(fx[2])return 0;var
-cB=fx[1],ex=W(x9,h(av)),ey=ex?W(h(av),jI):ex,eB=ey?md(e(aH,av)):ey,fy=eB?n(function(c){var
+cB=fx[1],ex=W(yb,h(av)),ey=ex?W(h(av),jK):ex,ez=ey?mf(e(aI,av)):ey,fy=ez?n(function(c){var
 a=cr(k(c[2][1]));if(a){var
-b=cr(k(c[2][2]));if(b)return $(cK(b[1],a[1]));var
+b=cr(k(c[2][2]));if(b)return $(cL(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},av):eB;if(fy)var
-ir=ga(w$,cB),cD=ne(a[5],ir);else
+d=a;return d},av):ez;if(fy)var
+ir=ga(xd,cB),cD=ng(a[5],ir);else
 var
 cD=fy;if(cD)var
-is=ga(xa,cB),cE=ne(a[6],is);else
+is=ga(xe,cB),cE=ng(a[6],is);else
 var
 cE=cD;if(cE){var
-hF=e(function(a){return[0,d,0]},av);return nd(av,a[2],a[3],a[4],hF,cB)}var
+hF=e(function(a){return[0,d,0]},av);return nf(av,a[2],a[3],a[4],hF,cB)}var
 fA=cE}else
 var
 fA=cA;return fA}return 0}}return aB}var
-O=[aM,yh,pt(0)],nf=[aM,yi,pt(0)];function
-yf(m,b){var
-f=[0,l(wu,am(b[4])),0],g=[0,l(ww,aa([0,l(wv,am(b[3])),f])),0],a=b[2];switch(a[0]){case
+O=[aM,yl,pv(0)],nh=[aM,ym,pv(0)];function
+yj(m,b){var
+f=[0,l(wy,am(b[4])),0],g=[0,l(wA,aa([0,l(wz,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=J(wq,my(a[1],a[2],a[3]));break;case
+c=J(wu,mA(a[1],a[2],a[3]));break;case
 1:var
-c=J(wr,mz(a[1],a[2],a[3],a[4]));break;default:var
-c=J(ws,C(e(wl,a[1])))}var
-h=[0,l(wx,c),g],i=1===b[2][0]?wD:wy,j=[0,l(wz,am(i)),h],k=[0,l(wA,u4(b[1])),j],d=aq(jf(yg,f1(aa([0,l(wC,am(wB)),k]),wt)),m);return d?yc(b):d}function
+c=J(wv,mB(a[1],a[2],a[3],a[4]));break;default:var
+c=J(ww,C(e(wp,a[1])))}var
+h=[0,l(wB,c),g],i=1===b[2][0]?wH:wC,j=[0,l(wD,am(i)),h],k=[0,l(wE,u8(b[1])),j],d=aq(jh(yk,f1(aa([0,l(wG,am(wF)),k]),wx)),m);return d?yg(b):d}function
 ad(a){if(0===a[0])return a[1];throw O}function
-Y(a){if(1===a[0])return a[1];throw O}function
-aK(a){if(2===a[0])return a[1];throw O}function
+Z(a){if(1===a[0])return a[1];throw O}function
+aC(a){if(2===a[0])return a[1];throw O}function
 dR(a){if(3===a[0])return a[1];throw O}function
 aR(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Ej(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Eo(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 s(c,b){var
 a=aR(c,b);if(a)return a[1];throw O}function
 cf(b,a){var
 c=a?[0,j(b,a[1])]:a;return c}function
-c9(a){switch(a[0]){case
+c_(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],yj]}throw O}function
-eK(e,d){var
-a=U(e,Y(d));if(a){var
+2:return[0,a[1],yn]}throw O}function
+eL(e,d){var
+a=U(e,Z(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw O}function
 ge(i){var
 f=d2(i),d=[0,0],e=gI(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iW(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
+a=d[1],g=iX(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6722,21 +6728,21 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eL(a){return ju(ge(a))}function
-eM(b){var
-a=dR(b);return 45===aN(a,0)?P(eL(di(a,1,ap(a)-1|0))):eL(a)}function
-ng(a){return d9(eL(dR(a)))}function
-gf(a){return jt(eL(dR(a)))}function
+eM(a){return jw(ge(a))}function
+eN(b){var
+a=dR(b);return 45===aN(a,0)?P(eM(di(a,1,an(a)-1|0))):eM(a)}function
+ni(a){return d_(eM(dR(a)))}function
+gf(a){return jv(eM(dR(a)))}function
 cF(c){var
-a=dR(c);if(6<ap(a))throw O;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(i4(a))}function
-nh(a){var
-b=97<=a?1:0,c=b?a<=o8?1:0:b;if(c)var
+a=dR(c);if(6<an(a))throw O;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(i5(a))}function
+nj(a){var
+b=97<=a?1:0,c=b?a<=o_?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-ni(y,b){var
-d=ap(b),a=[0,0];function
+nk(y,b){var
+d=an(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aN(b,a[1])===e?1:0:c;return f}function
 l(e){var
@@ -6745,24 +6751,24 @@ n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw O}function
 h(i){if(64<i)throw O;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
 e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&aq(di(b,a[1],5),yl)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aq(di(b,a[1],5),yp)){a[1]=a[1]+4|0;var
 e=[5,n(i)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&nh(aN(b,a[1]))){var
+v=0;if(a[1]<d&&nj(aN(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!nh(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+w=0;if(!nj(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,j(y,di(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,ym);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,yq);if(r)var
 s=r;else
 var
-t=1<ap(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
-k=q[1],x=0;if(aq(k,yn)||48===aN(k,ap(k)-1|0))x=1;else
+t=1<an(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
+k=q[1],x=0;if(aq(k,yr)||48===aN(k,an(k)-1|0))x=1;else
 var
 z=ge(k),e=[0,ge(g),z];if(x)throw O}else
 var
 e=[0,ge(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yk)){if(!(2<ap(f))&&2<=i4(f)&&!(64<i4(f)))return[4,e,d9(eL(f))];throw O}throw O}return e}function
+f=l(0);if(m(f,yo)){if(!(2<an(f))&&2<=i5(f)&&!(64<i5(f)))return[4,e,d_(eM(f))];throw O}throw O}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6772,46 +6778,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw O;return g}function
-gg(a){return ni(function(a){return[0,a]},a)}function
-ip(a){var
-b=aK(a);return ni(function(a){return a},b)}function
-S(a){return gg(aK(a))}function
+gg(a){return nk(function(a){return[0,a]},a)}function
+iq(a){var
+b=aC(a);return nk(function(a){return a},b)}function
+S(a){return gg(aC(a))}function
 bT(a){if(2===a[0])return[0,gg(a[1])];var
-b=ad(a),c=S(s(b,yo));return[1,S(s(b,yp)),c]}function
-Z(a){throw[0,nf,aT(jf(yr,a),yq)]}function
-iq(c){var
-a=aK(c);if(m(a,ys)){var
-b=m(a,yt);if(b)throw O;return b}return 1}function
-yu(d){var
+b=ad(a),c=S(s(b,ys));return[1,S(s(b,yt)),c]}function
+Y(a){throw[0,nh,aT(jh(yv,a),yu)]}function
+ir(c){var
+a=aC(c);if(m(a,yw)){var
+b=m(a,yx);if(b)throw O;return b}return 1}function
+yy(d){var
 b=ad(d);function
-a(a){return eK(bT,s(b,a))}var
-c=aK(s(b,yv));if(m(c,yw)){if(m(c,yx)){if(m(c,yy))return Z([0,yA,[0,c,yz]]);var
-e=aR(b,yB),f=cf(function(a){return eK(bT,a)},e),g=a(yC);return[1,a(yD),g,f]}var
-h=iq(s(b,yE)),i=bT(s(b,yF)),j=a(yG),k=a(yH);return[0,a(yI),k,j,i,h]}return[2,a(yJ)]}function
-yK(d){var
+a(a){return eL(bT,s(b,a))}var
+c=aC(s(b,yz));if(m(c,yA)){if(m(c,yB)){if(m(c,yC))return Y([0,yE,[0,c,yD]]);var
+e=aR(b,yF),f=cf(function(a){return eL(bT,a)},e),g=a(yG);return[1,a(yH),g,f]}var
+h=ir(s(b,yI)),i=bT(s(b,yJ)),j=a(yK),k=a(yL);return[0,a(yM),k,j,i,h]}return[2,a(yN)]}function
+yO(d){var
 a=ad(d);if(a){var
-b=a[1];if(!m(b[1],yL)){var
-c=b[2];if(2===c[0]&&!m(c[1],yM))return 1}}return 0}function
-nj(e){var
+b=a[1];if(!m(b[1],yP)){var
+c=b[2];if(2===c[0]&&!m(c[1],yQ))return 1}}return 0}function
+nl(e){var
 b=ad(e);function
-a(a){return U(bT,Y(s(b,a)))}var
-c=aK(s(b,yN)),d=aR(b,yO);if(m(c,yP)){if(m(c,yQ)){if(!m(c,yR)&&!d){var
-f=a(yU);return[1,a(yV),f]}}else
+a(a){return U(bT,Z(s(b,a)))}var
+c=aC(s(b,yR)),d=aR(b,yS);if(m(c,yT)){if(m(c,yU)){if(!m(c,yV)&&!d){var
+f=a(yY);return[1,a(yZ),f]}}else
 if(!d){var
-g=iq(s(b,yW)),h=bT(s(b,yX)),i=a(yY),j=a(yZ);return[0,a(y0),j,i,h,g]}}else
+g=ir(s(b,y0)),h=bT(s(b,y1)),i=a(y2),j=a(y3);return[0,a(y4),j,i,h,g]}}else
 if(!d){var
-k=iq(s(b,y1)),l=bT(s(b,y2)),n=bT(s(b,y3)),o=a(y4),p=a(y5),q=a(y6);return[2,a(y7),q,p,o,n,l,k]}return Z([0,yT,[0,c,yS]])}function
-nk(d){var
+k=ir(s(b,y5)),l=bT(s(b,y6)),n=bT(s(b,y7)),o=a(y8),p=a(y9),q=a(y_);return[2,a(y$),q,p,o,n,l,k]}return Y([0,yX,[0,c,yW]])}function
+nm(d){var
 a=ad(d);if(a){var
-b=a[1];if(!m(b[1],y8)){var
-c=b[2];if(2===c[0]&&!m(c[1],y9))return 1}}return 0}function
+b=a[1];if(!m(b[1],za)){var
+c=b[2];if(2===c[0]&&!m(c[1],zb))return 1}}return 0}function
 cG(c,d){var
-a=Y(d);if(a){var
+a=Z(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw O}function
 dS(g,p){var
-h=g?g[1]:g,c=ad(p),a=aK(s(c,y_)),j=pG(a,y$),f=0;if(0<=j)if(0<j)if(m(a,za))if(m(a,zb))if(m(a,zc))if(m(a,zd))if(m(a,ze))if(m(a,zf)){var
-k=m(a,zg);if(k)f=1;else
+h=g?g[1]:g,c=ad(p),a=aC(s(c,zc)),j=pI(a,zd),f=0;if(0<=j)if(0<j)if(m(a,ze))if(m(a,zf))if(m(a,zg))if(m(a,zh))if(m(a,zi))if(m(a,zj)){var
+k=m(a,zk);if(k)f=1;else
 var
 b=k}else
 var
@@ -6829,7 +6835,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,zB))if(m(a,zC))if(m(a,zD))if(m(a,zE))if(m(a,zF))if(m(a,zG))if(m(a,zH))if(m(a,zI))f=1;else
+if(m(a,zF))if(m(a,zG))if(m(a,zH))if(m(a,zI))if(m(a,zJ))if(m(a,zK))if(m(a,zL))if(m(a,zM))f=1;else
 var
 b=1;else
 var
@@ -6847,10 +6853,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?Z([0,zi,[0,a,zh]]):b;function
-i(a){return s(c,zj)}var
-d=aK(s(c,zk)),l=m(d,zl);if(l)if(m(d,zm))if(m(d,zn))if(m(d,zo))var
-e=Z([0,zq,[0,d,zp]]);else
+n=f?Y([0,zm,[0,a,zl]]):b;function
+i(a){return s(c,zn)}var
+d=aC(s(c,zo)),l=m(d,zp);if(l)if(m(d,zq))if(m(d,zr))if(m(d,zs))var
+e=Y([0,zu,[0,d,zt]]);else
 var
 o=cG(S,i(0)),e=[2,o[1],o[2]];else
 var
@@ -6862,86 +6868,86 @@ e=l;function
 q(A){var
 a=ad(A),c=0;switch(n){case
 6:if(a){var
-q=a[1];if(!m(q[1],zs)){var
+q=a[1];if(!m(q[1],zw)){var
 r=q[2];if(1===r[0]){var
 b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
 e=b[1];c=1;l=1}if(!l&&!a[2])return[1,U(S,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],zt)){var
+s=a[1];if(!m(s[1],zx)){var
 t=s[2];if(1===t[0]){var
 f=t[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-u=g[1];if(!m(u[1],zu)){var
+u=g[1];if(!m(u[1],zy)){var
 v=u[2];if(1===v[0]){var
 i=v[1];if(i&&!i[2]&&!g[2]){var
 B=S(i[1]);return[2,S(f[1]),B]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],zv)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],zw)&&!j[2]&&h)return Z(zx)}else
+w=a[1];if(!m(w[1],zz)){var
+x=w[2],j=a[2];if(j){if(!m(j[1][1],zA)&&!j[2]&&h)return Y(zB)}else
 if(1===x[0]){var
 k=x[1];if(k&&!k[2]){var
 e=k[1];c=1}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],zy)){var
+y=a[1];if(!m(y[1],zC)){var
 z=y[2];if(1===z[0]&&!a[2])return[1,U(S,z[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],zr)){var
+o=a[1];if(!m(o[1],zv)){var
 p=o[2];if(1===p[0]){var
 d=p[1];if(d&&!d[2]&&!a[2]){var
 e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw O}var
-r=cf(q,aR(c,zz));return[0,n,cf(cF,aR(c,zA)),r,e]}function
-nl(c){var
-d=dS(zL,c),e=d[1];if(!(9<=e))switch(e){case
+r=cf(q,aR(c,zD));return[0,n,cf(cF,aR(c,zE)),r,e]}function
+nn(c){var
+d=dS(zP,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dS(zJ,c),b=a[1];if(2!==b&&!(4<=b))return a;return Z(zK)}function
-nm(a){var
-b=dS(zM,a);return 11===b[1]?b:nl(a)}function
-zN(c){var
-d=dS(zO,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
-if(9<=a)b=1;return b?d:nm(c)}function
-ir(c){var
-d=dS(zP,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:nl(c)}function
-is(b){var
-a=ad(b[2]);if(m(b[1],zW)){var
-c=cG(S,s(a,zX)),d=cG(S,s(a,zY)),e=d[2],f=d[1],g=S(s(a,zZ));return[1,c[1],c[2],g,f,e]}var
-h=U(S,Y(s(a,z0)));return[0,U(S,Y(s(a,z1))),h]}function
-z2(f){var
+a=dS(zN,c),b=a[1];if(2!==b&&!(4<=b))return a;return Y(zO)}function
+no(a){var
+b=dS(zQ,a);return 11===b[1]?b:nn(a)}function
+zR(c){var
+d=dS(zS,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
+if(9<=a)b=1;return b?d:no(c)}function
+is(c){var
+d=dS(zT,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:nn(c)}function
+it(b){var
+a=ad(b[2]);if(m(b[1],z0)){var
+c=cG(S,s(a,z1)),d=cG(S,s(a,z2)),e=d[2],f=d[1],g=S(s(a,z3));return[1,c[1],c[2],g,f,e]}var
+h=U(S,Z(s(a,z4)));return[0,U(S,Z(s(a,z5))),h]}function
+z6(f){var
 a=ad(f);function
 d(b){return S(s(a,b))}function
-c(b){return eK(S,s(a,b))}var
-b=aK(s(a,z3));if(m(b,z4)){if(!m(b,z5)){var
-j=s(a,z$),e=cG(function(a){return a},j),k=aR(a,Aa),l=cf(function(a){return c(Ab)},k),n=gg(aK(e[2])),o=gg(aK(e[1])),p=d(Ac);return[0,cF(s(a,Ad)),p,o,n,l]}if(m(b,z6))throw O}var
-g=d(z7),h=c(z8),i=c(z9);return[1,aq(b,z_),i,h,g]}function
-it(ar){var
-g=c9(ar),h=g[1];if(m(h,Ae)){if(m(h,Af)){if(m(h,Ag)){if(m(h,Ah))return Z([0,Aj,[0,h,Ai]]);var
-w=s(ad(g[2]),Ak),ag=0;if(2===w[0]){var
-L=m(w[1],Al);if(!L){var
+c(b){return eL(S,s(a,b))}var
+b=aC(s(a,z7));if(m(b,z8)){if(!m(b,z9)){var
+j=s(a,Ad),e=cG(function(a){return a},j),k=aR(a,Ae),l=cf(function(a){return c(Af)},k),n=gg(aC(e[2])),o=gg(aC(e[1])),p=d(Ag);return[0,cF(s(a,Ah)),p,o,n,l]}if(m(b,z_))throw O}var
+g=d(z$),h=c(Aa),i=c(Ab);return[1,aq(b,Ac),i,h,g]}function
+iu(ar){var
+g=c_(ar),h=g[1];if(m(h,Ai)){if(m(h,Aj)){if(m(h,Ak)){if(m(h,Al))return Y([0,An,[0,h,Am]]);var
+w=s(ad(g[2]),Ao),ag=0;if(2===w[0]){var
+L=m(w[1],Ap);if(!L){var
 K=L;ag=1}}if(!ag)var
 K=[0,bT(w)];return[6,K]}var
-M=ad(g[2]),i=it([0,[0,[0,An,s(M,Am)],0]]);if(0===i[0]){var
+M=ad(g[2]),i=iu([0,[0,[0,Ar,s(M,Aq)],0]]);if(0===i[0]){var
 x=i[2];if(0===x[0]&&!i[3]){var
-as=S(s(M,Ap));return[5,i[1],x[1],x[2],i[4],as]}}return Z(Ao)}var
-a=ad(g[2]),y=aR(a,Aq),z=y?U(z2,Y(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?Z(Ar):a},k=c9(s(a,As)),b=c9(s(a,At)),c=k[1];if(m(c,Au)&&m(c,Av)&&m(c,Aw)){if(0===aR(a,Ax)){if(m(c,Ay)){var
-ah=0;if(m(c,Az)){if(!m(c,AA)){var
-N=b[1],ai=0;if(m(N,AD)&&m(N,AE)){ah=1;ai=1}if(!ai){var
-A=Y(k[2]),at=Y(s(a,AH)),P=U(function(a){return dS(0,a)},at);if(!au(yK,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
-ax=U(yu,A),f=ad(b[2]);if(m(b[1],zQ))var
-I=cG(S,s(f,zR)),J=cG(S,s(f,zS)),am=J[2],an=J[1],ao=S(s(f,zT)),Q=[1,I[1],I[2],ao,an,am];else
+as=S(s(M,At));return[5,i[1],x[1],x[2],i[4],as]}}return Y(As)}var
+a=ad(g[2]),y=aR(a,Au),z=y?U(z6,Z(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?Y(Av):a},k=c_(s(a,Aw)),b=c_(s(a,Ax)),c=k[1];if(m(c,Ay)&&m(c,Az)&&m(c,AA)){if(0===aR(a,AB)){if(m(c,AC)){var
+ah=0;if(m(c,AD)){if(!m(c,AE)){var
+N=b[1],ai=0;if(m(N,AH)&&m(N,AI)){ah=1;ai=1}if(!ai){var
+A=Z(k[2]),at=Z(s(a,AL)),P=U(function(a){return dS(0,a)},at);if(!au(yO,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+ax=U(yy,A),f=ad(b[2]);if(m(b[1],zU))var
+I=cG(S,s(f,zV)),J=cG(S,s(f,zW)),am=J[2],an=J[1],ao=S(s(f,zX)),Q=[1,I[1],I[2],ao,an,am];else
 var
-ap=eK(S,s(f,zU)),Q=[0,eK(S,s(f,zV)),ap];return[0,ax,Q,z,P]}o(0);var
-av=U(ir,Y(s(a,AI))),aw=is(b);return[1,0,U(nj,A),0,aw,0,av]}}}else
-if(!m(b[1],AJ)){o(0);var
-R=U(ir,Y(s(a,AK))),v=0,e=R;for(;;){if(e){var
+ap=eL(S,s(f,zY)),Q=[0,eL(S,s(f,zZ)),ap];return[0,ax,Q,z,P]}o(0);var
+av=U(is,Z(s(a,AM))),aw=it(b);return[1,0,U(nl,A),0,aw,0,av]}}}else
+if(!m(b[1],AN)){o(0);var
+R=U(is,Z(s(a,AO))),v=0,e=R;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=je(v),aj=0;if(n){var
+n=jg(v),aj=0;if(n){var
 d=0,T=n[1][4];if(typeof
 T==="number")d=1;else
 switch(T[0]){case
@@ -6956,122 +6962,123 @@ C=n[2];if(C){var
 F=0,W=C[1][4];if(typeof
 W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)Z(AL);var
-ay=S(s(ad(b[2]),AM));return[4,S(s(ad(k[2]),AN)),ay,R]}}if(!ah)return Z([0,AC,[0,c,AB]])}else
-if(!m(b[1],AO)){o(0);var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)Y(AP);var
+ay=S(s(ad(b[2]),AQ));return[4,S(s(ad(k[2]),AR)),ay,R]}}if(!ah)return Y([0,AG,[0,c,AF]])}else
+if(!m(b[1],AS)){o(0);var
 p=ad(k[2]),X=ad(b[2]),_=function(c,a){var
-b=Y(a);return U(function(d){var
-a=Y(d);if(a){var
+b=Z(a);return U(function(d){var
+a=Z(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,aK(a[1]),e]}}throw O},b)},az=function(d){var
+e=j(c,b[1]);return[0,aC(a[1]),e]}}throw O},b)},az=function(d){var
 a=ad(d);if(a){var
-b=a[1],c=b[1];if(m(c,AP)){if(!m(c,AQ)&&!a[2])return[0,U(ip,Y(b[2]))]}else
-if(!a[2])return[1,ip(b[2])]}throw O},aA=U(nm,Y(s(a,AR))),aB=U(S,Y(s(X,AS))),aC=U(S,Y(s(X,AT))),aD=U(az,Y(s(p,AU))),aE=_(ip,s(p,AV)),aF=_(bT,s(p,AW));return[3,U(aK,Y(s(p,AX))),aF,aE,aD,aC,aB,aA]}return Z([0,AG,[0,b[1],AF]])}throw O}var
-$=ad(k[2]),q=cf(S,aR($,AY)),aG=function(f){var
-a=c9(f),b=a[1];if(m(b,AZ)){if(m(b,A0)){if(m(b,A1)){if(m(b,A2))throw O;var
-d=a[2],g=S(s(ad(d),A3));return[3,S(s(ad(d),A4)),g]}var
-h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A5),j=c(A6);return[1,c(A7),j,i]}var
-e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aG,aR(a,A8)),aa=m(c,A9),D=aa?m(c,A_)?2:1:aa,t=Y(s($,A$));if(q&&r){var
-ab=r[1];if(gM(nk,t)){var
-aH=function(c){var
+b=a[1],c=b[1];if(m(c,AT)){if(!m(c,AU)&&!a[2])return[0,U(iq,Z(b[2]))]}else
+if(!a[2])return[1,iq(b[2])]}throw O},aA=U(no,Z(s(a,AV))),aB=U(S,Z(s(X,AW))),aD=U(S,Z(s(X,AX))),aE=U(az,Z(s(p,AY))),aF=_(iq,s(p,AZ)),aG=_(bT,s(p,A0));return[3,U(aC,Z(s(p,A1))),aG,aF,aE,aD,aB,aA]}return Y([0,AK,[0,b[1],AJ]])}throw O}var
+$=ad(k[2]),q=cf(S,aR($,A2)),aH=function(f){var
+a=c_(f),b=a[1];if(m(b,A3)){if(m(b,A4)){if(m(b,A5)){if(m(b,A6))throw O;var
+d=a[2],g=S(s(ad(d),A7));return[3,S(s(ad(d),A8)),g]}var
+h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A9),j=c(A_);return[1,c(A$),j,i]}var
+e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aH,aR(a,Ba)),aa=m(c,Bb),D=aa?m(c,Bc)?2:1:aa,t=Z(s($,Bd));if(q&&r){var
+ab=r[1];if(gN(nm,t)){var
+aI=function(c){var
 a=ad(c);function
-b(b){return U(bT,Y(s(a,b)))}if(0!==aR(a,Ba))Z(Bb);var
-d=b(Bc);return[0,b(Bd),d]},ac=U(zN,Y(s(a,Be))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))Z(Bf);var
-aI=is(b),aJ=q[1];return[2,D,U(aH,t),aJ,aI,ab,z,ac]}}o(0);var
-al=0;if(!q&&aq(c,Bi)){var
+b(b){return U(bT,Z(s(a,b)))}if(0!==aR(a,Be))Y(Bf);var
+d=b(Bg);return[0,b(Bh),d]},ac=U(zR,Z(s(a,Bi))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))Y(Bj);var
+aJ=it(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ab,z,ac]}}o(0);var
+al=0;if(!q&&aq(c,Bm)){var
 ae=1;al=1}if(!al)var
 ae=[0,D];var
-af=0!==r?1:0,aL=af?au(nk,t):af;if(aL)Z(Bg);var
-aM=U(ir,Y(s(a,Bh))),aN=is(b);return[1,ae,U(nj,t),q,aN,r,aM]}var
+af=0!==r?1:0,aL=af?au(nm,t):af;if(aL)Y(Bk);var
+aM=U(is,Z(s(a,Bl))),aN=it(b);return[1,ae,U(nl,t),q,aN,r,aM]}var
 u=ad(g[2]);function
 aO(b){var
-a=ad(b),c=S(s(a,Bj)),d=[0,S(s(a,Bk)),c];return[0,aK(s(a,Bl)),d]}var
-l=it([0,[0,[0,Bn,s(u,Bm)],0]]);if(0===l[0]&&!l[3]){var
-aP=S(s(u,Bp)),aQ=S(s(u,Bq)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Y(s(u,Br))),aU,aT,aS,aQ,aP]}return Z(Bo)}function
-iu(a){return U(eM,Y(a))}function
-iv(c,b){var
-a=iu(b);if(bZ(a)!==c)throw O;return a}function
-nn(a,d){var
-b=ad(d),e=Y(s(b,Bu)),f=a[2],c=U(function(a){return iv(f,a)},e),g=a[1];if(bZ(c)!==g)throw O;return[0,c,gf(s(b,Bv))]}function
-eN(g,o){var
+a=ad(b),c=S(s(a,Bn)),d=[0,S(s(a,Bo)),c];return[0,aC(s(a,Bp)),d]}var
+l=iu([0,[0,[0,Br,s(u,Bq)],0]]);if(0===l[0]&&!l[3]){var
+aP=S(s(u,Bt)),aQ=S(s(u,Bu)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Z(s(u,Bv))),aU,aT,aS,aQ,aP]}return Y(Bs)}function
+iv(a){return U(eN,Z(a))}function
+iw(c,b){var
+a=iv(b);if(bZ(a)!==c)throw O;return a}function
+np(a,d){var
+b=ad(d),e=Z(s(b,By)),f=a[2],c=U(function(a){return iw(f,a)},e),g=a[1];if(bZ(c)!==g)throw O;return[0,c,gf(s(b,Bz))]}function
+eO(g,o){var
 M=g[2];switch(o[0]){case
 0:var
 d=o[1];if(d){var
-e=d[1],a=e[1],N=pG(a,Bw),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,Bx)&&m(a,By)&&m(a,Bz))if(m(a,BA))f=1;else{var
+e=d[1],a=e[1],N=pI(a,BA),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,BB)&&m(a,BC)&&m(a,BD))if(m(a,BE))f=1;else{var
 P=e[2];if(1===P[0]){var
 p=P[1];if(p){var
 q=p[2];if(q){var
 r=q[2];if(r&&!r[2]){if(!d[2]){var
-ae=U(iu,Y(r[1])),af=aK(q[1]);return[8,eN(g,p[1]),af,ae]}b=1;f=1}else
+Q=q[1];if(pU(aC(Q),0,49))return Y(BH);var
+af=U(iv,Z(r[1])),ag=aC(Q);return[8,eO(g,p[1]),ag,af]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
-ag=e[2],u=ag,t=function(c,b){return[1,a,c,b]};b=2}}else{var
-R=e[2];if(1===R[0]){var
-v=R[1];if(v){var
+ah=e[2],u=ah,t=function(c,b){return[1,a,c,b]};b=2}}else{var
+S=e[2];if(1===S[0]){var
+v=S[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x&&!x[2]){if(!d[2]){var
-ah=gf(x[1]),ai=eM(w[1]);return[5,eN(g,v[1]),ai,ah]}b=1}}}}}else
-if(m(a,BD))if(m(a,BE))if(m(a,BF))if(m(a,BG)){if(!m(a,BH)){if(!d[2]){var
-S=ad(e[2]),aj=Y(s(S,BI)),ak=M+1|0,T=U(function(a){return iv(ak,a)},aj);if(3===bZ(T))return[1,BK,T,gf(s(S,BJ))];throw O}b=1}}else{if(!d[2]){var
-J=aK(e[2]),K=m(J,Bs);if(K){if(m(J,Bt))throw O;var
+ai=gf(x[1]),aj=eN(w[1]);return[5,eO(g,v[1]),aj,ai]}b=1}}}}}else
+if(m(a,BI))if(m(a,BJ))if(m(a,BK))if(m(a,BL)){if(!m(a,BM)){if(!d[2]){var
+T=ad(e[2]),ak=Z(s(T,BN)),al=M+1|0,V=U(function(a){return iw(al,a)},ak);if(3===bZ(V))return[1,BP,V,gf(s(T,BO))];throw O}b=1}}else{if(!d[2]){var
+J=aC(e[2]),K=m(J,Bw);if(K){if(m(J,Bx))throw O;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
-i=e[2],X=function(l,a){if(0===a[0]){var
+i=e[2],_=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],BM)){var
+e=b[1];if(!m(e[1],BR)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],BN)){var
+g=c[1];if(!m(g[1],BS)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eN(BO,a)}}}}}}}}}}return eN(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eO(BT,a)}}}}}}}}}}return eO(l,a)},n=0;switch(i[0]){case
 0:var
 j=i[1];if(j){var
-_=j[1],k=_[1],c=0;if(m(k,BP)&&m(k,BQ)&&m(k,BR))if(m(k,BS))c=1;else{var
-$=_[2];if(1===$[0]){var
-E=$[1];if(E){var
+$=j[1],k=$[1],c=0;if(m(k,BU)&&m(k,BV)&&m(k,BW))if(m(k,BX))c=1;else{var
+aa=$[2];if(1===aa[0]){var
+E=aa[1];if(E){var
 l=E[1],h=0;switch(l[0]){case
 0:var
 F=l[1];if(F){var
-G=F[1][1],ac=0;if(m(G,BU)&&m(G,BV)&&m(G,BW)){c=1;h=1;ac=1}if(!ac&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=F[1][1],ae=0;if(m(G,BZ)&&m(G,B0)&&m(G,B1)){c=1;h=1;ae=1}if(!ae&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-aa=l[1];if(m(aa,BX)&&m(aa,BY)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+ab=l[1];if(m(ab,B2)&&m(ab,B3)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=E[2];if(H){var
 I=H[2];if(I&&!(I[2]||j[2])){var
-ap=gf(I[1]),aq=eM(H[1]),y=[6,X(g,l),aq,ap];n=2;c=1}else
+aq=gf(I[1]),ar=eN(H[1]),y=[6,_(g,l),ar,aq];n=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!j[2])n=1}break;case
 2:var
-ab=i[1];if(!m(ab,BZ)||!m(ab,B0))n=1;break}switch(n){case
+ac=i[1];if(!m(ac,B4)||!m(ac,B5))n=1;break}switch(n){case
 0:var
-y=Z(BT);break;case
+y=Y(BY);break;case
 1:var
-y=X(g,i);break}return[7,y]}b=1}else{var
-V=e[2];if(1===V[0]){var
-z=V[1];if(z){var
-A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-al=A[1],am=z[1],u=am,t=function(b,a){return[3,b,a,iv(M+1|0,al)]};b=2}}}}else{var
+y=_(g,i);break}return[7,y]}b=1}else{var
 W=e[2];if(1===W[0]){var
-B=W[1];if(B){var
+z=W[1];if(z){var
+A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
+am=A[1],an=z[1],u=an,t=function(b,a){return[3,b,a,iw(M+1|0,am)]};b=2}}}}else{var
+X=e[2];if(1===X[0]){var
+B=X[1];if(B){var
 C=B[2];if(C){var
 D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-an=C[1];if(m(dR(D[1]),BL))throw O;var
-ao=B[1],u=ao,t=function(b,a){return[4,b,a,eM(an)]};b=2}}}}}switch(b){case
-0:if(!d[2])return Z([0,BC,[0,a,BB]]);break;case
+ao=C[1];if(m(dR(D[1]),BQ))throw O;var
+ap=B[1],u=ap,t=function(b,a){return[4,b,a,eN(ao)]};b=2}}}}}switch(b){case
+0:if(!d[2])return Y([0,BG,[0,a,BF]]);break;case
 1:break;default:var
-Q=nn(g,u);return t(Q[1],Q[2])}}break;case
+R=np(g,u);return t(R[1],R[2])}}break;case
 2:return[0,o[1]]}throw O}function
-no(k){var
-b=c9(k),a=b[1];if(m(a,B3))if(m(a,B4)){var
-g=m(a,B5);if(!g)return g;if(m(a,B6)){if(!m(a,B7))return[2,U(S,Y(b[2]))]}else{var
+nq(k){var
+b=c_(k),a=b[1];if(m(a,B8))if(m(a,B9)){var
+g=m(a,B_);if(!g)return g;if(m(a,B$)){if(!m(a,Ca))return[2,U(S,Z(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -7079,31 +7086,31 @@ l=cF(d[1]);return[1,cF(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(iu,Y(f[1]));return[0,cF(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return Z([0,B9,[0,a,B8]])}function
-np(f,b){var
-a=ad(b),c=Y(s(a,Cc)),d=U(function(g){var
+n=U(iv,Z(f[1]));return[0,cF(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return Y([0,Cc,[0,a,Cb]])}function
+nr(f,b){var
+a=ad(b),c=Z(s(a,Ch)),d=U(function(g){var
 a=ad(g);function
 b(d,c){var
-b=aR(a,c);return b?U(d,Y(b[1])):b}var
-c=b(eM,B_),d=cf(no,aR(a,B$)),e=cf(cF,aR(a,Ca));return[0,b(function(h){var
-b=Y(h);if(b){var
+b=aR(a,c);return b?U(d,Z(b[1])):b}var
+c=b(eN,Cd),d=cf(nq,aR(a,Ce)),e=cf(cF,aR(a,Cf));return[0,b(function(h){var
+b=Z(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B1)){if(!a[2]){if(m(dR(e),B2))throw O;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B6)){if(!a[2]){if(m(dR(e),B7))throw O;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eN(f,c);return[0,cF(e),g]}}}throw O},Cb),e,d,c]},c),e=aR(a,Cd),g=cf(function(a){return nn(f,a)},e);return[0,ng(s(a,Ce)),g,d]}function
-nq(c){var
-a=ad(c),b=aR(a,Cf),d=b?U(S,Y(b[1])):b,e=no(s(a,Cg)),f=U(S,Y(s(a,Ch)));return[0,ng(s(a,Ci)),f,d,e]}function
-nr(c){var
+g=eO(f,c);return[0,cF(e),g]}}}throw O},Cg),e,d,c]},c),e=aR(a,Ci),g=cf(function(a){return np(f,a)},e);return[0,ni(s(a,Cj)),g,d]}function
+ns(c){var
+a=ad(c),b=aR(a,Ck),d=b?U(S,Z(b[1])):b,e=nq(s(a,Cl)),f=U(S,Z(s(a,Cm)));return[0,ni(s(a,Cn)),f,d,e]}function
+nt(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Cs(b){var
+Cx(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Ct(b){var
+Cy(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-ey(k(a[1]));return 10===c?1:0}function
-Cx(h){var
-l=ap(h),c=[0,0];function
+a!=="number"&&1===a[0])return 1-ez(k(a[1]));return 10===c?1:0}function
+CC(h){var
+l=an(h),c=[0,0];function
 n(a){if(c[1]<l)return aN(h,c[1]);throw O}function
 o(a){if(n(0)===a){c[1]++;return 0}throw O}function
 G(a,b){for(;;){if(c[1]<l&&j(b,aN(h,c[1]))){c[1]++;continue}return di(h,a,c[1]-a|0)}}function
@@ -7117,7 +7124,7 @@ b=G(c[1],a);o(34);return b}function
 I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,j(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return je(d)}}function
+b=d;continue}o(a);return jg(d)}}function
 v(b,i){if(64<b)throw O;var
 a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
@@ -7126,8 +7133,8 @@ a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2
 h=c[1];c[1]++;return[3,G(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw O}var
 aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aN(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw O;var
-t=ad(aa);if(m(aK(s(t,Cy)),Cz))throw O;var
-a=it(s(t,CA)),B=0;switch(a[0]){case
+t=ad(aa);if(m(aC(s(t,CD)),CE))throw O;var
+a=iu(s(t,CF)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -7147,20 +7154,20 @@ K=a[2];B=1;break;case
 0:case
 5:var
 K=a[1];B=1;break;default:var
-g=CW}if(B)var
+g=C1}if(B)var
 g=[0,bZ(K),3];var
-p=c9(s(t,CB)),q=p[1];if(m(q,Cn))if(m(q,Co))if(m(q,Cp))var
-b=Z([0,Cr,[0,q,Cq]]);else
+p=c_(s(t,CG)),q=p[1];if(m(q,Cs))if(m(q,Ct))if(m(q,Cu))var
+b=Y([0,Cw,[0,q,Cv]]);else
 var
-r=nq(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
+r=ns(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
-w=np(g,p[2]),b=[0,w[1],w[2],w[3]];else
+w=nr(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
-ac=Y(p[2]),b=[2,U(function(f){var
-a=c9(f),b=a[1];if(m(b,Cj)){if(m(b,Ck)){if(m(b,Cl)){var
-e=m(b,Cm);if(e)throw O;return e}return[0,cF(a[2])]}var
-c=nq(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=np(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
+ac=Z(p[2]),b=[2,U(function(f){var
+a=c_(f),b=a[1];if(m(b,Co)){if(m(b,Cp)){if(m(b,Cq)){var
+e=m(b,Cr);if(e)throw O;return e}return[0,cF(a[2])]}var
+c=ns(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=nr(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
 ae(a){var
 b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
 af(a){return 0!==a[3]?1:0}function
@@ -7177,10 +7184,10 @@ P=a[4],N=a[1];d=5;break;case
 ak=b[3];if(au(function(a){var
 b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))Z(CN);else
+7:return 1;default:return 0}},b)},ak))Y(CS);else
 d=3;break;case
 1:var
-al=a[6];if(au(function(a){return 8===a[1]?1:0},al))Z(CO);else
+al=a[6];if(au(function(a){return 8===a[1]?1:0},al))Y(CT);else
 d=2;break;default:d=1}break;case
 2:var
 R=a[7],S=a[1],D=0;switch(b[0]){case
@@ -7192,42 +7199,42 @@ y=1;if(W)var
 y=0}else
 var
 y=T;var
-an=function(b){var
+ao=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],CP))a=1;break;case
+1:if(m(c[1],CU))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],CQ))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ao=b[3];if(au(function(a){return au(an,a[1])},ao))Z(CR);else{var
-aq=b[3];if(gM(function(a){var
-b=a[1];return gM(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],CV))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ap=b[3];if(au(function(a){return au(ao,a[1])},ap))Y(CW);else{var
+aq=b[3];if(gN(function(a){var
+b=a[1];return gN(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,Cu)){if(!m(c,Cv))return au(Ct,R)}else
+c=b[1];if(m(c,Cz)){if(!m(c,CA))return au(Cy,R)}else
 a=1;break;case
-1:if(!m(b[1],Cw))a=1;break;case
+1:if(!m(b[1],CB))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-Z(CS)}break;case
+Y(CX)}break;case
 1:var
 X=0,V=b[4];if(typeof
 V!=="number"&&2!==V[0])if(au(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},R)){Z(CT);X=1}else{d=2;D=1;X=1}break;default:d=1;D=1}break;case
+b=4<=a?1:0;if(!b)return b}return 1},R)){Y(CY);X=1}else{d=2;D=1;X=1}break;default:d=1;D=1}break;case
 3:switch(b[0]){case
-0:if(au(ae,b[3]))Z(CU);else
+0:if(au(ae,b[3]))Y(CZ);else
 d=3;break;case
 2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
 ar=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))Z(CV);else
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))Y(C0);else
 d=4;break;case
 1:d=2;break;default:d=4}break;default:d=2}var
 f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){Z(CM);f=1}else
+2:if(1===b[0]&&M(b[4])){Y(CR);f=1}else
 f=3;break;case
 4:f=3;break;case
 0:f=1;break;case
@@ -7235,13 +7242,13 @@ f=3;break;case
 3:f=2;break}var
 e=0;switch(f){case
 3:switch(a[0]){case
-3:Z(CL);e=2;break;case
+3:Y(CQ);e=2;break;case
 7:var
 P=a[4],N=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(nr,a[4])){Z(CK);e=2}else
+6:e=1;break;default:if(au(nt,a[4])){Y(CP);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
@@ -7249,7 +7256,7 @@ e=4}break;case
 i=0;switch(e){case
 2:break;case
 3:var
-_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},N)){Z(CC);_=1}if(!_)i=3;break;case
+_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},N)){Y(CH);_=1}if(!_)i=3;break;case
 4:i=3;break;case
 1:i=2;break;default:i=1}var
 k=0;switch(i){case
@@ -7257,11 +7264,11 @@ k=0;switch(i){case
 E=0;switch(a[0]){case
 5:var
 $=0;if(0===b[0]){var
-aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){Z(CJ);E=1;$=1}}if(!$)var
+aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){Y(CO);E=1;$=1}}if(!$)var
 x=a[4];break;case
 7:var
 x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(au(Cs,x))Z(CI);else
+x=a[4];else{k=2;E=1}}if(!E)if(au(Cx,x))Y(CN);else
 k=2;break;case
 2:k=2;break;case
 1:k=1;break}var
@@ -7276,24 +7283,24 @@ ah=a[4];switch(b[0]){case
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(nr,ah)}return 0};if(au(ai,b[1]))Z(CH);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Z(CG);else
+2:return au(nt,ah)}return 0};if(au(ai,b[1]))Y(CM);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Y(CL);else
 F=1;break;case
 1:F=1;break}var
-Q=ad(s(t,CD)),ag=aK(s(Q,CE));return[0,a,b,aK(s(Q,CF)),ag]}function
-CX(b){var
-c=ap(b),g=64,h=Ey(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+Q=ad(s(t,CI)),ag=aC(s(Q,CJ));return[0,a,b,aC(s(Q,CK)),ag]}function
+C2(b){var
+c=an(b),g=64,h=ED(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aq(di(b,a,18),CY);if(!e){var
+e=aq(di(b,a,18),C3);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}ET(function(b){try{if(CX(b))var
-a=C0;else{try{var
-e=0,d=Cx(b);e=1}catch(a){a=pI(a);if(a[1]===nf)var
+f=d;return f}}EY(function(b){try{if(C2(b))var
+a=C5;else{try{var
+e=0,d=CC(b);e=1}catch(a){a=i_(a);if(a[1]===nh)var
 c=[0,a[2]];else{if(a!==O)throw a;var
 c=2}}if(e)var
-c=yf(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return CZ}if(typeof
+c=yj(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return C4}if(typeof
 a==="number")switch(a){case
-0:return C1;case
-1:return C2;default:return C3}return aT(C4,a[1])});jd(0);return}(globalThis));
+0:return C6;case
+1:return C7;default:return C8}return aT(C9,a[1])});jf(0);return}(globalThis));
