@@ -8,12 +8,13 @@
 
 use crate::exact::arithmetic::apply;
 use crate::questions::frontier::{
-    frontier, proof, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
+    frontier, proof_about, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
 };
 use crate::search::solver::{self, number};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
+use orthocert_checker::certificate::Proof;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
 use orthocert_kernel::number::{Expression, Operator};
 use std::fmt;
@@ -266,9 +267,13 @@ pub fn widest(
         },
         None => walk,
     };
+    let point = refuted.as_ref().and_then(|(_, certificate)| match &certificate.proof {
+        Proof::Witness(witness) => Some(&witness.point[..]),
+        _ => None,
+    });
     let certified = control.part([0.6, 1.0], |control| {
         frontier(&walk, control, |t, control| match scheme.claim(claim, t) {
-            Some(claim) => proof(&claim, budget, control),
+            Some(claim) => proof_about(&claim, point, budget, control),
             None => Ok(None),
         })
     })?;

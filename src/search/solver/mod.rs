@@ -59,6 +59,7 @@ use orthocert_checker::Rejected;
 use orthocert_kernel::certificate::{Claim, Node, Tree, Witness};
 use orthocert_kernel::claim::MachineClaim;
 use orthocert_kernel::input::ClaimError;
+use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
@@ -258,15 +259,42 @@ pub fn proof(
     budget: Budget,
     control: &mut Control<'_>,
 ) -> Result<Box<Certificate>, Stop> {
+    proof_about(claim, None, budget, control)
+}
+
+/// The same, where it is known at which point the claim is nearest to failing: tolerances that are too wide there already
+/// are seen before boxes about it are.
+///
+/// # Errors
+/// Why the search ended.
+pub fn proof_about(
+    claim: &MachineClaim,
+    point: Option<&[Expression]>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Box<Certificate>, Stop> {
     let problem = Problem::new(claim).map_err(|_| Stop::Hopeless)?;
+    let sampler = Sampler::new(claim, &problem).map_err(|_| Stop::Hopeless)?;
+    let place = point.and_then(|point| sampler.place_of(point, &[]));
+    let point = place.map(|place| sampler.point(&place.u));
+    let holds = |problem: &Problem| {
+        let holds = |point: &Vec<f64>| Some(Prover::new(problem).ok()?.holds_next_to(point, false));
+        point.as_ref().is_none_or(|point| holds(point) == Some(true))
+    };
     let [ranges, rest, checks] = parts_of(&problem);
-    let in_ranges = control.part(ranges, |control| in_ranges(&problem, budget, control));
+    let in_ranges = match holds(&problem) {
+        true => control.part(ranges, |control| in_ranges(&problem, budget, control)),
+        false => Err(Box::new(problem.clone().with_derivatives())),
+    };
     let (problem, nodes) = match in_ranges {
         Ok(nodes) => (problem, Some(nodes)),
         Err(derived) => (*derived, None),
     };
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
-    let search = |control: &mut Control<'_>| from_root(&prover, budget, control);
+    let search = |control: &mut Control<'_>| match holds(prover.problem) {
+        true => from_root(&prover, budget, control),
+        false => apart(&prover, budget, control).ok_or(Stop::Hopeless),
+    };
     let found = nodes.map_or_else(|| control.part(rest, search), Ok)?;
     match control.part(checks, |_| accepted(claim, &prover, found)) {
         Answer::Decided { certificate, .. } => Ok(certificate),
