@@ -84,7 +84,7 @@ End Positions.
 
 (** Where joint errors and tolerances put the platform: legs within 0.1 mm, and errors of thousandths of a mm. *)
 Module Errors.
-Definition near (n kappa : Z) : evidence := ByAccuracy 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z kappa.
+Definition near (n kappa : Z) : evidence := ByAccuracy 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z kappa 0%N.
 Local Notation within_ error b := [Accuracy (error // 1000) (b // 1000)].
 Example certified : accepts sliders (within_ 10 250) [near 8 1] = true. Proof. vm_compute. reflexivity. Qed.
 Example less : accepts sliders (within_ 10 200) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
@@ -107,6 +107,6 @@ Example exact : accepts (map (fun d => match d with SliderLeg c => SliderLeg (Sl
 Proof. vm_compute. reflexivity. Qed.
 (** More joints than coordinates: joint coordinates near those commanded belong to no position. *)
 Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0 1)]) (within_ 10 250)) 9 [0; 0; 0; 0]%Z
-  (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByAccuracy 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]; [0; 0; 1]]%Z 1%Z)]%nat) = false.
+  (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByAccuracy 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]; [0; 0; 1]]%Z 1%Z 0%N)]%nat) = false.
 Proof. vm_compute. reflexivity. Qed.
 End Errors.

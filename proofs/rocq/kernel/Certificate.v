@@ -58,8 +58,8 @@ Inductive written_driven :=
 
 Inductive about := Transmission | JointRange | Speed_ | Condition_ | Serial_ | Parallel_ | Stiffness_ | Constraint_ | Force_ | Clearance_ | Acceleration_ | OneToOne_ | Accuracy_ | LegAngle_ | BaseJoint_ | PlatformJoint_.
 (** [leg_] is counted from one; [given_] is the platform's speed, of speeds, the force on it, of forces, the joints' stiffness, of stiffness,
-    the joints' error, of accuracy, its acceleration and speed, of accelerations, and an axis, of angles at joints. *)
-Inductive written_given := Given_ (x : expression) | Each_ (xs : list expression) | Motion_ (acceleration speed : expression).
+    the joints' error, of accuracy, and the greatest angle if it turns, its acceleration and speed, of accelerations, and an axis, of angles at joints. *)
+Inductive written_given := Given_ (x : expression) | Each_ (xs : list expression) | Motion_ (acceleration speed : expression) | Near_ (error angle : expression).
 Inductive written_end := AtLeast_ (b : expression) | AtMost_ (b : expression) | Within_ (a b : expression) | Holds_.
 Record written_requirement := Require_ { about_ : about; leg_ : option nat; given_ : option written_given; end_ : written_end }.
 
@@ -106,7 +106,7 @@ Inductive step :=
   | Multiplied (name : string) (y : list (list Z)) (places : N)
   | AtCorner (f : face)
   | Conditioned_ (y : list (list Z)) (places : N) (mu : list Z)
-  | Accurate_ (y : list (list Z)) (places : N) (kappa : Z)
+  | Accurate_ (y : list (list Z)) (places : N) (kappa : Z) (q : N)
   | Inside_ (s : step) (n : Z) (places : N)
   | Turned_ (s : step) (n : Z) (places : N)
   | AtControls_ (s : step)
@@ -231,6 +231,7 @@ Definition requirement_text (r : written_requirement) : text :=
     | Some (Given_ x) => [field "given" (variant (match about_ r with Stiffness_ => "joint" | Accuracy_ => "joint_error" | _ => "tool" end) (array [number x]))]
     | Some (Each_ xs) => [field "given" (variant (match about_ r with BaseJoint_ | PlatformJoint_ => "axis" | _ => "joint" end) (array (map number xs)))]
     | Some (Motion_ a v) => [field "given" (object [field "acceleration" (array [number a]); field "speed" (array [number v])])]
+    | Some (Near_ e a) => [field "given" (object [field "joint_error" (array [number e]); field "max_angle" (array [number a])])]
     | None => []
     end ++
     field "end" (quoted (end_text (end_ r))) :: bound_text (end_ r))%list.
@@ -319,7 +320,7 @@ Fixpoint evidence_text (s : step) : text :=
   | Multiplied name y places => variant name (multiplier_text y places)
   | AtCorner f => variant "corner" (quoted (match f with Q1 => "Q1" | Q2 => "Q2" end))
   | Conditioned_ y places mu => variant "conditioning" (array [multiplier_text y places; integers_text mu])
-  | Accurate_ y places kappa => variant "accuracy" (array [multiplier_text y places; integer_text kappa; natural 0])
+  | Accurate_ y places kappa q => variant "accuracy" (array [multiplier_text y places; integer_text kappa; places_text q])
   | Inside_ s n places => variant "inside" (array [evidence_text s; integer_text n; places_text places])
   | Turned_ s n places => variant "turned" (array [evidence_text s; integer_text n; places_text places])
   | AtControls_ s => variant "control" (evidence_text s)
@@ -378,7 +379,7 @@ Fixpoint is_plain_step (s : step) : bool :=
   | Plain name | Multiplied name _ _ => is_plain name
   | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
   | Apart_ s ends _ => is_plain ends && is_plain_step s
-  | AtCorner _ | Conditioned_ _ _ _ | Accurate_ _ _ _ => true
+  | AtCorner _ | Conditioned_ _ _ _ | Accurate_ _ _ _ _ => true
   end.
 (** Letters, digits and _, a letter first; [sqrt] is none. *)
 Definition is_name (s : string) : bool :=
@@ -431,7 +432,7 @@ Definition in_region (w : written_region) : list expression :=
 Definition in_orientation (o : written_orientation) : list expression :=
   match o with Range_ a b | Tilt_ a b => [a; b] | RollPitchYaw_ (a, b) (c, d) (e, f) => [a; b; c; d; e; f] | Angle_ a => [a] end.
 Definition in_requirement (r : written_requirement) : list expression :=
-  (match given_ r with Some (Given_ x) => [x] | Some (Each_ xs) => xs | Some (Motion_ a v) => [a; v] | None => [] end ++
+  (match given_ r with Some (Given_ x) => [x] | Some (Each_ xs) => xs | Some (Motion_ a v) | Some (Near_ a v) => [a; v] | None => [] end ++
    match end_ r with AtLeast_ b | AtMost_ b => [b] | Within_ a b => [a; b] | Holds_ => [] end)%list.
 Definition in_body (b : written_body) : list expression :=
   match b with
@@ -619,6 +620,7 @@ Definition demand_of (are_angles : bool) (legs : nat) (bs : list written_body) (
   | BaseJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i false (axis_of xs) (denoted b)) | _ => [] end
   | PlatformJoint_, AtMost_ b => match given_ r with Some (Each_ xs) => each (fun i => JointAngleMax i true (axis_of xs) (denoted b)) | _ => [] end
   | Clearance_, AtLeast_ b => map (fun p => Clear (body_of (fst p)) (body_of (snd p)) (denoted b)) (pairs_of [] bs)
+  | Accuracy_, AtMost_ b => match given_ r with Some (Near_ e a) => [OnePose (denoted e) (denoted b) (denoted a)] | _ => [] end
   | Acceleration_, AtMost_ b => match given_ r with Some (Motion_ a v) => each (fun i => AccelerationMax i (denoted a) (denoted v) (denoted b)) | _ => [] end
   | _, _ => []
   end.
@@ -654,6 +656,7 @@ Definition is_asked_of_struts (n coordinates legs : nat) (r : written_requiremen
   match about_ r, end_ r, leg_ r, given_ r with
   | BaseJoint_, AtMost_ _, _, Some (Each_ xs) | PlatformJoint_, AtMost_ _, _, Some (Each_ xs) => Nat.eqb (length xs) n && is_leg
   | Acceleration_, AtMost_ _, _, Some (Motion_ _ _) => is_leg
+  | Accuracy_, AtMost_ _, None, Some (Near_ _ _) => Nat.eqb legs coordinates
   | Clearance_, AtLeast_ _, None, None => true
   | _, _, _, _ => is_asked coordinates legs r
   end.
@@ -844,7 +847,7 @@ Definition region_over (w : written_region) : written_region :=
   end.
 Definition requirement_over (r : written_requirement) : written_requirement :=
   Require_ (about_ r) (leg_ r)
-    (match given_ r with Some (Given_ x) => Some (Given_ (over x)) | Some (Each_ xs) => Some (Each_ (map over xs)) | Some (Motion_ a v) => Some (Motion_ (over a) (over v)) | None => None end)
+    (match given_ r with Some (Given_ x) => Some (Given_ (over x)) | Some (Each_ xs) => Some (Each_ (map over xs)) | Some (Motion_ a v) => Some (Motion_ (over a) (over v)) | Some (Near_ e a) => Some (Near_ (over e) (over a)) | None => None end)
     match end_ r with AtLeast_ b => AtLeast_ (over b) | AtMost_ b => AtMost_ (over b) | Within_ a b => Within_ (over a) (over b) | Holds_ => Holds_ end.
 End Over.
 
@@ -977,7 +980,7 @@ Fixpoint evidence_of (s : step) : option evidence :=
       if name =? "rank" then Some (ByRank places y) else if name =? "direction" then Some (ByDirection places y) else None
   | AtCorner f => Some (ByCorner f)
   | Conditioned_ y places mu => Some (ByConditioning places y mu)
-  | Accurate_ y places kappa => Some (ByAccuracy places y kappa)
+  | Accurate_ y places kappa q => Some (ByAccuracy places y kappa q)
   | Inside_ s n places => match evidence_of s with Some e => Some (Inside e n places) | None => None end
   | Turned_ s n places => match evidence_of s with Some e => Some (Turned e n places) | None => None end
   | AtControls_ s => option_map AtControls (evidence_of s)
@@ -1149,6 +1152,7 @@ Definition is_demand_bound (d : demand) : bool :=
   | JointAngleMax _ _ j b => is_axis j && certainly exact_bits true b && certainly exact_bits false (Minus (180 // 1) b)
   | Clear _ _ b => certainly exact_bits false b
   | AccelerationMax _ a v b => certainly exact_bits false a && certainly exact_bits false v && certainly exact_bits true b
+  | OnePose e b a => certainly exact_bits false e && certainly exact_bits true b && certainly exact_bits true a && certainly exact_bits true (Minus (180 // 1) a)
   | Nonsingular => true
   end.
 (** A quantity, leg and end stand once. *)

@@ -128,7 +128,7 @@ Proof. intros x t t0 h. split; nra. Qed.
 
 (** In some coordinates of the box N = w Q, and g is not negative. *)
 Lemma chart_sound : forall o Q, in_orientations o Q -> are_angles o -> exists cs w, in_box o cs /\ 0 < w /\
-  forall x theta first j, (forall k, nth (first + k) x 0 = nth k cs 0) -> (forall a, In a (curved o) -> nth j theta 0 = tangent (Claim.value a)) ->
+  forall x theta first j, (forall k, (k < length cs)%nat -> nth (first + k) x 0 = nth k cs 0) -> (forall a, In a (curved o) -> nth j theta 0 = tangent (Claim.value a)) ->
     valm x theta (fst (chart o first)) = mscale w Q /\ Formula.value x theta (snd (chart o first)) = w /\
     forall g, curve o first j = Some g -> 0 <= Formula.value x theta g.
 Proof.
@@ -136,13 +136,13 @@ Proof.
     is_angle a /\ tangent (Claim.value (least t)) <= tangent a <= tangent (Claim.value (greatest t))).
   { intros t a [[h1 h2] [h3 h4]] [l g]. assert (is_angle a) by (split; lra). split; [assumption |].
     split; apply tangent_increases; try assumption; split; assumption. }
-  assert (C : forall x theta first c, (forall k, nth (first + k) x 0 = nth k [vx c; vy c; vz c] 0) ->
+  assert (C : forall x theta first c, (forall k, (k < 3)%nat -> nth (first + k) x 0 = nth k [vx c; vy c; vz c] 0) ->
     val3 x theta (EVec (F (Coord (first + 0))) (F (Coord (first + 1))) (F (Coord (first + 2)))) = c).
-  { intros x theta first [p q r] h. unfold val3. cbn [ex ey ez Formula.value map_op real_op]. rewrite (h 0%nat), (h 1%nat), (h 2%nat). reflexivity. }
+  { intros x theta first [p q r] h. unfold val3. cbn [ex ey ez Formula.value map_op real_op]. rewrite (h 0%nat), (h 1%nat), (h 2%nat) by lia. reflexivity. }
   intros [t | r p y | m | m n] Q h ok; unfold are_angles, in_box in *; cbn [angles_of chart fst snd curved curve chart_ends half_tangents end_value] in *.
   - destruct h as [a [ha ->]]. inversion ok as [| ? ? o1 _]. subst. destruct (B t a o1 ha) as [ia ba].
     exists [tangent a], (1 + tangent a ^ 2). split; [constructor; [exact ba | constructor] |]. split; [pose proof (pow2_ge_0 (tangent a)); lra |].
-    intros x theta first j hx _. assert (V : Formula.value x theta (F (Coord (first + 0))) = tangent a) by exact (hx 0%nat).
+    intros x theta first j hx _. assert (V : Formula.value x theta (F (Coord (first + 0))) = tangent a) by exact (hx 0%nat ltac:(cbn; lia)).
     pose proof (tangent_is a ia) as T. rewrite <- V in T. destruct (valm_about x theta _ a T) as [_ [_ M]]. rewrite V in M. split; [exact M |].
     split; [rewrite value_weight, V; reflexivity | discriminate].
   - destruct h as [a [b [c [ha [hb [hc ->]]]]]]. inversion ok as [| ? ? o1 ok1]. inversion ok1 as [| ? ? o2 ok2]. inversion ok2 as [| ? ? o3 _]. subst.
@@ -151,9 +151,9 @@ Proof.
     split; [repeat (constructor; [assumption |]); constructor |].
     pose proof (pow2_ge_0 (tangent a)). pose proof (pow2_ge_0 (tangent b)). pose proof (pow2_ge_0 (tangent c)).
     split; [apply Rmult_lt_0_compat; [lra | apply Rmult_lt_0_compat; lra] |].
-    intros x theta first j hx _. assert (Va : Formula.value x theta (F (Coord (first + 0))) = tangent a) by exact (hx 0%nat).
-    assert (Vb : Formula.value x theta (F (Coord (first + 1))) = tangent b) by exact (hx 1%nat).
-    assert (Vc : Formula.value x theta (F (Coord (first + 2))) = tangent c) by exact (hx 2%nat).
+    intros x theta first j hx _. assert (Va : Formula.value x theta (F (Coord (first + 0))) = tangent a) by exact (hx 0%nat ltac:(cbn; lia)).
+    assert (Vb : Formula.value x theta (F (Coord (first + 1))) = tangent b) by exact (hx 1%nat ltac:(cbn; lia)).
+    assert (Vc : Formula.value x theta (F (Coord (first + 2))) = tangent c) by exact (hx 2%nat ltac:(cbn; lia)).
     pose proof (tangent_is a ia) as Ta. rewrite <- Va in Ta. destruct (valm_about x theta _ a Ta) as [Ma _].
     pose proof (tangent_is b ib) as Tb. rewrite <- Vb in Tb. destruct (valm_about x theta _ b Tb) as [_ [Mb _]].
     pose proof (tangent_is c ic) as Tc. rewrite <- Vc in Tc. destruct (valm_about x theta _ c Tc) as [_ [_ Mc]].

@@ -37,8 +37,8 @@ Inductive evidence :=
   | ByDirection (places : N) (Y : list (list Z))
   (* by the one matrix of the whole tree *)
   | ByChords
-  (* of accuracy: kappa, over the 2^places of Y *)
-  | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z)
+  (* of accuracy: kappa, over the 2^places of Y, and of platforms that turn 2^q, by which columns of the other part are multiplied *)
+  | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z) (q : N)
   (* with tolerances apart: where the one machine is, by the numbers of its parameters, and directions *)
   | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (directions : list (list Z)).
 
@@ -167,7 +167,7 @@ Definition joint_over (values : list (option slope)) (j : nat * (fixed * list (f
 (** Accuracy is a test of the cell and what is near it. *)
 Definition shows_there (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence) : bool :=
   match t, e with
-  | Accurate distance joints, ByAccuracy places Y kappa =>
+  | Accurate distance joints, ByAccuracy places Y kappa 0 =>
       let near := Near.evaluate_near bits tape params cell distance in
       Nat.eqb (length cell) 3 && are_defined near &&
       match rows_over near divided, rows_over values divided, all_some (map (joint_over values) joints) with
@@ -931,7 +931,7 @@ Qed.
 Lemma accuracy_holds : forall keep cell x lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> Forall2 contains cell x ->
   (forall th, Forall2 contains params th -> forall i, encloses bits lambda x (map (centre_of bits) cell) th (nth i (evaluate_kept keep cell) None) (formula_at i)) ->
   forall less distance joints places Y kappa, harmless lambda less ->
-  shows_there (evaluate_kept keep cell) cell less (Accurate distance joints) (ByAccuracy places Y kappa) = true -> (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints.
+  shows_there (evaluate_kept keep cell) cell less (Accurate distance joints) (ByAccuracy places Y kappa 0) = true -> (exists d, contains distance d /\ 0 <= d) -> accurate_at x distance joints.
 Proof.
   intros keep cell x lambda el hlam hx E less distance joints places Y k hless h [d0 [hd0 d00]]. cbn [shows_there] in h. set (values := evaluate_kept keep cell) in *. cbv zeta in h.
   set (near := Near.evaluate_near bits tape params cell distance) in *.
@@ -984,7 +984,7 @@ Proof.
     assert (Other : shows (evaluate_kept keep cell) (length cell) less t e' = true -> holds (length cell) x t).
     { clear k. intro k. apply (shows_sound cell x lambda el hlam keep) with less e'; [| exact hl | exact k].
     intro i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) theta)); [exact I | exact S]. }
-    destruct t; try exact (Other k). destruct e'; try exact (Other k). cbn [holds].
+    destruct t; try exact (Other k). destruct e'; try exact (Other k). destruct q as [| q]; [| exact (Other k)]. cbn [holds].
     refine (accuracy_holds keep cell x lambda el hlam hx _ less _ _ _ _ _ hl k).
     intros th hth i. apply (nth_related _ _ _ _ (encloses bits lambda x (map (centre_of bits) cell) th)); [exact I |].
     exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep tape). }

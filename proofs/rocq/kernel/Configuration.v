@@ -26,9 +26,10 @@ Record rod := Rod { rod_vector : list R; rod_eta : R; rod_size : R }.
 (** A machine at a point. [reached]: all is defined there, and no leg is serially singular. [rods]: of its legs, or none. [limbs]: of legs
     with two ends, where angles at joints and bodies are asked for, the platform end, the vector from the base end to there, and the length;
     [placed]: where points of the platform are. [accelerates i v a y]: the acceleration of joint i where the platform has the velocity v, which changes at the
-    rate a, is y. *)
+    rate a, is y. [recovers error b angle]: joint coordinates off by the error at most from those of the nominal machine belong to exactly one pose so near. *)
 Record configuration := Configuration { jacobian : list (list R); joints : list coordinate; rods : list (option rod);
-  limbs : list (option (vec * vec * R)); placed : vec -> vec; accelerates : nat -> list R -> list R -> R -> Prop; reached : Prop }.
+  limbs : list (option (vec * vec * R)); placed : vec -> vec; accelerates : nat -> list R -> list R -> R -> Prop;
+  recovers : number -> number -> number -> Prop; reached : Prop }.
 
 (** |M v|^2 *)
 Definition speed2 (M : list (list R)) (v : list R) : R := fold_right (fun row sum => dot row v ^ 2 + sum) 0 M.
@@ -61,7 +62,9 @@ Inductive demand :=
   (* the distance of two bodies *)
   | Clear (one other : body) (b : number)
   (* of no motion of the platform with this acceleration and speed at most *)
-  | AccelerationMax (joint : nat) (acceleration speed b : number).
+  | AccelerationMax (joint : nat) (acceleration speed b : number)
+  (* of platforms that turn: the one pose within b, turned by at most so many degrees, where joints are off by [error] at most *)
+  | OnePose (error b angle : number).
 
 (** By the first row. *)
 Definition determinant (rows : list (list R)) : R :=
@@ -106,6 +109,7 @@ Definition fulfils (n : nat) (c : configuration) (d : demand) : Prop :=
   | Clear one other b => are_clear (segment_along (limbs c) (placed c)) one other b
   | AccelerationMax i acceleration speed b => forall v a, length v = n -> length a = n -> dot v v <= value speed ^ 2 -> dot a a <= value acceleration ^ 2 ->
       exists y, accelerates c i v a y /\ Rabs y <= value b
+  | OnePose error b angle => recovers c error b angle
   end.
 
 Definition meets (n : nat) (c : configuration) (ds : list demand) : Prop :=
@@ -296,7 +300,7 @@ Proof.
   assert (AtRod : forall i l, nth_error (rods k) i = Some (Some l) -> exists y, nth_error (nrods c) i = Some (Some y) /\ l = real_rod y).
   { intros i x e. rewrite B0, nth_error_map in e. destruct (nth_error (nrods c) i) as [[y |] |]; try discriminate. injection e as <-. exists y. split; reflexivity. }
   assert (Short : forall x y, 0 < x -> y ^ 2 < x ^ 2 -> Rabs y < x) by (intros x y x0 l; rewrite <- (Rabs_right x) by lra; apply Rsqr_lt_abs_0; rewrite !Rsqr_pow2; exact l).
-  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b | i on j b | one other b | i p q b]; cbn [fulfils] in F;
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b | i on j b | one other b | i p q b | p q b]; cbn [fulfils] in F;
     destruct vs as [| u [| v [| w vs]]]; try discriminate.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
     set (t := Times _ (ndot u u)) in *. clearbody t. cbn [value] in h. lra.

@@ -840,30 +840,6 @@ Proof.
   rewrite A. cbn [snd] in q0. pose proof (Rmult_le_compat_neg_l q _ _ q0 B). lra.
 Qed.
 
-(** Fewer equations than coordinates have a solution that is not zero. *)
-Lemma orthogonal_exists : forall n (L : list (list R)), (length L < n)%nat -> exists v, length v = n /\ nonzero v /\ Forall (fun y => dot y v = 0) L.
-Proof.
-  induction n as [| n IH]; intros L h; [lia |].
-  assert (C : Forall (fun y => hd 0 y = 0) L \/ exists L1 y L2, L = L1 ++ y :: L2 /\ hd 0 y <> 0).
-  { clear. induction L as [| y L [H | [L1 [z [L2 [-> hz]]]]]].
-    - left. constructor.
-    - destruct (Req_dec (hd 0 y) 0) as [e | e]; [left; constructor; assumption | right; exists [], y, L; split; [reflexivity | exact e]].
-    - right. exists (y :: L1), z, L2. split; [reflexivity | exact hz]. }
-  assert (D : forall y t v, dot y (t :: v) = hd 0 y * t + dot (tl y) v) by (intros [| a y] t v; cbn [dot hd tl]; [destruct v; cbn; ring | ring]).
-  destruct C as [H | [L1 [y [L2 [-> hy]]]]].
-  - exists (1 :: repeat 0 n). split; [cbn [length]; rewrite repeat_length; reflexivity |].
-    assert (Z : Forall (eq 0) (repeat 0 n)) by (clear; induction n; cbn [repeat]; constructor; auto).
-    split; [unfold nonzero; cbn [dot]; rewrite (dot_zero _ _ Z); lra |]. eapply Forall_impl; [| exact H]. intros y e. cbn beta in e. rewrite D, e, (dot_zero _ _ Z). ring.
-  - set (less := fun z => comb 1 (- (hd 0 z / hd 0 y)) (tl z) (tl y)).
-    destruct (IH (map less (L1 ++ L2))) as [v [lv [nv hv]]]; [rewrite map_length, app_length in *; cbn [length] in h; lia |].
-    exists (- (dot (tl y) v / hd 0 y) :: v). split; [cbn; congruence |]. split.
-    + unfold nonzero in *. cbn [dot]. pose proof (pow2_ge_0 (dot (tl y) v / hd 0 y)) as Q. set (t := dot (tl y) v / hd 0 y) in *. nra.
-    + rewrite Forall_map in hv. assert (K : forall z, dot (less z) v = 0 -> dot z (- (dot (tl y) v / hd 0 y) :: v) = 0).
-      { intros z e. unfold less in e. rewrite dot_comb in e. rewrite D. refine (eq_trans _ e). field. exact hy. }
-      apply Forall_app in hv as [h1 h2]. apply Forall_app. split; [eapply Forall_impl; [| exact h1]; exact K |].
-      constructor; [rewrite D; field; exact hy | eapply Forall_impl; [| exact h2]; exact K].
-Qed.
-
 (** A strut of length zero has a row of zeros. *)
 Definition grounded (r : rows R) : Prop := Forall (fun p => 0 <= snd p /\ (snd p = 0 -> forall v, dot (fst p) v = 0)) r.
 

@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Pose Arm Legs Drives.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Orientation Turning Control Chart Configuration Inputs Onward Pose Arm Legs Drives.
 From Orthocert.kernel Require Solve.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -177,8 +177,8 @@ Proof.
   - reflexivity.
 Qed.
 
-Lemma reached_aside : forall n J X T l p a A B d, Configuration.fulfils n (Configuration J X T l p a A) d -> Configuration.fulfils n (Configuration J X T l p a B) d.
-Proof. intros n J X T l p a A B [] h; exact h. Qed.
+Lemma reached_aside : forall n J X T l p a r A B d, Configuration.fulfils n (Configuration J X T l p a r A) d -> Configuration.fulfils n (Configuration J X T l p a r B) d.
+Proof. intros n J X T l p a r A B [] h; exact h. Qed.
 
 (** What is asked of a joint at a point: its row of M, its coordinate, the leg, and where it is reached. *)
 Record seen := Seen { seen_row : list R; seen_joint : coordinate; seen_rod : option Configuration.rod; seen_reach : Prop }.
@@ -191,7 +191,7 @@ Local Notation value := (Formula.value x theta).
 Local Notation found := (place (formulas tape)).
 Local Notation holds := (Check.holds bits tape (map_rows found (pose_rows fs)) (map_rows found (pose_divided fs)) partial params theta n x).
 Let mu := / two_to (rate are_angles s).
-Let conf := Configuration (map seen_row m) (map seen_joint m) (map seen_rod m) [] here (fun _ _ _ _ => False) True.
+Let conf := Configuration (map seen_row m) (map seen_joint m) (map seen_rod m) [] here (fun _ _ _ _ => False) (fun _ _ _ => False) True.
 (** The formulas of a joint, in the unit of the check. *)
 Definition is_good (f : pose_formulas) (l : seen) : Prop :=
   let mu := / two_to (rate are_angles s) in let u := / two_to s in
@@ -365,8 +365,8 @@ Proof.
   assert (Low : forall low, holds (SigmaMin low) -> forall c v, contains bits low c -> length v = n -> nonzero v -> c * Linear.dot v v < mu ^ 2 * Configuration.speed2 (jacobian conf) v).
   { intros low [_ h] c v hc lv nz. destruct (of_rows_energy _ h) as [_ [r [b e]]]. rewrite <- e. exact (b c v hc lv nz). }
   assert (Num := number_at). assert (Signs := signs_hold). assert (One := one_sign). unfold by_signs in Signs, One.
-  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i tool b | a b | i tool b | i b | i b | b | i on j b | one other b | i acc spe b]; cbn [Configuration.fulfils].
-  15-17: exfalso; destruct (shown None ltac:(left; reflexivity)) as [t [e _]]; discriminate.
+  destruct d as [| b | b | i b | i b | i a b | b | i tool b | i tool b | a b | i tool b | i b | i b | b | i on j b | one other b | i acc spe b | err b ang]; cbn [Configuration.fulfils].
+  15-18: exfalso; destruct (shown None ltac:(left; reflexivity)) as [t [e _]]; discriminate.
   - intros v lv nz. destruct (shown (Some (SigmaMin zero)) ltac:(left; reflexivity)) as [t [e h]]. injection e as <-.
     pose proof (Low zero h 0 v (zero_sound bits) lv nz) as q0. rewrite Rmult_0_l in q0. apply Rmult_lt_reg_l with (mu ^ 2); lra.
   - intros v lv. destruct (is_zero_or_not v) as [nz | z]; [| destruct (zero_speed v z) as [-> ->]; lra].
@@ -586,7 +586,7 @@ Proof.
       assert (first : forall i, nth (first_angle mo + i) (map (Rmult (/ two_to s)) (position_list mo P) ++ cs) 0 = nth i cs 0).
       { intro i. replace (first_angle mo) with (length (map (Rmult (/ two_to s)) (position_list mo P))) by (destruct mo; reflexivity). apply app_nth2_plus. }
       split; [exact (position_value mo P _ cs theta flatP) |]. cbn [option_map first_of].
-      destruct (CH _ theta (first_angle mo) (length (th ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins)) first) as [hN [hw _]].
+      destruct (CH _ theta (first_angle mo) (length (th ++ [Claim.value (length_of c) / two_to s] ++ map input_value ins)) (fun i _ => first i)) as [hN [hw _]].
       { intros a i. unfold theta. rewrite !app_assoc. rewrite <- (Nat.add_0_r (length _)). rewrite app_nth2_plus. unfold tt, curve_angles. rewrite eo. destruct o; cbn [curved] in *; try contradiction; destruct i as [-> | []]; reflexivity. }
       destruct (chart o (first_angle mo)) as [N w]. cbn [fst snd] in hN, hw.
       split; [exists W; split; [exact W0 | split; [exact hN | exact hw]] |]. split; [split; [lra | apply EL] | intro z; injection z as z; exact (NA z)]. }
@@ -642,7 +642,7 @@ Proof.
     pose proof (mu_pos s angular) as m0. assert (0 < (/ two_to (rate angular s)) ^ 2) by (apply pow_lt, m0). nra.
   - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
     pose proof (demand_met bits x theta s (freedom k) angular fs (map look m) (fun b => vadd P (mulv Q b)) tape (params ++ inputs ++ tangents) (map place built) good W1 W2 RE q d q1 q2 q3) as met.
-    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ met).
+    rewrite !map_map in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
 Qed.
 
 (** ** Claims that are about something *)

@@ -5,7 +5,7 @@
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Elbow Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Bend Pose Configuration Arm Legs.
+From Orthocert.kernel Require Import Elbow Statement Linear Test Number Formula Machine Problem Witness Orientation Turning Control Chart Bend Onward Pose Configuration Arm Legs.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.

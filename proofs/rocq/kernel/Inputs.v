@@ -2,7 +2,7 @@
 
 From Coq Require Import ZArith Reals Lra List Bool.
 From Orthocert Require Import Vec3 Fixed Claim.
-From Orthocert.kernel Require Import Statement Linear Arithmetic Test Check Number Trig Formula Machine Problem Configuration.
+From Orthocert.kernel Require Import Statement Linear Arithmetic Test Check Number Trig Formula Machine Problem Configuration Orientation.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -25,14 +25,15 @@ Proof. intros t v h. exact (is_nonzero_sound exact_bits _ _ v h). Qed.
 
 (** ** Numbers of a demand that are in formulas *)
 
-(** An exact number, an angle in radians over 2^u, or the cosine or sine of an angle in degrees. *)
-Inductive input := InUnit (x : number) (u : Z) | Radians (x : number) (u : Z) | Cosine (x : number) | Sine (x : number).
+(** An exact number, an angle in radians over 2^u, the cosine or sine of an angle in degrees, or the tangent of half of one over 2^u. *)
+Inductive input := InUnit (x : number) (u : Z) | Radians (x : number) (u : Z) | Cosine (x : number) | Sine (x : number) | Tangent (x : number) (u : Z).
 Definition input_value (i : input) : R :=
   match i with
   | InUnit x u => Claim.value x / two_to u
   | Radians x u => in_degrees (Claim.value x / two_to u)
   | Cosine x => cos (in_degrees (Claim.value x))
   | Sine x => sin (in_degrees (Claim.value x))
+  | Tangent x u => tangent (Claim.value x) / two_to u
   end.
 Definition input_formula (i : input) (j : nat) : formula := match i with InUnit x u => quantity (exactly x, u) j | _ => F (Param j) end.
 Fixpoint input_formulas (j : nat) (l : list input) : list formula :=
@@ -43,7 +44,7 @@ Proof. intros x u. exists (Claim.value x). split; [split; apply Rle_refl | refle
 Lemma input_formulas_value : forall l x front back, map (Formula.value x (front ++ map input_value l ++ back)) (input_formulas (length front) l) = map input_value l.
 Proof.
   induction l as [| i l IH]; intros x front back; [reflexivity |]. cbn [map input_formulas app]. f_equal.
-  - destruct i as [y u | | |]; cbn [input_formula]; [apply quantity_value; [exact (exact_within y u) |] | | |]; apply nth_middle.
+  - destruct i as [y u | | | |]; cbn [input_formula]; [apply quantity_value; [exact (exact_within y u) |] | | | |]; apply nth_middle.
   - specialize (IH x (front ++ [input_value i]) back). rewrite app_length, <- app_assoc in IH. cbn [length app] in IH. rewrite Nat.add_1_r in IH. exact IH.
 Qed.
 
@@ -62,6 +63,7 @@ Definition inputs_of (are_angles : bool) (s : Z) (d : demand) : list input :=
   | LegAngleMax _ b => [Cosine b]
   | JointAngleMax _ _ j b => let u := order_of [px j; py j; pz j] in [Cosine b; InUnit (px j) u; InUnit (py j) u; InUnit (pz j) u]
   | AccelerationMax _ a v b => [InUnit (Over a b) 0; InUnit (Over (Times v v) b) s]
+  | OnePose _ b angle => let u := order_of [b] in [Tangent angle (u - s); InUnit b u]
   | Clear one other b => InUnit (distance_of one other b) s :: map (fun p => InUnit (greatest (fst p)) (snd p)) (body_numbers s one ++ body_numbers s other)
   | _ => []
   end.
@@ -73,17 +75,22 @@ Fixpoint of_each {A : Type} (g : list formula -> demand -> list A) (are_angles :
   | d :: ds' => g (input_formulas j (inputs_of are_angles s d)) d ++ of_each g are_angles s (j + length (inputs_of are_angles s d)) ds'
   end.
 
+Lemma of_each_anywhere : forall are_angles s ds d front back, In d ds ->
+  let theta := front ++ map input_value (flat_map (inputs_of are_angles s) ds) ++ back in
+  exists q, (forall x, map (Formula.value x theta) q = map input_value (inputs_of are_angles s d)) /\
+    forall A (g : list formula -> demand -> list A) a, In a (g q d) -> In a (of_each g are_angles s (length front) ds).
+Proof.
+  intros are_angles s. induction ds as [| d0 ds IH]; intros d front back i; [contradiction |]. cbv zeta. cbn [flat_map of_each]. destruct i as [-> | i].
+  - exists (input_formulas (length front) (inputs_of are_angles s d)). split; [intro x; rewrite map_app, <- app_assoc; apply input_formulas_value |].
+    intros A g a k. apply in_or_app. left. exact k.
+  - destruct (IH d (front ++ map input_value (inputs_of are_angles s d0)) back i) as [q [h1 h2]]. exists q. rewrite map_app, <- !app_assoc in *.
+    split; [exact h1 |]. intros A g a k. apply in_or_app. right. specialize (h2 A g a k). rewrite app_length, map_length in h2. exact h2.
+Qed.
 Lemma of_each_at : forall are_angles s ds d x front back, In d ds ->
   let theta := front ++ map input_value (flat_map (inputs_of are_angles s) ds) ++ back in
   exists q, map (Formula.value x theta) q = map input_value (inputs_of are_angles s d) /\
     forall A (g : list formula -> demand -> list A) a, In a (g q d) -> In a (of_each g are_angles s (length front) ds).
-Proof.
-  intros are_angles s. induction ds as [| d0 ds IH]; intros d x front back i; [contradiction |]. cbv zeta. cbn [flat_map of_each]. destruct i as [-> | i].
-  - exists (input_formulas (length front) (inputs_of are_angles s d)). split; [rewrite map_app, <- app_assoc; apply input_formulas_value |].
-    intros A g a k. apply in_or_app. left. exact k.
-  - destruct (IH d x (front ++ map input_value (inputs_of are_angles s d0)) back i) as [q [h1 h2]]. exists q. rewrite map_app, <- !app_assoc in *.
-    split; [exact h1 |]. intros A g a k. apply in_or_app. right. specialize (h2 A g a k). rewrite app_length, map_length in h2. exact h2.
-Qed.
+Proof. intros are_angles s ds d x front back i. destruct (of_each_anywhere are_angles s ds d front back i) as [q [h1 h2]]. exists q. split; [apply h1 | exact h2]. Qed.
 
 (** M^T diag(k_i) M >= b I is sigma_min >= 1 of the rows with D_i b/k_i. *)
 Definition stiffened (r : rows formula) (q : list formula) : rows formula := map (fun p => (fst (fst p), times (snd (fst p)) (snd p))) (combine r q).
@@ -112,14 +119,16 @@ Definition enclose_input (i : input) : option fixed :=
   | Radians x u => match enclose_parameter bits (exactly x, u) with Some a => radians bits a | None => None end
   | Cosine x => cosine bits x
   | Sine x => sine bits x
+  | Tangent x u => if is_angle_number bits x then enclose_scaled_tangent bits u x else None
   end.
 Lemma enclose_input_sound : forall i a, enclose_input i = Some a -> contains a (input_value i).
 Proof.
-  intros [x u | x u | x | x] a h; cbn [enclose_input input_value] in *.
+  intros [x u | x u | x | x | x u] a h; cbn [enclose_input input_value] in *.
   - exact (enclose_parameter_sound bits _ _ _ h (exact_within x u)).
   - destruct (enclose_parameter bits (exactly x, u)) as [e |] eqn:ee; [| discriminate]. exact (radians_sound bits _ _ _ h (enclose_parameter_sound bits _ _ _ ee (exact_within x u))).
   - exact (cosine_sound bits _ _ h).
   - exact (sine_sound bits _ _ h).
+  - destruct (is_angle_number bits x) eqn:e; [| discriminate]. exact (enclose_scaled_tangent_sound bits u x a h (is_angle_number_sound bits x e)).
 Qed.
 
 Lemma inputs_enclosed : forall l a, all_some (map enclose_input l) = Some a -> Forall2 contains a (map input_value l).

@@ -54,7 +54,7 @@ Definition components (k : mobility) (a : vec) : list R :=
 Definition driven_rod (k : mobility) (P : vec) (Q : mat) (l : driven) : option Configuration.rod :=
   option_map (fun q => let '(a, eta, len) := q in Rod (components k a) eta len) (own_rod l (carried l P Q)).
 Definition legs_at (k : mobility) (ell : R) (m : list driven) (P : vec) (Q : mat) : configuration :=
-  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m) [] (fun b => vadd P (mulv Q b)) (fun _ _ _ _ => False)
+  Configuration (map (driven_row k ell P Q) m) (map (fun l => own_joint l (carried l P Q)) m) (map (driven_rod k P Q) m) [] (fun b => vadd P (mulv Q b)) (fun _ _ _ _ => False) (fun _ _ _ => False)
     (Forall (fun l => own_reach l (carried l P Q)) m).
 
 Definition well_formed_driven (l : driven) : Prop := match l with Linear k => well_formed_leg k | Rotary k => well_formed_arm k end.

@@ -80,10 +80,10 @@ Fixpoint near_coords (j : nat) (cell : list fixed) (d : fixed) : list slope :=
 Definition moved (d : R) (x lambda : list R) : list R := map (fun p => fst p + d * snd p) (combine x lambda).
 
 Lemma near_hold : forall dist d, contains dist d -> 0 <= d -> forall cell x, Forall2 contains cell x ->
-  forall lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> forall before k,
-  holds bits (before ++ lambda) (nth k (near_coords (length before) cell dist) (constant zero)) (nth k x 0) (nth k (moved d x lambda) 0).
+  forall lambda, length lambda = length cell -> Forall (fun t => -1 <= t <= 1) lambda -> forall after before k,
+  holds bits (before ++ lambda ++ after) (nth k (near_coords (length before) cell dist) (constant zero)) (nth k x 0) (nth k (moved d x lambda) 0).
 Proof.
-  intros dist d hd d0. induction 1 as [| a y cell x h hs IH]; intros [| t lambda] e hl before [| k]; try discriminate; cbn [near_coords moved combine map nth fst snd];
+  intros dist d hd d0. induction 1 as [| a y cell x h hs IH]; intros [| t lambda] e hl after before [| k]; try discriminate; cbn [near_coords moved combine map nth fst snd];
     try (apply constant_holds, zero_sound).
   - inversion hl as [| ? ? ht hl']; subst. split; [exact h |]. split.
     + pose proof (unit_R_pos bits) as p. destruct h as [l u], hd as [l' u'].
@@ -91,8 +91,8 @@ Proof.
       split; cbn [range lo hi]; rewrite ?minus_IZR, ?plus_IZR; lra.
     + exists (repeat 0 (length before) ++ [d]). split.
       * apply Forall2_app; [clear; induction (length before); cbn; constructor; auto using zero_sound | constructor; [exact hd | constructor]].
-      * rewrite dot_unit, nth_middle. ring.
-  - inversion hl as [| ? ? ht hl']; subst. specialize (IH lambda ltac:(cbn in e; congruence) hl' (before ++ [t]) k).
+      * cbn [app]; rewrite dot_unit, nth_middle. ring.
+  - inversion hl as [| ? ? ht hl']; subst. specialize (IH lambda ltac:(cbn in e; congruence) hl' after (before ++ [t]) k).
     rewrite app_length, <- app_assoc in IH. rewrite Nat.add_1_r in IH. exact IH.
 Qed.
 
@@ -110,7 +110,7 @@ Proof.
   intros dist d cell x lambda theta hd d0 hx el hl ht i.
   apply (nth_related _ _ _ _ (encloses bits lambda (moved d x lambda) x theta)); [exact I |].
   apply (evaluate_sound bits lambda hl (moved d x lambda) x theta).
-  - exact (near_hold dist d hd d0 cell x hx lambda el hl []).
+  - pose proof (near_hold dist d hd d0 cell x hx lambda el hl [] []) as N. cbn [app length] in N. rewrite app_nil_r in N. exact N.
   - apply params_hold, ht.
 Qed.
 

@@ -250,17 +250,11 @@ Local Notation contains := (contains bits).
 Definition guard (s : Z) : positive := Z.to_pos (64 + Z.max (- s) 0).
 Definition cut_off (s : Z) : N := Z.to_N (Zpos (guard s) + s).
 
-(** [x / 2^s] *)
-Definition enclose_scaled (s : Z) (x : number) : option fixed :=
-  match enclose (bits + guard s) x with
-  | Some a => Some (Fixed (shifted (lo a) (cut_off s)) (- shifted (- hi a) (cut_off s)))
-  | None => None
-  end.
-
-Lemma enclose_scaled_sound : forall s x a, enclose_scaled s x = Some a -> contains a (value x / two_to s).
+(** What is found with so many more bits, over 2^s. *)
+Definition cut (s : Z) (a : fixed) : fixed := Fixed (shifted (lo a) (cut_off s)) (- shifted (- hi a) (cut_off s)).
+Lemma cut_sound : forall s b x, Fixed.contains (bits + guard s) b x -> contains (cut s b) (x / two_to s).
 Proof.
-  intros s x a h. unfold enclose_scaled in h. destruct (enclose (bits + guard s) x) as [b |] eqn:e; [| discriminate].
-  injection h as <-. apply enclose_sound in e. destruct e as [l u].
+  intros s b x [l u].
   assert (G : Zpos (guard s) = (64 + Z.max (- s) 0)%Z) by (unfold guard; apply Z2Pos.id; lia).
   set (places := cut_off s) in *.
   assert (P : Z.of_N places = (Zpos (guard s) + s)%Z) by (unfold places, cut_off; apply Z2N.id; lia).
@@ -273,11 +267,19 @@ Proof.
       assert (F : (2 ^ Zpos (guard s) = 2 ^ (- s) * 2 ^ (Zpos (guard s) + s))%Z).
       { rewrite <- (Z.pow_add_r 2 (- s)) by lia. f_equal. lia. }
       rewrite F, mult_IZR. pose proof (power_pos (- s) ltac:(lia)). field. lra. }
-  rewrite E in l, u. unfold Fixed.contains. cbn [lo hi].
+  rewrite E in l, u. unfold Fixed.contains, cut. cbn [lo hi]. fold places.
   pose proof (shifted_sound (lo b) places) as A. pose proof (shifted_sound (- hi b) places) as B.
-  rewrite opp_IZR in B |- *. replace (value x / two_to s * unit_R bits) with (value x * (unit_R bits / two_to s)) by (field; lra).
+  rewrite opp_IZR in B |- *. replace (x / two_to s * unit_R bits) with (x * (unit_R bits / two_to s)) by (field; lra).
   set (w := IZR (2 ^ Z.of_N places)) in *. set (y := unit_R bits / two_to s) in *. clearbody w y.
   split; apply Rmult_le_reg_r with w; lra.
+Qed.
+
+(** [x / 2^s] *)
+Definition enclose_scaled (s : Z) (x : number) : option fixed := option_map (cut s) (enclose (bits + guard s) x).
+Lemma enclose_scaled_sound : forall s x a, enclose_scaled s x = Some a -> contains a (value x / two_to s).
+Proof.
+  intros s x a h. unfold enclose_scaled in h. destruct (enclose (bits + guard s) x) as [b |] eqn:e; [| discriminate].
+  injection h as <-. apply cut_sound, enclose_sound, e.
 Qed.
 
 (** A parameter with the unit that formulas have it in. *)

@@ -364,27 +364,31 @@ Proof.
 Qed.
 
 (** The tangent of the half of an angle is sin/(1 + cos); of 0 it is 0. *)
-Definition enclose_tangent (x : number) : option fixed :=
+Definition enclose_scaled_tangent (s : Z) (x : number) : option fixed :=
   if is_zero x then Some zero
-  else match cosine (bits + 64) x, sine (bits + 64) x with
-    | Some c, Some s => option_map (fun q => shortened 64 (mul (bits + 64) s q)) (recip (bits + 64) (add (Fixed.integer (bits + 64) 1) c))
+  else let more := (bits + guard s)%positive in
+    match cosine more x, sine more x with
+    | Some c, Some u => option_map (fun q => cut s (mul more u q)) (recip more (add (Fixed.integer more 1) c))
     | _, _ => None
     end.
-Lemma enclose_tangent_sound : forall x a, enclose_tangent x = Some a -> is_angle (Claim.value x) -> contains bits a (tangent (Claim.value x)).
+Definition enclose_tangent : number -> option fixed := enclose_scaled_tangent 0.
+Lemma enclose_scaled_tangent_sound : forall s x a, enclose_scaled_tangent s x = Some a -> is_angle (Claim.value x) -> contains bits a (tangent (Claim.value x) / two_to s).
 Proof.
-  intros x a h ok. unfold enclose_tangent in h. destruct (is_zero x) eqn:z.
+  intros s x a h ok. unfold enclose_scaled_tangent in h. destruct (is_zero x) eqn:z.
   - injection h as <-. unfold is_zero in z. destruct (rational x) as [q |] eqn:r; [| discriminate]. apply QArith_base.Qeq_bool_eq, Qreals.Qeq_eqR in z.
     assert (q0 : Rdefinitions.Q2R q = 0) by (rewrite z; unfold Rdefinitions.Q2R; cbn; lra). rewrite (rational_sound _ _ r), q0. unfold tangent, in_degrees.
-    replace (0 / 2 * PI / 180) with 0 by field. rewrite sin_0. unfold Rdiv. rewrite Rmult_0_l. apply zero_sound.
-  - destruct (cosine (bits + 64) x) as [c |] eqn:ec; [| discriminate]. destruct (sine (bits + 64) x) as [u |] eqn:es; [| discriminate].
-    destruct (recip _ _) as [q |] eqn:eq; [| discriminate]. cbn [option_map] in h. assert (E : shortened 64 (mul (bits + 64) u q) = a) by congruence. subst a.
-    apply (shortened_sound bits 64). apply cosine_sound in ec. apply sine_sound in es.
-    destruct (recip_sound (bits + 64) _ q (1 + cos (in_degrees (Claim.value x))) eq (add_sound _ _ _ _ _ (Fixed.integer_sound (bits + 64) 1) ec)) as [_ R].
+    replace (0 / 2 * PI / 180) with 0 by field. rewrite sin_0. unfold Rdiv. rewrite !Rmult_0_l. apply zero_sound.
+  - cbv zeta in h. set (more := (bits + guard s)%positive) in *. destruct (cosine more x) as [c |] eqn:ec; [| discriminate]. destruct (sine more x) as [u |] eqn:es; [| discriminate].
+    destruct (recip _ _) as [q |] eqn:eq; [| discriminate]. cbn [option_map] in h. assert (E : cut s (mul more u q) = a) by congruence. subst a.
+    apply (cut_sound bits s). fold more. apply cosine_sound in ec. apply sine_sound in es.
+    destruct (recip_sound more _ q (1 + cos (in_degrees (Claim.value x))) eq (add_sound _ _ _ _ _ (Fixed.integer_sound more 1) ec)) as [_ R].
     pose proof (half_cosine _ ok) as p0. assert (D : in_degrees (Claim.value x) = 2 * in_degrees (Claim.value x / 2)) by (unfold in_degrees; field).
     replace (tangent (Claim.value x)) with (sin (in_degrees (Claim.value x)) * / (1 + cos (in_degrees (Claim.value x)))); [apply mul_sound; assumption |].
     unfold tangent. rewrite D. set (p := in_degrees (Claim.value x / 2)) in *. rewrite sin_2a, cos_2a_cos. field. split; [lra |].
     replace (1 + (2 * cos p * cos p - 1)) with (2 * (cos p * cos p)) by ring. nra.
 Qed.
+Lemma enclose_tangent_sound : forall x a, enclose_tangent x = Some a -> is_angle (Claim.value x) -> contains bits a (tangent (Claim.value x)).
+Proof. intros x a h ok. replace (tangent (Claim.value x)) with (tangent (Claim.value x) / two_to 0); [exact (enclose_scaled_tangent_sound 0 x a h ok) | change (two_to 0) with 1; field]. Qed.
 
 Definition is_angle_number (x : number) : bool :=
   certainly bits true (Plus (180 // 1) x) && certainly bits true (Minus (180 // 1) x).

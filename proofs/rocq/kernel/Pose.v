@@ -4,9 +4,9 @@
     polynomials (motion.rs): tests at control points, a bisection tree. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
-From Orthocert.kernel Require Import Linear Configuration.
+From Orthocert.kernel Require Import Linear Twofold Configuration.
 From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Varied Chart Bend.
+From Orthocert.kernel Require Import Statement Arithmetic Slope Test Cell Check Number Trig Formula Machine Problem Witness Inputs Orientation Turning Poses Control Varied Chart Bend OnePose Onward.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -32,6 +32,8 @@ Inductive pose_test :=
   | AxisOf (r : rows nat) (w : nat)
   (* Y^T A + A^T Y > 0, with one Y for all cells *)
   | ChordsOf (r : rows nat) (w : nat) (places : N) (Y : list (list Z))
+  (* as many joints as coordinates, and the pose that these are off by *)
+  | NearOf (a : near_test)
   (* of formulas that are no polynomials, by their slopes *)
   | OnSlopes (t : test).
 
@@ -39,6 +41,7 @@ Definition test_places (t : pose_test) : list nat :=
   match t with
   | LeastOf r w _ _ | GreatestOf r w _ | SolveOf _ r w _ _ | ConditionOf r w _ | ChordsOf r w _ _ | LeverOf r w | AxisOf r w => w :: all_places r
   | SignOf f => [f]
+  | NearOf a => n_weight a :: all_places (n_rows a)
   | OnSlopes _ => []
   end.
 
@@ -56,7 +59,7 @@ Variable g : option nat.
 (** Rows and their factor, of whose least singular value something is shown of a cell with tolerances apart. *)
 Variables (main : rows nat) (main_w : nat) (varied : list fixed -> fixed -> nat -> evidence -> bool).
 
-Definition shows_less (ts : list tensor) (l : multiple) (t : pose_test) (e : evidence) : bool :=
+Definition shows_less (cell : list fixed) (values : list (option slope)) (ts : list tensor) (l : multiple) (t : pose_test) (e : evidence) : bool :=
   let at_all e good r w := everywhere (@map_sample) e m good (map_sample (fun i => nth i ts (Constant None)) (sample_of r w l)) in
   match t, e with
   | LeastOf r w k ends, ByLower places Y => at_all ends (lower_at bits n places Y k) r w
@@ -69,6 +72,7 @@ Definition shows_less (ts : list tensor) (l : multiple) (t : pose_test) (e : evi
   | SignOf f, ByTest => at_all 0%nat sign_at [] f
   | LeverOf r w, ByLower places [[y]] => at_all 0%nat (lower_at bits 1 places [[y]] (Fixed.integer bits 1)) r w
   | AxisOf r w, ByTest => at_all 0%nat (upper_at bits 3 (Fixed.integer bits 1)) r w
+  | NearOf a, ByAccuracy places Y kappa q => shows_pose bits plain params cell values ts m a l places Y kappa q
   | _, _ => false
   end.
 Definition same_row : forall p q : list nat * nat, {p = q} + {p <> q}.
@@ -77,8 +81,8 @@ Definition same_rows (r s : rows nat) : bool := if list_eq_dec same_row r s then
 Definition shows_at (cell : list fixed) (ts : list tensor) (values : list (option slope)) (t : pose_test) (e : evidence) : bool :=
   match e with
   | AtControls (Turned e k places) =>
-      match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less ts (Some (g, k, places)) t e | None => false end
-  | AtControls e => shows_less ts None t e
+      match g with Some g => (0 <=? k)%Z && (places <? 64)%N && shows_less cell values ts (Some (g, k, places)) t e | None => false end
+  | AtControls e => shows_less cell values ts None t e
   | ByTest | ByDirection _ _ => match t with OnSlopes t => shows bits [] [] [] values m None t e | _ => false end
   | ByTolerances _ _ _ => match t with LeastOf r w k ends => same_rows r main && Nat.eqb w main_w && varied cell k ends e | _ => false end
   | _ => false
@@ -101,11 +105,15 @@ Fixpoint discharged (cell : list fixed) (ts : list tensor) (values : list (optio
   end.
 (** Formulas at control points, and in slopes, where they are asked for. *)
 Definition of_controls (s : nat * evidence) : bool := match snd s with AtControls _ => true | _ => false end.
-Definition of_slopes (s : nat * evidence) : bool := match snd s with ByTest | ByDirection _ _ => true | _ => false end.
+Definition of_slopes (s : nat * evidence) : bool := match snd s with ByTest | ByDirection _ _ | AtControls _ => true | _ => false end.
 Definition places_in (steps : list (nat * evidence)) : list nat :=
   match g with Some i => [i] | None => [] end ++ flat_map (fun s => if of_controls s then match nth_error tests (fst s) with Some t => test_places t | None => [] end else []) steps.
 Definition slopes_in (steps : list (nat * evidence)) : list nat :=
-  flat_map (fun s => match nth_error tests (fst s) with Some (OnSlopes t) => wanted_by [] [] [] t (snd s) | _ => [] end) steps.
+  flat_map (fun s => match nth_error tests (fst s) with
+    | Some (OnSlopes t) => wanted_by [] [] [] t (snd s)
+    | Some (NearOf a) => flat_map (fun j => fst j :: map snd (snd (snd j))) (n_joints a)
+    | _ => []
+    end) steps.
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
   discharged cell (if existsb of_controls steps then tensors bits params (thinned (places_in steps) tape) cell else [])
     (if existsb of_slopes steps then evaluate_kept bits plain params (kept (slopes_in steps) plain) cell else []) steps open.
@@ -126,6 +134,8 @@ Definition with_ends (t : pose_test) : option (rows nat * nat * nat) :=
   match t with LeastOf r w _ e | SolveOf _ r w _ e => Some (r, w, e) | _ => None end.
 Hypothesis affine : forall t, In t tests -> forallb (is_affine_at tape m) (test_places t) = true.
 Hypothesis g_affine : forall i, g = Some i -> is_affine_at tape m i = true.
+Hypothesis eased_near : forall a, In (NearOf a) tests -> n_ends a = O \/ is_eased tape m (n_ends a) (n_rows a) (n_weight a) None = true /\
+  forall i k places, g = Some i -> is_eased tape m (n_ends a) (n_rows a) (n_weight a) (Some (i, k, places)) = true.
 Hypothesis eased : forall t r w ends, In t tests -> with_ends t = Some (r, w, ends) -> ends = O \/ length r = n /\
   is_eased tape m ends r w None = true /\ forall i k places, g = Some i -> is_eased tape m ends r w (Some (i, k, places)) = true.
 (** Rows are those of struts, and the orientation is of the set. *)
@@ -148,6 +158,7 @@ Definition test_holds (x : list R) (t : pose_test) : Prop :=
   | SignOf f => 0 <= here f
   | LeverOf r w => positive_D (map_rows here r) /\ here w < energy (map_rows here r) [1]
   | AxisOf r w => forall v, length v = 3%nat -> nonzero v -> positive_D (map_rows here r) /\ energy (map_rows here r) v < here w * Linear.dot v v
+  | NearOf a => pose_found bits tape plain params theta m x a
   | OnSlopes t => Check.holds bits plain [] [] [] params theta m x t
   | ChordsOf r w places Y => forall v, length v = n -> nonzero v -> 0 < form (lower_weights places Y v) (map (fun p => (fst p, 0)) (map_rows here r)) v
   end.
@@ -164,7 +175,7 @@ Local Notation tensors_here cell := (tensors bits params thin cell).
 Lemma shows_less_sound : forall cell x l t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   (l = None \/ exists i k places, g = Some i /\ l = Some (i, k, places)) ->
   is_affine_multiple tape m l = true -> 0 <= less_at tape theta (parabola x) l ->
-  shows_less (tensors_here cell) l t e = true -> test_holds x t.
+  shows_less cell (evaluate_kept bits plain params keep cell) (tensors_here cell) l t e = true -> test_holds x t.
 Proof.
   intros cell x l t e it hx len ht hl la l0 h. pose proof (affine t it) as ha.
   pose proof (fun e good s => everywhere_shown bits params thin m cell len e good s) as K.
@@ -172,7 +183,7 @@ Proof.
   { intros r w c i. destruct (eased t r w c it i) as [e0 | [lr [h1 h2]]]; [left; exact e0 |]. destruct (proj2 ht t r w c it i) as [e0 | G]; [left; exact e0 | right].
     split; [| split; [exact lr | exact G]].
     destruct hl as [-> | [j [q [places [eg ->]]]]]; [exact h1 | exact (h2 j q places eg)]. }
-  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w | r w | r w places Y | t], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
+  destruct t as [r w k2 ends | r w k2 | r w c2 | i r w k2 ends | f | r w | r w | r w places Y | a | t], e; cbn [shows_less test_holds test_places] in *; cbv zeta in h; try discriminate.
   - intros k v. apply (lower_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 ends n places Y); [exact ha | exact (E r w ends eq_refl) | exact (K _ _ _ h)].
   - apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Z.eqb_eq in h1, h2.
     intros k v [l1 l2] k0 lv nz. rewrite h1 in l1. rewrite h2 in l2. pose proof (unit_R_pos bits). assert (z : k = 0) by nra. subst k. rewrite !Rmult_0_l.
@@ -188,21 +199,23 @@ Proof.
   - intros v lv nz. rewrite <- (Rmult_1_l (at_pairs _ _ _)).
     exact (upper_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 3%nat r w _ 1 v ha (K _ _ _ h) (Fixed.integer_sound bits 1) lv nz).
   - intros v. exact (chords_shown bits tape params theta theta_in thin thin_is m cell x hx len l la l0 n places Y r w v ha (K _ _ _ h)).
+  - refine (shows_pose_sound bits tape plain params theta theta_in m thin thin_is keep cell x a l _ _ _ _ hx ha la l0 _ h).
+    destruct (eased_near a it) as [e0 | [h1 h2]]; [left; exact e0 | right]. destruct hl as [-> | [j [z [places' [eg ->]]]]]; [exact h1 | exact (h2 j z places' eg)].
 Qed.
 
 Lemma shows_at_sound : forall cell x t e, In t tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
   shows_at cell (tensors_here cell) (evaluate_kept bits plain params keep cell) t e = true -> test_holds x t.
 Proof.
   intros cell x t e it hx len ht h.
-  assert (None_ : forall e, shows_less (tensors_here cell) None t e = true -> test_holds x t)
+  assert (None_ : forall e, shows_less cell (evaluate_kept bits plain params keep cell) (tensors_here cell) None t e = true -> test_holds x t)
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
   assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate_kept bits plain params keep cell) m None t e | _ => false end) = true -> test_holds x t).
   { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in keep cell x _ e' hx k). }
   destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
-  2: { destruct t as [r w k ends | | | | | | | |]; try discriminate. apply andb_true_iff in h as [h v]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h2. subst w.
+  2: { destruct t as [r w k ends | | | | | | | | |]; try discriminate. apply andb_true_iff in h as [h v]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h2. subst w.
     unfold same_rows in h1. destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]. exact (varied_holds cell x k ends _ it hx len ht v). }
   destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
-  assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less (tensors_here cell) (Some (i, k, places)) t e = true)
+  assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less cell (evaluate_kept bits plain params keep cell) (tensors_here cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
   apply (shows_less_sound cell x (Some (i, k, places)) t e it hx len ht); [right; exists i, k, places; auto | exact (g_affine i eg) | | exact s].
@@ -227,7 +240,7 @@ Proof.
   assert (Rest : forall open, discharged cell ts vs steps open = discharged cell ts' vs' steps open)
     by (intro o; apply IH; intro k; [apply hc | apply hs]; rewrite k; apply orb_true_r).
   assert (E : forall t, shows_at cell ts vs t e = shows_at cell ts' vs' t e).
-  { intro t. destruct e; try reflexivity; [rewrite (hs eq_refl) | rewrite (hc eq_refl) | rewrite (hs eq_refl)]; reflexivity. }
+  { intro t. destruct e; try reflexivity; [rewrite (hs eq_refl) | rewrite (hc eq_refl), (hs eq_refl) | rewrite (hs eq_refl)]; reflexivity. }
   destruct i, e; cbn [discharged]; try (destruct (is_outside_at cell); [apply Rest | reflexivity]);
     match goal with |- match nth ?j open false with _ => _ end = _ => destruct (nth j open false); [destruct (nth_error tests j); [rewrite E, Rest |] |]; reflexivity end.
 Qed.
@@ -275,14 +288,6 @@ End Tree.
 (** ** Formulas *)
 
 Definition expanded (a b : formula) : formula := plus (minus (square a) (times (times (integer 2) b) a)) (square b).
-Definition eposition (k : motion) : evec :=
-  match k with
-  | InPlane => EVec (F (Coord 0)) (F (Coord 1)) (integer 0)
-  | InSpace => point
-  | AboutPoint => EVec (integer 0) (integer 0) (integer 0)
-  end.
-Definition first_angle (k : motion) : nat := match k with InPlane => 2 | InSpace => 3 | AboutPoint => 0 end.
-
 (** w times the vector of a strut from [a] to [b], in the base or in the platform's frame. *)
 Definition etransposed (N : emat) : emat :=
   let column f := EVec (f (erow1 N)) (f (erow2 N)) (f (erow3 N)) in EMat (column ex) (column ey) (column ez).
@@ -304,7 +309,6 @@ Definition lever (k : motion) (N : emat) (w ell : formula) (a b : evec) : formul
   (Machine.product (way k N w a b true) b, fun ratio => times w (minus (Machine.product b b) (times (minus (square ratio) (integer q)) (square ell)))).
 
 (** Not polynomials: the platform end, the vector and the length. *)
-Definition eturned (N : emat) (w : formula) (b : evec) : evec := divided_by (emulv N b) w.
 Definition eplaced (k : motion) (N : emat) (w : formula) (b : evec) : evec := map2 plus (eposition k) (eturned N w b).
 Definition limb (k : motion) (N : emat) (w : formula) (a b : evec) : evec * evec * formula :=
   let tip := eplaced k N w b in let A := map2 minus tip a in (tip, A, root (Machine.product A A)).
@@ -376,19 +380,6 @@ Qed.
 
 Lemma twist_scaled : forall k c a b, twist k (vscale c a) (vscale c b) = map (Rmult c) (twist k a b).
 Proof. intros [] c a b; reflexivity. Qed.
-
-Definition position_list (k : motion) (P : vec) : list R :=
-  match k with InPlane => [vx P; vy P] | InSpace => [vx P; vy P; vz P] | AboutPoint => [] end.
-Definition is_position (k : motion) (P : vec) : Prop :=
-  match k with InPlane => vz P = 0 | InSpace => True | AboutPoint => P = vzero end.
-
-Lemma position_value : forall k P r cs theta, is_position k P -> val3 (map (Rmult r) (position_list k P) ++ cs) theta (eposition k) = vscale r P.
-Proof.
-  intros [] [p q z] r cs theta h; cbn [is_position vz] in h.
-  - subst. unfold val3, vscale. cbn. f_equal. ring.
-  - reflexivity.
-  - injection h as -> -> ->. unfold val3, vscale. cbn. f_equal; ring.
-Qed.
 
 Section Row.
 Variables x theta : list R.
@@ -532,11 +523,14 @@ Fixpoint each_strut {A : Type} (f : evec -> evec -> A) (s : Z) (ts : list (toler
   | [] => []
   | t :: ts' => let q := numbered j (strut_layout s t) in f (vector_at q 0) (vector_at q 3) :: each_strut f s ts' (j + length (strut_layout s t))
   end.
-Record posed_strut := PosedStrut { z_row : list formula * formula; z_lever : formula * (formula -> formula); z_way : bool -> evec; z_limb : evec * evec * formula; z_bend : unit -> bend }.
+Record posed_strut := PosedStrut { z_row : list formula * formula; z_lever : formula * (formula -> formula); z_way : bool -> evec; z_limb : evec * evec * formula; z_bend : unit -> bend;
+  (* turned on, with tau/d: the derivatives of its length, and that *)
+  z_moved : formula -> list formula * formula }.
 (** [p]: the first of three parameters that are no others. *)
 Definition formulas_of (k : motion) (N : emat) (w ell : formula) (p : nat) (a b : evec) : posed_strut :=
   PosedStrut (scaled_row k N w ell a b) (lever k N w ell a b) (way k N w a b) (limb k N w a b)
-    (fun _ => let '(C, A, len) := limb k N w a b in bend_of k ell a b (eturned N w b) C A len (map2 minus (eposition k) a) p).
+    (fun _ => let '(C, A, len) := limb k N w a b in bend_of k ell a b (eturned N w b) C A len (map2 minus (eposition k) a) p)
+    (fun unit => let c := spin_formulas k (dimension k) in (moved_row k N w a b c unit, snd (moved_strut k N w a b c))).
 
 Section Precision.
 Variable bits : positive.
@@ -548,7 +542,7 @@ Definition is_less_than_quarter (k : motion) (o : orientations) : bool :=
 
 (** Of a pose, with the formulas of its struts. *)
 Section Asked.
-Variables (s : Z) (k : motion) (N : emat) (w : formula) (zs : list posed_strut).
+Variables (s : Z) (k : motion) (N : emat) (w : formula) (zs : list posed_strut) (ell : formula) (ps : list parameter).
 Let rows : rows formula := map z_row zs.
 
 Definition length_sign (q : list formula) (d : demand) : option formula :=
@@ -575,6 +569,13 @@ Definition angle_sign (q : list formula) (on_platform : bool) (l : evec * evec *
 Definition limb_segments (q : list formula) (one other : body) : option (evec * evec * (evec * evec)) :=
   segments_along (map (fun z => Some (z_limb z)) zs) (eplaced k N w) (tl q) one other.
 
+(** Of accuracy: tau/d, and scaled rows by what a pose is off by, of which the length is what a strut's limb has. *)
+Definition turn_unit (q : list formula) : formula := over (nth 0 q (integer 0)) (nth 1 q (integer 0)).
+Definition turned_row (q : list formula) (z : posed_strut) : list formula * formula :=
+  let twice := times (times (integer 2) ell) (turn_unit q) in let A := fst (z_row z) in
+  (firstn (first_angle k) A ++ map (fun e => times e twice) (skipn (first_angle k) A), snd (z_row z)).
+Definition own_length (z : posed_strut) : formula := snd (z_limb z).
+
 Definition own_formulas (q : list formula) (d : demand) : list formula :=
   match d with
   | StiffnessMin _ _ => map snd (stiffened rows q)
@@ -583,6 +584,7 @@ Definition own_formulas (q : list formula) (d : demand) : list formula :=
       | Some z => if up_to_90 b then let (A, D) := angle_row q (z_way z on) in A ++ [D] else []
       | None => []
       end
+  | OnePose _ _ _ => flat_map (fun z => fst (turned_row q z)) zs
   | _ => match length_sign q d with Some f => [f] | None => [] end
   end.
 (** Of these, slopes. *)
@@ -594,10 +596,11 @@ Definition plain_formulas (q : list formula) (d : demand) : list formula :=
       | Some z => let t := z_bend z tt in bend_row t ++ concat (bend_twice t) ++ [nth 0 q (integer 0); nth 1 q (integer 0); bend_square t; bend_along t]
       | None => []
       end
+  | OnePose _ _ _ => flat_map (fun z => fst (z_moved z (turn_unit q)) ++ [snd (z_moved z (turn_unit q))]) zs ++ flat_map (fun z => own_length z :: map snd (slopes_of ps (own_length z))) zs
   | _ => []
   end.
 
-Variables (place plain : formula -> nat) (ends : nat).
+Variables (place plain : formula -> nat) (ends : nat) (ends_for : Test.rows nat -> nat).
 Definition pose_test_of (q : list formula) (d : demand) : option pose_test :=
   let squared make r x := option_map (fun a => make (map_rows place r) (place w) (sqr bits a)) (enclose_parameter bits (exactly x, 0%Z)) in
   let least r w k := LeastOf r w k ends in
@@ -634,6 +637,17 @@ Definition angle_tests (q : list formula) (z : posed_strut) (on : bool) (b : num
   if up_to_90 b then let (A, D) := angle_row q (z_way z on) in
     SignOf (place D) :: if certainly exact_bits false (Minus b (90 // 1)) then [] else [AxisOf [(map place A, place D)] (place D)]
   else [OnSlopes (AtLeast (plain (angle_sign q on (z_limb z))))].
+Definition near_tests (q : list formula) (error b angle : number) : list (option pose_test) :=
+  if Nat.eqb (length zs) (dimension k) && certainly bits false error && certainly bits true b && certainly bits true angle && is_angle_number bits angle then
+    match enclose_parameter bits (exactly b, s), enclose_tangent bits angle, all_some (map (fun z => joint_test bits plain ps s error b (own_length z)) zs) with
+    | Some d, Some t, Some js =>
+        let rows := map_rows place (map (turned_row q) zs) in
+        let test last := Some (NearOf (NearTest rows (place w) (ends_for rows) (map (fun z => map plain (fst (z_moved z (turn_unit q)))) zs)
+          (map (fun z => plain (snd (z_moved z (turn_unit q)))) zs) js d t (first_angle k) last)) in
+        match k with AboutPoint => [test true] | _ => [test false; test true] end
+    | _, _, _ => [None]
+    end
+  else [None].
 Definition is_axis (j : Statement.position) : bool := is_never_zero (Tolerances (exactly (px j)) (exactly (py j)) (exactly (pz j))).
 Definition tests_of_demand (q : list formula) (d : demand) : list (option pose_test) :=
   match d with
@@ -641,6 +655,7 @@ Definition tests_of_demand (q : list formula) (d : demand) : list (option pose_t
       | Some z => if is_axis j && certainly bits false b && certainly bits false (Minus (180 // 1) b) then map Some (angle_tests q z on b) else [None]
       | None => [None]
       end
+  | OnePose error b angle => near_tests q error b angle
   | _ => [pose_test_of q d]
   end.
 End Asked.
@@ -668,16 +683,16 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let k := motion_of c in let m := dimension k in let ds := turning_demands c in
   let lay := flat_map (strut_layout s) (struts c) in let pl := (exactly (characteristic_length c), s) in let j := S (length lay) in
   let ins := flat_map (inputs_of false s) ds in
-  let (N, w) := chart (turned c) (first_angle k) in
-  let zs := each_strut (formulas_of k N w (quantity pl (length lay)) (length lay)) s (struts c) 0 in let rows := map z_row zs in
+  let (N, w) := chart (turned c) (first_angle k) in let ell := quantity pl (length lay) in
+  let zs := each_strut (formulas_of k N w ell (length lay)) s (struts c) 0 in let rows := map z_row zs in
   let g := curve (turned c) (first_angle k) (j + length ins) in
   let about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
-  let wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
-  let others := of_each (plain_formulas k N w zs) false s j ds in
+  let wanted := entries rows ++ w :: of_each (own_formulas k w zs ell) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
+  let others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds in
   let tape := fst (compile (map (image m) wanted)) in let plain := fst (compile others) in
   let fs := formulas tape in let plain_fs := formulas plain in
   let place f := Formula.place fs (image m f) in
-  let ends := match positions c with Box _ => ends_of fs m k (map_rows place rows) (place w) (option_map place g) | _ => O end in
+  let ends_for r := match positions c with Box _ => ends_of fs m k r (place w) (option_map place g) | _ => O end in let ends := ends_for (map_rows place rows) in
   forallb (fun f => Formula.same (nth (place f) fs (integer 0)) (image m f)) wanted && forallb (is_below m) wanted &&
   forallb (fun f => Formula.same (nth (Formula.place plain_fs f) plain_fs (integer 0)) f) others &&
   existsb excludes ds && (negb (one_pose c) || is_less_than_quarter k (turned c)) && is_flat k (hull (positions c)) && certainly bits true (characteristic_length c) &&
@@ -686,7 +701,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
         all_some (map (fun t => enclose_parameter bits (t, s)) (position_tolerances k (hull (positions c)))),
         all_some (map (end_box bits) (chart_ends (turned c))),
         all_some (map (enclose_tangent bits) (curved (turned c))),
-        all_some (of_each (tests_of_demand s k N w zs place (Formula.place plain_fs) ends) false s j ds) with
+        all_some (of_each (tests_of_demand s k N w zs ell (lay ++ [pl]) place (Formula.place plain_fs) ends ends_for) false s j ds) with
   | Some params, Some inputs, Some box, Some angles, Some tangents, Some tests =>
       let tests := if one_pose c then inserted one_place tests (ChordsOf (map_rows place about) (place w) (fst one_matrix) (snd one_matrix)) else tests in
       Nat.eqb (length (box ++ angles)) m && forallb (fun t => forallb (affine_in m fs) (test_places t)) tests &&
@@ -714,15 +729,17 @@ Definition stands (x theta : list R) (k : motion) (P : vec) (Q : mat) (W r L : R
 
 Definition are_numbers (front : list R) (a : evec) (v : vec) : Prop :=
   (forall x back, val3 x (front ++ back) a = v) /\ forall x theta, Forall (Formula.defined x theta) (list_of a).
-Lemma each_strut_stands : forall s ts m, Forall2 is_strut ts m -> exists th, Forall2 scaled_within (flat_map (strut_layout s) ts) th /\
+Definition strut_numbers (s : Z) (m : list strut) : list R :=
+  flat_map (fun l => coordinates (vscale (/ two_to s) (strut_base l)) ++ coordinates (vscale (/ two_to s) (strut_joint l))) m.
+Lemma each_strut_stands : forall s ts m, Forall2 is_strut ts m -> exists th, (th = strut_numbers s m /\ Forall2 scaled_within (flat_map (strut_layout s) ts) th) /\
   forall A (f : evec -> evec -> A) (good : A -> strut -> Prop) front,
     (forall a b l, are_numbers (front ++ th) a (vscale (/ two_to s) (strut_base l)) -> are_numbers (front ++ th) b (vscale (/ two_to s) (strut_joint l)) -> good (f a b) l) ->
     Forall2 good (each_strut f s ts (length front)) m.
 Proof.
-  intros s. induction 1 as [| t l ts m [ha hb] hs [th2 [L2 R2]]]; [exists []; split; constructor |].
+  intros s. induction 1 as [| t l ts m [ha hb] hs [th2 [[E2 L2] R2]]]; [exists []; split; [split; [reflexivity | constructor] | constructor] |].
   set (th1 := coordinates (vscale (/ two_to s) (strut_base l)) ++ coordinates (vscale (/ two_to s) (strut_joint l))).
   assert (L1 : Forall2 scaled_within (strut_layout s t) th1) by (apply Forall2_app; apply three_within; assumption).
-  exists (th1 ++ th2). split; [cbn [flat_map]; apply Forall2_app; assumption |].
+  exists (th1 ++ th2). split; [split; [unfold strut_numbers; cbn [flat_map]; fold (strut_numbers s m); rewrite E2; reflexivity | cbn [flat_map]; apply Forall2_app; assumption] |].
   intros A f good front h. rewrite app_assoc in h. cbn [each_strut]. cbv zeta. constructor.
   - assert (Own : forall i v, Vec (nth i th1 0) (nth (1 + i) th1 0) (nth (2 + i) th1 0) = v -> are_numbers ((front ++ th1) ++ th2) (vector_at (numbered (length front) (strut_layout s t)) i) v).
     { intros i v <-. split.
@@ -798,21 +815,73 @@ Proof.
 Qed.
 
 (** Where ends alone are looked at, it is of these rows. *)
-Lemma least_tests : forall s k N w zs place plain ends q d t r v e, In (Some t) (tests_of_demand s k N w zs place plain ends q d) -> with_ends t = Some (r, v, e) ->
+Lemma least_tests : forall s k N w zs ell ps place plain ends ends_for q d t r v e, In (Some t) (tests_of_demand s k N w zs ell ps place plain ends ends_for q d) -> with_ends t = Some (r, v, e) ->
   e = O \/ e = ends /\ r = map_rows place (map z_row zs) /\ v = place w.
 Proof.
-  intros s k N w zs place plain ends q d t r v e i we.
+  intros s k N w zs ell ps place plain ends ends_for q d t r v e i we.
+  assert (Near : forall error b angle, In (Some t) (near_tests s k w zs ell ps place plain ends_for q error b angle) -> with_ends t = None).
+  { intros error b angle h. unfold near_tests in h. destruct (_ && _ && _ && _ && _); [| destruct h as [h | []]; discriminate].
+    destruct (enclose_parameter bits _); [| destruct h as [h | []]; discriminate]. destruct (enclose_tangent bits angle); [| destruct h as [h | []]; discriminate].
+    destruct (all_some _); [| destruct h as [h | []]; discriminate]. cbv zeta in h.
+    destruct k; cbn [In] in h; repeat (destruct h as [h | h]; [injection h as <-; reflexivity |]); contradiction. }
   assert (Angles : forall z on b, In (Some t) (map Some (angle_tests N w place plain q z on b)) -> with_ends t = None).
   { intros z on b h. apply in_map_iff in h as [u [eu h]]. injection eu as ->. unfold angle_tests in h. destruct (up_to_90 b).
     - destruct (angle_row q (z_way z on)). destruct h as [<- | h]; [reflexivity |]. destruct (certainly _ _ _); [contradiction | destruct h as [<- | []]; reflexivity].
     - destruct h as [<- | []]. reflexivity. }
-  destruct d; cbn [tests_of_demand] in i;
+  destruct d; cbn [tests_of_demand] in i; try (rewrite (Near _ _ _ i) in we; discriminate);
     try (destruct (nth_error zs _) as [z |]; [| destruct i as [i | []]; discriminate]; destruct (is_axis _ && _ && _); [| destruct i as [i | []]; discriminate]; rewrite (Angles _ _ _ i) in we; discriminate);
     destruct i as [i | []]; cbn [pose_test_of] in i; try discriminate; try (destruct (length_sign _ _ _ _); [cbn [option_map] in i | discriminate]);
     try (destruct (nth_error _ _) as [? |]; [| discriminate]); try (destruct (lever_of _ _ _) as [[? ?] |]; [| discriminate]); try (destruct (limb_segments _ _ _ _ _ _ _) as [[[? ?] [? ?]] |]; [| discriminate]);
     try (destruct (certainly _ _ _ && _); [| discriminate]);
     try (destruct (enclose_parameter bits _); [cbn [option_map] in i |]; try discriminate); try (destruct (0 <=? lo _)%Z; [| discriminate]); cbv zeta in i; injection i as <-; cbn [with_ends] in we; try discriminate;
     injection we; intros; subst; auto.
+Qed.
+
+Lemma nominal_is : forall s ts m, Forall2 is_strut ts m -> Forall2 is_strut ts (nominal_struts ts) /\ strut_numbers s (nominal_struts ts) = map middle_of (flat_map (strut_layout s) ts).
+Proof.
+  assert (V : forall t v, all_within t v -> all_within t (middles t)) by (intros t v [[h1 h1'] [[h2 h2'] [h3 h3']]]; unfold all_within, within, middles, middle; cbn [vx vy vz]; repeat split; lra).
+  assert (T : forall t u, map middle_of (three t u) = coordinates (vscale (/ two_to u) (middles t)))
+    by (intros t u; unfold middle_of, coordinates, vscale, middles, Rdiv; cbn [three map fst snd vx vy vz]; f_equal; [ring |]; f_equal; [ring |]; f_equal; ring).
+  intros s. induction 1 as [| t l ts m [ha hb] hs [I1 I2]]; [split; [constructor | reflexivity] |]. cbn [nominal_struts map]. split.
+  - constructor; [split; cbn [strut_base strut_joint]; eapply V; eassumption | exact I1].
+  - unfold strut_numbers. cbn [flat_map strut_base strut_joint]. fold (strut_numbers s (nominal_struts ts)). unfold nominal_struts in I2. unfold strut_layout at 1. rewrite !map_app, !T, <- I2. reflexivity.
+Qed.
+Lemma near_coordinates : forall k P r cs d tau u theta, let x := map (Rmult r) (position_list k P) ++ cs in is_position k P -> length x = dimension k -> length u = dimension k ->
+  let x' := near_point (first_angle k) x (r * d) tau u in
+  val3 x' theta (eposition k) = vscale r (position_at k P d u) /\ (forall i, (i < length cs)%nat -> nth (first_angle k + i) x' 0 = nth i cs 0) /\
+  val3 x' theta (spin_formulas k (dimension k)) = vscale tau (spin_of k u).
+Proof.
+  intros k [p1 p2 p3] r cs d tau u theta x hp lx lu x'. unfold x', x, near_point, Near.moved, position_at. clear x'. unfold x in lx. clear x.
+  destruct k; cbn [position_list is_position first_angle dimension map vx vy vz app length] in *.
+  - subst p3. destruct cs as [| c1 [|]]; try discriminate. destruct u as [| u1 [| u2 [| u3 [|]]]]; try discriminate. unfold val3, eposition, spin_formulas, shift_of, spin_of, vadd, vscale. cbn.
+    repeat split; [f_equal; ring | intros [| i] l; [reflexivity | lia] | f_equal; ring].
+  - destruct cs as [| c1 [| c2 [| c3 [|]]]]; try discriminate. destruct u as [| u1 [| u2 [| u3 [| u4 [| u5 [| u6 [|]]]]]]]; try discriminate. unfold val3, eposition, point, spin_formulas, shift_of, spin_of, vadd, vscale. cbn.
+    repeat split; [f_equal; ring | intros [| [| [| i]]] l; try reflexivity; lia | f_equal; ring].
+  - injection hp as -> -> ->. destruct cs as [| c1 [| c2 [| c3 [|]]]]; try discriminate. destruct u as [| u1 [| u2 [| u3 [|]]]]; try discriminate. unfold val3, eposition, spin_formulas, shift_of, spin_of, vadd, vscale, vzero. cbn.
+    repeat split; [f_equal; ring | intros [| [| [| i]]] l; try reflexivity; lia | f_equal; ring].
+Qed.
+
+Lemma motion_dec : forall k : motion, k = AboutPoint \/ k <> AboutPoint.
+Proof. intros []; [right; discriminate | right; discriminate | left; reflexivity]. Qed.
+
+Lemma near_is : forall s k N w zs ell ps place plain ends ends_for q d a, In (Some (NearOf a)) (tests_of_demand s k N w zs ell ps place plain ends ends_for q d) ->
+  n_ends a = ends_for (n_rows a) /\ n_weight a = place w.
+Proof.
+  intros s k N w zs ell ps place plain ends ends_for q d a i.
+  assert (Angles : forall z on b, ~ In (Some (NearOf a)) (map Some (angle_tests N w place plain q z on b))).
+  { intros z on b h. apply in_map_iff in h as [u [eu h]]. injection eu as ->. unfold angle_tests in h. destruct (up_to_90 b).
+    - destruct (angle_row q (z_way z on)). destruct h as [h | h]; [discriminate |]. destruct (certainly _ _ _); [contradiction | destruct h as [h | []]; discriminate].
+    - destruct h as [h | []]. discriminate. }
+  destruct d; cbn [tests_of_demand] in i;
+    try (destruct (nth_error zs _) as [z |]; [| destruct i as [i | []]; discriminate]; destruct (is_axis _ && _ && _); [| destruct i as [i | []]; discriminate]; destruct (Angles _ _ _ i)).
+  17: { unfold near_tests in i. destruct (_ && _ && _ && _ && _); [| destruct i as [i | []]; discriminate].
+    destruct (enclose_parameter bits _); [| destruct i as [i | []]; discriminate]. destruct (enclose_tangent bits angle); [| destruct i as [i | []]; discriminate].
+    destruct (all_some _); [| destruct i as [i | []]; discriminate]. cbv zeta in i.
+    destruct k; cbn [In] in i; repeat (destruct i as [i | i]; [injection i as <-; split; reflexivity |]); contradiction. }
+  all: destruct i as [i | []]; cbn [pose_test_of] in i; try discriminate; try (destruct (length_sign _ _ _ _); [cbn [option_map] in i | discriminate]);
+    try (destruct (nth_error _ _) as [? |]; [| discriminate]); try (destruct (lever_of _ _ _) as [[? ?] |]; [| discriminate]); try (destruct (limb_segments _ _ _ _ _ _ _) as [[[? ?] [? ?]] |]; [| discriminate]);
+    try (destruct (certainly _ _ _ && _); [| discriminate]);
+    try (destruct (enclose_parameter bits _); [cbn [option_map] in i |]; try discriminate); try (destruct (0 <=? lo _)%Z; [| discriminate]); cbv zeta in i; discriminate.
 Qed.
 
 (** An angle whose cosine is not less than that of the greatest. *)
@@ -876,7 +945,7 @@ Proof.
   set (zs := each_strut (formulas_of k N w ell (length lay)) s ts 0) in *. set (rows := map z_row zs) in *.
   set (g := curve (turned c) (first_angle k) (j + length ins)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
   set (about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0 else []) in *.
-  set (wanted := entries rows ++ w :: of_each (own_formulas w zs) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs) false s j ds) in *.
+  set (wanted := entries rows ++ w :: of_each (own_formulas k w zs ell) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   set (plain := fst (compile others)) in *. set (plain_place := Formula.place (formulas plain)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
@@ -896,7 +965,7 @@ Proof.
   assert (ok : are_angles (turned c)).
   { unfold are_angles. rewrite forallb_forall in ang. apply Forall_forall. intros u iu. specialize (ang u iu). apply andb_true_iff in ang as [a b].
     split; apply (is_angle_number_sound bits); assumption. }
-  destruct (each_strut_stands s ts m hm) as [th [TH RS]].
+  destruct (each_strut_stands s ts m hm) as [th [[ETH TH] RS]].
   set (ts_ := map (fun a => tangent (Claim.value a)) (curved (turned c))).
   set (theta := th ++ [/ two_to s * L] ++ map input_value ins ++ ts_).
   assert (TT : Forall2 (contains bits) tangents ts_).
@@ -922,7 +991,7 @@ Proof.
   assert (lx : length x = dimension k) by (rewrite <- (related_length _ _ _ _ _ X); exact len).
   assert (first : forall i, nth (first_angle k + i) x 0 = nth i cs 0).
   { intro i. unfold x. replace (first_angle k) with (length (map (Rmult (/ two_to s)) (position_list k P))) by (destruct k; reflexivity). apply app_nth2_plus. }
-  destruct (CH x theta (first_angle k) (j + length ins)%nat first tangent_at) as [hN [hw hg]]. rewrite ch in hN, hw. cbn [fst snd] in hN, hw.
+  destruct (CH x theta (first_angle k) (j + length ins)%nat (fun i _ => first i) tangent_at) as [hN [hw hg]]. rewrite ch in hN, hw. cbn [fst snd] in hN, hw.
   assert (hl : Formula.value x theta ell = / two_to s * L).
   { unfold ell, theta. apply quantity_value; [exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold Rdiv; ring] |].
     rewrite <- lt. apply nth_middle. }
@@ -969,13 +1038,24 @@ Proof.
   assert (gaff' : forall i, option_map place g = Some i -> is_affine_at tape (dimension k) i = true)
     by (intros i e; destruct g as [f |]; [injection e as <-; exact gaff | discriminate]).
   set (ends := match positions c with Box _ => _ | _ => _ end) in *.
+  set (ends_for := fun r : Test.rows nat => match positions c with Box _ => ends_of (formulas tape) (dimension k) k r (place w) (option_map place g) | _ => O end).
+  change (all_some (of_each (tests_of_demand s k N w zs ell (lay ++ [pl]) place plain_place ends ends_for) false s j ds) = Some tests) in et.
   assert (LT : forall u r v e, In u tests -> with_ends u = Some (r, v, e) -> e = O \/ e = ends /\ r = map_rows place rows /\ v = place w).
-  { intros u r v e i we. destruct (of_each_back _ _ _ _ _ _ _ (all_some_back _ _ _ _ et i)) as [q [d iq]]. exact (least_tests s k N w zs place plain_place ends q d u r v e iq we). }
+  { intros u r v e i we. destruct (of_each_back _ _ _ _ _ _ _ (all_some_back _ _ _ _ et i)) as [q [d iq]]. exact (least_tests s k N w zs ell (lay ++ [pl]) place plain_place ends _ q d u r v e iq we). }
   assert (eased : forall u r v e, In u all_tests -> with_ends u = Some (r, v, e) -> e = O \/ length r = dimension k /\ is_eased tape (dimension k) e r v None = true /\
     forall i n places, option_map place g = Some i -> is_eased tape (dimension k) e r v (Some (i, n, places)) = true).
   { intros u r v e0 i we. destruct (Own u i) as [i1 | no]; [| congruence]. destruct (LT u r v _ i1 we) as [-> | [-> [-> ->]]]; [left; reflexivity |].
     clear fits tree_ok. unfold ends, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [e1 e2]. apply Nat.eqb_eq in e1.
     split; [exact e1 |]. clear - e2. destruct g as [f |]; cbn [option_map] in *.
+    - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
+      apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
+    - split; [exact e2 | discriminate]. }
+  assert (easedN : forall a, In (NearOf a) all_tests -> n_ends a = O \/ is_eased tape (dimension k) (n_ends a) (n_rows a) (n_weight a) None = true /\
+    forall i n places, option_map place g = Some i -> is_eased tape (dimension k) (n_ends a) (n_rows a) (n_weight a) (Some (i, n, places)) = true).
+  { intros a i. assert (i1 : In (NearOf a) tests) by (unfold all_tests in i; destruct (one_pose c); [apply inserted_in in i as [i | i]; [discriminate | exact i] | exact i]).
+    destruct (of_each_back _ _ _ _ _ _ _ (all_some_back _ _ _ _ et i1)) as [q [d iq]]. destruct (near_is s k N w zs ell (lay ++ [pl]) place plain_place ends ends_for q d a iq) as [-> ->].
+    clear fits tree_ok. unfold ends_for, ends_of. cbv zeta. destruct (positions c); [| left; reflexivity]. destruct (Nat.eqb _ _ && _) eqn:e; [right | left; reflexivity]. apply andb_true_iff in e as [_ e2].
+    clear - e2. destruct g as [f |]; cbn [option_map] in *.
     - split; [| intros i n places e; injection e as <-; exact e2]. unfold is_eased, eased_in in *. cbv zeta in *. rewrite forallb_forall in *. intros y iy. specialize (e2 y iy).
       apply andb_true_iff in e2 as [e2 _]. apply andb_true_iff. split; [exact e2 | reflexivity].
     - split; [exact e2 | discriminate]. }
@@ -1015,7 +1095,7 @@ Proof.
     - intros f ef _. rewrite <- (FoundY f (ig f ef)). apply hg'. rewrite ef. reflexivity.
     - apply below_, iw.
     - destruct g as [f |]; [apply below_, ig; reflexivity | reflexivity]. }
-  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) (map_rows place rows) (place w) _ theta T aff gaff' eased VH t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
+  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) (map_rows place rows) (place w) _ theta T aff gaff' easedN eased VH t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
   pose proof (fun u iu => HT0 u (Sub u iu)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)
@@ -1024,7 +1104,7 @@ Proof.
   { intros v z. pose proof (zero_vector v ltac:(apply Rnot_lt_le; exact z)) as F0. split; [apply dot_zero, F0 |].
     generalize (map (fun l => strut_row k L l P Q) m). intro M. unfold Configuration.speed2. induction M as [| row M IH]; cbn [fold_right]; [reflexivity |]. rewrite IH, (dot_zero v row F0). ring. }
   assert (NZ : forall v, nonzero v \/ ~ nonzero v) by (intro v; destruct (Rlt_dec 0 (Linear.dot v v)); auto).
-  set (conf := struts_at k L m P Q).
+  set (conf := struts_at k L (nominal_struts ts) m P Q).
   assert (Lower : forall low kappa, contains bits low kappa -> 0 <= kappa -> In (LeastOf (map_rows place rows) (place w) low ends) tests ->
     Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\ positive_D (map_rows (Formula.value x theta) rows) /\
     forall v, length v = dimension k -> nonzero v -> kappa * Linear.dot v v < Configuration.speed2 (jacobian conf) v).
@@ -1034,10 +1114,10 @@ Proof.
       destruct U as [v [lv nv]]. destruct (H kappa v hk k0 lv nv) as [p _]. rewrite Rows in p. exact p. }
     destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. split; [exact PD |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
-  assert (Test : forall d, In d ds -> exists q, map (Formula.value x theta) q = map input_value (inputs_of false s d) /\
-    (forall f, In f (own_formulas w zs q d) -> In f wanted) /\ (forall f, In f (plain_formulas k N w zs q d) -> formula_at plain (plain_place f) = f) /\
-    forall o, In o (tests_of_demand s k N w zs place plain_place ends q d) -> exists u, o = Some u /\ In u tests).
-  { intros d id. destruct (of_each_at false s ds d x (th ++ [ratio * L]) ts_ id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1. rewrite <- app_assoc in q1. fold theta in q1.
+  assert (Test : forall d, In d ds -> exists q, (forall y, map (Formula.value y theta) q = map input_value (inputs_of false s d)) /\
+    (forall f, In f (own_formulas k w zs ell q d) -> In f wanted) /\ (forall f, In f (plain_formulas k N w zs (lay ++ [pl]) q d) -> formula_at plain (plain_place f) = f) /\
+    forall o, In o (tests_of_demand s k N w zs ell (lay ++ [pl]) place plain_place ends ends_for q d) -> exists u, o = Some u /\ In u tests).
+  { intros d id. destruct (of_each_anywhere false s ds d (th ++ [ratio * L]) ts_ id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1. rewrite <- app_assoc in q1. fold theta in q1.
     rewrite app_length, lt in q2. cbn [length] in q2. rewrite Nat.add_1_r in q2. fold j in q2. exists q. split; [exact q1 |].
     split; [intros f i; apply in_or_app; right; right; apply in_or_app; left; exact (q2 _ _ _ i) |].
     split; [intros f i; apply Formula.same_sound, there; exact (q2 _ _ _ i) |]. intros o i. exact (all_some_in _ _ _ _ et (q2 _ _ _ i)). }
@@ -1078,7 +1158,7 @@ Proof.
       clear. generalize (lower_weights (fst one_matrix) (snd one_matrix) v). induction m as [| l m' IH]; intros [| [y z] ws]; cbn [map form]; try ring.
       rewrite IH, dot_map. ring. }
   unfold meets_turning. fold k L ds conf. split; [exact reach_ |]. split; [exact INJ |]. apply Forall_forall. intros d id.
-  destruct (Test d id) as [ns [qv [signs [plains shown]]]].
+  destruct (Test d id) as [ns [qv_ [signs [plains shown]]]]. pose proof (qv_ x) as qv.
   assert (Num : forall n, Formula.value x theta (nth n ns (integer 0)) = nth n (map input_value (inputs_of false s d)) 0)
     by (intro n; rewrite <- qv; symmetry; exact (map_nth (Formula.value x theta) ns (integer 0) n)).
   assert (LegOf : forall n z, nth_error zs n = Some z -> exists l, nth_error m n = Some l /\ strut_stands x theta k P Q W ratio L z l).
@@ -1090,7 +1170,7 @@ Proof.
   assert (Joint : forall n l, nth_error m n = Some l -> nth_error (joints conf) n = Some (Length (strut_length l P Q)))
     by (intros n l e; unfold conf, struts_at; cbn [joints]; rewrite nth_error_map, e; reflexivity).
   assert (Over1 : forall y, y / 1 = y) by (intro; field). pose proof (pow_lt ratio 2 r0) as r2. pose proof (Rmult_lt_0_compat _ _ W0 r2) as wr.
-  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b | n p q b]; cbn [Configuration.fulfils];
+  destruct d as [| b | b | n b | n b | n b b' | b | n b b' | n b b' | b b' | n b b' | n b | n b | b | n on ax b | one other b | n p q b | error b angle]; cbn [Configuration.fulfils];
     try (destruct (shown _ (or_introl eq_refl)) as [u [pu iu]]; cbn [pose_test_of] in pu; fold rows in pu; try discriminate).
   4-5: cbn [own_formulas length_sign] in *; destruct (nth_error zs n) as [z |] eqn:nz; [| discriminate]; destruct (certainly bits false b) eqn:b0; [| discriminate];
     cbn [option_map] in pu; injection pu as <-; apply nonneg_sound in b0; destruct (LegOf n z nz) as [l [nl sl]]; pose proof (Size z l sl) as vD;
@@ -1256,6 +1336,162 @@ Proof.
     + unfold conf, struts_at. cbn [accelerates]. rewrite nl. exact (B3 v a).
     + assert (units : Claim.value q * Claim.value q / Claim.value b / two_to s = ratio * (Claim.value q * Claim.value q / Claim.value b)) by (unfold ratio, Rdiv; ring).
       exact (acceleration_bounded (dimension k) _ a _ v _ _ ratio (Claim.value p) (Claim.value q) (Claim.value b) ltac:(destruct k; cbn; lia) p0 q0 b0 eq_refl units H lv hv ha).
+  - cbn [tests_of_demand own_formulas plain_formulas] in *. unfold near_tests in shown.
+    destruct (Nat.eqb (length zs) (dimension k) && certainly bits false error && certainly bits true b && certainly bits true angle && is_angle_number bits angle) eqn:cond;
+      [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    apply andb_true_iff in cond as [cond ia]. apply andb_true_iff in cond as [cond a0]. apply andb_true_iff in cond as [cond b0]. apply andb_true_iff in cond as [lz er0].
+    apply Nat.eqb_eq in lz. apply positive_sound in a0, b0. apply nonneg_sound in er0. apply (is_angle_number_sound bits) in ia.
+    destruct (enclose_parameter bits (exactly b, s)) as [dd |] eqn:ed; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    destruct (enclose_tangent bits angle) as [tt_ |] eqn:ett; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    destruct (all_some (map (fun z => joint_test bits plain_place (lay ++ [pl]) s error b (own_length z)) zs)) as [js |] eqn:ej; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    cbv zeta in shown. set (unit := turn_unit ns) in *. set (arows := map (turned_row k ell ns) zs) in *.
+    set (mk := fun last => NearTest (map_rows place arows) (place w) (ends_for (map_rows place arows)) (map (fun z => map plain_place (fst (z_moved z unit))) zs)
+      (map (fun z => plain_place (snd (z_moved z unit))) zs) js dd tt_ (first_angle k) last).
+    assert (Found_ : forall last, (last = false -> k <> AboutPoint) -> In (NearOf (mk last)) tests).
+    { intros last hq. assert (S : exists u, Some (NearOf (mk last)) = Some u /\ In u tests).
+      { apply shown. clear - hq. clearbody k. destruct k, last; cbn [In]; auto; exfalso; apply hq; reflexivity. }
+      destruct S as [u [eu iu]]. injection eu as <-. exact iu. }
+    assert (PF : forall last, (last = false -> k <> AboutPoint) -> pose_found bits tape plain (params ++ inputs ++ tangents) theta (dimension k) x (mk last))
+      by (intros last hq; exact (HT _ (Found_ last hq))).
+    assert (lm : length m = dimension k) by (rewrite <- lz; symmetry; exact (related_length _ _ _ _ _ ZS)).
+    set (dist := Claim.value b) in *. set (tau := tangent (Claim.value angle)) in *.
+    assert (HD : contains bits dd (ratio * dist)) by (replace (ratio * dist) with (dist / two_to s) by (unfold ratio, Rdiv; ring); exact (enclose_parameter_sound bits _ _ _ ed (exact_within b s))).
+    pose proof (enclose_tangent_sound bits angle tt_ ett ia) as HTau. fold tau in HTau. pose proof (tangent_nonneg _ (Rlt_le _ _ a0) ia) as t0. fold tau in t0.
+    assert (D0 : 0 <= ratio * dist) by (apply Rmult_le_pos; lra).
+    assert (UNIT : forall y, Formula.value y theta unit * ratio = tau / dist).
+    { intro y. unfold unit, turn_unit. rewrite value_over.
+      assert (NumY : forall n, Formula.value y theta (nth n ns (integer 0)) = nth n (map input_value (inputs_of false s (OnePose error b angle))) 0)
+        by (intro n; rewrite <- (qv_ y); symmetry; exact (map_nth (Formula.value y theta) ns (integer 0) n)).
+      rewrite !NumY. cbn [inputs_of map nth input_value]. rewrite two_to_less. fold tau dist. unfold ratio. pose proof (two_to_pos s). pose proof (two_to_pos (order_of [b])). field. repeat split; lra. }
+    set (back := [ratio * L] ++ map input_value ins ++ ts_).
+    set (f := first_angle k). set (near u := near_point f x (ratio * dist) tau u).
+    assert (AT : forall u, length u = dimension k -> val3 (near u) theta (eposition k) = vscale ratio (position_at k P dist u) /\ valm (near u) theta N = mscale W Q /\
+      Formula.value (near u) theta w = W /\ val3 (near u) theta (spin_formulas k (dimension k)) = vscale tau (spin_of k u)).
+    { intros u lu. destruct (near_coordinates k P ratio cs dist tau u theta (flat_position _ _ _ flat hP) lx lu) as [n1 [n2 n3]]. split; [exact n1 |].
+      destruct (CH (near u) theta (first_angle k) (j + length ins)%nat n2 tangent_at) as [c1 [c2 _]]. rewrite ch in c1, c2. cbn [fst snd] in c1, c2. split; [exact c1 | split; [exact c2 | exact n3]]. }
+    assert (FAR : Forall2 (fun z l => forall u, length u = dimension k -> Formula.defined (near u) theta (snd (z_moved z unit)) ->
+      is_far_row k dist tau l (position_at k P dist u) (turn_at k Q tau u) (vscale tau (spin_of k u)) (map (Formula.value (near u) theta) (fst (z_moved z unit)))) zs m).
+    { apply (RS _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. intros u lu def. cbn [z_moved formulas_of fst snd] in def |- *.
+      pose proof (Ha (near u) back) as hsa. pose proof (Hb (near u) back) as hsb. destruct (AT u lu) as [n1 [n2 [n3 n4]]].
+      exact (moved_row_values (near u) theta k _ Q _ W ratio dist tau N w a b' _ unit l r0 W0 n1 n2 n3 hsa hsb n4 (UNIT (near u)) def). }
+    assert (Plain : forall z, In z zs -> forall f, In f (fst (z_moved z unit) ++ [snd (z_moved z unit)]) -> formula_at plain (plain_place f) = f)
+      by (intros z iz f' i'; apply plains, in_or_app; left; apply in_flat_map; exists z; split; assumption).
+    set (J := far_rows plain theta x (mk true) (ratio * dist) tau).
+    assert (JE : forall u, J u = map (fun z => map (Formula.value (near u) theta) (fst (z_moved z unit))) zs).
+    { intro u. unfold J, far_rows. cbn [mk n_far n_first]. rewrite map_map. apply map_ext_in. intros z iz. rewrite map_map. apply map_ext_in. intros f' i'.
+      exact (f_equal (Formula.value (near u) theta) (Plain z iz f' (in_or_app _ _ _ (or_introl i')))). }
+    (* lengths, of both machines *)
+    destruct (nominal_is s ts m hm) as [hm0 E0]. destruct (each_strut_stands s ts _ hm0) as [th0 [[ETH0 TH0] RS0]]. rewrite E0 in ETH0.
+    set (theta0 := th0 ++ back).
+    assert (lt0 : length th0 = length lay) by (symmetry; exact (related_length _ _ _ _ _ TH0)).
+    assert (tangent_at0 : forall a, In a (curved (turned c)) -> nth (j + length ins) theta0 0 = tangent (Claim.value a)).
+    { intros a i. rewrite <- (tangent_at a i). change theta with (th ++ back). unfold theta0. rewrite (app_nth2 th0 back), (app_nth2 th back) by (unfold j; lia). rewrite lt, lt0. reflexivity. }
+    destruct (CH x theta0 (first_angle k) (j + length ins)%nat (fun i _ => first i) tangent_at0) as [hN0 [hw0 _]]. rewrite ch in hN0, hw0. cbn [fst snd] in hN0, hw0.
+    assert (Len : forall theta' a b' l, valm x theta' N = mscale W Q -> Formula.value x theta' w = W -> val3 x theta' (eposition k) = vscale ratio P ->
+      val3 x theta' a = vscale ratio (strut_base l) -> val3 x theta' b' = vscale ratio (strut_joint l) -> Formula.value x theta' (snd (limb k N w a b')) = ratio * strut_length l P Q).
+    { intros theta' a b' l h1 h2 h3 h4 h5. pose proof (limb_values x theta' k P Q W ratio N a b' w l r0 W0 h3 h1 h2 h4 h5) as LV. destruct (limb k N w a b') as [[C A] len_]. cbn [rod_stands] in LV.
+      destruct LV as [C' [A' [n' [e1 [_ [_ e4]]]]]]. injection e1 as <- <- <-. cbn [snd]. symmetry. exact e4. }
+    assert (LEN : Forall2 (fun z l => Formula.value x theta (own_length z) = ratio * strut_length l P Q) zs m).
+    { apply (RS _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. exact (Len theta a b' l hN hw hPv (Ha x back) (Hb x back)). }
+    assert (LEN0 : Forall2 (fun z l => Formula.value x theta0 (own_length z) = ratio * strut_length l P Q) zs (nominal_struts ts)).
+    { apply (RS0 _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. apply (Len theta0 a b' l hN0 hw0); [exact (position_value k P _ cs _ (flat_position _ _ _ flat hP)) | exact (Ha x back) | exact (Hb x back)]. }
+    set (all := params ++ inputs ++ tangents) in *. set (ps := lay ++ [pl]) in *. set (tb := map input_value ins ++ ts_).
+    assert (OFFS : (forall th, Forall2 (contains bits) all th -> Forall (fun j => Formula.defined x th (formula_at plain (fst j))) js) ->
+      forall rho, Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) (nominal_struts ts) rho -> Forall2 (Check.may_be_off bits plain all x) js (offsets m P Q dist rho)).
+    { intros Def rho hr.
+      assert (PSI : Forall2 scaled_within ps (th ++ [ratio * L])) by (apply Forall2_app; [exact TH |]; constructor; [| constructor]; exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold ratio, Rdiv; ring]).
+      assert (MID : map middle_of ps ++ tb = theta0).
+      { unfold ps, theta0, tb, back. rewrite map_app, ETH0, <- app_assoc. f_equal. cbn [map app]. f_equal. unfold middle_of, middle, pl, exactly. cbn [fst snd least greatest]. fold L. unfold ratio. field. apply Rgt_not_eq, two_to_pos. }
+      assert (Enc : forall th', Forall2 scaled_within ps th' -> Forall2 (contains bits) all (th' ++ tb)).
+      { intros th' h. unfold all, tb. apply Forall2_app; [exact (enclosed_all bits _ _ _ ep h) |]. apply Forall2_app; [exact (inputs_enclosed bits _ _ ei) | exact TT]. }
+      assert (One : forall z l l0 jt r, In z zs -> In jt js -> Formula.value x theta (own_length z) = ratio * strut_length l P Q -> Formula.value x theta0 (own_length z) = ratio * strut_length l0 P Q ->
+        joint_test bits plain_place ps s error b (own_length z) = Some jt -> Rabs (r - strut_length l0 P Q) <= Claim.value error -> Check.may_be_off bits plain all x jt ((r - strut_length l P Q) / dist)).
+      { intros z l l0 jt r iz ij v1 v0 hj hy.
+        replace ((r - strut_length l P Q) / dist) with ((ratio * r - ratio * strut_length l P Q) / (/ two_to s * Claim.value b)) by (fold dist; fold ratio; field; split; lra).
+        refine (joint_is_off bits s b error ps (th ++ [ratio * L]) tb all plain (own_length z) x (ratio * r) _ _ jt PSI Enc _ _ _ hj _ b0 _).
+        - rewrite <- app_assoc. exact v1.
+        - rewrite MID. exact v0.
+        - intros e ie. apply plains. apply in_or_app. right. apply in_flat_map. exists z. split; [exact iz | exact ie].
+        - intros th' hth'. specialize (Def th' hth'). rewrite Forall_forall in Def. exact (Def jt ij).
+        - rewrite <- Rmult_minus_distr_l, Rabs_mult, (Rabs_pos_eq ratio) by lra. fold ratio. apply Rmult_le_compat_l; [lra | exact hy]. }
+      apply all_some_related in ej. unfold offsets. clear - ej LEN LEN0 hr One.
+      assert (K : forall zs' m' l0s' rho' js', (forall z, In z zs' -> In z zs) -> (forall q, In q js' -> In q js) -> Forall2 (fun z l => Formula.value x theta (own_length z) = ratio * strut_length l P Q) zs' m' ->
+        Forall2 (fun z l => Formula.value x theta0 (own_length z) = ratio * strut_length l P Q) zs' l0s' -> Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) l0s' rho' ->
+        Forall2 (fun z jt => joint_test bits plain_place ps s error b (own_length z) = Some jt) zs' js' ->
+        Forall2 (Check.may_be_off bits plain all x) js' (map (fun p => (snd p - strut_length (fst p) P Q) / dist) (combine m' rho'))).
+      { induction zs' as [| z zs' IH]; intros m' l0s' rho' js' sub1 sub2 h1 h2 h3 h4; inversion h1 as [| ? l ? m'' a1 a2]; subst; inversion h2 as [| ? l0 ? l0s'' b1 b2]; subst; inversion h3 as [| ? r ? rho'' c1 c2]; subst;
+          inversion h4 as [| ? jt ? js'' d1 d2]; subst; cbn [combine map]; constructor.
+        - cbn [fst snd]. exact (One z l l0 jt r (sub1 _ (or_introl eq_refl)) (sub2 _ (or_introl eq_refl)) a1 b1 d1 c1).
+        - exact (IH _ _ _ _ (fun y i => sub1 y (or_intror i)) (fun y i => sub2 y (or_intror i)) a2 b2 c2 d2). }
+      exact (K zs m _ rho js (fun _ i => i) (fun _ i => i) LEN LEN0 hr ej). }
+    (* what each part shows *)
+    assert (PART : forall last, (last = false -> k <> AboutPoint) -> forall rho, Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) (nominal_struts ts) rho -> exists g_, 0 <= g_ /\
+      (forall u, inside f (dimension k) u -> Forall (fun z => Formula.defined (near u) theta (snd (z_moved z unit))) zs /\
+        forall v, length v = dimension k -> size (less (Twofold.image (J u) v) (Twofold.image (J (nought (dimension k))) v)) <= g_ * (norm f v * norm f u)) /\
+      exists kappa z e lr, g_ < kappa /\ 0 <= z /\ z + g_ / (2 * kappa) <= 1 /\ length e = dimension k /\ (forall i, (i < dimension k)%nat -> 0 < nth i e 0) /\
+        (forall i, (i < dimension k)%nat -> (if last : bool then f <= i else i < f)%nat -> nth i e 0 = 1) /\ length lr = dimension k /\ Forall (fun p => 0 <= fst p /\ 0 < snd p) lr /\
+        Forall2 (fun b p => Rabs b <= fst p) (offsets m P Q dist rho) lr /\
+        forall v, length v = dimension k -> let R_ := map_rows (Formula.value x theta) arows in let p := Solve.weighted_sum v (map (Twofold.scaled e) (map fst R_)) in
+          kappa ^ 2 * W * Linear.dot (map snd R_) (squares v) <= Linear.dot p p /\
+          forall q, 0 < Linear.dot v v + q ^ 2 -> 0 < Linear.dot p p - 2 * Rabs q * W * Linear.dot (bounds_real lr W (map snd R_)) (map Rabs v) + W ^ 2 * z ^ 2 * q ^ 2).
+    { intros last hq rho hr. pose proof (PF last hq) as F. unfold pose_found in F. cbn [mk n_weight n_joints n_first n_rows n_far n_reach n_distance n_turn n_last] in F. rewrite Weight in F.
+      destruct (F W0) as [Def [_ [_ [_ [_ [_ G]]]]]]. specialize (G (ratio * dist) tau HD HTau D0 t0 (offsets m P Q dist rho) (OFFS Def rho hr)). destruct G as [g_ [g0 [G1 G2]]]. exists g_. split; [exact g0 |]. split.
+      - intros u hu. destruct (G1 u hu) as [d1 d2]. split; [| exact d2]. rewrite Forall_map in d1. rewrite Forall_forall in d1 |- *. intros z iz.
+        pose proof (d1 z iz) as dz. cbv beta in dz. change (nth (plain_place (snd (z_moved z unit))) (formulas plain) (integer 0)) with (formula_at plain (plain_place (snd (z_moved z unit)))) in dz.
+        rewrite (Plain z iz) in dz by (apply in_or_app; right; left; reflexivity). exact dz.
+      - assert (RA : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place arows) = map_rows (Formula.value x theta) arows).
+        { apply RowsOf. intros f' i'. apply in_flat_map in i' as [row [ir i']]. unfold arows in ir. apply in_map_iff in ir as [z [<- iz]]. apply in_app_or in i' as [i' | [<- | []]].
+          - apply signs. apply in_flat_map. exists z. split; assumption.
+          - apply in_or_app. left. apply in_flat_map. exists (z_row z). split; [apply in_map, iz | apply in_or_app; right; left; reflexivity]. }
+        rewrite RA in G2. exact G2. }
+    assert (hz : inside f (dimension k) (nought (dimension k))) by (split; [apply nought_length | pose proof (nought_norm f (dimension k)); lra]).
+    set (rho0 := map (fun l => strut_length l P Q) (nominal_struts ts)).
+    assert (hr0 : Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) (nominal_struts ts) rho0).
+    { unfold rho0. generalize (nominal_struts ts). induction l as [| l l' IH]; cbn [map]; constructor; [| exact IH]. unfold Rminus. rewrite Rplus_opp_r, Rabs_R0. exact er0. }
+    assert (FARS : forall u, inside f (dimension k) u -> Forall2 (fun row l => is_far_row k dist tau l (position_at k P dist u) (turn_at k Q tau u) (vscale tau (spin_of k u)) row) (J u) m).
+    { intros u hu. destruct (PART true ltac:(discriminate) rho0 hr0) as [g_ [_ [G _]]]. destruct (G u hu) as [d _]. rewrite JE. clear - FAR d hu. induction FAR as [| z l zs' m' h hs IH]; cbn [map]; constructor.
+      - inversion d; subst. apply h; [exact (proj1 hu) | assumption].
+      - inversion d; subst. apply IH. assumption. }
+    (* rows at control points are those, times some numbers *)
+    assert (ROWS : Forall2 (fun p row => exists q, 0 < q /\ q ^ 2 = W * snd p /\ fst p = map (Rmult q) row) (map_rows (Formula.value x theta) arows) (J (nought (dimension k)))).
+    { assert (TR : Forall2 (fun z l => forall row, is_far_row k dist tau l P Q vzero row -> exists q, 0 < q /\ q ^ 2 = W * Formula.value x theta (snd (turned_row k ell ns z)) /\
+        map (Formula.value x theta) (fst (turned_row k ell ns z)) = map (Rmult q) row) zs m).
+      { apply (RS _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. pose proof (Ha x back) as hsa. pose proof (Hb x back) as hsb.
+        pose proof (scaled_row_values x theta k P Q W ratio L N a b' w ell l r0 L0 keeps hPv hN hw hl hsa hsb) as SV. intros row [n0 erow]. unfold turned_row. cbn [z_row formulas_of fst snd].
+        destruct (scaled_row k N w ell a b') as [A D]. destruct SV as [SD SA]. cbn [fst snd]. pose proof (sqrt_lt_R0 _ n0) as s0. exists (W * ratio * sqrt (norm2 (strut_vector l P Q))).
+        split; [repeat apply Rmult_lt_0_compat; assumption |]. split; [rewrite SD, !Rpow_mult_distr, pow2_sqrt by lra; ring |].
+        assert (TW : Formula.value x theta (times (times (integer 2) ell) (turn_unit ns)) = 2 * L * (tau / dist)).
+        { rewrite !value_times, hl. change (Formula.value x theta (integer 2)) with 2. fold unit. rewrite <- (UNIT x). ring. }
+        assert (ME : forall l0, map (Formula.value x theta) (map (fun e => times e (times (times (integer 2) ell) (turn_unit ns))) l0) = map (Rmult (2 * L * (tau / dist))) (map (Formula.value x theta) l0))
+          by (intro l0; rewrite !map_map; apply map_ext; intro e; rewrite value_times, TW; ring).
+        rewrite map_app, ME, <- firstn_map, <- skipn_map, SA, erow. clear - s0 L0 b0. unfold normalised.
+        set (sv := strut_vector l P Q) in *. set (arm := arm_of_joint l Q). set (root_ := sqrt (norm2 sv)) in *. assert (N0 : norm2 vzero = 0) by (unfold norm2, vzero; cbn; ring). rewrite N0.
+        destruct sv as [v1 v2 v3], arm as [r1 r2 r3]. destruct k; cbn [first_angle twist map firstn skipn app]; unfold vscale, vadd, cross, vzero; cbn [vx vy vz]; repeat (apply f_equal2; [field; repeat split; lra |]); reflexivity. }
+      rewrite JE. pose proof (FARS _ hz) as FZ. rewrite JE in FZ.
+      assert (P0 : position_at k P dist (nought (dimension k)) = P) by (unfold position_at; assert (Z1 : shift_of k (nought (dimension k)) = vzero) by (destruct k; reflexivity); rewrite Z1; destruct P as [p1 p2 p3]; unfold vadd, vscale, vzero; cbn [vx vy vz]; f_equal; ring).
+      assert (C0 : vscale tau (spin_of k (nought (dimension k))) = vzero) by (assert (Z1 : spin_of k (nought (dimension k)) = vzero) by (destruct k; reflexivity); rewrite Z1; unfold vscale, vzero; cbn [vx vy vz]; f_equal; ring).
+      unfold turn_at in FZ. rewrite P0, C0, not_moved in FZ. unfold arows, map_rows. rewrite map_map. clear - TR FZ. revert FZ. generalize (near (nought (dimension k))). intros y FZ.
+      revert FZ. induction TR as [| z l zs' m' h hs IH]; intro FZ; cbn [map] in *; constructor; inversion FZ as [| ? ? ? ? f1 f2]; subst; [cbn [fst snd]; exact (h _ f1) | exact (IH f2)]. }
+    apply (struts_recovered k (nominal_struts ts) m P Q error b angle J b0 a0 ia).
+    + unfold nominal_struts. rewrite map_length, <- lm. exact (related_length _ _ _ _ _ hm).
+    + exact lm.
+    + intro u. rewrite JE, map_length. exact lz.
+    + exact FARS.
+    + intros rho hr. fold dist. destruct (PART true ltac:(discriminate) rho hr) as [g1 [g10 [G1 [k1 [z1 [e1 [lr1 [c1 [c2 [c3 [c4 [c5 [c6 [c7 [c8 [c9 c10]]]]]]]]]]]]]]]].
+      assert (LJ : length (J (nought (dimension k))) = dimension k) by (rewrite JE, map_length; exact lz).
+      assert (Less : forall g_ kp z, 0 <= g_ -> forall g', 0 <= g' <= g_ -> g_ < kp -> z + g_ / (2 * kp) <= 1 -> g' < kp /\ z + g' / (2 * kp) <= 1).
+      { intros g_ kp z p0 g' [p1 p2] p3 p4. split; [lra |]. assert (g' / (2 * kp) <= g_ / (2 * kp)); [| lra]. unfold Rdiv. apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra | exact p2]. }
+      destruct (motion_dec k) as [ek | nk].
+      * exists g1. split; [exact g10 |]. split; [intros u v hu lv; destruct (G1 u hu) as [_ h]; specialize (h v lv); fold f; lra |]. intros [|].
+        -- right. apply (met_of f (dimension k) J g1 _ true W _ k1 z1 e1 lr1 W0 LJ ROWS); assumption.
+        -- left. rewrite ek. reflexivity.
+      * destruct (PART false ltac:(intros _; exact nk) rho hr) as [g2 [g20 [G2 [k2 [z2 [e2 [lr2 [d1 [d2 [d3 [d4 [d5 [d6 [d7 [d8 [d9 d10]]]]]]]]]]]]]]]].
+        exists (Rmin g1 g2). assert (M1 : 0 <= Rmin g1 g2 <= g1) by (split; [apply Rmin_glb; assumption | apply Rmin_l]). assert (M2 : 0 <= Rmin g1 g2 <= g2) by (split; [apply Rmin_glb; assumption | apply Rmin_r]).
+        split; [apply M1 |]. split.
+        { intros u v hu lv. destruct (G1 u hu) as [_ h1], (G2 u hu) as [_ h2]. specialize (h1 v lv). specialize (h2 v lv). fold f. unfold Rmin. destruct (Rle_dec g1 g2); lra. }
+        intros [|]; right.
+        -- destruct (Less g1 k1 z1 g10 _ M1 c1 c3) as [q1 q2]. apply (met_of f (dimension k) J _ _ true W _ k1 z1 e1 lr1 W0 LJ ROWS); assumption.
+        -- destruct (Less g2 k2 z2 g20 _ M2 d1 d3) as [q1 q2]. apply (met_of f (dimension k) J _ _ false W _ k2 z2 e2 lr2 W0 LJ ROWS); assumption.
 Qed.
 End Precision.
 

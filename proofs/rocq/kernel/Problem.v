@@ -401,10 +401,10 @@ Fixpoint range_formulas (fs : list leg_formulas) (s : Z) (j : nat * nat) (rs : l
 Definition none : parameter := (exactly (0 // 1), 0%Z).
 Definition has_two_ends (p : parameter) : bool := negb (Number.same (least (fst p)) (greatest (fst p))).
 Definition toleranced (ps : list parameter) : list nat := filter (fun j => has_two_ends (nth j ps none)) (seq 0 (length ps)).
-Definition slopes_of (ps : list parameter) (f : leg_formulas) : list (nat * formula) :=
-  filter (fun p => negb (is 0 (snd p))) (combine (toleranced ps) (Gradient.derivatives (toleranced ps) (f_joint f))).
+Definition slopes_of (ps : list parameter) (f : formula) : list (nat * formula) :=
+  filter (fun p => negb (is 0 (snd p))) (combine (toleranced ps) (Gradient.derivatives (toleranced ps) f)).
 Definition accuracy_formulas (ps : list parameter) (fs : list leg_formulas) (rs : list requirement) : list formula :=
-  if existsb (fun r => match r with Accuracy _ _ => true | _ => false end) rs then flat_map (fun f => f_joint f :: map snd (slopes_of ps f)) fs else [].
+  if existsb (fun r => match r with Accuracy _ _ => true | _ => false end) rs then flat_map (fun f => f_joint f :: map snd (slopes_of ps (f_joint f))) fs else [].
 (** Half the width, over the distance. *)
 Definition half_width (s : Z) (b : number) (p : parameter) : parameter :=
   (exactly (Over (Minus (greatest (fst p)) (least (fst p))) (Times (2 // 1) b)), (snd p - s)%Z).
@@ -416,10 +416,10 @@ Local Notation contains := (contains bits).
 Variable one_matrix : N * list (list Z).
 
 Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
-Definition joint_test (place : formula -> nat) (ps : list parameter) (s : Z) (error b : number) (f : leg_formulas) : option (nat * (fixed * list (fixed * nat))) :=
+Definition joint_test (place : formula -> nat) (ps : list parameter) (s : Z) (error b : number) (f : formula) : option (nat * (fixed * list (fixed * nat))) :=
   match enclose_parameter bits (exactly (Over error b), 0%Z),
     all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) (slopes_of ps f)) with
-  | Some e, Some hs => Some (place (f_joint f), (e, hs))
+  | Some e, Some hs => Some (place f, (e, hs))
   | _, _ => None
   end.
 Definition test_of (place : formula -> nat) (ps : list parameter) (fs : list leg_formulas) (s : Z) (j : nat * nat) (r : requirement) : option test :=
@@ -450,7 +450,7 @@ Definition test_of (place : formula -> nat) (ps : list parameter) (fs : list leg
   | OneToOne => Some (Chords (map_rows place (whole_rows fs)) (fst one_matrix) (snd one_matrix))
   | Accuracy error b =>
       if Nat.eqb (length fs) 3 && Compare.certainly bits false error && Compare.certainly bits true b then
-        match enclose_parameter bits (bound_of s r), all_some (map (joint_test place ps s error b) fs) with
+        match enclose_parameter bits (bound_of s r), all_some (map (fun f => joint_test place ps s error b (f_joint f)) fs) with
         | Some d, Some js => Some (Accurate d js)
         | _, _ => None
         end
@@ -1440,24 +1440,24 @@ Proof.
 Qed.
 
 (** What a joint coordinate near that of the nominal machine is off by: the mean value theorem, on the way there. *)
-Lemma joint_is_off : forall s b error ps th tb params tape f l l0 Q y j,
-  let x := coordinates Q in let ratio := / two_to s in
+Lemma joint_is_off : forall s b error ps th tb params tape f x y y1 y0 j,
+  let ratio := / two_to s in
   Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
-  represents Q (th ++ tb) f l -> represents Q (map middle_of ps ++ tb) f l0 ->
-  (forall e, In e (f_joint f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
+  value x (th ++ tb) f = y1 -> value x (map middle_of ps ++ tb) f = y0 ->
+  (forall e, In e (f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
   joint_test (place (formulas tape)) ps s error b f = Some j -> (forall th, Forall2 contains params th -> defined x th (formula_at tape (fst j))) ->
-  0 < Claim.value b -> Rabs (y - joint l0 Q) <= ratio * Claim.value error ->
-  may_be_off bits tape params x j ((y - joint l Q) / (ratio * Claim.value b)).
+  0 < Claim.value b -> Rabs (y - y0) <= ratio * Claim.value error ->
+  may_be_off bits tape params x j ((y - y1) / (ratio * Claim.value b)).
 Proof.
-  intros s b error ps th tb params tape f l l0 Q y j x ratio hth E R1 R0 found ht def b0 hy.
+  intros s b error ps th tb params tape f x y y1 y0 j ratio hth E R1 R0 found ht def b0 hy.
   pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0. set (D := ratio * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption).
   unfold joint_test in ht. destruct (enclose_parameter bits (exactly (Over error b), 0%Z)) as [ie |] eqn:ee; [| discriminate].
-  destruct (all_some _) as [hs |] eqn:eh; [| discriminate]. injection ht as <-. cbn [fst snd] in def. rewrite (found (f_joint f)) in def by (left; reflexivity).
+  destruct (all_some _) as [hs |] eqn:eh; [| discriminate]. injection ht as <-. cbn [fst snd] in def. rewrite (found (f)) in def by (left; reflexivity).
   assert (len : length th = length (map middle_of ps)) by (rewrite map_length, (related_length _ _ _ _ _ hth); reflexivity).
   set (seg t := on_the_way t th (map middle_of ps) ++ tb). set (rate j := nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0).
   assert (In_ : forall t, 0 <= t <= 1 -> Forall2 contains params (seg t)) by (intros t h; apply E, on_the_way_within; assumption).
-  assert (Dv : forall t, 0 <= t <= 1 -> derivable_pt_lim (fun t => value x (seg t) (f_joint f)) t
-    (Linear.dot (map rate (toleranced ps)) (map (value x (seg t)) (Gradient.derivatives (toleranced ps) (f_joint f))))).
+  assert (Dv : forall t, 0 <= t <= 1 -> derivable_pt_lim (fun t => value x (seg t) (f)) t
+    (Linear.dot (map rate (toleranced ps)) (map (value x (seg t)) (Gradient.derivatives (toleranced ps) (f))))).
   { intros t h. apply (Gradient.derivatives_sound (toleranced ps) x seg t rate (toleranced_once ps)).
     - intro k. apply Velocity.derivable_eq with (fun u => nth k (th ++ tb) 0 + rate k * u) (0 + rate k * 1).
       + apply Velocity.derivable_add; [apply Velocity.derivable_const | apply Velocity.derivable_scal, derivable_pt_lim_id].
@@ -1466,9 +1466,9 @@ Proof.
     - intros k n. exact (others_are_exact tb ps th k hth n).
     - apply def, In_, h. }
   destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 Dv) as [t [M ht]]. cbv beta in M. unfold seg in M at 1 2. destruct (on_the_way_ends _ _ len) as [w0 w1]. rewrite w0, w1 in M.
-  destruct R1 as [_ [_ [_ [J1 _]]]]. destruct R0 as [_ [_ [_ [J0 _]]]]. unfold x in M at 1 2. rewrite J1, J0 in M.
+  rewrite R1, R0 in M.
   rewrite terms_of, without_zeros in M. fold (slopes_of ps f) in M.
-  exists (seg t), ((y - joint l0 Q) / D), (map (fun p => rate (fst p) / D) (slopes_of ps f)). cbn [fst snd]. split; [apply In_; lra |]. split.
+  exists (seg t), ((y - y0) / D), (map (fun p => rate (fst p) / D) (slopes_of ps f)). cbn [fst snd]. split; [apply In_; lra |]. split.
   - exists (Claim.value error / Claim.value b). split.
     + apply (enclose_parameter_sound bits _ _ _ ee). exists (Claim.value error / Claim.value b). split; [unfold within, exactly; cbn; lra |]. cbn [snd]. change (two_to 0) with 1. field. lra.
     + unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0).
@@ -1491,7 +1491,7 @@ Proof.
       destruct (IH hs'' (fun q i => sub q (or_intror i)) eq_refl) as [I1 I2]. split; [cbn [map]; constructor; [exact (T p (sub p (or_introl eq_refl)) a ea) | exact I1] |].
       intro e. cbn [map combine fold_right fst snd]. rewrite I2, (Fo p (sub p (or_introl eq_refl))). field. lra. }
     destruct (G _ hs (fun p i => i) eh) as [G1 G2]. split; [exact G1 |]. rewrite G2.
-    replace (fold_right _ 0 (slopes_of ps f)) with (joint l0 Q - joint l Q) by lra. field. lra.
+    replace (fold_right _ 0 (slopes_of ps f)) with (y0 - y1) by lra. field. lra.
 Qed.
 
 Lemma row_divided : forall tape f l Q theta, (forall e, In e (list_of (f_divided f)) -> formula_at tape (place (formulas tape) e) = e) -> represents Q theta f l ->
@@ -1604,7 +1604,7 @@ Qed.
 Lemma accuracy_fulfilled : forall c s ds m P th tb params tape whole error b t j, let ps := layouts s ds (legs c) in let fs := all_formulas s ds (legs c) 0 in
   Forall2 is_leg_of (legs c) m -> Forall well_formed_leg m -> Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
   (forall e, In e (entries (divided_rows fs)) -> formula_at tape (place (formulas tape) e) = e) ->
-  (forall f, In f fs -> forall e, In e (f_joint f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
+  (forall f, In f fs -> forall e, In e (f_joint f :: map snd (slopes_of ps (f_joint f))) -> formula_at tape (place (formulas tape) e) = e) ->
   (forall P, Forall2 (represents P (th ++ tb)) fs (map (resized (/ two_to s)) m)) ->
   test_of (place (formulas tape)) ps fs s j (Accuracy error b) = Some t ->
   Check.holds bits tape whole (map_rows (place (formulas tape)) (divided_rows fs)) [] params (th ++ tb) 3 (coordinates (vscale (/ two_to s) P)) t ->
@@ -1626,15 +1626,16 @@ Proof.
   revert Nom hrho. inversion hm as [| d1 ? ds1 ? m1 hm1 e1 e2]; subst. inversion hm1 as [| d2 ? ds2 ? m2 hm2]; subst. inversion hm2 as [| d3 ? ds3 ? m3 hm3]; subst. inversion hm3; subst.
   cbn [map]. intros Nom hrho. inversion hrho as [| ? y1 ? ? n1 hr1]; subst. inversion hr1 as [| ? y2 ? ? n2 hr2]; subst. inversion hr2 as [| ? y3 ? ? n3 hr3]; subst. inversion hr3; subst.
   cbn [map all_some] in ej.
-  destruct (joint_test (place (formulas tape)) ps s error b f1) as [j1 |] eqn:t1; [| discriminate]. destruct (joint_test (place (formulas tape)) ps s error b f2) as [j2 |] eqn:t2; [| discriminate].
-  destruct (joint_test (place (formulas tape)) ps s error b f3) as [j3 |] eqn:t3; [| discriminate]. injection ej as <-.
+  destruct (joint_test (place (formulas tape)) ps s error b (f_joint f1)) as [j1 |] eqn:t1; [| discriminate]. destruct (joint_test (place (formulas tape)) ps s error b (f_joint f2)) as [j2 |] eqn:t2; [| discriminate].
+  destruct (joint_test (place (formulas tape)) ps s error b (f_joint f3)) as [j3 |] eqn:t3; [| discriminate]. injection ej as <-.
   assert (Ok : forall l, In l [l1; l2; l3] -> well_formed_leg (resized ratio l)) by (intros l i; apply (well_formed_resized ratio r0 l); rewrite Forall_forall in built; apply built, i).
   assert (Def : forall j, In j [j1; j2; j3] -> forall th, Forall2 contains params th -> defined (coordinates Q) th (formula_at tape (fst j))).
   { intros i ij th' h. destruct H as [H _]. specialize (H th' h). rewrite Forall_forall in H. exact (H i ij). }
-  assert (Off : forall f l dr y i, In f [f1; f2; f3] -> In i [j1; j2; j3] -> joint_test (place (formulas tape)) ps s error b f = Some i ->
+  assert (Off : forall f l dr y i, In f [f1; f2; f3] -> In i [j1; j2; j3] -> joint_test (place (formulas tape)) ps s error b (f_joint f) = Some i ->
     represents Q (th ++ tb) f (resized ratio l) -> represents Q (map middle_of ps ++ tb) f (resized ratio (nominal_leg dr)) ->
     Rabs (y - joint (nominal_leg dr) P) <= Claim.value error -> may_be_off bits tape params (coordinates Q) i ((ratio * y - joint (resized ratio l) Q) / (ratio * Claim.value b))).
-  { intros f l dr y i If Ij ht h1 h0 hy. refine (joint_is_off s b error ps th tb params tape f _ _ Q (ratio * y) i hth E h1 h0 (FJ f If) ht (Def i Ij) b0 _).
+  { intros f l dr y i If Ij ht h1 h0 hy. destruct h1 as [_ [_ [_ [h1 _]]]]. destruct h0 as [_ [_ [_ [h0 _]]]].
+    refine (joint_is_off s b error ps th tb params tape (f_joint f) (coordinates Q) (ratio * y) _ _ i hth E h1 h0 (FJ f If) ht (Def i Ij) b0 _).
     destruct (resized_same ratio P r0 (nominal_leg dr)) as [_ [e _]]. fold Q in e. rewrite e, <- Rmult_minus_distr_l, Rabs_mult, (Rabs_pos_eq ratio) by lra. fold ratio.
     apply Rmult_le_compat_l; [lra | exact hy]. }
   pose proof (Rep Q) as h. apply cons_related in h as [h1 h]. apply cons_related in h as [h2 h]. apply cons_related in h as [h3 _].

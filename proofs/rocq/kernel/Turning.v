@@ -52,10 +52,22 @@ Definition strut_accelerates (k : motion) (ell : R) (l : strut) (P : vec) (Q : m
     v = twist k (velocity 0) (vscale ell (omega 0)) -> a = twist k acceleration (vscale ell alpha) ->
     derivable_pt_lim (fun t => Linear.dot (strut_row k ell l (position t) (turn t)) (twist k (velocity t) (vscale ell (omega t)))) 0 y.
 
-Definition struts_at (k : motion) (ell : R) (m : list strut) (P : vec) (Q : mat) : configuration :=
+(** Poses near another one, from which they are turned by at most so many degrees. *)
+Definition turned_by_less (k : motion) (angle : number) : orientations := match k with InPlane => TurnedBy (either_way angle) | _ => TurnedUpTo angle end.
+Definition is_near (k : motion) (b angle : number) (P : vec) (Q : mat) (P' : vec) (Q' : mat) : Prop :=
+  is_of k (vsub P' P) vzero /\ norm2 (vsub P' P) <= value b ^ 2 /\ exists S, in_orientations (turned_by_less k angle) S /\ Q' = mulm S Q.
+
+(** The struts have lengths off by the error at most from those of the nominal ones in exactly one pose so near. *)
+Definition struts_recover (k : motion) (nominal m : list strut) (P : vec) (Q : mat) (error b angle : number) : Prop :=
+  forall rho, Forall2 (fun l r => Rabs (r - strut_length l P Q) <= value error) nominal rho ->
+  let is_at P' Q' := is_near k b angle P Q P' Q' /\ Forall2 (fun l r => 0 < norm2 (strut_vector l P' Q') /\ strut_length l P' Q' = r) m rho in
+  exists P' Q', is_at P' Q' /\ forall P'' Q'', is_at P'' Q'' -> P'' = P' /\ Q'' = Q'.
+
+Definition struts_at (k : motion) (ell : R) (nominal m : list strut) (P : vec) (Q : mat) : configuration :=
   Configuration (map (fun l => strut_row k ell l P Q) m) (map (fun l => Length (strut_length l P Q)) m) (map (fun _ => None) m)
     (map (fun l => Some (vadd P (arm_of_joint l Q), strut_vector l P Q, strut_length l P Q)) m) (fun b => vadd P (mulv Q b))
     (fun i v a y => match nth_error m i with Some l => strut_accelerates k ell l P Q v a y | None => False end)
+    (struts_recover k nominal m P Q)
     (Forall (fun l => 0 < norm2 (strut_vector l P Q)) m).
 
 Lemma vector_velocity : forall l P Q t v omega, has_velocity P t v -> turns Q t omega ->
@@ -97,10 +109,12 @@ Record turning_claim := MakeTurningClaim {
 
 Definition is_strut (t : tolerances * tolerances) (l : strut) : Prop :=
   all_within (fst t) (strut_base l) /\ all_within (snd t) (strut_joint l).
+(** The struts in the middle of the tolerances. *)
+Definition nominal_struts (ts : list (tolerances * tolerances)) : list strut := map (fun t => Strut (middles (fst t)) (middles (snd t))) ts.
 Definition is_about_struts (c : turning_claim) (m : list strut) (P : vec) (Q : mat) : Prop :=
   Forall2 is_strut (struts c) m /\ in_region (positions c) P /\ in_orientations (turned c) Q.
 Definition meets_turning (c : turning_claim) (m : list strut) (P : vec) (Q : mat) : Prop :=
-  Configuration.meets (dimension (motion_of c)) (struts_at (motion_of c) (value (characteristic_length c)) m P Q) (turning_demands c).
+  Configuration.meets (dimension (motion_of c)) (struts_at (motion_of c) (value (characteristic_length c)) (nominal_struts (struts c)) m P Q) (turning_demands c).
 
 Definition turning_holds (c : turning_claim) : Prop := forall m P Q, is_about_struts c m P Q -> meets_turning c m P Q /\
   (one_pose c = true -> forall P' Q', in_region (positions c) P' -> in_orientations (turned c) Q' ->
@@ -140,10 +154,10 @@ Hypothesis is_turn : forall b, values (turn o c b) = mulv Q (values b).
 Lemma values_xvector : forall P l, values (xvector o c P l) = strut_vector (strut_of l) (values P) Q.
 Proof. intros. unfold xvector. rewrite values_minus, values_plus, is_turn. reflexivity. Qed.
 
-Lemma exact_struts_stand : forall k ell P ls,
-  stands_for (exact_struts_at k ell o c P ls) (struts_at k (value ell) (map strut_of ls) (values P) Q).
+Lemma exact_struts_stand : forall k ell nominal P ls,
+  stands_for (exact_struts_at k ell o c P ls) (struts_at k (value ell) nominal (map strut_of ls) (values P) Q).
 Proof.
-  intros k ell P ls.
+  intros k ell nominal P ls.
   assert (S : forall l, value (product (xvector o c P l) (xvector o c P l)) = norm2 (strut_vector (strut_of l) (values P) Q))
     by (intro l; rewrite value_square, values_xvector; reflexivity).
   split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves nrays exact_struts_at struts_at]; rewrite ?map_map.
@@ -188,7 +202,7 @@ Proof.
   intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p].
   destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
   split; [split; [apply all_struts_sound, h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] |].
-  exact (refutes_sound bits _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _) r).
+  exact (refutes_sound bits _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _ _) r).
 Qed.
 End Precision.
 End Named.

@@ -85,7 +85,7 @@ Definition is_row (c : mechanism) (theta x : list R) (j : written_joint) (row : 
 (** The machine with the parameters [theta] at the coordinates [x], with these rows. *)
 Definition machine_at (c : mechanism) (theta x : list R) (M : list (list R)) : configuration :=
   let env := environment_at c theta x in
-  Configuration M (map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning env e) end) (joint_forms c)) (map (fun _ => None) (joint_forms c)) [] (fun b => b) (fun _ _ _ _ => False)
+  Configuration M (map (fun j => match j with ByRow _ => Unknown | ByCoordinate e => Length (meaning env e) end) (joint_forms c)) (map (fun _ => None) (joint_forms c)) [] (fun b => b) (fun _ _ _ _ => False) (fun _ _ _ => False)
     (all_defined (given c x theta) (definitions c) /\
      Forall (fun j => match j with ByRow es => Forall (is_defined env) es | ByCoordinate e => is_defined env e end) (joint_forms c)).
 
@@ -654,7 +654,7 @@ Proof.
     pose proof (mu_pos 0 false) as m0. assert (0 < (/ two_to (rate false 0)) ^ 2) by (apply pow_lt, m0). nra.
   - apply Forall_forall. intros d id. destruct (HT d id) as [q [q1 [q2 q3]]].
     pose proof (demand_met bits x th 0 n false fs looks (fun b => b) tape (params ++ numbers) (map place partial) good W1 W2 RE q d q1 q2 q3) as met.
-    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ met).
+    rewrite E1, E2, E3 in met. exact (reached_aside _ _ _ _ _ _ _ _ _ _ _ met).
 Qed.
 End Precision.
 

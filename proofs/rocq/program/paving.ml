@@ -97,7 +97,7 @@ let rec evidence least source =
   | 6 ->
     let p, y = matrix source in
     (match integers source with
-     | [ kappa ] -> ByAccuracy (p, y, kappa)
+     | [ kappa ] -> ByAccuracy (p, y, kappa, big 0)
      | [ _; q ] when Big_int_Z.sign_big_int q > 0 && Big_int_Z.le_big_int q (big 255) -> ByTest
      | _ -> raise Malformed)
   | _ -> raise Malformed

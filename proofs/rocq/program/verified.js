@@ -4,56 +4,56 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(G){"use strict";var
-iL="spatial",pf="Invalid_argument",gu="precision",aA='"',iK=1255,pe="inside",ok="(",ol=0x800,pd="yaw",oh="range",oi="tree",oj="jsError",bU=0x8000,pc="sqrt(",og=256,of="obligation",eZ="offset",a8="machine",od="this quantity of such a mechanism in a claim that is refuted",oe="End_of_file",dZ="strut",iJ="center",eY="arm",iI="Failure",pb="serial_margin",gD="parameters",ch=0xff,pa="bodies",iV="outside",gC="base_axis",iH="ENOENT",o$="singular",o_=122,oc="([^/]+)",iU="0",iG=0xf,eX=128,ob=0xdc00,o8="Sys_blocked_io",o9="fd ",gt="given",oa="ENOTEMPTY",aM=248,gs="bound",n$="Division_by_zero",o6="by",o7=1027,n_="Sys_error",gB="slider",n9="torsion",o5="postulate",n8="proof",o4="joint_error",eW="refuted",dU="mechanism",gr="row",n7="EEXIST",o3="roll_pitch_yaw",gA="y",n6="cube",dc="lower",o2="within",n5="clearance",o1="turned",n4="control",gq="int_of_string",oZ="definitions",o0="dependent",eV=1024,n2="from",n3="name",oY=" : flags Open_rdonly and Open_wronly are not compatible",n1="orthocert/2",oX="reach",n0=512,oV="base_joint",oW="witness",eU="-",a1="platform",nZ=0x7ff0,nY="pitch",iT=": Not a directory",bo="min",oT="trim",dY="workspace",oU=" : file already exists",gp="split",oR='the failure "singular" of such a mechanism',iS="legs",oS="claim",iF="joint",dd=0xffffff,nX="platform_joint",nW="formulas",nV="roll",go="atlas",oP="nodes",oQ="Out_of_memory",nU="psi_max",gz="orientation",gn=254,oO="angle",iR="index out of bounds",nT="end",oN="one_to_one",gy="_bigarr02",nS=" : flags Open_text and Open_binary are not compatible",bH="drive",nR="coordinates",oM="holds",nQ="lower_divided",nP="speed",oK="cylinder",oL="joints",cg=0xffff,oI="acceleration",eS="certified",eT="chords",oJ=12520,iE="on",gm="accuracy",eR="axis",oH="no_cube",oG="parallel_margin",nO='the drive "',iD="Unix.Unix_error",gx="fails",gl="tool",iC="mkdir",oF="rho",gw=1000,iB="translational",oE="tolerances",nN="Stack_overflow",iQ="characteristic_length",T="",iP="^",iA="places",gk=": No such file or directory",nM="/static/",dX=0x3f,nK="stiffness",nL="Not_found",db="planar",eP="mode",oD="joint_speed",oC="Match_failure",nJ="transmission",bn="anchor",oB="at",nI="joint_force",dW="leg",nH="joint_acceleration",gv="+",iz="rmdir",oA=0xf0,oz="spherical",nG=1026,ox="REJECTED",oy="undecided",bp="max",bV="direction",nE="leg_angle",nF="orthoglide",eQ="rank",ow="constraint_margin",gj="test",nC="Pervasives.do_at_exit",nD="utf8",bG=0x80,dV="conditioning",dT="length",nB="Undefined_recursive_module",iO=")",nA="base",ov="quantity",nz="joint_range",gi="tilt",ny="Q2",ou="reference",nx="point",os="corner",ot=0xe0,nw="version",iN="z",oq="to",or=0xdfff,iy="compare: functional value",op="Assert_failure",bJ="/",oo="provenance",da="radius",gh="side",bI="require",on="format",nv="Q1",iM="ENOTDIR",nu="all",c$="box",om=250;function
-i8(c,b,a){var
+iT="spatial",pz="Invalid_argument",gC="precision",aC='"',iS=1255,py="inside",oD="(",oE=0x800,px="yaw",oA="range",oB="tree",oC="jsError",b3=0x8000,pw="sqrt(",oz=256,oy="obligation",e9="offset",ba="machine",ow="this quantity of such a mechanism in a claim that is refuted",ox="End_of_file",d6="strut",iR="center",e8="arm",iQ="Failure",pv="serial_margin",gL="parameters",cl=0xff,pu="bodies",pt="max_angle",i3="outside",gK="base_axis",iP="ENOENT",ps="singular",pr=122,ov="([^/]+)",pq="0",iO=0xf,e7=128,ou=0xdc00,po="Sys_blocked_io",pp="fd ",eZ="given",ot="ENOTEMPTY",aQ=248,gB="bound",os="Division_by_zero",pm="by",pn=1027,or="Sys_error",gJ="slider",oq="torsion",pl="postulate",op="proof",i2="joint_error",e6="refuted",d1="mechanism",gA="row",oo="EEXIST",pk="roll_pitch_yaw",gI="y",on="cube",dl="lower",pj="within",om="clearance",pi="turned",ol="control",gz="int_of_string",pg="definitions",ph="dependent",e5=1024,oj="from",ok="name",pf=" : flags Open_rdonly and Open_wronly are not compatible",oi="orthocert/2",pe="reach",oh=512,pc="base_joint",pd="witness",e4="-",a4="platform",og=0x7ff0,of="pitch",i1=": Not a directory",bq="min",pa="trim",d5="workspace",pb=" : file already exists",gy="split",o_='the failure "singular" of such a mechanism',i0="legs",o$="claim",iN="joint",dm=0xffffff,oe="platform_joint",od="formulas",oc="roll",gx="atlas",o8="nodes",o9="Out_of_memory",ob="psi_max",gH="orientation",gw=254,o7="angle",iZ="index out of bounds",oa="end",o6="one_to_one",gG="_bigarr02",n$=" : flags Open_text and Open_binary are not compatible",bN="drive",n_="coordinates",o5="holds",n9="lower_divided",n8="speed",o3="cylinder",o4="joints",ck=0xffff,o1="acceleration",e2="certified",e3="chords",o2=12520,iM="on",d0="accuracy",e1="axis",o0="no_cube",oZ="parallel_margin",n7='the drive "',iL="Unix.Unix_error",gF="fails",gv="tool",iK="mkdir",oY="rho",gE=1000,iJ="translational",oX="tolerances",n6="Stack_overflow",iY="characteristic_length",X="",iX="^",iI="places",gu=": No such file or directory",n5="/static/",d4=0x3f,n3="stiffness",n4="Not_found",dk="planar",eY="mode",oW="joint_speed",oV="Match_failure",n2="transmission",bp="anchor",oU="at",n1="joint_force",d3="leg",n0="joint_acceleration",gD="+",iH="rmdir",oT=0xf0,oS="spherical",nZ=1026,oQ="REJECTED",oR="undecided",br="max",b4="direction",nX="leg_angle",nY="orthoglide",e0="rank",oP="constraint_margin",gt="test",nV="Pervasives.do_at_exit",nW="utf8",bM=0x80,d2="conditioning",dZ="length",nU="Undefined_recursive_module",iW=")",nT="base",oO="quantity",nS="joint_range",gs="tilt",nR="Q2",oN="reference",nQ="point",oL="corner",oM=0xe0,nP="version",iV="z",oJ="to",oK=0xdfff,iG="compare: functional value",oI="Assert_failure",bP="/",oH="provenance",dj="radius",gr="side",bO="require",oG="format",nO="Q1",iU="ENOTDIR",nN="all",di="box",oF=250;function
+je(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=T;for(;0<a;b+=eV,a-=eV)e+=d.apply(null,c.slice(b,b+Math.min(a,eV)));return e}function
-gF(b){if(G.Uint8Array)var
+e=X;for(;0<a;b+=e5,a-=e5)e+=d.apply(null,c.slice(b,b+Math.min(a,e5)));return e}function
+gN(b){if(G.Uint8Array)var
 c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-e0(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?i8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?i8(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gF(b);var
+e_(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gN(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-d2(a){return a}function
-d1(a,b,c,d,e){e0(d2(a),b,c,d,e);return 0}function
-iX(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+d9(a){return a}function
+d8(a,b,c,d,e){e_(d9(a),b,c,d,e);return 0}function
+i5(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cI(c,a){if(c.fun)return cI(c.fun,a);if(typeof
+cN(c,a){if(c.fun)return cN(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cI(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cN(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cI(c,d)}}function
-pH(b,a){if(b==0)return T;if(a.repeat)return a.repeat(b);var
-d=T,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d3(a){if(a.t==2)a.c+=pH(a.l-a.c.length,"\0");else
-a.c=i8(a.c,0,a.c.length);a.t=0}function
-d4(a){a.t&6&&d3(a);return a.c}var
-EW=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-EV(a){if(EW)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cN(c,d)}}function
+p1(b,a){if(b==0)return X;if(a.repeat)return a.repeat(b);var
+d=X,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+d_(a){if(a.t==2)a.c+=p1(a.l-a.c.length,"\0");else
+a.c=je(a.c,0,a.c.length);a.t=0}function
+d$(a){a.t&6&&d_(a);return a.c}var
+Fs=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Fr(a){if(Fs)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-i0(c){var
+i8(c){var
 a=new(G.Float32Array)(1);a[0]=c;var
 b=new(G.Int32Array)(a.buffer);return b[0]|0}var
-py=Math.pow(2,-24);function
-EM(a){throw a}var
-as=[0];function
-pE(){EM(as.Division_by_zero)}function
-F(b,c,a){this.lo=b&dd;this.mi=c&dd;this.hi=a&cg}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
+pS=Math.pow(2,-24);function
+Fi(a){throw a}var
+at=[0];function
+pY(){Fi(at.Division_by_zero)}function
+F(b,c,a){this.lo=b&dm;this.mi=c&dm;this.hi=a&ck}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
 F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*py|0)+this.mi*a.lo+this.lo*a.mi,d=(c*py|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*pS|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pS|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 F(b,c,d)};F.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};F.prototype.isNeg=function(){return this.hi<<16<0};F.prototype.and=function(a){return new
 F(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};F.prototype.or=function(a){return new
 F(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};F.prototype.xor=function(a){return new
@@ -76,27 +76,27 @@ F(this.hi>>a-48,0,0)};F.prototype.shift_right=function(a){a=a&63;if(a==0)return 
 c=this.hi<<16>>16;if(a<24)return new
 F(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cg);return new
-F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dd;this.lo=this.lo<<1&dd};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dd;this.mi=(this.mi>>>1|this.hi<<23)&dd;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
+F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&ck);return new
+F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dm;this.lo=this.lo<<1&dm};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dm;this.mi=(this.mi>>>1|this.hi<<23)&dm;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
-b=this;if(a.isZero())pE();var
-d=b.hi^a.hi;if(b.hi&bU)b=b.neg();if(a.hi&bU)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&bU)c=c.neg();return c};F.prototype.mod=function(b){var
-a=this;if(b.isZero())pE();var
-d=a.hi;if(a.hi&bU)a=a.neg();if(b.hi&bU)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&bU)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&ch,this.mi>>16,this.mi>>8&ch,this.mi&ch,this.lo>>16,this.lo>>8&ch,this.lo&ch]};F.prototype.lo32=function(){return this.lo|(this.mi&ch)<<24};F.prototype.hi32=function(){return this.mi>>>8&cg|this.hi<<16};function
-gH(b,c,a){return new
+b=this;if(a.isZero())pY();var
+d=b.hi^a.hi;if(b.hi&b3)b=b.neg();if(a.hi&b3)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&b3)c=c.neg();return c};F.prototype.mod=function(b){var
+a=this;if(b.isZero())pY();var
+d=a.hi;if(a.hi&b3)a=a.neg();if(b.hi&b3)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&b3)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&cl,this.mi>>16,this.mi>>8&cl,this.mi&cl,this.lo>>16,this.lo>>8&cl,this.lo&cl]};F.prototype.lo32=function(){return this.lo|(this.mi&cl)<<24};F.prototype.hi32=function(){return this.mi>>>8&ck|this.hi<<16};function
+gP(b,c,a){return new
 F(b,c,a)}function
-gG(a){if(!isFinite(a)){if(isNaN(a))return gH(1,0,nZ);return a>0?gH(0,0,nZ):gH(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?bU:a>=0?0:bU;if(f)a=-a;var
-b=EV(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nG)}else{a/=Math.pow(2,b-o7);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gO(a){if(!isFinite(a)){if(isNaN(a))return gP(1,0,og);return a>0?gP(0,0,og):gP(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?b3:a>=0?0:b3;if(f)a=-a;var
+b=Fr(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nZ)}else{a/=Math.pow(2,b-pn);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iG|f|b<<4;return gH(g,e,c)}function
-e3(a){return a.toArray()}function
-pm(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gy)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cg)c.write(16,b.dims[a]);else{c.write(16,cg);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&iO|f|b<<4;return gP(g,e,c)}function
+fb(a){return a.toArray()}function
+pG(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gG)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<ck)c.write(16,b.dims[a]);else{c.write(16,ck);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,51 +113,51 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=e3(b.get(a));for(var
+e=fb(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=e3(gG(b.get(a)));for(var
+e=fb(gO(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=i0(b.get(a));c.write(32,e)}break;case
+e=i8(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,i0(d[1]));c.write(32,i0(d[2]))}break;case
+d=b.get(a);c.write(32,i8(d[1]));c.write(32,i8(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=e3(gG(f[1]));for(var
+f=b.get(a),e=fb(gO(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=e3(gG(f[2]));for(var
+e=fb(gO(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-EO(b,a){throw[0,b,a]}function
-pL(a){if(a.length<24){for(var
+Fk(b,a){throw[0,b,a]}function
+p5(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-i9(e){for(var
-j=T,c=T,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bG){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bG;d++);if(d-b>n0){c.substr(0,1);j+=c;c=T;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(f<<6);if(f<ot){a=g-0x3080;if(a<bG)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX){g=h+(g<<6);if(f<oA){a=g-0xe2080;if(a<ol||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==eX&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cg)c+=String.fromCharCode(0xd7c0+(a>>10),ob+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>eV){c.substr(0,1);j+=c;c=T}}return j+c}function
-bW(c,a,b){this.t=c;this.c=a;this.l=b}bW.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d3(this);case
-0:if(pL(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};bW.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return i9(a)};bW.prototype.slice=function(){var
+jf(e){for(var
+j=X,c=X,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bM){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bM;d++);if(d-b>oh){c.substr(0,1);j+=c;c=X;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(f<<6);if(f<oM){a=g-0x3080;if(a<bM)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(g<<6);if(f<oT){a=g-0xe2080;if(a<oE||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>ck)c+=String.fromCharCode(0xd7c0+(a>>10),ou+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>e5){c.substr(0,1);j+=c;c=X}}return j+c}function
+b5(c,a,b){this.t=c;this.c=a;this.l=b}b5.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:d_(this);case
+0:if(p5(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};b5.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return jf(a)};b5.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-bW(this.t,a,this.l)};function
-pp(a){return new
-bW(0,a,a.length)}function
-a(a){return pp(a)}function
-i7(c,b){EO(c,a(b))}function
-aF(a){i7(as.Invalid_argument,a)}function
-pk(a){switch(a){case
+b5(this.t,a,this.l)};function
+pJ(a){return new
+b5(0,a,a.length)}function
+a(a){return pJ(a)}function
+jd(c,b){Fk(c,a(b))}function
+aK(a){jd(at.Invalid_argument,a)}function
+pE(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Eg(c,e){var
+EO(c,e){var
 b=G,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,52 +171,52 @@ b=G,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aF("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aK("Bigarray.create: unsupported kind");var
 d=new
-a(e*pk(c));return d}function
-i1(c){var
+a(e*pE(c));return d}function
+i9(c){var
 a=new(G.Int32Array)(1);a[0]=c;var
 b=new(G.Float32Array)(a.buffer);return b[0]}function
-e2(a){return new
+fa(a){return new
 F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-i2(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iG)==0?b&bU?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iG);if(c>0){a+=16;a*=Math.pow(2,c-o7)}else
-a*=Math.pow(2,-nG);if(b&bU)a=-a;return a}function
-iW(b){var
+i_(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iO)==0?b&b3?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iO);if(c>0){a+=16;a*=Math.pow(2,c-pn)}else
+a*=Math.pow(2,-nZ);if(b&b3)a=-a;return a}function
+i4(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aF("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Ew(b,a){return new
-F(b&dd,b>>>24&ch|(a&cg)<<8,a>>>16&cg)}function
-i3(a){return a.hi32()}function
-i4(a){return a.lo32()}function
-gE(){aF(iR)}var
-Eh=gy;function
-cH(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cH.prototype.caml_custom=Eh;cH.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aK("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+E4(b,a){return new
+F(b&dm,b>>>24&cl|(a&ck)<<8,a>>>16&ck)}function
+i$(a){return a.hi32()}function
+ja(a){return a.lo32()}function
+gM(){aK(iZ)}var
+EP=gG;function
+cM(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cM.prototype.caml_custom=EP;cM.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aF("bigarray.js: invalid offset");if(this.dims.length!=b.length)aF("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gE();c=c*this.dims[a]+b[a]}else
+Array))aK("bigarray.js: invalid offset");if(this.dims.length!=b.length)aK("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gM();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gE();c=c*this.dims[a]+(b[a]-1)}return c};cH.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gM();c=c*this.dims[a]+(b[a]-1)}return c};cM.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Ew(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return E4(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gn,e,c];default:return this.data[a]}};cH.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=i4(b);this.data[a*2+1]=i3(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gw,e,c];default:return this.data[a]}};cM.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=ja(b);this.data[a*2+1]=i$(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cH.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cM.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=i4(b),e=i3(b);if(c==e)this.data.fill(c);else
+c=ja(b),e=i$(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cH.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cM.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-d0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d0.prototype=new
-cH();d0.prototype.offset=function(a){if(typeof
+d7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d7.prototype=new
+cM();d7.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aF("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gE();return a};d0.prototype.get=function(a){return this.data[a]};d0.prototype.set=function(a,b){this.data[a]=b;return 0};d0.prototype.fill=function(a){this.data.fill(a);return 0};function
-pi(c,d,a,b){var
-e=pk(c);if(iW(a)*e!=b.length)aF("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-d0(c,d,a,b);return new
-cH(c,d,a,b)}function
-bK(b){if(!as.Failure)as.Failure=[aM,a(iI),-3];i7(as.Failure,b)}function
-pj(b,v,r){var
-i=b.read32s();if(i<0||i>16)bK("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&ch,o=p>>8&1,h=[];if(r==gy)for(var
+aK("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gM();return a};d7.prototype.get=function(a){return this.data[a]};d7.prototype.set=function(a,b){this.data[a]=b;return 0};d7.prototype.fill=function(a){this.data.fill(a);return 0};function
+pC(c,d,a,b){var
+e=pE(c);if(i4(a)*e!=b.length)aK("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+d7(c,d,a,b);return new
+cM(c,d,a,b)}function
+bQ(b){if(!at.Failure)at.Failure=[aQ,a(iQ),-3];jd(at.Failure,b)}function
+pD(b,v,r){var
+i=b.read32s();if(i<0||i>16)bQ("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cl,o=p>>8&1,h=[];if(r==gG)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cg){var
-t=b.read32u(),u=b.read32u();if(t!=0)bK("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==ck){var
+t=b.read32u(),u=b.read32u();if(t!=0)bQ("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=iW(h),f=Eg(j,d),g=pi(j,o,h,f);switch(j){case
+d=i4(h),f=EO(j,d),g=pC(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bK("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bQ("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=e2(e);g.set(a,q)}break;case
+q=fa(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=i2(e2(e));g.set(a,k)}break;case
+k=i_(fa(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=i1(b.read32s());g.set(a,k)}break;case
+k=i9(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=i1(b.read32s()),l=i1(b.read32s());g.set(a,[gn,m,l])}break;case
+m=i9(b.read32s()),l=i9(b.read32s());g.set(a,[gw,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=i2(e2(e));for(var
+m=i_(fa(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=i2(e2(e));g.set(a,[gn,m,l])}break}v[0]=(4+i)*4;return pi(j,o,h,f)}function
-ph(a,b,c){return a.compare(b,c)}function
-pB(a,b){return Math.imul(a,b)}function
-ci(b,a){a=pB(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pB(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Et(a,b){a=ci(a,i4(b));a=ci(a,i3(b));return a}function
-px(a,b){return Et(a,gG(b))}function
-pl(c){var
-b=iW(c.dims),d=0;switch(c.kind){case
+l=i_(fa(e));g.set(a,[gw,m,l])}break}v[0]=(4+i)*4;return pC(j,o,h,f)}function
+pB(a,b,c){return a.compare(b,c)}function
+pV(a,b){return Math.imul(a,b)}function
+cm(b,a){a=pV(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pV(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+E1(a,b){a=cm(a,ja(b));a=cm(a,i$(b));return a}function
+pR(a,b){return E1(a,gO(b))}function
+pF(c){var
+b=i4(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>og)b=og;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=ci(d,e)}e=0;switch(b&3){case
+12:if(b>oz)b=oz;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cm(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=ci(d,e)}break;case
+1:e|=c.data[a+0];d=cm(d,e)}break;case
 4:case
-5:if(b>eX)b=eX;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=ci(d,e)}if((b&1)!=0)d=ci(d,c.data[a]);break;case
+5:if(b>e7)b=e7;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cm(d,e)}if((b&1)!=0)d=cm(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ci(d,c.data[a]);break;case
+a=0;a<b;a++)d=cm(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=ci(d,c.data[a]);break;case
+a=0;a<b;a++)d=cm(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=ci(d,c.data[a]);break;case
+a=0;a<b;a++)d=cm(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=px(d,c.data[a]);break;case
+a=0;a<b;a++)d=pR(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=px(d,c.data[a]);break}return d}function
-Eu(a,b){b[0]=4;return a.read32s()}function
-EJ(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=pR(d,c.data[a]);break}return d}function
+E2(a,b){b[0]=4;return a.read32s()}function
+Ff(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bK("input_value: native integer value too large");default:bK("input_value: ill-formed native integer")}}function
-Ez(c,d){var
+2:bQ("input_value: native integer value too large");default:bQ("input_value: ill-formed native integer")}}function
+E7(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return e2(b)}function
-Ey(e,d,b){var
-c=e3(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fa(b)}function
+E6(e,d,b){var
+c=fb(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Ev(a,b,c){return a.compare(b)}function
-Ex(a){return a.lo32()^a.hi32()}var
-ps={"_j":{deserialize:Ez,serialize:Ey,fixed_length:8,compare:Ev,hash:Ex},"_i":{deserialize:Eu,fixed_length:4},"_n":{deserialize:EJ,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pj(a,b,"_bigarray")},serialize:pm,compare:ph,hash:pl},"_bigarr02":{deserialize:function(a,b){return pj(a,b,gy)},serialize:pm,compare:ph,hash:pl}};function
-iZ(a){return ps[a.caml_custom]&&ps[a.caml_custom].compare}function
-pq(f,c,d,e){var
-b=iZ(c);if(b){var
+E3(a,b,c){return a.compare(b)}function
+E5(a){return a.lo32()^a.hi32()}var
+pM={"_j":{deserialize:E7,serialize:E6,fixed_length:8,compare:E3,hash:E5},"_i":{deserialize:E2,fixed_length:4},"_n":{deserialize:Ff,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pD(a,b,"_bigarray")},serialize:pG,compare:pB,hash:pF},"_bigarr02":{deserialize:function(a,b){return pD(a,b,gG)},serialize:pG,compare:pB,hash:pF}};function
+i7(a){return pM[a.caml_custom]&&pM[a.caml_custom].compare}function
+pK(f,c,d,e){var
+b=i7(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-i6(a){return a
+jc(a){return a
 instanceof
-bW}function
-pz(a){return i6(a)}function
-pr(a){if(typeof
-a==="number")return gw;else
-if(i6(a))return 252;else
-if(pz(a))return 1252;else
+b5}function
+pT(a){return jc(a)}function
+pL(a){if(typeof
+a==="number")return gE;else
+if(jc(a))return 252;else
+if(pT(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gn?0:b}else
+b=a[0]|0;return b==gw?0:b}else
 if(a
 instanceof
-String)return oJ;else
+String)return o2;else
 if(typeof
-a=="string")return oJ;else
+a=="string")return o2;else
 if(a
 instanceof
-Number)return gw;else
-if(a&&a.caml_custom)return iK;else
+Number)return gE;else
+if(a&&a.caml_custom)return iS;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-EA(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-po(a,b){a.t&6&&d3(a);b.t&6&&d3(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-pI(a,b){return po(a,b)}function
-iY(a,b,d){var
+E8(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pI(a,b){a.t&6&&d_(a);b.t&6&&d_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+p2(a,b){return pI(a,b)}function
+i6(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pr(a);if(f==om){a=a[1];continue}var
-g=pr(b);if(g==om){b=b[1];continue}if(f!==g){if(f==gw){if(g==iK)return pq(a,b,-1,d);return-1}if(g==gw){if(f==iK)return pq(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aF(iy);break;case
+f=pL(a);if(f==oF){a=a[1];continue}var
+g=pL(b);if(g==oF){b=b[1];continue}if(f!==g){if(f==gE){if(g==iS)return pK(a,b,-1,d);return-1}if(g==gE){if(f==iS)return pK(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aK(iG);break;case
 248:var
-c=EA(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aF(iy);break;case
-250:aF("equal: got Forward_tag, should not happen");break;case
-251:aF("equal: abstract value");break;case
+c=E8(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aK(iG);break;case
+250:aK("equal: got Forward_tag, should not happen");break;case
+251:aK("equal: abstract value");break;case
 252:if(a!==b){var
-c=po(a,b);if(c!=0)return c|0}break;case
-253:aF("equal: got Double_tag, should not happen");break;case
-254:aF("equal: got Double_array_tag, should not happen");break;case
-255:aF("equal: got Custom_tag, should not happen");break;case
-1247:aF(iy);break;case
+c=pI(a,b);if(c!=0)return c|0}break;case
+253:aK("equal: got Double_tag, should not happen");break;case
+254:aK("equal: got Double_array_tag, should not happen");break;case
+255:aK("equal: got Custom_tag, should not happen");break;case
+1247:aK(iG);break;case
 1255:var
-i=iZ(a);if(i!=iZ(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aF("compare: abstract value");var
+i=i7(a);if(i!=i7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aK("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=d4(a),b=d4(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=d$(a),b=d$(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Eo(a,b){return iY(a,b,true)}function
-bY(a){if(a<0)aF("Bytes.create");return new
-bW(a?2:9,T,a)}function
-pt(a,b){return+(iY(a,b,false)==0)}function
-Eq(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=T;a.t=2}else{a.c=pH(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gF(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-EK=0;function
-pv(){return EK++}function
-EC(a){return a.toUtf16()}function
-e4(){return typeof
+EW(a,b){return i6(a,b,true)}function
+b7(a){if(a<0)aK("Bytes.create");return new
+b5(a?2:9,X,a)}function
+pN(a,b){return+(i6(a,b,false)==0)}function
+EY(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=X;a.t=2}else{a.c=p1(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gN(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Fg=0;function
+pP(){return Fg++}function
+E_(a){return a.toUtf16()}function
+fc(){return typeof
 G.process!=="undefined"&&typeof
 G.process.versions!=="undefined"&&typeof
 G.process.versions.node!=="undefined"}function
-EX(){function
-a(a){if(a.charAt(0)===bJ)return[T,a.substring(1)];return}function
+Ft(){function
+a(a){if(a.charAt(0)===bP)return[X,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||T,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||T,f=a[2]||T;return[d,c.substring(d.length+f.length)]}return}return e4()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
-jc=EX();function
-pJ(a){return a.slice(-1)!==bJ?a+bJ:a}if(e4()&&G.process&&G.process.cwd)var
-e1=G.process.cwd().replace(/\\/g,bJ);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||X,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||X,f=a[2]||X;return[d,c.substring(d.length+f.length)]}return}return fc()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
+jk=Ft();function
+p3(a){return a.slice(-1)!==bP?a+bP:a}if(fc()&&G.process&&G.process.cwd)var
+e$=G.process.cwd().replace(/\\/g,bP);else
 var
-e1="/static";e1=pJ(e1);function
-EE(a){a=EC(a);if(!jc(a))a=e1+a;var
-e=jc(a),d=e[1].split(bJ),b=[];for(var
+e$="/static";e$=p3(e$);function
+Fa(a){a=E_(a);if(!jk(a))a=e$+a;var
+e=jk(a),d=e[1].split(bP),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-ES(e){for(var
-f=T,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bG){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bG;d++);if(d-c>n0){b.substr(0,1);f+=b;b=T;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<ol){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bG|a&dX)}else
-if(a<0xd800||a>=or)b+=String.fromCharCode(ot|a>>12,bG|a>>6&dX,bG|a&dX);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ob||h>or)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oA|a>>18,bG|a>>12&dX,bG|a>>6&dX,bG|a&dX)}if(b.length>eV){b.substr(0,1);f+=b;b=T}}return f+b}function
-El(a){var
-b=9;if(!pL(a))b=8,a=ES(a);return new
-bW(b,a,a.length)}function
-d5(a){return El(a)}var
-E0=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",n7,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iH,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iM,oa,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dg(d,f,e,a){var
-b=E0.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,d5(f||T),d5(e||T)];return c}var
-pC={};function
-de(a){return pC[a]}function
-df(b,a){throw[0,b].concat(a)}function
-Ek(a){return new
-bW(4,a,a.length)}function
-aj(a){i7(as.Sys_error,a)}function
-EN(a){aj(a+gk)}function
-pn(){aF(iR)}function
-Ej(b,a){if(a>>>0>=b.l)pn();return iX(b,a)}function
-gI(a){return a.l}function
-pg(){}function
-aD(a){this.data=a}aD.prototype=new
-pg();aD.prototype.truncate=function(a){var
-b=this.data;this.data=bY(a|0);e0(b,0,this.data,0,a)};aD.prototype.length=function(){return gI(this.data)};aD.prototype.write=function(b,d,g,a){var
+Fo(e){for(var
+f=X,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bM){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bM;d++);if(d-c>oh){b.substr(0,1);f+=b;b=X;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<oE){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bM|a&d4)}else
+if(a<0xd800||a>=oK)b+=String.fromCharCode(oM|a>>12,bM|a>>6&d4,bM|a&d4);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ou||h>oK)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oT|a>>18,bM|a>>12&d4,bM|a>>6&d4,bM|a&d4)}if(b.length>e5){b.substr(0,1);f+=b;b=X}}return f+b}function
+ET(a){var
+b=9;if(!p5(a))b=8,a=Fo(a);return new
+b5(b,a,a.length)}function
+ea(a){return ET(a)}var
+Fw=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",oo,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iU,ot,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dq(d,f,e,a){var
+b=Fw.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,ea(f||X),ea(e||X)];return c}var
+pW={};function
+dn(a){return pW[a]}function
+dp(b,a){throw[0,b].concat(a)}function
+ES(a){return new
+b5(4,a,a.length)}function
+ak(a){jd(at.Sys_error,a)}function
+Fj(a){ak(a+gu)}function
+pH(){aK(iZ)}function
+ER(b,a){if(a>>>0>=b.l)pH();return i5(b,a)}function
+gQ(a){return a.l}function
+pA(){}function
+aI(a){this.data=a}aI.prototype=new
+pA();aI.prototype.truncate=function(a){var
+b=this.data;this.data=b7(a|0);e_(b,0,this.data,0,a)};aI.prototype.length=function(){return gQ(this.data)};aI.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=bY(b+a),f=this.data;this.data=e;e0(f,0,this.data,0,c)}d1(d,g,this.data,b,a);return 0};aD.prototype.read=function(c,a,d,b){var
-e=this.length();e0(this.data,c,a,d,b);return 0};aD.prototype.read_one=function(a){return Ej(this.data,a)};aD.prototype.close=function(){};aD.prototype.constructor=aD;function
-aS(b,a){this.content={};this.root=b;this.lookupFun=a}aS.prototype.nm=function(a){return this.root+a};aS.prototype.create_dir_if_needed=function(d){var
-c=d.split(bJ),b=T;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bJ;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aS.prototype.slash=function(a){return/\/$/.test(a)?a:a+bJ};aS.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=b7(b+a),f=this.data;this.data=e;e_(f,0,this.data,0,c)}d8(d,g,this.data,b,a);return 0};aI.prototype.read=function(c,a,d,b){var
+e=this.length();e_(this.data,c,a,d,b);return 0};aI.prototype.read_one=function(a){return ER(this.data,a)};aI.prototype.close=function(){};aI.prototype.constructor=aI;function
+aX(b,a){this.content={};this.root=b;this.lookupFun=a}aX.prototype.nm=function(a){return this.root+a};aX.prototype.create_dir_if_needed=function(d){var
+c=d.split(bP),b=X;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bP;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aX.prototype.slash=function(a){return/\/$/.test(a)?a:a+bP};aX.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aD(d2(c[1]))}}};aS.prototype.exists=function(a){if(a==T)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aS.prototype.mkdir=function(c,e,d){var
-b=d&&de(iD);if(this.exists(c))if(b)df(b,dg(n7,iC,this.nm(c)));else
-aj(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||T;if(!this.exists(a))if(b)df(b,dg(iH,iC,this.nm(a)));else
-aj(a+gk);if(!this.is_dir(a))if(b)df(b,dg(iM,iC,this.nm(a)));else
-aj(a+iT);this.create_dir_if_needed(this.slash(c))};aS.prototype.rmdir=function(a,f){var
-b=f&&de(iD),c=a==T?T:this.slash(a),e=new
-RegExp(iP+c+oc);if(!this.exists(a))if(b)df(b,dg(iH,iz,this.nm(a)));else
-aj(a+gk);if(!this.is_dir(a))if(b)df(b,dg(iM,iz,this.nm(a)));else
-aj(a+iT);for(var
+aI(d9(c[1]))}}};aX.prototype.exists=function(a){if(a==X)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aX.prototype.mkdir=function(c,e,d){var
+b=d&&dn(iL);if(this.exists(c))if(b)dp(b,dq(oo,iK,this.nm(c)));else
+ak(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||X;if(!this.exists(a))if(b)dp(b,dq(iP,iK,this.nm(a)));else
+ak(a+gu);if(!this.is_dir(a))if(b)dp(b,dq(iU,iK,this.nm(a)));else
+ak(a+i1);this.create_dir_if_needed(this.slash(c))};aX.prototype.rmdir=function(a,f){var
+b=f&&dn(iL),c=a==X?X:this.slash(a),e=new
+RegExp(iX+c+ov);if(!this.exists(a))if(b)dp(b,dq(iP,iH,this.nm(a)));else
+ak(a+gu);if(!this.is_dir(a))if(b)dp(b,dq(iU,iH,this.nm(a)));else
+ak(a+i1);for(var
 d
 in
-this.content)if(d.match(e))if(b)df(b,dg(oa,iz,this.nm(a)));else
-aj(this.nm(a)+": Directory not empty");delete
-this.content[c]};aS.prototype.readdir=function(a){var
-f=a==T?T:this.slash(a);if(!this.exists(a))aj(a+gk);if(!this.is_dir(a))aj(a+iT);var
+this.content)if(d.match(e))if(b)dp(b,dq(ot,iH,this.nm(a)));else
+ak(this.nm(a)+": Directory not empty");delete
+this.content[c]};aX.prototype.readdir=function(a){var
+f=a==X?X:this.slash(a);if(!this.exists(a))ak(a+gu);if(!this.is_dir(a))ak(a+i1);var
 g=new
-RegExp(iP+f+oc),d={},c=[];for(var
+RegExp(iX+f+ov),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aS.prototype.is_dir=function(a){if(a==T)return true;var
-b=this.slash(a);return this.content[b]?1:0};aS.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aX.prototype.is_dir=function(a){if(a==X)return true;var
+b=this.slash(a);return this.content[b]?1:0};aX.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aS.prototype.open=function(a,b){if(b.rdonly&&b.wronly)aj(this.nm(a)+oY);if(b.text&&b.binary)aj(this.nm(a)+nS);this.lookup(a);if(this.content[a]){if(this.is_dir(a))aj(this.nm(a)+" : is a directory");if(b.create&&b.excl)aj(this.nm(a)+oU);var
+this.content[a];return b};aX.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ak(this.nm(a)+pf);if(b.text&&b.binary)ak(this.nm(a)+n$);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ak(this.nm(a)+" : is a directory");if(b.create&&b.excl)ak(this.nm(a)+pb);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aD(bY(0));return this.content[a]}else
-EN(this.nm(a))};aS.prototype.register=function(c,a){var
-b;if(this.content[c])aj(this.nm(c)+oU);if(i6(a))b=new
-aD(a);if(pz(a))b=new
-aD(d2(a));else
+aI(b7(0));return this.content[a]}else
+Fj(this.nm(a))};aX.prototype.register=function(c,a){var
+b;if(this.content[c])ak(this.nm(c)+pb);if(jc(a))b=new
+aI(a);if(pT(a))b=new
+aI(d9(a));else
 if(a
 instanceof
 Array)b=new
-aD(Ek(a));else
+aI(ES(a));else
 if(typeof
 a==="string")b=new
-aD(pp(a));else
+aI(pJ(a));else
 if(a.toString){var
-d=d2(d5(a.toString()));b=new
-aD(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-aj(this.nm(c)+" : registering file with invalid content type")};aS.prototype.constructor=aS;function
-an(a){return gI(a)}function
-cJ(b,a){return iX(b,a)}function
-Ef(d){var
-c=an(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=cJ(d,a);return b}function
-Ee(a){if(a.t!=4)gF(a);return a.c}function
-En(a,c,b){b&=ch;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gF(a)}a.c[c]=b;return 0}function
-Em(b,a,c){if(a>>>0>=b.l)pn();return En(b,a,c)}function
-bX(a){this.fs=require("fs");this.fd=a}bX.prototype=new
-pg();bX.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){aj(a.toString())}};bX.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){aj(a.toString())}};bX.prototype.write=function(f,b,c,e){var
-a=Ef(b);if(!(a
+d=d9(ea(a.toString()));b=new
+aI(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ak(this.nm(c)+" : registering file with invalid content type")};aX.prototype.constructor=aX;function
+ao(a){return gQ(a)}function
+cO(b,a){return i5(b,a)}function
+EN(d){var
+c=ao(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=cO(d,a);return b}function
+EM(a){if(a.t!=4)gN(a);return a.c}function
+EV(a,c,b){b&=cl;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gN(a)}a.c[c]=b;return 0}function
+EU(b,a,c){if(a>>>0>=b.l)pH();return EV(b,a,c)}function
+b6(a){this.fs=require("fs");this.fd=a}b6.prototype=new
+pA();b6.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ak(a.toString())}};b6.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ak(a.toString())}};b6.prototype.write=function(f,b,c,e){var
+a=EN(b);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
-d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){aj(a.toString())}return 0};bX.prototype.read=function(g,d,c,f){var
-a=Ee(d);if(!(a
+d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ak(a.toString())}return 0};b6.prototype.read=function(g,d,c,f){var
+a=EM(d);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
-e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){aj(a.toString())}for(var
-b=0;b<f;b++)Em(d,c+b,e[c+b]);return 0};bX.prototype.read_one=function(c){var
-b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){aj(a.toString())}return a[0]};bX.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){aj(a.toString())}};bX.prototype.constructor=bX;function
-aE(a){this.fs=require("fs");this.root=a}aE.prototype.nm=function(a){return this.root+a};aE.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aE.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aE.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aE.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){aj(a.toString())}};aE.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.open=function(f,c,g){var
+e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ak(a.toString())}for(var
+b=0;b<f;b++)EU(d,c+b,e[c+b]);return 0};b6.prototype.read_one=function(c){var
+b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ak(a.toString())}return a[0]};b6.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ak(a.toString())}};b6.prototype.constructor=b6;function
+aJ(a){this.fs=require("fs");this.root=a}aJ.prototype.nm=function(a){return this.root+a};aJ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aJ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aJ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aJ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ak(a.toString())}};aJ.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-bX(d)}catch(a){this.raise_nodejs_error(a,g)}};aE.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aE.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nD);return d5(a)}catch(a){this.raise_nodejs_error(a,c)}};aE.prototype.raise_nodejs_error=function(a,d){var
-b=de(iD);if(d&&b){var
-c=dg(a.code,a.syscall,a.path,a.errno);df(b,c)}else
-aj(a.toString())};aE.prototype.stats_from_js=function(a){var
+b6(d)}catch(a){this.raise_nodejs_error(a,g)}};aJ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aJ.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),nW);return ea(a)}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.raise_nodejs_error=function(a,d){var
+b=dn(iL);if(d&&b){var
+c=dq(a.code,a.syscall,a.path,a.errno);dp(b,c)}else
+ak(a.toString())};aJ.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aE.prototype.constructor=aE;function
-pw(b){var
-a=jc(b);if(!a)return;return a[0]+bJ}var
-gJ=pw(e1)||bK("unable to compute caml_root"),d6=[];if(e4())d6.push({path:gJ,device:new
-aE(gJ)});else
-d6.push({path:gJ,device:new
-aS(gJ)});d6.push({path:nM,device:new
-aS(nM)});function
-pP(b){var
-g=EE(b),b=g.join(bJ),f=pJ(b),c;for(var
-e=0;e<d6.length;e++){var
-a=d6[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&e4()){var
-d=pw(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aJ.prototype.constructor=aJ;function
+pQ(b){var
+a=jk(b);if(!a)return;return a[0]+bP}var
+gR=pQ(e$)||bQ("unable to compute caml_root"),eb=[];if(fc())eb.push({path:gR,device:new
+aJ(gR)});else
+eb.push({path:gR,device:new
+aX(gR)});eb.push({path:n5,device:new
+aX(n5)});function
+p9(b){var
+g=Fa(b),b=g.join(bP),f=p3(b),c;for(var
+e=0;e<eb.length;e++){var
+a=eb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fc()){var
+d=pQ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aE(d)};d6.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;aj("no device found for "+f)}function
-Ep(c,b){var
-a=pP(c);if(!a.device.register)bK("cannot register file");a.device.register(a.rest,b);return 0}function
-pK(c,b){var
-c=a(c),b=a(b);return Ep(c,b)}function
-Es(){var
+aJ(d)};eb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ak("no device found for "+f)}function
+EX(c,b){var
+a=p9(c);if(!a.device.register)bQ("cannot register file");a.device.register(a.rest,b);return 0}function
+p4(c,b){var
+c=a(c),b=a(b);return EX(c,b)}function
+E0(){var
 b=G.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)pK(b[a].name,b[a].content);G.jsoo_create_file=pK;G.caml_fs_tmp=[];return 0}function
-EL(c){var
-a=0,e=an(c),b=10,d=1;if(e>0)switch(cJ(c,a)){case
+a=0;a<b.length;a++)p4(b[a].name,b[a].content);G.jsoo_create_file=p4;G.caml_fs_tmp=[];return 0}function
+Fh(c){var
+a=0,e=ao(c),b=10,d=1;if(e>0)switch(cO(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&cJ(c,a)==48)switch(cJ(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&cO(c,a)==48)switch(cO(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=an(c),b=10,d=1;if(e>0)switch(cJ(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pD(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=o_)return a-87;return-1}function
-i5(f){var
-h=EL(f),c=h[0],i=h[1],d=h[2],g=an(f),j=-1>>>0,e=c<g?cJ(f,c):0,b=pD(e);if(b<0||b>=d)bK(gq);var
-a=b;for(c++;c<g;c++){e=cJ(f,c);if(e==95)continue;b=pD(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bK(gq)}if(c!=g)bK(gq);a=i*a;if(d==10&&(a|0)!=a)bK(gq);return a|0}function
-ED(a,b){return+(iY(a,b,false)<=0)}function
-EF(a,d){if(a<0)gE();var
+pX(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=pr)return a-87;return-1}function
+jb(f){var
+h=Fh(f),c=h[0],i=h[1],d=h[2],g=ao(f),j=-1>>>0,e=c<g?cO(f,c):0,b=pX(e);if(b<0||b>=d)bQ(gz);var
+a=b;for(c++;c<g;c++){e=cO(f,c);if(e==95)continue;b=pX(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bQ(gz)}if(c!=g)bQ(gz);a=i*a;if(d==10&&(a|0)!=a)bQ(gz);return a|0}function
+E$(a,b){return+(i6(a,b,false)<=0)}function
+Fb(a,d){if(a<0)gM();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cj=new
+cn=new
 Array();function
-EG(c){var
-a=cj[c];if(!a.opened)aj("Cannot flush a closed channel");if(!a.buffer||a.buffer==T)return 0;if(a.fd&&as.fds[a.fd]&&as.fds[a.fd].output){var
-b=as.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=T;return 0}function
-pG(e,f){var
-b=cj[e],d=a(f),c=an(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-ET(a){var
-a=i9(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Fc(c){var
+a=cn[c];if(!a.opened)ak("Cannot flush a closed channel");if(!a.buffer||a.buffer==X)return 0;if(a.fd&&at.fds[a.fd]&&at.fds[a.fd].output){var
+b=at.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=X;return 0}function
+p0(e,f){var
+b=cn[e],d=a(f),c=ao(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Fp(a){var
+a=jf(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-EU(a){var
-a=i9(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Fq(a){var
+a=jf(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gL(c,e,d,a){if(as.fds===undefined)as.fds=new
+gT(c,e,d,a){if(at.fds===undefined)at.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;as.fds[c]=b;if(!as.fd_last_idx||c>as.fd_last_idx)as.fd_last_idx=c;return c}function
-E1(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;at.fds[c]=b;if(!at.fd_last_idx||c>at.fd_last_idx)at.fd_last_idx=c;return c}function
+Fx(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,168 +619,168 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)aj(d4(c)+oY);if(a.text&&a.binary)aj(d4(c)+nS);var
-d=pP(c),e=d.device.open(d.rest,a),f=as.fd_last_idx?as.fd_last_idx:0;return gL(f+1,pG,e,a)}gL(0,pG,new
-aD(bY(0)));gL(1,EU,new
-aD(bY(0)));gL(2,ET,new
-aD(bY(0)));function
-EH(a){var
-c=as.fds[a];if(c.flags.wronly)aj(o9+a+" is writeonly");var
-d=null;if(a==0&&e4()){var
-e=require("fs");d=function(){return d5(e.readFileSync(0,nD))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cj[b.fd]=b;return b.fd}function
-pA(c){var
-b=as.fds[c];if(b.flags.rdonly)aj(o9+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:T};cj[a.fd]=a;return a.fd}function
-EI(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ak(d$(c)+pf);if(a.text&&a.binary)ak(d$(c)+n$);var
+d=p9(c),e=d.device.open(d.rest,a),f=at.fd_last_idx?at.fd_last_idx:0;return gT(f+1,p0,e,a)}gT(0,p0,new
+aI(b7(0)));gT(1,Fq,new
+aI(b7(0)));gT(2,Fp,new
+aI(b7(0)));function
+Fd(a){var
+c=at.fds[a];if(c.flags.wronly)ak(pp+a+" is writeonly");var
+d=null;if(a==0&&fc()){var
+e=require("fs");d=function(){return ea(e.readFileSync(0,nW))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cn[b.fd]=b;return b.fd}function
+pU(c){var
+b=at.fds[c];if(b.flags.rdonly)ak(pp+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:X};cn[a.fd]=a;return a.fd}function
+Fe(){var
 b=0;for(var
-a=0;a<cj.length;a++)if(cj[a]&&cj[a].opened&&cj[a].out)b=[0,cj[a].fd,b];return b}function
-bq(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);as[b+1]=c;if(a)as[a]=c}function
-EP(a,b){pC[d4(a)]=b;return 0}function
-Ei(a,b){if(a===b)return 1;a.t&6&&d3(a);b.t&6&&d3(b);return a.c==b.c?1:0}function
-aq(a,b){return Ei(a,b)}function
-ER(){aF(iR)}function
-aN(b,a){if(a>>>0>=an(b))ER();return cJ(b,a)}function
-m(a,b){return 1-aq(a,b)}function
-gK(a){return a}function
-pF(a){return a}function
-i_(a){if(a
+a=0;a<cn.length;a++)if(cn[a]&&cn[a].opened&&cn[a].out)b=[0,cn[a].fd,b];return b}function
+bs(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);at[b+1]=c;if(a)at[a]=c}function
+Fl(a,b){pW[d$(a)]=b;return 0}function
+EQ(a,b){if(a===b)return 1;a.t&6&&d_(a);b.t&6&&d_(b);return a.c==b.c?1:0}function
+as(a,b){return EQ(a,b)}function
+Fn(){aK(iZ)}function
+aR(b,a){if(a>>>0>=ao(b))Fn();return cO(b,a)}function
+m(a,b){return 1-as(a,b)}function
+gS(a){return a}function
+pZ(a){return a}function
+jg(a){if(a
 instanceof
 Array)return a;if(G.RangeError&&a
 instanceof
-G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pF(as.Stack_overflow);if(G.InternalError&&a
+G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pZ(at.Stack_overflow);if(G.InternalError&&a
 instanceof
-G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pF(as.Stack_overflow);if(a
+G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pZ(at.Stack_overflow);if(a
 instanceof
-G.Error&&de(oj))return[0,de(oj),a];return[0,as.Failure,d5(String(a))]}function
-dh(a){return a<0?-a:a}function
-A(a,b){return a+b}function
-i$(a,b){return a<b?-1:a>b?1:0}function
-pM(c,b){var
-a=c%b;return a<0?a+dh(b):a}function
-ja(a,b){return(a-pM(a,b))/b}function
-_(a,b){return a==b?1:0}function
-EY(c){G.orthocert_verify=function(b){return d4(cI(c,[a(b)]))}}function
+G.Error&&dn(oC))return[0,dn(oC),a];return[0,at.Failure,ea(String(a))]}function
+dr(a){return a<0?-a:a}function
+D(a,b){return a+b}function
+jh(a,b){return a<b?-1:a>b?1:0}function
+p6(c,b){var
+a=c%b;return a<0?a+dr(b):a}function
+ji(a,b){return(a-p6(a,b))/b}function
+ab(a,b){return a==b?1:0}function
+Fu(c){G.orthocert_verify=function(b){return d$(cN(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
-L(a,b){return a<b?1:0}function
-y(a,b){return a*b}function
-P(a){return-a}function
-aG(a){return G.BigInt(a)}function
-pN(a,b){return a<<G.BigInt(b)}function
-pO(a,b){return a>>G.BigInt(b)}function
-a9(a){return a<0?-1:a>0?1:0}function
-EZ(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
+K(a,b){return a<b?1:0}function
+z(a,b){return a*b}function
+R(a){return-a}function
+aL(a){return G.BigInt(a)}function
+p7(a,b){return a<<G.BigInt(b)}function
+p8(a,b){return a>>G.BigInt(b)}function
+aO(a){return a<0?-1:a>0?1:0}function
+Fv(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
 d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aH(a,b){return a-b}function
-jb(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
-EB(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Er(b){var
-a=T;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&EB(b[1]))var
+aD(a,b){return a-b}function
+jj(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
+E9(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+EZ(b){var
+a=X;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&E9(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=ok;for(var
+f=2,e=b;a+=oD;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-bW)a+=aA+c.toString()+aA;else
+b5)a+=aC+c.toString()+aC;else
 if(typeof
-c=="string")a+=aA+c.toString()+aA;else
-a+="_"}a+=iO}else
-if(b[0]==aM)a+=b[1];return a}function
-pu(a){if(a
+c=="string")a+=aC+c.toString()+aC;else
+a+="_"}a+=iW}else
+if(b[0]==aQ)a+=b[1];return a}function
+pO(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aM)){var
-c=de("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Er(a),b=de(nC);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aQ)){var
+c=dn("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=EZ(a),b=dn(nV);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-EQ(){var
-a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pu(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pu(a.error)})}EQ();function
-j(a,b){return a.length==1?a(b):cI(a,[b])}function
-ap(a,b,c){return a.length==2?a(b,c):cI(a,[b,c])}function
-Ed(a,b,c,d){return a.length==3?a(b,c,d):cI(a,[b,c,d])}function
-ix(a,b,c,d,e){return a.length==4?a(b,c,d,e):cI(a,[b,c,d,e])}Es();var
-je=[aM,a(n_),-2],jd=[aM,a(pf),-4],gM=[aM,a(nL),-7],C_=[0,0],C$=[0,0],Da=[0,[0,0]],Db=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Da]]]]]]]]]]],f$=[0,[1,0],0],mV=[0,[2,0],0],ia=[0,[1,0],0],mU=[0,[2,0],0],f9=[0,[1,0],0],h$=[0,[2,0],0],Dc=[0,[0,[0,[0,0]]]],Dd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dc]]]]]]]]]]],De=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dd]]]]]]]]]]],Df=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,De]]]]]]]]]]],Dg=[0,[0,0]],Dh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dg]]]]]]]]]]],Di=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dh]]]]]]]]]]],Dj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Di]]]]]]]]]]],Dk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dj]]]]]]]]]]],Dl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Dm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dl]]]]]]]]]]],Dn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dm]]]]]]]]]]],Do=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dn]]]]]]]]]]],Dp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Do]]]]]]]]]]],Dq=[0,[0,0]],Dr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dq]]]]]]]]]]],Ds=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dr]]]]]]]]]]],Dt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ds]]]]]]]]]]],Du=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dt]]]]]]]]]]],Dv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Du]]]]]]]]]]],Dw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dv]]]]]]]]]]],Dx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dw]]]]]]]]]]],Dy=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Dz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dy]]]]]]]]]]],DA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dz]]]]]]]]]]],DB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DA]]]]]]]]]]],DC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DB]]]]]]]]]]],DD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DC]]]]]]]]]]],DE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DD]]]]]]]]]]],DF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DE]]]]]]]]]]],DG=[0,0],DH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],DI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,0]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],D3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],D4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],D6=[0,0],D7=[0,[0,0]],D8=[0,0],D9=[0,[0,[0,[0,[0,0]]]]],jK=[0,[0,[0,0]]],cQ=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],fX=[0,[0,[0,[0,0]]]],D_=[0,[0,[0,[0,[0,0]]]]],D$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Ea=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D$]]]]]]]]]]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ea]]]]]]]]]]],Ec=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eb]]]]]]]]]]];bq(11,[aM,a(nB),-12],nB);bq(10,[aM,a(op),-11],op);bq(9,[aM,a(o8),-10],o8);bq(8,[aM,a(nN),-9],nN);bq(7,[aM,a(oC),-8],oC);bq(6,gM,nL);bq(5,[aM,a(n$),-6],n$);bq(4,[aM,a(oe),-5],oe);bq(3,jd,pf);bq(2,[aM,a(iI),-3],iI);bq(1,je,n_);bq(0,[aM,a(oQ),-1],oQ);var
-pQ=a("String.sub / Bytes.sub"),pV=a("String.contains_from / Bytes.contains_from"),pS=a(T),pR=a("String.concat"),pW=a("Array.init"),pX=a("power"),qd=[0,0],qe=[0,0],qk=[0,0,0],ql=[0,0,0],qm=[0,0],qF=[0,0],qG=[0,0],qJ=[0,0],q2=[0,0],q5=[0,0],q7=[0,0],q8=[0,0],re=[0,0],rf=[0,0],rW=[0,[0,[0,0]]],si=[0,0],sv=[0,0],sw=[0,0],sG=a(","),sY=[0,a(iO),0],sZ=a(ok),s0=a("."),s1=[0,[0,[0,0]]],s2=a(eU),s3=a(iP),s4=[0,[0,[0,[0,[0,0]]]]],s5=[0,a(iO),0],s6=a(pc),v0=a(ny),v2=a(nv),v1=a(os),v3=a(dV),v4=a(gm),v5=a(pe),v6=a(o1),v7=a(n4),v8=a(oE),xi=[0,0],xj=a(gj),xk=[0,0],xl=a("divided"),xm=[0,1],xn=a("mirror"),xo=[0,3],xp=a("negative"),xq=[0,2],xr=a(eT),xs=[0,5],xt=a(iV),xu=[0,4],xv=a(dc),xw=a(nQ),xx=a(eQ),xy=a(bV),xz=[0,0],xA=[0,0],xB=[0,0],yk=a(T),yh=[0,[0,[0,[0,0]]]],yi=[0,[0,[0,[0,0]]]],yf=[0,[0,[0,0]]],ye=[0,0],yd=a(eQ),yc=[0,[0,[0,0]]],yb=[0,0],x_=[0,[0,0]],x$=[0,[0,[0,0]]],x6=[0,[0,[0,0]]],x5=[0,0,0],x3=[0,[0,0]],x4=[0,0],x2=[0,0],x0=[0,[0,[0,0]]],xU=[0,[0,0]],xV=[0,[0,[0,0]]],xW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C_]]]]]]]]]]],xX=[0,[0,0]],xY=[0,[0,[0,0]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,C$]]]]]]]]]]],xR=[0,[0,0]],xS=[0,[0,[0,0]]],xP=[0,[0,[0,0]]],xQ=[0,[0,0]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Db]]]]]]]]]]],xN=[0,0],xM=[0,0],xJ=[0,[0,0]],xK=[0,0],xH=[0,0],xI=[0,1],xG=[0,[0,0]],xF=[0,0],xC=[0,0],xD=[0,1],xf=[0,0],xg=[0,1],xh=[0,2],xb=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w$=[0,[0,0],0],xa=[0,[1,0],0],xc=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],w9=[0,[0,0]],w_=[0,0],w8=[0,0],w7=[0,0],w6=[0,0],w5=[0,0],w4=[0,0,0],w2=[0,[0,0]],w3=[0,0],w1=[0,0,0],wZ=[0,[0,[0,0]]],w0=[0,[0,[0,0]]],wY=[0,0],wW=[0,1,0],wO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Df]]]]]]]]]]],wP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dk]]]]]]]]]]],wK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dp]]]]]]]]]]],wL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Dx]]]]]]]]]]],wM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DF]]]]]]]]]]],wN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],wQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],wR=a("sqrt"),wI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],wJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],wx=[0,a("\n"),0],wy=a(nw),wz=a(gl),wA=a(oo),wB=a(n8),wH=a(eW),wC=a(eS),wD=a("verdict"),wE=a(oS),wF=a(n1),wG=a(on),wu=a(oi),wv=a(oW),ww=a(go),wq=a(oy),wr=a(gp),ws=a(eS),wt=a(eW),wl=a(gx),wm=a(a8),wn=a(nx),wo=a(gu),wi=a(oP),wj=a(eT),wk=a(gu),we=a(oB),wf=a(gx),wg=a(gp),wh=a(o6),v_=a(oX),v$=a(o0),wa=a(of),wb=a(gr),wc=a(o$),vY=a(iA),vZ=a(gA),vT=a(bp),vU=a(bo),vV=a(n3),vt=a(gr),vu=a(oF),u9=a(a8),u_=a(bI),u$=a(gz),va=a(dY),vb=a(db),vg=a(iB),vc=a(iQ),vd=a(iS),ve=a(dU),vf=a(a8),vh=a(bI),vi=a(gz),vj=a(dY),vk=a(iQ),vl=a(iS),vm=a(dU),vn=a(a8),vo=a(bI),vp=a(bp),vq=a(bo),vr=a(c$),vs=a(dY),vv=a(oL),vw=a(oZ),vx=a(gD),vy=a(nR),vz=a(nW),vA=a(dU),vB=a(a8),vC=a(bI),vD=a(gh),vE=a(n6),vF=a(dY),vG=a(eZ),vH=a(nF),vI=a(dU),vJ=a(a8),vK=a(gh),vL=a(a8),vM=a(oH),vP=a(nu),vN=a(nU),vO=a(o5),vQ=a(eW),vR=a(eS),vS=a(a8),vW=a(gD),vX=a(go),u4=a(bI),u5=a(dY),u6=a(iB),u7=a(dU),u3=a(pa),uR=a(eZ),uS=a(oT),uT=a(da),uU=a(dW),uV=a(dW),uW=a(iE),uX=a(da),uY=a(oq),uZ=a(n2),u0=a(a1),u2=a(nA),u1=a(iE),uH=a(oh),uI=a(pd),uJ=a(nY),uK=a(nV),uL=a(o3),uM=a(oO),uN=a(n9),uO=a(gi),uP=a(gi),uD=a(a1),uE=a(bn),uF=a(dZ),uG=a(bH),uz=a(db),uA=a(iL),uB=a(oz),uw=a(bp),ux=a(bo),uy=a(c$),up=a(bp),uq=a(bo),ur=a(c$),us=a(iN),ut=a(da),uu=a(iJ),uv=a(oK),ub=a(nT),uh=a(gl),ug=a(o4),uc=a(iF),ud=a(gt),uk=a(eR),ul=a(iF),ui=a(eR),uj=a(gt),um=a(nP),un=a(oI),uo=a(gt),ue=a(dW),uf=a(ov),t_=a(gs),t$=a(gs),ua=a(gs),t6=a(oM),t7=a(bo),t8=a(bp),t9=a(o2),tQ=a(nJ),tR=a(nz),tS=a(oD),tT=a(dV),tU=a(pb),tV=a(oG),tW=a(nK),tX=a(ow),tY=a(nI),tZ=a(n5),t0=a(nH),t1=a(oN),t2=a(gm),t3=a(nE),t4=a(oV),t5=a(nX),tv=a(gv),tx=a(eU),tw=a(eP),ty=a(dT),tz=a(a1),tA=a(bn),tB=a(bV),tC=a(gB),tD=a(bH),tE=a(a1),tF=a(bn),tG=a(dZ),tH=a(bH),tI=a(dT),tJ=a(eY),tK=a(a1),tL=a(bn),tM=a(ou),tN=a(eR),tO=a(eY),tP=a(bH),td=a(gv),tl=a(eU),te=a(eP),tf=a(dT),tg=a(a1),th=a(bn),ti=a(bV),tj=a(gB),tk=a(bH),tm=a(gC),tn=a(a1),to=a(bn),tp=a(dZ),tq=a(bH),tr=a(bV),ts=a(db),tt=a(bH),ta=a(bp),tb=a(bo),s_=[0,a(aA),0],s$=a(aA),s8=a(T),s7=[0,a(aA),0],s9=a(aA),sU=a(gv),sV=a(eU),sW=a("*"),sX=a(bJ),sP=[0,[0,[0,[0,[0,0]]]]],sQ=[0,[0,[0,0]]],sR=[0,[0,0]],sS=[0,0],sT=[0,[0,[0,[0,0]]]],sN=a('":'),sO=a(aA),sL=[0,a(aA),0],sM=a(aA),sJ=[0,a("}"),0],sK=a("{"),sH=[0,a("]"),0],sI=a("["),sF=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sC=[0,0],sz=[0,[0,[0,0]]],sA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],sx=[0,[0,0]],sy=[0,[0,[0,0]]],ss=[0,0],st=[0,[0,[0,[0,[0,[0,0]]]]]],su=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],sp=[0,0],sm=[0,0,0],sn=[0,0,0],so=[0,0,0],sj=[0,[0,0]],sk=[0,[0,[0,0]]],sl=[0,0],r_=[0,[0,[0,[0,[0,[0,0]]]]]],r$=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sa=[0,[0,[0,0]]],sb=[0,[0,[0,0]]],sc=[0,[0,[0,[0,[0,[0,0]]]]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],se=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],sf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],sg=[0,[0,[0,0]]],sh=[0,[0,[0,[0,[0,[0,0]]]]]],r8=[0,[0,0]],r9=[0,[0,[0,0]]],r4=[0,0,0],r5=[0,0,0],r3=[0,0],r2=[0,0],r0=[0,0],r1=[0,0],rZ=[0,0],rX=[0,0],rY=[0,0],rU=[0,[0,0]],rV=[0,[0,[0,0]]],rS=[0,[0,[0,0]]],rT=[0,[0,0]],rM=[0,0],rN=[0,0],rO=[0,0],rP=[0,[0,[0,0]]],rL=[0,0],rG=[0,[0,0]],rH=[0,0],ry=[0,[0,0]],rz=[0,0],rA=[0,[0,0]],rB=[0,0],rC=[0,[0,0]],rD=[0,0],rE=[0,[0,0]],rF=[0,0],rw=[0,[0,0]],rx=[0,0],ru=[0,[0,0]],rv=[0,0],rq=[0,[0,0]],rr=[0,0],rs=[0,0],rt=[0,[0,0]],rh=[0,[0,0]],ri=[0,0],rj=[0,[0,0]],rk=[0,0],rl=[0,0],rm=[0,[0,0]],rn=[0,[0,0]],ro=[0,[0,0]],rp=[0,0],rd=[0,0],rc=[0,0],q$=[0,[0,[0,0]]],q_=[0,[0,[0,[0,[0,[0,0]]]]]],q6=[0,[0,[0,0]]],q3=[0,[0,[0,0]]],q1=[0,[0,[0,0]]],qZ=[0,[0,[0,[0,[0,[0,0]]]]]],q0=[0,[0,[0,[0,[0,[0,0]]]]]],qU=[0,[0,0]],qV=[0,0],qW=[0,[0,0]],qX=[0,[0,[0,0]]],qY=[0,[0,[0,0]]],qN=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],qO=[0,[0,[0,[0,[0,[0,0]]]]]],qP=[0,[0,[0,[0,[0,[0,0]]]]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,[0,[0,[0,0]]]]]],qS=[0,[0,[0,0]]],qT=[0,[0,[0,0]]],qL=[0,[0,0]],qM=[0,0],qK=[0,0,0],qI=[0,0,0],qH=[0,[0,[0,0]]],qD=[0,0],qE=[0,0],qy=[0,[0,[0,0]]],qz=[0,[0,[0,0]]],qA=[0,[0,[0,0]]],qx=[0,[0,[0,[0,0]]]],qt=[0,[0,[0,0]]],qu=[0,[0,[0,0]]],qv=[0,[0,[0,0]]],qw=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qr=[0,[0,0]],qs=[0,0],qp=[0,[0,0]],qq=[0,0],qn=[0,[0,0]],qo=[0,0],qa=[0,0],qb=[0,[0,0]],p_=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],p$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],p8=[0,0,0],p7=a(iU),p6=a(T),p5=[0,[0,0]],p4=[0,0],p1=[0,0],p3=[1,0],p2=[0,0],p0=[0,0],pY=[1,0],pZ=[1,0],ra=[10,0,0,0,0],ya=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],Bn=a(bp),Bo=a(bo),Bp=a(n3),Be=a(gC),Bf=[0,a("a base axis of such a platform"),0],Bg=a(a1),Bh=a(bn),A3=a(oO),A4=a(oh),A5=a(o3),A6=a(gi),A7=a(n9),A8=a(gi),A9=a(pd),A_=a(nY),A$=a(nV),AT=a(oF),AU=a(gr),Av=[0,a("such a machine with bodies"),0],Ai=a(go),Aj=a(a8),Ak=a(oH),Al=a(o5),Ao=a(nU),Ap=a(nu),Aq=a(a8),Ar=a(a8),At=a(gh),As=[0,a("a claim that no cube of such a machine fits"),0],Au=a(pa),Aw=a(dU),Ax=a(dY),Ay=a(db),Az=a(iL),AA=a(oz),AB=a(gz),AC=a(nW),AD=a(nF),AE=a(iB),AH=a(c$),AI=a(oK),AL=a(bI),AM=a(bI),AN=a(n6),AO=a(bI),AP=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],AQ=a(gh),AR=a(eZ),AS=a(c$),AV=a(bI),AW=a(bp),AX=a(bo),AY=a(oL),AZ=a(oZ),A0=a(gD),A1=a(nR),AF=[0,a(aA),0],AG=a('the mechanism "'),A2=a(iQ),Ba=a(gz),Bb=a(db),Bc=a(iL),Bd=a(iS),Bi=a(bI),Bj=[0,a('"one_to_one" of this set of orientations'),0],Bm=a(db),Bk=[0,a("a platform that turns on struts and other drives"),0],Bl=a(bI),AJ=[0,a(aA),0],AK=a('the workspace "'),Bq=a(a8),Br=a(a8),Bt=a(eW),Bu=a(eS),Bv=a(gD),Bs=[0,a("an atlas of such a machine"),0],Am=[0,a(aA),0],An=a('a claim of the kind "'),BA=a(pe),BI=a(gm),BJ=a(dV),BK=a(n4),BL=a(os),BM=a(bV),BN=a(gA),BO=a(iA),BP=a(bV),BQ=a(iU),BB=a(dc),BC=a(nQ),BD=a(eQ),BE=a(oE),BH=[0,a("directions of one scale"),0],BF=[0,a(aA),0],BG=a('the evidence "'),BR=a(dc),BS=a(gA),BT=[0,1,1],BU=a(dV),BV=a(dc),BW=a(eQ),BX=a(o1),BZ=a(dV),B0=a(dc),B1=a(eQ),B2=a(eT),B3=a(gj),B4=a(eT),B5=a(gj),BY=[0,a("this evidence at control points"),0],C3=a('"orthocert-paving/'),CU=a(dc),CV=a(dc),CD=a(on),CE=a(n1),CF=a(oS),C1=[0,3,3],CG=a(n8),CS=[0,a("this set of orientations with such drives"),0],CT=[0,a(od),0],CW=[0,a('this evidence "tolerances" of a platform that turns'),0],CX=[0,a("a step of a platform that turns that is not at control points"),0],CY=[0,a(od),0],CZ=[0,a('the evidence "tolerances" of such a mechanism'),0],C0=[0,a(oR),0],CR=[0,a(oR),0],CQ=[0,a("a mechanism by formulas in a claim that is refuted"),0],CP=[0,a("this quantity in a claim that is refuted"),0],CH=[0,a("the acceleration of a joint of a machine with a plane"),0],CO=[0,a("a step in a proof that no cube fits"),0],CN=[0,a("a stiffness for each joint in such a claim"),0],CM=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],CL=[0,a("a leaf that fails"),0],CI=a(oo),CJ=a(nw),CK=a(gl),Cz=a(iV),CA=a(gj),CB=a(bV),Cs=a(go),Ct=a(oi),Cu=a(oW),Cv=[0,a(aA),0],Cw=a('a proof of the kind "'),Co=a(eS),Cp=a(eW),Cq=a(gp),Cr=a(oy),Ck=a(a8),Cl=a(gx),Cm=a(nx),Cn=a(gu),Ch=a(oP),Ci=a(eT),Cj=a(gu),Cd=a(oB),Ce=a(gx),Cf=a(gp),Cg=a(o6),B8=a(o0),B9=a(of),B_=a(oX),B$=a(gr),Ca=a(o$),Cb=[0,a(aA),0],Cc=a('the failure "'),B6=a(iV),B7=a(iU),By=a(gA),Bz=a(iA),Bw=a(nv),Bx=a(ny),Af=a(eZ),z7=a(iE),z8=a(nA),z9=a(dW),z_=a(a1),Ad=a(oT),Ae=a(eZ),Ag=a(da),Ah=a(dW),z$=a(da),Aa=a(oq),Ab=a(n2),Ac=a(a1),z0=a(c$),z4=a(bp),z5=a(bo),z1=a(iJ),z2=a(iN),z3=a(da),zU=a(c$),zY=a(bp),zZ=a(bo),zV=a(iJ),zW=a(iN),zX=a(da),zT=[0,1],zS=[0,1],zQ=[0,1],zP=[0,1],zN=[0,1],zO=[0,a("this quantity of such a mechanism"),0],zw=a(iF),zx=a(oI),zy=a(nP),zz=a(o4),zA=a("max_angle"),zB=[0,a("accuracy of a platform that turns"),0],zC=a(eR),zv=a(gl),zn=a(gs),zc=a(ov),zd=a(oD),zF=a(gm),zG=a(oV),zH=a(n5),zI=a(dV),zJ=a(ow),zK=a(nH),zL=a(nI),zM=a(nz),ze=a(nE),zf=a(oN),zg=a(oG),zh=a(nX),zi=a(pb),zj=a(nK),zk=a(nJ),zl=[0,a(aA),0],zm=a('the quantity "'),zo=a(nT),zp=a(oM),zq=a(bp),zr=a(bo),zs=a(o2),zt=[0,a(aA),0],zu=a('a bound "'),zD=a(gt),zE=a(dW),za=a(bH),zb=a(dZ),yR=a(bH),yS=a(gC),yT=a(eY),yU=a(gB),yV=a(dZ),yY=a(a1),yZ=a(bn),y0=a(eP),y1=a(dT),y2=a(a1),y3=a(bn),y4=a(bV),y5=a(eP),y6=a(dT),y7=a(eY),y8=a(a1),y9=a(bn),y_=a(ou),y$=a(eR),yW=[0,a('" of such a machine'),0],yX=a(nO),yP=a(bH),yQ=a(eY),yz=a(bH),yA=a(db),yB=a(gB),yC=a(dZ),yF=a(gC),yG=a(a1),yH=a(bn),yI=a(eP),yJ=a(dT),yK=a(a1),yL=a(bn),yM=a(bV),yN=a(bV),yD=[0,a(aA),0],yE=a(nO),yw=a(gv),yx=a(eU),yu=a(" is not covered by the verified checker"),yv=a(T),ys=a(bp),yt=a(bo),yo=a(T),yp=a(pc),yq=a(T),yr=a(T),yn=[1,0],yl=a("Reader.Malformed"),ym=a("Reader.Not_covered"),C5=[0,a("a paving is checked by orthocert-verified")],C4=a(ox),C6=a("CERTIFIED"),C7=a("REFUTED"),C8=a(ox),C9=a("NOT COVERED: ");function
-d7(a){throw[0,jd,a]}function
-aT(d,c){var
-a=an(d),e=an(c),b=bY(a+e|0);d1(d,0,b,0,a);d1(c,0,b,a,e);return gK(b)}EH(0);pA(1);pA(2);function
-jf(b){function
+Fm(){var
+a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pO(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pO(a.error)})}Fm();function
+i(a,b){return a.length==1?a(b):cN(a,[b])}function
+ar(a,b,c){return a.length==2?a(b,c):cN(a,[b,c])}function
+EL(a,b,c,d){return a.length==3?a(b,c,d):cN(a,[b,c,d])}function
+iF(a,b,c,d,e){return a.length==4?a(b,c,d,e):cN(a,[b,c,d,e])}E0();var
+jm=[aQ,a(or),-2],jl=[aQ,a(pz),-4],gU=[aQ,a(n4),-7],DG=[0,0],DH=[0,0],DI=[0,[0,0]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],gk=[0,[1,0],0],nc=[0,[2,0],0],ij=[0,[1,0],0],nb=[0,[2,0],0],gi=[0,[1,0],0],ii=[0,[2,0],0],DK=[0,[0,[0,[0,0]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,0]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,0]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],D3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],D4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],D$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Ea=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D$]]]]]]]]]]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ea]]]]]]]]]]],Ec=[0,0],Ed=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],Ee=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ed]]]]]]]]]]],Ef=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ee]]]]]]]]]]],Eg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ef]]]]]]]]]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eg]]]]]]]]]]],Ei=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eh]]]]]]]]]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ei]]]]]]]]]]],Ek=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ej]]]]]]]]]]],El=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ek]]]]]]]]]]],Em=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,El]]]]]]]]]]],En=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Eo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,En]]]]]]]]]]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Eq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],Er=[0,[0,[0,[0,[0,0]]]]],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],EC=[0,0],ED=[0,[0,0]],EE=[0,0],EF=[0,[0,[0,[0,[0,0]]]]],jU=[0,[0,[0,0]]],cW=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],f7=[0,[0,[0,[0,0]]]],EG=[0,[0,[0,[0,[0,0]]]]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]];bs(11,[aQ,a(nU),-12],nU);bs(10,[aQ,a(oI),-11],oI);bs(9,[aQ,a(po),-10],po);bs(8,[aQ,a(n6),-9],n6);bs(7,[aQ,a(oV),-8],oV);bs(6,gU,n4);bs(5,[aQ,a(os),-6],os);bs(4,[aQ,a(ox),-5],ox);bs(3,jl,pz);bs(2,[aQ,a(iQ),-3],iQ);bs(1,jm,or);bs(0,[aQ,a(o9),-1],o9);var
+p_=a("String.sub / Bytes.sub"),qd=a("String.contains_from / Bytes.contains_from"),qa=a(X),p$=a("String.concat"),qe=a("Array.init"),qf=a("power"),qx=[0,0],qy=[0,0],qE=[0,0,0],qF=[0,0,0],qG=[0,0],qZ=[0,0],q0=[0,0],q3=[0,0],rk=[0,0],rn=[0,0],rp=[0,0],rq=[0,0],rx=[0,0],ry=[0,0],r1=[0,0],si=[0,[0,[0,0]]],sL=[0,0],sY=[0,0],sZ=[0,0],s9=a(","),tp=[0,a(iW),0],tq=a(oD),tr=a("."),ts=[0,[0,[0,0]]],tt=a(e4),tu=a(iX),tv=[0,[0,[0,[0,[0,0]]]]],tw=[0,a(iW),0],tx=a(pw),wu=a(nR),ww=a(nO),wv=a(oL),wx=a(d2),wy=a(d0),wz=a(py),wA=a(pi),wB=a(ol),wC=a(oX),xO=[0,0],xP=a(gt),xQ=[0,0],xR=a("divided"),xS=[0,1],xT=a("mirror"),xU=[0,3],xV=a("negative"),xW=[0,2],xX=a(e3),xY=[0,5],xZ=a(i3),x0=[0,4],x1=a(dl),x2=a(n9),x3=a(e0),x4=a(b4),x5=[0,0],x6=[0,0],x7=[0,0],yQ=a(X),yN=[0,[0,[0,[0,0]]]],yO=[0,[0,[0,[0,0]]]],yL=[0,[0,[0,0]]],yK=[0,0],yJ=a(e0),yI=[0,[0,[0,0]]],yH=[0,0],yE=[0,[0,0]],yF=[0,[0,[0,0]]],yA=[0,[0,[0,0]]],yz=[0,0,0],yx=[0,[0,0]],yy=[0,0],yw=[0,0],yu=[0,[0,[0,0]]],yo=[0,[0,0]],yp=[0,[0,[0,0]]],yq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],yr=[0,[0,0]],ys=[0,[0,[0,0]]],yn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],yl=[0,[0,0]],ym=[0,[0,[0,0]]],yj=[0,[0,[0,0]]],yk=[0,[0,0]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],yh=[0,0],yg=[0,0],yd=[0,[0,0]],ye=[0,0],yb=[0,0],yc=[0,1],ya=[0,[0,0]],x$=[0,0],x8=[0,0],x9=[0,1],xL=[0,0],xM=[0,1],xN=[0,2],xH=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xF=[0,[0,0],0],xG=[0,[1,0],0],xI=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xD=[0,[0,0]],xE=[0,0],xC=[0,0],xB=[0,0],xA=[0,0],xz=[0,0],xy=[0,0,0],xw=[0,[0,0]],xx=[0,0],xv=[0,0,0],xt=[0,[0,[0,0]]],xu=[0,[0,[0,0]]],xs=[0,0],xq=[0,1,0],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eb]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Em]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],xl=a("sqrt"),xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],w3=[0,a("\n"),0],w4=a(nP),w5=a(gv),w6=a(oH),w7=a(op),xb=a(e6),w8=a(e2),w9=a("verdict"),w_=a(o$),w$=a(oi),xa=a(oG),w0=a(oB),w1=a(pd),w2=a(gx),wW=a(oR),wX=a(gy),wY=a(e2),wZ=a(e6),wR=a(gF),wS=a(ba),wT=a(nQ),wU=a(gC),wO=a(o8),wP=a(e3),wQ=a(gC),wK=a(oU),wL=a(gF),wM=a(gy),wN=a(pm),wE=a(pe),wF=a(ph),wG=a(oy),wH=a(gA),wI=a(ps),ws=a(iI),wt=a(gI),wn=a(br),wo=a(bq),wp=a(ok),vZ=a(gA),v0=a(oY),vD=a(ba),vE=a(bO),vF=a(gH),vG=a(d5),vH=a(dk),vM=a(iJ),vI=a(iY),vJ=a(i0),vK=a(d1),vL=a(ba),vN=a(bO),vO=a(gH),vP=a(d5),vQ=a(iY),vR=a(i0),vS=a(d1),vT=a(ba),vU=a(bO),vV=a(br),vW=a(bq),vX=a(di),vY=a(d5),v1=a(o4),v2=a(pg),v3=a(gL),v4=a(n_),v5=a(od),v6=a(d1),v7=a(ba),v8=a(bO),v9=a(gr),v_=a(on),v$=a(d5),wa=a(e9),wb=a(nY),wc=a(d1),wd=a(ba),we=a(gr),wf=a(ba),wg=a(o0),wj=a(nN),wh=a(ob),wi=a(pl),wk=a(e6),wl=a(e2),wm=a(ba),wq=a(gL),wr=a(gx),vy=a(bO),vz=a(d5),vA=a(iJ),vB=a(d1),vx=a(pu),vl=a(e9),vm=a(pa),vn=a(dj),vo=a(d3),vp=a(d3),vq=a(iM),vr=a(dj),vs=a(oJ),vt=a(oj),vu=a(a4),vw=a(nT),vv=a(iM),vb=a(oA),vc=a(px),vd=a(of),ve=a(oc),vf=a(pk),vg=a(o7),vh=a(oq),vi=a(gs),vj=a(gs),u9=a(a4),u_=a(bp),u$=a(d6),va=a(bN),u5=a(dk),u6=a(iT),u7=a(oS),u2=a(br),u3=a(bq),u4=a(di),uV=a(br),uW=a(bq),uX=a(di),uY=a(iV),uZ=a(dj),u0=a(iR),u1=a(o3),uE=a(oa),uK=a(gv),uJ=a(i2),uF=a(iN),uG=a(eZ),uN=a(e1),uO=a(iN),uL=a(e1),uM=a(eZ),uP=a(n8),uQ=a(o1),uR=a(eZ),uS=a(pt),uT=a(i2),uU=a(eZ),uH=a(d3),uI=a(oO),uB=a(gB),uC=a(gB),uD=a(gB),ux=a(o5),uy=a(bq),uz=a(br),uA=a(pj),uh=a(n2),ui=a(nS),uj=a(oW),uk=a(d2),ul=a(pv),um=a(oZ),un=a(n3),uo=a(oP),up=a(n1),uq=a(om),ur=a(n0),us=a(o6),ut=a(d0),uu=a(nX),uv=a(pc),uw=a(oe),tY=a(gD),t0=a(e4),tZ=a(eY),t1=a(dZ),t2=a(a4),t3=a(bp),t4=a(b4),t5=a(gJ),t6=a(bN),t7=a(a4),t8=a(bp),t9=a(d6),t_=a(bN),t$=a(dZ),ua=a(e8),ub=a(a4),uc=a(bp),ud=a(oN),ue=a(e1),uf=a(e8),ug=a(bN),tG=a(gD),tO=a(e4),tH=a(eY),tI=a(dZ),tJ=a(a4),tK=a(bp),tL=a(b4),tM=a(gJ),tN=a(bN),tP=a(gK),tQ=a(a4),tR=a(bp),tS=a(d6),tT=a(bN),tU=a(b4),tV=a(dk),tW=a(bN),tD=a(br),tE=a(bq),tB=[0,a(aC),0],tC=a(aC),tz=a(X),ty=[0,a(aC),0],tA=a(aC),tl=a(gD),tm=a(e4),tn=a("*"),to=a(bP),tg=[0,[0,[0,[0,[0,0]]]]],th=[0,[0,[0,0]]],ti=[0,[0,0]],tj=[0,0],tk=[0,[0,[0,[0,0]]]],te=a('":'),tf=a(aC),tc=[0,a(aC),0],td=a(aC),ta=[0,a("}"),0],tb=a("{"),s_=[0,a("]"),0],s$=a("["),s8=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],s5=[0,0],s2=[0,[0,[0,0]]],s3=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s4=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s0=[0,[0,0]],s1=[0,[0,[0,0]]],sV=[0,0],sW=[0,[0,[0,[0,[0,[0,0]]]]]],sX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],sS=[0,0],sP=[0,0,0],sQ=[0,0,0],sR=[0,0,0],sM=[0,[0,0]],sN=[0,[0,[0,0]]],sO=[0,0],sB=[0,[0,[0,[0,[0,[0,0]]]]]],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sD=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sF=[0,[0,[0,[0,[0,[0,0]]]]]],sG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],sI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],sJ=[0,[0,[0,0]]],sK=[0,[0,[0,[0,[0,[0,0]]]]]],sz=[0,[0,0]],sA=[0,[0,[0,0]]],sv=[0,0,0],sw=[0,0,0],sr=[0,0,0],ss=[0,0,0],st=[0,0,0],su=[0,0,0],sq=[0,0],sp=[0,0],so=[0,0],sm=[0,0],sn=[0,0],sl=[0,0],sj=[0,0],sk=[0,0],sc=[0,0],sd=[0,0],se=[0,0],sf=[0,[0,[0,0]]],sb=[0,0],r8=[0,[0,[0,0]]],r9=[0,[0,0]],r6=[0,[0,0]],r7=[0,[0,[0,0]]],r5=[0,0],r3=[0,0],r4=[0,0],r2=[0,0,0],rZ=[0,[0,0]],r0=[0,0],rR=[0,[0,0]],rS=[0,0],rT=[0,[0,0]],rU=[0,0],rV=[0,[0,0]],rW=[0,0],rX=[0,[0,0]],rY=[0,0],rP=[0,[0,0]],rQ=[0,0],rN=[0,[0,0]],rO=[0,0],rJ=[0,[0,0]],rK=[0,0],rL=[0,0],rM=[0,[0,0]],rA=[0,[0,0]],rB=[0,0],rC=[0,[0,0]],rD=[0,0],rE=[0,0],rF=[0,[0,0]],rG=[0,[0,0]],rH=[0,[0,0]],rI=[0,0],rw=[0,0],rv=[0,0],rt=[0,[0,[0,0]]],rs=[0,[0,[0,[0,[0,[0,0]]]]]],ro=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,[0,[0,0]]],rh=[0,[0,[0,[0,[0,[0,0]]]]]],ri=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,0]],rd=[0,0],re=[0,[0,0]],rf=[0,[0,[0,0]]],rg=[0,[0,[0,0]]],q7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q8=[0,[0,[0,[0,[0,[0,0]]]]]],q9=[0,[0,[0,[0,[0,[0,0]]]]]],q_=[0,[0,[0,0]]],q$=[0,[0,[0,[0,[0,[0,0]]]]]],ra=[0,[0,[0,0]]],rb=[0,[0,[0,0]]],q5=[0,[0,0]],q6=[0,0],q4=[0,0,0],q2=[0,0,0],q1=[0,[0,[0,0]]],qX=[0,0],qY=[0,0],qS=[0,[0,[0,0]]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qR=[0,[0,[0,[0,0]]]],qN=[0,[0,[0,0]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qQ=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qL=[0,[0,0]],qM=[0,0],qJ=[0,[0,0]],qK=[0,0],qH=[0,[0,0]],qI=[0,0],qu=[0,0],qv=[0,[0,0]],qs=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],qq=[0,0,0],qp=a(pq),qo=a(X),qn=[0,[0,0]],qm=[0,0],qj=[0,0],ql=[1,0],qk=[0,0],qi=[0,0],qg=[1,0],qh=[1,0],ru=[10,0,0,0,0],yG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]],BS=a(br),BT=a(bq),BU=a(ok),BJ=a(gK),BK=[0,a("a base axis of such a platform"),0],BL=a(a4),BM=a(bp),Bw=a(o7),Bx=a(oA),By=a(pk),Bz=a(gs),BA=a(oq),BB=a(gs),BC=a(px),BD=a(of),BE=a(oc),Bm=a(oY),Bn=a(gA),A0=[0,a("such a machine with bodies"),0],AN=a(gx),AO=a(ba),AP=a(o0),AQ=a(pl),AT=a(ob),AU=a(nN),AV=a(ba),AW=a(ba),AY=a(gr),AX=[0,a("a claim that no cube of such a machine fits"),0],AZ=a(pu),A1=a(d1),A2=a(d5),A3=a(dk),A4=a(iT),A5=a(oS),A6=a(gH),A7=a(od),A8=a(nY),A9=a(iJ),Ba=a(di),Bb=a(o3),Be=a(bO),Bf=a(bO),Bg=a(on),Bh=a(bO),Bi=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Bj=a(gr),Bk=a(e9),Bl=a(di),Bo=a(bO),Bp=a(br),Bq=a(bq),Br=a(o4),Bs=a(pg),Bt=a(gL),Bu=a(n_),A_=[0,a(aC),0],A$=a('the mechanism "'),Bv=a(iY),BF=a(gH),BG=a(dk),BH=a(iT),BI=a(i0),BN=a(bO),BO=[0,a('"one_to_one" of this set of orientations'),0],BR=a(dk),BP=[0,a("a platform that turns on struts and other drives"),0],BQ=a(bO),Bc=[0,a(aC),0],Bd=a('the workspace "'),BV=a(ba),BW=a(ba),BY=a(e6),BZ=a(e2),B0=a(gL),BX=[0,a("an atlas of such a machine"),0],AR=[0,a(aC),0],AS=a('a claim of the kind "'),B5=a(py),Cb=a(d0),Cc=a(d2),Cd=a(ol),Ce=a(oL),Cf=a(b4),Cg=a(gI),Ch=a(iI),Ci=a(b4),B6=a(dl),B7=a(n9),B8=a(e0),B9=a(oX),Ca=[0,a("directions of one scale"),0],B_=[0,a(aC),0],B$=a('the evidence "'),Cj=a(dl),Ck=a(gI),Cl=[0,1,1],Cm=a(d0),Cn=a(d2),Co=a(dl),Cp=a(e0),Cq=a(pi),Cs=a(d0),Ct=a(d2),Cu=a(dl),Cv=a(e0),Cw=a(e3),Cx=a(gt),Cy=a(e3),Cz=a(gt),Cr=[0,a("this evidence at control points"),0],Dz=a('"orthocert-paving/'),Dx=[0,a("an accuracy that the derivatives of the joints on whole cells do not show is not covered by the verified checker")],Do=a(dl),Dp=a(dl),C9=a(oG),C_=a(oi),C$=a(o$),Dv=[0,3,3],Da=a(op),Dm=[0,a("this set of orientations with such drives"),0],Dn=[0,a(ow),0],Dq=[0,a('this evidence "tolerances" of a platform that turns'),0],Dr=[0,a("a step of a platform that turns that is not at control points"),0],Ds=[0,a(ow),0],Dt=[0,a('the evidence "tolerances" of such a mechanism'),0],Du=[0,a(o_),0],Dl=[0,a(o_),0],Dk=[0,a("a mechanism by formulas in a claim that is refuted"),0],Dj=[0,a("this quantity in a claim that is refuted"),0],Db=[0,a("the acceleration of a joint of a machine with a plane"),0],Di=[0,a("a step in a proof that no cube fits"),0],Dh=[0,a("a stiffness for each joint in such a claim"),0],Dg=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Df=[0,a("a leaf that fails"),0],Dc=a(oH),Dd=a(nP),De=a(gv),C5=a(i3),C6=a(gt),C7=a(b4),CY=a(gx),CZ=a(oB),C0=a(pd),C1=[0,a(aC),0],C2=a('a proof of the kind "'),CU=a(e2),CV=a(e6),CW=a(gy),CX=a(oR),CQ=a(ba),CR=a(gF),CS=a(nQ),CT=a(gC),CN=a(o8),CO=a(e3),CP=a(gC),CJ=a(oU),CK=a(gF),CL=a(gy),CM=a(pm),CC=a(ph),CD=a(oy),CE=a(pe),CF=a(gA),CG=a(ps),CH=[0,a(aC),0],CI=a('the failure "'),CA=a(i3),CB=a(pq),B3=a(gI),B4=a(iI),B1=a(nO),B2=a(nR),AK=a(e9),AA=a(iM),AB=a(nT),AC=a(d3),AD=a(a4),AI=a(pa),AJ=a(e9),AL=a(dj),AM=a(d3),AE=a(dj),AF=a(oJ),AG=a(oj),AH=a(a4),At=a(di),Ax=a(br),Ay=a(bq),Au=a(iR),Av=a(iV),Aw=a(dj),An=a(di),Ar=a(br),As=a(bq),Ao=a(iR),Ap=a(iV),Aq=a(dj),Am=[0,1],Al=[0,1],Aj=[0,1],Ai=[0,1],Ag=[0,1],Ah=[0,a("this quantity of such a mechanism"),0],z2=a(iN),z3=a(o1),z4=a(n8),z5=a(i2),z6=a(pt),z7=a(e1),z1=a(gv),zT=a(gB),zI=a(oO),zJ=a(oW),z_=a(d0),z$=a(pc),Aa=a(om),Ab=a(d2),Ac=a(oP),Ad=a(n0),Ae=a(n1),Af=a(nS),zK=a(nX),zL=a(o6),zM=a(oZ),zN=a(oe),zO=a(pv),zP=a(n3),zQ=a(n2),zR=[0,a(aC),0],zS=a('the quantity "'),zU=a(oa),zV=a(o5),zW=a(br),zX=a(bq),zY=a(pj),zZ=[0,a(aC),0],z0=a('a bound "'),z8=a(eZ),z9=a(d3),zG=a(bN),zH=a(d6),zl=a(bN),zm=a(gK),zn=a(e8),zo=a(gJ),zp=a(d6),zs=a(a4),zt=a(bp),zu=a(eY),zv=a(dZ),zw=a(a4),zx=a(bp),zy=a(b4),zz=a(eY),zA=a(dZ),zB=a(e8),zC=a(a4),zD=a(bp),zE=a(oN),zF=a(e1),zq=[0,a('" of such a machine'),0],zr=a(n7),zj=a(bN),zk=a(e8),y5=a(bN),y6=a(dk),y7=a(gJ),y8=a(d6),y$=a(gK),za=a(a4),zb=a(bp),zc=a(eY),zd=a(dZ),ze=a(a4),zf=a(bp),zg=a(b4),zh=a(b4),y9=[0,a(aC),0],y_=a(n7),y2=a(gD),y3=a(e4),y0=a(" is not covered by the verified checker"),y1=a(X),yY=a(br),yZ=a(bq),yU=a(X),yV=a(pw),yW=a(X),yX=a(X),yT=[1,0],yR=a("Reader.Malformed"),yS=a("Reader.Not_covered"),DB=[0,a("a paving is checked by orthocert-verified")],DA=a(oQ),DC=a("CERTIFIED"),DD=a("REFUTED"),DE=a(oQ),DF=a("NOT COVERED: ");function
+ec(a){throw[0,jl,a]}function
+aY(d,c){var
+a=ao(d),e=ao(c),b=b7(a+e|0);d8(d,0,b,0,a);d8(c,0,b,a,e);return gS(b)}Fd(0);pU(1);pU(2);function
+jn(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{EG(d)}catch(a){a=i_(a);if(a[1]!==je)throw a;var
+c=a[2],d=a[1];try{Fc(d)}catch(a){a=jg(a);if(a[1]!==jm)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(EI(0))}EP(a(nC),jf);function
-bZ(c){var
+a=c;continue}return 0}}return a(Fe(0))}Fl(a(nV),jn);function
+b8(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-jg(d){var
+jo(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-U(b,a){if(a){var
-c=a[2],d=j(b,a[1]);return[0,d,U(b,c)]}return 0}function
-gN(d,c){var
+Y(b,a){if(a){var
+c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
+gV(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=j(d,a[1]);if(b){var
+e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
 au(d,c){var
 a=c;for(;;){if(a){var
-e=a[2],b=j(d,a[1]);if(b)return b;var
+e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-br(b,c){var
-a=bY(b);Eq(a,0,b,c);return gK(a)}function
-di(g,b,a){var
-d=d2(g),f=0;if(0<=b&&0<=a&&!((gI(d)-a|0)<b)){var
-c=bY(a);e0(d,b,c,0,a);var
+bt(b,c){var
+a=b7(b);EY(a,0,b,c);return gS(a)}function
+ds(g,b,a){var
+d=d9(g),f=0;if(0<=b&&0<=a&&!((gQ(d)-a|0)<b)){var
+c=b7(a);e_(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=d7(pQ);return gK(e)}function
-jh(k,g){if(g){var
-h=an(k),c=0,b=g,p=0;for(;;){if(b){var
+e=ec(p_);return gS(e)}function
+jp(k,g){if(g){var
+h=ao(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(an(i)+h|0)+c|0,m=b[2],n=c<=j?j:d7(pR),c=n,b=m;continue}var
-l=an(i)+c|0}else
+j=(ao(i)+h|0)+c|0,m=b[2],n=c<=j?j:ec(p$),c=n,b=m;continue}var
+l=ao(i)+c|0}else
 var
 l=c;var
-f=bY(l),e=p,d=g;for(;;){if(d){var
+f=b7(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];d1(a,0,f,e,an(a));d1(k,0,f,e+an(a)|0,h);var
-e=(e+an(a)|0)+h|0,d=o;continue}d1(a,0,f,e,an(a))}return gK(f)}}}return pS}function
-pT(e,d,c,b){var
-a=c;for(;;){if(d<=a)throw gM;if(cJ(e,a)===b)return a;var
+o=d[2];d8(a,0,f,e,ao(a));d8(k,0,f,e+ao(a)|0,h);var
+e=(e+ao(a)|0)+h|0,d=o;continue}d8(a,0,f,e,ao(a))}return gS(f)}}}return qa}function
+qb(e,d,c,b){var
+a=c;for(;;){if(d<=a)throw gU;if(cO(e,a)===b)return a;var
 a=a+1|0;continue}}function
-pU(b,a,d){var
-c=an(b);if(0<=a&&!(c<a))try{pT(b,c,a,d);var
-e=1;return e}catch(a){a=i_(a);if(a===gM)return 0;throw a}return d7(pV)}function
-gO(b,c){if(0===b)return[0];if(0<=b){var
-d=EF(b,j(c,0)),e=b-1|0,f=1;if(!(e<1)){var
-a=f;for(;;){d[1+a]=j(c,a);var
+qc(b,a,d){var
+c=ao(b);if(0<=a&&!(c<a))try{qb(b,c,a,d);var
+e=1;return e}catch(a){a=jg(a);if(a===gU)return 0;throw a}return ec(qd)}function
+gW(b,c){if(0===b)return[0];if(0<=b){var
+d=Fb(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return d7(pW)}function
-gP(c){var
+a=g;continue}break}}return d}return ec(qe)}function
+gX(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aG(0),c=aG(1);function
-p(a){return A(a,c)}function
-ji(b,a){return A(aG(b),a)}function
-b(b,a){return y(aG(b),a)}function
-aU(b,a){return[0,ja(b,a),pM(b,a)]}function
-gQ(b,a){return H(b,a)?b:a}function
-bs(b,a){return H(b,a)?a:b}function
-d8(a){return d8}function
-$(a){return a?0:1}function
+d=aL(0),b=aL(1);function
+q(a){return D(a,b)}function
+jq(b,a){return D(aL(b),a)}function
+c(b,a){return z(aL(b),a)}function
+aZ(b,a){return[0,ji(b,a),p6(b,a)]}function
+gY(b,a){return H(b,a)?b:a}function
+bf(b,a){return H(b,a)?a:b}function
+ed(a){return ed}function
+ac(a){return a?0:1}function
 x(b,a){var
-c=a?[0,j(b,a[1])]:a;return c}function
-aI(a){return a[1]}function
-b0(a){return a[2]}function
+c=a?[0,i(b,a[1])]:a;return c}function
+aM(a){return a[1]}function
+bu(a){return a[2]}function
 h(a){var
 b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-jj(a){return typeof
-a==="number"?0:[0,jj(a[1])]}function
-jk(d,c){var
+jr(a){return typeof
+a==="number"?0:[0,jr(a[1])]}function
+js(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -803,9 +803,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-e5(a){return jk(a,0)}function
-jl(a){if(typeof
-a==="number")return pY;else
+fd(a){return js(a,0)}function
+jt(a){if(typeof
+a==="number")return qg;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -815,157 +815,163 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jl(a[1])]}}function
-bu(a){if(typeof
-a==="number")return pZ;else
+8:return[9,a[1]];default:return[0,jt(a[1])]}}function
+bw(a){if(typeof
+a==="number")return qh;else
 switch(a[0]){case
-0:return[1,bt(a[1])];case
-1:return[3,bt(a[1])];case
-2:return[5,bt(a[1])];case
-3:return[7,bt(a[1])];case
-4:return[9,bt(a[1])];case
-5:return[1,bu(a[1])];case
-6:return[3,bu(a[1])];case
-7:return[5,bu(a[1])];case
-8:return[7,bu(a[1])];default:return[9,bu(a[1])]}}function
-bt(a){if(typeof
+0:return[1,bv(a[1])];case
+1:return[3,bv(a[1])];case
+2:return[5,bv(a[1])];case
+3:return[7,bv(a[1])];case
+4:return[9,bv(a[1])];case
+5:return[1,bw(a[1])];case
+6:return[3,bw(a[1])];case
+7:return[5,bw(a[1])];case
+8:return[7,bw(a[1])];default:return[9,bw(a[1])]}}function
+bv(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bt(a[1])];case
-1:return[2,bt(a[1])];case
-2:return[4,bt(a[1])];case
-3:return[6,bt(a[1])];case
-4:return[8,bt(a[1])];case
-5:return[0,bu(a[1])];case
-6:return[2,bu(a[1])];case
-7:return[4,bu(a[1])];case
-8:return[6,bu(a[1])];default:return[8,bu(a[1])]}}function
-bL(a){return a?a[1]:a}function
-N(b,a){return b?[0,N(b[1],a)]:a}function
-jm(a,b){return a?N(b,jm(a[1],b)):a}function
-ck(b,a){return b?a:a?0:1}function
-u(d,c){var
+0:return[0,bv(a[1])];case
+1:return[2,bv(a[1])];case
+2:return[4,bv(a[1])];case
+3:return[6,bv(a[1])];case
+4:return[8,bv(a[1])];case
+5:return[0,bw(a[1])];case
+6:return[2,bw(a[1])];case
+7:return[4,bw(a[1])];case
+8:return[6,bw(a[1])];default:return[8,bw(a[1])]}}function
+bx(a){return a?a[1]:a}function
+P(b,a){return b?[0,P(b[1],a)]:a}function
+ju(a,b){return a?P(b,ju(a[1],b)):a}function
+jv(d,c){var
+a=d,b=c;for(;;){if(a){if(b){var
+a=a[1],b=b[1];continue}return a}return a}}function
+co(b,a){return b?a:a?0:1}function
+s(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-W(d,c){var
+V(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-cl(b,a){return W([0,b],a)}function
-jn(c){var
+by(b,a){return V([0,b],a)}function
+jw(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-e6(c,b,a){return c?j(b,e6(c[1],b,a)):a}function
-jo(a){if(a)var
-b=a[1],d=b?[0,jo(b[1])]:b,c=d;else
+fe(c,b,a){return c?i(b,fe(c[1],b,a)):a}function
+jx(a){if(a)var
+b=a[1],d=b?[0,jx(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gR(d,c){var
+gZ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jp(a){if(H(a,c))return c;var
-e=aU(a,aG(2)),f=e[1];return _(e[2],d)?p(b(2,jp(f))):p(b(2,b(2,f)))}function
-jq(b,a){return bs(c,aH(b,a))}function
-e7(a){if(H(a,c))return p1;var
-b=aU(a,aG(2)),e=b[1];return _(b[2],d)?[0,e7(e)]:[0,e7(e)]}function
-e8(a){if(H(a,c))return c;var
-b=aU(a,aG(2)),e=b[1];return _(b[2],d)?p(e8(e)):p(e8(e))}function
-jr(c,b){var
-a=i$(c,b);return 0===a?0:0<=a?2:1}function
-gS(j,i){var
-b=j,a=i;for(;;){if(H(b,c))return H(a,c)?1:_(aU(a,aG(2))[2],d)?0:0;var
-g=aU(b,aG(2)),h=g[1];if(_(g[2],d)){if(H(a,c))return 0;var
-e=aU(a,aG(2)),k=e[1];if(_(e[2],d)){var
-b=h,a=k;continue}return 0}if(H(a,c))return 0;var
-f=aU(a,aG(2)),l=f[1];if(_(f[2],d))return 0;var
-b=h,a=l;continue}}function
-e9(b,a){return 2<=jr(b,a)?0:1}function
-dj(i,e,a){if(i){var
-f=i[1];if(H(e,c))return[0,c,[0,c,a]];var
-w=aU(e,aG(2)),g=w[1];if(_(w[2],d)){if(H(a,c))return[0,c,[0,e,c]];var
-m=aU(a,aG(2)),B=m[1];if(_(m[2],d)){var
-j=dj(f,g,B),x=j[2];return[0,b(2,j[1]),x]}var
-k=dj(f,g,a),l=k[2],y=l[2],z=[0,b(2,l[1]),y];return[0,k[1],z]}if(H(a,c))return[0,c,[0,e,c]];var
-v=aU(a,aG(2)),h=v[1];if(_(v[2],d)){var
-n=dj(f,e,h),o=n[2],C=b(2,o[2]);return[0,n[1],[0,o[1],C]]}switch(jr(g,h)){case
-0:return[0,e,[0,c,c]];case
+jy(a){if(H(a,b))return b;var
+e=aZ(a,aL(2)),f=e[1];return ab(e[2],d)?q(c(2,jy(f))):q(c(2,c(2,f)))}function
+jz(c,a){return bf(b,aD(c,a))}function
+ff(a){if(H(a,b))return qj;var
+c=aZ(a,aL(2)),e=c[1];return ab(c[2],d)?[0,ff(e)]:[0,ff(e)]}function
+fg(a){if(H(a,b))return b;var
+c=aZ(a,aL(2)),e=c[1];return ab(c[2],d)?q(fg(e)):q(fg(e))}function
+jA(c,b){var
+a=jh(c,b);return 0===a?0:0<=a?2:1}function
+fh(j,i){var
+c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:ab(aZ(a,aL(2))[2],d)?0:0;var
+g=aZ(c,aL(2)),h=g[1];if(ab(g[2],d)){if(H(a,b))return 0;var
+e=aZ(a,aL(2)),k=e[1];if(ab(e[2],d)){var
+c=h,a=k;continue}return 0}if(H(a,b))return 0;var
+f=aZ(a,aL(2)),l=f[1];if(ab(f[2],d))return 0;var
+c=h,a=l;continue}}function
+fi(b,a){return 2<=jA(b,a)?0:1}function
+dt(i,e,a){if(i){var
+f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
+w=aZ(e,aL(2)),g=w[1];if(ab(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
+m=aZ(a,aL(2)),A=m[1];if(ab(m[2],d)){var
+j=dt(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dt(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(H(a,b))return[0,b,[0,e,b]];var
+v=aZ(a,aL(2)),h=v[1];if(ab(v[2],d)){var
+n=dt(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(jA(g,h)){case
+0:return[0,e,[0,b,b]];case
 1:var
-p=dj(f,jq(h,g),e),q=p[2],r=q[2],D=[0,r,A(r,b(2,q[1]))];return[0,p[1],D];default:var
-s=dj(f,jq(g,h),a),t=s[2],u=t[2],E=[0,A(u,b(2,t[1])),u];return[0,s[1],E]}}return[0,c,[0,e,a]]}function
-e_(b,a){var
-c=e7(a);return dj(N(e7(b),c),b,a)}function
-js(b,i,h){var
-e=i,a=h;for(;;){if(H(e,c))return a;var
-f=aU(e,aG(2)),g=f[1];if(_(f[2],d)){var
-e=g,a=ap(b,a,a);continue}return ap(b,a,js(b,g,ap(b,a,a)))}}function
-d9(a){return js(N,a,p2)}function
-jt(a){return a?p(jt(a[1])):c}function
-b1(f,e){var
+p=dt(f,jz(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dt(f,jz(g,h),a),t=s[2],u=t[2],E=[0,D(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+fj(b,a){var
+c=ff(a);return dt(P(ff(b),c),b,a)}function
+jB(c,i,h){var
+e=i,a=h;for(;;){if(H(e,b))return a;var
+f=aZ(e,aL(2)),g=f[1];if(ab(f[2],d)){var
+e=g,a=ar(c,a,a);continue}return ar(c,a,jB(c,g,ar(c,a,a)))}}function
+ee(a){return jB(P,a,qk)}function
+jC(a){return a?q(jC(a[1])):b}function
+b9(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=y(b(2,p(b(2,b(2,c)))),d),a=a[1],d=g;continue;case
+g=z(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=A(c,y(b(2,p(b(2,b(2,c)))),d)),a=a[1],d=h;continue;case
+h=D(b,z(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=y(b(2,p(b(2,b(2,c)))),d),j=A(b(2,c),i),a=a[1],d=j;continue;case
+i=z(c(2,q(c(2,c(2,b)))),d),j=D(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=y(b(2,p(b(2,b(2,c)))),d),l=A(p(b(2,c)),k),a=a[1],d=l;continue;case
+k=z(c(2,q(c(2,c(2,b)))),d),l=D(q(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=y(b(2,p(b(2,b(2,c)))),d),n=A(b(2,b(2,c)),m),a=a[1],d=n;continue;case
+m=z(c(2,q(c(2,c(2,b)))),d),n=D(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=y(b(2,p(b(2,b(2,c)))),d),q=A(p(b(2,b(2,c))),o),a=a[1],d=q;continue;case
+o=z(c(2,q(c(2,c(2,b)))),d),p=D(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
 6:var
-r=y(b(2,p(b(2,b(2,c)))),d),s=A(b(2,p(b(2,c))),r),a=a[1],d=s;continue;case
+r=z(c(2,q(c(2,c(2,b)))),d),s=D(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=y(b(2,p(b(2,b(2,c)))),d),u=A(p(b(2,p(b(2,c)))),t),a=a[1],d=u;continue;case
+t=z(c(2,q(c(2,c(2,b)))),d),u=D(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=y(b(2,p(b(2,b(2,c)))),d),w=A(b(2,b(2,b(2,c))),v),a=a[1],d=w;continue;default:var
-x=y(b(2,p(b(2,b(2,c)))),d),z=A(p(b(2,b(2,b(2,c)))),x),a=a[1],d=z;continue}}function
-gT(a){if(H(a,c))return p3;var
-b=aU(a,aG(2)),e=b[1];return _(b[2],d)?bt(gT(e)):bu(gT(e))}function
-e$(a){return e5(gT(a))}function
-ju(k,f){if(0<=a9(f)){var
-g=jb(f);if(0<=g){var
-e=c,b=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=y(b,b),j=1===(a&1)?y(e,b):e,e=j,b=i,a=h;continue}}return d7(pX)}return d}function
-gU(b){var
-a=a9(b);return 0===a?d:0<a?c:P(c)}function
-jv(a){return 0<=a9(a)?a:d}function
-d_(a){var
-b=a9(a);return 0===b?c:0<b?a:c}function
-jw(m){var
+v=z(c(2,q(c(2,c(2,b)))),d),w=D(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=z(c(2,q(c(2,c(2,b)))),d),y=D(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+g0(a){if(H(a,b))return ql;var
+c=aZ(a,aL(2)),e=c[1];return ab(c[2],d)?bv(g0(e)):bw(g0(e))}function
+fk(a){return fd(g0(a))}function
+jD(c,b){var
+a=jh(c,b);return 0===a?0:0<=a?2:1}var
+jE=D;function
+g1(k,f){if(0<=aO(f)){var
+g=jj(f);if(0<=g){var
+e=b,c=k,a=g;for(;;){if(0===a)return e;var
+h=a>>>1|0,i=z(c,c),j=1===(a&1)?z(e,c):e,e=j,c=i,a=h;continue}}return ec(qf)}return d}function
+g2(c){var
+a=aO(c);return 0===a?d:0<a?b:R(b)}function
+jF(a){return 0<=aO(a)?a:d}function
+ef(a){var
+c=aO(a);return 0===c?b:0<c?a:b}function
+jG(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return b1(a[1],c);case
+1:return b9(a[1],b);case
 2:var
-e=b(2,c);return b1(a[1],e);case
+e=c(2,b);return b9(a[1],e);case
 3:var
-f=p(b(2,c));return b1(a[1],f);case
+f=q(c(2,b));return b9(a[1],f);case
 4:var
-g=b(2,b(2,c));return b1(a[1],g);case
+g=c(2,c(2,b));return b9(a[1],g);case
 5:var
-h=p(b(2,b(2,c)));return b1(a[1],h);case
+h=q(c(2,c(2,b)));return b9(a[1],h);case
 6:var
-i=b(2,p(b(2,c)));return b1(a[1],i);case
+i=c(2,q(c(2,b)));return b9(a[1],i);case
 7:var
-j=p(b(2,p(b(2,c))));return b1(a[1],j);case
+j=q(c(2,q(c(2,b))));return b9(a[1],j);case
 8:var
-k=b(2,b(2,b(2,c)));return b1(a[1],k);default:var
-l=p(b(2,b(2,b(2,c))));return b1(a[1],l)}}function
-cm(b,a){var
-c=a9(a);return 0===c?d:1===c?ja(b,a):ji(-1,ja(ji(-1,b),a))}function
-fa(a){return 0<a9(a)?EZ(a):d}function
-d$(b,c){var
-a=jb(c);return 0<=a?pN(b,a):pO(b,-a|0)}function
-cK(b,c){var
-a=jb(c);return 0<=a?pO(b,a):pN(b,-a|0)}function
-bv(b,a){return a?a[1]:b}function
-bd(a){var
+k=c(2,c(2,c(2,b)));return b9(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return b9(a[1],l)}}function
+cp(b,a){var
+c=aO(a);return 0===c?d:1===c?ji(b,a):jq(-1,ji(jq(-1,b),a))}function
+fl(a){return 0<aO(a)?Fv(a):d}function
+eg(b,c){var
+a=jj(c);return 0<=a?p7(b,a):p8(b,-a|0)}function
+cP(b,c){var
+a=jj(c);return 0<=a?p8(b,a):p7(b,-a|0)}function
+bz(b,a){return a?a[1]:b}function
+bg(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -974,251 +980,257 @@ M(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jx(a){if(a){var
-b=[0,a[1],0];return f(jx(a[2]),b)}return a}function
-ea(d,c){var
+jH(a){if(a){var
+b=[0,a[1],0];return f(jH(a[2]),b)}return a}function
+eh(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-fb(a){if(a){var
-b=fb(a[2]);return f(a[1],b)}return a}function
-gV(g,f,e){var
+ei(a){if(a){var
+b=ei(a[2]);return f(a[1],b)}return a}function
+g3(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ap(g,b[1],a[1]);if(c){var
+c=ar(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
 e(b,a){if(a)var
-d=e(b,a[2]),c=[0,j(b,a[1]),d];else
+d=e(b,a[2]),c=[0,i(b,a[1]),d];else
 var
 c=a;return c}function
 w(b,a){if(a){var
-c=w(b,a[2]);return f(j(b,a[1]),c)}return a}function
-dk(e,d,c){var
+c=w(b,a[2]);return f(i(b,a[1]),c)}return a}function
+cQ(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ap(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aJ(c,b,a){if(a){var
-d=aJ(c,b,a[2]);return ap(c,a[1],d)}return b}function
-ak(e,d){var
+f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aw(c,b,a){if(a){var
+d=aw(c,b,a[2]);return ar(c,a[1],d)}return b}function
+al(e,d){var
 a=d;for(;;){if(a){var
-b=j(e,a[1]);if(!b){var
+b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
 n(d,c){var
 a=c;for(;;){if(a){var
-b=j(d,a[1]);if(b){var
+b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-be(b,e){var
+bh(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(j(b,d))return[0,d,be(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bh(b,c)];var
 a=c;continue}return a}}function
-jy(d,c){var
+jI(d,c){var
 a=c;for(;;){if(a){var
-b=a[1];if(j(d,b))return[0,b];var
+b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-aK(b,a){if(b)if(a)var
-d=aK(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+ax(b,a){if(b)if(a)var
+d=ax(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-b2(b,a){if(b)if(a)var
-d=b2(b[1],a[2]),c=[0,a[1],d];else
+bi(b,a){if(b)if(a)var
+d=bi(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-dl(d,c){var
+b_(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aL(b,a){var
-c=a?[0,b,aL([0,b],a[1])]:a;return c}function
-av(b,a){var
-c=a?[0,b,av(b,a[1])]:a;return c}function
-jz(a){if(a){var
-e=jz(a[2]),f=y(b(2,c),e),g=a[1]?c:d;return A(g,f)}return d}function
-fc(j){function
+aE(b,a){var
+c=a?[0,b,aE([0,b],a[1])]:a;return c}function
+ap(b,a){var
+c=a?[0,b,ap(b,a[1])]:a;return c}function
+jJ(a){if(a){var
+e=jJ(a[2]),f=z(c(2,b),e),g=a[1]?b:d;return D(g,f)}return d}function
+fm(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jz([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<a9(b)?d9(b):0}function
-dm(c,b){var
-a=i$(y(c[1],b[2]),y(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cL(b,a){return H(y(b[1],a[2]),y(a[1],b[2]))}function
-dn(b,a){return[0,A(y(b[1],a[2]),y(a[1],b[2])),y(b[2],a[2])]}function
-b3(b,a){return[0,y(b[1],a[1]),y(b[2],a[2])]}function
-jA(a){return[0,P(a[1]),a[2]]}function
-fd(b,a){return dn(b,jA(a))}function
-gW(f,b){var
-a=b[1],e=a9(a),g=0===e?[0,d,c]:0<e?[0,b[2],a]:[0,P(b[2]),P(a)];return b3(f,g)}function
-fe(q){var
-a=q[2],b=q[1],o=a9(b);if(0===o)var
-c=[0,dh(a),[0,d,gU(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jJ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?ee(b):0}function
+du(c,b){var
+a=jh(z(c[1],b[2]),z(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cR(b,a){return H(z(b[1],a[2]),z(a[1],b[2]))}function
+dv(b,a){return[0,D(z(b[1],a[2]),z(a[1],b[2])),z(b[2],a[2])]}function
+b$(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+jK(a){return[0,R(a[1]),a[2]]}function
+fn(b,a){return dv(b,jK(a))}function
+g4(f,c){var
+a=c[1],e=aO(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return b$(f,g)}function
+fo(q){var
+a=q[2],b=q[1],o=aO(b);if(0===o)var
+c=[0,dr(a),[0,d,g2(a)]];else
 if(0<o){var
-n=a9(a);if(0===n)var
-c=[0,dh(b),[0,gU(b),d]];else
+n=aO(a);if(0===n)var
+c=[0,dr(b),[0,g2(b),d]];else
 if(0<n)var
-l=e_(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fj(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=e_(b,P(a)),k=j[2],c=[0,j[1],[0,k[1],P(k[2])]]}else{var
-p=P(b),i=a9(a);if(0===i)var
-c=[0,dh(b),[0,gU(b),d]];else
+j=fj(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
+p=R(b),i=aO(a);if(0===i)var
+c=[0,dr(b),[0,g2(b),d]];else
 if(0<i)var
-g=e_(p,a),h=g[2],c=[0,g[1],[0,P(h[1]),h[2]]];else
+g=fj(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
-e=e_(p,P(a)),f=e[2],c=[0,e[1],[0,P(f[1]),P(f[2])]]}var
-r=c[2],s=d_(r[2]);return[0,r[1],s]}function
-a2(a){if(typeof
-a==="number")return p6;else
+e=fj(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
+r=c[2],s=ef(r[2]);return[0,r[1],s]}function
+a5(a){if(typeof
+a==="number")return qo;else
 switch(a[0]){case
 0:var
-b=a2(a[1]);return aT(br(1,48),b);case
+b=a5(a[1]);return aY(bt(1,48),b);case
 1:var
-c=a2(a[1]);return aT(br(1,49),c);case
+c=a5(a[1]);return aY(bt(1,49),c);case
 2:var
-d=a2(a[1]);return aT(br(1,50),d);case
+d=a5(a[1]);return aY(bt(1,50),d);case
 3:var
-e=a2(a[1]);return aT(br(1,51),e);case
+e=a5(a[1]);return aY(bt(1,51),e);case
 4:var
-f=a2(a[1]);return aT(br(1,52),f);case
+f=a5(a[1]);return aY(bt(1,52),f);case
 5:var
-g=a2(a[1]);return aT(br(1,53),g);case
+g=a5(a[1]);return aY(bt(1,53),g);case
 6:var
-h=a2(a[1]);return aT(br(1,54),h);case
+h=a5(a[1]);return aY(bt(1,54),h);case
 7:var
-i=a2(a[1]);return aT(br(1,55),i);case
+i=a5(a[1]);return aY(bt(1,55),i);case
 8:var
-j=a2(a[1]);return aT(br(1,56),j);default:var
-k=a2(a[1]);return aT(br(1,57),k)}}function
-eb(a){return typeof
-a==="number"?p7:a2(a)}function
-cM(a){return ju(b(2,c),a)}function
-jB(b,a){return cK(a,b)}function
-jC(b,a){return P(cK(P(a),b))}function
-ff(b,a){return P(cm(P(b),a))}function
-V(c,b){var
-a=d$(b,c);return[0,a,a]}function
-jD(d,c,a){var
-b=d$(c,d),e=ff(b,a);return[0,cm(b,a),e]}function
-E(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
-D(b,a){return[0,aH(b[1],a[2]),aH(b[2],a[1])]}function
-af(a){return[0,P(a[2]),P(a[1])]}function
-jE(e,c,b,a){if(H(d,e))return H(d,b)?[0,y(e,b),y(c,a)]:H(a,d)?[0,y(c,b),y(e,a)]:[0,y(c,b),y(c,a)];if(H(c,d))return H(d,b)?[0,y(e,a),y(c,b)]:H(a,d)?[0,y(c,a),y(e,b)]:[0,y(e,a),y(e,b)];if(H(d,b))return[0,y(e,a),y(c,a)];if(H(a,d))return[0,y(c,b),y(e,b)];var
-f=bs(y(e,b),y(c,a));return[0,gQ(y(e,a),y(c,b)),f]}function
+j=a5(a[1]);return aY(bt(1,56),j);default:var
+k=a5(a[1]);return aY(bt(1,57),k)}}function
+ej(a){return typeof
+a==="number"?qp:a5(a)}function
+cS(a){return g1(c(2,b),a)}function
+jL(b,a){return cP(a,b)}function
+jM(b,a){return R(cP(R(a),b))}function
+fp(b,a){return R(cp(R(b),a))}function
+Q(c,b){var
+a=eg(b,c);return[0,a,a]}function
+jN(d,c,a){var
+b=eg(c,d),e=fp(b,a);return[0,cp(b,a),e]}function
+B(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
+E(b,a){return[0,aD(b[1],a[2]),aD(b[2],a[1])]}function
+ad(a){return[0,R(a[2]),R(a[1])]}function
+jO(e,c,b,a){if(H(d,e))return H(d,b)?[0,z(e,b),z(c,a)]:H(a,d)?[0,z(c,b),z(e,a)]:[0,z(c,b),z(c,a)];if(H(c,d))return H(d,b)?[0,z(e,a),z(c,b)]:H(a,d)?[0,z(c,a),z(e,b)]:[0,z(e,a),z(e,b)];if(H(d,b))return[0,z(e,a),z(c,a)];if(H(a,d))return[0,z(c,b),z(e,b)];var
+f=bf(z(e,b),z(c,a));return[0,gY(z(e,a),z(c,b)),f]}function
 v(c,b,a){var
-d=jE(b[1],b[2],a[1],a[2]),e=jC(c,d[2]);return[0,jB(c,d[1]),e]}function
-X(b,a){var
-c=y(a[1],a[1]),e=y(a[2],a[2]),h=jC(b,bs(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+d=jO(b[1],b[2],a[1],a[2]),e=jM(c,d[2]);return[0,jL(c,d[1]),e]}function
+U(b,a){var
+c=z(a[1],a[1]),e=z(a[2],a[2]),h=jM(b,bf(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jB(b,gQ(c,e));return[0,f,h]}function
-gX(b,a){var
-c=d$(cM(b),b),d=ff(c,a[1]);return[0,cm(c,a[2]),d]}function
-b4(b,a){if(L(d,a[1]))return[0,gX(b,a)];var
-c=L(a[2],d),e=c?[0,af(gX(b,af(a)))]:c;return e}function
-b5(f,b){var
-g=L(d,b[1]);if(g)var
-e=d$(b[2],f),a=fa(e),i=_(y(a,a),e)?a:A(a,c),h=[0,[0,fa(d$(b[1],f)),i]];else
+f=jL(b,gY(c,e));return[0,f,h]}function
+g5(b,a){var
+c=eg(cS(b),b),d=fp(c,a[1]);return[0,cp(c,a[2]),d]}function
+bR(b,a){if(K(d,a[1]))return[0,g5(b,a)];var
+c=K(a[2],d),e=c?[0,ad(g5(b,ad(a)))]:c;return e}function
+bS(f,c){var
+g=K(d,c[1]);if(g)var
+e=eg(c[2],f),a=fl(e),i=ab(z(a,a),e)?a:D(a,b),h=[0,[0,fl(eg(c[1],f)),i]];else
 var
 h=g;return h}function
-dp(a){return 0===a[0]?a[2]:a[1]}function
-aV(f,d,c,b,a){if(b){if(a){var
-g=aV(f,d,c,b[2],a[2]);return[0,ap(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cn(b,a){return cK(b,a)}function
-a_(a,c,b){if(H(d,a)){var
-e=b[1],f=P(cn(P(y(a,b[2])),c));return[0,cn(y(a,e),c),f]}var
-g=b[2],h=P(cn(P(y(a,b[1])),c));return[0,cn(y(a,g),c),h]}function
-aW(a){var
-b=P(cK(P(a[2]),c));return[0,cK(a[1],c),b]}function
-gY(c,b,a){var
-e=jE(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=ff(f,h),j=L(g,d)?a[1]:a[2];return[0,cm(g,j),i]}function
-cN(a){return bs(a[2],P(a[1]))}var
-B=[0,d,d];function
-ec(a){return[0,a[1],a[1]]}function
-dq(a){return[0,a[2],a[2]]}function
-bM(b,a){switch(a[0]){case
+dw(a){return 0===a[0]?a[2]:a[1]}function
+aS(f,d,c,b,a){if(b){if(a){var
+g=aS(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cq(b,a){return cP(b,a)}function
+a0(a,c,b){if(H(d,a)){var
+e=b[1],f=R(cq(R(z(a,b[2])),c));return[0,cq(z(a,e),c),f]}var
+g=b[2],h=R(cq(R(z(a,b[1])),c));return[0,cq(z(a,g),c),h]}function
+aF(a){var
+c=R(cP(R(a[2]),b));return[0,cP(a[1],b),c]}function
+ek(c,b,a){var
+e=jO(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=fp(f,h),j=K(g,d)?a[1]:a[2];return[0,cp(g,j),i]}function
+ca(a){return bf(a[2],R(a[1]))}var
+A=[0,d,d];function
+cT(a){return[0,a[1],a[1]]}function
+cr(a){return[0,a[2],a[2]]}function
+bT(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
 3:var
-c=j(b,a[2]);return[3,j(b,a[1]),c];case
+c=i(b,a[2]);return[3,i(b,a[1]),c];case
 4:var
-d=j(b,a[2]);return[4,j(b,a[1]),d];case
-5:return[5,j(b,a[1])];case
+d=i(b,a[2]);return[4,i(b,a[1]),d];case
+5:return[5,i(b,a[1])];case
 6:var
-e=j(b,a[2]);return[6,j(b,a[1]),e];case
+e=i(b,a[2]);return[6,i(b,a[1]),e];case
 7:var
-f=j(b,a[2]);return[7,j(b,a[1]),f];case
-8:return[8,j(b,a[1])];case
-9:return[9,j(b,a[1])];default:var
-g=j(b,a[4]),h=j(b,a[3]),i=j(b,a[2]);return[10,a[1],i,h,g]}}function
-aw(n,m){var
+f=i(b,a[2]);return[7,i(b,a[1]),f];case
+8:return[8,i(b,a[1])];case
+9:return[9,i(b,a[1])];default:var
+g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
+ay(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?u(b[1],a[1]):0;case
-1:return 1===a[0]?u(b[1],a[1]):0;case
-2:return 2===a[0]?_(b[1],a[1]):0;case
+0:return 0===a[0]?s(b[1],a[1]):0;case
+1:return 1===a[0]?s(b[1],a[1]):0;case
+2:return 2===a[0]?ab(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=aw(b[1],a[1]);if(f){var
+f=ay(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=aw(b[1],a[1]);if(g){var
+g=ay(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=aw(b[1],a[1]);if(h){var
+h=ay(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=aw(b[1],a[1]);if(i){var
+i=ay(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=ck(b[1],a[1]);if(j){var
-k=aw(b[2],a[2]);if(k){var
-l=aw(b[3],a[3]);if(l){var
+j=co(b[1],a[1]);if(j){var
+k=ay(b[2],a[2]);if(k){var
+l=ay(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fg(b){var
+fq(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aO(c,b){var
-a=fg(b);return a?_(c,a[1]):a}function
-ed(a){return L(dh(a),b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))))))))}function
-i(a){return[0,[2,a]]}function
-z(b,a){if(aO(d,b))return a;if(aO(d,a))return b;var
-c=fg(b);if(c){var
-e=c[1],f=fg(a);if(f){var
-g=f[1];if(ed(e)&&ed(g))return i(A(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bf(a){var
+aT(c,b){var
+a=fq(b);return a?ab(c,a[1]):a}function
+el(a){return K(dr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+j(a){return[0,[2,a]]}function
+y(b,a){if(aT(d,b))return a;if(aT(d,a))return b;var
+c=fq(b);if(c){var
+e=c[1],f=fq(a);if(f){var
+g=f[1];if(el(e)&&el(g))return j(D(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bj(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return ed(c)?i(P(c)):[0,[5,a]];case
+c=b[1];return el(c)?j(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-t(b,a){if(aO(d,a))return b;if(aO(d,b))return bf(a);var
+u(b,a){if(aT(d,a))return b;if(aT(d,b))return bj(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?u(c[1],e[1])?i(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-I(a){var
-c=fg(a);if(c){var
-b=c[1];return ed(b)?i(y(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,b){if(!aO(d,a)&&!aO(c,b)){if(!aO(d,b)&&!aO(c,a))return aw(a,b)?I(a):[0,[6,a,b]];return b}return a}function
-ag(b,a){return aO(c,a)?b:[0,[7,b,a]]}function
-ax(a){return aO(c,a)?a:[0,[9,a]]}function
-jF(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bN(f,e,d,c){var
+e=a[1];return 0===e[0]?s(c[1],e[1])?j(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+J(a){var
+c=fq(a);if(c){var
+b=c[1];return el(b)?j(z(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+p(a,c){if(!aT(d,a)&&!aT(b,c)){if(!aT(d,c)&&!aT(b,a))return ay(a,c)?J(a):[0,[6,a,c]];return c}return a}function
+ag(c,a){return aT(b,a)?c:[0,[7,c,a]]}function
+az(a){return aT(b,a)?a:[0,[9,a]]}function
+jP(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bU(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,j(e,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-ee(b,a){if(a){var
+g=b[1],h=[0,i(e,bT(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+jQ(d,f,k,j,h){var
+b=k,c=j,a=h;for(;;){if(c){var
+e=c[2],g=c[1];if(b){if(b[1]){var
+l=[0,i(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bg(b),c=e,a=l;continue}var
+b=b[2],c=e,a=[0,d,a];continue}var
+m=[0,i(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bg(b),c=e,a=m;continue}return a}}function
+em(b,a){if(a){var
 c=a[2];if(b){var
-e=ee(b[1],c);return[0,a[1],e]}var
+e=em(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-jG(a){switch(a[0]){case
+jR(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1226,57 +1238,57 @@ jG(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-jH(j,g){var
-k=0,l=aJ(ee,e(function(a){return 0},g),j),c=ea(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aJ(ee,d,jG(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-co(a){var
+g6(j,g){var
+k=0,l=aw(em,e(function(a){return 0},g),j),c=eh(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aw(em,d,jR(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cs(a){var
 b=0;function
-c(a){return[0,a]}return bN(i(d),c,a,b)}function
-aX(d,c){var
-a=d,b=0;for(;;){if(a){if(aw(c,a[1]))return b;var
+c(a){return[0,a]}return bU(j(d),c,a,b)}function
+a1(d,c){var
+a=d,b=0;for(;;){if(a){if(ay(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-cO(d,b){var
-e=b[1];if(ak(function(a){return aw(d,a)},e))return b;var
+cU(d,b){var
+e=b[1];if(al(function(a){return ay(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=cO(a[2],b),k=cO(a[3],j),c=cO(a[4],k);break;case
+j=cU(a[2],b),k=cU(a[3],j),c=cU(a[4],k);break;case
 5:case
 8:case
 9:var
-c=cO(a[1],b);break;case
+c=cU(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=cO(a[1],b),c=cO(a[2],i)}var
-f=c[2],g=c[1],h=[0,bM(function(a){return aX(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cp(a){var
-b=dk(function(b,a){return cO(a,b)},a,p8),c=b[1],d=e(function(a){return aX(c,a)},a);return[0,jx(b[2]),d]}function
-fh(a){return aJ(function(b,a){return A(cN(b),a)},d,a)}function
-b6(b,c,a){var
-d=fh(a),e=gQ(c[2],A(b[2],d)),f=fh(a);return[0,b,[0,bs(c[1],aH(b[1],f)),e],a]}function
+i=cU(a[1],b),c=cU(a[2],i)}var
+f=c[2],g=c[1],h=[0,bT(function(a){return a1(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+ct(a){var
+b=cQ(function(b,a){return cU(a,b)},a,qq),c=b[1],d=e(function(a){return a1(c,a)},a);return[0,jH(b[2]),d]}function
+fr(a){return aw(function(b,a){return D(ca(b),a)},d,a)}function
+cb(b,c,a){var
+d=fr(a),e=gY(c[2],D(b[2],d)),f=fr(a);return[0,b,[0,bf(c[1],aD(b[1],f)),e],a]}function
 ae(a){return[0,a,a,0]}function
-bO(b,a){var
+bV(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aV(function(a){return a},e,E,d,c),g=E(b[2],a[2]);return b6(E(b[1],a[1]),g,f)}function
-a$(b,a){var
-c=a[3],d=b[3],e=aV(function(a){return a},af,D,d,c),f=D(b[2],a[2]);return b6(D(b[1],a[1]),f,e)}function
-ef(a){var
-b=e(af,a[3]),c=af(a[2]);return[0,af(a[1]),c,b]}function
-ay(a,c,b){var
-d=E(b[2],b[1]),e=E(c[2],c[1]),f=b[3],g=c[3];function
+f=aS(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return cb(B(b[1],a[1]),g,f)}function
+bb(b,a){var
+c=a[3],d=b[3],e=aS(function(a){return a},ad,E,d,c),f=E(b[2],a[2]);return cb(E(b[1],a[1]),f,e)}function
+en(a){var
+b=e(ad,a[3]),c=ad(a[2]);return[0,ad(a[1]),c,b]}function
+aA(a,c,b){var
+d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=v(a,e,b);return aW(E(v(a,d,c),f))}function
-i(b){return aW(v(a,e,b))}var
-j=aV(function(b){return aW(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return b6(v(a,c[1],b[1]),k,j)}function
-eg(b,a){var
-c=a[3],d=E(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=X(b,a[2]);return b6(X(b,a[1]),g,f)}function
-gZ(a,b){var
-c=b5(a,b[1]);if(c){var
-g=c[1],d=b5(a,b[2]);if(d){var
-h=d[1],f=b4(a,E(h,g));if(f)var
-l=b[3],m=f[1],i=[0,b6(g,h,e(function(b){return v(a,m,b)},l))];else
+f=v(a,e,b);return aF(B(v(a,d,c),f))}function
+i(b){return aF(v(a,e,b))}var
+j=aS(function(b){return aF(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return cb(v(a,c[1],b[1]),k,j)}function
+eo(b,a){var
+c=a[3],d=B(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=U(b,a[2]);return cb(U(b,a[1]),g,f)}function
+g7(a,b){var
+c=bS(a,b[1]);if(c){var
+g=c[1],d=bS(a,b[2]);if(d){var
+h=d[1],f=bR(a,B(h,g));if(f)var
+l=b[3],m=f[1],i=[0,cb(g,h,e(function(b){return v(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1285,534 +1297,529 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dr(a,c,b){var
-d=b4(a,b[1]);if(d){var
-f=b4(a,b[2]);if(f)var
-h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return D(c,v(a,g,b))},n=function(b){return af(v(a,g,b))},o=aV(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,b6(g,v(a,c[2],h),p)];else
+dx(a,c,b){var
+d=bR(a,b[1]);if(d){var
+f=bR(a,b[2]);if(f)var
+h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,v(a,g,b))},n=function(b){return ad(v(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,cb(g,v(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cq(b,a){return a?j(b,a[1]):a}function
-fi(a){var
-b=e(aW,a[3]),c=aW(E(a[2],a[1]));return b6(a[1],c,b)}function
-jI(a,k,j,r,b){var
-l=fi(k),m=fi(j),g=fi(b[1]),h=fi(b[2]),s=ay(a,l,h),t=a$(ay(a,m,g),s),i=dr(a,ae(V(a,c)),t);if(i)var
-f=i[1],n=ay(a,a$(l,g),f),o=ay(a,a$(m,h),f),d=function(c,b){return ay(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return bO(d(n,b),c)},y=function(a){return d(o,a)},z=aV(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return a$(b,d(f,aW(a)))[2]},C=function(a){return ef(d(f,aW(a)))[2]},p=aV(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=b6(b[2][1],b[2][2],E),G=af(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,b6(b[1][1],b[1][2],H),F]];else
+cu(b,a){return a?i(b,a[1]):a}function
+fs(a){var
+b=e(aF,a[3]),c=aF(B(a[2],a[1]));return cb(a[1],c,b)}function
+jS(a,k,j,r,c){var
+l=fs(k),m=fs(j),g=fs(c[1]),h=fs(c[2]),s=aA(a,l,h),t=bb(aA(a,m,g),s),i=dx(a,ae(Q(a,b)),t);if(i)var
+f=i[1],n=aA(a,bb(l,g),f),o=aA(a,bb(m,h),f),d=function(c,b){return aA(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return bV(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return bb(b,d(f,aF(a)))[2]},C=function(a){return en(d(f,aF(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=cb(c[2][1],c[2][2],E),G=ad(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,cb(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-jJ(a,e,d,k){var
-p=eg(a,d),f=bO(eg(a,e),p),g=a$(bO(f,ae(V(a,c))),k),l=ay(a,ae(V(a,b(2,c))),f),q=eg(a,g),h=gZ(a,a$(ay(a,ae(V(a,b(2,b(2,c)))),f),q));if(h){var
-m=h[1],r=ay(a,m,d),i=dr(a,bO(ay(a,g,e),r),l);if(i)var
-s=ay(a,m,e),j=dr(a,a$(ay(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+jT(a,e,d,k){var
+p=eo(a,d),f=bV(eo(a,e),p),g=bb(bV(f,ae(Q(a,b))),k),l=aA(a,ae(Q(a,c(2,b))),f),q=eo(a,g),h=g7(a,bb(aA(a,ae(Q(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aA(a,m,d),i=dx(a,bV(aA(a,g,e),r),l);if(i)var
+s=aA(a,m,e),j=dx(a,bb(aA(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cq(function(b){return jI(a,e,d,k,b)},o);return cq(function(b){return jI(a,e,d,k,b)},u)}function
-b7(d,b,a){if(b){if(a)return ap(d,b[1],a[1]);var
+u=cu(function(b){return jS(a,e,d,k,b)},o);return cu(function(b){return jS(a,e,d,k,b)},u)}function
+cc(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-b8(b,j,i){var
-f=ae(B);return function(a){switch(a[0]){case
+bW(b,j,i){var
+f=ae(A);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
-2:return[0,ae(V(b,a[1]))];case
+2:return[0,ae(Q(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return b7(function(b,a){return[0,bO(b,a)]},l,k);case
+k=a[2],l=a[1];return cc(function(b,a){return[0,bV(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return b7(function(b,a){return[0,a$(b,a)]},n,m);case
+m=a[2],n=a[1];return cc(function(b,a){return[0,bb(b,a)]},n,m);case
 5:var
-o=a[1];return cq(function(a){return[0,ef(a)]},o);case
+o=a[1];return cu(function(a){return[0,en(a)]},o);case
 6:var
-p=a[2],q=a[1];return b7(function(c,a){return[0,ay(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cc(function(c,a){return[0,aA(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return b7(function(a,c){return dr(b,a,c)},t,s);case
+s=a[2],t=a[1];return cc(function(a,c){return dx(b,a,c)},t,s);case
 8:var
-u=a[1];return cq(function(a){return[0,eg(b,a)]},u);case
+u=a[1];return cu(function(a){return[0,eo(b,a)]},u);case
 9:var
-v=a[1];return cq(function(a){return gZ(b,a)},v);default:var
+v=a[1];return cu(function(a){return g7(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jJ(b,c[1],d[1],e[1]),y=a[1]?b0:aI;return x(y,w)}var
+w=jT(b,c[1],d[1],e[1]),y=a[1]?bu:aM;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-eh(c){var
+ep(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=eh(a[1]);if(b)return b;var
+b=ep(a[1]);if(b)return b;var
 a=a[2];continue}}function
-b9(q,p){var
+cd(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=_(b[1],a[1]);return c?gS(b[2],a[2]):c}return 0;case
+c=ab(b[1],a[1]);return c?fh(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=u(b[1],a[1]),i=h?_(e[1],g[1]):h,j=i?gS(e[2],g[2]):i,k=j?_(d[1],f[1]):j;return k?gS(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=s(b[1],a[1]),i=h?ab(e[1],g[1]):h,j=i?fh(e[2],g[2]):i,k=j?ab(d[1],f[1]):j;return k?fh(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=b9(b[1],a[1]);if(l){var
+l=cd(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=b9(b[1],a[1]);if(m){var
+m=cd(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=b9(b[1],a[1]);if(n){var
+n=cd(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=b9(b[1],a[1]);if(o){var
+o=cd(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ei(b,a){switch(a[0]){case
+eq(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dn(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dv(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fd(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fn(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b3(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b$(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(b,a){return dm(a,[0,d,c])?0:[0,gW(b,a)]};break;default:var
-k=ei(b,a[1]);return k?j(b,k[1]):k}var
-h=ei(b,f);if(h){var
-i=ei(b,g);if(i)return e(h[1],i[1]);var
-l=i}else
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return du(a,[0,d,b])?0:[0,g4(c,a)]};break;default:var
+k=eq(c,a[1]);return k?i(c,k[1]):k}var
+h=eq(c,f);if(h){var
+j=eq(c,g);if(j)return e(h[1],j[1]);var
+l=j}else
 var
 l=h;return l}function
-p9(a){return 0}function
-cr(a){return ei(p9,a)}function
-bw(a,b){switch(b[0]){case
-0:return[0,jD(a,b[1],b[2])];case
+qr(a){return 0}function
+cv(a){return eq(qr,a)}function
+bA(a,c){switch(c[0]){case
+0:return[0,jN(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bw(a,b[1]);if(g)var
-h=bw(a,b[2]),C=h?[0,E(g[1],h[1])]:h,r=C;else
+g=bA(a,c[1]);if(g)var
+h=bA(a,c[2]),D=h?[0,B(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bw(a,b[1]);if(i)var
-j=bw(a,b[2]),F=j?[0,D(i[1],j[1])]:j,s=F;else
+i=bA(a,c[1]);if(i)var
+j=bA(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bw(a,b[1]);if(k)var
-l=bw(a,b[2]),G=l?[0,v(a,k[1],l[1])]:l,t=G;else
+k=bA(a,c[1]);if(k)var
+l=bA(a,c[2]),G=l?[0,v(a,k[1],l[1])]:l,t=G;else
 var
 t=k;return t;case
 5:var
-m=bw(a,b[1]);if(m){var
-n=bw(a,b[2]);if(n)var
-o=b4(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
+m=bA(a,c[1]);if(m){var
+n=bA(a,c[2]);if(n)var
+o=bR(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
 w=u}else
 var
 w=m;return w;default:var
-y=b[1],p=bw(a,y);if(p){var
-e=p[1];if(L(d,e[1]))return b5(a,e);var
-f=cr(y),I=f?$(cL([0,d,c],f[1])):f;if(I)return 0;if(L(d,e[2])){var
-z=b5(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
-q=_(e[2],d),A=q?[0,B]:q;return A}return p}}function
-fj(b,a){return jD(b,a[1],a[2])}function
-bx(a,d){if(eh(d))switch(d[0]){case
+y=c[1],p=bA(a,y);if(p){var
+e=p[1];if(K(d,e[1]))return bS(a,e);var
+f=cv(y),I=f?ac(cR([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
+z=bS(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
+q=ab(e[2],d),C=q?[0,A]:q;return C}return p}}function
+ft(b,a){return jN(b,a[1],a[2])}function
+bB(a,d){if(ep(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=cl(i,jK),k=j?cL(g,e):j;if(k)var
-n=[0,c,b(2,c)],o=[0,fj(a,b3(fd(e,g),n)),0],p=f(av(B,i),o),q=fj(a,e)[2],r=[0,fj(a,g)[1],q],s=[0,c,b(2,c)],l=[0,[0,fj(a,b3(dn(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=by(i,jU),k=j?cR(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,ft(a,b$(fn(e,g),n)),0],p=f(ap(A,i),o),q=ft(a,e)[2],r=[0,ft(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,ft(a,b$(dv(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bx(a,d[2]),u=bx(a,d[1]);return b7(function(b,a){return[0,bO(b,a)]},u,t);case
+t=bB(a,d[2]),u=bB(a,d[1]);return cc(function(b,a){return[0,bV(b,a)]},u,t);case
 3:var
-v=bx(a,d[2]),w=bx(a,d[1]);return b7(function(b,a){return[0,a$(b,a)]},w,v);case
+v=bB(a,d[2]),w=bB(a,d[1]);return cc(function(b,a){return[0,bb(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(b9(h,m)){var
-y=bx(a,h);return cq(function(b){return[0,eg(a,b)]},y)}var
-z=bx(a,m),A=bx(a,h);return b7(function(c,b){return[0,ay(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(cd(h,m)){var
+y=bB(a,h);return cu(function(b){return[0,eo(a,b)]},y)}var
+z=bB(a,m),B=bB(a,h);return cc(function(c,b){return[0,aA(a,c,b)]},B,z);case
 5:var
-C=bx(a,d[2]),D=bx(a,d[1]);return b7(function(b,c){return dr(a,b,c)},D,C);default:var
-E=bx(a,d[1]);return cq(function(b){return gZ(a,b)},E)}return x(ae,bw(a,d))}function
-aY(b,a){if(eh(a)){var
-c=bx(b,a);return x(function(a){return a[2]},c)}return bw(b,a)}function
-jL(a){var
-e=bs(P(a),d);return d_(A(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e))}function
-jM(a){return jv(A(jL(a),a))}function
-cs(f,a,e){var
-b=aY(A(f,jL(a)),e);if(b)var
-c=b[1],g=jM(a),h=P(cn(P(c[2]),g)),i=jM(a),d=[0,[0,cn(c[1],i),h]];else
-var
-d=b;return d}function
-al(d,a){var
-b=cs(d,a[2],a[1][1]);if(b)var
-c=cs(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+C=bB(a,d[2]),D=bB(a,d[1]);return cc(function(b,c){return dx(a,b,c)},D,C);default:var
+E=bB(a,d[1]);return cu(function(b){return g7(a,b)},E)}return x(ae,bA(a,d))}function
+a2(b,a){if(ep(a)){var
+c=bB(b,a);return x(function(a){return a[2]},c)}return bA(b,a)}function
+g8(a){var
+e=bf(R(a),d);return ef(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+jV(a){return jF(D(g8(a),a))}function
+jW(b,a){var
+c=jV(b),d=R(cq(R(a[2]),c)),e=jV(b);return[0,cq(a[1],e),d]}function
+cw(c,a,b){var
+d=a2(D(c,g8(a)),b);return x(function(b){return jW(a,b)},d)}function
+aj(d,a){var
+b=cw(d,a[2],a[1][1]);if(b)var
+c=cw(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-g0(b,a){var
-c=P(cn(P(a[2]),b));return[0,cn(a[1],b),c]}function
-fk(b,a){var
-c=ff(b[2],a);return[0,cm(b[1],a),c]}function
-jN(h,g,d,c){var
-e=c[2],f=jt(d),i=b(2,f),j=y(jp(f),i),a=fk(v(h,c[1],g),j),k=jn(d)?D(e,a):E(e,a);return[0,a,k]}function
-jO(a,d,b){if(b){var
-e=b[1];return jN(a,d,e,jO(a,d,e))}var
-f=V(a,c);return[0,V(a,c),f]}function
-jP(e,g){var
-o=cM(e),p=y(b(2,b(2,c)),o),j=H(g[2],p);if(j){var
-n=d9(e),i=p_[1],d=n,f=0,a=i;for(;;){if(d){var
+jX(b,a){var
+c=R(cq(R(a[2]),b));return[0,cq(a[1],b),c]}function
+fu(b,a){var
+c=fp(b[2],a);return[0,cp(b[1],a),c]}function
+jY(h,g,d,b){var
+e=b[2],f=jC(d),i=c(2,f),j=z(jy(f),i),a=fu(v(h,b[1],g),j),k=jw(d)?E(e,a):B(e,a);return[0,a,k]}function
+jZ(a,d,c){if(c){var
+e=c[1];return jY(a,d,e,jZ(a,d,e))}var
+f=Q(a,b);return[0,Q(a,b),f]}function
+j0(e,g){var
+o=cS(e),p=z(c(2,c(2,b)),o),j=H(g[2],p);if(j){var
+n=ee(e),i=qs[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=N(jm(qb,N(p$,f)),qa),l=jO(e,g,k),q=jN(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(ju(qv,P(qt,f)),qu),l=jZ(e,g,k),q=jY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-jQ(i){function
+j1(i){function
 a(h){var
-m=cm(cM(i),h),g=d9(i),f=m,e=d,a=c;for(;;){if(g){var
-j=A(a,b(2,c)),k=A(e,cm(f,a)),l=P(cm(f,y(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(b(2,p(b(2,p(b(2,p(b(2,b(2,p(b(2,p(b(2,c)))))))))))))),f=y(b(2,b(2,c)),e),g=a(p(b(2,b(2,c))));return aH(y(b(2,b(2,b(2,b(2,c)))),g),f)}function
-jR(e,a){var
+m=cp(cS(i),h),g=ee(i),f=m,e=d,a=b;for(;;){if(g){var
+j=D(a,c(2,b)),k=D(e,cp(f,a)),l=R(cp(f,z(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=z(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aD(z(c(2,c(2,c(2,c(2,b)))),g),f)}function
+j2(e,a){var
 f=H(d,a);if(f){var
-g=b(2,b(2,c));return jP(e,fk(X(e,[0,a,a]),g))}return f}function
-jS(a){var
-m=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),g=aH(jQ(a),m),n=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))))))),h=A(jQ(a),n),e=jR(a,g);if(e){var
-f=jR(a,h);if(f)var
-i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return j0(e,fu(U(e,[0,a,a]),g))}return f}function
+j3(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aD(j1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(j1(a),n),e=j2(a,g);if(e){var
+f=j2(a,h);if(f)var
+i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-jT(a,d){var
-b=X(a,d),e=V(a,c);return D(E(b,b),e)}function
-ds(f,j){var
-e=aY(A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);if(e){var
-k=e[1],a=A(f,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d=jS(a);if(d)var
-h=b(2,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))))),i=jP(a,X(a,fk(v(a,k,d[1]),h))),g=x(function(b){return jT(a,jT(a,b))},i);else
+j4(a,d){var
+c=U(a,d),e=Q(a,b);return E(B(c,c),e)}function
+dy(f,j){var
+e=a2(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=j3(a);if(d)var
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=j0(a,U(a,fu(v(a,k,d[1]),h))),g=x(function(b){return j4(a,j4(a,b))},i);else
 var
 g=d;var
-l=b(2,b(2,b(2,b(2,b(2,b(2,c))))));return x(function(a){return g0(l,a)},g)}return e}function
-jU(a,d){var
-e=jS(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))));return x(function(e){var
-f=b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))));return fk(v(a,d,g0(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)),f)},e)}function
-fl(d,a){return ds(d,[3,a,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])}function
-g(i,e,b){var
-f=cr(b);if(f){var
-g=f[1];return e?$(cL(g,[0,d,c])):cL([0,d,c],g)}var
-a=aY(i,b);if(a){var
-h=a[1];return e?L(d,h[1]):H(d,h[1])}return a}function
-jV(c,b){var
-a=aY(c,b),d=a?1:a;return d}function
-bg(c,a,b){var
-d=b9(a,b),e=d?jV(c,a):d;return e?e:g(c,0,[3,b,a])}function
-qc(c){var
-a=fe(c),g=d_(fa(a[2])),b=[0,fa(a[1]),g],e=L(d,a[1]),f=e?dm(b3(b,b),c):e,h=f?[0,b]:f;return h}function
-jW(a){if(a){var
-e=a[2],b=a[1];if(dm(bv([0,d,c],b),[0,d,c])){var
-g=jW(e);return x(function(a){return[0,a[1],[0,b,a[2]]]},g)}var
-f=[0,[0,b,e]]}else
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return jX(l,a)},g)}return e}function
+j5(a,d){var
+e=j3(D(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
+f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return fu(v(a,d,jX(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+fv(d,a){return dy(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+g(i,e,c){var
+f=cv(c);if(f){var
+g=f[1];return e?ac(cR(g,[0,d,b])):cR([0,d,b],g)}var
+a=a2(i,c);if(a){var
+h=a[1];return e?K(d,h[1]):H(d,h[1])}return a}function
+j6(c,b){var
+a=a2(c,b),d=a?1:a;return d}function
+bk(c,a,b){var
+d=cd(a,b),e=d?j6(c,a):d;return e?e:g(c,0,[3,b,a])}function
+qw(c){var
+a=fo(c),g=ef(fl(a[2])),b=[0,fl(a[1]),g],e=K(d,a[1]),f=e?du(b$(b,b),c):e,h=f?[0,b]:f;return h}function
+j7(a){if(a){var
+e=a[2],c=a[1];if(du(bz([0,d,b],c),[0,d,b])){var
+g=j7(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-jX(b,a){var
-e=aK(b,a),f=[0,d,c];return aJ(function(a,b){return fe(dn(b3(a[1],a[2]),b))},f,e)}function
-jY(b,j){if(b){var
-f=b[1],g=jW(j);if(g){var
-h=g[1],a=h[1],k=function(b){var
-f=bv([0,d,c],a),g=gW(bv([0,d,c],b),f),h=bd(a),i=aK(bd(b),h);return e(function(a){var
-b=b3(g,a[2]);return fe(fd(a[1],b))},i)},l=jY(f,e(k,h[2]));return x(function(b){var
-e=bv([0,d,c],a);return[0,fe(gW(jA(jX(bd(a),b)),e)),b]},l)}var
-i=[0,[0,[0,c,c],av([0,d,c],f)]]}else
+j8(c,a){var
+e=ax(c,a),f=[0,d,b];return aw(function(a,b){return fo(dv(b$(a[1],a[2]),b))},f,e)}function
+j9(c,j){if(c){var
+f=c[1],g=j7(j);if(g){var
+h=g[1],a=h[1],k=function(c){var
+f=bz([0,d,b],a),g=g4(bz([0,d,b],c),f),h=bg(a),i=ax(bg(c),h);return e(function(a){var
+b=b$(g,a[2]);return fo(fn(a[1],b))},i)},l=j9(f,e(k,h[2]));return x(function(c){var
+e=bz([0,d,b],a);return[0,fo(g4(jK(j8(bg(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],ap([0,d,b],f)]]}else
 var
-i=b;return i}function
-jZ(a){if(a){var
-b=ei(qc,a[1]);if(b)var
-c=jZ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+i=c;return i}function
+j_(a){if(a){var
+b=eq(qw,a[1]);if(b)var
+c=j_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qd}function
-j0(a){if(a){var
-b=jZ(a[1]);if(b)var
-c=j0(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return qx}function
+j$(a){if(a){var
+b=j_(a[1]);if(b)var
+c=j$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qe}function
-j1(i,l){var
-a=j0(l);if(a){var
-j=a[1],b=jY(i,j);if(b){var
-e=b[1],f=u(h(e),i),g=f?ak(function(a){return $(dm(a,[0,d,c]))},e):f;return g?n(function(a){return dm(jX(a,e),[0,d,c])},j):g}var
-k=b}else
+d=b;return d}return qy}function
+ka(i,l){var
+a=j$(l);if(a){var
+j=a[1],c=j9(i,j);if(c){var
+e=c[1],f=s(h(e),i),g=f?al(function(a){return ac(du(a,[0,d,b]))},e):f;return g?n(function(a){return du(j8(a,e),[0,d,b])},j):g}var
+k=c}else
 var
 k=a;return k}function
-qf(a){return a}function
-qg(a){return a}function
-qh(a,b){return aV(qg,qf,E,a,b)}function
-qi(a){return a}function
-qj(a){return a}function
-b_(a,b){return aV(qj,qi,qh,a,b)}function
-g1(a,f,b,d){if(b){var
-h=b[2],i=V(a,c),g=gY(b[1],i,f);if(d){var
-j=g1(a,f,h,d[2]),k=d[1],l=function(c,b){return D(c,v(a,g,b))},m=function(b){return af(v(a,g,b))};return[0,aV(function(a){return a},m,l,k,b),j]}var
-n=g1(a,f,h,0);return[0,e(function(b){return af(v(a,g,b))},b),n]}return d}function
-g2(h,a){if(a){var
+qz(a){return a}function
+qA(a){return a}function
+qB(a,b){return aS(qA,qz,B,a,b)}function
+qC(a){return a}function
+qD(a){return a}function
+bC(a,b){return aS(qD,qC,qB,a,b)}function
+g9(a,f,c,d){if(c){var
+h=c[2],i=Q(a,b),g=ek(c[1],i,f);if(d){var
+j=g9(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,v(a,g,b))},m=function(b){return ad(v(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
+n=g9(a,f,h,0);return[0,e(function(b){return ad(v(a,g,b))},c),n]}return d}function
+g_(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),i=e?[0,g1(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,g9(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-j2(g,f,e){var
+kb(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=g2(g,b);if(c){var
+c=g_(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-j3(d,b,a){if(b)if(a)var
-e=a[1],f=j3(d,b[2],a[2]),g=ck(d,b[1])?ec(e):dq(e),c=[0,g,f];else
+kc(d,b,a){if(b)if(a)var
+e=a[1],f=kc(d,b[2],a[2]),g=co(d,b[1])?cT(e):cr(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-j4(a,b){if(a)if(b)var
-d=j4(a[2],b[2]),c=[0,j3(a[1],a,b[1]),d];else
+kd(a,b){if(a)if(b)var
+d=kd(a[2],b[2]),c=[0,kc(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bh(a){if(a){var
-b=a[1],c=bh(b),d=e(function(a){return[0,1,a]},c),g=bh(b);return f(e(function(a){return[0,0,a]},g),d)}return qk}function
-dt(c,a){var
-b=h(a);if(j2(c,b,a))return 1;var
-d=bh(bL(b));return n(function(d){return j2(c,b,j4([0,0,d],a))},d)}function
-ar(a){function
+bc(a){if(a){var
+b=a[1],c=bc(b),d=e(function(a){return[0,1,a]},c),g=bc(b);return f(e(function(a){return[0,0,a]},g),d)}return qE}function
+dz(c,a){var
+b=h(a);if(kb(c,b,a))return 1;var
+d=bc(bx(b));return n(function(d){return kb(c,b,kd([0,0,d],a))},d)}function
+aq(a){function
 b(b){var
-c=j(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aB(h,e){var
+c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
+aG(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?E(a,d):D(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-g3(c,b,a){var
-d=bh(c);return n(function(c){return j(a,j(ar(function(a){return aB(c,a)}),b))},d)}function
-g4(h,d,b){if(d)if(b)var
-i=b[2],e=b[1],j=d[2],f=d[1],a=function(b,a){return a_(b,A(h,c),a)},k=g4(h,j,i),l=function(c,b){var
-d=a(b,e);return E(a(f,c),d)},m=function(b){return a(b,e)},n=aV(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,E(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?B(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+g$(c,b,a){var
+d=bc(c);return n(function(c){return i(a,i(aq(function(a){return aG(c,a)}),b))},d)}function
+ha(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a0(c,D(h,b),a)},k=ha(h,j,i),l=function(c,b){var
+d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
 var
-g=b;else
+g=c;else
 var
 g=d;return g}function
-fm(b,d,a,c){function
+fw(b,d,a,c){function
 e(c,d){var
-e=a_(d,b,a);return D(E(c,c),e)}function
-f(c){return af(a_(c,b,a))}return aV(function(a){return E(a,a)},f,e,d,c)}function
-fn(d,i,h,g){var
+e=a0(d,b,a);return E(B(c,c),e)}function
+f(c){return ad(a0(c,b,a))}return aS(function(a){return B(a,a)},f,e,d,c)}function
+fx(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=dq(e[2]),k=b_(a,g4(d,f,fm(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-g5(b,a){return[0,[0,0,b],a]}function
-du(i,b,c,g,f,a){function
+e=b[1],f=c[1],j=cr(e[2]),k=bC(a,ha(d,f,fw(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hb(b,a){return[0,[0,0,b],a]}function
+dA(i,b,c,g,f,a){function
 d(a){if(a){var
-j=av([0,af(a[1][2]),0],b),c=fn(g,f,a[2],j),d=u(h(c),b);if(d)return dt(i,c);var
+j=ap([0,ad(a[1][2]),0],b),c=fx(g,f,a[2],j),d=s(h(c),b);if(d)return dz(i,c);var
 e=d}else
 var
-e=a;return e}return g3(b,g5(c,a),d)}function
-fo(g,f,e){var
+e=a;return e}return g$(b,hb(c,a),d)}function
+fy(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=g2(g,[0,[0,ec(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=g_(g,[0,[0,cT(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-g6(d,b,c,a){function
+hc(d,b,c,a){function
 e(a){if(a){var
-j=av([0,a[1][2],0],b),c=fo(d,a[2],j);if(c){var
-e=c[1],f=u(h(e),b);if(f)return dt(d,e);var
+j=ap([0,a[1][2],0],b),c=fy(d,a[2],j);if(c){var
+e=c[1],f=s(h(e),b);if(f)return dz(d,e);var
 g=f}else
 var
 g=c;var
 i=g}else
 var
-i=a;return i}return g3(b,g5(c,a),e)}function
-j5(b,a){return e(function(a){return[0,a[1],b]},a)}function
-j6(b,a){var
-c=bh(b);return n(function(b){return L(d,aB(b,a)[1])},c)}function
-j7(c,b,a){var
-d=a[3],f=e(function(a){return a_(c,b,a)},d),g=a[2];return[0,a_(c,b,a[1]),g,f]}function
-j8(a,b){var
-c=b[3],d=a[3],e=aV(function(a){return a},af,D,d,c),f=a[2];return[0,D(a[1],b[1]),f,e]}function
-by(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ah(c,b,a){var
-d=ap(c,b[3],a[3]),e=ap(c,b[2],a[2]);return[0,ap(c,b[1],a[1]),e,d]}function
-aZ(b,a){var
-c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
-ba(b,a){var
+i=a;return i}return g$(b,hb(c,a),e)}function
+ke(b,a){return e(function(a){return[0,a[1],b]},a)}function
+kf(b,a){var
+c=bc(b);return n(function(b){return K(d,aG(b,a)[1])},c)}function
+kg(c,b,a){var
+d=a[3],f=e(function(a){return a0(c,b,a)},d),g=a[2];return[0,a0(c,b,a[1]),g,f]}function
+kh(a,b){var
+c=b[3],d=a[3],e=aS(function(a){return a},ad,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
+bD(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+Z(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+aP(b,a){var
+c=p(b,a[3]),d=p(b,a[2]);return[0,p(b,a[1]),d,c]}function
+a6(b,a){var
 c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
-Q(b,a){var
-c=q(b[3],a[3]),d=q(b[2],a[2]);return z(z(q(b[1],a[1]),d),c)}function
-cP(a){return ba(a,ax(Q(a,a)))}function
-ct(a){var
-b=a[5];return b?b[1]:ax(a[2])}function
-fp(b,a){return b?a:bf(a)}function
-j9(e,a,i,d,h){var
-f=Q(a,e),b=ah(t,e,aZ(f,a)),j=Q(b,b),g=t(I(d),j),c=fp(h,ax(g)),k=t(f,c),l=ah(z,a,ba(b,c));return[0,ah(z,b,aZ(c,a)),g,l,k,[0,d],0,[0,i]]}function
-j_(a,e,d){var
-b=Q(a,a),c=ax(b),f=[0,e],g=x(function(b){return ah(t,a,aZ(Q(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
-j$(b,a){var
-d=Q(a,b);return[0,a,i(c),a,d,0,0,0]}function
-ej(a){return e(function(a){var
-b=a[2];return[0,by(a[1]),b]},a)}function
-ka(a){return e(function(a){var
-b=i(c);return[0,by(a[3]),b]},a)}function
-kb(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-kc(c,b,a){var
-d=ap(c,b[3],a[3]),e=ap(c,b[2],a[2]);return[0,ap(c,b[1],a[1]),e,d]}function
-fq(d,a){var
-b=b5(d,[0,a[2],a[2]]);if(b){var
+N(b,a){var
+c=p(b[3],a[3]),d=p(b[2],a[2]);return y(y(p(b[1],a[1]),d),c)}function
+cV(a){return a6(a,az(N(a,a)))}function
+cx(a){var
+b=a[5];return b?b[1]:az(a[2])}function
+fz(b,a){return b?a:bj(a)}function
+ki(e,a,i,d,h){var
+f=N(a,e),b=Z(u,e,aP(f,a)),j=N(b,b),g=u(J(d),j),c=fz(h,az(g)),k=u(f,c),l=Z(y,a,a6(b,c));return[0,Z(y,b,aP(c,a)),g,l,k,[0,d],0,[0,i]]}function
+kj(a,e,d){var
+b=N(a,a),c=az(b),f=[0,e],g=x(function(b){return Z(u,a,aP(N(b,a),b))},d);return[0,a,b,a6(a,c),c,0,g,f]}function
+kk(c,a){var
+d=N(a,c);return[0,a,j(b),a,d,0,0,0]}function
+er(a){return e(function(a){var
+b=a[2];return[0,bD(a[1]),b]},a)}function
+kl(a){return e(function(a){var
+c=j(b);return[0,bD(a[3]),c]},a)}function
+km(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+kn(c,b,a){var
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+dB(d,a){var
+b=bS(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fr(a,m,f,l,e,k,j){var
-o=kc(a$,k,j),b=kc(function(b,c){return ay(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bO(bO(bO(ae(V(a,d)),h),g),c),p=bh(m);return n(function(c){var
-b=kb(function(b){return X(a,aB(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,fq(a,E(E(E(V(a,d),k),j),h))),g=D(aB(c,i),m),n=f?D(g,aB(c,f[1])):g;return L(d,n[1])},p)}function
-bP(a){return cK(A(a[1],a[2]),c)}function
-dv(a){var
-b=bP(a);return aH(a[2],b)}function
-ek(c,b){if(b)var
-a=b[1],e=ek([0,c],b[2]),g=dv(a),h=[0,[0,dv(a),g],0],i=f(av(B,c),h),j=bP(a),d=[0,[0,[0,bP(a),j],a,i],e];else
+fA(a,m,f,l,e,k,j){var
+o=kn(bb,k,j),b=kn(function(b,c){return aA(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bV(bV(bV(ae(Q(a,d)),h),g),c),p=bc(m);return n(function(c){var
+b=km(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,dB(a,B(B(B(Q(a,d),k),j),h))),g=E(aG(c,i),m),n=f?E(g,aG(c,f[1])):g;return K(d,n[1])},p)}function
+bX(a){return cP(D(a[1],a[2]),b)}function
+dC(a){var
+b=bX(a);return aD(a[2],b)}function
+es(c,b){if(b)var
+a=b[1],e=es([0,c],b[2]),g=dC(a),h=[0,[0,dC(a),g],0],i=f(ap(A,c),h),j=bX(a),d=[0,[0,[0,bX(a),j],a,i],e];else
 var
 d=b;return d}function
-el(d,b){if(b){var
+et(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=el(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bP(a),f],c],h=bP(a);return[0,[0,[0,a[1],h],c],g]}return ql}function
-kd(d,b,a){if(b){if(a){var
-e=kd(d,b[2],a[2]);return E(a_(b[1],A(d,c),a[1]),e)}return B}return B}function
-em(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kd(f,a,b)},j=em(f,h),k=e(function(a){var
-e=b(d,a[2]);return E(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,E(b(d,c),l),k],j];else
+e=et(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bX(a),f],c],h=bX(a);return[0,[0,[0,a[1],h],c],g]}return qF}function
+ko(d,c,a){if(c){if(a){var
+e=ko(d,c[2],a[2]);return B(a0(c[1],D(d,b),a[1]),e)}return A}return A}function
+dD(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ko(f,a,b)},j=dD(f,h),k=e(function(a){var
+e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
 var
 i=a;return i}function
-en(e,b,d,a){if(b)if(a)var
-f=b[1],g=en(e,b[2],d,a[2]),c=[0,[0,f,fm(e,a[1][1],d,f)],g];else
+dE(e,b,d,a){if(b)if(a)var
+f=b[1],g=dE(e,b[2],d,a[2]),c=[0,[0,f,fw(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fs(f,d,c,b,a){if(a){var
+fB(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fs(f,d[1],c,b,g);return[0,[0,D(B,b),0],i]}var
-j=e(function(a){return[0,D(B,b),0]},g),h=[0,[0,D(af(v(f,c,dq(a[1][2]))),b),0],j]}else
+i=fB(f,d[1],c,b,g);return[0,[0,E(A,b),0],i]}var
+j=e(function(a){return[0,E(A,b),0]},g),h=[0,[0,E(ad(v(f,c,cr(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-bi(d,c,a){var
-b=u(h(a),c);return b?dt(d,a):b}function
-ke(d,b,a){if(b)var
-c=b[1],g=ke([0,d],b[2],a),h=f(av(B,d),[0,a,0]),e=[0,[0,c,[0,aH(c[1],a[2]),A(c[2],a[2])],h],g];else
+a7(d,c,a){var
+b=s(h(a),c);return b?dz(d,a):b}function
+fC(d,b,a){if(b)var
+c=b[1],g=fC([0,d],b[2],a),h=f(ap(A,d),[0,a,0]),e=[0,[0,c,[0,aD(c[1],a[2]),D(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kf(d){if(d){var
+kp(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kf(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kp(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return qm}function
-g7(a){return x(function(a){return x(ef,a)},a)}function
-cu(c,b,a){function
-d(a){return ay(c,b,a)}return x(function(a){return x(d,a)},a)}function
-g8(c,b,a){function
-d(a){return dr(c,a,b)}return x(function(a){return cq(d,a)},a)}function
-dw(b,a){var
-c=aK(b,a);return e(function(c){var
+f=a;return f}return qG}function
+hd(a){return x(function(a){return x(en,a)},a)}function
+cy(c,b,a){function
+d(a){return aA(c,b,a)}return x(function(a){return x(d,a)},a)}function
+he(c,b,a){function
+d(a){return dx(c,a,b)}return x(function(a){return cu(d,a)},a)}function
+dF(b,a){var
+c=ax(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,b7(function(b,a){return[0,bO(b,a)]},e,d)]}return b}return a},c)}function
-ft(a){return ae(V(a,b(2,c)))}function
-kg(b,c,a){if(a)var
-f=a[1],g=kg(b,c,a[2]),d=[0,e(function(a){return af(v(b,v(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,cc(function(b,a){return[0,bV(b,a)]},e,d)]}return b}return a},c)}function
+fD(a){return ae(Q(a,c(2,b)))}function
+kq(b,c,a){if(a)var
+f=a[1],g=kq(b,c,a[2]),d=[0,e(function(a){return ad(v(b,v(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-g9(a){return n(function(a){var
-b=_(a[1],d);return b?_(a[2],d):b},a)}function
-kh(c,b,a){var
-d=aK(b,a);return aJ(function(a,b){return E(v(c,a[1],a[2]),b)},B,d)}function
-g_(c,b,a){var
-d=cN(kh(c,a,b));return aJ(function(b,a){return A(cN(b),a)},d,a)}function
-dx(a){return V(a,c)}function
-g$(a,i,c,u,t){var
+hf(a){return n(function(a){var
+b=ab(a[1],d);return b?ab(a[2],d):b},a)}function
+kr(c,b,a){var
+d=ax(b,a);return aw(function(a,b){return B(v(c,a[1],a[2]),b)},A,d)}function
+hg(c,b,a){var
+d=ca(kr(c,a,b));return aw(function(b,a){return D(ca(b),a)},d,a)}function
+dG(a){return Q(a,b)}function
+hh(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!g9(c)&&!g9(j)){var
-h=g_(a,i,j),o=dx(a),p=g_(a,i,c),b=gY([0,g_(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=aW(gX(a,[0,b,b])),r=function(b){return function(d,c){return D(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,b_(e,kg(a,q,aV(function(c){return function(b){return v(a,c,b)}}(s),af,r,j,c)))];else
+j=f[1],n=0;if(!hf(c)&&!hf(j)){var
+h=hg(a,i,j),o=dG(a),p=hg(a,i,c),b=ek([0,hg(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=aF(g5(a,[0,b,b])),r=function(b){return function(d,c){return E(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bC(e,kq(a,q,aS(function(c){return function(b){return v(a,c,b)}}(s),ad,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qB(a){var
-b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-ki(h,n,a,m,l,k){var
+qV(a){var
+b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
+ks(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=dq(j[2]),p=b_(b,g4(a,f,fm(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aW,fm(a,b[1],b[2],c))}}(f),q),g=g$(h,n,e(function(b){return a_(b,a,dx(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cr(j[2]),p=bC(b,ha(a,f,fw(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aF,fw(a,b[1],b[2],c))}}(f),q),g=hh(h,n,e(function(b){return a0(b,a,dG(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-kj(c,b,a){if(b){if(a){var
-d=kj(c,b[2],a[2]);return E(a_(b[1],c,a[1]),d)}return B}return B}function
-kk(a,j){switch(j){case
+kt(c,b,a){if(b){if(a){var
+d=kt(c,b[2],a[2]);return B(a0(b[1],c,a[1]),d)}return A}return A}function
+ku(a,j){switch(j){case
 0:var
-d=aH(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aD(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aH(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-b=cK(A(a[1],a[2]),c),h=aH(b,a[2]),i=aH(a[2],b);return[0,[0,b,b],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-ha(d,c,a){if(a)var
-e=a[1],g=ha(d,[0,c],a[2]),b=x(b0,jy(function(a){return u(a[1],c)},d)),h=b?kk(e,b[1])[1]:e,f=[0,h,g];else
+f=aD(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=cP(D(a[1],a[2]),b),h=aD(c,a[2]),i=aD(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+hi(d,c,a){if(a)var
+e=a[1],g=hi(d,[0,c],a[2]),b=x(bu,jI(function(a){return s(a[1],c)},d)),h=b?ku(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-kl(a,b){return e(function(a){var
-c=a[2];return kk(r(a[1],b,B),c)[2]},a)}function
-km(i,b,g,a){function
-d(a){return aB(b,a[1])}var
-h=0,j=ae(B);function
+kv(a,b){return e(function(a){var
+c=a[2];return ku(r(a[1],b,A),c)[2]},a)}function
+kw(i,b,g,a){function
+d(a){return aG(b,a[1])}var
+h=0,j=ae(A);function
 c(g,d,a,b){if(a){var
-h=function(a){return aB(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=v(i,a,l);return[0,e(function(b){return v(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qC=ae(B);function
-kn(e,d,c){if(d){var
-f=r(e,c[2],qD),a=f?f[1]:[0,qC];if(a)var
-b=kn([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+qW=ae(A);function
+kx(e,d,c){if(d){var
+f=r(e,c[2],qX),a=f?f[1]:[0,qW];if(a)var
+b=kx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return qE}function
-ko(a,b,h,q,p,g,o){var
-d=bh(b);return n(function(d){var
-f=j(o,d);if(f){var
-n=v(a,p,f[1]),i=D(V(a,c),n),r=h?D(i,aB(d,h[1])):i,k=function(c){function
-f(b){return v(a,c,aB(d,b))}var
-g=e(function(a){return e(f,a)},q);return bi(a,b,b_(av([0,r,0],b),g))},l=k(aW(g));if(l)return k(af(aW(g)));var
+g=a;return g}return qY}function
+ky(a,c,h,q,p,g,o){var
+d=bc(c);return n(function(d){var
+f=i(o,d);if(f){var
+n=v(a,p,f[1]),j=E(Q(a,b),n),r=h?E(j,aG(d,h[1])):j,k=function(b){function
+f(c){return v(a,b,aG(d,c))}var
+g=e(function(a){return e(f,a)},q);return a7(a,c,bC(ap([0,r,0],c),g))},l=k(aF(g));if(l)return k(ad(aF(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-kp(p,o,n,m,l){var
-q=e(ae,n),h=b8(p,ek(0,l),q),b=m,c=o,a=0,f=0;for(;;){if(c){var
-d=c[2],g=c[1];if(b){if(b[1]){var
-i=[0,j(h,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=i;continue}var
-b=b[2],c=d,a=[0,f,a];continue}var
-k=[0,j(h,bM(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=bd(b),c=d,a=k;continue}return a}}function
-ac(a){if(a){var
+kz(f,d,c,b,a){var
+g=e(ae,c);return jQ(0,bW(f,es(0,a),g),b,d,0)}function
+W(a){if(a){var
 b=a[1];if(b)var
-c=ac(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=W(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qF}function
-fu(b,a){if(a){var
-h=a[1],n=h[1],c=ac(e(function(a){return r(a,b,0)},n));if(c){var
+d=b;return d}return qZ}function
+fE(b,a){if(a){var
+h=a[1],n=h[1],c=W(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
-i=f[1],g=fu(b,a[2]);if(g)var
-j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+i=f[1],g=fE(b,a[2]);if(g)var
+j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1820,22 +1827,22 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return qG}function
-b$(d,c,b){var
-a=fu(d,c);return a?j(b,a[1]):a}function
-dy(a,b){return n(function(c){var
+m=c;return m}return q0}function
+ce(d,c,b){var
+a=fE(d,c);return a?i(b,a[1]):a}function
+dH(a,b){return n(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
-fv(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aV(function(a){return a},f,E,e,d),h=a[2];return[0,E(a[1],c[1]),h,g]}return a}function
-hb(b,a){return b?j8(a,b[1]):a}function
-hc(h,g,b,f){var
+fF(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
+hj(b,a){return b?kh(a,b[1]):a}function
+hk(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=j8(c,b[1]),e=bh(g);return n(function(a){return H(d,aB(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-kq(f,d,a){function
-b(a){return a_(a,d,V(f,c))}if(a){var
-g=e(b,a[2]);return[0,b(a[1]),B,g]}return ae(B)}function
-fw(b,a){var
+i=kh(c,b[1]),e=bc(g);return n(function(a){return H(d,aG(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+kA(f,d,a){function
+c(a){return a0(a,d,Q(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),A,g]}return ae(A)}function
+fG(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
 e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
@@ -1844,64 +1851,64 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-hd(b,a){return ac(e(function(a){return r(a,b,0)},a))}function
-fx(b,k,U,C,i,g,j,f,a){switch(f[0]){case
+hl(b,a){return W(e(function(a){return r(a,b,0)},a))}function
+eu(c,k,X,C,i,g,j,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-W=dy(C,i);if(W){var
-aD=a[2],aE=a[1],aF=fv(j,ae(r));return b$(i,k,function(a){return du(b,g,aF,aE,aD,a)})}return W;case
+Y=dH(C,i);if(Y){var
+aE=a[2],aF=a[1],aH=fF(j,ae(r));return ce(i,k,function(a){return dA(c,g,aH,aF,aE,a)})}return Y;case
 1:var
-Y=dy(C,i);if(Y){var
-aG=a[2],aI=a[1],aK=fv(j,ae(r));return b$(i,U,function(a){return du(b,g,aK,aI,aG,a)})}return Y;case
+Z=dH(C,i);if(Z){var
+aI=a[2],aJ=a[1],aK=fF(j,ae(r));return ce(i,X,function(a){return dA(c,g,aK,aJ,aI,a)})}return Z;case
 2:var
-Z=dy(C,i);if(Z){if(j)return 0;var
-$=_(r[1],d),aa=$?_(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return b$(i,k,function(a){return du(b,g,[0,B,B,0],aM,aL,j5([0,B,B,0],a))})}var
-ab=aa}else
+_=dH(C,i);if(_){if(j)return 0;var
+$=ab(r[1],d),aa=$?ab(r[2],d):$;if(aa){var
+aL=a[2],aM=a[1];return ce(i,k,function(a){return dA(c,g,[0,A,A,0],aM,aL,ke([0,A,A,0],a))})}var
+ac=aa}else
 var
-ab=Z;return ab}return 0;case
+ac=_;return ac}return 0;case
 1:var
 ad=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hb(j,ae(ad));return b$(i,U,function(a){return g6(b,g,aN,a)})}if(!a){var
-aO=hb(j,ae(ad));return b$(i,k,function(a){return g6(b,g,aO,a)})}}return 0;case
+aN=hj(j,ae(ad));return ce(i,X,function(a){return hc(c,g,aN,a)})}if(!a){var
+aO=hj(j,ae(ad));return ce(i,k,function(a){return hc(c,g,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=kq(b,af,a[3]),ag=f[1],aP=a[2];return b$(i,k,function(d){var
-a=j6(g,l),c=a?du(b,g,fv(j,l),af,aP,d):a;if(c){var
-f=l[3],h=e(function(a){return v(b,ag,a)},f),i=l[2];return g6(b,g,hb(j,[0,v(b,ag,l[1]),i,h]),d)}return c})}return 0;case
+af=a[1],l=kA(c,af,a[3]),ag=f[1],aP=a[2];return ce(i,k,function(d){var
+a=kf(g,l),b=a?dA(c,g,fF(j,l),af,aP,d):a;if(b){var
+f=l[3],h=e(function(a){return v(c,ag,a)},f),i=l[2];return hc(c,g,hj(j,[0,v(c,ag,l[1]),i,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hc(i,g,j,f[1]);return 0;case
+a==="number"&&!a)return hk(i,g,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=fv(j,ae(f[2])),aT=function(a){return du(b,g,aS,aR,aQ,a)};return b$(i,f[1],aT)}return 0;case
+aQ=a[2],aR=a[1],aS=fF(j,ae(f[2])),aT=function(a){return dA(c,g,aS,aR,aQ,a)};return ce(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hc(i,g,j,f[1]);case
-2:return hc(i,g,j,f[2])}return 0;case
+0:return hk(i,g,j,f[1]);case
+2:return hk(i,g,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-F=fw(i,f[1]);if(F){var
-G=fw(i,f[2]);if(G){var
-H=fw(i,f[3]);if(H){var
-I=fw(i,f[4]);if(I){var
-ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],s=f[5],aU=a[1];if(m){var
+F=fG(i,f[1]);if(F){var
+G=fG(i,f[2]);if(G){var
+H=fG(i,f[3]);if(H){var
+I=fG(i,f[4]);if(I){var
+ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],t=f[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=kb(function(f){function
-g(a){return a_(a,aU,V(b,c))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fh(a),i=A(d[2],h),j=fh(a);return[0,d,[0,aH(d[1],j),i],a]}return ae(B)},aC),M=n(function(a){return u(h(a),[0,g])},m),N=M?fr(b,g,j,s,q,ak,ai):M,O=N?fr(b,g,j,s,q,ak,ah):N,P=O?fr(b,g,j,s,q,aj,ai):O;if(P)return fr(b,g,j,s,q,aj,ah);var
-Q=P}else
+aC=[0,m[1],o[1],p[1]],q=km(function(f){function
+g(a){return a0(a,aU,Q(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=fr(a),i=D(d[2],h),j=fr(a);return[0,d,[0,aD(d[1],j),i],a]}return ae(A)},aC),M=n(function(a){return s(h(a),[0,g])},m),N=M?fA(c,g,j,t,q,ak,ai):M,O=N?fA(c,g,j,t,q,ak,ah):N,P=O?fA(c,g,j,t,q,aj,ai):O;if(P)return fA(c,g,j,t,q,aj,ah);var
+R=P}else
 var
-Q=p;var
-R=Q}else
-var
-R=o;var
+R=p;var
 S=R}else
 var
-S=m;return S}var
+S=o;var
+T=S}else
+var
+T=m;return T}var
 al=I}else
 var
 al=H;var
@@ -1913,95 +1920,97 @@ var
 an=F;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aV=f[2],aW=f[1];return b$(i,k,function(e){var
-a=u(h(e),g),d=a?u(h(ao),g):a;if(d){var
+ao=a[2],ap=a[1],aV=f[2],aW=f[1];return ce(i,k,function(e){var
+a=s(h(e),g),d=a?s(h(ao),g):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=u(h(d),g);if(e){var
-i=em(ap,en(ap,ao,V(b,c),d));return bi(b,g,b_(fs(b,aW,aV,a[1][2],d),i))}var
+d=a[2],e=s(h(d),g);if(e){var
+i=dD(ap,dE(ap,ao,Q(c,b),d));return a7(c,g,bC(fB(c,aW,aV,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:ae(B);return g3(g,g5(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:ae(A);return g$(g,hb(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aX=f[3],aY=f[2],aZ=function(d){var
-a=j5([0,B,B,0],d),c=j?j[1]:[0,B,B,0];return du(b,g,c,aY,aX,a)};return b$(i,f[1],aZ)}return 0;case
+a=ke([0,A,A,0],d),b=j?j[1]:[0,A,A,0];return dA(c,g,b,aY,aX,a)};return ce(i,f[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hd(i,f[1]);if(J){var
-a0=f[2],K=ac(e(function(a){return hd(i,a)},a0));if(K){var
-L=hd(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
-t=L[1];if(t){var
-w=t[2];if(w){var
+J=hl(i,f[1]);if(J){var
+a1=f[2],K=W(e(function(a){return hl(i,a)},a1));if(K){var
+L=hl(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
+u=L[1];if(u){var
+w=u[2];if(w){var
 y=w[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=w[1][2],at=t[1][2],au=K[1],a1=J[1],T=ko(b,g,j,au,at,as,function(d){return[0,fq(b,aJ(function(c,a){return E(X(b,aB(d,c)),a)},B,a1))]});return T?T:ko(b,g,j,au,at,as,function(f){var
-c=ec(aq[1]),a=b5(b,D(ar,X(b,c)));if(a){var
-d=b4(b,a[1]),e=D(ar,v(b,c,aB(f,aq)));return x(function(a){return v(b,e,a)},d)}return a})}var
+aq=z[1],ar=y[1][2],as=w[1][2],at=u[1][2],au=K[1],a2=J[1],V=ky(c,g,j,au,at,as,function(d){return[0,dB(c,aw(function(b,a){return B(U(c,aG(d,b)),a)},A,a2))]});return V?V:ky(c,g,j,au,at,as,function(f){var
+b=cT(aq[1]),a=bS(c,E(ar,U(c,b)));if(a){var
+d=bR(c,a[1]),e=E(ar,v(c,b,aG(f,aq)));return x(function(a){return v(c,e,a)},d)}return a})}var
 av=z}else
 var
 av=y;var
-aw=av}else
+ax=av}else
 var
-aw=w;var
-ax=aw}else
-var
-ax=t;var
+ax=w;var
 ay=ax}else
 var
-ay=L;var
+ay=u;var
 az=ay}else
 var
-az=K;var
+az=L;var
 aA=az}else
 var
-aA=J;return aA}return 0}}function
-kr(a,_,J,l,p,Z,g,k,i,f,b){if(9===f[0]){if(typeof
-b!=="number"&&9===b[0]){var
-$=f[1],T=e(ae,Z),z=bN(0,b8(a,ke(0,k,$),T),_,0),K=u(h(k),qH),M=K?dy(p,z):K;if(M){var
-q=fu(z,l);if(q){var
-s=fu(g,l);if(s){var
-aa=f[2],t=ac(e(function(b){var
+aA=K;var
+aB=aA}else
+var
+aB=J;return aB}return 0}}function
+kB(a,$,q,l,m,_,g,k,j,f,c){if(9===f[0]){var
+aa=f[2],ab=f[1];if(typeof
+c!=="number"&&9===c[0]){var
+L=c[2],t=c[1],ac=c[3];if(0<aO(c[4]))return eu(a,q,l,m,g,h(k),j,f,c);var
+V=e(ae,_),C=bU(0,bW(a,fC(0,k,ab),V),$,0),M=s(h(k),q1),N=M?dH(m,C):M;if(N){var
+u=fE(C,l);if(u){var
+w=fE(g,l);if(w){var
+y=W(e(function(b){var
 c=r(b[1],g,0);if(c)var
-f=b[2][2],a=ac(e(function(a){var
+f=b[2][2],a=W(e(function(a){var
 b=r(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
-d=c;return d},aa));if(t){var
-w=kf(q[1]);if(w){var
-N=b[2],y=b[1],O=s[1],ab=b[3],ad=t[1],ag=w[1],C=fq(a,aJ(function(f,h){function
+d=c;return d},aa));if(y){var
+z=kp(u[1]);if(z){var
+O=w[1],af=y[1],ag=z[1],F=dB(a,aw(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cN(r(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ca(r(d,c[3],A))}function
 c(a){var
-b=j(a,qn),c=bs(j(a,qo),b);return bs(j(a,0),c)}var
+b=i(a,qH),c=bf(i(a,qI),b);return bf(i(a,0),c)}var
 d=c(function(a){var
-c=b(qp,a),d=b(qq,a);return A(A(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qr),d=b(a,qs);return A(A(b(a,0),d),c)});return E(h,X(a,fq(a,v(a,[0,e,e],g))))},B,ag)),m=a_(ab,y,V(a,c)),F=L(d,D(m,C)[1]),G=F?u(h(N),qy):F,H=G?u(h(O),qz):G;if(H){var
-o=b4(a,m);if(o){var
-U=aW(v(a,C,o[1])),W=D(V(a,c),U),Y=bh(qA);return n(function(h){var
+c=b(qJ,a),d=b(qK,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qL),d=b(a,qM);return D(D(b(a,0),d),c)});return B(h,U(a,dB(a,v(a,[0,e,e],g))))},A,ag)),o=a0(ac,t,Q(a,b)),G=K(d,E(o,F)[1]),H=G?s(h(L),qS):G,I=H?s(h(O),qT):H;if(I){var
+p=bR(a,o);if(p){var
+X=aF(v(a,F,p[1])),Y=E(Q(a,b),X),Z=bc(qU);return n(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return dq(dk(function(d,b){var
-c=cN(aB(h,b[2]));return E(d,v(a,b[1],[0,c,c]))},c,d))},ad),r=j(ar(function(a){return aB(h,a)}),O),G=i?aB(h,i[1]):B,M=X(a,W),s=X(a,m),q=em(y,en(y,N,V(a,c),r)),b=b_(av([0,af(G),0],qt),q);if(g){var
+c=b[2],d=b[1];return cr(cQ(function(d,b){var
+c=ca(aG(h,b[2]));return B(d,v(a,b[1],[0,c,c]))},c,d))},af),r=i(aq(function(a){return aG(h,a)}),O),F=j?aG(h,j[1]):A,M=U(a,Y),s=U(a,o),q=dD(t,dE(t,L,Q(a,b),r)),c=bC(ap([0,ad(F),0],qN),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-C=d[1],F=g[1],I=f[1],k=bi(a,qv,b_(av([0,af(s),0],qu),b));if(k)return n(function(B){var
-J=D(M,G),K=B[2]?C:af(C),L=B[1]?F:af(F),o=0;if(b){var
-c=b[1],l=0;if(c){var
-d=c[2],m=0;if(d){var
+C=d[1],D=g[1],I=f[1],k=a7(a,qP,bC(ap([0,ad(s),0],qO),c));if(k)return n(function(B){var
+J=E(M,F),K=B[2]?C:ad(C),L=B[1]?D:ad(D),o=0;if(c){var
+b=c[1],l=0;if(b){var
+d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
 k=0;l=1;m=1;n=1}else{var
-f=b[2],p=0;if(f){var
+f=c[2],p=0;if(f){var
 g=f[1],q=0;if(g){var
 h=g[2],r=0;if(h)if(h[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
-i=f[2],E=0;if(i){var
+i=f[2],G=0;if(i){var
 j=i[1],H=0;if(j)if(j[2]||i[2]){var
-k=0;l=1;m=1;n=1;p=1;q=1;r=1;E=1;H=1}else
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;G=1;H=1}else
 var
-s=[0,[0,c[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
+s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
 s=j;if(!H)var
 t=s}else
 var
-t=i;if(!E)var
+t=i;if(!G)var
 u=t}else
 var
 u=h;if(!r)var
@@ -2019,44 +2028,44 @@ var
 y=d;if(!m)var
 z=y}else
 var
-z=c;if(!l){var
+z=b;if(!l){var
 A=z;o=1}}else{var
-A=b;o=1}if(o)var
-k=A;return bi(a,qx,k)},qw);var
+A=c;o=1}if(o)var
+k=A;return a7(a,qR,k)},qQ);var
 l=k}else
 var
 l=f;var
-o=l}else
+m=l}else
 var
-o=d;var
-p=o}else
+m=d;var
+p=m}else
 var
-p=g;return p},Y)}var
-I=o}else
+p=g;return p},Z)}var
+J=p}else
 var
-I=H;return I}var
-P=w}else
+J=I;return J}var
+P=z}else
 var
-P=t;var
-Q=P}else
+P=y;var
+R=P}else
 var
-Q=s;var
-R=Q}else
-var
-R=q;var
+R=w;var
 S=R}else
 var
-S=M;return S}return fx(a,J,l,p,g,h(k),i,f,b)}return fx(a,J,l,p,g,h(k),i,f,b)}function
-ks(d){var
+S=u;var
+T=S}else
+var
+T=N;return T}return eu(a,q,l,m,g,h(k),j,f,c)}return eu(a,q,l,m,g,h(k),j,f,c)}function
+kC(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=$(ak(function(b){return function(a){return u(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ac(al(function(b){return function(a){return s(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kt(i,b,a){if(a){var
-k=a[1],l=k[2],c=ac(e(b,k[1]));if(c){var
-f=j(b,l);if(f){var
-g=r(l,i,0);if(g){var
-h=kt(i,b,a[2]);if(h)var
-m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+kD(j,b,a){if(a){var
+k=a[1],l=k[2],c=W(e(b,k[1]));if(c){var
+f=i(b,l);if(f){var
+g=r(l,j,0);if(g){var
+h=kD(j,b,a[2]);if(h)var
+m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2067,48 +2076,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return qJ}function
-ku(a,Q,l,O,s,q,N,y,g,f,k,b){var
-i=h(N),R=ek(0,N),aM=bN(0,b8(a,R,e(ae,ha(k,0,s))),Q,0),S=e(aI,k),aN=0,aO=e(ae,s),aP=bN(qK,function(b){var
-au=bM(aI,b),f=j(b8(a,R,aO),au);switch(b[0]){case
+q=c;return q}return q3}function
+kE(a,P,l,O,t,q,N,y,g,f,k,c){var
+j=h(N),S=es(0,N),aN=bU(0,bW(a,S,e(ae,hi(k,0,t))),P,0),T=e(aM,k),aO=0,aP=e(ae,t),aQ=bU(q4,function(c){var
+au=bT(aM,c),f=i(bW(a,S,aP),au);switch(c[0]){case
 1:var
-M=b[1],d=e(function(d){var
-b=u(M,d),e=b?[0,[0,ae(V(a,c))]]:b;return e},S);break;case
+M=c[1],d=e(function(d){var
+c=s(M,d),e=c?[0,[0,ae(Q(a,b))]]:c;return e},T);break;case
 3:var
-d=dw(b[1][2],b[2][2]);break;case
+d=dF(c[1][2],c[2][2]);break;case
 4:var
-N=e(g7,b[2][2]),d=dw(b[1][2],N);break;case
+N=e(hd,c[2][2]),d=dF(c[1][2],N);break;case
 5:var
-d=e(g7,b[1][2]);break;case
+d=e(hd,c[1][2]);break;case
 6:var
-x=b[2],y=b[1],g=y[1],t=0;if(g){var
+x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],Q=e(function(b){return cu(a,P,b)},O),T=y[2],U=h[1],d=dw(e(function(b){return cu(a,U,b)},T),Q);else{var
-z=h;t=1}}else{var
-z=g;t=1}if(t)var
+O=x[2],P=g[1],R=e(function(b){return cy(a,P,b)},O),U=y[2],V=h[1],d=dF(e(function(b){return cy(a,V,b)},U),R);else{var
+z=h;u=1}}else{var
+z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
-A=b[2],i=A[1];if(i)var
-W=A[2],X=ef(f[1]),Y=e(function(b){return cu(a,X,b)},W),Z=dw(b[1][2],Y),_=i[1],d=e(function(b){return g8(a,_,b)},Z);else{var
-B=i;v=1}}else{var
+A=c[2],j=A[1];if(j)var
+W=A[2],X=en(f[1]),Y=e(function(b){return cy(a,X,b)},W),Z=dF(c[1][2],Y),_=j[1],d=e(function(b){return he(a,_,b)},Z);else{var
+B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
-C=b[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=ay(a,ft(a),aa),d=e(function(b){return cu(a,ab,b)},$);else
+C=c[1],k=C[1];if(k)var
+$=C[2],aa=k[1],ab=aA(a,fD(a),aa),d=e(function(b){return cy(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=b[1][2],ad=f[1],af=ay(a,ft(a),ad),d=e(function(b){return g8(a,af,b)},ac);else
+ac=c[1][2],ad=f[1],af=aA(a,fD(a),ad),d=e(function(b){return he(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
-D=b[4],E=b[3],F=b[2],l=F[1],w=0;if(l){var
+D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jJ(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],s=G[1],ag=E[2],ah=a$(o,r),ai=e(function(b){return cu(a,ah,b)},ag),aj=F[2],ak=a$(m,s),al=dw(e(function(b){return cu(a,ak,b)},aj),ai),am=e(g7,D[2]),an=ft(a),ao=dw(e(function(b){return cu(a,an,b)},al),am),ap=b[1]?s:ef(r),aq=e(function(b){return cu(a,ap,b)},ao),ar=ay(a,m,r),as=a$(ay(a,o,s),ar),at=ay(a,ft(a),as),d=e(function(b){return g8(a,at,b)},aq);K=1;L=1}else
+q=jT(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],t=G[1],ag=E[2],ah=bb(o,r),ai=e(function(b){return cy(a,ah,b)},ag),aj=F[2],ak=bb(m,t),al=dF(e(function(b){return cy(a,ak,b)},aj),ai),am=e(hd,D[2]),an=fD(a),ao=dF(e(function(b){return cy(a,an,b)},al),am),ap=c[1]?t:en(r),aq=e(function(b){return cy(a,ap,b)},ao),ar=aA(a,m,r),as=bb(aA(a,o,t),ar),at=aA(a,fD(a),as),d=e(function(b){return he(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2119,141 +2128,141 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},Q,aN),aQ=kl(k,s);function
-T(c){var
+d=e(function(a){return 0},T)}return[0,f,d]},P,aO),aR=kv(k,t);function
+U(c){var
 d=r(c,q,0);if(d){var
-a=r(c,aM,0);if(a)var
-b=kn(0,k,r(c,aP,qI)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+a=r(c,aN,0);if(a)var
+b=kx(0,k,r(c,aQ,q2)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-z(b){return e(function(b){return V(a,b)},b)}var
-aR=y?y[1]:ae(B);function
-U(b){return b?bi(a,i,b[1]):b}function
-t(f,e,d,c,b){var
-g=av([0,af(e),0],i);return U(ki(a,z(f),d,c,b,g))}function
+z(b){return e(function(b){return Q(a,b)},b)}var
+aS=y?y[1]:ae(A);function
+V(b){return b?a7(a,j,b[1]):b}function
+u(f,e,d,c,b){var
+g=ap([0,ad(e),0],j);return V(ks(a,z(f),d,c,b,g))}function
 W(y,x,w){var
-A=av([0,x,0],i),q=z(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,ec(g),h],f];if(m){var
-o=L(d,g[1]);if(o)var
+B=ap([0,x,0],j),q=z(y),c=w,f=B;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cT(g),h],f];if(m){var
+o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aW(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dx(a),t],v=dx(a),b=g$(a,[0,af(gY(kh(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aF(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dG(a),t],v=dG(a),b=hh(a,[0,ad(ek(kr(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-j=g2(a,b[1]);if(j){var
-c=c[2],f=j[1];continue}var
-p=j}else
+i=g_(a,b[1]);if(i){var
+c=c[2],f=i[1];continue}var
+p=i}else
 var
 p=b;var
 r=p}else
 var
-r=[0,f];return U(r)}}var
-aS=e(aI,k),X=n(function(a){return cl(a,h(s))},aS),Y=X?ks(e(aI,k)):X,Z=Y?n(function(a){return u(h(a),i)},b):Y;if(Z){var
+r=[0,f];return V(r)}}var
+aT=e(aM,k),X=n(function(a){return by(a,h(t))},aT),Y=X?kC(e(aM,k)):X,Z=Y?n(function(a){return s(h(a),j)},c):Y;if(Z){var
 x=0;switch(g[0]){case
 0:var
-C=g[1],K=0;if(typeof
+C=g[1],L=0;if(typeof
 f!=="number")switch(f[0]){case
 0:var
-at=0;if(b){if(b[2])return 0;var
-aT=b[1],aU=f[2],aV=f[1],$=dy(O,q);if($){var
+au=0;if(c){if(c[2])return 0;var
+aU=c[1],aV=f[2],aW=f[1],_=dH(O,q);if(_){var
 o=function(c,a){var
-b=E(C,a);return function(a){return t(aT,b,aV,aU,a)}},m=l;K=1;at=1}else
+b=B(C,a);return function(a){return u(aU,b,aW,aV,a)}},m=l;L=1;au=1}else
 var
-ac=$}else
+ac=_}else
 var
-ac=b;if(!at)return ac;break;case
+ac=c;if(!au)return ac;break;case
 2:var
-au=0;if(b){if(b[2])return 0;var
-aY=b[1],aZ=f[2],a0=f[1],ad=dy(O,q),aw=0;if(ad){if(y)return 0;var
-ag=_(C[1],d),ah=ag?_(C[2],d):ag;if(ah){var
-o=function(c,b,a){return t(aY,B,a0,aZ,e(qB,a))},m=l;K=1;au=1;aw=1}else
+av=0;if(c){if(c[2])return 0;var
+aY=c[1],aZ=f[2],a0=f[1],af=dH(O,q),ay=0;if(af){if(y)return 0;var
+ag=ab(C[1],d),ah=ag?ab(C[2],d):ag;if(ah){var
+o=function(c,b,a){return u(aY,A,a0,aZ,e(qV,a))},m=l;L=1;av=1;ay=1}else
 var
 ai=ah}else
 var
-ai=ad;if(!aw)var
+ai=af;if(!ay)var
 aj=ai}else
 var
-aj=b;if(!au)return aj;break}if(!K)return 0;break;case
+aj=c;if(!av)return aj;break}if(!L)return 0;break;case
 1:var
-ax=0,a1=g[1];if(typeof
-f==="number"&&!f){if(!b)return b;if(b[2])return 0;var
-a2=b[1],o=function(c,a){var
-b=D(a1,a);return function(a){return W(a2,b,a)}},m=l;ax=1}if(!ax)return 0;break;case
+az=0,a1=g[1];if(typeof
+f==="number"&&!f){if(!c)return c;if(c[2])return 0;var
+a2=c[1],o=function(c,a){var
+b=E(a1,a);return function(a){return W(a2,b,a)}},m=l;az=1}if(!az)return 0;break;case
 2:var
-az=0,a3=g[1];if(typeof
-f==="number"||!(3===f[0]))az=1;else{var
-aA=0;if(b){var
-w=b[2],aC=0;if(w){if(w[2])return 0;var
-ak=f[1],a4=w[1],a5=b[1],a6=f[2],al=kq(a,ak,f[3]),am=j6(i,al);if(am){var
+aB=0,a3=g[1];if(typeof
+f==="number"||!(3===f[0]))aB=1;else{var
+aC=0;if(c){var
+w=c[2],aH=0;if(w){if(w[2])return 0;var
+ak=f[1],a4=w[1],a5=c[1],a6=f[2],al=kA(a,ak,f[3]),am=kf(j,al);if(am){var
 o=function(f,c,b){var
-d=aB(f,al),e=t(a5,E(d,c),ak,a6,b);return e?W(a4,D(v(a,a3,d),c),b):e},m=l;aA=1;aC=1}else
+d=aG(f,al),e=u(a5,B(d,c),ak,a6,b);return e?W(a4,E(v(a,a3,d),c),b):e},m=l;aC=1;aH=1}else
 var
 an=am}else
 var
-an=w;if(!aC)var
+an=w;if(!aH)var
 ao=an}else
 var
-ao=b;if(!aA)return ao}if(az)return 0;break;case
+ao=c;if(!aC)return ao}if(aB)return 0;break;case
 3:var
-aD=0;if(typeof
-f==="number"&&!f){if(b)return 0;var
+aI=0;if(typeof
+f==="number"&&!f){if(c)return 0;var
 G=g[1];x=1}else
-aD=1;if(aD)return 0;break;case
+aI=1;if(aI)return 0;break;case
 4:var
-aE=0,a8=g[2];if(typeof
-f==="number"||!(0===f[0]))aE=1;else{if(!b)return b;if(b[2])return 0;var
-a9=b[1],a_=f[2],ba=f[1],bb=function(c,a){var
-b=E(a8,a);return function(a){return t(a9,b,ba,a_,a)}},o=bb,m=g[1]}if(aE)return 0;break;case
+aJ=0,a9=g[2];if(typeof
+f==="number"||!(0===f[0]))aJ=1;else{if(!c)return c;if(c[2])return 0;var
+a_=c[1],a$=f[2],ba=f[1],bd=function(c,a){var
+b=B(a9,a);return function(a){return u(a_,b,ba,a$,a)}},o=bd,m=g[1]}if(aJ)return 0;break;case
 5:var
 M=0;if(typeof
 f==="number"&&!(3<=f))switch(f){case
-0:if(b)return 0;var
+0:if(c)return 0;var
 G=g[1];x=1;break;case
-2:if(b)return 0;var
+2:if(c)return 0;var
 G=g[2];x=1;break;default:M=1}else
 M=1;if(M)return 0;break;case
 7:var
-ap=g[2],aq=g[1],aF=0;if(typeof
-f==="number"||!(0===f[0]))aF=1;else{var
-aG=0;if(b){if(b[2])return 0;var
-p=f[2],J=f[1],bc=b[1],ar=u(h(l),i);if(ar){var
+aq=g[2],ar=g[1],aK=0;if(typeof
+f==="number"||!(0===f[0]))aK=1;else{var
+aL=0;if(c){if(c[2])return 0;var
+p=f[2],J=f[1],be=c[1],as=s(h(l),j);if(as){var
 o=function(b,y){var
-A=z(bc);return function(f){var
-k=u(h(f),i),l=k?u(h(p),i):k;if(l){var
-s=e(aI,f),t=em(J,en(J,p,dx(a),s)),w=b_(fs(a,aq,ap,y,e(aI,f)),t),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
-o=c[1][2],q=u(b,aq),r=e(function(f,g){return function(d){var
-b=aK(aL(0,h(p)),p);return e(function(b){var
-c=kj(J,b[2],d[1]);if(g&&u(b[1],f))return D(c,aW(v(a,ap,d[2])));return c},b)}}(b,q),o),n=aL(0,x),j=g$(a,A,e(function(c){return function(b){return u(b,c)?dx(a):B}}(b),n),r,g);if(j){var
-b=[0,b],c=c[2],g=j[1];continue}var
-d=j}else
+B=z(be);return function(f){var
+k=s(h(f),j),l=k?s(h(p),j):k;if(l){var
+t=e(aM,f),u=dD(J,dE(J,p,dG(a),t)),w=bC(fB(a,ar,aq,y,e(aM,f)),u),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
+o=c[1][2],q=s(b,ar),r=e(function(f,g){return function(d){var
+b=ax(aE(0,h(p)),p);return e(function(b){var
+c=kt(J,b[2],d[1]);if(g&&s(b[1],f))return E(c,aF(v(a,aq,d[2])));return c},b)}}(b,q),o),n=aE(0,x),i=hh(a,B,e(function(c){return function(b){return s(b,c)?dG(a):A}}(b),n),r,g);if(i){var
+b=[0,b],c=c[2],g=i[1];continue}var
+d=i}else
 var
-d=[0,g];if(d)return bi(a,i,d[1]);var
+d=[0,g];if(d)return a7(a,j,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},m=l;aG=1}else
+m=l;return m}},m=l;aL=1}else
 var
-as=ar}else
+at=as}else
 var
-as=b;if(!aG)return as}if(aF)return 0;break;default:return 0}if(x){var
-I=T(G);if(!I)return I;var
-a7=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=aJ(function(b,a){return A(bs(d,P(b[2][1])),a)},d,c);return H(d,aH(aH(a[1][2][1],e),b))},a)},ab=a7,aa=[0,[0,0,I[1]],0]}else{var
-F=kt(q,T,m);if(!F)return F;var
-ab=o,aa=F[1]}var
-aX=bh(i);return n(function(b){var
-c=e(function(c){return km(a,b,aQ,c)},aa);return Ed(ab,b,aB(b,aR),c)},aX)}return Z}function
-fy(b,a){if(a){var
+at=c;if(!aL)return at}if(aK)return 0;break;default:return 0}if(x){var
+I=U(G);if(!I)return I;var
+a8=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=aw(function(b,a){return D(bf(d,R(b[2][1])),a)},d,c);return H(d,aD(aD(a[1][2][1],e),b))},a)},aa=a8,$=[0,[0,0,I[1]],0]}else{var
+F=kD(q,U,m);if(!F)return F;var
+aa=o,$=F[1]}var
+aX=bc(j);return n(function(b){var
+c=e(function(c){return kw(a,b,aR,c)},$);return EL(aa,b,aG(b,aS),c)},aX)}return Z}function
+fH(b,a){if(a){var
 c=a[2];if(b){var
-e=fy(b[1],c);return[0,a[1],e]}var
+e=fH(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-he(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kv(j,d,i,a,h){var
+hm(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+kF(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2262,7 +2271,7 @@ switch(b[0]){case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=he(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=hm(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2270,21 +2279,21 @@ k=c?0:1,l=k?d:j,g=he(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=w(function(a){var
-b=e(b0,a[2][2]);return[0,a[1],b]},n);return f(he(d),o);case
+b=e(bu,a[2][2]);return[0,a[1],b]},n);return f(hm(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(fb(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ei(a[2]),p);return f(a[1],q);case
 4:case
-8:return he(a[1]);default:return g}}}function
-kw(p,i,o,C,m,l,W,B,b,A,V){if(A){var
-s=kp(p,i,l,jH(w(function(c){var
+8:return hm(a[1]);default:return g}}}function
+kG(p,j,o,C,m,l,W,B,b,A,V){if(A){var
+s=kz(p,j,l,g6(w(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
-b=M(W,c[1]);return b?kv(o,C,m,b[1],a):b},A),i),b),k=A,g=V;for(;;){if(k){var
+b=M(W,c[1]);return b?kF(o,C,m,b[1],a):b},A),j),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
-v=j(B,b);if(v)var
-aa=v[1],Z=bh(h(b)),y=n(function(b){return function(a){return L(aB(a,b)[2],d)}}(aa),Z);else
+v=i(B,b);if(v)var
+aa=v[1],Z=bc(h(b)),y=n(function(b){return function(a){return K(aG(a,b)[2],d)}}(aa),Z);else
 var
 y=v;if(y){var
 k=R,g=e(function(a){return 0},g);continue}return y}var
@@ -2294,123 +2303,123 @@ q=z[1],D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 5:var
-F=a[2],t=j(B,b),X=0;if(t){var
+F=a[2],t=i(B,b),X=0;if(t){var
 G=H(d,F);if(G){var
-_=a[1],c=kr(p,i,o,C,m,l,s,b,[0,j7(F,a[3],t[1])],q,_);X=1}else
+_=a[1],c=kB(p,j,o,C,m,l,s,b,[0,kg(F,a[3],t[1])],q,_);X=1}else
 var
 I=G}else
 var
 I=t;if(!X)var
 c=I;break;case
 10:var
-J=a[3],K=a[2],f=a[1],E=0;if(typeof
+J=a[3],L=a[2],f=a[1],E=0;if(typeof
 f!=="number"&&5===f[0]){var
-N=f[2],u=j(B,b),Y=0;if(u){var
+N=f[2],u=i(B,b),Y=0;if(u){var
 O=H(d,N);if(O){var
-$=f[1],c=ku(p,i,o,m,l,s,b,[0,j7(N,f[3],u[1])],q,$,K,J);E=1;Y=1}else
+$=f[1],c=kE(p,j,o,m,l,s,b,[0,kg(N,f[3],u[1])],q,$,L,J);E=1;Y=1}else
 var
 P=O}else
 var
 P=u;if(!Y){var
 c=P;E=1}}if(!E)var
-c=ku(p,i,o,m,l,s,b,0,q,f,K,J);break;default:D=1}if(D)var
-c=kr(p,i,o,C,m,l,s,b,0,q,a);if(c){var
-k=R,g=fy(x,g);continue}var
+c=kE(p,j,o,m,l,s,b,0,q,f,L,J);break;default:D=1}if(D)var
+c=kB(p,j,o,C,m,l,s,b,0,q,a);if(c){var
+k=R,g=fH(x,g);continue}var
 T=c}else
 var
 T=z;var
 U=T}else
 var
 U=S;return U}return[0,g]}}return[0,V]}function
-fz(j,i,h,g,f,e,d,c,u,t,s){var
+fI(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kw(j,i,h,g,f,e,d,c,b,a[1],k);return l?n($,l[1]):l}var
-m=kw(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=el(a[2],b),q=fz(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=kG(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ac,l[1]):l}var
+m=kG(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=et(a[2],b),q=fI(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-hf(a){return e(function(a){return 1},a)}function
-dz(a,d,b,c){function
+hn(a){return e(function(a){return 1},a)}function
+dI(a,d,b,c){function
 f(d,c){var
-f=aK(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return z(q(d,a[1]),b)},f)}if(aw(a[2],b[2])){var
+f=ax(a[1],b[1]);return e(function(a){var
+b=p(c,a[2]);return y(p(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-kx(a){var
-b=i(c);return[0,e(function(a){return i(d)},a),b]}function
-aP(a,l){var
+h=p(a[2],b[2]),i=p(c,a[2]);return[0,f(p(d,b[2]),i),h]}function
+kH(a){var
+c=j(b);return[0,e(function(a){return j(d)},a),c]}function
+aU(a,l){var
 f=l[1];switch(f[0]){case
 1:var
-v=f[1];if(ak(function(a){return u(v,a)},a)){var
-C=i(c);return[0,e(function(a){var
-b=u(a,v)?c:d;return i(b)},a),C]}return kx(a);case
+v=f[1];if(al(function(a){return s(v,a)},a)){var
+C=j(b);return[0,e(function(a){var
+c=s(a,v)?b:d;return j(c)},a),C]}return kH(a);case
 3:var
-D=i(c),E=aP(a,f[2]),F=i(c);return dz(aP(a,f[1]),F,E,D);case
+D=j(b),E=aU(a,f[2]),F=j(b);return dI(aU(a,f[1]),F,E,D);case
 4:var
-G=i(P(c)),H=aP(a,f[2]),I=i(c);return dz(aP(a,f[1]),I,H,G);case
+G=j(R(b)),H=aU(a,f[2]),I=j(b);return dI(aU(a,f[1]),I,H,G);case
 5:var
-w=aP(a,f[1]),J=w[2];return[0,e(bf,w[1]),J];case
+w=aU(a,f[1]),J=w[2];return[0,e(bj,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aP(a,x);return dz(aP(a,y),x,K,y);case
+x=f[2],y=f[1],K=aU(a,x);return dI(aU(a,y),x,K,y);case
 7:var
-z=f[2],L=bf(l),M=aP(a,z),N=i(c),j=dz(aP(a,f[1]),N,M,L),O=j[1];if(n(function(a){return aO(d,a)},O))return j;var
-Q=q(j[2],z);return[0,j[1],Q];case
+z=f[2],L=bj(l),M=aU(a,z),N=j(b),i=dI(aU(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aT(d,a)},O))return i;var
+P=p(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=aP(a,A),R=B[2],S=B[1],T=q(i(b(2,c)),A);return[0,e(function(a){return q(T,a)},S),R];case
+A=f[1],B=aU(a,A),Q=B[2],S=B[1],T=p(j(c(2,b)),A);return[0,e(function(a){return p(T,a)},S),Q];case
 9:var
-k=aP(a,f[1]),U=k[1];if(n(function(a){return aO(d,a)},U)){var
-V=i(c);return[0,k[1],V]}var
-W=q(i(b(2,c)),l),X=q(k[2],W);return[0,k[1],X];case
+k=aU(a,f[1]),U=k[1];if(n(function(a){return aT(d,a)},U)){var
+V=j(b);return[0,k[1],V]}var
+W=p(j(c(2,b)),l),X=p(k[2],W);return[0,k[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=t(g,p),Z=aP(a,g),_=t(h,o),$=dz(aP(a,h),_,Z,Y),aa=i(P(c)),ab=aP(a,m),r=dz($,i(b(2,c)),ab,aa),ac=r[1],ad=f[1]?o:bf(p),s=e(function(a){return q(ad,a)},ac);if(n(function(a){return aO(d,a)},s))return[0,s,r[2]];var
-ae=q(h,p),af=t(q(g,o),ae),ag=q(i(b(2,c)),af);return[0,s,q(r[2],ag)];default:return kx(a)}}function
-ky(c,a){var
-b=aP(c,a),f=b[1];return e(function(a){return aO(d,a)?a:ag(a,b[2])},f)}function
-cv(n,r){var
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=u(g,q),Z=aU(a,g),_=u(h,o),$=dI(aU(a,h),_,Z,Y),aa=j(R(b)),ab=aU(a,m),r=dI($,j(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bj(q),t=e(function(a){return p(ad,a)},ac);if(n(function(a){return aT(d,a)},t))return[0,t,r[2]];var
+ae=p(h,q),af=u(p(g,o),ae),ag=p(j(c(2,b)),af);return[0,t,p(r[2],ag)];default:return kH(a)}}function
+kI(c,a){var
+b=aU(c,a),f=b[1];return e(function(a){return aT(d,a)?a:ag(a,b[2])},f)}function
+cz(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-j=f[2],b=f[1];if(H(j,c))if(0===e[0]){var
-k=e[2],o=e[1];if(H(k,c)){var
-l=_(b,o),m=l?ed(b):l;if(m)var
-p=_(n[2],d),g=p||_(b,d);else
+i=f[2],c=f[1];if(H(i,b))if(0===e[0]){var
+k=e[2],o=e[1];if(H(k,b)){var
+l=ab(c,o),m=l?el(c):l;if(m)var
+p=ab(n[2],d),g=p||ab(c,d);else
 var
 g=m;var
-q=g?[0,b]:g,a=q}else
+q=g?[0,c]:g,a=q}else
 var
-a=_(aU(k,aG(2))[2],d)?0:0}else
+a=ab(aZ(k,aL(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=_(aU(j,aG(2))[2],d)?0:0}else
+a=ab(aZ(i,aL(2))[2],d)?0:0}else
 var
-a=0;return a?i(a[1]):[0,[1,r]]}function
-ca(b,a){if(a)var
-d=ca([0,b],a[2]),c=[0,cv(a[1],b),d];else
+a=0;return a?j(a[1]):[0,[1,r]]}function
+cf(b,a){if(a)var
+d=cf([0,b],a[2]),c=[0,cz(a[1],b),d];else
 var
 c=a;return c}function
-aQ(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fA(b,d,a){switch(a[0]){case
+aV(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fJ(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aQ(c[3],b),g),i=f(aQ(c[2],b),h);return f(aQ(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aV(c[3],b),g),i=f(aV(c[2],b),h);return f(aV(c[1],d),i);case
 1:var
-e=a[3],j=e?aQ(e[1],d):e,k=f(aQ(a[2],b),j);return f(aQ(a[1],b),k);default:return aQ(a[1],d)}}function
-ab(b,a){var
-c=i(d),e=r(N(qL,a),b,c),f=i(d),g=r(N(qM,a),b,f);return[0,r(a,b,i(d)),g,e]}function
-kz(b,a){return ah(t,ah(z,cQ,a),b)}function
-fB(c,b,a){if(a){var
-e=a[2],g=fB(c,bd(b),e),h=a[1];return f(fA(c,bv(d,b),h),g)}return a}function
-hg(f,e,c,k){if(c){var
-b=c[1],v=N(k,h(fA(f,bv(d,e),b))),w=c[2],x=hg(f,bd(e),w,v),a=ca(k,fA(f,bv(d,e),b));switch(b[0]){case
+e=a[3],j=e?aV(e[1],d):e,k=f(aV(a[2],b),j);return f(aV(a[1],b),k);default:return aV(a[1],d)}}function
+af(b,a){var
+c=j(d),e=r(P(q5,a),b,c),f=j(d),g=r(P(q6,a),b,f);return[0,r(a,b,j(d)),g,e]}function
+kJ(b,a){return Z(u,Z(y,cW,a),b)}function
+fK(c,b,a){if(a){var
+e=a[2],g=fK(c,bg(b),e),h=a[1];return f(fJ(c,bz(d,b),h),g)}return a}function
+ho(f,e,c,k){if(c){var
+b=c[1],v=P(k,h(fJ(f,bz(d,e),b))),w=c[2],x=ho(f,bg(e),w,v),a=cf(k,fJ(f,bz(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(qN,a,i(d)),o=ah(z,cQ,ab(a,qO)),p=cP(ab(a,0)),q=ab(a,qP),g=j9(kz(ab(a,qQ),q),p,o,n,m);break;case
+m=b[1][5],n=r(q7,a,j(d)),o=Z(y,cW,af(a,q8)),p=cV(af(a,0)),q=af(a,q9),g=ki(kJ(af(a,q_),q),p,o,n,m);break;case
 1:var
-j=b[3],s=j?[0,cP(ab(a,qR))]:j,t=ah(z,cQ,ab(a,qS)),u=ab(a,qT),g=j_(kz(ab(a,0),u),t,s);break;default:var
-g=j$(cQ,cP(ab(a,0)))}var
+i=b[3],s=i?[0,cV(af(a,q$))]:i,t=Z(y,cW,af(a,ra)),u=af(a,rb),g=kj(kJ(af(a,0),u),t,s);break;default:var
+g=kk(cW,cV(af(a,0)))}var
 l=[0,g,x]}else
 var
 l=c;return l}function
-bz(b,a){if(typeof
+bE(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2419,9 +2428,9 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dp(a[2]),l=[2,[2,dp(a[1]),q],p];return[0,[0,l,l],b];case
+p=a[3],q=dw(a[2]),l=[2,[2,dw(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
-m=a[4];return[0,[0,m,m],b];case
+m=a[4];return[0,[0,m,m],c];case
 12:var
 n=[5,a[2],a[4]];return[0,[0,n,n],d];case
 13:var
@@ -2429,117 +2438,117 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 15:break;case
 0:case
 1:var
-f=[5,[0,c,c],a[1]];return[0,[0,f,f],d];case
+f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 5:case
 7:case
 9:var
 i=a[1];return[0,[0,i,i],d];default:var
-g=a[2];return[0,[0,g,g],b]}var
-e=[0,d,c];return[0,[0,e,e],d]}function
-eo(b,a){var
+g=a[2];return[0,[0,g,g],c]}var
+e=[0,d,b];return[0,[0,e,e],d]}function
+ev(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dA(b,a){if(0===a[0]){var
-e=[0,d,c],i=f(eo(b,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],b],[0,[0,[0,g,g],b],0]],i)}var
-j=eo(b,a[3]);return f(eo(b,a[2]),j)}function
-cR(b,a){if(typeof
+dJ(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(ev(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=ev(c,a[3]);return f(ev(c,a[2]),j)}function
+cX(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dA(b,a[2]);return f(dA(b,a[1]),h);case
+h=dJ(b,a[2]);return f(dJ(b,a[1]),h);case
 11:var
-i=eo(b,a[3]);return f(eo(b,a[2]),i);case
+i=ev(b,a[3]);return f(ev(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kA(c,b,a){var
-d=h(cR(c,b)),e=N(a[2],d);return[0,[0,a[1]],e]}function
-hh(c,b){if(aw(b,c))return[0,i(d)];var
+kK(c,b,a){var
+d=h(cX(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+hp(c,b){if(ay(b,c))return[0,j(d)];var
 a=b[1];if(4===a[0]){var
-e=aw(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-kB(y,p,a,o){switch(o[0]){case
+e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+kL(z,p,a,o){switch(o[0]){case
 0:var
-h=M(y,o[1]);if(h){var
+h=M(z,o[1]);if(h){var
 k=h[1];if(k){var
-q=k[1],s=q[1],b=s[2],e=s[1],u=q[2],A=ab(a,qU),B=ah(z,ah(t,e,aZ(ag(r(qV,a,i(d)),u),b)),A),C=ab(a,qW),f=ag(r(0,a,i(d)),u),l=hh(e[1],b[1]);if(l){var
-m=hh(e[2],b[2]);if(m){var
-n=hh(e[3],b[3]);if(n)var
-x=aZ(f,b),g=ah(z,[0,l[1],m[1],n[1]],x);else
+q=k[1],s=q[1],c=s[2],e=s[1],t=q[2],A=af(a,rc),B=Z(y,Z(u,e,aP(ag(r(rd,a,j(d)),t),c)),A),C=af(a,re),f=ag(r(0,a,j(d)),t),l=hp(e[1],c[1]);if(l){var
+m=hp(e[2],c[2]);if(m){var
+n=hp(e[3],c[3]);if(n)var
+x=aP(f,c),g=Z(y,[0,l[1],m[1],n[1]],x);else
 var
-g=ah(t,e,aZ(t(i(c),f),b))}else
+g=Z(u,e,aP(u(j(b),f),c))}else
 var
-g=ah(t,e,aZ(t(i(c),f),b))}else
+g=Z(u,e,aP(u(j(b),f),c))}else
 var
-g=ah(t,e,aZ(t(i(c),f),b));var
-v=[0,[0,ah(z,g,C),B]]}else
+g=Z(u,e,aP(u(j(b),f),c));var
+v=[0,[0,Z(y,g,C),B]]}else
 var
 v=k;var
 w=v}else
 var
 w=h;return w;case
 1:var
-D=ab(a,qX);return[0,[0,ab(a,0),D]];default:var
-E=j(p,ab(a,qY));return[0,[0,j(p,ab(a,0)),E]]}}function
-kC(e,d,c,h,g){var
-a=kB(e,d,b2(qZ,c),h);if(a)var
-b=kB(e,d,dl(q0,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=af(a,rf);return[0,[0,af(a,0),D]];default:var
+E=i(p,af(a,rg));return[0,[0,i(p,af(a,0)),E]]}}function
+kM(e,d,c,h,g){var
+a=kL(e,d,bi(rh,c),h);if(a)var
+b=kL(e,d,b_(ri,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-kD(g,c,d,b,a){var
-h=dA(c,a),i=ca(d,f(dA(c,b),h));function
-j(a){return ah(z,cQ,a)}return kC(e(function(a){var
+kN(g,c,d,b,a){var
+h=dJ(c,a),i=cf(d,f(dJ(c,b),h));function
+j(a){return Z(y,cW,a)}return kM(e(function(a){var
 b=a[7];return x(function(b){var
-c=ct(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-cS(d,c,b,a){var
-e=q(c,b);return t(q(d,a),e)}function
-bA(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kE(b,a){if(b)if(a)var
-d=b[1],e=kE(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,by(d[1]),f],e];else
+c=cx(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+cY(d,c,b,a){var
+e=p(c,b);return u(p(d,a),e)}function
+bF(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+kO(b,a){if(b)if(a)var
+d=b[1],e=kO(b[2],a[2]),f=p(d[2],a[1]),c=[0,[0,bD(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kF(a){if(a){var
+kP(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kF(a[2]);if(d)var
-g=d[1],h=Q(c,c),e=[0,[0,[0,by(c),h],g]];else
+c=b[1],d=kP(a[2]);if(d)var
+g=d[1],h=N(c,c),e=[0,[0,[0,bD(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return q2}function
-ep(b,d,c,a){if(typeof
+f=b;return f}return rk}function
+ew(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cv(bz(d,a),i);return[0,e(function(a){var
-b=q(a[2],j);return[0,by(a[1]),b]},b)];case
-9:return kF(b);case
+i=c[1],j=cz(bE(d,a),i);return[0,e(function(a){var
+b=p(a[2],j);return[0,bD(a[1]),b]},b)];case
+9:return kP(b);case
 15:var
-k=h(b),f=u(h(a[1]),k);if(f)var
-l=cR(d,a),g=[0,kE(b,ca(c[2],l))];else
+k=h(b),f=s(h(a[1]),k);if(f)var
+l=cX(d,a),g=[0,kO(b,cf(c[2],l))];else
 var
 g=f;return g}return 0}function
-fC(e,l,k,a){var
-R=k[1],b=cv(bz(l,a),R),v=0;if(typeof
+fL(e,l,k,a){var
+R=k[1],c=cz(bE(l,a),R),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
-S=function(a){return[0,t(a[4],b),0]},g=S,f=a[1];break;case
+S=function(a){return[0,u(a[4],c),0]},g=S,f=a[1];break;case
 3:var
-T=function(a){return[0,t(b,a[4]),0]},g=T,f=a[1];break;case
+T=function(a){return[0,u(c,a[4]),0]},g=T,f=a[1];break;case
 4:var
-U=function(c){var
-a=c[1],d=I(a[3]),e=I(a[2]),f=I(a[1]),g=c[2];return[0,t(t(t(q(I(b),g),f),e),d),0]},g=U,f=a[1];break;case
+U=function(b){var
+a=b[1],d=J(a[3]),e=J(a[2]),f=J(a[1]),g=b[2];return[0,u(u(u(p(J(c),g),f),e),d),0]},g=U,f=a[1];break;case
 6:var
-V=function(c){var
-a=c[5];if(a)var
-e=I(a[1]),f=q(I(b),e),d=[0,t(c[2],f),0];else
+V=function(b){var
+a=b[5];if(a)var
+e=J(a[1]),f=p(J(c),e),d=[0,u(b[2],f),0];else
 var
 d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],A=m[1],B=e[1],h=y[1],j=A[1],p=B[1],K=cS(j[1],j[2],h[1],h[2]),L=q(p[3],K),N=cS(j[1],j[3],h[1],h[3]),O=q(p[2],N),P=cS(j[2],j[3],h[2],h[3]),x=z(t(q(p[1],P),O),L),W=ct(y),X=ct(A),C=q(q(q(b,ct(B)),X),W),Y=[0,bf(z(x,C)),0],D=[0,t(x,C),Y]}else
+z=n[1],A=m[1],B=e[1],h=z[1],i=A[1],q=B[1],K=cY(i[1],i[2],h[1],h[2]),L=p(q[3],K),O=cY(i[1],i[3],h[1],h[3]),P=p(q[2],O),Q=cY(i[2],i[3],h[2],h[3]),x=y(u(p(q[1],Q),P),L),W=cx(z),X=cx(A),C=p(p(p(c,cx(B)),X),W),Y=[0,bj(y(x,C)),0],D=[0,u(x,C),Y]}else
 var
 D=n;var
 E=D}else
@@ -2549,138 +2558,139 @@ F=E}else
 var
 F=e;return F;case
 10:var
-u=kD(e,l,k[2],a[1],a[2]);if(u){var
-G=u[1],H=G[2],J=G[1];return w(by,[0,J[1],[0,J[2],[0,H[1],[0,H[2],0]]]])}return u;case
+t=kN(e,l,k[2],a[1],a[2]);if(t){var
+G=t[1],H=G[2],I=G[1];return w(bD,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return t;case
 11:var
-Z=function(d){var
+_=function(d){var
 e=d[7];if(e)var
-n=cR(l,a),f=ca(k[2],n),h=ab(f,q1),c=ah(t,ab(f,0),h),i=I(b),j=I(ct(d)),m=ag(I(Q(c,d[1])),j),g=[0,t(t(Q(c,c),m),i),0];else
+n=cX(l,a),f=cf(k[2],n),h=af(f,rj),b=Z(u,af(f,0),h),i=J(c),j=J(cx(d)),m=ag(J(N(b,d[1])),j),g=[0,u(u(N(b,b),m),i),0];else
 var
-g=e;return g},g=Z,f=a[1];break;case
+g=e;return g},g=_,f=a[1];break;case
 12:var
-_=function(e){var
-p=i(d),s=cR(l,a),u=r(0,ca(k[2],s),p),f=ag(u,ct(e)),g=e[5];if(g){var
-m=ax(e[2]),h=ag(g[1],m),n=q(h,z(b,q(f,I(h))));return[0,t(i(c),n),0]}var
-j=e[7],o=j?[0,t(t(i(c),b),f),0]:j;return o},g=_,f=a[1];break;case
+$=function(e){var
+q=j(d),s=cX(l,a),t=r(0,cf(k[2],s),q),f=ag(t,cx(e)),g=e[5];if(g){var
+m=az(e[2]),h=ag(g[1],m),n=p(h,y(c,p(f,J(h))));return[0,u(j(b),n),0]}var
+i=e[7],o=i?[0,u(u(j(b),c),f),0]:i;return o},g=$,f=a[1];break;case
 8:case
 9:case
 15:var
-s=ep(e,l,k,a);return s?bA(s[1]):s;default:v=1}if(v)return 0;var
+s=ew(e,l,k,a);return s?bF(s[1]):s;default:v=1}if(v)return 0;var
 o=M(e,f);return o?g(o[1]):o}function
-hi(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hi(d,b,kA(b,e,c),g);return f(fC(d,b,c,e),h)}return a}var
-kG=[0,d,c],kH=[0,[0,kG,kG],d];function
-fD(a){return $(b9(a[1][1],a[1][2]))}function
-kI(a){var
-b=aL(0,h(a));return be(function(b){return fD(r(b,a,kH))},b)}function
-kJ(a,b){var
-c=b[4],e=ky(kI(a),c),f=aK(kI(a),e);return be(function(a){return $(aO(d,a[2]))},f)}function
-kK(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-kL(f,J,l,I,m,k,o,t){if(t){var
-a=t[1],aK=t[2],aL=kL(f,J,l,I,m,k,kA(k,a,o),aK);if(typeof
-a==="number")if(0===a)var
-i=[0,[0,B]];else
+hq(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hq(d,b,kK(b,e,c),g);return f(fL(d,b,c,e),h)}return a}var
+kQ=[0,d,b],kR=[0,[0,kQ,kQ],d];function
+fM(a){return ac(cd(a[1][1],a[1][2]))}function
+kS(a){var
+b=aE(0,h(a));return bh(function(b){return fM(r(b,a,kR))},b)}function
+hr(a,b){var
+c=kI(kS(a),b),e=ax(kS(a),c);return bh(function(a){return ac(aT(d,a[2]))},e)}function
+kT(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+kU(l,k,j,q,p,h,g){var
+m=[5,p,h],a=aj(l,[0,[0,m,m],d]);if(a){var
+s=hr(j,g),f=W(e(function(e){var
+a=r(e[1],j,kR),f=aD(a[2],q),g=[4,[0,c(2,b),b],h],d=[5,[3,a[1][2],a[1][1]],g],m=aj(l,[0,[0,d,d],f]);return x(function(a){return[0,a,i(k,e[2])]},m)},s));if(f)var
+t=[0,a[1],f[1]],n=[0,[0,i(k,g),t]];else
 var
-aq=J[2],as=J[1],at=ej(m),i=[0,[8,j(ar(l),at),as,aq]];else
+n=f;var
+o=n}else
+var
+o=a;return o}function
+kV(c,E,l,am,k,j,m,r){if(r){var
+a=r[1],aH=r[2],aI=kV(c,E,l,am,k,j,kK(j,a,m),aH);if(typeof
+a==="number")if(0===a)var
+f=[0,[0,A]];else
+var
+ao=E[2],ap=E[1],ar=er(k),f=[0,[8,i(aq(l),ar),ap,ao]];else
 switch(a[0]){case
 0:var
-au=al(f,bz(k,a)),i=x(function(a){return[0,X(f,a)]},au);break;case
+as=aj(c,bE(j,a)),f=x(function(a){return[0,U(c,a)]},as);break;case
 1:var
-av=al(f,bz(k,a)),i=x(function(a){return[1,X(f,a)]},av);break;case
+at=aj(c,bE(j,a)),f=x(function(a){return[1,U(c,a)]},at);break;case
 5:var
-ax=al(f,bz(k,a)),i=x(function(a){return[2,X(f,a)]},ax);break;case
+av=aj(c,bE(j,a)),f=x(function(a){return[2,U(c,a)]},av);break;case
 8:var
-ay=ep(m,k,o,a),i=x(function(a){var
-b=V(f,c);return[4,j(ar(l),a),b]},ay);break;case
+aw=ew(k,j,m,a),f=x(function(a){var
+d=Q(c,b);return[4,i(aq(l),a),d]},aw);break;case
 9:var
-y=ep(m,k,o,a);if(y){var
-z=al(f,bz(k,a));if(z)var
-az=X(f,z[1]),aA=y[1],P=[0,[4,j(ar(l),aA),az]];else
+v=ew(k,j,m,a);if(v){var
+w=aj(c,bE(j,a));if(w)var
+ax=U(c,w[1]),ay=v[1],K=[0,[4,i(aq(l),ay),ax]];else
 var
-P=z;var
-Q=P}else
+K=w;var
+L=K}else
 var
-Q=y;var
-i=Q;break;case
+L=v;var
+f=L;break;case
 10:var
-A=kD(m,k,o[2],a[1],a[2]);if(A){var
-R=A[1],S=R[2],T=R[1],C=al(f,bz(k,a));if(C){var
-U=C[1],W=H(d,U[1]);if(W)var
-q=function(a){return kK(l,a)},aB=q(S[2]),aC=q(S[1]),aD=q(T[2]),Y=[0,[6,q(T[1]),aD,aC,aB,U]];else
+y=kN(k,j,m[2],a[1],a[2]);if(y){var
+N=y[1],O=N[2],P=N[1],z=aj(c,bE(j,a));if(z){var
+R=z[1],S=H(d,R[1]);if(S)var
+p=function(a){return kT(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),T=[0,[6,p(P[1]),aB,aA,az,R]];else
 var
-Y=W;var
-Z=Y}else
+T=S;var
+V=T}else
 var
-Z=C;var
-_=Z}else
+V=z;var
+X=V}else
 var
-_=A;var
-i=_;break;case
+X=y;var
+f=X;break;case
 12:var
-s=fC(m,k,o,a),v=0;if(s)if(s[2])var
-i=0;else{var
-$=g(f,0,a[2]),aa=$?g(f,1,a[4]):$;if(aa){var
-D=[0,[3,j(l,s[1])]];v=1}else{var
-D=aa;v=1}}else{var
-D=s;v=1}if(v)var
-i=D;break;case
+q=fL(k,j,m,a),t=0;if(q)if(q[2])var
+f=0;else{var
+Y=g(c,0,a[2]),Z=Y?g(c,1,a[4]):Y;if(Z){var
+B=[0,[3,i(l,q[1])]];t=1}else{var
+B=Z;t=1}}else{var
+B=q;t=1}if(t)var
+f=B;break;case
 13:var
-ab=a[1],ad=M(m,ab),K=0;if(ad){var
-ae=g(f,1,a[2]),af=ae?g(f,1,a[3]):ae;if(af)var
-aE=al(f,bz(k,a)),i=x(function(a){return[7,ab,X(f,a)]},aE);else{var
-ag=af;K=1}}else{var
-ag=ad;K=1}if(K)var
-i=ag;break;case
+_=a[1],$=M(k,_),F=0;if($){var
+aa=g(c,1,a[2]),ab=aa?g(c,1,a[3]):aa;if(ab)var
+aC=aj(c,bE(j,a)),f=x(function(a){return[7,_,U(c,a)]},aC);else{var
+ac=ab;F=1}}else{var
+ac=$;F=1}if(F)var
+f=ac;break;case
 14:var
-E=a[2],ah=a[1],ai=u(h(m),q3),aj=ai?g(f,0,ah):ai,ak=aj?g(f,1,E):aj;if(ak){var
-F=al(f,bz(k,a));if(F)var
-G=ac(e(function(n){var
-h=[5,ah,E],a=al(f,[0,[0,h,h],d]);if(a){var
-o=kJ(I,n),g=ac(e(function(e){var
-a=r(e[1],I,kH),g=aH(a[2],k),h=[4,[0,b(2,c),c],E],d=[5,[3,a[1][2],a[1][1]],h],i=al(f,[0,[0,d,d],g]);return x(function(a){return[0,a,j(l,e[2])]},i)},o));if(g)var
-p=[0,a[1],g[1]],i=[0,[0,j(l,n[4]),p]];else
+ad=a[2],ae=a[1],af=s(h(k),rl),ag=af?g(c,0,ae):af,ah=ag?g(c,1,ad):ag;if(ah){var
+C=aj(c,bE(j,a));if(C)var
+D=W(e(function(a){return kU(c,l,am,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
-i=g;var
-m=i}else
+ai=C;var
+ak=ai}else
 var
-m=a;return m},m)),aF=G?[0,[9,F[1],G[1]]]:G,am=aF;else
-var
-am=F;var
-an=am}else
-var
-an=ak;var
-i=an;break;case
+ak=ah;var
+f=ak;break;case
 15:var
-aG=[0,a[2],a[1]],aI=1,ao=n(function(a){return g(f,aI,a)},aG);if(ao)var
-aJ=ep(m,k,o,a),i=x(function(a){var
-b=V(f,c);return[4,j(ar(l),a),b]},aJ);else
+aE=[0,a[2],a[1]],aF=1,al=n(function(a){return g(c,aF,a)},aE);if(al)var
+aG=ew(k,j,m,a),f=x(function(a){var
+d=Q(c,b);return[4,i(aq(l),a),d]},aG);else
 var
-i=ao;break;default:var
-p=fC(m,k,o,a),L=0;if(p){var
-w=p[2],N=p[1];if(w)if(w[2])var
-i=0;else
+f=al;break;default:var
+o=fL(k,j,m,a),G=0;if(o){var
+u=o[2],I=o[1];if(u)if(u[2])var
+f=0;else
 var
-aw=j(l,w[1]),i=[0,[5,j(l,N),aw]];else{var
-O=[0,[3,j(l,N)]];L=1}}else{var
-O=p;L=1}if(L)var
-i=O}var
-ap=[0,i,aL]}else
+au=i(l,u[1]),f=[0,[5,i(l,I),au]];else{var
+J=[0,[3,i(l,I)]];G=1}}else{var
+J=o;G=1}if(G)var
+f=J}var
+an=[0,f,aI]}else
 var
-ap=t;return ap}function
-q4(a){var
+an=r;return an}function
+rm(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dB(a){if(0===a[0])return a[1];var
+dK(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kM(a,c,g,b){if(0===c[0])return 0;if(b){var
+kW(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cs(a,g,c[1]);if(i){var
-j=cs(a,g,c[2]);if(j){var
-k=cs(a,g,c[3]);if(k)var
-t=i[1],u=bP(f),l=D([0,bP(f),u],t),w=j[1],x=bP(e),m=D([0,bP(e),x],w),y=dv(e),z=[0,dv(e),y],A=[0,v(a,af(E(m,m)),z),0],C=dv(f),F=[0,dv(f),C],G=[0,v(a,af(E(l,l)),F),A],H=X(a,m),I=X(a,l),n=[0,[0,D(D(X(a,k[1]),I),H),B,G]];else
+e=d[1],f=b[1],i=cw(a,g,c[1]);if(i){var
+j=cw(a,g,c[2]);if(j){var
+k=cw(a,g,c[3]);if(k)var
+t=i[1],u=bX(f),l=E([0,bX(f),u],t),w=j[1],x=bX(e),m=E([0,bX(e),x],w),y=dC(e),z=[0,dC(e),y],C=[0,v(a,ad(B(m,m)),z),0],D=dC(f),F=[0,dC(f),D],G=[0,v(a,ad(B(l,l)),F),C],H=U(a,m),I=U(a,l),n=[0,[0,E(E(U(a,k[1]),I),H),A,G]];else
 var
 n=k;var
 o=n}else
@@ -2698,14 +2708,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fE(a,p,o){var
-q=aQ(p,o),b=e(function(b){return al(a,b)},q);if(b){var
+fN(a,p,o){var
+q=aV(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=X(a,i[1]),s=X(a,h[1]);return L(d,E(E(X(a,g[1]),s),r)[1])}var
+r=U(a,i[1]),s=U(a,h[1]);return K(d,B(B(U(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2722,138 +2732,138 @@ n=m}else
 var
 n=b;return n}function
 ai(c,b,a){var
-d=ap(c,b[3],a[3]),e=ap(c,b[2],a[2]);return[0,ap(c,b[1],a[1]),e,d]}function
-at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-R(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-az(a){return at([5,[0,c,c],[6,R(a,a)]],a)}function
-cT(c,b,a){var
-d=bg(c,b[1],a);return d?bg(c,a,b[2]):d}function
-a3(c,b,a){var
-d=cT(c,b[1],a[1]),e=d?cT(c,b[2],a[2]):d;return e?cT(c,b[3],a[3]):e}function
-kN(b,c,a){switch(c[0]){case
+d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
+av(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+S(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aB(a){return av([5,[0,b,b],[6,S(a,a)]],a)}function
+cZ(c,b,a){var
+d=bk(c,b[1],a);return d?bk(c,a,b[2]):d}function
+a8(c,b,a){var
+d=cZ(c,b[1],a[1]),e=d?cZ(c,b[2],a[2]):d;return e?cZ(c,b[3],a[3]):e}function
+kX(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a3(b,d[1],f),l=k?g(b,1,R(f,f)):k,m=l?a3(b,d[2],a[2]):l,n=m?a3(b,d[3],a[3]):m,o=n?cT(b,d[4],j):n,p=o?g(b,1,j):o;return p?ck(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a8(b,d[1],f),l=k?g(b,1,S(f,f)):k,m=l?a8(b,d[2],a[2]):l,n=m?a8(b,d[3],a[3]):m,o=n?cZ(b,d[4],j):n,p=o?g(b,1,j):o;return p?co(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a3(b,c[1],a[1]),s=r?a3(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a3(b,q[1],h);if(t)return g(b,1,R(h,h));var
+e=a[3],r=a8(b,c[1],a[1]),s=r?a8(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=a8(b,q[1],h);if(t)return g(b,1,S(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a3(b,c[1],i);return w?g(b,1,R(i,i)):w}return 0}}function
-cU(c,a,b){if(0===a[0])return a3(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cT(c,a[4],b[3]):i}function
-kO(g,f,i,h){var
+i=a[1],w=a8(b,c[1],i);return w?g(b,1,S(i,i)):w}return 0}}function
+c0(c,a,b){if(0===a[0])return a8(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cZ(c,a[4],b[3]):i}function
+kY(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kN(g,b[1],a[1]);if(d){var
+d=kX(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cU(g,f[2],h):c}}function
-bb(c,b,a){var
+c=a?0:1;return c?c0(g,f[2],h):c}}function
+bd(c,b,a){var
 d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
-eq(a,e,d,c){var
-b=bb(e,d,c),f=az(a),g=at(R(az(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
-cV(f,e,d,a,c){var
-b=eq(f,e,d,c);return[3,[4,a,a],R(b,b)]}function
-cW(b,a){return b?[6,a]:[3,[0,d,c],[6,a]]}function
-cX(a,b){switch(a[0]){case
+ex(a,e,d,c){var
+b=bd(e,d,c),f=aB(a),g=av(S(aB(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
+c1(f,e,d,a,c){var
+b=ex(f,e,d,c);return[3,[4,a,a],S(b,b)]}function
+c2(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+c3(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eq(d,f,e,b),h=cV(d,f,e,a[4],b),i=at([5,[0,c,c],cW(a[5],h)],g),j=az(d);return ai(function(b,a){return[2,b,a]},j,i);case
-1:return az(bb(a[1],a[2],b));default:return az(a[1])}}function
-er(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=ex(d,f,e,c),h=c1(d,f,e,a[4],c),i=av([5,[0,b,b],c2(a[5],h)],g),j=aB(d);return ai(function(b,a){return[2,b,a]},j,i);case
+1:return aB(bd(a[1],a[2],c));default:return aB(a[1])}}function
+ey(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=az(c),g=cV(c,e,d,a[4],b),h=at(cW(a[5],g),f),i=eq(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
-1:return bb(a[1],a[2],b);default:return az(a[1])}}function
-hj(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aB(c),g=c1(c,e,d,a[4],b),h=av(c2(a[5],g),f),i=ex(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+1:return bd(a[1],a[2],b);default:return aB(a[1])}}function
+hs(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cV(e,d,c,a[4],b),i=cW(a[5],h),j=bb(d,c,b);return[3,R(az(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=c1(e,d,c,a[4],b),i=c2(a[5],h),j=bd(d,c,b);return[3,S(aB(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bb(g,f,b);return[6,R(bb(g,f,b),k)];default:return R(az(a[1]),b)}}function
-kP(a,b){switch(a[0]){case
-0:return[0,cV(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=bd(g,f,b);return[6,S(bd(g,f,b),k)];default:return S(aB(a[1]),b)}}function
+kZ(a,b){switch(a[0]){case
+0:return[0,c1(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bb(d,c,b);return[0,R(bb(d,c,b),e)];default:return 0}}function
-es(e,b,a){var
-f=[0,d,c];return aJ(function(c,d){var
-e=R(cX(c,b),a);return[2,[4,R(cX(c,b),a),e],d]},f,e)}function
-kQ(a){var
-b=a[1];return[0,[0,b[1],c],[0,b[2],c],[0,a[2],c]]}function
-hk(a,b){switch(a[0]){case
+c=a[2],d=a[1],e=bd(d,c,b);return[0,S(bd(d,c,b),e)];default:return 0}}function
+ez(e,c,a){var
+f=[0,d,b];return aw(function(b,d){var
+e=S(c3(b,c),a);return[2,[4,S(c3(b,c),a),e],d]},f,e)}function
+k0(a){var
+c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
+ht(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=bb(e,d,b);return[6,R(bb(e,d,b),f)];default:return[0,c,c]}}function
-kR(d,i){if(d){var
+d=a[2],e=a[1],f=bd(e,d,c);return[6,S(bd(e,d,c),f)];default:return[0,b,b]}}function
+k1(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bb(a[1],a[2],i),k=az(f),l=at(R(az(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bd(a[1],a[2],i),k=aB(f),l=av(S(aB(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=kR(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=k1(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return q5}function
-cY(a){return[0,a[1],a[2],a[3]]}function
-kS(a,b){switch(a[0]){case
+j=b;return j}return rn}function
+c4(a){return[0,a[1],a[2],a[3]]}function
+k2(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=az(d),j=cV(d,g,c,f,b),k=at(cW(a[5],j),i),l=eq(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aB(d),j=c1(d,g,c,f,b),k=av(c2(a[5],j),i),l=ex(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bb(a[1],h,b),n=[6,R(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-kT(l,b,a){switch(a[0]){case
+h=a[2],e=bd(a[1],h,b),n=[6,S(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+k3(l,c,a){switch(a[0]){case
 0:var
 m=a[5],d=M(l,a[1]);if(d){var
-e=kS(d[1],b);if(e)var
+e=k2(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=cY(m),c=at(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,c,c],[5,a[3],h]]),p]];else
+b=c4(m),c=av(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=cY(a[3]);return[0,[0,cY(a[2]),q]];default:var
-r=cY(a[3]),s=ai(function(b,a){return[2,b,a]},b,r),t=cY(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},b,t),s]]}}function
-kU(d,a,c,b){var
-e=at(a,b),f=at([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-kV(f,h,b,e,q,a){function
-F(a){return[4,[4,[5,[0,c,c],a],[5,[0,c,c],a]],R(e,e)]}var
+q=c4(a[3]);return[0,[0,c4(a[2]),q]];default:var
+r=c4(a[3]),s=ai(function(b,a){return[2,b,a]},c,r),t=c4(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},c,t),s]]}}function
+k4(d,a,c,b){var
+e=av(a,b),f=av([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
+k5(f,h,c,e,q,a){function
+F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],S(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 0:var
-ap=es(h,b,e);return g(f,1,[3,F(a[1]),ap]);case
+ap=ez(h,c,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,es(h,b,e),aq]);case
+aq=F(a[1]);return g(f,1,[3,ez(h,c,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hj(a,b)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,hs(a,c)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hj(a,b),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,hs(a,c),at]},s=au,r=a[1];break;case
 4:var
 G=a[3],H=a[2],av=function(a){var
-c=cX(a,b);return[3,[4,[4,H,H],R(cX(a,b),c)],[4,G,G]]},s=av,r=a[1];break;case
+b=c3(a,c);return[3,[4,[4,H,H],S(c3(a,c),b)],[4,G,G]]},s=av,r=a[1];break;case
 5:var
-I=a[1],aw=R(e,e),ax=[4,[4,I,I],[4,es(h,b,q),aw]],ay=R(q,q);return g(f,1,[3,[4,es(h,b,e),ay],ax]);case
+I=a[1],ax=S(e,e),ay=[4,[4,I,I],[4,ez(h,c,q),ax]],az=S(q,q);return g(f,1,[3,[4,ez(h,c,e),az],ay]);case
 6:var
 J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=cV(i[1],i[2],i[3],v,b),K=cW(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=c1(i[1],i[2],i[3],v,c),K=c2(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aB=hk(N,b),aC=hk(O,b),aD=hk(P,b),Q=[4,[4,[4,a[1],aD],aC],aB],j=er(N,b),k=er(O,b),aE=er(P,b),E=R(aE,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),S=g(f,1,[3,Q,E]);if(S)return g(f,1,[2,Q,E]);var
-T=S}else
+N=o[1],O=n[1],P=h[1],aC=ht(N,c),aD=ht(O,c),aE=ht(P,c),Q=[4,[4,[4,a[1],aE],aD],aC],j=ey(N,c),k=ey(O,c),aF=ey(P,c),E=S(aF,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
+T=R}else
 var
 T=o;var
 U=T}else
@@ -2863,15 +2873,15 @@ V=U}else
 var
 V=h;return V;case
 8:var
-aF=es(h,b,e),aG=R(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aG],aF]);case
+aG=ez(h,c,e),aH=S(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
 9:var
-W=a[1],w=kR(h,b);if(w){var
-aH=w[1],an=[0,d,c],ao=aJ(function(a,b){var
-c=R(az(a),e);return[2,[4,R(az(a),e),c],b]},an,aH);return g(f,1,[3,[4,[4,W,W],R(e,e)],ao])}return w;case
+W=a[1],w=k1(h,c);if(w){var
+aI=w[1],an=[0,d,b],ao=aw(function(a,b){var
+c=S(aB(a),e);return[2,[4,S(aB(a),e),c],b]},an,aI);return g(f,1,[3,[4,[4,W,W],S(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=kT(h,b,Y);if(x){var
-Z=x[1],y=kT(h,b,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aI=kU(l,A,_[1],_[2]),aK=kU(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aI),aL=a[3],aM=dp(X),aa=[4,l,[2,[2,dp(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],R($,$)]);var
+X=a[2],Y=a[1],x=k3(h,c,Y);if(x){var
+Z=x[1],y=k3(h,c,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aJ=k4(l,A,_[1],_[2]),aK=k4(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dw(X),aa=[4,l,[2,[2,dw(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],S($,$)]);var
 ag=af}else
 var
 ag=y;var
@@ -2880,9 +2890,9 @@ var
 ah=x;return ah;case
 11:var
 aj=a[4],B=M(h,a[1]);if(B){var
-C=kS(B[1],b);if(C){var
-m=C[1][1][2],aN=cY(a[3]),aO=cY(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,R(m,m));if(ak){var
-aP=R(m,m),aQ=R(p,m),aR=[5,[4,R(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,R(p,p),aR]])}var
+C=k2(B[1],c);if(C){var
+m=C[1][1][2],aN=c4(a[3]),aO=c4(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,S(m,m));if(ak){var
+aP=S(m,m),aQ=S(p,m),aR=[5,[4,S(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,S(p,p),aR]])}var
 al=ak}else
 var
 al=C;var
@@ -2890,30 +2900,30 @@ am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
 t=M(h,r);return t?g(f,1,s(t[1])):t}function
-bj(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-kW(a){switch(a[0]){case
+bl(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+k6(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bj(b[3]),f=bj(b[2]);return[0,bj(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bl(b[3]),f=bl(b[2]);return[0,bl(b[1]),f,e,d,c];case
 1:var
-g=x(bj,a[3]),h=bj(a[2]);return[1,bj(a[1]),h,g];default:return[2,bj(a[1])]}}function
-hl(a){return 0===a[0]?bj(a[1]):[0,a[1],a[2],a[4][1]]}function
-kX(b,a){var
-c=hl(a[2]);return kO(b,a,e(kW,a[1]),c)}function
-kY(b,a,c){var
-d=[0,c,dl(b,a)];return f(b2(b,a),d)}function
-bB(b,a){if(b){if(a){var
-e=bB(b[2],a[2]);return[2,[4,b[1],a[1]],e]}return[0,d,c]}return[0,d,c]}function
-kZ(e,b,a){if(e){if(b){var
-f=b[1],g=kZ(e[2],b[2],a),h=bB(f,a),i=[4,bB(f,a),h];return[2,[4,e[1],i],g]}return[0,d,c]}return[0,d,c]}function
-k0(a){if(a){var
+g=x(bl,a[3]),h=bl(a[2]);return[1,bl(a[1]),h,g];default:return[2,bl(a[1])]}}function
+hu(a){return 0===a[0]?bl(a[1]):[0,a[1],a[2],a[4][1]]}function
+k7(b,a){var
+c=hu(a[2]);return kY(b,a,e(k6,a[1]),c)}function
+k8(b,a,c){var
+d=[0,c,b_(b,a)];return f(bi(b,a),d)}function
+bG(c,a){if(c){if(a){var
+e=bG(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+k9(e,c,a){if(e){if(c){var
+f=c[1],g=k9(e[2],c[2],a),h=bG(f,a),i=[4,bG(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+k_(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k0(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q7}function
-k1(a,l,k,f){var
-b=aY(a,l);if(b){var
-c=aY(a,k);if(c){var
-d=ds(a,f);if(d){var
-e=fl(a,f);if(e)var
-m=v(a,b[1],e[1]),g=[0,D(v(a,c[1],d[1]),m)];else
+c=b[1],d=k_(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rp}function
+k$(a,l,k,f){var
+b=a2(a,l);if(b){var
+c=a2(a,k);if(c){var
+d=dy(a,f);if(d){var
+e=fv(a,f);if(e)var
+m=v(a,b[1],e[1]),g=[0,E(v(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2925,50 +2935,50 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fF(a){return a?L(d,a[1][1]):a}function
-k2(a,ab,m,aD,i,f){function
-ac(b,a){return[4,[4,[5,[0,c,c],b],[5,[0,c,c],b]],bB(a,a)]}var
-aE=m[1];function
-q(b){var
-a=[0,d,c];return aJ(function(a,c){var
-d=bB(a,b);return[2,[4,bB(a,b),d],c]},a,aE)}var
-ad=n(function(a){return u(h(a),ab)},i);if(ad){var
+fO(a){return a?K(d,a[1][1]):a}function
+la(a,ab,m,aE,i,f){function
+ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bG(a,a)]}var
+aF=m[1];function
+p(c){var
+a=[0,d,b];return aw(function(a,b){var
+d=bG(a,c);return[2,[4,bG(a,c),d],b]},a,aF)}var
+ad=n(function(a){return s(h(a),ab)},i);if(ad){var
 k=0;if(typeof
 f==="number")k=1;else
 switch(f[0]){case
 0:if(i){if(i[2])return 0;var
-af=i[1],aF=q(af);return g(a,1,[3,ac(f[1],af),aF])}return i;case
+af=i[1],aG=p(af);return g(a,1,[3,ac(f[1],af),aG])}return i;case
 1:if(i){if(i[2])return 0;var
-ag=i[1],aG=ac(f[1],ag);return g(a,1,[3,q(ag),aG])}return i;case
+ag=i[1],aH=ac(f[1],ag);return g(a,1,[3,p(ag),aH])}return i;case
 2:if(i)return 0;var
-aH=f[2],aI=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,aH,b[1]]);return 0},I=aI,H=f[1];break;case
+aI=f[2],aJ=function(b){if(typeof
+b!=="number"&&0===b[0])return g(a,1,[3,aI,b[1]]);return 0},I=aJ,H=f[1];break;case
 3:if(i)return 0;var
 aK=f[2],aL=function(b){if(typeof
 b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;case
 4:if(i)return 0;var
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
-h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],ah]);if(j){if(aD){var
-f=k1(a,i,h,ai);return f?L(f[1][2],d):f}return fF(k1(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aE){var
+f=k$(a,i,h,ai);return f?K(f[1][2],d):f}return fO(k$(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
 5:if(i){var
 r=i[2];if(r){if(r[2])return 0;var
-K=r[1],N=i[1],aj=f[1],aN=bB(N,N),aO=[4,[4,aj,aj],[4,q(K),aN]],aP=bB(K,K);return g(a,1,[3,[4,q(N),aP],aO])}var
+L=r[1],N=i[1],aj=f[1],aN=bG(N,N),aO=[4,[4,aj,aj],[4,p(L),aN]],aP=bG(L,L);return g(a,1,[3,[4,p(N),aP],aO])}var
 ak=r}else
 var
 ak=i;return ak;case
 6:if(i)return 0;var
 al=f[2],aQ=f[3],aR=function(b){var
-c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,bB(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
+c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,bG(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
 8:if(i){if(i[2])return 0;var
-P=i[1],aS=kZ(f[1],m[1],P),aT=bB(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
+P=i[1],aS=k9(f[1],m[1],P),aT=bG(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
 9:if(i)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=aY(a,bB(e,e));if(b){var
-c=aY(a,[5,ar,as]);if(c){var
-d=jU(a,c[1]);if(d){var
-l=X(a,d[1]);return fF([0,D(b[1],l)])}var
+b=a2(a,bG(e,e));if(b){var
+c=a2(a,[5,ar,as]);if(c){var
+d=j5(a,c[1]);if(d){var
+l=U(a,d[1]);return fO([0,E(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2982,12 +2992,12 @@ k=h;return k},an=aU,am=f[1];k=3;break;case
 aV=f[2],aW=function(b){var
 c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
 11:if(i)return 0;var
-aX=f[2],aZ=function(e){var
-b=ds(a,aX);if(b){var
-c=aY(a,e[3]);if(c){var
-d=aY(a,e[2]);if(d){var
-f=v(a,b[1],c[1]),g=fF([0,f]);if(g){var
-k=X(a,d[1]);return fF([0,D(X(a,f),k)])}var
+aX=f[2],aY=function(e){var
+b=dy(a,aX);if(b){var
+c=a2(a,e[3]);if(c){var
+d=a2(a,e[2]);if(d){var
+f=v(a,b[1],c[1]),g=fO([0,f]);if(g){var
+k=U(a,d[1]);return fO([0,E(U(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -2996,53 +3006,53 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j},au=aZ,at=f[1];k=2;break;case
+j=b;return j},au=aY,at=f[1];k=2;break;case
 12:if(i)return 0;var
-S=k0(m[3]);if(S){var
-aw=S[1],a0=f[1],ax=dk(function(b,a){return[4,b,a[3]]},aw,a0),T=e(function(a){return a[1]},aw),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
-s=T[1];if(s){var
-t=s[2];if(t){var
-w=t[2],U=t[1],V=s[1],l=T[2];if(w)if(w[2]||!l)var
-j=[0,d,c];else{var
+S=k_(m[3]);if(S){var
+ax=S[1],aZ=f[1],ay=cQ(function(b,a){return[4,b,a[3]]},ax,aZ),T=e(function(a){return a[1]},ax),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
+t=T[1];if(t){var
+u=t[2];if(u){var
+w=u[2],V=u[1],W=t[1],l=T[2];if(w)if(w[2]||!l)var
+j=[0,d,b];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
 z=y[2];if(z&&!z[2]){var
 A=l[2];if(A){var
 B=A[1];if(B){var
 C=B[2];if(C){var
-E=C[2];if(E&&!(E[2]||A[2]))var
-W=E[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aA=o(aa,$,Z,Y),aB=[4,w[1],aA],aC=[4,U,o(aa,_,Z,W)],j=[2,[3,[4,V,o($,_,Y,W)],aC],aB];else
+D=C[2];if(D&&!(D[2]||A[2]))var
+X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aB=o(aa,$,Z,Y),aC=[4,w[1],aB],aD=[4,V,o(aa,_,Z,X)],j=[2,[3,[4,W,o($,_,Y,X)],aD],aC];else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 if(l){var
 F=l[1];if(F)var
-G=F[2],j=G?G[2]?[0,d,c]:l[2]?[0,d,c]:o(V,U,F[1],G[1]):[0,d,c];else
+G=F[2],j=G?G[2]?[0,d,b]:l[2]?[0,d,b]:o(W,V,F[1],G[1]):[0,d,b];else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c]}else
+j=[0,d,b]}else
 var
-j=[0,d,c];var
-ay=g(a,1,[3,ax,j]);if(ay)return g(a,1,[2,ax,j]);var
-az=ay}else
+j=[0,d,b];var
+az=g(a,1,[3,ay,j]);if(az)return g(a,1,[2,ay,j]);var
+aA=az}else
 var
-az=S;return az;default:k=1}switch(k){case
+aA=S;return aA;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
@@ -3053,14 +3063,14 @@ var
 av=Q;return av;case
 3:var
 O=M(m[1],am);if(O){var
-ao=O[1],ap=u(h(ao),ab);if(ap)return an(ao);var
+ao=O[1],ap=s(h(ao),ab);if(ap)return an(ao);var
 aq=ap}else
 var
 aq=O;return aq;default:var
 J=M(m[2],H);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-k3(h,g){var
+lb(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3070,130 +3080,73 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-k4(a){if(a){var
+lc(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k4(a[2]);return x(function(a){return[0,c,a]},d)}return b}return q8}function
-q9(a){return e(function(a){return[0,a,c]},a)}function
-k5(h,f,b,n,a){if(typeof
+c=b[1],d=lc(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rq}function
+rr(a){return e(function(a){return[0,a,b]},a)}function
+ld(h,f,c,n,a){if(typeof
 a==="number"){if(0===a){var
-r=b[4];return ak(function(a){return g(h,0,[3,[0,d,c],a])},r)}var
-i=k4(b[5]);return i?j1(f,i[1]):i}else{if(0===a[0]){var
-j=k3(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(q9,a[2]);return k2(h,f,b,o[2],t,s)}return j}var
-k=k3(a[1],n);if(k){var
+r=c[4];return al(function(a){return g(h,0,[3,[0,d,b],a])},r)}var
+i=lc(c[5]);return i?ka(f,i[1]):i}else{if(0===a[0]){var
+j=lb(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(rr,a[2]);return la(h,f,c,o[2],t,s)}return j}var
+k=lb(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=M(b[1],a[2]);return m?k2(h,f,b,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=M(c[1],a[2]);return m?la(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hm(a){var
-b=az(a[1]),c=at(R(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-hn(a){return az(hm(a))}function
-k6(c){var
-a=hn(c),b=az(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-ho(a,b){return bb(a[3],a[4],b)}function
-hp(a,b){var
-c=ho(a,b);return R(hn(a),c)}function
-hq(a,b){var
-c=ho(a,b);return R(k6(a),c)}function
-k7(a,b){var
-c=ho(a,b);return R(az(a[1]),c)}function
-hr(b,a){var
-c=hq(b,a),d=hp(b,a);return[2,[4,d,d],[4,c,c]]}function
-hs(a,d){var
-h=a[5],i=[4,[0,b(2,c),c],h],e=a[6],f=a[5],g=k7(a,d);return[5,[2,hr(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-k8(a,b){var
-f=a[5],c=[3,hs(a,b),f],d=k7(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fG(a,b){var
-c=k8(a,b);return cW(a[7],c)}function
-k9(b,a){var
-c=hr(b,a),d=hq(b,a),e=[4,fG(b,a),d],f=hp(b,a);return[5,[2,[4,hs(b,a),f],e],c]}function
-k_(b,a){var
-c=hr(b,a),d=hp(b,a),e=[4,fG(b,a),d],f=hq(b,a);return[5,[3,[4,hs(b,a),f],e],c]}function
-k$(a,b){var
-c=k6(a),d=at(k_(a,b),c),e=hn(a),f=at(k9(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}var
-o=b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c)))))))));function
-bQ(h){var
-a=aJ(function(f,e){var
-a=aY(o,f);if(a)var
-b=a[1],c=bs(dh(b[1]),dh(b[2]));else
-var
-c=d;return bs(c,e)},d,h);if(L(d,a)){var
-f=a9(a);if(0===f||!(0<f&&!H(a,c)))var
-g=d;else
-var
-b=aU(a,aG(2)),e=b[1],g=_(b[2],d)?e8(e):e8(e);return aH(g,o)}return d}function
-dC(a){return[0,a[1],[0,a[2],0]]}function
-a4(a){var
-b=dC(a[3]),c=f(dC(a[2]),b);return f(dC(a[1]),c)}function
-fH(a){return fE(o,a,bQ(a4(a)))}function
-la(b,a){if(a){var
-g=la([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cv([0,[0,d,d],c[2]],b);else
-var
-e=[0,[1,b]];var
-f=[0,e,g]}else
-var
-f=a;return f}function
-lb(c,b,a){var
-d=dp(b);return[2,[2,dp(c),d],a]}function
-ht(b,a){return b?P(a):d}function
-et(h,b,a){if(typeof
-a!=="number")switch(a[0]){case
-4:var
-i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
-6:return[0,[0,[5,a[3],a[2]],d],0];case
-8:var
-o=a[2],p=a[1];return e(function(a){var
-c=ht(h,b);return[0,[5,o,a],A(ht(h,b),c)]},p);case
-9:return[0,[1,[5,a[3],a[2]],P(b)],0];case
-10:return[0,[0,a[2],d],0];case
-11:return[0,[2,a[2]],0];case
-12:return[0,[0,a[1],d],0];case
-13:var
-c=a[3],g=bQ([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
-14:var
-k=a[2],l=a[1],q=dA(b,k),r=f(dA(b,l),q),s=e(function(a){return[0,a[1][2],a[2]]},r);return[0,[0,lb(l,k,a[3]),b],s];case
-15:var
-m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
-2:case
-3:return[0,[0,a[2],b],0]}return 0}function
-cw(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cw(g,c,b,N(e,h(et(c,b,d))),i);return f(ap(g,la(e,et(c,b,d)),d),j)}return a}function
-fI(b,a){var
-c=aK(b,a);return e(function(a){var
-b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hu(b,a){switch(a[0]){case
-0:var
-d=a[1];return al(b,[0,[0,d,d],a[2]]);case
-1:var
-e=a[1],c=al(b,[0,[0,e,e],a[2]]);return c?jU(b,c[1]):c;case
-2:return ds(b,a[1]);default:return fl(b,a[1])}}function
-lc(a){return[5,[3,[0,c,c],[4,a,a]],[2,[0,c,c],[4,a,a]]]}function
-ld(a){return[5,[4,[0,b(2,c),c],a],[2,[0,c,c],[4,a,a]]]}function
-hv(a,c,b){var
-d=[4,lc(a),b],e=[2,[4,ld(a),c],d],f=[4,ld(a),b];return[0,[3,[4,lc(a),c],f],e]}function
-le(c,a){var
-b=hv(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-eu(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fJ(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:le(d[1],a):a;case
+hv(a){var
+b=aB(a[1]),c=av(S(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
+hw(a){return aB(hv(a))}function
+le(c){var
+a=hw(c),b=aB(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hx(a,b){return bd(a[3],a[4],b)}function
+hy(a,b){var
+c=hx(a,b);return S(hw(a),c)}function
+hz(a,b){var
+c=hx(a,b);return S(le(a),c)}function
+lf(a,b){var
+c=hx(a,b);return S(aB(a[1]),c)}function
+hA(b,a){var
+c=hz(b,a),d=hy(b,a);return[2,[4,d,d],[4,c,c]]}function
+hB(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lf(a,d);return[5,[2,hA(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+lg(a,b){var
+f=a[5],c=[3,hB(a,b),f],d=lf(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fP(a,b){var
+c=lg(a,b);return c2(a[7],c)}function
+lh(b,a){var
+c=hA(b,a),d=hz(b,a),e=[4,fP(b,a),d],f=hy(b,a);return[5,[2,[4,hB(b,a),f],e],c]}function
+li(b,a){var
+c=hA(b,a),d=hy(b,a),e=[4,fP(b,a),d],f=hz(b,a);return[5,[3,[4,hB(b,a),f],e],c]}function
+lj(a,b){var
+c=le(a),d=av(li(a,b),c),e=hw(a),f=av(lh(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=av(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}function
+lk(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+ll(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+hC(a,c,b){var
+d=[4,lk(a),b],e=[2,[4,ll(a),c],d],f=[4,ll(a),b];return[0,[3,[4,lk(a),c],f],e]}function
+lm(c,a){var
+b=hC(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+eA(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+fQ(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:lm(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hv(d[1],a[2],a[3]),m=j[1],k=hv(f[1],j[2],a[1]);return le(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hC(d[1],a[2],a[3]),m=j[1],k=hC(f[1],j[2],a[1]);return lm(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=R(e,e),n=eu(e,a),o=at([0,b(2,c),c],n),p=R(e,a),q=at([4,[0,b(2,c),c],p],e),r=at([3,[0,c,c],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return at([5,[0,c,c],[2,[0,c,c],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-lf(b){var
-a=cr(b);return a?dm(a[1],[0,d,c]):a}function
-lg(a,n,k,j){if(lf(j)){var
-q=n?[3,[0,d,c],k]:k;return g(a,0,q)}var
-f=aY(a,k);if(f){var
-h=ds(a,[5,j,[0,b(2,c),c]]);if(h){var
-i=fl(a,[5,j,[0,b(2,c),c]]);if(i)var
-p=v(a,f[1],h[1]),l=[0,D(i[1],p)];else
+e=[0,d[1],h[1],i[1]],l=S(e,e),n=eA(e,a),o=av([0,c(2,b),b],n),p=S(e,a),q=av([4,[0,c(2,b),b],p],e),r=av([3,[0,b,b],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return av([5,[0,b,b],[2,[0,b,b],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+ln(c){var
+a=cv(c);return a?du(a[1],[0,d,b]):a}function
+lo(a,n,k,j){if(ln(j)){var
+q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
+f=a2(a,k);if(f){var
+h=dy(a,[5,j,[0,c(2,b),b]]);if(h){var
+i=fv(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=v(a,f[1],h[1]),l=[0,E(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3203,40 +3156,40 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-ev(b,a,c){var
-d=bg(b,a[1],a[2]),e=d?lg(b,0,c,a[1]):d;return e?lg(b,1,c,a[2]):e}function
-dD(a,d){if(lf(d))return[0,B];var
-e=ds(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(e){var
-f=fl(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),d);if(f){var
-h=f[1],i=e[1],j=E(V(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),c),i),k=b4(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),j);return x(function(d){var
-e=v(A(a,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),h,d);return g0(b(2,b(2,b(2,b(2,b(2,b(2,c)))))),e)},k)}var
-g=f}else
+eB(b,a,c){var
+d=bk(b,a[1],a[2]),e=d?lo(b,0,c,a[1]):d;return e?lo(b,1,c,a[2]):e}function
+lp(h,f,c){if(ln(c))return[0,A];var
+a=D(h,g8(f)),d=dy(a,c);if(d){var
+e=fv(a,c);if(e){var
+i=e[1],j=d[1],k=bR(a,B(Q(a,b),j));return x(function(b){return jW(f,v(a,i,b))},k)}var
+g=e}else
 var
-g=e;return g}function
-ew(d,a){var
-e=g(d,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]);return e?g(d,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-cZ(a){return[0,[3,[0,d,c],a],a]}function
-lh(a,b,n,m){var
-h=bg(a,[0,d,c],b),i=h?ew(a,b):h;if(i){var
-e=dD(a,b);if(e){var
-f=aY(a,n);if(f){var
-g=aY(a,m);if(g){var
-o=f[1],p=g[1];return H(d,D(v(a,X(a,e[1]),p),o)[1])}var
-j=g}else
+g=d;return g}function
+c5(a){return function(b){return lp(a,d,b)}}function
+c6(d,a){var
+e=g(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+c7(a){return[0,[3,[0,d,b],a],a]}function
+lq(a,c,o,n){var
+h=bk(a,[0,d,b],c),j=h?c6(a,c):h;if(j){var
+e=i(c5(a),c);if(e){var
+f=a2(a,o);if(f){var
+g=a2(a,n);if(g){var
+p=f[1],q=g[1];return H(d,E(v(a,U(a,e[1]),q),p)[1])}var
+k=g}else
 var
-j=f;var
-k=j}else
-var
-k=e;var
+k=f;var
 l=k}else
 var
-l=i;return l}function
-fK(d,b,a){switch(b[0]){case
-0:return a?a[2]?0:ev(d,b[1],a[1]):a;case
+l=e;var
+m=l}else
+var
+m=j;return m}function
+fR(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:eB(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=ev(d,b[1],a[1]),m=l?ev(d,b[2],e[1]):l;if(m)return ev(d,b[3],f[1]);var
+l=eB(d,c[1],a[1]),m=l?eB(d,c[2],e[1]):l;if(m)return eB(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3249,7 +3202,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=R([0,s,r,q],[0,s,r,q]);return lh(d,b[1],B,[0,c,c])}var
+q=h[1],r=g[1],s=a[1],B=S([0,s,r,q],[0,s,r,q]);return lq(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3258,7 +3211,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lh(d,b[1],[2,[4,w,w],[4,v,v]],[2,[0,c,c],[4,k,k]]);if(x)return ev(d,cZ(b[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lq(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eB(d,c7(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3267,30 +3220,91 @@ var
 z=i;var
 A=z}else
 var
-A=a;return A}}function
-cx(a){return 1===a?q_:q$}function
-fL(d,c,b,a){var
-e=a[1],f=fJ(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-hw(c,b,a){switch(c){case
+A=a;return A}}var
+o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+bH(h){var
+a=aw(function(f,e){var
+a=a2(o,f);if(a)var
+b=a[1],c=bf(dr(b[1]),dr(b[2]));else
+var
+c=d;return bf(c,e)},d,h);if(K(d,a)){var
+f=aO(a);if(0===f||!(0<f&&!H(a,b)))var
+g=d;else
+var
+c=aZ(a,aL(2)),e=c[1],g=ab(c[2],d)?fg(e):fg(e);return aD(g,o)}return d}function
+dL(a){return[0,a[1],[0,a[2],0]]}function
+a9(a){var
+b=dL(a[3]),c=f(dL(a[2]),b);return f(dL(a[1]),c)}function
+fS(a){return fN(o,a,bH(a9(a)))}function
+lr(b,a){if(a){var
+g=lr([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cz([0,[0,d,d],c[2]],b);else
+var
+e=[0,[1,b]];var
+f=[0,e,g]}else
+var
+f=a;return f}function
+ls(c,b,a){var
+d=dw(b);return[2,[2,dw(c),d],a]}function
+hD(b,a){return b?R(a):d}function
+eC(h,b,a){if(typeof
+a!=="number")switch(a[0]){case
+4:var
+i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
+6:return[0,[0,[5,a[3],a[2]],d],0];case
+8:var
+q=a[2],r=a[1];return e(function(a){var
+c=hD(h,b);return[0,[5,q,a],D(hD(h,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
+10:return[0,[0,a[2],d],0];case
+11:return[0,[2,a[2]],0];case
+12:return[0,[0,a[1],d],0];case
+13:var
+c=a[3],g=bH([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+14:var
+k=a[2],l=a[1],s=dJ(b,k),t=f(dJ(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,ls(l,k,a[3]),b],u];case
+15:var
+m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
+16:var
+o=a[2],p=bH([0,o,0]);return[0,[4,a[3],aD(p,b)],[0,[0,o,p],0]];case
+2:case
+3:return[0,[0,a[2],b],0]}return 0}function
+cA(g,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=cA(g,c,b,P(e,h(eC(c,b,d))),i);return f(ar(g,lr(e,eC(c,b,d)),d),j)}return a}function
+fT(b,a){var
+c=ax(b,a);return e(function(a){var
+b=p(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+hE(b,a){switch(a[0]){case
+0:var
+d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
+1:var
+e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?j5(b,c[1]):c;case
+2:return dy(b,a[1]);case
+3:return fv(b,a[1]);default:var
+f=a[1],g=c6(b,f);return g?lp(b,a[2],f):g}}function
+bY(a){return 1===a?rs:rt}function
+fU(d,c,b,a){var
+e=a[1],f=fQ(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+hF(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-li(h,g,d,b,f,a){var
-e=fL(d,b,f,a);return hw(h,e,at([5,[0,c,c],g],eu(fJ(d,b,a[2]),e)))}function
-lj(c,j,i){var
+lt(h,g,d,c,f,a){var
+e=fU(d,c,f,a);return hF(h,e,av([5,[0,b,b],g],eA(fQ(d,c,a[2]),e)))}function
+lu(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=a3(c,e[1],d[1]),g=f?a3(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=a8(c,e[1],d[1]),g=f?a8(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bc(b,d){var
+be(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,N(b,c[1])]]:[0,bM(function(a){return bc(b,a)},a)]}return[0,bM(function(a){return bc(b,a)},a)]}function
-c0(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bT(function(a){return be(b,a)},a)]}return[0,bT(function(a){return be(b,a)},a)]}function
+c8(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=$(u(e,b));return f?$(u(e,N(d,b))):f;case
+e=a[1],f=ac(s(e,b));return f?ac(s(e,P(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3298,31 +3312,31 @@ e=a[1],f=$(u(e,b));return f?$(u(e,N(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c0(d,b,a[1]);if(g){var
+g=c8(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dE(c,b,m){var
+dM(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c0(c,b,g),i=h?dE(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c8(c,b,g),i=h?dM(c,b,f):h;if(i)var
 j=i;else{var
-k=dE(c,b,g);if(k)return c0(c,b,f);var
+k=dM(c,b,g);if(k)return c8(c,b,f);var
 j=k}return j;case
 7:var
-l=dE(c,b,a[1]);return l?c0(c,b,a[2]):l;case
+l=dM(c,b,a[1]);return l?c8(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=dE(c,b,a[1]);if(e){var
+e=dM(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c0(c,b,a[1]);default:return 1}}}function
-cb(c,e){var
+9:return c8(c,b,a[1]);default:return 1}}}function
+cg(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return $(u(a[1],c));case
+0:return ac(s(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3330,32 +3344,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cb(c,a[1]);if(d){var
+d=cg(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fM(d,b,m){var
+fV(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fM(d,b,a[1]);if(f){var
+f=fV(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fM(d,b,a[1]);return g?cb(b,a[2]):g;case
+g=fV(d,b,a[1]);return g?cg(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cb(b,i);if(j){var
-k=cb(b,h);if(k)var
+h=a[2],i=a[1],j=cg(b,i);if(j){var
+k=cg(b,h);if(k)var
 e=k;else{var
-l=aw(i,d);if(l){var
+l=ay(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cb(b,c)}}}function
-fN(c,e){var
+2:return 1;default:return cg(b,c)}}}function
+fW(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return cl(a[1],c);case
+0:return by(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3363,254 +3377,285 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fN(c,a[1]);if(d){var
+d=fW(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fO(a,b){if(a){var
+fX(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fO(c,aJ(ee,e,jG(d)))]:[0,ra,fO(c,e)]}var
-f=[0,d,fO(c,0)]}else
+e=b[2];return b[1]?[0,d,fX(c,aw(em,e,jR(d)))]:[0,ru,fX(c,e)]}var
+f=[0,d,fX(c,0)]}else
 var
 f=a;return f}function
-cy(b,a){return a?j(b,a[1]):a}function
-cz(c,b,a){return cy(function(b){return cy(j(c,b),a)},b)}function
-rb(a){return 0===a[0]?a[1]:0}function
-bR(b,a){switch(a[0]){case
-0:return[0,j(b,a[1])];case
-1:return[1,bR(b,a[1])];default:var
-c=bR(b,a[3]),d=bR(b,a[2]);return[2,bR(b,a[1]),d,c]}}function
-a5(b,c,a){switch(c[0]){case
-0:return bR(j(b,c[1]),a);case
+cB(b,a){return a?i(b,a[1]):a}function
+cC(c,b,a){return cB(function(b){return cB(i(c,b),a)},b)}function
+lv(b,a){switch(a[0]){case
+0:return a;case
+1:return a[1];default:var
+c=a[3],d=a[2],e=a[1];switch(b){case
+0:return e;case
+1:return d;default:return c}}}function
+lw(a){return 0===a[0]?a[1]:0}function
+lx(d,c){var
+b=d,a=c;for(;;){if(a){var
+e=a[2],b=lv(a[1],b),a=e;continue}return lw(b)}}function
+bZ(b,a){switch(a[0]){case
+0:return[0,i(b,a[1])];case
+1:return[1,bZ(b,a[1])];default:var
+c=bZ(b,a[3]),d=bZ(b,a[2]);return[2,bZ(b,a[1]),d,c]}}function
+a_(b,c,a){switch(c[0]){case
+0:return bZ(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bR(function(a){return ap(b,a,k)},d)];case
-1:return[1,a5(b,d,a[1])];default:var
-l=a5(b,d,a[3]),m=a5(b,d,a[2]);return[2,a5(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,bZ(function(a){return ar(b,a,k)},d)];case
+1:return[1,a_(b,d,a[1])];default:var
+l=a_(b,d,a[3]),m=a_(b,d,a[2]);return[2,a_(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ap(b,a,n)},h=function(a){return bR(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return bZ(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-i=a[1],r=a5(b,e,i),s=a5(b,f,i);return[2,a5(b,g,i),s,r];default:var
-t=a5(b,e,a[3]),u=a5(b,f,a[2]);return[2,a5(b,g,a[1]),u,t]}}}function
-hx(c,f,a){if(a)var
+j=a[1],r=a_(b,e,j),s=a_(b,f,j);return[2,a_(b,g,j),s,r];default:var
+t=a_(b,e,a[3]),u=a_(b,f,a[2]);return[2,a_(b,g,a[1]),u,t]}}}function
+hG(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,X(c,a)];break;case
+e=[0,a,U(c,a)];break;case
 1:var
-g=v(c,a,b),e=[0,aW(E(a,b)),g];break;default:var
-e=[0,b,X(c,b)]}return[0,[0,j(f,e)]]},h=hx(c,f,a[2]),i=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],i];else
+g=v(c,a,b),e=[0,aF(B(a,b)),g];break;default:var
+e=[0,b,U(c,b)]}return[0,[0,i(f,e)]]},h=hG(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hy(b,w,c,a){var
-e=hx(b,b0,a),d=0,y=f(hx(b,aI,a),e);return bN(rd,function(a){switch(a[0]){case
-0:return r(a[1],y,[0,[0,B]]);case
-1:return[0,[0,r(a[1],w,B)]];case
-2:return[0,[0,V(b,a[1])]];case
+hH(b,w,c,a){var
+e=hG(b,bu,a),d=0,y=f(hG(b,aM,a),e);return bU(rw,function(a){switch(a[0]){case
+0:return r(a[1],y,[0,[0,A]]);case
+1:return[0,[0,r(a[1],w,A)]];case
+2:return[0,[0,Q(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,E(b,a)]};return a5(function(a,b){return cz(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,B(b,a)]};return a_(function(a,b){return cC(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,D(b,a)]};return a5(function(a,b){return cz(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return a_(function(a,b){return cC(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,af(a)]};return bR(function(a){return cy(j,a)},i);case
+i=a[1],j=function(a){return[0,ad(a)]};return bZ(function(a){return cB(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return a5(function(a,b){return cz(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return a_(function(a,b){return cC(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=b4(b,a);return x(function(a){return v(b,c,a)},d)};return a5(function(a,b){return cz(p,a,b)},o,n);case
+d=bR(b,a);return x(function(a){return v(b,c,a)},d)};return a_(function(a,b){return cC(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,X(b,a)]};return bR(function(a){return cy(s,a)},q);case
+q=a[1],s=function(a){return[0,U(b,a)]};return bZ(function(a){return cB(s,a)},q);case
 9:var
-t=a[1],u=function(a){return b5(b,a)};return bR(function(a){return cy(u,a)},t);default:return rc}},c,d)}function
-hz(a){if(a){var
+t=a[1],u=function(a){return bS(b,a)};return bZ(function(a){return cB(u,a)},t);default:return rv}},c,d)}function
+fY(a){if(a){var
 b=a[1];if(b)var
-c=hz(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=fY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return re}function
-dF(a){if(a){var
-g=a[1],b=g[2],c=hz(g[1]);if(c)if(b){var
-h=b[1],e=dF(a[2]);if(e)var
-i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return rx}function
+dN(a){if(a){var
+g=a[1],b=g[2],c=fY(g[1]);if(c)if(b){var
+h=b[1],e=dN(a[2]);if(e)var
+i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return rf}function
-fP(b,a){var
+f=c;return f}return ry}function
+dO(b,a){var
 c=a[3],d=x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},c),e=j(b,a[2]),f=a[1];return[0,j(ar(b),f),e,d]}function
-hA(c,g,f,b,a,e){if(b){var
-h=b[1],l=b[2],d=function(h,a){var
-b=ix(c,d8,d8,function(a){switch(a[0]){case
-0:return a;case
-1:return a[1];default:var
-b=a[3],c=a[2],d=a[1];switch(h){case
-0:return d;case
-1:return c;default:return b}}},e);return hA(c,g,bL(f),l,a,b)},i=d(0,aH(a,h));if(i){var
-j=d(2,A(a,h));if(j)return f?1:d(1,a);var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aq(b),f),e,d]}function
+hI(c,g,f,b,a,e){if(b){var
+h=b[1],l=b[2],d=function(b,a){var
+d=iF(c,ed,ed,function(a){return lv(b,a)},e);return hI(c,g,bx(f),l,a,d)},i=d(0,aD(a,h));if(i){var
+j=d(2,D(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ap(g,a,ix(c,d8,d8,rb,e))}function
-lk(e,c,b,a){var
-f=av(d,b);function
-g(b){return a}return function(a){return hA(e,g,c,f,d,a)}}function
-c1(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a_(f,e,a)},d)}return[0,B]}function
-ll(f,e,k,j,i,a){var
-b=dF(a[1]);if(b){var
+k=i;return k}return ar(g,a,iF(c,ed,ed,lw,e))}function
+hJ(e,c,b,a){var
+f=ap(d,b);function
+g(b){return a}return function(a){return hI(e,g,c,f,d,a)}}function
+cD(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a0(f,e,a)},d)}return[0,A]}function
+ly(f,e,k,j,i,a){var
+b=dN(a[1]);if(b){var
 c=a[2];if(c){var
-d=c1(a[3]);if(d){var
-l=d[1],m=av([0,D(af(v(f,i,c[1])),l),0],e);return bi(f,e,fn(k,j,b[1],m))}var
+d=cD(a[3]);if(d){var
+l=d[1],m=ap([0,E(ad(v(f,i,c[1])),l),0],e);return a7(f,e,fx(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-lm(i,d,h,g,c){var
-a=dF(c[1]);if(a){var
-b=c1(c[3]);if(b){var
-j=av([0,D(B,b[1]),0],d),k=a[1];return bi(i,d,fn(h,g,e(function(a){return[0,a[1],B]},k),j))}var
+lz(i,d,h,g,c){var
+a=dN(c[1]);if(a){var
+b=cD(c[3]);if(b){var
+j=ap([0,E(A,b[1]),0],d),k=a[1];return a7(i,d,fx(h,g,e(function(a){return[0,a[1],A]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-ln(a,c,F,i){var
-j=dF(i[1]);if(j){var
+lA(a,c,F,i){var
+j=dN(i[1]);if(j){var
 k=i[2];if(k){var
-l=c1(i[3]);if(l){var
-G=l[1],e=D(v(a,F,k[1]),G),b=j[1];if(b){var
+l=cD(i[3]);if(l){var
+G=l[1],e=E(v(a,F,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=fo(a,b,av([0,e,0],c));if(f){var
-o=f[1],p=u(h(o),c);if(p)return dt(a,o);var
+f=fy(a,b,ap([0,e,0],c));if(f){var
+o=f[1],p=s(h(o),c);if(p)return dz(a,o);var
 q=p}else
 var
 q=f;return q}var
-r=L(d,e[1]),s=r?L(d,n[1]):r;if(s){var
-C=y(e[1],n[1]),E=m[1];return L(aJ(function(a,b){var
-c=cN(a);return A(y(cN(a),c),b)},d,E),C)}return s}var
-g=fo(a,b,av([0,e,0],c));if(g){var
-t=g[1],w=u(h(t),c);if(w)return dt(a,t);var
+r=K(d,e[1]),t=r?K(d,n[1]):r;if(t){var
+B=z(e[1],n[1]),C=m[1];return K(aw(function(a,b){var
+c=ca(a);return D(z(ca(a),c),b)},d,C),B)}return t}var
+g=fy(a,b,ap([0,e,0],c));if(g){var
+u=g[1],w=s(h(u),c);if(w)return dz(a,u);var
 x=w}else
 var
 x=g;return x}var
-z=l}else
+y=l}else
 var
-z=k;var
-B=z}else
+y=k;var
+A=y}else
 var
-B=j;return B}function
-rg(c){var
+A=j;return A}function
+rz(c){var
 a=c[2];if(a){var
-b=c1(c[3]);if(b)return H(d,D(a[1],b[1])[1]);var
+b=cD(c[3]);if(b)return H(d,E(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-lo(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-lp(a,c,b){var
-e=r(b,c,i(d)),f=aL(0,a);return n(function(b){return dE(a,b,e)},f)}function
-ex(a){var
-b=I(a);return z(i(c),b)}function
-fQ(j,g){var
-h=ex(g),k=I(g),e=t(i(c),k),f=q(i(b(2,c)),g),a=i(d);return j?j[1]?[0,[0,e,bf(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bf(f),a,e]]:[0,[0,h,a,a],[0,a,e,bf(f)],[0,a,f,e]]}function
-ey(b,a){var
-c=Q(b[3],a),d=Q(b[2],a);return[0,Q(b[1],a),d,c]}function
-lq(b,a){function
+hK(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+lB(a,c,b){var
+e=r(b,c,j(d)),f=aE(0,a);return n(function(b){return dM(a,b,e)},f)}function
+eD(a){var
+c=J(a);return y(j(b),c)}function
+fZ(i,g){var
+h=eD(g),k=J(g),e=u(j(b),k),f=p(j(c(2,b)),g),a=j(d);return i?i[1]?[0,[0,e,bj(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bj(f),a,e]]:[0,[0,h,a,a],[0,a,e,bj(f)],[0,a,f,e]]}function
+eE(b,a){var
+c=N(b[3],a),d=N(b[2],a);return[0,N(b[1],a),d,c]}function
+lC(b,a){function
 c(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=Q(a,c(function(a){return a[3]})),d=Q(a,c(function(a){return a[2]}));return[0,Q(a,c(function(a){return a[1]})),d,b]}var
+b=N(a,c(function(a){return a[3]})),d=N(a,c(function(a){return a[2]}));return[0,N(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-lr(w,v){function
-a(a){return[0,[0,N(v,a)]]}switch(w[0]){case
+lD(w,v){function
+a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
 0:var
-x=ex(a(0));return[0,fQ(rh,a(0)),x];case
+x=eD(a(0));return[0,fZ(rA,a(0)),x];case
 1:var
-y=ex(a(0)),A=q(ex(a(ri)),y),B=q(ex(a(rj)),A),C=fQ(0,a(0)),D=lq(fQ(rl,a(rk)),C);return[0,lq(fQ(rn,a(rm)),D),B];default:var
-E=a(ro),F=a(rp),g=[0,a(0),F,E],G=Q(g,g),H=z(i(c),G),k=Q(g,g),d=g[1],e=g[2],f=g[3],j=function(a){var
-d=I(a),e=q(i(b(2,c)),d);return z(t(i(c),k),e)},h=function(f,e,d,a){var
-g=ap(f,q(e,d),a);return q(i(b(2,c)),g)},l=j(f),m=h(z,e,f,d),n=[0,h(t,d,f,e),m,l],o=h(t,e,f,d),p=j(e),r=[0,h(z,d,e,f),p,o],s=h(z,d,f,e),u=h(t,d,e,f);return[0,[0,[0,j(d),u,s],r,n],H]}}function
-ls(a){return 1<a[0]?[0,a[1],0]:0}function
-fR(a){switch(a[0]){case
+z=eD(a(0)),A=p(eD(a(rB)),z),B=p(eD(a(rC)),A),C=fZ(0,a(0)),D=lC(fZ(rE,a(rD)),C);return[0,lC(fZ(rG,a(rF)),D),B];default:var
+E=a(rH),F=a(rI),g=[0,a(0),F,E],G=N(g,g),H=y(j(b),G),k=N(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=J(a),e=p(j(c(2,b)),d);return y(u(j(b),k),e)},h=function(f,e,d,a){var
+g=ar(f,p(e,d),a);return p(j(c(2,b)),g)},l=i(f),m=h(y,e,f,d),n=[0,h(u,d,f,e),m,l],o=h(u,e,f,d),q=i(e),r=[0,h(y,d,e,f),q,o],s=h(y,d,f,e),t=h(u,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
+lE(a){return 1<a[0]?[0,a[1],0]:0}function
+f0(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,cZ(a[1]),0];default:var
-b=[0,cZ(a[2]),0];return[0,cZ(a[1]),b]}}function
-dG(a){return[0,[0,a[1]],[0,a[2]]]}function
-lt(a){switch(a[0]){case
-0:return[0,dG(a[1]),0];case
+2:return[0,c7(a[1]),0];default:var
+b=[0,c7(a[2]),0];return[0,c7(a[1]),b]}}function
+dP(a){return[0,[0,a[1]],[0,a[2]]]}function
+lF(a){switch(a[0]){case
+0:return[0,dP(a[1]),0];case
 1:var
-f=[0,dG(a[3]),0],g=[0,dG(a[2]),f];return[0,dG(a[1]),g];case
+f=[0,dP(a[3]),0],g=[0,dP(a[2]),f];return[0,dP(a[1]),g];case
 2:var
-b=dG(cZ(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,cZ(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dG(cZ(c)),0]]]}}function
-lu(a,b){if(0===b[0])return dD(a,b[1]);var
-d=dD(a,b[1]);if(d){var
-e=dD(a,b[2]);if(e){var
-g=X(a,e[1]),h=b5(a,E(V(a,c),g)),i=d[1];return x(function(b){return v(a,i,b)},h)}var
+b=dP(c7(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c7(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dP(c7(c)),0]]]}}function
+lG(a,c){if(0===c[0]){var
+g=c[1];return i(c5(a),g)}var
+h=c[1],d=i(c5(a),h);if(d){var
+j=c[2],e=i(c5(a),j);if(e){var
+k=U(a,e[1]),l=bS(a,B(Q(a,b),k)),m=d[1];return x(function(b){return v(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-lv(d,c){var
-a=lu(d,c[1]);if(a)var
-b=lu(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lH(d,c){var
+a=lG(d,c[1]);if(a)var
+b=lG(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-lw(c,g,f){var
-e=f[1];if(1===e[0]){var
-h=e[1];if(cl(h,c))return f;var
-a=h,b=c,j=i(d);for(;;){if(a&&b){var
-a=a[1],b=b[1];continue}return r(a,g,j)}}return[0,bM(function(a){return lw(c,g,a)},e)]}function
-hB(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],j=ky(h,c),k=by(f),b=e(function(b){return lw(a,k,b)},j),l=r(ru,b,i(d)),m=r(rv,b,i(d));return[0,r(0,b,i(d)),m,l]}function
-dH(b,a){var
-c=q(b[2],a[1]),d=t(q(b[1],a[2]),c),e=q(b[1],a[3]),f=t(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,t(q(b[2],a[3]),g),f,d]}function
-c2(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-lx(b){function
+lI(a,e,c){var
+b=c[1];if(1===b[0]){var
+f=b[1];if(by(f,a))return c;var
+g=j(d);return r(jv(f,a),e,g)}return[0,bT(function(b){return lI(a,e,b)},b)]}function
+hL(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=kI(h,c),k=bD(f),b=e(function(b){return lI(a,k,b)},i),l=r(rN,b,j(d)),m=r(rO,b,j(d));return[0,r(0,b,j(d)),m,l]}function
+b0(b,a){var
+c=p(b[2],a[1]),d=u(p(b[1],a[2]),c),e=p(b[1],a[3]),f=u(p(b[3],a[1]),e),g=p(b[3],a[2]);return[0,u(p(b[2],a[3]),g),f,d]}function
+c9(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+lJ(c){function
 a(a){var
-e=u(b,a)?c:d;return i(e)}var
-e=a(rw),f=a(rx);return[0,a(0),f,e]}function
-ly(b,a){if(a)var
-d=ly(b,a[2]),c=[0,e(j(b,a[1]),a),d];else
+e=s(c,a)?b:d;return j(e)}var
+e=a(rP),f=a(rQ);return[0,a(0),f,e]}function
+lK(b,a){if(a)var
+d=lK(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-hC(c,b,a){switch(c){case
+f1(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-bC(e,k){var
+lL(b,c,a){return c?b_(b,a):bi(b,a)}function
+lM(a){if(a){var
+f=a[1],b=f[2],c=fY(f[1]);if(c)if(b)var
+d=lM(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+var
+e=b;else
+var
+e=c;return e}return r1}function
+lN(d,c,f,a){if(c)if(a)var
+g=c[1],j=lN(d,c[2],f,a[2]),h=g[2],k=a[1][2],l=g[1],i=aF(v(d,h,f)),e=[0,cr(v(d,l,B(aF(ek(k,Q(d,b),h)),i))),j];else
+var
+e=a;else
+var
+e=c;return e}function
+lO(b,a){return W(e(function(a){return r(a,b,0)},a))}function
+c_(a){switch(a){case
+0:return r6;case
+1:return r7;default:return 0}}function
+c$(a){switch(a){case
+0:return[0,r9,r8,j(d)];case
+1:return cW;default:var
+b=j(d),c=j(d);return[0,j(d),c,b]}}function
+f2(c,b,a){return a6(eE(c,a),b)}function
+lP(a){var
+d=N(a,a),e=y(j(b),d);return ag(j(c(2,b)),e)}function
+lQ(k,j,i,h,g,a){var
+e=f2(j,i,g),c=b0(a,e),f=Z(y,c,b0(a,c)),d=Z(y,e,aP(lP(a),f)),b=Z(u,Z(y,c$(k),d),h);return[0,[0,d,b],az(N(b,b))]}function
+bI(e,k){var
 a=k[1];switch(a[0]){case
 1:var
-l=u(a[1],e)?c:d;return i(l);case
+l=s(a[1],e)?b:d;return j(l);case
 3:var
-m=bC(e,a[2]);return z(bC(e,a[1]),m);case
+m=bI(e,a[2]);return y(bI(e,a[1]),m);case
 4:var
-n=bC(e,a[2]);return t(bC(e,a[1]),n);case
-5:return bf(bC(e,a[1]));case
+n=bI(e,a[2]);return u(bI(e,a[1]),n);case
+5:return bj(bI(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=q(h,bC(e,g));return z(q(g,bC(e,h)),o);case
+g=a[2],h=a[1],o=p(h,bI(e,g));return y(p(g,bI(e,h)),o);case
 7:var
-f=bC(e,a[1]);return aO(d,f)?f:ag(f,a[2]);case
+f=bI(e,a[1]);return aT(d,f)?f:ag(f,a[2]);case
 8:var
-j=a[1],p=bC(e,j);return q(q(i(b(2,c)),j),p);default:return i(d)}}function
-hD(c,b,k){var
+i=a[1],q=bI(e,i);return p(p(j(c(2,b)),i),q);default:return j(d)}}function
+hM(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hD(c,b,a[1]);if(g){var
+g=hM(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=L(d,r(i,c,B)[1]);return j?$(ak(function(a){return u(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,r(i,c,A)[1]);return j?ac(al(function(a){return s(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-3:case
-4:case
-6:var
-f=hD(c,b,a[1]);if(f){var
-e=a[2];continue}return f;default:return 1}}}function
-lz(d){var
+0:case
+1:case
+2:return 1;default:var
+f=hM(c,b,a[1]);if(f){var
+e=a[2];continue}return f}}}function
+lR(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3621,566 +3666,692 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lz(a[1]);if(c){var
+c=lR(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-lA(c,b,a){var
-d=e(b,a[2]);return[0,j(c,a[1]),d]}function
-hE(b,a,c){return e(function(c){var
-d=lA(b,a,c[2]),f=c[1];return[0,e(function(c){return lA(b,a,c)},f),d]},c)}function
-lB(b,a){return x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,j(b,a[1][1]),d],c]},a)}function
-rI(a,b){var
-c=lB(a,b[3]),d=j(a,b[2]);return[0,hE(a,a,b[1]),d,c]}function
-lC(c){var
+lS(c,b,a){var
+d=e(b,a[2]);return[0,i(c,a[1]),d]}function
+hN(b,a,c){return e(function(c){var
+d=lS(b,a,c[2]),f=c[1];return[0,e(function(c){return lS(b,a,c)},f),d]},c)}function
+lT(b,a){return x(function(a){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
+r_(a,b){var
+c=lT(a,b[3]),d=i(a,b[2]);return[0,hN(a,a,b[1]),d,c]}function
+lU(c){var
 a=c[1];if(a){var
-b=hz(c[2]);if(b)var
+b=fY(c[2]);if(b)var
 g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-rJ(c){var
-a=ac(e(lC,c[1]));if(a)var
-b=lC(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+r$(c){var
+a=W(e(lU,c[1]));if(a)var
+b=lU(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-rK(a){return $(g9([0,a[2],a[1]]))}function
-hF(a){return[0,a[1],a[2]]}function
-lD(b,c,a){var
-d=e(function(c){return bc(b,bC(c,a))},c);return[0,bc(b,a),d]}function
-hG(b,e,a,d){var
+sa(a){return ac(hf([0,a[2],a[1]]))}function
+hO(a){return[0,a[1],a[2]]}function
+lV(b,c,a){var
+d=e(function(c){return be(b,bI(c,a))},c);return[0,be(b,a),d]}function
+hP(b,e,a,d){var
 c=w(function(a){var
-b=hF(a[2]);return f(w(hF,a[1]),b)},d),g=a?[0,bc(b,a[1]),0]:a,h=f(g,c);return[0,bc(b,e),h]}function
-lE(c,f,b,a){var
-d=hD(f,b,a),e=d?fN(c,a):d;return e?n(function(b){return fN(c,bC(b,a))},b):e}function
-lF(a){switch(a[0]){case
+b=hO(a[2]);return f(w(hO,a[1]),b)},d),g=a?[0,be(b,a[1]),0]:a,h=f(g,c);return[0,be(b,e),h]}function
+lW(c,f,b,a){var
+d=hM(f,b,a),e=d?fW(c,a):d;return e?n(function(b){return fW(c,bI(b,a))},b):e}function
+lX(a){switch(a[0]){case
 3:var
-c=lo(a[2]);return[0,a[3],c];case
+d=hK(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
-8:return 0;default:var
-b=lo(a[1]);return[0,a[2],b]}}function
-lG(e,w,f,t,s,b,a){switch(b[0]){case
+8:var
+b=a[1],e=hK(b[1]);return[0,b[2],e];case
+9:return 0;default:var
+c=hK(a[1]);return[0,a[2],c]}}function
+lY(a,at,bm,k,m,P,as,w,O,j,g){switch(j[0]){case
 0:var
-x=b[4],p=b[3],y=b[2],z=b[1],q=0;if(typeof
-a==="number")q=1;else
-switch(a[0]){case
+au=j[4],R=j[3],av=j[2],ay=j[1],T=0;if(typeof
+g==="number")T=1;else
+switch(g[0]){case
 0:var
-T=a[2],U=a[1],l=y,k=z,i=function(a){return ll(e,f,U,T,p,a)},g=x;break;case
+bn=g[2],bo=g[1],t=av,q=ay,p=function(b){return ly(a,m,bo,bn,R,b)},o=au;break;case
 2:var
-A=_(p[1],d),B=A?_(p[2],d):A;if(!B)return B;var
-Y=a[2],Z=a[1],l=y,k=z,i=function(a){return lm(e,f,Z,Y,a)},g=x;break;default:q=1}if(q)return 0;break;case
+az=ab(R[1],d),aA=az?ab(R[2],d):az;if(!aA)return aA;var
+br=g[2],bs=g[1],t=av,q=ay,p=function(b){return lz(a,m,bs,br,b)},o=au;break;default:T=1}if(T)return 0;break;case
 1:var
-M=0;if(typeof
-a==="number"&&!a)var
-$=b[2],aa=b[1],ab=b[3],l=$,k=aa,ac=0,i=function(a){return ln(e,f,ab,a)},g=ac;else
-M=1;if(M)return 0;break;case
+aL=0;if(typeof
+g==="number"&&!g)var
+bt=j[2],bu=j[1],bv=j[3],t=bt,q=bu,bw=0,p=function(b){return lA(a,m,bv,b)},o=bw;else
+aL=1;if(aL)return 0;break;case
 2:if(typeof
-a!=="number"&&3===a[0]){var
-m=a[3];if(m){var
-C=m[2],F=u(h(C),w);if(F){var
-ad=[0,b[1],b[2],s],ae=fP(function(a){return r(a,t,rN)},ad),G=a[1],ag=0,ah=m[1],ai=a[2],aj=b[3],ak=function(w,j){var
-a=dF(j[1]);if(a){var
-k=a[1],b=j[2];if(b){var
-g=c1(j[3]);if(g){var
-l=g[1],m=function(a){return a_(a,G,V(e,c))},t=m(w),u=b[1],h=E(v(e,m(ah),u),t),n=L(d,h[1]),o=n?bi(e,f,fn(G,ai,k,av([0,D(af(h),l),0],f))):n;if(o){var
-i=fo(e,k,av([0,D(v(e,aj,h),l),0],f));if(i)return bi(e,f,i[1]);var
-p=i}else
+g!=="number"&&3===g[0]){var
+z=g[3];if(z){var
+aB=z[2],aC=s(h(aB),k);if(aC){var
+bz=[0,j[1],j[2],O],bA=dO(function(a){return r(a,w,sd)},bz),aD=g[1],bB=0,bD=z[1],bE=g[2],bF=j[3],bG=function(w,i){var
+c=dN(i[1]);if(c){var
+j=c[1],e=i[2];if(e){var
+f=cD(i[3]);if(f){var
+k=f[1],l=function(c){return a0(c,aD,Q(a,b))},t=l(w),u=e[1],g=B(v(a,l(bD),u),t),n=K(d,g[1]),o=n?a7(a,m,fx(aD,bE,j,ap([0,E(ad(g),k),0],m))):n;if(o){var
+h=fy(a,j,ap([0,E(v(a,bF,g),k),0],m));if(h)return a7(a,m,h[1]);var
+p=h}else
 var
 p=o;var
 q=p}else
 var
-q=g;var
+q=f;var
 r=q}else
 var
-r=b;var
+r=e;var
 s=r}else
 var
-s=a;return s};return hA(function(b,a){return fP},ak,ag,C,d,ae)}var
-H=F}else
+s=c;return s};return hI(function(b,a){return dO},bG,bB,aB,d,bA)}var
+aG=aC}else
 var
-H=m;return H}return 0;case
+aG=z;return aG}return 0;case
 3:var
-N=0;if(typeof
-a==="number"||!(0===a[0]))N=1;else
+aM=0;if(typeof
+g==="number"||!(0===g[0]))aM=1;else
 var
-I=a[2],J=a[1],al=b[3],am=b[2],an=b[4],ao=b[1],ap=function(g){var
-a=dF(g[1]);if(a){var
-b=a[1],c=g[2];if(c){var
-d=c1(g[3]);if(d){var
-i=u(h(b),f),j=i?u(h(I),f):i;if(j){var
-n=em(J,en(J,I,c[1],b));return bi(e,f,b_(fs(e,ao,an,d[1],b),n))}var
+aH=g[2],aI=g[1],bH=j[3],bI=j[2],bJ=j[4],bK=j[1],bL=function(f){var
+b=dN(f[1]);if(b){var
+c=b[1],d=f[2];if(d){var
+e=cD(f[3]);if(e){var
+g=s(h(c),m),i=g?s(h(aH),m):g;if(i){var
+n=dD(aI,dE(aI,aH,d[1],c));return a7(a,m,bC(fB(a,bK,bJ,e[1],c),n))}var
+j=i}else
+var
+j=e;var
 k=j}else
 var
 k=d;var
 l=k}else
 var
-l=c;var
-m=l}else
-var
-m=a;return m},l=al,k=am,i=ap,g=b[5];if(N)return 0;break;case
+l=b;return l},t=bH,q=bI,p=bL,o=j[5];if(aM)return 0;break;case
 4:var
-O=0;if(typeof
-a==="number"&&!a)var
-l=b[1],k=0,i=rg,g=0;else
-O=1;if(O)return 0;break;case
+aN=0;if(typeof
+g==="number"&&!g)var
+t=j[1],q=0,p=rz,o=0;else
+aN=1;if(aN)return 0;break;case
 5:var
-P=0;if(typeof
-a==="number"||!(0===a[0]))P=1;else{var
-n=a[2],Q=0;if(n){var
-o=n[1];if(o){if(o[2])return 0;if(n[2])return 0;var
-aq=b[2],ar=b[1],as=V(e,c),at=[0,[0,o[1],0],0],au=a[1],l=aq,k=ar,aw=0,i=function(a){return ll(e,rO,au,at,as,a)},g=aw;Q=1}else
+aP=0;if(typeof
+g==="number"||!(0===g[0]))aP=1;else{var
+C=g[2],aQ=0;if(C){var
+D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
+bM=j[2],bN=j[1],bO=Q(a,b),bP=[0,[0,D[1],0],0],bQ=g[1],t=bM,q=bN,bT=0,p=function(b){return ly(a,se,bQ,bP,bO,b)},o=bT;aQ=1}else
 var
-K=o}else
+aJ=D}else
 var
-K=n;if(!Q)return K}if(P)return 0;break;case
+aJ=C;if(!aQ)return aJ}if(aP)return 0;break;case
 6:var
-R=0;if(typeof
-a==="number"&&!a)var
-ax=b[2],ay=b[1],az=V(e,c),l=ax,k=ay,aA=0,i=function(a){return ln(e,rP,az,a)},g=aA;else
-R=1;if(R)return 0;break;case
+aR=0;if(typeof
+g==="number"&&!g)var
+bU=j[2],bV=j[1],bX=Q(a,b),t=bU,q=bV,bY=0,p=function(b){return lA(a,sf,bX,b)},o=bY;else
+aR=1;if(aR)return 0;break;case
 7:var
-S=0;if(typeof
-a==="number"&&5<=a)var
-aB=b[2],aC=b[1],aD=b[4],aE=b[3],l=aB,k=aC,aF=0,i=function(a){return lm(e,f,aE,aD,a)},g=aF;else
-S=1;if(S)return 0;break;default:return 0}var
-W=[0,k,l,s],X=fP(function(a){return r(a,t,rM)},W);return j(lk(function(b,a){return fP},g,w,i),X)}function
-rQ(b,a){var
-c=gV(gR,b[1],a[1]);return c?gR(b[2],a[2]):c}function
-lH(h,g,p,i,A,z,y,x,o,n,a,e){if(typeof
-e==="number"){if(0===e)return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0}else
+aT=0;if(typeof
+g==="number"&&5<=g)var
+bZ=j[2],b0=j[1],b1=j[4],b2=j[3],t=bZ,q=b0,b3=0,p=function(b){return lz(a,m,b2,b1,b)},o=b3;else
+aT=1;if(aT)return 0;break;case
+8:if(typeof
+g!=="number"&&9===g[0]){var
+F=g[4],aK=g[2],S=g[1],l=j[1],u=l[9],b4=g[3],aY=l[5],aZ=g6(f(ei(l[4]),aY),at),a1=e(ae,bm),y=l[9],a2=l[8],a3=l[7],aW=fC(y,ap(A,jv(k,y)),a2),aX=f(e(ae,b_(y,P)),aW),Y=jQ(0,bW(a,f(fC(0,bi(y,P),a3),aX),a1),aZ,at,0),Z=0<aO(F)?0<aO(d)?fh(F,d):0:0<aO(d)?0:1;if(Z)var
+G=Z;else
+var
+aq=2<=jD(F,c(2,c(2,c(2,c(2,b)))))?0:1,ar=aq?by(0,u):aq,G=ar?by(u,k):ar;var
+_=G?V(u,k):G,$=_?s(h(P),k):_,aa=$?s(h(aK),k):$,ac=aa?s(h(l[1]),k):aa,af=ac?s(h(l[6]),k):ac,ag=af?s(h(l[4]),k):af;if(ag)var
+a4=l[4],H=n(function(a){return s(h(a),k)},a4);else
+var
+H=ag;if(H){var
+a5=l[4],I=W(e(function(a){return lO(Y,a)},a5));if(I){var
+ah=lO(Y,l[5]);if(ah){var
+a6=l[6],J=W(e(function(c){var
+d=r(c[1],as,0);if(d){var
+h=c[2][2],b=W(e(function(a){var
+b=r(a[2],as,0);return x(function(b){return[0,a[1],b[2]]},b)},h));if(b)var
+i=c[2][1],j=b[1],f=[0,cr(cQ(function(d,b){var
+c=ca(b[2]);return B(d,v(a,b[1],[0,c,c]))},j,i))];else
+var
+f=b;var
+g=f}else
+var
+g=d;return g},a6));if(J){var
+a8=l[1],a9=l[2],L=W(e(function(m){function
+f(e){var
+g=ap(e,k),c=lx(r(m[2],w,r3),g);if(c){var
+h=ap(e,k),d=lx(r(a9,w,r4),h);if(d){var
+i=d[1],j=Q(a,b);return bS(a,cT(ek(c[1],j,i)))}var
+f=d}else
+var
+f=c;return f}var
+c=f(0);if(c){var
+e=f(2);if(e)var
+g=cT(aF(B(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+var
+i=e;var
+j=i}else
+var
+j=c;return j},a8));if(L){var
+a_=I[1],X=dB(a,aw(function(i,h){var
+o=e(function(b){var
+a=aE(0,k);return e(function(a){return ca(r(a,b[3],A))},a)},i);function
+b(m,l){var
+n=lL(u,m,o),g=e(function(a){return lL(u,l,a)},n);function
+b(a){return aw(bf,d,a)}var
+h=0;function
+i(a){return a}function
+j(a){return a}var
+c=b(aw(function(a,b){return aS(j,i,jE,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aw(jE,d,a)},g));return dB(a,v(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return B(h,U(a,B(B(B(b(0,0),g),f),c)))},A,a_)),M=a0(b4,S,Q(a,b)),ai=K(d,E(M,X)[1]);if(ai){var
+N=bR(a,M);if(N){var
+a$=aF(v(a,X,N[1])),ba=E(Q(a,b),a$),bb=[0,l[1],l[2],O],bd=dO(function(a){return r(a,w,r5)},bb),be=ax(J[1],L[1]),bg=U(a,ba),bh=U(a,M),bj=l[10],aU=aE(0,k),aV=e(function(a){var
+d=bj?V(u,a):by(a,u);return d?b:g1(c(2,b),F)},aU),bk=function(q){var
+i=lM(q[1]);if(i){var
+j=q[2];if(j){var
+l=j[1],m=cD(q[3]);if(m){var
+u=m[1],F=i[1],g=e(function(a){var
+c=a[2],b=ax(aV,a[1]);return[0,e(function(a){return a0(a[1],d,a[2])},b),c]},F),G=dD(S,dE(S,aK,l,g)),o=bC(ap([0,ad(u),0],k),G),w=lN(a,be,l,g),H=E(v(a,l,bg),u),x=s(h(g),k),y=x?s(h(w),k):x;if(y){var
+b=k,c=o;for(;;){if(c){if(b){var
+r=s(h(c[1]),b);if(r){var
+b=b[1],c=c[2];continue}var
+t=r}else
+var
+t=b;var
+z=t}else
+var
+z=b?0:1;var
+p=z;break}}else
+var
+p=y;var
+A=p?a7(a,k,bC(e(function(b){return[0,ad(v(a,bh,b[2])),0]},g),o)):p;if(A){var
+I=bc(bx(k));return n(function(g){var
+d=ax(f(g,r2),w),b=[0,[0,H,0],0],c=ax(o,e(function(a){return a[1]?ad(a[2]):a[2]},d));return a7(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=A}else
+var
+B=m;var
+C=B}else
+var
+C=j;var
+D=C}else
+var
+D=i;return D},bl=l[3];return i(hJ(function(b,a){return dO},bl,k,bk),bd)}var
+aj=N}else
+var
+aj=ai;var
+ak=aj}else
+var
+ak=L;var
+al=ak}else
+var
+al=J;var
+am=al}else
+var
+am=ah;var
+an=am}else
+var
+an=I;var
+ao=an}else
+var
+ao=H;return ao}return 0;default:return 0}var
+bp=[0,q,t,O],bq=dO(function(a){return r(a,w,sc)},bp);return i(hJ(function(b,a){return dO},o,k,p),bq)}function
+sg(b,a){var
+c=g3(gZ,b[1],a[1]);return c?gZ(b[2],a[2]):c}function
+lZ(i,r,q,h,p,k,A,z,y,j,o,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eu(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
-f!=="number"&&7===f[0]){if(i){var
-q=f[3],r=f[2],s=H(d,r);if(s)var
-k=i$(q,b(2,b(2,b(2,b(2,b(2,b(2,c))))))),w=0===k?0:0<=k?2:1,B=1===w?1:0,j=B;else
+f!=="number"&&7===f[0]){if(k){var
+t=f[3],u=f[2],v=H(d,u);if(v)var
+B=1===jD(t,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))?1:0,l=B;else
 var
-j=s;if(j)return lG(h,g,p,o,[0,[0,[0,i[1],r],q]],a,f[1]);var
-t=j}else
+l=v;if(l)return lY(i,r,q,h,p,j,g,o,[0,[0,[0,k[1],u],t]],a,f[1]);var
+w=l}else
 var
-t=i;return t}return lG(h,g,p,o,0,a,f);case
-8:return 8===a[0]?fx(h,0,0,0,n,g,0,a[1],e):0;case
+w=k;return w}return lY(i,r,q,h,p,j,g,o,0,a,f);case
+8:return 9===a[0]?eu(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=gV(rQ,a[1],A),m=l?1:l,v=m?u(a[2],z):m;return v?ix(y,x,a[3],a[4],e):v}return 0}return 0}function
-lI(b){var
+m=g3(sg,a[1],A),n=m?1:m,x=n?s(a[2],z):n;return x?iF(y,j,a[3],a[4],e):x}return 0}return 0}function
+l0(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-rR(c){var
+sh(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
-if(8!==a[0])b=1;return b?0:1}function
-lJ(b,t,T,s,l,S,R,c,Q,P,O,j,i,aj){var
-U=ak(rR,i),W=U?kp(b,T,s,jH(w(function(b){var
-a=M(l,b[1]);if(a){var
-c=a[1];return 8===c[0]?kv(0,0,0,c[1],b[2]):0}return a},i),T),j):U,Y=ak(lI,i);if(Y)var
+switch(a[0]){case
+6:case
+8:break;default:b=1}return b?0:1}function
+l1(b,u,n,k,m,V,T,c,S,R,P,j,i,aj){var
+W=al(sh,i),X=W?kz(b,n,k,g6(w(function(c){var
+a=M(m,c[1]);if(a){var
+b=a[1];switch(b[0]){case
+8:var
+d=b[1][6];return w(function(a){var
+b=e(bu,a[2][2]);return[0,a[1],b]},d);case
+9:return kF(0,0,0,b[1],c[2]);default:return 0}}return a},i),n),j):W,Y=al(l0,i);if(Y)var
 ag=w(function(b){var
-c=lI(b);if(c){var
-a=M(l,b[1]);if(a)return lF(a[1]);var
+c=l0(b);if(c){var
+a=M(m,b[1]);if(a)return lX(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aJ(ee,e(function(a){return 0},t),ai),u=hy(b,s,ea(fO(ea(t,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aw(em,e(function(a){return 0},u),ai),y=hH(b,k,eh(fX(eh(u,0),$),_),j);else
 var
-u=Y;var
+y=Y;var
 h=i,a=aj;for(;;){if(h){var
-A=h[1],k=A[2],g=A[1],n=h[2];if(g){var
-C=r(g,a,0);if(C){var
-o=M(l,g);if(o){var
-F=lH(b,S,R,c,Q,P,O,j,u,W,o[1],k);if(F){var
-h=n,a=fy(g,a);continue}var
-G=F}else
-var
-G=o;var
+D=h[1],l=D[2],g=D[1],p=h[2];if(g){var
+F=r(g,a,0);if(F){var
+q=M(m,g);if(q){var
+G=lZ(b,n,k,V,T,c,S,R,P,j,y,X,q[1],l);if(G){var
+h=p,a=fH(g,a);continue}var
 H=G}else
 var
-H=C;return H}if(typeof
-k==="number"&&4===k){var
+H=q;var
+I=H}else
+var
+I=F;return I}if(typeof
+l==="number"&&4===l){var
 Z=0;if(c){var
-ae=0,y=e(function(a){return[0,a,X(b,a)]},j),ab=e(b0,y),aa=0,ac=f(e(aI,y),ab),ad=bN(0,function(n){return function(a){switch(a[0]){case
-0:return[0,r(a[1],n,B)];case
-1:return[0,r(a[1],s,B)];case
-2:return[0,V(b,a[1])];case
+af=0,z=e(function(a){return[0,a,U(b,a)]},j),ab=e(bu,z),aa=0,ac=f(e(aM,z),ab),ae=bU(0,function(o){return function(a){switch(a[0]){case
+0:return[0,r(a[1],o,A)];case
+1:return[0,r(a[1],k,A)];case
+2:return[0,Q(b,a[1])];case
 3:var
-c=a[2],d=a[1];return cz(function(b,a){return[0,E(b,a)]},d,c);case
+c=a[2],d=a[1];return cC(function(b,a){return[0,B(b,a)]},d,c);case
 4:var
-e=a[2],f=a[1];return cz(function(b,a){return[0,D(b,a)]},f,e);case
+e=a[2],f=a[1];return cC(function(b,a){return[0,E(b,a)]},f,e);case
 5:var
-g=a[1];return cy(function(a){return[0,af(a)]},g);case
+g=a[1];return cB(function(a){return[0,ad(a)]},g);case
 6:var
-h=a[2],i=a[1];return cz(function(c,a){return[0,v(b,c,a)]},i,h);case
+h=a[2],i=a[1];return cC(function(c,a){return[0,v(b,c,a)]},i,h);case
 7:var
-j=a[2],k=a[1];return cz(function(c,a){var
-d=b4(b,a);return x(function(a){return v(b,c,a)},d)},k,j);case
+j=a[2],l=a[1];return cC(function(c,a){var
+d=bR(b,a);return x(function(a){return v(b,c,a)},d)},l,j);case
 8:var
-l=a[1];return cy(function(a){return[0,X(b,a)]},l);case
+m=a[1];return cB(function(a){return[0,U(b,a)]},m);case
 9:var
-m=a[1];return cy(function(a){return b5(b,a)},m);default:return 0}}}(ac),t,aa),m=r(c[1],ad,ae);if(m){var
-p=L(m[1][2],d);Z=1}else
+n=a[1];return cB(function(a){return bS(b,a)},n);default:return 0}}}(ac),u,aa),o=r(c[1],ae,af);if(o){var
+s=K(o[1][2],d);Z=1}else
 var
-z=m}else
+C=o}else
 var
-z=c;if(!Z)var
-p=z;if(p){var
-h=n,a=e(function(a){return 0},a);continue}return p}var
-I=r(g,a,0);if(I){var
-q=M(l,g);if(q){var
-J=lH(b,S,R,c,Q,P,O,j,u,W,q[1],k);if(J){var
-h=n,a=fy(g,a);continue}var
-K=J}else
+C=c;if(!Z)var
+s=C;if(s){var
+h=p,a=e(function(a){return 0},a);continue}return s}var
+J=r(g,a,0);if(J){var
+t=M(m,g);if(t){var
+L=lZ(b,n,k,V,T,c,S,R,P,j,y,X,t[1],l);if(L){var
+h=p,a=fH(g,a);continue}var
+N=L}else
 var
-K=q;var
-N=K}else
+N=t;var
+O=N}else
 var
-N=I;return N}return[0,a]}}function
-lK(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+O=J;return O}return[0,a]}}function
+l2(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=lJ(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n($,p[1]):p}var
-q=lJ(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=el(a[2],b),t=lK(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=l1(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(ac,p[1]):p}var
+q=l1(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=et(a[2],b),t=l2(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
-hH(d,a){var
-e=I(a),f=q(q(i(b(2,c)),a),d);return z(t(I(d),f),e)}function
-dI(a){switch(a){case
-0:return[0,rT,rS,i(d)];case
-1:return cQ;default:var
-b=i(d),c=i(d);return[0,i(d),c,b]}}function
-fS(a){switch(a){case
-0:return rU;case
-1:return rV;default:return 0}}function
-hI(k,a,d,i,c,h){var
-e=ah(t,dI(k),i);if(h){var
+hQ(d,a){var
+e=J(a),f=p(p(j(c(2,b)),a),d);return y(u(J(d),f),e)}function
+hR(k,a,d,j,c,h){var
+e=Z(u,c$(k),j);if(h){var
 b=function(b){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=ey([0,b(function(a){return a[1]}),g,f],e);return ah(z,aZ(d,c),l)}var
-m=ey(a,c);return ah(z,aZ(d,e),m)}function
-lL(f,h,g,l,a,d){var
-e=dI(f),j=ah(t,e,a),k=ey(h,d),m=hH(e[3],a[3]),n=hH(e[2],a[2]),o=hH(e[1],a[1]),p=z(z(z(Q(d,d),o),n),m),r=Q(k,j),s=q(i(b(2,c)),r),u=z(q(g,p),s),v=ba(dH(k,j),l);return[0,hC(f,hI(f,h,g,a,d,0),v),u]}function
-hJ(c,b,a){return ba(ey(c,a),b)}function
-lM(d,c,b,a){var
-e=hJ(c,b,a);return ah(z,dI(d),e)}function
-lN(g,f,e,d,c){var
-b=lM(g,f,e,c),a=ah(t,b,d);return[0,[0,b,a],ax(Q(a,a))]}function
-fT(b,a){var
-c=aQ(a[2],b);return f(aQ(a[1],b),c)}function
-hK(d,b,a,c){if(a)var
-e=a[1],f=ca(c,fT(b,e)),i=N(c,h(fT(b,e))),j=hK(d,b,a[2],i),k=ab(f,rW),g=[0,ap(d,ab(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eE([0,b(function(a){return a[1]}),g,f],e);return Z(y,aP(d,c),l)}var
+m=eE(a,c);return Z(y,aP(d,e),m)}function
+l3(f,h,g,l,a,d){var
+e=c$(f),i=Z(u,e,a),k=eE(h,d),m=hQ(e[3],a[3]),n=hQ(e[2],a[2]),o=hQ(e[1],a[1]),q=y(y(y(N(d,d),o),n),m),r=N(k,i),s=p(j(c(2,b)),r),t=y(p(g,q),s),v=a6(b0(k,i),l);return[0,f1(f,hR(f,h,g,a,d,0),v),t]}function
+l4(d,c,b,a){var
+e=f2(c,b,a);return Z(y,c$(d),e)}function
+l5(g,f,e,d,c){var
+b=l4(g,f,e,c),a=Z(u,b,d);return[0,[0,b,a],az(N(a,a))]}function
+f3(b,a){var
+c=aV(a[2],b);return f(aV(a[1],b),c)}function
+hS(d,b,a,c){if(a)var
+e=a[1],f=cf(c,f3(b,e)),i=P(c,h(f3(b,e))),j=hS(d,b,a[2],i),k=af(f,si),g=[0,ar(d,af(f,0),k),j];else
 var
 g=a;return g}function
-hL(f,o,e,n,a){var
-h=q(I(r(0,n,i(d))),o);if(typeof
+hT(f,o,e,n,a){var
+h=p(J(r(0,n,j(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
 b=M(e,a[1]);if(b)var
-j=g(f,0,a[2]),k=j?[0,t(b[1][1][2],h)]:j;else
+i=g(f,0,a[2]),k=i?[0,u(b[1][1][2],h)]:i;else
 var
 k=b;return k;case
 3:var
 c=M(e,a[1]);if(c)var
-l=g(f,0,a[2]),m=l?[0,t(h,c[1][1][2])]:l;else
+l=g(f,0,a[2]),m=l?[0,u(h,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-lO(c,b,a){if(typeof
+l6(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=M(c,a[1]);return x(function(a){var
-c=r(0,b,i(d)),e=j(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-ez(a){return g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],a])}function
-lP(a){var
-b=ab(a,rX),c=ax(Q(ab(a,rY),b));return q(r(0,a,i(d)),c)}function
-lQ(b,a){var
-c=Q(a,ab(b,rZ));return[0,by(aZ(lP(b),a)),c]}function
-lR(e,d,a,c,b){var
-f=b[2],g=q(lP(a),f),h=c?hJ(e,d,ab(a,r0)):ab(a,r1);return t(Q(b[1][2],h),g)}function
-lS(h,g,f,d,c,b,a){var
-i=bd(c);function
-j(a){return lM(h,g,f,a)}return kC(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-lT(a){var
-b=a[3],c=a[2],d=a[1];return fH([0,[0,d,d],[0,c,c],[0,b,b]])}function
-r6(a){if(typeof
+c=r(0,b,j(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+eF(a){return g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
+l7(a){var
+b=af(a,sj),c=az(N(af(a,sk),b));return p(r(0,a,j(d)),c)}function
+l8(b,a){var
+c=N(a,af(b,sl));return[0,bD(aP(l7(b),a)),c]}function
+l9(e,d,a,c,b){var
+f=b[2],g=p(l7(a),f),h=c?f2(e,d,af(a,sm)):af(a,sn);return u(N(b[1][2],h),g)}function
+l_(h,g,f,d,c,b,a){var
+i=bg(c);function
+j(a){return l4(h,g,f,a)}return kM(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+eG(a){var
+b=r(so,a,j(d));return ag(r(0,a,j(d)),b)}function
+l$(d,i,h,a){var
+k=eG(h),l=p(p(j(c(2,b)),i),k),g=a[1][1],m=a[1][2],n=b_(c_(d),g),o=e(function(a){return p(a,l)},n);return[0,f(bi(c_(d),g),o),m]}function
+hU(a){return a[4][2]}function
+ma(a){var
+b=a[3],c=a[2],d=a[1];return fS([0,[0,d,d],[0,c,c],[0,b,b]])}function
+sx(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-lU(b,a){switch(b){case
+mb(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-fU(a){var
-b=b9(a[1],[0,d,c]);return b?b9(a[2],[0,d,c]):b}function
-hM(d,a){switch(d){case
-0:return fU(a[3]);case
+f4(a){var
+c=cd(a[1],[0,d,b]);return c?cd(a[2],[0,d,b]):c}function
+hV(d,a){switch(d){case
+0:return f4(a[3]);case
 1:return 1;default:var
-b=fU(a[1]),c=b?fU(a[2]):b;return c?fU(a[3]):c}}function
-lV(c,b){var
-a=w(function(a){return fT(c,a)},b),d=aK(aL(0,h(a)),a);return e(aI,be(function(a){return fD(a[2])},d))}function
-lW(b){var
+b=f4(a[1]),c=b?f4(a[2]):b;return c?f4(a[3]):c}}function
+mc(c,b){var
+a=w(function(a){return f3(c,a)},b),d=ax(aE(0,h(a)),a);return e(aM,bh(function(a){return fM(a[2])},d))}function
+md(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-lX(c){var
-a=c;for(;;){if(0===a[0])return ak(lW,a[1]);var
-d=ak(lW,a[1]),b=d||lX(a[3]);if(b)return b;var
+me(c){var
+a=c;for(;;){if(0===a[0])return al(md,a[1]);var
+d=al(md,a[1]),b=d||me(a[3]);if(b)return b;var
 a=a[4];continue}}function
-r7(a,aU,bJ,y,E,aT){var
-s=y[1],k=cx(s),U=y[6],bK=y[2],W=w(function(a){return fT(E,a)},bK),aV=y[3],ap=[0,[0,aV,aV],E],aa=[0,h(W)],bL=0,aW=w(function(a){return et(bL,E,a)},U),bM=fS(s),aY=lr(y[5],bM),l=aY[2],F=aY[1],bO=y[2],S=h(W),J=cv(ap,h(W)),bN=0,A=hK(function(e,a){function
-j(Y){var
-w=lN(s,F,l,e,a),x=w[1],W=ah(t,dI(s),e),y=w[2],p=x[1],X=x[2],g=hJ(F,l,a),j=ba(X,y),O=ag(Q(g,j),J),P=I(J),R=ag(Q(a,a),P),T=2<=s?d:c,U=z(i(T),R);function
-h(a){return[0,lx(a),0]}function
-f(a){return[0,ba(dH(lx(a),g),J),[0,a]]}switch(s){case
-0:var
-C=[0,f(ry),0],D=[0,h(rz),C],o=[0,h(0),D];break;case
-1:var
-E=[0,f(rA),0],G=[0,f(rB),E],H=[0,f(0),G],K=[0,h(rC),H],L=[0,h(rD),K],o=[0,h(0),L];break;default:var
-M=[0,f(rE),0],N=[0,f(rF),M],o=[0,f(0),N]}var
-k=ah(t,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=ba(k,ax(Q(k,k)));if(s)var
-n=hB(s,S,e,p,m[3]);else
+sy(a,aO,bC,B,D,aN){var
+l=B[1],k=bY(l),Y=B[6],bE=B[2],K=w(function(a){return f3(D,a)},bE),aQ=B[3],_=[0,[0,aQ,aQ],D],ab=[0,h(K)],bG=0,aR=w(function(a){return eC(bG,D,a)},Y),bH=c_(l),aS=lD(B[5],bH),m=aS[2],F=aS[1],I=cz(_,h(K)),bJ=B[2],T=h(K),bI=0,z=hS(function(e,a){function
+i(g){var
+c=bY(l);if(l)var
+b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
-A=i(d),B=i(d),n=[0,i(d),B,A];var
-r=hB(s,S,e,p,m[2]),v=hB(s,S,e,p,m[1]),V=ly(function(s,w){var
+o=j(d),b=[0,j(d),o,[0,[0,c]]];var
+t=lQ(l,F,m,e,a,b)[2],h=lQ(l,F,m,e,a,b),i=h[1],k=a6(i[2],h[2]),n=b0(i[1],k),q=Z(y,n,b0(n,b)),f=aP(lP(b),q),r=p(f[3],g),s=p(f[2],g);return[0,f1(l,k,[0,p(f[1],g),s,r]),t]}function
+k(Y){var
+w=l5(l,F,m,e,a),x=w[1],W=Z(u,c$(l),e),z=w[2],r=x[1],X=x[2],g=f2(F,m,a),i=a6(X,z),P=ag(N(g,i),I),Q=J(I),R=ag(N(a,a),Q),S=2<=l?d:b,U=y(j(S),R);function
+h(a){return[0,lJ(a),0]}function
+f(a){return[0,a6(b0(lJ(a),g),I),[0,a]]}switch(l){case
+0:var
+C=[0,f(rR),0],D=[0,h(rS),C],q=[0,h(0),D];break;case
+1:var
+E=[0,f(rT),0],G=[0,f(rU),E],H=[0,f(0),G],K=[0,h(rV),H],L=[0,h(rW),K],q=[0,h(0),L];break;default:var
+M=[0,f(rX),0],O=[0,f(rY),M],q=[0,f(0),O]}var
+k=Z(u,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),n=a6(k,az(N(k,k)));if(l)var
+o=hL(l,T,e,r,n[3]);else
+var
+A=j(d),B=j(d),o=[0,j(d),B,A];var
+t=hL(l,T,e,r,n[2]),v=hL(l,T,e,r,n[1]),V=lK(function(r,w){var
 e=w[1];function
 a(b,a){var
-c=e[3],f=c2(a,n),g=q(z(b[3],f),c),h=e[2],j=c2(a,r),k=q(z(b[2],j),h),l=e[1],m=c2(a,v),o=q(z(b[1],m),l);return z(z(z(i(d),o),k),g)}var
-x=a(n,rG),y=a(r,rH),A=[0,a(v,0),y,x],f=Q(s[1],A),l=s[2];if(l){var
+c=e[3],f=c9(a,o),g=p(y(b[3],f),c),h=e[2],i=c9(a,t),k=p(y(b[2],i),h),l=e[1],m=c9(a,v),n=p(y(b[1],m),l);return y(y(y(j(d),n),k),g)}var
+x=a(o,rZ),z=a(t,r0),A=[0,a(v,0),z,x],f=N(r[1],A),l=r[2];if(l){var
 h=l[1],m=w[2];if(m){var
-k=m[1],B=c2(h,g),C=q(c2(k,j),B),D=c2(k,g),o=z(q(c2(h,j),D),C),E=I(J);if(u(h,k))var
-F=Q(j,g),p=t(o,q(i(b(2,c)),F));else
+k=m[1],B=c9(h,g),C=p(c9(k,i),B),D=c9(k,g),n=y(p(c9(h,i),D),C),E=J(I);if(s(h,k))var
+F=N(i,g),q=u(n,p(j(c(2,b)),F));else
 var
-p=o;return z(f,ag(p,E))}return f}return f},o);return[0,hC(s,j,ba(dH(g,ba(W,y)),J)),V,U,O]}var
-k=lN(s,F,l,e,a);function
-m(b){return hI(s,F,l,e,a,b)}var
-f=2<=s?d:c;function
+q=n;return y(f,ag(q,E))}return f}return f},q);return[0,f1(l,i,a6(b0(g,a6(W,z)),I)),V,U,P]}var
+n=l5(l,F,m,e,a);function
+o(b){return hR(l,F,m,e,a,b)}var
+f=2<=l?d:b;function
 g(b){var
-c=I(J),d=i(f),e=q(t(I(b),d),c);return q(l,t(Q(a,a),e))}var
-h=[0,Q(hI(s,F,l,e,a,1),a),g];return[0,lL(s,F,l,J,e,a),h,m,k,j]},E,bO,bN),T=e(function(a){return a[1]},A),bP=N(aa,h(aW)),bQ=fS(s),bR=y[5];function
-R(a){return[0,[0,N(bQ,a)]]}var
-aJ=I([0,[1,bP]]);switch(bR[0]){case
+c=J(I),d=j(f),e=p(u(J(b),d),c);return p(m,u(N(a,a),e))}var
+h=[0,N(hR(l,F,m,e,a,1),a),g];return[0,l3(l,F,m,I,e,a),h,o,n,k,i]},D,bJ,bI),V=e(function(a){return a[1]},z),bK=P(ab,h(aR)),bL=c_(l),bM=B[5];function
+S(a){return[0,[0,P(bL,a)]]}var
+aG=J([0,[1,bK]]);switch(bM[0]){case
 2:var
-bw=R(rq),bx=R(rr),aK=[0,R(0),bx,bw],C=[0,t(aJ,Q(aK,aK))];break;case
+bq=S(rJ),br=S(rK),aH=[0,S(0),br,bq],C=[0,u(aG,N(aH,aH))];break;case
 3:var
-bz=I(R(rs)),bB=I(R(0)),bC=I(R(rt)),C=[0,t(t(q(aJ,z(i(c),bC)),bB),bz)];break;default:var
+bs=J(S(rL)),bt=J(S(0)),bv=J(S(rM)),C=[0,u(u(p(aG,y(j(b),bv)),bt),bs)];break;default:var
 C=0}var
-aZ=y[7];if(aZ)var
-bS=0,bT=y[2],aq=hK(function(j,k){var
-a=lL(s,F,l,cv(ap,h(W)),j,k),c=a[1];if(c){var
+aT=B[7];if(aT)var
+bN=0,bO=B[2],ao=hS(function(j,k){var
+a=l3(l,F,m,cz(_,h(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-i=g[1],f=dH(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},E,bT,bS);else
+i=g[1],f=b0(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bO,bN);else
 var
-aq=aZ;var
-bU=bA(aq),bV=C?[0,C[1],0]:C,bW=f(bV,bU),bX=0,bH=e(function(a){return a[1]},A),bY=[0,l,f(cw(function(c,b){if(typeof
+ao=aT;var
+bP=bF(ao),bQ=C?[0,C[1],0]:C,bR=f(bQ,bP),bS=0,bB=e(function(a){return a[1]},z),bT=[0,m,f(cA(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=lO(A,c,b);if(g)var
-i=g[1],k=[0,i[1],[0,i[2],0]];else
+g=l6(z,c,b);if(g)var
+j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(b0,fI(bH,c));case
+8:return e(bu,fT(bB,c));case
 13:var
-h=M(A,b[1]);if(h){var
-m=ez(b[4]);if(m){var
-n=lQ(c,j(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
-o=m}else
+h=M(z,b[1]);if(h){var
+n=eF(b[4]);if(n){var
+o=l8(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
+p=n}else
 var
-o=h;return o}var
-d=hL(a,l,A,c,b),p=d?[0,d[1],0]:d;return p},bX,E,aa,U),bW)],as=f(bA(T),bY),bZ=0,a0=cw(function(c,a){if(typeof
+p=h;return p;case
+16:return w(function(a){return l$(l,I,c,a)[1]},z)}var
+d=hT(a,m,z,c,b),q=d?[0,d[1],0]:d;return q},bS,D,ab,Y),bR)],ar=f(bF(V),bT),bU=0,bV=f(K,[0,_,0]),aU=cA(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-e=M(A,a[1]);if(e){if(ez(a[4]))return 0;var
-k=[0,lR(F,l,c,a[2],e[1][4]),0]}else
+g=M(z,a[1]);if(g){if(eF(a[4]))return 0;var
+n=[0,l9(F,m,b,a[2],g[1][4]),0]}else
 var
-k=e;return k;case
+n=g;return n;case
 14:var
-g=lS(s,F,l,A,c,a[1],a[2]);if(g){var
-m=g[1],n=m[2],o=m[1];return w(by,[0,o[1],[0,o[2],[0,n[1],[0,n[2],0]]]])}return g;case
+h=l_(l,F,m,z,b,a[1],a[2]);if(h){var
+o=h[1],p=o[2],q=o[1];return w(bD,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-h=M(A,a[1]);if(h){var
-b=j(h[1][5],0),p=[0,b[3],[0,b[4],0]],q=[0,r(r2,c,i(d)),p],t=[0,r(0,c,i(d)),q],u=f(fb(b[2]),t);return f(b[1],u)}return h}return 0},bZ,E,aa,U),a1=cp(e(function(a){return bc(k,a)},as))[1],a2=cp(a0)[1],Y=co(a1),at=co(a2);function
-m(a){return aX(Y,bc(k,a))}if(0===y[4][0]){var
-b1=x(m,C),b2=m(l),a3=j(ar(m),T),aQ=fS(s),aR=u(h(a3),k);if(aR)var
-aS=x(function(a){return[0,[0,a,d],d]},b1),_=function(a){return r(a,Y,i(d))},aH=_(b2),bv=aL(0,aQ),ao=n(function(a){var
-b=c0(k,a,aH),c=b?n(function(b){var
-d=b[1],c=n(function(b){var
-c=_(b);return cb(N(k,a),c)},d);if(c){var
-e=_(b[2]);return fM(aH,N(k,a),e)}return c},a3):b;if(c){if(aS){var
-e=_(aS[1][1][1]);return cb(N(k,a),e)}var
-d=1}else
+k=M(z,a[1]);if(k){var
+c=i(k[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(sp,b,j(d)),s],u=[0,r(0,b,j(d)),t],v=f(ei(c[2]),u);return f(c[1],v)}return k;case
+16:var
+x=w(function(a){var
+b=e(bu,hr(bV,hU(a)));return[0,hU(a),b]},z);return f(w(function(a){var
+c=eG(b),d=[0,i(a[6],c)[2],0],e=eG(b);return f(i(a[6],e)[1],d)},z),x)}return 0},bU,D,ab,Y),aV=ct(e(function(a){return be(k,a)},ar))[1],aW=ct(aU)[1],$=cs(aV),as=cs(aW);function
+t(a){return a1($,be(k,a))}function
+aX(i){if(0===B[4][0]){var
+q=x(t,C),u=t(m),e=c_(l),f=s(h(i),k);if(f)var
+g=x(function(a){return[0,[0,a,d],d]},q),a=function(a){return r(a,$,j(d))},c=a(u),o=aE(0,e),b=n(function(b){var
+d=c8(k,b,c),e=d?n(function(d){var
+f=d[1],e=n(function(c){var
+d=a(c);return cg(P(k,b),d)},f);if(e){var
+g=a(d[2]);return fV(c,P(k,b),g)}return e},i):d;if(e){if(g){var
+h=a(g[1][1][1]);return cg(P(k,b),h)}var
+f=1}else
 var
-d=c;return d},bv);else
+f=e;return f},o);else
 var
-ao=aR;var
-bI=ao?aQ:ao,K=bI}else
+b=f;var
+p=b?e:b;return p}return 0}var
+X=aX(i(aq(t),V)),aY=n(function(a){var
+b=be(k,a),c=j(d);return ay(r(t(a),$,c),b)},ar),aZ=aY?n(function(a){return fW(k,a)},ar):aY,a0=aZ?n(function(a){var
+b=j(d);return ay(r(a1(as,a),as,b),a)},aU):aZ,a2=a0?al(sx,Y):a0;if(a2){var
+a3=ac(B[7]);if(a3)var
+ae=a3;else{var
+bo=B[5];if(1===l&&2===bo[0])var
+bA=bo[1],bp=g(a,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],bA]);else
 var
-K=0;var
-a4=n(function(a){var
-b=bc(k,a),c=i(d);return aw(r(m(a),Y,c),b)},as),a5=a4?n(function(a){return fN(k,a)},as):a4,a6=a5?n(function(a){var
-b=i(d);return aw(r(aX(at,a),at,b),a)},a0):a5,a7=a6?ak(r6,U):a6;if(a7){var
-a8=$(y[7]);if(a8)var
-ab=a8;else{var
-bt=y[5];if(1===s&&2===bt[0])var
-bG=bt[1],bu=g(a,1,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],bG]);else
+bp=0;var
+ae=bp}}else
 var
-bu=0;var
-ab=bu}}else
+ae=a2;var
+a4=ae?hV(l,dK(B[4])):ae,a5=a4?g(a,1,B[3]):a4;if(a5)var
+bW=f0(B[5]),at=n(function(b){var
+c=c6(a,b[1]);return c?c6(a,b[2]):c},bW);else
 var
-ab=a7;var
-a9=ab?hM(s,dB(y[4])):ab,a_=a9?g(a,1,y[3]):a9;if(a_)var
-b3=fR(y[5]),au=n(function(b){var
-c=ew(a,b[1]);return c?ew(a,b[2]):c},b3);else
+at=a5;if(at){var
+bX=f(K,[0,_,0]),au=W(e(function(b){return aj(a,b)},bX));if(au){var
+av=W(e(function(b){return hE(a,b)},aR));if(av){var
+bZ=mb(l,dK(B[4])),aw=W(e(function(b){return aj(a,[0,b,D])},bZ));if(aw){var
+a8=aw[1],b1=lF(B[5]),ax=W(e(function(b){return lH(a,b)},b1));if(ax){var
+a9=ax[1],b2=lE(B[5]),aA=W(e(c5(a),b2));if(aA){var
+b3=0,G=function(a){return a1(as,a)},b4=f(K,[0,_,0]),aB=W(cA(function(k,f){if(typeof
+f!=="number")switch(f[0]){case
+13:var
+B=f[4],aK=M(z,f[1]);if(aK){if(ma(f[3])&&g(a,0,B)&&g(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],B])){var
+aL=f[2],aM=aK[1];if(eF(B)){var
+aE=l8(k,i(aM[3],aL)),V=aE[2];if(g(o,0,[3,B,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+aF=0;else
 var
-au=a_;if(au){var
-b4=f(W,[0,ap,0]),ay=ac(e(function(b){return al(a,b)},b4));if(ay){var
-az=ac(e(function(b){return hu(a,b)},aW));if(az){var
-b5=lU(s,dB(y[4])),aA=ac(e(function(b){return al(a,[0,b,E])},b5));if(aA){var
-a$=aA[1],b6=lt(y[5]),aB=ac(e(function(b){return lv(a,b)},b6));if(aB){var
-bb=aB[1],b7=ls(y[5]),aC=ac(e(function(b){return dD(a,b)},b7));if(aC){var
-b8=0,G=function(a){return aX(at,a)},aD=ac(cw(function(k,f){if(typeof
-f!=="number"&&13===f[0]){var
-w=f[4],az=M(A,f[1]);if(az){if(lT(f[3])&&g(a,0,w)&&g(a,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],w])){var
-aA=f[2],aB=az[1];if(ez(w)){var
-ax=lQ(k,j(aB[3],aA)),Q=ax[2];if(g(o,0,[3,w,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]]))var
-ay=0;else
+bc=t(V),bd=t(V),aF=[0,[6,[0,[0,e(t,aE[1]),bd],0],bc],0];var
+aN=[0,[4,t(V)],aF]}else
 var
-a1=m(Q),a2=m(Q),ay=[0,[6,[0,[0,e(m,ax[1]),a2],0],a1],0];var
-aC=[0,[4,m(Q)],ay]}else
-var
-aC=[0,[8,[3,G(lR(F,l,k,aA,aB[4]))]],0];return e(function(a){return[0,a]},aC)}return r4}return r5}var
-a3=0,q=e(function(a){return a[1]},A);function
-R(c,b,a){return[0,c,b,a,K]}var
-y=0;if(typeof
+aN=[0,[9,[3,G(l9(F,m,k,aL,aM[4]))]],0];return e(function(a){return[0,a]},aN)}return sv}return sw;case
+16:var
+Z=f[3],C=f[2],aO=f[1],be=bY(l);if(s(h(z),be)&&g(a,0,aO)&&g(a,1,C)&&g(a,1,Z)&&c6(a,Z)){var
+aG=aj(a,[0,[0,C,C],D]);if(aG){var
+bf=aG[1],aH=i(c5(a),Z);if(aH){var
+bg=aH[1],aI=W(e(function(b){return kU(a,G,b4,D,aO,C,hU(b))},z));if(aI){var
+bh=aI[1],bi=e(function(a){return l$(l,I,k,a)},z),aJ=i(aq(t),bi),Y=function(a){var
+b=c_(l),c=e(function(a){var
+b=eG(k);return G(i(a[6],b)[2])},z),d=e(function(a){var
+b=eG(k);return e(G,i(a[6],b)[1])},z),f=aX(aJ);return[0,[8,[0,aJ,t(m),f,d,c,bh,bf,bg,b,a]]]};if(2<=l)return[0,Y(1),0];var
+bj=[0,Y(1),0];return[0,Y(0),bj]}return sr}return ss}return st}return su}var
+bk=0,u=e(function(a){return a[1]},z);function
+_(c,b,a){return[0,c,b,a,X]}var
+E=0;if(typeof
 f==="number")var
-aE=m(l),h=[0,R(j(ar(m),q),aE,B)];else
+aQ=t(m),p=[0,_(i(aq(t),u),aQ,A)];else
 switch(f[0]){case
 0:var
-t=[5,[0,c,c],f[1]],z=R;y=1;break;case
+v=[5,[0,b,b],f[1]],J=_;E=1;break;case
 1:var
-aG=[5,[0,c,c],f[1]],t=aG,z=function(c,b,a){return[1,c,b,a]};y=1;break;case
+aS=[5,[0,b,b],f[1]],v=aS,J=function(c,b,a){return[1,c,b,a]};E=1;break;case
 2:var
-aH=hL(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aH);break;case
+aT=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aT);break;case
 3:var
-aI=hL(a,l,A,k,f),h=x(function(a){return[4,m(a)]},aI);break;case
+aU=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aU);break;case
 5:var
-S=f[1],aJ=al(a,[0,[0,S,S],d]),h=x(function(b){var
-c=X(a,b),d=m(l);return[2,j(ar(m),q),d,c]},aJ);break;case
+$=f[1],aV=aj(a,[0,[0,$,$],d]),p=x(function(b){var
+c=U(a,b),d=t(m);return[2,i(aq(t),u),d,c]},aV);break;case
 6:var
-C=M(A,f[1]);if(C){var
-D=lO(A,k,f);if(D){var
-T=D[1],U=g(a,1,f[2]),W=U?g(a,1,f[3]):U;if(W)var
-aK=m(T[2]),aL=m(C[1][1][2]),Y=[0,[5,[0,[0,[0,m(T[1]),0],aL],0],aK]];else
+K=M(z,f[1]);if(K){var
+L=l6(z,k,f);if(L){var
+aa=L[1],ab=g(a,1,f[2]),ac=ab?g(a,1,f[3]):ab;if(ac)var
+aW=t(aa[2]),aY=t(K[1][1][2]),ad=[0,[5,[0,[0,[0,t(aa[1]),0],aY],0],aW]];else
 var
-Y=W;var
-Z=Y}else
+ad=ac;var
+ae=ad}else
 var
-Z=D;var
-_=Z}else
-var
-_=C;var
-h=_;break;case
-7:var
-$=f[3],aa=f[2],ab=f[1],ac=M(A,ab),aD=0;if(ac){var
-ad=g(a,1,aa),ae=ad?g(a,1,$):ad;if(ae){var
-aM=[5,aa,$],t=aM,z=function(c,b,a){return[3,ab,c,b,a,K]};y=1;aD=1}else
-var
+ae=L;var
 af=ae}else
 var
-af=ac;if(!aD)var
-h=af;break;case
+af=K;var
+p=af;break;case
+7:var
+ag=f[3],ah=f[2],ai=f[1],ak=M(z,ai),aP=0;if(ak){var
+al=g(a,1,ah),am=al?g(a,1,ag):al;if(am){var
+aZ=[5,ah,ag],v=aZ,J=function(c,b,a){return[3,ai,c,b,a,X]};E=1;aP=1}else
+var
+an=am}else
+var
+an=ak;if(!aP)var
+p=an;break;case
 8:var
-ag=g(a,1,f[2]);if(ag)var
-aN=f[1],aO=1,I=n(function(b){return g(a,aO,b)},aN);else
+ao=g(a,1,f[2]);if(ao)var
+a0=f[1],a1=1,N=n(function(b){return g(a,a1,b)},a0);else
 var
-I=ag;if(I)var
-aP=V(a,c),aQ=m(l),aR=fI(q,k),ah=[0,[0,j(ar(m),aR),aQ,aP,0]];else
+N=ao;if(N)var
+a2=Q(a,b),a3=t(m),a4=fT(u,k),ap=[0,[0,i(aq(t),a4),a3,a2,0]];else
 var
-ah=I;var
-h=ah;break;case
+ap=N;var
+p=ap;break;case
 14:var
-ai=f[2],aj=f[1],J=lS(s,F,l,A,k,aj,ai);if(J){var
-ak=J[1],am=ak[2],an=ak[1],ao=lb(aj,ai,f[3]),L=al(a,[0,[0,ao,ao],E]);if(L){var
-ap=L[1],aq=H(d,ap[1]);if(aq)var
-u=function(a){return kK(G,a)},aS=u(am[2]),aT=u(am[1]),aU=u(an[2]),as=[0,[8,[6,u(an[1]),aU,aT,aS,ap]]];else
+ar=f[2],as=f[1],O=l_(l,F,m,z,k,as,ar);if(O){var
+at=O[1],au=at[2],av=at[1],aw=ls(as,ar,f[3]),P=aj(a,[0,[0,aw,aw],D]);if(P){var
+ax=P[1],ay=H(d,ax[1]);if(ay)var
+w=function(a){return kT(G,a)},a5=w(au[2]),a6=w(au[1]),a7=w(av[2]),az=[0,[9,[6,w(av[1]),a7,a6,a5,ax]]];else
 var
-as=aq;var
-at=as}else
+az=ay;var
+aA=az}else
 var
-at=L;var
-au=at}else
+aA=P;var
+aB=aA}else
 var
-au=J;var
-h=au;break;case
+aB=O;var
+p=aB;break;case
 15:var
-N=M(A,f[1]);if(N){var
-av=g(a,1,f[4]);if(av)var
-aw=g(a,0,f[2]),O=aw?g(a,0,f[3]):aw;else
+R=M(z,f[1]);if(R){var
+aC=g(a,1,f[4]);if(aC)var
+aD=g(a,0,f[2]),S=aD?g(a,0,f[3]):aD;else
 var
-O=av;if(O)var
-v=j(N[1][5],0),aV=G(v[4]),aW=G(v[3]),aX=G(r(r3,k,i(d))),aY=G(r(0,k,i(d))),aZ=v[2],a0=e(function(a){return e(G,a)},aZ),P=[0,[8,[10,e(G,v[1]),a0,aY,aX,aW,aV]]];else
+S=aC;if(S)var
+y=i(R[1][5],0),a8=G(y[4]),a9=G(y[3]),a_=G(r(sq,k,j(d))),a$=G(r(0,k,j(d))),ba=y[2],bb=e(function(a){return e(G,a)},ba),T=[0,[9,[10,e(G,y[1]),bb,a$,a_,a9,a8]]];else
 var
-P=O}else
+T=S}else
 var
-P=N;var
-h=P;break;default:var
-h=0}if(y)var
-aF=al(a,[0,[0,t,t],d]),h=x(function(b){var
-c=X(a,b),d=m(l);return z(j(ar(m),q),d,c)},aF);return[0,h,a3]},b8,E,aa,U));if(aD){var
-bd=aD[1];if(y[7])var
-b9=aU[2],b_=aU[1],b$=m(l),ad=kY(bJ,bd,[7,j(ar(m),aq),b$,b_,b9]);else
+T=R;var
+p=T;break;default:var
+p=0}if(E)var
+aR=aj(a,[0,[0,v,v],d]),p=x(function(b){var
+c=U(a,b),d=t(m);return J(i(aq(t),u),d,c)},aR);return[0,p,bk]},b3,D,ab,Y));if(aB){var
+a_=aB[1];if(B[7])var
+b5=aO[2],b6=aO[1],b7=t(m),af=k8(bC,a_,[7,i(aq(t),ao),b7,b6,b5]);else
 var
-ad=bd;var
-bf=u(h(f(a$,bb)),k),bg=bf?n(function(a){var
-b=lF(a);return n(function(a){return lp(k,Y,a)},b)},ad):bf,bh=bg?C?lp(k,Y,m(C[1])):1:bg;if(bh){var
-ca=f(az[1],aC[1]),L=f(ay[1],ca),O=lX(aT),P=lV(E,y[2]),Z=O?e(function(a){var
-b=lD(k,P,a[2]),c=a[1];return[0,e(function(a){return lD(k,P,a)},c),b]},T):O,aE=O?cp(hG(k,l,C,Z))[1]:O,aF=co(aE),ae=function(a){return aX(aF,a)},cc=hE(ae,ae,Z),cd=ae(bc(k,l)),aG=x(function(a){return ae(bc(k,a))},C),bj=$(O);if(bj)var
-ai=bj;else{var
-bs=u(h(T),k);if(bs){var
-bE=hG(k,l,C,Z),aN=n(function(a){var
-b=i(d);return aw(r(aX(aF,a),aF,b),a)},bE);if(aN)var
-bF=hG(k,l,C,Z),aj=n(function(a){var
-b=aL(0,k);return n(function(b){return dE(k,b,a)},b)},bF);else
+af=a_;var
+a$=s(h(f(a8,a9)),k),ba=a$?n(function(a){var
+b=lX(a);return n(function(a){return lB(k,$,a)},b)},af):a$,bb=ba?C?lB(k,$,t(C[1])):1:ba;if(bb){var
+b8=f(av[1],aA[1]),L=f(au[1],b8),O=me(aN),R=mc(D,B[2]),aa=O?e(function(a){var
+b=lV(k,R,a[2]),c=a[1];return[0,e(function(a){return lV(k,R,a)},c),b]},V):O,aC=O?ct(hP(k,m,C,aa))[1]:O,aD=cs(aC),ah=function(a){return a1(aD,a)},b9=hN(ah,ah,aa),b_=ah(be(k,m)),aF=x(function(a){return ah(be(k,a))},C),bc=ac(O);if(bc)var
+ai=bc;else{var
+bn=s(h(V),k);if(bn){var
+bx=hP(k,m,C,aa),aJ=n(function(a){var
+b=j(d);return ay(r(a1(aD,a),aD,b),a)},bx);if(aJ)var
+bz=hP(k,m,C,aa),ak=n(function(a){var
+b=aE(0,k);return n(function(b){return dM(k,b,a)},b)},bz);else
 var
-aj=aN;if(aj){var
-aO=x(function(a){return bc(k,a)},C),am=bc(k,l),aM=lz(am);if(aM)var
-bD=aL(0,K),aP=n(function(a){var
-b=c0(k,a,am),c=b?n(function(b){var
-d=b[2][2],e=f(w(hF,b[1]),d),g=N(k,a),c=n(function(a){return cb(g,a)},e);if(c){var
-h=b[2][1];return fM(am,N(k,a),h)}return c},Z):b;if(c){if(aO){var
-e=aO[1];return cb(N(k,a),e)}var
+ak=aJ;if(ak){var
+aK=x(function(a){return be(k,a)},C),am=be(k,m),aI=lR(am);if(aI)var
+bw=aE(0,X),aL=n(function(a){var
+b=c8(k,a,am),c=b?n(function(b){var
+d=b[2][2],e=f(w(hO,b[1]),d),g=P(k,a),c=n(function(a){return cg(g,a)},e);if(c){var
+h=b[2][1];return fV(am,P(k,a),h)}return c},aa):b;if(c){if(aK){var
+e=aK[1];return cg(P(k,a),e)}var
 d=1}else
 var
-d=c;return d},bD);else
+d=c;return d},bw);else
 var
-aP=aM;var
-an=aP}else
+aL=aI;var
+an=aL}else
 var
-an=aj;var
-cj=an?n(function(a){var
-c=a[1],b=n(function(a){return lE(k,L,P,a)},c);return b?lE(k,L,P,a[2]):b},T):an,ai=cj}else
+an=ak;var
+ce=an?n(function(a){var
+c=a[1],b=n(function(a){return lW(k,L,R,a)},c);return b?lW(k,L,R,a[2]):b},V):an,ai=ce}else
 var
-ai=bs}if(ai){var
-ce=e(function(a){return 1},ad),cf=f(a$,bb),cg=function(N,aa,$,c){if(O){if(typeof
+ai=bn}if(ai){var
+b$=e(function(a){return 1},af),ca=f(a8,a9),cb=function(M,ab,aa,c){if(O){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],m=c[2],o=c[1];if(typeof
 o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
-t=g[1],b=o[1],w=u($,K),x=w?cl(0,K):w;if(x)var
-s=gV(gR,e(aI,m),P),Y=s?1:s,p=Y;else
+u=g[1],b=o[1],w=s(aa,X),x=w?by(0,X):w;if(x)var
+t=g3(gZ,e(aM,m),R),Z=t?1:t,p=Z;else
 var
 p=x;var
-y=p?ks(P):p,z=y?n(function(a){return cl(a,h(L))},P):y,A=z?u(h(t),k):z;if(A){var
+y=p?kC(R):p,z=y?n(function(a){return by(a,h(L))},R):y,A=z?s(h(u),k):z;if(A){var
 q=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-G=b[2],F=b[1],E=0;q=1;break;case
+G=b[2],F=b[1],D=0;q=1;break;case
 7:var
-I=b[2],i=b[1],Q=0;if(typeof
-i!=="number"&&0===i[0]){var
-R=0;if(aG){var
+I=b[2],j=b[1],N=0;if(typeof
+j!=="number"&&0===j[0]){var
+P=0;if(aF){var
 J=H(d,I);if(J){var
-G=i[2],F=i[1],E=[0,[0,[0,aG[1],I],b[3]]];q=1;Q=1;R=1}else
+G=j[2],F=j[1],D=[0,[0,[0,aF[1],I],b[3]]];q=1;N=1;P=1}else
 var
-M=J}else
+K=J}else
 var
-M=aG;if(!R)return M}if(!Q)return 0;break}if(q){var
-S=hy(a,ha(m,0,L),aE,N),l=hy(a,L,aE,N),f=function(b,a){return r(a,b,rL)},T=lB(function(a){return f(l,a)},E),U=f(l,cd),W=function(a){return f(l,a)},X=[0,hE(function(a){return f(S,a)},W,cc),U,T],Z=kl(m,L),_=function(g){var
-b=ac(e(rJ,g[1]));if(b){var
+K=aF;if(!P)return K}if(!N)return 0;break}if(q){var
+S=hH(a,hi(m,0,L),aC,M),l=hH(a,L,aC,M),f=function(b,a){return r(a,b,sb)},T=lT(function(a){return f(l,a)},D),U=f(l,b_),V=function(a){return f(l,a)},Y=[0,hN(function(a){return f(S,a)},V,b9),U,T],_=kv(m,L),$=function(g){var
+b=W(e(r$,g[1]));if(b){var
 c=g[2];if(c){var
-d=c1(g[3]);if(d){var
-l=d[1],m=av([0,D(af(v(a,aa,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=km(a,0,Z,d),c=be(rK,b[2]);return[0,b[1],c]},n),f=ki(a,e(function(b){return V(a,b)},t),F,G,o,m);if(f)return bi(a,k,f[1]);var
+d=cD(g[3]);if(d){var
+l=d[1],m=ap([0,E(ad(v(a,ab,c[1])),l),0],k),n=b[1],o=e(function(d){var
+b=kw(a,0,_,d),c=bh(sa,b[2]);return[0,b[1],c]},n),f=ks(a,e(function(b){return Q(a,b)},u),F,G,o,m);if(f)return a7(a,k,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4189,113 +4360,113 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j};return j(lk(function(b,a){return rI},K,k,_),X)}var
+j=b;return j};return i(hJ(function(b,a){return r_},X,k,$),Y)}var
 B=0}else
 var
 B=A;var
 C=B}else
 var
-C=g;return C}return 0}return 0}return O},ch=m(l),ci=j(ar(m),T);return lK(a,a1,a2,L,ad,k,k,x(m,C),ci,ch,cg,cf,ce,aT)}var
-bk=ai}else
+C=g;return C}return 0}return 0}return O},cc=t(m),cd=i(aq(t),V);return l2(a,aV,aW,L,af,k,k,x(t,C),cd,cc,cb,ca,b$,aN)}var
+bd=ai}else
 var
-bk=bh;var
+bd=bb;var
+bf=bd}else
+var
+bf=aB;var
+bg=bf}else
+var
+bg=aA;var
+bi=bg}else
+var
+bi=ax;var
+bj=bi}else
+var
+bj=aw;var
+bk=bj}else
+var
+bk=av;var
 bl=bk}else
 var
-bl=aD;var
+bl=au;var
 bm=bl}else
 var
-bm=aC;var
-bn=bm}else
-var
-bn=aB;var
-bo=bn}else
-var
-bo=aA;var
-bp=bo}else
-var
-bp=az;var
-bq=bp}else
-var
-bq=ay;var
-br=bq}else
-var
-br=au;return br}function
-eA(b,a){return bg(b,a[1],a[2])}function
-lY(b,a){var
-c=eA(b,a[1]),d=c?eA(b,a[2]):c;return d?eA(b,a[3]):d}function
-a6(a){return typeof
-a==="number"?a?r8:r9:cx(a[1])}function
-lZ(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hw(b[1],a,c)}function
-fV(a){if(0===a[0]){var
-b=a[1];switch(b[0]){case
-0:return b[3];case
-1:return b[2];default:return[0,[0,d,c],[0,d,c],[0,d,c]]}}return a[1][4]}function
-hN(b,c,a){return b?fJ(b[1],c,a):a}function
-cc(d,c,b,a){var
-e=fV(a),f=hN(d,c,fV(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-l0(b,a){var
+bm=at;return bm}function
+eH(b,a){return bk(b,a[1],a[2])}function
+mf(b,a){var
+c=eH(b,a[1]),d=c?eH(b,a[2]):c;return d?eH(b,a[3]):d}function
+a$(a){return typeof
+a==="number"?a?sz:sA:bY(a[1])}function
+mg(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hF(b[1],a,c)}function
+f5(a){if(0===a[0]){var
+c=a[1];switch(c[0]){case
+0:return c[3];case
+1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
+hW(b,c,a){return b?fQ(b[1],c,a):a}function
+ch(d,c,b,a){var
+e=f5(a),f=hW(d,c,f5(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+mh(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-l1(b,w,v){var
+mi(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kN(b,j[1],f[1]):0;else
+h=0===f[0]?kX(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a3(b,c[1],a[1]),l=k?a3(b,c[2],a[2]):k,m=l?a3(b,c[3],a[3]):l,n=m?a3(b,c[4],a[4]):m,o=n?cT(b,c[5],a[5]):n,p=o?cT(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,R(a[1],a[1])):r;if(s)var
-u=hm(a),i=g(b,1,R(hm(a),u));else
+a=f[1],c=j[1],k=a8(b,c[1],a[1]),l=k?a8(b,c[2],a[2]):k,m=l?a8(b,c[3],a[3]):l,n=m?a8(b,c[4],a[4]):m,o=n?cZ(b,c[5],a[5]):n,p=o?cZ(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,S(a[1],a[1])):r;if(s)var
+u=hv(a),i=g(b,1,S(hv(a),u));else
 var
 i=s;var
-h=i?ck(c[7],a[7]):i}if(h){var
+h=i?co(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-l2(a){return typeof
-a==="number"?a?dI(0):cQ:dI(a[1])}function
-hO(b,d,c){if(0===c[0])return fA(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aQ(a[4],b),e),h=f(aQ(a[3],b),g),i=f(aQ(a[2],d[2]),h);return f(aQ(a[1],d[1]),i)}function
-hP(b,a){if(b){var
-c=b[1],d=c[2];return ba(ey(c[1],a),d)}return a}function
-l3(f,u,am,K,al,s,ak){if(s){var
-k=s[1],an=bv([0,d,d],al),a=ca(ak,hO(K,an,k)),y=function(c,b){var
-d=ab(a,c);return ah(t,ah(z,l2(f),b),d)};if(0===k[0]){var
+mj(a){return typeof
+a==="number"?a?c$(0):cW:c$(a[1])}function
+hX(b,d,c){if(0===c[0])return fJ(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aV(a[4],b),e),h=f(aV(a[3],b),g),i=f(aV(a[2],d[2]),h);return f(aV(a[1],d[1]),i)}function
+hY(b,a){if(b){var
+c=b[1],d=c[2];return a6(eE(c[1],a),d)}return a}function
+mk(f,t,am,K,al,s,ak){if(s){var
+k=s[1],an=bz([0,d,d],al),a=cf(ak,hX(K,an,k)),z=function(c,b){var
+d=af(a,c);return Z(u,Z(y,mj(f),b),d)};if(0===k[0]){var
 A=k[1];switch(A[0]){case
 0:var
-$=hP(u,ab(a,r_)),aE=A[1][5],B=r(r$,a,i(d)),C=ab(a,0),aa=y(sa,$),j=j9(aa,cP(C),aa,B,aE),ap=[0,ax(B),0],aq=[0,ax(Q(C,C)),ap],l=[0,[0,j[1],j[2],j[3],[0,j[4]],[0,[0,j[2],B]],aq],$];break;case
+aa=hY(t,af(a,sB)),aE=A[1][5],B=r(sC,a,j(d)),C=af(a,0),ab=z(sD,aa),i=ki(ab,cV(C),ab,B,aE),ap=[0,az(B),0],aq=[0,az(N(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],aa];break;case
 1:var
-ac=hP(u,ab(a,sb)),ad=A[3],D=ad?[0,ab(a,sc)]:ad,ae=y(0,ac),m=j_(ae,ae,0);if(D)var
-L=D[1],M=[0,ax(Q(L,L)),0];else
+ac=hY(t,af(a,sE)),ad=A[3],D=ad?[0,af(a,sF)]:ad,ae=z(0,ac),m=kj(ae,ae,0);if(D)var
+L=D[1],M=[0,az(N(L,L)),0];else
 var
 M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=i(d),aG=i(d),aH=[0,i(d),aG,aF],E=ab(a,0),aI=l2(f),n=j$(aI,cP(E)),ar=[0,ax(Q(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=j(d),aG=j(d),aH=[0,j(d),aG,aF],E=af(a,0),aI=mj(f),n=kk(aI,cV(E)),ar=[0,az(N(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=hP(u,ab(a,sd)),F=k[1][7],G=r(se,a,i(d)),e=r(sf,a,i(d)),ai=ab(a,sg),H=ab(a,0),p=y(sh,af),o=cP(H),v=ah(t,ai,aZ(Q(o,ai),o)),w=cP(v),O=dH(o,w),P=Q(p,w),R=Q(p,O),as=Q(o,p),at=I(R),S=z(I(P),at),au=I(as),T=t(I(G),au),av=q(i(b(2,c)),e),x=t(S,I(ag(z(S,t(I(e),T)),av))),aw=fp(F,q(e,ax(x))),U=ag(P,e),V=fp(F,ag(R,e)),W=ag(T,I(e)),X=jF(0,U,V,W),Y=fp(F,jF(1,U,V,W)),ay=aZ(Y,O),Z=ah(t,p,aZ(e,ah(z,aZ(X,w),ay))),az=[0,ax(G),0],aA=[0,ax(e),az],aB=[0,ax(Q(v,v)),aA],aC=[0,ax(Q(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(I(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=N(ak,h(hO(K,an,k))),aQ=s[2],aR=l3(f,u,am,K,bd(al),aQ,aP),g=l[1],aS=l[2],aj=function(a){var
-b=ba(dH(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:by(a):hC(f[1],a,b)},J=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,J[1],[0,J[2],0]]:by(J):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ah=hY(t,af(a,sG)),F=k[1][7],G=r(sH,a,j(d)),e=r(sI,a,j(d)),ai=af(a,sJ),H=af(a,0),q=z(sK,ah),o=cV(H),v=Z(u,ai,aP(N(o,ai),o)),w=cV(v),O=b0(o,w),Q=N(q,w),R=N(q,O),as=N(o,q),at=J(R),S=y(J(Q),at),au=J(as),T=u(J(G),au),av=p(j(c(2,b)),e),x=u(S,J(ag(y(S,u(J(e),T)),av))),aw=fz(F,p(e,az(x))),U=ag(Q,e),V=fz(F,ag(R,e)),W=ag(T,J(e)),X=jP(0,U,V,W),Y=fz(F,jP(1,U,V,W)),ax=aP(Y,O),_=Z(u,q,aP(e,Z(y,aP(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(N(v,v)),aA],aC=[0,az(N(H,H)),aB],aD=a6(_,aw),l=[0,[0,_,p(J(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],ah];var
+aQ=P(ak,h(hX(K,an,k))),aR=s[2],aS=mk(f,t,am,K,bg(al),aR,aQ),g=l[1],aT=l[2],aj=function(a){var
+b=a6(b0(aT,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bD(a):f1(f[1],a,b)},I=g[1],$=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=$?f?[0,I[1],[0,I[2],0]]:bD(I):$,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aS]}else
 var
 ao=s;return ao}function
-hQ(c,b,a){if(a){var
-e=a[2],g=hQ(c,bd(b),e),h=a[1];return f(hO(c,bv([0,d,d],b),h),g)}return a}function
-l4(a){if(a){var
+hZ(c,b,a){if(a){var
+e=a[2],g=hZ(c,bg(b),e),h=a[1];return f(hX(c,bz([0,d,d],b),h),g)}return a}function
+ml(a){if(a){var
 b=a[1][6];if(b)var
-c=l4(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=ml(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return si}function
-l5(y,V,b){function
-c(a){return r(a,V,i(d))}function
+d=b;return d}return sL}function
+mm(z,V,b){function
+c(a){return r(a,V,j(d))}function
 O(a){var
-e=a[2],f=q(I(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dk(function(b,a){return t(b,I(a))},g,f),d],b]}function
+e=a[2],f=p(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,cQ(function(b,a){return u(b,J(a))},g,f),d],b]}function
 P(e){var
 a=e[6];if(a)var
-b=a[1],f=I(b[2]),g=q(I(c(0)),f),d=[0,[0,t(b[1],g),0],0];else
+b=a[1],f=J(b[2]),g=p(J(c(0)),f),d=[0,[0,u(b[1],g),0],0];else
 var
 d=a;return d}var
 D=0;if(typeof
@@ -4305,17 +4476,17 @@ switch(b[0]){case
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,t(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,u(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,t(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,u(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(sj),b),g=[0,[0,t(q(c(sk),d),f),0],0],h=q(d,c(sl));return[0,[0,t(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=p(c(sM),b),g=[0,[0,u(p(c(sN),d),f),0],0],h=p(d,c(sO));return[0,[0,u(p(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4331,160 +4502,160 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=l4(y);if(B){var
-aa=c(0),Q=dk(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
-h=C[2],j=C[1];if(j){var
-k=j[2],E=j[1];if(k){var
+B=ml(z);if(B){var
+aa=c(0),Q=cQ(p,B[1],aa),C=e(function(a){return a[5]},z);if(C){var
+h=C[2],i=C[1];if(i){var
+k=i[2],E=i[1];if(k){var
 l=k[2],F=k[1];if(l)if(l[2]||!h)var
-a=i(d);else{var
+a=j(d);else{var
 m=h[2],n=h[1];if(n){var
 o=n[2],G=n[1];if(o){var
-p=o[2],H=o[1];if(p){var
-J=p[1];if(p[2]||!m)var
-a=i(d);else{var
+q=o[2],H=o[1];if(q){var
+I=q[1];if(q[2]||!m)var
+a=j(d);else{var
 s=m[1];if(s){var
-u=s[2],K=s[1];if(u){var
-v=u[2],L=u[1];if(v){var
+t=s[2],K=s[1];if(t){var
+v=t[2],L=t[1];if(v){var
 N=v[1];if(v[2]||m[2])var
-a=i(d);else
+a=j(d);else
 var
-S=cS(G,H,K,L),T=q(l[1],S),U=q(F,cS(G,J,K,N)),a=z(t(q(E,cS(H,J,L,N)),U),T)}else
+S=cY(G,H,K,L),T=p(l[1],S),U=p(F,cY(G,I,K,N)),a=y(u(p(E,cY(H,I,L,N)),U),T)}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}}else
+a=j(d)}}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}else
+a=j(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?i(d):h[2]?i(d):cS(E,F,w[1],x[1]):i(d);else
+x=w[2],a=x?x[2]?j(d):h[2]?j(d):cY(E,F,w[1],x[1]):j(d);else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d)}else
+a=j(d)}else
 var
-a=i(d);var
-ab=[0,bf(z(a,Q)),0],R=[0,[0,t(a,Q),ab],0]}else
+a=j(d);var
+ab=[0,bj(y(a,Q)),0],R=[0,[0,u(a,Q),ab],0]}else
 var
 R=B;return R;default:D=1}if(D)return 0;var
-A=M(y,f);return A?g(A[1]):A}function
-dJ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eB(a){return e(function(a){var
-b=i(c);return[0,a[3],b]},a)}function
-l6(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bA(fI(dJ(c),b));return fb(l5(c,b,a))}function
-l7(f,h,l,H,G,s,a){if(typeof
-a==="number")return[0,[0,[0,B]],0];else
+A=M(z,f);return A?g(A[1]):A}function
+dQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eI(a){return e(function(a){var
+c=j(b);return[0,a[3],c]},a)}function
+mn(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bF(fT(dQ(c),b));return ei(mm(c,b,a))}function
+mo(f,h,l,H,G,s,a){if(typeof
+a==="number")return[0,[0,[0,A]],0];else
 switch(a[0]){case
 0:var
-I=[5,[0,c,c],a[1]],i=I,m=function(a){return[0,a]};break;case
+I=[5,[0,b,b],a[1]],j=I,m=function(a){return[0,a]};break;case
 1:var
-L=[5,[0,c,c],a[1]],i=L,m=function(a){return[1,a]};break;case
+L=[5,[0,b,b],a[1]],j=L,m=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=al(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,X(f,a)]},Q),P];case
+y=a[1],P=0,R=aj(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,U(f,a)]},R),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!M(l,C))return so;var
-F=0;if(g(f,1,A)&&g(f,1,z))var
-R=[5,A,z],i=R,m=function(a){return[7,C,a]};else
-F=1;if(F)return sn;break;case
+z=a[3],B=a[2],C=a[1];if(!M(l,C))return sR;var
+F=0;if(g(f,1,B)&&g(f,1,z))var
+S=[5,B,z],j=S,m=function(a){return[7,C,a]};else
+F=1;if(F)return sQ;break;case
 8:var
-D=g(f,1,a[2]),S=0;if(D)var
-T=a[1],U=1,q=n(function(a){return g(f,U,a)},T);else
+D=g(f,1,a[2]),T=0;if(D)var
+V=a[1],W=1,p=n(function(a){return g(f,W,a)},V);else
 var
-q=D;if(q)var
-W=V(f,c),Y=fI(dJ(l),s),E=[0,[4,j(ar(h),Y),W]];else
+p=D;if(p)var
+X=Q(f,b),Y=fT(dQ(l),s),E=[0,[4,i(aq(h),Y),X]];else
 var
-E=q;return[0,E,S];default:var
+E=p;return[0,E,T];default:var
 r=0;if(typeof
 a==="number")r=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],t]):v,k=O;break;case
+t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],t]):v,k=O;break;case
 6:case
 9:var
 w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:r=1}if(r)var
 k=1;var
-o=k?l5(l,s,a):k;if(o){var
+o=k?mm(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=j(h,b[1]);return[0,[5,j(h,c),e]]}var
-d=[0,[3,j(h,c)]]}else
+e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
+d=[0,[3,i(h,c)]]}else
 var
-d=a;return d},N)}return sm}var
-J=0,K=al(f,[0,[0,i,i],ht(H,G)]);return[0,x(function(a){return m(X(f,a))},K),J]}function
-l8(a){if(typeof
+d=a;return d},N)}return sP}var
+J=0,K=aj(f,[0,[0,j,j],hD(H,G)]);return[0,x(function(a){return m(U(f,a))},K),J]}function
+mp(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-sq(b){if(0===b[0])return[0,kW(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bj(a[4]),g=bj(a[3]),h=bj(a[2]);return[1,[0,bj(a[1]),h,g,f,e,d,c]]}function
-sr(J,c,a,k,ap,aT){var
-aU=e(sq,a[2]),aq=l1(J,a[2],aU);if(aq)var
-aV=hl(a[4]),K=cU(J,a[4],aV);else
+sT(b){if(0===b[0])return[0,k6(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bl(a[4]),g=bl(a[3]),h=bl(a[2]);return[1,[0,bl(a[1]),h,g,f,e,d,c]]}function
+sU(J,c,a,k,ap,aT){var
+aU=e(sT,a[2]),ar=mi(J,a[2],aU);if(ar)var
+aV=hu(a[4]),K=c0(J,a[4],aV);else
 var
-K=aq;if(K){var
+K=ar;if(K){var
 as=a[5];if(as)var
-aW=fR(as[1]),at=n(function(a){return eA(J,a)},aW);else
+aW=f0(as[1]),at=n(function(a){return eH(J,a)},aW);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ay=a6(b),q=a[6],z=hQ(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
+b=a[1],ax=a$(b),q=a[6],z=hZ(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
 c=typeof
-b==="number"?0:fS(b[1]);return lr(a,c)},az),aB=a[2],l=l3(b,aA,cv(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cw(function(a,b){return l6(l,a,b)},o,k,S,q)),aD=f(bA(eB(l)),aC),U=f(bA(dJ(l)),aD),V=cp(U)[1],W=co(V),p=function(a){return aX(W,a)},X=n(function(a){var
-b=i(d);return aw(r(p(a),W,b),a)},U),Y=X?ak(l8,q):X;if(Y){var
-Z=a[4];if(typeof
+b==="number"?0:c_(b[1]);return lD(a,c)},az),aB=a[2],l=mk(b,aA,cz(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cA(function(a,b){return mn(l,a,b)},o,k,S,q)),aD=f(bF(eI(l)),aC),U=f(bF(dQ(l)),aD),V=ct(U)[1],X=cs(V),p=function(a){return a1(X,a)},Y=n(function(a){var
+b=j(d);return ay(r(p(a),X,b),a)},U),Z=Y?al(mp,q):Y;if(Z){var
+_=a[4];if(typeof
 b==="number")var
-_=b?hM(0,dB(Z)):1;else
+$=b?hV(0,dK(_)):1;else
 var
-av=dB(Z),_=hM(b[1],av);var
-B=_}else
+av=dK(_),$=hV(b[1],av);var
+B=$}else
 var
-B=Y;if(B){var
+B=Z;if(B){var
 N=a[1];if(typeof
 N==="number")var
-s=a[5]?0:1;else
+t=a[5]?0:1;else
 if(2<=N[1])var
-s=0;else{var
+t=0;else{var
 v=a[5],M=0;if(v){var
 O=g(c,1,a[3]);if(O)var
-ax=fR(v[1]),s=n(function(a){var
-b=ew(c,a[1]);return b?ew(c,a[2]):b},ax);else{var
+aw=f0(v[1]),t=n(function(a){var
+b=c6(c,a[1]);return b?c6(c,a[2]):b},aw);else{var
 P=O;M=1}}else{var
 P=v;M=1}if(M)var
-s=P}var
-C=s}else
+t=P}var
+C=t}else
 var
 C=B;if(C)var
 aE=a[2],D=n(function(a){var
-b=0===a[0]?0:1;return ck(b,o)},aE);else
+b=0===a[0]?0:1;return co(b,o)},aE);else
 var
 D=C;if(D){var
-aF=f(z,[0,R,0]),E=ac(e(function(a){return al(c,a)},aF));if(E){var
-aG=w(function(a){return et(o,k,a)},q),F=ac(e(function(a){return hu(c,a)},aG));if(F){var
-m=dB(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:lU(b[1],m),G=ac(e(function(a){return al(c,[0,a,k])},aH));if(G){var
-$=G[1],aa=a[5];if(aa)var
-aI=lt(aa[1]),t=ac(e(function(a){return lv(c,a)},aI));else
+aF=f(z,[0,R,0]),E=W(e(function(a){return aj(c,a)},aF));if(E){var
+aG=w(function(a){return eC(o,k,a)},q),F=W(e(function(a){return hE(c,a)},aG));if(F){var
+m=dK(a[4]),aH=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:mb(b[1],m),G=W(e(function(a){return aj(c,[0,a,k])},aH));if(G){var
+aa=G[1],ab=a[5];if(ab)var
+aI=lF(ab[1]),u=W(e(function(a){return lH(c,a)},aI));else
 var
-t=sp;if(t){var
-ab=t[1],y=a[5],aJ=y?ls(y[1]):y,H=ac(e(function(a){return dD(c,a)},aJ));if(H){var
-I=ac(cw(function(a,b){return l7(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
-ad=I[1],ae=u(h(f($,ab)),ay);if(ae){var
-aK=hf(ad),aL=f($,ab),au=0,aM=a[4];if(typeof
+u=sS;if(u){var
+ac=u[1],y=a[5],aJ=y?lE(y[1]):y,H=W(e(c5(c),aJ));if(H){var
+I=W(cA(function(a,b){return mo(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
+ad=I[1],ae=s(h(f(aa,ac)),ax);if(ae){var
+aK=hn(ad),aL=f(aa,ac),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kM(c,aM,k,a)};au=1}if(!au)var
+af=function(a){return kW(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eB(l),aR=j(ar(p),aQ),aS=dJ(l);return fz(c,V,j(ar(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eI(l),aR=i(aq(p),aQ),aS=dQ(l);return fI(c,V,i(aq(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
 var
 ag=I;var
@@ -4493,11 +4664,11 @@ var
 ah=H;var
 ai=ah}else
 var
-ai=t;var
-aj=ai}else
+ai=u;var
+ak=ai}else
 var
-aj=G;var
-am=aj}else
+ak=G;var
+am=ak}else
 var
 am=F;var
 an=am}else
@@ -4506,7 +4677,7 @@ an=E;var
 ao=an}else
 var
 ao=D;return ao}return L}function
-bD(c){var
+bJ(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4515,126 +4686,126 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bD(a[2]);return f(bD(a[1]),e)}}function
-bk(e,a,b){switch(a[0]){case
+e=bJ(a[2]);return f(bJ(a[1]),e)}}function
+bm(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return cv([0,[0,r,r],d],b);case
+r=a[1];return cz([0,[0,r,r],d],c);case
 1:var
-u=a[1],g=e,v=i(d);for(;;){if(g){var
-n=g[1];if(pt(n[1],u))return n[2];var
+t=a[1],g=e,v=j(d);for(;;){if(g){var
+n=g[1];if(pN(n[1],t))return n[2];var
 g=g[2];continue}return v}case
-2:return bf(bk(e,a[1],b));case
+2:return bj(bm(e,a[1],c));case
 3:var
-k=a[2],f=a[1],j=z;break;case
+k=a[2],f=a[1],i=y;break;case
 4:var
-k=a[2],f=a[1],j=t;break;case
+k=a[2],f=a[1],i=u;break;case
 5:var
-k=a[2],f=a[1],j=q;break;case
+k=a[2],f=a[1],i=p;break;case
 6:var
-k=a[2],f=a[1],j=ag;break;case
+k=a[2],f=a[1],i=ag;break;case
 7:var
-l=d9(a[2]),m=bk(e,a[1],b);if(l){if(l[1]){var
-o=I(m),s=function(a){return q(a,o)},p=e6(bL(jo(l)),s,o);return jn(l)?p:q(p,m)}return m}return i(c);default:return ax(bk(e,a[1],b))}var
-w=bk(e,k,N(b,h(bD(f))));return j(bk(e,f,b),w)}function
-cA(c,g,b){var
+l=ee(a[2]),m=bm(e,a[1],c);if(l){if(l[1]){var
+o=J(m),s=function(a){return p(a,o)},q=fe(bx(jx(l)),s,o);return jw(l)?q:p(q,m)}return m}return j(b);default:return az(bm(e,a[1],c))}var
+w=bm(e,k,P(c,h(bJ(f))));return i(bm(e,f,c),w)}function
+cE(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=N(b,h(bD(e))),l=cA(c,a[2],k),m=f(cA(c,e,b),l);return[0,bk(c,a,b),m];case
+e=a[1],k=P(b,h(bJ(e))),l=cE(c,a[2],k),m=f(cE(c,e,b),l);return[0,bm(c,a,b),m];case
 8:var
-n=cA(c,a[1],b);return[0,bk(c,a,b),n];case
+n=cE(c,a[1],b);return[0,bm(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=N(b,h(bD(d))),j=cA(c,a[2],i);return f(cA(c,d,b),j)}}function
-l9(c,a,b){if(a){var
-e=a[1],d=e[2],g=N(b,h(bD(d))),i=a[2],j=bk(c,d,b),k=l9([0,[0,e[1],j],c],i,g);return f(cA(c,d,b),k)}return a}function
-hR(a){return w(bD,a)}function
-l_(c,a,b){if(a)var
-d=a[1],f=N(b,h(bD(d))),g=l_(c,a[2],f),e=[0,bk(c,d,b),g];else
+d=a[1],i=P(b,h(bJ(d))),j=cE(c,a[2],i);return f(cE(c,d,b),j)}}function
+mq(c,a,b){if(a){var
+e=a[1],d=e[2],g=P(b,h(bJ(d))),i=a[2],j=bm(c,d,b),k=mq([0,[0,e[1],j],c],i,g);return f(cE(c,d,b),k)}return a}function
+h0(a){return w(bJ,a)}function
+mr(c,a,b){if(a)var
+d=a[1],f=P(b,h(bJ(d))),g=mr(c,a[2],f),e=[0,bm(c,d,b),g];else
 var
 e=a;return e}function
-l$(c,a,b){if(a){var
-d=a[1],e=N(b,h(bD(d))),g=l$(c,a[2],e);return f(cA(c,d,b),g)}return a}function
-hS(a){return 0===a[0]?hR(a[1]):bD(a[1])}function
-ma(c,b,a){if(b){var
-d=b[1],j=N(a,h(hS(d))),k=ma(c,b[2],j);if(0===d[0])var
-g=l$(c,d[1],a);else
+ms(c,a,b){if(a){var
+d=a[1],e=P(b,h(bJ(d))),g=ms(c,a[2],e);return f(cE(c,d,b),g)}return a}function
+h1(a){return 0===a[0]?h0(a[1]):bJ(a[1])}function
+mt(c,b,a){if(b){var
+d=b[1],j=P(a,h(h1(d))),k=mt(c,b[2],j);if(0===d[0])var
+g=ms(c,d[1],a);else
 var
-e=d[1],i=cA(c,e,a),g=[0,bk(c,e,a),i];return f(g,k)}return b}function
-fW(c){var
+e=d[1],i=cE(c,e,a),g=[0,bm(c,e,a),i];return f(g,k)}return b}function
+f6(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bM(fW,a)}return[0,b]}function
-hT(c){var
+b=bT(f6,a)}return[0,b]}function
+h2(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=hT(a[2]);return q(hT(a[1]),d);case
-9:return a[1];default:return I(b)}}}function
-mb(n,g,a,f){if(a){var
-b=a[1],w=N(f,h(hS(b))),x=mb(n,g,a[2],w);if(0===b[0])var
-l=l_(g,b[1],f),o=[0,l,i(c),l,0,0,0,0];else
+d=h2(a[2]);return p(h2(a[1]),d);case
+9:return a[1];default:return J(b)}}}function
+mu(n,g,a,f){if(a){var
+c=a[1],w=P(f,h(h1(c))),x=mu(n,g,a[2],w);if(0===c[0])var
+l=mr(g,c[1],f),o=[0,l,j(b),l,0,0,0,0];else
 var
-m=bk(g,b[1],f),q=fW(m),j=aP(aL(0,n),q),d=fW(j[2]),k=e(fW,j[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aw(a,d)?i(c):ag(a,d)},k),o=[0,k,hT(d),v,u,t,s,r];var
+m=bm(g,c[1],f),q=f6(m),i=aU(aE(0,n),q),d=f6(i[2]),k=e(f6,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?j(b):ag(a,d)},k),o=[0,k,h2(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-mc(a){return e(function(a){return[0,a[2],d]},a)}function
-md(a){var
-b=w(hS,a[4]),c=f(hR(e(b0,a[3])),b);return f(mc(a[2]),c)}function
-me(a){var
-c=ca(0,mc(a[2])),d=aL(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=aK(e(aI,a[2]),c);return f(aK(a[1],g),b)}function
-hU(b,d){var
+mv(a){return e(function(a){return[0,a[2],d]},a)}function
+mw(a){var
+b=w(h1,a[4]),c=f(h0(e(bu,a[3])),b);return f(mv(a[2]),c)}function
+mx(a){var
+c=cf(0,mv(a[2])),d=aE(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=ax(e(aM,a[2]),c);return f(ax(a[1],g),b)}function
+h3(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return ak(function(a){return aq(e,a)},b);case
+e=a[1];return al(function(a){return as(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=hU(b,a[1]);if(c){var
+c=h3(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-mf(d){var
+my(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=$(ak(function(b){return function(a){return pt(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ac(al(function(b){return function(a){return pN(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-mg(b,h,g,d,c,a){if(a){var
-i=a[2],k=a[1],l=mg(b,h,g,d,f(c,[0,k,0]),i),m=j(d,e(bd,f(c,i)));return ap(h,ap(g,bv(b,k),m),l)}return b}function
-mh(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return mg(a,e,d,function(b){return mh(a,f,e,d,h,b)},g,b)}return b?a:f}function
-mi(d,a){if(a){var
-b=aY(d,a[1]);if(b)var
-c=mi(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+mz(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=mz(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bg,f(c,j)));return ar(h,ar(g,bz(b,k),m),l)}return b}function
+mA(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return mz(a,e,d,function(b){return mA(a,f,e,d,h,b)},g,b)}return b?a:f}function
+mB(d,a){if(a){var
+b=a2(d,a[1]);if(b)var
+c=mB(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return sv}function
-mj(d,a){if(a){var
-b=mi(d,a[1]);if(b)var
-c=mj(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return sY}function
+mC(d,a){if(a){var
+b=mB(d,a[1]);if(b)var
+c=mC(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return sw}var
-fY=t(i(c),fX);function
-mk(e){var
-a=I(fY);if(e)var
-f=q(i(b(2,c)),a),g=z(i(b(2,b(2,c))),f),h=q(i(b(2,c)),a),d=ag(z(i(c),h),g);else
+e=b;return e}return sZ}var
+f8=u(j(b),f7);function
+mD(e){var
+a=J(f8);if(e)var
+f=p(j(c(2,b)),a),g=y(j(c(2,c(2,b))),f),h=p(j(c(2,b)),a),d=ag(y(j(b),h),g);else
 var
-j=z(i(b(2,c)),a),k=I(fX),d=ag(z(q(i(b(2,c)),k),a),j);return ax(d)}function
-ml(d,b,a){if(d){var
-e=mk(b),f=z(i(c),e),g=q(t(i(c),a),f);return t(i(c),g)}var
-h=i(c),j=mk(b),k=ag(i(c),j);return t(q(a,z(i(c),k)),h)}function
-dK(f,e,d,a){var
-g=I(a),h=I(d),j=t(t(i(b(2,c)),h),g),k=f?e?fY:ag(fY,q(i(b(2,c)),fX)):ag(fY,i(b(2,c))),l=q(I(k),j);return ax(z(i(c),l))}function
-mm(g,d){var
+i=y(j(c(2,b)),a),k=J(f7),d=ag(y(p(j(c(2,b)),k),a),i);return az(d)}function
+mE(d,c,a){if(d){var
+e=mD(c),f=y(j(b),e),g=p(u(j(b),a),f);return u(j(b),g)}var
+h=j(b),i=mD(c),k=ag(j(b),i);return u(p(a,y(j(b),k)),h)}function
+dR(f,e,d,a){var
+g=J(a),h=J(d),i=u(u(j(c(2,b)),h),g),k=f?e?f8:ag(f8,p(j(c(2,b)),f7)):ag(f8,j(c(2,b))),l=p(J(k),i);return az(y(j(b),l))}function
+mF(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?E(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-hV(w,v,u,t){var
+e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+h4(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -4642,10 +4813,10 @@ g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
-i=d[1];if(i){if(d[2])return 0;var
-x=i[1],y=h[1],z=g[1],A=f[1];return n(function(a){var
-c=j(a,x),d=j(a,y),e=j(a,z),b=j(a,A);return dt(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
-k=i}else
+j=d[1];if(j){if(d[2])return 0;var
+x=j[1],y=h[1],z=g[1],A=f[1];return n(function(a){var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dz(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+k=j}else
 var
 k=d;var
 l=k}else
@@ -4666,12 +4837,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-mn(f,i,e,b,h){var
-j=f?c:d,a=V(i,j);function
+mG(f,i,e,c,h){var
+j=f?b:d,a=Q(i,j);function
 g(b){var
-c=f?ec(b):dq(b);return D(c,a)}var
-k=[0,ae(h),0],l=[0,[0,a,b,[0,B,[0,g(b),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mo(r,b,q,p,g,o,n){if(o){var
+c=f?cT(b):cr(b);return E(c,a)}var
+k=[0,ae(h),0],l=[0,[0,a,c,[0,A,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+mH(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -4680,16 +4851,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aB,bh(sz)),z=e(ae,0),a=hV(b,p,bN(0,b8(b,ek(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aG,bc(s2)),z=e(ae,0),a=h4(b,p,bU(0,bW(b,es(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=H(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mm,sA),a=hV(b,p,bN(0,b8(b,mn(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(mF,s3),a=h4(b,p,bU(0,bW(b,mG(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(mm,sB),a=hV(b,p,bN(0,b8(b,mn(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(mF,s4),a=h4(b,p,bU(0,bW(b,mG(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -4699,27 +4870,27 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?sC:a}else
+y=a?s5:a}else
 var
 y=n;return y}return[0,n]}function
-mp(f,e,d,c,p,o,n){var
+mI(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mo(f,e,d,c,b,a[1],g);return h?$(h[1]):h}var
-i=mo(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=el(a[2],b),l=mp(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mH(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
+i=mH(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=et(a[2],b),l=mI(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-hW(a){return ju(b(2,c),aH(a,c))}function
-dL(j,a,e,w,v){var
-m=a?c:P(c),f=i(m),g=ml(a,e,sx),h=ml(a,e,sy),n=ag(g,dK(a,e,f,g)),o=[0,z(ag(h,dK(a,e,h,f)),n),0],p=ag(f,dK(a,e,f,g)),r=[0,z(ag(h,dK(a,e,g,h)),p),o],s=ag(f,dK(a,e,h,f)),t=[0,z(ag(g,dK(a,e,g,h)),s),r],u=a?e?i(b(2,c)):q(i(b(2,b(2,c))),fX):i(b(2,b(2,c))),k=cp([0,u,t]),l=[0,d,cM(j)];return mp(a,j,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-mq(a,g,b){if(L(g,hW(a))){if(b){var
+h5(a){return g1(c(2,b),aD(a,b))}function
+dS(i,a,e,w,v){var
+m=a?b:R(b),f=j(m),g=mE(a,e,s0),h=mE(a,e,s1),n=ag(g,dR(a,e,f,g)),o=[0,y(ag(h,dR(a,e,h,f)),n),0],q=ag(f,dR(a,e,f,g)),r=[0,y(ag(h,dR(a,e,g,h)),q),o],s=ag(f,dR(a,e,h,f)),t=[0,y(ag(g,dR(a,e,g,h)),s),r],u=a?e?j(c(2,b)):p(j(c(2,c(2,b))),f7):j(c(2,c(2,b))),k=ct([0,u,t]),l=[0,d,cS(i)];return mI(a,i,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+mJ(a,g,b){if(K(g,h5(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,hW(a)],v=cM(a),i=[0,hW(a),v],j=dL(a,0,1,h,b[1]),k=j?dL(a,0,0,i,c[1]):j;if(k){var
-l=dL(a,1,1,h,d[1]);if(l)return dL(a,1,0,i,e[1]);var
+h=[0,g,h5(a)],v=cS(a),i=[0,h5(a),v],j=dS(a,0,1,h,b[1]),k=j?dS(a,0,0,i,c[1]):j;if(k){var
+l=dS(a,1,1,h,d[1]);if(l)return dS(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4736,262 +4907,264 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cM(a)],s=dL(a,0,0,r,b[1]);if(s)return dL(a,1,0,r,f[1]);var
+r=[0,g,cS(a)],s=dS(a,0,0,r,b[1]);if(s)return dS(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-hX(a){var
-b=[1,[2,d]];return dk(function(b,a){return[1,[3,b,a]]},a,b)}function
-fZ(a){return hX(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-f0(a,c){return hX(e(function(a){var
-d=[0,a[2]],b=aK(a[1],c);return[1,[7,[1,[8,hX(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mr(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bM(function(a){return mr(e,d,c,b,a)},f);return j(b8(e,d,c),g)}function
-ms(a){return a?L(d,a[1][2][1]):a}function
-sD(a){var
-b=u(h(a),sE);return b?ak(function(a){return $(_(a,d))},a):b}function
-mt(c,f,b,a){if(b)if(a)var
-d=b[1],g=v(c,V(c,a[1]),f),h=mt(c,f,b[2],a[2]),i=d[3],j=E(d[2],g),e=[0,[0,E(d[1],g),j,i],h];else
+h6(a){var
+b=[1,[2,d]];return cQ(function(b,a){return[1,[3,b,a]]},a,b)}function
+f9(a){return h6(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+f_(a,c){return h6(e(function(a){var
+d=[0,a[2]],b=ax(a[1],c);return[1,[7,[1,[8,h6(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+mK(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bT(function(a){return mK(e,d,c,b,a)},f);return i(bW(e,d,c),g)}function
+mL(a){return a?K(d,a[1][2][1]):a}function
+s6(a){var
+b=s(h(a),s7);return b?al(function(a){return ac(ab(a,d))},a):b}function
+mM(c,f,b,a){if(b)if(a)var
+d=b[1],g=v(c,Q(c,a[1]),f),h=mM(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-f1(b,a){return ea(ea(b,0),a)}function
-hY(a){if(a){var
-b=a[2],c=a[1];if(b)return f1(c,[0,sG,hY(b)]);var
+f$(b,a){return eh(eh(b,0),a)}function
+h7(a){if(a){var
+b=a[2],c=a[1];if(b)return f$(c,[0,s9,h7(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,sI,f1(hY(a),sH)]}function
-aa(a){return[0,sK,f1(hY(a),sJ)]}function
-am(a){return[0,sM,[0,a,sL]]}function
-l(b,a){return[0,aT(sO,aT(b,sN)),a]}function
-J(b,a){return aa([0,l(b,a),0])}function
-cd(d){var
-b=d,a=p0,e=0;for(;;){if(b){var
-c=jl(a),b=b[1],a=c;continue}return[0,eb(e5(a)),e]}}function
-hZ(a){return[0,eb(e$(a)),0]}function
-f2(a){var
-c=a9(a),f=0,b=0===c?p5:0<c?[0,e$(a)]:[1,e$(P(a))];if(0===b[0])var
-d=eb(b[1]);else
+C(a){return[0,s$,f$(h7(a),s_)]}function
+_(a){return[0,tb,f$(h7(a),ta)]}function
+am(a){return[0,td,[0,a,tc]]}function
+l(b,a){return[0,aY(tf,aY(b,te)),a]}function
+L(b,a){return _([0,l(b,a),0])}function
+cF(d){var
+b=d,a=qi,e=0;for(;;){if(b){var
+c=jt(a),b=b[1],a=c;continue}return[0,ej(fd(a)),e]}}function
+h8(a){return[0,ej(fk(a)),0]}function
+ga(a){var
+c=aO(a),f=0,b=0===c?qn:0<c?[0,fk(a)]:[1,fk(R(a))];if(0===b[0])var
+d=ej(b[1]);else
 var
-e=eb(b[1]),d=aT(br(1,45),e);return[0,d,f]}function
-h0(a){var
-b=0,c=0<a9(a)?e$(a):p4;return[0,eb(c),b]}function
-h1(a){switch(a[0]){case
-2:return sQ;case
-3:return 2<=a[1]?sR:sS;case
-4:return sT;default:return sP}}function
-eC(b,a){function
-c(c,a){return W(c,h1(a))?eC(b,a):[0,sZ,f(eC(b,a),sY)]}switch(a[0]){case
+e=ej(b[1]),d=aY(bt(1,45),e);return[0,d,f]}function
+gb(a){var
+b=0,c=0<aO(a)?fk(a):qm;return[0,ej(c),b]}function
+h9(a){switch(a[0]){case
+2:return th;case
+3:return 2<=a[1]?ti:tj;case
+4:return tk;default:return tg}}function
+eJ(b,a){function
+c(c,a){return V(c,h9(a))?eJ(b,a):[0,tq,f(eJ(b,a),tp)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,a2(g),0];var
-h=[0,s0,[0,a2(e),0]];return[0,a2(g),h];case
-1:return[0,j(b,a[1]),0];case
-2:return[0,s2,c(s1,a[1])];case
+e==="number")return[0,a5(g),0];var
+h=[0,tr,[0,a5(e),0]];return[0,a5(g),h];case
+1:return[0,i(b,a[1]),0];case
+2:return[0,tt,c(ts,a[1])];case
 3:var
-i=a[3],k=c([0,h1(a)],i);switch(a[1]){case
+j=a[3],k=c([0,h9(a)],j);switch(a[1]){case
 0:var
-d=sU;break;case
+d=tl;break;case
 1:var
-d=sV;break;case
+d=tm;break;case
 2:var
-d=sW;break;default:var
-d=sX}var
-l=a[2];return f(c(h1(a),l),[0,d,k]);case
+d=tn;break;default:var
+d=to}var
+l=a[2];return f(c(h9(a),l),[0,d,k]);case
 4:var
-m=[0,s3,hZ(a[2])];return f(c(s4,a[1]),m);default:return[0,s6,f(eC(b,a[1]),s5)]}}function
-K(a){return[0,s9,f(eC(function(a){return 0===a[0]?a[1]:s8},a),s7)]}function
-h2(a){return[0,s$,f(eC(function(a){return a},a),s_)]}function
-ce(a){if(0===a[0])return K(a[1]);var
-b=[0,l(ta,K(a[2])),0];return aa([0,l(tb,K(a[1])),b])}function
-f3(b,a){var
-c=[0,j(b,a[3]),0],d=[0,j(b,a[2]),c];return C([0,j(b,a[1]),d])}function
-tc(a){function
-b(a){return f3(ce,a)}switch(a[0]){case
+m=[0,tu,h8(a[2])];return f(c(tv,a[1]),m);default:return[0,tx,f(eJ(b,a[1]),tw)]}}function
+I(a){return[0,tA,f(eJ(function(a){return 0===a[0]?a[1]:tz},a),ty)]}function
+h_(a){return[0,tC,f(eJ(function(a){return a},a),tB)]}function
+ci(a){if(0===a[0])return I(a[1]);var
+b=[0,l(tD,I(a[2])),0];return _([0,l(tE,I(a[1])),b])}function
+gc(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return C([0,i(b,a[1]),d])}function
+tF(a){function
+b(a){return gc(ci,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?td:tl,h=[0,l(te,am(g)),e],i=[0,l(tf,ce(a[4])),h],j=[0,l(tg,b(a[3])),i],k=[0,l(th,b(a[2])),j],m=[0,l(ti,b(a[1])),k],c=[0,l(tk,am(tj)),m];break;case
+e=0,g=a[5]?tG:tO,h=[0,l(tH,am(g)),e],i=[0,l(tI,ci(a[4])),h],j=[0,l(tJ,b(a[3])),i],k=[0,l(tK,b(a[2])),j],m=[0,l(tL,b(a[1])),k],c=[0,l(tN,am(tM)),m];break;case
 1:var
-d=a[3],n=d?[0,l(tm,b(d[1])),0]:d,o=[0,l(tn,b(a[2])),0],p=[0,l(to,b(a[1])),o],c=f([0,l(tq,am(tp)),p],n);break;default:var
-q=[0,l(tr,b(a[1])),0],c=[0,l(tt,am(ts)),q]}return aa(c)}function
-tu(a){function
-b(a){return C(e(ce,a))}function
+d=a[3],n=d?[0,l(tP,b(d[1])),0]:d,o=[0,l(tQ,b(a[2])),0],p=[0,l(tR,b(a[1])),o],c=f([0,l(tT,am(tS)),p],n);break;default:var
+q=[0,l(tU,b(a[1])),0],c=[0,l(tW,am(tV)),q]}return _(c)}function
+tX(a){function
+b(a){return C(e(ci,a))}function
 d(a){var
-b=a?tv:tx;return l(tw,am(b))}switch(a[0]){case
+b=a?tY:t0;return l(tZ,am(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(ty,ce(a[4])),f],h=[0,l(tz,b(a[3])),g],i=[0,l(tA,b(a[2])),h],j=[0,l(tB,b(a[1])),i],c=[0,l(tD,am(tC)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(t1,ci(a[4])),f],h=[0,l(t2,b(a[3])),g],i=[0,l(t3,b(a[2])),h],j=[0,l(t4,b(a[1])),i],c=[0,l(t6,am(t5)),j];break;case
 1:var
-k=[0,l(tE,b(a[2])),0],m=[0,l(tF,b(a[1])),k],c=[0,l(tH,am(tG)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(tI,ce(a[6])),n],p=[0,l(tJ,ce(a[5])),o],q=[0,l(tK,b(a[4])),p],r=[0,l(tL,b(a[3])),q],s=[0,l(tM,b(a[2])),r],t=[0,l(tN,b(a[1])),s],c=[0,l(tP,am(tO)),t]}return aa(c)}function
-h3(a){switch(a){case
-0:return tQ;case
-1:return tR;case
-2:return tS;case
-3:return tT;case
-4:return tU;case
-5:return tV;case
-6:return tW;case
-7:return tX;case
-8:return tY;case
-9:return tZ;case
-10:return t0;case
-11:return t1;case
-12:return t2;case
-13:return t3;case
-14:return t4;default:return t5}}function
-h4(a){if(typeof
-a==="number")return t6;else
+k=[0,l(t7,b(a[2])),0],m=[0,l(t8,b(a[1])),k],c=[0,l(t_,am(t9)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(t$,ci(a[6])),n],p=[0,l(ua,ci(a[5])),o],q=[0,l(ub,b(a[4])),p],r=[0,l(uc,b(a[3])),q],s=[0,l(ud,b(a[2])),r],t=[0,l(ue,b(a[1])),s],c=[0,l(ug,am(uf)),t]}return _(c)}function
+h$(a){switch(a){case
+0:return uh;case
+1:return ui;case
+2:return uj;case
+3:return uk;case
+4:return ul;case
+5:return um;case
+6:return un;case
+7:return uo;case
+8:return up;case
+9:return uq;case
+10:return ur;case
+11:return us;case
+12:return ut;case
+13:return uu;case
+14:return uv;default:return uw}}function
+ia(a){if(typeof
+a==="number")return ux;else
 switch(a[0]){case
-0:return t7;case
-1:return t8;default:return t9}}function
-eD(a){var
-b=a[4];if(typeof
-b==="number")var
+0:return uy;case
+1:return uz;default:return uA}}function
+eK(a){var
+c=a[4];if(typeof
+c==="number")var
 d=0;else
-switch(b[0]){case
+switch(c[0]){case
 0:var
-d=[0,l(t_,K(b[1])),0];break;case
+d=[0,l(uB,I(c[1])),0];break;case
 1:var
-d=[0,l(t$,K(b[1])),0];break;default:var
-n=[0,K(b[2]),0],d=[0,l(ua,C([0,K(b[1]),n])),0]}var
-o=[0,l(ub,am(h4(a[4]))),d],g=a[3];if(g){var
-c=g[1];switch(c[0]){case
+d=[0,l(uC,I(c[1])),0];break;default:var
+n=[0,I(c[2]),0],d=[0,l(uD,C([0,I(c[1]),n])),0]}var
+o=[0,l(uE,am(ia(a[4]))),d],h=a[3];if(h){var
+b=h[1];switch(b[0]){case
 0:var
-q=C([0,K(c[1]),0]),j=a[1],p=0,r=6===j?uc:12===j?ug:uh,h=[0,l(ud,J(r,q)),p];break;case
+q=C([0,I(b[1]),0]),j=a[1],p=0,r=6===j?uF:12===j?uJ:uK,g=[0,l(uG,L(r,q)),p];break;case
 1:var
-w=C(e(K,c[1])),m=a[1],v=0,x=14===m?ui:15<=m?uk:ul,h=[0,l(uj,J(x,w)),v];break;default:var
-y=[0,l(um,C([0,K(c[2]),0])),0],h=[0,l(uo,aa([0,l(un,C([0,K(c[1]),0])),y])),0]}var
-k=h}else
-var
-k=g;var
-s=f(k,o),i=a[2],t=i?[0,l(ue,cd(i[1])),0]:i,u=f(t,s);return aa([0,l(uf,am(h3(a[1]))),u])}function
-mu(a){if(0===a[0]){var
-b=[0,l(up,f3(K,a[2])),0];return J(ur,aa([0,l(uq,f3(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,l(us,C([0,K(a[4]),c])),0],e=[0,l(ut,K(a[3])),d],f=[0,K(a[2]),0];return J(uv,aa([0,l(uu,C([0,K(a[1]),f])),e]))}function
-mv(a){if(0===a[0]){var
-b=[0,l(uw,C(e(K,a[2]))),0];return J(uy,aa([0,l(ux,C(e(K,a[1]))),b]))}return mu([1,a[1],a[2],a[3],a[4],a[5]])}function
-mw(a){switch(a){case
-0:return uz;case
-1:return uA;default:return uB}}function
-uC(a){function
-b(a){return C(e(ce,a))}var
-c=[0,l(uD,b(a[2])),0],d=[0,l(uE,b(a[1])),c];return aa([0,l(uG,am(uF)),d])}function
-mx(a){function
-b(b,a){var
-c=[0,K(a),0];return C([0,K(b),c])}switch(a[0]){case
-0:return J(uH,b(a[1],a[2]));case
-1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(uI,b(c[1],c[2])),0],g=[0,l(uJ,b(d[1],d[2])),f];return J(uL,aa([0,l(uK,b(e[1],e[2])),g]));case
-2:return J(uM,K(a[1]));default:var
-h=[0,l(uN,K(a[2])),0];return J(uP,aa([0,l(uO,K(a[1])),h]))}}function
-uQ(a){function
-b(a){return f3(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(uR,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(uS,C([0,K(a[3]),g])),0],i=[0,l(uT,K(a[2])),h],j=[0,l(uU,cd(a[1])),i],d=f([0,l(uW,am(uV)),j],e);else
-var
-k=[0,l(uX,K(a[4])),0],m=[0,l(uY,b(a[3])),k],n=[0,l(uZ,b(a[2])),m],o=a[1]?u0:u2,d=[0,l(u1,am(o)),n];return aa(d)}function
-my(a){var
-b=a?[0,l(u3,C(e(uQ,a))),0]:a;return b}function
-h5(d,c,b,a){var
-g=[0,l(u4,C(e(eD,a))),0],h=f(my(b),g),i=[0,l(u5,mu(c)),0];return aa(f([0,l(u7,J(u6,C(e(tc,d)))),i],h))}function
-u8(a){switch(a[0]){case
-0:return J(u9,h5(a[1],a[2],a[3],a[4]));case
-1:var
-b=a[5],c=a[3],d=a[1],g=C(e(tu,a[2])),m=[0,l(u_,C(e(eD,a[6]))),0],n=b?[0,l(u$,mx(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(va,mv(a[4])),o];if(typeof
-d==="number")if(d)var
-h=vb;else{var
-i=J(vg,g);k=1}else
-var
-h=mw(d[1]);if(!k)var
-q=c?[0,l(vc,K(c[1])),0]:c,i=J(h,aa([0,l(vd,g),q]));return J(vf,aa([0,l(ve,i),p]));case
+w=C(e(I,b[1])),m=a[1],v=0,x=14===m?uL:15<=m?uN:uO,g=[0,l(uM,L(x,w)),v];break;case
 2:var
-r=[0,l(vh,C(e(eD,a[7]))),0],s=f(my(a[6]),r),t=[0,l(vi,mx(a[5])),0],u=[0,l(vj,mv(a[4])),t],v=[0,l(vk,K(a[3])),0],w=aa([0,l(vl,C(e(uC,a[2]))),v]);return J(vn,aa(f([0,l(vm,J(mw(a[1]),w)),u],s)));case
+y=[0,l(uP,C([0,I(b[2]),0])),0],g=[0,l(uR,_([0,l(uQ,C([0,I(b[1]),0])),y])),0];break;default:var
+z=[0,l(uS,C([0,I(b[2]),0])),0],g=[0,l(uU,_([0,l(uT,C([0,I(b[1]),0])),z])),0]}var
+k=g}else
+var
+k=h;var
+s=f(k,o),i=a[2],t=i?[0,l(uH,cF(i[1])),0]:i,u=f(t,s);return _([0,l(uI,am(h$(a[1]))),u])}function
+mN(a){if(0===a[0]){var
+b=[0,l(uV,gc(I,a[2])),0];return L(uX,_([0,l(uW,gc(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,l(uY,C([0,I(a[4]),c])),0],e=[0,l(uZ,I(a[3])),d],f=[0,I(a[2]),0];return L(u1,_([0,l(u0,C([0,I(a[1]),f])),e]))}function
+mO(a){if(0===a[0]){var
+b=[0,l(u2,C(e(I,a[2]))),0];return L(u4,_([0,l(u3,C(e(I,a[1]))),b]))}return mN([1,a[1],a[2],a[3],a[4],a[5]])}function
+mP(a){switch(a){case
+0:return u5;case
+1:return u6;default:return u7}}function
+u8(a){function
+b(a){return C(e(ci,a))}var
+c=[0,l(u9,b(a[2])),0],d=[0,l(u_,b(a[1])),c];return _([0,l(va,am(u$)),d])}function
+mQ(a){function
+b(b,a){var
+c=[0,I(a),0];return C([0,I(b),c])}switch(a[0]){case
+0:return L(vb,b(a[1],a[2]));case
+1:var
+c=a[3],d=a[2],e=a[1],f=[0,l(vc,b(c[1],c[2])),0],g=[0,l(vd,b(d[1],d[2])),f];return L(vf,_([0,l(ve,b(e[1],e[2])),g]));case
+2:return L(vg,I(a[1]));default:var
+h=[0,l(vh,I(a[2])),0];return L(vj,_([0,l(vi,I(a[1])),h]))}}function
+vk(a){function
+b(a){return gc(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,l(vl,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(vm,C([0,I(a[3]),g])),0],i=[0,l(vn,I(a[2])),h],j=[0,l(vo,cF(a[1])),i],d=f([0,l(vq,am(vp)),j],e);else
+var
+k=[0,l(vr,I(a[4])),0],m=[0,l(vs,b(a[3])),k],n=[0,l(vt,b(a[2])),m],o=a[1]?vu:vw,d=[0,l(vv,am(o)),n];return _(d)}function
+mR(a){var
+b=a?[0,l(vx,C(e(vk,a))),0]:a;return b}function
+ib(d,c,b,a){var
+g=[0,l(vy,C(e(eK,a))),0],h=f(mR(b),g),i=[0,l(vz,mN(c)),0];return _(f([0,l(vB,L(vA,C(e(tF,d)))),i],h))}function
+vC(a){switch(a[0]){case
+0:return L(vD,ib(a[1],a[2],a[3],a[4]));case
+1:var
+b=a[5],c=a[3],d=a[1],g=C(e(tX,a[2])),m=[0,l(vE,C(e(eK,a[6]))),0],n=b?[0,l(vF,mQ(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(vG,mO(a[4])),o];if(typeof
+d==="number")if(d)var
+h=vH;else{var
+i=L(vM,g);k=1}else
+var
+h=mP(d[1]);if(!k)var
+q=c?[0,l(vI,I(c[1])),0]:c,i=L(h,_([0,l(vJ,g),q]));return L(vL,_([0,l(vK,i),p]));case
+2:var
+r=[0,l(vN,C(e(eK,a[7]))),0],s=f(mR(a[6]),r),t=[0,l(vO,mQ(a[5])),0],u=[0,l(vP,mO(a[4])),t],v=[0,l(vQ,I(a[3])),0],w=_([0,l(vR,C(e(u8,a[2]))),v]);return L(vT,_(f([0,l(vS,L(mP(a[1]),w)),u],s)));case
 3:var
-x=[0,l(vo,C(e(eD,a[7]))),0],y=[0,l(vp,C(e(K,a[6]))),0],z=[0,l(vs,J(vr,aa([0,l(vq,C(e(K,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(vv,C(e(function(a){return 0===a[0]?J(vt,C(e(h2,a[1]))):J(vu,h2(a[1]))},B))),A],E=a[3],F=[0,l(vw,C(e(function(a){var
-b=[0,h2(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(vx,C(e(function(a){var
-b=[0,ce(a[2]),0];return C([0,am(a[1]),b])},G))),F];return J(vB,aa([0,l(vA,J(vz,aa([0,l(vy,C(e(am,a[1]))),H]))),z]));case
+x=[0,l(vU,C(e(eK,a[7]))),0],y=[0,l(vV,C(e(I,a[6]))),0],z=[0,l(vY,L(vX,_([0,l(vW,C(e(I,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(v1,C(e(function(a){return 0===a[0]?L(vZ,C(e(h_,a[1]))):L(v0,h_(a[1]))},B))),A],E=a[3],F=[0,l(v2,C(e(function(a){var
+b=[0,h_(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(v3,C(e(function(a){var
+b=[0,ci(a[2]),0];return C([0,am(a[1]),b])},G))),F];return L(v7,_([0,l(v6,L(v5,_([0,l(v4,C(e(am,a[1]))),H]))),z]));case
 4:var
-I=[0,l(vC,C(e(eD,a[3]))),0],L=[0,l(vF,J(vE,aa([0,l(vD,K(a[2])),0]))),I];return J(vJ,aa([0,l(vI,J(vH,aa([0,l(vG,K(a[1])),0]))),L]));case
+J=[0,l(v8,C(e(eK,a[3]))),0],K=[0,l(v$,L(v_,_([0,l(v9,I(a[2])),0]))),J];return L(wd,_([0,l(wc,L(wb,_([0,l(wa,I(a[1])),0]))),K]));case
 5:var
-M=[0,l(vK,K(a[5])),0];return J(vM,aa([0,l(vL,h5(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,l(we,I(a[5])),0];return L(wg,_([0,l(wf,ib(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-j=a[1],N=0,O=j?ce(j[1]):am(vP);return J(vO,aa([0,l(vN,O),N]));default:var
-P=[0,l(vQ,K(a[6])),0],Q=[0,l(vR,K(a[5])),P],R=[0,l(vS,h5(a[2],a[3],0,a[4])),Q],S=a[1];return J(vX,aa([0,l(vW,C(e(function(a){var
-b=[0,l(vT,K(a[2][2])),0],c=[0,l(vU,K(a[2][1])),b];return aa([0,l(vV,am(a[1])),c])},S))),R]))}}function
-eE(a){return C(e(f2,a))}function
-f4(b,a){var
-c=[0,l(vY,h0(a)),0];return aa([0,l(vZ,C(e(eE,b))),c])}function
-eF(a){switch(a[0]){case
+j=a[1],N=0,O=j?ci(j[1]):am(wj);return L(wi,_([0,l(wh,O),N]));default:var
+P=[0,l(wk,I(a[6])),0],Q=[0,l(wl,I(a[5])),P],R=[0,l(wm,ib(a[2],a[3],0,a[4])),Q],S=a[1];return L(wr,_([0,l(wq,C(e(function(a){var
+b=[0,l(wn,I(a[2][2])),0],c=[0,l(wo,I(a[2][1])),b];return _([0,l(wp,am(a[1])),c])},S))),R]))}}function
+eL(a){return C(e(ga,a))}function
+gd(b,a){var
+c=[0,l(ws,gb(a)),0];return _([0,l(wt,C(e(eL,b))),c])}function
+eM(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=f4(a[2],a[3]);return J(a[1],b);case
+b=gd(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?v0:v2;return J(v1,am(c));case
+c=a[1]?wu:ww;return L(wv,am(c));case
 3:var
-d=[0,eE(a[3]),0];return J(v3,C([0,f4(a[1],a[2]),d]));case
+d=[0,eL(a[3]),0];return L(wx,C([0,gd(a[1],a[2]),d]));case
 4:var
-f=[0,cd(0),0],g=[0,f2(a[3]),f];return J(v4,C([0,f4(a[1],a[2]),g]));case
+f=[0,gb(a[4]),0],g=[0,ga(a[3]),f];return L(wy,C([0,gd(a[1],a[2]),g]));case
 5:var
-h=[0,h0(a[3]),0],i=[0,f2(a[2]),h];return J(v5,C([0,eF(a[1]),i]));case
+h=[0,gb(a[3]),0],i=[0,ga(a[2]),h];return L(wz,C([0,eM(a[1]),i]));case
 6:var
-j=[0,h0(a[3]),0],k=[0,f2(a[2]),j];return J(v6,C([0,eF(a[1]),k]));case
-7:return J(v7,eF(a[1]));default:var
-l=[0,C(e(eE,a[3])),0],m=[0,am(a[2]),l];return J(v8,C([0,eF(a[1]),m]))}}function
-v9(a){var
-b=[0,eF(a[2]),0];return C([0,cd(a[1]),b])}function
-mz(a){if(typeof
-a==="number")return 0===a?am(v_):am(v$);else
+j=[0,gb(a[3]),0],k=[0,ga(a[2]),j];return L(wA,C([0,eM(a[1]),k]));case
+7:return L(wB,eM(a[1]));default:var
+l=[0,C(e(eL,a[3])),0],m=[0,am(a[2]),l];return L(wC,C([0,eM(a[1]),m]))}}function
+wD(a){var
+b=[0,eM(a[2]),0];return C([0,cF(a[1]),b])}function
+mS(a){if(typeof
+a==="number")return 0===a?am(wE):am(wF);else
 switch(a[0]){case
 0:var
-b=[0,C(e(eE,a[2])),0];return J(wa,C([0,cd(a[1]),b]));case
+b=[0,C(e(eL,a[2])),0];return L(wG,C([0,cF(a[1]),b]));case
 1:var
-c=[0,cd(a[2]),0];return J(wb,C([0,cd(a[1]),c]));default:return J(wc,C(e(K,a[1])))}}function
-wd(a){var
-b=a[4],h=b?[0,l(we,eE([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wf,mz(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wg,cd(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wh,C(e(v9,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
-mA(g,a,d){var
-h=[0,l(wi,C(e(wd,d))),0];if(a)var
-b=a[1],c=[0,l(wj,f4(b[1],b[2])),0];else
+c=[0,cF(a[2]),0];return L(wH,C([0,cF(a[1]),c]));default:return L(wI,C(e(I,a[1])))}}function
+wJ(a){var
+b=a[4],h=b?[0,l(wK,eL([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wL,mS(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wM,cF(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wN,C(e(wD,[0,c[1],c[2]]))),0]:c;return _(f(n,m))}function
+mT(g,a,d){var
+h=[0,l(wO,C(e(wJ,d))),0];if(a)var
+b=a[1],c=[0,l(wP,gd(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return aa([0,l(wk,hZ(g)),i])}function
-mB(d,c,a,b){var
-g=[0,l(wl,mz(b)),0],h=a?[0,l(wm,C(e(K,a))),0]:a,i=f(h,g),j=[0,l(wn,C(e(K,c))),0];return aa(f([0,l(wo,hZ(d)),j],i))}function
-wp(a){if(typeof
-a==="number")return am(wq);else
+i=f(c,h);return _([0,l(wQ,h8(g)),i])}function
+mU(d,c,a,b){var
+g=[0,l(wR,mS(b)),0],h=a?[0,l(wS,C(e(I,a))),0]:a,i=f(h,g),j=[0,l(wT,C(e(I,c))),0];return _(f([0,l(wU,h8(d)),j],i))}function
+wV(a){if(typeof
+a==="number")return am(wW);else
 switch(a[0]){case
-0:return J(wr,cd(a[1]));case
-1:return J(ws,mA(a[1],a[2],a[3]));default:return J(wt,mB(a[1],a[2],a[3],a[4]))}}function
-f5(a){var
-b=gP(gO(an(a),function(b){return aN(a,b)}));return n(function(a){var
-b=$(34===a?1:0),c=b?$(92===a?1:0):b,d=c?W(wI,fc(a)):c;return d?W(fc(a),wJ):d},b)}function
-eG(b){function
+0:return L(wX,cF(a[1]));case
+1:return L(wY,mT(a[1],a[2],a[3]));default:return L(wZ,mU(a[1],a[2],a[3],a[4]))}}function
+ge(a){var
+b=gX(gW(ao(a),function(b){return aR(a,b)}));return n(function(a){var
+b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?V(xc,fm(a)):c;return d?V(fm(a),xd):d},b)}function
+eN(b){function
 c(f){var
-a=fc(f),b=W(wK,a),c=b?W(a,wL):b;if(c)var
+a=fm(f),b=V(xe,a),c=b?V(a,xf):b;if(c)var
 d=c;else{var
-e=W(wM,a);if(e)return W(a,wN);var
+e=V(xg,a);if(e)return V(a,xh);var
 d=e}return d}var
-a=gP(gO(an(b),function(a){return aN(b,a)}));if(a){var
+a=gX(gW(ao(b),function(a){return aR(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fc(a),f=W(wO,e),h=f?W(e,wP):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?W(h(d),wQ):f;if(g)return $(aq(b,wR));var
+e=fm(a),f=V(xi,e),h=f?V(e,xj):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),xk):f;if(g)return ac(as(b,xl));var
 i=g}else
 var
 i=a;return i}function
-h6(c){var
+ic(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eG(a[1]);case
+1:return eN(a[1]);case
 3:var
-b=h6(a[2]);if(b){var
+b=ic(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eH(m){var
+eO(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5002,40 +5175,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=e5(a[2]);if(typeof
+f=fd(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eH(a[2]);if(i){var
+i=eO(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eH(a[1]),l=k?e9(b(2,c),j):k;return l?e9(j,b(2,b(2,b(2,b(2,b(2,b(2,c))))))):l;default:var
+j=a[2],k=eO(a[1]),l=k?fi(c(2,b),j):k;return l?fi(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-dM(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bE(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c3(a){return w(dM,bE(a))}function
-h7(a){switch(a[0]){case
+dT(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bK(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+da(a){return w(dT,bK(a))}function
+id(a){switch(a[0]){case
 0:var
-c=dM(a[4]),d=f(c3(a[3]),c),e=f(c3(a[2]),d);return f(c3(a[1]),e);case
+c=dT(a[4]),d=f(da(a[3]),c),e=f(da(a[2]),d);return f(da(a[1]),e);case
 1:var
-b=a[3],g=b?c3(b[1]):b,h=f(c3(a[2]),g);return f(c3(a[1]),h);default:return c3(a[1])}}function
-wS(a){switch(a[0]){case
+b=a[3],g=b?da(b[1]):b,h=f(da(a[2]),g);return f(da(a[1]),h);default:return da(a[1])}}function
+xm(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dM,b)}function
-mC(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mD(a){if(0===a[0]){var
-b=bE(a[2]);return f(bE(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mE(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dT,b)}function
+mV(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mW(a){if(0===a[0]){var
+b=bK(a[2]);return f(bK(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mX(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-c4(e){var
+db(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5047,68 +5220,68 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-mF(a){if(0===a[0]){var
-b=a[5],c=b?bE(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bE(a[3]),d);return f(bE(a[2]),e)}function
-mG(b,e){var
+mY(a){if(0===a[0]){var
+b=a[5],c=b?bK(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bK(a[3]),d);return f(bK(a[2]),e)}function
+mZ(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return ak(function(a){return aq(f,a)},b)}return 0;case
+f=c[1];return al(function(a){return as(f,a)},b)}return 0;case
 3:var
-d=mG(b,a[2]);if(d){var
+d=mZ(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eI(c,a){return n(function(a){var
-b=eH(a);return b?mG(c,a):b},a)}function
-mH(a){if(typeof
+eP(c,a){return n(function(a){var
+b=eO(a);return b?mZ(c,a):b},a)}function
+m0(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-mI(a){var
-d=e9(b(2,b(2,b(2,b(2,b(2,c))))),a);return d?e9(a,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,b(2,c))))))))))):d}function
-mJ(a,b){return b?[4,mJ(a,b[1]),a]:a}function
+m1(a){var
+d=fi(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fi(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+m2(a,b){return b?[4,m2(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
-i=a[2],j=b(2,p(b(2,b(2,c)))),l=function(a){return y(j,a)},m=e6(jj(i),l,c);return[0,jw(jk(e5(a[1]),i)),m];case
+i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return z(j,a)},m=fe(jr(i),l,b);return[0,jG(js(fd(a[1]),i)),m];case
 1:var
-e=a[1];return 0===e[0]?[5,[0,c,c],[0,d,c]]:[1,e[1],e[2],e[3]];case
+e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,P(f[1]),f[2]]:[3,[0,d,c],f];case
+f=k(a[1]);return 0===f[0]?[0,R(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=k(a[2]),h=k(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bL(d9(a[2]));return mJ(k(a[1]),n);default:return[6,k(a[1])]}}function
-bF(a){if(0===a[0]){var
+n=bx(ee(a[2]));return m2(k(a[1]),n);default:return[6,k(a[1])]}}function
+bL(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-c5(a){var
-b=bF(a[3]),c=bF(a[2]);return[0,bF(a[1]),c,b]}function
-wT(a){switch(a[0]){case
+dc(a){var
+b=bL(a[3]),c=bL(a[2]);return[0,bL(a[1]),c,b]}function
+xn(a){switch(a[0]){case
 0:var
-b=a[5],c=bF(a[4]),d=c5(a[3]),e=c5(a[2]);return[0,[0,c5(a[1]),e,d,c,b]];case
+b=a[5],c=bL(a[4]),d=dc(a[3]),e=dc(a[2]);return[0,[0,dc(a[1]),e,d,c,b]];case
 1:var
-f=x(c5,a[3]),g=c5(a[2]);return[1,c5(a[1]),g,f];default:return[2,c5(a[1])]}}function
-mK(a){if(0===a[0]){var
+f=x(dc,a[3]),g=dc(a[2]);return[1,dc(a[1]),g,f];default:return[2,dc(a[1])]}}function
+m3(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=k(j(a,c));return[0,k(j(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=k(a[5]),h=[0,k(a[4]),g],i=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,i,h]}function
-dN(a){var
+b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
+dU(a){var
 b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-cB(a){if(0===a[0]){var
-b=a[5],h=b?dN(b[1]):[0,[0,d,c],[0,d,c],[0,d,c]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bL(a[1]),l,j,i,h]}var
+cG(a){if(0===a[0]){var
+c=a[5],h=c?dU(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bx(a[1]),l,j,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dN(f),n=dN(g);return[2,k(e),n,m]}var
-o=dN(f),p=dN(g);return[1,k(e),p,o]}function
-f6(b,a){if(a){var
-c=a[1],d=a[2],g=f6(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(be(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:u(b[1],a[1]):0:0===a[0]?0:ck(b[1],a[1]);return $(d)},h),g)}return a}function
-wU(b){if(b[1])return 0;var
+m=dU(f),n=dU(g);return[2,k(e),n,m]}var
+o=dU(f),p=dU(g);return[1,k(e),p,o]}function
+gf(b,a){if(a){var
+c=a[1],d=a[2],g=gf(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bh(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:s(b[1],a[1]):0:0===a[0]?0:co(b[1],a[1]);return ac(d)},h),g)}return a}function
+xo(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-wV(T,S,a){switch(a[1]){case
+xp(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -5117,188 +5290,158 @@ f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-U=f[1],b=function(a){return[2,a,k(U)]};break;case
+O=f[1],c=function(a){return[2,a,k(O)]};break;case
 1:var
-W=f[1],b=function(a){return[3,a,k(W)]};break;default:A=1}if(A)return 0;break;case
+Q=f[1],c=function(a){return[3,a,k(Q)]};break;default:A=1}if(A)return 0;break;case
 2:var
-h=a[4],L=0;if(typeof
-h==="number"||!(1===h[0]))L=1;else{var
-i=a[3],M=0,X=h[1];if(i){var
-C=i[1];if(0===C[0]){var
-Y=C[1],b=function(a){var
-b=k(X);return[4,a,k(Y),b]};M=1}else
-var
-D=0}else
-var
-D=i;if(!M)return D}if(L)return 0;break;case
+h=a[4],I=0;if(typeof
+h==="number"||!(1===h[0]))I=1;else{var
+i=a[3],R=h[1];if(!i)return i;var
+C=i[1];if(0!==C[0])return 0;var
+S=C[1],c=function(a){var
+b=k(R);return[4,a,k(S),b]}}if(I)return 0;break;case
 3:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
 4:var
-l=a[4],N=0;if(typeof
-l==="number"||!(0===l[0]))N=1;else
+l=a[4],J=0;if(typeof
+l==="number"||!(0===l[0]))J=1;else
 var
-Z=l[1],b=function(a){return[6,a,k(Z)]};if(N)return 0;break;case
+T=l[1],c=function(a){return[6,a,k(T)]};if(J)return 0;break;case
 5:var
 m=a[4];if(typeof
 m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
-E=n[1],o=a[3];if(o){var
+D=n[1],o=a[3];if(o){var
 p=o[1];switch(p[0]){case
 0:var
-_=k(E);return[0,[8,k(p[1]),_],0];case
+U=k(D);return[0,[8,k(p[1]),U],0];case
 1:var
-$=k(E);return[0,[15,e(k,p[1]),$],0];default:return 0}}return o}return 0;case
+V=k(D);return[0,[15,e(k,p[1]),V],0];default:var
+E=0}}else
+var
+E=o;return E}return 0;case
 7:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0])return[0,[9,k(q[1])],0];return 0;case
 8:var
-r=a[4],O=0;if(typeof
-r==="number"||!(1===r[0]))O=1;else{var
-s=a[3],P=0,aa=r[1];if(s){var
-F=s[1];if(0===F[0]){var
-ab=F[1],b=function(a){var
-b=k(aa);return[13,a,k(ab),b]};P=1}else
-var
-G=0}else
-var
-G=s;if(!P)return G}if(O)return 0;break;case
+r=a[4],K=0;if(typeof
+r==="number"||!(1===r[0]))K=1;else{var
+t=a[3],W=r[1];if(!t)return t;var
+F=t[1];if(0!==F[0])return 0;var
+X=F[1],c=function(a){var
+b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
-t=a[4];if(typeof
-t!=="number"&&0===t[0]){var
-ac=t[1],ad=f6(0,S);return e(function(h){var
-e=k(ac),a=h[2],b=h[1];if(0===b[0]){var
-f=b[1];if(0===a[0]){var
-g=function(a){return a?dN(a[1]):[0,[0,d,c],[0,d,c],[0,d,c]]};if(u(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(b[2]),i],e],l=g(a[5]),m=g(b[5]);return[11,bL(f),m,l,j]}var
-n=cB(a);return[10,cB(b),n,e]}var
-o=cB(a);return[10,cB(b),o,e]}var
-p=cB(a);return[10,cB(b),p,e]},ad)}return 0;case
+u=a[4];if(typeof
+u!=="number"&&0===u[0]){var
+Y=u[1],Z=gf(0,M);return e(function(h){var
+e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
+f=c[1];if(0===a[0]){var
+g=function(a){return a?dU(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(s(f,a[1])){var
+i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,j]}var
+n=cG(a);return[10,cG(c),n,e]}var
+o=cG(a);return[10,cG(c),o,e]}var
+p=cG(a);return[10,cG(c),p,e]},Z)}return 0;case
 10:var
-v=a[4],Q=0;if(typeof
-v==="number"||!(1===v[0]))Q=1;else{var
-w=a[3],R=0,ae=v[1];if(w){var
-x=w[1];if(2===x[0]){var
-af=x[2],ag=x[1],b=function(a){var
-b=k(ae),c=k(af);return[12,a,k(ag),c,b]};R=1}else
-var
-H=0}else
-var
-H=w;if(!R)return H}if(Q)return 0;break;case
+v=a[4],L=0;if(typeof
+v==="number"||!(1===v[0]))L=1;else{var
+w=a[3],_=v[1];if(!w)return w;var
+x=w[1];if(2!==x[0])return 0;var
+$=x[2],aa=x[1],c=function(a){var
+b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
-I=typeof
-a[4]==="number"?1:0,ah=I?wW:I;return ah;case
+G=typeof
+a[4]==="number"?1:0,ab=G?xq:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
-J=z[1];if(0===J[0]){var
-ai=k(y[1]);return[0,[14,k(J[1]),ai],0]}var
-K=0}else
-var
-K=z;return K}return 0;default:return 0}var
-B=a[2],V=B?[0,bL(B[1]),0]:aL(0,T);return e(b,V)}function
-wX(c,a){switch(a[1]){case
+H=z[1];if(0===H[0]){var
+ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
+B=a[2],P=B?[0,bx(B[1]),0]:aE(0,N);return e(c,P)}function
+xr(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
 1:var
-P=0,m=a[4];if(typeof
-m==="number"||2===m[0])P=1;else{var
+K=0,m=a[4];if(typeof
+m==="number"||2===m[0])K=1;else{var
 n=a[2];if(!n)return a[3]?0:1;if(a[3])return 0;var
-b=n[1]}if(P)return 0;break;case
+b=n[1]}if(K)return 0;break;case
 2:var
-Q=0,p=a[4];if(typeof
-p==="number"||!(1===p[0]))Q=1;else{var
+L=0,p=a[4];if(typeof
+p==="number"||!(1===p[0]))L=1;else{var
 q=a[2];if(!q){var
-e=a[3];if(e){if(0===e[1][0])return 1;var
-s=0}else
-var
-s=e;return s}var
-d=a[3],R=0;if(d)if(0===d[1][0]){var
-b=q[1];R=1}else
-var
-r=0;else
-var
-r=d;if(!R)return r}if(Q)return 0;break;case
+e=a[3];return e?0===e[1][0]?1:0:e}var
+d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
+b=q[1]}if(L)return 0;break;case
 3:var
-t=a[4];if(typeof
-t!=="number"&&1===t[0])return a[2]?0:a[3]?0:1;return 0;case
+r=a[4];if(typeof
+r!=="number"&&1===r[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
-S=0,v=a[4];if(typeof
-v==="number"||!(0===v[0]))S=1;else{var
-w=a[2];if(!w)return a[3]?0:1;if(a[3])return 0;var
-b=w[1]}if(S)return 0;break;case
+M=0,t=a[4];if(typeof
+t==="number"||!(0===t[0]))M=1;else{var
+u=a[2];if(!u)return a[3]?0:1;if(a[3])return 0;var
+b=u[1]}if(M)return 0;break;case
 5:var
-x=a[4];if(typeof
-x!=="number"&&0===x[0])return a[2]?0:a[3]?0:1;return 0;case
+v=a[4];if(typeof
+v!=="number"&&0===v[0])return a[2]?0:a[3]?0:1;return 0;case
 6:var
-y=a[4];if(typeof
-y!=="number"&&0===y[0]){if(a[2])return 0;var
+w=a[4];if(typeof
+w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
-z=f[1];switch(z[0]){case
+x=f[1];switch(x[0]){case
 0:return 1;case
-1:return u(h(z[1]),c);default:return 0}}return f}return 0;case
+1:return s(h(x[1]),c);default:var
+y=0}}else
+var
+y=f;return y}return 0;case
 7:var
-A=a[4];if(typeof
-A!=="number"&&0===A[0])return a[2]?0:a[3]?0:1;return 0;case
+z=a[4];if(typeof
+z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 8:var
-T=0,B=a[4];if(typeof
-B==="number"||!(1===B[0]))T=1;else{var
-g=a[3],U=0;if(g)if(0===g[1][0]){var
-C=u(c,wZ),V=0;if(C){var
-D=a[2];if(D){var
-b=D[1];U=1;V=1}else
+N=0,A=a[4];if(typeof
+A==="number"||!(1===A[0]))N=1;else{var
+g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
+B=s(c,xt),O=0;if(B){var
+C=a[2];if(C){var
+b=C[1];O=1}else
 var
-E=1}else
+D=1}else
 var
-E=C;if(!V)return E}else
-var
-F=0;else
-var
-F=g;if(!U)return F}if(T)return 0;break;case
+D=B;if(!O)return D}if(N)return 0;break;case
 9:var
-G=a[4];if(typeof
-G!=="number"&&0===G[0])return a[2]?0:a[3]?0:1;return 0;case
+E=a[4];if(typeof
+E!=="number"&&0===E[0])return a[2]?0:a[3]?0:1;return 0;case
 10:var
-X=0,H=a[4];if(typeof
-H==="number"||!(1===H[0]))X=1;else{var
-I=a[2];if(!I){var
-j=a[3];if(j){if(2===j[1][0])return 1;var
-K=0}else
-var
-K=j;return K}var
-i=a[3],Y=0;if(i)if(2===i[1][0]){var
-b=I[1];Y=1}else
-var
-J=0;else
-var
-J=i;if(!Y)return J}if(X)return 0;break;case
+P=0,F=a[4];if(typeof
+F==="number"||!(1===F[0]))P=1;else{var
+G=a[2];if(!G){var
+j=a[3];return j?2===j[1][0]?1:0:j}var
+i=a[3];if(!i)return i;if(2!==i[1][0])return 0;var
+b=G[1]}if(P)return 0;break;case
 11:var
-L=typeof
-a[4]==="number"?1:0;if(L){if(a[2])return 0;if(a[3])return 0;var
-M=1}else
+H=typeof
+a[4]==="number"?1:0;if(H){if(a[2])return 0;if(a[3])return 0;var
+I=1}else
 var
-M=L;return M;case
+I=H;return I;case
 12:var
-N=a[4];if(typeof
-N!=="number"&&1===N[0]){if(a[2])return 0;var
-k=a[3];if(k){if(0===k[1][0])return u(c,w0);var
-O=0}else
-var
-O=k;return O}return 0;default:return 0}var
-o=W(wY,b);return o?W(b,c):o}function
-h8(c,k,j,b){var
-l=h(c),d=w(function(a){return wV(l,j,a)},b),a=w(wU,b),g=a?[0,a[1],a[2]]:w1,i=f(g,d),m=mK(k);return[0,e(wT,c),m,i]}function
-mL(b){if(b[1])return 0;var
+J=a[4];if(typeof
+J!=="number"&&1===J[0]){if(a[2])return 0;var
+k=a[3];return k?0===k[1][0]?s(c,xu):0:k}return 0;default:return 0}var
+o=V(xs,b);return o?V(b,c):o}function
+ie(c,k,j,b){var
+l=h(c),d=w(function(a){return xp(l,j,a)},b),a=w(xo,b),g=a?[0,a[1],a[2]]:xv,i=f(g,d),m=m3(k);return[0,e(xn,c),m,i]}function
+m4(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-mM(b){function
-a(a){return r(a,e(k,b),[0,d,c])}var
-f=a(w2),g=a(w3);return[0,a(0),g,f]}function
-h9(Y,z,X,a){switch(a[1]){case
+m5(c){function
+a(a){return r(a,e(k,c),[0,d,b])}var
+f=a(xw),g=a(xx);return[0,a(0),g,f]}function
+ig(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
@@ -5307,101 +5450,90 @@ c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-Z=c[1],b=function(a){return[2,a,k(Z)]};break;case
+T=c[1],b=function(a){return[2,a,k(T)]};break;case
 1:var
-$=c[1],b=function(a){return[3,a,k($)]};break;default:var
-aa=c[2],ab=c[1],b=function(a){var
-b=k(aa);return[4,a,k(ab),b]}}break;case
+V=c[1],b=function(a){return[3,a,k(V)]};break;default:var
+W=c[2],X=c[1],b=function(a){var
+b=k(W);return[4,a,k(X),b]}}break;case
 2:var
-f=a[4],L=0;if(typeof
-f==="number"||!(1===f[0]))L=1;else{var
-g=a[3],M=0,ac=f[1];if(g){var
-B=g[1];if(0===B[0]){var
-ad=B[1],b=function(a){var
-b=k(ad),c=k(ac);return Y?[9,a,b,c]:[6,a,b,c]};M=1}else
-var
-C=0}else
-var
-C=g;if(!M)return C}if(L)return 0;break;case
+f=a[4],K=0;if(typeof
+f==="number"||!(1===f[0]))K=1;else{var
+g=a[3],Y=f[1];if(!g)return g;var
+E=g[1];if(0!==E[0])return 0;var
+Z=E[1],b=function(a){var
+b=k(Z),c=k(Y);return S?[9,a,b,c]:[6,a,b,c]}}if(K)return 0;break;case
 3:var
 h=a[4];if(typeof
 h!=="number"&&1===h[0])return[0,[5,k(h[1])],0];return 0;case
 4:var
-i=a[4],N=0;if(typeof
-i==="number"||!(0===i[0]))N=1;else
+i=a[4],L=0;if(typeof
+i==="number"||!(0===i[0]))L=1;else
 var
-ae=i[1],b=function(a){return[10,a,k(ae)]};if(N)return 0;break;case
+_=i[1],b=function(a){return[10,a,k(_)]};if(L)return 0;break;case
 5:var
 j=a[4];if(typeof
 j!=="number"&&0===j[0])return[0,[12,k(j[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
-D=l[1],m=a[3];if(m){var
+F=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-af=k(D);return[0,[8,av(k(n[1]),z),af],0];case
+$=k(F);return[0,[8,ap(k(n[1]),C),$],0];case
 1:var
-ag=k(D);return[0,[8,e(k,n[1]),ag],0];default:return 0}}return m}return 0;case
+aa=k(F);return[0,[8,e(k,n[1]),aa],0];default:var
+G=0}}else
+var
+G=m;return G}return 0;case
 8:var
-o=a[4],O=0;if(typeof
-o==="number"||!(1===o[0]))O=1;else{var
-p=a[3],P=0,ah=o[1];if(p){var
-E=p[1];if(0===E[0]){var
-ai=E[1],b=function(a){var
-b=k(ah);return[7,a,k(ai),b]};P=1}else
-var
-F=0}else
-var
-F=p;if(!P)return F}if(O)return 0;break;case
+o=a[4],M=0;if(typeof
+o==="number"||!(1===o[0]))M=1;else{var
+p=a[3],ab=o[1];if(!p)return p;var
+H=p[1];if(0!==H[0])return 0;var
+ac=H[1],b=function(a){var
+b=k(ab);return[7,a,k(ac),b]}}if(M)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-aj=q[1],ak=f6(0,X);return e(function(a){var
-b=k(aj),c=cB(a[2]);return[14,cB(a[1]),c,b]},ak)}return 0;case
+ad=q[1],ae=gf(0,R);return e(function(a){var
+b=k(ad),c=cG(a[2]);return[14,cG(a[1]),c,b]},ae)}return 0;case
 10:var
-r=a[4],Q=0;if(typeof
-r==="number"||!(1===r[0]))Q=1;else{var
-s=a[3],R=0,al=r[1];if(s){var
-t=s[1];if(2===t[0]){var
-am=t[2],an=t[1],b=function(a){var
-b=k(al),c=k(am);return[15,a,k(an),c,b]};R=1}else
-var
-G=0}else
-var
-G=s;if(!R)return G}if(Q)return 0;break;case
+r=a[4],N=0;if(typeof
+r==="number"||!(1===r[0]))N=1;else{var
+s=a[3],af=r[1];if(!s)return s;var
+t=s[1];if(2!==t[0])return 0;var
+ag=t[2],ah=t[1],b=function(a){var
+b=k(af),c=k(ag);return[15,a,k(ah),c,b]}}if(N)return 0;break;case
+12:var
+u=a[4];if(typeof
+u!=="number"&&1===u[0]){var
+v=a[3];if(v){var
+w=v[1];if(3===w[0]){var
+ai=k(w[2]),aj=k(u[1]);return[0,[16,k(w[1]),aj,ai],0]}return 0}return v}return 0;case
 13:var
-u=a[4],S=0;if(typeof
-u==="number"||!(1===u[0]))S=1;else
+x=a[4],O=0;if(typeof
+x==="number"||!(1===x[0]))O=1;else
 var
-ao=u[1],b=function(a){return[11,a,k(ao)]};if(S)return 0;break;case
+ak=x[1],b=function(a){return[11,a,k(ak)]};if(O)return 0;break;case
 14:var
-v=a[4],T=0;if(typeof
-v==="number"||!(1===v[0]))T=1;else{var
-w=a[3],U=0,ap=v[1];if(w){var
-H=w[1];if(1===H[0]){var
-aq=H[1],b=function(a){var
-b=k(ap);return[13,a,0,mM(aq),b]};U=1}else
-var
-I=0}else
-var
-I=w;if(!U)return I}if(T)return 0;break;case
+y=a[4],P=0;if(typeof
+y==="number"||!(1===y[0]))P=1;else{var
+z=a[3],al=y[1];if(!z)return z;var
+I=z[1];if(1!==I[0])return 0;var
+am=I[1],b=function(a){var
+b=k(al);return[13,a,0,m5(am),b]}}if(P)return 0;break;case
 15:var
-x=a[4],V=0;if(typeof
-x==="number"||!(1===x[0]))V=1;else{var
-y=a[3],W=0,ar=x[1];if(y){var
-J=y[1];if(1===J[0]){var
-as=J[1],b=function(a){var
-b=k(ar);return[13,a,1,mM(as),b]};W=1}else
-var
-K=0}else
-var
-K=y;if(!W)return K}if(V)return 0;break;default:return 0}var
-A=a[2],_=A?[0,bL(A[1]),0]:aL(0,z);return e(b,_)}function
-dO(e,d,c,b){var
-g=w(function(a){return h9(e,d,c,a)},b),a=w(mL,b),h=a?[0,a[1],a[2]]:w4;return f(h,g)}function
-f7(a){return 11===a[1]?1:0}function
-bS(n,m,a){var
+A=a[4],Q=0;if(typeof
+A==="number"||!(1===A[0]))Q=1;else{var
+B=a[3],an=A[1];if(!B)return B;var
+J=B[1];if(1!==J[0])return 0;var
+ao=J[1],b=function(a){var
+b=k(an);return[13,a,1,m5(ao),b]}}if(Q)return 0;break;default:return 0}var
+D=a[2],U=D?[0,bx(D[1]),0]:aE(0,C);return e(b,U)}function
+dV(e,d,c,b){var
+g=w(function(a){return ig(e,d,c,a)},b),a=w(m4,b),h=a?[0,a[1],a[2]]:xy;return f(h,g)}function
+gg(a){return 11===a[1]?1:0}function
+b1(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5411,25 +5543,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=ck(n,e);if(f){var
+f=co(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=W(w5,h);return i?W(h,m):i}var
+h=g[1],i=V(xz,h);return i?V(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bl(r,b,a){var
+bn(r,b,a){var
 d=a[2];if(d)var
-e=d[1],f=W(w6,e),s=f?W(e,b):f,c=s;else
+e=d[1],f=V(xA,e),t=f?V(e,b):f,c=t;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:bS(0,b,a):bS(0,b,a)}return bS(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:b1(0,b,a):b1(0,b,a)}return b1(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -5437,59 +5569,59 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=u(h(m[1]),b);if(n){if(a[2])return 0;var
+n=s(h(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return bS(0,b,a)}}return bS(0,b,a)}return bS(0,b,a);case
+o=n;return o;default:return b1(0,b,a)}}return b1(0,b,a)}return b1(0,b,a);case
 8:var
 p=a[4];if(typeof
 p!=="number"&&1===p[0]){var
-q=a[3];return q?0===q[1][0]?c?u(b,r):c:bS(0,b,a):bS(0,b,a)}return bS(0,b,a)}return bS(0,b,a)}function
-a7(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bl(c,b,a):a[3]?bl(c,b,a):1:bl(c,b,a):bl(c,b,a)}function
-mN(f,c,b,a){var
+q=a[3];return q?0===q[1][0]?c?s(b,r):c:b1(0,b,a):b1(0,b,a)}return b1(0,b,a)}return b1(0,b,a)}function
+aN(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bn(c,b,a):a[3]?bn(c,b,a):1:bn(c,b,a):bn(c,b,a)}function
+m6(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=W(w8,h),r=i?W(h,b):i,d=r;else
+h=g[1],i=V(xC,h),r=i?V(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bl(a6(c),b,a);if(d){var
+1:if(a[3])return bn(a$(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return ck(f,k)}return d;case
+k=0;return co(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bl(a6(c),b,a):d;return bl(a6(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bn(a$(c),b,a):d;return bn(a$(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bl(a6(c),b,a);var
-n=u(b,a6(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bn(a$(c),b,a);var
+n=s(b,a$(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bl(a6(c),b,a);case
+e=n;return e}return bn(a$(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bl(a6(c),b,a):d?$(f):d;return bl(a6(c),b,a);default:return bl(a6(c),b,a)}}function
-cC(a){switch(a[0]){case
+p!=="number"&&1===p[0])return a[3]?bn(a$(c),b,a):d?ac(f):d;return bn(a$(c),b,a);default:return bn(a$(c),b,a)}}function
+cH(a){switch(a[0]){case
 0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cC(a[1])];case
+2:return[2,cH(a[1])];case
 3:var
-b=cC(a[2]),c=cC(a[3]);switch(a[1]){case
+b=cH(a[2]),c=cH(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cC(a[1]),d];default:return[8,cC(a[1])]}}function
-h_(b){function
+d=a[2];return[7,cH(a[1]),d];default:return[8,cH(a[1])]}}function
+ih(c){function
 a(e){var
-a=[0,d,c];return r(e,b,[0,a,a])}var
-e=a(w9),f=a(w_);return[0,a(0),f,e]}function
-c6(a){function
+a=[0,d,b];return r(e,c,[0,a,a])}var
+e=a(xD),f=a(xE);return[0,a(0),f,e]}function
+dd(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5497,82 +5629,82 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-mO(a){if(0===a[0]){var
-b=aK(a[1],a[2]);return[0,h_(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return mK([1,a[1],a[2],a[3],a[4],a[5]])}function
-mP(j,b,i,g,f,d,a){function
-c(a){return h_(e(bF,a))}var
-l=ak(f7,a),m=dO(0,h(b),d,a),n=c6(f),o=mO(g),p=k(i);return[0,j,e(function(a){var
+m7(a){if(0===a[0]){var
+b=ax(a[1],a[2]);return[0,ih(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return m3([1,a[1],a[2],a[3],a[4],a[5]])}function
+m8(j,b,i,g,f,d,a){function
+c(a){return ih(e(bL,a))}var
+l=al(gg,a),m=dV(0,h(b),d,a),n=dd(f),o=m7(g),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-mQ(a){return ak(function(a){return 2===a[0]?1:0},a)}function
-mR(j,a,b,i,g,f){var
-l=h(a),m=dO(mQ(a),l,0,f),n=x(c6,g),o=mO(i),p=b?k(b[1]):[0,c,c];return[0,j,e(function(a){function
-b(a){return h_(e(bF,a))}switch(a[0]){case
+m9(a){return al(function(a){return 2===a[0]?1:0},a)}function
+m_(j,a,c,i,g,f){var
+l=h(a),m=dV(m9(a),l,0,f),n=x(dd,g),o=m7(i),p=c?k(c[1]):[0,b,b];return[0,j,e(function(a){function
+c(a){return ih(e(bL,a))}switch(a[0]){case
 0:var
-k=a[5],l=bF(a[4]),m=b(a[3]),n=b(a[2]);return[0,[0,[0,b(a[1]),n,m,l,k]]];case
+k=a[5],l=bL(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
-o=b(a[2]);return[0,[1,b(a[1]),o,0]];default:var
+o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
-g=b(f);else
+g=c(f);else
 var
-h=[0,c,c],i=[0,d,c],j=[0,d,c],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bF(a[6]),r=bF(a[5]),s=b(a[4]),t=b(a[3]);return[1,[0,g,b(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-mS(a){return a[1]?0:1}function
-mT(a){var
-c=mS(a);if(c)return c;if(1===a[1]){var
+h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
+p=a[7],q=bL(a[6]),r=bL(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+m$(a){return a[1]?0:1}function
+na(a){var
+c=m$(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-f8(i,h,b){function
+gh(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(f9,a(f9,b)),j=a(f,h$),k=i?f:a(c(b,f9),h$);function
-g(b){return a(b,[5,e(f9,d(h$,d(b,b)))])}var
+f=c(gi,a(gi,b)),j=a(f,ii),k=i?f:a(c(b,gi),ii);function
+g(b){return a(b,[5,e(gi,d(ii,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-f_(f,e,d){function
+gj(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ia,a(ia,d)],mU),g=a(c,[5,[3,0,ia,b(mU,b(c,c))]]);return[2,b(f8(f,e,d),g)]}function
-ib(e,g,a){function
+c=a([3,1,ij,a(ij,d)],nb),g=a(c,[5,[3,0,ij,b(nb,b(c,c))]]);return[2,b(gh(f,e,d),g)]}function
+ik(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(f$,b(f$,a)),d=e?h:b(f(a,f$),mV),i=b(d,[5,[3,0,f$,c(mV,c(d,d))]]);return c(f8(e,g,a),i)}function
-mW(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cr(k(g[2][1]));if(j){var
-l=j[1],m=cr(k(g[2][2]));if(m)var
+h=f(gk,b(gk,a)),d=e?h:b(f(a,gk),nc),i=b(d,[5,[3,0,gk,c(nc,c(d,d))]]);return c(gh(e,g,a),i)}function
+nd(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],j=cv(k(g[2][1]));if(j){var
+l=j[1],m=cv(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
-d(a){return b(2,a)}var
-e=[0,a,e6(h[2],d,c)];return dn(l,b3(fd(p,l),e))},q=n(A(h[1],c)),f=[0,n(h[1]),q];else
+d(a){return c(2,a)}var
+e=[0,a,fe(h[2],d,b)];return dv(l,b$(fn(p,l),e))},q=n(D(h[1],b)),f=[0,n(h[1]),q];else
 var
-f=[0,[0,d,c],[0,d,c]]}else
+f=[0,[0,d,b],[0,d,b]]}else
 var
-f=[0,[0,d,c],[0,d,c]];var
-r=mW([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+f=[0,[0,d,b],[0,d,b]];var
+r=nd([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-ao(b,a){switch(a[0]){case
+an(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jy(function(a){return aq(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,ao(b,a[1])];case
+e=c[1],d=jI(function(a){return as(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,an(b,a[1])];case
 3:var
-f=ao(b,a[3]),g=ao(b,a[2]);return[3,a[1],g,f];case
+f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,ao(b,a[1]),h];default:return[5,ao(b,a[1])]}}function
-mX(b,a){if(0===a[0])return[0,ao(b,a[1])];var
-c=ao(b,a[2]);return[1,ao(b,a[1]),c]}function
-ic(b,a){var
-c=j(b,a[3]),d=j(b,a[2]);return[0,j(b,a[1]),d,c]}function
-id(c,a){if(c)if(a){var
+h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
+ne(b,a){if(0===a[0])return[0,an(b,a[1])];var
+c=an(b,a[2]);return[1,an(b,a[1]),c]}function
+il(b,a){var
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
+im(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=id(h,g);if(e){var
-i=e[1],f=id(h,i[2]);if(f)var
+e=im(h,g);if(e){var
+i=e[1],f=im(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5584,76 +5716,76 @@ var
 d=a;else
 var
 d=c;return d}function
-ie(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,ie(g,f[1],h)];var
-j=[0,e[2]],k=g?c:d,l=e[1],i=[0,[0,A(y(b(2,c),l),k),j],h]}else
+io(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,io(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,D(z(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-xd(a){if(typeof
+xJ(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-xe(a){if(typeof
+xK(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-ga(e,a){if(0===a[0]){var
-f=[0,c,b(2,c)],g=ga(e,a[3]);return b3(dn(ga(e,a[2]),g),f)}return j(e,a[1])?[0,c,c]:[0,d,c]}function
-mY(a){return 0===a[0]?dC(a[1][4]):0}function
-mZ(a){switch(a[0]){case
+gl(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=gl(e,a[3]);return b$(dv(gl(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+nf(a){return 0===a[0]?dL(a[1][4]):0}function
+ng(a){switch(a[0]){case
 0:var
-b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
+b=a[1],c=a9(b[3]);return f(a9(b[2]),c);case
 1:var
-d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
-gb(a){switch(a[0]){case
-0:return bQ(a4(a[1][1]));case
+d=a9(a[2]);return f(a9(a[1]),d);default:return 0}}function
+gm(a){switch(a[0]){case
+0:return bH(a9(a[1][1]));case
 1:var
-b=a[3];return b?bQ(a4(b[1])):d;default:return bQ(a4(a[1]))}}function
-ig(b){var
-a=w(mY,b),d=a?[0,a[1],a[2]]:w(mZ,b);return A(c,bQ(d))}function
-m0(c,a){if(c){if(a){var
+b=a[3];return b?bH(a9(b[1])):d;default:return bH(a9(a[1]))}}function
+ip(c){var
+a=w(nf,c),d=a?[0,a[1],a[2]]:w(ng,c);return D(b,bH(d))}function
+nh(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=xf;else
+b=xL;else
 if(43===d)var
-b=xg;else
+b=xM;else
 var
-f=48===d?1:0,i=f?xh:f,b=i;if(b)var
-e=m0(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?xN:f,b=i;if(b)var
+e=nh(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:xi}function
-eJ(b,a){switch(a[0]){case
+h=a;return h}return a?0:xO}function
+eQ(b,a){switch(a[0]){case
 0:var
-c=a[1];if(aq(c,xj))return xk;if(aq(c,xl))return xm;if(aq(c,xn))return xo;if(aq(c,xp))return xq;if(aq(c,xr))return xs;var
-k=aq(c,xt),p=k?xu:k;return p;case
+c=a[1];if(as(c,xP))return xQ;if(as(c,xR))return xS;if(as(c,xT))return xU;if(as(c,xV))return xW;if(as(c,xX))return xY;var
+k=as(c,xZ),p=k?x0:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(aq(f,xv))return[0,[0,d,e]];if(aq(f,xw))return[0,[1,d,e]];if(aq(f,xx))return[0,[2,d,e]];var
-l=aq(f,xy),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(as(f,x1))return[0,[0,d,e]];if(as(f,x2))return[0,[1,d,e]];if(as(f,x3))return[0,[2,d,e]];var
+l=as(f,x4),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
-4:return[0,[9,a[2],a[1],a[3]]];case
+4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-g=eJ(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eQ(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eJ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eQ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eJ(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eJ(b,a[1]);if(i)var
-j=m0(b,gP(gO(an(m),function(a){return aN(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eQ(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eQ(b,a[1]);if(i)var
+j=nh(b,gX(gW(ao(m),function(a){return aR(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-m1(d,a){if(a){var
-e=a[1],b=eJ(d,e[2]);if(b)var
-c=m1(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+ni(d,a){if(a){var
+e=a[1],b=eQ(d,e[2]);if(b)var
+c=ni(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return xz}function
-c7(d,c,a){if(c)if(a){var
+f=b;return f}return x5}function
+de(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=m1(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=ni(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=c7(d,k,j);if(f){var
-m=f[1],g=c7(d,k,m[2]);if(g)var
+f=de(d,k,j);if(f){var
+m=f[1],g=de(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5668,76 +5800,76 @@ var
 h=a;else
 var
 h=c;return h}function
-ih(e,d,a){if(d){if(a){var
-b=c7(e,h(a),a);if(b)var
-f=b[1],c=ih(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
+iq(e,d,a){if(d){if(a){var
+b=de(e,h(a),a);if(b)var
+f=b[1],c=iq(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return xA}return a?0:xB}function
-ii(a){if(typeof
-a==="number")return 0===a?xC:xD;else
+g=b;return g}return x6}return a?0:x7}function
+ir(a){if(typeof
+a==="number")return 0===a?x8:x9;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-ij(d,a){if(d)if(a){var
+is(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=ij(k,j);if(e){var
-l=e[1],f=ij(k,l[2]);if(f)var
+e=is(k,j);if(e){var
+l=e[1],f=is(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=ii(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
+p=ir(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
 var
 g=d;return g}function
-cD(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-c8(a,e){var
-b=cD(a[1],e),c=cD(a[2],b[2]),d=cD(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-m2(d,c){if(d){var
+cI(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
+df(a,e){var
+b=cI(a[1],e),c=cI(a[2],b[2]),d=cI(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+nj(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=c8(a[1],c),f=c8(a[2],e[2]),g=c8(a[3],f[2]),h=cD(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=df(a[1],c),f=df(a[2],e[2]),g=df(a[3],f[2]),h=cI(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=c8(a[1],c),k=j[1],l=c8(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=c8(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=df(a[1],c),k=j[1],l=df(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=df(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=c8(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=m2(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-xE(a){if(typeof
+p=df(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=nj(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+x_(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return xG;case
+5:return ya;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return xF}function
-bm(a,b){if(a){var
-c=cD(a[1],b),d=bm(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a0(b){function
-a(a){return r(a,b,[0,d,c])}var
-e=a(xJ),f=a(xK);return[0,a(0),f,e]}function
-m3(a,b){if(a){var
-c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=m3(a[2],e[2]),g=f[2],h=f[1],i=a0(e[1]);return[0,[0,[0,a0(d[1]),i],h],g]}return[0,0,b]}function
-m4(f,b){if(f){var
+11:return 0}return x$}function
+bo(a,b){if(a){var
+c=cI(a[1],b),d=bo(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a3(c){function
+a(a){return r(a,c,[0,d,b])}var
+e=a(yd),f=a(ye);return[0,a(0),f,e]}function
+nk(a,b){if(a){var
+c=a[1],d=bo(c[1],b),e=bo(c[2],d[2]),f=nk(a[2],e[2]),g=f[2],h=f[1],i=a3(e[1]);return[0,[0,[0,a3(d[1]),i],h],g]}return[0,0,b]}function
+nl(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bm(a[1],b),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cD(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a0(i[1]),y=a0(h[1]),e=[0,[0,[0,a0(g[1]),y,x,w,v]],u];break;case
+g=bo(a[1],c),h=bo(a[2],g[2]),i=bo(a[3],h[2]),j=cI(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a3(i[1]),y=a3(h[1]),e=[0,[0,[0,a3(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bm(a[1],b),l=bm(a[2],k[2]),z=l[2],A=a0(l[1]),e=[0,[0,[1,a0(k[1]),A,0]],z];break;default:var
-m=a[1],n=bm(m,b),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cD(a[5],q[2]),s=cD(a[6],r[2]),B=m?a0(n[1]):[0,[0,d,c],[0,d,c],[0,c,c]],C=s[2],D=a[7],E=s[1],F=r[1],G=a0(q[1]),H=a0(p[1]),e=[0,[1,[0,B,a0(o[1]),H,G,F,E,D]],C]}var
-t=m4(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,b]}function
-dP(a){return jV(o,a)}function
-xL(a){if(typeof
+k=bo(a[1],c),l=bo(a[2],k[2]),z=l[2],A=a3(l[1]),e=[0,[0,[1,a3(k[1]),A,0]],z];break;default:var
+m=a[1],n=bo(m,c),o=bo(a[2],n[2]),p=bo(a[3],o[2]),q=bo(a[4],p[2]),r=cI(a[5],q[2]),s=cI(a[6],r[2]),B=m?a3(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a3(q[1]),H=a3(p[1]),e=[0,[1,[0,B,a3(o[1]),H,G,F,E,D]],C]}var
+t=nl(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dW(a){return j6(o,a)}function
+yf(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(o,1,[3,a[1],[0,c,c]]);case
+5:return g(o,1,[3,a[1],[0,b,b]]);case
 6:return g(o,1,a[2]);case
 8:var
 d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
@@ -5751,202 +5883,207 @@ i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 2:case
-3:return dP(a[2]);case
+3:return dW(a[2]);case
 4:case
 13:var
-b=g(o,1,a[2]);return b?g(o,1,a[3]):b;default:return g(o,1,a[1])}}function
-ik(a){if(typeof
+c=g(o,1,a[2]);return c?g(o,1,a[3]):c;default:return g(o,1,a[1])}}function
+it(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c]],d]):f,i=h?g(o,0,[2,e,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c]]):h;return i?g(o,0,[3,[0,b(2,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))))),c],d]):i;case
-5:return g(o,1,[3,a[1],[0,c,c]]);case
+d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(o,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):h;return i?g(o,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
+5:return g(o,1,[3,a[1],[0,b,b]]);case
 8:var
-u=[0,a[2],a[1]],v=1;return n(function(a){return g(o,v,a)},u);case
+y=[0,a[2],a[1]],z=1;return n(function(a){return g(o,z,a)},y);case
 10:return g(o,1,a[2]);case
 11:var
-k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c],k]):l;case
+k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],k]):l;case
 13:var
-m=a[4],q=lT(a[3]),r=q?g(o,1,m):q;return r?g(o,0,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],m]):r;case
+m=a[4],p=ma(a[3]),r=p?g(o,1,m):p;return r?g(o,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],m]):r;case
 14:return g(o,0,a[3]);case
 15:var
 s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
+16:var
+u=a[3],v=g(o,0,a[1]),w=v?g(o,1,a[2]):v,x=w?g(o,1,u):w;return x?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
 2:case
-3:return dP(a[2]);case
-6:case
-7:case
-9:var
-j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
-gc(d){var
+3:return dW(a[2]);case
+0:case
+1:case
+12:return g(o,1,a[1]);default:var
+j=g(o,1,a[2]);return j?g(o,1,a[3]):j}}function
+gn(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=$(ak(function(d){return function(a){var
-h=h3(a[1]),e=aq(h3(d[1]),h);if(e)var
-i=h4(a[4]),b=aq(h4(d[4]),i);else
+b=a[2],e=a[1],c=ac(al(function(d){return function(a){var
+h=h$(a[1]),e=as(h$(d[1]),h);if(e)var
+i=ia(a[4]),b=as(ia(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?u(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?s(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eK(a){if(0===a[0])return dP(k(a[1]));var
-b=a[2],c=a[1];if(!eh(k(c))&&!eh(k(b))){var
+eR(a){if(0===a[0])return dW(k(a[1]));var
+b=a[2],c=a[1];if(!ep(k(c))&&!ep(k(b))){var
 e=k(c);return g(o,1,[3,k(b),e])}var
-d=k(b);return bg(o,k(c),d)}function
-c9(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-m5(a){switch(a[0]){case
+d=k(b);return bk(o,k(c),d)}function
+dg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+nm(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(c9(a[3]),c),e=f(c9(a[2]),d);return f(c9(a[1]),e);case
+c=[0,a[4],0],d=f(dg(a[3]),c),e=f(dg(a[2]),d);return f(dg(a[1]),e);case
 1:var
-b=a[3],g=b?c9(b[1]):b,h=f(c9(a[2]),g);return f(c9(a[1]),h);default:return c9(a[1])}}function
-m6(s,a,i){if(ak(function(a){return 9===a[1]?1:0},i)){var
-b=W(h(a),xO),c=b?n(function(a){if(0===a[0]){var
-d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,i=h?g(o,0,k(a[4])):h,c=0;if(i)if(d)var
-p=bE(d[1]),b=n(function(a){return dP(k(a))},p);else{var
+b=a[3],g=b?dg(b[1]):b,h=f(dg(a[2]),g);return f(dg(a[1]),h);default:return dg(a[1])}}function
+nn(s,a,j){if(al(function(a){return 9===a[1]?1:0},j)){var
+b=V(h(a),yi),c=b?n(function(a){if(0===a[0]){var
+d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,j=h?g(o,0,k(a[4])):h,c=0;if(j)if(d)var
+p=bK(d[1]),b=n(function(a){return dW(k(a))},p);else{var
 l=1;c=1}else{var
-l=i;c=1}if(c)var
+l=j;c=1}if(c)var
 b=l}else{var
 m=g(o,1,k(a[4]));if(m)var
-q=bE(a[3]),r=f(bE(a[2]),q),b=n(function(a){return dP(k(a))},r);else
+q=bK(a[3]),r=f(bK(a[2]),q),b=n(function(a){return dW(k(a))},r);else
 var
-b=m}return b?j(s,a):b},a):b;if(c)var
-d=f6(0,a),l=d?1:d,e=l;else
+b=m}return b?i(s,a):b},a):b;if(c)var
+d=gf(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-m7(a){return a?xP:xQ}function
-il(a){switch(a){case
-0:return xR;case
-1:return xS;default:return 0}}function
-cE(a){var
-f=a[1],d=g(o,1,[2,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],f]),e=d?bg(o,a[1],a[2]):d;if(e){var
-h=a[2];return g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],h])}return e}function
-dQ(a){var
-e=bg(o,[0,d,c],a);return e?g(o,1,[3,[0,b(2,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c)))))))))),c],a]):e}function
-m8(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=u(h(e),c),i=f?u(h(d),c):f;if(i){var
-l=aK(e,d);return n(function(a){var
-b=k(a[2]);return bg(o,k(a[1]),b)},l)}return i}var
+no(a){return a?yj:yk}function
+iu(a){switch(a){case
+0:return yl;case
+1:return ym;default:return 0}}function
+cJ(a){var
+f=a[1],d=g(o,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bk(o,a[1],a[2]):d;if(e){var
+h=a[2];return g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
+dX(a){var
+e=bk(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+np(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=s(h(e),c),i=f?s(h(d),c):f;if(i){var
+l=ax(e,d);return n(function(a){var
+b=k(a[2]);return bk(o,k(a[1]),b)},l)}return i}var
 j=b?g(o,1,k(a[3])):b;if(j){var
-m=k(a[5]);return bg(o,k(a[4]),m)}return j}function
-m9(a,e,F,E,s,r,f){function
-t(b){var
-d=m7(a),c=u(h(b),d);return c?n(eK,b):c}var
+m=k(a[5]);return bk(o,k(a[4]),m)}return j}function
+nq(a,e,F,E,t,r,f){function
+u(b){var
+d=no(a),c=s(h(b),d);return c?n(eR,b):c}var
 v=n(function(a){var
-b=t(a[1]);return b?t(a[2]):b},e);if(v)var
-G=h(e),l=W(cx(a),G);else
+b=u(a[1]);return b?u(a[2]):b},e);if(v)var
+G=h(e),l=V(bY(a),G);else
 var
 l=v;var
-w=l?W(h(e),xT):l,x=w?g(o,1,k(F)):w;if(x)var
-H=1===a?1:0,m=m8(il(a),H,E);else
+w=l?V(h(e),yn):l,x=w?g(o,1,k(F)):w;if(x)var
+H=1===a?1:0,m=np(iu(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=c6(s);switch(d[0]){case
+d=dd(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=cE(d[1]),B=A?cE(d[2]):A,i=B?cE(d[3]):B;break;case
+A=cJ(d[1]),B=A?cJ(d[2]):A,i=B?cJ(d[3]):B;break;case
 2:var
-i=dQ(d[1]);break;default:var
-C=dQ(d[1]),i=C?dQ(d[2]):C}var
+i=dX(d[1]);break;default:var
+C=dX(d[1]),i=C?dX(d[2]):C}var
 j=i}else
 var
-D=c6(s),J=0===D[0]?cE(D[1]):0,j=J;else
+D=dd(t),J=0===D[0]?cJ(D[1]):0,j=J;else
 var
 j=m;if(j)var
-I=h(e),p=m6(function(a){if(0===a[0]){var
-b=a[1],c=W(xN,b),d=c?W(b,I):c;if(d){if(a[5])return 0;var
+I=h(e),p=nn(function(a){if(0===a[0]){var
+b=a[1],c=V(yh,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 p=j;if(p)var
-b=h(e),c=cx(a),y=m7(a),q=n(function(a){var
+b=h(e),c=bY(a),y=no(a),q=n(function(a){var
 e=a[2];if(e)var
-f=e[1],g=W(w7,f),v=g?W(f,b):g,d=v;else
+f=e[1],g=V(xB,f),w=g?V(f,b):g,d=w;else
 var
-d=1;var
-i=a[1];if(9<=i)switch(i-9|0){case
-0:var
+d=1;switch(a[1]){case
+9:var
+i=a[4];if(typeof
+i!=="number"&&0===i[0])return a[2]?aN(c,b,a):a[3]?aN(c,b,a):1;return aN(c,b,a);case
+10:var
 j=a[4];if(typeof
-j!=="number"&&0===j[0])return a[2]?a7(c,b,a):a[3]?a7(c,b,a):1;return a7(c,b,a);case
-1:var
-k=a[4];if(typeof
-k!=="number"&&1===k[0]){var
-l=a[3];return l?2===l[1][0]?d:a7(c,b,a):a7(c,b,a)}return a7(c,b,a);case
-5:var
-m=a[4];if(typeof
-m!=="number"&&1===m[0]){var
-n=a[3];if(n){var
-o=n[1];if(1===o[0]){var
-p=u(h(o[1]),y),w=p?d:p;return w}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a);case
-6:var
-q=a[4];if(typeof
-q!=="number"&&1===q[0]){var
-r=a[3];if(r){var
-s=r[1];if(1===s[0]){var
-t=u(h(s[1]),y),x=t?d:t;return x}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)}return a7(c,b,a)},f);else
+j!=="number"&&1===j[0]){var
+k=a[3];return k?2===k[1][0]?d:aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+12:var
+l=a[4];if(typeof
+l!=="number"&&1===l[0]){if(a[2])return aN(c,b,a);var
+m=a[3];return m?3===m[1][0]?s(b,c):aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+14:var
+n=a[4];if(typeof
+n!=="number"&&1===n[0]){var
+o=a[3];if(o){var
+p=o[1];if(1===p[0]){var
+q=s(h(p[1]),y),x=q?d:q;return x}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);case
+15:var
+r=a[4];if(typeof
+r!=="number"&&1===r[0]){var
+t=a[3];if(t){var
+u=t[1];if(1===u[0]){var
+v=s(h(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},f);else
 var
 q=p;var
-z=q?gc(f):q;return z?n(ik,dO(0,h(e),r,f)):z}function
-m_(a){switch(a[0]){case
+z=q?gn(f):q;return z?n(it,dV(0,h(e),r,f)):z}function
+nr(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-m$(a,e,d,Q,m,l){var
+ns(a,e,d,Q,m,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?xU:xV;return u(h(a),b)}var
-i=mQ(e),z=n(function(b){switch(b[0]){case
+b=p?yo:yp;return s(h(a),b)}var
+i=m9(e),z=n(function(b){switch(b[0]){case
 0:var
-d=$(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=ac(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=$(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=ac(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-R=h(e),q=W(a6(a),R);else
+R=h(e),q=V(a$(a),R);else
 var
 q=z;var
-A=q?W(h(e),xW):q,B=A?n(eK,w(m_,e)):A;if(B){var
+A=q?V(h(e),yq):q,B=A?n(eR,w(nr,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-S=p?xX:xY,r=m8(S,C,Q)}else
+S=p?yr:ys,r=np(S,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=x(c6,m)?0:1,b=U;else
+U=x(dd,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-t=x(c6,m);if(t){var
-E=t[1];if(0===E[0])var
-F=g(o,1,k(d[1])),G=F?cE(E[1]):F;else
+u=x(dd,m);if(u){var
+E=u[1];if(0===E[0])var
+F=g(o,1,k(d[1])),G=F?cJ(E[1]):F;else
 var
 G=0;var
 H=G}else
 var
-H=t;var
+H=u;var
 b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],y=x(c6,m);if(y){var
+v=d[1],y=x(dd,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
 j=0;break;case
 1:var
-J=g(o,1,k(v)),K=J?cE(f[1]):J,L=K?cE(f[2]):K,j=L?cE(f[3]):L;break;case
+J=g(o,1,k(v)),K=J?cJ(f[1]):J,L=K?cJ(f[2]):K,j=L?cJ(f[3]):L;break;case
 2:var
-M=g(o,1,k(v)),j=M?dQ(f[1]):M;break;default:var
-N=g(o,1,k(v)),O=N?dQ(f[1]):N,j=O?dQ(f[2]):O}var
+M=g(o,1,k(v)),j=M?dX(f[1]):M;break;default:var
+N=g(o,1,k(v)),O=N?dX(f[1]):N,j=O?dX(f[2]):O}var
 I=j}else
 var
 I=y;var
@@ -5956,81 +6093,81 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=h(e),s=n(function(b){return mN(i,a,T,b)},l);else
+T=h(e),t=n(function(b){return m6(i,a,T,b)},l);else
 var
-s=b;var
-D=s?gc(l):s;return D?n(ik,dO(i,h(e),0,l)):D}function
-xZ(a){switch(a[0]){case
-0:return fH(a[1][1]);case
+t=b;var
+D=t?gn(l):t;return D?n(it,dV(i,h(e),0,l)):D}function
+yt(a){switch(a[0]){case
+0:return fS(a[1][1]);case
 1:var
-b=a[3];return b?fH(b[1]):1;default:return fH(a[1])}}function
-im(a,k,b,d){var
-e=m6(function(g){if(0===g[0]){var
-c=g[1],d=W(xM,c);if(d){var
-b=M(a,bL(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?fS(b[1]):1;default:return fS(a[1])}}function
+iv(a,k,b,d){var
+e=nn(function(g){if(0===g[0]){var
+c=g[1],d=V(yg,c);if(d){var
+b=M(a,bx(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(xZ,d[1]):e,g=f?W(x0,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return wX(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(yt,d[1]):e,g=f?V(yu,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return xr(l,a)},b);else
 var
 c=g;var
-i=c?gc(b):c,j=i?n(eK,w(m5,a)):i;return j?n(xL,d[3]):j}function
-gd(b,a){return n(function(c){var
-a=c[2];return a?cl(a[1],b):1},a)}function
-na(a){if(a){var
-b=a[1];if(f7(b))return 0;var
-c=[0,b,na(a[2])]}else
+i=c?gn(b):c,j=i?n(eR,w(nm,a)):i;return j?n(yf,d[3]):j}function
+go(b,a){return n(function(c){var
+a=c[2];return a?by(a[1],b):1},a)}function
+nt(a){if(a){var
+b=a[1];if(gg(b))return 0;var
+c=[0,b,nt(a[2])]}else
 var
 c=a;return c}function
-x1(a){if(typeof
+yv(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(ez(d)&&$(g(o,0,[3,d,[0,b(2,p(b(2,b(2,p(b(2,p(b(2,b(2,c))))))))),c]])))return x3;return x4}return x2}function
-nb(f,d,b){var
-g=na(b),i=0,c=aJ(N,0,e(x1,w(function(a){return h9(i,f,d,a)},g))),a=w(mL,b),j=a?[0,a[1],a[2]]:x5;return N(h(j),c)}function
-io(b,a){var
-c=h(be(function(a){return 0===a[0]?0:1},b));return u(h(a),c)}function
-ip(a){if(a){var
+d=a[4];if(eF(d)&&ac(g(o,0,[3,d,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return yx;return yy}return yw}function
+nu(f,d,b){var
+g=nt(b),i=0,c=aw(P,0,e(yv,w(function(a){return ig(i,f,d,a)},g))),a=w(m4,b),j=a?[0,a[1],a[2]]:yz;return P(h(j),c)}function
+iw(b,a){var
+c=h(bh(function(a){return 0===a[0]?0:1},b));return s(h(a),c)}function
+ix(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-nc(aM,Z,aJ,Y,X,b,aH,B){var
-a=h8(Z,aJ,Y,X),aN=h(B);if(aM)var
-_=0;else
+nv(aL,_,aK,Z,Y,b,aJ,B){var
+a=ie(_,aK,Z,Y),aN=h(B);if(aL)var
+$=0;else
 var
-aE=a[1],aF=e(gb,a[1]),W=fB(ig(a[1]),aF,aE),aG=aK(aL(0,h(W)),W),_=e(aI,be(function(a){return fD(a[2])},aG));var
-C=c7(_,aN,B);if(C){var
-$=C[1];if($[2])return 0;var
-aa=im(Z,Y,X,a),ab=aa?gd(x6,B):aa;if(ab){var
-aO=$[1],D=e(gb,a[1]),c=ig(a[1]),aP=ip(aH),V=kX(o,a);if(V){var
-l=fB(c,D,a[1]),g=hg(c,D,a[1],0),af=h(a[3]),ag=N(h(l),af),K=[0,h(l),ag],ah=a[3],F=ak(function(a){if(typeof
+aG=a[1],aH=e(gm,a[1]),X=fK(ip(a[1]),aH,aG),aI=ax(aE(0,h(X)),X),$=e(aM,bh(function(a){return fM(a[2])},aI));var
+C=de($,aN,B);if(C){var
+aa=C[1];if(aa[2])return 0;var
+ab=iv(_,Z,Y,a),ac=ab?go(yA,B):ab;if(ac){var
+aO=aa[1],D=e(gm,a[1]),c=ip(a[1]),aP=ix(aJ),V=k7(o,a);if(V){var
+l=fK(c,D,a[1]),g=ho(c,D,a[1],0),af=h(a[3]),ag=P(h(l),af),L=[0,h(l),ag],ah=a[3],F=al(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?w(function(a){var
-b=e(b0,kJ(l,a));return[0,a[4],b]},g):F,aj=f(hi(g,c,K,a[3]),ai),am=f(bA(ka(g)),aj),M=f(bA(ej(g)),am),O=cp(M)[1],m=co(O),P=n(function(a){var
-b=i(d);return aw(r(aX(m,a),m,b),a)},M);if(P){var
-Q=ak(q4,a[3]);if(Q){var
+b=e(bu,hr(l,a[4]));return[0,a[4],b]},g):F,ak=f(hq(g,c,L,a[3]),ai),am=f(bF(kl(g)),ak),M=f(bF(er(g)),am),N=ct(M)[1],m=cs(N),O=n(function(a){var
+b=j(d);return ay(r(a1(m,a),m,b),a)},M);if(O){var
+Q=al(rm,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
-q=p[1],u=bv(d,t);switch(q[0]){case
+q=p[1],u=bz(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fE(b,G[1],u),E=0;if(H){var
-s=al(b,[0,G[4],c]);if(s)var
-k=L(d,s[1][1]);else{var
+G=q[1],H=fN(b,G[1],u),E=0;if(H){var
+s=aj(b,[0,G[4],c]);if(s)var
+k=K(d,s[1][1]);else{var
 I=s;E=1}}else{var
 I=H;E=1}if(E)var
 k=I;break;case
 1:var
-J=q[3],k=J?fE(b,J[1],u):1;break;default:var
-k=fE(b,q[1],u)}if(k){var
-ae=p[2],t=bd(t),p=ae;continue}var
+J=q[3],k=J?fN(b,J[1],u):1;break;default:var
+k=fN(b,q[1],u)}if(k){var
+ae=p[2],t=bg(t),p=ae;continue}var
 R=k}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-an=a[3],ao=w(function(a){return cR(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bz(c,a)},ap),ao)),x=ac(e(function(a){return al(b,a)},aq));if(x){var
-as=aQ(dB(a[2]),c),y=ac(e(function(a){return al(b,a)},as));if(y){var
-at=a[3],z=ac(kL(b,aP,function(a){return aX(m,a)},l,g,c,K,at));if(z){var
-S=z[1],au=hf(S),av=y[1],ax=a[2],ay=function(a){return kM(b,ax,c,a)},az=x[1],aA=0,aB=ka(g),aC=j(ar(function(a){return aX(m,a)}),aB),aD=ej(g);return fz(b,O,j(ar(function(a){return aX(m,a)}),aD),aC,aA,az,S,ay,av,au,aO)}var
+an=a[3],ao=w(function(a){return cX(c,a)},an),ap=a[3],ar=f(l,f(e(function(a){return bE(c,a)},ap),ao)),x=W(e(function(a){return aj(b,a)},ar));if(x){var
+as=aV(dK(a[2]),c),y=W(e(function(a){return aj(b,a)},as));if(y){var
+at=a[3],z=W(kV(b,aP,function(a){return a1(m,a)},l,g,c,L,at));if(z){var
+S=z[1],au=hn(S),av=y[1],aw=a[2],az=function(a){return kW(b,aw,c,a)},aA=x[1],aB=0,aC=kl(g),aD=i(aq(function(a){return a1(m,a)}),aC),aF=er(g);return fI(b,N,i(aq(function(a){return a1(m,a)}),aF),aD,aB,aA,S,az,av,au,aO)}var
 T=z}else
 var
 T=y;var
@@ -6041,43 +6178,43 @@ A=U}else
 var
 A=v}else
 var
-A=P;return A}return V}var
-ad=ab}else
+A=O;return A}return V}var
+ad=ac}else
 var
 ad=C;return ad}function
-x7(a){if(0===a[0])return mY(a[1]);var
-b=a[1],c=dC(b[6]);return f(dC(b[5]),c)}function
-x8(a){if(0===a[0])return mZ(a[1]);var
-b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-x9(a){if(0===a[0])return[0,gb(a[1]),d];var
-b=a[1],c=bQ(a4(b[2]));return[0,bQ(a4(b[1])),c]}function
-nd(f,n,m,l,k,j,y,d){var
-a=mR(f,n,m,l,k,j),p=a[2],b=w(x7,p),x=b?[0,b[1],b[2]]:w(x8,p),i=A(c,bQ(x)),q=e(x9,a[2]),r=hQ(i,q,a[2]),z=h(d),B=aK(aL(0,h(r)),r),g=c7(e(aI,be(function(a){return fD(a[2])},B)),z,d);if(g){var
+yB(a){if(0===a[0])return nf(a[1]);var
+b=a[1],c=dL(b[6]);return f(dL(b[5]),c)}function
+yC(a){if(0===a[0])return ng(a[1]);var
+b=a[1],c=a9(b[4]);return f(a9(b[3]),c)}function
+yD(a){if(0===a[0])return[0,gm(a[1]),d];var
+b=a[1],c=bH(a9(b[2]));return[0,bH(a9(b[1])),c]}function
+nw(f,n,m,l,k,j,y,d){var
+a=m_(f,n,m,l,k,j),p=a[2],c=w(yB,p),x=c?[0,c[1],c[2]]:w(yC,p),i=D(b,bH(x)),q=e(yD,a[2]),r=hZ(i,q,a[2]),z=h(d),A=ax(aE(0,h(r)),r),g=de(e(aM,bh(function(a){return fM(a[2])},A)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=m$(f,n,m,l,k,j),u=t?gd(a6(f),d):t;if(u)return sr(o,y,a,i,q,s[1]);var
+t=ns(f,n,m,l,k,j),u=t?go(a$(f),d):t;if(u)return sU(o,y,a,i,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-ne(B,aM,aq,ap,A,ao,h){var
-l=h8(B,aM,aq,ap);if(A){var
+nx(B,aM,aq,ap,A,ao,h){var
+l=ie(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=m2(B,e(k,ao));if(ar[2])return 0;var
+ar=nj(B,e(k,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?xH:xI;else
+a=0===h?yb:yc;else
 switch(h[0]){case
 0:var
-b=h[2],m=h[1],H=x(xE,M(as,m)),J=0;if(H){var
+c=h[2],m=h[1],H=x(x_,M(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
-K=0;if(b){var
-n=b[1],L=0;if(n){var
+K=0;if(c){var
+n=c[1],L=0;if(n){var
 p=n[2],N=0;if(p){var
 q=p[2],O=0;if(q)if(q[2]){var
 a=0;K=1;L=1;N=1;O=1}else{var
-r=b[2],az=0;if(r){var
+r=c[2],az=0;if(r){var
 s=r[1],aA=0;if(s){var
 t=s[2],aB=0;if(t){var
 u=t[2],aC=0;if(u)if(u[2]||r[2]){var
@@ -6106,12 +6243,12 @@ var
 $=n;if(!L)var
 aa=$}else
 var
-aa=b;if(!K)var
+aa=c;if(!K)var
 a=aa}else{var
-aD=0;if(b){var
-v=b[1],aE=0;if(v){var
+aD=0;if(c){var
+v=c[1],aE=0;if(v){var
 y=v[2],aF=0;if(y){var
-z=y[2],aG=0;if(z)if(z[2]||b[2]){var
+z=y[2],aG=0;if(z)if(z[2]||c[2]){var
 a=0;aD=1;aE=1;aF=1;aG=1}else
 var
 ab=z[1],ac=y[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
@@ -6125,32 +6262,32 @@ var
 ag=v;if(!aE)var
 ah=ag}else
 var
-ah=b;if(!aD)var
+ah=c;if(!aD)var
 a=ah}}else
-if(b)var
+if(c)var
 a=0;else{var
 ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
 aj=H;J=1}if(J)var
 a=aj;break;case
 1:var
-al=h[1],I=M(as,al),P=0;if(I){var
+ak=h[1],I=M(as,ak),P=0;if(I){var
 aH=0,am=I[1];if(typeof
 am!=="number"&&1===am[0]){var
-a=[0,[1,al,h[2]]];aH=1}if(!aH){var
+a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
 an=0;P=1}}else{var
 an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=io(w(m5,B),ao),au=at?im(B,aq,ap,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kO(o,l,j,i);if(Q)if(typeof
-f==="number")return 0===f?ak(function(b){var
-a=kP(b,i);return a?g(o,0,[3,[0,d,c],a[1]]):a},j):j1(q6,e(function(b){var
-a=er(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
+at=iw(w(nm,B),ao),au=at?iv(B,aq,ap,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kY(o,l,j,i);if(Q)if(typeof
+f==="number")return 0===f?al(function(c){var
+a=kZ(c,i);return a?g(o,0,[3,[0,d,b],a[1]]):a},j):ka(ro,e(function(b){var
+a=ey(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
 E=M(l[3],f[1]);if(E){var
-aI=E[1],aJ=kQ(f[3]);return kV(o,j,i,kQ(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=k0(f[3]);return k5(o,j,i,k0(f[2]),aJ,aI)}return E}var
 F=M(l[3],f[1]);if(F){var
 G=M(j,f[2]);if(G){var
-R=G[1],aK=F[1],aL=cX(R,i);return kV(o,j,i,cX(R,i),aL,aK)}var
+R=G[1],aK=F[1],aL=c3(R,i);return k5(o,j,i,c3(R,i),aL,aK)}var
 S=G}else
 var
 S=F;return S}return Q}var
@@ -6166,412 +6303,414 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-nf(m,l,b,k,z,y){var
+ny(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=M(f,g),n=h?cl(h[1][2],ya):h;if(n)var
-A=d[2],i=nf(m,l,b,k,ie(0,g,f),A);else
+g=d[1],h=M(f,g),n=h?by(h[1][2],yG):h;if(n)var
+A=d[2],i=ny(m,l,b,k,io(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=ie(1,g,f),d=B;continue}return i}var
-c=d[1],a=mW(0,m,f),o=e(function(b){function
-d(b){return mX(a,b)}function
-c(a){return ic(d,a)}switch(b[0]){case
+B=d[3],f=io(1,g,f),d=B;continue}return i}var
+c=d[1],a=nd(0,m,f),o=e(function(b){function
+d(b){return ne(a,b)}function
+c(a){return il(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=mX(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=ne(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=ic(function(b){return ao(a,b)},q),s=b[1],j=[0,ic(function(b){return ao(a,b)},s),r];else
+q=b[2],r=il(function(b){return an(a,b)},q),s=b[1],j=[0,il(function(b){return an(a,b)},s),r];else
 var
-t=ao(a,b[5]),u=ao(a,b[4]),v=ao(a,b[3]),w=ao(a,b[2]),j=[1,ao(a,b[1]),w,v,u,t];var
-p=e(function(f){var
-b=f[4];if(typeof
-b==="number")var
+t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
+p=e(function(g){var
+c=g[4];if(typeof
+c==="number")var
 d=0;else
-switch(b[0]){case
+switch(c[0]){case
 0:var
-d=[0,ao(a,b[1])];break;case
+d=[0,an(a,c[1])];break;case
 1:var
-d=[1,ao(a,b[1])];break;default:var
-l=ao(a,b[2]),d=[2,ao(a,b[1]),l]}var
-g=f[3];if(g){var
-c=g[1];switch(c[0]){case
+d=[1,an(a,c[1])];break;default:var
+m=an(a,c[2]),d=[2,an(a,c[1]),m]}var
+h=g[3];if(h){var
+b=h[1];switch(b[0]){case
 0:var
-h=[0,[0,ao(a,c[1])]];break;case
+f=[0,[0,an(a,b[1])]];break;case
 1:var
-j=c[1],h=[0,[1,e(function(b){return ao(a,b)},j)]];break;default:var
-k=ao(a,c[2]),h=[0,[2,ao(a,c[1]),k]]}var
-i=h}else
+j=b[1],f=[0,[1,e(function(b){return an(a,b)},j)]];break;case
+2:var
+k=an(a,b[2]),f=[0,[2,an(a,b[1]),k]];break;default:var
+l=an(a,b[2]),f=[0,[3,an(a,b[1]),l]]}var
+i=f}else
 var
-i=g;return[0,f[1],f[2],i,d]},k);if(typeof
+i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return nc(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return ao(a,b)},D),F=c[2];return ne(o,j,0,p,e(function(b){return ao(a,b)},F),E,C)}}}function
-ng(h,g){var
-a=cr(k(h));if(a){var
-b=a[1],e=cL([0,d,c],b);if(e)return cL(b,g);var
+1:return nv(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return nx(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+nz(h,g){var
+a=cv(k(h));if(a){var
+c=a[1],e=cR([0,d,b],c);if(e)return cR(c,g);var
 f=e}else
 var
 f=a;return f}function
-yg(q){var
-d5=f5(q[3]),d6=d5?f5(q[4]):d5;if(d6){var
-Q=q[1];switch(Q[0]){case
+yM(q){var
+d5=ge(q[3]),d6=d5?ge(q[4]):d5;if(d6){var
+O=q[1];switch(O[0]){case
 3:var
-ea=n(eG,Q[1]);if(ea)var
-hq=Q[2],bT=n(function(a){return eG(a[1])},hq);else
+ea=n(eN,O[1]);if(ea)var
+hl=O[2],bT=n(function(a){return eN(a[1])},hl);else
 var
 bT=ea;if(bT)var
-hr=Q[3],bU=n(function(a){var
-b=eG(a[1]),c=b?h6(a[2]):b;return c?eH(a[2]):c},hr);else
+hm=O[3],bV=n(function(a){var
+b=eN(a[1]),c=b?ic(a[2]):b;return c?eO(a[2]):c},hm);else
 var
-bU=bT;if(bU)var
-hs=Q[4],aS=n(function(a){var
+bV=bT;if(bV)var
+hp=O[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=h6(a);return b?eH(a):b},b)},hs);else
+b=ic(a);return b?eO(a):b},b)},hp);else
 var
-aS=bU;break;case
+aS=bV;break;case
 7:var
-ht=Q[1],eb=n(function(a){var
-b=eG(a[1]);return b?eI(0,[0,a[2][1],[0,a[2][2],0]]):b},ht),aS=eb?eI(0,[0,Q[5],[0,Q[6],0]]):eb;break;default:var
+hr=O[1],eb=n(function(a){var
+b=eN(a[1]);return b?eP(0,[0,a[2][1],[0,a[2][2],0]]):b},hr),aS=eb?eP(0,[0,O[5],[0,O[6],0]]):eb;break;default:var
 aS=1}var
 bR=aS}else
 var
 bR=d6;var
 cF=0;if(bR){var
-d7=q[1],bS=7===d7[0]?e(aI,d7[1]):0,d8=function(c,b){var
-a=mI(c);return a?n(function(a){var
+d7=q[1],bS=7===d7[0]?e(aM,d7[1]):0,d8=function(c,b){var
+a=m1(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=f5(a[2]);if(b){var
+b=ge(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return f5(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eI(bS,mH(c[1]));var
+1:return ge(a[1]);case
+2:case
+3:case
+4:return 1;default:var
+a=a[1];continue}},e);if(b){var
+c=a[3];if(c)return eP(bS,m0(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d9=function(e,d,c,b){var
-a=mI(e);return a?eI(bS,f(d,f(c,mH(b)))):a},l=q[1];switch(l[0]){case
+a=m1(e);return a?eP(bS,f(d,f(c,m0(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=w(c4,l[4]),gX=f(w(mF,l[3]),gW),gY=f(mD(l[2]),gX),S=f(w(h7,l[1]),gY);break;case
+gW=w(db,l[4]),gX=f(w(mY,l[3]),gW),gY=f(mW(l[2]),gX),T=f(w(id,l[1]),gY);break;case
 1:var
-bK=l[5],bM=l[3],gZ=w(c4,l[6]),g0=bK?mE(bK[1]):bK,g1=f(g0,gZ),g2=f(mC(l[4]),g1),g3=bM?[0,bM[1],0]:bM,g4=f(g3,g2),S=f(w(wS,l[2]),g4);break;case
+bO=l[5],bP=l[3],gZ=w(db,l[6]),g0=bO?mX(bO[1]):bO,g1=f(g0,gZ),g2=f(mV(l[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),T=f(w(xm,l[2]),g4);break;case
 2:var
-g5=w(c4,l[7]),g6=f(w(mF,l[6]),g5),g7=f(mE(l[5]),g6),g8=f(mC(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(w(function(a){return w(dM,f(a[1],a[2]))},g_),g9);break;case
+g5=w(db,l[7]),g6=f(w(mY,l[6]),g5),g7=f(mX(l[5]),g6),g8=f(mV(l[4]),g7),g9=[0,l[3],g8],g_=l[2],T=f(w(function(a){return w(dT,f(a[1],a[2]))},g_),g9);break;case
 3:var
-g$=w(c4,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(w(function(a){return dM(a[2])},hc),hb);break;case
+g$=w(db,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],T=f(w(function(a){return dT(a[2])},hc),hb);break;case
 4:var
-hd=w(c4,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
+hd=w(db,l[3]),T=[0,l[1],[0,l[2],hd]];break;case
 5:var
-he=w(c4,l[4]),hh=f(bE(l[3]),he),hk=f(bE(l[2]),hh),hm=f(w(h7,l[1]),hk),S=[0,l[5],hm];break;case
+he=w(db,l[4]),hf=f(bK(l[3]),he),hg=f(bK(l[2]),hf),hh=f(w(id,l[1]),hg),T=[0,l[5],hh];break;case
 6:var
-bO=l[1],S=bO?dM(bO[1]):bO;break;default:var
-hn=w(c4,l[4]),ho=f(mD(l[3]),hn),S=f(w(h7,l[2]),ho)}var
-d_=eI(bS,S);if(d_){var
-T=q[2];switch(T[0]){case
+bQ=l[1],T=bQ?dT(bQ[1]):bQ;break;default:var
+hi=w(db,l[4]),hj=f(mW(l[3]),hi),T=f(w(id,l[2]),hj)}var
+d_=eP(bS,T);if(d_){var
+U=q[2];switch(U[0]){case
 0:var
-aB=d8(T[1],T[3]);break;case
+aC=d8(U[1],U[3]);break;case
 1:var
-aB=d9(T[1],T[2],T[3],T[4]);break;default:var
-hp=T[1],aB=n(function(a){if(typeof
+aC=d9(U[1],U[2],U[3],U[4]);break;default:var
+hk=U[1],aC=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return d8(a[1],a[3]);case
-2:return d9(a[1],a[2],a[3],a[4])}return 1},hp)}}else{var
+2:return d9(a[1],a[2],a[3],a[4])}return 1},hk)}}else{var
 d$=d_;cF=1}}else{var
 d$=bR;cF=1}if(cF)var
-aB=d$;if(aB){var
+aC=d$;if(aC){var
 a=q[1];switch(a[0]){case
 0:var
-eQ=a[4],eR=a[3],eS=a[2],eT=a[1],ab=q[2];switch(ab[0]){case
-0:return nc(0,eT,eS,eR,eQ,ab[1],ab[2],ab[3]);case
-1:return ne(eT,eS,eR,eQ,ab[2],ab[3],ab[4]);default:return 0}case
+eM=a[4],eQ=a[3],eS=a[2],eT=a[1],aa=q[2];switch(aa[0]){case
+0:return nv(0,eT,eS,eQ,eM,aa[1],aa[2],aa[3]);case
+1:return nx(eT,eS,eQ,eM,aa[2],aa[3],aa[4]);default:return 0}case
 1:var
-b$=a[6],ca=a[5],cb=a[4],cd=a[3],aC=a[2],ad=a[1],an=q[2];switch(an[0]){case
-0:return nd(ad,aC,cd,cb,ca,b$,an[1],an[3]);case
+cb=a[6],cc=a[5],cd=a[4],ce=a[3],aD=a[2],ad=a[1],an=q[2];switch(an[0]){case
+0:return nw(ad,aD,ce,cd,cc,cb,an[1],an[3]);case
 1:var
-eU=an[3],hW=an[4],hX=an[2],en=typeof
-ad==="number"?ad?x_:x$:il(ad[1]),b5=e(k,hX),eo=m4(aC,e(k,eU));if(eo[2])return 0;var
-b6=ii(hW);if(b6){var
-es=io(w(m_,aC),eU),ev=es?m$(ad,aC,cd,cb,ca,b$):es;if(ev)var
-hI=a6(ad),b7=u(h(b5),hI);else
+eU=an[3],hT=an[4],hU=an[2],ek=typeof
+ad==="number"?ad?yE:yF:iu(ad[1]),b7=e(k,hU),el=nl(aD,e(k,eU));if(el[2])return 0;var
+b8=ir(hT);if(b8){var
+em=iw(w(nr,aD),eU),en=em?ns(ad,aD,ce,cd,cc,cb):em;if(en)var
+hI=a$(ad),b9=s(h(b7),hI);else
 var
-b7=ev;if(b7){var
-hJ=b6[1],s=dl(en,b5),F=a0(b2(en,b5)),am=eo[1],X=mR(ad,aC,cd,cb,ca,b$),c1=l1(o,X[2],am);if(c1){var
-cY=cU(o,X[4],F),cG=0;if(cY){var
-cZ=X[5];if(cZ)var
-ba=fK(o,cZ[1],s);else
-if(s)var
+b9=en;if(b9){var
+hJ=b8[1],t=b_(ek,b7),F=a3(bi(ek,b7)),am=el[1],Y=m_(ad,aD,ce,cd,cc,cb),cY=mi(o,Y[2],am);if(cY){var
+cU=c0(o,Y[4],F),cG=0;if(cU){var
+cV=Y[5];if(cV)var
+ba=fR(o,cV[1],t);else
+if(t)var
 ba=0;else{var
-c0=1;cG=1}}else{var
-c0=cY;cG=1}if(cG)var
-ba=c0;var
+cW=1;cG=1}}else{var
+cW=cU;cG=1}if(cG)var
+ba=cW;var
 bb=ba}else
 var
-bb=c1;if(bb){var
-C=X[5],c2=X[3],aJ=X[1],fX=X[6],fQ=e(function(a){if(0===a[0]){var
-d=cc(C,s,F,a),b=er(a[1],d);return[0,lZ(aJ,b,at([5,[0,c,c],c2],eu(hN(C,s,fV(a)),b)))]}return 0},am),fS=w(function(a){if(0===a[0]){var
-c=cc(C,s,F,a),b=kP(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=cc(C,s,F,a);return[0,k8(a[1],e),0]},am),fT=e(function(d){var
-b=cc(C,s,F,d);if(0===d[0]){var
+bb=cY;if(bb){var
+B=Y[5],cZ=Y[3],aK=Y[1],fV=Y[6],fM=e(function(a){if(0===a[0]){var
+d=ch(B,t,F,a),c=ey(a[1],d);return[0,mg(aK,c,av([5,[0,b,b],cZ],eA(hW(B,t,f5(a)),c)))]}return 0},am),fN=w(function(a){if(0===a[0]){var
+c=ch(B,t,F,a),b=kZ(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=ch(B,t,F,a);return[0,lg(a[1],e),0]},am),fO=e(function(d){var
+b=ch(B,t,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=cV(e,h,g,f,b),i=cW(a[5],j),k=at(i,az(e)),l=eq(e,h,g,b);return[0,[0,l0(aJ,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fG(c,b),o=k$(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,l0(aJ,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fU=e(function(a){if(0===a[0]){var
-c=cc(C,s,F,a);return[0,hj(a[1],c)]}var
-b=a[1],d=k_(b,cc(C,s,F,a));return[1,k9(b,cc(C,s,F,a)),d]},am),fW=[0,e(function(a){if(0===a[0])var
-k=cc(C,s,F,a),d=cX(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=c1(e,h,g,f,b),i=c2(a[5],j),k=av(i,aB(e)),l=ex(e,h,g,b);return[0,[0,mh(aK,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fP(c,b),o=lj(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,mh(aK,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fS=e(function(a){if(0===a[0]){var
+c=ch(B,t,F,a);return[0,hs(a[1],c)]}var
+b=a[1],d=li(b,ch(B,t,F,a));return[1,lh(b,ch(B,t,F,a)),d]},am),fT=[0,e(function(a){if(0===a[0])var
+k=ch(B,t,F,a),d=c3(a[1],k);else
 var
-e=cc(C,s,F,a),b=a[1],f=k$(b,e),g=b[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fG(b,e),d=at([5,[0,c,c],[4,b[5],j]],i);return lZ(aJ,d,at([5,[0,c,c],c2],eu(hN(C,s,fV(a)),d)))},am),fU,fT,fS,fQ];return k5(o,a6(X[1]),fW,fX,hJ)}return bb}var
-ew=b7}else
+e=ch(B,t,F,a),c=a[1],f=lj(c,e),g=c[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fP(c,e),d=av([5,[0,b,b],[4,c[5],j]],i);return mg(aK,d,av([5,[0,b,b],cZ],eA(hW(B,t,f5(a)),d)))},am),fS,fO,fN,fM];return ld(o,a$(Y[1]),fT,fV,hJ)}return bb}var
+eo=b9}else
 var
-ew=b6;return ew;default:return 0}case
+eo=b8;return eo;default:return 0}case
 2:var
-aD=a[7],aE=a[6],aW=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
+aF=a[7],aG=a[6],aX=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-ce=ag[3],ah=mP(ao,af,aZ,aY,aW,aE,aD),hY=ah[2],eV=A(c,bQ(w(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},hY))),hZ=h(ce),cf=c7(lV(eV,ah[2]),hZ,ce);if(cf){var
-eW=cf[1];if(eW[2])return 0;var
-eX=m9(ao,af,aZ,aY,aW,aE,aD),eY=eX?gd(cx(ao),ce):eX;if(eY){var
-h0=eW[1],h1=nb(h(af),aE,aD),h2=ip(ag[2]),h3=ag[1],fN=ah[2],cT=n(function(a){var
-b=lY(o,a[1]);return b?lY(o,a[2]):b},fN);if(cT)var
-fO=hl(ah[4]),a_=cU(o,ah[4],fO);else
+cf=ag[3],ah=m8(ao,af,aZ,aY,aX,aG,aF),hV=ah[2],eV=D(b,bH(w(function(a){var
+b=a9(a[2]);return f(a9(a[1]),b)},hV))),hX=h(cf),cg=de(mc(eV,ah[2]),hX,cf);if(cg){var
+eW=cg[1];if(eW[2])return 0;var
+eX=nq(ao,af,aZ,aY,aX,aG,aF),eY=eX?go(bY(ao),cf):eX;if(eY){var
+hY=eW[1],hZ=nu(h(af),aG,aF),h1=ix(ag[2]),h2=ag[1],fG=ah[2],cT=n(function(a){var
+b=mf(o,a[1]);return b?mf(o,a[2]):b},fG);if(cT)var
+fH=hu(ah[4]),a8=c0(o,ah[4],fH);else
 var
-a_=cT;if(a_)var
-fP=fR(ah[5]),a$=n(function(a){return eA(o,a)},fP);else
+a8=cT;if(a8)var
+fJ=f0(ah[5]),a_=n(function(a){return eH(o,a)},fJ);else
 var
-a$=a_;return a$?r7(h3,h2,h1,ah,eV,h0):a$}var
+a_=a8;return a_?sy(h2,h1,hZ,ah,eV,hY):a_}var
 eZ=eY}else
 var
-eZ=cf;return eZ;case
+eZ=cg;return eZ;case
 1:var
-a1=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=il(ao),e1=m3(af,e(k,e0));if(e1[2])return 0;var
-J=e1[1],e2=io(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?m9(ao,af,aZ,aY,aW,aE,aD):e2;if(e3){var
-p=mP(ao,af,aZ,aY,aW,aE,aD);if(typeof
-a1!=="number"&&2===a1[0]){var
-e5=e(k,a1[1]),e6=dl(ap,e5),e7=a0(b2(ap,e5)),e8=dl(ap,a2),e9=a0(b2(ap,a2)),dE=lj(o,p[2],J);if(dE)var
-gB=cx(p[1]),bw=u(h(J),gB);else
+a0=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=iu(ao),e1=nk(af,e(k,e0));if(e1[2])return 0;var
+J=e1[1],e2=iw(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?nq(ao,af,aZ,aY,aX,aG,aF):e2;if(e3){var
+p=m8(ao,af,aZ,aY,aX,aG,aF);if(typeof
+a0!=="number"&&2===a0[0]){var
+e5=e(k,a0[1]),e6=b_(ap,e5),e7=a3(bi(ap,e5)),e8=b_(ap,a2),e9=a3(bi(ap,a2)),dE=lu(o,p[2],J);if(dE)var
+gB=bY(p[1]),bz=s(h(J),gB);else
 var
-bw=dE;var
-dF=bw?cU(o,p[4],e9):bw,dG=dF?cU(o,p[4],e7):dF,dH=dG?fK(o,p[5],e8):dG,dI=dH?fK(o,p[5],e6):dH;if(dI){var
-dK=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
-h=e(function(a){return li(dK,gD,gC,f,g,a)},J),i=cx(dK),a=mj(o,h);function
-b(a,b){return v(o,a,b)}var
-d=V(o,c);return x(function(a){return mh(B,d,D,b,i,a)},a)},bu=dv(e9,e8);if(bu){var
-dw=bu[1],bv=dv(e7,e6);if(bv){var
-dx=bv[1],dy=L(d,dw[1]),dz=dy?L(dx[2],d):dy;if(dz)var
+bz=dE;var
+dF=bz?c0(o,p[4],e9):bz,dG=dF?c0(o,p[4],e7):dF,dH=dG?fR(o,p[5],e8):dG,dI=dH?fR(o,p[5],e6):dH;if(dI){var
+dJ=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
+h=e(function(a){return lt(dJ,gD,gC,f,g,a)},J),i=bY(dJ),a=mC(o,h);function
+c(a,b){return v(o,a,b)}var
+d=Q(o,b);return x(function(a){return mA(A,d,E,c,i,a)},a)},bw=dv(e9,e8);if(bw){var
+dw=bw[1],by=dv(e7,e6);if(by){var
+dx=by[1],dy=K(d,dw[1]),dz=dy?K(dx[2],d):dy;if(dz)var
 dA=dz;else{var
-dD=L(dw[2],d);if(dD)return L(d,dx[1]);var
+dD=K(dw[2],d);if(dD)return K(d,dx[1]);var
 dA=dD}var
 dB=dA}else
 var
-dB=bv;var
+dB=by;var
 dC=dB}else
 var
-dC=bu;return dC}return dI}var
-cg=ii(a1);if(cg){var
-h4=cg[1],as=dl(ap,a2),aF=a0(b2(ap,a2)),cN=lj(o,p[2],J),cO=cN?cU(o,p[4],aF):cN,cP=cO?fK(o,p[5],as):cO;if(cP){var
-ax=p[5],cQ=p[3],cS=p[1],fM=p[6],cK=function(a){var
-b=fL(ax,as,aF,a);return R(fL(ax,as,aF,a),b)},fD=e(function(a){return[0,li(cS,cQ,ax,as,aF,a)]},J),fE=e(cK,J),fF=e(function(a){return 0},J),fH=e(function(a){return[0,[6,cK(a)]]},J),fI=[0,e(function(b){var
-a=az(fL(ax,as,aF,b));return hw(cS,a,at([5,[0,c,c],cQ],eu(fJ(ax,as,b[2]),a)))},J),fH,fF,fE,fD];return k5(o,cx(p[1]),fI,fM,h4)}return cP}var
-e4=cg}else
+dC=bw;return dC}return dI}var
+ci=ir(a0);if(ci){var
+h4=ci[1],ar=b_(ap,a2),aH=a3(bi(ap,a2)),cM=lu(o,p[2],J),cN=cM?c0(o,p[4],aH):cM,cO=cN?fR(o,p[5],ar):cN;if(cO){var
+aw=p[5],cP=p[3],cQ=p[1],fF=p[6],cL=function(a){var
+b=fU(aw,ar,aH,a);return S(fU(aw,ar,aH,a),b)},fA=e(function(a){return[0,lt(cQ,cP,aw,ar,aH,a)]},J),fB=e(cL,J),fC=e(function(a){return 0},J),fD=e(function(a){return[0,[6,cL(a)]]},J),fE=[0,e(function(c){var
+a=aB(fU(aw,ar,aH,c));return hF(cQ,a,av([5,[0,b,b],cP],eA(fQ(aw,ar,c[2]),a)))},J),fD,fC,fB,fA];return ld(o,bY(p[1]),fE,fF,h4)}return cO}var
+e4=ci}else
 var
 e4=e3;return e4;default:return 0}case
 3:var
-au=a[7],e_=a[6],e$=a[5],Y=a[4],fa=a[2],ch=a[1],a3=q[2];if(0===a3[0]){var
-ci=a3[3],cj=c7(0,h(ci),ci);if(cj){var
-fb=cj[1];if(fb[2])return 0;var
-hG=h(ch),hH=h(e_),eg=u(h(e$),hH),eh=eg?n(function(a){var
-b=a7(hG,h(Y),a);if(b){var
+at=a[7],e_=a[6],e$=a[5],Z=a[4],fa=a[2],cj=a[1],a4=q[2];if(0===a4[0]){var
+ck=a4[3],cl=de(0,h(ck),ck);if(cl){var
+fb=cl[1];if(fb[2])return 0;var
+hG=h(cj),hH=h(e_),eg=s(h(e$),hH),eh=eg?n(function(a){var
+b=aN(hG,h(Z),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bL(d[1]),0]:aL(0,h(Y));return n(function(b){var
-a=M(Y,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Y):1}return b},au):eg,ei=eh?gc(au):eh,em=ei?n(function(a){return eK(a[2])},fa):ei,fc=em?n(ik,dO(0,h(Y),0,au)):em,fd=fc?gd(h(ch),ci):fc;if(fd){var
-h5=fb[1],h_=a[3],ec=ak(f7,au),aT=dO(0,h(Y),0,au),hv=aK(e$,e_),bV=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},hv),hx=e(function(a){return 0===a[0]?[0,e(cC,a[1])]:[1,cC(a[1])]},Y),hy=e(function(a){var
-b=cC(a[2]);return[0,a[1],b]},h_),m=[0,ch,e(function(a){var
-b=bF(a[2]);return[0,a[1],b]},fa),hy,hx],h$=nb(h(Y),0,au),fe=ip(a3[2]),aG=a3[1],gy=e(aI,m[2]),bp=f(m[1],gy),bq=h(m[1]),dn=W(ss,bq),dp=dn?W(bq,st):dn,dq=dp?W(bq,h(m[4])):dp,dr=dq?W(h(m[4]),su):dq,ds=dr?mf(bp):dr;if(ds){var
-aP=bp,aO=m[3];for(;;){if(aO){var
-di=aO[1],dj=di[1],dk=$(ak(function(b){return function(a){return aq(b,a)}}(dj),aP)),dm=dk?hU(aP,di[2]):dk;if(dm){var
-aP=[0,dj,aP],aO=aO[2];continue}var
+d=a[2],e=d?[0,bx(d[1]),0]:aE(0,h(Z));return n(function(b){var
+a=M(Z,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Z):1}return b},at):eg,ei=eh?gn(at):eh,ej=ei?n(function(a){return eR(a[2])},fa):ei,fc=ej?n(it,dV(0,h(Z),0,at)):ej,fd=fc?go(h(cj),ck):fc;if(fd){var
+h5=fb[1],h6=a[3],ec=al(gg,at),aT=dV(0,h(Z),0,at),ht=ax(e$,e_),bZ=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},ht),hv=e(function(a){return 0===a[0]?[0,e(cH,a[1])]:[1,cH(a[1])]},Z),hw=e(function(a){var
+b=cH(a[2]);return[0,a[1],b]},h6),m=[0,cj,e(function(a){var
+b=bL(a[2]);return[0,a[1],b]},fa),hw,hv],h7=nu(h(Z),0,at),fe=ix(a4[2]),aI=a4[1],gy=e(aM,m[2]),bq=f(m[1],gy),br=h(m[1]),dn=V(sV,br),dp=dn?V(br,sW):dn,dq=dp?V(br,h(m[4])):dp,dr=dq?V(h(m[4]),sX):dq,ds=dr?my(bq):dr;if(ds){var
+aQ=bq,aP=m[3];for(;;){if(aP){var
+dj=aP[1],dk=dj[1],dl=ac(al(function(b){return function(a){return as(b,a)}}(dk),aQ)),dm=dl?h3(aQ,dj[2]):dl;if(dm){var
+aQ=[0,dk,aQ],aP=aP[2];continue}var
 dt=dm}else
 var
 dt=1;var
-br=dt;break}}else
+bs=dt;break}}else
 var
-br=ds;if(br)var
-gz=m[4],bs=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aI,m[3]),bp);return n(function(a){return hU(c,a)},b)},gz);else
+bs=ds;if(bs)var
+gz=m[4],bt=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aM,m[3]),bq);return n(function(a){return h3(c,a)},b)},gz);else
 var
-bs=br;if(bs)var
-gA=m[2],bt=n(function(a){return bg(o,a[2][1],a[2][2])},gA);else
+bt=bs;if(bt)var
+gA=m[2],bv=n(function(a){return bk(o,a[2][1],a[2][2])},gA);else
 var
-bt=bs;var
-du=bt?n(function(a){return bg(o,a[1],a[2])},bV):bt;if(du){var
-bd=h(m[1]),bf=h(m[2]),c6=N(bf,h(hR(e(b0,m[3])))),f3=m[3],ay=me(m),aM=f3,bc=bf;for(;;){if(aM){var
-c3=aM[1],c5=c3[2],fY=N(bc,h(bD(c5))),f1=aM[2],f2=bk(ay,c5,bc),ay=[0,[0,c3[1],f2],ay],aM=f1,bc=fY;continue}var
-aa=mb(bd,ay,m[4],c6),f4=ma(ay,m[4],c6),f6=m[3],c8=f(l9(me(m),f6,bf),f4),c9=h(md(m)),f9=0,f$=f(c8,cw(function(a,b){return l6(aa,a,b)},f9,d,c9,aT)),ge=f(bA(eB(aa)),f$),c_=f(bA(dJ(aa)),ge),bh=cp(c_)[1],gf=co(bh),aj=function(a){return aX(gf,a)},c$=u(h(bV),bd);if(c$)var
-gg=m[4],bi=n(function(a){return 0===a[0]?u(h(a[1]),bd):1},gg);else
+bv=bt;var
+du=bv?n(function(a){return bk(o,a[1],a[2])},bZ):bv;if(du){var
+bd=h(m[1]),be=h(m[2]),c6=P(be,h(h0(e(bu,m[3])))),fZ=m[3],az=mx(m),aL=fZ,bc=be;for(;;){if(aL){var
+c4=aL[1],c5=c4[2],fW=P(bc,h(bJ(c5))),fX=aL[2],fY=bm(az,c5,bc),az=[0,[0,c4[1],fY],az],aL=fX,bc=fW;continue}var
+$=mu(bd,az,m[4],c6),f1=mt(az,m[4],c6),f2=m[3],c7=f(mq(mx(m),f2,be),f1),c8=h(mw(m)),f3=0,f4=f(c7,cA(function(a,b){return mn($,a,b)},f3,d,c8,aT)),f6=f(bF(eI($)),f4),c9=f(bF(dQ($)),f6),bf=ct(c9)[1],f7=cs(bf),ak=function(a){return a1(f7,a)},c_=s(h(bZ),bd);if(c_)var
+f8=m[4],bg=n(function(a){return 0===a[0]?s(h(a[1]),bd):1},f8);else
 var
-bi=c$;var
-da=bi?n(function(a){var
-b=i(d),c=co(bh);return aw(r(aj(a),c,b),a)},c_):bi,db=da?ak(l8,aT):da;if(db){var
-dc=$(ec);if(dc)var
-aN=dc;else
+bg=c_;var
+c$=bg?n(function(a){var
+b=j(d),c=cs(bf);return ay(r(ak(a),c,b),a)},c9):bg,da=c$?al(mp,aT):c$;if(da){var
+dc=ac(ec);if(dc)var
+aO=dc;else
 var
-gx=m[4],aN=n(function(a){return 0===a[0]?0:1},gx)}else
+gx=m[4],aO=n(function(a){return 0===a[0]?0:1},gx)}else
 var
-aN=db;if(aN){var
-gh=md(m),bj=ac(e(function(a){return al(aG,a)},gh));if(bj){var
-gi=0,gj=w(function(a){return et(gi,d,a)},aT),bl=ac(e(function(a){return hu(aG,a)},gj));if(bl){var
-bm=ac(e(function(a){return al(aG,[0,a,d])},bV));if(bm){var
-gk=0,gl=0,bn=ac(cw(function(a,b){return l7(aG,aj,aa,gl,d,a,b)},gk,d,c9,aT));if(bn){var
-dd=bn[1];if(ec)var
-gm=fe[2],gn=fe[1],go=eB(aa),bo=kY(h$,dd,[8,j(ar(aj),go),gn,gm]);else
+aO=da;if(aO){var
+f$=mw(m),bj=W(e(function(a){return aj(aI,a)},f$));if(bj){var
+ga=0,gb=w(function(a){return eC(ga,d,a)},aT),bl=W(e(function(a){return hE(aI,a)},gb));if(bl){var
+bn=W(e(function(a){return aj(aI,[0,a,d])},bZ));if(bn){var
+gc=0,gd=0,bo=W(cA(function(a,b){return mo(aI,ak,$,gd,d,a,b)},gc,d,c8,aT));if(bo){var
+dd=bo[1];if(ec)var
+gf=fe[2],gi=fe[1],gk=eI($),bp=k8(h7,dd,[8,i(aq(ak),gk),gi,gf]);else
 var
-bo=dd;var
-gp=hf(bo),gq=bm[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(aj,c8),gu=eB(aa),gv=j(ar(aj),gu),gw=dJ(aa);return fz(aG,bh,j(ar(aj),gw),gv,gt,gs,bo,gr,gq,gp,h5)}var
-de=bn}else
+bp=dd;var
+gp=hn(bp),gq=bn[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(ak,c7),gu=eI($),gv=i(aq(ak),gu),gw=dQ($);return fI(aI,bf,i(aq(ak),gw),gv,gt,gs,bp,gr,gq,gp,h5)}var
+df=bo}else
 var
-de=bm;var
-df=de}else
-var
-df=bl;var
+df=bn;var
 dg=df}else
 var
-dg=bj;var
+dg=bl;var
 dh=dg}else
 var
-dh=aN;return dh}}return du}var
+dh=bj;var
+di=dh}else
+var
+di=aO;return di}}return du}var
 ff=fd}else
 var
-ff=cj;return ff}return 0;case
+ff=cl;return ff}return 0;case
 4:var
-ck=q[2];if(0===ck[0]){var
-aH=a[3],G=a[2],cl=a[1],ia=ck[3],ic=ck[1],eD=dP(k(cl));if(eD){var
-aU=be(mS,aH),cH=0;if(aU){var
-bW=aU[1];if(bW[2]||bW[3])var
+cm=q[2];if(0===cm[0]){var
+aJ=a[3],G=a[2],cn=a[1],h8=cm[3],h9=cm[1],ez=dW(k(cn));if(ez){var
+aU=bh(m$,aJ),cI=0;if(aU){var
+b0=aU[1];if(b0[2]||b0[3])var
 y=0;else{var
-aV=bW[4],U=aU[2],K=0;if(typeof
-aV!=="number")switch(aV[0]){case
+aW=b0[4],X=aU[2],L=0;if(typeof
+aW!=="number")switch(aW[0]){case
 0:var
-a8=0;if(U){var
-bX=U[1];if(bX[2]||bX[3]){var
-y=0;K=1;a8=1}else{var
-bY=bX[4],cI=0;if(typeof
-bY!=="number"&&1===bY[0])if(U[2]){var
-y=0;K=1;a8=1;cI=1}else{var
-y=[0,[0,aV[1],bY[1]]];K=1;a8=1;cI=1}if(!cI)var
+a6=0;if(X){var
+b1=X[1];if(b1[2]||b1[3]){var
+y=0;L=1;a6=1}else{var
+b2=b1[4],cJ=0;if(typeof
+b2!=="number"&&1===b2[0])if(X[2]){var
+y=0;L=1;a6=1;cJ=1}else{var
+y=[0,[0,aW[1],b2[1]]];L=1;a6=1;cJ=1}if(!cJ)var
 ee=0}}else
 var
-ee=U;if(!a8){var
-y=ee;K=1}break;case
+ee=X;if(!a6){var
+y=ee;L=1}break;case
 1:var
-a9=0;if(U){var
-bZ=U[1];if(bZ[2]||bZ[3]){var
-y=0;K=1;a9=1}else{var
-b1=bZ[4],cJ=0;if(typeof
-b1!=="number"&&0===b1[0])if(U[2]){var
-y=0;K=1;a9=1;cJ=1}else{var
-y=[0,[0,b1[1],aV[1]]];K=1;a9=1;cJ=1}if(!cJ)var
+a7=0;if(X){var
+b3=X[1];if(b3[2]||b3[3]){var
+y=0;L=1;a7=1}else{var
+b4=b3[4],cK=0;if(typeof
+b4!=="number"&&0===b4[0])if(X[2]){var
+y=0;L=1;a7=1;cK=1}else{var
+y=[0,[0,b4[1],aW[1]]];L=1;a7=1;cK=1}if(!cK)var
 ef=0}}else
 var
-ef=U;if(!a9){var
-y=ef;K=1}break}if(!K){var
-ed=0;cH=1}}}else{var
-ed=aU;cH=1}if(cH)var
+ef=X;if(!a7){var
+y=ef;L=1}break}if(!L){var
+ed=0;cI=1}}}else{var
+ed=aU;cI=1}if(cI)var
 y=ed;if(y){var
-eE=y[1],z=eE[2],eF=k(z),eJ=k(eE[1]),dR=g(o,1,k(G)),dS=dR?g(o,1,[3,eF,[0,c,c]]):dR,dT=dS?g(o,1,eJ):dS,eL=dT?g(o,0,[3,[5,[0,c,c],eF],eJ]):dT;if(eL)var
-hM=0,hO=0,b9=n(function(a){return mN(hO,hM,yf,a)},aH);else
+eB=y[1],z=eB[2],eD=k(z),eE=k(eB[1]),dN=g(o,1,k(G)),dO=dN?g(o,1,[3,eD,[0,b,b]]):dN,dP=dO?g(o,1,eE):dO,eF=dP?g(o,0,[3,[5,[0,b,b],eD],eE]):dP;if(eF)var
+hM=0,hN=0,b$=n(function(a){return m6(hN,hM,yL,a)},aJ);else
 var
-b9=eL;var
-eM=b9?n(function(b){if(1===b[1]){var
-a=b[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,c],k(a[1])]);return 1}return 1},aH):b9;if(eM){var
-b3=be(function(a){return $(mT(a))},aH);if(b3){var
-hP=[0,b(2,c),c],E=g(o,0,[3,k(z),hP]);if(E)var
-b_=E;else
+b$=eF;var
+eG=b$?n(function(c){if(1===c[1]){var
+a=c[4];if(typeof
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aJ):b$;if(eG){var
+b5=bh(function(a){return ac(na(a))},aJ);if(b5){var
+hO=[0,c(2,b),b],C=g(o,0,[3,k(z),hO]);if(C)var
+ca=C;else
 var
-hV=k(z),b_=g(o,0,[3,[0,b(2,c),c],hV]);if(b_){var
-eC=w(function(a){var
-b=h9(0,yc,0,a);return e(function(b){return $(mT(a))},b)},aH),hK=function(f){var
+hS=k(z),ca=g(o,0,[3,[0,c(2,b),b],hS]);if(ca){var
+ev=w(function(a){var
+b=ig(0,yI,0,a);return e(function(b){return ac(na(a))},b)},aJ),hK=function(f){var
 g=f[1];if(g){var
-i=g[1],j=r(i,eC,0);if(j)var
-l=b2(i,eC),k=[0,[0,h(be(function(a){return a},l))]];else
+i=g[1],j=r(i,ev,0);if(j)var
+l=bi(i,ev),k=[0,[0,h(bh(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=ye;if(a){var
-b=a[1],e=f[2];switch(e[0]){case
-0:return[0,[0,b,[0,e[1]]],0];case
-2:return[0,[0,b,[1,yd,[0,[0,c,[0,d,[0,d,0]]],[0,[0,d,[0,c,[0,d,0]]],[0,[0,d,[0,d,[0,c,0]]],0]]],d]],0];default:return[0,[0,b,e],0]}}return a},hL=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},ia),hQ=[0,b3[1],b3[2]],hz=[0,ib(E,G,z),0],hA=[0,ib(E,G,z),hz],hB=[0,ib(E,G,z),hA],hC=[0,f_(E,G,z),0],hD=[0,f_(E,G,z),hC],hS=0,hE=[0,[0,f_(E,G,z),hD],hB],hT=0,b4=function(b,a){return e(function(c){var
-d=u(b,c)?a:w$;return[0,d]},xb)};return nd(0,e(function(a){var
-e=[0,f8(E,G,z)],d=1,f=b4(a,[2,cl]);function
+a=yK;if(a){var
+c=a[1],e=f[2];switch(e[0]){case
+0:return[0,[0,c,[0,e[1]]],0];case
+2:return[0,[0,c,[1,yJ,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},hL=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},h8),hP=[0,b5[1],b5[2]],hx=[0,ik(C,G,z),0],hy=[0,ik(C,G,z),hx],hz=[0,ik(C,G,z),hy],hA=[0,gj(C,G,z),0],hB=[0,gj(C,G,z),hA],hQ=0,hC=[0,[0,gj(C,G,z),hB],hz],hR=0,b6=function(b,a){return e(function(c){var
+d=s(b,c)?a:xF;return[0,d]},xH)};return nw(0,e(function(a){var
+e=[0,gh(C,G,z)],d=1,f=b6(a,[2,cn]);function
 b(b,a){return[3,1,b,a]}var
-c=f8(E,G,z),g=b4(a,b(b(f_(E,G,z),cl),c));return[0,b4(a,xa),g,f,e,d]},xc),hT,hE,hS,hQ,ic,hL)}return b_}var
-eN=1}else
+c=gh(C,G,z),g=b6(a,b(b(gj(C,G,z),cn),c));return[0,b6(a,xG),g,f,e,d]},xI),hR,hC,hQ,hP,h9,hL)}return ca}var
+eJ=1}else
 var
-eN=eM;var
-eO=eN}else
+eJ=eG;var
+eK=eJ}else
 var
-eO=y;var
-eP=eO}else
+eK=y;var
+eL=eK}else
 var
-eP=eD;return eP}return 0;case
+eL=ez;return eL}return 0;case
 5:var
-cm=a[4],fg=a[1],cn=q[2];if(0===cn[0]){var
-fh=cn[3],t=h8(fg,[0,a[2],a[3]],0,cm),cq=ij(h(fh),fh);if(cq){var
+co=a[4],fg=a[1],cp=q[2];if(0===cp[0]){var
+fh=cp[3],u=ie(fg,[0,a[2],a[3]],0,co),cq=is(h(fh),fh);if(cq){var
 fi=cq[1];if(fi[2])return 0;var
-fj=im(fg,0,cm,t),fk=fj?$(ak(f7,cm)):fj;if(fk){var
-fl=kX(o,t);if(fl){var
-ie=fi[1],fm=e(gb,t[1]),I=ig(t[1]),fn=k(a[5]),Z=cn[1],bB=fB(I,fm,t[1]),O=hg(I,fm,t[1],0),gI=h(t[3]),gJ=N(h(bB),gI),aR=[0,h(bB),gJ],gK=hi(O,I,aR,t[3]),gL=f(e(ct,O),gK),dX=f(bA(ej(O)),gL),dY=cp(dX)[1],bC=co(dY),dZ=t[2];if(0===dZ[0]){var
+fj=iv(fg,0,co,u),fk=fj?ac(al(gg,co)):fj;if(fk){var
+fl=k7(o,u);if(fl){var
+h_=fi[1],fm=e(gm,u[1]),I=ip(u[1]),fn=k(a[5]),_=cp[1],bC=fK(I,fm,u[1]),N=ho(I,fm,u[1],0),gI=h(u[3]),gJ=P(h(bC),gI),aR=[0,h(bC),gJ],gK=hq(N,I,aR,u[3]),gL=f(e(cx,N),gK),dX=f(bF(er(N)),gL),dY=ct(dX)[1],bD=cs(dY),dZ=u[2];if(0===dZ[0]){var
 d0=n(function(a){var
-b=i(d);return aw(r(aX(bC,a),bC,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
-gM=t[3],gN=w(function(a){return cR(I,a)},gM),gO=t[3],gP=f(bB,f(e(function(a){return bz(I,a)},gO),gN)),bG=ac(e(function(a){return al(Z,a)},gP));if(bG){var
-gQ=aQ(dZ[1],I),bH=ac(e(function(a){return al(Z,a)},gQ));if(bH){var
-bI=cs(Z,I,[5,fn,[0,b(2,b(2,b(2,b(2,c)))),c]]);if(bI){var
-bJ=t[3],gR=bH[1],gS=bI[1],gT=bG[1],aA=function(a){return aX(bC,a)},gF=aL(0,h(bJ)),gG=e(function(k){var
-l=M(bJ,k);if(l){var
-a=l[1],u=b2(k,bJ),v=h(w(function(a){return cR(I,a)},u)),y=N(aR[2],v),i=[0,N(aR[1],k),y],r=ej(O),f=j(ar(aA),r),b=[1,[8,[1,[1,i[1]]]]],d=fC(O,I,i,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b=j(d);return ay(r(a1(bD,a),bD,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
+gM=u[3],gN=w(function(a){return cX(I,a)},gM),gO=u[3],gP=f(bC,f(e(function(a){return bE(I,a)},gO),gN)),bG=W(e(function(a){return aj(_,a)},gP));if(bG){var
+gQ=aV(dZ[1],I),bI=W(e(function(a){return aj(_,a)},gQ));if(bI){var
+bM=cw(_,I,[5,fn,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bM){var
+bN=u[3],gR=bI[1],gS=bM[1],gT=bG[1],aA=function(a){return a1(bD,a)},gF=aE(0,h(bN)),gG=e(function(k){var
+l=M(bN,k);if(l){var
+a=l[1],u=bi(k,bN),v=h(w(function(a){return cX(I,a)},u)),y=P(aR[2],v),j=[0,P(aR[1],k),y],r=er(N),f=i(aq(aA),r),c=[1,[8,[1,[1,j[1]]]]],d=fL(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
-0:return[0,[0,f,b]];case
-1:return[0,[1,f,b]];case
+0:return[0,[0,f,c]];case
+1:return[0,[1,f,c]];case
 4:var
-o=g(Z,1,a[2]),s=o?n:o;return s;case
-5:return[0,[2,f,b]];case
+o=g(_,1,a[2]),s=o?n:o;return s;case
+5:return[0,[2,f,c]];case
 8:var
-p=g(Z,1,[5,a[2],a[1]]);if(!p)return p;var
-q=[1,[2,c]];m=1;break;case
+p=g(_,1,[5,a[2],a[1]]);if(!p)return p;var
+q=[1,[2,b]];m=1;break;case
 9:var
-q=b;m=1;break;case
+q=c;m=1;break;case
 2:case
 3:case
 6:case
 7:return n}if(m){var
-t=ep(O,I,i,a);return x(function(a){return[0,j(ar(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(ct(a))},O),dU=e(function(a){return aA(a[2])},O),gU=t[3],gV=aR[1],dV=e(ae,gT),dW=function(az,ay){var
+t=ew(N,I,j,a);return x(function(a){return[0,i(aq(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cx(a))},N),dR=e(function(a){return aA(a[2])},N),gU=u[3],gV=aR[1],dS=e(ae,gT),dU=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
-t=i[1],ab=u(h(t),sF),ac=ab?n(function(a){var
-d=H(P(b(2,b(2,b(2,c)))),a);return d?H(a,b(2,b(2,b(2,c)))):d},t):ab;if(ac){var
-ad=mt(Z,gS,ek(0,l),t),j=i[2],v=bN(0,b8(Z,ad,dV),dY,0),L=function(a){return ms(mr(Z,ad,dV,v,a))};if(typeof
-j==="number")return 0===j?ak(function(b){var
-a=r(b,v,0);return a?H(a[1][2][2],d):a},dU):0;else{if(0===j[0]){var
-a=j[2],O=n(sD,a);if(O){var
+u=i[1],$=s(h(u),s8),aa=$?n(function(a){var
+d=H(R(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},u):$;if(aa){var
+ad=mM(_,gS,es(0,l),u),j=i[2],v=bU(0,bW(_,ad,dS),dY,0),L=function(a){return mL(mK(_,ad,dS,v,a))};if(typeof
+j==="number")return 0===j?al(function(b){var
+a=r(b,v,0);return a?H(a[1][2][2],d):a},dR):0;else{if(0===j[0]){var
+a=j[2],N=n(s6,a);if(N){var
 o=r(j[1],gG,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=f0(B,A),ao=fZ(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=f_(B,A),ao=f9(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=fZ(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f0(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=f9(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f_(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6579,7 +6718,7 @@ z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=fZ(I),as=[1,[6,f0(m,G),ar]],at=[1,[6,g[2],as]],au=fZ(G),J=[0,[0,m,[0,[1,[4,[1,[6,f0(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=f9(I),as=[1,[6,f_(m,G),ar]],at=[1,[6,g[2],as]],au=f9(G),J=[0,[0,m,[0,[1,[4,[1,[6,f_(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6588,8 +6727,8 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-Q=f[1],aw=Q[1],R=n(function(a){return ms(r(a[2],v,0))},aw);if(R)return n(L,Q[2]);var
-S=R}else
+O=f[1],aw=O[1],Q=n(function(a){return mL(r(a[2],v,0))},aw);if(Q)return n(L,O[2]);var
+S=Q}else
 var
 S=f;var
 T=S}else
@@ -6597,32 +6736,32 @@ var
 T=o;var
 U=T}else
 var
-U=O;return U}var
+U=N;return U}var
 V=j[2],W=j[1],p=M(gU,W);if(p){var
 X=p[1];if(typeof
 X!=="number"&&1===X[0]){var
-q=M(dU,V);if(q){var
-s=M(gH,V);if(s){var
-ax=N(gV,W);return L([1,[4,[1,[8,[0,s[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
-aa=s}else
+q=M(dR,V);if(q){var
+t=M(gH,V);if(t){var
+ax=P(gV,W);return L([1,[4,[1,[8,[0,t[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+Z=t}else
 var
-aa=q;return aa}var
+Z=q;return Z}var
 Y=0}else
 var
-Y=p;return Y}}return ac}var
+Y=p;return Y}}return aa}var
 ae=i[1],w=M(l,ae);if(w){var
-af=w[1],aA=af[1],ag=$(_(bP(af),aA));if(ag){var
-ah=el(ae,l),ai=dW(ah[1],i[2]);if(ai){var
+af=w[1],aA=af[1],ag=ac(ab(bX(af),aA));if(ag){var
+ah=et(ae,l),ai=dU(ah[1],i[2]);if(ai){var
 l=ah[2],i=i[3];continue}var
 aj=ai}else
 var
 aj=ag;var
-al=aj}else
+ak=aj}else
 var
-al=w;return al}};return dW(gR,ie)}var
-d2=bI}else
+ak=w;return ak}};return dU(gR,h_)}var
+d2=bM}else
 var
-d2=bH;var
+d2=bI;var
 d3=d2}else
 var
 d3=bG;var
@@ -6637,76 +6776,76 @@ var
 fp=cq;return fp}return 0;case
 6:var
 fq=a[1];if(fq){var
-fr=fq[1],cu=q[2];if(0===cu[0]){var
-cv=ih(0,yh,cu[3]);if(cv){var
-fs=eK(fr);if(fs){var
-iq=cv[1],ft=bF(fr)[2],a5=cu[1],bx=cs(a5,d,ft);if(bx){var
-by=cs(a5,d,[5,[0,c,c],ft]);if(by){var
-gE=bx[1][1],dL=L(cM(a5),gE);if(dL)return mq(a5,by[1][1],iq);var
-dN=dL}else
+fr=fq[1],cr=q[2];if(0===cr[0]){var
+cu=iq(0,yN,cr[3]);if(cu){var
+fs=eR(fr);if(fs){var
+h$=cu[1],ft=bL(fr)[2],a5=cr[1],bA=cw(a5,d,ft);if(bA){var
+bB=cw(a5,d,[5,[0,b,b],ft]);if(bB){var
+gE=bA[1][1],dK=K(cS(a5),gE);if(dK)return mJ(a5,bB[1][1],h$);var
+dL=dK}else
 var
-dN=by;var
-dQ=dN}else
+dL=bB;var
+dM=dL}else
 var
-dQ=bx;return dQ}var
+dM=bA;return dM}var
 fu=fs}else
 var
-fu=cv;return fu}return 0}var
+fu=cu;return fu}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=ih(0,yi,cy[3]);return cz?mq(cy[1],d,cz[1]):cz}return 0;default:var
-av=a[1],fv=q[2];if(2===fv[0]){var
-fw=fv[1],cA=id(h(fw),fw);if(cA){var
-fx=cA[1];if(fx[2])return 0;var
-cB=fx[1],ex=W(yb,h(av)),ey=ex?W(h(av),jK):ex,ez=ey?mf(e(aI,av)):ey,fy=ez?n(function(c){var
-a=cr(k(c[2][1]));if(a){var
-b=cr(k(c[2][2]));if(b)return $(cL(b[1],a[1]));var
+cz=iq(0,yO,cy[3]);return cz?mJ(cy[1],d,cz[1]):cz}return 0;default:var
+au=a[1],fv=q[2];if(2===fv[0]){var
+fw=fv[1],cB=im(h(fw),fw);if(cB){var
+fx=cB[1];if(fx[2])return 0;var
+cC=fx[1],ep=V(yH,h(au)),eq=ep?V(h(au),jU):ep,eu=eq?my(e(aM,au)):eq,fy=eu?n(function(c){var
+a=cv(k(c[2][1]));if(a){var
+b=cv(k(c[2][2]));if(b)return ac(cR(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},av):ez;if(fy)var
-ir=ga(xd,cB),cD=ng(a[5],ir);else
+d=a;return d},au):eu;if(fy)var
+ia=gl(xJ,cC),cD=nz(a[5],ia);else
 var
 cD=fy;if(cD)var
-is=ga(xe,cB),cE=ng(a[6],is);else
+ib=gl(xK,cC),cE=nz(a[6],ib);else
 var
 cE=cD;if(cE){var
-hF=e(function(a){return[0,d,0]},av);return nf(av,a[2],a[3],a[4],hF,cB)}var
-fA=cE}else
+hD=e(function(a){return[0,d,0]},au);return ny(au,a[2],a[3],a[4],hD,cC)}var
+fz=cE}else
 var
-fA=cA;return fA}return 0}}return aB}var
-O=[aM,yl,pv(0)],nh=[aM,ym,pv(0)];function
-yj(m,b){var
-f=[0,l(wy,am(b[4])),0],g=[0,l(wA,aa([0,l(wz,am(b[3])),f])),0],a=b[2];switch(a[0]){case
+fz=cB;return fz}return 0}}return aC}var
+T=[aQ,yR,pP(0)],nA=[aQ,yS,pP(0)];function
+yP(m,b){var
+f=[0,l(w4,am(b[4])),0],g=[0,l(w6,_([0,l(w5,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=J(wu,mA(a[1],a[2],a[3]));break;case
+c=L(w0,mT(a[1],a[2],a[3]));break;case
 1:var
-c=J(wv,mB(a[1],a[2],a[3],a[4]));break;default:var
-c=J(ww,C(e(wp,a[1])))}var
-h=[0,l(wB,c),g],i=1===b[2][0]?wH:wC,j=[0,l(wD,am(i)),h],k=[0,l(wE,u8(b[1])),j],d=aq(jh(yk,f1(aa([0,l(wG,am(wF)),k]),wx)),m);return d?yg(b):d}function
-ad(a){if(0===a[0])return a[1];throw O}function
-Z(a){if(1===a[0])return a[1];throw O}function
-aC(a){if(2===a[0])return a[1];throw O}function
-dR(a){if(3===a[0])return a[1];throw O}function
-aR(f,e){var
+c=L(w1,mU(a[1],a[2],a[3],a[4]));break;default:var
+c=L(w2,C(e(wV,a[1])))}var
+h=[0,l(w7,c),g],i=1===b[2][0]?xb:w8,j=[0,l(w9,am(i)),h],k=[0,l(w_,vC(b[1])),j],d=as(jp(yQ,f$(_([0,l(xa,am(w$)),k]),w3)),m);return d?yM(b):d}function
+ah(a){if(0===a[0])return a[1];throw T}function
+$(a){if(1===a[0])return a[1];throw T}function
+aH(a){if(2===a[0])return a[1];throw T}function
+eS(a){if(3===a[0])return a[1];throw T}function
+aW(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Eo(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===EW(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-s(c,b){var
-a=aR(c,b);if(a)return a[1];throw O}function
-cf(b,a){var
-c=a?[0,j(b,a[1])]:a;return c}function
-c_(a){switch(a[0]){case
+t(c,b){var
+a=aW(c,b);if(a)return a[1];throw T}function
+cj(b,a){var
+c=a?[0,i(b,a[1])]:a;return c}function
+dh(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],yn]}throw O}function
-eL(e,d){var
-a=U(e,Z(d));if(a){var
+2:return[0,a[1],yT]}throw T}function
+eT(e,d){var
+a=Y(e,$(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw O}function
-ge(i){var
-f=d2(i),d=[0,0],e=gI(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw T}function
+gp(i){var
+f=d9(i),d=[0,0],e=gQ(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=iX(f,c)-48|0;if(9<g>>>0)throw O;switch(g){case
+a=d[1],g=i5(f,c)-48|0;if(9<g>>>0)throw T;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6728,96 +6867,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eM(a){return jw(ge(a))}function
-eN(b){var
-a=dR(b);return 45===aN(a,0)?P(eM(di(a,1,an(a)-1|0))):eM(a)}function
-ni(a){return d_(eM(dR(a)))}function
-gf(a){return jv(eM(dR(a)))}function
-cF(c){var
-a=dR(c);if(6<an(a))throw O;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(i5(a))}function
-nj(a){var
-b=97<=a?1:0,c=b?a<=o_?1:0:b;if(c)var
+eU(a){return jG(gp(a))}function
+eV(b){var
+a=eS(b);return 45===aR(a,0)?R(eU(ds(a,1,ao(a)-1|0))):eU(a)}function
+nB(a){return ef(eU(eS(a)))}function
+eW(a){return jF(eU(eS(a)))}function
+cK(c){var
+a=eS(c);if(6<ao(a))throw T;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(jb(a))}function
+nC(a){var
+b=97<=a?1:0,c=b?a<=pr?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-nk(y,b){var
-d=an(b),a=[0,0];function
+nD(y,b){var
+d=ao(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aN(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aR(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aN(b,a[1])&&!(57<aN(b,a[1]))){a[1]++;continue}return di(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aR(b,a[1])&&!(57<aR(b,a[1]))){a[1]++;continue}return ds(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw O}function
-h(i){if(64<i)throw O;if(c(45)){a[1]++;return[2,h(i+1|0)]}if(c(40))var
-e=n(i);else{var
-u=0;if((a[1]+5|0)<=d&&aq(di(b,a[1],5),yp)){a[1]=a[1]+4|0;var
-e=[5,n(i)]}else
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw T}function
+h(j){if(64<j)throw T;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+e=n(j);else{var
+u=0;if((a[1]+5|0)<=d&&as(ds(b,a[1],5),yV)){a[1]=a[1]+4|0;var
+e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&nj(aN(b,a[1]))){var
+v=0;if(a[1]<d&&nC(aR(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!nj(aN(b,a[1]))&&95!==aN(b,a[1])&&(!(48<=aN(b,a[1]))||57<aN(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,j(y,di(b,o,a[1]-o|0))];break}}else
+w=0;if(!nC(aR(b,a[1]))&&95!==aR(b,a[1])&&(!(48<=aR(b,a[1]))||57<aR(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,ds(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aq(g,yq);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=as(g,yW);if(r)var
 s=r;else
 var
-t=1<an(g)?1:0,s=t?48===aN(g,0)?1:0:t;if(s)throw O;if(q){var
-k=q[1],x=0;if(aq(k,yr)||48===aN(k,an(k)-1|0))x=1;else
+t=1<ao(g)?1:0,s=t?48===aR(g,0)?1:0:t;if(s)throw T;if(q){var
+k=q[1],x=0;if(as(k,yX)||48===aR(k,ao(k)-1|0))x=1;else
 var
-z=ge(k),e=[0,ge(g),z];if(x)throw O}else
+z=gp(k),e=[0,gp(g),z];if(x)throw T}else
 var
-e=[0,ge(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yo)){if(!(2<an(f))&&2<=i5(f)&&!(64<i5(f)))return[4,e,d_(eM(f))];throw O}throw O}return e}function
+e=[0,gp(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,yU)){if(!(2<ao(f))&&2<=jb(f)&&!(64<jb(f)))return[4,e,ef(eU(f))];throw T}throw T}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw O;var
+f(d){if(64<d)throw T;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw O;return g}function
-gg(a){return nk(function(a){return[0,a]},a)}function
-iq(a){var
-b=aC(a);return nk(function(a){return a},b)}function
-S(a){return gg(aC(a))}function
-bT(a){if(2===a[0])return[0,gg(a[1])];var
-b=ad(a),c=S(s(b,ys));return[1,S(s(b,yt)),c]}function
-Y(a){throw[0,nh,aT(jh(yv,a),yu)]}function
-ir(c){var
-a=aC(c);if(m(a,yw)){var
-b=m(a,yx);if(b)throw O;return b}return 1}function
-yy(d){var
-b=ad(d);function
-a(a){return eL(bT,s(b,a))}var
-c=aC(s(b,yz));if(m(c,yA)){if(m(c,yB)){if(m(c,yC))return Y([0,yE,[0,c,yD]]);var
-e=aR(b,yF),f=cf(function(a){return eL(bT,a)},e),g=a(yG);return[1,a(yH),g,f]}var
-h=ir(s(b,yI)),i=bT(s(b,yJ)),j=a(yK),k=a(yL);return[0,a(yM),k,j,i,h]}return[2,a(yN)]}function
-yO(d){var
-a=ad(d);if(a){var
-b=a[1];if(!m(b[1],yP)){var
-c=b[2];if(2===c[0]&&!m(c[1],yQ))return 1}}return 0}function
-nl(e){var
-b=ad(e);function
-a(a){return U(bT,Z(s(b,a)))}var
-c=aC(s(b,yR)),d=aR(b,yS);if(m(c,yT)){if(m(c,yU)){if(!m(c,yV)&&!d){var
-f=a(yY);return[1,a(yZ),f]}}else
+g=f(0);if(a[1]<d)throw T;return g}function
+gq(a){return nD(function(a){return[0,a]},a)}function
+iy(a){var
+b=aH(a);return nD(function(a){return a},b)}function
+O(a){return gq(aH(a))}function
+b2(a){if(2===a[0])return[0,gq(a[1])];var
+b=ah(a),c=O(t(b,yY));return[1,O(t(b,yZ)),c]}function
+aa(a){throw[0,nA,aY(jp(y1,a),y0)]}function
+iz(c){var
+a=aH(c);if(m(a,y2)){var
+b=m(a,y3);if(b)throw T;return b}return 1}function
+y4(d){var
+b=ah(d);function
+a(a){return eT(b2,t(b,a))}var
+c=aH(t(b,y5));if(m(c,y6)){if(m(c,y7)){if(m(c,y8))return aa([0,y_,[0,c,y9]]);var
+e=aW(b,y$),f=cj(function(a){return eT(b2,a)},e),g=a(za);return[1,a(zb),g,f]}var
+h=iz(t(b,zc)),i=b2(t(b,zd)),j=a(ze),k=a(zf);return[0,a(zg),k,j,i,h]}return[2,a(zh)]}function
+zi(d){var
+a=ah(d);if(a){var
+b=a[1];if(!m(b[1],zj)){var
+c=b[2];if(2===c[0]&&!m(c[1],zk))return 1}}return 0}function
+nE(e){var
+b=ah(e);function
+a(a){return Y(b2,$(t(b,a)))}var
+c=aH(t(b,zl)),d=aW(b,zm);if(m(c,zn)){if(m(c,zo)){if(!m(c,zp)&&!d){var
+f=a(zs);return[1,a(zt),f]}}else
 if(!d){var
-g=ir(s(b,y0)),h=bT(s(b,y1)),i=a(y2),j=a(y3);return[0,a(y4),j,i,h,g]}}else
+g=iz(t(b,zu)),h=b2(t(b,zv)),i=a(zw),j=a(zx);return[0,a(zy),j,i,h,g]}}else
 if(!d){var
-k=ir(s(b,y5)),l=bT(s(b,y6)),n=bT(s(b,y7)),o=a(y8),p=a(y9),q=a(y_);return[2,a(y$),q,p,o,n,l,k]}return Y([0,yX,[0,c,yW]])}function
-nm(d){var
-a=ad(d);if(a){var
-b=a[1];if(!m(b[1],za)){var
-c=b[2];if(2===c[0]&&!m(c[1],zb))return 1}}return 0}function
-cG(c,d){var
-a=Z(d);if(a){var
+k=iz(t(b,zz)),l=b2(t(b,zA)),n=b2(t(b,zB)),o=a(zC),p=a(zD),q=a(zE);return[2,a(zF),q,p,o,n,l,k]}return aa([0,zr,[0,c,zq]])}function
+nF(d){var
+a=ah(d);if(a){var
+b=a[1];if(!m(b[1],zG)){var
+c=b[2];if(2===c[0]&&!m(c[1],zH))return 1}}return 0}function
+cL(c,d){var
+a=$(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,j(c,a[1]),e]}}throw O}function
-dS(g,p){var
-h=g?g[1]:g,c=ad(p),a=aC(s(c,zc)),j=pI(a,zd),f=0;if(0<=j)if(0<j)if(m(a,ze))if(m(a,zf))if(m(a,zg))if(m(a,zh))if(m(a,zi))if(m(a,zj)){var
-k=m(a,zk);if(k)f=1;else
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw T}function
+dY(g,p){var
+h=g?g[1]:g,c=ah(p),a=aH(t(c,zI)),j=p2(a,zJ),f=0;if(0<=j)if(0<j)if(m(a,zK))if(m(a,zL))if(m(a,zM))if(m(a,zN))if(m(a,zO))if(m(a,zP)){var
+k=m(a,zQ);if(k)f=1;else
 var
 b=k}else
 var
@@ -6835,7 +6974,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,zF))if(m(a,zG))if(m(a,zH))if(m(a,zI))if(m(a,zJ))if(m(a,zK))if(m(a,zL))if(m(a,zM))f=1;else
+if(m(a,z_))if(m(a,z$))if(m(a,Aa))if(m(a,Ab))if(m(a,Ac))if(m(a,Ad))if(m(a,Ae))if(m(a,Af))f=1;else
 var
 b=1;else
 var
@@ -6853,267 +6992,271 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?Y([0,zm,[0,a,zl]]):b;function
-i(a){return s(c,zn)}var
-d=aC(s(c,zo)),l=m(d,zp);if(l)if(m(d,zq))if(m(d,zr))if(m(d,zs))var
-e=Y([0,zu,[0,d,zt]]);else
+o=f?aa([0,zS,[0,a,zR]]):b;function
+i(a){return t(c,zT)}var
+d=aH(t(c,zU)),l=m(d,zV);if(l)if(m(d,zW))if(m(d,zX))if(m(d,zY))var
+e=aa([0,z0,[0,d,zZ]]);else
 var
-o=cG(S,i(0)),e=[2,o[1],o[2]];else
+n=cL(O,i(0)),e=[2,n[1],n[2]];else
 var
-e=[0,S(i(0))];else
+e=[0,O(i(0))];else
 var
-e=[1,S(i(0))];else
+e=[1,O(i(0))];else
 var
 e=l;function
-q(A){var
-a=ad(A),c=0;switch(n){case
+q(E){var
+a=ah(E),c=0;switch(o){case
 6:if(a){var
-q=a[1];if(!m(q[1],zw)){var
-r=q[2];if(1===r[0]){var
-b=r[1],l=0;if(b&&!b[2])if(a[2])l=1;else{var
-e=b[1];c=1;l=1}if(!l&&!a[2])return[1,U(S,b)]}}}break;case
+r=a[1];if(!m(r[1],z2)){var
+s=r[2];if(1===s[0]){var
+b=s[1],n=0;if(b&&!b[2])if(a[2])n=1;else{var
+e=b[1];c=1;n=1}if(!n&&!a[2])return[1,Y(O,b)]}}}break;case
 10:if(a){var
-s=a[1];if(!m(s[1],zx)){var
-t=s[2];if(1===t[0]){var
-f=t[1];if(f&&!f[2]){var
+t=a[1];if(!m(t[1],z3)){var
+u=t[2];if(1===u[0]){var
+f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-u=g[1];if(!m(u[1],zy)){var
-v=u[2];if(1===v[0]){var
-i=v[1];if(i&&!i[2]&&!g[2]){var
-B=S(i[1]);return[2,S(f[1]),B]}}}}}}}}break;case
+v=g[1];if(!m(v[1],z4)){var
+w=v[2];if(1===w[0]){var
+i=w[1];if(i&&!i[2]&&!g[2]){var
+F=O(i[1]);return[2,O(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-w=a[1];if(!m(w[1],zz)){var
-x=w[2],j=a[2];if(j){if(!m(j[1][1],zA)&&!j[2]&&h)return Y(zB)}else
-if(1===x[0]){var
-k=x[1];if(k&&!k[2]){var
-e=k[1];c=1}}}}break;case
+x=a[1];if(!m(x[1],z5)){var
+y=x[2];if(1===y[0]){var
+j=y[1];if(j&&!j[2]){var
+k=a[2],z=j[1];if(k){var
+A=k[1];if(!m(A[1],z6)){var
+B=A[2];if(1===B[0]){var
+l=B[1];if(l&&!l[2]&&!k[2]&&h){var
+G=O(l[1]);return[3,O(z),G]}}}}else{var
+e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-y=a[1];if(!m(y[1],zC)){var
-z=y[2];if(1===z[0]&&!a[2])return[1,U(S,z[1])]}}break;case
+C=a[1];if(!m(C[1],z7)){var
+D=C[2];if(1===D[0]&&!a[2])return[1,Y(O,D[1])]}}break;case
 2:case
 8:if(a){var
-o=a[1];if(!m(o[1],zv)){var
-p=o[2];if(1===p[0]){var
-d=p[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw O}var
-r=cf(q,aR(c,zD));return[0,n,cf(cF,aR(c,zE)),r,e]}function
-nn(c){var
-d=dS(zP,c),e=d[1];if(!(9<=e))switch(e){case
+p=a[1];if(!m(p[1],z1)){var
+q=p[2];if(1===q[0]){var
+d=q[1];if(d&&!d[2]&&!a[2]){var
+e=d[1];c=1}}}}break}if(c)return[0,O(e)];throw T}var
+r=cj(q,aW(c,z8));return[0,o,cj(cK,aW(c,z9)),r,e]}function
+nG(c){var
+d=dY(Ai,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dS(zN,c),b=a[1];if(2!==b&&!(4<=b))return a;return Y(zO)}function
-no(a){var
-b=dS(zQ,a);return 11===b[1]?b:nn(a)}function
-zR(c){var
-d=dS(zS,c),a=d[1],b=0;if(11<=a){if(14<=a)b=1}else
-if(9<=a)b=1;return b?d:no(c)}function
-is(c){var
-d=dS(zT,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:nn(c)}function
-it(b){var
-a=ad(b[2]);if(m(b[1],z0)){var
-c=cG(S,s(a,z1)),d=cG(S,s(a,z2)),e=d[2],f=d[1],g=S(s(a,z3));return[1,c[1],c[2],g,f,e]}var
-h=U(S,Z(s(a,z4)));return[0,U(S,Z(s(a,z5))),h]}function
-z6(f){var
-a=ad(f);function
-d(b){return S(s(a,b))}function
-c(b){return eL(S,s(a,b))}var
-b=aC(s(a,z7));if(m(b,z8)){if(!m(b,z9)){var
-j=s(a,Ad),e=cG(function(a){return a},j),k=aR(a,Ae),l=cf(function(a){return c(Af)},k),n=gg(aC(e[2])),o=gg(aC(e[1])),p=d(Ag);return[0,cF(s(a,Ah)),p,o,n,l]}if(m(b,z_))throw O}var
-g=d(z$),h=c(Aa),i=c(Ab);return[1,aq(b,Ac),i,h,g]}function
-iu(ar){var
-g=c_(ar),h=g[1];if(m(h,Ai)){if(m(h,Aj)){if(m(h,Ak)){if(m(h,Al))return Y([0,An,[0,h,Am]]);var
-w=s(ad(g[2]),Ao),ag=0;if(2===w[0]){var
-L=m(w[1],Ap);if(!L){var
-K=L;ag=1}}if(!ag)var
-K=[0,bT(w)];return[6,K]}var
-M=ad(g[2]),i=iu([0,[0,[0,Ar,s(M,Aq)],0]]);if(0===i[0]){var
-x=i[2];if(0===x[0]&&!i[3]){var
-as=S(s(M,At));return[5,i[1],x[1],x[2],i[4],as]}}return Y(As)}var
-a=ad(g[2]),y=aR(a,Au),z=y?U(z6,Z(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?Y(Av):a},k=c_(s(a,Aw)),b=c_(s(a,Ax)),c=k[1];if(m(c,Ay)&&m(c,Az)&&m(c,AA)){if(0===aR(a,AB)){if(m(c,AC)){var
-ah=0;if(m(c,AD)){if(!m(c,AE)){var
-N=b[1],ai=0;if(m(N,AH)&&m(N,AI)){ah=1;ai=1}if(!ai){var
-A=Z(k[2]),at=Z(s(a,AL)),P=U(function(a){return dS(0,a)},at);if(!au(yO,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
-ax=U(yy,A),f=ad(b[2]);if(m(b[1],zU))var
-I=cG(S,s(f,zV)),J=cG(S,s(f,zW)),am=J[2],an=J[1],ao=S(s(f,zX)),Q=[1,I[1],I[2],ao,an,am];else
+a=dY(Ag,c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(Ah)}function
+nH(a){var
+b=dY(Aj,a);return 11===b[1]?b:nG(a)}function
+Ak(c){var
+d=dY(Al,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+if(2!==a)b=1;return b?d:nH(c)}function
+iA(c){var
+d=dY(Am,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:nG(c)}function
+iB(b){var
+a=ah(b[2]);if(m(b[1],At)){var
+c=cL(O,t(a,Au)),d=cL(O,t(a,Av)),e=d[2],f=d[1],g=O(t(a,Aw));return[1,c[1],c[2],g,f,e]}var
+h=Y(O,$(t(a,Ax)));return[0,Y(O,$(t(a,Ay))),h]}function
+Az(f){var
+a=ah(f);function
+d(b){return O(t(a,b))}function
+c(b){return eT(O,t(a,b))}var
+b=aH(t(a,AA));if(m(b,AB)){if(!m(b,AC)){var
+j=t(a,AI),e=cL(function(a){return a},j),k=aW(a,AJ),l=cj(function(a){return c(AK)},k),n=gq(aH(e[2])),o=gq(aH(e[1])),p=d(AL);return[0,cK(t(a,AM)),p,o,n,l]}if(m(b,AD))throw T}var
+g=d(AE),h=c(AF),i=c(AG);return[1,as(b,AH),i,h,g]}function
+iC(aq){var
+g=dh(aq),h=g[1];if(m(h,AN)){if(m(h,AO)){if(m(h,AP)){if(m(h,AQ))return aa([0,AS,[0,h,AR]]);var
+w=t(ah(g[2]),AT),af=0;if(2===w[0]){var
+L=m(w[1],AU);if(!L){var
+K=L;af=1}}if(!af)var
+K=[0,b2(w)];return[6,K]}var
+M=ah(g[2]),j=iC([0,[0,[0,AW,t(M,AV)],0]]);if(0===j[0]){var
+x=j[2];if(0===x[0]&&!j[3]){var
+ar=O(t(M,AY));return[5,j[1],x[1],x[2],j[4],ar]}}return aa(AX)}var
+a=ah(g[2]),y=aW(a,AZ),z=y?Y(Az,$(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?aa(A0):a},k=dh(t(a,A1)),b=dh(t(a,A2)),c=k[1];if(m(c,A3)&&m(c,A4)&&m(c,A5)){if(0===aW(a,A6)){if(m(c,A7)){var
+ag=0;if(m(c,A8)){if(!m(c,A9)){var
+N=b[1],ai=0;if(m(N,Ba)&&m(N,Bb)){ag=1;ai=1}if(!ai){var
+A=$(k[2]),at=$(t(a,Be)),P=Y(function(a){return dY(0,a)},at);if(!au(zi,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
+ax=Y(y4,A),f=ah(b[2]);if(m(b[1],An))var
+I=cL(O,t(f,Ao)),J=cL(O,t(f,Ap)),am=J[2],an=J[1],ao=O(t(f,Aq)),Q=[1,I[1],I[2],ao,an,am];else
 var
-ap=eL(S,s(f,zY)),Q=[0,eL(S,s(f,zZ)),ap];return[0,ax,Q,z,P]}o(0);var
-av=U(is,Z(s(a,AM))),aw=it(b);return[1,0,U(nl,A),0,aw,0,av]}}}else
-if(!m(b[1],AN)){o(0);var
-R=U(is,Z(s(a,AO))),v=0,e=R;for(;;){if(e){var
+ap=eT(O,t(f,Ar)),Q=[0,eT(O,t(f,As)),ap];return[0,ax,Q,z,P]}o(0);var
+av=Y(iA,$(t(a,Bf))),aw=iB(b);return[1,0,Y(nE,A),0,aw,0,av]}}}else
+if(!m(b[1],Bg)){o(0);var
+R=Y(iA,$(t(a,Bh))),v=0,e=R;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
-n=jg(v),aj=0;if(n){var
-d=0,T=n[1][4];if(typeof
-T==="number")d=1;else
-switch(T[0]){case
+n=jo(v),aj=0;if(n){var
+d=0,S=n[1][4];if(typeof
+S==="number")d=1;else
+switch(S[0]){case
 0:var
 B=n[2];if(B){var
-E=0,V=B[1][4];if(typeof
-V!=="number"&&1===V[0])if(B[2]){d=1;E=1}else
+E=0,U=B[1][4];if(typeof
+U!=="number"&&1===U[0])if(B[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
 d=1;break;case
 1:var
 C=n[2];if(C){var
-F=0,W=C[1][4];if(typeof
-W!=="number"&&0===W[0])if(C[2]){d=1;F=1}else
+F=0,V=C[1][4];if(typeof
+V!=="number"&&0===V[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)Y(AP);var
-ay=S(s(ad(b[2]),AQ));return[4,S(s(ad(k[2]),AR)),ay,R]}}if(!ah)return Y([0,AG,[0,c,AF]])}else
-if(!m(b[1],AS)){o(0);var
-p=ad(k[2]),X=ad(b[2]),_=function(c,a){var
-b=Z(a);return U(function(d){var
-a=Z(d);if(a){var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)aa(Bi);var
+ay=O(t(ah(b[2]),Bj));return[4,O(t(ah(k[2]),Bk)),ay,R]}}if(!ag)return aa([0,A$,[0,c,A_]])}else
+if(!m(b[1],Bl)){o(0);var
+p=ah(k[2]),W=ah(b[2]),X=function(c,a){var
+b=$(a);return Y(function(d){var
+a=$(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=j(c,b[1]);return[0,aC(a[1]),e]}}throw O},b)},az=function(d){var
-a=ad(d);if(a){var
-b=a[1],c=b[1];if(m(c,AT)){if(!m(c,AU)&&!a[2])return[0,U(iq,Z(b[2]))]}else
-if(!a[2])return[1,iq(b[2])]}throw O},aA=U(no,Z(s(a,AV))),aB=U(S,Z(s(X,AW))),aD=U(S,Z(s(X,AX))),aE=U(az,Z(s(p,AY))),aF=_(iq,s(p,AZ)),aG=_(bT,s(p,A0));return[3,U(aC,Z(s(p,A1))),aG,aF,aE,aD,aB,aA]}return Y([0,AK,[0,b[1],AJ]])}throw O}var
-$=ad(k[2]),q=cf(S,aR($,A2)),aH=function(f){var
-a=c_(f),b=a[1];if(m(b,A3)){if(m(b,A4)){if(m(b,A5)){if(m(b,A6))throw O;var
-d=a[2],g=S(s(ad(d),A7));return[3,S(s(ad(d),A8)),g]}var
-h=a[2],c=function(a){return cG(S,s(ad(h),a))},i=c(A9),j=c(A_);return[1,c(A$),j,i]}var
-e=cG(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cf(aH,aR(a,Ba)),aa=m(c,Bb),D=aa?m(c,Bc)?2:1:aa,t=Z(s($,Bd));if(q&&r){var
-ab=r[1];if(gN(nm,t)){var
+e=i(c,b[1]);return[0,aH(a[1]),e]}}throw T},b)},az=function(d){var
+a=ah(d);if(a){var
+b=a[1],c=b[1];if(m(c,Bm)){if(!m(c,Bn)&&!a[2])return[0,Y(iy,$(b[2]))]}else
+if(!a[2])return[1,iy(b[2])]}throw T},aA=Y(nH,$(t(a,Bo))),aB=Y(O,$(t(W,Bp))),aC=Y(O,$(t(W,Bq))),aD=Y(az,$(t(p,Br))),aE=X(iy,t(p,Bs)),aF=X(b2,t(p,Bt));return[3,Y(aH,$(t(p,Bu))),aF,aE,aD,aC,aB,aA]}return aa([0,Bd,[0,b[1],Bc]])}throw T}var
+Z=ah(k[2]),q=cj(O,aW(Z,Bv)),aG=function(f){var
+a=dh(f),b=a[1];if(m(b,Bw)){if(m(b,Bx)){if(m(b,By)){if(m(b,Bz))throw T;var
+d=a[2],g=O(t(ah(d),BA));return[3,O(t(ah(d),BB)),g]}var
+h=a[2],c=function(a){return cL(O,t(ah(h),a))},i=c(BC),j=c(BD);return[1,c(BE),j,i]}var
+e=cL(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},r=cj(aG,aW(a,BF)),_=m(c,BG),D=_?m(c,BH)?2:1:_,s=$(t(Z,BI));if(q&&r){var
+ab=r[1];if(gV(nF,s)){var
 aI=function(c){var
-a=ad(c);function
-b(b){return U(bT,Z(s(a,b)))}if(0!==aR(a,Be))Y(Bf);var
-d=b(Bg);return[0,b(Bh),d]},ac=U(zR,Z(s(a,Bi))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))Y(Bj);var
-aJ=it(b),aK=q[1];return[2,D,U(aI,t),aK,aJ,ab,z,ac]}}o(0);var
-al=0;if(!q&&aq(c,Bm)){var
-ae=1;al=1}if(!al)var
-ae=[0,D];var
-af=0!==r?1:0,aL=af?au(nm,t):af;if(aL)Y(Bk);var
-aM=U(is,Z(s(a,Bl))),aN=it(b);return[1,ae,U(nl,t),q,aN,r,aM]}var
-u=ad(g[2]);function
+a=ah(c);function
+b(b){return Y(b2,$(t(a,b)))}if(0!==aW(a,BJ))aa(BK);var
+d=b(BL);return[0,b(BM),d]},ac=Y(Ak,$(t(a,BN))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))aa(BO);var
+aJ=iB(b),aK=q[1];return[2,D,Y(aI,s),aK,aJ,ab,z,ac]}}o(0);var
+al=0;if(!q&&as(c,BR)){var
+ad=1;al=1}if(!al)var
+ad=[0,D];var
+ae=0!==r?1:0,aL=ae?au(nF,s):ae;if(aL)aa(BP);var
+aM=Y(iA,$(t(a,BQ))),aN=iB(b);return[1,ad,Y(nE,s),q,aN,r,aM]}var
+u=ah(g[2]);function
 aO(b){var
-a=ad(b),c=S(s(a,Bn)),d=[0,S(s(a,Bo)),c];return[0,aC(s(a,Bp)),d]}var
-l=iu([0,[0,[0,Br,s(u,Bq)],0]]);if(0===l[0]&&!l[3]){var
-aP=S(s(u,Bt)),aQ=S(s(u,Bu)),aS=l[4],aT=l[2],aU=l[1];return[7,U(aO,Z(s(u,Bv))),aU,aT,aS,aQ,aP]}return Y(Bs)}function
-iv(a){return U(eN,Z(a))}function
-iw(c,b){var
-a=iv(b);if(bZ(a)!==c)throw O;return a}function
-np(a,d){var
-b=ad(d),e=Z(s(b,By)),f=a[2],c=U(function(a){return iw(f,a)},e),g=a[1];if(bZ(c)!==g)throw O;return[0,c,gf(s(b,Bz))]}function
-eO(g,o){var
-M=g[2];switch(o[0]){case
+a=ah(b),c=O(t(a,BS)),d=[0,O(t(a,BT)),c];return[0,aH(t(a,BU)),d]}var
+l=iC([0,[0,[0,BW,t(u,BV)],0]]);if(0===l[0]&&!l[3]){var
+aP=O(t(u,BY)),aQ=O(t(u,BZ)),aR=l[4],aS=l[2],aT=l[1];return[7,Y(aO,$(t(u,B0))),aT,aS,aR,aQ,aP]}return aa(BX)}function
+iD(a){return Y(eV,$(a))}function
+iE(c,b){var
+a=iD(b);if(b8(a)!==c)throw T;return a}function
+nI(a,d){var
+b=ah(d),e=$(t(b,B3)),f=a[2],c=Y(function(a){return iE(f,a)},e),g=a[1];if(b8(c)!==g)throw T;return[0,c,eW(t(b,B4))]}function
+eX(g,p){var
+M=g[2];switch(p[0]){case
 0:var
-d=o[1];if(d){var
-e=d[1],a=e[1],N=pI(a,BA),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,BB)&&m(a,BC)&&m(a,BD))if(m(a,BE))f=1;else{var
-P=e[2];if(1===P[0]){var
-p=P[1];if(p){var
-q=p[2];if(q){var
-r=q[2];if(r&&!r[2]){if(!d[2]){var
-Q=q[1];if(pU(aC(Q),0,49))return Y(BH);var
-af=U(iv,Z(r[1])),ag=aC(Q);return[8,eO(g,p[1]),ag,af]}b=1;f=1}else
+d=p[1];if(d){var
+e=d[1],a=e[1],N=p2(a,B5),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,B6)&&m(a,B7)&&m(a,B8))if(m(a,B9))f=1;else{var
+O=e[2];if(1===O[0]){var
+q=O[1];if(q){var
+r=q[2];if(r){var
+s=r[2];if(s&&!s[2]){if(!d[2]){var
+P=r[1];if(qc(aH(P),0,49))return aa(Ca);var
+ae=Y(iD,$(s[1])),af=aH(P);return[8,eX(g,q[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
 f=1}if(!f)if(d[2])b=1;else{var
-ah=e[2],u=ah,t=function(c,b){return[1,a,c,b]};b=2}}else{var
-S=e[2];if(1===S[0]){var
-v=S[1];if(v){var
-w=v[2];if(w){var
-x=w[2];if(x&&!x[2]){if(!d[2]){var
-ai=gf(x[1]),aj=eN(w[1]);return[5,eO(g,v[1]),aj,ai]}b=1}}}}}else
-if(m(a,BI))if(m(a,BJ))if(m(a,BK))if(m(a,BL)){if(!m(a,BM)){if(!d[2]){var
-T=ad(e[2]),ak=Z(s(T,BN)),al=M+1|0,V=U(function(a){return iw(al,a)},ak);if(3===bZ(V))return[1,BP,V,gf(s(T,BO))];throw O}b=1}}else{if(!d[2]){var
-J=aC(e[2]),K=m(J,Bw);if(K){if(m(J,Bx))throw O;var
+ag=e[2],v=ag,u=function(c,b){return[1,a,c,b]};b=2}}else{var
+R=e[2];if(1===R[0]){var
+w=R[1];if(w){var
+x=w[2];if(x){var
+y=x[2];if(y&&!y[2]){if(!d[2]){var
+ai=eW(y[1]),aj=eV(x[1]);return[5,eX(g,w[1]),aj,ai]}b=1}}}}}else
+if(m(a,Cb))if(m(a,Cc))if(m(a,Cd))if(m(a,Ce)){if(!m(a,Cf)){if(!d[2]){var
+S=ah(e[2]),ak=$(t(S,Cg)),al=M+1|0,U=Y(function(a){return iE(al,a)},ak);if(3===b8(U))return[1,Ci,U,eW(t(S,Ch))];throw T}b=1}}else{if(!d[2]){var
+J=aH(e[2]),K=m(J,B1);if(K){if(m(J,B2))throw T;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
-i=e[2],_=function(l,a){if(0===a[0]){var
+j=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],BR)){var
+e=b[1];if(!m(e[1],Cj)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],BS)){var
+g=c[1];if(!m(g[1],Ck)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eO(BT,a)}}}}}}}}}}return eO(l,a)},n=0;switch(i[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eX(Cl,a)}}}}}}}}}}return eX(l,a)},o=0;switch(j[0]){case
 0:var
-j=i[1];if(j){var
-$=j[1],k=$[1],c=0;if(m(k,BU)&&m(k,BV)&&m(k,BW))if(m(k,BX))c=1;else{var
-aa=$[2];if(1===aa[0]){var
-E=aa[1];if(E){var
-l=E[1],h=0;switch(l[0]){case
+k=j[1];if(k){var
+Z=k[1],i=Z[1],c=0;if(m(i,Cm)&&m(i,Cn)&&m(i,Co)&&m(i,Cp))if(m(i,Cq))c=1;else{var
+_=Z[2];if(1===_[0]){var
+F=_[1];if(F){var
+l=F[1],h=0;switch(l[0]){case
 0:var
-F=l[1];if(F){var
-G=F[1][1],ae=0;if(m(G,BZ)&&m(G,B0)&&m(G,B1)){c=1;h=1;ae=1}if(!ae&&F[2]){c=1;h=1}}else{c=1;h=1}break;case
+G=l[1];if(G){var
+n=G[1][1],ad=0;if(m(n,Cs)&&m(n,Ct)&&m(n,Cu)&&m(n,Cv)){c=1;h=1;ad=1}if(!ad&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-ab=l[1];if(m(ab,B2)&&m(ab,B3)){c=1;h=1}break;default:c=1;h=1}if(!h){var
-H=E[2];if(H){var
-I=H[2];if(I&&!(I[2]||j[2])){var
-aq=gf(I[1]),ar=eN(H[1]),y=[6,_(g,l),ar,aq];n=2;c=1}else
+ab=l[1];if(m(ab,Cw)&&m(ab,Cx)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+H=F[2];if(H){var
+I=H[2];if(I&&!(I[2]||k[2])){var
+ar=eW(I[1]),as=eV(H[1]),z=[6,X(g,l),as,ar];o=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
-c=1}if(!c&&!j[2])n=1}break;case
+c=1}if(!c&&!k[2])o=1}break;case
 2:var
-ac=i[1];if(!m(ac,B4)||!m(ac,B5))n=1;break}switch(n){case
+ac=j[1];if(!m(ac,Cy)||!m(ac,Cz))o=1;break}switch(o){case
 0:var
-y=Y(BY);break;case
+z=aa(Cr);break;case
 1:var
-y=_(g,i);break}return[7,y]}b=1}else{var
+z=X(g,j);break}return[7,z]}b=1}else{var
+V=e[2];if(1===V[0]){var
+A=V[1];if(A){var
+B=A[2];if(B&&!B[2])if(d[2])b=1;else{var
+am=B[1],an=A[1],v=an,u=function(b,a){return[3,b,a,iE(M+1|0,am)]};b=2}}}}else{var
 W=e[2];if(1===W[0]){var
-z=W[1];if(z){var
-A=z[2];if(A&&!A[2])if(d[2])b=1;else{var
-am=A[1],an=z[1],u=an,t=function(b,a){return[3,b,a,iw(M+1|0,am)]};b=2}}}}else{var
-X=e[2];if(1===X[0]){var
-B=X[1];if(B){var
-C=B[2];if(C){var
-D=C[2];if(D&&!D[2])if(d[2])b=1;else{var
-ao=C[1];if(m(dR(D[1]),BQ))throw O;var
-ap=B[1],u=ap,t=function(b,a){return[4,b,a,eN(ao)]};b=2}}}}}switch(b){case
-0:if(!d[2])return Y([0,BG,[0,a,BF]]);break;case
+C=W[1];if(C){var
+D=C[2];if(D){var
+E=D[2];if(E&&!E[2])if(d[2])b=1;else{var
+ao=E[1],ap=D[1],aq=C[1],v=aq,u=function(b,a){var
+c=eW(ao);return[4,b,a,eV(ap),c]};b=2}}}}}switch(b){case
+0:if(!d[2])return aa([0,B$,[0,a,B_]]);break;case
 1:break;default:var
-R=np(g,u);return t(R[1],R[2])}}break;case
-2:return[0,o[1]]}throw O}function
-nq(k){var
-b=c_(k),a=b[1];if(m(a,B8))if(m(a,B9)){var
-g=m(a,B_);if(!g)return g;if(m(a,B$)){if(!m(a,Ca))return[2,U(S,Z(b[2]))]}else{var
+Q=nI(g,v);return u(Q[1],Q[2])}}break;case
+2:return[0,p[1]]}throw T}function
+nJ(k){var
+b=dh(k),a=b[1];if(m(a,CC))if(m(a,CD)){var
+g=m(a,CE);if(!g)return g;if(m(a,CF)){if(!m(a,CG))return[2,Y(O,$(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cF(d[1]);return[1,cF(c[1]),l]}}}}}else{var
+l=cK(d[1]);return[1,cK(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=U(iv,Z(f[1]));return[0,cF(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return Y([0,Cc,[0,a,Cb]])}function
-nr(f,b){var
-a=ad(b),c=Z(s(a,Ch)),d=U(function(g){var
-a=ad(g);function
+n=Y(iD,$(f[1]));return[0,cK(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return aa([0,CI,[0,a,CH]])}function
+nK(f,b){var
+a=ah(b),c=$(t(a,CN)),d=Y(function(g){var
+a=ah(g);function
 b(d,c){var
-b=aR(a,c);return b?U(d,Z(b[1])):b}var
-c=b(eN,Cd),d=cf(nq,aR(a,Ce)),e=cf(cF,aR(a,Cf));return[0,b(function(h){var
-b=Z(h);if(b){var
+b=aW(a,c);return b?Y(d,$(b[1])):b}var
+c=b(eV,CJ),d=cj(nJ,aW(a,CK)),e=cj(cK,aW(a,CL));return[0,b(function(h){var
+b=$(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],B6)){if(!a[2]){if(m(dR(e),B7))throw O;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],CA)){if(!a[2]){if(m(eS(e),CB))throw T;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eO(f,c);return[0,cF(e),g]}}}throw O},Cg),e,d,c]},c),e=aR(a,Ci),g=cf(function(a){return np(f,a)},e);return[0,ni(s(a,Cj)),g,d]}function
-ns(c){var
-a=ad(c),b=aR(a,Ck),d=b?U(S,Z(b[1])):b,e=nq(s(a,Cl)),f=U(S,Z(s(a,Cm)));return[0,ni(s(a,Cn)),f,d,e]}function
-nt(c){var
+g=eX(f,c);return[0,cK(e),g]}}}throw T},CM),e,d,c]},c),e=aW(a,CO),g=cj(function(a){return nI(f,a)},e);return[0,nB(t(a,CP)),g,d]}function
+nL(c){var
+a=ah(c),b=aW(a,CQ),d=b?Y(O,$(b[1])):b,e=nJ(t(a,CR)),f=Y(O,$(t(a,CS)));return[0,nB(t(a,CT)),f,d,e]}function
+nM(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Cx(b){var
+C3(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Cy(b){var
+C4(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-ez(k(a[1]));return 10===c?1:0}function
-CC(h){var
-l=an(h),c=[0,0];function
-n(a){if(c[1]<l)return aN(h,c[1]);throw O}function
-o(a){if(n(0)===a){c[1]++;return 0}throw O}function
-G(a,b){for(;;){if(c[1]<l&&j(b,aN(h,c[1]))){c[1]++;continue}return di(h,a,c[1]-a|0)}}function
+a!=="number"&&1===a[0])return 1-eF(k(a[1]));return 10===c?1:0}function
+C8(h){var
+l=ao(h),c=[0,0];function
+n(a){if(c[1]<l)return aR(h,c[1]);throw T}function
+o(a){if(n(0)===a){c[1]++;return 0}throw T}function
+G(a,b){for(;;){if(c[1]<l&&i(b,aR(h,c[1]))){c[1]++;continue}return ds(h,a,c[1]-a|0)}}function
 H(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -7123,18 +7266,18 @@ d=b;return d}var
 b=G(c[1],a);o(34);return b}function
 I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,j(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return jg(d)}}function
-v(b,i){if(64<b)throw O;var
+d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
+b=d;continue}o(a);return jo(d)}}function
+v(b,i){if(64<b)throw T;var
 a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
 g=125;return[0,I(function(c){var
 a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,H(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,G(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw O}var
-aa=v(0,0),J=c[1]<l?1:0,ab=J?10===aN(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw O;var
-t=ad(aa);if(m(aC(s(t,CD)),CE))throw O;var
-a=iu(s(t,CF)),B=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw T}var
+_=v(0,0),J=c[1]<l?1:0,ab=J?10===aR(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw T;var
+s=ah(_);if(m(aH(t(s,C9)),C_))throw T;var
+a=iC(t(s,C$)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -7144,97 +7287,97 @@ if(1===z[1])var
 A=6;else
 C=1;if(C)var
 A=3;var
-g=[0,bZ(a[2]),A];break;case
+g=[0,b8(a[2]),A];break;case
 2:var
-as=1===a[1]?6:3,g=[0,bZ(a[2]),as];break;case
+as=1===a[1]?6:3,g=[0,b8(a[2]),as];break;case
 3:var
-at=bZ(a[1]),g=[0,bZ(a[4]),at];break;case
+at=b8(a[1]),g=[0,b8(a[4]),at];break;case
 7:var
 K=a[2];B=1;break;case
 0:case
 5:var
 K=a[1];B=1;break;default:var
-g=C1}if(B)var
-g=[0,bZ(K),3];var
-p=c_(s(t,CG)),q=p[1];if(m(q,Cs))if(m(q,Ct))if(m(q,Cu))var
-b=Y([0,Cw,[0,q,Cv]]);else
+g=Dv}if(B)var
+g=[0,b8(K),3];var
+p=dh(t(s,Da)),q=p[1];if(m(q,CY))if(m(q,CZ))if(m(q,C0))var
+b=aa([0,C2,[0,q,C1]]);else
 var
-r=ns(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
+r=nL(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
-w=nr(g,p[2]),b=[0,w[1],w[2],w[3]];else
+w=nK(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
-ac=Z(p[2]),b=[2,U(function(f){var
-a=c_(f),b=a[1];if(m(b,Co)){if(m(b,Cp)){if(m(b,Cq)){var
-e=m(b,Cr);if(e)throw O;return e}return[0,cF(a[2])]}var
-c=ns(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=nr(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
-ae(a){var
+ac=$(p[2]),b=[2,Y(function(f){var
+a=dh(f),b=a[1];if(m(b,CU)){if(m(b,CV)){if(m(b,CW)){var
+e=m(b,CX);if(e)throw T;return e}return[0,cK(a[2])]}var
+c=nL(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=nK(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
+ad(a){var
 b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
-af(a){return 0!==a[3]?1:0}function
-L(a){return au(af,a)}function
+ae(a){return 0!==a[3]?1:0}function
+L(a){return au(ae,a)}function
 M(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
 0:switch(b[0]){case
 0:var
-P=a[4],N=a[1];d=5;break;case
+O=a[4],N=a[1];d=5;break;case
 2:d=1;break;default:d=2}break;case
 1:switch(b[0]){case
 0:var
 ak=b[3];if(au(function(a){var
 b=a[1];return au(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))Y(CS);else
+7:return 1;default:return 0}},b)},ak))aa(Dm);else
 d=3;break;case
 1:var
-al=a[6];if(au(function(a){return 8===a[1]?1:0},al))Y(CT);else
+al=a[6];if(au(function(a){return 8===a[1]?1:0},al))aa(Dn);else
 d=2;break;default:d=1}break;case
 2:var
-R=a[7],S=a[1],D=0;switch(b[0]){case
+Q=a[7],R=a[1],D=0;switch(b[0]){case
 0:var
-am=1===S?6:3,T=bZ(a[2])===am?1:0;if(T){var
-W=0;if(2<=S||!(0===a[4][0]))W=1;else
+am=1===R?6:3,S=b8(a[2])===am?1:0;if(S){var
+V=0;if(2<=R||!(0===a[4][0]))V=1;else
 var
-y=1;if(W)var
+y=1;if(V)var
 y=0}else
 var
-y=T;var
-ao=function(b){var
+y=S;var
+an=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],CU))a=1;break;case
+1:if(m(c[1],Do))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],CV))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ap=b[3];if(au(function(a){return au(ao,a[1])},ap))Y(CW);else{var
-aq=b[3];if(gN(function(a){var
-b=a[1];return gN(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],Dp))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ap=b[3];if(au(function(a){return au(an,a[1])},ap))aa(Dq);else{var
+aq=b[3];if(gV(function(a){var
+b=a[1];return gV(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,Cz)){if(!m(c,CA))return au(Cy,R)}else
+c=b[1];if(m(c,C5)){if(!m(c,C6))return au(C4,Q)}else
 a=1;break;case
-1:if(!m(b[1],CB))a=1;break;case
+1:if(!m(b[1],C7))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-Y(CX)}break;case
+aa(Dr)}break;case
 1:var
-X=0,V=b[4];if(typeof
-V!=="number"&&2!==V[0])if(au(function(c){var
+W=0,U=b[4];if(typeof
+U!=="number"&&2!==U[0])if(au(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},R)){Y(CY);X=1}else{d=2;D=1;X=1}break;default:d=1;D=1}break;case
+b=4<=a?1:0;if(!b)return b}return 1},Q)){aa(Ds);W=1}else{d=2;D=1;W=1}break;default:d=1;D=1}break;case
 3:switch(b[0]){case
-0:if(au(ae,b[3]))Y(CZ);else
+0:if(au(ad,b[3]))aa(Dt);else
 d=3;break;case
 2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
 ar=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))Y(C0);else
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))aa(Du);else
 d=4;break;case
 1:d=2;break;default:d=4}break;default:d=2}var
 f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){Y(CR);f=1}else
+2:if(1===b[0]&&M(b[4])){aa(Dl);f=1}else
 f=3;break;case
 4:f=3;break;case
 0:f=1;break;case
@@ -7242,33 +7385,33 @@ f=3;break;case
 3:f=2;break}var
 e=0;switch(f){case
 3:switch(a[0]){case
-3:Y(CQ);e=2;break;case
+3:aa(Dk);e=2;break;case
 7:var
-P=a[4],N=a[2];e=3;break;case
+O=a[4],N=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(nt,a[4])){Y(CP);e=2}else
+6:e=1;break;default:if(au(nM,a[4])){aa(Dj);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
 2:e=1;break}var
-i=0;switch(e){case
+j=0;switch(e){case
 2:break;case
 3:var
-_=0;if(au(function(a){return 10===a[1]?1:0},P)&&au(function(a){return 2===a[0]?1:0},N)){Y(CH);_=1}if(!_)i=3;break;case
-4:i=3;break;case
-1:i=2;break;default:i=1}var
-k=0;switch(i){case
+X=0;if(au(function(a){return 10===a[1]?1:0},O)&&au(function(a){return 2===a[0]?1:0},N)){aa(Db);X=1}if(!X)j=3;break;case
+4:j=3;break;case
+1:j=2;break;default:j=1}var
+k=0;switch(j){case
 3:var
 E=0;switch(a[0]){case
 5:var
-$=0;if(0===b[0]){var
-aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){Y(CO);E=1;$=1}}if(!$)var
+Z=0;if(0===b[0]){var
+aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){aa(Di);E=1;Z=1}}if(!Z)var
 x=a[4];break;case
 7:var
 x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(au(Cx,x))Y(CN);else
+x=a[4];else{k=2;E=1}}if(!E)if(au(C3,x))aa(Dh);else
 k=2;break;case
 2:k=2;break;case
 1:k=1;break}var
@@ -7277,30 +7420,34 @@ F=0;switch(k){case
 u=0;switch(a[0]){case
 5:u=1;break;case
 7:var
-ah=a[4];switch(b[0]){case
+ag=a[4];switch(b[0]){case
 0:break;case
 1:F=1;u=1;break;default:var
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(nt,ah)}return 0};if(au(ai,b[1]))Y(CM);u=1}break}if(!u)if(0===b[0]&&L(b[3]))Y(CL);else
+2:return au(nM,ag)}return 0};if(au(ai,b[1]))aa(Dg);u=1}break}if(!u)if(0===b[0]&&L(b[3]))aa(Df);else
 F=1;break;case
 1:F=1;break}var
-Q=ad(s(t,CI)),ag=aC(s(Q,CJ));return[0,a,b,aC(s(Q,CK)),ag]}function
-C2(b){var
-c=an(b),g=64,h=ED(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+P=ah(t(s,Dc)),af=aH(t(P,Dd));return[0,a,b,aH(t(P,De)),af]}function
+Dw(b){var
+a=b[1];if(2===a[0]){var
+c=a[7];return au(function(b){var
+a=b[3];if(a&&3===a[1][0])return 1;return 0},c)}return 0}function
+Dy(b){var
+c=ao(b),g=64,h=E$(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aq(di(b,a,18),C3);if(!e){var
+e=as(ds(b,a,18),Dz);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}EY(function(b){try{if(C2(b))var
-a=C5;else{try{var
-e=0,d=CC(b);e=1}catch(a){a=i_(a);if(a[1]===nh)var
-c=[0,a[2]];else{if(a!==O)throw a;var
-c=2}}if(e)var
-c=yj(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return C4}if(typeof
+f=d;return f}}Fu(function(c){try{if(Dy(c))var
+a=DB;else{try{var
+e=0,b=C8(c);e=1}catch(a){a=jg(a);if(a[1]===nA)var
+d=[0,a[2]];else{if(a!==T)throw a;var
+d=2}}if(e)var
+d=yP(c,b)?1===b[2][0]?1:0:Dw(b)?Dx:2;var
+a=d}}catch(a){return DA}if(typeof
 a==="number")switch(a){case
-0:return C6;case
-1:return C7;default:return C8}return aT(C9,a[1])});jf(0);return}(globalThis));
+0:return DC;case
+1:return DD;default:return DE}return aY(DF,a[1])});jn(0);return}(globalThis));

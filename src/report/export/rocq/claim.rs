@@ -464,8 +464,8 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         ("Acceleration_", [("acceleration", [a]), ("speed", [v])]) => {
             Some(format!("(Motion_ {} {})", expression(a), expression(v)))
         }
-        ("Accuracy_", [("joint_error", _), ("max_angle", _)]) if asked > Asked::Anything => {
-            return not_covered("accuracy of a platform that turns")
+        ("Accuracy_", [("joint_error", [e]), ("max_angle", [a])]) => {
+            Some(format!("(Near_ {} {})", expression(e), expression(a)))
         }
         ("Stiffness_", [("joint", all)]) | ("BaseJoint_" | "PlatformJoint_", [("axis", all)]) => {
             Some(format!("(Each_ {})", list(all.iter().map(expression))))
@@ -477,7 +477,9 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
         "Serial_" | "Parallel_" | "LegAngle_" => asked < Asked::OfTwoPoints,
         "OneToOne_" => asked != Asked::OfLegs,
         "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
-        "Clearance_" | "Acceleration_" => matches!(asked, Asked::Anything | Asked::OfStruts),
+        "Clearance_" | "Acceleration_" | "Accuracy_" => {
+            matches!(asked, Asked::Anything | Asked::OfStruts)
+        }
         _ => asked == Asked::Anything,
     };
     if !is_asked {

@@ -183,11 +183,8 @@ fn evidence(by: &Evidence) -> Exported<String> {
         Evidence::Conditioning(y, mu) => {
             format!("Conditioned_ {} {} {}", matrix(&y.y), y.places, row(mu))
         }
-        Evidence::Accuracy(y, kappa, 0) => {
-            format!("Accurate_ {} {} ({kappa})", matrix(&y.y), y.places)
-        }
-        Evidence::Accuracy(..) => {
-            return not_covered("evidence \"accuracy\" of a platform that turns")
+        Evidence::Accuracy(y, kappa, q) => {
+            format!("Accurate_ {} {} ({kappa}) {q}", matrix(&y.y), y.places)
         }
         Evidence::Corner(Corner::Q1) => "AtCorner Check.Q1".to_owned(),
         Evidence::Corner(Corner::Q2) => "AtCorner Check.Q2".to_owned(),
