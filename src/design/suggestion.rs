@@ -3,11 +3,13 @@
 use super::UNITS;
 
 /// What is called otherwise here: the names that others have for it.
-const OTHERWISE: [(&str, &[&str]); 13] = [
+const OTHERWISE: [(&str, &[&str]); 20] = [
     ("slider", &["prismatic", "linear", "guide", "rail", "prs", "pus", "puu"]),
     ("arm", &["rotary", "revolute", "crank", "motor", "rss", "rus"]),
     ("strut", &["extensible", "actuator", "cylinder", "jack", "ups", "sps", "upu"]),
     ("in", &["inch", "inches", "zoll"]),
+    ("mm", &["millimetre", "millimeter", "millimetres", "millimeters"]),
+    ("cm", &["centimetre", "centimeter", "centimetres", "centimeters"]),
     ("m", &["metre", "meter", "metres", "meters"]),
     ("um", &["µm", "μm", "micron", "microns", "micrometre", "micrometer"]),
     ("radius", &["diameter"]),
@@ -17,15 +19,27 @@ const OTHERWISE: [(&str, &[&str]); 13] = [
     ("conditioning", &["condition", "condition_number"]),
     ("joint_range", &["stroke", "strokes", "joint_limits", "rho"]),
     ("clearance", &["collision", "collisions"]),
+    ("mechanism", &["machine", "robot"]),
+    ("requirements", &["constraints", "limits", "bounds"]),
+    ("z", &["height"]),
+    ("min", &["minimum", "least"]),
+    ("max", &["maximum", "greatest"]),
 ];
+
+/// The word of `accepted` that a word in small letters is another name of.
+fn otherwise<'a>(word: &str, accepted: &[&'a str]) -> Option<&'a str> {
+    let is_of =
+        |name: &&&str| OTHERWISE.iter().any(|(known, all)| known == *name && all.contains(&word));
+    accepted.iter().find(is_of).copied()
+}
 
 /// `"; did you mean ...?"` for the word of `accepted` that `word` is another name of, or else is nearest to
 /// it, as `show` writes it; empty if there is none.
 pub(super) fn hint(word: &str, accepted: &[&str], show: impl Fn(&str) -> String) -> String {
     let word = word.to_lowercase();
-    let mut otherwise = OTHERWISE.iter().filter(|(name, _)| accepted.contains(name));
-    if let Some((name, _)) = otherwise.find(|(_, all)| all.contains(&word.as_str())) {
-        return format!("; did you mean {}?", show(name));
+    if let Some(name) = otherwise(&word, accepted) {
+        let half = if word == "diameter" { ", half of it" } else { "" };
+        return format!("; did you mean {}{half}?", show(name));
     }
     let ranked = accepted.iter().map(|name| (distance(&word, name), *name));
     let near =
@@ -38,20 +52,24 @@ pub(super) fn hint(word: &str, accepted: &[&str], show: impl Fn(&str) -> String)
 
 /// What a number with a unit behind it could be instead: `"333 mm"`, where it ceases to be a number at `at`.
 pub(super) fn without_unit(text: &str, at: usize) -> Option<String> {
-    let (number, unit) = (text.get(..at)?.trim_end(), text.get(at..)?.trim());
-    if number.is_empty() {
+    let rest = text.get(at..)?.trim_start();
+    let end = rest.find(|c: char| !c.is_alphabetic() && c != '°').unwrap_or(rest.len());
+    let written = &rest[..end];
+    if written.is_empty() || text.get(..at)?.trim().is_empty() {
         return None;
     }
-    let unit = match unit {
-        "µm" | "μm" => "um",
-        unit => unit,
-    };
-    let title =
-        || format!(", and unit = {unit:?} above the tables to name the unit of all lengths");
-    match unit {
-        unit if UNITS.contains(&unit) => Some(format!("{number:?}{}", title())),
-        "deg" | "°" | "degrees" => Some(format!("{number:?}, in degrees where a key says so")),
-        _ => None,
+    // The tolerance may have the unit, too.
+    let number: Vec<&str> = text.split(written).map(str::trim).collect();
+    let number = number.join(" ").trim_end().to_owned();
+    let unit = UNITS.into_iter().find(|unit| *unit == written);
+    match unit.or_else(|| otherwise(&written.to_lowercase(), &UNITS)) {
+        Some(unit) => Some(format!(
+            "{number:?}, and unit = {unit:?} above the tables to name the unit of all lengths"
+        )),
+        None if ["deg", "°", "degree", "degrees"].contains(&written) => {
+            Some(format!("{number:?}, in degrees where a key says so"))
+        }
+        None => None,
     }
 }
 
@@ -174,5 +192,24 @@ mod tests {
         assert_eq!(hint("psi", &["transmission", "stiffness"]), "; did you mean transmission?");
         assert_eq!(hint("leg_length", &["drive", "length"]), "; did you mean length?");
         assert_eq!(hint("leg_length", &["drive", "mode"]), "");
+        assert_eq!(hint("diameter", &["center", "radius"]), "; did you mean radius, half of it?");
+    }
+
+    #[test]
+    fn units_are_left_out_of_tolerances_too() {
+        for (text, at, number) in [
+            ("333 mm", 4, "\"333\", and unit = \"mm\""),
+            ("333mm ± 0.05mm", 3, "\"333 ± 0.05\", and unit = \"mm\""),
+            ("333 mm ± 0.05", 4, "\"333 ± 0.05\", and unit = \"mm\""),
+            ("333 millimeters", 4, "\"333\", and unit = \"mm\""),
+            ("5 µm", 2, "\"5\", and unit = \"um\""),
+            ("45°", 2, "\"45\", in degrees"),
+        ] {
+            let found = without_unit(text, at).unwrap_or_default();
+            assert!(found.starts_with(number), "{text}: {found}");
+        }
+        for (text, at) in [("mm", 0), ("3 pi", 2), ("333,5", 3)] {
+            assert_eq!(without_unit(text, at), None, "{text}");
+        }
     }
 }

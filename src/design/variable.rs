@@ -205,6 +205,29 @@ impl<'d> Walk<'_, 'd> {
         Err(value.error(Defect::WrongType, value.found(), self.accepted(&there)))
     }
 
+    /// The number next to a key: by its own name, in the same table, or else by the whole key; of a table,
+    /// whose keys are told, none.
+    fn beside(&self, key: &str, all: &[&str]) -> String {
+        if all.iter().any(|other| other.strip_prefix(key).is_some_and(|rest| rest.starts_with('.')))
+        {
+            return String::new();
+        }
+        let (table, name) = key.rsplit_once('.').unwrap_or(("", key));
+        let last = |other: &&str| {
+            other
+                .strip_prefix(table)?
+                .strip_prefix('.')
+                .filter(|own| !own.contains('.'))
+                .map(str::to_owned)
+        };
+        let own: Vec<String> = all.iter().filter_map(last).collect();
+        let own: Vec<&str> = own.iter().map(String::as_str).collect();
+        match suggestion::hint(name, &own, |name| dotted(table, name)) {
+            none if none.is_empty() => suggestion::hint(key, all, |key| key.to_owned()),
+            hint => hint,
+        }
+    }
+
     /// What there is, and the nearest key of a number.
     fn accepted(&self, there: &[String]) -> String {
         let found = every(self.root);
@@ -221,7 +244,7 @@ impl<'d> Walk<'_, 'd> {
         };
         let hint = match all.iter().find(meant) {
             Some(key) => format!("; did you mean {key}?"),
-            None => suggestion::hint(&key, &all, |key| key.to_owned()),
+            None => self.beside(&key, &all),
         };
         format!("the key of a number; there is {}{hint}", there.join(", "))
     }
