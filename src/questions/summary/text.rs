@@ -5,7 +5,7 @@ use super::{Nearest, Shares, Summary, Value};
 use crate::exact::decimal::{briefly, outward, percent, significant, Toward};
 use crate::exact::Exact;
 use crate::report::text::{describe_counterexample, headline_of, labelled, meaning, wrap, Style};
-use crate::report::{machine_at_ends, pose_text};
+use crate::report::{machine_at_ends, placed, pose_text};
 use crate::search::solver::value::in_length;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -89,9 +89,9 @@ fn nearest(out: &mut String, found: &Nearest, coordinates: &[String], length: Op
     labelled(out, label, &format!("{name}: {margin}"));
     let value = found.worst_seen.map(|x| format!("{} ", significant(x, DIGITS)));
     let seen = format!(
-        "{}at {}",
+        "{}{}",
         value.unwrap_or_default(),
-        pose_text(&found.seen_at, coordinates, DIGITS)
+        placed(&pose_text(&found.seen_at, coordinates, DIGITS))
     );
     labelled(out, "seen", &seen);
     machine_at_ends(out, &found.machine);

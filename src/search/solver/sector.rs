@@ -4,7 +4,7 @@ use super::extremes::{loosest, of_one_width, rounded, NotEnclosed};
 use super::refute::number;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::value::{alone, Bounded};
-use super::{proof, refutation};
+use super::{approximate, proof, refutation};
 use crate::search::{Budget, Control, Steps};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -86,7 +86,8 @@ fn within(claim: &MachineClaim, leg: usize, ends: &[BigRational; 2]) -> Option<M
     Some(alone(claim, vec![Requirement { quantity, leg: Some(leg + 1), given, bound }]))
 }
 
-/// The least and the greatest angle found, in degrees, in the turn about that at the centre.
+/// The least and the greatest angle found, in degrees: in the turn that the claim's own range is in, or else
+/// in the one about 0.
 fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
     let ends = [0, 90].map(|degrees| BigRational::from_integer(degrees.into()));
     let mut asked = within(claim, leg, &ends).ok_or(NotEnclosed::Undecided)?;
@@ -133,5 +134,41 @@ fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
         let [Some(min), Some(max)] = ends else { return Err(NotEnclosed::Undecided) };
         asked.require[0].bound = Bound::Within([min, max]);
     }
-    Ok([lo, hi])
+    let own = claim.require.iter().find(|own| {
+        own.quantity == "joint_range" && own.leg.is_none_or(|number| number == leg + 1)
+    });
+    let own = own.and_then(|own| match &own.bound {
+        Bound::Within([min, max]) => Some(0.5 * (approximate(min)? + approximate(max)?)),
+        _ => None,
+    });
+    let turns = 360.0 * ((0.5 * (lo + hi) - own.unwrap_or(0.0)) / 360.0).round();
+    Ok([lo - turns, hi - turns])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+
+    /// Of a joint at -169 to -117 degrees the range [-175, -110] is met, and its stroke is told so; without
+    /// one, in the turn about 0.
+    #[test]
+    fn angles_are_told_in_the_turn_of_their_range() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/designs/kernel");
+        let text = std::fs::read_to_string(folder.join("planar-3-rrr.toml")).unwrap();
+        let mut claim = Design::parse(&text, "planar-3-rrr.toml").unwrap().claim;
+        let about = |claim: &MachineClaim, turned: f64| {
+            let [lo, hi] = seen(claim, 0).unwrap();
+            assert!(lo - turned > -169.5 && hi - turned < -116.5, "{lo} to {hi}");
+        };
+        about(&claim, 0.0);
+        for own in &mut claim.require {
+            if let Bound::Within(ends) = &mut own.bound {
+                *ends = [185, 250].map(|x| number(&BigRational::from_integer(x.into())).unwrap());
+            }
+        }
+        about(&claim, 360.0);
+        claim.require.retain(|own| own.quantity != "joint_range");
+        about(&claim, 0.0);
+    }
 }
