@@ -151,7 +151,14 @@ impl AtlasReport {
 
     /// A design's parameters.
     fn place(&self, at: &[Exact]) -> String {
-        let value = |(p, x): (&Parameter, &Exact)| format!("{} = {}", p.name, exact(x));
+        let value = |(p, x): (&Parameter, &Exact)| {
+            let text = exact(x);
+            // A fraction is told as a decimal, too.
+            let about = approximate(x).filter(|_| text.contains('/'));
+            let about =
+                about.map_or_else(String::new, |x| format!(" (about {})", significant(x, 4)));
+            format!("{} = {text}{about}", p.name)
+        };
         self.parameters.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
     }
 

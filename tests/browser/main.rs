@@ -217,7 +217,7 @@ fn the_view_in_space_turns_and_is_cut() {
     browser.pointer("mouseMoved", (x, y), false);
     browser.settle();
     let told = browser.text("#space-readout");
-    assert!(told.contains("psi_i") && told.contains(" by cube"), "{told}");
+    assert!(told.contains("\u{3c8}\u{1d62}") && told.contains(" by cube"), "{told}");
     assert!(told.contains("; ends rounded."), "{told}");
     browser.pointer("mousePressed", (x, y), true);
     browser.pointer("mouseMoved", (x + 60.0, y + 20.0), true);
@@ -253,7 +253,7 @@ fn a_refutation_is_marked_and_hostile_text_stays_text() {
     assert_eq!(browser.evaluate("typeof window.hacked"), "undefined");
     assert_eq!(browser.evaluate("document.querySelectorAll('script').length"), 4);
     assert!(browser.text("svg.design").contains("counterexample"));
-    assert!(browser.text("#counterexample").contains("greatest psi <= 2"));
+    assert!(browser.text("#counterexample").contains("greatest \u{3c8} \u{2264} 2"));
     assert!(browser.text(".verdict").contains("REFUTED"));
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }

@@ -25,7 +25,7 @@ const LABEL: [f64; 2] = [24.0, 9.0];
 /// Distance at which labels are far enough from each other.
 const FAR: f64 = 40.0;
 /// Distance of the entries of the legend.
-const KEY: f64 = 100.0;
+const KEY: f64 = 112.0;
 /// Height of the line that says where a plane is.
 const PLANE_LABEL: f64 = 24.0;
 /// Planes shown of three parameters.
@@ -37,7 +37,7 @@ text { font: 13px sans-serif; fill: #222 }
 .axis { stroke: #222; fill: none } .cell { stroke: #fff; stroke-width: .25 }
 .c { fill: #4c9bd6 } .r { fill: url(#failing) } .u { fill: url(#unknown) }
 .iso { fill: none; stroke: #082340; stroke-width: 1.3 }
-.level { font-size: 11px; fill: #082340; paint-order: stroke; stroke: #a9d1ef; stroke-width: 3px }
+.level { font-size: 11px; fill: #082340; paint-order: stroke; stroke: #a9d1ef; stroke-width: 5px; stroke-linejoin: round }
 .mark { fill: #ffd400; stroke: #111; stroke-width: 1.5 }
 .name { paint-order: stroke; stroke: #fff; stroke-width: 4px; fill: #222 }
 @media (prefers-color-scheme: dark) {
@@ -179,6 +179,8 @@ fn draw_cells(
 /// The lines of equal margin, with their margins where there is room.
 fn draw_contours(svg: &mut String, contours: &[Contour], names: &[[f64; 2]], high: f64) {
     let mut taken = names.to_vec();
+    // Over all lines.
+    let mut labels = String::new();
     for Contour { percent, lines } in contours {
         let shown = |[x, y]: &[f64; 2]| [x * SIDE, high - y * high];
         let lines: Vec<Vec<[f64; 2]>> =
@@ -193,7 +195,7 @@ fn draw_contours(svg: &mut String, contours: &[Contour], names: &[[f64; 2]], hig
         }
         taken.push([x, y]);
         let _ = writeln!(
-            svg,
+            labels,
             "<text class=\"level\" x=\"{}\" y=\"{}\" dy=\".35em\" text-anchor=\"middle\">{} \
              %</text>",
             short(x),
@@ -201,6 +203,7 @@ fn draw_contours(svg: &mut String, contours: &[Contour], names: &[[f64; 2]], hig
             short(*percent)
         );
     }
+    svg.push_str(&labels);
 }
 
 /// The point of a line next to its middle that is far enough from all that is taken, or the

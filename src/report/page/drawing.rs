@@ -1,6 +1,7 @@
 //! The machine and its workspace, in a parallel view: what the claim is about.
 
 use super::isomap::Mark;
+use super::labels::{about, beside, Place, Rectangle, Taken};
 use super::legs::{add, dot, scaled, Numbers, Point, Shape};
 use super::svg::{Elements, Fitted, Picture, View};
 use crate::report::point_text;
@@ -9,11 +10,38 @@ const SIZE: [f64; 2] = [720.0, 470.0];
 /// The viewer's angle above the horizon.
 const ELEVATION: f64 = 24.0;
 
+/// Size of names.
+const NAME: f64 = 13.0;
+
 /// The elements of a drawing, and its names: these last, so that nothing is drawn over them.
 #[derive(Default)]
 struct Layers {
     lines: Elements,
-    names: Elements,
+    names: Vec<Name>,
+    taken: Taken,
+}
+
+/// A name, and where it may stand.
+struct Name {
+    class: &'static str,
+    text: String,
+    places: Vec<Place>,
+}
+
+impl Layers {
+    fn name(&mut self, class: &'static str, text: String, places: Vec<Place>) {
+        self.names.push(Name { class, text, places });
+    }
+
+    fn line(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
+        self.lines.line(class, from, to);
+        self.taken.lines.push([from, to]);
+    }
+
+    fn dot(&mut self, class: &str, at: [f64; 2], radius: f64) {
+        self.lines.dot(class, at, radius);
+        self.taken.names.push(about(at, [radius; 2]));
+    }
 }
 
 /// The drawing of a machine, and marked points: from the side, or, of a machine in the plane, from
@@ -38,19 +66,27 @@ pub fn drawing(machine: &Shape, marks: &[Mark]) -> Picture {
     workspace(&mut layers.lines, machine, &view, &fitted);
     axes(&mut layers.lines, &view, if machine.is_flat { 2 } else { 3 });
     for [from, to] in bodies {
-        layers.lines.line("body", fitted.at(from), fitted.at(to));
+        layers.line("body", fitted.at(from), fitted.at(to));
     }
     for (i, guide) in guides.iter().enumerate() {
         leg(&mut layers, machine, i, *guide, &fitted);
     }
     platform_body(&mut layers, machine, &fitted);
-    let Layers { lines: mut out, names } = layers;
-    out.raw(&names.0);
-    corners(&mut out, machine, &fitted);
+    joints(&mut layers, machine, &fitted);
+    corners(&mut layers, machine, &fitted);
     for mark in marks {
         let at = fitted.at(mark.position());
-        out.dot("mark", at, 4.5);
-        out.text("mark-label start", [at[0] + 8.0, at[1] - 7.0], &mark.name);
+        layers.dot("mark", at, 4.5);
+        // First of all names, and so where there is most room.
+        let name =
+            Name { class: "mark-label", text: mark.name.clone(), places: beside(at, 9.0).into() };
+        layers.names.insert(0, name);
+    }
+    let Layers { lines: mut out, names, mut taken } = layers;
+    let frame: Rectangle = [[4.0, 4.0], [SIZE[0] - 4.0, SIZE[1] - 4.0]];
+    for Name { class, text, places } in names {
+        let (anchor, place) = taken.put(&text, &places, NAME, &frame);
+        out.text(&format!("{class} {anchor}"), place, &text);
     }
     Picture {
         name: "design".to_owned(),
@@ -129,7 +165,7 @@ fn workspace(out: &mut Elements, machine: &Shape, view: &View, fitted: &Fitted) 
 }
 
 /// The coordinates of two corners of a workspace with edges.
-fn corners(out: &mut Elements, machine: &Shape, fitted: &Fitted) {
+fn corners(layers: &mut Layers, machine: &Shape, fitted: &Fitted) {
     if machine.outline.is_round {
         return;
     }
@@ -141,7 +177,9 @@ fn corners(out: &mut Elements, machine: &Shape, fitted: &Fitted) {
     let shown = if machine.is_flat { 2 } else { 3 };
     for (corner, below) in least.zip(Some(16.0)).into_iter().chain(greatest.zip(Some(-9.0))) {
         let [x, y] = fitted.at(*corner);
-        out.text("label leg-label middle", [x, y + below], &point_text(&corner[..shown], 4));
+        let mut places = vec![("middle", [x, y + below])];
+        places.extend(beside([x, y], 9.0));
+        layers.name("label leg-label", point_text(&corner[..shown], 4), places);
     }
 }
 
@@ -195,50 +233,60 @@ fn anchor(machine: &Shape, i: usize) -> Option<Point> {
     }
 }
 
-fn leg(
-    Layers { lines: out, names }: &mut Layers,
-    machine: &Shape,
-    i: usize,
-    guide: Option<[Point; 2]>,
-    fitted: &Fitted,
-) {
+fn leg(layers: &mut Layers, machine: &Shape, i: usize, guide: Option<[Point; 2]>, fitted: &Fitted) {
     if let Some(ends) = guide {
         let [a, b] = ends.map(|p| fitted.at(p));
-        out.line("guide", a, b);
+        layers.line("guide", a, b);
     }
     let Some(pose) = machine.pose(i, machine.position) else {
         return;
     };
     let [driven, platform] = [pose.driven, pose.platform].map(|p| fitted.at(p));
-    let number = subscript(i);
     if let Numbers::Arm { anchor, axis, arm, .. } = &machine.legs[i] {
         let reach = scaled(0.35 * arm, *axis);
         let ends = [*anchor, add(*anchor, reach), add(*anchor, scaled(-1.0, reach))];
         let [at, a, b] = ends.map(|p| fitted.at(p));
-        out.line("guide", a, b);
-        out.line("arm", at, driven);
-        out.dot("joint", at, 4.0);
-        names.text("label end", [at[0] - 8.0, at[1] - 8.0], &format!("A{number}"));
+        layers.line("guide", a, b);
+        layers.line("arm", at, driven);
+        layers.dot("joint", at, 4.0);
     }
-    out.line("leg", driven, platform);
+    layers.line("leg", driven, platform);
     match &machine.legs[i] {
         Numbers::Slider { .. } | Numbers::Planar { .. } => {
             let [x, y] = driven;
             let (x, y) = (x - 6.0, y - 6.0);
-            out.raw(&format!(
+            layers.lines.raw(&format!(
                 "<rect class=\"carriage\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"12\" height=\"12\"/>"
             ));
+            layers.taken.names.push(about(driven, [6.0; 2]));
         }
-        _ => out.dot("joint", driven, 4.0),
+        _ => layers.dot("joint", driven, 4.0),
     }
-    out.dot("joint", platform, 3.5);
-    let middle = [0, 1].map(|k| driven[k] + 0.45 * (platform[k] - driven[k]));
-    names.text(
-        "label leg-label start",
-        [middle[0] + 7.0, middle[1] - 5.0],
-        &format!("leg {}", i + 1),
-    );
-    names.text("label start", [driven[0] + 10.0, driven[1] - 8.0], &format!("B{number}"));
+    layers.dot("joint", platform, 3.5);
+    let along = [0.45, 0.3, 0.6, 0.2, 0.75]
+        .map(|t| [0, 1].map(|k| driven[k] + t * (platform[k] - driven[k])));
+    let places = along.iter().flat_map(|at| beside(*at, 7.0)).collect();
+    layers.name("label leg-label", format!("leg {}", i + 1), places);
+}
+
+/// Names of the driven joints, and of the fixed points of arms; of several at one place, on a line.
+fn joints(layers: &mut Layers, machine: &Shape, fitted: &Fitted) {
+    let mut all: Vec<(String, [f64; 2])> = Vec::new();
+    for i in 0..machine.legs.len() {
+        let Some(pose) = machine.pose(i, machine.position) else { continue };
+        for (letter, p) in [('A', anchor(machine, i)), ('B', Some(pose.driven))] {
+            let Some(at) = p.map(|p| fitted.at(p)) else { continue };
+            let name = format!("{letter}{}", subscript(i));
+            let is_there = |known: &[f64; 2]| (known[0] - at[0]).hypot(known[1] - at[1]) < 1.0;
+            match all.iter_mut().find(|(_, known)| is_there(known)) {
+                Some((names, _)) => names.push_str(&format!(", {name}")),
+                None => all.push((name, at)),
+            }
+        }
+    }
+    for (names, at) in all {
+        layers.name("label", names, beside(at, 9.0).into());
+    }
 }
 
 /// The number of a leg, below the line.
@@ -248,16 +296,18 @@ fn subscript(i: usize) -> String {
 }
 
 /// The platform between its joints, where they are apart, and `P`.
-fn platform_body(Layers { lines: out, names }: &mut Layers, machine: &Shape, fitted: &Fitted) {
+fn platform_body(layers: &mut Layers, machine: &Shape, fitted: &Fitted) {
     let p = machine.position;
     let at = fitted.at(p);
     let joints = machine.legs.iter().map(|leg| fitted.at(machine.carried(p, leg.platform())));
     let shown = hull(joints.collect());
     if shown.iter().any(|q| (q[0] - at[0]).hypot(q[1] - at[1]) > 5.0) {
-        out.path("platform", &shown, true);
+        layers.lines.path("platform", &shown, true);
     }
-    out.dot("point", at, 4.0);
-    names.text("label start", [at[0] + 9.0, at[1] + 16.0], "P");
+    layers.dot("point", at, 4.0);
+    let mut places = beside(at, 9.0);
+    places.swap(0, 1);
+    layers.name("label", "P".to_owned(), places.into());
 }
 
 /// The directions of the frame, in a corner of the picture.

@@ -1,6 +1,7 @@
 //! What the proof, or the refutation, consists of, in tables.
 
 use super::legend::OUTSIDE;
+use super::mechanism::typeset;
 use super::subdivision::{Leaf, Subdivision};
 use crate::exact::decimal::{counted, grouped, significant};
 use crate::report::escape::xml;
@@ -75,18 +76,18 @@ pub fn share(margin: f64) -> String {
     }
 }
 
-/// The counterexample of a refutation.
-pub fn counterexample(rows: &[(String, String)]) -> String {
+/// The counterexample of a refutation, and the table of its machine.
+pub fn counterexample(rows: &[(String, String)], machine: &str) -> String {
     let mut out =
         "<section id=\"counterexample\"><h2>Counterexample</h2><p>One point (and machine) at \
-         which a requirement provably fails. Coordinates are exact.</p>\
+         which a requirement provably fails. Its numbers are exact.</p>\
          <div class=\"table\"><table><tbody>"
             .to_owned();
     for (name, value) in rows {
-        let (name, value) = (xml(name), xml(value));
+        let (name, value) = (xml(&typeset(name)), xml(&typeset(value)));
         let _ = write!(out, "<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>");
     }
-    out + "</tbody></table></div></section>\n"
+    out + "</tbody></table></div>" + machine + "</section>\n"
 }
 
 /// The numbers of leaves at each depth, and the smallest boxes.
@@ -129,7 +130,14 @@ pub fn hardest(trees: &[Subdivision]) -> String {
         let name = if trees.len() > 1 { format!("{}: ", tree.name) } else { String::new() };
         let _ = write!(out, "<td>{}{}</td></tr>", xml(&name), xml(&closed_by(tree, leaf)));
     }
-    out.push_str("</tbody></table></div><p class=\"note\">The ends of the boxes are rounded.</p>");
+    out.push_str("</tbody></table></div><p class=\"note\">The ends of the boxes are rounded.");
+    if axes.iter().any(|axis| axis.starts_with("about ")) {
+        out.push_str(
+            " Angles about x, y, z are twice the arc tangents of the coordinates of c = tan(theta/2) axis, \
+             where the platform is turned by theta about the axis.",
+        );
+    }
+    out.push_str("</p>");
     out.push_str(&histogram(&counts));
     out
 }

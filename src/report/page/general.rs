@@ -11,8 +11,8 @@ use super::shape::shape;
 use super::subdivision::{pairs, Root, Subdivision};
 use crate::exact::decimal::{exact, significant};
 use crate::report::exactly;
-use crate::report::pose_text;
 use crate::report::text::machine;
+use crate::report::{placed, pose_text};
 use crate::search::solver::approximate;
 use crate::search::solver::sample::At;
 use crate::search::solver::value::{coordinates, in_length};
@@ -131,17 +131,19 @@ impl General<'_> {
         let left = match found.left? {
             left if left == f64::NEG_INFINITY => "exceeded without bound".to_owned(),
             left if left < -NOISE => format!("exceeded by {}", share(-left)),
-            left => format!("{} left", share(left.max(0.0))),
+            left if left < NOISE => "met with equality".to_owned(),
+            left => format!("{} left", share(left)),
         };
         let row = &found.row;
         let name = in_length(&row.requirement, row.unit, self.length);
-        Some(format!("{name} {}: {left}, at {}", row.bound_text, self.place(&row.at)))
+        let what = mechanism::typeset(&format!("{name} {}", row.bound_text));
+        Some(format!("{what}: {left}, {}", placed(&self.place(&row.at))))
     }
 
     fn rows(&self, worst: &[Worst]) -> Vec<Row> {
         let row = |(number, requirement): (usize, &Requirement)| {
             let mut row = Row {
-                requirement: mechanism::short(requirement),
+                requirement: mechanism::typeset(&mechanism::short(requirement)),
                 bound: mechanism::bound(requirement),
                 found: "\u{2013}".to_owned(),
                 is_violated: false,
@@ -193,11 +195,14 @@ impl General<'_> {
             Some(sampled) => sampled.root(),
             None => vec![[0.0, 1.0]; m],
         };
-        let mut axes = self.names.clone();
+        // Without numbers in doubles, coordinates are told as parts of the workspace.
+        let turns = self.claim.orientation.is_some() && self.sampled.is_some();
+        let mut axes = if turns { axes(self.claim) } else { self.names.clone() };
         axes.extend((axes.len()..root.len()).map(|k| format!("x{}", k + 1)));
         axes.truncate(root.len());
         let root = Root {
             positions: self.positions().min(axes.len()),
+            turns,
             least: root.iter().map(|[lo, _]| *lo).collect(),
             width: root.iter().map(|[lo, hi]| hi - lo).collect(),
             axes,
@@ -206,7 +211,7 @@ impl General<'_> {
             return Subdivision::new("the workspace", root, &Rc::new(Legend::default()), &[]);
         };
         let mut requirements = vec!["freedom from singularities".to_owned()];
-        requirements.extend(self.claim.require.iter().map(mechanism::formula));
+        requirements.extend(self.claim.require.iter().map(mechanism::heading));
         let of = |obligation: usize| {
             let requirement = self.sampled.as_ref().and_then(|s| s.requirement(obligation));
             requirement.map_or(0, |number| number + 1)
@@ -250,7 +255,16 @@ impl General<'_> {
         };
         let base = point.filter(|p: &Vec<f64>| p.len() == m).unwrap_or_else(middle);
         let marks = self.marks(worst);
-        let all = pairs(m, self.positions().min(m)).into_iter().enumerate();
+        let mut all = pairs(m, self.positions().min(m));
+        // Of a cylinder, the plane along its axis in which there is more of it.
+        if let Workspace::Cylinder { center, .. } = &self.claim.workspace {
+            let off =
+                |k: usize| center.get(k).and_then(approximate).map_or(0.0, |c| (base[k] - c).abs());
+            if off(1) > off(0) {
+                all.iter_mut().filter(|pair| **pair == [0, 2]).for_each(|pair| *pair = [1, 2]);
+            }
+        }
+        let all = all.into_iter().enumerate();
         let slices = all.map(|(i, pair)| self.slice(sampled, i, pair, (&base, &marks), &functions));
         slices.filter(|slice| !slice.maps.is_empty()).collect()
     }
@@ -311,7 +325,14 @@ impl General<'_> {
         });
         let fixed = all.iter().zip(base).enumerate().filter(|(k, _)| *k != a && *k != b);
         let fixed: Vec<String> = fixed
-            .map(|(k, (name, x))| format!("{name} = {}", significant(self.shown(k, *x), 6)))
+            .map(|(k, (name, x))| {
+                let value = significant(self.shown(k, *x), 6);
+                match name.strip_suffix(", deg") {
+                    Some(name) if name.starts_with("about") => format!("{name}: {value} deg"),
+                    Some(name) => format!("{name} = {value} deg"),
+                    None => format!("{name} = {value}"),
+                }
+            })
             .collect();
         let fixed = fixed.join("; ");
         let at = if fixed.is_empty() { String::new() } else { format!(" at {fixed}") };
@@ -398,7 +419,10 @@ fn axes(claim: &MachineClaim) -> Vec<String> {
 }
 
 /// The counterexample in a table: names and values.
-pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(String, String)> {
+pub fn counterexample(
+    claim: &MachineClaim,
+    witness: &kernel::Witness,
+) -> (Vec<(String, String)>, String) {
     let number = |x: &Expression| exactly(x).map_or_else(|| x.to_string(), |x| exact(&x));
     let list = |x: &[Expression]| {
         let all: Vec<String> = x.iter().map(number).collect();
@@ -426,14 +450,12 @@ pub fn counterexample(claim: &MachineClaim, witness: &kernel::Witness) -> Vec<(S
         let between = format!("{} to {}", list(least), list(greatest));
         rows.push(("and, with the same joint coordinates, from".to_owned(), between));
     }
-    if let Some(problem) = &problem {
-        for ((place, _, _), x) in problem.tolerances().zip(&witness.machine) {
-            rows.push((place.to_owned(), number(x)));
-        }
-    }
     for direction in found.iter().flat_map(|found| &found.directions) {
         let all: Vec<String> = direction.iter().map(ToString::to_string).collect();
         rows.push(("moving along".to_owned(), format!("({})", all.join(", "))));
     }
-    rows
+    let machine = problem.iter().flat_map(|problem| {
+        problem.tolerances().zip(&witness.machine).map(|((place, ..), x)| (place, number(x)))
+    });
+    (rows, mechanism::of_witness(mechanism::legs(&claim.mechanism).len(), machine))
 }

@@ -1,6 +1,7 @@
 //! Maps of functions of two coordinates: lines of equal value over a slice of the workspace.
 
 use super::contour::{Field, LevelSet, Path};
+use super::labels::{about, beside, Rectangle, Taken};
 use super::legs::Point;
 use super::svg::{path_data, Elements, Picture};
 use crate::exact::decimal::significant;
@@ -17,12 +18,20 @@ const WIDE: f64 = 30.0;
 /// A map's width and height, and the margins on the left, above, on the right and below.
 const SIZE: [f64; 2] = [300.0, 322.0];
 const MARGIN: [f64; 4] = [44.0, 30.0, 10.0, 40.0];
+/// A side is at most so many times the other, that the names of axes have room.
+const NARROWEST: f64 = 2.6;
 /// Longest name beside an axis; others run along it.
 const SHORT_NAME: usize = 4;
 /// Shortest line that carries its level.
 const LABELLED: f64 = 34.0;
-/// Least distance of labels from each other, and from marks.
-const APART: f64 = 19.0;
+/// Half of what a letter of a level takes across, half of what a level takes up, and half the room between two.
+const LETTER: f64 = 3.2;
+const HIGH: f64 = 5.5;
+const APART: f64 = 2.0;
+/// Parts of a line at which its level may stand, the first that is free; neighbours begin elsewhere.
+const PARTS: [f64; 9] = [0.5, 0.38, 0.62, 0.26, 0.74, 0.14, 0.86, 0.06, 0.94];
+/// Size of the names of marks.
+const NAME: f64 = 12.0;
 /// Sequential, in order of lightness, for those who do not tell colours apart: ColorBrewer YlGnBu.
 const COLOURS: [[f64; 3]; 7] = [
     [255.0, 255.0, 217.0],
@@ -211,7 +220,7 @@ impl Plane {
         let scales: [f64; 2] = from_fn(|k| room[k] / width[k].max(f64::MIN_POSITIVE));
         let scale = scales[0].min(scales[1]);
         let size = if same_kind {
-            from_fn(|k| (scale * width[k]).max(room[k] / 4.0))
+            from_fn(|k| (scale * width[k]).max(room[k] / NARROWEST))
         } else {
             room.map(|side| side.min(room[0]))
         };
@@ -231,6 +240,22 @@ impl Plane {
             self.corner[0] + part(0, x) * self.size[0],
             self.corner[1] + (1.0 - part(1, y)) * self.size[1],
         ]
+    }
+
+    /// The rectangle that it takes.
+    fn frame(&self) -> Rectangle {
+        [self.corner, from_fn(|k| self.corner[k] + self.size[k])]
+    }
+
+    /// Whether a rectangle is in it, and in the ellipse, if the slice is one.
+    fn has(&self, rectangle: &Rectangle) -> bool {
+        let [least, greatest] = self.frame();
+        if !self.is_round {
+            return (0..2).all(|k| least[k] <= rectangle[0][k] && rectangle[1][k] <= greatest[k]);
+        }
+        let from = |k: usize, x: f64| 2.0 * (x - self.corner[k]) / self.size[k] - 1.0;
+        let corner = |i: usize, j: usize| from(0, rectangle[i][0]).hypot(from(1, rectangle[j][1]));
+        [(0, 0), (0, 1), (1, 0), (1, 1)].iter().all(|(i, j)| corner(*i, *j) <= 1.0)
     }
 
     /// A function at the nodes of a grid over the plane.
@@ -282,19 +307,39 @@ pub fn map(plane: &Plane, shown: &Map<'_>) -> Picture {
         out.raw(&format!("<path class=\"band\" fill=\"{fill}\" d=\"{d}\"/>"));
     }
     let mut labels = Elements::default();
-    let mut taken: Path = shown.marks.iter().map(|(_, [x, y])| plane.at(*x, *y)).collect();
+    let mut taken = Taken::default();
+    let dots = shown.marks.iter().map(|(_, [x, y])| about(plane.at(*x, *y), [5.0, 5.0]));
+    taken.names.extend(dots);
+    let mut names = Elements::default();
+    for (name, [x, y]) in shown.marks {
+        let at = plane.at(*x, *y);
+        let mut places = beside(at, 7.0);
+        if 2.0 * (at[0] - plane.corner[0]) > plane.size[0] {
+            places.swap(0, 2);
+            places.swap(1, 3);
+        }
+        let (class, place) = taken.put(name, &places, NAME, &plane.frame());
+        names.dot("mark", at, 3.5);
+        names.text(&format!("mark-label {class}"), place, name);
+    }
     for (k, set) in sets.iter().enumerate() {
         let class = if dark[k] { "level on-dark" } else { "level" };
         let d: String = set.lines.iter().map(|p| path_data(&on_plane(p), false)).collect();
         out.raw(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
-        let longest = set.lines.iter().map(on_plane).max_by(|a, b| length(a).total_cmp(&length(b)));
-        let Some(line) = longest.filter(|line| length(line) >= LABELLED) else {
-            continue;
+        let mut lines: Vec<Path> = set.lines.iter().map(on_plane).collect();
+        lines.retain(|line| length(line) >= LABELLED);
+        lines.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        let text = significant(levels[k], 6);
+        let half = [LETTER * text.chars().count() as f64 + APART, HIGH + APART];
+        let at = |line: &Path, i: usize| along(line, PARTS[(i + k % 3) % PARTS.len()]);
+        let places = lines.iter().flat_map(|line| (0..PARTS.len()).map(move |i| at(line, i)));
+        let is_free = |at: &[f64; 2]| {
+            let own = about(*at, half);
+            plane.has(&own) && taken.is_free(&own)
         };
-        let at = middle(&line, k);
-        if taken.iter().all(|other| length(&[*other, at]) >= APART) {
-            taken.push(at);
-            labels.text("level-label", at, &significant(levels[k], 6));
+        if let Some([x, y]) = places.into_iter().find(is_free) {
+            taken.names.push(about([x, y], half));
+            labels.text("level-label", [x, y + 3.5], &text);
         }
     }
     out.raw(&format!(
@@ -304,14 +349,7 @@ pub fn map(plane: &Plane, shown: &Map<'_>) -> Picture {
     out.raw(&labels.0);
     out.raw("</g>");
     frame(&mut out, plane);
-    for (name, [x, y]) in shown.marks {
-        let at = plane.at(*x, *y);
-        let class = if 2.0 * (at[0] - plane.corner[0]) > plane.size[0] { "end" } else { "start" };
-        let beside = if class == "end" { -7.0 } else { 7.0 };
-        let above = if at[1] < plane.corner[1] + 18.0 { 15.0 } else { -6.0 };
-        out.dot("mark", at, 3.5);
-        out.text(&format!("mark-label {class}"), [at[0] + beside, at[1] + above], name);
-    }
+    out.raw(&names.0);
     out.text("map-title", [plane.corner[0], 18.0], heading);
     let attributes = match shown.script {
         Some(i) => {
@@ -371,11 +409,15 @@ fn frame(out: &mut Elements, plane: &Plane) {
     out.text("axis middle", [x + w / 2.0, bottom + 15.0], &plane.names[0]);
     out.text("tick end", [x - 5.0, bottom], &significant(plane.least[1], 4));
     out.text("tick end", [x - 5.0, y + 9.0], &significant(far[1], 4));
-    match plane.names[1].as_str() {
-        short if short.chars().count() <= SHORT_NAME => {
-            out.text("axis end", [x - 9.0, y + h / 2.0 + 4.0], short);
-        }
-        long => out.upright("axis middle", [x - 12.0, y + h / 2.0], long),
+    beside_axis(out, [x, y + h / 2.0], &plane.names[1]);
+}
+
+/// The name of an upright axis, to the left of its middle.
+pub fn beside_axis(out: &mut Elements, [x, y]: [f64; 2], name: &str) {
+    if name.chars().count() <= SHORT_NAME {
+        out.text("axis end", [x - 9.0, y + 4.0], name);
+    } else {
+        out.upright("axis middle", [x - 12.0, y], name);
     }
 }
 
@@ -383,16 +425,14 @@ fn length(line: &[[f64; 2]]) -> f64 {
     line.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum()
 }
 
-/// A point near the middle of a line; neighbouring levels are labelled at different parts.
-fn middle(line: &[[f64; 2]], level: usize) -> [f64; 2] {
-    let part = [0.5, 0.38, 0.62][level % 3];
+/// The point at a part of a line's length.
+fn along(line: &[[f64; 2]], part: f64) -> [f64; 2] {
     let mut rest = part * length(line);
     for pair in line.windows(2) {
         let piece = length(pair);
         if piece >= rest {
             let t = if piece > 0.0 { rest / piece } else { 0.0 };
-            let at = |k: usize| pair[0][k] + t * (pair[1][k] - pair[0][k]);
-            return [at(0), at(1) + 3.5];
+            return from_fn(|k| pair[0][k] + t * (pair[1][k] - pair[0][k]));
         }
         rest -= piece;
     }

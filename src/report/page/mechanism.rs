@@ -202,7 +202,7 @@ pub fn formula(requirement: &Requirement) -> String {
         Bound::Within([min, max]) => {
             format!("{} \u{2264} {symbol} \u{2264} {}", number(min), number(max))
         }
-        Bound::Holds => requirement.quantity.clone(),
+        Bound::Holds => symbol.to_owned(),
     };
     text + &of
 }
@@ -218,9 +218,44 @@ pub fn greek(formula: &str, index: &str) -> String {
     GREEK.into_iter().fold(formula.to_owned(), written)
 }
 
-/// A requirement's formula over a picture.
+/// A requirement over a picture: its name, and its formula where that has a letter for it.
 pub fn heading(requirement: &Requirement) -> String {
-    greek(&formula(requirement), "\u{1d62}")
+    let known = TABLE.iter().find(|known| known.key == requirement.quantity);
+    let name = requirement.quantity.replace('_', " ");
+    let formula = formula(requirement);
+    match known {
+        Some(known) if is_letter(known.symbol) => typeset(&format!("{name}: {formula}")),
+        Some(known) => formula.replacen(known.symbol, &name, 1),
+        None => formula,
+    }
+}
+
+/// Whether a symbol is one of a leg, that papers have a letter for.
+fn is_letter(symbol: &str) -> bool {
+    GREEK.iter().any(|(name, _)| *name == symbol)
+}
+
+/// A requirement in letters and signs as papers have them: `greatest psi <= 2`, `rho_1`.
+pub fn typeset(text: &str) -> String {
+    let below = |digit: char| char::from_u32(0x2080 + digit.to_digit(10)?);
+    let text = greek(text, "\u{1d62}").replace("<=", "\u{2264}").replace(">=", "\u{2265}");
+    let mut out = String::new();
+    let mut rest = text.as_str();
+    while let Some((before, after)) = rest.split_once("rho_") {
+        let digits = after.chars().take_while(char::is_ascii_digit).count();
+        let index: String = after[..digits].chars().filter_map(below).collect();
+        out.push_str(before);
+        out.push_str(if digits > 0 { "\u{3c1}" } else { "rho_" });
+        out.push_str(&index);
+        rest = &after[digits..];
+    }
+    out.push_str(rest);
+    let letter = |word: &str| match word {
+        "psi" => "\u{3c8}".to_owned(),
+        "psi," => "\u{3c8},".to_owned(),
+        other => other.to_owned(),
+    };
+    out.split(' ').map(letter).collect::<Vec<_>>().join(" ")
 }
 
 /// The machine's numbers, exactly.
@@ -258,6 +293,35 @@ fn of_legs(legs: &[Leg]) -> String {
     table(&heads, &rows)
 }
 
+/// The machine of a counterexample, leg by leg: places as the kernel names them (`leg 1: direction.0`), and
+/// their values.
+pub fn of_witness<'a>(legs: usize, all: impl Iterator<Item = (&'a str, String)>) -> String {
+    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
+    let mut is_of_legs = false;
+    for (place, value) in all {
+        let of_leg = place.strip_prefix("leg ").and_then(|rest| rest.split_once(": "));
+        let of_leg = of_leg.and_then(|(leg, name)| Some((leg.parse::<usize>().ok()?, name)));
+        let (leg, name) = of_leg.filter(|(leg, _)| (1..=legs).contains(leg)).unwrap_or((0, place));
+        is_of_legs |= leg > 0;
+        let axes = [(".0", " x"), (".1", " y"), (".2", " z")];
+        let along = |(end, axis): &(&str, &str)| Some(name.strip_suffix(end)?.to_owned() + axis);
+        let name = axes.iter().find_map(along).unwrap_or_else(|| name.to_owned());
+        let at = rows.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
+            rows.push((name, vec![String::new(); legs.max(1)]));
+            rows.len() - 1
+        });
+        rows[at].1[leg.saturating_sub(1)] = value;
+    }
+    let heads: Vec<String> = match is_of_legs {
+        true => (1..=legs).map(|i| format!("leg {i}")).collect(),
+        false => {
+            rows.iter_mut().for_each(|(_, values)| values.truncate(1));
+            vec!["value".to_owned()]
+        }
+    };
+    table(&heads, &rows)
+}
+
 fn table(heads: &[String], rows: &[(String, Vec<String>)]) -> String {
     if rows.is_empty() {
         return String::new();
@@ -289,5 +353,29 @@ pub fn drives(claim: &MachineClaim) -> Vec<&'static str> {
     match &claim.mechanism {
         Mechanism::Orthoglide { .. } => vec!["slider"],
         mechanism => legs(mechanism).iter().map(drive).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn requirements_have_the_letters_of_papers() {
+        assert_eq!(typeset("greatest psi <= 2"), "greatest \u{3c8} \u{2264} 2");
+        assert_eq!(typeset("least psi, length/rad >= 5"), "least \u{3c8}, length/rad \u{2265} 5");
+        assert_eq!(typeset("rho_12, deg in [0, 62]"), "\u{3c1}\u{2081}\u{2082}, deg in [0, 62]");
+        assert_eq!(typeset("the end of rho_"), "the end of rho_");
+    }
+
+    #[test]
+    fn the_machine_of_a_counterexample_is_told_leg_by_leg() {
+        let all = [("leg 1: anchor.0", "7"), ("leg 3: anchor.0", "8"), ("leg 3: length", "9")];
+        let found = of_witness(3, all.into_iter().map(|(place, x)| (place, x.to_owned())));
+        assert!(found.contains("<td>anchor x</td><td>7</td><td></td><td>8</td>"), "{found}");
+        assert!(found.contains("<td>length</td><td></td><td></td><td>9</td>"), "{found}");
+        let found = of_witness(0, [("l", "5".to_owned())].into_iter());
+        assert!(found.contains("<th>value</th>") && found.contains("<td>l</td><td>5</td>"));
+        assert_eq!(of_witness(3, std::iter::empty()), "");
     }
 }

@@ -31,6 +31,7 @@ mod drawing;
 mod evidence;
 mod general;
 mod isomap;
+mod labels;
 mod legend;
 mod legs;
 mod mechanism;
@@ -287,6 +288,7 @@ impl<'a> Page<'a> {
                 json!({
                     "name": tree.name,
                     "axes": tree.axes,
+                    "angles": if tree.turns { tree.positions } else { tree.axes.len() },
                     "least": tree.least,
                     "width": tree.width,
                     "shape": tree.proportions(),

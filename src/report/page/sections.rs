@@ -26,8 +26,9 @@ impl Page<'_> {
             }
             _ => None,
         };
-        if let Some(rows) = counterexample {
-            all.push(("counterexample", "Counterexample", evidence::counterexample(&rows)));
+        if let Some((rows, machine)) = counterexample {
+            let section = evidence::counterexample(&rows, &machine);
+            all.push(("counterexample", "Counterexample", section));
         }
         all.push(("machine", "Machine", self.machine_section()));
         if let Some(slice) = self.scene.slices.first() {

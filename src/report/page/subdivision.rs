@@ -1,6 +1,6 @@
 //! The subdivision that a proof consists of: its boxes, by the rules that close them.
 
-use super::isomap::Mark;
+use super::isomap::{beside_axis, Mark};
 use super::legend::{Legend, Rule, Ruled, PATTERNS};
 use super::legs::Point;
 use super::svg::{path_data, Elements, Fitted, Picture, View};
@@ -42,6 +42,8 @@ pub struct Subdivision {
     pub axes: Vec<String>,
     /// How many of them, the first, are of the position; others turn the platform.
     pub positions: usize,
+    /// Whether the others are tangents of half angles, which are told in degrees.
+    pub turns: bool,
     /// The root's least corner, in the units of the axes.
     pub least: Vec<f64>,
     /// Its edges.
@@ -66,6 +68,8 @@ pub struct Root {
     pub axes: Vec<String>,
     /// How many of them are of the position.
     pub positions: usize,
+    /// Whether the others are tangents of half angles.
+    pub turns: bool,
     /// Its least corner.
     pub least: Vec<f64>,
     /// Its edges.
@@ -76,7 +80,7 @@ impl Root {
     /// A root of three coordinates.
     pub fn new(axes: [&str; 3], least: Point, width: Point) -> Self {
         let axes = axes.map(str::to_owned).to_vec();
-        Root { axes, positions: 3, least: least.to_vec(), width: width.to_vec() }
+        Root { axes, positions: 3, turns: false, least: least.to_vec(), width: width.to_vec() }
     }
 }
 
@@ -140,9 +144,21 @@ impl Subdivision {
         }
         let most = concerned.iter().max().copied().unwrap_or(0);
         let filled_by = concerned.iter().position(|uses| *uses == most).unwrap_or(0);
-        let Root { axes, positions, least, width } = root;
+        let Root { axes, positions, turns, least, width } = root;
         let (name, legend) = (name.to_owned(), Rc::clone(legend));
-        Subdivision { name, axes, positions, least, width, leaves, code, filled_by, uses, legend }
+        Subdivision {
+            name,
+            axes,
+            positions,
+            turns,
+            least,
+            width,
+            leaves,
+            code,
+            filled_by,
+            uses,
+            legend,
+        }
     }
 
     /// Whether it is a box in space, which a script can turn.
@@ -160,9 +176,14 @@ impl Subdivision {
         usize::from(leaf.by.get(self.filled_by).copied().flatten().unwrap_or(0))
     }
 
-    /// Where a part of the way along a coordinate is.
+    /// Where a part of the way along a coordinate is; of angles, in degrees.
     pub fn place(&self, k: usize, part: f64) -> f64 {
-        self.least[k] + part * self.width[k]
+        let x = self.least[k] + part * self.width[k];
+        if self.turns && k >= self.positions {
+            2.0 * x.atan().to_degrees()
+        } else {
+            x
+        }
     }
 
     /// The part of the way at which a coordinate is.
@@ -337,21 +358,26 @@ impl Subdivision {
         // The name of an axis stands beside the silhouette edge along it.
         let centre = at([0.5; 3]);
         for (k, name) in self.axes.iter().enumerate() {
-            let mut middle = [0.0; 3];
             let (b, c) = ((k + 1) % 3, (k + 2) % 3);
             let candidates = [[far[b], 1.0 - far[c]], [1.0 - far[b], far[c]]];
-            let place = |[x, y]: [f64; 2]| {
-                let mut u = [0.5; 3];
+            let place = |[x, y]: [f64; 2], part: f64| {
+                let mut u = [part; 3];
                 (u[b], u[c]) = (x, y);
                 at(u)
             };
-            let lowest = candidates.map(place).into_iter().max_by(|p, q| p[1].total_cmp(&q[1]));
-            if let Some([x, y]) = lowest {
-                middle[0] = x + 16.0
-                    * (x - centre[0]).signum()
-                    * f64::from(u8::from((x - centre[0]).abs() > 20.0));
-                middle[1] = y + 14.0;
-                out.text("axis middle", [middle[0], middle[1]], name);
+            let lower =
+                |p: &[f64; 2], q: &[f64; 2]| place(*p, 0.5)[1].total_cmp(&place(*q, 0.5)[1]);
+            let Some(edge) = candidates.into_iter().max_by(lower) else { continue };
+            let [x, _] = place(edge, 0.5);
+            let aside = if (x - centre[0]).abs() > 20.0 { (x - centre[0]).signum() } else { 0.0 };
+            let beside = |part: f64| {
+                let [x, y] = place(edge, part);
+                [x + 16.0 * aside, y + 14.0]
+            };
+            out.text("axis middle", beside(0.5), name);
+            // A little inward, where those of two axes do not meet.
+            for (end, part) in [(0.0, 0.09), (1.0, 0.91)] {
+                out.text("tick middle", beside(part), &significant(self.place(k, end), 4));
             }
         }
     }
@@ -423,7 +449,7 @@ impl Subdivision {
         if a != b {
             out.text("tick end", [x0 - 5.0, y0], &number(b, 0.0));
             out.text("tick end", [x0 - 5.0, y1 + 9.0], &number(b, 1.0));
-            out.text("axis end", [x0 - 9.0, (y0 + y1) / 2.0 + 4.0], &self.axes[b]);
+            beside_axis(out, [x0, (y0 + y1) / 2.0], &self.axes[b]);
         }
         for mark in marks {
             let part = |k: usize| mark.at.get(k).map_or(0.5, |x| self.part(k, *x));
@@ -543,10 +569,13 @@ mod tests {
         let shown: Vec<_> = legend.rules.iter().map(|r| (r.name.as_str(), r.discharges)).collect();
         assert_eq!(shown, [("test", Some(1)), ("divided", Some(0)), ("outside", None)]);
         let axes: Vec<String> = ["x", "y", "z", "c"].map(str::to_owned).to_vec();
-        let root = Root { axes, positions: 3, least: vec![0.0; 4], width: vec![2.0; 4] };
+        let (least, width) = (vec![0.0; 4], vec![2.0; 4]);
+        let root = Root { axes, positions: 3, turns: true, least, width };
         let found = Subdivision::new("box", root, &Rc::new(legend), &nodes);
         assert_eq!(found.uses, [2, 1, 1]);
         assert_eq!(found.leaves[0].parts[3], [0.0, 0.5]);
+        // Half the way is 1, the tangent of half a right angle.
+        assert_eq!([found.place(0, 0.5), found.place(3, 0.5)], [1.0, 90.0]);
         assert_eq!(found.leaves[1].by, [Some(2), Some(0)]);
         let picture = found.picture(0, &[Mark { name: "worst".to_owned(), at: vec![1.0; 4] }]);
         assert_eq!(picture.content.matches("class=\"outline\"").count(), 3);

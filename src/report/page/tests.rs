@@ -171,7 +171,7 @@ fn the_first_box_has_what_a_designer_signs() {
         "<dt>lengths in</dt><dd>mm</dd>",
         "Every translational machine of four struts within one tolerance",
         "the box [-60, 60] \u{d7} [-60, 60] \u{d7} [150, 220]",
-        "<td>joint coordinates: rho_i</td><td class=\"place\">at most 340 mm</td>",
+        "<td>joint coordinates: \u{3c1}\u{1d62}</td><td class=\"place\">at most 340 mm</td>",
         "<td>joint speed, tool = 100</td><td class=\"place\">at most",
     ] {
         assert!(first.contains(text), "{text}: {first}");
@@ -179,10 +179,10 @@ fn the_first_box_has_what_a_designer_signs() {
     assert!(!first.contains("(violated)"));
     let page = with_page(&of_kernel("four-struts-refuted"), None, |page| page.html());
     assert!(page.contains("(violated)") && page.contains("<h2>Counterexample</h2>"));
-    assert!(page.contains("<td>greatest psi &lt;= 0.8</td>"));
+    assert!(page.contains("<td>greatest \u{3c8} \u{2264} 0.8</td>"));
     assert!(page.contains("<td>(60, 60, 220)</td>") && page.contains("<td>200.05</td>"));
     // The refuted value is worse than the bound, and is where the certificate says.
-    let value = page.split("value there</th><td>greatest psi &gt;= ").nth(1).unwrap();
+    let value = page.split("value there</th><td>greatest \u{3c8} \u{2265} ").nth(1).unwrap();
     let value: f64 = value.split('<').next().unwrap().parse().unwrap();
     assert!(value > 0.8 && value < 1.25, "{value}");
 }

@@ -37,7 +37,12 @@ pub fn subject(claim: &Claim) -> String {
             mechanism::workspace(&claim.machine),
             mechanism::machine(&claim.machine)
         ),
-        Claim::Machine(_) => machine_and_workspace(claim).unwrap_or_default().join(" over "),
+        Claim::Machine(own) => {
+            // Orientations alone follow the machine: "turned by at most ..".
+            let turned = matches!(own.mechanism, kernel::Mechanism::Spherical(_));
+            let over = if turned { ", " } else { " over " };
+            machine_and_workspace(claim).unwrap_or_default().join(over)
+        }
     }
 }
 
@@ -136,7 +141,24 @@ fn asserted(claim: &Claim) -> Vec<String> {
 
 /// The table's symbols as the paper writes them.
 pub(super) fn symbols(formula: &str) -> String {
-    mechanism::greek(formula, "<sub>i</sub>").replace("L_i", "<var>L</var><sub>i</sub>")
+    const WRITTEN: [(&str, &str); 14] = [
+        ("sigma_max/sigma_min", "\u{3c3}<sub>max</sub>/\u{3c3}<sub>min</sub>"),
+        ("M^-1", "<var>M</var><sup>\u{2212}1</sup>"),
+        ("M^-T", "<var>M</var><sup>\u{2212}T</sup>"),
+        ("M^T", "<var>M</var><sup>T</sup>"),
+        (" M ", " <var>M</var> "),
+        ("of M|", "of <var>M</var>|"),
+        ("speed^2", "speed\u{b2}"),
+        ("|det A|", "|det <var>A</var>|"),
+        ("|P' - P|", "|<var>P\u{2032}</var> \u{2212} <var>P</var>|"),
+        ("H_i", "<var>H</var><sub>i</sub>"),
+        ("L_i", "<var>L</var><sub>i</sub>"),
+        ("(L_1 .. L_n)", "(<var>L</var><sub>1</sub> \u{2026} <var>L</var><sub>n</sub>)"),
+        ("column i", "column <var>i</var>"),
+        ("_i", "<sub>i</sub>"),
+    ];
+    let greek = mechanism::greek(formula, "<sub>i</sub>");
+    WRITTEN.iter().fold(greek, |text, (name, written)| text.replace(name, written))
 }
 
 /// Definitions, as markup.

@@ -1,16 +1,17 @@
 //! The region of a paving in pictures: from its tree, down to some depth.
 
-use super::super::isomap::Mark;
+use super::super::isomap::{beside_axis, Mark};
 use super::super::legs::Point;
 use super::super::svg::{path_data, Elements, Fitted, Picture, View};
+use crate::exact::decimal::significant;
 use crate::search::paving::{Node, Tree, INNER, UNDECIDED};
 use serde_json::{json, Value};
 use std::array::from_fn;
 use std::fmt::Write;
 
 /// Side of a slice's panel, and what is between panels.
-const PANEL: f64 = 210.0;
-const GAP: f64 = 26.0;
+const PANEL: f64 = 200.0;
+const GAP: f64 = 36.0;
 /// Slices in a row.
 const ROW: usize = 3;
 /// Slices.
@@ -136,15 +137,23 @@ impl Region<'_> {
         for (k, name) in self.axes.iter().enumerate() {
             // Beside the lowest edge along the axis that does not end in the farthest corner's.
             let (b, c) = ((k + 1) % 3, (k + 2) % 3);
-            let middle = |x: f64, y: f64| {
-                let mut u = [0.5; 3];
+            let place = |[x, y]: [f64; 2], part: f64| {
+                let mut u = [part; 3];
                 (u[b], u[c]) = (x, y);
                 at(u)
             };
-            let ends = [middle(far[b], 1.0 - far[c]), middle(1.0 - far[b], far[c])];
-            let [x, y] = if ends[0][1] > ends[1][1] { ends[0] } else { ends[1] };
-            let aside = 16.0 * (x - at([0.5; 3])[0]).signum();
-            out.text("axis middle", [x + aside, y + 14.0], name);
+            let edges = [[far[b], 1.0 - far[c]], [1.0 - far[b], far[c]]];
+            let [one, other] = edges.map(|edge| place(edge, 0.5)[1]);
+            let edge = edges[usize::from(one <= other)];
+            let aside = 16.0 * (place(edge, 0.5)[0] - at([0.5; 3])[0]).signum();
+            let mut beside = |class, part, text: &str| {
+                let [x, y] = place(edge, part);
+                out.text(class, [x + aside, y + 14.0], text);
+            };
+            beside("axis middle", 0.5, name);
+            for (end, part) in [(0.0, 0.09), (1.0, 0.91)].into_iter().filter(|_| !name.is_empty()) {
+                beside("tick middle", part, &significant(self.least[k] + end * self.width[k], 4));
+            }
         }
     }
 
@@ -238,7 +247,7 @@ impl Region<'_> {
                 GAP + (i / ROW) as f64 * (panel[1] + 1.6 * GAP),
             ];
             self.slice(&mut out, u, corner, panel);
-            let z = crate::exact::decimal::significant(self.least[2] + u * self.width[2], 4);
+            let z = significant(self.least[2] + u * self.width[2], 4);
             if slices > 1 {
                 let title = format!("{} = {z}", self.axes[2]);
                 out.text("map-title start", [corner[0], corner[1] - 8.0], &title);
@@ -297,7 +306,14 @@ impl Region<'_> {
             "<rect class=\"slice-frame\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\"/>"
         ));
         out.text("axis middle", [x + w / 2.0, y + h + 13.0], &self.axes[0]);
-        out.text("axis middle", [x - 9.0, y + h / 2.0], &self.axes[1]);
+        beside_axis(out, [x, y + h / 2.0], &self.axes[1]);
+        let number = |k: usize, end: f64| significant(self.least[k] + end * self.width[k], 4);
+        out.text("tick start", [x, y + h + 13.0], &number(0, 0.0));
+        out.text("tick end", [x + w, y + h + 13.0], &number(0, 1.0));
+        if !self.axes[1].is_empty() {
+            out.text("tick end", [x - 4.0, y + h], &number(1, 0.0));
+            out.text("tick end", [x - 4.0, y + 9.0], &number(1, 1.0));
+        }
     }
 
     /// The least and the greatest z of inner cells, as parts of the box; of the box, without any.

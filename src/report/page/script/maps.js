@@ -47,30 +47,42 @@ const startMaps = (data) => {
   const lengthOf = (line) =>
     line.slice(1).reduce((sum, p, i) => sum + Math.hypot(p[0] - line[i][0], p[1] - line[i][1]), 0);
 
-  const label = (group, set, frame, level, k, taken) => {
-    const lines = set.lines.map((line) => line.map(([x, y]) => onMap(frame, x, y)));
-    const longest = lines.reduce((best, line) => (lengthOf(line) > lengthOf(best) ? line : best), []);
-    const total = lengthOf(longest);
-    if (total < 34) {
-      return;
-    }
-    let rest = total * [0.5, 0.38, 0.62][k % 3];
-    let at = 1;
-    while (at < longest.length - 1) {
-      const piece = Math.hypot(longest[at][0] - longest[at - 1][0], longest[at][1] - longest[at - 1][1]);
-      if (piece >= rest) {
-        break;
+  // Names and levels are on no other: what each takes is a rectangle, its least and greatest corner.
+  const about = (x, y, across, up) => [[x - across, y - up], [x + across, y + up]];
+  const meet = (a, b) => [0, 1].every((k) => a[0][k] < b[1][k] && b[0][k] < a[1][k]);
+  const isWithin = (own, { x, y, w, h }) =>
+    own.every(([px, py]) => px >= x && px <= x + w && py >= y && py <= y + h) &&
+    (!machine.cylinder || own.every(([px]) => own.every(([, py]) =>
+      Math.hypot((2 * (px - x)) / w - 1, (2 * (py - y)) / h - 1) <= 1)));
+  const along = (line, part) => {
+    let rest = part * lengthOf(line);
+    for (let i = 1; i < line.length; i += 1) {
+      const [[ax, ay], [bx, by]] = [line[i - 1], line[i]];
+      const piece = Math.hypot(bx - ax, by - ay);
+      if (piece >= rest && piece > 0) {
+        return [ax + (rest / piece) * (bx - ax), ay + (rest / piece) * (by - ay)];
       }
       rest -= piece;
-      at += 1;
     }
-    const [x, y] = [longest[at][0], longest[at][1] + 3.5];
-    if (taken.some((other) => Math.hypot(other[0] - x, other[1] - y) < 19)) {
-      return;
-    }
-    taken.push([x, y]);
+    return line[line.length >> 1];
+  };
+  const PARTS = [0.5, 0.38, 0.62, 0.26, 0.74, 0.14, 0.86, 0.06, 0.94];
+  const label = (group, set, frame, level, k, taken) => {
+    const lines = set.lines.map((line) => line.map(([x, y]) => onMap(frame, x, y)));
+    const long = lines.filter((line) => lengthOf(line) >= 34).sort((a, b) => lengthOf(b) - lengthOf(a));
     const text = shown(level, 6);
-    group.append(svgElement("text", { class: "level-label", x: x.toFixed(1), y: y.toFixed(1) }, text));
+    for (const line of long) {
+      for (let i = 0; i < PARTS.length; i += 1) {
+        const [x, y] = along(line, PARTS[(i + (k % 3)) % PARTS.length]);
+        const own = about(x, y, 3.2 * text.length + 2, 7.5);
+        if (isWithin(own, frame) && !taken.some((other) => meet(own, other))) {
+          taken.push(own);
+          const place = { class: "level-label", x: x.toFixed(1), y: (y + 3.5).toFixed(1) };
+          group.append(svgElement("text", place, text));
+          return;
+        }
+      }
+    }
   };
 
   const drawMap = (i, values, reach) => {
@@ -83,7 +95,16 @@ const startMaps = (data) => {
     const [bands, lines] = [[], []];
     const texts = svgElement("g", {});
     const here = marks.filter((mark) => Math.abs(mark.at[2] - height()) <= 1e-6 * machine.width[2]);
-    const taken = here.map((mark) => onMap(frame, mark.at[0], mark.at[1]));
+    const taken = [];
+    const names = here.map((mark) => {
+      const [cx, cy] = onMap(frame, mark.at[0], mark.at[1]);
+      const end = 2 * (cx - frame.x) > frame.w;
+      const [px, py] = [cx + (end ? -7 : 7), cy + (cy < frame.y + 18 ? 15 : -6)];
+      const width = 7.7 * mark.name.length * (end ? -1 : 1);
+      taken.push(about(cx, cy, 5, 5), about(px + width / 2, py - 4, Math.abs(width) / 2, 6));
+      const place = { class: `mark-label ${end ? "end" : "start"}`, x: px, y: py };
+      return [svgElement("circle", { class: "mark", cx, cy, r: 3.5 }), svgElement("text", place, mark.name)];
+    });
     levels.forEach((level, k) => {
       const set = levelSet(xs, ys, values, level);
       bands.push(svgElement("path", { class: "band", fill: colours[k + 1], d: pathData(set.area, frame, true) }));
@@ -95,17 +116,7 @@ const startMaps = (data) => {
     field.replaceChildren(ground, ...bands, ...lines, svgElement("path", hatched), texts);
     svg.querySelectorAll(".mark, .mark-label").forEach((mark) => mark.remove());
     const crosshair = svg.querySelector(".crosshair");
-    for (const mark of here) {
-      const [cx, cy] = onMap(frame, mark.at[0], mark.at[1]);
-      const end = 2 * (cx - frame.x) > frame.w;
-      const place = {
-        class: `mark-label ${end ? "end" : "start"}`,
-        x: cx + (end ? -7 : 7),
-        y: cy + (cy < frame.y + 18 ? 15 : -6),
-      };
-      crosshair.before(svgElement("circle", { class: "mark", cx, cy, r: 3.5 }));
-      crosshair.before(svgElement("text", place, mark.name));
-    }
+    crosshair.before(...names.flat());
   };
 
   const drawSlice = () => {

@@ -135,7 +135,7 @@ const startRegion = (data) => {
       count += 1;
     });
     drawEdges(at, toward, false);
-    drawNames(context, axes, at, styleOf("--ink"));
+    drawNames(context, axes, at, styleOf("--ink"), (k, u) => shown(least[k] + u * width[k], 4));
     drawPlaces(at);
     const place = least[state.axis] + state.cut * width[state.axis];
     control("region-cut-value").textContent = `${axes[state.axis]} \u2264 ${shown(place, 5)}`;

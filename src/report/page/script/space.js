@@ -62,6 +62,12 @@ const startSpace = (data) => {
   };
 
   const projection = () => viewOf(state, tree().shape, canvas.width, canvas.height);
+  // Where a part of an axis is: of angles, of which the tree has tangents of halves, in degrees.
+  const placeOf = (k, u) => {
+    const { least, width, angles } = tree();
+    const x = least[k] + u * width[k];
+    return k >= angles ? (360 / Math.PI) * Math.atan(x) : x;
+  };
   const upper = () => [0, 1, 2].map((k) => (k === state.axis ? state.cut : 1));
   const SHADES = [0.1, 0.18, 0];
 
@@ -189,7 +195,7 @@ const startSpace = (data) => {
       }
     }
     context.setLineDash([]);
-    drawNames(context, tree().axes, at, styleOf("--ink"));
+    drawNames(context, tree().axes, at, styleOf("--ink"), (k, u) => shown(placeOf(k, u), 4));
     drawMarks(at, toward);
   };
   const drawMarks = (at, toward) => {
@@ -255,9 +261,8 @@ const startSpace = (data) => {
     }
     drawFrame(view);
     drawKey(range);
-    const { axes, least, width } = tree();
-    const place = least[state.axis] + state.cut * width[state.axis];
-    control("cut-value").textContent = `${axes[state.axis]} \u2264 ${shown(place, 5)}`;
+    const place = placeOf(state.axis, state.cut);
+    control("cut-value").textContent = `${tree().axes[state.axis]} \u2264 ${shown(place, 5)}`;
     control("deep-value").textContent = deep;
     canvas.dataset.view = `${state.azimuth.toFixed(1)} ${state.elevation.toFixed(1)} ${state.zoom.toFixed(2)}`;
   };
@@ -293,9 +298,8 @@ const startSpace = (data) => {
       return;
     }
     const [low, high] = boxOf(i);
-    const { axes, least, width } = tree();
-    const edges = axes.map((name, k) => {
-      const [a, b] = [low, high].map((u) => shown(least[k] + u[k] * width[k], 7));
+    const edges = tree().axes.map((name, k) => {
+      const [a, b] = [low, high].map((u) => shown(placeOf(k, u[k]), 7));
       return `${name} from ${a} to ${b}`;
     });
     const n = data.obligations.length;

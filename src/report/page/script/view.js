@@ -59,27 +59,38 @@ const soon = (call) => {
   };
 };
 
-// The names of the axes, beside edges of the unit cube.
-const drawNames = (context, axes, at, colour) => {
+// The names of the axes, and the numbers at their ends, beside edges of the unit cube.
+const drawNames = (context, axes, at, colour, numberAt) => {
   const size = context.canvas.width;
   context.fillStyle = colour;
-  context.font = `italic ${Math.round(size / 62)}px sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";
   const [cx, cy] = at([0.5, 0.5, 0.5]);
   axes.forEach((name, k) => {
     const [b, c] = [(k + 1) % 3, (k + 2) % 3];
-    const edges = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([x, y]) => {
-      const u = [0.5, 0.5, 0.5];
+    const along = ([x, y]) => (part) => {
+      const u = [part, part, part];
       [u[b], u[c]] = [x, y];
       return at(u);
-    });
+    };
     // Beside the edge farthest from the middle of the picture, the lowest of those.
-    const reach = ([x, y]) => Math.hypot(x - cx, y - cy) + 0.01 * y;
-    const [x, y] = edges.reduce((best, p) => (reach(p) > reach(best) ? p : best));
+    const reach = (edge) => {
+      const [x, y] = edge(0.5);
+      return Math.hypot(x - cx, y - cy) + 0.01 * y;
+    };
+    const edges = [[0, 0], [0, 1], [1, 0], [1, 1]].map(along);
+    const edge = edges.reduce((best, one) => (reach(one) > reach(best) ? one : best));
+    const [x, y] = edge(0.5);
     const away = Math.hypot(x - cx, y - cy) || 1;
-    const beyond = size / 45;
-    context.fillText(name, x + (beyond * (x - cx)) / away, y + (beyond * (y - cy)) / away);
+    const beside = (text, part, beyond) => {
+      const [px, py] = edge(part);
+      context.fillText(text, px + (beyond * (x - cx)) / away, py + (beyond * (y - cy)) / away);
+    };
+    context.font = `italic ${Math.round(size / 62)}px sans-serif`;
+    beside(name, 0.5, size / 45);
+    // A little inward, where the numbers of two axes do not meet.
+    context.font = `${Math.round(size / 70)}px sans-serif`;
+    [[0, 0.09], [1, 0.91]].forEach(([end, part]) => beside(name && numberAt(k, end), part, size / 36));
   });
 };
 
