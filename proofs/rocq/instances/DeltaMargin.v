@@ -57,9 +57,7 @@ Definition the_proof : proof := Nodes 52 None [
   Node [] (Some 1) None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
-  Node [] (Some 1) None []%Z;
   Node [] (Some 0) None []%Z;
-  Node [(1, Plain "negative")] None None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
   Node [] (Some 1) None []%Z;
@@ -91,9 +89,7 @@ Definition the_proof : proof := Nodes 52 None [
   Node [] (Some 1) None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
-  Node [] (Some 1) None []%Z;
   Node [] (Some 0) None []%Z;
-  Node [(1, Plain "negative")] None None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
   Node [(1, Plain "negative")] None None []%Z;
   Node [] (Some 1) None []%Z;

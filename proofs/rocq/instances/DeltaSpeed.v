@@ -50,15 +50,13 @@ Definition the_proof : proof := Nodes 52 None [
   Node [(3, Plain "test")] None None []%Z;
   Node [(3, Inside_ (Plain "test") (31) 2)] None None []%Z;
   Node [(3, Plain "test")] None None []%Z;
-  Node [] (Some 0) None []%Z;
   Node [] (Some 1) None []%Z;
+  Node [] (Some 0) None []%Z;
   Node [] (Some 0) None []%Z;
   Node [(3, Inside_ (Plain "test") (12) 0)] None None []%Z;
   Node [(3, Inside_ (Plain "test") (7) 0)] None None []%Z;
-  Node [(0, Plain "outside")] None None []%Z;
-  Node [] (Some 1) None []%Z;
   Node [(3, Inside_ (Plain "test") (6) 0)] None None []%Z;
-  Node [(3, Inside_ (Plain "test") (8) 0)] None None []%Z;
+  Node [(3, Inside_ (Plain "test") (35) 2)] None None []%Z;
   Node [] (Some 1) None []%Z;
   Node [(3, Plain "test")] None None []%Z;
   Node [(3, Inside_ (Plain "test") (2) 0)] None None []%Z;
@@ -72,15 +70,13 @@ Definition the_proof : proof := Nodes 52 None [
   Node [] (Some 1) None []%Z;
   Node [(2, Plain "test")] None None []%Z;
   Node [(2, Inside_ (Plain "test") (31) 2)] None None []%Z;
+  Node [] (Some 1) None []%Z;
   Node [] (Some 0) None []%Z;
-  Node [] (Some 1) None []%Z;
   Node [(2, Inside_ (Plain "test") (6) 0)] None None []%Z;
-  Node [(2, Inside_ (Plain "test") (8) 0)] None None []%Z;
-  Node [] (Some 1) None []%Z;
   Node [] (Some 0) None []%Z;
   Node [(2, Inside_ (Plain "test") (7) 0)] None None []%Z;
   Node [(2, Inside_ (Plain "test") (12) 0)] None None []%Z;
-  Node [(0, Plain "outside")] None None []%Z].
+  Node [(2, Inside_ (Plain "test") (35) 2)] None None []%Z].
 Definition the_certificate : certificate := Certificate (Machine_ the_legs the_workspace the_bodies the_requirements) the_proof "orthocert" "0.1.0".
 
 Lemma accepted : accept the_certificate = true.

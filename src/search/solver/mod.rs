@@ -11,6 +11,7 @@
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
 //! | `rows`, `directions`, `chords` | matrices, directions and the one `Y` to begin with      |
 //! | `search`   | branch and bound: a tree on whose leaves every obligation is discharged     |
+//! | `ahead`    | one of fewer leaves                                                         |
 //! | [`sample`] | approximate values at single points and machines                            |
 //! | `needed`, `program` | the formulas that each of them takes, one after the other        |
 //! | `descent`, `adverse` | the worst of them                                                 |
@@ -27,6 +28,7 @@
 
 mod accuracy;
 mod adverse;
+mod ahead;
 mod apart;
 mod balance;
 mod chords;
@@ -63,6 +65,7 @@ use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
+use std::sync::atomic::AtomicBool;
 
 pub use refute::{approximate, number};
 
@@ -169,8 +172,9 @@ pub fn verify(
         return Ok(Verification { answer: Answer::Cancelled, worst, boxes });
     }
     if found.is_proof() {
-        let answer = control.part(checks, |_| accepted(claim, &prover, found.nodes));
-        return Ok(Verification { answer, worst, boxes });
+        let (nodes, more) = fewer(&prover, found.nodes, control.cancel);
+        let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
+        return Ok(Verification { answer, worst, boxes: boxes + more });
     }
     look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
     let answer = match refute::refutation(claim, &problem, &sampler, &worst) {
@@ -246,8 +250,10 @@ pub fn concluded(
 ) -> Result<Verification, ClaimError> {
     let problem = Problem::new(claim)?;
     let worst = Sampler::new(claim, &problem)?.worst_values(FINEST);
-    let answer = accepted(claim, &Prover::new(&problem)?, nodes);
-    Ok(Verification { answer, worst, boxes })
+    let prover = Prover::new(&problem)?;
+    let (nodes, more) = fewer(&prover, nodes, &AtomicBool::new(false));
+    let answer = accepted(claim, &prover, nodes);
+    Ok(Verification { answer, worst, boxes: boxes + more })
 }
 
 /// The certificate of a claim that the search proves within the budget; why there is none, if not.
@@ -326,6 +332,15 @@ fn in_parts(claim: &MachineClaim, control: &mut Control<'_>) -> Result<Problem, 
         Ok(_) => problem,
         Err(derived) => *derived,
     })
+}
+
+/// A tree of fewer nodes, of a machine without tolerances; and how many boxes were tried for it. With tolerances each
+/// box takes far longer.
+fn fewer(prover: &Prover<'_>, nodes: Vec<Node>, cancel: &AtomicBool) -> (Vec<Node>, usize) {
+    match prover.problem.tolerances().next() {
+        None => ahead::fewer(prover, nodes, cancel),
+        Some(_) => (nodes, 0),
+    }
 }
 
 /// The nodes of a tree on which nothing is open; why there are none, if not.

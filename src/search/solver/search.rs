@@ -68,7 +68,7 @@ impl Branch {
 }
 
 /// The halves of an edge, unless it is too short for doubles.
-fn halves((lo, hi): Pair) -> Option<[Pair; 2]> {
+pub(super) fn halves((lo, hi): Pair) -> Option<[Pair; 2]> {
     let middle = 0.5 * (lo + hi);
     (lo < middle && middle < hi).then_some([(lo, middle), (middle, hi)])
 }

@@ -5,12 +5,12 @@ use super::*;
 #[test]
 fn leaves() {
     for (name, claim, most) in [
-        ("linear Delta", linear_delta(SLAB), &[22, 55, 95][..]),
-        ("linear Delta, cylinder", linear_delta(CYLINDER), &[49, 115, 175]),
-        ("struts", struts(), &[16, 38, 62]),
-        ("Orthoglide", orthoglide("\"310.7\"", CUBE), &[14, 17, 17]),
-        ("four struts", four_struts(), &[30, 120]),
-        ("rotary Delta", rotary(), &[160, 380, 660]),
+        ("linear Delta", linear_delta(SLAB), &[20, 46, 70][..]),
+        ("linear Delta, cylinder", linear_delta(CYLINDER), &[39, 105, 165]),
+        ("struts", struts(), &[11, 22, 42]),
+        ("Orthoglide", orthoglide("\"310.7\"", CUBE), &[12, 15, 17]),
+        ("four struts", four_struts(), &[30, 105]),
+        ("rotary Delta", rotary(), &[132, 300, 500]),
     ] {
         for (part, &most) in [1e-2, 1e-3, 1e-4].into_iter().zip(most) {
             let (certificate, accepted) = decided(&beyond(&claim, part));

@@ -1,0 +1,77 @@
+//! Trees of fewer leaves, by a look at what becomes of halves.
+
+use super::search::{halves, search, Boxes, Branch, Cell, Ends, Trial};
+use crate::search::{Budget, Control};
+use orthocert_kernel::certificate::Node;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Nodes of the trees for which it is worth it. Of greater ones it would take long.
+const NODES: std::ops::Range<usize> = 32..1500;
+/// Most coordinates: each asks for two boxes more.
+const MOST_COORDINATES: usize = 3;
+/// Gains by as much less than the greatest one as a half that is closed is worth, in parts of that.
+const WORTH: f64 = 2.0;
+
+/// A problem whose boxes are halved along the coordinate that closes most of the halves, if that is not one along which
+/// far less is gained.
+struct Ahead<'a, P> {
+    problem: &'a P,
+    boxes: AtomicUsize,
+}
+
+impl<P: Boxes> Ahead<'_, P> {
+    fn tried(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
+        self.boxes.fetch_add(1, Ordering::Relaxed);
+        self.problem.trial(cell, open, asked)
+    }
+
+    /// How many of the halves along a coordinate are closed.
+    fn closed(&self, cell: &Cell, k: usize, open: &[usize]) -> f64 {
+        let is_closed = |edge| {
+            let mut half = cell.clone();
+            half[k] = edge;
+            self.tried(&half, open, false).open.is_empty()
+        };
+        halves(cell[k]).map_or(0.0, |edges| edges.map(is_closed).map(f64::from).iter().sum())
+    }
+}
+
+impl<P: Boxes> Boxes for Ahead<'_, P> {
+    fn root(&self) -> &Cell {
+        self.problem.root()
+    }
+
+    fn obligations(&self) -> usize {
+        self.problem.obligations()
+    }
+
+    fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
+        let mut trial = self.tried(cell, open, asked);
+        let greatest = trial.weights.iter().fold(0.0, |most: f64, &weight| most.max(weight));
+        if !trial.open.is_empty() && !trial.hopeless {
+            let closed = (0..cell.len()).map(|k| self.closed(cell, k, &trial.open));
+            let closed: Vec<f64> = closed.collect();
+            let each = trial.weights.iter_mut().zip(closed);
+            each.for_each(|(weight, closed)| *weight = WORTH * *weight / greatest + closed);
+        }
+        trial
+    }
+}
+
+/// A tree of fewer nodes than one of moderate size, or that one; and how many boxes were tried for it.
+pub(super) fn fewer(
+    problem: &impl Boxes,
+    nodes: Vec<Node>,
+    cancel: &AtomicBool,
+) -> (Vec<Node>, usize) {
+    if !NODES.contains(&nodes.len()) || problem.root().len() > MOST_COORDINATES {
+        return (nodes, 0);
+    }
+    let ahead = Ahead { problem, boxes: AtomicUsize::new(0) };
+    let budget = Budget { max_boxes: nodes.len() - 1, deadline: None };
+    let ends = Ends { hopeless: true, ..Ends::default() };
+    let control = &mut Control { cancel, progress: &mut |_| {} };
+    let found = search(&ahead, &Branch::whole(&ahead), ends, budget, control);
+    let found = found.filter(|found| found.is_proof()).map(|found| found.nodes);
+    (found.unwrap_or(nodes), ahead.boxes.into_inner())
+}
