@@ -2,14 +2,15 @@
 
 use super::{certify, effort::Effort, input, interrupt, print, size, Failure, Format, Status};
 use crate::design::{written, Design};
-use crate::exact::decimal::{grouped, readable, significant};
+use crate::exact::decimal::{grouped, readable};
 use crate::exact::Exact;
 use crate::files::output;
 use crate::files::read::named_after;
 use crate::questions::largest_cube::{cube_of_side, largest_cube, Bracket};
 use crate::report::text::{duration, labelled, verbatim};
 use crate::report::{counterexample, CertificateFile, Counterexample};
-use num_traits::ToPrimitive;
+use num_rational::BigRational;
+use num_traits::{FromPrimitive, ToPrimitive};
 use orthocert_checker::certificate::{Certificate, Verdict};
 use orthocert_kernel::claim::{MachineClaim, Workspace};
 use orthocert_kernel::number::Expression;
@@ -244,8 +245,8 @@ fn text(answer: &Answer, quiet: bool) -> String {
         let text = format!("side {}{unit} about that centre; elsewhere may do", exactly(side));
         labelled(&mut out, "refuted", &text);
     }
-    if let Some(gap) = answer.gap {
-        labelled(&mut out, "gap", &significant(gap, 3));
+    if let Some(gap) = answer.gap.and_then(BigRational::from_f64) {
+        labelled(&mut out, "gap", &size::gap_text(&gap));
     }
     if let Some(why) = answer.missed {
         labelled(&mut out, "gap missed", why);
