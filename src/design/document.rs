@@ -148,10 +148,20 @@ impl<'a> Document<'a> {
             let bare = |c: char| c.is_ascii_alphanumeric() || "_-. ".contains(c);
             Some(text.trim()).filter(|t| t.chars().all(bare)).unwrap_or_default().to_owned()
         };
-        let header = lines.lines().rev().find_map(|line| line.trim().strip_prefix('['));
-        // What follows is a comment.
-        let header = header.and_then(|h| h.trim_start_matches('[').split(']').next());
-        let header = header.map(name).unwrap_or_default();
+        // What follows a header is a comment.
+        let named = |line: &str, brackets: &str| {
+            line.trim().strip_prefix(brackets)?.trim_start_matches('[').split(']').next().map(name)
+        };
+        let last = lines.lines().rev().find(|line| named(line, "[").is_some()).unwrap_or_default();
+        let header = named(last, "[").unwrap_or_default();
+        // Of an array of tables, which of them.
+        let same = |line: &&str| named(line, "[[").is_some_and(|other| other == header);
+        let header = match lines.lines().filter(same).count() {
+            number if number > 0 && named(last, "[[").is_some() => {
+                format!("{header}.{}", number - 1)
+            }
+            _ => header,
+        };
         let last = lines.lines().next_back().unwrap_or_default();
         let key = last.split_once('=').map(|(key, _)| name(key)).unwrap_or_default();
         match (header.is_empty(), key.is_empty()) {

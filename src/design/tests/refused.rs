@@ -196,6 +196,8 @@ fn texts_that_are_not_toml() {
             "orthoglide", ""),
         row!("unit after a number", BOX, [(4, "leg_length = 310 mm")], 4, "mechanism.leg_length",
             Syntax, "310 mm: string values must be quoted", "numbers carry no unit: \"310\""),
+        row!("unit in the second leg", LEGS, [(14, "length = 333 mm")], 14, "mechanism.legs.1.length",
+            Syntax, "333 mm: string values must be quoted", "numbers carry no unit: \"333\""),
         row!("tolerance without quotes", BOX, [(4, "leg_length = 310 ± 1")], 4,
             "mechanism.leg_length", Syntax, "must be quoted", "\"310.25 ± 0.02\""),
         row!("decimal comma", BOX, [(4, "leg_length = 310,25")], 4, "mechanism.leg_length", Syntax,
