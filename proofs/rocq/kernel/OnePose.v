@@ -1,7 +1,7 @@
 (** * The test of accuracy of platforms that turn
 
     Of as many rows as coordinates (test/accuracy.rs): formulas near a cell, how much rows differ there, in blocks of both parts, and
-    the matrices at control points. *)
+    the matrices at control points, with the derivatives of w D by what has a tolerance. *)
 
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
@@ -207,21 +207,25 @@ Fixpoint known_all (r : rows (option fixed)) : option (rows fixed) :=
 Definition weights_of (n f : nat) (last : bool) (q : N) : list Z :=
   map (fun i => if (if last then Nat.leb f i else Nat.ltb i f) then 1%Z else (2 ^ Z.of_N q)%Z) (seq 0 n).
 Definition weighted (ws : list Z) (a : list fixed) : list fixed := map (fun p => Arithmetic.dyadic (fst p) 0 (snd p)) (combine ws a).
-(** beta (D/q + q w)/2 *)
-Definition bound_at (beta q d w : fixed) : fixed :=
-  upper_end (mul bits beta (add (halve (Arithmetic.ratio d (Fixed.integer bits 1) q)) (halve (mul bits q w)))).
-Fixpoint bounds_at (bqs : list (fixed * fixed)) (w : fixed) (r : rows fixed) : list fixed :=
-  match bqs, r with (beta, q) :: l, (_, d) :: r' => bound_at beta q d w :: bounds_at l w r' | _, _ => [] end.
+(** Of a joint d delta^2/2, its error over d, q, and half widths over d of what has a tolerance. *)
+Record near_joint := NearJoint { j_square : fixed; j_error : fixed; j_root : fixed; j_halves : list fixed }.
+Definition change_at (halves rates : list fixed) : fixed := fold_right (fun p sum => add (mul bits (fst p) (Near.point_of (magnitude (snd p)))) sum) zero (combine halves rates).
+(** sum_j (r_j/d) |d(w D)/d theta_j|/2 + w d delta^2/2 + (e/d) (w D/q + q w)/2 *)
+Definition bound_at (j : near_joint) (rates : list fixed) (d w : fixed) : fixed :=
+  upper_end (add (add (halve (change_at (j_halves j) rates)) (mul bits (j_square j) w))
+    (mul bits (j_error j) (add (halve (Arithmetic.ratio d (Fixed.integer bits 1) (j_root j))) (halve (mul bits (j_root j) w))))).
+(** Of rows with these derivatives behind their [n] columns. *)
+Fixpoint bounds_at (n : nat) (js : list near_joint) (w : fixed) (r : rows fixed) : list fixed :=
+  match js, r with j :: l, (a, d) :: r' => bound_at j (skipn n a) d w :: bounds_at n l w r' | _, _ => [] end.
 Definition bordered_by (t : triangle) (b : list fixed) (c : fixed) : triangle := map (fun p => fst p ++ [snd p]) (combine t b) ++ [[c]].
 Fixpoint is_shaped {A : Type} (n : nat) (t : list (list A)) : bool :=
   match t, n with [], O => true | r :: t', S k => Nat.eqb (length r) n && is_shaped k t' | _, _ => false end.
 Definition signed (z : list bool) (b : list fixed) : list fixed := map (fun p : bool * fixed => if fst p then neg (snd p) else snd p) (combine z b).
-Definition pose_at (n : nat) (ws : list Z) (places : N) (Y : list (list Z)) (k2 z2 : fixed) (bqs : list (fixed * fixed)) (s : sample (option fixed)) : bool :=
+Definition pose_at (n : nat) (ws : list Z) (places : N) (Y : list (list Z)) (k2 z2 : fixed) (js : list near_joint) (s : sample (option fixed)) : bool :=
   match known_all (s_rows (option fixed) s), s_weight (option fixed) s, known_multiple (s_less (option fixed) s) with
   | Some rows, Some w, Some t =>
-      let rows := map (fun p => (weighted ws (fst p), snd p)) rows in
-      let below := triangle_add (repeat [neg t] n) (gram places (solve_pairs places Y w rows)) in
-      let bs := bounds_at bqs w rows in let corner := sub (mul bits w z2) t in
+      let bs := bounds_at n js w rows in let rows := map (fun p => (weighted ws (fst p), snd p)) rows in
+      let below := triangle_add (repeat [neg t] n) (gram places (solve_pairs places Y w rows)) in let corner := sub (mul bits w z2) t in
       Nat.eqb (length rows) n && Nat.eqb (length bs) n && is_shaped n below &&
       is_definite bits n (triangle_add (map (fun p => [neg (mul bits k2 (snd p))]) rows) below) &&
       forallb (fun z => is_definite bits (S n) (bordered_by below (signed (z ++ [false]) bs) corner)) (signs (pred n))
@@ -273,42 +277,12 @@ Proof.
   replace (IZR n * y) with (IZR n / IZR (2 ^ Z.of_N 0) * y) by (change (IZR (2 ^ Z.of_N 0)) with 1; field). apply Arithmetic.dyadic_sound, hb.
 Qed.
 
-Definition bound_real (b q d w : R) : R := b * (d / q / 2 + q * w / 2).
-Fixpoint bounds_real (bqs : list (R * R)) (w : R) (ds : list R) : list R :=
-  match bqs, ds with (b, q) :: l, d :: ds' => bound_real b q d w :: bounds_real l w ds' | _, _ => [] end.
-Definition are_points (bqs : list (fixed * fixed)) (l : list (R * R)) : Prop :=
-  Forall2 (fun p r => contains (fst p) (fst r) /\ contains (snd p) (snd r) /\ 0 <= fst r /\ (0 < lo (snd p))%Z) bqs l.
-
-Lemma bounds_sound : forall bqs l w W r s, are_points bqs l -> contains w W -> rows_rel contains r s -> exists y, Forall2 contains (bounds_at bqs w r) y /\
-  Forall2 Rle (bounds_real l W (map snd s)) y /\ length y = length (bounds_at bqs w r).
-Proof.
-  intros bqs l w W r s h hw. revert r s. induction h as [| [beta q] [b t] bqs l [h1 [h2 [h3 h4]]] h IH]; intros r s hr; cbn [bounds_at bounds_real]; [exists []; repeat split; constructor |].
-  destruct hr as [| [a d] [c e] r s [_ hd] hr]; cbn [map]; [exists []; repeat split; constructor |]. destruct (IH r s hr) as [y [y1 [y2 y3]]]. cbn [fst snd] in *.
-  assert (B : contains (mul bits beta (add (halve (Arithmetic.ratio d (Fixed.integer bits 1) q)) (halve (mul bits q w)))) (bound_real b t e W)).
-  { apply mul_sound; [exact h1 |]. apply add_sound; apply halve_sound; [| apply mul_sound; assumption].
-    replace (e / t) with (e * 1 / t) by (unfold Rdiv; ring). apply Arithmetic.ratio_sound; [exact h4 | exact hd | apply Fixed.integer_sound | exact h2]. }
-  destruct (upper_end_sound bits _ _ B) as [z [z1 z2]]. exists (z :: y). split; [constructor; [exact z1 | exact y1] |]. split; [constructor; assumption | cbn; congruence].
-Qed.
-Lemma positive_points : forall bqs l, are_points bqs l -> Forall (fun p => 0 <= fst p /\ 0 < snd p) l.
-Proof. induction 1 as [| p r bqs l [h1 [h2 [h3 h4]]] h IH]; constructor; [split; [exact h3 | exact (contains_positive bits _ _ h4 h2)] | exact IH]. Qed.
-
 Lemma form_both : forall w us r v, length us = length w -> length r = length w ->
   form (combine (map (Rmult 2) w) us) r v = 2 * dot (weighted_sum w (map fst r)) v + dot us (map snd r).
 Proof.
   induction w as [| t w IH]; intros [| u us] [| [a d] r] v lu lr; try discriminate; cbn [map combine form weighted_sum dot fst snd]; [cbn; ring |].
   rewrite IH by (cbn in *; congruence). rewrite dot_comb. ring.
 Qed.
-(** The part of D in the bounds, and that of the weight. *)
-Definition of_D (s : R) (l : list (R * R)) (w : list R) : list R := map (fun p => - s * (fst (fst p) / snd (fst p) * Rabs (snd p))) (combine l w).
-Definition of_W (l : list (R * R)) (w : list R) : R := total (map (fun p => fst (fst p) * snd (fst p) * Rabs (snd p)) (combine l w)).
-Lemma bounds_split : forall l W ds w s, Forall (fun p => 0 <= fst p /\ 0 < snd p) l -> length l = length w -> length ds = length w ->
-  2 * s * dot (bounds_real l W ds) (map Rabs w) = - dot (of_D s l w) ds + s * W * of_W l w.
-Proof.
-  intros l W ds w s h. revert ds w. induction h as [| [b q] l [b0 q0] h IH]; intros [| d ds] [| x w] l1 l2; try discriminate; [cbn; ring |].
-  unfold of_D, of_W, total in *. cbn [bounds_real map combine dot fst snd fold_right] in *. specialize (IH ds w ltac:(cbn in l1; lia) ltac:(cbn in l2; lia)).
-  rewrite Rmult_plus_distr_l, IH. unfold bound_real. field. lra.
-Qed.
-
 Lemma dot_le : forall a b v, Forall2 Rle a b -> Forall (fun x => 0 <= x) v -> dot a v <= dot b v \/ length a <> length v.
 Proof.
   intros a b v h hv. destruct (Nat.eq_dec (length a) (length v)) as [l | l]; [left | right; exact l]. revert v hv l.
@@ -339,18 +313,83 @@ Proof.
   rewrite map_rows_cons. constructor; [split; [exact (all_known_sound bits tape params theta theta_in thin thin_is q ps a b h ea) | exact V] | apply IH; reflexivity].
 Qed.
 
+(** *** What bounds stand for: rates are those of one machine for each joint, with what it differs by *)
+
+Record real_joint := RealJoint { r_square : R; r_error : R; r_root : R; r_rates : list (R * (list R * nat)) }.
+Definition change_real (rates : list (R * (list R * nat))) (ps : list (R * R)) : R :=
+  total (map (fun t => fst t * at_pairs (fst (snd t)) (entry_at tape (snd (snd t))) ps) rates).
+Definition bound_real (j : real_joint) (c d w : R) : R := c / 2 + r_square j * w + r_error j * (d / r_root j / 2 + r_root j * w / 2).
+Fixpoint bounds_real (w : nat) (l : list real_joint) (ps : list (R * R)) (r : rows nat) : list R :=
+  match l, r with j :: l', (_, d) :: r' => bound_real j (change_real (r_rates j) ps) (at_ ps d) (at_ ps w) :: bounds_real w l' ps r' | _, _ => [] end.
+Definition is_rate (h : fixed * nat) (t : R * (list R * nat)) : Prop :=
+  snd (snd t) = snd h /\ Forall2 contains params (fst (snd t)) /\ exists a, contains (fst h) a /\ Rabs (fst t) <= a.
+Definition is_joint (n : nat) (j : near_joint) (a : list nat) (q : real_joint) : Prop :=
+  contains (j_square j) (r_square q) /\ contains (j_error j) (r_error q) /\ contains (j_root j) (r_root q) /\ 0 <= r_error q /\ (0 < lo (j_root j))%Z /\
+  Forall2 is_rate (combine (j_halves j) (skipn n a)) (r_rates q).
+Fixpoint are_joints (n : nat) (js : list near_joint) (r : rows nat) (l : list real_joint) : Prop :=
+  match js, r, l with [], [], [] => True | j :: js', p :: r', q :: l' => is_joint n j (fst p) q /\ are_joints n js' r' l' | _, _, _ => False end.
+
+Lemma all_known_rest : forall n a s, all_known a = Some s -> all_known (skipn n a) = Some (skipn n s).
+Proof.
+  induction n as [| n IH]; intros a s h; [exact h |]. destruct a as [| [x0 |] a]; cbn [all_known] in h; [injection h as <-; reflexivity | | discriminate].
+  destruct (all_known a) as [s' |] eqn:e; [| discriminate]. injection h as <-. exact (IH a s' e).
+Qed.
+Lemma change_sound : forall q ps, Forall2 (in_pair bits) q ps -> forall hs is vs ts, all_known (map (look q) is) = Some vs -> Forall2 is_rate (combine hs is) ts ->
+  exists c, contains (change_at hs vs) c /\ Rabs (change_real ts ps) <= c.
+Proof.
+  intros q ps hq. unfold change_at, change_real, total. induction hs as [| h hs IH]; intros [| i is] vs ts hv ht; cbn [combine] in ht |- *; inversion ht as [| ? t ? ts' ht1 ht']; subst;
+    cbn [map fold_right]; try (cbn in hv; injection hv as <-); try (exists 0; split; [apply zero_sound | rewrite Rabs_R0; apply Rle_refl]). destruct ht1 as [e [hth [a [ha la]]]].
+  cbn [map all_known] in hv. destruct (nth i (evaluate_at bits params thin q) None) as [v |] eqn:ev; [| discriminate]. destruct (all_known _) as [vs' |] eqn:evs; [| discriminate]. injection hv as <-.
+  destruct (IH is vs' ts' evs ht') as [c [c1 c2]]. cbn [combine fold_right fst snd] in *. rewrite e.
+  pose proof (evaluate_at_sound bits tape params _ hth thin thin_is q ps hq i) as V. rewrite ev in V. cbn [has_value] in V. pose proof (magnitude_above bits _ _ V) as M.
+  exists (a * (IZR (magnitude v) / unit) + c). split; [apply add_sound; [apply mul_sound; [exact ha | apply point_sound] | exact c1] |].
+  eapply Rle_trans; [apply Rabs_triang |]. apply Rplus_le_compat; [| exact c2]. rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos.
+Qed.
+Lemma bounds_sound : forall n w q ps, Forall2 (in_pair bits) q ps -> forall js r l rows b, are_joints n js r l -> contains b (at_ ps w) -> known_all (map_rows (look q) r) = Some rows ->
+  exists y, Forall2 contains (bounds_at n js b rows) y /\ Forall2 Rle (bounds_real w l ps r) y /\ length y = length (bounds_at n js b rows).
+Proof.
+  intros n w q ps hq. induction js as [| j js IH]; intros [| [a d] r] [| t l] rows b hj hw h; try contradiction; [injection h as <-; exists []; repeat split; constructor |].
+  destruct hj as [[h1 [h2 [h3 [h4 [h5 h6]]]]] hj]. rewrite map_rows_cons in h. cbn [known_all fst] in *. destruct (all_known _) as [vs |] eqn:ea; [| discriminate].
+  pose proof (evaluate_at_sound bits tape params theta theta_in thin thin_is q ps hq d) as V. destruct (nth d _ None) as [c |]; [| discriminate].
+  destruct (known_all _) as [rest |] eqn:er; [| discriminate]. injection h as <-. destruct (IH r l rest b hj hw er) as [y [y1 [y2 y3]]].
+  pose proof (all_known_rest n _ _ ea) as er'. rewrite skipn_map in er'. destruct (change_sound q ps hq _ _ _ _ er' h6) as [v [v1 v2]]. cbn [bounds_at bounds_real].
+  assert (B : contains (add (add (halve (change_at (j_halves j) (skipn n vs))) (mul bits (j_square j) b))
+    (mul bits (j_error j) (add (halve (Arithmetic.ratio c (Fixed.integer bits 1) (j_root j))) (halve (mul bits (j_root j) b))))) (bound_real t v (at_ ps d) (at_ ps w))).
+  { unfold bound_real. repeat apply add_sound; [apply halve_sound, v1 | apply mul_sound; assumption |]. apply mul_sound; [exact h2 |]. apply add_sound; apply halve_sound; [| apply mul_sound; assumption].
+    replace (at_ ps d / r_root t) with (at_ ps d * 1 / r_root t) by (unfold Rdiv; ring). apply Arithmetic.ratio_sound; [exact h5 | exact V | apply Fixed.integer_sound | exact h3]. }
+  destruct (upper_end_sound bits _ _ B) as [z [z1 z2]]. exists (z :: y). split; [constructor; [exact z1 | exact y1] |]. split; [constructor; [| assumption] | cbn; congruence].
+  eapply Rle_trans; [| exact z2]. unfold bound_real. pose proof (Rle_abs (change_real (r_rates t) ps)). lra.
+Qed.
+Lemma joints_positive : forall n js r l, are_joints n js r l -> Forall (fun q => 0 <= r_error q /\ 0 < r_root q) l.
+Proof.
+  intros n. induction js as [| j js IH]; intros [| p r] [| q l] h; try contradiction; constructor; [| exact (IH r l (proj2 h))].
+  destruct h as [[_ [_ [h3 [h4 [h5 _]]]]] _]. split; [exact h4 | exact (contains_positive bits _ _ h5 h3)].
+Qed.
+
+(** The parts of D and of the weight in the bounds, and that of the rates. *)
+Definition of_D (s : R) (l : list real_joint) (v : list R) : list R := map (fun p => - s * (r_error (fst p) / r_root (fst p) * Rabs (snd p))) (combine l v).
+Definition of_W (l : list real_joint) (v : list R) : R := total (map (fun p => (2 * r_square (fst p) + r_error (fst p) * r_root (fst p)) * Rabs (snd p)) (combine l v)).
+Definition of_rates (l : list real_joint) (v : list R) (ps : list (R * R)) : R := total (map (fun p => Rabs (snd p) * change_real (r_rates (fst p)) ps) (combine l v)).
+Lemma bounds_split : forall w ps s l r v, Forall (fun q => 0 <= r_error q /\ 0 < r_root q) l -> length l = length v -> length r = length v ->
+  2 * s * dot (bounds_real w l ps r) (map Rabs v) = - dot (of_D s l v) (map snd (map_rows (fun i => at_ ps i) r)) + s * at_ ps w * of_W l v + s * of_rates l v ps.
+Proof.
+  intros w ps s l r v h. revert r v. induction h as [| q l [b0 q0] h IH]; intros [| [a d] r] [| y v] l1 l2; try discriminate; [unfold of_D, of_W, of_rates, total; cbn; ring |].
+  unfold of_D, of_W, of_rates, total in *. rewrite map_rows_cons. cbn [bounds_real map combine dot fst snd fold_right] in *. specialize (IH r v ltac:(cbn in l1; lia) ltac:(cbn in l2; lia)).
+  rewrite Rmult_plus_distr_l, IH. unfold bound_real. field. lra.
+Qed.
+
 Variables (l : multiple) (e n : nat) (places : N) (Y : list (list Z)) (r : rows nat) (w : nat) (k2 z2 : fixed) (K Z_ : R) (ws : list Z)
-  (bqs : list (fixed * fixed)) (lr : list (R * R)).
+  (js : list near_joint) (lr : list real_joint).
 Hypothesis affine : forallb (is_affine_at tape m) (w :: all_places r) = true.
 Hypothesis l_affine : is_affine_multiple tape m l = true.
 Hypothesis l_nonneg : 0 <= less_at tape theta (parabola x) l.
 Hypothesis eased : e = O \/ is_eased tape m e r w l = true.
 Hypothesis w_positive : 0 < here w.
-Hypothesis shown : at_controls bits params thin m cell e (pose_at n ws places Y k2 z2 bqs) (sample_of r w l).
+Hypothesis shown : at_controls bits params thin m cell e (pose_at n ws places Y k2 z2 js) (sample_of r w l).
 Hypothesis K_in : contains k2 K.
 Hypothesis Z_in : contains z2 Z_.
 Hypothesis K_nonneg : 0 <= K.
-Hypothesis points_ : are_points bqs lr.
+Hypothesis joints_ : are_joints n js r lr.
 Hypothesis Y_length : length Y = n.
 Hypothesis r_length : length r = n.
 Hypothesis lr_length : length lr = n.
@@ -369,7 +408,7 @@ Proof. intro R_. unfold below, u. rewrite !dot_weighted. f_equal. unfold image. 
 Lemma at_point : forall c ps, length c = m -> ends_first e c -> Forall2 (in_pair bits) (points bits cell c) ps ->
   let R_ := map_rows (fun i => at_ ps i) r in let W := at_ ps w in let L := less_at tape theta ps l in
   (nonzero v -> 0 < 2 * dot (below R_) y - W * dot y y - L * dot v v - K * dot (map snd R_) (squares v)) /\
-  forall s, 0 < dot v v + s ^ 2 -> 0 < 2 * dot (below R_) y - W * dot y y - L * dot v v - 2 * Rabs s * dot (bounds_real lr W (map snd R_)) (map Rabs v) + (W * Z_ - L) * s ^ 2.
+  forall s, 0 < dot v v + s ^ 2 -> 0 < 2 * dot (below R_) y - W * dot y y - L * dot v v - 2 * Rabs s * dot (bounds_real w lr ps r) (map Rabs v) + (W * Z_ - L) * s ^ 2.
 Proof.
   intros c ps lc ec hp R_ W L. specialize (shown c lc ec). unfold pose_at in shown. pose proof (evaluate_at_sound bits tape params theta theta_in thin thin_is _ ps hp w) as hw.
   destruct (known_all _) as [rows |] eqn:er; [| discriminate]. cbn [map_sample sample_of s_rows s_weight] in er, shown. destruct (nth w (evaluate_at _ _ _ _) None) as [a |]; [| discriminate].
@@ -380,7 +419,7 @@ Proof.
   assert (hE : rows_rel contains rowsE RE).
   { unfold rowsE, RE. apply (map_related _ _ _ _ (fun p q => Forall2 contains (fst p) (fst q) /\ contains (snd p) (snd q))); [| exact hr].
     intros p q [h1 h2]. split; [apply weighted_sound, h1 | exact h2]. }
-  set (t_ := triangle_add (repeat [neg t] n) _) in *. set (bs := bounds_at bqs a rowsE) in *.
+  set (t_ := triangle_add (repeat [neg t] n) _) in *. set (bs := bounds_at n js a rows) in *.
   apply andb_true_iff in shown as [shown signs_]. apply andb_true_iff in shown as [shown first]. apply andb_true_iff in shown as [shown shape]. apply andb_true_iff in shown as [l1 l2].
   apply Nat.eqb_eq in l1, l2.
   assert (lRE : length RE = n) by (rewrite <- l1; symmetry; exact (related_length _ _ _ _ _ hE)).
@@ -403,7 +442,7 @@ Proof.
     assert (M : forall ds, dot (map (fun d => - (K * d)) ds) (squares v) = - K * dot ds (squares v)).
     { intro ds. rewrite <- dot_map. f_equal. apply map_ext. intro d. ring. }
     rewrite M in Q. lra.
-  - intros s nz. destruct (bounds_sound bqs lr a W rowsE RE points_ hw hE) as [b [b1 [b2 b3]]]. fold bs in b1, b3. rewrite sndE in b2.
+  - intros s nz. destruct (bounds_sound n w _ ps hp js r lr rows a joints_ hw er) as [b [b1 [b2 b3]]]. fold bs in b1, b3.
     destruct (worst_signs s v) as [z [lz hz]].
     assert (lb : length b = length v) by congruence. specialize (hz b lb).
     assert (C : exists z' s', length z' = pred n /\ s' ^ 2 = s ^ 2 /\ s' * dot (map (fun p => sign_of (fst p) * snd p) (combine (z' ++ [false]) b)) v = - Rabs s * dot b (map Rabs v)).
@@ -423,7 +462,7 @@ Proof.
     rewrite QT, es in Q. replace (2 * s' * dot _ v) with (2 * (s' * dot (map (fun p => sign_of (fst p) * snd p) (combine (z' ++ [false]) b)) v)) in Q by ring. rewrite hz' in Q.
     pose proof (Rabs_pos s) as s0. assert (V0 : Forall (fun x0 => 0 <= x0) (map Rabs v)) by (rewrite Forall_map; apply Forall_forall; intros; apply Rabs_pos).
     destruct (dot_le _ _ _ b2 V0) as [le | bad]; [| exfalso; apply bad; rewrite (related_length _ _ _ _ _ b2), map_length; exact lb].
-    assert (Rabs s * dot (bounds_real lr W (map snd R_)) (map Rabs v) <= Rabs s * dot b (map Rabs v)) by (apply Rmult_le_compat_l; assumption). lra.
+    assert (Rabs s * dot (bounds_real w lr ps r) (map Rabs v) <= Rabs s * dot b (map Rabs v)) by (apply Rmult_le_compat_l; assumption). lra.
 Qed.
 
 Let R_ := map_rows (fun i => here i) r.
@@ -466,25 +505,66 @@ Proof.
   assert (0 <= W * (2 * dot (below R_) y - W * dot y y - K * dot (map snd R_) (squares v))) by (apply Rmult_le_pos; unfold W in *; lra). lra.
 Qed.
 
-Theorem first_here : forall s, 0 < dot v v + s ^ 2 -> 0 < dot (below R_) (below R_) - 2 * Rabs s * W * dot (bounds_real lr W (map snd R_)) (map Rabs v) + W ^ 2 * Z_ * s ^ 2.
+(** Rates are affine, too, and have no squares where there are ends alone. *)
+Lemma rates_in : forall t, In t (flat_map r_rates lr) -> In (snd (snd t)) (flat_map fst r).
 Proof.
-  intros s nz. pose proof (positive_points _ _ points_) as pp.
+  intros t i. clear - i joints_. revert r lr joints_ i. induction js as [| j js' IH]; intros [| [a d] r'] [| q lr'] h i; try contradiction. destruct h as [[_ [_ [_ [_ [_ h]]]]] h'].
+  cbn [flat_map fst] in *. apply in_app_or in i as [i | i]; apply in_or_app; [left | right; exact (IH r' lr' h' i)]. clear - h i.
+  assert (In (snd (snd t)) (skipn n a)); [| rewrite <- (firstn_skipn n a); apply in_or_app; right; assumption].
+  revert h. generalize (skipn n a) (j_halves j). intros is hs h. assert (K : exists p, In p (combine hs is) /\ snd (snd t) = snd p).
+  { induction h as [| p t' ps ts [e _] h IH]; [contradiction |]. destruct i as [-> | i]; [exists p; split; [left; reflexivity | exact e] | destruct (IH i) as [p' [i' e']]; exists p'; split; [right; exact i' | exact e']]. }
+  destruct K as [[p i'] [ip ->]]. exact (in_combine_r _ _ _ _ ip).
+Qed.
+Lemma of_rates_from : forall P : (list (R * R) -> R) -> Prop, P (fun _ => 0) -> (forall f g, P f -> P g -> P (fun ps => f ps + g ps)) -> (forall c f, P f -> P (fun ps => c * f ps)) ->
+  (forall th i, In i (flat_map fst r) -> P (fun ps => at_pairs th (entry_at tape i) ps)) -> P (of_rates lr v).
+Proof.
+  intros P p0 p1 p2 p3. pose proof rates_in as I. clear - I p0 p1 p2 p3. unfold of_rates, change_real, total. revert v I. induction lr as [| q lr' IH]; intros [| y v'] I; cbn [combine map fold_right]; try exact p0.
+  cbn [fst snd]. apply p1; [apply p2 | apply IH; intros t i; apply I; cbn [flat_map]; apply in_or_app; right; exact i].
+  assert (J : forall t, In t (r_rates q) -> In (snd (snd t)) (flat_map fst r)) by (intros t i; apply I; cbn [flat_map]; apply in_or_app; left; exact i). clear - J p0 p1 p2 p3.
+  induction (r_rates q) as [| t ts IH]; cbn [map fold_right]; [exact p0 |]. apply p1; [apply p2, p3, J; left; reflexivity | apply IH; intros t' i; apply J; right; exact i].
+Qed.
+Lemma rates_affine : affine_there m (of_rates lr v).
+Proof.
+  apply of_rates_from.
+  - intros before after a b c p q s _ _. ring.
+  - intros f g hf hg before after a b c p q s len su. rewrite (hf before after a b c p q s len su), (hg before after a b c p q s len su). ring.
+  - intros k f hf before after a b c p q s len su. rewrite (hf before after a b c p q s len su). ring.
+  - intros th i ii. apply entry_affine. cbn [forallb] in affine. apply andb_true_iff in affine as [_ h]. rewrite forallb_forall in h. apply h.
+    apply in_flat_map in ii as [p [ip ii]]. apply in_flat_map. exists p. split; [exact ip | apply in_or_app; left; exact ii].
+Qed.
+Lemma rates_stay : forall before front z after s, x = front ++ z :: after -> length before = length front -> (length front < e)%nat ->
+  of_rates lr v (before ++ (z, s) :: parabola after) = of_rates lr v (before ++ (z, z ^ 2) :: parabola after).
+Proof.
+  intros before front z after s ex lb le. apply (of_rates_from (fun g => g (before ++ (z, s) :: parabola after) = g (before ++ (z, z ^ 2) :: parabola after))); [reflexivity | | |].
+  - intros f g -> ->. reflexivity.
+  - intros c f ->. reflexivity.
+  - intros th i ii. destruct eased as [e0 | E]; [lia |]. unfold is_eased, eased_in in E. cbv zeta in E. rewrite forallb_forall in E.
+    assert (L : m = S (length before + length (parabola after))).
+    { unfold parabola. rewrite map_length. rewrite <- dimension, (related_length _ _ _ _ _ x_in), ex, app_length, lb. cbn [length]. lia. }
+    specialize (E (length before) ltac:(apply in_seq; lia)). apply andb_true_iff in E as [E _]. apply andb_true_iff in E as [_ E]. rewrite forallb_forall in E.
+    apply in_flat_map in ii as [p [ip ii]]. specialize (E p ip). apply andb_true_iff in E as [E _]. rewrite forallb_forall in E. apply without_value. rewrite <- L. exact (E i ii).
+Qed.
+
+Theorem first_here : forall s, 0 < dot v v + s ^ 2 -> 0 < dot (below R_) (below R_) - 2 * Rabs s * W * dot (bounds_real w lr (parabola x) r) (map Rabs v) + W ^ 2 * Z_ * s ^ 2.
+Proof.
+  intros s nz. pose proof (joints_positive _ _ _ _ joints_) as pp.
   set (c0 := - dot y y - Rabs s * of_W lr v + Z_ * s ^ 2).
-  assert (Split : forall ps, 2 * Rabs s * dot (bounds_real lr (at_ ps w) (map snd (map_rows (fun i => at_ ps i) r))) (map Rabs v) =
-    - dot (of_D (Rabs s) lr v) (map snd (map_rows (fun i => at_ ps i) r)) + Rabs s * at_ ps w * of_W lr v).
-  { intro ps. apply bounds_split; [exact pp | congruence | rewrite map_length; apply rows_at]. }
+  assert (Split := fun ps => bounds_split w ps (Rabs s) lr r v pp ltac:(congruence) ltac:(congruence)).
   assert (lD : length (of_D (Rabs s) lr v) = length v) by (unfold of_D; rewrite map_length, combine_length; lia).
-  assert (T : 0 < form (combine (map (Rmult 2) v) (of_D (Rabs s) lr v)) R_ u + c0 * W + - (dot v v + s ^ 2) * less_at tape theta (parabola x) l).
-  { apply (decide bits m cell x x_in dimension (fun ps => form (combine (map (Rmult 2) v) (of_D (Rabs s) lr v)) (map_rows (fun i => at_ ps i) r) u + c0 * at_ ps w + - (dot v v + s ^ 2) * less_at tape theta ps l) e).
-    - apply weight_affine; assumption.
-    - apply falls_. unfold of_D. rewrite Forall_map. apply Forall_forall. intros [[b q] t] i. apply in_combine_l in i. rewrite Forall_forall in pp. destruct (pp _ i) as [b0 q0]. cbn [fst snd] in *.
-      assert (0 <= b / q * Rabs t) by (apply Rmult_le_pos; [apply Rmult_le_pos; [exact b0 | apply Rlt_le, Rinv_0_lt_compat, q0] | apply Rabs_pos]).
-      pose proof (Rabs_pos s). assert (0 <= Rabs s * (b / q * Rabs t)) by (apply Rmult_le_pos; assumption). lra.
-    - intros c ps lc ec hp. pose proof (proj2 (at_point c ps lc ec hp) s nz) as Q. cbv zeta in Q. rewrite Split in Q. rewrite form_both by (rewrite ?rows_at; congruence). rewrite below_dot. unfold c0. lra. }
-  rewrite form_both in T by (unfold R_; rewrite ?rows_at; congruence). rewrite below_dot in T. specialize (Split (parabola x)). fold R_ in Split. fold W in Split.
-  assert (T2 : 0 < 2 * dot (below R_) y - W * dot y y - 2 * Rabs s * dot (bounds_real lr W (map snd R_)) (map Rabs v) + W * Z_ * s ^ 2).
+  set (base := fun ps => form (combine (map (Rmult 2) v) (of_D (Rabs s) lr v)) (map_rows (fun i => at_ ps i) r) u + c0 * at_ ps w + - (dot v v + s ^ 2) * less_at tape theta ps l).
+  assert (T : 0 < base (parabola x) + - Rabs s * of_rates lr v (parabola x)).
+  { apply (decide bits m cell x x_in dimension (fun ps => base ps + - Rabs s * of_rates lr v ps) e).
+    - intros before after a b c p q t len su. rewrite (rates_affine before after a b c p q t len su). unfold base.
+      rewrite (weight_affine tape theta m r (combine (map (Rmult 2) v) (of_D (Rabs s) lr v)) w c0 l (- (dot v v + s ^ 2)) u affine l_affine before after a b c p q t len su). ring.
+    - intros before front z after t ex lb le zs. rewrite (rates_stay before front z after t ex lb le). apply Rplus_le_compat_r. refine (falls_ _ _ _ _ before front z after t ex lb le zs).
+      unfold of_D. rewrite Forall_map. apply Forall_forall. intros [q t'] i. apply in_combine_l in i. rewrite Forall_forall in pp. destruct (pp _ i) as [b0 q0]. cbn [fst snd] in *.
+      assert (0 <= r_error q / r_root q * Rabs t') by (apply Rmult_le_pos; [apply Rmult_le_pos; [exact b0 | apply Rlt_le, Rinv_0_lt_compat, q0] | apply Rabs_pos]).
+      pose proof (Rabs_pos s). assert (0 <= Rabs s * (r_error q / r_root q * Rabs t')) by (apply Rmult_le_pos; assumption). lra.
+    - intros c ps lc ec hp. pose proof (proj2 (at_point c ps lc ec hp) s nz) as Q. cbv zeta in Q. rewrite Split in Q. unfold base. rewrite form_both by (rewrite ?rows_at; congruence). rewrite below_dot. unfold c0. lra. }
+  unfold base in T. fold R_ W in T. rewrite form_both in T by (unfold R_; rewrite ?rows_at; congruence). rewrite below_dot in T. specialize (Split (parabola x)). fold R_ in Split. fold W in Split.
+  assert (T2 : 0 < 2 * dot (below R_) y - W * dot y y - 2 * Rabs s * dot (bounds_real w lr (parabola x) r) (map Rabs v) + W * Z_ * s ^ 2).
   { assert (0 <= (dot v v + s ^ 2) * less_at tape theta (parabola x) l) by (apply Rmult_le_pos; lra). rewrite Split. unfold c0 in T. lra. }
-  pose proof below_square_ as B. assert (T3 : 0 < W * (2 * dot (below R_) y - W * dot y y - 2 * Rabs s * dot (bounds_real lr W (map snd R_)) (map Rabs v) + W * Z_ * s ^ 2)) by (apply Rmult_lt_0_compat; assumption).
+  pose proof below_square_ as B. assert (T3 : 0 < W * (2 * dot (below R_) y - W * dot y y - 2 * Rabs s * dot (bounds_real w lr (parabola x) r) (map Rabs v) + W * Z_ * s ^ 2)) by (apply Rmult_lt_0_compat; assumption).
   lra.
 Qed.
 End Direction.
@@ -546,15 +626,18 @@ Qed.
 
 (** ** The test *)
 
+(** Rows with derivatives of w D behind their columns, and with each joint the half widths that these are multiplied by. *)
 Record near_test := NearTest { n_rows : rows nat; n_weight : nat; n_ends : nat; n_far : list (list nat); n_reach : list nat;
-  n_joints : list (nat * (fixed * list (fixed * nat))); n_distance : fixed; n_turn : fixed; n_first : nat; n_last : bool }.
+  n_joints : list (nat * (fixed * list (fixed * nat)) * list fixed); n_distance : fixed; n_turn : fixed; n_first : nat; n_last : bool }.
 
-(** The greatest that a joint is off by on the cell, over the distance. *)
-Definition greatest_off (values : list (option slope)) (j : nat * (fixed * list (fixed * nat))) : option fixed :=
-  match nth (fst j) values None, Check.all_some (map (fun h => option_map (fun s => (fst h, range s)) (nth (snd h) values None)) (snd (snd j))) with
-  | Some _, Some hs => Some (upper_end (fold_left (fun sum h => add sum (mul bits (fst h) (Near.point_of (magnitude (snd h))))) hs (fst (snd j))))
+(** d delta^2/2: on the cell, tolerances put a joint off by at most d delta. *)
+Definition square_off (values : list (option slope)) (d : fixed) (j : nat * (fixed * list (fixed * nat))) : option fixed :=
+  match nth (fst j) values None, Check.all_some (map (fun h => option_map (fun s => range s) (nth (snd h) values None)) (snd (snd j))) with
+  | Some _, Some rates => Some (upper_end (halve (mul bits d (sqr bits (change_at (map fst (snd (snd j))) rates)))))
   | _, _ => None
   end.
+Definition joint_near (p : fixed * fixed * (nat * (fixed * list (fixed * nat)) * list fixed)) : near_joint :=
+  NearJoint (fst (fst p)) (fst (snd (fst (snd p)))) (snd (fst p)) (snd (snd p)).
 (** sqrt(D/w) at the first control point and the last, in the middle of both. *)
 Definition root_of (ts : list tensor) (m w : nat) (row : list nat * nat) : option fixed :=
   let at_ j := match value_at (nth (snd row) ts (Constant None)) (repeat j m), value_at (nth w ts (Constant None)) (repeat j m) with
@@ -574,19 +657,38 @@ Definition shows_pose (plain : list (op nat)) (params cell : list fixed) (values
   let f := n_first a in let near := near_values plain params cell m a in
   (N.eqb q 0 || (N.leb q 16 && Nat.ltb 0 f && Nat.ltb f m)) && Nat.leb f m && Nat.eqb (length cell) m && Nat.eqb (length Y) m && Nat.eqb (length (n_rows a)) m &&
   Nat.eqb (length (n_joints a)) m && Nat.eqb (length (n_far a)) m && forallb (fun row => Nat.eqb (length row) m) (n_far a) &&
-  match Check.all_some (map (are_all near) (n_far a)), are_all near (n_reach a), Check.all_some (map (greatest_off values) (n_joints a)),
+  match Check.all_some (map (are_all near) (n_far a)), are_all near (n_reach a), Check.all_some (map (fun j => square_off values (n_distance a) (fst j)) (n_joints a)),
     Check.all_some (map (root_of ts m (n_weight a)) (n_rows a)) with
   | Some far, Some _, Some offs, Some roots =>
       let g := spread m f far in let k := Arithmetic.dyadic kappa places (Fixed.integer bits 1) in
       (0 <? lo (sub k g))%Z &&
       match recip bits k with
       | Some r => let z := sub (Fixed.integer bits 1) (halve (mul bits g r)) in
-          everywhere (@map_sample) (n_ends a) m (pose_at m (weights_of m f (n_last a) q) places Y (sqr bits k) (sqr bits z) (combine offs roots))
+          everywhere (@map_sample) (n_ends a) m (pose_at m (weights_of m f (n_last a) q) places Y (sqr bits k) (sqr bits z) (map joint_near (combine (combine offs roots) (n_joints a))))
             (map_sample (fun i => nth i ts (Constant None)) (sample_of (n_rows a) (n_weight a) l))
       | None => false
       end
   | _, _, _, _ => false
   end.
+
+(** |b| rho <= B, rho^2 = D/w, all times w. *)
+Definition is_bounded (W : R) (b : R) (p : list R * R * R) : Prop := forall q, 0 <= q -> q ^ 2 = W * snd (fst p) -> Rabs b * q <= snd p.
+
+Lemma bound_holds : forall W D d q t off e c a sq, 0 < W -> 0 < t -> 0 <= q -> q ^ 2 = W * D -> q * off = c / 2 - W * d * off ^ 2 / 2 -> d * off ^ 2 / 2 <= sq -> 0 <= d -> Rabs e <= a ->
+  Rabs (off + e) * q <= Rabs c / 2 + sq * W + a * (D / t / 2 + t * W / 2).
+Proof.
+  intros W D d q t off e c a sq W0 t0 q0 q2 h hs d0 ha.
+  assert (O : Rabs off * q <= Rabs c / 2 + sq * W).
+  { rewrite <- (Rabs_pos_eq q) at 1 by exact q0. rewrite <- Rabs_mult, Rmult_comm, h. pose proof (pow2_ge_0 off). assert (N : 0 <= W * d * off ^ 2 / 2).
+    { apply Rmult_le_pos; [apply Rmult_le_pos; [apply Rmult_le_pos; lra | assumption] | lra]. }
+    assert (W * (d * off ^ 2 / 2) <= W * sq) by (apply Rmult_le_compat_l; lra).
+    pose proof (Rle_abs c). pose proof (Rle_abs (- c)) as c'. rewrite Rabs_Ropp in c'. apply Rabs_le. lra. }
+  assert (Q : q <= D / t / 2 + t * W / 2).
+  { apply Rmult_le_reg_r with (2 * t * W); [repeat apply Rmult_lt_0_compat; lra |]. replace ((D / t / 2 + t * W / 2) * (2 * t * W)) with (W * D + t ^ 2 * W ^ 2) by (field; lra).
+    rewrite <- q2. pose proof (pow2_ge_0 (q - t * W)). lra. }
+  pose proof (Rabs_triang off e). pose proof (Rabs_pos e). assert (Rabs e * q <= a * (D / t / 2 + t * W / 2)) by (apply Rmult_le_compat; assumption).
+  assert (Rabs (off + e) * q <= (Rabs off + Rabs e) * q) by (apply Rmult_le_compat_r; assumption). lra.
+Qed.
 
 Section Whole.
 Variables tape plain : list (op nat).
@@ -600,19 +702,30 @@ Local Notation here x i := (at_pairs theta (entry_at tape i) (parabola x)).
 (** J, near the point x. *)
 Definition far_rows (x : list R) (a : near_test) (d tau : R) (u : list R) : list (list R) :=
   map (map (fun i => value (near_point (n_first a) x d tau u) theta (plain_at i))) (n_far a).
+(** What a function of the machine differs by: derivatives, of one machine, by as much as these parameters may differ. *)
+Definition differs_by (f : list R -> nat -> R) (hs : list (fixed * nat)) (c : R) : Prop :=
+  exists th ts, Forall2 contains params th /\ Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs ts /\ c = dot ts (map (fun h => f th (snd h)) hs).
+(** An error, and what tolerances put a joint off by, over d: rho off = c/2 - d off^2/2, c what rho^2 differs by over d. *)
+Definition off_by (x : list R) (d : R) (w : nat) (p : nat * (fixed * list (fixed * nat)) * list fixed * (list nat * nat)) (b : R) : Prop :=
+  exists off e c, b = off + e /\ (exists a, contains (fst (snd (fst (fst p)))) a /\ Rabs e <= a) /\
+    differs_by (fun th i => value x th (plain_at i)) (snd (snd (fst (fst p)))) off /\
+    differs_by (fun th i => at_pairs th (entry_at tape i) (parabola x)) (combine (snd (fst p)) (skipn m (fst (snd p)))) c /\
+    forall q, 0 <= q -> q ^ 2 = here x w * here x (snd (snd p)) -> q * off = c / 2 - here x w * d * off ^ 2 / 2.
+Definition own_columns (r : rows R) : rows R := map (fun p => (firstn m (fst p), snd p)) r.
 Definition pose_found (x : list R) (a : near_test) : Prop := 0 < here x (n_weight a) ->
-  (forall th, Forall2 contains params th -> Forall (fun j => defined x th (plain_at (fst j))) (n_joints a)) /\
+  (forall th, Forall2 contains params th -> Forall (fun j => defined x th (plain_at (fst (fst j)))) (n_joints a)) /\
   (n_first a <= m)%nat /\ length (n_rows a) = m /\ length (n_far a) = m /\ length (n_joints a) = m /\ Forall (fun row => length row = m) (n_far a) /\
   forall d tau, contains (n_distance a) d -> contains (n_turn a) tau -> 0 <= d -> 0 <= tau ->
-  forall bs, Forall2 (Check.may_be_off bits plain params x) (n_joints a) bs -> exists g, 0 <= g /\
+  forall bs, Forall2 (off_by x d (n_weight a)) (combine (n_joints a) (n_rows a)) bs -> exists g, 0 <= g /\
   (forall u, inside (n_first a) m u -> Forall (fun i => defined (near_point (n_first a) x d tau u) theta (plain_at i)) (n_reach a) /\
     forall w, length w = m -> size (less (image (far_rows x a d tau u) w) (image (far_rows x a d tau (nought m)) w)) <= g * (norm (n_first a) w * norm (n_first a) u)) /\
-  exists kappa z e lr, g < kappa /\ 0 <= z /\ z + g / (2 * kappa) <= 1 /\ length e = m /\ (forall i, (i < m)%nat -> 0 < nth i e 0) /\
-    (forall i, (i < m)%nat -> (if n_last a then n_first a <= i else i < n_first a)%nat -> nth i e 0 = 1) /\ length lr = m /\ Forall (fun p => 0 <= fst p /\ 0 < snd p) lr /\
-    Forall2 (fun b p => Rabs b <= fst p) bs lr /\
-    forall v, length v = m -> let R_ := map_rows (fun i => here x i) (n_rows a) in let W := here x (n_weight a) in let p := weighted_sum v (map (scaled e) (map fst R_)) in
+  exists kappa z e Bs, g < kappa /\ 0 <= z /\ z + g / (2 * kappa) <= 1 /\ length e = m /\ (forall i, (i < m)%nat -> 0 < nth i e 0) /\
+    (forall i, (i < m)%nat -> (if n_last a then n_first a <= i else i < n_first a)%nat -> nth i e 0 = 1) /\
+    let R_ := own_columns (map_rows (fun i => here x i) (n_rows a)) in let W := here x (n_weight a) in
+    Forall2 (is_bounded W) bs (combine R_ Bs) /\
+    forall v, length v = m -> let p := weighted_sum v (map (scaled e) (map fst R_)) in
       kappa ^ 2 * W * dot (map snd R_) (squares v) <= dot p p /\
-      forall s, 0 < dot v v + s ^ 2 -> 0 < dot p p - 2 * Rabs s * W * dot (bounds_real lr W (map snd R_)) (map Rabs v) + W ^ 2 * z ^ 2 * s ^ 2.
+      forall s, 0 < dot v v + s ^ 2 -> 0 < dot p p - 2 * Rabs s * W * dot Bs (map Rabs v) + W ^ 2 * z ^ 2 * s ^ 2.
 
 Lemma all_some_related : forall (A B : Type) (f : A -> option B) l m, Check.all_some (map f l) = Some m -> Forall2 (fun a b => f a = Some b) l m.
 Proof.
@@ -620,26 +733,60 @@ Proof.
   destruct (f a) as [b |] eqn:fa; [| discriminate]. destruct (Check.all_some (map f l)) as [k' |]; [| discriminate]. injection e as <-. constructor; [exact fa | apply IH; reflexivity].
 Qed.
 
-Lemma greatest_off_sound : forall values x cs lambda, (forall th, Forall2 contains params th -> forall i, encloses bits lambda x cs th (nth i values None) (plain_at i)) ->
-  forall j beta b, greatest_off values j = Some beta -> Check.may_be_off bits plain params x j b -> Rabs b <= in_real (hi beta).
+Lemma square_off_sound : forall values x cs lambda, (forall th, Forall2 contains params th -> forall i, encloses bits lambda x cs th (nth i values None) (plain_at i)) ->
+  forall dist d j sq off, contains dist d -> 0 <= d -> square_off values dist j = Some sq -> differs_by (fun th i => value x th (plain_at i)) (snd (snd j)) off ->
+  contains sq (in_real (hi sq)) /\ d * off ^ 2 / 2 <= in_real (hi sq).
 Proof.
-  intros values x cs lambda E [i [error hs]] beta b e [th [e0 [ts [hth [[ae [he le]] [hts eb]]]]]]. unfold greatest_off in e. cbn [fst snd] in *. specialize (E th hth).
+  intros values x cs lambda E dist d [i [error hs]] sq off hd d0 e [th [ts [hth [hts eb]]]]. unfold square_off in e. cbn [fst snd] in *. specialize (E th hth).
   destruct (nth i values None); [| discriminate]. destruct (Check.all_some _) as [rs |] eqn:er; [| discriminate]. injection e as <-.
-  assert (K : forall hs ts rs error ae e0, Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs ts -> Forall2 (fun h r => option_map (fun s => (fst h, range s)) (nth (snd h) values None) = Some r) hs rs ->
-    contains error ae -> Rabs e0 <= ae ->
-    exists n, contains (fold_left (fun sum h => add sum (mul bits (fst h) (Near.point_of (magnitude (snd h))))) rs error) n /\
-      Rabs (fold_right (fun p sum => snd p * value x th (plain_at (snd (fst p))) + sum) e0 (combine hs ts)) <= n).
-  { clear - E. induction hs as [| [h1 d] hs IH]; intros ts rs error ae e0 ht hr he le; inversion ht as [| ? t ? ts' [a [ha la]] ht']; subst; inversion hr as [| ? r ? rs' er hr']; subst; cbn [combine fold_right fold_left].
-    - exists ae. split; assumption.
-    - cbn [fst snd] in *. destruct (nth d values None) as [s0 |] eqn:ed; [| discriminate]. injection er as <-. cbn [fst snd].
-      pose proof (E d) as Ed. rewrite ed in Ed. destruct Ed as [_ [_ [_ [hv _]]]]. pose proof (magnitude_above bits _ _ hv) as M. set (v := value x th (plain_at d)) in *.
-      assert (N : contains (mul bits h1 (Near.point_of (magnitude (range s0)))) (a * (IZR (magnitude (range s0)) / unit))) by (apply mul_sound; [exact ha | apply point_sound]).
-      destruct (IH ts' rs' (add error (mul bits h1 (Near.point_of (magnitude (range s0))))) (ae + a * (IZR (magnitude (range s0)) / unit)) (e0 + t * v) ht' hr' (add_sound _ _ _ _ _ he N)) as [n [n1 n2]].
-      { eapply Rle_trans; [apply Rabs_triang |]. apply Rplus_le_compat; [exact le |]. rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos. }
-      exists n. split; [exact n1 |]. eapply Rle_trans; [| exact n2]. apply Req_le. f_equal. clear. revert e0. induction (combine hs ts') as [| p l IH]; intro e0; cbn [fold_right]; [ring | specialize (IH e0); lra]. }
-  change (b = fold_right (fun p sum => snd p * value x th (plain_at (snd (fst p))) + sum) e0 (combine hs ts)) in eb.
-  destruct (K hs ts rs error ae e0 hts (all_some_related _ _ _ _ _ er) he le) as [n [n1 n2]]. rewrite <- eb in n2. eapply Rle_trans; [exact n2 |].
-  pose proof (unit_R_pos bits) as u0. destruct n1 as [_ n1]. unfold in_real. cbn [upper_end hi]. apply Rmult_le_reg_r with unit; [exact u0 |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
+  assert (K : forall hs ts rs, Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs ts -> Forall2 (fun h r => option_map (fun s => range s) (nth (snd h) values None) = Some r) hs rs ->
+    exists n, contains (change_at (map fst hs) rs) n /\ Rabs (dot ts (map (fun h => value x th (plain_at (snd h))) hs)) <= n).
+  { clear - E. unfold change_at. induction hs as [| [h1 k] hs IH]; intros ts rs ht hr; inversion ht as [| ? t ? ts' ha ht']; subst; inversion hr as [| ? r ? rs' er hr']; subst; cbn [map combine fold_right dot].
+    - exists 0. split; [apply zero_sound | rewrite Rabs_R0; apply Rle_refl].
+    - destruct ha as [a [ha la]]. cbn [fst snd] in *. destruct (nth k values None) as [s0 |] eqn:ed; [| discriminate]. injection er as <-. cbn [fst snd].
+      pose proof (E k) as Ed. rewrite ed in Ed. destruct Ed as [_ [_ [_ [hv _]]]]. pose proof (magnitude_above bits _ _ hv) as M. set (v := value x th (plain_at k)) in *.
+      destruct (IH ts' rs' ht' hr') as [n [n1 n2]]. exists (a * (IZR (magnitude (range s0)) / unit) + n). split; [apply add_sound; [apply mul_sound; [exact ha | apply point_sound] | exact n1] |].
+      eapply Rle_trans; [apply Rabs_triang |]. apply Rplus_le_compat; [| exact n2]. rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos. }
+  destruct (K hs ts rs hts (all_some_related _ _ _ _ _ er)) as [n [n1 n2]]. rewrite <- eb in n2. clear K.
+  destruct (upper_end_sound bits _ _ (halve_sound bits _ _ (mul_sound bits _ _ _ _ hd (sqr_sound bits _ _ n1)))) as [z [z1 z2]]. set (sq := upper_end _) in *.
+  assert (P : contains sq (in_real (hi sq))) by (unfold sq, upper_end; cbn [hi]; apply point_sound). split; [exact P |]. apply Rle_trans with (d * n ^ 2 / 2).
+  - assert (off ^ 2 <= n ^ 2) by (rewrite <- (pow2_abs off); pose proof (Rabs_pos off); nra). assert (d * off ^ 2 <= d * n ^ 2) by (apply Rmult_le_compat_l; assumption). lra.
+  - apply Rle_trans with (1 := z2). destruct z1 as [_ z1]. pose proof (unit_R_pos bits) as u0. unfold in_real. apply Rmult_le_reg_r with unit; [exact u0 |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra.
+Qed.
+
+(** Of each joint one machine, and signs with which its derivatives bound the change. *)
+Lemma rates_found : forall x hs c, differs_by (fun th i => at_pairs th (entry_at tape i) (parabola x)) hs c -> exists rates, Forall2 (is_rate params) hs rates /\ change_real tape rates (parabola x) = Rabs c.
+Proof.
+  intros x hs c [th [ts [hth [hts ->]]]]. set (f := fun i => at_pairs th (entry_at tape i) (parabola x)).
+  assert (K : forall s, s = 1 \/ s = -1 -> exists rates, Forall2 (is_rate params) hs rates /\ change_real tape rates (parabola x) = s * dot ts (map (fun h => f (snd h)) hs)).
+  { intros s hs1. exists (map (fun p => (s * snd p, (th, snd (fst p)))) (combine hs ts)). unfold change_real, total. induction hts as [| h t hs' ts' [a [ha la]] h' [I1 I2]]; cbn [combine map fold_right dot fst snd]; [split; [constructor | ring] |].
+    split; [| rewrite I2; unfold f; ring]. constructor; [| exact I1]. unfold is_rate. cbn [fst snd]. split; [reflexivity |]. split; [exact hth |]. exists a. split; [exact ha |].
+    replace (Rabs (s * t)) with (Rabs t); [exact la |]. destruct hs1 as [-> | ->]; [rewrite Rmult_1_l; reflexivity | replace (-1 * t) with (- t) by ring; rewrite Rabs_Ropp; reflexivity]. }
+  set (c := dot ts (map (fun h => f (snd h)) hs)) in *. change (dot ts (map (fun h => at_pairs th (entry_at tape (snd h)) (parabola x)) hs)) with c.
+  destruct (Rle_dec 0 c) as [p | n]; [destruct (K 1 (or_introl eq_refl)) as [rates [k1 k2]] | destruct (K (-1) (or_intror eq_refl)) as [rates [k1 k2]]]; exists rates; split; try exact k1; rewrite k2;
+    [rewrite Rabs_pos_eq by exact p; ring | rewrite Rabs_left by lra; ring].
+Qed.
+
+Lemma joints_found : forall values x cs lambda, (forall th, Forall2 contains params th -> forall i, encloses bits lambda x cs th (nth i values None) (plain_at i)) ->
+  forall ts w dist d, contains dist d -> 0 <= d -> 0 < here x w -> forall joints rows offs roots bs, length joints = length rows ->
+  Forall2 (fun j sq => square_off values dist (fst j) = Some sq) joints offs -> Forall2 (fun row q => root_of ts m w row = Some q) rows roots -> Forall2 (off_by x d w) (combine joints rows) bs ->
+  exists lr, are_joints params m (map joint_near (combine (combine offs roots) joints)) rows lr /\
+    Forall2 (is_bounded (here x w)) bs (combine (own_columns (map_rows (fun i => here x i) rows)) (bounds_real tape theta w lr (parabola x) rows)).
+Proof.
+  intros values x cs lambda E ts w dist d hd d0 w0. induction joints as [| [j halves] joints IH]; intros [| [A D] rows] offs roots bs len ho hr hb; try discriminate; cbn [combine] in hb; inversion ho; inversion hr; inversion hb; subst;
+    [exists []; split; [exact I | constructor] |].
+  match goal with h : Forall2 _ joints ?o, h' : Forall2 _ rows ?q, h'' : Forall2 _ (combine joints rows) ?b |- _ => destruct (IH rows o q b ltac:(cbn in len; congruence) h h' h'') as [lr [I1 I2]] end.
+  match goal with h : square_off _ _ _ = Some ?s, h' : root_of _ _ _ _ = Some ?q, h'' : off_by _ _ _ _ ?b |- _ => rename h into hs; rename h' into hq; rename h'' into hj; set (sq := s) in *; set (root_ := q) in *; set (b1 := b) in * end.
+  destruct hj as [off [e [c [eb [[a [ha la]] [h1 [h2 h3]]]]]]]. cbn [fst snd] in *. destruct (square_off_sound values x cs lambda E dist d j sq off hd d0 hs h1) as [s1 s2].
+  assert (Rt : lo root_ = hi root_ /\ (0 < lo root_)%Z).
+  { unfold root_of in hq. cbv zeta in hq. cbn [fst snd] in hq. destruct (match value_at _ (repeat Low m) with Some _ => _ | None => _ end); [| discriminate].
+    destruct (match value_at _ (repeat High m) with Some _ => _ | None => _ end); [| discriminate]. destruct (0 <? lo (lower_end (halve (add f f0))))%Z eqn:e0; [| discriminate]. injection hq as <-. split; [reflexivity | apply Z.ltb_lt, e0]. }
+  assert (Rin : contains root_ (in_real (lo root_))) by (destruct root_ as [l0 h0]; cbn [lo hi] in *; destruct Rt as [-> _]; apply point_sound).
+  destruct Rt as [_ r0]. pose proof (contains_positive bits _ _ r0 Rin) as t0. destruct (rates_found x _ c h2) as [rates [k1 k2]].
+  exists (RealJoint (in_real (hi sq)) a (in_real (lo root_)) rates :: lr). cbn [combine map are_joints]. split.
+  - split; [| exact I1]. unfold is_joint, joint_near. cbn [fst snd j_square j_error j_root j_halves r_square r_error r_root r_rates]. repeat (split; [assumption |]). split; [eapply Rle_trans; [apply Rabs_pos | exact la] |]. split; [exact r0 | exact k1].
+  - rewrite map_rows_cons. cbn [own_columns map bounds_real combine]. constructor; [| exact I2]. intros q q0 q2. cbn [fst snd] in *. rewrite eb. unfold bound_real. cbn [r_square r_error r_root r_rates]. rewrite k2.
+    exact (bound_holds _ _ d q _ off e c a _ w0 t0 q0 q2 (h3 q q0 q2) s2 d0 la).
 Qed.
 
 Lemma weights_entries : forall f last q i, (i < m)%nat -> nth i (map IZR (weights_of m f last q)) 0 = if (if last then Nat.leb f i else Nat.ltb i f) then 1 else IZR (2 ^ Z.of_N q).
@@ -668,7 +815,7 @@ Proof.
   apply andb_true_iff in h as [h body]. apply andb_true_iff in h as [h rowlen]. apply andb_true_iff in h as [h lfar]. apply andb_true_iff in h as [h ljoints]. apply andb_true_iff in h as [h lrows].
   apply andb_true_iff in h as [h lY]. apply andb_true_iff in h as [h lcell]. apply andb_true_iff in h as [_ lf]. apply Nat.eqb_eq in lfar, ljoints, lrows, lY, lcell. apply Nat.leb_le in lf.
   destruct (Check.all_some (map (are_all near) (n_far a))) as [far |] eqn:efar; [| discriminate]. destruct (are_all near (n_reach a)) as [reach |] eqn:ereach; [| discriminate].
-  destruct (Check.all_some (map (greatest_off values) (n_joints a))) as [offs |] eqn:eoffs; [| discriminate].
+  destruct (Check.all_some (map (fun j => square_off values (n_distance a) (fst j)) (n_joints a))) as [offs |] eqn:eoffs; [| discriminate].
   destruct (Check.all_some (map (root_of ts m (n_weight a)) (n_rows a))) as [roots |] eqn:eroots; [| discriminate].
   apply andb_true_iff in body as [below body]. apply Z.ltb_lt in below. set (kf := Arithmetic.dyadic kappa places (Fixed.integer bits 1)) in *. set (gf := spread m f far) in *.
   destruct (recip bits kf) as [rf |] eqn:er; [| discriminate]. pose proof (unit_R_pos bits) as u0.
@@ -680,7 +827,7 @@ Proof.
     exact (evaluate_kept_sound bits lambda hlam x (map (centre_of bits) cell) th _ _ C (params_hold bits lambda params th hth) keep plain). }
   split.
   { intros th hth. apply all_some_related in eoffs. specialize (E th hth). clear - E eoffs. induction eoffs as [| j b js bs hj h IH]; constructor; [| exact IH].
-    unfold greatest_off in hj. pose proof (E (fst j)) as Ej. destruct (nth (fst j) values None) as [s |]; [exact (proj1 (proj2 Ej)) | discriminate]. }
+    unfold square_off in hj. pose proof (E (fst (fst j))) as Ej. destruct (nth (fst (fst j)) values None) as [s |]; [exact (proj1 (proj2 Ej)) | discriminate]. }
   split; [exact lf |]. split; [exact lrows |]. split; [exact lfar |]. split; [exact ljoints |].
   split; [rewrite forallb_forall in rowlen; apply Forall_forall; intros row ir; apply Nat.eqb_eq, rowlen, ir |].
   intros d tau hd ht d0 t0 bs hbs.
@@ -710,39 +857,30 @@ Proof.
   pose proof (sub_sound bits _ _ _ _ (Fixed.integer_sound bits 1) (halve_sound bits _ _ (mul_sound bits _ _ _ _ hg hr))) as hzf. set (z := 1 - g * / k / 2) in *.
   assert (q1 : g * / k < 1) by (apply Rmult_lt_reg_r with k; [lra |]; rewrite Rmult_assoc, Rinv_l; lra).
   apply all_some_related in eoffs. apply all_some_related in eroots.
-  assert (lo1 : length offs = m) by (rewrite <- (related_length _ _ _ _ _ eoffs); exact ljoints). assert (lo2 : length roots = m) by (rewrite <- (related_length _ _ _ _ _ eroots); exact lrows).
-  set (lr := map (fun p => (in_real (hi (fst p)), in_real (lo (snd p)))) (combine offs roots)).
-  assert (llr : length lr = m) by (unfold lr; rewrite map_length, combine_length; lia).
-  assert (Off : Forall2 (fun b beta => Rabs b <= in_real (hi beta)) bs offs).
-  { clear - hbs eoffs E. revert offs eoffs. induction hbs as [| j b js bs h hs IH]; intros offs eoffs; inversion eoffs as [| ? beta ? offs' e1 e2]; subst; constructor; [| apply IH, e2].
-    exact (greatest_off_sound values x (map (centre_of bits) cell) lambda E j beta b e1 h). }
-  assert (Tops : Forall (fun beta => lo beta = hi beta) offs).
-  { clear - eoffs. induction eoffs as [| j beta js offs h hs IH]; constructor; [| exact IH]. unfold greatest_off in h. destruct (nth (fst j) values None); [| discriminate]. destruct (Check.all_some _); [| discriminate]. injection h as <-. reflexivity. }
-  assert (Roots : Forall (fun q => lo q = hi q /\ (0 < lo q)%Z) roots).
-  { clear - eroots. induction eroots as [| j b js roots h hs IH]; constructor; [| exact IH]. unfold root_of in h. cbv zeta in h. destruct (match value_at _ (repeat Low m) with Some _ => _ | None => _ end); [| discriminate].
-    destruct (match value_at _ (repeat High m) with Some _ => _ | None => _ end); [| discriminate]. destruct (0 <? lo (lower_end (halve (add f f0))))%Z eqn:e; [| discriminate]. injection h as <-. split; [reflexivity | apply Z.ltb_lt, e]. }
-  assert (Points : are_points (combine offs roots) lr).
-  { unfold lr, are_points. clear - Off Tops Roots. revert bs roots Off Roots. induction Tops as [| beta offs h hs IH]; intros bs roots Off Roots; [constructor |]. inversion Off as [| b ? bs' ? o1 o2]; subst.
-    destruct Roots as [| q roots [r1 r2] Roots]; cbn [combine map]; constructor; [| exact (IH _ _ o2 Roots)]. cbn [fst snd].
-    assert (P : forall a, lo a = hi a -> contains a (in_real (hi a))) by (intros [l0 h0] e; cbn [lo hi] in *; subst l0; apply point_sound).
-    split; [apply P, h |]. split; [rewrite r1; apply P, r1 |]. split; [eapply Rle_trans; [apply Rabs_pos | exact o1] | exact r2]. }
-  exists k, z, (map IZR (weights_of m f (n_last a) q)), lr.
+  destruct (joints_found values x (map (centre_of bits) cell) lambda E ts (n_weight a) (n_distance a) d hd d0 w0 (n_joints a) (n_rows a) offs roots bs ltac:(congruence) eoffs eroots hbs) as [lr [Joints Bounded]].
+  assert (llr : length lr = m).
+  { rewrite <- lrows. clear - Joints. revert Joints. generalize (map joint_near (combine (combine offs roots) (n_joints a))) (n_rows a) lr. induction l as [| j js IH]; intros [| p r] [| q l'] h; try contradiction; [reflexivity | cbn [length]; rewrite (IH r l' (proj2 h)); reflexivity]. }
+  set (Bs := bounds_real tape theta (n_weight a) lr (parabola x) (n_rows a)) in *.
+  exists k, z, (map IZR (weights_of m f (n_last a) q)), Bs.
   split; [lra |]. split; [unfold z; lra |]. split; [unfold z; apply Req_le; field; lra |].
   split; [unfold weights_of; rewrite !map_length, seq_length; reflexivity |].
   split. { intros i li. rewrite weights_entries by exact li. destruct (if n_last a then Nat.leb f i else Nat.ltb i f); [lra |]. apply IZR_lt, Z.pow_pos_nonneg; lia. }
   split. { intros i li hp. rewrite weights_entries by exact li. destruct (n_last a); [destruct (Nat.leb_spec f i) | destruct (Nat.ltb_spec i f)]; try reflexivity; lia. }
-  split; [exact llr |]. split; [exact (positive_points _ _ Points) |]. split.
-  { unfold lr. clear - Off lo1 lo2. rewrite <- lo2 in lo1. clear lo2. revert roots lo1. induction Off as [| b beta bs offs h hs IH]; intros [| q roots] l; try discriminate; cbn [combine map]; constructor; [exact h | apply IH; cbn in l; congruence]. }
-  intros v lv. cbv zeta. pose proof (everywhere_shown bits params thin m cell lcell _ _ _ body) as SH.
+  cbv zeta. split; [exact Bounded |]. intros v lv.
+  assert (Cut : forall R_, map snd (own_columns R_) = map snd R_ /\ map (scaled (map IZR (weights_of m f (n_last a) q))) (map fst (own_columns R_)) = map (scaled (map IZR (weights_of m f (n_last a) q))) (map fst R_)).
+  { intro R_. unfold own_columns. rewrite !map_map. split; [reflexivity |]. apply map_ext. intro p. cbn [fst]. unfold scaled.
+    assert (G : forall e l : list R, combine e (firstn (length e) l) = combine e l) by (induction e as [| t e IH]; intros [| y l']; cbn [length firstn combine]; try reflexivity; rewrite IH; reflexivity).
+    assert (L : length (map IZR (weights_of m f (n_last a) q)) = m) by (unfold weights_of; rewrite !map_length, seq_length; reflexivity). revert L. generalize (map IZR (weights_of m f (n_last a) q)) as c. intros c L. rewrite <- L, G. reflexivity. }
+  destruct (Cut (map_rows (fun i => here x i) (n_rows a))) as [-> ->]. pose proof (everywhere_shown bits params thin m cell lcell _ _ _ body) as SH.
   assert (KK : 0 <= k ^ 2) by apply pow2_ge_0.
   split.
   - destruct (Rle_lt_dec (dot v v) 0) as [zero_ | nz].
     + assert (Zv : dot (map snd (map_rows (fun i => here x i) (n_rows a))) (squares v) = 0).
       { apply dot_zero. unfold squares. rewrite Forall_map. apply zero_vector in zero_. revert zero_. apply Forall_impl. intros t <-. ring. }
       rewrite Zv, Rmult_0_r. apply dot_self.
-    + exact (lower_here tape params theta theta_in thin thin_is m cell x hx lcell l (n_ends a) m places Y (n_rows a) (n_weight a) _ _ (k ^ 2) (z ^ 2) _ _ lr aff laff l0 he w0 SH (sqr_sound bits _ _ hk) (sqr_sound bits _ _ hzf) KK Points lY lrows llr v lv nz).
+    + exact (lower_here tape params theta theta_in thin thin_is m cell x hx lcell l (n_ends a) m places Y (n_rows a) (n_weight a) _ _ (k ^ 2) (z ^ 2) _ _ lr aff laff l0 he w0 SH (sqr_sound bits _ _ hk) (sqr_sound bits _ _ hzf) KK Joints lY lrows llr v lv nz).
   - intros s nz.
-    exact (first_here tape params theta theta_in thin thin_is m cell x hx lcell l (n_ends a) m places Y (n_rows a) (n_weight a) _ _ (k ^ 2) (z ^ 2) _ _ lr aff laff l0 he w0 SH (sqr_sound bits _ _ hk) (sqr_sound bits _ _ hzf) Points lY lrows llr v lv s nz).
+    exact (first_here tape params theta theta_in thin thin_is m cell x hx lcell l (n_ends a) m places Y (n_rows a) (n_weight a) _ _ (k ^ 2) (z ^ 2) _ _ lr aff laff l0 he w0 SH (sqr_sound bits _ _ hk) (sqr_sound bits _ _ hzf) Joints lY lrows llr v lv s nz).
 Qed.
 End Whole.
 

@@ -380,37 +380,30 @@ Proof. unfold Twofold.scaled. induction e as [| x e IH]; intros q [| y r]; cbn [
 Lemma rows_resized : forall W e R_ J0, 0 < W -> Forall2 (fun p row => exists q, 0 < q /\ q ^ 2 = W * snd p /\ fst p = map (Rmult q) row) R_ J0 -> forall w, length w = length J0 ->
   exists v, length v = length w /\ (forall k, dot v (map (fun r => nth k r 0) (map (Twofold.scaled e) (map fst R_))) = dot w (map (fun r => nth k r 0) (map (Twofold.scaled e) J0))) /\
     W * dot (map snd R_) (squares v) = dot w w /\
-    forall lr bs, Forall (fun p => 0 <= fst p /\ 0 < snd p) lr -> Forall2 (fun b p => Rabs b <= fst p) bs lr -> length lr = length w ->
-      Rabs (dot bs w) <= dot (bounds_real lr W (map snd R_)) (map Rabs v).
+    forall bs Bs, Forall2 (is_bounded W) bs (combine R_ Bs) -> Rabs (dot bs w) <= dot Bs (map Rabs v).
 Proof.
   intros W e R_ J0 W0. induction 1 as [| [A D] row R_ J0 [q [q0 [q2 eA]]] h IH]; intros [| t w] l; try discriminate.
-  - exists []. split; [reflexivity |]. split; [reflexivity |]. split; [cbn; ring |]. intros lr bs _ hb ll. destruct lr; [| discriminate]. inversion hb; subst. cbn. rewrite Rabs_R0. lra.
+  - exists []. split; [reflexivity |]. split; [reflexivity |]. split; [cbn; ring |]. intros bs Bs hb. inversion hb; subst. rewrite (dot_commutes Bs). cbn. rewrite Rabs_R0. lra.
   - destruct (IH w ltac:(cbn in l; congruence)) as [v [v1 [v2 [v3 v4]]]]. cbn [fst snd] in *. exists (t / q :: v). split; [cbn; congruence |]. split; [| split].
     + intro k. cbn [map dot fst]. rewrite v2, eA, scaled_multiple, map_entries. field. lra.
     + cbn [map dot squares snd]. fold (squares v). rewrite Rmult_plus_distr_l, v3. replace (W * (D * (t / q) ^ 2)) with (W * D * (t / q) ^ 2) by ring. rewrite <- q2. field. lra.
-    + intros [| [beta y] lr] bs hp hb ll; try discriminate. inversion hb as [| b ? bs' ? b1 b2]; subst. inversion hp as [| ? ? [p1 p2] hp']; subst. cbn [fst snd] in *.
-      assert (G : Rabs b * Rabs t <= bound_real beta y D W * Rabs (t / q)).
-      { assert (Tq : Rabs (t / q) = Rabs t * / q) by (unfold Rdiv; rewrite Rabs_mult, (Rabs_pos_eq (/ q)) by (apply Rlt_le, Rinv_0_lt_compat, q0); reflexivity). rewrite Tq.
-        apply Rle_trans with (beta * Rabs t); [apply Rmult_le_compat_r; [apply Rabs_pos | exact b1] |]. unfold bound_real.
-        assert (K : 1 <= (D / y / 2 + y * W / 2) * / q).
-        { apply Rmult_le_reg_r with q; [exact q0 |]. rewrite Rmult_assoc, Rinv_l, Rmult_1_l, Rmult_1_r by lra. apply Rmult_le_reg_r with (2 * y * W); [apply Rmult_lt_0_compat; lra |].
-          replace ((D / y / 2 + y * W / 2) * (2 * y * W)) with (W * D + y ^ 2 * W ^ 2) by (field; lra). rewrite <- q2. pose proof (pow2_ge_0 (q - y * W)). lra. }
-        replace (beta * (D / y / 2 + y * W / 2) * (Rabs t * / q)) with (beta * Rabs t * ((D / y / 2 + y * W / 2) * / q)) by ring.
-        rewrite <- (Rmult_1_r (beta * Rabs t)) at 1. apply Rmult_le_compat_l; [apply Rmult_le_pos; [exact p1 | apply Rabs_pos] | exact K]. }
-      specialize (v4 lr bs' hp' b2 ltac:(cbn in ll; congruence)). cbn [map dot bounds_real snd]. eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_mult. apply Rplus_le_compat; [exact G | exact v4].
+    + intros bs [| B Bs] hb; cbn [combine] in hb; inversion hb as [| b ? bs' ? b1 b2]; subst; [cbn; rewrite Rabs_R0; lra |].
+      assert (G : Rabs b * Rabs t <= B * Rabs (t / q)).
+      { replace (Rabs t) with (q * Rabs (t / q)) by (unfold Rdiv; rewrite Rabs_mult, (Rabs_pos_eq (/ q)) by (apply Rlt_le, Rinv_0_lt_compat, q0); field; lra).
+        rewrite <- Rmult_assoc. apply Rmult_le_compat_r; [apply Rabs_pos | exact (b1 q (Rlt_le _ _ q0) q2)]. }
+      specialize (v4 bs' Bs b2). cbn [map dot]. eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_mult. apply Rplus_le_compat; [exact G | exact v4].
 Qed.
 
-Lemma met_of : forall f n J g bs p W R_ kappa z e lr, 0 < W -> length (J (nought n)) = n ->
+Lemma met_of : forall f n J g bs p W R_ kappa z e Bs, 0 < W -> length (J (nought n)) = n ->
   Forall2 (fun p row => exists q, 0 < q /\ q ^ 2 = W * snd p /\ fst p = map (Rmult q) row) R_ (J (nought n)) ->
   g < kappa -> 0 <= z -> z + g / (2 * kappa) <= 1 -> length e = n -> (forall i, (i < n)%nat -> 0 < nth i e 0) ->
-  (forall i, (i < n)%nat -> (if p : bool then f <= i else i < f)%nat -> nth i e 0 = 1) -> length lr = n -> Forall (fun p => 0 <= fst p /\ 0 < snd p) lr ->
-  Forall2 (fun b p => Rabs b <= fst p) bs lr ->
+  (forall i, (i < n)%nat -> (if p : bool then f <= i else i < f)%nat -> nth i e 0 = 1) -> Forall2 (is_bounded W) bs (combine R_ Bs) ->
   (forall v, length v = n -> let p := weighted_sum v (map (Twofold.scaled e) (map fst R_)) in
     kappa ^ 2 * W * dot (map snd R_) (squares v) <= dot p p /\
-    forall s, 0 < dot v v + s ^ 2 -> 0 < dot p p - 2 * Rabs s * W * dot (bounds_real lr W (map snd R_)) (map Rabs v) + W ^ 2 * z ^ 2 * s ^ 2) ->
+    forall s, 0 < dot v v + s ^ 2 -> 0 < dot p p - 2 * Rabs s * W * dot Bs (map Rabs v) + W ^ 2 * z ^ 2 * s ^ 2) ->
   met f n J g bs p.
 Proof.
-  intros f n J g bs p W R_ kappa z e lr W0 lJ rows gk z0 zg le e0 e1 llr plr off shown. exists kappa, z, e. repeat (split; [assumption |]). intros w lw. cbv zeta.
+  intros f n J g bs p W R_ kappa z e Bs W0 lJ rows gk z0 zg le e0 e1 off shown. exists kappa, z, e. repeat (split; [assumption |]). intros w lw. cbv zeta.
   destruct (rows_resized W e R_ _ W0 rows w ltac:(congruence)) as [v [lv [v2 [v3 v4]]]]. destruct (shown v ltac:(congruence)) as [h1 h2].
   set (q := weighted_sum w (map (Twofold.scaled e) (J (nought n)))). set (q' := weighted_sum v (map (Twofold.scaled e) (map fst R_))) in *.
   assert (E : forall k, nth k q' 0 = nth k q 0) by (intro k; unfold q, q'; rewrite !weighted_entries; apply v2).
@@ -421,7 +414,7 @@ Proof.
     assert (V0 : dot v v <= 0) by lra. assert (S0 : (s / W) ^ 2 = 0) by lra. apply zero_vector in V0.
     assert (Z : dot (map snd R_) (squares v) = 0) by (apply dot_zero; unfold squares; rewrite Forall_map; revert V0; apply Forall_impl; intros a <-; ring). rewrite Z in v3.
     assert (s ^ 2 = (s / W) ^ 2 * W ^ 2) by (field; lra). rewrite S0 in H. lra. }
-  specialize (h2 _ nz'). specialize (v4 lr bs plr off ltac:(congruence)). set (B := dot (bounds_real lr W (map snd R_)) (map Rabs v)) in *.
+  specialize (h2 _ nz'). specialize (v4 bs Bs off). set (B := dot Bs (map Rabs v)) in *.
   replace (W ^ 2 * z ^ 2 * (s / W) ^ 2) with (z ^ 2 * s ^ 2) in h2 by (field; lra).
   assert (A : 2 * Rabs (s / W) * W = 2 * Rabs s) by (unfold Rdiv; rewrite Rabs_mult, (Rabs_pos_eq (/ W)) by (apply Rlt_le, Rinv_0_lt_compat, W0); field; lra). rewrite A in h2.
   assert (C : - (Rabs s * B) <= s * dot bs w).

@@ -111,7 +111,7 @@ Definition places_in (steps : list (nat * evidence)) : list nat :=
 Definition slopes_in (steps : list (nat * evidence)) : list nat :=
   flat_map (fun s => match nth_error tests (fst s) with
     | Some (OnSlopes t) => wanted_by [] [] [] t (snd s)
-    | Some (NearOf a) => flat_map (fun j => fst j :: map snd (snd (snd j))) (n_joints a)
+    | Some (NearOf a) => flat_map (fun j => fst (fst j) :: map snd (snd (snd (fst j)))) (n_joints a)
     | _ => []
     end) steps.
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
@@ -575,6 +575,9 @@ Definition turned_row (q : list formula) (z : posed_strut) : list formula * form
   let twice := times (times (integer 2) ell) (turn_unit q) in let A := fst (z_row z) in
   (firstn (first_angle k) A ++ map (fun e => times e twice) (skipn (first_angle k) A), snd (z_row z)).
 Definition own_length (z : posed_strut) : formula := snd (z_limb z).
+(** With the derivatives of w D behind its columns. *)
+Definition changed_row (q : list formula) (z : posed_strut) : list formula * formula :=
+  (fst (turned_row q z) ++ map snd (slopes_of ps (snd (z_row z))), snd (z_row z)).
 
 Definition own_formulas (q : list formula) (d : demand) : list formula :=
   match d with
@@ -584,7 +587,7 @@ Definition own_formulas (q : list formula) (d : demand) : list formula :=
       | Some z => if up_to_90 b then let (A, D) := angle_row q (z_way z on) in A ++ [D] else []
       | None => []
       end
-  | OnePose _ _ _ => flat_map (fun z => fst (turned_row q z)) zs
+  | OnePose _ _ _ => flat_map (fun z => fst (changed_row q z)) zs
   | _ => match length_sign q d with Some f => [f] | None => [] end
   end.
 (** Of these, slopes. *)
@@ -637,11 +640,17 @@ Definition angle_tests (q : list formula) (z : posed_strut) (on : bool) (b : num
   if up_to_90 b then let (A, D) := angle_row q (z_way z on) in
     SignOf (place D) :: if certainly exact_bits false (Minus b (90 // 1)) then [] else [AxisOf [(map place A, place D)] (place D)]
   else [OnSlopes (AtLeast (plain (angle_sign q on (z_limb z))))].
+(** What its length and w D, which has no quotient, change by. *)
+Definition near_joint_of (error b : number) (z : posed_strut) : option (nat * (fixed * list (fixed * nat)) * list fixed) :=
+  match joint_test bits plain ps s error b (own_length z), changes_of bits place ps s b (snd (z_row z)) with
+  | Some j, Some hs => if is_polynomial [] [] (snd (z_row z)) then Some (j, map fst hs) else None
+  | _, _ => None
+  end.
 Definition near_tests (q : list formula) (error b angle : number) : list (option pose_test) :=
   if Nat.eqb (length zs) (dimension k) && certainly bits false error && certainly bits true b && certainly bits true angle && is_angle_number bits angle then
-    match enclose_parameter bits (exactly b, s), enclose_tangent bits angle, all_some (map (fun z => joint_test bits plain ps s error b (own_length z)) zs) with
+    match enclose_parameter bits (exactly b, s), enclose_tangent bits angle, all_some (map (near_joint_of error b) zs) with
     | Some d, Some t, Some js =>
-        let rows := map_rows place (map (turned_row q) zs) in
+        let rows := map_rows place (map (changed_row q) zs) in
         let test last := Some (NearOf (NearTest rows (place w) (ends_for rows) (map (fun z => map plain (fst (z_moved z (turn_unit q)))) zs)
           (map (fun z => plain (snd (z_moved z (turn_unit q)))) zs) js d t (first_angle k) last)) in
         match k with AboutPoint => [test true] | _ => [test false; test true] end
@@ -687,7 +696,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let zs := each_strut (formulas_of k N w ell (length lay)) s (struts c) 0 in let rows := map z_row zs in
   let g := curve (turned c) (first_angle k) (j + length ins) in
   let about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w (quantity pl (length lay)) a b)) s (struts c) 0 else [] in
-  let wanted := entries rows ++ w :: of_each (own_formulas k w zs ell) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
+  let wanted := entries rows ++ w :: of_each (own_formulas k w zs ell (lay ++ [pl])) false s j ds ++ match g with Some g => [g] | None => [] end ++ entries about in
   let others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds in
   let tape := fst (compile (map (image m) wanted)) in let plain := fst (compile others) in
   let fs := formulas tape in let plain_fs := formulas plain in
@@ -861,6 +870,18 @@ Proof.
     repeat split; [f_equal; ring | intros [| [| [| i]]] l; try reflexivity; lia | f_equal; ring].
 Qed.
 
+Lemma whole_defined : forall x th f, is_polynomial [] [] f = true -> Formula.defined x th f.
+Proof.
+  intros x th. fix IH 1. intros [o] h. destruct o as [i | i | n | a b | a b | a | a b | a b | a | a | ? a b e]; cbn [is_polynomial] in h; try discriminate h;
+    cbn [Formula.defined map_op defined_op all_op]; try (split; exact I); try (apply andb_true_iff in h as [h1 h2]; split; [exact I | split; [exact (IH a h1) | exact (IH b h2)]]);
+    try (split; [exact I | exact (IH a h)]).
+  apply andb_true_iff in h as [_ h]. destruct b as [[| [|] | | | | | | | | |]]; discriminate h.
+Qed.
+Lemma values_at : forall (g : nat -> R) (val : formula -> R) (at_ : formula -> nat) (hs : list (fixed * nat)) l, map snd hs = map at_ l -> (forall e, In e l -> g (at_ e) = val e) -> map (fun h => g (snd h)) hs = map val l.
+Proof. intros g val at_ hs l e h. rewrite <- (map_map snd g), e, map_map. apply map_ext_in, h. Qed.
+Lemma combine_back : forall (A B : Type) (l : list (A * B)), combine (map fst l) (map snd l) = l.
+Proof. induction l as [| [a b] l IH]; [reflexivity |]. cbn [map combine fst snd]. rewrite IH. reflexivity. Qed.
+
 Lemma motion_dec : forall k : motion, k = AboutPoint \/ k <> AboutPoint.
 Proof. intros []; [right; discriminate | right; discriminate | left; reflexivity]. Qed.
 
@@ -945,7 +966,7 @@ Proof.
   set (zs := each_strut (formulas_of k N w ell (length lay)) s ts 0) in *. set (rows := map z_row zs) in *.
   set (g := curve (turned c) (first_angle k) (j + length ins)) in *. set (gs := match g with Some g => [g] | None => [] end) in *.
   set (about := if one_pose c then each_strut (fun a b => origin_row a (scaled_row k N w ell a b)) s ts 0 else []) in *.
-  set (wanted := entries rows ++ w :: of_each (own_formulas k w zs ell) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds) in *.
+  set (wanted := entries rows ++ w :: of_each (own_formulas k w zs ell (lay ++ [pl])) false s j ds ++ gs ++ entries about) in *. set (others := of_each (plain_formulas k N w zs (lay ++ [pl])) false s j ds) in *.
   set (tape := fst (compile (map (image (dimension k)) wanted))) in *. set (place := fun f => Formula.place (formulas tape) (image (dimension k) f)) in *.
   set (plain := fst (compile others)) in *. set (plain_place := Formula.place (formulas plain)) in *.
   apply andb_true_iff in h as [h C]. apply andb_true_iff in h as [h ang]. apply andb_true_iff in h as [h L0].
@@ -1115,7 +1136,7 @@ Proof.
     destruct (Speed PD) as [R1 R2]. split; [exact R1 |]. split; [exact PD |]. intros v lv nv. destruct (H kappa v hk k0 lv nv) as [_ q]. rewrite Rows, Weight, R2 in q.
     apply Rmult_lt_reg_l with W; [exact W0 |]. cbn [jacobian conf struts_at]. unfold conf, struts_at. cbn [jacobian]. lra. }
   assert (Test : forall d, In d ds -> exists q, (forall y, map (Formula.value y theta) q = map input_value (inputs_of false s d)) /\
-    (forall f, In f (own_formulas k w zs ell q d) -> In f wanted) /\ (forall f, In f (plain_formulas k N w zs (lay ++ [pl]) q d) -> formula_at plain (plain_place f) = f) /\
+    (forall f, In f (own_formulas k w zs ell (lay ++ [pl]) q d) -> In f wanted) /\ (forall f, In f (plain_formulas k N w zs (lay ++ [pl]) q d) -> formula_at plain (plain_place f) = f) /\
     forall o, In o (tests_of_demand s k N w zs ell (lay ++ [pl]) place plain_place ends ends_for q d) -> exists u, o = Some u /\ In u tests).
   { intros d id. destruct (of_each_anywhere false s ds d (th ++ [ratio * L]) ts_ id) as [q [q1 q2]]. cbv zeta in q1. fold ins in q1. rewrite <- app_assoc in q1. fold theta in q1.
     rewrite app_length, lt in q2. cbn [length] in q2. rewrite Nat.add_1_r in q2. fold j in q2. exists q. split; [exact q1 |].
@@ -1343,8 +1364,8 @@ Proof.
     apply Nat.eqb_eq in lz. apply positive_sound in a0, b0. apply nonneg_sound in er0. apply (is_angle_number_sound bits) in ia.
     destruct (enclose_parameter bits (exactly b, s)) as [dd |] eqn:ed; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
     destruct (enclose_tangent bits angle) as [tt_ |] eqn:ett; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
-    destruct (all_some (map (fun z => joint_test bits plain_place (lay ++ [pl]) s error b (own_length z)) zs)) as [js |] eqn:ej; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
-    cbv zeta in shown. set (unit := turn_unit ns) in *. set (arows := map (turned_row k ell ns) zs) in *.
+    destruct (all_some (map (near_joint_of s (lay ++ [pl]) place plain_place error b) zs)) as [js |] eqn:ej; [| destruct (shown _ (or_introl eq_refl)) as [u [eu _]]; discriminate].
+    cbv zeta in shown. set (unit := turn_unit ns) in *. set (arows := map (changed_row k ell (lay ++ [pl]) ns) zs) in *. set (trows := map (turned_row k ell ns) zs).
     set (mk := fun last => NearTest (map_rows place arows) (place w) (ends_for (map_rows place arows)) (map (fun z => map plain_place (fst (z_moved z unit))) zs)
       (map (fun z => plain_place (snd (z_moved z unit))) zs) js dd tt_ (first_angle k) last).
     assert (Found_ : forall last, (last = false -> k <> AboutPoint) -> In (NearOf (mk last)) tests).
@@ -1380,6 +1401,9 @@ Proof.
     assert (JE : forall u, J u = map (fun z => map (Formula.value (near u) theta) (fst (z_moved z unit))) zs).
     { intro u. unfold J, far_rows. cbn [mk n_far n_first]. rewrite map_map. apply map_ext_in. intros z iz. rewrite map_map. apply map_ext_in. intros f' i'.
       exact (f_equal (Formula.value (near u) theta) (Plain z iz f' (in_or_app _ _ _ (or_introl i')))). }
+    assert (Columns : forall z, In z zs -> length (fst (turned_row k ell ns z)) = dimension k).
+    { intros z iz. assert (A : length (fst (z_row z)) = dimension k) by (clear - ZS iz; induction ZS as [| y l zs' m' [h _] hs IH]; [contradiction |]; destruct iz as [<- | iz]; [unfold stands in h; destruct (z_row y); exact (proj2 (proj2 (proj2 h))) | exact (IH iz)]).
+      unfold turned_row. cbn [fst]. rewrite app_length, map_length, <- app_length, firstn_skipn. exact A. }
     (* lengths, of both machines *)
     destruct (nominal_is s ts m hm) as [hm0 E0]. destruct (each_strut_stands s ts _ hm0) as [th0 [[ETH0 TH0] RS0]]. rewrite E0 in ETH0.
     set (theta0 := th0 ++ back).
@@ -1395,52 +1419,85 @@ Proof.
     { apply (RS _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. exact (Len theta a b' l hN hw hPv (Ha x back) (Hb x back)). }
     assert (LEN0 : Forall2 (fun z l => Formula.value x theta0 (own_length z) = ratio * strut_length l P Q) zs (nominal_struts ts)).
     { apply (RS0 _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. apply (Len theta0 a b' l hN0 hw0); [exact (position_value k P _ cs _ (flat_position _ _ _ flat hP)) | exact (Ha x back) | exact (Hb x back)]. }
+    assert (hl0 : Formula.value x theta0 ell = ratio * L) by (unfold ell, theta0, back; apply quantity_value; [exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold ratio, Rdiv; ring] | rewrite <- lt0; apply nth_middle]).
+    assert (SQ : Forall2 (fun z l => Formula.value x theta (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l P Q)) zs m).
+    { apply (RS _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. pose proof (scaled_row_values x theta k P Q W ratio L N a b' w ell l r0 L0 keeps hPv hN hw hl (Ha x back) (Hb x back)) as SV.
+      cbn [z_row formulas_of]. destruct (scaled_row k N w ell a b') as [A D]. exact (proj1 SV). }
+    assert (SQ0 : Forall2 (fun z l => Formula.value x theta0 (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l P Q)) zs (nominal_struts ts)).
+    { apply (RS0 _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb.
+      pose proof (scaled_row_values x theta0 k P Q W ratio L N a b' w ell l r0 L0 keeps (position_value k P _ cs _ (flat_position _ _ _ flat hP)) hN0 hw0 hl0 (Ha x back) (Hb x back)) as SV.
+      cbn [z_row formulas_of]. destruct (scaled_row k N w ell a b') as [A D]. exact (proj1 SV). }
     set (all := params ++ inputs ++ tangents) in *. set (ps := lay ++ [pl]) in *. set (tb := map input_value ins ++ ts_).
-    assert (OFFS : (forall th, Forall2 (contains bits) all th -> Forall (fun j => Formula.defined x th (formula_at plain (fst j))) js) ->
-      forall rho, Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) (nominal_struts ts) rho -> Forall2 (Check.may_be_off bits plain all x) js (offsets m P Q dist rho)).
+    assert (OFFS : (forall th, Forall2 (contains bits) all th -> Forall (fun j => Formula.defined x th (formula_at plain (fst (fst j)))) js) ->
+      forall rho, Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) (nominal_struts ts) rho ->
+      Forall2 (off_by bits tape plain all theta (dimension k) x (ratio * dist) (place w)) (combine js (map_rows place arows)) (offsets m P Q dist rho)).
     { intros Def rho hr.
       assert (PSI : Forall2 scaled_within ps (th ++ [ratio * L])) by (apply Forall2_app; [exact TH |]; constructor; [| constructor]; exists L; split; [split; apply Rle_refl | cbn [snd pl]; unfold ratio, Rdiv; ring]).
       assert (MID : map middle_of ps ++ tb = theta0).
       { unfold ps, theta0, tb, back. rewrite map_app, ETH0, <- app_assoc. f_equal. cbn [map app]. f_equal. unfold middle_of, middle, pl, exactly. cbn [fst snd least greatest]. fold L. unfold ratio. field. apply Rgt_not_eq, two_to_pos. }
       assert (Enc : forall th', Forall2 scaled_within ps th' -> Forall2 (contains bits) all (th' ++ tb)).
       { intros th' h. unfold all, tb. apply Forall2_app; [exact (enclosed_all bits _ _ _ ep h) |]. apply Forall2_app; [exact (inputs_enclosed bits _ _ ei) | exact TT]. }
+      assert (Length2 : forall l, strut_length l P Q ^ 2 = norm2 (strut_vector l P Q)) by (intro l; apply pow2_sqrt; unfold norm2; nra).
       assert (One : forall z l l0 jt r, In z zs -> In jt js -> Formula.value x theta (own_length z) = ratio * strut_length l P Q -> Formula.value x theta0 (own_length z) = ratio * strut_length l0 P Q ->
-        joint_test bits plain_place ps s error b (own_length z) = Some jt -> Rabs (r - strut_length l0 P Q) <= Claim.value error -> Check.may_be_off bits plain all x jt ((r - strut_length l P Q) / dist)).
-      { intros z l l0 jt r iz ij v1 v0 hj hy.
-        replace ((r - strut_length l P Q) / dist) with ((ratio * r - ratio * strut_length l P Q) / (/ two_to s * Claim.value b)) by (fold dist; fold ratio; field; split; lra).
-        refine (joint_is_off bits s b error ps (th ++ [ratio * L]) tb all plain (own_length z) x (ratio * r) _ _ jt PSI Enc _ _ _ hj _ b0 _).
-        - rewrite <- app_assoc. exact v1.
-        - rewrite MID. exact v0.
-        - intros e ie. apply plains. apply in_or_app. right. apply in_flat_map. exists z. split; [exact iz | exact ie].
-        - intros th' hth'. specialize (Def th' hth'). rewrite Forall_forall in Def. exact (Def jt ij).
-        - rewrite <- Rmult_minus_distr_l, Rabs_mult, (Rabs_pos_eq ratio) by lra. fold ratio. apply Rmult_le_compat_l; [lra | exact hy]. }
-      apply all_some_related in ej. unfold offsets. clear - ej LEN LEN0 hr One.
+        Formula.value x theta (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l P Q) -> Formula.value x theta0 (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l0 P Q) ->
+        near_joint_of s ps place plain_place error b z = Some jt -> Rabs (r - strut_length l0 P Q) <= Claim.value error ->
+        off_by bits tape plain all theta (dimension k) x (ratio * dist) (place w) (jt, (map place (fst (changed_row k ell ps ns z)), place (snd (z_row z)))) ((r - strut_length l P Q) / dist)).
+      { intros z l l0 jt r iz ij v1 v0 s1 s0 hj hy. unfold near_joint_of in hj. destruct (joint_test _ _ _ _ _ _ _) as [jt1 |] eqn:e1; [| discriminate]. destruct (changes_of bits place _ _ _ _) as [hs2 |] eqn:e2; [| discriminate].
+        destruct (is_polynomial [] [] (snd (z_row z))) eqn:po; [| discriminate]. injection hj as <-. unfold joint_test in e1. destruct (enclose_parameter bits (exactly (Over error b), 0%Z)) as [err |] eqn:ee; [| discriminate].
+        destruct (changes_of bits plain_place _ _ _ _) as [hs1 |] eqn:e3; [| discriminate]. injection e1 as <-.
+        assert (Fo : forall e, In e (own_length z :: map snd (slopes_of ps (own_length z))) -> formula_at plain (plain_place e) = e)
+          by (intros e i; apply plains, in_or_app; right; apply in_flat_map; exists z; split; assumption).
+        assert (In_ : forall f', In f' (map snd (slopes_of ps (snd (z_row z)))) -> In f' wanted)
+          by (intros f' i; apply signs, in_flat_map; exists z; split; [exact iz | apply in_or_app; right; exact i]).
+        destruct (nominal_differs bits s b ps (th ++ [ratio * L]) tb all plain_place (own_length z) x hs1 PSI Enc e3) as [q1 [th1 [t1 [a1 [a2 a3]]]]];
+          [intros th' hth'; specialize (Def th' hth'); rewrite Forall_forall in Def; specialize (Def _ ij); cbn [fst] in Def; rewrite (Fo _ (or_introl eq_refl)) in Def; exact Def | exact b0 |].
+        destruct (nominal_differs bits s b ps (th ++ [ratio * L]) tb all place (snd (z_row z)) x hs2 PSI Enc e2 (fun th' _ => whole_defined x th' _ po) b0) as [q2 [th2 [t2 [c1 [c2 c3]]]]].
+        fold ratio dist in a3, c3. rewrite <- app_assoc, MID in a3, c3. change (th ++ [ratio * L] ++ tb) with theta in a3, c3. rewrite v1, v0 in a3. rewrite s1, s0 in c3.
+        exists ((ratio * strut_length l0 P Q - ratio * strut_length l P Q) / (ratio * dist)), ((r - strut_length l0 P Q) / dist),
+          ((W * ratio ^ 2 * norm2 (strut_vector l0 P Q) - W * ratio ^ 2 * norm2 (strut_vector l P Q)) / (ratio * dist)). split; [| split; [| split; [exists th1, t1; split; [exact a1 | split; [exact a2 |]] | split; [exists th2, t2; split; [exact c1 | split; [| ]] |]]]].
+        - field. split; lra.
+        - cbn [fst snd]. exists (Claim.value error / dist). split.
+          + apply (enclose_parameter_sound bits _ _ _ ee). exists (Claim.value error / dist). split; [unfold within, exactly; cbn; split; apply Rle_refl |]. cbn [snd]. change (two_to 0) with 1. field. lra.
+          + unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ dist)) by (apply Rlt_le, Rinv_0_lt_compat, b0). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, b0 | exact hy].
+        - cbn [fst snd]. rewrite a3. f_equal. symmetry. apply (values_at (fun i => Formula.value x th1 (formula_at plain i)) _ plain_place hs1 _ q1). intros e i. rewrite (Fo e (or_intror i)). reflexivity.
+        - cbn [fst snd]. unfold changed_row. cbn [fst]. rewrite map_app, <- (Columns z iz), <- (map_length place), skipn_app, skipn_all, Nat.sub_diag. cbn [app skipn]. rewrite <- q2, combine_back. exact c2.
+        - cbn [fst snd]. unfold changed_row. cbn [fst]. rewrite map_app, <- (Columns z iz), <- (map_length place), skipn_app, skipn_all, Nat.sub_diag. cbn [app skipn]. rewrite <- q2, combine_back.
+          rewrite c3. f_equal. symmetry. apply (values_at (fun i => at_pairs th2 (entry_at tape i) (parabola x)) _ place hs2 _ q2). intros e i.
+          assert (E : entry_at tape (place e) = image (dimension k) e) by (apply Formula.same_sound, found, In_, i). rewrite E, <- lx. apply image_value. rewrite lx. apply below_, In_, i.
+        - cbn [fst snd]. intros q q0 eq_. rewrite Weight, (Found (snd (z_row z))), s1, <- !Length2 in *
+            by (apply in_or_app; left; apply in_flat_map; exists (z_row z); split; [apply in_map, iz | apply in_or_app; right; left; reflexivity]).
+          assert (e : q = W * (ratio * strut_length l P Q)).
+          { assert (p : 0 <= W * (ratio * strut_length l P Q)) by (apply Rmult_le_pos; [lra | apply Rmult_le_pos; [lra | apply sqrt_pos]]). assert (q ^ 2 = (W * (ratio * strut_length l P Q)) ^ 2) by (rewrite eq_; ring). nra. }
+          rewrite e. field. split; lra. }
+      apply all_some_related in ej. unfold offsets. clear - ej LEN LEN0 SQ SQ0 hr One.
       assert (K : forall zs' m' l0s' rho' js', (forall z, In z zs' -> In z zs) -> (forall q, In q js' -> In q js) -> Forall2 (fun z l => Formula.value x theta (own_length z) = ratio * strut_length l P Q) zs' m' ->
         Forall2 (fun z l => Formula.value x theta0 (own_length z) = ratio * strut_length l P Q) zs' l0s' -> Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) l0s' rho' ->
-        Forall2 (fun z jt => joint_test bits plain_place ps s error b (own_length z) = Some jt) zs' js' ->
-        Forall2 (Check.may_be_off bits plain all x) js' (map (fun p => (snd p - strut_length (fst p) P Q) / dist) (combine m' rho'))).
-      { induction zs' as [| z zs' IH]; intros m' l0s' rho' js' sub1 sub2 h1 h2 h3 h4; inversion h1 as [| ? l ? m'' a1 a2]; subst; inversion h2 as [| ? l0 ? l0s'' b1 b2]; subst; inversion h3 as [| ? r ? rho'' c1 c2]; subst;
-          inversion h4 as [| ? jt ? js'' d1 d2]; subst; cbn [combine map]; constructor.
-        - cbn [fst snd]. exact (One z l l0 jt r (sub1 _ (or_introl eq_refl)) (sub2 _ (or_introl eq_refl)) a1 b1 d1 c1).
-        - exact (IH _ _ _ _ (fun y i => sub1 y (or_intror i)) (fun y i => sub2 y (or_intror i)) a2 b2 c2 d2). }
-      exact (K zs m _ rho js (fun _ i => i) (fun _ i => i) LEN LEN0 hr ej). }
+        Forall2 (fun z l => Formula.value x theta (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l P Q)) zs' m' ->
+        Forall2 (fun z l => Formula.value x theta0 (snd (z_row z)) = W * ratio ^ 2 * norm2 (strut_vector l P Q)) zs' l0s' ->
+        Forall2 (fun z jt => near_joint_of s ps place plain_place error b z = Some jt) zs' js' ->
+        Forall2 (off_by bits tape plain all theta (dimension k) x (ratio * dist) (place w)) (combine js' (map_rows place (map (changed_row k ell ps ns) zs'))) (map (fun p => (snd p - strut_length (fst p) P Q) / dist) (combine m' rho'))).
+      { induction zs' as [| z zs' IH]; intros m' l0s' rho' js' sub1 sub2 h1 h2 h3 h5 h6 h4; inversion h1 as [| ? l ? m'' a1 a2]; subst; inversion h2 as [| ? l0 ? l0s'' b1 b2]; subst; inversion h3 as [| ? r ? rho'' c1 c2]; subst;
+          inversion h4 as [| ? jt ? js'' d1 d2]; subst; inversion h5 as [| ? ? ? ? f1 f2]; subst; inversion h6 as [| ? ? ? ? g1 g2]; subst; cbn [combine map map_rows]; constructor.
+        - cbn [fst snd]. exact (One z l l0 jt r (sub1 _ (or_introl eq_refl)) (sub2 _ (or_introl eq_refl)) a1 b1 f1 g1 d1 c1).
+        - exact (IH _ _ _ _ (fun y i => sub1 y (or_intror i)) (fun y i => sub2 y (or_intror i)) a2 b2 c2 f2 g2 d2). }
+      exact (K zs m _ rho js (fun _ i => i) (fun _ i => i) LEN LEN0 hr SQ SQ0 ej). }
     (* what each part shows *)
     assert (PART : forall last, (last = false -> k <> AboutPoint) -> forall rho, Forall2 (fun l r => Rabs (r - strut_length l P Q) <= Claim.value error) (nominal_struts ts) rho -> exists g_, 0 <= g_ /\
       (forall u, inside f (dimension k) u -> Forall (fun z => Formula.defined (near u) theta (snd (z_moved z unit))) zs /\
         forall v, length v = dimension k -> size (less (Twofold.image (J u) v) (Twofold.image (J (nought (dimension k))) v)) <= g_ * (norm f v * norm f u)) /\
-      exists kappa z e lr, g_ < kappa /\ 0 <= z /\ z + g_ / (2 * kappa) <= 1 /\ length e = dimension k /\ (forall i, (i < dimension k)%nat -> 0 < nth i e 0) /\
-        (forall i, (i < dimension k)%nat -> (if last : bool then f <= i else i < f)%nat -> nth i e 0 = 1) /\ length lr = dimension k /\ Forall (fun p => 0 <= fst p /\ 0 < snd p) lr /\
-        Forall2 (fun b p => Rabs b <= fst p) (offsets m P Q dist rho) lr /\
-        forall v, length v = dimension k -> let R_ := map_rows (Formula.value x theta) arows in let p := Solve.weighted_sum v (map (Twofold.scaled e) (map fst R_)) in
+      exists kappa z e Bs, g_ < kappa /\ 0 <= z /\ z + g_ / (2 * kappa) <= 1 /\ length e = dimension k /\ (forall i, (i < dimension k)%nat -> 0 < nth i e 0) /\
+        (forall i, (i < dimension k)%nat -> (if last : bool then f <= i else i < f)%nat -> nth i e 0 = 1) /\ Forall2 (is_bounded W) (offsets m P Q dist rho) (combine (map_rows (Formula.value x theta) trows) Bs) /\
+        forall v, length v = dimension k -> let R_ := map_rows (Formula.value x theta) trows in let p := Solve.weighted_sum v (map (Twofold.scaled e) (map fst R_)) in
           kappa ^ 2 * W * Linear.dot (map snd R_) (squares v) <= Linear.dot p p /\
-          forall q, 0 < Linear.dot v v + q ^ 2 -> 0 < Linear.dot p p - 2 * Rabs q * W * Linear.dot (bounds_real lr W (map snd R_)) (map Rabs v) + W ^ 2 * z ^ 2 * q ^ 2).
+          forall q, 0 < Linear.dot v v + q ^ 2 -> 0 < Linear.dot p p - 2 * Rabs q * W * Linear.dot Bs (map Rabs v) + W ^ 2 * z ^ 2 * q ^ 2).
     { intros last hq rho hr. pose proof (PF last hq) as F. unfold pose_found in F. cbn [mk n_weight n_joints n_first n_rows n_far n_reach n_distance n_turn n_last] in F. rewrite Weight in F.
       destruct (F W0) as [Def [_ [_ [_ [_ [_ G]]]]]]. specialize (G (ratio * dist) tau HD HTau D0 t0 (offsets m P Q dist rho) (OFFS Def rho hr)). destruct G as [g_ [g0 [G1 G2]]]. exists g_. split; [exact g0 |]. split.
       - intros u hu. destruct (G1 u hu) as [d1 d2]. split; [| exact d2]. rewrite Forall_map in d1. rewrite Forall_forall in d1 |- *. intros z iz.
         pose proof (d1 z iz) as dz. cbv beta in dz. change (nth (plain_place (snd (z_moved z unit))) (formulas plain) (integer 0)) with (formula_at plain (plain_place (snd (z_moved z unit)))) in dz.
         rewrite (Plain z iz) in dz by (apply in_or_app; right; left; reflexivity). exact dz.
-      - assert (RA : map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place arows) = map_rows (Formula.value x theta) arows).
-        { apply RowsOf. intros f' i'. apply in_flat_map in i' as [row [ir i']]. unfold arows in ir. apply in_map_iff in ir as [z [<- iz]]. apply in_app_or in i' as [i' | [<- | []]].
+      - assert (RA : own_columns (dimension k) (map_rows (fun i => at_pairs theta (entry_at tape i) (parabola x)) (map_rows place arows)) = map_rows (Formula.value x theta) trows).
+        { rewrite RowsOf; [unfold own_columns, map_rows, arows, trows; rewrite !map_map; apply map_ext_in; intros z iz; cbn [fst snd changed_row]; f_equal;
+            rewrite map_app, <- (Columns z iz), <- (map_length (Formula.value x theta)), firstn_app, firstn_all, Nat.sub_diag; apply app_nil_r |]. intros f' i'. apply in_flat_map in i' as [row [ir i']]. unfold arows in ir. apply in_map_iff in ir as [z [<- iz]]. apply in_app_or in i' as [i' | [<- | []]].
           - apply signs. apply in_flat_map. exists z. split; assumption.
           - apply in_or_app. left. apply in_flat_map. exists (z_row z). split; [apply in_map, iz | apply in_or_app; right; left; reflexivity]. }
         rewrite RA in G2. exact G2. }
@@ -1453,7 +1510,7 @@ Proof.
       - inversion d; subst. apply h; [exact (proj1 hu) | assumption].
       - inversion d; subst. apply IH. assumption. }
     (* rows at control points are those, times some numbers *)
-    assert (ROWS : Forall2 (fun p row => exists q, 0 < q /\ q ^ 2 = W * snd p /\ fst p = map (Rmult q) row) (map_rows (Formula.value x theta) arows) (J (nought (dimension k)))).
+    assert (ROWS : Forall2 (fun p row => exists q, 0 < q /\ q ^ 2 = W * snd p /\ fst p = map (Rmult q) row) (map_rows (Formula.value x theta) trows) (J (nought (dimension k)))).
     { assert (TR : Forall2 (fun z l => forall row, is_far_row k dist tau l P Q vzero row -> exists q, 0 < q /\ q ^ 2 = W * Formula.value x theta (snd (turned_row k ell ns z)) /\
         map (Formula.value x theta) (fst (turned_row k ell ns z)) = map (Rmult q) row) zs m).
       { apply (RS _ _ _ []). intros a b' l [Ha _] [Hb _]. cbn [app] in Ha, Hb. pose proof (Ha x back) as hsa. pose proof (Hb x back) as hsb.
@@ -1470,28 +1527,28 @@ Proof.
       rewrite JE. pose proof (FARS _ hz) as FZ. rewrite JE in FZ.
       assert (P0 : position_at k P dist (nought (dimension k)) = P) by (unfold position_at; assert (Z1 : shift_of k (nought (dimension k)) = vzero) by (destruct k; reflexivity); rewrite Z1; destruct P as [p1 p2 p3]; unfold vadd, vscale, vzero; cbn [vx vy vz]; f_equal; ring).
       assert (C0 : vscale tau (spin_of k (nought (dimension k))) = vzero) by (assert (Z1 : spin_of k (nought (dimension k)) = vzero) by (destruct k; reflexivity); rewrite Z1; unfold vscale, vzero; cbn [vx vy vz]; f_equal; ring).
-      unfold turn_at in FZ. rewrite P0, C0, not_moved in FZ. unfold arows, map_rows. rewrite map_map. clear - TR FZ. revert FZ. generalize (near (nought (dimension k))). intros y FZ.
+      unfold turn_at in FZ. rewrite P0, C0, not_moved in FZ. unfold trows, map_rows. rewrite map_map. clear - TR FZ. revert FZ. generalize (near (nought (dimension k))). intros y FZ.
       revert FZ. induction TR as [| z l zs' m' h hs IH]; intro FZ; cbn [map] in *; constructor; inversion FZ as [| ? ? ? ? f1 f2]; subst; [cbn [fst snd]; exact (h _ f1) | exact (IH f2)]. }
     apply (struts_recovered k (nominal_struts ts) m P Q error b angle J b0 a0 ia).
     + unfold nominal_struts. rewrite map_length, <- lm. exact (related_length _ _ _ _ _ hm).
     + exact lm.
     + intro u. rewrite JE, map_length. exact lz.
     + exact FARS.
-    + intros rho hr. fold dist. destruct (PART true ltac:(discriminate) rho hr) as [g1 [g10 [G1 [k1 [z1 [e1 [lr1 [c1 [c2 [c3 [c4 [c5 [c6 [c7 [c8 [c9 c10]]]]]]]]]]]]]]]].
+    + intros rho hr. fold dist. destruct (PART true ltac:(discriminate) rho hr) as [g1 [g10 [G1 [k1 [z1 [e1 [Bs1 [c1 [c2 [c3 [c4 [c5 [c6 [c7 c8]]]]]]]]]]]]]].
       assert (LJ : length (J (nought (dimension k))) = dimension k) by (rewrite JE, map_length; exact lz).
       assert (Less : forall g_ kp z, 0 <= g_ -> forall g', 0 <= g' <= g_ -> g_ < kp -> z + g_ / (2 * kp) <= 1 -> g' < kp /\ z + g' / (2 * kp) <= 1).
       { intros g_ kp z p0 g' [p1 p2] p3 p4. split; [lra |]. assert (g' / (2 * kp) <= g_ / (2 * kp)); [| lra]. unfold Rdiv. apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra | exact p2]. }
       destruct (motion_dec k) as [ek | nk].
       * exists g1. split; [exact g10 |]. split; [intros u v hu lv; destruct (G1 u hu) as [_ h]; specialize (h v lv); fold f; lra |]. intros [|].
-        -- right. apply (met_of f (dimension k) J g1 _ true W _ k1 z1 e1 lr1 W0 LJ ROWS); assumption.
+        -- right. apply (met_of f (dimension k) J g1 _ true W _ k1 z1 e1 Bs1 W0 LJ ROWS); assumption.
         -- left. rewrite ek. reflexivity.
-      * destruct (PART false ltac:(intros _; exact nk) rho hr) as [g2 [g20 [G2 [k2 [z2 [e2 [lr2 [d1 [d2 [d3 [d4 [d5 [d6 [d7 [d8 [d9 d10]]]]]]]]]]]]]]]].
+      * destruct (PART false ltac:(intros _; exact nk) rho hr) as [g2 [g20 [G2 [k2 [z2 [e2 [Bs2 [d1 [d2 [d3 [d4 [d5 [d6 [d7 d8]]]]]]]]]]]]]].
         exists (Rmin g1 g2). assert (M1 : 0 <= Rmin g1 g2 <= g1) by (split; [apply Rmin_glb; assumption | apply Rmin_l]). assert (M2 : 0 <= Rmin g1 g2 <= g2) by (split; [apply Rmin_glb; assumption | apply Rmin_r]).
         split; [apply M1 |]. split.
         { intros u v hu lv. destruct (G1 u hu) as [_ h1], (G2 u hu) as [_ h2]. specialize (h1 v lv). specialize (h2 v lv). fold f. unfold Rmin. destruct (Rle_dec g1 g2); lra. }
         intros [|]; right.
-        -- destruct (Less g1 k1 z1 g10 _ M1 c1 c3) as [q1 q2]. apply (met_of f (dimension k) J _ _ true W _ k1 z1 e1 lr1 W0 LJ ROWS); assumption.
-        -- destruct (Less g2 k2 z2 g20 _ M2 d1 d3) as [q1 q2]. apply (met_of f (dimension k) J _ _ false W _ k2 z2 e2 lr2 W0 LJ ROWS); assumption.
+        -- destruct (Less g1 k1 z1 g10 _ M1 c1 c3) as [q1 q2]. apply (met_of f (dimension k) J _ _ true W _ k1 z1 e1 Bs1 W0 LJ ROWS); assumption.
+        -- destruct (Less g2 k2 z2 g20 _ M2 d1 d3) as [q1 q2]. apply (met_of f (dimension k) J _ _ false W _ k2 z2 e2 Bs2 W0 LJ ROWS); assumption.
 Qed.
 End Precision.
 

@@ -416,9 +416,11 @@ Local Notation contains := (contains bits).
 Variable one_matrix : N * list (list Z).
 
 Definition ends_at (place : formula -> nat) (u : evec) : spatial nat := Spatial (place (ex u)) (place (ey u)) (place (ez u)).
+(** Half widths, and where the derivatives by these parameters are. *)
+Definition changes_of (place : formula -> nat) (ps : list parameter) (s : Z) (b : number) (f : formula) : option (list (fixed * nat)) :=
+  all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) (slopes_of ps f)).
 Definition joint_test (place : formula -> nat) (ps : list parameter) (s : Z) (error b : number) (f : formula) : option (nat * (fixed * list (fixed * nat))) :=
-  match enclose_parameter bits (exactly (Over error b), 0%Z),
-    all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) (slopes_of ps f)) with
+  match enclose_parameter bits (exactly (Over error b), 0%Z), changes_of place ps s b f with
   | Some e, Some hs => Some (place f, (e, hs))
   | _, _ => None
   end.
@@ -1439,20 +1441,15 @@ Proof.
   rewrite (is_value _ _ _ _ z). ring.
 Qed.
 
-(** What a joint coordinate near that of the nominal machine is off by: the mean value theorem, on the way there. *)
-Lemma joint_is_off : forall s b error ps th tb params tape f x y y1 y0 j,
-  let ratio := / two_to s in
+(** What a formula differs by from that of the nominal machine: the mean value theorem, on the way there. *)
+Lemma nominal_differs : forall s b ps th tb params place f x hs,
   Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
-  value x (th ++ tb) f = y1 -> value x (map middle_of ps ++ tb) f = y0 ->
-  (forall e, In e (f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
-  joint_test (place (formulas tape)) ps s error b f = Some j -> (forall th, Forall2 contains params th -> defined x th (formula_at tape (fst j))) ->
-  0 < Claim.value b -> Rabs (y - y0) <= ratio * Claim.value error ->
-  may_be_off bits tape params x j ((y - y1) / (ratio * Claim.value b)).
+  changes_of place ps s b f = Some hs -> (forall th, Forall2 contains params th -> defined x th f) -> 0 < Claim.value b ->
+  map snd hs = map place (map snd (slopes_of ps f)) /\ exists th' ts, Forall2 contains params th' /\ Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs ts /\
+    (value x (map middle_of ps ++ tb) f - value x (th ++ tb) f) / (/ two_to s * Claim.value b) = Linear.dot ts (map (value x th') (map snd (slopes_of ps f))).
 Proof.
-  intros s b error ps th tb params tape f x y y1 y0 j ratio hth E R1 R0 found ht def b0 hy.
-  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0. set (D := ratio * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption).
-  unfold joint_test in ht. destruct (enclose_parameter bits (exactly (Over error b), 0%Z)) as [ie |] eqn:ee; [| discriminate].
-  destruct (all_some _) as [hs |] eqn:eh; [| discriminate]. injection ht as <-. cbn [fst snd] in def. rewrite (found (f)) in def by (left; reflexivity).
+  intros s b ps th tb params place f x hs hth E eh def b0.
+  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. set (D := / two_to s * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption).
   assert (len : length th = length (map middle_of ps)) by (rewrite map_length, (related_length _ _ _ _ _ hth); reflexivity).
   set (seg t := on_the_way t th (map middle_of ps) ++ tb). set (rate j := nth j (map middle_of ps ++ tb) 0 - nth j (th ++ tb) 0).
   assert (In_ : forall t, 0 <= t <= 1 -> Forall2 contains params (seg t)) by (intros t h; apply E, on_the_way_within; assumption).
@@ -1466,32 +1463,51 @@ Proof.
     - intros k n. exact (others_are_exact tb ps th k hth n).
     - apply def, In_, h. }
   destruct (MeanValue.mean_value_theorem _ _ 0 1 Rlt_0_1 Dv) as [t [M ht]]. cbv beta in M. unfold seg in M at 1 2. destruct (on_the_way_ends _ _ len) as [w0 w1]. rewrite w0, w1 in M.
-  rewrite R1, R0 in M.
   rewrite terms_of, without_zeros in M. fold (slopes_of ps f) in M.
-  exists (seg t), ((y - y0) / D), (map (fun p => rate (fst p) / D) (slopes_of ps f)). cbn [fst snd]. split; [apply In_; lra |]. split.
+  assert (T : forall p, In p (slopes_of ps f) -> forall a, enclose_parameter bits (half_width s b (nth (fst p) ps none)) = Some a -> exists v, contains a v /\ Rabs (rate (fst p) / D) <= v).
+  { intros p ip a e. set (q := nth (fst p) ps none) in *. exists (width q / D). split.
+    - apply (enclose_parameter_sound bits _ _ _ e). unfold half_width. eexists. split; [unfold within, exactly; cbn; split; apply Rle_refl |]. cbn [snd].
+      rewrite two_to_less. unfold width, D. pose proof (two_to_pos s). pose proof (two_to_pos (snd q)). cbn. field. repeat split; lra.
+    - apply filter_In in ip as [ip _]. destruct p as [k n]. apply in_combine_l in ip. apply filter_In in ip as [ip _]. apply in_seq in ip. cbn [fst] in *.
+      pose proof (way_length tb ps th k hth) as W. cbv zeta in W. destruct (Nat.ltb_spec k (length ps)); [| lia].
+      unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact W]. }
+  assert (G : forall sl hs, (forall p, In p sl -> In p (slopes_of ps f)) ->
+    all_some (map (fun p => option_map (fun a => (a, place (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) sl) = Some hs ->
+    map snd hs = map place (map snd sl) /\ Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs (map (fun p => rate (fst p) / D) sl) /\
+    fold_right (fun p sum => rate (fst p) * value x (seg t) (snd p) + sum) 0 sl / D = Linear.dot (map (fun p => rate (fst p) / D) sl) (map (value x (seg t)) (map snd sl))).
+  { induction sl as [| p sl IH]; intros hs' sub eh'; cbn [map all_some] in eh'; [injection eh' as <-; split; [reflexivity |]; split; [constructor | cbn; field; lra] |].
+    destruct (enclose_parameter bits (half_width s b (nth (fst p) ps none))) as [a |] eqn:ea; [| discriminate]. cbn [option_map] in eh'. destruct (all_some (map _ sl)) as [hs'' |]; [| discriminate]. injection eh' as <-.
+    destruct (IH hs'' (fun q i => sub q (or_intror i)) eq_refl) as [I1 [I2 I3]]. cbn [map snd fold_right Linear.dot]. rewrite I1, <- I3. split; [reflexivity |].
+    split; [constructor; [exact (T p (sub p (or_introl eq_refl)) a ea) | exact I2] | field; lra]. }
+  destruct (G _ hs (fun p i => i) eh) as [G1 [G2 G3]]. split; [exact G1 |]. exists (seg t), (map (fun p => rate (fst p) / D) (slopes_of ps f)). split; [apply In_; lra |]. split; [exact G2 |].
+  rewrite <- G3. f_equal. lra.
+Qed.
+
+(** What a joint coordinate near that of the nominal machine is off by. *)
+Lemma joint_is_off : forall s b error ps th tb params tape f x y y1 y0 j,
+  let ratio := / two_to s in
+  Forall2 scaled_within ps th -> (forall th', Forall2 scaled_within ps th' -> Forall2 contains params (th' ++ tb)) ->
+  value x (th ++ tb) f = y1 -> value x (map middle_of ps ++ tb) f = y0 ->
+  (forall e, In e (f :: map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) ->
+  joint_test (place (formulas tape)) ps s error b f = Some j -> (forall th, Forall2 contains params th -> defined x th (formula_at tape (fst j))) ->
+  0 < Claim.value b -> Rabs (y - y0) <= ratio * Claim.value error ->
+  may_be_off bits tape params x j ((y - y1) / (ratio * Claim.value b)).
+Proof.
+  intros s b error ps th tb params tape f x y y1 y0 j ratio hth E R1 R0 found ht def b0 hy.
+  pose proof (Rinv_0_lt_compat _ (two_to_pos s)) as r0. fold ratio in r0. set (D := ratio * Claim.value b). assert (D0 : 0 < D) by (apply Rmult_lt_0_compat; assumption).
+  unfold joint_test in ht. destruct (enclose_parameter bits (exactly (Over error b), 0%Z)) as [ie |] eqn:ee; [| discriminate].
+  destruct (changes_of _ _ _ _ _) as [hs |] eqn:eh; [| discriminate]. injection ht as <-. cbn [fst snd] in def. rewrite (found f) in def by (left; reflexivity).
+  destruct (nominal_differs s b ps th tb params _ f x hs hth E eh def b0) as [eq_ [th' [ts [h1 [h2 h3]]]]]. fold ratio D in h3. rewrite R1, R0 in h3.
+  exists th', ((y - y0) / D), ts. cbn [fst snd]. split; [exact h1 |]. split.
   - exists (Claim.value error / Claim.value b). split.
     + apply (enclose_parameter_sound bits _ _ _ ee). exists (Claim.value error / Claim.value b). split; [unfold within, exactly; cbn; lra |]. cbn [snd]. change (two_to 0) with 1. field. lra.
     + unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0).
       replace (Claim.value error * / Claim.value b) with (ratio * Claim.value error * / D) by (unfold D; field; lra). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact hy].
-  - assert (T : forall p, In p (slopes_of ps f) -> forall a, enclose_parameter bits (half_width s b (nth (fst p) ps none)) = Some a -> exists v, contains a v /\ Rabs (rate (fst p) / D) <= v).
-    { intros p ip a e. set (q := nth (fst p) ps none) in *. exists (width q / D). split.
-      - apply (enclose_parameter_sound bits _ _ _ e). unfold half_width. eexists. split; [unfold within, exactly; cbn; split; apply Rle_refl |]. cbn [snd].
-        rewrite two_to_less. unfold width, D, ratio. pose proof (two_to_pos s). pose proof (two_to_pos (snd q)). cbn. field. repeat split; lra.
-      - apply filter_In in ip as [ip _]. destruct p as [k n]. apply in_combine_l in ip. apply filter_In in ip as [ip _]. apply in_seq in ip. cbn [fst] in *.
-        pose proof (way_length tb ps th k hth) as W. cbv zeta in W. destruct (Nat.ltb_spec k (length ps)); [| lia].
-        unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ D)) by (apply Rlt_le, Rinv_0_lt_compat, D0). apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat, D0 | exact W]. }
-    assert (Fo : forall p, In p (slopes_of ps f) -> formula_at tape (place (formulas tape) (snd p)) = snd p) by (intros p ip; apply found; right; apply in_map, ip).
-    assert (G : forall sl hs, (forall p, In p sl -> In p (slopes_of ps f)) ->
-      all_some (map (fun p => option_map (fun a => (a, place (formulas tape) (snd p))) (enclose_parameter bits (half_width s b (nth (fst p) ps none)))) sl) = Some hs ->
-      Forall2 (fun h t => exists a, contains (fst h) a /\ Rabs t <= a) hs (map (fun p => rate (fst p) / D) sl) /\ forall e,
-      fold_right (fun p sum => snd p * value x (seg t) (formula_at tape (snd (fst p))) + sum) e (combine hs (map (fun p => rate (fst p) / D) sl))
-      = e + fold_right (fun p sum => rate (fst p) * value x (seg t) (snd p) + sum) 0 sl / D).
-    { induction sl as [| p sl IH]; intros hs' sub eh'; cbn [map all_some] in eh'; [injection eh' as <-; split; [constructor | intro; cbn; field; lra] |].
-      destruct (enclose_parameter bits (half_width s b (nth (fst p) ps none))) as [a |] eqn:ea; [| discriminate]. cbn [option_map] in eh'. destruct (all_some (map _ sl)) as [hs'' |]; [| discriminate]. injection eh' as <-.
-      destruct (IH hs'' (fun q i => sub q (or_intror i)) eq_refl) as [I1 I2]. split; [cbn [map]; constructor; [exact (T p (sub p (or_introl eq_refl)) a ea) | exact I1] |].
-      intro e. cbn [map combine fold_right fst snd]. rewrite I2, (Fo p (sub p (or_introl eq_refl))). field. lra. }
-    destruct (G _ hs (fun p i => i) eh) as [G1 G2]. split; [exact G1 |]. rewrite G2.
-    replace (fold_right _ 0 (slopes_of ps f)) with (y0 - y1) by lra. field. lra.
+  - split; [exact h2 |]. assert (Fo : forall e, In e (map snd (slopes_of ps f)) -> formula_at tape (place (formulas tape) e) = e) by (intros e i; apply found; right; exact i).
+    clear found eh def. revert ts h2 h3. generalize dependent (map snd (slopes_of ps f)). intros l eq_ Fo ts h2 h3.
+    replace ((y - y1) / D) with ((y - y0) / D + (y0 - y1) / D) by (field; lra). rewrite h3. clear h3. revert l eq_ Fo.
+    induction h2 as [| [a i] t hs ts _ h2 IH]; intros [| e l] eq_ Fo; try discriminate; cbn [map Linear.dot combine fold_right fst snd]; [ring |].
+    cbn [map snd] in eq_. injection eq_ as -> eq_. rewrite <- (IH l eq_ (fun e i => Fo e (or_intror i))), (Fo e (or_introl eq_refl)). ring.
 Qed.
 
 Lemma row_divided : forall tape f l Q theta, (forall e, In e (list_of (f_divided f)) -> formula_at tape (place (formulas tape) e) = e) -> represents Q theta f l ->

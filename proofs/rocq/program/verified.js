@@ -4,18 +4,18 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(G){"use strict";var
-iT="spatial",pz="Invalid_argument",gC="precision",aC='"',iS=1255,py="inside",oD="(",oE=0x800,px="yaw",oA="range",oB="tree",oC="jsError",b3=0x8000,pw="sqrt(",oz=256,oy="obligation",e9="offset",ba="machine",ow="this quantity of such a mechanism in a claim that is refuted",ox="End_of_file",d6="strut",iR="center",e8="arm",iQ="Failure",pv="serial_margin",gL="parameters",cl=0xff,pu="bodies",pt="max_angle",i3="outside",gK="base_axis",iP="ENOENT",ps="singular",pr=122,ov="([^/]+)",pq="0",iO=0xf,e7=128,ou=0xdc00,po="Sys_blocked_io",pp="fd ",eZ="given",ot="ENOTEMPTY",aQ=248,gB="bound",os="Division_by_zero",pm="by",pn=1027,or="Sys_error",gJ="slider",oq="torsion",pl="postulate",op="proof",i2="joint_error",e6="refuted",d1="mechanism",gA="row",oo="EEXIST",pk="roll_pitch_yaw",gI="y",on="cube",dl="lower",pj="within",om="clearance",pi="turned",ol="control",gz="int_of_string",pg="definitions",ph="dependent",e5=1024,oj="from",ok="name",pf=" : flags Open_rdonly and Open_wronly are not compatible",oi="orthocert/2",pe="reach",oh=512,pc="base_joint",pd="witness",e4="-",a4="platform",og=0x7ff0,of="pitch",i1=": Not a directory",bq="min",pa="trim",d5="workspace",pb=" : file already exists",gy="split",o_='the failure "singular" of such a mechanism',i0="legs",o$="claim",iN="joint",dm=0xffffff,oe="platform_joint",od="formulas",oc="roll",gx="atlas",o8="nodes",o9="Out_of_memory",ob="psi_max",gH="orientation",gw=254,o7="angle",iZ="index out of bounds",oa="end",o6="one_to_one",gG="_bigarr02",n$=" : flags Open_text and Open_binary are not compatible",bN="drive",n_="coordinates",o5="holds",n9="lower_divided",n8="speed",o3="cylinder",o4="joints",ck=0xffff,o1="acceleration",e2="certified",e3="chords",o2=12520,iM="on",d0="accuracy",e1="axis",o0="no_cube",oZ="parallel_margin",n7='the drive "',iL="Unix.Unix_error",gF="fails",gv="tool",iK="mkdir",oY="rho",gE=1000,iJ="translational",oX="tolerances",n6="Stack_overflow",iY="characteristic_length",X="",iX="^",iI="places",gu=": No such file or directory",n5="/static/",d4=0x3f,n3="stiffness",n4="Not_found",dk="planar",eY="mode",oW="joint_speed",oV="Match_failure",n2="transmission",bp="anchor",oU="at",n1="joint_force",d3="leg",n0="joint_acceleration",gD="+",iH="rmdir",oT=0xf0,oS="spherical",nZ=1026,oQ="REJECTED",oR="undecided",br="max",b4="direction",nX="leg_angle",nY="orthoglide",e0="rank",oP="constraint_margin",gt="test",nV="Pervasives.do_at_exit",nW="utf8",bM=0x80,d2="conditioning",dZ="length",nU="Undefined_recursive_module",iW=")",nT="base",oO="quantity",nS="joint_range",gs="tilt",nR="Q2",oN="reference",nQ="point",oL="corner",oM=0xe0,nP="version",iV="z",oJ="to",oK=0xdfff,iG="compare: functional value",oI="Assert_failure",bP="/",oH="provenance",dj="radius",gr="side",bO="require",oG="format",nO="Q1",iU="ENOTDIR",nN="all",di="box",oF=250;function
+iT="spatial",pB="Invalid_argument",gE="precision",aE='"',iS=1255,pA="inside",oF="(",oG=0x800,pz="yaw",oC="range",oD="tree",oE="jsError",b4=0x8000,py="sqrt(",oB=256,oA="obligation",e9="offset",ba="machine",oy="this quantity of such a mechanism in a claim that is refuted",oz="End_of_file",d6="strut",iR="center",e8="arm",iQ="Failure",px="serial_margin",gN="parameters",cl=0xff,pw="bodies",pv="max_angle",i3="outside",gM="base_axis",iP="ENOENT",pu="singular",pt=122,ox="([^/]+)",ps="0",iO=0xf,e7=128,ow=0xdc00,pq="Sys_blocked_io",pr="fd ",eZ="given",ov="ENOTEMPTY",aQ=248,gD="bound",ou="Division_by_zero",po="by",pp=1027,ot="Sys_error",gL="slider",os="torsion",pn="postulate",or="proof",i2="joint_error",e6="refuted",d1="mechanism",gC="row",oq="EEXIST",pm="roll_pitch_yaw",gK="y",op="cube",dk="lower",pl="within",oo="clearance",pk="turned",on="control",gB="int_of_string",pi="definitions",pj="dependent",e5=1024,ol="from",om="name",ph=" : flags Open_rdonly and Open_wronly are not compatible",ok="orthocert/2",pg="reach",oj=512,pe="base_joint",pf="witness",e4="-",a4="platform",oi=0x7ff0,oh="pitch",i1=": Not a directory",br="min",pc="trim",d5="workspace",pd=" : file already exists",gA="split",pa='the failure "singular" of such a mechanism',i0="legs",pb="claim",iN="joint",dl=0xffffff,og="platform_joint",of="formulas",oe="roll",gz="atlas",o_="nodes",o$="Out_of_memory",od="psi_max",gJ="orientation",gy=254,o9="angle",iZ="index out of bounds",oc="end",o8="one_to_one",gI="_bigarr02",ob=" : flags Open_text and Open_binary are not compatible",bN="drive",oa="coordinates",o7="holds",n$="lower_divided",n_="speed",o5="cylinder",o6="joints",ck=0xffff,o3="acceleration",e2="certified",e3="chords",o4=12520,iM="on",d0="accuracy",e1="axis",o2="no_cube",o1="parallel_margin",n9='the drive "',iL="Unix.Unix_error",gH="fails",gx="tool",iK="mkdir",o0="rho",gG=1000,iJ="translational",oZ="tolerances",n8="Stack_overflow",iY="characteristic_length",X="",iX="^",iI="places",gw=": No such file or directory",n7="/static/",d4=0x3f,n5="stiffness",n6="Not_found",dj="planar",eY="mode",oY="joint_speed",oX="Match_failure",n4="transmission",bq="anchor",oW="at",n3="joint_force",d3="leg",n2="joint_acceleration",gF="+",iH="rmdir",oV=0xf0,oU="spherical",n1=1026,oS="REJECTED",oT="undecided",bs="max",b5="direction",nZ="leg_angle",n0="orthoglide",e0="rank",oR="constraint_margin",gv="test",nX="Pervasives.do_at_exit",nY="utf8",bM=0x80,d2="conditioning",dZ="length",nW="Undefined_recursive_module",iW=")",nV="base",oQ="quantity",nU="joint_range",gu="tilt",nT="Q2",oP="reference",nS="point",oN="corner",oO=0xe0,nR="version",iV="z",oL="to",oM=0xdfff,iG="compare: functional value",oK="Assert_failure",bP="/",oJ="provenance",di="radius",gt="side",bO="require",oI="format",nQ="Q1",iU="ENOTDIR",nP="all",dh="box",oH=250;function
 je(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
 e=X;for(;0<a;b+=e5,a-=e5)e+=d.apply(null,c.slice(b,b+Math.min(a,e5)));return e}function
-gN(b){if(G.Uint8Array)var
+gP(b){if(G.Uint8Array)var
 c=new(G.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
 e_(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gN(b);var
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gP(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
@@ -37,23 +37,23 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cN(c,d)}}function
-p1(b,a){if(b==0)return X;if(a.repeat)return a.repeat(b);var
+p3(b,a){if(b==0)return X;if(a.repeat)return a.repeat(b);var
 d=X,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d_(a){if(a.t==2)a.c+=p1(a.l-a.c.length,"\0");else
+d_(a){if(a.t==2)a.c+=p3(a.l-a.c.length,"\0");else
 a.c=je(a.c,0,a.c.length);a.t=0}function
 d$(a){a.t&6&&d_(a);return a.c}var
-Fs=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Fr(a){if(Fs)return Math.floor(Math.log2(a));var
+Ft=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Fs(a){if(Ft)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
 i8(c){var
 a=new(G.Float32Array)(1);a[0]=c;var
 b=new(G.Int32Array)(a.buffer);return b[0]|0}var
-pS=Math.pow(2,-24);function
-Fi(a){throw a}var
-at=[0];function
-pY(){Fi(at.Division_by_zero)}function
-F(b,c,a){this.lo=b&dm;this.mi=c&dm;this.hi=a&ck}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
+pU=Math.pow(2,-24);function
+Fj(a){throw a}var
+au=[0];function
+p0(){Fj(au.Division_by_zero)}function
+F(b,c,a){this.lo=b&dl;this.mi=c&dl;this.hi=a&ck}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
 F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
@@ -62,7 +62,7 @@ b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
 F(b,c,d)};F.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*pS|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pS|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+b=this.lo*a.lo,c=(b*pU|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pU|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
 F(b,c,d)};F.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};F.prototype.isNeg=function(){return this.hi<<16<0};F.prototype.and=function(a){return new
 F(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};F.prototype.or=function(a){return new
 F(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};F.prototype.xor=function(a){return new
@@ -77,25 +77,25 @@ c=this.hi<<16>>16;if(a<24)return new
 F(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
 F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&ck);return new
-F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dm;this.lo=this.lo<<1&dm};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dm;this.mi=(this.mi>>>1|this.hi<<23)&dm;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
+F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dl;this.lo=this.lo<<1&dl};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dl;this.mi=(this.mi>>>1|this.hi<<23)&dl;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
 F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
-b=this;if(a.isZero())pY();var
-d=b.hi^a.hi;if(b.hi&b3)b=b.neg();if(a.hi&b3)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&b3)c=c.neg();return c};F.prototype.mod=function(b){var
-a=this;if(b.isZero())pY();var
-d=a.hi;if(a.hi&b3)a=a.neg();if(b.hi&b3)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&b3)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&cl,this.mi>>16,this.mi>>8&cl,this.mi&cl,this.lo>>16,this.lo>>8&cl,this.lo&cl]};F.prototype.lo32=function(){return this.lo|(this.mi&cl)<<24};F.prototype.hi32=function(){return this.mi>>>8&ck|this.hi<<16};function
-gP(b,c,a){return new
+b=this;if(a.isZero())p0();var
+d=b.hi^a.hi;if(b.hi&b4)b=b.neg();if(a.hi&b4)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&b4)c=c.neg();return c};F.prototype.mod=function(b){var
+a=this;if(b.isZero())p0();var
+d=a.hi;if(a.hi&b4)a=a.neg();if(b.hi&b4)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&b4)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&cl,this.mi>>16,this.mi>>8&cl,this.mi&cl,this.lo>>16,this.lo>>8&cl,this.lo&cl]};F.prototype.lo32=function(){return this.lo|(this.mi&cl)<<24};F.prototype.hi32=function(){return this.mi>>>8&ck|this.hi<<16};function
+gR(b,c,a){return new
 F(b,c,a)}function
-gO(a){if(!isFinite(a)){if(isNaN(a))return gP(1,0,og);return a>0?gP(0,0,og):gP(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?b3:a>=0?0:b3;if(f)a=-a;var
-b=Fr(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-nZ)}else{a/=Math.pow(2,b-pn);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+gQ(a){if(!isFinite(a)){if(isNaN(a))return gR(1,0,oi);return a>0?gR(0,0,oi):gR(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?b4:a>=0?0:b4;if(f)a=-a;var
+b=Fs(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-n1)}else{a/=Math.pow(2,b-pp);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iO|f|b<<4;return gP(g,e,c)}function
+g=a|0;c=c&iO|f|b<<4;return gR(g,e,c)}function
 fb(a){return a.toArray()}function
-pG(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gG)for(var
+pI(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gI)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<ck)c.write(16,b.dims[a]);else{c.write(16,ck);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
@@ -117,7 +117,7 @@ e=fb(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fb(gO(b.get(a)));for(var
+e=fb(gQ(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
@@ -127,37 +127,37 @@ a=0;a<b.data.length/2;a++){var
 d=b.get(a);c.write(32,i8(d[1]));c.write(32,i8(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fb(gO(f[1]));for(var
+f=b.get(a),e=fb(gQ(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fb(gO(f[2]));for(var
+e=fb(gQ(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Fk(b,a){throw[0,b,a]}function
-p5(a){if(a.length<24){for(var
+Fl(b,a){throw[0,b,a]}function
+p7(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
 jf(e){for(var
 j=X,c=X,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bM){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bM;d++);if(d-b>oh){c.substr(0,1);j+=c;c=X;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(f<<6);if(f<oM){a=g-0x3080;if(a<bM)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(g<<6);if(f<oT){a=g-0xe2080;if(a<oE||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>ck)c+=String.fromCharCode(0xd7c0+(a>>10),ou+(a&0x3FF));else
+d=b+1;d<i&&(f=e.charCodeAt(d))<bM;d++);if(d-b>oj){c.substr(0,1);j+=c;c=X;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(f<<6);if(f<oO){a=g-0x3080;if(a<bM)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(g<<6);if(f<oV){a=g-0xe2080;if(a<oG||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>ck)c+=String.fromCharCode(0xd7c0+(a>>10),ow+(a&0x3FF));else
 c+=String.fromCharCode(a);if(c.length>e5){c.substr(0,1);j+=c;c=X}}return j+c}function
-b5(c,a,b){this.t=c;this.c=a;this.l=b}b5.prototype.toString=function(){switch(this.t){case
+b6(c,a,b){this.t=c;this.c=a;this.l=b}b6.prototype.toString=function(){switch(this.t){case
 9:return this.c;default:d_(this);case
-0:if(p5(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};b5.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return jf(a)};b5.prototype.slice=function(){var
+0:if(p7(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};b6.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return jf(a)};b6.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-b5(this.t,a,this.l)};function
-pJ(a){return new
-b5(0,a,a.length)}function
-a(a){return pJ(a)}function
-jd(c,b){Fk(c,a(b))}function
-aK(a){jd(at.Invalid_argument,a)}function
-pE(a){switch(a){case
+b6(this.t,a,this.l)};function
+pL(a){return new
+b6(0,a,a.length)}function
+a(a){return pL(a)}function
+jd(c,b){Fl(c,a(b))}function
+aL(a){jd(au.Invalid_argument,a)}function
+pG(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-EO(c,e){var
+EP(c,e){var
 b=G,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -171,40 +171,40 @@ b=G,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aK("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aL("Bigarray.create: unsupported kind");var
 d=new
-a(e*pE(c));return d}function
+a(e*pG(c));return d}function
 i9(c){var
 a=new(G.Int32Array)(1);a[0]=c;var
 b=new(G.Float32Array)(a.buffer);return b[0]}function
 fa(a){return new
 F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
 i_(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iO)==0?b&b3?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iO);if(c>0){a+=16;a*=Math.pow(2,c-pn)}else
-a*=Math.pow(2,-nZ);if(b&b3)a=-a;return a}function
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iO)==0?b&b4?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&iO);if(c>0){a+=16;a*=Math.pow(2,c-pp)}else
+a*=Math.pow(2,-n1);if(b&b4)a=-a;return a}function
 i4(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aK("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-E4(b,a){return new
-F(b&dm,b>>>24&cl|(a&ck)<<8,a>>>16&ck)}function
+a=0;a<d;a++){if(b[a]<0)aL("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+E5(b,a){return new
+F(b&dl,b>>>24&cl|(a&ck)<<8,a>>>16&ck)}function
 i$(a){return a.hi32()}function
 ja(a){return a.lo32()}function
-gM(){aK(iZ)}var
-EP=gG;function
-cM(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cM.prototype.caml_custom=EP;cM.prototype.offset=function(b){var
+gO(){aL(iZ)}var
+EQ=gI;function
+cM(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cM.prototype.caml_custom=EQ;cM.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aK("bigarray.js: invalid offset");if(this.dims.length!=b.length)aK("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gM();c=c*this.dims[a]+b[a]}else
+Array))aL("bigarray.js: invalid offset");if(this.dims.length!=b.length)aL("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gO();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gM();c=c*this.dims[a]+(b[a]-1)}return c};cM.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gO();c=c*this.dims[a]+(b[a]-1)}return c};cM.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return E4(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return E5(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gw,e,c];default:return this.data[a]}};cM.prototype.set=function(a,b){switch(this.kind){case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gy,e,c];default:return this.data[a]}};cM.prototype.set=function(a,b){switch(this.kind){case
 7:this.data[a*2+0]=ja(b);this.data[a*2+1]=i$(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cM.prototype.fill=function(b){switch(this.kind){case
@@ -241,21 +241,21 @@ cM();d7.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aK("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gM();return a};d7.prototype.get=function(a){return this.data[a]};d7.prototype.set=function(a,b){this.data[a]=b;return 0};d7.prototype.fill=function(a){this.data.fill(a);return 0};function
-pC(c,d,a,b){var
-e=pE(c);if(i4(a)*e!=b.length)aK("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+aL("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gO();return a};d7.prototype.get=function(a){return this.data[a]};d7.prototype.set=function(a,b){this.data[a]=b;return 0};d7.prototype.fill=function(a){this.data.fill(a);return 0};function
+pE(c,d,a,b){var
+e=pG(c);if(i4(a)*e!=b.length)aL("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
 d7(c,d,a,b);return new
 cM(c,d,a,b)}function
-bQ(b){if(!at.Failure)at.Failure=[aQ,a(iQ),-3];jd(at.Failure,b)}function
-pD(b,v,r){var
+bQ(b){if(!au.Failure)au.Failure=[aQ,a(iQ),-3];jd(au.Failure,b)}function
+pF(b,v,r){var
 i=b.read32s();if(i<0||i>16)bQ("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cl,o=p>>8&1,h=[];if(r==gG)for(var
+p=b.read32s(),j=p&cl,o=p>>8&1,h=[];if(r==gI)for(var
 a=0;a<i;a++){var
 n=b.read16u();if(n==ck){var
 t=b.read32u(),u=b.read32u();if(t!=0)bQ("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=i4(h),f=EO(j,d),g=pC(j,o,h,f);switch(j){case
+d=i4(h),f=EP(j,d),g=pE(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -288,7 +288,7 @@ a=0;a<d;a++){var
 k=i9(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=i9(b.read32s()),l=i9(b.read32s());g.set(a,[gw,m,l])}break;case
+m=i9(b.read32s()),l=i9(b.read32s());g.set(a,[gy,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
@@ -296,17 +296,17 @@ a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
 m=i_(fa(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=i_(fa(e));g.set(a,[gw,m,l])}break}v[0]=(4+i)*4;return pC(j,o,h,f)}function
-pB(a,b,c){return a.compare(b,c)}function
-pV(a,b){return Math.imul(a,b)}function
-cm(b,a){a=pV(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pV(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-E1(a,b){a=cm(a,ja(b));a=cm(a,i$(b));return a}function
-pR(a,b){return E1(a,gO(b))}function
-pF(c){var
+l=i_(fa(e));g.set(a,[gy,m,l])}break}v[0]=(4+i)*4;return pE(j,o,h,f)}function
+pD(a,b,c){return a.compare(b,c)}function
+pX(a,b){return Math.imul(a,b)}function
+cm(b,a){a=pX(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pX(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+E2(a,b){a=cm(a,ja(b));a=cm(a,i$(b));return a}function
+pT(a,b){return E2(a,gQ(b))}function
+pH(c){var
 b=i4(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>oz)b=oz;var
+12:if(b>oB)b=oB;var
 e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cm(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
@@ -323,75 +323,75 @@ a=0;a<b;a++)d=cm(d,c.data[a]);break;case
 a=0;a<b;a++)d=cm(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=pR(d,c.data[a]);break;case
+a=0;a<b;a++)d=pT(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=pR(d,c.data[a]);break}return d}function
-E2(a,b){b[0]=4;return a.read32s()}function
-Ff(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=pT(d,c.data[a]);break}return d}function
+E3(a,b){b[0]=4;return a.read32s()}function
+Fg(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bQ("input_value: native integer value too large");default:bQ("input_value: ill-formed native integer")}}function
-E7(c,d){var
+E8(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fa(b)}function
-E6(e,d,b){var
+E7(e,d,b){var
 c=fb(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-E3(a,b,c){return a.compare(b)}function
-E5(a){return a.lo32()^a.hi32()}var
-pM={"_j":{deserialize:E7,serialize:E6,fixed_length:8,compare:E3,hash:E5},"_i":{deserialize:E2,fixed_length:4},"_n":{deserialize:Ff,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pD(a,b,"_bigarray")},serialize:pG,compare:pB,hash:pF},"_bigarr02":{deserialize:function(a,b){return pD(a,b,gG)},serialize:pG,compare:pB,hash:pF}};function
-i7(a){return pM[a.caml_custom]&&pM[a.caml_custom].compare}function
-pK(f,c,d,e){var
+E4(a,b,c){return a.compare(b)}function
+E6(a){return a.lo32()^a.hi32()}var
+pO={"_j":{deserialize:E8,serialize:E7,fixed_length:8,compare:E4,hash:E6},"_i":{deserialize:E3,fixed_length:4},"_n":{deserialize:Fg,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pF(a,b,"_bigarray")},serialize:pI,compare:pD,hash:pH},"_bigarr02":{deserialize:function(a,b){return pF(a,b,gI)},serialize:pI,compare:pD,hash:pH}};function
+i7(a){return pO[a.caml_custom]&&pO[a.caml_custom].compare}function
+pM(f,c,d,e){var
 b=i7(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 jc(a){return a
 instanceof
-b5}function
-pT(a){return jc(a)}function
-pL(a){if(typeof
-a==="number")return gE;else
+b6}function
+pV(a){return jc(a)}function
+pN(a){if(typeof
+a==="number")return gG;else
 if(jc(a))return 252;else
-if(pT(a))return 1252;else
+if(pV(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gw?0:b}else
+b=a[0]|0;return b==gy?0:b}else
 if(a
 instanceof
-String)return o2;else
+String)return o4;else
 if(typeof
-a=="string")return o2;else
+a=="string")return o4;else
 if(a
 instanceof
-Number)return gE;else
+Number)return gG;else
 if(a&&a.caml_custom)return iS;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-E8(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pI(a,b){a.t&6&&d_(a);b.t&6&&d_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-p2(a,b){return pI(a,b)}function
+E9(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+pK(a,b){a.t&6&&d_(a);b.t&6&&d_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+p4(a,b){return pK(a,b)}function
 i6(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pL(a);if(f==oF){a=a[1];continue}var
-g=pL(b);if(g==oF){b=b[1];continue}if(f!==g){if(f==gE){if(g==iS)return pK(a,b,-1,d);return-1}if(g==gE){if(f==iS)return pK(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aK(iG);break;case
+f=pN(a);if(f==oH){a=a[1];continue}var
+g=pN(b);if(g==oH){b=b[1];continue}if(f!==g){if(f==gG){if(g==iS)return pM(a,b,-1,d);return-1}if(g==gG){if(f==iS)return pM(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aL(iG);break;case
 248:var
-c=E8(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aK(iG);break;case
-250:aK("equal: got Forward_tag, should not happen");break;case
-251:aK("equal: abstract value");break;case
+c=E9(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aL(iG);break;case
+250:aL("equal: got Forward_tag, should not happen");break;case
+251:aL("equal: abstract value");break;case
 252:if(a!==b){var
-c=pI(a,b);if(c!=0)return c|0}break;case
-253:aK("equal: got Double_tag, should not happen");break;case
-254:aK("equal: got Double_array_tag, should not happen");break;case
-255:aK("equal: got Custom_tag, should not happen");break;case
-1247:aK(iG);break;case
+c=pK(a,b);if(c!=0)return c|0}break;case
+253:aL("equal: got Double_tag, should not happen");break;case
+254:aL("equal: got Double_array_tag, should not happen");break;case
+255:aL("equal: got Custom_tag, should not happen");break;case
+1247:aL(iG);break;case
 1255:var
-i=i7(a);if(i!=i7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aK("compare: abstract value");var
+i=i7(a);if(i!=i7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aL("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -405,173 +405,173 @@ a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;ca
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-EW(a,b){return i6(a,b,true)}function
-b7(a){if(a<0)aK("Bytes.create");return new
-b5(a?2:9,X,a)}function
-pN(a,b){return+(i6(a,b,false)==0)}function
-EY(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=X;a.t=2}else{a.c=p1(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gN(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Fg=0;function
-pP(){return Fg++}function
-E_(a){return a.toUtf16()}function
+EX(a,b){return i6(a,b,true)}function
+b8(a){if(a<0)aL("Bytes.create");return new
+b6(a?2:9,X,a)}function
+pP(a,b){return+(i6(a,b,false)==0)}function
+EZ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=X;a.t=2}else{a.c=p3(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Fh=0;function
+pR(){return Fh++}function
+E$(a){return a.toUtf16()}function
 fc(){return typeof
 G.process!=="undefined"&&typeof
 G.process.versions!=="undefined"&&typeof
 G.process.versions.node!=="undefined"}function
-Ft(){function
+Fu(){function
 a(a){if(a.charAt(0)===bP)return[X,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||X,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
 d=a[1]||X,f=a[2]||X;return[d,c.substring(d.length+f.length)]}return}return fc()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
-jk=Ft();function
-p3(a){return a.slice(-1)!==bP?a+bP:a}if(fc()&&G.process&&G.process.cwd)var
+jk=Fu();function
+p5(a){return a.slice(-1)!==bP?a+bP:a}if(fc()&&G.process&&G.process.cwd)var
 e$=G.process.cwd().replace(/\\/g,bP);else
 var
-e$="/static";e$=p3(e$);function
-Fa(a){a=E_(a);if(!jk(a))a=e$+a;var
+e$="/static";e$=p5(e$);function
+Fb(a){a=E$(a);if(!jk(a))a=e$+a;var
 e=jk(a),d=e[1].split(bP),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Fo(e){for(var
+Fp(e){for(var
 f=X,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bM){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bM;d++);if(d-c>oh){b.substr(0,1);f+=b;b=X;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oE){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bM|a&d4)}else
-if(a<0xd800||a>=oK)b+=String.fromCharCode(oM|a>>12,bM|a>>6&d4,bM|a&d4);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ou||h>oK)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oT|a>>18,bM|a>>12&d4,bM|a>>6&d4,bM|a&d4)}if(b.length>e5){b.substr(0,1);f+=b;b=X}}return f+b}function
-ET(a){var
-b=9;if(!p5(a))b=8,a=Fo(a);return new
-b5(b,a,a.length)}function
-ea(a){return ET(a)}var
-Fw=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",oo,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iU,ot,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dq(d,f,e,a){var
-b=Fw.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bM;d++);if(d-c>oj){b.substr(0,1);f+=b;b=X;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<oG){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bM|a&d4)}else
+if(a<0xd800||a>=oM)b+=String.fromCharCode(oO|a>>12,bM|a>>6&d4,bM|a&d4);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ow||h>oM)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oV|a>>18,bM|a>>12&d4,bM|a>>6&d4,bM|a&d4)}if(b.length>e5){b.substr(0,1);f+=b;b=X}}return f+b}function
+EU(a){var
+b=9;if(!p7(a))b=8,a=Fp(a);return new
+b6(b,a,a.length)}function
+ea(a){return EU(a)}var
+Fx=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",oq,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iU,ov,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dp(d,f,e,a){var
+b=Fx.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
 c=[b,ea(f||X),ea(e||X)];return c}var
-pW={};function
-dn(a){return pW[a]}function
-dp(b,a){throw[0,b].concat(a)}function
-ES(a){return new
-b5(4,a,a.length)}function
-ak(a){jd(at.Sys_error,a)}function
-Fj(a){ak(a+gu)}function
-pH(){aK(iZ)}function
-ER(b,a){if(a>>>0>=b.l)pH();return i5(b,a)}function
-gQ(a){return a.l}function
-pA(){}function
-aI(a){this.data=a}aI.prototype=new
-pA();aI.prototype.truncate=function(a){var
-b=this.data;this.data=b7(a|0);e_(b,0,this.data,0,a)};aI.prototype.length=function(){return gQ(this.data)};aI.prototype.write=function(b,d,g,a){var
+pY={};function
+dm(a){return pY[a]}function
+dn(b,a){throw[0,b].concat(a)}function
+ET(a){return new
+b6(4,a,a.length)}function
+ak(a){jd(au.Sys_error,a)}function
+Fk(a){ak(a+gw)}function
+pJ(){aL(iZ)}function
+ES(b,a){if(a>>>0>=b.l)pJ();return i5(b,a)}function
+gS(a){return a.l}function
+pC(){}function
+aJ(a){this.data=a}aJ.prototype=new
+pC();aJ.prototype.truncate=function(a){var
+b=this.data;this.data=b8(a|0);e_(b,0,this.data,0,a)};aJ.prototype.length=function(){return gS(this.data)};aJ.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=b7(b+a),f=this.data;this.data=e;e_(f,0,this.data,0,c)}d8(d,g,this.data,b,a);return 0};aI.prototype.read=function(c,a,d,b){var
-e=this.length();e_(this.data,c,a,d,b);return 0};aI.prototype.read_one=function(a){return ER(this.data,a)};aI.prototype.close=function(){};aI.prototype.constructor=aI;function
+e=b8(b+a),f=this.data;this.data=e;e_(f,0,this.data,0,c)}d8(d,g,this.data,b,a);return 0};aJ.prototype.read=function(c,a,d,b){var
+e=this.length();e_(this.data,c,a,d,b);return 0};aJ.prototype.read_one=function(a){return ES(this.data,a)};aJ.prototype.close=function(){};aJ.prototype.constructor=aJ;function
 aX(b,a){this.content={};this.root=b;this.lookupFun=a}aX.prototype.nm=function(a){return this.root+a};aX.prototype.create_dir_if_needed=function(d){var
 c=d.split(bP),b=X;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bP;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aX.prototype.slash=function(a){return/\/$/.test(a)?a:a+bP};aX.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aI(d9(c[1]))}}};aX.prototype.exists=function(a){if(a==X)return 1;var
+aJ(d9(c[1]))}}};aX.prototype.exists=function(a){if(a==X)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aX.prototype.mkdir=function(c,e,d){var
-b=d&&dn(iL);if(this.exists(c))if(b)dp(b,dq(oo,iK,this.nm(c)));else
+b=d&&dm(iL);if(this.exists(c))if(b)dn(b,dp(oq,iK,this.nm(c)));else
 ak(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||X;if(!this.exists(a))if(b)dp(b,dq(iP,iK,this.nm(a)));else
-ak(a+gu);if(!this.is_dir(a))if(b)dp(b,dq(iU,iK,this.nm(a)));else
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||X;if(!this.exists(a))if(b)dn(b,dp(iP,iK,this.nm(a)));else
+ak(a+gw);if(!this.is_dir(a))if(b)dn(b,dp(iU,iK,this.nm(a)));else
 ak(a+i1);this.create_dir_if_needed(this.slash(c))};aX.prototype.rmdir=function(a,f){var
-b=f&&dn(iL),c=a==X?X:this.slash(a),e=new
-RegExp(iX+c+ov);if(!this.exists(a))if(b)dp(b,dq(iP,iH,this.nm(a)));else
-ak(a+gu);if(!this.is_dir(a))if(b)dp(b,dq(iU,iH,this.nm(a)));else
+b=f&&dm(iL),c=a==X?X:this.slash(a),e=new
+RegExp(iX+c+ox);if(!this.exists(a))if(b)dn(b,dp(iP,iH,this.nm(a)));else
+ak(a+gw);if(!this.is_dir(a))if(b)dn(b,dp(iU,iH,this.nm(a)));else
 ak(a+i1);for(var
 d
 in
-this.content)if(d.match(e))if(b)dp(b,dq(ot,iH,this.nm(a)));else
+this.content)if(d.match(e))if(b)dn(b,dp(ov,iH,this.nm(a)));else
 ak(this.nm(a)+": Directory not empty");delete
 this.content[c]};aX.prototype.readdir=function(a){var
-f=a==X?X:this.slash(a);if(!this.exists(a))ak(a+gu);if(!this.is_dir(a))ak(a+i1);var
+f=a==X?X:this.slash(a);if(!this.exists(a))ak(a+gw);if(!this.is_dir(a))ak(a+i1);var
 g=new
-RegExp(iX+f+ov),d={},c=[];for(var
+RegExp(iX+f+ox),d={},c=[];for(var
 e
 in
 this.content){var
 b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aX.prototype.is_dir=function(a){if(a==X)return true;var
 b=this.slash(a);return this.content[b]?1:0};aX.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aX.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ak(this.nm(a)+pf);if(b.text&&b.binary)ak(this.nm(a)+n$);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ak(this.nm(a)+" : is a directory");if(b.create&&b.excl)ak(this.nm(a)+pb);var
+this.content[a];return b};aX.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ak(this.nm(a)+ph);if(b.text&&b.binary)ak(this.nm(a)+ob);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ak(this.nm(a)+" : is a directory");if(b.create&&b.excl)ak(this.nm(a)+pd);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aI(b7(0));return this.content[a]}else
-Fj(this.nm(a))};aX.prototype.register=function(c,a){var
-b;if(this.content[c])ak(this.nm(c)+pb);if(jc(a))b=new
-aI(a);if(pT(a))b=new
-aI(d9(a));else
+aJ(b8(0));return this.content[a]}else
+Fk(this.nm(a))};aX.prototype.register=function(c,a){var
+b;if(this.content[c])ak(this.nm(c)+pd);if(jc(a))b=new
+aJ(a);if(pV(a))b=new
+aJ(d9(a));else
 if(a
 instanceof
 Array)b=new
-aI(ES(a));else
+aJ(ET(a));else
 if(typeof
 a==="string")b=new
-aI(pJ(a));else
+aJ(pL(a));else
 if(a.toString){var
 d=d9(ea(a.toString()));b=new
-aI(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+aJ(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ak(this.nm(c)+" : registering file with invalid content type")};aX.prototype.constructor=aX;function
-ao(a){return gQ(a)}function
+ao(a){return gS(a)}function
 cO(b,a){return i5(b,a)}function
-EN(d){var
+EO(d){var
 c=ao(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=cO(d,a);return b}function
-EM(a){if(a.t!=4)gN(a);return a.c}function
-EV(a,c,b){b&=cl;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gN(a)}a.c[c]=b;return 0}function
-EU(b,a,c){if(a>>>0>=b.l)pH();return EV(b,a,c)}function
-b6(a){this.fs=require("fs");this.fd=a}b6.prototype=new
-pA();b6.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ak(a.toString())}};b6.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ak(a.toString())}};b6.prototype.write=function(f,b,c,e){var
-a=EN(b);if(!(a
+EN(a){if(a.t!=4)gP(a);return a.c}function
+EW(a,c,b){b&=cl;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gP(a)}a.c[c]=b;return 0}function
+EV(b,a,c){if(a>>>0>=b.l)pJ();return EW(b,a,c)}function
+b7(a){this.fs=require("fs");this.fd=a}b7.prototype=new
+pC();b7.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ak(a.toString())}};b7.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ak(a.toString())}};b7.prototype.write=function(f,b,c,e){var
+a=EO(b);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
-d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ak(a.toString())}return 0};b6.prototype.read=function(g,d,c,f){var
-a=EM(d);if(!(a
+d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ak(a.toString())}return 0};b7.prototype.read=function(g,d,c,f){var
+a=EN(d);if(!(a
 instanceof
 G.Uint8Array))a=new(G.Uint8Array)(a);var
 e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ak(a.toString())}for(var
-b=0;b<f;b++)EU(d,c+b,e[c+b]);return 0};b6.prototype.read_one=function(c){var
-b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ak(a.toString())}return a[0]};b6.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ak(a.toString())}};b6.prototype.constructor=b6;function
-aJ(a){this.fs=require("fs");this.root=a}aJ.prototype.nm=function(a){return this.root+a};aJ.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aJ.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aJ.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aJ.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ak(a.toString())}};aJ.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.open=function(f,c,g){var
+b=0;b<f;b++)EV(d,c+b,e[c+b]);return 0};b7.prototype.read_one=function(c){var
+b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ak(a.toString())}return a[0]};b7.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ak(a.toString())}};b7.prototype.constructor=b7;function
+aK(a){this.fs=require("fs");this.root=a}aK.prototype.nm=function(a){return this.root+a};aK.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aK.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aK.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aK.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ak(a.toString())}};aK.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-b6(d)}catch(a){this.raise_nodejs_error(a,g)}};aJ.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aJ.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nW);return ea(a)}catch(a){this.raise_nodejs_error(a,c)}};aJ.prototype.raise_nodejs_error=function(a,d){var
-b=dn(iL);if(d&&b){var
-c=dq(a.code,a.syscall,a.path,a.errno);dp(b,c)}else
-ak(a.toString())};aJ.prototype.stats_from_js=function(a){var
+b7(d)}catch(a){this.raise_nodejs_error(a,g)}};aK.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aK.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),nY);return ea(a)}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.raise_nodejs_error=function(a,d){var
+b=dm(iL);if(d&&b){var
+c=dp(a.code,a.syscall,a.path,a.errno);dn(b,c)}else
+ak(a.toString())};aK.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aJ.prototype.constructor=aJ;function
-pQ(b){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aK.prototype.constructor=aK;function
+pS(b){var
 a=jk(b);if(!a)return;return a[0]+bP}var
-gR=pQ(e$)||bQ("unable to compute caml_root"),eb=[];if(fc())eb.push({path:gR,device:new
-aJ(gR)});else
-eb.push({path:gR,device:new
-aX(gR)});eb.push({path:n5,device:new
-aX(n5)});function
-p9(b){var
-g=Fa(b),b=g.join(bP),f=p3(b),c;for(var
+gT=pS(e$)||bQ("unable to compute caml_root"),eb=[];if(fc())eb.push({path:gT,device:new
+aK(gT)});else
+eb.push({path:gT,device:new
+aX(gT)});eb.push({path:n7,device:new
+aX(n7)});function
+p$(b){var
+g=Fb(b),b=g.join(bP),f=p5(b),c;for(var
 e=0;e<eb.length;e++){var
 a=eb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fc()){var
-d=pQ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+d=pS(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aJ(d)};eb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ak("no device found for "+f)}function
-EX(c,b){var
-a=p9(c);if(!a.device.register)bQ("cannot register file");a.device.register(a.rest,b);return 0}function
-p4(c,b){var
-c=a(c),b=a(b);return EX(c,b)}function
-E0(){var
+aK(d)};eb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ak("no device found for "+f)}function
+EY(c,b){var
+a=p$(c);if(!a.device.register)bQ("cannot register file");a.device.register(a.rest,b);return 0}function
+p6(c,b){var
+c=a(c),b=a(b);return EY(c,b)}function
+E1(){var
 b=G.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)p4(b[a].name,b[a].content);G.jsoo_create_file=p4;G.caml_fs_tmp=[];return 0}function
-Fh(c){var
+a=0;a<b.length;a++)p6(b[a].name,b[a].content);G.jsoo_create_file=p6;G.caml_fs_tmp=[];return 0}function
+Fi(c){var
 a=0,e=ao(c),b=10,d=1;if(e>0)switch(cO(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&cO(c,a)==48)switch(cO(c,a+1)){case
@@ -583,33 +583,33 @@ a=0,e=ao(c),b=10,d=1;if(e>0)switch(cO(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pX(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=pr)return a-87;return-1}function
+pZ(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=pt)return a-87;return-1}function
 jb(f){var
-h=Fh(f),c=h[0],i=h[1],d=h[2],g=ao(f),j=-1>>>0,e=c<g?cO(f,c):0,b=pX(e);if(b<0||b>=d)bQ(gz);var
-a=b;for(c++;c<g;c++){e=cO(f,c);if(e==95)continue;b=pX(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bQ(gz)}if(c!=g)bQ(gz);a=i*a;if(d==10&&(a|0)!=a)bQ(gz);return a|0}function
-E$(a,b){return+(i6(a,b,false)<=0)}function
-Fb(a,d){if(a<0)gM();var
+h=Fi(f),c=h[0],i=h[1],d=h[2],g=ao(f),j=-1>>>0,e=c<g?cO(f,c):0,b=pZ(e);if(b<0||b>=d)bQ(gB);var
+a=b;for(c++;c<g;c++){e=cO(f,c);if(e==95)continue;b=pZ(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bQ(gB)}if(c!=g)bQ(gB);a=i*a;if(d==10&&(a|0)!=a)bQ(gB);return a|0}function
+Fa(a,b){return+(i6(a,b,false)<=0)}function
+Fc(a,d){if(a<0)gO();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cn=new
 Array();function
-Fc(c){var
-a=cn[c];if(!a.opened)ak("Cannot flush a closed channel");if(!a.buffer||a.buffer==X)return 0;if(a.fd&&at.fds[a.fd]&&at.fds[a.fd].output){var
-b=at.fds[a.fd].output;switch(b.length){case
+Fd(c){var
+a=cn[c];if(!a.opened)ak("Cannot flush a closed channel");if(!a.buffer||a.buffer==X)return 0;if(a.fd&&au.fds[a.fd]&&au.fds[a.fd].output){var
+b=au.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=X;return 0}function
-p0(e,f){var
+p2(e,f){var
 b=cn[e],d=a(f),c=ao(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Fp(a){var
+Fq(a){var
 a=jf(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Fq(a){var
+Fr(a){var
 a=jf(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gT(c,e,d,a){if(at.fds===undefined)at.fds=new
+gV(c,e,d,a){if(au.fds===undefined)au.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;at.fds[c]=b;if(!at.fd_last_idx||c>at.fd_last_idx)at.fd_last_idx=c;return c}function
-Fx(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;au.fds[c]=b;if(!au.fd_last_idx||c>au.fd_last_idx)au.fd_last_idx=c;return c}function
+Fy(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,101 +619,101 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ak(d$(c)+pf);if(a.text&&a.binary)ak(d$(c)+n$);var
-d=p9(c),e=d.device.open(d.rest,a),f=at.fd_last_idx?at.fd_last_idx:0;return gT(f+1,p0,e,a)}gT(0,p0,new
-aI(b7(0)));gT(1,Fq,new
-aI(b7(0)));gT(2,Fp,new
-aI(b7(0)));function
-Fd(a){var
-c=at.fds[a];if(c.flags.wronly)ak(pp+a+" is writeonly");var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ak(d$(c)+ph);if(a.text&&a.binary)ak(d$(c)+ob);var
+d=p$(c),e=d.device.open(d.rest,a),f=au.fd_last_idx?au.fd_last_idx:0;return gV(f+1,p2,e,a)}gV(0,p2,new
+aJ(b8(0)));gV(1,Fr,new
+aJ(b8(0)));gV(2,Fq,new
+aJ(b8(0)));function
+Fe(a){var
+c=au.fds[a];if(c.flags.wronly)ak(pr+a+" is writeonly");var
 d=null;if(a==0&&fc()){var
-e=require("fs");d=function(){return ea(e.readFileSync(0,nW))}}var
+e=require("fs");d=function(){return ea(e.readFileSync(0,nY))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cn[b.fd]=b;return b.fd}function
-pU(c){var
-b=at.fds[c];if(b.flags.rdonly)ak(pp+c+" is readonly");var
+pW(c){var
+b=au.fds[c];if(b.flags.rdonly)ak(pr+c+" is readonly");var
 a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:X};cn[a.fd]=a;return a.fd}function
-Fe(){var
+Ff(){var
 b=0;for(var
 a=0;a<cn.length;a++)if(cn[a]&&cn[a].opened&&cn[a].out)b=[0,cn[a].fd,b];return b}function
-bs(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);at[b+1]=c;if(a)at[a]=c}function
-Fl(a,b){pW[d$(a)]=b;return 0}function
-EQ(a,b){if(a===b)return 1;a.t&6&&d_(a);b.t&6&&d_(b);return a.c==b.c?1:0}function
-as(a,b){return EQ(a,b)}function
-Fn(){aK(iZ)}function
-aR(b,a){if(a>>>0>=ao(b))Fn();return cO(b,a)}function
+bt(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);au[b+1]=c;if(a)au[a]=c}function
+Fm(a,b){pY[d$(a)]=b;return 0}function
+ER(a,b){if(a===b)return 1;a.t&6&&d_(a);b.t&6&&d_(b);return a.c==b.c?1:0}function
+as(a,b){return ER(a,b)}function
+Fo(){aL(iZ)}function
+aR(b,a){if(a>>>0>=ao(b))Fo();return cO(b,a)}function
 m(a,b){return 1-as(a,b)}function
-gS(a){return a}function
-pZ(a){return a}function
+gU(a){return a}function
+p1(a){return a}function
 jg(a){if(a
 instanceof
 Array)return a;if(G.RangeError&&a
 instanceof
-G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return pZ(at.Stack_overflow);if(G.InternalError&&a
+G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return p1(au.Stack_overflow);if(G.InternalError&&a
 instanceof
-G.InternalError&&a.message&&a.message.match(/too much recursion/i))return pZ(at.Stack_overflow);if(a
+G.InternalError&&a.message&&a.message.match(/too much recursion/i))return p1(au.Stack_overflow);if(a
 instanceof
-G.Error&&dn(oC))return[0,dn(oC),a];return[0,at.Failure,ea(String(a))]}function
-dr(a){return a<0?-a:a}function
+G.Error&&dm(oE))return[0,dm(oE),a];return[0,au.Failure,ea(String(a))]}function
+dq(a){return a<0?-a:a}function
 D(a,b){return a+b}function
 jh(a,b){return a<b?-1:a>b?1:0}function
-p6(c,b){var
-a=c%b;return a<0?a+dr(b):a}function
-ji(a,b){return(a-p6(a,b))/b}function
+p8(c,b){var
+a=c%b;return a<0?a+dq(b):a}function
+ji(a,b){return(a-p8(a,b))/b}function
 ab(a,b){return a==b?1:0}function
-Fu(c){G.orthocert_verify=function(b){return d$(cN(c,[a(b)]))}}function
+Fv(c){G.orthocert_verify=function(b){return d$(cN(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
 z(a,b){return a*b}function
 R(a){return-a}function
-aL(a){return G.BigInt(a)}function
-p7(a,b){return a<<G.BigInt(b)}function
-p8(a,b){return a>>G.BigInt(b)}function
+aM(a){return G.BigInt(a)}function
+p9(a,b){return a<<G.BigInt(b)}function
+p_(a,b){return a>>G.BigInt(b)}function
 aO(a){return a<0?-1:a>0?1:0}function
-Fv(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
+Fw(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
 d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aD(a,b){return a-b}function
+aF(a,b){return a-b}function
 jj(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
-E9(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-EZ(b){var
-a=X;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&E9(b[1]))var
+E_(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+E0(b){var
+a=X;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&E_(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=oD;for(var
+f=2,e=b;a+=oF;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-b5)a+=aC+c.toString()+aC;else
+b6)a+=aE+c.toString()+aE;else
 if(typeof
-c=="string")a+=aC+c.toString()+aC;else
+c=="string")a+=aE+c.toString()+aE;else
 a+="_"}a+=iW}else
 if(b[0]==aQ)a+=b[1];return a}function
-pO(a){if(a
+pQ(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aQ)){var
-c=dn("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=EZ(a),b=dn(nV);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
+c=dm("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=E0(a),b=dm(nX);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Fm(){var
-a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pO(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pO(a.error)})}Fm();function
+Fn(){var
+a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pQ(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pQ(a.error)})}Fn();function
 i(a,b){return a.length==1?a(b):cN(a,[b])}function
 ar(a,b,c){return a.length==2?a(b,c):cN(a,[b,c])}function
-EL(a,b,c,d){return a.length==3?a(b,c,d):cN(a,[b,c,d])}function
-iF(a,b,c,d,e){return a.length==4?a(b,c,d,e):cN(a,[b,c,d,e])}E0();var
-jm=[aQ,a(or),-2],jl=[aQ,a(pz),-4],gU=[aQ,a(n4),-7],DG=[0,0],DH=[0,0],DI=[0,[0,0]],DJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],gk=[0,[1,0],0],nc=[0,[2,0],0],ij=[0,[1,0],0],nb=[0,[2,0],0],gi=[0,[1,0],0],ii=[0,[2,0],0],DK=[0,[0,[0,[0,0]]]],DL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,0]],DP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,0]],DZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],D3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],D4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],D$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Ea=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D$]]]]]]]]]]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ea]]]]]]]]]]],Ec=[0,0],Ed=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],Ee=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ed]]]]]]]]]]],Ef=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ee]]]]]]]]]]],Eg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ef]]]]]]]]]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eg]]]]]]]]]]],Ei=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eh]]]]]]]]]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ei]]]]]]]]]]],Ek=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ej]]]]]]]]]]],El=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ek]]]]]]]]]]],Em=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,El]]]]]]]]]]],En=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Eo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,En]]]]]]]]]]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Eq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],Er=[0,[0,[0,[0,[0,0]]]]],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],EC=[0,0],ED=[0,[0,0]],EE=[0,0],EF=[0,[0,[0,[0,[0,0]]]]],jU=[0,[0,[0,0]]],cW=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],f7=[0,[0,[0,[0,0]]]],EG=[0,[0,[0,[0,[0,0]]]]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]];bs(11,[aQ,a(nU),-12],nU);bs(10,[aQ,a(oI),-11],oI);bs(9,[aQ,a(po),-10],po);bs(8,[aQ,a(n6),-9],n6);bs(7,[aQ,a(oV),-8],oV);bs(6,gU,n4);bs(5,[aQ,a(os),-6],os);bs(4,[aQ,a(ox),-5],ox);bs(3,jl,pz);bs(2,[aQ,a(iQ),-3],iQ);bs(1,jm,or);bs(0,[aQ,a(o9),-1],o9);var
-p_=a("String.sub / Bytes.sub"),qd=a("String.contains_from / Bytes.contains_from"),qa=a(X),p$=a("String.concat"),qe=a("Array.init"),qf=a("power"),qx=[0,0],qy=[0,0],qE=[0,0,0],qF=[0,0,0],qG=[0,0],qZ=[0,0],q0=[0,0],q3=[0,0],rk=[0,0],rn=[0,0],rp=[0,0],rq=[0,0],rx=[0,0],ry=[0,0],r1=[0,0],si=[0,[0,[0,0]]],sL=[0,0],sY=[0,0],sZ=[0,0],s9=a(","),tp=[0,a(iW),0],tq=a(oD),tr=a("."),ts=[0,[0,[0,0]]],tt=a(e4),tu=a(iX),tv=[0,[0,[0,[0,[0,0]]]]],tw=[0,a(iW),0],tx=a(pw),wu=a(nR),ww=a(nO),wv=a(oL),wx=a(d2),wy=a(d0),wz=a(py),wA=a(pi),wB=a(ol),wC=a(oX),xO=[0,0],xP=a(gt),xQ=[0,0],xR=a("divided"),xS=[0,1],xT=a("mirror"),xU=[0,3],xV=a("negative"),xW=[0,2],xX=a(e3),xY=[0,5],xZ=a(i3),x0=[0,4],x1=a(dl),x2=a(n9),x3=a(e0),x4=a(b4),x5=[0,0],x6=[0,0],x7=[0,0],yQ=a(X),yN=[0,[0,[0,[0,0]]]],yO=[0,[0,[0,[0,0]]]],yL=[0,[0,[0,0]]],yK=[0,0],yJ=a(e0),yI=[0,[0,[0,0]]],yH=[0,0],yE=[0,[0,0]],yF=[0,[0,[0,0]]],yA=[0,[0,[0,0]]],yz=[0,0,0],yx=[0,[0,0]],yy=[0,0],yw=[0,0],yu=[0,[0,[0,0]]],yo=[0,[0,0]],yp=[0,[0,[0,0]]],yq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DG]]]]]]]]]]],yr=[0,[0,0]],ys=[0,[0,[0,0]]],yn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],yl=[0,[0,0]],ym=[0,[0,[0,0]]],yj=[0,[0,[0,0]]],yk=[0,[0,0]],yi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],yh=[0,0],yg=[0,0],yd=[0,[0,0]],ye=[0,0],yb=[0,0],yc=[0,1],ya=[0,[0,0]],x$=[0,0],x8=[0,0],x9=[0,1],xL=[0,0],xM=[0,1],xN=[0,2],xH=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xF=[0,[0,0],0],xG=[0,[1,0],0],xI=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xD=[0,[0,0]],xE=[0,0],xC=[0,0],xB=[0,0],xA=[0,0],xz=[0,0],xy=[0,0,0],xw=[0,[0,0]],xx=[0,0],xv=[0,0,0],xt=[0,[0,[0,0]]],xu=[0,[0,[0,0]]],xs=[0,0],xq=[0,1,0],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],xe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eb]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Em]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],xl=a("sqrt"),xc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],xd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],w3=[0,a("\n"),0],w4=a(nP),w5=a(gv),w6=a(oH),w7=a(op),xb=a(e6),w8=a(e2),w9=a("verdict"),w_=a(o$),w$=a(oi),xa=a(oG),w0=a(oB),w1=a(pd),w2=a(gx),wW=a(oR),wX=a(gy),wY=a(e2),wZ=a(e6),wR=a(gF),wS=a(ba),wT=a(nQ),wU=a(gC),wO=a(o8),wP=a(e3),wQ=a(gC),wK=a(oU),wL=a(gF),wM=a(gy),wN=a(pm),wE=a(pe),wF=a(ph),wG=a(oy),wH=a(gA),wI=a(ps),ws=a(iI),wt=a(gI),wn=a(br),wo=a(bq),wp=a(ok),vZ=a(gA),v0=a(oY),vD=a(ba),vE=a(bO),vF=a(gH),vG=a(d5),vH=a(dk),vM=a(iJ),vI=a(iY),vJ=a(i0),vK=a(d1),vL=a(ba),vN=a(bO),vO=a(gH),vP=a(d5),vQ=a(iY),vR=a(i0),vS=a(d1),vT=a(ba),vU=a(bO),vV=a(br),vW=a(bq),vX=a(di),vY=a(d5),v1=a(o4),v2=a(pg),v3=a(gL),v4=a(n_),v5=a(od),v6=a(d1),v7=a(ba),v8=a(bO),v9=a(gr),v_=a(on),v$=a(d5),wa=a(e9),wb=a(nY),wc=a(d1),wd=a(ba),we=a(gr),wf=a(ba),wg=a(o0),wj=a(nN),wh=a(ob),wi=a(pl),wk=a(e6),wl=a(e2),wm=a(ba),wq=a(gL),wr=a(gx),vy=a(bO),vz=a(d5),vA=a(iJ),vB=a(d1),vx=a(pu),vl=a(e9),vm=a(pa),vn=a(dj),vo=a(d3),vp=a(d3),vq=a(iM),vr=a(dj),vs=a(oJ),vt=a(oj),vu=a(a4),vw=a(nT),vv=a(iM),vb=a(oA),vc=a(px),vd=a(of),ve=a(oc),vf=a(pk),vg=a(o7),vh=a(oq),vi=a(gs),vj=a(gs),u9=a(a4),u_=a(bp),u$=a(d6),va=a(bN),u5=a(dk),u6=a(iT),u7=a(oS),u2=a(br),u3=a(bq),u4=a(di),uV=a(br),uW=a(bq),uX=a(di),uY=a(iV),uZ=a(dj),u0=a(iR),u1=a(o3),uE=a(oa),uK=a(gv),uJ=a(i2),uF=a(iN),uG=a(eZ),uN=a(e1),uO=a(iN),uL=a(e1),uM=a(eZ),uP=a(n8),uQ=a(o1),uR=a(eZ),uS=a(pt),uT=a(i2),uU=a(eZ),uH=a(d3),uI=a(oO),uB=a(gB),uC=a(gB),uD=a(gB),ux=a(o5),uy=a(bq),uz=a(br),uA=a(pj),uh=a(n2),ui=a(nS),uj=a(oW),uk=a(d2),ul=a(pv),um=a(oZ),un=a(n3),uo=a(oP),up=a(n1),uq=a(om),ur=a(n0),us=a(o6),ut=a(d0),uu=a(nX),uv=a(pc),uw=a(oe),tY=a(gD),t0=a(e4),tZ=a(eY),t1=a(dZ),t2=a(a4),t3=a(bp),t4=a(b4),t5=a(gJ),t6=a(bN),t7=a(a4),t8=a(bp),t9=a(d6),t_=a(bN),t$=a(dZ),ua=a(e8),ub=a(a4),uc=a(bp),ud=a(oN),ue=a(e1),uf=a(e8),ug=a(bN),tG=a(gD),tO=a(e4),tH=a(eY),tI=a(dZ),tJ=a(a4),tK=a(bp),tL=a(b4),tM=a(gJ),tN=a(bN),tP=a(gK),tQ=a(a4),tR=a(bp),tS=a(d6),tT=a(bN),tU=a(b4),tV=a(dk),tW=a(bN),tD=a(br),tE=a(bq),tB=[0,a(aC),0],tC=a(aC),tz=a(X),ty=[0,a(aC),0],tA=a(aC),tl=a(gD),tm=a(e4),tn=a("*"),to=a(bP),tg=[0,[0,[0,[0,[0,0]]]]],th=[0,[0,[0,0]]],ti=[0,[0,0]],tj=[0,0],tk=[0,[0,[0,[0,0]]]],te=a('":'),tf=a(aC),tc=[0,a(aC),0],td=a(aC),ta=[0,a("}"),0],tb=a("{"),s_=[0,a("]"),0],s$=a("["),s8=[0,[0,[0,0]]],s7=[0,[0,[0,0]]],s5=[0,0],s2=[0,[0,[0,0]]],s3=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s4=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s0=[0,[0,0]],s1=[0,[0,[0,0]]],sV=[0,0],sW=[0,[0,[0,[0,[0,[0,0]]]]]],sX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],sS=[0,0],sP=[0,0,0],sQ=[0,0,0],sR=[0,0,0],sM=[0,[0,0]],sN=[0,[0,[0,0]]],sO=[0,0],sB=[0,[0,[0,[0,[0,[0,0]]]]]],sC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sD=[0,[0,[0,0]]],sE=[0,[0,[0,0]]],sF=[0,[0,[0,[0,[0,[0,0]]]]]],sG=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],sI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],sJ=[0,[0,[0,0]]],sK=[0,[0,[0,[0,[0,[0,0]]]]]],sz=[0,[0,0]],sA=[0,[0,[0,0]]],sv=[0,0,0],sw=[0,0,0],sr=[0,0,0],ss=[0,0,0],st=[0,0,0],su=[0,0,0],sq=[0,0],sp=[0,0],so=[0,0],sm=[0,0],sn=[0,0],sl=[0,0],sj=[0,0],sk=[0,0],sc=[0,0],sd=[0,0],se=[0,0],sf=[0,[0,[0,0]]],sb=[0,0],r8=[0,[0,[0,0]]],r9=[0,[0,0]],r6=[0,[0,0]],r7=[0,[0,[0,0]]],r5=[0,0],r3=[0,0],r4=[0,0],r2=[0,0,0],rZ=[0,[0,0]],r0=[0,0],rR=[0,[0,0]],rS=[0,0],rT=[0,[0,0]],rU=[0,0],rV=[0,[0,0]],rW=[0,0],rX=[0,[0,0]],rY=[0,0],rP=[0,[0,0]],rQ=[0,0],rN=[0,[0,0]],rO=[0,0],rJ=[0,[0,0]],rK=[0,0],rL=[0,0],rM=[0,[0,0]],rA=[0,[0,0]],rB=[0,0],rC=[0,[0,0]],rD=[0,0],rE=[0,0],rF=[0,[0,0]],rG=[0,[0,0]],rH=[0,[0,0]],rI=[0,0],rw=[0,0],rv=[0,0],rt=[0,[0,[0,0]]],rs=[0,[0,[0,[0,[0,[0,0]]]]]],ro=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,[0,[0,0]]],rh=[0,[0,[0,[0,[0,[0,0]]]]]],ri=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,0]],rd=[0,0],re=[0,[0,0]],rf=[0,[0,[0,0]]],rg=[0,[0,[0,0]]],q7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q8=[0,[0,[0,[0,[0,[0,0]]]]]],q9=[0,[0,[0,[0,[0,[0,0]]]]]],q_=[0,[0,[0,0]]],q$=[0,[0,[0,[0,[0,[0,0]]]]]],ra=[0,[0,[0,0]]],rb=[0,[0,[0,0]]],q5=[0,[0,0]],q6=[0,0],q4=[0,0,0],q2=[0,0,0],q1=[0,[0,[0,0]]],qX=[0,0],qY=[0,0],qS=[0,[0,[0,0]]],qT=[0,[0,[0,0]]],qU=[0,[0,[0,0]]],qR=[0,[0,[0,[0,0]]]],qN=[0,[0,[0,0]]],qO=[0,[0,[0,0]]],qP=[0,[0,[0,0]]],qQ=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qL=[0,[0,0]],qM=[0,0],qJ=[0,[0,0]],qK=[0,0],qH=[0,[0,0]],qI=[0,0],qu=[0,0],qv=[0,[0,0]],qs=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],qq=[0,0,0],qp=a(pq),qo=a(X),qn=[0,[0,0]],qm=[0,0],qj=[0,0],ql=[1,0],qk=[0,0],qi=[0,0],qg=[1,0],qh=[1,0],ru=[10,0,0,0,0],yG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]],BS=a(br),BT=a(bq),BU=a(ok),BJ=a(gK),BK=[0,a("a base axis of such a platform"),0],BL=a(a4),BM=a(bp),Bw=a(o7),Bx=a(oA),By=a(pk),Bz=a(gs),BA=a(oq),BB=a(gs),BC=a(px),BD=a(of),BE=a(oc),Bm=a(oY),Bn=a(gA),A0=[0,a("such a machine with bodies"),0],AN=a(gx),AO=a(ba),AP=a(o0),AQ=a(pl),AT=a(ob),AU=a(nN),AV=a(ba),AW=a(ba),AY=a(gr),AX=[0,a("a claim that no cube of such a machine fits"),0],AZ=a(pu),A1=a(d1),A2=a(d5),A3=a(dk),A4=a(iT),A5=a(oS),A6=a(gH),A7=a(od),A8=a(nY),A9=a(iJ),Ba=a(di),Bb=a(o3),Be=a(bO),Bf=a(bO),Bg=a(on),Bh=a(bO),Bi=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Bj=a(gr),Bk=a(e9),Bl=a(di),Bo=a(bO),Bp=a(br),Bq=a(bq),Br=a(o4),Bs=a(pg),Bt=a(gL),Bu=a(n_),A_=[0,a(aC),0],A$=a('the mechanism "'),Bv=a(iY),BF=a(gH),BG=a(dk),BH=a(iT),BI=a(i0),BN=a(bO),BO=[0,a('"one_to_one" of this set of orientations'),0],BR=a(dk),BP=[0,a("a platform that turns on struts and other drives"),0],BQ=a(bO),Bc=[0,a(aC),0],Bd=a('the workspace "'),BV=a(ba),BW=a(ba),BY=a(e6),BZ=a(e2),B0=a(gL),BX=[0,a("an atlas of such a machine"),0],AR=[0,a(aC),0],AS=a('a claim of the kind "'),B5=a(py),Cb=a(d0),Cc=a(d2),Cd=a(ol),Ce=a(oL),Cf=a(b4),Cg=a(gI),Ch=a(iI),Ci=a(b4),B6=a(dl),B7=a(n9),B8=a(e0),B9=a(oX),Ca=[0,a("directions of one scale"),0],B_=[0,a(aC),0],B$=a('the evidence "'),Cj=a(dl),Ck=a(gI),Cl=[0,1,1],Cm=a(d0),Cn=a(d2),Co=a(dl),Cp=a(e0),Cq=a(pi),Cs=a(d0),Ct=a(d2),Cu=a(dl),Cv=a(e0),Cw=a(e3),Cx=a(gt),Cy=a(e3),Cz=a(gt),Cr=[0,a("this evidence at control points"),0],Dz=a('"orthocert-paving/'),Dx=[0,a("an accuracy that the derivatives of the joints on whole cells do not show is not covered by the verified checker")],Do=a(dl),Dp=a(dl),C9=a(oG),C_=a(oi),C$=a(o$),Dv=[0,3,3],Da=a(op),Dm=[0,a("this set of orientations with such drives"),0],Dn=[0,a(ow),0],Dq=[0,a('this evidence "tolerances" of a platform that turns'),0],Dr=[0,a("a step of a platform that turns that is not at control points"),0],Ds=[0,a(ow),0],Dt=[0,a('the evidence "tolerances" of such a mechanism'),0],Du=[0,a(o_),0],Dl=[0,a(o_),0],Dk=[0,a("a mechanism by formulas in a claim that is refuted"),0],Dj=[0,a("this quantity in a claim that is refuted"),0],Db=[0,a("the acceleration of a joint of a machine with a plane"),0],Di=[0,a("a step in a proof that no cube fits"),0],Dh=[0,a("a stiffness for each joint in such a claim"),0],Dg=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Df=[0,a("a leaf that fails"),0],Dc=a(oH),Dd=a(nP),De=a(gv),C5=a(i3),C6=a(gt),C7=a(b4),CY=a(gx),CZ=a(oB),C0=a(pd),C1=[0,a(aC),0],C2=a('a proof of the kind "'),CU=a(e2),CV=a(e6),CW=a(gy),CX=a(oR),CQ=a(ba),CR=a(gF),CS=a(nQ),CT=a(gC),CN=a(o8),CO=a(e3),CP=a(gC),CJ=a(oU),CK=a(gF),CL=a(gy),CM=a(pm),CC=a(ph),CD=a(oy),CE=a(pe),CF=a(gA),CG=a(ps),CH=[0,a(aC),0],CI=a('the failure "'),CA=a(i3),CB=a(pq),B3=a(gI),B4=a(iI),B1=a(nO),B2=a(nR),AK=a(e9),AA=a(iM),AB=a(nT),AC=a(d3),AD=a(a4),AI=a(pa),AJ=a(e9),AL=a(dj),AM=a(d3),AE=a(dj),AF=a(oJ),AG=a(oj),AH=a(a4),At=a(di),Ax=a(br),Ay=a(bq),Au=a(iR),Av=a(iV),Aw=a(dj),An=a(di),Ar=a(br),As=a(bq),Ao=a(iR),Ap=a(iV),Aq=a(dj),Am=[0,1],Al=[0,1],Aj=[0,1],Ai=[0,1],Ag=[0,1],Ah=[0,a("this quantity of such a mechanism"),0],z2=a(iN),z3=a(o1),z4=a(n8),z5=a(i2),z6=a(pt),z7=a(e1),z1=a(gv),zT=a(gB),zI=a(oO),zJ=a(oW),z_=a(d0),z$=a(pc),Aa=a(om),Ab=a(d2),Ac=a(oP),Ad=a(n0),Ae=a(n1),Af=a(nS),zK=a(nX),zL=a(o6),zM=a(oZ),zN=a(oe),zO=a(pv),zP=a(n3),zQ=a(n2),zR=[0,a(aC),0],zS=a('the quantity "'),zU=a(oa),zV=a(o5),zW=a(br),zX=a(bq),zY=a(pj),zZ=[0,a(aC),0],z0=a('a bound "'),z8=a(eZ),z9=a(d3),zG=a(bN),zH=a(d6),zl=a(bN),zm=a(gK),zn=a(e8),zo=a(gJ),zp=a(d6),zs=a(a4),zt=a(bp),zu=a(eY),zv=a(dZ),zw=a(a4),zx=a(bp),zy=a(b4),zz=a(eY),zA=a(dZ),zB=a(e8),zC=a(a4),zD=a(bp),zE=a(oN),zF=a(e1),zq=[0,a('" of such a machine'),0],zr=a(n7),zj=a(bN),zk=a(e8),y5=a(bN),y6=a(dk),y7=a(gJ),y8=a(d6),y$=a(gK),za=a(a4),zb=a(bp),zc=a(eY),zd=a(dZ),ze=a(a4),zf=a(bp),zg=a(b4),zh=a(b4),y9=[0,a(aC),0],y_=a(n7),y2=a(gD),y3=a(e4),y0=a(" is not covered by the verified checker"),y1=a(X),yY=a(br),yZ=a(bq),yU=a(X),yV=a(pw),yW=a(X),yX=a(X),yT=[1,0],yR=a("Reader.Malformed"),yS=a("Reader.Not_covered"),DB=[0,a("a paving is checked by orthocert-verified")],DA=a(oQ),DC=a("CERTIFIED"),DD=a("REFUTED"),DE=a(oQ),DF=a("NOT COVERED: ");function
+EM(a,b,c,d){return a.length==3?a(b,c,d):cN(a,[b,c,d])}function
+iF(a,b,c,d,e){return a.length==4?a(b,c,d,e):cN(a,[b,c,d,e])}E1();var
+jm=[aQ,a(ot),-2],jl=[aQ,a(pB),-4],gW=[aQ,a(n6),-7],DH=[0,0],DI=[0,0],DJ=[0,[0,0]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],gm=[0,[1,0],0],ne=[0,[2,0],0],ij=[0,[1,0],0],nd=[0,[2,0],0],gk=[0,[1,0],0],ii=[0,[2,0],0],DL=[0,[0,[0,[0,0]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,0]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,0]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],D3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],D4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],D$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Ea=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D$]]]]]]]]]]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ea]]]]]]]]]]],Ec=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eb]]]]]]]]]]],Ed=[0,0],Ee=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ed]]]]]]]]]]],Ef=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ee]]]]]]]]]]],Eg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ef]]]]]]]]]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eg]]]]]]]]]]],Ei=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eh]]]]]]]]]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ei]]]]]]]]]]],Ek=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ej]]]]]]]]]]],El=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ek]]]]]]]]]]],Em=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,El]]]]]]]]]]],En=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Em]]]]]]]]]]],Eo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],Eq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Er=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],Es=[0,[0,[0,[0,[0,0]]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],ED=[0,0],EE=[0,[0,0]],EF=[0,0],EG=[0,[0,[0,[0,[0,0]]]]],jU=[0,[0,[0,0]]],cV=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],f9=[0,[0,[0,[0,0]]]],EH=[0,[0,[0,[0,[0,0]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]];bt(11,[aQ,a(nW),-12],nW);bt(10,[aQ,a(oK),-11],oK);bt(9,[aQ,a(pq),-10],pq);bt(8,[aQ,a(n8),-9],n8);bt(7,[aQ,a(oX),-8],oX);bt(6,gW,n6);bt(5,[aQ,a(ou),-6],ou);bt(4,[aQ,a(oz),-5],oz);bt(3,jl,pB);bt(2,[aQ,a(iQ),-3],iQ);bt(1,jm,ot);bt(0,[aQ,a(o$),-1],o$);var
+qa=a("String.sub / Bytes.sub"),qf=a("String.contains_from / Bytes.contains_from"),qc=a(X),qb=a("String.concat"),qg=a("Array.init"),qh=a("power"),qz=[0,0],qA=[0,0],qG=[0,0,0],qH=[0,0,0],qI=[0,0],q1=[0,0],q2=[0,0],q5=[0,0],rm=[0,0],rp=[0,0],rr=[0,0],rs=[0,0],rz=[0,0],rA=[0,0],r3=[0,0],sl=[0,[0,[0,0]]],sO=[0,0],s1=[0,0],s2=[0,0],ta=a(","),ts=[0,a(iW),0],tt=a(oF),tu=a("."),tv=[0,[0,[0,0]]],tw=a(e4),tx=a(iX),ty=[0,[0,[0,[0,[0,0]]]]],tz=[0,a(iW),0],tA=a(py),wx=a(nT),wz=a(nQ),wy=a(oN),wA=a(d2),wB=a(d0),wC=a(pA),wD=a(pk),wE=a(on),wF=a(oZ),xR=[0,0],xS=a(gv),xT=[0,0],xU=a("divided"),xV=[0,1],xW=a("mirror"),xX=[0,3],xY=a("negative"),xZ=[0,2],x0=a(e3),x1=[0,5],x2=a(i3),x3=[0,4],x4=a(dk),x5=a(n$),x6=a(e0),x7=a(b5),x8=[0,0],x9=[0,0],x_=[0,0],yT=a(X),yQ=[0,[0,[0,[0,0]]]],yR=[0,[0,[0,[0,0]]]],yO=[0,[0,[0,0]]],yN=[0,0],yM=a(e0),yL=[0,[0,[0,0]]],yK=[0,0],yH=[0,[0,0]],yI=[0,[0,[0,0]]],yD=[0,[0,[0,0]]],yC=[0,0,0],yA=[0,[0,0]],yB=[0,0],yz=[0,0],yx=[0,[0,[0,0]]],yr=[0,[0,0]],ys=[0,[0,[0,0]]],yt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],yu=[0,[0,0]],yv=[0,[0,[0,0]]],yq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],yo=[0,[0,0]],yp=[0,[0,[0,0]]],ym=[0,[0,[0,0]]],yn=[0,[0,0]],yl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],yk=[0,0],yj=[0,0],yg=[0,[0,0]],yh=[0,0],ye=[0,0],yf=[0,1],yd=[0,[0,0]],yc=[0,0],x$=[0,0],ya=[0,1],xO=[0,0],xP=[0,1],xQ=[0,2],xK=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xI=[0,[0,0],0],xJ=[0,[1,0],0],xL=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xG=[0,[0,0]],xH=[0,0],xF=[0,0],xE=[0,0],xD=[0,0],xC=[0,0],xB=[0,0,0],xz=[0,[0,0]],xA=[0,0],xy=[0,0,0],xw=[0,[0,[0,0]]],xx=[0,[0,[0,0]]],xv=[0,0],xt=[0,1,0],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,En]]]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],xo=a("sqrt"),xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],w6=[0,a("\n"),0],w7=a(nR),w8=a(gx),w9=a(oJ),w_=a(or),xe=a(e6),w$=a(e2),xa=a("verdict"),xb=a(pb),xc=a(ok),xd=a(oI),w3=a(oD),w4=a(pf),w5=a(gz),wZ=a(oT),w0=a(gA),w1=a(e2),w2=a(e6),wU=a(gH),wV=a(ba),wW=a(nS),wX=a(gE),wR=a(o_),wS=a(e3),wT=a(gE),wN=a(oW),wO=a(gH),wP=a(gA),wQ=a(po),wH=a(pg),wI=a(pj),wJ=a(oA),wK=a(gC),wL=a(pu),wv=a(iI),ww=a(gK),wq=a(bs),wr=a(br),ws=a(om),v2=a(gC),v3=a(o0),vG=a(ba),vH=a(bO),vI=a(gJ),vJ=a(d5),vK=a(dj),vP=a(iJ),vL=a(iY),vM=a(i0),vN=a(d1),vO=a(ba),vQ=a(bO),vR=a(gJ),vS=a(d5),vT=a(iY),vU=a(i0),vV=a(d1),vW=a(ba),vX=a(bO),vY=a(bs),vZ=a(br),v0=a(dh),v1=a(d5),v4=a(o6),v5=a(pi),v6=a(gN),v7=a(oa),v8=a(of),v9=a(d1),v_=a(ba),v$=a(bO),wa=a(gt),wb=a(op),wc=a(d5),wd=a(e9),we=a(n0),wf=a(d1),wg=a(ba),wh=a(gt),wi=a(ba),wj=a(o2),wm=a(nP),wk=a(od),wl=a(pn),wn=a(e6),wo=a(e2),wp=a(ba),wt=a(gN),wu=a(gz),vB=a(bO),vC=a(d5),vD=a(iJ),vE=a(d1),vA=a(pw),vo=a(e9),vp=a(pc),vq=a(di),vr=a(d3),vs=a(d3),vt=a(iM),vu=a(di),vv=a(oL),vw=a(ol),vx=a(a4),vz=a(nV),vy=a(iM),ve=a(oC),vf=a(pz),vg=a(oh),vh=a(oe),vi=a(pm),vj=a(o9),vk=a(os),vl=a(gu),vm=a(gu),va=a(a4),vb=a(bq),vc=a(d6),vd=a(bN),u8=a(dj),u9=a(iT),u_=a(oU),u5=a(bs),u6=a(br),u7=a(dh),uY=a(bs),uZ=a(br),u0=a(dh),u1=a(iV),u2=a(di),u3=a(iR),u4=a(o5),uH=a(oc),uN=a(gx),uM=a(i2),uI=a(iN),uJ=a(eZ),uQ=a(e1),uR=a(iN),uO=a(e1),uP=a(eZ),uS=a(n_),uT=a(o3),uU=a(eZ),uV=a(pv),uW=a(i2),uX=a(eZ),uK=a(d3),uL=a(oQ),uE=a(gD),uF=a(gD),uG=a(gD),uA=a(o7),uB=a(br),uC=a(bs),uD=a(pl),uk=a(n4),ul=a(nU),um=a(oY),un=a(d2),uo=a(px),up=a(o1),uq=a(n5),ur=a(oR),us=a(n3),ut=a(oo),uu=a(n2),uv=a(o8),uw=a(d0),ux=a(nZ),uy=a(pe),uz=a(og),t1=a(gF),t3=a(e4),t2=a(eY),t4=a(dZ),t5=a(a4),t6=a(bq),t7=a(b5),t8=a(gL),t9=a(bN),t_=a(a4),t$=a(bq),ua=a(d6),ub=a(bN),uc=a(dZ),ud=a(e8),ue=a(a4),uf=a(bq),ug=a(oP),uh=a(e1),ui=a(e8),uj=a(bN),tJ=a(gF),tR=a(e4),tK=a(eY),tL=a(dZ),tM=a(a4),tN=a(bq),tO=a(b5),tP=a(gL),tQ=a(bN),tS=a(gM),tT=a(a4),tU=a(bq),tV=a(d6),tW=a(bN),tX=a(b5),tY=a(dj),tZ=a(bN),tG=a(bs),tH=a(br),tE=[0,a(aE),0],tF=a(aE),tC=a(X),tB=[0,a(aE),0],tD=a(aE),to=a(gF),tp=a(e4),tq=a("*"),tr=a(bP),tj=[0,[0,[0,[0,[0,0]]]]],tk=[0,[0,[0,0]]],tl=[0,[0,0]],tm=[0,0],tn=[0,[0,[0,[0,0]]]],th=a('":'),ti=a(aE),tf=[0,a(aE),0],tg=a(aE),td=[0,a("}"),0],te=a("{"),tb=[0,a("]"),0],tc=a("["),s$=[0,[0,[0,0]]],s_=[0,[0,[0,0]]],s8=[0,0],s5=[0,[0,[0,0]]],s6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s3=[0,[0,0]],s4=[0,[0,[0,0]]],sY=[0,0],sZ=[0,[0,[0,[0,[0,[0,0]]]]]],s0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],sV=[0,0],sS=[0,0,0],sT=[0,0,0],sU=[0,0,0],sP=[0,[0,0]],sQ=[0,[0,[0,0]]],sR=[0,0],sE=[0,[0,[0,[0,[0,[0,0]]]]]],sF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sG=[0,[0,[0,0]]],sH=[0,[0,[0,0]]],sI=[0,[0,[0,[0,[0,[0,0]]]]]],sJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],sL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,[0,[0,[0,[0,0]]]]]],sC=[0,[0,0]],sD=[0,[0,[0,0]]],sy=[0,0,0],sz=[0,0,0],su=[0,0,0],sv=[0,0,0],sw=[0,0,0],sx=[0,0,0],st=[0,0],ss=[0,0],sr=[0,0],sp=[0,0],sq=[0,0],so=[0,0],sm=[0,0],sn=[0,0],sf=[0,0],sg=[0,0],sh=[0,0],si=[0,[0,[0,0]]],se=[0,0],r$=[0,[0,[0,0]]],sa=[0,[0,0]],r9=[0,[0,0]],r_=[0,[0,[0,0]]],r8=[0,0],r6=[0,0],r7=[0,0],r4=[0,0,0],r1=[0,[0,0]],r2=[0,0],rT=[0,[0,0]],rU=[0,0],rV=[0,[0,0]],rW=[0,0],rX=[0,[0,0]],rY=[0,0],rZ=[0,[0,0]],r0=[0,0],rR=[0,[0,0]],rS=[0,0],rP=[0,[0,0]],rQ=[0,0],rL=[0,[0,0]],rM=[0,0],rN=[0,0],rO=[0,[0,0]],rC=[0,[0,0]],rD=[0,0],rE=[0,[0,0]],rF=[0,0],rG=[0,0],rH=[0,[0,0]],rI=[0,[0,0]],rJ=[0,[0,0]],rK=[0,0],ry=[0,0],rx=[0,0],rv=[0,[0,[0,0]]],ru=[0,[0,[0,[0,[0,[0,0]]]]]],rq=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,[0,[0,[0,[0,[0,0]]]]]],rk=[0,[0,[0,[0,[0,[0,0]]]]]],re=[0,[0,0]],rf=[0,0],rg=[0,[0,0]],rh=[0,[0,[0,0]]],ri=[0,[0,[0,0]]],q9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q_=[0,[0,[0,[0,[0,[0,0]]]]]],q$=[0,[0,[0,[0,[0,[0,0]]]]]],ra=[0,[0,[0,0]]],rb=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,[0,0]]],rd=[0,[0,[0,0]]],q7=[0,[0,0]],q8=[0,0],q6=[0,0,0],q4=[0,0,0],q3=[0,[0,[0,0]]],qZ=[0,0],q0=[0,0],qU=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qW=[0,[0,[0,0]]],qT=[0,[0,[0,[0,0]]]],qP=[0,[0,[0,0]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,0]]],qS=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qN=[0,[0,0]],qO=[0,0],qL=[0,[0,0]],qM=[0,0],qJ=[0,[0,0]],qK=[0,0],qw=[0,0],qx=[0,[0,0]],qu=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],qs=[0,0,0],qr=a(ps),qq=a(X),qp=[0,[0,0]],qo=[0,0],ql=[0,0],qn=[1,0],qm=[0,0],qk=[0,0],qi=[1,0],qj=[1,0],rw=[10,0,0,0,0],yJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EL]]]]]]]]]]],BV=a(bs),BW=a(br),BX=a(om),BM=a(gM),BN=[0,a("a base axis of such a platform"),0],BO=a(a4),BP=a(bq),Bz=a(o9),BA=a(oC),BB=a(pm),BC=a(gu),BD=a(os),BE=a(gu),BF=a(pz),BG=a(oh),BH=a(oe),Bp=a(o0),Bq=a(gC),A3=[0,a("such a machine with bodies"),0],AQ=a(gz),AR=a(ba),AS=a(o2),AT=a(pn),AW=a(od),AX=a(nP),AY=a(ba),AZ=a(ba),A1=a(gt),A0=[0,a("a claim that no cube of such a machine fits"),0],A2=a(pw),A4=a(d1),A5=a(d5),A6=a(dj),A7=a(iT),A8=a(oU),A9=a(gJ),A_=a(of),A$=a(n0),Ba=a(iJ),Bd=a(dh),Be=a(o5),Bh=a(bO),Bi=a(bO),Bj=a(op),Bk=a(bO),Bl=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Bm=a(gt),Bn=a(e9),Bo=a(dh),Br=a(bO),Bs=a(bs),Bt=a(br),Bu=a(o6),Bv=a(pi),Bw=a(gN),Bx=a(oa),Bb=[0,a(aE),0],Bc=a('the mechanism "'),By=a(iY),BI=a(gJ),BJ=a(dj),BK=a(iT),BL=a(i0),BQ=a(bO),BR=[0,a('"one_to_one" of this set of orientations'),0],BU=a(dj),BS=[0,a("a platform that turns on struts and other drives"),0],BT=a(bO),Bf=[0,a(aE),0],Bg=a('the workspace "'),BY=a(ba),BZ=a(ba),B1=a(e6),B2=a(e2),B3=a(gN),B0=[0,a("an atlas of such a machine"),0],AU=[0,a(aE),0],AV=a('a claim of the kind "'),B8=a(pA),Ce=a(d0),Cf=a(d2),Cg=a(on),Ch=a(oN),Ci=a(b5),Cj=a(gK),Ck=a(iI),Cl=a(b5),B9=a(dk),B_=a(n$),B$=a(e0),Ca=a(oZ),Cd=[0,a("directions of one scale"),0],Cb=[0,a(aE),0],Cc=a('the evidence "'),Cm=a(dk),Cn=a(gK),Co=[0,1,1],Cp=a(d0),Cq=a(d2),Cr=a(dk),Cs=a(e0),Ct=a(pk),Cv=a(d0),Cw=a(d2),Cx=a(dk),Cy=a(e0),Cz=a(e3),CA=a(gv),CB=a(e3),CC=a(gv),Cu=[0,a("this evidence at control points"),0],DA=a('"orthocert-paving/'),Dr=a(dk),Ds=a(dk),Da=a(oI),Db=a(ok),Dc=a(pb),Dy=[0,3,3],Dd=a(or),Dp=[0,a("this set of orientations with such drives"),0],Dq=[0,a(oy),0],Dt=[0,a('this evidence "tolerances" of a platform that turns'),0],Du=[0,a("a step of a platform that turns that is not at control points"),0],Dv=[0,a(oy),0],Dw=[0,a('the evidence "tolerances" of such a mechanism'),0],Dx=[0,a(pa),0],Do=[0,a(pa),0],Dn=[0,a("a mechanism by formulas in a claim that is refuted"),0],Dm=[0,a("this quantity in a claim that is refuted"),0],De=[0,a("the acceleration of a joint of a machine with a plane"),0],Dl=[0,a("a step in a proof that no cube fits"),0],Dk=[0,a("a stiffness for each joint in such a claim"),0],Dj=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Di=[0,a("a leaf that fails"),0],Df=a(oJ),Dg=a(nR),Dh=a(gx),C8=a(i3),C9=a(gv),C_=a(b5),C1=a(gz),C2=a(oD),C3=a(pf),C4=[0,a(aE),0],C5=a('a proof of the kind "'),CX=a(e2),CY=a(e6),CZ=a(gA),C0=a(oT),CT=a(ba),CU=a(gH),CV=a(nS),CW=a(gE),CQ=a(o_),CR=a(e3),CS=a(gE),CM=a(oW),CN=a(gH),CO=a(gA),CP=a(po),CF=a(pj),CG=a(oA),CH=a(pg),CI=a(gC),CJ=a(pu),CK=[0,a(aE),0],CL=a('the failure "'),CD=a(i3),CE=a(ps),B6=a(gK),B7=a(iI),B4=a(nQ),B5=a(nT),AN=a(e9),AD=a(iM),AE=a(nV),AF=a(d3),AG=a(a4),AL=a(pc),AM=a(e9),AO=a(di),AP=a(d3),AH=a(di),AI=a(oL),AJ=a(ol),AK=a(a4),Aw=a(dh),AA=a(bs),AB=a(br),Ax=a(iR),Ay=a(iV),Az=a(di),Aq=a(dh),Au=a(bs),Av=a(br),Ar=a(iR),As=a(iV),At=a(di),Ap=[0,1],Ao=[0,1],Am=[0,1],Al=[0,1],Aj=[0,1],Ak=[0,a("this quantity of such a mechanism"),0],z5=a(iN),z6=a(o3),z7=a(n_),z8=a(i2),z9=a(pv),z_=a(e1),z4=a(gx),zW=a(gD),zL=a(oQ),zM=a(oY),Ab=a(d0),Ac=a(pe),Ad=a(oo),Ae=a(d2),Af=a(oR),Ag=a(n2),Ah=a(n3),Ai=a(nU),zN=a(nZ),zO=a(o8),zP=a(o1),zQ=a(og),zR=a(px),zS=a(n5),zT=a(n4),zU=[0,a(aE),0],zV=a('the quantity "'),zX=a(oc),zY=a(o7),zZ=a(bs),z0=a(br),z1=a(pl),z2=[0,a(aE),0],z3=a('a bound "'),z$=a(eZ),Aa=a(d3),zJ=a(bN),zK=a(d6),zo=a(bN),zp=a(gM),zq=a(e8),zr=a(gL),zs=a(d6),zv=a(a4),zw=a(bq),zx=a(eY),zy=a(dZ),zz=a(a4),zA=a(bq),zB=a(b5),zC=a(eY),zD=a(dZ),zE=a(e8),zF=a(a4),zG=a(bq),zH=a(oP),zI=a(e1),zt=[0,a('" of such a machine'),0],zu=a(n9),zm=a(bN),zn=a(e8),y8=a(bN),y9=a(dj),y_=a(gL),y$=a(d6),zc=a(gM),zd=a(a4),ze=a(bq),zf=a(eY),zg=a(dZ),zh=a(a4),zi=a(bq),zj=a(b5),zk=a(b5),za=[0,a(aE),0],zb=a(n9),y5=a(gF),y6=a(e4),y3=a(" is not covered by the verified checker"),y4=a(X),y1=a(bs),y2=a(br),yX=a(X),yY=a(py),yZ=a(X),y0=a(X),yW=[1,0],yU=a("Reader.Malformed"),yV=a("Reader.Not_covered"),DC=[0,a("a paving is checked by orthocert-verified")],DB=a(oS),DD=a("CERTIFIED"),DE=a("REFUTED"),DF=a(oS),DG=a("NOT COVERED: ");function
 ec(a){throw[0,jl,a]}function
 aY(d,c){var
-a=ao(d),e=ao(c),b=b7(a+e|0);d8(d,0,b,0,a);d8(c,0,b,a,e);return gS(b)}Fd(0);pU(1);pU(2);function
+a=ao(d),e=ao(c),b=b8(a+e|0);d8(d,0,b,0,a);d8(c,0,b,a,e);return gU(b)}Fe(0);pW(1);pW(2);function
 jn(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Fc(d)}catch(a){a=jg(a);if(a[1]!==jm)throw a;var
+c=a[2],d=a[1];try{Fd(d)}catch(a){a=jg(a);if(a[1]!==jm)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Fe(0))}Fl(a(nV),jn);function
-b8(c){var
+a=c;continue}return 0}}return a(Ff(0))}Fm(a(nX),jn);function
+b9(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
 jo(d){var
@@ -721,59 +721,59 @@ a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 Y(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-gV(d,c){var
+gX(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-au(d,c){var
+ax(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bt(b,c){var
-a=b7(b);EY(a,0,b,c);return gS(a)}function
-ds(g,b,a){var
-d=d9(g),f=0;if(0<=b&&0<=a&&!((gQ(d)-a|0)<b)){var
-c=b7(a);e_(d,b,c,0,a);var
+bu(b,c){var
+a=b8(b);EZ(a,0,b,c);return gU(a)}function
+dr(g,b,a){var
+d=d9(g),f=0;if(0<=b&&0<=a&&!((gS(d)-a|0)<b)){var
+c=b8(a);e_(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=ec(p_);return gS(e)}function
+e=ec(qa);return gU(e)}function
 jp(k,g){if(g){var
 h=ao(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ao(i)+h|0)+c|0,m=b[2],n=c<=j?j:ec(p$),c=n,b=m;continue}var
+j=(ao(i)+h|0)+c|0,m=b[2],n=c<=j?j:ec(qb),c=n,b=m;continue}var
 l=ao(i)+c|0}else
 var
 l=c;var
-f=b7(l),e=p,d=g;for(;;){if(d){var
+f=b8(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
 o=d[2];d8(a,0,f,e,ao(a));d8(k,0,f,e+ao(a)|0,h);var
-e=(e+ao(a)|0)+h|0,d=o;continue}d8(a,0,f,e,ao(a))}return gS(f)}}}return qa}function
-qb(e,d,c,b){var
-a=c;for(;;){if(d<=a)throw gU;if(cO(e,a)===b)return a;var
+e=(e+ao(a)|0)+h|0,d=o;continue}d8(a,0,f,e,ao(a))}return gU(f)}}}return qc}function
+qd(e,d,c,b){var
+a=c;for(;;){if(d<=a)throw gW;if(cO(e,a)===b)return a;var
 a=a+1|0;continue}}function
-qc(b,a,d){var
-c=ao(b);if(0<=a&&!(c<a))try{qb(b,c,a,d);var
-e=1;return e}catch(a){a=jg(a);if(a===gU)return 0;throw a}return ec(qd)}function
-gW(b,c){if(0===b)return[0];if(0<=b){var
-d=Fb(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+qe(b,a,d){var
+c=ao(b);if(0<=a&&!(c<a))try{qd(b,c,a,d);var
+e=1;return e}catch(a){a=jg(a);if(a===gW)return 0;throw a}return ec(qf)}function
+gY(b,c){if(0===b)return[0];if(0<=b){var
+d=Fc(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return ec(qe)}function
-gX(c){var
+a=g;continue}break}}return d}return ec(qg)}function
+gZ(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aL(0),b=aL(1);function
+d=aM(0),b=aM(1);function
 q(a){return D(a,b)}function
-jq(b,a){return D(aL(b),a)}function
-c(b,a){return z(aL(b),a)}function
-aZ(b,a){return[0,ji(b,a),p6(b,a)]}function
-gY(b,a){return H(b,a)?b:a}function
+jq(b,a){return D(aM(b),a)}function
+c(b,a){return z(aM(b),a)}function
+aZ(b,a){return[0,ji(b,a),p8(b,a)]}function
+g0(b,a){return H(b,a)?b:a}function
 bf(b,a){return H(b,a)?a:b}function
 ed(a){return ed}function
 ac(a){return a?0:1}function
 x(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-aM(a){return a[1]}function
-bu(a){return a[2]}function
+aB(a){return a[1]}function
+bg(a){return a[2]}function
 h(a){var
 b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
@@ -805,7 +805,7 @@ a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
 fd(a){return js(a,0)}function
 jt(a){if(typeof
-a==="number")return qg;else
+a==="number")return qi;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -817,7 +817,7 @@ switch(a[0]){case
 7:return[8,a[1]];case
 8:return[9,a[1]];default:return[0,jt(a[1])]}}function
 bw(a){if(typeof
-a==="number")return qh;else
+a==="number")return qj;else
 switch(a[0]){case
 0:return[1,bv(a[1])];case
 1:return[3,bv(a[1])];case
@@ -863,47 +863,47 @@ jx(a){if(a)var
 b=a[1],d=b?[0,jx(b[1])]:b,c=d;else
 var
 c=a;return c}function
-gZ(d,c){var
+g1(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 jy(a){if(H(a,b))return b;var
-e=aZ(a,aL(2)),f=e[1];return ab(e[2],d)?q(c(2,jy(f))):q(c(2,c(2,f)))}function
-jz(c,a){return bf(b,aD(c,a))}function
-ff(a){if(H(a,b))return qj;var
-c=aZ(a,aL(2)),e=c[1];return ab(c[2],d)?[0,ff(e)]:[0,ff(e)]}function
+e=aZ(a,aM(2)),f=e[1];return ab(e[2],d)?q(c(2,jy(f))):q(c(2,c(2,f)))}function
+jz(c,a){return bf(b,aF(c,a))}function
+ff(a){if(H(a,b))return ql;var
+c=aZ(a,aM(2)),e=c[1];return ab(c[2],d)?[0,ff(e)]:[0,ff(e)]}function
 fg(a){if(H(a,b))return b;var
-c=aZ(a,aL(2)),e=c[1];return ab(c[2],d)?q(fg(e)):q(fg(e))}function
+c=aZ(a,aM(2)),e=c[1];return ab(c[2],d)?q(fg(e)):q(fg(e))}function
 jA(c,b){var
 a=jh(c,b);return 0===a?0:0<=a?2:1}function
 fh(j,i){var
-c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:ab(aZ(a,aL(2))[2],d)?0:0;var
-g=aZ(c,aL(2)),h=g[1];if(ab(g[2],d)){if(H(a,b))return 0;var
-e=aZ(a,aL(2)),k=e[1];if(ab(e[2],d)){var
+c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:ab(aZ(a,aM(2))[2],d)?0:0;var
+g=aZ(c,aM(2)),h=g[1];if(ab(g[2],d)){if(H(a,b))return 0;var
+e=aZ(a,aM(2)),k=e[1];if(ab(e[2],d)){var
 c=h,a=k;continue}return 0}if(H(a,b))return 0;var
-f=aZ(a,aL(2)),l=f[1];if(ab(f[2],d))return 0;var
+f=aZ(a,aM(2)),l=f[1];if(ab(f[2],d))return 0;var
 c=h,a=l;continue}}function
 fi(b,a){return 2<=jA(b,a)?0:1}function
-dt(i,e,a){if(i){var
+ds(i,e,a){if(i){var
 f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
-w=aZ(e,aL(2)),g=w[1];if(ab(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
-m=aZ(a,aL(2)),A=m[1];if(ab(m[2],d)){var
-j=dt(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dt(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(H(a,b))return[0,b,[0,e,b]];var
-v=aZ(a,aL(2)),h=v[1];if(ab(v[2],d)){var
-n=dt(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(jA(g,h)){case
+w=aZ(e,aM(2)),g=w[1];if(ab(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
+m=aZ(a,aM(2)),A=m[1];if(ab(m[2],d)){var
+j=ds(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=ds(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(H(a,b))return[0,b,[0,e,b]];var
+v=aZ(a,aM(2)),h=v[1];if(ab(v[2],d)){var
+n=ds(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(jA(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dt(f,jz(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dt(f,jz(g,h),a),t=s[2],u=t[2],E=[0,D(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+p=ds(f,jz(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=ds(f,jz(g,h),a),t=s[2],u=t[2],E=[0,D(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
 fj(b,a){var
-c=ff(a);return dt(P(ff(b),c),b,a)}function
+c=ff(a);return ds(P(ff(b),c),b,a)}function
 jB(c,i,h){var
 e=i,a=h;for(;;){if(H(e,b))return a;var
-f=aZ(e,aL(2)),g=f[1];if(ab(f[2],d)){var
+f=aZ(e,aM(2)),g=f[1];if(ab(f[2],d)){var
 e=g,a=ar(c,a,a);continue}return ar(c,a,jB(c,g,ar(c,a,a)))}}function
-ee(a){return jB(P,a,qk)}function
+ee(a){return jB(P,a,qm)}function
 jC(a){return a?q(jC(a[1])):b}function
-b9(f,e){var
+b_(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
@@ -926,17 +926,17 @@ t=z(c(2,q(c(2,c(2,b)))),d),u=D(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=z(c(2,q(c(2,c(2,b)))),d),w=D(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=z(c(2,q(c(2,c(2,b)))),d),y=D(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-g0(a){if(H(a,b))return ql;var
-c=aZ(a,aL(2)),e=c[1];return ab(c[2],d)?bv(g0(e)):bw(g0(e))}function
-fk(a){return fd(g0(a))}function
+g2(a){if(H(a,b))return qn;var
+c=aZ(a,aM(2)),e=c[1];return ab(c[2],d)?bv(g2(e)):bw(g2(e))}function
+fk(a){return fd(g2(a))}function
 jD(c,b){var
 a=jh(c,b);return 0===a?0:0<=a?2:1}var
 jE=D;function
-g1(k,f){if(0<=aO(f)){var
+g3(k,f){if(0<=aO(f)){var
 g=jj(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=z(c,c),j=1===(a&1)?z(e,c):e,e=j,c=i,a=h;continue}}return ec(qf)}return d}function
-g2(c){var
+h=a>>>1|0,i=z(c,c),j=1===(a&1)?z(e,c):e,e=j,c=i,a=h;continue}}return ec(qh)}return d}function
+g4(c){var
 a=aO(c);return 0===a?d:0<a?b:R(b)}function
 jF(a){return 0<=aO(a)?a:d}function
 ef(a){var
@@ -947,31 +947,31 @@ a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return b9(a[1],b);case
+1:return b_(a[1],b);case
 2:var
-e=c(2,b);return b9(a[1],e);case
+e=c(2,b);return b_(a[1],e);case
 3:var
-f=q(c(2,b));return b9(a[1],f);case
+f=q(c(2,b));return b_(a[1],f);case
 4:var
-g=c(2,c(2,b));return b9(a[1],g);case
+g=c(2,c(2,b));return b_(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return b9(a[1],h);case
+h=q(c(2,c(2,b)));return b_(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return b9(a[1],i);case
+i=c(2,q(c(2,b)));return b_(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return b9(a[1],j);case
+j=q(c(2,q(c(2,b))));return b_(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return b9(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return b9(a[1],l)}}function
+k=c(2,c(2,c(2,b)));return b_(a[1],k);default:var
+l=q(c(2,c(2,c(2,b))));return b_(a[1],l)}}function
 cp(b,a){var
 c=aO(a);return 0===c?d:1===c?ji(b,a):jq(-1,ji(jq(-1,b),a))}function
-fl(a){return 0<aO(a)?Fv(a):d}function
+fl(a){return 0<aO(a)?Fw(a):d}function
 eg(b,c){var
-a=jj(c);return 0<=a?p7(b,a):p8(b,-a|0)}function
+a=jj(c);return 0<=a?p9(b,a):p_(b,-a|0)}function
 cP(b,c){var
-a=jj(c);return 0<=a?p8(b,a):p7(b,-a|0)}function
+a=jj(c);return 0<=a?p_(b,a):p9(b,-a|0)}function
 bz(b,a){return a?a[1]:b}function
-bg(a){var
+bh(a){var
 b=a?a[2]:a;return b}function
 r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
@@ -987,7 +987,7 @@ a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 ei(a){if(a){var
 b=ei(a[2]);return f(a[1],b)}return a}function
-g3(g,f,e){var
+g5(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=ar(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1000,11 +1000,11 @@ var
 c=a;return c}function
 w(b,a){if(a){var
 c=w(b,a[2]);return f(i(b,a[1]),c)}return a}function
-cQ(e,d,c){var
+dt(e,d,c){var
 a=d,b=c;for(;;){if(a){var
 f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aw(c,b,a){if(a){var
-d=aw(c,b,a[2]);return ar(c,a[1],d)}return b}function
+av(c,b,a){if(a){var
+d=av(c,b,a[2]);return ar(c,a[1],d)}return b}function
 al(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
@@ -1016,31 +1016,31 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bh(b,e){var
+bi(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bh(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bi(b,c)];var
 a=c;continue}return a}}function
 jI(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-ax(b,a){if(b)if(a)var
-d=ax(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+at(b,a){if(b)if(a)var
+d=at(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bi(b,a){if(b)if(a)var
-d=bi(b[1],a[2]),c=[0,a[1],d];else
+bj(b,a){if(b)if(a)var
+d=bj(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-b_(d,c){var
+bR(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aE(b,a){var
-c=a?[0,b,aE([0,b],a[1])]:a;return c}function
+aG(b,a){var
+c=a?[0,b,aG([0,b],a[1])]:a;return c}function
 ap(b,a){var
 c=a?[0,b,ap(b,a[1])]:a;return c}function
 jJ(a){if(a){var
@@ -1050,55 +1050,55 @@ a(a){return 0!==(j&1<<a)?1:0}var
 c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jJ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?ee(b):0}function
 du(c,b){var
 a=jh(z(c[1],b[2]),z(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cR(b,a){return H(z(b[1],a[2]),z(a[1],b[2]))}function
+cQ(b,a){return H(z(b[1],a[2]),z(a[1],b[2]))}function
 dv(b,a){return[0,D(z(b[1],a[2]),z(a[1],b[2])),z(b[2],a[2])]}function
 b$(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
 jK(a){return[0,R(a[1]),a[2]]}function
 fn(b,a){return dv(b,jK(a))}function
-g4(f,c){var
+g6(f,c){var
 a=c[1],e=aO(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return b$(f,g)}function
 fo(q){var
 a=q[2],b=q[1],o=aO(b);if(0===o)var
-c=[0,dr(a),[0,d,g2(a)]];else
+c=[0,dq(a),[0,d,g4(a)]];else
 if(0<o){var
 n=aO(a);if(0===n)var
-c=[0,dr(b),[0,g2(b),d]];else
+c=[0,dq(b),[0,g4(b),d]];else
 if(0<n)var
 l=fj(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=fj(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
 p=R(b),i=aO(a);if(0===i)var
-c=[0,dr(b),[0,g2(b),d]];else
+c=[0,dq(b),[0,g4(b),d]];else
 if(0<i)var
 g=fj(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
 e=fj(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
 r=c[2],s=ef(r[2]);return[0,r[1],s]}function
 a5(a){if(typeof
-a==="number")return qo;else
+a==="number")return qq;else
 switch(a[0]){case
 0:var
-b=a5(a[1]);return aY(bt(1,48),b);case
+b=a5(a[1]);return aY(bu(1,48),b);case
 1:var
-c=a5(a[1]);return aY(bt(1,49),c);case
+c=a5(a[1]);return aY(bu(1,49),c);case
 2:var
-d=a5(a[1]);return aY(bt(1,50),d);case
+d=a5(a[1]);return aY(bu(1,50),d);case
 3:var
-e=a5(a[1]);return aY(bt(1,51),e);case
+e=a5(a[1]);return aY(bu(1,51),e);case
 4:var
-f=a5(a[1]);return aY(bt(1,52),f);case
+f=a5(a[1]);return aY(bu(1,52),f);case
 5:var
-g=a5(a[1]);return aY(bt(1,53),g);case
+g=a5(a[1]);return aY(bu(1,53),g);case
 6:var
-h=a5(a[1]);return aY(bt(1,54),h);case
+h=a5(a[1]);return aY(bu(1,54),h);case
 7:var
-i=a5(a[1]);return aY(bt(1,55),i);case
+i=a5(a[1]);return aY(bu(1,55),i);case
 8:var
-j=a5(a[1]);return aY(bt(1,56),j);default:var
-k=a5(a[1]);return aY(bt(1,57),k)}}function
+j=a5(a[1]);return aY(bu(1,56),j);default:var
+k=a5(a[1]);return aY(bu(1,57),k)}}function
 ej(a){return typeof
-a==="number"?qp:a5(a)}function
-cS(a){return g1(c(2,b),a)}function
+a==="number"?qr:a5(a)}function
+cR(a){return g3(c(2,b),a)}function
 jL(b,a){return cP(a,b)}function
 jM(b,a){return R(cP(R(a),b))}function
 fp(b,a){return R(cp(R(b),a))}function
@@ -1106,22 +1106,22 @@ Q(c,b){var
 a=eg(b,c);return[0,a,a]}function
 jN(d,c,a){var
 b=eg(c,d),e=fp(b,a);return[0,cp(b,a),e]}function
-B(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
-E(b,a){return[0,aD(b[1],a[2]),aD(b[2],a[1])]}function
+A(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
+E(b,a){return[0,aF(b[1],a[2]),aF(b[2],a[1])]}function
 ad(a){return[0,R(a[2]),R(a[1])]}function
 jO(e,c,b,a){if(H(d,e))return H(d,b)?[0,z(e,b),z(c,a)]:H(a,d)?[0,z(c,b),z(e,a)]:[0,z(c,b),z(c,a)];if(H(c,d))return H(d,b)?[0,z(e,a),z(c,b)]:H(a,d)?[0,z(c,a),z(e,b)]:[0,z(e,a),z(e,b)];if(H(d,b))return[0,z(e,a),z(c,a)];if(H(a,d))return[0,z(c,b),z(e,b)];var
-f=bf(z(e,b),z(c,a));return[0,gY(z(e,a),z(c,b)),f]}function
+f=bf(z(e,b),z(c,a));return[0,g0(z(e,a),z(c,b)),f]}function
 v(c,b,a){var
 d=jO(b[1],b[2],a[1],a[2]),e=jM(c,d[2]);return[0,jL(c,d[1]),e]}function
-U(b,a){var
+S(b,a){var
 c=z(a[1],a[1]),e=z(a[2],a[2]),h=jM(b,bf(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jL(b,gY(c,e));return[0,f,h]}function
-g5(b,a){var
-c=eg(cS(b),b),d=fp(c,a[1]);return[0,cp(c,a[2]),d]}function
-bR(b,a){if(K(d,a[1]))return[0,g5(b,a)];var
-c=K(a[2],d),e=c?[0,ad(g5(b,ad(a)))]:c;return e}function
-bS(f,c){var
+f=jL(b,g0(c,e));return[0,f,h]}function
+g7(b,a){var
+c=eg(cR(b),b),d=fp(c,a[1]);return[0,cp(c,a[2]),d]}function
+bS(b,a){if(K(d,a[1]))return[0,g7(b,a)];var
+c=K(a[2],d),e=c?[0,ad(g7(b,ad(a)))]:c;return e}function
+bT(f,c){var
 g=K(d,c[1]);if(g)var
 e=eg(c[2],f),a=fl(e),i=ab(z(a,a),e)?a:D(a,b),h=[0,[0,fl(eg(c[1],f)),i]];else
 var
@@ -1133,15 +1133,15 @@ cq(b,a){return cP(b,a)}function
 a0(a,c,b){if(H(d,a)){var
 e=b[1],f=R(cq(R(z(a,b[2])),c));return[0,cq(z(a,e),c),f]}var
 g=b[2],h=R(cq(R(z(a,b[1])),c));return[0,cq(z(a,g),c),h]}function
-aF(a){var
+ay(a){var
 c=R(cP(R(a[2]),b));return[0,cP(a[1],b),c]}function
 ek(c,b,a){var
 e=jO(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=fp(f,h),j=K(g,d)?a[1]:a[2];return[0,cp(g,j),i]}function
 ca(a){return bf(a[2],R(a[1]))}var
-A=[0,d,d];function
-cT(a){return[0,a[1],a[1]]}function
+B=[0,d,d];function
+cS(a){return[0,a[1],a[1]]}function
 cr(a){return[0,a[2],a[2]]}function
-bT(b,a){switch(a[0]){case
+bU(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1157,33 +1157,33 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-ay(n,m){var
+az(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
 0:return 0===a[0]?s(b[1],a[1]):0;case
 1:return 1===a[0]?s(b[1],a[1]):0;case
 2:return 2===a[0]?ab(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=ay(b[1],a[1]);if(f){var
+f=az(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=ay(b[1],a[1]);if(g){var
+g=az(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=ay(b[1],a[1]);if(h){var
+h=az(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=ay(b[1],a[1]);if(i){var
+i=az(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
 j=co(b[1],a[1]);if(j){var
-k=ay(b[2],a[2]);if(k){var
-l=ay(b[3],a[3]);if(l){var
+k=az(b[2],a[2]);if(k){var
+l=az(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
@@ -1194,36 +1194,36 @@ fq(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 aT(c,b){var
 a=fq(b);return a?ab(c,a[1]):a}function
-el(a){return K(dr(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+el(a){return K(dq(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 j(a){return[0,[2,a]]}function
 y(b,a){if(aT(d,b))return a;if(aT(d,a))return b;var
 c=fq(b);if(c){var
 e=c[1],f=fq(a);if(f){var
 g=f[1];if(el(e)&&el(g))return j(D(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bj(a){var
+bk(a){var
 b=a[1];switch(b[0]){case
 2:var
 c=b[1];return el(c)?j(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-u(b,a){if(aT(d,a))return b;if(aT(d,b))return bj(a);var
+u(b,a){if(aT(d,a))return b;if(aT(d,b))return bk(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?s(c[1],e[1])?j(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 J(a){var
 c=fq(a);if(c){var
 b=c[1];return el(b)?j(z(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-p(a,c){if(!aT(d,a)&&!aT(b,c)){if(!aT(d,c)&&!aT(b,a))return ay(a,c)?J(a):[0,[6,a,c]];return c}return a}function
+p(a,c){if(!aT(d,a)&&!aT(b,c)){if(!aT(d,c)&&!aT(b,a))return az(a,c)?J(a):[0,[6,a,c]];return c}return a}function
 ag(c,a){return aT(b,a)?c:[0,[7,c,a]]}function
-az(a){return aT(b,a)?a:[0,[9,a]]}function
+aA(a){return aT(b,a)?a:[0,[9,a]]}function
 jP(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bU(f,e,d,c){var
+bV(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bT(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+g=b[1],h=[0,i(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
 jQ(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bg(b),c=e,a=l;continue}var
+l=[0,i(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bh(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bT(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bg(b),c=e,a=m;continue}return a}}function
+m=[0,i(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bh(b),c=e,a=m;continue}return a}}function
 em(b,a){if(a){var
 c=a[2];if(b){var
 e=em(b[1],c);return[0,a[1],e]}var
@@ -1238,56 +1238,56 @@ jR(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-g6(j,g){var
-k=0,l=aw(em,e(function(a){return 0},g),j),c=eh(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aw(em,d,jR(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+g8(j,g){var
+k=0,l=av(em,e(function(a){return 0},g),j),c=eh(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?av(em,d,jR(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cs(a){var
 b=0;function
-c(a){return[0,a]}return bU(j(d),c,a,b)}function
+c(a){return[0,a]}return bV(j(d),c,a,b)}function
 a1(d,c){var
-a=d,b=0;for(;;){if(a){if(ay(c,a[1]))return b;var
+a=d,b=0;for(;;){if(a){if(az(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-cU(d,b){var
-e=b[1];if(al(function(a){return ay(d,a)},e))return b;var
+cT(d,b){var
+e=b[1];if(al(function(a){return az(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=cU(a[2],b),k=cU(a[3],j),c=cU(a[4],k);break;case
+j=cT(a[2],b),k=cT(a[3],j),c=cT(a[4],k);break;case
 5:case
 8:case
 9:var
-c=cU(a[1],b);break;case
+c=cT(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=cU(a[1],b),c=cU(a[2],i)}var
-f=c[2],g=c[1],h=[0,bT(function(a){return a1(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+i=cT(a[1],b),c=cT(a[2],i)}var
+f=c[2],g=c[1],h=[0,bU(function(a){return a1(g,a)},a),f];return[0,[0,d,c[1]],h]}function
 ct(a){var
-b=cQ(function(b,a){return cU(a,b)},a,qq),c=b[1],d=e(function(a){return a1(c,a)},a);return[0,jH(b[2]),d]}function
-fr(a){return aw(function(b,a){return D(ca(b),a)},d,a)}function
+b=dt(function(b,a){return cT(a,b)},a,qs),c=b[1],d=e(function(a){return a1(c,a)},a);return[0,jH(b[2]),d]}function
+fr(a){return av(function(b,a){return D(ca(b),a)},d,a)}function
 cb(b,c,a){var
-d=fr(a),e=gY(c[2],D(b[2],d)),f=fr(a);return[0,b,[0,bf(c[1],aD(b[1],f)),e],a]}function
+d=fr(a),e=g0(c[2],D(b[2],d)),f=fr(a);return[0,b,[0,bf(c[1],aF(b[1],f)),e],a]}function
 ae(a){return[0,a,a,0]}function
-bV(b,a){var
+bW(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aS(function(a){return a},e,B,d,c),g=B(b[2],a[2]);return cb(B(b[1],a[1]),g,f)}function
+f=aS(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cb(A(b[1],a[1]),g,f)}function
 bb(b,a){var
 c=a[3],d=b[3],e=aS(function(a){return a},ad,E,d,c),f=E(b[2],a[2]);return cb(E(b[1],a[1]),f,e)}function
 en(a){var
 b=e(ad,a[3]),c=ad(a[2]);return[0,ad(a[1]),c,b]}function
-aA(a,c,b){var
-d=B(b[2],b[1]),e=B(c[2],c[1]),f=b[3],g=c[3];function
+aC(a,c,b){var
+d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=v(a,e,b);return aF(B(v(a,d,c),f))}function
-i(b){return aF(v(a,e,b))}var
-j=aS(function(b){return aF(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return cb(v(a,c[1],b[1]),k,j)}function
+f=v(a,e,b);return ay(A(v(a,d,c),f))}function
+i(b){return ay(v(a,e,b))}var
+j=aS(function(b){return ay(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return cb(v(a,c[1],b[1]),k,j)}function
 eo(b,a){var
-c=a[3],d=B(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=U(b,a[2]);return cb(U(b,a[1]),g,f)}function
-g7(a,b){var
-c=bS(a,b[1]);if(c){var
-g=c[1],d=bS(a,b[2]);if(d){var
-h=d[1],f=bR(a,B(h,g));if(f)var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=S(b,a[2]);return cb(S(b,a[1]),g,f)}function
+g9(a,b){var
+c=bT(a,b[1]);if(c){var
+g=c[1],d=bT(a,b[2]);if(d){var
+h=d[1],f=bS(a,A(h,g));if(f)var
 l=b[3],m=f[1],i=[0,cb(g,h,e(function(b){return v(a,m,b)},l))];else
 var
 i=f;var
@@ -1298,8 +1298,8 @@ k=j}else
 var
 k=c;return k}function
 dx(a,c,b){var
-d=bR(a,b[1]);if(d){var
-f=bR(a,b[2]);if(f)var
+d=bS(a,b[1]);if(d){var
+f=bS(a,b[2]);if(f)var
 h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,v(a,g,b))},n=function(b){return ad(v(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,cb(g,v(a,c[2],h),p)];else
 var
 i=f;var
@@ -1308,17 +1308,17 @@ var
 j=d;return j}function
 cu(b,a){return a?i(b,a[1]):a}function
 fs(a){var
-b=e(aF,a[3]),c=aF(B(a[2],a[1]));return cb(a[1],c,b)}function
+b=e(ay,a[3]),c=ay(A(a[2],a[1]));return cb(a[1],c,b)}function
 jS(a,k,j,r,c){var
-l=fs(k),m=fs(j),g=fs(c[1]),h=fs(c[2]),s=aA(a,l,h),t=bb(aA(a,m,g),s),i=dx(a,ae(Q(a,b)),t);if(i)var
-f=i[1],n=aA(a,bb(l,g),f),o=aA(a,bb(m,h),f),d=function(c,b){return aA(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return bV(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return bb(b,d(f,aF(a)))[2]},C=function(a){return en(d(f,aF(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=cb(c[2][1],c[2][2],E),G=ad(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,cb(c[1][1],c[1][2],H),F]];else
+l=fs(k),m=fs(j),g=fs(c[1]),h=fs(c[2]),s=aC(a,l,h),t=bb(aC(a,m,g),s),i=dx(a,ae(Q(a,b)),t);if(i)var
+f=i[1],n=aC(a,bb(l,g),f),o=aC(a,bb(m,h),f),d=function(c,b){return aC(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return bW(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return bb(b,d(f,ay(a)))[2]},C=function(a){return en(d(f,ay(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=cb(c[2][1],c[2][2],E),G=ad(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,cb(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
 jT(a,e,d,k){var
-p=eo(a,d),f=bV(eo(a,e),p),g=bb(bV(f,ae(Q(a,b))),k),l=aA(a,ae(Q(a,c(2,b))),f),q=eo(a,g),h=g7(a,bb(aA(a,ae(Q(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aA(a,m,d),i=dx(a,bV(aA(a,g,e),r),l);if(i)var
-s=aA(a,m,e),j=dx(a,bb(aA(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+p=eo(a,d),f=bW(eo(a,e),p),g=bb(bW(f,ae(Q(a,b))),k),l=aC(a,ae(Q(a,c(2,b))),f),q=eo(a,g),h=g9(a,bb(aC(a,ae(Q(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aC(a,m,d),i=dx(a,bW(aC(a,g,e),r),l);if(i)var
+s=aC(a,m,e),j=dx(a,bb(aC(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
@@ -1329,29 +1329,29 @@ cc(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bW(b,j,i){var
-f=ae(A);return function(a){switch(a[0]){case
+bX(b,j,i){var
+f=ae(B);return function(a){switch(a[0]){case
 0:return[0,r(a[1],j,f)];case
 1:return[0,r(a[1],i,f)];case
 2:return[0,ae(Q(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cc(function(b,a){return[0,bV(b,a)]},l,k);case
+k=a[2],l=a[1];return cc(function(b,a){return[0,bW(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return cc(function(b,a){return[0,bb(b,a)]},n,m);case
 5:var
 o=a[1];return cu(function(a){return[0,en(a)]},o);case
 6:var
-p=a[2],q=a[1];return cc(function(c,a){return[0,aA(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cc(function(c,a){return[0,aC(b,c,a)]},q,p);case
 7:var
 s=a[2],t=a[1];return cc(function(a,c){return dx(b,a,c)},t,s);case
 8:var
 u=a[1];return cu(function(a){return[0,eo(b,a)]},u);case
 9:var
-v=a[1];return cu(function(a){return g7(b,a)},v);default:var
+v=a[1];return cu(function(a){return g9(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jT(b,c[1],d[1],e[1]),y=a[1]?bu:aM;return x(y,w)}var
+w=jT(b,c[1],d[1],e[1]),y=a[1]?bg:aB;return x(y,w)}var
 g=e}else
 var
 g=d;var
@@ -1396,21 +1396,21 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fn(b,a)]};break;case
 4:var
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b$(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return du(a,[0,d,b])?0:[0,g4(c,a)]};break;default:var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return du(a,[0,d,b])?0:[0,g6(c,a)]};break;default:var
 k=eq(c,a[1]);return k?i(c,k[1]):k}var
 h=eq(c,f);if(h){var
 j=eq(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-qr(a){return 0}function
-cv(a){return eq(qr,a)}function
+qt(a){return 0}function
+cv(a){return eq(qt,a)}function
 bA(a,c){switch(c[0]){case
 0:return[0,jN(a,c[1],c[2])];case
 1:return 0;case
 2:var
 g=bA(a,c[1]);if(g)var
-h=bA(a,c[2]),D=h?[0,B(g[1],h[1])]:h,r=D;else
+h=bA(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
@@ -1426,45 +1426,45 @@ t=k;return t;case
 5:var
 m=bA(a,c[1]);if(m){var
 n=bA(a,c[2]);if(n)var
-o=bR(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
+o=bS(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
 w=u}else
 var
 w=m;return w;default:var
 y=c[1],p=bA(a,y);if(p){var
-e=p[1];if(K(d,e[1]))return bS(a,e);var
-f=cv(y),I=f?ac(cR([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
-z=bS(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
-q=ab(e[2],d),C=q?[0,A]:q;return C}return p}}function
+e=p[1];if(K(d,e[1]))return bT(a,e);var
+f=cv(y),I=f?ac(cQ([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
+z=bT(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
+q=ab(e[2],d),C=q?[0,B]:q;return C}return p}}function
 ft(b,a){return jN(b,a[1],a[2])}function
 bB(a,d){if(ep(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=by(i,jU),k=j?cR(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,ft(a,b$(fn(e,g),n)),0],p=f(ap(A,i),o),q=ft(a,e)[2],r=[0,ft(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,ft(a,b$(dv(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=by(i,jU),k=j?cQ(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,ft(a,b$(fn(e,g),n)),0],p=f(ap(B,i),o),q=ft(a,e)[2],r=[0,ft(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,ft(a,b$(dv(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bB(a,d[2]),u=bB(a,d[1]);return cc(function(b,a){return[0,bV(b,a)]},u,t);case
+t=bB(a,d[2]),u=bB(a,d[1]);return cc(function(b,a){return[0,bW(b,a)]},u,t);case
 3:var
 v=bB(a,d[2]),w=bB(a,d[1]);return cc(function(b,a){return[0,bb(b,a)]},w,v);case
 4:var
 m=d[2],h=d[1];if(cd(h,m)){var
 y=bB(a,h);return cu(function(b){return[0,eo(a,b)]},y)}var
-z=bB(a,m),B=bB(a,h);return cc(function(c,b){return[0,aA(a,c,b)]},B,z);case
+z=bB(a,m),A=bB(a,h);return cc(function(c,b){return[0,aC(a,c,b)]},A,z);case
 5:var
 C=bB(a,d[2]),D=bB(a,d[1]);return cc(function(b,c){return dx(a,b,c)},D,C);default:var
-E=bB(a,d[1]);return cu(function(b){return g7(a,b)},E)}return x(ae,bA(a,d))}function
+E=bB(a,d[1]);return cu(function(b){return g9(a,b)},E)}return x(ae,bA(a,d))}function
 a2(b,a){if(ep(a)){var
 c=bB(b,a);return x(function(a){return a[2]},c)}return bA(b,a)}function
-g8(a){var
+g_(a){var
 e=bf(R(a),d);return ef(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-jV(a){return jF(D(g8(a),a))}function
+jV(a){return jF(D(g_(a),a))}function
 jW(b,a){var
 c=jV(b),d=R(cq(R(a[2]),c)),e=jV(b);return[0,cq(a[1],e),d]}function
 cw(c,a,b){var
-d=a2(D(c,g8(a)),b);return x(function(b){return jW(a,b)},d)}function
+d=a2(D(c,g_(a)),b);return x(function(b){return jW(a,b)},d)}function
 aj(d,a){var
 b=cw(d,a[2],a[1][1]);if(b)var
 c=cw(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
@@ -1475,29 +1475,29 @@ c=R(cq(R(a[2]),b));return[0,cq(a[1],b),c]}function
 fu(b,a){var
 c=fp(b[2],a);return[0,cp(b[1],a),c]}function
 jY(h,g,d,b){var
-e=b[2],f=jC(d),i=c(2,f),j=z(jy(f),i),a=fu(v(h,b[1],g),j),k=jw(d)?E(e,a):B(e,a);return[0,a,k]}function
+e=b[2],f=jC(d),i=c(2,f),j=z(jy(f),i),a=fu(v(h,b[1],g),j),k=jw(d)?E(e,a):A(e,a);return[0,a,k]}function
 jZ(a,d,c){if(c){var
 e=c[1];return jY(a,d,e,jZ(a,d,e))}var
 f=Q(a,b);return[0,Q(a,b),f]}function
 j0(e,g){var
-o=cS(e),p=z(c(2,c(2,b)),o),j=H(g[2],p);if(j){var
-n=ee(e),i=qs[1],d=n,f=0,a=i;for(;;){if(d){var
+o=cR(e),p=z(c(2,c(2,b)),o),j=H(g[2],p);if(j){var
+n=ee(e),i=qu[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=P(ju(qv,P(qt,f)),qu),l=jZ(e,g,k),q=jY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(ju(qx,P(qv,f)),qw),l=jZ(e,g,k),q=jY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
 j1(i){function
 a(h){var
-m=cp(cS(i),h),g=ee(i),f=m,e=d,a=b;for(;;){if(g){var
+m=cp(cR(i),h),g=ee(i),f=m,e=d,a=b;for(;;){if(g){var
 j=D(a,c(2,b)),k=D(e,cp(f,a)),l=R(cp(f,z(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=z(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aD(z(c(2,c(2,c(2,c(2,b)))),g),f)}function
+e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=z(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aF(z(c(2,c(2,c(2,c(2,b)))),g),f)}function
 j2(e,a){var
 f=H(d,a);if(f){var
-g=c(2,c(2,b));return j0(e,fu(U(e,[0,a,a]),g))}return f}function
+g=c(2,c(2,b));return j0(e,fu(S(e,[0,a,a]),g))}return f}function
 j3(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aD(j1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(j1(a),n),e=j2(a,g);if(e){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aF(j1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(j1(a),n),e=j2(a,g);if(e){var
 f=j2(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
@@ -1506,11 +1506,11 @@ l=k}else
 var
 l=e;return l}function
 j4(a,d){var
-c=U(a,d),e=Q(a,b);return E(B(c,c),e)}function
+c=S(a,d),e=Q(a,b);return E(A(c,c),e)}function
 dy(f,j){var
 e=a2(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
 k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=j3(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=j0(a,U(a,fu(v(a,k,d[1]),h))),g=x(function(b){return j4(a,j4(a,b))},i);else
+h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=j0(a,S(a,fu(v(a,k,d[1]),h))),g=x(function(b){return j4(a,j4(a,b))},i);else
 var
 g=d;var
 l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return jX(l,a)},g)}return e}function
@@ -1520,14 +1520,14 @@ f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return fu(v(a,d,jX(c(2,c(2,c(2,c
 fv(d,a){return dy(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
 g(i,e,c){var
 f=cv(c);if(f){var
-g=f[1];return e?ac(cR(g,[0,d,b])):cR([0,d,b],g)}var
+g=f[1];return e?ac(cQ(g,[0,d,b])):cQ([0,d,b],g)}var
 a=a2(i,c);if(a){var
 h=a[1];return e?K(d,h[1]):H(d,h[1])}return a}function
 j6(c,b){var
 a=a2(c,b),d=a?1:a;return d}function
-bk(c,a,b){var
+bl(c,a,b){var
 d=cd(a,b),e=d?j6(c,a):d;return e?e:g(c,0,[3,b,a])}function
-qw(c){var
+qy(c){var
 a=fo(c),g=ef(fl(a[2])),b=[0,fl(a[1]),g],e=K(d,a[1]),f=e?du(b$(b,b),c):e,h=f?[0,b]:f;return h}function
 j7(a){if(a){var
 e=a[2],c=a[1];if(du(bz([0,d,b],c),[0,d,b])){var
@@ -1536,26 +1536,26 @@ f=[0,[0,c,e]]}else
 var
 f=a;return f}function
 j8(c,a){var
-e=ax(c,a),f=[0,d,b];return aw(function(a,b){return fo(dv(b$(a[1],a[2]),b))},f,e)}function
+e=at(c,a),f=[0,d,b];return av(function(a,b){return fo(dv(b$(a[1],a[2]),b))},f,e)}function
 j9(c,j){if(c){var
 f=c[1],g=j7(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bz([0,d,b],a),g=g4(bz([0,d,b],c),f),h=bg(a),i=ax(bg(c),h);return e(function(a){var
+f=bz([0,d,b],a),g=g6(bz([0,d,b],c),f),h=bh(a),i=at(bh(c),h);return e(function(a){var
 b=b$(g,a[2]);return fo(fn(a[1],b))},i)},l=j9(f,e(k,h[2]));return x(function(c){var
-e=bz([0,d,b],a);return[0,fo(g4(jK(j8(bg(a),c)),e)),c]},l)}var
+e=bz([0,d,b],a);return[0,fo(g6(jK(j8(bh(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],ap([0,d,b],f)]]}else
 var
 i=c;return i}function
 j_(a){if(a){var
-b=eq(qw,a[1]);if(b)var
+b=eq(qy,a[1]);if(b)var
 c=j_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qx}function
+d=b;return d}return qz}function
 j$(a){if(a){var
 b=j_(a[1]);if(b)var
 c=j$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qy}function
+d=b;return d}return qA}function
 ka(i,l){var
 a=j$(l);if(a){var
 j=a[1],c=j9(i,j);if(c){var
@@ -1563,19 +1563,19 @@ e=c[1],f=s(h(e),i),g=f?al(function(a){return ac(du(a,[0,d,b]))},e):f;return g?n(
 k=c}else
 var
 k=a;return k}function
-qz(a){return a}function
-qA(a){return a}function
-qB(a,b){return aS(qA,qz,B,a,b)}function
+qB(a){return a}function
 qC(a){return a}function
-qD(a){return a}function
-bC(a,b){return aS(qD,qC,qB,a,b)}function
-g9(a,f,c,d){if(c){var
+qD(a,b){return aS(qC,qB,A,a,b)}function
+qE(a){return a}function
+qF(a){return a}function
+bC(a,b){return aS(qF,qE,qD,a,b)}function
+g$(a,f,c,d){if(c){var
 h=c[2],i=Q(a,b),g=ek(c[1],i,f);if(d){var
-j=g9(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,v(a,g,b))},m=function(b){return ad(v(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
-n=g9(a,f,h,0);return[0,e(function(b){return ad(v(a,g,b))},c),n]}return d}function
-g_(h,a){if(a){var
+j=g$(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,v(a,g,b))},m=function(b){return ad(v(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
+n=g$(a,f,h,0);return[0,e(function(b){return ad(v(a,g,b))},c),n]}return d}function
+ha(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,g9(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,g$(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
@@ -1583,13 +1583,13 @@ var
 g=a;return g}function
 kb(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=g_(g,b);if(c){var
+c=ha(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
 kc(d,b,a){if(b)if(a)var
-e=a[1],f=kc(d,b[2],a[2]),g=co(d,b[1])?cT(e):cr(e),c=[0,g,f];else
+e=a[1],f=kc(d,b[2],a[2]),g=co(d,b[1])?cS(e):cr(e),c=[0,g,f];else
 var
 c=a;else
 var
@@ -1601,44 +1601,44 @@ c=b;else
 var
 c=a;return c}function
 bc(a){if(a){var
-b=a[1],c=bc(b),d=e(function(a){return[0,1,a]},c),g=bc(b);return f(e(function(a){return[0,0,a]},g),d)}return qE}function
+b=a[1],c=bc(b),d=e(function(a){return[0,1,a]},c),g=bc(b);return f(e(function(a){return[0,0,a]},g),d)}return qG}function
 dz(c,a){var
 b=h(a);if(kb(c,b,a))return 1;var
 d=bc(bx(b));return n(function(d){return kb(c,b,kd([0,0,d],a))},d)}function
 aq(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aG(h,e){var
+aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?B(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-g$(c,b,a){var
-d=bc(c);return n(function(c){return i(a,i(aq(function(a){return aG(c,a)}),b))},d)}function
-ha(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a0(c,D(h,b),a)},k=ha(h,j,i),l=function(c,b){var
-d=a(b,e);return B(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,B(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hb(c,b,a){var
+d=bc(c);return n(function(c){return i(a,i(aq(function(a){return aH(c,a)}),b))},d)}function
+hc(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a0(c,D(h,b),a)},k=hc(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
 fw(b,d,a,c){function
 e(c,d){var
-e=a0(d,b,a);return E(B(c,c),e)}function
-f(c){return ad(a0(c,b,a))}return aS(function(a){return B(a,a)},f,e,d,c)}function
+e=a0(d,b,a);return E(A(c,c),e)}function
+f(c){return ad(a0(c,b,a))}return aS(function(a){return A(a,a)},f,e,d,c)}function
 fx(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cr(e[2]),k=bC(a,ha(d,f,fw(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hb(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cr(e[2]),k=bC(a,hc(d,f,fw(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hd(b,a){return[0,[0,0,b],a]}function
 dA(i,b,c,g,f,a){function
 d(a){if(a){var
 j=ap([0,ad(a[1][2]),0],b),c=fx(g,f,a[2],j),d=s(h(c),b);if(d)return dz(i,c);var
 e=d}else
 var
-e=a;return e}return g$(b,hb(c,a),d)}function
+e=a;return e}return hb(b,hd(c,a),d)}function
 fy(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=g_(g,[0,[0,cT(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=ha(g,[0,[0,cS(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hc(d,b,c,a){function
+he(d,b,c,a){function
 e(a){if(a){var
 j=ap([0,a[1][2],0],b),c=fy(d,a[2],j);if(c){var
 e=c[1],f=s(h(e),b);if(f)return dz(d,e);var
@@ -1647,10 +1647,10 @@ var
 g=c;var
 i=g}else
 var
-i=a;return i}return g$(b,hb(c,a),e)}function
+i=a;return i}return hb(b,hd(c,a),e)}function
 ke(b,a){return e(function(a){return[0,a[1],b]},a)}function
 kf(b,a){var
-c=bc(b);return n(function(b){return K(d,aG(b,a)[1])},c)}function
+c=bc(b);return n(function(b){return K(d,aH(b,a)[1])},c)}function
 kg(c,b,a){var
 d=a[3],f=e(function(a){return a0(c,b,a)},d),g=a[2];return[0,a0(c,b,a[1]),g,f]}function
 kh(a,b){var
@@ -1664,14 +1664,14 @@ a6(b,a){var
 c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
 N(b,a){var
 c=p(b[3],a[3]),d=p(b[2],a[2]);return y(y(p(b[1],a[1]),d),c)}function
-cV(a){return a6(a,az(N(a,a)))}function
+cU(a){return a6(a,aA(N(a,a)))}function
 cx(a){var
-b=a[5];return b?b[1]:az(a[2])}function
-fz(b,a){return b?a:bj(a)}function
+b=a[5];return b?b[1]:aA(a[2])}function
+fz(b,a){return b?a:bk(a)}function
 ki(e,a,i,d,h){var
-f=N(a,e),b=Z(u,e,aP(f,a)),j=N(b,b),g=u(J(d),j),c=fz(h,az(g)),k=u(f,c),l=Z(y,a,a6(b,c));return[0,Z(y,b,aP(c,a)),g,l,k,[0,d],0,[0,i]]}function
+f=N(a,e),b=Z(u,e,aP(f,a)),j=N(b,b),g=u(J(d),j),c=fz(h,aA(g)),k=u(f,c),l=Z(y,a,a6(b,c));return[0,Z(y,b,aP(c,a)),g,l,k,[0,d],0,[0,i]]}function
 kj(a,e,d){var
-b=N(a,a),c=az(b),f=[0,e],g=x(function(b){return Z(u,a,aP(N(b,a),b))},d);return[0,a,b,a6(a,c),c,0,g,f]}function
+b=N(a,a),c=aA(b),f=[0,e],g=x(function(b){return Z(u,a,aP(N(b,a),b))},d);return[0,a,b,a6(a,c),c,0,g,f]}function
 kk(c,a){var
 d=N(a,c);return[0,a,j(b),a,d,0,0,0]}function
 er(a){return e(function(a){var
@@ -1683,27 +1683,27 @@ c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 kn(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
 dB(d,a){var
-b=bS(d,[0,a[2],a[2]]);if(b){var
+b=bT(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 fA(a,m,f,l,e,k,j){var
-o=kn(bb,k,j),b=kn(function(b,c){return aA(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bV(bV(bV(ae(Q(a,d)),h),g),c),p=bc(m);return n(function(c){var
-b=km(function(b){return U(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,dB(a,B(B(B(Q(a,d),k),j),h))),g=E(aG(c,i),m),n=f?E(g,aG(c,f[1])):g;return K(d,n[1])},p)}function
-bX(a){return cP(D(a[1],a[2]),b)}function
+o=kn(bb,k,j),b=kn(function(b,c){return aC(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bW(bW(bW(ae(Q(a,d)),h),g),c),p=bc(m);return n(function(c){var
+b=km(function(b){return S(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,dB(a,A(A(A(Q(a,d),k),j),h))),g=E(aH(c,i),m),n=f?E(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
+bY(a){return cP(D(a[1],a[2]),b)}function
 dC(a){var
-b=bX(a);return aD(a[2],b)}function
+b=bY(a);return aF(a[2],b)}function
 es(c,b){if(b)var
-a=b[1],e=es([0,c],b[2]),g=dC(a),h=[0,[0,dC(a),g],0],i=f(ap(A,c),h),j=bX(a),d=[0,[0,[0,bX(a),j],a,i],e];else
+a=b[1],e=es([0,c],b[2]),g=dC(a),h=[0,[0,dC(a),g],0],i=f(ap(B,c),h),j=bY(a),d=[0,[0,[0,bY(a),j],a,i],e];else
 var
 d=b;return d}function
 et(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
 e=et(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bX(a),f],c],h=bX(a);return[0,[0,[0,a[1],h],c],g]}return qF}function
+f=a[2],g=[0,[0,bY(a),f],c],h=bY(a);return[0,[0,[0,a[1],h],c],g]}return qH}function
 ko(d,c,a){if(c){if(a){var
-e=ko(d,c[2],a[2]);return B(a0(c[1],D(d,b),a[1]),e)}return A}return A}function
+e=ko(d,c[2],a[2]);return A(a0(c[1],D(d,b),a[1]),e)}return B}return B}function
 dD(f,a){if(a)var
 g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ko(f,a,b)},j=dD(f,h),k=e(function(a){var
-e=b(d,a[2]);return B(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,B(b(d,c),l),k],j];else
+e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
 dE(e,b,d,a){if(b)if(a)var
@@ -1714,14 +1714,14 @@ var
 c=b;return c}function
 fB(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fB(f,d[1],c,b,g);return[0,[0,E(A,b),0],i]}var
-j=e(function(a){return[0,E(A,b),0]},g),h=[0,[0,E(ad(v(f,c,cr(a[1][2]))),b),0],j]}else
+i=fB(f,d[1],c,b,g);return[0,[0,E(B,b),0],i]}var
+j=e(function(a){return[0,E(B,b),0]},g),h=[0,[0,E(ad(v(f,c,cr(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 a7(d,c,a){var
 b=s(h(a),c);return b?dz(d,a):b}function
 fC(d,b,a){if(b)var
-c=b[1],g=fC([0,d],b[2],a),h=f(ap(A,d),[0,a,0]),e=[0,[0,c,[0,aD(c[1],a[2]),D(c[2],a[2])],h],g];else
+c=b[1],g=fC([0,d],b[2],a),h=f(ap(B,d),[0,a,0]),e=[0,[0,c,[0,aF(c[1],a[2]),D(c[2],a[2])],h],g];else
 var
 e=b;return e}function
 kp(d){if(d){var
@@ -1734,87 +1734,87 @@ var
 e=b;var
 f=e}else
 var
-f=a;return f}return qG}function
-hd(a){return x(function(a){return x(en,a)},a)}function
+f=a;return f}return qI}function
+hf(a){return x(function(a){return x(en,a)},a)}function
 cy(c,b,a){function
-d(a){return aA(c,b,a)}return x(function(a){return x(d,a)},a)}function
-he(c,b,a){function
+d(a){return aC(c,b,a)}return x(function(a){return x(d,a)},a)}function
+hg(c,b,a){function
 d(a){return dx(c,a,b)}return x(function(a){return cu(d,a)},a)}function
 dF(b,a){var
-c=ax(b,a);return e(function(c){var
+c=at(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cc(function(b,a){return[0,bV(b,a)]},e,d)]}return b}return a},c)}function
+d=a[1],e=b[1];return[0,cc(function(b,a){return[0,bW(b,a)]},e,d)]}return b}return a},c)}function
 fD(a){return ae(Q(a,c(2,b)))}function
 kq(b,c,a){if(a)var
 f=a[1],g=kq(b,c,a[2]),d=[0,e(function(a){return ad(v(b,v(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hf(a){return n(function(a){var
+hh(a){return n(function(a){var
 b=ab(a[1],d);return b?ab(a[2],d):b},a)}function
 kr(c,b,a){var
-d=ax(b,a);return aw(function(a,b){return B(v(c,a[1],a[2]),b)},A,d)}function
-hg(c,b,a){var
-d=ca(kr(c,a,b));return aw(function(b,a){return D(ca(b),a)},d,a)}function
+d=at(b,a);return av(function(a,b){return A(v(c,a[1],a[2]),b)},B,d)}function
+hi(c,b,a){var
+d=ca(kr(c,a,b));return av(function(b,a){return D(ca(b),a)},d,a)}function
 dG(a){return Q(a,b)}function
-hh(a,i,c,u,t){var
+hj(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!hf(c)&&!hf(j)){var
-h=hg(a,i,j),o=dG(a),p=hg(a,i,c),b=ek([0,hg(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=aF(g5(a,[0,b,b])),r=function(b){return function(d,c){return E(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bC(e,kq(a,q,aS(function(c){return function(b){return v(a,c,b)}}(s),ad,r,j,c)))];else
+j=f[1],n=0;if(!hh(c)&&!hh(j)){var
+h=hi(a,i,j),o=dG(a),p=hi(a,i,c),b=ek([0,hi(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=ay(g7(a,[0,b,b])),r=function(b){return function(d,c){return E(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bC(e,kq(a,q,aS(function(c){return function(b){return v(a,c,b)}}(s),ad,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qV(a){var
-b=a[2],c=e(function(a){return[0,a[1],A]},b);return[0,[0,a[1][1],A],c]}function
+qX(a){var
+b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
 ks(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cr(j[2]),p=bC(b,ha(a,f,fw(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aF,fw(a,b[1],b[2],c))}}(f),q),g=hh(h,n,e(function(b){return a0(b,a,dG(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cr(j[2]),p=bC(b,hc(a,f,fw(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ay,fw(a,b[1],b[2],c))}}(f),q),g=hj(h,n,e(function(b){return a0(b,a,dG(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
 kt(c,b,a){if(b){if(a){var
-d=kt(c,b[2],a[2]);return B(a0(b[1],c,a[1]),d)}return A}return A}function
+d=kt(c,b[2],a[2]);return A(a0(b[1],c,a[1]),d)}return B}return B}function
 ku(a,j){switch(j){case
 0:var
-d=aD(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aF(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aD(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=cP(D(a[1],a[2]),b),h=aD(c,a[2]),i=aD(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-hi(d,c,a){if(a)var
-e=a[1],g=hi(d,[0,c],a[2]),b=x(bu,jI(function(a){return s(a[1],c)},d)),h=b?ku(e,b[1])[1]:e,f=[0,h,g];else
+f=aF(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=cP(D(a[1],a[2]),b),h=aF(c,a[2]),i=aF(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+hk(d,c,a){if(a)var
+e=a[1],g=hk(d,[0,c],a[2]),b=x(bg,jI(function(a){return s(a[1],c)},d)),h=b?ku(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
 kv(a,b){return e(function(a){var
-c=a[2];return ku(r(a[1],b,A),c)[2]},a)}function
+c=a[2];return ku(r(a[1],b,B),c)[2]},a)}function
 kw(i,b,g,a){function
-d(a){return aG(b,a[1])}var
-h=0,j=ae(A);function
+d(a){return aH(b,a[1])}var
+h=0,j=ae(B);function
 c(g,d,a,b){if(a){var
-h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aH(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=v(i,a,l);return[0,e(function(b){return v(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qW=ae(A);function
+qY=ae(B);function
 kx(e,d,c){if(d){var
-f=r(e,c[2],qX),a=f?f[1]:[0,qW];if(a)var
+f=r(e,c[2],qZ),a=f?f[1]:[0,qY];if(a)var
 b=kx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return qY}function
+g=a;return g}return q0}function
 ky(a,c,h,q,p,g,o){var
 d=bc(c);return n(function(d){var
 f=i(o,d);if(f){var
-n=v(a,p,f[1]),j=E(Q(a,b),n),r=h?E(j,aG(d,h[1])):j,k=function(b){function
-f(c){return v(a,b,aG(d,c))}var
-g=e(function(a){return e(f,a)},q);return a7(a,c,bC(ap([0,r,0],c),g))},l=k(aF(g));if(l)return k(ad(aF(g)));var
+n=v(a,p,f[1]),j=E(Q(a,b),n),r=h?E(j,aH(d,h[1])):j,k=function(b){function
+f(c){return v(a,b,aH(d,c))}var
+g=e(function(a){return e(f,a)},q);return a7(a,c,bC(ap([0,r,0],c),g))},l=k(ay(g));if(l)return k(ad(ay(g)));var
 m=l}else
 var
 m=f;return m},d)}function
 kz(f,d,c,b,a){var
-g=e(ae,c);return jQ(0,bW(f,es(0,a),g),b,d,0)}function
+g=e(ae,c);return jQ(0,bX(f,es(0,a),g),b,d,0)}function
 W(a){if(a){var
 b=a[1];if(b)var
 c=W(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qZ}function
+d=b;return d}return q1}function
 fE(b,a){if(a){var
 h=a[1],n=h[1],c=W(e(function(a){return r(a,b,0)},n));if(c){var
 f=r(h[2],b,0);if(f){var
@@ -1827,21 +1827,21 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return q0}function
+m=c;return m}return q2}function
 ce(d,c,b){var
 a=fE(d,c);return a?i(b,a[1]):a}function
 dH(a,b){return n(function(c){var
 a=r(c,b,0),d=a?1:a;return d},a)}function
 fF(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,B,e,d),h=a[2];return[0,B(a[1],c[1]),h,g]}return a}function
-hj(b,a){return b?kh(a,b[1]):a}function
-hk(h,g,b,f){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+hl(b,a){return b?kh(a,b[1]):a}function
+hm(h,g,b,f){var
 a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=kh(c,b[1]),e=bc(g);return n(function(a){return H(d,aG(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+i=kh(c,b[1]),e=bc(g);return n(function(a){return H(d,aH(a,i)[1])},e)}return H(d,c[2][1])}return a}function
 kA(f,d,a){function
 c(a){return a0(a,d,Q(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),A,g]}return ae(A)}function
+g=e(c,a[2]);return[0,c(a[1]),B,g]}return ae(B)}function
 fG(b,a){var
 c=r(a[1],b,0);if(c){var
 d=r(a[2],b,0);if(d)var
@@ -1851,43 +1851,43 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-hl(b,a){return W(e(function(a){return r(a,b,0)},a))}function
+hn(b,a){return W(e(function(a){return r(a,b,0)},a))}function
 eu(c,k,X,C,i,g,j,f,a){switch(f[0]){case
 0:var
 r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
 Y=dH(C,i);if(Y){var
-aE=a[2],aF=a[1],aH=fF(j,ae(r));return ce(i,k,function(a){return dA(c,g,aH,aF,aE,a)})}return Y;case
+aD=a[2],aE=a[1],aG=fF(j,ae(r));return ce(i,k,function(a){return dA(c,g,aG,aE,aD,a)})}return Y;case
 1:var
 Z=dH(C,i);if(Z){var
 aI=a[2],aJ=a[1],aK=fF(j,ae(r));return ce(i,X,function(a){return dA(c,g,aK,aJ,aI,a)})}return Z;case
 2:var
 _=dH(C,i);if(_){if(j)return 0;var
 $=ab(r[1],d),aa=$?ab(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return ce(i,k,function(a){return dA(c,g,[0,A,A,0],aM,aL,ke([0,A,A,0],a))})}var
+aL=a[2],aM=a[1];return ce(i,k,function(a){return dA(c,g,[0,B,B,0],aM,aL,ke([0,B,B,0],a))})}var
 ac=aa}else
 var
 ac=_;return ac}return 0;case
 1:var
 ad=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hj(j,ae(ad));return ce(i,X,function(a){return hc(c,g,aN,a)})}if(!a){var
-aO=hj(j,ae(ad));return ce(i,k,function(a){return hc(c,g,aO,a)})}}return 0;case
+aN=hl(j,ae(ad));return ce(i,X,function(a){return he(c,g,aN,a)})}if(!a){var
+aO=hl(j,ae(ad));return ce(i,k,function(a){return he(c,g,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 af=a[1],l=kA(c,af,a[3]),ag=f[1],aP=a[2];return ce(i,k,function(d){var
 a=kf(g,l),b=a?dA(c,g,fF(j,l),af,aP,d):a;if(b){var
-f=l[3],h=e(function(a){return v(c,ag,a)},f),i=l[2];return hc(c,g,hj(j,[0,v(c,ag,l[1]),i,h]),d)}return b})}return 0;case
+f=l[3],h=e(function(a){return v(c,ag,a)},f),i=l[2];return he(c,g,hl(j,[0,v(c,ag,l[1]),i,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hk(i,g,j,f[1]);return 0;case
+a==="number"&&!a)return hm(i,g,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
 aQ=a[2],aR=a[1],aS=fF(j,ae(f[2])),aT=function(a){return dA(c,g,aS,aR,aQ,a)};return ce(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hk(i,g,j,f[1]);case
-2:return hk(i,g,j,f[2])}return 0;case
+0:return hm(i,g,j,f[1]);case
+2:return hm(i,g,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 F=fG(i,f[1]);if(F){var
@@ -1899,16 +1899,16 @@ o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
 aC=[0,m[1],o[1],p[1]],q=km(function(f){function
 g(a){return a0(a,aU,Q(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fr(a),i=D(d[2],h),j=fr(a);return[0,d,[0,aD(d[1],j),i],a]}return ae(A)},aC),M=n(function(a){return s(h(a),[0,g])},m),N=M?fA(c,g,j,t,q,ak,ai):M,O=N?fA(c,g,j,t,q,ak,ah):N,P=O?fA(c,g,j,t,q,aj,ai):O;if(P)return fA(c,g,j,t,q,aj,ah);var
+a=e(g,f[2]),d=g(f[1]),h=fr(a),i=D(d[2],h),j=fr(a);return[0,d,[0,aF(d[1],j),i],a]}return ae(B)},aC),M=n(function(a){return s(h(a),[0,g])},m),N=M?fA(c,g,j,t,q,ak,ai):M,O=N?fA(c,g,j,t,q,ak,ah):N,P=O?fA(c,g,j,t,q,aj,ai):O;if(P)return fA(c,g,j,t,q,aj,ah);var
 R=P}else
 var
 R=p;var
-S=R}else
+T=R}else
 var
-S=o;var
-T=S}else
+T=o;var
+U=T}else
 var
-T=m;return T}var
+U=m;return U}var
 al=I}else
 var
 al=H;var
@@ -1927,27 +1927,27 @@ d=a[2],e=s(h(d),g);if(e){var
 i=dD(ap,dE(ap,ao,Q(c,b),d));return a7(c,g,bC(fB(c,aW,aV,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:ae(A);return g$(g,hb(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:ae(B);return hb(g,hd(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aX=f[3],aY=f[2],aZ=function(d){var
-a=ke([0,A,A,0],d),b=j?j[1]:[0,A,A,0];return dA(c,g,b,aY,aX,a)};return ce(i,f[1],aZ)}return 0;case
+a=ke([0,B,B,0],d),b=j?j[1]:[0,B,B,0];return dA(c,g,b,aY,aX,a)};return ce(i,f[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hl(i,f[1]);if(J){var
-a1=f[2],K=W(e(function(a){return hl(i,a)},a1));if(K){var
-L=hl(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
+J=hn(i,f[1]);if(J){var
+a1=f[2],K=W(e(function(a){return hn(i,a)},a1));if(K){var
+L=hn(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
 u=L[1];if(u){var
 w=u[2];if(w){var
 y=w[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=w[1][2],at=u[1][2],au=K[1],a2=J[1],V=ky(c,g,j,au,at,as,function(d){return[0,dB(c,aw(function(b,a){return B(U(c,aG(d,b)),a)},A,a2))]});return V?V:ky(c,g,j,au,at,as,function(f){var
-b=cT(aq[1]),a=bS(c,E(ar,U(c,b)));if(a){var
-d=bR(c,a[1]),e=E(ar,v(c,b,aG(f,aq)));return x(function(a){return v(c,e,a)},d)}return a})}var
-av=z}else
+aq=z[1],ar=y[1][2],as=w[1][2],at=u[1][2],au=K[1],a2=J[1],V=ky(c,g,j,au,at,as,function(d){return[0,dB(c,av(function(b,a){return A(S(c,aH(d,b)),a)},B,a2))]});return V?V:ky(c,g,j,au,at,as,function(f){var
+b=cS(aq[1]),a=bT(c,E(ar,S(c,b)));if(a){var
+d=bS(c,a[1]),e=E(ar,v(c,b,aH(f,aq)));return x(function(a){return v(c,e,a)},d)}return a})}var
+aw=z}else
 var
-av=y;var
-ax=av}else
+aw=y;var
+ax=aw}else
 var
 ax=w;var
 ay=ax}else
@@ -1966,7 +1966,7 @@ kB(a,$,q,l,m,_,g,k,j,f,c){if(9===f[0]){var
 aa=f[2],ab=f[1];if(typeof
 c!=="number"&&9===c[0]){var
 L=c[2],t=c[1],ac=c[3];if(0<aO(c[4]))return eu(a,q,l,m,g,h(k),j,f,c);var
-V=e(ae,_),C=bU(0,bW(a,fC(0,k,ab),V),$,0),M=s(h(k),q1),N=M?dH(m,C):M;if(N){var
+V=e(ae,_),C=bV(0,bX(a,fC(0,k,ab),V),$,0),M=s(h(k),q3),N=M?dH(m,C):M;if(N){var
 u=fE(C,l);if(u){var
 w=fE(g,l);if(w){var
 y=W(e(function(b){var
@@ -1976,22 +1976,22 @@ b=r(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a
 var
 d=c;return d},aa));if(y){var
 z=kp(u[1]);if(z){var
-O=w[1],af=y[1],ag=z[1],F=dB(a,aw(function(f,h){function
+O=w[1],af=y[1],ag=z[1],F=dB(a,av(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ca(r(d,c[3],A))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ca(r(d,c[3],B))}function
 c(a){var
-b=i(a,qH),c=bf(i(a,qI),b);return bf(i(a,0),c)}var
+b=i(a,qJ),c=bf(i(a,qK),b);return bf(i(a,0),c)}var
 d=c(function(a){var
-c=b(qJ,a),d=b(qK,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qL),d=b(a,qM);return D(D(b(a,0),d),c)});return B(h,U(a,dB(a,v(a,[0,e,e],g))))},A,ag)),o=a0(ac,t,Q(a,b)),G=K(d,E(o,F)[1]),H=G?s(h(L),qS):G,I=H?s(h(O),qT):H;if(I){var
-p=bR(a,o);if(p){var
-X=aF(v(a,F,p[1])),Y=E(Q(a,b),X),Z=bc(qU);return n(function(h){var
+c=b(qL,a),d=b(qM,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,qN),d=b(a,qO);return D(D(b(a,0),d),c)});return A(h,S(a,dB(a,v(a,[0,e,e],g))))},B,ag)),o=a0(ac,t,Q(a,b)),G=K(d,E(o,F)[1]),H=G?s(h(L),qU):G,I=H?s(h(O),qV):H;if(I){var
+p=bS(a,o);if(p){var
+X=ay(v(a,F,p[1])),Y=E(Q(a,b),X),Z=bc(qW);return n(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cr(cQ(function(d,b){var
-c=ca(aG(h,b[2]));return B(d,v(a,b[1],[0,c,c]))},c,d))},af),r=i(aq(function(a){return aG(h,a)}),O),F=j?aG(h,j[1]):A,M=U(a,Y),s=U(a,o),q=dD(t,dE(t,L,Q(a,b),r)),c=bC(ap([0,ad(F),0],qN),q);if(g){var
+c=b[2],d=b[1];return cr(dt(function(d,b){var
+c=ca(aH(h,b[2]));return A(d,v(a,b[1],[0,c,c]))},c,d))},af),r=i(aq(function(a){return aH(h,a)}),O),F=j?aH(h,j[1]):B,M=S(a,Y),s=S(a,o),q=dD(t,dE(t,L,Q(a,b),r)),c=bC(ap([0,ad(F),0],qP),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-C=d[1],D=g[1],I=f[1],k=a7(a,qP,bC(ap([0,ad(s),0],qO),c));if(k)return n(function(B){var
+C=d[1],D=g[1],I=f[1],k=a7(a,qR,bC(ap([0,ad(s),0],qQ),c));if(k)return n(function(B){var
 J=E(M,F),K=B[2]?C:ad(C),L=B[1]?D:ad(D),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
@@ -2031,7 +2031,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a7(a,qR,k)},qQ);var
+k=A;return a7(a,qT,k)},qS);var
 l=k}else
 var
 l=f;var
@@ -2050,12 +2050,12 @@ P=y;var
 R=P}else
 var
 R=w;var
-S=R}else
+T=R}else
 var
-S=u;var
-T=S}else
+T=u;var
+U=T}else
 var
-T=N;return T}return eu(a,q,l,m,g,h(k),j,f,c)}return eu(a,q,l,m,g,h(k),j,f,c)}function
+U=N;return U}return eu(a,q,l,m,g,h(k),j,f,c)}return eu(a,q,l,m,g,h(k),j,f,c)}function
 kC(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=ac(al(function(b){return function(a){return s(b,a)}}(e),b));if(c){var
@@ -2076,19 +2076,19 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return q3}function
+q=c;return q}return q5}function
 kE(a,P,l,O,t,q,N,y,g,f,k,c){var
-j=h(N),S=es(0,N),aN=bU(0,bW(a,S,e(ae,hi(k,0,t))),P,0),T=e(aM,k),aO=0,aP=e(ae,t),aQ=bU(q4,function(c){var
-au=bT(aM,c),f=i(bW(a,S,aP),au);switch(c[0]){case
+j=h(N),S=es(0,N),aN=bV(0,bX(a,S,e(ae,hk(k,0,t))),P,0),T=e(aB,k),aO=0,aP=e(ae,t),aQ=bV(q6,function(c){var
+au=bU(aB,c),f=i(bX(a,S,aP),au);switch(c[0]){case
 1:var
 M=c[1],d=e(function(d){var
 c=s(M,d),e=c?[0,[0,ae(Q(a,b))]]:c;return e},T);break;case
 3:var
 d=dF(c[1][2],c[2][2]);break;case
 4:var
-N=e(hd,c[2][2]),d=dF(c[1][2],N);break;case
+N=e(hf,c[2][2]),d=dF(c[1][2],N);break;case
 5:var
-d=e(hd,c[1][2]);break;case
+d=e(hf,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
@@ -2099,17 +2099,17 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-W=A[2],X=en(f[1]),Y=e(function(b){return cy(a,X,b)},W),Z=dF(c[1][2],Y),_=j[1],d=e(function(b){return he(a,_,b)},Z);else{var
+W=A[2],X=en(f[1]),Y=e(function(b){return cy(a,X,b)},W),Z=dF(c[1][2],Y),_=j[1],d=e(function(b){return hg(a,_,b)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aA(a,fD(a),aa),d=e(function(b){return cy(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=aC(a,fD(a),aa),d=e(function(b){return cy(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],af=aA(a,fD(a),ad),d=e(function(b){return he(a,af,b)},ac);else
+ac=c[1][2],ad=f[1],af=aC(a,fD(a),ad),d=e(function(b){return hg(a,af,b)},ac);else
 var
 d=f;break;case
 10:var
@@ -2117,7 +2117,7 @@ D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
 q=jT(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],t=G[1],ag=E[2],ah=bb(o,r),ai=e(function(b){return cy(a,ah,b)},ag),aj=F[2],ak=bb(m,t),al=dF(e(function(b){return cy(a,ak,b)},aj),ai),am=e(hd,D[2]),an=fD(a),ao=dF(e(function(b){return cy(a,an,b)},al),am),ap=c[1]?t:en(r),aq=e(function(b){return cy(a,ap,b)},ao),ar=aA(a,m,r),as=bb(aA(a,o,t),ar),at=aA(a,fD(a),as),d=e(function(b){return he(a,at,b)},aq);K=1;L=1}else
+G=q[1],r=G[2],t=G[1],ag=E[2],ah=bb(o,r),ai=e(function(b){return cy(a,ah,b)},ag),aj=F[2],ak=bb(m,t),al=dF(e(function(b){return cy(a,ak,b)},aj),ai),am=e(hf,D[2]),an=fD(a),ao=dF(e(function(b){return cy(a,an,b)},al),am),ap=c[1]?t:en(r),aq=e(function(b){return cy(a,ap,b)},ao),ar=aC(a,m,r),as=bb(aC(a,o,t),ar),at=aC(a,fD(a),as),d=e(function(b){return hg(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2132,28 +2132,28 @@ d=e(function(a){return 0},T)}return[0,f,d]},P,aO),aR=kv(k,t);function
 U(c){var
 d=r(c,q,0);if(d){var
 a=r(c,aN,0);if(a)var
-b=kx(0,k,r(c,aQ,q2)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+b=kx(0,k,r(c,aQ,q4)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
 z(b){return e(function(b){return Q(a,b)},b)}var
-aS=y?y[1]:ae(A);function
+aS=y?y[1]:ae(B);function
 V(b){return b?a7(a,j,b[1]):b}function
 u(f,e,d,c,b){var
 g=ap([0,ad(e),0],j);return V(ks(a,z(f),d,c,b,g))}function
 W(y,x,w){var
-B=ap([0,x,0],j),q=z(y),c=w,f=B;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cT(g),h],f];if(m){var
+A=ap([0,x,0],j),q=z(y),c=w,f=A;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cS(g),h],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aF(a[2]),b]},m),t=e(function(a){return A},h),u=[0,dG(a),t],v=dG(a),b=hh(a,[0,ad(ek(kr(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,ay(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dG(a),t],v=dG(a),b=hj(a,[0,ad(ek(kr(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=g_(a,b[1]);if(i){var
+i=ha(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
@@ -2161,62 +2161,62 @@ p=b;var
 r=p}else
 var
 r=[0,f];return V(r)}}var
-aT=e(aM,k),X=n(function(a){return by(a,h(t))},aT),Y=X?kC(e(aM,k)):X,Z=Y?n(function(a){return s(h(a),j)},c):Y;if(Z){var
+aT=e(aB,k),X=n(function(a){return by(a,h(t))},aT),Y=X?kC(e(aB,k)):X,Z=Y?n(function(a){return s(h(a),j)},c):Y;if(Z){var
 x=0;switch(g[0]){case
 0:var
 C=g[1],L=0;if(typeof
 f!=="number")switch(f[0]){case
 0:var
-au=0;if(c){if(c[2])return 0;var
+aw=0;if(c){if(c[2])return 0;var
 aU=c[1],aV=f[2],aW=f[1],_=dH(O,q);if(_){var
 o=function(c,a){var
-b=B(C,a);return function(a){return u(aU,b,aW,aV,a)}},m=l;L=1;au=1}else
+b=A(C,a);return function(a){return u(aU,b,aW,aV,a)}},m=l;L=1;aw=1}else
 var
 ac=_}else
 var
-ac=c;if(!au)return ac;break;case
+ac=c;if(!aw)return ac;break;case
 2:var
-av=0;if(c){if(c[2])return 0;var
-aY=c[1],aZ=f[2],a0=f[1],af=dH(O,q),ay=0;if(af){if(y)return 0;var
+ax=0;if(c){if(c[2])return 0;var
+aY=c[1],aZ=f[2],a0=f[1],af=dH(O,q),az=0;if(af){if(y)return 0;var
 ag=ab(C[1],d),ah=ag?ab(C[2],d):ag;if(ah){var
-o=function(c,b,a){return u(aY,A,a0,aZ,e(qV,a))},m=l;L=1;av=1;ay=1}else
+o=function(c,b,a){return u(aY,B,a0,aZ,e(qX,a))},m=l;L=1;ax=1;az=1}else
 var
 ai=ah}else
 var
-ai=af;if(!ay)var
+ai=af;if(!az)var
 aj=ai}else
 var
-aj=c;if(!av)return aj;break}if(!L)return 0;break;case
+aj=c;if(!ax)return aj;break}if(!L)return 0;break;case
 1:var
-az=0,a1=g[1];if(typeof
+aA=0,a1=g[1];if(typeof
 f==="number"&&!f){if(!c)return c;if(c[2])return 0;var
 a2=c[1],o=function(c,a){var
-b=E(a1,a);return function(a){return W(a2,b,a)}},m=l;az=1}if(!az)return 0;break;case
+b=E(a1,a);return function(a){return W(a2,b,a)}},m=l;aA=1}if(!aA)return 0;break;case
 2:var
-aB=0,a3=g[1];if(typeof
-f==="number"||!(3===f[0]))aB=1;else{var
-aC=0;if(c){var
-w=c[2],aH=0;if(w){if(w[2])return 0;var
+aD=0,a3=g[1];if(typeof
+f==="number"||!(3===f[0]))aD=1;else{var
+aE=0;if(c){var
+w=c[2],aI=0;if(w){if(w[2])return 0;var
 ak=f[1],a4=w[1],a5=c[1],a6=f[2],al=kA(a,ak,f[3]),am=kf(j,al);if(am){var
 o=function(f,c,b){var
-d=aG(f,al),e=u(a5,B(d,c),ak,a6,b);return e?W(a4,E(v(a,a3,d),c),b):e},m=l;aC=1;aH=1}else
+d=aH(f,al),e=u(a5,A(d,c),ak,a6,b);return e?W(a4,E(v(a,a3,d),c),b):e},m=l;aE=1;aI=1}else
 var
 an=am}else
 var
-an=w;if(!aH)var
+an=w;if(!aI)var
 ao=an}else
 var
-ao=c;if(!aC)return ao}if(aB)return 0;break;case
+ao=c;if(!aE)return ao}if(aD)return 0;break;case
 3:var
-aI=0;if(typeof
+aJ=0;if(typeof
 f==="number"&&!f){if(c)return 0;var
 G=g[1];x=1}else
-aI=1;if(aI)return 0;break;case
+aJ=1;if(aJ)return 0;break;case
 4:var
-aJ=0,a9=g[2];if(typeof
-f==="number"||!(0===f[0]))aJ=1;else{if(!c)return c;if(c[2])return 0;var
+aK=0,a9=g[2];if(typeof
+f==="number"||!(0===f[0]))aK=1;else{if(!c)return c;if(c[2])return 0;var
 a_=c[1],a$=f[2],ba=f[1],bd=function(c,a){var
-b=B(a9,a);return function(a){return u(a_,b,ba,a$,a)}},o=bd,m=g[1]}if(aJ)return 0;break;case
+b=A(a9,a);return function(a){return u(a_,b,ba,a$,a)}},o=bd,m=g[1]}if(aK)return 0;break;case
 5:var
 M=0;if(typeof
 f==="number"&&!(3<=f))switch(f){case
@@ -2226,42 +2226,42 @@ G=g[1];x=1;break;case
 G=g[2];x=1;break;default:M=1}else
 M=1;if(M)return 0;break;case
 7:var
-aq=g[2],ar=g[1],aK=0;if(typeof
-f==="number"||!(0===f[0]))aK=1;else{var
-aL=0;if(c){if(c[2])return 0;var
+aq=g[2],ar=g[1],aL=0;if(typeof
+f==="number"||!(0===f[0]))aL=1;else{var
+aM=0;if(c){if(c[2])return 0;var
 p=f[2],J=f[1],be=c[1],as=s(h(l),j);if(as){var
 o=function(b,y){var
-B=z(be);return function(f){var
+A=z(be);return function(f){var
 k=s(h(f),j),l=k?s(h(p),j):k;if(l){var
-t=e(aM,f),u=dD(J,dE(J,p,dG(a),t)),w=bC(fB(a,ar,aq,y,e(aM,f)),u),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
+t=e(aB,f),u=dD(J,dE(J,p,dG(a),t)),w=bC(fB(a,ar,aq,y,e(aB,f)),u),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
 o=c[1][2],q=s(b,ar),r=e(function(f,g){return function(d){var
-b=ax(aE(0,h(p)),p);return e(function(b){var
-c=kt(J,b[2],d[1]);if(g&&s(b[1],f))return E(c,aF(v(a,aq,d[2])));return c},b)}}(b,q),o),n=aE(0,x),i=hh(a,B,e(function(c){return function(b){return s(b,c)?dG(a):A}}(b),n),r,g);if(i){var
+b=at(aG(0,h(p)),p);return e(function(b){var
+c=kt(J,b[2],d[1]);if(g&&s(b[1],f))return E(c,ay(v(a,aq,d[2])));return c},b)}}(b,q),o),n=aG(0,x),i=hj(a,A,e(function(c){return function(b){return s(b,c)?dG(a):B}}(b),n),r,g);if(i){var
 b=[0,b],c=c[2],g=i[1];continue}var
 d=i}else
 var
 d=[0,g];if(d)return a7(a,j,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},m=l;aL=1}else
+m=l;return m}},m=l;aM=1}else
 var
-at=as}else
+au=as}else
 var
-at=c;if(!aL)return at}if(aK)return 0;break;default:return 0}if(x){var
+au=c;if(!aM)return au}if(aL)return 0;break;default:return 0}if(x){var
 I=U(G);if(!I)return I;var
 a8=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=aw(function(b,a){return D(bf(d,R(b[2][1])),a)},d,c);return H(d,aD(aD(a[1][2][1],e),b))},a)},aa=a8,$=[0,[0,0,I[1]],0]}else{var
+b=f[2],c=a[2],e=av(function(b,a){return D(bf(d,R(b[2][1])),a)},d,c);return H(d,aF(aF(a[1][2][1],e),b))},a)},aa=a8,$=[0,[0,0,I[1]],0]}else{var
 F=kD(q,U,m);if(!F)return F;var
 aa=o,$=F[1]}var
 aX=bc(j);return n(function(b){var
-c=e(function(c){return kw(a,b,aR,c)},$);return EL(aa,b,aG(b,aS),c)},aX)}return Z}function
+c=e(function(c){return kw(a,b,aR,c)},$);return EM(aa,b,aH(b,aS),c)},aX)}return Z}function
 fH(b,a){if(a){var
 c=a[2];if(b){var
 e=fH(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-hm(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+ho(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
 kF(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
@@ -2271,7 +2271,7 @@ switch(b[0]){case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=hm(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=ho(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2279,13 +2279,13 @@ k=c?0:1,l=k?d:j,g=hm(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=w(function(a){var
-b=e(bu,a[2][2]);return[0,a[1],b]},n);return f(hm(d),o);case
+b=e(bg,a[2][2]);return[0,a[1],b]},n);return f(ho(d),o);case
 10:var
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ei(a[2]),p);return f(a[1],q);case
 4:case
-8:return hm(a[1]);default:return g}}}function
+8:return ho(a[1]);default:return g}}}function
 kG(p,j,o,C,m,l,W,B,b,A,V){if(A){var
-s=kz(p,j,l,g6(w(function(c){var
+s=kz(p,j,l,g8(w(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
@@ -2293,7 +2293,7 @@ b=M(W,c[1]);return b?kF(o,C,m,b[1],a):b},A),j),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
 v=i(B,b);if(v)var
-aa=v[1],Z=bc(h(b)),y=n(function(b){return function(a){return K(aG(a,b)[2],d)}}(aa),Z);else
+aa=v[1],Z=bc(h(b)),y=n(function(b){return function(a){return K(aH(a,b)[2],d)}}(aa),Z);else
 var
 y=v;if(y){var
 k=R,g=e(function(a){return 0},g);continue}return y}var
@@ -2340,11 +2340,11 @@ b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-hn(a){return e(function(a){return 1},a)}function
+hp(a){return e(function(a){return 1},a)}function
 dI(a,d,b,c){function
 f(d,c){var
-f=ax(a[1],b[1]);return e(function(a){var
-b=p(c,a[2]);return y(p(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
+f=at(a[1],b[1]);return e(function(a){var
+b=p(c,a[2]);return y(p(d,a[1]),b)},f)}if(az(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=p(a[2],b[2]),i=p(c,a[2]);return[0,f(p(d,b[2]),i),h]}function
 kH(a){var
@@ -2360,11 +2360,11 @@ D=j(b),E=aU(a,f[2]),F=j(b);return dI(aU(a,f[1]),F,E,D);case
 4:var
 G=j(R(b)),H=aU(a,f[2]),I=j(b);return dI(aU(a,f[1]),I,H,G);case
 5:var
-w=aU(a,f[1]),J=w[2];return[0,e(bj,w[1]),J];case
+w=aU(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
 6:var
 x=f[2],y=f[1],K=aU(a,x);return dI(aU(a,y),x,K,y);case
 7:var
-z=f[2],L=bj(l),M=aU(a,z),N=j(b),i=dI(aU(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aT(d,a)},O))return i;var
+z=f[2],L=bk(l),M=aU(a,z),N=j(b),i=dI(aU(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aT(d,a)},O))return i;var
 P=p(i[2],z);return[0,i[1],P];case
 8:var
 A=f[1],B=aU(a,A),Q=B[2],S=B[1],T=p(j(c(2,b)),A);return[0,e(function(a){return p(T,a)},S),Q];case
@@ -2373,7 +2373,7 @@ k=aU(a,f[1]),U=k[1];if(n(function(a){return aT(d,a)},U)){var
 V=j(b);return[0,k[1],V]}var
 W=p(j(c(2,b)),l),X=p(k[2],W);return[0,k[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=u(g,q),Z=aU(a,g),_=u(h,o),$=dI(aU(a,h),_,Z,Y),aa=j(R(b)),ab=aU(a,m),r=dI($,j(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bj(q),t=e(function(a){return p(ad,a)},ac);if(n(function(a){return aT(d,a)},t))return[0,t,r[2]];var
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=u(g,q),Z=aU(a,g),_=u(h,o),$=dI(aU(a,h),_,Z,Y),aa=j(R(b)),ab=aU(a,m),r=dI($,j(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(q),t=e(function(a){return p(ad,a)},ac);if(n(function(a){return aT(d,a)},t))return[0,t,r[2]];var
 ae=p(h,q),af=u(p(g,o),ae),ag=p(j(c(2,b)),af);return[0,t,p(r[2],ag)];default:return kH(a)}}function
 kI(c,a){var
 b=aU(c,a),f=b[1];return e(function(a){return aT(d,a)?a:ag(a,b[2])},f)}function
@@ -2387,11 +2387,11 @@ var
 g=m;var
 q=g?[0,c]:g,a=q}else
 var
-a=ab(aZ(k,aL(2))[2],d)?0:0}else
+a=ab(aZ(k,aM(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ab(aZ(i,aL(2))[2],d)?0:0}else
+a=ab(aZ(i,aM(2))[2],d)?0:0}else
 var
 a=0;return a?j(a[1]):[0,[1,r]]}function
 cf(b,a){if(a)var
@@ -2405,17 +2405,17 @@ c=a[1],g=[0,[0,c[4],b],0],h=f(aV(c[3],b),g),i=f(aV(c[2],b),h);return f(aV(c[1],d
 1:var
 e=a[3],j=e?aV(e[1],d):e,k=f(aV(a[2],b),j);return f(aV(a[1],b),k);default:return aV(a[1],d)}}function
 af(b,a){var
-c=j(d),e=r(P(q5,a),b,c),f=j(d),g=r(P(q6,a),b,f);return[0,r(a,b,j(d)),g,e]}function
-kJ(b,a){return Z(u,Z(y,cW,a),b)}function
+c=j(d),e=r(P(q7,a),b,c),f=j(d),g=r(P(q8,a),b,f);return[0,r(a,b,j(d)),g,e]}function
+kJ(b,a){return Z(u,Z(y,cV,a),b)}function
 fK(c,b,a){if(a){var
-e=a[2],g=fK(c,bg(b),e),h=a[1];return f(fJ(c,bz(d,b),h),g)}return a}function
-ho(f,e,c,k){if(c){var
-b=c[1],v=P(k,h(fJ(f,bz(d,e),b))),w=c[2],x=ho(f,bg(e),w,v),a=cf(k,fJ(f,bz(d,e),b));switch(b[0]){case
+e=a[2],g=fK(c,bh(b),e),h=a[1];return f(fJ(c,bz(d,b),h),g)}return a}function
+hq(f,e,c,k){if(c){var
+b=c[1],v=P(k,h(fJ(f,bz(d,e),b))),w=c[2],x=hq(f,bh(e),w,v),a=cf(k,fJ(f,bz(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(q7,a,j(d)),o=Z(y,cW,af(a,q8)),p=cV(af(a,0)),q=af(a,q9),g=ki(kJ(af(a,q_),q),p,o,n,m);break;case
+m=b[1][5],n=r(q9,a,j(d)),o=Z(y,cV,af(a,q_)),p=cU(af(a,0)),q=af(a,q$),g=ki(kJ(af(a,ra),q),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,cV(af(a,q$))]:i,t=Z(y,cW,af(a,ra)),u=af(a,rb),g=kj(kJ(af(a,0),u),t,s);break;default:var
-g=kk(cW,cV(af(a,0)))}var
+i=b[3],s=i?[0,cU(af(a,rb))]:i,t=Z(y,cV,af(a,rc)),u=af(a,rd),g=kj(kJ(af(a,0),u),t,s);break;default:var
+g=kk(cV,cU(af(a,0)))}var
 l=[0,g,x]}else
 var
 l=c;return l}function
@@ -2450,7 +2450,7 @@ c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]
 dJ(c,a){if(0===a[0]){var
 e=[0,d,b],i=f(ev(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
 j=ev(c,a[3]);return f(ev(c,a[2]),j)}function
-cX(b,a){if(typeof
+cW(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=dJ(b,a[2]);return f(dJ(b,a[1]),h);case
@@ -2462,17 +2462,17 @@ c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
 kK(c,b,a){var
-d=h(cX(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-hp(c,b){if(ay(b,c))return[0,j(d)];var
+d=h(cW(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+hr(c,b){if(az(b,c))return[0,j(d)];var
 a=b[1];if(4===a[0]){var
-e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+e=az(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
 kL(z,p,a,o){switch(o[0]){case
 0:var
 h=M(z,o[1]);if(h){var
 k=h[1];if(k){var
-q=k[1],s=q[1],c=s[2],e=s[1],t=q[2],A=af(a,rc),B=Z(y,Z(u,e,aP(ag(r(rd,a,j(d)),t),c)),A),C=af(a,re),f=ag(r(0,a,j(d)),t),l=hp(e[1],c[1]);if(l){var
-m=hp(e[2],c[2]);if(m){var
-n=hp(e[3],c[3]);if(n)var
+q=k[1],s=q[1],c=s[2],e=s[1],t=q[2],A=af(a,re),B=Z(y,Z(u,e,aP(ag(r(rf,a,j(d)),t),c)),A),C=af(a,rg),f=ag(r(0,a,j(d)),t),l=hr(e[1],c[1]);if(l){var
+m=hr(e[2],c[2]);if(m){var
+n=hr(e[3],c[3]);if(n)var
 x=aP(f,c),g=Z(y,[0,l[1],m[1],n[1]],x);else
 var
 g=Z(u,e,aP(u(j(b),f),c))}else
@@ -2487,19 +2487,19 @@ w=v}else
 var
 w=h;return w;case
 1:var
-D=af(a,rf);return[0,[0,af(a,0),D]];default:var
-E=i(p,af(a,rg));return[0,[0,i(p,af(a,0)),E]]}}function
+D=af(a,rh);return[0,[0,af(a,0),D]];default:var
+E=i(p,af(a,ri));return[0,[0,i(p,af(a,0)),E]]}}function
 kM(e,d,c,h,g){var
-a=kL(e,d,bi(rh,c),h);if(a)var
-b=kL(e,d,b_(ri,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+a=kL(e,d,bj(rj,c),h);if(a)var
+b=kL(e,d,bR(rk,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
 kN(g,c,d,b,a){var
 h=dJ(c,a),i=cf(d,f(dJ(c,b),h));function
-j(a){return Z(y,cW,a)}return kM(e(function(a){var
+j(a){return Z(y,cV,a)}return kM(e(function(a){var
 b=a[7];return x(function(b){var
 c=cx(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-cY(d,c,b,a){var
+cX(d,c,b,a){var
 e=p(c,b);return u(p(d,a),e)}function
 bF(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
 kO(b,a){if(b)if(a)var
@@ -2516,7 +2516,7 @@ var
 e=d;var
 f=e}else
 var
-f=b;return f}return rk}function
+f=b;return f}return rm}function
 ew(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
@@ -2525,7 +2525,7 @@ b=p(a[2],j);return[0,bD(a[1]),b]},b)];case
 9:return kP(b);case
 15:var
 k=h(b),f=s(h(a[1]),k);if(f)var
-l=cX(d,a),g=[0,kO(b,cf(c[2],l))];else
+l=cW(d,a),g=[0,kO(b,cf(c[2],l))];else
 var
 g=f;return g}return 0}function
 fL(e,l,k,a){var
@@ -2548,7 +2548,7 @@ d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-z=n[1],A=m[1],B=e[1],h=z[1],i=A[1],q=B[1],K=cY(i[1],i[2],h[1],h[2]),L=p(q[3],K),O=cY(i[1],i[3],h[1],h[3]),P=p(q[2],O),Q=cY(i[2],i[3],h[2],h[3]),x=y(u(p(q[1],Q),P),L),W=cx(z),X=cx(A),C=p(p(p(c,cx(B)),X),W),Y=[0,bj(y(x,C)),0],D=[0,u(x,C),Y]}else
+z=n[1],A=m[1],B=e[1],h=z[1],i=A[1],q=B[1],K=cX(i[1],i[2],h[1],h[2]),L=p(q[3],K),O=cX(i[1],i[3],h[1],h[3]),P=p(q[2],O),Q=cX(i[2],i[3],h[2],h[3]),x=y(u(p(q[1],Q),P),L),W=cx(z),X=cx(A),C=p(p(p(c,cx(B)),X),W),Y=[0,bk(y(x,C)),0],D=[0,u(x,C),Y]}else
 var
 D=n;var
 E=D}else
@@ -2563,59 +2563,61 @@ G=t[1],H=G[2],I=G[1];return w(bD,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return t
 11:var
 _=function(d){var
 e=d[7];if(e)var
-n=cX(l,a),f=cf(k[2],n),h=af(f,rj),b=Z(u,af(f,0),h),i=J(c),j=J(cx(d)),m=ag(J(N(b,d[1])),j),g=[0,u(u(N(b,b),m),i),0];else
+n=cW(l,a),f=cf(k[2],n),h=af(f,rl),b=Z(u,af(f,0),h),i=J(c),j=J(cx(d)),m=ag(J(N(b,d[1])),j),g=[0,u(u(N(b,b),m),i),0];else
 var
 g=e;return g},g=_,f=a[1];break;case
 12:var
 $=function(e){var
-q=j(d),s=cX(l,a),t=r(0,cf(k[2],s),q),f=ag(t,cx(e)),g=e[5];if(g){var
-m=az(e[2]),h=ag(g[1],m),n=p(h,y(c,p(f,J(h))));return[0,u(j(b),n),0]}var
+q=j(d),s=cW(l,a),t=r(0,cf(k[2],s),q),f=ag(t,cx(e)),g=e[5];if(g){var
+m=aA(e[2]),h=ag(g[1],m),n=p(h,y(c,p(f,J(h))));return[0,u(j(b),n),0]}var
 i=e[7],o=i?[0,u(u(j(b),c),f),0]:i;return o},g=$,f=a[1];break;case
 8:case
 9:case
 15:var
 s=ew(e,l,k,a);return s?bF(s[1]):s;default:v=1}if(v)return 0;var
 o=M(e,f);return o?g(o[1]):o}function
-hq(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hq(d,b,kK(b,e,c),g);return f(fL(d,b,c,e),h)}return a}var
+hs(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hs(d,b,kK(b,e,c),g);return f(fL(d,b,c,e),h)}return a}var
 kQ=[0,d,b],kR=[0,[0,kQ,kQ],d];function
 fM(a){return ac(cd(a[1][1],a[1][2]))}function
 kS(a){var
-b=aE(0,h(a));return bh(function(b){return fM(r(b,a,kR))},b)}function
-hr(a,b){var
-c=kI(kS(a),b),e=ax(kS(a),c);return bh(function(a){return ac(aT(d,a[2]))},e)}function
+b=aG(0,h(a));return bi(function(b){return fM(r(b,a,kR))},b)}function
+fN(a,b){var
+c=kI(kS(a),b),e=at(kS(a),c);return bi(function(a){return ac(aT(d,a[2]))},e)}function
 kT(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kU(l,k,j,q,p,h,g){var
-m=[5,p,h],a=aj(l,[0,[0,m,m],d]);if(a){var
-s=hr(j,g),f=W(e(function(e){var
-a=r(e[1],j,kR),f=aD(a[2],q),g=[4,[0,c(2,b),b],h],d=[5,[3,a[1][2],a[1][1]],g],m=aj(l,[0,[0,d,d],f]);return x(function(a){return[0,a,i(k,e[2])]},m)},s));if(f)var
-t=[0,a[1],f[1]],n=[0,[0,i(k,g),t]];else
+kU(m,l,f,k,j,a){var
+d=fN(f,a);return W(e(function(e){var
+a=r(e[1],f,kR),g=aF(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=aj(m,[0,[0,d,d],g]);return x(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+kV(g,f,n,m,l,e,c){var
+h=[5,l,e],a=aj(g,[0,[0,h,h],d]);if(a){var
+b=kU(g,f,n,m,e,c);if(b)var
+o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
-n=f;var
-o=n}else
+j=b;var
+k=j}else
 var
-o=a;return o}function
-kV(c,E,l,am,k,j,m,r){if(r){var
-a=r[1],aH=r[2],aI=kV(c,E,l,am,k,j,kK(j,a,m),aH);if(typeof
+k=a;return k}function
+kW(c,E,l,am,k,j,m,r){if(r){var
+a=r[1],aH=r[2],aI=kW(c,E,l,am,k,j,kK(j,a,m),aH);if(typeof
 a==="number")if(0===a)var
-f=[0,[0,A]];else
+f=[0,[0,B]];else
 var
 ao=E[2],ap=E[1],ar=er(k),f=[0,[8,i(aq(l),ar),ap,ao]];else
 switch(a[0]){case
 0:var
-as=aj(c,bE(j,a)),f=x(function(a){return[0,U(c,a)]},as);break;case
+as=aj(c,bE(j,a)),f=x(function(a){return[0,S(c,a)]},as);break;case
 1:var
-at=aj(c,bE(j,a)),f=x(function(a){return[1,U(c,a)]},at);break;case
+at=aj(c,bE(j,a)),f=x(function(a){return[1,S(c,a)]},at);break;case
 5:var
-av=aj(c,bE(j,a)),f=x(function(a){return[2,U(c,a)]},av);break;case
+av=aj(c,bE(j,a)),f=x(function(a){return[2,S(c,a)]},av);break;case
 8:var
 aw=ew(k,j,m,a),f=x(function(a){var
 d=Q(c,b);return[4,i(aq(l),a),d]},aw);break;case
 9:var
 v=ew(k,j,m,a);if(v){var
 w=aj(c,bE(j,a));if(w)var
-ax=U(c,w[1]),ay=v[1],K=[0,[4,i(aq(l),ay),ax]];else
+ax=S(c,w[1]),ay=v[1],K=[0,[4,i(aq(l),ay),ax]];else
 var
 K=w;var
 L=K}else
@@ -2625,11 +2627,11 @@ f=L;break;case
 10:var
 y=kN(k,j,m[2],a[1],a[2]);if(y){var
 N=y[1],O=N[2],P=N[1],z=aj(c,bE(j,a));if(z){var
-R=z[1],S=H(d,R[1]);if(S)var
-p=function(a){return kT(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),T=[0,[6,p(P[1]),aB,aA,az,R]];else
+R=z[1],T=H(d,R[1]);if(T)var
+p=function(a){return kT(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),U=[0,[6,p(P[1]),aB,aA,az,R]];else
 var
-T=S;var
-V=T}else
+U=T;var
+V=U}else
 var
 V=z;var
 X=V}else
@@ -2640,21 +2642,21 @@ f=X;break;case
 q=fL(k,j,m,a),t=0;if(q)if(q[2])var
 f=0;else{var
 Y=g(c,0,a[2]),Z=Y?g(c,1,a[4]):Y;if(Z){var
-B=[0,[3,i(l,q[1])]];t=1}else{var
-B=Z;t=1}}else{var
-B=q;t=1}if(t)var
-f=B;break;case
+A=[0,[3,i(l,q[1])]];t=1}else{var
+A=Z;t=1}}else{var
+A=q;t=1}if(t)var
+f=A;break;case
 13:var
 _=a[1],$=M(k,_),F=0;if($){var
 aa=g(c,1,a[2]),ab=aa?g(c,1,a[3]):aa;if(ab)var
-aC=aj(c,bE(j,a)),f=x(function(a){return[7,_,U(c,a)]},aC);else{var
+aC=aj(c,bE(j,a)),f=x(function(a){return[7,_,S(c,a)]},aC);else{var
 ac=ab;F=1}}else{var
 ac=$;F=1}if(F)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=s(h(k),rl),ag=af?g(c,0,ae):af,ah=ag?g(c,1,ad):ag;if(ah){var
+ad=a[2],ae=a[1],af=s(h(k),rn),ag=af?g(c,0,ae):af,ah=ag?g(c,1,ad):ag;if(ah){var
 C=aj(c,bE(j,a));if(C)var
-D=W(e(function(a){return kU(c,l,am,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+D=W(e(function(a){return kV(c,l,am,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 ak=ai}else
@@ -2678,19 +2680,19 @@ f=J}var
 an=[0,f,aI]}else
 var
 an=r;return an}function
-rm(a){var
+ro(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
 dK(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kW(a,c,g,b){if(0===c[0])return 0;if(b){var
+kX(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cw(a,g,c[1]);if(i){var
 j=cw(a,g,c[2]);if(j){var
 k=cw(a,g,c[3]);if(k)var
-t=i[1],u=bX(f),l=E([0,bX(f),u],t),w=j[1],x=bX(e),m=E([0,bX(e),x],w),y=dC(e),z=[0,dC(e),y],C=[0,v(a,ad(B(m,m)),z),0],D=dC(f),F=[0,dC(f),D],G=[0,v(a,ad(B(l,l)),F),C],H=U(a,m),I=U(a,l),n=[0,[0,E(E(U(a,k[1]),I),H),A,G]];else
+t=i[1],u=bY(f),l=E([0,bY(f),u],t),w=j[1],x=bY(e),m=E([0,bY(e),x],w),y=dC(e),z=[0,dC(e),y],C=[0,v(a,ad(A(m,m)),z),0],D=dC(f),F=[0,dC(f),D],G=[0,v(a,ad(A(l,l)),F),C],H=S(a,m),I=S(a,l),n=[0,[0,E(E(S(a,k[1]),I),H),B,G]];else
 var
 n=k;var
 o=n}else
@@ -2708,14 +2710,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fN(a,p,o){var
+fO(a,p,o){var
 q=aV(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=U(a,i[1]),s=U(a,h[1]);return K(d,B(B(U(a,g[1]),s),r)[1])}var
+r=S(a,i[1]),s=S(a,h[1]);return K(d,A(A(S(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2733,109 +2735,109 @@ var
 n=b;return n}function
 ai(c,b,a){var
 d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-av(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-S(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aB(a){return av([5,[0,b,b],[6,S(a,a)]],a)}function
-cZ(c,b,a){var
-d=bk(c,b[1],a);return d?bk(c,a,b[2]):d}function
+aw(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+T(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aD(a){return aw([5,[0,b,b],[6,T(a,a)]],a)}function
+cY(c,b,a){var
+d=bl(c,b[1],a);return d?bl(c,a,b[2]):d}function
 a8(c,b,a){var
-d=cZ(c,b[1],a[1]),e=d?cZ(c,b[2],a[2]):d;return e?cZ(c,b[3],a[3]):e}function
-kX(b,c,a){switch(c[0]){case
+d=cY(c,b[1],a[1]),e=d?cY(c,b[2],a[2]):d;return e?cY(c,b[3],a[3]):e}function
+kY(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a8(b,d[1],f),l=k?g(b,1,S(f,f)):k,m=l?a8(b,d[2],a[2]):l,n=m?a8(b,d[3],a[3]):m,o=n?cZ(b,d[4],j):n,p=o?g(b,1,j):o;return p?co(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a8(b,d[1],f),l=k?g(b,1,T(f,f)):k,m=l?a8(b,d[2],a[2]):l,n=m?a8(b,d[3],a[3]):m,o=n?cY(b,d[4],j):n,p=o?g(b,1,j):o;return p?co(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
 e=a[3],r=a8(b,c[1],a[1]),s=r?a8(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a8(b,q[1],h);if(t)return g(b,1,S(h,h));var
+h=e[1],t=a8(b,q[1],h);if(t)return g(b,1,T(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a8(b,c[1],i);return w?g(b,1,S(i,i)):w}return 0}}function
-c0(c,a,b){if(0===a[0])return a8(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cZ(c,a[4],b[3]):i}function
-kY(g,f,i,h){var
+i=a[1],w=a8(b,c[1],i);return w?g(b,1,T(i,i)):w}return 0}}function
+cZ(c,a,b){if(0===a[0])return a8(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cY(c,a[4],b[3]):i}function
+kZ(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kX(g,b[1],a[1]);if(d){var
+d=kY(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?c0(g,f[2],h):c}}function
+c=a?0:1;return c?cZ(g,f[2],h):c}}function
 bd(c,b,a){var
 d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
 ex(a,e,d,c){var
-b=bd(e,d,c),f=aB(a),g=av(S(aB(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
-c1(f,e,d,a,c){var
-b=ex(f,e,d,c);return[3,[4,a,a],S(b,b)]}function
-c2(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-c3(a,c){switch(a[0]){case
+b=bd(e,d,c),f=aD(a),g=aw(T(aD(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
+c0(f,e,d,a,c){var
+b=ex(f,e,d,c);return[3,[4,a,a],T(b,b)]}function
+c1(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+c2(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ex(d,f,e,c),h=c1(d,f,e,a[4],c),i=av([5,[0,b,b],c2(a[5],h)],g),j=aB(d);return ai(function(b,a){return[2,b,a]},j,i);case
-1:return aB(bd(a[1],a[2],c));default:return aB(a[1])}}function
+e=a[3],f=a[2],d=a[1],g=ex(d,f,e,c),h=c0(d,f,e,a[4],c),i=aw([5,[0,b,b],c1(a[5],h)],g),j=aD(d);return ai(function(b,a){return[2,b,a]},j,i);case
+1:return aD(bd(a[1],a[2],c));default:return aD(a[1])}}function
 ey(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aB(c),g=c1(c,e,d,a[4],b),h=av(c2(a[5],g),f),i=ex(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
-1:return bd(a[1],a[2],b);default:return aB(a[1])}}function
-hs(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aD(c),g=c0(c,e,d,a[4],b),h=aw(c1(a[5],g),f),i=ex(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
+1:return bd(a[1],a[2],b);default:return aD(a[1])}}function
+ht(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c1(e,d,c,a[4],b),i=c2(a[5],h),j=bd(d,c,b);return[3,S(aB(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=c0(e,d,c,a[4],b),i=c1(a[5],h),j=bd(d,c,b);return[3,T(aD(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bd(g,f,b);return[6,S(bd(g,f,b),k)];default:return S(aB(a[1]),b)}}function
-kZ(a,b){switch(a[0]){case
-0:return[0,c1(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=bd(g,f,b);return[6,T(bd(g,f,b),k)];default:return T(aD(a[1]),b)}}function
+k0(a,b){switch(a[0]){case
+0:return[0,c0(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bd(d,c,b);return[0,S(bd(d,c,b),e)];default:return 0}}function
+c=a[2],d=a[1],e=bd(d,c,b);return[0,T(bd(d,c,b),e)];default:return 0}}function
 ez(e,c,a){var
-f=[0,d,b];return aw(function(b,d){var
-e=S(c3(b,c),a);return[2,[4,S(c3(b,c),a),e],d]},f,e)}function
-k0(a){var
+f=[0,d,b];return av(function(b,d){var
+e=T(c2(b,c),a);return[2,[4,T(c2(b,c),a),e],d]},f,e)}function
+k1(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-ht(a,c){switch(a[0]){case
+hu(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=bd(e,d,c);return[6,S(bd(e,d,c),f)];default:return[0,b,b]}}function
-k1(d,i){if(d){var
+d=a[2],e=a[1],f=bd(e,d,c);return[6,T(bd(e,d,c),f)];default:return[0,b,b]}}function
+k2(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bd(a[1],a[2],i),k=aB(f),l=av(S(aB(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=bd(a[1],a[2],i),k=aD(f),l=aw(T(aD(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=k1(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=k2(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return rn}function
-c4(a){return[0,a[1],a[2],a[3]]}function
-k2(a,b){switch(a[0]){case
+j=b;return j}return rp}function
+c3(a){return[0,a[1],a[2],a[3]]}function
+k3(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aB(d),j=c1(d,g,c,f,b),k=av(c2(a[5],j),i),l=ex(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aD(d),j=c0(d,g,c,f,b),k=aw(c1(a[5],j),i),l=ex(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bd(a[1],h,b),n=[6,S(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-k3(l,c,a){switch(a[0]){case
+h=a[2],e=bd(a[1],h,b),n=[6,T(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+k4(l,c,a){switch(a[0]){case
 0:var
 m=a[5],d=M(l,a[1]);if(d){var
-e=k2(d[1],c);if(e)var
+e=k3(d[1],c);if(e)var
 f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=c4(m),c=av(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
+b=c3(m),c=aw(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
 var
 j=e;var
 k=j}else
 var
 k=d;return k;case
 1:var
-q=c4(a[3]);return[0,[0,c4(a[2]),q]];default:var
-r=c4(a[3]),s=ai(function(b,a){return[2,b,a]},c,r),t=c4(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},c,t),s]]}}function
-k4(d,a,c,b){var
-e=av(a,b),f=av([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-k5(f,h,c,e,q,a){function
-F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],S(e,e)]}var
+q=c3(a[3]);return[0,[0,c3(a[2]),q]];default:var
+r=c3(a[3]),s=ai(function(b,a){return[2,b,a]},c,r),t=c3(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},c,t),s]]}}function
+k5(d,a,c,b){var
+e=aw(a,b),f=aw([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
+k6(f,h,c,e,q,a){function
+F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],T(e,e)]}var
 D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
@@ -2844,44 +2846,44 @@ ap=ez(h,c,e);return g(f,1,[3,F(a[1]),ap]);case
 1:var
 aq=F(a[1]);return g(f,1,[3,ez(h,c,e),aq]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,hs(a,c)]},s=as,r=a[1];break;case
+ar=a[2],as=function(a){return[3,ar,ht(a,c)]},s=as,r=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,hs(a,c),at]},s=au,r=a[1];break;case
+at=a[2],au=function(a){return[3,ht(a,c),at]},s=au,r=a[1];break;case
 4:var
-G=a[3],H=a[2],av=function(a){var
-b=c3(a,c);return[3,[4,[4,H,H],S(c3(a,c),b)],[4,G,G]]},s=av,r=a[1];break;case
+G=a[3],H=a[2],aw=function(a){var
+b=c2(a,c);return[3,[4,[4,H,H],T(c2(a,c),b)],[4,G,G]]},s=aw,r=a[1];break;case
 5:var
-I=a[1],ax=S(e,e),ay=[4,[4,I,I],[4,ez(h,c,q),ax]],az=S(q,q);return g(f,1,[3,[4,ez(h,c,e),az],ay]);case
+I=a[1],ax=T(e,e),ay=[4,[4,I,I],[4,ez(h,c,q),ax]],az=T(q,q);return g(f,1,[3,[4,ez(h,c,e),az],ay]);case
 6:var
 J=a[2],u=M(h,a[1]);if(u){var
 i=u[1];if(0===i[0]){var
-v=i[4],aA=c1(i[1],i[2],i[3],v,c),K=c2(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
+v=i[4],aA=c0(i[1],i[2],i[3],v,c),K=c1(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
 L=0}else
 var
 L=u;return L;case
 7:if(h){var
 n=h[2];if(n){var
 o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aC=ht(N,c),aD=ht(O,c),aE=ht(P,c),Q=[4,[4,[4,a[1],aE],aD],aC],j=ey(N,c),k=ey(O,c),aF=ey(P,c),E=S(aF,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
-T=R}else
+N=o[1],O=n[1],P=h[1],aB=hu(N,c),aC=hu(O,c),aE=hu(P,c),Q=[4,[4,[4,a[1],aE],aC],aB],j=ey(N,c),k=ey(O,c),aF=ey(P,c),E=T(aF,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
+S=R}else
 var
-T=o;var
-U=T}else
+S=o;var
+U=S}else
 var
 U=n;var
 V=U}else
 var
 V=h;return V;case
 8:var
-aG=ez(h,c,e),aH=S(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
+aG=ez(h,c,e),aH=T(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
 9:var
-W=a[1],w=k1(h,c);if(w){var
-aI=w[1],an=[0,d,b],ao=aw(function(a,b){var
-c=S(aB(a),e);return[2,[4,S(aB(a),e),c],b]},an,aI);return g(f,1,[3,[4,[4,W,W],S(e,e)],ao])}return w;case
+W=a[1],w=k2(h,c);if(w){var
+aI=w[1],an=[0,d,b],ao=av(function(a,b){var
+c=T(aD(a),e);return[2,[4,T(aD(a),e),c],b]},an,aI);return g(f,1,[3,[4,[4,W,W],T(e,e)],ao])}return w;case
 10:var
-X=a[2],Y=a[1],x=k3(h,c,Y);if(x){var
-Z=x[1],y=k3(h,c,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aJ=k4(l,A,_[1],_[2]),aK=k4(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dw(X),aa=[4,l,[2,[2,dw(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],S($,$)]);var
+X=a[2],Y=a[1],x=k4(h,c,Y);if(x){var
+Z=x[1],y=k4(h,c,X);if(y){var
+_=y[1],z=e[1],A=e[2],l=e[3],aJ=k5(l,A,_[1],_[2]),aK=k5(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dw(X),aa=[4,l,[2,[2,dw(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],T($,$)]);var
 ag=af}else
 var
 ag=y;var
@@ -2890,9 +2892,9 @@ var
 ah=x;return ah;case
 11:var
 aj=a[4],B=M(h,a[1]);if(B){var
-C=k2(B[1],c);if(C){var
-m=C[1][1][2],aN=c4(a[3]),aO=c4(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,S(m,m));if(ak){var
-aP=S(m,m),aQ=S(p,m),aR=[5,[4,S(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,S(p,p),aR]])}var
+C=k3(B[1],c);if(C){var
+m=C[1][1][2],aN=c3(a[3]),aO=c3(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,T(m,m));if(ak){var
+aP=T(m,m),aQ=T(p,m),aR=[5,[4,T(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,T(p,p),aR]])}var
 al=ak}else
 var
 al=C;var
@@ -2900,25 +2902,25 @@ am=al}else
 var
 am=B;return am;default:D=1}if(D)return 0;var
 t=M(h,r);return t?g(f,1,s(t[1])):t}function
-bl(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-k6(a){switch(a[0]){case
+bm(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+k7(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bl(b[3]),f=bl(b[2]);return[0,bl(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bm(b[3]),f=bm(b[2]);return[0,bm(b[1]),f,e,d,c];case
 1:var
-g=x(bl,a[3]),h=bl(a[2]);return[1,bl(a[1]),h,g];default:return[2,bl(a[1])]}}function
-hu(a){return 0===a[0]?bl(a[1]):[0,a[1],a[2],a[4][1]]}function
-k7(b,a){var
-c=hu(a[2]);return kY(b,a,e(k6,a[1]),c)}function
-k8(b,a,c){var
-d=[0,c,b_(b,a)];return f(bi(b,a),d)}function
+g=x(bm,a[3]),h=bm(a[2]);return[1,bm(a[1]),h,g];default:return[2,bm(a[1])]}}function
+hv(a){return 0===a[0]?bm(a[1]):[0,a[1],a[2],a[4][1]]}function
+k8(b,a){var
+c=hv(a[2]);return kZ(b,a,e(k7,a[1]),c)}function
+k9(b,a,c){var
+d=[0,c,bR(b,a)];return f(bj(b,a),d)}function
 bG(c,a){if(c){if(a){var
 e=bG(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-k9(e,c,a){if(e){if(c){var
-f=c[1],g=k9(e[2],c[2],a),h=bG(f,a),i=[4,bG(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-k_(a){if(a){var
+k_(e,c,a){if(e){if(c){var
+f=c[1],g=k_(e[2],c[2],a),h=bG(f,a),i=[4,bG(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+k$(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k_(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rp}function
-k$(a,l,k,f){var
+c=b[1],d=k$(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rr}function
+la(a,l,k,f){var
 b=a2(a,l);if(b){var
 c=a2(a,k);if(c){var
 d=dy(a,f);if(d){var
@@ -2935,12 +2937,12 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fO(a){return a?K(d,a[1][1]):a}function
-la(a,ab,m,aE,i,f){function
+fP(a){return a?K(d,a[1][1]):a}function
+lb(a,ab,m,aE,i,f){function
 ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bG(a,a)]}var
 aF=m[1];function
 p(c){var
-a=[0,d,b];return aw(function(a,b){var
+a=[0,d,b];return av(function(a,b){var
 d=bG(a,c);return[2,[4,bG(a,c),d],b]},a,aF)}var
 ad=n(function(a){return s(h(a),ab)},i);if(ad){var
 k=0;if(typeof
@@ -2960,7 +2962,7 @@ b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;cas
 ah=f[3],ai=f[2],aM=function(e){if(typeof
 e!=="number"&&1===e[0]){var
 h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aE){var
-f=k$(a,i,h,ai);return f?K(f[1][2],d):f}return fO(k$(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
+f=la(a,i,h,ai);return f?K(f[1][2],d):f}return fP(la(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
 5:if(i){var
 r=i[2];if(r){if(r[2])return 0;var
 L=r[1],N=i[1],aj=f[1],aN=bG(N,N),aO=[4,[4,aj,aj],[4,p(L),aN]],aP=bG(L,L);return g(a,1,[3,[4,p(N),aP],aO])}var
@@ -2971,14 +2973,14 @@ ak=i;return ak;case
 al=f[2],aQ=f[3],aR=function(b){var
 c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,bG(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
 8:if(i){if(i[2])return 0;var
-P=i[1],aS=k9(f[1],m[1],P),aT=bG(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
+P=i[1],aS=k_(f[1],m[1],P),aT=bG(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
 9:if(i)return 0;var
 ar=f[3],as=f[2],aU=function(e){var
 f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
 b=a2(a,bG(e,e));if(b){var
 c=a2(a,[5,ar,as]);if(c){var
 d=j5(a,c[1]);if(d){var
-l=U(a,d[1]);return fO([0,E(b[1],l)])}var
+l=S(a,d[1]);return fP([0,E(b[1],l)])}var
 i=d}else
 var
 i=c;var
@@ -2996,8 +2998,8 @@ aX=f[2],aY=function(e){var
 b=dy(a,aX);if(b){var
 c=a2(a,e[3]);if(c){var
 d=a2(a,e[2]);if(d){var
-f=v(a,b[1],c[1]),g=fO([0,f]);if(g){var
-k=U(a,d[1]);return fO([0,E(U(a,f),k)])}var
+f=v(a,b[1],c[1]),g=fP([0,f]);if(g){var
+k=S(a,d[1]);return fP([0,E(S(a,f),k)])}var
 h=g}else
 var
 h=d;var
@@ -3008,11 +3010,11 @@ j=i}else
 var
 j=b;return j},au=aY,at=f[1];k=2;break;case
 12:if(i)return 0;var
-S=k_(m[3]);if(S){var
-ax=S[1],aZ=f[1],ay=cQ(function(b,a){return[4,b,a[3]]},ax,aZ),T=e(function(a){return a[1]},ax),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(T){var
-t=T[1];if(t){var
+T=k$(m[3]);if(T){var
+ax=T[1],aZ=f[1],ay=dt(function(b,a){return[4,b,a[3]]},ax,aZ),U=e(function(a){return a[1]},ax),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(U){var
+t=U[1];if(t){var
 u=t[2];if(u){var
-w=u[2],V=u[1],W=t[1],l=T[2];if(w)if(w[2]||!l)var
+w=u[2],V=u[1],W=t[1],l=U[2];if(w)if(w[2]||!l)var
 j=[0,d,b];else{var
 x=l[1];if(x){var
 y=x[2];if(y){var
@@ -3052,15 +3054,15 @@ j=[0,d,b];var
 az=g(a,1,[3,ay,j]);if(az)return g(a,1,[2,ay,j]);var
 aA=az}else
 var
-aA=S;return aA;default:k=1}switch(k){case
+aA=T;return aA;default:k=1}switch(k){case
 1:var
 ae=0;break;case
 2:var
 Q=M(m[3],at);if(Q){var
 R=Q[1];if(R)return au(R[1]);var
-av=R}else
+aw=R}else
 var
-av=Q;return av;case
+aw=Q;return aw;case
 3:var
 O=M(m[1],am);if(O){var
 ao=O[1],ap=s(h(ao),ab);if(ap)return an(ao);var
@@ -3070,7 +3072,7 @@ aq=O;return aq;default:var
 J=M(m[2],H);return J?I(J[1]):J}}else
 var
 ae=ad;return ae}function
-lb(h,g){var
+lc(h,g){var
 c=h,b=g;for(;;){if(b){var
 d=b[2],a=b[1];if(typeof
 a!=="number"&&4===a[0]){if(c){var
@@ -3080,68 +3082,68 @@ c=c[1],b=d;continue}var
 e=[0,[0,a,1]]}else
 var
 e=b;return e}}function
-lc(a){if(a){var
+ld(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=lc(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rq}function
-rr(a){return e(function(a){return[0,a,b]},a)}function
-ld(h,f,c,n,a){if(typeof
+c=b[1],d=ld(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rs}function
+rt(a){return e(function(a){return[0,a,b]},a)}function
+le(h,f,c,n,a){if(typeof
 a==="number"){if(0===a){var
 r=c[4];return al(function(a){return g(h,0,[3,[0,d,b],a])},r)}var
-i=lc(c[5]);return i?ka(f,i[1]):i}else{if(0===a[0]){var
-j=lb(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(rr,a[2]);return la(h,f,c,o[2],t,s)}return j}var
-k=lb(a[1],n);if(k){var
+i=ld(c[5]);return i?ka(f,i[1]):i}else{if(0===a[0]){var
+j=lc(a[1],n);if(j){var
+o=j[1],s=o[1],t=e(rt,a[2]);return lb(h,f,c,o[2],t,s)}return j}var
+k=lc(a[1],n);if(k){var
 p=k[1],l=p[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=M(c[1],a[2]);return m?la(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
+m=M(c[1],a[2]);return m?lb(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
 q=0}else
 var
 q=k;return q}}function
-hv(a){var
-b=aB(a[1]),c=av(S(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-hw(a){return aB(hv(a))}function
-le(c){var
-a=hw(c),b=aB(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hx(a,b){return bd(a[3],a[4],b)}function
-hy(a,b){var
-c=hx(a,b);return S(hw(a),c)}function
+hw(a){var
+b=aD(a[1]),c=aw(T(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
+hx(a){return aD(hw(a))}function
+lf(c){var
+a=hx(c),b=aD(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hy(a,b){return bd(a[3],a[4],b)}function
 hz(a,b){var
-c=hx(a,b);return S(le(a),c)}function
-lf(a,b){var
-c=hx(a,b);return S(aB(a[1]),c)}function
-hA(b,a){var
-c=hz(b,a),d=hy(b,a);return[2,[4,d,d],[4,c,c]]}function
-hB(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lf(a,d);return[5,[2,hA(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+c=hy(a,b);return T(hx(a),c)}function
+hA(a,b){var
+c=hy(a,b);return T(lf(a),c)}function
 lg(a,b){var
-f=a[5],c=[3,hB(a,b),f],d=lf(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fP(a,b){var
-c=lg(a,b);return c2(a[7],c)}function
-lh(b,a){var
-c=hA(b,a),d=hz(b,a),e=[4,fP(b,a),d],f=hy(b,a);return[5,[2,[4,hB(b,a),f],e],c]}function
+c=hy(a,b);return T(aD(a[1]),c)}function
+hB(b,a){var
+c=hA(b,a),d=hz(b,a);return[2,[4,d,d],[4,c,c]]}function
+hC(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lg(a,d);return[5,[2,hB(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+lh(a,b){var
+f=a[5],c=[3,hC(a,b),f],d=lg(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fQ(a,b){var
+c=lh(a,b);return c1(a[7],c)}function
 li(b,a){var
-c=hA(b,a),d=hy(b,a),e=[4,fP(b,a),d],f=hz(b,a);return[5,[3,[4,hB(b,a),f],e],c]}function
-lj(a,b){var
-c=le(a),d=av(li(a,b),c),e=hw(a),f=av(lh(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=av(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}function
-lk(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-ll(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-hC(a,c,b){var
-d=[4,lk(a),b],e=[2,[4,ll(a),c],d],f=[4,ll(a),b];return[0,[3,[4,lk(a),c],f],e]}function
-lm(c,a){var
-b=hC(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+c=hB(b,a),d=hA(b,a),e=[4,fQ(b,a),d],f=hz(b,a);return[5,[2,[4,hC(b,a),f],e],c]}function
+lj(b,a){var
+c=hB(b,a),d=hz(b,a),e=[4,fQ(b,a),d],f=hA(b,a);return[5,[3,[4,hC(b,a),f],e],c]}function
+lk(a,b){var
+c=lf(a),d=aw(lj(a,b),c),e=hx(a),f=aw(li(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=aw(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}function
+ll(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+lm(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+hD(a,c,b){var
+d=[4,ll(a),b],e=[2,[4,lm(a),c],d],f=[4,lm(a),b];return[0,[3,[4,ll(a),c],f],e]}function
+ln(c,a){var
+b=hD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
 eA(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fQ(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:lm(d[1],a):a;case
+fR(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:ln(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hC(d[1],a[2],a[3]),m=j[1],k=hC(f[1],j[2],a[1]);return lm(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hD(d[1],a[2],a[3]),m=j[1],k=hD(f[1],j[2],a[1]);return ln(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=S(e,e),n=eA(e,a),o=av([0,c(2,b),b],n),p=S(e,a),q=av([4,[0,c(2,b),b],p],e),r=av([3,[0,b,b],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return av([5,[0,b,b],[2,[0,b,b],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-ln(c){var
+e=[0,d[1],h[1],i[1]],l=T(e,e),n=eA(e,a),o=aw([0,c(2,b),b],n),p=T(e,a),q=aw([4,[0,c(2,b),b],p],e),r=aw([3,[0,b,b],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return aw([5,[0,b,b],[2,[0,b,b],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+lo(c){var
 a=cv(c);return a?du(a[1],[0,d,b]):a}function
-lo(a,n,k,j){if(ln(j)){var
+lp(a,n,k,j){if(lo(j)){var
 q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
 f=a2(a,k);if(f){var
 h=dy(a,[5,j,[0,c(2,b),b]]);if(h){var
@@ -3157,24 +3159,24 @@ var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
 eB(b,a,c){var
-d=bk(b,a[1],a[2]),e=d?lo(b,0,c,a[1]):d;return e?lo(b,1,c,a[2]):e}function
-lp(h,f,c){if(ln(c))return[0,A];var
-a=D(h,g8(f)),d=dy(a,c);if(d){var
+d=bl(b,a[1],a[2]),e=d?lp(b,0,c,a[1]):d;return e?lp(b,1,c,a[2]):e}function
+lq(h,f,c){if(lo(c))return[0,B];var
+a=D(h,g_(f)),d=dy(a,c);if(d){var
 e=fv(a,c);if(e){var
-i=e[1],j=d[1],k=bR(a,B(Q(a,b),j));return x(function(b){return jW(f,v(a,i,b))},k)}var
+i=e[1],j=d[1],k=bS(a,A(Q(a,b),j));return x(function(b){return jW(f,v(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c5(a){return function(b){return lp(a,d,b)}}function
-c6(d,a){var
+c4(a){return function(b){return lq(a,d,b)}}function
+c5(d,a){var
 e=g(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-c7(a){return[0,[3,[0,d,b],a],a]}function
-lq(a,c,o,n){var
-h=bk(a,[0,d,b],c),j=h?c6(a,c):h;if(j){var
-e=i(c5(a),c);if(e){var
+c6(a){return[0,[3,[0,d,b],a],a]}function
+lr(a,c,o,n){var
+h=bl(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
+e=i(c4(a),c);if(e){var
 f=a2(a,o);if(f){var
 g=a2(a,n);if(g){var
-p=f[1],q=g[1];return H(d,E(v(a,U(a,e[1]),q),p)[1])}var
+p=f[1],q=g[1];return H(d,E(v(a,S(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3184,7 +3186,7 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-fR(d,c,a){switch(c[0]){case
+fS(d,c,a){switch(c[0]){case
 0:return a?a[2]?0:eB(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
@@ -3202,7 +3204,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=S([0,s,r,q],[0,s,r,q]);return lq(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=T([0,s,r,q],[0,s,r,q]);return lr(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3211,7 +3213,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lq(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eB(d,c7(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lr(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eB(d,c6(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3223,30 +3225,30 @@ var
 A=a;return A}}var
 o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
 bH(h){var
-a=aw(function(f,e){var
+a=av(function(f,e){var
 a=a2(o,f);if(a)var
-b=a[1],c=bf(dr(b[1]),dr(b[2]));else
+b=a[1],c=bf(dq(b[1]),dq(b[2]));else
 var
 c=d;return bf(c,e)},d,h);if(K(d,a)){var
 f=aO(a);if(0===f||!(0<f&&!H(a,b)))var
 g=d;else
 var
-c=aZ(a,aL(2)),e=c[1],g=ab(c[2],d)?fg(e):fg(e);return aD(g,o)}return d}function
+c=aZ(a,aM(2)),e=c[1],g=ab(c[2],d)?fg(e):fg(e);return aF(g,o)}return d}function
 dL(a){return[0,a[1],[0,a[2],0]]}function
 a9(a){var
 b=dL(a[3]),c=f(dL(a[2]),b);return f(dL(a[1]),c)}function
-fS(a){return fN(o,a,bH(a9(a)))}function
-lr(b,a){if(a){var
-g=lr([0,b],a[2]),c=a[1];if(0===c[0])var
+fT(a){return fO(o,a,bH(a9(a)))}function
+ls(b,a){if(a){var
+g=ls([0,b],a[2]),c=a[1];if(0===c[0])var
 d=c[1],e=cz([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-ls(c,b,a){var
+lt(c,b,a){var
 d=dw(b);return[2,[2,dw(c),d],a]}function
-hD(b,a){return b?R(a):d}function
+hE(b,a){return b?R(a):d}function
 eC(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
@@ -3254,7 +3256,7 @@ i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hD(h,b);return[0,[5,q,a],D(hD(h,b),c)]},r);case
+c=hE(h,b);return[0,[5,q,a],D(hE(h,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3262,35 +3264,35 @@ c=hD(h,b);return[0,[5,q,a],D(hD(h,b),c)]},r);case
 13:var
 c=a[3],g=bH([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],s=dJ(b,k),t=f(dJ(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,ls(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=dJ(b,k),t=f(dJ(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,lt(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bH([0,o,0]);return[0,[4,a[3],aD(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bH([0,o,0]);return[0,[4,a[3],aF(p,b)],[0,[0,o,p],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cA(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cA(g,c,b,P(e,h(eC(c,b,d))),i);return f(ar(g,lr(e,eC(c,b,d)),d),j)}return a}function
-fT(b,a){var
-c=ax(b,a);return e(function(a){var
+d=a[1],i=a[2],j=cA(g,c,b,P(e,h(eC(c,b,d))),i);return f(ar(g,ls(e,eC(c,b,d)),d),j)}return a}function
+fU(b,a){var
+c=at(b,a);return e(function(a){var
 b=p(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hE(b,a){switch(a[0]){case
+hF(b,a){switch(a[0]){case
 0:var
 d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
 1:var
 e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?j5(b,c[1]):c;case
 2:return dy(b,a[1]);case
 3:return fv(b,a[1]);default:var
-f=a[1],g=c6(b,f);return g?lp(b,a[2],f):g}}function
-bY(a){return 1===a?rs:rt}function
-fU(d,c,b,a){var
-e=a[1],f=fQ(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-hF(c,b,a){switch(c){case
+f=a[1],g=c5(b,f);return g?lq(b,a[2],f):g}}function
+bZ(a){return 1===a?ru:rv}function
+fV(d,c,b,a){var
+e=a[1],f=fR(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+hG(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-lt(h,g,d,c,f,a){var
-e=fU(d,c,f,a);return hF(h,e,av([5,[0,b,b],g],eA(fQ(d,c,a[2]),e)))}function
-lu(c,j,i){var
+lu(h,g,d,c,f,a){var
+e=fV(d,c,f,a);return hG(h,e,aw([5,[0,b,b],g],eA(fR(d,c,a[2]),e)))}function
+lv(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=a8(c,e[1],d[1]),g=f?a8(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3299,8 +3301,8 @@ var
 h=a;return h}return a?0:1}}function
 be(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bT(function(a){return be(b,a)},a)]}return[0,bT(function(a){return be(b,a)},a)]}function
-c8(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bU(function(a){return be(b,a)},a)]}return[0,bU(function(a){return be(b,a)},a)]}function
+c7(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
@@ -3312,7 +3314,7 @@ e=a[1],f=ac(s(e,b));return f?ac(s(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c8(d,b,a[1]);if(g){var
+g=c7(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
 dM(c,b,m){var
 d=m;for(;;){var
@@ -3320,19 +3322,19 @@ a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c8(c,b,g),i=h?dM(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c7(c,b,g),i=h?dM(c,b,f):h;if(i)var
 j=i;else{var
-k=dM(c,b,g);if(k)return c8(c,b,f);var
+k=dM(c,b,g);if(k)return c7(c,b,f);var
 j=k}return j;case
 7:var
-l=dM(c,b,a[1]);return l?c8(c,b,a[2]):l;case
+l=dM(c,b,a[1]);return l?c7(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
 e=dM(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c8(c,b,a[1]);default:return 1}}}function
+9:return c7(c,b,a[1]);default:return 1}}}function
 cg(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
@@ -3346,19 +3348,19 @@ a=b[1];switch(a[0]){case
 b=a[1];continue;default:var
 d=cg(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fV(d,b,m){var
+fW(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fV(d,b,a[1]);if(f){var
+f=fW(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fV(d,b,a[1]);return g?cg(b,a[2]):g;case
+g=fW(d,b,a[1]);return g?cg(b,a[2]):g;case
 6:var
 h=a[2],i=a[1],j=cg(b,i);if(j){var
 k=cg(b,h);if(k)var
 e=k;else{var
-l=ay(i,d);if(l){var
+l=az(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
@@ -3366,7 +3368,7 @@ e=j;return e;case
 0:case
 1:case
 2:return 1;default:return cg(b,c)}}}function
-fW(c,e){var
+fX(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
 0:return by(a[1],c);case
@@ -3377,81 +3379,81 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fW(c,a[1]);if(d){var
+d=fX(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fX(a,b){if(a){var
+fY(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fX(c,aw(em,e,jR(d)))]:[0,ru,fX(c,e)]}var
-f=[0,d,fX(c,0)]}else
+e=b[2];return b[1]?[0,d,fY(c,av(em,e,jR(d)))]:[0,rw,fY(c,e)]}var
+f=[0,d,fY(c,0)]}else
 var
 f=a;return f}function
 cB(b,a){return a?i(b,a[1]):a}function
 cC(c,b,a){return cB(function(b){return cB(i(c,b),a)},b)}function
-lv(b,a){switch(a[0]){case
+lw(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-lw(a){return 0===a[0]?a[1]:0}function
-lx(d,c){var
+lx(a){return 0===a[0]?a[1]:0}function
+ly(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=lv(a[1],b),a=e;continue}return lw(b)}}function
-bZ(b,a){switch(a[0]){case
+e=a[2],b=lw(a[1],b),a=e;continue}return lx(b)}}function
+b0(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,bZ(b,a[1])];default:var
-c=bZ(b,a[3]),d=bZ(b,a[2]);return[2,bZ(b,a[1]),d,c]}}function
+1:return[1,b0(b,a[1])];default:var
+c=b0(b,a[3]),d=b0(b,a[2]);return[2,b0(b,a[1]),d,c]}}function
 a_(b,c,a){switch(c[0]){case
-0:return bZ(i(b,c[1]),a);case
+0:return b0(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,bZ(function(a){return ar(b,a,k)},d)];case
+k=a[1];return[1,b0(function(a){return ar(b,a,k)},d)];case
 1:return[1,a_(b,d,a[1])];default:var
 l=a_(b,d,a[3]),m=a_(b,d,a[2]);return[2,a_(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return bZ(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return b0(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
 j=a[1],r=a_(b,e,j),s=a_(b,f,j);return[2,a_(b,g,j),s,r];default:var
 t=a_(b,e,a[3]),u=a_(b,f,a[2]);return[2,a_(b,g,a[1]),u,t]}}}function
-hG(c,f,a){if(a)var
+hH(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,U(c,a)];break;case
+e=[0,a,S(c,a)];break;case
 1:var
-g=v(c,a,b),e=[0,aF(B(a,b)),g];break;default:var
-e=[0,b,U(c,b)]}return[0,[0,i(f,e)]]},h=hG(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=v(c,a,b),e=[0,ay(A(a,b)),g];break;default:var
+e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=hH(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hH(b,w,c,a){var
-e=hG(b,bu,a),d=0,y=f(hG(b,aM,a),e);return bU(rw,function(a){switch(a[0]){case
-0:return r(a[1],y,[0,[0,A]]);case
-1:return[0,[0,r(a[1],w,A)]];case
+hI(b,w,c,a){var
+e=hH(b,bg,a),d=0,y=f(hH(b,aB,a),e);return bV(ry,function(a){switch(a[0]){case
+0:return r(a[1],y,[0,[0,B]]);case
+1:return[0,[0,r(a[1],w,B)]];case
 2:return[0,[0,Q(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,B(b,a)]};return a_(function(a,b){return cC(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return a_(function(a,b){return cC(e,a,b)},d,c);case
 4:var
 f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return a_(function(a,b){return cC(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ad(a)]};return bZ(function(a){return cB(j,a)},i);case
+i=a[1],j=function(a){return[0,ad(a)]};return b0(function(a){return cB(j,a)},i);case
 6:var
 k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return a_(function(a,b){return cC(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bR(b,a);return x(function(a){return v(b,c,a)},d)};return a_(function(a,b){return cC(p,a,b)},o,n);case
+d=bS(b,a);return x(function(a){return v(b,c,a)},d)};return a_(function(a,b){return cC(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,U(b,a)]};return bZ(function(a){return cB(s,a)},q);case
+q=a[1],s=function(a){return[0,S(b,a)]};return b0(function(a){return cB(s,a)},q);case
 9:var
-t=a[1],u=function(a){return bS(b,a)};return bZ(function(a){return cB(u,a)},t);default:return rv}},c,d)}function
-fY(a){if(a){var
+t=a[1],u=function(a){return bT(b,a)};return b0(function(a){return cB(u,a)},t);default:return rx}},c,d)}function
+fZ(a){if(a){var
 b=a[1];if(b)var
-c=fY(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=fZ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rx}function
+d=b;return d}return rz}function
 dN(a){if(a){var
-g=a[1],b=g[2],c=fY(g[1]);if(c)if(b){var
+g=a[1],b=g[2],c=fZ(g[1]);if(c)if(b){var
 h=b[1],e=dN(a[2]);if(e)var
 i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
@@ -3460,23 +3462,23 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return ry}function
+f=c;return f}return rA}function
 dO(b,a){var
 c=a[3],d=x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aq(b),f),e,d]}function
-hI(c,g,f,b,a,e){if(b){var
+hJ(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=iF(c,ed,ed,function(a){return lv(b,a)},e);return hI(c,g,bx(f),l,a,d)},i=d(0,aD(a,h));if(i){var
+d=iF(c,ed,ed,function(a){return lw(b,a)},e);return hJ(c,g,bx(f),l,a,d)},i=d(0,aF(a,h));if(i){var
 j=d(2,D(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,iF(c,ed,ed,lw,e))}function
-hJ(e,c,b,a){var
+k=i;return k}return ar(g,a,iF(c,ed,ed,lx,e))}function
+hK(e,c,b,a){var
 f=ap(d,b);function
-g(b){return a}return function(a){return hI(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return hJ(e,g,c,f,d,a)}}function
 cD(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a0(f,e,a)},d)}return[0,A]}function
-ly(f,e,k,j,i,a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a0(f,e,a)},d)}return[0,B]}function
+lz(f,e,k,j,i,a){var
 b=dN(a[1]);if(b){var
 c=a[2];if(c){var
 d=cD(a[3]);if(d){var
@@ -3487,14 +3489,14 @@ g=c;var
 h=g}else
 var
 h=b;return h}function
-lz(i,d,h,g,c){var
+lA(i,d,h,g,c){var
 a=dN(c[1]);if(a){var
 b=cD(c[3]);if(b){var
-j=ap([0,E(A,b[1]),0],d),k=a[1];return a7(i,d,fx(h,g,e(function(a){return[0,a[1],A]},k),j))}var
+j=ap([0,E(B,b[1]),0],d),k=a[1];return a7(i,d,fx(h,g,e(function(a){return[0,a[1],B]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-lA(a,c,F,i){var
+lB(a,c,F,i){var
 j=dN(i[1]);if(j){var
 k=i[2];if(k){var
 l=cD(i[3]);if(l){var
@@ -3506,7 +3508,7 @@ q=p}else
 var
 q=f;return q}var
 r=K(d,e[1]),t=r?K(d,n[1]):r;if(t){var
-B=z(e[1],n[1]),C=m[1];return K(aw(function(a,b){var
+B=z(e[1],n[1]),C=m[1];return K(av(function(a,b){var
 c=ca(a);return D(z(ca(a),c),b)},d,C),B)}return t}var
 g=fy(a,b,ap([0,e,0],c));if(g){var
 u=g[1],w=s(h(u),c);if(w)return dz(a,u);var
@@ -3519,110 +3521,114 @@ y=k;var
 A=y}else
 var
 A=j;return A}function
-rz(c){var
+rB(c){var
 a=c[2];if(a){var
 b=cD(c[3]);if(b)return H(d,E(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-hK(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-lB(a,c,b){var
-e=r(b,c,j(d)),f=aE(0,a);return n(function(b){return dM(a,b,e)},f)}function
+hL(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+lC(a,c,b){var
+e=r(b,c,j(d)),f=aG(0,a);return n(function(b){return dM(a,b,e)},f)}function
 eD(a){var
 c=J(a);return y(j(b),c)}function
-fZ(i,g){var
-h=eD(g),k=J(g),e=u(j(b),k),f=p(j(c(2,b)),g),a=j(d);return i?i[1]?[0,[0,e,bj(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bj(f),a,e]]:[0,[0,h,a,a],[0,a,e,bj(f)],[0,a,f,e]]}function
+f0(i,g){var
+h=eD(g),k=J(g),e=u(j(b),k),f=p(j(c(2,b)),g),a=j(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
 eE(b,a){var
 c=N(b[3],a),d=N(b[2],a);return[0,N(b[1],a),d,c]}function
-lC(b,a){function
+lD(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
 b=N(a,c(function(a){return a[3]})),d=N(a,c(function(a){return a[2]}));return[0,N(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-lD(w,v){function
+lE(w,v){function
 a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
 0:var
-x=eD(a(0));return[0,fZ(rA,a(0)),x];case
+x=eD(a(0));return[0,f0(rC,a(0)),x];case
 1:var
-z=eD(a(0)),A=p(eD(a(rB)),z),B=p(eD(a(rC)),A),C=fZ(0,a(0)),D=lC(fZ(rE,a(rD)),C);return[0,lC(fZ(rG,a(rF)),D),B];default:var
-E=a(rH),F=a(rI),g=[0,a(0),F,E],G=N(g,g),H=y(j(b),G),k=N(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+z=eD(a(0)),A=p(eD(a(rD)),z),B=p(eD(a(rE)),A),C=f0(0,a(0)),D=lD(f0(rG,a(rF)),C);return[0,lD(f0(rI,a(rH)),D),B];default:var
+E=a(rJ),F=a(rK),g=[0,a(0),F,E],G=N(g,g),H=y(j(b),G),k=N(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=J(a),e=p(j(c(2,b)),d);return y(u(j(b),k),e)},h=function(f,e,d,a){var
 g=ar(f,p(e,d),a);return p(j(c(2,b)),g)},l=i(f),m=h(y,e,f,d),n=[0,h(u,d,f,e),m,l],o=h(u,e,f,d),q=i(e),r=[0,h(y,d,e,f),q,o],s=h(y,d,f,e),t=h(u,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
-lE(a){return 1<a[0]?[0,a[1],0]:0}function
-f0(a){switch(a[0]){case
+lF(a){return 1<a[0]?[0,a[1],0]:0}function
+f1(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c7(a[1]),0];default:var
-b=[0,c7(a[2]),0];return[0,c7(a[1]),b]}}function
+2:return[0,c6(a[1]),0];default:var
+b=[0,c6(a[2]),0];return[0,c6(a[1]),b]}}function
 dP(a){return[0,[0,a[1]],[0,a[2]]]}function
-lF(a){switch(a[0]){case
+lG(a){switch(a[0]){case
 0:return[0,dP(a[1]),0];case
 1:var
 f=[0,dP(a[3]),0],g=[0,dP(a[2]),f];return[0,dP(a[1]),g];case
 2:var
-b=dP(c7(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c7(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dP(c7(c)),0]]]}}function
-lG(a,c){if(0===c[0]){var
-g=c[1];return i(c5(a),g)}var
-h=c[1],d=i(c5(a),h);if(d){var
-j=c[2],e=i(c5(a),j);if(e){var
-k=U(a,e[1]),l=bS(a,B(Q(a,b),k)),m=d[1];return x(function(b){return v(a,m,b)},l)}var
+b=dP(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dP(c6(c)),0]]]}}function
+lH(a,c){if(0===c[0]){var
+g=c[1];return i(c4(a),g)}var
+h=c[1],d=i(c4(a),h);if(d){var
+j=c[2],e=i(c4(a),j);if(e){var
+k=S(a,e[1]),l=bT(a,A(Q(a,b),k)),m=d[1];return x(function(b){return v(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-lH(d,c){var
-a=lG(d,c[1]);if(a)var
-b=lG(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lI(d,c){var
+a=lH(d,c[1]);if(a)var
+b=lH(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-lI(a,e,c){var
+lJ(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(by(f,a))return c;var
-g=j(d);return r(jv(f,a),e,g)}return[0,bT(function(b){return lI(a,e,b)},b)]}function
-hL(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=kI(h,c),k=bD(f),b=e(function(b){return lI(a,k,b)},i),l=r(rN,b,j(d)),m=r(rO,b,j(d));return[0,r(0,b,j(d)),m,l]}function
-b0(b,a){var
+g=j(d);return r(jv(f,a),e,g)}return[0,bU(function(b){return lJ(a,e,b)},b)]}function
+hM(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=kI(h,c),k=bD(f),b=e(function(b){return lJ(a,k,b)},i),l=r(rP,b,j(d)),m=r(rQ,b,j(d));return[0,r(0,b,j(d)),m,l]}function
+b1(b,a){var
 c=p(b[2],a[1]),d=u(p(b[1],a[2]),c),e=p(b[1],a[3]),f=u(p(b[3],a[1]),e),g=p(b[3],a[2]);return[0,u(p(b[2],a[3]),g),f,d]}function
-c9(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-lJ(c){function
+c8(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+lK(c){function
 a(a){var
 e=s(c,a)?b:d;return j(e)}var
-e=a(rP),f=a(rQ);return[0,a(0),f,e]}function
-lK(b,a){if(a)var
-d=lK(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=a(rR),f=a(rS);return[0,a(0),f,e]}function
+lL(b,a){if(a)var
+d=lL(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-f1(c,b,a){switch(c){case
+f2(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-lL(b,c,a){return c?b_(b,a):bi(b,a)}function
-lM(a){if(a){var
-f=a[1],b=f[2],c=fY(f[1]);if(c)if(b)var
-d=lM(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+lM(b,c,a){return c?bR(b,a):bj(b,a)}function
+lN(a){if(a){var
+f=a[1],b=f[2],c=fZ(f[1]);if(c)if(b)var
+d=lN(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return r1}function
-lN(d,c,f,a){if(c)if(a)var
-g=c[1],j=lN(d,c[2],f,a[2]),h=g[2],k=a[1][2],l=g[1],i=aF(v(d,h,f)),e=[0,cr(v(d,l,B(aF(ek(k,Q(d,b),h)),i))),j];else
+e=c;return e}return r3}function
+lO(c,b,a){var
+d=at(b,a);return av(function(a,d){var
+b=ca(a[2]);return A(v(c,a[1],[0,b,b]),d)},B,d)}function
+lP(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=lP(a,h,e[2],f,d[2]),p=i[2],q=bR(h,i[1]),c=e[1],j=ay(v(a,c[3],f)),k=c[3],l=A(ay(ek(p,Q(a,b),k)),j),m=v(a,c[2],l),n=v(a,c[1],f),g=[0,cr(A(A(ay(lO(a,c[4],q)),n),m)),o];else
 var
-e=a;else
+g=d;else
 var
-e=c;return e}function
-lO(b,a){return W(e(function(a){return r(a,b,0)},a))}function
+g=e;return g}function
+r5(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+lQ(b,a){return W(e(function(a){return r(a,b,0)},a))}function
+c9(a){switch(a){case
+0:return r9;case
+1:return r_;default:return 0}}function
 c_(a){switch(a){case
-0:return r6;case
-1:return r7;default:return 0}}function
-c$(a){switch(a){case
-0:return[0,r9,r8,j(d)];case
-1:return cW;default:var
+0:return[0,sa,r$,j(d)];case
+1:return cV;default:var
 b=j(d),c=j(d);return[0,j(d),c,b]}}function
-f2(c,b,a){return a6(eE(c,a),b)}function
-lP(a){var
+f3(c,b,a){return a6(eE(c,a),b)}function
+lR(a){var
 d=N(a,a),e=y(j(b),d);return ag(j(c(2,b)),e)}function
-lQ(k,j,i,h,g,a){var
-e=f2(j,i,g),c=b0(a,e),f=Z(y,c,b0(a,c)),d=Z(y,e,aP(lP(a),f)),b=Z(u,Z(y,c$(k),d),h);return[0,[0,d,b],az(N(b,b))]}function
+lS(k,j,i,h,g,a){var
+e=f3(j,i,g),c=b1(a,e),f=Z(y,c,b1(a,c)),d=Z(y,e,aP(lR(a),f)),b=Z(u,Z(y,c_(k),d),h);return[0,[0,d,b],aA(N(b,b))]}function
 bI(e,k){var
 a=k[1];switch(a[0]){case
 1:var
@@ -3631,20 +3637,20 @@ l=s(a[1],e)?b:d;return j(l);case
 m=bI(e,a[2]);return y(bI(e,a[1]),m);case
 4:var
 n=bI(e,a[2]);return u(bI(e,a[1]),n);case
-5:return bj(bI(e,a[1]));case
+5:return bk(bI(e,a[1]));case
 6:var
 g=a[2],h=a[1],o=p(h,bI(e,g));return y(p(g,bI(e,h)),o);case
 7:var
 f=bI(e,a[1]);return aT(d,f)?f:ag(f,a[2]);case
 8:var
 i=a[1],q=bI(e,i);return p(p(j(c(2,b)),i),q);default:return j(d)}}function
-hM(c,b,k){var
+f4(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=hM(c,b,a[1]);if(g){var
+g=f4(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,r(i,c,A)[1]);return j?ac(al(function(a){return s(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,r(i,c,B)[1]);return j?ac(al(function(a){return s(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -3653,9 +3659,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=hM(c,b,a[1]);if(f){var
+f=f4(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-lR(d){var
+lT(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3666,72 +3672,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lR(a[1]);if(c){var
+c=lT(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-lS(c,b,a){var
+lU(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
 hN(b,a,c){return e(function(c){var
-d=lS(b,a,c[2]),f=c[1];return[0,e(function(c){return lS(b,a,c)},f),d]},c)}function
-lT(b,a){return x(function(a){var
+d=lU(b,a,c[2]),f=c[1];return[0,e(function(c){return lU(b,a,c)},f),d]},c)}function
+lV(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-r_(a,b){var
-c=lT(a,b[3]),d=i(a,b[2]);return[0,hN(a,a,b[1]),d,c]}function
-lU(c){var
+sb(a,b){var
+c=lV(a,b[3]),d=i(a,b[2]);return[0,hN(a,a,b[1]),d,c]}function
+lW(c){var
 a=c[1];if(a){var
-b=fY(c[2]);if(b)var
+b=fZ(c[2]);if(b)var
 g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-r$(c){var
-a=W(e(lU,c[1]));if(a)var
-b=lU(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+sc(c){var
+a=W(e(lW,c[1]));if(a)var
+b=lW(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-sa(a){return ac(hf([0,a[2],a[1]]))}function
+sd(a){return ac(hh([0,a[2],a[1]]))}function
 hO(a){return[0,a[1],a[2]]}function
-lV(b,c,a){var
+lX(b,c,a){var
 d=e(function(c){return be(b,bI(c,a))},c);return[0,be(b,a),d]}function
 hP(b,e,a,d){var
 c=w(function(a){var
 b=hO(a[2]);return f(w(hO,a[1]),b)},d),g=a?[0,be(b,a[1]),0]:a,h=f(g,c);return[0,be(b,e),h]}function
-lW(c,f,b,a){var
-d=hM(f,b,a),e=d?fW(c,a):d;return e?n(function(b){return fW(c,bI(b,a))},b):e}function
-lX(a){switch(a[0]){case
+lY(c,f,b,a){var
+d=f4(f,b,a),e=d?fX(c,a):d;return e?n(function(b){return fX(c,bI(b,a))},b):e}function
+lZ(a){switch(a[0]){case
 3:var
-d=hK(a[2]);return[0,a[3],d];case
+d=hL(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=hK(b[1]);return[0,b[2],e];case
+b=a[1],e=hL(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=hK(a[1]);return[0,a[2],c]}}function
-lY(a,at,bm,k,m,P,as,w,O,j,g){switch(j[0]){case
+c=hL(a[1]);return[0,a[2],c]}}function
+l0(a,au,bo,k,m,P,as,w,O,j,g){switch(j[0]){case
 0:var
-au=j[4],R=j[3],av=j[2],ay=j[1],T=0;if(typeof
-g==="number")T=1;else
+aw=j[4],R=j[3],ax=j[2],az=j[1],U=0;if(typeof
+g==="number")U=1;else
 switch(g[0]){case
 0:var
-bn=g[2],bo=g[1],t=av,q=ay,p=function(b){return ly(a,m,bo,bn,R,b)},o=au;break;case
+bp=g[2],bq=g[1],t=ax,q=az,p=function(b){return lz(a,m,bq,bp,R,b)},o=aw;break;case
 2:var
-az=ab(R[1],d),aA=az?ab(R[2],d):az;if(!aA)return aA;var
-br=g[2],bs=g[1],t=av,q=ay,p=function(b){return lz(a,m,bs,br,b)},o=au;break;default:T=1}if(T)return 0;break;case
+aA=ab(R[1],d),aC=aA?ab(R[2],d):aA;if(!aC)return aC;var
+bt=g[2],bu=g[1],t=ax,q=az,p=function(b){return lA(a,m,bu,bt,b)},o=aw;break;default:U=1}if(U)return 0;break;case
 1:var
-aL=0;if(typeof
+aM=0;if(typeof
 g==="number"&&!g)var
-bt=j[2],bu=j[1],bv=j[3],t=bt,q=bu,bw=0,p=function(b){return lA(a,m,bv,b)},o=bw;else
-aL=1;if(aL)return 0;break;case
+bv=j[2],bw=j[1],bz=j[3],t=bv,q=bw,bA=0,p=function(b){return lB(a,m,bz,b)},o=bA;else
+aM=1;if(aM)return 0;break;case
 2:if(typeof
 g!=="number"&&3===g[0]){var
 z=g[3];if(z){var
-aB=z[2],aC=s(h(aB),k);if(aC){var
-bz=[0,j[1],j[2],O],bA=dO(function(a){return r(a,w,sd)},bz),aD=g[1],bB=0,bD=z[1],bE=g[2],bF=j[3],bG=function(w,i){var
+aD=z[2],aE=s(h(aD),k);if(aE){var
+bB=[0,j[1],j[2],O],bD=dO(function(a){return r(a,w,sg)},bB),aF=g[1],bE=0,bF=z[1],bG=g[2],bH=j[3],bI=function(w,i){var
 c=dN(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=cD(i[3]);if(f){var
-k=f[1],l=function(c){return a0(c,aD,Q(a,b))},t=l(w),u=e[1],g=B(v(a,l(bD),u),t),n=K(d,g[1]),o=n?a7(a,m,fx(aD,bE,j,ap([0,E(ad(g),k),0],m))):n;if(o){var
-h=fy(a,j,ap([0,E(v(a,bF,g),k),0],m));if(h)return a7(a,m,h[1]);var
+k=f[1],l=function(c){return a0(c,aF,Q(a,b))},t=l(w),u=e[1],g=A(v(a,l(bF),u),t),n=K(d,g[1]),o=n?a7(a,m,fx(aF,bG,j,ap([0,E(ad(g),k),0],m))):n;if(o){var
+h=fy(a,j,ap([0,E(v(a,bH,g),k),0],m));if(h)return a7(a,m,h[1]);var
 p=h}else
 var
 p=o;var
@@ -3743,20 +3749,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return hI(function(b,a){return dO},bG,bB,aB,d,bA)}var
-aG=aC}else
+s=c;return s};return hJ(function(b,a){return dO},bI,bE,aD,d,bD)}var
+aH=aE}else
 var
-aG=z;return aG}return 0;case
+aH=z;return aH}return 0;case
 3:var
-aM=0;if(typeof
-g==="number"||!(0===g[0]))aM=1;else
+aN=0;if(typeof
+g==="number"||!(0===g[0]))aN=1;else
 var
-aH=g[2],aI=g[1],bH=j[3],bI=j[2],bJ=j[4],bK=j[1],bL=function(f){var
+aI=g[2],aJ=g[1],bJ=j[3],bK=j[2],bL=j[4],bM=j[1],bN=function(f){var
 b=dN(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
 e=cD(f[3]);if(e){var
-g=s(h(c),m),i=g?s(h(aH),m):g;if(i){var
-n=dD(aI,dE(aI,aH,d[1],c));return a7(a,m,bC(fB(a,bK,bJ,e[1],c),n))}var
+g=s(h(c),m),i=g?s(h(aI),m):g;if(i){var
+n=dD(aJ,dE(aJ,aI,d[1],c));return a7(a,m,bC(fB(a,bM,bL,e[1],c),n))}var
 j=i}else
 var
 j=e;var
@@ -3765,114 +3771,113 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},t=bH,q=bI,p=bL,o=j[5];if(aM)return 0;break;case
+l=b;return l},t=bJ,q=bK,p=bN,o=j[5];if(aN)return 0;break;case
 4:var
-aN=0;if(typeof
-g==="number"&&!g)var
-t=j[1],q=0,p=rz,o=0;else
-aN=1;if(aN)return 0;break;case
-5:var
 aP=0;if(typeof
-g==="number"||!(0===g[0]))aP=1;else{var
-C=g[2],aQ=0;if(C){var
-D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bM=j[2],bN=j[1],bO=Q(a,b),bP=[0,[0,D[1],0],0],bQ=g[1],t=bM,q=bN,bT=0,p=function(b){return ly(a,se,bQ,bP,bO,b)},o=bT;aQ=1}else
-var
-aJ=D}else
-var
-aJ=C;if(!aQ)return aJ}if(aP)return 0;break;case
-6:var
-aR=0;if(typeof
 g==="number"&&!g)var
-bU=j[2],bV=j[1],bX=Q(a,b),t=bU,q=bV,bY=0,p=function(b){return lA(a,sf,bX,b)},o=bY;else
-aR=1;if(aR)return 0;break;case
-7:var
+t=j[1],q=0,p=rB,o=0;else
+aP=1;if(aP)return 0;break;case
+5:var
+aQ=0;if(typeof
+g==="number"||!(0===g[0]))aQ=1;else{var
+C=g[2],aR=0;if(C){var
+D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
+bO=j[2],bP=j[1],bQ=Q(a,b),bU=[0,[0,D[1],0],0],bV=g[1],t=bO,q=bP,bW=0,p=function(b){return lz(a,sh,bV,bU,bQ,b)},o=bW;aR=1}else
+var
+aK=D}else
+var
+aK=C;if(!aR)return aK}if(aQ)return 0;break;case
+6:var
 aT=0;if(typeof
-g==="number"&&5<=g)var
-bZ=j[2],b0=j[1],b1=j[4],b2=j[3],t=bZ,q=b0,b3=0,p=function(b){return lz(a,m,b2,b1,b)},o=b3;else
+g==="number"&&!g)var
+bY=j[2],bZ=j[1],b0=Q(a,b),t=bY,q=bZ,b1=0,p=function(b){return lB(a,si,b0,b)},o=b1;else
 aT=1;if(aT)return 0;break;case
+7:var
+aU=0;if(typeof
+g==="number"&&5<=g)var
+b2=j[2],b3=j[1],b4=j[4],b5=j[3],t=b2,q=b3,b6=0,p=function(b){return lA(a,m,b5,b4,b)},o=b6;else
+aU=1;if(aU)return 0;break;case
 8:if(typeof
 g!=="number"&&9===g[0]){var
-F=g[4],aK=g[2],S=g[1],l=j[1],u=l[9],b4=g[3],aY=l[5],aZ=g6(f(ei(l[4]),aY),at),a1=e(ae,bm),y=l[9],a2=l[8],a3=l[7],aW=fC(y,ap(A,jv(k,y)),a2),aX=f(e(ae,b_(y,P)),aW),Y=jQ(0,bW(a,f(fC(0,bi(y,P),a3),aX),a1),aZ,at,0),Z=0<aO(F)?0<aO(d)?fh(F,d):0:0<aO(d)?0:1;if(Z)var
+F=g[4],aL=g[2],T=g[1],l=j[1],u=l[9],b7=g[3],aZ=l[5],a1=g8(f(ei(l[4]),aZ),au),a2=e(ae,bo),y=l[9],a3=l[8],a4=l[7],aX=fC(y,ap(B,jv(k,y)),a3),aY=f(e(ae,bR(y,P)),aX),Y=jQ(0,bX(a,f(fC(0,bj(y,P),a4),aY),a2),a1,au,0),Z=0<aO(F)?0<aO(d)?fh(F,d):0:0<aO(d)?0:1;if(Z)var
 G=Z;else
 var
 aq=2<=jD(F,c(2,c(2,c(2,c(2,b)))))?0:1,ar=aq?by(0,u):aq,G=ar?by(u,k):ar;var
-_=G?V(u,k):G,$=_?s(h(P),k):_,aa=$?s(h(aK),k):$,ac=aa?s(h(l[1]),k):aa,af=ac?s(h(l[6]),k):ac,ag=af?s(h(l[4]),k):af;if(ag)var
-a4=l[4],H=n(function(a){return s(h(a),k)},a4);else
+_=G?V(u,k):G,$=_?s(h(P),k):_,aa=$?s(h(aL),k):$,ac=aa?s(h(l[1]),k):aa,af=ac?s(h(l[6]),k):ac,ag=af?s(h(l[4]),k):af;if(ag)var
+a5=l[4],H=n(function(a){return s(h(a),k)},a5);else
 var
 H=ag;if(H){var
-a5=l[4],I=W(e(function(a){return lO(Y,a)},a5));if(I){var
-ah=lO(Y,l[5]);if(ah){var
-a6=l[6],J=W(e(function(c){var
-d=r(c[1],as,0);if(d){var
+a6=l[4],I=W(e(function(a){return lQ(Y,a)},a6));if(I){var
+ah=lQ(Y,l[5]);if(ah){var
+a8=l[6],J=W(e(function(j){var
+c=j[1],k=l[7],d=r(c[1],as,0);if(d){var
 h=c[2][2],b=W(e(function(a){var
-b=r(a[2],as,0);return x(function(b){return[0,a[1],b[2]]},b)},h));if(b)var
-i=c[2][1],j=b[1],f=[0,cr(cQ(function(d,b){var
-c=ca(b[2]);return B(d,v(a,b[1],[0,c,c]))},j,i))];else
+b=r(a[2],as,0);return x(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cr(ay(v(a,k,S(a,lO(a,e(aB,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a6));if(J){var
-a8=l[1],a9=l[2],L=W(e(function(m){function
+g=d;return g},a8));if(J){var
+a9=l[1],a_=l[2],L=W(e(function(m){function
 f(e){var
-g=ap(e,k),c=lx(r(m[2],w,r3),g);if(c){var
-h=ap(e,k),d=lx(r(a9,w,r4),h);if(d){var
-i=d[1],j=Q(a,b);return bS(a,cT(ek(c[1],j,i)))}var
+g=ap(e,k),c=ly(r(m[2],w,r6),g);if(c){var
+h=ap(e,k),d=ly(r(a_,w,r7),h);if(d){var
+i=d[1],j=Q(a,b);return bT(a,cS(ek(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cT(aF(B(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cS(ay(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},a8));if(L){var
-a_=I[1],X=dB(a,aw(function(i,h){var
+j=c;return j},a9));if(L){var
+a$=I[1],X=dB(a,av(function(i,h){var
 o=e(function(b){var
-a=aE(0,k);return e(function(a){return ca(r(a,b[3],A))},a)},i);function
+a=aG(0,k);return e(function(a){return ca(r(a,b[3],B))},a)},i);function
 b(m,l){var
-n=lL(u,m,o),g=e(function(a){return lL(u,l,a)},n);function
-b(a){return aw(bf,d,a)}var
+n=lM(u,m,o),g=e(function(a){return lM(u,l,a)},n);function
+b(a){return av(bf,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(aw(function(a,b){return aS(j,i,jE,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aw(jE,d,a)},g));return dB(a,v(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return B(h,U(a,B(B(B(b(0,0),g),f),c)))},A,a_)),M=a0(b4,S,Q(a,b)),ai=K(d,E(M,X)[1]);if(ai){var
-N=bR(a,M);if(N){var
-a$=aF(v(a,X,N[1])),ba=E(Q(a,b),a$),bb=[0,l[1],l[2],O],bd=dO(function(a){return r(a,w,r5)},bb),be=ax(J[1],L[1]),bg=U(a,ba),bh=U(a,M),bj=l[10],aU=aE(0,k),aV=e(function(a){var
-d=bj?V(u,a):by(a,u);return d?b:g1(c(2,b),F)},aU),bk=function(q){var
-i=lM(q[1]);if(i){var
-j=q[2];if(j){var
-l=j[1],m=cD(q[3]);if(m){var
-u=m[1],F=i[1],g=e(function(a){var
-c=a[2],b=ax(aV,a[1]);return[0,e(function(a){return a0(a[1],d,a[2])},b),c]},F),G=dD(S,dE(S,aK,l,g)),o=bC(ap([0,ad(u),0],k),G),w=lN(a,be,l,g),H=E(v(a,l,bg),u),x=s(h(g),k),y=x?s(h(w),k):x;if(y){var
+c=b(av(function(a,b){return aS(j,i,jE,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return av(jE,d,a)},g));return dB(a,v(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},B,a$)),M=a0(b7,T,Q(a,b)),ai=K(d,E(M,X)[1]);if(ai){var
+N=bS(a,M);if(N){var
+ba=ay(v(a,X,N[1])),bb=E(Q(a,b),ba),bd=[0,l[1],l[2],O],be=dO(function(a){return r(a,w,r8)},bd),bg=l[6],bh=e(r5,at(at(J[1],L[1]),bg)),bi=S(a,bb),bk=S(a,M),bl=l[10],aV=aG(0,k),aW=e(function(a){var
+d=bl?V(u,a):by(a,u);return d?b:g3(c(2,b),F)},aV),bm=function(q){var
+g=lN(q[1]);if(g){var
+u=g[1],i=q[2];if(i){var
+j=i[1],l=cD(q[3]);if(l){var
+w=l[1],x=lP(a,k,bh,j,u),m=e(function(a){var
+c=a[2],b=at(aW,a[1]);return[0,e(function(a){return a0(a[1],d,a[2])},b),c]},u),G=dD(T,dE(T,aL,j,m)),o=bC(ap([0,ad(w),0],k),G),H=E(v(a,j,bi),w),y=s(h(m),k),z=y?s(h(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
 r=s(h(c[1]),b);if(r){var
 b=b[1],c=c[2];continue}var
 t=r}else
 var
 t=b;var
-z=t}else
+A=t}else
 var
-z=b?0:1;var
-p=z;break}}else
+A=b?0:1;var
+p=A;break}}else
 var
-p=y;var
-A=p?a7(a,k,bC(e(function(b){return[0,ad(v(a,bh,b[2])),0]},g),o)):p;if(A){var
+p=z;var
+B=p?a7(a,k,bC(e(function(b){return[0,ad(v(a,bk,b[2])),0]},m),o)):p;if(B){var
 I=bc(bx(k));return n(function(g){var
-d=ax(f(g,r2),w),b=[0,[0,H,0],0],c=ax(o,e(function(a){return a[1]?ad(a[2]):a[2]},d));return a7(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
-B=A}else
-var
-B=m;var
+d=at(f(g,r4),x),b=[0,[0,H,0],0],c=at(o,e(function(a){return a[1]?ad(a[2]):a[2]},d));return a7(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
-C=j;var
+C=l;var
 D=C}else
 var
-D=i;return D},bl=l[3];return i(hJ(function(b,a){return dO},bl,k,bk),bd)}var
+D=i;var
+F=D}else
+var
+F=g;return F},bn=l[3];return i(hK(function(b,a){return dO},bn,k,bm),be)}var
 aj=N}else
 var
 aj=ai;var
@@ -3891,10 +3896,10 @@ an=I;var
 ao=an}else
 var
 ao=H;return ao}return 0;default:return 0}var
-bp=[0,q,t,O],bq=dO(function(a){return r(a,w,sc)},bp);return i(hJ(function(b,a){return dO},o,k,p),bq)}function
-sg(b,a){var
-c=g3(gZ,b[1],a[1]);return c?gZ(b[2],a[2]):c}function
-lZ(i,r,q,h,p,k,A,z,y,j,o,g,a,e){if(typeof
+br=[0,q,t,O],bs=dO(function(a){return r(a,w,sf)},br);return i(hK(function(b,a){return dO},o,k,p),bs)}function
+sj(b,a){var
+c=g5(g1,b[1],a[1]);return c?g1(b[2],a[2]):c}function
+l1(i,r,q,h,p,k,A,z,y,j,o,g,a,e){if(typeof
 e==="number"){if(0===e)return 9===a[0]?eu(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
@@ -3903,43 +3908,43 @@ f!=="number"&&7===f[0]){if(k){var
 t=f[3],u=f[2],v=H(d,u);if(v)var
 B=1===jD(t,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))?1:0,l=B;else
 var
-l=v;if(l)return lY(i,r,q,h,p,j,g,o,[0,[0,[0,k[1],u],t]],a,f[1]);var
+l=v;if(l)return l0(i,r,q,h,p,j,g,o,[0,[0,[0,k[1],u],t]],a,f[1]);var
 w=l}else
 var
-w=k;return w}return lY(i,r,q,h,p,j,g,o,0,a,f);case
+w=k;return w}return l0(i,r,q,h,p,j,g,o,0,a,f);case
 8:return 9===a[0]?eu(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-m=g3(sg,a[1],A),n=m?1:m,x=n?s(a[2],z):n;return x?iF(y,j,a[3],a[4],e):x}return 0}return 0}function
-l0(b){var
+m=g5(sj,a[1],A),n=m?1:m,x=n?s(a[2],z):n;return x?iF(y,j,a[3],a[4],e):x}return 0}return 0}function
+l2(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-sh(c){var
+sk(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-l1(b,u,n,k,m,V,T,c,S,R,P,j,i,aj){var
-W=al(sh,i),X=W?kz(b,n,k,g6(w(function(c){var
+l3(b,u,n,k,m,V,U,c,T,R,P,j,i,aj){var
+W=al(sk,i),X=W?kz(b,n,k,g8(w(function(c){var
 a=M(m,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return w(function(a){var
-b=e(bu,a[2][2]);return[0,a[1],b]},d);case
-9:return kF(0,0,0,b[1],c[2]);default:return 0}}return a},i),n),j):W,Y=al(l0,i);if(Y)var
+b=e(bg,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return kF(0,0,0,b[1],c[2]);default:return 0}}return a},i),n),j):W,Y=al(l2,i);if(Y)var
 ag=w(function(b){var
-c=l0(b);if(c){var
-a=M(m,b[1]);if(a)return lX(a[1]);var
+c=l2(b);if(c){var
+a=M(m,b[1]);if(a)return lZ(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aw(em,e(function(a){return 0},u),ai),y=hH(b,k,eh(fX(eh(u,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=av(em,e(function(a){return 0},u),ai),y=hI(b,k,eh(fY(eh(u,0),$),_),j);else
 var
 y=Y;var
 h=i,a=aj;for(;;){if(h){var
 D=h[1],l=D[2],g=D[1],p=h[2];if(g){var
 F=r(g,a,0);if(F){var
 q=M(m,g);if(q){var
-G=lZ(b,n,k,V,T,c,S,R,P,j,y,X,q[1],l);if(G){var
+G=l1(b,n,k,V,U,c,T,R,P,j,y,X,q[1],l);if(G){var
 h=p,a=fH(g,a);continue}var
 H=G}else
 var
@@ -3949,12 +3954,12 @@ var
 I=F;return I}if(typeof
 l==="number"&&4===l){var
 Z=0;if(c){var
-af=0,z=e(function(a){return[0,a,U(b,a)]},j),ab=e(bu,z),aa=0,ac=f(e(aM,z),ab),ae=bU(0,function(o){return function(a){switch(a[0]){case
-0:return[0,r(a[1],o,A)];case
-1:return[0,r(a[1],k,A)];case
+af=0,z=e(function(a){return[0,a,S(b,a)]},j),ab=e(bg,z),aa=0,ac=f(e(aB,z),ab),ae=bV(0,function(o){return function(a){switch(a[0]){case
+0:return[0,r(a[1],o,B)];case
+1:return[0,r(a[1],k,B)];case
 2:return[0,Q(b,a[1])];case
 3:var
-c=a[2],d=a[1];return cC(function(b,a){return[0,B(b,a)]},d,c);case
+c=a[2],d=a[1];return cC(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
 e=a[2],f=a[1];return cC(function(b,a){return[0,E(b,a)]},f,e);case
 5:var
@@ -3963,11 +3968,11 @@ g=a[1];return cB(function(a){return[0,ad(a)]},g);case
 h=a[2],i=a[1];return cC(function(c,a){return[0,v(b,c,a)]},i,h);case
 7:var
 j=a[2],l=a[1];return cC(function(c,a){var
-d=bR(b,a);return x(function(a){return v(b,c,a)},d)},l,j);case
+d=bS(b,a);return x(function(a){return v(b,c,a)},d)},l,j);case
 8:var
-m=a[1];return cB(function(a){return[0,U(b,a)]},m);case
+m=a[1];return cB(function(a){return[0,S(b,a)]},m);case
 9:var
-n=a[1];return cB(function(a){return bS(b,a)},n);default:return 0}}}(ac),u,aa),o=r(c[1],ae,af);if(o){var
+n=a[1];return cB(function(a){return bT(b,a)},n);default:return 0}}}(ac),u,aa),o=r(c[1],ae,af);if(o){var
 s=K(o[1][2],d);Z=1}else
 var
 C=o}else
@@ -3977,7 +3982,7 @@ s=C;if(s){var
 h=p,a=e(function(a){return 0},a);continue}return s}var
 J=r(g,a,0);if(J){var
 t=M(m,g);if(t){var
-L=lZ(b,n,k,V,T,c,S,R,P,j,y,X,t[1],l);if(L){var
+L=l1(b,n,k,V,U,c,T,R,P,j,y,X,t[1],l);if(L){var
 h=p,a=fH(g,a);continue}var
 N=L}else
 var
@@ -3985,11 +3990,11 @@ N=t;var
 O=N}else
 var
 O=J;return O}return[0,a]}}function
-l2(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+l4(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=l1(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(ac,p[1]):p}var
-q=l1(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=et(a[2],b),t=l2(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=l3(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(ac,p[1]):p}var
+q=l3(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=et(a[2],b),t=l4(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
@@ -3997,20 +4002,20 @@ u=q;return u}}function
 hQ(d,a){var
 e=J(a),f=p(p(j(c(2,b)),a),d);return y(u(J(d),f),e)}function
 hR(k,a,d,j,c,h){var
-e=Z(u,c$(k),j);if(h){var
+e=Z(u,c_(k),j);if(h){var
 b=function(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eE([0,b(function(a){return a[1]}),g,f],e);return Z(y,aP(d,c),l)}var
 m=eE(a,c);return Z(y,aP(d,e),m)}function
-l3(f,h,g,l,a,d){var
-e=c$(f),i=Z(u,e,a),k=eE(h,d),m=hQ(e[3],a[3]),n=hQ(e[2],a[2]),o=hQ(e[1],a[1]),q=y(y(y(N(d,d),o),n),m),r=N(k,i),s=p(j(c(2,b)),r),t=y(p(g,q),s),v=a6(b0(k,i),l);return[0,f1(f,hR(f,h,g,a,d,0),v),t]}function
-l4(d,c,b,a){var
-e=f2(c,b,a);return Z(y,c$(d),e)}function
-l5(g,f,e,d,c){var
-b=l4(g,f,e,c),a=Z(u,b,d);return[0,[0,b,a],az(N(a,a))]}function
-f3(b,a){var
+l5(f,h,g,l,a,d){var
+e=c_(f),i=Z(u,e,a),k=eE(h,d),m=hQ(e[3],a[3]),n=hQ(e[2],a[2]),o=hQ(e[1],a[1]),q=y(y(y(N(d,d),o),n),m),r=N(k,i),s=p(j(c(2,b)),r),t=y(p(g,q),s),v=a6(b1(k,i),l);return[0,f2(f,hR(f,h,g,a,d,0),v),t]}function
+l6(d,c,b,a){var
+e=f3(c,b,a);return Z(y,c_(d),e)}function
+l7(g,f,e,d,c){var
+b=l6(g,f,e,c),a=Z(u,b,d);return[0,[0,b,a],aA(N(a,a))]}function
+f5(b,a){var
 c=aV(a[2],b);return f(aV(a[1],b),c)}function
 hS(d,b,a,c){if(a)var
-e=a[1],f=cf(c,f3(b,e)),i=P(c,h(f3(b,e))),j=hS(d,b,a[2],i),k=af(f,si),g=[0,ar(d,af(f,0),k),j];else
+e=a[1],f=cf(c,f5(b,e)),i=P(c,h(f5(b,e))),j=hS(d,b,a[2],i),k=af(f,sl),g=[0,ar(d,af(f,0),k),j];else
 var
 g=a;return g}function
 hT(f,o,e,n,a){var
@@ -4026,140 +4031,140 @@ c=M(e,a[1]);if(c)var
 l=g(f,0,a[2]),m=l?[0,u(h,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-l6(c,b,a){if(typeof
+l8(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
 e=M(c,a[1]);return x(function(a){var
 c=r(0,b,j(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 eF(a){return g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-l7(a){var
-b=af(a,sj),c=az(N(af(a,sk),b));return p(r(0,a,j(d)),c)}function
-l8(b,a){var
-c=N(a,af(b,sl));return[0,bD(aP(l7(b),a)),c]}function
-l9(e,d,a,c,b){var
-f=b[2],g=p(l7(a),f),h=c?f2(e,d,af(a,sm)):af(a,sn);return u(N(b[1][2],h),g)}function
-l_(h,g,f,d,c,b,a){var
-i=bg(c);function
-j(a){return l4(h,g,f,a)}return kM(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+l9(a){var
+b=af(a,sm),c=aA(N(af(a,sn),b));return p(r(0,a,j(d)),c)}function
+l_(b,a){var
+c=N(a,af(b,so));return[0,bD(aP(l9(b),a)),c]}function
+l$(e,d,a,c,b){var
+f=b[2],g=p(l9(a),f),h=c?f3(e,d,af(a,sp)):af(a,sq);return u(N(b[1][2],h),g)}function
+ma(h,g,f,d,c,b,a){var
+i=bh(c);function
+j(a){return l6(h,g,f,a)}return kM(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
 eG(a){var
-b=r(so,a,j(d));return ag(r(0,a,j(d)),b)}function
-l$(d,i,h,a){var
-k=eG(h),l=p(p(j(c(2,b)),i),k),g=a[1][1],m=a[1][2],n=b_(c_(d),g),o=e(function(a){return p(a,l)},n);return[0,f(bi(c_(d),g),o),m]}function
+b=r(sr,a,j(d));return ag(r(0,a,j(d)),b)}function
 hU(a){return a[4][2]}function
-ma(a){var
-b=a[3],c=a[2],d=a[1];return fS([0,[0,d,d],[0,c,c],[0,b,b]])}function
-sx(a){if(typeof
+mb(g,o,n,m,a){var
+q=a[1][2],r=e(bg,fN(n,a[1][2])),h=eG(m),i=p(p(j(c(2,b)),o),h),d=a[1][1],k=bR(c9(g),d),l=e(function(a){return p(a,i)},k);return[0,f(f(bj(c9(g),d),l),r),q]}function
+mc(a){var
+b=a[3],c=a[2],d=a[1];return fT([0,[0,d,d],[0,c,c],[0,b,b]])}function
+sA(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-mb(b,a){switch(b){case
+md(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-f4(a){var
+f6(a){var
 c=cd(a[1],[0,d,b]);return c?cd(a[2],[0,d,b]):c}function
 hV(d,a){switch(d){case
-0:return f4(a[3]);case
+0:return f6(a[3]);case
 1:return 1;default:var
-b=f4(a[1]),c=b?f4(a[2]):b;return c?f4(a[3]):c}}function
-mc(c,b){var
-a=w(function(a){return f3(c,a)},b),d=ax(aE(0,h(a)),a);return e(aM,bh(function(a){return fM(a[2])},d))}function
-md(b){var
+b=f6(a[1]),c=b?f6(a[2]):b;return c?f6(a[3]):c}}function
+me(c,b){var
+a=w(function(a){return f5(c,a)},b),d=at(aG(0,h(a)),a);return e(aB,bi(function(a){return fM(a[2])},d))}function
+mf(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-me(c){var
-a=c;for(;;){if(0===a[0])return al(md,a[1]);var
-d=al(md,a[1]),b=d||me(a[3]);if(b)return b;var
+mg(c){var
+a=c;for(;;){if(0===a[0])return al(mf,a[1]);var
+d=al(mf,a[1]),b=d||mg(a[3]);if(b)return b;var
 a=a[4];continue}}function
-sy(a,aO,bC,B,D,aN){var
-l=B[1],k=bY(l),Y=B[6],bE=B[2],K=w(function(a){return f3(D,a)},bE),aQ=B[3],_=[0,[0,aQ,aQ],D],ab=[0,h(K)],bG=0,aR=w(function(a){return eC(bG,D,a)},Y),bH=c_(l),aS=lD(B[5],bH),m=aS[2],F=aS[1],I=cz(_,h(K)),bJ=B[2],T=h(K),bI=0,z=hS(function(e,a){function
+sB(a,aQ,bE,A,C,aO){var
+l=A[1],k=bZ(l),_=A[6],bG=A[2],K=w(function(a){return f5(C,a)},bG),aR=A[3],U=[0,[0,aR,aR],C],ab=[0,h(K)],bH=0,aS=w(function(a){return eC(bH,C,a)},_),bI=c9(l),aT=lE(A[5],bI),m=aT[2],F=aT[1],I=cz(U,h(K)),bK=A[2],V=h(K),bJ=0,z=hS(function(e,a){function
 i(g){var
-c=bY(l);if(l)var
+c=bZ(l);if(l)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 o=j(d),b=[0,j(d),o,[0,[0,c]]];var
-t=lQ(l,F,m,e,a,b)[2],h=lQ(l,F,m,e,a,b),i=h[1],k=a6(i[2],h[2]),n=b0(i[1],k),q=Z(y,n,b0(n,b)),f=aP(lP(b),q),r=p(f[3],g),s=p(f[2],g);return[0,f1(l,k,[0,p(f[1],g),s,r]),t]}function
+t=lS(l,F,m,e,a,b)[2],h=lS(l,F,m,e,a,b),i=h[1],k=a6(i[2],h[2]),n=b1(i[1],k),q=Z(y,n,b1(n,b)),f=aP(lR(b),q),r=p(f[3],g),s=p(f[2],g);return[0,f2(l,k,[0,p(f[1],g),s,r]),t]}function
 k(Y){var
-w=l5(l,F,m,e,a),x=w[1],W=Z(u,c$(l),e),z=w[2],r=x[1],X=x[2],g=f2(F,m,a),i=a6(X,z),P=ag(N(g,i),I),Q=J(I),R=ag(N(a,a),Q),S=2<=l?d:b,U=y(j(S),R);function
-h(a){return[0,lJ(a),0]}function
-f(a){return[0,a6(b0(lJ(a),g),I),[0,a]]}switch(l){case
+w=l7(l,F,m,e,a),x=w[1],W=Z(u,c_(l),e),z=w[2],r=x[1],X=x[2],g=f3(F,m,a),i=a6(X,z),P=ag(N(g,i),I),Q=J(I),R=ag(N(a,a),Q),S=2<=l?d:b,T=y(j(S),R);function
+h(a){return[0,lK(a),0]}function
+f(a){return[0,a6(b1(lK(a),g),I),[0,a]]}switch(l){case
 0:var
-C=[0,f(rR),0],D=[0,h(rS),C],q=[0,h(0),D];break;case
+C=[0,f(rT),0],D=[0,h(rU),C],q=[0,h(0),D];break;case
 1:var
-E=[0,f(rT),0],G=[0,f(rU),E],H=[0,f(0),G],K=[0,h(rV),H],L=[0,h(rW),K],q=[0,h(0),L];break;default:var
-M=[0,f(rX),0],O=[0,f(rY),M],q=[0,f(0),O]}var
-k=Z(u,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),n=a6(k,az(N(k,k)));if(l)var
-o=hL(l,T,e,r,n[3]);else
+E=[0,f(rV),0],G=[0,f(rW),E],H=[0,f(0),G],K=[0,h(rX),H],L=[0,h(rY),K],q=[0,h(0),L];break;default:var
+M=[0,f(rZ),0],O=[0,f(r0),M],q=[0,f(0),O]}var
+k=Z(u,[0,[0,[1,V]],[0,[1,[0,V]]],[0,[1,[0,[0,V]]]]],e),n=a6(k,aA(N(k,k)));if(l)var
+o=hM(l,V,e,r,n[3]);else
 var
 A=j(d),B=j(d),o=[0,j(d),B,A];var
-t=hL(l,T,e,r,n[2]),v=hL(l,T,e,r,n[1]),V=lK(function(r,w){var
+t=hM(l,V,e,r,n[2]),v=hM(l,V,e,r,n[1]),U=lL(function(r,w){var
 e=w[1];function
 a(b,a){var
-c=e[3],f=c9(a,o),g=p(y(b[3],f),c),h=e[2],i=c9(a,t),k=p(y(b[2],i),h),l=e[1],m=c9(a,v),n=p(y(b[1],m),l);return y(y(y(j(d),n),k),g)}var
-x=a(o,rZ),z=a(t,r0),A=[0,a(v,0),z,x],f=N(r[1],A),l=r[2];if(l){var
+c=e[3],f=c8(a,o),g=p(y(b[3],f),c),h=e[2],i=c8(a,t),k=p(y(b[2],i),h),l=e[1],m=c8(a,v),n=p(y(b[1],m),l);return y(y(y(j(d),n),k),g)}var
+x=a(o,r1),z=a(t,r2),A=[0,a(v,0),z,x],f=N(r[1],A),l=r[2];if(l){var
 h=l[1],m=w[2];if(m){var
-k=m[1],B=c9(h,g),C=p(c9(k,i),B),D=c9(k,g),n=y(p(c9(h,i),D),C),E=J(I);if(s(h,k))var
+k=m[1],B=c8(h,g),C=p(c8(k,i),B),D=c8(k,g),n=y(p(c8(h,i),D),C),E=J(I);if(s(h,k))var
 F=N(i,g),q=u(n,p(j(c(2,b)),F));else
 var
-q=n;return y(f,ag(q,E))}return f}return f},q);return[0,f1(l,i,a6(b0(g,a6(W,z)),I)),V,U,P]}var
-n=l5(l,F,m,e,a);function
+q=n;return y(f,ag(q,E))}return f}return f},q);return[0,f2(l,i,a6(b1(g,a6(W,z)),I)),U,T,P]}var
+n=l7(l,F,m,e,a);function
 o(b){return hR(l,F,m,e,a,b)}var
 f=2<=l?d:b;function
 g(b){var
 c=J(I),d=j(f),e=p(u(J(b),d),c);return p(m,u(N(a,a),e))}var
-h=[0,N(hR(l,F,m,e,a,1),a),g];return[0,l3(l,F,m,I,e,a),h,o,n,k,i]},D,bJ,bI),V=e(function(a){return a[1]},z),bK=P(ab,h(aR)),bL=c_(l),bM=B[5];function
-S(a){return[0,[0,P(bL,a)]]}var
-aG=J([0,[1,bK]]);switch(bM[0]){case
+h=[0,N(hR(l,F,m,e,a,1),a),g];return[0,l5(l,F,m,I,e,a),h,o,n,k,i]},C,bK,bJ),X=e(function(a){return a[1]},z),bL=P(ab,h(aS)),bM=c9(l),bN=A[5];function
+T(a){return[0,[0,P(bM,a)]]}var
+aI=J([0,[1,bL]]);switch(bN[0]){case
 2:var
-bq=S(rJ),br=S(rK),aH=[0,S(0),br,bq],C=[0,u(aG,N(aH,aH))];break;case
+bs=T(rL),bt=T(rM),aJ=[0,T(0),bt,bs],D=[0,u(aI,N(aJ,aJ))];break;case
 3:var
-bs=J(S(rL)),bt=J(S(0)),bv=J(S(rM)),C=[0,u(u(p(aG,y(j(b),bv)),bt),bs)];break;default:var
-C=0}var
-aT=B[7];if(aT)var
-bN=0,bO=B[2],ao=hS(function(j,k){var
-a=l3(l,F,m,cz(_,h(K)),j,k),c=a[1];if(c){var
+bu=J(T(rN)),bv=J(T(0)),bw=J(T(rO)),D=[0,u(u(p(aI,y(j(b),bw)),bv),bu)];break;default:var
+D=0}var
+aU=A[7];if(aU)var
+bO=0,bP=A[2],ao=hS(function(j,k){var
+a=l5(l,F,m,cz(U,h(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-i=g[1],f=b0(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bO,bN);else
+i=g[1],f=b1(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},C,bP,bO);else
 var
-ao=aT;var
-bP=bF(ao),bQ=C?[0,C[1],0]:C,bR=f(bQ,bP),bS=0,bB=e(function(a){return a[1]},z),bT=[0,m,f(cA(function(c,b){if(typeof
+ao=aU;var
+bQ=bF(ao),bR=D?[0,D[1],0]:D,bS=f(bR,bQ),bT=0,bU=f(K,[0,U,0]),bC=e(function(a){return a[1]},z),bV=[0,m,f(cA(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=l6(z,c,b);if(g)var
+g=l8(z,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(bu,fT(bB,c));case
+8:return e(bg,fU(bC,c));case
 13:var
 h=M(z,b[1]);if(h){var
 n=eF(b[4]);if(n){var
-o=l8(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
+o=l_(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
 p=n}else
 var
 p=h;return p;case
-16:return w(function(a){return l$(l,I,c,a)[1]},z)}var
-d=hT(a,m,z,c,b),q=d?[0,d[1],0]:d;return q},bS,D,ab,Y),bR)],ar=f(bF(V),bT),bU=0,bV=f(K,[0,_,0]),aU=cA(function(b,a){if(typeof
+16:return w(function(a){return mb(l,I,bU,c,a)[1]},z)}var
+d=hT(a,m,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,ab,_),bS)],ar=f(bF(X),bV),bW=0,bX=f(K,[0,U,0]),aV=cA(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
 g=M(z,a[1]);if(g){if(eF(a[4]))return 0;var
-n=[0,l9(F,m,b,a[2],g[1][4]),0]}else
+n=[0,l$(F,m,b,a[2],g[1][4]),0]}else
 var
 n=g;return n;case
 14:var
-h=l_(l,F,m,z,b,a[1],a[2]);if(h){var
+h=ma(l,F,m,z,b,a[1],a[2]);if(h){var
 o=h[1],p=o[2],q=o[1];return w(bD,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
 k=M(z,a[1]);if(k){var
-c=i(k[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(sp,b,j(d)),s],u=[0,r(0,b,j(d)),t],v=f(ei(c[2]),u);return f(c[1],v)}return k;case
+c=i(k[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(ss,b,j(d)),s],u=[0,r(0,b,j(d)),t],v=f(ei(c[2]),u);return f(c[1],v)}return k;case
 16:var
 x=w(function(a){var
-b=e(bu,hr(bV,hU(a)));return[0,hU(a),b]},z);return f(w(function(a){var
-c=eG(b),d=[0,i(a[6],c)[2],0],e=eG(b);return f(i(a[6],e)[1],d)},z),x)}return 0},bU,D,ab,Y),aV=ct(e(function(a){return be(k,a)},ar))[1],aW=ct(aU)[1],$=cs(aV),as=cs(aW);function
+b=e(bg,fN(bX,hU(a)));return[0,hU(a),b]},z);return f(w(function(a){var
+c=eG(b),d=[0,i(a[6],c)[2],0],e=eG(b);return f(i(a[6],e)[1],d)},z),x)}return 0},bW,C,ab,_),aW=ct(e(function(a){return be(k,a)},ar))[1],aX=ct(aV)[1],$=cs(aW),as=cs(aX);function
 t(a){return a1($,be(k,a))}function
-aX(i){if(0===B[4][0]){var
-q=x(t,C),u=t(m),e=c_(l),f=s(h(i),k);if(f)var
-g=x(function(a){return[0,[0,a,d],d]},q),a=function(a){return r(a,$,j(d))},c=a(u),o=aE(0,e),b=n(function(b){var
-d=c8(k,b,c),e=d?n(function(d){var
+aY(i){if(0===A[4][0]){var
+q=x(t,D),u=t(m),e=c9(l),f=s(h(i),k);if(f)var
+g=x(function(a){return[0,[0,a,d],d]},q),a=function(a){return r(a,$,j(d))},c=a(u),o=aG(0,e),b=n(function(b){var
+d=c7(k,b,c),e=d?n(function(d){var
 f=d[1],e=n(function(c){var
 d=a(c);return cg(P(k,b),d)},f);if(e){var
-g=a(d[2]);return fV(c,P(k,b),g)}return e},i):d;if(e){if(g){var
+g=a(d[2]);return fW(c,P(k,b),g)}return e},i):d;if(e){if(g){var
 h=a(g[1][1][1]);return cg(P(k,b),h)}var
 f=1}else
 var
@@ -4167,72 +4172,83 @@ f=e;return f},o);else
 var
 b=f;var
 p=b?e:b;return p}return 0}var
-X=aX(i(aq(t),V)),aY=n(function(a){var
-b=be(k,a),c=j(d);return ay(r(t(a),$,c),b)},ar),aZ=aY?n(function(a){return fW(k,a)},ar):aY,a0=aZ?n(function(a){var
-b=j(d);return ay(r(a1(as,a),as,b),a)},aU):aZ,a2=a0?al(sx,Y):a0;if(a2){var
-a3=ac(B[7]);if(a3)var
-ae=a3;else{var
-bo=B[5];if(1===l&&2===bo[0])var
-bA=bo[1],bp=g(a,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],bA]);else
+Y=aY(i(aq(t),X)),aZ=n(function(a){var
+b=be(k,a),c=j(d);return az(r(t(a),$,c),b)},ar),a0=aZ?n(function(a){return fX(k,a)},ar):aZ,a2=a0?n(function(a){var
+b=j(d);return az(r(a1(as,a),as,b),a)},aV):a0,a3=a2?al(sA,_):a2;if(a3){var
+a4=ac(A[7]);if(a4)var
+ae=a4;else{var
+bq=A[5];if(1===l&&2===bq[0])var
+bB=bq[1],br=g(a,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],bB]);else
 var
-bp=0;var
-ae=bp}}else
+br=0;var
+ae=br}}else
 var
-ae=a2;var
-a4=ae?hV(l,dK(B[4])):ae,a5=a4?g(a,1,B[3]):a4;if(a5)var
-bW=f0(B[5]),at=n(function(b){var
-c=c6(a,b[1]);return c?c6(a,b[2]):c},bW);else
+ae=a3;var
+a5=ae?hV(l,dK(A[4])):ae,a8=a5?g(a,1,A[3]):a5;if(a8)var
+bY=f1(A[5]),at=n(function(b){var
+c=c5(a,b[1]);return c?c5(a,b[2]):c},bY);else
 var
-at=a5;if(at){var
-bX=f(K,[0,_,0]),au=W(e(function(b){return aj(a,b)},bX));if(au){var
-av=W(e(function(b){return hE(a,b)},aR));if(av){var
-bZ=mb(l,dK(B[4])),aw=W(e(function(b){return aj(a,[0,b,D])},bZ));if(aw){var
-a8=aw[1],b1=lF(B[5]),ax=W(e(function(b){return lH(a,b)},b1));if(ax){var
-a9=ax[1],b2=lE(B[5]),aA=W(e(c5(a),b2));if(aA){var
-b3=0,G=function(a){return a1(as,a)},b4=f(K,[0,_,0]),aB=W(cA(function(k,f){if(typeof
+at=a8;if(at){var
+b0=f(K,[0,U,0]),au=W(e(function(b){return aj(a,b)},b0));if(au){var
+av=W(e(function(b){return hF(a,b)},aS));if(av){var
+b2=md(l,dK(A[4])),aw=W(e(function(b){return aj(a,[0,b,C])},b2));if(aw){var
+a9=aw[1],b3=lG(A[5]),ax=W(e(function(b){return lI(a,b)},b3));if(ax){var
+a_=ax[1],b4=lF(A[5]),ay=W(e(c4(a),b4));if(ay){var
+b5=0,G=function(a){return a1(as,a)},aC=f(K,[0,U,0]),aD=W(cA(function(k,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-B=f[4],aK=M(z,f[1]);if(aK){if(ma(f[3])&&g(a,0,B)&&g(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],B])){var
-aL=f[2],aM=aK[1];if(eF(B)){var
-aE=l8(k,i(aM[3],aL)),V=aE[2];if(g(o,0,[3,B,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
-aF=0;else
+D=f[4],aM=M(z,f[1]);if(aM){if(mc(f[3])&&g(a,0,D)&&g(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],D])){var
+aN=f[2],aO=aM[1];if(eF(D)){var
+aG=l_(k,i(aO[3],aN)),V=aG[2];if(g(o,0,[3,D,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+aH=0;else
 var
-bc=t(V),bd=t(V),aF=[0,[6,[0,[0,e(t,aE[1]),bd],0],bc],0];var
-aN=[0,[4,t(V)],aF]}else
+be=t(V),bf=t(V),aH=[0,[6,[0,[0,e(t,aG[1]),bf],0],be],0];var
+aP=[0,[4,t(V)],aH]}else
 var
-aN=[0,[9,[3,G(l9(F,m,k,aL,aM[4]))]],0];return e(function(a){return[0,a]},aN)}return sv}return sw;case
+aP=[0,[9,[3,G(l$(F,m,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return sy}return sz;case
 16:var
-Z=f[3],C=f[2],aO=f[1],be=bY(l);if(s(h(z),be)&&g(a,0,aO)&&g(a,1,C)&&g(a,1,Z)&&c6(a,Z)){var
-aG=aj(a,[0,[0,C,C],D]);if(aG){var
-bf=aG[1],aH=i(c5(a),Z);if(aH){var
-bg=aH[1],aI=W(e(function(b){return kU(a,G,b4,D,aO,C,hU(b))},z));if(aI){var
-bh=aI[1],bi=e(function(a){return l$(l,I,k,a)},z),aJ=i(aq(t),bi),Y=function(a){var
-b=c_(l),c=e(function(a){var
+Z=f[3],u=f[2],aQ=f[1],bg=bZ(l);if(s(h(z),bg)&&g(a,0,aQ)&&g(a,1,u)&&g(a,1,Z)&&c5(a,Z)){var
+aI=aj(a,[0,[0,u,u],C]);if(aI){var
+bh=aI[1],aJ=i(c4(a),Z);if(aJ){var
+bi=aJ[1],aK=W(e(function(f){var
+b=kV(a,G,aC,C,aQ,u,hU(f));if(b){var
+c=kU(a,t,aC,C,u,f[1][2]);if(c){var
+g=f4(0,0,f[1][2]);if(g)var
+i=e(aB,c[1]),d=[0,[0,b[1],i]];else
+var
+d=g}else
+var
+d=c;var
+h=d}else
+var
+h=b;return h},z));if(aK){var
+bj=aK[1],bk=e(function(a){return mb(l,I,aC,k,a)},z),aL=i(aq(t),bk),X=function(a){var
+b=c9(l),c=e(function(a){var
 b=eG(k);return G(i(a[6],b)[2])},z),d=e(function(a){var
-b=eG(k);return e(G,i(a[6],b)[1])},z),f=aX(aJ);return[0,[8,[0,aJ,t(m),f,d,c,bh,bf,bg,b,a]]]};if(2<=l)return[0,Y(1),0];var
-bj=[0,Y(1),0];return[0,Y(0),bj]}return sr}return ss}return st}return su}var
-bk=0,u=e(function(a){return a[1]},z);function
-_(c,b,a){return[0,c,b,a,X]}var
+b=eG(k);return e(G,i(a[6],b)[1])},z),f=aY(aL);return[0,[8,[0,aL,t(m),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return su}return sv}return sw}return sx}var
+bm=0,v=e(function(a){return a[1]},z);function
+_(c,b,a){return[0,c,b,a,Y]}var
 E=0;if(typeof
 f==="number")var
-aQ=t(m),p=[0,_(i(aq(t),u),aQ,A)];else
+aS=t(m),p=[0,_(i(aq(t),v),aS,B)];else
 switch(f[0]){case
 0:var
-v=[5,[0,b,b],f[1]],J=_;E=1;break;case
+w=[5,[0,b,b],f[1]],J=_;E=1;break;case
 1:var
-aS=[5,[0,b,b],f[1]],v=aS,J=function(c,b,a){return[1,c,b,a]};E=1;break;case
+aU=[5,[0,b,b],f[1]],w=aU,J=function(c,b,a){return[1,c,b,a]};E=1;break;case
 2:var
-aT=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aT);break;case
+aV=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aV);break;case
 3:var
-aU=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aU);break;case
+aW=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aW);break;case
 5:var
-$=f[1],aV=aj(a,[0,[0,$,$],d]),p=x(function(b){var
-c=U(a,b),d=t(m);return[2,i(aq(t),u),d,c]},aV);break;case
+$=f[1],aX=aj(a,[0,[0,$,$],d]),p=x(function(b){var
+c=S(a,b),d=t(m);return[2,i(aq(t),v),d,c]},aX);break;case
 6:var
 K=M(z,f[1]);if(K){var
-L=l6(z,k,f);if(L){var
+L=l8(z,k,f);if(L){var
 aa=L[1],ab=g(a,1,f[2]),ac=ab?g(a,1,f[3]):ab;if(ac)var
-aW=t(aa[2]),aY=t(K[1][1][2]),ad=[0,[5,[0,[0,[0,t(aa[1]),0],aY],0],aW]];else
+aZ=t(aa[2]),a0=t(K[1][1][2]),ad=[0,[5,[0,[0,[0,t(aa[1]),0],a0],0],aZ]];else
 var
 ad=ac;var
 ae=ad}else
@@ -4243,92 +4259,92 @@ var
 af=K;var
 p=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],ak=M(z,ai),aP=0;if(ak){var
+ag=f[3],ah=f[2],ai=f[1],ak=M(z,ai),aR=0;if(ak){var
 al=g(a,1,ah),am=al?g(a,1,ag):al;if(am){var
-aZ=[5,ah,ag],v=aZ,J=function(c,b,a){return[3,ai,c,b,a,X]};E=1;aP=1}else
+a1=[5,ah,ag],w=a1,J=function(c,b,a){return[3,ai,c,b,a,Y]};E=1;aR=1}else
 var
 an=am}else
 var
-an=ak;if(!aP)var
+an=ak;if(!aR)var
 p=an;break;case
 8:var
 ao=g(a,1,f[2]);if(ao)var
-a0=f[1],a1=1,N=n(function(b){return g(a,a1,b)},a0);else
+a2=f[1],a3=1,N=n(function(b){return g(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a2=Q(a,b),a3=t(m),a4=fT(u,k),ap=[0,[0,i(aq(t),a4),a3,a2,0]];else
+a4=Q(a,b),a5=t(m),a6=fU(v,k),ap=[0,[0,i(aq(t),a6),a5,a4,0]];else
 var
 ap=N;var
 p=ap;break;case
 14:var
-ar=f[2],as=f[1],O=l_(l,F,m,z,k,as,ar);if(O){var
-at=O[1],au=at[2],av=at[1],aw=ls(as,ar,f[3]),P=aj(a,[0,[0,aw,aw],D]);if(P){var
+ar=f[2],as=f[1],O=ma(l,F,m,z,k,as,ar);if(O){var
+at=O[1],au=at[2],av=at[1],aw=lt(as,ar,f[3]),P=aj(a,[0,[0,aw,aw],C]);if(P){var
 ax=P[1],ay=H(d,ax[1]);if(ay)var
-w=function(a){return kT(G,a)},a5=w(au[2]),a6=w(au[1]),a7=w(av[2]),az=[0,[9,[6,w(av[1]),a7,a6,a5,ax]]];else
+y=function(a){return kT(G,a)},a7=y(au[2]),a8=y(au[1]),a9=y(av[2]),az=[0,[9,[6,y(av[1]),a9,a8,a7,ax]]];else
 var
 az=ay;var
 aA=az}else
 var
 aA=P;var
-aB=aA}else
+aD=aA}else
 var
-aB=O;var
-p=aB;break;case
+aD=O;var
+p=aD;break;case
 15:var
 R=M(z,f[1]);if(R){var
-aC=g(a,1,f[4]);if(aC)var
-aD=g(a,0,f[2]),S=aD?g(a,0,f[3]):aD;else
+aE=g(a,1,f[4]);if(aE)var
+aF=g(a,0,f[2]),T=aF?g(a,0,f[3]):aF;else
 var
-S=aC;if(S)var
-y=i(R[1][5],0),a8=G(y[4]),a9=G(y[3]),a_=G(r(sq,k,j(d))),a$=G(r(0,k,j(d))),ba=y[2],bb=e(function(a){return e(G,a)},ba),T=[0,[9,[10,e(G,y[1]),bb,a$,a_,a9,a8]]];else
+T=aE;if(T)var
+A=i(R[1][5],0),a_=G(A[4]),a$=G(A[3]),ba=G(r(st,k,j(d))),bb=G(r(0,k,j(d))),bc=A[2],bd=e(function(a){return e(G,a)},bc),U=[0,[9,[10,e(G,A[1]),bd,bb,ba,a$,a_]]];else
 var
-T=S}else
+U=T}else
 var
-T=R;var
-p=T;break;default:var
+U=R;var
+p=U;break;default:var
 p=0}if(E)var
-aR=aj(a,[0,[0,v,v],d]),p=x(function(b){var
-c=U(a,b),d=t(m);return J(i(aq(t),u),d,c)},aR);return[0,p,bk]},b3,D,ab,Y));if(aB){var
-a_=aB[1];if(B[7])var
-b5=aO[2],b6=aO[1],b7=t(m),af=k8(bC,a_,[7,i(aq(t),ao),b7,b6,b5]);else
+aT=aj(a,[0,[0,w,w],d]),p=x(function(b){var
+c=S(a,b),d=t(m);return J(i(aq(t),v),d,c)},aT);return[0,p,bm]},b5,C,ab,_));if(aD){var
+a$=aD[1];if(A[7])var
+b6=aQ[2],b7=aQ[1],b8=t(m),af=k9(bE,a$,[7,i(aq(t),ao),b8,b7,b6]);else
 var
-af=a_;var
-a$=s(h(f(a8,a9)),k),ba=a$?n(function(a){var
-b=lX(a);return n(function(a){return lB(k,$,a)},b)},af):a$,bb=ba?C?lB(k,$,t(C[1])):1:ba;if(bb){var
-b8=f(av[1],aA[1]),L=f(au[1],b8),O=me(aN),R=mc(D,B[2]),aa=O?e(function(a){var
-b=lV(k,R,a[2]),c=a[1];return[0,e(function(a){return lV(k,R,a)},c),b]},V):O,aC=O?ct(hP(k,m,C,aa))[1]:O,aD=cs(aC),ah=function(a){return a1(aD,a)},b9=hN(ah,ah,aa),b_=ah(be(k,m)),aF=x(function(a){return ah(be(k,a))},C),bc=ac(O);if(bc)var
-ai=bc;else{var
-bn=s(h(V),k);if(bn){var
-bx=hP(k,m,C,aa),aJ=n(function(a){var
-b=j(d);return ay(r(a1(aD,a),aD,b),a)},bx);if(aJ)var
-bz=hP(k,m,C,aa),ak=n(function(a){var
-b=aE(0,k);return n(function(b){return dM(k,b,a)},b)},bz);else
+af=a$;var
+ba=s(h(f(a9,a_)),k),bb=ba?n(function(a){var
+b=lZ(a);return n(function(a){return lC(k,$,a)},b)},af):ba,bc=bb?D?lC(k,$,t(D[1])):1:bb;if(bc){var
+b9=f(av[1],ay[1]),L=f(au[1],b9),O=mg(aO),R=me(C,A[2]),aa=O?e(function(a){var
+b=lX(k,R,a[2]),c=a[1];return[0,e(function(a){return lX(k,R,a)},c),b]},X):O,aE=O?ct(hP(k,m,D,aa))[1]:O,aF=cs(aE),ah=function(a){return a1(aF,a)},b_=hN(ah,ah,aa),b$=ah(be(k,m)),aH=x(function(a){return ah(be(k,a))},D),bd=ac(O);if(bd)var
+ai=bd;else{var
+bp=s(h(X),k);if(bp){var
+bz=hP(k,m,D,aa),aL=n(function(a){var
+b=j(d);return az(r(a1(aF,a),aF,b),a)},bz);if(aL)var
+bA=hP(k,m,D,aa),ak=n(function(a){var
+b=aG(0,k);return n(function(b){return dM(k,b,a)},b)},bA);else
 var
-ak=aJ;if(ak){var
-aK=x(function(a){return be(k,a)},C),am=be(k,m),aI=lR(am);if(aI)var
-bw=aE(0,X),aL=n(function(a){var
-b=c8(k,a,am),c=b?n(function(b){var
+ak=aL;if(ak){var
+aM=x(function(a){return be(k,a)},D),am=be(k,m),aK=lT(am);if(aK)var
+bx=aG(0,Y),aN=n(function(a){var
+b=c7(k,a,am),c=b?n(function(b){var
 d=b[2][2],e=f(w(hO,b[1]),d),g=P(k,a),c=n(function(a){return cg(g,a)},e);if(c){var
-h=b[2][1];return fV(am,P(k,a),h)}return c},aa):b;if(c){if(aK){var
-e=aK[1];return cg(P(k,a),e)}var
+h=b[2][1];return fW(am,P(k,a),h)}return c},aa):b;if(c){if(aM){var
+e=aM[1];return cg(P(k,a),e)}var
 d=1}else
 var
-d=c;return d},bw);else
+d=c;return d},bx);else
 var
-aL=aI;var
-an=aL}else
+aN=aK;var
+an=aN}else
 var
 an=ak;var
-ce=an?n(function(a){var
-c=a[1],b=n(function(a){return lW(k,L,R,a)},c);return b?lW(k,L,R,a[2]):b},V):an,ai=ce}else
+cf=an?n(function(a){var
+c=a[1],b=n(function(a){return lY(k,L,R,a)},c);return b?lY(k,L,R,a[2]):b},X):an,ai=cf}else
 var
-ai=bn}if(ai){var
-b$=e(function(a){return 1},af),ca=f(a8,a9),cb=function(M,ab,aa,c){if(O){if(typeof
+ai=bp}if(ai){var
+ca=e(function(a){return 1},af),cb=f(a9,a_),cc=function(M,ab,aa,c){if(O){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],m=c[2],o=c[1];if(typeof
 o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
-u=g[1],b=o[1],w=s(aa,X),x=w?by(0,X):w;if(x)var
-t=g3(gZ,e(aM,m),R),Z=t?1:t,p=Z;else
+u=g[1],b=o[1],w=s(aa,Y),x=w?by(0,Y):w;if(x)var
+t=g5(g1,e(aB,m),R),Z=t?1:t,p=Z;else
 var
 p=x;var
 y=p?kC(R):p,z=y?n(function(a){return by(a,h(L))},R):y,A=z?s(h(u),k):z;if(A){var
@@ -4339,19 +4355,19 @@ G=b[2],F=b[1],D=0;q=1;break;case
 7:var
 I=b[2],j=b[1],N=0;if(typeof
 j!=="number"&&0===j[0]){var
-P=0;if(aF){var
+P=0;if(aH){var
 J=H(d,I);if(J){var
-G=j[2],F=j[1],D=[0,[0,[0,aF[1],I],b[3]]];q=1;N=1;P=1}else
+G=j[2],F=j[1],D=[0,[0,[0,aH[1],I],b[3]]];q=1;N=1;P=1}else
 var
 K=J}else
 var
-K=aF;if(!P)return K}if(!N)return 0;break}if(q){var
-S=hH(a,hi(m,0,L),aC,M),l=hH(a,L,aC,M),f=function(b,a){return r(a,b,sb)},T=lT(function(a){return f(l,a)},D),U=f(l,b_),V=function(a){return f(l,a)},Y=[0,hN(function(a){return f(S,a)},V,b9),U,T],_=kv(m,L),$=function(g){var
-b=W(e(r$,g[1]));if(b){var
+K=aH;if(!P)return K}if(!N)return 0;break}if(q){var
+S=hI(a,hk(m,0,L),aE,M),l=hI(a,L,aE,M),f=function(b,a){return r(a,b,se)},T=lV(function(a){return f(l,a)},D),U=f(l,b$),V=function(a){return f(l,a)},X=[0,hN(function(a){return f(S,a)},V,b_),U,T],_=kv(m,L),$=function(g){var
+b=W(e(sc,g[1]));if(b){var
 c=g[2];if(c){var
 d=cD(g[3]);if(d){var
 l=d[1],m=ap([0,E(ad(v(a,ab,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=kw(a,0,_,d),c=bh(sa,b[2]);return[0,b[1],c]},n),f=ks(a,e(function(b){return Q(a,b)},u),F,G,o,m);if(f)return a7(a,k,f[1]);var
+b=kw(a,0,_,d),c=bi(sd,b[2]);return[0,b[1],c]},n),f=ks(a,e(function(b){return Q(a,b)},u),F,G,o,m);if(f)return a7(a,k,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4360,65 +4376,65 @@ var
 i=c;var
 j=i}else
 var
-j=b;return j};return i(hJ(function(b,a){return r_},X,k,$),Y)}var
+j=b;return j};return i(hK(function(b,a){return sb},Y,k,$),X)}var
 B=0}else
 var
 B=A;var
 C=B}else
 var
-C=g;return C}return 0}return 0}return O},cc=t(m),cd=i(aq(t),V);return l2(a,aV,aW,L,af,k,k,x(t,C),cd,cc,cb,ca,b$,aN)}var
-bd=ai}else
+C=g;return C}return 0}return 0}return O},cd=t(m),ce=i(aq(t),X);return l4(a,aW,aX,L,af,k,k,x(t,D),ce,cd,cc,cb,ca,aO)}var
+bf=ai}else
 var
-bd=bb;var
-bf=bd}else
+bf=bc;var
+bh=bf}else
 var
-bf=aB;var
-bg=bf}else
+bh=aD;var
+bj=bh}else
 var
-bg=aA;var
-bi=bg}else
-var
-bi=ax;var
-bj=bi}else
-var
-bj=aw;var
+bj=ay;var
 bk=bj}else
 var
-bk=av;var
+bk=ax;var
 bl=bk}else
 var
-bl=au;var
+bl=aw;var
 bm=bl}else
 var
-bm=at;return bm}function
-eH(b,a){return bk(b,a[1],a[2])}function
-mf(b,a){var
+bm=av;var
+bn=bm}else
+var
+bn=au;var
+bo=bn}else
+var
+bo=at;return bo}function
+eH(b,a){return bl(b,a[1],a[2])}function
+mh(b,a){var
 c=eH(b,a[1]),d=c?eH(b,a[2]):c;return d?eH(b,a[3]):d}function
 a$(a){return typeof
-a==="number"?a?sz:sA:bY(a[1])}function
-mg(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hF(b[1],a,c)}function
-f5(a){if(0===a[0]){var
+a==="number"?a?sC:sD:bZ(a[1])}function
+mi(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hG(b[1],a,c)}function
+f7(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-hW(b,c,a){return b?fQ(b[1],c,a):a}function
+hW(b,c,a){return b?fR(b[1],c,a):a}function
 ch(d,c,b,a){var
-e=f5(a),f=hW(d,c,f5(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-mh(b,a){var
+e=f7(a),f=hW(d,c,f7(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
+mj(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-mi(b,w,v){var
+mk(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kX(b,j[1],f[1]):0;else
+h=0===f[0]?kY(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a8(b,c[1],a[1]),l=k?a8(b,c[2],a[2]):k,m=l?a8(b,c[3],a[3]):l,n=m?a8(b,c[4],a[4]):m,o=n?cZ(b,c[5],a[5]):n,p=o?cZ(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,S(a[1],a[1])):r;if(s)var
-u=hv(a),i=g(b,1,S(hv(a),u));else
+a=f[1],c=j[1],k=a8(b,c[1],a[1]),l=k?a8(b,c[2],a[2]):k,m=l?a8(b,c[3],a[3]):l,n=m?a8(b,c[4],a[4]):m,o=n?cY(b,c[5],a[5]):n,p=o?cY(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,T(a[1],a[1])):r;if(s)var
+u=hw(a),i=g(b,1,T(hw(a),u));else
 var
 i=s;var
 h=i?co(c[7],a[7]):i}if(h){var
@@ -4426,44 +4442,44 @@ e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-mj(a){return typeof
-a==="number"?a?c$(0):cW:c$(a[1])}function
+ml(a){return typeof
+a==="number"?a?c_(0):cV:c_(a[1])}function
 hX(b,d,c){if(0===c[0])return fJ(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aV(a[4],b),e),h=f(aV(a[3],b),g),i=f(aV(a[2],d[2]),h);return f(aV(a[1],d[1]),i)}function
 hY(b,a){if(b){var
 c=b[1],d=c[2];return a6(eE(c[1],a),d)}return a}function
-mk(f,t,am,K,al,s,ak){if(s){var
+mm(f,t,am,K,al,s,ak){if(s){var
 k=s[1],an=bz([0,d,d],al),a=cf(ak,hX(K,an,k)),z=function(c,b){var
-d=af(a,c);return Z(u,Z(y,mj(f),b),d)};if(0===k[0]){var
+d=af(a,c);return Z(u,Z(y,ml(f),b),d)};if(0===k[0]){var
 A=k[1];switch(A[0]){case
 0:var
-aa=hY(t,af(a,sB)),aE=A[1][5],B=r(sC,a,j(d)),C=af(a,0),ab=z(sD,aa),i=ki(ab,cV(C),ab,B,aE),ap=[0,az(B),0],aq=[0,az(N(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],aa];break;case
+aa=hY(t,af(a,sE)),aE=A[1][5],B=r(sF,a,j(d)),C=af(a,0),ab=z(sG,aa),i=ki(ab,cU(C),ab,B,aE),ap=[0,aA(B),0],aq=[0,aA(N(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],aa];break;case
 1:var
-ac=hY(t,af(a,sE)),ad=A[3],D=ad?[0,af(a,sF)]:ad,ae=z(0,ac),m=kj(ae,ae,0);if(D)var
-L=D[1],M=[0,az(N(L,L)),0];else
+ac=hY(t,af(a,sH)),ad=A[3],D=ad?[0,af(a,sI)]:ad,ae=z(0,ac),m=kj(ae,ae,0);if(D)var
+L=D[1],M=[0,aA(N(L,L)),0];else
 var
 M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=j(d),aG=j(d),aH=[0,j(d),aG,aF],E=af(a,0),aI=mj(f),n=kk(aI,cV(E)),ar=[0,az(N(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=j(d),aG=j(d),aH=[0,j(d),aG,aF],E=af(a,0),aI=ml(f),n=kk(aI,cU(E)),ar=[0,aA(N(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ah=hY(t,af(a,sG)),F=k[1][7],G=r(sH,a,j(d)),e=r(sI,a,j(d)),ai=af(a,sJ),H=af(a,0),q=z(sK,ah),o=cV(H),v=Z(u,ai,aP(N(o,ai),o)),w=cV(v),O=b0(o,w),Q=N(q,w),R=N(q,O),as=N(o,q),at=J(R),S=y(J(Q),at),au=J(as),T=u(J(G),au),av=p(j(c(2,b)),e),x=u(S,J(ag(y(S,u(J(e),T)),av))),aw=fz(F,p(e,az(x))),U=ag(Q,e),V=fz(F,ag(R,e)),W=ag(T,J(e)),X=jP(0,U,V,W),Y=fz(F,jP(1,U,V,W)),ax=aP(Y,O),_=Z(u,q,aP(e,Z(y,aP(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(N(v,v)),aA],aC=[0,az(N(H,H)),aB],aD=a6(_,aw),l=[0,[0,_,p(J(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],ah];var
-aQ=P(ak,h(hX(K,an,k))),aR=s[2],aS=mk(f,t,am,K,bg(al),aR,aQ),g=l[1],aT=l[2],aj=function(a){var
-b=a6(b0(aT,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bD(a):f1(f[1],a,b)},I=g[1],$=typeof
+ah=hY(t,af(a,sJ)),F=k[1][7],G=r(sK,a,j(d)),e=r(sL,a,j(d)),ai=af(a,sM),H=af(a,0),q=z(sN,ah),o=cU(H),v=Z(u,ai,aP(N(o,ai),o)),w=cU(v),O=b1(o,w),Q=N(q,w),R=N(q,O),as=N(o,q),at=J(R),S=y(J(Q),at),au=J(as),T=u(J(G),au),av=p(j(c(2,b)),e),x=u(S,J(ag(y(S,u(J(e),T)),av))),aw=fz(F,p(e,aA(x))),U=ag(Q,e),V=fz(F,ag(R,e)),W=ag(T,J(e)),X=jP(0,U,V,W),Y=fz(F,jP(1,U,V,W)),ax=aP(Y,O),_=Z(u,q,aP(e,Z(y,aP(X,w),ax))),ay=[0,aA(G),0],az=[0,aA(e),ay],aB=[0,aA(N(v,v)),az],aC=[0,aA(N(H,H)),aB],aD=a6(_,aw),l=[0,[0,_,p(J(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],ah];var
+aQ=P(ak,h(hX(K,an,k))),aR=s[2],aS=mm(f,t,am,K,bh(al),aR,aQ),g=l[1],aT=l[2],aj=function(a){var
+b=a6(b1(aT,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bD(a):f2(f[1],a,b)},I=g[1],$=typeof
 f==="number"?1:0,aJ=g[6],aK=g[5],aL=$?f?[0,I[1],[0,I[2],0]]:bD(I):$,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aS]}else
 var
 ao=s;return ao}function
 hZ(c,b,a){if(a){var
-e=a[2],g=hZ(c,bg(b),e),h=a[1];return f(hX(c,bz([0,d,d],b),h),g)}return a}function
-ml(a){if(a){var
+e=a[2],g=hZ(c,bh(b),e),h=a[1];return f(hX(c,bz([0,d,d],b),h),g)}return a}function
+mn(a){if(a){var
 b=a[1][6];if(b)var
-c=ml(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=mn(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return sL}function
-mm(z,V,b){function
+d=b;return d}return sO}function
+mo(z,V,b){function
 c(a){return r(a,V,j(d))}function
 O(a){var
-e=a[2],f=p(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,cQ(function(b,a){return u(b,J(a))},g,f),d],b]}function
+e=a[2],f=p(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dt(function(b,a){return u(b,J(a))},g,f),d],b]}function
 P(e){var
 a=e[6];if(a)var
 b=a[1],f=J(b[2]),g=p(J(c(0)),f),d=[0,[0,u(b[1],g),0],0];else
@@ -4486,7 +4502,7 @@ d=a[1];return[0,[0,u(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=p(c(sM),b),g=[0,[0,u(p(c(sN),d),f),0],0],h=p(d,c(sO));return[0,[0,u(p(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=p(c(sP),b),g=[0,[0,u(p(c(sQ),d),f),0],0],h=p(d,c(sR));return[0,[0,u(p(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4502,8 +4518,8 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=ml(z);if(B){var
-aa=c(0),Q=cQ(p,B[1],aa),C=e(function(a){return a[5]},z);if(C){var
+B=mn(z);if(B){var
+aa=c(0),Q=dt(p,B[1],aa),C=e(function(a){return a[5]},z);if(C){var
 h=C[2],i=C[1];if(i){var
 k=i[2],E=i[1];if(k){var
 l=k[2],F=k[1];if(l)if(l[2]||!h)var
@@ -4519,7 +4535,7 @@ v=t[2],L=t[1];if(v){var
 N=v[1];if(v[2]||m[2])var
 a=j(d);else
 var
-S=cY(G,H,K,L),T=p(l[1],S),U=p(F,cY(G,I,K,N)),a=y(u(p(E,cY(H,I,L,N)),U),T)}else
+S=cX(G,H,K,L),T=p(l[1],S),U=p(F,cX(G,I,K,N)),a=y(u(p(E,cX(H,I,L,N)),U),T)}else
 var
 a=j(d)}else
 var
@@ -4534,7 +4550,7 @@ var
 a=j(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?j(d):h[2]?j(d):cY(E,F,w[1],x[1]):j(d);else
+x=w[2],a=x?x[2]?j(d):h[2]?j(d):cX(E,F,w[1],x[1]):j(d);else
 var
 a=j(d)}else
 var
@@ -4545,37 +4561,37 @@ var
 a=j(d)}else
 var
 a=j(d);var
-ab=[0,bj(y(a,Q)),0],R=[0,[0,u(a,Q),ab],0]}else
+ab=[0,bk(y(a,Q)),0],R=[0,[0,u(a,Q),ab],0]}else
 var
 R=B;return R;default:D=1}if(D)return 0;var
 A=M(z,f);return A?g(A[1]):A}function
 dQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
 eI(a){return e(function(a){var
 c=j(b);return[0,a[3],c]},a)}function
-mn(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bF(fT(dQ(c),b));return ei(mm(c,b,a))}function
-mo(f,h,l,H,G,s,a){if(typeof
-a==="number")return[0,[0,[0,A]],0];else
+mp(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bF(fU(dQ(c),b));return ei(mo(c,b,a))}function
+mq(f,h,l,H,G,s,a){if(typeof
+a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
 I=[5,[0,b,b],a[1]],j=I,m=function(a){return[0,a]};break;case
 1:var
 L=[5,[0,b,b],a[1]],j=L,m=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,R=aj(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,U(f,a)]},R),P];case
+y=a[1],P=0,R=aj(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,S(f,a)]},R),P];case
 7:var
-z=a[3],B=a[2],C=a[1];if(!M(l,C))return sR;var
-F=0;if(g(f,1,B)&&g(f,1,z))var
-S=[5,B,z],j=S,m=function(a){return[7,C,a]};else
-F=1;if(F)return sQ;break;case
+z=a[3],A=a[2],C=a[1];if(!M(l,C))return sU;var
+F=0;if(g(f,1,A)&&g(f,1,z))var
+T=[5,A,z],j=T,m=function(a){return[7,C,a]};else
+F=1;if(F)return sT;break;case
 8:var
-D=g(f,1,a[2]),T=0;if(D)var
+D=g(f,1,a[2]),U=0;if(D)var
 V=a[1],W=1,p=n(function(a){return g(f,W,a)},V);else
 var
 p=D;if(p)var
-X=Q(f,b),Y=fT(dQ(l),s),E=[0,[4,i(aq(h),Y),X]];else
+X=Q(f,b),Y=fU(dQ(l),s),E=[0,[4,i(aq(h),Y),X]];else
 var
-E=p;return[0,E,T];default:var
+E=p;return[0,E,U];default:var
 r=0;if(typeof
 a==="number")r=1;else
 switch(a[0]){case
@@ -4585,34 +4601,34 @@ t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(
 9:var
 w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:r=1}if(r)var
 k=1;var
-o=k?mm(l,s,a):k;if(o){var
+o=k?mo(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
 d=[0,[3,i(h,c)]]}else
 var
-d=a;return d},N)}return sP}var
-J=0,K=aj(f,[0,[0,j,j],hD(H,G)]);return[0,x(function(a){return m(U(f,a))},K),J]}function
-mp(a){if(typeof
+d=a;return d},N)}return sS}var
+J=0,K=aj(f,[0,[0,j,j],hE(H,G)]);return[0,x(function(a){return m(S(f,a))},K),J]}function
+mr(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-sT(b){if(0===b[0])return[0,k6(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bl(a[4]),g=bl(a[3]),h=bl(a[2]);return[1,[0,bl(a[1]),h,g,f,e,d,c]]}function
-sU(J,c,a,k,ap,aT){var
-aU=e(sT,a[2]),ar=mi(J,a[2],aU);if(ar)var
-aV=hu(a[4]),K=c0(J,a[4],aV);else
+sW(b){if(0===b[0])return[0,k7(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bm(a[4]),g=bm(a[3]),h=bm(a[2]);return[1,[0,bm(a[1]),h,g,f,e,d,c]]}function
+sX(J,c,a,k,ap,aT){var
+aU=e(sW,a[2]),ar=mk(J,a[2],aU);if(ar)var
+aV=hv(a[4]),K=cZ(J,a[4],aV);else
 var
 K=ar;if(K){var
 as=a[5];if(as)var
-aW=f0(as[1]),at=n(function(a){return eH(J,a)},aW);else
+aW=f1(as[1]),at=n(function(a){return eH(J,a)},aW);else
 var
 at=1;var
 L=at}else
 var
 L=K;if(L){var
-b=a[1],ax=a$(b),q=a[6],z=hZ(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
+b=a[1],ax=a$(b),q=a[6],z=hZ(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,ay=a[5],aA=x(function(a){var
 c=typeof
-b==="number"?0:c_(b[1]);return lD(a,c)},az),aB=a[2],l=mk(b,aA,cz(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cA(function(a,b){return mn(l,a,b)},o,k,S,q)),aD=f(bF(eI(l)),aC),U=f(bF(dQ(l)),aD),V=ct(U)[1],X=cs(V),p=function(a){return a1(X,a)},Y=n(function(a){var
-b=j(d);return ay(r(p(a),X,b),a)},U),Z=Y?al(mp,q):Y;if(Z){var
+b==="number"?0:c9(b[1]);return lE(a,c)},ay),aB=a[2],l=mm(b,aA,cz(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cA(function(a,b){return mp(l,a,b)},o,k,S,q)),aD=f(bF(eI(l)),aC),U=f(bF(dQ(l)),aD),V=ct(U)[1],X=cs(V),p=function(a){return a1(X,a)},Y=n(function(a){var
+b=j(d);return az(r(p(a),X,b),a)},U),Z=Y?al(mr,q):Y;if(Z){var
 _=a[4];if(typeof
 b==="number")var
 $=b?hV(0,dK(_)):1;else
@@ -4628,8 +4644,8 @@ if(2<=N[1])var
 t=0;else{var
 v=a[5],M=0;if(v){var
 O=g(c,1,a[3]);if(O)var
-aw=f0(v[1]),t=n(function(a){var
-b=c6(c,a[1]);return b?c6(c,a[2]):b},aw);else{var
+aw=f1(v[1]),t=n(function(a){var
+b=c5(c,a[1]);return b?c5(c,a[2]):b},aw);else{var
 P=O;M=1}}else{var
 P=v;M=1}if(M)var
 t=P}var
@@ -4641,19 +4657,19 @@ b=0===a[0]?0:1;return co(b,o)},aE);else
 var
 D=C;if(D){var
 aF=f(z,[0,R,0]),E=W(e(function(a){return aj(c,a)},aF));if(E){var
-aG=w(function(a){return eC(o,k,a)},q),F=W(e(function(a){return hE(c,a)},aG));if(F){var
+aG=w(function(a){return eC(o,k,a)},q),F=W(e(function(a){return hF(c,a)},aG));if(F){var
 m=dK(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:mb(b[1],m),G=W(e(function(a){return aj(c,[0,a,k])},aH));if(G){var
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:md(b[1],m),G=W(e(function(a){return aj(c,[0,a,k])},aH));if(G){var
 aa=G[1],ab=a[5];if(ab)var
-aI=lF(ab[1]),u=W(e(function(a){return lH(c,a)},aI));else
+aI=lG(ab[1]),u=W(e(function(a){return lI(c,a)},aI));else
 var
-u=sS;if(u){var
-ac=u[1],y=a[5],aJ=y?lE(y[1]):y,H=W(e(c5(c),aJ));if(H){var
-I=W(cA(function(a,b){return mo(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
+u=sV;if(u){var
+ac=u[1],y=a[5],aJ=y?lF(y[1]):y,H=W(e(c4(c),aJ));if(H){var
+I=W(cA(function(a,b){return mq(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
 ad=I[1],ae=s(h(f(aa,ac)),ax);if(ae){var
-aK=hn(ad),aL=f(aa,ac),au=0,aM=a[4];if(typeof
+aK=hp(ad),aL=f(aa,ac),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kW(c,aM,k,a)};au=1}if(!au)var
+af=function(a){return kX(c,aM,k,a)};au=1}if(!au)var
 af=function(a){return 0};var
 aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eI(l),aR=i(aq(p),aQ),aS=dQ(l);return fI(c,V,i(aq(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
@@ -4687,14 +4703,14 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 8:var
 a=a[1];continue;default:var
 e=bJ(a[2]);return f(bJ(a[1]),e)}}function
-bm(e,a,c){switch(a[0]){case
+bn(e,a,c){switch(a[0]){case
 0:var
 r=a[1];return cz([0,[0,r,r],d],c);case
 1:var
 t=a[1],g=e,v=j(d);for(;;){if(g){var
-n=g[1];if(pN(n[1],t))return n[2];var
+n=g[1];if(pP(n[1],t))return n[2];var
 g=g[2];continue}return v}case
-2:return bj(bm(e,a[1],c));case
+2:return bk(bn(e,a[1],c));case
 3:var
 k=a[2],f=a[1],i=y;break;case
 4:var
@@ -4704,43 +4720,43 @@ k=a[2],f=a[1],i=p;break;case
 6:var
 k=a[2],f=a[1],i=ag;break;case
 7:var
-l=ee(a[2]),m=bm(e,a[1],c);if(l){if(l[1]){var
-o=J(m),s=function(a){return p(a,o)},q=fe(bx(jx(l)),s,o);return jw(l)?q:p(q,m)}return m}return j(b);default:return az(bm(e,a[1],c))}var
-w=bm(e,k,P(c,h(bJ(f))));return i(bm(e,f,c),w)}function
+l=ee(a[2]),m=bn(e,a[1],c);if(l){if(l[1]){var
+o=J(m),s=function(a){return p(a,o)},q=fe(bx(jx(l)),s,o);return jw(l)?q:p(q,m)}return m}return j(b);default:return aA(bn(e,a[1],c))}var
+w=bn(e,k,P(c,h(bJ(f))));return i(bn(e,f,c),w)}function
 cE(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,h(bJ(e))),l=cE(c,a[2],k),m=f(cE(c,e,b),l);return[0,bm(c,a,b),m];case
+e=a[1],k=P(b,h(bJ(e))),l=cE(c,a[2],k),m=f(cE(c,e,b),l);return[0,bn(c,a,b),m];case
 8:var
-n=cE(c,a[1],b);return[0,bm(c,a,b),n];case
+n=cE(c,a[1],b);return[0,bn(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
 d=a[1],i=P(b,h(bJ(d))),j=cE(c,a[2],i);return f(cE(c,d,b),j)}}function
-mq(c,a,b){if(a){var
-e=a[1],d=e[2],g=P(b,h(bJ(d))),i=a[2],j=bm(c,d,b),k=mq([0,[0,e[1],j],c],i,g);return f(cE(c,d,b),k)}return a}function
+ms(c,a,b){if(a){var
+e=a[1],d=e[2],g=P(b,h(bJ(d))),i=a[2],j=bn(c,d,b),k=ms([0,[0,e[1],j],c],i,g);return f(cE(c,d,b),k)}return a}function
 h0(a){return w(bJ,a)}function
-mr(c,a,b){if(a)var
-d=a[1],f=P(b,h(bJ(d))),g=mr(c,a[2],f),e=[0,bm(c,d,b),g];else
+mt(c,a,b){if(a)var
+d=a[1],f=P(b,h(bJ(d))),g=mt(c,a[2],f),e=[0,bn(c,d,b),g];else
 var
 e=a;return e}function
-ms(c,a,b){if(a){var
-d=a[1],e=P(b,h(bJ(d))),g=ms(c,a[2],e);return f(cE(c,d,b),g)}return a}function
+mu(c,a,b){if(a){var
+d=a[1],e=P(b,h(bJ(d))),g=mu(c,a[2],e);return f(cE(c,d,b),g)}return a}function
 h1(a){return 0===a[0]?h0(a[1]):bJ(a[1])}function
-mt(c,b,a){if(b){var
-d=b[1],j=P(a,h(h1(d))),k=mt(c,b[2],j);if(0===d[0])var
-g=ms(c,d[1],a);else
+mv(c,b,a){if(b){var
+d=b[1],j=P(a,h(h1(d))),k=mv(c,b[2],j);if(0===d[0])var
+g=mu(c,d[1],a);else
 var
-e=d[1],i=cE(c,e,a),g=[0,bm(c,e,a),i];return f(g,k)}return b}function
-f6(c){var
+e=d[1],i=cE(c,e,a),g=[0,bn(c,e,a),i];return f(g,k)}return b}function
+f8(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bT(f6,a)}return[0,b]}function
+b=bU(f8,a)}return[0,b]}function
 h2(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
@@ -4749,19 +4765,19 @@ b=a[1];continue;case
 6:var
 d=h2(a[2]);return p(h2(a[1]),d);case
 9:return a[1];default:return J(b)}}}function
-mu(n,g,a,f){if(a){var
-c=a[1],w=P(f,h(h1(c))),x=mu(n,g,a[2],w);if(0===c[0])var
-l=mr(g,c[1],f),o=[0,l,j(b),l,0,0,0,0];else
+mw(n,g,a,f){if(a){var
+c=a[1],w=P(f,h(h1(c))),x=mw(n,g,a[2],w);if(0===c[0])var
+l=mt(g,c[1],f),o=[0,l,j(b),l,0,0,0,0];else
 var
-m=bm(g,c[1],f),q=f6(m),i=aU(aE(0,n),q),d=f6(i[2]),k=e(f6,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?j(b):ag(a,d)},k),o=[0,k,h2(d),v,u,t,s,r];var
+m=bn(g,c[1],f),q=f8(m),i=aU(aG(0,n),q),d=f8(i[2]),k=e(f8,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return az(a,d)?j(b):ag(a,d)},k),o=[0,k,h2(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-mv(a){return e(function(a){return[0,a[2],d]},a)}function
-mw(a){var
-b=w(h1,a[4]),c=f(h0(e(bu,a[3])),b);return f(mv(a[2]),c)}function
-mx(a){var
-c=cf(0,mv(a[2])),d=aE(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=ax(e(aM,a[2]),c);return f(ax(a[1],g),b)}function
+mx(a){return e(function(a){return[0,a[2],d]},a)}function
+my(a){var
+b=w(h1,a[4]),c=f(h0(e(bg,a[3])),b);return f(mx(a[2]),c)}function
+mz(a){var
+c=cf(0,mx(a[2])),d=aG(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=at(e(aB,a[2]),c);return f(at(a[1],g),b)}function
 h3(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
@@ -4773,38 +4789,38 @@ e=a[1];return al(function(a){return as(e,a)},b);case
 a=a[1];continue;default:var
 c=h3(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-my(d){var
+mA(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(al(function(b){return function(a){return pN(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=ac(al(function(b){return function(a){return pP(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-mz(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=mz(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bg,f(c,j)));return ar(h,ar(g,bz(b,k),m),l)}return b}function
-mA(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return mz(a,e,d,function(b){return mA(a,f,e,d,h,b)},g,b)}return b?a:f}function
-mB(d,a){if(a){var
+mB(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=mB(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bh,f(c,j)));return ar(h,ar(g,bz(b,k),m),l)}return b}function
+mC(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return mB(a,e,d,function(b){return mC(a,f,e,d,h,b)},g,b)}return b?a:f}function
+mD(d,a){if(a){var
 b=a2(d,a[1]);if(b)var
-c=mB(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+c=mD(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return sY}function
-mC(d,a){if(a){var
-b=mB(d,a[1]);if(b)var
-c=mC(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return s1}function
+mE(d,a){if(a){var
+b=mD(d,a[1]);if(b)var
+c=mE(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return sZ}var
-f8=u(j(b),f7);function
-mD(e){var
-a=J(f8);if(e)var
+e=b;return e}return s2}var
+f_=u(j(b),f9);function
+mF(e){var
+a=J(f_);if(e)var
 f=p(j(c(2,b)),a),g=y(j(c(2,c(2,b))),f),h=p(j(c(2,b)),a),d=ag(y(j(b),h),g);else
 var
-i=y(j(c(2,b)),a),k=J(f7),d=ag(y(p(j(c(2,b)),k),a),i);return az(d)}function
-mE(d,c,a){if(d){var
-e=mD(c),f=y(j(b),e),g=p(u(j(b),a),f);return u(j(b),g)}var
-h=j(b),i=mD(c),k=ag(j(b),i);return u(p(a,y(j(b),k)),h)}function
+i=y(j(c(2,b)),a),k=J(f9),d=ag(y(p(j(c(2,b)),k),a),i);return aA(d)}function
+mG(d,c,a){if(d){var
+e=mF(c),f=y(j(b),e),g=p(u(j(b),a),f);return u(j(b),g)}var
+h=j(b),i=mF(c),k=ag(j(b),i);return u(p(a,y(j(b),k)),h)}function
 dR(f,e,d,a){var
-g=J(a),h=J(d),i=u(u(j(c(2,b)),h),g),k=f?e?f8:ag(f8,p(j(c(2,b)),f7)):ag(f8,j(c(2,b))),l=p(J(k),i);return az(y(j(b),l))}function
-mF(g,d){var
+g=J(a),h=J(d),i=u(u(j(c(2,b)),h),g),k=f?e?f_:ag(f_,p(j(c(2,b)),f9)):ag(f_,j(c(2,b))),l=p(J(k),i);return aA(y(j(b),l))}function
+mH(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?B(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
 h4(w,v,u,t){var
 a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
@@ -4837,12 +4853,12 @@ q=f;var
 s=q}else
 var
 s=a;return s}function
-mG(f,i,e,c,h){var
+mI(f,i,e,c,h){var
 j=f?b:d,a=Q(i,j);function
 g(b){var
-c=f?cT(b):cr(b);return E(c,a)}var
-k=[0,ae(h),0],l=[0,[0,a,c,[0,A,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mH(r,b,q,p,g,o,n){if(o){var
+c=f?cS(b):cr(b);return E(c,a)}var
+k=[0,ae(h),0],l=[0,[0,a,c,[0,B,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+mJ(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -4851,16 +4867,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aG,bc(s2)),z=e(ae,0),a=h4(b,p,bU(0,bW(b,es(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aH,bc(s5)),z=e(ae,0),a=h4(b,p,bV(0,bX(b,es(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=H(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mF,s3),a=h4(b,p,bU(0,bW(b,mG(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(mH,s6),a=h4(b,p,bV(0,bX(b,mI(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(mF,s4),a=h4(b,p,bU(0,bW(b,mG(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(mH,s7),a=h4(b,p,bV(0,bX(b,mI(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -4870,26 +4886,26 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?s5:a}else
+y=a?s8:a}else
 var
 y=n;return y}return[0,n]}function
-mI(f,e,d,c,p,o,n){var
+mK(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mH(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
-i=mH(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=et(a[2],b),l=mI(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mJ(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
+i=mJ(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=et(a[2],b),l=mK(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-h5(a){return g1(c(2,b),aD(a,b))}function
+h5(a){return g3(c(2,b),aF(a,b))}function
 dS(i,a,e,w,v){var
-m=a?b:R(b),f=j(m),g=mE(a,e,s0),h=mE(a,e,s1),n=ag(g,dR(a,e,f,g)),o=[0,y(ag(h,dR(a,e,h,f)),n),0],q=ag(f,dR(a,e,f,g)),r=[0,y(ag(h,dR(a,e,g,h)),q),o],s=ag(f,dR(a,e,h,f)),t=[0,y(ag(g,dR(a,e,g,h)),s),r],u=a?e?j(c(2,b)):p(j(c(2,c(2,b))),f7):j(c(2,c(2,b))),k=ct([0,u,t]),l=[0,d,cS(i)];return mI(a,i,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-mJ(a,g,b){if(K(g,h5(a))){if(b){var
+m=a?b:R(b),f=j(m),g=mG(a,e,s3),h=mG(a,e,s4),n=ag(g,dR(a,e,f,g)),o=[0,y(ag(h,dR(a,e,h,f)),n),0],q=ag(f,dR(a,e,f,g)),r=[0,y(ag(h,dR(a,e,g,h)),q),o],s=ag(f,dR(a,e,h,f)),t=[0,y(ag(g,dR(a,e,g,h)),s),r],u=a?e?j(c(2,b)):p(j(c(2,c(2,b))),f9):j(c(2,c(2,b))),k=ct([0,u,t]),l=[0,d,cR(i)];return mK(a,i,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+mL(a,g,b){if(K(g,h5(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,h5(a)],v=cS(a),i=[0,h5(a),v],j=dS(a,0,1,h,b[1]),k=j?dS(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,h5(a)],v=cR(a),i=[0,h5(a),v],j=dS(a,0,1,h,b[1]),k=j?dS(a,0,0,i,c[1]):j;if(k){var
 l=dS(a,1,1,h,d[1]);if(l)return dS(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -4907,7 +4923,7 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cS(a)],s=dS(a,0,0,r,b[1]);if(s)return dS(a,1,0,r,f[1]);var
+r=[0,g,cR(a)],s=dS(a,0,0,r,b[1]);if(s)return dS(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
@@ -4915,244 +4931,244 @@ u=t}else
 var
 u=b;return u}function
 h6(a){var
-b=[1,[2,d]];return cQ(function(b,a){return[1,[3,b,a]]},a,b)}function
-f9(a){return h6(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-f_(a,c){return h6(e(function(a){var
-d=[0,a[2]],b=ax(a[1],c);return[1,[7,[1,[8,h6(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mK(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bT(function(a){return mK(e,d,c,b,a)},f);return i(bW(e,d,c),g)}function
-mL(a){return a?K(d,a[1][2][1]):a}function
-s6(a){var
-b=s(h(a),s7);return b?al(function(a){return ac(ab(a,d))},a):b}function
-mM(c,f,b,a){if(b)if(a)var
-d=b[1],g=v(c,Q(c,a[1]),f),h=mM(c,f,b[2],a[2]),i=d[3],j=B(d[2],g),e=[0,[0,B(d[1],g),j,i],h];else
+b=[1,[2,d]];return dt(function(b,a){return[1,[3,b,a]]},a,b)}function
+f$(a){return h6(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+ga(a,c){return h6(e(function(a){var
+d=[0,a[2]],b=at(a[1],c);return[1,[7,[1,[8,h6(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+mM(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bU(function(a){return mM(e,d,c,b,a)},f);return i(bX(e,d,c),g)}function
+mN(a){return a?K(d,a[1][2][1]):a}function
+s9(a){var
+b=s(h(a),s_);return b?al(function(a){return ac(ab(a,d))},a):b}function
+mO(c,f,b,a){if(b)if(a)var
+d=b[1],g=v(c,Q(c,a[1]),f),h=mO(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-f$(b,a){return eh(eh(b,0),a)}function
+gb(b,a){return eh(eh(b,0),a)}function
 h7(a){if(a){var
-b=a[2],c=a[1];if(b)return f$(c,[0,s9,h7(b)]);var
+b=a[2],c=a[1];if(b)return gb(c,[0,ta,h7(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,s$,f$(h7(a),s_)]}function
-_(a){return[0,tb,f$(h7(a),ta)]}function
-am(a){return[0,td,[0,a,tc]]}function
-l(b,a){return[0,aY(tf,aY(b,te)),a]}function
+C(a){return[0,tc,gb(h7(a),tb)]}function
+_(a){return[0,te,gb(h7(a),td)]}function
+am(a){return[0,tg,[0,a,tf]]}function
+l(b,a){return[0,aY(ti,aY(b,th)),a]}function
 L(b,a){return _([0,l(b,a),0])}function
 cF(d){var
-b=d,a=qi,e=0;for(;;){if(b){var
+b=d,a=qk,e=0;for(;;){if(b){var
 c=jt(a),b=b[1],a=c;continue}return[0,ej(fd(a)),e]}}function
 h8(a){return[0,ej(fk(a)),0]}function
-ga(a){var
-c=aO(a),f=0,b=0===c?qn:0<c?[0,fk(a)]:[1,fk(R(a))];if(0===b[0])var
+gc(a){var
+c=aO(a),f=0,b=0===c?qp:0<c?[0,fk(a)]:[1,fk(R(a))];if(0===b[0])var
 d=ej(b[1]);else
 var
-e=ej(b[1]),d=aY(bt(1,45),e);return[0,d,f]}function
-gb(a){var
-b=0,c=0<aO(a)?fk(a):qm;return[0,ej(c),b]}function
+e=ej(b[1]),d=aY(bu(1,45),e);return[0,d,f]}function
+gd(a){var
+b=0,c=0<aO(a)?fk(a):qo;return[0,ej(c),b]}function
 h9(a){switch(a[0]){case
-2:return th;case
-3:return 2<=a[1]?ti:tj;case
-4:return tk;default:return tg}}function
+2:return tk;case
+3:return 2<=a[1]?tl:tm;case
+4:return tn;default:return tj}}function
 eJ(b,a){function
-c(c,a){return V(c,h9(a))?eJ(b,a):[0,tq,f(eJ(b,a),tp)]}switch(a[0]){case
+c(c,a){return V(c,h9(a))?eJ(b,a):[0,tt,f(eJ(b,a),ts)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,a5(g),0];var
-h=[0,tr,[0,a5(e),0]];return[0,a5(g),h];case
+h=[0,tu,[0,a5(e),0]];return[0,a5(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,tt,c(ts,a[1])];case
+2:return[0,tw,c(tv,a[1])];case
 3:var
 j=a[3],k=c([0,h9(a)],j);switch(a[1]){case
 0:var
-d=tl;break;case
+d=to;break;case
 1:var
-d=tm;break;case
+d=tp;break;case
 2:var
-d=tn;break;default:var
-d=to}var
+d=tq;break;default:var
+d=tr}var
 l=a[2];return f(c(h9(a),l),[0,d,k]);case
 4:var
-m=[0,tu,h8(a[2])];return f(c(tv,a[1]),m);default:return[0,tx,f(eJ(b,a[1]),tw)]}}function
-I(a){return[0,tA,f(eJ(function(a){return 0===a[0]?a[1]:tz},a),ty)]}function
-h_(a){return[0,tC,f(eJ(function(a){return a},a),tB)]}function
+m=[0,tx,h8(a[2])];return f(c(ty,a[1]),m);default:return[0,tA,f(eJ(b,a[1]),tz)]}}function
+I(a){return[0,tD,f(eJ(function(a){return 0===a[0]?a[1]:tC},a),tB)]}function
+h_(a){return[0,tF,f(eJ(function(a){return a},a),tE)]}function
 ci(a){if(0===a[0])return I(a[1]);var
-b=[0,l(tD,I(a[2])),0];return _([0,l(tE,I(a[1])),b])}function
-gc(b,a){var
+b=[0,l(tG,I(a[2])),0];return _([0,l(tH,I(a[1])),b])}function
+ge(b,a){var
 c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return C([0,i(b,a[1]),d])}function
-tF(a){function
-b(a){return gc(ci,a)}switch(a[0]){case
+tI(a){function
+b(a){return ge(ci,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?tG:tO,h=[0,l(tH,am(g)),e],i=[0,l(tI,ci(a[4])),h],j=[0,l(tJ,b(a[3])),i],k=[0,l(tK,b(a[2])),j],m=[0,l(tL,b(a[1])),k],c=[0,l(tN,am(tM)),m];break;case
+e=0,g=a[5]?tJ:tR,h=[0,l(tK,am(g)),e],i=[0,l(tL,ci(a[4])),h],j=[0,l(tM,b(a[3])),i],k=[0,l(tN,b(a[2])),j],m=[0,l(tO,b(a[1])),k],c=[0,l(tQ,am(tP)),m];break;case
 1:var
-d=a[3],n=d?[0,l(tP,b(d[1])),0]:d,o=[0,l(tQ,b(a[2])),0],p=[0,l(tR,b(a[1])),o],c=f([0,l(tT,am(tS)),p],n);break;default:var
-q=[0,l(tU,b(a[1])),0],c=[0,l(tW,am(tV)),q]}return _(c)}function
-tX(a){function
+d=a[3],n=d?[0,l(tS,b(d[1])),0]:d,o=[0,l(tT,b(a[2])),0],p=[0,l(tU,b(a[1])),o],c=f([0,l(tW,am(tV)),p],n);break;default:var
+q=[0,l(tX,b(a[1])),0],c=[0,l(tZ,am(tY)),q]}return _(c)}function
+t0(a){function
 b(a){return C(e(ci,a))}function
 d(a){var
-b=a?tY:t0;return l(tZ,am(b))}switch(a[0]){case
+b=a?t1:t3;return l(t2,am(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(t1,ci(a[4])),f],h=[0,l(t2,b(a[3])),g],i=[0,l(t3,b(a[2])),h],j=[0,l(t4,b(a[1])),i],c=[0,l(t6,am(t5)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(t4,ci(a[4])),f],h=[0,l(t5,b(a[3])),g],i=[0,l(t6,b(a[2])),h],j=[0,l(t7,b(a[1])),i],c=[0,l(t9,am(t8)),j];break;case
 1:var
-k=[0,l(t7,b(a[2])),0],m=[0,l(t8,b(a[1])),k],c=[0,l(t_,am(t9)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(t$,ci(a[6])),n],p=[0,l(ua,ci(a[5])),o],q=[0,l(ub,b(a[4])),p],r=[0,l(uc,b(a[3])),q],s=[0,l(ud,b(a[2])),r],t=[0,l(ue,b(a[1])),s],c=[0,l(ug,am(uf)),t]}return _(c)}function
+k=[0,l(t_,b(a[2])),0],m=[0,l(t$,b(a[1])),k],c=[0,l(ub,am(ua)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(uc,ci(a[6])),n],p=[0,l(ud,ci(a[5])),o],q=[0,l(ue,b(a[4])),p],r=[0,l(uf,b(a[3])),q],s=[0,l(ug,b(a[2])),r],t=[0,l(uh,b(a[1])),s],c=[0,l(uj,am(ui)),t]}return _(c)}function
 h$(a){switch(a){case
-0:return uh;case
-1:return ui;case
-2:return uj;case
-3:return uk;case
-4:return ul;case
-5:return um;case
-6:return un;case
-7:return uo;case
-8:return up;case
-9:return uq;case
-10:return ur;case
-11:return us;case
-12:return ut;case
-13:return uu;case
-14:return uv;default:return uw}}function
+0:return uk;case
+1:return ul;case
+2:return um;case
+3:return un;case
+4:return uo;case
+5:return up;case
+6:return uq;case
+7:return ur;case
+8:return us;case
+9:return ut;case
+10:return uu;case
+11:return uv;case
+12:return uw;case
+13:return ux;case
+14:return uy;default:return uz}}function
 ia(a){if(typeof
-a==="number")return ux;else
+a==="number")return uA;else
 switch(a[0]){case
-0:return uy;case
-1:return uz;default:return uA}}function
+0:return uB;case
+1:return uC;default:return uD}}function
 eK(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,l(uB,I(c[1])),0];break;case
+d=[0,l(uE,I(c[1])),0];break;case
 1:var
-d=[0,l(uC,I(c[1])),0];break;default:var
-n=[0,I(c[2]),0],d=[0,l(uD,C([0,I(c[1]),n])),0]}var
-o=[0,l(uE,am(ia(a[4]))),d],h=a[3];if(h){var
+d=[0,l(uF,I(c[1])),0];break;default:var
+n=[0,I(c[2]),0],d=[0,l(uG,C([0,I(c[1]),n])),0]}var
+o=[0,l(uH,am(ia(a[4]))),d],h=a[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-q=C([0,I(b[1]),0]),j=a[1],p=0,r=6===j?uF:12===j?uJ:uK,g=[0,l(uG,L(r,q)),p];break;case
+q=C([0,I(b[1]),0]),j=a[1],p=0,r=6===j?uI:12===j?uM:uN,g=[0,l(uJ,L(r,q)),p];break;case
 1:var
-w=C(e(I,b[1])),m=a[1],v=0,x=14===m?uL:15<=m?uN:uO,g=[0,l(uM,L(x,w)),v];break;case
+w=C(e(I,b[1])),m=a[1],v=0,x=14===m?uO:15<=m?uQ:uR,g=[0,l(uP,L(x,w)),v];break;case
 2:var
-y=[0,l(uP,C([0,I(b[2]),0])),0],g=[0,l(uR,_([0,l(uQ,C([0,I(b[1]),0])),y])),0];break;default:var
-z=[0,l(uS,C([0,I(b[2]),0])),0],g=[0,l(uU,_([0,l(uT,C([0,I(b[1]),0])),z])),0]}var
+y=[0,l(uS,C([0,I(b[2]),0])),0],g=[0,l(uU,_([0,l(uT,C([0,I(b[1]),0])),y])),0];break;default:var
+z=[0,l(uV,C([0,I(b[2]),0])),0],g=[0,l(uX,_([0,l(uW,C([0,I(b[1]),0])),z])),0]}var
 k=g}else
 var
 k=h;var
-s=f(k,o),i=a[2],t=i?[0,l(uH,cF(i[1])),0]:i,u=f(t,s);return _([0,l(uI,am(h$(a[1]))),u])}function
-mN(a){if(0===a[0]){var
-b=[0,l(uV,gc(I,a[2])),0];return L(uX,_([0,l(uW,gc(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,l(uY,C([0,I(a[4]),c])),0],e=[0,l(uZ,I(a[3])),d],f=[0,I(a[2]),0];return L(u1,_([0,l(u0,C([0,I(a[1]),f])),e]))}function
-mO(a){if(0===a[0]){var
-b=[0,l(u2,C(e(I,a[2]))),0];return L(u4,_([0,l(u3,C(e(I,a[1]))),b]))}return mN([1,a[1],a[2],a[3],a[4],a[5]])}function
-mP(a){switch(a){case
-0:return u5;case
-1:return u6;default:return u7}}function
-u8(a){function
+s=f(k,o),i=a[2],t=i?[0,l(uK,cF(i[1])),0]:i,u=f(t,s);return _([0,l(uL,am(h$(a[1]))),u])}function
+mP(a){if(0===a[0]){var
+b=[0,l(uY,ge(I,a[2])),0];return L(u0,_([0,l(uZ,ge(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,l(u1,C([0,I(a[4]),c])),0],e=[0,l(u2,I(a[3])),d],f=[0,I(a[2]),0];return L(u4,_([0,l(u3,C([0,I(a[1]),f])),e]))}function
+mQ(a){if(0===a[0]){var
+b=[0,l(u5,C(e(I,a[2]))),0];return L(u7,_([0,l(u6,C(e(I,a[1]))),b]))}return mP([1,a[1],a[2],a[3],a[4],a[5]])}function
+mR(a){switch(a){case
+0:return u8;case
+1:return u9;default:return u_}}function
+u$(a){function
 b(a){return C(e(ci,a))}var
-c=[0,l(u9,b(a[2])),0],d=[0,l(u_,b(a[1])),c];return _([0,l(va,am(u$)),d])}function
-mQ(a){function
+c=[0,l(va,b(a[2])),0],d=[0,l(vb,b(a[1])),c];return _([0,l(vd,am(vc)),d])}function
+mS(a){function
 b(b,a){var
 c=[0,I(a),0];return C([0,I(b),c])}switch(a[0]){case
-0:return L(vb,b(a[1],a[2]));case
+0:return L(ve,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(vc,b(c[1],c[2])),0],g=[0,l(vd,b(d[1],d[2])),f];return L(vf,_([0,l(ve,b(e[1],e[2])),g]));case
-2:return L(vg,I(a[1]));default:var
-h=[0,l(vh,I(a[2])),0];return L(vj,_([0,l(vi,I(a[1])),h]))}}function
-vk(a){function
-b(a){return gc(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(vl,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(vm,C([0,I(a[3]),g])),0],i=[0,l(vn,I(a[2])),h],j=[0,l(vo,cF(a[1])),i],d=f([0,l(vq,am(vp)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,l(vf,b(c[1],c[2])),0],g=[0,l(vg,b(d[1],d[2])),f];return L(vi,_([0,l(vh,b(e[1],e[2])),g]));case
+2:return L(vj,I(a[1]));default:var
+h=[0,l(vk,I(a[2])),0];return L(vm,_([0,l(vl,I(a[1])),h]))}}function
+vn(a){function
+b(a){return ge(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,l(vo,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(vp,C([0,I(a[3]),g])),0],i=[0,l(vq,I(a[2])),h],j=[0,l(vr,cF(a[1])),i],d=f([0,l(vt,am(vs)),j],e);else
 var
-k=[0,l(vr,I(a[4])),0],m=[0,l(vs,b(a[3])),k],n=[0,l(vt,b(a[2])),m],o=a[1]?vu:vw,d=[0,l(vv,am(o)),n];return _(d)}function
-mR(a){var
-b=a?[0,l(vx,C(e(vk,a))),0]:a;return b}function
+k=[0,l(vu,I(a[4])),0],m=[0,l(vv,b(a[3])),k],n=[0,l(vw,b(a[2])),m],o=a[1]?vx:vz,d=[0,l(vy,am(o)),n];return _(d)}function
+mT(a){var
+b=a?[0,l(vA,C(e(vn,a))),0]:a;return b}function
 ib(d,c,b,a){var
-g=[0,l(vy,C(e(eK,a))),0],h=f(mR(b),g),i=[0,l(vz,mN(c)),0];return _(f([0,l(vB,L(vA,C(e(tF,d)))),i],h))}function
-vC(a){switch(a[0]){case
-0:return L(vD,ib(a[1],a[2],a[3],a[4]));case
+g=[0,l(vB,C(e(eK,a))),0],h=f(mT(b),g),i=[0,l(vC,mP(c)),0];return _(f([0,l(vE,L(vD,C(e(tI,d)))),i],h))}function
+vF(a){switch(a[0]){case
+0:return L(vG,ib(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=C(e(tX,a[2])),m=[0,l(vE,C(e(eK,a[6]))),0],n=b?[0,l(vF,mQ(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(vG,mO(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=C(e(t0,a[2])),m=[0,l(vH,C(e(eK,a[6]))),0],n=b?[0,l(vI,mS(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(vJ,mQ(a[4])),o];if(typeof
 d==="number")if(d)var
-h=vH;else{var
-i=L(vM,g);k=1}else
+h=vK;else{var
+i=L(vP,g);k=1}else
 var
-h=mP(d[1]);if(!k)var
-q=c?[0,l(vI,I(c[1])),0]:c,i=L(h,_([0,l(vJ,g),q]));return L(vL,_([0,l(vK,i),p]));case
+h=mR(d[1]);if(!k)var
+q=c?[0,l(vL,I(c[1])),0]:c,i=L(h,_([0,l(vM,g),q]));return L(vO,_([0,l(vN,i),p]));case
 2:var
-r=[0,l(vN,C(e(eK,a[7]))),0],s=f(mR(a[6]),r),t=[0,l(vO,mQ(a[5])),0],u=[0,l(vP,mO(a[4])),t],v=[0,l(vQ,I(a[3])),0],w=_([0,l(vR,C(e(u8,a[2]))),v]);return L(vT,_(f([0,l(vS,L(mP(a[1]),w)),u],s)));case
+r=[0,l(vQ,C(e(eK,a[7]))),0],s=f(mT(a[6]),r),t=[0,l(vR,mS(a[5])),0],u=[0,l(vS,mQ(a[4])),t],v=[0,l(vT,I(a[3])),0],w=_([0,l(vU,C(e(u$,a[2]))),v]);return L(vW,_(f([0,l(vV,L(mR(a[1]),w)),u],s)));case
 3:var
-x=[0,l(vU,C(e(eK,a[7]))),0],y=[0,l(vV,C(e(I,a[6]))),0],z=[0,l(vY,L(vX,_([0,l(vW,C(e(I,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(v1,C(e(function(a){return 0===a[0]?L(vZ,C(e(h_,a[1]))):L(v0,h_(a[1]))},B))),A],E=a[3],F=[0,l(v2,C(e(function(a){var
-b=[0,h_(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(v3,C(e(function(a){var
-b=[0,ci(a[2]),0];return C([0,am(a[1]),b])},G))),F];return L(v7,_([0,l(v6,L(v5,_([0,l(v4,C(e(am,a[1]))),H]))),z]));case
+x=[0,l(vX,C(e(eK,a[7]))),0],y=[0,l(vY,C(e(I,a[6]))),0],z=[0,l(v1,L(v0,_([0,l(vZ,C(e(I,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(v4,C(e(function(a){return 0===a[0]?L(v2,C(e(h_,a[1]))):L(v3,h_(a[1]))},B))),A],E=a[3],F=[0,l(v5,C(e(function(a){var
+b=[0,h_(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(v6,C(e(function(a){var
+b=[0,ci(a[2]),0];return C([0,am(a[1]),b])},G))),F];return L(v_,_([0,l(v9,L(v8,_([0,l(v7,C(e(am,a[1]))),H]))),z]));case
 4:var
-J=[0,l(v8,C(e(eK,a[3]))),0],K=[0,l(v$,L(v_,_([0,l(v9,I(a[2])),0]))),J];return L(wd,_([0,l(wc,L(wb,_([0,l(wa,I(a[1])),0]))),K]));case
+J=[0,l(v$,C(e(eK,a[3]))),0],K=[0,l(wc,L(wb,_([0,l(wa,I(a[2])),0]))),J];return L(wg,_([0,l(wf,L(we,_([0,l(wd,I(a[1])),0]))),K]));case
 5:var
-M=[0,l(we,I(a[5])),0];return L(wg,_([0,l(wf,ib(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+M=[0,l(wh,I(a[5])),0];return L(wj,_([0,l(wi,ib(a[1],[0,a[2],a[3]],0,a[4])),M]));case
 6:var
-j=a[1],N=0,O=j?ci(j[1]):am(wj);return L(wi,_([0,l(wh,O),N]));default:var
-P=[0,l(wk,I(a[6])),0],Q=[0,l(wl,I(a[5])),P],R=[0,l(wm,ib(a[2],a[3],0,a[4])),Q],S=a[1];return L(wr,_([0,l(wq,C(e(function(a){var
-b=[0,l(wn,I(a[2][2])),0],c=[0,l(wo,I(a[2][1])),b];return _([0,l(wp,am(a[1])),c])},S))),R]))}}function
-eL(a){return C(e(ga,a))}function
-gd(b,a){var
-c=[0,l(ws,gb(a)),0];return _([0,l(wt,C(e(eL,b))),c])}function
+j=a[1],N=0,O=j?ci(j[1]):am(wm);return L(wl,_([0,l(wk,O),N]));default:var
+P=[0,l(wn,I(a[6])),0],Q=[0,l(wo,I(a[5])),P],R=[0,l(wp,ib(a[2],a[3],0,a[4])),Q],S=a[1];return L(wu,_([0,l(wt,C(e(function(a){var
+b=[0,l(wq,I(a[2][2])),0],c=[0,l(wr,I(a[2][1])),b];return _([0,l(ws,am(a[1])),c])},S))),R]))}}function
+eL(a){return C(e(gc,a))}function
+gf(b,a){var
+c=[0,l(wv,gd(a)),0];return _([0,l(ww,C(e(eL,b))),c])}function
 eM(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=gd(a[2],a[3]);return L(a[1],b);case
+b=gf(a[2],a[3]);return L(a[1],b);case
 2:var
-c=a[1]?wu:ww;return L(wv,am(c));case
+c=a[1]?wx:wz;return L(wy,am(c));case
 3:var
-d=[0,eL(a[3]),0];return L(wx,C([0,gd(a[1],a[2]),d]));case
+d=[0,eL(a[3]),0];return L(wA,C([0,gf(a[1],a[2]),d]));case
 4:var
-f=[0,gb(a[4]),0],g=[0,ga(a[3]),f];return L(wy,C([0,gd(a[1],a[2]),g]));case
+f=[0,gd(a[4]),0],g=[0,gc(a[3]),f];return L(wB,C([0,gf(a[1],a[2]),g]));case
 5:var
-h=[0,gb(a[3]),0],i=[0,ga(a[2]),h];return L(wz,C([0,eM(a[1]),i]));case
+h=[0,gd(a[3]),0],i=[0,gc(a[2]),h];return L(wC,C([0,eM(a[1]),i]));case
 6:var
-j=[0,gb(a[3]),0],k=[0,ga(a[2]),j];return L(wA,C([0,eM(a[1]),k]));case
-7:return L(wB,eM(a[1]));default:var
-l=[0,C(e(eL,a[3])),0],m=[0,am(a[2]),l];return L(wC,C([0,eM(a[1]),m]))}}function
-wD(a){var
+j=[0,gd(a[3]),0],k=[0,gc(a[2]),j];return L(wD,C([0,eM(a[1]),k]));case
+7:return L(wE,eM(a[1]));default:var
+l=[0,C(e(eL,a[3])),0],m=[0,am(a[2]),l];return L(wF,C([0,eM(a[1]),m]))}}function
+wG(a){var
 b=[0,eM(a[2]),0];return C([0,cF(a[1]),b])}function
-mS(a){if(typeof
-a==="number")return 0===a?am(wE):am(wF);else
+mU(a){if(typeof
+a==="number")return 0===a?am(wH):am(wI);else
 switch(a[0]){case
 0:var
-b=[0,C(e(eL,a[2])),0];return L(wG,C([0,cF(a[1]),b]));case
+b=[0,C(e(eL,a[2])),0];return L(wJ,C([0,cF(a[1]),b]));case
 1:var
-c=[0,cF(a[2]),0];return L(wH,C([0,cF(a[1]),c]));default:return L(wI,C(e(I,a[1])))}}function
-wJ(a){var
-b=a[4],h=b?[0,l(wK,eL([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wL,mS(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wM,cF(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wN,C(e(wD,[0,c[1],c[2]]))),0]:c;return _(f(n,m))}function
-mT(g,a,d){var
-h=[0,l(wO,C(e(wJ,d))),0];if(a)var
-b=a[1],c=[0,l(wP,gd(b[1],b[2])),0];else
+c=[0,cF(a[2]),0];return L(wK,C([0,cF(a[1]),c]));default:return L(wL,C(e(I,a[1])))}}function
+wM(a){var
+b=a[4],h=b?[0,l(wN,eL([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wO,mU(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wP,cF(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wQ,C(e(wG,[0,c[1],c[2]]))),0]:c;return _(f(n,m))}function
+mV(g,a,d){var
+h=[0,l(wR,C(e(wM,d))),0];if(a)var
+b=a[1],c=[0,l(wS,gf(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return _([0,l(wQ,h8(g)),i])}function
-mU(d,c,a,b){var
-g=[0,l(wR,mS(b)),0],h=a?[0,l(wS,C(e(I,a))),0]:a,i=f(h,g),j=[0,l(wT,C(e(I,c))),0];return _(f([0,l(wU,h8(d)),j],i))}function
-wV(a){if(typeof
-a==="number")return am(wW);else
+i=f(c,h);return _([0,l(wT,h8(g)),i])}function
+mW(d,c,a,b){var
+g=[0,l(wU,mU(b)),0],h=a?[0,l(wV,C(e(I,a))),0]:a,i=f(h,g),j=[0,l(wW,C(e(I,c))),0];return _(f([0,l(wX,h8(d)),j],i))}function
+wY(a){if(typeof
+a==="number")return am(wZ);else
 switch(a[0]){case
-0:return L(wX,cF(a[1]));case
-1:return L(wY,mT(a[1],a[2],a[3]));default:return L(wZ,mU(a[1],a[2],a[3],a[4]))}}function
-ge(a){var
-b=gX(gW(ao(a),function(b){return aR(a,b)}));return n(function(a){var
-b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?V(xc,fm(a)):c;return d?V(fm(a),xd):d},b)}function
+0:return L(w0,cF(a[1]));case
+1:return L(w1,mV(a[1],a[2],a[3]));default:return L(w2,mW(a[1],a[2],a[3],a[4]))}}function
+gg(a){var
+b=gZ(gY(ao(a),function(b){return aR(a,b)}));return n(function(a){var
+b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?V(xf,fm(a)):c;return d?V(fm(a),xg):d},b)}function
 eN(b){function
 c(f){var
-a=fm(f),b=V(xe,a),c=b?V(a,xf):b;if(c)var
+a=fm(f),b=V(xh,a),c=b?V(a,xi):b;if(c)var
 d=c;else{var
-e=V(xg,a);if(e)return V(a,xh);var
+e=V(xj,a);if(e)return V(a,xk);var
 d=e}return d}var
-a=gX(gW(ao(b),function(a){return aR(b,a)}));if(a){var
+a=gZ(gY(ao(b),function(a){return aR(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fm(a),f=V(xi,e),h=f?V(e,xj):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),xk):f;if(g)return ac(as(b,xl));var
+e=fm(a),f=V(xl,e),h=f?V(e,xm):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),xn):f;if(g)return ac(as(b,xo));var
 i=g}else
 var
 i=a;return i}function
@@ -5189,26 +5205,26 @@ j=a[2],k=eO(a[1]),l=k?fi(c(2,b),j):k;return l?fi(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))
 a=a[1];continue}}function
 dT(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bK(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-da(a){return w(dT,bK(a))}function
+c$(a){return w(dT,bK(a))}function
 id(a){switch(a[0]){case
 0:var
-c=dT(a[4]),d=f(da(a[3]),c),e=f(da(a[2]),d);return f(da(a[1]),e);case
+c=dT(a[4]),d=f(c$(a[3]),c),e=f(c$(a[2]),d);return f(c$(a[1]),e);case
 1:var
-b=a[3],g=b?da(b[1]):b,h=f(da(a[2]),g);return f(da(a[1]),h);default:return da(a[1])}}function
-xm(a){switch(a[0]){case
+b=a[3],g=b?c$(b[1]):b,h=f(c$(a[2]),g);return f(c$(a[1]),h);default:return c$(a[1])}}function
+xp(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
 e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dT,b)}function
-mV(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mW(a){if(0===a[0]){var
+mX(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+mY(a){if(0===a[0]){var
 b=bK(a[2]);return f(bK(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mX(a){switch(a[0]){case
+mZ(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-db(e){var
+da(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5220,26 +5236,26 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-mY(a){if(0===a[0]){var
+m0(a){if(0===a[0]){var
 b=a[5],c=b?bK(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
 d=[0,a[4],0],e=f(bK(a[3]),d);return f(bK(a[2]),e)}function
-mZ(b,e){var
+m1(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
 f=c[1];return al(function(a){return as(f,a)},b)}return 0;case
 3:var
-d=mZ(b,a[2]);if(d){var
+d=m1(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
 eP(c,a){return n(function(a){var
-b=eO(a);return b?mZ(c,a):b},a)}function
-m0(a){if(typeof
+b=eO(a);return b?m1(c,a):b},a)}function
+m2(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-m1(a){var
+m3(a){var
 d=fi(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fi(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-m2(a,b){return b?[4,m2(a,b[1]),a]:a}function
+m4(a,b){return b?[4,m4(a,b[1]),a]:a}function
 k(a){switch(a[0]){case
 0:var
 i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return z(j,a)},m=fe(jr(i),l,b);return[0,jG(js(fd(a[1]),i)),m];case
@@ -5253,18 +5269,18 @@ g=k(a[2]),h=k(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bx(ee(a[2]));return m2(k(a[1]),n);default:return[6,k(a[1])]}}function
+n=bx(ee(a[2]));return m4(k(a[1]),n);default:return[6,k(a[1])]}}function
 bL(a){if(0===a[0]){var
 b=k(a[1]);return[0,b,b]}var
 c=k(a[2]);return[0,k(a[1]),c]}function
-dc(a){var
+db(a){var
 b=bL(a[3]),c=bL(a[2]);return[0,bL(a[1]),c,b]}function
-xn(a){switch(a[0]){case
+xq(a){switch(a[0]){case
 0:var
-b=a[5],c=bL(a[4]),d=dc(a[3]),e=dc(a[2]);return[0,[0,dc(a[1]),e,d,c,b]];case
+b=a[5],c=bL(a[4]),d=db(a[3]),e=db(a[2]);return[0,[0,db(a[1]),e,d,c,b]];case
 1:var
-f=x(dc,a[3]),g=dc(a[2]);return[1,dc(a[1]),g,f];default:return[2,dc(a[1])]}}function
-m3(a){if(0===a[0]){var
+f=x(db,a[3]),g=db(a[2]);return[1,db(a[1]),g,f];default:return[2,db(a[1])]}}function
+m5(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
@@ -5275,13 +5291,13 @@ c=a[5],h=c?dU(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);re
 e=a[4],f=a[3],g=a[2];if(a[1]){var
 m=dU(f),n=dU(g);return[2,k(e),n,m]}var
 o=dU(f),p=dU(g);return[1,k(e),p,o]}function
-gf(b,a){if(a){var
-c=a[1],d=a[2],g=gf(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bh(function(c){var
+gh(b,a){if(a){var
+c=a[1],d=a[2],g=gh(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bi(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:s(b[1],a[1]):0:0===a[0]?0:co(b[1],a[1]);return ac(d)},h),g)}return a}function
-xo(b){if(b[1])return 0;var
+xr(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-xp(N,M,a){switch(a[1]){case
+xs(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
@@ -5336,7 +5352,7 @@ b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=gf(0,M);return e(function(h){var
+Y=u[1],Z=gh(0,M);return e(function(h){var
 e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
 g=function(a){return a?dU(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(s(f,a[1])){var
@@ -5353,15 +5369,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?xq:G;return ab;case
+a[4]==="number"?1:0,ab=G?xt:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bx(B[1]),0]:aE(0,N);return e(c,P)}function
-xr(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bx(B[1]),0]:aG(0,N);return e(c,P)}function
+xu(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5405,7 +5421,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-B=s(c,xt),O=0;if(B){var
+B=s(c,xw),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -5431,16 +5447,16 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?s(c,xu):0:k}return 0;default:return 0}var
-o=V(xs,b);return o?V(b,c):o}function
+k=a[3];return k?0===k[1][0]?s(c,xx):0:k}return 0;default:return 0}var
+o=V(xv,b);return o?V(b,c):o}function
 ie(c,k,j,b){var
-l=h(c),d=w(function(a){return xp(l,j,a)},b),a=w(xo,b),g=a?[0,a[1],a[2]]:xv,i=f(g,d),m=m3(k);return[0,e(xn,c),m,i]}function
-m4(b){if(b[1])return 0;var
+l=h(c),d=w(function(a){return xs(l,j,a)},b),a=w(xr,b),g=a?[0,a[1],a[2]]:xy,i=f(g,d),m=m5(k);return[0,e(xq,c),m,i]}function
+m6(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-m5(c){function
+m7(c){function
 a(a){return r(a,e(k,c),[0,d,b])}var
-f=a(xw),g=a(xx);return[0,a(0),g,f]}function
+f=a(xz),g=a(xA);return[0,a(0),g,f]}function
 ig(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
@@ -5495,7 +5511,7 @@ b=k(ab);return[7,a,k(ac),b]}}if(M)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ad=q[1],ae=gf(0,R);return e(function(a){var
+ad=q[1],ae=gh(0,R);return e(function(a){var
 b=k(ad),c=cG(a[2]);return[14,cG(a[1]),c,b]},ae)}return 0;case
 10:var
 r=a[4],N=0;if(typeof
@@ -5521,19 +5537,19 @@ y==="number"||!(1===y[0]))P=1;else{var
 z=a[3],al=y[1];if(!z)return z;var
 I=z[1];if(1!==I[0])return 0;var
 am=I[1],b=function(a){var
-b=k(al);return[13,a,0,m5(am),b]}}if(P)return 0;break;case
+b=k(al);return[13,a,0,m7(am),b]}}if(P)return 0;break;case
 15:var
 A=a[4],Q=0;if(typeof
 A==="number"||!(1===A[0]))Q=1;else{var
 B=a[3],an=A[1];if(!B)return B;var
 J=B[1];if(1!==J[0])return 0;var
 ao=J[1],b=function(a){var
-b=k(an);return[13,a,1,m5(ao),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bx(D[1]),0]:aE(0,C);return e(b,U)}function
+b=k(an);return[13,a,1,m7(ao),b]}}if(Q)return 0;break;default:return 0}var
+D=a[2],U=D?[0,bx(D[1]),0]:aG(0,C);return e(b,U)}function
 dV(e,d,c,b){var
-g=w(function(a){return ig(e,d,c,a)},b),a=w(m4,b),h=a?[0,a[1],a[2]]:xy;return f(h,g)}function
-gg(a){return 11===a[1]?1:0}function
-b1(n,m,a){var
+g=w(function(a){return ig(e,d,c,a)},b),a=w(m6,b),h=a?[0,a[1],a[2]]:xB;return f(h,g)}function
+gi(a){return 11===a[1]?1:0}function
+b2(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5545,23 +5561,23 @@ e=1;l=1}if(!l)var
 e=0;var
 f=co(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=V(xz,h);return i?V(h,m):i}var
+h=g[1],i=V(xC,h);return i?V(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bn(r,b,a){var
+bo(r,b,a){var
 d=a[2];if(d)var
-e=d[1],f=V(xA,e),t=f?V(e,b):f,c=t;else
+e=d[1],f=V(xD,e),t=f?V(e,b):f,c=t;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:b1(0,b,a):b1(0,b,a)}return b1(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:b2(0,b,a):b2(0,b,a)}return b2(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -5572,29 +5588,29 @@ m=l[1];switch(m[0]){case
 n=s(h(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return b1(0,b,a)}}return b1(0,b,a)}return b1(0,b,a);case
+o=n;return o;default:return b2(0,b,a)}}return b2(0,b,a)}return b2(0,b,a);case
 8:var
 p=a[4];if(typeof
 p!=="number"&&1===p[0]){var
-q=a[3];return q?0===q[1][0]?c?s(b,r):c:b1(0,b,a):b1(0,b,a)}return b1(0,b,a)}return b1(0,b,a)}function
+q=a[3];return q?0===q[1][0]?c?s(b,r):c:b2(0,b,a):b2(0,b,a)}return b2(0,b,a)}return b2(0,b,a)}function
 aN(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bn(c,b,a):a[3]?bn(c,b,a):1:bn(c,b,a):bn(c,b,a)}function
-m6(f,c,b,a){var
+a[4]==="number"?a[2]?bo(c,b,a):a[3]?bo(c,b,a):1:bo(c,b,a):bo(c,b,a)}function
+m8(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=V(xC,h),r=i?V(h,b):i,d=r;else
+h=g[1],i=V(xF,h),r=i?V(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bn(a$(c),b,a);if(d){var
+1:if(a[3])return bo(a$(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
 k=0;return co(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bn(a$(c),b,a):d;return bn(a$(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bo(a$(c),b,a):d;return bo(a$(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bn(a$(c),b,a);var
+m!=="number"&&0===m[0]){if(a[3])return bo(a$(c),b,a);var
 n=s(b,a$(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
@@ -5602,10 +5618,10 @@ e=1}else
 var
 e=o}else
 var
-e=n;return e}return bn(a$(c),b,a);case
+e=n;return e}return bo(a$(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bn(a$(c),b,a):d?ac(f):d;return bn(a$(c),b,a);default:return bn(a$(c),b,a)}}function
+p!=="number"&&1===p[0])return a[3]?bo(a$(c),b,a):d?ac(f):d;return bo(a$(c),b,a);default:return bo(a$(c),b,a)}}function
 cH(a){switch(a[0]){case
 0:return[0,k([0,a[1],a[2]])];case
 1:return[1,a[1]];case
@@ -5620,8 +5636,8 @@ d=a[2];return[7,cH(a[1]),d];default:return[8,cH(a[1])]}}function
 ih(c){function
 a(e){var
 a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(xD),f=a(xE);return[0,a(0),f,e]}function
-dd(a){function
+e=a(xG),f=a(xH);return[0,a(0),f,e]}function
+dc(a){function
 b(a){var
 b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5629,16 +5645,16 @@ b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,k(a[1])];default:var
 e=k(a[2]);return[3,k(a[1]),e]}}function
-m7(a){if(0===a[0]){var
-b=ax(a[1],a[2]);return[0,ih(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return m3([1,a[1],a[2],a[3],a[4],a[5]])}function
-m8(j,b,i,g,f,d,a){function
+m9(a){if(0===a[0]){var
+b=at(a[1],a[2]);return[0,ih(e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},b))]}return m5([1,a[1],a[2],a[3],a[4],a[5]])}function
+m_(j,b,i,g,f,d,a){function
 c(a){return ih(e(bL,a))}var
-l=al(gg,a),m=dV(0,h(b),d,a),n=dd(f),o=m7(g),p=k(i);return[0,j,e(function(a){var
+l=al(gi,a),m=dV(0,h(b),d,a),n=dc(f),o=m9(g),p=k(i);return[0,j,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-m9(a){return al(function(a){return 2===a[0]?1:0},a)}function
-m_(j,a,c,i,g,f){var
-l=h(a),m=dV(m9(a),l,0,f),n=x(dd,g),o=m7(i),p=c?k(c[1]):[0,b,b];return[0,j,e(function(a){function
+m$(a){return al(function(a){return 2===a[0]?1:0},a)}function
+na(j,a,c,i,g,f){var
+l=h(a),m=dV(m$(a),l,0,f),n=x(dc,g),o=m9(i),p=c?k(c[1]):[0,b,b];return[0,j,e(function(a){function
 c(a){return ih(e(bL,a))}switch(a[0]){case
 0:var
 k=a[5],l=bL(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
@@ -5649,29 +5665,29 @@ g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
 p=a[7],q=bL(a[6]),r=bL(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-m$(a){return a[1]?0:1}function
-na(a){var
-c=m$(a);if(c)return c;if(1===a[1]){var
+nb(a){return a[1]?0:1}function
+nc(a){var
+c=nb(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gh(i,h,b){function
+gj(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gi,a(gi,b)),j=a(f,ii),k=i?f:a(c(b,gi),ii);function
-g(b){return a(b,[5,e(gi,d(ii,d(b,b)))])}var
+f=c(gk,a(gk,b)),j=a(f,ii),k=i?f:a(c(b,gk),ii);function
+g(b){return a(b,[5,e(gk,d(ii,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-gj(f,e,d){function
+gl(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ij,a(ij,d)],nb),g=a(c,[5,[3,0,ij,b(nb,b(c,c))]]);return[2,b(gh(f,e,d),g)]}function
+c=a([3,1,ij,a(ij,d)],nd),g=a(c,[5,[3,0,ij,b(nd,b(c,c))]]);return[2,b(gj(f,e,d),g)]}function
 ik(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(gk,b(gk,a)),d=e?h:b(f(a,gk),nc),i=b(d,[5,[3,0,gk,c(nc,c(d,d))]]);return c(gh(e,g,a),i)}function
-nd(o,e,a){if(e)if(a){var
+h=f(gm,b(gm,a)),d=e?h:b(f(a,gm),ne),i=b(d,[5,[3,0,gm,c(ne,c(d,d))]]);return c(gj(e,g,a),i)}function
+nf(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],j=cv(k(g[2][1]));if(j){var
 l=j[1],m=cv(k(g[2][2]));if(m)var
 p=m[1],n=function(a){function
@@ -5681,7 +5697,7 @@ var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=nd([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=nf([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
@@ -5696,7 +5712,7 @@ e=c[1],d=jI(function(a){return as(e,a[1])},b);return d?[1,d[1][2]]:a}return a;ca
 f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
 4:var
 h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-ne(b,a){if(0===a[0])return[0,an(b,a[1])];var
+ng(b,a){if(0===a[0])return[0,an(b,a[1])];var
 c=an(b,a[2]);return[1,an(b,a[1]),c]}function
 il(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
@@ -5721,44 +5737,44 @@ e=a[1],h=a[2];if(f)return[0,e,io(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,D(z(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-xJ(a){if(typeof
+xM(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-xK(a){if(typeof
+xN(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-gl(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=gl(e,a[3]);return b$(dv(gl(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-nf(a){return 0===a[0]?dL(a[1][4]):0}function
-ng(a){switch(a[0]){case
+gn(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=gn(e,a[3]);return b$(dv(gn(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+nh(a){return 0===a[0]?dL(a[1][4]):0}function
+ni(a){switch(a[0]){case
 0:var
 b=a[1],c=a9(b[3]);return f(a9(b[2]),c);case
 1:var
 d=a9(a[2]);return f(a9(a[1]),d);default:return 0}}function
-gm(a){switch(a[0]){case
+go(a){switch(a[0]){case
 0:return bH(a9(a[1][1]));case
 1:var
 b=a[3];return b?bH(a9(b[1])):d;default:return bH(a9(a[1]))}}function
 ip(c){var
-a=w(nf,c),d=a?[0,a[1],a[2]]:w(ng,c);return D(b,bH(d))}function
-nh(c,a){if(c){if(a){var
+a=w(nh,c),d=a?[0,a[1],a[2]]:w(ni,c);return D(b,bH(d))}function
+nj(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=xL;else
+b=xO;else
 if(43===d)var
-b=xM;else
+b=xP;else
 var
-f=48===d?1:0,i=f?xN:f,b=i;if(b)var
-e=nh(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?xQ:f,b=i;if(b)var
+e=nj(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:xO}function
+h=a;return h}return a?0:xR}function
 eQ(b,a){switch(a[0]){case
 0:var
-c=a[1];if(as(c,xP))return xQ;if(as(c,xR))return xS;if(as(c,xT))return xU;if(as(c,xV))return xW;if(as(c,xX))return xY;var
-k=as(c,xZ),p=k?x0:k;return p;case
+c=a[1];if(as(c,xS))return xT;if(as(c,xU))return xV;if(as(c,xW))return xX;if(as(c,xY))return xZ;if(as(c,x0))return x1;var
+k=as(c,x2),p=k?x3:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(as(f,x1))return[0,[0,d,e]];if(as(f,x2))return[0,[1,d,e]];if(as(f,x3))return[0,[2,d,e]];var
-l=as(f,x4),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(as(f,x4))return[0,[0,d,e]];if(as(f,x5))return[0,[1,d,e]];if(as(f,x6))return[0,[2,d,e]];var
+l=as(f,x7),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -5769,23 +5785,23 @@ h=eQ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
 t=eQ(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
 m=a[2],i=eQ(b,a[1]);if(i)var
-j=nh(b,gX(gW(ao(m),function(a){return aR(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+j=nj(b,gZ(gY(ao(m),function(a){return aR(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-ni(d,a){if(a){var
+nk(d,a){if(a){var
 e=a[1],b=eQ(d,e[2]);if(b)var
-c=ni(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+c=nk(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return x5}function
-de(d,c,a){if(c)if(a){var
+f=b;return f}return x8}function
+dd(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=ni(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=nk(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=de(d,k,j);if(f){var
-m=f[1],g=de(d,k,m[2]);if(g)var
+f=dd(d,k,j);if(f){var
+m=f[1],g=dd(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5801,12 +5817,12 @@ h=a;else
 var
 h=c;return h}function
 iq(e,d,a){if(d){if(a){var
-b=de(e,h(a),a);if(b)var
+b=dd(e,h(a),a);if(b)var
 f=b[1],c=iq(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return x6}return a?0:x7}function
+g=b;return g}return x9}return a?0:x_}function
 ir(a){if(typeof
-a==="number")return 0===a?x8:x9;else
+a==="number")return 0===a?x$:ya;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
@@ -5828,45 +5844,45 @@ g=a;else
 var
 g=d;return g}function
 cI(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-df(a,e){var
+de(a,e){var
 b=cI(a[1],e),c=cI(a[2],b[2]),d=cI(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-nj(d,c){if(d){var
+nl(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=df(a[1],c),f=df(a[2],e[2]),g=df(a[3],f[2]),h=cI(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=de(a[1],c),f=de(a[2],e[2]),g=de(a[3],f[2]),h=cI(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=df(a[1],c),k=j[1],l=df(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=df(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=de(a[1],c),k=j[1],l=de(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=de(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=df(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=nj(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-x_(a){if(typeof
+p=de(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=nl(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+yb(a){if(typeof
 a!=="number")switch(a[0]){case
-5:return ya;case
+5:return yd;case
 2:case
 3:case
 4:case
 6:case
 7:case
-11:return 0}return x$}function
-bo(a,b){if(a){var
-c=cI(a[1],b),d=bo(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+11:return 0}return yc}function
+bp(a,b){if(a){var
+c=cI(a[1],b),d=bp(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 a3(c){function
 a(a){return r(a,c,[0,d,b])}var
-e=a(yd),f=a(ye);return[0,a(0),f,e]}function
-nk(a,b){if(a){var
-c=a[1],d=bo(c[1],b),e=bo(c[2],d[2]),f=nk(a[2],e[2]),g=f[2],h=f[1],i=a3(e[1]);return[0,[0,[0,a3(d[1]),i],h],g]}return[0,0,b]}function
-nl(f,c){if(f){var
+e=a(yg),f=a(yh);return[0,a(0),f,e]}function
+nm(a,b){if(a){var
+c=a[1],d=bp(c[1],b),e=bp(c[2],d[2]),f=nm(a[2],e[2]),g=f[2],h=f[1],i=a3(e[1]);return[0,[0,[0,a3(d[1]),i],h],g]}return[0,0,b]}function
+nn(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bo(a[1],c),h=bo(a[2],g[2]),i=bo(a[3],h[2]),j=cI(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a3(i[1]),y=a3(h[1]),e=[0,[0,[0,a3(g[1]),y,x,w,v]],u];break;case
+g=bp(a[1],c),h=bp(a[2],g[2]),i=bp(a[3],h[2]),j=cI(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a3(i[1]),y=a3(h[1]),e=[0,[0,[0,a3(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bo(a[1],c),l=bo(a[2],k[2]),z=l[2],A=a3(l[1]),e=[0,[0,[1,a3(k[1]),A,0]],z];break;default:var
-m=a[1],n=bo(m,c),o=bo(a[2],n[2]),p=bo(a[3],o[2]),q=bo(a[4],p[2]),r=cI(a[5],q[2]),s=cI(a[6],r[2]),B=m?a3(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a3(q[1]),H=a3(p[1]),e=[0,[1,[0,B,a3(o[1]),H,G,F,E,D]],C]}var
-t=nl(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+k=bp(a[1],c),l=bp(a[2],k[2]),z=l[2],A=a3(l[1]),e=[0,[0,[1,a3(k[1]),A,0]],z];break;default:var
+m=a[1],n=bp(m,c),o=bp(a[2],n[2]),p=bp(a[3],o[2]),q=bp(a[4],p[2]),r=cI(a[5],q[2]),s=cI(a[6],r[2]),B=m?a3(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a3(q[1]),H=a3(p[1]),e=[0,[1,[0,B,a3(o[1]),H,G,F,E,D]],C]}var
+t=nn(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
 dW(a){return j6(o,a)}function
-yf(a){if(typeof
+yi(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return g(o,1,[3,a[1],[0,b,b]]);case
@@ -5899,7 +5915,7 @@ y=[0,a[2],a[1]],z=1;return n(function(a){return g(o,z,a)},y);case
 11:var
 k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],k]):l;case
 13:var
-m=a[4],p=ma(a[3]),r=p?g(o,1,m):p;return r?g(o,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],m]):r;case
+m=a[4],p=mc(a[3]),r=p?g(o,1,m):p;return r?g(o,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],m]):r;case
 14:return g(o,0,a[3]);case
 15:var
 s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
@@ -5911,7 +5927,7 @@ u=a[3],v=g(o,0,a[1]),w=v?g(o,1,a[2]):v,x=w?g(o,1,u):w;return x?g(o,1,[3,[0,c(2,c
 1:case
 12:return g(o,1,a[1]);default:var
 j=g(o,1,a[2]);return j?g(o,1,a[3]):j}}function
-gn(d){var
+gp(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=ac(al(function(d){return function(a){var
 h=h$(a[1]),e=as(h$(d[1]),h);if(e)var
@@ -5927,15 +5943,15 @@ a=b;continue}return c}return 1}}function
 eR(a){if(0===a[0])return dW(k(a[1]));var
 b=a[2],c=a[1];if(!ep(k(c))&&!ep(k(b))){var
 e=k(c);return g(o,1,[3,k(b),e])}var
-d=k(b);return bk(o,k(c),d)}function
-dg(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-nm(a){switch(a[0]){case
+d=k(b);return bl(o,k(c),d)}function
+df(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+no(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dg(a[3]),c),e=f(dg(a[2]),d);return f(dg(a[1]),e);case
+c=[0,a[4],0],d=f(df(a[3]),c),e=f(df(a[2]),d);return f(df(a[1]),e);case
 1:var
-b=a[3],g=b?dg(b[1]):b,h=f(dg(a[2]),g);return f(dg(a[1]),h);default:return dg(a[1])}}function
-nn(s,a,j){if(al(function(a){return 9===a[1]?1:0},j)){var
-b=V(h(a),yi),c=b?n(function(a){if(0===a[0]){var
+b=a[3],g=b?df(b[1]):b,h=f(df(a[2]),g);return f(df(a[1]),h);default:return df(a[1])}}function
+np(s,a,j){if(al(function(a){return 9===a[1]?1:0},j)){var
+b=V(h(a),yl),c=b?n(function(a){if(0===a[0]){var
 d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,j=h?g(o,0,k(a[4])):h,c=0;if(j)if(d)var
 p=bK(d[1]),b=n(function(a){return dW(k(a))},p);else{var
 l=1;c=1}else{var
@@ -5945,37 +5961,37 @@ m=g(o,1,k(a[4]));if(m)var
 q=bK(a[3]),r=f(bK(a[2]),q),b=n(function(a){return dW(k(a))},r);else
 var
 b=m}return b?i(s,a):b},a):b;if(c)var
-d=gf(0,a),l=d?1:d,e=l;else
+d=gh(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-no(a){return a?yj:yk}function
+nq(a){return a?ym:yn}function
 iu(a){switch(a){case
-0:return yl;case
-1:return ym;default:return 0}}function
+0:return yo;case
+1:return yp;default:return 0}}function
 cJ(a){var
-f=a[1],d=g(o,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bk(o,a[1],a[2]):d;if(e){var
+f=a[1],d=g(o,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bl(o,a[1],a[2]):d;if(e){var
 h=a[2];return g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
 dX(a){var
-e=bk(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-np(c,b,a){if(0===a[0]){var
+e=bl(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
+nr(c,b,a){if(0===a[0]){var
 d=a[2],e=a[1],f=s(h(e),c),i=f?s(h(d),c):f;if(i){var
-l=ax(e,d);return n(function(a){var
-b=k(a[2]);return bk(o,k(a[1]),b)},l)}return i}var
+l=at(e,d);return n(function(a){var
+b=k(a[2]);return bl(o,k(a[1]),b)},l)}return i}var
 j=b?g(o,1,k(a[3])):b;if(j){var
-m=k(a[5]);return bk(o,k(a[4]),m)}return j}function
-nq(a,e,F,E,t,r,f){function
+m=k(a[5]);return bl(o,k(a[4]),m)}return j}function
+ns(a,e,F,E,t,r,f){function
 u(b){var
-d=no(a),c=s(h(b),d);return c?n(eR,b):c}var
+d=nq(a),c=s(h(b),d);return c?n(eR,b):c}var
 v=n(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=h(e),l=V(bY(a),G);else
+G=h(e),l=V(bZ(a),G);else
 var
 l=v;var
-w=l?V(h(e),yn):l,x=w?g(o,1,k(F)):w;if(x)var
-H=1===a?1:0,m=np(iu(a),H,E);else
+w=l?V(h(e),yq):l,x=w?g(o,1,k(F)):w;if(x)var
+H=1===a?1:0,m=nr(iu(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=dd(t);switch(d[0]){case
+d=dc(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
@@ -5985,19 +6001,19 @@ i=dX(d[1]);break;default:var
 C=dX(d[1]),i=C?dX(d[2]):C}var
 j=i}else
 var
-D=dd(t),J=0===D[0]?cJ(D[1]):0,j=J;else
+D=dc(t),J=0===D[0]?cJ(D[1]):0,j=J;else
 var
 j=m;if(j)var
-I=h(e),p=nn(function(a){if(0===a[0]){var
-b=a[1],c=V(yh,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
+I=h(e),p=np(function(a){if(0===a[0]){var
+b=a[1],c=V(yk,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},r,f);else
 var
 p=j;if(p)var
-b=h(e),c=bY(a),y=no(a),q=n(function(a){var
+b=h(e),c=bZ(a),y=nq(a),q=n(function(a){var
 e=a[2];if(e)var
-f=e[1],g=V(xB,f),w=g?V(f,b):g,d=w;else
+f=e[1],g=V(xE,f),w=g?V(f,b):g,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -6025,18 +6041,18 @@ u=t[1];if(1===u[0]){var
 v=s(h(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},f);else
 var
 q=p;var
-z=q?gn(f):q;return z?n(it,dV(0,h(e),r,f)):z}function
-nr(a){switch(a[0]){case
+z=q?gp(f):q;return z?n(it,dV(0,h(e),r,f)):z}function
+nt(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-ns(a,e,d,Q,m,l){var
+nu(a,e,d,Q,m,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?yo:yp;return s(h(a),b)}var
-i=m9(e),z=n(function(b){switch(b[0]){case
+b=p?yr:ys;return s(h(a),b)}var
+i=m$(e),z=n(function(b){switch(b[0]){case
 0:var
 d=ac(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
@@ -6049,21 +6065,21 @@ m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)v
 R=h(e),q=V(a$(a),R);else
 var
 q=z;var
-A=q?V(h(e),yq):q,B=A?n(eR,w(nr,e)):A;if(B){var
+A=q?V(h(e),yt):q,B=A?n(eR,w(nt,e)):A;if(B){var
 P=0;if(typeof
 a==="number"&&!a){var
 C=1;P=1}if(!P)var
 C=0;var
-S=p?yr:ys,r=np(S,C,Q)}else
+S=p?yu:yv,r=nr(S,C,Q)}else
 var
 r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=x(dd,m)?0:1,b=U;else
+U=x(dc,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-u=x(dd,m);if(u){var
+u=x(dc,m);if(u){var
 E=u[1];if(0===E[0])var
 F=g(o,1,k(d[1])),G=F?cJ(E[1]):F;else
 var
@@ -6075,7 +6091,7 @@ b=H}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],y=x(dd,m);if(y){var
+v=d[1],y=x(dc,m);if(y){var
 f=y[1];switch(f[0]){case
 0:var
 j=0;break;case
@@ -6093,81 +6109,81 @@ b=d;break;default:var
 b=0}else
 var
 b=r;if(b)var
-T=h(e),t=n(function(b){return m6(i,a,T,b)},l);else
+T=h(e),t=n(function(b){return m8(i,a,T,b)},l);else
 var
 t=b;var
-D=t?gn(l):t;return D?n(it,dV(i,h(e),0,l)):D}function
-yt(a){switch(a[0]){case
-0:return fS(a[1][1]);case
+D=t?gp(l):t;return D?n(it,dV(i,h(e),0,l)):D}function
+yw(a){switch(a[0]){case
+0:return fT(a[1][1]);case
 1:var
-b=a[3];return b?fS(b[1]):1;default:return fS(a[1])}}function
+b=a[3];return b?fT(b[1]):1;default:return fT(a[1])}}function
 iv(a,k,b,d){var
-e=nn(function(g){if(0===g[0]){var
-c=g[1],d=V(yg,c);if(d){var
+e=np(function(g){if(0===g[0]){var
+c=g[1],d=V(yj,c);if(d){var
 b=M(a,bx(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(yt,d[1]):e,g=f?V(yu,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return xr(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(yw,d[1]):e,g=f?V(yx,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return xu(l,a)},b);else
 var
 c=g;var
-i=c?gn(b):c,j=i?n(eR,w(nm,a)):i;return j?n(yf,d[3]):j}function
-go(b,a){return n(function(c){var
+i=c?gp(b):c,j=i?n(eR,w(no,a)):i;return j?n(yi,d[3]):j}function
+gq(b,a){return n(function(c){var
 a=c[2];return a?by(a[1],b):1},a)}function
-nt(a){if(a){var
-b=a[1];if(gg(b))return 0;var
-c=[0,b,nt(a[2])]}else
+nv(a){if(a){var
+b=a[1];if(gi(b))return 0;var
+c=[0,b,nv(a[2])]}else
 var
 c=a;return c}function
-yv(a){if(typeof
+yy(a){if(typeof
 a!=="number"&&13===a[0]){var
-d=a[4];if(eF(d)&&ac(g(o,0,[3,d,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return yx;return yy}return yw}function
-nu(f,d,b){var
-g=nt(b),i=0,c=aw(P,0,e(yv,w(function(a){return ig(i,f,d,a)},g))),a=w(m4,b),j=a?[0,a[1],a[2]]:yz;return P(h(j),c)}function
+d=a[4];if(eF(d)&&ac(g(o,0,[3,d,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return yA;return yB}return yz}function
+nw(f,d,b){var
+g=nv(b),i=0,c=av(P,0,e(yy,w(function(a){return ig(i,f,d,a)},g))),a=w(m6,b),j=a?[0,a[1],a[2]]:yC;return P(h(j),c)}function
 iw(b,a){var
-c=h(bh(function(a){return 0===a[0]?0:1},b));return s(h(a),c)}function
+c=h(bi(function(a){return 0===a[0]?0:1},b));return s(h(a),c)}function
 ix(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-nv(aL,_,aK,Z,Y,b,aJ,B){var
-a=ie(_,aK,Z,Y),aN=h(B);if(aL)var
+nx(aM,_,aL,Z,Y,b,aK,B){var
+a=ie(_,aL,Z,Y),aN=h(B);if(aM)var
 $=0;else
 var
-aG=a[1],aH=e(gm,a[1]),X=fK(ip(a[1]),aH,aG),aI=ax(aE(0,h(X)),X),$=e(aM,bh(function(a){return fM(a[2])},aI));var
-C=de($,aN,B);if(C){var
+aH=a[1],aI=e(go,a[1]),X=fK(ip(a[1]),aI,aH),aJ=at(aG(0,h(X)),X),$=e(aB,bi(function(a){return fM(a[2])},aJ));var
+C=dd($,aN,B);if(C){var
 aa=C[1];if(aa[2])return 0;var
-ab=iv(_,Z,Y,a),ac=ab?go(yA,B):ab;if(ac){var
-aO=aa[1],D=e(gm,a[1]),c=ip(a[1]),aP=ix(aJ),V=k7(o,a);if(V){var
-l=fK(c,D,a[1]),g=ho(c,D,a[1],0),af=h(a[3]),ag=P(h(l),af),L=[0,h(l),ag],ah=a[3],F=al(function(a){if(typeof
+ab=iv(_,Z,Y,a),ac=ab?gq(yD,B):ab;if(ac){var
+aO=aa[1],D=e(go,a[1]),c=ip(a[1]),aP=ix(aK),V=k8(o,a);if(V){var
+l=fK(c,D,a[1]),g=hq(c,D,a[1],0),af=h(a[3]),ag=P(h(l),af),L=[0,h(l),ag],ah=a[3],F=al(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?w(function(a){var
-b=e(bu,hr(l,a[4]));return[0,a[4],b]},g):F,ak=f(hq(g,c,L,a[3]),ai),am=f(bF(kl(g)),ak),M=f(bF(er(g)),am),N=ct(M)[1],m=cs(N),O=n(function(a){var
-b=j(d);return ay(r(a1(m,a),m,b),a)},M);if(O){var
-Q=al(rm,a[3]);if(Q){var
+b=e(bg,fN(l,a[4]));return[0,a[4],b]},g):F,ak=f(hs(g,c,L,a[3]),ai),am=f(bF(kl(g)),ak),M=f(bF(er(g)),am),N=ct(M)[1],m=cs(N),O=n(function(a){var
+b=j(d);return az(r(a1(m,a),m,b),a)},M);if(O){var
+Q=al(ro,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
 q=p[1],u=bz(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fN(b,G[1],u),E=0;if(H){var
+G=q[1],H=fO(b,G[1],u),E=0;if(H){var
 s=aj(b,[0,G[4],c]);if(s)var
 k=K(d,s[1][1]);else{var
 I=s;E=1}}else{var
 I=H;E=1}if(E)var
 k=I;break;case
 1:var
-J=q[3],k=J?fN(b,J[1],u):1;break;default:var
-k=fN(b,q[1],u)}if(k){var
-ae=p[2],t=bg(t),p=ae;continue}var
+J=q[3],k=J?fO(b,J[1],u):1;break;default:var
+k=fO(b,q[1],u)}if(k){var
+ae=p[2],t=bh(t),p=ae;continue}var
 R=k}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-an=a[3],ao=w(function(a){return cX(c,a)},an),ap=a[3],ar=f(l,f(e(function(a){return bE(c,a)},ap),ao)),x=W(e(function(a){return aj(b,a)},ar));if(x){var
+an=a[3],ao=w(function(a){return cW(c,a)},an),ap=a[3],ar=f(l,f(e(function(a){return bE(c,a)},ap),ao)),x=W(e(function(a){return aj(b,a)},ar));if(x){var
 as=aV(dK(a[2]),c),y=W(e(function(a){return aj(b,a)},as));if(y){var
-at=a[3],z=W(kV(b,aP,function(a){return a1(m,a)},l,g,c,L,at));if(z){var
-S=z[1],au=hn(S),av=y[1],aw=a[2],az=function(a){return kW(b,aw,c,a)},aA=x[1],aB=0,aC=kl(g),aD=i(aq(function(a){return a1(m,a)}),aC),aF=er(g);return fI(b,N,i(aq(function(a){return a1(m,a)}),aF),aD,aB,aA,S,az,av,au,aO)}var
+au=a[3],z=W(kW(b,aP,function(a){return a1(m,a)},l,g,c,L,au));if(z){var
+S=z[1],av=hp(S),aw=y[1],ax=a[2],ay=function(a){return kX(b,ax,c,a)},aA=x[1],aC=0,aD=kl(g),aE=i(aq(function(a){return a1(m,a)}),aD),aF=er(g);return fI(b,N,i(aq(function(a){return a1(m,a)}),aF),aE,aC,aA,S,ay,aw,av,aO)}var
 T=z}else
 var
 T=y;var
@@ -6182,30 +6198,30 @@ A=O;return A}return V}var
 ad=ac}else
 var
 ad=C;return ad}function
-yB(a){if(0===a[0])return nf(a[1]);var
+yE(a){if(0===a[0])return nh(a[1]);var
 b=a[1],c=dL(b[6]);return f(dL(b[5]),c)}function
-yC(a){if(0===a[0])return ng(a[1]);var
+yF(a){if(0===a[0])return ni(a[1]);var
 b=a[1],c=a9(b[4]);return f(a9(b[3]),c)}function
-yD(a){if(0===a[0])return[0,gm(a[1]),d];var
+yG(a){if(0===a[0])return[0,go(a[1]),d];var
 b=a[1],c=bH(a9(b[2]));return[0,bH(a9(b[1])),c]}function
-nw(f,n,m,l,k,j,y,d){var
-a=m_(f,n,m,l,k,j),p=a[2],c=w(yB,p),x=c?[0,c[1],c[2]]:w(yC,p),i=D(b,bH(x)),q=e(yD,a[2]),r=hZ(i,q,a[2]),z=h(d),A=ax(aE(0,h(r)),r),g=de(e(aM,bh(function(a){return fM(a[2])},A)),z,d);if(g){var
+ny(f,n,m,l,k,j,y,d){var
+a=na(f,n,m,l,k,j),p=a[2],c=w(yE,p),x=c?[0,c[1],c[2]]:w(yF,p),i=D(b,bH(x)),q=e(yG,a[2]),r=hZ(i,q,a[2]),z=h(d),A=at(aG(0,h(r)),r),g=dd(e(aB,bi(function(a){return fM(a[2])},A)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=ns(f,n,m,l,k,j),u=t?go(a$(f),d):t;if(u)return sU(o,y,a,i,q,s[1]);var
+t=nu(f,n,m,l,k,j),u=t?gq(a$(f),d):t;if(u)return sX(o,y,a,i,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-nx(B,aM,aq,ap,A,ao,h){var
+nz(B,aM,aq,ap,A,ao,h){var
 l=ie(B,aM,aq,ap);if(A){var
 C=A[2];if(C){var
 D=C[2];if(D){if(D[2])return 0;var
-ar=nj(B,e(k,ao));if(ar[2])return 0;var
+ar=nl(B,e(k,ao));if(ar[2])return 0;var
 as=l[3];if(typeof
 h==="number")var
-a=0===h?yb:yc;else
+a=0===h?ye:yf;else
 switch(h[0]){case
 0:var
-c=h[2],m=h[1],H=x(x_,M(as,m)),J=0;if(H){var
+c=h[2],m=h[1],H=x(yb,M(as,m)),J=0;if(H){var
 T=H[1];if(T){var
 U=T[1];if(U)if(U[1])var
 a=0;else{var
@@ -6278,16 +6294,16 @@ an=0;P=1}}else{var
 an=I;P=1}if(P)var
 a=an;break;default:var
 a=0}if(a){var
-at=iw(w(nm,B),ao),au=at?iv(B,aq,ap,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kY(o,l,j,i);if(Q)if(typeof
+at=iw(w(no,B),ao),au=at?iv(B,aq,ap,l):at;if(au){var
+f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kZ(o,l,j,i);if(Q)if(typeof
 f==="number")return 0===f?al(function(c){var
-a=kZ(c,i);return a?g(o,0,[3,[0,d,b],a[1]]):a},j):ka(ro,e(function(b){var
+a=k0(c,i);return a?g(o,0,[3,[0,d,b],a[1]]):a},j):ka(rq,e(function(b){var
 a=ey(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
 E=M(l[3],f[1]);if(E){var
-aI=E[1],aJ=k0(f[3]);return k5(o,j,i,k0(f[2]),aJ,aI)}return E}var
+aI=E[1],aJ=k1(f[3]);return k6(o,j,i,k1(f[2]),aJ,aI)}return E}var
 F=M(l[3],f[1]);if(F){var
 G=M(j,f[2]);if(G){var
-R=G[1],aK=F[1],aL=c3(R,i);return k5(o,j,i,c3(R,i),aL,aK)}var
+R=G[1],aK=F[1],aL=c2(R,i);return k6(o,j,i,c2(R,i),aL,aK)}var
 S=G}else
 var
 S=F;return S}return Q}var
@@ -6303,18 +6319,18 @@ ax=C;var
 ay=ax}else
 var
 ay=A;return ay}function
-ny(m,l,b,k,z,y){var
+nA(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=M(f,g),n=h?by(h[1][2],yG):h;if(n)var
-A=d[2],i=ny(m,l,b,k,io(0,g,f),A);else
+g=d[1],h=M(f,g),n=h?by(h[1][2],yJ):h;if(n)var
+A=d[2],i=nA(m,l,b,k,io(0,g,f),A);else
 var
 i=n;if(i){var
 B=d[3],f=io(1,g,f),d=B;continue}return i}var
-c=d[1],a=nd(0,m,f),o=e(function(b){function
-d(b){return ne(a,b)}function
+c=d[1],a=nf(0,m,f),o=e(function(b){function
+d(b){return ng(a,b)}function
 c(a){return il(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=ne(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=ng(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
 q=b[2],r=il(function(b){return an(a,b)},q),s=b[1],j=[0,il(function(b){return an(a,b)},s),r];else
@@ -6345,73 +6361,73 @@ i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return nv(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return nx(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-nz(h,g){var
+1:return nx(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return nz(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
+nB(h,g){var
 a=cv(k(h));if(a){var
-c=a[1],e=cR([0,d,b],c);if(e)return cR(c,g);var
+c=a[1],e=cQ([0,d,b],c);if(e)return cQ(c,g);var
 f=e}else
 var
 f=a;return f}function
-yM(q){var
-d5=ge(q[3]),d6=d5?ge(q[4]):d5;if(d6){var
+yP(q){var
+d5=gg(q[3]),d6=d5?gg(q[4]):d5;if(d6){var
 O=q[1];switch(O[0]){case
 3:var
 ea=n(eN,O[1]);if(ea)var
-hl=O[2],bT=n(function(a){return eN(a[1])},hl);else
+hl=O[2],bU=n(function(a){return eN(a[1])},hl);else
 var
-bT=ea;if(bT)var
-hm=O[3],bV=n(function(a){var
+bU=ea;if(bU)var
+hm=O[3],bW=n(function(a){var
 b=eN(a[1]),c=b?ic(a[2]):b;return c?eO(a[2]):c},hm);else
 var
-bV=bT;if(bV)var
-hp=O[4],aS=n(function(a){var
+bW=bU;if(bW)var
+hn=O[4],aS=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=ic(a);return b?eO(a):b},b)},hp);else
+b=ic(a);return b?eO(a):b},b)},hn);else
 var
-aS=bV;break;case
+aS=bW;break;case
 7:var
-hr=O[1],eb=n(function(a){var
-b=eN(a[1]);return b?eP(0,[0,a[2][1],[0,a[2][2],0]]):b},hr),aS=eb?eP(0,[0,O[5],[0,O[6],0]]):eb;break;default:var
+ho=O[1],eb=n(function(a){var
+b=eN(a[1]);return b?eP(0,[0,a[2][1],[0,a[2][2],0]]):b},ho),aS=eb?eP(0,[0,O[5],[0,O[6],0]]):eb;break;default:var
 aS=1}var
-bR=aS}else
+bS=aS}else
 var
-bR=d6;var
-cF=0;if(bR){var
-d7=q[1],bS=7===d7[0]?e(aM,d7[1]):0,d8=function(c,b){var
-a=m1(c);return a?n(function(a){var
+bS=d6;var
+cF=0;if(bS){var
+d7=q[1],bT=7===d7[0]?e(aB,d7[1]):0,d8=function(c,b){var
+a=m3(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=ge(a[2]);if(b){var
+b=gg(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return ge(a[1]);case
-2:case
-3:case
-4:return 1;default:var
-a=a[1];continue}},e);if(b){var
-c=a[3];if(c)return eP(bS,m0(c[1]));var
+1:return gg(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}},e);if(b){var
+c=a[3];if(c)return eP(bT,m2(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},d9=function(e,d,c,b){var
-a=m1(e);return a?eP(bS,f(d,f(c,m0(b)))):a},l=q[1];switch(l[0]){case
+a=m3(e);return a?eP(bT,f(d,f(c,m2(b)))):a},l=q[1];switch(l[0]){case
 0:var
-gW=w(db,l[4]),gX=f(w(mY,l[3]),gW),gY=f(mW(l[2]),gX),T=f(w(id,l[1]),gY);break;case
+gW=w(da,l[4]),gX=f(w(m0,l[3]),gW),gY=f(mY(l[2]),gX),S=f(w(id,l[1]),gY);break;case
 1:var
-bO=l[5],bP=l[3],gZ=w(db,l[6]),g0=bO?mX(bO[1]):bO,g1=f(g0,gZ),g2=f(mV(l[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),T=f(w(xm,l[2]),g4);break;case
+bO=l[5],bP=l[3],gZ=w(da,l[6]),g0=bO?mZ(bO[1]):bO,g1=f(g0,gZ),g2=f(mX(l[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),S=f(w(xp,l[2]),g4);break;case
 2:var
-g5=w(db,l[7]),g6=f(w(mY,l[6]),g5),g7=f(mX(l[5]),g6),g8=f(mV(l[4]),g7),g9=[0,l[3],g8],g_=l[2],T=f(w(function(a){return w(dT,f(a[1],a[2]))},g_),g9);break;case
+g5=w(da,l[7]),g6=f(w(m0,l[6]),g5),g7=f(mZ(l[5]),g6),g8=f(mX(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(w(function(a){return w(dT,f(a[1],a[2]))},g_),g9);break;case
 3:var
-g$=w(db,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],T=f(w(function(a){return dT(a[2])},hc),hb);break;case
+g$=w(da,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(w(function(a){return dT(a[2])},hc),hb);break;case
 4:var
-hd=w(db,l[3]),T=[0,l[1],[0,l[2],hd]];break;case
+hd=w(da,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
 5:var
-he=w(db,l[4]),hf=f(bK(l[3]),he),hg=f(bK(l[2]),hf),hh=f(w(id,l[1]),hg),T=[0,l[5],hh];break;case
+he=w(da,l[4]),hf=f(bK(l[3]),he),hg=f(bK(l[2]),hf),hh=f(w(id,l[1]),hg),S=[0,l[5],hh];break;case
 6:var
-bQ=l[1],T=bQ?dT(bQ[1]):bQ;break;default:var
-hi=w(db,l[4]),hj=f(mW(l[3]),hi),T=f(w(id,l[2]),hj)}var
-d_=eP(bS,T);if(d_){var
+bQ=l[1],S=bQ?dT(bQ[1]):bQ;break;default:var
+hi=w(da,l[4]),hj=f(mY(l[3]),hi),S=f(w(id,l[2]),hj)}var
+d_=eP(bT,S);if(d_){var
 U=q[2];switch(U[0]){case
 0:var
 aC=d8(U[1],U[3]);break;case
@@ -6422,84 +6438,84 @@ a!=="number")switch(a[0]){case
 1:return d8(a[1],a[3]);case
 2:return d9(a[1],a[2],a[3],a[4])}return 1},hk)}}else{var
 d$=d_;cF=1}}else{var
-d$=bR;cF=1}if(cF)var
+d$=bS;cF=1}if(cF)var
 aC=d$;if(aC){var
 a=q[1];switch(a[0]){case
 0:var
 eM=a[4],eQ=a[3],eS=a[2],eT=a[1],aa=q[2];switch(aa[0]){case
-0:return nv(0,eT,eS,eQ,eM,aa[1],aa[2],aa[3]);case
-1:return nx(eT,eS,eQ,eM,aa[2],aa[3],aa[4]);default:return 0}case
+0:return nx(0,eT,eS,eQ,eM,aa[1],aa[2],aa[3]);case
+1:return nz(eT,eS,eQ,eM,aa[2],aa[3],aa[4]);default:return 0}case
 1:var
-cb=a[6],cc=a[5],cd=a[4],ce=a[3],aD=a[2],ad=a[1],an=q[2];switch(an[0]){case
-0:return nw(ad,aD,ce,cd,cc,cb,an[1],an[3]);case
+cb=a[6],cc=a[5],cd=a[4],ce=a[3],aE=a[2],ad=a[1],an=q[2];switch(an[0]){case
+0:return ny(ad,aE,ce,cd,cc,cb,an[1],an[3]);case
 1:var
 eU=an[3],hT=an[4],hU=an[2],ek=typeof
-ad==="number"?ad?yE:yF:iu(ad[1]),b7=e(k,hU),el=nl(aD,e(k,eU));if(el[2])return 0;var
-b8=ir(hT);if(b8){var
-em=iw(w(nr,aD),eU),en=em?ns(ad,aD,ce,cd,cc,cb):em;if(en)var
-hI=a$(ad),b9=s(h(b7),hI);else
+ad==="number"?ad?yH:yI:iu(ad[1]),b8=e(k,hU),el=nn(aE,e(k,eU));if(el[2])return 0;var
+b9=ir(hT);if(b9){var
+em=iw(w(nt,aE),eU),en=em?nu(ad,aE,ce,cd,cc,cb):em;if(en)var
+hI=a$(ad),b_=s(h(b8),hI);else
 var
-b9=en;if(b9){var
-hJ=b8[1],t=b_(ek,b7),F=a3(bi(ek,b7)),am=el[1],Y=m_(ad,aD,ce,cd,cc,cb),cY=mi(o,Y[2],am);if(cY){var
-cU=c0(o,Y[4],F),cG=0;if(cU){var
+b_=en;if(b_){var
+hJ=b9[1],t=bR(ek,b8),F=a3(bj(ek,b8)),am=el[1],Y=na(ad,aE,ce,cd,cc,cb),cY=mk(o,Y[2],am);if(cY){var
+cU=cZ(o,Y[4],F),cG=0;if(cU){var
 cV=Y[5];if(cV)var
-ba=fR(o,cV[1],t);else
+ba=fS(o,cV[1],t);else
 if(t)var
 ba=0;else{var
-cW=1;cG=1}}else{var
-cW=cU;cG=1}if(cG)var
-ba=cW;var
+cX=1;cG=1}}else{var
+cX=cU;cG=1}if(cG)var
+ba=cX;var
 bb=ba}else
 var
 bb=cY;if(bb){var
-B=Y[5],cZ=Y[3],aK=Y[1],fV=Y[6],fM=e(function(a){if(0===a[0]){var
-d=ch(B,t,F,a),c=ey(a[1],d);return[0,mg(aK,c,av([5,[0,b,b],cZ],eA(hW(B,t,f5(a)),c)))]}return 0},am),fN=w(function(a){if(0===a[0]){var
-c=ch(B,t,F,a),b=kZ(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=ch(B,t,F,a);return[0,lg(a[1],e),0]},am),fO=e(function(d){var
-b=ch(B,t,F,d);if(0===d[0]){var
+A=Y[5],c3=Y[3],aL=Y[1],fU=Y[6],fM=e(function(a){if(0===a[0]){var
+d=ch(A,t,F,a),c=ey(a[1],d);return[0,mi(aL,c,aw([5,[0,b,b],c3],eA(hW(A,t,f7(a)),c)))]}return 0},am),fN=w(function(a){if(0===a[0]){var
+c=ch(A,t,F,a),b=k0(a[1],c),d=b?[0,b[1],0]:b;return d}var
+e=ch(A,t,F,a);return[0,lh(a[1],e),0]},am),fO=e(function(d){var
+b=ch(A,t,F,d);if(0===d[0]){var
 a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=c1(e,h,g,f,b),i=c2(a[5],j),k=av(i,aB(e)),l=ex(e,h,g,b);return[0,[0,mh(aK,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fP(c,b),o=lj(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,mh(aK,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fS=e(function(a){if(0===a[0]){var
-c=ch(B,t,F,a);return[0,hs(a[1],c)]}var
-b=a[1],d=li(b,ch(B,t,F,a));return[1,lh(b,ch(B,t,F,a)),d]},am),fT=[0,e(function(a){if(0===a[0])var
-k=ch(B,t,F,a),d=c3(a[1],k);else
+f=a[4],g=a[3],h=a[2],e=a[1],j=c0(e,h,g,f,b),i=c1(a[5],j),k=aw(i,aD(e)),l=ex(e,h,g,b);return[0,[0,mj(aL,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
+c=d[1],m=c[6],n=fQ(c,b),o=lk(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,mj(aL,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fP=e(function(a){if(0===a[0]){var
+c=ch(A,t,F,a);return[0,ht(a[1],c)]}var
+b=a[1],d=lj(b,ch(A,t,F,a));return[1,li(b,ch(A,t,F,a)),d]},am),fT=[0,e(function(a){if(0===a[0])var
+k=ch(A,t,F,a),d=c2(a[1],k);else
 var
-e=ch(B,t,F,a),c=a[1],f=lj(c,e),g=c[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fP(c,e),d=av([5,[0,b,b],[4,c[5],j]],i);return mg(aK,d,av([5,[0,b,b],cZ],eA(hW(B,t,f5(a)),d)))},am),fS,fO,fN,fM];return ld(o,a$(Y[1]),fT,fV,hJ)}return bb}var
-eo=b9}else
+e=ch(A,t,F,a),c=a[1],f=lk(c,e),g=c[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fQ(c,e),d=aw([5,[0,b,b],[4,c[5],j]],i);return mi(aL,d,aw([5,[0,b,b],c3],eA(hW(A,t,f7(a)),d)))},am),fP,fO,fN,fM];return le(o,a$(Y[1]),fT,fU,hJ)}return bb}var
+eo=b_}else
 var
-eo=b8;return eo;default:return 0}case
+eo=b9;return eo;default:return 0}case
 2:var
-aF=a[7],aG=a[6],aX=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
+aF=a[7],aH=a[6],aX=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
 0:var
-cf=ag[3],ah=m8(ao,af,aZ,aY,aX,aG,aF),hV=ah[2],eV=D(b,bH(w(function(a){var
-b=a9(a[2]);return f(a9(a[1]),b)},hV))),hX=h(cf),cg=de(mc(eV,ah[2]),hX,cf);if(cg){var
+cf=ag[3],ah=m_(ao,af,aZ,aY,aX,aH,aF),hV=ah[2],eV=D(b,bH(w(function(a){var
+b=a9(a[2]);return f(a9(a[1]),b)},hV))),hX=h(cf),cg=dd(me(eV,ah[2]),hX,cf);if(cg){var
 eW=cg[1];if(eW[2])return 0;var
-eX=nq(ao,af,aZ,aY,aX,aG,aF),eY=eX?go(bY(ao),cf):eX;if(eY){var
-hY=eW[1],hZ=nu(h(af),aG,aF),h1=ix(ag[2]),h2=ag[1],fG=ah[2],cT=n(function(a){var
-b=mf(o,a[1]);return b?mf(o,a[2]):b},fG);if(cT)var
-fH=hu(ah[4]),a8=c0(o,ah[4],fH);else
+eX=ns(ao,af,aZ,aY,aX,aH,aF),eY=eX?gq(bZ(ao),cf):eX;if(eY){var
+hY=eW[1],hZ=nw(h(af),aH,aF),h1=ix(ag[2]),h2=ag[1],fG=ah[2],cT=n(function(a){var
+b=mh(o,a[1]);return b?mh(o,a[2]):b},fG);if(cT)var
+fH=hv(ah[4]),a8=cZ(o,ah[4],fH);else
 var
 a8=cT;if(a8)var
-fJ=f0(ah[5]),a_=n(function(a){return eH(o,a)},fJ);else
+fJ=f1(ah[5]),a_=n(function(a){return eH(o,a)},fJ);else
 var
-a_=a8;return a_?sy(h2,h1,hZ,ah,eV,hY):a_}var
+a_=a8;return a_?sB(h2,h1,hZ,ah,eV,hY):a_}var
 eZ=eY}else
 var
 eZ=cg;return eZ;case
 1:var
-a0=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=iu(ao),e1=nk(af,e(k,e0));if(e1[2])return 0;var
-J=e1[1],e2=iw(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?nq(ao,af,aZ,aY,aX,aG,aF):e2;if(e3){var
-p=m8(ao,af,aZ,aY,aX,aG,aF);if(typeof
+a0=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=iu(ao),e1=nm(af,e(k,e0));if(e1[2])return 0;var
+J=e1[1],e2=iw(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?ns(ao,af,aZ,aY,aX,aH,aF):e2;if(e3){var
+p=m_(ao,af,aZ,aY,aX,aH,aF);if(typeof
 a0!=="number"&&2===a0[0]){var
-e5=e(k,a0[1]),e6=b_(ap,e5),e7=a3(bi(ap,e5)),e8=b_(ap,a2),e9=a3(bi(ap,a2)),dE=lu(o,p[2],J);if(dE)var
-gB=bY(p[1]),bz=s(h(J),gB);else
+e5=e(k,a0[1]),e6=bR(ap,e5),e7=a3(bj(ap,e5)),e8=bR(ap,a2),e9=a3(bj(ap,a2)),dE=lv(o,p[2],J);if(dE)var
+gB=bZ(p[1]),bz=s(h(J),gB);else
 var
 bz=dE;var
-dF=bz?c0(o,p[4],e9):bz,dG=dF?c0(o,p[4],e7):dF,dH=dG?fR(o,p[5],e8):dG,dI=dH?fR(o,p[5],e6):dH;if(dI){var
+dF=bz?cZ(o,p[4],e9):bz,dG=dF?cZ(o,p[4],e7):dF,dH=dG?fS(o,p[5],e8):dG,dI=dH?fS(o,p[5],e6):dH;if(dI){var
 dJ=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
-h=e(function(a){return lt(dJ,gD,gC,f,g,a)},J),i=bY(dJ),a=mC(o,h);function
+h=e(function(a){return lu(dJ,gD,gC,f,g,a)},J),i=bZ(dJ),a=mE(o,h);function
 c(a,b){return v(o,a,b)}var
-d=Q(o,b);return x(function(a){return mA(A,d,E,c,i,a)},a)},bw=dv(e9,e8);if(bw){var
+d=Q(o,b);return x(function(a){return mC(B,d,E,c,i,a)},a)},bw=dv(e9,e8);if(bw){var
 dw=bw[1],by=dv(e7,e6);if(by){var
 dx=by[1],dy=K(d,dw[1]),dz=dy?K(dx[2],d):dy;if(dz)var
 dA=dz;else{var
@@ -6512,75 +6528,75 @@ dC=dB}else
 var
 dC=bw;return dC}return dI}var
 ci=ir(a0);if(ci){var
-h4=ci[1],ar=b_(ap,a2),aH=a3(bi(ap,a2)),cM=lu(o,p[2],J),cN=cM?c0(o,p[4],aH):cM,cO=cN?fR(o,p[5],ar):cN;if(cO){var
-aw=p[5],cP=p[3],cQ=p[1],fF=p[6],cL=function(a){var
-b=fU(aw,ar,aH,a);return S(fU(aw,ar,aH,a),b)},fA=e(function(a){return[0,lt(cQ,cP,aw,ar,aH,a)]},J),fB=e(cL,J),fC=e(function(a){return 0},J),fD=e(function(a){return[0,[6,cL(a)]]},J),fE=[0,e(function(c){var
-a=aB(fU(aw,ar,aH,c));return hF(cQ,a,av([5,[0,b,b],cP],eA(fQ(aw,ar,c[2]),a)))},J),fD,fC,fB,fA];return ld(o,bY(p[1]),fE,fF,h4)}return cO}var
+h4=ci[1],ar=bR(ap,a2),aI=a3(bj(ap,a2)),cM=lv(o,p[2],J),cN=cM?cZ(o,p[4],aI):cM,cO=cN?fS(o,p[5],ar):cN;if(cO){var
+ax=p[5],cP=p[3],cS=p[1],fF=p[6],cL=function(a){var
+b=fV(ax,ar,aI,a);return T(fV(ax,ar,aI,a),b)},fA=e(function(a){return[0,lu(cS,cP,ax,ar,aI,a)]},J),fB=e(cL,J),fC=e(function(a){return 0},J),fD=e(function(a){return[0,[6,cL(a)]]},J),fE=[0,e(function(c){var
+a=aD(fV(ax,ar,aI,c));return hG(cS,a,aw([5,[0,b,b],cP],eA(fR(ax,ar,c[2]),a)))},J),fD,fC,fB,fA];return le(o,bZ(p[1]),fE,fF,h4)}return cO}var
 e4=ci}else
 var
 e4=e3;return e4;default:return 0}case
 3:var
-at=a[7],e_=a[6],e$=a[5],Z=a[4],fa=a[2],cj=a[1],a4=q[2];if(0===a4[0]){var
-ck=a4[3],cl=de(0,h(ck),ck);if(cl){var
+au=a[7],e_=a[6],e$=a[5],Z=a[4],fa=a[2],cj=a[1],a4=q[2];if(0===a4[0]){var
+ck=a4[3],cl=dd(0,h(ck),ck);if(cl){var
 fb=cl[1];if(fb[2])return 0;var
-hG=h(cj),hH=h(e_),eg=s(h(e$),hH),eh=eg?n(function(a){var
-b=aN(hG,h(Z),a);if(b){var
+hE=h(cj),hH=h(e_),eg=s(h(e$),hH),eh=eg?n(function(a){var
+b=aN(hE,h(Z),a);if(b){var
 c=a[1];if(1===c){var
-d=a[2],e=d?[0,bx(d[1]),0]:aE(0,h(Z));return n(function(b){var
-a=M(Z,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Z):1}return b},at):eg,ei=eh?gn(at):eh,ej=ei?n(function(a){return eR(a[2])},fa):ei,fc=ej?n(it,dV(0,h(Z),0,at)):ej,fd=fc?go(h(cj),ck):fc;if(fd){var
-h5=fb[1],h6=a[3],ec=al(gg,at),aT=dV(0,h(Z),0,at),ht=ax(e$,e_),bZ=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},ht),hv=e(function(a){return 0===a[0]?[0,e(cH,a[1])]:[1,cH(a[1])]},Z),hw=e(function(a){var
+d=a[2],e=d?[0,bx(d[1]),0]:aG(0,h(Z));return n(function(b){var
+a=M(Z,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Z):1}return b},au):eg,ei=eh?gp(au):eh,ej=ei?n(function(a){return eR(a[2])},fa):ei,fc=ej?n(it,dV(0,h(Z),0,au)):ej,fd=fc?gq(h(cj),ck):fc;if(fd){var
+h5=fb[1],h6=a[3],ec=al(gi,au),aT=dV(0,h(Z),0,au),hr=at(e$,e_),b0=e(function(a){var
+b=k(a[2]);return[0,k(a[1]),b]},hr),hu=e(function(a){return 0===a[0]?[0,e(cH,a[1])]:[1,cH(a[1])]},Z),hw=e(function(a){var
 b=cH(a[2]);return[0,a[1],b]},h6),m=[0,cj,e(function(a){var
-b=bL(a[2]);return[0,a[1],b]},fa),hw,hv],h7=nu(h(Z),0,at),fe=ix(a4[2]),aI=a4[1],gy=e(aM,m[2]),bq=f(m[1],gy),br=h(m[1]),dn=V(sV,br),dp=dn?V(br,sW):dn,dq=dp?V(br,h(m[4])):dp,dr=dq?V(h(m[4]),sX):dq,ds=dr?my(bq):dr;if(ds){var
-aQ=bq,aP=m[3];for(;;){if(aP){var
+b=bL(a[2]);return[0,a[1],b]},fa),hw,hu],h7=nw(h(Z),0,au),fe=ix(a4[2]),aJ=a4[1],gy=e(aB,m[2]),br=f(m[1],gy),bs=h(m[1]),dn=V(sY,bs),dp=dn?V(bs,sZ):dn,dq=dp?V(bs,h(m[4])):dp,dr=dq?V(h(m[4]),s0):dq,ds=dr?mA(br):dr;if(ds){var
+aQ=br,aP=m[3];for(;;){if(aP){var
 dj=aP[1],dk=dj[1],dl=ac(al(function(b){return function(a){return as(b,a)}}(dk),aQ)),dm=dl?h3(aQ,dj[2]):dl;if(dm){var
 aQ=[0,dk,aQ],aP=aP[2];continue}var
 dt=dm}else
 var
 dt=1;var
-bs=dt;break}}else
+bt=dt;break}}else
 var
-bs=ds;if(bs)var
-gz=m[4],bt=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aM,m[3]),bq);return n(function(a){return h3(c,a)},b)},gz);else
+bt=ds;if(bt)var
+gz=m[4],bu=n(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aB,m[3]),br);return n(function(a){return h3(c,a)},b)},gz);else
 var
-bt=bs;if(bt)var
-gA=m[2],bv=n(function(a){return bk(o,a[2][1],a[2][2])},gA);else
+bu=bt;if(bu)var
+gA=m[2],bv=n(function(a){return bl(o,a[2][1],a[2][2])},gA);else
 var
-bv=bt;var
-du=bv?n(function(a){return bk(o,a[1],a[2])},bZ):bv;if(du){var
-bd=h(m[1]),be=h(m[2]),c6=P(be,h(h0(e(bu,m[3])))),fZ=m[3],az=mx(m),aL=fZ,bc=be;for(;;){if(aL){var
-c4=aL[1],c5=c4[2],fW=P(bc,h(bJ(c5))),fX=aL[2],fY=bm(az,c5,bc),az=[0,[0,c4[1],fY],az],aL=fX,bc=fW;continue}var
-$=mu(bd,az,m[4],c6),f1=mt(az,m[4],c6),f2=m[3],c7=f(mq(mx(m),f2,be),f1),c8=h(mw(m)),f3=0,f4=f(c7,cA(function(a,b){return mn($,a,b)},f3,d,c8,aT)),f6=f(bF(eI($)),f4),c9=f(bF(dQ($)),f6),bf=ct(c9)[1],f7=cs(bf),ak=function(a){return a1(f7,a)},c_=s(h(bZ),bd);if(c_)var
-f8=m[4],bg=n(function(a){return 0===a[0]?s(h(a[1]),bd):1},f8);else
+bv=bu;var
+du=bv?n(function(a){return bl(o,a[1],a[2])},b0):bv;if(du){var
+bd=h(m[1]),be=h(m[2]),c6=P(be,h(h0(e(bg,m[3])))),fZ=m[3],ay=mz(m),aM=fZ,bc=be;for(;;){if(aM){var
+c4=aM[1],c5=c4[2],fW=P(bc,h(bJ(c5))),fX=aM[2],fY=bn(ay,c5,bc),ay=[0,[0,c4[1],fY],ay],aM=fX,bc=fW;continue}var
+$=mw(bd,ay,m[4],c6),f0=mv(ay,m[4],c6),f2=m[3],c7=f(ms(mz(m),f2,be),f0),c8=h(my(m)),f3=0,f4=f(c7,cA(function(a,b){return mp($,a,b)},f3,d,c8,aT)),f5=f(bF(eI($)),f4),c9=f(bF(dQ($)),f5),bf=ct(c9)[1],f6=cs(bf),ak=function(a){return a1(f6,a)},c_=s(h(b0),bd);if(c_)var
+f8=m[4],bh=n(function(a){return 0===a[0]?s(h(a[1]),bd):1},f8);else
 var
-bg=c_;var
-c$=bg?n(function(a){var
-b=j(d),c=cs(bf);return ay(r(ak(a),c,b),a)},c9):bg,da=c$?al(mp,aT):c$;if(da){var
+bh=c_;var
+c$=bh?n(function(a){var
+b=j(d),c=cs(bf);return az(r(ak(a),c,b),a)},c9):bh,db=c$?al(mr,aT):c$;if(db){var
 dc=ac(ec);if(dc)var
 aO=dc;else
 var
 gx=m[4],aO=n(function(a){return 0===a[0]?0:1},gx)}else
 var
-aO=da;if(aO){var
-f$=mw(m),bj=W(e(function(a){return aj(aI,a)},f$));if(bj){var
-ga=0,gb=w(function(a){return eC(ga,d,a)},aT),bl=W(e(function(a){return hE(aI,a)},gb));if(bl){var
-bn=W(e(function(a){return aj(aI,[0,a,d])},bZ));if(bn){var
-gc=0,gd=0,bo=W(cA(function(a,b){return mo(aI,ak,$,gd,d,a,b)},gc,d,c8,aT));if(bo){var
-dd=bo[1];if(ec)var
-gf=fe[2],gi=fe[1],gk=eI($),bp=k8(h7,dd,[8,i(aq(ak),gk),gi,gf]);else
+aO=db;if(aO){var
+f9=my(m),bk=W(e(function(a){return aj(aJ,a)},f9));if(bk){var
+f_=0,gb=w(function(a){return eC(f_,d,a)},aT),bm=W(e(function(a){return hF(aJ,a)},gb));if(bm){var
+bo=W(e(function(a){return aj(aJ,[0,a,d])},b0));if(bo){var
+gc=0,gd=0,bp=W(cA(function(a,b){return mq(aJ,ak,$,gd,d,a,b)},gc,d,c8,aT));if(bp){var
+de=bp[1];if(ec)var
+ge=fe[2],gf=fe[1],gh=eI($),bq=k9(h7,de,[8,i(aq(ak),gh),gf,ge]);else
 var
-bp=dd;var
-gp=hn(bp),gq=bn[1],gr=function(a){return 0},gs=f(bj[1],bl[1]),gt=e(ak,c7),gu=eI($),gv=i(aq(ak),gu),gw=dQ($);return fI(aI,bf,i(aq(ak),gw),gv,gt,gs,bp,gr,gq,gp,h5)}var
-df=bo}else
+bq=de;var
+gk=hp(bq),gm=bo[1],gr=function(a){return 0},gs=f(bk[1],bm[1]),gt=e(ak,c7),gu=eI($),gv=i(aq(ak),gu),gw=dQ($);return fI(aJ,bf,i(aq(ak),gw),gv,gt,gs,bq,gr,gm,gk,h5)}var
+df=bp}else
 var
-df=bn;var
+df=bo;var
 dg=df}else
 var
-dg=bl;var
+dg=bm;var
 dh=dg}else
 var
-dh=bj;var
+dh=bk;var
 di=dh}else
 var
 di=aO;return di}}return du}var
@@ -6589,32 +6605,32 @@ var
 ff=cl;return ff}return 0;case
 4:var
 cm=q[2];if(0===cm[0]){var
-aJ=a[3],G=a[2],cn=a[1],h8=cm[3],h9=cm[1],ez=dW(k(cn));if(ez){var
-aU=bh(m$,aJ),cI=0;if(aU){var
-b0=aU[1];if(b0[2]||b0[3])var
+aK=a[3],G=a[2],cn=a[1],h8=cm[3],h9=cm[1],ez=dW(k(cn));if(ez){var
+aU=bi(nb,aK),cI=0;if(aU){var
+b1=aU[1];if(b1[2]||b1[3])var
 y=0;else{var
-aW=b0[4],X=aU[2],L=0;if(typeof
+aW=b1[4],X=aU[2],L=0;if(typeof
 aW!=="number")switch(aW[0]){case
 0:var
 a6=0;if(X){var
-b1=X[1];if(b1[2]||b1[3]){var
+b2=X[1];if(b2[2]||b2[3]){var
 y=0;L=1;a6=1}else{var
-b2=b1[4],cJ=0;if(typeof
-b2!=="number"&&1===b2[0])if(X[2]){var
+b3=b2[4],cJ=0;if(typeof
+b3!=="number"&&1===b3[0])if(X[2]){var
 y=0;L=1;a6=1;cJ=1}else{var
-y=[0,[0,aW[1],b2[1]]];L=1;a6=1;cJ=1}if(!cJ)var
+y=[0,[0,aW[1],b3[1]]];L=1;a6=1;cJ=1}if(!cJ)var
 ee=0}}else
 var
 ee=X;if(!a6){var
 y=ee;L=1}break;case
 1:var
 a7=0;if(X){var
-b3=X[1];if(b3[2]||b3[3]){var
+b4=X[1];if(b4[2]||b4[3]){var
 y=0;L=1;a7=1}else{var
-b4=b3[4],cK=0;if(typeof
-b4!=="number"&&0===b4[0])if(X[2]){var
+b5=b4[4],cK=0;if(typeof
+b5!=="number"&&0===b5[0])if(X[2]){var
 y=0;L=1;a7=1;cK=1}else{var
-y=[0,[0,b4[1],aW[1]]];L=1;a7=1;cK=1}if(!cK)var
+y=[0,[0,b5[1],aW[1]]];L=1;a7=1;cK=1}if(!cK)var
 ef=0}}else
 var
 ef=X;if(!a7){var
@@ -6623,35 +6639,35 @@ ed=0;cI=1}}}else{var
 ed=aU;cI=1}if(cI)var
 y=ed;if(y){var
 eB=y[1],z=eB[2],eD=k(z),eE=k(eB[1]),dN=g(o,1,k(G)),dO=dN?g(o,1,[3,eD,[0,b,b]]):dN,dP=dO?g(o,1,eE):dO,eF=dP?g(o,0,[3,[5,[0,b,b],eD],eE]):dP;if(eF)var
-hM=0,hN=0,b$=n(function(a){return m6(hN,hM,yL,a)},aJ);else
+hM=0,hN=0,b$=n(function(a){return m8(hN,hM,yO,a)},aK);else
 var
 b$=eF;var
 eG=b$?n(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aJ):b$;if(eG){var
-b5=bh(function(a){return ac(na(a))},aJ);if(b5){var
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aK):b$;if(eG){var
+b6=bi(function(a){return ac(nc(a))},aK);if(b6){var
 hO=[0,c(2,b),b],C=g(o,0,[3,k(z),hO]);if(C)var
 ca=C;else
 var
 hS=k(z),ca=g(o,0,[3,[0,c(2,b),b],hS]);if(ca){var
 ev=w(function(a){var
-b=ig(0,yI,0,a);return e(function(b){return ac(na(a))},b)},aJ),hK=function(f){var
+b=ig(0,yL,0,a);return e(function(b){return ac(nc(a))},b)},aK),hK=function(f){var
 g=f[1];if(g){var
 i=g[1],j=r(i,ev,0);if(j)var
-l=bi(i,ev),k=[0,[0,h(bh(function(a){return a},l))]];else
+l=bj(i,ev),k=[0,[0,h(bi(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=yK;if(a){var
+a=yN;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,yJ,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},hL=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},h8),hP=[0,b5[1],b5[2]],hx=[0,ik(C,G,z),0],hy=[0,ik(C,G,z),hx],hz=[0,ik(C,G,z),hy],hA=[0,gj(C,G,z),0],hB=[0,gj(C,G,z),hA],hQ=0,hC=[0,[0,gj(C,G,z),hB],hz],hR=0,b6=function(b,a){return e(function(c){var
-d=s(b,c)?a:xF;return[0,d]},xH)};return nw(0,e(function(a){var
-e=[0,gh(C,G,z)],d=1,f=b6(a,[2,cn]);function
+2:return[0,[0,c,[1,yM,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},hL=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},h8),hP=[0,b6[1],b6[2]],hx=[0,ik(C,G,z),0],hy=[0,ik(C,G,z),hx],hz=[0,ik(C,G,z),hy],hA=[0,gl(C,G,z),0],hB=[0,gl(C,G,z),hA],hQ=0,hC=[0,[0,gl(C,G,z),hB],hz],hR=0,b7=function(b,a){return e(function(c){var
+d=s(b,c)?a:xI;return[0,d]},xK)};return ny(0,e(function(a){var
+e=[0,gj(C,G,z)],d=1,f=b7(a,[2,cn]);function
 b(b,a){return[3,1,b,a]}var
-c=gh(C,G,z),g=b6(a,b(b(gj(C,G,z),cn),c));return[0,b6(a,xG),g,f,e,d]},xI),hR,hC,hQ,hP,h9,hL)}return ca}var
+c=gj(C,G,z),g=b7(a,b(b(gl(C,G,z),cn),c));return[0,b7(a,xJ),g,f,e,d]},xL),hR,hC,hQ,hP,h9,hL)}return ca}var
 eJ=1}else
 var
 eJ=eG;var
@@ -6665,17 +6681,17 @@ eL=ez;return eL}return 0;case
 co=a[4],fg=a[1],cp=q[2];if(0===cp[0]){var
 fh=cp[3],u=ie(fg,[0,a[2],a[3]],0,co),cq=is(h(fh),fh);if(cq){var
 fi=cq[1];if(fi[2])return 0;var
-fj=iv(fg,0,co,u),fk=fj?ac(al(gg,co)):fj;if(fk){var
-fl=k7(o,u);if(fl){var
-h_=fi[1],fm=e(gm,u[1]),I=ip(u[1]),fn=k(a[5]),_=cp[1],bC=fK(I,fm,u[1]),N=ho(I,fm,u[1],0),gI=h(u[3]),gJ=P(h(bC),gI),aR=[0,h(bC),gJ],gK=hq(N,I,aR,u[3]),gL=f(e(cx,N),gK),dX=f(bF(er(N)),gL),dY=ct(dX)[1],bD=cs(dY),dZ=u[2];if(0===dZ[0]){var
+fj=iv(fg,0,co,u),fk=fj?ac(al(gi,co)):fj;if(fk){var
+fl=k8(o,u);if(fl){var
+h_=fi[1],fm=e(go,u[1]),I=ip(u[1]),fn=k(a[5]),_=cp[1],bC=fK(I,fm,u[1]),N=hq(I,fm,u[1],0),gI=h(u[3]),gJ=P(h(bC),gI),aR=[0,h(bC),gJ],gK=hs(N,I,aR,u[3]),gL=f(e(cx,N),gK),dX=f(bF(er(N)),gL),dY=ct(dX)[1],bD=cs(dY),dZ=u[2];if(0===dZ[0]){var
 d0=n(function(a){var
-b=j(d);return ay(r(a1(bD,a),bD,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
-gM=u[3],gN=w(function(a){return cX(I,a)},gM),gO=u[3],gP=f(bC,f(e(function(a){return bE(I,a)},gO),gN)),bG=W(e(function(a){return aj(_,a)},gP));if(bG){var
+b=j(d);return az(r(a1(bD,a),bD,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
+gM=u[3],gN=w(function(a){return cW(I,a)},gM),gO=u[3],gP=f(bC,f(e(function(a){return bE(I,a)},gO),gN)),bG=W(e(function(a){return aj(_,a)},gP));if(bG){var
 gQ=aV(dZ[1],I),bI=W(e(function(a){return aj(_,a)},gQ));if(bI){var
 bM=cw(_,I,[5,fn,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bM){var
-bN=u[3],gR=bI[1],gS=bM[1],gT=bG[1],aA=function(a){return a1(bD,a)},gF=aE(0,h(bN)),gG=e(function(k){var
+bN=u[3],gR=bI[1],gS=bM[1],gT=bG[1],aA=function(a){return a1(bD,a)},gF=aG(0,h(bN)),gG=e(function(k){var
 l=M(bN,k);if(l){var
-a=l[1],u=bi(k,bN),v=h(w(function(a){return cX(I,a)},u)),y=P(aR[2],v),j=[0,P(aR[1],k),y],r=er(N),f=i(aq(aA),r),c=[1,[8,[1,[1,j[1]]]]],d=fL(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=bj(k,bN),v=h(w(function(a){return cW(I,a)},u)),y=P(aR[2],v),j=[0,P(aR[1],k),y],r=er(N),f=i(aq(aA),r),c=[1,[8,[1,[1,j[1]]]]],d=fL(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -6693,24 +6709,24 @@ q=c;m=1;break;case
 7:return n}if(m){var
 t=ew(N,I,j,a);return x(function(a){return[0,i(aq(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cx(a))},N),dR=e(function(a){return aA(a[2])},N),gU=u[3],gV=aR[1],dS=e(ae,gT),dU=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
-u=i[1],$=s(h(u),s8),aa=$?n(function(a){var
+u=i[1],$=s(h(u),s$),aa=$?n(function(a){var
 d=H(R(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},u):$;if(aa){var
-ad=mM(_,gS,es(0,l),u),j=i[2],v=bU(0,bW(_,ad,dS),dY,0),L=function(a){return mL(mK(_,ad,dS,v,a))};if(typeof
+ad=mO(_,gS,es(0,l),u),j=i[2],v=bV(0,bX(_,ad,dS),dY,0),L=function(a){return mN(mM(_,ad,dS,v,a))};if(typeof
 j==="number")return 0===j?al(function(b){var
 a=r(b,v,0);return a?H(a[1][2][2],d):a},dR):0;else{if(0===j[0]){var
-a=j[2],N=n(s6,a);if(N){var
+a=j[2],N=n(s9,a);if(N){var
 o=r(j[1],gG,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=f_(B,A),ao=f9(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=ga(B,A),ao=f$(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=f9(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,f_(E,D),aq]],0]]];y=1}else{var
+D=a[1],E=g[1],ap=f$(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,ga(E,D),aq]],0]]];y=1}else{var
 F=a;y=1}if(y)var
 f=F;break;case
 2:var
@@ -6718,7 +6734,7 @@ z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=f9(I),as=[1,[6,f_(m,G),ar]],at=[1,[6,g[2],as]],au=f9(G),J=[0,[0,m,[0,[1,[4,[1,[6,f_(m,I),au]],at]],0]]];else
+G=k[1],I=a[1],m=g[1],ar=f$(I),as=[1,[6,ga(m,G),ar]],at=[1,[6,g[2],as]],au=f$(G),J=[0,[0,m,[0,[1,[4,[1,[6,ga(m,I),au]],at]],0]]];else
 var
 J=k;if(!am){var
 K=J;z=1}}else{var
@@ -6727,7 +6743,7 @@ f=K;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-O=f[1],aw=O[1],Q=n(function(a){return mL(r(a[2],v,0))},aw);if(Q)return n(L,O[2]);var
+O=f[1],aw=O[1],Q=n(function(a){return mN(r(a[2],v,0))},aw);if(Q)return n(L,O[2]);var
 S=Q}else
 var
 S=f;var
@@ -6750,7 +6766,7 @@ Y=0}else
 var
 Y=p;return Y}}return aa}var
 ae=i[1],w=M(l,ae);if(w){var
-af=w[1],aA=af[1],ag=ac(ab(bX(af),aA));if(ag){var
+af=w[1],aA=af[1],ag=ac(ab(bY(af),aA));if(ag){var
 ah=et(ae,l),ai=dU(ah[1],i[2]);if(ai){var
 l=ah[2],i=i[3];continue}var
 aj=ai}else
@@ -6777,11 +6793,11 @@ fp=cq;return fp}return 0;case
 6:var
 fq=a[1];if(fq){var
 fr=fq[1],cr=q[2];if(0===cr[0]){var
-cu=iq(0,yN,cr[3]);if(cu){var
+cu=iq(0,yQ,cr[3]);if(cu){var
 fs=eR(fr);if(fs){var
 h$=cu[1],ft=bL(fr)[2],a5=cr[1],bA=cw(a5,d,ft);if(bA){var
 bB=cw(a5,d,[5,[0,b,b],ft]);if(bB){var
-gE=bA[1][1],dK=K(cS(a5),gE);if(dK)return mJ(a5,bB[1][1],h$);var
+gE=bA[1][1],dK=K(cR(a5),gE);if(dK)return mL(a5,bB[1][1],h$);var
 dL=dK}else
 var
 dL=bB;var
@@ -6792,60 +6808,60 @@ fu=fs}else
 var
 fu=cu;return fu}return 0}var
 cy=q[2];if(0===cy[0]){var
-cz=iq(0,yO,cy[3]);return cz?mJ(cy[1],d,cz[1]):cz}return 0;default:var
-au=a[1],fv=q[2];if(2===fv[0]){var
+cz=iq(0,yR,cy[3]);return cz?mL(cy[1],d,cz[1]):cz}return 0;default:var
+av=a[1],fv=q[2];if(2===fv[0]){var
 fw=fv[1],cB=im(h(fw),fw);if(cB){var
 fx=cB[1];if(fx[2])return 0;var
-cC=fx[1],ep=V(yH,h(au)),eq=ep?V(h(au),jU):ep,eu=eq?my(e(aM,au)):eq,fy=eu?n(function(c){var
+cC=fx[1],ep=V(yK,h(av)),eq=ep?V(h(av),jU):ep,eu=eq?mA(e(aB,av)):eq,fy=eu?n(function(c){var
 a=cv(k(c[2][1]));if(a){var
-b=cv(k(c[2][2]));if(b)return ac(cR(b[1],a[1]));var
+b=cv(k(c[2][2]));if(b)return ac(cQ(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},au):eu;if(fy)var
-ia=gl(xJ,cC),cD=nz(a[5],ia);else
+d=a;return d},av):eu;if(fy)var
+ia=gn(xM,cC),cD=nB(a[5],ia);else
 var
 cD=fy;if(cD)var
-ib=gl(xK,cC),cE=nz(a[6],ib);else
+ib=gn(xN,cC),cE=nB(a[6],ib);else
 var
 cE=cD;if(cE){var
-hD=e(function(a){return[0,d,0]},au);return ny(au,a[2],a[3],a[4],hD,cC)}var
+hD=e(function(a){return[0,d,0]},av);return nA(av,a[2],a[3],a[4],hD,cC)}var
 fz=cE}else
 var
 fz=cB;return fz}return 0}}return aC}var
-T=[aQ,yR,pP(0)],nA=[aQ,yS,pP(0)];function
-yP(m,b){var
-f=[0,l(w4,am(b[4])),0],g=[0,l(w6,_([0,l(w5,am(b[3])),f])),0],a=b[2];switch(a[0]){case
+U=[aQ,yU,pR(0)],nC=[aQ,yV,pR(0)];function
+yS(m,b){var
+f=[0,l(w7,am(b[4])),0],g=[0,l(w9,_([0,l(w8,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=L(w0,mT(a[1],a[2],a[3]));break;case
+c=L(w3,mV(a[1],a[2],a[3]));break;case
 1:var
-c=L(w1,mU(a[1],a[2],a[3],a[4]));break;default:var
-c=L(w2,C(e(wV,a[1])))}var
-h=[0,l(w7,c),g],i=1===b[2][0]?xb:w8,j=[0,l(w9,am(i)),h],k=[0,l(w_,vC(b[1])),j],d=as(jp(yQ,f$(_([0,l(xa,am(w$)),k]),w3)),m);return d?yM(b):d}function
-ah(a){if(0===a[0])return a[1];throw T}function
-$(a){if(1===a[0])return a[1];throw T}function
-aH(a){if(2===a[0])return a[1];throw T}function
-eS(a){if(3===a[0])return a[1];throw T}function
+c=L(w4,mW(a[1],a[2],a[3],a[4]));break;default:var
+c=L(w5,C(e(wY,a[1])))}var
+h=[0,l(w_,c),g],i=1===b[2][0]?xe:w$,j=[0,l(xa,am(i)),h],k=[0,l(xb,vF(b[1])),j],d=as(jp(yT,gb(_([0,l(xd,am(xc)),k]),w6)),m);return d?yP(b):d}function
+ah(a){if(0===a[0])return a[1];throw U}function
+$(a){if(1===a[0])return a[1];throw U}function
+aI(a){if(2===a[0])return a[1];throw U}function
+eS(a){if(3===a[0])return a[1];throw U}function
 aW(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===EW(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===EX(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 t(c,b){var
-a=aW(c,b);if(a)return a[1];throw T}function
+a=aW(c,b);if(a)return a[1];throw U}function
 cj(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dh(a){switch(a[0]){case
+dg(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],yT]}throw T}function
+2:return[0,a[1],yW]}throw U}function
 eT(e,d){var
 a=Y(e,$(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw T}function
-gp(i){var
-f=d9(i),d=[0,0],e=gQ(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw U}function
+gr(i){var
+f=d9(i),d=[0,0],e=gS(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=i5(f,c)-48|0;if(9<g>>>0)throw T;switch(g){case
+a=d[1],g=i5(f,c)-48|0;if(9<g>>>0)throw U;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6867,96 +6883,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eU(a){return jG(gp(a))}function
+eU(a){return jG(gr(a))}function
 eV(b){var
-a=eS(b);return 45===aR(a,0)?R(eU(ds(a,1,ao(a)-1|0))):eU(a)}function
-nB(a){return ef(eU(eS(a)))}function
+a=eS(b);return 45===aR(a,0)?R(eU(dr(a,1,ao(a)-1|0))):eU(a)}function
+nD(a){return ef(eU(eS(a)))}function
 eW(a){return jF(eU(eS(a)))}function
 cK(c){var
-a=eS(c);if(6<ao(a))throw T;function
+a=eS(c);if(6<ao(a))throw U;function
 b(a){return 0<a?[0,b(a-1|0)]:0}return b(jb(a))}function
-nC(a){var
-b=97<=a?1:0,c=b?a<=pr?1:0:b;if(c)var
+nE(a){var
+b=97<=a?1:0,c=b?a<=pt?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-nD(y,b){var
+nF(y,b){var
 d=ao(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aR(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aR(b,a[1])&&!(57<aR(b,a[1]))){a[1]++;continue}return ds(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aR(b,a[1])&&!(57<aR(b,a[1]))){a[1]++;continue}return dr(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw T}function
-h(j){if(64<j)throw T;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw U}function
+h(j){if(64<j)throw U;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&as(ds(b,a[1],5),yV)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&as(dr(b,a[1],5),yY)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&nC(aR(b,a[1]))){var
+v=0;if(a[1]<d&&nE(aR(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!nC(aR(b,a[1]))&&95!==aR(b,a[1])&&(!(48<=aR(b,a[1]))||57<aR(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,ds(b,o,a[1]-o|0))];break}}else
+w=0;if(!nE(aR(b,a[1]))&&95!==aR(b,a[1])&&(!(48<=aR(b,a[1]))||57<aR(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dr(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=as(g,yW);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=as(g,yZ);if(r)var
 s=r;else
 var
-t=1<ao(g)?1:0,s=t?48===aR(g,0)?1:0:t;if(s)throw T;if(q){var
-k=q[1],x=0;if(as(k,yX)||48===aR(k,ao(k)-1|0))x=1;else
+t=1<ao(g)?1:0,s=t?48===aR(g,0)?1:0:t;if(s)throw U;if(q){var
+k=q[1],x=0;if(as(k,y0)||48===aR(k,ao(k)-1|0))x=1;else
 var
-z=gp(k),e=[0,gp(g),z];if(x)throw T}else
+z=gr(k),e=[0,gr(g),z];if(x)throw U}else
 var
-e=[0,gp(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yU)){if(!(2<ao(f))&&2<=jb(f)&&!(64<jb(f)))return[4,e,ef(eU(f))];throw T}throw T}return e}function
+e=[0,gr(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,yX)){if(!(2<ao(f))&&2<=jb(f)&&!(64<jb(f)))return[4,e,ef(eU(f))];throw U}throw U}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw T;var
+f(d){if(64<d)throw U;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw T;return g}function
-gq(a){return nD(function(a){return[0,a]},a)}function
+g=f(0);if(a[1]<d)throw U;return g}function
+gs(a){return nF(function(a){return[0,a]},a)}function
 iy(a){var
-b=aH(a);return nD(function(a){return a},b)}function
-O(a){return gq(aH(a))}function
-b2(a){if(2===a[0])return[0,gq(a[1])];var
-b=ah(a),c=O(t(b,yY));return[1,O(t(b,yZ)),c]}function
-aa(a){throw[0,nA,aY(jp(y1,a),y0)]}function
+b=aI(a);return nF(function(a){return a},b)}function
+O(a){return gs(aI(a))}function
+b3(a){if(2===a[0])return[0,gs(a[1])];var
+b=ah(a),c=O(t(b,y1));return[1,O(t(b,y2)),c]}function
+aa(a){throw[0,nC,aY(jp(y4,a),y3)]}function
 iz(c){var
-a=aH(c);if(m(a,y2)){var
-b=m(a,y3);if(b)throw T;return b}return 1}function
-y4(d){var
+a=aI(c);if(m(a,y5)){var
+b=m(a,y6);if(b)throw U;return b}return 1}function
+y7(d){var
 b=ah(d);function
-a(a){return eT(b2,t(b,a))}var
-c=aH(t(b,y5));if(m(c,y6)){if(m(c,y7)){if(m(c,y8))return aa([0,y_,[0,c,y9]]);var
-e=aW(b,y$),f=cj(function(a){return eT(b2,a)},e),g=a(za);return[1,a(zb),g,f]}var
-h=iz(t(b,zc)),i=b2(t(b,zd)),j=a(ze),k=a(zf);return[0,a(zg),k,j,i,h]}return[2,a(zh)]}function
-zi(d){var
+a(a){return eT(b3,t(b,a))}var
+c=aI(t(b,y8));if(m(c,y9)){if(m(c,y_)){if(m(c,y$))return aa([0,zb,[0,c,za]]);var
+e=aW(b,zc),f=cj(function(a){return eT(b3,a)},e),g=a(zd);return[1,a(ze),g,f]}var
+h=iz(t(b,zf)),i=b3(t(b,zg)),j=a(zh),k=a(zi);return[0,a(zj),k,j,i,h]}return[2,a(zk)]}function
+zl(d){var
 a=ah(d);if(a){var
-b=a[1];if(!m(b[1],zj)){var
-c=b[2];if(2===c[0]&&!m(c[1],zk))return 1}}return 0}function
-nE(e){var
+b=a[1];if(!m(b[1],zm)){var
+c=b[2];if(2===c[0]&&!m(c[1],zn))return 1}}return 0}function
+nG(e){var
 b=ah(e);function
-a(a){return Y(b2,$(t(b,a)))}var
-c=aH(t(b,zl)),d=aW(b,zm);if(m(c,zn)){if(m(c,zo)){if(!m(c,zp)&&!d){var
-f=a(zs);return[1,a(zt),f]}}else
+a(a){return Y(b3,$(t(b,a)))}var
+c=aI(t(b,zo)),d=aW(b,zp);if(m(c,zq)){if(m(c,zr)){if(!m(c,zs)&&!d){var
+f=a(zv);return[1,a(zw),f]}}else
 if(!d){var
-g=iz(t(b,zu)),h=b2(t(b,zv)),i=a(zw),j=a(zx);return[0,a(zy),j,i,h,g]}}else
+g=iz(t(b,zx)),h=b3(t(b,zy)),i=a(zz),j=a(zA);return[0,a(zB),j,i,h,g]}}else
 if(!d){var
-k=iz(t(b,zz)),l=b2(t(b,zA)),n=b2(t(b,zB)),o=a(zC),p=a(zD),q=a(zE);return[2,a(zF),q,p,o,n,l,k]}return aa([0,zr,[0,c,zq]])}function
-nF(d){var
+k=iz(t(b,zC)),l=b3(t(b,zD)),n=b3(t(b,zE)),o=a(zF),p=a(zG),q=a(zH);return[2,a(zI),q,p,o,n,l,k]}return aa([0,zu,[0,c,zt]])}function
+nH(d){var
 a=ah(d);if(a){var
-b=a[1];if(!m(b[1],zG)){var
-c=b[2];if(2===c[0]&&!m(c[1],zH))return 1}}return 0}function
+b=a[1];if(!m(b[1],zJ)){var
+c=b[2];if(2===c[0]&&!m(c[1],zK))return 1}}return 0}function
 cL(c,d){var
 a=$(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw T}function
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw U}function
 dY(g,p){var
-h=g?g[1]:g,c=ah(p),a=aH(t(c,zI)),j=p2(a,zJ),f=0;if(0<=j)if(0<j)if(m(a,zK))if(m(a,zL))if(m(a,zM))if(m(a,zN))if(m(a,zO))if(m(a,zP)){var
-k=m(a,zQ);if(k)f=1;else
+h=g?g[1]:g,c=ah(p),a=aI(t(c,zL)),j=p4(a,zM),f=0;if(0<=j)if(0<j)if(m(a,zN))if(m(a,zO))if(m(a,zP))if(m(a,zQ))if(m(a,zR))if(m(a,zS)){var
+k=m(a,zT);if(k)f=1;else
 var
 b=k}else
 var
@@ -6974,7 +6990,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,z_))if(m(a,z$))if(m(a,Aa))if(m(a,Ab))if(m(a,Ac))if(m(a,Ad))if(m(a,Ae))if(m(a,Af))f=1;else
+if(m(a,Ab))if(m(a,Ac))if(m(a,Ad))if(m(a,Ae))if(m(a,Af))if(m(a,Ag))if(m(a,Ah))if(m(a,Ai))f=1;else
 var
 b=1;else
 var
@@ -6992,10 +7008,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-o=f?aa([0,zS,[0,a,zR]]):b;function
-i(a){return t(c,zT)}var
-d=aH(t(c,zU)),l=m(d,zV);if(l)if(m(d,zW))if(m(d,zX))if(m(d,zY))var
-e=aa([0,z0,[0,d,zZ]]);else
+o=f?aa([0,zV,[0,a,zU]]):b;function
+i(a){return t(c,zW)}var
+d=aI(t(c,zX)),l=m(d,zY);if(l)if(m(d,zZ))if(m(d,z0))if(m(d,z1))var
+e=aa([0,z3,[0,d,z2]]);else
 var
 n=cL(O,i(0)),e=[2,n[1],n[2]];else
 var
@@ -7007,86 +7023,86 @@ e=l;function
 q(E){var
 a=ah(E),c=0;switch(o){case
 6:if(a){var
-r=a[1];if(!m(r[1],z2)){var
+r=a[1];if(!m(r[1],z5)){var
 s=r[2];if(1===s[0]){var
 b=s[1],n=0;if(b&&!b[2])if(a[2])n=1;else{var
 e=b[1];c=1;n=1}if(!n&&!a[2])return[1,Y(O,b)]}}}break;case
 10:if(a){var
-t=a[1];if(!m(t[1],z3)){var
+t=a[1];if(!m(t[1],z6)){var
 u=t[2];if(1===u[0]){var
 f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!m(v[1],z4)){var
+v=g[1];if(!m(v[1],z7)){var
 w=v[2];if(1===w[0]){var
 i=w[1];if(i&&!i[2]&&!g[2]){var
 F=O(i[1]);return[2,O(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!m(x[1],z5)){var
+x=a[1];if(!m(x[1],z8)){var
 y=x[2];if(1===y[0]){var
 j=y[1];if(j&&!j[2]){var
 k=a[2],z=j[1];if(k){var
-A=k[1];if(!m(A[1],z6)){var
+A=k[1];if(!m(A[1],z9)){var
 B=A[2];if(1===B[0]){var
 l=B[1];if(l&&!l[2]&&!k[2]&&h){var
 G=O(l[1]);return[3,O(z),G]}}}}else{var
 e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!m(C[1],z7)){var
+C=a[1];if(!m(C[1],z_)){var
 D=C[2];if(1===D[0]&&!a[2])return[1,Y(O,D[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!m(p[1],z1)){var
+p=a[1];if(!m(p[1],z4)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,O(e)];throw T}var
-r=cj(q,aW(c,z8));return[0,o,cj(cK,aW(c,z9)),r,e]}function
-nG(c){var
-d=dY(Ai,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,O(e)];throw U}var
+r=cj(q,aW(c,z$));return[0,o,cj(cK,aW(c,Aa)),r,e]}function
+nI(c){var
+d=dY(Al,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dY(Ag,c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(Ah)}function
-nH(a){var
-b=dY(Aj,a);return 11===b[1]?b:nG(a)}function
-Ak(c){var
-d=dY(Al,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
-if(2!==a)b=1;return b?d:nH(c)}function
+a=dY(Aj,c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(Ak)}function
+nJ(a){var
+b=dY(Am,a);return 11===b[1]?b:nI(a)}function
+An(c){var
+d=dY(Ao,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+if(2!==a)b=1;return b?d:nJ(c)}function
 iA(c){var
-d=dY(Am,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:nG(c)}function
+d=dY(Ap,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
+if(4<=a)b=1;return b?d:nI(c)}function
 iB(b){var
-a=ah(b[2]);if(m(b[1],At)){var
-c=cL(O,t(a,Au)),d=cL(O,t(a,Av)),e=d[2],f=d[1],g=O(t(a,Aw));return[1,c[1],c[2],g,f,e]}var
-h=Y(O,$(t(a,Ax)));return[0,Y(O,$(t(a,Ay))),h]}function
-Az(f){var
+a=ah(b[2]);if(m(b[1],Aw)){var
+c=cL(O,t(a,Ax)),d=cL(O,t(a,Ay)),e=d[2],f=d[1],g=O(t(a,Az));return[1,c[1],c[2],g,f,e]}var
+h=Y(O,$(t(a,AA)));return[0,Y(O,$(t(a,AB))),h]}function
+AC(f){var
 a=ah(f);function
 d(b){return O(t(a,b))}function
 c(b){return eT(O,t(a,b))}var
-b=aH(t(a,AA));if(m(b,AB)){if(!m(b,AC)){var
-j=t(a,AI),e=cL(function(a){return a},j),k=aW(a,AJ),l=cj(function(a){return c(AK)},k),n=gq(aH(e[2])),o=gq(aH(e[1])),p=d(AL);return[0,cK(t(a,AM)),p,o,n,l]}if(m(b,AD))throw T}var
-g=d(AE),h=c(AF),i=c(AG);return[1,as(b,AH),i,h,g]}function
+b=aI(t(a,AD));if(m(b,AE)){if(!m(b,AF)){var
+j=t(a,AL),e=cL(function(a){return a},j),k=aW(a,AM),l=cj(function(a){return c(AN)},k),n=gs(aI(e[2])),o=gs(aI(e[1])),p=d(AO);return[0,cK(t(a,AP)),p,o,n,l]}if(m(b,AG))throw U}var
+g=d(AH),h=c(AI),i=c(AJ);return[1,as(b,AK),i,h,g]}function
 iC(aq){var
-g=dh(aq),h=g[1];if(m(h,AN)){if(m(h,AO)){if(m(h,AP)){if(m(h,AQ))return aa([0,AS,[0,h,AR]]);var
-w=t(ah(g[2]),AT),af=0;if(2===w[0]){var
-L=m(w[1],AU);if(!L){var
+g=dg(aq),h=g[1];if(m(h,AQ)){if(m(h,AR)){if(m(h,AS)){if(m(h,AT))return aa([0,AV,[0,h,AU]]);var
+w=t(ah(g[2]),AW),af=0;if(2===w[0]){var
+L=m(w[1],AX);if(!L){var
 K=L;af=1}}if(!af)var
-K=[0,b2(w)];return[6,K]}var
-M=ah(g[2]),j=iC([0,[0,[0,AW,t(M,AV)],0]]);if(0===j[0]){var
+K=[0,b3(w)];return[6,K]}var
+M=ah(g[2]),j=iC([0,[0,[0,AZ,t(M,AY)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ar=O(t(M,AY));return[5,j[1],x[1],x[2],j[4],ar]}}return aa(AX)}var
-a=ah(g[2]),y=aW(a,AZ),z=y?Y(Az,$(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?aa(A0):a},k=dh(t(a,A1)),b=dh(t(a,A2)),c=k[1];if(m(c,A3)&&m(c,A4)&&m(c,A5)){if(0===aW(a,A6)){if(m(c,A7)){var
-ag=0;if(m(c,A8)){if(!m(c,A9)){var
-N=b[1],ai=0;if(m(N,Ba)&&m(N,Bb)){ag=1;ai=1}if(!ai){var
-A=$(k[2]),at=$(t(a,Be)),P=Y(function(a){return dY(0,a)},at);if(!au(zi,A)&&!au(function(a){return 13===a[1]?1:0},P)){var
-ax=Y(y4,A),f=ah(b[2]);if(m(b[1],An))var
-I=cL(O,t(f,Ao)),J=cL(O,t(f,Ap)),am=J[2],an=J[1],ao=O(t(f,Aq)),Q=[1,I[1],I[2],ao,an,am];else
+ar=O(t(M,A1));return[5,j[1],x[1],x[2],j[4],ar]}}return aa(A0)}var
+a=ah(g[2]),y=aW(a,A2),z=y?Y(AC,$(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?aa(A3):a},k=dg(t(a,A4)),b=dg(t(a,A5)),c=k[1];if(m(c,A6)&&m(c,A7)&&m(c,A8)){if(0===aW(a,A9)){if(m(c,A_)){var
+ag=0;if(m(c,A$)){if(!m(c,Ba)){var
+N=b[1],ai=0;if(m(N,Bd)&&m(N,Be)){ag=1;ai=1}if(!ai){var
+A=$(k[2]),at=$(t(a,Bh)),P=Y(function(a){return dY(0,a)},at);if(!ax(zl,A)&&!ax(function(a){return 13===a[1]?1:0},P)){var
+aw=Y(y7,A),f=ah(b[2]);if(m(b[1],Aq))var
+I=cL(O,t(f,Ar)),J=cL(O,t(f,As)),am=J[2],an=J[1],ao=O(t(f,At)),Q=[1,I[1],I[2],ao,an,am];else
 var
-ap=eT(O,t(f,Ar)),Q=[0,eT(O,t(f,As)),ap];return[0,ax,Q,z,P]}o(0);var
-av=Y(iA,$(t(a,Bf))),aw=iB(b);return[1,0,Y(nE,A),0,aw,0,av]}}}else
-if(!m(b[1],Bg)){o(0);var
-R=Y(iA,$(t(a,Bh))),v=0,e=R;for(;;){if(e){var
+ap=eT(O,t(f,Au)),Q=[0,eT(O,t(f,Av)),ap];return[0,aw,Q,z,P]}o(0);var
+au=Y(iA,$(t(a,Bi))),av=iB(b);return[1,0,Y(nG,A),0,av,0,au]}}}else
+if(!m(b[1],Bj)){o(0);var
+R=Y(iA,$(t(a,Bk))),v=0,e=R;for(;;){if(e){var
 G=e[2],H=e[1];if(0===H[1]){var
 v=[0,H,v],e=G;continue}var
 e=G;continue}var
@@ -7096,8 +7112,8 @@ S==="number")d=1;else
 switch(S[0]){case
 0:var
 B=n[2];if(B){var
-E=0,U=B[1][4];if(typeof
-U!=="number"&&1===U[0])if(B[2]){d=1;E=1}else
+E=0,T=B[1][4];if(typeof
+T!=="number"&&1===T[0])if(B[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
 d=1;break;case
 1:var
@@ -7105,55 +7121,55 @@ C=n[2];if(C){var
 F=0,V=C[1][4];if(typeof
 V!=="number"&&0===V[0])if(C[2]){d=1;F=1}else
 F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)aa(Bi);var
-ay=O(t(ah(b[2]),Bj));return[4,O(t(ah(k[2]),Bk)),ay,R]}}if(!ag)return aa([0,A$,[0,c,A_]])}else
-if(!m(b[1],Bl)){o(0);var
+d=1;break;default:d=1}if(!d)aj=1}if(!aj)aa(Bl);var
+ay=O(t(ah(b[2]),Bm));return[4,O(t(ah(k[2]),Bn)),ay,R]}}if(!ag)return aa([0,Bc,[0,c,Bb]])}else
+if(!m(b[1],Bo)){o(0);var
 p=ah(k[2]),W=ah(b[2]),X=function(c,a){var
 b=$(a);return Y(function(d){var
 a=$(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aH(a[1]),e]}}throw T},b)},az=function(d){var
+e=i(c,b[1]);return[0,aI(a[1]),e]}}throw U},b)},az=function(d){var
 a=ah(d);if(a){var
-b=a[1],c=b[1];if(m(c,Bm)){if(!m(c,Bn)&&!a[2])return[0,Y(iy,$(b[2]))]}else
-if(!a[2])return[1,iy(b[2])]}throw T},aA=Y(nH,$(t(a,Bo))),aB=Y(O,$(t(W,Bp))),aC=Y(O,$(t(W,Bq))),aD=Y(az,$(t(p,Br))),aE=X(iy,t(p,Bs)),aF=X(b2,t(p,Bt));return[3,Y(aH,$(t(p,Bu))),aF,aE,aD,aC,aB,aA]}return aa([0,Bd,[0,b[1],Bc]])}throw T}var
-Z=ah(k[2]),q=cj(O,aW(Z,Bv)),aG=function(f){var
-a=dh(f),b=a[1];if(m(b,Bw)){if(m(b,Bx)){if(m(b,By)){if(m(b,Bz))throw T;var
-d=a[2],g=O(t(ah(d),BA));return[3,O(t(ah(d),BB)),g]}var
-h=a[2],c=function(a){return cL(O,t(ah(h),a))},i=c(BC),j=c(BD);return[1,c(BE),j,i]}var
-e=cL(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},r=cj(aG,aW(a,BF)),_=m(c,BG),D=_?m(c,BH)?2:1:_,s=$(t(Z,BI));if(q&&r){var
-ab=r[1];if(gV(nF,s)){var
-aI=function(c){var
+b=a[1],c=b[1];if(m(c,Bp)){if(!m(c,Bq)&&!a[2])return[0,Y(iy,$(b[2]))]}else
+if(!a[2])return[1,iy(b[2])]}throw U},aA=Y(nJ,$(t(a,Br))),aB=Y(O,$(t(W,Bs))),aC=Y(O,$(t(W,Bt))),aD=Y(az,$(t(p,Bu))),aE=X(iy,t(p,Bv)),aF=X(b3,t(p,Bw));return[3,Y(aI,$(t(p,Bx))),aF,aE,aD,aC,aB,aA]}return aa([0,Bg,[0,b[1],Bf]])}throw U}var
+Z=ah(k[2]),q=cj(O,aW(Z,By)),aG=function(f){var
+a=dg(f),b=a[1];if(m(b,Bz)){if(m(b,BA)){if(m(b,BB)){if(m(b,BC))throw U;var
+d=a[2],g=O(t(ah(d),BD));return[3,O(t(ah(d),BE)),g]}var
+h=a[2],c=function(a){return cL(O,t(ah(h),a))},i=c(BF),j=c(BG);return[1,c(BH),j,i]}var
+e=cL(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},r=cj(aG,aW(a,BI)),_=m(c,BJ),D=_?m(c,BK)?2:1:_,s=$(t(Z,BL));if(q&&r){var
+ab=r[1];if(gX(nH,s)){var
+aH=function(c){var
 a=ah(c);function
-b(b){return Y(b2,$(t(a,b)))}if(0!==aW(a,BJ))aa(BK);var
-d=b(BL);return[0,b(BM),d]},ac=Y(Ak,$(t(a,BN))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&au(function(a){return 11===a[1]?1:0},ac))aa(BO);var
-aJ=iB(b),aK=q[1];return[2,D,Y(aI,s),aK,aJ,ab,z,ac]}}o(0);var
-al=0;if(!q&&as(c,BR)){var
+b(b){return Y(b3,$(t(a,b)))}if(0!==aW(a,BM))aa(BN);var
+d=b(BO);return[0,b(BP),d]},ac=Y(An,$(t(a,BQ))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&ax(function(a){return 11===a[1]?1:0},ac))aa(BR);var
+aJ=iB(b),aK=q[1];return[2,D,Y(aH,s),aK,aJ,ab,z,ac]}}o(0);var
+al=0;if(!q&&as(c,BU)){var
 ad=1;al=1}if(!al)var
 ad=[0,D];var
-ae=0!==r?1:0,aL=ae?au(nF,s):ae;if(aL)aa(BP);var
-aM=Y(iA,$(t(a,BQ))),aN=iB(b);return[1,ad,Y(nE,s),q,aN,r,aM]}var
+ae=0!==r?1:0,aL=ae?ax(nH,s):ae;if(aL)aa(BS);var
+aM=Y(iA,$(t(a,BT))),aN=iB(b);return[1,ad,Y(nG,s),q,aN,r,aM]}var
 u=ah(g[2]);function
 aO(b){var
-a=ah(b),c=O(t(a,BS)),d=[0,O(t(a,BT)),c];return[0,aH(t(a,BU)),d]}var
-l=iC([0,[0,[0,BW,t(u,BV)],0]]);if(0===l[0]&&!l[3]){var
-aP=O(t(u,BY)),aQ=O(t(u,BZ)),aR=l[4],aS=l[2],aT=l[1];return[7,Y(aO,$(t(u,B0))),aT,aS,aR,aQ,aP]}return aa(BX)}function
+a=ah(b),c=O(t(a,BV)),d=[0,O(t(a,BW)),c];return[0,aI(t(a,BX)),d]}var
+l=iC([0,[0,[0,BZ,t(u,BY)],0]]);if(0===l[0]&&!l[3]){var
+aP=O(t(u,B1)),aQ=O(t(u,B2)),aR=l[4],aS=l[2],aT=l[1];return[7,Y(aO,$(t(u,B3))),aT,aS,aR,aQ,aP]}return aa(B0)}function
 iD(a){return Y(eV,$(a))}function
 iE(c,b){var
-a=iD(b);if(b8(a)!==c)throw T;return a}function
-nI(a,d){var
-b=ah(d),e=$(t(b,B3)),f=a[2],c=Y(function(a){return iE(f,a)},e),g=a[1];if(b8(c)!==g)throw T;return[0,c,eW(t(b,B4))]}function
+a=iD(b);if(b9(a)!==c)throw U;return a}function
+nK(a,d){var
+b=ah(d),e=$(t(b,B6)),f=a[2],c=Y(function(a){return iE(f,a)},e),g=a[1];if(b9(c)!==g)throw U;return[0,c,eW(t(b,B7))]}function
 eX(g,p){var
 M=g[2];switch(p[0]){case
 0:var
 d=p[1];if(d){var
-e=d[1],a=e[1],N=p2(a,B5),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,B6)&&m(a,B7)&&m(a,B8))if(m(a,B9))f=1;else{var
+e=d[1],a=e[1],N=p4(a,B8),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,B9)&&m(a,B_)&&m(a,B$))if(m(a,Ca))f=1;else{var
 O=e[2];if(1===O[0]){var
 q=O[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!d[2]){var
-P=r[1];if(qc(aH(P),0,49))return aa(Ca);var
-ae=Y(iD,$(s[1])),af=aH(P);return[8,eX(g,q[1]),af,ae]}b=1;f=1}else
+P=r[1];if(qe(aI(P),0,49))return aa(Cd);var
+ae=Y(iD,$(s[1])),af=aI(P);return[8,eX(g,q[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -7164,34 +7180,34 @@ w=R[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y&&!y[2]){if(!d[2]){var
 ai=eW(y[1]),aj=eV(x[1]);return[5,eX(g,w[1]),aj,ai]}b=1}}}}}else
-if(m(a,Cb))if(m(a,Cc))if(m(a,Cd))if(m(a,Ce)){if(!m(a,Cf)){if(!d[2]){var
-S=ah(e[2]),ak=$(t(S,Cg)),al=M+1|0,U=Y(function(a){return iE(al,a)},ak);if(3===b8(U))return[1,Ci,U,eW(t(S,Ch))];throw T}b=1}}else{if(!d[2]){var
-J=aH(e[2]),K=m(J,B1);if(K){if(m(J,B2))throw T;var
+if(m(a,Ce))if(m(a,Cf))if(m(a,Cg))if(m(a,Ch)){if(!m(a,Ci)){if(!d[2]){var
+S=ah(e[2]),ak=$(t(S,Cj)),al=M+1|0,T=Y(function(a){return iE(al,a)},ak);if(3===b9(T))return[1,Cl,T,eW(t(S,Ck))];throw U}b=1}}else{if(!d[2]){var
+J=aI(e[2]),K=m(J,B4);if(K){if(m(J,B5))throw U;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 j=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],Cj)){var
+e=b[1];if(!m(e[1],Cm)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],Ck)){var
+g=c[1];if(!m(g[1],Cn)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eX(Cl,a)}}}}}}}}}}return eX(l,a)},o=0;switch(j[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return eX(Co,a)}}}}}}}}}}return eX(l,a)},o=0;switch(j[0]){case
 0:var
 k=j[1];if(k){var
-Z=k[1],i=Z[1],c=0;if(m(i,Cm)&&m(i,Cn)&&m(i,Co)&&m(i,Cp))if(m(i,Cq))c=1;else{var
+Z=k[1],i=Z[1],c=0;if(m(i,Cp)&&m(i,Cq)&&m(i,Cr)&&m(i,Cs))if(m(i,Ct))c=1;else{var
 _=Z[2];if(1===_[0]){var
 F=_[1];if(F){var
 l=F[1],h=0;switch(l[0]){case
 0:var
 G=l[1];if(G){var
-n=G[1][1],ad=0;if(m(n,Cs)&&m(n,Ct)&&m(n,Cu)&&m(n,Cv)){c=1;h=1;ad=1}if(!ad&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
+n=G[1][1],ad=0;if(m(n,Cv)&&m(n,Cw)&&m(n,Cx)&&m(n,Cy)){c=1;h=1;ad=1}if(!ad&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-ab=l[1];if(m(ab,Cw)&&m(ab,Cx)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+ab=l[1];if(m(ab,Cz)&&m(ab,CA)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=F[2];if(H){var
 I=H[2];if(I&&!(I[2]||k[2])){var
 ar=eW(I[1]),as=eV(H[1]),z=[6,X(g,l),as,ar];o=2;c=1}else
@@ -7200,9 +7216,9 @@ c=1}}else
 c=1}else
 c=1}if(!c&&!k[2])o=1}break;case
 2:var
-ac=j[1];if(!m(ac,Cy)||!m(ac,Cz))o=1;break}switch(o){case
+ac=j[1];if(!m(ac,CB)||!m(ac,CC))o=1;break}switch(o){case
 0:var
-z=aa(Cr);break;case
+z=aa(Cu);break;case
 1:var
 z=X(g,j);break}return[7,z]}b=1}else{var
 V=e[2];if(1===V[0]){var
@@ -7215,13 +7231,13 @@ D=C[2];if(D){var
 E=D[2];if(E&&!E[2])if(d[2])b=1;else{var
 ao=E[1],ap=D[1],aq=C[1],v=aq,u=function(b,a){var
 c=eW(ao);return[4,b,a,eV(ap),c]};b=2}}}}}switch(b){case
-0:if(!d[2])return aa([0,B$,[0,a,B_]]);break;case
+0:if(!d[2])return aa([0,Cc,[0,a,Cb]]);break;case
 1:break;default:var
-Q=nI(g,v);return u(Q[1],Q[2])}}break;case
-2:return[0,p[1]]}throw T}function
-nJ(k){var
-b=dh(k),a=b[1];if(m(a,CC))if(m(a,CD)){var
-g=m(a,CE);if(!g)return g;if(m(a,CF)){if(!m(a,CG))return[2,Y(O,$(b[2]))]}else{var
+Q=nK(g,v);return u(Q[1],Q[2])}}break;case
+2:return[0,p[1]]}throw U}function
+nL(k){var
+b=dg(k),a=b[1];if(m(a,CF))if(m(a,CG)){var
+g=m(a,CH);if(!g)return g;if(m(a,CI)){if(!m(a,CJ))return[2,Y(O,$(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
@@ -7230,33 +7246,33 @@ i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
 n=Y(iD,$(f[1]));return[0,cK(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return aa([0,CI,[0,a,CH]])}function
-nK(f,b){var
-a=ah(b),c=$(t(a,CN)),d=Y(function(g){var
+j=b[2];if(1===j[0]&&!j[1])return 1}return aa([0,CL,[0,a,CK]])}function
+nM(f,b){var
+a=ah(b),c=$(t(a,CQ)),d=Y(function(g){var
 a=ah(g);function
 b(d,c){var
 b=aW(a,c);return b?Y(d,$(b[1])):b}var
-c=b(eV,CJ),d=cj(nJ,aW(a,CK)),e=cj(cK,aW(a,CL));return[0,b(function(h){var
+c=b(eV,CM),d=cj(nL,aW(a,CN)),e=cj(cK,aW(a,CO));return[0,b(function(h){var
 b=$(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],CA)){if(!a[2]){if(m(eS(e),CB))throw T;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],CD)){if(!a[2]){if(m(eS(e),CE))throw U;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eX(f,c);return[0,cK(e),g]}}}throw T},CM),e,d,c]},c),e=aW(a,CO),g=cj(function(a){return nI(f,a)},e);return[0,nB(t(a,CP)),g,d]}function
-nL(c){var
-a=ah(c),b=aW(a,CQ),d=b?Y(O,$(b[1])):b,e=nJ(t(a,CR)),f=Y(O,$(t(a,CS)));return[0,nB(t(a,CT)),f,d,e]}function
-nM(c){var
+g=eX(f,c);return[0,cK(e),g]}}}throw U},CP),e,d,c]},c),e=aW(a,CR),g=cj(function(a){return nK(f,a)},e);return[0,nD(t(a,CS)),g,d]}function
+nN(c){var
+a=ah(c),b=aW(a,CT),d=b?Y(O,$(b[1])):b,e=nL(t(a,CU)),f=Y(O,$(t(a,CV)));return[0,nD(t(a,CW)),f,d,e]}function
+nO(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-C3(b){var
+C6(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-C4(b){var
+C7(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
 a!=="number"&&1===a[0])return 1-eF(k(a[1]));return 10===c?1:0}function
-C8(h){var
+C$(h){var
 l=ao(h),c=[0,0];function
-n(a){if(c[1]<l)return aR(h,c[1]);throw T}function
-o(a){if(n(0)===a){c[1]++;return 0}throw T}function
-G(a,b){for(;;){if(c[1]<l&&i(b,aR(h,c[1]))){c[1]++;continue}return ds(h,a,c[1]-a|0)}}function
+n(a){if(c[1]<l)return aR(h,c[1]);throw U}function
+o(a){if(n(0)===a){c[1]++;return 0}throw U}function
+G(a,b){for(;;){if(c[1]<l&&i(b,aR(h,c[1]))){c[1]++;continue}return dr(h,a,c[1]-a|0)}}function
 H(d){o(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
@@ -7268,16 +7284,16 @@ I(e,a){if(n(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
 b=d;continue}o(a);return jo(d)}}function
-v(b,i){if(64<b)throw T;var
+v(b,i){if(64<b)throw U;var
 a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
 e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
 g=125;return[0,I(function(c){var
 a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,H(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,G(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw T}var
-_=v(0,0),J=c[1]<l?1:0,ab=J?10===aR(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw T;var
-s=ah(_);if(m(aH(t(s,C9)),C_))throw T;var
-a=iC(t(s,C$)),B=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw U}var
+_=v(0,0),J=c[1]<l?1:0,ab=J?10===aR(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw U;var
+s=ah(_);if(m(aI(t(s,Da)),Db))throw U;var
+a=iC(t(s,Dc)),B=0;switch(a[0]){case
 1:var
 z=a[1],C=0;if(typeof
 z==="number")if(z)var
@@ -7287,34 +7303,34 @@ if(1===z[1])var
 A=6;else
 C=1;if(C)var
 A=3;var
-g=[0,b8(a[2]),A];break;case
+g=[0,b9(a[2]),A];break;case
 2:var
-as=1===a[1]?6:3,g=[0,b8(a[2]),as];break;case
+as=1===a[1]?6:3,g=[0,b9(a[2]),as];break;case
 3:var
-at=b8(a[1]),g=[0,b8(a[4]),at];break;case
+at=b9(a[1]),g=[0,b9(a[4]),at];break;case
 7:var
 K=a[2];B=1;break;case
 0:case
 5:var
 K=a[1];B=1;break;default:var
-g=Dv}if(B)var
-g=[0,b8(K),3];var
-p=dh(t(s,Da)),q=p[1];if(m(q,CY))if(m(q,CZ))if(m(q,C0))var
-b=aa([0,C2,[0,q,C1]]);else
+g=Dy}if(B)var
+g=[0,b9(K),3];var
+p=dg(t(s,Dd)),q=p[1];if(m(q,C1))if(m(q,C2))if(m(q,C3))var
+b=aa([0,C5,[0,q,C4]]);else
 var
-r=nL(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
+r=nN(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
 var
-w=nK(g,p[2]),b=[0,w[1],w[2],w[3]];else
+w=nM(g,p[2]),b=[0,w[1],w[2],w[3]];else
 var
 ac=$(p[2]),b=[2,Y(function(f){var
-a=dh(f),b=a[1];if(m(b,CU)){if(m(b,CV)){if(m(b,CW)){var
-e=m(b,CX);if(e)throw T;return e}return[0,cK(a[2])]}var
-c=nL(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=nK(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
+a=dg(f),b=a[1];if(m(b,CX)){if(m(b,CY)){if(m(b,CZ)){var
+e=m(b,C0);if(e)throw U;return e}return[0,cK(a[2])]}var
+c=nN(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=nM(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
 ad(a){var
-b=a[1];return au(function(a){return 8===a[2][0]?1:0},b)}function
+b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
 ae(a){return 0!==a[3]?1:0}function
-L(a){return au(ae,a)}function
+L(a){return ax(ae,a)}function
 M(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
@@ -7324,18 +7340,18 @@ O=a[4],N=a[1];d=5;break;case
 2:d=1;break;default:d=2}break;case
 1:switch(b[0]){case
 0:var
-ak=b[3];if(au(function(a){var
-b=a[1];return au(function(a){switch(a[2][0]){case
+ak=b[3];if(ax(function(a){var
+b=a[1];return ax(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))aa(Dm);else
+7:return 1;default:return 0}},b)},ak))aa(Dp);else
 d=3;break;case
 1:var
-al=a[6];if(au(function(a){return 8===a[1]?1:0},al))aa(Dn);else
+al=a[6];if(ax(function(a){return 8===a[1]?1:0},al))aa(Dq);else
 d=2;break;default:d=1}break;case
 2:var
 Q=a[7],R=a[1],D=0;switch(b[0]){case
 0:var
-am=1===R?6:3,S=b8(a[2])===am?1:0;if(S){var
+am=1===R?6:3,S=b9(a[2])===am?1:0;if(S){var
 V=0;if(2<=R||!(0===a[4][0]))V=1;else
 var
 y=1;if(V)var
@@ -7347,37 +7363,37 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],Do))a=1;break;case
+1:if(m(c[1],Dr))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],Dp))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ap=b[3];if(au(function(a){return au(an,a[1])},ap))aa(Dq);else{var
-aq=b[3];if(gV(function(a){var
-b=a[1];return gV(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],Ds))a=1;break;default:a=1}if(!a)return 1-y}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},ap=b[3];if(ax(function(a){return ax(an,a[1])},ap))aa(Dt);else{var
+aq=b[3];if(gX(function(a){var
+b=a[1];return gX(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,C5)){if(!m(c,C6))return au(C4,Q)}else
+c=b[1];if(m(c,C8)){if(!m(c,C9))return ax(C7,Q)}else
 a=1;break;case
-1:if(!m(b[1],C7))a=1;break;case
+1:if(!m(b[1],C_))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-aa(Dr)}break;case
+aa(Du)}break;case
 1:var
-W=0,U=b[4];if(typeof
-U!=="number"&&2!==U[0])if(au(function(c){var
+W=0,T=b[4];if(typeof
+T!=="number"&&2!==T[0])if(ax(function(c){var
 a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},Q)){aa(Ds);W=1}else{d=2;D=1;W=1}break;default:d=1;D=1}break;case
+b=4<=a?1:0;if(!b)return b}return 1},Q)){aa(Dv);W=1}else{d=2;D=1;W=1}break;default:d=1;D=1}break;case
 3:switch(b[0]){case
-0:if(au(ad,b[3]))aa(Dt);else
+0:if(ax(ad,b[3]))aa(Dw);else
 d=3;break;case
 2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
-ar=b[1];if(au(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))aa(Du);else
+ar=b[1];if(ax(function(a){if(typeof
+a!=="number"&&2===a[0])return M(a[4]);return 0},ar))aa(Dx);else
 d=4;break;case
 1:d=2;break;default:d=4}break;default:d=2}var
 f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){aa(Dl);f=1}else
+2:if(1===b[0]&&M(b[4])){aa(Do);f=1}else
 f=3;break;case
 4:f=3;break;case
 0:f=1;break;case
@@ -7385,13 +7401,13 @@ f=3;break;case
 3:f=2;break}var
 e=0;switch(f){case
 3:switch(a[0]){case
-3:aa(Dk);e=2;break;case
+3:aa(Dn);e=2;break;case
 7:var
 O=a[4],N=a[2];e=3;break;case
 1:case
 2:break;case
 4:case
-6:e=1;break;default:if(au(nM,a[4])){aa(Dj);e=2}else
+6:e=1;break;default:if(ax(nO,a[4])){aa(Dm);e=2}else
 e=4}break;case
 1:e=2;break;case
 4:e=3;break;case
@@ -7399,7 +7415,7 @@ e=4}break;case
 j=0;switch(e){case
 2:break;case
 3:var
-X=0;if(au(function(a){return 10===a[1]?1:0},O)&&au(function(a){return 2===a[0]?1:0},N)){aa(Db);X=1}if(!X)j=3;break;case
+X=0;if(ax(function(a){return 10===a[1]?1:0},O)&&ax(function(a){return 2===a[0]?1:0},N)){aa(De);X=1}if(!X)j=3;break;case
 4:j=3;break;case
 1:j=2;break;default:j=1}var
 k=0;switch(j){case
@@ -7407,11 +7423,11 @@ k=0;switch(j){case
 E=0;switch(a[0]){case
 5:var
 Z=0;if(0===b[0]){var
-aj=b[3];if(au(function(a){return 0!==a[1]?1:0},aj)){aa(Di);E=1;Z=1}}if(!Z)var
+aj=b[3];if(ax(function(a){return 0!==a[1]?1:0},aj)){aa(Dl);E=1;Z=1}}if(!Z)var
 x=a[4];break;case
 7:var
 x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(au(C3,x))aa(Dh);else
+x=a[4];else{k=2;E=1}}if(!E)if(ax(C6,x))aa(Dk);else
 k=2;break;case
 2:k=2;break;case
 1:k=1;break}var
@@ -7426,28 +7442,24 @@ ag=a[4];switch(b[0]){case
 ai=function(a){if(typeof
 a!=="number")switch(a[0]){case
 1:return L(a[3]);case
-2:return au(nM,ag)}return 0};if(au(ai,b[1]))aa(Dg);u=1}break}if(!u)if(0===b[0]&&L(b[3]))aa(Df);else
+2:return ax(nO,ag)}return 0};if(ax(ai,b[1]))aa(Dj);u=1}break}if(!u)if(0===b[0]&&L(b[3]))aa(Di);else
 F=1;break;case
 1:F=1;break}var
-P=ah(t(s,Dc)),af=aH(t(P,Dd));return[0,a,b,aH(t(P,De)),af]}function
-Dw(b){var
-a=b[1];if(2===a[0]){var
-c=a[7];return au(function(b){var
-a=b[3];if(a&&3===a[1][0])return 1;return 0},c)}return 0}function
-Dy(b){var
-c=ao(b),g=64,h=E$(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+P=ah(t(s,Df)),af=aI(t(P,Dg));return[0,a,b,aI(t(P,Dh)),af]}function
+Dz(b){var
+c=ao(b),g=64,h=Fa(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=as(ds(b,a,18),Dz);if(!e){var
+e=as(dr(b,a,18),DA);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Fu(function(c){try{if(Dy(c))var
-a=DB;else{try{var
-e=0,b=C8(c);e=1}catch(a){a=jg(a);if(a[1]===nA)var
-d=[0,a[2]];else{if(a!==T)throw a;var
-d=2}}if(e)var
-d=yP(c,b)?1===b[2][0]?1:0:Dw(b)?Dx:2;var
-a=d}}catch(a){return DA}if(typeof
+f=d;return f}}Fv(function(b){try{if(Dz(b))var
+a=DC;else{try{var
+e=0,d=C$(b);e=1}catch(a){a=jg(a);if(a[1]===nC)var
+c=[0,a[2]];else{if(a!==U)throw a;var
+c=2}}if(e)var
+c=yS(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return DB}if(typeof
 a==="number")switch(a){case
-0:return DC;case
-1:return DD;default:return DE}return aY(DF,a[1])});jn(0);return}(globalThis));
+0:return DD;case
+1:return DE;default:return DF}return aY(DG,a[1])});jn(0);return}(globalThis));

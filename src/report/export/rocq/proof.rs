@@ -214,7 +214,8 @@ fn at_controls(by: &Evidence) -> Exported<String> {
         | Evidence::Chords
         | Evidence::Lower(_)
         | Evidence::Rank(_)
-        | Evidence::Conditioning(..) => evidence(by),
+        | Evidence::Conditioning(..)
+        | Evidence::Accuracy(..) => evidence(by),
         _ => not_covered("this evidence at control points"),
     }
 }
