@@ -49,8 +49,10 @@ class Designs(unittest.TestCase):
             oc.verify(dict(PRINTER, requirements={"transmision": {"max": 2}}))
         self.assertIn("transmision", str(refused.exception))
         self.assertIn("design.toml:", str(refused.exception))
-        with self.assertRaises(KeyError):
+        with self.assertRaisesRegex(oc.DesignError, "did you mean requirements"):
             oc.verify(dict(PRINTER, requirement={}))
+        with self.assertRaisesRegex(oc.DesignError, "the key is missing"):
+            oc.verify({})
         with self.assertRaises(OSError):
             oc.verify("no such file.toml")
 
@@ -111,6 +113,21 @@ class Commands(unittest.TestCase):
         self.assertEqual(found.to_numpy().shape, (len(found), 2))
         with self.assertRaises(KeyError):
             found.of("psi", "middle")
+
+    def test_what_is_told_of_a_bound_holds(self):
+        third = Fraction(1, 3)
+        bounds = oc.Bounds((oc.Bound("psi", "least", third, third, None),), {})
+        self.assertIn("<td>0.3333333</td><td>0.3333334</td>", bounds._repr_html_())
+        values = tuple(oc.Value("psi", "transmission", end, third, third) for end in ("least", "greatest"))
+        told = oc.Summary("certified", None, None, values, {})._repr_html_()
+        self.assertIn("<td>0.3333333</td><td>0.3333334</td>", told)
+        self.assertIn("<td>0.3333334</td><td>0.3333333</td>", told)
+        side = oc.Side("upper", Fraction(1907, 20), third, None, None)
+        self.assertIn("<td>95.35</td><td>1/3</td>", oc.Limit("radius", "80", (side,), {})._repr_html_())
+
+    def test_the_unit_and_the_title_of_tables_are_those_of_the_design(self):
+        found = oc.verify(dict(PRINTER, unit="mm", title="Printer"))
+        self.assertEqual((found.title, found.answer["length_unit"]), ("Printer", "mm"))
 
     def test_a_limit_has_both_sides(self):
         found = oc.limit(PRINTER, "workspace.cylinder.radius", gap="1e-2")

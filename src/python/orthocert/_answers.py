@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 from dataclasses import dataclass, field
+from decimal import MAX_PREC, ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import Any, Optional, Sequence, Tuple
 
@@ -35,6 +36,39 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
 
 def _decimal(x: Any) -> str:
     return "" if x is None else f"{float(x):.7g}"
+
+
+def _rounded(x: Optional[Fraction], rounding: str) -> str:
+    """Seven digits of an exact number, on the side of it that proves no more than it does."""
+    if x is None:
+        return ""
+    found = Context(prec=7, rounding=rounding).divide(Decimal(x.numerator), Decimal(x.denominator))
+    return format(found.normalize(), "f" if -7 < found.adjusted() < 12 else "e")
+
+
+def _below(x: Optional[Fraction]) -> str:
+    return _rounded(x, ROUND_FLOOR)
+
+
+def _above(x: Optional[Fraction]) -> str:
+    return _rounded(x, ROUND_CEILING)
+
+
+def _written(x: Optional[Fraction]) -> str:
+    """An exact number as it is: a decimal, or a fraction."""
+    if x is None:
+        return ""
+    places = 0
+    while x.denominator > 1 and places < 40:
+        scaled = x * 10**places
+        if scaled.denominator == 1:
+            return format(Decimal(scaled.numerator).scaleb(-places, Context(prec=MAX_PREC)), "f")
+        places += 1
+    return str(x)
+
+
+def _titled(verdict: str, title: Optional[str]) -> str:
+    return verdict.upper() + (f": {html.escape(title)}" if title else "")
 
 
 @dataclass(frozen=True)
@@ -95,7 +129,7 @@ class Verification:
 
     def _repr_html_(self) -> str:
         colour = {"certified": "#0b6b3a", "refuted": "#a3261b"}.get(self.verdict, "#8a6100")
-        out = f"<p style='font-weight:bold;color:{colour}'>{self.verdict.upper()}: {html.escape(self.title or '')}</p>"
+        out = f"<p style='font-weight:bold;color:{colour}'>{_titled(self.verdict, self.title)}</p>"
         if self.counterexample:
             at = ", ".join(_decimal(x) for x in self.counterexample.point or ())
             out += f"<p>{html.escape(self.counterexample.value)} at ({at})</p>"
@@ -171,10 +205,16 @@ class Bounds(Sequence[Bound]):
 
     def _repr_html_(self) -> str:
         rows = [
-            (f"{b.end} {b.quantity}", _decimal(b.min), _decimal(b.max), ", ".join(_decimal(x) for x in b.point or ()))
+            (
+                f"{b.end} {b.quantity}",
+                _below(b.min),
+                _above(b.max),
+                b.unit or "",
+                ", ".join(_decimal(x) for x in b.point or ()),
+            )
             for b in self.bounds
         ]
-        return _table(("extreme", "at least", "at most", "at"), rows)
+        return _table(("extreme", "at least", "at most", "unit", "at"), rows)
 
 
 @dataclass(frozen=True)
@@ -212,8 +252,8 @@ class Limit:
         rows = [
             (
                 s.side,
-                _decimal(s.certified),
-                _decimal(s.refuted),
+                _written(s.certified),
+                _written(s.refuted),
                 s.limited_by.violated if s.limited_by else s.reason or "",
             )
             for s in self.sides
@@ -268,8 +308,8 @@ class Tolerance(Sequence[Widest]):
         rows = [
             (
                 ", ".join(w.on) + (f" of leg {w.leg}" if w.leg else "") + f", {w.measure}",
-                _decimal(w.certified),
-                _decimal(w.refuted),
+                _written(w.certified),
+                _written(w.refuted),
                 w.limited_by.violated if w.limited_by else "",
             )
             for w in self.rows
@@ -292,7 +332,7 @@ class Size:
     answer: dict[str, Any] = field(repr=False)
 
     def _repr_html_(self) -> str:
-        rows = [(name, _decimal(getattr(self, name))) for name in ("certified", "refuted", "excluded")]
+        rows = [(name, _written(getattr(self, name))) for name in ("certified", "refuted", "excluded")]
         return _table((self.unknown, ""), rows) + _limit(self.limited_by)
 
 
@@ -335,10 +375,14 @@ class Summary:
     answer: dict[str, Any] = field(repr=False)
 
     def _repr_html_(self) -> str:
-        out = f"<p><b>{self.verdict.upper()}</b>: {html.escape(self.title or '')}</p>"
+        out = f"<p><b>{_titled(self.verdict, self.title)}</b></p>"
         if self.nearest:
             out += f"<p>nearest to its limit: {html.escape(str(self.nearest.get('requirement')))} {html.escape(str(self.nearest.get('bound')))}</p>"
-        rows = [(f"{v.end} {v.words}", _decimal(v.certified), _decimal(v.reached), v.unit or "") for v in self.values]
+        rows = []
+        for v in self.values:
+            # What is certified holds everywhere, what is reached does somewhere.
+            outward, inward = (_below, _above) if v.end == "least" else (_above, _below)
+            rows.append((f"{v.end} {v.words}", outward(v.certified), inward(v.reached), v.unit or ""))
         return out + _table(("value", "certified", "reached", "unit"), rows)
 
 
@@ -367,9 +411,9 @@ class Paving:
 
     def _repr_html_(self) -> str:
         rows = [
-            ("inner", _decimal(self.inner_share), "" if self.inner_volume is None else _decimal(self.inner_volume)),
-            ("outer", _decimal(self.outer_share), ""),
-            ("undecided", _decimal(self.undecided_share), ""),
+            ("inner", _below(self.inner_share), _below(self.inner_volume)),
+            ("outer", _below(self.outer_share), ""),
+            ("undecided", _above(self.undecided_share), ""),
         ]
         return _table(("part", "share", "volume"), rows)
 

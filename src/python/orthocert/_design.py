@@ -143,22 +143,22 @@ class Design:
         workspace: Mapping[str, Any],
         requirements: Mapping[str, Any],
         title: str | None = None,
+        unit: str | None = None,
     ) -> "Design":
         """A design of tables, with the keys of a design file. Their numbers are exact: see `Number`."""
-        lines = [] if title is None else [f"title = {_quoted(title)}", ""]
-        for name, table in (("mechanism", mechanism), ("workspace", workspace), ("requirements", requirements)):
-            lines.append(f"[{name}]")
-            lines += [f"{_key(key)} = {_toml(value)}" for key, value in table.items()]
-            lines.append("")
-        return Design("\n".join(lines))
+        names = dict(title=title, unit=unit)
+        tables = dict(mechanism=mechanism, workspace=workspace, requirements=requirements)
+        return Design.from_dict({**{name: text for name, text in names.items() if text is not None}, **tables})
 
     @staticmethod
     def from_dict(tables: Mapping[str, Any]) -> "Design":
-        """A design of one dictionary, as a TOML reader gives it."""
-        unknown = set(tables) - {"title", "mechanism", "workspace", "requirements"}
-        if unknown:
-            raise KeyError(f"no key of a design: {', '.join(sorted(unknown))}")
-        return Design.of(**tables)
+        """A design of one dictionary, as a TOML reader gives it: what is none, the program says of it."""
+        lines = [f"{_key(key)} = {_toml(value)}" for key, value in tables.items() if not isinstance(value, Mapping)]
+        for name, table in tables.items():
+            if isinstance(table, Mapping):
+                lines += ["", f"[{_key(name)}]"]
+                lines += [f"{_key(key)} = {_toml(value)}" for key, value in table.items()]
+        return Design("\n".join([*lines, ""]))
 
     def write(self, path: Union[str, Path]) -> "Design":
         """Writes the design, and returns that of the file."""
