@@ -67,6 +67,11 @@ def _written(x: Optional[Fraction]) -> str:
     return str(x)
 
 
+def _unit(unit: Optional[str], answer: dict[str, Any]) -> str:
+    """A unit, with the design's for lengths."""
+    return (unit or "").replace("length", answer.get("length_unit") or "length")
+
+
 def _titled(verdict: str, title: Optional[str]) -> str:
     return verdict.upper() + (f": {html.escape(title)}" if title else "")
 
@@ -209,7 +214,7 @@ class Bounds(Sequence[Bound]):
                 f"{b.end} {b.quantity}",
                 _below(b.min),
                 _above(b.max),
-                b.unit or "",
+                _unit(b.unit, self.answer),
                 ", ".join(_decimal(x) for x in b.point or ()),
             )
             for b in self.bounds
@@ -263,11 +268,13 @@ class Limit:
         )
 
     def plot(self, ax: Any = None) -> Any:
-        """The certified range on a line, with what is refuted beyond; matplotlib's axes."""
+        """The certified values on a line, between which nothing is claimed, and the refuted ones beyond;
+        matplotlib's axes."""
         ax = ax or _axes()
-        ends = [s.certified for s in self.sides if s.certified is not None]
+        ends = [float(s.certified) for s in self.sides if s.certified is not None]
+        ax.axhline(0, color="#00000030", linewidth=1, zorder=0)
         if ends:
-            ax.plot([float(min(ends)), float(max(ends))], [0, 0], color="#0b6b3a", linewidth=8, label="certified")
+            ax.plot(ends, [0] * len(ends), "o", color="#0b6b3a", markersize=9, linestyle="none", label="certified")
         for s in self.sides:
             if s.refuted is not None:
                 ax.plot(float(s.refuted), 0, "x", color="#a3261b", markersize=12, label=f"refuted, {s.side}")
@@ -382,7 +389,7 @@ class Summary:
         for v in self.values:
             # What is certified holds everywhere, what is reached does somewhere.
             outward, inward = (_below, _above) if v.end == "least" else (_above, _below)
-            rows.append((f"{v.end} {v.words}", outward(v.certified), inward(v.reached), v.unit or ""))
+            rows.append((f"{v.end} {v.words}", outward(v.certified), inward(v.reached), _unit(v.unit, self.answer)))
         return out + _table(("value", "certified", "reached", "unit"), rows)
 
 
