@@ -26,6 +26,8 @@ const LABEL: [f64; 2] = [24.0, 9.0];
 const FAR: f64 = 40.0;
 /// Distance of the entries of the legend.
 const KEY: f64 = 112.0;
+/// How far the first stands to the left of the map, that the last has room.
+const KEY_LEFT: f64 = 40.0;
 /// Height of the line that says where a plane is.
 const PLANE_LABEL: f64 = 24.0;
 /// Planes shown of three parameters.
@@ -272,7 +274,7 @@ fn legend(svg: &mut String, higher: f64, has_contours: bool) {
     let top = -28.0 - higher;
     let words = [("c", "certified"), ("r", "refuted"), ("u", "undecided")];
     for (i, (class, word)) in words.iter().enumerate() {
-        let x = KEY * i as f64;
+        let x = KEY * i as f64 - KEY_LEFT;
         let _ = writeln!(
             svg,
             "<rect class=\"axis {class}\" x=\"{x}\" y=\"{top}\" width=\"22\" height=\"16\"/>\
@@ -282,7 +284,7 @@ fn legend(svg: &mut String, higher: f64, has_contours: bool) {
         );
     }
     if has_contours {
-        let x = KEY * words.len() as f64;
+        let x = KEY * words.len() as f64 - KEY_LEFT;
         let _ = writeln!(
             svg,
             "<path class=\"iso key\" d=\"M{x} {}h22\"/><text x=\"{}\" y=\"{}\">margin, \
