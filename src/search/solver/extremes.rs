@@ -26,9 +26,9 @@ use std::collections::BTreeMap;
 const FINEST: i32 = 30;
 /// Open boxes from whose centres a better inner end is looked for.
 const OPEN_CENTRES: usize = 8;
-/// Boxes after which a width is given up for a looser one; of platforms that turn a third of that for
+/// Boxes after which a width is given up for a looser one. Of platforms that turn it is a third of the second number for
 /// each coordinate of orientation, as each takes three times as long, and with tolerances a sixth of what is left.
-const MOST_BOXES: usize = 20_000;
+const MOST_BOXES: [usize; 2] = [50_000, 20_000];
 /// One of so many boxes of a width may be open where a looser one goes on.
 const FEW_OPEN: usize = 8;
 /// Longest text of an exact number.
@@ -313,45 +313,65 @@ pub fn enclose(
         return Err(NotEnclosed::Cancelled);
     }
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
-    let problem = Problem::new(&probe)?;
-    let (budget, tolerances) = (of_one_width(budget, &problem), turns_with_tolerances(&problem));
+    let budget = of_one_width(budget, &Problem::new(&probe)?);
     let mut known = Found::worst(&probe, extreme, ROUNDS)?;
-    let mut width = relative.clone();
-    let mut steps = Steps::default();
-    let mut begun = None;
-    while width <= loosest() {
-        let mut looser = 2;
+    let (mut steps, mut begun) = (Steps::default(), None);
+    let found = narrowest(relative, |width| {
         for _ in 0..ROUNDS {
-            let step = &width * known.size()?;
+            let step = width * known.size()?;
             let (inner, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
             let found = steps.next(control, 2, |control| {
                 certify(&outer_claim, &mut known, extreme, &mut begun, budget, control)
             });
-            match found? {
-                Attempt::Certified(certified, boxes) => {
-                    let refuted = match extreme.well_formed(claim, &inner) {
-                        Some(claim) => match refute(&claim, &known.place) {
-                            // What is too near to its bound to be refuted may not be at a looser width.
-                            None => break,
-                            found => found,
-                        },
-                        None => None,
-                    };
-                    return Ok(Enclosed { width, inner, outer, refuted, certified, boxes });
-                }
-                Attempt::Worse => {}
-                Attempt::Undecided(stop) => {
-                    // A hopeless width costs little, so the next one is tried soon; and tolerances, not boxes,
-                    // may be what is too wide for this one.
-                    looser = if stop == Stop::Hopeless || tolerances { 2 } else { 10 };
-                    break;
-                }
-            }
+            let (certified, boxes) = match found? {
+                Attempt::Certified(certified, boxes) => (certified, boxes),
+                Attempt::Worse => continue,
+                Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Undecided),
+                Attempt::Undecided(_) => break,
+            };
+            let refuted = match extreme.well_formed(claim, &inner) {
+                Some(claim) => match refute(&claim, &known.place) {
+                    // What is too near to its bound to be refuted may not be at a looser width.
+                    None => break,
+                    found => found,
+                },
+                None => None,
+            };
+            let width = width.clone();
+            return Ok(Some(Enclosed { width, inner, outer, refuted, certified, boxes }));
         }
-        width *= BigRational::from_integer(looser.into());
+        Ok(None)
+    });
+    found?.ok_or(NotEnclosed::Undecided)
+}
+
+/// What is found at the width `relative`, or else at the narrowest of its doubles up to [`loosest`], by halves of
+/// their exponents: a width is as easy as all narrower ones. Once something is found, it stays so whatever then
+/// goes wrong.
+pub(super) fn narrowest<T>(
+    relative: &BigRational,
+    mut at: impl FnMut(&BigRational) -> Result<Option<T>, NotEnclosed>,
+) -> Result<Option<T>, NotEnclosed> {
+    let mut wider = vec![relative.clone()];
+    while let Some(last) = wider.last().filter(|last| **last < loosest()) {
+        wider.push((last + last).min(loosest()));
     }
-    Err(NotEnclosed::Undecided)
+    let (mut fails, mut best) = (0, at(relative)?);
+    if best.is_some() || wider.len() == 1 {
+        return Ok(best);
+    }
+    let mut holds = wider.len() - 1;
+    best = at(&wider[holds])?;
+    while best.is_some() && holds - fails > 1 {
+        let middle = (fails + holds) / 2;
+        match at(&wider[middle]) {
+            Ok(None) => fails = middle,
+            Ok(found) => (best, holds) = (found, middle),
+            Err(_) => break,
+        }
+    }
+    Ok(best)
 }
 
 /// The worst that sampling finds of an extreme, and a bound near it, at a relative distance of `relative` or more
@@ -397,7 +417,8 @@ pub fn beyond(value: f64, factor: &BigRational) -> Option<BigRational> {
 /// The budget after which a width is given up.
 pub(super) fn of_one_width(budget: Budget, problem: &Problem) -> Budget {
     let slower = if turns_with_tolerances(problem) { 6 } else { 1 };
-    let most = MOST_BOXES / 3usize.pow(problem.orientation.len() as u32) / slower;
+    let own = MOST_BOXES[usize::from(!problem.orientation.is_empty())];
+    let most = own / 3usize.pow(problem.orientation.len() as u32) / slower;
     Budget { max_boxes: budget.max_boxes.min(most), ..budget }
 }
 
@@ -549,10 +570,9 @@ fn certify(
     let sampler = Sampler::new(claim, &problem)?;
     let point = sampler.point(&known.place.u);
     let (whole, ends) = (Branch::whole(&prover), Ends { hopeless: true, ..Ends::default() });
-    let before = begun.take();
     let mut found = None;
     if prover.holds_next_to(&point, false) {
-        found = match &before {
+        found = match &*begun {
             Some(before) => resume(&prover, before, ends, budget, control),
             None => search(&prover, &whole, ends, budget, control),
         };
@@ -571,7 +591,7 @@ fn certify(
     if found.is_proof() {
         return Ok(match accepted(claim, &prover, found.nodes) {
             Answer::Decided { certificate, .. } => Attempt::Certified(certificate, found.boxes),
-            Answer::Undecided(_) | Answer::Cancelled if before.is_some() => {
+            Answer::Undecided(_) | Answer::Cancelled if begun.take().is_some() => {
                 return certify(claim, known, extreme, begun, budget, control);
             }
             Answer::Undecided(_) | Answer::Cancelled => Attempt::Undecided(Stop::Hopeless),
@@ -584,13 +604,6 @@ fn certify(
     let unknown = |quality| Worst { quality, place: place.clone(), margin: f64::MAX };
     let mut worst: Vec<Worst> = own.map(unknown).collect();
     look_into(&sampler, &found.open, OPEN_CENTRES, &mut worst);
-    let stop = found.stop;
-    // Boxes of platforms that turn are costly each: looser bounds go on from the tree of this one, unless it has
-    // so many open that a looser tree may lack most of them.
-    let open = found.open.len();
-    let waits =
-        stop == Stop::Boxes && open <= budget.max_boxes / FEW_OPEN && open == found.waiting.len();
-    *begun = Some(found).filter(|_| waits && !problem.orientation.is_empty());
     worst.retain(|found| found.margin < 0.0);
     worst.sort_by(|a, b| a.margin.total_cmp(&b.margin));
     for Worst { quality, place, .. } in worst {
@@ -602,6 +615,14 @@ fn certify(
             (known.value, known.place) = (value, place);
             return Ok(Attempt::Worse);
         }
+    }
+    // Boxes of platforms that turn are costly each: looser bounds go on from the tree of this one, unless it has
+    // so many open that a looser tree may lack most of them.
+    let (stop, open) = (found.stop, found.open.len());
+    let waits =
+        stop == Stop::Boxes && open <= budget.max_boxes / FEW_OPEN && open == found.waiting.len();
+    if waits && !problem.orientation.is_empty() {
+        *begun = Some(found);
     }
     Ok(Attempt::Undecided(stop))
 }

@@ -56,10 +56,12 @@ pub(crate) mod violation;
 use crate::search::accepted::{check, Accepted};
 use crate::search::{Budget, Control, Stop};
 use evidence::{Apart, Prover};
+use num_rational::BigRational;
+use num_traits::FromPrimitive;
 use orthocert_checker::certificate::{Certificate, Proof, Provenance, Verdict, FORMAT};
 use orthocert_checker::Rejected;
 use orthocert_kernel::certificate::{Claim, Node, Tree, Witness};
-use orthocert_kernel::claim::MachineClaim;
+use orthocert_kernel::claim::{Bound, MachineClaim};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
@@ -83,6 +85,8 @@ const GUARD_APART: u32 = 22;
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
 /// Boxes with directions apart: each takes long, and few are enough where they help.
 const MOST_APART: usize = 300;
+/// The greatest bound that is searched with.
+const GREATEST_BOUND: f64 = 1e60;
 /// Open boxes from whose centres a violation is looked for.
 const OPEN_CENTRES: usize = 64;
 
@@ -140,11 +144,13 @@ pub fn verify(
         return Ok(Verification { answer: refuted(claim, witness), worst, boxes: 0 });
     }
     let [ranges, rest, checks] = parts_of(&problem);
-    let derived = match control.part(ranges, |control| in_ranges(&problem, budget, control)) {
+    let tighter = tighter(claim).map(|claim| Problem::new(&claim)).transpose()?;
+    let own = tighter.as_ref().unwrap_or(&problem);
+    let derived = match control.part(ranges, |control| in_ranges(own, budget, control)) {
         Ok(nodes) => {
             let boxes = nodes.len();
             let answer = control.part(checks, |_| {
-                Ok::<_, ClaimError>(accepted(claim, &Prover::new(&problem)?, nodes))
+                Ok::<_, ClaimError>(accepted(claim, &Prover::new(own)?, nodes))
             })?;
             return Ok(Verification { answer, worst, boxes });
         }
@@ -184,6 +190,26 @@ pub fn verify(
         }
     };
     Ok(Verification { answer, worst, boxes })
+}
+
+/// A claim with bounds whose squares are doubles, in place of bounds so far off that theirs are not: what shows the
+/// one mostly shows the other.
+fn tighter(claim: &MachineClaim) -> Option<MachineClaim> {
+    let (mut tighter, mut found) = (claim.clone(), false);
+    for own in &mut tighter.require {
+        let ends = match &mut own.bound {
+            Bound::Min(x) | Bound::Max(x) => std::slice::from_mut(x),
+            Bound::Within(ends) => &mut ends[..],
+            Bound::Holds => &mut [],
+        };
+        for x in ends {
+            let far = approximate(x).filter(|x| x.abs() > GREATEST_BOUND);
+            let Some(far) = far else { continue };
+            *x = number(&BigRational::from_f64(GREATEST_BOUND.copysign(far))?)?;
+            found = true;
+        }
+    }
+    found.then_some(tighter)
 }
 
 /// Shares of the work: the search in ranges, which only tolerances have, the search, and the exact check.

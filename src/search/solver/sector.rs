@@ -1,6 +1,6 @@
 //! The angles that a joint takes: a certified sector in which all of them are, up to whole turns.
 
-use super::extremes::{loosest, of_one_width, rounded, NotEnclosed};
+use super::extremes::{narrowest, of_one_width, rounded, NotEnclosed};
 use super::refute::number;
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::value::{alone, Bounded};
@@ -48,35 +48,31 @@ pub fn enclose(
     let [lo, hi] = seen.map(BigRational::from_f64);
     let (lo, hi) = lo.zip(hi).ok_or(NotEnclosed::Undecided)?;
     let third = BigRational::new(1.into(), 3.into());
-    let mut width = relative.clone();
     let mut steps = Steps::default();
-    while width <= loosest() {
-        let step = &width * (&hi - &lo);
+    let found = narrowest(relative, |width| {
+        let step = width * (&hi - &lo);
         let (inward, outward) = (&step * &third, &step * (&third + &third));
         let certified = [rounded(&(&lo - &outward), &step), rounded(&(&hi + &outward), &step)];
         let outer = within(claim, leg, &certified).ok_or(NotEnclosed::Undecided)?;
         let budget = of_one_width(budget, &Problem::new(&outer)?);
         let found = steps.next(control, 2, |control| proof(&outer, budget, control));
-        if let Ok(certificate) = found {
-            let [lower, upper] = &certified;
-            let beyond = |ends: [&BigRational; 2]| {
-                let claim = within(claim, leg, &ends.map(BigRational::clone))?;
-                Problem::new(&claim).ok()?;
-                refutation(&claim)
-            };
-            let inner = [rounded(&(&lo + &inward), &step), rounded(&(&hi - &inward), &step)];
-            let ends = [[&inner[0], upper], [lower, &inner[1]]];
-            let [one, other] = ends.map(beyond);
-            let [least, greatest] = inner;
-            let reached = [one.map(|one| (least, one)), other.map(|other| (greatest, other))];
-            return Ok(Sector { certified, certificate, reached, width });
-        }
-        if control.is_cancelled() {
-            return Err(NotEnclosed::Cancelled);
-        }
-        width *= BigRational::from_integer(2.into());
-    }
-    Err(NotEnclosed::Undecided)
+        let Ok(certificate) = found else {
+            return if control.is_cancelled() { Err(NotEnclosed::Cancelled) } else { Ok(None) };
+        };
+        let [lower, upper] = &certified;
+        let beyond = |ends: [&BigRational; 2]| {
+            let claim = within(claim, leg, &ends.map(BigRational::clone))?;
+            Problem::new(&claim).ok()?;
+            refutation(&claim)
+        };
+        let inner = [rounded(&(&lo + &inward), &step), rounded(&(&hi - &inward), &step)];
+        let ends = [[&inner[0], upper], [lower, &inner[1]]];
+        let [one, other] = ends.map(beyond);
+        let [least, greatest] = inner;
+        let reached = [one.map(|one| (least, one)), other.map(|other| (greatest, other))];
+        Ok(Some(Sector { certified, certificate, reached, width: width.clone() }))
+    });
+    found?.ok_or(NotEnclosed::Undecided)
 }
 
 /// "The angle is within these degrees", and nothing else.

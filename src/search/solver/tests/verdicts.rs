@@ -32,6 +32,24 @@ fn is_refuted_at_once(claim: &MachineClaim) -> bool {
 }
 
 #[test]
+fn bounds_whose_squares_are_no_doubles_are_certified_at_once() {
+    for claim in [linear_delta(CYLINDER), rotary(), struts()] {
+        for zeros in [155, 310] {
+            let far = claimed(&format!("1{}", "0".repeat(zeros)));
+            let given = [("tool".to_owned(), vec![claimed("1")])].into();
+            let own = require("joint_speed", Bound::Max(far.clone()));
+            let require = vec![Requirement { given, ..own }];
+            let found = with_boxes(&MachineClaim { require, ..claim.clone() }, 1000);
+            let Answer::Decided { certificate, accepted } = found.answer else { panic!("{zeros}") };
+            assert_eq!(accepted.verdict, Verdict::Certified, "{zeros}");
+            // It is the claim that was made.
+            let Claim::Machine(own) = certificate.claim else { panic!("a machine") };
+            assert_eq!(own.require[0].bound, Bound::Max(far));
+        }
+    }
+}
+
+#[test]
 fn margins_need_few_formulas() {
     let given = |name: &str, x: &str| (name.to_owned(), vec![claimed(x)]);
     let one = |quantity: &str, bound| require(quantity, bound);
