@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 const NODES: std::ops::Range<usize> = 32..1500;
 /// Most coordinates: each asks for two boxes more.
 const MOST_COORDINATES: usize = 3;
-/// Gains by as much less than the greatest one as a half that is closed is worth, in parts of that.
+/// How many halves that are closed the greatest gain is worth.
 const WORTH: f64 = 2.0;
 
 /// A problem whose boxes are halved along the coordinate that closes most of the halves, if that is not one along which
