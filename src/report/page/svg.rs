@@ -174,10 +174,20 @@ impl Elements {
     }
 }
 
-/// The `d` of a path through points.
+/// The `d` of a path through points, to a tenth; those on a line between their neighbours are left out.
 pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
-    let mut d = String::with_capacity(points.len() * 12);
-    for (i, [x, y]) in points.iter().enumerate() {
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+    for next in points.iter().map(|point| point.map(|x| (10.0 * x).round())) {
+        while let [.., last, own] = kept[..] {
+            if !is_between(last, own, next) {
+                break;
+            }
+            kept.pop();
+        }
+        kept.push(next);
+    }
+    let mut d = String::with_capacity(kept.len() * 12);
+    for (i, [x, y]) in kept.iter().map(|point| point.map(|x| x / 10.0)).enumerate() {
         let _ = write!(d, "{}{x:.1} {y:.1}", if i == 0 { "M" } else { "L" });
     }
     if closed {
@@ -186,9 +196,31 @@ pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
     d
 }
 
+/// Whether a way goes straight on at `b`, or has not left `a`.
+fn is_between(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> bool {
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+    u[0] * v[1] == u[1] * v[0] && u[0] * v[0] + u[1] * v[1] >= 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn paths_have_their_corners_alone() {
+        let square =
+            [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        assert_eq!(path_data(&square, true), "M0.0 0.0L1.0 0.0L1.0 2.0L0.0 2.0Z");
+        // A way that turns back, and one that bends by less than is drawn.
+        assert_eq!(
+            path_data(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]], false),
+            "M0.0 0.0L2.0 0.0L1.0 0.0"
+        );
+        assert_eq!(
+            path_data(&[[0.0, 0.0], [1.0, 0.1], [2.0, 0.0]], false),
+            "M0.0 0.0L1.0 0.1L2.0 0.0"
+        );
+    }
 
     #[test]
     fn every_colour_of_the_figures_is_known_on_their_own_and_on_the_page() {
