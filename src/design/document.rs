@@ -156,11 +156,9 @@ impl<'a> Document<'a> {
         let header = named(last, "[").unwrap_or_default();
         // Of an array of tables, which of them.
         let same = |line: &&str| named(line, "[[").is_some_and(|other| other == header);
-        let header = match lines.lines().filter(same).count() {
-            number if number > 0 && named(last, "[[").is_some() => {
-                format!("{header}.{}", number - 1)
-            }
-            _ => header,
+        let header = match named(last, "[[") {
+            Some(_) => format!("{header}.{}", lines.lines().filter(same).count() - 1),
+            None => header,
         };
         let last = lines.lines().next_back().unwrap_or_default();
         let key = last.split_once('=').map(|(key, _)| name(key)).unwrap_or_default();

@@ -207,21 +207,14 @@ impl<'d> Walk<'_, 'd> {
 
     /// The number next to a key: by its own name, in the same table, or else by the whole key; of a table,
     /// whose keys are told, none.
-    fn beside(&self, key: &str, all: &[&str]) -> String {
+    fn beside(key: &str, all: &[&str]) -> String {
         if all.iter().any(|other| other.strip_prefix(key).is_some_and(|rest| rest.starts_with('.')))
         {
             return String::new();
         }
         let (table, name) = key.rsplit_once('.').unwrap_or(("", key));
-        let last = |other: &&str| {
-            other
-                .strip_prefix(table)?
-                .strip_prefix('.')
-                .filter(|own| !own.contains('.'))
-                .map(str::to_owned)
-        };
-        let own: Vec<String> = all.iter().filter_map(last).collect();
-        let own: Vec<&str> = own.iter().map(String::as_str).collect();
+        let names = all.iter().filter_map(|other| other.strip_prefix(table)?.strip_prefix('.'));
+        let own: Vec<&str> = names.filter(|own| !own.contains('.')).collect();
         match suggestion::hint(name, &own, |name| dotted(table, name)) {
             none if none.is_empty() => suggestion::hint(key, all, |key| key.to_owned()),
             hint => hint,
@@ -244,7 +237,7 @@ impl<'d> Walk<'_, 'd> {
         };
         let hint = match all.iter().find(meant) {
             Some(key) => format!("; did you mean {key}?"),
-            None => self.beside(&key, &all),
+            None => Self::beside(&key, &all),
         };
         format!("the key of a number; there is {}{hint}", there.join(", "))
     }

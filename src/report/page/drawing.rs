@@ -3,6 +3,7 @@
 use super::isomap::Mark;
 use super::labels::{about, beside, Place, Rectangle, Taken};
 use super::legs::{add, dot, scaled, Numbers, Point, Shape};
+use super::mechanism::subscript;
 use super::svg::{Elements, Fitted, Picture, View};
 use crate::report::point_text;
 
@@ -276,7 +277,7 @@ fn joints(layers: &mut Layers, machine: &Shape, fitted: &Fitted) {
         let Some(pose) = machine.pose(i, machine.position) else { continue };
         for (letter, p) in [('A', anchor(machine, i)), ('B', Some(pose.driven))] {
             let Some(at) = p.map(|p| fitted.at(p)) else { continue };
-            let name = format!("{letter}{}", subscript(i));
+            let name = format!("{letter}{}", subscript(&(i + 1).to_string()));
             let is_there = |known: &[f64; 2]| (known[0] - at[0]).hypot(known[1] - at[1]) < 1.0;
             match all.iter_mut().find(|(_, known)| is_there(known)) {
                 Some((names, _)) => names.push_str(&format!(", {name}")),
@@ -287,12 +288,6 @@ fn joints(layers: &mut Layers, machine: &Shape, fitted: &Fitted) {
     for (names, at) in all {
         layers.name("label", names, beside(at, 9.0).into());
     }
-}
-
-/// The number of a leg, below the line.
-fn subscript(i: usize) -> String {
-    let below = |digit: char| char::from_u32(0x2080 + digit.to_digit(10)?);
-    (i + 1).to_string().chars().filter_map(below).collect()
 }
 
 /// The platform between its joints, where they are apart, and `P`.

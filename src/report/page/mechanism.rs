@@ -2,6 +2,7 @@
 
 use crate::exact::decimal::significant;
 use crate::report::escape::xml;
+use crate::report::kernel::parameter;
 use crate::search::solver::approximate;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Requirement, Workspace,
@@ -237,16 +238,14 @@ fn is_letter(symbol: &str) -> bool {
 
 /// A requirement in letters and signs as papers have them: `greatest psi <= 2`, `rho_1`.
 pub fn typeset(text: &str) -> String {
-    let below = |digit: char| char::from_u32(0x2080 + digit.to_digit(10)?);
     let text = greek(text, "\u{1d62}").replace("<=", "\u{2264}").replace(">=", "\u{2265}");
     let mut out = String::new();
     let mut rest = text.as_str();
     while let Some((before, after)) = rest.split_once("rho_") {
         let digits = after.chars().take_while(char::is_ascii_digit).count();
-        let index: String = after[..digits].chars().filter_map(below).collect();
         out.push_str(before);
         out.push_str(if digits > 0 { "\u{3c1}" } else { "rho_" });
-        out.push_str(&index);
+        out.push_str(&subscript(&after[..digits]));
         rest = &after[digits..];
     }
     out.push_str(rest);
@@ -256,6 +255,12 @@ pub fn typeset(text: &str) -> String {
         other => other.to_owned(),
     };
     out.split(' ').map(letter).collect::<Vec<_>>().join(" ")
+}
+
+/// Digits below the line.
+pub fn subscript(digits: &str) -> String {
+    let below = |digit: char| char::from_u32(0x2080 + digit.to_digit(10)?);
+    digits.chars().filter_map(below).collect()
 }
 
 /// The machine's numbers, exactly.
@@ -299,13 +304,9 @@ pub fn of_witness<'a>(legs: usize, all: impl Iterator<Item = (&'a str, String)>)
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     let mut is_of_legs = false;
     for (place, value) in all {
-        let of_leg = place.strip_prefix("leg ").and_then(|rest| rest.split_once(": "));
-        let of_leg = of_leg.and_then(|(leg, name)| Some((leg.parse::<usize>().ok()?, name)));
-        let (leg, name) = of_leg.filter(|(leg, _)| (1..=legs).contains(leg)).unwrap_or((0, place));
+        let (leg, name) = parameter(place);
+        let leg = leg.filter(|leg| (1..=legs).contains(leg)).unwrap_or(0);
         is_of_legs |= leg > 0;
-        let axes = [(".0", " x"), (".1", " y"), (".2", " z")];
-        let along = |(end, axis): &(&str, &str)| Some(name.strip_suffix(end)?.to_owned() + axis);
-        let name = axes.iter().find_map(along).unwrap_or_else(|| name.to_owned());
         let at = rows.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
             rows.push((name, vec![String::new(); legs.max(1)]));
             rows.len() - 1

@@ -3,7 +3,7 @@
 
 use crate::report::{self, Facts};
 use crate::search::solver::sample::{At, Place, Quality, Sampler};
-use crate::search::solver::value::Bounded;
+use crate::search::solver::value::{turns, Bounded};
 use crate::search::solver::{approximate, FINEST};
 use orthocert_kernel::certificate::Witness;
 use orthocert_kernel::claim::{Bound, MachineClaim, Mechanism};
@@ -127,8 +127,7 @@ impl<'a> Sampled<'a> {
                 Bound::Max(bound) => (approximate(bound)? - value, approximate(bound)?.abs()),
                 Bound::Within([min, max]) => {
                     let (min, max) = (approximate(min)?, approximate(max)?);
-                    let turns = ((value - (min + max) / 2.0) / 360.0).round();
-                    let value = value - 360.0 * turns;
+                    let value = value + turns(value, (min + max) / 2.0);
                     ((value - min).min(max - value), max - min)
                 }
                 Bound::Holds => return None,

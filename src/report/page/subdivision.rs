@@ -3,7 +3,7 @@
 use super::isomap::{beside_axis, Mark};
 use super::legend::{Legend, Rule, Ruled, PATTERNS};
 use super::legs::Point;
-use super::svg::{path_data, Elements, Fitted, Picture, View};
+use super::svg::{beside_edges, path_data, Elements, Fitted, Picture, View};
 use crate::exact::decimal::significant;
 use std::array::from_fn;
 use std::collections::BTreeMap;
@@ -355,31 +355,8 @@ impl Subdivision {
                 }
             }
         }
-        // The name of an axis stands beside the silhouette edge along it.
-        let centre = at([0.5; 3]);
-        for (k, name) in self.axes.iter().enumerate() {
-            let (b, c) = ((k + 1) % 3, (k + 2) % 3);
-            let candidates = [[far[b], 1.0 - far[c]], [1.0 - far[b], far[c]]];
-            let place = |[x, y]: [f64; 2], part: f64| {
-                let mut u = [part; 3];
-                (u[b], u[c]) = (x, y);
-                at(u)
-            };
-            let lower =
-                |p: &[f64; 2], q: &[f64; 2]| place(*p, 0.5)[1].total_cmp(&place(*q, 0.5)[1]);
-            let Some(edge) = candidates.into_iter().max_by(lower) else { continue };
-            let [x, _] = place(edge, 0.5);
-            let aside = if (x - centre[0]).abs() > 20.0 { (x - centre[0]).signum() } else { 0.0 };
-            let beside = |part: f64| {
-                let [x, y] = place(edge, part);
-                [x + 16.0 * aside, y + 14.0]
-            };
-            out.text("axis middle", beside(0.5), name);
-            // A little inward, where those of two axes do not meet.
-            for (end, part) in [(0.0, 0.09), (1.0, 0.91)] {
-                out.text("tick middle", beside(part), &significant(self.place(k, end), 4));
-            }
-        }
+        let number = |k: usize, end: f64| significant(self.place(k, end), 4);
+        beside_edges(out, &self.axes, (far, 20.0), at, &number);
     }
 
     /// The boxes projected onto pairs of coordinates. In a plane they are filled by the rules for one

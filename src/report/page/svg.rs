@@ -174,6 +174,39 @@ impl Elements {
     }
 }
 
+/// The names of the axes of the unit cube, and the numbers at their ends: beside the silhouette's lower edge along each, or
+/// below it where that is nearer than `clear` to the centre. An axis without a name has no numbers.
+pub fn beside_edges(
+    out: &mut Elements,
+    names: &[String],
+    (far, clear): (Point, f64),
+    at: &dyn Fn(Point) -> [f64; 2],
+    number: &dyn Fn(usize, f64) -> String,
+) {
+    for (k, name) in names.iter().enumerate() {
+        let (b, c) = ((k + 1) % 3, (k + 2) % 3);
+        let place = |[x, y]: [f64; 2], part: f64| {
+            let mut u = [part; 3];
+            (u[b], u[c]) = (x, y);
+            at(u)
+        };
+        let edges = [[far[b], 1.0 - far[c]], [1.0 - far[b], far[c]]];
+        let [one, other] = edges.map(|edge| place(edge, 0.5)[1]);
+        let edge = edges[usize::from(one <= other)];
+        let off = place(edge, 0.5)[0] - at([0.5; 3])[0];
+        let aside = if off.abs() >= clear { 16.0 * off.signum() } else { 0.0 };
+        let mut beside = |class, part, text: &str| {
+            let [x, y] = place(edge, part);
+            out.text(class, [x + aside, y + 14.0], text);
+        };
+        beside("axis middle", 0.5, name);
+        // A little inward, where those of two axes do not meet.
+        for (end, part) in [(0.0, 0.09), (1.0, 0.91)].into_iter().filter(|_| !name.is_empty()) {
+            beside("tick middle", part, &number(k, end));
+        }
+    }
+}
+
 /// The `d` of a path through points, to a tenth; those on a line between their neighbours are left out.
 pub fn path_data(points: &[[f64; 2]], closed: bool) -> String {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());

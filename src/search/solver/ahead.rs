@@ -1,5 +1,6 @@
 //! Trees of fewer leaves, by a look at what becomes of halves.
 
+use super::doubles::Pair;
 use super::search::{halves, search, Boxes, Branch, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
 use orthocert_kernel::certificate::Node;
@@ -26,13 +27,13 @@ impl<P: Boxes> Ahead<'_, P> {
     }
 
     /// How many of the halves along a coordinate are closed.
-    fn closed(&self, cell: &Cell, k: usize, open: &[usize]) -> f64 {
-        let is_closed = |edge| {
+    fn closed(&self, cell: &Cell, k: usize, open: &[usize]) -> usize {
+        let is_closed = |edge: &Pair| {
             let mut half = cell.clone();
-            half[k] = edge;
+            half[k] = *edge;
             self.tried(&half, open, false).open.is_empty()
         };
-        halves(cell[k]).map_or(0.0, |edges| edges.map(is_closed).map(f64::from).iter().sum())
+        halves(cell[k]).into_iter().flatten().filter(is_closed).count()
     }
 }
 
@@ -49,10 +50,10 @@ impl<P: Boxes> Boxes for Ahead<'_, P> {
         let mut trial = self.tried(cell, open, asked);
         let greatest = trial.weights.iter().fold(0.0, |most: f64, &weight| most.max(weight));
         if !trial.open.is_empty() && !trial.hopeless {
-            let closed = (0..cell.len()).map(|k| self.closed(cell, k, &trial.open));
-            let closed: Vec<f64> = closed.collect();
-            let each = trial.weights.iter_mut().zip(closed);
-            each.for_each(|(weight, closed)| *weight = WORTH * *weight / greatest + closed);
+            for (k, weight) in trial.weights.iter_mut().enumerate() {
+                let closed = self.closed(cell, k, &trial.open);
+                *weight = WORTH * *weight / greatest + closed as f64;
+            }
         }
         trial
     }

@@ -6,7 +6,7 @@
 
 use super::evidence::{At, Over};
 use super::less::With;
-use super::rows::{between, Form, Rows};
+use super::rows::{between, Form};
 use nalgebra::{DMatrix, DVector};
 use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
@@ -22,15 +22,15 @@ const LOST: f64 = 0.5;
 
 /// A control point.
 struct Point {
+    vertex: Vertex,
     /// Of `mu`: the weight, that at the centre being 1, and the coordinates between -1 and 1.
     terms: Vec<f64>,
     /// The inequalities, of greatest absolute value 1.
     g: Vec<f64>,
     /// The square of the greatest singular value of the scaled rows, over `c^2`.
     upper: f64,
-    /// The scaled rows, where the square of no coordinate of position is less than between the ends: there the lower bound
-    /// is hardest.
-    rows: Option<Rows>,
+    /// Whether the square of no coordinate of position is less than between the ends: there the lower bound is hardest.
+    at_ends: bool,
 }
 
 /// What does not depend on `Y`.
@@ -72,17 +72,17 @@ impl Balance {
             .map(|(_, g)| g.iter().fold(0.0, |size: f64, g| size.max(g.abs())))
             .collect();
         let lengths = over.problem().corners[0].len();
-        let point = |vertex: Vertex| {
+        let point = |vertex| {
             let at = At::Vertex(vertex);
             let places: Vec<_> = (0..over.m()).map(|k| over.formulas.place(k, vertex)).collect();
             let own = places.iter().map(|place| place.unwrap_or(0) as f64);
             let terms = [over.at(weight, at)? / centre].into_iter().chain(own).collect();
             let g =
                 less.iter().zip(&sizes).map(|((_, g), size)| g[vertex.index()] / size).collect();
-            let rows = over.own(Form::Scaled, at)?;
-            let upper = rows.square().symmetric_eigenvalues().max() / c_squared;
+            let upper =
+                over.own(Form::Scaled, at)?.square().symmetric_eigenvalues().max() / c_squared;
             let at_ends = places.iter().take(lengths).all(|&place| place != Some(0));
-            Some(Point { terms, g, upper, rows: Some(rows).filter(|_| at_ends) })
+            Some(Point { vertex, terms, g, upper, at_ends })
         };
         let points = over.formulas.vertices().map(point).collect::<Option<Vec<_>>>()?;
         let less = less.into_iter().zip(sizes).map(|((with, _), size)| (with, size)).collect();
@@ -90,7 +90,7 @@ impl Balance {
     }
 
     /// With one `Y`; `None` where nothing would be left.
-    pub fn best(&self, y: &DMatrix<f64>) -> Option<Best> {
+    pub fn best(&self, over: &Over<'_>, y: &DMatrix<f64>) -> Option<Best> {
         let terms = self.points.first()?.terms.len();
         let part = |point: &Point, sign: f64, by: f64| {
             let own = point.terms.iter().map(|t| sign * t);
@@ -99,12 +99,9 @@ impl Balance {
         let mut rows = Vec::new();
         for point in &self.points {
             rows.push((-point.upper / self.size, part(point, 1.0, self.c_squared.recip())));
-            if let Some(own) = &point.rows {
-                let lower = own.minorant(y).symmetric_eigenvalues().min();
-                // Within the workspace, nothing is between both bounds there.
-                if lower <= point.upper && point.g.iter().all(|g| *g >= 0.0) {
-                    return None;
-                }
+            if point.at_ends {
+                let rows_there = over.own(Form::Scaled, At::Vertex(point.vertex))?;
+                let lower = rows_there.minorant(y).symmetric_eigenvalues().min();
                 rows.push((lower / self.size, part(point, -1.0, 1.0)));
             }
         }

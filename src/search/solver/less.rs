@@ -18,9 +18,9 @@ const HALVINGS: usize = 30;
 const POWERS: std::ops::RangeInclusive<i32> = -8..=4;
 
 /// Multiples `low < mu < high` with which `margin > mu g` at all points; `None` where a margin is not known.
-fn interval(points: impl IntoIterator<Item = (Option<f64>, f64)>) -> Option<Option<[f64; 2]>> {
+fn interval(margins: impl IntoIterator<Item = Option<f64>>, g: &[f64]) -> Option<Option<[f64; 2]>> {
     let (mut low, mut high) = (0f64, f64::INFINITY);
-    for (margin, g) in points {
+    for (margin, &g) in margins.into_iter().zip(g) {
         let margin = margin?;
         if g > 0.0 {
             high = high.min(margin / g);
@@ -37,8 +37,7 @@ fn interval(points: impl IntoIterator<Item = (Option<f64>, f64)>) -> Option<Opti
 
 /// The same of what is left, `margin - mu g`, where this is at least a part of the most there is; and the most.
 pub fn best(margins: &[f64], g: &[f64], part: f64) -> Option<(f64, [f64; 2])> {
-    let points = |least: f64| margins.iter().zip(g).map(move |(m, &g)| (Some(m - least), g));
-    let above = |least| interval(points(least)).flatten();
+    let above = |least: f64| interval(margins.iter().map(|m| Some(m - least)), g).flatten();
     let (mut low, mut high) =
         margins.iter().fold((f64::INFINITY, 0.0), |(low, high), &m| (m.min(low), m.max(high)));
     low = low.max(0.0);
@@ -86,11 +85,7 @@ impl Over<'_> {
         let margins = || known.iter().zip(&points).map(of);
         let with = |with: &With, (n, places)| with(Box::new(evidence.clone()), n, places);
         for (wrap, g) in &all {
-            // Where most could be taken, what fails fails at once.
-            let mut order: Vec<usize> = (0..points.len()).collect();
-            order.sort_by(|&a, &b| g[b].total_cmp(&g[a]));
-            let ordered = order.into_iter().map(|i| (of((&known[i], &points[i])), g[i]));
-            let Some(multiples) = interval(ordered) else {
+            let Some(multiples) = interval(margins(), g) else {
                 let mut tried = all.iter().flat_map(|(wrap, _)| POWERS.map(move |k| (wrap, k)));
                 return tried.find_map(|(wrap, k)| {
                     holds(with(wrap, between(f64::from(k).exp2(), f64::from(k).exp2())?))
@@ -108,9 +103,9 @@ impl Over<'_> {
         let [(inside, t), (turned, g)] = &all[..] else { return None };
         POWERS.into_iter().find_map(|k| {
             let mu = f64::from(k).exp2();
-            let left = margins().zip(t).zip(g).map(|((m, t), &g)| (m.map(|m| m - mu * t), g));
+            let left = margins().zip(t).map(|(m, t)| Some(m? - mu * t));
             let inner = with(inside, between(mu, mu)?);
-            let mut multiples = short(interval(left)??);
+            let mut multiples = short(interval(left, g)??);
             multiples.find_map(|(n, places)| holds(turned(Box::new(inner.clone()), n, places)))
         })
     }

@@ -245,7 +245,7 @@ impl Over<'_> {
         }
         let balance = Balance::new(self, c_squared, mu[0])?;
         starts.find_map(|y| {
-            let best = balance.best(&y)?;
+            let best = balance.best(self, &y)?;
             let found = best.less(with(&y, &best.mu, FINER)?)?;
             self.shows(test, &found)
                 .then(|| self.shortened(test, found, |bits| with(&y, &best.mu, bits)))

@@ -3,8 +3,8 @@
 use super::extremes::{narrowest, of_one_width, rounded, NotEnclosed};
 use super::refute::number;
 use super::sample::{Place, Quality, Sampler, Worst};
-use super::value::{alone, Bounded};
-use super::{approximate, proof, refutation};
+use super::value::{alone, middle as range_middle, turns, Bounded};
+use super::{proof, refutation};
 use crate::search::{Budget, Control, Steps};
 use num_rational::BigRational;
 use num_traits::FromPrimitive;
@@ -133,12 +133,9 @@ fn seen(claim: &MachineClaim, leg: usize) -> Result<[f64; 2], NotEnclosed> {
     let own = claim.require.iter().find(|own| {
         own.quantity == "joint_range" && own.leg.is_none_or(|number| number == leg + 1)
     });
-    let own = own.and_then(|own| match &own.bound {
-        Bound::Within([min, max]) => Some(0.5 * (approximate(min)? + approximate(max)?)),
-        _ => None,
-    });
-    let turns = 360.0 * ((0.5 * (lo + hi) - own.unwrap_or(0.0)) / 360.0).round();
-    Ok([lo - turns, hi - turns])
+    let own = own.and_then(|own| range_middle(&own.bound)).unwrap_or(0.0);
+    let turns = turns(0.5 * (lo + hi), own);
+    Ok([lo + turns, hi + turns])
 }
 
 #[cfg(test)]

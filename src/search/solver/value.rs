@@ -227,7 +227,8 @@ impl Bounded {
                 Joint::Length(rho) => Some(values.of(rho)? * sampler.unit()),
                 Joint::Angle { cos, sin } => {
                     let angle = values.of(sin)?.atan2(values.of(cos)?).to_degrees();
-                    Some(angle + 360.0 * self.turns(angle))
+                    let range = middle(&self.requirement.bound);
+                    Some(angle + range.map_or(0.0, |range| turns(angle, range)))
                 }
             },
             ("serial_margin", _) => cosine(leg?, values),
@@ -248,13 +249,6 @@ impl Bounded {
                 self.by_margin(own?, problem, sampler, values)
             }
         }
-    }
-
-    /// The whole turns by which an angle, in degrees, is nearest to the middle of its range.
-    fn turns(&self, angle: f64) -> f64 {
-        let Bound::Within([min, max]) = &self.requirement.bound else { return 0.0 };
-        let middle = approximate(min).zip(approximate(max)).map(|(min, max)| 0.5 * (min + max));
-        middle.map_or(0.0, |middle| ((middle - angle) / 360.0).round())
     }
 
     /// The value of a quantity that its margins tell: the worst of its tests.
@@ -386,6 +380,17 @@ pub(crate) fn alone(claim: &MachineClaim, require: Vec<Requirement>) -> MachineC
         claim.bodies.clear();
     }
     claim
+}
+
+/// The middle of a range.
+pub fn middle(range: &Bound) -> Option<f64> {
+    let Bound::Within([min, max]) = range else { return None };
+    Some(0.5 * (approximate(min)? + approximate(max)?))
+}
+
+/// The whole turns, in degrees, with which an angle is nearest to another.
+pub fn turns(angle: f64, other: f64) -> f64 {
+    360.0 * ((other - angle) / 360.0).round()
 }
 
 /// Whether it is about the angle of an accuracy.

@@ -2,7 +2,7 @@
 
 use super::super::isomap::{beside_axis, Mark};
 use super::super::legs::Point;
-use super::super::svg::{path_data, Elements, Fitted, Picture, View};
+use super::super::svg::{beside_edges, path_data, Elements, Fitted, Picture, View};
 use crate::exact::decimal::significant;
 use crate::search::paving::{Node, Tree, INNER, UNDECIDED};
 use serde_json::{json, Value};
@@ -108,6 +108,11 @@ impl Region<'_> {
         }
     }
 
+    /// Where a part of an axis is.
+    fn number(&self, k: usize, part: f64) -> String {
+        significant(self.least[k] + part * self.width[k], 4)
+    }
+
     fn side(&self, out: &mut Elements, view: View, left: f64) {
         let shape = self.shape();
         let place = |u: Point| -> Point { from_fn(|k| u[k] * shape[k]) };
@@ -134,27 +139,7 @@ impl Region<'_> {
                 }
             }
         }
-        for (k, name) in self.axes.iter().enumerate() {
-            // Beside the lowest edge along the axis that does not end in the farthest corner's.
-            let (b, c) = ((k + 1) % 3, (k + 2) % 3);
-            let place = |[x, y]: [f64; 2], part: f64| {
-                let mut u = [part; 3];
-                (u[b], u[c]) = (x, y);
-                at(u)
-            };
-            let edges = [[far[b], 1.0 - far[c]], [1.0 - far[b], far[c]]];
-            let [one, other] = edges.map(|edge| place(edge, 0.5)[1]);
-            let edge = edges[usize::from(one <= other)];
-            let aside = 16.0 * (place(edge, 0.5)[0] - at([0.5; 3])[0]).signum();
-            let mut beside = |class, part, text: &str| {
-                let [x, y] = place(edge, part);
-                out.text(class, [x + aside, y + 14.0], text);
-            };
-            beside("axis middle", 0.5, name);
-            for (end, part) in [(0.0, 0.09), (1.0, 0.91)].into_iter().filter(|_| !name.is_empty()) {
-                beside("tick middle", part, &significant(self.least[k] + end * self.width[k], 4));
-            }
-        }
+        beside_edges(out, self.axes, (far, 0.0), &at, &|k, end| self.number(k, end));
     }
 
     /// Calls with every inner leaf, those behind first: of two halves none hides a part of the one
@@ -247,7 +232,7 @@ impl Region<'_> {
                 GAP + (i / ROW) as f64 * (panel[1] + 1.6 * GAP),
             ];
             self.slice(&mut out, u, corner, panel);
-            let z = significant(self.least[2] + u * self.width[2], 4);
+            let z = self.number(2, u);
             if slices > 1 {
                 let title = format!("{} = {z}", self.axes[2]);
                 out.text("map-title start", [corner[0], corner[1] - 8.0], &title);
@@ -307,12 +292,11 @@ impl Region<'_> {
         ));
         out.text("axis middle", [x + w / 2.0, y + h + 13.0], &self.axes[0]);
         beside_axis(out, [x, y + h / 2.0], &self.axes[1]);
-        let number = |k: usize, end: f64| significant(self.least[k] + end * self.width[k], 4);
-        out.text("tick start", [x, y + h + 13.0], &number(0, 0.0));
-        out.text("tick end", [x + w, y + h + 13.0], &number(0, 1.0));
+        out.text("tick start", [x, y + h + 13.0], &self.number(0, 0.0));
+        out.text("tick end", [x + w, y + h + 13.0], &self.number(0, 1.0));
         if !self.axes[1].is_empty() {
-            out.text("tick end", [x - 4.0, y + h], &number(1, 0.0));
-            out.text("tick end", [x - 4.0, y + 9.0], &number(1, 1.0));
+            out.text("tick end", [x - 4.0, y + h], &self.number(1, 0.0));
+            out.text("tick end", [x - 4.0, y + 9.0], &self.number(1, 1.0));
         }
     }
 
