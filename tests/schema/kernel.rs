@@ -95,7 +95,7 @@ fn it_objects_to_what_is_not_of_the_shape() {
         ("verdict of the other kind", r#""certified""#, r#""refuted""#),
         ("requirements under another key", r#""require":["#, r#""requirements":["#),
         ("split by a name", r#""split":0"#, r#""split":"x""#),
-        ("split of a seventh coordinate", r#""split":0"#, r#""split":6"#),
+        ("split of a coordinate before the first", r#""split":0"#, r#""split":-1"#),
         ("split and failure", r#""split":0"#, r#""split":0,"fails":"reach""#),
         ("unknown evidence", r#"{"lower":"#, r#"{"upper":"#),
         ("evidence that stands alone", r#"[1,"test"]"#, r#""test""#),

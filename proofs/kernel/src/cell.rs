@@ -3,7 +3,7 @@
 use crate::fixed::{Integer, Interval};
 
 /// A box: for each coordinate a range with ends in multiples of `2^-bits`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cell<Z>(pub Vec<Interval<Z>>);
 
 impl<Z: Integer> Cell<Z> {

@@ -12,9 +12,9 @@ use crate::tree::{self, OFFSET_PARTS};
 /// Accepts a proof of a claim whose machine is compiled, or says why not.
 ///
 /// **Lemma (no cube).** If every leaf fails at an offset of at most [`OFFSET_PARTS`] either way, the
-/// claim is true. *Proof.* A centre `C` is in a leaf's cell, and `C + o` is in the cube about it, for
+/// claim is true. *Proof.* A centre `C` with a machine is in a leaf, and `C + o` is in the cube about it, for
 /// the leaf's offset `o`, as `|o_k| <= side/2`. It is one of the cell's points moved by `o`, at all of
-/// which the claim of the machine fails, for every machine. ∎ With an orientation, a "cube" would be of
+/// which the claim of the machine fails, for every machine of the leaf. ∎ With an orientation, a "cube" would be of
 /// coordinates of other kinds too.
 pub(crate) fn check(claim: &NoCubeClaim, problem: Problem, tree: &Tree) -> Result<(), Rejected> {
     let is_box =
@@ -37,8 +37,7 @@ It is proved:
 No axis-aligned cube of side {side} with its centre in the box
 {centres}
 is such that all of the following holds at every point P of the cube.
-{all}(With tolerances, the cube has a point at which it does not for every machine:
-none of them has the cube.)
+{all}(With tolerances, none of the machines has such a cube.)
 "
     )
 }

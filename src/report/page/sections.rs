@@ -94,6 +94,11 @@ impl Page<'_> {
                 facts.push((cover, grouped(size.leaves as u64)));
                 facts.push(("boxes in all", grouped(size.nodes as u64)));
                 facts.push(("halvings, at most", size.depth.to_string()));
+                let of_tolerances = |tree: &Subdivision| tree.code.matches('T').count();
+                let halved: usize = self.scene.trees.iter().map(of_tolerances).sum();
+                if halved > 0 {
+                    facts.push(("of them, of tolerances", halved.to_string()));
+                }
             }
         }
         let bits = match &self.certificate.proof {

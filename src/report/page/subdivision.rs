@@ -50,8 +50,8 @@ pub struct Subdivision {
     pub width: Vec<f64>,
     /// The boxes that cover it.
     pub leaves: Vec<Leaf>,
-    /// The nodes in preorder: a letter for each rule, then `X`, `Y`, `Z` for a split or `.`; of three
-    /// coordinates.
+    /// The nodes in preorder: a letter for each rule, then `X`, `Y`, `Z` for a split, `T` for one of a tolerance, or `.`;
+    /// of three coordinates.
     pub code: String,
     /// The position of the obligation by whose rules boxes are filled.
     pub filled_by: usize,
@@ -123,7 +123,13 @@ impl Subdivision {
                     }
                 }
             }
-            match split.filter(|&k| k < parts.len()) {
+            match *split {
+                // The range of a tolerance: the halves are about the same box.
+                Some(k) if k >= parts.len() => {
+                    code.push('T');
+                    waiting.push((parts.clone(), by.clone(), depth + 1));
+                    waiting.push((parts, by, depth + 1));
+                }
                 Some(k) => {
                     code.push(*['X', 'Y', 'Z'].get(k).unwrap_or(&'?'));
                     let [low, high] = parts[k];
@@ -522,6 +528,19 @@ mod tests {
         assert_eq!(found.leaves[2].parts[2], [0.5, 1.0]);
         assert_eq!(found.uses, [1, 2, 1]);
         assert!(legend.rules.iter().all(|rule| rule.pattern < PATTERNS.len()));
+    }
+
+    #[test]
+    fn halves_of_a_tolerance_are_about_the_same_box() {
+        let leaf = || node(vec![Step(0, Evidence::Test)], None);
+        let nodes = vec![node(vec![], Some(5)), node(vec![], Some(0)), leaf(), leaf(), leaf()];
+        let (legend, ruled) = legend(nodes, &["psi"]);
+        let root = Root::new(["x", "y", "z"], [0.0; 3], [1.0; 3]);
+        let found = Subdivision::new("box", root, &legend, &ruled);
+        assert_eq!(found.code, "TXa.a.a.");
+        let first: Vec<[f64; 2]> = found.leaves.iter().map(|leaf| leaf.parts[0]).collect();
+        assert_eq!(first, [[0.0, 0.5], [0.5, 1.0], [0.0, 1.0]]);
+        assert_eq!(found.leaves.iter().map(|leaf| leaf.depth).collect::<Vec<_>>(), [2, 2, 1]);
     }
 
     #[test]

@@ -22,7 +22,7 @@ use tolerances::{are_for, is_of_vertices};
 pub struct Checker<'a, E: Enclosure> {
     problem: &'a Problem,
     arithmetic: &'a E,
-    /// What it was given.
+    /// What it was given, or narrowed to.
     pub parameters: Vec<E::Number>,
     /// The same with directions of one scale.
     pub scaled_parameters: Vec<E::Number>,
@@ -68,9 +68,18 @@ impl<'a, E: Enclosure> Checker<'a, E> {
             needed: own::needed(problem),
             constant: Values::default(),
         };
-        checker.constant = checker.values(None, &[]);
-        checker.scaled_parameters = checker.of_one_scale();
+        checker.narrow(&[]);
         checker
+    }
+
+    /// For machines with these ranges of the numbers with two ends, in their order; of those not given, with the same.
+    pub fn narrow(&mut self, ranges: &[E::Number]) {
+        let own = self.parameters.iter_mut().zip(&self.problem.inputs);
+        let own = own.filter(|(_, input)| input.has_two_ends());
+        own.zip(ranges).for_each(|((own, _), range)| own.clone_from(range));
+        self.constant = Values::default();
+        self.constant = self.values(None, &[]);
+        self.scaled_parameters = self.of_one_scale();
     }
 
     /// With the one `Y` of a tree.

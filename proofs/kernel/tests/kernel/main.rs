@@ -14,6 +14,7 @@ mod false_claims;
 mod false_poses;
 mod fans;
 mod for_all;
+mod halves;
 mod leaves;
 mod machines;
 mod modules;

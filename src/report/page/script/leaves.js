@@ -1,5 +1,5 @@
 // The leaves of a tree, from its code: a letter for each rule used on a node, then X, Y or Z for a
-// split on that axis, or a point.
+// split on that axis, T for one of a tolerance, whose halves have the same box, or a point.
 
 const leavesOf = (tree, rules, discharges, obligations) => {
   const count = (tree.code.match(/\./g) || []).length;
@@ -16,7 +16,7 @@ const leavesOf = (tree, rules, discharges, obligations) => {
   for (const c of tree.code) {
     by = by || node.by.slice();
     const axis = "XYZ".indexOf(c);
-    if (axis < 0 && c !== ".") {
+    if (axis < 0 && c !== "." && c !== "T") {
       const rule = c.charCodeAt(0) - 97;
       by.forEach((known, o) => {
         if (known < 0 && asked.has(o) && (discharges[rule] === o || discharges[rule] < 0)) {
@@ -35,8 +35,10 @@ const leavesOf = (tree, rules, discharges, obligations) => {
       const middle = (node.low[axis] + node.high[axis]) / 2;
       const half = (low, high) => ({ low, high, depth: node.depth + 1, by });
       const [below, above] = [node.high.slice(), node.low.slice()];
-      below[axis] = middle;
-      above[axis] = middle;
+      if (axis >= 0) {
+        below[axis] = middle;
+        above[axis] = middle;
+      }
       waiting.push(half(above, node.high), half(node.low, below));
     }
     node = waiting.pop();
