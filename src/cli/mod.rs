@@ -266,8 +266,25 @@ fn usage(mut message: clap::Error) -> ExitCode {
     for (kind, value) in quoted {
         message.insert(kind, value);
     }
+    if let Some(tip) = command_for(&message) {
+        message.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
     print::line(message.render().to_string().trim_end());
     ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2))
+}
+
+/// What a file may be meant for that stands where a command does.
+fn command_for(message: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = message.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    let (_, extension) = word.rsplit_once('.')?;
+    let command = match extension {
+        "toml" => "verify",
+        "json" | "paving" => "check",
+        _ => return None,
+    };
+    Some(format!("a command comes first: orthocert {command} {word}"))
 }
 
 /// What is said of a value that an option does not take, as of those that are read later.

@@ -138,6 +138,16 @@ fn numbers_of_options_carry_no_unit() {
 }
 
 #[test]
+fn a_file_in_the_place_of_a_command_is_told_which() {
+    let folder = Folder::new();
+    for (file, command) in [("a.toml", "verify"), ("a.cert.json", "check"), ("a.paving", "check")] {
+        folder.run(&[file]).exits(2).complains(&[&format!("orthocert {command} {file}")]);
+    }
+    let run = folder.run(&["prove"]).exits(2);
+    assert!(!run.stderr.contains("comes first"), "{}", run.stderr);
+}
+
+#[test]
 fn a_leg_that_does_not_reach_is_named() {
     let folder = Folder::with(&["delta-out-of-reach.toml"]);
     let run = folder.run(&["verify", "delta-out-of-reach.toml"]).exits(1);
