@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written Turning Singular Legs Control Pose Drives Driven Certificate PavingText.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Singular Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
   FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
 Local Open Scope R_scope.
@@ -164,6 +164,8 @@ Check kernel.Driven.check_driven_sound.
 Print Assumptions kernel.Driven.check_driven_sound.
 Check kernel.Written.check_written_sound.
 Print Assumptions kernel.Written.check_written_sound.
+Check kernel.AtPoint.refute_written_sound.
+Print Assumptions kernel.AtPoint.refute_written_sound.
 Check kernel.Orientation.rotation_about_rotates.
 Print Assumptions kernel.Orientation.rotation_about_rotates.
 Check kernel.Orientation.rotation_about_axes.

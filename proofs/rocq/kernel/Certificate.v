@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written Orientation Turning Singular Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Singular Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -914,12 +914,21 @@ Definition means (c : certificate) : Prop :=
       turning_holds c /\ exists m P Q, is_about_struts c m P Q
   | Formulas_ xs ps ds rows a b rs, Nodes _ _ _ => let c := written_claim_of xs ps ds rows a b rs in
       written_holds c /\ exists theta x, is_about_written c theta x
+  | Formulas_ xs ps ds rows a b rs, ByWitness _ _ _ _ => let c := written_claim_of xs ps ds rows a b rs in let m := by_formulas c in
+      exists theta x, is_about_written c theta x /\ ~ exists M, Forall2 (is_row m theta x) (joint_forms m) M /\
+        Configuration.meets (length (coordinate_names m)) (machine_at m theta x M) (written_demands c)
   | Closed_ offset side rs, Nodes _ _ _ =>
       match closed_bounds rs with
       | Some (least, greatest) => closed_design_holds (denoted side) (denoted least) (denoted greatest) (value (denoted offset)) /\
           Forall (fun r => match about_ r, end_ r with JointRange, AtLeast_ b => value (denoted b) <= 0 | _, _ => True end) rs /\
           (closed_rest rs = [] \/ exists above, are_closed above offset side greatest /\
             let c := closed_claim above offset side greatest (closed_rest rs) in driven_holds c /\ exists m P Q, is_about_driven c m P Q)
+      | None => False
+      end
+  | Closed_ offset side rs, ByWitness _ _ _ _ =>
+      match closed_bounds rs with
+      | Some (_, greatest) => exists above, are_closed above offset side greatest /\
+          let c := closed_claim above offset side greatest rs in exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q
       | None => False
       end
   | NoCube_ ls a b rs side, Nodes _ _ _ => let c := claim_of ls (Box_ a b) [] rs in
@@ -1067,17 +1076,25 @@ Fixpoint take_legs (ws : list written_leg) (l : list Claim.number) : list exact_
   end.
 
 (** How many directions a requirement fails in. *)
-Definition directions_of (r : requirement) : nat :=
+Definition directions_of (ds : list drive) (r : requirement) : nat :=
   match r with
+  | JointAcceleration i _ _ _ => match nth_error ds i with Some (PlanarLeg _) => 1 | _ => 0 end
   | JointMin _ _ | JointMax _ _ | JointSpeed _ _ _ | SerialMargin _ _ | ParallelMargin _ | Beside _ _ _ _ => 0
   | ConditionMax _ => 2
   | _ => 1
   end.
-Definition failure_of (rs : list requirement) (f : violation) : option failure :=
+(** Of forces, in the unit of lengths that formulas have: a plane's normal has none. *)
+Definition in_unit (ds : list drive) (vs : list (list Z)) : list (list Z) :=
+  let s := length_order ds in
+  let scale d x := if Bool.eqb match d with PlanarLeg _ => true | _ => false end (0 <=? s)%Z then (x * 2 ^ Z.abs s)%Z else x in
+  map (fun v => if Nat.eqb (length v) (length ds) then map (fun p => scale (fst p) (snd p)) (combine ds v) else v) vs.
+Definition failure_of (k : claim) (f : violation) : option failure :=
+  let rs := require k in
   match f with
   | Reach => Some OutOfReach
   | Obligation i vs =>
-      match option_map directions_of (nth_error rs i), vs with
+      let vs := match nth_error rs i with Some (JointForce _ _ _) => in_unit (legs k) vs | _ => vs end in
+      match option_map (directions_of (legs k)) (nth_error rs i), vs with
       | Some 0%nat, [] => let none := (0, 0, 0)%Z in Some (Fails i none none)
       | Some 1%nat, [[a; b; c]] => Some (Fails i (a, b, c) (a, b, c))
       | Some 2%nat, [[a; b; c]; [d; e; f]] => Some (Fails i (a, b, c) (d, e, f))
@@ -1226,7 +1243,7 @@ Definition is_turning (k : motion) (ls : list (list quantity * list quantity)) (
 Definition quantities_of_driven (l : written_driven) : list quantity :=
   match l with AnySlider_ d a p len _ => d ++ a ++ p ++ [len] | AnyStrut_ a p => a ++ p | AnyArm_ k x a p r len _ => k ++ x ++ a ++ p ++ [r; len] end%list.
 Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
-    (rs : list written_requirement) : bool :=
+    (is_asked_of_two : bool) (rs : list written_requirement) : bool :=
   let flat := match k with TranslatesInPlane | Turns InPlane => true | _ => false end in
   let is_vector (v : list quantity) := Nat.eqb (length v) (if flat then 2 else 3) in
   let arms := has_arms ls in
@@ -1245,7 +1262,7 @@ Definition are_well_formed_legs (k : mobility) (ls : list written_driven) (ell :
   | Turns InSpace, Some x, Some (Tilted a b) => certainly exact_bits true (denoted x) && is_less_than_half_turn a && is_less_than_half_turn b
   | _, _, _ => false
   end &&
-  forallb (is_driven_demand arms k (length ls)) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
+  forallb (fun r => is_driven_demand arms k (length ls) r || is_asked_of_two && is_of_two_points r && is_asked 0 0 r) rs && is_each_once rs && forallb is_demand_bound (demands arms (length ls) [] rs).
 
 (** No machine within the tolerances has a direction that is zero. *)
 Definition has_direction (d : drive) : bool :=
@@ -1269,13 +1286,24 @@ Definition are_well_formed_formulas (xs : list string) (ps : list (string * quan
   Nat.eqb (length a) (length b) && forallb (fun r => is_asked n (length rows) r && has_coordinate r) rs && is_each_once rs &&
   forallb (fun p => is_range (snd p)) ps && forallb is_demand_bound (demands false (length rows) [] rs).
 
-(** How many obligations are before that of two points; an angle at a joint of less than 90 degrees has two tests. *)
+(** How many tests are before that of two points. *)
 Fixpoint before_two_points (rs : list written_requirement) : list written_requirement :=
   match rs with r :: rs' => if is_of_two_points r then [] else r :: before_two_points rs' | [] => [] end.
-Definition tests_in (d : demand) : nat :=
-  match d with JointAngleMax _ _ _ b => if up_to_90 b && negb (certainly exact_bits false (Minus b (90 // 1))) then 2 else 1 | _ => 1 end.
-Definition place_of_two_points (legs : nat) (bs : list written_body) (rs : list written_requirement) : nat :=
-  (length (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end) + list_sum (map tests_in (flat_map (demand_of false legs bs) (before_two_points rs))))%nat.
+Definition place_of_two_points (are_angles : bool) (parts legs : nat) (bs : list written_body) (rs : list written_requirement) : nat :=
+  (length (match flat_map factor_max_of rs with [] => [Nonsingular] | l => l end) +
+    list_sum (map (Configuration.tests_of exact_bits parts) (flat_map (demand_of are_angles legs bs) (before_two_points rs))))%nat.
+(** Poses near another one have a test of each part. *)
+Definition parts_of (k : motion) : nat := match k with AboutPoint => 1 | _ => 2 end.
+(** What fails at one point, where tests of one point are counted alone. *)
+Definition failure_at (are_angles : bool) (parts legs : nat) (bs : list written_body) (rs : list written_requirement) (how : violation) : option nfailure :=
+  let place := place_of_two_points are_angles parts legs bs rs in
+  let moved (f : nat -> nfailure) i :=
+    if negb (existsb is_of_two_points rs) || Nat.ltb i place then Some (f i) else if Nat.eqb i place then None else Some (f (pred i)) in
+  match nfailure_of how with
+  | Some (NFails i vs) => moved (fun i => NFails i vs) i
+  | Some (NFailsAlong i row) => moved (fun i => NFailsAlong i row) i
+  | f => f
+  end.
 
 (** A witness has a number for each tolerance. *)
 Definition is_one_each (qs : list quantity) (machine : list expression) : bool :=
@@ -1308,22 +1336,23 @@ Definition accept_driven_tree (k : mobility) (ls : list written_driven) (ell : o
   let s := any_length_order (drives c) in let ds := map any_direction_orders (drives c) in
   let ps := Drives.driven_layouts s ds (drives c) in
   match tree_of (map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps))) (length nodes) nodes with
-  | Some (t, []) => are_well_formed_legs k ls ell w o rs && splits_below (freedom k) nodes && certify_driven exact_bits bits c s ds t
+  | Some (t, []) => are_well_formed_legs k ls ell w o false rs && splits_below (freedom k) nodes && certify_driven exact_bits bits c s ds t
   | _ => false
   end.
 Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
     (rs : list written_requirement) (point machine : list expression) (how : violation) : bool :=
   let n := match k with Translates => 3 | TranslatesInPlane => 2 | Turns m => places_of_point m end in
   let point := map denoted point in
-  match take_all_driven ls (map denoted machine), nfailure_of how with
-  | (m, []), Some f => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o rs && Nat.eqb (length point) (freedom k) &&
+  match take_all_driven ls (map denoted machine), failure_at (has_arms ls) 1 (length ls) [] rs how with
+  | (m, []), Some f => is_one_each (flat_map quantities_of_driven ls) machine && are_well_formed_legs k ls ell w o true rs && Nat.eqb (length point) (freedom k) &&
+      match how with Dependent_ => negb (has_arms ls) | _ => true end &&
       refute_driven exact_bits (driven_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) f
   | _, _ => false
   end.
 Definition accept_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (point machine : list expression) (how : violation) : bool :=
   let k := claim_of ls w bs rs in
-  match point, take_legs ls (map denoted machine), failure_of (require k) how with
+  match point, take_legs ls (map denoted machine), failure_of k how with
   | [x; y; z], (m, []), Some f => is_one_each (flat_map quantities_of ls) machine && is_well_formed ls bs rs k &&
       refute exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) f
   | _, _, _ => false
@@ -1377,6 +1406,15 @@ Definition accept_closed (offset side : expression) (rs : list written_requireme
   | None => false
   end.
 
+Definition accept_closed_witness (offset side : expression) (rs : list written_requirement) (point machine : list expression) (how : violation) : bool :=
+  is_number (denoted offset) && match closed_bounds rs with
+  | Some (_, greatest) => let above := certainly exact_bits false (Minus (denoted greatest) (2 // 1)) in
+      certainly exact_bits true (denoted side) && certainly exact_bits true (Minus (denoted greatest) (1 // 1)) &&
+      (above || certainly exact_bits false (Minus (2 // 1) (denoted greatest))) &&
+      accept_driven_witness Translates (closed_legs above offset side greatest) None (closed_cube above side greatest) None rs point machine how
+  | None => false
+  end.
+
 Definition accept (c : certificate) : bool :=
   is_plain_certificate c &&
   match subject_ c, proof_ c with
@@ -1403,7 +1441,7 @@ Definition accept (c : certificate) : bool :=
       match take_struts ls (map denoted machine) with
       | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell w o bs rs &&
           let c := turning_claim_of k ls ell w o bs rs in
-          match how, nfailure_of how with
+          match how, failure_at false (parts_of k) (length ls) bs rs how with
           | Singular_ other, _ => let other := map denoted other in
               refute_between exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other)
           | _, Some f => refute_turning exact_bits c m (numbers_of (firstn n point)) (skipn n point) f
@@ -1416,16 +1454,24 @@ Definition accept (c : certificate) : bool :=
       let s := (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l))%list (struts c)))%Z in
       match tree_of (free_struts s (struts c)) (length nodes) nodes with
       | Some (t, []) => is_turning k ls ell w o bs rs && splits_below (dimension k) nodes &&
-          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points (length ls) bs rs) c s t
+          certify_turning exact_bits bits (matrix_of chords) (place_of_two_points false (parts_of k) (length ls) bs rs) c s t
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>
       match tree_of [] (length nodes) nodes with
       | Some (t, []) => are_well_formed_formulas xs ps rows a b rs && splits_below (length xs) nodes &&
-          certify_written exact_bits bits (matrix_of chords) (place_of_two_points (length rows) [] rs) (written_claim_of xs ps ds rows a b rs) t
+          certify_written exact_bits bits (matrix_of chords) (place_of_two_points false 1 (length rows) [] rs) (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
+  | Formulas_ xs ps ds rows a b rs, ByWitness _ point machine how =>
+      let c := written_claim_of xs ps ds rows a b rs in
+      match take_list (map snd ps) (map denoted machine), failure_at false 1 (length rows) [] rs how with
+      | (thetas, []), Some f => is_one_each (map snd ps) machine && are_well_formed_formulas xs ps rows a b rs && is_mechanism (by_formulas c) &&
+          forallb (fun t => below exact_bits (least t) (greatest t)) (box_of c) && refute_written exact_bits c thetas (map denoted point) f
+      | _, _ => false
+      end
   | Closed_ offset side rs, Nodes bits _ nodes => accept_closed offset side rs bits nodes
+  | Closed_ offset side rs, ByWitness _ point machine how => accept_closed_witness offset side rs point machine how
   | Postulate_ None, Nodes bits _ nodes => match trees_of [] 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits _ nodes =>
       match trees_of [] 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
@@ -1469,6 +1515,24 @@ Proof.
   apply andb_true_iff in h as [_ h]. exact (certify_driven_sound _ _ _ _ _ _ h).
 Qed.
 
+Lemma accept_driven_witness_sound : forall k ls ell w o rs point machine how, accept_driven_witness k ls ell w o rs point machine how = true ->
+  let c := driven_claim_of k ls ell w o rs in exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q.
+Proof.
+  intros k ls ell w o rs point machine how h. unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate].
+  destruct (failure_at _ _ _ _ _ how); [| discriminate]. apply andb_true_iff in h as [_ h]. exact (refute_driven_sound _ _ _ _ _ _ h).
+Qed.
+
+Lemma accept_closed_witness_sound : forall offset side rs bits point machine how tool version, accept_closed_witness offset side rs point machine how = true ->
+  means (Certificate (Closed_ offset side rs) (ByWitness bits point machine how) tool version).
+Proof.
+  intros offset side rs bits point machine how tool version h. unfold means. cbn [subject_ proof_]. unfold accept_closed_witness in h. apply andb_true_iff in h as [_ h].
+  destruct (closed_bounds rs) as [[a b] |]; [| discriminate]. cbv zeta in h. set (above := certainly exact_bits false (Minus (denoted b) (2 // 1))) in *.
+  apply andb_true_iff in h as [h hw]. apply andb_true_iff in h as [h ha]. apply andb_true_iff in h as [h1 h2]. apply Compare.positive_sound in h1, h2. cbn [value] in h2.
+  exists above. split; [| exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ hw)]. apply closed_numbers; [exact h1 | lra |].
+  destruct above eqn:e; [unfold above in e | cbn [orb] in ha]; [apply Compare.nonneg_sound in e; cbn [value] in e; lra |].
+  apply Compare.nonneg_sound in ha. cbn [value] in ha. lra.
+Qed.
+
 Lemma accept_closed_sound : forall offset side rs bits chords nodes tool version, accept_closed offset side rs bits nodes = true ->
   means (Certificate (Closed_ offset side rs) (Nodes bits chords nodes) tool version).
 Proof.
@@ -1493,16 +1557,17 @@ Proof.
   - exact (accept_tree_sound _ _ _ _ _ _ _ _ _ h).
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
   - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ h).
-  - unfold accept_driven_witness in h. cbv zeta in h. destruct (take_all_driven _ _) as [m [|]]; [| discriminate].
-    destruct (nfailure_of how); [| discriminate]. apply andb_true_iff in h as [_ h].
-    exact (refute_driven_sound _ _ _ _ _ _ h).
+  - exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
-    destruct how; try exact (refute_turning_sound _ _ _ _ _ _ h). exact (refute_between_sound _ _ _ _ _ _ _ h).
+    destruct how; try exact (refute_between_sound _ _ _ _ _ _ _ h); (destruct (failure_at _ _ _ _ _ _); [| discriminate]; exact (refute_turning_sound _ _ _ _ _ _ h)).
   - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
+  - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how); [| discriminate].
+    apply andb_true_iff in h as [_ h]. exact (refute_written_sound _ _ _ _ _ h).
   - exact (accept_closed_sound offset side rs bits chords nodes t v h).
+  - exact (accept_closed_witness_sound offset side rs bits point machine how t v h).
   - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (check_no_cube_certified _ _ _ _ _ _ _ h).
   - destruct (trees_of [] 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
@@ -1512,6 +1577,23 @@ Proof.
   - destruct (atlas_of _ cells) as [[t' [|]] |]; try discriminate. apply andb_true_iff in h as [h hc]. apply andb_true_iff in h as [h hr].
     apply andb_true_iff in h as [_ hs]. split; [exact (accept_cells_sound _ _ _ _ _ _ hc) |]. split; apply is_share_sound; assumption.
 Qed.
+
+(** Whether a failure is one that has a theorem: for who reads, to say what is not covered. *)
+Definition is_of_known_failure (c : certificate) : bool :=
+  let is_demand parts legs bs rs how ds := match failure_at false parts legs bs rs how with
+    | Some (NFails i _) => match Configuration.test_at exact_bits parts i ds with Some (OnePose _ _ _, _) | Some (AccelerationMax _ _ _ _, _) => false | _ => true end
+    | _ => true
+    end in
+  match subject_ c, proof_ c with
+  | (Machine_ ls _ bs rs), ByWitness _ _ _ (Obligation i _) =>
+      match nth_error (obligations (length ls) bs rs) i with Some (Accuracy _ _) => false | _ => true end
+  | Atlas_ _ ls _ rs _ _, Cells cells => forallb (fun x => match x with
+      | Disproved _ _ _ (Obligation i _) => match nth_error (obligations (length ls) [] rs) i with Some (Accuracy _ _) => false | _ => true end
+      | _ => true
+      end) cells
+  | Turning_ k ls _ _ _ bs rs, ByWitness _ _ _ how => is_demand (parts_of k) (length ls) bs rs how (demands false (length ls) bs rs)
+  | _, _ => true
+  end.
 
 (** A text, and what was read from it. *)
 Definition verify (t : string) (c : certificate) : bool := String.eqb (String.concat "" (print c)) t && accept c.

@@ -6,6 +6,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Vec3 Fixed Claim.
 From Orthocert.kernel Require Import Statement Linear Arithmetic Number Trig Dependent Witness.
+From Orthocert.kernel Require Solve.
 Import ListNotations.
 Local Open Scope R_scope.
 Local Notation length := Datatypes.length.
@@ -125,17 +126,19 @@ Qed.
 (** ** In exact numbers: what fails *)
 
 Inductive ncoordinate := NLength (rho : number) | NAngle (cosine sine : number) | NUnknown.
-(** [reserves]: where it is reached, these are positive. [nrays]: multiples of the rows, which may be fractions where these are not. *)
+(** [reserves]: where it is reached, these are positive. [nrays]: multiples of the rows there, which may be fractions where these are not. *)
 Record nrod := NRod { nrod_vector : list number; nrod_eta : number; nrod_size : number }.
-Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; nrods : list (option nrod); reserves : list number; nrays : list (option (list number)) }.
+Record nconfiguration := NConfiguration { njacobian : list (list number); njoints : list ncoordinate; nrods : list (option nrod);
+  nlimbs : list (option (numbers * numbers * number)); nplaced : numbers -> numbers; reserves : list number; nrays : list (option (list number)) }.
 
 Definition coordinate_of (x : ncoordinate) : coordinate :=
   match x with NLength x => Length (value x) | NAngle c s => Angle (value c) (value s) | NUnknown => Unknown end.
 Definition real_rod (l : nrod) : rod := Rod (map value (nrod_vector l)) (value (nrod_eta l)) (value (nrod_size l)).
 Definition is_ray (ray : option (list number)) (row : list R) : Prop :=
-  match ray with Some l => exists k, row = map (fun x => k * value x) l | None => True end.
+  match ray with Some l => exists k, k <> 0 /\ row = map (fun x => k * value x) l | None => True end.
 Definition stands_for (n : nconfiguration) (c : configuration) : Prop :=
   jacobian c = map (map value) (njacobian n) /\ joints c = map coordinate_of (njoints n) /\ rods c = map (option_map real_rod) (nrods n) /\
+  limbs c = map (option_map Witness.real_rod) (nlimbs n) /\ (forall b, values (nplaced n b) = placed c (values b)) /\
   (reached c -> Forall (fun x => 0 < value x) (reserves n) /\ Forall2 is_ray (nrays n) (jacobian c)).
 
 Fixpoint ndot (u v : list number) : number :=
@@ -162,6 +165,29 @@ Proof.
   induction ks as [| k ks IH]; intros [| row M] v; try exact zero_value. cbn [nelastic elastic map value]. rewrite IH, value_ndot. ring.
 Qed.
 
+Fixpoint nweighted (v : list number) (rows : list (list number)) : list number :=
+  match v, rows with x :: v', r :: rows' => merge (Times x) (fun y => y) (fun a b => Plus (Times x a) b) r (nweighted v' rows') | _, _ => [] end.
+Lemma value_merged : forall x r s, map value (merge (Times x) (fun y => y) (fun a b => Plus (Times x a) b) r s) = comb (value x) 1 (map value r) (map value s).
+Proof.
+  assert (I : forall s, map value s = map (Rmult 1) (map value s)) by (intro s; rewrite map_map; apply map_ext; intro; ring).
+  intros x r. unfold comb. induction r as [| a r IH]; intro s.
+  - destruct s; [reflexivity |]. cbn [merge map]. rewrite map_id. exact (I (_ :: _)).
+  - destruct s as [| b s]; cbn [merge map]; [rewrite !map_map; reflexivity |]. rewrite IH. cbn [value]. rewrite Rmult_1_l. reflexivity.
+Qed.
+Lemma dot_nweighted : forall v rows w, dot (map value (nweighted v rows)) w = dot (map value v) (map (fun r => dot (map value r) w) rows).
+Proof.
+  induction v as [| x v IH]; intros [| r rows] w; cbn [nweighted map dot]; try (destruct w; reflexivity). rewrite value_merged, dot_comb, IH. ring.
+Qed.
+Lemma nweighted_length : forall n v rows, length v = length rows -> Forall (fun r => length r = n) rows -> rows <> [] -> length (nweighted v rows) = n.
+Proof.
+  assert (M : forall x r s, s = [] \/ length s = length r -> length (merge (Times x) (fun y => y) (fun a b => Plus (Times x a) b) r s) = length r).
+  { intros x. induction r as [| a r IH]; intros [| b s] e; cbn [merge length]; rewrite ?map_length; try reflexivity.
+    - destruct e as [e | e]; discriminate e.
+    - rewrite IH; [reflexivity |]. right. destruct e as [e | e]; [discriminate e | cbn in e; congruence]. }
+  intros n. induction v as [| x v IH]; intros [| r rows] l h ne; try discriminate; [contradiction |]. inversion h as [| ? ? h1 h2]; subst. cbn [nweighted]. apply M.
+  destruct rows as [| q rows]; [left; destruct v; reflexivity | right; apply IH; [injection l; auto | exact h2 | discriminate]].
+Qed.
+
 Definition ndeterminant (rows : list (list number)) : number :=
   let minor a b c d := Minus (Times a d) (Times b c) in
   match rows with
@@ -180,6 +206,16 @@ Lemma all_rods_sound : forall l qs, all_rods l = Some qs -> l = map Some qs.
 Proof.
   induction l as [| [q |] l IH]; intros qs h; cbn [all_rods] in h; try discriminate; [injection h as <-; reflexivity |].
   destruct (all_rods l) as [r |]; [| discriminate]. injection h as <-. cbn [map]. rewrite (IH r eq_refl). reflexivity.
+Qed.
+
+Fixpoint all_rays (l : list (option (list number))) : option (list (list number)) :=
+  match l with [] => Some [] | Some r :: l' => option_map (cons r) (all_rays l') | None :: _ => None end.
+Lemma all_rays_sound : forall l rows M, all_rays l = Some rows -> Forall2 is_ray l M ->
+  exists ks, length ks = length rows /\ Forall (fun k => k <> 0) ks /\ M = map (fun p => map (fun x => fst p * value x) (snd p)) (combine ks rows).
+Proof.
+  intros l rows M e h. revert rows e. induction h as [| ray row l M hr h IH]; intros rows e; cbn [all_rays] in e; [injection e as <-; exists []; repeat split; constructor |].
+  destruct ray as [r |]; [| discriminate]. destruct hr as [k [k0 ->]]. destruct (all_rays l) as [rest |]; [| discriminate]. injection e as <-.
+  destruct (IH rest eq_refl) as [ks [h1 [h2 ->]]]. exists (k :: ks). split; [cbn; congruence |]. split; [constructor; assumption | reflexivity].
 Qed.
 
 Section Precision.
@@ -213,29 +249,63 @@ Definition beyond (least : bool) (x : ncoordinate) (a b : number) : bool :=
   | _ => false
   end.
 
-(** [vs]: directions, where the demand is about all. *)
-Definition fails (n : nat) (c : nconfiguration) (least : bool) (vs : list (list number)) (d : demand) : bool :=
+(** Angles up to 90 degrees have a test of the sign, and, if they are less, one of a square. *)
+Definition is_up_to_90 (b : number) : bool := certainly false (Minus (90 // 1) b).
+(** The angle of [A] and [a], in the test [which]. *)
+Definition is_wider (which : nat) (A a : numbers) (turned : numbers -> numbers) (vs : list (list number)) (b : number) : bool :=
+  let along := product A a in
+  match is_up_to_90 b, which, vs with
+  | true, O, [] => certainly true (Minus (0 // 1) along)
+  | true, S O, [[x; y; z]] => let d := turned (Numbers x y z) in let across := product A d in
+      certainly true along && match cosine bits b, enclose bits (Times (product a a) (Times across across)), enclose bits (Times (Times along along) (product d d)) with
+        | Some c, Some p, Some q => is_positive (Some c) && is_positive (Some (sub (mul bits (sqr bits c) p) q))
+        | _, _, _ => false
+        end
+  | false, O, [] => certainly false (Minus (180 // 1) b) && match cosine bits b, enclose bits along, enclose bits (Root (Times (product a a) (product A A))) with
+        | Some c, Some p, Some q => is_negative (Some (sub p (mul bits c q)))
+        | _, _, _ => false
+        end
+  | _, _, _ => false
+  end.
+
+(** [vs]: directions, where the demand is about all; of what has several tests, [which]. *)
+Definition fails (n : nat) (c : nconfiguration) (which : nat) (vs : list (list number)) (d : demand) : bool :=
   let bound b u := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u) in
   let speed := nspeed2 (njacobian c) in
   let of i f := match nth_error (njoints c) i with Some x => f x | None => false end in
   let of_row i f := match nth_error (njacobian c) i with Some row => Nat.eqb (length row) n && f row | None => false end in
   let of_rod i f := match nth_error (nrods c) i with Some (Some l) => f l | _ => false end in
-  forallb (fun v => Nat.eqb (length v) n) vs &&
+  forallb (fun v => Nat.eqb (length v) match d with JointAngleMax _ _ _ _ | Clear _ _ _ => 3 | SpeedMax _ _ _ => 1 | _ => n end) vs &&
   match d, vs with
   | FactorMax b, [u] => certainly true (Minus (bound b u) (speed u))
   | FactorMin b, [u] => certainly true (Minus (speed u) (bound b u))
   | LengthMin i b, [] => of i (fun x => match x with NLength x => certainly true (Minus b x) | _ => false end)
   | LengthMax i b, [] => of i (fun x => match x with NLength x => certainly true (Minus x b) | _ => false end)
-  | AngleWithin i a b, [] => of i (fun x => beyond least x a b)
+  | AngleWithin i a b, [] => of i (fun x => beyond (Nat.eqb which 0) x a b)
   | Conditioned b, [u; v] =>
       certainly true (Minus (Times (speed u) (ndot v v)) (Times (Times b b) (Times (speed v) (ndot u u))))
   (* in the direction of the row itself *)
-  | SpeedMax i tool b, [] => of_row i (fun row => let k := Over b tool in certainly true tool && certainly true (Minus (ndot row row) (Times k k)))
+  | SpeedMax i tool b, vs => of_row i (fun row => let k := Over b tool in certainly true tool && certainly true (Minus (ndot row row) (Times k k))) &&
+      (* of struts, where what is told is of one number *)
+      match nlimbs c, vs with [], [] => true | _ :: _, [[x]] => certainly true (Times x x) | _, _ => false end
   | TurnMax i tool b, [] => of_row i (fun row => certainly true tool && certainly false b &&
       match enclose bits (ndot row row), enclose bits (Over b tool) with
       | Some s, Some k => match radians bits k with Some k => is_positive (Some (sub s (sqr bits k))) | None => false end
       | _, _ => false
       end)
+  | ForceMax i tool b, [v] => match all_rays (nrays c), nth_error v i with
+      | Some rays, Some x => Nat.eqb (length rays) n && forallb (fun r => Nat.eqb (length r) n) rays && match nth_error rays i with
+          | Some ray => of_row i (fun row => is_forceful bits ndot tool b x (nweighted v rays) row ray)
+          | None => false
+          end
+      | _, _ => false
+      end
+  | JointAngleMax i on j b, vs => match nth_error (nlimbs c) i with
+      | Some (Some (_, A, _)) => let turned v := if on then each2 Minus (nplaced c v) (nplaced c (Numbers (0 // 1) (0 // 1) (0 // 1))) else v in
+          is_wider which A (turned (nposition j)) turned vs b
+      | _ => false
+      end
+  | Clear one other b, [[s; t; u]] => are_nearer bits (nsegment_along (nlimbs c) (nplaced c)) (Numbers s t u) one other b
   | StiffnessMin ks b, [v] => certainly true (Minus (Times b (ndot v v)) (nelastic ks (njacobian c) v))
   | SerialMin i b, [] => of_rod i (fun l => let least := Times b (nrod_size l) in
       certainly true least && certainly true (Minus (Times least least) (Times (nrod_eta l) (nrod_eta l))))
@@ -285,11 +355,68 @@ Proof.
     pose proof (S (@value names b - angle) ltac:(lra)) as Q. rewrite D, sin_minus in Q. rewrite D, sin_minus in P. lra.
 Qed.
 
-Lemma fails_sound : forall n c k least vs d, stands_for c k -> fails n c least vs d = true -> ~ fulfils n k d.
+Lemma is_wider_sound : forall which A a turned vs b, is_wider which A a turned vs b = true -> 0 < norm2 (values A) -> 0 < norm2 (values a) ->
+  ~ exists angle, 0 <= angle <= value b /\ Vec3.dot (values A) (values a) = sqrt (norm2 (values A)) * sqrt (norm2 (values a)) * cos (in_degrees angle).
 Proof.
-  intros n c k least vs d [J [X [B0 _]]] h F. unfold fails in h. cbv zeta in h.
+  intros which A a turned vs b h A0 a0 [angle [[g0 g1] e]]. pose proof PI_RGT_0. unfold is_wider in h. cbv zeta in h.
+  pose proof (sqrt_lt_R0 _ A0) as sA. pose proof (sqrt_lt_R0 _ a0) as sa. assert (S : 0 < sqrt (norm2 (values A)) * sqrt (norm2 (values a))) by (apply Rmult_lt_0_compat; assumption).
+  assert (D : forall x, 0 <= x -> 0 <= in_degrees x) by (intros x h0; unfold in_degrees; nra).
+  assert (D2 : forall x y, x <= y -> in_degrees x <= in_degrees y) by (intros x y h0; unfold in_degrees; nra).
+  assert (H180 : in_degrees 180 = PI) by (unfold in_degrees; field). assert (H90 : in_degrees 90 = PI / 2) by (unfold in_degrees; field).
+  destruct (is_up_to_90 b) eqn:up.
+  - apply nonneg_sound in up. cbn [value] in up. assert (C : value b <= 180 -> cos (in_degrees (value b)) <= cos (in_degrees angle)).
+    { intro b1. destruct (Req_dec angle (value b)) as [-> | ne]; [lra |]. left. apply cos_decreasing_1; try (apply D; lra); try (rewrite <- H180; apply D2; lra).
+      unfold in_degrees. nra. }
+    specialize (C ltac:(lra)). assert (C0 : 0 <= cos (in_degrees angle)) by (apply cos_ge_0; [pose proof (D angle g0); lra | rewrite <- H90; apply D2; lra]).
+    destruct which as [| [| which]]; [| | discriminate].
+    + destruct vs; [| discriminate]. apply positive_sound in h. cbn [value] in h. rewrite value_product, e in h. pose proof (Rmult_le_pos _ _ (Rlt_le _ _ S) C0). lra.
+    + destruct vs as [| [| x [| y [| z [|]]]] [|]]; try discriminate. apply andb_true_iff in h as [h1 h]. apply positive_sound in h1. rewrite value_product in h1.
+      set (d := turned (Numbers x y z)) in *. destruct (cosine bits b) as [c |] eqn:e1; [| discriminate]. destruct (enclose bits (Times (product a a) _)) as [p |] eqn:e2; [| discriminate].
+      destruct (enclose bits (Times (Times (product A a) (product A a)) (product d d))) as [q |] eqn:e3; [| discriminate]. apply andb_true_iff in h as [h2 h3]. apply cosine_sound in e1. apply enclose_sound in e2, e3.
+      pose proof (is_positive_sound _ _ h2 e1) as c0.
+      pose proof (is_positive_sound _ _ h3 (sub_sound bits _ _ _ _ (mul_sound bits _ _ _ _ (sqr_sound bits _ _ e1) e2) e3)) as lt. cbn [value] in lt. rewrite !value_square, !value_product, e in lt.
+      pose proof (cauchy_schwarz (values A) (values d)) as CS. pose proof (norm2_nonneg (values d)) as d0.
+      assert (SA : sqrt (norm2 (values A)) ^ 2 = norm2 (values A)) by (apply pow2_sqrt; lra). assert (Sa : sqrt (norm2 (values a)) ^ 2 = norm2 (values a)) by (apply pow2_sqrt; lra).
+      set (cb := cos (in_degrees (value b))) in *. set (ca := cos (in_degrees angle)) in *. set (u := sqrt (norm2 (values A))) in *. set (w := sqrt (norm2 (values a))) in *.
+      rewrite <- Sa in lt. rewrite <- SA in CS. set (t := Vec3.dot (values A) (values d)) in *. set (m := norm2 (values d)) in *.
+      assert (L : w ^ 2 * (cb ^ 2 * t ^ 2) <= w ^ 2 * (ca ^ 2 * (u ^ 2 * m))).
+      { apply Rmult_le_compat_l; [apply pow2_ge_0 |]. apply Rmult_le_compat; [apply pow2_ge_0 | apply pow2_ge_0 | apply pow_incr; lra | exact CS]. }
+      assert (R : cb ^ 2 * (w ^ 2 * (t * t)) - u * w * ca * (u * w * ca) * m = w ^ 2 * (cb ^ 2 * t ^ 2) - w ^ 2 * (ca ^ 2 * (u ^ 2 * m))) by ring. lra.
+  - destruct which; [| discriminate]. destruct vs; [| discriminate]. apply andb_true_iff in h as [b1 h]. apply nonneg_sound in b1. cbn [value] in b1.
+    destruct (cosine bits b) as [c |] eqn:e1; [| discriminate]. destruct (enclose bits (product A a)) as [p |] eqn:e2; [| discriminate].
+    destruct (enclose bits (Root (Times (product a a) (product A A)))) as [q |] eqn:e3; [| discriminate]. apply cosine_sound in e1. apply enclose_sound in e2, e3.
+    pose proof (sub_sound bits _ _ _ _ e2 (mul_sound bits _ _ _ _ e1 e3)) as [_ u]. cbn [is_negative] in h. apply Z.ltb_lt, IZR_lt in h. pose proof (unit_R_pos bits).
+    rewrite value_product, e in u. cbn [value] in u. rewrite !value_square, sqrt_mult in u by (apply norm2_nonneg).
+    assert (C : cos (in_degrees (value b)) <= cos (in_degrees angle)).
+    { destruct (Req_dec angle (value b)) as [-> | ne]; [lra |]. left. apply cos_decreasing_1; try (apply D; lra); try (rewrite <- H180; apply D2; lra). unfold in_degrees. nra. }
+    set (cb := cos (in_degrees (value b))) in *. set (ca := cos (in_degrees angle)) in *. set (v := sqrt (norm2 (values A))) in *. set (w := sqrt (norm2 (values a))) in *.
+    assert (0 <= v * w * ca - cb * (w * v)) by nra. nra.
+Qed.
+
+Lemma wider_limb : forall n c k i (on : bool) j b which vs, stands_for c k ->
+  match nth_error (nlimbs c) i with
+  | Some (Some (_, A, _)) => let turned v := if on then each2 Minus (nplaced c v) (nplaced c (Numbers (0 // 1) (0 // 1) (0 // 1))) else v in
+      is_wider which A (turned (nposition j)) turned vs b
+  | _ => false
+  end = true -> ~ fulfils n k (JointAngleMax i on j b).
+Proof.
+  intros n c k i on j b which vs [_ [_ [_ [LB [PL _]]]]] h F. cbn [fulfils] in F. cbv zeta in F. destruct F as [C [A [L [e [A0 [a0 F]]]]]].
+  rewrite LB, nth_error_map in e. destruct (nth_error (nlimbs c) i) as [[[[C' A'] L'] |] |]; try discriminate. injection e as <- <- <-. cbv beta zeta in h.
+  set (a := if on then each2 Minus (nplaced c (nposition j)) (nplaced c (Numbers (0 // 1) (0 // 1) (0 // 1))) else nposition j) in h. assert (E : (if on then vsub (placed k (located j)) (placed k vzero) else located j) = values a).
+  { unfold a. destruct on; [| reflexivity]. rewrite values_minus, !PL. replace (values (Numbers (0 // 1) (0 // 1) (0 // 1))) with vzero; [reflexivity |].
+    unfold values, vzero. cbn. f_equal; lra. }
+  rewrite E in a0, F. exact (is_wider_sound _ _ _ _ _ _ h A0 a0 F).
+Qed.
+
+Lemma nth_combined : forall (A B : Type) (l : list A) (r : list B) i x y, nth_error l i = Some x -> nth_error r i = Some y -> nth_error (combine l r) i = Some (x, y).
+Proof. induction l as [| a l IH]; intros [| b r] [| i] x y h k; try discriminate; cbn in *; [congruence | exact (IH r i x y h k)]. Qed.
+
+Lemma fails_sound : forall n c k which vs d, stands_for c k -> reached k -> fails n c which vs d = true -> ~ fulfils n k d.
+Proof.
+  intros n c k which vs d stands re h F. assert (stands' := stands). destruct stands' as [J [X [B0 [LB [PL RY]]]]]. specialize (RY re). destruct RY as [_ RY]. unfold fails in h. cbv zeta in h.
   apply andb_true_iff in h as [hv h]. rewrite forallb_forall in hv.
-  assert (Of : forall v, In v vs -> length (map value v) = n) by (intros v i; rewrite map_length; apply Nat.eqb_eq, hv, i).
+  assert (Of : match d with JointAngleMax _ _ _ _ | Clear _ _ _ | SpeedMax _ _ _ => True | _ => forall v, In v vs -> length (map value v) = n end)
+    by (destruct d; try exact I; intros v i; rewrite map_length; apply Nat.eqb_eq, hv, i).
   assert (B : forall b u, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (ndot u u)) = (1 / value b) ^ 2 * dot (map value u) (map value u)).
   { intros b u. cbn [value]. rewrite value_ndot. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i x, nth_error (joints k) i = Some x -> exists y, nth_error (njoints c) i = Some y /\ x = coordinate_of y).
@@ -300,6 +427,18 @@ Proof.
   assert (AtRod : forall i l, nth_error (rods k) i = Some (Some l) -> exists y, nth_error (nrods c) i = Some (Some y) /\ l = real_rod y).
   { intros i x e. rewrite B0, nth_error_map in e. destruct (nth_error (nrods c) i) as [[y |] |]; try discriminate. injection e as <-. exists y. split; reflexivity. }
   assert (Short : forall x y, 0 < x -> y ^ 2 < x ^ 2 -> Rabs y < x) by (intros x y x0 l; rewrite <- (Rabs_right x) by lra; apply Rsqr_lt_abs_0; rewrite !Rsqr_pow2; exact l).
+  assert (too_fast : forall i tool b, fulfils n k (SpeedMax i tool b) -> match nth_error (njacobian c) i with Some row => Nat.eqb (length row) n && (certainly true tool && certainly true (Minus (ndot row row) (Times (Over b tool) (Over b tool)))) | None => false end &&
+    match nlimbs c, vs with [], [] => true | _ :: _, [[x]] => certainly true (Times x x) | _, _ => false end = true -> False).
+  { clear h F d Of hv. intros i tool b F h. cbn [fulfils] in F. apply andb_true_iff in h as [h _].
+    destruct F as [row [e F]]. destruct (AtRow i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [hl h]. apply Nat.eqb_eq in hl.
+    apply andb_true_iff in h as [t0 h]. apply positive_sound in t0, h. cbn [value] in h. rewrite value_ndot in h.
+    pose proof (Rabs_pos (value b / value tool)) as k0.
+    destruct (fast_row (map value y) (value tool) (Rabs (value b / value tool)) t0 k0) as [v [lv [sv fv]]].
+    { replace (Rabs (value b / value tool) ^ 2) with ((value b / value tool) ^ 2) by (rewrite <- !Rsqr_pow2; apply Rsqr_abs). lra. }
+    specialize (F v ltac:(rewrite lv, map_length; exact hl) sv).
+    assert (value b <= Rabs (value b / value tool) * value tool).
+    { replace (value b) with (value b / value tool * value tool) at 1 by (field; lra). apply Rmult_le_compat_r; [lra | apply Rle_abs]. }
+    lra. }
   destruct d as [| b | b | i b | i b | i a b | b | i tool b | i a b | a b | i tool b | i b | i b | b | i on j b | one other b | i p q b | p q b]; cbn [fulfils] in F;
     destruct vs as [| u [| v [| w vs]]]; try discriminate.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite <- B, J, <- value_nspeed2 in F.
@@ -314,15 +453,37 @@ Proof.
     exact (beyond_sound _ _ _ _ _ h l (eq_sym q)).
   - apply positive_sound in h. cbn [value] in h. rewrite !value_nspeed2, !value_ndot, <- J in h.
     specialize (F _ _ (Of u ltac:(left; reflexivity)) (Of v ltac:(right; left; reflexivity))). nra.
-  - destruct F as [row [e F]]. destruct (AtRow i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [hl h]. apply Nat.eqb_eq in hl.
-    apply andb_true_iff in h as [t0 h]. apply positive_sound in t0, h. cbn [value] in h. rewrite value_ndot in h.
-    pose proof (Rabs_pos (value b / value tool)) as k0.
-    destruct (fast_row (map value y) (value tool) (Rabs (value b / value tool)) t0 k0) as [v [lv [sv fv]]].
-    { replace (Rabs (value b / value tool) ^ 2) with ((value b / value tool) ^ 2) by (rewrite <- !Rsqr_pow2; apply Rsqr_abs). lra. }
-    specialize (F v ltac:(rewrite lv, map_length; exact hl) sv).
-    assert (value b <= Rabs (value b / value tool) * value tool).
-    { replace (value b) with (value b / value tool * value tool) at 1 by (field; lra). apply Rmult_le_compat_r; [lra | apply Rle_abs]. }
-    lra.
+  - exact (too_fast i tool b F h).
+  - exact (too_fast i tool b F h).
+  - exact (too_fast i tool b F h).
+  - exact (too_fast i tool b F h).
+  - destruct (all_rays (nrays c)) as [rays |] eqn:er; [| discriminate]. destruct (nth_error u i) as [x |] eqn:ex; [| discriminate].
+    apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h1. rewrite forallb_forall in h2.
+    destruct (nth_error rays i) as [ray |] eqn:ey; [| discriminate]. destruct (nth_error (njacobian c) i) as [row |] eqn:ew; [| discriminate].
+    apply andb_true_iff in h3 as [_ h3]. apply andb_true_iff in h3 as [h3 h5]. apply andb_true_iff in h3 as [h3 h4]. apply positive_sound in h3, h4, h5. cbn [value] in h5. rewrite !value_ndot in h5.
+    destruct (all_rays_sound _ _ _ er RY) as [ks [k1 [k2 k3]]]. specialize (Of u ltac:(left; reflexivity)). rewrite map_length in Of.
+    assert (lk : nth_error ks i <> None) by (apply nth_error_Some; rewrite k1; apply nth_error_Some; congruence). destruct (nth_error ks i) as [k0 |] eqn:ek; [clear lk | congruence].
+    assert (nk : k0 <> 0) by (rewrite Forall_forall in k2; apply k2, (nth_error_In _ _ ek)).
+    assert (Scale : forall q r w, dot (map (fun y => q * value y) r) w = q * dot (map value r) w).
+    { intros q r w. rewrite <- dot_map, map_map. reflexivity. }
+    assert (er2 : map value row = map (fun y => k0 * value y) ray).
+    { assert (E : nth_error (jacobian k) i = Some (map value row)) by (rewrite J, nth_error_map, ew; reflexivity). rewrite k3, nth_error_map in E.
+      rewrite (nth_combined _ _ _ _ _ _ _ ek ey) in E. cbn [option_map fst snd] in E. congruence. }
+    rewrite er2, Scale, (Solve.dot_commutes (map value ray) (map (fun y => k0 * value y) ray)), Scale in h5. set (f := dot (map value (nweighted u rays)) _) in h5. set (r := dot (map value ray) (map value ray)) in *.
+    destruct (too_forceful (value a) (value b) (value x) k0 r f h3 h4 (dot_self _) (dot_self _) nk) as [t [t1 t2]]; [apply Rminus_gt_0_lt, (Rlt_le_trans _ _ _ h5); right; ring |].
+    set (tau := map (fun p => t * (value (fst p) / snd p)) (combine u ks)). apply (Rlt_not_le _ _ t2).
+    assert (et : nth i tau 0 = t * (value x / k0)).
+    { assert (E : nth_error tau i = Some (t * (value x / k0))).
+      { unfold tau. rewrite nth_error_map, (nth_combined _ _ _ _ _ _ _ ex ek). reflexivity. }
+      exact (nth_error_nth _ _ _ E). }
+    rewrite <- et. apply (F tau (map (Rmult t) (map value (nweighted u rays)))).
+    + split; [unfold tau; rewrite k3, !map_length, !combine_length; congruence |]. split.
+      * rewrite !map_length. apply nweighted_length; [congruence | | intro z; rewrite z in ey; destruct i; discriminate].
+        apply Forall_forall. intros y iy. apply Nat.eqb_eq, h2, iy.
+      * intros w lw. rewrite dot_map, dot_nweighted, k3. unfold tau. assert (lu : length u = length rays) by congruence. clear - k1 k2 lu Scale. revert u ks k1 k2 lu.
+        induction rays as [| r rays IH]; intros [| y u] [| q ks] l1 n0 l2; try discriminate; cbn [combine map dot fst snd]; [ring |]. inversion n0 as [| ? ? q0 n1]; subst.
+        rewrite Scale, <- IH by (assumption || (injection l1; injection l2; auto)). field. exact q0.
+    + rewrite dot_map, Solve.dot_commutes, dot_map. fold f. lra.
   - apply positive_sound in h. specialize (F _ (Of u ltac:(left; reflexivity))). rewrite J, <- value_nelastic, <- value_ndot in F. cbn [value] in h. lra.
   - destruct F as [row [e F]]. destruct (AtRow i _ e) as [y [e' ->]]. rewrite e' in h. apply andb_true_iff in h as [hl h]. apply Nat.eqb_eq in hl.
     apply andb_true_iff in h as [t0 h]. apply andb_true_iff in t0 as [t0 b0]. apply positive_sound in t0. apply nonneg_sound in b0.
@@ -349,23 +510,36 @@ Proof.
     assert (P : value (fold_left (fun p l => Times p (nrod_size l)) ns b) = fold_left (fun p l => p * rod_size l) (map real_rod ns) (value b)).
     { clear. revert b. induction ns as [| q ns IH]; intro b; cbn [fold_left map]; [reflexivity |]. rewrite IH. reflexivity. }
     rewrite P in h1, h2. set (d := determinant _) in *. unfold Rabs in F. destruct (Rcase_abs d); lra.
+  - exact (wider_limb n c k i on j b which _ stands h F).
+  - exact (wider_limb n c k i on j b which _ stands h F).
+  - exact (wider_limb n c k i on j b which _ stands h F).
+  - exact (wider_limb n c k i on j b which _ stands h F).
+  - destruct u as [| s [| t [| x [|]]]]; try discriminate. apply (are_nearer_sound bits _ _ _ _ _ _ (nsegment_along_sound (nlimbs c) (nplaced c) (placed k) PL) h). rewrite <- LB. exact F.
+  - destruct u as [| s [| t [| x [|]]]]; discriminate.
+  - destruct u as [| s [| t [| x [|]]]]; discriminate.
 Qed.
 
-(** Of the test [number] of the demands, where one that has two ends has two tests, the demand, and whether it is its first. *)
-Fixpoint test_at (number : nat) (ds : list demand) {struct ds} : option (demand * bool) :=
-  match ds, number with
-  | [], _ => None
-  | d :: _, O => Some (d, true)
-  | AngleWithin i a b :: _, S O => Some (AngleWithin i a b, false)
-  | AngleWithin _ _ _ :: ds', S (S k) => test_at k ds'
-  | _ :: ds', S k => test_at k ds'
+(** Of the test [number] of the demands the demand, and which of its tests it is; [parts] are those of poses near another one. *)
+Section Tests.
+Variable parts : nat.
+Definition tests_of (d : demand) : nat :=
+  match d with
+  | AngleWithin _ _ _ => 2
+  | JointAngleMax _ _ _ b => if is_up_to_90 b && negb (certainly false (Minus b (90 // 1))) then 2 else 1
+  | OnePose _ _ _ => parts
+  | _ => 1
+  end.
+Fixpoint test_at (number : nat) (ds : list demand) : option (demand * nat) :=
+  match ds with
+  | [] => None
+  | d :: ds' => if Nat.ltb number (tests_of d) then Some (d, number) else test_at (number - tests_of d) ds'
   end.
 
 Lemma test_at_in : forall ds k d b, test_at k ds = Some (d, b) -> In d ds.
 Proof.
-  fix IH 1. intros [| d ds] k e b h; [destruct k; discriminate |].
-  destruct d, k as [| [| k]]; cbn [test_at] in h; try (injection h as <- _; left; reflexivity); right; exact (IH ds _ _ _ h).
+  induction ds as [| d ds IH]; intros k e b h; [discriminate |]. cbn [test_at] in h. destruct (Nat.ltb _ _); [injection h as <- _; left; reflexivity | right; exact (IH _ _ _ h)].
 Qed.
+End Tests.
 
 Inductive nfailure :=
   | NOutOfReach
@@ -375,12 +549,10 @@ Inductive nfailure :=
   (* the columns of M are linearly dependent *)
   | NDependent.
 
-Fixpoint all_rays (l : list (option (list number))) : option (list (list number)) :=
-  match l with [] => Some [] | Some r :: l' => option_map (cons r) (all_rays l') | None :: _ => None end.
 Lemma rays_see : forall l rows M v, all_rays l = Some rows -> Forall2 is_ray l M -> Forall (fun row => dot (map value row) v = 0) rows -> speed2 M v = 0.
 Proof.
   intros l rows M v e h. revert rows e. induction h as [| ray row l M hr h IH]; intros rows e z; cbn [all_rays] in e; [reflexivity |].
-  destruct ray as [r |]; [| discriminate]. destruct hr as [k ->].
+  destruct ray as [r |]; [| discriminate]. destruct hr as [k [_ ->]].
   destruct (all_rays l) as [rest |]; [| discriminate]. injection e as <-. inversion z as [| ? ? z1 z2]. subst.
   cbn [speed2 fold_right]. change (fold_right _ 0 M) with (speed2 M v). rewrite (IH rest eq_refl z2).
   assert (E : dot (map (fun x => k * value x) r) v = k * dot (map value r) v).
@@ -389,29 +561,29 @@ Proof.
 Qed.
 
 Definition integers_of (l : list Z) : list number := map (fun k => k // 1) l.
-Definition refutes (n : nat) (c : nconfiguration) (ds : list demand) (f : nfailure) : bool :=
+Definition refutes (parts n : nat) (c : nconfiguration) (ds : list demand) (f : nfailure) : bool :=
   match f with
   | NOutOfReach => existsb (fun x => certainly false (Minus (0 // 1) x)) (reserves c)
-  | NFails k vs => match test_at k ds with Some (d, least) => fails n c least (map integers_of vs) d | None => false end
+  | NFails k vs => match test_at parts k ds with Some (d, which) => fails n c which (map integers_of vs) d | None => false end
   | NFailsAlong k i =>
-      match test_at k ds, nth_error (njacobian c) i with
-      | Some (FactorMin b, least), Some row => fails n c least [row] (FactorMin b)
+      match test_at parts k ds, nth_error (njacobian c) i with
+      | Some (FactorMin b, which), Some row => fails n c which [row] (FactorMin b)
       | _, _ => false
       end
   | NDependent => match all_rays (nrays c) with Some rows => are_dependent n rows | None => false end
   end.
 
-Theorem refutes_sound : forall n c k ds f, stands_for c k -> refutes n c ds f = true -> ~ meets n k ds.
+Theorem refutes_sound : forall parts n c k ds f, stands_for c k -> refutes parts n c ds f = true -> ~ meets n k ds.
 Proof.
-  intros n c k ds f st h [re [inj met]]. rewrite Forall_forall in met. destruct f as [| t vs | t i |]; cbn [refutes] in h.
+  intros parts n c k ds f st h [re [inj met]]. rewrite Forall_forall in met. destruct f as [| t vs | t i |]; cbn [refutes] in h.
   - apply existsb_exists in h as [x [i h]]. apply nonneg_sound in h. cbn [value] in h.
-    destruct st as [_ [_ [_ R]]]. destruct (R re) as [R' _]. rewrite Forall_forall in R'. specialize (R' x i). lra.
-  - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate].
-    exact (fails_sound _ _ _ _ _ _ st h (met d (test_at_in _ _ _ _ e))).
-  - destruct (test_at t ds) as [[d least] |] eqn:e; [| discriminate]. destruct d; try discriminate.
+    destruct st as [_ [_ [_ [_ [_ R]]]]]. destruct (R re) as [R' _]. rewrite Forall_forall in R'. specialize (R' x i). lra.
+  - destruct (test_at parts t ds) as [[d which] |] eqn:e; [| discriminate].
+    exact (fails_sound _ _ _ _ _ _ st re h (met d (test_at_in _ _ _ _ _ e))).
+  - destruct (test_at parts t ds) as [[d which] |] eqn:e; [| discriminate]. destruct d; try discriminate.
     destruct (nth_error _ i); [| discriminate].
-    exact (fails_sound _ _ _ _ _ _ st h (met _ (test_at_in _ _ _ _ e))).
-  - destruct st as [_ [_ [_ R]]]. destruct (R re) as [_ rays]. destruct (all_rays (nrays c)) as [rows |] eqn:e; [| discriminate].
+    exact (fails_sound _ _ _ _ _ _ st re h (met _ (test_at_in _ _ _ _ _ e))).
+  - destruct st as [_ [_ [_ [_ [_ R]]]]]. destruct (R re) as [_ rays]. destruct (all_rays (nrays c)) as [rows |] eqn:e; [| discriminate].
     destruct (are_dependent_sound _ _ h) as [v [lv [nz z]]]. pose proof (inj v lv nz). rewrite (rays_see _ _ _ _ e rays z) in *. lra.
 Qed.
 End Precision.

@@ -130,12 +130,10 @@ Definition xcarried (l : exact_driven) : numbers := each2 Minus (each2 Plus P (n
 Definition xdriven_row (l : exact_driven) : list number :=
   let u := match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end in
   nvelocities k u (scaled (Over (1 // 1) ell) (ncrossed (nturn (xoffset l)) u)).
-(** A multiple of the row; of arms none that is known to be in fractions. *)
+(** A multiple of the row: by the leg's vector. *)
 Definition xdriven_ray (l : exact_driven) : option (list number) :=
-  match l with
-  | XLinear i => let u := nray i (xcarried l) in Some (nvelocities k u (scaled (Over (1 // 1) ell) (ncrossed (nturn (xoffset l)) u)))
-  | XRotary _ => None
-  end.
+  let u := match l with XLinear i => nray i (xcarried l) | XRotary i => each2 Minus (each2 Plus (xcarried l) (xplatform i)) (xelbow i (xcarried l)) end in
+  Some (nvelocities k u (scaled (Over (1 // 1) ell) (ncrossed (nturn (xoffset l)) u))).
 Definition xdriven_joint (l : exact_driven) : ncoordinate :=
   match l with XLinear i => NLength (njoint i (xcarried l)) | XRotary i => NAngle (xcosine i (xcarried l)) (xsine i (xcarried l)) end.
 Definition ncomponents (a : numbers) : list number := match k with Translates => [nx a; ny a; nz a] | TranslatesInPlane => [nx a; ny a] | Turns _ => [] end.
@@ -150,7 +148,7 @@ Definition xdriven_rod (l : exact_driven) : option nrod :=
 Definition xreserves (l : exact_driven) : list number :=
   match l with XLinear i => match reserve i (xcarried l) with Some x => [x] | None => [] end | XRotary i => [xclearance i (xcarried l)] end.
 Definition exact_legs_at (ls : list exact_driven) : nconfiguration :=
-  NConfiguration (map xdriven_row ls) (map xdriven_joint ls) (map xdriven_rod ls) (flat_map xreserves ls) (map xdriven_ray ls).
+  NConfiguration (map xdriven_row ls) (map xdriven_joint ls) (map xdriven_rod ls) [] (fun b => each2 Plus P (nturn b)) (flat_map xreserves ls) (map xdriven_ray ls).
 
 Variable Q : mat.
 Hypothesis is_turn : forall b, values (nturn b) = mulv Q (values b).
@@ -162,11 +160,13 @@ Proof.
   unfold xcarried, carried. rewrite values_minus, values_plus, is_turn, O. reflexivity.
 Qed.
 
-Lemma exact_legs_stand : forall ls, stands_for (exact_legs_at ls) (legs_at k (value ell) (map driven_of ls) (values P) Q).
+Lemma exact_legs_stand : forall ls, Forall well_formed_driven (map driven_of ls) -> stands_for (exact_legs_at ls) (legs_at k (value ell) (map driven_of ls) (values P) Q).
 Proof.
   assert (O : forall l, values (xoffset l) = offset (driven_of l)).
   { intros [[d a p len m | a p q | d] | i]; try reflexivity. unfold values. cbn. unfold vzero. f_equal; lra. }
-  intro ls. split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves nrays exact_legs_at legs_at]; rewrite ?map_map.
+  assert (Elbow : forall i C, values (each2 Minus (each2 Plus C (xplatform i)) (xelbow i C)) = Arm.rod (arm_of i) (values C)).
+  { intros. unfold Arm.rod, elbow, xelbow. rewrite !values_minus, !values_plus, values_scaled, values_plus, !values_scaled, values_xzero, values_xquarter, value_xcosine, value_xsine. reflexivity. }
+  intros ls ok. split; [| split; [| split; [| split; [| split]]]]; cbn [jacobian joints rods limbs placed reached njacobian njoints nrods nlimbs nplaced reserves nrays exact_legs_at legs_at]; rewrite ?map_map.
   - apply map_ext. intro l. unfold driven_row, xdriven_row. cbv zeta. rewrite <- values_carried.
     assert (U : own_row (driven_of l) (values (xcarried l)) = values (match l with XLinear i => nrow i (xcarried l) | XRotary i => xrow i (xcarried l) end))
       by (destruct l as [i | i]; cbn [own_row driven_of]; [rewrite values_row | rewrite values_xrow]; reflexivity).
@@ -179,14 +179,17 @@ Proof.
       destruct (values_vector (ExactSlider d a p len m) (xcarried (XLinear (ExactSlider d a p len m)))) as [e2 _]. cbn [leg_of vector_of nray] in e2.
       rewrite <- e2. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
     + unfold real_rod. cbn [nrod_vector nrod_eta nrod_size]. rewrite value_xeta.
-      assert (E : Arm.rod (arm_of i) (values (xcarried (XRotary i))) = values (each2 Minus (each2 Plus (xcarried (XRotary i)) (xplatform i)) (xelbow i (xcarried (XRotary i))))).
-      { unfold Arm.rod, elbow, xelbow. rewrite !values_minus, !values_plus, values_scaled, values_plus, !values_scaled, values_xzero, values_xquarter, value_xcosine, value_xsine. reflexivity. }
-      rewrite E. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
-  - rewrite Forall_map. intro h. induction h as [| l ls h hs [IH1 IH2]]; [split; constructor |]. rewrite <- values_carried in h. split.
-    2: { cbn [map]. constructor; [| exact IH2]. destruct l as [i | i]; cbn [xdriven_ray is_ray driven_of own_reach] in *; [| exact I].
-      destruct (values_ray i _ h) as [q e]. exists q. change (Linear (leg_of i)) with (driven_of (XLinear i)). unfold driven_row. cbv zeta. rewrite <- values_carried, <- O, <- is_turn.
-      cbn [own_row driven_of]. rewrite e.
-      set (u := nray i _). set (b := nturn (xoffset (XLinear i))).
+      rewrite <- Elbow. f_equal. f_equal. unfold ncomponents. destruct k as [| | []]; reflexivity.
+  - reflexivity.
+  - intro b. rewrite values_plus, is_turn. reflexivity.
+  - rewrite Forall_map. intro h. induction h as [| l ls h hs IH]; [split; constructor |]. inversion ok as [| ? ? ok1 ok2]; subst. destruct (IH ok2) as [IH1 IH2]. clear IH.
+    rewrite <- values_carried in h. split.
+    2: { cbn [map]. constructor; [| exact IH2]. unfold xdriven_ray. cbv zeta. cbn [is_ray]. unfold driven_row. cbv zeta. rewrite <- values_carried, <- O, <- is_turn.
+      set (u := match l with XLinear i => _ | XRotary i => _ end). assert (U : exists q, q <> 0 /\ own_row (driven_of l) (values (xcarried l)) = vscale q (values u)).
+      { destruct l as [i | i]; cbn [own_row driven_of own_reach well_formed_driven] in *; [exact (values_ray i _ h) |]. exists (/ (arm_length (arm_of i) * arm_eta (arm_of i) (values (xcarried (XRotary i))))).
+        split; [| unfold u; rewrite Elbow; reflexivity]. pose proof (eta_squared _ _ ok1 h) as E. destruct ok1 as [_ [_ [_ [r0 _]]]]. unfold arm_reaches in h.
+        apply Rinv_neq_0_compat, Rmult_integral_contrapositive_currified; [lra |]. intro z. rewrite z in E. lra. }
+      destruct U as [q [q0 e]]. exists q. split; [exact q0 |]. rewrite e. generalize u (nturn (xoffset l)). intros u' b. clear.
       unfold velocities, nvelocities, twist, ntwist, coordinates, vscale, cross, scaled, ncrossed.
       destruct k as [| | []]; cbn [map vx vy vz nx ny nz values value]; repeat (apply f_equal2; [unfold Rdiv; rewrite ?Rinv_1; ring |]); reflexivity. }
     cbn [flat_map]. apply Forall_app. split; [| exact IH1]. destruct l as [i | i]; cbn [xreserves own_reach driven_of] in *.
@@ -225,7 +228,7 @@ Qed.
 
 Definition refute_driven (c : driven_claim) (ls : list exact_driven) (P : numbers) (t : list number) (f : nfailure) : bool :=
   all_exact (drives c) ls && is_exact_pose c P t &&
-  refutes bits (freedom (mobility_of c)) (exact_legs_at (mobility_of c) (length_of c) (turned_by c) t P ls) (driven_demands c) f.
+  refutes bits 1 (freedom (mobility_of c)) (exact_legs_at (mobility_of c) (length_of c) (turned_by c) t P ls) (driven_demands c) f.
 
 (** A machine of the claim that can be built does not meet it in some pose of the workspace. *)
 Theorem refute_driven_sound : forall c ls P t f, refute_driven c ls P t f = true ->
@@ -233,7 +236,7 @@ Theorem refute_driven_sound : forall c ls P t f, refute_driven c ls P t f = true
 Proof.
   intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h p]. destruct (all_exact_sound _ _ h) as [h1 h2].
   destruct (is_exact_pose_sound _ _ _ p) as [Q [q1 q2]]. exists (map driven_of ls), (values P), Q. split; [exact h2 |]. split; [split; assumption |].
-  exact (refutes_sound bits _ _ _ _ _ (exact_legs_stand _ _ _ _ _ Q q2 ls) r).
+  exact (refutes_sound bits _ _ _ _ _ _ (exact_legs_stand _ _ _ _ _ Q q2 ls h2) r).
 Qed.
 End Precision.
 End Named.

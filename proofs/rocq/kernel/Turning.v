@@ -143,7 +143,8 @@ Definition xstrut_ray (k : motion) (ell : number) (o : orientations) (c : list n
 
 Definition exact_struts_at (k : motion) (ell : number) (o : orientations) (c : list number) (P : numbers) (ls : list exact_strut) : nconfiguration :=
   let square l := product (xvector o c P l) (xvector o c P l) in
-  NConfiguration (map (xstrut_row k ell o c P) ls) (map (fun l => NLength (Root (square l))) ls) (map (fun _ => None) ls) (map square ls)
+  NConfiguration (map (xstrut_row k ell o c P) ls) (map (fun l => NLength (Root (square l))) ls) (map (fun _ => None) ls)
+    (map (fun l => Some (each2 Plus P (turn o c (xjoint l)), xvector o c P l, Root (square l))) ls) (fun b => each2 Plus P (turn o c b)) (map square ls)
     (map (fun l => Some (xstrut_ray k ell o c P l)) ls).
 End Exact.
 
@@ -160,14 +161,17 @@ Proof.
   intros k ell nominal P ls.
   assert (S : forall l, value (product (xvector o c P l) (xvector o c P l)) = norm2 (strut_vector (strut_of l) (values P) Q))
     by (intro l; rewrite value_square, values_xvector; reflexivity).
-  split; [| split; [| split]]; cbn [jacobian joints rods reached njacobian njoints nrods reserves nrays exact_struts_at struts_at]; rewrite ?map_map.
+  split; [| split; [| split; [| split; [| split]]]]; cbn [jacobian joints rods limbs placed reached njacobian njoints nrods nlimbs nplaced reserves nrays exact_struts_at struts_at]; rewrite ?map_map.
   - apply map_ext. intro l. unfold strut_row, xstrut_row. rewrite <- values_xvector, <- values_unit.
     assert (I : value (Over (1 // 1) ell) = / value ell) by (cbn [value]; unfold Rdiv; rewrite Rinv_1; ring).
     unfold arm_of_joint. cbn [strut_joint strut_of]. rewrite <- is_turn, <- I. destruct k; reflexivity.
   - apply map_ext. intro l. cbn [coordinate_of value]. rewrite S. reflexivity.
   - reflexivity.
+  - apply map_ext. intro l. cbn [option_map real_rod]. rewrite values_plus, is_turn, values_xvector. cbn [value]. rewrite S. reflexivity.
+  - intro b. rewrite values_plus, is_turn. reflexivity.
   - rewrite Forall_map. intro h. split; [rewrite Forall_map; revert h; apply Forall_impl; intros l h; rewrite S; exact h |].
-    clear h. induction ls as [| l ls IH]; cbn [map]; constructor; [| exact IH]. exists (/ sqrt (norm2 (strut_vector (strut_of l) (values P) Q))).
+    induction h as [| l ls h hs IH]; cbn [map]; constructor; [| exact IH]. exists (/ sqrt (norm2 (strut_vector (strut_of l) (values P) Q))).
+    split; [apply Rinv_neq_0_compat, Rgt_not_eq, sqrt_lt_R0, h |].
     unfold strut_row, xstrut_ray. cbv zeta. rewrite <- values_xvector. unfold arm_of_joint. cbn [strut_joint strut_of]. rewrite <- is_turn.
     set (w := xvector o c P l). set (r := turn o c (xjoint l)). unfold normalised, twist, ntwist, vscale, cross, scaled, ncrossed.
     destruct k; cbn [map vx vy vz nx ny nz values value]; repeat (apply f_equal2; [unfold Rdiv; rewrite ?Rinv_1; ring |]); reflexivity.
@@ -193,7 +197,7 @@ Qed.
 
 Definition refute_turning (c : turning_claim) (ls : list exact_strut) (P : numbers) (t : list number) (f : nfailure) : bool :=
   all_struts (struts c) ls && is_in bits (positions c) P && is_orientation bits (turned c) t &&
-  refutes bits (dimension (motion_of c)) (exact_struts_at (motion_of c) (characteristic_length c) (turned c) t P ls) (turning_demands c) f.
+  refutes bits (match motion_of c with AboutPoint => 1 | _ => 2 end) (dimension (motion_of c)) (exact_struts_at (motion_of c) (characteristic_length c) (turned c) t P ls) (turning_demands c) f.
 
 (** A machine of the claim does not meet it in some pose of the workspace. *)
 Theorem refute_turning_sound : forall c ls P t f, refute_turning c ls P t f = true ->
@@ -202,7 +206,7 @@ Proof.
   intros c ls P t f h. apply andb_true_iff in h as [h r]. apply andb_true_iff in h as [h o]. apply andb_true_iff in h as [h p].
   destruct (is_orientation_sound bits _ _ o) as [Q [hQ turnQ]]. exists (map strut_of ls), (values P), Q.
   split; [split; [apply all_struts_sound, h | split; [exact (is_in_sound bits _ _ p) | exact hQ]] |].
-  exact (refutes_sound bits _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _ _) r).
+  exact (refutes_sound bits _ _ _ _ _ _ (exact_struts_stand _ _ Q turnQ _ _ _ _ _) r).
 Qed.
 End Precision.
 End Named.

@@ -8,8 +8,8 @@
     a certified claim is about at least one machine and one point. *)
 
 From Coq Require Import ZArith QArith Qreals Reals Lra Lia List Bool.
-From Orthocert Require Import Vec3 SingularValues Kinematics Fixed Claim.
-From Orthocert.kernel Require Import Statement Arithmetic Number Dependent Machine Problem.
+From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Fixed Claim.
+From Orthocert.kernel Require Import Statement Arithmetic Number Dependent Machine Acceleration Problem.
 From Orthocert.kernel Require Export Compare.
 Import ListNotations.
 Local Open Scope R_scope.
@@ -216,16 +216,16 @@ Proof.
   - apply values_unit.
 Qed.
 
-Lemma values_ray : forall l P, reaches (values P) (leg_of l) -> exists k, row (leg_of l) (values P) = vscale k (values (nray l P)).
+Lemma values_ray : forall l P, reaches (values P) (leg_of l) -> exists k, k <> 0 /\ row (leg_of l) (values P) = vscale k (values (nray l P)).
 Proof.
   intros [d a p len m | a p k | d] P h; cbn [nray row leg_of reaches] in *.
   - assert (H : eta (Leg (normalised (values d)) (values a) (values p) (value len) (if m then 1 else -1)) (values P) <> 0)
       by (unfold eta; cbn [working_mode]; destruct m; lra).
     rewrite values_plus, values_scaled, values_unit, value_signed_root, (values_across d a p (value len) (if m then 1 else -1) P).
-    set (e := eta _ _) in *. exists (/ e). unfold Jinv_row. cbn [axis]. fold e. set (q := r _ _).
+    set (e := eta _ _) in *. exists (/ e). split; [apply Rinv_neq_0_compat, H |]. unfold Jinv_row. cbn [axis]. fold e. set (q := r _ _).
     unfold vadd, vscale. cbn [vx vy vz]. f_equal; field; exact H.
-  - eexists. reflexivity.
-  - exists 1. rewrite values_unit. unfold vscale. destruct (normalised (values d)) as [x y z]. cbn [vx vy vz]. f_equal; ring.
+  - exists (/ sqrt (norm2 (span (values a) (values p) (values P)))). split; [apply Rinv_neq_0_compat, Rgt_not_eq, sqrt_lt_R0, h | reflexivity].
+  - exists 1. split; [lra |]. rewrite values_unit. unfold vscale. destruct (normalised (values d)) as [x y z]. cbn [vx vy vz]. f_equal; ring.
 Qed.
 
 Lemma value_joint : forall l P, value (njoint l P) = joint (leg_of l) (values P).
@@ -252,6 +252,15 @@ Lemma value_speed2 : forall ls P v, value (nspeed2 ls P v) = speed2 (map leg_of 
 Proof.
   intros ls P v. induction ls as [| l ls IH]; cbn [nspeed2 speed2 map fold_right value]; [lra |].
   unfold nspeed2, speed2 in IH. rewrite IH, value_product, values_row. ring.
+Qed.
+
+Fixpoint nelastic2 (ks : list number) (ls : list exact_leg) (P v : numbers) : number :=
+  match ks, ls with k :: ks', l :: ls' => Plus (Times k (Times (product (nrow l P) v) (product (nrow l P) v))) (nelastic2 ks' ls' P v) | _, _ => 0 // 1 end.
+
+Lemma value_elastic2 : forall ks ls P v, value (nelastic2 ks ls P v) = elastic ks (map leg_of ls) (values P) (values v).
+Proof.
+  assert (Z : value (0 // 1) = 0) by (cbn; lra).
+  induction ks as [| k ks IH]; intros [| l ls] P v; try exact Z. cbn [nelastic2 elastic map value]. rewrite IH, value_product, values_row. ring.
 Qed.
 
 (** ** Refutations *)
@@ -298,22 +307,45 @@ Definition nrod (l : exact_leg) (P : numbers) : option (numbers * numbers * numb
   | ExactStrut a p _ => let w := nspan a p P in Some (each2 Plus P p, w, Root (product w w))
   | ExactPlanar _ => None
   end.
-Definition nsegment (ls : list exact_leg) (P : numbers) (b : body) : option (numbers * numbers) :=
+Definition nsegment_along (rods : list (option (numbers * numbers * number))) (nplaced : numbers -> numbers) (b : body) : option (numbers * numbers) :=
   match b with
   | AlongLeg i _ t u o =>
-      match nth_error ls i with
-      | Some l => match nrod l P with
-          | Some (C, A, L) => let part x := each2 Plus (each2 Minus C (scaled x A)) (nposition o) in
-              Some (part (Minus (1 // 1) (Over t L)), part (Over u L))
-          | None => None
-          end
-      | None => None
+      match nth_error rods i with
+      | Some (Some (C, A, L)) => let part x := each2 Plus (each2 Minus C (scaled x A)) (nposition o) in
+          Some (part (Minus (1 // 1) (Over t L)), part (Over u L))
+      | _ => None
       end
   | OnBase _ p q => Some (nposition p, nposition q)
-  | OnPlatform _ p q => Some (each2 Plus P (nposition p), each2 Plus P (nposition q))
+  | OnPlatform _ p q => Some (nplaced (nposition p), nplaced (nposition q))
   end.
+Definition nsegment (ls : list exact_leg) (P : numbers) : body -> option (numbers * numbers) := nsegment_along (map (fun l => nrod l P) ls) (each2 Plus P).
 (** [k] parts of [n] from one end to the other, times [n]. *)
 Definition ntowards (n k : number) (p p' : numbers) : numbers := each2 Plus (scaled (Minus n k) p) (scaled k p').
+
+(** The greatest acceleration of a joint at these of the platform. *)
+Definition nacceleration (l : exact_leg) (P : numbers) (a v : number) : number :=
+  match l with
+  | ExactSlider d a0 p len m => let t := Over len (Root (clearance2 d a0 p len P)) in Times t (Plus a (Times (Over (Times v v) len) (Times t t)))
+  | ExactStrut a0 p _ => Plus a (Over (Times v v) (Root (product (nspan a0 p P) (nspan a0 p P))))
+  | ExactPlanar _ => a
+  end.
+
+(** Points of two segments that are nearer than the bodies' radii and [b]: parts of [nz u] from one end to the other. *)
+Definition are_nearer (segment : body -> option (numbers * numbers)) (u : numbers) (one other : body) (b : number) : bool :=
+  match segment one, segment other with
+  | Some (p, p'), Some (q, q') =>
+      let s := nx u in let t := ny u in let n := nz u in
+      let w := each2 Minus (ntowards n s p p') (ntowards n t q q') in
+      let d := Times n (Plus (Plus (radius_of one) (radius_of other)) b) in
+      certainly true n && certainly false s && certainly false (Minus n s) && certainly false t && certainly false (Minus n t) &&
+      certainly true (Minus (Times d d) (product w w))
+  | _, _ => false
+  end.
+
+(** Joint forces tau_j = B_j u_j, where row j is ray j over B_j, hold the force sum_j u_j ray_j: (tool tau_i)^2 > (b |F|)^2, times |row_i|^2 = |ray_i|^2/B_i^2. *)
+Definition is_forceful {A : Type} (dot : A -> A -> number) (tool b u : number) (F row ray : A) : bool :=
+  certainly true tool && certainly true b &&
+  certainly true (Minus (Times (Times (Times tool tool) (Times u u)) (dot ray ray)) (Times (Times b b) (Times (dot F F) (dot row row)))).
 
 Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : bool :=
   let bound b := Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u) in
@@ -347,16 +379,14 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
       | Some cs => certainly true (Minus (Times (Times b b) (product u u)) (ncouples2 cs u))
       | None => false
       end
-  | Clearance one other b =>
-      match nsegment ls P one, nsegment ls P other with
-      | Some (p, p'), Some (q, q') =>
-          let s := nx u in let t := ny u in let n := nz u in
-          let w := each2 Minus (ntowards n s p p') (ntowards n t q q') in
-          let d := Times n (Plus (Plus (radius_of one) (radius_of other)) b) in
-          certainly true n && certainly false s && certainly false (Minus n s) && certainly false t && certainly false (Minus n t) &&
-          certainly true (Minus (Times d d) (product w w))
-      | _, _ => false
+  | Clearance one other b => are_nearer (nsegment ls P) u one other b
+  | JointForce i tool b =>
+      match ls, nth_error [nx u; ny u; nz u] i, nth_error ls i with
+      | [k1; k2; k3], Some x, Some l =>
+          is_forceful product tool b x (each2 Plus (each2 Plus (scaled (nx u) (nray k1 P)) (scaled (ny u) (nray k2 P))) (scaled (nz u) (nray k3 P))) (nrow l P) (nray l P)
+      | _, _, _ => false
       end
+  | Stiffnesses ks b => certainly true (Minus (Times b (product u u)) (nelastic2 ks ls P u))
   (* the lines are nearest where d + x A is orthogonal to A *)
   | Beside i one other b =>
       match nth_error ls i with
@@ -369,7 +399,13 @@ Definition fails (ls : list exact_leg) (P u v : numbers) (r : requirement) : boo
           end
       | None => false
       end
-  | JointAcceleration _ _ _ _ | JointForce _ _ _ | OneToOne | Accuracy _ _ | Stiffnesses _ _ => false
+  | JointAcceleration i a v b =>
+      match nth_error ls i with
+      | Some l => certainly false a && certainly false v && certainly true (Minus (nacceleration l P a v) b) &&
+          match l with ExactPlanar _ => certainly true (product u u) | _ => true end
+      | None => false
+      end
+  | OneToOne | Accuracy _ _ => false
   end.
 
 Definition refute (c : claim) (ls : list exact_leg) (P : numbers) (f : failure) : bool :=
@@ -424,20 +460,84 @@ Proof.
   - rewrite values_plus. cbn [value]. rewrite value_square. reflexivity.
 Qed.
 
+Definition real_rod (l : numbers * numbers * number) : vec * vec * R := let '(C, A, L) := l in (values C, values A, value L).
+Lemma nsegment_along_sound : forall rods (nplaced : numbers -> numbers) placed, (forall b, values (nplaced b) = placed (values b)) -> forall b p q,
+  nsegment_along rods nplaced b = Some (p, q) -> segment_along (map (option_map real_rod) rods) placed b = Some (values p, values q).
+Proof.
+  intros rods nplaced placed pl [i r t u o | r a c | r a c] p q h; cbn [nsegment_along segment_along] in *.
+  - rewrite nth_error_map. destruct (nth_error rods i) as [[[[C A] L] |] |]; try discriminate. cbn [option_map real_rod]. cbv zeta in h. injection h as <- <-.
+    rewrite !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
+  - injection h as <- <-. reflexivity.
+  - injection h as <- <-. rewrite !pl. reflexivity.
+Qed.
 Lemma nsegment_sound : forall ls P b p q, nsegment ls P b = Some (p, q) -> segment_of (map leg_of ls) (values P) b = Some (values p, values q).
 Proof.
-  intros ls P b p q h.
-  unfold segment_of. destruct b as [i r t u o | r a c | r a c]; cbn [nsegment segment_along] in *.
-  - rewrite map_map, nth_error_map. destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map].
-    destruct (nrod l P) as [[[C A] L] |] eqn:e; [| discriminate]. cbv zeta in h. injection h as <- <-.
-    rewrite (nrod_sound _ _ _ _ _ e), !values_plus, !values_minus, !values_scaled. cbn [value]. replace (1 / 1) with 1 by field. reflexivity.
-  - injection h as <- <-. reflexivity.
-  - injection h as <- <-. reflexivity.
+  intros ls P b p q h. unfold segment_of, nsegment in *. pose proof (nsegment_along_sound _ (each2 Plus P) (vadd (values P)) (values_plus P) _ _ _ h) as E.
+  destruct b as [i r t u o | r a c | r a c]; try exact E. cbn [nsegment_along segment_along] in *. rewrite !map_map, !nth_error_map in *.
+  destruct (nth_error ls i) as [l |]; [| discriminate]. cbn [option_map] in *. destruct (nrod l P) as [[[C A] L] |] eqn:e; [| discriminate].
+  rewrite (nrod_sound _ _ _ _ _ e). exact E.
 Qed.
 
-Lemma fails_sound : forall c ls P u v r, fails ls P u v r = true -> ~ fulfils c (map leg_of ls) (values P) r.
+Lemma are_nearer_sound : forall nsegment segment u one other b, (forall a p q, nsegment a = Some (p, q) -> segment a = Some (values p, values q)) ->
+  are_nearer nsegment u one other b = true -> ~ are_clear segment one other b.
 Proof.
-  intros about ls P u v r h F.
+  intros nsegment segment u one other b sound h F. unfold are_nearer in h.
+  destruct (nsegment one) as [[a a'] |] eqn:s1; [| discriminate]. destruct (nsegment other) as [[c c'] |] eqn:s2; [| discriminate].
+  cbv zeta in h. do 5 (apply andb_true_iff in h as [h ?]).
+  repeat match goal with k : certainly true _ = true |- _ => apply positive_sound in k | k : certainly false _ = true |- _ => apply nonneg_sound in k end.
+  destruct F as [p [p' [q [q' [g1 [g2 F]]]]]]. rewrite (sound _ _ _ s1) in g1. rewrite (sound _ _ _ s2) in g2.
+  assert (e1 : values a = p) by congruence. assert (e2 : values a' = p') by congruence.
+  assert (e3 : values c = q) by congruence. assert (e4 : values c' = q') by congruence. subst p p' q q'.
+  match goal with k : 0 < value (Minus (Times _ _) _) |- _ => rename k into far end. cbn [value] in far. rewrite value_square in far.
+  cbn [value] in *. set (n := value (nz u)) in *. set (x := value (nx u)) in *. set (y := value (ny u)) in *.
+  set (d := value (radius_of one) + value (radius_of other) + value b) in *.
+  assert (I : forall z, 0 <= z -> 0 <= n - z -> 0 <= z / n <= 1).
+  { intros z z0 z1. split; [apply Rmult_le_pos; [exact z0 | apply Rlt_le, Rinv_0_lt_compat, h] |].
+    apply Rmult_le_reg_r with n; [exact h |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra. }
+  specialize (F (x / n) (y / n) (I x ltac:(assumption) ltac:(assumption)) (I y ltac:(assumption) ltac:(assumption))).
+  assert (E : values (each2 Minus (ntowards (nz u) (nx u) a a') (ntowards (nz u) (ny u) c c')) =
+    vscale n (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c')))).
+  { unfold ntowards. rewrite values_minus, !values_plus, !values_scaled. cbn [value]. fold n x y.
+    unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; field; lra. }
+  rewrite E, norm2_scale in far. assert (n ^ 2 * d ^ 2 <= n ^ 2 * norm2 (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c'))))
+    by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact F]). nra.
+Qed.
+
+(** Of a joint force u/k where the row is k times the ray, of which |ray|^2 = r and |F|^2 = f. *)
+Lemma too_forceful : forall tool b u k r f, 0 < tool -> 0 < b -> 0 <= f -> 0 <= r -> k <> 0 -> b ^ 2 * (f * (k ^ 2 * r)) < tool ^ 2 * u ^ 2 * r ->
+  exists t, t ^ 2 * f <= tool ^ 2 /\ b < Rabs (t * (u / k)).
+Proof.
+  intros tool b u k r f t0 b0 f0 r0 k0 h. assert (r1 : 0 < r) by (destruct (Req_dec r 0) as [-> |]; lra).
+  assert (k2 : 0 < k ^ 2) by (rewrite <- Rsqr_pow2; apply Rlt_0_sqr, k0).
+  assert (H : b ^ 2 * (f * k ^ 2) < tool ^ 2 * u ^ 2) by (apply Rmult_lt_reg_r with r; [exact r1 | lra]).
+  assert (W : forall t, b ^ 2 * k ^ 2 < t ^ 2 * u ^ 2 -> b < Rabs (t * (u / k))).
+  { intros t ht. rewrite <- (Rabs_right b) by lra. apply Rsqr_lt_abs_0. unfold Rsqr. apply Rmult_lt_reg_r with (k ^ 2); [exact k2 |].
+    replace (t * (u / k) * (t * (u / k)) * k ^ 2) with (t ^ 2 * u ^ 2) by (field; exact k0). lra. }
+  assert (B : 0 <= b ^ 2 * (f * k ^ 2)) by (apply Rmult_le_pos; [apply pow2_ge_0 | apply Rmult_le_pos; lra]). assert (u2 : 0 < u ^ 2).
+  { pose proof (pow2_ge_0 u). destruct (Req_dec (u ^ 2) 0) as [e |]; [rewrite e in H |]; lra. }
+  destruct (Req_dec f 0) as [z | z].
+  - exists ((b + 1) * k / u). assert (u0 : u <> 0) by (intro e; rewrite e in u2; lra). split; [rewrite z; pose proof (pow2_ge_0 tool); lra |].
+    apply W. replace (((b + 1) * k / u) ^ 2 * u ^ 2) with ((b + 1) ^ 2 * k ^ 2) by (field; exact u0). apply Rmult_lt_compat_r; [exact k2 | nra].
+  - assert (f1 : 0 < f) by lra. pose proof (sqrt_lt_R0 f f1) as s0. assert (S : sqrt f ^ 2 = f) by (apply pow2_sqrt; lra).
+    exists (tool / sqrt f). assert (E : (tool / sqrt f) ^ 2 = tool ^ 2 / f) by (unfold Rdiv; rewrite Rpow_mult_distr, pow_inv, S; reflexivity).
+    rewrite E. split; [right; field; lra |]. apply W. rewrite E. apply Rmult_lt_reg_r with f; [exact f1 |].
+    replace (tool ^ 2 / f * u ^ 2 * f) with (tool ^ 2 * u ^ 2) by (field; lra). lra.
+Qed.
+
+Lemma accelerated : forall l P p q, well_formed_leg (leg_of l) -> reaches (values P) (leg_of l) -> 0 <= value p -> 0 <= value q ->
+  accelerates_by (row (leg_of l)) (values P) (value p) (value q) (value (nacceleration l P p q)).
+Proof.
+  intros [d a0 p0 len m | a0 p0 k | d] P p q ok h p1 q1; cbn [leg_of reaches well_formed_leg nacceleration row] in *; cbv zeta.
+  - cbn [value]. rewrite (value_clearance2 d a0 p0 len (if m then 1 else -1) P).
+    pose proof (slider_reaches _ _ _ _ ok h p1 q1) as K. cbv zeta in K. cbn [leg_length] in K. unfold s in K. cbn [leg_length] in K.
+    match goal with |- accelerates_by _ _ _ _ ?t => match type of K with accelerates_by _ _ _ _ ?t' => replace t with t' by (unfold Rdiv; ring); exact K end end.
+  - cbn [value]. rewrite value_square. change (values (nspan a0 p0 P)) with (span (values a0) (values p0) (values P)). pose proof (strut_reaches _ _ _ _ _ h p1 q1) as K. match goal with |- accelerates_by _ _ _ _ ?t => match type of K with accelerates_by _ _ _ _ ?t' => replace t with t' by (unfold Rdiv; ring); exact K end end.
+  - apply plane_reaches; [apply normalised_norm | exact p1]. pose proof (norm2_nonneg (values d)). destruct (Req_dec (norm2 (values d)) 0) as [z | z]; [apply norm2_zero in z; contradiction | lra].
+Qed.
+
+Lemma fails_sound : forall c ls P u v r, Forall well_formed_leg (map leg_of ls) -> Forall (reaches (values P)) (map leg_of ls) -> fails ls P u v r = true -> ~ fulfils c (map leg_of ls) (values P) r.
+Proof.
+  intros about ls P u v r built reached h F.
   assert (B : forall b, value (Times (Times (Over (1 // 1) b) (Over (1 // 1) b)) (product u u)) = (1 / value b) ^ 2 * norm2 (values u)).
   { intro b. cbn [value]. rewrite value_square. replace (1 / 1) with 1 by field. ring. }
   assert (At : forall i l, nth_error (map leg_of ls) i = Some l -> exists k, nth_error ls i = Some k /\ l = leg_of k).
@@ -480,25 +580,7 @@ Proof.
   - apply positive_sound in h. cbn [value] in h. rewrite value_speed2, value_square in h. specialize (F (values u)). lra.
   - destruct F as [cs [h1 h2]]. destruct (ncouples ls P) as [ns |] eqn:e; [| discriminate]. apply positive_sound in h. cbn [value] in h.
     rewrite value_square, value_couples2, <- (ncouples_sound ls P ns cs e h1) in h. specialize (h2 (values u)). nra.
-  - destruct (nsegment ls P one) as [[a a'] |] eqn:s1; [| discriminate]. destruct (nsegment ls P other) as [[c c'] |] eqn:s2; [| discriminate].
-    cbv zeta in h. do 5 (apply andb_true_iff in h as [h ?]).
-    repeat match goal with k : certainly true _ = true |- _ => apply positive_sound in k | k : certainly false _ = true |- _ => apply nonneg_sound in k end.
-    destruct F as [p [p' [q [q' [g1 [g2 F]]]]]]. rewrite (nsegment_sound _ _ _ _ _ s1) in g1. rewrite (nsegment_sound _ _ _ _ _ s2) in g2.
-    assert (e1 : values a = p) by congruence. assert (e2 : values a' = p') by congruence.
-    assert (e3 : values c = q) by congruence. assert (e4 : values c' = q') by congruence. subst p p' q q'.
-    match goal with k : 0 < value (Minus (Times _ _) _) |- _ => rename k into far end. cbn [value] in far. rewrite value_square in far.
-    cbn [value] in *. set (n := value (nz u)) in *. set (x := value (nx u)) in *. set (y := value (ny u)) in *.
-    set (d := value (radius_of one) + value (radius_of other) + value b) in *.
-    assert (I : forall z, 0 <= z -> 0 <= n - z -> 0 <= z / n <= 1).
-    { intros z z0 z1. split; [apply Rmult_le_pos; [exact z0 | apply Rlt_le, Rinv_0_lt_compat, h] |].
-      apply Rmult_le_reg_r with n; [exact h |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l by lra. lra. }
-    specialize (F (x / n) (y / n) (I x ltac:(assumption) ltac:(assumption)) (I y ltac:(assumption) ltac:(assumption))).
-    assert (E : values (each2 Minus (ntowards (nz u) (nx u) a a') (ntowards (nz u) (ny u) c c')) =
-      vscale n (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c')))).
-    { unfold ntowards. rewrite values_minus, !values_plus, !values_scaled. cbn [value]. fold n x y.
-      unfold towards, vsub, vadd, vscale. cbn [vx vy vz]. f_equal; field; lra. }
-    rewrite E, norm2_scale in far. assert (n ^ 2 * d ^ 2 <= n ^ 2 * norm2 (vsub (towards (x / n) (values a) (values a')) (towards (y / n) (values c) (values c'))))
-      by (apply Rmult_le_compat_l; [apply pow2_ge_0 | exact F]). nra.
+  - exact (are_nearer_sound _ _ _ _ _ _ (nsegment_sound ls P) h F).
   - destruct F as [l [C [A [L [n [e F]]]]]]. destruct (At i l n) as [k [e' ->]]. rewrite e' in h.
     destruct (nrod k P) as [[[C' A'] L'] |] eqn:er; [| discriminate]. rewrite (nrod_sound _ _ _ _ _ er) in e.
     assert (eA : values A' = A) by congruence. subst A. cbv zeta in h. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2.
@@ -509,30 +591,49 @@ Proof.
       by (unfold d; rewrite values_minus; change (values (nposition one)) with (located one); change (values (nposition other)) with (located other);
           unfold norm2, dot, vsub, vadd, vscale; cbn [vx vy vz]; ring).
     replace (norm2 d - 2 * y * dot d a + y ^ 2 * norm2 a) with (norm2 d - dot d a * dot d a / norm2 a) in F by (unfold y; field; lra). lra.
+  - destruct F as [k [n j]]. destruct (At i _ n) as [l [e ->]]. rewrite e in h. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2].
+    apply nonneg_sound in h1, h2. apply positive_sound in h3. cbn [value] in h3. rewrite Forall_forall in built, reached. pose proof (in_map leg_of _ _ (nth_error_In _ _ e)) as il.
+    destruct (accelerated l P a y (built _ il) (reached _ il) h1 h2) as [path [V [acc [d [g1 [g2 [g3 [g4 [g5 [g6 g7]]]]]]]]]].
+    destruct (j path V acc g1 g2 g3 g4 g5) as [d' [j1 j2]]. rewrite (uniqueness_limite _ _ _ _ j1 g6) in j2. lra.
+  - destruct F as [_ F]. destruct ls as [| k1 [| k2 [| k3 [| k4 ls]]]]; try discriminate. destruct (nth_error [nx u; ny u; nz u] i) as [x |] eqn:ex; [| discriminate].
+    destruct (nth_error [k1; k2; k3] i) as [l |] eqn:el; [| discriminate].
+    inversion reached as [| ? ? r1 R1]; subst. inversion R1 as [| ? ? r2 R2]; subst. inversion R2 as [| ? ? r3 _]; subst.
+    destruct (values_ray _ _ r1) as [q1 [n1 e1]], (values_ray _ _ r2) as [q2 [n2 e2]], (values_ray _ _ r3) as [q3 [n3 e3]].
+    apply andb_true_iff in h as [h h3]. apply andb_true_iff in h as [h1 h2]. apply positive_sound in h1, h2, h3. cbn [value] in h3.
+    rewrite !value_square, !values_plus, !values_scaled, values_row in h3.
+    set (G := vadd _ _) in h3. assert (K : exists k, k <> 0 /\ row (leg_of l) (values P) = vscale k (values (nray l P)) /\
+      forall t, t * (value x / k) = nth i [t * (value (nx u) / q1); t * (value (ny u) / q2); t * (value (nz u) / q3)] 0).
+    { destruct i as [| [| [| i]]]; cbn [nth_error] in ex, el; try (destruct i; discriminate ex); injection ex as <-; injection el as <-;
+        [exists q1 | exists q2 | exists q3]; (split; [assumption | split; [assumption | reflexivity]]). }
+    destruct K as [k [k0 [ek et]]]. rewrite ek, norm2_scale in h3.
+    destruct (too_forceful (value tool) (value b) (value x) k (norm2 (values (nray l P))) (norm2 G) h1 h2 (norm2_nonneg _) (norm2_nonneg _) k0 ltac:(apply Rminus_gt_0_lt, (Rlt_le_trans _ _ _ h3); right; ring)) as [t [t1 t2]].
+    rewrite et in t2. apply (Rlt_not_le _ _ t2). apply (F _ (vscale t G)); [reflexivity | | rewrite norm2_scale; exact t1].
+    intro w. cbn [joint_power map]. rewrite e1, e2, e3. unfold G.
+    assert (A : forall a b c, dot (vscale t (vadd (vadd a b) c)) w = t * (dot a w + dot b w + dot c w)) by (intros; unfold dot, vscale, vadd; cbn [vx vy vz]; ring).
+    assert (S : forall a q, dot (vscale q a) w = q * dot a w) by (intros; unfold dot, vscale; cbn [vx vy vz]; ring).
+    rewrite A, !S. field. repeat split; assumption.
   - discriminate.
   - discriminate.
-  - discriminate.
-  - discriminate.
-  - discriminate.
+  - destruct F as [_ F]. apply positive_sound in h. cbn [value] in h. rewrite value_square, value_elastic2 in h. specialize (F (values u)). lra.
 Qed.
 
 (** A machine of the claim that can be built does not meet it at some point of the workspace. *)
 Theorem refute_sound : forall c ls P f, refute c ls P f = true -> exists m P, is_about c m P /\ ~ meets c m P.
 Proof.
   intros c ls P f h. apply andb_true_iff in h as [a h]. exists (map leg_of ls), (values P).
-  split; [apply admits_sound, a |]. intros [reached [inj met]]. destruct f as [| i u v | i leg |].
+  split; [apply admits_sound, a |]. destruct (admits_sound _ _ _ a) as [_ [built _]]. intros [reached [inj met]]. destruct f as [| i u v | i leg |].
   - apply existsb_exists in h as [l [il h]]. destruct (reserve l P) as [t |] eqn:e; [| discriminate].
     apply nonneg_sound in h. cbn [value] in h. apply (reserve_sound l P t e); [lra |].
     rewrite Forall_forall in reached. apply reached, in_map, il.
-  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound c _ _ _ _ _ h).
+  - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. apply (fails_sound c _ _ _ _ _ built reached h).
     rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
   - destruct (nth_error (require c) i) as [q |] eqn:n; [| discriminate]. destruct (nth_error ls leg) as [l |]; [| discriminate].
-    apply (fails_sound c _ _ _ _ _ h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
+    apply (fails_sound c _ _ _ _ _ built reached h). rewrite Forall_forall in met. apply met, (nth_error_In _ _ n).
   - destruct (are_dependent_sound _ _ h) as [v [lv [nz z]]]. destruct v as [| x [| y [| t [|]]]]; try discriminate lv.
     assert (V : Vec x y t <> vzero) by (intro e; injection e as -> -> ->; unfold Linear.nonzero in nz; cbn in nz; lra).
     specialize (inj _ V). enough (E : speed2 (map leg_of ls) (values P) (Vec x y t) = 0) by lra. clear - reached z.
     induction ls as [| l ls IH]; [reflexivity |]. cbn [map] in *. inversion reached as [| ? ? r1 r2]. inversion z as [| ? ? z1 z2]. subst.
-    destruct (values_ray l P r1) as [k e]. specialize (IH r2 z2). unfold speed2 in *. cbn [fold_right]. rewrite IH, e.
+    destruct (values_ray l P r1) as [k [_ e]]. specialize (IH r2 z2). unfold speed2 in *. cbn [fold_right]. rewrite IH, e.
     cbn [Linear.dot map] in z1. unfold values, dot, vscale. cbn [vx vy vz]. cbv zeta in z1.
     replace (k * value (nx (nray l P)) * x + k * value (ny (nray l P)) * y + k * value (nz (nray l P)) * t)
       with (k * (value (nx (nray l P)) * x + (value (ny (nray l P)) * y + (value (nz (nray l P)) * t + 0)))) by ring. rewrite z1. ring.

@@ -232,6 +232,50 @@ for (const [name, more, beyond, wrong] of [
   read.push(bounded(certified));
 }
 console.log("accelerations of three platforms that turn, and four with a stiffness for each joint: 280 bounds with one answer, and 27 refused");
+// Refutations: of quantities on machines of each kind, at bounds ever nearer to the last with which the witness refutes; and in no directions, or others.
+const refutations = [
+  ["skew-guides", "joint_force = { tool = 10, max = 1 }", 90], ["skew-guides", "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 9000],
+  ["upu-struts", "joint_force = { tool = 10, max = 1 }", 90], ["upu-struts", "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 9000],
+  ["tripteron", "joint_force = { tool = 10, max = 1 }", 90], ["tripteron", "joint_acceleration = { speed = 50, acceleration = 1000, max = 10 }", 9000],
+  ["kernel/four-guides", "stiffness = { joint = [3, 4, 5, 6], min = 90 }", 0.01], ["kernel/hexapod-linuxcnc", "stiffness = { joint = [3, 4, 5, 6, 7, 8], min = 90 }", 0.01],
+  ["kernel/hexapod-linuxcnc", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/hexapod-linuxcnc", "joint_speed = { tool = 10, max = 1 }", 90],
+  ["kernel/planar-3-rpr", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/spherical-3-ups", "joint_speed = { tool = 10, max = 1 }", 90],
+  ["kernel/planar-3-prr", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/planar-3-rrr", "joint_force = { tool = 10, max = 1 }", 90000],
+  ["kernel/hexapod-joints", "clearance = { min = 9 }", 0.1], ["kernel/hexapod-joints", null, 40, "base_joint"], ["kernel/hexapod-joints", null, 40, "platform_joint"],
+  ["kernel/linear-delta-formulas", "transmission = { max = 1.01 }", 9], ["kernel/linear-delta-formulas", "transmission = { min = 0.99 }", 0.1], ["kernel/linear-delta-formulas", "conditioning = { max = 1.01 }", 9],
+  ["kernel/linear-delta-formulas", "joint_range = { max = 300 }", 900], ["kernel/linear-delta-formulas", "joint_force = { tool = 10, max = 1 }", 90], ["kernel/linear-delta-formulas", "joint_speed = { tool = 10, max = 1 }", 90],
+  ["kernel/linear-delta-formulas", "stiffness = { joint = [3, 4, 5], min = 90 }", 0.01], ["kernel/agile-eye", "transmission = { max = 1.01 }", 9], ["kernel/agile-eye", "joint_force = { tool = 10, max = 1 }", 90],
+  ["kernel/georg-v-type", "transmission = { max = 0.01 }", 9000],
+];
+let ends = 0, no_refutations = 0;
+for (const [name, requirement, beyond, joint] of refutations) {
+  const design = path.join(made, "refuted.toml"), file = path.join(made, "refuted.cert.json");
+  const [head] = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").split("[requirements]");
+  const own = joint === undefined ? head : head.replace(new RegExp(`(${joint} = .*max = )\\d+`), "$12");
+  fs.writeFileSync(design, `${own}\n[requirements]\n${requirement ?? "clearance = { min = 0.1 }"}\n`);
+  spawnSync(orthocert, ["verify", design, "-o", file]);
+  const text = fs.readFileSync(file, "latin1"), quantity = joint ?? requirement.split(" ")[0];
+  const [all, before, stated] = new RegExp(`("quantity":"${quantity}"(?:,"leg":1)?(?:,"given":\\{[^}]*\\})?,"end":"\\w+","bound":)"([\\d.]+)"`).exec(text);
+  const bounded = (b) => text.replace(all, `${before}"${b.toFixed(15).replace(/\.?0+$/, "")}"`);
+  let [rejected, refuted] = [beyond, +stated];
+  for (let i = 0; i < 12; i++) {
+    const middle = (rejected + refuted) / 2, answers = three_answers(bounded(middle));
+    if (new Set(answers).size > 1 || !["REFUTED", "REJECTED"].includes(answers[0])) fail(`${name}, ${quantity} at ${middle}: ${answers}`);
+    if (answers[0] === "REFUTED") refuted = middle; else rejected = middle;
+    ends++;
+  }
+  if (refuted === +stated || rejected === beyond) fail(`${name}, ${quantity}: no last bound`);
+  const nearest = bounded(refuted), [, number, directions] = /"obligation":\[(\d+),(\[.*?\])\]\}\}\}/.exec(text);
+  const with_ = (number, directions) => nearest.replace(/"obligation":\[\d+,\[.*?\]\]\}\}\}/, `"obligation":[${number},${directions}]}}}`);
+  const zero = directions.replace(/-?\d+/g, "0"), others = directions.replace(/(\[\[?)-?(\d+),/, "$1-7$2,"), more = directions === "[]" ? "[[1]]" : directions.replace(/\]\]$/, ",1]]");
+  for (const wrong of [with_(0, directions), with_(+number + 90, directions), with_(number, zero), with_(number, others), with_(number, more), with_(number, directions === "[]" ? "[[0]]" : "[]")]) {
+    const answers = three_answers(wrong);
+    if (new Set(answers).size > 1) fail(`${name}, ${quantity}: ${answers}: ${wrong.slice(wrong.indexOf('"fails"'))}`);
+    no_refutations += answers[0] === "REJECTED";
+  }
+  read.push(nearest);
+}
+console.log(`refutations: ${ends} bounds of ${refutations.length} with one answer, and ${no_refutations} refused`);
 const are_covered = of_design.filter((answer) => !answer.startsWith("NOT COVERED")).length;
 console.log(`designs: ${are_covered} of ${of_designs.length} certificates are proved again, and exported to Rocq, the others refused in the same words`);
 fs.rmSync(made, { recursive: true });

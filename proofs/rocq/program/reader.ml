@@ -223,7 +223,7 @@ let strut_demand v =
 let driven_demand v =
   let r = requirement ~turns:true v in
   match r.about_ with
-  | Serial_ | Parallel_ | LegAngle_ -> r
+  | Serial_ | Parallel_ | LegAngle_ | OneToOne_ -> r
   | _ -> turning_demand v
 
 let region (kind, v) =
@@ -282,10 +282,6 @@ let rec subject v =
             if find l "base_axis" <> None then not_covered [ "a base axis of such a platform" ];
             (vector "anchor", vector "platform") in
           let require = List.map strut_demand (array (get l "require")) in
-          (match motion, orientation with
-           | InSpace, Angle_ _ -> ()
-           | _ when List.exists (fun r -> r.about_ = OneToOne_) require -> not_covered [ "\"one_to_one\" of this set of orientations" ]
-           | _ -> ());
           Turning_ (motion, List.map strut legs, ell, place region, orientation, bodies, require)
         | _ ->
           without_bodies ();
@@ -455,33 +451,29 @@ let certificate text =
      not_covered [ "this evidence \"tolerances\" of a platform that turns" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
-   | Legs_ (_, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> r.about_ = Force_) rs -> not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
+   | Turning_ (kind, _, _, _, orientation, _, rs), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs &&
+       (match kind, orientation with InSpace, Angle_ _ -> false | _ -> true) -> not_covered [ "\"one_to_one\" of this set of orientations" ]
+   | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs -> not_covered [ "\"one_to_one\" of such a mechanism" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ _, ByWitness (_, _, _, (Reach | Dependent_ | Singular_ _)) -> ()
-   | Turning_ (_, _, _, _, _, _, rs), ByWitness _ when List.exists (fun r -> match r.about_ with Transmission | JointRange | Condition_ -> false | _ -> true) rs ->
-     not_covered [ "this quantity of such a mechanism in a claim that is refuted" ]
+   | Turning_ _, ByWitness (_, _, _, Singular_ _) -> ()
    | _, ByWitness (_, _, _, how) when is_singular how -> not_covered [ "the failure \"singular\" of such a mechanism" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, how) -> is_singular how | _ -> false) cells -> not_covered [ "the failure \"singular\" of such a mechanism" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->
      not_covered [ "the acceleration of a joint of a machine with a plane" ]
-   | Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs ->
-     not_covered [ "this quantity in a claim that is refuted" ]
+   | NoCube_ (_, _, _, rs, _), _ when List.exists is_certified_only rs -> not_covered [ "this quantity in a claim that is refuted" ]
    | NoCube_ _, Nodes (_, _, nodes) when List.exists (fun n -> n.by_ <> []) nodes -> not_covered [ "a step in a proof that no cube fits" ]
-   | (Machine_ (_, _, _, rs), ByWitness _ | NoCube_ (_, _, _, rs, _), _ | Atlas_ (_, _, _, rs, _, _), _) when has_each rs ->
+   | (NoCube_ (_, _, _, rs, _) | Atlas_ (_, _, _, rs, _, _)), _ when has_each rs ->
      not_covered [ "a stiffness for each joint in such a claim" ]
    | NoCube_ _, _ -> ()
-   | Atlas_ (_, _, _, rs, _, _), Cells cells ->
-     let is_outside cell = match cell with
-       | Disproved _ -> List.exists is_certified_only rs
-       | Proved (_, _, nodes) -> has_failure nodes
-       | _ -> false in
-     if List.exists is_outside cells then not_covered [ "this quantity in a refuted cell of an atlas, or a leaf that fails" ]
+   | Atlas_ _, Cells cells ->
+     let is_outside cell = match cell with Proved (_, _, nodes) -> has_failure nodes | _ -> false in
+     if List.exists is_outside cells then not_covered [ "a leaf that fails" ]
    | _, Nodes (_, _, nodes) when has_failure nodes -> not_covered [ "a leaf that fails" ]
-   | Formulas_ _, ByWitness _ -> not_covered [ "a mechanism by formulas in a claim that is refuted" ]
    | _ -> ());
   let p = members (get l "provenance") in
-  { subject_; proof_; tool = string (get p "tool"); version = string (get p "version") }
+  let c = { subject_; proof_; tool = string (get p "tool"); version = string (get p "version") } in
+  if is_of_known_failure c then c else not_covered [ "this quantity in a claim that is refuted" ]
 
 type verdict =
   | Certified (* the claim holds of every machine, and there is one *)

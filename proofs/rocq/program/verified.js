@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(G){"use strict";var
-iT="spatial",pB="Invalid_argument",gE="precision",aE='"',iS=1255,pA="inside",oF="(",oG=0x800,pz="yaw",oC="range",oD="tree",oE="jsError",b4=0x8000,py="sqrt(",oB=256,oA="obligation",e9="offset",ba="machine",oy="this quantity of such a mechanism in a claim that is refuted",oz="End_of_file",d6="strut",iR="center",e8="arm",iQ="Failure",px="serial_margin",gN="parameters",cl=0xff,pw="bodies",pv="max_angle",i3="outside",gM="base_axis",iP="ENOENT",pu="singular",pt=122,ox="([^/]+)",ps="0",iO=0xf,e7=128,ow=0xdc00,pq="Sys_blocked_io",pr="fd ",eZ="given",ov="ENOTEMPTY",aQ=248,gD="bound",ou="Division_by_zero",po="by",pp=1027,ot="Sys_error",gL="slider",os="torsion",pn="postulate",or="proof",i2="joint_error",e6="refuted",d1="mechanism",gC="row",oq="EEXIST",pm="roll_pitch_yaw",gK="y",op="cube",dk="lower",pl="within",oo="clearance",pk="turned",on="control",gB="int_of_string",pi="definitions",pj="dependent",e5=1024,ol="from",om="name",ph=" : flags Open_rdonly and Open_wronly are not compatible",ok="orthocert/2",pg="reach",oj=512,pe="base_joint",pf="witness",e4="-",a4="platform",oi=0x7ff0,oh="pitch",i1=": Not a directory",br="min",pc="trim",d5="workspace",pd=" : file already exists",gA="split",pa='the failure "singular" of such a mechanism',i0="legs",pb="claim",iN="joint",dl=0xffffff,og="platform_joint",of="formulas",oe="roll",gz="atlas",o_="nodes",o$="Out_of_memory",od="psi_max",gJ="orientation",gy=254,o9="angle",iZ="index out of bounds",oc="end",o8="one_to_one",gI="_bigarr02",ob=" : flags Open_text and Open_binary are not compatible",bN="drive",oa="coordinates",o7="holds",n$="lower_divided",n_="speed",o5="cylinder",o6="joints",ck=0xffff,o3="acceleration",e2="certified",e3="chords",o4=12520,iM="on",d0="accuracy",e1="axis",o2="no_cube",o1="parallel_margin",n9='the drive "',iL="Unix.Unix_error",gH="fails",gx="tool",iK="mkdir",o0="rho",gG=1000,iJ="translational",oZ="tolerances",n8="Stack_overflow",iY="characteristic_length",X="",iX="^",iI="places",gw=": No such file or directory",n7="/static/",d4=0x3f,n5="stiffness",n6="Not_found",dj="planar",eY="mode",oY="joint_speed",oX="Match_failure",n4="transmission",bq="anchor",oW="at",n3="joint_force",d3="leg",n2="joint_acceleration",gF="+",iH="rmdir",oV=0xf0,oU="spherical",n1=1026,oS="REJECTED",oT="undecided",bs="max",b5="direction",nZ="leg_angle",n0="orthoglide",e0="rank",oR="constraint_margin",gv="test",nX="Pervasives.do_at_exit",nY="utf8",bM=0x80,d2="conditioning",dZ="length",nW="Undefined_recursive_module",iW=")",nV="base",oQ="quantity",nU="joint_range",gu="tilt",nT="Q2",oP="reference",nS="point",oN="corner",oO=0xe0,nR="version",iV="z",oL="to",oM=0xdfff,iG="compare: functional value",oK="Assert_failure",bP="/",oJ="provenance",di="radius",gt="side",bO="require",oI="format",nQ="Q1",iU="ENOTDIR",nP="all",dh="box",oH=250;function
-je(c,b,a){var
+a.prototype._T_}}(Object));(function(J){"use strict";var
+i8="spatial",pW="Invalid_argument",gO="precision",aE='"',i7=1255,pV="inside",oZ="(",o0=0x800,pU="yaw",oW="range",oX="tree",oY="jsError",b6=0x8000,pT="sqrt(",oV=256,oU="obligation",fc="offset",bc="machine",oT="End_of_file",d$="strut",i6="center",fb="arm",i5="Failure",pS="serial_margin",gX="parameters",co=0xff,pR="bodies",pQ="max_angle",jg="outside",gW="base_axis",i4="ENOENT",pP="singular",pO=122,oS="([^/]+)",pN="0",i3=0xf,fa=128,oR=0xdc00,pL="Sys_blocked_io",pM="fd ",e4="given",oQ="ENOTEMPTY",aT=248,gN="bound",oP="Division_by_zero",pJ="by",pK=1027,oO="Sys_error",gV="slider",oN="torsion",pI="postulate",oM="proof",jf="joint_error",e$="refuted",d6="mechanism",gM="row",oL="EEXIST",pH="roll_pitch_yaw",gU="y",oK="cube",dq="lower",pG="within",oJ="clearance",pF="turned",oI="control",gL="int_of_string",pD="definitions",pE="dependent",e_=1024,oG="from",oH="name",pC=" : flags Open_rdonly and Open_wronly are not compatible",oF="orthocert/2",pB="reach",oE=512,pz="base_joint",pA="witness",e9="-",a6="platform",oD=0x7ff0,oC="pitch",je=": Not a directory",bu="min",px="trim",d_="workspace",py=" : file already exists",gK="split",pv='the failure "singular" of such a mechanism',jd="legs",pw="claim",i2="joint",dr=0xffffff,oB="platform_joint",oA="formulas",oz="roll",gJ="atlas",pt="nodes",pu="Out_of_memory",oy="psi_max",gT="orientation",gI=254,ps="angle",jc="index out of bounds",ox="end",pr="one_to_one",gS="_bigarr02",ow=" : flags Open_text and Open_binary are not compatible",bP="drive",ov="coordinates",pq="holds",ou="lower_divided",ot="speed",po="cylinder",pp="joints",cn=0xffff,pl="a leaf that fails",pm="acceleration",e7="certified",e8="chords",pn=12520,i1="on",d5="accuracy",e6="axis",pk="no_cube",pj="parallel_margin",os='the drive "',i0="Unix.Unix_error",gR="fails",gH="tool",iZ="mkdir",pi="rho",gQ=1000,iY="translational",ph="tolerances",or="Stack_overflow",jb="characteristic_length",X="",ja="^",iX="places",gG=": No such file or directory",oq="/static/",d9=0x3f,oo="stiffness",op="Not_found",dp="planar",e3="mode",pg="joint_speed",pf="Match_failure",on="transmission",bt="anchor",pe="at",om="joint_force",d8="leg",ol="joint_acceleration",gP="+",iW="rmdir",pd=0xf0,pc="spherical",ok=1026,pa="REJECTED",pb="undecided",bv="max",b7="direction",oi="leg_angle",oj="orthoglide",e5="rank",o$="constraint_margin",gF="test",og="Pervasives.do_at_exit",oh="utf8",bO=0x80,d7="conditioning",d4="length",of="Undefined_recursive_module",i$=")",oe="base",o_="quantity",od="joint_range",gE="tilt",oc="Q2",o9="reference",oa="this quantity in a claim that is refuted",ob="point",o7="corner",o8=0xe0,n$="version",i_="z",o5="to",o6=0xdfff,iV="compare: functional value",o4="Assert_failure",bR="/",o3="provenance",dn="radius",gD="side",bQ="require",o2="format",n_="Q1",i9="ENOTDIR",n9="all",dm="box",o1=250;function
+jt(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=X;for(;0<a;b+=e5,a-=e5)e+=d.apply(null,c.slice(b,b+Math.min(a,e5)));return e}function
-gP(b){if(G.Uint8Array)var
-c=new(G.Uint8Array)(b.l);else
+e=X;for(;0<a;b+=e_,a-=e_)e+=d.apply(null,c.slice(b,b+Math.min(a,e_)));return e}function
+gZ(b){if(J.Uint8Array)var
+c=new(J.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-e_(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?je(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gP(b);var
+fd(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?jt(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?jt(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gZ(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-d9(a){return a}function
-d8(a,b,c,d,e){e_(d9(a),b,c,d,e);return 0}function
-i5(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+ec(a){return a}function
+eb(a,b,c,d,e){fd(ec(a),b,c,d,e);return 0}function
+ji(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cN(c,a){if(c.fun)return cN(c.fun,a);if(typeof
+cT(c,a){if(c.fun)return cT(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cN(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return cT(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cN(c,d)}}function
-p3(b,a){if(b==0)return X;if(a.repeat)return a.repeat(b);var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cT(c,d)}}function
+qm(b,a){if(b==0)return X;if(a.repeat)return a.repeat(b);var
 d=X,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-d_(a){if(a.t==2)a.c+=p3(a.l-a.c.length,"\0");else
-a.c=je(a.c,0,a.c.length);a.t=0}function
-d$(a){a.t&6&&d_(a);return a.c}var
-Ft=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Fs(a){if(Ft)return Math.floor(Math.log2(a));var
+ed(a){if(a.t==2)a.c+=qm(a.l-a.c.length,"\0");else
+a.c=jt(a.c,0,a.c.length);a.t=0}function
+ee(a){a.t&6&&ed(a);return a.c}var
+F0=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+FZ(a){if(F0)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-i8(c){var
-a=new(G.Float32Array)(1);a[0]=c;var
-b=new(G.Int32Array)(a.buffer);return b[0]|0}var
-pU=Math.pow(2,-24);function
-Fj(a){throw a}var
-au=[0];function
-p0(){Fj(au.Division_by_zero)}function
-F(b,c,a){this.lo=b&dl;this.mi=c&dl;this.hi=a&ck}F.prototype.caml_custom="_j";F.prototype.copy=function(){return new
-F(this.lo,this.mi,this.hi)};F.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};F.prototype.neg=function(){var
+jl(c){var
+a=new(J.Float32Array)(1);a[0]=c;var
+b=new(J.Int32Array)(a.buffer);return b[0]|0}var
+qd=Math.pow(2,-24);function
+FQ(a){throw a}var
+av=[0];function
+qj(){FQ(av.Division_by_zero)}function
+I(b,c,a){this.lo=b&dr;this.mi=c&dr;this.hi=a&cn}I.prototype.caml_custom="_j";I.prototype.copy=function(){return new
+I(this.lo,this.mi,this.hi)};I.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};I.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};I.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-F(a,b,c)};F.prototype.add=function(a){var
+I(a,b,c)};I.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-F(b,c,d)};F.prototype.sub=function(a){var
+I(b,c,d)};I.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-F(b,c,d)};F.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*pU|0)+this.mi*a.lo+this.lo*a.mi,d=(c*pU|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-F(b,c,d)};F.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};F.prototype.isNeg=function(){return this.hi<<16<0};F.prototype.and=function(a){return new
-F(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};F.prototype.or=function(a){return new
-F(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};F.prototype.xor=function(a){return new
-F(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};F.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-F(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-F(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-F(0,0,this.lo<<a-48)};F.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-F(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-F(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-F(this.hi>>a-48,0,0)};F.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+I(b,c,d)};I.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*qd|0)+this.mi*a.lo+this.lo*a.mi,d=(c*qd|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+I(b,c,d)};I.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};I.prototype.isNeg=function(){return this.hi<<16<0};I.prototype.and=function(a){return new
+I(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};I.prototype.or=function(a){return new
+I(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};I.prototype.xor=function(a){return new
+I(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};I.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+I(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+I(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+I(0,0,this.lo<<a-48)};I.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+I(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+I(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+I(this.hi>>a-48,0,0)};I.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-F(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+I(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-F(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&ck);return new
-F(this.hi<<16>>a-32,b,b)};F.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dl;this.lo=this.lo<<1&dl};F.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dl;this.mi=(this.mi>>>1|this.hi<<23)&dl;this.hi=this.hi>>>1};F.prototype.udivmod=function(e){var
+I(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cn);return new
+I(this.hi<<16>>a-32,b,b)};I.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dr;this.lo=this.lo<<1&dr};I.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dr;this.mi=(this.mi>>>1|this.hi<<23)&dr;this.hi=this.hi>>>1};I.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-F(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};F.prototype.div=function(a){var
-b=this;if(a.isZero())p0();var
-d=b.hi^a.hi;if(b.hi&b4)b=b.neg();if(a.hi&b4)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&b4)c=c.neg();return c};F.prototype.mod=function(b){var
-a=this;if(b.isZero())p0();var
-d=a.hi;if(a.hi&b4)a=a.neg();if(b.hi&b4)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&b4)c=c.neg();return c};F.prototype.toInt=function(){return this.lo|this.mi<<24};F.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};F.prototype.toArray=function(){return[this.hi>>8,this.hi&cl,this.mi>>16,this.mi>>8&cl,this.mi&cl,this.lo>>16,this.lo>>8&cl,this.lo&cl]};F.prototype.lo32=function(){return this.lo|(this.mi&cl)<<24};F.prototype.hi32=function(){return this.mi>>>8&ck|this.hi<<16};function
-gR(b,c,a){return new
-F(b,c,a)}function
-gQ(a){if(!isFinite(a)){if(isNaN(a))return gR(1,0,oi);return a>0?gR(0,0,oi):gR(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?b4:a>=0?0:b4;if(f)a=-a;var
-b=Fs(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-n1)}else{a/=Math.pow(2,b-pp);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+I(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};I.prototype.div=function(a){var
+b=this;if(a.isZero())qj();var
+d=b.hi^a.hi;if(b.hi&b6)b=b.neg();if(a.hi&b6)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&b6)c=c.neg();return c};I.prototype.mod=function(b){var
+a=this;if(b.isZero())qj();var
+d=a.hi;if(a.hi&b6)a=a.neg();if(b.hi&b6)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&b6)c=c.neg();return c};I.prototype.toInt=function(){return this.lo|this.mi<<24};I.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};I.prototype.toArray=function(){return[this.hi>>8,this.hi&co,this.mi>>16,this.mi>>8&co,this.mi&co,this.lo>>16,this.lo>>8&co,this.lo&co]};I.prototype.lo32=function(){return this.lo|(this.mi&co)<<24};I.prototype.hi32=function(){return this.mi>>>8&cn|this.hi<<16};function
+g1(b,c,a){return new
+I(b,c,a)}function
+g0(a){if(!isFinite(a)){if(isNaN(a))return g1(1,0,oD);return a>0?g1(0,0,oD):g1(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?b6:a>=0?0:b6;if(f)a=-a;var
+b=FZ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ok)}else{a/=Math.pow(2,b-pK);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&iO|f|b<<4;return gR(g,e,c)}function
-fb(a){return a.toArray()}function
-pI(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gI)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<ck)c.write(16,b.dims[a]);else{c.write(16,ck);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&i3|f|b<<4;return g1(g,e,c)}function
+fg(a){return a.toArray()}function
+p3(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gS)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cn)c.write(16,b.dims[a]);else{c.write(16,cn);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fb(b.get(a));for(var
+e=fg(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fb(gQ(b.get(a)));for(var
+e=fg(g0(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=i8(b.get(a));c.write(32,e)}break;case
+e=jl(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,i8(d[1]));c.write(32,i8(d[2]))}break;case
+d=b.get(a);c.write(32,jl(d[1]));c.write(32,jl(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fb(gQ(f[1]));for(var
+f=b.get(a),e=fg(g0(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fb(gQ(f[2]));for(var
+e=fg(g0(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Fl(b,a){throw[0,b,a]}function
-p7(a){if(a.length<24){for(var
+FS(b,a){throw[0,b,a]}function
+qq(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-jf(e){for(var
-j=X,c=X,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bM){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bM;d++);if(d-b>oj){c.substr(0,1);j+=c;c=X;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(f<<6);if(f<oO){a=g-0x3080;if(a<bM)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7){g=h+(g<<6);if(f<oV){a=g-0xe2080;if(a<oG||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==e7&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>ck)c+=String.fromCharCode(0xd7c0+(a>>10),ow+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>e5){c.substr(0,1);j+=c;c=X}}return j+c}function
-b6(c,a,b){this.t=c;this.c=a;this.l=b}b6.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:d_(this);case
-0:if(p7(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};b6.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return jf(a)};b6.prototype.slice=function(){var
+ju(e){for(var
+j=X,c=X,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bO){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bO;d++);if(d-b>oE){c.substr(0,1);j+=c;c=X;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fa){g=h+(f<<6);if(f<o8){a=g-0x3080;if(a<bO)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fa){g=h+(g<<6);if(f<pd){a=g-0xe2080;if(a<o0||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fa&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cn)c+=String.fromCharCode(0xd7c0+(a>>10),oR+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>e_){c.substr(0,1);j+=c;c=X}}return j+c}function
+b8(c,a,b){this.t=c;this.c=a;this.l=b}b8.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:ed(this);case
+0:if(qq(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};b8.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return ju(a)};b8.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-b6(this.t,a,this.l)};function
-pL(a){return new
-b6(0,a,a.length)}function
-a(a){return pL(a)}function
-jd(c,b){Fl(c,a(b))}function
-aL(a){jd(au.Invalid_argument,a)}function
-pG(a){switch(a){case
+b8(this.t,a,this.l)};function
+p6(a){return new
+b8(0,a,a.length)}function
+a(a){return p6(a)}function
+js(c,b){FS(c,a(b))}function
+aN(a){js(av.Invalid_argument,a)}function
+p1(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-EP(c,e){var
-b=G,a;switch(c){case
+Fk(c,e){var
+b=J,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=G,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aL("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aN("Bigarray.create: unsupported kind");var
 d=new
-a(e*pG(c));return d}function
-i9(c){var
-a=new(G.Int32Array)(1);a[0]=c;var
-b=new(G.Float32Array)(a.buffer);return b[0]}function
-fa(a){return new
-F(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-i_(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&iO)==0?b&b4?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&iO);if(c>0){a+=16;a*=Math.pow(2,c-pp)}else
-a*=Math.pow(2,-n1);if(b&b4)a=-a;return a}function
-i4(b){var
+a(e*p1(c));return d}function
+jm(c){var
+a=new(J.Int32Array)(1);a[0]=c;var
+b=new(J.Float32Array)(a.buffer);return b[0]}function
+ff(a){return new
+I(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+jn(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&i3)==0?b&b6?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&i3);if(c>0){a+=16;a*=Math.pow(2,c-pK)}else
+a*=Math.pow(2,-ok);if(b&b6)a=-a;return a}function
+jh(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aL("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-E5(b,a){return new
-F(b&dl,b>>>24&cl|(a&ck)<<8,a>>>16&ck)}function
-i$(a){return a.hi32()}function
-ja(a){return a.lo32()}function
-gO(){aL(iZ)}var
-EQ=gI;function
-cM(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cM.prototype.caml_custom=EQ;cM.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aN("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+FA(b,a){return new
+I(b&dr,b>>>24&co|(a&cn)<<8,a>>>16&cn)}function
+jo(a){return a.hi32()}function
+jp(a){return a.lo32()}function
+gY(){aN(jc)}var
+Fl=gS;function
+cS(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cS.prototype.caml_custom=Fl;cS.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aL("bigarray.js: invalid offset");if(this.dims.length!=b.length)aL("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gO();c=c*this.dims[a]+b[a]}else
+Array))aN("bigarray.js: invalid offset");if(this.dims.length!=b.length)aN("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gY();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gO();c=c*this.dims[a]+(b[a]-1)}return c};cM.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gY();c=c*this.dims[a]+(b[a]-1)}return c};cS.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return E5(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return FA(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gy,e,c];default:return this.data[a]}};cM.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=ja(b);this.data[a*2+1]=i$(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gI,e,c];default:return this.data[a]}};cS.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=jp(b);this.data[a*2+1]=jo(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cM.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cS.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=ja(b),e=i$(b);if(c==e)this.data.fill(c);else
+c=jp(b),e=jo(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cM.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cS.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-d7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}d7.prototype=new
-cM();d7.prototype.offset=function(a){if(typeof
+ea(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ea.prototype=new
+cS();ea.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aL("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gO();return a};d7.prototype.get=function(a){return this.data[a]};d7.prototype.set=function(a,b){this.data[a]=b;return 0};d7.prototype.fill=function(a){this.data.fill(a);return 0};function
-pE(c,d,a,b){var
-e=pG(c);if(i4(a)*e!=b.length)aL("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-d7(c,d,a,b);return new
-cM(c,d,a,b)}function
-bQ(b){if(!au.Failure)au.Failure=[aQ,a(iQ),-3];jd(au.Failure,b)}function
-pF(b,v,r){var
-i=b.read32s();if(i<0||i>16)bQ("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cl,o=p>>8&1,h=[];if(r==gI)for(var
+aN("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gY();return a};ea.prototype.get=function(a){return this.data[a]};ea.prototype.set=function(a,b){this.data[a]=b;return 0};ea.prototype.fill=function(a){this.data.fill(a);return 0};function
+pZ(c,d,a,b){var
+e=p1(c);if(jh(a)*e!=b.length)aN("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+ea(c,d,a,b);return new
+cS(c,d,a,b)}function
+bS(b){if(!av.Failure)av.Failure=[aT,a(i5),-3];js(av.Failure,b)}function
+p0(b,v,r){var
+i=b.read32s();if(i<0||i>16)bS("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&co,o=p>>8&1,h=[];if(r==gS)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==ck){var
-t=b.read32u(),u=b.read32u();if(t!=0)bQ("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cn){var
+t=b.read32u(),u=b.read32u();if(t!=0)bS("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=i4(h),f=EP(j,d),g=pE(j,o,h,f);switch(j){case
+d=jh(h),f=Fk(j,d),g=pZ(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bQ("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bS("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fa(e);g.set(a,q)}break;case
+q=ff(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=i_(fa(e));g.set(a,k)}break;case
+k=jn(ff(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=i9(b.read32s());g.set(a,k)}break;case
+k=jm(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=i9(b.read32s()),l=i9(b.read32s());g.set(a,[gy,m,l])}break;case
+m=jm(b.read32s()),l=jm(b.read32s());g.set(a,[gI,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=i_(fa(e));for(var
+m=jn(ff(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=i_(fa(e));g.set(a,[gy,m,l])}break}v[0]=(4+i)*4;return pE(j,o,h,f)}function
-pD(a,b,c){return a.compare(b,c)}function
-pX(a,b){return Math.imul(a,b)}function
-cm(b,a){a=pX(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=pX(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-E2(a,b){a=cm(a,ja(b));a=cm(a,i$(b));return a}function
-pT(a,b){return E2(a,gQ(b))}function
-pH(c){var
-b=i4(c.dims),d=0;switch(c.kind){case
+l=jn(ff(e));g.set(a,[gI,m,l])}break}v[0]=(4+i)*4;return pZ(j,o,h,f)}function
+pY(a,b,c){return a.compare(b,c)}function
+qg(a,b){return Math.imul(a,b)}function
+cp(b,a){a=qg(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=qg(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+Fx(a,b){a=cp(a,jp(b));a=cp(a,jo(b));return a}function
+qc(a,b){return Fx(a,g0(b))}function
+p2(c){var
+b=jh(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>oB)b=oB;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cm(d,e)}e=0;switch(b&3){case
+12:if(b>oV)b=oV;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cp(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cm(d,e)}break;case
+1:e|=c.data[a+0];d=cp(d,e)}break;case
 4:case
-5:if(b>e7)b=e7;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cm(d,e)}if((b&1)!=0)d=cm(d,c.data[a]);break;case
+5:if(b>fa)b=fa;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cp(d,e)}if((b&1)!=0)d=cp(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cm(d,c.data[a]);break;case
+a=0;a<b;a++)d=cp(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cm(d,c.data[a]);break;case
+a=0;a<b;a++)d=cp(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cm(d,c.data[a]);break;case
+a=0;a<b;a++)d=cp(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=pT(d,c.data[a]);break;case
+a=0;a<b;a++)d=qc(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=pT(d,c.data[a]);break}return d}function
-E3(a,b){b[0]=4;return a.read32s()}function
-Fg(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=qc(d,c.data[a]);break}return d}function
+Fy(a,b){b[0]=4;return a.read32s()}function
+FN(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bQ("input_value: native integer value too large");default:bQ("input_value: ill-formed native integer")}}function
-E8(c,d){var
+2:bS("input_value: native integer value too large");default:bS("input_value: ill-formed native integer")}}function
+FD(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fa(b)}function
-E7(e,d,b){var
-c=fb(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ff(b)}function
+FC(e,d,b){var
+c=fg(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-E4(a,b,c){return a.compare(b)}function
-E6(a){return a.lo32()^a.hi32()}var
-pO={"_j":{deserialize:E8,serialize:E7,fixed_length:8,compare:E4,hash:E6},"_i":{deserialize:E3,fixed_length:4},"_n":{deserialize:Fg,fixed_length:4},"_bigarray":{deserialize:function(a,b){return pF(a,b,"_bigarray")},serialize:pI,compare:pD,hash:pH},"_bigarr02":{deserialize:function(a,b){return pF(a,b,gI)},serialize:pI,compare:pD,hash:pH}};function
-i7(a){return pO[a.caml_custom]&&pO[a.caml_custom].compare}function
-pM(f,c,d,e){var
-b=i7(c);if(b){var
+Fz(a,b,c){return a.compare(b)}function
+FB(a){return a.lo32()^a.hi32()}var
+p9={"_j":{deserialize:FD,serialize:FC,fixed_length:8,compare:Fz,hash:FB},"_i":{deserialize:Fy,fixed_length:4},"_n":{deserialize:FN,fixed_length:4},"_bigarray":{deserialize:function(a,b){return p0(a,b,"_bigarray")},serialize:p3,compare:pY,hash:p2},"_bigarr02":{deserialize:function(a,b){return p0(a,b,gS)},serialize:p3,compare:pY,hash:p2}};function
+jk(a){return p9[a.caml_custom]&&p9[a.caml_custom].compare}function
+p7(f,c,d,e){var
+b=jk(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-jc(a){return a
+jr(a){return a
 instanceof
-b6}function
-pV(a){return jc(a)}function
-pN(a){if(typeof
-a==="number")return gG;else
-if(jc(a))return 252;else
-if(pV(a))return 1252;else
+b8}function
+qe(a){return jr(a)}function
+p8(a){if(typeof
+a==="number")return gQ;else
+if(jr(a))return 252;else
+if(qe(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gy?0:b}else
+b=a[0]|0;return b==gI?0:b}else
 if(a
 instanceof
-String)return o4;else
+String)return pn;else
 if(typeof
-a=="string")return o4;else
+a=="string")return pn;else
 if(a
 instanceof
-Number)return gG;else
-if(a&&a.caml_custom)return iS;else
+Number)return gQ;else
+if(a&&a.caml_custom)return i7;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-E9(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-pK(a,b){a.t&6&&d_(a);b.t&6&&d_(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-p4(a,b){return pK(a,b)}function
-i6(a,b,d){var
+FE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+p5(a,b){a.t&6&&ed(a);b.t&6&&ed(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+qn(a,b){return p5(a,b)}function
+jj(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=pN(a);if(f==oH){a=a[1];continue}var
-g=pN(b);if(g==oH){b=b[1];continue}if(f!==g){if(f==gG){if(g==iS)return pM(a,b,-1,d);return-1}if(g==gG){if(f==iS)return pM(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aL(iG);break;case
+f=p8(a);if(f==o1){a=a[1];continue}var
+g=p8(b);if(g==o1){b=b[1];continue}if(f!==g){if(f==gQ){if(g==i7)return p7(a,b,-1,d);return-1}if(g==gQ){if(f==i7)return p7(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aN(iV);break;case
 248:var
-c=E9(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aL(iG);break;case
-250:aL("equal: got Forward_tag, should not happen");break;case
-251:aL("equal: abstract value");break;case
+c=FE(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aN(iV);break;case
+250:aN("equal: got Forward_tag, should not happen");break;case
+251:aN("equal: abstract value");break;case
 252:if(a!==b){var
-c=pK(a,b);if(c!=0)return c|0}break;case
-253:aL("equal: got Double_tag, should not happen");break;case
-254:aL("equal: got Double_array_tag, should not happen");break;case
-255:aL("equal: got Custom_tag, should not happen");break;case
-1247:aL(iG);break;case
+c=p5(a,b);if(c!=0)return c|0}break;case
+253:aN("equal: got Double_tag, should not happen");break;case
+254:aN("equal: got Double_array_tag, should not happen");break;case
+255:aN("equal: got Custom_tag, should not happen");break;case
+1247:aN(iV);break;case
 1255:var
-i=i7(a);if(i!=i7(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aL("compare: abstract value");var
+i=jk(a);if(i!=jk(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aN("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=d$(a),b=d$(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=ee(a),b=ee(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-EX(a,b){return i6(a,b,true)}function
-b8(a){if(a<0)aL("Bytes.create");return new
-b6(a?2:9,X,a)}function
-pP(a,b){return+(i6(a,b,false)==0)}function
-EZ(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=X;a.t=2}else{a.c=p3(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gP(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Fh=0;function
-pR(){return Fh++}function
-E$(a){return a.toUtf16()}function
-fc(){return typeof
-G.process!=="undefined"&&typeof
-G.process.versions!=="undefined"&&typeof
-G.process.versions.node!=="undefined"}function
-Fu(){function
-a(a){if(a.charAt(0)===bP)return[X,a.substring(1)];return}function
+Fs(a,b){return jj(a,b,true)}function
+b_(a){if(a<0)aN("Bytes.create");return new
+b8(a?2:9,X,a)}function
+p_(a,b){return+(jj(a,b,false)==0)}function
+Fu(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=X;a.t=2}else{a.c=qm(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gZ(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+FO=0;function
+qa(){return FO++}function
+FG(a){return a.toUtf16()}function
+fh(){return typeof
+J.process!=="undefined"&&typeof
+J.process.versions!=="undefined"&&typeof
+J.process.versions.node!=="undefined"}function
+F1(){function
+a(a){if(a.charAt(0)===bR)return[X,a.substring(1)];return}function
 b(c){var
 g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||X,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||X,f=a[2]||X;return[d,c.substring(d.length+f.length)]}return}return fc()&&G.process&&G.process.platform?G.process.platform==="win32"?b:a:a}var
-jk=Fu();function
-p5(a){return a.slice(-1)!==bP?a+bP:a}if(fc()&&G.process&&G.process.cwd)var
-e$=G.process.cwd().replace(/\\/g,bP);else
+d=a[1]||X,f=a[2]||X;return[d,c.substring(d.length+f.length)]}return}return fh()&&J.process&&J.process.platform?J.process.platform==="win32"?b:a:a}var
+jz=F1();function
+qo(a){return a.slice(-1)!==bR?a+bR:a}if(fh()&&J.process&&J.process.cwd)var
+fe=J.process.cwd().replace(/\\/g,bR);else
 var
-e$="/static";e$=p5(e$);function
-Fb(a){a=E$(a);if(!jk(a))a=e$+a;var
-e=jk(a),d=e[1].split(bP),b=[];for(var
+fe="/static";fe=qo(fe);function
+FI(a){a=FG(a);if(!jz(a))a=fe+a;var
+e=jz(a),d=e[1].split(bR),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Fp(e){for(var
-f=X,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bM){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bM;d++);if(d-c>oj){b.substr(0,1);f+=b;b=X;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<oG){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bM|a&d4)}else
-if(a<0xd800||a>=oM)b+=String.fromCharCode(oO|a>>12,bM|a>>6&d4,bM|a&d4);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<ow||h>oM)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(oV|a>>18,bM|a>>12&d4,bM|a>>6&d4,bM|a&d4)}if(b.length>e5){b.substr(0,1);f+=b;b=X}}return f+b}function
-EU(a){var
-b=9;if(!p7(a))b=8,a=Fp(a);return new
-b6(b,a,a.length)}function
-ea(a){return EU(a)}var
-Fx=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",oq,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",iP,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",iU,ov,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dp(d,f,e,a){var
-b=Fx.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,ea(f||X),ea(e||X)];return c}var
-pY={};function
-dm(a){return pY[a]}function
-dn(b,a){throw[0,b].concat(a)}function
-ET(a){return new
-b6(4,a,a.length)}function
-ak(a){jd(au.Sys_error,a)}function
-Fk(a){ak(a+gw)}function
-pJ(){aL(iZ)}function
-ES(b,a){if(a>>>0>=b.l)pJ();return i5(b,a)}function
-gS(a){return a.l}function
-pC(){}function
-aJ(a){this.data=a}aJ.prototype=new
-pC();aJ.prototype.truncate=function(a){var
-b=this.data;this.data=b8(a|0);e_(b,0,this.data,0,a)};aJ.prototype.length=function(){return gS(this.data)};aJ.prototype.write=function(b,d,g,a){var
+FW(e){for(var
+f=X,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bO){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bO;d++);if(d-c>oE){b.substr(0,1);f+=b;b=X;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<o0){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bO|a&d9)}else
+if(a<0xd800||a>=o6)b+=String.fromCharCode(o8|a>>12,bO|a>>6&d9,bO|a&d9);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<oR||h>o6)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pd|a>>18,bO|a>>12&d9,bO|a>>6&d9,bO|a&d9)}if(b.length>e_){b.substr(0,1);f+=b;b=X}}return f+b}function
+Fp(a){var
+b=9;if(!qq(a))b=8,a=FW(a);return new
+b8(b,a,a.length)}function
+ef(a){return Fp(a)}var
+F4=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",oL,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",i4,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",i9,oQ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+du(d,f,e,a){var
+b=F4.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,ef(f||X),ef(e||X)];return c}var
+qh={};function
+ds(a){return qh[a]}function
+dt(b,a){throw[0,b].concat(a)}function
+Fo(a){return new
+b8(4,a,a.length)}function
+al(a){js(av.Sys_error,a)}function
+FR(a){al(a+gG)}function
+p4(){aN(jc)}function
+Fn(b,a){if(a>>>0>=b.l)p4();return ji(b,a)}function
+g2(a){return a.l}function
+pX(){}function
+aL(a){this.data=a}aL.prototype=new
+pX();aL.prototype.truncate=function(a){var
+b=this.data;this.data=b_(a|0);fd(b,0,this.data,0,a)};aL.prototype.length=function(){return g2(this.data)};aL.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=b8(b+a),f=this.data;this.data=e;e_(f,0,this.data,0,c)}d8(d,g,this.data,b,a);return 0};aJ.prototype.read=function(c,a,d,b){var
-e=this.length();e_(this.data,c,a,d,b);return 0};aJ.prototype.read_one=function(a){return ES(this.data,a)};aJ.prototype.close=function(){};aJ.prototype.constructor=aJ;function
-aX(b,a){this.content={};this.root=b;this.lookupFun=a}aX.prototype.nm=function(a){return this.root+a};aX.prototype.create_dir_if_needed=function(d){var
-c=d.split(bP),b=X;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bP;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aX.prototype.slash=function(a){return/\/$/.test(a)?a:a+bP};aX.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=b_(b+a),f=this.data;this.data=e;fd(f,0,this.data,0,c)}eb(d,g,this.data,b,a);return 0};aL.prototype.read=function(c,a,d,b){var
+e=this.length();fd(this.data,c,a,d,b);return 0};aL.prototype.read_one=function(a){return Fn(this.data,a)};aL.prototype.close=function(){};aL.prototype.constructor=aL;function
+aZ(b,a){this.content={};this.root=b;this.lookupFun=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.create_dir_if_needed=function(d){var
+c=d.split(bR),b=X;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bR;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aZ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bR};aZ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aJ(d9(c[1]))}}};aX.prototype.exists=function(a){if(a==X)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aX.prototype.mkdir=function(c,e,d){var
-b=d&&dm(iL);if(this.exists(c))if(b)dn(b,dp(oq,iK,this.nm(c)));else
-ak(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||X;if(!this.exists(a))if(b)dn(b,dp(iP,iK,this.nm(a)));else
-ak(a+gw);if(!this.is_dir(a))if(b)dn(b,dp(iU,iK,this.nm(a)));else
-ak(a+i1);this.create_dir_if_needed(this.slash(c))};aX.prototype.rmdir=function(a,f){var
-b=f&&dm(iL),c=a==X?X:this.slash(a),e=new
-RegExp(iX+c+ox);if(!this.exists(a))if(b)dn(b,dp(iP,iH,this.nm(a)));else
-ak(a+gw);if(!this.is_dir(a))if(b)dn(b,dp(iU,iH,this.nm(a)));else
-ak(a+i1);for(var
+aL(ec(c[1]))}}};aZ.prototype.exists=function(a){if(a==X)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aZ.prototype.mkdir=function(c,e,d){var
+b=d&&ds(i0);if(this.exists(c))if(b)dt(b,du(oL,iZ,this.nm(c)));else
+al(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||X;if(!this.exists(a))if(b)dt(b,du(i4,iZ,this.nm(a)));else
+al(a+gG);if(!this.is_dir(a))if(b)dt(b,du(i9,iZ,this.nm(a)));else
+al(a+je);this.create_dir_if_needed(this.slash(c))};aZ.prototype.rmdir=function(a,f){var
+b=f&&ds(i0),c=a==X?X:this.slash(a),e=new
+RegExp(ja+c+oS);if(!this.exists(a))if(b)dt(b,du(i4,iW,this.nm(a)));else
+al(a+gG);if(!this.is_dir(a))if(b)dt(b,du(i9,iW,this.nm(a)));else
+al(a+je);for(var
 d
 in
-this.content)if(d.match(e))if(b)dn(b,dp(ov,iH,this.nm(a)));else
-ak(this.nm(a)+": Directory not empty");delete
-this.content[c]};aX.prototype.readdir=function(a){var
-f=a==X?X:this.slash(a);if(!this.exists(a))ak(a+gw);if(!this.is_dir(a))ak(a+i1);var
+this.content)if(d.match(e))if(b)dt(b,du(oQ,iW,this.nm(a)));else
+al(this.nm(a)+": Directory not empty");delete
+this.content[c]};aZ.prototype.readdir=function(a){var
+f=a==X?X:this.slash(a);if(!this.exists(a))al(a+gG);if(!this.is_dir(a))al(a+je);var
 g=new
-RegExp(iX+f+ox),d={},c=[];for(var
+RegExp(ja+f+oS),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aX.prototype.is_dir=function(a){if(a==X)return true;var
-b=this.slash(a);return this.content[b]?1:0};aX.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aZ.prototype.is_dir=function(a){if(a==X)return true;var
+b=this.slash(a);return this.content[b]?1:0};aZ.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aX.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ak(this.nm(a)+ph);if(b.text&&b.binary)ak(this.nm(a)+ob);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ak(this.nm(a)+" : is a directory");if(b.create&&b.excl)ak(this.nm(a)+pd);var
+this.content[a];return b};aZ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)al(this.nm(a)+pC);if(b.text&&b.binary)al(this.nm(a)+ow);this.lookup(a);if(this.content[a]){if(this.is_dir(a))al(this.nm(a)+" : is a directory");if(b.create&&b.excl)al(this.nm(a)+py);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aJ(b8(0));return this.content[a]}else
-Fk(this.nm(a))};aX.prototype.register=function(c,a){var
-b;if(this.content[c])ak(this.nm(c)+pd);if(jc(a))b=new
-aJ(a);if(pV(a))b=new
-aJ(d9(a));else
+aL(b_(0));return this.content[a]}else
+FR(this.nm(a))};aZ.prototype.register=function(c,a){var
+b;if(this.content[c])al(this.nm(c)+py);if(jr(a))b=new
+aL(a);if(qe(a))b=new
+aL(ec(a));else
 if(a
 instanceof
 Array)b=new
-aJ(ET(a));else
+aL(Fo(a));else
 if(typeof
 a==="string")b=new
-aJ(pL(a));else
+aL(p6(a));else
 if(a.toString){var
-d=d9(ea(a.toString()));b=new
-aJ(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-ak(this.nm(c)+" : registering file with invalid content type")};aX.prototype.constructor=aX;function
-ao(a){return gS(a)}function
-cO(b,a){return i5(b,a)}function
-EO(d){var
-c=ao(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=cO(d,a);return b}function
-EN(a){if(a.t!=4)gP(a);return a.c}function
-EW(a,c,b){b&=cl;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gP(a)}a.c[c]=b;return 0}function
-EV(b,a,c){if(a>>>0>=b.l)pJ();return EW(b,a,c)}function
-b7(a){this.fs=require("fs");this.fd=a}b7.prototype=new
-pC();b7.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ak(a.toString())}};b7.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ak(a.toString())}};b7.prototype.write=function(f,b,c,e){var
-a=EO(b);if(!(a
+d=ec(ef(a.toString()));b=new
+aL(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+al(this.nm(c)+" : registering file with invalid content type")};aZ.prototype.constructor=aZ;function
+aq(a){return g2(a)}function
+cU(b,a){return ji(b,a)}function
+Fj(d){var
+c=aq(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=cU(d,a);return b}function
+Fi(a){if(a.t!=4)gZ(a);return a.c}function
+Fr(a,c,b){b&=co;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gZ(a)}a.c[c]=b;return 0}function
+Fq(b,a,c){if(a>>>0>=b.l)p4();return Fr(b,a,c)}function
+b9(a){this.fs=require("fs");this.fd=a}b9.prototype=new
+pX();b9.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){al(a.toString())}};b9.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){al(a.toString())}};b9.prototype.write=function(f,b,c,e){var
+a=Fj(b);if(!(a
 instanceof
-G.Uint8Array))a=new(G.Uint8Array)(a);var
-d=G.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ak(a.toString())}return 0};b7.prototype.read=function(g,d,c,f){var
-a=EN(d);if(!(a
+J.Uint8Array))a=new(J.Uint8Array)(a);var
+d=J.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){al(a.toString())}return 0};b9.prototype.read=function(g,d,c,f){var
+a=Fi(d);if(!(a
 instanceof
-G.Uint8Array))a=new(G.Uint8Array)(a);var
-e=G.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ak(a.toString())}for(var
-b=0;b<f;b++)EV(d,c+b,e[c+b]);return 0};b7.prototype.read_one=function(c){var
-b=new(G.Uint8Array)(1),a=G.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ak(a.toString())}return a[0]};b7.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ak(a.toString())}};b7.prototype.constructor=b7;function
-aK(a){this.fs=require("fs");this.root=a}aK.prototype.nm=function(a){return this.root+a};aK.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aK.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aK.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aK.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ak(a.toString())}};aK.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.open=function(f,c,g){var
+J.Uint8Array))a=new(J.Uint8Array)(a);var
+e=J.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){al(a.toString())}for(var
+b=0;b<f;b++)Fq(d,c+b,e[c+b]);return 0};b9.prototype.read_one=function(c){var
+b=new(J.Uint8Array)(1),a=J.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){al(a.toString())}return a[0]};b9.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){al(a.toString())}};b9.prototype.constructor=b9;function
+aM(a){this.fs=require("fs");this.root=a}aM.prototype.nm=function(a){return this.root+a};aM.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aM.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aM.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aM.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){al(a.toString())}};aM.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-b7(d)}catch(a){this.raise_nodejs_error(a,g)}};aK.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aK.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),nY);return ea(a)}catch(a){this.raise_nodejs_error(a,c)}};aK.prototype.raise_nodejs_error=function(a,d){var
-b=dm(iL);if(d&&b){var
-c=dp(a.code,a.syscall,a.path,a.errno);dn(b,c)}else
-ak(a.toString())};aK.prototype.stats_from_js=function(a){var
+b9(d)}catch(a){this.raise_nodejs_error(a,g)}};aM.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aM.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),oh);return ef(a)}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.raise_nodejs_error=function(a,d){var
+b=ds(i0);if(d&&b){var
+c=du(a.code,a.syscall,a.path,a.errno);dt(b,c)}else
+al(a.toString())};aM.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aK.prototype.constructor=aK;function
-pS(b){var
-a=jk(b);if(!a)return;return a[0]+bP}var
-gT=pS(e$)||bQ("unable to compute caml_root"),eb=[];if(fc())eb.push({path:gT,device:new
-aK(gT)});else
-eb.push({path:gT,device:new
-aX(gT)});eb.push({path:n7,device:new
-aX(n7)});function
-p$(b){var
-g=Fb(b),b=g.join(bP),f=p5(b),c;for(var
-e=0;e<eb.length;e++){var
-a=eb[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fc()){var
-d=pS(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aM.prototype.constructor=aM;function
+qb(b){var
+a=jz(b);if(!a)return;return a[0]+bR}var
+g3=qb(fe)||bS("unable to compute caml_root"),eg=[];if(fh())eg.push({path:g3,device:new
+aM(g3)});else
+eg.push({path:g3,device:new
+aZ(g3)});eg.push({path:oq,device:new
+aZ(oq)});function
+qu(b){var
+g=FI(b),b=g.join(bR),f=qo(b),c;for(var
+e=0;e<eg.length;e++){var
+a=eg[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fh()){var
+d=qb(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aK(d)};eb.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ak("no device found for "+f)}function
-EY(c,b){var
-a=p$(c);if(!a.device.register)bQ("cannot register file");a.device.register(a.rest,b);return 0}function
-p6(c,b){var
-c=a(c),b=a(b);return EY(c,b)}function
-E1(){var
-b=G.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)p6(b[a].name,b[a].content);G.jsoo_create_file=p6;G.caml_fs_tmp=[];return 0}function
-Fi(c){var
-a=0,e=ao(c),b=10,d=1;if(e>0)switch(cO(c,a)){case
+aM(d)};eg.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;al("no device found for "+f)}function
+Ft(c,b){var
+a=qu(c);if(!a.device.register)bS("cannot register file");a.device.register(a.rest,b);return 0}function
+qp(c,b){var
+c=a(c),b=a(b);return Ft(c,b)}function
+Fw(){var
+b=J.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)qp(b[a].name,b[a].content);J.jsoo_create_file=qp;J.caml_fs_tmp=[];return 0}function
+FP(c){var
+a=0,e=aq(c),b=10,d=1;if(e>0)switch(cU(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&cO(c,a)==48)switch(cO(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&cU(c,a)==48)switch(cU(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=ao(c),b=10,d=1;if(e>0)switch(cO(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-pZ(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=pt)return a-87;return-1}function
-jb(f){var
-h=Fi(f),c=h[0],i=h[1],d=h[2],g=ao(f),j=-1>>>0,e=c<g?cO(f,c):0,b=pZ(e);if(b<0||b>=d)bQ(gB);var
-a=b;for(c++;c<g;c++){e=cO(f,c);if(e==95)continue;b=pZ(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bQ(gB)}if(c!=g)bQ(gB);a=i*a;if(d==10&&(a|0)!=a)bQ(gB);return a|0}function
-Fa(a,b){return+(i6(a,b,false)<=0)}function
-Fc(a,d){if(a<0)gO();var
+qi(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=pO)return a-87;return-1}function
+jq(f){var
+h=FP(f),c=h[0],i=h[1],d=h[2],g=aq(f),j=-1>>>0,e=c<g?cU(f,c):0,b=qi(e);if(b<0||b>=d)bS(gL);var
+a=b;for(c++;c<g;c++){e=cU(f,c);if(e==95)continue;b=qi(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bS(gL)}if(c!=g)bS(gL);a=i*a;if(d==10&&(a|0)!=a)bS(gL);return a|0}function
+FH(a,b){return+(jj(a,b,false)<=0)}function
+FJ(a,d){if(a<0)gY();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cn=new
+cq=new
 Array();function
-Fd(c){var
-a=cn[c];if(!a.opened)ak("Cannot flush a closed channel");if(!a.buffer||a.buffer==X)return 0;if(a.fd&&au.fds[a.fd]&&au.fds[a.fd].output){var
-b=au.fds[a.fd].output;switch(b.length){case
+FK(c){var
+a=cq[c];if(!a.opened)al("Cannot flush a closed channel");if(!a.buffer||a.buffer==X)return 0;if(a.fd&&av.fds[a.fd]&&av.fds[a.fd].output){var
+b=av.fds[a.fd].output;switch(b.length){case
 2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=X;return 0}function
-p2(e,f){var
-b=cn[e],d=a(f),c=ao(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Fq(a){var
-a=jf(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+ql(e,f){var
+b=cq[e],d=a(f),c=aq(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+FX(a){var
+a=ju(a),b=J;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Fr(a){var
-a=jf(a),b=G;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+FY(a){var
+a=ju(a),b=J;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-gV(c,e,d,a){if(au.fds===undefined)au.fds=new
+g5(c,e,d,a){if(av.fds===undefined)av.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;au.fds[c]=b;if(!au.fd_last_idx||c>au.fd_last_idx)au.fd_last_idx=c;return c}function
-Fy(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;av.fds[c]=b;if(!av.fd_last_idx||c>av.fd_last_idx)av.fd_last_idx=c;return c}function
+F5(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,168 +619,168 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ak(d$(c)+ph);if(a.text&&a.binary)ak(d$(c)+ob);var
-d=p$(c),e=d.device.open(d.rest,a),f=au.fd_last_idx?au.fd_last_idx:0;return gV(f+1,p2,e,a)}gV(0,p2,new
-aJ(b8(0)));gV(1,Fr,new
-aJ(b8(0)));gV(2,Fq,new
-aJ(b8(0)));function
-Fe(a){var
-c=au.fds[a];if(c.flags.wronly)ak(pr+a+" is writeonly");var
-d=null;if(a==0&&fc()){var
-e=require("fs");d=function(){return ea(e.readFileSync(0,nY))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cn[b.fd]=b;return b.fd}function
-pW(c){var
-b=au.fds[c];if(b.flags.rdonly)ak(pr+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:X};cn[a.fd]=a;return a.fd}function
-Ff(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)al(ee(c)+pC);if(a.text&&a.binary)al(ee(c)+ow);var
+d=qu(c),e=d.device.open(d.rest,a),f=av.fd_last_idx?av.fd_last_idx:0;return g5(f+1,ql,e,a)}g5(0,ql,new
+aL(b_(0)));g5(1,FY,new
+aL(b_(0)));g5(2,FX,new
+aL(b_(0)));function
+FL(a){var
+c=av.fds[a];if(c.flags.wronly)al(pM+a+" is writeonly");var
+d=null;if(a==0&&fh()){var
+e=require("fs");d=function(){return ef(e.readFileSync(0,oh))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cq[b.fd]=b;return b.fd}function
+qf(c){var
+b=av.fds[c];if(b.flags.rdonly)al(pM+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:X};cq[a.fd]=a;return a.fd}function
+FM(){var
 b=0;for(var
-a=0;a<cn.length;a++)if(cn[a]&&cn[a].opened&&cn[a].out)b=[0,cn[a].fd,b];return b}function
-bt(b,c,a){if(a&&G.toplevelReloc)b=G.toplevelReloc(a);au[b+1]=c;if(a)au[a]=c}function
-Fm(a,b){pY[d$(a)]=b;return 0}function
-ER(a,b){if(a===b)return 1;a.t&6&&d_(a);b.t&6&&d_(b);return a.c==b.c?1:0}function
-as(a,b){return ER(a,b)}function
-Fo(){aL(iZ)}function
-aR(b,a){if(a>>>0>=ao(b))Fo();return cO(b,a)}function
-m(a,b){return 1-as(a,b)}function
-gU(a){return a}function
-p1(a){return a}function
-jg(a){if(a
+a=0;a<cq.length;a++)if(cq[a]&&cq[a].opened&&cq[a].out)b=[0,cq[a].fd,b];return b}function
+bw(b,c,a){if(a&&J.toplevelReloc)b=J.toplevelReloc(a);av[b+1]=c;if(a)av[a]=c}function
+FT(a,b){qh[ee(a)]=b;return 0}function
+Fm(a,b){if(a===b)return 1;a.t&6&&ed(a);b.t&6&&ed(b);return a.c==b.c?1:0}function
+au(a,b){return Fm(a,b)}function
+FV(){aN(jc)}function
+aU(b,a){if(a>>>0>=aq(b))FV();return cU(b,a)}function
+m(a,b){return 1-au(a,b)}function
+g4(a){return a}function
+qk(a){return a}function
+jv(a){if(a
 instanceof
-Array)return a;if(G.RangeError&&a
+Array)return a;if(J.RangeError&&a
 instanceof
-G.RangeError&&a.message&&a.message.match(/maximum call stack/i))return p1(au.Stack_overflow);if(G.InternalError&&a
+J.RangeError&&a.message&&a.message.match(/maximum call stack/i))return qk(av.Stack_overflow);if(J.InternalError&&a
 instanceof
-G.InternalError&&a.message&&a.message.match(/too much recursion/i))return p1(au.Stack_overflow);if(a
+J.InternalError&&a.message&&a.message.match(/too much recursion/i))return qk(av.Stack_overflow);if(a
 instanceof
-G.Error&&dm(oE))return[0,dm(oE),a];return[0,au.Failure,ea(String(a))]}function
-dq(a){return a<0?-a:a}function
-D(a,b){return a+b}function
-jh(a,b){return a<b?-1:a>b?1:0}function
-p8(c,b){var
-a=c%b;return a<0?a+dq(b):a}function
-ji(a,b){return(a-p8(a,b))/b}function
-ab(a,b){return a==b?1:0}function
-Fv(c){G.orthocert_verify=function(b){return d$(cN(c,[a(b)]))}}function
+J.Error&&ds(oY))return[0,ds(oY),a];return[0,av.Failure,ef(String(a))]}function
+cV(a){return a<0?-a:a}function
+G(a,b){return a+b}function
+jw(a,b){return a<b?-1:a>b?1:0}function
+qr(c,b){var
+a=c%b;return a<0?a+cV(b):a}function
+jx(a,b){return(a-qr(a,b))/b}function
+ac(a,b){return a==b?1:0}function
+F2(c){J.orthocert_verify=function(b){return ee(cT(c,[a(b)]))}}function
 H(a,b){return a<=b?1:0}function
-K(a,b){return a<b?1:0}function
+M(a,b){return a<b?1:0}function
 z(a,b){return a*b}function
-R(a){return-a}function
-aM(a){return G.BigInt(a)}function
-p9(a,b){return a<<G.BigInt(b)}function
-p_(a,b){return a>>G.BigInt(b)}function
-aO(a){return a<0?-1:a>0?1:0}function
-Fw(a){if(a<0)throw new(G.Error)("a root of a negative number");if(a<2)return a;var
-d=G.BigInt(1),b=d<<G.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+T(a){return-a}function
+aO(a){return J.BigInt(a)}function
+qs(a,b){return a<<J.BigInt(b)}function
+qt(a,b){return a>>J.BigInt(b)}function
+aP(a){return a<0?-1:a>0?1:0}function
+F3(a){if(a<0)throw new(J.Error)("a root of a negative number");if(a<2)return a;var
+d=J.BigInt(1),b=d<<J.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
 aF(a,b){return a-b}function
-jj(a){if(a>0x7fffffff||a<-0x80000000)throw new(G.Error)("a number of more than 32 bits");return G.Number(a)}function
-E_(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-E0(b){var
-a=X;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&E_(b[1]))var
+jy(a){if(a>0x7fffffff||a<-0x80000000)throw new(J.Error)("a number of more than 32 bits");return J.Number(a)}function
+FF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+Fv(b){var
+a=X;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&FF(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=oF;for(var
+f=2,e=b;a+=oZ;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-b6)a+=aE+c.toString()+aE;else
+b8)a+=aE+c.toString()+aE;else
 if(typeof
 c=="string")a+=aE+c.toString()+aE;else
-a+="_"}a+=iW}else
-if(b[0]==aQ)a+=b[1];return a}function
-pQ(a){if(a
+a+="_"}a+=i$}else
+if(b[0]==aT)a+=b[1];return a}function
+p$(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aQ)){var
-c=dm("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=E0(a),b=dm(nX);if(b)b(0);G.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aT)){var
+c=ds("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=Fv(a),b=ds(og);if(b)b(0);J.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Fn(){var
-a=G;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){pQ(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)pQ(a.error)})}Fn();function
-i(a,b){return a.length==1?a(b):cN(a,[b])}function
-ar(a,b,c){return a.length==2?a(b,c):cN(a,[b,c])}function
-EM(a,b,c,d){return a.length==3?a(b,c,d):cN(a,[b,c,d])}function
-iF(a,b,c,d,e){return a.length==4?a(b,c,d,e):cN(a,[b,c,d,e])}E1();var
-jm=[aQ,a(ot),-2],jl=[aQ,a(pB),-4],gW=[aQ,a(n6),-7],DH=[0,0],DI=[0,0],DJ=[0,[0,0]],DK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DJ]]]]]]]]]]],gm=[0,[1,0],0],ne=[0,[2,0],0],ij=[0,[1,0],0],nd=[0,[2,0],0],gk=[0,[1,0],0],ii=[0,[2,0],0],DL=[0,[0,[0,[0,0]]]],DM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DL]]]]]]]]]]],DN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DM]]]]]]]]]]],DO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DN]]]]]]]]]]],DP=[0,[0,0]],DQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DP]]]]]]]]]]],DR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DQ]]]]]]]]]]],DS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DR]]]]]]]]]]],DT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DS]]]]]]]]]]],DU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],DV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DU]]]]]]]]]]],DW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DV]]]]]]]]]]],DX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DW]]]]]]]]]]],DY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DX]]]]]]]]]]],DZ=[0,[0,0]],D0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DZ]]]]]]]]]]],D1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D0]]]]]]]]]]],D2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D1]]]]]]]]]]],D3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D2]]]]]]]]]]],D4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D3]]]]]]]]]]],D5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D4]]]]]]]]]]],D6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D5]]]]]]]]]]],D7=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],D8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D7]]]]]]]]]]],D9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D8]]]]]]]]]]],D_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D9]]]]]]]]]]],D$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D_]]]]]]]]]]],Ea=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D$]]]]]]]]]]],Eb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ea]]]]]]]]]]],Ec=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eb]]]]]]]]]]],Ed=[0,0],Ee=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ed]]]]]]]]]]],Ef=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ee]]]]]]]]]]],Eg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ef]]]]]]]]]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eg]]]]]]]]]]],Ei=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eh]]]]]]]]]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ei]]]]]]]]]]],Ek=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ej]]]]]]]]]]],El=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ek]]]]]]]]]]],Em=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,El]]]]]]]]]]],En=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Em]]]]]]]]]]],Eo=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],Eq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Er=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],Es=[0,[0,[0,[0,[0,0]]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],ED=[0,0],EE=[0,[0,0]],EF=[0,0],EG=[0,[0,[0,[0,[0,0]]]]],jU=[0,[0,[0,0]]],cV=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],f9=[0,[0,[0,[0,0]]]],EH=[0,[0,[0,[0,[0,0]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]];bt(11,[aQ,a(nW),-12],nW);bt(10,[aQ,a(oK),-11],oK);bt(9,[aQ,a(pq),-10],pq);bt(8,[aQ,a(n8),-9],n8);bt(7,[aQ,a(oX),-8],oX);bt(6,gW,n6);bt(5,[aQ,a(ou),-6],ou);bt(4,[aQ,a(oz),-5],oz);bt(3,jl,pB);bt(2,[aQ,a(iQ),-3],iQ);bt(1,jm,ot);bt(0,[aQ,a(o$),-1],o$);var
-qa=a("String.sub / Bytes.sub"),qf=a("String.contains_from / Bytes.contains_from"),qc=a(X),qb=a("String.concat"),qg=a("Array.init"),qh=a("power"),qz=[0,0],qA=[0,0],qG=[0,0,0],qH=[0,0,0],qI=[0,0],q1=[0,0],q2=[0,0],q5=[0,0],rm=[0,0],rp=[0,0],rr=[0,0],rs=[0,0],rz=[0,0],rA=[0,0],r3=[0,0],sl=[0,[0,[0,0]]],sO=[0,0],s1=[0,0],s2=[0,0],ta=a(","),ts=[0,a(iW),0],tt=a(oF),tu=a("."),tv=[0,[0,[0,0]]],tw=a(e4),tx=a(iX),ty=[0,[0,[0,[0,[0,0]]]]],tz=[0,a(iW),0],tA=a(py),wx=a(nT),wz=a(nQ),wy=a(oN),wA=a(d2),wB=a(d0),wC=a(pA),wD=a(pk),wE=a(on),wF=a(oZ),xR=[0,0],xS=a(gv),xT=[0,0],xU=a("divided"),xV=[0,1],xW=a("mirror"),xX=[0,3],xY=a("negative"),xZ=[0,2],x0=a(e3),x1=[0,5],x2=a(i3),x3=[0,4],x4=a(dk),x5=a(n$),x6=a(e0),x7=a(b5),x8=[0,0],x9=[0,0],x_=[0,0],yT=a(X),yQ=[0,[0,[0,[0,0]]]],yR=[0,[0,[0,[0,0]]]],yO=[0,[0,[0,0]]],yN=[0,0],yM=a(e0),yL=[0,[0,[0,0]]],yK=[0,0],yH=[0,[0,0]],yI=[0,[0,[0,0]]],yD=[0,[0,[0,0]]],yC=[0,0,0],yA=[0,[0,0]],yB=[0,0],yz=[0,0],yx=[0,[0,[0,0]]],yr=[0,[0,0]],ys=[0,[0,[0,0]]],yt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DH]]]]]]]]]]],yu=[0,[0,0]],yv=[0,[0,[0,0]]],yq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DI]]]]]]]]]]],yo=[0,[0,0]],yp=[0,[0,[0,0]]],ym=[0,[0,[0,0]]],yn=[0,[0,0]],yl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DK]]]]]]]]]]],yk=[0,0],yj=[0,0],yg=[0,[0,0]],yh=[0,0],ye=[0,0],yf=[0,1],yd=[0,[0,0]],yc=[0,0],x$=[0,0],ya=[0,1],xO=[0,0],xP=[0,1],xQ=[0,2],xK=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xI=[0,[0,0],0],xJ=[0,[1,0],0],xL=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],xG=[0,[0,0]],xH=[0,0],xF=[0,0],xE=[0,0],xD=[0,0],xC=[0,0],xB=[0,0,0],xz=[0,[0,0]],xA=[0,0],xy=[0,0,0],xw=[0,[0,[0,0]]],xx=[0,[0,[0,0]]],xv=[0,0],xt=[0,1,0],xl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DO]]]]]]]]]]],xm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DT]]]]]]]]]]],xh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,DY]]]]]]]]]]],xi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,D6]]]]]]]]]]],xj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],xk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,En]]]]]]]]]]],xn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],xo=a("sqrt"),xf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],xg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],w6=[0,a("\n"),0],w7=a(nR),w8=a(gx),w9=a(oJ),w_=a(or),xe=a(e6),w$=a(e2),xa=a("verdict"),xb=a(pb),xc=a(ok),xd=a(oI),w3=a(oD),w4=a(pf),w5=a(gz),wZ=a(oT),w0=a(gA),w1=a(e2),w2=a(e6),wU=a(gH),wV=a(ba),wW=a(nS),wX=a(gE),wR=a(o_),wS=a(e3),wT=a(gE),wN=a(oW),wO=a(gH),wP=a(gA),wQ=a(po),wH=a(pg),wI=a(pj),wJ=a(oA),wK=a(gC),wL=a(pu),wv=a(iI),ww=a(gK),wq=a(bs),wr=a(br),ws=a(om),v2=a(gC),v3=a(o0),vG=a(ba),vH=a(bO),vI=a(gJ),vJ=a(d5),vK=a(dj),vP=a(iJ),vL=a(iY),vM=a(i0),vN=a(d1),vO=a(ba),vQ=a(bO),vR=a(gJ),vS=a(d5),vT=a(iY),vU=a(i0),vV=a(d1),vW=a(ba),vX=a(bO),vY=a(bs),vZ=a(br),v0=a(dh),v1=a(d5),v4=a(o6),v5=a(pi),v6=a(gN),v7=a(oa),v8=a(of),v9=a(d1),v_=a(ba),v$=a(bO),wa=a(gt),wb=a(op),wc=a(d5),wd=a(e9),we=a(n0),wf=a(d1),wg=a(ba),wh=a(gt),wi=a(ba),wj=a(o2),wm=a(nP),wk=a(od),wl=a(pn),wn=a(e6),wo=a(e2),wp=a(ba),wt=a(gN),wu=a(gz),vB=a(bO),vC=a(d5),vD=a(iJ),vE=a(d1),vA=a(pw),vo=a(e9),vp=a(pc),vq=a(di),vr=a(d3),vs=a(d3),vt=a(iM),vu=a(di),vv=a(oL),vw=a(ol),vx=a(a4),vz=a(nV),vy=a(iM),ve=a(oC),vf=a(pz),vg=a(oh),vh=a(oe),vi=a(pm),vj=a(o9),vk=a(os),vl=a(gu),vm=a(gu),va=a(a4),vb=a(bq),vc=a(d6),vd=a(bN),u8=a(dj),u9=a(iT),u_=a(oU),u5=a(bs),u6=a(br),u7=a(dh),uY=a(bs),uZ=a(br),u0=a(dh),u1=a(iV),u2=a(di),u3=a(iR),u4=a(o5),uH=a(oc),uN=a(gx),uM=a(i2),uI=a(iN),uJ=a(eZ),uQ=a(e1),uR=a(iN),uO=a(e1),uP=a(eZ),uS=a(n_),uT=a(o3),uU=a(eZ),uV=a(pv),uW=a(i2),uX=a(eZ),uK=a(d3),uL=a(oQ),uE=a(gD),uF=a(gD),uG=a(gD),uA=a(o7),uB=a(br),uC=a(bs),uD=a(pl),uk=a(n4),ul=a(nU),um=a(oY),un=a(d2),uo=a(px),up=a(o1),uq=a(n5),ur=a(oR),us=a(n3),ut=a(oo),uu=a(n2),uv=a(o8),uw=a(d0),ux=a(nZ),uy=a(pe),uz=a(og),t1=a(gF),t3=a(e4),t2=a(eY),t4=a(dZ),t5=a(a4),t6=a(bq),t7=a(b5),t8=a(gL),t9=a(bN),t_=a(a4),t$=a(bq),ua=a(d6),ub=a(bN),uc=a(dZ),ud=a(e8),ue=a(a4),uf=a(bq),ug=a(oP),uh=a(e1),ui=a(e8),uj=a(bN),tJ=a(gF),tR=a(e4),tK=a(eY),tL=a(dZ),tM=a(a4),tN=a(bq),tO=a(b5),tP=a(gL),tQ=a(bN),tS=a(gM),tT=a(a4),tU=a(bq),tV=a(d6),tW=a(bN),tX=a(b5),tY=a(dj),tZ=a(bN),tG=a(bs),tH=a(br),tE=[0,a(aE),0],tF=a(aE),tC=a(X),tB=[0,a(aE),0],tD=a(aE),to=a(gF),tp=a(e4),tq=a("*"),tr=a(bP),tj=[0,[0,[0,[0,[0,0]]]]],tk=[0,[0,[0,0]]],tl=[0,[0,0]],tm=[0,0],tn=[0,[0,[0,[0,0]]]],th=a('":'),ti=a(aE),tf=[0,a(aE),0],tg=a(aE),td=[0,a("}"),0],te=a("{"),tb=[0,a("]"),0],tc=a("["),s$=[0,[0,[0,0]]],s_=[0,[0,[0,0]]],s8=[0,0],s5=[0,[0,[0,0]]],s6=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s7=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],s3=[0,[0,0]],s4=[0,[0,[0,0]]],sY=[0,0],sZ=[0,[0,[0,[0,[0,[0,0]]]]]],s0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],sV=[0,0],sS=[0,0,0],sT=[0,0,0],sU=[0,0,0],sP=[0,[0,0]],sQ=[0,[0,[0,0]]],sR=[0,0],sE=[0,[0,[0,[0,[0,[0,0]]]]]],sF=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sG=[0,[0,[0,0]]],sH=[0,[0,[0,0]]],sI=[0,[0,[0,[0,[0,[0,0]]]]]],sJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],sK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],sL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],sM=[0,[0,[0,0]]],sN=[0,[0,[0,[0,[0,[0,0]]]]]],sC=[0,[0,0]],sD=[0,[0,[0,0]]],sy=[0,0,0],sz=[0,0,0],su=[0,0,0],sv=[0,0,0],sw=[0,0,0],sx=[0,0,0],st=[0,0],ss=[0,0],sr=[0,0],sp=[0,0],sq=[0,0],so=[0,0],sm=[0,0],sn=[0,0],sf=[0,0],sg=[0,0],sh=[0,0],si=[0,[0,[0,0]]],se=[0,0],r$=[0,[0,[0,0]]],sa=[0,[0,0]],r9=[0,[0,0]],r_=[0,[0,[0,0]]],r8=[0,0],r6=[0,0],r7=[0,0],r4=[0,0,0],r1=[0,[0,0]],r2=[0,0],rT=[0,[0,0]],rU=[0,0],rV=[0,[0,0]],rW=[0,0],rX=[0,[0,0]],rY=[0,0],rZ=[0,[0,0]],r0=[0,0],rR=[0,[0,0]],rS=[0,0],rP=[0,[0,0]],rQ=[0,0],rL=[0,[0,0]],rM=[0,0],rN=[0,0],rO=[0,[0,0]],rC=[0,[0,0]],rD=[0,0],rE=[0,[0,0]],rF=[0,0],rG=[0,0],rH=[0,[0,0]],rI=[0,[0,0]],rJ=[0,[0,0]],rK=[0,0],ry=[0,0],rx=[0,0],rv=[0,[0,[0,0]]],ru=[0,[0,[0,[0,[0,[0,0]]]]]],rq=[0,[0,[0,0]]],rn=[0,[0,[0,0]]],rl=[0,[0,[0,0]]],rj=[0,[0,[0,[0,[0,[0,0]]]]]],rk=[0,[0,[0,[0,[0,[0,0]]]]]],re=[0,[0,0]],rf=[0,0],rg=[0,[0,0]],rh=[0,[0,[0,0]]],ri=[0,[0,[0,0]]],q9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],q_=[0,[0,[0,[0,[0,[0,0]]]]]],q$=[0,[0,[0,[0,[0,[0,0]]]]]],ra=[0,[0,[0,0]]],rb=[0,[0,[0,[0,[0,[0,0]]]]]],rc=[0,[0,[0,0]]],rd=[0,[0,[0,0]]],q7=[0,[0,0]],q8=[0,0],q6=[0,0,0],q4=[0,0,0],q3=[0,[0,[0,0]]],qZ=[0,0],q0=[0,0],qU=[0,[0,[0,0]]],qV=[0,[0,[0,0]]],qW=[0,[0,[0,0]]],qT=[0,[0,[0,[0,0]]]],qP=[0,[0,[0,0]]],qQ=[0,[0,[0,0]]],qR=[0,[0,[0,0]]],qS=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],qN=[0,[0,0]],qO=[0,0],qL=[0,[0,0]],qM=[0,0],qJ=[0,[0,0]],qK=[0,0],qw=[0,0],qx=[0,[0,0]],qu=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],qs=[0,0,0],qr=a(ps),qq=a(X),qp=[0,[0,0]],qo=[0,0],ql=[0,0],qn=[1,0],qm=[0,0],qk=[0,0],qi=[1,0],qj=[1,0],rw=[10,0,0,0,0],yJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EL]]]]]]]]]]],BV=a(bs),BW=a(br),BX=a(om),BM=a(gM),BN=[0,a("a base axis of such a platform"),0],BO=a(a4),BP=a(bq),Bz=a(o9),BA=a(oC),BB=a(pm),BC=a(gu),BD=a(os),BE=a(gu),BF=a(pz),BG=a(oh),BH=a(oe),Bp=a(o0),Bq=a(gC),A3=[0,a("such a machine with bodies"),0],AQ=a(gz),AR=a(ba),AS=a(o2),AT=a(pn),AW=a(od),AX=a(nP),AY=a(ba),AZ=a(ba),A1=a(gt),A0=[0,a("a claim that no cube of such a machine fits"),0],A2=a(pw),A4=a(d1),A5=a(d5),A6=a(dj),A7=a(iT),A8=a(oU),A9=a(gJ),A_=a(of),A$=a(n0),Ba=a(iJ),Bd=a(dh),Be=a(o5),Bh=a(bO),Bi=a(bO),Bj=a(op),Bk=a(bO),Bl=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Bm=a(gt),Bn=a(e9),Bo=a(dh),Br=a(bO),Bs=a(bs),Bt=a(br),Bu=a(o6),Bv=a(pi),Bw=a(gN),Bx=a(oa),Bb=[0,a(aE),0],Bc=a('the mechanism "'),By=a(iY),BI=a(gJ),BJ=a(dj),BK=a(iT),BL=a(i0),BQ=a(bO),BR=[0,a('"one_to_one" of this set of orientations'),0],BU=a(dj),BS=[0,a("a platform that turns on struts and other drives"),0],BT=a(bO),Bf=[0,a(aE),0],Bg=a('the workspace "'),BY=a(ba),BZ=a(ba),B1=a(e6),B2=a(e2),B3=a(gN),B0=[0,a("an atlas of such a machine"),0],AU=[0,a(aE),0],AV=a('a claim of the kind "'),B8=a(pA),Ce=a(d0),Cf=a(d2),Cg=a(on),Ch=a(oN),Ci=a(b5),Cj=a(gK),Ck=a(iI),Cl=a(b5),B9=a(dk),B_=a(n$),B$=a(e0),Ca=a(oZ),Cd=[0,a("directions of one scale"),0],Cb=[0,a(aE),0],Cc=a('the evidence "'),Cm=a(dk),Cn=a(gK),Co=[0,1,1],Cp=a(d0),Cq=a(d2),Cr=a(dk),Cs=a(e0),Ct=a(pk),Cv=a(d0),Cw=a(d2),Cx=a(dk),Cy=a(e0),Cz=a(e3),CA=a(gv),CB=a(e3),CC=a(gv),Cu=[0,a("this evidence at control points"),0],DA=a('"orthocert-paving/'),Dr=a(dk),Ds=a(dk),Da=a(oI),Db=a(ok),Dc=a(pb),Dy=[0,3,3],Dd=a(or),Dp=[0,a("this set of orientations with such drives"),0],Dq=[0,a(oy),0],Dt=[0,a('this evidence "tolerances" of a platform that turns'),0],Du=[0,a("a step of a platform that turns that is not at control points"),0],Dv=[0,a(oy),0],Dw=[0,a('the evidence "tolerances" of such a mechanism'),0],Dx=[0,a(pa),0],Do=[0,a(pa),0],Dn=[0,a("a mechanism by formulas in a claim that is refuted"),0],Dm=[0,a("this quantity in a claim that is refuted"),0],De=[0,a("the acceleration of a joint of a machine with a plane"),0],Dl=[0,a("a step in a proof that no cube fits"),0],Dk=[0,a("a stiffness for each joint in such a claim"),0],Dj=[0,a("this quantity in a refuted cell of an atlas, or a leaf that fails"),0],Di=[0,a("a leaf that fails"),0],Df=a(oJ),Dg=a(nR),Dh=a(gx),C8=a(i3),C9=a(gv),C_=a(b5),C1=a(gz),C2=a(oD),C3=a(pf),C4=[0,a(aE),0],C5=a('a proof of the kind "'),CX=a(e2),CY=a(e6),CZ=a(gA),C0=a(oT),CT=a(ba),CU=a(gH),CV=a(nS),CW=a(gE),CQ=a(o_),CR=a(e3),CS=a(gE),CM=a(oW),CN=a(gH),CO=a(gA),CP=a(po),CF=a(pj),CG=a(oA),CH=a(pg),CI=a(gC),CJ=a(pu),CK=[0,a(aE),0],CL=a('the failure "'),CD=a(i3),CE=a(ps),B6=a(gK),B7=a(iI),B4=a(nQ),B5=a(nT),AN=a(e9),AD=a(iM),AE=a(nV),AF=a(d3),AG=a(a4),AL=a(pc),AM=a(e9),AO=a(di),AP=a(d3),AH=a(di),AI=a(oL),AJ=a(ol),AK=a(a4),Aw=a(dh),AA=a(bs),AB=a(br),Ax=a(iR),Ay=a(iV),Az=a(di),Aq=a(dh),Au=a(bs),Av=a(br),Ar=a(iR),As=a(iV),At=a(di),Ap=[0,1],Ao=[0,1],Am=[0,1],Al=[0,1],Aj=[0,1],Ak=[0,a("this quantity of such a mechanism"),0],z5=a(iN),z6=a(o3),z7=a(n_),z8=a(i2),z9=a(pv),z_=a(e1),z4=a(gx),zW=a(gD),zL=a(oQ),zM=a(oY),Ab=a(d0),Ac=a(pe),Ad=a(oo),Ae=a(d2),Af=a(oR),Ag=a(n2),Ah=a(n3),Ai=a(nU),zN=a(nZ),zO=a(o8),zP=a(o1),zQ=a(og),zR=a(px),zS=a(n5),zT=a(n4),zU=[0,a(aE),0],zV=a('the quantity "'),zX=a(oc),zY=a(o7),zZ=a(bs),z0=a(br),z1=a(pl),z2=[0,a(aE),0],z3=a('a bound "'),z$=a(eZ),Aa=a(d3),zJ=a(bN),zK=a(d6),zo=a(bN),zp=a(gM),zq=a(e8),zr=a(gL),zs=a(d6),zv=a(a4),zw=a(bq),zx=a(eY),zy=a(dZ),zz=a(a4),zA=a(bq),zB=a(b5),zC=a(eY),zD=a(dZ),zE=a(e8),zF=a(a4),zG=a(bq),zH=a(oP),zI=a(e1),zt=[0,a('" of such a machine'),0],zu=a(n9),zm=a(bN),zn=a(e8),y8=a(bN),y9=a(dj),y_=a(gL),y$=a(d6),zc=a(gM),zd=a(a4),ze=a(bq),zf=a(eY),zg=a(dZ),zh=a(a4),zi=a(bq),zj=a(b5),zk=a(b5),za=[0,a(aE),0],zb=a(n9),y5=a(gF),y6=a(e4),y3=a(" is not covered by the verified checker"),y4=a(X),y1=a(bs),y2=a(br),yX=a(X),yY=a(py),yZ=a(X),y0=a(X),yW=[1,0],yU=a("Reader.Malformed"),yV=a("Reader.Not_covered"),DC=[0,a("a paving is checked by orthocert-verified")],DB=a(oS),DD=a("CERTIFIED"),DE=a("REFUTED"),DF=a(oS),DG=a("NOT COVERED: ");function
-ec(a){throw[0,jl,a]}function
-aY(d,c){var
-a=ao(d),e=ao(c),b=b8(a+e|0);d8(d,0,b,0,a);d8(c,0,b,a,e);return gU(b)}Fe(0);pW(1);pW(2);function
-jn(b){function
+FU(){var
+a=J;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){p$(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)p$(a.error)})}FU();function
+i(a,b){return a.length==1?a(b):cT(a,[b])}function
+an(a,b,c){return a.length==2?a(b,c):cT(a,[b,c])}function
+Fh(a,b,c,d){return a.length==3?a(b,c,d):cT(a,[b,c,d])}function
+iU(a,b,c,d,e){return a.length==4?a(b,c,d,e):cT(a,[b,c,d,e])}Fw();var
+jB=[aT,a(oO),-2],jA=[aT,a(pW),-4],g6=[aT,a(op),-7],Ec=[0,0],Ed=[0,0],Ee=[0,[0,0]],Ef=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ee]]]]]]]]]]],gt=[0,[1,0],0],nv=[0,[2,0],0],iA=[0,[1,0],0],nu=[0,[2,0],0],gr=[0,[1,0],0],iz=[0,[2,0],0],Eg=[0,[0,[0,[0,0]]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eg]]]]]]]]]]],Ei=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eh]]]]]]]]]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ei]]]]]]]]]]],Ek=[0,[0,0]],El=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ek]]]]]]]]]]],Em=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,El]]]]]]]]]]],En=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Em]]]]]]]]]]],Eo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,En]]]]]]]]]]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Eq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],Er=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,0]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],EE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],EF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],EG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,0],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]],EM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EL]]]]]]]]]]],EN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EM]]]]]]]]]]],EO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EN]]]]]]]]]]],EP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EO]]]]]]]]]]],EQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EP]]]]]]]]]]],ER=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EQ]]]]]]]]]]],ES=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ER]]]]]]]]]]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ES]]]]]]]]]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ET]]]]]]]]]]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],EW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],EZ=[0,[0,[0,[0,[0,0]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],E8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],E_=[0,0],E$=[0,[0,0]],Fa=[0,0],Fb=[0,[0,[0,[0,[0,0]]]]],j8=[0,[0,[0,0]]],c2=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],ge=[0,[0,[0,[0,0]]]],Fc=[0,[0,[0,[0,[0,0]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]];bw(11,[aT,a(of),-12],of);bw(10,[aT,a(o4),-11],o4);bw(9,[aT,a(pL),-10],pL);bw(8,[aT,a(or),-9],or);bw(7,[aT,a(pf),-8],pf);bw(6,g6,op);bw(5,[aT,a(oP),-6],oP);bw(4,[aT,a(oT),-5],oT);bw(3,jA,pW);bw(2,[aT,a(i5),-3],i5);bw(1,jB,oO);bw(0,[aT,a(pu),-1],pu);var
+qv=a("String.sub / Bytes.sub"),qA=a("String.contains_from / Bytes.contains_from"),qx=a(X),qw=a("String.concat"),qB=a("Array.init"),qC=a("power"),qU=[0,0],qV=[0,0],q1=[0,0,0],q2=[0,0,0],q3=[0,0],rk=[0,0],rl=[0,0],ro=[0,0],rH=[0,0],rK=[0,0],rM=[0,0],rN=[0,0],r2=[0,0],r3=[0,0],su=[0,0],sO=[0,[0,[0,0]]],tg=[0,0],tv=[0,0],tw=[0,0],tG=a(","),tY=[0,a(i$),0],tZ=a(oZ),t0=a("."),t1=[0,[0,[0,0]]],t2=a(e9),t3=a(ja),t4=[0,[0,[0,[0,[0,0]]]]],t5=[0,a(i$),0],t6=a(pT),w3=a(oc),w5=a(n_),w4=a(o7),w6=a(d7),w7=a(d5),w8=a(pV),w9=a(pF),w_=a(oI),w$=a(ph),yl=[0,0],ym=a(gF),yn=[0,0],yo=a("divided"),yp=[0,1],yq=a("mirror"),yr=[0,3],ys=a("negative"),yt=[0,2],yu=a(e8),yv=[0,5],yw=a(jg),yx=[0,4],yy=a(dq),yz=a(ou),yA=a(e5),yB=a(b7),yC=[0,0],yD=[0,0],yE=[0,0],zo=a(X),zj=[0,0],zk=[0,0],zl=[0,[0,[0,[0,0]]]],zm=[0,[0,[0,[0,0]]]],zh=[0,[0,[0,0]]],zg=[0,0],zf=a(e5),ze=[0,[0,[0,0]]],zd=[0,0],y$=[0,[0,0]],zb=[0,[0,[0,0]]],za=[0,0],y7=[0,[0,[0,0]]],y5=[0,0],y6=[0,[0,0]],y4=[0,0,0],y3=[0,[0,[0,0]]],yX=[0,[0,0]],yY=[0,[0,[0,0]]],yZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],y0=[0,[0,0]],y1=[0,[0,[0,0]]],yW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ed]]]]]]]]]]],yU=[0,[0,0]],yV=[0,[0,[0,0]]],yS=[0,[0,[0,0]]],yT=[0,[0,0]],yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ef]]]]]]]]]]],yQ=[0,0],yP=[0,0],yM=[0,[0,0]],yN=[0,0],yK=[0,0],yL=[0,1],yI=[0,[0,0]],yJ=[0,0],yH=[0,0],yF=[0,0],yG=[0,1],yi=[0,0],yj=[0,1],yk=[0,2],ye=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],yc=[0,[0,0],0],yd=[0,[1,0],0],yf=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],ya=[0,[0,0]],yb=[0,0],x$=[0,0],x_=[0,0],x9=[0,0],x8=[0,0],x7=[0,0,0],x5=[0,[0,0]],x6=[0,0],x4=[0,0,0],x2=[0,[0,[0,0]]],x3=[0,[0,[0,0]]],x1=[0,0],xZ=[0,1,0],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ej]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EU]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],xU=a("sqrt"),xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],xA=[0,a("\n"),0],xB=a(n$),xC=a(gH),xD=a(o3),xE=a(oM),xK=a(e$),xF=a(e7),xG=a("verdict"),xH=a(pw),xI=a(oF),xJ=a(o2),xx=a(oX),xy=a(pA),xz=a(gJ),xt=a(pb),xu=a(gK),xv=a(e7),xw=a(e$),xo=a(gR),xp=a(bc),xq=a(ob),xr=a(gO),xl=a(pt),xm=a(e8),xn=a(gO),xh=a(pe),xi=a(gR),xj=a(gK),xk=a(pJ),xb=a(pB),xc=a(pE),xd=a(oU),xe=a(gM),xf=a(pP),w1=a(iX),w2=a(gU),wW=a(bv),wX=a(bu),wY=a(oH),ww=a(gM),wx=a(pi),wa=a(bc),wb=a(bQ),wc=a(gT),wd=a(d_),we=a(dp),wj=a(iY),wf=a(jb),wg=a(jd),wh=a(d6),wi=a(bc),wk=a(bQ),wl=a(gT),wm=a(d_),wn=a(jb),wo=a(jd),wp=a(d6),wq=a(bc),wr=a(bQ),ws=a(bv),wt=a(bu),wu=a(dm),wv=a(d_),wy=a(pp),wz=a(pD),wA=a(gX),wB=a(ov),wC=a(oA),wD=a(d6),wE=a(bc),wF=a(bQ),wG=a(gD),wH=a(oK),wI=a(d_),wJ=a(fc),wK=a(oj),wL=a(d6),wM=a(bc),wN=a(gD),wO=a(bc),wP=a(pk),wS=a(n9),wQ=a(oy),wR=a(pI),wT=a(e$),wU=a(e7),wV=a(bc),wZ=a(gX),w0=a(gJ),v7=a(bQ),v8=a(d_),v9=a(iY),v_=a(d6),v6=a(pR),vU=a(fc),vV=a(px),vW=a(dn),vX=a(d8),vY=a(d8),vZ=a(i1),v0=a(dn),v1=a(o5),v2=a(oG),v3=a(a6),v5=a(oe),v4=a(i1),vK=a(oW),vL=a(pU),vM=a(oC),vN=a(oz),vO=a(pH),vP=a(ps),vQ=a(oN),vR=a(gE),vS=a(gE),vG=a(a6),vH=a(bt),vI=a(d$),vJ=a(bP),vC=a(dp),vD=a(i8),vE=a(pc),vz=a(bv),vA=a(bu),vB=a(dm),vs=a(bv),vt=a(bu),vu=a(dm),vv=a(i_),vw=a(dn),vx=a(i6),vy=a(po),vb=a(ox),vh=a(gH),vg=a(jf),vc=a(i2),vd=a(e4),vk=a(e6),vl=a(i2),vi=a(e6),vj=a(e4),vm=a(ot),vn=a(pm),vo=a(e4),vp=a(pQ),vq=a(jf),vr=a(e4),ve=a(d8),vf=a(o_),u_=a(gN),u$=a(gN),va=a(gN),u6=a(pq),u7=a(bu),u8=a(bv),u9=a(pG),uQ=a(on),uR=a(od),uS=a(pg),uT=a(d7),uU=a(pS),uV=a(pj),uW=a(oo),uX=a(o$),uY=a(om),uZ=a(oJ),u0=a(ol),u1=a(pr),u2=a(d5),u3=a(oi),u4=a(pz),u5=a(oB),uv=a(gP),ux=a(e9),uw=a(e3),uy=a(d4),uz=a(a6),uA=a(bt),uB=a(b7),uC=a(gV),uD=a(bP),uE=a(a6),uF=a(bt),uG=a(d$),uH=a(bP),uI=a(d4),uJ=a(fb),uK=a(a6),uL=a(bt),uM=a(o9),uN=a(e6),uO=a(fb),uP=a(bP),ud=a(gP),ul=a(e9),ue=a(e3),uf=a(d4),ug=a(a6),uh=a(bt),ui=a(b7),uj=a(gV),uk=a(bP),um=a(gW),un=a(a6),uo=a(bt),up=a(d$),uq=a(bP),ur=a(b7),us=a(dp),ut=a(bP),ua=a(bv),ub=a(bu),t_=[0,a(aE),0],t$=a(aE),t8=a(X),t7=[0,a(aE),0],t9=a(aE),tU=a(gP),tV=a(e9),tW=a("*"),tX=a(bR),tP=[0,[0,[0,[0,[0,0]]]]],tQ=[0,[0,[0,0]]],tR=[0,[0,0]],tS=[0,0],tT=[0,[0,[0,[0,0]]]],tN=a('":'),tO=a(aE),tL=[0,a(aE),0],tM=a(aE),tJ=[0,a("}"),0],tK=a("{"),tH=[0,a("]"),0],tI=a("["),tF=[0,[0,[0,0]]],tE=[0,[0,[0,0]]],tC=[0,0],tz=[0,[0,[0,0]]],tA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tx=[0,[0,0]],ty=[0,[0,[0,0]]],tu=[0,0],tq=[0,0],tr=[0,[0,[0,[0,[0,[0,0]]]]]],ts=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],tn=[0,0],tk=[0,0,0],tl=[0,0,0],tm=[0,0,0],th=[0,[0,0]],ti=[0,[0,[0,0]]],tj=[0,0],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],s_=[0,[0,[0,0]]],s$=[0,[0,[0,0]]],ta=[0,[0,[0,[0,[0,[0,0]]]]]],tb=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],td=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],te=[0,[0,[0,0]]],tf=[0,[0,[0,[0,[0,[0,0]]]]]],s7=[0,0],s5=[0,[0,0]],s6=[0,[0,[0,0]]],s1=[0,0,0],s2=[0,0,0],sX=[0,0,0],sY=[0,0,0],sZ=[0,0,0],s0=[0,0,0],sW=[0,0],sV=[0,0],sU=[0,0],sS=[0,0],sT=[0,0],sR=[0,0],sP=[0,0],sQ=[0,0],sI=[0,0],sJ=[0,0],sK=[0,0],sL=[0,[0,[0,0]]],sH=[0,0],sC=[0,[0,[0,0]]],sD=[0,[0,0]],sA=[0,[0,0]],sB=[0,[0,[0,0]]],sz=[0,0],sx=[0,0],sy=[0,0],sv=[0,0,0],ss=[0,[0,0]],st=[0,0],sk=[0,[0,0]],sl=[0,0],sm=[0,[0,0]],sn=[0,0],so=[0,[0,0]],sp=[0,0],sq=[0,[0,0]],sr=[0,0],si=[0,[0,0]],sj=[0,0],sg=[0,[0,0]],sh=[0,0],sc=[0,[0,0]],sd=[0,0],se=[0,0],sf=[0,[0,0]],r5=[0,[0,0]],r6=[0,0],r7=[0,[0,0]],r8=[0,0],r9=[0,0],r_=[0,[0,0]],r$=[0,[0,0]],sa=[0,[0,0]],sb=[0,0],r1=[0,0],r0=[0,0],rX=[0,0],rY=[0,[0,0]],rW=[0,[0,[0,0]]],rV=[0,[0,[0,[0,[0,[0,0]]]]]],rR=[0,[0,0]],rS=[0,[0,0]],rT=[0,0],rQ=[0,0],rO=[0,0],rP=[0,[0,[0,0]]],rL=[0,[0,[0,0]]],rI=[0,[0,[0,0]]],rG=[0,[0,[0,0]]],rE=[0,[0,[0,[0,[0,[0,0]]]]]],rF=[0,[0,[0,[0,[0,[0,0]]]]]],rz=[0,[0,0]],rA=[0,0],rB=[0,[0,0]],rC=[0,[0,[0,0]]],rD=[0,[0,[0,0]]],rs=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rt=[0,[0,[0,[0,[0,[0,0]]]]]],ru=[0,[0,[0,[0,[0,[0,0]]]]]],rv=[0,[0,[0,0]]],rw=[0,[0,[0,[0,[0,[0,0]]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,[0,0]]],rq=[0,[0,0]],rr=[0,0],rp=[0,0,0],rn=[0,0,0],rm=[0,[0,[0,0]]],ri=[0,0],rj=[0,0],rd=[0,[0,[0,0]]],re=[0,[0,[0,0]]],rf=[0,[0,[0,0]]],rc=[0,[0,[0,[0,0]]]],q_=[0,[0,[0,0]]],q$=[0,[0,[0,0]]],ra=[0,[0,[0,0]]],rb=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],q8=[0,[0,0]],q9=[0,0],q6=[0,[0,0]],q7=[0,0],q4=[0,[0,0]],q5=[0,0],qR=[0,0],qS=[0,[0,0]],qP=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],qN=[0,0,0],qM=a(pN),qL=a(X),qK=[0,[0,0]],qJ=[0,0],qG=[0,0],qI=[1,0],qH=[0,0],qF=[0,0],qD=[1,0],qE=[1,0],rZ=[10,0,0,0,0],zc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Cp=a(bv),Cq=a(bu),Cr=a(oH),Ch=a(gW),Ci=[0,a("a base axis of such a platform"),0],Cj=a(a6),Ck=a(bt),B6=a(ps),B7=a(oW),B8=a(pH),B9=a(gE),B_=a(oN),B$=a(gE),Ca=a(pU),Cb=a(oC),Cc=a(oz),BW=a(pi),BX=a(gM),By=[0,a("such a machine with bodies"),0],Bl=a(gJ),Bm=a(bc),Bn=a(pk),Bo=a(pI),Br=a(oy),Bs=a(n9),Bt=a(bc),Bu=a(bc),Bw=a(gD),Bv=[0,a("a claim that no cube of such a machine fits"),0],Bx=a(pR),Bz=a(d6),BA=a(d_),BB=a(dp),BC=a(i8),BD=a(pc),BE=a(gT),BF=a(oA),BG=a(oj),BH=a(iY),BK=a(dm),BL=a(po),BO=a(bQ),BP=a(bQ),BQ=a(oK),BR=a(bQ),BS=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],BT=a(gD),BU=a(fc),BV=a(dm),BY=a(bQ),BZ=a(bv),B0=a(bu),B1=a(pp),B2=a(pD),B3=a(gX),B4=a(ov),BI=[0,a(aE),0],BJ=a('the mechanism "'),B5=a(jb),Cd=a(gT),Ce=a(dp),Cf=a(i8),Cg=a(jd),Cl=a(bQ),Co=a(dp),Cm=[0,a("a platform that turns on struts and other drives"),0],Cn=a(bQ),BM=[0,a(aE),0],BN=a('the workspace "'),Cs=a(bc),Ct=a(bc),Cv=a(e$),Cw=a(e7),Cx=a(gX),Cu=[0,a("an atlas of such a machine"),0],Bp=[0,a(aE),0],Bq=a('a claim of the kind "'),CC=a(pV),CK=a(d5),CL=a(d7),CM=a(oI),CN=a(o7),CO=a(b7),CP=a(gU),CQ=a(iX),CR=a(b7),CD=a(dq),CE=a(ou),CF=a(e5),CG=a(ph),CJ=[0,a("directions of one scale"),0],CH=[0,a(aE),0],CI=a('the evidence "'),CS=a(dq),CT=a(gU),CU=[0,1,1],CV=a(d5),CW=a(d7),CX=a(dq),CY=a(e5),CZ=a(pF),C1=a(d5),C2=a(d7),C3=a(dq),C4=a(e5),C5=a(e8),C6=a(gF),C7=a(e8),C8=a(gF),C0=[0,a("this evidence at control points"),0],D7=a('"orthocert-paving/'),DY=a(dq),DZ=a(dq),DH=a(o2),DI=a(oF),DJ=a(pw),D5=[0,3,3],DK=a(oM),DX=[0,a("this set of orientations with such drives"),0],D0=[0,a('this evidence "tolerances" of a platform that turns'),0],D1=[0,a('"one_to_one" of this set of orientations'),0],D2=[0,a("a step of a platform that turns that is not at control points"),0],D3=[0,a('the evidence "tolerances" of such a mechanism'),0],D4=[0,a(pv),0],DW=[0,a(pv),0],DU=[0,a(oa),0],DV=[0,a("a step in a proof that no cube fits"),0],DT=[0,a('"one_to_one" of such a mechanism'),0],DL=[0,a("the acceleration of a joint of a machine with a plane"),0],DR=[0,a("a stiffness for each joint in such a claim"),0],DS=[0,a(pl),0],DQ=[0,a(pl),0],DM=a(o3),DN=a(n$),DO=a(gH),DP=[0,a(oa),0],DD=a(jg),DE=a(gF),DF=a(b7),Dv=a(gJ),Dw=a(oX),Dx=a(pA),Dy=[0,a(aE),0],Dz=a('a proof of the kind "'),Dr=a(e7),Ds=a(e$),Dt=a(gK),Du=a(pb),Dn=a(bc),Do=a(gR),Dp=a(ob),Dq=a(gO),Dk=a(pt),Dl=a(e8),Dm=a(gO),Dg=a(pe),Dh=a(gR),Di=a(gK),Dj=a(pJ),C$=a(pE),Da=a(oU),Db=a(pB),Dc=a(gM),Dd=a(pP),De=[0,a(aE),0],Df=a('the failure "'),C9=a(jg),C_=a(pN),CA=a(gU),CB=a(iX),Cy=a(n_),Cz=a(oc),Bi=a(fc),A_=a(i1),A$=a(oe),Ba=a(d8),Bb=a(a6),Bg=a(px),Bh=a(fc),Bj=a(dn),Bk=a(d8),Bc=a(dn),Bd=a(o5),Be=a(oG),Bf=a(a6),A3=a(dm),A7=a(bv),A8=a(bu),A4=a(i6),A5=a(i_),A6=a(dn),AX=a(dm),A1=a(bv),A2=a(bu),AY=a(i6),AZ=a(i_),A0=a(dn),AW=[0,1],AV=[0,1],AT=[0,1],AS=[0,1],AQ=[0,1],AR=[0,a("this quantity of such a mechanism"),0],AA=a(i2),AB=a(pm),AC=a(ot),AD=a(jf),AE=a(pQ),AF=a(e6),Az=a(gH),Ar=a(gN),Ag=a(o_),Ah=a(pg),AI=a(d5),AJ=a(pz),AK=a(oJ),AL=a(d7),AM=a(o$),AN=a(ol),AO=a(om),AP=a(od),Ai=a(oi),Aj=a(pr),Ak=a(pj),Al=a(oB),Am=a(pS),An=a(oo),Ao=a(on),Ap=[0,a(aE),0],Aq=a('the quantity "'),As=a(ox),At=a(pq),Au=a(bv),Av=a(bu),Aw=a(pG),Ax=[0,a(aE),0],Ay=a('a bound "'),AG=a(e4),AH=a(d8),Ae=a(bP),Af=a(d$),zV=a(bP),zW=a(gW),zX=a(fb),zY=a(gV),zZ=a(d$),z2=a(a6),z3=a(bt),z4=a(e3),z5=a(d4),z6=a(a6),z7=a(bt),z8=a(b7),z9=a(e3),z_=a(d4),z$=a(fb),Aa=a(a6),Ab=a(bt),Ac=a(o9),Ad=a(e6),z0=[0,a('" of such a machine'),0],z1=a(os),zT=a(bP),zU=a(fb),zD=a(bP),zE=a(dp),zF=a(gV),zG=a(d$),zJ=a(gW),zK=a(a6),zL=a(bt),zM=a(e3),zN=a(d4),zO=a(a6),zP=a(bt),zQ=a(b7),zR=a(b7),zH=[0,a(aE),0],zI=a(os),zA=a(gP),zB=a(e9),zy=a(" is not covered by the verified checker"),zz=a(X),zw=a(bv),zx=a(bu),zs=a(X),zt=a(pT),zu=a(X),zv=a(X),zr=[1,0],zp=a("Reader.Malformed"),zq=a("Reader.Not_covered"),D9=[0,a("a paving is checked by orthocert-verified")],D8=a(pa),D_=a("CERTIFIED"),D$=a("REFUTED"),Ea=a(pa),Eb=a("NOT COVERED: ");function
+eh(a){throw[0,jA,a]}function
+a0(d,c){var
+a=aq(d),e=aq(c),b=b_(a+e|0);eb(d,0,b,0,a);eb(c,0,b,a,e);return g4(b)}FL(0);qf(1);qf(2);function
+jC(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Fd(d)}catch(a){a=jg(a);if(a[1]!==jm)throw a;var
+c=a[2],d=a[1];try{FK(d)}catch(a){a=jv(a);if(a[1]!==jB)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Ff(0))}Fm(a(nX),jn);function
-b9(c){var
+a=c;continue}return 0}}return a(FM(0))}FT(a(og),jC);function
+b$(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-jo(d){var
+jD(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 Y(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-gX(d,c){var
+g7(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-ax(d,c){var
+aA(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bu(b,c){var
-a=b8(b);EZ(a,0,b,c);return gU(a)}function
-dr(g,b,a){var
-d=d9(g),f=0;if(0<=b&&0<=a&&!((gS(d)-a|0)<b)){var
-c=b8(a);e_(d,b,c,0,a);var
+bx(b,c){var
+a=b_(b);Fu(a,0,b,c);return g4(a)}function
+dv(g,b,a){var
+d=ec(g),f=0;if(0<=b&&0<=a&&!((g2(d)-a|0)<b)){var
+c=b_(a);fd(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=ec(qa);return gU(e)}function
-jp(k,g){if(g){var
-h=ao(k),c=0,b=g,p=0;for(;;){if(b){var
+e=eh(qv);return g4(e)}function
+jE(k,g){if(g){var
+h=aq(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(ao(i)+h|0)+c|0,m=b[2],n=c<=j?j:ec(qb),c=n,b=m;continue}var
-l=ao(i)+c|0}else
+j=(aq(i)+h|0)+c|0,m=b[2],n=c<=j?j:eh(qw),c=n,b=m;continue}var
+l=aq(i)+c|0}else
 var
 l=c;var
-f=b8(l),e=p,d=g;for(;;){if(d){var
+f=b_(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];d8(a,0,f,e,ao(a));d8(k,0,f,e+ao(a)|0,h);var
-e=(e+ao(a)|0)+h|0,d=o;continue}d8(a,0,f,e,ao(a))}return gU(f)}}}return qc}function
-qd(e,d,c,b){var
-a=c;for(;;){if(d<=a)throw gW;if(cO(e,a)===b)return a;var
+o=d[2];eb(a,0,f,e,aq(a));eb(k,0,f,e+aq(a)|0,h);var
+e=(e+aq(a)|0)+h|0,d=o;continue}eb(a,0,f,e,aq(a))}return g4(f)}}}return qx}function
+qy(e,d,c,b){var
+a=c;for(;;){if(d<=a)throw g6;if(cU(e,a)===b)return a;var
 a=a+1|0;continue}}function
-qe(b,a,d){var
-c=ao(b);if(0<=a&&!(c<a))try{qd(b,c,a,d);var
-e=1;return e}catch(a){a=jg(a);if(a===gW)return 0;throw a}return ec(qf)}function
-gY(b,c){if(0===b)return[0];if(0<=b){var
-d=Fc(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+qz(b,a,d){var
+c=aq(b);if(0<=a&&!(c<a))try{qy(b,c,a,d);var
+e=1;return e}catch(a){a=jv(a);if(a===g6)return 0;throw a}return eh(qA)}function
+g8(b,c){if(0===b)return[0];if(0<=b){var
+d=FJ(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return ec(qg)}function
-gZ(c){var
+a=g;continue}break}}return d}return eh(qB)}function
+g9(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aM(0),b=aM(1);function
-q(a){return D(a,b)}function
-jq(b,a){return D(aM(b),a)}function
-c(b,a){return z(aM(b),a)}function
-aZ(b,a){return[0,ji(b,a),p8(b,a)]}function
-g0(b,a){return H(b,a)?b:a}function
-bf(b,a){return H(b,a)?a:b}function
-ed(a){return ed}function
-ac(a){return a?0:1}function
+d=aO(0),b=aO(1);function
+p(a){return G(a,b)}function
+jF(b,a){return G(aO(b),a)}function
+c(b,a){return z(aO(b),a)}function
+a1(b,a){return[0,jx(b,a),qr(b,a)]}function
+g_(b,a){return H(b,a)?b:a}function
+bj(b,a){return H(b,a)?a:b}function
+ei(a){return ei}function
+_(a){return a?0:1}function
 x(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 aB(a){return a[1]}function
-bg(a){return a[2]}function
+aQ(a){return a[2]}function
 h(a){var
 b=a?[0,h(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-jr(a){return typeof
-a==="number"?0:[0,jr(a[1])]}function
-js(d,c){var
+jG(a){return typeof
+a==="number"?0:[0,jG(a[1])]}function
+jH(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -803,9 +803,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fd(a){return js(a,0)}function
-jt(a){if(typeof
-a==="number")return qi;else
+fi(a){return jH(a,0)}function
+jI(a){if(typeof
+a==="number")return qD;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -815,181 +815,181 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jt(a[1])]}}function
-bw(a){if(typeof
-a==="number")return qj;else
+8:return[9,a[1]];default:return[0,jI(a[1])]}}function
+bz(a){if(typeof
+a==="number")return qE;else
 switch(a[0]){case
-0:return[1,bv(a[1])];case
-1:return[3,bv(a[1])];case
-2:return[5,bv(a[1])];case
-3:return[7,bv(a[1])];case
-4:return[9,bv(a[1])];case
-5:return[1,bw(a[1])];case
-6:return[3,bw(a[1])];case
-7:return[5,bw(a[1])];case
-8:return[7,bw(a[1])];default:return[9,bw(a[1])]}}function
-bv(a){if(typeof
+0:return[1,by(a[1])];case
+1:return[3,by(a[1])];case
+2:return[5,by(a[1])];case
+3:return[7,by(a[1])];case
+4:return[9,by(a[1])];case
+5:return[1,bz(a[1])];case
+6:return[3,bz(a[1])];case
+7:return[5,bz(a[1])];case
+8:return[7,bz(a[1])];default:return[9,bz(a[1])]}}function
+by(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bv(a[1])];case
-1:return[2,bv(a[1])];case
-2:return[4,bv(a[1])];case
-3:return[6,bv(a[1])];case
-4:return[8,bv(a[1])];case
-5:return[0,bw(a[1])];case
-6:return[2,bw(a[1])];case
-7:return[4,bw(a[1])];case
-8:return[6,bw(a[1])];default:return[8,bw(a[1])]}}function
-bx(a){return a?a[1]:a}function
-P(b,a){return b?[0,P(b[1],a)]:a}function
-ju(a,b){return a?P(b,ju(a[1],b)):a}function
-jv(d,c){var
+0:return[0,by(a[1])];case
+1:return[2,by(a[1])];case
+2:return[4,by(a[1])];case
+3:return[6,by(a[1])];case
+4:return[8,by(a[1])];case
+5:return[0,bz(a[1])];case
+6:return[2,bz(a[1])];case
+7:return[4,bz(a[1])];case
+8:return[6,bz(a[1])];default:return[8,bz(a[1])]}}function
+bk(a){return a?a[1]:a}function
+O(b,a){return b?[0,O(b[1],a)]:a}function
+jJ(a,b){return a?O(b,jJ(a[1],b)):a}function
+g$(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-co(b,a){return b?a:a?0:1}function
-s(d,c){var
+ca(b,a){return b?a:a?0:1}function
+r(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 V(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-by(b,a){return V([0,b],a)}function
-jw(c){var
+bd(b,a){return V([0,b],a)}function
+jK(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fe(c,b,a){return c?i(b,fe(c[1],b,a)):a}function
-jx(a){if(a)var
-b=a[1],d=b?[0,jx(b[1])]:b,c=d;else
+fj(c,b,a){return c?i(b,fj(c[1],b,a)):a}function
+jL(a){if(a)var
+b=a[1],d=b?[0,jL(b[1])]:b,c=d;else
 var
 c=a;return c}function
-g1(d,c){var
+ha(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jy(a){if(H(a,b))return b;var
-e=aZ(a,aM(2)),f=e[1];return ab(e[2],d)?q(c(2,jy(f))):q(c(2,c(2,f)))}function
-jz(c,a){return bf(b,aF(c,a))}function
-ff(a){if(H(a,b))return ql;var
-c=aZ(a,aM(2)),e=c[1];return ab(c[2],d)?[0,ff(e)]:[0,ff(e)]}function
-fg(a){if(H(a,b))return b;var
-c=aZ(a,aM(2)),e=c[1];return ab(c[2],d)?q(fg(e)):q(fg(e))}function
-jA(c,b){var
-a=jh(c,b);return 0===a?0:0<=a?2:1}function
-fh(j,i){var
-c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:ab(aZ(a,aM(2))[2],d)?0:0;var
-g=aZ(c,aM(2)),h=g[1];if(ab(g[2],d)){if(H(a,b))return 0;var
-e=aZ(a,aM(2)),k=e[1];if(ab(e[2],d)){var
+jM(a){if(H(a,b))return b;var
+e=a1(a,aO(2)),f=e[1];return ac(e[2],d)?p(c(2,jM(f))):p(c(2,c(2,f)))}function
+jN(c,a){return bj(b,aF(c,a))}function
+fk(a){if(H(a,b))return qG;var
+c=a1(a,aO(2)),e=c[1];return ac(c[2],d)?[0,fk(e)]:[0,fk(e)]}function
+fl(a){if(H(a,b))return b;var
+c=a1(a,aO(2)),e=c[1];return ac(c[2],d)?p(fl(e)):p(fl(e))}function
+jO(c,b){var
+a=jw(c,b);return 0===a?0:0<=a?2:1}function
+fm(j,i){var
+c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:ac(a1(a,aO(2))[2],d)?0:0;var
+g=a1(c,aO(2)),h=g[1];if(ac(g[2],d)){if(H(a,b))return 0;var
+e=a1(a,aO(2)),k=e[1];if(ac(e[2],d)){var
 c=h,a=k;continue}return 0}if(H(a,b))return 0;var
-f=aZ(a,aM(2)),l=f[1];if(ab(f[2],d))return 0;var
+f=a1(a,aO(2)),l=f[1];if(ac(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fi(b,a){return 2<=jA(b,a)?0:1}function
-ds(i,e,a){if(i){var
+fn(b,a){return 2<=jO(b,a)?0:1}function
+dw(i,e,a){if(i){var
 f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
-w=aZ(e,aM(2)),g=w[1];if(ab(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
-m=aZ(a,aM(2)),A=m[1];if(ab(m[2],d)){var
-j=ds(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=ds(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(H(a,b))return[0,b,[0,e,b]];var
-v=aZ(a,aM(2)),h=v[1];if(ab(v[2],d)){var
-n=ds(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(jA(g,h)){case
+w=a1(e,aO(2)),g=w[1];if(ac(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
+m=a1(a,aO(2)),A=m[1];if(ac(m[2],d)){var
+j=dw(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dw(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(H(a,b))return[0,b,[0,e,b]];var
+v=a1(a,aO(2)),h=v[1];if(ac(v[2],d)){var
+n=dw(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(jO(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=ds(f,jz(h,g),e),q=p[2],r=q[2],C=[0,r,D(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=ds(f,jz(g,h),a),t=s[2],u=t[2],E=[0,D(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-fj(b,a){var
-c=ff(a);return ds(P(ff(b),c),b,a)}function
-jB(c,i,h){var
+p=dw(f,jN(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
+s=dw(f,jN(g,h),a),t=s[2],u=t[2],D=[0,G(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
+fo(b,a){var
+c=fk(a);return dw(O(fk(b),c),b,a)}function
+jP(c,i,h){var
 e=i,a=h;for(;;){if(H(e,b))return a;var
-f=aZ(e,aM(2)),g=f[1];if(ab(f[2],d)){var
-e=g,a=ar(c,a,a);continue}return ar(c,a,jB(c,g,ar(c,a,a)))}}function
-ee(a){return jB(P,a,qm)}function
-jC(a){return a?q(jC(a[1])):b}function
-b_(f,e){var
+f=a1(e,aO(2)),g=f[1];if(ac(f[2],d)){var
+e=g,a=an(c,a,a);continue}return an(c,a,jP(c,g,an(c,a,a)))}}function
+ej(a){return jP(O,a,qH)}function
+jQ(a){return a?p(jQ(a[1])):b}function
+cb(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=z(c(2,q(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=z(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=D(b,z(c(2,q(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=G(b,z(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=z(c(2,q(c(2,c(2,b)))),d),j=D(c(2,b),i),a=a[1],d=j;continue;case
+i=z(c(2,p(c(2,c(2,b)))),d),j=G(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=z(c(2,q(c(2,c(2,b)))),d),l=D(q(c(2,b)),k),a=a[1],d=l;continue;case
+k=z(c(2,p(c(2,c(2,b)))),d),l=G(p(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=z(c(2,q(c(2,c(2,b)))),d),n=D(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=z(c(2,p(c(2,c(2,b)))),d),n=G(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=z(c(2,q(c(2,c(2,b)))),d),p=D(q(c(2,c(2,b))),o),a=a[1],d=p;continue;case
+o=z(c(2,p(c(2,c(2,b)))),d),q=G(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
 6:var
-r=z(c(2,q(c(2,c(2,b)))),d),s=D(c(2,q(c(2,b))),r),a=a[1],d=s;continue;case
+r=z(c(2,p(c(2,c(2,b)))),d),s=G(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=z(c(2,q(c(2,c(2,b)))),d),u=D(q(c(2,q(c(2,b)))),t),a=a[1],d=u;continue;case
+t=z(c(2,p(c(2,c(2,b)))),d),u=G(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=z(c(2,q(c(2,c(2,b)))),d),w=D(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=z(c(2,q(c(2,c(2,b)))),d),y=D(q(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-g2(a){if(H(a,b))return qn;var
-c=aZ(a,aM(2)),e=c[1];return ab(c[2],d)?bv(g2(e)):bw(g2(e))}function
-fk(a){return fd(g2(a))}function
-jD(c,b){var
-a=jh(c,b);return 0===a?0:0<=a?2:1}var
-jE=D;function
-g3(k,f){if(0<=aO(f)){var
-g=jj(f);if(0<=g){var
+v=z(c(2,p(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=z(c(2,p(c(2,c(2,b)))),d),y=G(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+hb(a){if(H(a,b))return qI;var
+c=a1(a,aO(2)),e=c[1];return ac(c[2],d)?by(hb(e)):bz(hb(e))}function
+fp(a){return fi(hb(a))}function
+jR(c,b){var
+a=jw(c,b);return 0===a?0:0<=a?2:1}var
+jS=G;function
+fq(k,f){if(0<=aP(f)){var
+g=jy(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=z(c,c),j=1===(a&1)?z(e,c):e,e=j,c=i,a=h;continue}}return ec(qh)}return d}function
-g4(c){var
-a=aO(c);return 0===a?d:0<a?b:R(b)}function
-jF(a){return 0<=aO(a)?a:d}function
-ef(a){var
-c=aO(a);return 0===c?b:0<c?a:b}function
-jG(m){var
+h=a>>>1|0,i=z(c,c),j=1===(a&1)?z(e,c):e,e=j,c=i,a=h;continue}}return eh(qC)}return d}function
+hc(c){var
+a=aP(c);return 0===a?d:0<a?b:T(b)}function
+jT(a){return 0<=aP(a)?a:d}function
+ek(a){var
+c=aP(a);return 0===c?b:0<c?a:b}function
+jU(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return b_(a[1],b);case
+1:return cb(a[1],b);case
 2:var
-e=c(2,b);return b_(a[1],e);case
+e=c(2,b);return cb(a[1],e);case
 3:var
-f=q(c(2,b));return b_(a[1],f);case
+f=p(c(2,b));return cb(a[1],f);case
 4:var
-g=c(2,c(2,b));return b_(a[1],g);case
+g=c(2,c(2,b));return cb(a[1],g);case
 5:var
-h=q(c(2,c(2,b)));return b_(a[1],h);case
+h=p(c(2,c(2,b)));return cb(a[1],h);case
 6:var
-i=c(2,q(c(2,b)));return b_(a[1],i);case
+i=c(2,p(c(2,b)));return cb(a[1],i);case
 7:var
-j=q(c(2,q(c(2,b))));return b_(a[1],j);case
+j=p(c(2,p(c(2,b))));return cb(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return b_(a[1],k);default:var
-l=q(c(2,c(2,c(2,b))));return b_(a[1],l)}}function
-cp(b,a){var
-c=aO(a);return 0===c?d:1===c?ji(b,a):jq(-1,ji(jq(-1,b),a))}function
-fl(a){return 0<aO(a)?Fw(a):d}function
-eg(b,c){var
-a=jj(c);return 0<=a?p9(b,a):p_(b,-a|0)}function
-cP(b,c){var
-a=jj(c);return 0<=a?p_(b,a):p9(b,-a|0)}function
-bz(b,a){return a?a[1]:b}function
-bh(a){var
+k=c(2,c(2,c(2,b)));return cb(a[1],k);default:var
+l=p(c(2,c(2,c(2,b))));return cb(a[1],l)}}function
+cr(b,a){var
+c=aP(a);return 0===c?d:1===c?jx(b,a):jF(-1,jx(jF(-1,b),a))}function
+fr(a){return 0<aP(a)?F3(a):d}function
+el(b,c){var
+a=jy(c);return 0<=a?qs(b,a):qt(b,-a|0)}function
+cW(b,c){var
+a=jy(c);return 0<=a?qt(b,a):qs(b,-a|0)}function
+bA(b,a){return a?a[1]:b}function
+bl(a){var
 b=a?a[2]:a;return b}function
-r(e,d,c){var
+s(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-M(d,c){var
+E(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jH(a){if(a){var
-b=[0,a[1],0];return f(jH(a[2]),b)}return a}function
-eh(d,c){var
+jV(a){if(a){var
+b=[0,a[1],0];return f(jV(a[2]),b)}return a}function
+em(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-ei(a){if(a){var
-b=ei(a[2]);return f(a[1],b)}return a}function
-g5(g,f,e){var
+en(a){if(a){var
+b=en(a[2]);return f(a[1],b)}return a}function
+hd(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=ar(g,b[1],a[1]);if(c){var
+c=an(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -1000,12 +1000,12 @@ var
 c=a;return c}function
 w(b,a){if(a){var
 c=w(b,a[2]);return f(i(b,a[1]),c)}return a}function
-dt(e,d,c){var
+dx(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=ar(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-av(c,b,a){if(a){var
-d=av(c,b,a[2]);return ar(c,a[1],d)}return b}function
-al(e,d){var
+f=an(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+aw(c,b,a){if(a){var
+d=aw(c,b,a[2]);return an(c,a[1],d)}return b}function
+aj(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1016,132 +1016,132 @@ n(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bi(b,e){var
+bm(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bi(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bm(b,c)];var
 a=c;continue}return a}}function
-jI(d,c){var
+jW(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-at(b,a){if(b)if(a)var
-d=at(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+ar(b,a){if(b)if(a)var
+d=ar(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bj(b,a){if(b)if(a)var
-d=bj(b[1],a[2]),c=[0,a[1],d];else
+bn(b,a){if(b)if(a)var
+d=bn(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bR(d,c){var
+bT(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
 aG(b,a){var
 c=a?[0,b,aG([0,b],a[1])]:a;return c}function
-ap(b,a){var
-c=a?[0,b,ap(b,a[1])]:a;return c}function
-jJ(a){if(a){var
-e=jJ(a[2]),f=z(c(2,b),e),g=a[1]?b:d;return D(g,f)}return d}function
-fm(j){function
+as(b,a){var
+c=a?[0,b,as(b,a[1])]:a;return c}function
+jX(a){if(a){var
+e=jX(a[2]),f=z(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
+fs(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jJ([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aO(b)?ee(b):0}function
-du(c,b){var
-a=jh(z(c[1],b[2]),z(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cQ(b,a){return H(z(b[1],a[2]),z(a[1],b[2]))}function
-dv(b,a){return[0,D(z(b[1],a[2]),z(a[1],b[2])),z(b[2],a[2])]}function
-b$(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-jK(a){return[0,R(a[1]),a[2]]}function
-fn(b,a){return dv(b,jK(a))}function
-g6(f,c){var
-a=c[1],e=aO(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return b$(f,g)}function
-fo(q){var
-a=q[2],b=q[1],o=aO(b);if(0===o)var
-c=[0,dq(a),[0,d,g4(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jX([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aP(b)?ej(b):0}function
+dy(c,b){var
+a=jw(z(c[1],b[2]),z(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+cX(b,a){return H(z(b[1],a[2]),z(a[1],b[2]))}function
+dz(b,a){return[0,G(z(b[1],a[2]),z(a[1],b[2])),z(b[2],a[2])]}function
+cc(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
+jY(a){return[0,T(a[1]),a[2]]}function
+ft(b,a){return dz(b,jY(a))}function
+he(f,c){var
+a=c[1],e=aP(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return cc(f,g)}function
+fu(q){var
+a=q[2],b=q[1],o=aP(b);if(0===o)var
+c=[0,cV(a),[0,d,hc(a)]];else
 if(0<o){var
-n=aO(a);if(0===n)var
-c=[0,dq(b),[0,g4(b),d]];else
+n=aP(a);if(0===n)var
+c=[0,cV(b),[0,hc(b),d]];else
 if(0<n)var
-l=fj(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fo(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fj(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
-p=R(b),i=aO(a);if(0===i)var
-c=[0,dq(b),[0,g4(b),d]];else
+j=fo(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
+p=T(b),i=aP(a);if(0===i)var
+c=[0,cV(b),[0,hc(b),d]];else
 if(0<i)var
-g=fj(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
+g=fo(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
 var
-e=fj(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
-r=c[2],s=ef(r[2]);return[0,r[1],s]}function
-a5(a){if(typeof
-a==="number")return qq;else
+e=fo(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
+r=c[2],s=ek(r[2]);return[0,r[1],s]}function
+a7(a){if(typeof
+a==="number")return qL;else
 switch(a[0]){case
 0:var
-b=a5(a[1]);return aY(bu(1,48),b);case
+b=a7(a[1]);return a0(bx(1,48),b);case
 1:var
-c=a5(a[1]);return aY(bu(1,49),c);case
+c=a7(a[1]);return a0(bx(1,49),c);case
 2:var
-d=a5(a[1]);return aY(bu(1,50),d);case
+d=a7(a[1]);return a0(bx(1,50),d);case
 3:var
-e=a5(a[1]);return aY(bu(1,51),e);case
+e=a7(a[1]);return a0(bx(1,51),e);case
 4:var
-f=a5(a[1]);return aY(bu(1,52),f);case
+f=a7(a[1]);return a0(bx(1,52),f);case
 5:var
-g=a5(a[1]);return aY(bu(1,53),g);case
+g=a7(a[1]);return a0(bx(1,53),g);case
 6:var
-h=a5(a[1]);return aY(bu(1,54),h);case
+h=a7(a[1]);return a0(bx(1,54),h);case
 7:var
-i=a5(a[1]);return aY(bu(1,55),i);case
+i=a7(a[1]);return a0(bx(1,55),i);case
 8:var
-j=a5(a[1]);return aY(bu(1,56),j);default:var
-k=a5(a[1]);return aY(bu(1,57),k)}}function
-ej(a){return typeof
-a==="number"?qr:a5(a)}function
-cR(a){return g3(c(2,b),a)}function
-jL(b,a){return cP(a,b)}function
-jM(b,a){return R(cP(R(a),b))}function
-fp(b,a){return R(cp(R(b),a))}function
-Q(c,b){var
-a=eg(b,c);return[0,a,a]}function
-jN(d,c,a){var
-b=eg(c,d),e=fp(b,a);return[0,cp(b,a),e]}function
-A(b,a){return[0,D(b[1],a[1]),D(b[2],a[2])]}function
-E(b,a){return[0,aF(b[1],a[2]),aF(b[2],a[1])]}function
-ad(a){return[0,R(a[2]),R(a[1])]}function
-jO(e,c,b,a){if(H(d,e))return H(d,b)?[0,z(e,b),z(c,a)]:H(a,d)?[0,z(c,b),z(e,a)]:[0,z(c,b),z(c,a)];if(H(c,d))return H(d,b)?[0,z(e,a),z(c,b)]:H(a,d)?[0,z(c,a),z(e,b)]:[0,z(e,a),z(e,b)];if(H(d,b))return[0,z(e,a),z(c,a)];if(H(a,d))return[0,z(c,b),z(e,b)];var
-f=bf(z(e,b),z(c,a));return[0,g0(z(e,a),z(c,b)),f]}function
+j=a7(a[1]);return a0(bx(1,56),j);default:var
+k=a7(a[1]);return a0(bx(1,57),k)}}function
+eo(a){return typeof
+a==="number"?qM:a7(a)}function
+cY(a){return fq(c(2,b),a)}function
+jZ(b,a){return cW(a,b)}function
+j0(b,a){return T(cW(T(a),b))}function
+fv(b,a){return T(cr(T(b),a))}function
+R(c,b){var
+a=el(b,c);return[0,a,a]}function
+j1(d,c,a){var
+b=el(c,d),e=fv(b,a);return[0,cr(b,a),e]}function
+A(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
+C(b,a){return[0,aF(b[1],a[2]),aF(b[2],a[1])]}function
+ae(a){return[0,T(a[2]),T(a[1])]}function
+j2(e,c,b,a){if(H(d,e))return H(d,b)?[0,z(e,b),z(c,a)]:H(a,d)?[0,z(c,b),z(e,a)]:[0,z(c,b),z(c,a)];if(H(c,d))return H(d,b)?[0,z(e,a),z(c,b)]:H(a,d)?[0,z(c,a),z(e,b)]:[0,z(e,a),z(e,b)];if(H(d,b))return[0,z(e,a),z(c,a)];if(H(a,d))return[0,z(c,b),z(e,b)];var
+f=bj(z(e,b),z(c,a));return[0,g_(z(e,a),z(c,b)),f]}function
 v(c,b,a){var
-d=jO(b[1],b[2],a[1],a[2]),e=jM(c,d[2]);return[0,jL(c,d[1]),e]}function
+d=j2(b[1],b[2],a[1],a[2]),e=j0(c,d[2]);return[0,jZ(c,d[1]),e]}function
 S(b,a){var
-c=z(a[1],a[1]),e=z(a[2],a[2]),h=jM(b,bf(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
+c=z(a[1],a[1]),e=z(a[2],a[2]),h=j0(b,bj(c,e)),g=0;if(M(a[1],d)&&M(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jL(b,g0(c,e));return[0,f,h]}function
-g7(b,a){var
-c=eg(cR(b),b),d=fp(c,a[1]);return[0,cp(c,a[2]),d]}function
-bS(b,a){if(K(d,a[1]))return[0,g7(b,a)];var
-c=K(a[2],d),e=c?[0,ad(g7(b,ad(a)))]:c;return e}function
-bT(f,c){var
-g=K(d,c[1]);if(g)var
-e=eg(c[2],f),a=fl(e),i=ab(z(a,a),e)?a:D(a,b),h=[0,[0,fl(eg(c[1],f)),i]];else
+f=jZ(b,g_(c,e));return[0,f,h]}function
+hf(b,a){var
+c=el(cY(b),b),d=fv(c,a[1]);return[0,cr(c,a[2]),d]}function
+bU(b,a){if(M(d,a[1]))return[0,hf(b,a)];var
+c=M(a[2],d),e=c?[0,ae(hf(b,ae(a)))]:c;return e}function
+bV(f,c){var
+g=M(d,c[1]);if(g)var
+e=el(c[2],f),a=fr(e),i=ac(z(a,a),e)?a:G(a,b),h=[0,[0,fr(el(c[1],f)),i]];else
 var
 h=g;return h}function
-dw(a){return 0===a[0]?a[2]:a[1]}function
-aS(f,d,c,b,a){if(b){if(a){var
-g=aS(f,d,c,b[2],a[2]);return[0,ar(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cq(b,a){return cP(b,a)}function
-a0(a,c,b){if(H(d,a)){var
-e=b[1],f=R(cq(R(z(a,b[2])),c));return[0,cq(z(a,e),c),f]}var
-g=b[2],h=R(cq(R(z(a,b[1])),c));return[0,cq(z(a,g),c),h]}function
-ay(a){var
-c=R(cP(R(a[2]),b));return[0,cP(a[1],b),c]}function
-ek(c,b,a){var
-e=jO(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=fp(f,h),j=K(g,d)?a[1]:a[2];return[0,cp(g,j),i]}function
-ca(a){return bf(a[2],R(a[1]))}var
+dA(a){return 0===a[0]?a[2]:a[1]}function
+aR(f,d,c,b,a){if(b){if(a){var
+g=aR(f,d,c,b[2],a[2]);return[0,an(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cs(b,a){return cW(b,a)}function
+a2(a,c,b){if(H(d,a)){var
+e=b[1],f=T(cs(T(z(a,b[2])),c));return[0,cs(z(a,e),c),f]}var
+g=b[2],h=T(cs(T(z(a,b[1])),c));return[0,cs(z(a,g),c),h]}function
+ax(a){var
+c=T(cW(T(a[2]),b));return[0,cW(a[1],b),c]}function
+ep(c,b,a){var
+e=j2(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=M(f,d)?a[2]:a[1],i=fv(f,h),j=M(g,d)?a[1]:a[2];return[0,cr(g,j),i]}function
+cd(a){return bj(a[2],T(a[1]))}var
 B=[0,d,d];function
-cS(a){return[0,a[1],a[1]]}function
-cr(a){return[0,a[2],a[2]]}function
-bU(b,a){switch(a[0]){case
+cZ(a){return[0,a[1],a[1]]}function
+ct(a){return[0,a[2],a[2]]}function
+bB(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1157,80 +1157,80 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-az(n,m){var
+ay(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?s(b[1],a[1]):0;case
-1:return 1===a[0]?s(b[1],a[1]):0;case
-2:return 2===a[0]?ab(b[1],a[1]):0;case
+0:return 0===a[0]?r(b[1],a[1]):0;case
+1:return 1===a[0]?r(b[1],a[1]):0;case
+2:return 2===a[0]?ac(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=az(b[1],a[1]);if(f){var
+f=ay(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=az(b[1],a[1]);if(g){var
+g=ay(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=az(b[1],a[1]);if(h){var
+h=ay(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=az(b[1],a[1]);if(i){var
+i=ay(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=co(b[1],a[1]);if(j){var
-k=az(b[2],a[2]);if(k){var
-l=az(b[3],a[3]);if(l){var
+j=ca(b[1],a[1]);if(j){var
+k=ay(b[2],a[2]);if(k){var
+l=ay(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fq(b){var
+fw(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aT(c,b){var
-a=fq(b);return a?ab(c,a[1]):a}function
-el(a){return K(dq(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
-j(a){return[0,[2,a]]}function
-y(b,a){if(aT(d,b))return a;if(aT(d,a))return b;var
-c=fq(b);if(c){var
-e=c[1],f=fq(a);if(f){var
-g=f[1];if(el(e)&&el(g))return j(D(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bk(a){var
+aV(c,b){var
+a=fw(b);return a?ac(c,a[1]):a}function
+eq(a){return M(cV(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+k(a){return[0,[2,a]]}function
+y(b,a){if(aV(d,b))return a;if(aV(d,a))return b;var
+c=fw(b);if(c){var
+e=c[1],f=fw(a);if(f){var
+g=f[1];if(eq(e)&&eq(g))return k(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bo(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return el(c)?j(R(c)):[0,[5,a]];case
+c=b[1];return eq(c)?k(T(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-u(b,a){if(aT(d,a))return b;if(aT(d,b))return bk(a);var
+u(b,a){if(aV(d,a))return b;if(aV(d,b))return bo(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?s(c[1],e[1])?j(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-J(a){var
-c=fq(a);if(c){var
-b=c[1];return el(b)?j(z(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-p(a,c){if(!aT(d,a)&&!aT(b,c)){if(!aT(d,c)&&!aT(b,a))return az(a,c)?J(a):[0,[6,a,c]];return c}return a}function
-ag(c,a){return aT(b,a)?c:[0,[7,c,a]]}function
-aA(a){return aT(b,a)?a:[0,[9,a]]}function
-jP(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bV(f,e,d,c){var
+e=a[1];return 0===e[0]?r(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+L(a){var
+c=fw(a);if(c){var
+b=c[1];return eq(b)?k(z(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,c){if(!aV(d,a)&&!aV(b,c)){if(!aV(d,c)&&!aV(b,a))return ay(a,c)?L(a):[0,[6,a,c]];return c}return a}function
+ah(c,a){return aV(b,a)?c:[0,[7,c,a]]}function
+az(a){return aV(b,a)?a:[0,[9,a]]}function
+j3(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bW(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bU(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-jQ(d,f,k,j,h){var
+g=b[1],h=[0,i(e,bB(function(b){return function(a){return s(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+j4(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bh(b),c=e,a=l;continue}var
+l=[0,i(f,bB(function(b){return function(a){return s(a,b,d)}}(a),g)),a],b=bl(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bU(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bh(b),c=e,a=m;continue}return a}}function
-em(b,a){if(a){var
+m=[0,i(f,bB(function(b){return function(a){return s(a,b,d)}}(a),g)),a],b=bl(b),c=e,a=m;continue}return a}}function
+er(b,a){if(a){var
 c=a[2];if(b){var
-e=em(b[1],c);return[0,a[1],e]}var
+e=er(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-jR(a){switch(a[0]){case
+j5(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1238,57 +1238,57 @@ jR(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-g8(j,g){var
-k=0,l=av(em,e(function(a){return 0},g),j),c=eh(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?av(em,d,jR(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cs(a){var
+hg(j,g){var
+k=0,l=aw(er,e(function(a){return 0},g),j),c=em(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?aw(er,d,j5(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cu(a){var
 b=0;function
-c(a){return[0,a]}return bV(j(d),c,a,b)}function
-a1(d,c){var
-a=d,b=0;for(;;){if(a){if(az(c,a[1]))return b;var
+c(a){return[0,a]}return bW(k(d),c,a,b)}function
+a3(d,c){var
+a=d,b=0;for(;;){if(a){if(ay(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-cT(d,b){var
-e=b[1];if(al(function(a){return az(d,a)},e))return b;var
+c0(d,b){var
+e=b[1];if(aj(function(a){return ay(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=cT(a[2],b),k=cT(a[3],j),c=cT(a[4],k);break;case
+j=c0(a[2],b),k=c0(a[3],j),c=c0(a[4],k);break;case
 5:case
 8:case
 9:var
-c=cT(a[1],b);break;case
+c=c0(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=cT(a[1],b),c=cT(a[2],i)}var
-f=c[2],g=c[1],h=[0,bU(function(a){return a1(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-ct(a){var
-b=dt(function(b,a){return cT(a,b)},a,qs),c=b[1],d=e(function(a){return a1(c,a)},a);return[0,jH(b[2]),d]}function
-fr(a){return av(function(b,a){return D(ca(b),a)},d,a)}function
-cb(b,c,a){var
-d=fr(a),e=g0(c[2],D(b[2],d)),f=fr(a);return[0,b,[0,bf(c[1],aF(b[1],f)),e],a]}function
-ae(a){return[0,a,a,0]}function
-bW(b,a){var
+i=c0(a[1],b),c=c0(a[2],i)}var
+f=c[2],g=c[1],h=[0,bB(function(a){return a3(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cv(a){var
+b=dx(function(b,a){return c0(a,b)},a,qN),c=b[1],d=e(function(a){return a3(c,a)},a);return[0,jV(b[2]),d]}function
+fx(a){return aw(function(b,a){return G(cd(b),a)},d,a)}function
+ce(b,c,a){var
+d=fx(a),e=g_(c[2],G(b[2],d)),f=fx(a);return[0,b,[0,bj(c[1],aF(b[1],f)),e],a]}function
+af(a){return[0,a,a,0]}function
+bX(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aS(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return cb(A(b[1],a[1]),g,f)}function
-bb(b,a){var
-c=a[3],d=b[3],e=aS(function(a){return a},ad,E,d,c),f=E(b[2],a[2]);return cb(E(b[1],a[1]),f,e)}function
-en(a){var
-b=e(ad,a[3]),c=ad(a[2]);return[0,ad(a[1]),c,b]}function
+f=aR(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return ce(A(b[1],a[1]),g,f)}function
+be(b,a){var
+c=a[3],d=b[3],e=aR(function(a){return a},ae,C,d,c),f=C(b[2],a[2]);return ce(C(b[1],a[1]),f,e)}function
+es(a){var
+b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
 aC(a,c,b){var
 d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=v(a,e,b);return ay(A(v(a,d,c),f))}function
-i(b){return ay(v(a,e,b))}var
-j=aS(function(b){return ay(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return cb(v(a,c[1],b[1]),k,j)}function
-eo(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=S(b,a[2]);return cb(S(b,a[1]),g,f)}function
-g9(a,b){var
-c=bT(a,b[1]);if(c){var
-g=c[1],d=bT(a,b[2]);if(d){var
-h=d[1],f=bS(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,cb(g,h,e(function(b){return v(a,m,b)},l))];else
+f=v(a,e,b);return ax(A(v(a,d,c),f))}function
+i(b){return ax(v(a,e,b))}var
+j=aR(function(b){return ax(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return ce(v(a,c[1],b[1]),k,j)}function
+et(b,a){var
+c=a[3],d=A(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=S(b,a[2]);return ce(S(b,a[1]),g,f)}function
+hh(a,b){var
+c=bV(a,b[1]);if(c){var
+g=c[1],d=bV(a,b[2]);if(d){var
+h=d[1],f=bU(a,A(h,g));if(f)var
+l=b[3],m=f[1],i=[0,ce(g,h,e(function(b){return v(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1297,529 +1297,529 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dx(a,c,b){var
-d=bS(a,b[1]);if(d){var
-f=bS(a,b[2]);if(f)var
-h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return E(c,v(a,g,b))},n=function(b){return ad(v(a,g,b))},o=aS(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,cb(g,v(a,c[2],h),p)];else
+dB(a,c,b){var
+d=bU(a,b[1]);if(d){var
+f=bU(a,b[2]);if(f)var
+h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return C(c,v(a,g,b))},n=function(b){return ae(v(a,g,b))},o=aR(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,ce(g,v(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cu(b,a){return a?i(b,a[1]):a}function
-fs(a){var
-b=e(ay,a[3]),c=ay(A(a[2],a[1]));return cb(a[1],c,b)}function
-jS(a,k,j,r,c){var
-l=fs(k),m=fs(j),g=fs(c[1]),h=fs(c[2]),s=aC(a,l,h),t=bb(aC(a,m,g),s),i=dx(a,ae(Q(a,b)),t);if(i)var
-f=i[1],n=aC(a,bb(l,g),f),o=aC(a,bb(m,h),f),d=function(c,b){return aC(a,c,ae(b))},u=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return bW(d(n,b),c)},y=function(a){return d(o,a)},z=aS(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return bb(b,d(f,ay(a)))[2]},C=function(a){return en(d(f,ay(a)))[2]},p=aS(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=cb(c[2][1],c[2][2],E),G=ad(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,cb(c[1][1],c[1][2],H),F]];else
+cw(b,a){return a?i(b,a[1]):a}function
+fy(a){var
+b=e(ax,a[3]),c=ax(A(a[2],a[1]));return ce(a[1],c,b)}function
+j6(a,k,j,r,c){var
+l=fy(k),m=fy(j),g=fy(c[1]),h=fy(c[2]),s=aC(a,l,h),t=be(aC(a,m,g),s),i=dB(a,af(R(a,b)),t);if(i)var
+f=i[1],n=aC(a,be(l,g),f),o=aC(a,be(m,h),f),d=function(c,b){return aC(a,c,af(b))},u=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return bX(d(n,b),c)},y=function(a){return d(o,a)},z=aR(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return be(b,d(f,ax(a)))[2]},C=function(a){return es(d(f,ax(a)))[2]},p=aR(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=ce(c[2][1],c[2][2],E),G=ae(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,ce(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-jT(a,e,d,k){var
-p=eo(a,d),f=bW(eo(a,e),p),g=bb(bW(f,ae(Q(a,b))),k),l=aC(a,ae(Q(a,c(2,b))),f),q=eo(a,g),h=g9(a,bb(aC(a,ae(Q(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aC(a,m,d),i=dx(a,bW(aC(a,g,e),r),l);if(i)var
-s=aC(a,m,e),j=dx(a,bb(aC(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+j7(a,e,d,k){var
+p=et(a,d),f=bX(et(a,e),p),g=be(bX(f,af(R(a,b))),k),l=aC(a,af(R(a,c(2,b))),f),q=et(a,g),h=hh(a,be(aC(a,af(R(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aC(a,m,d),i=dB(a,bX(aC(a,g,e),r),l);if(i)var
+s=aC(a,m,e),j=dB(a,be(aC(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cu(function(b){return jS(a,e,d,k,b)},o);return cu(function(b){return jS(a,e,d,k,b)},u)}function
-cc(d,b,a){if(b){if(a)return ar(d,b[1],a[1]);var
+u=cw(function(b){return j6(a,e,d,k,b)},o);return cw(function(b){return j6(a,e,d,k,b)},u)}function
+cf(d,b,a){if(b){if(a)return an(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bX(b,j,i){var
-f=ae(B);return function(a){switch(a[0]){case
-0:return[0,r(a[1],j,f)];case
-1:return[0,r(a[1],i,f)];case
-2:return[0,ae(Q(b,a[1]))];case
+bY(b,j,i){var
+f=af(B);return function(a){switch(a[0]){case
+0:return[0,s(a[1],j,f)];case
+1:return[0,s(a[1],i,f)];case
+2:return[0,af(R(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cc(function(b,a){return[0,bW(b,a)]},l,k);case
+k=a[2],l=a[1];return cf(function(b,a){return[0,bX(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cc(function(b,a){return[0,bb(b,a)]},n,m);case
+m=a[2],n=a[1];return cf(function(b,a){return[0,be(b,a)]},n,m);case
 5:var
-o=a[1];return cu(function(a){return[0,en(a)]},o);case
+o=a[1];return cw(function(a){return[0,es(a)]},o);case
 6:var
-p=a[2],q=a[1];return cc(function(c,a){return[0,aC(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cf(function(c,a){return[0,aC(b,c,a)]},q,p);case
 7:var
-s=a[2],t=a[1];return cc(function(a,c){return dx(b,a,c)},t,s);case
+r=a[2],t=a[1];return cf(function(a,c){return dB(b,a,c)},t,r);case
 8:var
-u=a[1];return cu(function(a){return[0,eo(b,a)]},u);case
+u=a[1];return cw(function(a){return[0,et(b,a)]},u);case
 9:var
-v=a[1];return cu(function(a){return g9(b,a)},v);default:var
+v=a[1];return cw(function(a){return hh(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=jT(b,c[1],d[1],e[1]),y=a[1]?bg:aB;return x(y,w)}var
+w=j7(b,c[1],d[1],e[1]),y=a[1]?aQ:aB;return x(y,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-ep(c){var
+eu(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=ep(a[1]);if(b)return b;var
+b=eu(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cd(q,p){var
+cg(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ab(b[1],a[1]);return c?fh(b[2],a[2]):c}return 0;case
+c=ac(b[1],a[1]);return c?fm(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=s(b[1],a[1]),i=h?ab(e[1],g[1]):h,j=i?fh(e[2],g[2]):i,k=j?ab(d[1],f[1]):j;return k?fh(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=r(b[1],a[1]),i=h?ac(e[1],g[1]):h,j=i?fm(e[2],g[2]):i,k=j?ac(d[1],f[1]):j;return k?fm(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cd(b[1],a[1]);if(l){var
+l=cg(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cd(b[1],a[1]);if(m){var
+m=cg(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cd(b[1],a[1]);if(n){var
+n=cg(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=cd(b[1],a[1]);if(o){var
+o=cg(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eq(c,a){switch(a[0]){case
+ev(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dv(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dz(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fn(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,ft(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,b$(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,cc(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return du(a,[0,d,b])?0:[0,g6(c,a)]};break;default:var
-k=eq(c,a[1]);return k?i(c,k[1]):k}var
-h=eq(c,f);if(h){var
-j=eq(c,g);if(j)return e(h[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dy(a,[0,d,b])?0:[0,he(c,a)]};break;default:var
+k=ev(c,a[1]);return k?i(c,k[1]):k}var
+h=ev(c,f);if(h){var
+j=ev(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-qt(a){return 0}function
-cv(a){return eq(qt,a)}function
-bA(a,c){switch(c[0]){case
-0:return[0,jN(a,c[1],c[2])];case
+qO(a){return 0}function
+cx(a){return ev(qO,a)}function
+bC(a,c){switch(c[0]){case
+0:return[0,j1(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bA(a,c[1]);if(g)var
-h=bA(a,c[2]),D=h?[0,A(g[1],h[1])]:h,r=D;else
+g=bC(a,c[1]);if(g)var
+h=bC(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
 var
 r=g;return r;case
 3:var
-i=bA(a,c[1]);if(i)var
-j=bA(a,c[2]),F=j?[0,E(i[1],j[1])]:j,s=F;else
+i=bC(a,c[1]);if(i)var
+j=bC(a,c[2]),F=j?[0,C(i[1],j[1])]:j,s=F;else
 var
 s=i;return s;case
 4:var
-k=bA(a,c[1]);if(k)var
-l=bA(a,c[2]),G=l?[0,v(a,k[1],l[1])]:l,t=G;else
+k=bC(a,c[1]);if(k)var
+l=bC(a,c[2]),G=l?[0,v(a,k[1],l[1])]:l,t=G;else
 var
 t=k;return t;case
 5:var
-m=bA(a,c[1]);if(m){var
-n=bA(a,c[2]);if(n)var
-o=bS(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
+m=bC(a,c[1]);if(m){var
+n=bC(a,c[2]);if(n)var
+o=bU(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
 var
 u=n;var
 w=u}else
 var
 w=m;return w;default:var
-y=c[1],p=bA(a,y);if(p){var
-e=p[1];if(K(d,e[1]))return bT(a,e);var
-f=cv(y),I=f?ac(cQ([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
-z=bT(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
-q=ab(e[2],d),C=q?[0,B]:q;return C}return p}}function
-ft(b,a){return jN(b,a[1],a[2])}function
-bB(a,d){if(ep(d))switch(d[0]){case
+y=c[1],p=bC(a,y);if(p){var
+e=p[1];if(M(d,e[1]))return bV(a,e);var
+f=cx(y),I=f?_(cX([0,d,b],f[1])):f;if(I)return 0;if(M(d,e[2])){var
+z=bV(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
+q=ac(e[2],d),D=q?[0,B]:q;return D}return p}}function
+fz(b,a){return j1(b,a[1],a[2])}function
+bD(a,d){if(eu(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=by(i,jU),k=j?cQ(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,ft(a,b$(fn(e,g),n)),0],p=f(ap(B,i),o),q=ft(a,e)[2],r=[0,ft(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,ft(a,b$(dv(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=bd(i,j8),k=j?cX(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,fz(a,cc(ft(e,g),n)),0],p=f(as(B,i),o),q=fz(a,e)[2],r=[0,fz(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,fz(a,cc(dz(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bB(a,d[2]),u=bB(a,d[1]);return cc(function(b,a){return[0,bW(b,a)]},u,t);case
+t=bD(a,d[2]),u=bD(a,d[1]);return cf(function(b,a){return[0,bX(b,a)]},u,t);case
 3:var
-v=bB(a,d[2]),w=bB(a,d[1]);return cc(function(b,a){return[0,bb(b,a)]},w,v);case
+v=bD(a,d[2]),w=bD(a,d[1]);return cf(function(b,a){return[0,be(b,a)]},w,v);case
 4:var
-m=d[2],h=d[1];if(cd(h,m)){var
-y=bB(a,h);return cu(function(b){return[0,eo(a,b)]},y)}var
-z=bB(a,m),A=bB(a,h);return cc(function(c,b){return[0,aC(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(cg(h,m)){var
+y=bD(a,h);return cw(function(b){return[0,et(a,b)]},y)}var
+z=bD(a,m),A=bD(a,h);return cf(function(c,b){return[0,aC(a,c,b)]},A,z);case
 5:var
-C=bB(a,d[2]),D=bB(a,d[1]);return cc(function(b,c){return dx(a,b,c)},D,C);default:var
-E=bB(a,d[1]);return cu(function(b){return g9(a,b)},E)}return x(ae,bA(a,d))}function
-a2(b,a){if(ep(a)){var
-c=bB(b,a);return x(function(a){return a[2]},c)}return bA(b,a)}function
-g_(a){var
-e=bf(R(a),d);return ef(D(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-jV(a){return jF(D(g_(a),a))}function
-jW(b,a){var
-c=jV(b),d=R(cq(R(a[2]),c)),e=jV(b);return[0,cq(a[1],e),d]}function
-cw(c,a,b){var
-d=a2(D(c,g_(a)),b);return x(function(b){return jW(a,b)},d)}function
-aj(d,a){var
-b=cw(d,a[2],a[1][1]);if(b)var
-c=cw(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+C=bD(a,d[2]),D=bD(a,d[1]);return cf(function(b,c){return dB(a,b,c)},D,C);default:var
+E=bD(a,d[1]);return cw(function(b){return hh(a,b)},E)}return x(af,bC(a,d))}function
+aH(b,a){if(eu(a)){var
+c=bD(b,a);return x(function(a){return a[2]},c)}return bC(b,a)}function
+hi(a){var
+e=bj(T(a),d);return ek(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+j9(a){return jT(G(hi(a),a))}function
+j_(b,a){var
+c=j9(b),d=T(cs(T(a[2]),c)),e=j9(b);return[0,cs(a[1],e),d]}function
+cy(c,a,b){var
+d=aH(G(c,hi(a)),b);return x(function(b){return j_(a,b)},d)}function
+ak(d,a){var
+b=cy(d,a[2],a[1][1]);if(b)var
+c=cy(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-jX(b,a){var
-c=R(cq(R(a[2]),b));return[0,cq(a[1],b),c]}function
-fu(b,a){var
-c=fp(b[2],a);return[0,cp(b[1],a),c]}function
-jY(h,g,d,b){var
-e=b[2],f=jC(d),i=c(2,f),j=z(jy(f),i),a=fu(v(h,b[1],g),j),k=jw(d)?E(e,a):A(e,a);return[0,a,k]}function
-jZ(a,d,c){if(c){var
-e=c[1];return jY(a,d,e,jZ(a,d,e))}var
-f=Q(a,b);return[0,Q(a,b),f]}function
-j0(e,g){var
-o=cR(e),p=z(c(2,c(2,b)),o),j=H(g[2],p);if(j){var
-n=ee(e),i=qu[1],d=n,f=0,a=i;for(;;){if(d){var
+j$(b,a){var
+c=T(cs(T(a[2]),b));return[0,cs(a[1],b),c]}function
+fA(b,a){var
+c=fv(b[2],a);return[0,cr(b[1],a),c]}function
+ka(h,g,d,b){var
+e=b[2],f=jQ(d),i=c(2,f),j=z(jM(f),i),a=fA(v(h,b[1],g),j),k=jK(d)?C(e,a):A(e,a);return[0,a,k]}function
+kb(a,d,c){if(c){var
+e=c[1];return ka(a,d,e,kb(a,d,e))}var
+f=R(a,b);return[0,R(a,b),f]}function
+kc(e,g){var
+o=cY(e),p=z(c(2,c(2,b)),o),j=H(g[2],p);if(j){var
+n=ej(e),i=qP[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=P(ju(qx,P(qv,f)),qw),l=jZ(e,g,k),q=jY(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=O(jJ(qS,O(qQ,f)),qR),l=kb(e,g,k),q=ka(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-j1(i){function
+kd(i){function
 a(h){var
-m=cp(cR(i),h),g=ee(i),f=m,e=d,a=b;for(;;){if(g){var
-j=D(a,c(2,b)),k=D(e,cp(f,a)),l=R(cp(f,z(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(q(c(2,q(c(2,q(c(2,q(c(2,c(2,q(c(2,q(c(2,b)))))))))))))),f=z(c(2,c(2,b)),e),g=a(q(c(2,c(2,b))));return aF(z(c(2,c(2,c(2,c(2,b)))),g),f)}function
-j2(e,a){var
+m=cr(cY(i),h),g=ej(i),f=m,e=d,a=b;for(;;){if(g){var
+j=G(a,c(2,b)),k=G(e,cr(f,a)),l=T(cr(f,z(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=z(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aF(z(c(2,c(2,c(2,c(2,b)))),g),f)}function
+ke(e,a){var
 f=H(d,a);if(f){var
-g=c(2,c(2,b));return j0(e,fu(S(e,[0,a,a]),g))}return f}function
-j3(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aF(j1(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=D(j1(a),n),e=j2(a,g);if(e){var
-f=j2(a,h);if(f)var
-i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+g=c(2,c(2,b));return kc(e,fA(S(e,[0,a,a]),g))}return f}function
+kf(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aF(kd(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(kd(a),n),e=ke(a,g);if(e){var
+f=ke(a,h);if(f)var
+i=M(d,e[1][1]),j=i?M(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-j4(a,d){var
-c=S(a,d),e=Q(a,b);return E(A(c,c),e)}function
-dy(f,j){var
-e=a2(D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=D(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=j3(a);if(d)var
-h=c(2,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))))),i=j0(a,S(a,fu(v(a,k,d[1]),h))),g=x(function(b){return j4(a,j4(a,b))},i);else
+kg(a,d){var
+c=S(a,d),e=R(a,b);return C(A(c,c),e)}function
+cz(f,j){var
+e=aH(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kf(a);if(d)var
+h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=kc(a,S(a,fA(v(a,k,d[1]),h))),g=x(function(b){return kg(a,kg(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return jX(l,a)},g)}return e}function
-j5(a,d){var
-e=j3(D(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
-f=c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))));return fu(v(a,d,jX(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-fv(d,a){return dy(d,[3,a,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return j$(l,a)},g)}return e}function
+kh(a,d){var
+e=kf(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
+f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return fA(v(a,d,j$(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+fB(d,a){return cz(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
 g(i,e,c){var
-f=cv(c);if(f){var
-g=f[1];return e?ac(cQ(g,[0,d,b])):cQ([0,d,b],g)}var
-a=a2(i,c);if(a){var
-h=a[1];return e?K(d,h[1]):H(d,h[1])}return a}function
-j6(c,b){var
-a=a2(c,b),d=a?1:a;return d}function
-bl(c,a,b){var
-d=cd(a,b),e=d?j6(c,a):d;return e?e:g(c,0,[3,b,a])}function
-qy(c){var
-a=fo(c),g=ef(fl(a[2])),b=[0,fl(a[1]),g],e=K(d,a[1]),f=e?du(b$(b,b),c):e,h=f?[0,b]:f;return h}function
-j7(a){if(a){var
-e=a[2],c=a[1];if(du(bz([0,d,b],c),[0,d,b])){var
-g=j7(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=cx(c);if(f){var
+g=f[1];return e?_(cX(g,[0,d,b])):cX([0,d,b],g)}var
+a=aH(i,c);if(a){var
+h=a[1];return e?M(d,h[1]):H(d,h[1])}return a}function
+ki(c,b){var
+a=aH(c,b),d=a?1:a;return d}function
+bf(c,a,b){var
+d=cg(a,b),e=d?ki(c,a):d;return e?e:g(c,0,[3,b,a])}function
+qT(c){var
+a=fu(c),g=ek(fr(a[2])),b=[0,fr(a[1]),g],e=M(d,a[1]),f=e?dy(cc(b,b),c):e,h=f?[0,b]:f;return h}function
+kj(a){if(a){var
+e=a[2],c=a[1];if(dy(bA([0,d,b],c),[0,d,b])){var
+g=kj(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-j8(c,a){var
-e=at(c,a),f=[0,d,b];return av(function(a,b){return fo(dv(b$(a[1],a[2]),b))},f,e)}function
-j9(c,j){if(c){var
-f=c[1],g=j7(j);if(g){var
+kk(c,a){var
+e=ar(c,a),f=[0,d,b];return aw(function(a,b){return fu(dz(cc(a[1],a[2]),b))},f,e)}function
+kl(c,j){if(c){var
+f=c[1],g=kj(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bz([0,d,b],a),g=g6(bz([0,d,b],c),f),h=bh(a),i=at(bh(c),h);return e(function(a){var
-b=b$(g,a[2]);return fo(fn(a[1],b))},i)},l=j9(f,e(k,h[2]));return x(function(c){var
-e=bz([0,d,b],a);return[0,fo(g6(jK(j8(bh(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],ap([0,d,b],f)]]}else
+f=bA([0,d,b],a),g=he(bA([0,d,b],c),f),h=bl(a),i=ar(bl(c),h);return e(function(a){var
+b=cc(g,a[2]);return fu(ft(a[1],b))},i)},l=kl(f,e(k,h[2]));return x(function(c){var
+e=bA([0,d,b],a);return[0,fu(he(jY(kk(bl(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],as([0,d,b],f)]]}else
 var
 i=c;return i}function
-j_(a){if(a){var
-b=eq(qy,a[1]);if(b)var
-c=j_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+km(a){if(a){var
+b=ev(qT,a[1]);if(b)var
+c=km(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qz}function
-j$(a){if(a){var
-b=j_(a[1]);if(b)var
-c=j$(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return qU}function
+kn(a){if(a){var
+b=km(a[1]);if(b)var
+c=kn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qA}function
-ka(i,l){var
-a=j$(l);if(a){var
-j=a[1],c=j9(i,j);if(c){var
-e=c[1],f=s(h(e),i),g=f?al(function(a){return ac(du(a,[0,d,b]))},e):f;return g?n(function(a){return du(j8(a,e),[0,d,b])},j):g}var
+d=b;return d}return qV}function
+ko(i,l){var
+a=kn(l);if(a){var
+j=a[1],c=kl(i,j);if(c){var
+e=c[1],f=r(h(e),i),g=f?aj(function(a){return _(dy(a,[0,d,b]))},e):f;return g?n(function(a){return dy(kk(a,e),[0,d,b])},j):g}var
 k=c}else
 var
 k=a;return k}function
-qB(a){return a}function
-qC(a){return a}function
-qD(a,b){return aS(qC,qB,A,a,b)}function
-qE(a){return a}function
-qF(a){return a}function
-bC(a,b){return aS(qF,qE,qD,a,b)}function
-g$(a,f,c,d){if(c){var
-h=c[2],i=Q(a,b),g=ek(c[1],i,f);if(d){var
-j=g$(a,f,h,d[2]),k=d[1],l=function(c,b){return E(c,v(a,g,b))},m=function(b){return ad(v(a,g,b))};return[0,aS(function(a){return a},m,l,k,c),j]}var
-n=g$(a,f,h,0);return[0,e(function(b){return ad(v(a,g,b))},c),n]}return d}function
-ha(h,a){if(a){var
+qW(a){return a}function
+qX(a){return a}function
+qY(a,b){return aR(qX,qW,A,a,b)}function
+qZ(a){return a}function
+q0(a){return a}function
+bE(a,b){return aR(q0,qZ,qY,a,b)}function
+hj(a,f,c,d){if(c){var
+h=c[2],i=R(a,b),g=ep(c[1],i,f);if(d){var
+j=hj(a,f,h,d[2]),k=d[1],l=function(c,b){return C(c,v(a,g,b))},m=function(b){return ae(v(a,g,b))};return[0,aR(function(a){return a},m,l,k,c),j]}var
+n=hj(a,f,h,0);return[0,e(function(b){return ae(v(a,g,b))},c),n]}return d}function
+hk(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,g$(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=M(d,c[1]),i=e?[0,hj(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-kb(g,f,e){var
+kp(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=ha(g,b);if(c){var
+c=hk(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-kc(d,b,a){if(b)if(a)var
-e=a[1],f=kc(d,b[2],a[2]),g=co(d,b[1])?cS(e):cr(e),c=[0,g,f];else
+kq(d,b,a){if(b)if(a)var
+e=a[1],f=kq(d,b[2],a[2]),g=ca(d,b[1])?cZ(e):ct(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-kd(a,b){if(a)if(b)var
-d=kd(a[2],b[2]),c=[0,kc(a[1],a,b[1]),d];else
+kr(a,b){if(a)if(b)var
+d=kr(a[2],b[2]),c=[0,kq(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bc(a){if(a){var
-b=a[1],c=bc(b),d=e(function(a){return[0,1,a]},c),g=bc(b);return f(e(function(a){return[0,0,a]},g),d)}return qG}function
-dz(c,a){var
-b=h(a);if(kb(c,b,a))return 1;var
-d=bc(bx(b));return n(function(d){return kb(c,b,kd([0,0,d],a))},d)}function
-aq(a){function
+bg(a){if(a){var
+b=a[1],c=bg(b),d=e(function(a){return[0,1,a]},c),g=bg(b);return f(e(function(a){return[0,0,a]},g),d)}return q1}function
+dC(c,a){var
+b=h(a);if(kp(c,b,a))return 1;var
+d=bg(bk(b));return n(function(d){return kp(c,b,kr([0,0,d],a))},d)}function
+at(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aH(h,e){var
+aI(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):E(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hb(c,b,a){var
-d=bc(c);return n(function(c){return i(a,i(aq(function(a){return aH(c,a)}),b))},d)}function
-hc(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a0(c,D(h,b),a)},k=hc(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aS(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?A(a,d):C(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hl(c,b,a){var
+d=bg(c);return n(function(c){return i(a,i(at(function(a){return aI(c,a)}),b))},d)}function
+hm(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a2(c,G(h,b),a)},k=hm(h,j,i),l=function(c,b){var
+d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aR(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-fw(b,d,a,c){function
+fC(b,d,a,c){function
 e(c,d){var
-e=a0(d,b,a);return E(A(c,c),e)}function
-f(c){return ad(a0(c,b,a))}return aS(function(a){return A(a,a)},f,e,d,c)}function
-fx(d,i,h,g){var
+e=a2(d,b,a);return C(A(c,c),e)}function
+f(c){return ae(a2(c,b,a))}return aR(function(a){return A(a,a)},f,e,d,c)}function
+fD(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cr(e[2]),k=bC(a,hc(d,f,fw(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hd(b,a){return[0,[0,0,b],a]}function
-dA(i,b,c,g,f,a){function
+e=b[1],f=c[1],j=ct(e[2]),k=bE(a,hm(d,f,fC(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hn(b,a){return[0,[0,0,b],a]}function
+dD(i,b,c,g,f,a){function
 d(a){if(a){var
-j=ap([0,ad(a[1][2]),0],b),c=fx(g,f,a[2],j),d=s(h(c),b);if(d)return dz(i,c);var
+j=as([0,ae(a[1][2]),0],b),c=fD(g,f,a[2],j),d=r(h(c),b);if(d)return dC(i,c);var
 e=d}else
 var
-e=a;return e}return hb(b,hd(c,a),d)}function
-fy(g,f,e){var
+e=a;return e}return hl(b,hn(c,a),d)}function
+fE(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=ha(g,[0,[0,cS(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=hk(g,[0,[0,cZ(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-he(d,b,c,a){function
+ho(d,b,c,a){function
 e(a){if(a){var
-j=ap([0,a[1][2],0],b),c=fy(d,a[2],j);if(c){var
-e=c[1],f=s(h(e),b);if(f)return dz(d,e);var
+j=as([0,a[1][2],0],b),c=fE(d,a[2],j);if(c){var
+e=c[1],f=r(h(e),b);if(f)return dC(d,e);var
 g=f}else
 var
 g=c;var
 i=g}else
 var
-i=a;return i}return hb(b,hd(c,a),e)}function
-ke(b,a){return e(function(a){return[0,a[1],b]},a)}function
-kf(b,a){var
-c=bc(b);return n(function(b){return K(d,aH(b,a)[1])},c)}function
-kg(c,b,a){var
-d=a[3],f=e(function(a){return a0(c,b,a)},d),g=a[2];return[0,a0(c,b,a[1]),g,f]}function
-kh(a,b){var
-c=b[3],d=a[3],e=aS(function(a){return a},ad,E,d,c),f=a[2];return[0,E(a[1],b[1]),f,e]}function
-bD(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-Z(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-aP(b,a){var
-c=p(b,a[3]),d=p(b,a[2]);return[0,p(b,a[1]),d,c]}function
-a6(b,a){var
-c=ag(b[3],a),d=ag(b[2],a);return[0,ag(b[1],a),d,c]}function
-N(b,a){var
-c=p(b[3],a[3]),d=p(b[2],a[2]);return y(y(p(b[1],a[1]),d),c)}function
-cU(a){return a6(a,aA(N(a,a)))}function
-cx(a){var
-b=a[5];return b?b[1]:aA(a[2])}function
-fz(b,a){return b?a:bk(a)}function
-ki(e,a,i,d,h){var
-f=N(a,e),b=Z(u,e,aP(f,a)),j=N(b,b),g=u(J(d),j),c=fz(h,aA(g)),k=u(f,c),l=Z(y,a,a6(b,c));return[0,Z(y,b,aP(c,a)),g,l,k,[0,d],0,[0,i]]}function
-kj(a,e,d){var
-b=N(a,a),c=aA(b),f=[0,e],g=x(function(b){return Z(u,a,aP(N(b,a),b))},d);return[0,a,b,a6(a,c),c,0,g,f]}function
-kk(c,a){var
-d=N(a,c);return[0,a,j(b),a,d,0,0,0]}function
-er(a){return e(function(a){var
-b=a[2];return[0,bD(a[1]),b]},a)}function
-kl(a){return e(function(a){var
-c=j(b);return[0,bD(a[3]),c]},a)}function
-km(b,a){var
+i=a;return i}return hl(b,hn(c,a),e)}function
+ks(b,a){return e(function(a){return[0,a[1],b]},a)}function
+kt(b,a){var
+c=bg(b);return n(function(b){return M(d,aI(b,a)[1])},c)}function
+ku(c,b,a){var
+d=a[3],f=e(function(a){return a2(c,b,a)},d),g=a[2];return[0,a2(c,b,a[1]),g,f]}function
+kv(a,b){var
+c=b[3],d=a[3],e=aR(function(a){return a},ae,C,d,c),f=a[2];return[0,C(a[1],b[1]),f,e]}function
+bF(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+$(c,b,a){var
+d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
+aS(b,a){var
+c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
+a8(b,a){var
+c=ah(b[3],a),d=ah(b[2],a);return[0,ah(b[1],a),d,c]}function
+P(b,a){var
+c=q(b[3],a[3]),d=q(b[2],a[2]);return y(y(q(b[1],a[1]),d),c)}function
+c1(a){return a8(a,az(P(a,a)))}function
+cA(a){var
+b=a[5];return b?b[1]:az(a[2])}function
+fF(b,a){return b?a:bo(a)}function
+kw(e,a,i,d,h){var
+f=P(a,e),b=$(u,e,aS(f,a)),j=P(b,b),g=u(L(d),j),c=fF(h,az(g)),k=u(f,c),l=$(y,a,a8(b,c));return[0,$(y,b,aS(c,a)),g,l,k,[0,d],0,[0,i]]}function
+kx(a,e,d){var
+b=P(a,a),c=az(b),f=[0,e],g=x(function(b){return $(u,a,aS(P(b,a),b))},d);return[0,a,b,a8(a,c),c,0,g,f]}function
+ky(c,a){var
+d=P(a,c);return[0,a,k(b),a,d,0,0,0]}function
+ew(a){return e(function(a){var
+b=a[2];return[0,bF(a[1]),b]},a)}function
+kz(a){return e(function(a){var
+c=k(b);return[0,bF(a[3]),c]},a)}function
+kA(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kn(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-dB(d,a){var
-b=bT(d,[0,a[2],a[2]]);if(b){var
+kB(c,b,a){var
+d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
+dE(d,a){var
+b=bV(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fA(a,m,f,l,e,k,j){var
-o=kn(bb,k,j),b=kn(function(b,c){return aC(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bW(bW(bW(ae(Q(a,d)),h),g),c),p=bc(m);return n(function(c){var
-b=km(function(b){return S(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,dB(a,A(A(A(Q(a,d),k),j),h))),g=E(aH(c,i),m),n=f?E(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
-bY(a){return cP(D(a[1],a[2]),b)}function
-dC(a){var
-b=bY(a);return aF(a[2],b)}function
-es(c,b){if(b)var
-a=b[1],e=es([0,c],b[2]),g=dC(a),h=[0,[0,dC(a),g],0],i=f(ap(B,c),h),j=bY(a),d=[0,[0,[0,bY(a),j],a,i],e];else
+fG(a,m,f,l,e,k,j){var
+o=kB(be,k,j),b=kB(function(b,c){return aC(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bX(bX(bX(af(R(a,d)),h),g),c),p=bg(m);return n(function(c){var
+b=kA(function(b){return S(a,aI(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,dE(a,A(A(A(R(a,d),k),j),h))),g=C(aI(c,i),m),n=f?C(g,aI(c,f[1])):g;return M(d,n[1])},p)}function
+bZ(a){return cW(G(a[1],a[2]),b)}function
+dF(a){var
+b=bZ(a);return aF(a[2],b)}function
+ex(c,b){if(b)var
+a=b[1],e=ex([0,c],b[2]),g=dF(a),h=[0,[0,dF(a),g],0],i=f(as(B,c),h),j=bZ(a),d=[0,[0,[0,bZ(a),j],a,i],e];else
 var
 d=b;return d}function
-et(d,b){if(b){var
+ey(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=et(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bY(a),f],c],h=bY(a);return[0,[0,[0,a[1],h],c],g]}return qH}function
-ko(d,c,a){if(c){if(a){var
-e=ko(d,c[2],a[2]);return A(a0(c[1],D(d,b),a[1]),e)}return B}return B}function
-dD(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return ko(f,a,b)},j=dD(f,h),k=e(function(a){var
+e=ey(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,bZ(a),f],c],h=bZ(a);return[0,[0,[0,a[1],h],c],g]}return q2}function
+kC(d,c,a){if(c){if(a){var
+e=kC(d,c[2],a[2]);return A(a2(c[1],G(d,b),a[1]),e)}return B}return B}function
+dG(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kC(f,a,b)},j=dG(f,h),k=e(function(a){var
 e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dE(e,b,d,a){if(b)if(a)var
-f=b[1],g=dE(e,b[2],d,a[2]),c=[0,[0,f,fw(e,a[1][1],d,f)],g];else
+dH(e,b,d,a){if(b)if(a)var
+f=b[1],g=dH(e,b[2],d,a[2]),c=[0,[0,f,fC(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fB(f,d,c,b,a){if(a){var
+fH(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fB(f,d[1],c,b,g);return[0,[0,E(B,b),0],i]}var
-j=e(function(a){return[0,E(B,b),0]},g),h=[0,[0,E(ad(v(f,c,cr(a[1][2]))),b),0],j]}else
+i=fH(f,d[1],c,b,g);return[0,[0,C(B,b),0],i]}var
+j=e(function(a){return[0,C(B,b),0]},g),h=[0,[0,C(ae(v(f,c,ct(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a7(d,c,a){var
-b=s(h(a),c);return b?dz(d,a):b}function
-fC(d,b,a){if(b)var
-c=b[1],g=fC([0,d],b[2],a),h=f(ap(B,d),[0,a,0]),e=[0,[0,c,[0,aF(c[1],a[2]),D(c[2],a[2])],h],g];else
+a9(d,c,a){var
+b=r(h(a),c);return b?dC(d,a):b}function
+fI(d,b,a){if(b)var
+c=b[1],g=fI([0,d],b[2],a),h=f(as(B,d),[0,a,0]),e=[0,[0,c,[0,aF(c[1],a[2]),G(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kp(d){if(d){var
+kD(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kp(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kD(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return qI}function
-hf(a){return x(function(a){return x(en,a)},a)}function
-cy(c,b,a){function
+f=a;return f}return q3}function
+hp(a){return x(function(a){return x(es,a)},a)}function
+cB(c,b,a){function
 d(a){return aC(c,b,a)}return x(function(a){return x(d,a)},a)}function
-hg(c,b,a){function
-d(a){return dx(c,a,b)}return x(function(a){return cu(d,a)},a)}function
-dF(b,a){var
-c=at(b,a);return e(function(c){var
+hq(c,b,a){function
+d(a){return dB(c,a,b)}return x(function(a){return cw(d,a)},a)}function
+dI(b,a){var
+c=ar(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cc(function(b,a){return[0,bW(b,a)]},e,d)]}return b}return a},c)}function
-fD(a){return ae(Q(a,c(2,b)))}function
-kq(b,c,a){if(a)var
-f=a[1],g=kq(b,c,a[2]),d=[0,e(function(a){return ad(v(b,v(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,cf(function(b,a){return[0,bX(b,a)]},e,d)]}return b}return a},c)}function
+fJ(a){return af(R(a,c(2,b)))}function
+kE(b,c,a){if(a)var
+f=a[1],g=kE(b,c,a[2]),d=[0,e(function(a){return ae(v(b,v(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hh(a){return n(function(a){var
-b=ab(a[1],d);return b?ab(a[2],d):b},a)}function
-kr(c,b,a){var
-d=at(b,a);return av(function(a,b){return A(v(c,a[1],a[2]),b)},B,d)}function
-hi(c,b,a){var
-d=ca(kr(c,a,b));return av(function(b,a){return D(ca(b),a)},d,a)}function
-dG(a){return Q(a,b)}function
-hj(a,i,c,u,t){var
+hr(a){return n(function(a){var
+b=ac(a[1],d);return b?ac(a[2],d):b},a)}function
+kF(c,b,a){var
+d=ar(b,a);return aw(function(a,b){return A(v(c,a[1],a[2]),b)},B,d)}function
+hs(c,b,a){var
+d=cd(kF(c,a,b));return aw(function(b,a){return G(cd(b),a)},d,a)}function
+dJ(a){return R(a,b)}function
+ht(a,i,c,u,t){var
 f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!hh(c)&&!hh(j)){var
-h=hi(a,i,j),o=dG(a),p=hi(a,i,c),b=ek([0,hi(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=ay(g7(a,[0,b,b])),r=function(b){return function(d,c){return E(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bC(e,kq(a,q,aS(function(c){return function(b){return v(a,c,b)}}(s),ad,r,j,c)))];else
+j=f[1],n=0;if(!hr(c)&&!hr(j)){var
+h=hs(a,i,j),o=dJ(a),p=hs(a,i,c),b=ep([0,hs(a,i,c),p],o,[0,h,h])[1],k=M(d,h),l=k?M(d,b):k;if(l)var
+q=ax(hf(a,[0,b,b])),r=function(b){return function(d,c){return C(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bE(e,kE(a,q,aR(function(c){return function(b){return v(a,c,b)}}(s),ae,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-qX(a){var
+rg(a){var
 b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-ks(h,n,a,m,l,k){var
+kG(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cr(j[2]),p=bC(b,hc(a,f,fw(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ay,fw(a,b[1],b[2],c))}}(f),q),g=hj(h,n,e(function(b){return a0(b,a,dG(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=ct(j[2]),p=bE(b,hm(a,f,fC(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,fC(a,b[1],b[2],c))}}(f),q),g=ht(h,n,e(function(b){return a2(b,a,dJ(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-kt(c,b,a){if(b){if(a){var
-d=kt(c,b[2],a[2]);return A(a0(b[1],c,a[1]),d)}return B}return B}function
-ku(a,j){switch(j){case
+kH(c,b,a){if(b){if(a){var
+d=kH(c,b[2],a[2]);return A(a2(b[1],c,a[1]),d)}return B}return B}function
+kI(a,j){switch(j){case
 0:var
 d=aF(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
 f=aF(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=cP(D(a[1],a[2]),b),h=aF(c,a[2]),i=aF(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-hk(d,c,a){if(a)var
-e=a[1],g=hk(d,[0,c],a[2]),b=x(bg,jI(function(a){return s(a[1],c)},d)),h=b?ku(e,b[1])[1]:e,f=[0,h,g];else
+c=cW(G(a[1],a[2]),b),h=aF(c,a[2]),i=aF(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+hu(d,c,a){if(a)var
+e=a[1],g=hu(d,[0,c],a[2]),b=x(aQ,jW(function(a){return r(a[1],c)},d)),h=b?kI(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-kv(a,b){return e(function(a){var
-c=a[2];return ku(r(a[1],b,B),c)[2]},a)}function
-kw(i,b,g,a){function
-d(a){return aH(b,a[1])}var
-h=0,j=ae(B);function
+kJ(a,b){return e(function(a){var
+c=a[2];return kI(s(a[1],b,B),c)[2]},a)}function
+kK(i,b,g,a){function
+d(a){return aI(b,a[1])}var
+h=0,j=af(B);function
 c(g,d,a,b){if(a){var
-h=function(a){return aH(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aI(g,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=v(i,a,l);return[0,e(function(b){return v(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-qY=ae(B);function
-kx(e,d,c){if(d){var
-f=r(e,c[2],qZ),a=f?f[1]:[0,qY];if(a)var
-b=kx([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+rh=af(B);function
+kL(e,d,c){if(d){var
+f=s(e,c[2],ri),a=f?f[1]:[0,rh];if(a)var
+b=kL([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return q0}function
-ky(a,c,h,q,p,g,o){var
-d=bc(c);return n(function(d){var
+g=a;return g}return rj}function
+kM(a,c,h,q,p,g,o){var
+d=bg(c);return n(function(d){var
 f=i(o,d);if(f){var
-n=v(a,p,f[1]),j=E(Q(a,b),n),r=h?E(j,aH(d,h[1])):j,k=function(b){function
-f(c){return v(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},q);return a7(a,c,bC(ap([0,r,0],c),g))},l=k(ay(g));if(l)return k(ad(ay(g)));var
+n=v(a,p,f[1]),j=C(R(a,b),n),r=h?C(j,aI(d,h[1])):j,k=function(b){function
+f(c){return v(a,b,aI(d,c))}var
+g=e(function(a){return e(f,a)},q);return a9(a,c,bE(as([0,r,0],c),g))},l=k(ax(g));if(l)return k(ae(ax(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-kz(f,d,c,b,a){var
-g=e(ae,c);return jQ(0,bX(f,es(0,a),g),b,d,0)}function
+kN(f,d,c,b,a){var
+g=e(af,c);return j4(0,bY(f,ex(0,a),g),b,d,0)}function
 W(a){if(a){var
 b=a[1];if(b)var
 c=W(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return q1}function
-fE(b,a){if(a){var
-h=a[1],n=h[1],c=W(e(function(a){return r(a,b,0)},n));if(c){var
-f=r(h[2],b,0);if(f){var
-i=f[1],g=fE(b,a[2]);if(g)var
-j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return rk}function
+fK(b,a){if(a){var
+h=a[1],n=h[1],c=W(e(function(a){return s(a,b,0)},n));if(c){var
+f=s(h[2],b,0);if(f){var
+i=f[1],g=fK(b,a[2]);if(g)var
+j=M(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1827,83 +1827,83 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return q2}function
-ce(d,c,b){var
-a=fE(d,c);return a?i(b,a[1]):a}function
-dH(a,b){return n(function(c){var
-a=r(c,b,0),d=a?1:a;return d},a)}function
-fF(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aS(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-hl(b,a){return b?kh(a,b[1]):a}function
-hm(h,g,b,f){var
-a=r(f,h,0);if(a){var
+m=c;return m}return rl}function
+ch(d,c,b){var
+a=fK(d,c);return a?i(b,a[1]):a}function
+dK(a,b){return n(function(c){var
+a=s(c,b,0),d=a?1:a;return d},a)}function
+fL(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aR(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
+hv(b,a){return b?kv(a,b[1]):a}function
+hw(h,g,b,f){var
+a=s(f,h,0);if(a){var
 c=a[1];if(b){var
-i=kh(c,b[1]),e=bc(g);return n(function(a){return H(d,aH(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-kA(f,d,a){function
-c(a){return a0(a,d,Q(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),B,g]}return ae(B)}function
-fG(b,a){var
-c=r(a[1],b,0);if(c){var
-d=r(a[2],b,0);if(d)var
-e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=kv(c,b[1]),e=bg(g);return n(function(a){return H(d,aI(a,i)[1])},e)}return H(d,c[2][1])}return a}function
+kO(f,d,a){function
+c(a){return a2(a,d,R(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),B,g]}return af(B)}function
+fM(b,a){var
+c=s(a[1],b,0);if(c){var
+d=s(a[2],b,0);if(d)var
+e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-hn(b,a){return W(e(function(a){return r(a,b,0)},a))}function
-eu(c,k,X,C,i,g,j,f,a){switch(f[0]){case
+hx(b,a){return W(e(function(a){return s(a,b,0)},a))}function
+ez(c,k,X,D,i,g,j,f,a){switch(f[0]){case
 0:var
-r=f[1];if(typeof
+s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=dH(C,i);if(Y){var
-aD=a[2],aE=a[1],aG=fF(j,ae(r));return ce(i,k,function(a){return dA(c,g,aG,aE,aD,a)})}return Y;case
+Y=dK(D,i);if(Y){var
+aD=a[2],aE=a[1],aG=fL(j,af(s));return ch(i,k,function(a){return dD(c,g,aG,aE,aD,a)})}return Y;case
 1:var
-Z=dH(C,i);if(Z){var
-aI=a[2],aJ=a[1],aK=fF(j,ae(r));return ce(i,X,function(a){return dA(c,g,aK,aJ,aI,a)})}return Z;case
+Z=dK(D,i);if(Z){var
+aH=a[2],aJ=a[1],aK=fL(j,af(s));return ch(i,X,function(a){return dD(c,g,aK,aJ,aH,a)})}return Z;case
 2:var
-_=dH(C,i);if(_){if(j)return 0;var
-$=ab(r[1],d),aa=$?ab(r[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return ce(i,k,function(a){return dA(c,g,[0,B,B,0],aM,aL,ke([0,B,B,0],a))})}var
-ac=aa}else
+_=dK(D,i);if(_){if(j)return 0;var
+$=ac(s[1],d),aa=$?ac(s[2],d):$;if(aa){var
+aL=a[2],aM=a[1];return ch(i,k,function(a){return dD(c,g,[0,B,B,0],aM,aL,ks([0,B,B,0],a))})}var
+ab=aa}else
 var
-ac=_;return ac}return 0;case
+ab=_;return ab}return 0;case
 1:var
 ad=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hl(j,ae(ad));return ce(i,X,function(a){return he(c,g,aN,a)})}if(!a){var
-aO=hl(j,ae(ad));return ce(i,k,function(a){return he(c,g,aO,a)})}}return 0;case
+aN=hv(j,af(ad));return ch(i,X,function(a){return ho(c,g,aN,a)})}if(!a){var
+aO=hv(j,af(ad));return ch(i,k,function(a){return ho(c,g,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=kA(c,af,a[3]),ag=f[1],aP=a[2];return ce(i,k,function(d){var
-a=kf(g,l),b=a?dA(c,g,fF(j,l),af,aP,d):a;if(b){var
-f=l[3],h=e(function(a){return v(c,ag,a)},f),i=l[2];return he(c,g,hl(j,[0,v(c,ag,l[1]),i,h]),d)}return b})}return 0;case
+ae=a[1],l=kO(c,ae,a[3]),ag=f[1],aP=a[2];return ch(i,k,function(d){var
+a=kt(g,l),b=a?dD(c,g,fL(j,l),ae,aP,d):a;if(b){var
+f=l[3],h=e(function(a){return v(c,ag,a)},f),i=l[2];return ho(c,g,hv(j,[0,v(c,ag,l[1]),i,h]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hm(i,g,j,f[1]);return 0;case
+a==="number"&&!a)return hw(i,g,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=fF(j,ae(f[2])),aT=function(a){return dA(c,g,aS,aR,aQ,a)};return ce(i,f[1],aT)}return 0;case
+aQ=a[2],aR=a[1],aS=fL(j,af(f[2])),aT=function(a){return dD(c,g,aS,aR,aQ,a)};return ch(i,f[1],aT)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hm(i,g,j,f[1]);case
-2:return hm(i,g,j,f[2])}return 0;case
+0:return hw(i,g,j,f[1]);case
+2:return hw(i,g,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-F=fG(i,f[1]);if(F){var
-G=fG(i,f[2]);if(G){var
-H=fG(i,f[3]);if(H){var
-I=fG(i,f[4]);if(I){var
-ah=I[1],ai=H[1],aj=G[1],ak=F[1],m=a[2],t=f[5],aU=a[1];if(m){var
+E=fM(i,f[1]);if(E){var
+F=fM(i,f[2]);if(F){var
+H=fM(i,f[3]);if(H){var
+I=fM(i,f[4]);if(I){var
+ah=I[1],ai=H[1],aj=F[1],ak=E[1],m=a[2],t=f[5],aU=a[1];if(m){var
 o=m[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=km(function(f){function
-g(a){return a0(a,aU,Q(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fr(a),i=D(d[2],h),j=fr(a);return[0,d,[0,aF(d[1],j),i],a]}return ae(B)},aC),M=n(function(a){return s(h(a),[0,g])},m),N=M?fA(c,g,j,t,q,ak,ai):M,O=N?fA(c,g,j,t,q,ak,ah):N,P=O?fA(c,g,j,t,q,aj,ai):O;if(P)return fA(c,g,j,t,q,aj,ah);var
-R=P}else
+aC=[0,m[1],o[1],p[1]],q=kA(function(f){function
+g(a){return a2(a,aU,R(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=fx(a),i=G(d[2],h),j=fx(a);return[0,d,[0,aF(d[1],j),i],a]}return af(B)},aC),M=n(function(a){return r(h(a),[0,g])},m),N=M?fG(c,g,j,t,q,ak,ai):M,O=N?fG(c,g,j,t,q,ak,ah):N,P=O?fG(c,g,j,t,q,aj,ai):O;if(P)return fG(c,g,j,t,q,aj,ah);var
+Q=P}else
 var
-R=p;var
-T=R}else
+Q=p;var
+T=Q}else
 var
 T=o;var
 U=T}else
@@ -1914,40 +1914,40 @@ var
 al=H;var
 am=al}else
 var
-am=G;var
+am=F;var
 an=am}else
 var
-an=F;return an}return 0;case
+an=E;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aV=f[2],aW=f[1];return ce(i,k,function(e){var
-a=s(h(e),g),d=a?s(h(ao),g):a;if(d){var
+ao=a[2],ap=a[1],aV=f[2],aW=f[1];return ch(i,k,function(e){var
+a=r(h(e),g),d=a?r(h(ao),g):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=s(h(d),g);if(e){var
-i=dD(ap,dE(ap,ao,Q(c,b),d));return a7(c,g,bC(fB(c,aW,aV,a[1][2],d),i))}var
+d=a[2],e=r(h(d),g);if(e){var
+i=dG(ap,dH(ap,ao,R(c,b),d));return a9(c,g,bE(fH(c,aW,aV,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:ae(B);return hb(g,hd(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:af(B);return hl(g,hn(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aX=f[3],aY=f[2],aZ=function(d){var
-a=ke([0,B,B,0],d),b=j?j[1]:[0,B,B,0];return dA(c,g,b,aY,aX,a)};return ce(i,f[1],aZ)}return 0;case
+a=ks([0,B,B,0],d),b=j?j[1]:[0,B,B,0];return dD(c,g,b,aY,aX,a)};return ch(i,f[1],aZ)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hn(i,f[1]);if(J){var
-a1=f[2],K=W(e(function(a){return hn(i,a)},a1));if(K){var
-L=hn(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
+J=hx(i,f[1]);if(J){var
+a0=f[2],K=W(e(function(a){return hx(i,a)},a0));if(K){var
+L=hx(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
 u=L[1];if(u){var
 w=u[2];if(w){var
 y=w[2];if(y){var
 z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=w[1][2],at=u[1][2],au=K[1],a2=J[1],V=ky(c,g,j,au,at,as,function(d){return[0,dB(c,av(function(b,a){return A(S(c,aH(d,b)),a)},B,a2))]});return V?V:ky(c,g,j,au,at,as,function(f){var
-b=cS(aq[1]),a=bT(c,E(ar,S(c,b)));if(a){var
-d=bS(c,a[1]),e=E(ar,v(c,b,aH(f,aq)));return x(function(a){return v(c,e,a)},d)}return a})}var
-aw=z}else
+aq=z[1],ar=y[1][2],as=w[1][2],at=u[1][2],au=K[1],a1=J[1],V=kM(c,g,j,au,at,as,function(d){return[0,dE(c,aw(function(b,a){return A(S(c,aI(d,b)),a)},B,a1))]});return V?V:kM(c,g,j,au,at,as,function(f){var
+b=cZ(aq[1]),a=bV(c,C(ar,S(c,b)));if(a){var
+d=bU(c,a[1]),e=C(ar,v(c,b,aI(f,aq)));return x(function(a){return v(c,e,a)},d)}return a})}var
+av=z}else
 var
-aw=y;var
-ax=aw}else
+av=y;var
+ax=av}else
 var
 ax=w;var
 ay=ax}else
@@ -1962,37 +1962,37 @@ aA=K;var
 aB=aA}else
 var
 aB=J;return aB}return 0}}function
-kB(a,$,q,l,m,_,g,k,j,f,c){if(9===f[0]){var
+kP(a,$,q,l,m,_,g,k,j,f,c){if(9===f[0]){var
 aa=f[2],ab=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],t=c[1],ac=c[3];if(0<aO(c[4]))return eu(a,q,l,m,g,h(k),j,f,c);var
-V=e(ae,_),C=bV(0,bX(a,fC(0,k,ab),V),$,0),M=s(h(k),q3),N=M?dH(m,C):M;if(N){var
-u=fE(C,l);if(u){var
-w=fE(g,l);if(w){var
+K=c[2],t=c[1],ac=c[3];if(0<aP(c[4]))return ez(a,q,l,m,g,h(k),j,f,c);var
+V=e(af,_),D=bW(0,bY(a,fI(0,k,ab),V),$,0),L=r(h(k),rm),N=L?dK(m,D):L;if(N){var
+u=fK(D,l);if(u){var
+w=fK(g,l);if(w){var
 y=W(e(function(b){var
-c=r(b[1],g,0);if(c)var
+c=s(b[1],g,0);if(c)var
 f=b[2][2],a=W(e(function(a){var
-b=r(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+b=s(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
 var
 d=c;return d},aa));if(y){var
-z=kp(u[1]);if(z){var
-O=w[1],af=y[1],ag=z[1],F=dB(a,av(function(f,h){function
+z=kD(u[1]);if(z){var
+O=w[1],ad=y[1],ag=z[1],E=dE(a,aw(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ca(r(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cd(s(d,c[3],B))}function
 c(a){var
-b=i(a,qJ),c=bf(i(a,qK),b);return bf(i(a,0),c)}var
+b=i(a,q4),c=bj(i(a,q5),b);return bj(i(a,0),c)}var
 d=c(function(a){var
-c=b(qL,a),d=b(qM,a);return D(D(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,qN),d=b(a,qO);return D(D(b(a,0),d),c)});return A(h,S(a,dB(a,v(a,[0,e,e],g))))},B,ag)),o=a0(ac,t,Q(a,b)),G=K(d,E(o,F)[1]),H=G?s(h(L),qU):G,I=H?s(h(O),qV):H;if(I){var
-p=bS(a,o);if(p){var
-X=ay(v(a,F,p[1])),Y=E(Q(a,b),X),Z=bc(qW);return n(function(h){var
+c=b(q6,a),d=b(q7,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,q8),d=b(a,q9);return G(G(b(a,0),d),c)});return A(h,S(a,dE(a,v(a,[0,e,e],g))))},B,ag)),o=a2(ac,t,R(a,b)),F=M(d,C(o,E)[1]),H=F?r(h(K),rd):F,I=H?r(h(O),re):H;if(I){var
+p=bU(a,o);if(p){var
+X=ax(v(a,E,p[1])),Y=C(R(a,b),X),Z=bg(rf);return n(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cr(dt(function(d,b){var
-c=ca(aH(h,b[2]));return A(d,v(a,b[1],[0,c,c]))},c,d))},af),r=i(aq(function(a){return aH(h,a)}),O),F=j?aH(h,j[1]):B,M=S(a,Y),s=S(a,o),q=dD(t,dE(t,L,Q(a,b),r)),c=bC(ap([0,ad(F),0],qP),q);if(g){var
+c=b[2],d=b[1];return ct(dx(function(d,b){var
+c=cd(aI(h,b[2]));return A(d,v(a,b[1],[0,c,c]))},c,d))},ad),r=i(at(function(a){return aI(h,a)}),O),F=j?aI(h,j[1]):B,M=S(a,Y),s=S(a,o),q=dG(t,dH(t,K,R(a,b),r)),c=bE(as([0,ae(F),0],q_),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-C=d[1],D=g[1],I=f[1],k=a7(a,qR,bC(ap([0,ad(s),0],qQ),c));if(k)return n(function(B){var
-J=E(M,F),K=B[2]?C:ad(C),L=B[1]?D:ad(D),o=0;if(c){var
+D=d[1],E=g[1],I=f[1],k=a9(a,ra,bE(as([0,ae(s),0],q$),c));if(k)return n(function(B){var
+J=C(M,F),K=B[2]?D:ae(D),L=B[1]?E:ae(E),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2031,7 +2031,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a7(a,qT,k)},qS);var
+k=A;return a9(a,rc,k)},rb);var
 l=k}else
 var
 l=f;var
@@ -2047,25 +2047,25 @@ J=I;return J}var
 P=z}else
 var
 P=y;var
-R=P}else
+Q=P}else
 var
-R=w;var
-T=R}else
+Q=w;var
+T=Q}else
 var
 T=u;var
 U=T}else
 var
-U=N;return U}return eu(a,q,l,m,g,h(k),j,f,c)}return eu(a,q,l,m,g,h(k),j,f,c)}function
-kC(d){var
+U=N;return U}return ez(a,q,l,m,g,h(k),j,f,c)}return ez(a,q,l,m,g,h(k),j,f,c)}function
+kQ(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(al(function(b){return function(a){return s(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=_(aj(function(b){return function(a){return r(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kD(j,b,a){if(a){var
+kR(j,b,a){if(a){var
 k=a[1],l=k[2],c=W(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
-g=r(l,j,0);if(g){var
-h=kD(j,b,a[2]);if(h)var
-m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+g=s(l,j,0);if(g){var
+h=kR(j,b,a[2]);if(h)var
+m=M(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2076,48 +2076,48 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return q5}function
-kE(a,P,l,O,t,q,N,y,g,f,k,c){var
-j=h(N),S=es(0,N),aN=bV(0,bX(a,S,e(ae,hk(k,0,t))),P,0),T=e(aB,k),aO=0,aP=e(ae,t),aQ=bV(q6,function(c){var
-au=bU(aB,c),f=i(bX(a,S,aP),au);switch(c[0]){case
+q=c;return q}return ro}function
+kS(a,P,l,O,t,q,N,y,g,f,k,c){var
+j=h(N),Q=ex(0,N),aN=bW(0,bY(a,Q,e(af,hu(k,0,t))),P,0),S=e(aB,k),aO=0,aP=e(af,t),aQ=bW(rp,function(c){var
+au=bB(aB,c),f=i(bY(a,Q,aP),au);switch(c[0]){case
 1:var
 M=c[1],d=e(function(d){var
-c=s(M,d),e=c?[0,[0,ae(Q(a,b))]]:c;return e},T);break;case
+c=r(M,d),e=c?[0,[0,af(R(a,b))]]:c;return e},S);break;case
 3:var
-d=dF(c[1][2],c[2][2]);break;case
+d=dI(c[1][2],c[2][2]);break;case
 4:var
-N=e(hf,c[2][2]),d=dF(c[1][2],N);break;case
+N=e(hp,c[2][2]),d=dI(c[1][2],N);break;case
 5:var
-d=e(hf,c[1][2]);break;case
+d=e(hp,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-O=x[2],P=g[1],R=e(function(b){return cy(a,P,b)},O),U=y[2],V=h[1],d=dF(e(function(b){return cy(a,V,b)},U),R);else{var
+O=x[2],P=g[1],T=e(function(b){return cB(a,P,b)},O),U=y[2],V=h[1],d=dI(e(function(b){return cB(a,V,b)},U),T);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-W=A[2],X=en(f[1]),Y=e(function(b){return cy(a,X,b)},W),Z=dF(c[1][2],Y),_=j[1],d=e(function(b){return hg(a,_,b)},Z);else{var
+W=A[2],X=es(f[1]),Y=e(function(b){return cB(a,X,b)},W),Z=dI(c[1][2],Y),_=j[1],d=e(function(b){return hq(a,_,b)},Z);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aC(a,fD(a),aa),d=e(function(b){return cy(a,ab,b)},$);else
+$=C[2],aa=k[1],ab=aC(a,fJ(a),aa),d=e(function(b){return cB(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],af=aC(a,fD(a),ad),d=e(function(b){return hg(a,af,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aC(a,fJ(a),ad),d=e(function(b){return hq(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],K=0;if(n){var
 o=n[1],p=D[1],L=0;if(p){var
-q=jT(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],t=G[1],ag=E[2],ah=bb(o,r),ai=e(function(b){return cy(a,ah,b)},ag),aj=F[2],ak=bb(m,t),al=dF(e(function(b){return cy(a,ak,b)},aj),ai),am=e(hf,D[2]),an=fD(a),ao=dF(e(function(b){return cy(a,an,b)},al),am),ap=c[1]?t:en(r),aq=e(function(b){return cy(a,ap,b)},ao),ar=aC(a,m,r),as=bb(aC(a,o,t),ar),at=aC(a,fD(a),as),d=e(function(b){return hg(a,at,b)},aq);K=1;L=1}else
+q=j7(a,m,o,p[1]);if(q){var
+G=q[1],s=G[2],t=G[1],ag=E[2],ah=be(o,s),ai=e(function(b){return cB(a,ah,b)},ag),aj=F[2],ak=be(m,t),al=dI(e(function(b){return cB(a,ak,b)},aj),ai),am=e(hp,D[2]),an=fJ(a),ao=dI(e(function(b){return cB(a,an,b)},al),am),ap=c[1]?t:es(s),aq=e(function(b){return cB(a,ap,b)},ao),ar=aC(a,m,s),as=be(aC(a,o,t),ar),at=aC(a,fJ(a),as),d=e(function(b){return hq(a,at,b)},aq);K=1;L=1}else
 var
 H=q}else
 var
@@ -2128,32 +2128,32 @@ I=n;if(!K){var
 J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
-d=e(function(a){return 0},T)}return[0,f,d]},P,aO),aR=kv(k,t);function
+d=e(function(a){return 0},S)}return[0,f,d]},P,aO),aR=kJ(k,t);function
 U(c){var
-d=r(c,q,0);if(d){var
-a=r(c,aN,0);if(a)var
-b=kx(0,k,r(c,aQ,q4)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
+d=s(c,q,0);if(d){var
+a=s(c,aN,0);if(a)var
+b=kL(0,k,s(c,aQ,rn)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
 var
 e=a;var
 f=e}else
 var
 f=d;return f}function
-z(b){return e(function(b){return Q(a,b)},b)}var
-aS=y?y[1]:ae(B);function
-V(b){return b?a7(a,j,b[1]):b}function
+z(b){return e(function(b){return R(a,b)},b)}var
+aS=y?y[1]:af(B);function
+V(b){return b?a9(a,j,b[1]):b}function
 u(f,e,d,c,b){var
-g=ap([0,ad(e),0],j);return V(ks(a,z(f),d,c,b,g))}function
+g=as([0,ae(e),0],j);return V(kG(a,z(f),d,c,b,g))}function
 W(y,x,w){var
-A=ap([0,x,0],j),q=z(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cS(g),h],f];if(m){var
-o=K(d,g[1]);if(o)var
+A=as([0,x,0],j),q=z(y),c=w,f=A;for(;;){if(c){var
+k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cZ(g),h],f];if(m){var
+o=M(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ay(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dG(a),t],v=dG(a),b=hj(a,[0,ad(ek(kr(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dJ(a),t],v=dJ(a),b=ht(a,[0,ae(ep(kF(a,h,q),v,g)),q],u,s,n);else
 var
 b=o}else
 var
 b=[0,n];if(b){var
-i=ha(a,b[1]);if(i){var
+i=hk(a,b[1]);if(i){var
 c=c[2],f=i[1];continue}var
 p=i}else
 var
@@ -2161,108 +2161,108 @@ p=b;var
 r=p}else
 var
 r=[0,f];return V(r)}}var
-aT=e(aB,k),X=n(function(a){return by(a,h(t))},aT),Y=X?kC(e(aB,k)):X,Z=Y?n(function(a){return s(h(a),j)},c):Y;if(Z){var
+aT=e(aB,k),X=n(function(a){return bd(a,h(t))},aT),Y=X?kQ(e(aB,k)):X,Z=Y?n(function(a){return r(h(a),j)},c):Y;if(Z){var
 x=0;switch(g[0]){case
 0:var
-C=g[1],L=0;if(typeof
+D=g[1],K=0;if(typeof
 f!=="number")switch(f[0]){case
 0:var
-aw=0;if(c){if(c[2])return 0;var
-aU=c[1],aV=f[2],aW=f[1],_=dH(O,q);if(_){var
+av=0;if(c){if(c[2])return 0;var
+aU=c[1],aV=f[2],aW=f[1],_=dK(O,q);if(_){var
 o=function(c,a){var
-b=A(C,a);return function(a){return u(aU,b,aW,aV,a)}},m=l;L=1;aw=1}else
+b=A(D,a);return function(a){return u(aU,b,aW,aV,a)}},m=l;K=1;av=1}else
 var
-ac=_}else
+ab=_}else
 var
-ac=c;if(!aw)return ac;break;case
+ab=c;if(!av)return ab;break;case
 2:var
-ax=0;if(c){if(c[2])return 0;var
-aY=c[1],aZ=f[2],a0=f[1],af=dH(O,q),az=0;if(af){if(y)return 0;var
-ag=ab(C[1],d),ah=ag?ab(C[2],d):ag;if(ah){var
-o=function(c,b,a){return u(aY,B,a0,aZ,e(qX,a))},m=l;L=1;ax=1;az=1}else
+ay=0;if(c){if(c[2])return 0;var
+aY=c[1],aZ=f[2],a0=f[1],ad=dK(O,q),az=0;if(ad){if(y)return 0;var
+ag=ac(D[1],d),ah=ag?ac(D[2],d):ag;if(ah){var
+o=function(c,b,a){return u(aY,B,a0,aZ,e(rg,a))},m=l;K=1;ay=1;az=1}else
 var
 ai=ah}else
 var
-ai=af;if(!az)var
+ai=ad;if(!az)var
 aj=ai}else
 var
-aj=c;if(!ax)return aj;break}if(!L)return 0;break;case
+aj=c;if(!ay)return aj;break}if(!K)return 0;break;case
 1:var
 aA=0,a1=g[1];if(typeof
 f==="number"&&!f){if(!c)return c;if(c[2])return 0;var
 a2=c[1],o=function(c,a){var
-b=E(a1,a);return function(a){return W(a2,b,a)}},m=l;aA=1}if(!aA)return 0;break;case
+b=C(a1,a);return function(a){return W(a2,b,a)}},m=l;aA=1}if(!aA)return 0;break;case
 2:var
 aD=0,a3=g[1];if(typeof
 f==="number"||!(3===f[0]))aD=1;else{var
 aE=0;if(c){var
-w=c[2],aI=0;if(w){if(w[2])return 0;var
-ak=f[1],a4=w[1],a5=c[1],a6=f[2],al=kA(a,ak,f[3]),am=kf(j,al);if(am){var
+w=c[2],aH=0;if(w){if(w[2])return 0;var
+ak=f[1],a4=w[1],a5=c[1],a6=f[2],al=kO(a,ak,f[3]),am=kt(j,al);if(am){var
 o=function(f,c,b){var
-d=aH(f,al),e=u(a5,A(d,c),ak,a6,b);return e?W(a4,E(v(a,a3,d),c),b):e},m=l;aE=1;aI=1}else
+d=aI(f,al),e=u(a5,A(d,c),ak,a6,b);return e?W(a4,C(v(a,a3,d),c),b):e},m=l;aE=1;aH=1}else
 var
 an=am}else
 var
-an=w;if(!aI)var
+an=w;if(!aH)var
 ao=an}else
 var
 ao=c;if(!aE)return ao}if(aD)return 0;break;case
 3:var
 aJ=0;if(typeof
 f==="number"&&!f){if(c)return 0;var
-G=g[1];x=1}else
+F=g[1];x=1}else
 aJ=1;if(aJ)return 0;break;case
 4:var
-aK=0,a9=g[2];if(typeof
+aK=0,a8=g[2];if(typeof
 f==="number"||!(0===f[0]))aK=1;else{if(!c)return c;if(c[2])return 0;var
-a_=c[1],a$=f[2],ba=f[1],bd=function(c,a){var
-b=A(a9,a);return function(a){return u(a_,b,ba,a$,a)}},o=bd,m=g[1]}if(aK)return 0;break;case
+a_=c[1],a$=f[2],ba=f[1],bb=function(c,a){var
+b=A(a8,a);return function(a){return u(a_,b,ba,a$,a)}},o=bb,m=g[1]}if(aK)return 0;break;case
 5:var
-M=0;if(typeof
+L=0;if(typeof
 f==="number"&&!(3<=f))switch(f){case
 0:if(c)return 0;var
-G=g[1];x=1;break;case
+F=g[1];x=1;break;case
 2:if(c)return 0;var
-G=g[2];x=1;break;default:M=1}else
-M=1;if(M)return 0;break;case
+F=g[2];x=1;break;default:L=1}else
+L=1;if(L)return 0;break;case
 7:var
-aq=g[2],ar=g[1],aL=0;if(typeof
+ap=g[2],aq=g[1],aL=0;if(typeof
 f==="number"||!(0===f[0]))aL=1;else{var
 aM=0;if(c){if(c[2])return 0;var
-p=f[2],J=f[1],be=c[1],as=s(h(l),j);if(as){var
+p=f[2],J=f[1],bc=c[1],at=r(h(l),j);if(at){var
 o=function(b,y){var
-A=z(be);return function(f){var
-k=s(h(f),j),l=k?s(h(p),j):k;if(l){var
-t=e(aB,f),u=dD(J,dE(J,p,dG(a),t)),w=bC(fB(a,ar,aq,y,e(aB,f)),u),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
-o=c[1][2],q=s(b,ar),r=e(function(f,g){return function(d){var
-b=at(aG(0,h(p)),p);return e(function(b){var
-c=kt(J,b[2],d[1]);if(g&&s(b[1],f))return E(c,ay(v(a,aq,d[2])));return c},b)}}(b,q),o),n=aG(0,x),i=hj(a,A,e(function(c){return function(b){return s(b,c)?dG(a):B}}(b),n),r,g);if(i){var
+A=z(bc);return function(f){var
+k=r(h(f),j),l=k?r(h(p),j):k;if(l){var
+t=e(aB,f),u=dG(J,dH(J,p,dJ(a),t)),w=bE(fH(a,aq,ap,y,e(aB,f)),u),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
+o=c[1][2],q=r(b,aq),s=e(function(f,g){return function(d){var
+b=ar(aG(0,h(p)),p);return e(function(b){var
+c=kH(J,b[2],d[1]);if(g&&r(b[1],f))return C(c,ax(v(a,ap,d[2])));return c},b)}}(b,q),o),n=aG(0,x),i=ht(a,A,e(function(c){return function(b){return r(b,c)?dJ(a):B}}(b),n),s,g);if(i){var
 b=[0,b],c=c[2],g=i[1];continue}var
 d=i}else
 var
-d=[0,g];if(d)return a7(a,j,d[1]);var
+d=[0,g];if(d)return a9(a,j,d[1]);var
 m=d;break}}else
 var
 m=l;return m}},m=l;aM=1}else
 var
-au=as}else
+au=at}else
 var
 au=c;if(!aM)return au}if(aL)return 0;break;default:return 0}if(x){var
-I=U(G);if(!I)return I;var
-a8=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=av(function(b,a){return D(bf(d,R(b[2][1])),a)},d,c);return H(d,aF(aF(a[1][2][1],e),b))},a)},aa=a8,$=[0,[0,0,I[1]],0]}else{var
-F=kD(q,U,m);if(!F)return F;var
-aa=o,$=F[1]}var
-aX=bc(j);return n(function(b){var
-c=e(function(c){return kw(a,b,aR,c)},$);return EM(aa,b,aH(b,aS),c)},aX)}return Z}function
-fH(b,a){if(a){var
+I=U(F);if(!I)return I;var
+a7=function(b,f,a){return n(function(a){var
+b=f[2],c=a[2],e=aw(function(b,a){return G(bj(d,T(b[2][1])),a)},d,c);return H(d,aF(aF(a[1][2][1],e),b))},a)},aa=a7,$=[0,[0,0,I[1]],0]}else{var
+E=kR(q,U,m);if(!E)return E;var
+aa=o,$=E[1]}var
+aX=bg(j);return n(function(b){var
+c=e(function(c){return kK(a,b,aR,c)},$);return Fh(aa,b,aI(b,aS),c)},aX)}return Z}function
+fN(b,a){if(a){var
 c=a[2];if(b){var
-e=fH(b[1],c);return[0,a[1],e]}var
+e=fN(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-ho(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kF(j,d,i,a,h){var
+hy(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+kT(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2271,7 +2271,7 @@ switch(b[0]){case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=ho(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=hy(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2279,147 +2279,147 @@ k=c?0:1,l=k?d:j,g=ho(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=w(function(a){var
-b=e(bg,a[2][2]);return[0,a[1],b]},n);return f(ho(d),o);case
+b=e(aQ,a[2][2]);return[0,a[1],b]},n);return f(hy(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(ei(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(en(a[2]),p);return f(a[1],q);case
 4:case
-8:return ho(a[1]);default:return g}}}function
-kG(p,j,o,C,m,l,W,B,b,A,V){if(A){var
-s=kz(p,j,l,g8(w(function(c){var
+8:return hy(a[1]);default:return g}}}function
+kU(p,j,o,C,m,l,W,B,b,A,V){if(A){var
+r=kN(p,j,l,hg(w(function(c){var
 a=c[2];if(typeof
 a==="number"){var
 d=4!==a?1:0;if(!d)return d}var
-b=M(W,c[1]);return b?kF(o,C,m,b[1],a):b},A),j),b),k=A,g=V;for(;;){if(k){var
+b=E(W,c[1]);return b?kT(o,C,m,b[1],a):b},A),j),b),k=A,g=V;for(;;){if(k){var
 Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
 a==="number"&&4===a){var
 v=i(B,b);if(v)var
-aa=v[1],Z=bc(h(b)),y=n(function(b){return function(a){return K(aH(a,b)[2],d)}}(aa),Z);else
+aa=v[1],Z=bg(h(b)),y=n(function(b){return function(a){return M(aI(a,b)[2],d)}}(aa),Z);else
 var
 y=v;if(y){var
 k=R,g=e(function(a){return 0},g);continue}return y}var
-S=r(x,g,0);if(S){var
-z=M(W,x);if(z){var
+S=s(x,g,0);if(S){var
+z=E(W,x);if(z){var
 q=z[1],D=0;if(typeof
 a==="number")D=1;else
 switch(a[0]){case
 5:var
-F=a[2],t=i(B,b),X=0;if(t){var
-G=H(d,F);if(G){var
-_=a[1],c=kB(p,j,o,C,m,l,s,b,[0,kg(F,a[3],t[1])],q,_);X=1}else
+G=a[2],t=i(B,b),X=0;if(t){var
+I=H(d,G);if(I){var
+_=a[1],c=kP(p,j,o,C,m,l,r,b,[0,ku(G,a[3],t[1])],q,_);X=1}else
 var
-I=G}else
+J=I}else
 var
-I=t;if(!X)var
-c=I;break;case
+J=t;if(!X)var
+c=J;break;case
 10:var
-J=a[3],L=a[2],f=a[1],E=0;if(typeof
+K=a[3],L=a[2],f=a[1],F=0;if(typeof
 f!=="number"&&5===f[0]){var
 N=f[2],u=i(B,b),Y=0;if(u){var
 O=H(d,N);if(O){var
-$=f[1],c=kE(p,j,o,m,l,s,b,[0,kg(N,f[3],u[1])],q,$,L,J);E=1;Y=1}else
+$=f[1],c=kS(p,j,o,m,l,r,b,[0,ku(N,f[3],u[1])],q,$,L,K);F=1;Y=1}else
 var
 P=O}else
 var
 P=u;if(!Y){var
-c=P;E=1}}if(!E)var
-c=kE(p,j,o,m,l,s,b,0,q,f,L,J);break;default:D=1}if(D)var
-c=kB(p,j,o,C,m,l,s,b,0,q,a);if(c){var
-k=R,g=fH(x,g);continue}var
+c=P;F=1}}if(!F)var
+c=kS(p,j,o,m,l,r,b,0,q,f,L,K);break;default:D=1}if(D)var
+c=kP(p,j,o,C,m,l,r,b,0,q,a);if(c){var
+k=R,g=fN(x,g);continue}var
 T=c}else
 var
 T=z;var
 U=T}else
 var
 U=S;return U}return[0,g]}}return[0,V]}function
-fI(j,i,h,g,f,e,d,c,u,t,s){var
+fO(j,i,h,g,f,e,d,c,u,t,s){var
 b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kG(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(ac,l[1]):l}var
-m=kG(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=et(a[2],b),q=fI(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
+l=kU(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(_,l[1]):l}var
+m=kU(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
+o=m[1],p=ey(a[2],b),q=fO(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
 b=p[2],k=o,a=a[4];continue}var
 r=q}else
 var
 r=m;return r}}function
-hp(a){return e(function(a){return 1},a)}function
-dI(a,d,b,c){function
+hz(a){return e(function(a){return 1},a)}function
+dL(a,d,b,c){function
 f(d,c){var
-f=at(a[1],b[1]);return e(function(a){var
-b=p(c,a[2]);return y(p(d,a[1]),b)},f)}if(az(a[2],b[2])){var
+f=ar(a[1],b[1]);return e(function(a){var
+b=q(c,a[2]);return y(q(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=p(a[2],b[2]),i=p(c,a[2]);return[0,f(p(d,b[2]),i),h]}function
-kH(a){var
-c=j(b);return[0,e(function(a){return j(d)},a),c]}function
-aU(a,l){var
+h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
+kV(a){var
+c=k(b);return[0,e(function(a){return k(d)},a),c]}function
+aW(a,l){var
 f=l[1];switch(f[0]){case
 1:var
-v=f[1];if(al(function(a){return s(v,a)},a)){var
-C=j(b);return[0,e(function(a){var
-c=s(a,v)?b:d;return j(c)},a),C]}return kH(a);case
+v=f[1];if(aj(function(a){return r(v,a)},a)){var
+C=k(b);return[0,e(function(a){var
+c=r(a,v)?b:d;return k(c)},a),C]}return kV(a);case
 3:var
-D=j(b),E=aU(a,f[2]),F=j(b);return dI(aU(a,f[1]),F,E,D);case
+D=k(b),E=aW(a,f[2]),F=k(b);return dL(aW(a,f[1]),F,E,D);case
 4:var
-G=j(R(b)),H=aU(a,f[2]),I=j(b);return dI(aU(a,f[1]),I,H,G);case
+G=k(T(b)),H=aW(a,f[2]),I=k(b);return dL(aW(a,f[1]),I,H,G);case
 5:var
-w=aU(a,f[1]),J=w[2];return[0,e(bk,w[1]),J];case
+w=aW(a,f[1]),J=w[2];return[0,e(bo,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aU(a,x);return dI(aU(a,y),x,K,y);case
+x=f[2],y=f[1],K=aW(a,x);return dL(aW(a,y),x,K,y);case
 7:var
-z=f[2],L=bk(l),M=aU(a,z),N=j(b),i=dI(aU(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aT(d,a)},O))return i;var
-P=p(i[2],z);return[0,i[1],P];case
+z=f[2],L=bo(l),M=aW(a,z),N=k(b),i=dL(aW(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aV(d,a)},O))return i;var
+P=q(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=aU(a,A),Q=B[2],S=B[1],T=p(j(c(2,b)),A);return[0,e(function(a){return p(T,a)},S),Q];case
+A=f[1],B=aW(a,A),Q=B[2],R=B[1],S=q(k(c(2,b)),A);return[0,e(function(a){return q(S,a)},R),Q];case
 9:var
-k=aU(a,f[1]),U=k[1];if(n(function(a){return aT(d,a)},U)){var
-V=j(b);return[0,k[1],V]}var
-W=p(j(c(2,b)),l),X=p(k[2],W);return[0,k[1],X];case
+j=aW(a,f[1]),U=j[1];if(n(function(a){return aV(d,a)},U)){var
+V=k(b);return[0,j[1],V]}var
+W=q(k(c(2,b)),l),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],q=[0,[10,1,h,g,m]],Y=u(g,q),Z=aU(a,g),_=u(h,o),$=dI(aU(a,h),_,Z,Y),aa=j(R(b)),ab=aU(a,m),r=dI($,j(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bk(q),t=e(function(a){return p(ad,a)},ac);if(n(function(a){return aT(d,a)},t))return[0,t,r[2]];var
-ae=p(h,q),af=u(p(g,o),ae),ag=p(j(c(2,b)),af);return[0,t,p(r[2],ag)];default:return kH(a)}}function
-kI(c,a){var
-b=aU(c,a),f=b[1];return e(function(a){return aT(d,a)?a:ag(a,b[2])},f)}function
-cz(n,r){var
+m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=u(g,p),Z=aW(a,g),_=u(h,o),$=dL(aW(a,h),_,Z,Y),aa=k(T(b)),ab=aW(a,m),s=dL($,k(c(2,b)),ab,aa),ac=s[1],ad=f[1]?o:bo(p),t=e(function(a){return q(ad,a)},ac);if(n(function(a){return aV(d,a)},t))return[0,t,s[2]];var
+ae=q(h,p),af=u(q(g,o),ae),ag=q(k(c(2,b)),af);return[0,t,q(s[2],ag)];default:return kV(a)}}function
+kW(c,a){var
+b=aW(c,a),f=b[1];return e(function(a){return aV(d,a)?a:ah(a,b[2])},f)}function
+cC(n,r){var
 h=n[1],e=h[2],f=h[1];if(0===f[0]){var
 i=f[2],c=f[1];if(H(i,b))if(0===e[0]){var
-k=e[2],o=e[1];if(H(k,b)){var
-l=ab(c,o),m=l?el(c):l;if(m)var
-p=ab(n[2],d),g=p||ab(c,d);else
+j=e[2],o=e[1];if(H(j,b)){var
+l=ac(c,o),m=l?eq(c):l;if(m)var
+p=ac(n[2],d),g=p||ac(c,d);else
 var
 g=m;var
 q=g?[0,c]:g,a=q}else
 var
-a=ab(aZ(k,aM(2))[2],d)?0:0}else
+a=ac(a1(j,aO(2))[2],d)?0:0}else
 var
 a=0;else
 var
-a=ab(aZ(i,aM(2))[2],d)?0:0}else
+a=ac(a1(i,aO(2))[2],d)?0:0}else
 var
-a=0;return a?j(a[1]):[0,[1,r]]}function
-cf(b,a){if(a)var
-d=cf([0,b],a[2]),c=[0,cz(a[1],b),d];else
+a=0;return a?k(a[1]):[0,[1,r]]}function
+ci(b,a){if(a)var
+d=ci([0,b],a[2]),c=[0,cC(a[1],b),d];else
 var
 c=a;return c}function
-aV(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fJ(b,d,a){switch(a[0]){case
+aX(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+fP(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aV(c[3],b),g),i=f(aV(c[2],b),h);return f(aV(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(aX(c[3],b),g),i=f(aX(c[2],b),h);return f(aX(c[1],d),i);case
 1:var
-e=a[3],j=e?aV(e[1],d):e,k=f(aV(a[2],b),j);return f(aV(a[1],b),k);default:return aV(a[1],d)}}function
-af(b,a){var
-c=j(d),e=r(P(q7,a),b,c),f=j(d),g=r(P(q8,a),b,f);return[0,r(a,b,j(d)),g,e]}function
-kJ(b,a){return Z(u,Z(y,cV,a),b)}function
-fK(c,b,a){if(a){var
-e=a[2],g=fK(c,bh(b),e),h=a[1];return f(fJ(c,bz(d,b),h),g)}return a}function
-hq(f,e,c,k){if(c){var
-b=c[1],v=P(k,h(fJ(f,bz(d,e),b))),w=c[2],x=hq(f,bh(e),w,v),a=cf(k,fJ(f,bz(d,e),b));switch(b[0]){case
+e=a[3],j=e?aX(e[1],d):e,k=f(aX(a[2],b),j);return f(aX(a[1],b),k);default:return aX(a[1],d)}}function
+ag(b,a){var
+c=k(d),e=s(O(rq,a),b,c),f=k(d),g=s(O(rr,a),b,f);return[0,s(a,b,k(d)),g,e]}function
+kX(b,a){return $(u,$(y,c2,a),b)}function
+fQ(c,b,a){if(a){var
+e=a[2],g=fQ(c,bl(b),e),h=a[1];return f(fP(c,bA(d,b),h),g)}return a}function
+hA(f,e,c,j){if(c){var
+b=c[1],v=O(j,h(fP(f,bA(d,e),b))),w=c[2],x=hA(f,bl(e),w,v),a=ci(j,fP(f,bA(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(q9,a,j(d)),o=Z(y,cV,af(a,q_)),p=cU(af(a,0)),q=af(a,q$),g=ki(kJ(af(a,ra),q),p,o,n,m);break;case
+m=b[1][5],n=s(rs,a,k(d)),o=$(y,c2,ag(a,rt)),p=c1(ag(a,0)),q=ag(a,ru),g=kw(kX(ag(a,rv),q),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,cU(af(a,rb))]:i,t=Z(y,cV,af(a,rc)),u=af(a,rd),g=kj(kJ(af(a,0),u),t,s);break;default:var
-g=kk(cV,cU(af(a,0)))}var
+i=b[3],r=i?[0,c1(ag(a,rw))]:i,t=$(y,c2,ag(a,rx)),u=ag(a,ry),g=kx(kX(ag(a,0),u),t,r);break;default:var
+g=ky(c2,c1(ag(a,0)))}var
 l=[0,g,x]}else
 var
 l=c;return l}function
-bE(c,a){if(typeof
+bG(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2428,7 +2428,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dw(a[2]),l=[2,[2,dw(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=dA(a[2]),l=[2,[2,dA(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2445,91 +2445,91 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],c]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-ev(b,a){var
+eA(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dJ(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(ev(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=ev(c,a[3]);return f(ev(c,a[2]),j)}function
-cW(b,a){if(typeof
+dM(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(eA(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=eA(c,a[3]);return f(eA(c,a[2]),j)}function
+c3(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dJ(b,a[2]);return f(dJ(b,a[1]),h);case
+h=dM(b,a[2]);return f(dM(b,a[1]),h);case
 11:var
-i=ev(b,a[3]);return f(ev(b,a[2]),i);case
+i=eA(b,a[3]);return f(eA(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kK(c,b,a){var
-d=h(cW(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-hr(c,b){if(az(b,c))return[0,j(d)];var
+kY(c,b,a){var
+d=h(c3(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
+hB(c,b){if(ay(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
-e=az(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-kL(z,p,a,o){switch(o[0]){case
+e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+kZ(z,p,a,o){switch(o[0]){case
 0:var
-h=M(z,o[1]);if(h){var
-k=h[1];if(k){var
-q=k[1],s=q[1],c=s[2],e=s[1],t=q[2],A=af(a,re),B=Z(y,Z(u,e,aP(ag(r(rf,a,j(d)),t),c)),A),C=af(a,rg),f=ag(r(0,a,j(d)),t),l=hr(e[1],c[1]);if(l){var
-m=hr(e[2],c[2]);if(m){var
-n=hr(e[3],c[3]);if(n)var
-x=aP(f,c),g=Z(y,[0,l[1],m[1],n[1]],x);else
+h=E(z,o[1]);if(h){var
+j=h[1];if(j){var
+q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],A=ag(a,rz),B=$(y,$(u,e,aS(ah(s(rA,a,k(d)),t),c)),A),C=ag(a,rB),f=ah(s(0,a,k(d)),t),l=hB(e[1],c[1]);if(l){var
+m=hB(e[2],c[2]);if(m){var
+n=hB(e[3],c[3]);if(n)var
+x=aS(f,c),g=$(y,[0,l[1],m[1],n[1]],x);else
 var
-g=Z(u,e,aP(u(j(b),f),c))}else
+g=$(u,e,aS(u(k(b),f),c))}else
 var
-g=Z(u,e,aP(u(j(b),f),c))}else
+g=$(u,e,aS(u(k(b),f),c))}else
 var
-g=Z(u,e,aP(u(j(b),f),c));var
-v=[0,[0,Z(y,g,C),B]]}else
+g=$(u,e,aS(u(k(b),f),c));var
+v=[0,[0,$(y,g,C),B]]}else
 var
-v=k;var
+v=j;var
 w=v}else
 var
 w=h;return w;case
 1:var
-D=af(a,rh);return[0,[0,af(a,0),D]];default:var
-E=i(p,af(a,ri));return[0,[0,i(p,af(a,0)),E]]}}function
-kM(e,d,c,h,g){var
-a=kL(e,d,bj(rj,c),h);if(a)var
-b=kL(e,d,bR(rk,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ag(a,rC);return[0,[0,ag(a,0),D]];default:var
+F=i(p,ag(a,rD));return[0,[0,i(p,ag(a,0)),F]]}}function
+k0(e,d,c,h,g){var
+a=kZ(e,d,bn(rE,c),h);if(a)var
+b=kZ(e,d,bT(rF,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-kN(g,c,d,b,a){var
-h=dJ(c,a),i=cf(d,f(dJ(c,b),h));function
-j(a){return Z(y,cV,a)}return kM(e(function(a){var
+k1(g,c,d,b,a){var
+h=dM(c,a),i=ci(d,f(dM(c,b),h));function
+j(a){return $(y,c2,a)}return k0(e(function(a){var
 b=a[7];return x(function(b){var
-c=cx(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-cX(d,c,b,a){var
-e=p(c,b);return u(p(d,a),e)}function
-bF(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kO(b,a){if(b)if(a)var
-d=b[1],e=kO(b[2],a[2]),f=p(d[2],a[1]),c=[0,[0,bD(d[1]),f],e];else
+c=cA(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+c4(d,c,b,a){var
+e=q(c,b);return u(q(d,a),e)}function
+bH(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+k2(b,a){if(b)if(a)var
+d=b[1],e=k2(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bF(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-kP(a){if(a){var
+k3(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=kP(a[2]);if(d)var
-g=d[1],h=N(c,c),e=[0,[0,[0,bD(c),h],g]];else
+c=b[1],d=k3(a[2]);if(d)var
+g=d[1],h=P(c,c),e=[0,[0,[0,bF(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return rm}function
-ew(b,d,c,a){if(typeof
+f=b;return f}return rH}function
+eB(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cz(bE(d,a),i);return[0,e(function(a){var
-b=p(a[2],j);return[0,bD(a[1]),b]},b)];case
-9:return kP(b);case
+i=c[1],j=cC(bG(d,a),i);return[0,e(function(a){var
+b=q(a[2],j);return[0,bF(a[1]),b]},b)];case
+9:return k3(b);case
 15:var
-k=h(b),f=s(h(a[1]),k);if(f)var
-l=cW(d,a),g=[0,kO(b,cf(c[2],l))];else
+k=h(b),f=r(h(a[1]),k);if(f)var
+l=c3(d,a),g=[0,k2(b,ci(c[2],l))];else
 var
 g=f;return g}return 0}function
-fL(e,l,k,a){var
-R=k[1],c=cz(bE(l,a),R),v=0;if(typeof
+fR(e,l,j,a){var
+R=j[1],c=cC(bG(l,a),R),v=0;if(typeof
 a==="number")v=1;else
 switch(a[0]){case
 2:var
@@ -2538,97 +2538,97 @@ S=function(a){return[0,u(a[4],c),0]},g=S,f=a[1];break;case
 T=function(a){return[0,u(c,a[4]),0]},g=T,f=a[1];break;case
 4:var
 U=function(b){var
-a=b[1],d=J(a[3]),e=J(a[2]),f=J(a[1]),g=b[2];return[0,u(u(u(p(J(c),g),f),e),d),0]},g=U,f=a[1];break;case
+a=b[1],d=L(a[3]),e=L(a[2]),f=L(a[1]),g=b[2];return[0,u(u(u(q(L(c),g),f),e),d),0]},g=U,f=a[1];break;case
 6:var
 V=function(b){var
 a=b[5];if(a)var
-e=J(a[1]),f=p(J(c),e),d=[0,u(b[2],f),0];else
+e=L(a[1]),f=q(L(c),e),d=[0,u(b[2],f),0];else
 var
 d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-z=n[1],A=m[1],B=e[1],h=z[1],i=A[1],q=B[1],K=cX(i[1],i[2],h[1],h[2]),L=p(q[3],K),O=cX(i[1],i[3],h[1],h[3]),P=p(q[2],O),Q=cX(i[2],i[3],h[2],h[3]),x=y(u(p(q[1],Q),P),L),W=cx(z),X=cx(A),C=p(p(p(c,cx(B)),X),W),Y=[0,bk(y(x,C)),0],D=[0,u(x,C),Y]}else
+z=n[1],A=m[1],B=e[1],h=z[1],i=A[1],p=B[1],K=c4(i[1],i[2],h[1],h[2]),M=q(p[3],K),N=c4(i[1],i[3],h[1],h[3]),O=q(p[2],N),Q=c4(i[2],i[3],h[2],h[3]),x=y(u(q(p[1],Q),O),M),W=cA(z),X=cA(A),C=q(q(q(c,cA(B)),X),W),Y=[0,bo(y(x,C)),0],D=[0,u(x,C),Y]}else
 var
 D=n;var
-E=D}else
+F=D}else
 var
-E=m;var
-F=E}else
+F=m;var
+G=F}else
 var
-F=e;return F;case
+G=e;return G;case
 10:var
-t=kN(e,l,k[2],a[1],a[2]);if(t){var
-G=t[1],H=G[2],I=G[1];return w(bD,[0,I[1],[0,I[2],[0,H[1],[0,H[2],0]]]])}return t;case
+t=k1(e,l,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return w(bF,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
-_=function(d){var
+Z=function(d){var
 e=d[7];if(e)var
-n=cW(l,a),f=cf(k[2],n),h=af(f,rl),b=Z(u,af(f,0),h),i=J(c),j=J(cx(d)),m=ag(J(N(b,d[1])),j),g=[0,u(u(N(b,b),m),i),0];else
+n=c3(l,a),f=ci(j[2],n),h=ag(f,rG),b=$(u,ag(f,0),h),i=L(c),k=L(cA(d)),m=ah(L(P(b,d[1])),k),g=[0,u(u(P(b,b),m),i),0];else
 var
-g=e;return g},g=_,f=a[1];break;case
+g=e;return g},g=Z,f=a[1];break;case
 12:var
-$=function(e){var
-q=j(d),s=cW(l,a),t=r(0,cf(k[2],s),q),f=ag(t,cx(e)),g=e[5];if(g){var
-m=aA(e[2]),h=ag(g[1],m),n=p(h,y(c,p(f,J(h))));return[0,u(j(b),n),0]}var
-i=e[7],o=i?[0,u(u(j(b),c),f),0]:i;return o},g=$,f=a[1];break;case
+_=function(e){var
+p=k(d),r=c3(l,a),t=s(0,ci(j[2],r),p),f=ah(t,cA(e)),g=e[5];if(g){var
+m=az(e[2]),h=ah(g[1],m),n=q(h,y(c,q(f,L(h))));return[0,u(k(b),n),0]}var
+i=e[7],o=i?[0,u(u(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-s=ew(e,l,k,a);return s?bF(s[1]):s;default:v=1}if(v)return 0;var
-o=M(e,f);return o?g(o[1]):o}function
-hs(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hs(d,b,kK(b,e,c),g);return f(fL(d,b,c,e),h)}return a}var
-kQ=[0,d,b],kR=[0,[0,kQ,kQ],d];function
-fM(a){return ac(cd(a[1][1],a[1][2]))}function
-kS(a){var
-b=aG(0,h(a));return bi(function(b){return fM(r(b,a,kR))},b)}function
-fN(a,b){var
-c=kI(kS(a),b),e=at(kS(a),c);return bi(function(a){return ac(aT(d,a[2]))},e)}function
-kT(b,a){var
+r=eB(e,l,j,a);return r?bH(r[1]):r;default:v=1}if(v)return 0;var
+o=E(e,f);return o?g(o[1]):o}function
+hC(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hC(d,b,kY(b,e,c),g);return f(fR(d,b,c,e),h)}return a}var
+k4=[0,d,b],k5=[0,[0,k4,k4],d];function
+fS(a){return _(cg(a[1][1],a[1][2]))}function
+k6(a){var
+b=aG(0,h(a));return bm(function(b){return fS(s(b,a,k5))},b)}function
+fT(a,b){var
+c=kW(k6(a),b),e=ar(k6(a),c);return bm(function(a){return _(aV(d,a[2]))},e)}function
+k7(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kU(m,l,f,k,j,a){var
-d=fN(f,a);return W(e(function(e){var
-a=r(e[1],f,kR),g=aF(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=aj(m,[0,[0,d,d],g]);return x(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-kV(g,f,n,m,l,e,c){var
-h=[5,l,e],a=aj(g,[0,[0,h,h],d]);if(a){var
-b=kU(g,f,n,m,e,c);if(b)var
+k8(m,l,f,k,j,a){var
+d=fT(f,a);return W(e(function(e){var
+a=s(e[1],f,k5),g=aF(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=ak(m,[0,[0,d,d],g]);return x(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+k9(g,f,n,m,l,e,c){var
+h=[5,l,e],a=ak(g,[0,[0,h,h],d]);if(a){var
+b=k8(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-kW(c,E,l,am,k,j,m,r){if(r){var
-a=r[1],aH=r[2],aI=kW(c,E,l,am,k,j,kK(j,a,m),aH);if(typeof
+k_(c,F,l,am,k,j,m,s){if(s){var
+a=s[1],aH=s[2],aI=k_(c,F,l,am,k,j,kY(j,a,m),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,B]];else
 var
-ao=E[2],ap=E[1],ar=er(k),f=[0,[8,i(aq(l),ar),ap,ao]];else
+ao=F[2],ap=F[1],aq=ew(k),f=[0,[8,i(at(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-as=aj(c,bE(j,a)),f=x(function(a){return[0,S(c,a)]},as);break;case
+ar=ak(c,bG(j,a)),f=x(function(a){return[0,S(c,a)]},ar);break;case
 1:var
-at=aj(c,bE(j,a)),f=x(function(a){return[1,S(c,a)]},at);break;case
+as=ak(c,bG(j,a)),f=x(function(a){return[1,S(c,a)]},as);break;case
 5:var
-av=aj(c,bE(j,a)),f=x(function(a){return[2,S(c,a)]},av);break;case
+av=ak(c,bG(j,a)),f=x(function(a){return[2,S(c,a)]},av);break;case
 8:var
-aw=ew(k,j,m,a),f=x(function(a){var
-d=Q(c,b);return[4,i(aq(l),a),d]},aw);break;case
+aw=eB(k,j,m,a),f=x(function(a){var
+d=R(c,b);return[4,i(at(l),a),d]},aw);break;case
 9:var
-v=ew(k,j,m,a);if(v){var
-w=aj(c,bE(j,a));if(w)var
-ax=S(c,w[1]),ay=v[1],K=[0,[4,i(aq(l),ay),ax]];else
+v=eB(k,j,m,a);if(v){var
+w=ak(c,bG(j,a));if(w)var
+ax=S(c,w[1]),ay=v[1],L=[0,[4,i(at(l),ay),ax]];else
 var
-K=w;var
-L=K}else
+L=w;var
+M=L}else
 var
-L=v;var
-f=L;break;case
+M=v;var
+f=M;break;case
 10:var
-y=kN(k,j,m[2],a[1],a[2]);if(y){var
-N=y[1],O=N[2],P=N[1],z=aj(c,bE(j,a));if(z){var
-R=z[1],T=H(d,R[1]);if(T)var
-p=function(a){return kT(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),U=[0,[6,p(P[1]),aB,aA,az,R]];else
+y=k1(k,j,m[2],a[1],a[2]);if(y){var
+N=y[1],O=N[2],P=N[1],z=ak(c,bG(j,a));if(z){var
+Q=z[1],T=H(d,Q[1]);if(T)var
+p=function(a){return k7(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),U=[0,[6,p(P[1]),aB,aA,az,Q]];else
 var
 U=T;var
 V=U}else
@@ -2639,7 +2639,7 @@ var
 X=y;var
 f=X;break;case
 12:var
-q=fL(k,j,m,a),t=0;if(q)if(q[2])var
+q=fR(k,j,m,a),t=0;if(q)if(q[2])var
 f=0;else{var
 Y=g(c,0,a[2]),Z=Y?g(c,1,a[4]):Y;if(Z){var
 A=[0,[3,i(l,q[1])]];t=1}else{var
@@ -2647,52 +2647,52 @@ A=Z;t=1}}else{var
 A=q;t=1}if(t)var
 f=A;break;case
 13:var
-_=a[1],$=M(k,_),F=0;if($){var
+_=a[1],$=E(k,_),G=0;if($){var
 aa=g(c,1,a[2]),ab=aa?g(c,1,a[3]):aa;if(ab)var
-aC=aj(c,bE(j,a)),f=x(function(a){return[7,_,S(c,a)]},aC);else{var
-ac=ab;F=1}}else{var
-ac=$;F=1}if(F)var
+aC=ak(c,bG(j,a)),f=x(function(a){return[7,_,S(c,a)]},aC);else{var
+ac=ab;G=1}}else{var
+ac=$;G=1}if(G)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=s(h(k),rn),ag=af?g(c,0,ae):af,ah=ag?g(c,1,ad):ag;if(ah){var
-C=aj(c,bE(j,a));if(C)var
-D=W(e(function(a){return kV(c,l,am,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ad=a[2],ae=a[1],af=r(h(k),rI),ag=af?g(c,0,ae):af,ah=ag?g(c,1,ad):ag;if(ah){var
+C=ak(c,bG(j,a));if(C)var
+D=W(e(function(a){return k9(c,l,am,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
-ak=ai}else
+aj=ai}else
 var
-ak=ah;var
-f=ak;break;case
+aj=ah;var
+f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,al=n(function(a){return g(c,aF,a)},aE);if(al)var
-aG=ew(k,j,m,a),f=x(function(a){var
-d=Q(c,b);return[4,i(aq(l),a),d]},aG);else
+aG=eB(k,j,m,a),f=x(function(a){var
+d=R(c,b);return[4,i(at(l),a),d]},aG);else
 var
 f=al;break;default:var
-o=fL(k,j,m,a),G=0;if(o){var
-u=o[2],I=o[1];if(u)if(u[2])var
+o=fR(k,j,m,a),I=0;if(o){var
+u=o[2],J=o[1];if(u)if(u[2])var
 f=0;else
 var
-au=i(l,u[1]),f=[0,[5,i(l,I),au]];else{var
-J=[0,[3,i(l,I)]];G=1}}else{var
-J=o;G=1}if(G)var
-f=J}var
+au=i(l,u[1]),f=[0,[5,i(l,J),au]];else{var
+K=[0,[3,i(l,J)]];I=1}}else{var
+K=o;I=1}if(I)var
+f=K}var
 an=[0,f,aI]}else
 var
-an=r;return an}function
-ro(a){var
+an=s;return an}function
+rJ(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dK(a){if(0===a[0])return a[1];var
+dN(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-kX(a,c,g,b){if(0===c[0])return 0;if(b){var
+k$(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cw(a,g,c[1]);if(i){var
-j=cw(a,g,c[2]);if(j){var
-k=cw(a,g,c[3]);if(k)var
-t=i[1],u=bY(f),l=E([0,bY(f),u],t),w=j[1],x=bY(e),m=E([0,bY(e),x],w),y=dC(e),z=[0,dC(e),y],C=[0,v(a,ad(A(m,m)),z),0],D=dC(f),F=[0,dC(f),D],G=[0,v(a,ad(A(l,l)),F),C],H=S(a,m),I=S(a,l),n=[0,[0,E(E(S(a,k[1]),I),H),B,G]];else
+e=d[1],f=b[1],i=cy(a,g,c[1]);if(i){var
+j=cy(a,g,c[2]);if(j){var
+k=cy(a,g,c[3]);if(k)var
+t=i[1],u=bZ(f),l=C([0,bZ(f),u],t),w=j[1],x=bZ(e),m=C([0,bZ(e),x],w),y=dF(e),z=[0,dF(e),y],D=[0,v(a,ae(A(m,m)),z),0],E=dF(f),F=[0,dF(f),E],G=[0,v(a,ae(A(l,l)),F),D],H=S(a,m),I=S(a,l),n=[0,[0,C(C(S(a,k[1]),I),H),B,G]];else
 var
 n=k;var
 o=n}else
@@ -2710,14 +2710,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fO(a,p,o){var
-q=aV(p,o),b=e(function(b){return aj(a,b)},q);if(b){var
+fU(a,p,o){var
+q=aX(p,o),b=e(function(b){return ak(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=S(a,i[1]),s=S(a,h[1]);return K(d,A(A(S(a,g[1]),s),r)[1])}var
+r=S(a,i[1]),s=S(a,h[1]);return M(d,A(A(S(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2733,199 +2733,252 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ai(c,b,a){var
-d=ar(c,b[3],a[3]),e=ar(c,b[2],a[2]);return[0,ar(c,b[1],a[1]),e,d]}function
-aw(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-T(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aD(a){return aw([5,[0,b,b],[6,T(a,a)]],a)}function
-cY(c,b,a){var
-d=bl(c,b[1],a);return d?bl(c,a,b[2]):d}function
-a8(c,b,a){var
-d=cY(c,b[1],a[1]),e=d?cY(c,b[2],a[2]):d;return e?cY(c,b[3],a[3]):e}function
-kY(b,c,a){switch(c[0]){case
+Z(c,b,a){var
+d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
+ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+F(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aD(a){return ap([5,[0,b,b],[6,F(a,a)]],a)}function
+cD(c,b,a){var
+d=bf(c,b[1],a);return d?bf(c,a,b[2]):d}function
+a_(c,b,a){var
+d=cD(c,b[1],a[1]),e=d?cD(c,b[2],a[2]):d;return e?cD(c,b[3],a[3]):e}function
+la(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a8(b,d[1],f),l=k?g(b,1,T(f,f)):k,m=l?a8(b,d[2],a[2]):l,n=m?a8(b,d[3],a[3]):m,o=n?cY(b,d[4],j):n,p=o?g(b,1,j):o;return p?co(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=a_(b,d[1],f),l=k?g(b,1,F(f,f)):k,m=l?a_(b,d[2],a[2]):l,n=m?a_(b,d[3],a[3]):m,o=n?cD(b,d[4],j):n,p=o?g(b,1,j):o;return p?ca(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a8(b,c[1],a[1]),s=r?a8(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a8(b,q[1],h);if(t)return g(b,1,T(h,h));var
+e=a[3],r=a_(b,c[1],a[1]),s=r?a_(b,c[2],a[2]):r;if(s){if(q){if(e){var
+h=e[1],t=a_(b,q[1],h);if(t)return g(b,1,F(h,h));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a8(b,c[1],i);return w?g(b,1,T(i,i)):w}return 0}}function
-cZ(c,a,b){if(0===a[0])return a8(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cY(c,a[4],b[3]):i}function
-kZ(g,f,i,h){var
+i=a[1],w=a_(b,c[1],i);return w?g(b,1,F(i,i)):w}return 0}}function
+c5(c,a,b){if(0===a[0])return a_(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cD(c,a[4],b[3]):i}function
+lb(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=kY(g,b[1],a[1]);if(d){var
+d=la(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?cZ(g,f[2],h):c}}function
-bd(c,b,a){var
-d=ai(function(b,a){return[2,b,a]},a,b);return ai(function(b,a){return[3,b,a]},d,c)}function
-ex(a,e,d,c){var
-b=bd(e,d,c),f=aD(a),g=aw(T(aD(a),b),f);return ai(function(b,a){return[3,b,a]},b,g)}function
-c0(f,e,d,a,c){var
-b=ex(f,e,d,c);return[3,[4,a,a],T(b,b)]}function
-c1(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-c2(a,c){switch(a[0]){case
+c=a?0:1;return c?c5(g,f[2],h):c}}function
+a4(c,b,a){var
+d=Z(function(b,a){return[2,b,a]},a,b);return Z(function(b,a){return[3,b,a]},d,c)}function
+eC(a,e,d,c){var
+b=a4(e,d,c),f=aD(a),g=ap(F(aD(a),b),f);return Z(function(b,a){return[3,b,a]},b,g)}function
+cE(f,e,d,a,c){var
+b=eC(f,e,d,c);return[3,[4,a,a],F(b,b)]}function
+c6(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b0(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=ex(d,f,e,c),h=c0(d,f,e,a[4],c),i=aw([5,[0,b,b],c1(a[5],h)],g),j=aD(d);return ai(function(b,a){return[2,b,a]},j,i);case
-1:return aD(bd(a[1],a[2],c));default:return aD(a[1])}}function
-ey(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eC(d,f,e,c),h=cE(d,f,e,a[4],c),i=ap([5,[0,b,b],c6(a[5],h)],g),j=aD(d);return Z(function(b,a){return[2,b,a]},j,i);case
+1:return aD(a4(a[1],a[2],c));default:return aD(a[1])}}function
+cj(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aD(c),g=c0(c,e,d,a[4],b),h=aw(c1(a[5],g),f),i=ex(c,e,d,b);return ai(function(b,a){return[2,b,a]},i,h);case
-1:return bd(a[1],a[2],b);default:return aD(a[1])}}function
-ht(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aD(c),g=cE(c,e,d,a[4],b),h=ap(c6(a[5],g),f),i=eC(c,e,d,b);return Z(function(b,a){return[2,b,a]},i,h);case
+1:return a4(a[1],a[2],b);default:return aD(a[1])}}function
+hD(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=c0(e,d,c,a[4],b),i=c1(a[5],h),j=bd(d,c,b);return[3,T(aD(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cE(e,d,c,a[4],b),i=c6(a[5],h),j=a4(d,c,b);return[3,F(aD(e),j),i];case
 1:var
-f=a[2],g=a[1],k=bd(g,f,b);return[6,T(bd(g,f,b),k)];default:return T(aD(a[1]),b)}}function
-k0(a,b){switch(a[0]){case
-0:return[0,c0(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=a4(g,f,b);return[6,F(a4(g,f,b),k)];default:return F(aD(a[1]),b)}}function
+lc(a,b){switch(a[0]){case
+0:return[0,cE(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=bd(d,c,b);return[0,T(bd(d,c,b),e)];default:return 0}}function
-ez(e,c,a){var
-f=[0,d,b];return av(function(b,d){var
-e=T(c2(b,c),a);return[2,[4,T(c2(b,c),a),e],d]},f,e)}function
-k1(a){var
+c=a[2],d=a[1],e=a4(d,c,b);return[0,F(a4(d,c,b),e)];default:return 0}}function
+eD(e,c,a){var
+f=[0,d,b];return aw(function(b,d){var
+e=F(b0(b,c),a);return[2,[4,F(b0(b,c),a),e],d]},f,e)}function
+ld(f,e,c,a){if(f){if(e){var
+g=e[1],h=ld(f[2],e[2],c,a),i=F(b0(g,c),a),j=[4,F(b0(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+le(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-hu(a,c){switch(a[0]){case
+hE(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=bd(e,d,c);return[6,T(bd(e,d,c),f)];default:return[0,b,b]}}function
-k2(d,i){if(d){var
+d=a[2],e=a[1],f=a4(e,d,c);return[6,F(a4(e,d,c),f)];default:return[0,b,b]}}function
+lf(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=bd(a[1],a[2],i),k=aD(f),l=aw(T(aD(f),g),k),h=[0,ai(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a4(a[1],a[2],i),k=aD(f),l=ap(F(aD(f),g),k),h=[0,Z(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=k2(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=lf(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return rp}function
-c3(a){return[0,a[1],a[2],a[3]]}function
-k3(a,b){switch(a[0]){case
+j=b;return j}return rK}function
+cF(a){return[0,a[1],a[2],a[3]]}function
+lg(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aD(d),j=c0(d,g,c,f,b),k=aw(c1(a[5],j),i),l=ex(d,g,c,b),m=ai(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aD(d),j=cE(d,g,c,f,b),k=ap(c6(a[5],j),i),l=eC(d,g,c,b),m=Z(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,Z(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=bd(a[1],h,b),n=[6,T(e,e)];return[0,[0,[0,ai(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-k4(l,c,a){switch(a[0]){case
+h=a[2],e=a4(a[1],h,b),n=[6,F(e,e)];return[0,[0,[0,Z(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+lh(m,e,a){switch(a[0]){case
 0:var
-m=a[5],d=M(l,a[1]);if(d){var
-e=k3(d[1],c);if(e)var
-f=e[1],g=f[1],h=f[2],n=g[2],o=g[1],i=function(a){var
-b=c3(m),c=aw(a,n),d=ai(function(b,a){return[3,b,a]},o,c);return ai(function(b,a){return[2,b,a]},d,b)},p=i([5,a[4],h]),j=[0,[0,i([3,[0,b,b],[5,a[3],h]]),p]];else
+n=a[5],c=E(m,a[1]);if(c){var
+d=c[1];if(d)var
+f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
+b=cF(n),c=ap(a,o),d=Z(function(b,a){return[3,b,a]},p,c);return Z(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
-j=e;var
-k=j}else
+k=d;var
+l=k}else
 var
-k=d;return k;case
+l=c;return l;case
 1:var
-q=c3(a[3]);return[0,[0,c3(a[2]),q]];default:var
-r=c3(a[3]),s=ai(function(b,a){return[2,b,a]},c,r),t=c3(a[2]);return[0,[0,ai(function(b,a){return[2,b,a]},c,t),s]]}}function
-k5(d,a,c,b){var
-e=aw(a,b),f=aw([3,d,a],c);return ai(function(b,a){return[2,b,a]},f,e)}function
-k6(f,h,c,e,q,a){function
-F(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],T(e,e)]}var
-D=0;if(typeof
-a==="number")D=1;else
+r=cF(a[3]);return[0,[0,cF(a[2]),r]];default:var
+s=i(e,cF(a[3]));return[0,[0,i(e,cF(a[2])),s]]}}function
+li(d,a,c,b){var
+e=ap(a,b),f=ap([3,d,a],c);return Z(function(b,a){return[2,b,a]},f,e)}function
+lj(a,l,c,k,j,x){var
+d=i(l,k);if(d){var
+m=d[1],e=i(l,j);if(e){var
+n=e[1],f=c[1],h=c[2],b=c[3],y=li(b,h,n[1],n[2]),z=li(b,f,m[1],m[2]),o=Z(function(b,a){return[3,b,a]},z,y),A=dA(j),p=[4,b,[2,[2,dA(k),A],x]],q=g(a,1,b),r=q?g(a,0,f):q,s=r?g(a,0,[3,b,f]):r,t=s?g(a,0,h):s,u=t?g(a,0,[3,b,h]):t;if(u)return g(a,1,[3,[4,p,p],F(o,o)]);var
+v=u}else
+var
+v=e;var
+w=v}else
+var
+w=d;return w}function
+lk(d,c,b,a,i,h,f,e){var
+j=g(d,1,b),k=j?g(d,1,a):j;if(k){var
+l=an(c,f,f),m=[4,[4,a,a],[4,an(c,h,h),l]];return g(d,1,[3,[4,[4,[4,b,b],[4,i,i]],an(c,e,e)],m])}return k}function
+ll(i,h,c,f,x,a){function
+R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],F(f,f)]}var
+N=0;if(typeof
+a==="number")N=1;else
 switch(a[0]){case
 0:var
-ap=ez(h,c,e);return g(f,1,[3,F(a[1]),ap]);case
+aG=eD(h,c,f);return g(i,1,[3,R(a[1]),aG]);case
 1:var
-aq=F(a[1]);return g(f,1,[3,ez(h,c,e),aq]);case
+aH=R(a[1]);return g(i,1,[3,eD(h,c,f),aH]);case
 2:var
-ar=a[2],as=function(a){return[3,ar,ht(a,c)]},s=as,r=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,hD(a,c)]},z=aJ,y=a[1];break;case
 3:var
-at=a[2],au=function(a){return[3,ht(a,c),at]},s=au,r=a[1];break;case
+aK=a[2],aL=function(a){return[3,hD(a,c),aK]},z=aL,y=a[1];break;case
 4:var
-G=a[3],H=a[2],aw=function(a){var
-b=c2(a,c);return[3,[4,[4,H,H],T(c2(a,c),b)],[4,G,G]]},s=aw,r=a[1];break;case
+S=a[3],T=a[2],aM=function(a){var
+b=b0(a,c);return[3,[4,[4,T,T],F(b0(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
 5:var
-I=a[1],ax=T(e,e),ay=[4,[4,I,I],[4,ez(h,c,q),ax]],az=T(q,q);return g(f,1,[3,[4,ez(h,c,e),az],ay]);case
+U=a[1],aN=F(f,f),aO=[4,[4,U,U],[4,eD(h,c,x),aN]],aP=F(x,x);return g(i,1,[3,[4,eD(h,c,f),aP],aO]);case
 6:var
-J=a[2],u=M(h,a[1]);if(u){var
-i=u[1];if(0===i[0]){var
-v=i[4],aA=c0(i[1],i[2],i[3],v,c),K=c1(i[5],aA);return g(f,1,[3,[4,[4,J,v],[4,J,v]],[4,K,K]])}var
-L=0}else
+V=a[2],B=E(h,a[1]);if(B){var
+k=B[1];if(0===k[0]){var
+C=k[4],aQ=cE(k[1],k[2],k[3],C,c),W=c6(k[5],aQ);return g(i,1,[3,[4,[4,V,C],[4,V,C]],[4,W,W]])}var
+X=0}else
 var
-L=u;return L;case
+X=B;return X;case
 7:if(h){var
-n=h[2];if(n){var
-o=n[2];if(o){if(o[2])return 0;var
-N=o[1],O=n[1],P=h[1],aB=hu(N,c),aC=hu(O,c),aE=hu(P,c),Q=[4,[4,[4,a[1],aE],aC],aB],j=ey(N,c),k=ey(O,c),aF=ey(P,c),E=T(aF,[0,[3,[4,k[2],j[3]],[4,k[3],j[2]]],[3,[4,k[3],j[1]],[4,k[1],j[3]]],[3,[4,k[1],j[2]],[4,k[2],j[1]]]]),R=g(f,1,[3,Q,E]);if(R)return g(f,1,[2,Q,E]);var
-S=R}else
+p=h[2];if(p){var
+q=p[2];if(q){if(q[2])return 0;var
+Y=q[1],_=p[1],$=h[1],aR=hE(Y,c),aS=hE(_,c),aT=hE($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cj(Y,c),m=cj(_,c),aU=cj($,c),O=F(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=g(i,1,[3,aa,O]);if(ab)return g(i,1,[2,aa,O]);var
+ac=ab}else
 var
-S=o;var
-U=S}else
+ac=q;var
+ad=ac}else
 var
-U=n;var
-V=U}else
+ad=p;var
+ae=ad}else
 var
-V=h;return V;case
+ae=h;return ae;case
 8:var
-aG=ez(h,c,e),aH=T(e,e);return g(f,1,[3,[4,[5,a[2],a[1]],aH],aG]);case
+aV=eD(h,c,f),aW=F(f,f);return g(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
-W=a[1],w=k2(h,c);if(w){var
-aI=w[1],an=[0,d,b],ao=av(function(a,b){var
-c=T(aD(a),e);return[2,[4,T(aD(a),e),c],b]},an,aI);return g(f,1,[3,[4,[4,W,W],T(e,e)],ao])}return w;case
+af=a[1],D=lf(h,c);if(D){var
+aX=D[1],az=[0,d,b],aA=aw(function(a,b){var
+c=F(aD(a),f);return[2,[4,F(aD(a),f),c],b]},az,aX);return g(i,1,[3,[4,[4,af,af],F(f,f)],aA])}return D;case
 10:var
-X=a[2],Y=a[1],x=k4(h,c,Y);if(x){var
-Z=x[1],y=k4(h,c,X);if(y){var
-_=y[1],z=e[1],A=e[2],l=e[3],aJ=k5(l,A,_[1],_[2]),aK=k5(l,z,Z[1],Z[2]),$=ai(function(b,a){return[3,b,a]},aK,aJ),aL=a[3],aM=dw(X),aa=[4,l,[2,[2,dw(Y),aM],aL]],ab=g(f,1,l),ac=ab?g(f,0,z):ab,ad=ac?g(f,0,[3,l,z]):ac,ae=ad?g(f,0,A):ad,af=ae?g(f,0,[3,l,A]):ae;if(af)return g(f,1,[3,[4,aa,aa],T($,$)]);var
-ag=af}else
-var
-ag=y;var
-ah=ag}else
-var
-ah=x;return ah;case
+aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return Z(aB,c,a)},aE=e(function(a){return lg(a,c)},h);return lj(i,function(a){return lh(aE,aC,a)},f,a0,aZ,aY);case
 11:var
-aj=a[4],B=M(h,a[1]);if(B){var
-C=k3(B[1],c);if(C){var
-m=C[1][1][2],aN=c3(a[3]),aO=c3(a[2]),p=ai(function(b,a){return[3,b,a]},aO,aN),ak=g(f,1,T(m,m));if(ak){var
-aP=T(m,m),aQ=T(p,m),aR=[5,[4,T(p,m),aQ],aP];return g(f,1,[3,[4,aj,aj],[3,T(p,p),aR]])}var
-al=ak}else
+ag=a[4],G=E(h,a[1]);if(G){var
+H=lg(G[1],c);if(H){var
+n=H[1][1][2],a1=cF(a[3]),a2=cF(a[2]),r=Z(function(b,a){return[3,b,a]},a2,a1),ah=g(i,1,F(n,n));if(ah){var
+a3=F(n,n),a5=F(r,n),a6=[5,[4,F(r,n),a5],a3];return g(i,1,[3,[4,ag,ag],[3,F(r,r),a6]])}var
+ai=ah}else
 var
-al=C;var
-am=al}else
+ai=H;var
+aj=ai}else
 var
-am=B;return am;default:D=1}if(D)return 0;var
-t=M(h,r);return t?g(f,1,s(t[1])):t}function
-bm(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-k7(a){switch(a[0]){case
+aj=G;return aj;case
+12:var
+o=a[3],s=a[2],I=E(h,a[1]);if(I){var
+j=I[1],ak=g(i,0,s),al=ak?g(i,0,o):ak;if(al){var
+a7=a[4];switch(j[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bm(b[3]),f=bm(b[2]);return[0,bm(b[1]),f,e,d,c];case
+v=j[4],w=[5,v,[6,cE(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-g=x(bm,a[3]),h=bm(a[2]);return[1,bm(a[1]),h,g];default:return[2,bm(a[1])]}}function
-hv(a){return 0===a[0]?bm(a[1]):[0,a[1],a[2],a[4][1]]}function
-k8(b,a){var
-c=hv(a[2]);return kZ(b,a,e(k7,a[1]),c)}function
-k9(b,a,c){var
-d=[0,c,bR(b,a)];return f(bj(b,a),d)}function
-bG(c,a){if(c){if(a){var
-e=bG(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-k_(e,c,a){if(e){if(c){var
-f=c[1],g=k_(e[2],c[2],a),h=bG(f,a),i=[4,bG(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-k$(a){if(a){var
+P=j[2],Q=j[1],aF=a4(Q,P,c),J=[2,s,[5,[4,o,o],[6,F(a4(Q,P,c),aF)]]];break;default:var
+J=s}var
+K=g(i,1,[3,J,a7])}else
+var
+K=al;if(K){if(2===j[0])return g(i,1,F(f,f));var
+am=1}else
+var
+am=K;var
+an=am}else
+var
+an=I;return an;case
+13:if(h){var
+t=h[2];if(t){var
+u=t[2];if(u){if(u[2])return 0;var
+ao=u[1],aq=t[1],ar=h[1],as=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],as);if(L){var
+M=E([0,ar,[0,aq,[0,ao,0]]],as);if(M){var
+at=M[1],a8=cj(at,c),a9=b0(at,c),a_=cj(ao,c),a$=ap(f[3],a_),ba=cj(aq,c),bb=ap(f[2],ba),bc=cj(ar,c),bd=ap(f[1],bc),be=Z(function(b,a){return[2,b,a]},bd,bb),bf=Z(function(b,a){return[2,b,a]},be,a$);return lk(i,F,a[2],a[3],L[1],bf,a9,a8)}var
+au=M}else
+var
+au=L;var
+av=au}else
+var
+av=u;var
+ax=av}else
+var
+ax=t;var
+ay=ax}else
+var
+ay=h;return ay;case
+15:var
+bg=ld(a[1],h,c,f),bh=F(f,f);return g(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+A=E(h,y);return A?g(i,1,z(A[1])):A}function
+bp(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+lm(a){switch(a[0]){case
+0:var
+b=a[1],c=b[5],d=b[4][1],e=bp(b[3]),f=bp(b[2]);return[0,bp(b[1]),f,e,d,c];case
+1:var
+g=x(bp,a[3]),h=bp(a[2]);return[1,bp(a[1]),h,g];default:return[2,bp(a[1])]}}function
+hF(a){return 0===a[0]?bp(a[1]):[0,a[1],a[2],a[4][1]]}function
+ln(b,a){var
+c=hF(a[2]);return lb(b,a,e(lm,a[1]),c)}function
+lo(b,a,c){var
+d=[0,c,bT(b,a)];return f(bn(b,a),d)}function
+bq(c,a){if(c){if(a){var
+e=bq(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+lp(e,c,a){if(e){if(c){var
+f=c[1],g=lp(e[2],c[2],a),h=bq(f,a),i=[4,bq(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+lq(b,a){if(b){if(a){var
+c=b[1],e=lq(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aR(function(a){return[4,c,a]},h,g,f,e)}var
+d=a}else
+var
+d=b;return d}function
+lr(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=k$(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rr}function
-la(a,l,k,f){var
-b=a2(a,l);if(b){var
-c=a2(a,k);if(c){var
-d=dy(a,f);if(d){var
-e=fv(a,f);if(e)var
-m=v(a,b[1],e[1]),g=[0,E(v(a,c[1],d[1]),m)];else
+c=b[1],d=lr(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rM}function
+hG(a){if(a){var
+b=a[1];if(b){var
+c=b[1],d=hG(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rN}function
+ls(a,l,k,f){var
+b=aH(a,l);if(b){var
+c=aH(a,k);if(c){var
+d=cz(a,f);if(d){var
+e=fB(a,f);if(e)var
+m=v(a,b[1],e[1]),g=[0,C(v(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2937,218 +2990,321 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-fP(a){return a?K(d,a[1][1]):a}function
-lb(a,ab,m,aE,i,f){function
-ac(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bG(a,a)]}var
-aF=m[1];function
-p(c){var
-a=[0,d,b];return av(function(a,b){var
-d=bG(a,c);return[2,[4,bG(a,c),d],b]},a,aF)}var
-ad=n(function(a){return s(h(a),ab)},i);if(ad){var
-k=0;if(typeof
-f==="number")k=1;else
-switch(f[0]){case
-0:if(i){if(i[2])return 0;var
-af=i[1],aG=p(af);return g(a,1,[3,ac(f[1],af),aG])}return i;case
-1:if(i){if(i[2])return 0;var
-ag=i[1],aH=ac(f[1],ag);return g(a,1,[3,p(ag),aH])}return i;case
-2:if(i)return 0;var
-aI=f[2],aJ=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,aI,b[1]]);return 0},I=aJ,H=f[1];break;case
-3:if(i)return 0;var
-aK=f[2],aL=function(b){if(typeof
-b!=="number"&&0===b[0])return g(a,1,[3,b[1],aK]);return 0},I=aL,H=f[1];break;case
-4:if(i)return 0;var
-ah=f[3],ai=f[2],aM=function(e){if(typeof
-e!=="number"&&1===e[0]){var
-h=e[2],i=e[1],j=g(a,0,[3,[2,ai,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],ah]);if(j){if(aE){var
-f=la(a,i,h,ai);return f?K(f[1][2],d):f}return fP(la(a,i,h,ah))}return j}return 0},I=aM,H=f[1];break;case
-5:if(i){var
-r=i[2];if(r){if(r[2])return 0;var
-L=r[1],N=i[1],aj=f[1],aN=bG(N,N),aO=[4,[4,aj,aj],[4,p(L),aN]],aP=bG(L,L);return g(a,1,[3,[4,p(N),aP],aO])}var
-ak=r}else
+lt(a){return a?M(a[1][2],d):a}function
+dO(a){return a?M(d,a[1][1]):a}function
+lu(d,a){return g(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+lv(f,z,l,y,a,j){function
+aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bq(a,a)]}var
+bB=l[1];function
+A(c){var
+a=[0,d,b];return aw(function(a,b){var
+d=bq(a,c);return[2,[4,bq(a,c),d],b]},a,bB)}function
+af(f,e){var
+a=E(l[1],f);if(a){var
+b=a[1],c=r(h(b),z);if(c)return i(e,b);var
+d=c}else
 var
-ak=i;return ak;case
-6:if(i)return 0;var
-al=f[2],aQ=f[3],aR=function(b){var
-c=[5,aQ,al],d=g(a,1,al);return d?g(a,1,[3,bG(b,b),[4,c,c]]):d},an=aR,am=f[1];k=3;break;case
-8:if(i){if(i[2])return 0;var
-P=i[1],aS=k_(f[1],m[1],P),aT=bG(P,P);return g(a,1,[3,[4,f[2],aT],aS])}return i;case
-9:if(i)return 0;var
-ar=f[3],as=f[2],aU=function(e){var
-f=g(a,1,as),h=f?g(a,0,ar):f;if(h){var
-b=a2(a,bG(e,e));if(b){var
-c=a2(a,[5,ar,as]);if(c){var
-d=j5(a,c[1]);if(d){var
-l=S(a,d[1]);return fP([0,E(b[1],l)])}var
-i=d}else
+d=a;return d}var
+aX=n(function(c){var
+b=0;if(typeof
+j==="number")b=1;else
+switch(j[0]){case
+6:var
+a=rO;break;case
+13:case
+14:var
+a=rP;break;default:b=1}if(b)var
+a=z;return r(h(c),a)},a);if(aX){var
+s=0;if(typeof
+j==="number")s=1;else
+switch(j[0]){case
+0:if(a){if(a[2])return 0;var
+aZ=a[1],bC=A(aZ);return g(f,1,[3,aW(j[1],aZ),bC])}return a;case
+1:if(a){if(a[2])return 0;var
+a0=a[1],bD=aW(j[1],a0);return g(f,1,[3,A(a0),bD])}return a;case
+2:if(a)return 0;var
+bE=j[2],bF=function(a){if(typeof
+a!=="number"&&0===a[0])return g(f,1,[3,bE,a[1]]);return 0},ah=bF,ag=j[1];break;case
+3:if(a)return 0;var
+bG=j[2],bH=function(a){if(typeof
+a!=="number"&&0===a[0])return g(f,1,[3,a[1],bG]);return 0},ah=bH,ag=j[1];break;case
+4:if(a)return 0;var
+a1=j[3],a2=j[2],bI=function(a){var
+i=r(y,0);if(typeof
+a!=="number"&&1===a[0]){var
+d=a[2],e=a[1],h=g(f,0,[3,[2,a2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a1]);return h?i?lt(ls(f,e,d,a2)):dO(ls(f,e,d,a1)):h}return 0},ah=bI,ag=j[1];break;case
+5:if(a){var
+B=a[2];if(B){if(B[2])return 0;var
+aj=B[1],ak=a[1],a3=j[1],bJ=bq(ak,ak),bK=[4,[4,a3,a3],[4,A(aj),bJ]],bL=bq(aj,aj);return g(f,1,[3,[4,A(ak),bL],bK])}var
+a4=B}else
 var
-i=c;var
+a4=a;return a4;case
+6:var
+a5=j[2],bM=j[3],bN=function(a){var
+b=[5,bM,a5],c=g(f,1,a5);return c?g(f,1,[3,bq(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
+D=a[1];if(D){if(D[2])return 0;if(a[2])return 0;var
+a7=D[1];return g(f,1,[4,a7,a7])}var
+a8=D}else
+var
+a8=a;return a8}if(a)return 0;var
+a9=1}else
+var
+a9=a6;return a9;case
+7:if(a){if(a[2])return 0;var
+a_=a[1],al=j[1],bO=j[3],bP=j[2],am=hG(l[7]);if(am){var
+G=am[1],an=E(a_,al);if(an){var
+bQ=an[1],a$=r(h(G),z),ba=a$?n(function(a){return r(h(a),z)},G):a$;if(ba){var
+ao=E(G,al);if(ao){var
+bR=ao[1];return af(al,function(a){return lk(f,bq,bP,bO,bQ,lq(a_,G),a,bR)})}var
+bb=ao}else
+var
+bb=ba;var
+bc=bb}else
+var
+bc=an;var
+bd=bc}else
+var
+bd=am;var
+be=bd}else
+var
+be=a;return be;case
+8:if(a){if(a[2])return 0;var
+ap=a[1],bS=lp(j[1],l[1],ap),bT=bq(ap,ap);return g(f,1,[3,[4,j[2],bT],bS])}return a;case
+9:if(a)return 0;var
+bf=j[3],bg=j[2],bU=function(d){var
+e=g(f,1,bg),h=e?g(f,0,bf):e;if(h){var
+a=aH(f,bq(d,d));if(a){var
+b=aH(f,[5,bf,bg]);if(b){var
+c=kh(f,b[1]);if(c){var
+l=S(f,c[1]);return dO([0,C(a[1],l)])}var
+i=c}else
+var
+i=b;var
 j=i}else
 var
-j=b;var
+j=a;var
 k=j}else
 var
-k=h;return k},an=aU,am=f[1];k=3;break;case
-10:if(i)return 0;var
-aV=f[2],aW=function(b){var
-c=[4,aV,b[3]],d=g(a,1,c);return d?g(a,1,[3,[4,c,c],[4,b[2],b[2]]]):d},au=aW,at=f[1];k=2;break;case
-11:if(i)return 0;var
-aX=f[2],aY=function(e){var
-b=dy(a,aX);if(b){var
-c=a2(a,e[3]);if(c){var
-d=a2(a,e[2]);if(d){var
-f=v(a,b[1],c[1]),g=fP([0,f]);if(g){var
-k=S(a,d[1]);return fP([0,E(S(a,f),k)])}var
+k=h;return k};return af(j[1],bU);case
+10:if(a)return 0;var
+bV=j[2],bW=function(a){var
+b=[4,bV,a[3]],c=g(f,1,b);return c?g(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bi=bW,bh=j[1];s=2;break;case
+11:if(a)return 0;var
+bX=j[2],bY=function(d){var
+a=cz(f,bX);if(a){var
+b=aH(f,d[3]);if(b){var
+c=aH(f,d[2]);if(c){var
+e=v(f,a[1],b[1]),g=dO([0,e]);if(g){var
+k=S(f,c[1]);return dO([0,C(S(f,e),k)])}var
 h=g}else
 var
-h=d;var
+h=c;var
 i=h}else
 var
-i=c;var
+i=b;var
 j=i}else
 var
-j=b;return j},au=aY,at=f[1];k=2;break;case
-12:if(i)return 0;var
-T=k$(m[3]);if(T){var
-ax=T[1],aZ=f[1],ay=dt(function(b,a){return[4,b,a[3]]},ax,aZ),U=e(function(a){return a[1]},ax),o=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(U){var
-t=U[1];if(t){var
-u=t[2];if(u){var
-w=u[2],V=u[1],W=t[1],l=U[2];if(w)if(w[2]||!l)var
-j=[0,d,b];else{var
-x=l[1];if(x){var
-y=x[2];if(y){var
-z=y[2];if(z&&!z[2]){var
-A=l[2];if(A){var
-B=A[1];if(B){var
-C=B[2];if(C){var
-D=C[2];if(D&&!(D[2]||A[2]))var
-X=D[1],Y=C[1],Z=B[1],_=z[1],$=y[1],aa=x[1],aB=o(aa,$,Z,Y),aC=[4,w[1],aB],aD=[4,V,o(aa,_,Z,X)],j=[2,[3,[4,W,o($,_,Y,X)],aD],aC];else
+j=a;return j},bi=bY,bh=j[1];s=2;break;case
+12:if(a)return 0;var
+as=lr(l[3]);if(as){var
+bk=as[1],bZ=j[1],bl=dx(function(b,a){return[4,b,a[3]]},bk,bZ),at=e(function(a){return a[1]},bk),t=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(at){var
+M=at[1];if(M){var
+N=M[2];if(N){var
+O=N[2],ax=N[1],ay=M[1],m=at[2];if(O)if(O[2]||!m)var
+k=[0,d,b];else{var
+P=m[1];if(P){var
+Q=P[2];if(Q){var
+R=Q[2];if(R&&!R[2]){var
+T=m[2];if(T){var
+U=T[1];if(U){var
+V=U[2];if(V){var
+W=V[2];if(W&&!(W[2]||T[2]))var
+az=W[1],aA=V[1],aB=U[1],aC=R[1],aD=Q[1],aE=P[1],bu=t(aE,aD,aB,aA),bv=[4,O[1],bu],bw=[4,ax,t(aE,aC,aB,az)],k=[2,[3,[4,ay,t(aD,aC,aA,az)],bw],bv];else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
-if(l){var
-F=l[1];if(F)var
-G=F[2],j=G?G[2]?[0,d,b]:l[2]?[0,d,b]:o(W,V,F[1],G[1]):[0,d,b];else
+k=[0,d,b]}else
+if(m){var
+X=m[1];if(X)var
+Y=X[2],k=Y?Y[2]?[0,d,b]:m[2]?[0,d,b]:t(ay,ax,X[1],Y[1]):[0,d,b];else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b]}else
+k=[0,d,b]}else
 var
-j=[0,d,b];var
-az=g(a,1,[3,ay,j]);if(az)return g(a,1,[2,ay,j]);var
-aA=az}else
+k=[0,d,b];var
+bm=g(f,1,[3,bl,k]);if(bm)return g(f,1,[2,bl,k]);var
+bn=bm}else
 var
-aA=T;return aA;default:k=1}switch(k){case
+bn=as;return bn;case
+13:var
+b0=j[2],au=E(l[4],j[1]);if(au){var
+av=au[1];if(av){var
+bo=function(a){if(b0){var
+c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return Z(function(b,a){return[3,b,a]},e,c)}return a},H=j[4],q=bo(cF(j[3])),I=av[1][1][2],o=F(I,q);if(lu(f,H)){if(y){if(y[1])return 0;if(a){var
+u=a[1];if(u){var
+w=u[2];if(w){var
+x=w[2];if(x){if(x[2])return 0;if(a[2])return 0;var
+_=bo([0,u[1],w[1],x[1]]),aF=F(I,_),aG=g(f,1,o);if(aG){var
+$=cz(f,H);if($){var
+aI=$[1],aa=aH(f,[4,F(q,q),[4,aF,aF]]);if(aa){var
+ab=aH(f,[4,[4,o,o],F(_,_)]);if(ab){var
+aJ=dO([0,aI]);if(aJ){var
+bx=ab[1],by=aa[1];return dO([0,C(v(f,S(f,aI),by),bx)])}var
+aK=aJ}else
+var
+aK=ab;var
+aL=aK}else
+var
+aL=aa;var
+aM=aL}else
+var
+aM=$;var
+aN=aM}else
+var
+aN=aG;var
+aO=aN}else
+var
+aO=x;var
+aP=aO}else
+var
+aP=w;var
+aQ=aP}else
+var
+aQ=u;var
+aR=aQ}else
+var
+aR=a;return aR}return a?0:g(f,1,[3,[0,d,b],o])}if(y)return 0;if(a)return 0;var
+aS=g(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],H]);if(aS){var
+ac=cz(f,H);if(ac){var
+ad=aH(f,o);if(ad){var
+bz=F(I,I),ae=aH(f,[6,[4,F(q,q),bz]]);if(ae){var
+bA=v(f,ac[1],ae[1]);return lt([0,C(ad[1],bA)])}var
+aT=ae}else
+var
+aT=ad;var
+aU=aT}else
+var
+aU=ac;var
+aV=aU}else
+var
+aV=aS;return aV}var
+bp=av}else
+var
+bp=au;return bp;case
+14:if(a){var
+J=a[1];if(J){var
+K=J[2];if(K){var
+L=K[2];if(L){if(L[2])return 0;if(a[2])return 0;var
+b1=j[3],b2=j[2],b3=j[1],b4=[0,J[1],K[1],L[1]],b5=l[5],b6=l[4];return lj(f,function(a){return lh(b6,b5,a)},b4,b3,b2,b1)}var
+br=L}else
+var
+br=K;var
+bs=br}else
+var
+bs=J;var
+bt=bs}else
+var
+bt=a;return bt;default:s=1}switch(s){case
 1:var
-ae=0;break;case
+aY=0;break;case
 2:var
-Q=M(m[3],at);if(Q){var
-R=Q[1];if(R)return au(R[1]);var
-aw=R}else
+aq=E(l[3],bh);if(aq){var
+ar=aq[1];if(ar)return bi(ar[1]);var
+bj=ar}else
 var
-aw=Q;return aw;case
-3:var
-O=M(m[1],am);if(O){var
-ao=O[1],ap=s(h(ao),ab);if(ap)return an(ao);var
-aq=ap}else
+bj=aq;return bj;default:var
+ai=E(l[2],ag);return ai?ah(ai[1]):ai}}else
 var
-aq=O;return aq;default:var
-J=M(m[2],H);return J?I(J[1]):J}}else
-var
-ae=ad;return ae}function
-lc(h,g){var
-c=h,b=g;for(;;){if(b){var
-d=b[2],a=b[1];if(typeof
-a!=="number"&&4===a[0]){if(c){var
-f=c[1];if(f){var
-c=f[1],b=d;continue}return[0,[0,[4,a[1],a[2],a[3]],0]]}return[0,[0,a,1]]}if(c){var
-c=c[1],b=d;continue}var
-e=[0,[0,a,1]]}else
-var
-e=b;return e}}function
-ld(a){if(a){var
-b=a[1];if(b){var
-c=b[1],d=ld(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rs}function
-rt(a){return e(function(a){return[0,a,b]},a)}function
-le(h,f,c,n,a){if(typeof
+aY=aX;return aY}function
+hH(d,f,a){if(typeof
+a!=="number")switch(a[0]){case
+4:return rR;case
+13:var
+e=a[4];if(lu(d,e)&&_(g(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return rS;return rT;case
+16:return f}return rQ}function
+hI(e,d,g,f){var
+b=g,a=f;for(;;){if(a){var
+c=a[1];if(bd(b,hH(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=g$(b,hH(e,d,c)),a=h;continue}return a}}function
+rU(a){return e(function(a){return[0,a,b]},a)}function
+hJ(f,o,h,c,n,a){if(typeof
 a==="number"){if(0===a){var
-r=c[4];return al(function(a){return g(h,0,[3,[0,d,b],a])},r)}var
-i=ld(c[5]);return i?ka(f,i[1]):i}else{if(0===a[0]){var
-j=lc(a[1],n);if(j){var
-o=j[1],s=o[1],t=e(rt,a[2]);return lb(h,f,c,o[2],t,s)}return j}var
-k=lc(a[1],n);if(k){var
-p=k[1],l=p[1];if(typeof
+s=c[6];return aj(function(a){return g(f,0,[3,[0,d,b],a])},s)}var
+i=hG(c[7]);return i?ko(h,i[1]):i}else{if(0===a[0]){var
+j=hI(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(rU,a[2]);return lv(f,h,c,p[2],u,t)}return j}var
+k=hI(f,o,a[1],n);if(k){var
+q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=M(c[1],a[2]);return m?lb(h,f,c,p[2],[0,m[1],0],[1,l[1]]):m}var
-q=0}else
+m=E(c[1],a[2]);return m?lv(f,h,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+r=0}else
 var
-q=k;return q}}function
-hw(a){var
-b=aD(a[1]),c=aw(T(b,a[2]),b),d=a[2];return ai(function(b,a){return[3,b,a]},d,c)}function
-hx(a){return aD(hw(a))}function
-lf(c){var
-a=hx(c),b=aD(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hy(a,b){return bd(a[3],a[4],b)}function
-hz(a,b){var
-c=hy(a,b);return T(hx(a),c)}function
-hA(a,b){var
-c=hy(a,b);return T(lf(a),c)}function
-lg(a,b){var
-c=hy(a,b);return T(aD(a[1]),c)}function
-hB(b,a){var
-c=hA(b,a),d=hz(b,a);return[2,[4,d,d],[4,c,c]]}function
-hC(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lg(a,d);return[5,[2,hB(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-lh(a,b){var
-f=a[5],c=[3,hC(a,b),f],d=lg(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fQ(a,b){var
-c=lh(a,b);return c1(a[7],c)}function
-li(b,a){var
-c=hB(b,a),d=hA(b,a),e=[4,fQ(b,a),d],f=hz(b,a);return[5,[2,[4,hC(b,a),f],e],c]}function
-lj(b,a){var
-c=hB(b,a),d=hz(b,a),e=[4,fQ(b,a),d],f=hA(b,a);return[5,[3,[4,hC(b,a),f],e],c]}function
-lk(a,b){var
-c=lf(a),d=aw(lj(a,b),c),e=hx(a),f=aw(li(a,b),e),g=ai(function(b,a){return[2,b,a]},f,d),h=aw(a[5],g),i=a[3];return ai(function(b,a){return[2,b,a]},i,h)}function
-ll(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-lm(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-hD(a,c,b){var
-d=[4,ll(a),b],e=[2,[4,lm(a),c],d],f=[4,lm(a),b];return[0,[3,[4,ll(a),c],f],e]}function
-ln(c,a){var
-b=hD(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-eA(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-fR(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:ln(d[1],a):a;case
+r=k;return r}}function
+hK(a){var
+b=aD(a[1]),c=ap(F(b,a[2]),b),d=a[2];return Z(function(b,a){return[3,b,a]},d,c)}function
+hL(a){return aD(hK(a))}function
+lw(c){var
+a=hL(c),b=aD(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+hM(a,b){return a4(a[3],a[4],b)}function
+hN(a,b){var
+c=hM(a,b);return F(hL(a),c)}function
+hO(a,b){var
+c=hM(a,b);return F(lw(a),c)}function
+lx(a,b){var
+c=hM(a,b);return F(aD(a[1]),c)}function
+hP(b,a){var
+c=hO(b,a),d=hN(b,a);return[2,[4,d,d],[4,c,c]]}function
+hQ(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lx(a,d);return[5,[2,hP(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+ly(a,b){var
+f=a[5],c=[3,hQ(a,b),f],d=lx(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+fV(a,b){var
+c=ly(a,b);return c6(a[7],c)}function
+lz(b,a){var
+c=hP(b,a),d=hO(b,a),e=[4,fV(b,a),d],f=hN(b,a);return[5,[2,[4,hQ(b,a),f],e],c]}function
+lA(b,a){var
+c=hP(b,a),d=hN(b,a),e=[4,fV(b,a),d],f=hO(b,a);return[5,[3,[4,hQ(b,a),f],e],c]}function
+hR(a,b){var
+c=lw(a),d=ap(lA(a,b),c),e=hL(a),f=ap(lz(a,b),e),g=Z(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return Z(function(b,a){return[2,b,a]},i,h)}function
+lB(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+lC(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+hS(a,c,b){var
+d=[4,lB(a),b],e=[2,[4,lC(a),c],d],f=[4,lC(a),b];return[0,[3,[4,lB(a),c],f],e]}function
+lD(c,a){var
+b=hS(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+eE(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+dP(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:lD(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hD(d[1],a[2],a[3]),m=j[1],k=hD(f[1],j[2],a[1]);return ln(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=hS(d[1],a[2],a[3]),m=j[1],k=hS(f[1],j[2],a[1]);return lD(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=T(e,e),n=eA(e,a),o=aw([0,c(2,b),b],n),p=T(e,a),q=aw([4,[0,c(2,b),b],p],e),r=aw([3,[0,b,b],l],a),s=ai(function(b,a){return[2,b,a]},r,q);return aw([5,[0,b,b],[2,[0,b,b],l]],ai(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-lo(c){var
-a=cv(c);return a?du(a[1],[0,d,b]):a}function
-lp(a,n,k,j){if(lo(j)){var
+e=[0,d[1],h[1],i[1]],l=F(e,e),n=eE(e,a),o=ap([0,c(2,b),b],n),p=F(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=Z(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],Z(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+lE(c){var
+a=cx(c);return a?dy(a[1],[0,d,b]):a}function
+lF(a,n,k,j){if(lE(j)){var
 q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
-f=a2(a,k);if(f){var
-h=dy(a,[5,j,[0,c(2,b),b]]);if(h){var
-i=fv(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=v(a,f[1],h[1]),l=[0,E(i[1],p)];else
+f=aH(a,k);if(f){var
+h=cz(a,[5,j,[0,c(2,b),b]]);if(h){var
+i=fB(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=v(a,f[1],h[1]),l=[0,C(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3158,25 +3314,25 @@ e=m}else
 var
 e=f;if(e){var
 o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-eB(b,a,c){var
-d=bl(b,a[1],a[2]),e=d?lp(b,0,c,a[1]):d;return e?lp(b,1,c,a[2]):e}function
-lq(h,f,c){if(lo(c))return[0,B];var
-a=D(h,g_(f)),d=dy(a,c);if(d){var
-e=fv(a,c);if(e){var
-i=e[1],j=d[1],k=bS(a,A(Q(a,b),j));return x(function(b){return jW(f,v(a,i,b))},k)}var
+eF(b,a,c){var
+d=bf(b,a[1],a[2]),e=d?lF(b,0,c,a[1]):d;return e?lF(b,1,c,a[2]):e}function
+lG(h,f,c){if(lE(c))return[0,B];var
+a=G(h,hi(f)),d=cz(a,c);if(d){var
+e=fB(a,c);if(e){var
+i=e[1],j=d[1],k=bU(a,A(R(a,b),j));return x(function(b){return j_(f,v(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c4(a){return function(b){return lq(a,d,b)}}function
-c5(d,a){var
-e=g(d,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-c6(a){return[0,[3,[0,d,b],a],a]}function
-lr(a,c,o,n){var
-h=bl(a,[0,d,b],c),j=h?c5(a,c):h;if(j){var
-e=i(c4(a),c);if(e){var
-f=a2(a,o);if(f){var
-g=a2(a,n);if(g){var
-p=f[1],q=g[1];return H(d,E(v(a,S(a,e[1]),q),p)[1])}var
+c7(a){return function(b){return lG(a,d,b)}}function
+c8(d,a){var
+e=g(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+c9(a){return[0,[3,[0,d,b],a],a]}function
+lH(a,c,o,n){var
+h=bf(a,[0,d,b],c),j=h?c8(a,c):h;if(j){var
+e=i(c7(a),c);if(e){var
+f=aH(a,o);if(f){var
+g=aH(a,n);if(g){var
+p=f[1],q=g[1];return H(d,C(v(a,S(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3186,12 +3342,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-fS(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:eB(d,c[1],a[1]):a;case
+fW(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:eF(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=eB(d,c[1],a[1]),m=l?eB(d,c[2],e[1]):l;if(m)return eB(d,c[3],f[1]);var
+l=eF(d,c[1],a[1]),m=l?eF(d,c[2],e[1]):l;if(m)return eF(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3204,7 +3360,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=T([0,s,r,q],[0,s,r,q]);return lr(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=F([0,s,r,q],[0,s,r,q]);return lH(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3213,7 +3369,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lr(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eB(d,c6(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=lH(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eF(d,c9(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3224,89 +3380,89 @@ A=z}else
 var
 A=a;return A}}var
 o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bH(h){var
-a=av(function(f,e){var
-a=a2(o,f);if(a)var
-b=a[1],c=bf(dq(b[1]),dq(b[2]));else
+bI(h){var
+a=aw(function(f,e){var
+a=aH(o,f);if(a)var
+b=a[1],c=bj(cV(b[1]),cV(b[2]));else
 var
-c=d;return bf(c,e)},d,h);if(K(d,a)){var
-f=aO(a);if(0===f||!(0<f&&!H(a,b)))var
+c=d;return bj(c,e)},d,h);if(M(d,a)){var
+f=aP(a);if(0===f||!(0<f&&!H(a,b)))var
 g=d;else
 var
-c=aZ(a,aM(2)),e=c[1],g=ab(c[2],d)?fg(e):fg(e);return aF(g,o)}return d}function
-dL(a){return[0,a[1],[0,a[2],0]]}function
-a9(a){var
-b=dL(a[3]),c=f(dL(a[2]),b);return f(dL(a[1]),c)}function
-fT(a){return fO(o,a,bH(a9(a)))}function
-ls(b,a){if(a){var
-g=ls([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cz([0,[0,d,d],c[2]],b);else
+c=a1(a,aO(2)),e=c[1],g=ac(c[2],d)?fl(e):fl(e);return aF(g,o)}return d}function
+dQ(a){return[0,a[1],[0,a[2],0]]}function
+a$(a){var
+b=dQ(a[3]),c=f(dQ(a[2]),b);return f(dQ(a[1]),c)}function
+fX(a){return fU(o,a,bI(a$(a)))}function
+lI(b,a){if(a){var
+g=lI([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cC([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-lt(c,b,a){var
-d=dw(b);return[2,[2,dw(c),d],a]}function
-hE(b,a){return b?R(a):d}function
-eC(h,b,a){if(typeof
+lJ(c,b,a){var
+d=dA(b);return[2,[2,dA(c),d],a]}function
+hT(b,a){return b?T(a):d}function
+eG(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hE(h,b);return[0,[5,q,a],D(hE(h,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
+c=hT(h,b);return[0,[5,q,a],G(hT(h,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bH([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bI([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],s=dJ(b,k),t=f(dJ(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,lt(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=dM(b,k),t=f(dM(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,lJ(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bH([0,o,0]);return[0,[4,a[3],aF(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bI([0,o,0]);return[0,[4,a[3],aF(p,b)],[0,[0,o,p],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cA(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cA(g,c,b,P(e,h(eC(c,b,d))),i);return f(ar(g,ls(e,eC(c,b,d)),d),j)}return a}function
-fU(b,a){var
-c=at(b,a);return e(function(a){var
-b=p(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hF(b,a){switch(a[0]){case
+cG(g,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=cG(g,c,b,O(e,h(eG(c,b,d))),i);return f(an(g,lI(e,eG(c,b,d)),d),j)}return a}function
+fY(b,a){var
+c=ar(b,a);return e(function(a){var
+b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+hU(b,a){switch(a[0]){case
 0:var
-d=a[1];return aj(b,[0,[0,d,d],a[2]]);case
+d=a[1];return ak(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=aj(b,[0,[0,e,e],a[2]]);return c?j5(b,c[1]):c;case
-2:return dy(b,a[1]);case
-3:return fv(b,a[1]);default:var
-f=a[1],g=c5(b,f);return g?lq(b,a[2],f):g}}function
-bZ(a){return 1===a?ru:rv}function
-fV(d,c,b,a){var
-e=a[1],f=fR(d,c,a[2]),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-hG(c,b,a){switch(c){case
+e=a[1],c=ak(b,[0,[0,e,e],a[2]]);return c?kh(b,c[1]):c;case
+2:return cz(b,a[1]);case
+3:return fB(b,a[1]);default:var
+f=a[1],g=c8(b,f);return g?lG(b,a[2],f):g}}function
+b1(a){return 1===a?rV:rW}function
+eH(d,c,b,a){var
+e=a[1],f=dP(d,c,a[2]),g=Z(function(b,a){return[2,b,a]},b,f);return Z(function(b,a){return[3,b,a]},g,e)}function
+hV(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-lu(h,g,d,c,f,a){var
-e=fV(d,c,f,a);return hG(h,e,aw([5,[0,b,b],g],eA(fR(d,c,a[2]),e)))}function
-lv(c,j,i){var
+lK(h,g,d,c,f,a){var
+e=eH(d,c,f,a);return hV(h,e,ap([5,[0,b,b],g],eE(dP(d,c,a[2]),e)))}function
+lL(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=a8(c,e[1],d[1]),g=f?a8(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=a_(c,e[1],d[1]),g=f?a_(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-be(b,d){var
+bh(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bU(function(a){return be(b,a)},a)]}return[0,bU(function(a){return be(b,a)},a)]}function
-c7(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,bB(function(a){return bh(b,a)},a)]}return[0,bB(function(a){return bh(b,a)},a)]}function
+c_(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=ac(s(e,b));return f?ac(s(e,P(d,b))):f;case
+e=a[1],f=_(r(e,b));return f?_(r(e,O(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3314,31 +3470,31 @@ e=a[1],f=ac(s(e,b));return f?ac(s(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c7(d,b,a[1]);if(g){var
+g=c_(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dM(c,b,m){var
+dR(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c7(c,b,g),i=h?dM(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=c_(c,b,g),i=h?dR(c,b,f):h;if(i)var
 j=i;else{var
-k=dM(c,b,g);if(k)return c7(c,b,f);var
+k=dR(c,b,g);if(k)return c_(c,b,f);var
 j=k}return j;case
 7:var
-l=dM(c,b,a[1]);return l?c7(c,b,a[2]):l;case
+l=dR(c,b,a[1]);return l?c_(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=dM(c,b,a[1]);if(e){var
+e=dR(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c7(c,b,a[1]);default:return 1}}}function
-cg(c,e){var
+9:return c_(c,b,a[1]);default:return 1}}}function
+ck(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return ac(s(a[1],c));case
+0:return _(r(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3346,32 +3502,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cg(c,a[1]);if(d){var
+d=ck(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fW(d,b,m){var
+fZ(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fW(d,b,a[1]);if(f){var
+f=fZ(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fW(d,b,a[1]);return g?cg(b,a[2]):g;case
+g=fZ(d,b,a[1]);return g?ck(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cg(b,i);if(j){var
-k=cg(b,h);if(k)var
+h=a[2],i=a[1],j=ck(b,i);if(j){var
+k=ck(b,h);if(k)var
 e=k;else{var
-l=az(i,d);if(l){var
+l=ay(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cg(b,c)}}}function
-fX(c,e){var
+2:return 1;default:return ck(b,c)}}}function
+f0(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return by(a[1],c);case
+0:return bd(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3379,139 +3535,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=fX(c,a[1]);if(d){var
+d=f0(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fY(a,b){if(a){var
+f1(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,fY(c,av(em,e,jR(d)))]:[0,rw,fY(c,e)]}var
-f=[0,d,fY(c,0)]}else
+e=b[2];return b[1]?[0,d,f1(c,aw(er,e,j5(d)))]:[0,rZ,f1(c,e)]}var
+f=[0,d,f1(c,0)]}else
 var
 f=a;return f}function
-cB(b,a){return a?i(b,a[1]):a}function
-cC(c,b,a){return cB(function(b){return cB(i(c,b),a)},b)}function
-lw(b,a){switch(a[0]){case
+cH(b,a){return a?i(b,a[1]):a}function
+cI(c,b,a){return cH(function(b){return cH(i(c,b),a)},b)}function
+lM(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-lx(a){return 0===a[0]?a[1]:0}function
-ly(d,c){var
+lN(a){return 0===a[0]?a[1]:0}function
+lO(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=lw(a[1],b),a=e;continue}return lx(b)}}function
-b0(b,a){switch(a[0]){case
+e=a[2],b=lM(a[1],b),a=e;continue}return lN(b)}}function
+b2(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,b0(b,a[1])];default:var
-c=b0(b,a[3]),d=b0(b,a[2]);return[2,b0(b,a[1]),d,c]}}function
-a_(b,c,a){switch(c[0]){case
-0:return b0(i(b,c[1]),a);case
+1:return[1,b2(b,a[1])];default:var
+c=b2(b,a[3]),d=b2(b,a[2]);return[2,b2(b,a[1]),d,c]}}function
+ba(b,c,a){switch(c[0]){case
+0:return b2(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,b0(function(a){return ar(b,a,k)},d)];case
-1:return[1,a_(b,d,a[1])];default:var
-l=a_(b,d,a[3]),m=a_(b,d,a[2]);return[2,a_(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,b2(function(a){return an(b,a,k)},d)];case
+1:return[1,ba(b,d,a[1])];default:var
+l=ba(b,d,a[3]),m=ba(b,d,a[2]);return[2,ba(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return ar(b,a,n)},h=function(a){return b0(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return an(b,a,n)},h=function(a){return b2(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=a_(b,e,j),s=a_(b,f,j);return[2,a_(b,g,j),s,r];default:var
-t=a_(b,e,a[3]),u=a_(b,f,a[2]);return[2,a_(b,g,a[1]),u,t]}}}function
-hH(c,f,a){if(a)var
+j=a[1],r=ba(b,e,j),s=ba(b,f,j);return[2,ba(b,g,j),s,r];default:var
+t=ba(b,e,a[3]),u=ba(b,f,a[2]);return[2,ba(b,g,a[1]),u,t]}}}function
+hW(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,S(c,a)];break;case
 1:var
-g=v(c,a,b),e=[0,ay(A(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=hH(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=v(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
+e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=hW(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hI(b,w,c,a){var
-e=hH(b,bg,a),d=0,y=f(hH(b,aB,a),e);return bV(ry,function(a){switch(a[0]){case
-0:return r(a[1],y,[0,[0,B]]);case
-1:return[0,[0,r(a[1],w,B)]];case
-2:return[0,[0,Q(b,a[1])]];case
+hX(b,w,c,a){var
+e=hW(b,aQ,a),d=0,y=f(hW(b,aB,a),e);return bW(r1,function(a){switch(a[0]){case
+0:return s(a[1],y,[0,[0,B]]);case
+1:return[0,[0,s(a[1],w,B)]];case
+2:return[0,[0,R(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return a_(function(a,b){return cC(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return ba(function(a,b){return cI(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,E(b,a)]};return a_(function(a,b){return cC(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,C(b,a)]};return ba(function(a,b){return cI(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ad(a)]};return b0(function(a){return cB(j,a)},i);case
+i=a[1],j=function(a){return[0,ae(a)]};return b2(function(a){return cH(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return a_(function(a,b){return cC(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return ba(function(a,b){return cI(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bS(b,a);return x(function(a){return v(b,c,a)},d)};return a_(function(a,b){return cC(p,a,b)},o,n);case
+d=bU(b,a);return x(function(a){return v(b,c,a)},d)};return ba(function(a,b){return cI(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,S(b,a)]};return b0(function(a){return cB(s,a)},q);case
+q=a[1],r=function(a){return[0,S(b,a)]};return b2(function(a){return cH(r,a)},q);case
 9:var
-t=a[1],u=function(a){return bT(b,a)};return b0(function(a){return cB(u,a)},t);default:return rx}},c,d)}function
-fZ(a){if(a){var
+t=a[1],u=function(a){return bV(b,a)};return b2(function(a){return cH(u,a)},t);default:return r0}},c,d)}function
+f2(a){if(a){var
 b=a[1];if(b)var
-c=fZ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=f2(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rz}function
-dN(a){if(a){var
-g=a[1],b=g[2],c=fZ(g[1]);if(c)if(b){var
-h=b[1],e=dN(a[2]);if(e)var
-i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return r2}function
+dS(a){if(a){var
+g=a[1],b=g[2],c=f2(g[1]);if(c)if(b){var
+h=b[1],e=dS(a[2]);if(e)var
+i=M(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return rA}function
-dO(b,a){var
+f=c;return f}return r3}function
+dT(b,a){var
 c=a[3],d=x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(aq(b),f),e,d]}function
-hJ(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(at(b),f),e,d]}function
+hY(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=iF(c,ed,ed,function(a){return lw(b,a)},e);return hJ(c,g,bx(f),l,a,d)},i=d(0,aF(a,h));if(i){var
-j=d(2,D(a,h));if(j)return f?1:d(1,a);var
+d=iU(c,ei,ei,function(a){return lM(b,a)},e);return hY(c,g,bk(f),l,a,d)},i=d(0,aF(a,h));if(i){var
+j=d(2,G(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return ar(g,a,iF(c,ed,ed,lx,e))}function
-hK(e,c,b,a){var
-f=ap(d,b);function
-g(b){return a}return function(a){return hJ(e,g,c,f,d,a)}}function
-cD(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a0(f,e,a)},d)}return[0,B]}function
-lz(f,e,k,j,i,a){var
-b=dN(a[1]);if(b){var
+k=i;return k}return an(g,a,iU(c,ei,ei,lN,e))}function
+hZ(e,c,b,a){var
+f=as(d,b);function
+g(b){return a}return function(a){return hY(e,g,c,f,d,a)}}function
+cJ(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a2(f,e,a)},d)}return[0,B]}function
+lP(f,e,k,j,i,a){var
+b=dS(a[1]);if(b){var
 c=a[2];if(c){var
-d=cD(a[3]);if(d){var
-l=d[1],m=ap([0,E(ad(v(f,i,c[1])),l),0],e);return a7(f,e,fx(k,j,b[1],m))}var
+d=cJ(a[3]);if(d){var
+l=d[1],m=as([0,C(ae(v(f,i,c[1])),l),0],e);return a9(f,e,fD(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-lA(i,d,h,g,c){var
-a=dN(c[1]);if(a){var
-b=cD(c[3]);if(b){var
-j=ap([0,E(B,b[1]),0],d),k=a[1];return a7(i,d,fx(h,g,e(function(a){return[0,a[1],B]},k),j))}var
+lQ(i,d,h,g,c){var
+a=dS(c[1]);if(a){var
+b=cJ(c[3]);if(b){var
+j=as([0,C(B,b[1]),0],d),k=a[1];return a9(i,d,fD(h,g,e(function(a){return[0,a[1],B]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-lB(a,c,F,i){var
-j=dN(i[1]);if(j){var
+lR(a,c,E,i){var
+j=dS(i[1]);if(j){var
 k=i[2];if(k){var
-l=cD(i[3]);if(l){var
-G=l[1],e=E(v(a,F,k[1]),G),b=j[1];if(b){var
+l=cJ(i[3]);if(l){var
+F=l[1],e=C(v(a,E,k[1]),F),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=fy(a,b,ap([0,e,0],c));if(f){var
-o=f[1],p=s(h(o),c);if(p)return dz(a,o);var
+f=fE(a,b,as([0,e,0],c));if(f){var
+o=f[1],p=r(h(o),c);if(p)return dC(a,o);var
 q=p}else
 var
 q=f;return q}var
-r=K(d,e[1]),t=r?K(d,n[1]):r;if(t){var
-B=z(e[1],n[1]),C=m[1];return K(av(function(a,b){var
-c=ca(a);return D(z(ca(a),c),b)},d,C),B)}return t}var
-g=fy(a,b,ap([0,e,0],c));if(g){var
-u=g[1],w=s(h(u),c);if(w)return dz(a,u);var
+s=M(d,e[1]),t=s?M(d,n[1]):s;if(t){var
+B=z(e[1],n[1]),D=m[1];return M(aw(function(a,b){var
+c=cd(a);return G(z(cd(a),c),b)},d,D),B)}return t}var
+g=fE(a,b,as([0,e,0],c));if(g){var
+u=g[1],w=r(h(u),c);if(w)return dC(a,u);var
 x=w}else
 var
 x=g;return x}var
@@ -3521,147 +3677,147 @@ y=k;var
 A=y}else
 var
 A=j;return A}function
-rB(c){var
+r4(c){var
 a=c[2];if(a){var
-b=cD(c[3]);if(b)return H(d,E(a[1],b[1])[1]);var
+b=cJ(c[3]);if(b)return H(d,C(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-hL(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-lC(a,c,b){var
-e=r(b,c,j(d)),f=aG(0,a);return n(function(b){return dM(a,b,e)},f)}function
-eD(a){var
-c=J(a);return y(j(b),c)}function
-f0(i,g){var
-h=eD(g),k=J(g),e=u(j(b),k),f=p(j(c(2,b)),g),a=j(d);return i?i[1]?[0,[0,e,bk(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bk(f),a,e]]:[0,[0,h,a,a],[0,a,e,bk(f)],[0,a,f,e]]}function
-eE(b,a){var
-c=N(b[3],a),d=N(b[2],a);return[0,N(b[1],a),d,c]}function
-lD(b,a){function
+h0(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
+lS(a,c,b){var
+e=s(b,c,k(d)),f=aG(0,a);return n(function(b){return dR(a,b,e)},f)}function
+eI(a){var
+c=L(a);return y(k(b),c)}function
+f3(i,g){var
+h=eI(g),j=L(g),e=u(k(b),j),f=q(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bo(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bo(f),a,e]]:[0,[0,h,a,a],[0,a,e,bo(f)],[0,a,f,e]]}function
+eJ(b,a){var
+c=P(b[3],a),d=P(b[2],a);return[0,P(b[1],a),d,c]}function
+lT(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=N(a,c(function(a){return a[3]})),d=N(a,c(function(a){return a[2]}));return[0,N(a,c(function(a){return a[1]})),d,b]}var
+b=P(a,c(function(a){return a[3]})),d=P(a,c(function(a){return a[2]}));return[0,P(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-lE(w,v){function
-a(a){return[0,[0,P(v,a)]]}switch(w[0]){case
+lU(w,v){function
+a(a){return[0,[0,O(v,a)]]}switch(w[0]){case
 0:var
-x=eD(a(0));return[0,f0(rC,a(0)),x];case
+x=eI(a(0));return[0,f3(r5,a(0)),x];case
 1:var
-z=eD(a(0)),A=p(eD(a(rD)),z),B=p(eD(a(rE)),A),C=f0(0,a(0)),D=lD(f0(rG,a(rF)),C);return[0,lD(f0(rI,a(rH)),D),B];default:var
-E=a(rJ),F=a(rK),g=[0,a(0),F,E],G=N(g,g),H=y(j(b),G),k=N(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=J(a),e=p(j(c(2,b)),d);return y(u(j(b),k),e)},h=function(f,e,d,a){var
-g=ar(f,p(e,d),a);return p(j(c(2,b)),g)},l=i(f),m=h(y,e,f,d),n=[0,h(u,d,f,e),m,l],o=h(u,e,f,d),q=i(e),r=[0,h(y,d,e,f),q,o],s=h(y,d,f,e),t=h(u,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
-lF(a){return 1<a[0]?[0,a[1],0]:0}function
-f1(a){switch(a[0]){case
+z=eI(a(0)),A=q(eI(a(r6)),z),B=q(eI(a(r7)),A),C=f3(0,a(0)),D=lT(f3(r9,a(r8)),C);return[0,lT(f3(r$,a(r_)),D),B];default:var
+E=a(sa),F=a(sb),g=[0,a(0),F,E],G=P(g,g),H=y(k(b),G),j=P(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=L(a),e=q(k(c(2,b)),d);return y(u(k(b),j),e)},h=function(f,e,d,a){var
+g=an(f,q(e,d),a);return q(k(c(2,b)),g)},l=i(f),m=h(y,e,f,d),n=[0,h(u,d,f,e),m,l],o=h(u,e,f,d),p=i(e),r=[0,h(y,d,e,f),p,o],s=h(y,d,f,e),t=h(u,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
+lV(a){return 1<a[0]?[0,a[1],0]:0}function
+f4(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c6(a[1]),0];default:var
-b=[0,c6(a[2]),0];return[0,c6(a[1]),b]}}function
-dP(a){return[0,[0,a[1]],[0,a[2]]]}function
-lG(a){switch(a[0]){case
-0:return[0,dP(a[1]),0];case
+2:return[0,c9(a[1]),0];default:var
+b=[0,c9(a[2]),0];return[0,c9(a[1]),b]}}function
+dU(a){return[0,[0,a[1]],[0,a[2]]]}function
+lW(a){switch(a[0]){case
+0:return[0,dU(a[1]),0];case
 1:var
-f=[0,dP(a[3]),0],g=[0,dP(a[2]),f];return[0,dP(a[1]),g];case
+f=[0,dU(a[3]),0],g=[0,dU(a[2]),f];return[0,dU(a[1]),g];case
 2:var
-b=dP(c6(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c6(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dP(c6(c)),0]]]}}function
-lH(a,c){if(0===c[0]){var
-g=c[1];return i(c4(a),g)}var
-h=c[1],d=i(c4(a),h);if(d){var
-j=c[2],e=i(c4(a),j);if(e){var
-k=S(a,e[1]),l=bT(a,A(Q(a,b),k)),m=d[1];return x(function(b){return v(a,m,b)},l)}var
+b=dU(c9(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,c9(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dU(c9(c)),0]]]}}function
+lX(a,c){if(0===c[0]){var
+g=c[1];return i(c7(a),g)}var
+h=c[1],d=i(c7(a),h);if(d){var
+j=c[2],e=i(c7(a),j);if(e){var
+k=S(a,e[1]),l=bV(a,A(R(a,b),k)),m=d[1];return x(function(b){return v(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-lI(d,c){var
-a=lH(d,c[1]);if(a)var
-b=lH(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+lY(d,c){var
+a=lX(d,c[1]);if(a)var
+b=lX(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-lJ(a,e,c){var
+lZ(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(by(f,a))return c;var
-g=j(d);return r(jv(f,a),e,g)}return[0,bU(function(b){return lJ(a,e,b)},b)]}function
-hM(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=kI(h,c),k=bD(f),b=e(function(b){return lJ(a,k,b)},i),l=r(rP,b,j(d)),m=r(rQ,b,j(d));return[0,r(0,b,j(d)),m,l]}function
-b1(b,a){var
-c=p(b[2],a[1]),d=u(p(b[1],a[2]),c),e=p(b[1],a[3]),f=u(p(b[3],a[1]),e),g=p(b[3],a[2]);return[0,u(p(b[2],a[3]),g),f,d]}function
-c8(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-lK(c){function
+f=b[1];if(bd(f,a))return c;var
+g=k(d);return s(g$(f,a),e,g)}return[0,bB(function(b){return lZ(a,e,b)},b)]}function
+h1(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=kW(h,c),j=bF(f),b=e(function(b){return lZ(a,j,b)},i),l=s(sg,b,k(d)),m=s(sh,b,k(d));return[0,s(0,b,k(d)),m,l]}function
+b3(b,a){var
+c=q(b[2],a[1]),d=u(q(b[1],a[2]),c),e=q(b[1],a[3]),f=u(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,u(q(b[2],a[3]),g),f,d]}function
+c$(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+l0(c){function
 a(a){var
-e=s(c,a)?b:d;return j(e)}var
-e=a(rR),f=a(rS);return[0,a(0),f,e]}function
-lL(b,a){if(a)var
-d=lL(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=r(c,a)?b:d;return k(e)}var
+e=a(si),f=a(sj);return[0,a(0),f,e]}function
+l1(b,a){if(a)var
+d=l1(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-f2(c,b,a){switch(c){case
+f5(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-lM(b,c,a){return c?bR(b,a):bj(b,a)}function
-lN(a){if(a){var
-f=a[1],b=f[2],c=fZ(f[1]);if(c)if(b)var
-d=lN(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+l2(b,c,a){return c?bT(b,a):bn(b,a)}function
+l3(a){if(a){var
+f=a[1],b=f[2],c=f2(f[1]);if(c)if(b)var
+d=l3(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return r3}function
-lO(c,b,a){var
-d=at(b,a);return av(function(a,d){var
-b=ca(a[2]);return A(v(c,a[1],[0,b,b]),d)},B,d)}function
-lP(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=lP(a,h,e[2],f,d[2]),p=i[2],q=bR(h,i[1]),c=e[1],j=ay(v(a,c[3],f)),k=c[3],l=A(ay(ek(p,Q(a,b),k)),j),m=v(a,c[2],l),n=v(a,c[1],f),g=[0,cr(A(A(ay(lO(a,c[4],q)),n),m)),o];else
+e=c;return e}return su}function
+l4(c,b,a){var
+d=ar(b,a);return aw(function(a,d){var
+b=cd(a[2]);return A(v(c,a[1],[0,b,b]),d)},B,d)}function
+l5(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=l5(a,h,e[2],f,d[2]),p=i[2],q=bT(h,i[1]),c=e[1],j=ax(v(a,c[3],f)),k=c[3],l=A(ax(ep(p,R(a,b),k)),j),m=v(a,c[2],l),n=v(a,c[1],f),g=[0,ct(A(A(ax(l4(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-r5(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-lQ(b,a){return W(e(function(a){return r(a,b,0)},a))}function
-c9(a){switch(a){case
-0:return r9;case
-1:return r_;default:return 0}}function
-c_(a){switch(a){case
-0:return[0,sa,r$,j(d)];case
-1:return cV;default:var
-b=j(d),c=j(d);return[0,j(d),c,b]}}function
-f3(c,b,a){return a6(eE(c,a),b)}function
-lR(a){var
-d=N(a,a),e=y(j(b),d);return ag(j(c(2,b)),e)}function
-lS(k,j,i,h,g,a){var
-e=f3(j,i,g),c=b1(a,e),f=Z(y,c,b1(a,c)),d=Z(y,e,aP(lR(a),f)),b=Z(u,Z(y,c_(k),d),h);return[0,[0,d,b],aA(N(b,b))]}function
-bI(e,k){var
-a=k[1];switch(a[0]){case
+sw(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+l6(b,a){return W(e(function(a){return s(a,b,0)},a))}function
+da(a){switch(a){case
+0:return sA;case
+1:return sB;default:return 0}}function
+db(a){switch(a){case
+0:return[0,sD,sC,k(d)];case
+1:return c2;default:var
+b=k(d),c=k(d);return[0,k(d),c,b]}}function
+f6(c,b,a){return a8(eJ(c,a),b)}function
+l7(a){var
+d=P(a,a),e=y(k(b),d);return ah(k(c(2,b)),e)}function
+l8(k,j,i,h,g,a){var
+e=f6(j,i,g),c=b3(a,e),f=$(y,c,b3(a,c)),d=$(y,e,aS(l7(a),f)),b=$(u,$(y,db(k),d),h);return[0,[0,d,b],az(P(b,b))]}function
+bJ(e,j){var
+a=j[1];switch(a[0]){case
 1:var
-l=s(a[1],e)?b:d;return j(l);case
+l=r(a[1],e)?b:d;return k(l);case
 3:var
-m=bI(e,a[2]);return y(bI(e,a[1]),m);case
+m=bJ(e,a[2]);return y(bJ(e,a[1]),m);case
 4:var
-n=bI(e,a[2]);return u(bI(e,a[1]),n);case
-5:return bk(bI(e,a[1]));case
+n=bJ(e,a[2]);return u(bJ(e,a[1]),n);case
+5:return bo(bJ(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=p(h,bI(e,g));return y(p(g,bI(e,h)),o);case
+g=a[2],h=a[1],o=q(h,bJ(e,g));return y(q(g,bJ(e,h)),o);case
 7:var
-f=bI(e,a[1]);return aT(d,f)?f:ag(f,a[2]);case
+f=bJ(e,a[1]);return aV(d,f)?f:ah(f,a[2]);case
 8:var
-i=a[1],q=bI(e,i);return p(p(j(c(2,b)),i),q);default:return j(d)}}function
-f4(c,b,k){var
+i=a[1],p=bJ(e,i);return q(q(k(c(2,b)),i),p);default:return k(d)}}function
+f7(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=f4(c,b,a[1]);if(g){var
+g=f7(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=K(d,r(i,c,B)[1]);return j?ac(al(function(a){return s(i,a)},b)):j}return 0}return g;case
+i=h[1],j=M(d,s(i,c,B)[1]);return j?_(aj(function(a){return r(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-0:case
-1:case
-2:return 1;default:var
-f=f4(c,b,a[1]);if(f){var
-e=a[2];continue}return f}}}function
-lT(d){var
+3:case
+4:case
+6:var
+f=f7(c,b,a[1]);if(f){var
+e=a[2];continue}return f;default:return 1}}}function
+l9(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3672,72 +3828,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=lT(a[1]);if(c){var
+c=l9(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-lU(c,b,a){var
+l_(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-hN(b,a,c){return e(function(c){var
-d=lU(b,a,c[2]),f=c[1];return[0,e(function(c){return lU(b,a,c)},f),d]},c)}function
-lV(b,a){return x(function(a){var
+h2(b,a,c){return e(function(c){var
+d=l_(b,a,c[2]),f=c[1];return[0,e(function(c){return l_(b,a,c)},f),d]},c)}function
+l$(b,a){return x(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-sb(a,b){var
-c=lV(a,b[3]),d=i(a,b[2]);return[0,hN(a,a,b[1]),d,c]}function
-lW(c){var
+sE(a,b){var
+c=l$(a,b[3]),d=i(a,b[2]);return[0,h2(a,a,b[1]),d,c]}function
+ma(c){var
 a=c[1];if(a){var
-b=fZ(c[2]);if(b)var
-g=e(ae,b[1]),d=[0,[0,ae(a[1]),g]];else
+b=f2(c[2]);if(b)var
+g=e(af,b[1]),d=[0,[0,af(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-sc(c){var
-a=W(e(lW,c[1]));if(a)var
-b=lW(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+sF(c){var
+a=W(e(ma,c[1]));if(a)var
+b=ma(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-sd(a){return ac(hh([0,a[2],a[1]]))}function
-hO(a){return[0,a[1],a[2]]}function
-lX(b,c,a){var
-d=e(function(c){return be(b,bI(c,a))},c);return[0,be(b,a),d]}function
-hP(b,e,a,d){var
+sG(a){return _(hr([0,a[2],a[1]]))}function
+h3(a){return[0,a[1],a[2]]}function
+mb(b,c,a){var
+d=e(function(c){return bh(b,bJ(c,a))},c);return[0,bh(b,a),d]}function
+h4(b,e,a,d){var
 c=w(function(a){var
-b=hO(a[2]);return f(w(hO,a[1]),b)},d),g=a?[0,be(b,a[1]),0]:a,h=f(g,c);return[0,be(b,e),h]}function
-lY(c,f,b,a){var
-d=f4(f,b,a),e=d?fX(c,a):d;return e?n(function(b){return fX(c,bI(b,a))},b):e}function
-lZ(a){switch(a[0]){case
+b=h3(a[2]);return f(w(h3,a[1]),b)},d),g=a?[0,bh(b,a[1]),0]:a,h=f(g,c);return[0,bh(b,e),h]}function
+mc(c,f,b,a){var
+d=f7(f,b,a),e=d?f0(c,a):d;return e?n(function(b){return f0(c,bJ(b,a))},b):e}function
+md(a){switch(a[0]){case
 3:var
-d=hL(a[2]);return[0,a[3],d];case
+d=h0(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=hL(b[1]);return[0,b[2],e];case
+b=a[1],e=h0(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=hL(a[1]);return[0,a[2],c]}}function
-l0(a,au,bo,k,m,P,as,w,O,j,g){switch(j[0]){case
+c=h0(a[1]);return[0,a[2],c]}}function
+me(a,au,bq,k,m,P,at,w,O,j,g){switch(j[0]){case
 0:var
-aw=j[4],R=j[3],ax=j[2],az=j[1],U=0;if(typeof
+av=j[4],Q=j[3],ay=j[2],az=j[1],U=0;if(typeof
 g==="number")U=1;else
 switch(g[0]){case
 0:var
-bp=g[2],bq=g[1],t=ax,q=az,p=function(b){return lz(a,m,bq,bp,R,b)},o=aw;break;case
+br=g[2],bs=g[1],t=ay,q=az,p=function(b){return lP(a,m,bs,br,Q,b)},o=av;break;case
 2:var
-aA=ab(R[1],d),aC=aA?ab(R[2],d):aA;if(!aC)return aC;var
-bt=g[2],bu=g[1],t=ax,q=az,p=function(b){return lA(a,m,bu,bt,b)},o=aw;break;default:U=1}if(U)return 0;break;case
+aA=ac(Q[1],d),aC=aA?ac(Q[2],d):aA;if(!aC)return aC;var
+bv=g[2],bw=g[1],t=ay,q=az,p=function(b){return lQ(a,m,bw,bv,b)},o=av;break;default:U=1}if(U)return 0;break;case
 1:var
 aM=0;if(typeof
 g==="number"&&!g)var
-bv=j[2],bw=j[1],bz=j[3],t=bv,q=bw,bA=0,p=function(b){return lB(a,m,bz,b)},o=bA;else
+bx=j[2],by=j[1],bz=j[3],t=bx,q=by,bA=0,p=function(b){return lR(a,m,bz,b)},o=bA;else
 aM=1;if(aM)return 0;break;case
 2:if(typeof
 g!=="number"&&3===g[0]){var
 z=g[3];if(z){var
-aD=z[2],aE=s(h(aD),k);if(aE){var
-bB=[0,j[1],j[2],O],bD=dO(function(a){return r(a,w,sg)},bB),aF=g[1],bE=0,bF=z[1],bG=g[2],bH=j[3],bI=function(w,i){var
-c=dN(i[1]);if(c){var
+aD=z[2],aE=r(h(aD),k);if(aE){var
+bB=[0,j[1],j[2],O],bC=dT(function(a){return s(a,w,sJ)},bB),aF=g[1],bD=0,bF=z[1],bG=g[2],bH=j[3],bI=function(w,i){var
+c=dS(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=cD(i[3]);if(f){var
-k=f[1],l=function(c){return a0(c,aF,Q(a,b))},t=l(w),u=e[1],g=A(v(a,l(bF),u),t),n=K(d,g[1]),o=n?a7(a,m,fx(aF,bG,j,ap([0,E(ad(g),k),0],m))):n;if(o){var
-h=fy(a,j,ap([0,E(v(a,bH,g),k),0],m));if(h)return a7(a,m,h[1]);var
+f=cJ(i[3]);if(f){var
+k=f[1],l=function(c){return a2(c,aF,R(a,b))},t=l(w),u=e[1],g=A(v(a,l(bF),u),t),n=M(d,g[1]),o=n?a9(a,m,fD(aF,bG,j,as([0,C(ae(g),k),0],m))):n;if(o){var
+h=fE(a,j,as([0,C(v(a,bH,g),k),0],m));if(h)return a9(a,m,h[1]);var
 p=h}else
 var
 p=o;var
@@ -3749,7 +3905,7 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return hJ(function(b,a){return dO},bI,bE,aD,d,bD)}var
+s=c;return s};return hY(function(b,a){return dT},bI,bD,aD,d,bC)}var
 aH=aE}else
 var
 aH=z;return aH}return 0;case
@@ -3758,11 +3914,11 @@ aN=0;if(typeof
 g==="number"||!(0===g[0]))aN=1;else
 var
 aI=g[2],aJ=g[1],bJ=j[3],bK=j[2],bL=j[4],bM=j[1],bN=function(f){var
-b=dN(f[1]);if(b){var
+b=dS(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=cD(f[3]);if(e){var
-g=s(h(c),m),i=g?s(h(aI),m):g;if(i){var
-n=dD(aJ,dE(aJ,aI,d[1],c));return a7(a,m,bC(fB(a,bM,bL,e[1],c),n))}var
+e=cJ(f[3]);if(e){var
+g=r(h(c),m),i=g?r(h(aI),m):g;if(i){var
+n=dG(aJ,dH(aJ,aI,d[1],c));return a9(a,m,bE(fH(a,bM,bL,e[1],c),n))}var
 j=i}else
 var
 j=e;var
@@ -3773,91 +3929,91 @@ l=k}else
 var
 l=b;return l},t=bJ,q=bK,p=bN,o=j[5];if(aN)return 0;break;case
 4:var
-aP=0;if(typeof
+aO=0;if(typeof
 g==="number"&&!g)var
-t=j[1],q=0,p=rB,o=0;else
-aP=1;if(aP)return 0;break;case
+t=j[1],q=0,p=r4,o=0;else
+aO=1;if(aO)return 0;break;case
 5:var
 aQ=0;if(typeof
 g==="number"||!(0===g[0]))aQ=1;else{var
-C=g[2],aR=0;if(C){var
-D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bO=j[2],bP=j[1],bQ=Q(a,b),bU=[0,[0,D[1],0],0],bV=g[1],t=bO,q=bP,bW=0,p=function(b){return lz(a,sh,bV,bU,bQ,b)},o=bW;aR=1}else
+D=g[2],aS=0;if(D){var
+E=D[1];if(E){if(E[2])return 0;if(D[2])return 0;var
+bO=j[2],bP=j[1],bQ=R(a,b),bR=[0,[0,E[1],0],0],bS=g[1],t=bO,q=bP,bW=0,p=function(b){return lP(a,sK,bS,bR,bQ,b)},o=bW;aS=1}else
 var
-aK=D}else
+aK=E}else
 var
-aK=C;if(!aR)return aK}if(aQ)return 0;break;case
+aK=D;if(!aS)return aK}if(aQ)return 0;break;case
 6:var
 aT=0;if(typeof
 g==="number"&&!g)var
-bY=j[2],bZ=j[1],b0=Q(a,b),t=bY,q=bZ,b1=0,p=function(b){return lB(a,si,b0,b)},o=b1;else
+bX=j[2],bZ=j[1],b0=R(a,b),t=bX,q=bZ,b1=0,p=function(b){return lR(a,sL,b0,b)},o=b1;else
 aT=1;if(aT)return 0;break;case
 7:var
 aU=0;if(typeof
 g==="number"&&5<=g)var
-b2=j[2],b3=j[1],b4=j[4],b5=j[3],t=b2,q=b3,b6=0,p=function(b){return lA(a,m,b5,b4,b)},o=b6;else
+b2=j[2],b3=j[1],b4=j[4],b5=j[3],t=b2,q=b3,b6=0,p=function(b){return lQ(a,m,b5,b4,b)},o=b6;else
 aU=1;if(aU)return 0;break;case
 8:if(typeof
 g!=="number"&&9===g[0]){var
-F=g[4],aL=g[2],T=g[1],l=j[1],u=l[9],b7=g[3],aZ=l[5],a1=g8(f(ei(l[4]),aZ),au),a2=e(ae,bo),y=l[9],a3=l[8],a4=l[7],aX=fC(y,ap(B,jv(k,y)),a3),aY=f(e(ae,bR(y,P)),aX),Y=jQ(0,bX(a,f(fC(0,bj(y,P),a4),aY),a2),a1,au,0),Z=0<aO(F)?0<aO(d)?fh(F,d):0:0<aO(d)?0:1;if(Z)var
+F=g[4],aL=g[2],T=g[1],l=j[1],u=l[9],b7=g[3],aZ=l[5],a0=hg(f(en(l[4]),aZ),au),a1=e(af,bq),y=l[9],a3=l[8],a4=l[7],aX=fI(y,as(B,g$(k,y)),a3),aY=f(e(af,bT(y,P)),aX),Y=j4(0,bY(a,f(fI(0,bn(y,P),a4),aY),a1),a0,au,0),Z=0<aP(F)?0<aP(d)?fm(F,d):0:0<aP(d)?0:1;if(Z)var
 G=Z;else
 var
-aq=2<=jD(F,c(2,c(2,c(2,c(2,b)))))?0:1,ar=aq?by(0,u):aq,G=ar?by(u,k):ar;var
-_=G?V(u,k):G,$=_?s(h(P),k):_,aa=$?s(h(aL),k):$,ac=aa?s(h(l[1]),k):aa,af=ac?s(h(l[6]),k):ac,ag=af?s(h(l[4]),k):af;if(ag)var
-a5=l[4],H=n(function(a){return s(h(a),k)},a5);else
+ap=2<=jR(F,c(2,c(2,c(2,c(2,b)))))?0:1,aq=ap?bd(0,u):ap,G=aq?bd(u,k):aq;var
+_=G?V(u,k):G,$=_?r(h(P),k):_,aa=$?r(h(aL),k):$,ab=aa?r(h(l[1]),k):aa,ad=ab?r(h(l[6]),k):ab,ag=ad?r(h(l[4]),k):ad;if(ag)var
+a5=l[4],H=n(function(a){return r(h(a),k)},a5);else
 var
 H=ag;if(H){var
-a6=l[4],I=W(e(function(a){return lQ(Y,a)},a6));if(I){var
-ah=lQ(Y,l[5]);if(ah){var
-a8=l[6],J=W(e(function(j){var
-c=j[1],k=l[7],d=r(c[1],as,0);if(d){var
+a6=l[4],I=W(e(function(a){return l6(Y,a)},a6));if(I){var
+ah=l6(Y,l[5]);if(ah){var
+a7=l[6],J=W(e(function(j){var
+c=j[1],k=l[7],d=s(c[1],at,0);if(d){var
 h=c[2][2],b=W(e(function(a){var
-b=r(a[2],as,0);return x(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cr(ay(v(a,k,S(a,lO(a,e(aB,c[2][2]),i)))))];else
+b=s(a[2],at,0);return x(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,ct(ax(v(a,k,S(a,l4(a,e(aB,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a8));if(J){var
-a9=l[1],a_=l[2],L=W(e(function(m){function
+g=d;return g},a7));if(J){var
+a8=l[1],a_=l[2],K=W(e(function(m){function
 f(e){var
-g=ap(e,k),c=ly(r(m[2],w,r6),g);if(c){var
-h=ap(e,k),d=ly(r(a_,w,r7),h);if(d){var
-i=d[1],j=Q(a,b);return bT(a,cS(ek(c[1],j,i)))}var
+g=as(e,k),c=lO(s(m[2],w,sx),g);if(c){var
+h=as(e,k),d=lO(s(a_,w,sy),h);if(d){var
+i=d[1],j=R(a,b);return bV(a,cZ(ep(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cS(ay(A(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
+g=cZ(ax(A(c[1],e[1]))),h=M(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},a9));if(L){var
-a$=I[1],X=dB(a,av(function(i,h){var
+j=c;return j},a8));if(K){var
+a$=I[1],X=dE(a,aw(function(i,h){var
 o=e(function(b){var
-a=aG(0,k);return e(function(a){return ca(r(a,b[3],B))},a)},i);function
+a=aG(0,k);return e(function(a){return cd(s(a,b[3],B))},a)},i);function
 b(m,l){var
-n=lM(u,m,o),g=e(function(a){return lM(u,l,a)},n);function
-b(a){return av(bf,d,a)}var
+n=l2(u,m,o),g=e(function(a){return l2(u,l,a)},n);function
+b(a){return aw(bj,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(av(function(a,b){return aS(j,i,jE,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return av(jE,d,a)},g));return dB(a,v(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},B,a$)),M=a0(b7,T,Q(a,b)),ai=K(d,E(M,X)[1]);if(ai){var
-N=bS(a,M);if(N){var
-ba=ay(v(a,X,N[1])),bb=E(Q(a,b),ba),bd=[0,l[1],l[2],O],be=dO(function(a){return r(a,w,r8)},bd),bg=l[6],bh=e(r5,at(at(J[1],L[1]),bg)),bi=S(a,bb),bk=S(a,M),bl=l[10],aV=aG(0,k),aW=e(function(a){var
-d=bl?V(u,a):by(a,u);return d?b:g3(c(2,b),F)},aV),bm=function(q){var
-g=lN(q[1]);if(g){var
+c=b(aw(function(a,b){return aR(j,i,jS,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aw(jS,d,a)},g));return dE(a,v(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},B,a$)),L=a2(b7,T,R(a,b)),ai=M(d,C(L,X)[1]);if(ai){var
+N=bU(a,L);if(N){var
+ba=ax(v(a,X,N[1])),bb=C(R(a,b),ba),bc=[0,l[1],l[2],O],be=dT(function(a){return s(a,w,sz)},bc),bf=l[6],bh=e(sw,ar(ar(J[1],K[1]),bf)),bi=S(a,bb),bl=S(a,L),bm=l[10],aV=aG(0,k),aW=e(function(a){var
+d=bm?V(u,a):bd(a,u);return d?b:fq(c(2,b),F)},aV),bo=function(q){var
+g=l3(q[1]);if(g){var
 u=g[1],i=q[2];if(i){var
-j=i[1],l=cD(q[3]);if(l){var
-w=l[1],x=lP(a,k,bh,j,u),m=e(function(a){var
-c=a[2],b=at(aW,a[1]);return[0,e(function(a){return a0(a[1],d,a[2])},b),c]},u),G=dD(T,dE(T,aL,j,m)),o=bC(ap([0,ad(w),0],k),G),H=E(v(a,j,bi),w),y=s(h(m),k),z=y?s(h(x),k):y;if(z){var
+j=i[1],l=cJ(q[3]);if(l){var
+w=l[1],x=l5(a,k,bh,j,u),m=e(function(a){var
+c=a[2],b=ar(aW,a[1]);return[0,e(function(a){return a2(a[1],d,a[2])},b),c]},u),G=dG(T,dH(T,aL,j,m)),o=bE(as([0,ae(w),0],k),G),H=C(v(a,j,bi),w),y=r(h(m),k),z=y?r(h(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
-r=s(h(c[1]),b);if(r){var
+s=r(h(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
-t=r}else
+t=s}else
 var
 t=b;var
 A=t}else
@@ -3866,24 +4022,24 @@ A=b?0:1;var
 p=A;break}}else
 var
 p=z;var
-B=p?a7(a,k,bC(e(function(b){return[0,ad(v(a,bk,b[2])),0]},m),o)):p;if(B){var
-I=bc(bx(k));return n(function(g){var
-d=at(f(g,r4),x),b=[0,[0,H,0],0],c=at(o,e(function(a){return a[1]?ad(a[2]):a[2]},d));return a7(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
-C=B}else
+B=p?a9(a,k,bE(e(function(b){return[0,ae(v(a,bl,b[2])),0]},m),o)):p;if(B){var
+I=bg(bk(k));return n(function(g){var
+d=ar(f(g,sv),x),b=[0,[0,H,0],0],c=ar(o,e(function(a){return a[1]?ae(a[2]):a[2]},d));return a9(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+D=B}else
 var
-C=l;var
-D=C}else
+D=l;var
+E=D}else
 var
-D=i;var
-F=D}else
+E=i;var
+F=E}else
 var
-F=g;return F},bn=l[3];return i(hK(function(b,a){return dO},bn,k,bm),be)}var
+F=g;return F},bp=l[3];return i(hZ(function(b,a){return dT},bp,k,bo),be)}var
 aj=N}else
 var
 aj=ai;var
 ak=aj}else
 var
-ak=L;var
+ak=K;var
 al=ak}else
 var
 al=J;var
@@ -3896,324 +4052,324 @@ an=I;var
 ao=an}else
 var
 ao=H;return ao}return 0;default:return 0}var
-br=[0,q,t,O],bs=dO(function(a){return r(a,w,sf)},br);return i(hK(function(b,a){return dO},o,k,p),bs)}function
-sj(b,a){var
-c=g5(g1,b[1],a[1]);return c?g1(b[2],a[2]):c}function
-l1(i,r,q,h,p,k,A,z,y,j,o,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eu(i,0,0,0,g,h,0,a[1],e):0}else
+bt=[0,q,t,O],bu=dT(function(a){return s(a,w,sI)},bt);return i(hZ(function(b,a){return dT},o,k,p),bu)}function
+sM(b,a){var
+c=hd(ha,b[1],a[1]);return c?ha(b[2],a[2]):c}function
+mf(i,s,q,h,p,k,A,z,y,j,o,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?ez(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
 t=f[3],u=f[2],v=H(d,u);if(v)var
-B=1===jD(t,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))?1:0,l=B;else
+B=1===jR(t,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))?1:0,l=B;else
 var
-l=v;if(l)return l0(i,r,q,h,p,j,g,o,[0,[0,[0,k[1],u],t]],a,f[1]);var
+l=v;if(l)return me(i,s,q,h,p,j,g,o,[0,[0,[0,k[1],u],t]],a,f[1]);var
 w=l}else
 var
-w=k;return w}return l0(i,r,q,h,p,j,g,o,0,a,f);case
-8:return 9===a[0]?eu(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return me(i,s,q,h,p,j,g,o,0,a,f);case
+8:return 9===a[0]?ez(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-m=g5(sj,a[1],A),n=m?1:m,x=n?s(a[2],z):n;return x?iF(y,j,a[3],a[4],e):x}return 0}return 0}function
-l2(b){var
+m=hd(sM,a[1],A),n=m?1:m,x=n?r(a[2],z):n;return x?iU(y,j,a[3],a[4],e):x}return 0}return 0}function
+mg(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-sk(c){var
+sN(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-l3(b,u,n,k,m,V,U,c,T,R,P,j,i,aj){var
-W=al(sk,i),X=W?kz(b,n,k,g8(w(function(c){var
-a=M(m,c[1]);if(a){var
+mh(b,u,n,k,m,V,U,c,T,Q,P,j,i,ak){var
+W=aj(sN,i),X=W?kN(b,n,k,hg(w(function(c){var
+a=E(m,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return w(function(a){var
-b=e(bg,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return kF(0,0,0,b[1],c[2]);default:return 0}}return a},i),n),j):W,Y=al(l2,i);if(Y)var
+b=e(aQ,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return kT(0,0,0,b[1],c[2]);default:return 0}}return a},i),n),j):W,Y=aj(mg,i);if(Y)var
 ag=w(function(b){var
-c=l2(b);if(c){var
-a=M(m,b[1]);if(a)return lZ(a[1]);var
+c=mg(b);if(c){var
+a=E(m,b[1]);if(a)return md(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=av(em,e(function(a){return 0},u),ai),y=hI(b,k,eh(fY(eh(u,0),$),_),j);else
+d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aw(er,e(function(a){return 0},u),ai),y=hX(b,k,em(f1(em(u,0),$),_),j);else
 var
 y=Y;var
-h=i,a=aj;for(;;){if(h){var
-D=h[1],l=D[2],g=D[1],p=h[2];if(g){var
-F=r(g,a,0);if(F){var
-q=M(m,g);if(q){var
-G=l1(b,n,k,V,U,c,T,R,P,j,y,X,q[1],l);if(G){var
-h=p,a=fH(g,a);continue}var
-H=G}else
-var
-H=q;var
+h=i,a=ak;for(;;){if(h){var
+F=h[1],l=F[2],g=F[1],p=h[2];if(g){var
+G=s(g,a,0);if(G){var
+q=E(m,g);if(q){var
+H=mf(b,n,k,V,U,c,T,Q,P,j,y,X,q[1],l);if(H){var
+h=p,a=fN(g,a);continue}var
 I=H}else
 var
-I=F;return I}if(typeof
+I=q;var
+J=I}else
+var
+J=G;return J}if(typeof
 l==="number"&&4===l){var
 Z=0;if(c){var
-af=0,z=e(function(a){return[0,a,S(b,a)]},j),ab=e(bg,z),aa=0,ac=f(e(aB,z),ab),ae=bV(0,function(o){return function(a){switch(a[0]){case
-0:return[0,r(a[1],o,B)];case
-1:return[0,r(a[1],k,B)];case
-2:return[0,Q(b,a[1])];case
+af=0,z=e(function(a){return[0,a,S(b,a)]},j),ab=e(aQ,z),aa=0,ac=f(e(aB,z),ab),ad=bW(0,function(o){return function(a){switch(a[0]){case
+0:return[0,s(a[1],o,B)];case
+1:return[0,s(a[1],k,B)];case
+2:return[0,R(b,a[1])];case
 3:var
-c=a[2],d=a[1];return cC(function(b,a){return[0,A(b,a)]},d,c);case
+c=a[2],d=a[1];return cI(function(b,a){return[0,A(b,a)]},d,c);case
 4:var
-e=a[2],f=a[1];return cC(function(b,a){return[0,E(b,a)]},f,e);case
+e=a[2],f=a[1];return cI(function(b,a){return[0,C(b,a)]},f,e);case
 5:var
-g=a[1];return cB(function(a){return[0,ad(a)]},g);case
+g=a[1];return cH(function(a){return[0,ae(a)]},g);case
 6:var
-h=a[2],i=a[1];return cC(function(c,a){return[0,v(b,c,a)]},i,h);case
+h=a[2],i=a[1];return cI(function(c,a){return[0,v(b,c,a)]},i,h);case
 7:var
-j=a[2],l=a[1];return cC(function(c,a){var
-d=bS(b,a);return x(function(a){return v(b,c,a)},d)},l,j);case
+j=a[2],l=a[1];return cI(function(c,a){var
+d=bU(b,a);return x(function(a){return v(b,c,a)},d)},l,j);case
 8:var
-m=a[1];return cB(function(a){return[0,S(b,a)]},m);case
+m=a[1];return cH(function(a){return[0,S(b,a)]},m);case
 9:var
-n=a[1];return cB(function(a){return bT(b,a)},n);default:return 0}}}(ac),u,aa),o=r(c[1],ae,af);if(o){var
-s=K(o[1][2],d);Z=1}else
+n=a[1];return cH(function(a){return bV(b,a)},n);default:return 0}}}(ac),u,aa),o=s(c[1],ad,af);if(o){var
+r=M(o[1][2],d);Z=1}else
 var
-C=o}else
+D=o}else
 var
-C=c;if(!Z)var
-s=C;if(s){var
-h=p,a=e(function(a){return 0},a);continue}return s}var
-J=r(g,a,0);if(J){var
-t=M(m,g);if(t){var
-L=l1(b,n,k,V,U,c,T,R,P,j,y,X,t[1],l);if(L){var
-h=p,a=fH(g,a);continue}var
+D=c;if(!Z)var
+r=D;if(r){var
+h=p,a=e(function(a){return 0},a);continue}return r}var
+K=s(g,a,0);if(K){var
+t=E(m,g);if(t){var
+L=mf(b,n,k,V,U,c,T,Q,P,j,y,X,t[1],l);if(L){var
+h=p,a=fN(g,a);continue}var
 N=L}else
 var
 N=t;var
 O=N}else
 var
-O=J;return O}return[0,a]}}function
-l4(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
+O=K;return O}return[0,a]}}function
+mi(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
 b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=l3(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(ac,p[1]):p}var
-q=l3(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=et(a[2],b),t=l4(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
+p=mh(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(_,p[1]):p}var
+q=mh(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
+r=q[1],s=ey(a[2],b),t=mi(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
 b=s[2],o=r,a=a[4];continue}var
 u=t}else
 var
 u=q;return u}}function
-hQ(d,a){var
-e=J(a),f=p(p(j(c(2,b)),a),d);return y(u(J(d),f),e)}function
-hR(k,a,d,j,c,h){var
-e=Z(u,c_(k),j);if(h){var
+h5(d,a){var
+e=L(a),f=q(q(k(c(2,b)),a),d);return y(u(L(d),f),e)}function
+h6(k,a,d,j,c,h){var
+e=$(u,db(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eE([0,b(function(a){return a[1]}),g,f],e);return Z(y,aP(d,c),l)}var
-m=eE(a,c);return Z(y,aP(d,e),m)}function
-l5(f,h,g,l,a,d){var
-e=c_(f),i=Z(u,e,a),k=eE(h,d),m=hQ(e[3],a[3]),n=hQ(e[2],a[2]),o=hQ(e[1],a[1]),q=y(y(y(N(d,d),o),n),m),r=N(k,i),s=p(j(c(2,b)),r),t=y(p(g,q),s),v=a6(b1(k,i),l);return[0,f2(f,hR(f,h,g,a,d,0),v),t]}function
-l6(d,c,b,a){var
-e=f3(c,b,a);return Z(y,c_(d),e)}function
-l7(g,f,e,d,c){var
-b=l6(g,f,e,c),a=Z(u,b,d);return[0,[0,b,a],aA(N(a,a))]}function
-f5(b,a){var
-c=aV(a[2],b);return f(aV(a[1],b),c)}function
-hS(d,b,a,c){if(a)var
-e=a[1],f=cf(c,f5(b,e)),i=P(c,h(f5(b,e))),j=hS(d,b,a[2],i),k=af(f,sl),g=[0,ar(d,af(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eJ([0,b(function(a){return a[1]}),g,f],e);return $(y,aS(d,c),l)}var
+m=eJ(a,c);return $(y,aS(d,e),m)}function
+mj(f,h,g,l,a,d){var
+e=db(f),i=$(u,e,a),j=eJ(h,d),m=h5(e[3],a[3]),n=h5(e[2],a[2]),o=h5(e[1],a[1]),p=y(y(y(P(d,d),o),n),m),r=P(j,i),s=q(k(c(2,b)),r),t=y(q(g,p),s),v=a8(b3(j,i),l);return[0,f5(f,h6(f,h,g,a,d,0),v),t]}function
+mk(d,c,b,a){var
+e=f6(c,b,a);return $(y,db(d),e)}function
+ml(g,f,e,d,c){var
+b=mk(g,f,e,c),a=$(u,b,d);return[0,[0,b,a],az(P(a,a))]}function
+f8(b,a){var
+c=aX(a[2],b);return f(aX(a[1],b),c)}function
+h7(d,b,a,c){if(a)var
+e=a[1],f=ci(c,f8(b,e)),i=O(c,h(f8(b,e))),j=h7(d,b,a[2],i),k=ag(f,sO),g=[0,an(d,ag(f,0),k),j];else
 var
 g=a;return g}function
-hT(f,o,e,n,a){var
-h=p(J(r(0,n,j(d))),o);if(typeof
+h8(f,o,e,n,a){var
+h=q(L(s(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=M(e,a[1]);if(b)var
-i=g(f,0,a[2]),k=i?[0,u(b[1][1][2],h)]:i;else
+b=E(e,a[1]);if(b)var
+i=g(f,0,a[2]),j=i?[0,u(b[1][1][2],h)]:i;else
 var
-k=b;return k;case
+j=b;return j;case
 3:var
-c=M(e,a[1]);if(c)var
+c=E(e,a[1]);if(c)var
 l=g(f,0,a[2]),m=l?[0,u(h,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-l8(c,b,a){if(typeof
+mm(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=M(c,a[1]);return x(function(a){var
-c=r(0,b,j(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-eF(a){return g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],a])}function
-l9(a){var
-b=af(a,sm),c=aA(N(af(a,sn),b));return p(r(0,a,j(d)),c)}function
-l_(b,a){var
-c=N(a,af(b,so));return[0,bD(aP(l9(b),a)),c]}function
-l$(e,d,a,c,b){var
-f=b[2],g=p(l9(a),f),h=c?f3(e,d,af(a,sp)):af(a,sq);return u(N(b[1][2],h),g)}function
-ma(h,g,f,d,c,b,a){var
-i=bh(c);function
-j(a){return l6(h,g,f,a)}return kM(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-eG(a){var
-b=r(sr,a,j(d));return ag(r(0,a,j(d)),b)}function
-hU(a){return a[4][2]}function
-mb(g,o,n,m,a){var
-q=a[1][2],r=e(bg,fN(n,a[1][2])),h=eG(m),i=p(p(j(c(2,b)),o),h),d=a[1][1],k=bR(c9(g),d),l=e(function(a){return p(a,i)},k);return[0,f(f(bj(c9(g),d),l),r),q]}function
-mc(a){var
-b=a[3],c=a[2],d=a[1];return fT([0,[0,d,d],[0,c,c],[0,b,b]])}function
-sA(a){if(typeof
+e=E(c,a[1]);return x(function(a){var
+c=s(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+f9(a){return g(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+mn(a){var
+b=ag(a,sP),c=az(P(ag(a,sQ),b));return q(s(0,a,k(d)),c)}function
+mo(b,a){var
+c=P(a,ag(b,sR));return[0,bF(aS(mn(b),a)),c]}function
+mp(e,d,a,c,b){var
+f=b[2],g=q(mn(a),f),h=c?f6(e,d,ag(a,sS)):ag(a,sT);return u(P(b[1][2],h),g)}function
+mq(h,g,f,d,c,b,a){var
+i=bl(c);function
+j(a){return mk(h,g,f,a)}return k0(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+eK(a){var
+b=s(sU,a,k(d));return ah(s(0,a,k(d)),b)}function
+h9(a){return a[4][2]}function
+mr(g,o,n,m,a){var
+p=a[1][2],r=e(aQ,fT(n,a[1][2])),h=eK(m),i=q(q(k(c(2,b)),o),h),d=a[1][1],j=bT(da(g),d),l=e(function(a){return q(a,i)},j);return[0,f(f(bn(da(g),d),l),r),p]}function
+ms(a){var
+b=a[3],c=a[2],d=a[1];return fX([0,[0,d,d],[0,c,c],[0,b,b]])}function
+s3(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-md(b,a){switch(b){case
+mt(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-f6(a){var
-c=cd(a[1],[0,d,b]);return c?cd(a[2],[0,d,b]):c}function
-hV(d,a){switch(d){case
-0:return f6(a[3]);case
+f_(a){var
+c=cg(a[1],[0,d,b]);return c?cg(a[2],[0,d,b]):c}function
+h_(d,a){switch(d){case
+0:return f_(a[3]);case
 1:return 1;default:var
-b=f6(a[1]),c=b?f6(a[2]):b;return c?f6(a[3]):c}}function
-me(c,b){var
-a=w(function(a){return f5(c,a)},b),d=at(aG(0,h(a)),a);return e(aB,bi(function(a){return fM(a[2])},d))}function
-mf(b){var
+b=f_(a[1]),c=b?f_(a[2]):b;return c?f_(a[3]):c}}function
+mu(c,b){var
+a=w(function(a){return f8(c,a)},b),d=ar(aG(0,h(a)),a);return e(aB,bm(function(a){return fS(a[2])},d))}function
+mv(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-mg(c){var
-a=c;for(;;){if(0===a[0])return al(mf,a[1]);var
-d=al(mf,a[1]),b=d||mg(a[3]);if(b)return b;var
+mw(c){var
+a=c;for(;;){if(0===a[0])return aj(mv,a[1]);var
+d=aj(mv,a[1]),b=d||mw(a[3]);if(b)return b;var
 a=a[4];continue}}function
-sB(a,aQ,bE,A,C,aO){var
-l=A[1],k=bZ(l),_=A[6],bG=A[2],K=w(function(a){return f5(C,a)},bG),aR=A[3],U=[0,[0,aR,aR],C],ab=[0,h(K)],bH=0,aS=w(function(a){return eC(bH,C,a)},_),bI=c9(l),aT=lE(A[5],bI),m=aT[2],F=aT[1],I=cz(U,h(K)),bK=A[2],V=h(K),bJ=0,z=hS(function(e,a){function
+s4(a,aP,bD,A,D,aO){var
+l=A[1],j=b1(l),Z=A[6],bE=A[2],K=w(function(a){return f8(D,a)},bE),aR=A[3],U=[0,[0,aR,aR],D],ac=[0,h(K)],bG=0,aT=w(function(a){return eG(bG,D,a)},Z),bI=da(l),aU=lU(A[5],bI),m=aU[2],G=aU[1],J=cC(U,h(K)),bK=A[2],V=h(K),bJ=0,z=h7(function(e,a){function
 i(g){var
-c=bZ(l);if(l)var
+c=b1(l);if(l)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
-o=j(d),b=[0,j(d),o,[0,[0,c]]];var
-t=lS(l,F,m,e,a,b)[2],h=lS(l,F,m,e,a,b),i=h[1],k=a6(i[2],h[2]),n=b1(i[1],k),q=Z(y,n,b1(n,b)),f=aP(lR(b),q),r=p(f[3],g),s=p(f[2],g);return[0,f2(l,k,[0,p(f[1],g),s,r]),t]}function
-k(Y){var
-w=l7(l,F,m,e,a),x=w[1],W=Z(u,c_(l),e),z=w[2],r=x[1],X=x[2],g=f3(F,m,a),i=a6(X,z),P=ag(N(g,i),I),Q=J(I),R=ag(N(a,a),Q),S=2<=l?d:b,T=y(j(S),R);function
-h(a){return[0,lK(a),0]}function
-f(a){return[0,a6(b1(lK(a),g),I),[0,a]]}switch(l){case
+o=k(d),b=[0,k(d),o,[0,[0,c]]];var
+t=l8(l,G,m,e,a,b)[2],h=l8(l,G,m,e,a,b),i=h[1],j=a8(i[2],h[2]),n=b3(i[1],j),p=$(y,n,b3(n,b)),f=aS(l7(b),p),r=q(f[3],g),s=q(f[2],g);return[0,f5(l,j,[0,q(f[1],g),s,r]),t]}function
+j(Y){var
+w=ml(l,G,m,e,a),x=w[1],W=$(u,db(l),e),z=w[2],s=x[1],X=x[2],g=f6(G,m,a),i=a8(X,z),O=ah(P(g,i),J),Q=L(J),R=ah(P(a,a),Q),S=2<=l?d:b,T=y(k(S),R);function
+h(a){return[0,l0(a),0]}function
+f(a){return[0,a8(b3(l0(a),g),J),[0,a]]}switch(l){case
 0:var
-C=[0,f(rT),0],D=[0,h(rU),C],q=[0,h(0),D];break;case
+C=[0,f(sk),0],D=[0,h(sl),C],p=[0,h(0),D];break;case
 1:var
-E=[0,f(rV),0],G=[0,f(rW),E],H=[0,f(0),G],K=[0,h(rX),H],L=[0,h(rY),K],q=[0,h(0),L];break;default:var
-M=[0,f(rZ),0],O=[0,f(r0),M],q=[0,f(0),O]}var
-k=Z(u,[0,[0,[1,V]],[0,[1,[0,V]]],[0,[1,[0,[0,V]]]]],e),n=a6(k,aA(N(k,k)));if(l)var
-o=hM(l,V,e,r,n[3]);else
+E=[0,f(sm),0],F=[0,f(sn),E],H=[0,f(0),F],I=[0,h(so),H],K=[0,h(sp),I],p=[0,h(0),K];break;default:var
+M=[0,f(sq),0],N=[0,f(sr),M],p=[0,f(0),N]}var
+j=$(u,[0,[0,[1,V]],[0,[1,[0,V]]],[0,[1,[0,[0,V]]]]],e),n=a8(j,az(P(j,j)));if(l)var
+o=h1(l,V,e,s,n[3]);else
 var
-A=j(d),B=j(d),o=[0,j(d),B,A];var
-t=hM(l,V,e,r,n[2]),v=hM(l,V,e,r,n[1]),U=lL(function(r,w){var
+A=k(d),B=k(d),o=[0,k(d),B,A];var
+t=h1(l,V,e,s,n[2]),v=h1(l,V,e,s,n[1]),U=l1(function(s,w){var
 e=w[1];function
 a(b,a){var
-c=e[3],f=c8(a,o),g=p(y(b[3],f),c),h=e[2],i=c8(a,t),k=p(y(b[2],i),h),l=e[1],m=c8(a,v),n=p(y(b[1],m),l);return y(y(y(j(d),n),k),g)}var
-x=a(o,r1),z=a(t,r2),A=[0,a(v,0),z,x],f=N(r[1],A),l=r[2];if(l){var
+c=e[3],f=c$(a,o),g=q(y(b[3],f),c),h=e[2],i=c$(a,t),j=q(y(b[2],i),h),l=e[1],m=c$(a,v),n=q(y(b[1],m),l);return y(y(y(k(d),n),j),g)}var
+x=a(o,ss),z=a(t,st),A=[0,a(v,0),z,x],f=P(s[1],A),l=s[2];if(l){var
 h=l[1],m=w[2];if(m){var
-k=m[1],B=c8(h,g),C=p(c8(k,i),B),D=c8(k,g),n=y(p(c8(h,i),D),C),E=J(I);if(s(h,k))var
-F=N(i,g),q=u(n,p(j(c(2,b)),F));else
+j=m[1],B=c$(h,g),C=q(c$(j,i),B),D=c$(j,g),n=y(q(c$(h,i),D),C),E=L(J);if(r(h,j))var
+F=P(i,g),p=u(n,q(k(c(2,b)),F));else
 var
-q=n;return y(f,ag(q,E))}return f}return f},q);return[0,f2(l,i,a6(b1(g,a6(W,z)),I)),U,T,P]}var
-n=l7(l,F,m,e,a);function
-o(b){return hR(l,F,m,e,a,b)}var
+p=n;return y(f,ah(p,E))}return f}return f},p);return[0,f5(l,i,a8(b3(g,a8(W,z)),J)),U,T,O]}var
+n=ml(l,G,m,e,a);function
+o(b){return h6(l,G,m,e,a,b)}var
 f=2<=l?d:b;function
 g(b){var
-c=J(I),d=j(f),e=p(u(J(b),d),c);return p(m,u(N(a,a),e))}var
-h=[0,N(hR(l,F,m,e,a,1),a),g];return[0,l5(l,F,m,I,e,a),h,o,n,k,i]},C,bK,bJ),X=e(function(a){return a[1]},z),bL=P(ab,h(aS)),bM=c9(l),bN=A[5];function
-T(a){return[0,[0,P(bM,a)]]}var
-aI=J([0,[1,bL]]);switch(bN[0]){case
+c=L(J),d=k(f),e=q(u(L(b),d),c);return q(m,u(P(a,a),e))}var
+h=[0,P(h6(l,G,m,e,a,1),a),g];return[0,mj(l,G,m,J,e,a),h,o,n,j,i]},D,bK,bJ),X=e(function(a){return a[1]},z),bL=O(ac,h(aT)),bM=da(l),bN=A[5];function
+T(a){return[0,[0,O(bM,a)]]}var
+aI=L([0,[1,bL]]);switch(bN[0]){case
 2:var
-bs=T(rL),bt=T(rM),aJ=[0,T(0),bt,bs],D=[0,u(aI,N(aJ,aJ))];break;case
+bt=T(sc),bu=T(sd),aJ=[0,T(0),bu,bt],F=[0,u(aI,P(aJ,aJ))];break;case
 3:var
-bu=J(T(rN)),bv=J(T(0)),bw=J(T(rO)),D=[0,u(u(p(aI,y(j(b),bw)),bv),bu)];break;default:var
-D=0}var
-aU=A[7];if(aU)var
-bO=0,bP=A[2],ao=hS(function(j,k){var
-a=l5(l,F,m,cz(U,h(K)),j,k),c=a[1];if(c){var
+bv=L(T(se)),bw=L(T(0)),bx=L(T(sf)),F=[0,u(u(q(aI,y(k(b),bx)),bw),bv)];break;default:var
+F=0}var
+aV=A[7];if(aV)var
+bO=0,bP=A[2],ao=h7(function(j,k){var
+a=mj(l,G,m,cC(U,h(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 g=d[2],e=d[1];if(g){var
-i=g[1],f=b1(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},C,bP,bO);else
+i=g[1],f=b3(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bP,bO);else
 var
-ao=aU;var
-bQ=bF(ao),bR=D?[0,D[1],0]:D,bS=f(bR,bQ),bT=0,bU=f(K,[0,U,0]),bC=e(function(a){return a[1]},z),bV=[0,m,f(cA(function(c,b){if(typeof
+ao=aV;var
+bQ=bH(ao),bR=F?[0,F[1],0]:F,bS=f(bR,bQ),bT=0,bU=f(K,[0,U,0]),bC=e(function(a){return a[1]},z),bV=[0,m,f(cG(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=l8(z,c,b);if(g)var
+g=mm(z,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(bg,fU(bC,c));case
+8:return e(aQ,fY(bC,c));case
 13:var
-h=M(z,b[1]);if(h){var
-n=eF(b[4]);if(n){var
-o=l_(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
+h=E(z,b[1]);if(h){var
+n=f9(b[4]);if(n){var
+o=mo(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
 p=n}else
 var
 p=h;return p;case
-16:return w(function(a){return mb(l,I,bU,c,a)[1]},z)}var
-d=hT(a,m,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,ab,_),bS)],ar=f(bF(X),bV),bW=0,bX=f(K,[0,U,0]),aV=cA(function(b,a){if(typeof
+16:return w(function(a){return mr(l,J,bU,c,a)[1]},z)}var
+d=h8(a,m,z,c,b),q=d?[0,d[1],0]:d;return q},bT,D,ac,Z),bS)],ap=f(bH(X),bV),bW=0,bX=f(K,[0,U,0]),aW=cG(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=M(z,a[1]);if(g){if(eF(a[4]))return 0;var
-n=[0,l$(F,m,b,a[2],g[1][4]),0]}else
+g=E(z,a[1]);if(g){if(f9(a[4]))return 0;var
+n=[0,mp(G,m,b,a[2],g[1][4]),0]}else
 var
 n=g;return n;case
 14:var
-h=ma(l,F,m,z,b,a[1],a[2]);if(h){var
-o=h[1],p=o[2],q=o[1];return w(bD,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=mq(l,G,m,z,b,a[1],a[2]);if(h){var
+o=h[1],p=o[2],q=o[1];return w(bF,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-k=M(z,a[1]);if(k){var
-c=i(k[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(ss,b,j(d)),s],u=[0,r(0,b,j(d)),t],v=f(ei(c[2]),u);return f(c[1],v)}return k;case
+j=E(z,a[1]);if(j){var
+c=i(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(sV,b,k(d)),r],u=[0,s(0,b,k(d)),t],v=f(en(c[2]),u);return f(c[1],v)}return j;case
 16:var
 x=w(function(a){var
-b=e(bg,fN(bX,hU(a)));return[0,hU(a),b]},z);return f(w(function(a){var
-c=eG(b),d=[0,i(a[6],c)[2],0],e=eG(b);return f(i(a[6],e)[1],d)},z),x)}return 0},bW,C,ab,_),aW=ct(e(function(a){return be(k,a)},ar))[1],aX=ct(aV)[1],$=cs(aW),as=cs(aX);function
-t(a){return a1($,be(k,a))}function
-aY(i){if(0===A[4][0]){var
-q=x(t,D),u=t(m),e=c9(l),f=s(h(i),k);if(f)var
-g=x(function(a){return[0,[0,a,d],d]},q),a=function(a){return r(a,$,j(d))},c=a(u),o=aG(0,e),b=n(function(b){var
-d=c7(k,b,c),e=d?n(function(d){var
+b=e(aQ,fT(bX,h9(a)));return[0,h9(a),b]},z);return f(w(function(a){var
+c=eK(b),d=[0,i(a[6],c)[2],0],e=eK(b);return f(i(a[6],e)[1],d)},z),x)}return 0},bW,D,ac,Z),aX=cv(e(function(a){return bh(j,a)},ap))[1],aY=cv(aW)[1],aa=cu(aX),aq=cu(aY);function
+t(a){return a3(aa,bh(j,a))}function
+aZ(i){if(0===A[4][0]){var
+q=x(t,F),u=t(m),e=da(l),f=r(h(i),j);if(f)var
+g=x(function(a){return[0,[0,a,d],d]},q),a=function(a){return s(a,aa,k(d))},c=a(u),o=aG(0,e),b=n(function(b){var
+d=c_(j,b,c),e=d?n(function(d){var
 f=d[1],e=n(function(c){var
-d=a(c);return cg(P(k,b),d)},f);if(e){var
-g=a(d[2]);return fW(c,P(k,b),g)}return e},i):d;if(e){if(g){var
-h=a(g[1][1][1]);return cg(P(k,b),h)}var
+d=a(c);return ck(O(j,b),d)},f);if(e){var
+g=a(d[2]);return fZ(c,O(j,b),g)}return e},i):d;if(e){if(g){var
+h=a(g[1][1][1]);return ck(O(j,b),h)}var
 f=1}else
 var
 f=e;return f},o);else
 var
 b=f;var
 p=b?e:b;return p}return 0}var
-Y=aY(i(aq(t),X)),aZ=n(function(a){var
-b=be(k,a),c=j(d);return az(r(t(a),$,c),b)},ar),a0=aZ?n(function(a){return fX(k,a)},ar):aZ,a2=a0?n(function(a){var
-b=j(d);return az(r(a1(as,a),as,b),a)},aV):a0,a3=a2?al(sA,_):a2;if(a3){var
-a4=ac(A[7]);if(a4)var
-ae=a4;else{var
-bq=A[5];if(1===l&&2===bq[0])var
-bB=bq[1],br=g(a,1,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],bB]);else
+Y=aZ(i(at(t),X)),a0=n(function(a){var
+b=bh(j,a),c=k(d);return ay(s(t(a),aa,c),b)},ap),a1=a0?n(function(a){return f0(j,a)},ap):a0,a2=a1?n(function(a){var
+b=k(d);return ay(s(a3(aq,a),aq,b),a)},aW):a1,a4=a2?aj(s3,Z):a2;if(a4){var
+a5=_(A[7]);if(a5)var
+ad=a5;else{var
+br=A[5];if(1===l&&2===br[0])var
+bB=br[1],bs=g(a,1,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],bB]);else
 var
-br=0;var
-ae=br}}else
+bs=0;var
+ad=bs}}else
 var
-ae=a3;var
-a5=ae?hV(l,dK(A[4])):ae,a8=a5?g(a,1,A[3]):a5;if(a8)var
-bY=f1(A[5]),at=n(function(b){var
-c=c5(a,b[1]);return c?c5(a,b[2]):c},bY);else
+ad=a4;var
+a6=ad?h_(l,dN(A[4])):ad,a7=a6?g(a,1,A[3]):a6;if(a7)var
+bY=f4(A[5]),ar=n(function(b){var
+c=c8(a,b[1]);return c?c8(a,b[2]):c},bY);else
 var
-at=a8;if(at){var
-b0=f(K,[0,U,0]),au=W(e(function(b){return aj(a,b)},b0));if(au){var
-av=W(e(function(b){return hF(a,b)},aS));if(av){var
-b2=md(l,dK(A[4])),aw=W(e(function(b){return aj(a,[0,b,C])},b2));if(aw){var
-a9=aw[1],b3=lG(A[5]),ax=W(e(function(b){return lI(a,b)},b3));if(ax){var
-a_=ax[1],b4=lF(A[5]),ay=W(e(c4(a),b4));if(ay){var
-b5=0,G=function(a){return a1(as,a)},aC=f(K,[0,U,0]),aD=W(cA(function(k,f){if(typeof
+ar=a7;if(ar){var
+bZ=f(K,[0,U,0]),au=W(e(function(b){return ak(a,b)},bZ));if(au){var
+av=W(e(function(b){return hU(a,b)},aT));if(av){var
+b0=mt(l,dN(A[4])),aw=W(e(function(b){return ak(a,[0,b,D])},b0));if(aw){var
+a_=aw[1],b2=lW(A[5]),ax=W(e(function(b){return lY(a,b)},b2));if(ax){var
+a$=ax[1],b4=lV(A[5]),aA=W(e(c7(a),b4));if(aA){var
+b5=0,I=function(a){return a3(aq,a)},aC=f(K,[0,U,0]),aD=W(cG(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-D=f[4],aM=M(z,f[1]);if(aM){if(mc(f[3])&&g(a,0,D)&&g(a,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],D])){var
-aN=f[2],aO=aM[1];if(eF(D)){var
-aG=l_(k,i(aO[3],aN)),V=aG[2];if(g(o,0,[3,D,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]]))var
+C=f[4],aM=E(z,f[1]);if(aM){if(ms(f[3])&&g(a,0,C)&&g(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],C])){var
+aN=f[2],aO=aM[1];if(f9(C)){var
+aG=mo(j,i(aO[3],aN)),V=aG[2];if(g(o,0,[3,C,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=t(V),bf=t(V),aH=[0,[6,[0,[0,e(t,aG[1]),bf],0],be],0];var
 aP=[0,[4,t(V)],aH]}else
 var
-aP=[0,[9,[3,G(l$(F,m,k,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return sy}return sz;case
+aP=[0,[9,[3,I(mp(G,m,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return s1}return s2;case
 16:var
-Z=f[3],u=f[2],aQ=f[1],bg=bZ(l);if(s(h(z),bg)&&g(a,0,aQ)&&g(a,1,u)&&g(a,1,Z)&&c5(a,Z)){var
-aI=aj(a,[0,[0,u,u],C]);if(aI){var
-bh=aI[1],aJ=i(c4(a),Z);if(aJ){var
+Z=f[3],u=f[2],aQ=f[1],bg=b1(l);if(r(h(z),bg)&&g(a,0,aQ)&&g(a,1,u)&&g(a,1,Z)&&c8(a,Z)){var
+aI=ak(a,[0,[0,u,u],D]);if(aI){var
+bh=aI[1],aJ=i(c7(a),Z);if(aJ){var
 bi=aJ[1],aK=W(e(function(f){var
-b=kV(a,G,aC,C,aQ,u,hU(f));if(b){var
-c=kU(a,t,aC,C,u,f[1][2]);if(c){var
-g=f4(0,0,f[1][2]);if(g)var
+b=k9(a,I,aC,D,aQ,u,h9(f));if(b){var
+c=k8(a,t,aC,D,u,f[1][2]);if(c){var
+g=f7(0,0,f[1][2]);if(g)var
 i=e(aB,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4222,65 +4378,65 @@ d=c;var
 h=d}else
 var
 h=b;return h},z));if(aK){var
-bj=aK[1],bk=e(function(a){return mb(l,I,aC,k,a)},z),aL=i(aq(t),bk),X=function(a){var
-b=c9(l),c=e(function(a){var
-b=eG(k);return G(i(a[6],b)[2])},z),d=e(function(a){var
-b=eG(k);return e(G,i(a[6],b)[1])},z),f=aY(aL);return[0,[8,[0,aL,t(m),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return su}return sv}return sw}return sx}var
+bj=aK[1],bk=e(function(a){return mr(l,J,aC,j,a)},z),aL=i(at(t),bk),X=function(a){var
+b=da(l),c=e(function(a){var
+b=eK(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
+b=eK(j);return e(I,i(a[6],b)[1])},z),f=aZ(aL);return[0,[8,[0,aL,t(m),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,X(1),0];var
+bl=[0,X(1),0];return[0,X(0),bl]}return sX}return sY}return sZ}return s0}var
 bm=0,v=e(function(a){return a[1]},z);function
 _(c,b,a){return[0,c,b,a,Y]}var
-E=0;if(typeof
+F=0;if(typeof
 f==="number")var
-aS=t(m),p=[0,_(i(aq(t),v),aS,B)];else
+aS=t(m),q=[0,_(i(at(t),v),aS,B)];else
 switch(f[0]){case
 0:var
-w=[5,[0,b,b],f[1]],J=_;E=1;break;case
+w=[5,[0,b,b],f[1]],K=_;F=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],w=aU,J=function(c,b,a){return[1,c,b,a]};E=1;break;case
+aU=[5,[0,b,b],f[1]],w=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aV);break;case
+aV=h8(a,m,z,j,f),q=x(function(a){return[4,t(a)]},aV);break;case
 3:var
-aW=hT(a,m,z,k,f),p=x(function(a){return[4,t(a)]},aW);break;case
+aW=h8(a,m,z,j,f),q=x(function(a){return[4,t(a)]},aW);break;case
 5:var
-$=f[1],aX=aj(a,[0,[0,$,$],d]),p=x(function(b){var
-c=S(a,b),d=t(m);return[2,i(aq(t),v),d,c]},aX);break;case
+$=f[1],aX=ak(a,[0,[0,$,$],d]),q=x(function(b){var
+c=S(a,b),d=t(m);return[2,i(at(t),v),d,c]},aX);break;case
 6:var
-K=M(z,f[1]);if(K){var
-L=l8(z,k,f);if(L){var
-aa=L[1],ab=g(a,1,f[2]),ac=ab?g(a,1,f[3]):ab;if(ac)var
-aZ=t(aa[2]),a0=t(K[1][1][2]),ad=[0,[5,[0,[0,[0,t(aa[1]),0],a0],0],aZ]];else
+L=E(z,f[1]);if(L){var
+M=mm(z,j,f);if(M){var
+aa=M[1],ab=g(a,1,f[2]),ac=ab?g(a,1,f[3]):ab;if(ac)var
+aY=t(aa[2]),a0=t(L[1][1][2]),ad=[0,[5,[0,[0,[0,t(aa[1]),0],a0],0],aY]];else
 var
 ad=ac;var
 ae=ad}else
 var
-ae=L;var
+ae=M;var
 af=ae}else
 var
-af=K;var
-p=af;break;case
+af=L;var
+q=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],ak=M(z,ai),aR=0;if(ak){var
+ag=f[3],ah=f[2],ai=f[1],aj=E(z,ai),aR=0;if(aj){var
 al=g(a,1,ah),am=al?g(a,1,ag):al;if(am){var
-a1=[5,ah,ag],w=a1,J=function(c,b,a){return[3,ai,c,b,a,Y]};E=1;aR=1}else
+a1=[5,ah,ag],w=a1,K=function(c,b,a){return[3,ai,c,b,a,Y]};F=1;aR=1}else
 var
 an=am}else
 var
-an=ak;if(!aR)var
-p=an;break;case
+an=aj;if(!aR)var
+q=an;break;case
 8:var
 ao=g(a,1,f[2]);if(ao)var
 a2=f[1],a3=1,N=n(function(b){return g(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a4=Q(a,b),a5=t(m),a6=fU(v,k),ap=[0,[0,i(aq(t),a6),a5,a4,0]];else
+a4=R(a,b),a5=t(m),a6=fY(v,j),ap=[0,[0,i(at(t),a6),a5,a4,0]];else
 var
 ap=N;var
-p=ap;break;case
+q=ap;break;case
 14:var
-ar=f[2],as=f[1],O=ma(l,F,m,z,k,as,ar);if(O){var
-at=O[1],au=at[2],av=at[1],aw=lt(as,ar,f[3]),P=aj(a,[0,[0,aw,aw],C]);if(P){var
+aq=f[2],ar=f[1],O=mq(l,G,m,z,j,ar,aq);if(O){var
+as=O[1],au=as[2],av=as[1],aw=lJ(ar,aq,f[3]),P=ak(a,[0,[0,aw,aw],D]);if(P){var
 ax=P[1],ay=H(d,ax[1]);if(ay)var
-y=function(a){return kT(G,a)},a7=y(au[2]),a8=y(au[1]),a9=y(av[2]),az=[0,[9,[6,y(av[1]),a9,a8,a7,ax]]];else
+y=function(a){return k7(I,a)},a7=y(au[2]),a8=y(au[1]),a9=y(av[2]),az=[0,[9,[6,y(av[1]),a9,a8,a7,ax]]];else
 var
 az=ay;var
 aA=az}else
@@ -4289,200 +4445,200 @@ aA=P;var
 aD=aA}else
 var
 aD=O;var
-p=aD;break;case
+q=aD;break;case
 15:var
-R=M(z,f[1]);if(R){var
+Q=E(z,f[1]);if(Q){var
 aE=g(a,1,f[4]);if(aE)var
 aF=g(a,0,f[2]),T=aF?g(a,0,f[3]):aF;else
 var
 T=aE;if(T)var
-A=i(R[1][5],0),a_=G(A[4]),a$=G(A[3]),ba=G(r(st,k,j(d))),bb=G(r(0,k,j(d))),bc=A[2],bd=e(function(a){return e(G,a)},bc),U=[0,[9,[10,e(G,A[1]),bd,bb,ba,a$,a_]]];else
+A=i(Q[1][5],0),a_=I(A[4]),a$=I(A[3]),ba=I(s(sW,j,k(d))),bb=I(s(0,j,k(d))),bc=A[2],bd=e(function(a){return e(I,a)},bc),U=[0,[9,[10,e(I,A[1]),bd,bb,ba,a$,a_]]];else
 var
 U=T}else
 var
-U=R;var
-p=U;break;default:var
-p=0}if(E)var
-aT=aj(a,[0,[0,w,w],d]),p=x(function(b){var
-c=S(a,b),d=t(m);return J(i(aq(t),v),d,c)},aT);return[0,p,bm]},b5,C,ab,_));if(aD){var
-a$=aD[1];if(A[7])var
-b6=aQ[2],b7=aQ[1],b8=t(m),af=k9(bE,a$,[7,i(aq(t),ao),b8,b7,b6]);else
+U=Q;var
+q=U;break;default:var
+q=0}if(F)var
+aT=ak(a,[0,[0,w,w],d]),q=x(function(b){var
+c=S(a,b),d=t(m);return K(i(at(t),v),d,c)},aT);return[0,q,bm]},b5,D,ac,Z));if(aD){var
+ba=aD[1];if(A[7])var
+b6=aP[2],b7=aP[1],b8=t(m),af=lo(bD,ba,[7,i(at(t),ao),b8,b7,b6]);else
 var
-af=a$;var
-ba=s(h(f(a9,a_)),k),bb=ba?n(function(a){var
-b=lZ(a);return n(function(a){return lC(k,$,a)},b)},af):ba,bc=bb?D?lC(k,$,t(D[1])):1:bb;if(bc){var
-b9=f(av[1],ay[1]),L=f(au[1],b9),O=mg(aO),R=me(C,A[2]),aa=O?e(function(a){var
-b=lX(k,R,a[2]),c=a[1];return[0,e(function(a){return lX(k,R,a)},c),b]},X):O,aE=O?ct(hP(k,m,D,aa))[1]:O,aF=cs(aE),ah=function(a){return a1(aF,a)},b_=hN(ah,ah,aa),b$=ah(be(k,m)),aH=x(function(a){return ah(be(k,a))},D),bd=ac(O);if(bd)var
-ai=bd;else{var
-bp=s(h(X),k);if(bp){var
-bz=hP(k,m,D,aa),aL=n(function(a){var
-b=j(d);return az(r(a1(aF,a),aF,b),a)},bz);if(aL)var
-bA=hP(k,m,D,aa),ak=n(function(a){var
-b=aG(0,k);return n(function(b){return dM(k,b,a)},b)},bA);else
+af=ba;var
+bb=r(h(f(a_,a$)),j),bc=bb?n(function(a){var
+b=md(a);return n(function(a){return lS(j,aa,a)},b)},af):bb,be=bc?F?lS(j,aa,t(F[1])):1:bc;if(be){var
+b9=f(av[1],aA[1]),M=f(au[1],b9),N=mw(aO),Q=mu(D,A[2]),ab=N?e(function(a){var
+b=mb(j,Q,a[2]),c=a[1];return[0,e(function(a){return mb(j,Q,a)},c),b]},X):N,aE=N?cv(h4(j,m,F,ab))[1]:N,aF=cu(aE),ag=function(a){return a3(aF,a)},b_=h2(ag,ag,ab),b$=ag(bh(j,m)),aH=x(function(a){return ag(bh(j,a))},F),bf=_(N);if(bf)var
+ai=bf;else{var
+bq=r(h(X),j);if(bq){var
+bz=h4(j,m,F,ab),aL=n(function(a){var
+b=k(d);return ay(s(a3(aF,a),aF,b),a)},bz);if(aL)var
+bA=h4(j,m,F,ab),al=n(function(a){var
+b=aG(0,j);return n(function(b){return dR(j,b,a)},b)},bA);else
 var
-ak=aL;if(ak){var
-aM=x(function(a){return be(k,a)},D),am=be(k,m),aK=lT(am);if(aK)var
-bx=aG(0,Y),aN=n(function(a){var
-b=c7(k,a,am),c=b?n(function(b){var
-d=b[2][2],e=f(w(hO,b[1]),d),g=P(k,a),c=n(function(a){return cg(g,a)},e);if(c){var
-h=b[2][1];return fW(am,P(k,a),h)}return c},aa):b;if(c){if(aM){var
-e=aM[1];return cg(P(k,a),e)}var
+al=aL;if(al){var
+aM=x(function(a){return bh(j,a)},F),am=bh(j,m),aK=l9(am);if(aK)var
+by=aG(0,Y),aN=n(function(a){var
+b=c_(j,a,am),c=b?n(function(b){var
+d=b[2][2],e=f(w(h3,b[1]),d),g=O(j,a),c=n(function(a){return ck(g,a)},e);if(c){var
+h=b[2][1];return fZ(am,O(j,a),h)}return c},ab):b;if(c){if(aM){var
+e=aM[1];return ck(O(j,a),e)}var
 d=1}else
 var
-d=c;return d},bx);else
+d=c;return d},by);else
 var
 aN=aK;var
 an=aN}else
 var
-an=ak;var
+an=al;var
 cf=an?n(function(a){var
-c=a[1],b=n(function(a){return lY(k,L,R,a)},c);return b?lY(k,L,R,a[2]):b},X):an,ai=cf}else
+c=a[1],b=n(function(a){return mc(j,M,Q,a)},c);return b?mc(j,M,Q,a[2]):b},X):an,ai=cf}else
 var
-ai=bp}if(ai){var
-ca=e(function(a){return 1},af),cb=f(a9,a_),cc=function(M,ab,aa,c){if(O){if(typeof
+ai=bq}if(ai){var
+ca=e(function(a){return 1},af),cb=f(a_,a$),cc=function(L,ab,aa,c){if(N){if(typeof
 c!=="number"&&10===c[0]){var
 g=c[3],m=c[2],o=c[1];if(typeof
 o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
-u=g[1],b=o[1],w=s(aa,Y),x=w?by(0,Y):w;if(x)var
-t=g5(g1,e(aB,m),R),Z=t?1:t,p=Z;else
+u=g[1],b=o[1],w=r(aa,Y),x=w?bd(0,Y):w;if(x)var
+t=hd(ha,e(aB,m),Q),Z=t?1:t,p=Z;else
 var
 p=x;var
-y=p?kC(R):p,z=y?n(function(a){return by(a,h(L))},R):y,A=z?s(h(u),k):z;if(A){var
+y=p?kQ(Q):p,z=y?n(function(a){return bd(a,h(M))},Q):y,A=z?r(h(u),j):z;if(A){var
 q=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-G=b[2],F=b[1],D=0;q=1;break;case
+G=b[2],F=b[1],E=0;q=1;break;case
 7:var
-I=b[2],j=b[1],N=0;if(typeof
-j!=="number"&&0===j[0]){var
+I=b[2],k=b[1],O=0;if(typeof
+k!=="number"&&0===k[0]){var
 P=0;if(aH){var
 J=H(d,I);if(J){var
-G=j[2],F=j[1],D=[0,[0,[0,aH[1],I],b[3]]];q=1;N=1;P=1}else
+G=k[2],F=k[1],E=[0,[0,[0,aH[1],I],b[3]]];q=1;O=1;P=1}else
 var
 K=J}else
 var
-K=aH;if(!P)return K}if(!N)return 0;break}if(q){var
-S=hI(a,hk(m,0,L),aE,M),l=hI(a,L,aE,M),f=function(b,a){return r(a,b,se)},T=lV(function(a){return f(l,a)},D),U=f(l,b$),V=function(a){return f(l,a)},X=[0,hN(function(a){return f(S,a)},V,b_),U,T],_=kv(m,L),$=function(g){var
-b=W(e(sc,g[1]));if(b){var
+K=aH;if(!P)return K}if(!O)return 0;break}if(q){var
+S=hX(a,hu(m,0,M),aE,L),l=hX(a,M,aE,L),f=function(b,a){return s(a,b,sH)},T=l$(function(a){return f(l,a)},E),U=f(l,b$),V=function(a){return f(l,a)},X=[0,h2(function(a){return f(S,a)},V,b_),U,T],_=kJ(m,M),$=function(g){var
+b=W(e(sF,g[1]));if(b){var
 c=g[2];if(c){var
-d=cD(g[3]);if(d){var
-l=d[1],m=ap([0,E(ad(v(a,ab,c[1])),l),0],k),n=b[1],o=e(function(d){var
-b=kw(a,0,_,d),c=bi(sd,b[2]);return[0,b[1],c]},n),f=ks(a,e(function(b){return Q(a,b)},u),F,G,o,m);if(f)return a7(a,k,f[1]);var
+d=cJ(g[3]);if(d){var
+l=d[1],m=as([0,C(ae(v(a,ab,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=kK(a,0,_,d),c=bm(sG,b[2]);return[0,b[1],c]},n),f=kG(a,e(function(b){return R(a,b)},u),F,G,o,m);if(f)return a9(a,j,f[1]);var
 h=f}else
 var
 h=d;var
 i=h}else
 var
 i=c;var
-j=i}else
+k=i}else
 var
-j=b;return j};return i(hK(function(b,a){return sb},Y,k,$),X)}var
+k=b;return k};return i(hZ(function(b,a){return sE},Y,j,$),X)}var
 B=0}else
 var
 B=A;var
-C=B}else
+D=B}else
 var
-C=g;return C}return 0}return 0}return O},cd=t(m),ce=i(aq(t),X);return l4(a,aW,aX,L,af,k,k,x(t,D),ce,cd,cc,cb,ca,aO)}var
-bf=ai}else
+D=g;return D}return 0}return 0}return N},cd=t(m),ce=i(at(t),X);return mi(a,aX,aY,M,af,j,j,x(t,F),ce,cd,cc,cb,ca,aO)}var
+bg=ai}else
 var
-bf=bc;var
-bh=bf}else
+bg=be;var
+bi=bg}else
 var
-bh=aD;var
-bj=bh}else
+bi=aD;var
+bj=bi}else
 var
-bj=ay;var
+bj=aA;var
 bk=bj}else
 var
 bk=ax;var
 bl=bk}else
 var
 bl=aw;var
-bm=bl}else
+bn=bl}else
 var
-bm=av;var
-bn=bm}else
-var
-bn=au;var
+bn=av;var
 bo=bn}else
 var
-bo=at;return bo}function
-eH(b,a){return bl(b,a[1],a[2])}function
-mh(b,a){var
-c=eH(b,a[1]),d=c?eH(b,a[2]):c;return d?eH(b,a[3]):d}function
-a$(a){return typeof
-a==="number"?a?sC:sD:bZ(a[1])}function
-mi(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hG(b[1],a,c)}function
-f7(a){if(0===a[0]){var
+bo=au;var
+bp=bo}else
+var
+bp=ar;return bp}function
+eL(b,a){return bf(b,a[1],a[2])}function
+mx(b,a){var
+c=eL(b,a[1]),d=c?eL(b,a[2]):c;return d?eL(b,a[3]):d}function
+bb(a){return typeof
+a==="number"?a?s5:s6:b1(a[1])}function
+my(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hV(b[1],a,c)}function
+f$(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-hW(b,c,a){return b?fR(b[1],c,a):a}function
-ch(d,c,b,a){var
-e=f7(a),f=hW(d,c,f7(a)),g=ai(function(b,a){return[2,b,a]},b,f);return ai(function(b,a){return[3,b,a]},g,e)}function
-mj(b,a){var
+ga(b,c,a){return b?dP(b[1],c,a):a}function
+bK(d,c,b,a){var
+e=f$(a),f=ga(d,c,f$(a)),g=Z(function(b,a){return[2,b,a]},b,f);return Z(function(b,a){return[3,b,a]},g,e)}function
+mz(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-mk(b,w,v){var
+mA(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?kY(b,j[1],f[1]):0;else
+h=0===f[0]?la(b,j[1],f[1]):0;else
 if(0===f[0])var
 h=0;else{var
-a=f[1],c=j[1],k=a8(b,c[1],a[1]),l=k?a8(b,c[2],a[2]):k,m=l?a8(b,c[3],a[3]):l,n=m?a8(b,c[4],a[4]):m,o=n?cY(b,c[5],a[5]):n,p=o?cY(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,T(a[1],a[1])):r;if(s)var
-u=hw(a),i=g(b,1,T(hw(a),u));else
+a=f[1],c=j[1],k=a_(b,c[1],a[1]),l=k?a_(b,c[2],a[2]):k,m=l?a_(b,c[3],a[3]):l,n=m?a_(b,c[4],a[4]):m,o=n?cD(b,c[5],a[5]):n,p=o?cD(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,F(a[1],a[1])):r;if(s)var
+u=hK(a),i=g(b,1,F(hK(a),u));else
 var
 i=s;var
-h=i?co(c[7],a[7]):i}if(h){var
+h=i?ca(c[7],a[7]):i}if(h){var
 e=e[2],d=d[2];continue}var
 t=h}else
 var
 t=d;return t}return d?0:1}}function
-ml(a){return typeof
-a==="number"?a?c_(0):cV:c_(a[1])}function
-hX(b,d,c){if(0===c[0])return fJ(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aV(a[4],b),e),h=f(aV(a[3],b),g),i=f(aV(a[2],d[2]),h);return f(aV(a[1],d[1]),i)}function
-hY(b,a){if(b){var
-c=b[1],d=c[2];return a6(eE(c[1],a),d)}return a}function
-mm(f,t,am,K,al,s,ak){if(s){var
-k=s[1],an=bz([0,d,d],al),a=cf(ak,hX(K,an,k)),z=function(c,b){var
-d=af(a,c);return Z(u,Z(y,ml(f),b),d)};if(0===k[0]){var
-A=k[1];switch(A[0]){case
+mB(a){return typeof
+a==="number"?a?db(0):c2:db(a[1])}function
+h$(b,d,c){if(0===c[0])return fP(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aX(a[4],b),e),h=f(aX(a[3],b),g),i=f(aX(a[2],d[2]),h);return f(aX(a[1],d[1]),i)}function
+ia(b,a){if(b){var
+c=b[1],d=c[2];return a8(eJ(c[1],a),d)}return a}function
+mC(f,t,am,J,al,r,ak){if(r){var
+j=r[1],an=bA([0,d,d],al),a=ci(ak,h$(J,an,j)),z=function(c,b){var
+d=ag(a,c);return $(u,$(y,mB(f),b),d)};if(0===j[0]){var
+A=j[1];switch(A[0]){case
 0:var
-aa=hY(t,af(a,sE)),aE=A[1][5],B=r(sF,a,j(d)),C=af(a,0),ab=z(sG,aa),i=ki(ab,cU(C),ab,B,aE),ap=[0,aA(B),0],aq=[0,aA(N(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],aa];break;case
+aa=ia(t,ag(a,s8)),aE=A[1][5],B=s(s9,a,k(d)),C=ag(a,0),ab=z(s_,aa),i=kw(ab,c1(C),ab,B,aE),ap=[0,az(B),0],aq=[0,az(P(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],aa];break;case
 1:var
-ac=hY(t,af(a,sH)),ad=A[3],D=ad?[0,af(a,sI)]:ad,ae=z(0,ac),m=kj(ae,ae,0);if(D)var
-L=D[1],M=[0,aA(N(L,L)),0];else
+ac=ia(t,ag(a,s$)),ad=A[3],D=ad?[0,ag(a,ta)]:ad,ae=z(0,ac),m=kx(ae,ae,0);if(D)var
+K=D[1],M=[0,az(P(K,K)),0];else
 var
 M=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=j(d),aG=j(d),aH=[0,j(d),aG,aF],E=af(a,0),aI=ml(f),n=kk(aI,cU(E)),ar=[0,aA(N(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ag(a,0),aI=mB(f),n=ky(aI,c1(E)),ar=[0,az(P(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ah=hY(t,af(a,sJ)),F=k[1][7],G=r(sK,a,j(d)),e=r(sL,a,j(d)),ai=af(a,sM),H=af(a,0),q=z(sN,ah),o=cU(H),v=Z(u,ai,aP(N(o,ai),o)),w=cU(v),O=b1(o,w),Q=N(q,w),R=N(q,O),as=N(o,q),at=J(R),S=y(J(Q),at),au=J(as),T=u(J(G),au),av=p(j(c(2,b)),e),x=u(S,J(ag(y(S,u(J(e),T)),av))),aw=fz(F,p(e,aA(x))),U=ag(Q,e),V=fz(F,ag(R,e)),W=ag(T,J(e)),X=jP(0,U,V,W),Y=fz(F,jP(1,U,V,W)),ax=aP(Y,O),_=Z(u,q,aP(e,Z(y,aP(X,w),ax))),ay=[0,aA(G),0],az=[0,aA(e),ay],aB=[0,aA(N(v,v)),az],aC=[0,aA(N(H,H)),aB],aD=a6(_,aw),l=[0,[0,_,p(J(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],ah];var
-aQ=P(ak,h(hX(K,an,k))),aR=s[2],aS=mm(f,t,am,K,bh(al),aR,aQ),g=l[1],aT=l[2],aj=function(a){var
-b=a6(b1(aT,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bD(a):f2(f[1],a,b)},I=g[1],$=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=$?f?[0,I[1],[0,I[2],0]]:bD(I):$,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aS]}else
+af=ia(t,ag(a,tb)),F=j[1][7],G=s(tc,a,k(d)),e=s(td,a,k(d)),ai=ag(a,te),H=ag(a,0),p=z(tf,af),o=c1(H),v=$(u,ai,aS(P(o,ai),o)),w=c1(v),N=b3(o,w),Q=P(p,w),R=P(p,N),as=P(o,p),at=L(R),S=y(L(Q),at),au=L(as),T=u(L(G),au),av=q(k(c(2,b)),e),x=u(S,L(ah(y(S,u(L(e),T)),av))),aw=fF(F,q(e,az(x))),U=ah(Q,e),V=fF(F,ah(R,e)),W=ah(T,L(e)),X=j3(0,U,V,W),Y=fF(F,j3(1,U,V,W)),ax=aS(Y,N),Z=$(u,p,aS(e,$(y,aS(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(P(v,v)),aA],aC=[0,az(P(H,H)),aB],aD=a8(Z,aw),l=[0,[0,Z,q(L(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=O(ak,h(h$(J,an,j))),aQ=r[2],aR=mC(f,t,am,J,bl(al),aQ,aP),g=l[1],aT=l[2],aj=function(a){var
+b=a8(b3(aT,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bF(a):f5(f[1],a,b)},I=g[1],_=typeof
+f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bF(I):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
-ao=s;return ao}function
-hZ(c,b,a){if(a){var
-e=a[2],g=hZ(c,bh(b),e),h=a[1];return f(hX(c,bz([0,d,d],b),h),g)}return a}function
-mn(a){if(a){var
+ao=r;return ao}function
+ib(c,b,a){if(a){var
+e=a[2],g=ib(c,bl(b),e),h=a[1];return f(h$(c,bA([0,d,d],b),h),g)}return a}function
+mD(a){if(a){var
 b=a[1][6];if(b)var
-c=mn(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=mD(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return sO}function
-mo(z,V,b){function
-c(a){return r(a,V,j(d))}function
+d=b;return d}return tg}function
+mE(z,V,b){function
+c(a){return s(a,V,k(d))}function
 O(a){var
-e=a[2],f=p(J(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dt(function(b,a){return u(b,J(a))},g,f),d],b]}function
+e=a[2],f=q(L(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dx(function(b,a){return u(b,L(a))},g,f),d],b]}function
 P(e){var
 a=e[6];if(a)var
-b=a[1],f=J(b[2]),g=p(J(c(0)),f),d=[0,[0,u(b[1],g),0],0];else
+b=a[1],f=L(b[2]),g=q(L(c(0)),f),d=[0,[0,u(b[1],g),0],0];else
 var
 d=a;return d}var
 D=0;if(typeof
@@ -4502,7 +4658,7 @@ d=a[1];return[0,[0,u(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=p(c(sP),b),g=[0,[0,u(p(c(sQ),d),f),0],0],h=p(d,c(sR));return[0,[0,u(p(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(th),b),g=[0,[0,u(q(c(ti),d),f),0],0],h=q(d,c(tj));return[0,[0,u(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4518,122 +4674,122 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=mn(z);if(B){var
-aa=c(0),Q=dt(p,B[1],aa),C=e(function(a){return a[5]},z);if(C){var
+B=mD(z);if(B){var
+aa=c(0),Q=dx(q,B[1],aa),C=e(function(a){return a[5]},z);if(C){var
 h=C[2],i=C[1];if(i){var
-k=i[2],E=i[1];if(k){var
-l=k[2],F=k[1];if(l)if(l[2]||!h)var
-a=j(d);else{var
+j=i[2],F=i[1];if(j){var
+l=j[2],G=j[1];if(l)if(l[2]||!h)var
+a=k(d);else{var
 m=h[2],n=h[1];if(n){var
-o=n[2],G=n[1];if(o){var
-q=o[2],H=o[1];if(q){var
-I=q[1];if(q[2]||!m)var
-a=j(d);else{var
-s=m[1];if(s){var
-t=s[2],K=s[1];if(t){var
-v=t[2],L=t[1];if(v){var
+o=n[2],H=n[1];if(o){var
+p=o[2],I=o[1];if(p){var
+J=p[1];if(p[2]||!m)var
+a=k(d);else{var
+r=m[1];if(r){var
+t=r[2],K=r[1];if(t){var
+v=t[2],M=t[1];if(v){var
 N=v[1];if(v[2]||m[2])var
-a=j(d);else
+a=k(d);else
 var
-S=cX(G,H,K,L),T=p(l[1],S),U=p(F,cX(G,I,K,N)),a=y(u(p(E,cX(H,I,L,N)),U),T)}else
+S=c4(H,I,K,M),T=q(l[1],S),U=q(G,c4(H,J,K,N)),a=y(u(q(F,c4(I,J,M,N)),U),T)}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}}else
+a=k(d)}}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}else
+a=k(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?j(d):h[2]?j(d):cX(E,F,w[1],x[1]):j(d);else
+x=w[2],a=x?x[2]?k(d):h[2]?k(d):c4(F,G,w[1],x[1]):k(d);else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d)}else
+a=k(d)}else
 var
-a=j(d);var
-ab=[0,bk(y(a,Q)),0],R=[0,[0,u(a,Q),ab],0]}else
+a=k(d);var
+ab=[0,bo(y(a,Q)),0],R=[0,[0,u(a,Q),ab],0]}else
 var
 R=B;return R;default:D=1}if(D)return 0;var
-A=M(z,f);return A?g(A[1]):A}function
-dQ(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eI(a){return e(function(a){var
-c=j(b);return[0,a[3],c]},a)}function
-mp(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bF(fU(dQ(c),b));return ei(mo(c,b,a))}function
-mq(f,h,l,H,G,s,a){if(typeof
+A=E(z,f);return A?g(A[1]):A}function
+dV(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+eM(a){return e(function(a){var
+c=k(b);return[0,a[3],c]},a)}function
+mF(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bH(fY(dV(c),b));return en(mE(c,b,a))}function
+mG(f,h,l,I,H,s,a){if(typeof
 a==="number")return[0,[0,[0,B]],0];else
 switch(a[0]){case
 0:var
-I=[5,[0,b,b],a[1]],j=I,m=function(a){return[0,a]};break;case
+J=[5,[0,b,b],a[1]],j=J,m=function(a){return[0,a]};break;case
 1:var
-L=[5,[0,b,b],a[1]],j=L,m=function(a){return[1,a]};break;case
+M=[5,[0,b,b],a[1]],j=M,m=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,R=aj(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,S(f,a)]},R),P];case
+y=a[1],P=0,Q=ak(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,S(f,a)]},Q),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!M(l,C))return sU;var
-F=0;if(g(f,1,A)&&g(f,1,z))var
+z=a[3],A=a[2],C=a[1];if(!E(l,C))return tm;var
+G=0;if(g(f,1,A)&&g(f,1,z))var
 T=[5,A,z],j=T,m=function(a){return[7,C,a]};else
-F=1;if(F)return sT;break;case
+G=1;if(G)return tl;break;case
 8:var
 D=g(f,1,a[2]),U=0;if(D)var
-V=a[1],W=1,p=n(function(a){return g(f,W,a)},V);else
+V=a[1],W=1,q=n(function(a){return g(f,W,a)},V);else
 var
-p=D;if(p)var
-X=Q(f,b),Y=fU(dQ(l),s),E=[0,[4,i(aq(h),Y),X]];else
+q=D;if(q)var
+X=R(f,b),Y=fY(dV(l),s),F=[0,[4,i(at(h),Y),X]];else
 var
-E=p;return[0,E,U];default:var
+F=q;return[0,F,U];default:var
 r=0;if(typeof
 a==="number")r=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],t]):v,k=O;break;case
+t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],t]):v,k=O;break;case
 6:case
 9:var
 w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:r=1}if(r)var
 k=1;var
-o=k?mo(l,s,a):k;if(o){var
+o=k?mE(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
 d=[0,[3,i(h,c)]]}else
 var
-d=a;return d},N)}return sS}var
-J=0,K=aj(f,[0,[0,j,j],hE(H,G)]);return[0,x(function(a){return m(S(f,a))},K),J]}function
-mr(a){if(typeof
+d=a;return d},N)}return tk}var
+K=0,L=ak(f,[0,[0,j,j],hT(I,H)]);return[0,x(function(a){return m(S(f,a))},L),K]}function
+mH(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-sW(b){if(0===b[0])return[0,k7(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bm(a[4]),g=bm(a[3]),h=bm(a[2]);return[1,[0,bm(a[1]),h,g,f,e,d,c]]}function
-sX(J,c,a,k,ap,aT){var
-aU=e(sW,a[2]),ar=mk(J,a[2],aU);if(ar)var
-aV=hv(a[4]),K=cZ(J,a[4],aV);else
+to(b){if(0===b[0])return[0,lm(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bp(a[4]),g=bp(a[3]),h=bp(a[2]);return[1,[0,bp(a[1]),h,g,f,e,d,c]]}function
+tp(J,c,a,j,ap,aT){var
+aU=e(to,a[2]),aq=mA(J,a[2],aU);if(aq)var
+aV=hF(a[4]),K=c5(J,a[4],aV);else
 var
-K=ar;if(K){var
-as=a[5];if(as)var
-aW=f1(as[1]),at=n(function(a){return eH(J,a)},aW);else
+K=aq;if(K){var
+ar=a[5];if(ar)var
+aW=f4(ar[1]),as=n(function(a){return eL(J,a)},aW);else
 var
-at=1;var
-L=at}else
+as=1;var
+L=as}else
 var
 L=K;if(L){var
-b=a[1],ax=a$(b),q=a[6],z=hZ(k,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],k],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,ay=a[5],aA=x(function(a){var
+b=a[1],ax=bb(b),q=a[6],z=ib(j,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],j],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
 c=typeof
-b==="number"?0:c9(b[1]);return lE(a,c)},ay),aB=a[2],l=mm(b,aA,cz(R,h(z)),k,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cA(function(a,b){return mp(l,a,b)},o,k,S,q)),aD=f(bF(eI(l)),aC),U=f(bF(dQ(l)),aD),V=ct(U)[1],X=cs(V),p=function(a){return a1(X,a)},Y=n(function(a){var
-b=j(d);return az(r(p(a),X,b),a)},U),Z=Y?al(mr,q):Y;if(Z){var
+b==="number"?0:da(b[1]);return lU(a,c)},az),aB=a[2],l=mC(b,aA,cC(R,h(z)),j,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cG(function(a,b){return mF(l,a,b)},o,j,S,q)),aD=f(bH(eM(l)),aC),U=f(bH(dV(l)),aD),V=cv(U)[1],X=cu(V),p=function(a){return a3(X,a)},Y=n(function(a){var
+b=k(d);return ay(s(p(a),X,b),a)},U),Z=Y?aj(mH,q):Y;if(Z){var
 _=a[4];if(typeof
 b==="number")var
-$=b?hV(0,dK(_)):1;else
+$=b?h_(0,dN(_)):1;else
 var
-av=dK(_),$=hV(b[1],av);var
+av=dN(_),$=h_(b[1],av);var
 B=$}else
 var
 B=Z;if(B){var
@@ -4644,8 +4800,8 @@ if(2<=N[1])var
 t=0;else{var
 v=a[5],M=0;if(v){var
 O=g(c,1,a[3]);if(O)var
-aw=f1(v[1]),t=n(function(a){var
-b=c5(c,a[1]);return b?c5(c,a[2]):b},aw);else{var
+aw=f4(v[1]),t=n(function(a){var
+b=c8(c,a[1]);return b?c8(c,a[2]):b},aw);else{var
 P=O;M=1}}else{var
 P=v;M=1}if(M)var
 t=P}var
@@ -4653,25 +4809,25 @@ C=t}else
 var
 C=B;if(C)var
 aE=a[2],D=n(function(a){var
-b=0===a[0]?0:1;return co(b,o)},aE);else
+b=0===a[0]?0:1;return ca(b,o)},aE);else
 var
 D=C;if(D){var
-aF=f(z,[0,R,0]),E=W(e(function(a){return aj(c,a)},aF));if(E){var
-aG=w(function(a){return eC(o,k,a)},q),F=W(e(function(a){return hF(c,a)},aG));if(F){var
-m=dK(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:md(b[1],m),G=W(e(function(a){return aj(c,[0,a,k])},aH));if(G){var
+aF=f(z,[0,R,0]),E=W(e(function(a){return ak(c,a)},aF));if(E){var
+aG=w(function(a){return eG(o,j,a)},q),F=W(e(function(a){return hU(c,a)},aG));if(F){var
+m=dN(a[4]),aH=typeof
+b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:mt(b[1],m),G=W(e(function(a){return ak(c,[0,a,j])},aH));if(G){var
 aa=G[1],ab=a[5];if(ab)var
-aI=lG(ab[1]),u=W(e(function(a){return lI(c,a)},aI));else
+aI=lW(ab[1]),u=W(e(function(a){return lY(c,a)},aI));else
 var
-u=sV;if(u){var
-ac=u[1],y=a[5],aJ=y?lF(y[1]):y,H=W(e(c4(c),aJ));if(H){var
-I=W(cA(function(a,b){return mq(c,p,l,o,k,a,b)},o,k,S,q));if(I){var
-ad=I[1],ae=s(h(f(aa,ac)),ax);if(ae){var
-aK=hp(ad),aL=f(aa,ac),au=0,aM=a[4];if(typeof
+u=tn;if(u){var
+ac=u[1],y=a[5],aJ=y?lV(y[1]):y,H=W(e(c7(c),aJ));if(H){var
+I=W(cG(function(a,b){return mG(c,p,l,o,j,a,b)},o,j,S,q));if(I){var
+ad=I[1],ae=r(h(f(aa,ac)),ax);if(ae){var
+aK=hz(ad),aL=f(aa,ac),au=0,aM=a[4];if(typeof
 b==="number"&&!b){var
-af=function(a){return kX(c,aM,k,a)};au=1}if(!au)var
+af=function(a){return k$(c,aM,j,a)};au=1}if(!au)var
 af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eI(l),aR=i(aq(p),aQ),aS=dQ(l);return fI(c,V,i(aq(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
+aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eM(l),aR=i(at(p),aQ),aS=dV(l);return fO(c,V,i(at(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
 ag=ae}else
 var
 ag=I;var
@@ -4681,10 +4837,10 @@ ah=H;var
 ai=ah}else
 var
 ai=u;var
-ak=ai}else
+al=ai}else
 var
-ak=G;var
-am=ak}else
+al=G;var
+am=al}else
 var
 am=F;var
 an=am}else
@@ -4693,7 +4849,7 @@ an=E;var
 ao=an}else
 var
 ao=D;return ao}return L}function
-bJ(c){var
+bL(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4702,127 +4858,182 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bJ(a[2]);return f(bJ(a[1]),e)}}function
-bn(e,a,c){switch(a[0]){case
+e=bL(a[2]);return f(bL(a[1]),e)}}function
+br(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return cz([0,[0,r,r],d],c);case
+r=a[1];return cC([0,[0,r,r],d],c);case
 1:var
-t=a[1],g=e,v=j(d);for(;;){if(g){var
-n=g[1];if(pP(n[1],t))return n[2];var
+t=a[1],g=e,v=k(d);for(;;){if(g){var
+n=g[1];if(p_(n[1],t))return n[2];var
 g=g[2];continue}return v}case
-2:return bk(bn(e,a[1],c));case
+2:return bo(br(e,a[1],c));case
 3:var
-k=a[2],f=a[1],i=y;break;case
+j=a[2],f=a[1],i=y;break;case
 4:var
-k=a[2],f=a[1],i=u;break;case
+j=a[2],f=a[1],i=u;break;case
 5:var
-k=a[2],f=a[1],i=p;break;case
+j=a[2],f=a[1],i=q;break;case
 6:var
-k=a[2],f=a[1],i=ag;break;case
+j=a[2],f=a[1],i=ah;break;case
 7:var
-l=ee(a[2]),m=bn(e,a[1],c);if(l){if(l[1]){var
-o=J(m),s=function(a){return p(a,o)},q=fe(bx(jx(l)),s,o);return jw(l)?q:p(q,m)}return m}return j(b);default:return aA(bn(e,a[1],c))}var
-w=bn(e,k,P(c,h(bJ(f))));return i(bn(e,f,c),w)}function
-cE(c,g,b){var
+l=ej(a[2]),m=br(e,a[1],c);if(l){if(l[1]){var
+o=L(m),s=function(a){return q(a,o)},p=fj(bk(jL(l)),s,o);return jK(l)?p:q(p,m)}return m}return k(b);default:return az(br(e,a[1],c))}var
+w=br(e,j,O(c,h(bL(f))));return i(br(e,f,c),w)}function
+cK(c,g,b){var
 a=g;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,h(bJ(e))),l=cE(c,a[2],k),m=f(cE(c,e,b),l);return[0,bn(c,a,b),m];case
+e=a[1],k=O(b,h(bL(e))),l=cK(c,a[2],k),m=f(cK(c,e,b),l);return[0,br(c,a,b),m];case
 8:var
-n=cE(c,a[1],b);return[0,bn(c,a,b),n];case
+n=cK(c,a[1],b);return[0,br(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=P(b,h(bJ(d))),j=cE(c,a[2],i);return f(cE(c,d,b),j)}}function
-ms(c,a,b){if(a){var
-e=a[1],d=e[2],g=P(b,h(bJ(d))),i=a[2],j=bn(c,d,b),k=ms([0,[0,e[1],j],c],i,g);return f(cE(c,d,b),k)}return a}function
-h0(a){return w(bJ,a)}function
-mt(c,a,b){if(a)var
-d=a[1],f=P(b,h(bJ(d))),g=mt(c,a[2],f),e=[0,bn(c,d,b),g];else
+d=a[1],i=O(b,h(bL(d))),j=cK(c,a[2],i);return f(cK(c,d,b),j)}}function
+mI(i,g,f){var
+b=i,a=g,c=f;for(;;){if(a){var
+d=a[1],e=d[2],j=O(c,h(bL(e))),k=a[2],l=br(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+ic(c,a,b){if(a){var
+e=a[1],d=e[2],g=O(b,h(bL(d))),i=a[2],j=br(c,d,b),k=ic([0,[0,e[1],j],c],i,g);return f(cK(c,d,b),k)}return a}function
+eN(a){return w(bL,a)}function
+mJ(c,a,b){if(a)var
+d=a[1],f=O(b,h(bL(d))),g=mJ(c,a[2],f),e=[0,br(c,d,b),g];else
 var
 e=a;return e}function
-mu(c,a,b){if(a){var
-d=a[1],e=P(b,h(bJ(d))),g=mu(c,a[2],e);return f(cE(c,d,b),g)}return a}function
-h1(a){return 0===a[0]?h0(a[1]):bJ(a[1])}function
-mv(c,b,a){if(b){var
-d=b[1],j=P(a,h(h1(d))),k=mv(c,b[2],j);if(0===d[0])var
-g=mu(c,d[1],a);else
+mK(c,a,b){if(a){var
+d=a[1],e=O(b,h(bL(d))),g=mK(c,a[2],e);return f(cK(c,d,b),g)}return a}function
+gb(a){return 0===a[0]?eN(a[1]):bL(a[1])}function
+id(c,b,a){if(b){var
+d=b[1],j=O(a,h(gb(d))),k=id(c,b[2],j);if(0===d[0])var
+g=mK(c,d[1],a);else
 var
-e=d[1],i=cE(c,e,a),g=[0,bn(c,e,a),i];return f(g,k)}return b}function
-f8(c){var
+e=d[1],i=cK(c,e,a),g=[0,br(c,e,a),i];return f(g,k)}return b}function
+gc(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bU(f8,a)}return[0,b]}function
-h2(c){var
+b=bB(gc,a)}return[0,b]}function
+ie(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=h2(a[2]);return p(h2(a[1]),d);case
-9:return a[1];default:return J(b)}}}function
-mw(n,g,a,f){if(a){var
-c=a[1],w=P(f,h(h1(c))),x=mw(n,g,a[2],w);if(0===c[0])var
-l=mt(g,c[1],f),o=[0,l,j(b),l,0,0,0,0];else
+d=ie(a[2]);return q(ie(a[1]),d);case
+9:return a[1];default:return L(b)}}}function
+ig(n,g,a,f){if(a){var
+c=a[1],w=O(f,h(gb(c))),x=ig(n,g,a[2],w);if(0===c[0])var
+l=mJ(g,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=bn(g,c[1],f),q=f8(m),i=aU(aG(0,n),q),d=f8(i[2]),k=e(f8,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return az(a,d)?j(b):ag(a,d)},k),o=[0,k,h2(d),v,u,t,s,r];var
+m=br(g,c[1],f),q=gc(m),i=aW(aG(0,n),q),d=gc(i[2]),j=e(gc,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?k(b):ah(a,d)},j),o=[0,j,ie(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-mx(a){return e(function(a){return[0,a[2],d]},a)}function
-my(a){var
-b=w(h1,a[4]),c=f(h0(e(bg,a[3])),b);return f(mx(a[2]),c)}function
-mz(a){var
-c=cf(0,mx(a[2])),d=aG(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=at(e(aB,a[2]),c);return f(at(a[1],g),b)}function
-h3(b,d){var
+mL(a){return e(function(a){return[0,a[2],d]},a)}function
+mM(a){var
+b=w(gb,a[4]),c=f(eN(e(aQ,a[3])),b);return f(mL(a[2]),c)}function
+gd(a){var
+c=ci(0,mL(a[2])),d=aG(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=ar(e(aB,a[2]),c);return f(ar(a[1],g),b)}function
+ih(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return al(function(a){return as(e,a)},b);case
+e=a[1];return aj(function(a){return au(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=h3(b,a[1]);if(c){var
+c=ih(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-mA(d){var
+mN(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(al(function(b){return function(a){return pP(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=_(aj(function(b){return function(a){return p_(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-mB(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=mB(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bh,f(c,j)));return ar(h,ar(g,bz(b,k),m),l)}return b}function
-mC(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return mB(a,e,d,function(b){return mC(a,f,e,d,h,b)},g,b)}return b?a:f}function
-mD(d,a){if(a){var
-b=a2(d,a[1]);if(b)var
-c=mD(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+mO(a){var
+u=e(aB,a[2]),d=f(a[1],u),g=h(a[1]),o=V(tq,g),p=o?V(g,tr):o,q=p?V(g,h(a[4])):p,r=q?V(h(a[4]),ts):q,s=r?mN(d):r;if(s){var
+c=d,b=a[3];for(;;){if(b){var
+j=b[1],k=j[1],l=_(aj(function(b){return function(a){return au(b,a)}}(k),c)),m=l?ih(c,j[2]):l;if(m){var
+c=[0,k,c],b=b[2];continue}var
+t=m}else
 var
-e=b;return e}return s1}function
-mE(d,a){if(a){var
-b=mD(d,a[1]);if(b)var
-c=mE(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+t=1;var
+i=t;break}}else
 var
-e=b;return e}return s2}var
-f_=u(j(b),f9);function
-mF(e){var
-a=J(f_);if(e)var
-f=p(j(c(2,b)),a),g=y(j(c(2,c(2,b))),f),h=p(j(c(2,b)),a),d=ag(y(j(b),h),g);else
+i=s;if(i){var
+v=a[4];return n(function(b){var
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return n(function(a){return ih(g,a)},c)},v)}return i}function
+dW(f,e,g){var
+h=g[1],a=bB(function(a){return dW(f,e,a)},h);switch(a[0]){case
+0:return s(a[1],f,[0,d,b]);case
+1:return s(a[1],e,[0,d,b]);case
+2:return[0,a[1],b];case
+3:return[2,a[1],a[2]];case
+4:return[3,a[1],a[2]];case
+5:return[3,[0,d,b],a[1]];case
+6:return[4,a[1],a[2]];case
+7:return[5,a[1],a[2]];case
+8:var
+c=a[1];return[4,c,c];case
+9:return[6,a[1]];default:return[0,d,b]}}function
+mP(d){var
+b=d;for(;;){var
+a=b[1];switch(a[0]){case
+10:return 0;case
+5:case
+8:case
+9:var
+b=a[1];continue;case
+0:case
+1:case
+2:return 1;default:var
+c=mP(a[1]);if(c){var
+b=a[2];continue}return c}}}function
+mQ(g,f,e){var
+b=f,a=e;for(;;){if(b){if(a){var
+c=cD(g,b[1],a[1]);if(c){var
+b=b[2],a=a[2];continue}var
+d=c}else
 var
-i=y(j(c(2,b)),a),k=J(f9),d=ag(y(p(j(c(2,b)),k),a),i);return aA(d)}function
-mG(d,c,a){if(d){var
-e=mF(c),f=y(j(b),e),g=p(u(j(b),a),f);return u(j(b),g)}var
-h=j(b),i=mF(c),k=ag(j(b),i);return u(p(a,y(j(b),k)),h)}function
-dR(f,e,d,a){var
-g=J(a),h=J(d),i=u(u(j(c(2,b)),h),g),k=f?e?f_:ag(f_,p(j(c(2,b)),f9)):ag(f_,j(c(2,b))),l=p(J(k),i);return aA(y(j(b),l))}function
-mH(g,d){var
+d=a;return d}return a?0:1}}function
+tt(a){var
+b=a[4],d=0;if(typeof
+b!=="number"&&0===b[0]){var
+c=[0,b[1],0];d=1}if(!d)var
+c=0;var
+e=f(a[3],c);return f(a[1],e)}function
+mR(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=mR(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bl,f(c,j)));return an(h,an(g,bA(b,k),m),l)}return b}function
+mS(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return mR(a,e,d,function(b){return mS(a,f,e,d,h,b)},g,b)}return b?a:f}function
+mT(d,a){if(a){var
+b=aH(d,a[1]);if(b)var
+c=mT(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return tv}function
+mU(d,a){if(a){var
+b=mT(d,a[1]);if(b)var
+c=mU(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+var
+e=b;return e}return tw}var
+gf=u(k(b),ge);function
+mV(e){var
+a=L(gf);if(e)var
+f=q(k(c(2,b)),a),g=y(k(c(2,c(2,b))),f),h=q(k(c(2,b)),a),d=ah(y(k(b),h),g);else
+var
+i=y(k(c(2,b)),a),j=L(ge),d=ah(y(q(k(c(2,b)),j),a),i);return az(d)}function
+mW(d,c,a){if(d){var
+e=mV(c),f=y(k(b),e),g=q(u(k(b),a),f);return u(k(b),g)}var
+h=k(b),i=mV(c),j=ah(k(b),i);return u(q(a,y(k(b),j)),h)}function
+dX(f,e,d,a){var
+g=L(a),h=L(d),i=u(u(k(c(2,b)),h),g),j=f?e?gf:ah(gf,q(k(c(2,b)),ge)):ah(gf,k(c(2,b))),l=q(L(j),i);return az(y(k(b),l))}function
+mX(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-h4(w,v,u,t){var
-a=e(function(a){return r(a,u,0)},v);if(a){var
+ii(w,v,u,t){var
+a=e(function(a){return s(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -4831,7 +5042,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=h[1],z=g[1],A=f[1];return n(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dz(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dC(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -4850,15 +5061,15 @@ p=b;var
 q=p}else
 var
 q=f;var
-s=q}else
+r=q}else
 var
-s=a;return s}function
-mI(f,i,e,c,h){var
-j=f?b:d,a=Q(i,j);function
+r=a;return r}function
+mY(f,i,e,c,h){var
+j=f?b:d,a=R(i,j);function
 g(b){var
-c=f?cS(b):cr(b);return E(c,a)}var
-k=[0,ae(h),0],l=[0,[0,a,c,[0,B,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mJ(r,b,q,p,g,o,n){if(o){var
+c=f?cZ(b):ct(b);return C(c,a)}var
+k=[0,af(h),0],l=[0,[0,a,c,[0,B,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+mZ(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -4867,16 +5078,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,bc(s5)),z=e(ae,0),a=h4(b,p,bV(0,bX(b,es(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aI,bg(tz)),z=e(af,0),a=ii(b,p,bW(0,bY(b,ex(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=H(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mH,s6),a=h4(b,p,bV(0,bX(b,mI(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(mX,tA),a=ii(b,p,bW(0,bY(b,mY(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(mH,s7),a=h4(b,p,bV(0,bX(b,mI(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(mX,tB),a=ii(b,p,bW(0,bY(b,mY(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -4886,27 +5097,27 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?s8:a}else
+y=a?tC:a}else
 var
 y=n;return y}return[0,n]}function
-mK(f,e,d,c,p,o,n){var
+m0(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mJ(f,e,d,c,b,a[1],g);return h?ac(h[1]):h}var
-i=mJ(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=et(a[2],b),l=mK(f,e,d,c,k[1],j,a[3]);if(l){var
+h=mZ(f,e,d,c,b,a[1],g);return h?_(h[1]):h}var
+i=mZ(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=ey(a[2],b),l=m0(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m}}function
-h5(a){return g3(c(2,b),aF(a,b))}function
-dS(i,a,e,w,v){var
-m=a?b:R(b),f=j(m),g=mG(a,e,s3),h=mG(a,e,s4),n=ag(g,dR(a,e,f,g)),o=[0,y(ag(h,dR(a,e,h,f)),n),0],q=ag(f,dR(a,e,f,g)),r=[0,y(ag(h,dR(a,e,g,h)),q),o],s=ag(f,dR(a,e,h,f)),t=[0,y(ag(g,dR(a,e,g,h)),s),r],u=a?e?j(c(2,b)):p(j(c(2,c(2,b))),f9):j(c(2,c(2,b))),k=ct([0,u,t]),l=[0,d,cR(i)];return mK(a,i,k[1],k[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-mL(a,g,b){if(K(g,h5(a))){if(b){var
+ij(a){return fq(c(2,b),aF(a,b))}function
+dY(i,a,e,w,v){var
+m=a?b:T(b),f=k(m),g=mW(a,e,tx),h=mW(a,e,ty),n=ah(g,dX(a,e,f,g)),o=[0,y(ah(h,dX(a,e,h,f)),n),0],p=ah(f,dX(a,e,f,g)),r=[0,y(ah(h,dX(a,e,g,h)),p),o],s=ah(f,dX(a,e,h,f)),t=[0,y(ah(g,dX(a,e,g,h)),s),r],u=a?e?k(c(2,b)):q(k(c(2,c(2,b))),ge):k(c(2,c(2,b))),j=cv([0,u,t]),l=[0,d,cY(i)];return m0(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+m1(a,g,b){if(M(g,ij(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,h5(a)],v=cR(a),i=[0,h5(a),v],j=dS(a,0,1,h,b[1]),k=j?dS(a,0,0,i,c[1]):j;if(k){var
-l=dS(a,1,1,h,d[1]);if(l)return dS(a,1,0,i,e[1]);var
+h=[0,g,ij(a)],v=cY(a),i=[0,ij(a),v],j=dY(a,0,1,h,b[1]),k=j?dY(a,0,0,i,c[1]):j;if(k){var
+l=dY(a,1,1,h,d[1]);if(l)return dY(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -4923,264 +5134,264 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cR(a)],s=dS(a,0,0,r,b[1]);if(s)return dS(a,1,0,r,f[1]);var
+r=[0,g,cY(a)],s=dY(a,0,0,r,b[1]);if(s)return dY(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-h6(a){var
-b=[1,[2,d]];return dt(function(b,a){return[1,[3,b,a]]},a,b)}function
-f$(a){return h6(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-ga(a,c){return h6(e(function(a){var
-d=[0,a[2]],b=at(a[1],c);return[1,[7,[1,[8,h6(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-mM(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bU(function(a){return mM(e,d,c,b,a)},f);return i(bX(e,d,c),g)}function
-mN(a){return a?K(d,a[1][2][1]):a}function
-s9(a){var
-b=s(h(a),s_);return b?al(function(a){return ac(ab(a,d))},a):b}function
-mO(c,f,b,a){if(b)if(a)var
-d=b[1],g=v(c,Q(c,a[1]),f),h=mO(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+ik(a){var
+b=[1,[2,d]];return dx(function(b,a){return[1,[3,b,a]]},a,b)}function
+gg(a){return ik(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+gh(a,c){return ik(e(function(a){var
+d=[0,a[2]],b=ar(a[1],c);return[1,[7,[1,[8,ik(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+m2(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
+f=a[1],g=bB(function(a){return m2(e,d,c,b,a)},f);return i(bY(e,d,c),g)}function
+m3(a){return a?M(d,a[1][2][1]):a}function
+tD(a){var
+b=r(h(a),tE);return b?aj(function(a){return _(ac(a,d))},a):b}function
+m4(c,f,b,a){if(b)if(a)var
+d=b[1],g=v(c,R(c,a[1]),f),h=m4(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-gb(b,a){return eh(eh(b,0),a)}function
-h7(a){if(a){var
-b=a[2],c=a[1];if(b)return gb(c,[0,ta,h7(b)]);var
+gi(b,a){return em(em(b,0),a)}function
+il(a){if(a){var
+b=a[2],c=a[1];if(b)return gi(c,[0,tG,il(b)]);var
 d=c}else
 var
 d=a;return d}function
-C(a){return[0,tc,gb(h7(a),tb)]}function
-_(a){return[0,te,gb(h7(a),td)]}function
-am(a){return[0,tg,[0,a,tf]]}function
-l(b,a){return[0,aY(ti,aY(b,th)),a]}function
-L(b,a){return _([0,l(b,a),0])}function
-cF(d){var
-b=d,a=qk,e=0;for(;;){if(b){var
-c=jt(a),b=b[1],a=c;continue}return[0,ej(fd(a)),e]}}function
-h8(a){return[0,ej(fk(a)),0]}function
-gc(a){var
-c=aO(a),f=0,b=0===c?qp:0<c?[0,fk(a)]:[1,fk(R(a))];if(0===b[0])var
-d=ej(b[1]);else
+D(a){return[0,tI,gi(il(a),tH)]}function
+aa(a){return[0,tK,gi(il(a),tJ)]}function
+am(a){return[0,tM,[0,a,tL]]}function
+l(b,a){return[0,a0(tO,a0(b,tN)),a]}function
+N(b,a){return aa([0,l(b,a),0])}function
+cL(d){var
+b=d,a=qF,e=0;for(;;){if(b){var
+c=jI(a),b=b[1],a=c;continue}return[0,eo(fi(a)),e]}}function
+im(a){return[0,eo(fp(a)),0]}function
+gj(a){var
+c=aP(a),f=0,b=0===c?qK:0<c?[0,fp(a)]:[1,fp(T(a))];if(0===b[0])var
+d=eo(b[1]);else
 var
-e=ej(b[1]),d=aY(bu(1,45),e);return[0,d,f]}function
-gd(a){var
-b=0,c=0<aO(a)?fk(a):qo;return[0,ej(c),b]}function
-h9(a){switch(a[0]){case
-2:return tk;case
-3:return 2<=a[1]?tl:tm;case
-4:return tn;default:return tj}}function
-eJ(b,a){function
-c(c,a){return V(c,h9(a))?eJ(b,a):[0,tt,f(eJ(b,a),ts)]}switch(a[0]){case
+e=eo(b[1]),d=a0(bx(1,45),e);return[0,d,f]}function
+gk(a){var
+b=0,c=0<aP(a)?fp(a):qJ;return[0,eo(c),b]}function
+io(a){switch(a[0]){case
+2:return tQ;case
+3:return 2<=a[1]?tR:tS;case
+4:return tT;default:return tP}}function
+eO(b,a){function
+c(c,a){return V(c,io(a))?eO(b,a):[0,tZ,f(eO(b,a),tY)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,a5(g),0];var
-h=[0,tu,[0,a5(e),0]];return[0,a5(g),h];case
+e==="number")return[0,a7(g),0];var
+h=[0,t0,[0,a7(e),0]];return[0,a7(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,tw,c(tv,a[1])];case
+2:return[0,t2,c(t1,a[1])];case
 3:var
-j=a[3],k=c([0,h9(a)],j);switch(a[1]){case
+j=a[3],k=c([0,io(a)],j);switch(a[1]){case
 0:var
-d=to;break;case
+d=tU;break;case
 1:var
-d=tp;break;case
+d=tV;break;case
 2:var
-d=tq;break;default:var
-d=tr}var
-l=a[2];return f(c(h9(a),l),[0,d,k]);case
+d=tW;break;default:var
+d=tX}var
+l=a[2];return f(c(io(a),l),[0,d,k]);case
 4:var
-m=[0,tx,h8(a[2])];return f(c(ty,a[1]),m);default:return[0,tA,f(eJ(b,a[1]),tz)]}}function
-I(a){return[0,tD,f(eJ(function(a){return 0===a[0]?a[1]:tC},a),tB)]}function
-h_(a){return[0,tF,f(eJ(function(a){return a},a),tE)]}function
-ci(a){if(0===a[0])return I(a[1]);var
-b=[0,l(tG,I(a[2])),0];return _([0,l(tH,I(a[1])),b])}function
-ge(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return C([0,i(b,a[1]),d])}function
-tI(a){function
-b(a){return ge(ci,a)}switch(a[0]){case
+m=[0,t3,im(a[2])];return f(c(t4,a[1]),m);default:return[0,t6,f(eO(b,a[1]),t5)]}}function
+K(a){return[0,t9,f(eO(function(a){return 0===a[0]?a[1]:t8},a),t7)]}function
+ip(a){return[0,t$,f(eO(function(a){return a},a),t_)]}function
+cl(a){if(0===a[0])return K(a[1]);var
+b=[0,l(ua,K(a[2])),0];return aa([0,l(ub,K(a[1])),b])}function
+gl(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return D([0,i(b,a[1]),d])}function
+uc(a){function
+b(a){return gl(cl,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?tJ:tR,h=[0,l(tK,am(g)),e],i=[0,l(tL,ci(a[4])),h],j=[0,l(tM,b(a[3])),i],k=[0,l(tN,b(a[2])),j],m=[0,l(tO,b(a[1])),k],c=[0,l(tQ,am(tP)),m];break;case
+e=0,g=a[5]?ud:ul,h=[0,l(ue,am(g)),e],i=[0,l(uf,cl(a[4])),h],j=[0,l(ug,b(a[3])),i],k=[0,l(uh,b(a[2])),j],m=[0,l(ui,b(a[1])),k],c=[0,l(uk,am(uj)),m];break;case
 1:var
-d=a[3],n=d?[0,l(tS,b(d[1])),0]:d,o=[0,l(tT,b(a[2])),0],p=[0,l(tU,b(a[1])),o],c=f([0,l(tW,am(tV)),p],n);break;default:var
-q=[0,l(tX,b(a[1])),0],c=[0,l(tZ,am(tY)),q]}return _(c)}function
-t0(a){function
-b(a){return C(e(ci,a))}function
+d=a[3],n=d?[0,l(um,b(d[1])),0]:d,o=[0,l(un,b(a[2])),0],p=[0,l(uo,b(a[1])),o],c=f([0,l(uq,am(up)),p],n);break;default:var
+q=[0,l(ur,b(a[1])),0],c=[0,l(ut,am(us)),q]}return aa(c)}function
+uu(a){function
+b(a){return D(e(cl,a))}function
 d(a){var
-b=a?t1:t3;return l(t2,am(b))}switch(a[0]){case
+b=a?uv:ux;return l(uw,am(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(t4,ci(a[4])),f],h=[0,l(t5,b(a[3])),g],i=[0,l(t6,b(a[2])),h],j=[0,l(t7,b(a[1])),i],c=[0,l(t9,am(t8)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(uy,cl(a[4])),f],h=[0,l(uz,b(a[3])),g],i=[0,l(uA,b(a[2])),h],j=[0,l(uB,b(a[1])),i],c=[0,l(uD,am(uC)),j];break;case
 1:var
-k=[0,l(t_,b(a[2])),0],m=[0,l(t$,b(a[1])),k],c=[0,l(ub,am(ua)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(uc,ci(a[6])),n],p=[0,l(ud,ci(a[5])),o],q=[0,l(ue,b(a[4])),p],r=[0,l(uf,b(a[3])),q],s=[0,l(ug,b(a[2])),r],t=[0,l(uh,b(a[1])),s],c=[0,l(uj,am(ui)),t]}return _(c)}function
-h$(a){switch(a){case
-0:return uk;case
-1:return ul;case
-2:return um;case
-3:return un;case
-4:return uo;case
-5:return up;case
-6:return uq;case
-7:return ur;case
-8:return us;case
-9:return ut;case
-10:return uu;case
-11:return uv;case
-12:return uw;case
-13:return ux;case
-14:return uy;default:return uz}}function
-ia(a){if(typeof
-a==="number")return uA;else
+k=[0,l(uE,b(a[2])),0],m=[0,l(uF,b(a[1])),k],c=[0,l(uH,am(uG)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(uI,cl(a[6])),n],p=[0,l(uJ,cl(a[5])),o],q=[0,l(uK,b(a[4])),p],r=[0,l(uL,b(a[3])),q],s=[0,l(uM,b(a[2])),r],t=[0,l(uN,b(a[1])),s],c=[0,l(uP,am(uO)),t]}return aa(c)}function
+iq(a){switch(a){case
+0:return uQ;case
+1:return uR;case
+2:return uS;case
+3:return uT;case
+4:return uU;case
+5:return uV;case
+6:return uW;case
+7:return uX;case
+8:return uY;case
+9:return uZ;case
+10:return u0;case
+11:return u1;case
+12:return u2;case
+13:return u3;case
+14:return u4;default:return u5}}function
+ir(a){if(typeof
+a==="number")return u6;else
 switch(a[0]){case
-0:return uB;case
-1:return uC;default:return uD}}function
-eK(a){var
+0:return u7;case
+1:return u8;default:return u9}}function
+eP(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,l(uE,I(c[1])),0];break;case
+d=[0,l(u_,K(c[1])),0];break;case
 1:var
-d=[0,l(uF,I(c[1])),0];break;default:var
-n=[0,I(c[2]),0],d=[0,l(uG,C([0,I(c[1]),n])),0]}var
-o=[0,l(uH,am(ia(a[4]))),d],h=a[3];if(h){var
+d=[0,l(u$,K(c[1])),0];break;default:var
+n=[0,K(c[2]),0],d=[0,l(va,D([0,K(c[1]),n])),0]}var
+o=[0,l(vb,am(ir(a[4]))),d],h=a[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-q=C([0,I(b[1]),0]),j=a[1],p=0,r=6===j?uI:12===j?uM:uN,g=[0,l(uJ,L(r,q)),p];break;case
+q=D([0,K(b[1]),0]),j=a[1],p=0,r=6===j?vc:12===j?vg:vh,g=[0,l(vd,N(r,q)),p];break;case
 1:var
-w=C(e(I,b[1])),m=a[1],v=0,x=14===m?uO:15<=m?uQ:uR,g=[0,l(uP,L(x,w)),v];break;case
+w=D(e(K,b[1])),m=a[1],v=0,x=14===m?vi:15<=m?vk:vl,g=[0,l(vj,N(x,w)),v];break;case
 2:var
-y=[0,l(uS,C([0,I(b[2]),0])),0],g=[0,l(uU,_([0,l(uT,C([0,I(b[1]),0])),y])),0];break;default:var
-z=[0,l(uV,C([0,I(b[2]),0])),0],g=[0,l(uX,_([0,l(uW,C([0,I(b[1]),0])),z])),0]}var
+y=[0,l(vm,D([0,K(b[2]),0])),0],g=[0,l(vo,aa([0,l(vn,D([0,K(b[1]),0])),y])),0];break;default:var
+z=[0,l(vp,D([0,K(b[2]),0])),0],g=[0,l(vr,aa([0,l(vq,D([0,K(b[1]),0])),z])),0]}var
 k=g}else
 var
 k=h;var
-s=f(k,o),i=a[2],t=i?[0,l(uK,cF(i[1])),0]:i,u=f(t,s);return _([0,l(uL,am(h$(a[1]))),u])}function
-mP(a){if(0===a[0]){var
-b=[0,l(uY,ge(I,a[2])),0];return L(u0,_([0,l(uZ,ge(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,l(u1,C([0,I(a[4]),c])),0],e=[0,l(u2,I(a[3])),d],f=[0,I(a[2]),0];return L(u4,_([0,l(u3,C([0,I(a[1]),f])),e]))}function
-mQ(a){if(0===a[0]){var
-b=[0,l(u5,C(e(I,a[2]))),0];return L(u7,_([0,l(u6,C(e(I,a[1]))),b]))}return mP([1,a[1],a[2],a[3],a[4],a[5]])}function
-mR(a){switch(a){case
-0:return u8;case
-1:return u9;default:return u_}}function
-u$(a){function
-b(a){return C(e(ci,a))}var
-c=[0,l(va,b(a[2])),0],d=[0,l(vb,b(a[1])),c];return _([0,l(vd,am(vc)),d])}function
-mS(a){function
+s=f(k,o),i=a[2],t=i?[0,l(ve,cL(i[1])),0]:i,u=f(t,s);return aa([0,l(vf,am(iq(a[1]))),u])}function
+m5(a){if(0===a[0]){var
+b=[0,l(vs,gl(K,a[2])),0];return N(vu,aa([0,l(vt,gl(K,a[1])),b]))}var
+c=[0,K(a[5]),0],d=[0,l(vv,D([0,K(a[4]),c])),0],e=[0,l(vw,K(a[3])),d],f=[0,K(a[2]),0];return N(vy,aa([0,l(vx,D([0,K(a[1]),f])),e]))}function
+m6(a){if(0===a[0]){var
+b=[0,l(vz,D(e(K,a[2]))),0];return N(vB,aa([0,l(vA,D(e(K,a[1]))),b]))}return m5([1,a[1],a[2],a[3],a[4],a[5]])}function
+m7(a){switch(a){case
+0:return vC;case
+1:return vD;default:return vE}}function
+vF(a){function
+b(a){return D(e(cl,a))}var
+c=[0,l(vG,b(a[2])),0],d=[0,l(vH,b(a[1])),c];return aa([0,l(vJ,am(vI)),d])}function
+m8(a){function
 b(b,a){var
-c=[0,I(a),0];return C([0,I(b),c])}switch(a[0]){case
-0:return L(ve,b(a[1],a[2]));case
+c=[0,K(a),0];return D([0,K(b),c])}switch(a[0]){case
+0:return N(vK,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(vf,b(c[1],c[2])),0],g=[0,l(vg,b(d[1],d[2])),f];return L(vi,_([0,l(vh,b(e[1],e[2])),g]));case
-2:return L(vj,I(a[1]));default:var
-h=[0,l(vk,I(a[2])),0];return L(vm,_([0,l(vl,I(a[1])),h]))}}function
-vn(a){function
-b(a){return ge(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(vo,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(vp,C([0,I(a[3]),g])),0],i=[0,l(vq,I(a[2])),h],j=[0,l(vr,cF(a[1])),i],d=f([0,l(vt,am(vs)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,l(vL,b(c[1],c[2])),0],g=[0,l(vM,b(d[1],d[2])),f];return N(vO,aa([0,l(vN,b(e[1],e[2])),g]));case
+2:return N(vP,K(a[1]));default:var
+h=[0,l(vQ,K(a[2])),0];return N(vS,aa([0,l(vR,K(a[1])),h]))}}function
+vT(a){function
+b(a){return gl(K,a)}if(0===a[0])var
+c=a[5],e=c?[0,l(vU,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(vV,D([0,K(a[3]),g])),0],i=[0,l(vW,K(a[2])),h],j=[0,l(vX,cL(a[1])),i],d=f([0,l(vZ,am(vY)),j],e);else
 var
-k=[0,l(vu,I(a[4])),0],m=[0,l(vv,b(a[3])),k],n=[0,l(vw,b(a[2])),m],o=a[1]?vx:vz,d=[0,l(vy,am(o)),n];return _(d)}function
-mT(a){var
-b=a?[0,l(vA,C(e(vn,a))),0]:a;return b}function
-ib(d,c,b,a){var
-g=[0,l(vB,C(e(eK,a))),0],h=f(mT(b),g),i=[0,l(vC,mP(c)),0];return _(f([0,l(vE,L(vD,C(e(tI,d)))),i],h))}function
-vF(a){switch(a[0]){case
-0:return L(vG,ib(a[1],a[2],a[3],a[4]));case
+k=[0,l(v0,K(a[4])),0],m=[0,l(v1,b(a[3])),k],n=[0,l(v2,b(a[2])),m],o=a[1]?v3:v5,d=[0,l(v4,am(o)),n];return aa(d)}function
+m9(a){var
+b=a?[0,l(v6,D(e(vT,a))),0]:a;return b}function
+is(d,c,b,a){var
+g=[0,l(v7,D(e(eP,a))),0],h=f(m9(b),g),i=[0,l(v8,m5(c)),0];return aa(f([0,l(v_,N(v9,D(e(uc,d)))),i],h))}function
+v$(a){switch(a[0]){case
+0:return N(wa,is(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=C(e(t0,a[2])),m=[0,l(vH,C(e(eK,a[6]))),0],n=b?[0,l(vI,mS(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(vJ,mQ(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=D(e(uu,a[2])),m=[0,l(wb,D(e(eP,a[6]))),0],n=b?[0,l(wc,m8(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(wd,m6(a[4])),o];if(typeof
 d==="number")if(d)var
-h=vK;else{var
-i=L(vP,g);k=1}else
+h=we;else{var
+i=N(wj,g);k=1}else
 var
-h=mR(d[1]);if(!k)var
-q=c?[0,l(vL,I(c[1])),0]:c,i=L(h,_([0,l(vM,g),q]));return L(vO,_([0,l(vN,i),p]));case
+h=m7(d[1]);if(!k)var
+q=c?[0,l(wf,K(c[1])),0]:c,i=N(h,aa([0,l(wg,g),q]));return N(wi,aa([0,l(wh,i),p]));case
 2:var
-r=[0,l(vQ,C(e(eK,a[7]))),0],s=f(mT(a[6]),r),t=[0,l(vR,mS(a[5])),0],u=[0,l(vS,mQ(a[4])),t],v=[0,l(vT,I(a[3])),0],w=_([0,l(vU,C(e(u$,a[2]))),v]);return L(vW,_(f([0,l(vV,L(mR(a[1]),w)),u],s)));case
+r=[0,l(wk,D(e(eP,a[7]))),0],s=f(m9(a[6]),r),t=[0,l(wl,m8(a[5])),0],u=[0,l(wm,m6(a[4])),t],v=[0,l(wn,K(a[3])),0],w=aa([0,l(wo,D(e(vF,a[2]))),v]);return N(wq,aa(f([0,l(wp,N(m7(a[1]),w)),u],s)));case
 3:var
-x=[0,l(vX,C(e(eK,a[7]))),0],y=[0,l(vY,C(e(I,a[6]))),0],z=[0,l(v1,L(v0,_([0,l(vZ,C(e(I,a[5]))),y]))),x],A=0,B=a[4],D=[0,l(v4,C(e(function(a){return 0===a[0]?L(v2,C(e(h_,a[1]))):L(v3,h_(a[1]))},B))),A],E=a[3],F=[0,l(v5,C(e(function(a){var
-b=[0,h_(a[2]),0];return C([0,am(a[1]),b])},E))),D],G=a[2],H=[0,l(v6,C(e(function(a){var
-b=[0,ci(a[2]),0];return C([0,am(a[1]),b])},G))),F];return L(v_,_([0,l(v9,L(v8,_([0,l(v7,C(e(am,a[1]))),H]))),z]));case
+x=[0,l(wr,D(e(eP,a[7]))),0],y=[0,l(ws,D(e(K,a[6]))),0],z=[0,l(wv,N(wu,aa([0,l(wt,D(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(wy,D(e(function(a){return 0===a[0]?N(ww,D(e(ip,a[1]))):N(wx,ip(a[1]))},B))),A],E=a[3],F=[0,l(wz,D(e(function(a){var
+b=[0,ip(a[2]),0];return D([0,am(a[1]),b])},E))),C],G=a[2],H=[0,l(wA,D(e(function(a){var
+b=[0,cl(a[2]),0];return D([0,am(a[1]),b])},G))),F];return N(wE,aa([0,l(wD,N(wC,aa([0,l(wB,D(e(am,a[1]))),H]))),z]));case
 4:var
-J=[0,l(v$,C(e(eK,a[3]))),0],K=[0,l(wc,L(wb,_([0,l(wa,I(a[2])),0]))),J];return L(wg,_([0,l(wf,L(we,_([0,l(wd,I(a[1])),0]))),K]));case
+I=[0,l(wF,D(e(eP,a[3]))),0],J=[0,l(wI,N(wH,aa([0,l(wG,K(a[2])),0]))),I];return N(wM,aa([0,l(wL,N(wK,aa([0,l(wJ,K(a[1])),0]))),J]));case
 5:var
-M=[0,l(wh,I(a[5])),0];return L(wj,_([0,l(wi,ib(a[1],[0,a[2],a[3]],0,a[4])),M]));case
+L=[0,l(wN,K(a[5])),0];return N(wP,aa([0,l(wO,is(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],N=0,O=j?ci(j[1]):am(wm);return L(wl,_([0,l(wk,O),N]));default:var
-P=[0,l(wn,I(a[6])),0],Q=[0,l(wo,I(a[5])),P],R=[0,l(wp,ib(a[2],a[3],0,a[4])),Q],S=a[1];return L(wu,_([0,l(wt,C(e(function(a){var
-b=[0,l(wq,I(a[2][2])),0],c=[0,l(wr,I(a[2][1])),b];return _([0,l(ws,am(a[1])),c])},S))),R]))}}function
-eL(a){return C(e(gc,a))}function
-gf(b,a){var
-c=[0,l(wv,gd(a)),0];return _([0,l(ww,C(e(eL,b))),c])}function
-eM(a){switch(a[0]){case
+j=a[1],M=0,O=j?cl(j[1]):am(wS);return N(wR,aa([0,l(wQ,O),M]));default:var
+P=[0,l(wT,K(a[6])),0],Q=[0,l(wU,K(a[5])),P],R=[0,l(wV,is(a[2],a[3],0,a[4])),Q],S=a[1];return N(w0,aa([0,l(wZ,D(e(function(a){var
+b=[0,l(wW,K(a[2][2])),0],c=[0,l(wX,K(a[2][1])),b];return aa([0,l(wY,am(a[1])),c])},S))),R]))}}function
+eQ(a){return D(e(gj,a))}function
+gm(b,a){var
+c=[0,l(w1,gk(a)),0];return aa([0,l(w2,D(e(eQ,b))),c])}function
+eR(a){switch(a[0]){case
 0:return am(a[1]);case
 1:var
-b=gf(a[2],a[3]);return L(a[1],b);case
+b=gm(a[2],a[3]);return N(a[1],b);case
 2:var
-c=a[1]?wx:wz;return L(wy,am(c));case
+c=a[1]?w3:w5;return N(w4,am(c));case
 3:var
-d=[0,eL(a[3]),0];return L(wA,C([0,gf(a[1],a[2]),d]));case
+d=[0,eQ(a[3]),0];return N(w6,D([0,gm(a[1],a[2]),d]));case
 4:var
-f=[0,gd(a[4]),0],g=[0,gc(a[3]),f];return L(wB,C([0,gf(a[1],a[2]),g]));case
+f=[0,gk(a[4]),0],g=[0,gj(a[3]),f];return N(w7,D([0,gm(a[1],a[2]),g]));case
 5:var
-h=[0,gd(a[3]),0],i=[0,gc(a[2]),h];return L(wC,C([0,eM(a[1]),i]));case
+h=[0,gk(a[3]),0],i=[0,gj(a[2]),h];return N(w8,D([0,eR(a[1]),i]));case
 6:var
-j=[0,gd(a[3]),0],k=[0,gc(a[2]),j];return L(wD,C([0,eM(a[1]),k]));case
-7:return L(wE,eM(a[1]));default:var
-l=[0,C(e(eL,a[3])),0],m=[0,am(a[2]),l];return L(wF,C([0,eM(a[1]),m]))}}function
-wG(a){var
-b=[0,eM(a[2]),0];return C([0,cF(a[1]),b])}function
-mU(a){if(typeof
-a==="number")return 0===a?am(wH):am(wI);else
+j=[0,gk(a[3]),0],k=[0,gj(a[2]),j];return N(w9,D([0,eR(a[1]),k]));case
+7:return N(w_,eR(a[1]));default:var
+l=[0,D(e(eQ,a[3])),0],m=[0,am(a[2]),l];return N(w$,D([0,eR(a[1]),m]))}}function
+xa(a){var
+b=[0,eR(a[2]),0];return D([0,cL(a[1]),b])}function
+m_(a){if(typeof
+a==="number")return 0===a?am(xb):am(xc);else
 switch(a[0]){case
 0:var
-b=[0,C(e(eL,a[2])),0];return L(wJ,C([0,cF(a[1]),b]));case
+b=[0,D(e(eQ,a[2])),0];return N(xd,D([0,cL(a[1]),b]));case
 1:var
-c=[0,cF(a[2]),0];return L(wK,C([0,cF(a[1]),c]));default:return L(wL,C(e(I,a[1])))}}function
-wM(a){var
-b=a[4],h=b?[0,l(wN,eL([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(wO,mU(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(wP,cF(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(wQ,C(e(wG,[0,c[1],c[2]]))),0]:c;return _(f(n,m))}function
-mV(g,a,d){var
-h=[0,l(wR,C(e(wM,d))),0];if(a)var
-b=a[1],c=[0,l(wS,gf(b[1],b[2])),0];else
+c=[0,cL(a[2]),0];return N(xe,D([0,cL(a[1]),c]));default:return N(xf,D(e(K,a[1])))}}function
+xg(a){var
+b=a[4],h=b?[0,l(xh,eQ([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(xi,m_(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(xj,cL(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(xk,D(e(xa,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
+m$(g,a,d){var
+h=[0,l(xl,D(e(xg,d))),0];if(a)var
+b=a[1],c=[0,l(xm,gm(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return _([0,l(wT,h8(g)),i])}function
-mW(d,c,a,b){var
-g=[0,l(wU,mU(b)),0],h=a?[0,l(wV,C(e(I,a))),0]:a,i=f(h,g),j=[0,l(wW,C(e(I,c))),0];return _(f([0,l(wX,h8(d)),j],i))}function
-wY(a){if(typeof
-a==="number")return am(wZ);else
+i=f(c,h);return aa([0,l(xn,im(g)),i])}function
+na(d,c,a,b){var
+g=[0,l(xo,m_(b)),0],h=a?[0,l(xp,D(e(K,a))),0]:a,i=f(h,g),j=[0,l(xq,D(e(K,c))),0];return aa(f([0,l(xr,im(d)),j],i))}function
+xs(a){if(typeof
+a==="number")return am(xt);else
 switch(a[0]){case
-0:return L(w0,cF(a[1]));case
-1:return L(w1,mV(a[1],a[2],a[3]));default:return L(w2,mW(a[1],a[2],a[3],a[4]))}}function
-gg(a){var
-b=gZ(gY(ao(a),function(b){return aR(a,b)}));return n(function(a){var
-b=ac(34===a?1:0),c=b?ac(92===a?1:0):b,d=c?V(xf,fm(a)):c;return d?V(fm(a),xg):d},b)}function
-eN(b){function
+0:return N(xu,cL(a[1]));case
+1:return N(xv,m$(a[1],a[2],a[3]));default:return N(xw,na(a[1],a[2],a[3],a[4]))}}function
+gn(a){var
+b=g9(g8(aq(a),function(b){return aU(a,b)}));return n(function(a){var
+b=_(34===a?1:0),c=b?_(92===a?1:0):b,d=c?V(xL,fs(a)):c;return d?V(fs(a),xM):d},b)}function
+eS(b){function
 c(f){var
-a=fm(f),b=V(xh,a),c=b?V(a,xi):b;if(c)var
+a=fs(f),b=V(xN,a),c=b?V(a,xO):b;if(c)var
 d=c;else{var
-e=V(xj,a);if(e)return V(a,xk);var
+e=V(xP,a);if(e)return V(a,xQ);var
 d=e}return d}var
-a=gZ(gY(ao(b),function(a){return aR(b,a)}));if(a){var
+a=g9(g8(aq(b),function(a){return aU(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?n(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fm(a),f=V(xl,e),h=f?V(e,xm):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),xn):f;if(g)return ac(as(b,xo));var
+e=fs(a),f=V(xR,e),h=f?V(e,xS):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),xT):f;if(g)return _(au(b,xU));var
 i=g}else
 var
 i=a;return i}function
-ic(c){var
+it(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eN(a[1]);case
+1:return eS(a[1]);case
 3:var
-b=ic(a[2]);if(b){var
+b=it(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eO(m){var
+eT(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5191,40 +5402,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fd(a[2]);if(typeof
+f=fi(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eO(a[2]);if(i){var
+i=eT(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eO(a[1]),l=k?fi(c(2,b),j):k;return l?fi(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=eT(a[1]),l=k?fn(c(2,b),j):k;return l?fn(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-dT(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bK(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-c$(a){return w(dT,bK(a))}function
-id(a){switch(a[0]){case
+dZ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bM(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dc(a){return w(dZ,bM(a))}function
+iu(a){switch(a[0]){case
 0:var
-c=dT(a[4]),d=f(c$(a[3]),c),e=f(c$(a[2]),d);return f(c$(a[1]),e);case
+c=dZ(a[4]),d=f(dc(a[3]),c),e=f(dc(a[2]),d);return f(dc(a[1]),e);case
 1:var
-b=a[3],g=b?c$(b[1]):b,h=f(c$(a[2]),g);return f(c$(a[1]),h);default:return c$(a[1])}}function
-xp(a){switch(a[0]){case
+b=a[3],g=b?dc(b[1]):b,h=f(dc(a[2]),g);return f(dc(a[1]),h);default:return dc(a[1])}}function
+xV(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dT,b)}function
-mX(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mY(a){if(0===a[0]){var
-b=bK(a[2]);return f(bK(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-mZ(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dZ,b)}function
+nb(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+nc(a){if(0===a[0]){var
+b=bM(a[2]);return f(bM(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+nd(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-da(e){var
+dd(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5236,148 +5447,148 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-m0(a){if(0===a[0]){var
-b=a[5],c=b?bK(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bK(a[3]),d);return f(bK(a[2]),e)}function
-m1(b,e){var
+ne(a){if(0===a[0]){var
+b=a[5],c=b?bM(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bM(a[3]),d);return f(bM(a[2]),e)}function
+nf(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return al(function(a){return as(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return au(f,a)},b)}return 0;case
 3:var
-d=m1(b,a[2]);if(d){var
+d=nf(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eP(c,a){return n(function(a){var
-b=eO(a);return b?m1(c,a):b},a)}function
-m2(a){if(typeof
+eU(c,a){return n(function(a){var
+b=eT(a);return b?nf(c,a):b},a)}function
+ng(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-m3(a){var
-d=fi(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fi(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-m4(a,b){return b?[4,m4(a,b[1]),a]:a}function
-k(a){switch(a[0]){case
+nh(a){var
+d=fn(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fn(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+ni(a,b){return b?[4,ni(a,b[1]),a]:a}function
+j(a){switch(a[0]){case
 0:var
-i=a[2],j=c(2,q(c(2,c(2,b)))),l=function(a){return z(j,a)},m=fe(jr(i),l,b);return[0,jG(js(fd(a[1]),i)),m];case
+i=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return z(k,a)},m=fj(jG(i),l,b);return[0,jU(jH(fi(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=k(a[1]);return 0===f[0]?[0,R(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,T(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
-g=k(a[2]),h=k(a[3]);switch(a[1]){case
+g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bx(ee(a[2]));return m4(k(a[1]),n);default:return[6,k(a[1])]}}function
-bL(a){if(0===a[0]){var
-b=k(a[1]);return[0,b,b]}var
-c=k(a[2]);return[0,k(a[1]),c]}function
-db(a){var
-b=bL(a[3]),c=bL(a[2]);return[0,bL(a[1]),c,b]}function
-xq(a){switch(a[0]){case
+n=bk(ej(a[2]));return ni(j(a[1]),n);default:return[6,j(a[1])]}}function
+bN(a){if(0===a[0]){var
+b=j(a[1]);return[0,b,b]}var
+c=j(a[2]);return[0,j(a[1]),c]}function
+de(a){var
+b=bN(a[3]),c=bN(a[2]);return[0,bN(a[1]),c,b]}function
+xW(a){switch(a[0]){case
 0:var
-b=a[5],c=bL(a[4]),d=db(a[3]),e=db(a[2]);return[0,[0,db(a[1]),e,d,c,b]];case
+b=a[5],c=bN(a[4]),d=de(a[3]),e=de(a[2]);return[0,[0,de(a[1]),e,d,c,b]];case
 1:var
-f=x(db,a[3]),g=db(a[2]);return[1,db(a[1]),g,f];default:return[2,db(a[1])]}}function
-m5(a){if(0===a[0]){var
+f=x(de,a[3]),g=de(a[2]);return[1,de(a[1]),g,f];default:return[2,de(a[1])]}}function
+nj(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
-b=k(i(a,c));return[0,k(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
-g=k(a[5]),h=[0,k(a[4]),g],j=k(a[3]),l=k(a[2]);return[1,k(a[1]),l,j,h]}function
-dU(a){var
-b=k(a[3]),c=k(a[2]);return[0,k(a[1]),c,b]}function
-cG(a){if(0===a[0]){var
-c=a[5],h=c?dU(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=k(a[4]),j=k(a[3]),l=k(a[2]);return[0,bx(a[1]),l,j,i,h]}var
+b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
+g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
+d0(a){var
+b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
+cM(a){if(0===a[0]){var
+c=a[5],h=c?d0(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bk(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=dU(f),n=dU(g);return[2,k(e),n,m]}var
-o=dU(f),p=dU(g);return[1,k(e),p,o]}function
-gh(b,a){if(a){var
-c=a[1],d=a[2],g=gh(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bi(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:s(b[1],a[1]):0:0===a[0]?0:co(b[1],a[1]);return ac(d)},h),g)}return a}function
-xr(b){if(b[1])return 0;var
+m=d0(f),n=d0(g);return[2,j(e),n,m]}var
+o=d0(f),p=d0(g);return[1,j(e),p,o]}function
+go(b,a){if(a){var
+c=a[1],d=a[2],g=go(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bm(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:r(b[1],a[1]):0:0===a[0]?0:ca(b[1],a[1]);return _(d)},h),g)}return a}function
+xX(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-xs(N,M,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+xY(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
-g!=="number"&&0===g[0])return[0,[1,k(g[1])],0];return 0;case
+g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
 1:var
 f=a[4],A=0;if(typeof
 f==="number")A=1;else
 switch(f[0]){case
 0:var
-O=f[1],c=function(a){return[2,a,k(O)]};break;case
+O=f[1],c=function(a){return[2,a,j(O)]};break;case
 1:var
-Q=f[1],c=function(a){return[3,a,k(Q)]};break;default:A=1}if(A)return 0;break;case
+Q=f[1],c=function(a){return[3,a,j(Q)]};break;default:A=1}if(A)return 0;break;case
 2:var
 h=a[4],I=0;if(typeof
 h==="number"||!(1===h[0]))I=1;else{var
 i=a[3],R=h[1];if(!i)return i;var
 C=i[1];if(0!==C[0])return 0;var
 S=C[1],c=function(a){var
-b=k(R);return[4,a,k(S),b]}}if(I)return 0;break;case
+b=j(R);return[4,a,j(S),b]}}if(I)return 0;break;case
 3:var
-j=a[4];if(typeof
-j!=="number"&&1===j[0])return[0,[5,k(j[1])],0];return 0;case
+k=a[4];if(typeof
+k!=="number"&&1===k[0])return[0,[5,j(k[1])],0];return 0;case
 4:var
 l=a[4],J=0;if(typeof
 l==="number"||!(0===l[0]))J=1;else
 var
-T=l[1],c=function(a){return[6,a,k(T)]};if(J)return 0;break;case
+T=l[1],c=function(a){return[6,a,j(T)]};if(J)return 0;break;case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0])return[0,[7,k(m[1])],0];return 0;case
+m!=="number"&&0===m[0])return[0,[7,j(m[1])],0];return 0;case
 6:var
 n=a[4];if(typeof
 n!=="number"&&0===n[0]){var
 D=n[1],o=a[3];if(o){var
 p=o[1];switch(p[0]){case
 0:var
-U=k(D);return[0,[8,k(p[1]),U],0];case
+U=j(D);return[0,[8,j(p[1]),U],0];case
 1:var
-V=k(D);return[0,[15,e(k,p[1]),V],0];default:var
+V=j(D);return[0,[15,e(j,p[1]),V],0];default:var
 E=0}}else
 var
 E=o;return E}return 0;case
 7:var
 q=a[4];if(typeof
-q!=="number"&&0===q[0])return[0,[9,k(q[1])],0];return 0;case
+q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
 8:var
-r=a[4],K=0;if(typeof
-r==="number"||!(1===r[0]))K=1;else{var
-t=a[3],W=r[1];if(!t)return t;var
+s=a[4],K=0;if(typeof
+s==="number"||!(1===s[0]))K=1;else{var
+t=a[3],W=s[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
-b=k(W);return[13,a,k(X),b]}}if(K)return 0;break;case
+b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=gh(0,M);return e(function(h){var
-e=k(Y),a=h[2],c=h[1];if(0===c[0]){var
+Y=u[1],Z=go(0,M);return e(function(h){var
+e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?dU(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(s(f,a[1])){var
-i=k(a[2]),j=[2,[2,k(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bx(f),m,l,j]}var
-n=cG(a);return[10,cG(c),n,e]}var
-o=cG(a);return[10,cG(c),o,e]}var
-p=cG(a);return[10,cG(c),p,e]},Z)}return 0;case
+g=function(a){return a?d0(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(r(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bk(f),m,l,k]}var
+n=cM(a);return[10,cM(c),n,e]}var
+o=cM(a);return[10,cM(c),o,e]}var
+p=cM(a);return[10,cM(c),p,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
 w=a[3],_=v[1];if(!w)return w;var
 x=w[1];if(2!==x[0])return 0;var
 $=x[2],aa=x[1],c=function(a){var
-b=k(_),c=k($);return[12,a,k(aa),c,b]}}if(L)return 0;break;case
+b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?xt:G;return ab;case
+a[4]==="number"?1:0,ab=G?xZ:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
-ac=k(y[1]);return[0,[14,k(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bx(B[1]),0]:aG(0,N);return e(c,P)}function
-xu(c,a){switch(a[1]){case
+ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
+B=a[2],P=B?[0,bk(B[1]),0]:aG(0,N);return e(c,P)}function
+x0(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5394,8 +5605,8 @@ e=a[3];return e?0===e[1][0]?1:0:e}var
 d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
 b=q[1]}if(L)return 0;break;case
 3:var
-r=a[4];if(typeof
-r!=="number"&&1===r[0])return a[2]?0:a[3]?0:1;return 0;case
+s=a[4];if(typeof
+s!=="number"&&1===s[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
 M=0,t=a[4];if(typeof
 t==="number"||!(0===t[0]))M=1;else{var
@@ -5410,7 +5621,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 x=f[1];switch(x[0]){case
 0:return 1;case
-1:return s(h(x[1]),c);default:var
+1:return r(h(x[1]),c);default:var
 y=0}}else
 var
 y=f;return y}return 0;case
@@ -5421,7 +5632,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-B=s(c,xw),O=0;if(B){var
+B=r(c,x2),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -5447,57 +5658,59 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?s(c,xx):0:k}return 0;default:return 0}var
-o=V(xv,b);return o?V(b,c):o}function
-ie(c,k,j,b){var
-l=h(c),d=w(function(a){return xs(l,j,a)},b),a=w(xr,b),g=a?[0,a[1],a[2]]:xy,i=f(g,d),m=m5(k);return[0,e(xq,c),m,i]}function
-m6(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?r(c,x3):0:k}return 0;default:return 0}var
+o=V(x1,b);return o?V(b,c):o}function
+iv(d,c,b){var
+e=w(function(a){return xY(d,c,a)},b),a=w(xX,b),g=a?[0,a[1],a[2]]:x4;return f(g,e)}function
+iw(a,d,c,b){var
+f=iv(h(a),c,b),g=nj(d);return[0,e(xW,a),g,f]}function
+nk(b){if(b[1])return 0;var
 a=b[4];if(typeof
-a!=="number"&&1===a[0])return[0,[0,k(a[1])],0];return 0}function
-m7(c){function
-a(a){return r(a,e(k,c),[0,d,b])}var
-f=a(xz),g=a(xA);return[0,a(0),g,f]}function
-ig(S,C,R,a){switch(a[1]){case
+a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
+nl(c){function
+a(a){return s(a,e(j,c),[0,d,b])}var
+f=a(x5),g=a(x6);return[0,a(0),g,f]}function
+ix(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
-d!=="number"&&0===d[0])return[0,[1,k(d[1])],0];return 0;case
+d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
 1:var
 c=a[4];if(typeof
 c==="number")return 0;else
 switch(c[0]){case
 0:var
-T=c[1],b=function(a){return[2,a,k(T)]};break;case
+T=c[1],b=function(a){return[2,a,j(T)]};break;case
 1:var
-V=c[1],b=function(a){return[3,a,k(V)]};break;default:var
+V=c[1],b=function(a){return[3,a,j(V)]};break;default:var
 W=c[2],X=c[1],b=function(a){var
-b=k(W);return[4,a,k(X),b]}}break;case
+b=j(W);return[4,a,j(X),b]}}break;case
 2:var
 f=a[4],K=0;if(typeof
 f==="number"||!(1===f[0]))K=1;else{var
 g=a[3],Y=f[1];if(!g)return g;var
 E=g[1];if(0!==E[0])return 0;var
 Z=E[1],b=function(a){var
-b=k(Z),c=k(Y);return S?[9,a,b,c]:[6,a,b,c]}}if(K)return 0;break;case
+b=j(Z),c=j(Y);return S?[9,a,b,c]:[6,a,b,c]}}if(K)return 0;break;case
 3:var
 h=a[4];if(typeof
-h!=="number"&&1===h[0])return[0,[5,k(h[1])],0];return 0;case
+h!=="number"&&1===h[0])return[0,[5,j(h[1])],0];return 0;case
 4:var
 i=a[4],L=0;if(typeof
 i==="number"||!(0===i[0]))L=1;else
 var
-_=i[1],b=function(a){return[10,a,k(_)]};if(L)return 0;break;case
+_=i[1],b=function(a){return[10,a,j(_)]};if(L)return 0;break;case
 5:var
-j=a[4];if(typeof
-j!=="number"&&0===j[0])return[0,[12,k(j[1])],0];return 0;case
+k=a[4];if(typeof
+k!=="number"&&0===k[0])return[0,[12,j(k[1])],0];return 0;case
 6:var
 l=a[4];if(typeof
 l!=="number"&&0===l[0]){var
 F=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-$=k(F);return[0,[8,ap(k(n[1]),C),$],0];case
+$=j(F);return[0,[8,as(j(n[1]),C),$],0];case
 1:var
-aa=k(F);return[0,[8,e(k,n[1]),aa],0];default:var
+aa=j(F);return[0,[8,e(j,n[1]),aa],0];default:var
 G=0}}else
 var
 G=m;return G}return 0;case
@@ -5507,49 +5720,49 @@ o==="number"||!(1===o[0]))M=1;else{var
 p=a[3],ab=o[1];if(!p)return p;var
 H=p[1];if(0!==H[0])return 0;var
 ac=H[1],b=function(a){var
-b=k(ab);return[7,a,k(ac),b]}}if(M)return 0;break;case
+b=j(ab);return[7,a,j(ac),b]}}if(M)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ad=q[1],ae=gh(0,R);return e(function(a){var
-b=k(ad),c=cG(a[2]);return[14,cG(a[1]),c,b]},ae)}return 0;case
+ad=q[1],ae=go(0,R);return e(function(a){var
+b=j(ad),c=cM(a[2]);return[14,cM(a[1]),c,b]},ae)}return 0;case
 10:var
 r=a[4],N=0;if(typeof
 r==="number"||!(1===r[0]))N=1;else{var
 s=a[3],af=r[1];if(!s)return s;var
 t=s[1];if(2!==t[0])return 0;var
 ag=t[2],ah=t[1],b=function(a){var
-b=k(af),c=k(ag);return[15,a,k(ah),c,b]}}if(N)return 0;break;case
+b=j(af),c=j(ag);return[15,a,j(ah),c,b]}}if(N)return 0;break;case
 12:var
 u=a[4];if(typeof
 u!=="number"&&1===u[0]){var
 v=a[3];if(v){var
 w=v[1];if(3===w[0]){var
-ai=k(w[2]),aj=k(u[1]);return[0,[16,k(w[1]),aj,ai],0]}return 0}return v}return 0;case
+ai=j(w[2]),aj=j(u[1]);return[0,[16,j(w[1]),aj,ai],0]}return 0}return v}return 0;case
 13:var
 x=a[4],O=0;if(typeof
 x==="number"||!(1===x[0]))O=1;else
 var
-ak=x[1],b=function(a){return[11,a,k(ak)]};if(O)return 0;break;case
+ak=x[1],b=function(a){return[11,a,j(ak)]};if(O)return 0;break;case
 14:var
 y=a[4],P=0;if(typeof
 y==="number"||!(1===y[0]))P=1;else{var
 z=a[3],al=y[1];if(!z)return z;var
 I=z[1];if(1!==I[0])return 0;var
 am=I[1],b=function(a){var
-b=k(al);return[13,a,0,m7(am),b]}}if(P)return 0;break;case
+b=j(al);return[13,a,0,nl(am),b]}}if(P)return 0;break;case
 15:var
 A=a[4],Q=0;if(typeof
 A==="number"||!(1===A[0]))Q=1;else{var
 B=a[3],an=A[1];if(!B)return B;var
 J=B[1];if(1!==J[0])return 0;var
 ao=J[1],b=function(a){var
-b=k(an);return[13,a,1,m7(ao),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bx(D[1]),0]:aG(0,C);return e(b,U)}function
-dV(e,d,c,b){var
-g=w(function(a){return ig(e,d,c,a)},b),a=w(m6,b),h=a?[0,a[1],a[2]]:xB;return f(h,g)}function
-gi(a){return 11===a[1]?1:0}function
-b2(n,m,a){var
+b=j(an);return[13,a,1,nl(ao),b]}}if(Q)return 0;break;default:return 0}var
+D=a[2],U=D?[0,bk(D[1]),0]:aG(0,C);return e(b,U)}function
+df(e,d,c,b){var
+g=w(function(a){return ix(e,d,c,a)},b),a=w(nk,b),h=a?[0,a[1],a[2]]:x7;return f(h,g)}function
+d1(a){return 11===a[1]?1:0}function
+b4(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5559,25 +5772,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=co(n,e);if(f){var
+f=ca(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=V(xC,h);return i?V(h,m):i}var
+h=g[1],i=V(x8,h);return i?V(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bo(r,b,a){var
+bs(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=V(xD,e),t=f?V(e,b):f,c=t;else
+e=d[1],f=V(x9,e),t=f?V(e,b):f,c=t;else
 var
 c=1;var
 g=a[1];if(!(9<=g))switch(g){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:b2(0,b,a):b2(0,b,a)}return b2(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:b4(0,b,a):b4(0,b,a)}return b4(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -5585,142 +5798,177 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=s(h(m[1]),b);if(n){if(a[2])return 0;var
+n=r(h(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return b2(0,b,a)}}return b2(0,b,a)}return b2(0,b,a);case
+o=n;return o;default:return b4(0,b,a)}}return b4(0,b,a)}return b4(0,b,a);case
 8:var
 p=a[4];if(typeof
 p!=="number"&&1===p[0]){var
-q=a[3];return q?0===q[1][0]?c?s(b,r):c:b2(0,b,a):b2(0,b,a)}return b2(0,b,a)}return b2(0,b,a)}function
-aN(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bo(c,b,a):a[3]?bo(c,b,a):1:bo(c,b,a):bo(c,b,a)}function
-m8(f,c,b,a){var
+q=a[3];return q?0===q[1][0]?c?r(b,s):c:b4(0,b,a):b4(0,b,a)}return b4(0,b,a)}return b4(0,b,a)}function
+aJ(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bs(c,b,a):a[3]?bs(c,b,a):1:bs(c,b,a):bs(c,b,a)}function
+nm(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=V(xF,h),r=i?V(h,b):i,d=r;else
+h=g[1],i=V(x$,h),s=i?V(h,b):i,d=s;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bo(a$(c),b,a);if(d){var
+1:if(a[3])return bs(bb(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return co(f,k)}return d;case
+k=0;return ca(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bo(a$(c),b,a):d;return bo(a$(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bs(bb(c),b,a):d;return bs(bb(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bo(a$(c),b,a);var
-n=s(b,a$(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bs(bb(c),b,a);var
+n=r(b,bb(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bo(a$(c),b,a);case
+e=n;return e}return bs(bb(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bo(a$(c),b,a):d?ac(f):d;return bo(a$(c),b,a);default:return bo(a$(c),b,a)}}function
-cH(a){switch(a[0]){case
-0:return[0,k([0,a[1],a[2]])];case
+p!=="number"&&1===p[0])return a[3]?bs(bb(c),b,a):d?_(f):d;return bs(bb(c),b,a);default:return bs(bb(c),b,a)}}function
+cN(a){switch(a[0]){case
+0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cH(a[1])];case
+2:return[2,cN(a[1])];case
 3:var
-b=cH(a[2]),c=cH(a[3]);switch(a[1]){case
+b=cN(a[2]),c=cN(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cH(a[1]),d];default:return[8,cH(a[1])]}}function
-ih(c){function
+d=a[2];return[7,cN(a[1]),d];default:return[8,cN(a[1])]}}function
+nn(i,g,f,b,d,c,a){var
+k=aj(d1,a),l=df(0,h(b),0,a),m=ar(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(cN,a[1])]:[1,cN(a[1])]},b),p=e(function(a){var
+b=cN(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=bN(a[2]);return[0,a[1],b]},g),p,o],n,l,k]}function
+iy(c){function
 a(e){var
-a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(xG),f=a(xH);return[0,a(0),f,e]}function
-dc(a){function
+a=[0,d,b];return s(e,c,[0,a,a])}var
+e=a(ya),f=a(yb);return[0,a(0),f,e]}function
+dg(a){function
 b(a){var
-b=k(a[2]);return[0,k(a[1]),b]}switch(a[0]){case
+b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
 1:var
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
-2:return[2,k(a[1])];default:var
-e=k(a[2]);return[3,k(a[1]),e]}}function
-m9(a){if(0===a[0]){var
-b=at(a[1],a[2]);return[0,ih(e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},b))]}return m5([1,a[1],a[2],a[3],a[4],a[5]])}function
-m_(j,b,i,g,f,d,a){function
-c(a){return ih(e(bL,a))}var
-l=al(gi,a),m=dV(0,h(b),d,a),n=dc(f),o=m9(g),p=k(i);return[0,j,e(function(a){var
+2:return[2,j(a[1])];default:var
+e=j(a[2]);return[3,j(a[1]),e]}}function
+no(a){if(0===a[0]){var
+b=ar(a[1],a[2]);return[0,iy(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return nj([1,a[1],a[2],a[3],a[4],a[5]])}function
+np(k,b,i,g,f,d,a){function
+c(a){return iy(e(bN,a))}var
+l=aj(d1,a),m=df(0,h(b),d,a),n=dg(f),o=no(g),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-m$(a){return al(function(a){return 2===a[0]?1:0},a)}function
-na(j,a,c,i,g,f){var
-l=h(a),m=dV(m$(a),l,0,f),n=x(dc,g),o=m9(i),p=c?k(c[1]):[0,b,b];return[0,j,e(function(a){function
-c(a){return ih(e(bL,a))}switch(a[0]){case
+gp(a){return aj(function(a){return 2===a[0]?1:0},a)}function
+nq(k,a,c,i,g,f){var
+l=h(a),m=df(gp(a),l,0,f),n=x(dg,g),o=no(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return iy(e(bN,a))}switch(a[0]){case
 0:var
-k=a[5],l=bL(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bN(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bL(a[6]),r=bL(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-nb(a){return a[1]?0:1}function
-nc(a){var
-c=nb(a);if(c)return c;if(1===a[1]){var
+p=a[7],q=bN(a[6]),r=bN(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+nr(a){return a[1]?0:1}function
+ns(l){var
+b=bm(nr,l);if(b){var
+d=b[1];if(d[2])return 0;if(d[3])return 0;var
+c=d[4],a=b[2];if(typeof
+c!=="number")switch(c[0]){case
+0:if(a){var
+e=a[1];if(e[2])return 0;if(e[3])return 0;var
+f=e[4];if(typeof
+f!=="number"&&1===f[0])return a[2]?0:[0,[0,c[1],f[1]]];var
+j=0}else
+var
+j=a;return j;case
+1:if(a){var
+g=a[1];if(g[2])return 0;if(g[3])return 0;var
+h=g[4];if(typeof
+h!=="number"&&0===h[0])return a[2]?0:[0,[0,h[1],c[1]]];var
+k=0}else
+var
+k=a;return k}var
+i=0}else
+var
+i=b;return i}function
+nt(a){var
+c=nr(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gj(i,h,b){function
+gq(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gk,a(gk,b)),j=a(f,ii),k=i?f:a(c(b,gk),ii);function
-g(b){return a(b,[5,e(gk,d(ii,d(b,b)))])}var
+f=c(gr,a(gr,b)),j=a(f,iz),k=i?f:a(c(b,gr),iz);function
+g(b){return a(b,[5,e(gr,d(iz,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-gl(f,e,d){function
+gs(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,ij,a(ij,d)],nd),g=a(c,[5,[3,0,ij,b(nd,b(c,c))]]);return[2,b(gj(f,e,d),g)]}function
-ik(e,g,a){function
+c=a([3,1,iA,a(iA,d)],nu),g=a(c,[5,[3,0,iA,b(nu,b(c,c))]]);return[2,b(gq(f,e,d),g)]}function
+iB(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(gm,b(gm,a)),d=e?h:b(f(a,gm),ne),i=b(d,[5,[3,0,gm,c(ne,c(d,d))]]);return c(gj(e,g,a),i)}function
-nf(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],j=cv(k(g[2][1]));if(j){var
-l=j[1],m=cv(k(g[2][2]));if(m)var
+h=f(gt,b(gt,a)),d=e?h:b(f(a,gt),nv),i=b(d,[5,[3,0,gt,c(nv,c(d,d))]]);return c(gq(e,g,a),i)}function
+nw(c,g,b,a){function
+d(b,a){return e(function(c){var
+d=r(b,c)?a:yc;return[0,d]},ye)}return e(function(e){var
+j=[0,gq(c,b,a)],i=1,k=d(e,[2,g]);function
+f(b,a){return[3,1,b,a]}var
+h=gq(c,b,a),l=d(e,f(f(gs(c,b,a),g),h));return[0,d(e,yd),l,k,j,i]},yf)}function
+nx(c,b,a){var
+d=[0,iB(c,b,a),0],e=[0,iB(c,b,a),d],f=[0,iB(c,b,a),e],g=[0,gs(c,b,a),0],h=[0,gs(c,b,a),g];return[0,[0,gs(c,b,a),h],f]}function
+ny(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cx(j(g[2][1]));if(k){var
+l=k[1],m=cx(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fe(h[2],d,b)];return dv(l,b$(fn(p,l),e))},q=n(D(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fj(h[2],d,b)];return dz(l,cc(ft(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=nf([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=ny([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-an(b,a){switch(a[0]){case
+ao(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jI(function(a){return as(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,an(b,a[1])];case
+e=c[1],d=jW(function(a){return au(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,ao(b,a[1])];case
 3:var
-f=an(b,a[3]),g=an(b,a[2]);return[3,a[1],g,f];case
+f=ao(b,a[3]),g=ao(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,an(b,a[1]),h];default:return[5,an(b,a[1])]}}function
-ng(b,a){if(0===a[0])return[0,an(b,a[1])];var
-c=an(b,a[2]);return[1,an(b,a[1]),c]}function
-il(b,a){var
+h=a[2];return[4,ao(b,a[1]),h];default:return[5,ao(b,a[1])]}}function
+nz(b,a){if(0===a[0])return[0,ao(b,a[1])];var
+c=ao(b,a[2]);return[1,ao(b,a[1]),c]}function
+iC(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-im(c,a){if(c)if(a){var
+iD(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=im(h,g);if(e){var
-i=e[1],f=im(h,i[2]);if(f)var
+e=iD(h,g);if(e){var
+i=e[1],f=iD(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5732,76 +5980,76 @@ var
 d=a;else
 var
 d=c;return d}function
-io(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,io(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,D(z(c(2,b),l),k),j],h]}else
+iE(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,iE(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(z(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-xM(a){if(typeof
+yg(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-xN(a){if(typeof
+yh(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-gn(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=gn(e,a[3]);return b$(dv(gn(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-nh(a){return 0===a[0]?dL(a[1][4]):0}function
-ni(a){switch(a[0]){case
+gu(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=gu(e,a[3]);return cc(dz(gu(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+nA(a){return 0===a[0]?dQ(a[1][4]):0}function
+nB(a){switch(a[0]){case
 0:var
-b=a[1],c=a9(b[3]);return f(a9(b[2]),c);case
+b=a[1],c=a$(b[3]);return f(a$(b[2]),c);case
 1:var
-d=a9(a[2]);return f(a9(a[1]),d);default:return 0}}function
-go(a){switch(a[0]){case
-0:return bH(a9(a[1][1]));case
+d=a$(a[2]);return f(a$(a[1]),d);default:return 0}}function
+gv(a){switch(a[0]){case
+0:return bI(a$(a[1][1]));case
 1:var
-b=a[3];return b?bH(a9(b[1])):d;default:return bH(a9(a[1]))}}function
-ip(c){var
-a=w(nh,c),d=a?[0,a[1],a[2]]:w(ni,c);return D(b,bH(d))}function
-nj(c,a){if(c){if(a){var
+b=a[3];return b?bI(a$(b[1])):d;default:return bI(a$(a[1]))}}function
+gw(c){var
+a=w(nA,c),d=a?[0,a[1],a[2]]:w(nB,c);return G(b,bI(d))}function
+nC(c,a){if(c){if(a){var
 d=a[1];if(45===d)var
-b=xO;else
+b=yi;else
 if(43===d)var
-b=xP;else
+b=yj;else
 var
-f=48===d?1:0,i=f?xQ:f,b=i;if(b)var
-e=nj(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===d?1:0,i=f?yk:f,b=i;if(b)var
+e=nC(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
 var
 g=b;var
 h=g}else
 var
-h=a;return h}return a?0:xR}function
-eQ(b,a){switch(a[0]){case
+h=a;return h}return a?0:yl}function
+eV(b,a){switch(a[0]){case
 0:var
-c=a[1];if(as(c,xS))return xT;if(as(c,xU))return xV;if(as(c,xW))return xX;if(as(c,xY))return xZ;if(as(c,x0))return x1;var
-k=as(c,x2),p=k?x3:k;return p;case
+c=a[1];if(au(c,ym))return yn;if(au(c,yo))return yp;if(au(c,yq))return yr;if(au(c,ys))return yt;if(au(c,yu))return yv;var
+k=au(c,yw),p=k?yx:k;return p;case
 1:var
-d=a[3],e=a[2],f=a[1];if(as(f,x4))return[0,[0,d,e]];if(as(f,x5))return[0,[1,d,e]];if(as(f,x6))return[0,[2,d,e]];var
-l=as(f,x7),q=l?[0,[8,d,e]]:l;return q;case
+d=a[3],e=a[2],f=a[1];if(au(f,yy))return[0,[0,d,e]];if(au(f,yz))return[0,[1,d,e]];if(au(f,yA))return[0,[2,d,e]];var
+l=au(f,yB),q=l?[0,[8,d,e]]:l;return q;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-g=eQ(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+g=eV(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
 6:var
-h=eQ(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+h=eV(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
 7:var
-t=eQ(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eQ(b,a[1]);if(i)var
-j=nj(b,gZ(gY(ao(m),function(a){return aR(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+t=eV(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
+m=a[2],i=eV(b,a[1]);if(i)var
+j=nC(b,g9(g8(aq(m),function(a){return aU(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
 var
 n=i;var
 o=n}else
 var
 o=b;return o}}function
-nk(d,a){if(a){var
-e=a[1],b=eQ(d,e[2]);if(b)var
-c=nk(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+nD(d,a){if(a){var
+e=a[1],b=eV(d,e[2]);if(b)var
+c=nD(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
 var
-f=b;return f}return x8}function
-dd(d,c,a){if(c)if(a){var
+f=b;return f}return yC}function
+dh(d,c,a){if(c)if(a){var
 b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=nk(d,b[1]);if(e){var
+i=b[2],j=a[2],k=c[1],e=nD(d,b[1]);if(e){var
 l=e[1];if(i){var
-f=dd(d,k,j);if(f){var
-m=f[1],g=dd(d,k,m[2]);if(g)var
+f=dh(d,k,j);if(f){var
+m=f[1],g=dh(d,k,m[2]);if(g)var
 n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
 var
 o=g;var
@@ -5816,73 +6064,64 @@ var
 h=a;else
 var
 h=c;return h}function
-iq(e,d,a){if(d){if(a){var
-b=dd(e,h(a),a);if(b)var
-f=b[1],c=iq(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
+iF(e,d,a){if(d){if(a){var
+b=dh(e,h(a),a);if(b)var
+f=b[1],c=iF(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
 var
-g=b;return g}return x9}return a?0:x_}function
-ir(a){if(typeof
-a==="number")return 0===a?x$:ya;else
+g=b;return g}return yD}return a?0:yE}function
+nE(a){if(typeof
+a==="number")return 0===a?yF:yG;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-is(d,a){if(d)if(a){var
+iG(d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=is(k,j);if(e){var
-l=e[1],f=is(k,l[2]);if(f)var
+e=iG(k,j);if(e){var
+l=e[1],f=iG(k,l[2]);if(f)var
 m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
 var
 n=f;var
 o=n}else
 var
 o=e;return o}if(c){var
-p=ir(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
+p=nE(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
 g=c}else
 var
 g=a;else
 var
 g=d;return g}function
-cI(b,a){return 0===b[0]?[0,k(b[1]),a]:a?[0,a[1],a[2]]:[0,k(b[1]),0]}function
-de(a,e){var
-b=cI(a[1],e),c=cI(a[2],b[2]),d=cI(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-nl(d,c){if(d){var
+cO(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+di(a,e){var
+b=cO(a[1],e),c=cO(a[2],b[2]),d=cO(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+nF(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=de(a[1],c),f=de(a[2],e[2]),g=de(a[3],f[2]),h=cI(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=di(a[1],c),f=di(a[2],e[2]),g=di(a[3],f[2]),h=cO(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=de(a[1],c),k=j[1],l=de(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=de(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=di(a[1],c),k=j[1],l=di(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=di(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=de(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=nl(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-yb(a){if(typeof
-a!=="number")switch(a[0]){case
-5:return yd;case
-2:case
-3:case
-4:case
-6:case
-7:case
-11:return 0}return yc}function
-bp(a,b){if(a){var
-c=cI(a[1],b),d=bp(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a3(c){function
-a(a){return r(a,c,[0,d,b])}var
-e=a(yg),f=a(yh);return[0,a(0),f,e]}function
-nm(a,b){if(a){var
-c=a[1],d=bp(c[1],b),e=bp(c[2],d[2]),f=nm(a[2],e[2]),g=f[2],h=f[1],i=a3(e[1]);return[0,[0,[0,a3(d[1]),i],h],g]}return[0,0,b]}function
-nn(f,c){if(f){var
+p=di(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=nF(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+bi(a,b){if(a){var
+c=cO(a[1],b),d=bi(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a5(c){function
+a(a){return s(a,c,[0,d,b])}var
+e=a(yM),f=a(yN);return[0,a(0),f,e]}function
+nG(a,b){if(a){var
+c=a[1],d=bi(c[1],b),e=bi(c[2],d[2]),f=nG(a[2],e[2]),g=f[2],h=f[1],i=a5(e[1]);return[0,[0,[0,a5(d[1]),i],h],g]}return[0,0,b]}function
+nH(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bp(a[1],c),h=bp(a[2],g[2]),i=bp(a[3],h[2]),j=cI(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a3(i[1]),y=a3(h[1]),e=[0,[0,[0,a3(g[1]),y,x,w,v]],u];break;case
+g=bi(a[1],c),h=bi(a[2],g[2]),i=bi(a[3],h[2]),j=cO(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a5(i[1]),y=a5(h[1]),e=[0,[0,[0,a5(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bp(a[1],c),l=bp(a[2],k[2]),z=l[2],A=a3(l[1]),e=[0,[0,[1,a3(k[1]),A,0]],z];break;default:var
-m=a[1],n=bp(m,c),o=bp(a[2],n[2]),p=bp(a[3],o[2]),q=bp(a[4],p[2]),r=cI(a[5],q[2]),s=cI(a[6],r[2]),B=m?a3(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a3(q[1]),H=a3(p[1]),e=[0,[1,[0,B,a3(o[1]),H,G,F,E,D]],C]}var
-t=nn(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dW(a){return j6(o,a)}function
-yi(a){if(typeof
+k=bi(a[1],c),l=bi(a[2],k[2]),z=l[2],A=a5(l[1]),e=[0,[0,[1,a5(k[1]),A,0]],z];break;default:var
+m=a[1],n=bi(m,c),o=bi(a[2],n[2]),p=bi(a[3],o[2]),q=bi(a[4],p[2]),r=cO(a[5],q[2]),s=cO(a[6],r[2]),B=m?a5(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a5(q[1]),H=a5(p[1]),e=[0,[1,[0,B,a5(o[1]),H,G,F,E,D]],C]}var
+t=nH(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dj(a){return ki(o,a)}function
+yO(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return g(o,1,[3,a[1],[0,b,b]]);case
@@ -5899,291 +6138,306 @@ i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
 15:var
 j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
 2:case
-3:return dW(a[2]);case
+3:return dj(a[2]);case
 4:case
 13:var
 c=g(o,1,a[2]);return c?g(o,1,a[3]):c;default:return g(o,1,a[1])}}function
-it(a){if(typeof
+iH(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(o,0,[2,e,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b]]):h;return i?g(o,0,[3,[0,c(2,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))))),b],d]):i;case
+d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(o,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):h;return i?g(o,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
 5:return g(o,1,[3,a[1],[0,b,b]]);case
 8:var
 y=[0,a[2],a[1]],z=1;return n(function(a){return g(o,z,a)},y);case
 10:return g(o,1,a[2]);case
 11:var
-k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b],k]):l;case
+k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],k]):l;case
 13:var
-m=a[4],p=mc(a[3]),r=p?g(o,1,m):p;return r?g(o,0,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],m]):r;case
+m=a[4],q=ms(a[3]),r=q?g(o,1,m):q;return r?g(o,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],m]):r;case
 14:return g(o,0,a[3]);case
 15:var
 s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
 16:var
-u=a[3],v=g(o,0,a[1]),w=v?g(o,1,a[2]):v,x=w?g(o,1,u):w;return x?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=g(o,0,a[1]),w=v?g(o,1,a[2]):v,x=w?g(o,1,u):w;return x?g(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
 2:case
-3:return dW(a[2]);case
-0:case
-1:case
-12:return g(o,1,a[1]);default:var
-j=g(o,1,a[2]);return j?g(o,1,a[3]):j}}function
-gp(d){var
+3:return dj(a[2]);case
+6:case
+7:case
+9:var
+j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
+gx(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=ac(al(function(d){return function(a){var
-h=h$(a[1]),e=as(h$(d[1]),h);if(e)var
-i=ia(a[4]),b=as(ia(d[4]),i);else
+b=a[2],e=a[1],c=_(aj(function(d){return function(a){var
+h=iq(a[1]),e=au(iq(d[1]),h);if(e)var
+i=ir(a[4]),b=au(ir(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?s(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?r(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eR(a){if(0===a[0])return dW(k(a[1]));var
-b=a[2],c=a[1];if(!ep(k(c))&&!ep(k(b))){var
-e=k(c);return g(o,1,[3,k(b),e])}var
-d=k(b);return bl(o,k(c),d)}function
-df(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-no(a){switch(a[0]){case
+eW(a){if(0===a[0])return dj(j(a[1]));var
+b=a[2],c=a[1];if(!eu(j(c))&&!eu(j(b))){var
+e=j(c);return g(o,1,[3,j(b),e])}var
+d=j(b);return bf(o,j(c),d)}function
+dk(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+nI(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(df(a[3]),c),e=f(df(a[2]),d);return f(df(a[1]),e);case
+c=[0,a[4],0],d=f(dk(a[3]),c),e=f(dk(a[2]),d);return f(dk(a[1]),e);case
 1:var
-b=a[3],g=b?df(b[1]):b,h=f(df(a[2]),g);return f(df(a[1]),h);default:return df(a[1])}}function
-np(s,a,j){if(al(function(a){return 9===a[1]?1:0},j)){var
-b=V(h(a),yl),c=b?n(function(a){if(0===a[0]){var
-d=a[5],e=g(o,1,k(a[2])),h=e?g(o,0,k(a[3])):e,j=h?g(o,0,k(a[4])):h,c=0;if(j)if(d)var
-p=bK(d[1]),b=n(function(a){return dW(k(a))},p);else{var
+b=a[3],g=b?dk(b[1]):b,h=f(dk(a[2]),g);return f(dk(a[1]),h);default:return dk(a[1])}}function
+nJ(s,a,k){if(aj(function(a){return 9===a[1]?1:0},k)){var
+b=V(h(a),yR),c=b?n(function(a){if(0===a[0]){var
+d=a[5],e=g(o,1,j(a[2])),h=e?g(o,0,j(a[3])):e,k=h?g(o,0,j(a[4])):h,c=0;if(k)if(d)var
+p=bM(d[1]),b=n(function(a){return dj(j(a))},p);else{var
 l=1;c=1}else{var
-l=j;c=1}if(c)var
+l=k;c=1}if(c)var
 b=l}else{var
-m=g(o,1,k(a[4]));if(m)var
-q=bK(a[3]),r=f(bK(a[2]),q),b=n(function(a){return dW(k(a))},r);else
+m=g(o,1,j(a[4]));if(m)var
+q=bM(a[3]),r=f(bM(a[2]),q),b=n(function(a){return dj(j(a))},r);else
 var
 b=m}return b?i(s,a):b},a):b;if(c)var
-d=gh(0,a),l=d?1:d,e=l;else
+d=go(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-nq(a){return a?ym:yn}function
-iu(a){switch(a){case
-0:return yo;case
-1:return yp;default:return 0}}function
-cJ(a){var
-f=a[1],d=g(o,1,[2,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],f]),e=d?bl(o,a[1],a[2]):d;if(e){var
-h=a[2];return g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],h])}return e}function
-dX(a){var
-e=bl(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b)))))))))),b],a]):e}function
-nr(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=s(h(e),c),i=f?s(h(d),c):f;if(i){var
-l=at(e,d);return n(function(a){var
-b=k(a[2]);return bl(o,k(a[1]),b)},l)}return i}var
-j=b?g(o,1,k(a[3])):b;if(j){var
-m=k(a[5]);return bl(o,k(a[4]),m)}return j}function
-ns(a,e,F,E,t,r,f){function
+nK(a){return a?yS:yT}function
+iI(a){switch(a){case
+0:return yU;case
+1:return yV;default:return 0}}function
+cP(a){var
+f=a[1],d=g(o,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bf(o,a[1],a[2]):d;if(e){var
+h=a[2];return g(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],h])}return e}function
+d2(a){var
+e=bf(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+nL(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=r(h(e),c),i=f?r(h(d),c):f;if(i){var
+l=ar(e,d);return n(function(a){var
+b=j(a[2]);return bf(o,j(a[1]),b)},l)}return i}var
+k=b?g(o,1,j(a[3])):b;if(k){var
+m=j(a[5]);return bf(o,j(a[4]),m)}return k}function
+nM(a,e,F,E,t,s,f){function
 u(b){var
-d=nq(a),c=s(h(b),d);return c?n(eR,b):c}var
+d=nK(a),c=r(h(b),d);return c?n(eW,b):c}var
 v=n(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=h(e),l=V(bZ(a),G);else
+G=h(e),l=V(b1(a),G);else
 var
 l=v;var
-w=l?V(h(e),yq):l,x=w?g(o,1,k(F)):w;if(x)var
-H=1===a?1:0,m=nr(iu(a),H,E);else
+w=l?V(h(e),yW):l,x=w?g(o,1,j(F)):w;if(x)var
+H=1===a?1:0,m=nL(iI(a),H,E);else
 var
 m=x;if(m)if(a){var
-d=dc(t);switch(d[0]){case
+d=dg(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=cJ(d[1]),B=A?cJ(d[2]):A,i=B?cJ(d[3]):B;break;case
+A=cP(d[1]),B=A?cP(d[2]):A,i=B?cP(d[3]):B;break;case
 2:var
-i=dX(d[1]);break;default:var
-C=dX(d[1]),i=C?dX(d[2]):C}var
-j=i}else
+i=d2(d[1]);break;default:var
+C=d2(d[1]),i=C?d2(d[2]):C}var
+k=i}else
 var
-D=dc(t),J=0===D[0]?cJ(D[1]):0,j=J;else
+D=dg(t),J=0===D[0]?cP(D[1]):0,k=J;else
 var
-j=m;if(j)var
-I=h(e),p=np(function(a){if(0===a[0]){var
-b=a[1],c=V(yk,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
+k=m;if(k)var
+I=h(e),p=nJ(function(a){if(0===a[0]){var
+b=a[1],c=V(yQ,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
-e=d;return e}return 1},r,f);else
+e=d;return e}return 1},s,f);else
 var
-p=j;if(p)var
-b=h(e),c=bZ(a),y=nq(a),q=n(function(a){var
+p=k;if(p)var
+b=h(e),c=b1(a),y=nK(a),q=n(function(a){var
 e=a[2];if(e)var
-f=e[1],g=V(xE,f),w=g?V(f,b):g,d=w;else
+f=e[1],g=V(x_,f),w=g?V(f,b):g,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aN(c,b,a):a[3]?aN(c,b,a):1;return aN(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aJ(c,b,a):a[3]?aJ(c,b,a):1;return aJ(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aN(c,b,a);var
-m=a[3];return m?3===m[1][0]?s(b,c):aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aJ(c,b,a);var
+m=a[3];return m?3===m[1][0]?r(b,c):aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
 p=o[1];if(1===p[0]){var
-q=s(h(p[1]),y),x=q?d:q;return x}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);case
+q=r(h(p[1]),y),x=q?d:q;return x}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);case
 15:var
-r=a[4];if(typeof
-r!=="number"&&1===r[0]){var
+s=a[4];if(typeof
+s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=s(h(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},f);else
+v=r(h(u[1]),y),z=v?d:v;return z}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);default:return aJ(c,b,a)}},f);else
 var
 q=p;var
-z=q?gp(f):q;return z?n(it,dV(0,h(e),r,f)):z}function
-nt(a){switch(a[0]){case
+z=q?gx(f):q;return z?n(iH,df(0,h(e),s,f)):z}function
+nN(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-nu(a,e,d,Q,m,l){var
+nO(a,e,d,R,m,y,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?yr:ys;return s(h(a),b)}var
-i=m$(e),z=n(function(b){switch(b[0]){case
+b=p?yX:yY;return r(h(a),b)}var
+i=gp(e),z=n(function(b){switch(b[0]){case
 0:var
-d=ac(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=_(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=ac(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=_(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-R=h(e),q=V(a$(a),R);else
+S=h(e),q=V(bb(a),S);else
 var
 q=z;var
-A=q?V(h(e),yt):q,B=A?n(eR,w(nt,e)):A;if(B){var
-P=0;if(typeof
+A=q?V(h(e),yZ):q,B=A?n(eW,w(nN,e)):A;if(B){var
+Q=0;if(typeof
 a==="number"&&!a){var
-C=1;P=1}if(!P)var
+C=1;Q=1}if(!Q)var
 C=0;var
-S=p?yu:yv,r=nr(S,C,Q)}else
+T=p?y0:y1,s=nL(T,C,R)}else
 var
-r=B;if(r)if(typeof
+s=B;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=x(dc,m)?0:1,b=U;else
+U=x(dg,m)?0:1,b=U;else
 switch(a[1]){case
 0:if(d){var
-u=x(dc,m);if(u){var
-E=u[1];if(0===E[0])var
-F=g(o,1,k(d[1])),G=F?cJ(E[1]):F;else
+t=x(dg,m);if(t){var
+F=t[1];if(0===F[0])var
+G=g(o,1,j(d[1])),H=G?cP(F[1]):G;else
 var
-G=0;var
-H=G}else
+H=0;var
+I=H}else
 var
-H=u;var
-b=H}else
+I=t;var
+b=I}else
 var
 b=d;break;case
 1:if(d){var
-v=d[1],y=x(dc,m);if(y){var
-f=y[1];switch(f[0]){case
+u=d[1],v=x(dg,m);if(v){var
+f=v[1];switch(f[0]){case
 0:var
-j=0;break;case
+k=0;break;case
 1:var
-J=g(o,1,k(v)),K=J?cJ(f[1]):J,L=K?cJ(f[2]):K,j=L?cJ(f[3]):L;break;case
+K=g(o,1,j(u)),L=K?cP(f[1]):K,M=L?cP(f[2]):L,k=M?cP(f[3]):M;break;case
 2:var
-M=g(o,1,k(v)),j=M?dX(f[1]):M;break;default:var
-N=g(o,1,k(v)),O=N?dX(f[1]):N,j=O?dX(f[2]):O}var
-I=j}else
+N=g(o,1,j(u)),k=N?d2(f[1]):N;break;default:var
+O=g(o,1,j(u)),P=O?d2(f[1]):O,k=P?d2(f[2]):P}var
+J=k}else
 var
-I=y;var
-b=I}else
+J=v;var
+b=J}else
 var
 b=d;break;default:var
 b=0}else
 var
-b=r;if(b)var
-T=h(e),t=n(function(b){return m8(i,a,T,b)},l);else
-var
-t=b;var
-D=t?gp(l):t;return D?n(it,dV(i,h(e),0,l)):D}function
-yw(a){switch(a[0]){case
-0:return fT(a[1][1]);case
+b=s;var
+D=b?n(function(b){var
+c=nm(i,a,h(e),b);if(c)var
+d=c;else{var
+f=y?d1(b):y;if(f)return aJ(0,0,b);var
+d=f}return d},l):b,E=D?gx(l):D;return E?n(iH,df(i,h(e),0,l)):E}function
+y2(a){switch(a[0]){case
+0:return fX(a[1][1]);case
 1:var
-b=a[3];return b?fT(b[1]):1;default:return fT(a[1])}}function
-iv(a,k,b,d){var
-e=np(function(g){if(0===g[0]){var
-c=g[1],d=V(yj,c);if(d){var
-b=M(a,bx(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?fX(b[1]):1;default:return fX(a[1])}}function
+iJ(a,k,b,d){var
+e=nJ(function(g){if(0===g[0]){var
+c=g[1],d=V(yP,c);if(d){var
+b=E(a,bk(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(yw,d[1]):e,g=f?V(yx,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return xu(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?n(y2,d[1]):e,g=f?V(y3,h(a)):f;if(g)var
+l=h(a),c=n(function(a){return x0(l,a)},b);else
 var
 c=g;var
-i=c?gp(b):c,j=i?n(eR,w(no,a)):i;return j?n(yi,d[3]):j}function
-gq(b,a){return n(function(c){var
-a=c[2];return a?by(a[1],b):1},a)}function
-nv(a){if(a){var
-b=a[1];if(gi(b))return 0;var
-c=[0,b,nv(a[2])]}else
+i=c?gx(b):c,j=i?n(eW,w(nI,a)):i;return j?n(yO,d[3]):j}function
+gy(b,a){return n(function(c){var
+a=c[2];return a?bd(a[1],b):1},a)}function
+nP(k,j,a,i,g,b){var
+l=h(k),m=h(g),c=r(h(i),m),d=c?n(function(b){var
+c=aJ(l,h(a),b);if(c){var
+d=b[1];if(1===d){var
+e=b[2],f=e?[0,bk(e[1]),0]:aG(0,h(a));return n(function(c){var
+b=E(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?n(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gx(b):d,f=e?n(function(a){return eW(a[2])},j):e;return f?n(iH,df(0,h(a),0,b)):f}function
+nQ(a){if(a){var
+b=a[1];if(d1(b))return 0;var
+c=[0,b,nQ(a[2])]}else
 var
 c=a;return c}function
-yy(a){if(typeof
-a!=="number"&&13===a[0]){var
-d=a[4];if(eF(d)&&ac(g(o,0,[3,d,[0,c(2,q(c(2,c(2,q(c(2,q(c(2,c(2,b))))))))),b]])))return yA;return yB}return yz}function
-nw(f,d,b){var
-g=nv(b),i=0,c=av(P,0,e(yy,w(function(a){return ig(i,f,d,a)},g))),a=w(m6,b),j=a?[0,a[1],a[2]]:yC;return P(h(j),c)}function
-iw(b,a){var
-c=h(bi(function(a){return 0===a[0]?0:1},b));return s(h(a),c)}function
-ix(a){if(a){var
+iK(i,g,f,d,b){var
+j=nQ(b),k=w(function(a){return ix(i,f,d,a)},j),c=aw(O,0,e(function(a){return hH(o,g,a)},k)),a=w(nk,b),l=a?[0,a[1],a[2]]:y4;return O(h(l),c)}function
+iL(a){return 2<=a?y5:y6}function
+gz(m,l,k,j,f,i){var
+g=iK(m,l,k,j,f),c=nE(i);if(c){var
+a=c[1],e=0;if(typeof
+a==="number")var
+h=[0,a];else
+if(0===a[0]){var
+n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
+p=a[2],q=a[1],b=q,d=function(a){return[1,a,p]};e=1}if(e){if(!_(aj(d1,f))&&!bd(b,g))return r(b,g)?0:[0,d(bk(b))];return[0,d(b)]}}else
+var
+h=c;return h}function
+gA(b,a){var
+c=h(bm(function(a){return 0===a[0]?0:1},b));return r(h(a),c)}function
+iM(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-nx(aM,_,aL,Z,Y,b,aK,B){var
-a=ie(_,aL,Z,Y),aN=h(B);if(aM)var
+nR(aM,_,aL,Z,Y,b,aK,B){var
+a=iw(_,aL,Z,Y),aN=h(B);if(aM)var
 $=0;else
 var
-aH=a[1],aI=e(go,a[1]),X=fK(ip(a[1]),aI,aH),aJ=at(aG(0,h(X)),X),$=e(aB,bi(function(a){return fM(a[2])},aJ));var
-C=dd($,aN,B);if(C){var
+aH=a[1],aI=e(gv,a[1]),X=fQ(gw(a[1]),aI,aH),aJ=ar(aG(0,h(X)),X),$=e(aB,bm(function(a){return fS(a[2])},aJ));var
+C=dh($,aN,B);if(C){var
 aa=C[1];if(aa[2])return 0;var
-ab=iv(_,Z,Y,a),ac=ab?gq(yD,B):ab;if(ac){var
-aO=aa[1],D=e(go,a[1]),c=ip(a[1]),aP=ix(aK),V=k8(o,a);if(V){var
-l=fK(c,D,a[1]),g=hq(c,D,a[1],0),af=h(a[3]),ag=P(h(l),af),L=[0,h(l),ag],ah=a[3],F=al(function(a){if(typeof
+ab=iJ(_,Z,Y,a),ac=ab?gy(y7,B):ab;if(ac){var
+aO=aa[1],D=e(gv,a[1]),c=gw(a[1]),aP=iM(aK),V=ln(o,a);if(V){var
+l=fQ(c,D,a[1]),g=hA(c,D,a[1],0),af=h(a[3]),ag=O(h(l),af),K=[0,h(l),ag],ah=a[3],F=aj(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?w(function(a){var
-b=e(bg,fN(l,a[4]));return[0,a[4],b]},g):F,ak=f(hs(g,c,L,a[3]),ai),am=f(bF(kl(g)),ak),M=f(bF(er(g)),am),N=ct(M)[1],m=cs(N),O=n(function(a){var
-b=j(d);return az(r(a1(m,a),m,b),a)},M);if(O){var
-Q=al(ro,a[3]);if(Q){var
+b=e(aQ,fT(l,a[4]));return[0,a[4],b]},g):F,al=f(hC(g,c,K,a[3]),ai),am=f(bH(kz(g)),al),L=f(bH(ew(g)),am),N=cv(L)[1],m=cu(N),P=n(function(a){var
+b=k(d);return ay(s(a3(m,a),m,b),a)},L);if(P){var
+Q=aj(rJ,a[3]);if(Q){var
 t=D,p=a[1];for(;;){if(p){var
-q=p[1],u=bz(d,t);switch(q[0]){case
+q=p[1],u=bA(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fO(b,G[1],u),E=0;if(H){var
-s=aj(b,[0,G[4],c]);if(s)var
-k=K(d,s[1][1]);else{var
-I=s;E=1}}else{var
+G=q[1],H=fU(b,G[1],u),E=0;if(H){var
+r=ak(b,[0,G[4],c]);if(r)var
+j=M(d,r[1][1]);else{var
+I=r;E=1}}else{var
 I=H;E=1}if(E)var
-k=I;break;case
+j=I;break;case
 1:var
-J=q[3],k=J?fO(b,J[1],u):1;break;default:var
-k=fO(b,q[1],u)}if(k){var
-ae=p[2],t=bh(t),p=ae;continue}var
-R=k}else
+J=q[3],j=J?fU(b,J[1],u):1;break;default:var
+j=fU(b,q[1],u)}if(j){var
+ae=p[2],t=bl(t),p=ae;continue}var
+R=j}else
 var
 R=1;var
 v=R;break}}else
 var
 v=Q;if(v){var
-an=a[3],ao=w(function(a){return cW(c,a)},an),ap=a[3],ar=f(l,f(e(function(a){return bE(c,a)},ap),ao)),x=W(e(function(a){return aj(b,a)},ar));if(x){var
-as=aV(dK(a[2]),c),y=W(e(function(a){return aj(b,a)},as));if(y){var
-au=a[3],z=W(kW(b,aP,function(a){return a1(m,a)},l,g,c,L,au));if(z){var
-S=z[1],av=hp(S),aw=y[1],ax=a[2],ay=function(a){return kX(b,ax,c,a)},aA=x[1],aC=0,aD=kl(g),aE=i(aq(function(a){return a1(m,a)}),aD),aF=er(g);return fI(b,N,i(aq(function(a){return a1(m,a)}),aF),aE,aC,aA,S,ay,aw,av,aO)}var
+an=a[3],ao=w(function(a){return c3(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bG(c,a)},ap),ao)),x=W(e(function(a){return ak(b,a)},aq));if(x){var
+as=aX(dN(a[2]),c),y=W(e(function(a){return ak(b,a)},as));if(y){var
+au=a[3],z=W(k_(b,aP,function(a){return a3(m,a)},l,g,c,K,au));if(z){var
+S=z[1],av=hz(S),aw=y[1],ax=a[2],az=function(a){return k$(b,ax,c,a)},aA=x[1],aC=0,aD=kz(g),aE=i(at(function(a){return a3(m,a)}),aD),aF=ew(g);return fO(b,N,i(at(function(a){return a3(m,a)}),aF),aE,aC,aA,S,az,aw,av,aO)}var
 T=z}else
 var
 T=y;var
@@ -6194,512 +6448,536 @@ A=U}else
 var
 A=v}else
 var
-A=O;return A}return V}var
+A=P;return A}return V}var
 ad=ac}else
 var
 ad=C;return ad}function
-yE(a){if(0===a[0])return nh(a[1]);var
-b=a[1],c=dL(b[6]);return f(dL(b[5]),c)}function
-yF(a){if(0===a[0])return ni(a[1]);var
-b=a[1],c=a9(b[4]);return f(a9(b[3]),c)}function
-yG(a){if(0===a[0])return[0,go(a[1]),d];var
-b=a[1],c=bH(a9(b[2]));return[0,bH(a9(b[1])),c]}function
-ny(f,n,m,l,k,j,y,d){var
-a=na(f,n,m,l,k,j),p=a[2],c=w(yE,p),x=c?[0,c[1],c[2]]:w(yF,p),i=D(b,bH(x)),q=e(yG,a[2]),r=hZ(i,q,a[2]),z=h(d),A=at(aG(0,h(r)),r),g=dd(e(aB,bi(function(a){return fM(a[2])},A)),z,d);if(g){var
+y8(a){if(0===a[0])return nA(a[1]);var
+b=a[1],c=dQ(b[6]);return f(dQ(b[5]),c)}function
+y9(a){if(0===a[0])return nB(a[1]);var
+b=a[1],c=a$(b[4]);return f(a$(b[3]),c)}function
+y_(a){if(0===a[0])return[0,gv(a[1]),d];var
+b=a[1],c=bI(a$(b[2]));return[0,bI(a$(b[1])),c]}function
+nS(f,n,m,l,k,j,y,d){var
+a=nq(f,n,m,l,k,j),p=a[2],c=w(y8,p),x=c?[0,c[1],c[2]]:w(y9,p),i=G(b,bI(x)),q=e(y_,a[2]),r=ib(i,q,a[2]),z=h(d),A=ar(aG(0,h(r)),r),g=dh(e(aB,bm(function(a){return fS(a[2])},A)),z,d);if(g){var
 s=g[1];if(s[2])return 0;var
-t=nu(f,n,m,l,k,j),u=t?gq(a$(f),d):t;if(u)return sX(o,y,a,i,q,s[1]);var
+t=nO(f,n,m,l,k,0,j),u=t?gy(bb(f),d):t;if(u)return tp(o,y,a,i,q,s[1]);var
 v=u}else
 var
 v=g;return v}function
-nz(B,aM,aq,ap,A,ao,h){var
-l=ie(B,aM,aq,ap);if(A){var
-C=A[2];if(C){var
-D=C[2];if(D){if(D[2])return 0;var
-ar=nl(B,e(k,ao));if(ar[2])return 0;var
-as=l[3];if(typeof
-h==="number")var
-a=0===h?ye:yf;else
-switch(h[0]){case
+nT(i,g,G,F,E,s,V,D,q){var
+H=typeof
+i==="number"?i?y$:zb:iI(i[1]),t=e(j,V),I=nH(g,e(j,D));if(I[2])return 0;var
+W=h(g),u=gz(gp(g),za,W,0,s,q);if(u){var
+J=gA(w(nN,g),D),K=J?nO(i,g,G,F,E,1,s):J;if(K)var
+X=bb(i),v=r(h(t),X);else
+var
+v=K;if(v){var
+M=0;if(typeof
+q==="number"&&q)var
+m=_(gp(g));else
+M=1;if(M)var
+m=1}else
+var
+m=v;if(m){var
+Y=u[1],a=bT(H,t),d=a5(bn(H,t)),k=I[1],f=nq(i,g,G,F,E,s),B=mA(o,f[2],k);if(B){var
+y=c5(o,f[4],d),x=0;if(y){var
+z=f[5];if(z)var
+n=fW(o,z[1],a);else
+if(a)var
+n=0;else{var
+A=1;x=1}}else{var
+A=y;x=1}if(x)var
+n=A;var
+p=n}else
+var
+p=B;if(p){var
+c=f[5],C=f[3],l=f[1],U=f[6],N=e(function(e){if(0===e[0])var
+h=bK(c,a,d,e),f=cj(e[1],h);else
+var
+g=e[1],i=hR(g,bK(c,a,d,e)),j=g[4],k=bK(c,a,d,e),m=Z(function(b,a){return[2,b,a]},k,j),f=Z(function(b,a){return[3,b,a]},m,i);return[0,my(l,f,ap([5,[0,b,b],C],eE(ga(c,a,f$(e)),f)))]},k),O=w(function(b){if(0===b[0]){var
+f=bK(c,a,d,b),e=lc(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bK(c,a,d,b);return[0,ly(b[1],h),0]},k),P=function(b){var
+e=ga(c,a,b);return Z(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
+e=bK(c,a,d,g);if(0===g[0]){var
+b=g[1];if(0===b[0]){var
+i=b[4],j=b[3],k=b[2],h=b[1],n=cE(h,k,j,i,e),m=c6(b[5],n),o=ap(m,aD(h)),p=eC(h,k,j,e);return[0,[0,mz(l,Z(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
+f=g[1],q=f[6],r=fV(f,e),s=hR(f,e),t=f[4],u=Z(function(b,a){return[2,b,a]},e,t);return[0,[0,mz(l,Z(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
+f=bK(c,a,d,b);return[0,hD(b[1],f)]}var
+e=b[1],g=lA(e,bK(c,a,d,b));return[1,lz(e,bK(c,a,d,b)),g]},k),T=[0,e(function(e){if(0===e[0])var
+o=bK(c,a,d,e),g=b0(e[1],o);else
+var
+h=bK(c,a,d,e),f=e[1],i=hR(f,h),j=f[4],k=Z(function(b,a){return[2,b,a]},h,j),m=Z(function(b,a){return[3,b,a]},k,i),n=fV(f,h),g=ap([5,[0,b,b],[4,f[5],n]],m);return my(l,g,ap([5,[0,b,b],C],eE(ga(c,a,f$(e)),g)))},k),S,R,Q,P,O,N];return hJ(o,s7,bb(f[1]),T,U,Y)}return p}var
+L=m}else
+var
+L=u;return L}function
+nU(G,a0,aC,aB,F,aA,k){var
+l=iw(G,a0,aC,aB);if(F){var
+I=F[2];if(I){var
+J=I[2];if(J){if(J[2])return 0;var
+aD=nF(G,e(j,aA));if(aD[2])return 0;var
+N=l[3];if(typeof
+k==="number")var
+a=0===k?yK:yL;else
+switch(k[0]){case
 0:var
-c=h[2],m=h[1],H=x(yb,M(as,m)),J=0;if(H){var
-T=H[1];if(T){var
-U=T[1];if(U)if(U[1])var
+O=k[2],p=k[1],aa=E(N,p);if(aa){var
+aK=0,ab=aa[1];if(typeof
+ab==="number"||!(13===ab[0]))aK=1;else
+var
+Q=l[1],$=gw(Q),f=e(function(a){var
+f=h(Q);if(r(h(a),f)){var
+g=ar(Q,a);return e(function(a){var
+e=a[2],f=H(d,$),g=2===a[1][0]?1:0;return ca(g,f)?z(e,fq(c(2,b),cV($))):e},g)}return a},O);if(aK)var
+f=O}else
+var
+f=O;var
+aY=E(N,p),aZ=l[1],P=x(function(b){if(typeof
+b!=="number")switch(b[0]){case
+5:return yI;case
+12:var
+a=E(aZ,b[1]);if(a){if(2===a[1][0])return yJ;var
+c=0}else
+var
+c=a;return c;case
+2:case
+3:case
+4:case
+6:case
+7:case
+11:return 0}return yH},aY),S=0;if(P){var
+ac=P[1];if(ac){var
+ad=ac[1];if(ad)if(ad[1])var
 a=0;else{var
-K=0;if(c){var
-n=c[1],L=0;if(n){var
-p=n[2],N=0;if(p){var
-q=p[2],O=0;if(q)if(q[2]){var
-a=0;K=1;L=1;N=1;O=1}else{var
-r=c[2],az=0;if(r){var
-s=r[1],aA=0;if(s){var
-t=s[2],aB=0;if(t){var
-u=t[2],aC=0;if(u)if(u[2]||r[2]){var
-a=0;K=1;L=1;N=1;O=1;az=1;aA=1;aB=1;aC=1}else
+T=0;if(f){var
+q=f[1],U=0;if(q){var
+s=q[2],V=0;if(s){var
+t=s[2],W=0;if(t)if(t[2]){var
+a=0;T=1;U=1;V=1;W=1}else{var
+u=f[2],aL=0;if(u){var
+v=u[1],aM=0;if(v){var
+y=v[2],aN=0;if(y){var
+A=y[2],aO=0;if(A)if(A[2]||u[2]){var
+a=0;T=1;U=1;V=1;W=1;aL=1;aM=1;aN=1;aO=1}else
 var
-V=[0,[0,m,[0,[0,n[1],p[1]],q[1]],[0,[0,s[1],t[1]],u[1]]]];else
+ae=[0,[0,p,[0,[0,q[1],s[1]],t[1]],[0,[0,v[1],y[1]],A[1]]]];else
 var
-V=u;if(!aC)var
-W=V}else
-var
-W=t;if(!aB)var
-X=W}else
-var
-X=s;if(!aA)var
-Y=X}else
-var
-Y=r;if(!az)var
-Z=Y}else
-var
-Z=q;if(!O)var
-_=Z}else
-var
-_=p;if(!N)var
-$=_}else
-var
-$=n;if(!L)var
-aa=$}else
-var
-aa=c;if(!K)var
-a=aa}else{var
-aD=0;if(c){var
-v=c[1],aE=0;if(v){var
-y=v[2],aF=0;if(y){var
-z=y[2],aG=0;if(z)if(z[2]||c[2]){var
-a=0;aD=1;aE=1;aF=1;aG=1}else
-var
-ab=z[1],ac=y[1],ad=v[1],ae=[0,[0,m,[0,[0,ad,ac],ab],[0,[0,ad,ac],ab]]];else
-var
-ae=z;if(!aG)var
+ae=A;if(!aO)var
 af=ae}else
 var
-af=y;if(!aF)var
+af=y;if(!aN)var
 ag=af}else
 var
-ag=v;if(!aE)var
+ag=v;if(!aM)var
 ah=ag}else
 var
-ah=c;if(!aD)var
-a=ah}}else
-if(c)var
+ah=u;if(!aL)var
+ai=ah}else
+var
+ai=t;if(!W)var
+ak=ai}else
+var
+ak=s;if(!V)var
+al=ak}else
+var
+al=q;if(!U)var
+am=al}else
+var
+am=f;if(!T)var
+a=am}else{var
+aP=0;if(f){var
+B=f[1],aQ=0;if(B){var
+C=B[2],aR=0;if(C){var
+D=C[2],aS=0;if(D)if(D[2]||f[2]){var
+a=0;aP=1;aQ=1;aR=1;aS=1}else
+var
+an=D[1],ao=C[1],ap=B[1],aq=[0,[0,p,[0,[0,ap,ao],an],[0,[0,ap,ao],an]]];else
+var
+aq=D;if(!aS)var
+as=aq}else
+var
+as=C;if(!aR)var
+at=as}else
+var
+at=B;if(!aQ)var
+au=at}else
+var
+au=f;if(!aP)var
+a=au}}else
+if(f)var
 a=0;else{var
-ai=[0,[0,d,d],d],aj=[0,[0,m,ai,ai]];J=1}}else{var
-aj=H;J=1}if(J)var
-a=aj;break;case
+av=[0,[0,d,d],d],aw=[0,[0,p,av,av]];S=1}}else{var
+aw=P;S=1}if(S)var
+a=aw;break;case
 1:var
-ak=h[1],I=M(as,ak),P=0;if(I){var
-aH=0,am=I[1];if(typeof
-am!=="number"&&1===am[0]){var
-a=[0,[1,ak,h[2]]];aH=1}if(!aH){var
-an=0;P=1}}else{var
-an=I;P=1}if(P)var
-a=an;break;default:var
+ax=k[1],R=E(N,ax),X=0;if(R){var
+aT=0,ay=R[1];if(typeof
+ay!=="number"&&1===ay[0]){var
+a=[0,[1,ax,k[2]]];aT=1}if(!aT){var
+az=0;X=1}}else{var
+az=R;X=1}if(X)var
+a=az;break;default:var
 a=0}if(a){var
-at=iw(w(no,B),ao),au=at?iv(B,aq,ap,l):at;if(au){var
-f=a[1],aN=k(D[1]),aO=k(C[1]),i=[0,k(A[1]),aO,aN],j=ar[1],Q=kZ(o,l,j,i);if(Q)if(typeof
-f==="number")return 0===f?al(function(c){var
-a=k0(c,i);return a?g(o,0,[3,[0,d,b],a[1]]):a},j):ka(rq,e(function(b){var
-a=ey(b,i);return[0,a[1],[0,a[2],[0,a[3],0]]]},j));else{if(0===f[0]){var
-E=M(l[3],f[1]);if(E){var
-aI=E[1],aJ=k1(f[3]);return k6(o,j,i,k1(f[2]),aJ,aI)}return E}var
-F=M(l[3],f[1]);if(F){var
-G=M(j,f[2]);if(G){var
-R=G[1],aK=F[1],aL=c2(R,i);return k6(o,j,i,c2(R,i),aL,aK)}var
-S=G}else
+aE=gA(w(nI,G),aA),aF=aE?iJ(G,aC,aB,l):aE;if(aF){var
+i=a[1],a1=j(J[1]),a2=j(I[1]),m=[0,j(F[1]),a2,a1],n=aD[1],Y=lb(o,l,n,m);if(Y)if(typeof
+i==="number")return 0===i?aj(function(c){var
+a=lc(c,m);return a?g(o,0,[3,[0,d,b],a[1]]):a},n):ko(rL,e(function(b){var
+a=cj(b,m);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else{if(0===i[0]){var
+K=E(l[3],i[1]);if(K){var
+aU=K[1],aV=le(i[3]);return ll(o,n,m,le(i[2]),aV,aU)}return K}var
+L=E(l[3],i[1]);if(L){var
+M=E(n,i[2]);if(M){var
+Z=M[1],aW=L[1],aX=b0(Z,m);return ll(o,n,m,b0(Z,m),aX,aW)}var
+_=M}else
 var
-S=F;return S}return Q}var
-av=au}else
+_=L;return _}return Y}var
+aG=aF}else
 var
-av=a;var
-aw=av}else
+aG=a;var
+aH=aG}else
 var
-aw=D;var
-ax=aw}else
+aH=J;var
+aI=aH}else
 var
-ax=C;var
-ay=ax}else
+aI=I;var
+aJ=aI}else
 var
-ay=A;return ay}function
-nA(m,l,b,k,z,y){var
+aJ=F;return aJ}function
+nV(m,l,b,k,z,y){var
 f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=M(f,g),n=h?by(h[1][2],yJ):h;if(n)var
-A=d[2],i=nA(m,l,b,k,io(0,g,f),A);else
+g=d[1],h=E(f,g),n=h?bd(h[1][2],zc):h;if(n)var
+A=d[2],i=nV(m,l,b,k,iE(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=io(1,g,f),d=B;continue}return i}var
-c=d[1],a=nf(0,m,f),o=e(function(b){function
-d(b){return ng(a,b)}function
-c(a){return il(d,a)}switch(b[0]){case
+B=d[3],f=iE(1,g,f),d=B;continue}return i}var
+c=d[1],a=ny(0,m,f),o=e(function(b){function
+d(b){return nz(a,b)}function
+c(a){return iC(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=ng(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=nz(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=il(function(b){return an(a,b)},q),s=b[1],j=[0,il(function(b){return an(a,b)},s),r];else
+q=b[2],r=iC(function(b){return ao(a,b)},q),s=b[1],j=[0,iC(function(b){return ao(a,b)},s),r];else
 var
-t=an(a,b[5]),u=an(a,b[4]),v=an(a,b[3]),w=an(a,b[2]),j=[1,an(a,b[1]),w,v,u,t];var
+t=ao(a,b[5]),u=ao(a,b[4]),v=ao(a,b[3]),w=ao(a,b[2]),j=[1,ao(a,b[1]),w,v,u,t];var
 p=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,an(a,c[1])];break;case
+d=[0,ao(a,c[1])];break;case
 1:var
-d=[1,an(a,c[1])];break;default:var
-m=an(a,c[2]),d=[2,an(a,c[1]),m]}var
+d=[1,ao(a,c[1])];break;default:var
+m=ao(a,c[2]),d=[2,ao(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,an(a,b[1])]];break;case
+f=[0,[0,ao(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return an(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return ao(a,b)},j)]];break;case
 2:var
-k=an(a,b[2]),f=[0,[2,an(a,b[1]),k]];break;default:var
-l=an(a,b[2]),f=[0,[3,an(a,b[1]),l]]}var
+k=ao(a,b[2]),f=[0,[2,ao(a,b[1]),k]];break;default:var
+l=ao(a,b[2]),f=[0,[3,ao(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return nx(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],E=e(function(b){return an(a,b)},D),F=c[2];return nz(o,j,0,p,e(function(b){return an(a,b)},F),E,C)}}}function
-nB(h,g){var
-a=cv(k(h));if(a){var
-c=a[1],e=cQ([0,d,b],c);if(e)return cQ(c,g);var
+1:return nR(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],F=e(function(b){return ao(a,b)},D),G=c[2];return nU(o,j,0,p,e(function(b){return ao(a,b)},G),F,C)}}}function
+nW(h,g){var
+a=cx(j(h));if(a){var
+c=a[1],e=cX([0,d,b],c);if(e)return cX(c,g);var
 f=e}else
 var
 f=a;return f}function
-yP(q){var
-d5=gg(q[3]),d6=d5?gg(q[4]):d5;if(d6){var
-O=q[1];switch(O[0]){case
+zi(p){var
+di=gn(p[3]),dk=di?gn(p[4]):di;if(dk){var
+K=p[1];switch(K[0]){case
 3:var
-ea=n(eN,O[1]);if(ea)var
-hl=O[2],bU=n(function(a){return eN(a[1])},hl);else
+dr=n(eS,K[1]);if(dr)var
+gO=K[2],bC=n(function(a){return eS(a[1])},gO);else
 var
-bU=ea;if(bU)var
-hm=O[3],bW=n(function(a){var
-b=eN(a[1]),c=b?ic(a[2]):b;return c?eO(a[2]):c},hm);else
+bC=dr;if(bC)var
+gP=K[3],bD=n(function(a){var
+b=eS(a[1]),c=b?it(a[2]):b;return c?eT(a[2]):c},gP);else
 var
-bW=bU;if(bW)var
-hn=O[4],aS=n(function(a){var
+bD=bC;if(bD)var
+gQ=K[4],aM=n(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=ic(a);return b?eO(a):b},b)},hn);else
+b=it(a);return b?eT(a):b},b)},gQ);else
 var
-aS=bW;break;case
+aM=bD;break;case
 7:var
-ho=O[1],eb=n(function(a){var
-b=eN(a[1]);return b?eP(0,[0,a[2][1],[0,a[2][2],0]]):b},ho),aS=eb?eP(0,[0,O[5],[0,O[6],0]]):eb;break;default:var
-aS=1}var
-bS=aS}else
+gR=K[1],ds=n(function(a){var
+b=eS(a[1]);return b?eU(0,[0,a[2][1],[0,a[2][2],0]]):b},gR),aM=ds?eU(0,[0,K[5],[0,K[6],0]]):ds;break;default:var
+aM=1}var
+bA=aM}else
 var
-bS=d6;var
-cF=0;if(bS){var
-d7=q[1],bT=7===d7[0]?e(aB,d7[1]):0,d8=function(c,b){var
-a=m3(c);return a?n(function(a){var
+bA=dk;var
+b$=0;if(bA){var
+dl=p[1],bB=7===dl[0]?e(aB,dl[1]):0,dm=function(c,b){var
+a=nh(c);return a?n(function(a){var
 e=a[1],b=n(function(c){var
 a=c[2];for(;;)switch(a[0]){case
 8:var
-b=gg(a[2]);if(b){var
+b=gn(a[2]);if(b){var
 a=a[1];continue}return b;case
 0:case
-1:return gg(a[1]);case
+1:return gn(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eP(bT,m2(c[1]));var
+c=a[3];if(c)return eU(bB,ng(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},d9=function(e,d,c,b){var
-a=m3(e);return a?eP(bT,f(d,f(c,m2(b)))):a},l=q[1];switch(l[0]){case
+d=b;return d},b):a},dn=function(e,d,c,b){var
+a=nh(e);return a?eU(bB,f(d,f(c,ng(b)))):a},l=p[1];switch(l[0]){case
 0:var
-gW=w(da,l[4]),gX=f(w(m0,l[3]),gW),gY=f(mY(l[2]),gX),S=f(w(id,l[1]),gY);break;case
+ge=w(dd,l[4]),gf=f(w(ne,l[3]),ge),gi=f(nc(l[2]),gf),L=f(w(iu,l[1]),gi);break;case
 1:var
-bO=l[5],bP=l[3],gZ=w(da,l[6]),g0=bO?mZ(bO[1]):bO,g1=f(g0,gZ),g2=f(mX(l[4]),g1),g3=bP?[0,bP[1],0]:bP,g4=f(g3,g2),S=f(w(xp,l[2]),g4);break;case
+bx=l[5],by=l[3],gj=w(dd,l[6]),gk=bx?nd(bx[1]):bx,gl=f(gk,gj),gm=f(nb(l[4]),gl),go=by?[0,by[1],0]:by,gp=f(go,gm),L=f(w(xV,l[2]),gp);break;case
 2:var
-g5=w(da,l[7]),g6=f(w(m0,l[6]),g5),g7=f(mZ(l[5]),g6),g8=f(mX(l[4]),g7),g9=[0,l[3],g8],g_=l[2],S=f(w(function(a){return w(dT,f(a[1],a[2]))},g_),g9);break;case
+gq=w(dd,l[7]),gr=f(w(ne,l[6]),gq),gs=f(nd(l[5]),gr),gt=f(nb(l[4]),gs),gx=[0,l[3],gt],gB=l[2],L=f(w(function(a){return w(dZ,f(a[1],a[2]))},gB),gx);break;case
 3:var
-g$=w(da,l[7]),ha=f(l[6],g$),hb=f(l[5],ha),hc=l[2],S=f(w(function(a){return dT(a[2])},hc),hb);break;case
+gC=w(dd,l[7]),gD=f(l[6],gC),gE=f(l[5],gD),gF=l[2],L=f(w(function(a){return dZ(a[2])},gF),gE);break;case
 4:var
-hd=w(da,l[3]),S=[0,l[1],[0,l[2],hd]];break;case
+gG=w(dd,l[3]),L=[0,l[1],[0,l[2],gG]];break;case
 5:var
-he=w(da,l[4]),hf=f(bK(l[3]),he),hg=f(bK(l[2]),hf),hh=f(w(id,l[1]),hg),S=[0,l[5],hh];break;case
+gH=w(dd,l[4]),gI=f(bM(l[3]),gH),gJ=f(bM(l[2]),gI),gK=f(w(iu,l[1]),gJ),L=[0,l[5],gK];break;case
 6:var
-bQ=l[1],S=bQ?dT(bQ[1]):bQ;break;default:var
-hi=w(da,l[4]),hj=f(mY(l[3]),hi),S=f(w(id,l[2]),hj)}var
-d_=eP(bT,S);if(d_){var
-U=q[2];switch(U[0]){case
+bz=l[1],L=bz?dZ(bz[1]):bz;break;default:var
+gL=w(dd,l[4]),gM=f(nc(l[3]),gL),L=f(w(iu,l[2]),gM)}var
+dp=eU(bB,L);if(dp){var
+N=p[2];switch(N[0]){case
 0:var
-aC=d8(U[1],U[3]);break;case
+aC=dm(N[1],N[3]);break;case
 1:var
-aC=d9(U[1],U[2],U[3],U[4]);break;default:var
-hk=U[1],aC=n(function(a){if(typeof
+aC=dn(N[1],N[2],N[3],N[4]);break;default:var
+gN=N[1],aC=n(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return d8(a[1],a[3]);case
-2:return d9(a[1],a[2],a[3],a[4])}return 1},hk)}}else{var
-d$=d_;cF=1}}else{var
-d$=bS;cF=1}if(cF)var
-aC=d$;if(aC){var
-a=q[1];switch(a[0]){case
+1:return dm(a[1],a[3]);case
+2:return dn(a[1],a[2],a[3],a[4])}return 1},gN)}}else{var
+dq=dp;b$=1}}else{var
+dq=bA;b$=1}if(b$)var
+aC=dq;if(aC){var
+a=p[1];switch(a[0]){case
 0:var
-eM=a[4],eQ=a[3],eS=a[2],eT=a[1],aa=q[2];switch(aa[0]){case
-0:return nx(0,eT,eS,eQ,eM,aa[1],aa[2],aa[3]);case
-1:return nz(eT,eS,eQ,eM,aa[2],aa[3],aa[4]);default:return 0}case
+dL=a[4],dM=a[3],dN=a[2],dO=a[1],Y=p[2];switch(Y[0]){case
+0:return nR(0,dO,dN,dM,dL,Y[1],Y[2],Y[3]);case
+1:return nU(dO,dN,dM,dL,Y[2],Y[3],Y[4]);default:return 0}case
 1:var
-cb=a[6],cc=a[5],cd=a[4],ce=a[3],aE=a[2],ad=a[1],an=q[2];switch(an[0]){case
-0:return ny(ad,aE,ce,cd,cc,cb,an[1],an[3]);case
-1:var
-eU=an[3],hT=an[4],hU=an[2],ek=typeof
-ad==="number"?ad?yH:yI:iu(ad[1]),b8=e(k,hU),el=nn(aE,e(k,eU));if(el[2])return 0;var
-b9=ir(hT);if(b9){var
-em=iw(w(nt,aE),eU),en=em?nu(ad,aE,ce,cd,cc,cb):em;if(en)var
-hI=a$(ad),b_=s(h(b8),hI);else
-var
-b_=en;if(b_){var
-hJ=b9[1],t=bR(ek,b8),F=a3(bj(ek,b8)),am=el[1],Y=na(ad,aE,ce,cd,cc,cb),cY=mk(o,Y[2],am);if(cY){var
-cU=cZ(o,Y[4],F),cG=0;if(cU){var
-cV=Y[5];if(cV)var
-ba=fS(o,cV[1],t);else
-if(t)var
-ba=0;else{var
-cX=1;cG=1}}else{var
-cX=cU;cG=1}if(cG)var
-ba=cX;var
-bb=ba}else
-var
-bb=cY;if(bb){var
-A=Y[5],c3=Y[3],aL=Y[1],fU=Y[6],fM=e(function(a){if(0===a[0]){var
-d=ch(A,t,F,a),c=ey(a[1],d);return[0,mi(aL,c,aw([5,[0,b,b],c3],eA(hW(A,t,f7(a)),c)))]}return 0},am),fN=w(function(a){if(0===a[0]){var
-c=ch(A,t,F,a),b=k0(a[1],c),d=b?[0,b[1],0]:b;return d}var
-e=ch(A,t,F,a);return[0,lh(a[1],e),0]},am),fO=e(function(d){var
-b=ch(A,t,F,d);if(0===d[0]){var
-a=d[1];if(0===a[0]){var
-f=a[4],g=a[3],h=a[2],e=a[1],j=c0(e,h,g,f,b),i=c1(a[5],j),k=aw(i,aD(e)),l=ex(e,h,g,b);return[0,[0,mj(aL,ai(function(b,a){return[2,b,a]},l,k)),i,f]]}return 0}var
-c=d[1],m=c[6],n=fQ(c,b),o=lk(c,b),p=c[4],q=ai(function(b,a){return[2,b,a]},b,p);return[0,[0,mj(aL,ai(function(b,a){return[3,b,a]},q,o)),n,m]]},am),fP=e(function(a){if(0===a[0]){var
-c=ch(A,t,F,a);return[0,ht(a[1],c)]}var
-b=a[1],d=lj(b,ch(A,t,F,a));return[1,li(b,ch(A,t,F,a)),d]},am),fT=[0,e(function(a){if(0===a[0])var
-k=ch(A,t,F,a),d=c2(a[1],k);else
-var
-e=ch(A,t,F,a),c=a[1],f=lk(c,e),g=c[4],h=ai(function(b,a){return[2,b,a]},e,g),i=ai(function(b,a){return[3,b,a]},h,f),j=fQ(c,e),d=aw([5,[0,b,b],[4,c[5],j]],i);return mi(aL,d,aw([5,[0,b,b],c3],eA(hW(A,t,f7(a)),d)))},am),fP,fO,fN,fM];return le(o,a$(Y[1]),fT,fU,hJ)}return bb}var
-eo=b_}else
-var
-eo=b9;return eo;default:return 0}case
+dQ=a[6],dR=a[5],dS=a[4],dT=a[3],dU=a[2],dX=a[1],ah=p[2];switch(ah[0]){case
+0:return nS(dX,dU,dT,dS,dR,dQ,ah[1],ah[3]);case
+1:return nT(dX,dU,dT,dS,dR,dQ,ah[2],ah[3],ah[4]);default:return 0}case
 2:var
-aF=a[7],aH=a[6],aX=a[5],aY=a[4],aZ=a[3],af=a[2],ao=a[1],ag=q[2];switch(ag[0]){case
+ai=a[7],al=a[6],aR=a[5],aS=a[4],aT=a[3],P=a[2],Q=a[1],$=p[2];switch($[0]){case
 0:var
-cf=ag[3],ah=m_(ao,af,aZ,aY,aX,aH,aF),hV=ah[2],eV=D(b,bH(w(function(a){var
-b=a9(a[2]);return f(a9(a[1]),b)},hV))),hX=h(cf),cg=dd(me(eV,ah[2]),hX,cf);if(cg){var
-eW=cg[1];if(eW[2])return 0;var
-eX=ns(ao,af,aZ,aY,aX,aH,aF),eY=eX?gq(bZ(ao),cf):eX;if(eY){var
-hY=eW[1],hZ=nw(h(af),aH,aF),h1=ix(ag[2]),h2=ag[1],fG=ah[2],cT=n(function(a){var
-b=mh(o,a[1]);return b?mh(o,a[2]):b},fG);if(cT)var
-fH=hv(ah[4]),a8=cZ(o,ah[4],fH);else
+bO=$[3],aa=np(Q,P,aT,aS,aR,al,ai),g4=aa[2],dY=G(b,bI(w(function(a){var
+b=a$(a[2]);return f(a$(a[1]),b)},g4))),g5=h(bO),bP=dh(mu(dY,aa[2]),g5,bO);if(bP){var
+d0=bP[1];if(d0[2])return 0;var
+d2=nM(Q,P,aT,aS,aR,al,ai),d3=d2?gy(b1(Q),bO):d2;if(d3){var
+g6=d0[1],g7=h(P),g8=iK(0,iL(Q),g7,al,ai),g9=iM($[2]),g_=$[1],e8=aa[2],cf=n(function(a){var
+b=mx(o,a[1]);return b?mx(o,a[2]):b},e8);if(cf)var
+e9=hF(aa[4]),a2=c5(o,aa[4],e9);else
 var
-a8=cT;if(a8)var
-fJ=f1(ah[5]),a_=n(function(a){return eH(o,a)},fJ);else
+a2=cf;if(a2)var
+e_=f4(aa[5]),a4=n(function(a){return eL(o,a)},e_);else
 var
-a_=a8;return a_?sB(h2,h1,hZ,ah,eV,hY):a_}var
-eZ=eY}else
+a4=a2;return a4?s4(g_,g9,g8,aa,dY,g6):a4}var
+d4=d3}else
 var
-eZ=cg;return eZ;case
+d4=bP;return d4;case
 1:var
-a0=ag[4],e0=ag[3],a2=e(k,ag[2]),ap=iu(ao),e1=nm(af,e(k,e0));if(e1[2])return 0;var
-J=e1[1],e2=iw(w(function(a){return f(a[1],a[2])},af),e0),e3=e2?ns(ao,af,aZ,aY,aX,aH,aF):e2;if(e3){var
-p=m_(ao,af,aZ,aY,aX,aH,aF);if(typeof
-a0!=="number"&&2===a0[0]){var
-e5=e(k,a0[1]),e6=bR(ap,e5),e7=a3(bj(ap,e5)),e8=bR(ap,a2),e9=a3(bj(ap,a2)),dE=lv(o,p[2],J);if(dE)var
-gB=bZ(p[1]),bz=s(h(J),gB);else
+aU=$[4],d5=$[3],aV=e(j,$[2]),am=iI(Q),d6=nG(P,e(j,d5));if(d6[2])return 0;var
+y=d6[1],d7=gA(w(function(a){return f(a[1],a[2])},P),d5),d8=d7?nM(Q,P,aT,aS,aR,al,ai):d7;if(d8){var
+m=np(Q,P,aT,aS,aR,al,ai);if(typeof
+aU!=="number"&&2===aU[0]){var
+d_=e(j,aU[1]),d$=bT(am,d_),ea=a5(bn(am,d_)),eb=bT(am,aV),ec=a5(bn(am,aV)),cR=lL(o,m[2],y);if(cR)var
+fP=b1(m[1]),bo=r(h(y),fP);else
 var
-bz=dE;var
-dF=bz?cZ(o,p[4],e9):bz,dG=dF?cZ(o,p[4],e7):dF,dH=dG?fS(o,p[5],e8):dG,dI=dH?fS(o,p[5],e6):dH;if(dI){var
-dJ=p[1],gC=p[5],gD=p[3],dv=function(g,f){var
-h=e(function(a){return lu(dJ,gD,gC,f,g,a)},J),i=bZ(dJ),a=mE(o,h);function
+bo=cR;var
+cS=bo?c5(o,m[4],ec):bo,cT=cS?c5(o,m[4],ea):cS,cU=cT?fW(o,m[5],eb):cT,cV=cU?fW(o,m[5],d$):cU;if(cV){var
+cW=m[1],fS=m[5],fT=m[3],cI=function(g,f){var
+h=e(function(a){return lK(cW,fT,fS,f,g,a)},y),i=b1(cW),a=mU(o,h);function
 c(a,b){return v(o,a,b)}var
-d=Q(o,b);return x(function(a){return mC(B,d,E,c,i,a)},a)},bw=dv(e9,e8);if(bw){var
-dw=bw[1],by=dv(e7,e6);if(by){var
-dx=by[1],dy=K(d,dw[1]),dz=dy?K(dx[2],d):dy;if(dz)var
-dA=dz;else{var
-dD=K(dw[2],d);if(dD)return K(d,dx[1]);var
-dA=dD}var
-dB=dA}else
+d=R(o,b);return x(function(a){return mS(B,d,C,c,i,a)},a)},bk=cI(ec,eb);if(bk){var
+cJ=bk[1],bl=cI(ea,d$);if(bl){var
+cK=bl[1],cL=M(d,cJ[1]),cM=cL?M(cK[2],d):cL;if(cM)var
+cN=cM;else{var
+cQ=M(cJ[2],d);if(cQ)return M(d,cK[1]);var
+cN=cQ}var
+cO=cN}else
 var
-dB=by;var
-dC=dB}else
+cO=bl;var
+cP=cO}else
 var
-dC=bw;return dC}return dI}var
-ci=ir(a0);if(ci){var
-h4=ci[1],ar=bR(ap,a2),aI=a3(bj(ap,a2)),cM=lv(o,p[2],J),cN=cM?cZ(o,p[4],aI):cM,cO=cN?fS(o,p[5],ar):cN;if(cO){var
-ax=p[5],cP=p[3],cS=p[1],fF=p[6],cL=function(a){var
-b=fV(ax,ar,aI,a);return T(fV(ax,ar,aI,a),b)},fA=e(function(a){return[0,lu(cS,cP,ax,ar,aI,a)]},J),fB=e(cL,J),fC=e(function(a){return 0},J),fD=e(function(a){return[0,[6,cL(a)]]},J),fE=[0,e(function(c){var
-a=aD(fV(ax,ar,aI,c));return hG(cS,a,aw([5,[0,b,b],cP],eA(fR(ax,ar,c[2]),a)))},J),fD,fC,fB,fA];return le(o,bZ(p[1]),fE,fF,h4)}return cO}var
-e4=ci}else
+cP=bk;return cP}return cV}var
+g$=h(P),bQ=gz(0,iL(Q),g$,al,ai,aU);if(bQ){var
+ha=bQ[1],A=bT(am,aV),S=a5(bn(am,aV)),ca=lL(o,m[2],y),cb=ca?c5(o,m[4],S):ca,cc=cb?fW(o,m[5],A):cb;if(cc){var
+I=m[5],cd=m[3],ce=m[1],e5=m[6],a1=function(a){var
+b=eH(I,A,S,a);return F(eH(I,A,S,a),b)},eY=e(function(a){return[0,lK(ce,cd,I,A,S,a)]},y),eZ=e(a1,y),e0=function(a){var
+b=dP(I,A,a);return Z(function(b,a){return[2,b,a]},S,b)},e1=e(function(a){var
+b=[6,a1(a)],c=eH(I,A,S,a),d=dP(I,A,a[2]);return[0,[0,[0,Z(function(b,a){return[2,b,a]},S,d),c],b]]},y),e2=e(function(a){return 0},y),e3=e(function(a){return[0,[6,a1(a)]]},y),e4=[0,e(function(c){var
+a=aD(eH(I,A,S,c));return hV(ce,a,ap([5,[0,b,b],cd],eE(dP(I,A,c[2]),a)))},y),e3,e2,e1,e0,eZ,eY],e6=b1(m[1]),e7=2<=m[1]?rX:rY;return hJ(o,e7,e6,e4,e5,ha)}return cc}var
+d9=bQ}else
 var
-e4=e3;return e4;default:return 0}case
+d9=d8;return d9;default:return 0}case
 3:var
-au=a[7],e_=a[6],e$=a[5],Z=a[4],fa=a[2],cj=a[1],a4=q[2];if(0===a4[0]){var
-ck=a4[3],cl=dd(0,h(ck),ck);if(cl){var
-fb=cl[1];if(fb[2])return 0;var
-hE=h(cj),hH=h(e_),eg=s(h(e$),hH),eh=eg?n(function(a){var
-b=aN(hE,h(Z),a);if(b){var
-c=a[1];if(1===c){var
-d=a[2],e=d?[0,bx(d[1]),0]:aG(0,h(Z));return n(function(b){var
-a=M(Z,b);return a?0===a[1][0]?0:1:a},e)}return 11===c?n(function(a){return 0===a[0]?0:1},Z):1}return b},au):eg,ei=eh?gp(au):eh,ej=ei?n(function(a){return eR(a[2])},fa):ei,fc=ej?n(it,dV(0,h(Z),0,au)):ej,fd=fc?gq(h(cj),ck):fc;if(fd){var
-h5=fb[1],h6=a[3],ec=al(gi,au),aT=dV(0,h(Z),0,au),hr=at(e$,e_),b0=e(function(a){var
-b=k(a[2]);return[0,k(a[1]),b]},hr),hu=e(function(a){return 0===a[0]?[0,e(cH,a[1])]:[1,cH(a[1])]},Z),hw=e(function(a){var
-b=cH(a[2]);return[0,a[1],b]},h6),m=[0,cj,e(function(a){var
-b=bL(a[2]);return[0,a[1],b]},fa),hw,hu],h7=nw(h(Z),0,au),fe=ix(a4[2]),aJ=a4[1],gy=e(aB,m[2]),br=f(m[1],gy),bs=h(m[1]),dn=V(sY,bs),dp=dn?V(bs,sZ):dn,dq=dp?V(bs,h(m[4])):dp,dr=dq?V(h(m[4]),s0):dq,ds=dr?mA(br):dr;if(ds){var
-aQ=br,aP=m[3];for(;;){if(aP){var
-dj=aP[1],dk=dj[1],dl=ac(al(function(b){return function(a){return as(b,a)}}(dk),aQ)),dm=dl?h3(aQ,dj[2]):dl;if(dm){var
-aQ=[0,dk,aQ],aP=aP[2];continue}var
-dt=dm}else
-var
-dt=1;var
-bt=dt;break}}else
-var
-bt=ds;if(bt)var
-gz=m[4],bu=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0],c=f(e(aB,m[3]),br);return n(function(a){return h3(c,a)},b)},gz);else
-var
-bu=bt;if(bu)var
-gA=m[2],bv=n(function(a){return bl(o,a[2][1],a[2][2])},gA);else
-var
-bv=bu;var
-du=bv?n(function(a){return bl(o,a[1],a[2])},b0):bv;if(du){var
-bd=h(m[1]),be=h(m[2]),c6=P(be,h(h0(e(bg,m[3])))),fZ=m[3],ay=mz(m),aM=fZ,bc=be;for(;;){if(aM){var
-c4=aM[1],c5=c4[2],fW=P(bc,h(bJ(c5))),fX=aM[2],fY=bn(ay,c5,bc),ay=[0,[0,c4[1],fY],ay],aM=fX,bc=fW;continue}var
-$=mw(bd,ay,m[4],c6),f0=mv(ay,m[4],c6),f2=m[3],c7=f(ms(mz(m),f2,be),f0),c8=h(my(m)),f3=0,f4=f(c7,cA(function(a,b){return mp($,a,b)},f3,d,c8,aT)),f5=f(bF(eI($)),f4),c9=f(bF(dQ($)),f5),bf=ct(c9)[1],f6=cs(bf),ak=function(a){return a1(f6,a)},c_=s(h(b0),bd);if(c_)var
-f8=m[4],bh=n(function(a){return 0===a[0]?s(h(a[1]),bd):1},f8);else
-var
-bh=c_;var
-c$=bh?n(function(a){var
-b=j(d),c=cs(bf);return az(r(ak(a),c,b),a)},c9):bh,db=c$?al(mr,aT):c$;if(db){var
-dc=ac(ec);if(dc)var
-aO=dc;else
-var
-gx=m[4],aO=n(function(a){return 0===a[0]?0:1},gx)}else
-var
-aO=db;if(aO){var
-f9=my(m),bk=W(e(function(a){return aj(aJ,a)},f9));if(bk){var
-f_=0,gb=w(function(a){return eC(f_,d,a)},aT),bm=W(e(function(a){return hF(aJ,a)},gb));if(bm){var
-bo=W(e(function(a){return aj(aJ,[0,a,d])},b0));if(bo){var
-gc=0,gd=0,bp=W(cA(function(a,b){return mq(aJ,ak,$,gd,d,a,b)},gc,d,c8,aT));if(bp){var
-de=bp[1];if(ec)var
-ge=fe[2],gf=fe[1],gh=eI($),bq=k9(h7,de,[8,i(aq(ak),gh),gf,ge]);else
-var
-bq=de;var
-gk=hp(bq),gm=bo[1],gr=function(a){return 0},gs=f(bk[1],bm[1]),gt=e(ak,c7),gu=eI($),gv=i(aq(ak),gu),gw=dQ($);return fI(aJ,bf,i(aq(ak),gw),gv,gt,gs,bq,gr,gm,gk,h5)}var
-df=bp}else
-var
-df=bo;var
-dg=df}else
-var
-dg=bm;var
-dh=dg}else
-var
-dh=bk;var
-di=dh}else
-var
-di=aO;return di}}return du}var
-ff=fd}else
-var
-ff=cl;return ff}return 0;case
-4:var
-cm=q[2];if(0===cm[0]){var
-aK=a[3],G=a[2],cn=a[1],h8=cm[3],h9=cm[1],ez=dW(k(cn));if(ez){var
-aU=bi(nb,aK),cI=0;if(aU){var
-b1=aU[1];if(b1[2]||b1[3])var
-y=0;else{var
-aW=b1[4],X=aU[2],L=0;if(typeof
-aW!=="number")switch(aW[0]){case
+an=a[7],aW=a[6],aY=a[5],ao=a[4],ed=a[3],aq=a[2],aE=a[1],ab=p[2];switch(ab[0]){case
 0:var
-a6=0;if(X){var
-b2=X[1];if(b2[2]||b2[3]){var
-y=0;L=1;a6=1}else{var
-b3=b2[4],cJ=0;if(typeof
-b3!=="number"&&1===b3[0])if(X[2]){var
-y=0;L=1;a6=1;cJ=1}else{var
-y=[0,[0,aW[1],b3[1]]];L=1;a6=1;cJ=1}if(!cJ)var
-ee=0}}else
+bR=ab[3],bS=dh(0,h(bR),bR);if(bS){var
+ee=bS[1];if(ee[2])return 0;var
+ef=nP(aE,aq,ao,aY,aW,an),eg=ef?gy(h(aE),bR):ef;if(eg){var
+hb=ee[1],D=nn(aE,aq,ed,ao,aY,aW,an),hc=iK(0,zj,h(ao),0,an),eh=iM(ab[2]),aF=ab[1],cw=mO(D[1]);if(cw)var
+fz=D[1][2],be=n(function(a){return bf(o,a[2][1],a[2][2])},fz);else
 var
-ee=X;if(!a6){var
-y=ee;L=1}break;case
+be=cw;if(be)var
+fA=D[2],bg=n(function(a){return bf(o,a[1],a[2])},fA);else
+var
+bg=be;if(bg){var
+q=D[1],a6=h(q[1]),aI=D[3],a7=h(q[2]),cg=O(a7,h(eN(e(aQ,q[3])))),e$=q[3],ch=mI(gd(q),e$,a7),X=ig(a6,ch,q[4],cg),fa=id(ch,q[4],cg),fb=q[3],ci=f(ic(gd(q),fb,a7),fa),cj=h(mM(q)),fc=0,fd=f(ci,cG(function(a,b){return mF(X,a,b)},fc,d,cj,aI)),fe=f(bH(eM(X)),fd),ck=f(bH(dV(X)),fe),a8=cv(ck)[1],ff=cu(a8),ag=function(a){return a3(ff,a)},cl=r(h(D[2]),a6);if(cl)var
+fg=q[4],a9=n(function(a){return 0===a[0]?r(h(a[1]),a6):1},fg);else
+var
+a9=cl;var
+cm=a9?n(function(a){var
+b=k(d),c=cu(a8);return ay(s(ag(a),c,b),a)},ck):a9,cn=cm?aj(mH,aI):cm;if(cn){var
+co=_(D[4]);if(co)var
+aJ=co;else
+var
+fy=q[4],aJ=n(function(a){return 0===a[0]?0:1},fy)}else
+var
+aJ=cn;if(aJ){var
+fh=mM(q),a_=W(e(function(a){return ak(aF,a)},fh));if(a_){var
+fi=0,fj=w(function(a){return eG(fi,d,a)},aI),ba=W(e(function(a){return hU(aF,a)},fj));if(ba){var
+fk=D[2],bb=W(e(function(a){return ak(aF,[0,a,d])},fk));if(bb){var
+fl=0,fm=0,bc=W(cG(function(a,b){return mG(aF,ag,X,fm,d,a,b)},fl,d,cj,aI));if(bc){var
+cp=bc[1];if(D[4])var
+fn=eh[2],fo=eh[1],fp=eM(X),bd=lo(hc,cp,[8,i(at(ag),fp),fo,fn]);else
+var
+bd=cp;var
+fq=hz(bd),fr=bb[1],fs=function(a){return 0},ft=f(a_[1],ba[1]),fu=e(ag,ci),fv=eM(X),fw=i(at(ag),fv),fx=dV(X);return fO(aF,a8,i(at(ag),fx),fw,fu,ft,bd,fs,fr,fq,hb)}var
+cq=bc}else
+var
+cq=bb;var
+cr=cq}else
+var
+cr=ba;var
+cs=cr}else
+var
+cs=a_;var
+ct=cs}else
+var
+ct=aJ;return ct}return bg}var
+ei=eg}else
+var
+ei=bS;return ei;case
 1:var
-a7=0;if(X){var
-b4=X[1];if(b4[2]||b4[3]){var
-y=0;L=1;a7=1}else{var
-b5=b4[4],cK=0;if(typeof
-b5!=="number"&&0===b5[0])if(X[2]){var
-y=0;L=1;a7=1;cK=1}else{var
-y=[0,[0,b5[1],aW[1]]];L=1;a7=1;cK=1}if(!cK)var
-ef=0}}else
+ej=ab[3],aH=nn(aE,aq,ed,ao,aY,aW,an),hd=e(j,ej),ek=bi(e(aQ,aq),hd);if(ek[2])return 0;var
+he=ab[4],bU=gz(0,zk,h(ao),0,an,he);if(bU){var
+el=gA(e(aQ,aq),ej),em=el?nP(aE,aq,ao,aY,aW,an):el,en=em?mO(aH[1]):em;if(en)var
+hf=aH[2],bV=n(function(a){return bf(o,a[1],a[2])},hf);else
 var
-ef=X;if(!a7){var
-y=ef;L=1}break}if(!L){var
-ed=0;cI=1}}}else{var
-ed=aU;cI=1}if(cI)var
-y=ed;if(y){var
-eB=y[1],z=eB[2],eD=k(z),eE=k(eB[1]),dN=g(o,1,k(G)),dO=dN?g(o,1,[3,eD,[0,b,b]]):dN,dP=dO?g(o,1,eE):dO,eF=dP?g(o,0,[3,[5,[0,b,b],eD],eE]):dP;if(eF)var
-hM=0,hN=0,b$=n(function(a){return m8(hN,hM,yO,a)},aK);else
+bV=en;if(bV){var
+hg=bU[1],ad=e(j,ab[2]),eo=ek[1],t=aH[1],aK=h(t[1]),bh=h(t[2]),cz=O(bh,h(eN(e(aQ,t[3])))),fH=t[3],cB=mI(gd(t),fH,bh),av=ig(aK,cB,t[4],cz),fI=id(cB,t[4],cz),fJ=t[3],cC=f(ic(gd(t),fJ,bh),fI),fK=w(gb,t[4]),fL=f(eN(e(aQ,t[3])),fK),aw=f(eo,e(function(a){return a[1][1]},fL)),cD=mQ(o,e(aQ,t[2]),eo),cE=cD?mQ(o,aH[2],ad):cD,cF=cE?r(h(ad),aK):cE;if(cF)var
+fM=t[4],bj=n(function(a){return 0===a[0]?r(h(a[1]),aK):1},fM);else
 var
-b$=eF;var
-eG=b$?n(function(c){if(1===c[1]){var
+bj=cF;var
+cH=bj?n(mP,f(w(tt,av),cC)):bj;if(cH){var
+fN=aH[3],fB=e(function(a){var
+b=a[1];return[0,e(function(a){return dW(ad,aw,a)},b)]},av),fC=w(function(c){var
+a=c[1];switch(a[0]){case
+7:var
+b=dW(ad,aw,a[2]);return[0,[4,b,b],0];case
+9:return[0,dW(ad,aw,a[1]),0];default:return 0}},cC),fD=function(a){return a},fE=0,fF=e(function(a){return 0},av),fG=e(function(b){var
+a=b[4];if(typeof
+a!=="number"&&0===a[0])return[0,dW(ad,aw,a[1])];return 0},av);return hJ(o,tu,aK,[0,e(function(a){var
+b=a[3];return e(function(a){return dW(ad,aw,a)},b)},av),fG,fF,fE,fD,fC,fB],fN,hg)}return cH}var
+ep=bV}else
+var
+ep=bU;return ep;default:return 0}case
+4:var
+ae=a[3],ar=a[2],aZ=a[1],as=p[2];switch(as[0]){case
+0:var
+hh=as[3],hi=as[1],dx=dj(j(aZ));if(dx){var
+bF=ns(ae);if(bF){var
+dy=bF[1],az=dy[2],dz=j(az),dA=j(dy[1]),c2=g(o,1,j(ar)),c4=c2?g(o,1,[3,dz,[0,b,b]]):c2,c6=c4?g(o,1,dA):c4,dB=c6?g(o,0,[3,[5,[0,b,b],dz],dA]):c6;if(dB)var
+gV=0,gW=0,bJ=n(function(a){return nm(gW,gV,zh,a)},ae);else
+var
+bJ=dB;var
+dC=bJ?n(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],k(a[1])]);return 1}return 1},aK):b$;if(eG){var
-b6=bi(function(a){return ac(nc(a))},aK);if(b6){var
-hO=[0,c(2,b),b],C=g(o,0,[3,k(z),hO]);if(C)var
-ca=C;else
+a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],j(a[1])]);return 1}return 1},ae):bJ;if(dC){var
+bE=bm(function(a){return _(nt(a))},ae);if(bE){var
+gX=[0,c(2,b),b],aN=g(o,0,[3,j(az),gX]);if(aN)var
+bK=aN;else
 var
-hS=k(z),ca=g(o,0,[3,[0,c(2,b),b],hS]);if(ca){var
-ev=w(function(a){var
-b=ig(0,yL,0,a);return e(function(b){return ac(nc(a))},b)},aK),hK=function(f){var
+g0=j(az),bK=g(o,0,[3,[0,c(2,b),b],g0]);if(bK){var
+dw=w(function(a){var
+b=ix(0,ze,0,a);return e(function(b){return _(nt(a))},b)},ae),gT=function(f){var
 g=f[1];if(g){var
-i=g[1],j=r(i,ev,0);if(j)var
-l=bj(i,ev),k=[0,[0,h(bi(function(a){return a},l))]];else
+i=g[1],j=s(i,dw,0);if(j)var
+l=bn(i,dw),k=[0,[0,h(bm(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=yN;if(a){var
+a=zg;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,yM,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},hL=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(hK,a[1]),d,c,b]},h8),hP=[0,b6[1],b6[2]],hx=[0,ik(C,G,z),0],hy=[0,ik(C,G,z),hx],hz=[0,ik(C,G,z),hy],hA=[0,gl(C,G,z),0],hB=[0,gl(C,G,z),hA],hQ=0,hC=[0,[0,gl(C,G,z),hB],hz],hR=0,b7=function(b,a){return e(function(c){var
-d=s(b,c)?a:xI;return[0,d]},xK)};return ny(0,e(function(a){var
-e=[0,gj(C,G,z)],d=1,f=b7(a,[2,cn]);function
-b(b,a){return[3,1,b,a]}var
-c=gj(C,G,z),g=b7(a,b(b(gl(C,G,z),cn),c));return[0,b7(a,xJ),g,f,e,d]},xL),hR,hC,hQ,hP,h9,hL)}return ca}var
-eJ=1}else
+2:return[0,[0,c,[1,zf,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},gU=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,w(gT,a[1]),d,c,b]},hh),gY=[0,bE[1],bE[2]],gZ=nx(aN,ar,az);return nS(0,nw(aN,aZ,ar,az),0,gZ,0,gY,hi,gU)}return bK}var
+dD=1}else
 var
-eJ=eG;var
-eK=eJ}else
+dD=dC;var
+dE=dD}else
 var
-eK=y;var
-eL=eK}else
+dE=bF;var
+dF=dE}else
 var
-eL=ez;return eL}return 0;case
+dF=dx;return dF;case
+1:var
+hj=as[4],hk=as[3],hl=as[2],dG=dj(j(aZ));if(dG){var
+bL=ns(ae);if(bL){var
+aA=bL[1][2],g1=[0,c(2,b),b],aO=g(o,0,[3,j(aA),g1]),dH=g(o,1,j(ar)),dI=dH?g(o,1,[3,j(aA),[0,b,b]]):dH;if(dI)if(aO)var
+aP=aO;else
+var
+g3=j(aA),aP=g(o,0,[3,[0,c(2,b),b],g3]);else
+var
+aP=dI;if(aP){var
+g2=nx(aO,ar,aA);return nT(0,nw(aO,aZ,ar,aA),0,g2,0,ae,hl,hk,hj)}var
+dJ=aP}else
+var
+dJ=bL;var
+dK=dJ}else
+var
+dK=dG;return dK;default:return 0}case
 5:var
-co=a[4],fg=a[1],cp=q[2];if(0===cp[0]){var
-fh=cp[3],u=ie(fg,[0,a[2],a[3]],0,co),cq=is(h(fh),fh);if(cq){var
-fi=cq[1];if(fi[2])return 0;var
-fj=iv(fg,0,co,u),fk=fj?ac(al(gi,co)):fj;if(fk){var
-fl=k8(o,u);if(fl){var
-h_=fi[1],fm=e(go,u[1]),I=ip(u[1]),fn=k(a[5]),_=cp[1],bC=fK(I,fm,u[1]),N=hq(I,fm,u[1],0),gI=h(u[3]),gJ=P(h(bC),gI),aR=[0,h(bC),gJ],gK=hs(N,I,aR,u[3]),gL=f(e(cx,N),gK),dX=f(bF(er(N)),gL),dY=ct(dX)[1],bD=cs(dY),dZ=u[2];if(0===dZ[0]){var
-d0=n(function(a){var
-b=j(d);return az(r(a1(bD,a),bD,b),a)},dX),d1=d0?g(o,1,fn):d0;if(d1){var
-gM=u[3],gN=w(function(a){return cW(I,a)},gM),gO=u[3],gP=f(bC,f(e(function(a){return bE(I,a)},gO),gN)),bG=W(e(function(a){return aj(_,a)},gP));if(bG){var
-gQ=aV(dZ[1],I),bI=W(e(function(a){return aj(_,a)},gQ));if(bI){var
-bM=cw(_,I,[5,fn,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bM){var
-bN=u[3],gR=bI[1],gS=bM[1],gT=bG[1],aA=function(a){return a1(bD,a)},gF=aG(0,h(bN)),gG=e(function(k){var
-l=M(bN,k);if(l){var
-a=l[1],u=bj(k,bN),v=h(w(function(a){return cW(I,a)},u)),y=P(aR[2],v),j=[0,P(aR[1],k),y],r=er(N),f=i(aq(aA),r),c=[1,[8,[1,[1,j[1]]]]],d=fL(N,I,j,a),n=d?[0,[3,e(aA,[0,d[1],d[2]])]]:d,m=0;if(typeof
+bX=a[4],eq=a[1],b0=p[2];if(0===b0[0]){var
+er=b0[3],u=iw(eq,[0,a[2],a[3]],0,bX),b2=iG(h(er),er);if(b2){var
+es=b2[1];if(es[2])return 0;var
+et=iJ(eq,0,bX,u),eu=et?_(aj(d1,bX)):et;if(eu){var
+ev=ln(o,u);if(ev){var
+hm=es[1],ez=e(gv,u[1]),z=gw(u[1]),eA=j(a[5]),U=b0[1],br=fQ(z,ez,u[1]),J=hA(z,ez,u[1],0),fZ=h(u[3]),f0=O(h(br),fZ),aL=[0,h(br),f0],f1=hC(J,z,aL,u[3]),f2=f(e(cA,J),f1),c_=f(bH(ew(J)),f2),c$=cv(c_)[1],bs=cu(c$),da=u[2];if(0===da[0]){var
+db=n(function(a){var
+b=k(d);return ay(s(a3(bs,a),bs,b),a)},c_),dc=db?g(o,1,eA):db;if(dc){var
+f3=u[3],f5=w(function(a){return c3(z,a)},f3),f6=u[3],f7=f(br,f(e(function(a){return bG(z,a)},f6),f5)),bt=W(e(function(a){return ak(U,a)},f7));if(bt){var
+f8=aX(da[1],z),bu=W(e(function(a){return ak(U,a)},f8));if(bu){var
+bv=cy(U,z,[5,eA,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bv){var
+bw=u[3],f9=bu[1],f_=bv[1],f$=bt[1],ax=function(a){return a3(bs,a)},fV=aG(0,h(bw)),fX=e(function(k){var
+l=E(bw,k);if(l){var
+a=l[1],u=bn(k,bw),v=h(w(function(a){return c3(z,a)},u)),y=O(aL[2],v),j=[0,O(aL[1],k),y],r=ew(J),f=i(at(ax),r),c=[1,[8,[1,[1,j[1]]]]],d=fR(J,z,j,a),n=d?[0,[3,e(ax,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=g(_,1,a[2]),s=o?n:o;return s;case
+o=g(U,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=g(_,1,[5,a[2],a[1]]);if(!p)return p;var
+p=g(U,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -6707,161 +6985,161 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=ew(N,I,j,a);return x(function(a){return[0,i(aq(aA),a),q]},t)}return 0}return l},gF),gH=e(function(a){return aA(cx(a))},N),dR=e(function(a){return aA(a[2])},N),gU=u[3],gV=aR[1],dS=e(ae,gT),dU=function(az,ay){var
+t=eB(J,z,j,a);return x(function(a){return[0,i(at(ax),a),q]},t)}return 0}return l},fV),fY=e(function(a){return ax(cA(a))},J),c7=e(function(a){return ax(a[2])},J),ga=u[3],gc=aL[1],c8=e(af,f$),c9=function(az,ay){var
 l=az,i=ay;for(;;){if(0===i[0]){var
-u=i[1],$=s(h(u),s$),aa=$?n(function(a){var
-d=H(R(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},u):$;if(aa){var
-ad=mO(_,gS,es(0,l),u),j=i[2],v=bV(0,bX(_,ad,dS),dY,0),L=function(a){return mN(mM(_,ad,dS,v,a))};if(typeof
-j==="number")return 0===j?al(function(b){var
-a=r(b,v,0);return a?H(a[1][2][2],d):a},dR):0;else{if(0===j[0]){var
-a=j[2],N=n(s9,a);if(N){var
-o=r(j[1],gG,0);if(o){var
+u=i[1],aa=r(h(u),tF),ab=aa?n(function(a){var
+d=H(T(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},u):aa;if(ab){var
+ad=m4(U,f_,ex(0,l),u),j=i[2],v=bW(0,bY(U,ad,c8),c$,0),M=function(a){return m3(m2(U,ad,c8,v,a))};if(typeof
+j==="number")return 0===j?aj(function(b){var
+a=s(b,v,0);return a?H(a[1][2][2],d):a},c7):0;else{if(0===j[0]){var
+a=j[2],N=n(tD,a);if(N){var
+o=s(j[1],fX,0);if(o){var
 g=o[1];switch(g[0]){case
 0:var
 x=0;if(a)if(a[2])var
 f=0;else{var
-A=a[1],B=g[1],an=ga(B,A),ao=f$(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+A=a[1],B=g[1],an=gh(B,A),ao=gg(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 f=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 f=0;else{var
-D=a[1],E=g[1],ap=f$(D),aq=[1,[6,g[2],ap]],F=[0,[0,E,[0,[1,[4,ga(E,D),aq]],0]]];y=1}else{var
-F=a;y=1}if(y)var
-f=F;break;case
+D=a[1],F=g[1],ap=gg(D),aq=[1,[6,g[2],ap]],G=[0,[0,F,[0,[1,[4,gh(F,D),aq]],0]]];y=1}else{var
+G=a;y=1}if(y)var
+f=G;break;case
 2:var
 z=0;if(a){var
 k=a[2],am=0;if(k)if(k[2]){var
 f=0;am=1}else
 var
-G=k[1],I=a[1],m=g[1],ar=f$(I),as=[1,[6,ga(m,G),ar]],at=[1,[6,g[2],as]],au=f$(G),J=[0,[0,m,[0,[1,[4,[1,[6,ga(m,I),au]],at]],0]]];else
+I=k[1],J=a[1],m=g[1],ar=gg(J),as=[1,[6,gh(m,I),ar]],at=[1,[6,g[2],as]],au=gg(I),K=[0,[0,m,[0,[1,[4,[1,[6,gh(m,J),au]],at]],0]]];else
 var
-J=k;if(!am){var
-K=J;z=1}}else{var
-K=a;z=1}if(z)var
-f=K;break;default:if(a)var
+K=k;if(!am){var
+L=K;z=1}}else{var
+L=a;z=1}if(z)var
+f=L;break;default:if(a)var
 f=0;else
 var
 av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-O=f[1],aw=O[1],Q=n(function(a){return mN(r(a[2],v,0))},aw);if(Q)return n(L,O[2]);var
-S=Q}else
+P=f[1],aw=P[1],Q=n(function(a){return m3(s(a[2],v,0))},aw);if(Q)return n(M,P[2]);var
+R=Q}else
 var
-S=f;var
-T=S}else
+R=f;var
+S=R}else
 var
-T=o;var
-U=T}else
+S=o;var
+V=S}else
 var
-U=N;return U}var
-V=j[2],W=j[1],p=M(gU,W);if(p){var
-X=p[1];if(typeof
-X!=="number"&&1===X[0]){var
-q=M(dR,V);if(q){var
-t=M(gH,V);if(t){var
-ax=P(gV,W);return L([1,[4,[1,[8,[0,t[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
-Z=t}else
+V=N;return V}var
+W=j[2],X=j[1],p=E(ga,X);if(p){var
+Y=p[1];if(typeof
+Y!=="number"&&1===Y[0]){var
+q=E(c7,W);if(q){var
+t=E(fY,W);if(t){var
+ax=O(gc,X);return M([1,[4,[1,[8,[0,t[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
+$=t}else
 var
-Z=q;return Z}var
-Y=0}else
+$=q;return $}var
+Z=0}else
 var
-Y=p;return Y}}return aa}var
-ae=i[1],w=M(l,ae);if(w){var
-af=w[1],aA=af[1],ag=ac(ab(bY(af),aA));if(ag){var
-ah=et(ae,l),ai=dU(ah[1],i[2]);if(ai){var
+Z=p;return Z}}return ab}var
+ae=i[1],w=E(l,ae);if(w){var
+af=w[1],aA=af[1],ag=_(ac(bZ(af),aA));if(ag){var
+ah=ey(ae,l),ai=c9(ah[1],i[2]);if(ai){var
 l=ah[2],i=i[3];continue}var
-aj=ai}else
+ak=ai}else
 var
-aj=ag;var
-ak=aj}else
+ak=ag;var
+al=ak}else
 var
-ak=w;return ak}};return dU(gR,h_)}var
-d2=bM}else
+al=w;return al}};return c9(f9,hm)}var
+de=bv}else
 var
-d2=bI;var
-d3=d2}else
+de=bu;var
+df=de}else
 var
-d3=bG;var
-d4=d3}else
+df=bt;var
+dg=df}else
 var
-d4=d1;return d4}return 0}var
-fo=fl}else
+dg=dc;return dg}return 0}var
+eC=ev}else
 var
-fo=fk;var
-fp=fo}else
+eC=eu;var
+eD=eC}else
 var
-fp=cq;return fp}return 0;case
+eD=b2;return eD}return 0;case
 6:var
-fq=a[1];if(fq){var
-fr=fq[1],cr=q[2];if(0===cr[0]){var
-cu=iq(0,yQ,cr[3]);if(cu){var
-fs=eR(fr);if(fs){var
-h$=cu[1],ft=bL(fr)[2],a5=cr[1],bA=cw(a5,d,ft);if(bA){var
-bB=cw(a5,d,[5,[0,b,b],ft]);if(bB){var
-gE=bA[1][1],dK=K(cR(a5),gE);if(dK)return mL(a5,bB[1][1],h$);var
-dL=dK}else
+eF=a[1];if(eF){var
+eI=eF[1],b3=p[2];if(0===b3[0]){var
+b4=iF(0,zl,b3[3]);if(b4){var
+eJ=eW(eI);if(eJ){var
+hn=b4[1],eK=bN(eI)[2],a0=b3[1],bp=cy(a0,d,eK);if(bp){var
+bq=cy(a0,d,[5,[0,b,b],eK]);if(bq){var
+fU=bp[1][1],cZ=M(cY(a0),fU);if(cZ)return m1(a0,bq[1][1],hn);var
+c0=cZ}else
 var
-dL=bB;var
-dM=dL}else
+c0=bq;var
+c1=c0}else
 var
-dM=bA;return dM}var
-fu=fs}else
+c1=bp;return c1}var
+eO=eJ}else
 var
-fu=cu;return fu}return 0}var
-cy=q[2];if(0===cy[0]){var
-cz=iq(0,yR,cy[3]);return cz?mL(cy[1],d,cz[1]):cz}return 0;default:var
-av=a[1],fv=q[2];if(2===fv[0]){var
-fw=fv[1],cB=im(h(fw),fw);if(cB){var
-fx=cB[1];if(fx[2])return 0;var
-cC=fx[1],ep=V(yK,h(av)),eq=ep?V(h(av),jU):ep,eu=eq?mA(e(aB,av)):eq,fy=eu?n(function(c){var
-a=cv(k(c[2][1]));if(a){var
-b=cv(k(c[2][2]));if(b)return ac(cQ(b[1],a[1]));var
+eO=b4;return eO}return 0}var
+b5=p[2];if(0===b5[0]){var
+b6=iF(0,zm,b5[3]);return b6?m1(b5[1],d,b6[1]):b6}return 0;default:var
+au=a[1],eP=p[2];if(2===eP[0]){var
+eQ=eP[1],b7=iD(h(eQ),eQ);if(b7){var
+eR=b7[1];if(eR[2])return 0;var
+b8=eR[1],dt=V(zd,h(au)),du=dt?V(h(au),j8):dt,dv=du?mN(e(aB,au)):du,eV=dv?n(function(c){var
+a=cx(j(c[2][1]));if(a){var
+b=cx(j(c[2][2]));if(b)return _(cX(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},av):eu;if(fy)var
-ia=gn(xM,cC),cD=nB(a[5],ia);else
+d=a;return d},au):dv;if(eV)var
+ho=gu(yg,b8),b9=nW(a[5],ho);else
 var
-cD=fy;if(cD)var
-ib=gn(xN,cC),cE=nB(a[6],ib);else
+b9=eV;if(b9)var
+hp=gu(yh,b8),b_=nW(a[6],hp);else
 var
-cE=cD;if(cE){var
-hD=e(function(a){return[0,d,0]},av);return nA(av,a[2],a[3],a[4],hD,cC)}var
-fz=cE}else
+b_=b9;if(b_){var
+gS=e(function(a){return[0,d,0]},au);return nV(au,a[2],a[3],a[4],gS,b8)}var
+eX=b_}else
 var
-fz=cB;return fz}return 0}}return aC}var
-U=[aQ,yU,pR(0)],nC=[aQ,yV,pR(0)];function
-yS(m,b){var
-f=[0,l(w7,am(b[4])),0],g=[0,l(w9,_([0,l(w8,am(b[3])),f])),0],a=b[2];switch(a[0]){case
+eX=b7;return eX}return 0}}return aC}var
+U=[aT,zp,qa(0)],nX=[aT,zq,qa(0)];function
+zn(m,b){var
+f=[0,l(xB,am(b[4])),0],g=[0,l(xD,aa([0,l(xC,am(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=L(w3,mV(a[1],a[2],a[3]));break;case
+c=N(xx,m$(a[1],a[2],a[3]));break;case
 1:var
-c=L(w4,mW(a[1],a[2],a[3],a[4]));break;default:var
-c=L(w5,C(e(wY,a[1])))}var
-h=[0,l(w_,c),g],i=1===b[2][0]?xe:w$,j=[0,l(xa,am(i)),h],k=[0,l(xb,vF(b[1])),j],d=as(jp(yT,gb(_([0,l(xd,am(xc)),k]),w6)),m);return d?yP(b):d}function
-ah(a){if(0===a[0])return a[1];throw U}function
-$(a){if(1===a[0])return a[1];throw U}function
-aI(a){if(2===a[0])return a[1];throw U}function
-eS(a){if(3===a[0])return a[1];throw U}function
-aW(f,e){var
+c=N(xy,na(a[1],a[2],a[3],a[4]));break;default:var
+c=N(xz,D(e(xs,a[1])))}var
+h=[0,l(xE,c),g],i=1===b[2][0]?xK:xF,j=[0,l(xG,am(i)),h],k=[0,l(xH,v$(b[1])),j],d=au(jE(zo,gi(aa([0,l(xJ,am(xI)),k]),xA)),m);return d?zi(b):d}function
+ai(a){if(0===a[0])return a[1];throw U}function
+ab(a){if(1===a[0])return a[1];throw U}function
+aK(a){if(2===a[0])return a[1];throw U}function
+eX(a){if(3===a[0])return a[1];throw U}function
+aY(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===EX(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===Fs(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 t(c,b){var
-a=aW(c,b);if(a)return a[1];throw U}function
-cj(b,a){var
+a=aY(c,b);if(a)return a[1];throw U}function
+cm(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dg(a){switch(a[0]){case
+dl(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],yW]}throw U}function
-eT(e,d){var
-a=Y(e,$(d));if(a){var
+2:return[0,a[1],zr]}throw U}function
+eY(e,d){var
+a=Y(e,ab(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw U}function
-gr(i){var
-f=d9(i),d=[0,0],e=gS(f)-1|0;if(!(e<0)){var
+gB(i){var
+f=ec(i),d=[0,0],e=g2(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=i5(f,c)-48|0;if(9<g>>>0)throw U;switch(g){case
+a=d[1],g=ji(f,c)-48|0;if(9<g>>>0)throw U;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -6883,47 +7161,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eU(a){return jG(gr(a))}function
-eV(b){var
-a=eS(b);return 45===aR(a,0)?R(eU(dr(a,1,ao(a)-1|0))):eU(a)}function
-nD(a){return ef(eU(eS(a)))}function
-eW(a){return jF(eU(eS(a)))}function
-cK(c){var
-a=eS(c);if(6<ao(a))throw U;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(jb(a))}function
-nE(a){var
-b=97<=a?1:0,c=b?a<=pt?1:0:b;if(c)var
+eZ(a){return jU(gB(a))}function
+e0(b){var
+a=eX(b);return 45===aU(a,0)?T(eZ(dv(a,1,aq(a)-1|0))):eZ(a)}function
+nY(a){return ek(eZ(eX(a)))}function
+e1(a){return jT(eZ(eX(a)))}function
+cQ(c){var
+a=eX(c);if(6<aq(a))throw U;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(jq(a))}function
+nZ(a){var
+b=97<=a?1:0,c=b?a<=pO?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-nF(y,b){var
-d=ao(b),a=[0,0];function
+n0(y,b){var
+d=aq(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aR(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aU(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aR(b,a[1])&&!(57<aR(b,a[1]))){a[1]++;continue}return dr(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aU(b,a[1])&&!(57<aU(b,a[1]))){a[1]++;continue}return dv(b,c,a[1]-c|0)}}function
 n(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw U}function
 h(j){if(64<j)throw U;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&as(dr(b,a[1],5),yY)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&au(dv(b,a[1],5),zt)){a[1]=a[1]+4|0;var
 e=[5,n(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&nE(aR(b,a[1]))){var
+v=0;if(a[1]<d&&nZ(aU(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!nE(aR(b,a[1]))&&95!==aR(b,a[1])&&(!(48<=aR(b,a[1]))||57<aR(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dr(b,o,a[1]-o|0))];break}}else
+w=0;if(!nZ(aU(b,a[1]))&&95!==aU(b,a[1])&&(!(48<=aU(b,a[1]))||57<aU(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dv(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=as(g,yZ);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=au(g,zu);if(r)var
 s=r;else
 var
-t=1<ao(g)?1:0,s=t?48===aR(g,0)?1:0:t;if(s)throw U;if(q){var
-k=q[1],x=0;if(as(k,y0)||48===aR(k,ao(k)-1|0))x=1;else
+t=1<aq(g)?1:0,s=t?48===aU(g,0)?1:0:t;if(s)throw U;if(q){var
+k=q[1],x=0;if(au(k,zv)||48===aU(k,aq(k)-1|0))x=1;else
 var
-z=gr(k),e=[0,gr(g),z];if(x)throw U}else
+z=gB(k),e=[0,gB(g),z];if(x)throw U}else
 var
-e=[0,gr(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,yX)){if(!(2<ao(f))&&2<=jb(f)&&!(64<jb(f)))return[4,e,ef(eU(f))];throw U}throw U}return e}function
+e=[0,gB(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(m(f,zs)){if(!(2<aq(f))&&2<=jq(f)&&!(64<jq(f)))return[4,e,ek(eZ(f))];throw U}throw U}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -6933,46 +7211,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw U;return g}function
-gs(a){return nF(function(a){return[0,a]},a)}function
-iy(a){var
-b=aI(a);return nF(function(a){return a},b)}function
-O(a){return gs(aI(a))}function
-b3(a){if(2===a[0])return[0,gs(a[1])];var
-b=ah(a),c=O(t(b,y1));return[1,O(t(b,y2)),c]}function
-aa(a){throw[0,nC,aY(jp(y4,a),y3)]}function
-iz(c){var
-a=aI(c);if(m(a,y5)){var
-b=m(a,y6);if(b)throw U;return b}return 1}function
-y7(d){var
-b=ah(d);function
-a(a){return eT(b3,t(b,a))}var
-c=aI(t(b,y8));if(m(c,y9)){if(m(c,y_)){if(m(c,y$))return aa([0,zb,[0,c,za]]);var
-e=aW(b,zc),f=cj(function(a){return eT(b3,a)},e),g=a(zd);return[1,a(ze),g,f]}var
-h=iz(t(b,zf)),i=b3(t(b,zg)),j=a(zh),k=a(zi);return[0,a(zj),k,j,i,h]}return[2,a(zk)]}function
-zl(d){var
-a=ah(d);if(a){var
-b=a[1];if(!m(b[1],zm)){var
-c=b[2];if(2===c[0]&&!m(c[1],zn))return 1}}return 0}function
-nG(e){var
-b=ah(e);function
-a(a){return Y(b3,$(t(b,a)))}var
-c=aI(t(b,zo)),d=aW(b,zp);if(m(c,zq)){if(m(c,zr)){if(!m(c,zs)&&!d){var
-f=a(zv);return[1,a(zw),f]}}else
+gC(a){return n0(function(a){return[0,a]},a)}function
+iN(a){var
+b=aK(a);return n0(function(a){return a},b)}function
+Q(a){return gC(aK(a))}function
+b5(a){if(2===a[0])return[0,gC(a[1])];var
+b=ai(a),c=Q(t(b,zw));return[1,Q(t(b,zx)),c]}function
+ad(a){throw[0,nX,a0(jE(zz,a),zy)]}function
+iO(c){var
+a=aK(c);if(m(a,zA)){var
+b=m(a,zB);if(b)throw U;return b}return 1}function
+zC(d){var
+b=ai(d);function
+a(a){return eY(b5,t(b,a))}var
+c=aK(t(b,zD));if(m(c,zE)){if(m(c,zF)){if(m(c,zG))return ad([0,zI,[0,c,zH]]);var
+e=aY(b,zJ),f=cm(function(a){return eY(b5,a)},e),g=a(zK);return[1,a(zL),g,f]}var
+h=iO(t(b,zM)),i=b5(t(b,zN)),j=a(zO),k=a(zP);return[0,a(zQ),k,j,i,h]}return[2,a(zR)]}function
+zS(d){var
+a=ai(d);if(a){var
+b=a[1];if(!m(b[1],zT)){var
+c=b[2];if(2===c[0]&&!m(c[1],zU))return 1}}return 0}function
+n1(e){var
+b=ai(e);function
+a(a){return Y(b5,ab(t(b,a)))}var
+c=aK(t(b,zV)),d=aY(b,zW);if(m(c,zX)){if(m(c,zY)){if(!m(c,zZ)&&!d){var
+f=a(z2);return[1,a(z3),f]}}else
 if(!d){var
-g=iz(t(b,zx)),h=b3(t(b,zy)),i=a(zz),j=a(zA);return[0,a(zB),j,i,h,g]}}else
+g=iO(t(b,z4)),h=b5(t(b,z5)),i=a(z6),j=a(z7);return[0,a(z8),j,i,h,g]}}else
 if(!d){var
-k=iz(t(b,zC)),l=b3(t(b,zD)),n=b3(t(b,zE)),o=a(zF),p=a(zG),q=a(zH);return[2,a(zI),q,p,o,n,l,k]}return aa([0,zu,[0,c,zt]])}function
-nH(d){var
-a=ah(d);if(a){var
-b=a[1];if(!m(b[1],zJ)){var
-c=b[2];if(2===c[0]&&!m(c[1],zK))return 1}}return 0}function
-cL(c,d){var
-a=$(d);if(a){var
+k=iO(t(b,z9)),l=b5(t(b,z_)),n=b5(t(b,z$)),o=a(Aa),p=a(Ab),q=a(Ac);return[2,a(Ad),q,p,o,n,l,k]}return ad([0,z1,[0,c,z0]])}function
+n2(d){var
+a=ai(d);if(a){var
+b=a[1];if(!m(b[1],Ae)){var
+c=b[2];if(2===c[0]&&!m(c[1],Af))return 1}}return 0}function
+cR(c,d){var
+a=ab(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw U}function
-dY(g,p){var
-h=g?g[1]:g,c=ah(p),a=aI(t(c,zL)),j=p4(a,zM),f=0;if(0<=j)if(0<j)if(m(a,zN))if(m(a,zO))if(m(a,zP))if(m(a,zQ))if(m(a,zR))if(m(a,zS)){var
-k=m(a,zT);if(k)f=1;else
+d3(g,p){var
+h=g?g[1]:g,c=ai(p),a=aK(t(c,Ag)),j=qn(a,Ah),f=0;if(0<=j)if(0<j)if(m(a,Ai))if(m(a,Aj))if(m(a,Ak))if(m(a,Al))if(m(a,Am))if(m(a,An)){var
+k=m(a,Ao);if(k)f=1;else
 var
 b=k}else
 var
@@ -6990,7 +7268,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,Ab))if(m(a,Ac))if(m(a,Ad))if(m(a,Ae))if(m(a,Af))if(m(a,Ag))if(m(a,Ah))if(m(a,Ai))f=1;else
+if(m(a,AI))if(m(a,AJ))if(m(a,AK))if(m(a,AL))if(m(a,AM))if(m(a,AN))if(m(a,AO))if(m(a,AP))f=1;else
 var
 b=1;else
 var
@@ -7008,168 +7286,169 @@ b=14;else
 f=1;else
 var
 b=12;var
-o=f?aa([0,zV,[0,a,zU]]):b;function
-i(a){return t(c,zW)}var
-d=aI(t(c,zX)),l=m(d,zY);if(l)if(m(d,zZ))if(m(d,z0))if(m(d,z1))var
-e=aa([0,z3,[0,d,z2]]);else
+o=f?ad([0,Aq,[0,a,Ap]]):b;function
+i(a){return t(c,Ar)}var
+d=aK(t(c,As)),l=m(d,At);if(l)if(m(d,Au))if(m(d,Av))if(m(d,Aw))var
+e=ad([0,Ay,[0,d,Ax]]);else
 var
-n=cL(O,i(0)),e=[2,n[1],n[2]];else
+n=cR(Q,i(0)),e=[2,n[1],n[2]];else
 var
-e=[0,O(i(0))];else
+e=[0,Q(i(0))];else
 var
-e=[1,O(i(0))];else
+e=[1,Q(i(0))];else
 var
 e=l;function
 q(E){var
-a=ah(E),c=0;switch(o){case
+a=ai(E),c=0;switch(o){case
 6:if(a){var
-r=a[1];if(!m(r[1],z5)){var
+r=a[1];if(!m(r[1],AA)){var
 s=r[2];if(1===s[0]){var
 b=s[1],n=0;if(b&&!b[2])if(a[2])n=1;else{var
-e=b[1];c=1;n=1}if(!n&&!a[2])return[1,Y(O,b)]}}}break;case
+e=b[1];c=1;n=1}if(!n&&!a[2])return[1,Y(Q,b)]}}}break;case
 10:if(a){var
-t=a[1];if(!m(t[1],z6)){var
+t=a[1];if(!m(t[1],AB)){var
 u=t[2];if(1===u[0]){var
 f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!m(v[1],z7)){var
+v=g[1];if(!m(v[1],AC)){var
 w=v[2];if(1===w[0]){var
 i=w[1];if(i&&!i[2]&&!g[2]){var
-F=O(i[1]);return[2,O(f[1]),F]}}}}}}}}break;case
+F=Q(i[1]);return[2,Q(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!m(x[1],z8)){var
+x=a[1];if(!m(x[1],AD)){var
 y=x[2];if(1===y[0]){var
 j=y[1];if(j&&!j[2]){var
 k=a[2],z=j[1];if(k){var
-A=k[1];if(!m(A[1],z9)){var
+A=k[1];if(!m(A[1],AE)){var
 B=A[2];if(1===B[0]){var
 l=B[1];if(l&&!l[2]&&!k[2]&&h){var
-G=O(l[1]);return[3,O(z),G]}}}}else{var
+G=Q(l[1]);return[3,Q(z),G]}}}}else{var
 e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!m(C[1],z_)){var
-D=C[2];if(1===D[0]&&!a[2])return[1,Y(O,D[1])]}}break;case
+C=a[1];if(!m(C[1],AF)){var
+D=C[2];if(1===D[0]&&!a[2])return[1,Y(Q,D[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!m(p[1],z4)){var
+p=a[1];if(!m(p[1],Az)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,O(e)];throw U}var
-r=cj(q,aW(c,z$));return[0,o,cj(cK,aW(c,Aa)),r,e]}function
-nI(c){var
-d=dY(Al,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,Q(e)];throw U}var
+r=cm(q,aY(c,AG));return[0,o,cm(cQ,aY(c,AH)),r,e]}function
+n3(c){var
+d=d3(AS,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=dY(Aj,c),b=a[1];if(2!==b&&!(4<=b))return a;return aa(Ak)}function
-nJ(a){var
-b=dY(Am,a);return 11===b[1]?b:nI(a)}function
-An(c){var
-d=dY(Ao,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
-if(2!==a)b=1;return b?d:nJ(c)}function
-iA(c){var
-d=dY(Ap,c),a=d[1],b=0;if(6<=a){if(13===a)b=1}else
-if(4<=a)b=1;return b?d:nI(c)}function
-iB(b){var
-a=ah(b[2]);if(m(b[1],Aw)){var
-c=cL(O,t(a,Ax)),d=cL(O,t(a,Ay)),e=d[2],f=d[1],g=O(t(a,Az));return[1,c[1],c[2],g,f,e]}var
-h=Y(O,$(t(a,AA)));return[0,Y(O,$(t(a,AB))),h]}function
-AC(f){var
-a=ah(f);function
-d(b){return O(t(a,b))}function
-c(b){return eT(O,t(a,b))}var
-b=aI(t(a,AD));if(m(b,AE)){if(!m(b,AF)){var
-j=t(a,AL),e=cL(function(a){return a},j),k=aW(a,AM),l=cj(function(a){return c(AN)},k),n=gs(aI(e[2])),o=gs(aI(e[1])),p=d(AO);return[0,cK(t(a,AP)),p,o,n,l]}if(m(b,AG))throw U}var
-g=d(AH),h=c(AI),i=c(AJ);return[1,as(b,AK),i,h,g]}function
-iC(aq){var
-g=dg(aq),h=g[1];if(m(h,AQ)){if(m(h,AR)){if(m(h,AS)){if(m(h,AT))return aa([0,AV,[0,h,AU]]);var
-w=t(ah(g[2]),AW),af=0;if(2===w[0]){var
-L=m(w[1],AX);if(!L){var
-K=L;af=1}}if(!af)var
-K=[0,b3(w)];return[6,K]}var
-M=ah(g[2]),j=iC([0,[0,[0,AZ,t(M,AY)],0]]);if(0===j[0]){var
+a=d3(AQ,c),b=a[1];if(2!==b&&!(4<=b))return a;return ad(AR)}function
+n4(a){var
+b=d3(AT,a);return 11===b[1]?b:n3(a)}function
+AU(c){var
+d=d3(AV,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+if(2!==a)b=1;return b?d:n4(c)}function
+iP(a){var
+b=d3(AW,a),c=b[1];if(4<=c)switch(c-4|0){case
+0:case
+1:case
+7:case
+9:return b}return n3(a)}function
+iQ(b){var
+a=ai(b[2]);if(m(b[1],A3)){var
+c=cR(Q,t(a,A4)),d=cR(Q,t(a,A5)),e=d[2],f=d[1],g=Q(t(a,A6));return[1,c[1],c[2],g,f,e]}var
+h=Y(Q,ab(t(a,A7)));return[0,Y(Q,ab(t(a,A8))),h]}function
+A9(f){var
+a=ai(f);function
+d(b){return Q(t(a,b))}function
+c(b){return eY(Q,t(a,b))}var
+b=aK(t(a,A_));if(m(b,A$)){if(!m(b,Ba)){var
+j=t(a,Bg),e=cR(function(a){return a},j),k=aY(a,Bh),l=cm(function(a){return c(Bi)},k),n=gC(aK(e[2])),o=gC(aK(e[1])),p=d(Bj);return[0,cQ(t(a,Bk)),p,o,n,l]}if(m(b,Bb))throw U}var
+g=d(Bc),h=c(Bd),i=c(Be);return[1,au(b,Bf),i,h,g]}function
+iR(an){var
+g=dl(an),h=g[1];if(m(h,Bl)){if(m(h,Bm)){if(m(h,Bn)){if(m(h,Bo))return ad([0,Bq,[0,h,Bp]]);var
+w=t(ai(g[2]),Br),ac=0;if(2===w[0]){var
+K=m(w[1],Bs);if(!K){var
+J=K;ac=1}}if(!ac)var
+J=[0,b5(w)];return[6,J]}var
+L=ai(g[2]),j=iR([0,[0,[0,Bu,t(L,Bt)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ar=O(t(M,A1));return[5,j[1],x[1],x[2],j[4],ar]}}return aa(A0)}var
-a=ah(g[2]),y=aW(a,A2),z=y?Y(AC,$(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?aa(A3):a},k=dg(t(a,A4)),b=dg(t(a,A5)),c=k[1];if(m(c,A6)&&m(c,A7)&&m(c,A8)){if(0===aW(a,A9)){if(m(c,A_)){var
-ag=0;if(m(c,A$)){if(!m(c,Ba)){var
-N=b[1],ai=0;if(m(N,Bd)&&m(N,Be)){ag=1;ai=1}if(!ai){var
-A=$(k[2]),at=$(t(a,Bh)),P=Y(function(a){return dY(0,a)},at);if(!ax(zl,A)&&!ax(function(a){return 13===a[1]?1:0},P)){var
-aw=Y(y7,A),f=ah(b[2]);if(m(b[1],Aq))var
-I=cL(O,t(f,Ar)),J=cL(O,t(f,As)),am=J[2],an=J[1],ao=O(t(f,At)),Q=[1,I[1],I[2],ao,an,am];else
+ao=Q(t(L,Bw));return[5,j[1],x[1],x[2],j[4],ao]}}return ad(Bv)}var
+a=ai(g[2]),y=aY(a,Bx),z=y?Y(A9,ab(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?ad(By):a},k=dl(t(a,Bz)),b=dl(t(a,BA)),c=k[1];if(m(c,BB)&&m(c,BC)&&m(c,BD)){if(0===aY(a,BE)){if(m(c,BF)){var
+ae=0;if(m(c,BG)){if(!m(c,BH)){var
+M=b[1],af=0;if(m(M,BK)&&m(M,BL)){ae=1;af=1}if(!af){var
+A=ab(k[2]),ap=ab(t(a,BO)),N=Y(function(a){return d3(0,a)},ap);if(!aA(zS,A)&&!aA(function(a){return 13===a[1]?1:0},N)){var
+as=Y(zC,A),f=ai(b[2]);if(m(b[1],AX))var
+H=cR(Q,t(f,AY)),I=cR(Q,t(f,AZ)),aj=I[2],ak=I[1],al=Q(t(f,A0)),O=[1,H[1],H[2],al,ak,aj];else
 var
-ap=eT(O,t(f,Au)),Q=[0,eT(O,t(f,Av)),ap];return[0,aw,Q,z,P]}o(0);var
-au=Y(iA,$(t(a,Bi))),av=iB(b);return[1,0,Y(nG,A),0,av,0,au]}}}else
-if(!m(b[1],Bj)){o(0);var
-R=Y(iA,$(t(a,Bk))),v=0,e=R;for(;;){if(e){var
-G=e[2],H=e[1];if(0===H[1]){var
-v=[0,H,v],e=G;continue}var
-e=G;continue}var
-n=jo(v),aj=0;if(n){var
-d=0,S=n[1][4];if(typeof
-S==="number")d=1;else
-switch(S[0]){case
+am=eY(Q,t(f,A1)),O=[0,eY(Q,t(f,A2)),am];return[0,as,O,z,N]}o(0);var
+aq=Y(iP,ab(t(a,BP))),ar=iQ(b);return[1,0,Y(n1,A),0,ar,0,aq]}}}else
+if(!m(b[1],BQ)){o(0);var
+P=Y(iP,ab(t(a,BR))),v=0,e=P;for(;;){if(e){var
+F=e[2],G=e[1];if(0===G[1]){var
+v=[0,G,v],e=F;continue}var
+e=F;continue}var
+n=jD(v),ag=0;if(n){var
+d=0,R=n[1][4];if(typeof
+R==="number")d=1;else
+switch(R[0]){case
 0:var
 B=n[2];if(B){var
-E=0,T=B[1][4];if(typeof
-T!=="number"&&1===T[0])if(B[2]){d=1;E=1}else
-E=1;if(!E)d=1}else
+D=0,S=B[1][4];if(typeof
+S!=="number"&&1===S[0])if(B[2]){d=1;D=1}else
+D=1;if(!D)d=1}else
 d=1;break;case
 1:var
 C=n[2];if(C){var
-F=0,V=C[1][4];if(typeof
-V!=="number"&&0===V[0])if(C[2]){d=1;F=1}else
-F=1;if(!F)d=1}else
-d=1;break;default:d=1}if(!d)aj=1}if(!aj)aa(Bl);var
-ay=O(t(ah(b[2]),Bm));return[4,O(t(ah(k[2]),Bn)),ay,R]}}if(!ag)return aa([0,Bc,[0,c,Bb]])}else
-if(!m(b[1],Bo)){o(0);var
-p=ah(k[2]),W=ah(b[2]),X=function(c,a){var
-b=$(a);return Y(function(d){var
-a=$(d);if(a){var
+E=0,T=C[1][4];if(typeof
+T!=="number"&&0===T[0])if(C[2]){d=1;E=1}else
+E=1;if(!E)d=1}else
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)ad(BS);var
+at=Q(t(ai(b[2]),BT));return[4,Q(t(ai(k[2]),BU)),at,P]}}if(!ae)return ad([0,BJ,[0,c,BI]])}else
+if(!m(b[1],BV)){o(0);var
+p=ai(k[2]),V=ai(b[2]),W=function(c,a){var
+b=ab(a);return Y(function(d){var
+a=ab(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aI(a[1]),e]}}throw U},b)},az=function(d){var
-a=ah(d);if(a){var
-b=a[1],c=b[1];if(m(c,Bp)){if(!m(c,Bq)&&!a[2])return[0,Y(iy,$(b[2]))]}else
-if(!a[2])return[1,iy(b[2])]}throw U},aA=Y(nJ,$(t(a,Br))),aB=Y(O,$(t(W,Bs))),aC=Y(O,$(t(W,Bt))),aD=Y(az,$(t(p,Bu))),aE=X(iy,t(p,Bv)),aF=X(b3,t(p,Bw));return[3,Y(aI,$(t(p,Bx))),aF,aE,aD,aC,aB,aA]}return aa([0,Bg,[0,b[1],Bf]])}throw U}var
-Z=ah(k[2]),q=cj(O,aW(Z,By)),aG=function(f){var
-a=dg(f),b=a[1];if(m(b,Bz)){if(m(b,BA)){if(m(b,BB)){if(m(b,BC))throw U;var
-d=a[2],g=O(t(ah(d),BD));return[3,O(t(ah(d),BE)),g]}var
-h=a[2],c=function(a){return cL(O,t(ah(h),a))},i=c(BF),j=c(BG);return[1,c(BH),j,i]}var
-e=cL(O,a[2]);return[0,e[1],e[2]]}return[2,O(a[2])]},r=cj(aG,aW(a,BI)),_=m(c,BJ),D=_?m(c,BK)?2:1:_,s=$(t(Z,BL));if(q&&r){var
-ab=r[1];if(gX(nH,s)){var
-aH=function(c){var
-a=ah(c);function
-b(b){return Y(b3,$(t(a,b)))}if(0!==aW(a,BM))aa(BN);var
-d=b(BO);return[0,b(BP),d]},ac=Y(An,$(t(a,BQ))),ak=0;if(1!==D||2!==ab[0])ak=1;if(ak&&ax(function(a){return 11===a[1]?1:0},ac))aa(BR);var
-aJ=iB(b),aK=q[1];return[2,D,Y(aH,s),aK,aJ,ab,z,ac]}}o(0);var
-al=0;if(!q&&as(c,BU)){var
-ad=1;al=1}if(!al)var
-ad=[0,D];var
-ae=0!==r?1:0,aL=ae?ax(nH,s):ae;if(aL)aa(BS);var
-aM=Y(iA,$(t(a,BT))),aN=iB(b);return[1,ad,Y(nG,s),q,aN,r,aM]}var
-u=ah(g[2]);function
-aO(b){var
-a=ah(b),c=O(t(a,BV)),d=[0,O(t(a,BW)),c];return[0,aI(t(a,BX)),d]}var
-l=iC([0,[0,[0,BZ,t(u,BY)],0]]);if(0===l[0]&&!l[3]){var
-aP=O(t(u,B1)),aQ=O(t(u,B2)),aR=l[4],aS=l[2],aT=l[1];return[7,Y(aO,$(t(u,B3))),aT,aS,aR,aQ,aP]}return aa(B0)}function
-iD(a){return Y(eV,$(a))}function
-iE(c,b){var
-a=iD(b);if(b9(a)!==c)throw U;return a}function
-nK(a,d){var
-b=ah(d),e=$(t(b,B6)),f=a[2],c=Y(function(a){return iE(f,a)},e),g=a[1];if(b9(c)!==g)throw U;return[0,c,eW(t(b,B7))]}function
-eX(g,p){var
+e=i(c,b[1]);return[0,aK(a[1]),e]}}throw U},b)},av=function(d){var
+a=ai(d);if(a){var
+b=a[1],c=b[1];if(m(c,BW)){if(!m(c,BX)&&!a[2])return[0,Y(iN,ab(b[2]))]}else
+if(!a[2])return[1,iN(b[2])]}throw U},aw=Y(n4,ab(t(a,BY))),ax=Y(Q,ab(t(V,BZ))),ay=Y(Q,ab(t(V,B0))),az=Y(av,ab(t(p,B1))),aB=W(iN,t(p,B2)),aC=W(b5,t(p,B3));return[3,Y(aK,ab(t(p,B4))),aC,aB,az,ay,ax,aw]}return ad([0,BN,[0,b[1],BM]])}throw U}var
+X=ai(k[2]),q=cm(Q,aY(X,B5)),aD=function(f){var
+a=dl(f),b=a[1];if(m(b,B6)){if(m(b,B7)){if(m(b,B8)){if(m(b,B9))throw U;var
+d=a[2],g=Q(t(ai(d),B_));return[3,Q(t(ai(d),B$)),g]}var
+h=a[2],c=function(a){return cR(Q,t(ai(h),a))},i=c(Ca),j=c(Cb);return[1,c(Cc),j,i]}var
+e=cR(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},r=cm(aD,aY(a,Cd)),Z=m(c,Ce),_=Z?m(c,Cf)?2:1:Z,s=ab(t(X,Cg));if(q&&r&&g7(n2,s)){var
+aE=function(c){var
+a=ai(c);function
+b(b){return Y(b5,ab(t(a,b)))}if(0!==aY(a,Ch))ad(Ci);var
+d=b(Cj);return[0,b(Ck),d]},aF=Y(AU,ab(t(a,Cl))),aG=r[1],aH=iQ(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}o(0);var
+ah=0;if(!q&&au(c,Co)){var
+$=1;ah=1}if(!ah)var
+$=[0,_];var
+aa=0!==r?1:0,aJ=aa?aA(n2,s):aa;if(aJ)ad(Cm);var
+aL=Y(iP,ab(t(a,Cn))),aM=iQ(b);return[1,$,Y(n1,s),q,aM,r,aL]}var
+u=ai(g[2]);function
+aN(b){var
+a=ai(b),c=Q(t(a,Cp)),d=[0,Q(t(a,Cq)),c];return[0,aK(t(a,Cr)),d]}var
+l=iR([0,[0,[0,Ct,t(u,Cs)],0]]);if(0===l[0]&&!l[3]){var
+aO=Q(t(u,Cv)),aP=Q(t(u,Cw)),aQ=l[4],aR=l[2],aS=l[1];return[7,Y(aN,ab(t(u,Cx))),aS,aR,aQ,aP,aO]}return ad(Cu)}function
+iS(a){return Y(e0,ab(a))}function
+iT(c,b){var
+a=iS(b);if(b$(a)!==c)throw U;return a}function
+n5(a,d){var
+b=ai(d),e=ab(t(b,CA)),f=a[2],c=Y(function(a){return iT(f,a)},e),g=a[1];if(b$(c)!==g)throw U;return[0,c,e1(t(b,CB))]}function
+e2(g,p){var
 M=g[2];switch(p[0]){case
 0:var
 d=p[1];if(d){var
-e=d[1],a=e[1],N=p4(a,B8),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,B9)&&m(a,B_)&&m(a,B$))if(m(a,Ca))f=1;else{var
+e=d[1],a=e[1],N=qn(a,CC),b=0;if(0<=N)if(0<N){var
+f=0;if(m(a,CD)&&m(a,CE)&&m(a,CF))if(m(a,CG))f=1;else{var
 O=e[2];if(1===O[0]){var
 q=O[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!d[2]){var
-P=r[1];if(qe(aI(P),0,49))return aa(Cd);var
-ae=Y(iD,$(s[1])),af=aI(P);return[8,eX(g,q[1]),af,ae]}b=1;f=1}else
+P=r[1];if(qz(aK(P),0,49))return ad(CJ);var
+ae=Y(iS,ab(s[1])),af=aK(P);return[8,e2(g,q[1]),af,ae]}b=1;f=1}else
 f=1}else
 f=1}else
 f=1}else
@@ -7179,287 +7458,321 @@ R=e[2];if(1===R[0]){var
 w=R[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y&&!y[2]){if(!d[2]){var
-ai=eW(y[1]),aj=eV(x[1]);return[5,eX(g,w[1]),aj,ai]}b=1}}}}}else
-if(m(a,Ce))if(m(a,Cf))if(m(a,Cg))if(m(a,Ch)){if(!m(a,Ci)){if(!d[2]){var
-S=ah(e[2]),ak=$(t(S,Cj)),al=M+1|0,T=Y(function(a){return iE(al,a)},ak);if(3===b9(T))return[1,Cl,T,eW(t(S,Ck))];throw U}b=1}}else{if(!d[2]){var
-J=aI(e[2]),K=m(J,B4);if(K){if(m(J,B5))throw U;var
+ah=e1(y[1]),aj=e0(x[1]);return[5,e2(g,w[1]),aj,ah]}b=1}}}}}else
+if(m(a,CK))if(m(a,CL))if(m(a,CM))if(m(a,CN)){if(!m(a,CO)){if(!d[2]){var
+S=ai(e[2]),ak=ab(t(S,CP)),al=M+1|0,T=Y(function(a){return iT(al,a)},ak);if(3===b$(T))return[1,CR,T,e1(t(S,CQ))];throw U}b=1}}else{if(!d[2]){var
+J=aK(e[2]),K=m(J,Cy);if(K){if(m(J,Cz))throw U;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!d[2]){var
 j=e[2],X=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],Cm)){var
+e=b[1];if(!m(e[1],CS)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],Cn)){var
+g=c[1];if(!m(g[1],CT)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return eX(Co,a)}}}}}}}}}}return eX(l,a)},o=0;switch(j[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return e2(CU,a)}}}}}}}}}}return e2(l,a)},o=0;switch(j[0]){case
 0:var
 k=j[1];if(k){var
-Z=k[1],i=Z[1],c=0;if(m(i,Cp)&&m(i,Cq)&&m(i,Cr)&&m(i,Cs))if(m(i,Ct))c=1;else{var
+Z=k[1],i=Z[1],c=0;if(m(i,CV)&&m(i,CW)&&m(i,CX)&&m(i,CY))if(m(i,CZ))c=1;else{var
 _=Z[2];if(1===_[0]){var
 F=_[1];if(F){var
 l=F[1],h=0;switch(l[0]){case
 0:var
 G=l[1];if(G){var
-n=G[1][1],ad=0;if(m(n,Cv)&&m(n,Cw)&&m(n,Cx)&&m(n,Cy)){c=1;h=1;ad=1}if(!ad&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
+n=G[1][1],ac=0;if(m(n,C1)&&m(n,C2)&&m(n,C3)&&m(n,C4)){c=1;h=1;ac=1}if(!ac&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
 2:var
-ab=l[1];if(m(ab,Cz)&&m(ab,CA)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=l[1];if(m($,C5)&&m($,C6)){c=1;h=1}break;default:c=1;h=1}if(!h){var
 H=F[2];if(H){var
 I=H[2];if(I&&!(I[2]||k[2])){var
-ar=eW(I[1]),as=eV(H[1]),z=[6,X(g,l),as,ar];o=2;c=1}else
+ar=e1(I[1]),as=e0(H[1]),z=[6,X(g,l),as,ar];o=2;c=1}else
 c=1}else
 c=1}}else
 c=1}else
 c=1}if(!c&&!k[2])o=1}break;case
 2:var
-ac=j[1];if(!m(ac,CB)||!m(ac,CC))o=1;break}switch(o){case
+aa=j[1];if(!m(aa,C7)||!m(aa,C8))o=1;break}switch(o){case
 0:var
-z=aa(Cu);break;case
+z=ad(C0);break;case
 1:var
 z=X(g,j);break}return[7,z]}b=1}else{var
 V=e[2];if(1===V[0]){var
 A=V[1];if(A){var
 B=A[2];if(B&&!B[2])if(d[2])b=1;else{var
-am=B[1],an=A[1],v=an,u=function(b,a){return[3,b,a,iE(M+1|0,am)]};b=2}}}}else{var
+am=B[1],an=A[1],v=an,u=function(b,a){return[3,b,a,iT(M+1|0,am)]};b=2}}}}else{var
 W=e[2];if(1===W[0]){var
 C=W[1];if(C){var
 D=C[2];if(D){var
 E=D[2];if(E&&!E[2])if(d[2])b=1;else{var
 ao=E[1],ap=D[1],aq=C[1],v=aq,u=function(b,a){var
-c=eW(ao);return[4,b,a,eV(ap),c]};b=2}}}}}switch(b){case
-0:if(!d[2])return aa([0,Cc,[0,a,Cb]]);break;case
+c=e1(ao);return[4,b,a,e0(ap),c]};b=2}}}}}switch(b){case
+0:if(!d[2])return ad([0,CI,[0,a,CH]]);break;case
 1:break;default:var
-Q=nK(g,v);return u(Q[1],Q[2])}}break;case
+Q=n5(g,v);return u(Q[1],Q[2])}}break;case
 2:return[0,p[1]]}throw U}function
-nL(k){var
-b=dg(k),a=b[1];if(m(a,CF))if(m(a,CG)){var
-g=m(a,CH);if(!g)return g;if(m(a,CI)){if(!m(a,CJ))return[2,Y(O,$(b[2]))]}else{var
+n6(k){var
+b=dl(k),a=b[1];if(m(a,C$))if(m(a,Da)){var
+g=m(a,Db);if(!g)return g;if(m(a,Dc)){if(!m(a,Dd))return[2,Y(Q,ab(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cK(d[1]);return[1,cK(c[1]),l]}}}}}else{var
+l=cQ(d[1]);return[1,cQ(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=Y(iD,$(f[1]));return[0,cK(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return aa([0,CL,[0,a,CK]])}function
-nM(f,b){var
-a=ah(b),c=$(t(a,CQ)),d=Y(function(g){var
-a=ah(g);function
+n=Y(iS,ab(f[1]));return[0,cQ(e[1]),n]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return ad([0,Df,[0,a,De]])}function
+n7(f,b){var
+a=ai(b),c=ab(t(a,Dk)),d=Y(function(g){var
+a=ai(g);function
 b(d,c){var
-b=aW(a,c);return b?Y(d,$(b[1])):b}var
-c=b(eV,CM),d=cj(nL,aW(a,CN)),e=cj(cK,aW(a,CO));return[0,b(function(h){var
-b=$(h);if(b){var
+b=aY(a,c);return b?Y(d,ab(b[1])):b}var
+c=b(e0,Dg),d=cm(n6,aY(a,Dh)),e=cm(cQ,aY(a,Di));return[0,b(function(h){var
+b=ab(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],CD)){if(!a[2]){if(m(eS(e),CE))throw U;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],C9)){if(!a[2]){if(m(eX(e),C_))throw U;d=1}}else
 d=1;if(d&&!a[2]){var
-g=eX(f,c);return[0,cK(e),g]}}}throw U},CP),e,d,c]},c),e=aW(a,CR),g=cj(function(a){return nK(f,a)},e);return[0,nD(t(a,CS)),g,d]}function
-nN(c){var
-a=ah(c),b=aW(a,CT),d=b?Y(O,$(b[1])):b,e=nL(t(a,CU)),f=Y(O,$(t(a,CV)));return[0,nD(t(a,CW)),f,d,e]}function
-nO(c){var
+g=e2(f,c);return[0,cQ(e),g]}}}throw U},Dj),e,d,c]},c),e=aY(a,Dl),g=cm(function(a){return n5(f,a)},e);return[0,nY(t(a,Dm)),g,d]}function
+n8(c){var
+a=ai(c),b=aY(a,Dn),d=b?Y(Q,ab(b[1])):b,e=n6(t(a,Do)),f=Y(Q,ab(t(a,Dp)));return[0,nY(t(a,Dq)),f,d,e]}function
+DA(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-C6(b){var
+DB(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-C7(b){var
+DC(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-eF(k(a[1]));return 10===c?1:0}function
-C$(h){var
-l=ao(h),c=[0,0];function
-n(a){if(c[1]<l)return aR(h,c[1]);throw U}function
-o(a){if(n(0)===a){c[1]++;return 0}throw U}function
-G(a,b){for(;;){if(c[1]<l&&i(b,aR(h,c[1]))){c[1]++;continue}return dr(h,a,c[1]-a|0)}}function
-H(d){o(34);function
+a!=="number"&&1===a[0])return 1-f9(j(a[1]));return 10===c?1:0}function
+DG(p){var
+s=aq(p),c=[0,0];function
+u(a){if(c[1]<s)return aU(p,c[1]);throw U}function
+v(a){if(u(0)===a){c[1]++;return 0}throw U}function
+aa(a,b){for(;;){if(c[1]<s&&i(b,aU(p,c[1]))){c[1]++;continue}return dv(p,a,c[1]-a|0)}}function
+ac(d){v(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=G(c[1],a);o(34);return b}function
-I(e,a){if(n(0)===a){c[1]++;return 0}var
+b=aa(c[1],a);v(34);return b}function
+ae(e,a){if(u(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,i(e,0),b];if(44===n(0)){c[1]++;var
-b=d;continue}o(a);return jo(d)}}function
-v(b,i){if(64<b)throw U;var
-a=n(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,I(function(a){return v(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,I(function(c){var
-a=H(0);o(58);return[0,a,v(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,H(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,G(h,function(a){var
+d=[0,i(e,0),b];if(44===u(0)){c[1]++;var
+b=d;continue}v(a);return jD(d)}}function
+D(b,i){if(64<b)throw U;var
+a=u(0),d=0;if(48<=a){if(91===a){c[1]++;var
+e=93,f=b+1|0;return[1,ae(function(a){return D(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,ae(function(c){var
+a=ac(0);v(58);return[0,a,D(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,ac(0)];if(45===a)d=1}if(d){var
+h=c[1];c[1]++;return[3,aa(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw U}var
-_=v(0,0),J=c[1]<l?1:0,ab=J?10===aR(h,c[1])?1:0:J;if(ab)c[1]++;if(c[1]<l)throw U;var
-s=ah(_);if(m(aI(t(s,Da)),Db))throw U;var
-a=iC(t(s,Dc)),B=0;switch(a[0]){case
+aM=D(0,0),af=c[1]<s?1:0,aN=af?10===aU(p,c[1])?1:0:af;if(aN)c[1]++;if(c[1]<s)throw U;var
+z=ai(aM);if(m(aK(t(z,DH)),DI))throw U;var
+a=iR(t(z,DJ)),K=0;switch(a[0]){case
 1:var
-z=a[1],C=0;if(typeof
-z==="number")if(z)var
-A=2;else
-C=1;else
-if(1===z[1])var
-A=6;else
-C=1;if(C)var
-A=3;var
-g=[0,b9(a[2]),A];break;case
+I=a[1],L=0;if(typeof
+I==="number")if(I)var
+J=2;else
+L=1;else
+if(1===I[1])var
+J=6;else
+L=1;if(L)var
+J=3;var
+l=[0,b$(a[2]),J];break;case
 2:var
-as=1===a[1]?6:3,g=[0,b9(a[2]),as];break;case
+a1=1===a[1]?6:3,l=[0,b$(a[2]),a1];break;case
 3:var
-at=b9(a[1]),g=[0,b9(a[4]),at];break;case
+a2=b$(a[1]),l=[0,b$(a[4]),a2];break;case
 7:var
-K=a[2];B=1;break;case
+ag=a[2];K=1;break;case
 0:case
 5:var
-K=a[1];B=1;break;default:var
-g=Dy}if(B)var
-g=[0,b9(K),3];var
-p=dg(t(s,Dd)),q=p[1];if(m(q,C1))if(m(q,C2))if(m(q,C3))var
-b=aa([0,C5,[0,q,C4]]);else
+ag=a[1];K=1;break;default:var
+l=D5}if(K)var
+l=[0,b$(ag),3];var
+w=dl(t(z,DK)),x=w[1];if(m(x,Dv))if(m(x,Dw))if(m(x,Dx))var
+b=ad([0,Dz,[0,x,Dy]]);else
 var
-r=nN(p[2]),b=[1,r[1],r[2],r[3],r[4]];else
+y=n8(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
 var
-w=nM(g,p[2]),b=[0,w[1],w[2],w[3]];else
+F=n7(l,w[2]),b=[0,F[1],F[2],F[3]];else
 var
-ac=$(p[2]),b=[2,Y(function(f){var
-a=dg(f),b=a[1];if(m(b,CX)){if(m(b,CY)){if(m(b,CZ)){var
-e=m(b,C0);if(e)throw U;return e}return[0,cK(a[2])]}var
-c=nN(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=nM(g,a[2]);return[1,d[1],d[2],d[3]]},ac)];function
-ad(a){var
-b=a[1];return ax(function(a){return 8===a[2][0]?1:0},b)}function
-ae(a){return 0!==a[3]?1:0}function
-L(a){return ax(ae,a)}function
-M(a){if(typeof
+aO=ab(w[2]),b=[2,Y(function(f){var
+a=dl(f),b=a[1];if(m(b,Dr)){if(m(b,Ds)){if(m(b,Dt)){var
+e=m(b,Du);if(e)throw U;return e}return[0,cQ(a[2])]}var
+c=n8(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=n7(l,a[2]);return[1,d[1],d[2],d[3]]},aO)];function
+aP(a){var
+b=a[1];return aA(function(a){return 8===a[2][0]?1:0},b)}function
+aQ(a){return 0!==a[3]?1:0}function
+ah(a){return aA(aQ,a)}function
+aj(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
 0:switch(b[0]){case
 0:var
-O=a[4],N=a[1];d=5;break;case
-2:d=1;break;default:d=2}break;case
+al=a[4],ak=a[1];d=5;break;case
+2:d=1;break;default:d=3}break;case
 1:switch(b[0]){case
 0:var
-ak=b[3];if(ax(function(a){var
-b=a[1];return ax(function(a){switch(a[2][0]){case
+aV=b[3];if(aA(function(a){var
+b=a[1];return aA(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},ak))aa(Dp);else
-d=3;break;case
-1:var
-al=a[6];if(ax(function(a){return 8===a[1]?1:0},al))aa(Dq);else
-d=2;break;default:d=1}break;case
+7:return 1;default:return 0}},b)},aV))ad(DX);else
+d=4;break;case
+1:d=3;break;default:d=4}break;case
 2:var
-Q=a[7],R=a[1],D=0;switch(b[0]){case
+ao=a[7],G=a[1],M=0;switch(b[0]){case
 0:var
-am=1===R?6:3,S=b9(a[2])===am?1:0;if(S){var
-V=0;if(2<=R||!(0===a[4][0]))V=1;else
+aW=1===G?6:3,ap=b$(a[2])===aW?1:0;if(ap){var
+at=0;if(2<=G||!(0===a[4][0]))at=1;else
 var
-y=1;if(V)var
-y=0}else
+H=1;if(at)var
+H=0}else
 var
-y=S;var
-an=function(b){var
+H=ap;var
+aX=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],Dr))a=1;break;case
+1:if(m(c[1],DY))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],Ds))a=1;break;default:a=1}if(!a)return 1-y}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},ap=b[3];if(ax(function(a){return ax(an,a[1])},ap))aa(Dt);else{var
-aq=b[3];if(gX(function(a){var
-b=a[1];return gX(function(d){var
+f=c[1];if(1!==f[0]||m(f[1],DZ))a=1;break;default:a=1}if(!a)return 1-H}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aY=b[3];if(aA(function(a){return aA(aX,a[1])},aY))ad(D0);else{var
+au=0;if(aA(function(a){return 11===a[1]?1:0},ao)){var
+av=0;if(1===G&&2===a[5][0]){var
+ar=0;av=1}if(!av)var
+ar=1;if(ar){ad(D1);au=1}}if(!au){var
+aZ=b[3];if(g7(function(a){var
+b=a[1];return g7(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,C8)){if(!m(c,C9))return ax(C7,Q)}else
+c=b[1];if(m(c,DD)){if(!m(c,DE))return aA(DC,ao)}else
 a=1;break;case
-1:if(!m(b[1],C_))a=1;break;case
+1:if(!m(b[1],DF))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},aq)){d=3;D=1}else
-aa(Du)}break;case
+8:a=1;break}return a?1:0},b)},aZ)){d=2;M=1}else
+ad(D2)}}break;case
 1:var
-W=0,T=b[4];if(typeof
-T!=="number"&&2!==T[0])if(ax(function(c){var
-a=c[1];if(2!==a){var
-b=4<=a?1:0;if(!b)return b}return 1},Q)){aa(Dv);W=1}else{d=2;D=1;W=1}break;default:d=1;D=1}break;case
+aw=0,as=b[4];if(typeof
+as!=="number"&&2===as[0])aw=1;if(!aw){d=3;M=1}break;default:d=1;M=1}break;case
 3:switch(b[0]){case
-0:if(ax(ad,b[3]))aa(Dw);else
-d=3;break;case
-2:d=1;break;default:d=2}break;case
+0:if(aA(aP,b[3]))ad(D3);else
+d=2;break;case
+2:d=1;break;default:d=3}break;case
 7:switch(b[0]){case
 2:var
-ar=b[1];if(ax(function(a){if(typeof
-a!=="number"&&2===a[0])return M(a[4]);return 0},ar))aa(Dx);else
+a0=b[1];if(aA(function(a){if(typeof
+a!=="number"&&2===a[0])return aj(a[4]);return 0},a0))ad(D4);else
 d=4;break;case
-1:d=2;break;default:d=4}break;default:d=2}var
-f=0;switch(d){case
-2:if(1===b[0]&&M(b[4])){aa(Do);f=1}else
-f=3;break;case
-4:f=3;break;case
-0:f=1;break;case
-5:f=4;break;case
-3:f=2;break}var
-e=0;switch(f){case
-3:switch(a[0]){case
-3:aa(Dn);e=2;break;case
+1:d=3;break;default:d=4}break;default:d=3}var
+k=0;switch(d){case
+3:if(1===b[0]&&aj(b[4])){ad(DW);k=2}else
+k=3;break;case
+4:k=3;break;case
+0:k=2;break;case
+5:k=4;break;case
+2:break;default:k=1}var
+g=0;switch(k){case
+3:var
+j=0;switch(a[0]){case
+1:var
+an=a[6];break;case
+4:var
+an=a[3];break;case
+5:if(aA(DA,a[4])){ad(DU);g=2;j=1}else
+if(0===b[0]){var
+aT=b[3];if(aA(function(a){return 0!==a[1]?1:0},aT)){ad(DV);g=2;j=1}else
+j=1}else
+j=1;break;case
+6:j=1;break;case
 7:var
-O=a[4],N=a[2];e=3;break;case
-1:case
-2:break;case
-4:case
-6:e=1;break;default:if(ax(nO,a[4])){aa(Dm);e=2}else
-e=4}break;case
-1:e=2;break;case
-4:e=3;break;case
-2:e=1;break}var
-j=0;switch(e){case
+al=a[4],ak=a[2];g=3;j=1;break;default:g=1;j=1}if(!j)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},an)){ad(DT);g=2}}else
+g=1;break;case
+2:g=2;break;case
+4:g=3;break;case
+0:break;default:g=1}var
+A=0;switch(g){case
 2:break;case
 3:var
-X=0;if(ax(function(a){return 10===a[1]?1:0},O)&&ax(function(a){return 2===a[0]?1:0},N)){aa(De);X=1}if(!X)j=3;break;case
-4:j=3;break;case
-1:j=2;break;default:j=1}var
-k=0;switch(j){case
-3:var
-E=0;switch(a[0]){case
-5:var
-Z=0;if(0===b[0]){var
-aj=b[3];if(ax(function(a){return 0!==a[1]?1:0},aj)){aa(Dl);E=1;Z=1}}if(!Z)var
-x=a[4];break;case
-7:var
-x=a[4];break;default:if(1===b[0])var
-x=a[4];else{k=2;E=1}}if(!E)if(ax(C6,x))aa(Dk);else
-k=2;break;case
-2:k=2;break;case
-1:k=1;break}var
-F=0;switch(k){case
+ax=0;if(aA(function(a){return 10===a[1]?1:0},al)&&aA(function(a){return 2===a[0]?1:0},ak)){ad(DL);ax=1}if(!ax)A=2;break;case
+0:A=2;break;default:A=1}var
+N=0;switch(A){case
 2:var
-u=0;switch(a[0]){case
-5:u=1;break;case
+r=0;switch(a[0]){case
+5:case
+7:if(aA(DB,a[4])){ad(DR);r=1}else
+if(7===a[0])switch(b[0]){case
+2:var
+aS=function(a){if(typeof
+a!=="number"&&1===a[0])return ah(a[3]);return 0};if(aA(aS,b[1]))ad(DS);r=1;break;case
+0:break;default:N=1;r=1}else
+r=1;break}if(!r)if(0===b[0]&&ah(b[3]))ad(DQ);else
+N=1;break;case
+1:N=1;break}var
+am=ai(t(z,DM)),aR=aK(t(am,DN)),q=[0,a,b,aK(t(am,DO)),aR],f=q[1];switch(f[0]){case
+0:var
+O=q[2];if(1===O[0]){var
+B=O[4],ay=0;if(typeof
+B==="number"||!(0===B[0]))ay=1;else{var
+aD=B[1],aE=f[4],aF=f[3],P=E(iv(h(f[1]),aF,aE),aD);if(P){var
+az=0,Q=P[1];if(typeof
+Q!=="number"&&14===Q[0]){var
+e=0;az=1}if(!az)var
+e=1}else
+var
+e=1}if(ay)var
+e=1}else
+var
+e=1;break;case
+2:var
+R=f[7],S=f[6],T=f[2],V=q[2];if(1===V[0]){var
+aG=df(0,h(T),S,R),aH=h(T),W=iL(f[1]),X=gz(0,W,aH,S,R,V[4]);if(X){var
+C=X[1],aB=0;if(typeof
+C==="number"||!(0===C[0]))aB=1;else{var
+Z=hI(o,W,C[1],aG);if(Z){var
+aC=0,_=Z[1][1];if(typeof
+_!=="number"&&14<_[0]){var
+e=0;aC=1}if(!aC)var
+e=1}else
+var
+e=1}if(aB)var
+e=1}else
+var
+e=1}else
+var
+e=1;break;case
 7:var
-ag=a[4];switch(b[0]){case
-0:break;case
-1:F=1;u=1;break;default:var
-ai=function(a){if(typeof
-a!=="number")switch(a[0]){case
-1:return L(a[3]);case
-2:return ax(nO,ag)}return 0};if(ax(ai,b[1]))aa(Dj);u=1}break}if(!u)if(0===b[0]&&L(b[3]))aa(Di);else
-F=1;break;case
-1:F=1;break}var
-P=ah(t(s,Df)),af=aI(t(P,Dg));return[0,a,b,aI(t(P,Dh)),af]}function
-Dz(b){var
-c=ao(b),g=64,h=Fa(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+$=q[2],aI=f[4],aJ=f[2];if(2===$[0])var
+aL=$[1],e=n(function(a){if(typeof
+a!=="number"&&2===a[0]){var
+b=a[4];if(typeof
+b!=="number"&&0===b[0]){var
+e=b[1],c=E(iv(h(aJ),0,aI),e);if(c){var
+d=c[1];if(typeof
+d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aL);else
+var
+e=1;break;default:var
+e=1}return e?q:ad(DP)}function
+D6(b){var
+c=aq(b),g=64,h=FH(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=as(dr(b,a,18),DA);if(!e){var
+e=au(dv(b,a,18),D7);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Fv(function(b){try{if(Dz(b))var
-a=DC;else{try{var
-e=0,d=C$(b);e=1}catch(a){a=jg(a);if(a[1]===nC)var
+f=d;return f}}F2(function(b){try{if(D6(b))var
+a=D9;else{try{var
+e=0,d=DG(b);e=1}catch(a){a=jv(a);if(a[1]===nX)var
 c=[0,a[2]];else{if(a!==U)throw a;var
 c=2}}if(e)var
-c=yS(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return DB}if(typeof
+c=zn(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return D8}if(typeof
 a==="number")switch(a){case
-0:return DD;case
-1:return DE;default:return DF}return aY(DG,a[1])});jn(0);return}(globalThis));
+0:return D_;case
+1:return D$;default:return Ea}return a0(Eb,a[1])});jC(0);return}(globalThis));

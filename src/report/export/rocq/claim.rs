@@ -1,12 +1,13 @@
 //! Claims, as a `subject` of Certificate.v, and what `means` there says of them.
 
 use super::{apply, lines, list, not_covered, optional, quoted, text, Exported};
-use orthocert_kernel::certificate::Claim;
+use orthocert_kernel::certificate::{Claim, Failure};
 use orthocert_kernel::claim::{
     Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Parameter,
     PsiMax, Quantity, Requirement, Sign, Turning, Workspace,
 };
 use orthocert_kernel::number::Expression;
+use orthocert_kernel::problem::Problem;
 
 /// The constructors of `subject`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,9 +34,25 @@ pub struct Subject<'a> {
     pub requirements: &'a [Requirement],
     /// Over a box, of as many legs as there are coordinates, of place and of orientation.
     pub is_square_over_box: bool,
+    /// Of struts of a platform that turns up to some angle about any axis.
+    pub is_about_any_axis: bool,
+    /// What is claimed of a machine, if that is a claim by itself or of parts of an atlas.
+    pub claim_of_machine: Option<&'a MachineClaim>,
 }
 
 impl Subject<'_> {
+    /// Whether an obligation fails of a quantity of which the formal development does not say that it fails.
+    pub fn is_unknown(&self, fails: &Failure) -> bool {
+        let Failure::Obligation(number, _) = fails else { return false };
+        let problem = self.claim_of_machine.and_then(|claim| Problem::new(claim).ok());
+        let quantity = problem.and_then(|problem| {
+            let requirement = problem.obligations.get(*number)?.requirement?;
+            Some(self.requirements.get(requirement)?.quantity.as_str())
+        });
+        let of_turning = self.kind == Kind::Turning;
+        quantity == Some("accuracy") || (of_turning && quantity == Some("joint_acceleration"))
+    }
+
     /// The value of the type `subject`.
     pub fn term(&self) -> String {
         let names: Vec<&str> = self.arguments.iter().map(|(name, _, _)| *name).collect();
@@ -90,6 +107,11 @@ impl Subject<'_> {
                 "(1 < value (greatest (tolerance_of the_psi)))%R /\\\n  \
                  forall psi, (1 < psi)%R -> within (tolerance_of the_psi) psi -> postulate_for psi"
             }
+            (Kind::Formulas, true) => {
+                "let m := by_formulas the_claim in exists theta x, is_about_written the_claim theta x /\\\n  \
+                 ~ exists M, Forall2 (is_row m theta x) (joint_forms m) M /\\\n    \
+                 Configuration.meets (List.length (coordinate_names m)) (machine_at m theta x M) (written_demands the_claim)"
+            }
             // Of atlases that depends on their cells.
             _ => "means the_certificate",
         }
@@ -120,6 +142,8 @@ pub fn subject(claim: &Claim) -> Exported<Subject<'_>> {
                 legs: &[],
                 requirements: &[],
                 is_square_over_box: false,
+                is_about_any_axis: false,
+                claim_of_machine: None,
             })
         }
         Claim::NoCube(claim) => {
@@ -223,7 +247,19 @@ fn machine(claim: &MachineClaim) -> Exported<Subject<'_>> {
     };
     let is_square_over_box =
         coordinates == Some(legs.len()) && matches!(workspace, Workspace::Box { .. });
-    Ok(Subject { kind, arguments, legs, requirements: require, is_square_over_box })
+    let is_about_any_axis = matches!(mechanism, Mechanism::Spatial(_))
+        && matches!(claim.orientation, Some(Orientation::Angle(_)));
+    let claim_of_machine = Some(claim);
+    let requirements = require;
+    Ok(Subject {
+        kind,
+        arguments,
+        legs,
+        requirements,
+        is_square_over_box,
+        is_about_any_axis,
+        claim_of_machine,
+    })
 }
 
 fn without_bodies(claim: &MachineClaim) -> Exported<()> {
@@ -254,10 +290,6 @@ fn turning_machine<'a>(
         }
     };
     let written = requirements(&claim.require, Asked::OfStruts)?;
-    let is_about_any_axis = motion == "InSpace" && matches!(orientation, Orientation::Angle(_));
-    if !is_about_any_axis && claim.require.iter().any(|r| r.quantity == "one_to_one") {
-        return not_covered("\"one_to_one\" of this set of orientations");
-    }
     let strut = |leg: &Leg| match leg {
         Leg::Strut { anchor, platform, base_axis: None } => {
             let [anchor, platform] = [anchor, platform].map(|v| list(v.iter().map(quantity)));
@@ -475,7 +507,7 @@ fn requirement(requirement: &Requirement, asked: Asked) -> Exported<String> {
     let is_asked = match about {
         "Transmission" | "JointRange" | "Condition_" | "Speed_" | "Force_" | "Stiffness_" => true,
         "Serial_" | "Parallel_" | "LegAngle_" => asked < Asked::OfTwoPoints,
-        "OneToOne_" => asked != Asked::OfLegs,
+        "OneToOne_" => true,
         "BaseJoint_" | "PlatformJoint_" => asked == Asked::OfStruts,
         "Clearance_" | "Acceleration_" | "Accuracy_" => {
             matches!(asked, Asked::Anything | Asked::OfStruts)

@@ -37,13 +37,20 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     };
     let has_sign = subject.requirements.iter().any(is_by_slopes);
     let fails = |tree: &Tree| tree.nodes.iter().any(|node| node.fails.is_some());
-    let is_outside = |cell: &AtlasCell| match cell {
-        AtlasCell::Certified(tree) => fails(tree),
-        AtlasCell::Refuted(_) => holds_alone(),
-        AtlasCell::Split(_) | AtlasCell::Undecided => false,
+    let is_outside = |cell: &AtlasCell| matches!(cell, AtlasCell::Certified(tree) if fails(tree));
+    let refuted: Vec<&Failure> = match proof {
+        Proof::Tree(_) => Vec::new(),
+        Proof::Witness(witness) => vec![&witness.fails],
+        Proof::Atlas(cells) => cells
+            .iter()
+            .filter_map(|cell| match cell {
+                AtlasCell::Refuted(witness) => Some(&witness.fails),
+                _ => None,
+            })
+            .collect(),
     };
-    let is_singular = |cell: &AtlasCell| matches!(cell, AtlasCell::Refuted(w) if matches!(w.fails, Failure::Singular(_)));
-    const SINGULAR: &str = "the failure \"singular\" of such a mechanism";
+    let is_singular = refuted.iter().any(|fails| matches!(fails, Failure::Singular(_)));
+    let is_one_to_one = matches!(proof, Proof::Tree(_)) && requires(&["one_to_one"]);
     let what = match (subject.kind, proof) {
         (Kind::Formulas, _) if has(&|by| matches!(by, Evidence::Tolerances(..))) => {
             "the evidence \"tolerances\" of such a mechanism"
@@ -54,54 +61,37 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         (Kind::Legs, _) if has(&|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
             "this set of orientations with such drives"
         }
-        (Kind::Legs, Proof::Witness(_)) if requires(&["joint_force"]) => {
-            "this quantity of such a mechanism in a claim that is refuted"
+        (Kind::Turning, _) if is_one_to_one && !subject.is_about_any_axis => {
+            "\"one_to_one\" of this set of orientations"
         }
+        (Kind::Legs | Kind::Closed, _) if is_one_to_one => "\"one_to_one\" of such a mechanism",
         (Kind::Turning, _)
             if has(&|by| is_no_step_of_pose(by) || (*by == Evidence::Test && !has_sign)) =>
         {
             "a step of a platform that turns that is not at control points"
         }
-        (Kind::Turning, Proof::Witness(Witness { fails, .. })) if is_whatever_is_asked(fails) => {
-            return Ok(())
+        (kind, _) if is_singular && kind != Kind::Turning => {
+            "the failure \"singular\" of such a mechanism"
         }
-        (Kind::Turning, Proof::Witness(_))
-            if subject.requirements.iter().any(|r| {
-                !["transmission", "joint_range", "conditioning"].contains(&r.quantity.as_str())
-            }) =>
-        {
-            "this quantity of such a mechanism in a claim that is refuted"
-        }
-        (_, Proof::Witness(Witness { fails: Failure::Singular(_), .. })) => SINGULAR,
-        (_, Proof::Atlas(cells)) if cells.iter().any(is_singular) => SINGULAR,
         (Kind::Machine, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
             "the acceleration of a joint of a machine with a plane"
         }
-        (Kind::Machine, Proof::Witness(_)) | (Kind::NoCube, _) if holds_alone() => {
-            "this quantity in a claim that is refuted"
-        }
+        (Kind::NoCube, _) if holds_alone() => "this quantity in a claim that is refuted",
         (Kind::NoCube, Proof::Tree(tree)) if tree.nodes.iter().any(|node| !node.by.is_empty()) => {
             "a step in a proof that no cube fits"
         }
-        (Kind::Machine, Proof::Witness(_)) | (Kind::NoCube | Kind::Atlas, _)
-            if subject.requirements.iter().any(for_each) =>
-        {
+        (Kind::NoCube | Kind::Atlas, _) if subject.requirements.iter().any(for_each) => {
             "a stiffness for each joint in such a claim"
         }
         (Kind::NoCube, _) => return Ok(()),
-        (Kind::Atlas, Proof::Atlas(cells)) if cells.iter().any(is_outside) => {
-            "this quantity in a refuted cell of an atlas, or a leaf that fails"
-        }
+        (Kind::Atlas, Proof::Atlas(cells)) if cells.iter().any(is_outside) => "a leaf that fails",
         (_, Proof::Tree(tree)) if fails(tree) => "a leaf that fails",
-        (Kind::Formulas, Proof::Witness(_)) => "a mechanism by formulas in a claim that is refuted",
+        _ if refuted.iter().any(|fails| subject.is_unknown(fails)) => {
+            "this quantity in a claim that is refuted"
+        }
         _ => return Ok(()),
     };
     not_covered(what)
-}
-
-/// Whatever is required, the claim fails there.
-fn is_whatever_is_asked(fails: &Failure) -> bool {
-    matches!(fails, Failure::Reach | Failure::Dependent | Failure::Singular(_))
 }
 
 fn is_no_step_of_pose(by: &Evidence) -> bool {
