@@ -4,7 +4,7 @@
 //! others, and everything else is as in the design. The claims are nested: a machine within a
 //! tolerance is within every wider one. So what is certified for one `t` holds for every smaller
 //! one, and what is refuted for one `t` is refuted for every greater one. Between the two remains
-//! a band, where the tolerances, which are not subdivided, are too wide to be proved.
+//! a band, where the tolerances are too wide to be proved in few parts.
 
 use crate::exact::arithmetic::apply;
 use crate::questions::frontier::{

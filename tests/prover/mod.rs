@@ -5,6 +5,7 @@
 //! |-------------|----------------------------------------------------------------------------|
 //! | `atlas`     | maps against the closed form, and against single designs                   |
 //! | `oracle`    | values in doubles against those of another program                         |
+//! | `tolerances` | wide tolerances, against sampled machines                                 |
 //! | `verdicts`  | sweeps over `psi_max` and over units of length                             |
 //! | `diagonal`  | cubes on the diagonal, decided in closed form, either side of the truth    |
 //! | `mutation`  | altered certificates are rejected, or still true                           |
@@ -13,6 +14,7 @@ mod atlas;
 mod diagonal;
 mod mutation;
 mod oracle;
+mod tolerances;
 mod verdicts;
 
 use orthocert::design::Design;

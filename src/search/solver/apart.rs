@@ -1,6 +1,6 @@
 //! Tolerances apart: from which machine, and along which directions.
 
-use super::doubles::middle;
+use super::doubles::{middle, Pair};
 use super::evidence::{At, Over};
 use super::rows::Rows;
 use nalgebra::{DVector, SymmetricEigen};
@@ -8,13 +8,15 @@ use orthocert_kernel::cell::Vertex;
 use orthocert_kernel::certificate::Evidence;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::Leg;
+use orthocert_kernel::problem::Derived;
 use orthocert_kernel::quantity::Test;
+use orthocert_kernel::slope::evaluate;
 use orthocert_kernel::test::{self, Row};
 use std::collections::BTreeMap;
 
 /// Greatest components of directions that are tried: the longer, the less is lost along them, and the
 /// more across them. Of length 0 all directions count alike, which is best where several are worst at once.
-const LENGTHS: [f64; 3] = [64.0, 8.0, 0.0];
+pub(super) const LENGTHS: [f64; 3] = [64.0, 8.0, 0.0];
 
 /// Where a test is nearest to failing.
 pub(super) struct Worst {
@@ -23,6 +25,8 @@ pub(super) struct Worst {
     pub place: Vec<f64>,
     /// What matrices are least, or greatest, along.
     pub directions: Vec<DVector<f64>>,
+    /// What the test wants positive there, but for the bound.
+    pub value: f64,
     /// Nearly the derivatives by formulas of what the test wants positive; none where no one machine is
     /// worse than all others.
     weights: Vec<(Formula, f64)>,
@@ -30,9 +34,10 @@ pub(super) struct Worst {
 
 /// Where `M` stretches some direction least, or most.
 pub(super) struct Stretched {
-    rows: Vec<Row<Formula>>,
-    values: Rows,
-    sign: f64,
+    pub rows: Vec<Row<Formula>>,
+    pub values: Rows,
+    value: f64,
+    pub sign: f64,
     vertex: usize,
     pub place: Vec<f64>,
     /// All directions, from the one that is stretched least, or most, on.
@@ -50,8 +55,8 @@ impl Stretched {
             weights.extend(row.a.iter().zip(direction.iter()).map(entry));
             weights.push((row.d, -self.sign * part * part));
         }
-        let (vertex, place) = (self.vertex, self.place.clone());
-        Worst { vertex, place, directions: vec![direction], weights }
+        let (vertex, place, value) = (self.vertex, self.place.clone(), self.value);
+        Worst { vertex, place, directions: vec![direction], value, weights }
     }
 }
 
@@ -105,7 +110,7 @@ impl Over<'_> {
         })
     }
 
-    fn worst<'r>(&'r self, test: &Test) -> Option<Worst> {
+    pub(super) fn worst<'r>(&'r self, test: &Test) -> Option<Worst> {
         let row = |leg: &'r Leg| match self.formulas.controls {
             None => &leg.row,
             Some(_) => leg.scaled.as_ref().unwrap_or(&leg.row),
@@ -153,12 +158,12 @@ impl Over<'_> {
             Some((eigen.eigenvalues.min() / self.weight(vertex)?, vertex, eigen, all))
         };
         let found = self.formulas.vertices().filter_map(least);
-        let (_, vertex, eigen, values) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (value, vertex, eigen, values) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let directions = order.iter().map(|&k| eigen.eigenvectors.column(k).into_owned()).collect();
         let (place, vertex) = (self.place_of(vertex), vertex.index());
-        Some(Stretched { rows, values, sign, vertex, place, directions })
+        Some(Stretched { rows, values, value, sign, vertex, place, directions })
     }
 
     /// `z = A^-1 b`, `b = B_i e_i`, is longest, along `y = A^-T z`. The derivatives of `-|z|^2` are
@@ -174,13 +179,13 @@ impl Over<'_> {
             Some((z.norm() * self.weight(vertex)?.sqrt(), vertex, (y, b[joint]), z))
         };
         let found = self.formulas.vertices().filter_map(longest);
-        let (_, vertex, (y, root), z) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (length, vertex, (y, root), z) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let mut weights = vec![(rows.get(joint)?.d, -y[joint] / root)];
         for (row, y) in rows.iter().zip(y.iter()) {
             weights.extend(row.a.iter().zip(z.iter()).map(|(&f, z)| (f, 2.0 * y * z)));
         }
         let finite = root > 0.0 && y.iter().all(|x| x.is_finite()) && y.amax() > 0.0;
-        finite.then(|| self.worst_at(vertex, vec![y], weights))
+        finite.then(|| self.worst_at((-length * length, vertex), vec![y], weights))
     }
 
     /// The vertex at which a sum is least.
@@ -190,7 +195,7 @@ impl Over<'_> {
             Some((weights.iter().map(term).sum::<Option<f64>>()?, v))
         };
         let least = self.formulas.vertices().filter_map(value).min_by(|a, b| a.0.total_cmp(&b.0));
-        Some(self.worst_at(least?.1, Vec::new(), weights))
+        Some(self.worst_at(least?, Vec::new(), weights))
     }
 
     /// The weight by which rows are scaled there.
@@ -201,17 +206,52 @@ impl Over<'_> {
 
     fn worst_at(
         &self,
-        vertex: Vertex,
+        (value, vertex): (f64, Vertex),
         directions: Vec<DVector<f64>>,
         weights: Vec<(Formula, f64)>,
     ) -> Worst {
-        Worst { vertex: vertex.index(), place: self.place_of(vertex), directions, weights }
+        Worst { vertex: vertex.index(), place: self.place_of(vertex), directions, value, weights }
     }
 
     /// Where a vertex, or control point, is between the ends of each coordinate's range.
     fn place_of(&self, vertex: Vertex) -> Vec<f64> {
         let place = |k| self.formulas.place(k, vertex).unwrap_or(0) as f64;
         (0..self.formulas.slopes.m).map(place).collect()
+    }
+
+    /// What tolerances take off the value there, about, and the part of it that is lost for the ranges of derivatives; and what
+    /// is lost for those of slopes.
+    pub(super) fn taken_off(&self, Worst { place, weights, .. }: &Worst) -> Option<[f64; 2]> {
+        let parameters = self.prover.parameters();
+        let values = self.prover.checker.derived(self.formulas.place, false)?;
+        let Derived { of, .. } = self.problem().derived.as_ref()?;
+        let mut by: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for (f, weight) in weights {
+            for (j, derivative) in of.get(f)? {
+                let slope = values.of(*derivative)?;
+                let along = slope.slopes.iter().zip(place);
+                let parts = along.map(|(s, at)| (middle(s) * at, half_width(s) * at.abs()));
+                let start = (middle(&slope.at_centre), half_width(&slope.at_centre));
+                let all = parts.fold(start, |a, b| (a.0 + b.0, a.1 + b.1));
+                let own = by.entry(*j).or_default();
+                own[0] += weight * all.0;
+                own[1] += weight.abs() * all.1;
+            }
+        }
+        let (mut changed, mut lost) = (0.0, 0.0);
+        for (j, [slope, half]) in by {
+            let (low, high) = *parameters.get(j)?;
+            changed += 0.5 * (high - low) * slope.abs();
+            lost += (high - low) * (half - slope.abs()).max(0.0);
+        }
+        let machine: Vec<Pair> = parameters.iter().map(middle).map(|x| (x, x)).collect();
+        let (slopes, edges) = (self.formulas.slopes, self.formulas.place.edges);
+        let machine = evaluate(&self.problem().tape, &machine, slopes, edges);
+        for (f, weight) in weights {
+            let all: f64 = machine.of(*f)?.slopes[..self.m()].iter().map(half_width).sum();
+            lost += weight.abs() * all;
+        }
+        Some([changed, lost])
     }
 
     /// The ends of all tolerances that make it worst.
@@ -245,6 +285,10 @@ impl Over<'_> {
         }
         Some(slopes)
     }
+}
+
+fn half_width((low, high): &Pair) -> f64 {
+    0.5 * (high - low)
 }
 
 /// A direction with this greatest component, in integers.

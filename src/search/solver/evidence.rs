@@ -91,13 +91,8 @@ impl<'a> Prover<'a> {
 
     /// Whether a test fails next to the box's centre, if that is in the workspace: it fails there,
     /// holds with equality, or the tolerances are too wide.
-    fn is_hopeless(&self, cell: &Cell, open: &[usize], apart: bool) -> bool {
-        let centre = |&(lo, hi): &Pair| {
-            let (middle, half) = (0.5 * (lo + hi), 0.5 * (hi - lo) * f64::from(-FINER).exp2());
-            (middle - half, middle + half)
-        };
-        let centre: Cell = cell.iter().map(centre).collect();
-        self.on(&centre, |over| {
+    pub(super) fn is_hopeless(&self, cell: &Cell, open: &[usize], apart: bool) -> bool {
+        self.on(&centre(cell), |over| {
             let fails =
                 |&o: &usize| over.evidence_of(&self.problem.obligations[o].test, apart).is_none();
             over.has_centre_inside() && open.iter().any(fails)
@@ -135,7 +130,7 @@ impl<'a> Prover<'a> {
 }
 
 impl Prover<'_> {
-    fn tried(&self, cell: &Cell, (open, asked): (&[usize], bool), apart: bool) -> Trial {
+    pub(super) fn tried(&self, cell: &Cell, (open, asked): (&[usize], bool), apart: bool) -> Trial {
         self.on(cell, |over| {
             if over.is_outside() {
                 let by = vec![Step(0, Evidence::Outside)];
@@ -186,6 +181,15 @@ impl Boxes for Apart<'_> {
     fn trial(&self, cell: &Cell, open: &[usize], asked: bool) -> Trial {
         self.0.tried(cell, (open, asked), true)
     }
+}
+
+/// What of a box is next to its centre.
+pub(super) fn centre(cell: &[Pair]) -> Cell {
+    let next_to = |&(lo, hi): &Pair| {
+        let (middle, half) = (0.5 * (lo + hi), 0.5 * (hi - lo) * f64::from(-FINER).exp2());
+        (middle - half, middle + half)
+    };
+    cell.iter().map(next_to).collect()
 }
 
 /// What of a range is next to a point of it.

@@ -64,7 +64,7 @@ impl Over<'_> {
         })
     }
 
-    fn most_stretched(&self, test: &Test, most: bool) -> Option<Stretched> {
+    pub(super) fn most_stretched(&self, test: &Test, most: bool) -> Option<Stretched> {
         let legs = self.problem().legs.iter();
         let scaled = |leg: &Leg| leg.scaled.clone().filter(|_| self.formulas.controls.is_some());
         let own = |leg: &Leg| scaled(leg).unwrap_or_else(|| leg.row.clone());

@@ -6,6 +6,7 @@
 //! | `evidence` | a problem in doubles, over a box                                            |
 //! | `propose`  | evidence with which the kernel's tests hold on a box                        |
 //! | `apart`    | directions in which tolerances matter most                                  |
+//! | `parts`    | tolerances in parts, where they are too wide for boxes of any size          |
 //! | `fan`      | the directions apart, where several are worst at once                       |
 //! | `balance`  | what stands between the bounds of a condition number                         |
 //! | `less`     | how much of the workspace's own inequalities it takes                       |
@@ -42,6 +43,7 @@ mod fan;
 mod less;
 pub mod margin;
 mod needed;
+mod parts;
 pub(crate) mod program;
 mod propose;
 pub(crate) mod refute;
@@ -65,6 +67,7 @@ use orthocert_kernel::claim::{Bound, MachineClaim};
 use orthocert_kernel::input::ClaimError;
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
+use parts::Parts;
 use sample::{Sampler, Worst};
 use search::{search, Branch, Ends, Open, Outcome};
 use std::sync::atomic::AtomicBool;
@@ -83,6 +86,8 @@ const GUARD_APART: u32 = 22;
 /// Boxes after which tolerances are taken apart: certificates in ranges are shorter. Of platforms that turn, and of
 /// others.
 const MOST_IN_RANGES: [usize; 2] = [8, 2000];
+/// Boxes of one level with tolerances in parts: where these help, few are enough.
+const MOST_ABREAST: usize = 512;
 /// Boxes with directions apart: each takes long, and few are enough where they help.
 const MOST_APART: usize = 300;
 /// The greatest bound that is searched with.
@@ -166,7 +171,9 @@ pub fn verify(
     };
     let mut found = searched(first, control);
     if found.stop == Stop::Hopeless {
-        if let Some(nodes) = control.part(rest, |control| apart(&prover, budget, control)) {
+        if let Some(nodes) =
+            control.part(rest, |control| apart_or_in_parts(&prover, budget, control))
+        {
             let boxes = found.boxes + nodes.len();
             let answer = control.part(checks, |_| accepted(claim, &prover, nodes));
             return Ok(Verification { answer, worst, boxes });
@@ -325,7 +332,7 @@ pub fn proof_about(
     let prover = Prover::new(&problem).map_err(|_| Stop::Hopeless)?;
     let search = |control: &mut Control<'_>| match holds(prover.problem) {
         true => from_root(&prover, budget, control),
-        false => apart(&prover, budget, control).ok_or(Stop::Hopeless),
+        false => apart_or_in_parts(&prover, budget, control).ok_or(Stop::Hopeless),
     };
     let found = nodes.map_or_else(|| control.part(rest, search), Ok)?;
     match control.part(checks, |_| accepted(claim, &prover, found)) {
@@ -379,7 +386,7 @@ fn from_root(
     let found = search(prover, &Branch::whole(prover), ends, budget, control);
     let found = found.ok_or(Stop::Hopeless)?;
     match found.stop {
-        Stop::Hopeless => apart(prover, budget, control).ok_or(found.stop),
+        Stop::Hopeless => apart_or_in_parts(prover, budget, control).ok_or(found.stop),
         _ if found.is_proof() => Ok(found.nodes),
         stop => Err(stop),
     }
@@ -391,6 +398,30 @@ fn apart(prover: &Prover<'_>, budget: Budget, control: &mut Control<'_>) -> Opti
     let ends = Ends { hopeless: true, ..Ends::default() };
     let found = search(&Apart(prover), &Branch::whole(prover), ends, few(budget), control)?;
     found.is_proof().then_some(found.nodes)
+}
+
+/// The same, or with tolerances in parts.
+fn apart_or_in_parts(
+    prover: &Prover<'_>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Option<Vec<Node>> {
+    apart(prover, budget, control).or_else(|| {
+        let found = in_parts_of_tolerances(prover, budget, control)?;
+        found.is_proof().then_some(found.nodes)
+    })
+}
+
+/// The same with tolerances in parts, where no box of the workspace is small enough.
+fn in_parts_of_tolerances(
+    prover: &Prover<'_>,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Option<Outcome> {
+    let parts = Parts::new(prover)?;
+    let ends = Ends { hopeless: true, enough: Some(MOST_ABREAST) };
+    let budget = Budget { max_boxes: budget.max_boxes.min(parts.most()), ..budget };
+    search(&parts, &Branch::whole(&parts), ends, budget, control)
 }
 
 /// A budget of few boxes.

@@ -1,0 +1,260 @@
+//! Tolerances in parts: where they are too wide for boxes of any size, boxes of the workspace and of these.
+
+use super::apart::{Stretched, LENGTHS};
+use super::doubles::{middle, Pair};
+use super::evidence::{centre, Over, Prover};
+use super::rows::Rows;
+use super::search::{halves, Boxes, Cell, Trial};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use orthocert_kernel::certificate::Node;
+use orthocert_kernel::formula::Formula;
+use orthocert_kernel::problem::Problem;
+use orthocert_kernel::quantity::Test;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+/// What is left counts up to so much of what is lost.
+const WORTH: f64 = 0.25;
+/// The least that is lost, of what is left.
+const LEAST_LOST: f64 = 1e-9;
+/// The greatest gain of one half that counts.
+const MOST_GAIN: f64 = 1e3;
+
+/// What each number changes of a row.
+type Changes = BTreeMap<usize, DVector<f64>>;
+
+/// A problem whose boxes have, after the coordinates, the ranges of the numbers with two ends.
+pub(super) struct Parts<'a> {
+    problem: &'a Problem,
+    root: Cell,
+    coordinates: usize,
+    /// Those that no thread narrows at the moment.
+    provers: Mutex<Vec<Prover<'a>>>,
+}
+
+/// Tolerances, and coordinates, times boxes of a tree; a third of it for each coordinate of orientation, as each box takes
+/// three times as long.
+const MOST_TRIED: usize = 16_000;
+
+impl<'a> Parts<'a> {
+    /// Most boxes that are worth it.
+    pub fn most(&self) -> usize {
+        MOST_TRIED / self.root.len() / 3usize.pow(self.problem.orientation.len() as u32)
+    }
+
+    /// The parts of a problem with tolerances.
+    pub fn new(prover: &Prover<'a>) -> Option<Self> {
+        let problem = prover.problem;
+        problem.derived.as_ref()?;
+        let inputs = problem.inputs.iter().zip(prover.parameters());
+        let ranges = inputs.filter(|(input, _)| input.has_two_ends()).map(|(_, range)| *range);
+        let root: Cell = prover.root.iter().copied().chain(ranges).collect();
+        let coordinates = prover.root.len();
+        (root.len() > coordinates).then(|| Parts {
+            problem,
+            root,
+            coordinates,
+            provers: Mutex::default(),
+        })
+    }
+
+    /// With a prover for a part of the tolerances.
+    fn narrowed<T>(&self, ranges: &[Pair], then: impl FnOnce(&mut Prover<'a>) -> T) -> Option<T> {
+        let waiting = self.provers.lock().ok()?.pop();
+        let mut prover = waiting.or_else(|| Prover::new(self.problem).ok())?;
+        prover.checker.narrow(ranges);
+        let found = then(&mut prover);
+        self.provers.lock().ok()?.push(prover);
+        Some(found)
+    }
+
+    /// What is left of each of these tests on a box, about, and what is lost.
+    fn margins(&self, cell: &Cell, open: &[usize]) -> Vec<Option<[f64; 2]>> {
+        let (own, ranges) = cell.split_at(self.coordinates);
+        let margin = |over: &Over<'_>, o: &usize| over.left_of(&self.problem.obligations[*o].test);
+        let all = self.narrowed(ranges, |prover| {
+            prover.on(&own.to_vec(), |over| open.iter().map(|o| margin(over, o)).collect())
+        });
+        all.unwrap_or_default()
+    }
+
+    /// How much is gained by halving the coordinate along which what is open varies most, and each range.
+    fn gains(&self, cell: &Cell, open: &[usize], own: &[f64]) -> Vec<f64> {
+        let before = self.margins(cell, open);
+        let greatest = |best: usize, k: usize| if own[k] > own[best] { k } else { best };
+        let first = (0..self.coordinates).fold(0, greatest);
+        let gain = |k: usize| {
+            let Some(edges) = halves(cell[k]) else { return f64::MIN };
+            let halves = edges.map(|edge| {
+                let mut half = cell.clone();
+                half[k] = edge;
+                self.margins(&half, open)
+            });
+            let gains = before.iter().enumerate().flat_map(|(o, before)| {
+                halves.iter().map(move |half| match (before, half.get(o).copied().flatten()) {
+                    (None, None) => 0.0,
+                    (None, Some(_)) => 1.0,
+                    (Some(_), None) => -1.0,
+                    (Some([margin, lost]), Some([after, _])) => {
+                        let least = LEAST_LOST * (margin.abs() + after.abs());
+                        let short = |margin: f64| {
+                            let x = -margin / (WORTH * lost.max(least));
+                            x.max(0.0) + (-x.abs()).exp().ln_1p()
+                        };
+                        (short(*margin) - short(after)).clamp(-MOST_GAIN, MOST_GAIN)
+                    }
+                })
+            });
+            gains.sum()
+        };
+        let is_tried = |k: usize| k == first || k >= self.coordinates;
+        (0..cell.len()).map(|k| if is_tried(k) { gain(k) } else { f64::MIN }).collect()
+    }
+}
+
+impl Boxes for Parts<'_> {
+    fn root(&self) -> &Cell {
+        &self.root
+    }
+
+    fn obligations(&self) -> usize {
+        self.problem.obligations.len()
+    }
+
+    fn trial(&self, cell: &Cell, open: &[usize], _: bool) -> Trial {
+        let (own, ranges) = cell.split_at(self.coordinates);
+        let (own, whole) = (own.to_vec(), ranges == &self.root[self.coordinates..]);
+        // What is of the whole tolerance is shown before that is halved.
+        let of_whole = |&o: &usize| matches!(self.problem.obligations[o].test, Test::Accuracy(_));
+        let (late, now): (Vec<usize>, Vec<usize>) =
+            open.iter().partition(|&o| !whole && of_whole(o));
+        let found = self.narrowed(ranges, |prover| {
+            let mut trial = prover.tried(&own, (&now, false), false);
+            if !trial.open.is_empty() {
+                prover.checker.narrow(&centre(ranges));
+                trial.hopeless = prover.is_hopeless(&own, &trial.open, false);
+            }
+            trial
+        });
+        let nothing = || Trial {
+            node: Node::default(),
+            open: now.clone(),
+            weights: Vec::new(),
+            hopeless: true,
+        };
+        let mut trial = found.unwrap_or_else(nothing);
+        trial.hopeless |= !late.is_empty();
+        trial.open.extend(late);
+        if trial.open.is_empty() || trial.hopeless {
+            trial.weights.resize(cell.len(), 0.0);
+        } else if trial.open.iter().any(of_whole) {
+            trial.weights.resize(cell.len(), f64::MIN);
+        } else {
+            trial.weights = self.gains(cell, &trial.open, &trial.weights);
+        }
+        trial
+    }
+}
+
+impl Over<'_> {
+    /// By how much a test holds for the worst machine, about, less what is lost; and that.
+    fn left_of(&self, test: &Test) -> Option<[f64; 2]> {
+        let own = |there: &Over<'_>| match test {
+            Test::Conditioning(c) => {
+                let least = there.left_along(&Test::SigmaMin(*c))?;
+                let (most, c) = (there.left_along(&Test::SigmaMax(*c))?, there.centre(*c)?);
+                Some([c * least[0] + most[0], c * least[1] + most[1]])
+            }
+            _ => {
+                let [value, lost] = there.left_along(test)?;
+                let bound = match test {
+                    Test::SigmaMin(f) | Test::Least(_, f) => -there.centre(*f)?,
+                    Test::SigmaMax(f) | Test::Greatest(_, f) => there.centre(*f)?,
+                    Test::Solve(solve) => there.centre(solve.square)?.recip(),
+                    _ => 0.0,
+                };
+                Some([value + bound, lost])
+            }
+        };
+        self.there(test, own).or_else(|| own(self))
+    }
+
+    fn left_along(&self, test: &Test) -> Option<[f64; 2]> {
+        let worst = self.worst(test)?;
+        let [changed, lost] = self.taken_off(&worst)?;
+        let across = match test {
+            Test::SigmaMin(_) | Test::Least(..) => {
+                self.across(self.most_stretched(test, false)?)?
+            }
+            Test::SigmaMax(_) | Test::Greatest(..) => {
+                self.across(self.most_stretched(test, true)?)?
+            }
+            _ => worst.value - changed,
+        };
+        let value = across.min(worst.value - changed);
+        Some([value - lost, lost + worst.value - changed - value])
+    }
+
+    /// The least eigenvalue of `T` of the worst machine less what is taken off for the others, which is more across
+    /// the worst direction than along it.
+    fn across(&self, found: Stretched) -> Option<f64> {
+        let Stretched { rows, values: Rows { a, d }, sign, place, directions, .. } = &found;
+        let w = directions.first()?;
+        let derived = self.prover.checker.derived(self.formulas.place, false)?;
+        let derivatives = &self.problem().derived.as_ref()?.of;
+        let at = |f: Formula| {
+            let slope = derived.of(f)?;
+            let along = slope.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
+            Some(middle(&slope.at_centre) + along.sum::<f64>())
+        };
+        let mut t = DMatrix::zeros(a.ncols(), a.ncols());
+        let mut changes: Vec<(DVector<f64>, Changes)> = Vec::new();
+        for (i, row) in rows.iter().enumerate() {
+            let y = a.row(i).transpose() / d[i];
+            t += &y * a.row(i) * *sign;
+            let mut all = Changes::new();
+            for (k, f) in row.a.iter().chain([&row.d]).enumerate() {
+                for &(j, derivative) in derivatives.get(f)? {
+                    let (low, high) = *self.prover.parameters().get(j)?;
+                    let change = *sign * at(derivative)? * (high - low);
+                    let s = all.entry(j).or_insert_with(|| DVector::zeros(a.ncols()));
+                    match k < a.ncols() {
+                        true => s[k] += change,
+                        false => *s -= &y * (0.5 * change),
+                    }
+                }
+            }
+            changes.push((y, all));
+        }
+        // From the end of each that is worst along the direction.
+        let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
+        for (y, all) in &changes {
+            for (j, s) in all {
+                *slopes.entry(*j).or_default() += y.dot(w) * s.dot(w);
+            }
+        }
+        for (y, all) in &mut changes {
+            for (j, s) in all {
+                if slopes[j] < 0.0 {
+                    *s *= -1.0;
+                }
+                t -= (&*y * s.transpose() + &*s * y.transpose()) * 0.5;
+            }
+        }
+        let least = |length: &f64| {
+            let w = w * (*length / w.amax());
+            let size = |x: &DVector<f64>| x.dot(&w).abs() + x.iter().map(|x| x.abs()).sum::<f64>();
+            let mut t = t.clone();
+            for (e, all) in &changes {
+                for s in all.values().filter(|s| s.amax() > 0.0) {
+                    let tau = size(e) / size(s);
+                    let p = s * tau - e;
+                    t -= &p * p.transpose() / (2.0 * tau);
+                }
+            }
+            let is_known = t.iter().all(|x| x.is_finite());
+            is_known.then(|| SymmetricEigen::new(t).eigenvalues.min())
+        };
+        LENGTHS.iter().filter_map(least).reduce(f64::max)
+    }
+}
