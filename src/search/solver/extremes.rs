@@ -8,7 +8,7 @@ use super::refute::{number, witness_at};
 use super::sample::{Place, Quality, Sampler, Worst};
 use super::search::{resume, search, Branch, Ends, Outcome};
 use super::value::{alone, Bounded};
-use super::{accepted, few, in_parts_of_tolerances, look_into, refuted, verify, Answer};
+use super::{accepted, few, look_into, refuted, verify, Answer};
 use crate::exact::Exact;
 use crate::search::{Budget, Control, Steps, Stop};
 use num_rational::BigRational;
@@ -583,10 +583,6 @@ fn certify(
     {
         let apart = search(&Apart(&prover), &whole, ends, few(budget), control);
         found = apart.filter(|apart| apart.is_proof() || apart.stop == Stop::Cancelled).or(found);
-    }
-    if found.as_ref().is_none_or(|found| found.stop == Stop::Hopeless) {
-        let parts = in_parts_of_tolerances(&prover, budget, control);
-        found = parts.filter(|parts| parts.is_proof() || parts.stop == Stop::Cancelled).or(found);
     }
     let Some(found) = found else { return Ok(Attempt::Undecided(Stop::Hopeless)) };
     if found.stop == Stop::Cancelled {

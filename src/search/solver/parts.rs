@@ -32,6 +32,8 @@ pub(super) struct Parts<'a> {
     provers: Mutex<Vec<Prover<'a>>>,
 }
 
+/// Most numbers with two ends: each box is looked at once more for either half of each.
+const MOST_NUMBERS: usize = 16;
 /// Tolerances, and coordinates, times boxes of a tree; a third of it for each coordinate of orientation, as each box takes
 /// three times as long.
 const MOST_TRIED: usize = 16_000;
@@ -50,7 +52,8 @@ impl<'a> Parts<'a> {
         let ranges = inputs.filter(|(input, _)| input.has_two_ends()).map(|(_, range)| *range);
         let root: Cell = prover.root.iter().copied().chain(ranges).collect();
         let coordinates = prover.root.len();
-        (root.len() > coordinates).then(|| Parts {
+        let numbers = root.len() - coordinates;
+        (1..=MOST_NUMBERS).contains(&numbers).then(|| Parts {
             problem,
             root,
             coordinates,
