@@ -5,33 +5,33 @@
 
 From Coq Require Import ZArith NArith Reals List String.
 From Orthocert Require Import Claim.
-From Orthocert.kernel Require Import Statement Check Problem Faces.
+From Orthocert.kernel Require Import Statement Arithmetic Check Problem Faces.
 From Orthocert.kernel Require Certificate.
 From Orthocert.instances Require FourSliders StrutsAndPlane OrthoglideTolerance LinearDelta DeltaSpeed DeltaMargin UpuAxes PostulateAll PostulateUpTo2.
 Import ListNotations.
 
 (** The trees that a certificate's nodes are. *)
 Definition trees_in (p : Certificate.proof) : list tree :=
-  match p with Certificate.Nodes _ _ nodes => match Certificate.trees_of [] 4 nodes with Some ts => ts | None => [] end | _ => [] end.
+  match p with Certificate.Nodes _ _ nodes => match Certificate.trees_of 3 [] [] [] 4 nodes with Some ts => ts | None => [] end | _ => [] end.
 Definition tree_in (p : Certificate.proof) : tree := nth 0 (trees_in p) (Leaf []).
 
 Definition step : Type := nat * evidence.
 
 (** The first leaf, and the last, left without a step. *)
 Fixpoint without_first (t : tree) : tree :=
-  match t with Leaf _ => Leaf [] | Split b k l u => Split b k (without_first l) u end.
+  match t with Leaf _ => Leaf [] | Split b k l u => Split b k (without_first l) u | Parts b j l u => Parts b j (without_first l) u end.
 Fixpoint without_last (t : tree) : tree :=
-  match t with Leaf _ => Leaf [] | Split b k l u => Split b k l (without_last u) end.
+  match t with Leaf _ => Leaf [] | Split b k l u => Split b k l (without_last u) | Parts b j l u => Parts b j l (without_last u) end.
 
 (** The steps of the first leaf for all. *)
 Fixpoint first_leaf (t : tree) : tree :=
   match t with
   | Leaf b => Leaf b
-  | Split b _ l _ => match first_leaf l with Leaf more => Leaf (b ++ more) | other => other end
+  | Split b _ l _ | Parts b _ l _ => match first_leaf l with Leaf more => Leaf (b ++ more) | other => other end
   end.
 
 Fixpoint map_steps (f : list step -> list step) (t : tree) : tree :=
-  match t with Leaf b => Leaf (f b) | Split b k l u => Split (f b) k (map_steps f l) (map_steps f u) end.
+  match t with Leaf b => Leaf (f b) | Split b k l u => Split (f b) k (map_steps f l) (map_steps f u) | Parts b j l u => Parts (f b) j (map_steps f l) (map_steps f u) end.
 Definition map_evidence (f : evidence -> evidence) : tree -> tree := map_steps (map (fun s => (fst s, f (snd s)))).
 
 (** Another Y. *)
@@ -108,6 +108,12 @@ Example not_split : accepts the_claim (first_leaf certificate) = false. Proof. v
 Example lower_bound_tightened : accepts (between (1 // 2) (19 // 10)) certificate = false. Proof. vm_compute. reflexivity. Qed.
 Example upper_bound_tightened : accepts (between (501 // 1000) (2 // 1)) certificate = false. Proof. vm_compute. reflexivity. Qed.
 Example of_another_machine : accepts LinearDelta.the_claim certificate = false. Proof. vm_compute. reflexivity. Qed.
+
+(** Halves of the first leg's length, each with this tree; the accuracy of a machine is of all. *)
+Example in_halves : accepts (between (1 // 2) (2 // 1)) (Parts [] 9 certificate certificate) = true. Proof. vm_compute. reflexivity. Qed.
+Example lower_half_left_out : accepts (between (1 // 2) (2 // 1)) (Parts [] 9 (without_last certificate) certificate) = false. Proof. vm_compute. reflexivity. Qed.
+Example upper_half_left_out : accepts (between (1 // 2) (2 // 1)) (Parts [] 9 certificate (Leaf [])) = false. Proof. vm_compute. reflexivity. Qed.
+Example accuracy_in_halves : may_part [Accurate zero []] [true] = false /\ may_part [Accurate zero []; AtLeast 0] [false; true] = true. Proof. split; reflexivity. Qed.
 End Tolerance.
 
 Module Margin.
@@ -158,7 +164,7 @@ End Couples.
 
 (** Of the first leaf, which touches the corner, another step. *)
 Fixpoint first_by (e : evidence) (t : tree) : tree :=
-  match t with Leaf _ => Leaf [(0%nat, e)] | Split b k l u => Split b k (first_by e l) u end.
+  match t with Leaf _ => Leaf [(0%nat, e)] | Split b k l u => Split b k (first_by e l) u | Parts b j l u => Parts b j (first_by e l) u end.
 Definition corner_for_test (f : face) (e : evidence) : evidence := match e with ByTest => ByCorner f | e => e end.
 Definition mirrored (e : evidence) : evidence := ByMirror.
 

@@ -111,7 +111,8 @@ Inductive step :=
   | Turned_ (s : step) (n : Z) (places : N)
   | AtControls_ (s : step)
   (* [ends]: of each quantity with two ends, where the one machine is *)
-  | Apart_ (s : step) (ends : string) (directions : list (list Z)).
+  | Apart_ (s : step) (ends : string) (directions : list (list Z))
+  | Fan_ (cs : list (list Z * Z * N * step)).
 
 Inductive violation :=
   | Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_
@@ -325,6 +326,7 @@ Fixpoint evidence_text (s : step) : text :=
   | Turned_ s n places => variant "turned" (array [evidence_text s; integer_text n; places_text places])
   | AtControls_ s => variant "control" (evidence_text s)
   | Apart_ s ends vs => variant "tolerances" (array [evidence_text s; quoted ends; array (map integers_text vs)])
+  | Fan_ cs => variant "fan" (array (map (fun p => let '(c, n, places, s) := p in array [integers_text c; integer_text n; places_text places; evidence_text s]) cs))
   end.
 Definition step_text (s : nat * step) : text := array [natural (fst s); evidence_text (snd s)].
 Definition violation_text (f : violation) : text :=
@@ -379,6 +381,7 @@ Fixpoint is_plain_step (s : step) : bool :=
   | Plain name | Multiplied name _ _ => is_plain name
   | Inside_ s _ _ | Turned_ s _ _ | AtControls_ s => is_plain_step s
   | Apart_ s ends _ => is_plain ends && is_plain_step s
+  | Fan_ cs => forallb (fun p => is_plain_step (snd p)) cs
   | AtCorner _ | Conditioned_ _ _ _ | Accurate_ _ _ _ _ => true
   end.
 (** Letters, digits and _, a letter first; [sqrt] is none. *)
@@ -967,17 +970,23 @@ Definition length_order (ds : list drive) : Z :=
 Definition choice_of (c : ascii) : option Tolerances.choice :=
   if (c =? "-")%char then Some Tolerances.FromLeast else if (c =? "+")%char then Some Tolerances.FromGreatest
   else if (c =? "0")%char then Some Tolerances.FromMiddle else None.
-(** For each of these parameters a character. *)
-Fixpoint ends_of (free : list nat) (l : list ascii) : option (list (nat * Tolerances.choice)) :=
+(** For each of these parameters a character; and those that directions of one scale leave no range. *)
+Fixpoint ends_of (free : list nat) (l : list ascii) : option (list (nat * Tolerances.choice) * list nat) :=
   match free, l with
-  | [], [] => Some []
-  | j :: free', c :: l' => match choice_of c, ends_of free' l' with Some c, Some r => Some ((j, c) :: r) | _, _ => None end
+  | [], [] => Some ([], [])
+  | j :: free', c :: l' => match ends_of free' l', choice_of c with
+      | Some (r, ones), Some c => Some ((j, c) :: r, ones)
+      | Some (r, ones), None => if (c =? "1")%char then Some (r, j :: ones) else None
+      | None, _ => None
+      end
   | _, _ => None
   end.
 
 Section Steps.
-(** The parameters with two ends. *)
-Variable free : list nat.
+(** Of how many coordinates, the parameters with two ends, and those that may be apart. *)
+Variables (m : nat) (free apart : list nat).
+(** The parameters of each direction. *)
+Variable groups : list (list nat).
 
 Fixpoint evidence_of (s : step) : option evidence :=
   match s with
@@ -994,10 +1003,15 @@ Fixpoint evidence_of (s : step) : option evidence :=
   | Turned_ s n places => match evidence_of s with Some e => Some (Turned e n places) | None => None end
   | AtControls_ s => option_map AtControls (evidence_of s)
   | Apart_ s ends vs =>
-      match free, evidence_of s, ends_of free (list_ascii_of_string ends) with
-      | _ :: _, Some e, Some ends => Some (ByTolerances e ends vs)
+      match apart, evidence_of s, ends_of apart (list_ascii_of_string ends) with
+      | _ :: _, Some e, Some (ends, []) => Some (ByTolerances e ends vs)
+      | _ :: _, Some e, Some (ends, ones) => Some (OfOneScale groups ones (ByTolerances e ends vs))
       | _, _, _ => None
       end
+  | Fan_ cs => option_map ByFan ((fix all ps := match ps with
+      | [] => Some []
+      | (c, n, places, s) :: ps' => match evidence_of s, all ps' with Some e, Some r => Some ((c, n, places, e) :: r) | _, _ => None end
+      end) cs)
   end.
 Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
   match l with
@@ -1005,6 +1019,9 @@ Fixpoint steps_of (l : list (nat * step)) : option (list (nat * evidence)) :=
   | (i, s) :: l' => match evidence_of s, steps_of l' with Some e, Some k => Some ((i, e) :: k) | _, _ => None end
   end.
 
+(** Counted from zero, coordinates are halved, and then parameters with two ends. *)
+Definition halved_at (s : list (nat * evidence)) (k : nat) (a b : tree) : option tree :=
+  if Nat.ltb k m then Some (Split s k a b) else option_map (fun j => Parts s j a b) (nth_error free (k - m)).
 (** The tree that the first nodes are, and those that are left; [depth] is that of the nodes' list. *)
 Fixpoint tree_of (depth : nat) (l : list node) : option (tree * list node) :=
   match depth, l with
@@ -1013,7 +1030,7 @@ Fixpoint tree_of (depth : nat) (l : list node) : option (tree * list node) :=
       | Some s, None => Some (Leaf s, rest)
       | Some s, Some k =>
           match tree_of d rest with
-          | Some (a, rest) => match tree_of d rest with Some (b, rest) => Some (Split s k a b, rest) | None => None end
+          | Some (a, rest) => match tree_of d rest with Some (b, rest) => option_map (fun t => (t, rest)) (halved_at s k a b) | None => None end
           | None => None
           end
       | None, _ => None
@@ -1040,12 +1057,15 @@ Definition nfailure_of (f : violation) : option nfailure :=
   end.
 
 (** The same of a tree whose leaves fail, and that has no steps. *)
-Fixpoint failing_tree_of (depth : nat) (l : list node) : option (failing_tree * list node) :=
+Fixpoint failing_tree_of (free : list nat) (depth : nat) (l : list node) : option (failing_tree * list node) :=
   match depth, l with
   | S d, Node [] None (Some f) at_ :: rest => option_map (fun f => (Fails_ at_ f, rest)) (nfailure_of f)
   | S d, Node [] (Some k) None [] :: rest =>
-      match failing_tree_of d rest with
-      | Some (a, rest) => match failing_tree_of d rest with Some (b, rest) => Some (Halved k a b, rest) | None => None end
+      match failing_tree_of free d rest with
+      | Some (a, rest) => match failing_tree_of free d rest with
+          | Some (b, rest) => if Nat.ltb k 3 then Some (Halved k a b, rest) else option_map (fun j => (Parted j a b, rest)) (nth_error free (k - 3))
+          | None => None
+          end
       | None => None
       end
   | _, _ => None
@@ -1271,10 +1291,6 @@ Definition has_direction (d : drive) : bool :=
 Definition is_well_formed (ls : list written_leg) (bs : list written_body) (rs : list written_requirement) (c : claim) : bool :=
   are_bodies (is_on ls) bs rs && forallb has_direction (legs c) && Nat.leb 3 (length ls) && forallb (is_shaped (length ls)) rs && is_each_once rs && forallb is_range (flat_map quantities_of ls) && forallb is_bound (require c).
 
-(** Nodes are halved along coordinates that there are. *)
-Definition splits_below (n : nat) (nodes : list node) : bool :=
-  forallb (fun x => match split_ x with Some k => Nat.ltb k n | None => true end) nodes.
-
 Definition are_well_formed_formulas (xs : list string) (ps : list (string * quantity)) (rows : list written_form) (a b : list expression) (rs : list written_requirement) : bool :=
   let n := length (xs) in
   let has_coordinate r := match about_ r with
@@ -1310,16 +1326,25 @@ Definition is_one_each (qs : list quantity) (machine : list expression) : bool :
   Nat.eqb (length machine) (length (filter (fun q => match q with Between _ _ => true | One _ => false end) qs)).
 
 (** What is within tolerances, counted as formulas count it. *)
-Definition free_parameters (k : claim) : list nat :=
-  let ps := layouts (length_order (legs k)) (map direction_order (legs k)) (legs k) in
-  map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps)).
+Definition with_two_ends (ps : list parameter) : list nat := map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps)).
+Definition parameters_of_claim (k : claim) : list parameter := layouts (length_order (legs k)) (map direction_order (legs k)) (legs k).
+Definition free_parameters (k : claim) : list nat := with_two_ends (parameters_of_claim k).
+(** Directions, of which no component is an integer but 0; of each leg, how many parameters it has, and where directions begin. *)
+Fixpoint groups_from (j : nat) (ls : list (nat * list nat)) : list (list nat) :=
+  match ls with [] => [] | (n, at_) :: r => (map (fun k => seq (j + k) 3) at_ ++ groups_from (j + n) r)%list end.
+Definition groups_of (ps : list parameter) (ls : list (nat * list nat)) : list (list nat) :=
+  let fits i := match nth_error ps i with Some p => match small p with Some n => (n =? 0)%Z | None => true end | None => false end in
+  filter (forallb fits) (groups_from 0 ls).
+Definition places_of_directions (d : drive) : nat * list nat :=
+  match d with SliderLeg _ => (10, [0]) | StrutLeg _ _ (Some _) => (9, [6]) | StrutLeg _ _ None => (6, []) | PlanarLeg _ => (3, [0]) end.
+Definition any_places_of_directions (d : any_drive) : nat * list nat := match d with LinearDrive d => places_of_directions d | RotaryDrive _ => (14, [0; 3]) end.
 Definition matrix_of (chords : option (list (list Z) * N)) : N * list (list Z) := match chords with Some (y, places) => (places, y) | None => (0%N, []) end.
 (** Tolerances are not taken apart in cells of atlases. *)
 Definition accept_tree (of_cell : bool) (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (bits : positive) (chords : option (list (list Z) * N)) (nodes : list node) : bool :=
   let k := claim_of ls w bs rs in
-  match tree_of (if of_cell then [] else free_parameters k) (length nodes) nodes with
-  | Some (t, []) => is_well_formed ls bs rs k && splits_below 3 nodes &&
+  match tree_of 3 (free_parameters k) (if of_cell then [] else free_parameters k) (groups_of (parameters_of_claim k) (map places_of_directions (legs k))) (length nodes) nodes with
+  | Some (t, []) => is_well_formed ls bs rs k &&
       certify exact_bits bits (matrix_of chords) k (length_order (legs k)) (map direction_order (legs k)) t
   | _ => false
   end.
@@ -1335,8 +1360,8 @@ Definition accept_driven_tree (k : mobility) (ls : list written_driven) (ell : o
   let c := driven_claim_of k ls ell w o rs in
   let s := any_length_order (drives c) in let ds := map any_direction_orders (drives c) in
   let ps := Drives.driven_layouts s ds (drives c) in
-  match tree_of (map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length ps)) ps))) (length nodes) nodes with
-  | Some (t, []) => are_well_formed_legs k ls ell w o false rs && splits_below (freedom k) nodes && certify_driven exact_bits bits c s ds t
+  match tree_of (freedom k) (with_two_ends ps) (with_two_ends ps) (groups_of ps (map any_places_of_directions (drives c))) (length nodes) nodes with
+  | Some (t, []) => are_well_formed_legs k ls ell w o false rs && certify_driven exact_bits bits c s ds t
   | _ => false
   end.
 Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell : option expression) (w : written_place) (o : option written_orientation)
@@ -1428,7 +1453,7 @@ Definition accept (c : certificate) : bool :=
       end
   | NoCube_ ls a b rs side, Nodes bits _ nodes =>
       let k := claim_of ls (Box_ a b) [] rs in
-      match failing_tree_of (length nodes) nodes with
+      match failing_tree_of (free_parameters k) (length nodes) nodes with
       | Some (t, []) => is_well_formed ls [] rs k && negb (existsb is_of_two_points rs) &&
           (is_inhabited exact_bits k && check_no_cube bits exact_bits k (denoted side) (length_order (legs k)) (map direction_order (legs k)) t)
       | _ => false
@@ -1452,14 +1477,14 @@ Definition accept (c : certificate) : bool :=
   | Turning_ k ls ell w o bs rs, Nodes bits chords nodes =>
       let c := turning_claim_of k ls ell w o bs rs in
       let s := (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l))%list (struts c)))%Z in
-      match tree_of (free_struts s (struts c)) (length nodes) nodes with
-      | Some (t, []) => is_turning k ls ell w o bs rs && splits_below (dimension k) nodes &&
+      match tree_of (dimension k) (free_struts s (struts c)) (free_struts s (struts c)) [] (length nodes) nodes with
+      | Some (t, []) => is_turning k ls ell w o bs rs &&
           certify_turning exact_bits bits (matrix_of chords) (place_of_two_points false (parts_of k) (length ls) bs rs) c s t
       | _ => false
       end
   | Formulas_ xs ps ds rows a b rs, Nodes bits chords nodes =>
-      match tree_of [] (length nodes) nodes with
-      | Some (t, []) => are_well_formed_formulas xs ps rows a b rs && splits_below (length xs) nodes &&
+      match tree_of (length xs) (with_two_ends (Written.inputs (by_formulas (written_claim_of xs ps ds rows a b rs)))) [] [] (length nodes) nodes with
+      | Some (t, []) => are_well_formed_formulas xs ps rows a b rs &&
           certify_written exact_bits bits (matrix_of chords) (place_of_two_points false 1 (length rows) [] rs) (written_claim_of xs ps ds rows a b rs) t
       | _ => false
       end
@@ -1472,16 +1497,16 @@ Definition accept (c : certificate) : bool :=
       end
   | Closed_ offset side rs, Nodes bits _ nodes => accept_closed offset side rs bits nodes
   | Closed_ offset side rs, ByWitness _ point machine how => accept_closed_witness offset side rs point machine how
-  | Postulate_ None, Nodes bits _ nodes => match trees_of [] 4 nodes with Some ts => check_postulate bits ts | None => false end
+  | Postulate_ None, Nodes bits _ nodes => match trees_of 3 [] [] [] 4 nodes with Some ts => check_postulate bits ts | None => false end
   | Postulate_ (Some q), Nodes bits _ nodes =>
-      match trees_of [] 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
+      match trees_of 3 [] [] [] 4 nodes with Some ts => is_range q && check_postulate_up_to bits (greatest (tolerance_of q)) ts | None => false end
   | _, _ => false
   end.
 
 Lemma accept_tree_sound : forall (names : naming) of_cell ls w bs rs bits chords nodes, accept_tree of_cell ls w bs rs bits chords nodes = true ->
   let c := claim_of ls w bs rs in @Statement.holds names c /\ exists m P, @is_about names c m P.
 Proof.
-  intros names of_cell ls w bs rs bits chords nodes h. unfold accept_tree in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate.
+  intros names of_cell ls w bs rs bits chords nodes h. unfold accept_tree in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate.
   apply andb_true_iff in h as [_ h]. exact (@certify_sound names _ _ _ _ _ _ _ h).
 Qed.
 
@@ -1511,7 +1536,7 @@ Qed.
 Lemma accept_driven_tree_sound : forall k ls ell w o rs bits nodes, accept_driven_tree k ls ell w o rs bits nodes = true ->
   let c := driven_claim_of k ls ell w o rs in driven_holds c /\ exists m P Q, is_about_driven c m P Q.
 Proof.
-  intros k ls ell w o rs bits nodes h. unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate.
+  intros k ls ell w o rs bits nodes h. unfold accept_driven_tree in h. cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate.
   apply andb_true_iff in h as [_ h]. exact (certify_driven_sound _ _ _ _ _ _ h).
 Qed.
 
@@ -1558,21 +1583,21 @@ Proof.
   - exact (accept_witness_sound _ _ _ _ _ _ _ _ h).
   - exact (accept_driven_tree_sound _ _ _ _ _ _ _ _ h).
   - exact (accept_driven_witness_sound _ _ _ _ _ _ _ _ _ h).
-  - cbv zeta in h. destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+  - cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
     destruct how; try exact (refute_between_sound _ _ _ _ _ _ _ h); (destruct (failure_at _ _ _ _ _ _); [| discriminate]; exact (refute_turning_sound _ _ _ _ _ _ h)).
-  - destruct (tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+  - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how); [| discriminate].
     apply andb_true_iff in h as [_ h]. exact (refute_written_sound _ _ _ _ _ h).
   - exact (accept_closed_sound offset side rs bits chords nodes t v h).
   - exact (accept_closed_witness_sound offset side rs bits point machine how t v h).
-  - cbv zeta in h. destruct (failing_tree_of _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
+  - cbv zeta in h. destruct (failing_tree_of _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (check_no_cube_certified _ _ _ _ _ _ _ h).
-  - destruct (trees_of [] 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
+  - destruct (trees_of 3 [] [] [] 4 nodes) as [ts |]; [| discriminate]. apply andb_true_iff in h as [_ h]. split; [exact (check_postulate_greatest _ _ _ h) |].
     intros psi h1 [_ h2] L a e hL P hP. exact (check_postulate_up_to_sound _ _ _ h L a e hL psi (conj h1 h2) P hP).
-  - destruct (trees_of [] 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
+  - destruct (trees_of 3 [] [] [] 4 nodes) as [ts |]; [| discriminate]. intros psi h1 L a e hL P hP.
     exact (check_postulate_sound _ _ h L a e hL psi h1 P hP).
   - destruct (atlas_of _ cells) as [[t' [|]] |]; try discriminate. apply andb_true_iff in h as [h hc]. apply andb_true_iff in h as [h hr].
     apply andb_true_iff in h as [_ hs]. split; [exact (accept_cells_sound _ _ _ _ _ _ hc) |]. split; apply is_share_sound; assumption.

@@ -7,7 +7,7 @@
 From Coq Require Import ZArith Reals Lra Lia List Bool.
 From Orthocert Require Import Fixed.
 From Orthocert.kernel Require Import Formula Linear Arithmetic Slope Definite Test Cell Apart.
-From Orthocert.kernel Require Solve Near Tolerances Curvature.
+From Orthocert.kernel Require Solve Near Tolerances Curvature Scale Toward.
 Import ListNotations.
 Local Open Scope R_scope.
 
@@ -40,12 +40,18 @@ Inductive evidence :=
   (* of accuracy: kappa, over the 2^places of Y, and of platforms that turn 2^q, by which columns of the other part are multiplied *)
   | ByAccuracy (places : N) (Y : list (list Z)) (kappa : Z) (q : N)
   (* with tolerances apart: where the one machine is, by the numbers of its parameters, and directions *)
-  | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (directions : list (list Z)).
+  | ByTolerances (e : evidence) (ends : list (nat * Tolerances.choice)) (directions : list (list Z))
+  (* with directions of one scale, by the numbers of their parameters, and which of these are the same of all machines then *)
+  | OfOneScale (groups : list (list nat)) (ones : list nat) (e : evidence)
+  (* with tolerances apart, of the directions between each of these and the next one: less n over 2^places times what says so *)
+  | ByFan (parts : list (list Z * Z * N * evidence)).
 
 (** Steps name tests by their number, counted from zero. *)
 Inductive tree :=
   | Leaf (by_ : list (nat * evidence))
-  | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree).
+  | Split (by_ : list (nat * evidence)) (k : nat) (lower upper : tree)
+  (* in halves of the range of parameter [j]: what follows is of the machines of each *)
+  | Parts (by_ : list (nat * evidence)) (j : nat) (lower upper : tree).
 
 (** kappa^2, k^2, c^2, and places of formulas: of the last test one of the two has to be not negative.  [Least]: the
     least singular value of other rows than those of the machine; [Apart]: of two segments, by their ends; [Solved i]: |M^-1 e_i| <= 1/k, of k^2;
@@ -232,6 +238,59 @@ Definition shows_apart (values : list (option slope)) (cell : list fixed) (less 
   | _, _, _ => false
   end.
 
+(** *** Of the directions of a wedge: in coordinates in which one of them is along an axis *)
+
+(** The first of the greatest entries, the direction over 2^q, and the same in these coordinates. *)
+Definition toward_of (v : list Z) : nat * list Z * N * list fixed :=
+  let most := fold_right (fun x n => Z.max (Z.abs x) n) 0%Z v in
+  let k := (fix first v := match v with [] => O | x :: v' => if (Z.abs x =? most)%Z then O else S (first v') end) v in
+  if (most =? 0)%Z then (O, match v with [] => [] | _ :: v' => 1%Z :: v' end, 0%N, map (fun _ => zero) v)
+  else let q := Z.to_N (Z.log2 most + 1) in (k, v, q, Toward.put_in zero k (Fixed.integer bits (2 ^ Z.of_N q)) (map (fun _ => zero) v)).
+
+Definition shows_wedge (values : list (option slope)) (cell : list fixed) (less : option slope) (t : test) (e : evidence)
+    (ends : list (nat * Tolerances.choice)) (direction b c : list Z) (n : Z) (places : N) : bool :=
+  let m := length cell in
+  let coords := coords_from 0 cell in
+  let machine := run (option slope) None (slope_op bits coords (map constant (Tolerances.starts_from ends 0 params))) tape [] in
+  let duals := run Tolerances.dual (None, []) (Tolerances.dual_op bits coords (map constant params) (map fst ends)) tape [] in
+  let steps := Tolerances.steps ends params in
+  let of := multi_of values machine duals ends in
+  let subtracted := match less with Some t => t | None => constant zero end in
+  let over (r : rows nat) (holds : fixed -> list (Tolerances.varied fixed) -> bool) :=
+    match rows_apart values of r with
+    | Some r => forallb (fun s => holds (at_vertex s subtracted) (map (Tolerances.varied_at bits s steps) r)) (signs m)
+    | None => false
+    end in
+  let '(k, w, q, d) := toward_of direction in
+  let w' := map (fun x => Arithmetic.dyadic x q (Fixed.integer bits 1)) w in
+  let start a := Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' m a []) in
+  let definite t := match t with Some t => Solve.is_definite bits m t | None => false end in
+  let lower a places Y r := definite (Toward.lower_toward bits k w' d places Y r (start (neg a))) in
+  let upper a r := definite (Toward.upper_toward bits k w' d r (start a)) in
+  forallb (fun j => Nat.ltb j (length params)) (map fst ends) && are_once (map fst ends) &&
+  Nat.eqb (length w) m && Nat.eqb (length b) m && (0 <=? n)%Z && (places <? 64)%N && Nat.ltb k m && negb (nth k w 0 =? 0)%Z &&
+  match t, e with
+  | SigmaMin low, ByLower places Y => are_defined values && over whole (fun t => lower (add low t) places Y)
+  | SigmaMin low, ByRank places Y => are_defined values &&
+      match less with
+      | None => (lo low =? 0)%Z && (hi low =? 0)%Z && over whole (fun t r => lower zero places Y (map Tolerances.without_D r))
+      | Some _ => false
+      end
+  | Least r low, ByLower places Y => over r (fun t => lower (add low t) places Y)
+  | SigmaMax high, ByTest => over whole (fun t => upper (sub high t))
+  | _, _ => false
+  end.
+Definition shows_along (values : list (option slope)) (cell : list fixed) (t : test) (b c : list Z) (n : Z) (places : N) (e : evidence) : bool :=
+  match e with
+  | ByTolerances (Inside e k p) ends [v] =>
+      match inside cell with
+      | Some tangent => (0 <=? k)%Z && shows_wedge values cell (Some (dyadic_slope k p tangent)) t e ends v b c n places
+      | None => false
+      end
+  | ByTolerances e ends [v] => shows_wedge values cell None t e ends v b c n places
+  | _ => false
+  end.
+
 Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
   match e with
   | ByTolerances (Inside e n places) ends directions =>
@@ -250,58 +309,6 @@ Definition shows_on (values : list (option slope)) (cell : list fixed) (t : test
 
 Definition is_outside (cell : list fixed) : bool :=
   match inside cell with Some tangent => negative_there (length cell) tangent | None => false end.
-
-(** ** The tree; [open] has the tests that are not discharged yet *)
-
-Fixpoint clear (i : nat) (open : list bool) : list bool :=
-  match open, i with
-  | [], _ => []
-  | _ :: l, O => false :: l
-  | b :: l, S j => b :: clear j l
-  end.
-
-Fixpoint discharge (values : list (option slope)) (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  match steps with
-  | [] => Some open
-  | (_, Outside) :: rest => if is_outside cell then discharge values cell rest (map (fun _ => false) open) else None
-  | (i, e) :: rest =>
-      match nth i open false, nth_error tests i with
-      | true, Some t => if shows_on values cell t e then discharge values cell rest (clear i open) else None
-      | _, _ => None
-      end
-  end.
-
-(** What is looked at of the formulas. *)
-Fixpoint is_of_divided (e : evidence) : bool :=
-  match e with ByLowerDivided _ _ | ByDivided => true | Inside e _ _ | ByTolerances e _ _ => is_of_divided e | _ => false end.
-Definition places_of_rows (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
-Definition wanted_by (t : test) (e : evidence) : list nat :=
-  let own := places_of_rows (if is_of_divided e then divided else whole) in
-  match t with
-  | SigmaMin _ => partial ++ own
-  | SigmaMax _ | Conditioning _ | Solved _ _ => own
-  | AtLeast f => [f]
-  | Either f g => [f; g]
-  | Least r _ | Chords r _ _ => places_of_rows r
-  | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
-  | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
-  | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
-  end.
-Definition wanted_at (steps : list (nat * evidence)) : list nat :=
-  flat_map (fun s => match snd s, nth_error tests (fst s) with Outside, _ | _, None => [] | e, Some t => wanted_by t e end) steps.
-
-Definition steps_on (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
-  match steps with [] => Some open | _ => discharge (evaluate_kept (kept (wanted_at steps) tape) cell) cell steps open end.
-
-Fixpoint check (cell : list fixed) (open : list bool) (t : tree) : bool :=
-  match t with
-  | Leaf steps => match steps_on cell steps open with Some last => forallb negb last | None => false end
-  | Split steps k lower upper =>
-      match steps_on cell steps open with
-      | Some last => let (a, b) := halves k cell in if check a last lower then check b last upper else false
-      | None => false
-      end
-  end.
 
 (** ** What it shows *)
 
@@ -365,6 +372,27 @@ Definition holds (m : nat) (x : list R) (t : test) : Prop :=
       0 <= at_ a -> dot (map at_ row) (map at_ row) <= at_ k2 - at_ s ^ 2 -> forall e v, dot e e <= 1 -> length v = m -> nonzero v ->
       Rabs (at_ b / 2 * quad (map (map at_) twice) v) < (1 - at_ a * dot (map at_ row) e) * dot v v
   end.
+
+(** The same of some directions. *)
+Definition holds_along (P : list R -> Prop) (m : nat) (x : list R) (t : test) : Prop :=
+  match t with
+  | SigmaMin low => Forall (fun f => defined x theta (formula_at f)) partial /\
+      of_these x (map_rows formula_at whole) (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v -> P v -> kappa2 * dot v v < energy r v)
+  | SigmaMax high => of_these x (map_rows formula_at whole) (fun r => forall k2 v, contains high k2 -> length v = m -> nonzero v -> P v -> energy r v < k2 * dot v v)
+  | Least r low => of_these x (map_rows formula_at r) (fun r => forall kappa2 v, contains low kappa2 -> length v = m -> nonzero v -> P v -> kappa2 * dot v v < energy r v)
+  | _ => False
+  end.
+Lemma holds_of_fan : forall m x t cs, cs <> [] -> (forall p, In p (Toward.wedges cs) -> holds_along (Toward.in_wedge (fst p) (snd p)) m x t) -> holds m x t.
+Proof.
+  intros m x t cs n h.
+  assert (One : exists p, In p (Toward.wedges cs)) by (destruct (Toward.fan_covers cs [] n) as [p [i _]]; exists p; exact i). destruct One as [p0 i0]. pose proof (h p0 i0) as h0.
+  destruct t; cbn [holds_along holds] in *; try contradiction.
+  - destruct h0 as [D [R _]]. split; [exact D |]. exists (map_rows formula_at whole). split; [left; reflexivity |]. split; [exact R |].
+    intros K v hk lv nz. destruct (Toward.fan_covers cs v n) as [p [i w]]. destruct (h p i) as [_ [_ H]]. exact (H K v hk lv nz w).
+  - destruct h0 as [R _]. exists (map_rows formula_at whole). split; [left; reflexivity |]. split; [exact R |].
+    intros K v hk lv nz. destruct (Toward.fan_covers cs v n) as [p [i w]]. destruct (h p i) as [_ H]. exact (H K v hk lv nz w).
+  - destruct h0 as [R _]. split; [exact R |]. intros K v hk lv nz. destruct (Toward.fan_covers cs v n) as [p [i w]]. destruct (h p i) as [_ H]. exact (H K v hk lv nz w).
+Qed.
 
 Section Cell.
 Variables (cell : list fixed) (x lambda : list R).
@@ -501,7 +529,7 @@ Qed.
 Lemma shows_sound : forall less t e, harmless less -> shows values (length cell) less t e = true -> holds (length cell) x t.
 Proof.
   rewrite <- lambda_length. intros less t e hs h.
-  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0];
+  destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls], e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | |];
     cbn [shows holds] in *; try discriminate.
   1-3: apply andb_true_iff in h as [hd h]; split; [exact (are_defined_sound hd) |].
   1-2: eapply over_rows_sound; [| exact h |]; [auto |]; cbn beta; intros s es sm rel pos kappa2 v hk len nz;
@@ -808,7 +836,7 @@ Proof.
       replace (dot A0 []) with 0 by (destruct A0; reflexivity). lra. }
   assert (Constant : forall a k, contains a k -> forall s, length s = length cell -> contains ((fun _ : list bool => a) s) ((fun _ : list R => k) (map corner s))) by (intros; assumption).
   destruct t as [low | high | c2 | f | r low | f g | p p' q q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a b k2 ls],
-    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0]; try discriminate; try (destruct directions; discriminate).
+    e as [| | places Y | places Y | places Y | places Y mu | | | | | | | | places Y | | places Y kappa | e0 ends0 directions0 | |]; try discriminate; try (destruct directions; discriminate).
   - destruct directions as [| u [|]]; try discriminate. apply andb_true_iff in h as [hd' h]. cbn [holds]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
     exists (map_rows formula_at whole). split; [left; reflexivity |].
     assert (Reg : regular x (map_rows formula_at whole)) by exact (proj1 (Over _ (fun s t i => match Tolerances.lower_apart bits (map (Fixed.integer bits) u) places Y i (repeat [neg (add low t)] (length cell)) with Some t => Solve.is_definite bits (length cell) t | None => false end) h)).
@@ -863,6 +891,116 @@ Proof.
     rewrite Solve.form_solve in F by congruence. fold p in F. set (B := nth i (map snd R) 0 * nth i u 0 ^ 2) in *.
     pose proof (Linear.dot_self (comb 1 (- 1) p q)) as N. rewrite dot_comb, !(Solve.dot_commutes _ (comb _ _ _ _)), !dot_comb, (Solve.dot_commutes q p) in N.
     assert (0 <= dot u u * at_lambda lambda el) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact el0]). lra.
+Qed.
+
+Lemma rows_shown : forall less el r (holds_at : list bool -> fixed -> list (Tolerances.varied fixed) -> bool), entry_in bits less el ->
+  match rows_apart values of r with Some srs => forallb (fun s => holds_at s (at_vertex s less) (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)) (signs (length cell)) | None => false end = true ->
+  regular x (map_rows formula_at r) /\ forall c p w v, (forall s t T i real, length s = length cell -> holds_at s t i = true -> contains t T -> Forall2 (Tolerances.varied_in bits) i real -> 0 < c + p * T + form w real v) ->
+    0 < c + p * at_lambda lambda el + form w (map_rows (value x theta) (map_rows formula_at r)) v.
+Proof.
+  intros less el r holds_at hel k. destruct strides as [theta0 [mss [h0 [h1 [same [hm hd]]]]]]. destruct (rows_apart values of r) as [srs |] eqn:er; [| discriminate].
+  destruct (rows_apart_sound theta0 mss r srs h0 h1 same hd er) as [reg [es [e1 e2]]]. split; [exact reg |]. intros c p w v H. rewrite e2.
+  apply (vertices_apart mss srs es less el holds_at (fun _ => c) p w v hm e1 hel k); [| exact H].
+  intros l l1 l2 a b _ s. replace (a * c + b * c) with ((a + b) * c) by ring. rewrite s. ring.
+Qed.
+
+Section Wedge.
+Variables (direction b c : list Z) (n : Z) (places : N).
+Hypothesis n_nonneg : (0 <=? n)%Z = true.
+Variables (k : nat) (w : list Z) (q : N) (d : list fixed).
+Hypothesis w_length : length w = length cell.
+Hypothesis k_below : Nat.ltb k (length cell) = true.
+Hypothesis regular_there : negb (nth k w 0 =? 0)%Z = true.
+Let w' := map (fun x => Arithmetic.dyadic x q (Fixed.integer bits 1)) w.
+Let W := map (Y_value q) w.
+Let start a := Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) a []).
+Let in_w := Toward.in_wedge b c.
+
+Lemma w_in : Forall2 contains w' W.
+Proof.
+  unfold w', W. clear. induction w as [| x l I]; cbn [map]; constructor; [| exact I]. replace (Y_value q x) with (Y_value q x * 1) by ring. apply Arithmetic.dyadic_sound, Fixed.integer_sound.
+Qed.
+Lemma wedge_reached : forall v, length v = length cell -> exists u, length u = length v /\ Toward.stretched k W u = v.
+Proof.
+  intros v lv. apply Nat.ltb_lt in k_below. apply Toward.reached; [unfold W; rewrite map_length; congruence | lia |].
+  unfold W. change 0 with (IZR 0) at 1. rewrite (nth_indep _ 0 (Y_value q 0)) by (rewrite map_length; lia). rewrite map_nth.
+  apply negb_true_iff, Z.eqb_neq in regular_there. unfold Y_value, Rdiv. apply Rmult_integral_contrapositive_currified; [apply not_0_IZR; exact regular_there |].
+  apply Rinv_neq_0_compat. pose proof (two_power q). lra.
+Qed.
+Lemma start_shows : forall a A, contains a A -> exists S, triangle_in bits (start a) S /\
+  forall u, length (Toward.stretched k W u) = length cell -> in_w (Toward.stretched k W u) -> quad S u <= A * dot (Toward.stretched k W u) (Toward.stretched k W u).
+Proof.
+  intros a A h. destruct (Toward.squares_sound bits k w' W w_in (length cell) a A [] [] h ltac:(constructor)) as [S1 [s1 s2]].
+  apply Z.leb_le in n_nonneg. destruct (Toward.less_wedge_sound bits k w' W w_in b c n places _ S1 s1 n_nonneg) as [S [t1 t2]]. exists S. split; [exact t1 |].
+  intros u lu i. specialize (t2 u i). rewrite (s2 u lu) in t2. cbn [quad] in t2. lra.
+Qed.
+
+Lemma lower_wedge_shows : forall a K pl Y i r v, match Toward.lower_toward bits k w' d pl Y i (start (neg a)) with Some t => Solve.is_definite bits (length cell) t | None => false end = true ->
+  Forall2 (Tolerances.varied_in bits) i r -> contains a K -> length v = length cell -> nonzero v -> in_w v -> K * dot v v < form (lower_weights pl Y v) r v.
+Proof.
+  intros a K pl Y i r v h hr ha lv nz iv. destruct (Toward.lower_toward bits k w' d pl Y i (start (neg a))) as [t |] eqn:e; [| discriminate].
+  destruct (start_shows _ _ (neg_sound bits _ _ ha)) as [S [s1 s2]].
+  destruct (Toward.lower_toward_sound bits k w' W w_in d pl Y i r _ S t hr s1 e) as [U [hU qU]].
+  destruct (wedge_reached v lv) as [u [lu eu]]. specialize (qU u). specialize (s2 u). rewrite eu in qU, s2.
+  assert (nu : nonzero u) by (apply (Toward.still_nonzero k W); rewrite eu; exact nz).
+  pose proof (definite_apart (Some t) U u (length cell) h ltac:(intros t' e'; injection e' as <-; exact hU) ltac:(congruence) nu) as P. specialize (s2 lv iv). lra.
+Qed.
+Lemma upper_wedge_shows : forall a K i r v, match Toward.upper_toward bits k w' d i (start a) with Some t => Solve.is_definite bits (length cell) t | None => false end = true ->
+  Forall2 (Tolerances.varied_in bits) i r -> contains a K -> length v = length cell -> nonzero v -> in_w v -> forall z, 0 < K * dot v v + form (upper_weights z) r v.
+Proof.
+  intros a K i r v h hr ha lv nz iv z. destruct (Toward.upper_toward bits k w' d i (start a)) as [t |] eqn:e; [| discriminate].
+  destruct (start_shows _ _ ha) as [S [s1 s2]].
+  destruct (Toward.upper_toward_sound bits k w' W w_in d i r _ S t hr s1 e) as [U [hU qU]].
+  destruct (wedge_reached v lv) as [u [lu eu]]. specialize (qU u z). specialize (s2 u). rewrite eu in qU, s2.
+  assert (nu : nonzero u) by (apply (Toward.still_nonzero k W); rewrite eu; exact nz).
+  pose proof (definite_apart (Some t) U u (length cell) h ltac:(intros t' e'; injection e' as <-; exact hU) ltac:(congruence) nu) as P. specialize (s2 lv iv). lra.
+Qed.
+End Wedge.
+
+Theorem shows_wedge_sound : forall less t e direction b c n places, harmless lambda less -> shows_wedge values cell less t e ends direction b c n places = true ->
+  holds_along (Toward.in_wedge b c) (length cell) x t.
+Proof.
+  intros less t e direction b c n places hs h. unfold shows_wedge in h. cbv zeta in h. destruct (toward_of direction) as [[[k w] q] d].
+  apply andb_true_iff in h as [g h]. apply andb_true_iff in g as [g rg]. apply andb_true_iff in g as [g kb]. apply andb_true_iff in g as [g _]. apply andb_true_iff in g as [g n0].
+  apply andb_true_iff in g as [g _]. apply andb_true_iff in g as [_ lw]. apply Nat.eqb_eq in lw.
+  assert (L : exists el, entry_in bits match less with Some t => t | None => constant zero end el /\ 0 <= at_lambda lambda el).
+  { destruct less as [s |]; [exact hs |]. exists (0, []). split; [apply constant_in, zero_sound | unfold at_lambda; cbn; lra]. }
+  destruct L as [el [hel el0]]. set (subtracted := match less with Some t => t | None => constant zero end) in *.
+  set (w' := map (fun x => Arithmetic.dyadic x q (Fixed.integer bits 1)) w) in *.
+  assert (Low : forall low r pl Y, match rows_apart values of r with Some srs => forallb (fun s => match Toward.lower_toward bits k w' d pl Y (map (Tolerances.varied_at bits s (Tolerances.steps ends params)) srs)
+      (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg (add low (at_vertex s subtracted))) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) (signs (length cell)) | None => false end = true ->
+    of_these x (map_rows formula_at r) (fun r => forall kappa2 v, contains low kappa2 -> length v = length cell -> nonzero v -> Toward.in_wedge b c v -> kappa2 * dot v v < energy r v)).
+  { intros low r pl Y g1. destruct (rows_shown subtracted el r (fun s t i => match Toward.lower_toward bits k w' d pl Y i
+      (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg (add low t)) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel g1) as [R G].
+    split; [exact R |]. intros K v hk lv nz iv. pose proof (lower_energy pl Y _ v (proj2 R)) as E. pose proof (dot_self v) as d0.
+    specialize (G (- (K * dot v v)) (- dot v v) (lower_weights pl Y v) v).
+    assert (0 < - (K * dot v v) + - dot v v * at_lambda lambda el + form (lower_weights pl Y v) (map_rows (value x theta) (map_rows formula_at r)) v).
+    { apply G. intros s t' T i real ls hh ht hr.
+      pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg (add low t') (K + T) pl Y i real v hh hr (add_sound bits _ _ _ _ hk ht) lv nz iv). lra. }
+    assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra. }
+  destruct t as [low | high | c2 | f | r low | f f' | p p' q0 q' distance | i k2 | r0 places0 Y0 | distance joints | row twice a0 b0 k2 ls], e; try discriminate; cbn [holds_along].
+  - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |]. exact (Low low whole _ _ h).
+  - apply andb_true_iff in h as [hd' h]. split; [exact (are_defined_sound cell x lambda keep (encloses_all theta theta_in) hd') |].
+    destruct less; [discriminate |]. apply andb_true_iff in h as [z h]. apply andb_true_iff in z as [z1 z2]. apply Z.eqb_eq in z1, z2.
+    destruct (rows_shown subtracted el whole (fun s t i => match Toward.lower_toward bits k w' d places0 Y (map Tolerances.without_D i)
+      (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (neg zero) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel h) as [R G].
+    split; [exact R |]. intros kappa2 v [k1 k2] lv nz iv. rewrite z1 in k1. rewrite z2 in k2. pose proof (unit_R_pos bits). assert (kappa2 = 0) by nra. subst kappa2. rewrite Rmult_0_l.
+    apply (rank_energy places0 Y _ v (proj2 R)).
+    assert (N : forall w r, form (map (fun p => (fst p, 0)) w) r v = form w (map (fun p => (fst p, 0)) r) v).
+    { induction w0 as [| [a1 b1] w0 I]; intros [| [A D] r]; cbn [map form fst snd]; try reflexivity. rewrite I. ring. }
+    rewrite <- N. specialize (G 0 0 (map (fun p => (fst p, 0)) (lower_weights places0 Y v)) v). rewrite Rmult_0_l, !Rplus_0_l in G. apply G.
+    intros s t' T i real _ hh _ hr. rewrite N, Rmult_0_l, !Rplus_0_l.
+    assert (hr' : Forall2 (Tolerances.varied_in bits) (map Tolerances.without_D i) (map (fun A => (fst A, 0)) real)) by (eapply map_related; [| exact hr]; intros; apply Tolerances.without_D_sound; assumption).
+    pose proof (lower_wedge_shows b c n places n0 k w q d lw kb rg zero 0 places0 Y _ _ v hh hr' (zero_sound bits) lv nz iv) as P. rewrite Rmult_0_l in P. exact P.
+  - destruct (rows_shown subtracted el whole (fun s t i => match Toward.upper_toward bits k w' d i
+      (Toward.less_wedge bits k w' b c n places (Toward.squares bits k w' (length cell) (sub high t) [])) with Some t => Solve.is_definite bits (length cell) t | None => false end) hel h) as [R G].
+    split; [exact R |]. intros K v hk lv nz iv. destruct (upper_energy _ v (proj2 R)) as [z E]. pose proof (dot_self v) as d0.
+    specialize (G (K * dot v v) (- dot v v) (upper_weights z) v).
+    assert (0 < K * dot v v + - dot v v * at_lambda lambda el + form (upper_weights z) (map_rows (value x theta) (map_rows formula_at whole)) v).
+    { apply G. intros s t' T i real ls hh ht hr.
+      pose proof (upper_wedge_shows b c n places n0 k w q d lw kb rg (sub high t') (K - T) i real v hh hr (sub_sound bits _ _ _ _ hk ht) lv nz iv z). lra. }
+    assert (0 <= dot v v * at_lambda lambda el) by (apply Rmult_le_pos; assumption). lra.
+  - exact (Low low r _ _ h).
 Qed.
 End Apart.
 
@@ -996,12 +1134,30 @@ Proof.
     destruct (dyadic_in bits n places _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
     apply Z.leb_le, IZR_le in n0. pose proof (two_power places) as p.
     apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p]. }
-  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends directions]; try (apply (K None _ I h)).
+  destruct e as [| | | | | | | | | e' n places | | | | | | | e' ends directions | |]; try (apply (K None _ I h)).
   - cbn [shows_on] in h. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (K _ _ (Tangent tangent n places eq_refl n0) h).
-  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' directions']; try (exact (Apart None _ _ _ I h)).
+  - unfold shows_on in h. destruct e' as [| | | | | | | | | e' n places | | | | | | | e' ends' directions' | |]; try (exact (Apart None _ _ _ I h)).
     destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
     exact (Apart _ _ _ _ (Tangent tangent n places eq_refl n0) h).
+Qed.
+
+Lemma along_holds : forall keep cell x t b c n places e, Forall2 contains cell x -> allowed x ->
+  shows_along (evaluate_kept keep cell) cell t b c n places e = true -> holds_along (Toward.in_wedge b c) (length cell) x t.
+Proof.
+  intros keep cell x t b c n places e hx ok h. destruct (coords_from_hold bits cell x hx) as [lambda [el [hlam [hd C]]]]. specialize (C []). cbn [app length] in C.
+  assert (One : forall less e ends direction, harmless lambda less -> shows_wedge (evaluate_kept keep cell) cell less t e ends direction b c n places = true ->
+    holds_along (Toward.in_wedge b c) (length cell) x t).
+  { intros less e' ends direction hl k. assert (k' := k). unfold shows_wedge in k'. cbv zeta in k'. destruct (toward_of direction) as [[[k0 w] q] d].
+    apply andb_true_iff in k' as [k' _]. do 6 apply andb_true_iff in k' as [k' _]. apply andb_true_iff in k' as [k1 k2].
+    exact (shows_wedge_sound cell x lambda el hlam C ends k1 k2 keep less t e' direction b c n places hl k). }
+  destruct e as [| | | | | | | | | | | | | | | | e ends directions | |]; cbn [shows_along] in h; try discriminate.
+  destruct e as [| | | | | | | | | e k p | | | | | | | | |]; try (destruct directions as [| v [|]]; try discriminate; exact (One None _ _ _ I h)).
+  destruct directions as [| v [|]]; try discriminate. destruct (inside cell) as [tangent |] eqn:i; [| discriminate h]. apply andb_true_iff in h as [n0 h].
+  refine (One _ _ _ _ _ h). destruct (inside_sound _ _ _ _ i el ok hd) as [d [h1 h2]].
+  destruct (dyadic_in bits k p _ _ h1) as [d' [g1 g2]]. exists d'. split; [exact g1 |]. rewrite g2.
+  apply Z.leb_le, IZR_le in n0. pose proof (two_power p) as p0.
+  apply Rmult_le_pos; [| exact h2]. apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat, p0].
 Qed.
 
 Lemma evaluate_holds : forall cell x t e, Forall2 contains cell x -> allowed x -> shows_on (evaluate cell) cell t e = true -> holds (length cell) x t.
@@ -1015,55 +1171,352 @@ Proof.
   pose proof (negative_there_sound bits _ _ _ h h1 hlam). lra.
 Qed.
 
+End Precision.
+
+(** ** Steps; [open] has the tests that are not discharged yet *)
+
+(** What accuracy says of one machine is about all others, too, and so is not shown of the machines of a half. *)
+Definition is_of_each (t : test) : bool := match t with Accurate _ _ => false | _ => true end.
+Lemma holds_of_each : forall bits tape whole divided partial params theta all m x t, is_of_each t = true ->
+  holds bits tape whole divided partial params theta m x t -> holds bits tape whole divided partial all theta m x t.
+Proof. intros bits tape whole divided partial params theta all m x [] e h; try exact h. discriminate. Qed.
+
+Section Steps.
+Variable bits : positive.
+Local Notation contains := (contains bits).
+Variable tape : list (op nat).
+Variables whole divided : rows nat.
+Variable partial : list nat.
+Variable params : list fixed.
+Variable tests : list test.
+Variable inside : list fixed -> option slope.
+Local Notation evaluate_kept keep cell := (Check.evaluate_kept bits tape params keep cell).
+Local Notation is_outside cell := (Check.is_outside inside cell).
+
+(** What is looked at of the formulas. *)
+Fixpoint is_of_divided (e : evidence) : bool :=
+  match e with ByLowerDivided _ _ | ByDivided => true | Inside e _ _ | ByTolerances e _ _ | OfOneScale _ _ e => is_of_divided e | _ => false end.
+Definition places_of_rows (r : rows nat) : list nat := flat_map (fun p => fst p ++ [snd p]) r.
+Definition wanted_by (t : test) (e : evidence) : list nat :=
+  let own := places_of_rows (if is_of_divided e then divided else whole) in
+  match t with
+  | SigmaMin _ => partial ++ own
+  | SigmaMax _ | Conditioning _ | Solved _ _ => own
+  | AtLeast f => [f]
+  | Either f g => [f; g]
+  | Least r _ | Chords r _ _ => places_of_rows r
+  | Apart p p' q q' _ => flat_map (fun p => [along_x p; along_y p; along_z p]) [p; p'; q; q']
+  | Accurate _ joints => places_of_rows divided ++ flat_map (fun j => fst j :: map snd (snd (snd j))) joints
+  | Curved row twice a b k2 s => row ++ concat twice ++ [a; b; k2; s]
+  end.
+(** Formulas that do not change with the scale of the parameters [J]. *)
+Definition is_level (degrees : list (option Z)) (i : nat) : bool := match nth i degrees None with Some 0%Z => true | _ => false end.
+Definition are_level (t : test) (J : list nat) : bool :=
+  let all l := let degrees := Scale.degrees J tape in forallb (is_level degrees) (partial ++ places_of_rows whole ++ places_of_rows divided ++ l) in
+  match t with
+  | SigmaMin _ | SigmaMax _ | Conditioning _ | Solved _ _ => all []
+  | AtLeast f => all [f]
+  | Either f g => all [f; g]
+  | Least r _ => all (places_of_rows r)
+  | Apart _ _ _ _ _ | Chords _ _ _ | Accurate _ _ | Curved _ _ _ _ _ _ => false
+  end.
+Definition is_point (a : fixed) : bool := (lo a =? hi a)%Z.
+Definition may_scale (t : test) (groups : list (list nat)) (ones : list nat) : bool :=
+  is_of_each t && forallb (fun j => is_point (nth j (fold_left Scale.of_one_scale groups params) zero)) ones && forallb (are_level t) groups.
+Definition scaled_values (groups : list (list nat)) (cell : list fixed) (t : test) (e : evidence) : list (option slope) :=
+  Check.evaluate_kept bits tape (fold_left Scale.of_one_scale groups params) (kept (wanted_by t e) tape) cell.
+Definition shows_part (values : list (option slope)) (cell : list fixed) (t : test) (wedge : list Z * list Z) (part : list Z * Z * N * evidence) : bool :=
+  let '(_, n, places, e) := part in
+  match e with
+  | OfOneScale groups ones e => may_scale t groups ones &&
+      shows_along bits tape whole partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t (fst wedge) (snd wedge) n places e
+  | _ => shows_along bits tape whole partial params inside values cell t (fst wedge) (snd wedge) n places e
+  end.
+Definition shows_step (values : list (option slope)) (cell : list fixed) (t : test) (e : evidence) : bool :=
+  match e with
+  | OfOneScale groups ones e => may_scale t groups ones &&
+      shows_on bits tape whole divided partial (fold_left Scale.of_one_scale groups params) inside (scaled_values groups cell t e) cell t e
+  | ByFan parts => negb (Nat.eqb (length parts) 0) &&
+      forallb (fun p => shows_part values cell t (fst p) (snd p)) (combine (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) parts)
+  | _ => shows_on bits tape whole divided partial params inside values cell t e
+  end.
+
+Fixpoint clear (i : nat) (open : list bool) : list bool :=
+  match open, i with
+  | [], _ => []
+  | _ :: l, O => false :: l
+  | b :: l, S j => b :: clear j l
+  end.
+
+Fixpoint discharge (values : list (option slope)) (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
+  match steps with
+  | [] => Some open
+  | (_, Outside) :: rest => if is_outside cell then discharge values cell rest (map (fun _ => false) open) else None
+  | (i, e) :: rest =>
+      match nth i open false, nth_error tests i with
+      | true, Some t => if shows_step values cell t e then discharge values cell rest (clear i open) else None
+      | _, _ => None
+      end
+  end.
+
+Definition wanted_at (steps : list (nat * evidence)) : list nat :=
+  flat_map (fun s => match snd s, nth_error tests (fst s) with Outside, _ | OfOneScale _ _ _, _ | _, None => [] | e, Some t => wanted_by t e end) steps.
+
+Definition steps_on (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
+  match steps with [] => Some open | _ => discharge (evaluate_kept (kept (wanted_at steps) tape) cell) cell steps open end.
+
+Section OneScale.
+Variables (x theta scaled : list R) (s : R) (J : list nat).
+Hypothesis s_positive : 0 < s.
+Hypothesis is_scaled : forall j, nth j scaled 0 = (if Scale.is_in J j then s else 1) * nth j theta 0.
+Local Notation formula_at := (Check.formula_at tape).
+
+Lemma level_sound : forall i, is_level (Scale.degrees J tape) i = true -> defined x scaled (formula_at i) ->
+  defined x theta (formula_at i) /\ value x scaled (formula_at i) = value x theta (formula_at i).
+Proof.
+  intros i h d. pose proof (Scale.degrees_sound x theta scaled s J s_positive is_scaled tape i) as H. unfold is_level in h.
+  destruct (nth i (Scale.degrees J tape) None) as [[| |] |]; try discriminate. destruct (H d) as [d' v]. split; [exact d' |].
+  change (powerRZ s 0) with 1 in v. rewrite Rmult_1_l in v. exact v.
+Qed.
+Lemma all_level : forall l, (forall i, In i l -> is_level (Scale.degrees J tape) i = true) -> Forall (defined x scaled) (map formula_at l) ->
+  Forall (defined x theta) (map formula_at l) /\ map (value x scaled) (map formula_at l) = map (value x theta) (map formula_at l).
+Proof.
+  induction l as [| i l IH]; intros h d; [split; [constructor | reflexivity] |]. cbn [map] in *. inversion d as [| ? ? d1 d2]; subst.
+  destruct (level_sound i (h i (or_introl eq_refl)) d1) as [e1 e2]. destruct (IH (fun j k => h j (or_intror k)) d2) as [f1 f2]. split; [constructor; assumption | congruence].
+Qed.
+Lemma rows_level : forall r, (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) -> regular scaled x (map_rows formula_at r) ->
+  regular theta x (map_rows formula_at r) /\ map_rows (value x scaled) (map_rows formula_at r) = map_rows (value x theta) (map_rows formula_at r).
+Proof.
+  intros r h [d p]. assert (G : Forall (fun p => Forall (defined x theta) (fst p) /\ defined x theta (snd p)) (map_rows formula_at r) /\
+      map_rows (value x scaled) (map_rows formula_at r) = map_rows (value x theta) (map_rows formula_at r)).
+  { clear p. induction r as [| [a f] r IH]; [split; [constructor | reflexivity] |]. rewrite map_rows_cons in *. inversion d as [| ? ? [d1 d2] d3]; subst. cbn [fst snd] in *.
+    destruct (all_level a (fun i k => h i (in_or_app _ _ _ (or_introl (in_or_app _ _ _ (or_introl k))))) d1) as [a1 a2].
+    destruct (level_sound f (h f ltac:(apply in_or_app; left; apply in_or_app; right; left; reflexivity)) d2) as [f1 f2].
+    destruct (IH (fun i k => h i (in_or_app _ _ _ (or_intror k))) d3) as [r1 r2]. split; [constructor; [split; assumption | exact r1] |]. rewrite !map_rows_cons. congruence. }
+  destruct G as [G1 G2]. split; [split; [exact G1 | rewrite <- G2; exact p] | exact G2].
+Qed.
+
+Lemma holds_level : forall ps ps' m t, are_level t J = true -> holds bits tape whole divided partial ps scaled m x t -> holds bits tape whole divided partial ps' theta m x t.
+Proof.
+  intros ps ps' m t h H.
+  assert (All : forall l, forallb (is_level (Scale.degrees J tape)) (partial ++ places_of_rows whole ++ places_of_rows divided ++ l) = true ->
+    (forall i, In i partial -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\
+    (forall i, In i (places_of_rows divided) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
+  { intros l k. rewrite forallb_forall in k. split; [| split; [| split]]; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
+  assert (These : forall r bound, (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) ->
+    of_these scaled x (map_rows formula_at r) bound -> of_these theta x (map_rows formula_at r) bound).
+  { intros r bound k [H1 H2]. destruct (rows_level r k H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2]. }
+  assert (Rows : forall bound, (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) ->
+    (forall i, In i (places_of_rows divided) -> is_level (Scale.degrees J tape) i = true) ->
+    of_rows tape whole divided scaled x bound -> of_rows tape whole divided theta x bound).
+  { intros bound k1 k2 [r [e k]]. exists r. split; [exact e |]. destruct e as [-> | ->]; [exact (These whole bound k1 k) | exact (These divided bound k2 k)]. }
+  assert (Sign : forall f, is_level (Scale.degrees J tape) f = true -> is_nonneg tape scaled x f -> is_nonneg tape theta x f).
+  { intros f k [d v]. destruct (level_sound f k d) as [d' e]. split; [exact d' | rewrite <- e; exact v]. }
+  destruct t; cbn [are_level] in h; try discriminate; apply All in h as [a1 [a2 [a3 a4]]]; cbn [holds] in *.
+  - destruct H as [H1 H2]. split; [| exact (Rows _ a2 a3 H2)].
+    rewrite Forall_forall in H1 |- *. intros f i. exact (proj1 (level_sound f (a1 f i) (H1 f i))).
+  - exact (Rows _ a2 a3 H).
+  - exact (Rows _ a2 a3 H).
+  - exact (Sign f (a4 f (or_introl eq_refl)) H).
+  - exact (These r _ a4 H).
+  - destruct H as [H | H]; [left; exact (Sign f (a4 f (or_introl eq_refl)) H) | right; exact (Sign g (a4 g (or_intror (or_introl eq_refl))) H)].
+  - exact (These whole _ a2 H).
+Qed.
+Lemma along_level : forall P m t, are_level t J = true -> holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t.
+Proof.
+  intros P m t h H.
+  assert (All : forall l, forallb (is_level (Scale.degrees J tape)) (partial ++ places_of_rows whole ++ places_of_rows divided ++ l) = true ->
+    (forall i, In i partial -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
+  { intros l k. rewrite forallb_forall in k. split; [| split]; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
+  assert (These : forall r bound, (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) ->
+    of_these scaled x (map_rows formula_at r) bound -> of_these theta x (map_rows formula_at r) bound).
+  { intros r bound k [H1 H2]. destruct (rows_level r k H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2]. }
+  destruct t; cbn [holds_along] in *; try contradiction; cbn [are_level] in h; apply All in h as [a1 [a2 a3]].
+  - destruct H as [H1 H2]. split; [| exact (These whole _ a2 H2)]. rewrite Forall_forall in H1 |- *. intros f i. exact (proj1 (level_sound f (a1 f i) (H1 f i))).
+  - exact (These whole _ a2 H).
+  - exact (These r _ a3 H).
+Qed.
+End OneScale.
+
+Variable theta : list R.
+Hypothesis theta_in : Forall2 contains params theta.
+Variable allowed : list R -> Prop.
+Hypothesis inside_sound : forall cell lambda x tangent, inside cell = Some tangent -> length lambda = length cell -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) -> exists d, entry_in bits tangent d /\ 0 <= at_lambda lambda d.
+
+
+(** There is a machine of one scale, of which all that is shown is so of this one. *)
+Lemma scaled_shows : forall x m t groups ones, may_scale t groups ones = true ->
+  exists scaled, Forall2 contains (fold_left Scale.of_one_scale groups params) scaled /\
+    (forall ps, holds bits tape whole divided partial ps scaled m x t -> holds bits tape whole divided partial params theta m x t) /\
+    forall P, holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t.
+Proof.
+  intros x m t groups ones h. unfold may_scale in h. apply andb_true_iff in h as [h0 h1]. apply andb_true_iff in h0 as [own _]. rewrite forallb_forall in h1.
+  revert h1. generalize theta_in. generalize params, theta. induction groups as [| J groups IH]; intros ps th hth lv.
+  - exists th. split; [exact hth |]. split; [| auto]. intros ps' H. exact (holds_of_each _ _ _ _ _ _ _ _ _ _ _ own H).
+  - cbn [fold_left]. destruct (Scale.of_one_scale_sound bits J ps th hth) as [s [th1 [s0 [T1 N1]]]].
+    destruct (IH (Scale.of_one_scale ps J) th1 T1 (fun K i => lv K (or_intror i))) as [th2 [T2 [H2 G2]]]. exists th2. split; [exact T2 |]. split.
+    + intros ps' H. exact (holds_level x th th1 s J s0 N1 _ _ _ t (lv J (or_introl eq_refl)) (H2 ps' H)).
+    + intros P H. exact (along_level x th th1 s J s0 N1 P _ t (lv J (or_introl eq_refl)) (G2 P H)).
+Qed.
+
+Lemma wedges_of_parts : forall parts : list (list Z * Z * N * evidence), length (Toward.wedges (map (fun p => fst (fst (fst p))) parts)) = length parts.
+Proof.
+  assert (G : forall first (l : list (list Z * Z * N * evidence)), length (Toward.wedges_from first (map (fun p => fst (fst (fst p))) l)) = length l)
+    by (intro first; induction l as [| r l I]; cbn [map Toward.wedges_from length]; congruence).
+  intros [| p parts]; [reflexivity |]. exact (G (fst (fst (fst p))) (p :: parts)).
+Qed.
+
+Lemma shows_step_holds : forall keep cell x t e, Forall2 contains cell x -> allowed x ->
+  shows_step (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t.
+Proof.
+  intros keep cell x t e hx ok h.
+  assert (Other : shows_on bits tape whole divided partial params inside (evaluate_kept keep cell) cell t e = true -> holds bits tape whole divided partial params theta (length cell) x t)
+    by exact (kept_holds bits tape whole divided partial params inside theta theta_in allowed inside_sound keep cell x t e hx ok).
+  destruct e as [| | | | | | | | | | | | | | | | | groups ones e | parts]; try exact (Other h); clear Other; cbn [shows_step] in h; apply andb_true_iff in h as [h1 h].
+  - destruct (scaled_shows x (length cell) t groups ones h1) as [scaled [T [H _]]].
+    exact (H _ (kept_holds bits tape whole divided partial _ inside scaled T allowed inside_sound _ cell x t e hx ok h)).
+  - apply negb_true_iff, Nat.eqb_neq in h1. set (cs := map (fun p : list Z * Z * N * evidence => fst (fst (fst p))) parts) in *.
+    assert (ne : cs <> []) by (unfold cs; destruct parts; [contradiction h1; reflexivity | discriminate]).
+    apply (holds_of_fan bits tape whole divided partial params theta (length cell) x t cs ne). intros p ip. rewrite forallb_forall in h.
+    pose proof (wedges_of_parts parts) as L. fold cs in L.
+    assert (Q : exists part, In (p, part) (combine (Toward.wedges cs) parts)).
+    { clearbody cs. clear - ip L. revert parts L. induction (Toward.wedges cs) as [| r l I]; intros [| part parts] e; try discriminate; [contradiction |]. destruct ip as [-> | ip].
+      - exists part. left. reflexivity.
+      - destruct (I ip parts ltac:(cbn in e; congruence)) as [y iy]. exists y. right. exact iy. }
+    destruct Q as [[[[c0 n] places] e] iq]. specialize (h _ iq). cbn [fst snd shows_part] in h.
+    assert (Own : shows_along bits tape whole partial params inside (evaluate_kept keep cell) cell t (fst p) (snd p) n places e = true -> holds_along bits tape whole partial theta (Toward.in_wedge (fst p) (snd p)) (length cell) x t)
+      by exact (along_holds bits tape whole partial params inside theta theta_in allowed inside_sound keep cell x t (fst p) (snd p) n places e hx ok).
+    destruct e as [| | | | | | | | | | | | | | | | | groups ones e |]; try exact (Own h). apply andb_true_iff in h as [h2 h].
+    destruct (scaled_shows x (length cell) t groups ones h2) as [scaled [T [_ H]]].
+    exact (H _ (along_holds bits tape whole partial _ inside scaled T allowed inside_sound _ cell x t (fst p) (snd p) n places e hx ok h)).
+Qed.
+
 (** Every test that is not open holds. *)
 Definition done (m : nat) (x : list R) (open : list bool) : Prop :=
-  forall i t, nth_error tests i = Some t -> nth i open false = false -> holds m x t.
+  forall i t, nth_error tests i = Some t -> nth i open false = false -> holds bits tape whole divided partial params theta m x t.
 
 Lemma nth_clear : forall i j open, nth j (clear i open) false = false -> j = i \/ nth j open false = false.
 Proof.
   induction i as [| i IH]; intros [| j] [| b open] h; cbn in *; auto.
   destruct (IH j open h); auto.
 Qed.
+Lemma clear_leaves : forall i j open, nth j (clear i open) false = true -> nth j open false = true.
+Proof.
+  induction i as [| i IH]; intros [| j] [| b open] h; cbn in *; auto. discriminate.
+Qed.
+
+(** What steps show is of these parameters; [Q] what follows from it. *)
+Lemma discharge_shows : forall (Q : test -> Prop) keep cell x steps open rest, Forall2 contains cell x -> allowed x ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = true -> holds bits tape whole divided partial params theta (length cell) x t -> Q t) ->
+  discharge (evaluate_kept keep cell) cell steps open = Some rest ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = false -> Q t) ->
+  (forall i t, nth_error tests i = Some t -> nth i rest false = false -> Q t) /\ forall i, nth i rest false = true -> nth i open false = true.
+Proof.
+  intros Q keep cell x steps open rest hx ok W h. revert open W h.
+  induction steps as [| [i e] steps IH]; intros open W h D; cbn [discharge] in h; [injection h as <-; split; [exact D | auto] |].
+  assert (Other : match nth i open false, nth_error tests i with
+    | true, Some t => if shows_step (evaluate_kept keep cell) cell t e then discharge (evaluate_kept keep cell) cell steps (clear i open) else None
+    | _, _ => None end = Some rest ->
+    (forall i t, nth_error tests i = Some t -> nth i rest false = false -> Q t) /\ forall i, nth i rest false = true -> nth i open false = true).
+  { clear h. intro h. destruct (nth i open false) eqn:o; [| discriminate]. destruct (nth_error tests i) as [t |] eqn:n; [| discriminate].
+    destruct (shows_step (evaluate_kept keep cell) cell t e) eqn:s; [| discriminate].
+    destruct (IH (clear i open) (fun j u nj oj => W j u nj (clear_leaves i j open oj)) h) as [I1 I2].
+    - intros j u nj oj. destruct (nth_clear i j open oj) as [-> | o']; [| exact (D j u nj o')].
+      rewrite n in nj. injection nj as <-. exact (W i t n o (shows_step_holds keep cell x t e hx ok s)).
+    - split; [exact I1 |]. intros j r. exact (clear_leaves i j open (I2 j r)). }
+  destruct e; try exact (Other h). destruct (is_outside cell) eqn:o; [| discriminate].
+  destruct (outside_none bits inside allowed inside_sound cell x hx ok o).
+Qed.
 
 Lemma discharge_sound : forall keep cell x steps open rest, Forall2 contains cell x -> allowed x -> discharge (evaluate_kept keep cell) cell steps open = Some rest ->
   done (length cell) x open -> done (length cell) x rest.
+Proof. intros keep cell x steps open rest hx ok h D. exact (proj1 (discharge_shows (holds bits tape whole divided partial params theta (length cell) x) keep cell x steps open rest hx ok (fun _ _ _ _ k => k) h D)). Qed.
+
+Lemma steps_on_shows : forall (Q : test -> Prop) cell x steps open rest, Forall2 contains cell x -> allowed x ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = true -> holds bits tape whole divided partial params theta (length cell) x t -> Q t) ->
+  steps_on cell steps open = Some rest ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = false -> Q t) ->
+  (forall i t, nth_error tests i = Some t -> nth i rest false = false -> Q t) /\ forall i, nth i rest false = true -> nth i open false = true.
 Proof.
-  intros keep cell x steps open rest hx ok h. revert open h.
-  induction steps as [| [i e] steps IH]; intros open h D; cbn [discharge] in h; [injection h as <-; exact D |].
-  assert (Other : match nth i open false, nth_error tests i with
-    | true, Some t => if shows_on (evaluate_kept keep cell) cell t e then discharge (evaluate_kept keep cell) cell steps (clear i open) else None
-    | _, _ => None end = Some rest -> done (length cell) x rest).
-  { clear h. intro h. destruct (nth i open false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:n; [| discriminate].
-    destruct (shows_on (evaluate_kept keep cell) cell t e) eqn:s; [| discriminate]. apply (IH _ h).
-    intros j u nj o. destruct (nth_clear i j open o) as [-> | o']; [| exact (D j u nj o')].
-    rewrite n in nj. injection nj as <-. exact (kept_holds keep cell x t e hx ok s). }
-  destruct e; try exact (Other h). destruct (is_outside cell) eqn:o; [| discriminate].
-  destruct (outside_none cell x hx ok o).
+  intros Q cell x steps open rest hx ok W h. destruct steps as [| s steps]; [injection h as <-; split; [assumption | auto] |].
+  exact (discharge_shows Q _ cell x (s :: steps) open rest hx ok W h).
+Qed.
+End Steps.
+
+(** ** The tree, in which parameters are narrowed *)
+
+Lemma open_with : forall (A : Type) (l : list A) t i open, nth_error l i = Some t -> nth i open false = true -> In (t, true) (combine l open).
+Proof.
+  intros A. induction l as [| u l IH]; intros t [| i] [| b open] n o; cbn in n, o; try discriminate; cbn [combine].
+  - injection n as ->. subst b. left. reflexivity.
+  - right. exact (IH t i open n o).
 Qed.
 
-Lemma steps_on_sound : forall cell x steps open rest, Forall2 contains cell x -> allowed x -> steps_on cell steps open = Some rest ->
-  done (length cell) x open -> done (length cell) x rest.
+Section Tree.
+Variable bits : positive.
+Local Notation contains := (contains bits).
+Variable tape : list (op nat).
+Variables whole divided : rows nat.
+Variable partial : list nat.
+Variable all : list fixed.
+Variable tests : list test.
+Variable inside : list fixed -> option slope.
+
+(** No test is open that is about more machines than one. *)
+Definition may_part (open : list bool) : bool := forallb (fun p => is_of_each (fst p) || negb (snd p)) (combine tests open).
+
+Fixpoint check_for (params cell : list fixed) (open : list bool) (t : tree) : bool :=
+  let then_ steps holds := match steps_on bits tape whole divided partial params tests inside cell steps open with Some last => holds last | None => false end in
+  match t with
+  | Leaf steps => then_ steps (forallb negb)
+  | Split steps k lower upper => then_ steps (fun last =>
+      let (a, b) := halves k cell in if check_for params a last lower then check_for params b last upper else false)
+  | Parts steps j lower upper => then_ steps (fun last => if may_part last then
+      let (a, b) := halves j params in if check_for a cell last lower then check_for b cell last upper else false else false)
+  end.
+Definition check : list fixed -> list bool -> tree -> bool := check_for all.
+
+Variable theta : list R.
+Hypothesis theta_in : Forall2 contains all theta.
+Variable allowed : list R -> Prop.
+Hypothesis inside_sound : forall cell lambda x tangent, inside cell = Some tangent -> length lambda = length cell -> allowed x ->
+  Forall2 (fun a p => snd p - centre_of bits a = IZR (half a) / unit_R bits * fst p) cell (combine lambda x) -> exists d, entry_in bits tangent d /\ 0 <= at_lambda lambda d.
+
+Local Notation holds := (holds bits tape whole divided partial all theta).
+
+Lemma may_part_sound : forall open i t, may_part open = true -> nth_error tests i = Some t -> nth i open false = true -> is_of_each t = true.
 Proof.
-  intros cell x steps open rest hx ok h. destruct steps as [| s steps]; [apply (discharge_sound []) with []; assumption |].
-  exact (discharge_sound _ cell x (s :: steps) open rest hx ok h).
+  unfold may_part. intros open i t h n o. rewrite forallb_forall in h. specialize (h (t, true) (open_with _ tests t i open n o)). cbn [fst snd] in h.
+  rewrite orb_false_r in h. exact h.
 Qed.
 
 (** Soundness: where the tree is accepted, every test holds at every point of the cell. *)
-Theorem check_sound : forall tr cell x open, check cell open tr = true -> Forall2 contains cell x -> allowed x ->
-  done (length cell) x open -> forall t, In t tests -> holds (length cell) x t.
+Theorem check_for_sound : forall tr params cell x open, check_for params cell open tr = true -> Forall2 contains params theta -> Forall2 contains cell x -> allowed x ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = true -> Check.holds bits tape whole divided partial params theta (length cell) x t -> holds (length cell) x t) ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = false -> holds (length cell) x t) -> forall t, In t tests -> holds (length cell) x t.
 Proof.
-  induction tr as [steps | steps k lower IHl upper IHu]; intros cell x open h hx ok D t ht; cbn [check] in h;
-    destruct (steps_on cell steps open) as [rest |] eqn:s; try discriminate;
-    pose proof (steps_on_sound cell x steps open rest hx ok s D) as D'.
+  induction tr as [steps | steps k lower IHl upper IHu | steps k lower IHl upper IHu]; intros params cell x open h hp hx ok W D t ht; cbn [check_for] in h; cbv zeta in h;
+    destruct (steps_on bits tape whole divided partial params tests inside cell steps open) as [rest |] eqn:s; try discriminate;
+    destruct (steps_on_shows bits tape whole divided partial params tests inside theta hp allowed inside_sound (holds (length cell) x) cell x steps open rest hx ok W s D) as [D' L].
   - destruct (In_nth_error _ _ ht) as [i n]. apply (D' i t n). rewrite forallb_forall in h.
     destruct (nth_in_or_default i rest false) as [m | ->]; [| reflexivity].
     apply h in m. destruct (nth i rest false); [discriminate | reflexivity].
   - pose proof (halves_sound bits k cell x hx) as c. destruct (halves_length k cell) as [La Lb].
     destruct (halves k cell) as [a b]. cbn [fst snd] in *.
-    destruct (check a rest lower) eqn:ha; [| discriminate].
+    assert (W' : forall i t, nth_error tests i = Some t -> nth i rest false = true -> Check.holds bits tape whole divided partial params theta (length cell) x t -> holds (length cell) x t)
+      by (intros i u n o; exact (W i u n (L i o))).
+    destruct (check_for params a rest lower) eqn:ha; [| discriminate].
     destruct c as [c | c].
-    + rewrite <- La in *. exact (IHl a x rest ha c ok D' t ht).
-    + rewrite <- Lb in *. exact (IHu b x rest h c ok D' t ht).
+    + rewrite <- La in *. exact (IHl params a x rest ha hp c ok W' D' t ht).
+    + rewrite <- Lb in *. exact (IHu params b x rest h hp c ok W' D' t ht).
+  - destruct (may_part rest) eqn:e; [| discriminate]. pose proof (halves_sound bits k params theta hp) as c. destruct (halves k params) as [a b]. cbn [fst snd] in *.
+    assert (W' : forall ps i t, nth_error tests i = Some t -> nth i rest false = true -> Check.holds bits tape whole divided partial ps theta (length cell) x t -> holds (length cell) x t)
+      by (intros ps i u n o; exact (holds_of_each bits tape whole divided partial ps theta all _ x u (may_part_sound rest i u e n o))).
+    destruct (check_for a cell rest lower) eqn:ha; [| discriminate].
+    destruct c as [c | c].
+    + exact (IHl a cell x rest ha c hx ok (W' a) D' t ht).
+    + exact (IHu b cell x rest h c hx ok (W' b) D' t ht).
 Qed.
 
 Definition all_open : list bool := map (fun _ => true) tests.
@@ -1071,10 +1524,10 @@ Definition all_open : list bool := map (fun _ => true) tests.
 Corollary check_all_open : forall tr cell x, check cell all_open tr = true -> Forall2 contains cell x -> allowed x ->
   forall t, In t tests -> holds (length cell) x t.
 Proof.
-  intros tr cell x h hx ok. apply (check_sound tr cell x all_open h hx ok).
+  intros tr cell x h hx ok. apply (check_for_sound tr all cell x all_open h theta_in hx ok); [auto |].
   intros i t n o. exfalso. unfold all_open in o.
   rewrite (nth_indep _ false true) in o.
   - rewrite (map_nth (fun _ => true) tests (SigmaMin zero) i) in o. discriminate.
   - rewrite map_length. apply nth_error_Some. congruence.
 Qed.
-End Precision.
+End Tree.

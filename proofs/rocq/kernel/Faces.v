@@ -329,6 +329,7 @@ Fixpoint check (cell : list fixed) (open : bool) (t : tree) : bool :=
       | Some last => let (a, b) := halves k cell in if check a last lower then check b last upper else false
       | None => false
       end
+  | Parts _ _ _ _ => false
   end.
 
 Definition in_y (e : fixed) (u : R) : Prop := contains e u /\ (lo e = 0%Z \/ IZR (lo e) < u * unit_R bits).
@@ -364,7 +365,7 @@ Proof.
   { intros [| [[| n] e] [| ? ?]] iy iz ik [|] last h hy hz hk ho hl; cbn [steps_on] in h; try discriminate;
       try (apply ho; congruence).
     destruct (shows [iy; iz; ik] e) eqn:s; [| discriminate]. exact (shows_sound _ _ _ _ s hy hz hk). }
-  induction t as [steps | steps k lower IHl upper IHu]; intros iy iz ik open h hy hz hk ho; cbn [check] in h;
+  induction t as [steps | steps k lower IHl upper IHu | steps k lower IHl upper IHu]; intros iy iz ik open h hy hz hk ho; cbn [check] in h; try discriminate h;
     destruct (steps_on [iy; iz; ik] steps open) as [last |] eqn:s; try discriminate;
     pose proof (S _ _ _ _ _ _ s hy hz hk ho) as D; [apply D; destruct last; [discriminate | reflexivity] |].
   assert (H : exists a b, halves k [iy; iz; ik] = (a, b) /\ check a last lower = true /\ check b last upper = true).

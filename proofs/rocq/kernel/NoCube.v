@@ -541,40 +541,41 @@ Definition is_offset (at_ : list Z) : bool := Nat.eqb (length at_) 3 && forallb 
 
 Inductive failing_tree :=
   | Fails_ (at_ : list Z) (f : Configuration.nfailure)
-  | Halved (k : nat) (lower upper : failing_tree).
+  | Halved (k : nat) (lower upper : failing_tree)
+  (* in halves of the range of parameter [j] *)
+  | Parted (j : nat) (lower upper : failing_tree).
 
 Section Tree.
-Variables (first : nat) (rs : list requirement) (b : failings) (tape : list (op nat)) (params : list fixed) (part : fixed).
-Let constants := map constant params.
-Let values_at (coords : list slope) := run (option slope) None (slope_op bits coords constants) tape [].
+Variables (first : nat) (rs : list requirement) (b : failings) (tape : list (op nat)) (part : fixed).
+Let values_at (params : list fixed) (coords : list slope) := run (option slope) None (slope_op bits coords (map constant params)) tape [].
 
-Fixpoint fails_everywhere (cell : list fixed) (t : failing_tree) : bool :=
+Definition may_halve (k : nat) (l : list fixed) : bool := match nth_error l k with Some a => negb (midpoint a =? lo a)%Z | None => false end.
+Fixpoint fails_everywhere (params cell : list fixed) (t : failing_tree) : bool :=
   match t with
   | Fails_ at_ f => is_offset at_ &&
-      let coords := moved_by part (coords_from 0 cell) at_ in fails_over first rs b is_positive coords constants (values_at coords) f
-  | Halved k lower upper =>
-      match nth_error cell k with
-      | Some a => negb (midpoint a =? lo a)%Z &&
-          let (p, q) := halves k cell in fails_everywhere p lower && fails_everywhere q upper
-      | None => false
-      end
+      let coords := moved_by part (coords_from 0 cell) at_ in fails_over first rs b is_positive coords (map constant params) (values_at params coords) f
+  | Halved k lower upper => may_halve k cell && let (p, q) := halves k cell in fails_everywhere params p lower && fails_everywhere params q upper
+  | Parted j lower upper => may_halve j params && let (p, q) := halves j params in fails_everywhere p cell lower && fails_everywhere q cell upper
   end.
 
-Lemma fails_everywhere_sound : forall y t cell x, contains bits part y -> length cell = 3%nat -> Forall2 (contains bits) cell x -> fails_everywhere cell t = true ->
-  exists at_ f coords cs lambda, is_offset at_ = true /\ Forall (fun t => -1 <= t <= 1) lambda /\
+Lemma fails_everywhere_sound : forall y th t params cell x, contains bits part y -> length cell = 3%nat -> Forall2 (contains bits) params th -> Forall2 (contains bits) cell x ->
+  fails_everywhere params cell t = true ->
+  exists params at_ f coords cs lambda, Forall2 (contains bits) params th /\ is_offset at_ = true /\ Forall (fun t => -1 <= t <= 1) lambda /\
     (forall k, Slope.holds bits lambda (nth k coords (constant zero)) (nth k cs 0) (nth k (moved y x at_) 0)) /\
-    fails_over first rs b is_positive coords constants (values_at coords) f = true.
+    fails_over first rs b is_positive coords (map constant params) (values_at params coords) f = true.
 Proof.
-  intros y t cell x hp. revert cell x. induction t as [at_ f | k lower IHl upper IHu]; intros cell x len hx h; cbn [fails_everywhere] in h.
+  intros y th t params cell x hp. revert params cell x. induction t as [at_ f | k lower IHl upper IHu | k lower IHl upper IHu]; intros params cell x len ht hx h; cbn [fails_everywhere] in h.
   - apply andb_true_iff in h as [o h]. destruct (coords_from_hold bits cell x hx) as [lambda [el [hl [_ C]]]]. specialize (C []). cbn [app length] in C.
-    exists at_, f, (moved_by part (coords_from 0 cell) at_), (moved y (map (centre_of bits) cell) at_), lambda.
-    split; [exact o |]. split; [exact hl |]. split; [| exact h]. apply andb_true_iff in o as [o _]. apply Nat.eqb_eq in o.
+    exists params, at_, f, (moved_by part (coords_from 0 cell) at_), (moved y (map (centre_of bits) cell) at_), lambda.
+    split; [exact ht |]. split; [exact o |]. split; [exact hl |]. split; [| exact h]. apply andb_true_iff in o as [o _]. apply Nat.eqb_eq in o.
     assert (L : forall j l, length (coords_from j l) = length l) by (intros j l; revert j; induction l; intro j; cbn [coords_from length]; congruence).
     apply moved_by_hold; [exact hp | rewrite L; congruence | rewrite map_length, L; reflexivity | rewrite <- (related_length _ _ _ _ _ hx), L; reflexivity | exact C].
-  - destruct (nth_error cell k) as [a |]; [| discriminate]. apply andb_true_iff in h as [_ h].
-    pose proof (halves_sound bits k cell x hx) as hh. destruct (halves_length k cell) as [La Lb].
+  - apply andb_true_iff in h as [_ h]. pose proof (halves_sound bits k cell x hx) as hh. destruct (halves_length k cell) as [La Lb].
     destruct (halves k cell) as [p q]. cbn [fst snd] in *. apply andb_true_iff in h as [h1 h2].
-    destruct hh as [hh | hh]; [apply (IHl p) | apply (IHu q)]; congruence || assumption.
+    destruct hh as [hh | hh]; [apply (IHl params p) | apply (IHu params q)]; congruence || assumption.
+  - apply andb_true_iff in h as [_ h]. pose proof (halves_sound bits k params th ht) as hh.
+    destruct (halves k params) as [p q]. cbn [fst snd] in *. apply andb_true_iff in h as [h1 h2].
+    destruct hh as [hh | hh]; [apply (IHl p cell) | apply (IHu q cell)]; assumption.
 Qed.
 End Tree.
 
@@ -592,7 +593,7 @@ Definition check_no_cube (exact : positive) (c : claim) (side : number) (s : Z) 
       match all_some (map (enclose_parameter bits) (ps ++ map (bound_of s) (require c) ++ flat_map (extras s) (require c))),
             all_some (map (enclose_parameter bits) (three edges s)), enclose_scaled bits s (Over side (16 // 1)) with
       | Some params, Some box, Some part =>
-          fails_everywhere (fst n) (require c) (failings_of (place found) fs s n (require c)) tape params part box t
+          fails_everywhere (fst n) (require c) (failings_of (place found) fs s n (require c)) tape part params box t
       | _, _, _ => false
       end
   | Cylinder _ _ _ _ => false
@@ -625,7 +626,7 @@ Proof.
   set (y := Claim.value side / 16 / two_to s).
   assert (Y : contains bits part y).
   { apply enclose_scaled_sound in epart. cbn [Claim.value] in epart. replace (16 / 1) with 16 in epart by field. exact epart. }
-  destruct (fails_everywhere_sound _ _ _ tape params part y t box _ Y three_of_them X ht) as [at_ [f [coords [cs [lambda [o [hl [hc hf]]]]]]]].
+  destruct (fails_everywhere_sound _ _ _ tape part y _ t params box _ Y three_of_them T X ht) as [own [at_ [f [coords [cs [lambda [O [o [hl [hc hf]]]]]]]]]].
   apply andb_true_iff in o as [o1 o2]. destruct at_ as [| n0 [| n1 [| n2 [|]]]]; try discriminate. clear o1.
   cbn [forallb] in o2. apply andb_true_iff in o2 as [w0 o2]. apply andb_true_iff in o2 as [w1 o2]. apply andb_true_iff in o2 as [w2 _].
   set (P := vadd C (vscale (Claim.value side / 16) (Vec (IZR n0) (IZR n1) (IZR n2)))).
@@ -641,13 +642,13 @@ Proof.
   rewrite E in hc. clear E hC X w0 w1 w2.
   assert (ln : length (layouts s ds (legs c)) = length th) by apply (related_length _ _ _ _ _ L).
   specialize (R (vscale (/ two_to s) P) [] tb). cbn [app length] in R.
-  pose proof (params_hold bits lambda params (th ++ tb) T) as ph.
+  pose proof (params_hold bits lambda own (th ++ tb) O) as ph.
   assert (bounds_at : forall k r, nth_error (require c) k = Some r -> nth (fst n + k) (th ++ tb) 0 = bound_value s r).
   { intros k r e. unfold n. cbn [fst]. rewrite ln, app_nth2_plus. unfold tb.
     rewrite app_nth1 by (rewrite map_length; apply nth_error_Some; congruence).
     apply nth_error_nth. rewrite nth_error_map, e. reflexivity. }
   intros [reached [_ met]]. refine (fails_over_sound c s ds m P (th ++ tb) tape R built hm n bounds_at Found reached lambda cs coords _ _ is_positive f
-    (eval_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape) (is_positive_sound lambda hl _ cs (th ++ tb) coords (map constant params) hc ph tape) hf met).
+    (eval_sound lambda hl _ cs (th ++ tb) coords (map constant own) hc ph tape) (is_positive_sound lambda hl _ cs (th ++ tb) coords (map constant own) hc ph tape) hf met).
 Qed.
 End Precision.
 

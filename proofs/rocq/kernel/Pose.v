@@ -117,15 +117,6 @@ Definition slopes_in (steps : list (nat * evidence)) : list nat :=
 Definition steps_at (cell : list fixed) (steps : list (nat * evidence)) (open : list bool) : option (list bool) :=
   discharged cell (if existsb of_controls steps then tensors bits params (thinned (places_in steps) tape) cell else [])
     (if existsb of_slopes steps then evaluate_kept bits plain params (kept (slopes_in steps) plain) cell else []) steps open.
-Fixpoint check_poses (cell : list fixed) (open : list bool) (t : tree) : bool :=
-  match t with
-  | Leaf steps => match steps_at cell steps open with Some last => forallb negb last | None => false end
-  | Split steps k lower upper =>
-      match steps_at cell steps open with
-      | Some last => let (a, b) := halves k cell in if check_poses a last lower then check_poses b last upper else false
-      | None => false
-      end
-  end.
 
 Variable theta : list R.
 Hypothesis theta_in : Forall2 (contains bits) params theta.
@@ -211,10 +202,10 @@ Proof.
     by (intros e' h'; exact (shows_less_sound cell x None t e' it hx len ht (or_introl eq_refl) eq_refl (Rle_refl 0) h')).
   assert (Slopes : forall e, (match t with OnSlopes t => shows bits [] [] [] (evaluate_kept bits plain params keep cell) m None t e | _ => false end) = true -> test_holds x t).
   { intros e' k. destruct t; try discriminate. cbn [test_holds]. rewrite <- len in k |- *. exact (shows_holds bits plain [] [] [] params theta theta_in keep cell x _ e' hx k). }
-  destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
+  destruct e as [| | | | | | | | | | | e | | | | | e0 es dirs | |]; cbn [shows_at] in h; try discriminate; try exact (Slopes _ h).
   2: { destruct t as [r w k ends | | | | | | | | |]; try discriminate. apply andb_true_iff in h as [h v]. apply andb_true_iff in h as [h1 h2]. apply Nat.eqb_eq in h2. subst w.
     unfold same_rows in h1. destruct (list_eq_dec same_row r main) as [-> |]; [| discriminate]. exact (varied_holds cell x k ends _ it hx len ht v). }
-  destruct e as [| | | | | | | | | | | | e k places | | | |]; try exact (None_ _ h).
+  destruct e as [| | | | | | | | | | | | e k places | | | | | |]; try exact (None_ _ h).
   assert (G : exists i, g = Some i /\ (0 <=? k)%Z && (places <? 64)%N && shows_less cell (evaluate_kept bits plain params keep cell) (tensors_here cell) (Some (i, k, places)) t e = true)
     by (clear - h; destruct g as [i |]; [exists i; split; [reflexivity | exact h] | discriminate]).
   destruct G as [i [eg h']]. clear h. apply andb_true_iff in h' as [h s]. apply andb_true_iff in h as [k0 _]. apply Z.leb_le, IZR_le in k0.
@@ -231,8 +222,6 @@ Proof.
   destruct (range_sound bits tape params theta theta_in tape (thinned_not_at_all tape) cell x hx i a ea) as [_ u]. pose proof (proj1 ht i eg). pose proof (unit_R_pos bits). nra.
 Qed.
 
-Definition is_done (x : list R) (open : list bool) : Prop := forall i t, nth_error tests i = Some t -> nth i open false = false -> test_holds x t.
-
 Lemma discharged_needs : forall cell ts ts' vs vs' steps open, (existsb of_controls steps = true -> ts = ts') -> (existsb of_slopes steps = true -> vs = vs') ->
   discharged cell ts vs steps open = discharged cell ts' vs' steps open.
 Proof.
@@ -245,45 +234,120 @@ Proof.
     match goal with |- match nth ?j open false with _ => _ end = _ => destruct (nth j open false); [destruct (nth_error tests j); [rewrite E, Rest |] |]; reflexivity end.
 Qed.
 
-Lemma steps_at_sound : forall cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
-  steps_at cell steps open = Some rest -> is_done x open -> is_done x rest.
+(** What steps show is of these parameters; [S] what follows from it. *)
+Lemma steps_at_sound : forall (S : pose_test -> Prop) cell x steps open rest, Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = true -> test_holds x t -> S t) ->
+  steps_at cell steps open = Some rest -> (forall i t, nth_error tests i = Some t -> nth i open false = false -> S t) ->
+  (forall i t, nth_error tests i = Some t -> nth i rest false = false -> S t) /\ forall i, nth i rest false = true -> nth i open false = true.
 Proof.
-  intros cell x steps open rest hx len ht h. set (thin := thinned (places_in steps) tape) in *. set (ts := tensors bits params thin cell) in *. set (keep := kept (slopes_in steps) plain) in *. set (vs := evaluate_kept bits plain params keep cell) in *.
+  intros S cell x steps open rest hx len ht W h. set (thin := thinned (places_in steps) tape) in *. set (ts := tensors bits params thin cell) in *. set (keep := kept (slopes_in steps) plain) in *. set (vs := evaluate_kept bits plain params keep cell) in *.
   assert (h' : discharged cell ts vs steps open = Some rest)
     by (rewrite <- h; unfold steps_at; fold thin; fold keep; fold ts vs; apply discharged_needs; intros ->; reflexivity). clear h.
   assert (TI : is_thinned thin tape) by apply thinned_is. clearbody thin keep.
-  assert (Own : forall i e steps, (forall open, discharged cell ts vs steps open = Some rest -> is_done x open -> is_done x rest) ->
-    forall open, match nth i open false, nth_error tests i with
+  set (Done := fun open rest : list bool => (forall i t, nth_error tests i = Some t -> nth i rest false = false -> S t) /\ forall i, nth i rest false = true -> nth i open false = true).
+  change ((forall i t, nth_error tests i = Some t -> nth i open false = false -> S t) -> Done open rest).
+  assert (Own : forall i e steps, (forall open, (forall i t, nth_error tests i = Some t -> nth i open false = true -> test_holds x t -> S t) ->
+      discharged cell ts vs steps open = Some rest -> (forall i t, nth_error tests i = Some t -> nth i open false = false -> S t) -> Done open rest) ->
+    forall open, (forall i t, nth_error tests i = Some t -> nth i open false = true -> test_holds x t -> S t) -> match nth i open false, nth_error tests i with
       | true, Some t => if shows_at cell ts vs t e then discharged cell ts vs steps (clear i open) else None
-      | _, _ => None end = Some rest -> is_done x open -> is_done x rest).
-  { intros i e steps' IH open' h D. destruct (nth i open' false); [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
-    destruct (shows_at _ _ _ t e) eqn:s; [| discriminate]. apply (IH _ h). intros j u nj o.
-    destruct (nth_clear i j open' o) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
-    exact (shows_at_sound thin TI keep cell x t e (nth_error_In _ _ nt) hx len ht s). }
-  revert open h'. induction steps as [| [i e] steps IH]; intros open h D; cbn [discharged] in h; [injection h as <-; exact D |].
-  pose proof (Own i e steps IH open) as O1. destruct i as [| i], e; try exact (O1 h D).
+      | _, _ => None end = Some rest -> (forall i t, nth_error tests i = Some t -> nth i open false = false -> S t) -> Done open rest).
+  { clear open W h'. intros i e steps' IH open W h D. destruct (nth i open false) eqn:o; [| discriminate]. destruct (nth_error tests i) as [t |] eqn:nt; [| discriminate].
+    destruct (shows_at _ _ _ t e) eqn:s; [| discriminate].
+    destruct (IH (clear i open) (fun j u nj oj => W j u nj (clear_leaves i j open oj)) h) as [I1 I2].
+    - intros j u nj oj. destruct (nth_clear i j open oj) as [-> | o']; [| exact (D j u nj o')]. rewrite nt in nj. injection nj as <-.
+      exact (W i t nt o (shows_at_sound thin TI keep cell x t e (nth_error_In _ _ nt) hx len ht s)).
+    - split; [exact I1 |]. intros j r. exact (clear_leaves i j open (I2 j r)). }
+  revert open W h'. induction steps as [| [i e] steps IH]; intros open W h D; cbn [discharged] in h; [injection h as <-; split; [exact D | auto] |].
+  pose proof (Own i e steps IH open W) as O1. destruct i as [| i], e; try exact (O1 h D).
   destruct (is_outside_at cell) eqn:o; [| discriminate h]. exfalso. exact (is_outside_at_sound cell x hx o ht).
 Qed.
+End Tree.
 
-Theorem check_poses_sound : forall tr cell x open, check_poses cell open tr = true -> Forall2 (contains bits) cell x -> length cell = m ->
-  is_turned x -> is_done x open -> forall t, In t tests -> test_holds x t.
+(** ** The tree, in which parameters are narrowed *)
+
+(** What accuracy says of one machine is about all others, too. *)
+Definition is_of_each_pose (t : pose_test) : bool := match t with NearOf _ => false | OnSlopes t => is_of_each t | _ => true end.
+
+Section Trees.
+Variable bits : positive.
+Variables tape plain : list (op nat).
+Variable all : list fixed.
+Variable tests : list pose_test.
+Variables m n : nat.
+Variable g : option nat.
+Variables (main : rows nat) (main_w : nat) (varied : list fixed -> list fixed -> fixed -> nat -> evidence -> bool).
+
+Definition may_part_poses (open : list bool) : bool := forallb (fun p => is_of_each_pose (fst p) || negb (snd p)) (combine tests open).
+Fixpoint check_for (params cell : list fixed) (open : list bool) (t : tree) : bool :=
+  let then_ steps good := match steps_at bits tape plain params tests m n g main main_w (varied params) cell steps open with Some last => good last | None => false end in
+  match t with
+  | Leaf steps => then_ steps (forallb negb)
+  | Split steps k lower upper => then_ steps (fun last =>
+      let (a, b) := halves k cell in if check_for params a last lower then check_for params b last upper else false)
+  | Parts steps j lower upper => then_ steps (fun last => if may_part_poses last then
+      let (a, b) := halves j params in if check_for a cell last lower then check_for b cell last upper else false else false)
+  end.
+Definition check_poses : list fixed -> list bool -> tree -> bool := check_for all.
+
+Variable theta : list R.
+Hypothesis theta_in : Forall2 (contains bits) all theta.
+Hypothesis affine : forall t, In t tests -> forallb (is_affine_at tape m) (test_places t) = true.
+Hypothesis g_affine : forall i, g = Some i -> is_affine_at tape m i = true.
+Hypothesis eased_near : forall a, In (NearOf a) tests -> n_ends a = O \/ is_eased tape m (n_ends a) (n_rows a) (n_weight a) None = true /\
+  forall i k places, g = Some i -> is_eased tape m (n_ends a) (n_rows a) (n_weight a) (Some (i, k, places)) = true.
+Hypothesis eased : forall t r w ends, In t tests -> with_ends t = Some (r, w, ends) -> ends = O \/ length r = n /\
+  is_eased tape m ends r w None = true /\ forall i k places, g = Some i -> is_eased tape m ends r w (Some (i, k, places)) = true.
+Local Notation is_turned := (is_turned tape tests g theta).
+Local Notation test_holds_for params := (test_holds bits tape plain params m n theta).
+Local Notation test_holds := (test_holds_for all).
+Hypothesis varied_holds : forall params, Forall2 (contains bits) params theta -> are_above all params ->
+  forall cell x k ends e, In (LeastOf main main_w k ends) tests -> Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  varied params cell k ends e = true -> test_holds x (LeastOf main main_w k ends).
+
+Lemma holds_of_each_pose : forall params x t, is_of_each_pose t = true -> test_holds_for params x t -> test_holds x t.
 Proof.
-  induction tr as [steps | steps k lower IHl upper IHu]; intros cell x open h hx len ht D t it; cbn [check_poses] in h;
-    destruct (steps_at cell steps open) as [rest |] eqn:s; try discriminate; pose proof (steps_at_sound cell x steps open rest hx len ht s D) as D'.
+  intros params x t e h. destruct t; try exact h; [discriminate |]. exact (holds_of_each bits plain [] [] [] params theta all m x _ e h).
+Qed.
+Lemma may_part_poses_sound : forall open i t, may_part_poses open = true -> nth_error tests i = Some t -> nth i open false = true -> is_of_each_pose t = true.
+Proof.
+  unfold may_part_poses. intros open i t h k o. rewrite forallb_forall in h. specialize (h (t, true) (open_with _ tests t i open k o)). cbn [fst snd] in h.
+  rewrite orb_false_r in h. exact h.
+Qed.
+
+Theorem check_for_sound : forall tr params cell x open, check_for params cell open tr = true -> Forall2 (contains bits) params theta -> are_above all params ->
+  Forall2 (contains bits) cell x -> length cell = m -> is_turned x ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = true -> test_holds_for params x t -> test_holds x t) ->
+  (forall i t, nth_error tests i = Some t -> nth i open false = false -> test_holds x t) -> forall t, In t tests -> test_holds x t.
+Proof.
+  induction tr as [steps | steps k lower IHl upper IHu | steps k lower IHl upper IHu]; intros params cell x open h hp hr hx len ht W D t it; cbn [check_for] in h; cbv zeta in h;
+    destruct (steps_at _ _ _ _ _ _ _ _ _ _ _ cell steps open) as [rest |] eqn:s; try discriminate;
+    destruct (steps_at_sound bits tape plain params tests m n g main main_w (varied params) theta hp affine g_affine eased_near eased
+      (fun c y k e v i hc lc hy q => varied_holds params hp hr c y k e v i hc lc hy q) (test_holds x) cell x steps open rest hx len ht W s D) as [D' L].
   - destruct (In_nth_error _ _ it) as [i e]. apply (D' i t e). rewrite forallb_forall in h.
     destruct (nth_in_or_default i rest false) as [k | ->]; [| reflexivity]. apply h in k. destruct (nth i rest false); [discriminate | reflexivity].
-  - pose proof (halves_sound bits k cell x hx) as c. destruct (halves_length k cell) as [La Lb]. destruct (halves k cell) as [a b]. cbn [fst snd] in *.
-    destruct (check_poses a rest lower) eqn:ha; [| discriminate].
-    destruct c as [c | c]; [exact (IHl a x rest ha c ltac:(congruence) ht D' t it) | exact (IHu b x rest h c ltac:(congruence) ht D' t it)].
+  - assert (W' : forall i t, nth_error tests i = Some t -> nth i rest false = true -> test_holds_for params x t -> test_holds x t)
+      by (intros i u e o; exact (W i u e (L i o))).
+    pose proof (halves_sound bits k cell x hx) as c. destruct (halves_length k cell) as [La Lb]. destruct (halves k cell) as [a b]. cbn [fst snd] in *.
+    destruct (check_for params a rest lower) eqn:ha; [| discriminate].
+    destruct c as [c | c]; [exact (IHl params a x rest ha hp hr c ltac:(congruence) ht W' D' t it) | exact (IHu params b x rest h hp hr c ltac:(congruence) ht W' D' t it)].
+  - destruct (may_part_poses rest) eqn:e; [| discriminate].
+    assert (W' : forall ps i t, nth_error tests i = Some t -> nth i rest false = true -> test_holds_for ps x t -> test_holds x t)
+      by (intros ps i u q o; exact (holds_of_each_pose ps x u (may_part_poses_sound rest i u e q o))).
+    destruct (above_halved bits k params theta hp all hr) as [r1 r2]. pose proof (halves_sound bits k params theta hp) as c. destruct (halves k params) as [a b]. cbn [fst snd] in *.
+    destruct (check_for a cell rest lower) eqn:ha; [| discriminate].
+    destruct c as [c | c]; [exact (IHl a cell x rest ha c r1 hx len ht (W' a) D' t it) | exact (IHu b cell x rest h c r2 hx len ht (W' b) D' t it)].
 Qed.
 
-Lemma none_done : forall x, is_done x (map (fun _ => true) tests).
+Theorem check_poses_sound : forall tr cell x, check_poses cell (map (fun _ => true) tests) tr = true -> Forall2 (contains bits) cell x -> length cell = m ->
+  is_turned x -> forall t, In t tests -> test_holds x t.
 Proof.
-  intros x i t e o. exfalso. rewrite (nth_indep _ false true) in o.
-  - rewrite (map_nth (fun _ => true) tests (SignOf 0) i) in o. discriminate.
-  - rewrite map_length. apply nth_error_Some. congruence.
+  intros tr cell x h hx len ht. apply (check_for_sound tr all cell x _ h theta_in); try assumption; [| auto |].
+  - clear. induction all; constructor; [lia | assumption].
+  - intros i t e o. exfalso. rewrite (nth_indep _ false true) in o.
+    + rewrite (map_nth (fun _ => true) tests (SignOf 0) i) in o. discriminate.
+    + rewrite map_length. apply nth_error_Some. congruence.
 Qed.
-End Tree.
+End Trees.
 
 (** ** Formulas *)
 
@@ -686,7 +750,7 @@ Definition free_struts (s : Z) (ts : list (tolerances * tolerances)) : list nat 
   let lay := flat_map (strut_layout s) ts in map fst (filter (fun p => has_two_ends (snd p)) (combine (seq 0 (length lay)) lay)).
 Definition is_apart (s : nat * evidence) : bool := match snd s with ByTolerances _ _ _ => true | _ => false end.
 Fixpoint has_apart (t : tree) : bool :=
-  match t with Leaf steps => existsb is_apart steps | Split steps _ lower upper => existsb is_apart steps || has_apart lower || has_apart upper end.
+  match t with Leaf steps => existsb is_apart steps | Split steps _ lower upper | Parts steps _ lower upper => existsb is_apart steps || has_apart lower || has_apart upper end.
 
 Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
   let k := motion_of c in let m := dimension k in let ds := turning_demands c in
@@ -723,7 +787,7 @@ Definition check_turning (c : turning_claim) (s : Z) (t : tree) : bool :=
       let apart_rows := map_multis apart_place apart_place F in let apart_w := apart_place (image m w) in let apart_g := option_map (fun g => apart_place (image m g)) g in
       let fit := negb apart || (Nat.eqb (length rows) m && are_fit m ends rows w g all free F apart_fs) in
       fit && check_poses bits tape plain all tests m m (option_map place g) (map_rows place rows) (place w)
-        (fun cell k e by_ => apart && shows_varied bits m ends all free apart_tape apart_rows apart_w apart_g cell k e by_) (box ++ angles) (map (fun _ => true) tests) t
+        (fun all cell k e by_ => apart && shows_varied bits m ends all free apart_tape apart_rows apart_w apart_g cell k e by_) (box ++ angles) (map (fun _ => true) tests) t
   | _, _, _, _, _, _ => false
   end.
 
@@ -1086,13 +1150,13 @@ Proof.
     intros i e. destruct g as [f |] eqn:eg'; [| discriminate]. injection e as <-. rewrite Found; [apply hg; exact eg' |].
     apply in_or_app. right. right. apply in_or_app. right. left. reflexivity. }
   cbv zeta in fits, tree_ok. set (apart := has_apart t) in *. set (multis := if apart then own_multis _ _ _ else []) in *. set (apart_tape := if apart then fst (compile _) else []) in *.
-  assert (VH : forall cell y k' e by_, In (LeastOf (map_rows place rows) (place w) k' e) all_tests -> Forall2 (contains bits) cell y -> length cell = dimension k ->
-    is_turned tape all_tests (option_map place g) theta y -> apart && shows_varied bits (dimension k) ends (params ++ inputs ++ tangents) (free_struts s ts) apart_tape
+  assert (VH : forall all, Forall2 (contains bits) all theta -> are_above (params ++ inputs ++ tangents) all -> forall cell y k' e by_, In (LeastOf (map_rows place rows) (place w) k' e) all_tests -> Forall2 (contains bits) cell y -> length cell = dimension k ->
+    is_turned tape all_tests (option_map place g) theta y -> apart && shows_varied bits (dimension k) ends all (free_struts s ts) apart_tape
       (map_multis (Formula.place (formulas apart_tape)) (Formula.place (formulas apart_tape)) multis) (Formula.place (formulas apart_tape) (image (dimension k) w))
       (option_map (fun g => Formula.place (formulas apart_tape) (image (dimension k) g)) g) cell k' e by_ = true ->
     test_holds bits tape plain (params ++ inputs ++ tangents) (dimension k) (dimension k) theta y (LeastOf (map_rows place rows) (place w) k' e)).
-  { intros cell y k' e by_ it hy ly [hg' hturn] h'. apply andb_true_iff in h' as [ha h']. rewrite ha in fits. cbn [negb orb] in fits. apply andb_true_iff in fits as [lr fit]. apply Nat.eqb_eq in lr.
-    assert (eF : multis = own_multis (dimension k) rows (free_struts s ts)) by (unfold multis; rewrite ha; reflexivity). rewrite eF in fit, h'.
+  { intros all TA RA cell y k' e by_ it hy ly [hg' hturn] h'. apply andb_true_iff in h' as [ha h']. rewrite ha in fits. cbn [negb orb] in fits. apply andb_true_iff in fits as [lr fit]. apply Nat.eqb_eq in lr.
+    assert (eF : multis = own_multis (dimension k) rows (free_struts s ts)) by (unfold multis; rewrite ha; reflexivity). rewrite eF in fit, h'. apply (fit_above (dimension k) ends rows w g _ all (free_struts s ts) _ _ RA) in fit.
     assert (ly' : length y = dimension k) by (rewrite <- (related_length _ _ _ _ _ hy); exact ly).
     assert (FoundY : forall f, In f wanted -> at_pairs theta (entry_at tape (place f)) (parabola y) = Formula.value y theta f).
     { intros f i. assert (E : entry_at tape (place f) = image (dimension k) f) by (apply Formula.same_sound, found, i). rewrite E, <- ly'. apply image_value. rewrite ly'. apply below_, i. }
@@ -1107,16 +1171,16 @@ Proof.
     assert (ig : forall f, g = Some f -> In f wanted) by (intros f ef; unfold wanted, gs; rewrite ef; apply in_or_app; right; right; apply in_or_app; right; left; reflexivity).
     (* ends alone *)
     assert (e1 : e = ends /\ (0 < ends)%nat).
-    { unfold shows_varied in h'. cbv zeta in h'. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs]; try discriminate. destruct inner; try discriminate. destruct dirs as [| ? [|]]; try discriminate.
+    { unfold shows_varied in h'. cbv zeta in h'. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs | |]; try discriminate. destruct inner; try discriminate. destruct dirs as [| ? [|]]; try discriminate.
       do 5 apply andb_true_iff in h' as [h' _]. apply andb_true_iff in h' as [q1 q2].
       apply Nat.eqb_eq in q1. apply Nat.ltb_lt in q2. split; assumption. }
     destruct e1 as [ee e0]. destruct (hturn _ _ _ _ it eq_refl) as [z | [gr w1]]; [lia |]. cbv zeta in gr, w1. rewrite RowsY in gr. rewrite (FoundY w iw) in w1.
     intros kappa v hk k0 lv nz. cbv zeta. rewrite RowsY, (FoundY w iw).
-    apply (shows_varied_sound bits (dimension k) ends rows w g (params ++ inputs ++ tangents) (free_struts s ts) apart_tape fit theta cell y T hy ly k' e by_ kappa h' lr gr w1); try assumption.
+    apply (shows_varied_sound bits (dimension k) ends rows w g all (free_struts s ts) apart_tape fit theta cell y TA hy ly k' e by_ kappa h' lr gr w1); try assumption.
     - intros f ef _. rewrite <- (FoundY f (ig f ef)). apply hg'. rewrite ef. reflexivity.
     - apply below_, iw.
     - destruct g as [f |]; [apply below_, ig; reflexivity | reflexivity]. }
-  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) (map_rows place rows) (place w) _ theta T aff gaff' easedN eased VH t _ x _ tree_ok X len turn ltac:(apply none_done)) as HT0.
+  pose proof (check_poses_sound bits tape plain (params ++ inputs ++ tangents) all_tests (dimension k) (dimension k) (option_map place g) (map_rows place rows) (place w) _ theta T aff gaff' easedN eased VH t _ x tree_ok X len turn) as HT0.
   pose proof (fun u iu => HT0 u (Sub u iu)) as HT.
   assert (Speed : positive_D (map_rows (Formula.value x theta) rows) -> Forall (fun l => 0 < norm2 (strut_vector l P Q)) m /\
     forall v, energy (map_rows (Formula.value x theta) rows) v = W * Configuration.speed2 (map (fun l => strut_row k L l P Q) m) v)

@@ -537,7 +537,7 @@ Proof.
         pose proof (Rmult_le_pos (kappa * dot u u) (value x theta w) ltac:(apply Rmult_le_pos; lra) ltac:(lra)). pose proof (Rmult_le_pos (dot u u) less ltac:(lra) l0). lra. }
     intros v lv nz. split; [exact P |]. apply Rlt_le_trans with (2 := lower_energy places Y _ v P). specialize (T v lv nz).
     assert (0 <= dot v v * less) by (apply Rmult_le_pos; [apply Rlt_le, nz | exact l0]). lra. }
-  unfold shows_varied in h. cbv zeta in h. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | |]; try discriminate.
+  unfold shows_varied in h. cbv zeta in h. destruct by_ as [| | | | | | | | | | | | | | | | inner es dirs | |]; try discriminate. destruct inner as [| | | | | | | | | | | inner | | | | | | |]; try discriminate.
   destruct dirs as [| dir [|]]; try discriminate. apply andb_true_iff in h as [h s]. apply andb_true_iff in h as [h _]. apply andb_true_iff in h as [h ex]. apply andb_true_iff in h as [h on]. apply andb_true_iff in h as [_ sn].
   unfold same_numbers in sn. destruct (list_eq_dec _ _ _) as [ef |]; [| discriminate]. rewrite <- ef in on, ex.
   assert (Aff := fit). unfold are_fit in Aff. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [Aff _]. apply andb_true_iff in Aff as [_ Aff].
@@ -551,9 +551,9 @@ Proof.
   { intros l places Y al hl q v lv nz. rewrite <- Wv.
     apply (varied_form bits tape params tape (thinned_not_at_all tape) es m theta theta_in cell x x_in dimension on ex (map_multis placed_at placed_at own_multis) rs (placed_at (image m w)) l ends m places Y dir k kappa v);
       [exact (own_stand es ef) | exact (Places l al) | exact (eased_placed l hl) | rewrite Wv; lra | exact q | exact hk | exact lv | exact nz]. }
-  destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | |]; try discriminate.
+  destruct inner as [| | places Y | | | | | | | | | | inner n pl | | | | | |]; try discriminate.
   - exists places, Y, 0. split; [lra |]. intros v lv nz. pose proof (Go None places Y eq_refl I s v lv nz) as G. exact G.
-  - destruct inner as [| | places Y | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
+  - destruct inner as [| | places Y | | | | | | | | | | | | | | | |]; try discriminate. destruct g as [f |] eqn:eg; [| discriminate]. cbn [option_map] in s. apply andb_true_iff in s as [n0 s]. apply Z.leb_le, IZR_le in n0.
     exists places, Y, (less_at tape theta (parabola x) (Some (placed_at (image m f), n, pl))).
     assert (ef' : entry_at tape (placed_at (image m f)) = image m f) by (apply found_at; right; rewrite eg; left; reflexivity). split.
     + cbn [less_at]. rewrite ef', <- lx, image_value by (rewrite lx; exact bg). pose proof (two_power pl). apply Rmult_le_pos; [apply Rmult_le_pos; [exact n0 | apply Rlt_le, Rinv_0_lt_compat; assumption] | apply g0; [reflexivity | exact bg]].
@@ -561,3 +561,34 @@ Proof.
       cbn [is_affine_multiple]. unfold is_affine_at, affine_in. cbv zeta. fold (entry_at tape (placed_at (image m f))). rewrite ef'. unfold are_affine in Ag. cbn [forallb] in Ag. apply andb_true_iff in Ag as [Ag _]. exact Ag.
 Qed.
 End Claim.
+
+(** *** Parameters narrowed *)
+
+(** Parameters that begin no lower: of halves of these. *)
+Definition are_above (all params : list fixed) : Prop := Forall2 (fun a b => (lo a <= lo b)%Z) all params.
+Lemma above_halved : forall bits k params theta, Forall2 (contains bits) params theta -> forall all, are_above all params ->
+  are_above all (fst (halves k params)) /\ are_above all (snd (halves k params)).
+Proof.
+  intros bits k params theta h. revert k. induction h as [| a y params theta [h1 h2] hs IH]; intros k all r; inversion r as [| b ? all' ? e r']; subst; destruct k as [| k]; cbn [halves fst snd]; try (split; exact r).
+  - assert (l : (lo a <= hi a)%Z) by (apply le_IZR; pose proof (unit_R_pos bits); nra).
+    assert (M : (lo a <= midpoint a)%Z).
+    { unfold midpoint. rewrite Z.shiftr_div_pow2 by lia. change (2 ^ 1)%Z with 2%Z. apply Z.div_le_lower_bound; lia. }
+    split; constructor; cbn [lo]; (exact r' || lia).
+  - destruct (IH k all' r') as [I1 I2]. destruct (halves k params) as [p q]. cbn [fst snd] in *. split; constructor; assumption.
+Qed.
+Lemma above_nth : forall all params, are_above all params -> forall i, (lo (nth i all zero) <= lo (nth i params zero))%Z.
+Proof. induction 1 as [| a b l k h hs IH]; intros [| i]; cbn [nth]; auto; lia. Qed.
+Lemma polynomial_above : forall free all params f, are_above all params -> is_polynomial all free f = true -> is_polynomial params free f = true.
+Proof.
+  intros free all params f h. revert f. fix IH 1. intros [[k | k | n | a b | a b | a | a b | a b | a | a | ? a b e]] p; cbn [is_polynomial] in *; try exact p; try (exact (IH a p));
+    try (apply andb_true_iff in p as [p q]; rewrite (IH a p), (IH b q); reflexivity).
+  apply andb_true_iff in p as [p q]. rewrite (IH a p). destruct b as [[]]; try discriminate q. apply andb_true_iff in q as [q r]. rewrite r, andb_true_r.
+  apply Z.ltb_lt in q. apply Z.ltb_lt. pose proof (above_nth all params h j). lia.
+Qed.
+Lemma fit_above : forall m ends rs w g all params free F fs, are_above all params -> are_fit m ends rs w g all free F fs = true -> are_fit m ends rs w g params free F fs = true.
+Proof.
+  intros m ends rs w g all params free F fs h. unfold are_fit. intro f. apply andb_true_iff in f as [f k]. rewrite f. cbn [andb]. rewrite forallb_forall in k |- *.
+  assert (K : forall q, is_fit m all free q = true -> is_fit m params free q = true).
+  { unfold is_fit. intros q e. apply andb_true_iff in e as [e e3]. apply andb_true_iff in e as [e1 e2]. rewrite (polynomial_above free all params q h e1), e2, e3. reflexivity. }
+  intros p i. specialize (k p i). apply andb_true_iff in k as [k1 k2]. rewrite (K _ k2), andb_true_r. rewrite forallb_forall in k1 |- *. auto.
+Qed.

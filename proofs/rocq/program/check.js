@@ -276,6 +276,80 @@ for (const [name, requirement, beyond, joint] of refutations) {
   read.push(nearest);
 }
 console.log(`refutations: ${ends} bounds of ${refutations.length} with one answer, and ${no_refutations} refused`);
+// Tolerances halved at the root of a tree, above twice its nodes: at bounds ever nearer to the last with which they are certified, and beyond that of the tree alone.
+for (const [name, m, numbers, beyond, further] of [
+  ["orthoglide-tolerance", 3, 3, 0.8, 0], ["planar-3-prr", 3, 3, 0.8, 1], ["five-bar", 2, 2, 0.8, 1], ["hexapod-rubin-camera-as-made", 6, 36, 0.8, 17], ["five-bar-formulas", 2, 1, 0.8, 0],
+]) {
+  const text = fs.readFileSync(path.join(made, `${name}.cert.json`), "latin1"), nodes = /"nodes":\[(.*)\]\}\},"prov/.exec(text)[1];
+  const halved = (j, lower = nodes, upper = nodes) => text.replace(`"nodes":[${nodes}]`, `"nodes":[{"split":${m + j}},${[lower, upper].filter((x) => x).join()}]`);
+  const [, stated] = /"end":"max","bound":"([\d.]+)"/.exec(text);
+  const lasts = [text, halved(further)].map((text) => {
+    let [rejected, certified] = [beyond * stated, +stated];
+    for (let i = 0; i < (m > 3 ? 5 : 20); i++) {
+      const middle = (rejected + certified) / 2, answers = three_answers(text.replace(`"bound":"${stated}"`, `"bound":"${middle.toFixed(15).replace(/\.?0+$/, "")}"`));
+      if (new Set(answers).size > 1 || !["CERTIFIED", "REJECTED"].includes(answers[0])) fail(`${name} halved, ${middle}: ${answers}`);
+      if (answers[0] === "CERTIFIED") certified = middle; else rejected = middle;
+    }
+    return certified;
+  });
+  if (m <= 3 && !(lasts[0] < +stated && lasts[1] < +stated)) fail(`${name} halved: no last bound`);
+  for (const wrong of [halved(numbers), halved(further, nodes, ""), halved(further, "", nodes), halved(further, nodes, `${nodes},${nodes}`)]) {
+    const answers = three_answers(wrong);
+    if (answers.some((answer) => answer !== "REJECTED")) fail(`${name} halved: ${answers}`);
+  }
+  read.push(halved(further));
+}
+for (const name of ["hexapod-accuracy", "orthoglide-prototype-whole"]) {
+  const whole = fs.readFileSync(path.join(made, `${name}.cert.json`), "latin1").replace(/"nodes":\[(.*)\]\}\},"prov/, (_, nodes) => `"nodes":[{"split":${name === "hexapod-accuracy" ? 6 : 3}},${nodes},${nodes}]}},"prov`);
+  const answers = three_answers(whole);
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`${name} halved: ${answers}`);
+}
+console.log("tolerances halved: five trees and 170 bounds with one answer, and 22 refused");
+// Directions of one scale, and directions apart: what shows the widest tolerances.
+const widest = (name, on) => {
+  const folder = fs.mkdtempSync(path.join(made, "widest-"));
+  spawnSync(orthocert, ["tolerance", path.join(__dirname, `../../../tests/designs/${name}.toml`), "--on", on, "-o", folder]);
+  return fs.readFileSync(path.join(folder, `tolerance-${on}-certified.cert.json`), "latin1");
+};
+const scaled = widest("orthoglide-as-built", "direction"), fanned = widest("orthoglide-as-built", "anchor"), both = widest("orthoglide-wide-tolerance", "direction");
+const one_scale = /"([-+0]*1[-+01]*)",\[/.exec(scaled)[1], places_of = (c, text) => [...text.matchAll(c)].map((x) => x.index);
+const put = (text, at, c) => text.slice(0, at) + c + text.slice(at + 1);
+let any = 0;
+for (const to of ["0", "-", "+"]) for (const at of places_of(/1/g, one_scale)) {
+  const answers = three_answers(scaled.replaceAll(`"${one_scale}"`, `"${put(one_scale, at, to)}"`));
+  if (new Set(answers).size > 1) fail(`of one scale: ${answers}: ${to} at ${at}`); else any++;
+}
+for (const text of [scaled, fanned, both]) {
+  const answers = three_answers(text);
+  if (answers.some((answer) => answer !== "CERTIFIED")) fail(`directions: ${answers}`);
+}
+// The parts of the first fan, changed: refused, or with one answer.
+const with_fan = (change) => {
+  const all = JSON.parse(fanned), by = all.proof.tree.nodes.flatMap((node) => node.by ?? []).find(([, e]) => e.fan);
+  change(by[1].fan);
+  return `${JSON.stringify(all)}\n`;
+};
+if (with_fan(() => {}) !== fanned) fail("directions: another text");
+for (const change of [
+  (fan) => fan.splice(0), (fan) => fan.splice(1), (fan) => fan.pop(), (fan) => { fan[0][0].pop(); }, (fan) => { fan[0][1] = -1; }, (fan) => { fan[0][2] = 64; },
+  (fan) => { fan[0][2] = 0; }, (fan) => { fan[0][3].tolerances[2][0].pop(); }, (fan) => { fan[0][3].tolerances[2] = []; },
+]) {
+  const answers = three_answers(with_fan(change));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`directions: ${answers}: ${change}`);
+}
+for (const change of [
+  (fan) => { fan[0][1] = 0; }, (fan) => { fan[0][2]++; }, (fan) => { fan[0][2]--; }, (fan) => { fan[1][0] = fan[1][0].map((n) => -n); }, (fan) => { fan[0][0][0]++; }, (fan) => fan.reverse(),
+  (fan) => { fan[0][3].tolerances[2] = [[0, 0, 0]]; }, (fan) => { fan[0][3].tolerances[2] = [[1, 0, 0]]; }, (fan) => fan.push(fan[0]), (fan) => { fan[2][3].tolerances[1] = fan[0][3].tolerances[1]; },
+]) {
+  const answers = three_answers(with_fan(change));
+  if (new Set(answers).size > 1) fail(`directions: ${answers}: ${change}`); else any++;
+}
+for (const to of [...places_of(/[-+0]/g, one_scale).map((at) => put(one_scale, at, "1")), one_scale.replace("1", "2"), one_scale.replace("1", "")]) {
+  const answers = three_answers(scaled.replaceAll(`"${one_scale}"`, `"${to}"`));
+  if (answers.some((answer) => answer !== "REJECTED")) fail(`of one scale: ${answers}: ${to}`);
+}
+read.push(scaled, fanned, both);
+console.log(`directions of one scale, and apart: three certificates and ${any} others with one answer, and ${places_of(/[-+0]/g, one_scale).length + 11} refused`);
 const are_covered = of_design.filter((answer) => !answer.startsWith("NOT COVERED")).length;
 console.log(`designs: ${are_covered} of ${of_designs.length} certificates are proved again, and exported to Rocq, the others refused in the same words`);
 fs.rmSync(made, { recursive: true });
@@ -717,7 +791,11 @@ const atlases = [
   [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "r", "r"], { row: [0, 1] })) }, "REJECTED"],
   [{ cells: with_cell(3, witnessed(["28", "28", "28"], ["r", "r", "r"], "reach")) }, "REJECTED"],
   [{ cells: with_cell(7, { certified: { precision: 31, nodes: [by_lower] } }) }, "REJECTED"], [{ cells: with_cell(7, { certified: { precision: 40, nodes: [{}] } }) }, "REJECTED"],
-  [{ cells: with_cell(7, { certified: { precision: 40, nodes: [{ split: 3 }, by_lower, by_lower] } }) }, "REJECTED"],
+  // Tolerances are halved in cells, of which there are three, but not names.
+  ...[3, 5].map((split) => [{ cells: with_cell(7, { certified: { precision: 40, nodes: [{ split }, by_lower, by_lower] } }) }, "CERTIFIED"]),
+  [{ cells: with_cell(7, { certified: { precision: 40, nodes: [{ split: 6 }, by_lower, by_lower] } }) }, "REJECTED"],
+  [{ legs: sliders('"r"'), cells: [{ split: 0 }, "undecided", proved], refuted: "0" }, "CERTIFIED"],
+  [{ legs: sliders('"r"'), cells: [{ split: 0 }, "undecided", { certified: { precision: 40, nodes: [{ split: 3 }, by_lower, by_lower] } }], refuted: "0" }, "REJECTED"],
   // Ends of tolerances in the wrong order, for some values; and a workspace that there is not.
   [{ legs: sliders('{"min":"r","max":"310"}') }, "REJECTED"], [{ legs: sliders('{"min":"r","max":"r"}') }, "REJECTED"],
   [{ workspace: box.replace('"-20"', '"r-310"').replace('"30"', '"0"') }, "REJECTED"],

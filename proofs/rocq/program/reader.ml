@@ -348,7 +348,6 @@ let rec evidence (n, m as shape) v =
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
   | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
-  | Object [ ("tolerances", Array [ _; ends; _ ]) ] when String.contains (string ends) '1' -> not_covered [ "directions of one scale" ]
   | Object [ ("tolerances", Array [ e; ends; directions ]) ] -> Apart_ (evidence shape e, string ends, List.map integers (array directions))
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("accuracy", Array [ y; kappa; q ]) ] ->
@@ -359,6 +358,12 @@ let rec evidence (n, m as shape) v =
     let l = members y in
     let rows = List.map (row (m + 1)) (array (get l "y")) in
     if List.length rows <> 3 then raise Malformed else Multiplied ("direction", rows, places (get l "places"))
+  | Object [ ("fan", Array parts) ] ->
+    let part = function
+      | Array [ c; n; p; Object [ ("tolerances", _) ] as e ] -> (((integers c, integer n), places p), evidence shape e)
+      | Array [ _; _; _; _ ] -> not_covered [ "the evidence \"fan\" without \"tolerances\"" ]
+      | _ -> raise Malformed in
+    Fan_ (List.map part parts)
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
 (* At control points; of the test of one leg, one number. *)
@@ -434,7 +439,7 @@ let certificate text =
   let proof_ = proof shape (get l "proof") in
   let plane_accelerates legs rs =
     List.exists (fun r -> r.about_ = Acceleration_) rs && List.exists (function Planar_ _ -> true | _ -> false) legs in
-  let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ -> true | _ -> false) n.by_) in
+  let has_apart = List.exists (fun n -> List.exists (fun (_, s) -> match s with Apart_ _ | Fan_ _ -> true | _ -> false) n.by_) in
   (* Apart are all that is shown of M, at control points, of as many struts as coordinates, over a box. *)
   let has_other_apart kind legs w nodes =
     let is_square = List.length legs = (match kind with InSpace -> 6 | _ -> 3) && (match kind, w with AboutPoint, _ | _, AnyCylinder_ _ -> false | _ -> true) in

@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(J){"use strict";var
-i8="spatial",pW="Invalid_argument",gO="precision",aE='"',i7=1255,pV="inside",oZ="(",o0=0x800,pU="yaw",oW="range",oX="tree",oY="jsError",b6=0x8000,pT="sqrt(",oV=256,oU="obligation",fc="offset",bc="machine",oT="End_of_file",d$="strut",i6="center",fb="arm",i5="Failure",pS="serial_margin",gX="parameters",co=0xff,pR="bodies",pQ="max_angle",jg="outside",gW="base_axis",i4="ENOENT",pP="singular",pO=122,oS="([^/]+)",pN="0",i3=0xf,fa=128,oR=0xdc00,pL="Sys_blocked_io",pM="fd ",e4="given",oQ="ENOTEMPTY",aT=248,gN="bound",oP="Division_by_zero",pJ="by",pK=1027,oO="Sys_error",gV="slider",oN="torsion",pI="postulate",oM="proof",jf="joint_error",e$="refuted",d6="mechanism",gM="row",oL="EEXIST",pH="roll_pitch_yaw",gU="y",oK="cube",dq="lower",pG="within",oJ="clearance",pF="turned",oI="control",gL="int_of_string",pD="definitions",pE="dependent",e_=1024,oG="from",oH="name",pC=" : flags Open_rdonly and Open_wronly are not compatible",oF="orthocert/2",pB="reach",oE=512,pz="base_joint",pA="witness",e9="-",a6="platform",oD=0x7ff0,oC="pitch",je=": Not a directory",bu="min",px="trim",d_="workspace",py=" : file already exists",gK="split",pv='the failure "singular" of such a mechanism',jd="legs",pw="claim",i2="joint",dr=0xffffff,oB="platform_joint",oA="formulas",oz="roll",gJ="atlas",pt="nodes",pu="Out_of_memory",oy="psi_max",gT="orientation",gI=254,ps="angle",jc="index out of bounds",ox="end",pr="one_to_one",gS="_bigarr02",ow=" : flags Open_text and Open_binary are not compatible",bP="drive",ov="coordinates",pq="holds",ou="lower_divided",ot="speed",po="cylinder",pp="joints",cn=0xffff,pl="a leaf that fails",pm="acceleration",e7="certified",e8="chords",pn=12520,i1="on",d5="accuracy",e6="axis",pk="no_cube",pj="parallel_margin",os='the drive "',i0="Unix.Unix_error",gR="fails",gH="tool",iZ="mkdir",pi="rho",gQ=1000,iY="translational",ph="tolerances",or="Stack_overflow",jb="characteristic_length",X="",ja="^",iX="places",gG=": No such file or directory",oq="/static/",d9=0x3f,oo="stiffness",op="Not_found",dp="planar",e3="mode",pg="joint_speed",pf="Match_failure",on="transmission",bt="anchor",pe="at",om="joint_force",d8="leg",ol="joint_acceleration",gP="+",iW="rmdir",pd=0xf0,pc="spherical",ok=1026,pa="REJECTED",pb="undecided",bv="max",b7="direction",oi="leg_angle",oj="orthoglide",e5="rank",o$="constraint_margin",gF="test",og="Pervasives.do_at_exit",oh="utf8",bO=0x80,d7="conditioning",d4="length",of="Undefined_recursive_module",i$=")",oe="base",o_="quantity",od="joint_range",gE="tilt",oc="Q2",o9="reference",oa="this quantity in a claim that is refuted",ob="point",o7="corner",o8=0xe0,n$="version",i_="z",o5="to",o6=0xdfff,iV="compare: functional value",o4="Assert_failure",bR="/",o3="provenance",dn="radius",gD="side",bQ="require",o2="format",n_="Q1",i9="ENOTDIR",n9="all",dm="box",o1=250;function
-jt(c,b,a){var
+a.prototype._T_}}(Object));(function(K){"use strict";var
+jr="spatial",qk="Invalid_argument",g0="precision",aI='"',jq=1255,qj="inside",pn="(",po=0x800,qi="yaw",pk="range",pl="tree",pm="jsError",b9=0x8000,qh="sqrt(",pj=256,pi="obligation",fm="offset",bf="machine",ph="End_of_file",em="strut",jp="center",fl="arm",jo="Failure",qg="serial_margin",g9="parameters",cu=0xff,qf="bodies",qe="max_angle",jC="outside",g8="base_axis",jn="ENOENT",qd="singular",qc=122,pg="([^/]+)",qb="0",jm=0xf,fk=128,pf=0xdc00,p$="Sys_blocked_io",qa="fd ",fc="given",pe="ENOTEMPTY",aV=248,gZ="bound",pd="Division_by_zero",p9="by",p_=1027,pc="Sys_error",g7="slider",pb="torsion",p8="postulate",pa="proof",jB="joint_error",fj="refuted",eh="mechanism",gY="row",o$="EEXIST",p7="roll_pitch_yaw",g6="y",o_="cube",dv="lower",p6="within",o9="clearance",p5="turned",o8="control",gX="int_of_string",p3="definitions",p4="dependent",fi=1024,o6="from",o7="name",p2=" : flags Open_rdonly and Open_wronly are not compatible",o5="orthocert/2",p1="reach",o4=512,pZ="base_joint",p0="witness",fh="-",a9="platform",o3=0x7ff0,o2="pitch",jA=": Not a directory",bw="min",pX="trim",el="workspace",pY=" : file already exists",gW="split",pV='the failure "singular" of such a mechanism',jz="legs",pW="claim",jl="joint",dw=0xffffff,o1="platform_joint",o0="formulas",oZ="roll",gV="atlas",pT="nodes",pU="Out_of_memory",oY="psi_max",g5="orientation",gU=254,pS="angle",jy="index out of bounds",oX="end",pR="one_to_one",g4="_bigarr02",oW=" : flags Open_text and Open_binary are not compatible",bR="drive",oV="coordinates",pQ="holds",oU="lower_divided",oT="speed",pO="cylinder",pP="joints",ct=0xffff,pL="a leaf that fails",pM="acceleration",ff="certified",fg="chords",pN=12520,jk="on",eg="accuracy",fe="axis",pK="no_cube",pJ="parallel_margin",oS='the drive "',jj="Unix.Unix_error",g3="fails",gT="tool",ji="mkdir",pI="rho",g2=1000,jh="translational",jx="tolerances",oR="Stack_overflow",jw="characteristic_length",_="",jv="^",jg="places",gS=": No such file or directory",oQ="/static/",ek=0x3f,oO="stiffness",oP="Not_found",du="planar",fb="mode",pH="joint_speed",pG="Match_failure",oN="transmission",bv="anchor",pF="at",oM="joint_force",ej="leg",oL="joint_acceleration",g1="+",jf="rmdir",pE=0xf0,pD="spherical",oK=1026,pB="REJECTED",pC="undecided",bx="max",b_="direction",oI="leg_angle",oJ="orthoglide",fd="rank",pz="constraint_margin",pA="fan",gR="test",oG="Pervasives.do_at_exit",oH="utf8",bQ=0x80,ei="conditioning",ef="length",oF="Undefined_recursive_module",ju=")",oE="base",py="quantity",oD="joint_range",gQ="tilt",oC="Q2",px="reference",oA="this quantity in a claim that is refuted",oB="point",pv="corner",pw=0xe0,oz="version",jt="z",pt="to",pu=0xdfff,je="compare: functional value",ps="Assert_failure",bT="/",pr="provenance",dt="radius",gP="side",bS="require",pq="format",oy="Q1",js="ENOTDIR",ox="all",ds="box",pp=250;function
+jP(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=X;for(;0<a;b+=e_,a-=e_)e+=d.apply(null,c.slice(b,b+Math.min(a,e_)));return e}function
-gZ(b){if(J.Uint8Array)var
-c=new(J.Uint8Array)(b.l);else
+e=_;for(;0<a;b+=fi,a-=fi)e+=d.apply(null,c.slice(b,b+Math.min(a,fi)));return e}function
+g$(b){if(K.Uint8Array)var
+c=new(K.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fd(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?jt(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?jt(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)gZ(b);var
+fn(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?jP(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?jP(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)g$(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-ec(a){return a}function
-eb(a,b,c,d,e){fd(ec(a),b,c,d,e);return 0}function
-ji(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+ep(a){return a}function
+eo(a,b,c,d,e){fn(ep(a),b,c,d,e);return 0}function
+jE(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-cT(c,a){if(c.fun)return cT(c.fun,a);if(typeof
+c1(c,a){if(c.fun)return c1(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return cT(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c1(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return cT(c,d)}}function
-qm(b,a){if(b==0)return X;if(a.repeat)return a.repeat(b);var
-d=X,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-ed(a){if(a.t==2)a.c+=qm(a.l-a.c.length,"\0");else
-a.c=jt(a.c,0,a.c.length);a.t=0}function
-ee(a){a.t&6&&ed(a);return a.c}var
-F0=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-FZ(a){if(F0)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c1(c,d)}}function
+qM(b,a){if(b==0)return _;if(a.repeat)return a.repeat(b);var
+d=_,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+eq(a){if(a.t==2)a.c+=qM(a.l-a.c.length,"\0");else
+a.c=jP(a.c,0,a.c.length);a.t=0}function
+er(a){a.t&6&&eq(a);return a.c}var
+GB=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+GA(a){if(GB)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-jl(c){var
-a=new(J.Float32Array)(1);a[0]=c;var
-b=new(J.Int32Array)(a.buffer);return b[0]|0}var
-qd=Math.pow(2,-24);function
-FQ(a){throw a}var
-av=[0];function
-qj(){FQ(av.Division_by_zero)}function
-I(b,c,a){this.lo=b&dr;this.mi=c&dr;this.hi=a&cn}I.prototype.caml_custom="_j";I.prototype.copy=function(){return new
-I(this.lo,this.mi,this.hi)};I.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};I.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};I.prototype.neg=function(){var
+jH(c){var
+a=new(K.Float32Array)(1);a[0]=c;var
+b=new(K.Int32Array)(a.buffer);return b[0]|0}var
+qD=Math.pow(2,-24);function
+Gr(a){throw a}var
+ax=[0];function
+qJ(){Gr(ax.Division_by_zero)}function
+J(b,c,a){this.lo=b&dw;this.mi=c&dw;this.hi=a&ct}J.prototype.caml_custom="_j";J.prototype.copy=function(){return new
+J(this.lo,this.mi,this.hi)};J.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};J.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};J.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-I(a,b,c)};I.prototype.add=function(a){var
+J(a,b,c)};J.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-I(b,c,d)};I.prototype.sub=function(a){var
+J(b,c,d)};J.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-I(b,c,d)};I.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*qd|0)+this.mi*a.lo+this.lo*a.mi,d=(c*qd|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-I(b,c,d)};I.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};I.prototype.isNeg=function(){return this.hi<<16<0};I.prototype.and=function(a){return new
-I(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};I.prototype.or=function(a){return new
-I(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};I.prototype.xor=function(a){return new
-I(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};I.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-I(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-I(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-I(0,0,this.lo<<a-48)};I.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-I(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-I(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-I(this.hi>>a-48,0,0)};I.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+J(b,c,d)};J.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*qD|0)+this.mi*a.lo+this.lo*a.mi,d=(c*qD|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+J(b,c,d)};J.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};J.prototype.isNeg=function(){return this.hi<<16<0};J.prototype.and=function(a){return new
+J(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};J.prototype.or=function(a){return new
+J(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};J.prototype.xor=function(a){return new
+J(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};J.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+J(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+J(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+J(0,0,this.lo<<a-48)};J.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+J(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+J(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+J(this.hi>>a-48,0,0)};J.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-I(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+J(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-I(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cn);return new
-I(this.hi<<16>>a-32,b,b)};I.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dr;this.lo=this.lo<<1&dr};I.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dr;this.mi=(this.mi>>>1|this.hi<<23)&dr;this.hi=this.hi>>>1};I.prototype.udivmod=function(e){var
+J(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&ct);return new
+J(this.hi<<16>>a-32,b,b)};J.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dw;this.lo=this.lo<<1&dw};J.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dw;this.mi=(this.mi>>>1|this.hi<<23)&dw;this.hi=this.hi>>>1};J.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-I(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};I.prototype.div=function(a){var
-b=this;if(a.isZero())qj();var
-d=b.hi^a.hi;if(b.hi&b6)b=b.neg();if(a.hi&b6)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&b6)c=c.neg();return c};I.prototype.mod=function(b){var
-a=this;if(b.isZero())qj();var
-d=a.hi;if(a.hi&b6)a=a.neg();if(b.hi&b6)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&b6)c=c.neg();return c};I.prototype.toInt=function(){return this.lo|this.mi<<24};I.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};I.prototype.toArray=function(){return[this.hi>>8,this.hi&co,this.mi>>16,this.mi>>8&co,this.mi&co,this.lo>>16,this.lo>>8&co,this.lo&co]};I.prototype.lo32=function(){return this.lo|(this.mi&co)<<24};I.prototype.hi32=function(){return this.mi>>>8&cn|this.hi<<16};function
-g1(b,c,a){return new
-I(b,c,a)}function
-g0(a){if(!isFinite(a)){if(isNaN(a))return g1(1,0,oD);return a>0?g1(0,0,oD):g1(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?b6:a>=0?0:b6;if(f)a=-a;var
-b=FZ(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-ok)}else{a/=Math.pow(2,b-pK);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+J(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};J.prototype.div=function(a){var
+b=this;if(a.isZero())qJ();var
+d=b.hi^a.hi;if(b.hi&b9)b=b.neg();if(a.hi&b9)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&b9)c=c.neg();return c};J.prototype.mod=function(b){var
+a=this;if(b.isZero())qJ();var
+d=a.hi;if(a.hi&b9)a=a.neg();if(b.hi&b9)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&b9)c=c.neg();return c};J.prototype.toInt=function(){return this.lo|this.mi<<24};J.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};J.prototype.toArray=function(){return[this.hi>>8,this.hi&cu,this.mi>>16,this.mi>>8&cu,this.mi&cu,this.lo>>16,this.lo>>8&cu,this.lo&cu]};J.prototype.lo32=function(){return this.lo|(this.mi&cu)<<24};J.prototype.hi32=function(){return this.mi>>>8&ct|this.hi<<16};function
+hb(b,c,a){return new
+J(b,c,a)}function
+ha(a){if(!isFinite(a)){if(isNaN(a))return hb(1,0,o3);return a>0?hb(0,0,o3):hb(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?b9:a>=0?0:b9;if(f)a=-a;var
+b=GA(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-oK)}else{a/=Math.pow(2,b-p_);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&i3|f|b<<4;return g1(g,e,c)}function
-fg(a){return a.toArray()}function
-p3(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==gS)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<cn)c.write(16,b.dims[a]);else{c.write(16,cn);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&jm|f|b<<4;return hb(g,e,c)}function
+fq(a){return a.toArray()}function
+qr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==g4)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<ct)c.write(16,b.dims[a]);else{c.write(16,ct);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fg(b.get(a));for(var
+e=fq(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fg(g0(b.get(a)));for(var
+e=fq(ha(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=jl(b.get(a));c.write(32,e)}break;case
+e=jH(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,jl(d[1]));c.write(32,jl(d[2]))}break;case
+d=b.get(a);c.write(32,jH(d[1]));c.write(32,jH(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fg(g0(f[1]));for(var
+f=b.get(a),e=fq(ha(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fg(g0(f[2]));for(var
+e=fq(ha(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-FS(b,a){throw[0,b,a]}function
-qq(a){if(a.length<24){for(var
+Gt(b,a){throw[0,b,a]}function
+qR(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-ju(e){for(var
-j=X,c=X,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bO){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bO;d++);if(d-b>oE){c.substr(0,1);j+=c;c=X;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fa){g=h+(f<<6);if(f<o8){a=g-0x3080;if(a<bO)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fa){g=h+(g<<6);if(f<pd){a=g-0xe2080;if(a<o0||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fa&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>cn)c+=String.fromCharCode(0xd7c0+(a>>10),oR+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>e_){c.substr(0,1);j+=c;c=X}}return j+c}function
-b8(c,a,b){this.t=c;this.c=a;this.l=b}b8.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:ed(this);case
-0:if(qq(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};b8.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return ju(a)};b8.prototype.slice=function(){var
+jQ(e){for(var
+j=_,c=_,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bQ){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bQ;d++);if(d-b>o4){c.substr(0,1);j+=c;c=_;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fk){g=h+(f<<6);if(f<pw){a=g-0x3080;if(a<bQ)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fk){g=h+(g<<6);if(f<pE){a=g-0xe2080;if(a<po||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fk&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>ct)c+=String.fromCharCode(0xd7c0+(a>>10),pf+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fi){c.substr(0,1);j+=c;c=_}}return j+c}function
+b$(c,a,b){this.t=c;this.c=a;this.l=b}b$.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:eq(this);case
+0:if(qR(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};b$.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return jQ(a)};b$.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-b8(this.t,a,this.l)};function
-p6(a){return new
-b8(0,a,a.length)}function
-a(a){return p6(a)}function
-js(c,b){FS(c,a(b))}function
-aN(a){js(av.Invalid_argument,a)}function
-p1(a){switch(a){case
+b$(this.t,a,this.l)};function
+qu(a){return new
+b$(0,a,a.length)}function
+a(a){return qu(a)}function
+jO(c,b){Gt(c,a(b))}function
+aO(a){jO(ax.Invalid_argument,a)}function
+qp(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-Fk(c,e){var
-b=J,a;switch(c){case
+FX(c,e){var
+b=K,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=J,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aN("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aO("Bigarray.create: unsupported kind");var
 d=new
-a(e*p1(c));return d}function
-jm(c){var
-a=new(J.Int32Array)(1);a[0]=c;var
-b=new(J.Float32Array)(a.buffer);return b[0]}function
-ff(a){return new
-I(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-jn(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&i3)==0?b&b6?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&i3);if(c>0){a+=16;a*=Math.pow(2,c-pK)}else
-a*=Math.pow(2,-ok);if(b&b6)a=-a;return a}function
-jh(b){var
+a(e*qp(c));return d}function
+jI(c){var
+a=new(K.Int32Array)(1);a[0]=c;var
+b=new(K.Float32Array)(a.buffer);return b[0]}function
+fp(a){return new
+J(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+jJ(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jm)==0?b&b9?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jm);if(c>0){a+=16;a*=Math.pow(2,c-p_)}else
+a*=Math.pow(2,-oK);if(b&b9)a=-a;return a}function
+jD(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aN("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-FA(b,a){return new
-I(b&dr,b>>>24&co|(a&cn)<<8,a>>>16&cn)}function
-jo(a){return a.hi32()}function
-jp(a){return a.lo32()}function
-gY(){aN(jc)}var
-Fl=gS;function
-cS(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}cS.prototype.caml_custom=Fl;cS.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aO("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+Gb(b,a){return new
+J(b&dw,b>>>24&cu|(a&ct)<<8,a>>>16&ct)}function
+jK(a){return a.hi32()}function
+jL(a){return a.lo32()}function
+g_(){aO(jy)}var
+FY=g4;function
+c0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c0.prototype.caml_custom=FY;c0.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aN("bigarray.js: invalid offset");if(this.dims.length!=b.length)aN("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])gY();c=c*this.dims[a]+b[a]}else
+Array))aO("bigarray.js: invalid offset");if(this.dims.length!=b.length)aO("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])g_();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])gY();c=c*this.dims[a]+(b[a]-1)}return c};cS.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])g_();c=c*this.dims[a]+(b[a]-1)}return c};c0.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return FA(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return Gb(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gI,e,c];default:return this.data[a]}};cS.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=jp(b);this.data[a*2+1]=jo(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[gU,e,c];default:return this.data[a]}};c0.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=jL(b);this.data[a*2+1]=jK(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};cS.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};c0.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=jp(b),e=jo(b);if(c==e)this.data.fill(c);else
+c=jL(b),e=jK(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};cS.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};c0.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-ea(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}ea.prototype=new
-cS();ea.prototype.offset=function(a){if(typeof
+en(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}en.prototype=new
+c0();en.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aN("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])gY();return a};ea.prototype.get=function(a){return this.data[a]};ea.prototype.set=function(a,b){this.data[a]=b;return 0};ea.prototype.fill=function(a){this.data.fill(a);return 0};function
-pZ(c,d,a,b){var
-e=p1(c);if(jh(a)*e!=b.length)aN("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-ea(c,d,a,b);return new
-cS(c,d,a,b)}function
-bS(b){if(!av.Failure)av.Failure=[aT,a(i5),-3];js(av.Failure,b)}function
-p0(b,v,r){var
-i=b.read32s();if(i<0||i>16)bS("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&co,o=p>>8&1,h=[];if(r==gS)for(var
+aO("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])g_();return a};en.prototype.get=function(a){return this.data[a]};en.prototype.set=function(a,b){this.data[a]=b;return 0};en.prototype.fill=function(a){this.data.fill(a);return 0};function
+qn(c,d,a,b){var
+e=qp(c);if(jD(a)*e!=b.length)aO("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+en(c,d,a,b);return new
+c0(c,d,a,b)}function
+bU(b){if(!ax.Failure)ax.Failure=[aV,a(jo),-3];jO(ax.Failure,b)}function
+qo(b,v,r){var
+i=b.read32s();if(i<0||i>16)bU("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cu,o=p>>8&1,h=[];if(r==g4)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==cn){var
-t=b.read32u(),u=b.read32u();if(t!=0)bS("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==ct){var
+t=b.read32u(),u=b.read32u();if(t!=0)bU("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=jh(h),f=Fk(j,d),g=pZ(j,o,h,f);switch(j){case
+d=jD(h),f=FX(j,d),g=qn(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bS("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bU("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=ff(e);g.set(a,q)}break;case
+q=fp(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=jn(ff(e));g.set(a,k)}break;case
+k=jJ(fp(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=jm(b.read32s());g.set(a,k)}break;case
+k=jI(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=jm(b.read32s()),l=jm(b.read32s());g.set(a,[gI,m,l])}break;case
+m=jI(b.read32s()),l=jI(b.read32s());g.set(a,[gU,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=jn(ff(e));for(var
+m=jJ(fp(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=jn(ff(e));g.set(a,[gI,m,l])}break}v[0]=(4+i)*4;return pZ(j,o,h,f)}function
-pY(a,b,c){return a.compare(b,c)}function
-qg(a,b){return Math.imul(a,b)}function
-cp(b,a){a=qg(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=qg(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-Fx(a,b){a=cp(a,jp(b));a=cp(a,jo(b));return a}function
-qc(a,b){return Fx(a,g0(b))}function
-p2(c){var
-b=jh(c.dims),d=0;switch(c.kind){case
+l=jJ(fp(e));g.set(a,[gU,m,l])}break}v[0]=(4+i)*4;return qn(j,o,h,f)}function
+qm(a,b,c){return a.compare(b,c)}function
+qG(a,b){return Math.imul(a,b)}function
+cv(b,a){a=qG(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=qG(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+F_(a,b){a=cv(a,jL(b));a=cv(a,jK(b));return a}function
+qC(a,b){return F_(a,ha(b))}function
+qq(c){var
+b=jD(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>oV)b=oV;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cp(d,e)}e=0;switch(b&3){case
+12:if(b>pj)b=pj;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cv(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cp(d,e)}break;case
+1:e|=c.data[a+0];d=cv(d,e)}break;case
 4:case
-5:if(b>fa)b=fa;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cp(d,e)}if((b&1)!=0)d=cp(d,c.data[a]);break;case
+5:if(b>fk)b=fk;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cv(d,e)}if((b&1)!=0)d=cv(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cp(d,c.data[a]);break;case
+a=0;a<b;a++)d=cv(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cp(d,c.data[a]);break;case
+a=0;a<b;a++)d=cv(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cp(d,c.data[a]);break;case
+a=0;a<b;a++)d=cv(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=qc(d,c.data[a]);break;case
+a=0;a<b;a++)d=qC(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=qc(d,c.data[a]);break}return d}function
-Fy(a,b){b[0]=4;return a.read32s()}function
-FN(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=qC(d,c.data[a]);break}return d}function
+F$(a,b){b[0]=4;return a.read32s()}function
+Go(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bS("input_value: native integer value too large");default:bS("input_value: ill-formed native integer")}}function
-FD(c,d){var
+2:bU("input_value: native integer value too large");default:bU("input_value: ill-formed native integer")}}function
+Ge(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return ff(b)}function
-FC(e,d,b){var
-c=fg(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fp(b)}function
+Gd(e,d,b){var
+c=fq(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Fz(a,b,c){return a.compare(b)}function
-FB(a){return a.lo32()^a.hi32()}var
-p9={"_j":{deserialize:FD,serialize:FC,fixed_length:8,compare:Fz,hash:FB},"_i":{deserialize:Fy,fixed_length:4},"_n":{deserialize:FN,fixed_length:4},"_bigarray":{deserialize:function(a,b){return p0(a,b,"_bigarray")},serialize:p3,compare:pY,hash:p2},"_bigarr02":{deserialize:function(a,b){return p0(a,b,gS)},serialize:p3,compare:pY,hash:p2}};function
-jk(a){return p9[a.caml_custom]&&p9[a.caml_custom].compare}function
-p7(f,c,d,e){var
-b=jk(c);if(b){var
+Ga(a,b,c){return a.compare(b)}function
+Gc(a){return a.lo32()^a.hi32()}var
+qx={"_j":{deserialize:Ge,serialize:Gd,fixed_length:8,compare:Ga,hash:Gc},"_i":{deserialize:F$,fixed_length:4},"_n":{deserialize:Go,fixed_length:4},"_bigarray":{deserialize:function(a,b){return qo(a,b,"_bigarray")},serialize:qr,compare:qm,hash:qq},"_bigarr02":{deserialize:function(a,b){return qo(a,b,g4)},serialize:qr,compare:qm,hash:qq}};function
+jG(a){return qx[a.caml_custom]&&qx[a.caml_custom].compare}function
+qv(f,c,d,e){var
+b=jG(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-jr(a){return a
+jN(a){return a
 instanceof
-b8}function
-qe(a){return jr(a)}function
-p8(a){if(typeof
-a==="number")return gQ;else
-if(jr(a))return 252;else
-if(qe(a))return 1252;else
+b$}function
+qE(a){return jN(a)}function
+qw(a){if(typeof
+a==="number")return g2;else
+if(jN(a))return 252;else
+if(qE(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gI?0:b}else
+b=a[0]|0;return b==gU?0:b}else
 if(a
 instanceof
-String)return pn;else
+String)return pN;else
 if(typeof
-a=="string")return pn;else
+a=="string")return pN;else
 if(a
 instanceof
-Number)return gQ;else
-if(a&&a.caml_custom)return i7;else
+Number)return g2;else
+if(a&&a.caml_custom)return jq;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-FE(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-p5(a,b){a.t&6&&ed(a);b.t&6&&ed(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-qn(a,b){return p5(a,b)}function
-jj(a,b,d){var
+Gf(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+qt(a,b){a.t&6&&eq(a);b.t&6&&eq(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+qN(a,b){return qt(a,b)}function
+jF(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=p8(a);if(f==o1){a=a[1];continue}var
-g=p8(b);if(g==o1){b=b[1];continue}if(f!==g){if(f==gQ){if(g==i7)return p7(a,b,-1,d);return-1}if(g==gQ){if(f==i7)return p7(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aN(iV);break;case
+f=qw(a);if(f==pp){a=a[1];continue}var
+g=qw(b);if(g==pp){b=b[1];continue}if(f!==g){if(f==g2){if(g==jq)return qv(a,b,-1,d);return-1}if(g==g2){if(f==jq)return qv(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aO(je);break;case
 248:var
-c=FE(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aN(iV);break;case
-250:aN("equal: got Forward_tag, should not happen");break;case
-251:aN("equal: abstract value");break;case
+c=Gf(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aO(je);break;case
+250:aO("equal: got Forward_tag, should not happen");break;case
+251:aO("equal: abstract value");break;case
 252:if(a!==b){var
-c=p5(a,b);if(c!=0)return c|0}break;case
-253:aN("equal: got Double_tag, should not happen");break;case
-254:aN("equal: got Double_array_tag, should not happen");break;case
-255:aN("equal: got Custom_tag, should not happen");break;case
-1247:aN(iV);break;case
+c=qt(a,b);if(c!=0)return c|0}break;case
+253:aO("equal: got Double_tag, should not happen");break;case
+254:aO("equal: got Double_array_tag, should not happen");break;case
+255:aO("equal: got Custom_tag, should not happen");break;case
+1247:aO(je);break;case
 1255:var
-i=jk(a);if(i!=jk(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aN("compare: abstract value");var
+i=jG(a);if(i!=jG(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aO("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=ee(a),b=ee(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=er(a),b=er(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-Fs(a,b){return jj(a,b,true)}function
-b_(a){if(a<0)aN("Bytes.create");return new
-b8(a?2:9,X,a)}function
-p_(a,b){return+(jj(a,b,false)==0)}function
-Fu(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=X;a.t=2}else{a.c=qm(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)gZ(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-FO=0;function
-qa(){return FO++}function
-FG(a){return a.toUtf16()}function
-fh(){return typeof
-J.process!=="undefined"&&typeof
-J.process.versions!=="undefined"&&typeof
-J.process.versions.node!=="undefined"}function
-F1(){function
-a(a){if(a.charAt(0)===bR)return[X,a.substring(1)];return}function
+F5(a,b){return jF(a,b,true)}function
+cb(a){if(a<0)aO("Bytes.create");return new
+b$(a?2:9,_,a)}function
+qy(a,b){return+(jF(a,b,false)==0)}function
+F7(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=_;a.t=2}else{a.c=qM(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)g$(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Gp=0;function
+qA(){return Gp++}function
+Gh(a){return a.toUtf16()}function
+fr(){return typeof
+K.process!=="undefined"&&typeof
+K.process.versions!=="undefined"&&typeof
+K.process.versions.node!=="undefined"}function
+GC(){function
+a(a){if(a.charAt(0)===bT)return[_,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||X,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||X,f=a[2]||X;return[d,c.substring(d.length+f.length)]}return}return fh()&&J.process&&J.process.platform?J.process.platform==="win32"?b:a:a}var
-jz=F1();function
-qo(a){return a.slice(-1)!==bR?a+bR:a}if(fh()&&J.process&&J.process.cwd)var
-fe=J.process.cwd().replace(/\\/g,bR);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||_,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||_,f=a[2]||_;return[d,c.substring(d.length+f.length)]}return}return fr()&&K.process&&K.process.platform?K.process.platform==="win32"?b:a:a}var
+jU=GC();function
+qO(a){return a.slice(-1)!==bT?a+bT:a}if(fr()&&K.process&&K.process.cwd)var
+fo=K.process.cwd().replace(/\\/g,bT);else
 var
-fe="/static";fe=qo(fe);function
-FI(a){a=FG(a);if(!jz(a))a=fe+a;var
-e=jz(a),d=e[1].split(bR),b=[];for(var
+fo="/static";fo=qO(fo);function
+Gj(a){a=Gh(a);if(!jU(a))a=fo+a;var
+e=jU(a),d=e[1].split(bT),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-FW(e){for(var
-f=X,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bO){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bO;d++);if(d-c>oE){b.substr(0,1);f+=b;b=X;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<o0){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bO|a&d9)}else
-if(a<0xd800||a>=o6)b+=String.fromCharCode(o8|a>>12,bO|a>>6&d9,bO|a&d9);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<oR||h>o6)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pd|a>>18,bO|a>>12&d9,bO|a>>6&d9,bO|a&d9)}if(b.length>e_){b.substr(0,1);f+=b;b=X}}return f+b}function
-Fp(a){var
-b=9;if(!qq(a))b=8,a=FW(a);return new
-b8(b,a,a.length)}function
-ef(a){return Fp(a)}var
-F4=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",oL,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",i4,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",i9,oQ,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-du(d,f,e,a){var
-b=F4.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,ef(f||X),ef(e||X)];return c}var
-qh={};function
-ds(a){return qh[a]}function
-dt(b,a){throw[0,b].concat(a)}function
-Fo(a){return new
-b8(4,a,a.length)}function
-al(a){js(av.Sys_error,a)}function
-FR(a){al(a+gG)}function
-p4(){aN(jc)}function
-Fn(b,a){if(a>>>0>=b.l)p4();return ji(b,a)}function
-g2(a){return a.l}function
-pX(){}function
-aL(a){this.data=a}aL.prototype=new
-pX();aL.prototype.truncate=function(a){var
-b=this.data;this.data=b_(a|0);fd(b,0,this.data,0,a)};aL.prototype.length=function(){return g2(this.data)};aL.prototype.write=function(b,d,g,a){var
+Gx(e){for(var
+f=_,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bQ){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bQ;d++);if(d-c>o4){b.substr(0,1);f+=b;b=_;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<po){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bQ|a&ek)}else
+if(a<0xd800||a>=pu)b+=String.fromCharCode(pw|a>>12,bQ|a>>6&ek,bQ|a&ek);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pf||h>pu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pE|a>>18,bQ|a>>12&ek,bQ|a>>6&ek,bQ|a&ek)}if(b.length>fi){b.substr(0,1);f+=b;b=_}}return f+b}function
+F2(a){var
+b=9;if(!qR(a))b=8,a=Gx(a);return new
+b$(b,a,a.length)}function
+es(a){return F2(a)}var
+GF=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",o$,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jn,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",js,pe,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dA(d,f,e,a){var
+b=GF.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,es(f||_),es(e||_)];return c}var
+qH={};function
+dx(a){return qH[a]}function
+dy(b,a){throw[0,b].concat(a)}function
+F1(a){return new
+b$(4,a,a.length)}function
+am(a){jO(ax.Sys_error,a)}function
+Gs(a){am(a+gS)}function
+qs(){aO(jy)}function
+F0(b,a){if(a>>>0>=b.l)qs();return jE(b,a)}function
+hc(a){return a.l}function
+ql(){}function
+aM(a){this.data=a}aM.prototype=new
+ql();aM.prototype.truncate=function(a){var
+b=this.data;this.data=cb(a|0);fn(b,0,this.data,0,a)};aM.prototype.length=function(){return hc(this.data)};aM.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=b_(b+a),f=this.data;this.data=e;fd(f,0,this.data,0,c)}eb(d,g,this.data,b,a);return 0};aL.prototype.read=function(c,a,d,b){var
-e=this.length();fd(this.data,c,a,d,b);return 0};aL.prototype.read_one=function(a){return Fn(this.data,a)};aL.prototype.close=function(){};aL.prototype.constructor=aL;function
-aZ(b,a){this.content={};this.root=b;this.lookupFun=a}aZ.prototype.nm=function(a){return this.root+a};aZ.prototype.create_dir_if_needed=function(d){var
-c=d.split(bR),b=X;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bR;if(this.content[b])continue;this.content[b]=Symbol("directory")}};aZ.prototype.slash=function(a){return/\/$/.test(a)?a:a+bR};aZ.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cb(b+a),f=this.data;this.data=e;fn(f,0,this.data,0,c)}eo(d,g,this.data,b,a);return 0};aM.prototype.read=function(c,a,d,b){var
+e=this.length();fn(this.data,c,a,d,b);return 0};aM.prototype.read_one=function(a){return F0(this.data,a)};aM.prototype.close=function(){};aM.prototype.constructor=aM;function
+a2(b,a){this.content={};this.root=b;this.lookupFun=a}a2.prototype.nm=function(a){return this.root+a};a2.prototype.create_dir_if_needed=function(d){var
+c=d.split(bT),b=_;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bT;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a2.prototype.slash=function(a){return/\/$/.test(a)?a:a+bT};a2.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aL(ec(c[1]))}}};aZ.prototype.exists=function(a){if(a==X)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};aZ.prototype.mkdir=function(c,e,d){var
-b=d&&ds(i0);if(this.exists(c))if(b)dt(b,du(oL,iZ,this.nm(c)));else
-al(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||X;if(!this.exists(a))if(b)dt(b,du(i4,iZ,this.nm(a)));else
-al(a+gG);if(!this.is_dir(a))if(b)dt(b,du(i9,iZ,this.nm(a)));else
-al(a+je);this.create_dir_if_needed(this.slash(c))};aZ.prototype.rmdir=function(a,f){var
-b=f&&ds(i0),c=a==X?X:this.slash(a),e=new
-RegExp(ja+c+oS);if(!this.exists(a))if(b)dt(b,du(i4,iW,this.nm(a)));else
-al(a+gG);if(!this.is_dir(a))if(b)dt(b,du(i9,iW,this.nm(a)));else
-al(a+je);for(var
+aM(ep(c[1]))}}};a2.prototype.exists=function(a){if(a==_)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a2.prototype.mkdir=function(c,e,d){var
+b=d&&dx(jj);if(this.exists(c))if(b)dy(b,dA(o$,ji,this.nm(c)));else
+am(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||_;if(!this.exists(a))if(b)dy(b,dA(jn,ji,this.nm(a)));else
+am(a+gS);if(!this.is_dir(a))if(b)dy(b,dA(js,ji,this.nm(a)));else
+am(a+jA);this.create_dir_if_needed(this.slash(c))};a2.prototype.rmdir=function(a,f){var
+b=f&&dx(jj),c=a==_?_:this.slash(a),e=new
+RegExp(jv+c+pg);if(!this.exists(a))if(b)dy(b,dA(jn,jf,this.nm(a)));else
+am(a+gS);if(!this.is_dir(a))if(b)dy(b,dA(js,jf,this.nm(a)));else
+am(a+jA);for(var
 d
 in
-this.content)if(d.match(e))if(b)dt(b,du(oQ,iW,this.nm(a)));else
-al(this.nm(a)+": Directory not empty");delete
-this.content[c]};aZ.prototype.readdir=function(a){var
-f=a==X?X:this.slash(a);if(!this.exists(a))al(a+gG);if(!this.is_dir(a))al(a+je);var
+this.content)if(d.match(e))if(b)dy(b,dA(pe,jf,this.nm(a)));else
+am(this.nm(a)+": Directory not empty");delete
+this.content[c]};a2.prototype.readdir=function(a){var
+f=a==_?_:this.slash(a);if(!this.exists(a))am(a+gS);if(!this.is_dir(a))am(a+jA);var
 g=new
-RegExp(ja+f+oS),d={},c=[];for(var
+RegExp(jv+f+pg),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};aZ.prototype.is_dir=function(a){if(a==X)return true;var
-b=this.slash(a);return this.content[b]?1:0};aZ.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a2.prototype.is_dir=function(a){if(a==_)return true;var
+b=this.slash(a);return this.content[b]?1:0};a2.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};aZ.prototype.open=function(a,b){if(b.rdonly&&b.wronly)al(this.nm(a)+pC);if(b.text&&b.binary)al(this.nm(a)+ow);this.lookup(a);if(this.content[a]){if(this.is_dir(a))al(this.nm(a)+" : is a directory");if(b.create&&b.excl)al(this.nm(a)+py);var
+this.content[a];return b};a2.prototype.open=function(a,b){if(b.rdonly&&b.wronly)am(this.nm(a)+p2);if(b.text&&b.binary)am(this.nm(a)+oW);this.lookup(a);if(this.content[a]){if(this.is_dir(a))am(this.nm(a)+" : is a directory");if(b.create&&b.excl)am(this.nm(a)+pY);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aL(b_(0));return this.content[a]}else
-FR(this.nm(a))};aZ.prototype.register=function(c,a){var
-b;if(this.content[c])al(this.nm(c)+py);if(jr(a))b=new
-aL(a);if(qe(a))b=new
-aL(ec(a));else
+aM(cb(0));return this.content[a]}else
+Gs(this.nm(a))};a2.prototype.register=function(c,a){var
+b;if(this.content[c])am(this.nm(c)+pY);if(jN(a))b=new
+aM(a);if(qE(a))b=new
+aM(ep(a));else
 if(a
 instanceof
 Array)b=new
-aL(Fo(a));else
+aM(F1(a));else
 if(typeof
 a==="string")b=new
-aL(p6(a));else
+aM(qu(a));else
 if(a.toString){var
-d=ec(ef(a.toString()));b=new
-aL(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-al(this.nm(c)+" : registering file with invalid content type")};aZ.prototype.constructor=aZ;function
-aq(a){return g2(a)}function
-cU(b,a){return ji(b,a)}function
-Fj(d){var
-c=aq(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=cU(d,a);return b}function
-Fi(a){if(a.t!=4)gZ(a);return a.c}function
-Fr(a,c,b){b&=co;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}gZ(a)}a.c[c]=b;return 0}function
-Fq(b,a,c){if(a>>>0>=b.l)p4();return Fr(b,a,c)}function
-b9(a){this.fs=require("fs");this.fd=a}b9.prototype=new
-pX();b9.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){al(a.toString())}};b9.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){al(a.toString())}};b9.prototype.write=function(f,b,c,e){var
-a=Fj(b);if(!(a
+d=ep(es(a.toString()));b=new
+aM(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+am(this.nm(c)+" : registering file with invalid content type")};a2.prototype.constructor=a2;function
+av(a){return hc(a)}function
+dz(b,a){return jE(b,a)}function
+FW(d){var
+c=av(d),b=new
+Array(c),a=0;for(;a<c;a++)b[a]=dz(d,a);return b}function
+FV(a){if(a.t!=4)g$(a);return a.c}function
+F4(a,c,b){b&=cu;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}g$(a)}a.c[c]=b;return 0}function
+F3(b,a,c){if(a>>>0>=b.l)qs();return F4(b,a,c)}function
+ca(a){this.fs=require("fs");this.fd=a}ca.prototype=new
+ql();ca.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){am(a.toString())}};ca.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){am(a.toString())}};ca.prototype.write=function(f,b,c,e){var
+a=FW(b);if(!(a
 instanceof
-J.Uint8Array))a=new(J.Uint8Array)(a);var
-d=J.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){al(a.toString())}return 0};b9.prototype.read=function(g,d,c,f){var
-a=Fi(d);if(!(a
+K.Uint8Array))a=new(K.Uint8Array)(a);var
+d=K.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){am(a.toString())}return 0};ca.prototype.read=function(g,d,c,f){var
+a=FV(d);if(!(a
 instanceof
-J.Uint8Array))a=new(J.Uint8Array)(a);var
-e=J.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){al(a.toString())}for(var
-b=0;b<f;b++)Fq(d,c+b,e[c+b]);return 0};b9.prototype.read_one=function(c){var
-b=new(J.Uint8Array)(1),a=J.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){al(a.toString())}return a[0]};b9.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){al(a.toString())}};b9.prototype.constructor=b9;function
-aM(a){this.fs=require("fs");this.root=a}aM.prototype.nm=function(a){return this.root+a};aM.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aM.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aM.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aM.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){al(a.toString())}};aM.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.open=function(f,c,g){var
+K.Uint8Array))a=new(K.Uint8Array)(a);var
+e=K.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){am(a.toString())}for(var
+b=0;b<f;b++)F3(d,c+b,e[c+b]);return 0};ca.prototype.read_one=function(c){var
+b=new(K.Uint8Array)(1),a=K.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){am(a.toString())}return a[0]};ca.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){am(a.toString())}};ca.prototype.constructor=ca;function
+aN(a){this.fs=require("fs");this.root=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aN.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){am(a.toString())}};aN.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-b9(d)}catch(a){this.raise_nodejs_error(a,g)}};aM.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aM.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),oh);return ef(a)}catch(a){this.raise_nodejs_error(a,c)}};aM.prototype.raise_nodejs_error=function(a,d){var
-b=ds(i0);if(d&&b){var
-c=du(a.code,a.syscall,a.path,a.errno);dt(b,c)}else
-al(a.toString())};aM.prototype.stats_from_js=function(a){var
+ca(d)}catch(a){this.raise_nodejs_error(a,g)}};aN.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),oH);return es(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.raise_nodejs_error=function(a,d){var
+b=dx(jj);if(d&&b){var
+c=dA(a.code,a.syscall,a.path,a.errno);dy(b,c)}else
+am(a.toString())};aN.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aM.prototype.constructor=aM;function
-qb(b){var
-a=jz(b);if(!a)return;return a[0]+bR}var
-g3=qb(fe)||bS("unable to compute caml_root"),eg=[];if(fh())eg.push({path:g3,device:new
-aM(g3)});else
-eg.push({path:g3,device:new
-aZ(g3)});eg.push({path:oq,device:new
-aZ(oq)});function
-qu(b){var
-g=FI(b),b=g.join(bR),f=qo(b),c;for(var
-e=0;e<eg.length;e++){var
-a=eg[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fh()){var
-d=qb(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aN.prototype.constructor=aN;function
+qB(b){var
+a=jU(b);if(!a)return;return a[0]+bT}var
+hd=qB(fo)||bU("unable to compute caml_root"),et=[];if(fr())et.push({path:hd,device:new
+aN(hd)});else
+et.push({path:hd,device:new
+a2(hd)});et.push({path:oQ,device:new
+a2(oQ)});function
+qV(b){var
+g=Gj(b),b=g.join(bT),f=qO(b),c;for(var
+e=0;e<et.length;e++){var
+a=et[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fr()){var
+d=qB(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aM(d)};eg.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;al("no device found for "+f)}function
-Ft(c,b){var
-a=qu(c);if(!a.device.register)bS("cannot register file");a.device.register(a.rest,b);return 0}function
-qp(c,b){var
-c=a(c),b=a(b);return Ft(c,b)}function
-Fw(){var
-b=J.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)qp(b[a].name,b[a].content);J.jsoo_create_file=qp;J.caml_fs_tmp=[];return 0}function
-FP(c){var
-a=0,e=aq(c),b=10,d=1;if(e>0)switch(cU(c,a)){case
+aN(d)};et.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;am("no device found for "+f)}function
+F6(c,b){var
+a=qV(c);if(!a.device.register)bU("cannot register file");a.device.register(a.rest,b);return 0}function
+qQ(c,b){var
+c=a(c),b=a(b);return F6(c,b)}function
+F9(){var
+b=K.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)qQ(b[a].name,b[a].content);K.jsoo_create_file=qQ;K.caml_fs_tmp=[];return 0}function
+Gq(c){var
+a=0,e=av(c),b=10,d=1;if(e>0)switch(dz(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&cU(c,a)==48)switch(cU(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&dz(c,a)==48)switch(dz(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=aq(c),b=10,d=1;if(e>0)switch(cU(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-qi(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=pO)return a-87;return-1}function
-jq(f){var
-h=FP(f),c=h[0],i=h[1],d=h[2],g=aq(f),j=-1>>>0,e=c<g?cU(f,c):0,b=qi(e);if(b<0||b>=d)bS(gL);var
-a=b;for(c++;c<g;c++){e=cU(f,c);if(e==95)continue;b=qi(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bS(gL)}if(c!=g)bS(gL);a=i*a;if(d==10&&(a|0)!=a)bS(gL);return a|0}function
-FH(a,b){return+(jj(a,b,false)<=0)}function
-FJ(a,d){if(a<0)gY();var
+qI(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qc)return a-87;return-1}function
+jM(f){var
+h=Gq(f),c=h[0],i=h[1],d=h[2],g=av(f),j=-1>>>0,e=c<g?dz(f,c):0,b=qI(e);if(b<0||b>=d)bU(gX);var
+a=b;for(c++;c<g;c++){e=dz(f,c);if(e==95)continue;b=qI(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bU(gX)}if(c!=g)bU(gX);a=i*a;if(d==10&&(a|0)!=a)bU(gX);return a|0}function
+Gi(a,b){return+(jF(a,b,false)<=0)}function
+Gk(a,d){if(a<0)g_();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cq=new
+cw=new
 Array();function
-FK(c){var
-a=cq[c];if(!a.opened)al("Cannot flush a closed channel");if(!a.buffer||a.buffer==X)return 0;if(a.fd&&av.fds[a.fd]&&av.fds[a.fd].output){var
-b=av.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=X;return 0}function
-ql(e,f){var
-b=cq[e],d=a(f),c=aq(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-FX(a){var
-a=ju(a),b=J;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Gl(c){var
+a=cw[c];if(!a.opened)am("Cannot flush a closed channel");if(!a.buffer||a.buffer==_)return 0;if(a.fd&&ax.fds[a.fd]&&ax.fds[a.fd].output){var
+b=ax.fds[a.fd].output;switch(b.length){case
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=_;return 0}function
+qL(e,f){var
+b=cw[e],d=a(f),c=av(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Gy(a){var
+a=jQ(a),b=K;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-FY(a){var
-a=ju(a),b=J;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Gz(a){var
+a=jQ(a),b=K;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-g5(c,e,d,a){if(av.fds===undefined)av.fds=new
+hf(c,e,d,a){if(ax.fds===undefined)ax.fds=new
 Array();a=a?a:{};var
-b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;av.fds[c]=b;if(!av.fd_last_idx||c>av.fd_last_idx)av.fd_last_idx=c;return c}function
-F5(c,b,g){var
+b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ax.fds[c]=b;if(!ax.fd_last_idx||c>ax.fd_last_idx)ax.fd_last_idx=c;return c}function
+GG(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,168 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)al(ee(c)+pC);if(a.text&&a.binary)al(ee(c)+ow);var
-d=qu(c),e=d.device.open(d.rest,a),f=av.fd_last_idx?av.fd_last_idx:0;return g5(f+1,ql,e,a)}g5(0,ql,new
-aL(b_(0)));g5(1,FY,new
-aL(b_(0)));g5(2,FX,new
-aL(b_(0)));function
-FL(a){var
-c=av.fds[a];if(c.flags.wronly)al(pM+a+" is writeonly");var
-d=null;if(a==0&&fh()){var
-e=require("fs");d=function(){return ef(e.readFileSync(0,oh))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cq[b.fd]=b;return b.fd}function
-qf(c){var
-b=av.fds[c];if(b.flags.rdonly)al(pM+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:X};cq[a.fd]=a;return a.fd}function
-FM(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)am(er(c)+p2);if(a.text&&a.binary)am(er(c)+oW);var
+d=qV(c),e=d.device.open(d.rest,a),f=ax.fd_last_idx?ax.fd_last_idx:0;return hf(f+1,qL,e,a)}hf(0,qL,new
+aM(cb(0)));hf(1,Gz,new
+aM(cb(0)));hf(2,Gy,new
+aM(cb(0)));function
+Gm(a){var
+c=ax.fds[a];if(c.flags.wronly)am(qa+a+" is writeonly");var
+d=null;if(a==0&&fr()){var
+e=require("fs");d=function(){return es(e.readFileSync(0,oH))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cw[b.fd]=b;return b.fd}function
+qF(c){var
+b=ax.fds[c];if(b.flags.rdonly)am(qa+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:_};cw[a.fd]=a;return a.fd}function
+Gn(){var
 b=0;for(var
-a=0;a<cq.length;a++)if(cq[a]&&cq[a].opened&&cq[a].out)b=[0,cq[a].fd,b];return b}function
-bw(b,c,a){if(a&&J.toplevelReloc)b=J.toplevelReloc(a);av[b+1]=c;if(a)av[a]=c}function
-FT(a,b){qh[ee(a)]=b;return 0}function
-Fm(a,b){if(a===b)return 1;a.t&6&&ed(a);b.t&6&&ed(b);return a.c==b.c?1:0}function
-au(a,b){return Fm(a,b)}function
-FV(){aN(jc)}function
-aU(b,a){if(a>>>0>=aq(b))FV();return cU(b,a)}function
-m(a,b){return 1-au(a,b)}function
-g4(a){return a}function
-qk(a){return a}function
-jv(a){if(a
+a=0;a<cw.length;a++)if(cw[a]&&cw[a].opened&&cw[a].out)b=[0,cw[a].fd,b];return b}function
+by(b,c,a){if(a&&K.toplevelReloc)b=K.toplevelReloc(a);ax[b+1]=c;if(a)ax[a]=c}function
+Gu(a,b){qH[er(a)]=b;return 0}function
+FZ(a,b){if(a===b)return 1;a.t&6&&eq(a);b.t&6&&eq(b);return a.c==b.c?1:0}function
+aw(a,b){return FZ(a,b)}function
+Gw(){aO(jy)}function
+aW(b,a){if(a>>>0>=av(b))Gw();return dz(b,a)}function
+n(a,b){return 1-aw(a,b)}function
+he(a){return a}function
+qK(a){return a}function
+qP(a){if(a
 instanceof
-Array)return a;if(J.RangeError&&a
+Array)return a;if(K.RangeError&&a
 instanceof
-J.RangeError&&a.message&&a.message.match(/maximum call stack/i))return qk(av.Stack_overflow);if(J.InternalError&&a
+K.RangeError&&a.message&&a.message.match(/maximum call stack/i))return qK(ax.Stack_overflow);if(K.InternalError&&a
 instanceof
-J.InternalError&&a.message&&a.message.match(/too much recursion/i))return qk(av.Stack_overflow);if(a
+K.InternalError&&a.message&&a.message.match(/too much recursion/i))return qK(ax.Stack_overflow);if(a
 instanceof
-J.Error&&ds(oY))return[0,ds(oY),a];return[0,av.Failure,ef(String(a))]}function
-cV(a){return a<0?-a:a}function
-G(a,b){return a+b}function
-jw(a,b){return a<b?-1:a>b?1:0}function
-qr(c,b){var
-a=c%b;return a<0?a+cV(b):a}function
-jx(a,b){return(a-qr(a,b))/b}function
-ac(a,b){return a==b?1:0}function
-F2(c){J.orthocert_verify=function(b){return ee(cT(c,[a(b)]))}}function
-H(a,b){return a<=b?1:0}function
-M(a,b){return a<b?1:0}function
-z(a,b){return a*b}function
-T(a){return-a}function
-aO(a){return J.BigInt(a)}function
-qs(a,b){return a<<J.BigInt(b)}function
-qt(a,b){return a>>J.BigInt(b)}function
-aP(a){return a<0?-1:a>0?1:0}function
-F3(a){if(a<0)throw new(J.Error)("a root of a negative number");if(a<2)return a;var
-d=J.BigInt(1),b=d<<J.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aF(a,b){return a-b}function
-jy(a){if(a>0x7fffffff||a<-0x80000000)throw new(J.Error)("a number of more than 32 bits");return J.Number(a)}function
-FF(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-Fv(b){var
-a=X;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&FF(b[1]))var
+K.Error&&dx(pm))return[0,dx(pm),a];return[0,ax.Failure,es(String(a))]}function
+cc(a){return a<0?-a:a}function
+C(a,b){return a+b}function
+jR(a,b){return a<b?-1:a>b?1:0}function
+qS(c,b){var
+a=c%b;return a<0?a+cc(b):a}function
+jS(a,b){return(a-qS(a,b))/b}function
+I(a,b){return a==b?1:0}function
+GD(c){K.orthocert_verify=function(b){return er(c1(c,[a(b)]))}}function
+G(a,b){return a<=b?1:0}function
+L(a,b){return a<b?1:0}function
+B(a,b){return a*b}function
+R(a){return-a}function
+aB(a){return K.BigInt(a)}function
+qT(a,b){return a<<K.BigInt(b)}function
+qU(a,b){return a>>K.BigInt(b)}function
+aJ(a){return a<0?-1:a>0?1:0}function
+GE(a){if(a<0)throw new(K.Error)("a root of a negative number");if(a<2)return a;var
+d=K.BigInt(1),b=d<<K.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aC(a,b){return a-b}function
+jT(a){if(a>0x7fffffff||a<-0x80000000)throw new(K.Error)("a number of more than 32 bits");return K.Number(a)}function
+Gg(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+F8(b){var
+a=_;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Gg(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=oZ;for(var
+f=2,e=b;a+=pn;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-b8)a+=aE+c.toString()+aE;else
+b$)a+=aI+c.toString()+aI;else
 if(typeof
-c=="string")a+=aE+c.toString()+aE;else
-a+="_"}a+=i$}else
-if(b[0]==aT)a+=b[1];return a}function
-p$(a){if(a
+c=="string")a+=aI+c.toString()+aI;else
+a+="_"}a+=ju}else
+if(b[0]==aV)a+=b[1];return a}function
+qz(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aT)){var
-c=ds("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=Fv(a),b=ds(og);if(b)b(0);J.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aV)){var
+c=dx("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=F8(a),b=dx(oG);if(b)b(0);K.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-FU(){var
-a=J;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){p$(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)p$(a.error)})}FU();function
-i(a,b){return a.length==1?a(b):cT(a,[b])}function
-an(a,b,c){return a.length==2?a(b,c):cT(a,[b,c])}function
-Fh(a,b,c,d){return a.length==3?a(b,c,d):cT(a,[b,c,d])}function
-iU(a,b,c,d,e){return a.length==4?a(b,c,d,e):cT(a,[b,c,d,e])}Fw();var
-jB=[aT,a(oO),-2],jA=[aT,a(pW),-4],g6=[aT,a(op),-7],Ec=[0,0],Ed=[0,0],Ee=[0,[0,0]],Ef=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ee]]]]]]]]]]],gt=[0,[1,0],0],nv=[0,[2,0],0],iA=[0,[1,0],0],nu=[0,[2,0],0],gr=[0,[1,0],0],iz=[0,[2,0],0],Eg=[0,[0,[0,[0,0]]]],Eh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eg]]]]]]]]]]],Ei=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eh]]]]]]]]]]],Ej=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ei]]]]]]]]]]],Ek=[0,[0,0]],El=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ek]]]]]]]]]]],Em=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,El]]]]]]]]]]],En=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Em]]]]]]]]]]],Eo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,En]]]]]]]]]]],Ep=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Eq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ep]]]]]]]]]]],Er=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eq]]]]]]]]]]],Es=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Er]]]]]]]]]]],Et=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Es]]]]]]]]]]],Eu=[0,[0,0]],Ev=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eu]]]]]]]]]]],Ew=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ev]]]]]]]]]]],Ex=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ew]]]]]]]]]]],Ey=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ex]]]]]]]]]]],Ez=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ey]]]]]]]]]]],EA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ez]]]]]]]]]]],EB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EA]]]]]]]]]]],EC=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],ED=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EC]]]]]]]]]]],EE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ED]]]]]]]]]]],EF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EE]]]]]]]]]]],EG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EF]]]]]]]]]]],EH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EG]]]]]]]]]]],EI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EH]]]]]]]]]]],EJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EI]]]]]]]]]]],EK=[0,0],EL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EK]]]]]]]]]]],EM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EL]]]]]]]]]]],EN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EM]]]]]]]]]]],EO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EN]]]]]]]]]]],EP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EO]]]]]]]]]]],EQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EP]]]]]]]]]]],ER=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EQ]]]]]]]]]]],ES=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ER]]]]]]]]]]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ES]]]]]]]]]]],EU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ET]]]]]]]]]]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],EW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],EY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],EZ=[0,[0,[0,[0,[0,0]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],E8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],E_=[0,0],E$=[0,[0,0]],Fa=[0,0],Fb=[0,[0,[0,[0,[0,0]]]]],j8=[0,[0,[0,0]]],c2=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],ge=[0,[0,[0,[0,0]]]],Fc=[0,[0,[0,[0,[0,0]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]];bw(11,[aT,a(of),-12],of);bw(10,[aT,a(o4),-11],o4);bw(9,[aT,a(pL),-10],pL);bw(8,[aT,a(or),-9],or);bw(7,[aT,a(pf),-8],pf);bw(6,g6,op);bw(5,[aT,a(oP),-6],oP);bw(4,[aT,a(oT),-5],oT);bw(3,jA,pW);bw(2,[aT,a(i5),-3],i5);bw(1,jB,oO);bw(0,[aT,a(pu),-1],pu);var
-qv=a("String.sub / Bytes.sub"),qA=a("String.contains_from / Bytes.contains_from"),qx=a(X),qw=a("String.concat"),qB=a("Array.init"),qC=a("power"),qU=[0,0],qV=[0,0],q1=[0,0,0],q2=[0,0,0],q3=[0,0],rk=[0,0],rl=[0,0],ro=[0,0],rH=[0,0],rK=[0,0],rM=[0,0],rN=[0,0],r2=[0,0],r3=[0,0],su=[0,0],sO=[0,[0,[0,0]]],tg=[0,0],tv=[0,0],tw=[0,0],tG=a(","),tY=[0,a(i$),0],tZ=a(oZ),t0=a("."),t1=[0,[0,[0,0]]],t2=a(e9),t3=a(ja),t4=[0,[0,[0,[0,[0,0]]]]],t5=[0,a(i$),0],t6=a(pT),w3=a(oc),w5=a(n_),w4=a(o7),w6=a(d7),w7=a(d5),w8=a(pV),w9=a(pF),w_=a(oI),w$=a(ph),yl=[0,0],ym=a(gF),yn=[0,0],yo=a("divided"),yp=[0,1],yq=a("mirror"),yr=[0,3],ys=a("negative"),yt=[0,2],yu=a(e8),yv=[0,5],yw=a(jg),yx=[0,4],yy=a(dq),yz=a(ou),yA=a(e5),yB=a(b7),yC=[0,0],yD=[0,0],yE=[0,0],zo=a(X),zj=[0,0],zk=[0,0],zl=[0,[0,[0,[0,0]]]],zm=[0,[0,[0,[0,0]]]],zh=[0,[0,[0,0]]],zg=[0,0],zf=a(e5),ze=[0,[0,[0,0]]],zd=[0,0],y$=[0,[0,0]],zb=[0,[0,[0,0]]],za=[0,0],y7=[0,[0,[0,0]]],y5=[0,0],y6=[0,[0,0]],y4=[0,0,0],y3=[0,[0,[0,0]]],yX=[0,[0,0]],yY=[0,[0,[0,0]]],yZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ec]]]]]]]]]]],y0=[0,[0,0]],y1=[0,[0,[0,0]]],yW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ed]]]]]]]]]]],yU=[0,[0,0]],yV=[0,[0,[0,0]]],yS=[0,[0,[0,0]]],yT=[0,[0,0]],yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ef]]]]]]]]]]],yQ=[0,0],yP=[0,0],yM=[0,[0,0]],yN=[0,0],yK=[0,0],yL=[0,1],yI=[0,[0,0]],yJ=[0,0],yH=[0,0],yF=[0,0],yG=[0,1],yi=[0,0],yj=[0,1],yk=[0,2],ye=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],yc=[0,[0,0],0],yd=[0,[1,0],0],yf=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],ya=[0,[0,0]],yb=[0,0],x$=[0,0],x_=[0,0],x9=[0,0],x8=[0,0],x7=[0,0,0],x5=[0,[0,0]],x6=[0,0],x4=[0,0,0],x2=[0,[0,[0,0]]],x3=[0,[0,[0,0]]],x1=[0,0],xZ=[0,1,0],xR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ej]]]]]]]]]]],xS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Eo]]]]]]]]]]],xN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Et]]]]]]]]]]],xO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EB]]]]]]]]]]],xP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EJ]]]]]]]]]]],xQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EU]]]]]]]]]]],xT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],xU=a("sqrt"),xL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],xM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],xA=[0,a("\n"),0],xB=a(n$),xC=a(gH),xD=a(o3),xE=a(oM),xK=a(e$),xF=a(e7),xG=a("verdict"),xH=a(pw),xI=a(oF),xJ=a(o2),xx=a(oX),xy=a(pA),xz=a(gJ),xt=a(pb),xu=a(gK),xv=a(e7),xw=a(e$),xo=a(gR),xp=a(bc),xq=a(ob),xr=a(gO),xl=a(pt),xm=a(e8),xn=a(gO),xh=a(pe),xi=a(gR),xj=a(gK),xk=a(pJ),xb=a(pB),xc=a(pE),xd=a(oU),xe=a(gM),xf=a(pP),w1=a(iX),w2=a(gU),wW=a(bv),wX=a(bu),wY=a(oH),ww=a(gM),wx=a(pi),wa=a(bc),wb=a(bQ),wc=a(gT),wd=a(d_),we=a(dp),wj=a(iY),wf=a(jb),wg=a(jd),wh=a(d6),wi=a(bc),wk=a(bQ),wl=a(gT),wm=a(d_),wn=a(jb),wo=a(jd),wp=a(d6),wq=a(bc),wr=a(bQ),ws=a(bv),wt=a(bu),wu=a(dm),wv=a(d_),wy=a(pp),wz=a(pD),wA=a(gX),wB=a(ov),wC=a(oA),wD=a(d6),wE=a(bc),wF=a(bQ),wG=a(gD),wH=a(oK),wI=a(d_),wJ=a(fc),wK=a(oj),wL=a(d6),wM=a(bc),wN=a(gD),wO=a(bc),wP=a(pk),wS=a(n9),wQ=a(oy),wR=a(pI),wT=a(e$),wU=a(e7),wV=a(bc),wZ=a(gX),w0=a(gJ),v7=a(bQ),v8=a(d_),v9=a(iY),v_=a(d6),v6=a(pR),vU=a(fc),vV=a(px),vW=a(dn),vX=a(d8),vY=a(d8),vZ=a(i1),v0=a(dn),v1=a(o5),v2=a(oG),v3=a(a6),v5=a(oe),v4=a(i1),vK=a(oW),vL=a(pU),vM=a(oC),vN=a(oz),vO=a(pH),vP=a(ps),vQ=a(oN),vR=a(gE),vS=a(gE),vG=a(a6),vH=a(bt),vI=a(d$),vJ=a(bP),vC=a(dp),vD=a(i8),vE=a(pc),vz=a(bv),vA=a(bu),vB=a(dm),vs=a(bv),vt=a(bu),vu=a(dm),vv=a(i_),vw=a(dn),vx=a(i6),vy=a(po),vb=a(ox),vh=a(gH),vg=a(jf),vc=a(i2),vd=a(e4),vk=a(e6),vl=a(i2),vi=a(e6),vj=a(e4),vm=a(ot),vn=a(pm),vo=a(e4),vp=a(pQ),vq=a(jf),vr=a(e4),ve=a(d8),vf=a(o_),u_=a(gN),u$=a(gN),va=a(gN),u6=a(pq),u7=a(bu),u8=a(bv),u9=a(pG),uQ=a(on),uR=a(od),uS=a(pg),uT=a(d7),uU=a(pS),uV=a(pj),uW=a(oo),uX=a(o$),uY=a(om),uZ=a(oJ),u0=a(ol),u1=a(pr),u2=a(d5),u3=a(oi),u4=a(pz),u5=a(oB),uv=a(gP),ux=a(e9),uw=a(e3),uy=a(d4),uz=a(a6),uA=a(bt),uB=a(b7),uC=a(gV),uD=a(bP),uE=a(a6),uF=a(bt),uG=a(d$),uH=a(bP),uI=a(d4),uJ=a(fb),uK=a(a6),uL=a(bt),uM=a(o9),uN=a(e6),uO=a(fb),uP=a(bP),ud=a(gP),ul=a(e9),ue=a(e3),uf=a(d4),ug=a(a6),uh=a(bt),ui=a(b7),uj=a(gV),uk=a(bP),um=a(gW),un=a(a6),uo=a(bt),up=a(d$),uq=a(bP),ur=a(b7),us=a(dp),ut=a(bP),ua=a(bv),ub=a(bu),t_=[0,a(aE),0],t$=a(aE),t8=a(X),t7=[0,a(aE),0],t9=a(aE),tU=a(gP),tV=a(e9),tW=a("*"),tX=a(bR),tP=[0,[0,[0,[0,[0,0]]]]],tQ=[0,[0,[0,0]]],tR=[0,[0,0]],tS=[0,0],tT=[0,[0,[0,[0,0]]]],tN=a('":'),tO=a(aE),tL=[0,a(aE),0],tM=a(aE),tJ=[0,a("}"),0],tK=a("{"),tH=[0,a("]"),0],tI=a("["),tF=[0,[0,[0,0]]],tE=[0,[0,[0,0]]],tC=[0,0],tz=[0,[0,[0,0]]],tA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tx=[0,[0,0]],ty=[0,[0,[0,0]]],tu=[0,0],tq=[0,0],tr=[0,[0,[0,[0,[0,[0,0]]]]]],ts=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],tn=[0,0],tk=[0,0,0],tl=[0,0,0],tm=[0,0,0],th=[0,[0,0]],ti=[0,[0,[0,0]]],tj=[0,0],s8=[0,[0,[0,[0,[0,[0,0]]]]]],s9=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],s_=[0,[0,[0,0]]],s$=[0,[0,[0,0]]],ta=[0,[0,[0,[0,[0,[0,0]]]]]],tb=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],td=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],te=[0,[0,[0,0]]],tf=[0,[0,[0,[0,[0,[0,0]]]]]],s7=[0,0],s5=[0,[0,0]],s6=[0,[0,[0,0]]],s1=[0,0,0],s2=[0,0,0],sX=[0,0,0],sY=[0,0,0],sZ=[0,0,0],s0=[0,0,0],sW=[0,0],sV=[0,0],sU=[0,0],sS=[0,0],sT=[0,0],sR=[0,0],sP=[0,0],sQ=[0,0],sI=[0,0],sJ=[0,0],sK=[0,0],sL=[0,[0,[0,0]]],sH=[0,0],sC=[0,[0,[0,0]]],sD=[0,[0,0]],sA=[0,[0,0]],sB=[0,[0,[0,0]]],sz=[0,0],sx=[0,0],sy=[0,0],sv=[0,0,0],ss=[0,[0,0]],st=[0,0],sk=[0,[0,0]],sl=[0,0],sm=[0,[0,0]],sn=[0,0],so=[0,[0,0]],sp=[0,0],sq=[0,[0,0]],sr=[0,0],si=[0,[0,0]],sj=[0,0],sg=[0,[0,0]],sh=[0,0],sc=[0,[0,0]],sd=[0,0],se=[0,0],sf=[0,[0,0]],r5=[0,[0,0]],r6=[0,0],r7=[0,[0,0]],r8=[0,0],r9=[0,0],r_=[0,[0,0]],r$=[0,[0,0]],sa=[0,[0,0]],sb=[0,0],r1=[0,0],r0=[0,0],rX=[0,0],rY=[0,[0,0]],rW=[0,[0,[0,0]]],rV=[0,[0,[0,[0,[0,[0,0]]]]]],rR=[0,[0,0]],rS=[0,[0,0]],rT=[0,0],rQ=[0,0],rO=[0,0],rP=[0,[0,[0,0]]],rL=[0,[0,[0,0]]],rI=[0,[0,[0,0]]],rG=[0,[0,[0,0]]],rE=[0,[0,[0,[0,[0,[0,0]]]]]],rF=[0,[0,[0,[0,[0,[0,0]]]]]],rz=[0,[0,0]],rA=[0,0],rB=[0,[0,0]],rC=[0,[0,[0,0]]],rD=[0,[0,[0,0]]],rs=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rt=[0,[0,[0,[0,[0,[0,0]]]]]],ru=[0,[0,[0,[0,[0,[0,0]]]]]],rv=[0,[0,[0,0]]],rw=[0,[0,[0,[0,[0,[0,0]]]]]],rx=[0,[0,[0,0]]],ry=[0,[0,[0,0]]],rq=[0,[0,0]],rr=[0,0],rp=[0,0,0],rn=[0,0,0],rm=[0,[0,[0,0]]],ri=[0,0],rj=[0,0],rd=[0,[0,[0,0]]],re=[0,[0,[0,0]]],rf=[0,[0,[0,0]]],rc=[0,[0,[0,[0,0]]]],q_=[0,[0,[0,0]]],q$=[0,[0,[0,0]]],ra=[0,[0,[0,0]]],rb=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],q8=[0,[0,0]],q9=[0,0],q6=[0,[0,0]],q7=[0,0],q4=[0,[0,0]],q5=[0,0],qR=[0,0],qS=[0,[0,0]],qP=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],qQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],qN=[0,0,0],qM=a(pN),qL=a(X),qK=[0,[0,0]],qJ=[0,0],qG=[0,0],qI=[1,0],qH=[0,0],qF=[0,0],qD=[1,0],qE=[1,0],rZ=[10,0,0,0,0],zc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Cp=a(bv),Cq=a(bu),Cr=a(oH),Ch=a(gW),Ci=[0,a("a base axis of such a platform"),0],Cj=a(a6),Ck=a(bt),B6=a(ps),B7=a(oW),B8=a(pH),B9=a(gE),B_=a(oN),B$=a(gE),Ca=a(pU),Cb=a(oC),Cc=a(oz),BW=a(pi),BX=a(gM),By=[0,a("such a machine with bodies"),0],Bl=a(gJ),Bm=a(bc),Bn=a(pk),Bo=a(pI),Br=a(oy),Bs=a(n9),Bt=a(bc),Bu=a(bc),Bw=a(gD),Bv=[0,a("a claim that no cube of such a machine fits"),0],Bx=a(pR),Bz=a(d6),BA=a(d_),BB=a(dp),BC=a(i8),BD=a(pc),BE=a(gT),BF=a(oA),BG=a(oj),BH=a(iY),BK=a(dm),BL=a(po),BO=a(bQ),BP=a(bQ),BQ=a(oK),BR=a(bQ),BS=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],BT=a(gD),BU=a(fc),BV=a(dm),BY=a(bQ),BZ=a(bv),B0=a(bu),B1=a(pp),B2=a(pD),B3=a(gX),B4=a(ov),BI=[0,a(aE),0],BJ=a('the mechanism "'),B5=a(jb),Cd=a(gT),Ce=a(dp),Cf=a(i8),Cg=a(jd),Cl=a(bQ),Co=a(dp),Cm=[0,a("a platform that turns on struts and other drives"),0],Cn=a(bQ),BM=[0,a(aE),0],BN=a('the workspace "'),Cs=a(bc),Ct=a(bc),Cv=a(e$),Cw=a(e7),Cx=a(gX),Cu=[0,a("an atlas of such a machine"),0],Bp=[0,a(aE),0],Bq=a('a claim of the kind "'),CC=a(pV),CK=a(d5),CL=a(d7),CM=a(oI),CN=a(o7),CO=a(b7),CP=a(gU),CQ=a(iX),CR=a(b7),CD=a(dq),CE=a(ou),CF=a(e5),CG=a(ph),CJ=[0,a("directions of one scale"),0],CH=[0,a(aE),0],CI=a('the evidence "'),CS=a(dq),CT=a(gU),CU=[0,1,1],CV=a(d5),CW=a(d7),CX=a(dq),CY=a(e5),CZ=a(pF),C1=a(d5),C2=a(d7),C3=a(dq),C4=a(e5),C5=a(e8),C6=a(gF),C7=a(e8),C8=a(gF),C0=[0,a("this evidence at control points"),0],D7=a('"orthocert-paving/'),DY=a(dq),DZ=a(dq),DH=a(o2),DI=a(oF),DJ=a(pw),D5=[0,3,3],DK=a(oM),DX=[0,a("this set of orientations with such drives"),0],D0=[0,a('this evidence "tolerances" of a platform that turns'),0],D1=[0,a('"one_to_one" of this set of orientations'),0],D2=[0,a("a step of a platform that turns that is not at control points"),0],D3=[0,a('the evidence "tolerances" of such a mechanism'),0],D4=[0,a(pv),0],DW=[0,a(pv),0],DU=[0,a(oa),0],DV=[0,a("a step in a proof that no cube fits"),0],DT=[0,a('"one_to_one" of such a mechanism'),0],DL=[0,a("the acceleration of a joint of a machine with a plane"),0],DR=[0,a("a stiffness for each joint in such a claim"),0],DS=[0,a(pl),0],DQ=[0,a(pl),0],DM=a(o3),DN=a(n$),DO=a(gH),DP=[0,a(oa),0],DD=a(jg),DE=a(gF),DF=a(b7),Dv=a(gJ),Dw=a(oX),Dx=a(pA),Dy=[0,a(aE),0],Dz=a('a proof of the kind "'),Dr=a(e7),Ds=a(e$),Dt=a(gK),Du=a(pb),Dn=a(bc),Do=a(gR),Dp=a(ob),Dq=a(gO),Dk=a(pt),Dl=a(e8),Dm=a(gO),Dg=a(pe),Dh=a(gR),Di=a(gK),Dj=a(pJ),C$=a(pE),Da=a(oU),Db=a(pB),Dc=a(gM),Dd=a(pP),De=[0,a(aE),0],Df=a('the failure "'),C9=a(jg),C_=a(pN),CA=a(gU),CB=a(iX),Cy=a(n_),Cz=a(oc),Bi=a(fc),A_=a(i1),A$=a(oe),Ba=a(d8),Bb=a(a6),Bg=a(px),Bh=a(fc),Bj=a(dn),Bk=a(d8),Bc=a(dn),Bd=a(o5),Be=a(oG),Bf=a(a6),A3=a(dm),A7=a(bv),A8=a(bu),A4=a(i6),A5=a(i_),A6=a(dn),AX=a(dm),A1=a(bv),A2=a(bu),AY=a(i6),AZ=a(i_),A0=a(dn),AW=[0,1],AV=[0,1],AT=[0,1],AS=[0,1],AQ=[0,1],AR=[0,a("this quantity of such a mechanism"),0],AA=a(i2),AB=a(pm),AC=a(ot),AD=a(jf),AE=a(pQ),AF=a(e6),Az=a(gH),Ar=a(gN),Ag=a(o_),Ah=a(pg),AI=a(d5),AJ=a(pz),AK=a(oJ),AL=a(d7),AM=a(o$),AN=a(ol),AO=a(om),AP=a(od),Ai=a(oi),Aj=a(pr),Ak=a(pj),Al=a(oB),Am=a(pS),An=a(oo),Ao=a(on),Ap=[0,a(aE),0],Aq=a('the quantity "'),As=a(ox),At=a(pq),Au=a(bv),Av=a(bu),Aw=a(pG),Ax=[0,a(aE),0],Ay=a('a bound "'),AG=a(e4),AH=a(d8),Ae=a(bP),Af=a(d$),zV=a(bP),zW=a(gW),zX=a(fb),zY=a(gV),zZ=a(d$),z2=a(a6),z3=a(bt),z4=a(e3),z5=a(d4),z6=a(a6),z7=a(bt),z8=a(b7),z9=a(e3),z_=a(d4),z$=a(fb),Aa=a(a6),Ab=a(bt),Ac=a(o9),Ad=a(e6),z0=[0,a('" of such a machine'),0],z1=a(os),zT=a(bP),zU=a(fb),zD=a(bP),zE=a(dp),zF=a(gV),zG=a(d$),zJ=a(gW),zK=a(a6),zL=a(bt),zM=a(e3),zN=a(d4),zO=a(a6),zP=a(bt),zQ=a(b7),zR=a(b7),zH=[0,a(aE),0],zI=a(os),zA=a(gP),zB=a(e9),zy=a(" is not covered by the verified checker"),zz=a(X),zw=a(bv),zx=a(bu),zs=a(X),zt=a(pT),zu=a(X),zv=a(X),zr=[1,0],zp=a("Reader.Malformed"),zq=a("Reader.Not_covered"),D9=[0,a("a paving is checked by orthocert-verified")],D8=a(pa),D_=a("CERTIFIED"),D$=a("REFUTED"),Ea=a(pa),Eb=a("NOT COVERED: ");function
-eh(a){throw[0,jA,a]}function
-a0(d,c){var
-a=aq(d),e=aq(c),b=b_(a+e|0);eb(d,0,b,0,a);eb(c,0,b,a,e);return g4(b)}FL(0);qf(1);qf(2);function
-jC(b){function
+Gv(){var
+a=K;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){qz(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)qz(a.error)})}Gv();function
+i(a,b){return a.length==1?a(b):c1(a,[b])}function
+al(a,b,c){return a.length==2?a(b,c):c1(a,[b,c])}function
+gO(a,b,c,d){return a.length==3?a(b,c,d):c1(a,[b,c,d])}function
+jd(a,b,c,d,e){return a.length==4?a(b,c,d,e):c1(a,[b,c,d,e])}F9();var
+jW=[aV,a(pc),-2],jV=[aV,a(qk),-4],EP=[0,[0,[0,[0,0]]]],EQ=[0,0],ER=[0,0],ES=[0,[0,0]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ES]]]]]]]]]]],gD=[0,[1,0],0],nR=[0,[2,0],0],iV=[0,[1,0],0],nQ=[0,[2,0],0],gB=[0,[1,0],0],iU=[0,[2,0],0],EU=[0,[0,[0,[0,0]]]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EU]]]]]]]]]]],EW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],EY=[0,[0,0]],EZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],E8=[0,[0,0]],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],E_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],E$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],Fa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],Fb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],Fc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]],Fh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Fi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fh]]]]]]]]]]],Fj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fi]]]]]]]]]]],Fk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fj]]]]]]]]]]],Fl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fk]]]]]]]]]]],Fm=[0,0],Fn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fm]]]]]]]]]]],Fo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fn]]]]]]]]]]],Fp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fo]]]]]]]]]]],Fq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fp]]]]]]]]]]],Fr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fq]]]]]]]]]]],Fs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fr]]]]]]]]]]],Ft=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fs]]]]]]]]]]],Fu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ft]]]]]]]]]]],Fv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fu]]]]]]]]]]],Fw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fv]]]]]]]]]]],Fx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Fy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fx]]]]]]]]]]],Fz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fz]]]]]]]]]]],FB=[0,[0,[0,[0,[0,0]]]]],FC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FB]]]]]]]]]]],FD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FC]]]]]]]]]]],FE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FD]]]]]]]]]]],FF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FE]]]]]]]]]]],FG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FF]]]]]]]]]]],FH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FG]]]]]]]]]]],FI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FH]]]]]]]]]]],FJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FI]]]]]]]]]]],FK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]]],FL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],FM=[0,0],FN=[0,[0,0]],FO=[0,0],FP=[0,[0,[0,[0,[0,0]]]]],ks=[0,[0,[0,0]]],c7=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gq=[0,[0,[0,[0,0]]]],FQ=[0,[0,[0,[0,[0,0]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]];by(11,[aV,a(oF),-12],oF);by(10,[aV,a(ps),-11],ps);by(9,[aV,a(p$),-10],p$);by(8,[aV,a(oR),-9],oR);by(7,[aV,a(pG),-8],pG);by(6,[aV,a(oP),-7],oP);by(5,[aV,a(pd),-6],pd);by(4,[aV,a(ph),-5],ph);by(3,jV,qk);by(2,[aV,a(jo),-3],jo);by(1,jW,pc);by(0,[aV,a(pU),-1],pU);var
+qW=a("String.sub / Bytes.sub"),qY=a(_),qX=a("String.concat"),qZ=a("Array.init"),q0=a("power"),rh=[0,0],ri=[0,0],ro=[0,0,0],rp=[0,0,0],rq=[0,0],rI=[0,0],rJ=[0,0],rM=[0,0],r6=[0,0],r9=[0,0],r$=[0,0],sa=[0,0],sp=[0,0],sq=[0,0],sT=[0,0],tb=[0,[0,[0,0]]],tF=[0,0],tT=[0,0],tU=[0,0],t4=a(","),uk=[0,a(ju),0],ul=a(pn),um=a("."),un=[0,[0,[0,0]]],uo=a(fh),up=a(jv),uq=[0,[0,[0,[0,[0,0]]]]],ur=[0,a(ju),0],us=a(qh),xp=a(oC),xr=a(oy),xq=a(pv),xs=a(ei),xt=a(eg),xu=a(qj),xv=a(p5),xw=a(o8),xx=a(jx),xy=a(pA),yK=[0,[0,0,0]],y1=[0,0],yL=a(gR),yM=[0,0],yN=a("divided"),yO=[0,1],yP=a("mirror"),yQ=[0,3],yR=a("negative"),yS=[0,2],yT=a(fg),yU=[0,5],yV=a(jC),yW=[0,4],yX=a(dv),yY=a(oU),yZ=a(fd),y0=a(b_),y2=[0,0],y3=[0,0],y4=[0,0],y7=[0,[0,[0,0]]],y8=[0,[0,[0,0]]],zx=[0,[0,[0,0]]],zZ=a(_),zS=[0,0],zT=[0,0],zU=[0,[0,[0,[0,0]]]],zV=[0,[0,[0,0]]],zW=[0,[0,[0,[0,0]]]],zX=[0,[0,[0,0]]],zQ=[0,[0,[0,0]]],zP=[0,0],zO=a(fd),zN=[0,[0,[0,0]]],zM=[0,0],zI=[0,[0,0]],zK=[0,[0,[0,0]]],zJ=[0,0],zE=[0,[0,[0,0]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EP]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],zA=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],zB=[0,[0,[0,[0,0]]],[0,0,0]],zv=[0,0],zw=[0,[0,0]],zu=[0,0,0],zt=[0,[0,[0,0]]],zn=[0,[0,0]],zo=[0,[0,[0,0]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EQ]]]]]]]]]]],zq=[0,[0,0]],zr=[0,[0,[0,0]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ER]]]]]]]]]]],zk=[0,[0,0]],zl=[0,[0,[0,0]]],zi=[0,[0,[0,0]]],zj=[0,[0,0]],zh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ET]]]]]]]]]]],zg=[0,0],zf=[0,0],zc=[0,[0,0]],zd=[0,0],za=[0,0],zb=[0,1],y_=[0,[0,0]],y$=[0,0],y9=[0,0],y5=[0,0],y6=[0,1],yH=[0,0],yI=[0,1],yJ=[0,2],yD=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],yB=[0,[0,0],0],yC=[0,[1,0],0],yE=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],yz=[0,[0,0]],yA=[0,0],yy=[0,0],yx=[0,0],yw=[0,0],yv=[0,0],yu=[0,0,0],ys=[0,[0,0]],yt=[0,0],yr=[0,0,0],yp=[0,[0,[0,0]]],yq=[0,[0,[0,0]]],yo=[0,0],ym=[0,1,0],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],ya=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fl]]]]]]]]]]],yd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fw]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fy]]]]]]]]]]],yh=a("sqrt"),x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FA]]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],xZ=[0,a("\n"),0],x0=a(oz),x1=a(gT),x2=a(pr),x3=a(pa),x9=a(fj),x4=a(ff),x5=a("verdict"),x6=a(pW),x7=a(o5),x8=a(pq),xW=a(pl),xX=a(p0),xY=a(gV),xS=a(pC),xT=a(gW),xU=a(ff),xV=a(fj),xN=a(g3),xO=a(bf),xP=a(oB),xQ=a(g0),xK=a(pT),xL=a(fg),xM=a(g0),xG=a(pF),xH=a(g3),xI=a(gW),xJ=a(p9),xA=a(p1),xB=a(p4),xC=a(pi),xD=a(gY),xE=a(qd),xn=a(jg),xo=a(g6),xi=a(bx),xj=a(bw),xk=a(o7),wU=a(gY),wV=a(pI),wy=a(bf),wz=a(bS),wA=a(g5),wB=a(el),wC=a(du),wH=a(jh),wD=a(jw),wE=a(jz),wF=a(eh),wG=a(bf),wI=a(bS),wJ=a(g5),wK=a(el),wL=a(jw),wM=a(jz),wN=a(eh),wO=a(bf),wP=a(bS),wQ=a(bx),wR=a(bw),wS=a(ds),wT=a(el),wW=a(pP),wX=a(p3),wY=a(g9),wZ=a(oV),w0=a(o0),w1=a(eh),w2=a(bf),w3=a(bS),w4=a(gP),w5=a(o_),w6=a(el),w7=a(fm),w8=a(oJ),w9=a(eh),w_=a(bf),w$=a(gP),xa=a(bf),xb=a(pK),xe=a(ox),xc=a(oY),xd=a(p8),xf=a(fj),xg=a(ff),xh=a(bf),xl=a(g9),xm=a(gV),wt=a(bS),wu=a(el),wv=a(jh),ww=a(eh),ws=a(qf),wg=a(fm),wh=a(pX),wi=a(dt),wj=a(ej),wk=a(ej),wl=a(jk),wm=a(dt),wn=a(pt),wo=a(o6),wp=a(a9),wr=a(oE),wq=a(jk),v8=a(pk),v9=a(qi),v_=a(o2),v$=a(oZ),wa=a(p7),wb=a(pS),wc=a(pb),wd=a(gQ),we=a(gQ),v4=a(a9),v5=a(bv),v6=a(em),v7=a(bR),v0=a(du),v1=a(jr),v2=a(pD),vX=a(bx),vY=a(bw),vZ=a(ds),vQ=a(bx),vR=a(bw),vS=a(ds),vT=a(jt),vU=a(dt),vV=a(jp),vW=a(pO),vz=a(oX),vF=a(gT),vE=a(jB),vA=a(jl),vB=a(fc),vI=a(fe),vJ=a(jl),vG=a(fe),vH=a(fc),vK=a(oT),vL=a(pM),vM=a(fc),vN=a(qe),vO=a(jB),vP=a(fc),vC=a(ej),vD=a(py),vw=a(gZ),vx=a(gZ),vy=a(gZ),vs=a(pQ),vt=a(bw),vu=a(bx),vv=a(p6),vc=a(oN),vd=a(oD),ve=a(pH),vf=a(ei),vg=a(qg),vh=a(pJ),vi=a(oO),vj=a(pz),vk=a(oM),vl=a(o9),vm=a(oL),vn=a(pR),vo=a(eg),vp=a(oI),vq=a(pZ),vr=a(o1),uT=a(g1),uV=a(fh),uU=a(fb),uW=a(ef),uX=a(a9),uY=a(bv),uZ=a(b_),u0=a(g7),u1=a(bR),u2=a(a9),u3=a(bv),u4=a(em),u5=a(bR),u6=a(ef),u7=a(fl),u8=a(a9),u9=a(bv),u_=a(px),u$=a(fe),va=a(fl),vb=a(bR),uB=a(g1),uJ=a(fh),uC=a(fb),uD=a(ef),uE=a(a9),uF=a(bv),uG=a(b_),uH=a(g7),uI=a(bR),uK=a(g8),uL=a(a9),uM=a(bv),uN=a(em),uO=a(bR),uP=a(b_),uQ=a(du),uR=a(bR),uy=a(bx),uz=a(bw),uw=[0,a(aI),0],ux=a(aI),uu=a(_),ut=[0,a(aI),0],uv=a(aI),ug=a(g1),uh=a(fh),ui=a("*"),uj=a(bT),ub=[0,[0,[0,[0,[0,0]]]]],uc=[0,[0,[0,0]]],ud=[0,[0,0]],ue=[0,0],uf=[0,[0,[0,[0,0]]]],t$=a('":'),ua=a(aI),t9=[0,a(aI),0],t_=a(aI),t7=[0,a("}"),0],t8=a("{"),t5=[0,a("]"),0],t6=a("["),t3=[0,[0,[0,0]]],t2=[0,[0,[0,0]]],t0=[0,0],tX=[0,[0,[0,0]]],tY=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tZ=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tV=[0,[0,0]],tW=[0,[0,[0,0]]],tS=[0,0],tO=[0,0],tP=[0,[0,[0,[0,[0,[0,0]]]]]],tQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],tM=[0,0],tJ=[0,0,0],tK=[0,0,0],tL=[0,0,0],tG=[0,[0,0]],tH=[0,[0,[0,0]]],tI=[0,0],tv=[0,[0,[0,[0,[0,[0,0]]]]]],tw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tx=[0,[0,[0,0]]],ty=[0,[0,[0,0]]],tz=[0,[0,[0,[0,[0,[0,0]]]]]],tA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],tC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],tD=[0,[0,[0,0]]],tE=[0,[0,[0,[0,[0,[0,0]]]]]],tu=[0,0],ts=[0,[0,0]],tt=[0,[0,[0,0]]],to=[0,0,0],tp=[0,0,0],tk=[0,0,0],tl=[0,0,0],tm=[0,0,0],tn=[0,0,0],tj=[0,0],ti=[0,0],th=[0,0],tf=[0,0],tg=[0,0],te=[0,0],tc=[0,0],td=[0,0],s7=[0,0],s8=[0,0],s9=[0,0],s_=[0,[0,[0,0]]],s6=[0,0],s1=[0,[0,[0,0]]],s2=[0,[0,0]],sZ=[0,[0,0]],s0=[0,[0,[0,0]]],sY=[0,0],sW=[0,0],sX=[0,0],sU=[0,0,0],sR=[0,[0,0]],sS=[0,0],sJ=[0,[0,0]],sK=[0,0],sL=[0,[0,0]],sM=[0,0],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,0]],sQ=[0,0],sH=[0,[0,0]],sI=[0,0],sF=[0,[0,0]],sG=[0,0],sB=[0,[0,0]],sC=[0,0],sD=[0,0],sE=[0,[0,0]],ss=[0,[0,0]],st=[0,0],su=[0,[0,0]],sv=[0,0],sw=[0,0],sx=[0,[0,0]],sy=[0,[0,0]],sz=[0,[0,0]],sA=[0,0],so=[0,0],sn=[0,0],sk=[0,0],sl=[0,[0,0]],sj=[0,[0,[0,0]]],si=[0,[0,[0,[0,[0,[0,0]]]]]],se=[0,[0,0]],sf=[0,[0,0]],sg=[0,0],sd=[0,0],sb=[0,0],sc=[0,[0,[0,0]]],r_=[0,[0,[0,0]]],r7=[0,[0,[0,0]]],r5=[0,[0,[0,0]]],r3=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,[0,[0,[0,[0,0]]]]]],rY=[0,[0,0]],rZ=[0,0],r0=[0,[0,0]],r1=[0,[0,[0,0]]],r2=[0,[0,[0,0]]],rR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rS=[0,[0,[0,[0,[0,[0,0]]]]]],rT=[0,[0,[0,[0,[0,[0,0]]]]]],rU=[0,[0,[0,0]]],rV=[0,[0,[0,[0,[0,[0,0]]]]]],rW=[0,[0,[0,0]]],rX=[0,[0,[0,0]]],rP=[0,[0,0]],rQ=[0,0],rO=[0,0,0],rN=[0,0,0],rL=[0,0,0],rK=[0,[0,[0,0]]],rG=[0,0],rH=[0,0],rC=[0,[0,[0,0]]],rD=[0,[0,[0,0]]],rE=[0,[0,[0,0]]],rB=[0,[0,[0,[0,0]]]],rx=[0,[0,[0,0]]],ry=[0,[0,[0,0]]],rz=[0,[0,[0,0]]],rA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rv=[0,[0,0]],rw=[0,0],rt=[0,[0,0]],ru=[0,0],rr=[0,[0,0]],rs=[0,0],re=[0,0],rf=[0,[0,0]],rc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],ra=[0,0,0],q$=a(qb),q_=a(_),q9=[0,[0,0]],q7=[0,0],q4=[0,0],q6=[1,0],q5=[0,0],q3=[0,0],q1=[1,0],q2=[1,0],sm=[10,0,0,0,0],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],C0=a(bx),C1=a(bw),C2=a(o7),CS=a(g8),CT=[0,a("a base axis of such a platform"),0],CU=a(a9),CV=a(bv),CF=a(pS),CG=a(pk),CH=a(p7),CI=a(gQ),CJ=a(pb),CK=a(gQ),CL=a(qi),CM=a(o2),CN=a(oZ),Cv=a(pI),Cw=a(gY),B9=[0,a("such a machine with bodies"),0],BW=a(gV),BX=a(bf),BY=a(pK),BZ=a(p8),B2=a(oY),B3=a(ox),B4=a(bf),B5=a(bf),B7=a(gP),B6=[0,a("a claim that no cube of such a machine fits"),0],B8=a(qf),B_=a(eh),B$=a(el),Ca=a(du),Cb=a(jr),Cc=a(pD),Cd=a(g5),Ce=a(o0),Cf=a(oJ),Cg=a(jh),Cj=a(ds),Ck=a(pO),Cn=a(bS),Co=a(bS),Cp=a(o_),Cq=a(bS),Cr=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Cs=a(gP),Ct=a(fm),Cu=a(ds),Cx=a(bS),Cy=a(bx),Cz=a(bw),CA=a(pP),CB=a(p3),CC=a(g9),CD=a(oV),Ch=[0,a(aI),0],Ci=a('the mechanism "'),CE=a(jw),CO=a(g5),CP=a(du),CQ=a(jr),CR=a(jz),CW=a(bS),CZ=a(du),CX=[0,a("a platform that turns on struts and other drives"),0],CY=a(bS),Cl=[0,a(aI),0],Cm=a('the workspace "'),C3=a(bf),C4=a(bf),C6=a(fj),C7=a(ff),C8=a(g9),C5=[0,a("an atlas of such a machine"),0],B0=[0,a(aI),0],B1=a('a claim of the kind "'),Dj=a(jx),Dk=[0,a('the evidence "fan" without "tolerances"'),0],Db=a(pA),Dl=a(eg),Dm=a(ei),Dn=a(o8),Do=a(pv),Dp=a(b_),Dq=a(g6),Dr=a(jg),Ds=a(b_),Dc=a(qj),Dd=a(dv),De=a(oU),Df=a(fd),Dg=a(jx),Dh=[0,a(aI),0],Di=a('the evidence "'),Dt=a(dv),Du=a(g6),Dv=[0,1,1],Dw=a(eg),Dx=a(ei),Dy=a(dv),Dz=a(fd),DA=a(p5),DC=a(eg),DD=a(ei),DE=a(dv),DF=a(fd),DG=a(fg),DH=a(gR),DI=a(fg),DJ=a(gR),DB=[0,a("this evidence at control points"),0],EI=a('"orthocert-paving/'),Ez=a(dv),EA=a(dv),Ei=a(pq),Ej=a(o5),Ek=a(pW),EG=[0,3,3],El=a(pa),Ey=[0,a("this set of orientations with such drives"),0],EB=[0,a('this evidence "tolerances" of a platform that turns'),0],EC=[0,a('"one_to_one" of this set of orientations'),0],ED=[0,a("a step of a platform that turns that is not at control points"),0],EE=[0,a('the evidence "tolerances" of such a mechanism'),0],EF=[0,a(pV),0],Ex=[0,a(pV),0],Ev=[0,a(oA),0],Ew=[0,a("a step in a proof that no cube fits"),0],Eu=[0,a('"one_to_one" of such a mechanism'),0],Em=[0,a("the acceleration of a joint of a machine with a plane"),0],Es=[0,a("a stiffness for each joint in such a claim"),0],Et=[0,a(pL),0],Er=[0,a(pL),0],En=a(pr),Eo=a(oz),Ep=a(gT),Eq=[0,a(oA),0],Ee=a(jC),Ef=a(gR),Eg=a(b_),D8=a(gV),D9=a(pl),D_=a(p0),D$=[0,a(aI),0],Ea=a('a proof of the kind "'),D4=a(ff),D5=a(fj),D6=a(gW),D7=a(pC),D0=a(bf),D1=a(g3),D2=a(oB),D3=a(g0),DX=a(pT),DY=a(fg),DZ=a(g0),DT=a(pF),DU=a(g3),DV=a(gW),DW=a(p9),DM=a(p4),DN=a(pi),DO=a(p1),DP=a(gY),DQ=a(qd),DR=[0,a(aI),0],DS=a('the failure "'),DK=a(jC),DL=a(qb),C$=a(g6),Da=a(jg),C9=a(oy),C_=a(oC),BT=a(fm),BJ=a(jk),BK=a(oE),BL=a(ej),BM=a(a9),BR=a(pX),BS=a(fm),BU=a(dt),BV=a(ej),BN=a(dt),BO=a(pt),BP=a(o6),BQ=a(a9),BC=a(ds),BG=a(bx),BH=a(bw),BD=a(jp),BE=a(jt),BF=a(dt),Bw=a(ds),BA=a(bx),BB=a(bw),Bx=a(jp),By=a(jt),Bz=a(dt),Bv=[0,1],Bu=[0,1],Bs=[0,1],Br=[0,1],Bp=[0,1],Bq=[0,a("this quantity of such a mechanism"),0],A$=a(jl),Ba=a(pM),Bb=a(oT),Bc=a(jB),Bd=a(qe),Be=a(fe),A_=a(gT),A2=a(gZ),AR=a(py),AS=a(pH),Bh=a(eg),Bi=a(pZ),Bj=a(o9),Bk=a(ei),Bl=a(pz),Bm=a(oL),Bn=a(oM),Bo=a(oD),AT=a(oI),AU=a(pR),AV=a(pJ),AW=a(o1),AX=a(qg),AY=a(oO),AZ=a(oN),A0=[0,a(aI),0],A1=a('the quantity "'),A3=a(oX),A4=a(pQ),A5=a(bx),A6=a(bw),A7=a(p6),A8=[0,a(aI),0],A9=a('a bound "'),Bf=a(fc),Bg=a(ej),AP=a(bR),AQ=a(em),Au=a(bR),Av=a(g8),Aw=a(fl),Ax=a(g7),Ay=a(em),AB=a(a9),AC=a(bv),AD=a(fb),AE=a(ef),AF=a(a9),AG=a(bv),AH=a(b_),AI=a(fb),AJ=a(ef),AK=a(fl),AL=a(a9),AM=a(bv),AN=a(px),AO=a(fe),Az=[0,a('" of such a machine'),0],AA=a(oS),As=a(bR),At=a(fl),Ac=a(bR),Ad=a(du),Ae=a(g7),Af=a(em),Ai=a(g8),Aj=a(a9),Ak=a(bv),Al=a(fb),Am=a(ef),An=a(a9),Ao=a(bv),Ap=a(b_),Aq=a(b_),Ag=[0,a(aI),0],Ah=a(oS),z$=a(g1),Aa=a(fh),z9=a(" is not covered by the verified checker"),z_=a(_),z7=a(bx),z8=a(bw),z3=a(_),z4=a(qh),z5=a(_),z6=a(_),z2=[1,0],z0=a("Reader.Malformed"),z1=a("Reader.Not_covered"),EK=[0,a("a paving is checked by orthocert-verified")],EJ=a(pB),EL=a("CERTIFIED"),EM=a("REFUTED"),EN=a(pB),EO=a("NOT COVERED: ");function
+fs(a){throw[0,jV,a]}function
+a3(d,c){var
+a=av(d),e=av(c),b=cb(a+e|0);eo(d,0,b,0,a);eo(c,0,b,a,e);return he(b)}Gm(0);qF(1);qF(2);function
+jX(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{FK(d)}catch(a){a=jv(a);if(a[1]!==jB)throw a;var
+c=a[2],d=a[1];try{Gl(d)}catch(a){a=qP(a);if(a[1]!==jW)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(FM(0))}FT(a(og),jC);function
-b$(c){var
+a=c;continue}return 0}}return a(Gn(0))}Gu(a(oG),jX);function
+cd(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-jD(d){var
+jY(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
-Y(b,a){if(a){var
-c=a[2],d=i(b,a[1]);return[0,d,Y(b,c)]}return 0}function
-g7(d,c){var
+X(b,a){if(a){var
+c=a[2],d=i(b,a[1]);return[0,d,X(b,c)]}return 0}function
+hg(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aA(d,c){var
+aD(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bx(b,c){var
-a=b_(b);Fu(a,0,b,c);return g4(a)}function
-dv(g,b,a){var
-d=ec(g),f=0;if(0<=b&&0<=a&&!((g2(d)-a|0)<b)){var
-c=b_(a);fd(d,b,c,0,a);var
+bz(b,c){var
+a=cb(b);F7(a,0,b,c);return he(a)}function
+dB(g,b,a){var
+d=ep(g),f=0;if(0<=b&&0<=a&&!((hc(d)-a|0)<b)){var
+c=cb(a);fn(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=eh(qv);return g4(e)}function
-jE(k,g){if(g){var
-h=aq(k),c=0,b=g,p=0;for(;;){if(b){var
+e=fs(qW);return he(e)}function
+jZ(k,g){if(g){var
+h=av(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(aq(i)+h|0)+c|0,m=b[2],n=c<=j?j:eh(qw),c=n,b=m;continue}var
-l=aq(i)+c|0}else
+j=(av(i)+h|0)+c|0,m=b[2],n=c<=j?j:fs(qX),c=n,b=m;continue}var
+l=av(i)+c|0}else
 var
 l=c;var
-f=b_(l),e=p,d=g;for(;;){if(d){var
+f=cb(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eb(a,0,f,e,aq(a));eb(k,0,f,e+aq(a)|0,h);var
-e=(e+aq(a)|0)+h|0,d=o;continue}eb(a,0,f,e,aq(a))}return g4(f)}}}return qx}function
-qy(e,d,c,b){var
-a=c;for(;;){if(d<=a)throw g6;if(cU(e,a)===b)return a;var
-a=a+1|0;continue}}function
-qz(b,a,d){var
-c=aq(b);if(0<=a&&!(c<a))try{qy(b,c,a,d);var
-e=1;return e}catch(a){a=jv(a);if(a===g6)return 0;throw a}return eh(qA)}function
-g8(b,c){if(0===b)return[0];if(0<=b){var
-d=FJ(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];eo(a,0,f,e,av(a));eo(k,0,f,e+av(a)|0,h);var
+e=(e+av(a)|0)+h|0,d=o;continue}eo(a,0,f,e,av(a))}return he(f)}}}return qY}function
+hh(b,c){if(0===b)return[0];if(0<=b){var
+d=Gk(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return eh(qB)}function
-g9(c){var
+a=g;continue}break}}return d}return fs(qZ)}function
+hi(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aO(0),b=aO(1);function
-p(a){return G(a,b)}function
-jF(b,a){return G(aO(b),a)}function
-c(b,a){return z(aO(b),a)}function
-a1(b,a){return[0,jx(b,a),qr(b,a)]}function
-g_(b,a){return H(b,a)?b:a}function
-bj(b,a){return H(b,a)?a:b}function
-ei(a){return ei}function
-_(a){return a?0:1}function
-x(b,a){var
+d=aB(0),b=aB(1);function
+p(a){return C(a,b)}function
+j0(b,a){return C(aB(b),a)}function
+c(b,a){return B(aB(b),a)}function
+aS(b,a){return[0,jS(b,a),qS(b,a)]}function
+hj(b,a){return G(b,a)?b:a}function
+bg(b,a){return G(b,a)?a:b}function
+eu(a){return eu}function
+U(a){return a?0:1}function
+y(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-aB(a){return a[1]}function
-aQ(a){return a[2]}function
-h(a){var
-b=a?[0,h(a[2])]:a;return b}function
+ay(a){return a[1]}function
+aT(a){return a[2]}function
+g(a){var
+b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-jG(a){return typeof
-a==="number"?0:[0,jG(a[1])]}function
-jH(d,c){var
+j1(a){return typeof
+a==="number"?0:[0,j1(a[1])]}function
+j2(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -803,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-fi(a){return jH(a,0)}function
-jI(a){if(typeof
-a==="number")return qD;else
+ft(a){return j2(a,0)}function
+j3(a){if(typeof
+a==="number")return q1;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -815,181 +809,185 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,jI(a[1])]}}function
-bz(a){if(typeof
-a==="number")return qE;else
+8:return[9,a[1]];default:return[0,j3(a[1])]}}function
+bB(a){if(typeof
+a==="number")return q2;else
 switch(a[0]){case
-0:return[1,by(a[1])];case
-1:return[3,by(a[1])];case
-2:return[5,by(a[1])];case
-3:return[7,by(a[1])];case
-4:return[9,by(a[1])];case
-5:return[1,bz(a[1])];case
-6:return[3,bz(a[1])];case
-7:return[5,bz(a[1])];case
-8:return[7,bz(a[1])];default:return[9,bz(a[1])]}}function
-by(a){if(typeof
+0:return[1,bA(a[1])];case
+1:return[3,bA(a[1])];case
+2:return[5,bA(a[1])];case
+3:return[7,bA(a[1])];case
+4:return[9,bA(a[1])];case
+5:return[1,bB(a[1])];case
+6:return[3,bB(a[1])];case
+7:return[5,bB(a[1])];case
+8:return[7,bB(a[1])];default:return[9,bB(a[1])]}}function
+bA(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,by(a[1])];case
-1:return[2,by(a[1])];case
-2:return[4,by(a[1])];case
-3:return[6,by(a[1])];case
-4:return[8,by(a[1])];case
-5:return[0,bz(a[1])];case
-6:return[2,bz(a[1])];case
-7:return[4,bz(a[1])];case
-8:return[6,bz(a[1])];default:return[8,bz(a[1])]}}function
-bk(a){return a?a[1]:a}function
-O(b,a){return b?[0,O(b[1],a)]:a}function
-jJ(a,b){return a?O(b,jJ(a[1],b)):a}function
-g$(d,c){var
+0:return[0,bA(a[1])];case
+1:return[2,bA(a[1])];case
+2:return[4,bA(a[1])];case
+3:return[6,bA(a[1])];case
+4:return[8,bA(a[1])];case
+5:return[0,bB(a[1])];case
+6:return[2,bB(a[1])];case
+7:return[4,bB(a[1])];case
+8:return[6,bB(a[1])];default:return[8,bB(a[1])]}}function
+bn(a){return a?a[1]:a}function
+P(b,a){return b?[0,P(b[1],a)]:a}function
+j4(a,b){return a?P(b,j4(a[1],b)):a}function
+ev(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-ca(b,a){return b?a:a?0:1}function
-r(d,c){var
+ce(b,a){return b?a:a?0:1}function
+s(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-V(d,c){var
+Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-bd(b,a){return V([0,b],a)}function
-jK(c){var
+aX(b,a){return Y([0,b],a)}function
+j5(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fj(c,b,a){return c?i(b,fj(c[1],b,a)):a}function
-jL(a){if(a)var
-b=a[1],d=b?[0,jL(b[1])]:b,c=d;else
+fu(c,b,a){return c?i(b,fu(c[1],b,a)):a}function
+j6(a){if(a)var
+b=a[1],d=b?[0,j6(b[1])]:b,c=d;else
 var
 c=a;return c}function
-ha(d,c){var
+hk(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-jM(a){if(H(a,b))return b;var
-e=a1(a,aO(2)),f=e[1];return ac(e[2],d)?p(c(2,jM(f))):p(c(2,c(2,f)))}function
-jN(c,a){return bj(b,aF(c,a))}function
-fk(a){if(H(a,b))return qG;var
-c=a1(a,aO(2)),e=c[1];return ac(c[2],d)?[0,fk(e)]:[0,fk(e)]}function
-fl(a){if(H(a,b))return b;var
-c=a1(a,aO(2)),e=c[1];return ac(c[2],d)?p(fl(e)):p(fl(e))}function
-jO(c,b){var
-a=jw(c,b);return 0===a?0:0<=a?2:1}function
-fm(j,i){var
-c=j,a=i;for(;;){if(H(c,b))return H(a,b)?1:ac(a1(a,aO(2))[2],d)?0:0;var
-g=a1(c,aO(2)),h=g[1];if(ac(g[2],d)){if(H(a,b))return 0;var
-e=a1(a,aO(2)),k=e[1];if(ac(e[2],d)){var
-c=h,a=k;continue}return 0}if(H(a,b))return 0;var
-f=a1(a,aO(2)),l=f[1];if(ac(f[2],d))return 0;var
+j7(a){if(G(a,b))return b;var
+e=aS(a,aB(2)),f=e[1];return I(e[2],d)?p(c(2,j7(f))):p(c(2,c(2,f)))}function
+j8(c,a){return bg(b,aC(c,a))}function
+fv(a){if(G(a,b))return q4;var
+c=aS(a,aB(2)),e=c[1];return I(c[2],d)?[0,fv(e)]:[0,fv(e)]}function
+fw(a){if(G(a,b))return b;var
+c=aS(a,aB(2)),e=c[1];return I(c[2],d)?p(fw(e)):p(fw(e))}function
+j9(c,b){var
+a=jR(c,b);return 0===a?0:0<=a?2:1}function
+fx(j,i){var
+c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:I(aS(a,aB(2))[2],d)?0:0;var
+g=aS(c,aB(2)),h=g[1];if(I(g[2],d)){if(G(a,b))return 0;var
+e=aS(a,aB(2)),k=e[1];if(I(e[2],d)){var
+c=h,a=k;continue}return 0}if(G(a,b))return 0;var
+f=aS(a,aB(2)),l=f[1];if(I(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fn(b,a){return 2<=jO(b,a)?0:1}function
-dw(i,e,a){if(i){var
-f=i[1];if(H(e,b))return[0,b,[0,b,a]];var
-w=a1(e,aO(2)),g=w[1];if(ac(w[2],d)){if(H(a,b))return[0,b,[0,e,b]];var
-m=a1(a,aO(2)),A=m[1];if(ac(m[2],d)){var
-j=dw(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dw(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(H(a,b))return[0,b,[0,e,b]];var
-v=a1(a,aO(2)),h=v[1];if(ac(v[2],d)){var
-n=dw(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(jO(g,h)){case
+fy(b,a){return 2<=j9(b,a)?0:1}function
+dC(i,e,a){if(i){var
+f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
+w=aS(e,aB(2)),g=w[1];if(I(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
+m=aS(a,aB(2)),A=m[1];if(I(m[2],d)){var
+j=dC(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dC(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(G(a,b))return[0,b,[0,e,b]];var
+v=aS(a,aB(2)),h=v[1];if(I(v[2],d)){var
+n=dC(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(j9(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dw(f,jN(h,g),e),q=p[2],r=q[2],C=[0,r,G(r,c(2,q[1]))];return[0,p[1],C];default:var
-s=dw(f,jN(g,h),a),t=s[2],u=t[2],D=[0,G(u,c(2,t[1])),u];return[0,s[1],D]}}return[0,b,[0,e,a]]}function
-fo(b,a){var
-c=fk(a);return dw(O(fk(b),c),b,a)}function
-jP(c,i,h){var
-e=i,a=h;for(;;){if(H(e,b))return a;var
-f=a1(e,aO(2)),g=f[1];if(ac(f[2],d)){var
-e=g,a=an(c,a,a);continue}return an(c,a,jP(c,g,an(c,a,a)))}}function
-ej(a){return jP(O,a,qH)}function
-jQ(a){return a?p(jQ(a[1])):b}function
-cb(f,e){var
+p=dC(f,j8(h,g),e),q=p[2],r=q[2],D=[0,r,C(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=dC(f,j8(g,h),a),t=s[2],u=t[2],E=[0,C(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
+fz(b,a){var
+c=fv(a);return dC(P(fv(b),c),b,a)}function
+j_(c,i,h){var
+e=i,a=h;for(;;){if(G(e,b))return a;var
+f=aS(e,aB(2)),g=f[1];if(I(f[2],d)){var
+e=g,a=al(c,a,a);continue}return al(c,a,j_(c,g,al(c,a,a)))}}function
+ew(a){return j_(P,a,q5)}function
+j$(a){return a?p(j$(a[1])):b}function
+cf(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=z(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=B(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=G(b,z(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=C(b,B(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=z(c(2,p(c(2,c(2,b)))),d),j=G(c(2,b),i),a=a[1],d=j;continue;case
+i=B(c(2,p(c(2,c(2,b)))),d),j=C(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=z(c(2,p(c(2,c(2,b)))),d),l=G(p(c(2,b)),k),a=a[1],d=l;continue;case
+k=B(c(2,p(c(2,c(2,b)))),d),l=C(p(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=z(c(2,p(c(2,c(2,b)))),d),n=G(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=B(c(2,p(c(2,c(2,b)))),d),n=C(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=z(c(2,p(c(2,c(2,b)))),d),q=G(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
+o=B(c(2,p(c(2,c(2,b)))),d),q=C(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
 6:var
-r=z(c(2,p(c(2,c(2,b)))),d),s=G(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
+r=B(c(2,p(c(2,c(2,b)))),d),s=C(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=z(c(2,p(c(2,c(2,b)))),d),u=G(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
+t=B(c(2,p(c(2,c(2,b)))),d),u=C(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=z(c(2,p(c(2,c(2,b)))),d),w=G(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=z(c(2,p(c(2,c(2,b)))),d),y=G(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hb(a){if(H(a,b))return qI;var
-c=a1(a,aO(2)),e=c[1];return ac(c[2],d)?by(hb(e)):bz(hb(e))}function
-fp(a){return fi(hb(a))}function
-jR(c,b){var
-a=jw(c,b);return 0===a?0:0<=a?2:1}var
-jS=G;function
-fq(k,f){if(0<=aP(f)){var
-g=jy(f);if(0<=g){var
+v=B(c(2,p(c(2,c(2,b)))),d),w=C(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=B(c(2,p(c(2,c(2,b)))),d),y=C(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+hl(a){if(G(a,b))return q6;var
+c=aS(a,aB(2)),e=c[1];return I(c[2],d)?bA(hl(e)):bB(hl(e))}function
+fA(a){return ft(hl(a))}function
+ka(c,b){var
+a=jR(c,b);return 0===a?0:0<=a?2:1}function
+kb(b,a){return 1===ka(b,a)?1:0}var
+kc=C,q8=R;function
+ex(k,f){if(0<=aJ(f)){var
+g=jT(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=z(c,c),j=1===(a&1)?z(e,c):e,e=j,c=i,a=h;continue}}return eh(qC)}return d}function
-hc(c){var
-a=aP(c);return 0===a?d:0<a?b:T(b)}function
-jT(a){return 0<=aP(a)?a:d}function
-ek(a){var
-c=aP(a);return 0===c?b:0<c?a:b}function
-jU(m){var
+h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fs(q0)}return d}function
+hm(c){var
+a=aJ(c);return 0===a?d:0<a?b:R(b)}function
+hn(a){return 0<=aJ(a)?a:d}function
+ey(a){var
+c=aJ(a);return 0===c?b:0<c?a:b}function
+kd(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cb(a[1],b);case
+1:return cf(a[1],b);case
 2:var
-e=c(2,b);return cb(a[1],e);case
+e=c(2,b);return cf(a[1],e);case
 3:var
-f=p(c(2,b));return cb(a[1],f);case
+f=p(c(2,b));return cf(a[1],f);case
 4:var
-g=c(2,c(2,b));return cb(a[1],g);case
+g=c(2,c(2,b));return cf(a[1],g);case
 5:var
-h=p(c(2,c(2,b)));return cb(a[1],h);case
+h=p(c(2,c(2,b)));return cf(a[1],h);case
 6:var
-i=c(2,p(c(2,b)));return cb(a[1],i);case
+i=c(2,p(c(2,b)));return cf(a[1],i);case
 7:var
-j=p(c(2,p(c(2,b))));return cb(a[1],j);case
+j=p(c(2,p(c(2,b))));return cf(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cb(a[1],k);default:var
-l=p(c(2,c(2,c(2,b))));return cb(a[1],l)}}function
-cr(b,a){var
-c=aP(a);return 0===c?d:1===c?jx(b,a):jF(-1,jx(jF(-1,b),a))}function
-fr(a){return 0<aP(a)?F3(a):d}function
-el(b,c){var
-a=jy(c);return 0<=a?qs(b,a):qt(b,-a|0)}function
-cW(b,c){var
-a=jy(c);return 0<=a?qt(b,a):qs(b,-a|0)}function
-bA(b,a){return a?a[1]:b}function
-bl(a){var
+k=c(2,c(2,c(2,b)));return cf(a[1],k);default:var
+l=p(c(2,c(2,c(2,b))));return cf(a[1],l)}}function
+cg(b,a){var
+c=aJ(a);return 0===c?d:1===c?jS(b,a):j0(-1,jS(j0(-1,b),a))}function
+ke(a){var
+f=aJ(a);if(0===f)return d;if(0<f){if(G(a,b))return d;var
+c=aS(a,aB(2)),e=c[1];return I(c[2],d)?fw(e):fw(e)}return d}function
+fB(a){return 0<aJ(a)?GE(a):d}function
+ez(b,c){var
+a=jT(c);return 0<=a?qT(b,a):qU(b,-a|0)}function
+c2(b,c){var
+a=jT(c);return 0<=a?qU(b,a):qT(b,-a|0)}function
+bC(b,a){return a?a[1]:b}function
+bo(a){var
 b=a?a[2]:a;return b}function
-s(e,d,c){var
+r(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-E(d,c){var
+D(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-jV(a){if(a){var
-b=[0,a[1],0];return f(jV(a[2]),b)}return a}function
-em(d,c){var
+kf(a){if(a){var
+b=[0,a[1],0];return f(kf(a[2]),b)}return a}function
+eA(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-en(a){if(a){var
-b=en(a[2]);return f(a[1],b)}return a}function
-hd(g,f,e){var
+eB(a){if(a){var
+b=eB(a[2]);return f(a[1],b)}return a}function
+ho(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=an(g,b[1],a[1]);if(c){var
+c=al(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -998,13 +996,13 @@ e(b,a){if(a)var
 d=e(b,a[2]),c=[0,i(b,a[1]),d];else
 var
 c=a;return c}function
-w(b,a){if(a){var
-c=w(b,a[2]);return f(i(b,a[1]),c)}return a}function
-dx(e,d,c){var
+x(b,a){if(a){var
+c=x(b,a[2]);return f(i(b,a[1]),c)}return a}function
+bV(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=an(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-aw(c,b,a){if(a){var
-d=aw(c,b,a[2]);return an(c,a[1],d)}return b}function
+f=al(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+ar(c,b,a){if(a){var
+d=ar(c,b,a[2]);return al(c,a[1],d)}return b}function
 aj(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
@@ -1012,136 +1010,136 @@ a=a[2];continue}var
 c=b}else
 var
 c=a;return c}}function
-n(d,c){var
+m(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bm(b,e){var
+bh(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bm(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bh(b,c)];var
 a=c;continue}return a}}function
-jW(d,c){var
+kg(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-ar(b,a){if(b)if(a)var
-d=ar(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+ao(b,a){if(b)if(a)var
+d=ao(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bn(b,a){if(b)if(a)var
-d=bn(b[1],a[2]),c=[0,a[1],d];else
+bp(b,a){if(b)if(a)var
+d=bp(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bT(d,c){var
+bW(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aG(b,a){var
-c=a?[0,b,aG([0,b],a[1])]:a;return c}function
+aE(b,a){var
+c=a?[0,b,aE([0,b],a[1])]:a;return c}function
 as(b,a){var
 c=a?[0,b,as(b,a[1])]:a;return c}function
-jX(a){if(a){var
-e=jX(a[2]),f=z(c(2,b),e),g=a[1]?b:d;return G(g,f)}return d}function
-fs(j){function
+kh(a){if(a){var
+e=kh(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return C(g,f)}return d}function
+fC(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=jX([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aP(b)?ej(b):0}function
-dy(c,b){var
-a=jw(z(c[1],b[2]),z(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-cX(b,a){return H(z(b[1],a[2]),z(a[1],b[2]))}function
-dz(b,a){return[0,G(z(b[1],a[2]),z(a[1],b[2])),z(b[2],a[2])]}function
-cc(b,a){return[0,z(b[1],a[1]),z(b[2],a[2])]}function
-jY(a){return[0,T(a[1]),a[2]]}function
-ft(b,a){return dz(b,jY(a))}function
-he(f,c){var
-a=c[1],e=aP(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,T(c[2]),T(a)];return cc(f,g)}function
-fu(q){var
-a=q[2],b=q[1],o=aP(b);if(0===o)var
-c=[0,cV(a),[0,d,hc(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kh([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aJ(b)?ew(b):0}function
+dD(c,b){var
+a=jR(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+c3(b,a){return G(B(b[1],a[2]),B(a[1],b[2]))}function
+dE(b,a){return[0,C(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
+ch(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
+ki(a){return[0,R(a[1]),a[2]]}function
+fD(b,a){return dE(b,ki(a))}function
+hp(f,c){var
+a=c[1],e=aJ(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return ch(f,g)}function
+fE(q){var
+a=q[2],b=q[1],o=aJ(b);if(0===o)var
+c=[0,cc(a),[0,d,hm(a)]];else
 if(0<o){var
-n=aP(a);if(0===n)var
-c=[0,cV(b),[0,hc(b),d]];else
+n=aJ(a);if(0===n)var
+c=[0,cc(b),[0,hm(b),d]];else
 if(0<n)var
-l=fo(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fz(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fo(b,T(a)),k=j[2],c=[0,j[1],[0,k[1],T(k[2])]]}else{var
-p=T(b),i=aP(a);if(0===i)var
-c=[0,cV(b),[0,hc(b),d]];else
+j=fz(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
+p=R(b),i=aJ(a);if(0===i)var
+c=[0,cc(b),[0,hm(b),d]];else
 if(0<i)var
-g=fo(p,a),h=g[2],c=[0,g[1],[0,T(h[1]),h[2]]];else
+g=fz(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
-e=fo(p,T(a)),f=e[2],c=[0,e[1],[0,T(f[1]),T(f[2])]]}var
-r=c[2],s=ek(r[2]);return[0,r[1],s]}function
-a7(a){if(typeof
-a==="number")return qL;else
+e=fz(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
+r=c[2],s=ey(r[2]);return[0,r[1],s]}function
+a_(a){if(typeof
+a==="number")return q_;else
 switch(a[0]){case
 0:var
-b=a7(a[1]);return a0(bx(1,48),b);case
+b=a_(a[1]);return a3(bz(1,48),b);case
 1:var
-c=a7(a[1]);return a0(bx(1,49),c);case
+c=a_(a[1]);return a3(bz(1,49),c);case
 2:var
-d=a7(a[1]);return a0(bx(1,50),d);case
+d=a_(a[1]);return a3(bz(1,50),d);case
 3:var
-e=a7(a[1]);return a0(bx(1,51),e);case
+e=a_(a[1]);return a3(bz(1,51),e);case
 4:var
-f=a7(a[1]);return a0(bx(1,52),f);case
+f=a_(a[1]);return a3(bz(1,52),f);case
 5:var
-g=a7(a[1]);return a0(bx(1,53),g);case
+g=a_(a[1]);return a3(bz(1,53),g);case
 6:var
-h=a7(a[1]);return a0(bx(1,54),h);case
+h=a_(a[1]);return a3(bz(1,54),h);case
 7:var
-i=a7(a[1]);return a0(bx(1,55),i);case
+i=a_(a[1]);return a3(bz(1,55),i);case
 8:var
-j=a7(a[1]);return a0(bx(1,56),j);default:var
-k=a7(a[1]);return a0(bx(1,57),k)}}function
-eo(a){return typeof
-a==="number"?qM:a7(a)}function
-cY(a){return fq(c(2,b),a)}function
-jZ(b,a){return cW(a,b)}function
-j0(b,a){return T(cW(T(a),b))}function
-fv(b,a){return T(cr(T(b),a))}function
-R(c,b){var
-a=el(b,c);return[0,a,a]}function
-j1(d,c,a){var
-b=el(c,d),e=fv(b,a);return[0,cr(b,a),e]}function
-A(b,a){return[0,G(b[1],a[1]),G(b[2],a[2])]}function
-C(b,a){return[0,aF(b[1],a[2]),aF(b[2],a[1])]}function
-ae(a){return[0,T(a[2]),T(a[1])]}function
-j2(e,c,b,a){if(H(d,e))return H(d,b)?[0,z(e,b),z(c,a)]:H(a,d)?[0,z(c,b),z(e,a)]:[0,z(c,b),z(c,a)];if(H(c,d))return H(d,b)?[0,z(e,a),z(c,b)]:H(a,d)?[0,z(c,a),z(e,b)]:[0,z(e,a),z(e,b)];if(H(d,b))return[0,z(e,a),z(c,a)];if(H(a,d))return[0,z(c,b),z(e,b)];var
-f=bj(z(e,b),z(c,a));return[0,g_(z(e,a),z(c,b)),f]}function
-v(c,b,a){var
-d=j2(b[1],b[2],a[1],a[2]),e=j0(c,d[2]);return[0,jZ(c,d[1]),e]}function
-S(b,a){var
-c=z(a[1],a[1]),e=z(a[2],a[2]),h=j0(b,bj(c,e)),g=0;if(M(a[1],d)&&M(d,a[2])){var
+j=a_(a[1]);return a3(bz(1,56),j);default:var
+k=a_(a[1]);return a3(bz(1,57),k)}}function
+eC(a){return typeof
+a==="number"?q$:a_(a)}function
+c4(a){return ex(c(2,b),a)}function
+kj(b,a){return c2(a,b)}function
+kk(b,a){return R(c2(R(a),b))}function
+fF(b,a){return R(cg(R(b),a))}function
+Q(c,b){var
+a=ez(b,c);return[0,a,a]}function
+kl(d,c,a){var
+b=ez(c,d),e=fF(b,a);return[0,cg(b,a),e]}function
+z(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
+F(b,a){return[0,aC(b[1],a[2]),aC(b[2],a[1])]}function
+ab(a){return[0,R(a[2]),R(a[1])]}function
+km(e,c,b,a){if(G(d,e))return G(d,b)?[0,B(e,b),B(c,a)]:G(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(G(c,d))return G(d,b)?[0,B(e,a),B(c,b)]:G(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(G(d,b))return[0,B(e,a),B(c,a)];if(G(a,d))return[0,B(c,b),B(e,b)];var
+f=bg(B(e,b),B(c,a));return[0,hj(B(e,a),B(c,b)),f]}function
+t(c,b,a){var
+d=km(b[1],b[2],a[1],a[2]),e=kk(c,d[2]);return[0,kj(c,d[1]),e]}function
+V(b,a){var
+c=B(a[1],a[1]),e=B(a[2],a[2]),h=kk(b,bg(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
 f=d;g=1}if(!g)var
-f=jZ(b,g_(c,e));return[0,f,h]}function
-hf(b,a){var
-c=el(cY(b),b),d=fv(c,a[1]);return[0,cr(c,a[2]),d]}function
-bU(b,a){if(M(d,a[1]))return[0,hf(b,a)];var
-c=M(a[2],d),e=c?[0,ae(hf(b,ae(a)))]:c;return e}function
-bV(f,c){var
-g=M(d,c[1]);if(g)var
-e=el(c[2],f),a=fr(e),i=ac(z(a,a),e)?a:G(a,b),h=[0,[0,fr(el(c[1],f)),i]];else
+f=kj(b,hj(c,e));return[0,f,h]}function
+hq(b,a){var
+c=ez(c4(b),b),d=fF(c,a[1]);return[0,cg(c,a[2]),d]}function
+bX(b,a){if(L(d,a[1]))return[0,hq(b,a)];var
+c=L(a[2],d),e=c?[0,ab(hq(b,ab(a)))]:c;return e}function
+bY(f,c){var
+g=L(d,c[1]);if(g)var
+e=ez(c[2],f),a=fB(e),i=I(B(a,a),e)?a:C(a,b),h=[0,[0,fB(ez(c[1],f)),i]];else
 var
 h=g;return h}function
-dA(a){return 0===a[0]?a[2]:a[1]}function
-aR(f,d,c,b,a){if(b){if(a){var
-g=aR(f,d,c,b[2],a[2]);return[0,an(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cs(b,a){return cW(b,a)}function
-a2(a,c,b){if(H(d,a)){var
-e=b[1],f=T(cs(T(z(a,b[2])),c));return[0,cs(z(a,e),c),f]}var
-g=b[2],h=T(cs(T(z(a,b[1])),c));return[0,cs(z(a,g),c),h]}function
-ax(a){var
-c=T(cW(T(a[2]),b));return[0,cW(a[1],b),c]}function
-ep(c,b,a){var
-e=j2(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=M(f,d)?a[2]:a[1],i=fv(f,h),j=M(g,d)?a[1]:a[2];return[0,cr(g,j),i]}function
-cd(a){return bj(a[2],T(a[1]))}var
-B=[0,d,d];function
-cZ(a){return[0,a[1],a[1]]}function
-ct(a){return[0,a[2],a[2]]}function
-bB(b,a){switch(a[0]){case
+dF(a){return 0===a[0]?a[2]:a[1]}function
+aP(f,d,c,b,a){if(b){if(a){var
+g=aP(f,d,c,b[2],a[2]);return[0,al(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cx(b,a){return c2(b,a)}function
+aQ(a,c,b){if(G(d,a)){var
+e=b[1],f=R(cx(R(B(a,b[2])),c));return[0,cx(B(a,e),c),f]}var
+g=b[2],h=R(cx(R(B(a,b[1])),c));return[0,cx(B(a,g),c),h]}function
+at(a){var
+c=R(c2(R(a[2]),b));return[0,c2(a[1],b),c]}function
+dG(c,b,a){var
+e=km(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=fF(f,h),j=L(g,d)?a[1]:a[2];return[0,cg(g,j),i]}function
+ci(a){return bg(a[2],R(a[1]))}var
+w=[0,d,d];function
+bZ(a){return[0,a[1],a[1]]}function
+cj(a){return[0,a[2],a[2]]}function
+bD(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1157,80 +1155,80 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-ay(n,m){var
+az(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?r(b[1],a[1]):0;case
-1:return 1===a[0]?r(b[1],a[1]):0;case
-2:return 2===a[0]?ac(b[1],a[1]):0;case
+0:return 0===a[0]?s(b[1],a[1]):0;case
+1:return 1===a[0]?s(b[1],a[1]):0;case
+2:return 2===a[0]?I(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=ay(b[1],a[1]);if(f){var
+f=az(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=ay(b[1],a[1]);if(g){var
+g=az(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=ay(b[1],a[1]);if(h){var
+h=az(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=ay(b[1],a[1]);if(i){var
+i=az(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=ca(b[1],a[1]);if(j){var
-k=ay(b[2],a[2]);if(k){var
-l=ay(b[3],a[3]);if(l){var
+j=ce(b[1],a[1]);if(j){var
+k=az(b[2],a[2]);if(k){var
+l=az(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fw(b){var
+fG(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aV(c,b){var
-a=fw(b);return a?ac(c,a[1]):a}function
-eq(a){return M(cV(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+aY(c,b){var
+a=fG(b);return a?I(c,a[1]):a}function
+eD(a){return L(cc(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
-y(b,a){if(aV(d,b))return a;if(aV(d,a))return b;var
-c=fw(b);if(c){var
-e=c[1],f=fw(a);if(f){var
-g=f[1];if(eq(e)&&eq(g))return k(G(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bo(a){var
+A(b,a){if(aY(d,b))return a;if(aY(d,a))return b;var
+c=fG(b);if(c){var
+e=c[1],f=fG(a);if(f){var
+g=f[1];if(eD(e)&&eD(g))return k(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bq(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eq(c)?k(T(c)):[0,[5,a]];case
+c=b[1];return eD(c)?k(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-u(b,a){if(aV(d,a))return b;if(aV(d,b))return bo(a);var
+v(b,a){if(aY(d,a))return b;if(aY(d,b))return bq(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?r(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-L(a){var
-c=fw(a);if(c){var
-b=c[1];return eq(b)?k(z(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,c){if(!aV(d,a)&&!aV(b,c)){if(!aV(d,c)&&!aV(b,a))return ay(a,c)?L(a):[0,[6,a,c]];return c}return a}function
-ah(c,a){return aV(b,a)?c:[0,[7,c,a]]}function
-az(a){return aV(b,a)?a:[0,[9,a]]}function
-j3(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bW(f,e,d,c){var
+e=a[1];return 0===e[0]?s(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+N(a){var
+c=fG(a);if(c){var
+b=c[1];return eD(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+q(a,c){if(!aY(d,a)&&!aY(b,c)){if(!aY(d,c)&&!aY(b,a))return az(a,c)?N(a):[0,[6,a,c]];return c}return a}function
+ah(c,a){return aY(b,a)?c:[0,[7,c,a]]}function
+aA(a){return aY(b,a)?a:[0,[9,a]]}function
+kn(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bi(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bB(function(b){return function(a){return s(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-j4(d,f,k,j,h){var
+g=b[1],h=[0,i(e,bD(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+ko(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bB(function(b){return function(a){return s(a,b,d)}}(a),g)),a],b=bl(b),c=e,a=l;continue}var
+l=[0,i(f,bD(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bo(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bB(function(b){return function(a){return s(a,b,d)}}(a),g)),a],b=bl(b),c=e,a=m;continue}return a}}function
-er(b,a){if(a){var
+m=[0,i(f,bD(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bo(b),c=e,a=m;continue}return a}}function
+eE(b,a){if(a){var
 c=a[2];if(b){var
-e=er(b[1],c);return[0,a[1],e]}var
+e=eE(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-j5(a){switch(a[0]){case
+kp(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1238,57 +1236,57 @@ j5(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-hg(j,g){var
-k=0,l=aw(er,e(function(a){return 0},g),j),c=em(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?aw(er,d,j5(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cu(a){var
+fH(j,g){var
+k=0,l=ar(eE,e(function(a){return 0},g),j),c=eA(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?ar(eE,d,kp(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cy(a){var
 b=0;function
-c(a){return[0,a]}return bW(k(d),c,a,b)}function
-a3(d,c){var
-a=d,b=0;for(;;){if(a){if(ay(c,a[1]))return b;var
+c(a){return[0,a]}return bi(k(d),c,a,b)}function
+a4(d,c){var
+a=d,b=0;for(;;){if(a){if(az(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-c0(d,b){var
-e=b[1];if(aj(function(a){return ay(d,a)},e))return b;var
+c5(d,b){var
+e=b[1];if(aj(function(a){return az(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=c0(a[2],b),k=c0(a[3],j),c=c0(a[4],k);break;case
+j=c5(a[2],b),k=c5(a[3],j),c=c5(a[4],k);break;case
 5:case
 8:case
 9:var
-c=c0(a[1],b);break;case
+c=c5(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=c0(a[1],b),c=c0(a[2],i)}var
-f=c[2],g=c[1],h=[0,bB(function(a){return a3(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cv(a){var
-b=dx(function(b,a){return c0(a,b)},a,qN),c=b[1],d=e(function(a){return a3(c,a)},a);return[0,jV(b[2]),d]}function
-fx(a){return aw(function(b,a){return G(cd(b),a)},d,a)}function
-ce(b,c,a){var
-d=fx(a),e=g_(c[2],G(b[2],d)),f=fx(a);return[0,b,[0,bj(c[1],aF(b[1],f)),e],a]}function
-af(a){return[0,a,a,0]}function
-bX(b,a){var
+i=c5(a[1],b),c=c5(a[2],i)}var
+f=c[2],g=c[1],h=[0,bD(function(a){return a4(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cz(a){var
+b=bV(function(b,a){return c5(a,b)},a,ra),c=b[1],d=e(function(a){return a4(c,a)},a);return[0,kf(b[2]),d]}function
+fI(a){return ar(function(b,a){return C(ci(b),a)},d,a)}function
+ck(b,c,a){var
+d=fI(a),e=hj(c[2],C(b[2],d)),f=fI(a);return[0,b,[0,bg(c[1],aC(b[1],f)),e],a]}function
+$(a){return[0,a,a,0]}function
+b0(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aR(function(a){return a},e,A,d,c),g=A(b[2],a[2]);return ce(A(b[1],a[1]),g,f)}function
-be(b,a){var
-c=a[3],d=b[3],e=aR(function(a){return a},ae,C,d,c),f=C(b[2],a[2]);return ce(C(b[1],a[1]),f,e)}function
-es(a){var
-b=e(ae,a[3]),c=ae(a[2]);return[0,ae(a[1]),c,b]}function
-aC(a,c,b){var
-d=A(b[2],b[1]),e=A(c[2],c[1]),f=b[3],g=c[3];function
+f=aP(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return ck(z(b[1],a[1]),g,f)}function
+bj(b,a){var
+c=a[3],d=b[3],e=aP(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return ck(F(b[1],a[1]),f,e)}function
+eF(a){var
+b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
+aF(a,c,b){var
+d=z(b[2],b[1]),e=z(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=v(a,e,b);return ax(A(v(a,d,c),f))}function
-i(b){return ax(v(a,e,b))}var
-j=aR(function(b){return ax(v(a,d,b))},i,h,g,f),k=v(a,c[2],b[2]);return ce(v(a,c[1],b[1]),k,j)}function
-et(b,a){var
-c=a[3],d=A(a[2],a[1]),f=e(function(a){return v(b,d,a)},c),g=S(b,a[2]);return ce(S(b,a[1]),g,f)}function
-hh(a,b){var
-c=bV(a,b[1]);if(c){var
-g=c[1],d=bV(a,b[2]);if(d){var
-h=d[1],f=bU(a,A(h,g));if(f)var
-l=b[3],m=f[1],i=[0,ce(g,h,e(function(b){return v(a,m,b)},l))];else
+f=t(a,e,b);return at(z(t(a,d,c),f))}function
+i(b){return at(t(a,e,b))}var
+j=aP(function(b){return at(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return ck(t(a,c[1],b[1]),k,j)}function
+eG(b,a){var
+c=a[3],d=z(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=V(b,a[2]);return ck(V(b,a[1]),g,f)}function
+hr(a,b){var
+c=bY(a,b[1]);if(c){var
+g=c[1],d=bY(a,b[2]);if(d){var
+h=d[1],f=bX(a,z(h,g));if(f)var
+l=b[3],m=f[1],i=[0,ck(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1297,529 +1295,611 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dB(a,c,b){var
-d=bU(a,b[1]);if(d){var
-f=bU(a,b[2]);if(f)var
-h=f[1],g=v(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return C(c,v(a,g,b))},n=function(b){return ae(v(a,g,b))},o=aR(function(a){return a},n,m,l,k),p=e(function(b){return v(a,h,b)},o),i=[0,ce(g,v(a,c[2],h),p)];else
+dH(a,c,b){var
+d=bX(a,b[1]);if(d){var
+f=bX(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,ck(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cw(b,a){return a?i(b,a[1]):a}function
-fy(a){var
-b=e(ax,a[3]),c=ax(A(a[2],a[1]));return ce(a[1],c,b)}function
-j6(a,k,j,r,c){var
-l=fy(k),m=fy(j),g=fy(c[1]),h=fy(c[2]),s=aC(a,l,h),t=be(aC(a,m,g),s),i=dB(a,af(R(a,b)),t);if(i)var
-f=i[1],n=aC(a,be(l,g),f),o=aC(a,be(m,h),f),d=function(c,b){return aC(a,c,af(b))},u=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return bX(d(n,b),c)},y=function(a){return d(o,a)},z=aR(function(a){return d(n,a)},y,x,w,u),A=r[3],B=function(b,a){return be(b,d(f,ax(a)))[2]},C=function(a){return es(d(f,ax(a)))[2]},p=aR(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return v(a,D,b)},p),F=ce(c[2][1],c[2][2],E),G=ae(h[2]),H=e(function(b){return v(a,G,b)},p),q=[0,[0,ce(c[1][1],c[1][2],H),F]];else
+cA(b,a){return a?i(b,a[1]):a}function
+fJ(a){var
+b=e(at,a[3]),c=at(z(a[2],a[1]));return ck(a[1],c,b)}function
+kq(a,k,j,r,c){var
+l=fJ(k),m=fJ(j),g=fJ(c[1]),h=fJ(c[2]),s=aF(a,l,h),u=bj(aF(a,m,g),s),i=dH(a,$(Q(a,b)),u);if(i)var
+f=i[1],n=aF(a,bj(l,g),f),o=aF(a,bj(m,h),f),d=function(c,b){return aF(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return b0(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bj(b,d(f,at(a)))[2]},C=function(a){return eF(d(f,at(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=ck(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,ck(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-j7(a,e,d,k){var
-p=et(a,d),f=bX(et(a,e),p),g=be(bX(f,af(R(a,b))),k),l=aC(a,af(R(a,c(2,b))),f),q=et(a,g),h=hh(a,be(aC(a,af(R(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aC(a,m,d),i=dB(a,bX(aC(a,g,e),r),l);if(i)var
-s=aC(a,m,e),j=dB(a,be(aC(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+kr(a,e,d,k){var
+p=eG(a,d),f=b0(eG(a,e),p),g=bj(b0(f,$(Q(a,b))),k),l=aF(a,$(Q(a,c(2,b))),f),q=eG(a,g),h=hr(a,bj(aF(a,$(Q(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aF(a,m,d),i=dH(a,b0(aF(a,g,e),r),l);if(i)var
+s=aF(a,m,e),j=dH(a,bj(aF(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cw(function(b){return j6(a,e,d,k,b)},o);return cw(function(b){return j6(a,e,d,k,b)},u)}function
-cf(d,b,a){if(b){if(a)return an(d,b[1],a[1]);var
+u=cA(function(b){return kq(a,e,d,k,b)},o);return cA(function(b){return kq(a,e,d,k,b)},u)}function
+cl(d,b,a){if(b){if(a)return al(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bY(b,j,i){var
-f=af(B);return function(a){switch(a[0]){case
-0:return[0,s(a[1],j,f)];case
-1:return[0,s(a[1],i,f)];case
-2:return[0,af(R(b,a[1]))];case
+bE(b,j,i){var
+f=$(w);return function(a){switch(a[0]){case
+0:return[0,r(a[1],j,f)];case
+1:return[0,r(a[1],i,f)];case
+2:return[0,$(Q(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cf(function(b,a){return[0,bX(b,a)]},l,k);case
+k=a[2],l=a[1];return cl(function(b,a){return[0,b0(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cf(function(b,a){return[0,be(b,a)]},n,m);case
+m=a[2],n=a[1];return cl(function(b,a){return[0,bj(b,a)]},n,m);case
 5:var
-o=a[1];return cw(function(a){return[0,es(a)]},o);case
+o=a[1];return cA(function(a){return[0,eF(a)]},o);case
 6:var
-p=a[2],q=a[1];return cf(function(c,a){return[0,aC(b,c,a)]},q,p);case
+p=a[2],q=a[1];return cl(function(c,a){return[0,aF(b,c,a)]},q,p);case
 7:var
-r=a[2],t=a[1];return cf(function(a,c){return dB(b,a,c)},t,r);case
+s=a[2],t=a[1];return cl(function(a,c){return dH(b,a,c)},t,s);case
 8:var
-u=a[1];return cw(function(a){return[0,et(b,a)]},u);case
+u=a[1];return cA(function(a){return[0,eG(b,a)]},u);case
 9:var
-v=a[1];return cw(function(a){return hh(b,a)},v);default:var
+v=a[1];return cA(function(a){return hr(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=j7(b,c[1],d[1],e[1]),y=a[1]?aQ:aB;return x(y,w)}var
+w=kr(b,c[1],d[1],e[1]),x=a[1]?aT:ay;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-eu(c){var
+eH(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=eu(a[1]);if(b)return b;var
+b=eH(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cg(q,p){var
+cm(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=ac(b[1],a[1]);return c?fm(b[2],a[2]):c}return 0;case
+c=I(b[1],a[1]);return c?fx(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=r(b[1],a[1]),i=h?ac(e[1],g[1]):h,j=i?fm(e[2],g[2]):i,k=j?ac(d[1],f[1]):j;return k?fm(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=s(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?fx(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?fx(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cg(b[1],a[1]);if(l){var
+l=cm(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cg(b[1],a[1]);if(m){var
+m=cm(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cg(b[1],a[1]);if(n){var
+n=cm(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=cg(b[1],a[1]);if(o){var
+o=cm(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-ev(c,a){switch(a[0]){case
+eI(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dz(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dE(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,ft(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fD(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,cc(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,ch(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dy(a,[0,d,b])?0:[0,he(c,a)]};break;default:var
-k=ev(c,a[1]);return k?i(c,k[1]):k}var
-h=ev(c,f);if(h){var
-j=ev(c,g);if(j)return e(h[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dD(a,[0,d,b])?0:[0,hp(c,a)]};break;default:var
+k=eI(c,a[1]);return k?i(c,k[1]):k}var
+h=eI(c,f);if(h){var
+j=eI(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-qO(a){return 0}function
-cx(a){return ev(qO,a)}function
-bC(a,c){switch(c[0]){case
-0:return[0,j1(a,c[1],c[2])];case
+rb(a){return 0}function
+cB(a){return eI(rb,a)}function
+bF(a,c){switch(c[0]){case
+0:return[0,kl(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bC(a,c[1]);if(g)var
-h=bC(a,c[2]),E=h?[0,A(g[1],h[1])]:h,r=E;else
+g=bF(a,c[1]);if(g)var
+h=bF(a,c[2]),D=h?[0,z(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bC(a,c[1]);if(i)var
-j=bC(a,c[2]),F=j?[0,C(i[1],j[1])]:j,s=F;else
+i=bF(a,c[1]);if(i)var
+j=bF(a,c[2]),E=j?[0,F(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bC(a,c[1]);if(k)var
-l=bC(a,c[2]),G=l?[0,v(a,k[1],l[1])]:l,t=G;else
+k=bF(a,c[1]);if(k)var
+l=bF(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,u=G;else
 var
-t=k;return t;case
+u=k;return u;case
 5:var
-m=bC(a,c[1]);if(m){var
-n=bC(a,c[2]);if(n)var
-o=bU(a,n[1]),H=o?[0,v(a,m[1],o[1])]:o,u=H;else
+m=bF(a,c[1]);if(m){var
+n=bF(a,c[2]);if(n)var
+o=bX(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,v=H;else
 var
-u=n;var
-w=u}else
+v=n;var
+x=v}else
 var
-w=m;return w;default:var
-y=c[1],p=bC(a,y);if(p){var
-e=p[1];if(M(d,e[1]))return bV(a,e);var
-f=cx(y),I=f?_(cX([0,d,b],f[1])):f;if(I)return 0;if(M(d,e[2])){var
-z=bV(a,[0,e[2],e[2]]);return x(function(a){return[0,d,a[2]]},z)}var
-q=ac(e[2],d),D=q?[0,B]:q;return D}return p}}function
-fz(b,a){return j1(b,a[1],a[2])}function
-bD(a,d){if(eu(d))switch(d[0]){case
+x=m;return x;default:var
+A=c[1],p=bF(a,A);if(p){var
+e=p[1];if(L(d,e[1]))return bY(a,e);var
+f=cB(A),J=f?U(c3([0,d,b],f[1])):f;if(J)return 0;if(L(d,e[2])){var
+B=bY(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
+q=I(e[2],d),C=q?[0,w]:q;return C}return p}}function
+fK(b,a){return kl(b,a[1],a[2])}function
+bG(a,d){if(eH(d))switch(d[0]){case
 0:return 0;case
 1:var
-e=d[3],g=d[2],i=d[1],j=bd(i,j8),k=j?cX(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,fz(a,cc(ft(e,g),n)),0],p=f(as(B,i),o),q=fz(a,e)[2],r=[0,fz(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,fz(a,cc(dz(g,e),s)),r,p]];else
+e=d[3],g=d[2],i=d[1],j=aX(i,ks),k=j?c3(g,e):j;if(k)var
+n=[0,b,c(2,b)],o=[0,fK(a,ch(fD(e,g),n)),0],p=f(as(w,i),o),q=fK(a,e)[2],r=[0,fK(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,fK(a,ch(dE(g,e),s)),r,p]];else
 var
 l=k;return l;case
 2:var
-t=bD(a,d[2]),u=bD(a,d[1]);return cf(function(b,a){return[0,bX(b,a)]},u,t);case
+t=bG(a,d[2]),u=bG(a,d[1]);return cl(function(b,a){return[0,b0(b,a)]},u,t);case
 3:var
-v=bD(a,d[2]),w=bD(a,d[1]);return cf(function(b,a){return[0,be(b,a)]},w,v);case
+v=bG(a,d[2]),x=bG(a,d[1]);return cl(function(b,a){return[0,bj(b,a)]},x,v);case
 4:var
-m=d[2],h=d[1];if(cg(h,m)){var
-y=bD(a,h);return cw(function(b){return[0,et(a,b)]},y)}var
-z=bD(a,m),A=bD(a,h);return cf(function(c,b){return[0,aC(a,c,b)]},A,z);case
+m=d[2],h=d[1];if(cm(h,m)){var
+z=bG(a,h);return cA(function(b){return[0,eG(a,b)]},z)}var
+A=bG(a,m),B=bG(a,h);return cl(function(c,b){return[0,aF(a,c,b)]},B,A);case
 5:var
-C=bD(a,d[2]),D=bD(a,d[1]);return cf(function(b,c){return dB(a,b,c)},D,C);default:var
-E=bD(a,d[1]);return cw(function(b){return hh(a,b)},E)}return x(af,bC(a,d))}function
-aH(b,a){if(eu(a)){var
-c=bD(b,a);return x(function(a){return a[2]},c)}return bC(b,a)}function
-hi(a){var
-e=bj(T(a),d);return ek(G(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-j9(a){return jT(G(hi(a),a))}function
-j_(b,a){var
-c=j9(b),d=T(cs(T(a[2]),c)),e=j9(b);return[0,cs(a[1],e),d]}function
-cy(c,a,b){var
-d=aH(G(c,hi(a)),b);return x(function(b){return j_(a,b)},d)}function
+C=bG(a,d[2]),D=bG(a,d[1]);return cl(function(b,c){return dH(a,b,c)},D,C);default:var
+E=bG(a,d[1]);return cA(function(b){return hr(a,b)},E)}return y($,bF(a,d))}function
+aK(b,a){if(eH(a)){var
+c=bG(b,a);return y(function(a){return a[2]},c)}return bF(b,a)}function
+hs(a){var
+e=bg(R(a),d);return ey(C(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+kt(a){return hn(C(hs(a),a))}function
+ku(b,a){var
+c=kt(b),d=R(cx(R(a[2]),c)),e=kt(b);return[0,cx(a[1],e),d]}function
+cC(c,a,b){var
+d=aK(C(c,hs(a)),b);return y(function(b){return ku(a,b)},d)}function
 ak(d,a){var
-b=cy(d,a[2],a[1][1]);if(b)var
-c=cy(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+b=cC(d,a[2],a[1][1]);if(b)var
+c=cC(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-j$(b,a){var
-c=T(cs(T(a[2]),b));return[0,cs(a[1],b),c]}function
-fA(b,a){var
-c=fv(b[2],a);return[0,cr(b[1],a),c]}function
-ka(h,g,d,b){var
-e=b[2],f=jQ(d),i=c(2,f),j=z(jM(f),i),a=fA(v(h,b[1],g),j),k=jK(d)?C(e,a):A(e,a);return[0,a,k]}function
-kb(a,d,c){if(c){var
-e=c[1];return ka(a,d,e,kb(a,d,e))}var
-f=R(a,b);return[0,R(a,b),f]}function
-kc(e,g){var
-o=cY(e),p=z(c(2,c(2,b)),o),j=H(g[2],p);if(j){var
-n=ej(e),i=qP[1],d=n,f=0,a=i;for(;;){if(d){var
+kv(b,a){var
+c=R(cx(R(a[2]),b));return[0,cx(a[1],b),c]}function
+fL(b,a){var
+c=fF(b[2],a);return[0,cg(b[1],a),c]}function
+kw(h,g,d,b){var
+e=b[2],f=j$(d),i=c(2,f),j=B(j7(f),i),a=fL(t(h,b[1],g),j),k=j5(d)?F(e,a):z(e,a);return[0,a,k]}function
+kx(a,d,c){if(c){var
+e=c[1];return kw(a,d,e,kx(a,d,e))}var
+f=Q(a,b);return[0,Q(a,b),f]}function
+ky(e,g){var
+o=c4(e),p=B(c(2,c(2,b)),o),j=G(g[2],p);if(j){var
+n=ew(e),i=rc[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=O(jJ(qS,O(qQ,f)),qR),l=kb(e,g,k),q=ka(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=P(j4(rf,P(rd,f)),re),l=kx(e,g,k),q=kw(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-kd(i){function
+kz(i){function
 a(h){var
-m=cr(cY(i),h),g=ej(i),f=m,e=d,a=b;for(;;){if(g){var
-j=G(a,c(2,b)),k=G(e,cr(f,a)),l=T(cr(f,z(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=z(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aF(z(c(2,c(2,c(2,c(2,b)))),g),f)}function
-ke(e,a){var
-f=H(d,a);if(f){var
-g=c(2,c(2,b));return kc(e,fA(S(e,[0,a,a]),g))}return f}function
-kf(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aF(kd(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=G(kd(a),n),e=ke(a,g);if(e){var
-f=ke(a,h);if(f)var
-i=M(d,e[1][1]),j=i?M(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+m=cg(c4(i),h),g=ew(i),f=m,e=d,a=b;for(;;){if(g){var
+j=C(a,c(2,b)),k=C(e,cg(f,a)),l=R(cg(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aC(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
+kA(e,a){var
+f=G(d,a);if(f){var
+g=c(2,c(2,b));return ky(e,fL(V(e,[0,a,a]),g))}return f}function
+kB(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aC(kz(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=C(kz(a),n),e=kA(a,g);if(e){var
+f=kA(a,h);if(f)var
+i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-kg(a,d){var
-c=S(a,d),e=R(a,b);return C(A(c,c),e)}function
-cz(f,j){var
-e=aH(G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=G(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kf(a);if(d)var
-h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=kc(a,S(a,fA(v(a,k,d[1]),h))),g=x(function(b){return kg(a,kg(a,b))},i);else
+kC(a,d){var
+c=V(a,d),e=Q(a,b);return F(z(c,c),e)}function
+cD(f,j){var
+e=aK(C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kB(a);if(d)var
+h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=ky(a,V(a,fL(t(a,k,d[1]),h))),g=y(function(b){return kC(a,kC(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return x(function(a){return j$(l,a)},g)}return e}function
-kh(a,d){var
-e=kf(G(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return x(function(e){var
-f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return fA(v(a,d,j$(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-fB(d,a){return cz(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
-g(i,e,c){var
-f=cx(c);if(f){var
-g=f[1];return e?_(cX(g,[0,d,b])):cX([0,d,b],g)}var
-a=aH(i,c);if(a){var
-h=a[1];return e?M(d,h[1]):H(d,h[1])}return a}function
-ki(c,b){var
-a=aH(c,b),d=a?1:a;return d}function
-bf(c,a,b){var
-d=cg(a,b),e=d?ki(c,a):d;return e?e:g(c,0,[3,b,a])}function
-qT(c){var
-a=fu(c),g=ek(fr(a[2])),b=[0,fr(a[1]),g],e=M(d,a[1]),f=e?dy(cc(b,b),c):e,h=f?[0,b]:f;return h}function
-kj(a){if(a){var
-e=a[2],c=a[1];if(dy(bA([0,d,b],c),[0,d,b])){var
-g=kj(e);return x(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return kv(l,a)},g)}return e}function
+kD(a,d){var
+e=kB(C(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return fL(t(a,d,kv(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+fM(d,a){return cD(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
+h(i,e,c){var
+f=cB(c);if(f){var
+g=f[1];return e?U(c3(g,[0,d,b])):c3([0,d,b],g)}var
+a=aK(i,c);if(a){var
+h=a[1];return e?L(d,h[1]):G(d,h[1])}return a}function
+kE(c,b){var
+a=aK(c,b),d=a?1:a;return d}function
+bk(c,a,b){var
+d=cm(a,b),e=d?kE(c,a):d;return e?e:h(c,0,[3,b,a])}function
+rg(c){var
+a=fE(c),g=ey(fB(a[2])),b=[0,fB(a[1]),g],e=L(d,a[1]),f=e?dD(ch(b,b),c):e,h=f?[0,b]:f;return h}function
+kF(a){if(a){var
+e=a[2],c=a[1];if(dD(bC([0,d,b],c),[0,d,b])){var
+g=kF(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-kk(c,a){var
-e=ar(c,a),f=[0,d,b];return aw(function(a,b){return fu(dz(cc(a[1],a[2]),b))},f,e)}function
-kl(c,j){if(c){var
-f=c[1],g=kj(j);if(g){var
+kG(c,a){var
+e=ao(c,a),f=[0,d,b];return ar(function(a,b){return fE(dE(ch(a[1],a[2]),b))},f,e)}function
+kH(c,j){if(c){var
+f=c[1],g=kF(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bA([0,d,b],a),g=he(bA([0,d,b],c),f),h=bl(a),i=ar(bl(c),h);return e(function(a){var
-b=cc(g,a[2]);return fu(ft(a[1],b))},i)},l=kl(f,e(k,h[2]));return x(function(c){var
-e=bA([0,d,b],a);return[0,fu(he(jY(kk(bl(a),c)),e)),c]},l)}var
+f=bC([0,d,b],a),g=hp(bC([0,d,b],c),f),h=bo(a),i=ao(bo(c),h);return e(function(a){var
+b=ch(g,a[2]);return fE(fD(a[1],b))},i)},l=kH(f,e(k,h[2]));return y(function(c){var
+e=bC([0,d,b],a);return[0,fE(hp(ki(kG(bo(a),c)),e)),c]},l)}var
 i=[0,[0,[0,b,b],as([0,d,b],f)]]}else
 var
 i=c;return i}function
-km(a){if(a){var
-b=ev(qT,a[1]);if(b)var
-c=km(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+kI(a){if(a){var
+b=eI(rg,a[1]);if(b)var
+c=kI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qU}function
-kn(a){if(a){var
-b=km(a[1]);if(b)var
-c=kn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return rh}function
+kJ(a){if(a){var
+b=kI(a[1]);if(b)var
+c=kJ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return qV}function
-ko(i,l){var
-a=kn(l);if(a){var
-j=a[1],c=kl(i,j);if(c){var
-e=c[1],f=r(h(e),i),g=f?aj(function(a){return _(dy(a,[0,d,b]))},e):f;return g?n(function(a){return dy(kk(a,e),[0,d,b])},j):g}var
+d=b;return d}return ri}function
+kK(i,l){var
+a=kJ(l);if(a){var
+j=a[1],c=kH(i,j);if(c){var
+e=c[1],f=s(g(e),i),h=f?aj(function(a){return U(dD(a,[0,d,b]))},e):f;return h?m(function(a){return dD(kG(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-qW(a){return a}function
-qX(a){return a}function
-qY(a,b){return aR(qX,qW,A,a,b)}function
-qZ(a){return a}function
-q0(a){return a}function
-bE(a,b){return aR(q0,qZ,qY,a,b)}function
-hj(a,f,c,d){if(c){var
-h=c[2],i=R(a,b),g=ep(c[1],i,f);if(d){var
-j=hj(a,f,h,d[2]),k=d[1],l=function(c,b){return C(c,v(a,g,b))},m=function(b){return ae(v(a,g,b))};return[0,aR(function(a){return a},m,l,k,c),j]}var
-n=hj(a,f,h,0);return[0,e(function(b){return ae(v(a,g,b))},c),n]}return d}function
-hk(h,a){if(a){var
+rj(a){return a}function
+rk(a){return a}function
+rl(a,b){return aP(rk,rj,z,a,b)}function
+rm(a){return a}function
+rn(a){return a}function
+a5(a,b){return aP(rn,rm,rl,a,b)}function
+ht(a,f,c,d){if(c){var
+h=c[2],i=Q(a,b),g=dG(c[1],i,f);if(d){var
+j=ht(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
+n=ht(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
+fN(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=M(d,c[1]),i=e?[0,hj(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=L(d,c[1]),i=e?[0,ht(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-kp(g,f,e){var
+kL(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=hk(g,b);if(c){var
+c=fN(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-kq(d,b,a){if(b)if(a)var
-e=a[1],f=kq(d,b[2],a[2]),g=ca(d,b[1])?cZ(e):ct(e),c=[0,g,f];else
+kM(d,b,a){if(b)if(a)var
+e=a[1],f=kM(d,b[2],a[2]),g=ce(d,b[1])?bZ(e):cj(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-kr(a,b){if(a)if(b)var
-d=kr(a[2],b[2]),c=[0,kq(a[1],a,b[1]),d];else
+kN(a,b){if(a)if(b)var
+d=kN(a[2],b[2]),c=[0,kM(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-bg(a){if(a){var
-b=a[1],c=bg(b),d=e(function(a){return[0,1,a]},c),g=bg(b);return f(e(function(a){return[0,0,a]},g),d)}return q1}function
-dC(c,a){var
-b=h(a);if(kp(c,b,a))return 1;var
-d=bg(bk(b));return n(function(d){return kp(c,b,kr([0,0,d],a))},d)}function
-at(a){function
+a$(a){if(a){var
+b=a[1],c=a$(b),d=e(function(a){return[0,1,a]},c),g=a$(b);return f(e(function(a){return[0,0,a]},g),d)}return ro}function
+dI(c,a){var
+b=g(a);if(kL(c,b,a))return 1;var
+d=a$(bn(b));return m(function(d){return kL(c,b,kN([0,0,d],a))},d)}function
+au(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aI(h,e){var
+aG(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?A(a,d):C(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hl(c,b,a){var
-d=bg(c);return n(function(c){return i(a,i(at(function(a){return aI(c,a)}),b))},d)}function
-hm(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return a2(c,G(h,b),a)},k=hm(h,j,i),l=function(c,b){var
-d=a(b,e);return A(a(f,c),d)},m=function(b){return a(b,e)},n=aR(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,A(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?z(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hu(c,b,a){var
+d=a$(c);return m(function(c){return i(a,i(au(function(a){return aG(c,a)}),b))},d)}function
+hv(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aQ(c,C(h,b),a)},k=hv(h,j,i),l=function(c,b){var
+d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-fC(b,d,a,c){function
+dJ(b,d,a,c){function
 e(c,d){var
-e=a2(d,b,a);return C(A(c,c),e)}function
-f(c){return ae(a2(c,b,a))}return aR(function(a){return A(a,a)},f,e,d,c)}function
-fD(d,i,h,g){var
+e=aQ(d,b,a);return F(z(c,c),e)}function
+f(c){return ab(aQ(c,b,a))}return aP(function(a){return z(a,a)},f,e,d,c)}function
+fO(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=ct(e[2]),k=bE(a,hm(d,f,fC(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hn(b,a){return[0,[0,0,b],a]}function
-dD(i,b,c,g,f,a){function
+e=b[1],f=c[1],j=cj(e[2]),k=a5(a,hv(d,f,dJ(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hw(b,a){return[0,[0,0,b],a]}function
+dK(i,b,c,h,f,a){function
 d(a){if(a){var
-j=as([0,ae(a[1][2]),0],b),c=fD(g,f,a[2],j),d=r(h(c),b);if(d)return dC(i,c);var
+j=as([0,ab(a[1][2]),0],b),c=fO(h,f,a[2],j),d=s(g(c),b);if(d)return dI(i,c);var
 e=d}else
 var
-e=a;return e}return hl(b,hn(c,a),d)}function
-fE(g,f,e){var
+e=a;return e}return hu(b,hw(c,a),d)}function
+fP(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=hk(g,[0,[0,cZ(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=fN(g,[0,[0,bZ(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-ho(d,b,c,a){function
+hx(d,b,c,a){function
 e(a){if(a){var
-j=as([0,a[1][2],0],b),c=fE(d,a[2],j);if(c){var
-e=c[1],f=r(h(e),b);if(f)return dC(d,e);var
-g=f}else
+j=as([0,a[1][2],0],b),c=fP(d,a[2],j);if(c){var
+e=c[1],f=s(g(e),b);if(f)return dI(d,e);var
+h=f}else
 var
-g=c;var
-i=g}else
+h=c;var
+i=h}else
 var
-i=a;return i}return hl(b,hn(c,a),e)}function
-ks(b,a){return e(function(a){return[0,a[1],b]},a)}function
-kt(b,a){var
-c=bg(b);return n(function(b){return M(d,aI(b,a)[1])},c)}function
-ku(c,b,a){var
-d=a[3],f=e(function(a){return a2(c,b,a)},d),g=a[2];return[0,a2(c,b,a[1]),g,f]}function
-kv(a,b){var
-c=b[3],d=a[3],e=aR(function(a){return a},ae,C,d,c),f=a[2];return[0,C(a[1],b[1]),f,e]}function
-bF(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-$(c,b,a){var
-d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
-aS(b,a){var
+i=a;return i}return hu(b,hw(c,a),e)}function
+kO(b,a){return e(function(a){return[0,a[1],b]},a)}function
+kP(b,a){var
+c=a$(b);return m(function(b){return L(d,aG(b,a)[1])},c)}function
+hy(c,b,a){var
+d=a[3],f=e(function(a){return aQ(c,b,a)},d),g=a[2];return[0,aQ(c,b,a[1]),g,f]}function
+kQ(a,b){var
+c=b[3],d=a[3],e=aP(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
+bH(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ac(c,b,a){var
+d=al(c,b[3],a[3]),e=al(c,b[2],a[2]);return[0,al(c,b[1],a[1]),e,d]}function
+aU(b,a){var
 c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
-a8(b,a){var
+ba(b,a){var
 c=ah(b[3],a),d=ah(b[2],a);return[0,ah(b[1],a),d,c]}function
-P(b,a){var
-c=q(b[3],a[3]),d=q(b[2],a[2]);return y(y(q(b[1],a[1]),d),c)}function
-c1(a){return a8(a,az(P(a,a)))}function
-cA(a){var
-b=a[5];return b?b[1]:az(a[2])}function
-fF(b,a){return b?a:bo(a)}function
-kw(e,a,i,d,h){var
-f=P(a,e),b=$(u,e,aS(f,a)),j=P(b,b),g=u(L(d),j),c=fF(h,az(g)),k=u(f,c),l=$(y,a,a8(b,c));return[0,$(y,b,aS(c,a)),g,l,k,[0,d],0,[0,i]]}function
-kx(a,e,d){var
-b=P(a,a),c=az(b),f=[0,e],g=x(function(b){return $(u,a,aS(P(b,a),b))},d);return[0,a,b,a8(a,c),c,0,g,f]}function
-ky(c,a){var
-d=P(a,c);return[0,a,k(b),a,d,0,0,0]}function
-ew(a){return e(function(a){var
-b=a[2];return[0,bF(a[1]),b]},a)}function
-kz(a){return e(function(a){var
-c=k(b);return[0,bF(a[3]),c]},a)}function
-kA(b,a){var
+S(b,a){var
+c=q(b[3],a[3]),d=q(b[2],a[2]);return A(A(q(b[1],a[1]),d),c)}function
+c6(a){return ba(a,aA(S(a,a)))}function
+cE(a){var
+b=a[5];return b?b[1]:aA(a[2])}function
+fQ(b,a){return b?a:bq(a)}function
+kR(e,a,i,d,h){var
+f=S(a,e),b=ac(v,e,aU(f,a)),j=S(b,b),g=v(N(d),j),c=fQ(h,aA(g)),k=v(f,c),l=ac(A,a,ba(b,c));return[0,ac(A,b,aU(c,a)),g,l,k,[0,d],0,[0,i]]}function
+kS(a,e,d){var
+b=S(a,a),c=aA(b),f=[0,e],g=y(function(b){return ac(v,a,aU(S(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
+kT(c,a){var
+d=S(a,c);return[0,a,k(b),a,d,0,0,0]}function
+eJ(a){return e(function(a){var
+b=a[2];return[0,bH(a[1]),b]},a)}function
+kU(a){return e(function(a){var
+c=k(b);return[0,bH(a[3]),c]},a)}function
+kV(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kB(c,b,a){var
-d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
-dE(d,a){var
-b=bV(d,[0,a[2],a[2]]);if(b){var
+kW(c,b,a){var
+d=al(c,b[3],a[3]),e=al(c,b[2],a[2]);return[0,al(c,b[1],a[1]),e,d]}function
+dL(d,a){var
+b=bY(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fG(a,m,f,l,e,k,j){var
-o=kB(be,k,j),b=kB(function(b,c){return aC(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=bX(bX(bX(af(R(a,d)),h),g),c),p=bg(m);return n(function(c){var
-b=kA(function(b){return S(a,aI(c,b))},e),h=b[3],j=b[2],k=b[1],m=v(a,l,dE(a,A(A(A(R(a,d),k),j),h))),g=C(aI(c,i),m),n=f?C(g,aI(c,f[1])):g;return M(d,n[1])},p)}function
-bZ(a){return cW(G(a[1],a[2]),b)}function
-dF(a){var
-b=bZ(a);return aF(a[2],b)}function
-ex(c,b){if(b)var
-a=b[1],e=ex([0,c],b[2]),g=dF(a),h=[0,[0,dF(a),g],0],i=f(as(B,c),h),j=bZ(a),d=[0,[0,[0,bZ(a),j],a,i],e];else
+fR(a,n,f,l,e,k,j){var
+o=kW(bj,k,j),b=kW(function(b,c){return aF(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b0(b0(b0($(Q(a,d)),h),g),c),p=a$(n);return m(function(c){var
+b=kV(function(b){return V(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,dL(a,z(z(z(Q(a,d),k),j),h))),g=F(aG(c,i),m),n=f?F(g,aG(c,f[1])):g;return L(d,n[1])},p)}function
+b1(a){return c2(C(a[1],a[2]),b)}function
+dM(a){var
+b=b1(a);return aC(a[2],b)}function
+dN(c,b){if(b)var
+a=b[1],e=dN([0,c],b[2]),g=dM(a),h=[0,[0,dM(a),g],0],i=f(as(w,c),h),j=b1(a),d=[0,[0,[0,b1(a),j],a,i],e];else
 var
 d=b;return d}function
-ey(d,b){if(b){var
+cF(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=ey(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,bZ(a),f],c],h=bZ(a);return[0,[0,[0,a[1],h],c],g]}return q2}function
-kC(d,c,a){if(c){if(a){var
-e=kC(d,c[2],a[2]);return A(a2(c[1],G(d,b),a[1]),e)}return B}return B}function
-dG(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kC(f,a,b)},j=dG(f,h),k=e(function(a){var
-e=b(d,a[2]);return A(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,A(b(d,c),l),k],j];else
+e=cF(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,b1(a),f],c],h=b1(a);return[0,[0,[0,a[1],h],c],g]}return rp}function
+kX(d,c,a){if(c){if(a){var
+e=kX(d,c[2],a[2]);return z(aQ(c[1],C(d,b),a[1]),e)}return w}return w}function
+dO(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kX(f,a,b)},j=dO(f,h),k=e(function(a){var
+e=b(d,a[2]);return z(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,z(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dH(e,b,d,a){if(b)if(a)var
-f=b[1],g=dH(e,b[2],d,a[2]),c=[0,[0,f,fC(e,a[1][1],d,f)],g];else
+dP(e,b,d,a){if(b)if(a)var
+f=b[1],g=dP(e,b[2],d,a[2]),c=[0,[0,f,dJ(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fH(f,d,c,b,a){if(a){var
+fS(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fH(f,d[1],c,b,g);return[0,[0,C(B,b),0],i]}var
-j=e(function(a){return[0,C(B,b),0]},g),h=[0,[0,C(ae(v(f,c,ct(a[1][2]))),b),0],j]}else
+i=fS(f,d[1],c,b,g);return[0,[0,F(w,b),0],i]}var
+j=e(function(a){return[0,F(w,b),0]},g),h=[0,[0,F(ab(t(f,c,cj(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a9(d,c,a){var
-b=r(h(a),c);return b?dC(d,a):b}function
-fI(d,b,a){if(b)var
-c=b[1],g=fI([0,d],b[2],a),h=f(as(B,d),[0,a,0]),e=[0,[0,c,[0,aF(c[1],a[2]),G(c[2],a[2])],h],g];else
+a6(d,c,a){var
+b=s(g(a),c);return b?dI(d,a):b}function
+fT(d,b,a){if(b)var
+c=b[1],g=fT([0,d],b[2],a),h=f(as(w,d),[0,a,0]),e=[0,[0,c,[0,aC(c[1],a[2]),C(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kD(d){if(d){var
+kY(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kD(d[2]);return x(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=kY(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return q3}function
-hp(a){return x(function(a){return x(es,a)},a)}function
-cB(c,b,a){function
-d(a){return aC(c,b,a)}return x(function(a){return x(d,a)},a)}function
-hq(c,b,a){function
-d(a){return dB(c,a,b)}return x(function(a){return cw(d,a)},a)}function
-dI(b,a){var
-c=ar(b,a);return e(function(c){var
+f=a;return f}return rq}function
+hz(a){return y(function(a){return y(eF,a)},a)}function
+cG(c,b,a){function
+d(a){return aF(c,b,a)}return y(function(a){return y(d,a)},a)}function
+hA(c,b,a){function
+d(a){return dH(c,a,b)}return y(function(a){return cA(d,a)},a)}function
+dQ(b,a){var
+c=ao(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cf(function(b,a){return[0,bX(b,a)]},e,d)]}return b}return a},c)}function
-fJ(a){return af(R(a,c(2,b)))}function
-kE(b,c,a){if(a)var
-f=a[1],g=kE(b,c,a[2]),d=[0,e(function(a){return ae(v(b,v(b,c,f),a))},a),g];else
+d=a[1],e=b[1];return[0,cl(function(b,a){return[0,b0(b,a)]},e,d)]}return b}return a},c)}function
+fU(a){return $(Q(a,c(2,b)))}function
+kZ(a,au,at,K,c){var
+av=bD(ay,c),f=i(bE(a,au,at),av);switch(c[0]){case
+1:var
+N=c[1],d=e(function(d){var
+c=s(N,d),e=c?[0,[0,$(Q(a,b))]]:c;return e},K);break;case
+3:var
+d=dQ(c[1][2],c[2][2]);break;case
+4:var
+O=e(hz,c[2][2]),d=dQ(c[1][2],O);break;case
+5:var
+d=e(hz,c[1][2]);break;case
+6:var
+x=c[2],y=c[1],g=y[1],u=0;if(g){var
+h=x[1];if(h)var
+P=x[2],R=g[1],S=e(function(b){return cG(a,R,b)},P),T=y[2],U=h[1],d=dQ(e(function(b){return cG(a,U,b)},T),S);else{var
+z=h;u=1}}else{var
+z=g;u=1}if(u)var
+d=z;break;case
+7:var
+v=0;if(f){var
+A=c[2],j=A[1];if(j)var
+V=A[2],W=eF(f[1]),X=e(function(b){return cG(a,W,b)},V),Y=dQ(c[1][2],X),Z=j[1],d=e(function(b){return hA(a,Z,b)},Y);else{var
+B=j;v=1}}else{var
+B=f;v=1}if(v)var
+d=B;break;case
+8:var
+C=c[1],k=C[1];if(k)var
+_=C[2],aa=k[1],ab=aF(a,fU(a),aa),d=e(function(b){return cG(a,ab,b)},_);else
+var
+d=k;break;case
+9:if(f)var
+ac=c[1][2],ad=f[1],ae=aF(a,fU(a),ad),d=e(function(b){return hA(a,ae,b)},ac);else
+var
+d=f;break;case
+10:var
+D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
+m=l[1],n=E[1],L=0;if(n){var
+o=n[1],p=D[1],M=0;if(p){var
+q=kr(a,m,o,p[1]);if(q){var
+G=q[1],r=G[2],t=G[1],af=E[2],ag=bj(o,r),ah=e(function(b){return cG(a,ag,b)},af),ai=F[2],aj=bj(m,t),ak=dQ(e(function(b){return cG(a,aj,b)},ai),ah),al=e(hz,D[2]),am=fU(a),an=dQ(e(function(b){return cG(a,am,b)},ak),al),ao=c[1]?t:eF(r),ap=e(function(b){return cG(a,ao,b)},an),aq=aF(a,m,r),ar=bj(aF(a,o,t),aq),as=aF(a,fU(a),ar),d=e(function(b){return hA(a,as,b)},ap);L=1;M=1}else
+var
+H=q}else
+var
+H=p;if(!M)var
+I=H}else
+var
+I=n;if(!L){var
+J=I;w=1}}else{var
+J=l;w=1}if(w)var
+d=J;break;default:var
+d=e(function(a){return 0},K)}return[0,f,d]}function
+hB(b,c,a){if(a)var
+f=a[1],g=hB(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hr(a){return n(function(a){var
-b=ac(a[1],d);return b?ac(a[2],d):b},a)}function
-kF(c,b,a){var
-d=ar(b,a);return aw(function(a,b){return A(v(c,a[1],a[2]),b)},B,d)}function
-hs(c,b,a){var
-d=cd(kF(c,a,b));return aw(function(b,a){return G(cd(b),a)},d,a)}function
-dJ(a){return R(a,b)}function
-ht(a,i,c,u,t){var
-f=u,e=t;for(;;){if(f){var
-j=f[1],n=0;if(!hr(c)&&!hr(j)){var
-h=hs(a,i,j),o=dJ(a),p=hs(a,i,c),b=ep([0,hs(a,i,c),p],o,[0,h,h])[1],k=M(d,h),l=k?M(d,b):k;if(l)var
-q=ax(hf(a,[0,b,b])),r=function(b){return function(d,c){return C(v(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,bE(e,kE(a,q,aR(function(c){return function(b){return v(a,c,b)}}(s),ae,r,j,c)))];else
+hC(a){return m(function(a){var
+b=I(a[1],d);return b?I(a[2],d):b},a)}function
+hD(c,b,a){var
+d=ao(b,a);return ar(function(a,b){return z(t(c,a[1],a[2]),b)},w,d)}function
+hE(c,b,a){var
+d=ci(hD(c,a,b));return ar(function(b,a){return C(ci(b),a)},d,a)}function
+b2(a){return Q(a,b)}function
+eK(a,i,c,v,u){var
+f=v,e=u;for(;;){if(f){var
+j=f[1],n=0;if(!hC(c)&&!hC(j)){var
+h=hE(a,i,j),o=b2(a),p=hE(a,i,c),b=dG([0,hE(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
+q=at(hq(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a5(e,hB(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-rg(a){var
-b=a[2],c=e(function(a){return[0,a[1],B]},b);return[0,[0,a[1][1],B],c]}function
-kG(h,n,a,m,l,k){var
+k0(a){var
+b=a[2],c=e(function(a){return[0,a[1],w]},b);return[0,[0,a[1][1],w],c]}function
+k1(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=ct(j[2]),p=bE(b,hm(a,f,fC(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(ax,fC(a,b[1],b[2],c))}}(f),q),g=ht(h,n,e(function(b){return a2(b,a,dJ(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cj(j[2]),p=a5(b,hv(a,f,dJ(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(at,dJ(a,b[1],b[2],c))}}(f),q),g=eK(h,n,e(function(b){return aQ(b,a,b2(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-kH(c,b,a){if(b){if(a){var
-d=kH(c,b[2],a[2]);return A(a2(b[1],c,a[1]),d)}return B}return B}function
-kI(a,j){switch(j){case
+k2(c,b,a){var
+d=aE(0,a);return e(function(a){return s(a,b)?b2(c):w},d)}function
+k3(c,b,a){if(b){if(a){var
+d=k3(c,b[2],a[2]);return z(aQ(b[1],c,a[1]),d)}return w}return w}function
+k4(a,j){switch(j){case
 0:var
-d=aF(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aC(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aF(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=cW(G(a[1],a[2]),b),h=aF(c,a[2]),i=aF(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-hu(d,c,a){if(a)var
-e=a[1],g=hu(d,[0,c],a[2]),b=x(aQ,jW(function(a){return r(a[1],c)},d)),h=b?kI(e,b[1])[1]:e,f=[0,h,g];else
+f=aC(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=c2(C(a[1],a[2]),b),h=aC(c,a[2]),i=aC(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+fV(d,c,a){if(a)var
+e=a[1],g=fV(d,[0,c],a[2]),b=y(aT,kg(function(a){return s(a[1],c)},d)),h=b?k4(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-kJ(a,b){return e(function(a){var
-c=a[2];return kI(s(a[1],b,B),c)[2]},a)}function
-kK(i,b,g,a){function
-d(a){return aI(b,a[1])}var
-h=0,j=af(B);function
+hF(a,b){return e(function(a){var
+c=a[2];return k4(r(a[1],b,w),c)[2]},a)}function
+hG(i,b,g,a){function
+d(a){return aG(b,a[1])}var
+h=0,j=$(w);function
 c(g,d,a,b){if(a){var
-h=function(a){return aI(g,s(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
-b=v(i,a,l);return[0,e(function(b){return v(i,a,b)},k),b]},n),m)}return a}var
+h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-rh=af(B);function
-kL(e,d,c){if(d){var
-f=s(e,c[2],ri),a=f?f[1]:[0,rh];if(a)var
-b=kL([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+rF=$(w);function
+k5(e,d,c){if(d){var
+f=r(e,c[2],rG),a=f?f[1]:[0,rF];if(a)var
+b=k5([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return rj}function
-kM(a,c,h,q,p,g,o){var
-d=bg(c);return n(function(d){var
-f=i(o,d);if(f){var
-n=v(a,p,f[1]),j=C(R(a,b),n),r=h?C(j,aI(d,h[1])):j,k=function(b){function
-f(c){return v(a,b,aI(d,c))}var
-g=e(function(a){return e(f,a)},q);return a9(a,c,bE(as([0,r,0],c),g))},l=k(ax(g));if(l)return k(ae(ax(g)));var
+g=a;return g}return rH}function
+k6(a,c,h,p,o,g,n){var
+d=a$(c);return m(function(d){var
+f=i(n,d);if(f){var
+q=t(a,o,f[1]),j=F(Q(a,b),q),r=h?F(j,aG(d,h[1])):j,k=function(b){function
+f(c){return t(a,b,aG(d,c))}var
+g=e(function(a){return e(f,a)},p);return a6(a,c,a5(as([0,r,0],c),g))},l=k(at(g));if(l)return k(ab(at(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-kN(f,d,c,b,a){var
-g=e(af,c);return j4(0,bY(f,ex(0,a),g),b,d,0)}function
-W(a){if(a){var
-b=a[1];if(b)var
-c=W(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+k7(c,b,a){if(a){var
+d=a[2];if(c){var
+f=k7(c[1],b,d);return[0,a[1],f]}var
+e=[0,b,d]}else
 var
-d=b;return d}return rk}function
-fK(b,a){if(a){var
-h=a[1],n=h[1],c=W(e(function(a){return s(a,b,0)},n));if(c){var
-f=s(h[2],b,0);if(f){var
-i=f[1],g=fK(b,a[2]);if(g)var
-j=M(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+e=a;return e}function
+fW(a,g){var
+b=bh(function(e){var
+c=r(e,a,w),b=G(c[1],d),f=b?G(d,c[2]):b;return U(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=r(f,a,w),e=L(d,c[1])?c[1]:c[2];return k7(f,[0,e,e],a)}return a}function
+k8(c,a){if(a)var
+b=a[2],f=k8(c,b),g=b?b[1]:e(q8,c),d=[0,[0,a[1],g],f];else
+var
+d=a;return d}function
+cH(c,d,b,a){if(d){var
+e=d[1];if(a){var
+f=cH(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cH(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+fX(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=fX(a,h,g),j=function(c,b){var
+f=t(a,e,b);return z(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aP(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,z(d,d),e),l],i];else
+var
+f=b;else
+var
+f=c;return f}function
+cI(d,c,b,a){return cH(w,c,hD(d,a,b),a)}function
+k9(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=r(b,c,w),e=[0,d,cH(w,b,z(t(g,f,d),h),c)];else
+var
+e=a;return e}function
+hH(f,d,c,b,a){var
+g=e($,c);return ko(0,bE(f,dN(0,a),g),b,d,0)}function
+Z(a){if(a){var
+b=a[1];if(b)var
+c=Z(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return rI}function
+fY(b,a){if(a){var
+h=a[1],n=h[1],c=Z(e(function(a){return r(a,b,0)},n));if(c){var
+f=r(h[2],b,0);if(f){var
+i=f[1],g=fY(b,a[2]);if(g)var
+j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1827,172 +1907,172 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return rl}function
-ch(d,c,b){var
-a=fK(d,c);return a?i(b,a[1]):a}function
-dK(a,b){return n(function(c){var
-a=s(c,b,0),d=a?1:a;return d},a)}function
-fL(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aR(function(a){return a},f,A,e,d),h=a[2];return[0,A(a[1],c[1]),h,g]}return a}function
-hv(b,a){return b?kv(a,b[1]):a}function
-hw(h,g,b,f){var
-a=s(f,h,0);if(a){var
+m=c;return m}return rJ}function
+cn(d,c,b){var
+a=fY(d,c);return a?i(b,a[1]):a}function
+cJ(a,b){return m(function(c){var
+a=r(c,b,0),d=a?1:a;return d},a)}function
+fZ(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,z,e,d),h=a[2];return[0,z(a[1],c[1]),h,g]}return a}function
+hI(b,a){return b?kQ(a,b[1]):a}function
+hJ(h,g,b,f){var
+a=r(f,h,0);if(a){var
 c=a[1];if(b){var
-i=kv(c,b[1]),e=bg(g);return n(function(a){return H(d,aI(a,i)[1])},e)}return H(d,c[2][1])}return a}function
-kO(f,d,a){function
-c(a){return a2(a,d,R(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),B,g]}return af(B)}function
-fM(b,a){var
-c=s(a[1],b,0);if(c){var
-d=s(a[2],b,0);if(d)var
-e=s(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=kQ(c,b[1]),e=a$(g);return m(function(a){return G(d,aG(a,i)[1])},e)}return G(d,c[2][1])}return a}function
+k_(f,d,a){function
+c(a){return aQ(a,d,Q(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),w,g]}return $(w)}function
+f0(b,a){var
+c=r(a[1],b,0);if(c){var
+d=r(a[2],b,0);if(d)var
+e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-hx(b,a){return W(e(function(a){return s(a,b,0)},a))}function
-ez(c,k,X,D,i,g,j,f,a){switch(f[0]){case
+hK(b,a){return Z(e(function(a){return r(a,b,0)},a))}function
+eL(c,k,X,D,i,h,j,f,a){switch(f[0]){case
 0:var
-s=f[1];if(typeof
+r=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=dK(D,i);if(Y){var
-aD=a[2],aE=a[1],aG=fL(j,af(s));return ch(i,k,function(a){return dD(c,g,aG,aE,aD,a)})}return Y;case
+Y=cJ(D,i);if(Y){var
+aE=a[2],aF=a[1],aH=fZ(j,$(r));return cn(i,k,function(a){return dK(c,h,aH,aF,aE,a)})}return Y;case
 1:var
-Z=dK(D,i);if(Z){var
-aH=a[2],aJ=a[1],aK=fL(j,af(s));return ch(i,X,function(a){return dD(c,g,aK,aJ,aH,a)})}return Z;case
+_=cJ(D,i);if(_){var
+aI=a[2],aJ=a[1],aK=fZ(j,$(r));return cn(i,X,function(a){return dK(c,h,aK,aJ,aI,a)})}return _;case
 2:var
-_=dK(D,i);if(_){if(j)return 0;var
-$=ac(s[1],d),aa=$?ac(s[2],d):$;if(aa){var
-aL=a[2],aM=a[1];return ch(i,k,function(a){return dD(c,g,[0,B,B,0],aM,aL,ks([0,B,B,0],a))})}var
-ab=aa}else
+aa=cJ(D,i);if(aa){if(j)return 0;var
+ab=I(r[1],d),ac=ab?I(r[2],d):ab;if(ac){var
+aL=a[2],aM=a[1];return cn(i,k,function(a){return dK(c,h,[0,w,w,0],aM,aL,kO([0,w,w,0],a))})}var
+ad=ac}else
 var
-ab=_;return ab}return 0;case
+ad=aa;return ad}return 0;case
 1:var
-ad=f[1];if(typeof
+ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hv(j,af(ad));return ch(i,X,function(a){return ho(c,g,aN,a)})}if(!a){var
-aO=hv(j,af(ad));return ch(i,k,function(a){return ho(c,g,aO,a)})}}return 0;case
+aN=hI(j,$(ae));return cn(i,X,function(a){return hx(c,h,aN,a)})}if(!a){var
+aO=hI(j,$(ae));return cn(i,k,function(a){return hx(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-ae=a[1],l=kO(c,ae,a[3]),ag=f[1],aP=a[2];return ch(i,k,function(d){var
-a=kt(g,l),b=a?dD(c,g,fL(j,l),ae,aP,d):a;if(b){var
-f=l[3],h=e(function(a){return v(c,ag,a)},f),i=l[2];return ho(c,g,hv(j,[0,v(c,ag,l[1]),i,h]),d)}return b})}return 0;case
+af=a[1],l=k_(c,af,a[3]),ag=f[1],aP=a[2];return cn(i,k,function(d){var
+a=kP(h,l),b=a?dK(c,h,fZ(j,l),af,aP,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hx(c,h,hI(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hw(i,g,j,f[1]);return 0;case
+a==="number"&&!a)return hJ(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aQ=a[2],aR=a[1],aS=fL(j,af(f[2])),aT=function(a){return dD(c,g,aS,aR,aQ,a)};return ch(i,f[1],aT)}return 0;case
+aR=a[2],aS=a[1],aT=fZ(j,$(f[2])),aU=function(a){return dK(c,h,aT,aS,aR,a)};return cn(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hw(i,g,j,f[1]);case
-2:return hw(i,g,j,f[2])}return 0;case
+0:return hJ(i,h,j,f[1]);case
+2:return hJ(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-E=fM(i,f[1]);if(E){var
-F=fM(i,f[2]);if(F){var
-H=fM(i,f[3]);if(H){var
-I=fM(i,f[4]);if(I){var
-ah=I[1],ai=H[1],aj=F[1],ak=E[1],m=a[2],t=f[5],aU=a[1];if(m){var
-o=m[2];if(o){var
+E=f0(i,f[1]);if(E){var
+G=f0(i,f[2]);if(G){var
+H=f0(i,f[3]);if(H){var
+J=f0(i,f[4]);if(J){var
+ah=J[1],ai=H[1],aj=G[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
+o=n[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aC=[0,m[1],o[1],p[1]],q=kA(function(f){function
-g(a){return a2(a,aU,R(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fx(a),i=G(d[2],h),j=fx(a);return[0,d,[0,aF(d[1],j),i],a]}return af(B)},aC),M=n(function(a){return r(h(a),[0,g])},m),N=M?fG(c,g,j,t,q,ak,ai):M,O=N?fG(c,g,j,t,q,ak,ah):N,P=O?fG(c,g,j,t,q,aj,ai):O;if(P)return fG(c,g,j,t,q,aj,ah);var
-Q=P}else
+aD=[0,n[1],o[1],p[1]],q=kV(function(f){function
+g(a){return aQ(a,aV,Q(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=fI(a),i=C(d[2],h),j=fI(a);return[0,d,[0,aC(d[1],j),i],a]}return $(w)},aD),N=m(function(a){return s(g(a),[0,h])},n),O=N?fR(c,h,j,u,q,ak,ai):N,P=O?fR(c,h,j,u,q,ak,ah):O,R=P?fR(c,h,j,u,q,aj,ai):P;if(R)return fR(c,h,j,u,q,aj,ah);var
+S=R}else
 var
-Q=p;var
-T=Q}else
+S=p;var
+T=S}else
 var
 T=o;var
 U=T}else
 var
-U=m;return U}var
-al=I}else
+U=n;return U}var
+al=J}else
 var
 al=H;var
 am=al}else
 var
-am=F;var
+am=G;var
 an=am}else
 var
 an=E;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aV=f[2],aW=f[1];return ch(i,k,function(e){var
-a=r(h(e),g),d=a?r(h(ao),g):a;if(d){var
+ao=a[2],ap=a[1],aW=f[2],aX=f[1];return cn(i,k,function(e){var
+a=s(g(e),h),d=a?s(g(ao),h):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=r(h(d),g);if(e){var
-i=dG(ap,dH(ap,ao,R(c,b),d));return a9(c,g,bE(fH(c,aW,aV,a[1][2],d),i))}var
+d=a[2],e=s(g(d),h);if(e){var
+i=dO(ap,dP(ap,ao,Q(c,b),d));return a6(c,h,a5(fS(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:af(B);return hl(g,hn(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:$(w);return hu(h,hw(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
-aX=f[3],aY=f[2],aZ=function(d){var
-a=ks([0,B,B,0],d),b=j?j[1]:[0,B,B,0];return dD(c,g,b,aY,aX,a)};return ch(i,f[1],aZ)}return 0;case
+aY=f[3],aZ=f[2],a0=function(d){var
+a=kO([0,w,w,0],d),b=j?j[1]:[0,w,w,0];return dK(c,h,b,aZ,aY,a)};return cn(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-J=hx(i,f[1]);if(J){var
-a0=f[2],K=W(e(function(a){return hx(i,a)},a0));if(K){var
-L=hx(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(L){var
-u=L[1];if(u){var
-w=u[2];if(w){var
-y=w[2];if(y){var
-z=y[2];if(z){if(z[2])return 0;var
-aq=z[1],ar=y[1][2],as=w[1][2],at=u[1][2],au=K[1],a1=J[1],V=kM(c,g,j,au,at,as,function(d){return[0,dE(c,aw(function(b,a){return A(S(c,aI(d,b)),a)},B,a1))]});return V?V:kM(c,g,j,au,at,as,function(f){var
-b=cZ(aq[1]),a=bV(c,C(ar,S(c,b)));if(a){var
-d=bU(c,a[1]),e=C(ar,v(c,b,aI(f,aq)));return x(function(a){return v(c,e,a)},d)}return a})}var
-av=z}else
+K=hK(i,f[1]);if(K){var
+a1=f[2],L=Z(e(function(a){return hK(i,a)},a1));if(L){var
+M=hK(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+v=M[1];if(v){var
+x=v[2];if(x){var
+A=x[2];if(A){var
+B=A[2];if(B){if(B[2])return 0;var
+aq=B[1],as=A[1][2],at=x[1][2],au=v[1][2],av=L[1],a2=K[1],W=k6(c,h,j,av,au,at,function(d){return[0,dL(c,ar(function(b,a){return z(V(c,aG(d,b)),a)},w,a2))]});return W?W:k6(c,h,j,av,au,at,function(f){var
+b=bZ(aq[1]),a=bY(c,F(as,V(c,b)));if(a){var
+d=bX(c,a[1]),e=F(as,t(c,b,aG(f,aq)));return y(function(a){return t(c,e,a)},d)}return a})}var
+aw=B}else
 var
-av=y;var
-ax=av}else
+aw=A;var
+ax=aw}else
 var
-ax=w;var
+ax=x;var
 ay=ax}else
 var
-ay=u;var
+ay=v;var
 az=ay}else
 var
-az=L;var
+az=M;var
 aA=az}else
 var
-aA=K;var
+aA=L;var
 aB=aA}else
 var
-aB=J;return aB}return 0}}function
-kP(a,$,q,l,m,_,g,k,j,f,c){if(9===f[0]){var
-aa=f[2],ab=f[1];if(typeof
+aB=K;return aB}return 0}}function
+k$(a,aa,q,l,n,_,h,k,j,f,c){if(9===f[0]){var
+ac=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-K=c[2],t=c[1],ac=c[3];if(0<aP(c[4]))return ez(a,q,l,m,g,h(k),j,f,c);var
-V=e(af,_),D=bW(0,bY(a,fI(0,k,ab),V),$,0),L=r(h(k),rm),N=L?dK(m,D):L;if(N){var
-u=fK(D,l);if(u){var
-w=fK(g,l);if(w){var
-y=W(e(function(b){var
-c=s(b[1],g,0);if(c)var
-f=b[2][2],a=W(e(function(a){var
-b=s(a[2],g,0);return x(function(b){return[0,a[1],b]},b)},f)),h=a?[0,[0,b[2][1],a[1]]]:a,d=h;else
+K=c[2],u=c[1],ae=c[3];if(0<aJ(c[4]))return eL(a,q,l,n,h,g(k),j,f,c);var
+U=e($,_),D=bi(0,bE(a,fT(0,k,ad),U),aa,0),M=s(g(k),rK),N=M?cJ(n,D):M;if(N){var
+v=fY(D,l);if(v){var
+x=fY(h,l);if(x){var
+A=Z(e(function(b){var
+c=r(b[1],h,0);if(c)var
+f=b[2][2],a=Z(e(function(a){var
+b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
-d=c;return d},aa));if(y){var
-z=kD(u[1]);if(z){var
-O=w[1],ad=y[1],ag=z[1],E=dE(a,aw(function(f,h){function
+d=c;return d},ac));if(A){var
+B=kY(v[1]);if(B){var
+O=x[1],af=A[1],ag=B[1],E=dL(a,ar(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return cd(s(d,c[3],B))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ci(r(d,c[3],w))}function
 c(a){var
-b=i(a,q4),c=bj(i(a,q5),b);return bj(i(a,0),c)}var
+b=i(a,rr),c=bg(i(a,rs),b);return bg(i(a,0),c)}var
 d=c(function(a){var
-c=b(q6,a),d=b(q7,a);return G(G(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,q8),d=b(a,q9);return G(G(b(a,0),d),c)});return A(h,S(a,dE(a,v(a,[0,e,e],g))))},B,ag)),o=a2(ac,t,R(a,b)),F=M(d,C(o,E)[1]),H=F?r(h(K),rd):F,I=H?r(h(O),re):H;if(I){var
-p=bU(a,o);if(p){var
-X=ax(v(a,E,p[1])),Y=C(R(a,b),X),Z=bg(rf);return n(function(h){var
+c=b(rt,a),d=b(ru,a);return C(C(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,rv),d=b(a,rw);return C(C(b(a,0),d),c)});return z(h,V(a,dL(a,t(a,[0,e,e],g))))},w,ag)),o=aQ(ae,u,Q(a,b)),G=L(d,F(o,E)[1]),H=G?s(g(K),rC):G,I=H?s(g(O),rD):H;if(I){var
+p=bX(a,o);if(p){var
+W=at(t(a,E,p[1])),X=F(Q(a,b),W),Y=a$(rE);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return ct(dx(function(d,b){var
-c=cd(aI(h,b[2]));return A(d,v(a,b[1],[0,c,c]))},c,d))},ad),r=i(at(function(a){return aI(h,a)}),O),F=j?aI(h,j[1]):B,M=S(a,Y),s=S(a,o),q=dG(t,dH(t,K,R(a,b),r)),c=bE(as([0,ae(F),0],q_),q);if(g){var
+c=b[2],d=b[1];return cj(bV(function(d,b){var
+c=ci(aG(h,b[2]));return z(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(au(function(a){return aG(h,a)}),O),E=j?aG(h,j[1]):w,M=V(a,X),s=V(a,o),q=dO(u,dP(u,K,Q(a,b),r)),c=a5(as([0,ab(E),0],rx),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-D=d[1],E=g[1],I=f[1],k=a9(a,ra,bE(as([0,ae(s),0],q$),c));if(k)return n(function(B){var
-J=C(M,F),K=B[2]?D:ae(D),L=B[1]?E:ae(E),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a6(a,rz,a5(as([0,ab(s),0],ry),c));if(k)return m(function(D){var
+J=F(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2031,41 +2111,50 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a9(a,rc,k)},rb);var
+k=A;return a6(a,rB,k)},rA);var
 l=k}else
 var
 l=f;var
-m=l}else
+n=l}else
 var
-m=d;var
-p=m}else
+n=d;var
+p=n}else
 var
-p=g;return p},Z)}var
+p=g;return p},Y)}var
 J=p}else
 var
 J=I;return J}var
-P=z}else
+P=B}else
 var
-P=y;var
-Q=P}else
+P=A;var
+R=P}else
 var
-Q=w;var
-T=Q}else
+R=x;var
+S=R}else
 var
-T=u;var
-U=T}else
+S=v;var
+T=S}else
 var
-U=N;return U}return ez(a,q,l,m,g,h(k),j,f,c)}return ez(a,q,l,m,g,h(k),j,f,c)}function
-kQ(d){var
+T=N;return T}return eL(a,q,l,n,h,g(k),j,f,c)}return eL(a,q,l,n,h,g(k),j,f,c)}function
+hL(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(aj(function(b){return function(a){return r(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=U(aj(function(b){return function(a){return s(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-kR(j,b,a){if(a){var
-k=a[1],l=k[2],c=W(e(b,k[1]));if(c){var
+la(j,i,h,g,a){var
+d=r(a,j,0);if(d){var
+b=r(a,i,0);if(b)var
+c=k5(0,g,r(a,h,rL)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+var
+e=b;var
+f=e}else
+var
+f=d;return f}function
+hM(j,b,a){if(a){var
+k=a[1],l=k[2],c=Z(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
-g=s(l,j,0);if(g){var
-h=kR(j,b,a[2]);if(h)var
-m=M(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+g=r(l,j,0);if(g){var
+h=hM(j,b,a[2]);if(h)var
+m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2076,350 +2165,468 @@ var
 p=f;var
 q=p}else
 var
-q=c;return q}return ro}function
-kS(a,P,l,O,t,q,N,y,g,f,k,c){var
-j=h(N),Q=ex(0,N),aN=bW(0,bY(a,Q,e(af,hu(k,0,t))),P,0),S=e(aB,k),aO=0,aP=e(af,t),aQ=bW(rp,function(c){var
-au=bB(aB,c),f=i(bY(a,Q,aP),au);switch(c[0]){case
-1:var
-M=c[1],d=e(function(d){var
-c=r(M,d),e=c?[0,[0,af(R(a,b))]]:c;return e},S);break;case
-3:var
-d=dI(c[1][2],c[2][2]);break;case
-4:var
-N=e(hp,c[2][2]),d=dI(c[1][2],N);break;case
-5:var
-d=e(hp,c[1][2]);break;case
-6:var
-x=c[2],y=c[1],g=y[1],u=0;if(g){var
-h=x[1];if(h)var
-O=x[2],P=g[1],T=e(function(b){return cB(a,P,b)},O),U=y[2],V=h[1],d=dI(e(function(b){return cB(a,V,b)},U),T);else{var
-z=h;u=1}}else{var
-z=g;u=1}if(u)var
-d=z;break;case
-7:var
-v=0;if(f){var
-A=c[2],j=A[1];if(j)var
-W=A[2],X=es(f[1]),Y=e(function(b){return cB(a,X,b)},W),Z=dI(c[1][2],Y),_=j[1],d=e(function(b){return hq(a,_,b)},Z);else{var
-B=j;v=1}}else{var
-B=f;v=1}if(v)var
-d=B;break;case
-8:var
-C=c[1],k=C[1];if(k)var
-$=C[2],aa=k[1],ab=aC(a,fJ(a),aa),d=e(function(b){return cB(a,ab,b)},$);else
-var
-d=k;break;case
-9:if(f)var
-ac=c[1][2],ad=f[1],ae=aC(a,fJ(a),ad),d=e(function(b){return hq(a,ae,b)},ac);else
-var
-d=f;break;case
-10:var
-D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
-m=l[1],n=E[1],K=0;if(n){var
-o=n[1],p=D[1],L=0;if(p){var
-q=j7(a,m,o,p[1]);if(q){var
-G=q[1],s=G[2],t=G[1],ag=E[2],ah=be(o,s),ai=e(function(b){return cB(a,ah,b)},ag),aj=F[2],ak=be(m,t),al=dI(e(function(b){return cB(a,ak,b)},aj),ai),am=e(hp,D[2]),an=fJ(a),ao=dI(e(function(b){return cB(a,an,b)},al),am),ap=c[1]?t:es(s),aq=e(function(b){return cB(a,ap,b)},ao),ar=aC(a,m,s),as=be(aC(a,o,t),ar),at=aC(a,fJ(a),as),d=e(function(b){return hq(a,at,b)},aq);K=1;L=1}else
-var
-H=q}else
-var
-H=p;if(!L)var
-I=H}else
-var
-I=n;if(!K){var
-J=I;w=1}}else{var
-J=l;w=1}if(w)var
-d=J;break;default:var
-d=e(function(a){return 0},S)}return[0,f,d]},P,aO),aR=kJ(k,t);function
-U(c){var
-d=s(c,q,0);if(d){var
-a=s(c,aN,0);if(a)var
-b=kL(0,k,s(c,aQ,rn)),g=b?[0,[0,a[1],b[1]]]:b,e=g;else
-var
-e=a;var
-f=e}else
-var
-f=d;return f}function
-z(b){return e(function(b){return R(a,b)},b)}var
-aS=y?y[1]:af(B);function
-V(b){return b?a9(a,j,b[1]):b}function
-u(f,e,d,c,b){var
-g=as([0,ae(e),0],j);return V(kG(a,z(f),d,c,b,g))}function
-W(y,x,w){var
-A=as([0,x,0],j),q=z(y),c=w,f=A;for(;;){if(c){var
-k=c[1],l=k[1],g=l[2],h=l[1],m=k[2],n=[0,[0,cZ(g),h],f];if(m){var
-o=M(d,g[1]);if(o)var
+q=c;return q}return rM}function
+lb(c,N,j,M,p,o,K,v,f,b,i,a){var
+h=g(K),O=dN(0,K),aI=bi(0,bE(c,O,e($,fV(i,0,p))),N,0),aK=e(ay,i),aJ=0,aL=e($,p),aM=bi(rN,function(a){return kZ(c,O,aL,aK,a)},N,aJ),aN=hF(i,p);function
+P(a){return la(o,aI,aM,i,a)}function
+x(a){return e(function(a){return Q(c,a)},a)}var
+aO=v?v[1]:$(w);function
+S(a){return a?a6(c,h,a[1]):a}function
+q(f,e,d,b,a){var
+g=as([0,ab(e),0],h);return S(k1(c,x(f),d,b,a,g))}function
+T(A,z,y){var
+B=as([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
+k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,bZ(g),i],f];if(m){var
+o=L(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,ax(a[2]),b]},m),t=e(function(a){return B},h),u=[0,dJ(a),t],v=dJ(a),b=ht(a,[0,ae(ep(kF(a,h,q),v,g)),q],u,s,n);else
+b=a[1];return[0,at(a[2]),b]},m),t=e(function(a){return w},i),u=[0,b2(c),t],v=b2(c),a=eK(c,[0,ab(dG(hD(c,i,q),v,g)),q],u,s,n);else
 var
-b=o}else
+a=o}else
 var
-b=[0,n];if(b){var
-i=hk(a,b[1]);if(i){var
-c=c[2],f=i[1];continue}var
-p=i}else
+a=[0,n];if(a){var
+j=fN(c,a[1]);if(j){var
+b=b[2],f=j[1];continue}var
+p=j}else
 var
-p=b;var
+p=a;var
 r=p}else
 var
-r=[0,f];return V(r)}}var
-aT=e(aB,k),X=n(function(a){return bd(a,h(t))},aT),Y=X?kQ(e(aB,k)):X,Z=Y?n(function(a){return r(h(a),j)},c):Y;if(Z){var
-x=0;switch(g[0]){case
+r=[0,f];return S(r)}}var
+aP=e(ay,i),U=m(function(a){return aX(a,g(p))},aP),V=U?hL(e(ay,i)):U,W=V?m(function(a){return s(g(a),h)},a):V;if(W){var
+u=0;switch(f[0]){case
 0:var
-D=g[1],K=0;if(typeof
-f!=="number")switch(f[0]){case
+y=f[1],H=0;if(typeof
+b!=="number")switch(b[0]){case
 0:var
-av=0;if(c){if(c[2])return 0;var
-aU=c[1],aV=f[2],aW=f[1],_=dK(O,q);if(_){var
-o=function(c,a){var
-b=A(D,a);return function(a){return u(aU,b,aW,aV,a)}},m=l;K=1;av=1}else
+aq=0;if(a){if(a[2])return 0;var
+aQ=a[1],aR=b[2],aS=b[1],X=cJ(M,o);if(X){var
+l=function(c,a){var
+b=z(y,a);return function(a){return q(aQ,b,aS,aR,a)}},k=j;H=1;aq=1}else
 var
-ab=_}else
+_=X}else
 var
-ab=c;if(!av)return ab;break;case
+_=a;if(!aq)return _;break;case
 2:var
-ay=0;if(c){if(c[2])return 0;var
-aY=c[1],aZ=f[2],a0=f[1],ad=dK(O,q),az=0;if(ad){if(y)return 0;var
-ag=ac(D[1],d),ah=ag?ac(D[2],d):ag;if(ah){var
-o=function(c,b,a){return u(aY,B,a0,aZ,e(rg,a))},m=l;K=1;ay=1;az=1}else
+au=0;if(a){if(a[2])return 0;var
+aU=a[1],aV=b[2],aW=b[1],aa=cJ(M,o),av=0;if(aa){if(v)return 0;var
+ac=I(y[1],d),ad=ac?I(y[2],d):ac;if(ad){var
+l=function(c,b,a){return q(aU,w,aW,aV,e(k0,a))},k=j;H=1;au=1;av=1}else
 var
-ai=ah}else
+ae=ad}else
 var
-ai=ad;if(!az)var
+ae=aa;if(!av)var
+af=ae}else
+var
+af=a;if(!au)return af;break}if(!H)return 0;break;case
+1:var
+aw=0,aY=f[1];if(typeof
+b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
+aZ=a[1],l=function(c,a){var
+b=F(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
+2:var
+ax=0,a0=f[1];if(typeof
+b==="number"||!(3===b[0]))ax=1;else{var
+az=0;if(a){var
+r=a[2],aA=0;if(r){if(r[2])return 0;var
+ag=b[1],a1=r[1],a2=a[1],a3=b[2],ah=k_(c,ag,b[3]),ai=kP(h,ah);if(ai){var
+l=function(f,b,a){var
+d=aG(f,ah),e=q(a2,z(d,b),ag,a3,a);return e?T(a1,F(t(c,a0,d),b),a):e},k=j;az=1;aA=1}else
+var
 aj=ai}else
 var
-aj=c;if(!ay)return aj;break}if(!K)return 0;break;case
-1:var
-aA=0,a1=g[1];if(typeof
-f==="number"&&!f){if(!c)return c;if(c[2])return 0;var
-a2=c[1],o=function(c,a){var
-b=C(a1,a);return function(a){return W(a2,b,a)}},m=l;aA=1}if(!aA)return 0;break;case
-2:var
-aD=0,a3=g[1];if(typeof
-f==="number"||!(3===f[0]))aD=1;else{var
-aE=0;if(c){var
-w=c[2],aH=0;if(w){if(w[2])return 0;var
-ak=f[1],a4=w[1],a5=c[1],a6=f[2],al=kO(a,ak,f[3]),am=kt(j,al);if(am){var
-o=function(f,c,b){var
-d=aI(f,al),e=u(a5,A(d,c),ak,a6,b);return e?W(a4,C(v(a,a3,d),c),b):e},m=l;aE=1;aH=1}else
+aj=r;if(!aA)var
+ak=aj}else
 var
-an=am}else
-var
-an=w;if(!aH)var
-ao=an}else
-var
-ao=c;if(!aE)return ao}if(aD)return 0;break;case
+ak=a;if(!az)return ak}if(ax)return 0;break;case
 3:var
-aJ=0;if(typeof
-f==="number"&&!f){if(c)return 0;var
-F=g[1];x=1}else
-aJ=1;if(aJ)return 0;break;case
+aB=0;if(typeof
+b==="number"&&!b){if(a)return 0;var
+B=f[1];u=1}else
+aB=1;if(aB)return 0;break;case
 4:var
-aK=0,a8=g[2];if(typeof
-f==="number"||!(0===f[0]))aK=1;else{if(!c)return c;if(c[2])return 0;var
-a_=c[1],a$=f[2],ba=f[1],bb=function(c,a){var
-b=A(a8,a);return function(a){return u(a_,b,ba,a$,a)}},o=bb,m=g[1]}if(aK)return 0;break;case
+aD=0,a7=f[2];if(typeof
+b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
+a8=a[1],a9=b[2],a_=b[1],ba=function(c,a){var
+b=z(a7,a);return function(a){return q(a8,b,a_,a9,a)}},l=ba,k=f[1]}if(aD)return 0;break;case
 5:var
-L=0;if(typeof
-f==="number"&&!(3<=f))switch(f){case
-0:if(c)return 0;var
-F=g[1];x=1;break;case
-2:if(c)return 0;var
-F=g[2];x=1;break;default:L=1}else
-L=1;if(L)return 0;break;case
+J=0;if(typeof
+b==="number"&&!(3<=b))switch(b){case
+0:if(a)return 0;var
+B=f[1];u=1;break;case
+2:if(a)return 0;var
+B=f[2];u=1;break;default:J=1}else
+J=1;if(J)return 0;break;case
 7:var
-ap=g[2],aq=g[1],aL=0;if(typeof
-f==="number"||!(0===f[0]))aL=1;else{var
-aM=0;if(c){if(c[2])return 0;var
-p=f[2],J=f[1],bc=c[1],at=r(h(l),j);if(at){var
-o=function(b,y){var
-A=z(bc);return function(f){var
-k=r(h(f),j),l=k?r(h(p),j):k;if(l){var
-t=e(aB,f),u=dG(J,dH(J,p,dJ(a),t)),w=bE(fH(a,aq,ap,y,e(aB,f)),u),b=0,c=f,g=w,x=h(p);for(;;){if(c){var
-o=c[1][2],q=r(b,aq),s=e(function(f,g){return function(d){var
-b=ar(aG(0,h(p)),p);return e(function(b){var
-c=kH(J,b[2],d[1]);if(g&&r(b[1],f))return C(c,ax(v(a,ap,d[2])));return c},b)}}(b,q),o),n=aG(0,x),i=ht(a,A,e(function(c){return function(b){return r(b,c)?dJ(a):B}}(b),n),s,g);if(i){var
-b=[0,b],c=c[2],g=i[1];continue}var
-d=i}else
+al=f[2],am=f[1],aF=0;if(typeof
+b==="number"||!(0===b[0]))aF=1;else{var
+aH=0;if(a){if(a[2])return 0;var
+n=b[2],E=b[1],bb=a[1],an=s(g(j),h);if(an){var
+l=function(a,y){var
+z=x(bb);return function(f){var
+k=s(g(f),h),l=k?s(g(n),h):k;if(l){var
+r=e(ay,f),u=dO(E,dP(E,n,b2(c),r)),v=a5(fS(c,am,al,y,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+o=b[1][2],p=s(a,am),q=e(function(f,h){return function(d){var
+a=ao(aE(0,g(n)),n);return e(function(a){var
+b=k3(E,a[2],d[1]);if(h&&s(a[1],f))return F(b,at(t(c,al,d[2])));return b},a)}}(a,p),o),j=eK(c,z,k2(c,a,w),q,i);if(j){var
+a=[0,a],b=b[2],i=j[1];continue}var
+d=j}else
 var
-d=[0,g];if(d)return a9(a,j,d[1]);var
+d=[0,i];if(d)return a6(c,h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},m=l;aM=1}else
+m=l;return m}},k=j;aH=1}else
 var
-au=at}else
+ap=an}else
 var
-au=c;if(!aM)return au}if(aL)return 0;break;default:return 0}if(x){var
-I=U(F);if(!I)return I;var
-a7=function(b,f,a){return n(function(a){var
-b=f[2],c=a[2],e=aw(function(b,a){return G(bj(d,T(b[2][1])),a)},d,c);return H(d,aF(aF(a[1][2][1],e),b))},a)},aa=a7,$=[0,[0,0,I[1]],0]}else{var
-E=kR(q,U,m);if(!E)return E;var
-aa=o,$=E[1]}var
-aX=bg(j);return n(function(b){var
-c=e(function(c){return kK(a,b,aR,c)},$);return Fh(aa,b,aI(b,aS),c)},aX)}return Z}function
-fN(b,a){if(a){var
-c=a[2];if(b){var
-e=fN(b[1],c);return[0,a[1],e]}var
-d=[0,0,c]}else
+ap=a;if(!aH)return ap}if(aF)return 0;break;default:return 0}if(u){var
+D=P(B);if(!D)return D;var
+a4=function(b,f,a){return m(function(a){var
+b=f[2],c=a[2],e=ar(function(b,a){return C(bg(d,R(b[2][1])),a)},d,c);return G(d,aC(aC(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,D[1]],0]}else{var
+A=hM(o,P,k);if(!A)return A;var
+Z=l,Y=A[1]}var
+aT=a$(h);return m(function(a){var
+b=e(function(b){return hG(c,a,aN,b)},Y);return gO(Z,a,aG(a,aO),b)},aT)}return W}function
+lc(a,W,y,V,p,o,T,x,n,h,l,i,S,aA,R,P){var
+k=g(T),X=dN(0,T),aB=bi(0,bE(a,X,e($,fV(l,0,p))),W,0),aD=e(ay,l),aC=0,aF=e($,p),aH=bi(rO,function(b){return kZ(a,X,aF,aD,b)},W,aC),aI=hF(l,p);function
+aJ(a){return la(o,aB,aH,l,a)}var
+aK=x?x[1]:$(w),v=ar(function(b,a){return bg(cc(b),a)},d,i);function
+M(a){if(a){if(I(cc(a[1]),v))return 0;var
+b=[0,M(a[2])]}else
 var
-d=a;return d}function
-hy(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-kT(j,d,i,a,h){var
+b=a;return b}var
+N=M(i);if(I(v,d))var
+aw=e(function(a){return w},i),ax=i?[0,b,i[2]]:i,A=[0,[0,[0,0,ax],d],aw];else
+var
+O=hn(C(ke(v),b)),az=e(function(a){return w},i),A=[0,[0,[0,N,i],O],cH(w,N,Q(a,ex(c(2,b),O)),az)];var
+Y=A[1],Z=Y[1],D=Z[2],f=Z[1],_=A[2],aL=Y[2],j=e(function(c){return aQ(c,aL,Q(a,b))},D);function
+aa(h){var
+i=0,c=aE(0,k),d=ar(function(c,b){var
+d=cI(a,f,j,k2(a,c,k));return a5(b,hB(a,ab(h),d))},i,c),g=cI(a,f,j,e(function(b){return Q(a,B(R,b))},aA));return a5(d,fX(a,cI(a,f,j,e(function(c){return aQ(c,C(P,b),b2(a))},S)),g))}function
+ac(b){return b?a6(a,k,b[1]):b}function
+E(u,i,t,s){var
+c=t,b=s,d=aa(ab(u));for(;;){if(c&&b){var
+k=b[1],l=k[1],g=c[1],m=cI(a,f,j,e(function(b){return aQ(b,i,b2(a))},g)),o=cj(l[2]),p=cI(a,f,j,dJ(i,l[1],o,g)),q=a5(d,fX(a,e(at,m),p)),r=k[2],h=eK(a,_,m,e(function(c){return function(b){return cI(a,f,j,e(at,dJ(i,b[1],b[2],c)))}}(g),r),q);if(h){var
+c=c[2],b=b[2],d=h[1];continue}var
+n=h}else
+var
+n=[0,d];return ac(n)}}var
+aM=e(ay,l),ad=m(function(a){return aX(a,g(p))},aM),ae=ad?hL(e(ay,l)):ad,af=ae?s(g(D),k):ae,ag=af?s(g(S),k):af,ah=ag?G(d,R):ag,ai=ah?kb(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aX(f,k):ai,ak=aj?U(I(r(f,D,d),d)):aj;if(ak){switch(n[0]){case
+0:var
+H=n[1],K=0;if(typeof
+h==="number")K=1;else
+switch(h[0]){case
+0:var
+aN=h[2],aO=h[1],am=cJ(V,o);if(!am)return am;var
+u=function(a){var
+b=z(H,a);return function(a){return E(b,aO,aN,a)}},q=y;break;case
+2:var
+aS=h[2],aT=h[1],an=cJ(V,o),as=0;if(an){if(x)return 0;var
+ao=I(H[1],d),ap=ao?I(H[2],d):ao;if(ap){var
+u=function(b,a){return E(w,aT,aS,e(k0,a))},q=y;as=1}else
+var
+aq=ap}else
+var
+aq=an;if(!as)return aq;break;default:K=1}if(K)return 0;break;case
+1:var
+au=0,aU=n[1];if(typeof
+h==="number"&&!h)var
+u=function(b){var
+G=F(aU,b);return function(F){var
+i=F,h=aa(G);for(;;){if(i){var
+n=i[1],o=n[1],k=o[2],p=n[2],b=cI(a,f,j,o[1]);if(p){var
+q=L(d,k[1]);if(q)var
+C=b2(a),c=bZ(ab(dG(r(f,b,w),C,k))),l=bZ(k),v=cH(w,f,c,0),x=r(f,b,w),y=a5(h,fX(a,v,cH(w,f,z(at(t(a,c,l)),x),b))),A=r(f,b,w),B=[0,[0,l,cH(w,f,z(t(a,c,l),A),b)],y],D=e(function(d){return function(b){var
+c=cI(a,f,j,b[1]);return k9(a,f,d,[0,at(b[2]),c])}}(c),p),E=e(function(a){return w},b),g=eK(a,[0,w,_],k9(a,f,c,[0,b2(a),E]),D,B);else
+var
+g=q}else
+var
+g=[0,[0,[0,bZ(k),b],h]];if(g){var
+m=fN(a,g[1]);if(m){var
+i=i[2],h=m[1];continue}var
+s=m}else
+var
+s=g;var
+u=s}else
+var
+u=[0,h];return ac(u)}}},q=y;else
+au=1;if(au)return 0;break;case
+4:var
+av=0,aV=n[2];if(typeof
+h==="number"||!(0===h[0]))av=1;else
+var
+aW=h[2],aY=h[1],aZ=function(a){var
+b=z(aV,a);return function(a){return E(b,aY,aW,a)}},u=aZ,q=n[1];if(av)return 0;break;default:return 0}var
+J=hM(o,aJ,q);if(J){var
+aP=J[1],aR=a$(k);return m(function(b){var
+c=e(function(c){return hG(a,b,aI,c)},aP);return al(u,aG(b,aK),c)},aR)}return J}return ak}function
+ld(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
+c!=="number"&&10===c[0]){var
+a=c[3],s=c[2],b=c[1];if(typeof
+b!=="number"&&5===b[0]){if(a){if(a[2])return 0;var
+t=b[2],f=i(x,e);if(f){var
+u=G(d,t);if(u){var
+y=a[1],z=b[1];return lc(r,q,p,o,n,m,e,[0,hy(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
+v=u}else
+var
+v=f;var
+w=v}else
+var
+w=a;return w}return a?a[2]?0:lc(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
+le(l,k,j,p,h,g,o,f,b,e,a){if(typeof
+a!=="number")switch(a[0]){case
+5:var
+q=a[2],m=i(o,b);if(m){var
+r=G(d,q);if(r){var
+y=a[1];return k$(l,k,j,p,h,g,f,b,[0,hy(q,a[3],m[1])],e,y)}var
+s=r}else
+var
+s=m;return s;case
+10:var
+t=a[3],u=a[2],c=a[1];if(typeof
+c!=="number"&&5===c[0]){var
+v=c[2],n=i(o,b);if(n){var
+w=G(d,v);if(w){var
+z=c[1];return lb(l,k,j,h,g,f,b,[0,hy(v,c[3],n[1])],e,z,u,t)}var
+x=w}else
+var
+x=n;return x}return lb(l,k,j,h,g,f,b,0,e,c,u,t)}return k$(l,k,j,p,h,g,f,b,0,e,a)}function
+hN(a){return 9===a[0]?0:1}function
+dR(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+hO(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
 switch(b[0]){case
+11:var
+b=b[3];continue;case
 1:break;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=hy(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=dR(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
 6:var
-m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return w(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
+m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return x(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
-n=a[2],o=w(function(a){var
-b=e(aQ,a[2][2]);return[0,a[1],b]},n);return f(hy(d),o);case
+n=a[2],o=x(function(a){var
+b=e(aT,a[2][2]);return[0,a[1],b]},n);return f(dR(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(en(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(eB(a[2]),p);return f(a[1],q);case
 4:case
-8:return hy(a[1]);default:return g}}}function
-kU(p,j,o,C,m,l,W,B,b,A,V){if(A){var
-r=kN(p,j,l,hg(w(function(c){var
-a=c[2];if(typeof
-a==="number"){var
-d=4!==a?1:0;if(!d)return d}var
-b=E(W,c[1]);return b?kT(o,C,m,b[1],a):b},A),j),b),k=A,g=V;for(;;){if(k){var
-Q=k[1],a=Q[2],x=Q[1],R=k[2];if(typeof
-a==="number"&&4===a){var
-v=i(B,b);if(v)var
-aa=v[1],Z=bg(h(b)),y=n(function(b){return function(a){return M(aI(a,b)[2],d)}}(aa),Z);else
-var
-y=v;if(y){var
-k=R,g=e(function(a){return 0},g);continue}return y}var
-S=s(x,g,0);if(S){var
-z=E(W,x);if(z){var
-q=z[1],D=0;if(typeof
-a==="number")D=1;else
-switch(a[0]){case
+8:return dR(a[1]);default:return g}}}function
+lf(o,n,l,k,j,a,e,i){var
+g=hN(a),h=g?m(function(b){var
+a=r(b,bV(fW,e,j),w);return I(a[1],a[2])},i):g;return h?m(function(T){switch(a[0]){case
+3:var
+e=[0,a[1],0];break;case
+4:var
+e=dR(a[1]);break;case
 5:var
-G=a[2],t=i(B,b),X=0;if(t){var
-I=H(d,G);if(I){var
-_=a[1],c=kP(p,j,o,C,m,l,r,b,[0,ku(G,a[3],t[1])],q,_);X=1}else
+e=[0,a[1],[0,a[2],0]];break;case
+6:case
+8:case
+9:case
+10:return 0;default:var
+e=0}var
+g=0,h=bi(0,function(a){switch(a[0]){case
+1:var
+M=a[1],N=aj(function(a){return s(M,a)},T)?b:d;return[0,N];case
+5:return a[1];case
+6:var
+i=a[1];if(i)var
+j=a[2],P=j?[0,C(i[1],j[1])]:j,y=P;else
 var
-J=I}else
+y=i;return y;case
+7:var
+k=a[1];if(k)var
+l=a[2],Q=l?[0,aC(k[1],l[1])]:l,z=Q;else
 var
-J=t;if(!X)var
-c=J;break;case
+z=k;return z;case
+8:var
+m=a[1];if(m)var
+A=m[1],B=[0,C(A,A)];else
+var
+B=m;return B;case
+9:var
+n=a[1];if(n){var
+e=n[1],r=aJ(e);if(0===r)var
+f=1;else
+if(0<r)var
+f=G(e,b)?0:I(aS(e,aB(2))[2],d)?1:0;else
+var
+t=R(e),f=G(t,b)?0:I(aS(t,aB(2))[2],d)?1:0;var
+S=f?[0,cg(e,c(2,b))]:f,D=S}else
+var
+D=n;return D;case
 10:var
-K=a[3],L=a[2],f=a[1],F=0;if(typeof
-f!=="number"&&5===f[0]){var
-N=f[2],u=i(B,b),Y=0;if(u){var
-O=H(d,N);if(O){var
-$=f[1],c=kS(p,j,o,m,l,r,b,[0,ku(N,f[3],u[1])],q,$,L,K);F=1;Y=1}else
+o=a[2];if(o){var
+p=a[3];if(p){var
+q=a[4];if(q)var
+E=I(o[1],d),F=E?I(p[1],d):E,H=F?I(q[1],d):F,J=H?[0,d]:H;else
 var
-P=O}else
+J=q;var
+K=J}else
 var
-P=u;if(!Y){var
-c=P;F=1}}if(!F)var
-c=kS(p,j,o,m,l,r,b,0,q,f,L,K);break;default:D=1}if(D)var
-c=kP(p,j,o,C,m,l,r,b,0,q,a);if(c){var
-k=R,g=fN(x,g);continue}var
-T=c}else
+K=p;var
+L=K}else
 var
-T=z;var
-U=T}else
+L=o;return L;case
+3:case
+4:var
+g=a[1];if(g){var
+h=a[2];if(h)var
+u=g[1],v=I(u,h[1]),O=v?[0,u]:v,w=O;else
 var
-U=S;return U}return[0,g]}}return[0,V]}function
-fO(j,i,h,g,f,e,d,c,u,t,s){var
-b=u,k=t,a=s;for(;;){if(0===a[0]){var
-l=kU(j,i,h,g,f,e,d,c,b,a[1],k);return l?n(_,l[1]):l}var
-m=kU(j,i,h,g,f,e,d,c,b,a[1],k);if(m){var
-o=m[1],p=ey(a[2],b),q=fO(j,i,h,g,f,e,d,c,p[1],o,a[3]);if(q){var
-b=p[2],k=o,a=a[4];continue}var
-r=q}else
+w=h;var
+x=w}else
 var
-r=m;return r}}function
-hz(a){return e(function(a){return 1},a)}function
-dL(a,d,b,c){function
+x=g;return x;default:return[0,d]}},o,g),i=f(dR(l),e),j=f(k,f(dR(n),i));return m(function(c){var
+a=r(c,h,0);if(a){var
+b=aJ(a[1]);return 0===b?1:0<b?0:0}return a},j)},e):h}function
+lg(j,a,i,h,g,f,e,d,c,b){var
+k=fH(hO(i,h,g,c,b),a);return hH(j,a,bV(fW,e,f),k,d)}function
+f1(b,a){if(a){var
+c=a[2];if(b){var
+e=f1(b[1],c);return[0,a[1],e]}var
+d=[0,0,c]}else
+var
+d=a;return d}function
+eM(k,a,c,j,b,p,o,h,f,T,l){switch(l[0]){case
+0:var
+$=function(a){return m(U,a)},H=$,y=l[1];break;case
+1:var
+aa=l[4],ab=l[3],ac=l[2],ad=function(d){var
+e=cF(ac,f),g=eM(k,a,c,j,b,p,o,h,e[1],d,ab);return g?eM(k,a,c,j,b,p,o,h,e[2],d,aa):g},H=ad,y=l[1];break;default:var
+ae=l[4],af=l[3],ag=l[2],ah=function(d){var
+n=ao(p,d),e=m(function(a){var
+b=hN(a[1]);return b?b:U(a[2])},n);if(e){var
+g=cF(ag,h),i=eM(k,a,c,j,b,p,o,g[1],f,d,af);if(i)return eM(k,a,c,j,b,p,o,g[2],f,d,ae);var
+l=i}else
+var
+l=e;return l},H=ah,y=l[1]}if(y){var
+S=hH(k,a,h,fH(x(function(f){var
+a=f[2],e=0;if(typeof
+a==="number"){if(4!==a)e=1}else
+if(11!==a[0])e=1;if(e){var
+d=D(p,f[1]);return d?hO(c,j,b,d[1],a):d}return 0},y),a),f),v=y,q=T;for(;;){if(v){var
+N=v[1],n=N[2],E=N[1],O=v[2],V=0;if(typeof
+n==="number"&&4===n){var
+A=i(o,f);if(A)var
+X=A[1],W=a$(g(f)),F=m(function(b){return function(a){return L(aG(a,b)[2],d)}}(X),W);else
+var
+F=A;if(F){var
+v=O,q=e(function(a){return 0},q);continue}var
+u=F}else
+V=1;if(V){var
+P=r(E,q,0);if(P){var
+G=D(p,E);if(G){var
+w=G[1],I=0;if(typeof
+n==="number")I=1;else
+switch(n[0]){case
+11:var
+J=n[3],B=n[1],K=lf(a,c,j,b,h,w,B,n[2]);if(K)var
+Y=lg(k,a,c,j,b,h,B,f,w,J),t=le(k,a,c,j,b,bV(fW,B,h),o,Y,f,w,J);else
+var
+t=K;break;case
+12:var
+C=n[1],M=U(s(g(C),0));if(M)var
+z=e(function(a){return a[1][1][1]},C),Z=z?k8(z[1],z):z,_=ao(Z,C),t=m(function(g){return function(r){var
+s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
+d!=="number"&&11===d[0]){var
+p=d[3],i=d[1],q=lf(a,c,j,b,h,g,i,d[2]);if(q){var
+t=e[2],u=e[1],v=lg(k,a,c,j,b,h,i,f,g,p);return ld(k,a,c,b,bV(fW,i,h),o,v,f,g,u,t,m,n,p)}return q}return ld(k,a,c,b,h,o,S,f,g,e[1],e[2],m,n,d)}}(w),_);else
+var
+t=M;break;default:I=1}if(I)var
+t=le(k,a,c,j,b,h,o,S,f,w,n);if(t){var
+v=O,q=f1(E,q);continue}var
+Q=t}else
+var
+Q=G;var
+R=Q}else
+var
+R=P;var
+u=R}}else
+var
+u=[0,q];break}}else
+var
+u=[0,T];return u?H(u[1]):u}function
+hP(h,g,f,e,d,c,b,a){return function(i,j,k){return eM(h,g,f,e,d,b,a,c,i,j,k)}}function
+hQ(a){return e(function(a){return 1},a)}function
+dS(a,d,b,c){function
 f(d,c){var
-f=ar(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return y(q(d,a[1]),b)},f)}if(ay(a[2],b[2])){var
+f=ao(a[1],b[1]);return e(function(a){var
+b=q(c,a[2]);return A(q(d,a[1]),b)},f)}if(az(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
 h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-kV(a){var
+lh(a){var
 c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-aW(a,l){var
+aZ(a,l){var
 f=l[1];switch(f[0]){case
 1:var
-v=f[1];if(aj(function(a){return r(v,a)},a)){var
+u=f[1];if(aj(function(a){return s(u,a)},a)){var
 C=k(b);return[0,e(function(a){var
-c=r(a,v)?b:d;return k(c)},a),C]}return kV(a);case
+c=s(a,u)?b:d;return k(c)},a),C]}return lh(a);case
 3:var
-D=k(b),E=aW(a,f[2]),F=k(b);return dL(aW(a,f[1]),F,E,D);case
+D=k(b),E=aZ(a,f[2]),F=k(b);return dS(aZ(a,f[1]),F,E,D);case
 4:var
-G=k(T(b)),H=aW(a,f[2]),I=k(b);return dL(aW(a,f[1]),I,H,G);case
+G=k(R(b)),H=aZ(a,f[2]),I=k(b);return dS(aZ(a,f[1]),I,H,G);case
 5:var
-w=aW(a,f[1]),J=w[2];return[0,e(bo,w[1]),J];case
+w=aZ(a,f[1]),J=w[2];return[0,e(bq,w[1]),J];case
 6:var
-x=f[2],y=f[1],K=aW(a,x);return dL(aW(a,y),x,K,y);case
+x=f[2],y=f[1],K=aZ(a,x);return dS(aZ(a,y),x,K,y);case
 7:var
-z=f[2],L=bo(l),M=aW(a,z),N=k(b),i=dL(aW(a,f[1]),N,M,L),O=i[1];if(n(function(a){return aV(d,a)},O))return i;var
+z=f[2],L=bq(l),M=aZ(a,z),N=k(b),i=dS(aZ(a,f[1]),N,M,L),O=i[1];if(m(function(a){return aY(d,a)},O))return i;var
 P=q(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=aW(a,A),Q=B[2],R=B[1],S=q(k(c(2,b)),A);return[0,e(function(a){return q(S,a)},R),Q];case
+A=f[1],B=aZ(a,A),Q=B[2],S=B[1],T=q(k(c(2,b)),A);return[0,e(function(a){return q(T,a)},S),Q];case
 9:var
-j=aW(a,f[1]),U=j[1];if(n(function(a){return aV(d,a)},U)){var
+j=aZ(a,f[1]),U=j[1];if(m(function(a){return aY(d,a)},U)){var
 V=k(b);return[0,j[1],V]}var
 W=q(k(c(2,b)),l),X=q(j[2],W);return[0,j[1],X];case
 10:var
-m=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,m]],p=[0,[10,1,h,g,m]],Y=u(g,p),Z=aW(a,g),_=u(h,o),$=dL(aW(a,h),_,Z,Y),aa=k(T(b)),ab=aW(a,m),s=dL($,k(c(2,b)),ab,aa),ac=s[1],ad=f[1]?o:bo(p),t=e(function(a){return q(ad,a)},ac);if(n(function(a){return aV(d,a)},t))return[0,t,s[2]];var
-ae=q(h,p),af=u(q(g,o),ae),ag=q(k(c(2,b)),af);return[0,t,q(s[2],ag)];default:return kV(a)}}function
-kW(c,a){var
-b=aW(c,a),f=b[1];return e(function(a){return aV(d,a)?a:ah(a,b[2])},f)}function
-cC(n,r){var
-h=n[1],e=h[2],f=h[1];if(0===f[0]){var
-i=f[2],c=f[1];if(H(i,b))if(0===e[0]){var
-j=e[2],o=e[1];if(H(j,b)){var
-l=ac(c,o),m=l?eq(c):l;if(m)var
-p=ac(n[2],d),g=p||ac(c,d);else
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],p=[0,[10,1,h,g,n]],Y=v(g,p),Z=aZ(a,g),_=v(h,o),$=dS(aZ(a,h),_,Z,Y),aa=k(R(b)),ab=aZ(a,n),r=dS($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bq(p),t=e(function(a){return q(ad,a)},ac);if(m(function(a){return aY(d,a)},t))return[0,t,r[2]];var
+ae=q(h,p),af=v(q(g,o),ae),ag=q(k(c(2,b)),af);return[0,t,q(r[2],ag)];default:return lh(a)}}function
+li(c,a){var
+b=aZ(c,a),f=b[1];return e(function(a){return aY(d,a)?a:ah(a,b[2])},f)}function
+lj(g){var
+h=g[1],c=h[2],e=h[1];if(0===e[0]){var
+i=e[2],a=e[1];if(G(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(G(j,b)){var
+k=I(a,m),l=k?eD(a):k;if(l)var
+n=I(g[2],d),f=n||I(a,d);else
 var
-g=m;var
-q=g?[0,c]:g,a=q}else
-var
-a=ac(a1(j,aO(2))[2],d)?0:0}else
-var
-a=0;else
-var
-a=ac(a1(i,aO(2))[2],d)?0:0}else
-var
-a=0;return a?k(a[1]):[0,[1,r]]}function
-ci(b,a){if(a)var
-d=ci([0,b],a[2]),c=[0,cC(a[1],b),d];else
+f=l;var
+o=f?[0,a]:f;return o}return I(aS(j,aB(2))[2],d)?0:0}return 0}return I(aS(i,aB(2))[2],d)?0:0}return 0}function
+cK(c,b){var
+a=lj(c);return a?k(a[1]):[0,[1,b]]}function
+co(b,a){if(a)var
+d=co([0,b],a[2]),c=[0,cK(a[1],b),d];else
 var
 c=a;return c}function
-aX(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-fP(b,d,a){switch(a[0]){case
+a0(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+f2(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(aX(c[3],b),g),i=f(aX(c[2],b),h);return f(aX(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a0(c[3],b),g),i=f(a0(c[2],b),h);return f(a0(c[1],d),i);case
 1:var
-e=a[3],j=e?aX(e[1],d):e,k=f(aX(a[2],b),j);return f(aX(a[1],b),k);default:return aX(a[1],d)}}function
+e=a[3],j=e?a0(e[1],d):e,k=f(a0(a[2],b),j);return f(a0(a[1],b),k);default:return a0(a[1],d)}}function
 ag(b,a){var
-c=k(d),e=s(O(rq,a),b,c),f=k(d),g=s(O(rr,a),b,f);return[0,s(a,b,k(d)),g,e]}function
-kX(b,a){return $(u,$(y,c2,a),b)}function
-fQ(c,b,a){if(a){var
-e=a[2],g=fQ(c,bl(b),e),h=a[1];return f(fP(c,bA(d,b),h),g)}return a}function
-hA(f,e,c,j){if(c){var
-b=c[1],v=O(j,h(fP(f,bA(d,e),b))),w=c[2],x=hA(f,bl(e),w,v),a=ci(j,fP(f,bA(d,e),b));switch(b[0]){case
+c=k(d),e=r(P(rP,a),b,c),f=k(d),g=r(P(rQ,a),b,f);return[0,r(a,b,k(d)),g,e]}function
+lk(b,a){return ac(v,ac(A,c7,a),b)}function
+f3(c,b,a){if(a){var
+e=a[2],g=f3(c,bo(b),e),h=a[1];return f(f2(c,bC(d,b),h),g)}return a}function
+hR(f,e,c,j){if(c){var
+b=c[1],v=P(j,g(f2(f,bC(d,e),b))),w=c[2],x=hR(f,bo(e),w,v),a=co(j,f2(f,bC(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=s(rs,a,k(d)),o=$(y,c2,ag(a,rt)),p=c1(ag(a,0)),q=ag(a,ru),g=kw(kX(ag(a,rv),q),p,o,n,m);break;case
+m=b[1][5],n=r(rR,a,k(d)),o=ac(A,c7,ag(a,rS)),p=c6(ag(a,0)),q=ag(a,rT),h=kR(lk(ag(a,rU),q),p,o,n,m);break;case
 1:var
-i=b[3],r=i?[0,c1(ag(a,rw))]:i,t=$(y,c2,ag(a,rx)),u=ag(a,ry),g=kx(kX(ag(a,0),u),t,r);break;default:var
-g=ky(c2,c1(ag(a,0)))}var
-l=[0,g,x]}else
+i=b[3],s=i?[0,c6(ag(a,rV))]:i,t=ac(A,c7,ag(a,rW)),u=ag(a,rX),h=kS(lk(ag(a,0),u),t,s);break;default:var
+h=kT(c7,c6(ag(a,0)))}var
+l=[0,h,x]}else
 var
 l=c;return l}function
-bG(c,a){if(typeof
+bI(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2428,7 +2635,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dA(a[2]),l=[2,[2,dA(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=dF(a[2]),l=[2,[2,dF(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2445,218 +2652,218 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],c]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-eA(b,a){var
+eN(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dM(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(eA(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=eA(c,a[3]);return f(eA(c,a[2]),j)}function
-c3(b,a){if(typeof
+dT(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(eN(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=eN(c,a[3]);return f(eN(c,a[2]),j)}function
+c8(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dM(b,a[2]);return f(dM(b,a[1]),h);case
+h=dT(b,a[2]);return f(dT(b,a[1]),h);case
 11:var
-i=eA(b,a[3]);return f(eA(b,a[2]),i);case
+i=eN(b,a[3]);return f(eN(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-kY(c,b,a){var
-d=h(c3(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
-hB(c,b){if(ay(b,c))return[0,k(d)];var
+ll(c,b,a){var
+d=g(c8(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
+hS(c,b){if(az(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
-e=ay(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-kZ(z,p,a,o){switch(o[0]){case
+e=az(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+lm(y,p,a,o){switch(o[0]){case
 0:var
-h=E(z,o[1]);if(h){var
+h=D(y,o[1]);if(h){var
 j=h[1];if(j){var
-q=j[1],r=q[1],c=r[2],e=r[1],t=q[2],A=ag(a,rz),B=$(y,$(u,e,aS(ah(s(rA,a,k(d)),t),c)),A),C=ag(a,rB),f=ah(s(0,a,k(d)),t),l=hB(e[1],c[1]);if(l){var
-m=hB(e[2],c[2]);if(m){var
-n=hB(e[3],c[3]);if(n)var
-x=aS(f,c),g=$(y,[0,l[1],m[1],n[1]],x);else
+q=j[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ag(a,rY),B=ac(A,ac(v,e,aU(ah(r(rZ,a,k(d)),t),c)),z),C=ag(a,r0),f=ah(r(0,a,k(d)),t),l=hS(e[1],c[1]);if(l){var
+m=hS(e[2],c[2]);if(m){var
+n=hS(e[3],c[3]);if(n)var
+x=aU(f,c),g=ac(A,[0,l[1],m[1],n[1]],x);else
 var
-g=$(u,e,aS(u(k(b),f),c))}else
+g=ac(v,e,aU(v(k(b),f),c))}else
 var
-g=$(u,e,aS(u(k(b),f),c))}else
+g=ac(v,e,aU(v(k(b),f),c))}else
 var
-g=$(u,e,aS(u(k(b),f),c));var
-v=[0,[0,$(y,g,C),B]]}else
+g=ac(v,e,aU(v(k(b),f),c));var
+u=[0,[0,ac(A,g,C),B]]}else
 var
-v=j;var
-w=v}else
+u=j;var
+w=u}else
 var
 w=h;return w;case
 1:var
-D=ag(a,rC);return[0,[0,ag(a,0),D]];default:var
-F=i(p,ag(a,rD));return[0,[0,i(p,ag(a,0)),F]]}}function
-k0(e,d,c,h,g){var
-a=kZ(e,d,bn(rE,c),h);if(a)var
-b=kZ(e,d,bT(rF,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+E=ag(a,r1);return[0,[0,ag(a,0),E]];default:var
+F=i(p,ag(a,r2));return[0,[0,i(p,ag(a,0)),F]]}}function
+ln(e,d,c,h,g){var
+a=lm(e,d,bp(r3,c),h);if(a)var
+b=lm(e,d,bW(r4,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-k1(g,c,d,b,a){var
-h=dM(c,a),i=ci(d,f(dM(c,b),h));function
-j(a){return $(y,c2,a)}return k0(e(function(a){var
-b=a[7];return x(function(b){var
-c=cA(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-c4(d,c,b,a){var
-e=q(c,b);return u(q(d,a),e)}function
-bH(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-k2(b,a){if(b)if(a)var
-d=b[1],e=k2(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bF(d[1]),f],e];else
+lo(g,c,d,b,a){var
+h=dT(c,a),i=co(d,f(dT(c,b),h));function
+j(a){return ac(A,c7,a)}return ln(e(function(a){var
+b=a[7];return y(function(b){var
+c=cE(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+c9(d,c,b,a){var
+e=q(c,b);return v(q(d,a),e)}function
+bJ(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+lp(b,a){if(b)if(a)var
+d=b[1],e=lp(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bH(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-k3(a){if(a){var
+lq(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=k3(a[2]);if(d)var
-g=d[1],h=P(c,c),e=[0,[0,[0,bF(c),h],g]];else
+c=b[1],d=lq(a[2]);if(d)var
+g=d[1],h=S(c,c),e=[0,[0,[0,bH(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return rH}function
-eB(b,d,c,a){if(typeof
+f=b;return f}return r6}function
+eO(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cC(bG(d,a),i);return[0,e(function(a){var
-b=q(a[2],j);return[0,bF(a[1]),b]},b)];case
-9:return k3(b);case
+i=c[1],j=cK(bI(d,a),i);return[0,e(function(a){var
+b=q(a[2],j);return[0,bH(a[1]),b]},b)];case
+9:return lq(b);case
 15:var
-k=h(b),f=r(h(a[1]),k);if(f)var
-l=c3(d,a),g=[0,k2(b,ci(c[2],l))];else
+k=g(b),f=s(g(a[1]),k);if(f)var
+l=c8(d,a),h=[0,lp(b,co(c[2],l))];else
 var
-g=f;return g}return 0}function
-fR(e,l,j,a){var
-R=j[1],c=cC(bG(l,a),R),v=0;if(typeof
-a==="number")v=1;else
+h=f;return h}return 0}function
+f4(e,l,j,a){var
+Q=j[1],c=cK(bI(l,a),Q),u=0;if(typeof
+a==="number")u=1;else
 switch(a[0]){case
 2:var
-S=function(a){return[0,u(a[4],c),0]},g=S,f=a[1];break;case
+R=function(a){return[0,v(a[4],c),0]},g=R,f=a[1];break;case
 3:var
-T=function(a){return[0,u(c,a[4]),0]},g=T,f=a[1];break;case
+T=function(a){return[0,v(c,a[4]),0]},g=T,f=a[1];break;case
 4:var
 U=function(b){var
-a=b[1],d=L(a[3]),e=L(a[2]),f=L(a[1]),g=b[2];return[0,u(u(u(q(L(c),g),f),e),d),0]},g=U,f=a[1];break;case
+a=b[1],d=N(a[3]),e=N(a[2]),f=N(a[1]),g=b[2];return[0,v(v(v(q(N(c),g),f),e),d),0]},g=U,f=a[1];break;case
 6:var
 V=function(b){var
 a=b[5];if(a)var
-e=L(a[1]),f=q(L(c),e),d=[0,u(b[2],f),0];else
+e=N(a[1]),f=q(N(c),e),d=[0,v(b[2],f),0];else
 var
 d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-z=n[1],A=m[1],B=e[1],h=z[1],i=A[1],p=B[1],K=c4(i[1],i[2],h[1],h[2]),M=q(p[3],K),N=c4(i[1],i[3],h[1],h[3]),O=q(p[2],N),Q=c4(i[2],i[3],h[2],h[3]),x=y(u(q(p[1],Q),O),M),W=cA(z),X=cA(A),C=q(q(q(c,cA(B)),X),W),Y=[0,bo(y(x,C)),0],D=[0,u(x,C),Y]}else
+y=n[1],z=m[1],B=e[1],h=y[1],i=z[1],p=B[1],K=c9(i[1],i[2],h[1],h[2]),L=q(p[3],K),M=c9(i[1],i[3],h[1],h[3]),O=q(p[2],M),P=c9(i[2],i[3],h[2],h[3]),w=A(v(q(p[1],P),O),L),W=cE(y),X=cE(z),C=q(q(q(c,cE(B)),X),W),Y=[0,bq(A(w,C)),0],E=[0,v(w,C),Y]}else
 var
-D=n;var
-F=D}else
+E=n;var
+F=E}else
 var
 F=m;var
 G=F}else
 var
 G=e;return G;case
 10:var
-t=k1(e,l,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return w(bF,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=lo(e,l,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return x(bH,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=c3(l,a),f=ci(j[2],n),h=ag(f,rG),b=$(u,ag(f,0),h),i=L(c),k=L(cA(d)),m=ah(L(P(b,d[1])),k),g=[0,u(u(P(b,b),m),i),0];else
+n=c8(l,a),f=co(j[2],n),h=ag(f,r5),b=ac(v,ag(f,0),h),i=N(c),k=N(cE(d)),m=ah(N(S(b,d[1])),k),g=[0,v(v(S(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),r=c3(l,a),t=s(0,ci(j[2],r),p),f=ah(t,cA(e)),g=e[5];if(g){var
-m=az(e[2]),h=ah(g[1],m),n=q(h,y(c,q(f,L(h))));return[0,u(k(b),n),0]}var
-i=e[7],o=i?[0,u(u(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=k(d),s=c8(l,a),t=r(0,co(j[2],s),p),f=ah(t,cE(e)),g=e[5];if(g){var
+m=aA(e[2]),h=ah(g[1],m),n=q(h,A(c,q(f,N(h))));return[0,v(k(b),n),0]}var
+i=e[7],o=i?[0,v(v(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=eB(e,l,j,a);return r?bH(r[1]):r;default:v=1}if(v)return 0;var
-o=E(e,f);return o?g(o[1]):o}function
-hC(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hC(d,b,kY(b,e,c),g);return f(fR(d,b,c,e),h)}return a}var
-k4=[0,d,b],k5=[0,[0,k4,k4],d];function
-fS(a){return _(cg(a[1][1],a[1][2]))}function
-k6(a){var
-b=aG(0,h(a));return bm(function(b){return fS(s(b,a,k5))},b)}function
-fT(a,b){var
-c=kW(k6(a),b),e=ar(k6(a),c);return bm(function(a){return _(aV(d,a[2]))},e)}function
-k7(b,a){var
+s=eO(e,l,j,a);return s?bJ(s[1]):s;default:u=1}if(u)return 0;var
+o=D(e,f);return o?g(o[1]):o}function
+hT(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=hT(d,b,ll(b,e,c),g);return f(f4(d,b,c,e),h)}return a}var
+lr=[0,d,b],ls=[0,[0,lr,lr],d];function
+hU(a){return U(cm(a[1][1],a[1][2]))}function
+lt(a){var
+b=aE(0,g(a));return bh(function(b){return hU(r(b,a,ls))},b)}function
+f5(a,b){var
+c=li(lt(a),b),e=ao(lt(a),c);return bh(function(a){return U(aY(d,a[2]))},e)}function
+lu(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-k8(m,l,f,k,j,a){var
-d=fT(f,a);return W(e(function(e){var
-a=s(e[1],f,k5),g=aF(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=ak(m,[0,[0,d,d],g]);return x(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-k9(g,f,n,m,l,e,c){var
+lv(m,l,f,k,j,a){var
+d=f5(f,a);return Z(e(function(e){var
+a=r(e[1],f,ls),g=aC(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=ak(m,[0,[0,d,d],g]);return y(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+lw(g,f,n,m,l,e,c){var
 h=[5,l,e],a=ak(g,[0,[0,h,h],d]);if(a){var
-b=k8(g,f,n,m,e,c);if(b)var
+b=lv(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-k_(c,F,l,am,k,j,m,s){if(s){var
-a=s[1],aH=s[2],aI=k_(c,F,l,am,k,j,kY(j,a,m),aH);if(typeof
+lx(c,F,l,am,k,j,n,r){if(r){var
+a=r[1],aH=r[2],aI=lx(c,F,l,am,k,j,ll(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
-f=[0,[0,B]];else
+f=[0,[0,w]];else
 var
-ao=F[2],ap=F[1],aq=ew(k),f=[0,[8,i(at(l),aq),ap,ao]];else
+ao=F[2],ap=F[1],aq=eJ(k),f=[0,[8,i(au(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ar=ak(c,bG(j,a)),f=x(function(a){return[0,S(c,a)]},ar);break;case
+ar=ak(c,bI(j,a)),f=y(function(a){return[0,V(c,a)]},ar);break;case
 1:var
-as=ak(c,bG(j,a)),f=x(function(a){return[1,S(c,a)]},as);break;case
+as=ak(c,bI(j,a)),f=y(function(a){return[1,V(c,a)]},as);break;case
 5:var
-av=ak(c,bG(j,a)),f=x(function(a){return[2,S(c,a)]},av);break;case
+av=ak(c,bI(j,a)),f=y(function(a){return[2,V(c,a)]},av);break;case
 8:var
-aw=eB(k,j,m,a),f=x(function(a){var
-d=R(c,b);return[4,i(at(l),a),d]},aw);break;case
+aw=eO(k,j,n,a),f=y(function(a){var
+d=Q(c,b);return[4,i(au(l),a),d]},aw);break;case
 9:var
-v=eB(k,j,m,a);if(v){var
-w=ak(c,bG(j,a));if(w)var
-ax=S(c,w[1]),ay=v[1],L=[0,[4,i(at(l),ay),ax]];else
+v=eO(k,j,n,a);if(v){var
+x=ak(c,bI(j,a));if(x)var
+ax=V(c,x[1]),ay=v[1],L=[0,[4,i(au(l),ay),ax]];else
 var
-L=w;var
+L=x;var
 M=L}else
 var
 M=v;var
 f=M;break;case
 10:var
-y=k1(k,j,m[2],a[1],a[2]);if(y){var
-N=y[1],O=N[2],P=N[1],z=ak(c,bG(j,a));if(z){var
-Q=z[1],T=H(d,Q[1]);if(T)var
-p=function(a){return k7(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),U=[0,[6,p(P[1]),aB,aA,az,Q]];else
+z=lo(k,j,n[2],a[1],a[2]);if(z){var
+N=z[1],O=N[2],P=N[1],A=ak(c,bI(j,a));if(A){var
+R=A[1],S=G(d,R[1]);if(S)var
+p=function(a){return lu(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),T=[0,[6,p(P[1]),aB,aA,az,R]];else
 var
-U=T;var
-V=U}else
+T=S;var
+U=T}else
 var
-V=z;var
-X=V}else
+U=A;var
+W=U}else
 var
-X=y;var
-f=X;break;case
+W=z;var
+f=W;break;case
 12:var
-q=fR(k,j,m,a),t=0;if(q)if(q[2])var
+q=f4(k,j,n,a),t=0;if(q)if(q[2])var
 f=0;else{var
-Y=g(c,0,a[2]),Z=Y?g(c,1,a[4]):Y;if(Z){var
-A=[0,[3,i(l,q[1])]];t=1}else{var
-A=Z;t=1}}else{var
-A=q;t=1}if(t)var
-f=A;break;case
+X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
+B=[0,[3,i(l,q[1])]];t=1}else{var
+B=Y;t=1}}else{var
+B=q;t=1}if(t)var
+f=B;break;case
 13:var
-_=a[1],$=E(k,_),G=0;if($){var
-aa=g(c,1,a[2]),ab=aa?g(c,1,a[3]):aa;if(ab)var
-aC=ak(c,bG(j,a)),f=x(function(a){return[7,_,S(c,a)]},aC);else{var
-ac=ab;G=1}}else{var
-ac=$;G=1}if(G)var
+_=a[1],$=D(k,_),H=0;if($){var
+aa=h(c,1,a[2]),ab=aa?h(c,1,a[3]):aa;if(ab)var
+aC=ak(c,bI(j,a)),f=y(function(a){return[7,_,V(c,a)]},aC);else{var
+ac=ab;H=1}}else{var
+ac=$;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=r(h(k),rI),ag=af?g(c,0,ae):af,ah=ag?g(c,1,ad):ag;if(ah){var
-C=ak(c,bG(j,a));if(C)var
-D=W(e(function(a){return k9(c,l,am,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
+ad=a[2],ae=a[1],af=s(g(k),r7),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=ak(c,bI(j,a));if(C)var
+E=Z(e(function(a){return lw(c,l,am,j,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2664,35 +2871,35 @@ var
 aj=ah;var
 f=aj;break;case
 15:var
-aE=[0,a[2],a[1]],aF=1,al=n(function(a){return g(c,aF,a)},aE);if(al)var
-aG=eB(k,j,m,a),f=x(function(a){var
-d=R(c,b);return[4,i(at(l),a),d]},aG);else
+aE=[0,a[2],a[1]],aF=1,al=m(function(a){return h(c,aF,a)},aE);if(al)var
+aG=eO(k,j,n,a),f=y(function(a){var
+d=Q(c,b);return[4,i(au(l),a),d]},aG);else
 var
 f=al;break;default:var
-o=fR(k,j,m,a),I=0;if(o){var
+o=f4(k,j,n,a),I=0;if(o){var
 u=o[2],J=o[1];if(u)if(u[2])var
 f=0;else
 var
-au=i(l,u[1]),f=[0,[5,i(l,J),au]];else{var
+at=i(l,u[1]),f=[0,[5,i(l,J),at]];else{var
 K=[0,[3,i(l,J)]];I=1}}else{var
 K=o;I=1}if(I)var
 f=K}var
 an=[0,f,aI]}else
 var
-an=s;return an}function
-rJ(a){var
+an=r;return an}function
+r8(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dN(a){if(0===a[0])return a[1];var
+dU(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-k$(a,c,g,b){if(0===c[0])return 0;if(b){var
+ly(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cy(a,g,c[1]);if(i){var
-j=cy(a,g,c[2]);if(j){var
-k=cy(a,g,c[3]);if(k)var
-t=i[1],u=bZ(f),l=C([0,bZ(f),u],t),w=j[1],x=bZ(e),m=C([0,bZ(e),x],w),y=dF(e),z=[0,dF(e),y],D=[0,v(a,ae(A(m,m)),z),0],E=dF(f),F=[0,dF(f),E],G=[0,v(a,ae(A(l,l)),F),D],H=S(a,m),I=S(a,l),n=[0,[0,C(C(S(a,k[1]),I),H),B,G]];else
+e=d[1],f=b[1],i=cC(a,g,c[1]);if(i){var
+j=cC(a,g,c[2]);if(j){var
+k=cC(a,g,c[3]);if(k)var
+u=i[1],v=b1(f),l=F([0,b1(f),v],u),x=j[1],y=b1(e),m=F([0,b1(e),y],x),A=dM(e),B=[0,dM(e),A],C=[0,t(a,ab(z(m,m)),B),0],D=dM(f),E=[0,dM(f),D],G=[0,t(a,ab(z(l,l)),E),C],H=V(a,m),I=V(a,l),n=[0,[0,F(F(V(a,k[1]),I),H),w,G]];else
 var
 n=k;var
 o=n}else
@@ -2710,14 +2917,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-fU(a,p,o){var
-q=aX(p,o),b=e(function(b){return ak(a,b)},q);if(b){var
+f6(a,p,o){var
+q=a0(p,o),b=e(function(b){return ak(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=S(a,i[1]),s=S(a,h[1]);return M(d,A(A(S(a,g[1]),s),r)[1])}var
+r=V(a,i[1]),s=V(a,h[1]);return L(d,z(z(V(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2733,153 +2940,153 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-Z(c,b,a){var
-d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
-ap(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
-F(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aD(a){return ap([5,[0,b,b],[6,F(a,a)]],a)}function
-cD(c,b,a){var
-d=bf(c,b[1],a);return d?bf(c,a,b[2]):d}function
-a_(c,b,a){var
-d=cD(c,b[1],a[1]),e=d?cD(c,b[2],a[2]):d;return e?cD(c,b[3],a[3]):e}function
-la(b,c,a){switch(c[0]){case
+aa(c,b,a){var
+d=al(c,b[3],a[3]),e=al(c,b[2],a[2]);return[0,al(c,b[1],a[1]),e,d]}function
+aq(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+H(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
+aH(a){return aq([5,[0,b,b],[6,H(a,a)]],a)}function
+cL(c,b,a){var
+d=bk(c,b[1],a);return d?bk(c,a,b[2]):d}function
+bb(c,b,a){var
+d=cL(c,b[1],a[1]),e=d?cL(c,b[2],a[2]):d;return e?cL(c,b[3],a[3]):e}function
+lz(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=a_(b,d[1],f),l=k?g(b,1,F(f,f)):k,m=l?a_(b,d[2],a[2]):l,n=m?a_(b,d[3],a[3]):m,o=n?cD(b,d[4],j):n,p=o?g(b,1,j):o;return p?ca(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bb(b,d[1],f),l=k?h(b,1,H(f,f)):k,m=l?bb(b,d[2],a[2]):l,n=m?bb(b,d[3],a[3]):m,o=n?cL(b,d[4],j):n,p=o?h(b,1,j):o;return p?ce(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=a_(b,c[1],a[1]),s=r?a_(b,c[2],a[2]):r;if(s){if(q){if(e){var
-h=e[1],t=a_(b,q[1],h);if(t)return g(b,1,F(h,h));var
+e=a[3],r=bb(b,c[1],a[1]),s=r?bb(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bb(b,q[1],g);if(t)return h(b,1,H(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=a_(b,c[1],i);return w?g(b,1,F(i,i)):w}return 0}}function
-c5(c,a,b){if(0===a[0])return a_(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],h=g(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=h?g(c,0,d):h;return i?cD(c,a[4],b[3]):i}function
-lb(g,f,i,h){var
+i=a[1],w=bb(b,c[1],i);return w?h(b,1,H(i,i)):w}return 0}}function
+c_(c,a,b){if(0===a[0])return bb(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cL(c,a[4],b[3]):i}function
+lA(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=la(g,b[1],a[1]);if(d){var
+d=lz(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?c5(g,f[2],h):c}}function
-a4(c,b,a){var
-d=Z(function(b,a){return[2,b,a]},a,b);return Z(function(b,a){return[3,b,a]},d,c)}function
-eC(a,e,d,c){var
-b=a4(e,d,c),f=aD(a),g=ap(F(aD(a),b),f);return Z(function(b,a){return[3,b,a]},b,g)}function
-cE(f,e,d,a,c){var
-b=eC(f,e,d,c);return[3,[4,a,a],F(b,b)]}function
-c6(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-b0(a,c){switch(a[0]){case
+c=a?0:1;return c?c_(g,f[2],h):c}}function
+a7(c,b,a){var
+d=aa(function(b,a){return[2,b,a]},a,b);return aa(function(b,a){return[3,b,a]},d,c)}function
+eP(a,e,d,c){var
+b=a7(e,d,c),f=aH(a),g=aq(H(aH(a),b),f);return aa(function(b,a){return[3,b,a]},b,g)}function
+cM(f,e,d,a,c){var
+b=eP(f,e,d,c);return[3,[4,a,a],H(b,b)]}function
+c$(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b3(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eC(d,f,e,c),h=cE(d,f,e,a[4],c),i=ap([5,[0,b,b],c6(a[5],h)],g),j=aD(d);return Z(function(b,a){return[2,b,a]},j,i);case
-1:return aD(a4(a[1],a[2],c));default:return aD(a[1])}}function
-cj(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eP(d,f,e,c),h=cM(d,f,e,a[4],c),i=aq([5,[0,b,b],c$(a[5],h)],g),j=aH(d);return aa(function(b,a){return[2,b,a]},j,i);case
+1:return aH(a7(a[1],a[2],c));default:return aH(a[1])}}function
+cp(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aD(c),g=cE(c,e,d,a[4],b),h=ap(c6(a[5],g),f),i=eC(c,e,d,b);return Z(function(b,a){return[2,b,a]},i,h);case
-1:return a4(a[1],a[2],b);default:return aD(a[1])}}function
-hD(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aH(c),g=cM(c,e,d,a[4],b),h=aq(c$(a[5],g),f),i=eP(c,e,d,b);return aa(function(b,a){return[2,b,a]},i,h);case
+1:return a7(a[1],a[2],b);default:return aH(a[1])}}function
+hV(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cE(e,d,c,a[4],b),i=c6(a[5],h),j=a4(d,c,b);return[3,F(aD(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cM(e,d,c,a[4],b),i=c$(a[5],h),j=a7(d,c,b);return[3,H(aH(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a4(g,f,b);return[6,F(a4(g,f,b),k)];default:return F(aD(a[1]),b)}}function
-lc(a,b){switch(a[0]){case
-0:return[0,cE(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=a7(g,f,b);return[6,H(a7(g,f,b),k)];default:return H(aH(a[1]),b)}}function
+lB(a,b){switch(a[0]){case
+0:return[0,cM(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a4(d,c,b);return[0,F(a4(d,c,b),e)];default:return 0}}function
-eD(e,c,a){var
-f=[0,d,b];return aw(function(b,d){var
-e=F(b0(b,c),a);return[2,[4,F(b0(b,c),a),e],d]},f,e)}function
-ld(f,e,c,a){if(f){if(e){var
-g=e[1],h=ld(f[2],e[2],c,a),i=F(b0(g,c),a),j=[4,F(b0(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-le(a){var
+c=a[2],d=a[1],e=a7(d,c,b);return[0,H(a7(d,c,b),e)];default:return 0}}function
+eQ(e,c,a){var
+f=[0,d,b];return ar(function(b,d){var
+e=H(b3(b,c),a);return[2,[4,H(b3(b,c),a),e],d]},f,e)}function
+lC(f,e,c,a){if(f){if(e){var
+g=e[1],h=lC(f[2],e[2],c,a),i=H(b3(g,c),a),j=[4,H(b3(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+lD(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-hE(a,c){switch(a[0]){case
+hW(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a4(e,d,c);return[6,F(a4(e,d,c),f)];default:return[0,b,b]}}function
-lf(d,i){if(d){var
+d=a[2],e=a[1],f=a7(e,d,c);return[6,H(a7(e,d,c),f)];default:return[0,b,b]}}function
+lE(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a4(a[1],a[2],i),k=aD(f),l=ap(F(aD(f),g),k),h=[0,Z(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=a7(a[1],a[2],i),k=aH(f),l=aq(H(aH(f),g),k),h=[0,aa(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=lf(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=lE(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return rK}function
-cF(a){return[0,a[1],a[2],a[3]]}function
-lg(a,b){switch(a[0]){case
+j=b;return j}return r9}function
+cN(a){return[0,a[1],a[2],a[3]]}function
+lF(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aD(d),j=cE(d,g,c,f,b),k=ap(c6(a[5],j),i),l=eC(d,g,c,b),m=Z(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,Z(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aH(d),j=cM(d,g,c,f,b),k=aq(c$(a[5],j),i),l=eP(d,g,c,b),m=aa(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a4(a[1],h,b),n=[6,F(e,e)];return[0,[0,[0,Z(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-lh(m,e,a){switch(a[0]){case
+h=a[2],e=a7(a[1],h,b),n=[6,H(e,e)];return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+lG(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=E(m,a[1]);if(c){var
+n=a[5],c=D(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=cF(n),c=ap(a,o),d=Z(function(b,a){return[3,b,a]},p,c);return Z(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+b=cN(n),c=aq(a,o),d=aa(function(b,a){return[3,b,a]},p,c);return aa(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=cF(a[3]);return[0,[0,cF(a[2]),r]];default:var
-s=i(e,cF(a[3]));return[0,[0,i(e,cF(a[2])),s]]}}function
-li(d,a,c,b){var
-e=ap(a,b),f=ap([3,d,a],c);return Z(function(b,a){return[2,b,a]},f,e)}function
-lj(a,l,c,k,j,x){var
+r=cN(a[3]);return[0,[0,cN(a[2]),r]];default:var
+s=i(e,cN(a[3]));return[0,[0,i(e,cN(a[2])),s]]}}function
+lH(d,a,c,b){var
+e=aq(a,b),f=aq([3,d,a],c);return aa(function(b,a){return[2,b,a]},f,e)}function
+lI(a,l,c,k,j,x){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],h=c[2],b=c[3],y=li(b,h,n[1],n[2]),z=li(b,f,m[1],m[2]),o=Z(function(b,a){return[3,b,a]},z,y),A=dA(j),p=[4,b,[2,[2,dA(k),A],x]],q=g(a,1,b),r=q?g(a,0,f):q,s=r?g(a,0,[3,b,f]):r,t=s?g(a,0,h):s,u=t?g(a,0,[3,b,h]):t;if(u)return g(a,1,[3,[4,p,p],F(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],y=lH(b,g,n[1],n[2]),z=lH(b,f,m[1],m[2]),o=aa(function(b,a){return[3,b,a]},z,y),A=dF(j),p=[4,b,[2,[2,dF(k),A],x]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],H(o,o)]);var
 v=u}else
 var
 v=e;var
 w=v}else
 var
 w=d;return w}function
-lk(d,c,b,a,i,h,f,e){var
-j=g(d,1,b),k=j?g(d,1,a):j;if(k){var
-l=an(c,f,f),m=[4,[4,a,a],[4,an(c,h,h),l]];return g(d,1,[3,[4,[4,[4,b,b],[4,i,i]],an(c,e,e)],m])}return k}function
-ll(i,h,c,f,x,a){function
-R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],F(f,f)]}var
+lJ(d,c,b,a,i,g,f,e){var
+j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
+l=al(c,f,f),m=[4,[4,a,a],[4,al(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],al(c,e,e)],m])}return k}function
+lK(i,g,c,f,x,a){function
+R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],H(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aG=eD(h,c,f);return g(i,1,[3,R(a[1]),aG]);case
+aF=eQ(g,c,f);return h(i,1,[3,R(a[1]),aF]);case
 1:var
-aH=R(a[1]);return g(i,1,[3,eD(h,c,f),aH]);case
+aG=R(a[1]);return h(i,1,[3,eQ(g,c,f),aG]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,hD(a,c)]},z=aJ,y=a[1];break;case
+aI=a[2],aJ=function(a){return[3,aI,hV(a,c)]},z=aJ,y=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,hD(a,c),aK]},z=aL,y=a[1];break;case
+aK=a[2],aL=function(a){return[3,hV(a,c),aK]},z=aL,y=a[1];break;case
 4:var
 S=a[3],T=a[2],aM=function(a){var
-b=b0(a,c);return[3,[4,[4,T,T],F(b0(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
+b=b3(a,c);return[3,[4,[4,T,T],H(b3(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
 5:var
-U=a[1],aN=F(f,f),aO=[4,[4,U,U],[4,eD(h,c,x),aN]],aP=F(x,x);return g(i,1,[3,[4,eD(h,c,f),aP],aO]);case
+U=a[1],aN=H(f,f),aO=[4,[4,U,U],[4,eQ(g,c,x),aN]],aP=H(x,x);return h(i,1,[3,[4,eQ(g,c,f),aP],aO]);case
 6:var
-V=a[2],B=E(h,a[1]);if(B){var
+V=a[2],B=D(g,a[1]);if(B){var
 k=B[1];if(0===k[0]){var
-C=k[4],aQ=cE(k[1],k[2],k[3],C,c),W=c6(k[5],aQ);return g(i,1,[3,[4,[4,V,C],[4,V,C]],[4,W,W]])}var
+C=k[4],aQ=cM(k[1],k[2],k[3],C,c),W=c$(k[5],aQ);return h(i,1,[3,[4,[4,V,C],[4,V,C]],[4,W,W]])}var
 X=0}else
 var
 X=B;return X;case
-7:if(h){var
-p=h[2];if(p){var
+7:if(g){var
+p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Y=q[1],_=p[1],$=h[1],aR=hE(Y,c),aS=hE(_,c),aT=hE($,c),aa=[4,[4,[4,a[1],aT],aS],aR],l=cj(Y,c),m=cj(_,c),aU=cj($,c),O=F(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=g(i,1,[3,aa,O]);if(ab)return g(i,1,[2,aa,O]);var
+Y=q[1],Z=p[1],_=g[1],aR=hW(Y,c),aS=hW(Z,c),aT=hW(_,c),$=[4,[4,[4,a[1],aT],aS],aR],l=cp(Y,c),m=cp(Z,c),aU=cp(_,c),O=H(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=h(i,1,[3,$,O]);if(ab)return h(i,1,[2,$,O]);var
 ac=ab}else
 var
 ac=q;var
@@ -2888,97 +3095,97 @@ var
 ad=p;var
 ae=ad}else
 var
-ae=h;return ae;case
+ae=g;return ae;case
 8:var
-aV=eD(h,c,f),aW=F(f,f);return g(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
+aV=eQ(g,c,f),aW=H(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
-af=a[1],D=lf(h,c);if(D){var
-aX=D[1],az=[0,d,b],aA=aw(function(a,b){var
-c=F(aD(a),f);return[2,[4,F(aD(a),f),c],b]},az,aX);return g(i,1,[3,[4,[4,af,af],F(f,f)],aA])}return D;case
+af=a[1],E=lE(g,c);if(E){var
+aX=E[1],az=[0,d,b],aA=ar(function(a,b){var
+c=H(aH(a),f);return[2,[4,H(aH(a),f),c],b]},az,aX);return h(i,1,[3,[4,[4,af,af],H(f,f)],aA])}return E;case
 10:var
-aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return Z(aB,c,a)},aE=e(function(a){return lg(a,c)},h);return lj(i,function(a){return lh(aE,aC,a)},f,a0,aZ,aY);case
+aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return aa(aB,c,a)},aD=e(function(a){return lF(a,c)},g);return lI(i,function(a){return lG(aD,aC,a)},f,a0,aZ,aY);case
 11:var
-ag=a[4],G=E(h,a[1]);if(G){var
-H=lg(G[1],c);if(H){var
-n=H[1][1][2],a1=cF(a[3]),a2=cF(a[2]),r=Z(function(b,a){return[3,b,a]},a2,a1),ah=g(i,1,F(n,n));if(ah){var
-a3=F(n,n),a5=F(r,n),a6=[5,[4,F(r,n),a5],a3];return g(i,1,[3,[4,ag,ag],[3,F(r,r),a6]])}var
+ag=a[4],F=D(g,a[1]);if(F){var
+G=lF(F[1],c);if(G){var
+n=G[1][1][2],a1=cN(a[3]),a2=cN(a[2]),r=aa(function(b,a){return[3,b,a]},a2,a1),ah=h(i,1,H(n,n));if(ah){var
+a3=H(n,n),a4=H(r,n),a5=[5,[4,H(r,n),a4],a3];return h(i,1,[3,[4,ag,ag],[3,H(r,r),a5]])}var
 ai=ah}else
 var
-ai=H;var
+ai=G;var
 aj=ai}else
 var
-aj=G;return aj;case
+aj=F;return aj;case
 12:var
-o=a[3],s=a[2],I=E(h,a[1]);if(I){var
-j=I[1],ak=g(i,0,s),al=ak?g(i,0,o):ak;if(al){var
-a7=a[4];switch(j[0]){case
+o=a[3],s=a[2],I=D(g,a[1]);if(I){var
+j=I[1],ak=h(i,0,s),al=ak?h(i,0,o):ak;if(al){var
+a6=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cE(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],w=[5,v,[6,cM(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-P=j[2],Q=j[1],aF=a4(Q,P,c),J=[2,s,[5,[4,o,o],[6,F(a4(Q,P,c),aF)]]];break;default:var
+P=j[2],Q=j[1],aE=a7(Q,P,c),J=[2,s,[5,[4,o,o],[6,H(a7(Q,P,c),aE)]]];break;default:var
 J=s}var
-K=g(i,1,[3,J,a7])}else
+K=h(i,1,[3,J,a6])}else
 var
-K=al;if(K){if(2===j[0])return g(i,1,F(f,f));var
+K=al;if(K){if(2===j[0])return h(i,1,H(f,f));var
 am=1}else
 var
 am=K;var
 an=am}else
 var
 an=I;return an;case
-13:if(h){var
-t=h[2];if(t){var
+13:if(g){var
+t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ao=u[1],aq=t[1],ar=h[1],as=a[1],L=E([0,f[1],[0,f[2],[0,f[3],0]]],as);if(L){var
-M=E([0,ar,[0,aq,[0,ao,0]]],as);if(M){var
-at=M[1],a8=cj(at,c),a9=b0(at,c),a_=cj(ao,c),a$=ap(f[3],a_),ba=cj(aq,c),bb=ap(f[2],ba),bc=cj(ar,c),bd=ap(f[1],bc),be=Z(function(b,a){return[2,b,a]},bd,bb),bf=Z(function(b,a){return[2,b,a]},be,a$);return lk(i,F,a[2],a[3],L[1],bf,a9,a8)}var
-au=M}else
+ao=u[1],ap=t[1],as=g[1],at=a[1],L=D([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
+M=D([0,as,[0,ap,[0,ao,0]]],at);if(M){var
+au=M[1],a8=cp(au,c),a9=b3(au,c),a_=cp(ao,c),a$=aq(f[3],a_),ba=cp(ap,c),bb=aq(f[2],ba),bc=cp(as,c),bd=aq(f[1],bc),be=aa(function(b,a){return[2,b,a]},bd,bb),bf=aa(function(b,a){return[2,b,a]},be,a$);return lJ(i,H,a[2],a[3],L[1],bf,a9,a8)}var
+av=M}else
 var
-au=L;var
-av=au}else
+av=L;var
+aw=av}else
 var
-av=u;var
-ax=av}else
+aw=u;var
+ax=aw}else
 var
 ax=t;var
 ay=ax}else
 var
-ay=h;return ay;case
+ay=g;return ay;case
 15:var
-bg=ld(a[1],h,c,f),bh=F(f,f);return g(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-A=E(h,y);return A?g(i,1,z(A[1])):A}function
-bp(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-lm(a){switch(a[0]){case
+bg=lC(a[1],g,c,f),bh=H(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+A=D(g,y);return A?h(i,1,z(A[1])):A}function
+br(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+lL(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=bp(b[3]),f=bp(b[2]);return[0,bp(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=br(b[3]),f=br(b[2]);return[0,br(b[1]),f,e,d,c];case
 1:var
-g=x(bp,a[3]),h=bp(a[2]);return[1,bp(a[1]),h,g];default:return[2,bp(a[1])]}}function
-hF(a){return 0===a[0]?bp(a[1]):[0,a[1],a[2],a[4][1]]}function
-ln(b,a){var
-c=hF(a[2]);return lb(b,a,e(lm,a[1]),c)}function
-lo(b,a,c){var
-d=[0,c,bT(b,a)];return f(bn(b,a),d)}function
-bq(c,a){if(c){if(a){var
-e=bq(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-lp(e,c,a){if(e){if(c){var
-f=c[1],g=lp(e[2],c[2],a),h=bq(f,a),i=[4,bq(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-lq(b,a){if(b){if(a){var
-c=b[1],e=lq(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aR(function(a){return[4,c,a]},h,g,f,e)}var
+g=y(br,a[3]),h=br(a[2]);return[1,br(a[1]),h,g];default:return[2,br(a[1])]}}function
+hX(a){return 0===a[0]?br(a[1]):[0,a[1],a[2],a[4][1]]}function
+lM(b,a){var
+c=hX(a[2]);return lA(b,a,e(lL,a[1]),c)}function
+lN(b,a,c){var
+d=[0,c,bW(b,a)];return f(bp(b,a),d)}function
+bs(c,a){if(c){if(a){var
+e=bs(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+lO(e,c,a){if(e){if(c){var
+f=c[1],g=lO(e[2],c[2],a),h=bs(f,a),i=[4,bs(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+lP(b,a){if(b){if(a){var
+c=b[1],e=lP(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-lr(a){if(a){var
+lQ(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=lr(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rM}function
-hG(a){if(a){var
+c=b[1],d=lQ(a[2]);return y(function(a){return[0,c,a]},d)}return b}return r$}function
+hY(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hG(a[2]);return x(function(a){return[0,c,a]},d)}return b}return rN}function
-ls(a,l,k,f){var
-b=aH(a,l);if(b){var
-c=aH(a,k);if(c){var
-d=cz(a,f);if(d){var
-e=fB(a,f);if(e)var
-m=v(a,b[1],e[1]),g=[0,C(v(a,c[1],d[1]),m)];else
+c=b[1],d=hY(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sa}function
+lR(a,l,k,f){var
+b=aK(a,l);if(b){var
+c=aK(a,k);if(c){var
+d=cD(a,f);if(d){var
+e=fM(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -2990,72 +3197,72 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-lt(a){return a?M(a[1][2],d):a}function
-dO(a){return a?M(d,a[1][1]):a}function
-lu(d,a){return g(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-lv(f,z,l,y,a,j){function
-aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bq(a,a)]}var
+lS(a){return a?L(a[1][2],d):a}function
+dV(a){return a?L(d,a[1][1]):a}function
+lT(d,a){return h(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+lU(f,z,l,y,a,j){function
+aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bs(a,a)]}var
 bB=l[1];function
 A(c){var
-a=[0,d,b];return aw(function(a,b){var
-d=bq(a,c);return[2,[4,bq(a,c),d],b]},a,bB)}function
+a=[0,d,b];return ar(function(a,b){var
+d=bs(a,c);return[2,[4,bs(a,c),d],b]},a,bB)}function
 af(f,e){var
-a=E(l[1],f);if(a){var
-b=a[1],c=r(h(b),z);if(c)return i(e,b);var
+a=D(l[1],f);if(a){var
+b=a[1],c=s(g(b),z);if(c)return i(e,b);var
 d=c}else
 var
 d=a;return d}var
-aX=n(function(c){var
+aX=m(function(c){var
 b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=rO;break;case
+a=sb;break;case
 13:case
 14:var
-a=rP;break;default:b=1}if(b)var
-a=z;return r(h(c),a)},a);if(aX){var
-s=0;if(typeof
-j==="number")s=1;else
+a=sc;break;default:b=1}if(b)var
+a=z;return s(g(c),a)},a);if(aX){var
+r=0;if(typeof
+j==="number")r=1;else
 switch(j[0]){case
 0:if(a){if(a[2])return 0;var
-aZ=a[1],bC=A(aZ);return g(f,1,[3,aW(j[1],aZ),bC])}return a;case
+aZ=a[1],bC=A(aZ);return h(f,1,[3,aW(j[1],aZ),bC])}return a;case
 1:if(a){if(a[2])return 0;var
-a0=a[1],bD=aW(j[1],a0);return g(f,1,[3,A(a0),bD])}return a;case
+a0=a[1],bD=aW(j[1],a0);return h(f,1,[3,A(a0),bD])}return a;case
 2:if(a)return 0;var
 bE=j[2],bF=function(a){if(typeof
-a!=="number"&&0===a[0])return g(f,1,[3,bE,a[1]]);return 0},ah=bF,ag=j[1];break;case
+a!=="number"&&0===a[0])return h(f,1,[3,bE,a[1]]);return 0},ah=bF,ag=j[1];break;case
 3:if(a)return 0;var
 bG=j[2],bH=function(a){if(typeof
-a!=="number"&&0===a[0])return g(f,1,[3,a[1],bG]);return 0},ah=bH,ag=j[1];break;case
+a!=="number"&&0===a[0])return h(f,1,[3,a[1],bG]);return 0},ah=bH,ag=j[1];break;case
 4:if(a)return 0;var
 a1=j[3],a2=j[2],bI=function(a){var
-i=r(y,0);if(typeof
+i=s(y,0);if(typeof
 a!=="number"&&1===a[0]){var
-d=a[2],e=a[1],h=g(f,0,[3,[2,a2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a1]);return h?i?lt(ls(f,e,d,a2)):dO(ls(f,e,d,a1)):h}return 0},ah=bI,ag=j[1];break;case
+d=a[2],e=a[1],g=h(f,0,[3,[2,a2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a1]);return g?i?lS(lR(f,e,d,a2)):dV(lR(f,e,d,a1)):g}return 0},ah=bI,ag=j[1];break;case
 5:if(a){var
 B=a[2];if(B){if(B[2])return 0;var
-aj=B[1],ak=a[1],a3=j[1],bJ=bq(ak,ak),bK=[4,[4,a3,a3],[4,A(aj),bJ]],bL=bq(aj,aj);return g(f,1,[3,[4,A(ak),bL],bK])}var
+aj=B[1],ak=a[1],a3=j[1],bJ=bs(ak,ak),bK=[4,[4,a3,a3],[4,A(aj),bJ]],bL=bs(aj,aj);return h(f,1,[3,[4,A(ak),bL],bK])}var
 a4=B}else
 var
 a4=a;return a4;case
 6:var
 a5=j[2],bM=j[3],bN=function(a){var
-b=[5,bM,a5],c=g(f,1,a5);return c?g(f,1,[3,bq(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
-D=a[1];if(D){if(D[2])return 0;if(a[2])return 0;var
-a7=D[1];return g(f,1,[4,a7,a7])}var
-a8=D}else
+b=[5,bM,a5],c=h(f,1,a5);return c?h(f,1,[3,bs(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
+C=a[1];if(C){if(C[2])return 0;if(a[2])return 0;var
+a7=C[1];return h(f,1,[4,a7,a7])}var
+a8=C}else
 var
 a8=a;return a8}if(a)return 0;var
 a9=1}else
 var
 a9=a6;return a9;case
 7:if(a){if(a[2])return 0;var
-a_=a[1],al=j[1],bO=j[3],bP=j[2],am=hG(l[7]);if(am){var
-G=am[1],an=E(a_,al);if(an){var
-bQ=an[1],a$=r(h(G),z),ba=a$?n(function(a){return r(h(a),z)},G):a$;if(ba){var
-ao=E(G,al);if(ao){var
-bR=ao[1];return af(al,function(a){return lk(f,bq,bP,bO,bQ,lq(a_,G),a,bR)})}var
+a_=a[1],al=j[1],bO=j[3],bP=j[2],am=hY(l[7]);if(am){var
+E=am[1],an=D(a_,al);if(an){var
+bQ=an[1],a$=s(g(E),z),ba=a$?m(function(a){return s(g(a),z)},E):a$;if(ba){var
+ao=D(E,al);if(ao){var
+bR=ao[1];return af(al,function(a){return lJ(f,bs,bP,bO,bQ,lP(a_,E),a,bR)})}var
 bb=ao}else
 var
 bb=ba;var
@@ -3069,14 +3276,14 @@ be=bd}else
 var
 be=a;return be;case
 8:if(a){if(a[2])return 0;var
-ap=a[1],bS=lp(j[1],l[1],ap),bT=bq(ap,ap);return g(f,1,[3,[4,j[2],bT],bS])}return a;case
+ap=a[1],bS=lO(j[1],l[1],ap),bT=bs(ap,ap);return h(f,1,[3,[4,j[2],bT],bS])}return a;case
 9:if(a)return 0;var
 bf=j[3],bg=j[2],bU=function(d){var
-e=g(f,1,bg),h=e?g(f,0,bf):e;if(h){var
-a=aH(f,bq(d,d));if(a){var
-b=aH(f,[5,bf,bg]);if(b){var
-c=kh(f,b[1]);if(c){var
-l=S(f,c[1]);return dO([0,C(a[1],l)])}var
+e=h(f,1,bg),g=e?h(f,0,bf):e;if(g){var
+a=aK(f,bs(d,d));if(a){var
+b=aK(f,[5,bf,bg]);if(b){var
+c=kD(f,b[1]);if(c){var
+l=V(f,c[1]);return dV([0,F(a[1],l)])}var
 i=c}else
 var
 i=b;var
@@ -3085,17 +3292,17 @@ var
 j=a;var
 k=j}else
 var
-k=h;return k};return af(j[1],bU);case
+k=g;return k};return af(j[1],bU);case
 10:if(a)return 0;var
-bV=j[2],bW=function(a){var
-b=[4,bV,a[3]],c=g(f,1,b);return c?g(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bi=bW,bh=j[1];s=2;break;case
+bW=j[2],bX=function(a){var
+b=[4,bW,a[3]],c=h(f,1,b);return c?h(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bi=bX,bh=j[1];r=2;break;case
 11:if(a)return 0;var
-bX=j[2],bY=function(d){var
-a=cz(f,bX);if(a){var
-b=aH(f,d[3]);if(b){var
-c=aH(f,d[2]);if(c){var
-e=v(f,a[1],b[1]),g=dO([0,e]);if(g){var
-k=S(f,c[1]);return dO([0,C(S(f,e),k)])}var
+bY=j[2],bZ=function(d){var
+a=cD(f,bY);if(a){var
+b=aK(f,d[3]);if(b){var
+c=aK(f,d[2]);if(c){var
+e=t(f,a[1],b[1]),g=dV([0,e]);if(g){var
+k=V(f,c[1]);return dV([0,F(V(f,e),k)])}var
 h=g}else
 var
 h=c;var
@@ -3104,22 +3311,22 @@ var
 i=b;var
 j=i}else
 var
-j=a;return j},bi=bY,bh=j[1];s=2;break;case
+j=a;return j},bi=bZ,bh=j[1];r=2;break;case
 12:if(a)return 0;var
-as=lr(l[3]);if(as){var
-bk=as[1],bZ=j[1],bl=dx(function(b,a){return[4,b,a[3]]},bk,bZ),at=e(function(a){return a[1]},bk),t=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(at){var
-M=at[1];if(M){var
+at=lQ(l[3]);if(at){var
+bk=at[1],b0=j[1],bl=bV(function(b,a){return[4,b,a[3]]},bk,b0),au=e(function(a){return a[1]},bk),u=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(au){var
+M=au[1];if(M){var
 N=M[2];if(N){var
-O=N[2],ax=N[1],ay=M[1],m=at[2];if(O)if(O[2]||!m)var
+O=N[2],ax=N[1],ay=M[1],n=au[2];if(O)if(O[2]||!n)var
 k=[0,d,b];else{var
-P=m[1];if(P){var
+P=n[1];if(P){var
 Q=P[2];if(Q){var
 R=Q[2];if(R&&!R[2]){var
-T=m[2];if(T){var
-U=T[1];if(U){var
-V=U[2];if(V){var
-W=V[2];if(W&&!(W[2]||T[2]))var
-az=W[1],aA=V[1],aB=U[1],aC=R[1],aD=Q[1],aE=P[1],bu=t(aE,aD,aB,aA),bv=[4,O[1],bu],bw=[4,ax,t(aE,aC,aB,az)],k=[2,[3,[4,ay,t(aD,aC,aA,az)],bw],bv];else
+S=n[2];if(S){var
+T=S[1];if(T){var
+U=T[2];if(U){var
+W=U[2];if(W&&!(W[2]||S[2]))var
+az=W[1],aA=U[1],aB=T[1],aC=R[1],aD=Q[1],aE=P[1],bu=u(aE,aD,aB,aA),bv=[4,O[1],bu],bw=[4,ax,u(aE,aC,aB,az)],k=[2,[3,[4,ay,u(aD,aC,aA,az)],bw],bv];else
 var
 k=[0,d,b]}else
 var
@@ -3134,9 +3341,9 @@ var
 k=[0,d,b]}else
 var
 k=[0,d,b]}else
-if(m){var
-X=m[1];if(X)var
-Y=X[2],k=Y?Y[2]?[0,d,b]:m[2]?[0,d,b]:t(ay,ax,X[1],Y[1]):[0,d,b];else
+if(n){var
+X=n[1];if(X)var
+Y=X[2],k=Y?Y[2]?[0,d,b]:n[2]?[0,d,b]:u(ay,ax,X[1],Y[1]):[0,d,b];else
 var
 k=[0,d,b]}else
 var
@@ -3147,33 +3354,33 @@ var
 k=[0,d,b]}else
 var
 k=[0,d,b];var
-bm=g(f,1,[3,bl,k]);if(bm)return g(f,1,[2,bl,k]);var
+bm=h(f,1,[3,bl,k]);if(bm)return h(f,1,[2,bl,k]);var
 bn=bm}else
 var
-bn=as;return bn;case
+bn=at;return bn;case
 13:var
-b0=j[2],au=E(l[4],j[1]);if(au){var
-av=au[1];if(av){var
-bo=function(a){if(b0){var
-c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return Z(function(b,a){return[3,b,a]},e,c)}return a},H=j[4],q=bo(cF(j[3])),I=av[1][1][2],o=F(I,q);if(lu(f,H)){if(y){if(y[1])return 0;if(a){var
-u=a[1];if(u){var
-w=u[2];if(w){var
+b1=j[2],av=D(l[4],j[1]);if(av){var
+aw=av[1];if(aw){var
+bo=function(a){if(b1){var
+c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return aa(function(b,a){return[3,b,a]},e,c)}return a},G=j[4],q=bo(cN(j[3])),I=aw[1][1][2],o=H(I,q);if(lT(f,G)){if(y){if(y[1])return 0;if(a){var
+v=a[1];if(v){var
+w=v[2];if(w){var
 x=w[2];if(x){if(x[2])return 0;if(a[2])return 0;var
-_=bo([0,u[1],w[1],x[1]]),aF=F(I,_),aG=g(f,1,o);if(aG){var
-$=cz(f,H);if($){var
-aI=$[1],aa=aH(f,[4,F(q,q),[4,aF,aF]]);if(aa){var
-ab=aH(f,[4,[4,o,o],F(_,_)]);if(ab){var
-aJ=dO([0,aI]);if(aJ){var
-bx=ab[1],by=aa[1];return dO([0,C(v(f,S(f,aI),by),bx)])}var
-aK=aJ}else
+Z=bo([0,v[1],w[1],x[1]]),aF=H(I,Z),aG=h(f,1,o);if(aG){var
+_=cD(f,G);if(_){var
+aH=_[1],$=aK(f,[4,H(q,q),[4,aF,aF]]);if($){var
+ab=aK(f,[4,[4,o,o],H(Z,Z)]);if(ab){var
+aI=dV([0,aH]);if(aI){var
+bx=ab[1],by=$[1];return dV([0,F(t(f,V(f,aH),by),bx)])}var
+aJ=aI}else
 var
-aK=ab;var
-aL=aK}else
+aJ=ab;var
+aL=aJ}else
 var
-aL=aa;var
+aL=$;var
 aM=aL}else
 var
-aM=$;var
+aM=_;var
 aN=aM}else
 var
 aN=aG;var
@@ -3185,15 +3392,15 @@ var
 aP=w;var
 aQ=aP}else
 var
-aQ=u;var
+aQ=v;var
 aR=aQ}else
 var
-aR=a;return aR}return a?0:g(f,1,[3,[0,d,b],o])}if(y)return 0;if(a)return 0;var
-aS=g(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],H]);if(aS){var
-ac=cz(f,H);if(ac){var
-ad=aH(f,o);if(ad){var
-bz=F(I,I),ae=aH(f,[6,[4,F(q,q),bz]]);if(ae){var
-bA=v(f,ac[1],ae[1]);return lt([0,C(ad[1],bA)])}var
+aR=a;return aR}return a?0:h(f,1,[3,[0,d,b],o])}if(y)return 0;if(a)return 0;var
+aS=h(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],G]);if(aS){var
+ac=cD(f,G);if(ac){var
+ad=aK(f,o);if(ad){var
+bz=H(I,I),ae=aK(f,[6,[4,H(q,q),bz]]);if(ae){var
+bA=t(f,ac[1],ae[1]);return lS([0,F(ad[1],bA)])}var
 aT=ae}else
 var
 aT=ad;var
@@ -3203,136 +3410,136 @@ aU=ac;var
 aV=aU}else
 var
 aV=aS;return aV}var
-bp=av}else
+bp=aw}else
 var
-bp=au;return bp;case
+bp=av;return bp;case
 14:if(a){var
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2])return 0;if(a[2])return 0;var
-b1=j[3],b2=j[2],b3=j[1],b4=[0,J[1],K[1],L[1]],b5=l[5],b6=l[4];return lj(f,function(a){return lh(b6,b5,a)},b4,b3,b2,b1)}var
-br=L}else
+b2=j[3],b3=j[2],b4=j[1],b5=[0,J[1],K[1],L[1]],b6=l[5],b7=l[4];return lI(f,function(a){return lG(b7,b6,a)},b5,b4,b3,b2)}var
+bq=L}else
 var
-br=K;var
-bs=br}else
+bq=K;var
+br=bq}else
 var
-bs=J;var
-bt=bs}else
+br=J;var
+bt=br}else
 var
-bt=a;return bt;default:s=1}switch(s){case
+bt=a;return bt;default:r=1}switch(r){case
 1:var
 aY=0;break;case
 2:var
-aq=E(l[3],bh);if(aq){var
-ar=aq[1];if(ar)return bi(ar[1]);var
-bj=ar}else
+aq=D(l[3],bh);if(aq){var
+as=aq[1];if(as)return bi(as[1]);var
+bj=as}else
 var
 bj=aq;return bj;default:var
-ai=E(l[2],ag);return ai?ah(ai[1]):ai}}else
+ai=D(l[2],ag);return ai?ah(ai[1]):ai}}else
 var
 aY=aX;return aY}function
-hH(d,f,a){if(typeof
+hZ(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
-4:return rR;case
+4:return se;case
 13:var
-e=a[4];if(lu(d,e)&&_(g(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return rS;return rT;case
-16:return f}return rQ}function
-hI(e,d,g,f){var
+e=a[4];if(lT(d,e)&&U(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return sf;return sg;case
+16:return f}return sd}function
+h0(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(bd(b,hH(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=g$(b,hH(e,d,c)),a=h;continue}return a}}function
-rU(a){return e(function(a){return[0,a,b]},a)}function
-hJ(f,o,h,c,n,a){if(typeof
+c=a[1];if(aX(b,hZ(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=ev(b,hZ(e,d,c)),a=h;continue}return a}}function
+sh(a){return e(function(a){return[0,a,b]},a)}function
+h1(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return aj(function(a){return g(f,0,[3,[0,d,b],a])},s)}var
-i=hG(c[7]);return i?ko(h,i[1]):i}else{if(0===a[0]){var
-j=hI(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(rU,a[2]);return lv(f,h,c,p[2],u,t)}return j}var
-k=hI(f,o,a[1],n);if(k){var
+s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
+i=hY(c[7]);return i?kK(g,i[1]):i}else{if(0===a[0]){var
+j=h0(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(sh,a[2]);return lU(f,g,c,p[2],u,t)}return j}var
+k=h0(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=E(c[1],a[2]);return m?lv(f,h,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=D(c[1],a[2]);return m?lU(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-hK(a){var
-b=aD(a[1]),c=ap(F(b,a[2]),b),d=a[2];return Z(function(b,a){return[3,b,a]},d,c)}function
-hL(a){return aD(hK(a))}function
-lw(c){var
-a=hL(c),b=aD(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-hM(a,b){return a4(a[3],a[4],b)}function
-hN(a,b){var
-c=hM(a,b);return F(hL(a),c)}function
-hO(a,b){var
-c=hM(a,b);return F(lw(a),c)}function
-lx(a,b){var
-c=hM(a,b);return F(aD(a[1]),c)}function
-hP(b,a){var
-c=hO(b,a),d=hN(b,a);return[2,[4,d,d],[4,c,c]]}function
-hQ(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lx(a,d);return[5,[2,hP(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-ly(a,b){var
-f=a[5],c=[3,hQ(a,b),f],d=lx(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-fV(a,b){var
-c=ly(a,b);return c6(a[7],c)}function
-lz(b,a){var
-c=hP(b,a),d=hO(b,a),e=[4,fV(b,a),d],f=hN(b,a);return[5,[2,[4,hQ(b,a),f],e],c]}function
-lA(b,a){var
-c=hP(b,a),d=hN(b,a),e=[4,fV(b,a),d],f=hO(b,a);return[5,[3,[4,hQ(b,a),f],e],c]}function
-hR(a,b){var
-c=lw(a),d=ap(lA(a,b),c),e=hL(a),f=ap(lz(a,b),e),g=Z(function(b,a){return[2,b,a]},f,d),h=ap(a[5],g),i=a[3];return Z(function(b,a){return[2,b,a]},i,h)}function
-lB(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-lC(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-hS(a,c,b){var
-d=[4,lB(a),b],e=[2,[4,lC(a),c],d],f=[4,lC(a),b];return[0,[3,[4,lB(a),c],f],e]}function
-lD(c,a){var
-b=hS(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-eE(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-dP(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:lD(d[1],a):a;case
+h2(a){var
+b=aH(a[1]),c=aq(H(b,a[2]),b),d=a[2];return aa(function(b,a){return[3,b,a]},d,c)}function
+h3(a){return aH(h2(a))}function
+lV(c){var
+a=h3(c),b=aH(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+h4(a,b){return a7(a[3],a[4],b)}function
+h5(a,b){var
+c=h4(a,b);return H(h3(a),c)}function
+h6(a,b){var
+c=h4(a,b);return H(lV(a),c)}function
+lW(a,b){var
+c=h4(a,b);return H(aH(a[1]),c)}function
+h7(b,a){var
+c=h6(b,a),d=h5(b,a);return[2,[4,d,d],[4,c,c]]}function
+h8(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lW(a,d);return[5,[2,h7(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+lX(a,b){var
+f=a[5],c=[3,h8(a,b),f],d=lW(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+f7(a,b){var
+c=lX(a,b);return c$(a[7],c)}function
+lY(b,a){var
+c=h7(b,a),d=h6(b,a),e=[4,f7(b,a),d],f=h5(b,a);return[5,[2,[4,h8(b,a),f],e],c]}function
+lZ(b,a){var
+c=h7(b,a),d=h5(b,a),e=[4,f7(b,a),d],f=h6(b,a);return[5,[3,[4,h8(b,a),f],e],c]}function
+h9(a,b){var
+c=lV(a),d=aq(lZ(a,b),c),e=h3(a),f=aq(lY(a,b),e),g=aa(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return aa(function(b,a){return[2,b,a]},i,h)}function
+l0(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+l1(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+h_(a,c,b){var
+d=[4,l0(a),b],e=[2,[4,l1(a),c],d],f=[4,l1(a),b];return[0,[3,[4,l0(a),c],f],e]}function
+l2(c,a){var
+b=h_(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+eR(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+dW(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:l2(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=hS(d[1],a[2],a[3]),m=j[1],k=hS(f[1],j[2],a[1]);return lD(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=h_(d[1],a[2],a[3]),m=j[1],k=h_(f[1],j[2],a[1]);return l2(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=F(e,e),n=eE(e,a),o=ap([0,c(2,b),b],n),p=F(e,a),q=ap([4,[0,c(2,b),b],p],e),r=ap([3,[0,b,b],l],a),s=Z(function(b,a){return[2,b,a]},r,q);return ap([5,[0,b,b],[2,[0,b,b],l]],Z(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-lE(c){var
-a=cx(c);return a?dy(a[1],[0,d,b]):a}function
-lF(a,n,k,j){if(lE(j)){var
-q=n?[3,[0,d,b],k]:k;return g(a,0,q)}var
-f=aH(a,k);if(f){var
-h=cz(a,[5,j,[0,c(2,b),b]]);if(h){var
-i=fB(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=v(a,f[1],h[1]),l=[0,C(i[1],p)];else
+e=[0,d[1],h[1],i[1]],l=H(e,e),n=eR(e,a),o=aq([0,c(2,b),b],n),p=H(e,a),q=aq([4,[0,c(2,b),b],p],e),r=aq([3,[0,b,b],l],a),s=aa(function(b,a){return[2,b,a]},r,q);return aq([5,[0,b,b],[2,[0,b,b],l]],aa(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+l3(c){var
+a=cB(c);return a?dD(a[1],[0,d,b]):a}function
+l4(a,n,k,j){if(l3(j)){var
+q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
+f=aK(a,k);if(f){var
+g=cD(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=fM(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
 var
 l=i;var
 m=l}else
 var
-m=h;var
+m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?H(d,o[1]):H(o[2],d)}return e}function
-eF(b,a,c){var
-d=bf(b,a[1],a[2]),e=d?lF(b,0,c,a[1]):d;return e?lF(b,1,c,a[2]):e}function
-lG(h,f,c){if(lE(c))return[0,B];var
-a=G(h,hi(f)),d=cz(a,c);if(d){var
-e=fB(a,c);if(e){var
-i=e[1],j=d[1],k=bU(a,A(R(a,b),j));return x(function(b){return j_(f,v(a,i,b))},k)}var
+o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
+eS(b,a,c){var
+d=bk(b,a[1],a[2]),e=d?l4(b,0,c,a[1]):d;return e?l4(b,1,c,a[2]):e}function
+l5(h,f,c){if(l3(c))return[0,w];var
+a=C(h,hs(f)),d=cD(a,c);if(d){var
+e=fM(a,c);if(e){var
+i=e[1],j=d[1],k=bX(a,z(Q(a,b),j));return y(function(b){return ku(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-c7(a){return function(b){return lG(a,d,b)}}function
-c8(d,a){var
-e=g(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?g(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-c9(a){return[0,[3,[0,d,b],a],a]}function
-lH(a,c,o,n){var
-h=bf(a,[0,d,b],c),j=h?c8(a,c):h;if(j){var
-e=i(c7(a),c);if(e){var
-f=aH(a,o);if(f){var
-g=aH(a,n);if(g){var
-p=f[1],q=g[1];return H(d,C(v(a,S(a,e[1]),q),p)[1])}var
+da(a){return function(b){return l5(a,d,b)}}function
+db(d,a){var
+e=h(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+dc(a){return[0,[3,[0,d,b],a],a]}function
+l6(a,c,o,n){var
+h=bk(a,[0,d,b],c),j=h?db(a,c):h;if(j){var
+e=i(da(a),c);if(e){var
+f=aK(a,o);if(f){var
+g=aK(a,n);if(g){var
+p=f[1],q=g[1];return G(d,F(t(a,V(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3342,12 +3549,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-fW(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:eF(d,c[1],a[1]):a;case
+f8(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:eS(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=eF(d,c[1],a[1]),m=l?eF(d,c[2],e[1]):l;if(m)return eF(d,c[3],f[1]);var
+l=eS(d,c[1],a[1]),m=l?eS(d,c[2],e[1]):l;if(m)return eS(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3360,7 +3567,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=F([0,s,r,q],[0,s,r,q]);return lH(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=H([0,s,r,q],[0,s,r,q]);return l6(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3369,7 +3576,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=lH(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eF(d,c9(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=l6(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eS(d,dc(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3380,89 +3587,85 @@ A=z}else
 var
 A=a;return A}}var
 o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bI(h){var
-a=aw(function(f,e){var
-a=aH(o,f);if(a)var
-b=a[1],c=bj(cV(b[1]),cV(b[2]));else
+bK(b){var
+a=ar(function(f,e){var
+a=aK(o,f);if(a)var
+b=a[1],c=bg(cc(b[1]),cc(b[2]));else
 var
-c=d;return bj(c,e)},d,h);if(M(d,a)){var
-f=aP(a);if(0===f||!(0<f&&!H(a,b)))var
-g=d;else
-var
-c=a1(a,aO(2)),e=c[1],g=ac(c[2],d)?fl(e):fl(e);return aF(g,o)}return d}function
-dQ(a){return[0,a[1],[0,a[2],0]]}function
-a$(a){var
-b=dQ(a[3]),c=f(dQ(a[2]),b);return f(dQ(a[1]),c)}function
-fX(a){return fU(o,a,bI(a$(a)))}function
-lI(b,a){if(a){var
-g=lI([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cC([0,[0,d,d],c[2]],b);else
+c=d;return bg(c,e)},d,b);return L(d,a)?aC(ke(a),o):d}function
+dX(a){return[0,a[1],[0,a[2],0]]}function
+bc(a){var
+b=dX(a[3]),c=f(dX(a[2]),b);return f(dX(a[1]),c)}function
+f9(a){return f6(o,a,bK(bc(a)))}function
+l7(b,a){if(a){var
+g=l7([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cK([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-lJ(c,b,a){var
-d=dA(b);return[2,[2,dA(c),d],a]}function
-hT(b,a){return b?T(a):d}function
-eG(h,b,a){if(typeof
+l8(c,b,a){var
+d=dF(b);return[2,[2,dF(c),d],a]}function
+h$(b,a){return b?R(a):d}function
+eT(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=hT(h,b);return[0,[5,q,a],G(hT(h,b),c)]},r);case
-9:return[0,[1,[5,a[3],a[2]],T(b)],0];case
+c=h$(h,b);return[0,[5,q,a],C(h$(h,b),c)]},r);case
+9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bI([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bK([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],s=dM(b,k),t=f(dM(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,lJ(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=dT(b,k),t=f(dT(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,l8(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bI([0,o,0]);return[0,[4,a[3],aF(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bK([0,o,0]);return[0,[4,a[3],aC(p,b)],[0,[0,o,p],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cG(g,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cG(g,c,b,O(e,h(eG(c,b,d))),i);return f(an(g,lI(e,eG(c,b,d)),d),j)}return a}function
-fY(b,a){var
-c=ar(b,a);return e(function(a){var
+cO(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=cO(h,c,b,P(e,g(eT(c,b,d))),i);return f(al(h,l7(e,eT(c,b,d)),d),j)}return a}function
+f_(b,a){var
+c=ao(b,a);return e(function(a){var
 b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-hU(b,a){switch(a[0]){case
+ia(b,a){switch(a[0]){case
 0:var
 d=a[1];return ak(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ak(b,[0,[0,e,e],a[2]]);return c?kh(b,c[1]):c;case
-2:return cz(b,a[1]);case
-3:return fB(b,a[1]);default:var
-f=a[1],g=c8(b,f);return g?lG(b,a[2],f):g}}function
-b1(a){return 1===a?rV:rW}function
-eH(d,c,b,a){var
-e=a[1],f=dP(d,c,a[2]),g=Z(function(b,a){return[2,b,a]},b,f);return Z(function(b,a){return[3,b,a]},g,e)}function
-hV(c,b,a){switch(c){case
+e=a[1],c=ak(b,[0,[0,e,e],a[2]]);return c?kD(b,c[1]):c;case
+2:return cD(b,a[1]);case
+3:return fM(b,a[1]);default:var
+f=a[1],g=db(b,f);return g?l5(b,a[2],f):g}}function
+b4(a){return 1===a?si:sj}function
+eU(d,c,b,a){var
+e=a[1],f=dW(d,c,a[2]),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
+ib(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-lK(h,g,d,c,f,a){var
-e=eH(d,c,f,a);return hV(h,e,ap([5,[0,b,b],g],eE(dP(d,c,a[2]),e)))}function
-lL(c,j,i){var
+l9(h,g,d,c,f,a){var
+e=eU(d,c,f,a);return ib(h,e,aq([5,[0,b,b],g],eR(dW(d,c,a[2]),e)))}function
+l_(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=a_(c,e[1],d[1]),g=f?a_(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=bb(c,e[1],d[1]),g=f?bb(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bh(b,d){var
+bl(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,bB(function(a){return bh(b,a)},a)]}return[0,bB(function(a){return bh(b,a)},a)]}function
-c_(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bD(function(a){return bl(b,a)},a)]}return[0,bD(function(a){return bl(b,a)},a)]}function
+dd(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=_(r(e,b));return f?_(r(e,O(d,b))):f;case
+e=a[1],f=U(s(e,b));return f?U(s(e,P(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3470,31 +3673,31 @@ e=a[1],f=_(r(e,b));return f?_(r(e,O(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=c_(d,b,a[1]);if(g){var
+g=dd(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dR(c,b,m){var
+dY(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=c_(c,b,g),i=h?dR(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dd(c,b,g),i=h?dY(c,b,f):h;if(i)var
 j=i;else{var
-k=dR(c,b,g);if(k)return c_(c,b,f);var
+k=dY(c,b,g);if(k)return dd(c,b,f);var
 j=k}return j;case
 7:var
-l=dR(c,b,a[1]);return l?c_(c,b,a[2]):l;case
+l=dY(c,b,a[1]);return l?dd(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=dR(c,b,a[1]);if(e){var
+e=dY(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return c_(c,b,a[1]);default:return 1}}}function
-ck(c,e){var
+9:return dd(c,b,a[1]);default:return 1}}}function
+cq(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return _(r(a[1],c));case
+0:return U(s(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3502,32 +3705,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=ck(c,a[1]);if(d){var
+d=cq(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-fZ(d,b,m){var
+f$(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=fZ(d,b,a[1]);if(f){var
+f=f$(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=fZ(d,b,a[1]);return g?ck(b,a[2]):g;case
+g=f$(d,b,a[1]);return g?cq(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=ck(b,i);if(j){var
-k=ck(b,h);if(k)var
+h=a[2],i=a[1],j=cq(b,i);if(j){var
+k=cq(b,h);if(k)var
 e=k;else{var
-l=ay(i,d);if(l){var
+l=az(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return ck(b,c)}}}function
-f0(c,e){var
+2:return 1;default:return cq(b,c)}}}function
+ga(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return bd(a[1],c);case
+0:return aX(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3535,289 +3738,289 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=f0(c,a[1]);if(d){var
+d=ga(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-f1(a,b){if(a){var
+gb(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,f1(c,aw(er,e,j5(d)))]:[0,rZ,f1(c,e)]}var
-f=[0,d,f1(c,0)]}else
+e=b[2];return b[1]?[0,d,gb(c,ar(eE,e,kp(d)))]:[0,sm,gb(c,e)]}var
+f=[0,d,gb(c,0)]}else
 var
 f=a;return f}function
-cH(b,a){return a?i(b,a[1]):a}function
-cI(c,b,a){return cH(function(b){return cH(i(c,b),a)},b)}function
-lM(b,a){switch(a[0]){case
+cP(b,a){return a?i(b,a[1]):a}function
+cQ(c,b,a){return cP(function(b){return cP(i(c,b),a)},b)}function
+l$(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-lN(a){return 0===a[0]?a[1]:0}function
-lO(d,c){var
+ma(a){return 0===a[0]?a[1]:0}function
+mb(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=lM(a[1],b),a=e;continue}return lN(b)}}function
-b2(b,a){switch(a[0]){case
+e=a[2],b=l$(a[1],b),a=e;continue}return ma(b)}}function
+b5(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,b2(b,a[1])];default:var
-c=b2(b,a[3]),d=b2(b,a[2]);return[2,b2(b,a[1]),d,c]}}function
-ba(b,c,a){switch(c[0]){case
-0:return b2(i(b,c[1]),a);case
+1:return[1,b5(b,a[1])];default:var
+c=b5(b,a[3]),d=b5(b,a[2]);return[2,b5(b,a[1]),d,c]}}function
+bd(b,c,a){switch(c[0]){case
+0:return b5(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,b2(function(a){return an(b,a,k)},d)];case
-1:return[1,ba(b,d,a[1])];default:var
-l=ba(b,d,a[3]),m=ba(b,d,a[2]);return[2,ba(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,b5(function(a){return al(b,a,k)},d)];case
+1:return[1,bd(b,d,a[1])];default:var
+l=bd(b,d,a[3]),m=bd(b,d,a[2]);return[2,bd(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return an(b,a,n)},h=function(a){return b2(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return al(b,a,n)},h=function(a){return b5(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=ba(b,e,j),s=ba(b,f,j);return[2,ba(b,g,j),s,r];default:var
-t=ba(b,e,a[3]),u=ba(b,f,a[2]);return[2,ba(b,g,a[1]),u,t]}}}function
-hW(c,f,a){if(a)var
+j=a[1],r=bd(b,e,j),s=bd(b,f,j);return[2,bd(b,g,j),s,r];default:var
+t=bd(b,e,a[3]),u=bd(b,f,a[2]);return[2,bd(b,g,a[1]),u,t]}}}function
+ic(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,S(c,a)];break;case
+e=[0,a,V(c,a)];break;case
 1:var
-g=v(c,a,b),e=[0,ax(A(a,b)),g];break;default:var
-e=[0,b,S(c,b)]}return[0,[0,i(f,e)]]},h=hW(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=t(c,a,b),e=[0,at(z(a,b)),g];break;default:var
+e=[0,b,V(c,b)]}return[0,[0,i(f,e)]]},h=ic(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-hX(b,w,c,a){var
-e=hW(b,aQ,a),d=0,y=f(hW(b,aB,a),e);return bW(r1,function(a){switch(a[0]){case
-0:return s(a[1],y,[0,[0,B]]);case
-1:return[0,[0,s(a[1],w,B)]];case
-2:return[0,[0,R(b,a[1])]];case
+id(b,x,c,a){var
+e=ic(b,aT,a),d=0,A=f(ic(b,ay,a),e);return bi(so,function(a){switch(a[0]){case
+0:return r(a[1],A,[0,[0,w]]);case
+1:return[0,[0,r(a[1],x,w)]];case
+2:return[0,[0,Q(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,A(b,a)]};return ba(function(a,b){return cI(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bd(function(a,b){return cQ(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,C(b,a)]};return ba(function(a,b){return cI(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return bd(function(a,b){return cQ(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ae(a)]};return b2(function(a){return cH(j,a)},i);case
+i=a[1],j=function(a){return[0,ab(a)]};return b5(function(a){return cP(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,v(b,c,a)]};return ba(function(a,b){return cI(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bd(function(a,b){return cQ(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bU(b,a);return x(function(a){return v(b,c,a)},d)};return ba(function(a,b){return cI(p,a,b)},o,n);case
+d=bX(b,a);return y(function(a){return t(b,c,a)},d)};return bd(function(a,b){return cQ(p,a,b)},o,n);case
 8:var
-q=a[1],r=function(a){return[0,S(b,a)]};return b2(function(a){return cH(r,a)},q);case
+q=a[1],s=function(a){return[0,V(b,a)]};return b5(function(a){return cP(s,a)},q);case
 9:var
-t=a[1],u=function(a){return bV(b,a)};return b2(function(a){return cH(u,a)},t);default:return r0}},c,d)}function
-f2(a){if(a){var
+u=a[1],v=function(a){return bY(b,a)};return b5(function(a){return cP(v,a)},u);default:return sn}},c,d)}function
+gc(a){if(a){var
 b=a[1];if(b)var
-c=f2(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r2}function
-dS(a){if(a){var
-g=a[1],b=g[2],c=f2(g[1]);if(c)if(b){var
-h=b[1],e=dS(a[2]);if(e)var
-i=M(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return sp}function
+dZ(a){if(a){var
+g=a[1],b=g[2],c=gc(g[1]);if(c)if(b){var
+h=b[1],e=dZ(a[2]);if(e)var
+i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return r3}function
-dT(b,a){var
-c=a[3],d=x(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(at(b),f),e,d]}function
-hY(c,g,f,b,a,e){if(b){var
+f=c;return f}return sq}function
+d0(b,a){var
+c=a[3],d=y(function(a){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(au(b),f),e,d]}function
+ie(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=iU(c,ei,ei,function(a){return lM(b,a)},e);return hY(c,g,bk(f),l,a,d)},i=d(0,aF(a,h));if(i){var
-j=d(2,G(a,h));if(j)return f?1:d(1,a);var
+d=jd(c,eu,eu,function(a){return l$(b,a)},e);return ie(c,g,bn(f),l,a,d)},i=d(0,aC(a,h));if(i){var
+j=d(2,C(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return an(g,a,iU(c,ei,ei,lN,e))}function
-hZ(e,c,b,a){var
+k=i;return k}return al(g,a,jd(c,eu,eu,ma,e))}function
+ig(e,c,b,a){var
 f=as(d,b);function
-g(b){return a}return function(a){return hY(e,g,c,f,d,a)}}function
-cJ(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return x(function(a){return a2(f,e,a)},d)}return[0,B]}function
-lP(f,e,k,j,i,a){var
-b=dS(a[1]);if(b){var
+g(b){return a}return function(a){return ie(e,g,c,f,d,a)}}function
+cR(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aQ(f,e,a)},d)}return[0,w]}function
+mc(f,e,k,j,i,a){var
+b=dZ(a[1]);if(b){var
 c=a[2];if(c){var
-d=cJ(a[3]);if(d){var
-l=d[1],m=as([0,C(ae(v(f,i,c[1])),l),0],e);return a9(f,e,fD(k,j,b[1],m))}var
+d=cR(a[3]);if(d){var
+l=d[1],m=as([0,F(ab(t(f,i,c[1])),l),0],e);return a6(f,e,fO(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-lQ(i,d,h,g,c){var
-a=dS(c[1]);if(a){var
-b=cJ(c[3]);if(b){var
-j=as([0,C(B,b[1]),0],d),k=a[1];return a9(i,d,fD(h,g,e(function(a){return[0,a[1],B]},k),j))}var
+md(i,d,h,g,c){var
+a=dZ(c[1]);if(a){var
+b=cR(c[3]);if(b){var
+j=as([0,F(w,b[1]),0],d),k=a[1];return a6(i,d,fO(h,g,e(function(a){return[0,a[1],w]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-lR(a,c,E,i){var
-j=dS(i[1]);if(j){var
+me(a,c,E,i){var
+j=dZ(i[1]);if(j){var
 k=i[2];if(k){var
-l=cJ(i[3]);if(l){var
-F=l[1],e=C(v(a,E,k[1]),F),b=j[1];if(b){var
+l=cR(i[3]);if(l){var
+G=l[1],e=F(t(a,E,k[1]),G),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=fE(a,b,as([0,e,0],c));if(f){var
-o=f[1],p=r(h(o),c);if(p)return dC(a,o);var
+f=fP(a,b,as([0,e,0],c));if(f){var
+o=f[1],p=s(g(o),c);if(p)return dI(a,o);var
 q=p}else
 var
 q=f;return q}var
-s=M(d,e[1]),t=s?M(d,n[1]):s;if(t){var
-B=z(e[1],n[1]),D=m[1];return M(aw(function(a,b){var
-c=cd(a);return G(z(cd(a),c),b)},d,D),B)}return t}var
-g=fE(a,b,as([0,e,0],c));if(g){var
-u=g[1],w=r(h(u),c);if(w)return dC(a,u);var
+r=L(d,e[1]),u=r?L(d,n[1]):r;if(u){var
+A=B(e[1],n[1]),D=m[1];return L(ar(function(a,b){var
+c=ci(a);return C(B(ci(a),c),b)},d,D),A)}return u}var
+h=fP(a,b,as([0,e,0],c));if(h){var
+v=h[1],w=s(g(v),c);if(w)return dI(a,v);var
 x=w}else
 var
-x=g;return x}var
+x=h;return x}var
 y=l}else
 var
 y=k;var
-A=y}else
+z=y}else
 var
-A=j;return A}function
-r4(c){var
+z=j;return z}function
+sr(c){var
 a=c[2];if(a){var
-b=cJ(c[3]);if(b)return H(d,C(a[1],b[1])[1]);var
+b=cR(c[3]);if(b)return G(d,F(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-h0(a){return w(function(a){return f(a[1],[0,a[2],0])},a)}function
-lS(a,c,b){var
-e=s(b,c,k(d)),f=aG(0,a);return n(function(b){return dR(a,b,e)},f)}function
-eI(a){var
-c=L(a);return y(k(b),c)}function
-f3(i,g){var
-h=eI(g),j=L(g),e=u(k(b),j),f=q(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bo(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bo(f),a,e]]:[0,[0,h,a,a],[0,a,e,bo(f)],[0,a,f,e]]}function
-eJ(b,a){var
-c=P(b[3],a),d=P(b[2],a);return[0,P(b[1],a),d,c]}function
-lT(b,a){function
+ih(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+mf(a,c,b){var
+e=r(b,c,k(d)),f=aE(0,a);return m(function(b){return dY(a,b,e)},f)}function
+eV(a){var
+c=N(a);return A(k(b),c)}function
+gd(i,g){var
+h=eV(g),j=N(g),e=v(k(b),j),f=q(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bq(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bq(f),a,e]]:[0,[0,h,a,a],[0,a,e,bq(f)],[0,a,f,e]]}function
+eW(b,a){var
+c=S(b[3],a),d=S(b[2],a);return[0,S(b[1],a),d,c]}function
+mg(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=P(a,c(function(a){return a[3]})),d=P(a,c(function(a){return a[2]}));return[0,P(a,c(function(a){return a[1]})),d,b]}var
+b=S(a,c(function(a){return a[3]})),d=S(a,c(function(a){return a[2]}));return[0,S(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-lU(w,v){function
-a(a){return[0,[0,O(v,a)]]}switch(w[0]){case
+mh(w,u){function
+a(a){return[0,[0,P(u,a)]]}switch(w[0]){case
 0:var
-x=eI(a(0));return[0,f3(r5,a(0)),x];case
+x=eV(a(0));return[0,gd(ss,a(0)),x];case
 1:var
-z=eI(a(0)),A=q(eI(a(r6)),z),B=q(eI(a(r7)),A),C=f3(0,a(0)),D=lT(f3(r9,a(r8)),C);return[0,lT(f3(r$,a(r_)),D),B];default:var
-E=a(sa),F=a(sb),g=[0,a(0),F,E],G=P(g,g),H=y(k(b),G),j=P(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=L(a),e=q(k(c(2,b)),d);return y(u(k(b),j),e)},h=function(f,e,d,a){var
-g=an(f,q(e,d),a);return q(k(c(2,b)),g)},l=i(f),m=h(y,e,f,d),n=[0,h(u,d,f,e),m,l],o=h(u,e,f,d),p=i(e),r=[0,h(y,d,e,f),p,o],s=h(y,d,f,e),t=h(u,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
-lV(a){return 1<a[0]?[0,a[1],0]:0}function
-f4(a){switch(a[0]){case
+y=eV(a(0)),z=q(eV(a(st)),y),B=q(eV(a(su)),z),C=gd(0,a(0)),D=mg(gd(sw,a(sv)),C);return[0,mg(gd(sy,a(sx)),D),B];default:var
+E=a(sz),F=a(sA),g=[0,a(0),F,E],G=S(g,g),H=A(k(b),G),j=S(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=N(a),e=q(k(c(2,b)),d);return A(v(k(b),j),e)},h=function(f,e,d,a){var
+g=al(f,q(e,d),a);return q(k(c(2,b)),g)},l=i(f),m=h(A,e,f,d),n=[0,h(v,d,f,e),m,l],o=h(v,e,f,d),p=i(e),r=[0,h(A,d,e,f),p,o],s=h(A,d,f,e),t=h(v,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
+mi(a){return 1<a[0]?[0,a[1],0]:0}function
+ge(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,c9(a[1]),0];default:var
-b=[0,c9(a[2]),0];return[0,c9(a[1]),b]}}function
-dU(a){return[0,[0,a[1]],[0,a[2]]]}function
-lW(a){switch(a[0]){case
-0:return[0,dU(a[1]),0];case
+2:return[0,dc(a[1]),0];default:var
+b=[0,dc(a[2]),0];return[0,dc(a[1]),b]}}function
+d1(a){return[0,[0,a[1]],[0,a[2]]]}function
+mj(a){switch(a[0]){case
+0:return[0,d1(a[1]),0];case
 1:var
-f=[0,dU(a[3]),0],g=[0,dU(a[2]),f];return[0,dU(a[1]),g];case
+f=[0,d1(a[3]),0],g=[0,d1(a[2]),f];return[0,d1(a[1]),g];case
 2:var
-b=dU(c9(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,c9(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,dU(c9(c)),0]]]}}function
-lX(a,c){if(0===c[0]){var
-g=c[1];return i(c7(a),g)}var
-h=c[1],d=i(c7(a),h);if(d){var
-j=c[2],e=i(c7(a),j);if(e){var
-k=S(a,e[1]),l=bV(a,A(R(a,b),k)),m=d[1];return x(function(b){return v(a,m,b)},l)}var
+b=d1(dc(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,dc(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,d1(dc(c)),0]]]}}function
+mk(a,c){if(0===c[0]){var
+g=c[1];return i(da(a),g)}var
+h=c[1],d=i(da(a),h);if(d){var
+j=c[2],e=i(da(a),j);if(e){var
+k=V(a,e[1]),l=bY(a,z(Q(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-lY(d,c){var
-a=lX(d,c[1]);if(a)var
-b=lX(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+ml(d,c){var
+a=mk(d,c[1]);if(a)var
+b=mk(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-lZ(a,e,c){var
+mm(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(bd(f,a))return c;var
-g=k(d);return s(g$(f,a),e,g)}return[0,bB(function(b){return lZ(a,e,b)},b)]}function
-h1(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=kW(h,c),j=bF(f),b=e(function(b){return lZ(a,j,b)},i),l=s(sg,b,k(d)),m=s(sh,b,k(d));return[0,s(0,b,k(d)),m,l]}function
-b3(b,a){var
-c=q(b[2],a[1]),d=u(q(b[1],a[2]),c),e=q(b[1],a[3]),f=u(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,u(q(b[2],a[3]),g),f,d]}function
-c$(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-l0(c){function
+f=b[1];if(aX(f,a))return c;var
+g=k(d);return r(ev(f,a),e,g)}return[0,bD(function(b){return mm(a,e,b)},b)]}function
+ii(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=li(h,c),j=bH(f),b=e(function(b){return mm(a,j,b)},i),l=r(sF,b,k(d)),m=r(sG,b,k(d));return[0,r(0,b,k(d)),m,l]}function
+b6(b,a){var
+c=q(b[2],a[1]),d=v(q(b[1],a[2]),c),e=q(b[1],a[3]),f=v(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,v(q(b[2],a[3]),g),f,d]}function
+de(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+mn(c){function
 a(a){var
-e=r(c,a)?b:d;return k(e)}var
-e=a(si),f=a(sj);return[0,a(0),f,e]}function
-l1(b,a){if(a)var
-d=l1(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=s(c,a)?b:d;return k(e)}var
+e=a(sH),f=a(sI);return[0,a(0),f,e]}function
+mo(b,a){if(a)var
+d=mo(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-f5(c,b,a){switch(c){case
+gf(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-l2(b,c,a){return c?bT(b,a):bn(b,a)}function
-l3(a){if(a){var
-f=a[1],b=f[2],c=f2(f[1]);if(c)if(b)var
-d=l3(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+mp(b,c,a){return c?bW(b,a):bp(b,a)}function
+mq(a){if(a){var
+f=a[1],b=f[2],c=gc(f[1]);if(c)if(b)var
+d=mq(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return su}function
-l4(c,b,a){var
-d=ar(b,a);return aw(function(a,d){var
-b=cd(a[2]);return A(v(c,a[1],[0,b,b]),d)},B,d)}function
-l5(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=l5(a,h,e[2],f,d[2]),p=i[2],q=bT(h,i[1]),c=e[1],j=ax(v(a,c[3],f)),k=c[3],l=A(ax(ep(p,R(a,b),k)),j),m=v(a,c[2],l),n=v(a,c[1],f),g=[0,ct(A(A(ax(l4(a,c[4],q)),n),m)),o];else
+e=c;return e}return sT}function
+mr(c,b,a){var
+d=ao(b,a);return ar(function(a,d){var
+b=ci(a[2]);return z(t(c,a[1],[0,b,b]),d)},w,d)}function
+ms(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=ms(a,h,e[2],f,d[2]),p=i[2],q=bW(h,i[1]),c=e[1],j=at(t(a,c[3],f)),k=c[3],l=z(at(dG(p,Q(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cj(z(z(at(mr(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-sw(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-l6(b,a){return W(e(function(a){return s(a,b,0)},a))}function
-da(a){switch(a){case
-0:return sA;case
-1:return sB;default:return 0}}function
-db(a){switch(a){case
-0:return[0,sD,sC,k(d)];case
-1:return c2;default:var
+sV(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+mt(b,a){return Z(e(function(a){return r(a,b,0)},a))}function
+df(a){switch(a){case
+0:return sZ;case
+1:return s0;default:return 0}}function
+dg(a){switch(a){case
+0:return[0,s2,s1,k(d)];case
+1:return c7;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-f6(c,b,a){return a8(eJ(c,a),b)}function
-l7(a){var
-d=P(a,a),e=y(k(b),d);return ah(k(c(2,b)),e)}function
-l8(k,j,i,h,g,a){var
-e=f6(j,i,g),c=b3(a,e),f=$(y,c,b3(a,c)),d=$(y,e,aS(l7(a),f)),b=$(u,$(y,db(k),d),h);return[0,[0,d,b],az(P(b,b))]}function
-bJ(e,j){var
+gg(c,b,a){return ba(eW(c,a),b)}function
+mu(a){var
+d=S(a,a),e=A(k(b),d);return ah(k(c(2,b)),e)}function
+mv(k,j,i,h,g,a){var
+e=gg(j,i,g),c=b6(a,e),f=ac(A,c,b6(a,c)),d=ac(A,e,aU(mu(a),f)),b=ac(v,ac(A,dg(k),d),h);return[0,[0,d,b],aA(S(b,b))]}function
+bL(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-l=r(a[1],e)?b:d;return k(l);case
+l=s(a[1],e)?b:d;return k(l);case
 3:var
-m=bJ(e,a[2]);return y(bJ(e,a[1]),m);case
+m=bL(e,a[2]);return A(bL(e,a[1]),m);case
 4:var
-n=bJ(e,a[2]);return u(bJ(e,a[1]),n);case
-5:return bo(bJ(e,a[1]));case
+n=bL(e,a[2]);return v(bL(e,a[1]),n);case
+5:return bq(bL(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=q(h,bJ(e,g));return y(q(g,bJ(e,h)),o);case
+g=a[2],h=a[1],o=q(h,bL(e,g));return A(q(g,bL(e,h)),o);case
 7:var
-f=bJ(e,a[1]);return aV(d,f)?f:ah(f,a[2]);case
+f=bL(e,a[1]);return aY(d,f)?f:ah(f,a[2]);case
 8:var
-i=a[1],p=bJ(e,i);return q(q(k(c(2,b)),i),p);default:return k(d)}}function
-f7(c,b,k){var
+i=a[1],p=bL(e,i);return q(q(k(c(2,b)),i),p);default:return k(d)}}function
+gh(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=f7(c,b,a[1]);if(g){var
+g=gh(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=M(d,s(i,c,B)[1]);return j?_(aj(function(a){return r(i,a)},b)):j}return 0}return g;case
+i=h[1],j=L(d,r(i,c,w)[1]);return j?U(aj(function(a){return s(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
 9:case
 10:return 0;case
-3:case
-4:case
-6:var
-f=f7(c,b,a[1]);if(f){var
-e=a[2];continue}return f;default:return 1}}}function
-l9(d){var
+0:case
+1:case
+2:return 1;default:var
+f=gh(c,b,a[1]);if(f){var
+e=a[2];continue}return f}}}function
+mw(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -3828,72 +4031,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=l9(a[1]);if(c){var
+c=mw(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-l_(c,b,a){var
+mx(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-h2(b,a,c){return e(function(c){var
-d=l_(b,a,c[2]),f=c[1];return[0,e(function(c){return l_(b,a,c)},f),d]},c)}function
-l$(b,a){return x(function(a){var
+ij(b,a,c){return e(function(c){var
+d=mx(b,a,c[2]),f=c[1];return[0,e(function(c){return mx(b,a,c)},f),d]},c)}function
+my(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-sE(a,b){var
-c=l$(a,b[3]),d=i(a,b[2]);return[0,h2(a,a,b[1]),d,c]}function
-ma(c){var
+s3(a,b){var
+c=my(a,b[3]),d=i(a,b[2]);return[0,ij(a,a,b[1]),d,c]}function
+mz(c){var
 a=c[1];if(a){var
-b=f2(c[2]);if(b)var
-g=e(af,b[1]),d=[0,[0,af(a[1]),g]];else
+b=gc(c[2]);if(b)var
+g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-sF(c){var
-a=W(e(ma,c[1]));if(a)var
-b=ma(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+s4(c){var
+a=Z(e(mz,c[1]));if(a)var
+b=mz(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-sG(a){return _(hr([0,a[2],a[1]]))}function
-h3(a){return[0,a[1],a[2]]}function
-mb(b,c,a){var
-d=e(function(c){return bh(b,bJ(c,a))},c);return[0,bh(b,a),d]}function
-h4(b,e,a,d){var
-c=w(function(a){var
-b=h3(a[2]);return f(w(h3,a[1]),b)},d),g=a?[0,bh(b,a[1]),0]:a,h=f(g,c);return[0,bh(b,e),h]}function
-mc(c,f,b,a){var
-d=f7(f,b,a),e=d?f0(c,a):d;return e?n(function(b){return f0(c,bJ(b,a))},b):e}function
-md(a){switch(a[0]){case
+s5(a){return U(hC([0,a[2],a[1]]))}function
+ik(a){return[0,a[1],a[2]]}function
+mA(b,c,a){var
+d=e(function(c){return bl(b,bL(c,a))},c);return[0,bl(b,a),d]}function
+il(b,e,a,d){var
+c=x(function(a){var
+b=ik(a[2]);return f(x(ik,a[1]),b)},d),g=a?[0,bl(b,a[1]),0]:a,h=f(g,c);return[0,bl(b,e),h]}function
+mB(c,f,b,a){var
+d=gh(f,b,a),e=d?ga(c,a):d;return e?m(function(b){return ga(c,bL(b,a))},b):e}function
+mC(a){switch(a[0]){case
 3:var
-d=h0(a[2]);return[0,a[3],d];case
+d=ih(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=h0(b[1]);return[0,b[2],e];case
+b=a[1],e=ih(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=h0(a[1]);return[0,a[2],c]}}function
-me(a,au,bq,k,m,P,at,w,O,j,g){switch(j[0]){case
+c=ih(a[1]);return[0,a[2],c]}}function
+mD(a,aw,br,k,n,R,av,x,P,j,h){switch(j[0]){case
 0:var
-av=j[4],Q=j[3],ay=j[2],az=j[1],U=0;if(typeof
-g==="number")U=1;else
-switch(g[0]){case
+ax=j[4],S=j[3],az=j[2],aA=j[1],U=0;if(typeof
+h==="number")U=1;else
+switch(h[0]){case
 0:var
-br=g[2],bs=g[1],t=ay,q=az,p=function(b){return lP(a,m,bs,br,Q,b)},o=av;break;case
+bs=h[2],bt=h[1],u=az,q=aA,p=function(b){return mc(a,n,bt,bs,S,b)},o=ax;break;case
 2:var
-aA=ac(Q[1],d),aC=aA?ac(Q[2],d):aA;if(!aC)return aC;var
-bv=g[2],bw=g[1],t=ay,q=az,p=function(b){return lQ(a,m,bw,bv,b)},o=av;break;default:U=1}if(U)return 0;break;case
+aB=I(S[1],d),aC=aB?I(S[2],d):aB;if(!aC)return aC;var
+bw=h[2],bx=h[1],u=az,q=aA,p=function(b){return md(a,n,bx,bw,b)},o=ax;break;default:U=1}if(U)return 0;break;case
 1:var
-aM=0;if(typeof
-g==="number"&&!g)var
-bx=j[2],by=j[1],bz=j[3],t=bx,q=by,bA=0,p=function(b){return lR(a,m,bz,b)},o=bA;else
-aM=1;if(aM)return 0;break;case
+aN=0;if(typeof
+h==="number"&&!h)var
+by=j[2],bz=j[1],bA=j[3],u=by,q=bz,bB=0,p=function(b){return me(a,n,bA,b)},o=bB;else
+aN=1;if(aN)return 0;break;case
 2:if(typeof
-g!=="number"&&3===g[0]){var
-z=g[3];if(z){var
-aD=z[2],aE=r(h(aD),k);if(aE){var
-bB=[0,j[1],j[2],O],bC=dT(function(a){return s(a,w,sJ)},bB),aF=g[1],bD=0,bF=z[1],bG=g[2],bH=j[3],bI=function(w,i){var
-c=dS(i[1]);if(c){var
+h!=="number"&&3===h[0]){var
+B=h[3];if(B){var
+aD=B[2],aF=s(g(aD),k);if(aF){var
+bC=[0,j[1],j[2],P],bD=d0(function(a){return r(a,x,s8)},bC),aG=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bJ=function(w,i){var
+c=dZ(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=cJ(i[3]);if(f){var
-k=f[1],l=function(c){return a2(c,aF,R(a,b))},t=l(w),u=e[1],g=A(v(a,l(bF),u),t),n=M(d,g[1]),o=n?a9(a,m,fD(aF,bG,j,as([0,C(ae(g),k),0],m))):n;if(o){var
-h=fE(a,j,as([0,C(v(a,bH,g),k),0],m));if(h)return a9(a,m,h[1]);var
+f=cR(i[3]);if(f){var
+k=f[1],l=function(c){return aQ(c,aG,Q(a,b))},u=l(w),v=e[1],g=z(t(a,l(bG),v),u),m=L(d,g[1]),o=m?a6(a,n,fO(aG,bH,j,as([0,F(ab(g),k),0],n))):m;if(o){var
+h=fP(a,j,as([0,F(t(a,bI,g),k),0],n));if(h)return a6(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -3905,20 +4108,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return hY(function(b,a){return dT},bI,bD,aD,d,bC)}var
-aH=aE}else
+s=c;return s};return ie(function(b,a){return d0},bJ,bF,aD,d,bD)}var
+aH=aF}else
 var
-aH=z;return aH}return 0;case
+aH=B;return aH}return 0;case
 3:var
-aN=0;if(typeof
-g==="number"||!(0===g[0]))aN=1;else
+aO=0;if(typeof
+h==="number"||!(0===h[0]))aO=1;else
 var
-aI=g[2],aJ=g[1],bJ=j[3],bK=j[2],bL=j[4],bM=j[1],bN=function(f){var
-b=dS(f[1]);if(b){var
+aI=h[2],aK=h[1],bK=j[3],bL=j[2],bM=j[4],bN=j[1],bO=function(f){var
+b=dZ(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=cJ(f[3]);if(e){var
-g=r(h(c),m),i=g?r(h(aI),m):g;if(i){var
-n=dG(aJ,dH(aJ,aI,d[1],c));return a9(a,m,bE(fH(a,bM,bL,e[1],c),n))}var
+e=cR(f[3]);if(e){var
+h=s(g(c),n),i=h?s(g(aI),n):h;if(i){var
+m=dO(aK,dP(aK,aI,d[1],c));return a6(a,n,a5(fS(a,bN,bM,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -3927,450 +4130,462 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},t=bJ,q=bK,p=bN,o=j[5];if(aN)return 0;break;case
+l=b;return l},u=bK,q=bL,p=bO,o=j[5];if(aO)return 0;break;case
 4:var
-aO=0;if(typeof
-g==="number"&&!g)var
-t=j[1],q=0,p=r4,o=0;else
-aO=1;if(aO)return 0;break;case
+aR=0;if(typeof
+h==="number"&&!h)var
+u=j[1],q=0,p=sr,o=0;else
+aR=1;if(aR)return 0;break;case
 5:var
-aQ=0;if(typeof
-g==="number"||!(0===g[0]))aQ=1;else{var
-D=g[2],aS=0;if(D){var
-E=D[1];if(E){if(E[2])return 0;if(D[2])return 0;var
-bO=j[2],bP=j[1],bQ=R(a,b),bR=[0,[0,E[1],0],0],bS=g[1],t=bO,q=bP,bW=0,p=function(b){return lP(a,sK,bS,bR,bQ,b)},o=bW;aS=1}else
+aS=0;if(typeof
+h==="number"||!(0===h[0]))aS=1;else{var
+C=h[2],aT=0;if(C){var
+D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
+bP=j[2],bQ=j[1],bR=Q(a,b),bS=[0,[0,D[1],0],0],bT=h[1],u=bP,q=bQ,bU=0,p=function(b){return mc(a,s9,bT,bS,bR,b)},o=bU;aT=1}else
 var
-aK=E}else
+aL=D}else
 var
-aK=D;if(!aS)return aK}if(aQ)return 0;break;case
+aL=C;if(!aT)return aL}if(aS)return 0;break;case
 6:var
-aT=0;if(typeof
-g==="number"&&!g)var
-bX=j[2],bZ=j[1],b0=R(a,b),t=bX,q=bZ,b1=0,p=function(b){return lR(a,sL,b0,b)},o=b1;else
-aT=1;if(aT)return 0;break;case
-7:var
 aU=0;if(typeof
-g==="number"&&5<=g)var
-b2=j[2],b3=j[1],b4=j[4],b5=j[3],t=b2,q=b3,b6=0,p=function(b){return lQ(a,m,b5,b4,b)},o=b6;else
+h==="number"&&!h)var
+bV=j[2],b0=j[1],b1=Q(a,b),u=bV,q=b0,b2=0,p=function(b){return me(a,s_,b1,b)},o=b2;else
 aU=1;if(aU)return 0;break;case
+7:var
+aV=0;if(typeof
+h==="number"&&5<=h)var
+b3=j[2],b4=j[1],b5=j[4],b6=j[3],u=b3,q=b4,b7=0,p=function(b){return md(a,n,b6,b5,b)},o=b7;else
+aV=1;if(aV)return 0;break;case
 8:if(typeof
-g!=="number"&&9===g[0]){var
-F=g[4],aL=g[2],T=g[1],l=j[1],u=l[9],b7=g[3],aZ=l[5],a0=hg(f(en(l[4]),aZ),au),a1=e(af,bq),y=l[9],a3=l[8],a4=l[7],aX=fI(y,as(B,g$(k,y)),a3),aY=f(e(af,bT(y,P)),aX),Y=j4(0,bY(a,f(fI(0,bn(y,P),a4),aY),a1),a0,au,0),Z=0<aP(F)?0<aP(d)?fm(F,d):0:0<aP(d)?0:1;if(Z)var
-G=Z;else
+h!=="number"&&9===h[0]){var
+E=h[4],aM=h[2],T=h[1],l=j[1],v=l[9],b8=h[3],a1=l[5],a2=fH(f(eB(l[4]),a1),aw),a3=e($,br),A=l[9],a4=l[8],a7=l[7],aZ=fT(A,as(w,ev(k,A)),a4),a0=f(e($,bW(A,R)),aZ),X=ko(0,bE(a,f(fT(0,bp(A,R),a7),a0),a3),a2,aw,0),_=0<aJ(E)?0<aJ(d)?fx(E,d):0:0<aJ(d)?0:1;if(_)var
+G=_;else
 var
-ap=2<=jR(F,c(2,c(2,c(2,c(2,b)))))?0:1,aq=ap?bd(0,u):ap,G=aq?bd(u,k):aq;var
-_=G?V(u,k):G,$=_?r(h(P),k):_,aa=$?r(h(aL),k):$,ab=aa?r(h(l[1]),k):aa,ad=ab?r(h(l[6]),k):ab,ag=ad?r(h(l[4]),k):ad;if(ag)var
-a5=l[4],H=n(function(a){return r(h(a),k)},a5);else
+aq=2<=ka(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=aq?aX(0,v):aq,G=au?aX(v,k):au;var
+aa=G?Y(v,k):G,ac=aa?s(g(R),k):aa,ad=ac?s(g(aM),k):ac,ae=ad?s(g(l[1]),k):ad,af=ae?s(g(l[6]),k):ae,ag=af?s(g(l[4]),k):af;if(ag)var
+a8=l[4],H=m(function(a){return s(g(a),k)},a8);else
 var
 H=ag;if(H){var
-a6=l[4],I=W(e(function(a){return l6(Y,a)},a6));if(I){var
-ah=l6(Y,l[5]);if(ah){var
-a7=l[6],J=W(e(function(j){var
-c=j[1],k=l[7],d=s(c[1],at,0);if(d){var
-h=c[2][2],b=W(e(function(a){var
-b=s(a[2],at,0);return x(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,ct(ax(v(a,k,S(a,l4(a,e(aB,c[2][2]),i)))))];else
+a9=l[4],J=Z(e(function(a){return mt(X,a)},a9));if(J){var
+ah=mt(X,l[5]);if(ah){var
+a_=l[6],K=Z(e(function(j){var
+c=j[1],k=l[7],d=r(c[1],av,0);if(d){var
+h=c[2][2],b=Z(e(function(a){var
+b=r(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cj(at(t(a,k,V(a,mr(a,e(ay,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a7));if(J){var
-a8=l[1],a_=l[2],K=W(e(function(m){function
+g=d;return g},a_));if(K){var
+ba=l[1],bb=l[2],M=Z(e(function(m){function
 f(e){var
-g=as(e,k),c=lO(s(m[2],w,sx),g);if(c){var
-h=as(e,k),d=lO(s(a_,w,sy),h);if(d){var
-i=d[1],j=R(a,b);return bV(a,cZ(ep(c[1],j,i)))}var
+g=as(e,k),c=mb(r(m[2],x,sW),g);if(c){var
+h=as(e,k),d=mb(r(bb,x,sX),h);if(d){var
+i=d[1],j=Q(a,b);return bY(a,bZ(dG(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=cZ(ax(A(c[1],e[1]))),h=M(d,g[1]),l=h?[0,g]:h,i=l;else
+g=bZ(at(z(c[1],e[1]))),h=L(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},a8));if(K){var
-a$=I[1],X=dE(a,aw(function(i,h){var
+j=c;return j},ba));if(M){var
+bc=J[1],W=dL(a,ar(function(i,h){var
 o=e(function(b){var
-a=aG(0,k);return e(function(a){return cd(s(a,b[3],B))},a)},i);function
+a=aE(0,k);return e(function(a){return ci(r(a,b[3],w))},a)},i);function
 b(m,l){var
-n=l2(u,m,o),g=e(function(a){return l2(u,l,a)},n);function
-b(a){return aw(bj,d,a)}var
+n=mp(v,m,o),g=e(function(a){return mp(v,l,a)},n);function
+b(a){return ar(bg,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(aw(function(a,b){return aR(j,i,jS,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return aw(jS,d,a)},g));return dE(a,v(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return A(h,S(a,A(A(A(b(0,0),g),f),c)))},B,a$)),L=a2(b7,T,R(a,b)),ai=M(d,C(L,X)[1]);if(ai){var
-N=bU(a,L);if(N){var
-ba=ax(v(a,X,N[1])),bb=C(R(a,b),ba),bc=[0,l[1],l[2],O],be=dT(function(a){return s(a,w,sz)},bc),bf=l[6],bh=e(sw,ar(ar(J[1],K[1]),bf)),bi=S(a,bb),bl=S(a,L),bm=l[10],aV=aG(0,k),aW=e(function(a){var
-d=bm?V(u,a):bd(a,u);return d?b:fq(c(2,b),F)},aV),bo=function(q){var
-g=l3(q[1]);if(g){var
-u=g[1],i=q[2];if(i){var
-j=i[1],l=cJ(q[3]);if(l){var
-w=l[1],x=l5(a,k,bh,j,u),m=e(function(a){var
-c=a[2],b=ar(aW,a[1]);return[0,e(function(a){return a2(a[1],d,a[2])},b),c]},u),G=dG(T,dH(T,aL,j,m)),o=bE(as([0,ae(w),0],k),G),H=C(v(a,j,bi),w),y=r(h(m),k),z=y?r(h(x),k):y;if(z){var
+c=b(ar(function(a,b){return aP(j,i,kc,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ar(kc,d,a)},g));return dL(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return z(h,V(a,z(z(z(b(0,0),g),f),c)))},w,bc)),N=aQ(b8,T,Q(a,b)),ai=L(d,F(N,W)[1]);if(ai){var
+O=bX(a,N);if(O){var
+bd=at(t(a,W,O[1])),be=F(Q(a,b),bd),bf=[0,l[1],l[2],P],bh=d0(function(a){return r(a,x,sY)},bf),bi=l[6],bj=e(sV,ao(ao(K[1],M[1]),bi)),bk=V(a,be),bl=V(a,N),bm=l[10],aW=aE(0,k),aY=e(function(a){var
+d=bm?Y(v,a):aX(a,v);return d?b:ex(c(2,b),E)},aW),bo=function(q){var
+h=mq(q[1]);if(h){var
+v=h[1],i=q[2];if(i){var
+j=i[1],l=cR(q[3]);if(l){var
+w=l[1],x=ms(a,k,bj,j,v),n=e(function(a){var
+c=a[2],b=ao(aY,a[1]);return[0,e(function(a){return aQ(a[1],d,a[2])},b),c]},v),G=dO(T,dP(T,aM,j,n)),o=a5(as([0,ab(w),0],k),G),H=F(t(a,j,bk),w),y=s(g(n),k),z=y?s(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
-s=r(h(c[1]),b);if(s){var
+r=s(g(c[1]),b);if(r){var
 b=b[1],c=c[2];continue}var
-t=s}else
+u=r}else
 var
-t=b;var
-A=t}else
+u=b;var
+A=u}else
 var
 A=b?0:1;var
 p=A;break}}else
 var
 p=z;var
-B=p?a9(a,k,bE(e(function(b){return[0,ae(v(a,bl,b[2])),0]},m),o)):p;if(B){var
-I=bg(bk(k));return n(function(g){var
-d=ar(f(g,sv),x),b=[0,[0,H,0],0],c=ar(o,e(function(a){return a[1]?ae(a[2]):a[2]},d));return a9(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
-D=B}else
+B=p?a6(a,k,a5(e(function(b){return[0,ab(t(a,bl,b[2])),0]},n),o)):p;if(B){var
+I=a$(bn(k));return m(function(g){var
+d=ao(f(g,sU),x),b=[0,[0,H,0],0],c=ao(o,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a6(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+C=B}else
 var
-D=l;var
+C=l;var
+D=C}else
+var
+D=i;var
 E=D}else
 var
-E=i;var
-F=E}else
-var
-F=g;return F},bp=l[3];return i(hZ(function(b,a){return dT},bp,k,bo),be)}var
-aj=N}else
+E=h;return E},bq=l[3];return i(ig(function(b,a){return d0},bq,k,bo),bh)}var
+aj=O}else
 var
 aj=ai;var
 ak=aj}else
 var
-ak=K;var
+ak=M;var
 al=ak}else
 var
-al=J;var
+al=K;var
 am=al}else
 var
 am=ah;var
 an=am}else
 var
-an=I;var
-ao=an}else
+an=J;var
+ap=an}else
 var
-ao=H;return ao}return 0;default:return 0}var
-bt=[0,q,t,O],bu=dT(function(a){return s(a,w,sI)},bt);return i(hZ(function(b,a){return dT},o,k,p),bu)}function
-sM(b,a){var
-c=hd(ha,b[1],a[1]);return c?ha(b[2],a[2]):c}function
-mf(i,s,q,h,p,k,A,z,y,j,o,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?ez(i,0,0,0,g,h,0,a[1],e):0}else
+ap=H;return ap}return 0;default:return 0}var
+bu=[0,q,u,P],bv=d0(function(a){return r(a,x,s7)},bu);return i(ig(function(b,a){return d0},o,k,p),bv)}function
+s$(b,a){var
+c=ho(hk,b[1],a[1]);return c?hk(b[2],a[2]):c}function
+mE(i,q,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eL(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-t=f[3],u=f[2],v=H(d,u);if(v)var
-B=1===jR(t,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))?1:0,l=B;else
+r=f[3],t=f[2],u=G(d,t),v=u?kb(r,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return mD(i,q,p,h,o,j,g,n,[0,[0,[0,k[1],t],r]],a,f[1]);var
+w=v}else
 var
-l=v;if(l)return me(i,s,q,h,p,j,g,o,[0,[0,[0,k[1],u],t]],a,f[1]);var
-w=l}else
-var
-w=k;return w}return me(i,s,q,h,p,j,g,o,0,a,f);case
-8:return 9===a[0]?ez(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return mD(i,q,p,h,o,j,g,n,0,a,f);case
+8:return 9===a[0]?eL(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-m=hd(sM,a[1],A),n=m?1:m,x=n?r(a[2],z):n;return x?iU(y,j,a[3],a[4],e):x}return 0}return 0}function
-mg(b){var
+l=ho(s$,a[1],A),m=l?1:l,x=m?s(a[2],z):m;return x?jd(y,j,a[3],a[4],e):x}return 0}return 0}function
+mF(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-sN(c){var
+ta(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-mh(b,u,n,k,m,V,U,c,T,Q,P,j,i,ak){var
-W=aj(sN,i),X=W?kN(b,n,k,hg(w(function(c){var
-a=E(m,c[1]);if(a){var
+eX(a,o,l,j,A,v,b,u,s,C,h,k,au,c){switch(c[0]){case
+0:var
+av=function(a){return m(U,a)},N=av,p=c[1];break;case
+1:var
+aw=c[4],ax=c[3],az=c[2],aA=function(c){var
+d=cF(az,k),e=eX(a,o,l,j,A,v,b,u,s,C,h,d[1],c,ax);return e?eX(a,o,l,j,A,v,b,u,s,C,h,d[2],c,aw):e},N=aA,p=c[1];break;default:var
+aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
+i=ao(j,c),d=m(function(b){var
+c=b[1];switch(c[0]){case
+8:var
+a=0;break;case
+9:var
+a=hN(c[1]);break;default:var
+a=1}return a?a:U(b[2])},i);if(d){var
+e=cF(aD,h),f=eX(a,o,l,j,A,v,b,u,s,C,e[1],k,c,aC);if(f)return eX(a,o,l,j,A,v,b,u,s,C,e[2],k,c,aB);var
+g=f}else
+var
+g=d;return g},N=aE,p=c[1]}var
+ae=i(C,h),aa=aj(ta,p),ac=aa?hH(a,l,h,fH(x(function(c){var
+a=D(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
-d=b[1][6];return w(function(a){var
-b=e(aQ,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return kT(0,0,0,b[1],c[2]);default:return 0}}return a},i),n),j):W,Y=aj(mg,i);if(Y)var
-ag=w(function(b){var
-c=mg(b);if(c){var
-a=E(m,b[1]);if(a)return md(a[1]);var
+d=b[1][6];return x(function(a){var
+b=e(aT,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return hO(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):aa,ad=aj(mF,p);if(ad)var
+aq=x(function(b){var
+c=mF(b);if(c){var
+a=D(j,b[1]);if(a)return mC(a[1]);var
 d=a}else
 var
-d=c;return d},i),ah=c?[0,c[1],0]:c,ai=f(ah,ag),_=0,$=aw(er,e(function(a){return 0},u),ai),y=hX(b,k,em(f1(em(u,0),$),_),j);else
+d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,aq),ah=0,ai=ar(eE,e(function(a){return 0},o),at),M=id(a,h,eA(gb(eA(o,0),ai),ah),k);else
 var
-y=Y;var
-h=i,a=ak;for(;;){if(h){var
-F=h[1],l=F[2],g=F[1],p=h[2];if(g){var
-G=s(g,a,0);if(G){var
-q=E(m,g);if(q){var
-H=mf(b,n,k,V,U,c,T,Q,P,j,y,X,q[1],l);if(H){var
-h=p,a=fN(g,a);continue}var
-I=H}else
+M=ad;var
+q=p,g=au;for(;;){if(q){var
+R=q[1],E=R[2],n=R[1],H=q[2];if(n){var
+S=r(n,g,0);if(S){var
+I=D(j,n);if(I){var
+T=mE(a,l,h,A,v,b,u,s,ae,k,M,ac,I[1],E);if(T){var
+q=H,g=f1(n,g);continue}var
+W=T}else
 var
-I=q;var
-J=I}else
+W=I;var
+X=W}else
 var
-J=G;return J}if(typeof
-l==="number"&&4===l){var
-Z=0;if(c){var
-af=0,z=e(function(a){return[0,a,S(b,a)]},j),ab=e(aQ,z),aa=0,ac=f(e(aB,z),ab),ad=bW(0,function(o){return function(a){switch(a[0]){case
-0:return[0,s(a[1],o,B)];case
-1:return[0,s(a[1],k,B)];case
-2:return[0,R(b,a[1])];case
+X=S;var
+B=X}else{var
+af=0;if(typeof
+E==="number"&&4===E){var
+ag=0;if(b){var
+ap=0,O=e(function(b){return[0,b,V(a,b)]},k),al=e(aT,O),ak=0,am=f(e(ay,O),al),an=bi(0,function(o){return function(b){switch(b[0]){case
+0:return[0,r(b[1],o,w)];case
+1:return[0,r(b[1],h,w)];case
+2:return[0,Q(a,b[1])];case
 3:var
-c=a[2],d=a[1];return cI(function(b,a){return[0,A(b,a)]},d,c);case
+c=b[2],d=b[1];return cQ(function(b,a){return[0,z(b,a)]},d,c);case
 4:var
-e=a[2],f=a[1];return cI(function(b,a){return[0,C(b,a)]},f,e);case
+e=b[2],f=b[1];return cQ(function(b,a){return[0,F(b,a)]},f,e);case
 5:var
-g=a[1];return cH(function(a){return[0,ae(a)]},g);case
+g=b[1];return cP(function(a){return[0,ab(a)]},g);case
 6:var
-h=a[2],i=a[1];return cI(function(c,a){return[0,v(b,c,a)]},i,h);case
+i=b[2],j=b[1];return cQ(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-j=a[2],l=a[1];return cI(function(c,a){var
-d=bU(b,a);return x(function(a){return v(b,c,a)},d)},l,j);case
+k=b[2],l=b[1];return cQ(function(c,b){var
+d=bX(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=a[1];return cH(function(a){return[0,S(b,a)]},m);case
+m=b[1];return cP(function(b){return[0,V(a,b)]},m);case
 9:var
-n=a[1];return cH(function(a){return bV(b,a)},n);default:return 0}}}(ac),u,aa),o=s(c[1],ad,af);if(o){var
-r=M(o[1][2],d);Z=1}else
+n=b[1];return cP(function(b){return bY(a,b)},n);default:return 0}}}(am),o,ak),G=r(b[1],an,ap);if(G){var
+J=L(G[1][2],d);ag=1}else
 var
-D=o}else
+P=G}else
 var
-D=c;if(!Z)var
-r=D;if(r){var
-h=p,a=e(function(a){return 0},a);continue}return r}var
-K=s(g,a,0);if(K){var
-t=E(m,g);if(t){var
-L=mf(b,n,k,V,U,c,T,Q,P,j,y,X,t[1],l);if(L){var
-h=p,a=fN(g,a);continue}var
-N=L}else
+P=b;if(!ag)var
+J=P;if(J){var
+q=H,g=e(function(a){return 0},g);continue}var
+B=J}else
+af=1;if(af){var
+Y=r(n,g,0);if(Y){var
+K=D(j,n);if(K){var
+Z=mE(a,l,h,A,v,b,u,s,ae,k,M,ac,K[1],E);if(Z){var
+q=H,g=f1(n,g);continue}var
+_=Z}else
 var
-N=t;var
-O=N}else
+_=K;var
+$=_}else
 var
-O=K;return O}return[0,a]}}function
-mi(m,l,k,j,i,h,g,f,e,d,c,x,w,v){var
-b=x,o=w,a=v;for(;;){if(0===a[0]){var
-p=mh(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);return p?n(_,p[1]):p}var
-q=mh(m,l,k,j,i,h,g,f,e,d,c,b,a[1],o);if(q){var
-r=q[1],s=ey(a[2],b),t=mi(m,l,k,j,i,h,g,f,e,d,c,s[1],r,a[3]);if(t){var
-b=s[2],o=r,a=a[4];continue}var
-u=t}else
+$=Y;var
+B=$}}}else
 var
-u=q;return u}}function
-h5(d,a){var
-e=L(a),f=q(q(k(c(2,b)),a),d);return y(u(L(d),f),e)}function
-h6(k,a,d,j,c,h){var
-e=$(u,db(k),j);if(h){var
+B=[0,g];return B?N(B[1]):B}}function
+im(d,a){var
+e=N(a),f=q(q(k(c(2,b)),a),d);return A(v(N(d),f),e)}function
+io(k,a,d,j,c,h){var
+e=ac(v,dg(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eJ([0,b(function(a){return a[1]}),g,f],e);return $(y,aS(d,c),l)}var
-m=eJ(a,c);return $(y,aS(d,e),m)}function
-mj(f,h,g,l,a,d){var
-e=db(f),i=$(u,e,a),j=eJ(h,d),m=h5(e[3],a[3]),n=h5(e[2],a[2]),o=h5(e[1],a[1]),p=y(y(y(P(d,d),o),n),m),r=P(j,i),s=q(k(c(2,b)),r),t=y(q(g,p),s),v=a8(b3(j,i),l);return[0,f5(f,h6(f,h,g,a,d,0),v),t]}function
-mk(d,c,b,a){var
-e=f6(c,b,a);return $(y,db(d),e)}function
-ml(g,f,e,d,c){var
-b=mk(g,f,e,c),a=$(u,b,d);return[0,[0,b,a],az(P(a,a))]}function
-f8(b,a){var
-c=aX(a[2],b);return f(aX(a[1],b),c)}function
-h7(d,b,a,c){if(a)var
-e=a[1],f=ci(c,f8(b,e)),i=O(c,h(f8(b,e))),j=h7(d,b,a[2],i),k=ag(f,sO),g=[0,an(d,ag(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eW([0,b(function(a){return a[1]}),g,f],e);return ac(A,aU(d,c),l)}var
+m=eW(a,c);return ac(A,aU(d,e),m)}function
+mG(f,h,g,l,a,d){var
+e=dg(f),i=ac(v,e,a),j=eW(h,d),m=im(e[3],a[3]),n=im(e[2],a[2]),o=im(e[1],a[1]),p=A(A(A(S(d,d),o),n),m),r=S(j,i),s=q(k(c(2,b)),r),t=A(q(g,p),s),u=ba(b6(j,i),l);return[0,gf(f,io(f,h,g,a,d,0),u),t]}function
+mH(d,c,b,a){var
+e=gg(c,b,a);return ac(A,dg(d),e)}function
+mI(g,f,e,d,c){var
+b=mH(g,f,e,c),a=ac(v,b,d);return[0,[0,b,a],aA(S(a,a))]}function
+gi(b,a){var
+c=a0(a[2],b);return f(a0(a[1],b),c)}function
+ip(d,b,a,c){if(a)var
+e=a[1],f=co(c,gi(b,e)),i=P(c,g(gi(b,e))),j=ip(d,b,a[2],i),k=ag(f,tb),h=[0,al(d,ag(f,0),k),j];else
 var
-g=a;return g}function
-h8(f,o,e,n,a){var
-h=q(L(s(0,n,k(d))),o);if(typeof
+h=a;return h}function
+iq(f,o,e,n,a){var
+g=q(N(r(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=E(e,a[1]);if(b)var
-i=g(f,0,a[2]),j=i?[0,u(b[1][1][2],h)]:i;else
+b=D(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,v(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=E(e,a[1]);if(c)var
-l=g(f,0,a[2]),m=l?[0,u(h,c[1][1][2])]:l;else
+c=D(e,a[1]);if(c)var
+l=h(f,0,a[2]),m=l?[0,v(g,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-mm(c,b,a){if(typeof
+mJ(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=E(c,a[1]);return x(function(a){var
-c=s(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-f9(a){return g(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-mn(a){var
-b=ag(a,sP),c=az(P(ag(a,sQ),b));return q(s(0,a,k(d)),c)}function
-mo(b,a){var
-c=P(a,ag(b,sR));return[0,bF(aS(mn(b),a)),c]}function
-mp(e,d,a,c,b){var
-f=b[2],g=q(mn(a),f),h=c?f6(e,d,ag(a,sS)):ag(a,sT);return u(P(b[1][2],h),g)}function
-mq(h,g,f,d,c,b,a){var
-i=bl(c);function
-j(a){return mk(h,g,f,a)}return k0(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-eK(a){var
-b=s(sU,a,k(d));return ah(s(0,a,k(d)),b)}function
-h9(a){return a[4][2]}function
-mr(g,o,n,m,a){var
-p=a[1][2],r=e(aQ,fT(n,a[1][2])),h=eK(m),i=q(q(k(c(2,b)),o),h),d=a[1][1],j=bT(da(g),d),l=e(function(a){return q(a,i)},j);return[0,f(f(bn(da(g),d),l),r),p]}function
-ms(a){var
-b=a[3],c=a[2],d=a[1];return fX([0,[0,d,d],[0,c,c],[0,b,b]])}function
-s3(a){if(typeof
+e=D(c,a[1]);return y(function(a){var
+c=r(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+gj(a){return h(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+mK(a){var
+b=ag(a,tc),c=aA(S(ag(a,td),b));return q(r(0,a,k(d)),c)}function
+mL(b,a){var
+c=S(a,ag(b,te));return[0,bH(aU(mK(b),a)),c]}function
+mM(e,d,a,c,b){var
+f=b[2],g=q(mK(a),f),h=c?gg(e,d,ag(a,tf)):ag(a,tg);return v(S(b[1][2],h),g)}function
+mN(h,g,f,d,c,b,a){var
+i=bo(c);function
+j(a){return mH(h,g,f,a)}return ln(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+eY(a){var
+b=r(th,a,k(d));return ah(r(0,a,k(d)),b)}function
+ir(a){return a[4][2]}function
+mO(g,o,n,m,a){var
+p=a[1][2],r=e(aT,f5(n,a[1][2])),h=eY(m),i=q(q(k(c(2,b)),o),h),d=a[1][1],j=bW(df(g),d),l=e(function(a){return q(a,i)},j);return[0,f(f(bp(df(g),d),l),r),p]}function
+mP(a){var
+b=a[3],c=a[2],d=a[1];return f9([0,[0,d,d],[0,c,c],[0,b,b]])}function
+tq(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-mt(b,a){switch(b){case
+mQ(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-f_(a){var
-c=cg(a[1],[0,d,b]);return c?cg(a[2],[0,d,b]):c}function
-h_(d,a){switch(d){case
-0:return f_(a[3]);case
+gk(a){var
+c=cm(a[1],[0,d,b]);return c?cm(a[2],[0,d,b]):c}function
+is(d,a){switch(d){case
+0:return gk(a[3]);case
 1:return 1;default:var
-b=f_(a[1]),c=b?f_(a[2]):b;return c?f_(a[3]):c}}function
-mu(c,b){var
-a=w(function(a){return f8(c,a)},b),d=ar(aG(0,h(a)),a);return e(aB,bm(function(a){return fS(a[2])},d))}function
-mv(b){var
+b=gk(a[1]),c=b?gk(a[2]):b;return c?gk(a[3]):c}}function
+it(c,b){var
+a=x(function(a){return gi(c,a)},b),d=ao(aE(0,g(a)),a);return e(ay,bh(function(a){return hU(a[2])},d))}function
+mR(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-mw(c){var
-a=c;for(;;){if(0===a[0])return aj(mv,a[1]);var
-d=aj(mv,a[1]),b=d||mw(a[3]);if(b)return b;var
+mS(c){var
+a=c;for(;;){if(0===a[0])return aj(mR,a[1]);var
+d=aj(mR,a[1]),b=d||mS(a[3]);if(b)return b;var
 a=a[4];continue}}function
-s4(a,aP,bD,A,D,aO){var
-l=A[1],j=b1(l),Z=A[6],bE=A[2],K=w(function(a){return f8(D,a)},bE),aR=A[3],U=[0,[0,aR,aR],D],ac=[0,h(K)],bG=0,aT=w(function(a){return eG(bG,D,a)},Z),bI=da(l),aU=lU(A[5],bI),m=aU[2],G=aU[1],J=cC(U,h(K)),bK=A[2],V=h(K),bJ=0,z=h7(function(e,a){function
+tr(a,aP,bD,B,C,aO){var
+l=B[1],j=b4(l),Y=B[6],bE=B[2],K=x(function(a){return gi(C,a)},bE),aQ=B[3],R=[0,[0,aQ,aQ],C],aa=[0,g(K)],bF=0,aR=x(function(a){return eT(bF,C,a)},Y),bG=df(l),aS=mh(B[5],bG),n=aS[2],H=aS[1],J=cK(R,g(K)),bK=B[2],T=g(K),bI=0,z=ip(function(e,a){function
 i(g){var
-c=b1(l);if(l)var
+c=b4(l);if(l)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
 o=k(d),b=[0,k(d),o,[0,[0,c]]];var
-t=l8(l,G,m,e,a,b)[2],h=l8(l,G,m,e,a,b),i=h[1],j=a8(i[2],h[2]),n=b3(i[1],j),p=$(y,n,b3(n,b)),f=aS(l7(b),p),r=q(f[3],g),s=q(f[2],g);return[0,f5(l,j,[0,q(f[1],g),s,r]),t]}function
+t=mv(l,H,n,e,a,b)[2],h=mv(l,H,n,e,a,b),i=h[1],j=ba(i[2],h[2]),m=b6(i[1],j),p=ac(A,m,b6(m,b)),f=aU(mu(b),p),r=q(f[3],g),s=q(f[2],g);return[0,gf(l,j,[0,q(f[1],g),s,r]),t]}function
 j(Y){var
-w=ml(l,G,m,e,a),x=w[1],W=$(u,db(l),e),z=w[2],s=x[1],X=x[2],g=f6(G,m,a),i=a8(X,z),O=ah(P(g,i),J),Q=L(J),R=ah(P(a,a),Q),S=2<=l?d:b,T=y(k(S),R);function
-h(a){return[0,l0(a),0]}function
-f(a){return[0,a8(b3(l0(a),g),J),[0,a]]}switch(l){case
+w=mI(l,H,n,e,a),x=w[1],W=ac(v,dg(l),e),y=w[2],r=x[1],X=x[2],g=gg(H,n,a),i=ba(X,y),O=ah(S(g,i),J),P=N(J),Q=ah(S(a,a),P),R=2<=l?d:b,U=A(k(R),Q);function
+h(a){return[0,mn(a),0]}function
+f(a){return[0,ba(b6(mn(a),g),J),[0,a]]}switch(l){case
 0:var
-C=[0,f(sk),0],D=[0,h(sl),C],p=[0,h(0),D];break;case
+C=[0,f(sJ),0],D=[0,h(sK),C],p=[0,h(0),D];break;case
 1:var
-E=[0,f(sm),0],F=[0,f(sn),E],H=[0,f(0),F],I=[0,h(so),H],K=[0,h(sp),I],p=[0,h(0),K];break;default:var
-M=[0,f(sq),0],N=[0,f(sr),M],p=[0,f(0),N]}var
-j=$(u,[0,[0,[1,V]],[0,[1,[0,V]]],[0,[1,[0,[0,V]]]]],e),n=a8(j,az(P(j,j)));if(l)var
-o=h1(l,V,e,s,n[3]);else
+E=[0,f(sL),0],F=[0,f(sM),E],G=[0,f(0),F],I=[0,h(sN),G],K=[0,h(sO),I],p=[0,h(0),K];break;default:var
+L=[0,f(sP),0],M=[0,f(sQ),L],p=[0,f(0),M]}var
+j=ac(v,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),m=ba(j,aA(S(j,j)));if(l)var
+o=ii(l,T,e,r,m[3]);else
 var
-A=k(d),B=k(d),o=[0,k(d),B,A];var
-t=h1(l,V,e,s,n[2]),v=h1(l,V,e,s,n[1]),U=l1(function(s,w){var
+z=k(d),B=k(d),o=[0,k(d),B,z];var
+t=ii(l,T,e,r,m[2]),u=ii(l,T,e,r,m[1]),V=mo(function(r,w){var
 e=w[1];function
 a(b,a){var
-c=e[3],f=c$(a,o),g=q(y(b[3],f),c),h=e[2],i=c$(a,t),j=q(y(b[2],i),h),l=e[1],m=c$(a,v),n=q(y(b[1],m),l);return y(y(y(k(d),n),j),g)}var
-x=a(o,ss),z=a(t,st),A=[0,a(v,0),z,x],f=P(s[1],A),l=s[2];if(l){var
+c=e[3],f=de(a,o),g=q(A(b[3],f),c),h=e[2],i=de(a,t),j=q(A(b[2],i),h),l=e[1],m=de(a,u),n=q(A(b[1],m),l);return A(A(A(k(d),n),j),g)}var
+x=a(o,sR),y=a(t,sS),z=[0,a(u,0),y,x],f=S(r[1],z),l=r[2];if(l){var
 h=l[1],m=w[2];if(m){var
-j=m[1],B=c$(h,g),C=q(c$(j,i),B),D=c$(j,g),n=y(q(c$(h,i),D),C),E=L(J);if(r(h,j))var
-F=P(i,g),p=u(n,q(k(c(2,b)),F));else
+j=m[1],B=de(h,g),C=q(de(j,i),B),D=de(j,g),n=A(q(de(h,i),D),C),E=N(J);if(s(h,j))var
+F=S(i,g),p=v(n,q(k(c(2,b)),F));else
 var
-p=n;return y(f,ah(p,E))}return f}return f},p);return[0,f5(l,i,a8(b3(g,a8(W,z)),J)),U,T,O]}var
-n=ml(l,G,m,e,a);function
-o(b){return h6(l,G,m,e,a,b)}var
+p=n;return A(f,ah(p,E))}return f}return f},p);return[0,gf(l,i,ba(b6(g,ba(W,y)),J)),V,U,O]}var
+m=mI(l,H,n,e,a);function
+o(b){return io(l,H,n,e,a,b)}var
 f=2<=l?d:b;function
 g(b){var
-c=L(J),d=k(f),e=q(u(L(b),d),c);return q(m,u(P(a,a),e))}var
-h=[0,P(h6(l,G,m,e,a,1),a),g];return[0,mj(l,G,m,J,e,a),h,o,n,j,i]},D,bK,bJ),X=e(function(a){return a[1]},z),bL=O(ac,h(aT)),bM=da(l),bN=A[5];function
-T(a){return[0,[0,O(bM,a)]]}var
-aI=L([0,[1,bL]]);switch(bN[0]){case
+c=N(J),d=k(f),e=q(v(N(b),d),c);return q(n,v(S(a,a),e))}var
+h=[0,S(io(l,H,n,e,a,1),a),g];return[0,mG(l,H,n,J,e,a),h,o,m,j,i]},C,bK,bI),W=e(function(a){return a[1]},z),bL=P(aa,g(aR)),bM=df(l),bN=B[5];function
+O(a){return[0,[0,P(bM,a)]]}var
+aI=N([0,[1,bL]]);switch(bN[0]){case
 2:var
-bt=T(sc),bu=T(sd),aJ=[0,T(0),bu,bt],F=[0,u(aI,P(aJ,aJ))];break;case
+bt=O(sB),bu=O(sC),aJ=[0,O(0),bu,bt],E=[0,v(aI,S(aJ,aJ))];break;case
 3:var
-bv=L(T(se)),bw=L(T(0)),bx=L(T(sf)),F=[0,u(u(q(aI,y(k(b),bx)),bw),bv)];break;default:var
-F=0}var
-aV=A[7];if(aV)var
-bO=0,bP=A[2],ao=h7(function(j,k){var
-a=mj(l,G,m,cC(U,h(K)),j,k),c=a[1];if(c){var
+bv=N(O(sD)),bw=N(O(0)),bx=N(O(sE)),E=[0,v(v(q(aI,A(k(b),bx)),bw),bv)];break;default:var
+E=0}var
+aV=B[7];if(aV)var
+bO=0,bP=B[2],an=ip(function(j,k){var
+a=mG(l,H,n,cK(R,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
-g=d[2],e=d[1];if(g){var
-i=g[1],f=b3(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},D,bP,bO);else
+h=d[2],e=d[1];if(h){var
+i=h[1],f=b6(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},C,bP,bO);else
 var
-ao=aV;var
-bQ=bH(ao),bR=F?[0,F[1],0]:F,bS=f(bR,bQ),bT=0,bU=f(K,[0,U,0]),bC=e(function(a){return a[1]},z),bV=[0,m,f(cG(function(c,b){if(typeof
+an=aV;var
+bQ=bJ(an),bR=E?[0,E[1],0]:E,bS=f(bR,bQ),bT=0,bU=f(K,[0,R,0]),bC=e(function(a){return a[1]},z),bV=[0,n,f(cO(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=mm(z,c,b);if(g)var
+g=mJ(z,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(aQ,fY(bC,c));case
+8:return e(aT,f_(bC,c));case
 13:var
-h=E(z,b[1]);if(h){var
-n=f9(b[4]);if(n){var
-o=mo(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
-p=n}else
+h=D(z,b[1]);if(h){var
+m=gj(b[4]);if(m){var
+o=mL(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
+p=m}else
 var
 p=h;return p;case
-16:return w(function(a){return mr(l,J,bU,c,a)[1]},z)}var
-d=h8(a,m,z,c,b),q=d?[0,d[1],0]:d;return q},bT,D,ac,Z),bS)],ap=f(bH(X),bV),bW=0,bX=f(K,[0,U,0]),aW=cG(function(b,a){if(typeof
+16:return x(function(a){return mO(l,J,bU,c,a)[1]},z)}var
+d=iq(a,n,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,aa,Y),bS)],ao=f(bJ(W),bV),bW=0,bX=f(K,[0,R,0]),aW=cO(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=E(z,a[1]);if(g){if(f9(a[4]))return 0;var
-n=[0,mp(G,m,b,a[2],g[1][4]),0]}else
+g=D(z,a[1]);if(g){if(gj(a[4]))return 0;var
+m=[0,mM(H,n,b,a[2],g[1][4]),0]}else
 var
-n=g;return n;case
+m=g;return m;case
 14:var
-h=mq(l,G,m,z,b,a[1],a[2]);if(h){var
-o=h[1],p=o[2],q=o[1];return w(bF,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=mN(l,H,n,z,b,a[1],a[2]);if(h){var
+o=h[1],p=o[2],q=o[1];return x(bH,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=E(z,a[1]);if(j){var
-c=i(j[1][5],0),r=[0,c[3],[0,c[4],0]],t=[0,s(sV,b,k(d)),r],u=[0,s(0,b,k(d)),t],v=f(en(c[2]),u);return f(c[1],v)}return j;case
+j=D(z,a[1]);if(j){var
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(ti,b,k(d)),s],u=[0,r(0,b,k(d)),t],v=f(eB(c[2]),u);return f(c[1],v)}return j;case
 16:var
-x=w(function(a){var
-b=e(aQ,fT(bX,h9(a)));return[0,h9(a),b]},z);return f(w(function(a){var
-c=eK(b),d=[0,i(a[6],c)[2],0],e=eK(b);return f(i(a[6],e)[1],d)},z),x)}return 0},bW,D,ac,Z),aX=cv(e(function(a){return bh(j,a)},ap))[1],aY=cv(aW)[1],aa=cu(aX),aq=cu(aY);function
-t(a){return a3(aa,bh(j,a))}function
-aZ(i){if(0===A[4][0]){var
-q=x(t,F),u=t(m),e=da(l),f=r(h(i),j);if(f)var
-g=x(function(a){return[0,[0,a,d],d]},q),a=function(a){return s(a,aa,k(d))},c=a(u),o=aG(0,e),b=n(function(b){var
-d=c_(j,b,c),e=d?n(function(d){var
-f=d[1],e=n(function(c){var
-d=a(c);return ck(O(j,b),d)},f);if(e){var
-g=a(d[2]);return fZ(c,O(j,b),g)}return e},i):d;if(e){if(g){var
-h=a(g[1][1][1]);return ck(O(j,b),h)}var
+w=x(function(a){var
+b=e(aT,f5(bX,ir(a)));return[0,ir(a),b]},z);return f(x(function(a){var
+c=eY(b),d=[0,i(a[6],c)[2],0],e=eY(b);return f(i(a[6],e)[1],d)},z),w)}return 0},bW,C,aa,Y),aY=cz(e(function(a){return bl(j,a)},ao))[1],aZ=cz(aW)[1],_=cy(aY),ap=cy(aZ);function
+u(a){return a4(_,bl(j,a))}function
+a0(i){if(0===B[4][0]){var
+q=y(u,E),t=u(n),e=df(l),f=s(g(i),j);if(f)var
+h=y(function(a){return[0,[0,a,d],d]},q),a=function(a){return r(a,_,k(d))},c=a(t),o=aE(0,e),b=m(function(b){var
+d=dd(j,b,c),e=d?m(function(d){var
+f=d[1],e=m(function(c){var
+d=a(c);return cq(P(j,b),d)},f);if(e){var
+g=a(d[2]);return f$(c,P(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cq(P(j,b),g)}var
 f=1}else
 var
 f=e;return f},o);else
 var
 b=f;var
 p=b?e:b;return p}return 0}var
-Y=aZ(i(at(t),X)),a0=n(function(a){var
-b=bh(j,a),c=k(d);return ay(s(t(a),aa,c),b)},ap),a1=a0?n(function(a){return f0(j,a)},ap):a0,a2=a1?n(function(a){var
-b=k(d);return ay(s(a3(aq,a),aq,b),a)},aW):a1,a4=a2?aj(s3,Z):a2;if(a4){var
-a5=_(A[7]);if(a5)var
-ad=a5;else{var
-br=A[5];if(1===l&&2===br[0])var
-bB=br[1],bs=g(a,1,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],bB]);else
+X=a0(i(au(u),W)),a1=m(function(a){var
+b=bl(j,a),c=k(d);return az(r(u(a),_,c),b)},ao),a2=a1?m(function(a){return ga(j,a)},ao):a1,a3=a2?m(function(a){var
+b=k(d);return az(r(a4(ap,a),ap,b),a)},aW):a2,a5=a3?aj(tq,Y):a3;if(a5){var
+a7=U(B[7]);if(a7)var
+ad=a7;else{var
+br=B[5];if(1===l&&2===br[0])var
+bB=br[1],bs=h(a,1,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],bB]);else
 var
 bs=0;var
 ad=bs}}else
 var
-ad=a4;var
-a6=ad?h_(l,dN(A[4])):ad,a7=a6?g(a,1,A[3]):a6;if(a7)var
-bY=f4(A[5]),ar=n(function(b){var
-c=c8(a,b[1]);return c?c8(a,b[2]):c},bY);else
+ad=a5;var
+a8=ad?is(l,dU(B[4])):ad,a9=a8?h(a,1,B[3]):a8;if(a9)var
+bY=ge(B[5]),aq=m(function(b){var
+c=db(a,b[1]);return c?db(a,b[2]):c},bY);else
 var
-ar=a7;if(ar){var
-bZ=f(K,[0,U,0]),au=W(e(function(b){return ak(a,b)},bZ));if(au){var
-av=W(e(function(b){return hU(a,b)},aT));if(av){var
-b0=mt(l,dN(A[4])),aw=W(e(function(b){return ak(a,[0,b,D])},b0));if(aw){var
-a_=aw[1],b2=lW(A[5]),ax=W(e(function(b){return lY(a,b)},b2));if(ax){var
-a$=ax[1],b4=lV(A[5]),aA=W(e(c7(a),b4));if(aA){var
-b5=0,I=function(a){return a3(aq,a)},aC=f(K,[0,U,0]),aD=W(cG(function(j,f){if(typeof
+aq=a9;if(aq){var
+bZ=f(K,[0,R,0]),ar=Z(e(function(b){return ak(a,b)},bZ));if(ar){var
+at=Z(e(function(b){return ia(a,b)},aR));if(at){var
+b0=mQ(l,dU(B[4])),av=Z(e(function(b){return ak(a,[0,b,C])},b0));if(av){var
+a_=av[1],b1=mj(B[5]),aw=Z(e(function(b){return ml(a,b)},b1));if(aw){var
+a$=aw[1],b2=mi(B[5]),ax=Z(e(da(a),b2));if(ax){var
+b3=0,I=function(a){return a4(ap,a)},aB=f(K,[0,R,0]),aC=Z(cO(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-C=f[4],aM=E(z,f[1]);if(aM){if(ms(f[3])&&g(a,0,C)&&g(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],C])){var
-aN=f[2],aO=aM[1];if(f9(C)){var
-aG=mo(j,i(aO[3],aN)),V=aG[2];if(g(o,0,[3,C,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
+E=f[4],aM=D(z,f[1]);if(aM){if(mP(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E])){var
+aN=f[2],aO=aM[1];if(gj(E)){var
+aG=mL(j,i(aO[3],aN)),U=aG[2];if(h(o,0,[3,E,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
-be=t(V),bf=t(V),aH=[0,[6,[0,[0,e(t,aG[1]),bf],0],be],0];var
-aP=[0,[4,t(V)],aH]}else
+be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
+aP=[0,[4,u(U)],aH]}else
 var
-aP=[0,[9,[3,I(mp(G,m,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return s1}return s2;case
+aP=[0,[9,[3,I(mM(H,n,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return to}return tp;case
 16:var
-Z=f[3],u=f[2],aQ=f[1],bg=b1(l);if(r(h(z),bg)&&g(a,0,aQ)&&g(a,1,u)&&g(a,1,Z)&&c8(a,Z)){var
-aI=ak(a,[0,[0,u,u],D]);if(aI){var
-bh=aI[1],aJ=i(c7(a),Z);if(aJ){var
-bi=aJ[1],aK=W(e(function(f){var
-b=k9(a,I,aC,D,aQ,u,h9(f));if(b){var
-c=k8(a,t,aC,D,u,f[1][2]);if(c){var
-g=f7(0,0,f[1][2]);if(g)var
-i=e(aB,c[1]),d=[0,[0,b[1],i]];else
+Y=f[3],t=f[2],aQ=f[1],bg=b4(l);if(s(g(z),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&db(a,Y)){var
+aI=ak(a,[0,[0,t,t],C]);if(aI){var
+bh=aI[1],aJ=i(da(a),Y);if(aJ){var
+bi=aJ[1],aK=Z(e(function(f){var
+b=lw(a,I,aB,C,aQ,t,ir(f));if(b){var
+c=lv(a,u,aB,C,t,f[1][2]);if(c){var
+g=gh(0,0,f[1][2]);if(g)var
+i=e(ay,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4378,33 +4593,33 @@ d=c;var
 h=d}else
 var
 h=b;return h},z));if(aK){var
-bj=aK[1],bk=e(function(a){return mr(l,J,aC,j,a)},z),aL=i(at(t),bk),X=function(a){var
-b=da(l),c=e(function(a){var
-b=eK(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
-b=eK(j);return e(I,i(a[6],b)[1])},z),f=aZ(aL);return[0,[8,[0,aL,t(m),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,X(1),0];var
-bl=[0,X(1),0];return[0,X(0),bl]}return sX}return sY}return sZ}return s0}var
+bj=aK[1],bk=e(function(a){return mO(l,J,aB,j,a)},z),aL=i(au(u),bk),W=function(a){var
+b=df(l),c=e(function(a){var
+b=eY(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
+b=eY(j);return e(I,i(a[6],b)[1])},z),f=a0(aL);return[0,[8,[0,aL,u(n),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,W(1),0];var
+bl=[0,W(1),0];return[0,W(0),bl]}return tk}return tl}return tm}return tn}var
 bm=0,v=e(function(a){return a[1]},z);function
-_(c,b,a){return[0,c,b,a,Y]}var
+_(c,b,a){return[0,c,b,a,X]}var
 F=0;if(typeof
 f==="number")var
-aS=t(m),q=[0,_(i(at(t),v),aS,B)];else
+aS=u(n),q=[0,_(i(au(u),v),aS,w)];else
 switch(f[0]){case
 0:var
-w=[5,[0,b,b],f[1]],K=_;F=1;break;case
+x=[5,[0,b,b],f[1]],K=_;F=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],w=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
+aU=[5,[0,b,b],f[1]],x=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
 2:var
-aV=h8(a,m,z,j,f),q=x(function(a){return[4,t(a)]},aV);break;case
+aV=iq(a,n,z,j,f),q=y(function(a){return[4,u(a)]},aV);break;case
 3:var
-aW=h8(a,m,z,j,f),q=x(function(a){return[4,t(a)]},aW);break;case
+aW=iq(a,n,z,j,f),q=y(function(a){return[4,u(a)]},aW);break;case
 5:var
-$=f[1],aX=ak(a,[0,[0,$,$],d]),q=x(function(b){var
-c=S(a,b),d=t(m);return[2,i(at(t),v),d,c]},aX);break;case
+$=f[1],aX=ak(a,[0,[0,$,$],d]),q=y(function(b){var
+c=V(a,b),d=u(n);return[2,i(au(u),v),d,c]},aX);break;case
 6:var
-L=E(z,f[1]);if(L){var
-M=mm(z,j,f);if(M){var
-aa=M[1],ab=g(a,1,f[2]),ac=ab?g(a,1,f[3]):ab;if(ac)var
-aY=t(aa[2]),a0=t(L[1][1][2]),ad=[0,[5,[0,[0,[0,t(aa[1]),0],a0],0],aY]];else
+L=D(z,f[1]);if(L){var
+M=mJ(z,j,f);if(M){var
+aa=M[1],ab=h(a,1,f[2]),ac=ab?h(a,1,f[3]):ab;if(ac)var
+aY=u(aa[2]),aZ=u(L[1][1][2]),ad=[0,[5,[0,[0,[0,u(aa[1]),0],aZ],0],aY]];else
 var
 ad=ac;var
 ae=ad}else
@@ -4415,115 +4630,115 @@ var
 af=L;var
 q=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=E(z,ai),aR=0;if(aj){var
-al=g(a,1,ah),am=al?g(a,1,ag):al;if(am){var
-a1=[5,ah,ag],w=a1,K=function(c,b,a){return[3,ai,c,b,a,Y]};F=1;aR=1}else
+ag=f[3],ah=f[2],ai=f[1],aj=D(z,ai),aR=0;if(aj){var
+al=h(a,1,ah),am=al?h(a,1,ag):al;if(am){var
+a1=[5,ah,ag],x=a1,K=function(c,b,a){return[3,ai,c,b,a,X]};F=1;aR=1}else
 var
 an=am}else
 var
 an=aj;if(!aR)var
 q=an;break;case
 8:var
-ao=g(a,1,f[2]);if(ao)var
-a2=f[1],a3=1,N=n(function(b){return g(a,a3,b)},a2);else
+ao=h(a,1,f[2]);if(ao)var
+a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a4=R(a,b),a5=t(m),a6=fY(v,j),ap=[0,[0,i(at(t),a6),a5,a4,0]];else
+a4=Q(a,b),a5=u(n),a6=f_(v,j),ap=[0,[0,i(au(u),a6),a5,a4,0]];else
 var
 ap=N;var
 q=ap;break;case
 14:var
-aq=f[2],ar=f[1],O=mq(l,G,m,z,j,ar,aq);if(O){var
-as=O[1],au=as[2],av=as[1],aw=lJ(ar,aq,f[3]),P=ak(a,[0,[0,aw,aw],D]);if(P){var
-ax=P[1],ay=H(d,ax[1]);if(ay)var
-y=function(a){return k7(I,a)},a7=y(au[2]),a8=y(au[1]),a9=y(av[2]),az=[0,[9,[6,y(av[1]),a9,a8,a7,ax]]];else
+aq=f[2],ar=f[1],O=mN(l,H,n,z,j,ar,aq);if(O){var
+as=O[1],at=as[2],av=as[1],aw=l8(ar,aq,f[3]),P=ak(a,[0,[0,aw,aw],C]);if(P){var
+ax=P[1],az=G(d,ax[1]);if(az)var
+A=function(a){return lu(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aA=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
 var
-az=ay;var
-aA=az}else
+aA=az;var
+aC=aA}else
 var
-aA=P;var
-aD=aA}else
+aC=P;var
+aD=aC}else
 var
 aD=O;var
 q=aD;break;case
 15:var
-Q=E(z,f[1]);if(Q){var
-aE=g(a,1,f[4]);if(aE)var
-aF=g(a,0,f[2]),T=aF?g(a,0,f[3]):aF;else
+R=D(z,f[1]);if(R){var
+aE=h(a,1,f[4]);if(aE)var
+aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
-T=aE;if(T)var
-A=i(Q[1][5],0),a_=I(A[4]),a$=I(A[3]),ba=I(s(sW,j,k(d))),bb=I(s(0,j,k(d))),bc=A[2],bd=e(function(a){return e(I,a)},bc),U=[0,[9,[10,e(I,A[1]),bd,bb,ba,a$,a_]]];else
+S=aE;if(S)var
+B=i(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(tj,j,k(d))),bb=I(r(0,j,k(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
-U=T}else
+T=S}else
 var
-U=Q;var
-q=U;break;default:var
+T=R;var
+q=T;break;default:var
 q=0}if(F)var
-aT=ak(a,[0,[0,w,w],d]),q=x(function(b){var
-c=S(a,b),d=t(m);return K(i(at(t),v),d,c)},aT);return[0,q,bm]},b5,D,ac,Z));if(aD){var
-ba=aD[1];if(A[7])var
-b6=aP[2],b7=aP[1],b8=t(m),af=lo(bD,ba,[7,i(at(t),ao),b8,b7,b6]);else
+aT=ak(a,[0,[0,x,x],d]),q=y(function(b){var
+c=V(a,b),d=u(n);return K(i(au(u),v),d,c)},aT);return[0,q,bm]},b3,C,aa,Y));if(aC){var
+bb=aC[1];if(B[7])var
+b5=aP[2],b7=aP[1],b8=u(n),ae=lN(bD,bb,[7,i(au(u),an),b8,b7,b5]);else
 var
-af=ba;var
-bb=r(h(f(a_,a$)),j),bc=bb?n(function(a){var
-b=md(a);return n(function(a){return lS(j,aa,a)},b)},af):bb,be=bc?F?lS(j,aa,t(F[1])):1:bc;if(be){var
-b9=f(av[1],aA[1]),M=f(au[1],b9),N=mw(aO),Q=mu(D,A[2]),ab=N?e(function(a){var
-b=mb(j,Q,a[2]),c=a[1];return[0,e(function(a){return mb(j,Q,a)},c),b]},X):N,aE=N?cv(h4(j,m,F,ab))[1]:N,aF=cu(aE),ag=function(a){return a3(aF,a)},b_=h2(ag,ag,ab),b$=ag(bh(j,m)),aH=x(function(a){return ag(bh(j,a))},F),bf=_(N);if(bf)var
-ai=bf;else{var
-bq=r(h(X),j);if(bq){var
-bz=h4(j,m,F,ab),aL=n(function(a){var
-b=k(d);return ay(s(a3(aF,a),aF,b),a)},bz);if(aL)var
-bA=h4(j,m,F,ab),al=n(function(a){var
-b=aG(0,j);return n(function(b){return dR(j,b,a)},b)},bA);else
+ae=bb;var
+bc=s(g(f(a_,a$)),j),bd=bc?m(function(a){var
+b=mC(a);return m(function(a){return mf(j,_,a)},b)},ae):bc,be=bd?E?mf(j,_,u(E[1])):1:bd;if(be){var
+b9=f(at[1],ax[1]),aD=f(ar[1],b9),L=mS(aO),M=it(C,B[2]),$=L?e(function(a){var
+b=mA(j,M,a[2]),c=a[1];return[0,e(function(a){return mA(j,M,a)},c),b]},W):L,aF=L?cz(il(j,n,E,$))[1]:L,aG=cy(aF),af=function(a){return a4(aG,a)},b_=ij(af,af,$),b$=af(bl(j,n)),aH=y(function(a){return af(bl(j,a))},E),bf=U(L);if(bf)var
+ag=bf;else{var
+bq=s(g(W),j);if(bq){var
+bz=il(j,n,E,$),aL=m(function(a){var
+b=k(d);return az(r(a4(aG,a),aG,b),a)},bz);if(aL)var
+bA=il(j,n,E,$),ai=m(function(a){var
+b=aE(0,j);return m(function(b){return dY(j,b,a)},b)},bA);else
 var
-al=aL;if(al){var
-aM=x(function(a){return bh(j,a)},F),am=bh(j,m),aK=l9(am);if(aK)var
-by=aG(0,Y),aN=n(function(a){var
-b=c_(j,a,am),c=b?n(function(b){var
-d=b[2][2],e=f(w(h3,b[1]),d),g=O(j,a),c=n(function(a){return ck(g,a)},e);if(c){var
-h=b[2][1];return fZ(am,O(j,a),h)}return c},ab):b;if(c){if(aM){var
-e=aM[1];return ck(O(j,a),e)}var
+ai=aL;if(ai){var
+aM=y(function(a){return bl(j,a)},E),al=bl(j,n),aK=mw(al);if(aK)var
+by=aE(0,X),aN=m(function(a){var
+b=dd(j,a,al),c=b?m(function(b){var
+d=b[2][2],e=f(x(ik,b[1]),d),g=P(j,a),c=m(function(a){return cq(g,a)},e);if(c){var
+h=b[2][1];return f$(al,P(j,a),h)}return c},$):b;if(c){if(aM){var
+e=aM[1];return cq(P(j,a),e)}var
 d=1}else
 var
 d=c;return d},by);else
 var
 aN=aK;var
-an=aN}else
+am=aN}else
 var
-an=al;var
-cf=an?n(function(a){var
-c=a[1],b=n(function(a){return mc(j,M,Q,a)},c);return b?mc(j,M,Q,a[2]):b},X):an,ai=cf}else
+am=ai;var
+cf=am?m(function(a){var
+c=a[1],b=m(function(a){return mB(j,aD,M,a)},c);return b?mB(j,aD,M,a[2]):b},W):am,ag=cf}else
 var
-ai=bq}if(ai){var
-ca=e(function(a){return 1},af),cb=f(a_,a$),cc=function(L,ab,aa,c){if(N){if(typeof
+ag=bq}if(ag){var
+ca=e(function(a){return 1},ae),cb=f(a_,a$),cc=function(l,O,ac,aa,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
-g=c[3],m=c[2],o=c[1];if(typeof
-o!=="number"&&6===o[0]){if(g){if(g[2])return 0;var
-u=g[1],b=o[1],w=r(aa,Y),x=w?bd(0,Y):w;if(x)var
-t=hd(ha,e(aB,m),Q),Z=t?1:t,p=Z;else
+h=c[3],o=c[2],p=c[1];if(typeof
+p!=="number"&&6===p[0]){if(h){if(h[2])return 0;var
+w=h[1],b=p[1],x=s(aa,X),y=x?aX(0,X):x;if(y)var
+v=ho(hk,e(ay,o),M),Y=v?1:v,q=Y;else
 var
-p=x;var
-y=p?kQ(Q):p,z=y?n(function(a){return bd(a,h(M))},Q):y,A=z?r(h(u),j):z;if(A){var
-q=0;if(typeof
+q=y;var
+z=q?hL(M):q,A=z?m(function(a){return aX(a,g(l))},M):z,B=A?s(g(w),j):A;if(B){var
+u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-G=b[2],F=b[1],E=0;q=1;break;case
+I=b[2],H=b[1],E=0;u=1;break;case
 7:var
-I=b[2],k=b[1],O=0;if(typeof
+J=b[2],k=b[1],P=0;if(typeof
 k!=="number"&&0===k[0]){var
-P=0;if(aH){var
-J=H(d,I);if(J){var
-G=k[2],F=k[1],E=[0,[0,[0,aH[1],I],b[3]]];q=1;O=1;P=1}else
+R=0;if(aH){var
+K=G(d,J);if(K){var
+I=k[2],H=k[1],E=[0,[0,[0,aH[1],J],b[3]]];u=1;P=1;R=1}else
 var
-K=J}else
+N=K}else
 var
-K=aH;if(!P)return K}if(!O)return 0;break}if(q){var
-S=hX(a,hu(m,0,M),aE,L),l=hX(a,M,aE,L),f=function(b,a){return s(a,b,sH)},T=l$(function(a){return f(l,a)},E),U=f(l,b$),V=function(a){return f(l,a)},X=[0,h2(function(a){return f(S,a)},V,b_),U,T],_=kJ(m,M),$=function(g){var
-b=W(e(sF,g[1]));if(b){var
+N=aH;if(!R)return N}if(!P)return 0;break}if(u){var
+S=id(a,fV(o,0,l),aF,O),n=id(a,l,aF,O),f=function(b,a){return r(a,b,s6)},T=my(function(a){return f(n,a)},E),U=f(n,b$),V=function(a){return f(n,a)},W=[0,ij(function(a){return f(S,a)},V,b_),U,T],_=hF(o,l),$=function(g){var
+b=Z(e(s4,g[1]));if(b){var
 c=g[2];if(c){var
-d=cJ(g[3]);if(d){var
-l=d[1],m=as([0,C(ae(v(a,ab,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=kK(a,0,_,d),c=bm(sG,b[2]);return[0,b[1],c]},n),f=kG(a,e(function(b){return R(a,b)},u),F,G,o,m);if(f)return a9(a,j,f[1]);var
+d=cR(g[3]);if(d){var
+l=d[1],m=as([0,F(ab(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=hG(a,0,_,d),c=bh(s5,b[2]);return[0,b[1],c]},n),f=k1(a,e(function(b){return Q(a,b)},w),H,I,o,m);if(f)return a6(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4532,133 +4747,133 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(hZ(function(b,a){return sE},Y,j,$),X)}var
-B=0}else
+k=b;return k};return i(ig(function(b,a){return s3},X,j,$),W)}var
+C=0}else
 var
-B=A;var
-D=B}else
+C=B;var
+D=C}else
 var
-D=g;return D}return 0}return 0}return N},cd=t(m),ce=i(at(t),X);return mi(a,aX,aY,M,af,j,j,x(t,F),ce,cd,cc,cb,ca,aO)}var
-bg=ai}else
+D=h;return D}return 0}return 0}return L},cd=u(n),ce=i(au(u),W);return eX(a,aY,aZ,ae,j,j,y(u,E),ce,cd,cc,aD,cb,ca,aO)}var
+bg=ag}else
 var
 bg=be;var
 bi=bg}else
 var
-bi=aD;var
+bi=aC;var
 bj=bi}else
 var
-bj=aA;var
+bj=ax;var
 bk=bj}else
 var
-bk=ax;var
-bl=bk}else
+bk=aw;var
+bm=bk}else
 var
-bl=aw;var
-bn=bl}else
+bm=av;var
+bn=bm}else
 var
-bn=av;var
+bn=at;var
 bo=bn}else
 var
-bo=au;var
+bo=ar;var
 bp=bo}else
 var
-bp=ar;return bp}function
-eL(b,a){return bf(b,a[1],a[2])}function
-mx(b,a){var
-c=eL(b,a[1]),d=c?eL(b,a[2]):c;return d?eL(b,a[3]):d}function
-bb(a){return typeof
-a==="number"?a?s5:s6:b1(a[1])}function
-my(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:hV(b[1],a,c)}function
-f$(a){if(0===a[0]){var
+bp=aq;return bp}function
+eZ(b,a){return bk(b,a[1],a[2])}function
+mT(b,a){var
+c=eZ(b,a[1]),d=c?eZ(b,a[2]):c;return d?eZ(b,a[3]):d}function
+be(a){return typeof
+a==="number"?a?ts:tt:b4(a[1])}function
+mU(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ib(b[1],a,c)}function
+gl(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-ga(b,c,a){return b?dP(b[1],c,a):a}function
-bK(d,c,b,a){var
-e=f$(a),f=ga(d,c,f$(a)),g=Z(function(b,a){return[2,b,a]},b,f);return Z(function(b,a){return[3,b,a]},g,e)}function
-mz(b,a){var
+gm(b,c,a){return b?dW(b[1],c,a):a}function
+bM(d,c,b,a){var
+e=gl(a),f=gm(d,c,gl(a)),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
+mV(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-mA(b,w,v){var
+mW(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-h=0===f[0]?la(b,j[1],f[1]):0;else
+g=0===f[0]?lz(b,j[1],f[1]):0;else
 if(0===f[0])var
-h=0;else{var
-a=f[1],c=j[1],k=a_(b,c[1],a[1]),l=k?a_(b,c[2],a[2]):k,m=l?a_(b,c[3],a[3]):l,n=m?a_(b,c[4],a[4]):m,o=n?cD(b,c[5],a[5]):n,p=o?cD(b,c[6],a[6]):o,q=p?g(b,1,a[5]):p,r=q?g(b,1,a[6]):q,s=r?g(b,1,F(a[1],a[1])):r;if(s)var
-u=hK(a),i=g(b,1,F(hK(a),u));else
+g=0;else{var
+a=f[1],c=j[1],k=bb(b,c[1],a[1]),l=k?bb(b,c[2],a[2]):k,m=l?bb(b,c[3],a[3]):l,n=m?bb(b,c[4],a[4]):m,o=n?cL(b,c[5],a[5]):n,p=o?cL(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,H(a[1],a[1])):r;if(s)var
+u=h2(a),i=h(b,1,H(h2(a),u));else
 var
 i=s;var
-h=i?ca(c[7],a[7]):i}if(h){var
+g=i?ce(c[7],a[7]):i}if(g){var
 e=e[2],d=d[2];continue}var
-t=h}else
+t=g}else
 var
 t=d;return t}return d?0:1}}function
-mB(a){return typeof
-a==="number"?a?db(0):c2:db(a[1])}function
-h$(b,d,c){if(0===c[0])return fP(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(aX(a[4],b),e),h=f(aX(a[3],b),g),i=f(aX(a[2],d[2]),h);return f(aX(a[1],d[1]),i)}function
-ia(b,a){if(b){var
-c=b[1],d=c[2];return a8(eJ(c[1],a),d)}return a}function
-mC(f,t,am,J,al,r,ak){if(r){var
-j=r[1],an=bA([0,d,d],al),a=ci(ak,h$(J,an,j)),z=function(c,b){var
-d=ag(a,c);return $(u,$(y,mB(f),b),d)};if(0===j[0]){var
-A=j[1];switch(A[0]){case
+mX(a){return typeof
+a==="number"?a?dg(0):c7:dg(a[1])}function
+iu(b,d,c){if(0===c[0])return f2(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a0(a[4],b),e),h=f(a0(a[3],b),g),i=f(a0(a[2],d[2]),h);return f(a0(a[1],d[1]),i)}function
+iv(b,a){if(b){var
+c=b[1],d=c[2];return ba(eW(c[1],a),d)}return a}function
+mY(f,t,am,J,al,s,ak){if(s){var
+j=s[1],an=bC([0,d,d],al),a=co(ak,iu(J,an,j)),y=function(c,b){var
+d=ag(a,c);return ac(v,ac(A,mX(f),b),d)};if(0===j[0]){var
+z=j[1];switch(z[0]){case
 0:var
-aa=ia(t,ag(a,s8)),aE=A[1][5],B=s(s9,a,k(d)),C=ag(a,0),ab=z(s_,aa),i=kw(ab,c1(C),ab,B,aE),ap=[0,az(B),0],aq=[0,az(P(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],aa];break;case
+$=iv(t,ag(a,tv)),aE=z[1][5],B=r(tw,a,k(d)),C=ag(a,0),aa=y(tx,$),i=kR(aa,c6(C),aa,B,aE),ap=[0,aA(B),0],aq=[0,aA(S(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],$];break;case
 1:var
-ac=ia(t,ag(a,s$)),ad=A[3],D=ad?[0,ag(a,ta)]:ad,ae=z(0,ac),m=kx(ae,ae,0);if(D)var
-K=D[1],M=[0,az(P(K,K)),0];else
+ab=iv(t,ag(a,ty)),ad=z[3],D=ad?[0,ag(a,tz)]:ad,ae=y(0,ab),m=kS(ae,ae,0);if(D)var
+K=D[1],L=[0,aA(S(K,K)),0];else
 var
-M=D;var
-l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,M],ac];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ag(a,0),aI=mB(f),n=ky(aI,c1(E)),ar=[0,az(P(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+L=D;var
+l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ag(a,0),aI=mX(f),n=kT(aI,c6(E)),ar=[0,aA(S(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=ia(t,ag(a,tb)),F=j[1][7],G=s(tc,a,k(d)),e=s(td,a,k(d)),ai=ag(a,te),H=ag(a,0),p=z(tf,af),o=c1(H),v=$(u,ai,aS(P(o,ai),o)),w=c1(v),N=b3(o,w),Q=P(p,w),R=P(p,N),as=P(o,p),at=L(R),S=y(L(Q),at),au=L(as),T=u(L(G),au),av=q(k(c(2,b)),e),x=u(S,L(ah(y(S,u(L(e),T)),av))),aw=fF(F,q(e,az(x))),U=ah(Q,e),V=fF(F,ah(R,e)),W=ah(T,L(e)),X=j3(0,U,V,W),Y=fF(F,j3(1,U,V,W)),ax=aS(Y,N),Z=$(u,p,aS(e,$(y,aS(X,w),ax))),ay=[0,az(G),0],aA=[0,az(e),ay],aB=[0,az(P(v,v)),aA],aC=[0,az(P(H,H)),aB],aD=a8(Z,aw),l=[0,[0,Z,q(L(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=O(ak,h(h$(J,an,j))),aQ=r[2],aR=mC(f,t,am,J,bl(al),aQ,aP),g=l[1],aT=l[2],aj=function(a){var
-b=a8(b3(aT,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bF(a):f5(f[1],a,b)},I=g[1],_=typeof
-f==="number"?1:0,aJ=g[6],aK=g[5],aL=_?f?[0,I[1],[0,I[2],0]]:bF(I):_,aM=g[4],aN=aj(g[3]),aO=g[2],ao=[0,[0,aj(g[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+af=iv(t,ag(a,tA)),F=j[1][7],G=r(tB,a,k(d)),e=r(tC,a,k(d)),ai=ag(a,tD),H=ag(a,0),p=y(tE,af),o=c6(H),u=ac(v,ai,aU(S(o,ai),o)),w=c6(u),M=b6(o,w),O=S(p,w),Q=S(p,M),as=S(o,p),at=N(Q),R=A(N(O),at),au=N(as),T=v(N(G),au),av=q(k(c(2,b)),e),x=v(R,N(ah(A(R,v(N(e),T)),av))),aw=fQ(F,q(e,aA(x))),U=ah(O,e),V=fQ(F,ah(Q,e)),W=ah(T,N(e)),X=kn(0,U,V,W),Y=fQ(F,kn(1,U,V,W)),ax=aU(Y,M),Z=ac(v,p,aU(e,ac(A,aU(X,w),ax))),ay=[0,aA(G),0],az=[0,aA(e),ay],aB=[0,aA(S(u,u)),az],aC=[0,aA(S(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(N(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
+aP=P(ak,g(iu(J,an,j))),aQ=s[2],aR=mY(f,t,am,J,bo(al),aQ,aP),h=l[1],aS=l[2],aj=function(a){var
+b=ba(b6(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bH(a):gf(f[1],a,b)},I=h[1],_=typeof
+f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bH(I):_,aM=h[4],aN=aj(h[3]),aO=h[2],ao=[0,[0,aj(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
-ao=r;return ao}function
-ib(c,b,a){if(a){var
-e=a[2],g=ib(c,bl(b),e),h=a[1];return f(h$(c,bA([0,d,d],b),h),g)}return a}function
-mD(a){if(a){var
+ao=s;return ao}function
+iw(c,b,a){if(a){var
+e=a[2],g=iw(c,bo(b),e),h=a[1];return f(iu(c,bC([0,d,d],b),h),g)}return a}function
+mZ(a){if(a){var
 b=a[1][6];if(b)var
-c=mD(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=mZ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return tg}function
-mE(z,V,b){function
-c(a){return s(a,V,k(d))}function
+d=b;return d}return tF}function
+m0(y,V,b){function
+c(a){return r(a,V,k(d))}function
 O(a){var
-e=a[2],f=q(L(c(0)),e),b=0,d=0,g=a[1];return[0,[0,dx(function(b,a){return u(b,L(a))},g,f),d],b]}function
+e=a[2],f=q(N(c(0)),e),b=0,d=0,g=a[1];return[0,[0,bV(function(b,a){return v(b,N(a))},g,f),d],b]}function
 P(e){var
 a=e[6];if(a)var
-b=a[1],f=L(b[2]),g=q(L(c(0)),f),d=[0,[0,u(b[1],g),0],0];else
+b=a[1],f=N(b[2]),g=q(N(c(0)),f),d=[0,[0,v(b[1],g),0],0];else
 var
 d=a;return d}var
-D=0;if(typeof
-b==="number")D=1;else
+E=0;if(typeof
+b==="number")E=1;else
 switch(b[0]){case
 2:var
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,u(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,v(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,u(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,v(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(th),b),g=[0,[0,u(q(c(ti),d),f),0],0],h=q(d,c(tj));return[0,[0,u(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=q(c(tG),b),g=[0,[0,v(q(c(tH),d),f),0],0],h=q(d,c(tI));return[0,[0,v(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4674,8 +4889,8 @@ $=function(a){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
 12:var
-B=mD(z);if(B){var
-aa=c(0),Q=dx(q,B[1],aa),C=e(function(a){return a[5]},z);if(C){var
+B=mZ(y);if(B){var
+aa=c(0),Q=bV(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
 h=C[2],i=C[1];if(i){var
 j=i[2],F=i[1];if(j){var
 l=j[2],G=j[1];if(l)if(l[2]||!h)var
@@ -4685,13 +4900,13 @@ o=n[2],H=n[1];if(o){var
 p=o[2],I=o[1];if(p){var
 J=p[1];if(p[2]||!m)var
 a=k(d);else{var
-r=m[1];if(r){var
-t=r[2],K=r[1];if(t){var
-v=t[2],M=t[1];if(v){var
-N=v[1];if(v[2]||m[2])var
+s=m[1];if(s){var
+t=s[2],K=s[1];if(t){var
+u=t[2],L=t[1];if(u){var
+M=u[1];if(u[2]||m[2])var
 a=k(d);else
 var
-S=c4(H,I,K,M),T=q(l[1],S),U=q(G,c4(H,J,K,N)),a=y(u(q(F,c4(I,J,M,N)),U),T)}else
+S=c9(H,I,K,L),T=q(l[1],S),U=q(G,c9(H,J,K,M)),a=A(v(q(F,c9(I,J,L,M)),U),T)}else
 var
 a=k(d)}else
 var
@@ -4706,7 +4921,7 @@ var
 a=k(d)}else
 if(h){var
 w=h[1];if(w)var
-x=w[2],a=x?x[2]?k(d):h[2]?k(d):c4(F,G,w[1],x[1]):k(d);else
+x=w[2],a=x?x[2]?k(d):h[2]?k(d):c9(F,G,w[1],x[1]):k(d);else
 var
 a=k(d)}else
 var
@@ -4717,139 +4932,59 @@ var
 a=k(d)}else
 var
 a=k(d);var
-ab=[0,bo(y(a,Q)),0],R=[0,[0,u(a,Q),ab],0]}else
+ab=[0,bq(A(a,Q)),0],R=[0,[0,v(a,Q),ab],0]}else
 var
-R=B;return R;default:D=1}if(D)return 0;var
-A=E(z,f);return A?g(A[1]):A}function
-dV(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-eM(a){return e(function(a){var
+R=B;return R;default:E=1}if(E)return 0;var
+z=D(y,f);return z?g(z[1]):z}function
+d2(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+e0(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
-mF(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bH(fY(dV(c),b));return en(mE(c,b,a))}function
-mG(f,h,l,I,H,s,a){if(typeof
-a==="number")return[0,[0,[0,B]],0];else
+m1(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bJ(f_(d2(c),b));return eB(m0(c,b,a))}function
+m2(f,g,l,I,H,s,a){if(typeof
+a==="number")return[0,[0,[0,w]],0];else
 switch(a[0]){case
 0:var
-J=[5,[0,b,b],a[1]],j=J,m=function(a){return[0,a]};break;case
+J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
-M=[5,[0,b,b],a[1]],j=M,m=function(a){return[1,a]};break;case
+M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-y=a[1],P=0,Q=ak(f,[0,[0,y,y],d]);return[0,x(function(a){return[2,S(f,a)]},Q),P];case
+z=a[1],P=0,R=ak(f,[0,[0,z,z],d]);return[0,y(function(a){return[2,V(f,a)]},R),P];case
 7:var
-z=a[3],A=a[2],C=a[1];if(!E(l,C))return tm;var
-G=0;if(g(f,1,A)&&g(f,1,z))var
-T=[5,A,z],j=T,m=function(a){return[7,C,a]};else
-G=1;if(G)return tl;break;case
+A=a[3],B=a[2],C=a[1];if(!D(l,C))return tL;var
+G=0;if(h(f,1,B)&&h(f,1,A))var
+S=[5,B,A],j=S,n=function(a){return[7,C,a]};else
+G=1;if(G)return tK;break;case
 8:var
-D=g(f,1,a[2]),U=0;if(D)var
-V=a[1],W=1,q=n(function(a){return g(f,W,a)},V);else
+E=h(f,1,a[2]),T=0;if(E)var
+U=a[1],W=1,q=m(function(a){return h(f,W,a)},U);else
 var
-q=D;if(q)var
-X=R(f,b),Y=fY(dV(l),s),F=[0,[4,i(at(h),Y),X]];else
+q=E;if(q)var
+X=Q(f,b),Y=f_(d2(l),s),F=[0,[4,i(au(g),Y),X]];else
 var
-F=q;return[0,F,U];default:var
+F=q;return[0,F,T];default:var
 r=0;if(typeof
 a==="number")r=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],v=g(f,1,[3,t,u]),O=v?g(f,1,[3,[2,u,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],t]):v,k=O;break;case
+t=a[3],u=a[2],v=h(f,1,[3,t,u]),O=v?h(f,1,[3,[2,u,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],t]):v,k=O;break;case
 6:case
 9:var
-w=g(f,1,a[2]),k=w?g(f,0,a[3]):w;break;default:r=1}if(r)var
+x=h(f,1,a[2]),k=x?h(f,0,a[3]):x;break;default:r=1}if(r)var
 k=1;var
-o=k?mE(l,s,a):k;if(o){var
+o=k?m0(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
-e=i(h,b[1]);return[0,[5,i(h,c),e]]}var
-d=[0,[3,i(h,c)]]}else
+e=i(g,b[1]);return[0,[5,i(g,c),e]]}var
+d=[0,[3,i(g,c)]]}else
 var
-d=a;return d},N)}return tk}var
-K=0,L=ak(f,[0,[0,j,j],hT(I,H)]);return[0,x(function(a){return m(S(f,a))},L),K]}function
-mH(a){if(typeof
+d=a;return d},N)}return tJ}var
+K=0,L=ak(f,[0,[0,j,j],h$(I,H)]);return[0,y(function(a){return n(V(f,a))},L),K]}function
+m3(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-to(b){if(0===b[0])return[0,lm(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bp(a[4]),g=bp(a[3]),h=bp(a[2]);return[1,[0,bp(a[1]),h,g,f,e,d,c]]}function
-tp(J,c,a,j,ap,aT){var
-aU=e(to,a[2]),aq=mA(J,a[2],aU);if(aq)var
-aV=hF(a[4]),K=c5(J,a[4],aV);else
-var
-K=aq;if(K){var
-ar=a[5];if(ar)var
-aW=f4(ar[1]),as=n(function(a){return eL(J,a)},aW);else
-var
-as=1;var
-L=as}else
-var
-L=K;if(L){var
-b=a[1],ax=bb(b),q=a[6],z=ib(j,ap,a[2]),Q=a[3],R=[0,[0,Q,Q],j],S=[0,h(z)],A=a[2],o=A?0===A[1][0]?0:1:A,az=a[5],aA=x(function(a){var
-c=typeof
-b==="number"?0:da(b[1]);return lU(a,c)},az),aB=a[2],l=mC(b,aA,cC(R,h(z)),j,ap,aB,0),T=w(function(a){return a[7]},l),aC=f(T,cG(function(a,b){return mF(l,a,b)},o,j,S,q)),aD=f(bH(eM(l)),aC),U=f(bH(dV(l)),aD),V=cv(U)[1],X=cu(V),p=function(a){return a3(X,a)},Y=n(function(a){var
-b=k(d);return ay(s(p(a),X,b),a)},U),Z=Y?aj(mH,q):Y;if(Z){var
-_=a[4];if(typeof
-b==="number")var
-$=b?h_(0,dN(_)):1;else
-var
-av=dN(_),$=h_(b[1],av);var
-B=$}else
-var
-B=Z;if(B){var
-N=a[1];if(typeof
-N==="number")var
-t=a[5]?0:1;else
-if(2<=N[1])var
-t=0;else{var
-v=a[5],M=0;if(v){var
-O=g(c,1,a[3]);if(O)var
-aw=f4(v[1]),t=n(function(a){var
-b=c8(c,a[1]);return b?c8(c,a[2]):b},aw);else{var
-P=O;M=1}}else{var
-P=v;M=1}if(M)var
-t=P}var
-C=t}else
-var
-C=B;if(C)var
-aE=a[2],D=n(function(a){var
-b=0===a[0]?0:1;return ca(b,o)},aE);else
-var
-D=C;if(D){var
-aF=f(z,[0,R,0]),E=W(e(function(a){return ak(c,a)},aF));if(E){var
-aG=w(function(a){return eG(o,j,a)},q),F=W(e(function(a){return hU(c,a)},aG));if(F){var
-m=dN(a[4]),aH=typeof
-b==="number"?b?[0,m[1],[0,m[2],0]]:[0,m[1],[0,m[2],[0,m[3],0]]]:mt(b[1],m),G=W(e(function(a){return ak(c,[0,a,j])},aH));if(G){var
-aa=G[1],ab=a[5];if(ab)var
-aI=lW(ab[1]),u=W(e(function(a){return lY(c,a)},aI));else
-var
-u=tn;if(u){var
-ac=u[1],y=a[5],aJ=y?lV(y[1]):y,H=W(e(c7(c),aJ));if(H){var
-I=W(cG(function(a,b){return mG(c,p,l,o,j,a,b)},o,j,S,q));if(I){var
-ad=I[1],ae=r(h(f(aa,ac)),ax);if(ae){var
-aK=hz(ad),aL=f(aa,ac),au=0,aM=a[4];if(typeof
-b==="number"&&!b){var
-af=function(a){return k$(c,aM,j,a)};au=1}if(!au)var
-af=function(a){return 0};var
-aN=f(F[1],H[1]),aO=f(E[1],aN),aP=e(p,T),aQ=eM(l),aR=i(at(p),aQ),aS=dV(l);return fO(c,V,i(at(p),aS),aR,aP,aO,ad,af,aL,aK,aT)}var
-ag=ae}else
-var
-ag=I;var
-ah=ag}else
-var
-ah=H;var
-ai=ah}else
-var
-ai=u;var
-al=ai}else
-var
-al=G;var
-am=al}else
-var
-am=F;var
-an=am}else
-var
-an=E;var
-ao=an}else
-var
-ao=D;return ao}return L}function
-bL(c){var
+tN(b){if(0===b[0])return[0,lL(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=br(a[4]),g=br(a[3]),h=br(a[2]);return[1,[0,br(a[1]),h,g,f,e,d,c]]}function
+bN(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4858,117 +4993,117 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bL(a[2]);return f(bL(a[1]),e)}}function
-br(e,a,c){switch(a[0]){case
+e=bN(a[2]);return f(bN(a[1]),e)}}function
+bt(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return cC([0,[0,r,r],d],c);case
+r=a[1];return cK([0,[0,r,r],d],c);case
 1:var
-t=a[1],g=e,v=k(d);for(;;){if(g){var
-n=g[1];if(p_(n[1],t))return n[2];var
-g=g[2];continue}return v}case
-2:return bo(br(e,a[1],c));case
+t=a[1],h=e,u=k(d);for(;;){if(h){var
+n=h[1];if(qy(n[1],t))return n[2];var
+h=h[2];continue}return u}case
+2:return bq(bt(e,a[1],c));case
 3:var
-j=a[2],f=a[1],i=y;break;case
+j=a[2],f=a[1],i=A;break;case
 4:var
-j=a[2],f=a[1],i=u;break;case
+j=a[2],f=a[1],i=v;break;case
 5:var
 j=a[2],f=a[1],i=q;break;case
 6:var
 j=a[2],f=a[1],i=ah;break;case
 7:var
-l=ej(a[2]),m=br(e,a[1],c);if(l){if(l[1]){var
-o=L(m),s=function(a){return q(a,o)},p=fj(bk(jL(l)),s,o);return jK(l)?p:q(p,m)}return m}return k(b);default:return az(br(e,a[1],c))}var
-w=br(e,j,O(c,h(bL(f))));return i(br(e,f,c),w)}function
-cK(c,g,b){var
-a=g;for(;;)switch(a[0]){case
+l=ew(a[2]),m=bt(e,a[1],c);if(l){if(l[1]){var
+o=N(m),s=function(a){return q(a,o)},p=fu(bn(j6(l)),s,o);return j5(l)?p:q(p,m)}return m}return k(b);default:return aA(bt(e,a[1],c))}var
+w=bt(e,j,P(c,g(bN(f))));return i(bt(e,f,c),w)}function
+cS(c,h,b){var
+a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=O(b,h(bL(e))),l=cK(c,a[2],k),m=f(cK(c,e,b),l);return[0,br(c,a,b),m];case
+e=a[1],k=P(b,g(bN(e))),l=cS(c,a[2],k),m=f(cS(c,e,b),l);return[0,bt(c,a,b),m];case
 8:var
-n=cK(c,a[1],b);return[0,br(c,a,b),n];case
+n=cS(c,a[1],b);return[0,bt(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=O(b,h(bL(d))),j=cK(c,a[2],i);return f(cK(c,d,b),j)}}function
-mI(i,g,f){var
-b=i,a=g,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=O(c,h(bL(e))),k=a[2],l=br(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-ic(c,a,b){if(a){var
-e=a[1],d=e[2],g=O(b,h(bL(d))),i=a[2],j=br(c,d,b),k=ic([0,[0,e[1],j],c],i,g);return f(cK(c,d,b),k)}return a}function
-eN(a){return w(bL,a)}function
-mJ(c,a,b){if(a)var
-d=a[1],f=O(b,h(bL(d))),g=mJ(c,a[2],f),e=[0,br(c,d,b),g];else
+d=a[1],i=P(b,g(bN(d))),j=cS(c,a[2],i);return f(cS(c,d,b),j)}}function
+m4(i,h,f){var
+b=i,a=h,c=f;for(;;){if(a){var
+d=a[1],e=d[2],j=P(c,g(bN(e))),k=a[2],l=bt(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+ix(c,a,b){if(a){var
+e=a[1],d=e[2],h=P(b,g(bN(d))),i=a[2],j=bt(c,d,b),k=ix([0,[0,e[1],j],c],i,h);return f(cS(c,d,b),k)}return a}function
+e1(a){return x(bN,a)}function
+m5(c,a,b){if(a)var
+d=a[1],f=P(b,g(bN(d))),h=m5(c,a[2],f),e=[0,bt(c,d,b),h];else
 var
 e=a;return e}function
-mK(c,a,b){if(a){var
-d=a[1],e=O(b,h(bL(d))),g=mK(c,a[2],e);return f(cK(c,d,b),g)}return a}function
-gb(a){return 0===a[0]?eN(a[1]):bL(a[1])}function
-id(c,b,a){if(b){var
-d=b[1],j=O(a,h(gb(d))),k=id(c,b[2],j);if(0===d[0])var
-g=mK(c,d[1],a);else
+m6(c,a,b){if(a){var
+d=a[1],e=P(b,g(bN(d))),h=m6(c,a[2],e);return f(cS(c,d,b),h)}return a}function
+gn(a){return 0===a[0]?e1(a[1]):bN(a[1])}function
+iy(c,b,a){if(b){var
+d=b[1],j=P(a,g(gn(d))),k=iy(c,b[2],j);if(0===d[0])var
+h=m6(c,d[1],a);else
 var
-e=d[1],i=cK(c,e,a),g=[0,br(c,e,a),i];return f(g,k)}return b}function
-gc(c){var
+e=d[1],i=cS(c,e,a),h=[0,bt(c,e,a),i];return f(h,k)}return b}function
+go(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bB(gc,a)}return[0,b]}function
-ie(c){var
+b=bD(go,a)}return[0,b]}function
+iz(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=ie(a[2]);return q(ie(a[1]),d);case
-9:return a[1];default:return L(b)}}}function
-ig(n,g,a,f){if(a){var
-c=a[1],w=O(f,h(gb(c))),x=ig(n,g,a[2],w);if(0===c[0])var
-l=mJ(g,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+d=iz(a[2]);return q(iz(a[1]),d);case
+9:return a[1];default:return N(b)}}}function
+iA(n,h,a,f){if(a){var
+c=a[1],w=P(f,g(gn(c))),x=iA(n,h,a[2],w);if(0===c[0])var
+l=m5(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=br(g,c[1],f),q=gc(m),i=aW(aG(0,n),q),d=gc(i[2]),j=e(gc,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return ay(a,d)?k(b):ah(a,d)},j),o=[0,j,ie(d),v,u,t,s,r];var
+m=bt(h,c[1],f),q=go(m),i=aZ(aE(0,n),q),d=go(i[2]),j=e(go,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return az(a,d)?k(b):ah(a,d)},j),o=[0,j,iz(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-mL(a){return e(function(a){return[0,a[2],d]},a)}function
-mM(a){var
-b=w(gb,a[4]),c=f(eN(e(aQ,a[3])),b);return f(mL(a[2]),c)}function
-gd(a){var
-c=ci(0,mL(a[2])),d=aG(0,h(a[1])),g=e(function(a){return[0,[0,a]]},d),b=ar(e(aB,a[2]),c);return f(ar(a[1],g),b)}function
-ih(b,d){var
+m7(a){return e(function(a){return[0,a[2],d]},a)}function
+iB(a){var
+b=x(gn,a[4]),c=f(e1(e(aT,a[3])),b);return f(m7(a[2]),c)}function
+gp(a){var
+c=co(0,m7(a[2])),d=aE(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=ao(e(ay,a[2]),c);return f(ao(a[1],h),b)}function
+iC(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return au(e,a)},b);case
+e=a[1];return aj(function(a){return aw(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=ih(b,a[1]);if(c){var
+c=iC(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-mN(d){var
+m8(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(aj(function(b){return function(a){return p_(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=U(aj(function(b){return function(a){return qy(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-mO(a){var
-u=e(aB,a[2]),d=f(a[1],u),g=h(a[1]),o=V(tq,g),p=o?V(g,tr):o,q=p?V(g,h(a[4])):p,r=q?V(h(a[4]),ts):q,s=r?mN(d):r;if(s){var
+m9(a){var
+u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=Y(tO,h),p=o?Y(h,tP):o,q=p?Y(h,g(a[4])):p,r=q?Y(g(a[4]),tQ):q,s=r?m8(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=_(aj(function(b){return function(a){return au(b,a)}}(k),c)),m=l?ih(c,j[2]):l;if(m){var
+j=b[1],k=j[1],l=U(aj(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iC(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
-t=m}else
+t=n}else
 var
 t=1;var
 i=t;break}}else
 var
 i=s;if(i){var
-v=a[4];return n(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(aB,a[3]),d);return n(function(a){return ih(g,a)},c)},v)}return i}function
-dW(f,e,g){var
-h=g[1],a=bB(function(a){return dW(f,e,a)},h);switch(a[0]){case
-0:return s(a[1],f,[0,d,b]);case
-1:return s(a[1],e,[0,d,b]);case
+v=a[4];return m(function(b){var
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return m(function(a){return iC(g,a)},c)},v)}return i}function
+d3(f,e,g){var
+h=g[1],a=bD(function(a){return d3(f,e,a)},h);switch(a[0]){case
+0:return r(a[1],f,[0,d,b]);case
+1:return r(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
 3:return[2,a[1],a[2]];case
 4:return[3,a[1],a[2]];case
@@ -4978,7 +5113,7 @@ h=g[1],a=bB(function(a){return dW(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-mP(d){var
+m_(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -4989,51 +5124,51 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=mP(a[1]);if(c){var
+c=m_(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-mQ(g,f,e){var
+m$(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=cD(g,b[1],a[1]);if(c){var
+c=cL(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-tt(a){var
+tR(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-mR(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=mR(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bl,f(c,j)));return an(h,an(g,bA(b,k),m),l)}return b}function
-mS(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return mR(a,e,d,function(b){return mS(a,f,e,d,h,b)},g,b)}return b?a:f}function
-mT(d,a){if(a){var
-b=aH(d,a[1]);if(b)var
-c=mT(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+na(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=na(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bo,f(c,j)));return al(h,al(g,bC(b,k),m),l)}return b}function
+nb(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return na(a,e,d,function(b){return nb(a,f,e,d,h,b)},g,b)}return b?a:f}function
+nc(d,a){if(a){var
+b=aK(d,a[1]);if(b)var
+c=nc(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tv}function
-mU(d,a){if(a){var
-b=mT(d,a[1]);if(b)var
-c=mU(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return tT}function
+nd(d,a){if(a){var
+b=nc(d,a[1]);if(b)var
+c=nd(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tw}var
-gf=u(k(b),ge);function
-mV(e){var
-a=L(gf);if(e)var
-f=q(k(c(2,b)),a),g=y(k(c(2,c(2,b))),f),h=q(k(c(2,b)),a),d=ah(y(k(b),h),g);else
+e=b;return e}return tU}var
+gr=v(k(b),gq);function
+ne(e){var
+a=N(gr);if(e)var
+f=q(k(c(2,b)),a),g=A(k(c(2,c(2,b))),f),h=q(k(c(2,b)),a),d=ah(A(k(b),h),g);else
 var
-i=y(k(c(2,b)),a),j=L(ge),d=ah(y(q(k(c(2,b)),j),a),i);return az(d)}function
-mW(d,c,a){if(d){var
-e=mV(c),f=y(k(b),e),g=q(u(k(b),a),f);return u(k(b),g)}var
-h=k(b),i=mV(c),j=ah(k(b),i);return u(q(a,y(k(b),j)),h)}function
-dX(f,e,d,a){var
-g=L(a),h=L(d),i=u(u(k(c(2,b)),h),g),j=f?e?gf:ah(gf,q(k(c(2,b)),ge)):ah(gf,k(c(2,b))),l=q(L(j),i);return az(y(k(b),l))}function
-mX(g,d){var
+i=A(k(c(2,b)),a),j=N(gq),d=ah(A(q(k(c(2,b)),j),a),i);return aA(d)}function
+nf(d,c,a){if(d){var
+e=ne(c),f=A(k(b),e),g=q(v(k(b),a),f);return v(k(b),g)}var
+h=k(b),i=ne(c),j=ah(k(b),i);return v(q(a,A(k(b),j)),h)}function
+d4(f,e,d,a){var
+g=N(a),h=N(d),i=v(v(k(c(2,b)),h),g),j=f?e?gr:ah(gr,q(k(c(2,b)),gq)):ah(gr,k(c(2,b))),l=q(N(j),i);return aA(A(k(b),l))}function
+ng(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
-e=b[2],f=c[1]?A(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-ii(w,v,u,t){var
-a=e(function(a){return s(a,u,0)},v);if(a){var
+e=b[2],f=c[1]?z(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
+iD(w,v,u,t){var
+a=e(function(a){return r(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -5041,18 +5176,18 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
-x=j[1],y=h[1],z=g[1],A=f[1];return n(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dC(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+x=j[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dI(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
 l=k}else
 var
 l=h;var
-m=l}else
+n=l}else
 var
-m=c;var
-o=m}else
+n=c;var
+o=n}else
 var
 o=g;var
 p=o}else
@@ -5061,15 +5196,15 @@ p=b;var
 q=p}else
 var
 q=f;var
-r=q}else
+s=q}else
 var
-r=a;return r}function
-mY(f,i,e,c,h){var
-j=f?b:d,a=R(i,j);function
+s=a;return s}function
+nh(f,i,e,c,h){var
+j=f?b:d,a=Q(i,j);function
 g(b){var
-c=f?cZ(b):ct(b);return C(c,a)}var
-k=[0,af(h),0],l=[0,[0,a,c,[0,B,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-mZ(r,b,q,p,g,o,n){if(o){var
+c=f?bZ(b):cj(b);return F(c,a)}var
+k=[0,$(h),0],l=[0,[0,a,c,[0,w,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+ni(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5078,16 +5213,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aI,bg(tz)),z=e(af,0),a=ii(b,p,bW(0,bY(b,ex(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aG,a$(tX)),z=e($,0),a=iD(b,p,bi(0,bE(b,dN(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
-a=H(k[2],l[1]);c=1;d=1;f=1;break}else
+a=G(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(mX,tA),a=ii(b,p,bW(0,bY(b,mY(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(ng,tY),a=iD(b,p,bi(0,bE(b,nh(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(mX,tB),a=ii(b,p,bW(0,bY(b,mY(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(ng,tZ),a=iD(b,p,bi(0,bE(b,nh(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5097,27 +5232,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?tC:a}else
+y=a?t0:a}else
 var
 y=n;return y}return[0,n]}function
-m0(f,e,d,c,p,o,n){var
-b=p,g=o,a=n;for(;;){if(0===a[0]){var
-h=mZ(f,e,d,c,b,a[1],g);return h?_(h[1]):h}var
-i=mZ(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=ey(a[2],b),l=m0(f,e,d,c,k[1],j,a[3]);if(l){var
+nj(f,e,d,c,p,o,n){var
+b=p,g=o,a=n;for(;;)switch(a[0]){case
+0:var
+h=ni(f,e,d,c,b,a[1],g);return h?U(h[1]):h;case
+1:var
+i=ni(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cF(a[2],b),l=nj(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
-m=i;return m}}function
-ij(a){return fq(c(2,b),aF(a,b))}function
-dY(i,a,e,w,v){var
-m=a?b:T(b),f=k(m),g=mW(a,e,tx),h=mW(a,e,ty),n=ah(g,dX(a,e,f,g)),o=[0,y(ah(h,dX(a,e,h,f)),n),0],p=ah(f,dX(a,e,f,g)),r=[0,y(ah(h,dX(a,e,g,h)),p),o],s=ah(f,dX(a,e,h,f)),t=[0,y(ah(g,dX(a,e,g,h)),s),r],u=a?e?k(c(2,b)):q(k(c(2,c(2,b))),ge):k(c(2,c(2,b))),j=cv([0,u,t]),l=[0,d,cY(i)];return m0(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-m1(a,g,b){if(M(g,ij(a))){if(b){var
+m=i;return m;default:return 0}}function
+iE(a){return ex(c(2,b),aC(a,b))}function
+d5(i,a,e,w,v){var
+m=a?b:R(b),f=k(m),g=nf(a,e,tV),h=nf(a,e,tW),n=ah(g,d4(a,e,f,g)),o=[0,A(ah(h,d4(a,e,h,f)),n),0],p=ah(f,d4(a,e,f,g)),r=[0,A(ah(h,d4(a,e,g,h)),p),o],s=ah(f,d4(a,e,h,f)),t=[0,A(ah(g,d4(a,e,g,h)),s),r],u=a?e?k(c(2,b)):q(k(c(2,c(2,b))),gq):k(c(2,c(2,b))),j=cz([0,u,t]),l=[0,d,c4(i)];return nj(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+nk(a,g,b){if(L(g,iE(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,ij(a)],v=cY(a),i=[0,ij(a),v],j=dY(a,0,1,h,b[1]),k=j?dY(a,0,0,i,c[1]):j;if(k){var
-l=dY(a,1,1,h,d[1]);if(l)return dY(a,1,0,i,e[1]);var
+h=[0,g,iE(a)],v=c4(a),i=[0,iE(a),v],j=d5(a,0,1,h,b[1]),k=j?d5(a,0,0,i,c[1]):j;if(k){var
+l=d5(a,1,1,h,d[1]);if(l)return d5(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5134,264 +5271,283 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,cY(a)],s=dY(a,0,0,r,b[1]);if(s)return dY(a,1,0,r,f[1]);var
+r=[0,g,c4(a)],s=d5(a,0,0,r,b[1]);if(s)return d5(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-ik(a){var
-b=[1,[2,d]];return dx(function(b,a){return[1,[3,b,a]]},a,b)}function
-gg(a){return ik(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-gh(a,c){return ik(e(function(a){var
-d=[0,a[2]],b=ar(a[1],c);return[1,[7,[1,[8,ik(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-m2(e,d,c,b,a){if(0===a[0])return s(a[1],b,0);var
-f=a[1],g=bB(function(a){return m2(e,d,c,b,a)},f);return i(bY(e,d,c),g)}function
-m3(a){return a?M(d,a[1][2][1]):a}function
-tD(a){var
-b=r(h(a),tE);return b?aj(function(a){return _(ac(a,d))},a):b}function
-m4(c,f,b,a){if(b)if(a)var
-d=b[1],g=v(c,R(c,a[1]),f),h=m4(c,f,b[2],a[2]),i=d[3],j=A(d[2],g),e=[0,[0,A(d[1],g),j,i],h];else
+iF(a){var
+b=[1,[2,d]];return bV(function(b,a){return[1,[3,b,a]]},a,b)}function
+gs(a){return iF(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+gt(a,c){return iF(e(function(a){var
+d=[0,a[2]],b=ao(a[1],c);return[1,[7,[1,[8,iF(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+nl(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
+f=a[1],g=bD(function(a){return nl(e,d,c,b,a)},f);return i(bE(e,d,c),g)}function
+nm(a){return a?L(d,a[1][2][1]):a}function
+t1(a){var
+b=s(g(a),t2);return b?aj(function(a){return U(I(a,d))},a):b}function
+nn(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,Q(c,a[1]),f),h=nn(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-gi(b,a){return em(em(b,0),a)}function
-il(a){if(a){var
-b=a[2],c=a[1];if(b)return gi(c,[0,tG,il(b)]);var
+no(d,c){var
+a=D(c,d);if(a){var
+b=a[1],e=b[1];return U(I(b1(b),e))}return a}function
+gu(b,a){return eA(eA(b,0),a)}function
+iG(a){if(a){var
+b=a[2],c=a[1];if(b)return gu(c,[0,t4,iG(b)]);var
 d=c}else
 var
 d=a;return d}function
-D(a){return[0,tI,gi(il(a),tH)]}function
-aa(a){return[0,tK,gi(il(a),tJ)]}function
-am(a){return[0,tM,[0,a,tL]]}function
-l(b,a){return[0,a0(tO,a0(b,tN)),a]}function
-N(b,a){return aa([0,l(b,a),0])}function
-cL(d){var
-b=d,a=qF,e=0;for(;;){if(b){var
-c=jI(a),b=b[1],a=c;continue}return[0,eo(fi(a)),e]}}function
-im(a){return[0,eo(fp(a)),0]}function
-gj(a){var
-c=aP(a),f=0,b=0===c?qK:0<c?[0,fp(a)]:[1,fp(T(a))];if(0===b[0])var
-d=eo(b[1]);else
+E(a){return[0,t6,gu(iG(a),t5)]}function
+ad(a){return[0,t8,gu(iG(a),t7)]}function
+an(a){return[0,t_,[0,a,t9]]}function
+l(b,a){return[0,a3(ua,a3(b,t$)),a]}function
+O(b,a){return ad([0,l(b,a),0])}function
+cT(d){var
+b=d,a=q3,e=0;for(;;){if(b){var
+c=j3(a),b=b[1],a=c;continue}return[0,eC(ft(a)),e]}}function
+iH(a){return[0,eC(fA(a)),0]}function
+e2(a){var
+c=aJ(a),f=0,b=0===c?q9:0<c?[0,fA(a)]:[1,fA(R(a))];if(0===b[0])var
+d=eC(b[1]);else
 var
-e=eo(b[1]),d=a0(bx(1,45),e);return[0,d,f]}function
-gk(a){var
-b=0,c=0<aP(a)?fp(a):qJ;return[0,eo(c),b]}function
-io(a){switch(a[0]){case
-2:return tQ;case
-3:return 2<=a[1]?tR:tS;case
-4:return tT;default:return tP}}function
-eO(b,a){function
-c(c,a){return V(c,io(a))?eO(b,a):[0,tZ,f(eO(b,a),tY)]}switch(a[0]){case
+e=eC(b[1]),d=a3(bz(1,45),e);return[0,d,f]}function
+e3(a){var
+b=0,c=0<aJ(a)?fA(a):q7;return[0,eC(c),b]}function
+iI(a){switch(a[0]){case
+2:return uc;case
+3:return 2<=a[1]?ud:ue;case
+4:return uf;default:return ub}}function
+e4(b,a){function
+c(c,a){return Y(c,iI(a))?e4(b,a):[0,ul,f(e4(b,a),uk)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,a7(g),0];var
-h=[0,t0,[0,a7(e),0]];return[0,a7(g),h];case
+e==="number")return[0,a_(g),0];var
+h=[0,um,[0,a_(e),0]];return[0,a_(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,t2,c(t1,a[1])];case
+2:return[0,uo,c(un,a[1])];case
 3:var
-j=a[3],k=c([0,io(a)],j);switch(a[1]){case
+j=a[3],k=c([0,iI(a)],j);switch(a[1]){case
 0:var
-d=tU;break;case
+d=ug;break;case
 1:var
-d=tV;break;case
+d=uh;break;case
 2:var
-d=tW;break;default:var
-d=tX}var
-l=a[2];return f(c(io(a),l),[0,d,k]);case
+d=ui;break;default:var
+d=uj}var
+l=a[2];return f(c(iI(a),l),[0,d,k]);case
 4:var
-m=[0,t3,im(a[2])];return f(c(t4,a[1]),m);default:return[0,t6,f(eO(b,a[1]),t5)]}}function
-K(a){return[0,t9,f(eO(function(a){return 0===a[0]?a[1]:t8},a),t7)]}function
-ip(a){return[0,t$,f(eO(function(a){return a},a),t_)]}function
-cl(a){if(0===a[0])return K(a[1]);var
-b=[0,l(ua,K(a[2])),0];return aa([0,l(ub,K(a[1])),b])}function
-gl(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return D([0,i(b,a[1]),d])}function
-uc(a){function
-b(a){return gl(cl,a)}switch(a[0]){case
+m=[0,up,iH(a[2])];return f(c(uq,a[1]),m);default:return[0,us,f(e4(b,a[1]),ur)]}}function
+M(a){return[0,uv,f(e4(function(a){return 0===a[0]?a[1]:uu},a),ut)]}function
+iJ(a){return[0,ux,f(e4(function(a){return a},a),uw)]}function
+cr(a){if(0===a[0])return M(a[1]);var
+b=[0,l(uy,M(a[2])),0];return ad([0,l(uz,M(a[1])),b])}function
+gv(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return E([0,i(b,a[1]),d])}function
+uA(a){function
+b(a){return gv(cr,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?ud:ul,h=[0,l(ue,am(g)),e],i=[0,l(uf,cl(a[4])),h],j=[0,l(ug,b(a[3])),i],k=[0,l(uh,b(a[2])),j],m=[0,l(ui,b(a[1])),k],c=[0,l(uk,am(uj)),m];break;case
+e=0,g=a[5]?uB:uJ,h=[0,l(uC,an(g)),e],i=[0,l(uD,cr(a[4])),h],j=[0,l(uE,b(a[3])),i],k=[0,l(uF,b(a[2])),j],m=[0,l(uG,b(a[1])),k],c=[0,l(uI,an(uH)),m];break;case
 1:var
-d=a[3],n=d?[0,l(um,b(d[1])),0]:d,o=[0,l(un,b(a[2])),0],p=[0,l(uo,b(a[1])),o],c=f([0,l(uq,am(up)),p],n);break;default:var
-q=[0,l(ur,b(a[1])),0],c=[0,l(ut,am(us)),q]}return aa(c)}function
-uu(a){function
-b(a){return D(e(cl,a))}function
+d=a[3],n=d?[0,l(uK,b(d[1])),0]:d,o=[0,l(uL,b(a[2])),0],p=[0,l(uM,b(a[1])),o],c=f([0,l(uO,an(uN)),p],n);break;default:var
+q=[0,l(uP,b(a[1])),0],c=[0,l(uR,an(uQ)),q]}return ad(c)}function
+uS(a){function
+b(a){return E(e(cr,a))}function
 d(a){var
-b=a?uv:ux;return l(uw,am(b))}switch(a[0]){case
+b=a?uT:uV;return l(uU,an(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(uy,cl(a[4])),f],h=[0,l(uz,b(a[3])),g],i=[0,l(uA,b(a[2])),h],j=[0,l(uB,b(a[1])),i],c=[0,l(uD,am(uC)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(uW,cr(a[4])),f],h=[0,l(uX,b(a[3])),g],i=[0,l(uY,b(a[2])),h],j=[0,l(uZ,b(a[1])),i],c=[0,l(u1,an(u0)),j];break;case
 1:var
-k=[0,l(uE,b(a[2])),0],m=[0,l(uF,b(a[1])),k],c=[0,l(uH,am(uG)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(uI,cl(a[6])),n],p=[0,l(uJ,cl(a[5])),o],q=[0,l(uK,b(a[4])),p],r=[0,l(uL,b(a[3])),q],s=[0,l(uM,b(a[2])),r],t=[0,l(uN,b(a[1])),s],c=[0,l(uP,am(uO)),t]}return aa(c)}function
-iq(a){switch(a){case
-0:return uQ;case
-1:return uR;case
-2:return uS;case
-3:return uT;case
-4:return uU;case
-5:return uV;case
-6:return uW;case
-7:return uX;case
-8:return uY;case
-9:return uZ;case
-10:return u0;case
-11:return u1;case
-12:return u2;case
-13:return u3;case
-14:return u4;default:return u5}}function
-ir(a){if(typeof
-a==="number")return u6;else
+k=[0,l(u2,b(a[2])),0],m=[0,l(u3,b(a[1])),k],c=[0,l(u5,an(u4)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(u6,cr(a[6])),n],p=[0,l(u7,cr(a[5])),o],q=[0,l(u8,b(a[4])),p],r=[0,l(u9,b(a[3])),q],s=[0,l(u_,b(a[2])),r],t=[0,l(u$,b(a[1])),s],c=[0,l(vb,an(va)),t]}return ad(c)}function
+iK(a){switch(a){case
+0:return vc;case
+1:return vd;case
+2:return ve;case
+3:return vf;case
+4:return vg;case
+5:return vh;case
+6:return vi;case
+7:return vj;case
+8:return vk;case
+9:return vl;case
+10:return vm;case
+11:return vn;case
+12:return vo;case
+13:return vp;case
+14:return vq;default:return vr}}function
+iL(a){if(typeof
+a==="number")return vs;else
 switch(a[0]){case
-0:return u7;case
-1:return u8;default:return u9}}function
-eP(a){var
+0:return vt;case
+1:return vu;default:return vv}}function
+e5(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,l(u_,K(c[1])),0];break;case
+d=[0,l(vw,M(c[1])),0];break;case
 1:var
-d=[0,l(u$,K(c[1])),0];break;default:var
-n=[0,K(c[2]),0],d=[0,l(va,D([0,K(c[1]),n])),0]}var
-o=[0,l(vb,am(ir(a[4]))),d],h=a[3];if(h){var
+d=[0,l(vx,M(c[1])),0];break;default:var
+n=[0,M(c[2]),0],d=[0,l(vy,E([0,M(c[1]),n])),0]}var
+o=[0,l(vz,an(iL(a[4]))),d],h=a[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-q=D([0,K(b[1]),0]),j=a[1],p=0,r=6===j?vc:12===j?vg:vh,g=[0,l(vd,N(r,q)),p];break;case
+q=E([0,M(b[1]),0]),j=a[1],p=0,r=6===j?vA:12===j?vE:vF,g=[0,l(vB,O(r,q)),p];break;case
 1:var
-w=D(e(K,b[1])),m=a[1],v=0,x=14===m?vi:15<=m?vk:vl,g=[0,l(vj,N(x,w)),v];break;case
+w=E(e(M,b[1])),m=a[1],v=0,x=14===m?vG:15<=m?vI:vJ,g=[0,l(vH,O(x,w)),v];break;case
 2:var
-y=[0,l(vm,D([0,K(b[2]),0])),0],g=[0,l(vo,aa([0,l(vn,D([0,K(b[1]),0])),y])),0];break;default:var
-z=[0,l(vp,D([0,K(b[2]),0])),0],g=[0,l(vr,aa([0,l(vq,D([0,K(b[1]),0])),z])),0]}var
+y=[0,l(vK,E([0,M(b[2]),0])),0],g=[0,l(vM,ad([0,l(vL,E([0,M(b[1]),0])),y])),0];break;default:var
+z=[0,l(vN,E([0,M(b[2]),0])),0],g=[0,l(vP,ad([0,l(vO,E([0,M(b[1]),0])),z])),0]}var
 k=g}else
 var
 k=h;var
-s=f(k,o),i=a[2],t=i?[0,l(ve,cL(i[1])),0]:i,u=f(t,s);return aa([0,l(vf,am(iq(a[1]))),u])}function
-m5(a){if(0===a[0]){var
-b=[0,l(vs,gl(K,a[2])),0];return N(vu,aa([0,l(vt,gl(K,a[1])),b]))}var
-c=[0,K(a[5]),0],d=[0,l(vv,D([0,K(a[4]),c])),0],e=[0,l(vw,K(a[3])),d],f=[0,K(a[2]),0];return N(vy,aa([0,l(vx,D([0,K(a[1]),f])),e]))}function
-m6(a){if(0===a[0]){var
-b=[0,l(vz,D(e(K,a[2]))),0];return N(vB,aa([0,l(vA,D(e(K,a[1]))),b]))}return m5([1,a[1],a[2],a[3],a[4],a[5]])}function
-m7(a){switch(a){case
-0:return vC;case
-1:return vD;default:return vE}}function
-vF(a){function
-b(a){return D(e(cl,a))}var
-c=[0,l(vG,b(a[2])),0],d=[0,l(vH,b(a[1])),c];return aa([0,l(vJ,am(vI)),d])}function
-m8(a){function
+s=f(k,o),i=a[2],t=i?[0,l(vC,cT(i[1])),0]:i,u=f(t,s);return ad([0,l(vD,an(iK(a[1]))),u])}function
+np(a){if(0===a[0]){var
+b=[0,l(vQ,gv(M,a[2])),0];return O(vS,ad([0,l(vR,gv(M,a[1])),b]))}var
+c=[0,M(a[5]),0],d=[0,l(vT,E([0,M(a[4]),c])),0],e=[0,l(vU,M(a[3])),d],f=[0,M(a[2]),0];return O(vW,ad([0,l(vV,E([0,M(a[1]),f])),e]))}function
+nq(a){if(0===a[0]){var
+b=[0,l(vX,E(e(M,a[2]))),0];return O(vZ,ad([0,l(vY,E(e(M,a[1]))),b]))}return np([1,a[1],a[2],a[3],a[4],a[5]])}function
+nr(a){switch(a){case
+0:return v0;case
+1:return v1;default:return v2}}function
+v3(a){function
+b(a){return E(e(cr,a))}var
+c=[0,l(v4,b(a[2])),0],d=[0,l(v5,b(a[1])),c];return ad([0,l(v7,an(v6)),d])}function
+ns(a){function
 b(b,a){var
-c=[0,K(a),0];return D([0,K(b),c])}switch(a[0]){case
-0:return N(vK,b(a[1],a[2]));case
+c=[0,M(a),0];return E([0,M(b),c])}switch(a[0]){case
+0:return O(v8,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(vL,b(c[1],c[2])),0],g=[0,l(vM,b(d[1],d[2])),f];return N(vO,aa([0,l(vN,b(e[1],e[2])),g]));case
-2:return N(vP,K(a[1]));default:var
-h=[0,l(vQ,K(a[2])),0];return N(vS,aa([0,l(vR,K(a[1])),h]))}}function
-vT(a){function
-b(a){return gl(K,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(vU,b(c[1])),0]:c,g=[0,K(a[4]),0],h=[0,l(vV,D([0,K(a[3]),g])),0],i=[0,l(vW,K(a[2])),h],j=[0,l(vX,cL(a[1])),i],d=f([0,l(vZ,am(vY)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,l(v9,b(c[1],c[2])),0],g=[0,l(v_,b(d[1],d[2])),f];return O(wa,ad([0,l(v$,b(e[1],e[2])),g]));case
+2:return O(wb,M(a[1]));default:var
+h=[0,l(wc,M(a[2])),0];return O(we,ad([0,l(wd,M(a[1])),h]))}}function
+wf(a){function
+b(a){return gv(M,a)}if(0===a[0])var
+c=a[5],e=c?[0,l(wg,b(c[1])),0]:c,g=[0,M(a[4]),0],h=[0,l(wh,E([0,M(a[3]),g])),0],i=[0,l(wi,M(a[2])),h],j=[0,l(wj,cT(a[1])),i],d=f([0,l(wl,an(wk)),j],e);else
 var
-k=[0,l(v0,K(a[4])),0],m=[0,l(v1,b(a[3])),k],n=[0,l(v2,b(a[2])),m],o=a[1]?v3:v5,d=[0,l(v4,am(o)),n];return aa(d)}function
-m9(a){var
-b=a?[0,l(v6,D(e(vT,a))),0]:a;return b}function
-is(d,c,b,a){var
-g=[0,l(v7,D(e(eP,a))),0],h=f(m9(b),g),i=[0,l(v8,m5(c)),0];return aa(f([0,l(v_,N(v9,D(e(uc,d)))),i],h))}function
-v$(a){switch(a[0]){case
-0:return N(wa,is(a[1],a[2],a[3],a[4]));case
+k=[0,l(wm,M(a[4])),0],m=[0,l(wn,b(a[3])),k],n=[0,l(wo,b(a[2])),m],o=a[1]?wp:wr,d=[0,l(wq,an(o)),n];return ad(d)}function
+nt(a){var
+b=a?[0,l(ws,E(e(wf,a))),0]:a;return b}function
+iM(d,c,b,a){var
+g=[0,l(wt,E(e(e5,a))),0],h=f(nt(b),g),i=[0,l(wu,np(c)),0];return ad(f([0,l(ww,O(wv,E(e(uA,d)))),i],h))}function
+wx(a){switch(a[0]){case
+0:return O(wy,iM(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=D(e(uu,a[2])),m=[0,l(wb,D(e(eP,a[6]))),0],n=b?[0,l(wc,m8(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(wd,m6(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=E(e(uS,a[2])),m=[0,l(wz,E(e(e5,a[6]))),0],n=b?[0,l(wA,ns(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(wB,nq(a[4])),o];if(typeof
 d==="number")if(d)var
-h=we;else{var
-i=N(wj,g);k=1}else
+h=wC;else{var
+i=O(wH,g);k=1}else
 var
-h=m7(d[1]);if(!k)var
-q=c?[0,l(wf,K(c[1])),0]:c,i=N(h,aa([0,l(wg,g),q]));return N(wi,aa([0,l(wh,i),p]));case
+h=nr(d[1]);if(!k)var
+q=c?[0,l(wD,M(c[1])),0]:c,i=O(h,ad([0,l(wE,g),q]));return O(wG,ad([0,l(wF,i),p]));case
 2:var
-r=[0,l(wk,D(e(eP,a[7]))),0],s=f(m9(a[6]),r),t=[0,l(wl,m8(a[5])),0],u=[0,l(wm,m6(a[4])),t],v=[0,l(wn,K(a[3])),0],w=aa([0,l(wo,D(e(vF,a[2]))),v]);return N(wq,aa(f([0,l(wp,N(m7(a[1]),w)),u],s)));case
+r=[0,l(wI,E(e(e5,a[7]))),0],s=f(nt(a[6]),r),t=[0,l(wJ,ns(a[5])),0],u=[0,l(wK,nq(a[4])),t],v=[0,l(wL,M(a[3])),0],w=ad([0,l(wM,E(e(v3,a[2]))),v]);return O(wO,ad(f([0,l(wN,O(nr(a[1]),w)),u],s)));case
 3:var
-x=[0,l(wr,D(e(eP,a[7]))),0],y=[0,l(ws,D(e(K,a[6]))),0],z=[0,l(wv,N(wu,aa([0,l(wt,D(e(K,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(wy,D(e(function(a){return 0===a[0]?N(ww,D(e(ip,a[1]))):N(wx,ip(a[1]))},B))),A],E=a[3],F=[0,l(wz,D(e(function(a){var
-b=[0,ip(a[2]),0];return D([0,am(a[1]),b])},E))),C],G=a[2],H=[0,l(wA,D(e(function(a){var
-b=[0,cl(a[2]),0];return D([0,am(a[1]),b])},G))),F];return N(wE,aa([0,l(wD,N(wC,aa([0,l(wB,D(e(am,a[1]))),H]))),z]));case
+x=[0,l(wP,E(e(e5,a[7]))),0],y=[0,l(wQ,E(e(M,a[6]))),0],z=[0,l(wT,O(wS,ad([0,l(wR,E(e(M,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(wW,E(e(function(a){return 0===a[0]?O(wU,E(e(iJ,a[1]))):O(wV,iJ(a[1]))},B))),A],D=a[3],F=[0,l(wX,E(e(function(a){var
+b=[0,iJ(a[2]),0];return E([0,an(a[1]),b])},D))),C],G=a[2],H=[0,l(wY,E(e(function(a){var
+b=[0,cr(a[2]),0];return E([0,an(a[1]),b])},G))),F];return O(w2,ad([0,l(w1,O(w0,ad([0,l(wZ,E(e(an,a[1]))),H]))),z]));case
 4:var
-I=[0,l(wF,D(e(eP,a[3]))),0],J=[0,l(wI,N(wH,aa([0,l(wG,K(a[2])),0]))),I];return N(wM,aa([0,l(wL,N(wK,aa([0,l(wJ,K(a[1])),0]))),J]));case
+I=[0,l(w3,E(e(e5,a[3]))),0],J=[0,l(w6,O(w5,ad([0,l(w4,M(a[2])),0]))),I];return O(w_,ad([0,l(w9,O(w8,ad([0,l(w7,M(a[1])),0]))),J]));case
 5:var
-L=[0,l(wN,K(a[5])),0];return N(wP,aa([0,l(wO,is(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+K=[0,l(w$,M(a[5])),0];return O(xb,ad([0,l(xa,iM(a[1],[0,a[2],a[3]],0,a[4])),K]));case
 6:var
-j=a[1],M=0,O=j?cl(j[1]):am(wS);return N(wR,aa([0,l(wQ,O),M]));default:var
-P=[0,l(wT,K(a[6])),0],Q=[0,l(wU,K(a[5])),P],R=[0,l(wV,is(a[2],a[3],0,a[4])),Q],S=a[1];return N(w0,aa([0,l(wZ,D(e(function(a){var
-b=[0,l(wW,K(a[2][2])),0],c=[0,l(wX,K(a[2][1])),b];return aa([0,l(wY,am(a[1])),c])},S))),R]))}}function
-eQ(a){return D(e(gj,a))}function
-gm(b,a){var
-c=[0,l(w1,gk(a)),0];return aa([0,l(w2,D(e(eQ,b))),c])}function
-eR(a){switch(a[0]){case
-0:return am(a[1]);case
+j=a[1],L=0,N=j?cr(j[1]):an(xe);return O(xd,ad([0,l(xc,N),L]));default:var
+P=[0,l(xf,M(a[6])),0],Q=[0,l(xg,M(a[5])),P],R=[0,l(xh,iM(a[2],a[3],0,a[4])),Q],S=a[1];return O(xm,ad([0,l(xl,E(e(function(a){var
+b=[0,l(xi,M(a[2][2])),0],c=[0,l(xj,M(a[2][1])),b];return ad([0,l(xk,an(a[1])),c])},S))),R]))}}function
+d6(a){return E(e(e2,a))}function
+gw(b,a){var
+c=[0,l(xn,e3(a)),0];return ad([0,l(xo,E(e(d6,b))),c])}function
+d7(a){switch(a[0]){case
+0:return an(a[1]);case
 1:var
-b=gm(a[2],a[3]);return N(a[1],b);case
+b=gw(a[2],a[3]);return O(a[1],b);case
 2:var
-c=a[1]?w3:w5;return N(w4,am(c));case
+c=a[1]?xp:xr;return O(xq,an(c));case
 3:var
-d=[0,eQ(a[3]),0];return N(w6,D([0,gm(a[1],a[2]),d]));case
+d=[0,d6(a[3]),0];return O(xs,E([0,gw(a[1],a[2]),d]));case
 4:var
-f=[0,gk(a[4]),0],g=[0,gj(a[3]),f];return N(w7,D([0,gm(a[1],a[2]),g]));case
+f=[0,e3(a[4]),0],g=[0,e2(a[3]),f];return O(xt,E([0,gw(a[1],a[2]),g]));case
 5:var
-h=[0,gk(a[3]),0],i=[0,gj(a[2]),h];return N(w8,D([0,eR(a[1]),i]));case
+h=[0,e3(a[3]),0],i=[0,e2(a[2]),h];return O(xu,E([0,d7(a[1]),i]));case
 6:var
-j=[0,gk(a[3]),0],k=[0,gj(a[2]),j];return N(w9,D([0,eR(a[1]),k]));case
-7:return N(w_,eR(a[1]));default:var
-l=[0,D(e(eQ,a[3])),0],m=[0,am(a[2]),l];return N(w$,D([0,eR(a[1]),m]))}}function
-xa(a){var
-b=[0,eR(a[2]),0];return D([0,cL(a[1]),b])}function
-m_(a){if(typeof
-a==="number")return 0===a?am(xb):am(xc);else
+j=[0,e3(a[3]),0],k=[0,e2(a[2]),j];return O(xv,E([0,d7(a[1]),k]));case
+7:return O(xw,d7(a[1]));case
+8:var
+l=[0,E(e(d6,a[3])),0],m=[0,an(a[2]),l];return O(xx,E([0,d7(a[1]),m]));default:var
+n=a[1];return O(xy,E(e(function(a){var
+b=a[1],c=b[1],d=[0,d7(a[2]),0],e=[0,e3(b[2]),d],f=[0,e2(c[2]),e];return E([0,d6(c[1]),f])},n)))}}function
+xz(a){var
+b=[0,d7(a[2]),0];return E([0,cT(a[1]),b])}function
+nu(a){if(typeof
+a==="number")return 0===a?an(xA):an(xB);else
 switch(a[0]){case
 0:var
-b=[0,D(e(eQ,a[2])),0];return N(xd,D([0,cL(a[1]),b]));case
+b=[0,E(e(d6,a[2])),0];return O(xC,E([0,cT(a[1]),b]));case
 1:var
-c=[0,cL(a[2]),0];return N(xe,D([0,cL(a[1]),c]));default:return N(xf,D(e(K,a[1])))}}function
-xg(a){var
-b=a[4],h=b?[0,l(xh,eQ([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(xi,m_(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(xj,cL(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(xk,D(e(xa,[0,c[1],c[2]]))),0]:c;return aa(f(n,m))}function
-m$(g,a,d){var
-h=[0,l(xl,D(e(xg,d))),0];if(a)var
-b=a[1],c=[0,l(xm,gm(b[1],b[2])),0];else
+c=[0,cT(a[2]),0];return O(xD,E([0,cT(a[1]),c]));default:return O(xE,E(e(M,a[1])))}}function
+xF(a){var
+b=a[4],h=b?[0,l(xG,d6([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(xH,nu(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(xI,cT(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(xJ,E(e(xz,[0,c[1],c[2]]))),0]:c;return ad(f(n,m))}function
+nv(g,a,d){var
+h=[0,l(xK,E(e(xF,d))),0];if(a)var
+b=a[1],c=[0,l(xL,gw(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return aa([0,l(xn,im(g)),i])}function
-na(d,c,a,b){var
-g=[0,l(xo,m_(b)),0],h=a?[0,l(xp,D(e(K,a))),0]:a,i=f(h,g),j=[0,l(xq,D(e(K,c))),0];return aa(f([0,l(xr,im(d)),j],i))}function
-xs(a){if(typeof
-a==="number")return am(xt);else
+i=f(c,h);return ad([0,l(xM,iH(g)),i])}function
+nw(d,c,a,b){var
+g=[0,l(xN,nu(b)),0],h=a?[0,l(xO,E(e(M,a))),0]:a,i=f(h,g),j=[0,l(xP,E(e(M,c))),0];return ad(f([0,l(xQ,iH(d)),j],i))}function
+xR(a){if(typeof
+a==="number")return an(xS);else
 switch(a[0]){case
-0:return N(xu,cL(a[1]));case
-1:return N(xv,m$(a[1],a[2],a[3]));default:return N(xw,na(a[1],a[2],a[3],a[4]))}}function
-gn(a){var
-b=g9(g8(aq(a),function(b){return aU(a,b)}));return n(function(a){var
-b=_(34===a?1:0),c=b?_(92===a?1:0):b,d=c?V(xL,fs(a)):c;return d?V(fs(a),xM):d},b)}function
-eS(b){function
+0:return O(xT,cT(a[1]));case
+1:return O(xU,nv(a[1],a[2],a[3]));default:return O(xV,nw(a[1],a[2],a[3],a[4]))}}function
+gx(a){var
+b=hi(hh(av(a),function(b){return aW(a,b)}));return m(function(a){var
+b=U(34===a?1:0),c=b?U(92===a?1:0):b,d=c?Y(x_,fC(a)):c;return d?Y(fC(a),x$):d},b)}function
+nx(c){var
+a=c;for(;;)switch(a[0]){case
+8:var
+b=gx(a[2]);if(b){var
+a=a[1];continue}return b;case
+9:var
+d=a[1];return m(function(a){return nx(a[2])},d);case
+0:case
+1:return gx(a[1]);case
+5:case
+6:case
+7:var
+a=a[1];continue;default:return 1}}function
+e6(b){function
 c(f){var
-a=fs(f),b=V(xN,a),c=b?V(a,xO):b;if(c)var
+a=fC(f),b=Y(ya,a),c=b?Y(a,yb):b;if(c)var
 d=c;else{var
-e=V(xP,a);if(e)return V(a,xQ);var
+e=Y(yc,a);if(e)return Y(a,yd);var
 d=e}return d}var
-a=g9(g8(aq(b),function(a){return aU(b,a)}));if(a){var
-d=a[2],e=c(a[1]),f=e?n(function(a){var
+a=hi(hh(av(b),function(a){return aW(b,a)}));if(a){var
+d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fs(a),f=V(xR,e),h=f?V(e,xS):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,g=f?V(h(d),xT):f;if(g)return _(au(b,xU));var
-i=g}else
+e=fC(a),f=Y(ye,e),h=f?Y(e,yf):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?Y(g(d),yg):f;if(h)return U(aw(b,yh));var
+i=h}else
 var
 i=a;return i}function
-it(c){var
+iN(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return eS(a[1]);case
+1:return e6(a[1]);case
 3:var
-b=it(a[2]);if(b){var
+b=iN(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-eT(m){var
+e7(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5402,40 +5558,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=fi(a[2]);if(typeof
+f=ft(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=eT(a[2]);if(i){var
+i=e7(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=eT(a[1]),l=k?fn(c(2,b),j):k;return l?fn(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=e7(a[1]),l=k?fy(c(2,b),j):k;return l?fy(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-dZ(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bM(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dc(a){return w(dZ,bM(a))}function
-iu(a){switch(a[0]){case
+d8(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dh(a){return x(d8,bO(a))}function
+iO(a){switch(a[0]){case
 0:var
-c=dZ(a[4]),d=f(dc(a[3]),c),e=f(dc(a[2]),d);return f(dc(a[1]),e);case
+c=d8(a[4]),d=f(dh(a[3]),c),e=f(dh(a[2]),d);return f(dh(a[1]),e);case
 1:var
-b=a[3],g=b?dc(b[1]):b,h=f(dc(a[2]),g);return f(dc(a[1]),h);default:return dc(a[1])}}function
-xV(a){switch(a[0]){case
+b=a[3],g=b?dh(b[1]):b,h=f(dh(a[2]),g);return f(dh(a[1]),h);default:return dh(a[1])}}function
+yi(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return w(dZ,b)}function
-nb(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-nc(a){if(0===a[0]){var
-b=bM(a[2]);return f(bM(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-nd(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return x(d8,b)}function
+ny(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+nz(a){if(0===a[0]){var
+b=bO(a[2]);return f(bO(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+nA(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-dd(e){var
+di(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5447,68 +5603,68 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-ne(a){if(0===a[0]){var
-b=a[5],c=b?bM(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bM(a[3]),d);return f(bM(a[2]),e)}function
-nf(b,e){var
+nB(a){if(0===a[0]){var
+b=a[5],c=b?bO(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bO(a[3]),d);return f(bO(a[2]),e)}function
+nC(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return au(f,a)},b)}return 0;case
+f=c[1];return aj(function(a){return aw(f,a)},b)}return 0;case
 3:var
-d=nf(b,a[2]);if(d){var
+d=nC(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-eU(c,a){return n(function(a){var
-b=eT(a);return b?nf(c,a):b},a)}function
-ng(a){if(typeof
+e8(c,a){return m(function(a){var
+b=e7(a);return b?nC(c,a):b},a)}function
+nD(a){if(typeof
 a!=="number"&&2===a[0])return a[1];return 0}function
-nh(a){var
-d=fn(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fn(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-ni(a,b){return b?[4,ni(a,b[1]),a]:a}function
+nE(a){var
+d=fy(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fy(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+nF(a,b){return b?[4,nF(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return z(k,a)},m=fj(jG(i),l,b);return[0,jU(jH(fi(a[1]),i)),m];case
+i=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fu(j1(i),l,b);return[0,kd(j2(ft(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
-f=j(a[1]);return 0===f[0]?[0,T(f[1]),f[2]]:[3,[0,d,b],f];case
+f=j(a[1]);return 0===f[0]?[0,R(f[1]),f[2]]:[3,[0,d,b],f];case
 3:var
 g=j(a[2]),h=j(a[3]);switch(a[1]){case
 0:return[2,g,h];case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bk(ej(a[2]));return ni(j(a[1]),n);default:return[6,j(a[1])]}}function
-bN(a){if(0===a[0]){var
+n=bn(ew(a[2]));return nF(j(a[1]),n);default:return[6,j(a[1])]}}function
+bP(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-de(a){var
-b=bN(a[3]),c=bN(a[2]);return[0,bN(a[1]),c,b]}function
-xW(a){switch(a[0]){case
+dj(a){var
+b=bP(a[3]),c=bP(a[2]);return[0,bP(a[1]),c,b]}function
+yj(a){switch(a[0]){case
 0:var
-b=a[5],c=bN(a[4]),d=de(a[3]),e=de(a[2]);return[0,[0,de(a[1]),e,d,c,b]];case
+b=a[5],c=bP(a[4]),d=dj(a[3]),e=dj(a[2]);return[0,[0,dj(a[1]),e,d,c,b]];case
 1:var
-f=x(de,a[3]),g=de(a[2]);return[1,de(a[1]),g,f];default:return[2,de(a[1])]}}function
-nj(a){if(0===a[0]){var
+f=y(dj,a[3]),g=dj(a[2]);return[1,dj(a[1]),g,f];default:return[2,dj(a[1])]}}function
+nG(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
-d0(a){var
+d9(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-cM(a){if(0===a[0]){var
-c=a[5],h=c?d0(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bk(a[1]),l,k,i,h]}var
+cU(a){if(0===a[0]){var
+c=a[5],h=c?d9(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bn(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=d0(f),n=d0(g);return[2,j(e),n,m]}var
-o=d0(f),p=d0(g);return[1,j(e),p,o]}function
-go(b,a){if(a){var
-c=a[1],d=a[2],g=go(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bm(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:r(b[1],a[1]):0:0===a[0]?0:ca(b[1],a[1]);return _(d)},h),g)}return a}function
-xX(b){if(b[1])return 0;var
+m=d9(f),n=d9(g);return[2,j(e),n,m]}var
+o=d9(f),p=d9(g);return[1,j(e),p,o]}function
+gy(b,a){if(a){var
+c=a[1],d=a[2],g=gy(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bh(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:s(b[1],a[1]):0:0===a[0]?0:ce(b[1],a[1]);return U(d)},h),g)}return a}function
+yk(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-xY(N,M,a){switch(a[1]){case
+yl(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -5554,23 +5710,23 @@ E=o;return E}return 0;case
 q=a[4];if(typeof
 q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
 8:var
-s=a[4],K=0;if(typeof
-s==="number"||!(1===s[0]))K=1;else{var
-t=a[3],W=s[1];if(!t)return t;var
+r=a[4],K=0;if(typeof
+r==="number"||!(1===r[0]))K=1;else{var
+t=a[3],W=r[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
 b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=go(0,M);return e(function(h){var
+Y=u[1],Z=gy(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?d0(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(r(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bk(f),m,l,k]}var
-n=cM(a);return[10,cM(c),n,e]}var
-o=cM(a);return[10,cM(c),o,e]}var
-p=cM(a);return[10,cM(c),p,e]},Z)}return 0;case
+g=function(a){return a?d9(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(s(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bn(f),m,l,k]}var
+n=cU(a);return[10,cU(c),n,e]}var
+o=cU(a);return[10,cU(c),o,e]}var
+p=cU(a);return[10,cU(c),p,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -5580,15 +5736,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?xZ:G;return ab;case
+a[4]==="number"?1:0,ab=G?ym:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bk(B[1]),0]:aG(0,N);return e(c,P)}function
-x0(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bn(B[1]),0]:aE(0,N);return e(c,P)}function
+yn(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5605,8 +5761,8 @@ e=a[3];return e?0===e[1][0]?1:0:e}var
 d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
 b=q[1]}if(L)return 0;break;case
 3:var
-s=a[4];if(typeof
-s!=="number"&&1===s[0])return a[2]?0:a[3]?0:1;return 0;case
+r=a[4];if(typeof
+r!=="number"&&1===r[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
 M=0,t=a[4];if(typeof
 t==="number"||!(0===t[0]))M=1;else{var
@@ -5621,7 +5777,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 x=f[1];switch(x[0]){case
 0:return 1;case
-1:return r(h(x[1]),c);default:var
+1:return s(g(x[1]),c);default:var
 y=0}}else
 var
 y=f;return y}return 0;case
@@ -5631,8 +5787,8 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 8:var
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
-g=a[3];if(!g)return g;if(0!==g[1][0])return 0;var
-B=r(c,x2),O=0;if(B){var
+h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
+B=s(c,yp),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -5658,19 +5814,19 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?r(c,x3):0:k}return 0;default:return 0}var
-o=V(x1,b);return o?V(b,c):o}function
-iv(d,c,b){var
-e=w(function(a){return xY(d,c,a)},b),a=w(xX,b),g=a?[0,a[1],a[2]]:x4;return f(g,e)}function
-iw(a,d,c,b){var
-f=iv(h(a),c,b),g=nj(d);return[0,e(xW,a),g,f]}function
-nk(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?s(c,yq):0:k}return 0;default:return 0}var
+o=Y(yo,b);return o?Y(b,c):o}function
+iP(d,c,b){var
+e=x(function(a){return yl(d,c,a)},b),a=x(yk,b),g=a?[0,a[1],a[2]]:yr;return f(g,e)}function
+iQ(a,d,c,b){var
+f=iP(g(a),c,b),h=nG(d);return[0,e(yj,a),h,f]}function
+nH(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-nl(c){function
-a(a){return s(a,e(j,c),[0,d,b])}var
-f=a(x5),g=a(x6);return[0,a(0),g,f]}function
-ix(S,C,R,a){switch(a[1]){case
+nI(c){function
+a(a){return r(a,e(j,c),[0,d,b])}var
+f=a(ys),g=a(yt);return[0,a(0),g,f]}function
+iR(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -5724,8 +5880,8 @@ b=j(ab);return[7,a,j(ac),b]}}if(M)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ad=q[1],ae=go(0,R);return e(function(a){var
-b=j(ad),c=cM(a[2]);return[14,cM(a[1]),c,b]},ae)}return 0;case
+ad=q[1],ae=gy(0,R);return e(function(a){var
+b=j(ad),c=cU(a[2]);return[14,cU(a[1]),c,b]},ae)}return 0;case
 10:var
 r=a[4],N=0;if(typeof
 r==="number"||!(1===r[0]))N=1;else{var
@@ -5750,19 +5906,19 @@ y==="number"||!(1===y[0]))P=1;else{var
 z=a[3],al=y[1];if(!z)return z;var
 I=z[1];if(1!==I[0])return 0;var
 am=I[1],b=function(a){var
-b=j(al);return[13,a,0,nl(am),b]}}if(P)return 0;break;case
+b=j(al);return[13,a,0,nI(am),b]}}if(P)return 0;break;case
 15:var
 A=a[4],Q=0;if(typeof
 A==="number"||!(1===A[0]))Q=1;else{var
 B=a[3],an=A[1];if(!B)return B;var
 J=B[1];if(1!==J[0])return 0;var
 ao=J[1],b=function(a){var
-b=j(an);return[13,a,1,nl(ao),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bk(D[1]),0]:aG(0,C);return e(b,U)}function
-df(e,d,c,b){var
-g=w(function(a){return ix(e,d,c,a)},b),a=w(nk,b),h=a?[0,a[1],a[2]]:x7;return f(h,g)}function
-d1(a){return 11===a[1]?1:0}function
-b4(n,m,a){var
+b=j(an);return[13,a,1,nI(ao),b]}}if(Q)return 0;break;default:return 0}var
+D=a[2],U=D?[0,bn(D[1]),0]:aE(0,C);return e(b,U)}function
+dk(e,d,c,b){var
+g=x(function(a){return iR(e,d,c,a)},b),a=x(nH,b),h=a?[0,a[1],a[2]]:yu;return f(h,g)}function
+d_(a){return 11===a[1]?1:0}function
+b7(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5772,25 +5928,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=ca(n,e);if(f){var
+f=ce(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=V(x8,h);return i?V(h,m):i}var
+h=g[1],i=Y(yv,h);return i?Y(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bs(s,b,a){var
+bu(r,b,a){var
 d=a[2];if(d)var
-e=d[1],f=V(x9,e),t=f?V(e,b):f,c=t;else
+e=d[1],f=Y(yw,e),t=f?Y(e,b):f,c=t;else
 var
 c=1;var
-g=a[1];if(!(9<=g))switch(g){case
+h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:b4(0,b,a):b4(0,b,a)}return b4(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:b7(0,b,a):b7(0,b,a)}return b7(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -5798,64 +5954,64 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=r(h(m[1]),b);if(n){if(a[2])return 0;var
+n=s(g(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return b4(0,b,a)}}return b4(0,b,a)}return b4(0,b,a);case
+o=n;return o;default:return b7(0,b,a)}}return b7(0,b,a)}return b7(0,b,a);case
 8:var
 p=a[4];if(typeof
 p!=="number"&&1===p[0]){var
-q=a[3];return q?0===q[1][0]?c?r(b,s):c:b4(0,b,a):b4(0,b,a)}return b4(0,b,a)}return b4(0,b,a)}function
-aJ(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bs(c,b,a):a[3]?bs(c,b,a):1:bs(c,b,a):bs(c,b,a)}function
-nm(f,c,b,a){var
+q=a[3];return q?0===q[1][0]?c?s(b,r):c:b7(0,b,a):b7(0,b,a)}return b7(0,b,a)}return b7(0,b,a)}function
+aL(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bu(c,b,a):a[3]?bu(c,b,a):1:bu(c,b,a):bu(c,b,a)}function
+nJ(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=V(x$,h),s=i?V(h,b):i,d=s;else
+h=g[1],i=Y(yy,h),r=i?Y(h,b):i,d=r;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bs(bb(c),b,a);if(d){var
+1:if(a[3])return bu(be(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return ca(f,k)}return d;case
+k=0;return ce(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bs(bb(c),b,a):d;return bs(bb(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bu(be(c),b,a):d;return bu(be(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bs(bb(c),b,a);var
-n=r(b,bb(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bu(be(c),b,a);var
+n=s(b,be(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bs(bb(c),b,a);case
+e=n;return e}return bu(be(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bs(bb(c),b,a):d?_(f):d;return bs(bb(c),b,a);default:return bs(bb(c),b,a)}}function
-cN(a){switch(a[0]){case
+p!=="number"&&1===p[0])return a[3]?bu(be(c),b,a):d?U(f):d;return bu(be(c),b,a);default:return bu(be(c),b,a)}}function
+cV(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cN(a[1])];case
+2:return[2,cV(a[1])];case
 3:var
-b=cN(a[2]),c=cN(a[3]);switch(a[1]){case
+b=cV(a[2]),c=cV(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cN(a[1]),d];default:return[8,cN(a[1])]}}function
-nn(i,g,f,b,d,c,a){var
-k=aj(d1,a),l=df(0,h(b),0,a),m=ar(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(cN,a[1])]:[1,cN(a[1])]},b),p=e(function(a){var
-b=cN(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=bN(a[2]);return[0,a[1],b]},g),p,o],n,l,k]}function
-iy(c){function
+d=a[2];return[7,cV(a[1]),d];default:return[8,cV(a[1])]}}function
+iS(i,h,f,b,d,c,a){var
+k=aj(d_,a),l=dk(0,g(b),0,a),m=ao(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(cV,a[1])]:[1,cV(a[1])]},b),p=e(function(a){var
+b=cV(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=bP(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+iT(c){function
 a(e){var
-a=[0,d,b];return s(e,c,[0,a,a])}var
-e=a(ya),f=a(yb);return[0,a(0),f,e]}function
-dg(a){function
+a=[0,d,b];return r(e,c,[0,a,a])}var
+e=a(yz),f=a(yA);return[0,a(0),f,e]}function
+dl(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -5863,29 +6019,29 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-no(a){if(0===a[0]){var
-b=ar(a[1],a[2]);return[0,iy(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return nj([1,a[1],a[2],a[3],a[4],a[5]])}function
-np(k,b,i,g,f,d,a){function
-c(a){return iy(e(bN,a))}var
-l=aj(d1,a),m=df(0,h(b),d,a),n=dg(f),o=no(g),p=j(i);return[0,k,e(function(a){var
+nK(a){if(0===a[0]){var
+b=ao(a[1],a[2]);return[0,iT(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return nG([1,a[1],a[2],a[3],a[4],a[5]])}function
+nL(k,b,i,h,f,d,a){function
+c(a){return iT(e(bP,a))}var
+l=aj(d_,a),m=dk(0,g(b),d,a),n=dl(f),o=nK(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-gp(a){return aj(function(a){return 2===a[0]?1:0},a)}function
-nq(k,a,c,i,g,f){var
-l=h(a),m=df(gp(a),l,0,f),n=x(dg,g),o=no(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return iy(e(bN,a))}switch(a[0]){case
+gz(a){return aj(function(a){return 2===a[0]?1:0},a)}function
+nM(k,a,c,i,h,f){var
+l=g(a),m=dk(gz(a),l,0,f),n=y(dl,h),o=nK(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return iT(e(bP,a))}switch(a[0]){case
 0:var
-k=a[5],l=bN(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bP(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bN(a[6]),r=bN(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-nr(a){return a[1]?0:1}function
-ns(l){var
-b=bm(nr,l);if(b){var
+p=a[7],q=bP(a[6]),r=bP(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+nN(a){return a[1]?0:1}function
+nO(l){var
+b=bh(nN,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -5906,69 +6062,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-nt(a){var
-c=nr(a);if(c)return c;if(1===a[1]){var
+nP(a){var
+c=nN(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gq(i,h,b){function
+gA(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gr,a(gr,b)),j=a(f,iz),k=i?f:a(c(b,gr),iz);function
-g(b){return a(b,[5,e(gr,d(iz,d(b,b)))])}var
+f=c(gB,a(gB,b)),j=a(f,iU),k=i?f:a(c(b,gB),iU);function
+g(b){return a(b,[5,e(gB,d(iU,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-gs(f,e,d){function
+gC(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,iA,a(iA,d)],nu),g=a(c,[5,[3,0,iA,b(nu,b(c,c))]]);return[2,b(gq(f,e,d),g)]}function
-iB(e,g,a){function
+c=a([3,1,iV,a(iV,d)],nQ),g=a(c,[5,[3,0,iV,b(nQ,b(c,c))]]);return[2,b(gA(f,e,d),g)]}function
+iW(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(gt,b(gt,a)),d=e?h:b(f(a,gt),nv),i=b(d,[5,[3,0,gt,c(nv,c(d,d))]]);return c(gq(e,g,a),i)}function
-nw(c,g,b,a){function
+h=f(gD,b(gD,a)),d=e?h:b(f(a,gD),nR),i=b(d,[5,[3,0,gD,c(nR,c(d,d))]]);return c(gA(e,g,a),i)}function
+nS(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=r(b,c)?a:yc;return[0,d]},ye)}return e(function(e){var
-j=[0,gq(c,b,a)],i=1,k=d(e,[2,g]);function
+d=s(b,c)?a:yB;return[0,d]},yD)}return e(function(e){var
+j=[0,gA(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=gq(c,b,a),l=d(e,f(f(gs(c,b,a),g),h));return[0,d(e,yd),l,k,j,i]},yf)}function
-nx(c,b,a){var
-d=[0,iB(c,b,a),0],e=[0,iB(c,b,a),d],f=[0,iB(c,b,a),e],g=[0,gs(c,b,a),0],h=[0,gs(c,b,a),g];return[0,[0,gs(c,b,a),h],f]}function
-ny(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cx(j(g[2][1]));if(k){var
-l=k[1],m=cx(j(g[2][2]));if(m)var
+h=gA(c,b,a),l=d(e,f(f(gC(c,b,a),g),h));return[0,d(e,yC),l,k,j,i]},yE)}function
+nT(c,b,a){var
+d=[0,iW(c,b,a),0],e=[0,iW(c,b,a),d],f=[0,iW(c,b,a),e],g=[0,gC(c,b,a),0],h=[0,gC(c,b,a),g];return[0,[0,gC(c,b,a),h],f]}function
+nU(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cB(j(g[2][1]));if(k){var
+l=k[1],m=cB(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fj(h[2],d,b)];return dz(l,cc(ft(p,l),e))},q=n(G(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fu(h[2],d,b)];return dE(l,ch(fD(p,l),e))},q=n(C(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=ny([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=nU([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-ao(b,a){switch(a[0]){case
+ap(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=jW(function(a){return au(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,ao(b,a[1])];case
+e=c[1],d=kg(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,ap(b,a[1])];case
 3:var
-f=ao(b,a[3]),g=ao(b,a[2]);return[3,a[1],g,f];case
+f=ap(b,a[3]),g=ap(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,ao(b,a[1]),h];default:return[5,ao(b,a[1])]}}function
-nz(b,a){if(0===a[0])return[0,ao(b,a[1])];var
-c=ao(b,a[2]);return[1,ao(b,a[1]),c]}function
-iC(b,a){var
+h=a[2];return[4,ap(b,a[1]),h];default:return[5,ap(b,a[1])]}}function
+nV(b,a){if(0===a[0])return[0,ap(b,a[1])];var
+c=ap(b,a[2]);return[1,ap(b,a[1]),c]}function
+iX(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-iD(c,a){if(c)if(a){var
+iY(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=iD(h,g);if(e){var
-i=e[1],f=iD(h,i[2]);if(f)var
+e=iY(h,g);if(e){var
+i=e[1],f=iY(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -5980,347 +6136,359 @@ var
 d=a;else
 var
 d=c;return d}function
-iE(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,iE(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,G(z(c(2,b),l),k),j],h]}else
+iZ(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,iZ(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,C(B(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-yg(a){if(typeof
+yF(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-yh(a){if(typeof
+yG(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-gu(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=gu(e,a[3]);return cc(dz(gu(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-nA(a){return 0===a[0]?dQ(a[1][4]):0}function
-nB(a){switch(a[0]){case
+gE(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=gE(e,a[3]);return ch(dE(gE(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+nW(a){return 0===a[0]?dX(a[1][4]):0}function
+nX(a){switch(a[0]){case
 0:var
-b=a[1],c=a$(b[3]);return f(a$(b[2]),c);case
+b=a[1],c=bc(b[3]);return f(bc(b[2]),c);case
 1:var
-d=a$(a[2]);return f(a$(a[1]),d);default:return 0}}function
-gv(a){switch(a[0]){case
-0:return bI(a$(a[1][1]));case
+d=bc(a[2]);return f(bc(a[1]),d);default:return 0}}function
+gF(a){switch(a[0]){case
+0:return bK(bc(a[1][1]));case
 1:var
-b=a[3];return b?bI(a$(b[1])):d;default:return bI(a$(a[1]))}}function
-gw(c){var
-a=w(nA,c),d=a?[0,a[1],a[2]]:w(nB,c);return G(b,bI(d))}function
-nC(c,a){if(c){if(a){var
-d=a[1];if(45===d)var
-b=yi;else
-if(43===d)var
-b=yj;else
+b=a[3];return b?bK(bc(b[1])):d;default:return bK(bc(a[1]))}}function
+gG(c){var
+a=x(nW,c),d=a?[0,a[1],a[2]]:x(nX,c);return C(b,bK(d))}function
+nY(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=nY(d[2],a[2]);if(e){var
+h=e[1],i=h[2],j=h[1];if(45===b)var
+c=yH;else
+if(43===b)var
+c=yI;else
 var
-f=48===d?1:0,i=f?yk:f,b=i;if(b)var
-e=nC(c[2],a[2]),j=e?[0,[0,[0,c[1],b[1]],e[1]]]:e,g=j;else
+f=48===b?1:0,n=f?yJ:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
-g=b;var
-h=g}else
+l=e;var
+m=l}else
 var
-h=a;return h}return a?0:yl}function
-eV(b,a){switch(a[0]){case
+m=a;return m}return a?0:yK}function
+d$(b,c,a){switch(a[0]){case
 0:var
-c=a[1];if(au(c,ym))return yn;if(au(c,yo))return yp;if(au(c,yq))return yr;if(au(c,ys))return yt;if(au(c,yu))return yv;var
-k=au(c,yw),p=k?yx:k;return p;case
+d=a[1];if(aw(d,yL))return yM;if(aw(d,yN))return yO;if(aw(d,yP))return yQ;if(aw(d,yR))return yS;if(aw(d,yT))return yU;var
+l=aw(d,yV),x=l?yW:l;return x;case
 1:var
-d=a[3],e=a[2],f=a[1];if(au(f,yy))return[0,[0,d,e]];if(au(f,yz))return[0,[1,d,e]];if(au(f,yA))return[0,[2,d,e]];var
-l=au(f,yB),q=l?[0,[8,d,e]]:l;return q;case
+e=a[3],f=a[2],g=a[1];if(aw(g,yX))return[0,[0,e,f]];if(aw(g,yY))return[0,[1,e,f]];if(aw(g,yZ))return[0,[2,e,f]];var
+m=aw(g,y0),z=m?[0,[8,e,f]]:m;return z;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-g=eV(b,a[1]),r=g?[0,[5,g[1],a[2],a[3]]]:g;return r;case
+h=d$(b,c,a[1]),A=h?[0,[5,h[1],a[2],a[3]]]:h;return A;case
 6:var
-h=eV(b,a[1]),s=h?[0,[7,h[1],a[2],a[3]]]:h;return s;case
+i=d$(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
 7:var
-t=eV(b,a[1]);return x(function(a){return[6,a]},t);default:if(b){var
-m=a[2],i=eV(b,a[1]);if(i)var
-j=nC(b,g9(g8(aq(m),function(a){return aU(m,a)}))),u=j?[0,[10,i[1],j[1],a[3]]]:j,n=u;else
+C=d$(b,c,a[1]);return y(function(a){return[6,a]},C);case
+8:if(b){var
+n=a[3],o=a[2],j=d$(b,c,a[1]);if(j){var
+p=j[1],k=nY(b,hi(hh(av(o),function(a){return aW(o,a)})));if(k){var
+q=k[1],r=q[2],s=q[1];if(r)return[0,[11,c,r,[10,p,s,n]]];var
+t=[0,[10,p,s,n]]}else
 var
-n=i;var
-o=n}else
+t=k;var
+u=t}else
 var
-o=b;return o}}function
-nD(d,a){if(a){var
-e=a[1],b=eV(d,e[2]);if(b)var
-c=nD(d,a[2]),g=c?[0,[0,[0,e[1],b[1]],c[1]]]:c,f=g;else
+u=j;var
+v=u}else
 var
-f=b;return f}return yC}function
-dh(d,c,a){if(c)if(a){var
-b=a[1];if(b[3])return 0;if(b[4])return 0;var
-i=b[2],j=a[2],k=c[1],e=nD(d,b[1]);if(e){var
-l=e[1];if(i){var
-f=dh(d,k,j);if(f){var
-m=f[1],g=dh(d,k,m[2]);if(g)var
-n=g[1],o=[0,[0,[1,l,i[1],m[1],n[1]],n[2]]];else
+v=b;return v;default:var
+w=function(a){if(a){var
+f=a[1],d=d$(b,c,f[2]);if(d)var
+e=w(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-o=g;var
-p=o}else
+g=d;return g}return y1},D=w(a[1]);return y(function(a){return[12,a]},D)}}function
+nZ(e,d,a){if(a){var
+f=a[1],b=d$(e,d,f[2]);if(b)var
+c=nZ(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-p=f;return p}var
-q=[0,[0,[0,l],j]]}else
+g=b;return g}return y2}function
+dm(b,g,f,e,d,a){if(d)if(a){var
+c=a[1];if(c[3])return 0;if(c[4])return 0;var
+n=c[2],o=a[2],p=d[1],h=nZ(f,e,c[1]);if(h){var
+i=h[1];if(n){var
+j=dm(b,g,f,e,p,o);if(j){var
+q=j[1],k=dm(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aX(l,b))var
+u=[0,[1,i,l,t,s]];else
 var
-q=e;var
-h=q}else
+x=D(g,ev(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
+v=k}else
 var
-h=a;else
+v=j;return v}var
+w=[0,[0,[0,i],o]]}else
 var
-h=c;return h}function
-iF(e,d,a){if(d){if(a){var
-b=dh(e,h(a),a);if(b)var
-f=b[1],c=iF(e,d[1],f[2]),i=c?[0,[0,f[1],c[1]]]:c,g=i;else
+w=h;var
+m=w}else
 var
-g=b;return g}return yD}return a?0:yE}function
-nE(a){if(typeof
-a==="number")return 0===a?yF:yG;else
+m=a;else
+var
+m=d;return m}function
+i0(i,h,f,e,d,a){if(d){if(a){var
+b=dm(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=i0(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+var
+k=b;return k}return y3}return a?0:y4}function
+n0(a){if(typeof
+a==="number")return 0===a?y5:y6;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-iG(d,a){if(d)if(a){var
+i1(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
-h=b[4],c=b[3],i=b[2],j=a[2],k=d[1];if(i){if(c)return 0;if(h)return 0;var
-e=iG(k,j);if(e){var
-l=e[1],f=iG(k,l[2]);if(f)var
-m=f[1],n=[0,[0,[1,i[1],l[1],m[1]],m[2]]];else
+j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
+f=k[1],g=i1(e,m,l);if(g){var
+n=g[1],o=n[1],h=i1(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aX(f,y7))return[0,[0,[1,f,o,r],q]];var
+t=D(e,ev(f,y8));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+s=h}else
 var
-n=f;var
-o=n}else
+s=g;return s}if(c){var
+u=n0(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+i=c}else
 var
-o=e;return o}if(c){var
-p=nE(c[1]);return x(function(a){return[0,[0,h,a],j]},p)}var
-g=c}else
+i=a;else
 var
-g=a;else
-var
-g=d;return g}function
-cO(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-di(a,e){var
-b=cO(a[1],e),c=cO(a[2],b[2]),d=cO(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-nF(d,c){if(d){var
+i=d;return i}function
+cW(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+dn(a,e){var
+b=cW(a[1],e),c=cW(a[2],b[2]),d=cW(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+n1(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=di(a[1],c),f=di(a[2],e[2]),g=di(a[3],f[2]),h=cO(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dn(a[1],c),f=dn(a[2],e[2]),g=dn(a[3],f[2]),h=cW(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=di(a[1],c),k=j[1],l=di(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=di(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dn(a[1],c),k=j[1],l=dn(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dn(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=di(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=nF(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-bi(a,b){if(a){var
-c=cO(a[1],b),d=bi(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a5(c){function
-a(a){return s(a,c,[0,d,b])}var
-e=a(yM),f=a(yN);return[0,a(0),f,e]}function
-nG(a,b){if(a){var
-c=a[1],d=bi(c[1],b),e=bi(c[2],d[2]),f=nG(a[2],e[2]),g=f[2],h=f[1],i=a5(e[1]);return[0,[0,[0,a5(d[1]),i],h],g]}return[0,0,b]}function
-nH(f,c){if(f){var
+p=dn(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=n1(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+bm(a,b){if(a){var
+c=cW(a[1],b),d=bm(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a8(c){function
+a(a){return r(a,c,[0,d,b])}var
+e=a(zc),f=a(zd);return[0,a(0),f,e]}function
+n2(a,b){if(a){var
+c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=n2(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
+n3(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bi(a[1],c),h=bi(a[2],g[2]),i=bi(a[3],h[2]),j=cO(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a5(i[1]),y=a5(h[1]),e=[0,[0,[0,a5(g[1]),y,x,w,v]],u];break;case
+g=bm(a[1],c),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cW(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bi(a[1],c),l=bi(a[2],k[2]),z=l[2],A=a5(l[1]),e=[0,[0,[1,a5(k[1]),A,0]],z];break;default:var
-m=a[1],n=bi(m,c),o=bi(a[2],n[2]),p=bi(a[3],o[2]),q=bi(a[4],p[2]),r=cO(a[5],q[2]),s=cO(a[6],r[2]),B=m?a5(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a5(q[1]),H=a5(p[1]),e=[0,[1,[0,B,a5(o[1]),H,G,F,E,D]],C]}var
-t=nH(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dj(a){return ki(o,a)}function
-yO(a){if(typeof
+k=bm(a[1],c),l=bm(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
+m=a[1],n=bm(m,c),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cW(a[5],q[2]),s=cW(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
+t=n3(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dp(a){return kE(o,a)}function
+ze(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return g(o,1,[3,a[1],[0,b,b]]);case
-6:return g(o,1,a[2]);case
+5:return h(o,1,[3,a[1],[0,b,b]]);case
+6:return h(o,1,a[2]);case
 8:var
-d=g(o,1,a[1]);return d?g(o,1,a[2]):d;case
-10:return g(o,0,a[3]);case
+d=h(o,1,a[1]);return d?h(o,1,a[2]):d;case
+10:return h(o,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?g(o,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(o,0,e[2]):0;case
 12:var
-f=g(o,0,a[2]),h=f?g(o,0,a[3]):f;return h?g(o,1,a[4]):h;case
+f=h(o,0,a[2]),g=f?h(o,0,a[3]):f;return g?h(o,1,a[4]):g;case
 14:var
-i=g(o,0,a[1]);return i?g(o,1,a[2]):i;case
+i=h(o,0,a[1]);return i?h(o,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return n(function(a){return g(o,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return m(function(a){return h(o,k,a)},j);case
 2:case
-3:return dj(a[2]);case
+3:return dp(a[2]);case
 4:case
 13:var
-c=g(o,1,a[2]);return c?g(o,1,a[3]):c;default:return g(o,1,a[1])}}function
-iH(a){if(typeof
+c=h(o,1,a[2]);return c?h(o,1,a[3]):c;default:return h(o,1,a[1])}}function
+i2(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=g(o,1,[3,d,e]),h=f?g(o,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=h?g(o,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):h;return i?g(o,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
-5:return g(o,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(o,1,[3,d,e]),g=f?h(o,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(o,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):g;return i?h(o,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
+5:return h(o,1,[3,a[1],[0,b,b]]);case
 8:var
-y=[0,a[2],a[1]],z=1;return n(function(a){return g(o,z,a)},y);case
-10:return g(o,1,a[2]);case
+y=[0,a[2],a[1]],z=1;return m(function(a){return h(o,z,a)},y);case
+10:return h(o,1,a[2]);case
 11:var
-k=a[2],l=g(o,1,k);return l?g(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],k]):l;case
+k=a[2],l=h(o,1,k);return l?h(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],k]):l;case
 13:var
-m=a[4],q=ms(a[3]),r=q?g(o,1,m):q;return r?g(o,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],m]):r;case
-14:return g(o,0,a[3]);case
+n=a[4],q=mP(a[3]),r=q?h(o,1,n):q;return r?h(o,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],n]):r;case
+14:return h(o,0,a[3]);case
 15:var
-s=g(o,0,a[2]),t=s?g(o,0,a[3]):s;return t?g(o,1,a[4]):t;case
+s=h(o,0,a[2]),t=s?h(o,0,a[3]):s;return t?h(o,1,a[4]):t;case
 16:var
-u=a[3],v=g(o,0,a[1]),w=v?g(o,1,a[2]):v,x=w?g(o,1,u):w;return x?g(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=h(o,0,a[1]),w=v?h(o,1,a[2]):v,x=w?h(o,1,u):w;return x?h(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
 2:case
-3:return dj(a[2]);case
+3:return dp(a[2]);case
 6:case
 7:case
 9:var
-j=g(o,1,a[2]);return j?g(o,1,a[3]):j;default:return g(o,1,a[1])}}function
-gx(d){var
+j=h(o,1,a[2]);return j?h(o,1,a[3]):j;default:return h(o,1,a[1])}}function
+gH(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=_(aj(function(d){return function(a){var
-h=iq(a[1]),e=au(iq(d[1]),h);if(e)var
-i=ir(a[4]),b=au(ir(d[4]),i);else
+b=a[2],e=a[1],c=U(aj(function(d){return function(a){var
+h=iK(a[1]),e=aw(iK(d[1]),h);if(e)var
+i=iL(a[4]),b=aw(iL(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?r(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?s(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-eW(a){if(0===a[0])return dj(j(a[1]));var
-b=a[2],c=a[1];if(!eu(j(c))&&!eu(j(b))){var
-e=j(c);return g(o,1,[3,j(b),e])}var
-d=j(b);return bf(o,j(c),d)}function
-dk(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-nI(a){switch(a[0]){case
+e9(a){if(0===a[0])return dp(j(a[1]));var
+b=a[2],c=a[1];if(!eH(j(c))&&!eH(j(b))){var
+e=j(c);return h(o,1,[3,j(b),e])}var
+d=j(b);return bk(o,j(c),d)}function
+dq(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+n4(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dk(a[3]),c),e=f(dk(a[2]),d);return f(dk(a[1]),e);case
+c=[0,a[4],0],d=f(dq(a[3]),c),e=f(dq(a[2]),d);return f(dq(a[1]),e);case
 1:var
-b=a[3],g=b?dk(b[1]):b,h=f(dk(a[2]),g);return f(dk(a[1]),h);default:return dk(a[1])}}function
-nJ(s,a,k){if(aj(function(a){return 9===a[1]?1:0},k)){var
-b=V(h(a),yR),c=b?n(function(a){if(0===a[0]){var
-d=a[5],e=g(o,1,j(a[2])),h=e?g(o,0,j(a[3])):e,k=h?g(o,0,j(a[4])):h,c=0;if(k)if(d)var
-p=bM(d[1]),b=n(function(a){return dj(j(a))},p);else{var
+b=a[3],g=b?dq(b[1]):b,h=f(dq(a[2]),g);return f(dq(a[1]),h);default:return dq(a[1])}}function
+n5(s,a,k){if(aj(function(a){return 9===a[1]?1:0},k)){var
+b=Y(g(a),zh),c=b?m(function(a){if(0===a[0]){var
+d=a[5],e=h(o,1,j(a[2])),g=e?h(o,0,j(a[3])):e,k=g?h(o,0,j(a[4])):g,c=0;if(k)if(d)var
+p=bO(d[1]),b=m(function(a){return dp(j(a))},p);else{var
 l=1;c=1}else{var
 l=k;c=1}if(c)var
 b=l}else{var
-m=g(o,1,j(a[4]));if(m)var
-q=bM(a[3]),r=f(bM(a[2]),q),b=n(function(a){return dj(j(a))},r);else
+n=h(o,1,j(a[4]));if(n)var
+q=bO(a[3]),r=f(bO(a[2]),q),b=m(function(a){return dp(j(a))},r);else
 var
-b=m}return b?i(s,a):b},a):b;if(c)var
-d=go(0,a),l=d?1:d,e=l;else
+b=n}return b?i(s,a):b},a):b;if(c)var
+d=gy(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-nK(a){return a?yS:yT}function
-iI(a){switch(a){case
-0:return yU;case
-1:return yV;default:return 0}}function
-cP(a){var
-f=a[1],d=g(o,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bf(o,a[1],a[2]):d;if(e){var
-h=a[2];return g(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],h])}return e}function
-d2(a){var
-e=bf(o,[0,d,b],a);return e?g(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-nL(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=r(h(e),c),i=f?r(h(d),c):f;if(i){var
-l=ar(e,d);return n(function(a){var
-b=j(a[2]);return bf(o,j(a[1]),b)},l)}return i}var
-k=b?g(o,1,j(a[3])):b;if(k){var
-m=j(a[5]);return bf(o,j(a[4]),m)}return k}function
-nM(a,e,F,E,t,s,f){function
+n6(a){return a?zi:zj}function
+i3(a){switch(a){case
+0:return zk;case
+1:return zl;default:return 0}}function
+cX(a){var
+f=a[1],d=h(o,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bk(o,a[1],a[2]):d;if(e){var
+g=a[2];return h(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
+ea(a){var
+e=bk(o,[0,d,b],a);return e?h(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+n7(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=s(g(e),c),i=f?s(g(d),c):f;if(i){var
+l=ao(e,d);return m(function(a){var
+b=j(a[2]);return bk(o,j(a[1]),b)},l)}return i}var
+k=b?h(o,1,j(a[3])):b;if(k){var
+n=j(a[5]);return bk(o,j(a[4]),n)}return k}function
+n8(a,e,F,E,t,r,f){function
 u(b){var
-d=nK(a),c=r(h(b),d);return c?n(eW,b):c}var
-v=n(function(a){var
+d=n6(a),c=s(g(b),d);return c?m(e9,b):c}var
+v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=h(e),l=V(b1(a),G);else
+G=g(e),l=Y(b4(a),G);else
 var
 l=v;var
-w=l?V(h(e),yW):l,x=w?g(o,1,j(F)):w;if(x)var
-H=1===a?1:0,m=nL(iI(a),H,E);else
+w=l?Y(g(e),zm):l,x=w?h(o,1,j(F)):w;if(x)var
+H=1===a?1:0,n=n7(i3(a),H,E);else
 var
-m=x;if(m)if(a){var
-d=dg(t);switch(d[0]){case
+n=x;if(n)if(a){var
+d=dl(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=cP(d[1]),B=A?cP(d[2]):A,i=B?cP(d[3]):B;break;case
+A=cX(d[1]),B=A?cX(d[2]):A,i=B?cX(d[3]):B;break;case
 2:var
-i=d2(d[1]);break;default:var
-C=d2(d[1]),i=C?d2(d[2]):C}var
+i=ea(d[1]);break;default:var
+C=ea(d[1]),i=C?ea(d[2]):C}var
 k=i}else
 var
-D=dg(t),J=0===D[0]?cP(D[1]):0,k=J;else
+D=dl(t),J=0===D[0]?cX(D[1]):0,k=J;else
 var
-k=m;if(k)var
-I=h(e),p=nJ(function(a){if(0===a[0]){var
-b=a[1],c=V(yQ,b),d=c?V(b,I):c;if(d){if(a[5])return 0;var
+k=n;if(k)var
+I=g(e),p=n5(function(a){if(0===a[0]){var
+b=a[1],c=Y(zg,b),d=c?Y(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
-e=d;return e}return 1},s,f);else
+e=d;return e}return 1},r,f);else
 var
 p=k;if(p)var
-b=h(e),c=b1(a),y=nK(a),q=n(function(a){var
+b=g(e),c=b4(a),y=n6(a),q=m(function(a){var
 e=a[2];if(e)var
-f=e[1],g=V(x_,f),w=g?V(f,b):g,d=w;else
+f=e[1],h=Y(yx,f),w=h?Y(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aJ(c,b,a):a[3]?aJ(c,b,a):1;return aJ(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aL(c,b,a):a[3]?aL(c,b,a):1;return aL(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aL(c,b,a):aL(c,b,a)}return aL(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aJ(c,b,a);var
-m=a[3];return m?3===m[1][0]?r(b,c):aJ(c,b,a):aJ(c,b,a)}return aJ(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aL(c,b,a);var
+m=a[3];return m?3===m[1][0]?s(b,c):aL(c,b,a):aL(c,b,a)}return aL(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
 p=o[1];if(1===p[0]){var
-q=r(h(p[1]),y),x=q?d:q;return x}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);case
+q=s(g(p[1]),y),x=q?d:q;return x}return aL(c,b,a)}return aL(c,b,a)}return aL(c,b,a);case
 15:var
-s=a[4];if(typeof
-s!=="number"&&1===s[0]){var
+r=a[4];if(typeof
+r!=="number"&&1===r[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=r(h(u[1]),y),z=v?d:v;return z}return aJ(c,b,a)}return aJ(c,b,a)}return aJ(c,b,a);default:return aJ(c,b,a)}},f);else
+v=s(g(u[1]),y),z=v?d:v;return z}return aL(c,b,a)}return aL(c,b,a)}return aL(c,b,a);default:return aL(c,b,a)}},f);else
 var
 q=p;var
-z=q?gx(f):q;return z?n(iH,df(0,h(e),s,f)):z}function
-nN(a){switch(a[0]){case
+z=q?gH(f):q;return z?m(i2,dk(0,g(e),r,f)):z}function
+n9(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-nO(a,e,d,R,m,y,l){var
+n_(a,e,d,R,n,w,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?yX:yY;return r(h(a),b)}var
-i=gp(e),z=n(function(b){switch(b[0]){case
+b=p?zn:zo;return s(g(a),b)}var
+i=gz(e),z=m(function(b){switch(b[0]){case
 0:var
-d=_(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=U(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=_(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=U(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-S=h(e),q=V(bb(a),S);else
+S=g(e),q=Y(be(a),S);else
 var
 q=z;var
-A=q?V(h(e),yZ):q,B=A?n(eW,w(nN,e)):A;if(B){var
+A=q?Y(g(e),zp):q,B=A?m(e9,x(n9,e)):A;if(B){var
 Q=0;if(typeof
 a==="number"&&!a){var
 C=1;Q=1}if(!Q)var
 C=0;var
-T=p?y0:y1,s=nL(T,C,R)}else
+T=p?zq:zr,r=n7(T,C,R)}else
 var
-s=B;if(s)if(typeof
+r=B;if(r)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-U=x(dg,m)?0:1,b=U;else
+V=y(dl,n)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=x(dg,m);if(t){var
+t=y(dl,n);if(t){var
 F=t[1];if(0===F[0])var
-G=g(o,1,j(d[1])),H=G?cP(F[1]):G;else
+G=h(o,1,j(d[1])),H=G?cX(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -6330,15 +6498,15 @@ b=I}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=x(dg,m);if(v){var
+u=d[1],v=y(dl,n);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-K=g(o,1,j(u)),L=K?cP(f[1]):K,M=L?cP(f[2]):L,k=M?cP(f[3]):M;break;case
+K=h(o,1,j(u)),L=K?cX(f[1]):K,M=L?cX(f[2]):L,k=M?cX(f[3]):M;break;case
 2:var
-N=g(o,1,j(u)),k=N?d2(f[1]):N;break;default:var
-O=g(o,1,j(u)),P=O?d2(f[1]):O,k=P?d2(f[2]):P}var
+N=h(o,1,j(u)),k=N?ea(f[1]):N;break;default:var
+O=h(o,1,j(u)),P=O?ea(f[1]):O,k=P?ea(f[2]):P}var
 J=k}else
 var
 J=v;var
@@ -6347,196 +6515,288 @@ var
 b=d;break;default:var
 b=0}else
 var
-b=s;var
-D=b?n(function(b){var
-c=nm(i,a,h(e),b);if(c)var
+b=r;var
+D=b?m(function(b){var
+c=nJ(i,a,g(e),b);if(c)var
 d=c;else{var
-f=y?d1(b):y;if(f)return aJ(0,0,b);var
-d=f}return d},l):b,E=D?gx(l):D;return E?n(iH,df(i,h(e),0,l)):E}function
-y2(a){switch(a[0]){case
-0:return fX(a[1][1]);case
+f=w?d_(b):w;if(f)return aL(0,0,b);var
+d=f}return d},l):b,E=D?gH(l):D;return E?m(i2,dk(i,g(e),0,l)):E}function
+zs(a){switch(a[0]){case
+0:return f9(a[1][1]);case
 1:var
-b=a[3];return b?fX(b[1]):1;default:return fX(a[1])}}function
-iJ(a,k,b,d){var
-e=nJ(function(g){if(0===g[0]){var
-c=g[1],d=V(yP,c);if(d){var
-b=E(a,bk(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?f9(b[1]):1;default:return f9(a[1])}}function
+i4(a,k,b,d){var
+e=n5(function(g){if(0===g[0]){var
+c=g[1],d=Y(zf,c);if(d){var
+b=D(a,bn(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?n(y2,d[1]):e,g=f?V(y3,h(a)):f;if(g)var
-l=h(a),c=n(function(a){return x0(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(zs,d[1]):e,h=f?Y(zt,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return yn(l,a)},b);else
 var
-c=g;var
-i=c?gx(b):c,j=i?n(eW,w(nI,a)):i;return j?n(yO,d[3]):j}function
-gy(b,a){return n(function(c){var
-a=c[2];return a?bd(a[1],b):1},a)}function
-nP(k,j,a,i,g,b){var
-l=h(k),m=h(g),c=r(h(i),m),d=c?n(function(b){var
-c=aJ(l,h(a),b);if(c){var
+c=h;var
+i=c?gH(b):c,j=i?m(e9,x(n4,a)):i;return j?m(ze,d[3]):j}function
+n$(k,j,a,i,h,b){var
+l=g(k),n=g(h),c=s(g(i),n),d=c?m(function(b){var
+c=aL(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bk(e[1]),0]:aG(0,h(a));return n(function(c){var
-b=E(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?n(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gx(b):d,f=e?n(function(a){return eW(a[2])},j):e;return f?n(iH,df(0,h(a),0,b)):f}function
-nQ(a){if(a){var
-b=a[1];if(d1(b))return 0;var
-c=[0,b,nQ(a[2])]}else
+e=b[2],f=e?[0,bn(e[1]),0]:aE(0,g(a));return m(function(c){var
+b=D(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gH(b):d,f=e?m(function(a){return e9(a[2])},j):e;return f?m(i2,dk(0,g(a),0,b)):f}function
+oa(a){if(a){var
+b=a[1];if(d_(b))return 0;var
+c=[0,b,oa(a[2])]}else
 var
 c=a;return c}function
-iK(i,g,f,d,b){var
-j=nQ(b),k=w(function(a){return ix(i,f,d,a)},j),c=aw(O,0,e(function(a){return hH(o,g,a)},k)),a=w(nk,b),l=a?[0,a[1],a[2]]:y4;return O(h(l),c)}function
-iL(a){return 2<=a?y5:y6}function
-gz(m,l,k,j,f,i){var
-g=iK(m,l,k,j,f),c=nE(i);if(c){var
+i5(i,h,f,d,b){var
+j=oa(b),k=x(function(a){return iR(i,f,d,a)},j),c=ar(P,0,e(function(a){return hZ(o,h,a)},k)),a=x(nH,b),l=a?[0,a[1],a[2]]:zu;return P(g(l),c)}function
+i6(a){return 2<=a?zv:zw}function
+gI(m,l,k,j,f,i){var
+g=i5(m,l,k,j,f),c=n0(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-p=a[2],q=a[1],b=q,d=function(a){return[1,a,p]};e=1}if(e){if(!_(aj(d1,f))&&!bd(b,g))return r(b,g)?0:[0,d(bk(b))];return[0,d(b)]}}else
+p=a[2],q=a[1],b=q,d=function(a){return[1,a,p]};e=1}if(e){if(!U(aj(d_,f))&&!aX(b,g))return s(b,g)?0:[0,d(bn(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gA(b,a){var
-c=h(bm(function(a){return 0===a[0]?0:1},b));return r(h(a),c)}function
-iM(a){if(a){var
+gJ(b,a){var
+c=g(bh(function(a){return 0===a[0]?0:1},b));return s(g(a),c)}function
+gK(a){var
+b=ao(aE(0,g(a)),a);return e(ay,bh(function(a){return hU(a[2])},b))}function
+ob(a){var
+b=a[1],c=e(gF,a[1]);return f3(gG(a[1]),c,b)}function
+i7(a){return gK(ob(a))}function
+oc(b,a){if(a){var
+c=a[1],d=a[2],g=oc(P(b,c[1]),d),h=c[2];return f(e(function(a){return aE(P(b,a),zx)},h),g)}return a}function
+od(e,a){function
+b(f){var
+a=D(e,f);if(a){var
+b=lj(a[1]);if(b)return I(b[1],d);var
+c=1}else
+var
+c=a;return c}var
+c=oc(0,a);return bh(function(a){return m(b,a)},c)}function
+oe(a){switch(a[0]){case
+0:return zy;case
+1:return a[3]?zz:zA;default:return zB}}function
+zC(a){return 0===a[0]?oe(a[1]):zD}function
+i8(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-nR(aM,_,aL,Z,Y,b,aK,B){var
-a=iw(_,aL,Z,Y),aN=h(B);if(aM)var
-$=0;else
-var
-aH=a[1],aI=e(gv,a[1]),X=fQ(gw(a[1]),aI,aH),aJ=ar(aG(0,h(X)),X),$=e(aB,bm(function(a){return fS(a[2])},aJ));var
-C=dh($,aN,B);if(C){var
-aa=C[1];if(aa[2])return 0;var
-ab=iJ(_,Z,Y,a),ac=ab?gy(y7,B):ab;if(ac){var
-aO=aa[1],D=e(gv,a[1]),c=gw(a[1]),aP=iM(aK),V=ln(o,a);if(V){var
-l=fQ(c,D,a[1]),g=hA(c,D,a[1],0),af=h(a[3]),ag=O(h(l),af),K=[0,h(l),ag],ah=a[3],F=aj(function(a){if(typeof
-a!=="number"&&14===a[0])return 1;return 0},ah),ai=F?w(function(a){var
-b=e(aQ,fT(l,a[4]));return[0,a[4],b]},g):F,al=f(hC(g,c,K,a[3]),ai),am=f(bH(kz(g)),al),L=f(bH(ew(g)),am),N=cv(L)[1],m=cu(N),P=n(function(a){var
-b=k(d);return ay(s(a3(m,a),m,b),a)},L);if(P){var
-Q=aj(rJ,a[3]);if(Q){var
-t=D,p=a[1];for(;;){if(p){var
-q=p[1],u=bA(d,t);switch(q[0]){case
+of(aD,Y,aC,X,W,b,aB,V){var
+a=iQ(Y,aC,X,W),aE=g(V),aF=e(oe,a[1]),aG=od(ob(a),aF),aH=aD?0:i7(a),B=dm(zE,i7(a),aH,aG,aE,V);if(B){var
+_=B[1];if(_[2])return 0;var
+$=i4(Y,X,W,a);if($){var
+aI=_[1],C=e(gF,a[1]),c=gG(a[1]),aJ=i8(aB),U=lM(o,a);if(U){var
+l=f3(c,C,a[1]),h=hR(c,C,a[1],0),ac=g(a[3]),ad=P(g(l),ac),J=[0,g(l),ad],ae=a[3],E=aj(function(a){if(typeof
+a!=="number"&&14===a[0])return 1;return 0},ae),af=E?x(function(a){var
+b=e(aT,f5(l,a[4]));return[0,a[4],b]},h):E,ag=f(hT(h,c,J,a[3]),af),ah=f(bJ(kU(h)),ag),K=f(bJ(eJ(h)),ah),M=cz(K)[1],n=cy(M),N=m(function(a){var
+b=k(d);return az(r(a4(n,a),n,b),a)},K);if(N){var
+O=aj(r8,a[3]);if(O){var
+t=C,p=a[1];for(;;){if(p){var
+q=p[1],u=bC(d,t);switch(q[0]){case
 0:var
-G=q[1],H=fU(b,G[1],u),E=0;if(H){var
-r=ak(b,[0,G[4],c]);if(r)var
-j=M(d,r[1][1]);else{var
-I=r;E=1}}else{var
-I=H;E=1}if(E)var
-j=I;break;case
+F=q[1],G=f6(b,F[1],u),D=0;if(G){var
+s=ak(b,[0,F[4],c]);if(s)var
+j=L(d,s[1][1]);else{var
+H=s;D=1}}else{var
+H=G;D=1}if(D)var
+j=H;break;case
 1:var
-J=q[3],j=J?fU(b,J[1],u):1;break;default:var
-j=fU(b,q[1],u)}if(j){var
-ae=p[2],t=bl(t),p=ae;continue}var
-R=j}else
+I=q[3],j=I?f6(b,I[1],u):1;break;default:var
+j=f6(b,q[1],u)}if(j){var
+ab=p[2],t=bo(t),p=ab;continue}var
+Q=j}else
 var
-R=1;var
-v=R;break}}else
+Q=1;var
+v=Q;break}}else
 var
-v=Q;if(v){var
-an=a[3],ao=w(function(a){return c3(c,a)},an),ap=a[3],aq=f(l,f(e(function(a){return bG(c,a)},ap),ao)),x=W(e(function(a){return ak(b,a)},aq));if(x){var
-as=aX(dN(a[2]),c),y=W(e(function(a){return ak(b,a)},as));if(y){var
-au=a[3],z=W(k_(b,aP,function(a){return a3(m,a)},l,g,c,K,au));if(z){var
-S=z[1],av=hz(S),aw=y[1],ax=a[2],az=function(a){return k$(b,ax,c,a)},aA=x[1],aC=0,aD=kz(g),aE=i(at(function(a){return a3(m,a)}),aD),aF=ew(g);return fO(b,N,i(at(function(a){return a3(m,a)}),aF),aE,aC,aA,S,az,aw,av,aO)}var
-T=z}else
+v=O;if(v){var
+ai=a[3],al=x(function(a){return c8(c,a)},ai),am=a[3],an=f(l,f(e(function(a){return bI(c,a)},am),al)),w=Z(e(function(a){return ak(b,a)},an));if(w){var
+ao=a0(dU(a[2]),c),y=Z(e(function(a){return ak(b,a)},ao));if(y){var
+ap=a[3],z=Z(lx(b,aJ,function(a){return a4(n,a)},l,h,c,J,ap));if(z){var
+R=z[1],aq=hQ(R),ar=y[1],as=a[2],at=function(a){return ly(b,as,c,a)},av=w[1],aw=0,ax=kU(h),ay=i(au(function(a){return a4(n,a)}),ax),aA=eJ(h);return gO(hP(b,M,i(au(function(a){return a4(n,a)}),aA),ay,aw,av,R,at),ar,aq,aI)}var
+S=z}else
 var
-T=y;var
-U=T}else
+S=y;var
+T=S}else
 var
-U=x;var
-A=U}else
+T=w;var
+A=T}else
 var
 A=v}else
 var
-A=P;return A}return V}var
-ad=ac}else
+A=N;return A}return U}var
+aa=$}else
 var
-ad=C;return ad}function
-y8(a){if(0===a[0])return nA(a[1]);var
-b=a[1],c=dQ(b[6]);return f(dQ(b[5]),c)}function
-y9(a){if(0===a[0])return nB(a[1]);var
-b=a[1],c=a$(b[4]);return f(a$(b[3]),c)}function
-y_(a){if(0===a[0])return[0,gv(a[1]),d];var
-b=a[1],c=bI(a$(b[2]));return[0,bI(a$(b[1])),c]}function
-nS(f,n,m,l,k,j,y,d){var
-a=nq(f,n,m,l,k,j),p=a[2],c=w(y8,p),x=c?[0,c[1],c[2]]:w(y9,p),i=G(b,bI(x)),q=e(y_,a[2]),r=ib(i,q,a[2]),z=h(d),A=ar(aG(0,h(r)),r),g=dh(e(aB,bm(function(a){return fS(a[2])},A)),z,d);if(g){var
-s=g[1];if(s[2])return 0;var
-t=nO(f,n,m,l,k,0,j),u=t?gy(bb(f),d):t;if(u)return tp(o,y,a,i,q,s[1]);var
-v=u}else
+aa=B;return aa}function
+zF(a){if(0===a[0])return nW(a[1]);var
+b=a[1],c=dX(b[6]);return f(dX(b[5]),c)}function
+zG(a){if(0===a[0])return nX(a[1]);var
+b=a[1],c=bc(b[4]);return f(bc(b[3]),c)}function
+zH(a){if(0===a[0])return[0,gF(a[1]),d];var
+b=a[1],c=bK(bc(b[2]));return[0,bK(bc(b[1])),c]}function
+og(P,aG,aF,aE,aD,aC,j,aB){var
+a=nM(P,aG,aF,aE,aD,aC),aH=a[2],O=x(zF,aH),bb=O?[0,O[1],O[2]]:x(zG,aH),l=C(b,bK(bb)),Q=e(zH,a[2]),R=iw(l,Q,a[2]),bc=g(aB),bd=od(R,e(zC,a[2])),bf=gK(R),bg=gK(R),S=dm(be(P),bg,bf,bd,bc,aB);if(S){var
+aI=S[1];if(aI[2])return 0;var
+aJ=n_(P,aG,aF,aE,aD,0,aC);if(aJ){var
+bh=aI[1],a_=e(tN,a[2]),ax=mW(o,a[2],a_);if(ax)var
+a$=hX(a[4]),M=c_(o,a[4],a$);else
 var
-v=g;return v}function
-nT(i,g,G,F,E,s,V,D,q){var
+M=ax;if(M){var
+ay=a[5];if(ay)var
+ba=ge(ay[1]),aA=m(function(a){return eZ(o,a)},ba);else
+var
+aA=1;var
+N=aA}else
+var
+N=M;if(N){var
+c=a[1],aO=be(c),u=a[6],B=iw(l,Q,a[2]),X=a[3],Y=[0,[0,X,X],l],_=[0,g(B)],D=a[2],q=D?0===D[1][0]?0:1:D,aP=a[5],aQ=y(function(a){var
+b=typeof
+c==="number"?0:df(c[1]);return mh(a,b)},aP),aR=a[2],n=mY(c,aQ,cK(Y,g(B)),l,Q,aR,0),$=x(function(a){return a[7]},n),aS=f($,cO(function(a,b){return m1(n,a,b)},q,l,_,u)),aT=f(bJ(e0(n)),aS),aa=f(bJ(d2(n)),aT),ab=cz(aa)[1],ac=cy(ab),t=function(a){return a4(ac,a)},ad=m(function(a){var
+b=k(d);return az(r(t(a),ac,b),a)},aa),ae=ad?aj(m3,u):ad;if(ae){var
+af=a[4];if(typeof
+c==="number")var
+ag=c?is(0,dU(af)):1;else
+var
+aM=dU(af),ag=is(c[1],aM);var
+E=ag}else
+var
+E=ae;if(E){var
+U=a[1];if(typeof
+U==="number")var
+v=a[5]?0:1;else
+if(2<=U[1])var
+v=0;else{var
+z=a[5],T=0;if(z){var
+V=h(j,1,a[3]);if(V)var
+aN=ge(z[1]),v=m(function(a){var
+b=db(j,a[1]);return b?db(j,a[2]):b},aN);else{var
+W=V;T=1}}else{var
+W=z;T=1}if(T)var
+v=W}var
+F=v}else
+var
+F=E;if(F)var
+aU=a[2],G=m(function(a){var
+b=0===a[0]?0:1;return ce(b,q)},aU);else
+var
+G=F;if(G){var
+aV=f(B,[0,Y,0]),H=Z(e(function(a){return ak(j,a)},aV));if(H){var
+aW=x(function(a){return eT(q,l,a)},u),I=Z(e(function(a){return ia(j,a)},aW));if(I){var
+p=dU(a[4]),aX=typeof
+c==="number"?c?[0,p[1],[0,p[2],0]]:[0,p[1],[0,p[2],[0,p[3],0]]]:mQ(c[1],p),J=Z(e(function(a){return ak(j,[0,a,l])},aX));if(J){var
+ah=J[1],ai=a[5];if(ai)var
+aY=mj(ai[1]),w=Z(e(function(a){return ml(j,a)},aY));else
+var
+w=tM;if(w){var
+al=w[1],A=a[5],aZ=A?mi(A[1]):A,K=Z(e(da(j),aZ));if(K){var
+L=Z(cO(function(a,b){return m2(j,t,n,q,l,a,b)},q,l,_,u));if(L){var
+am=L[1],an=s(g(f(ah,al)),aO);if(an){var
+a0=hQ(am),a1=f(ah,al),aL=0,a2=a[4];if(typeof
+c==="number"&&!c){var
+ao=function(a){return ly(j,a2,l,a)};aL=1}if(!aL)var
+ao=function(a){return 0};var
+a3=f(I[1],K[1]),a5=f(H[1],a3),a6=e(t,$),a7=e0(n),a8=i(au(t),a7),a9=d2(n);return gO(hP(j,ab,i(au(t),a9),a8,a6,a5,am,ao),a1,a0,bh)}var
+ap=an}else
+var
+ap=L;var
+aq=ap}else
+var
+aq=K;var
+ar=aq}else
+var
+ar=w;var
+as=ar}else
+var
+as=J;var
+at=as}else
+var
+at=I;var
+av=at}else
+var
+av=H;var
+aw=av}else
+var
+aw=G;return aw}return N}var
+aK=aJ}else
+var
+aK=S;return aK}function
+oh(i,h,G,F,E,r,W,D,q){var
 H=typeof
-i==="number"?i?y$:zb:iI(i[1]),t=e(j,V),I=nH(g,e(j,D));if(I[2])return 0;var
-W=h(g),u=gz(gp(g),za,W,0,s,q);if(u){var
-J=gA(w(nN,g),D),K=J?nO(i,g,G,F,E,1,s):J;if(K)var
-X=bb(i),v=r(h(t),X);else
+i==="number"?i?zI:zK:i3(i[1]),t=e(j,W),I=n3(h,e(j,D));if(I[2])return 0;var
+X=g(h),u=gI(gz(h),zJ,X,0,r,q);if(u){var
+J=gJ(x(n9,h),D),K=J?n_(i,h,G,F,E,1,r):J;if(K)var
+Y=be(i),v=s(g(t),Y);else
 var
 v=K;if(v){var
 M=0;if(typeof
 q==="number"&&q)var
-m=_(gp(g));else
+m=U(gz(h));else
 M=1;if(M)var
 m=1}else
 var
 m=v;if(m){var
-Y=u[1],a=bT(H,t),d=a5(bn(H,t)),k=I[1],f=nq(i,g,G,F,E,s),B=mA(o,f[2],k);if(B){var
-y=c5(o,f[4],d),x=0;if(y){var
+Z=u[1],a=bW(H,t),d=a8(bp(H,t)),k=I[1],f=nM(i,h,G,F,E,r),B=mW(o,f[2],k);if(B){var
+y=c_(o,f[4],d),w=0;if(y){var
 z=f[5];if(z)var
-n=fW(o,z[1],a);else
+n=f8(o,z[1],a);else
 if(a)var
 n=0;else{var
-A=1;x=1}}else{var
-A=y;x=1}if(x)var
+A=1;w=1}}else{var
+A=y;w=1}if(w)var
 n=A;var
 p=n}else
 var
 p=B;if(p){var
-c=f[5],C=f[3],l=f[1],U=f[6],N=e(function(e){if(0===e[0])var
-h=bK(c,a,d,e),f=cj(e[1],h);else
+c=f[5],C=f[3],l=f[1],V=f[6],N=e(function(e){if(0===e[0])var
+h=bM(c,a,d,e),f=cp(e[1],h);else
 var
-g=e[1],i=hR(g,bK(c,a,d,e)),j=g[4],k=bK(c,a,d,e),m=Z(function(b,a){return[2,b,a]},k,j),f=Z(function(b,a){return[3,b,a]},m,i);return[0,my(l,f,ap([5,[0,b,b],C],eE(ga(c,a,f$(e)),f)))]},k),O=w(function(b){if(0===b[0]){var
-f=bK(c,a,d,b),e=lc(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bK(c,a,d,b);return[0,ly(b[1],h),0]},k),P=function(b){var
-e=ga(c,a,b);return Z(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
-e=bK(c,a,d,g);if(0===g[0]){var
+g=e[1],i=h9(g,bM(c,a,d,e)),j=g[4],k=bM(c,a,d,e),m=aa(function(b,a){return[2,b,a]},k,j),f=aa(function(b,a){return[3,b,a]},m,i);return[0,mU(l,f,aq([5,[0,b,b],C],eR(gm(c,a,gl(e)),f)))]},k),O=x(function(b){if(0===b[0]){var
+f=bM(c,a,d,b),e=lB(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bM(c,a,d,b);return[0,lX(b[1],h),0]},k),P=function(b){var
+e=gm(c,a,b);return aa(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
+e=bM(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cE(h,k,j,i,e),m=c6(b[5],n),o=ap(m,aD(h)),p=eC(h,k,j,e);return[0,[0,mz(l,Z(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
-f=g[1],q=f[6],r=fV(f,e),s=hR(f,e),t=f[4],u=Z(function(b,a){return[2,b,a]},e,t);return[0,[0,mz(l,Z(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
-f=bK(c,a,d,b);return[0,hD(b[1],f)]}var
-e=b[1],g=lA(e,bK(c,a,d,b));return[1,lz(e,bK(c,a,d,b)),g]},k),T=[0,e(function(e){if(0===e[0])var
-o=bK(c,a,d,e),g=b0(e[1],o);else
+i=b[4],j=b[3],k=b[2],h=b[1],n=cM(h,k,j,i,e),m=c$(b[5],n),o=aq(m,aH(h)),p=eP(h,k,j,e);return[0,[0,mV(l,aa(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
+f=g[1],q=f[6],r=f7(f,e),s=h9(f,e),t=f[4],u=aa(function(b,a){return[2,b,a]},e,t);return[0,[0,mV(l,aa(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
+f=bM(c,a,d,b);return[0,hV(b[1],f)]}var
+e=b[1],g=lZ(e,bM(c,a,d,b));return[1,lY(e,bM(c,a,d,b)),g]},k),T=[0,e(function(e){if(0===e[0])var
+o=bM(c,a,d,e),g=b3(e[1],o);else
 var
-h=bK(c,a,d,e),f=e[1],i=hR(f,h),j=f[4],k=Z(function(b,a){return[2,b,a]},h,j),m=Z(function(b,a){return[3,b,a]},k,i),n=fV(f,h),g=ap([5,[0,b,b],[4,f[5],n]],m);return my(l,g,ap([5,[0,b,b],C],eE(ga(c,a,f$(e)),g)))},k),S,R,Q,P,O,N];return hJ(o,s7,bb(f[1]),T,U,Y)}return p}var
+h=bM(c,a,d,e),f=e[1],i=h9(f,h),j=f[4],k=aa(function(b,a){return[2,b,a]},h,j),m=aa(function(b,a){return[3,b,a]},k,i),n=f7(f,h),g=aq([5,[0,b,b],[4,f[5],n]],m);return mU(l,g,aq([5,[0,b,b],C],eR(gm(c,a,gl(e)),g)))},k),S,R,Q,P,O,N];return h1(o,tu,be(f[1]),T,V,Z)}return p}var
 L=m}else
 var
 L=u;return L}function
-nU(G,a0,aC,aB,F,aA,k){var
-l=iw(G,a0,aC,aB);if(F){var
+oi(H,a0,aC,aB,F,aA,k){var
+l=iQ(H,a0,aC,aB);if(F){var
 I=F[2];if(I){var
 J=I[2];if(J){if(J[2])return 0;var
-aD=nF(G,e(j,aA));if(aD[2])return 0;var
+aD=n1(H,e(j,aA));if(aD[2])return 0;var
 N=l[3];if(typeof
 k==="number")var
-a=0===k?yK:yL;else
+a=0===k?za:zb;else
 switch(k[0]){case
 0:var
-O=k[2],p=k[1],aa=E(N,p);if(aa){var
+O=k[2],p=k[1],aa=D(N,p);if(aa){var
 aK=0,ab=aa[1];if(typeof
 ab==="number"||!(13===ab[0]))aK=1;else
 var
-Q=l[1],$=gw(Q),f=e(function(a){var
-f=h(Q);if(r(h(a),f)){var
-g=ar(Q,a);return e(function(a){var
-e=a[2],f=H(d,$),g=2===a[1][0]?1:0;return ca(g,f)?z(e,fq(c(2,b),cV($))):e},g)}return a},O);if(aK)var
+Q=l[1],$=gG(Q),f=e(function(a){var
+f=g(Q);if(s(g(a),f)){var
+h=ao(Q,a);return e(function(a){var
+e=a[2],f=G(d,$),g=2===a[1][0]?1:0;return ce(g,f)?B(e,ex(c(2,b),cc($))):e},h)}return a},O);if(aK)var
 f=O}else
 var
 f=O;var
-aY=E(N,p),aZ=l[1],P=x(function(b){if(typeof
+aY=D(N,p),aZ=l[1],P=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return yI;case
+5:return y_;case
 12:var
-a=E(aZ,b[1]);if(a){if(2===a[1][0])return yJ;var
+a=D(aZ,b[1]);if(a){if(2===a[1][0])return y$;var
 c=0}else
 var
 c=a;return c;case
@@ -6545,27 +6805,27 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return yH},aY),S=0;if(P){var
+11:return 0}return y9},aY),S=0;if(P){var
 ac=P[1];if(ac){var
 ad=ac[1];if(ad)if(ad[1])var
 a=0;else{var
 T=0;if(f){var
 q=f[1],U=0;if(q){var
-s=q[2],V=0;if(s){var
-t=s[2],W=0;if(t)if(t[2]){var
+r=q[2],V=0;if(r){var
+t=r[2],W=0;if(t)if(t[2]){var
 a=0;T=1;U=1;V=1;W=1}else{var
 u=f[2],aL=0;if(u){var
 v=u[1],aM=0;if(v){var
-y=v[2],aN=0;if(y){var
-A=y[2],aO=0;if(A)if(A[2]||u[2]){var
+w=v[2],aN=0;if(w){var
+z=w[2],aO=0;if(z)if(z[2]||u[2]){var
 a=0;T=1;U=1;V=1;W=1;aL=1;aM=1;aN=1;aO=1}else
 var
-ae=[0,[0,p,[0,[0,q[1],s[1]],t[1]],[0,[0,v[1],y[1]],A[1]]]];else
+ae=[0,[0,p,[0,[0,q[1],r[1]],t[1]],[0,[0,v[1],w[1]],z[1]]]];else
 var
-ae=A;if(!aO)var
+ae=z;if(!aO)var
 af=ae}else
 var
-af=y;if(!aN)var
+af=w;if(!aN)var
 ag=af}else
 var
 ag=v;if(!aM)var
@@ -6577,7 +6837,7 @@ var
 ai=t;if(!W)var
 ak=ai}else
 var
-ak=s;if(!V)var
+ak=r;if(!V)var
 al=ak}else
 var
 al=q;if(!U)var
@@ -6586,20 +6846,20 @@ var
 am=f;if(!T)var
 a=am}else{var
 aP=0;if(f){var
-B=f[1],aQ=0;if(B){var
-C=B[2],aR=0;if(C){var
-D=C[2],aS=0;if(D)if(D[2]||f[2]){var
+A=f[1],aQ=0;if(A){var
+C=A[2],aR=0;if(C){var
+E=C[2],aS=0;if(E)if(E[2]||f[2]){var
 a=0;aP=1;aQ=1;aR=1;aS=1}else
 var
-an=D[1],ao=C[1],ap=B[1],aq=[0,[0,p,[0,[0,ap,ao],an],[0,[0,ap,ao],an]]];else
+an=E[1],ap=C[1],aq=A[1],ar=[0,[0,p,[0,[0,aq,ap],an],[0,[0,aq,ap],an]]];else
 var
-aq=D;if(!aS)var
-as=aq}else
+ar=E;if(!aS)var
+as=ar}else
 var
 as=C;if(!aR)var
 at=as}else
 var
-at=B;if(!aQ)var
+at=A;if(!aQ)var
 au=at}else
 var
 au=f;if(!aP)var
@@ -6610,7 +6870,7 @@ av=[0,[0,d,d],d],aw=[0,[0,p,av,av]];S=1}}else{var
 aw=P;S=1}if(S)var
 a=aw;break;case
 1:var
-ax=k[1],R=E(N,ax),X=0;if(R){var
+ax=k[1],R=D(N,ax),X=0;if(R){var
 aT=0,ay=R[1];if(typeof
 ay!=="number"&&1===ay[0]){var
 a=[0,[1,ax,k[2]]];aT=1}if(!aT){var
@@ -6618,16 +6878,16 @@ az=0;X=1}}else{var
 az=R;X=1}if(X)var
 a=az;break;default:var
 a=0}if(a){var
-aE=gA(w(nI,G),aA),aF=aE?iJ(G,aC,aB,l):aE;if(aF){var
-i=a[1],a1=j(J[1]),a2=j(I[1]),m=[0,j(F[1]),a2,a1],n=aD[1],Y=lb(o,l,n,m);if(Y)if(typeof
+aE=gJ(x(n4,H),aA),aF=aE?i4(H,aC,aB,l):aE;if(aF){var
+i=a[1],a1=j(J[1]),a2=j(I[1]),m=[0,j(F[1]),a2,a1],n=aD[1],Y=lA(o,l,n,m);if(Y)if(typeof
 i==="number")return 0===i?aj(function(c){var
-a=lc(c,m);return a?g(o,0,[3,[0,d,b],a[1]]):a},n):ko(rL,e(function(b){var
-a=cj(b,m);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else{if(0===i[0]){var
-K=E(l[3],i[1]);if(K){var
-aU=K[1],aV=le(i[3]);return ll(o,n,m,le(i[2]),aV,aU)}return K}var
-L=E(l[3],i[1]);if(L){var
-M=E(n,i[2]);if(M){var
-Z=M[1],aW=L[1],aX=b0(Z,m);return ll(o,n,m,b0(Z,m),aX,aW)}var
+a=lB(c,m);return a?h(o,0,[3,[0,d,b],a[1]]):a},n):kK(r_,e(function(b){var
+a=cp(b,m);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else{if(0===i[0]){var
+K=D(l[3],i[1]);if(K){var
+aU=K[1],aV=lD(i[3]);return lK(o,n,m,lD(i[2]),aV,aU)}return K}var
+L=D(l[3],i[1]);if(L){var
+M=D(n,i[2]);if(M){var
+Z=M[1],aW=L[1],aX=b3(Z,m);return lK(o,n,m,b3(Z,m),aX,aW)}var
 _=M}else
 var
 _=L;return _}return Y}var
@@ -6643,341 +6903,331 @@ aI=I;var
 aJ=aI}else
 var
 aJ=F;return aJ}function
-nV(m,l,b,k,z,y){var
-f=z,d=y;for(;;){if(0===d[0]){var
-g=d[1],h=E(f,g),n=h?bd(h[1][2],zc):h;if(n)var
-A=d[2],i=nV(m,l,b,k,iE(0,g,f),A);else
+oj(m,l,b,k,z,x){var
+f=z,d=x;for(;;){if(0===d[0]){var
+g=d[1],h=D(f,g),n=h?aX(h[1][2],zL):h;if(n)var
+A=d[2],i=oj(m,l,b,k,iZ(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=iE(1,g,f),d=B;continue}return i}var
-c=d[1],a=ny(0,m,f),o=e(function(b){function
-d(b){return nz(a,b)}function
-c(a){return iC(d,a)}switch(b[0]){case
+B=d[3],f=iZ(1,g,f),d=B;continue}return i}var
+c=d[1],a=nU(0,m,f),o=e(function(b){function
+d(b){return nV(a,b)}function
+c(a){return iX(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=nz(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=nV(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
-i=x(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=iC(function(b){return ao(a,b)},q),s=b[1],j=[0,iC(function(b){return ao(a,b)},s),r];else
+i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
+q=b[2],r=iX(function(b){return ap(a,b)},q),s=b[1],j=[0,iX(function(b){return ap(a,b)},s),r];else
 var
-t=ao(a,b[5]),u=ao(a,b[4]),v=ao(a,b[3]),w=ao(a,b[2]),j=[1,ao(a,b[1]),w,v,u,t];var
+t=ap(a,b[5]),u=ap(a,b[4]),v=ap(a,b[3]),w=ap(a,b[2]),j=[1,ap(a,b[1]),w,v,u,t];var
 p=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,ao(a,c[1])];break;case
+d=[0,ap(a,c[1])];break;case
 1:var
-d=[1,ao(a,c[1])];break;default:var
-m=ao(a,c[2]),d=[2,ao(a,c[1]),m]}var
+d=[1,ap(a,c[1])];break;default:var
+m=ap(a,c[2]),d=[2,ap(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,ao(a,b[1])]];break;case
+f=[0,[0,ap(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return ao(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return ap(a,b)},j)]];break;case
 2:var
-k=ao(a,b[2]),f=[0,[2,ao(a,b[1]),k]];break;default:var
-l=ao(a,b[2]),f=[0,[3,ao(a,b[1]),l]]}var
+k=ap(a,b[2]),f=[0,[2,ap(a,b[1]),k]];break;default:var
+l=ap(a,b[2]),f=[0,[3,ap(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return nR(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],D=c[3],F=e(function(b){return ao(a,b)},D),G=c[2];return nU(o,j,0,p,e(function(b){return ao(a,b)},G),F,C)}}}function
-nW(h,g){var
-a=cx(j(h));if(a){var
-c=a[1],e=cX([0,d,b],c);if(e)return cX(c,g);var
+1:return of(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],E=c[3],F=e(function(b){return ap(a,b)},E),G=c[2];return oi(o,j,0,p,e(function(b){return ap(a,b)},G),F,C)}}}function
+ok(h,g){var
+a=cB(j(h));if(a){var
+c=a[1],e=c3([0,d,b],c);if(e)return c3(c,g);var
 f=e}else
 var
 f=a;return f}function
-zi(p){var
-di=gn(p[3]),dk=di?gn(p[4]):di;if(dk){var
+zR(p){var
+de=gx(p[3]),df=de?gx(p[4]):de;if(df){var
 K=p[1];switch(K[0]){case
 3:var
-dr=n(eS,K[1]);if(dr)var
-gO=K[2],bC=n(function(a){return eS(a[1])},gO);else
+dn=m(e6,K[1]);if(dn)var
+gC=K[2],bD=m(function(a){return e6(a[1])},gC);else
 var
-bC=dr;if(bC)var
-gP=K[3],bD=n(function(a){var
-b=eS(a[1]),c=b?it(a[2]):b;return c?eT(a[2]):c},gP);else
+bD=dn;if(bD)var
+gD=K[3],bF=m(function(a){var
+b=e6(a[1]),c=b?iN(a[2]):b;return c?e7(a[2]):c},gD);else
 var
-bD=bC;if(bD)var
-gQ=K[4],aM=n(function(a){var
-b=0===a[0]?a[1]:[0,a[1],0];return n(function(a){var
-b=it(a);return b?eT(a):b},b)},gQ);else
+bF=bD;if(bF)var
+gH=K[4],aN=m(function(a){var
+b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
+b=iN(a);return b?e7(a):b},b)},gH);else
 var
-aM=bD;break;case
+aN=bF;break;case
 7:var
-gR=K[1],ds=n(function(a){var
-b=eS(a[1]);return b?eU(0,[0,a[2][1],[0,a[2][2],0]]):b},gR),aM=ds?eU(0,[0,K[5],[0,K[6],0]]):ds;break;default:var
-aM=1}var
-bA=aM}else
+gL=K[1],dq=m(function(a){var
+b=e6(a[1]);return b?e8(0,[0,a[2][1],[0,a[2][2],0]]):b},gL),aN=dq?e8(0,[0,K[5],[0,K[6],0]]):dq;break;default:var
+aN=1}var
+bB=aN}else
 var
-bA=dk;var
-b$=0;if(bA){var
-dl=p[1],bB=7===dl[0]?e(aB,dl[1]):0,dm=function(c,b){var
-a=nh(c);return a?n(function(a){var
-e=a[1],b=n(function(c){var
-a=c[2];for(;;)switch(a[0]){case
-8:var
-b=gn(a[2]);if(b){var
-a=a[1];continue}return b;case
-0:case
-1:return gn(a[1]);case
-5:case
-6:case
-7:var
-a=a[1];continue;default:return 1}},e);if(b){var
-c=a[3];if(c)return eU(bB,ng(c[1]));var
+bB=df;var
+b_=0;if(bB){var
+dg=p[1],bC=7===dg[0]?e(ay,dg[1]):0,dh=function(c,b){var
+a=nE(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return nx(a[2])},e);if(b){var
+c=a[3];if(c)return e8(bC,nD(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},dn=function(e,d,c,b){var
-a=nh(e);return a?eU(bB,f(d,f(c,ng(b)))):a},l=p[1];switch(l[0]){case
+d=b;return d},b):a},dj=function(e,d,c,b){var
+a=nE(e);return a?e8(bC,f(d,f(c,nD(b)))):a},l=p[1];switch(l[0]){case
 0:var
-ge=w(dd,l[4]),gf=f(w(ne,l[3]),ge),gi=f(nc(l[2]),gf),L=f(w(iu,l[1]),gi);break;case
+f6=x(di,l[4]),f7=f(x(nB,l[3]),f6),f9=f(nz(l[2]),f7),M=f(x(iO,l[1]),f9);break;case
 1:var
-bx=l[5],by=l[3],gj=w(dd,l[6]),gk=bx?nd(bx[1]):bx,gl=f(gk,gj),gm=f(nb(l[4]),gl),go=by?[0,by[1],0]:by,gp=f(go,gm),L=f(w(xV,l[2]),gp);break;case
+by=l[5],bz=l[3],f_=x(di,l[6]),f$=by?nA(by[1]):by,ga=f(f$,f_),gb=f(ny(l[4]),ga),gc=bz?[0,bz[1],0]:bz,gd=f(gc,gb),M=f(x(yi,l[2]),gd);break;case
 2:var
-gq=w(dd,l[7]),gr=f(w(ne,l[6]),gq),gs=f(nd(l[5]),gr),gt=f(nb(l[4]),gs),gx=[0,l[3],gt],gB=l[2],L=f(w(function(a){return w(dZ,f(a[1],a[2]))},gB),gx);break;case
+gf=x(di,l[7]),gg=f(x(nB,l[6]),gf),gh=f(nA(l[5]),gg),gi=f(ny(l[4]),gh),gj=[0,l[3],gi],gk=l[2],M=f(x(function(a){return x(d8,f(a[1],a[2]))},gk),gj);break;case
 3:var
-gC=w(dd,l[7]),gD=f(l[6],gC),gE=f(l[5],gD),gF=l[2],L=f(w(function(a){return dZ(a[2])},gF),gE);break;case
+gl=x(di,l[7]),gm=f(l[6],gl),go=f(l[5],gm),gq=l[2],M=f(x(function(a){return d8(a[2])},gq),go);break;case
 4:var
-gG=w(dd,l[3]),L=[0,l[1],[0,l[2],gG]];break;case
+gr=x(di,l[3]),M=[0,l[1],[0,l[2],gr]];break;case
 5:var
-gH=w(dd,l[4]),gI=f(bM(l[3]),gH),gJ=f(bM(l[2]),gI),gK=f(w(iu,l[1]),gJ),L=[0,l[5],gK];break;case
+gu=x(di,l[4]),gv=f(bO(l[3]),gu),gw=f(bO(l[2]),gv),gy=f(x(iO,l[1]),gw),M=[0,l[5],gy];break;case
 6:var
-bz=l[1],L=bz?dZ(bz[1]):bz;break;default:var
-gL=w(dd,l[4]),gM=f(nc(l[3]),gL),L=f(w(iu,l[2]),gM)}var
-dp=eU(bB,L);if(dp){var
+bA=l[1],M=bA?d8(bA[1]):bA;break;default:var
+gz=x(di,l[4]),gA=f(nz(l[3]),gz),M=f(x(iO,l[2]),gA)}var
+dk=e8(bC,M);if(dk){var
 N=p[2];switch(N[0]){case
 0:var
-aC=dm(N[1],N[3]);break;case
+aC=dh(N[1],N[3]);break;case
 1:var
-aC=dn(N[1],N[2],N[3],N[4]);break;default:var
-gN=N[1],aC=n(function(a){if(typeof
+aC=dj(N[1],N[2],N[3],N[4]);break;default:var
+gB=N[1],aC=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dm(a[1],a[3]);case
-2:return dn(a[1],a[2],a[3],a[4])}return 1},gN)}}else{var
-dq=dp;b$=1}}else{var
-dq=bA;b$=1}if(b$)var
-aC=dq;if(aC){var
+1:return dh(a[1],a[3]);case
+2:return dj(a[1],a[2],a[3],a[4])}return 1},gB)}}else{var
+dl=dk;b_=1}}else{var
+dl=bB;b_=1}if(b_)var
+aC=dl;if(aC){var
 a=p[1];switch(a[0]){case
 0:var
-dL=a[4],dM=a[3],dN=a[2],dO=a[1],Y=p[2];switch(Y[0]){case
-0:return nR(0,dO,dN,dM,dL,Y[1],Y[2],Y[3]);case
-1:return nU(dO,dN,dM,dL,Y[2],Y[3],Y[4]);default:return 0}case
+dJ=a[4],dK=a[3],dL=a[2],dM=a[1],_=p[2];switch(_[0]){case
+0:return of(0,dM,dL,dK,dJ,_[1],_[2],_[3]);case
+1:return oi(dM,dL,dK,dJ,_[2],_[3],_[4]);default:return 0}case
 1:var
-dQ=a[6],dR=a[5],dS=a[4],dT=a[3],dU=a[2],dX=a[1],ah=p[2];switch(ah[0]){case
-0:return nS(dX,dU,dT,dS,dR,dQ,ah[1],ah[3]);case
-1:return nT(dX,dU,dT,dS,dR,dQ,ah[2],ah[3],ah[4]);default:return 0}case
+dO=a[6],dP=a[5],dQ=a[4],dR=a[3],dS=a[2],dT=a[1],al=p[2];switch(al[0]){case
+0:return og(dT,dS,dR,dQ,dP,dO,al[1],al[3]);case
+1:return oh(dT,dS,dR,dQ,dP,dO,al[2],al[3],al[4]);default:return 0}case
 2:var
-ai=a[7],al=a[6],aR=a[5],aS=a[4],aT=a[3],P=a[2],Q=a[1],$=p[2];switch($[0]){case
+am=a[7],an=a[6],aR=a[5],aS=a[4],aU=a[3],O=a[2],S=a[1],ab=p[2];switch(ab[0]){case
 0:var
-bO=$[3],aa=np(Q,P,aT,aS,aR,al,ai),g4=aa[2],dY=G(b,bI(w(function(a){var
-b=a$(a[2]);return f(a$(a[1]),b)},g4))),g5=h(bO),bP=dh(mu(dY,aa[2]),g5,bO);if(bP){var
-d0=bP[1];if(d0[2])return 0;var
-d2=nM(Q,P,aT,aS,aR,al,ai),d3=d2?gy(b1(Q),bO):d2;if(d3){var
-g6=d0[1],g7=h(P),g8=iK(0,iL(Q),g7,al,ai),g9=iM($[2]),g_=$[1],e8=aa[2],cf=n(function(a){var
-b=mx(o,a[1]);return b?mx(o,a[2]):b},e8);if(cf)var
-e9=hF(aa[4]),a2=c5(o,aa[4],e9);else
+dU=ab[3],T=nL(S,O,aU,aS,aR,an,am),gZ=T[2],bQ=C(b,bK(x(function(a){var
+b=bc(a[2]);return f(bc(a[1]),b)},gZ))),g0=g(dU),g1=it(bQ,T[2]),g2=it(bQ,T[2]),bR=dm(b4(S),g2,g1,0,g0,dU);if(bR){var
+dV=bR[1];if(dV[2])return 0;var
+dX=n8(S,O,aU,aS,aR,an,am);if(dX){var
+g3=dV[1],g4=g(O),g5=i5(0,i6(S),g4,an,am),g6=i8(ab[2]),g7=ab[1],eW=T[2],ce=m(function(a){var
+b=mT(o,a[1]);return b?mT(o,a[2]):b},eW);if(ce)var
+eX=hX(T[4]),a1=c_(o,T[4],eX);else
 var
-a2=cf;if(a2)var
-e_=f4(aa[5]),a4=n(function(a){return eL(o,a)},e_);else
+a1=ce;if(a1)var
+eY=ge(T[5]),a2=m(function(a){return eZ(o,a)},eY);else
 var
-a4=a2;return a4?s4(g_,g9,g8,aa,dY,g6):a4}var
-d4=d3}else
+a2=a1;return a2?tr(g7,g6,g5,T,bQ,g3):a2}var
+dY=dX}else
 var
-d4=bP;return d4;case
+dY=bR;return dY;case
 1:var
-aU=$[4],d5=$[3],aV=e(j,$[2]),am=iI(Q),d6=nG(P,e(j,d5));if(d6[2])return 0;var
-y=d6[1],d7=gA(w(function(a){return f(a[1],a[2])},P),d5),d8=d7?nM(Q,P,aT,aS,aR,al,ai):d7;if(d8){var
-m=np(Q,P,aT,aS,aR,al,ai);if(typeof
-aU!=="number"&&2===aU[0]){var
-d_=e(j,aU[1]),d$=bT(am,d_),ea=a5(bn(am,d_)),eb=bT(am,aV),ec=a5(bn(am,aV)),cR=lL(o,m[2],y);if(cR)var
-fP=b1(m[1]),bo=r(h(y),fP);else
+aV=ab[4],dZ=ab[3],aW=e(j,ab[2]),ao=i3(S),d0=n2(O,e(j,dZ));if(d0[2])return 0;var
+z=d0[1],d1=gJ(x(function(a){return f(a[1],a[2])},O),dZ),d4=d1?n8(S,O,aU,aS,aR,an,am):d1;if(d4){var
+n=nL(S,O,aU,aS,aR,an,am);if(typeof
+aV!=="number"&&2===aV[0]){var
+d6=e(j,aV[1]),d7=bW(ao,d6),d9=a8(bp(ao,d6)),d$=bW(ao,aW),ea=a8(bp(ao,aW)),cR=l_(o,n[2],z);if(cR)var
+fJ=b4(n[1]),bn=s(g(z),fJ);else
 var
-bo=cR;var
-cS=bo?c5(o,m[4],ec):bo,cT=cS?c5(o,m[4],ea):cS,cU=cT?fW(o,m[5],eb):cT,cV=cU?fW(o,m[5],d$):cU;if(cV){var
-cW=m[1],fS=m[5],fT=m[3],cI=function(g,f){var
-h=e(function(a){return lK(cW,fT,fS,f,g,a)},y),i=b1(cW),a=mU(o,h);function
-c(a,b){return v(o,a,b)}var
-d=R(o,b);return x(function(a){return mS(B,d,C,c,i,a)},a)},bk=cI(ec,eb);if(bk){var
-cJ=bk[1],bl=cI(ea,d$);if(bl){var
-cK=bl[1],cL=M(d,cJ[1]),cM=cL?M(cK[2],d):cL;if(cM)var
-cN=cM;else{var
-cQ=M(cJ[2],d);if(cQ)return M(d,cK[1]);var
-cN=cQ}var
-cO=cN}else
+bn=cR;var
+cS=bn?c_(o,n[4],ea):bn,cT=cS?c_(o,n[4],d9):cS,cU=cT?f8(o,n[5],d$):cT,cV=cU?f8(o,n[5],d7):cU;if(cV){var
+cW=n[1],fK=n[5],fL=n[3],cH=function(g,f){var
+h=e(function(a){return l9(cW,fL,fK,f,g,a)},z),i=b4(cW),a=nd(o,h);function
+c(a,b){return t(o,a,b)}var
+d=Q(o,b);return y(function(a){return nb(w,d,F,c,i,a)},a)},bj=cH(ea,d$);if(bj){var
+cI=bj[1],bl=cH(d9,d7);if(bl){var
+cJ=bl[1],cK=L(d,cI[1]),cL=cK?L(cJ[2],d):cK;if(cL)var
+cM=cL;else{var
+cQ=L(cI[2],d);if(cQ)return L(d,cJ[1]);var
+cM=cQ}var
+cN=cM}else
 var
-cO=bl;var
-cP=cO}else
+cN=bl;var
+cP=cN}else
 var
-cP=bk;return cP}return cV}var
-g$=h(P),bQ=gz(0,iL(Q),g$,al,ai,aU);if(bQ){var
-ha=bQ[1],A=bT(am,aV),S=a5(bn(am,aV)),ca=lL(o,m[2],y),cb=ca?c5(o,m[4],S):ca,cc=cb?fW(o,m[5],A):cb;if(cc){var
-I=m[5],cd=m[3],ce=m[1],e5=m[6],a1=function(a){var
-b=eH(I,A,S,a);return F(eH(I,A,S,a),b)},eY=e(function(a){return[0,lK(ce,cd,I,A,S,a)]},y),eZ=e(a1,y),e0=function(a){var
-b=dP(I,A,a);return Z(function(b,a){return[2,b,a]},S,b)},e1=e(function(a){var
-b=[6,a1(a)],c=eH(I,A,S,a),d=dP(I,A,a[2]);return[0,[0,[0,Z(function(b,a){return[2,b,a]},S,d),c],b]]},y),e2=e(function(a){return 0},y),e3=e(function(a){return[0,[6,a1(a)]]},y),e4=[0,e(function(c){var
-a=aD(eH(I,A,S,c));return hV(ce,a,ap([5,[0,b,b],cd],eE(dP(I,A,c[2]),a)))},y),e3,e2,e1,e0,eZ,eY],e6=b1(m[1]),e7=2<=m[1]?rX:rY;return hJ(o,e7,e6,e4,e5,ha)}return cc}var
-d9=bQ}else
+cP=bj;return cP}return cV}var
+g8=g(O),bS=gI(0,i6(S),g8,an,am,aV);if(bS){var
+g9=bS[1],B=bW(ao,aW),V=a8(bp(ao,aW)),b$=l_(o,n[2],z),ca=b$?c_(o,n[4],V):b$,cb=ca?f8(o,n[5],B):ca;if(cb){var
+I=n[5],cc=n[3],cd=n[1],eQ=n[6],aZ=function(a){var
+b=eU(I,B,V,a);return H(eU(I,B,V,a),b)},eH=e(function(a){return[0,l9(cd,cc,I,B,V,a)]},z),eI=e(aZ,z),eK=function(a){var
+b=dW(I,B,a);return aa(function(b,a){return[2,b,a]},V,b)},eL=e(function(a){var
+b=[6,aZ(a)],c=eU(I,B,V,a),d=dW(I,B,a[2]);return[0,[0,[0,aa(function(b,a){return[2,b,a]},V,d),c],b]]},z),eM=e(function(a){return 0},z),eN=e(function(a){return[0,[6,aZ(a)]]},z),eP=[0,e(function(c){var
+a=aH(eU(I,B,V,c));return ib(cd,a,aq([5,[0,b,b],cc],eR(dW(I,B,c[2]),a)))},z),eN,eM,eL,eK,eI,eH],eS=b4(n[1]),eV=2<=n[1]?sk:sl;return h1(o,eV,eS,eP,eQ,g9)}return cb}var
+d5=bS}else
 var
-d9=d8;return d9;default:return 0}case
+d5=d4;return d5;default:return 0}case
 3:var
-an=a[7],aW=a[6],aY=a[5],ao=a[4],ed=a[3],aq=a[2],aE=a[1],ab=p[2];switch(ab[0]){case
+ac=a[7],aD=a[6],aF=a[5],ad=a[4],bT=a[3],ae=a[2],ap=a[1],af=p[2];switch(af[0]){case
 0:var
-bR=ab[3],bS=dh(0,h(bR),bR);if(bS){var
-ee=bS[1];if(ee[2])return 0;var
-ef=nP(aE,aq,ao,aY,aW,an),eg=ef?gy(h(aE),bR):ef;if(eg){var
-hb=ee[1],D=nn(aE,aq,ed,ao,aY,aW,an),hc=iK(0,zj,h(ao),0,an),eh=iM(ab[2]),aF=ab[1],cw=mO(D[1]);if(cw)var
-fz=D[1][2],be=n(function(a){return bf(o,a[2][1],a[2][2])},fz);else
+eb=af[3],g_=g(eb),g$=gK(iB(iS(ap,ae,bT,ad,aF,aD,ac)[1])),bU=dm(g(ap),g$,0,0,g_,eb);if(bU){var
+ec=bU[1];if(ec[2])return 0;var
+ed=n$(ap,ae,ad,aF,aD,ac);if(ed){var
+ha=ec[1],E=iS(ap,ae,bT,ad,aF,aD,ac),hb=i5(0,zS,g(ad),0,ac),ee=i8(af[2]),aG=af[1],ct=m9(E[1]);if(ct)var
+fu=E[1][2],bd=m(function(a){return bk(o,a[2][1],a[2][2])},fu);else
 var
-be=cw;if(be)var
-fA=D[2],bg=n(function(a){return bf(o,a[1],a[2])},fA);else
+bd=ct;if(bd)var
+fv=E[2],be=m(function(a){return bk(o,a[1],a[2])},fv);else
 var
-bg=be;if(bg){var
-q=D[1],a6=h(q[1]),aI=D[3],a7=h(q[2]),cg=O(a7,h(eN(e(aQ,q[3])))),e$=q[3],ch=mI(gd(q),e$,a7),X=ig(a6,ch,q[4],cg),fa=id(ch,q[4],cg),fb=q[3],ci=f(ic(gd(q),fb,a7),fa),cj=h(mM(q)),fc=0,fd=f(ci,cG(function(a,b){return mF(X,a,b)},fc,d,cj,aI)),fe=f(bH(eM(X)),fd),ck=f(bH(dV(X)),fe),a8=cv(ck)[1],ff=cu(a8),ag=function(a){return a3(ff,a)},cl=r(h(D[2]),a6);if(cl)var
-fg=q[4],a9=n(function(a){return 0===a[0]?r(h(a[1]),a6):1},fg);else
+be=bd;if(be){var
+u=E[1],a3=g(u[1]),aJ=E[3],a5=g(u[2]),cf=P(a5,g(e1(e(aT,u[3])))),e2=u[3],cg=m4(gp(u),e2,a5),X=iA(a3,cg,u[4],cf),e3=iy(cg,u[4],cf),e4=u[3],ch=f(ix(gp(u),e4,a5),e3),ci=g(iB(u)),e5=0,e_=f(ch,cO(function(a,b){return m1(X,a,b)},e5,d,ci,aJ)),e$=f(bJ(e0(X)),e_),cj=f(bJ(d2(X)),e$),a6=cz(cj)[1],fa=cy(a6),ai=function(a){return a4(fa,a)},ck=s(g(E[2]),a3);if(ck)var
+fb=u[4],a7=m(function(a){return 0===a[0]?s(g(a[1]),a3):1},fb);else
 var
-a9=cl;var
-cm=a9?n(function(a){var
-b=k(d),c=cu(a8);return ay(s(ag(a),c,b),a)},ck):a9,cn=cm?aj(mH,aI):cm;if(cn){var
-co=_(D[4]);if(co)var
-aJ=co;else
+a7=ck;var
+cl=a7?m(function(a){var
+b=k(d),c=cy(a6);return az(r(ai(a),c,b),a)},cj):a7,cm=cl?aj(m3,aJ):cl;if(cm){var
+cn=U(E[4]);if(cn)var
+aK=cn;else
 var
-fy=q[4],aJ=n(function(a){return 0===a[0]?0:1},fy)}else
+ft=u[4],aK=m(function(a){return 0===a[0]?0:1},ft)}else
 var
-aJ=cn;if(aJ){var
-fh=mM(q),a_=W(e(function(a){return ak(aF,a)},fh));if(a_){var
-fi=0,fj=w(function(a){return eG(fi,d,a)},aI),ba=W(e(function(a){return hU(aF,a)},fj));if(ba){var
-fk=D[2],bb=W(e(function(a){return ak(aF,[0,a,d])},fk));if(bb){var
-fl=0,fm=0,bc=W(cG(function(a,b){return mG(aF,ag,X,fm,d,a,b)},fl,d,cj,aI));if(bc){var
-cp=bc[1];if(D[4])var
-fn=eh[2],fo=eh[1],fp=eM(X),bd=lo(hc,cp,[8,i(at(ag),fp),fo,fn]);else
+aK=cm;if(aK){var
+fc=iB(u),a9=Z(e(function(a){return ak(aG,a)},fc));if(a9){var
+fd=0,fe=x(function(a){return eT(fd,d,a)},aJ),a_=Z(e(function(a){return ia(aG,a)},fe));if(a_){var
+ff=E[2],a$=Z(e(function(a){return ak(aG,[0,a,d])},ff));if(a$){var
+fg=0,fh=0,ba=Z(cO(function(a,b){return m2(aG,ai,X,fh,d,a,b)},fg,d,ci,aJ));if(ba){var
+co=ba[1];if(E[4])var
+fi=ee[2],fj=ee[1],fk=e0(X),bb=lN(hb,co,[8,i(au(ai),fk),fj,fi]);else
 var
-bd=cp;var
-fq=hz(bd),fr=bb[1],fs=function(a){return 0},ft=f(a_[1],ba[1]),fu=e(ag,ci),fv=eM(X),fw=i(at(ag),fv),fx=dV(X);return fO(aF,a8,i(at(ag),fx),fw,fu,ft,bd,fs,fr,fq,hb)}var
-cq=bc}else
+bb=co;var
+fl=hQ(bb),fm=a$[1],fn=function(a){return 0},fo=f(a9[1],a_[1]),fp=e(ai,ch),fq=e0(X),fr=i(au(ai),fq),fs=d2(X);return gO(hP(aG,a6,i(au(ai),fs),fr,fp,fo,bb,fn),fm,fl,ha)}var
+cp=ba}else
 var
-cq=bb;var
+cp=a$;var
+cq=cp}else
+var
+cq=a_;var
 cr=cq}else
 var
-cr=ba;var
+cr=a9;var
 cs=cr}else
 var
-cs=a_;var
-ct=cs}else
+cs=aK;return cs}return be}var
+ef=ed}else
 var
-ct=aJ;return ct}return bg}var
-ei=eg}else
-var
-ei=bS;return ei;case
+ef=bU;return ef;case
 1:var
-ej=ab[3],aH=nn(aE,aq,ed,ao,aY,aW,an),hd=e(j,ej),ek=bi(e(aQ,aq),hd);if(ek[2])return 0;var
-he=ab[4],bU=gz(0,zk,h(ao),0,an,he);if(bU){var
-el=gA(e(aQ,aq),ej),em=el?nP(aE,aq,ao,aY,aW,an):el,en=em?mO(aH[1]):em;if(en)var
-hf=aH[2],bV=n(function(a){return bf(o,a[1],a[2])},hf);else
+eg=af[3],aI=iS(ap,ae,bT,ad,aF,aD,ac),hc=e(j,eg),eh=bm(e(aT,ae),hc);if(eh[2])return 0;var
+hd=af[4],bV=gI(0,zT,g(ad),0,ac,hd);if(bV){var
+ei=gJ(e(aT,ae),eg),ej=ei?n$(ap,ae,ad,aF,aD,ac):ei,ek=ej?m9(aI[1]):ej;if(ek)var
+he=aI[2],bX=m(function(a){return bk(o,a[1],a[2])},he);else
 var
-bV=en;if(bV){var
-hg=bU[1],ad=e(j,ab[2]),eo=ek[1],t=aH[1],aK=h(t[1]),bh=h(t[2]),cz=O(bh,h(eN(e(aQ,t[3])))),fH=t[3],cB=mI(gd(t),fH,bh),av=ig(aK,cB,t[4],cz),fI=id(cB,t[4],cz),fJ=t[3],cC=f(ic(gd(t),fJ,bh),fI),fK=w(gb,t[4]),fL=f(eN(e(aQ,t[3])),fK),aw=f(eo,e(function(a){return a[1][1]},fL)),cD=mQ(o,e(aQ,t[2]),eo),cE=cD?mQ(o,aH[2],ad):cD,cF=cE?r(h(ad),aK):cE;if(cF)var
-fM=t[4],bj=n(function(a){return 0===a[0]?r(h(a[1]),aK):1},fM);else
+bX=ek;if(bX){var
+hf=bV[1],ag=e(j,af[2]),el=eh[1],v=aI[1],aL=g(v[1]),bf=g(v[2]),cu=P(bf,g(e1(e(aT,v[3])))),fC=v[3],cv=m4(gp(v),fC,bf),av=iA(aL,cv,v[4],cu),fD=iy(cv,v[4],cu),fE=v[3],cw=f(ix(gp(v),fE,bf),fD),fF=x(gn,v[4]),fG=f(e1(e(aT,v[3])),fF),aw=f(el,e(function(a){return a[1][1]},fG)),cx=m$(o,e(aT,v[2]),el),cA=cx?m$(o,aI[2],ag):cx,cD=cA?s(g(ag),aL):cA;if(cD)var
+fH=v[4],bg=m(function(a){return 0===a[0]?s(g(a[1]),aL):1},fH);else
 var
-bj=cF;var
-cH=bj?n(mP,f(w(tt,av),cC)):bj;if(cH){var
-fN=aH[3],fB=e(function(a){var
-b=a[1];return[0,e(function(a){return dW(ad,aw,a)},b)]},av),fC=w(function(c){var
+bg=cD;var
+cG=bg?m(m_,f(x(tR,av),cw)):bg;if(cG){var
+fI=aI[3],fw=e(function(a){var
+b=a[1];return[0,e(function(a){return d3(ag,aw,a)},b)]},av),fx=x(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=dW(ad,aw,a[2]);return[0,[4,b,b],0];case
-9:return[0,dW(ad,aw,a[1]),0];default:return 0}},cC),fD=function(a){return a},fE=0,fF=e(function(a){return 0},av),fG=e(function(b){var
+b=d3(ag,aw,a[2]);return[0,[4,b,b],0];case
+9:return[0,d3(ag,aw,a[1]),0];default:return 0}},cw),fy=function(a){return a},fz=0,fA=e(function(a){return 0},av),fB=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,dW(ad,aw,a[1])];return 0},av);return hJ(o,tu,aK,[0,e(function(a){var
-b=a[3];return e(function(a){return dW(ad,aw,a)},b)},av),fG,fF,fE,fD,fC,fB],fN,hg)}return cH}var
-ep=bV}else
+a!=="number"&&0===a[0])return[0,d3(ag,aw,a[1])];return 0},av);return h1(o,tS,aL,[0,e(function(a){var
+b=a[3];return e(function(a){return d3(ag,aw,a)},b)},av),fB,fA,fz,fy,fx,fw],fI,hf)}return cG}var
+em=bX}else
 var
-ep=bU;return ep;default:return 0}case
+em=bV;return em;default:return 0}case
 4:var
-ae=a[3],ar=a[2],aZ=a[1],as=p[2];switch(as[0]){case
+ah=a[3],ar=a[2],aX=a[1],as=p[2];switch(as[0]){case
 0:var
-hh=as[3],hi=as[1],dx=dj(j(aZ));if(dx){var
-bF=ns(ae);if(bF){var
-dy=bF[1],az=dy[2],dz=j(az),dA=j(dy[1]),c2=g(o,1,j(ar)),c4=c2?g(o,1,[3,dz,[0,b,b]]):c2,c6=c4?g(o,1,dA):c4,dB=c6?g(o,0,[3,[5,[0,b,b],dz],dA]):c6;if(dB)var
-gV=0,gW=0,bJ=n(function(a){return nm(gW,gV,zh,a)},ae);else
+hg=as[3],hh=as[1],dv=dp(j(aX));if(dv){var
+bH=nO(ah);if(bH){var
+dw=bH[1],aA=dw[2],dx=j(aA),dy=j(dw[1]),c0=h(o,1,j(ar)),c1=c0?h(o,1,[3,dx,[0,b,b]]):c0,c2=c1?h(o,1,dy):c1,dz=c2?h(o,0,[3,[5,[0,b,b],dx],dy]):c2;if(dz)var
+gQ=0,gR=0,bL=m(function(a){return nJ(gR,gQ,zQ,a)},ah);else
 var
-bJ=dB;var
-dC=bJ?n(function(c){if(1===c[1]){var
+bL=dz;var
+dA=bL?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return g(o,0,[3,[0,d,b],j(a[1])]);return 1}return 1},ae):bJ;if(dC){var
-bE=bm(function(a){return _(nt(a))},ae);if(bE){var
-gX=[0,c(2,b),b],aN=g(o,0,[3,j(az),gX]);if(aN)var
-bK=aN;else
+a!=="number"&&0===a[0])return h(o,0,[3,[0,d,b],j(a[1])]);return 1}return 1},ah):bL;if(dA){var
+bG=bh(function(a){return U(nP(a))},ah);if(bG){var
+gS=[0,c(2,b),b],aO=h(o,0,[3,j(aA),gS]);if(aO)var
+bM=aO;else
 var
-g0=j(az),bK=g(o,0,[3,[0,c(2,b),b],g0]);if(bK){var
-dw=w(function(a){var
-b=ix(0,ze,0,a);return e(function(b){return _(nt(a))},b)},ae),gT=function(f){var
-g=f[1];if(g){var
-i=g[1],j=s(i,dw,0);if(j)var
-l=bn(i,dw),k=[0,[0,h(bm(function(a){return a},l))]];else
+gV=j(aA),bM=h(o,0,[3,[0,c(2,b),b],gV]);if(bM){var
+du=x(function(a){var
+b=iR(0,zN,0,a);return e(function(b){return U(nP(a))},b)},ah),gN=function(f){var
+h=f[1];if(h){var
+i=h[1],j=r(i,du,0);if(j)var
+l=bp(i,du),k=[0,[0,g(bh(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=zg;if(a){var
+a=zP;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,zf,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},gU=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,w(gT,a[1]),d,c,b]},hh),gY=[0,bE[1],bE[2]],gZ=nx(aN,ar,az);return nS(0,nw(aN,aZ,ar,az),0,gZ,0,gY,hi,gU)}return bK}var
-dD=1}else
+2:return[0,[0,c,[1,zO,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},gP=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,x(gN,a[1]),d,c,b]},hg),gT=[0,bG[1],bG[2]],gU=nT(aO,ar,aA);return og(0,nS(aO,aX,ar,aA),0,gU,0,gT,hh,gP)}return bM}var
+dB=1}else
 var
-dD=dC;var
-dE=dD}else
+dB=dA;var
+dC=dB}else
 var
-dE=bF;var
-dF=dE}else
+dC=bH;var
+dD=dC}else
 var
-dF=dx;return dF;case
+dD=dv;return dD;case
 1:var
-hj=as[4],hk=as[3],hl=as[2],dG=dj(j(aZ));if(dG){var
-bL=ns(ae);if(bL){var
-aA=bL[1][2],g1=[0,c(2,b),b],aO=g(o,0,[3,j(aA),g1]),dH=g(o,1,j(ar)),dI=dH?g(o,1,[3,j(aA),[0,b,b]]):dH;if(dI)if(aO)var
-aP=aO;else
+hi=as[4],hj=as[3],hk=as[2],dE=dp(j(aX));if(dE){var
+bN=nO(ah);if(bN){var
+aB=bN[1][2],gW=[0,c(2,b),b],aP=h(o,0,[3,j(aB),gW]),dF=h(o,1,j(ar)),dG=dF?h(o,1,[3,j(aB),[0,b,b]]):dF;if(dG)if(aP)var
+aQ=aP;else
 var
-g3=j(aA),aP=g(o,0,[3,[0,c(2,b),b],g3]);else
+gY=j(aB),aQ=h(o,0,[3,[0,c(2,b),b],gY]);else
 var
-aP=dI;if(aP){var
-g2=nx(aO,ar,aA);return nT(0,nw(aO,aZ,ar,aA),0,g2,0,ae,hl,hk,hj)}var
-dJ=aP}else
+aQ=dG;if(aQ){var
+gX=nT(aP,ar,aB);return oh(0,nS(aP,aX,ar,aB),0,gX,0,ah,hk,hj,hi)}var
+dH=aQ}else
 var
-dJ=bL;var
-dK=dJ}else
+dH=bN;var
+dI=dH}else
 var
-dK=dG;return dK;default:return 0}case
+dI=dE;return dI;default:return 0}case
 5:var
-bX=a[4],eq=a[1],b0=p[2];if(0===b0[0]){var
-er=b0[3],u=iw(eq,[0,a[2],a[3]],0,bX),b2=iG(h(er),er);if(b2){var
-es=b2[1];if(es[2])return 0;var
-et=iJ(eq,0,bX,u),eu=et?_(aj(d1,bX)):et;if(eu){var
-ev=ln(o,u);if(ev){var
-hm=es[1],ez=e(gv,u[1]),z=gw(u[1]),eA=j(a[5]),U=b0[1],br=fQ(z,ez,u[1]),J=hA(z,ez,u[1],0),fZ=h(u[3]),f0=O(h(br),fZ),aL=[0,h(br),f0],f1=hC(J,z,aL,u[3]),f2=f(e(cA,J),f1),c_=f(bH(ew(J)),f2),c$=cv(c_)[1],bs=cu(c$),da=u[2];if(0===da[0]){var
-db=n(function(a){var
-b=k(d);return ay(s(a3(bs,a),bs,b),a)},c_),dc=db?g(o,1,eA):db;if(dc){var
-f3=u[3],f5=w(function(a){return c3(z,a)},f3),f6=u[3],f7=f(br,f(e(function(a){return bG(z,a)},f6),f5)),bt=W(e(function(a){return ak(U,a)},f7));if(bt){var
-f8=aX(da[1],z),bu=W(e(function(a){return ak(U,a)},f8));if(bu){var
-bv=cy(U,z,[5,eA,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bv){var
-bw=u[3],f9=bu[1],f_=bv[1],f$=bt[1],ax=function(a){return a3(bs,a)},fV=aG(0,h(bw)),fX=e(function(k){var
-l=E(bw,k);if(l){var
-a=l[1],u=bn(k,bw),v=h(w(function(a){return c3(z,a)},u)),y=O(aL[2],v),j=[0,O(aL[1],k),y],r=ew(J),f=i(at(ax),r),c=[1,[8,[1,[1,j[1]]]]],d=fR(J,z,j,a),n=d?[0,[3,e(ax,[0,d[1],d[2]])]]:d,m=0;if(typeof
+bY=a[4],en=a[1],bZ=p[2];if(0===bZ[0]){var
+eo=bZ[3],q=iQ(en,[0,a[2],a[3]],0,bY),hl=g(eo),b0=i1(i7(q),hl,eo);if(b0){var
+ep=b0[1];if(ep[2])return 0;var
+eq=i4(en,0,bY,q),er=eq?U(aj(d_,bY)):eq;if(er){var
+es=lM(o,q);if(es){var
+hm=ep[1],et=e(gF,q[1]),A=gG(q[1]),eu=j(a[5]),W=bZ[1],bs=f3(A,et,q[1]),J=hR(A,et,q[1],0),fQ=g(q[3]),fR=P(g(bs),fQ),aM=[0,g(bs),fR],fS=hT(J,A,aM,q[3]),fT=f(e(cE,J),fS),c6=f(bJ(eJ(J)),fT),c7=cz(c6)[1],bt=cy(c7),c9=q[2];if(0===c9[0]){var
+c$=m(function(a){var
+b=k(d);return az(r(a4(bt,a),bt,b),a)},c6),da=c$?h(o,1,eu):c$;if(da){var
+fU=q[3],fV=x(function(a){return c8(A,a)},fU),fW=q[3],fX=f(bs,f(e(function(a){return bI(A,a)},fW),fV)),bu=Z(e(function(a){return ak(W,a)},fX));if(bu){var
+fY=a0(c9[1],A),bv=Z(e(function(a){return ak(W,a)},fY));if(bv){var
+bw=cC(W,A,[5,eu,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bw){var
+bx=q[3],fZ=bv[1],f0=bu[1],f1=bw[1],ax=function(a){return a4(bt,a)},fN=aE(0,g(bx)),fO=e(function(k){var
+l=D(bx,k);if(l){var
+a=l[1],u=bp(k,bx),v=g(x(function(a){return c8(A,a)},u)),w=P(aM[2],v),j=[0,P(aM[1],k),w],r=eJ(J),f=i(au(ax),r),c=[1,[8,[1,[1,j[1]]]]],d=f4(J,A,j,a),n=d?[0,[3,e(ax,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=g(U,1,a[2]),s=o?n:o;return s;case
+o=h(W,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=g(U,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h(W,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -6985,161 +7235,165 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eB(J,z,j,a);return x(function(a){return[0,i(at(ax),a),q]},t)}return 0}return l},fV),fY=e(function(a){return ax(cA(a))},J),c7=e(function(a){return ax(a[2])},J),ga=u[3],gc=aL[1],c8=e(af,f$),c9=function(az,ay){var
-l=az,i=ay;for(;;){if(0===i[0]){var
-u=i[1],aa=r(h(u),tF),ab=aa?n(function(a){var
-d=H(T(c(2,c(2,c(2,b)))),a);return d?H(a,c(2,c(2,c(2,b)))):d},u):aa;if(ab){var
-ad=m4(U,f_,ex(0,l),u),j=i[2],v=bW(0,bY(U,ad,c8),c$,0),M=function(a){return m3(m2(U,ad,c8,v,a))};if(typeof
+t=eO(J,A,j,a);return y(function(a){return[0,i(au(ax),a),q]},t)}return 0}return l},fN),fP=e(function(a){return ax(cE(a))},J),c5=e(function(a){return ax(a[2])},J),f2=q[3],f5=aM[1],br=function(aC,aB,aA){var
+k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
+0:var
+v=f[1],aa=s(g(v),t3),ab=aa?m(function(a){var
+d=G(R(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
+ac=nn(W,f1,dN(0,l),v),j=f[2],w=bi(0,bE(W,ac,e($,k)),c7,0),aD=e($,k),M=function(a){return nm(nl(W,ac,aD,w,a))};if(typeof
 j==="number")return 0===j?aj(function(b){var
-a=s(b,v,0);return a?H(a[1][2][2],d):a},c7):0;else{if(0===j[0]){var
-a=j[2],N=n(tD,a);if(N){var
-o=s(j[1],fX,0);if(o){var
-g=o[1];switch(g[0]){case
+a=r(b,w,0);return a?G(a[1][2][2],d):a},c5):0;else{if(0===j[0]){var
+a=j[2],N=m(t1,a);if(N){var
+p=r(j[1],fO,0);if(p){var
+i=p[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
-f=0;else{var
-A=a[1],B=g[1],an=gh(B,A),ao=gg(A),C=[0,[0,B,[0,[1,[4,[1,[6,g[2],ao]],an]],0]]];x=1}else{var
+h=0;else{var
+A=a[1],B=i[1],ap=gt(B,A),aq=gs(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
-f=C;break;case
+h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
-f=0;else{var
-D=a[1],F=g[1],ap=gg(D),aq=[1,[6,g[2],ap]],G=[0,[0,F,[0,[1,[4,gh(F,D),aq]],0]]];y=1}else{var
-G=a;y=1}if(y)var
-f=G;break;case
+h=0;else{var
+E=a[1],F=i[1],ar=gs(E),as=[1,[6,i[2],ar]],H=[0,[0,F,[0,[1,[4,gt(F,E),as]],0]]];y=1}else{var
+H=a;y=1}if(y)var
+h=H;break;case
 2:var
 z=0;if(a){var
-k=a[2],am=0;if(k)if(k[2]){var
-f=0;am=1}else
+n=a[2],ao=0;if(n)if(n[2]){var
+h=0;ao=1}else
 var
-I=k[1],J=a[1],m=g[1],ar=gg(J),as=[1,[6,gh(m,I),ar]],at=[1,[6,g[2],as]],au=gg(I),K=[0,[0,m,[0,[1,[4,[1,[6,gh(m,J),au]],at]],0]]];else
+I=n[1],J=a[1],o=i[1],at=gs(J),au=[1,[6,gt(o,I),at]],av=[1,[6,i[2],au]],aw=gs(I),K=[0,[0,o,[0,[1,[4,[1,[6,gt(o,J),aw]],av]],0]]];else
 var
-K=k;if(!am){var
+K=n;if(!ao){var
 L=K;z=1}}else{var
 L=a;z=1}if(z)var
-f=L;break;default:if(a)var
-f=0;else
+h=L;break;default:if(a)var
+h=0;else
 var
-av=g[1],f=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},av)]]}if(f){var
-P=f[1],aw=P[1],Q=n(function(a){return m3(s(a[2],v,0))},aw);if(Q)return n(M,P[2]);var
-R=Q}else
+ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
+O=h[1],ay=O[1],Q=m(function(a){return nm(r(a[2],w,0))},ay);if(Q)return m(M,O[2]);var
+S=Q}else
 var
-R=f;var
-S=R}else
+S=h;var
+T=S}else
 var
-S=o;var
-V=S}else
+T=p;var
+U=T}else
 var
-V=N;return V}var
-W=j[2],X=j[1],p=E(ga,X);if(p){var
-Y=p[1];if(typeof
+U=N;return U}var
+V=j[2],X=j[1],q=D(f2,X);if(q){var
+Y=q[1];if(typeof
 Y!=="number"&&1===Y[0]){var
-q=E(c7,W);if(q){var
-t=E(fY,W);if(t){var
-ax=O(gc,X);return M([1,[4,[1,[8,[0,t[1]]]],[1,[6,[1,[8,[1,[1,ax]]]],[0,q[1]]]]]])}var
-$=t}else
+t=D(c5,V);if(t){var
+u=D(fP,V);if(u){var
+az=P(f5,X);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+_=u}else
 var
-$=q;return $}var
+_=t;return _}var
 Z=0}else
 var
-Z=p;return Z}}return ab}var
-ae=i[1],w=E(l,ae);if(w){var
-af=w[1],aA=af[1],ag=_(ac(bZ(af),aA));if(ag){var
-ah=ey(ae,l),ai=c9(ah[1],i[2]);if(ai){var
-l=ah[2],i=i[3];continue}var
-ak=ai}else
+Z=q;return Z}}return ab;case
+1:var
+ad=f[1],ae=no(ad,l);if(ae){var
+af=cF(ad,l),ag=br(k,af[1],f[2]);if(ag){var
+l=af[2],f=f[3];continue}var
+ah=ag}else
 var
-ak=ag;var
-al=ak}else
+ah=ae;return ah;default:var
+ai=f[1],ak=no(ai,k);if(ak){var
+al=cF(ai,k),am=br(al[1],l,f[2]);if(am){var
+k=al[2],f=f[3];continue}var
+an=am}else
 var
-al=w;return al}};return c9(f9,hm)}var
-de=bv}else
+an=ak;return an}};return br(f0,fZ,hm)}var
+db=bw}else
 var
-de=bu;var
-df=de}else
+db=bv;var
+dc=db}else
 var
-df=bt;var
-dg=df}else
+dc=bu;var
+dd=dc}else
 var
-dg=dc;return dg}return 0}var
-eC=ev}else
+dd=da;return dd}return 0}var
+ev=es}else
 var
-eC=eu;var
-eD=eC}else
+ev=er;var
+ew=ev}else
 var
-eD=b2;return eD}return 0;case
+ew=b0;return ew}return 0;case
 6:var
-eF=a[1];if(eF){var
-eI=eF[1],b3=p[2];if(0===b3[0]){var
-b4=iF(0,zl,b3[3]);if(b4){var
-eJ=eW(eI);if(eJ){var
-hn=b4[1],eK=bN(eI)[2],a0=b3[1],bp=cy(a0,d,eK);if(bp){var
-bq=cy(a0,d,[5,[0,b,b],eK]);if(bq){var
-fU=bp[1][1],cZ=M(cY(a0),fU);if(cZ)return m1(a0,bq[1][1],hn);var
-c0=cZ}else
+ex=a[1];if(ex){var
+ey=ex[1],b1=p[2];if(0===b1[0]){var
+b2=i0(zV,0,0,0,zU,b1[3]);if(b2){var
+ez=e9(ey);if(ez){var
+hn=b2[1],eA=bP(ey)[2],aY=b1[1],bo=cC(aY,d,eA);if(bo){var
+bq=cC(aY,d,[5,[0,b,b],eA]);if(bq){var
+fM=bo[1][1],cX=L(c4(aY),fM);if(cX)return nk(aY,bq[1][1],hn);var
+cY=cX}else
 var
-c0=bq;var
-c1=c0}else
+cY=bq;var
+cZ=cY}else
 var
-c1=bp;return c1}var
-eO=eJ}else
+cZ=bo;return cZ}var
+eB=ez}else
 var
-eO=b4;return eO}return 0}var
-b5=p[2];if(0===b5[0]){var
-b6=iF(0,zm,b5[3]);return b6?m1(b5[1],d,b6[1]):b6}return 0;default:var
-au=a[1],eP=p[2];if(2===eP[0]){var
-eQ=eP[1],b7=iD(h(eQ),eQ);if(b7){var
-eR=b7[1];if(eR[2])return 0;var
-b8=eR[1],dt=V(zd,h(au)),du=dt?V(h(au),j8):dt,dv=du?mN(e(aB,au)):du,eV=dv?n(function(c){var
-a=cx(j(c[2][1]));if(a){var
-b=cx(j(c[2][2]));if(b)return _(cX(b[1],a[1]));var
+eB=b2;return eB}return 0}var
+b3=p[2];if(0===b3[0]){var
+b5=i0(zX,0,0,0,zW,b3[3]);return b5?nk(b3[1],d,b5[1]):b5}return 0;default:var
+at=a[1],eC=p[2];if(2===eC[0]){var
+eD=eC[1],b6=iY(g(eD),eD);if(b6){var
+eE=b6[1];if(eE[2])return 0;var
+b7=eE[1],dr=Y(zM,g(at)),ds=dr?Y(g(at),ks):dr,dt=ds?m8(e(ay,at)):ds,eF=dt?m(function(c){var
+a=cB(j(c[2][1]));if(a){var
+b=cB(j(c[2][2]));if(b)return U(c3(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},au):dv;if(eV)var
-ho=gu(yg,b8),b9=nW(a[5],ho);else
+d=a;return d},at):dt;if(eF)var
+ho=gE(yF,b7),b8=ok(a[5],ho);else
 var
-b9=eV;if(b9)var
-hp=gu(yh,b8),b_=nW(a[6],hp);else
+b8=eF;if(b8)var
+hp=gE(yG,b7),b9=ok(a[6],hp);else
 var
-b_=b9;if(b_){var
-gS=e(function(a){return[0,d,0]},au);return nV(au,a[2],a[3],a[4],gS,b8)}var
-eX=b_}else
+b9=b8;if(b9){var
+gM=e(function(a){return[0,d,0]},at);return oj(at,a[2],a[3],a[4],gM,b7)}var
+eG=b9}else
 var
-eX=b7;return eX}return 0}}return aC}var
-U=[aT,zp,qa(0)],nX=[aT,zq,qa(0)];function
-zn(m,b){var
-f=[0,l(xB,am(b[4])),0],g=[0,l(xD,aa([0,l(xC,am(b[3])),f])),0],a=b[2];switch(a[0]){case
+eG=b6;return eG}return 0}}return aC}var
+W=[aV,z0,qA(0)],ol=[aV,z1,qA(0)];function
+zY(m,b){var
+f=[0,l(x0,an(b[4])),0],g=[0,l(x2,ad([0,l(x1,an(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=N(xx,m$(a[1],a[2],a[3]));break;case
+c=O(xW,nv(a[1],a[2],a[3]));break;case
 1:var
-c=N(xy,na(a[1],a[2],a[3],a[4]));break;default:var
-c=N(xz,D(e(xs,a[1])))}var
-h=[0,l(xE,c),g],i=1===b[2][0]?xK:xF,j=[0,l(xG,am(i)),h],k=[0,l(xH,v$(b[1])),j],d=au(jE(zo,gi(aa([0,l(xJ,am(xI)),k]),xA)),m);return d?zi(b):d}function
-ai(a){if(0===a[0])return a[1];throw U}function
-ab(a){if(1===a[0])return a[1];throw U}function
-aK(a){if(2===a[0])return a[1];throw U}function
-eX(a){if(3===a[0])return a[1];throw U}function
-aY(f,e){var
+c=O(xX,nw(a[1],a[2],a[3],a[4]));break;default:var
+c=O(xY,E(e(xR,a[1])))}var
+h=[0,l(x3,c),g],i=1===b[2][0]?x9:x4,j=[0,l(x5,an(i)),h],k=[0,l(x6,wx(b[1])),j],d=aw(jZ(zZ,gu(ad([0,l(x8,an(x7)),k]),xZ)),m);return d?zR(b):d}function
+ai(a){if(0===a[0])return a[1];throw W}function
+ae(a){if(1===a[0])return a[1];throw W}function
+aR(a){if(2===a[0])return a[1];throw W}function
+e_(a){if(3===a[0])return a[1];throw W}function
+a1(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===Fs(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===F5(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
-t(c,b){var
-a=aY(c,b);if(a)return a[1];throw U}function
-cm(b,a){var
+u(c,b){var
+a=a1(c,b);if(a)return a[1];throw W}function
+cs(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dl(a){switch(a[0]){case
+dr(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],zr]}throw U}function
-eY(e,d){var
-a=Y(e,ab(d));if(a){var
+2:return[0,a[1],z2]}throw W}function
+e$(e,d){var
+a=X(e,ae(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw U}function
-gB(i){var
-f=ec(i),d=[0,0],e=g2(f)-1|0;if(!(e<0)){var
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
+gL(i){var
+f=ep(i),d=[0,0],e=hc(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=ji(f,c)-48|0;if(9<g>>>0)throw U;switch(g){case
+a=d[1],g=jE(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7161,96 +7415,96 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-eZ(a){return jU(gB(a))}function
-e0(b){var
-a=eX(b);return 45===aU(a,0)?T(eZ(dv(a,1,aq(a)-1|0))):eZ(a)}function
-nY(a){return ek(eZ(eX(a)))}function
-e1(a){return jT(eZ(eX(a)))}function
-cQ(c){var
-a=eX(c);if(6<aq(a))throw U;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(jq(a))}function
-nZ(a){var
-b=97<=a?1:0,c=b?a<=pO?1:0:b;if(c)var
+fa(a){return kd(gL(a))}function
+eb(b){var
+a=e_(b);return 45===aW(a,0)?R(fa(dB(a,1,av(a)-1|0))):fa(a)}function
+om(a){return ey(fa(e_(a)))}function
+ec(a){return hn(fa(e_(a)))}function
+cY(c){var
+a=e_(c);if(6<av(a))throw W;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(jM(a))}function
+on(a){var
+b=97<=a?1:0,c=b?a<=qc?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-n0(y,b){var
-d=aq(b),a=[0,0];function
+oo(y,b){var
+d=av(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aU(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aW(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aU(b,a[1])&&!(57<aU(b,a[1]))){a[1]++;continue}return dv(b,c,a[1]-c|0)}}function
-n(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw U}function
-h(j){if(64<j)throw U;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
-e=n(j);else{var
-u=0;if((a[1]+5|0)<=d&&au(dv(b,a[1],5),zt)){a[1]=a[1]+4|0;var
-e=[5,n(j)]}else
+c=a[1];for(;;){if(a[1]<d&&48<=aW(b,a[1])&&!(57<aW(b,a[1]))){a[1]++;continue}return dB(b,c,a[1]-c|0)}}function
+m(b){a[1]++;var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
+h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+e=m(j);else{var
+u=0;if((a[1]+5|0)<=d&&aw(dB(b,a[1],5),z4)){a[1]=a[1]+4|0;var
+e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&nZ(aU(b,a[1]))){var
+v=0;if(a[1]<d&&on(aW(b,a[1]))){var
 o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!nZ(aU(b,a[1]))&&95!==aU(b,a[1])&&(!(48<=aU(b,a[1]))||57<aU(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dv(b,o,a[1]-o|0))];break}}else
+w=0;if(!on(aW(b,a[1]))&&95!==aW(b,a[1])&&(!(48<=aW(b,a[1]))||57<aW(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dB(b,o,a[1]-o|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=au(g,zu);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,z5);if(r)var
 s=r;else
 var
-t=1<aq(g)?1:0,s=t?48===aU(g,0)?1:0:t;if(s)throw U;if(q){var
-k=q[1],x=0;if(au(k,zv)||48===aU(k,aq(k)-1|0))x=1;else
+t=1<av(g)?1:0,s=t?48===aW(g,0)?1:0:t;if(s)throw W;if(q){var
+k=q[1],x=0;if(aw(k,z6)||48===aW(k,av(k)-1|0))x=1;else
 var
-z=gB(k),e=[0,gB(g),z];if(x)throw U}else
+z=gL(k),e=[0,gL(g),z];if(x)throw W}else
 var
-e=[0,gB(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(m(f,zs)){if(!(2<aq(f))&&2<=jq(f)&&!(64<jq(f)))return[4,e,ek(eZ(f))];throw U}throw U}return e}function
+e=[0,gL(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(n(f,z3)){if(!(2<av(f))&&2<=jM(f)&&!(64<jM(f)))return[4,e,ey(fa(f))];throw W}throw W}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw U;var
+f(d){if(64<d)throw W;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw U;return g}function
-gC(a){return n0(function(a){return[0,a]},a)}function
-iN(a){var
-b=aK(a);return n0(function(a){return a},b)}function
-Q(a){return gC(aK(a))}function
-b5(a){if(2===a[0])return[0,gC(a[1])];var
-b=ai(a),c=Q(t(b,zw));return[1,Q(t(b,zx)),c]}function
-ad(a){throw[0,nX,a0(jE(zz,a),zy)]}function
-iO(c){var
-a=aK(c);if(m(a,zA)){var
-b=m(a,zB);if(b)throw U;return b}return 1}function
-zC(d){var
+g=f(0);if(a[1]<d)throw W;return g}function
+gM(a){return oo(function(a){return[0,a]},a)}function
+i9(a){var
+b=aR(a);return oo(function(a){return a},b)}function
+T(a){return gM(aR(a))}function
+b8(a){if(2===a[0])return[0,gM(a[1])];var
+b=ai(a),c=T(u(b,z7));return[1,T(u(b,z8)),c]}function
+af(a){throw[0,ol,a3(jZ(z_,a),z9)]}function
+i_(c){var
+a=aR(c);if(n(a,z$)){var
+b=n(a,Aa);if(b)throw W;return b}return 1}function
+Ab(d){var
 b=ai(d);function
-a(a){return eY(b5,t(b,a))}var
-c=aK(t(b,zD));if(m(c,zE)){if(m(c,zF)){if(m(c,zG))return ad([0,zI,[0,c,zH]]);var
-e=aY(b,zJ),f=cm(function(a){return eY(b5,a)},e),g=a(zK);return[1,a(zL),g,f]}var
-h=iO(t(b,zM)),i=b5(t(b,zN)),j=a(zO),k=a(zP);return[0,a(zQ),k,j,i,h]}return[2,a(zR)]}function
-zS(d){var
+a(a){return e$(b8,u(b,a))}var
+c=aR(u(b,Ac));if(n(c,Ad)){if(n(c,Ae)){if(n(c,Af))return af([0,Ah,[0,c,Ag]]);var
+e=a1(b,Ai),f=cs(function(a){return e$(b8,a)},e),g=a(Aj);return[1,a(Ak),g,f]}var
+h=i_(u(b,Al)),i=b8(u(b,Am)),j=a(An),k=a(Ao);return[0,a(Ap),k,j,i,h]}return[2,a(Aq)]}function
+Ar(d){var
 a=ai(d);if(a){var
-b=a[1];if(!m(b[1],zT)){var
-c=b[2];if(2===c[0]&&!m(c[1],zU))return 1}}return 0}function
-n1(e){var
+b=a[1];if(!n(b[1],As)){var
+c=b[2];if(2===c[0]&&!n(c[1],At))return 1}}return 0}function
+op(e){var
 b=ai(e);function
-a(a){return Y(b5,ab(t(b,a)))}var
-c=aK(t(b,zV)),d=aY(b,zW);if(m(c,zX)){if(m(c,zY)){if(!m(c,zZ)&&!d){var
-f=a(z2);return[1,a(z3),f]}}else
+a(a){return X(b8,ae(u(b,a)))}var
+c=aR(u(b,Au)),d=a1(b,Av);if(n(c,Aw)){if(n(c,Ax)){if(!n(c,Ay)&&!d){var
+f=a(AB);return[1,a(AC),f]}}else
 if(!d){var
-g=iO(t(b,z4)),h=b5(t(b,z5)),i=a(z6),j=a(z7);return[0,a(z8),j,i,h,g]}}else
+g=i_(u(b,AD)),h=b8(u(b,AE)),i=a(AF),j=a(AG);return[0,a(AH),j,i,h,g]}}else
 if(!d){var
-k=iO(t(b,z9)),l=b5(t(b,z_)),n=b5(t(b,z$)),o=a(Aa),p=a(Ab),q=a(Ac);return[2,a(Ad),q,p,o,n,l,k]}return ad([0,z1,[0,c,z0]])}function
-n2(d){var
+k=i_(u(b,AI)),l=b8(u(b,AJ)),m=b8(u(b,AK)),o=a(AL),p=a(AM),q=a(AN);return[2,a(AO),q,p,o,m,l,k]}return af([0,AA,[0,c,Az]])}function
+oq(d){var
 a=ai(d);if(a){var
-b=a[1];if(!m(b[1],Ae)){var
-c=b[2];if(2===c[0]&&!m(c[1],Af))return 1}}return 0}function
-cR(c,d){var
-a=ab(d);if(a){var
+b=a[1];if(!n(b[1],AP)){var
+c=b[2];if(2===c[0]&&!n(c[1],AQ))return 1}}return 0}function
+cZ(c,d){var
+a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw U}function
-d3(g,p){var
-h=g?g[1]:g,c=ai(p),a=aK(t(c,Ag)),j=qn(a,Ah),f=0;if(0<=j)if(0<j)if(m(a,Ai))if(m(a,Aj))if(m(a,Ak))if(m(a,Al))if(m(a,Am))if(m(a,An)){var
-k=m(a,Ao);if(k)f=1;else
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
+ed(g,p){var
+h=g?g[1]:g,c=ai(p),a=aR(u(c,AR)),j=qN(a,AS),f=0;if(0<=j)if(0<j)if(n(a,AT))if(n(a,AU))if(n(a,AV))if(n(a,AW))if(n(a,AX))if(n(a,AY)){var
+k=n(a,AZ);if(k)f=1;else
 var
 b=k}else
 var
@@ -7268,7 +7522,7 @@ var
 b=13;else
 var
 b=2;else
-if(m(a,AI))if(m(a,AJ))if(m(a,AK))if(m(a,AL))if(m(a,AM))if(m(a,AN))if(m(a,AO))if(m(a,AP))f=1;else
+if(n(a,Bh))if(n(a,Bi))if(n(a,Bj))if(n(a,Bk))if(n(a,Bl))if(n(a,Bm))if(n(a,Bn))if(n(a,Bo))f=1;else
 var
 b=1;else
 var
@@ -7286,293 +7540,303 @@ b=14;else
 f=1;else
 var
 b=12;var
-o=f?ad([0,Aq,[0,a,Ap]]):b;function
-i(a){return t(c,Ar)}var
-d=aK(t(c,As)),l=m(d,At);if(l)if(m(d,Au))if(m(d,Av))if(m(d,Aw))var
-e=ad([0,Ay,[0,d,Ax]]);else
+o=f?af([0,A1,[0,a,A0]]):b;function
+i(a){return u(c,A2)}var
+d=aR(u(c,A3)),l=n(d,A4);if(l)if(n(d,A5))if(n(d,A6))if(n(d,A7))var
+e=af([0,A9,[0,d,A8]]);else
 var
-n=cR(Q,i(0)),e=[2,n[1],n[2]];else
+m=cZ(T,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,Q(i(0))];else
+e=[0,T(i(0))];else
 var
-e=[1,Q(i(0))];else
+e=[1,T(i(0))];else
 var
 e=l;function
 q(E){var
 a=ai(E),c=0;switch(o){case
 6:if(a){var
-r=a[1];if(!m(r[1],AA)){var
+r=a[1];if(!n(r[1],A$)){var
 s=r[2];if(1===s[0]){var
-b=s[1],n=0;if(b&&!b[2])if(a[2])n=1;else{var
-e=b[1];c=1;n=1}if(!n&&!a[2])return[1,Y(Q,b)]}}}break;case
+b=s[1],m=0;if(b&&!b[2])if(a[2])m=1;else{var
+e=b[1];c=1;m=1}if(!m&&!a[2])return[1,X(T,b)]}}}break;case
 10:if(a){var
-t=a[1];if(!m(t[1],AB)){var
+t=a[1];if(!n(t[1],Ba)){var
 u=t[2];if(1===u[0]){var
 f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!m(v[1],AC)){var
+v=g[1];if(!n(v[1],Bb)){var
 w=v[2];if(1===w[0]){var
 i=w[1];if(i&&!i[2]&&!g[2]){var
-F=Q(i[1]);return[2,Q(f[1]),F]}}}}}}}}break;case
+F=T(i[1]);return[2,T(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!m(x[1],AD)){var
+x=a[1];if(!n(x[1],Bc)){var
 y=x[2];if(1===y[0]){var
 j=y[1];if(j&&!j[2]){var
 k=a[2],z=j[1];if(k){var
-A=k[1];if(!m(A[1],AE)){var
+A=k[1];if(!n(A[1],Bd)){var
 B=A[2];if(1===B[0]){var
 l=B[1];if(l&&!l[2]&&!k[2]&&h){var
-G=Q(l[1]);return[3,Q(z),G]}}}}else{var
+G=T(l[1]);return[3,T(z),G]}}}}else{var
 e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!m(C[1],AF)){var
-D=C[2];if(1===D[0]&&!a[2])return[1,Y(Q,D[1])]}}break;case
+C=a[1];if(!n(C[1],Be)){var
+D=C[2];if(1===D[0]&&!a[2])return[1,X(T,D[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!m(p[1],Az)){var
+p=a[1];if(!n(p[1],A_)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,Q(e)];throw U}var
-r=cm(q,aY(c,AG));return[0,o,cm(cQ,aY(c,AH)),r,e]}function
-n3(c){var
-d=d3(AS,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,T(e)];throw W}var
+r=cs(q,a1(c,Bf));return[0,o,cs(cY,a1(c,Bg)),r,e]}function
+or(c){var
+d=ed(Br,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=d3(AQ,c),b=a[1];if(2!==b&&!(4<=b))return a;return ad(AR)}function
-n4(a){var
-b=d3(AT,a);return 11===b[1]?b:n3(a)}function
-AU(c){var
-d=d3(AV,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
-if(2!==a)b=1;return b?d:n4(c)}function
-iP(a){var
-b=d3(AW,a),c=b[1];if(4<=c)switch(c-4|0){case
+a=ed(Bp,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(Bq)}function
+os(a){var
+b=ed(Bs,a);return 11===b[1]?b:or(a)}function
+Bt(c){var
+d=ed(Bu,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+if(2!==a)b=1;return b?d:os(c)}function
+i$(a){var
+b=ed(Bv,a),c=b[1];if(4<=c)switch(c-4|0){case
 0:case
 1:case
 7:case
-9:return b}return n3(a)}function
-iQ(b){var
-a=ai(b[2]);if(m(b[1],A3)){var
-c=cR(Q,t(a,A4)),d=cR(Q,t(a,A5)),e=d[2],f=d[1],g=Q(t(a,A6));return[1,c[1],c[2],g,f,e]}var
-h=Y(Q,ab(t(a,A7)));return[0,Y(Q,ab(t(a,A8))),h]}function
-A9(f){var
+9:return b}return or(a)}function
+ja(b){var
+a=ai(b[2]);if(n(b[1],BC)){var
+c=cZ(T,u(a,BD)),d=cZ(T,u(a,BE)),e=d[2],f=d[1],g=T(u(a,BF));return[1,c[1],c[2],g,f,e]}var
+h=X(T,ae(u(a,BG)));return[0,X(T,ae(u(a,BH))),h]}function
+BI(f){var
 a=ai(f);function
-d(b){return Q(t(a,b))}function
-c(b){return eY(Q,t(a,b))}var
-b=aK(t(a,A_));if(m(b,A$)){if(!m(b,Ba)){var
-j=t(a,Bg),e=cR(function(a){return a},j),k=aY(a,Bh),l=cm(function(a){return c(Bi)},k),n=gC(aK(e[2])),o=gC(aK(e[1])),p=d(Bj);return[0,cQ(t(a,Bk)),p,o,n,l]}if(m(b,Bb))throw U}var
-g=d(Bc),h=c(Bd),i=c(Be);return[1,au(b,Bf),i,h,g]}function
-iR(an){var
-g=dl(an),h=g[1];if(m(h,Bl)){if(m(h,Bm)){if(m(h,Bn)){if(m(h,Bo))return ad([0,Bq,[0,h,Bp]]);var
-w=t(ai(g[2]),Br),ac=0;if(2===w[0]){var
-K=m(w[1],Bs);if(!K){var
-J=K;ac=1}}if(!ac)var
-J=[0,b5(w)];return[6,J]}var
-L=ai(g[2]),j=iR([0,[0,[0,Bu,t(L,Bt)],0]]);if(0===j[0]){var
+d(b){return T(u(a,b))}function
+c(b){return e$(T,u(a,b))}var
+b=aR(u(a,BJ));if(n(b,BK)){if(!n(b,BL)){var
+j=u(a,BR),e=cZ(function(a){return a},j),k=a1(a,BS),l=cs(function(a){return c(BT)},k),m=gM(aR(e[2])),o=gM(aR(e[1])),p=d(BU);return[0,cY(u(a,BV)),p,o,m,l]}if(n(b,BM))throw W}var
+g=d(BN),h=c(BO),i=c(BP);return[1,aw(b,BQ),i,h,g]}function
+jb(an){var
+g=dr(an),h=g[1];if(n(h,BW)){if(n(h,BX)){if(n(h,BY)){if(n(h,BZ))return af([0,B1,[0,h,B0]]);var
+w=u(ai(g[2]),B2),ab=0;if(2===w[0]){var
+K=n(w[1],B3);if(!K){var
+J=K;ab=1}}if(!ab)var
+J=[0,b8(w)];return[6,J]}var
+L=ai(g[2]),j=jb([0,[0,[0,B5,u(L,B4)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=Q(t(L,Bw));return[5,j[1],x[1],x[2],j[4],ao]}}return ad(Bv)}var
-a=ai(g[2]),y=aY(a,Bx),z=y?Y(A9,ab(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?ad(By):a},k=dl(t(a,Bz)),b=dl(t(a,BA)),c=k[1];if(m(c,BB)&&m(c,BC)&&m(c,BD)){if(0===aY(a,BE)){if(m(c,BF)){var
-ae=0;if(m(c,BG)){if(!m(c,BH)){var
-M=b[1],af=0;if(m(M,BK)&&m(M,BL)){ae=1;af=1}if(!af){var
-A=ab(k[2]),ap=ab(t(a,BO)),N=Y(function(a){return d3(0,a)},ap);if(!aA(zS,A)&&!aA(function(a){return 13===a[1]?1:0},N)){var
-as=Y(zC,A),f=ai(b[2]);if(m(b[1],AX))var
-H=cR(Q,t(f,AY)),I=cR(Q,t(f,AZ)),aj=I[2],ak=I[1],al=Q(t(f,A0)),O=[1,H[1],H[2],al,ak,aj];else
+ao=T(u(L,B7));return[5,j[1],x[1],x[2],j[4],ao]}}return af(B6)}var
+a=ai(g[2]),y=a1(a,B8),z=y?X(BI,ae(y[1])):y,o=function(b){var
+a=0!==z?1:0;return a?af(B9):a},k=dr(u(a,B_)),b=dr(u(a,B$)),c=k[1];if(n(c,Ca)&&n(c,Cb)&&n(c,Cc)){if(0===a1(a,Cd)){if(n(c,Ce)){var
+ac=0;if(n(c,Cf)){if(!n(c,Cg)){var
+M=b[1],ad=0;if(n(M,Cj)&&n(M,Ck)){ac=1;ad=1}if(!ad){var
+A=ae(k[2]),ap=ae(u(a,Cn)),N=X(function(a){return ed(0,a)},ap);if(!aD(Ar,A)&&!aD(function(a){return 13===a[1]?1:0},N)){var
+as=X(Ab,A),f=ai(b[2]);if(n(b[1],Bw))var
+H=cZ(T,u(f,Bx)),I=cZ(T,u(f,By)),aj=I[2],ak=I[1],al=T(u(f,Bz)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=eY(Q,t(f,A1)),O=[0,eY(Q,t(f,A2)),am];return[0,as,O,z,N]}o(0);var
-aq=Y(iP,ab(t(a,BP))),ar=iQ(b);return[1,0,Y(n1,A),0,ar,0,aq]}}}else
-if(!m(b[1],BQ)){o(0);var
-P=Y(iP,ab(t(a,BR))),v=0,e=P;for(;;){if(e){var
+am=e$(T,u(f,BA)),O=[0,e$(T,u(f,BB)),am];return[0,as,O,z,N]}o(0);var
+aq=X(i$,ae(u(a,Co))),ar=ja(b);return[1,0,X(op,A),0,ar,0,aq]}}}else
+if(!n(b[1],Cp)){o(0);var
+P=X(i$,ae(u(a,Cq))),v=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 v=[0,G,v],e=F;continue}var
 e=F;continue}var
-n=jD(v),ag=0;if(n){var
-d=0,R=n[1][4];if(typeof
-R==="number")d=1;else
-switch(R[0]){case
+m=jY(v),ag=0;if(m){var
+d=0,Q=m[1][4];if(typeof
+Q==="number")d=1;else
+switch(Q[0]){case
 0:var
-B=n[2];if(B){var
-D=0,S=B[1][4];if(typeof
-S!=="number"&&1===S[0])if(B[2]){d=1;D=1}else
+B=m[2];if(B){var
+D=0,R=B[1][4];if(typeof
+R!=="number"&&1===R[0])if(B[2]){d=1;D=1}else
 D=1;if(!D)d=1}else
 d=1;break;case
 1:var
-C=n[2];if(C){var
-E=0,T=C[1][4];if(typeof
-T!=="number"&&0===T[0])if(C[2]){d=1;E=1}else
+C=m[2];if(C){var
+E=0,S=C[1][4];if(typeof
+S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)ad(BS);var
-at=Q(t(ai(b[2]),BT));return[4,Q(t(ai(k[2]),BU)),at,P]}}if(!ae)return ad([0,BJ,[0,c,BI]])}else
-if(!m(b[1],BV)){o(0);var
-p=ai(k[2]),V=ai(b[2]),W=function(c,a){var
-b=ab(a);return Y(function(d){var
-a=ab(d);if(a){var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Cr);var
+at=T(u(ai(b[2]),Cs));return[4,T(u(ai(k[2]),Ct)),at,P]}}if(!ac)return af([0,Ci,[0,c,Ch]])}else
+if(!n(b[1],Cu)){o(0);var
+p=ai(k[2]),U=ai(b[2]),V=function(c,a){var
+b=ae(a);return X(function(d){var
+a=ae(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aK(a[1]),e]}}throw U},b)},av=function(d){var
+e=i(c,b[1]);return[0,aR(a[1]),e]}}throw W},b)},au=function(d){var
 a=ai(d);if(a){var
-b=a[1],c=b[1];if(m(c,BW)){if(!m(c,BX)&&!a[2])return[0,Y(iN,ab(b[2]))]}else
-if(!a[2])return[1,iN(b[2])]}throw U},aw=Y(n4,ab(t(a,BY))),ax=Y(Q,ab(t(V,BZ))),ay=Y(Q,ab(t(V,B0))),az=Y(av,ab(t(p,B1))),aB=W(iN,t(p,B2)),aC=W(b5,t(p,B3));return[3,Y(aK,ab(t(p,B4))),aC,aB,az,ay,ax,aw]}return ad([0,BN,[0,b[1],BM]])}throw U}var
-X=ai(k[2]),q=cm(Q,aY(X,B5)),aD=function(f){var
-a=dl(f),b=a[1];if(m(b,B6)){if(m(b,B7)){if(m(b,B8)){if(m(b,B9))throw U;var
-d=a[2],g=Q(t(ai(d),B_));return[3,Q(t(ai(d),B$)),g]}var
-h=a[2],c=function(a){return cR(Q,t(ai(h),a))},i=c(Ca),j=c(Cb);return[1,c(Cc),j,i]}var
-e=cR(Q,a[2]);return[0,e[1],e[2]]}return[2,Q(a[2])]},r=cm(aD,aY(a,Cd)),Z=m(c,Ce),_=Z?m(c,Cf)?2:1:Z,s=ab(t(X,Cg));if(q&&r&&g7(n2,s)){var
+b=a[1],c=b[1];if(n(c,Cv)){if(!n(c,Cw)&&!a[2])return[0,X(i9,ae(b[2]))]}else
+if(!a[2])return[1,i9(b[2])]}throw W},av=X(os,ae(u(a,Cx))),ax=X(T,ae(u(U,Cy))),ay=X(T,ae(u(U,Cz))),az=X(au,ae(u(p,CA))),aA=V(i9,u(p,CB)),aB=V(b8,u(p,CC));return[3,X(aR,ae(u(p,CD))),aB,aA,az,ay,ax,av]}return af([0,Cm,[0,b[1],Cl]])}throw W}var
+Y=ai(k[2]),q=cs(T,a1(Y,CE)),aC=function(f){var
+a=dr(f),b=a[1];if(n(b,CF)){if(n(b,CG)){if(n(b,CH)){if(n(b,CI))throw W;var
+d=a[2],g=T(u(ai(d),CJ));return[3,T(u(ai(d),CK)),g]}var
+h=a[2],c=function(a){return cZ(T,u(ai(h),a))},i=c(CL),j=c(CM);return[1,c(CN),j,i]}var
+e=cZ(T,a[2]);return[0,e[1],e[2]]}return[2,T(a[2])]},r=cs(aC,a1(a,CO)),Z=n(c,CP),_=Z?n(c,CQ)?2:1:Z,s=ae(u(Y,CR));if(q&&r&&hg(oq,s)){var
 aE=function(c){var
 a=ai(c);function
-b(b){return Y(b5,ab(t(a,b)))}if(0!==aY(a,Ch))ad(Ci);var
-d=b(Cj);return[0,b(Ck),d]},aF=Y(AU,ab(t(a,Cl))),aG=r[1],aH=iQ(b),aI=q[1];return[2,_,Y(aE,s),aI,aH,aG,z,aF]}o(0);var
-ah=0;if(!q&&au(c,Co)){var
+b(b){return X(b8,ae(u(a,b)))}if(0!==a1(a,CS))af(CT);var
+d=b(CU);return[0,b(CV),d]},aF=X(Bt,ae(u(a,CW))),aG=r[1],aH=ja(b),aI=q[1];return[2,_,X(aE,s),aI,aH,aG,z,aF]}o(0);var
+ah=0;if(!q&&aw(c,CZ)){var
 $=1;ah=1}if(!ah)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?aA(n2,s):aa;if(aJ)ad(Cm);var
-aL=Y(iP,ab(t(a,Cn))),aM=iQ(b);return[1,$,Y(n1,s),q,aM,r,aL]}var
-u=ai(g[2]);function
-aN(b){var
-a=ai(b),c=Q(t(a,Cp)),d=[0,Q(t(a,Cq)),c];return[0,aK(t(a,Cr)),d]}var
-l=iR([0,[0,[0,Ct,t(u,Cs)],0]]);if(0===l[0]&&!l[3]){var
-aO=Q(t(u,Cv)),aP=Q(t(u,Cw)),aQ=l[4],aR=l[2],aS=l[1];return[7,Y(aN,ab(t(u,Cx))),aS,aR,aQ,aP,aO]}return ad(Cu)}function
-iS(a){return Y(e0,ab(a))}function
-iT(c,b){var
-a=iS(b);if(b$(a)!==c)throw U;return a}function
-n5(a,d){var
-b=ai(d),e=ab(t(b,CA)),f=a[2],c=Y(function(a){return iT(f,a)},e),g=a[1];if(b$(c)!==g)throw U;return[0,c,e1(t(b,CB))]}function
-e2(g,p){var
-M=g[2];switch(p[0]){case
+aa=0!==r?1:0,aJ=aa?aD(oq,s):aa;if(aJ)af(CX);var
+aK=X(i$,ae(u(a,CY))),aL=ja(b);return[1,$,X(op,s),q,aL,r,aK]}var
+t=ai(g[2]);function
+aM(b){var
+a=ai(b),c=T(u(a,C0)),d=[0,T(u(a,C1)),c];return[0,aR(u(a,C2)),d]}var
+l=jb([0,[0,[0,C4,u(t,C3)],0]]);if(0===l[0]&&!l[3]){var
+aN=T(u(t,C6)),aO=T(u(t,C7)),aP=l[4],aQ=l[2],aS=l[1];return[7,X(aM,ae(u(t,C8))),aS,aQ,aP,aO,aN]}return af(C5)}function
+gN(a){return X(eb,ae(a))}function
+jc(c,b){var
+a=gN(b);if(cd(a)!==c)throw W;return a}function
+ot(a,d){var
+b=ai(d),e=ae(u(b,C$)),f=a[2],c=X(function(a){return jc(f,a)},e),g=a[1];if(cd(c)!==g)throw W;return[0,c,ec(u(b,Da))]}function
+ee(f,p){var
+M=f[2];switch(p[0]){case
 0:var
-d=p[1];if(d){var
-e=d[1],a=e[1],N=qn(a,CC),b=0;if(0<=N)if(0<N){var
-f=0;if(m(a,CD)&&m(a,CE)&&m(a,CF))if(m(a,CG))f=1;else{var
+c=p[1];if(c){var
+e=c[1],a=e[1],N=qN(a,Db),b=0;if(0<=N)if(0<N)if(n(a,Dc)){var
+g=0;if(n(a,Dd)&&n(a,De)&&n(a,Df))if(n(a,Dg))g=1;else{var
 O=e[2];if(1===O[0]){var
 q=O[1];if(q){var
 r=q[2];if(r){var
-s=r[2];if(s&&!s[2]){if(!d[2]){var
-P=r[1];if(qz(aK(P),0,49))return ad(CJ);var
-ae=Y(iS,ab(s[1])),af=aK(P);return[8,e2(g,q[1]),af,ae]}b=1;f=1}else
-f=1}else
-f=1}else
-f=1}else
-f=1}if(!f)if(d[2])b=1;else{var
-ag=e[2],v=ag,u=function(c,b){return[1,a,c,b]};b=2}}else{var
-R=e[2];if(1===R[0]){var
-w=R[1];if(w){var
+s=r[2];if(s&&!s[2]){if(!c[2]){var
+ac=X(gN,ae(s[1])),ad=aR(r[1]);return[8,ee(f,q[1]),ad,ac]}b=1;g=1}else
+g=1}else
+g=1}else
+g=1}else
+g=1}if(!g)if(c[2])b=1;else{var
+ag=e[2],v=ag,t=function(c,b){return[1,a,c,b]};b=2}}else{var
+Q=e[2];if(1===Q[0]){var
+w=Q[1];if(w){var
 x=w[2];if(x){var
-y=x[2];if(y&&!y[2]){if(!d[2]){var
-ah=e1(y[1]),aj=e0(x[1]);return[5,e2(g,w[1]),aj,ah]}b=1}}}}}else
-if(m(a,CK))if(m(a,CL))if(m(a,CM))if(m(a,CN)){if(!m(a,CO)){if(!d[2]){var
-S=ai(e[2]),ak=ab(t(S,CP)),al=M+1|0,T=Y(function(a){return iT(al,a)},ak);if(3===b$(T))return[1,CR,T,e1(t(S,CQ))];throw U}b=1}}else{if(!d[2]){var
-J=aK(e[2]),K=m(J,Cy);if(K){if(m(J,Cz))throw U;var
+y=x[2];if(y&&!y[2]){if(!c[2]){var
+ah=ec(y[1]),aj=eb(x[1]);return[5,ee(f,w[1]),aj,ah]}b=1}}}}}else{var
+R=e[2];if(1===R[0]){if(!c[2]){var
+ak=function(i){if(1===i[0]){var
+b=i[1];if(b){var
+c=b[2];if(c){var
+d=c[2];if(d){var
+a=d[2];if(a){var
+e=a[1],h=0;if(0===e[0]){var
+g=e[1];if(g&&!(n(g[1][1],Dj)||g[2])){if(!a[2]){var
+j=ee(f,e),k=ec(d[1]),l=eb(c[1]);return[0,[0,[0,gN(b[1]),l],k],j]}}else
+h=1}else
+h=1;if(h&&!a[2])return af(Dk)}}}}}throw W};return[9,X(ak,R[1])]}b=1}}else
+if(n(a,Dl))if(n(a,Dm))if(n(a,Dn))if(n(a,Do)){if(!n(a,Dp)){if(!c[2]){var
+S=ai(e[2]),al=ae(u(S,Dq)),am=M+1|0,T=X(function(a){return jc(am,a)},al);if(3===cd(T))return[1,Ds,T,ec(u(S,Dr))];throw W}b=1}}else{if(!c[2]){var
+J=aR(e[2]),K=n(J,C9);if(K){if(n(J,C_))throw W;var
 L=1}else
 var
-L=K;return[2,L]}b=1}else{if(!d[2]){var
-j=e[2],X=function(l,a){if(0===a[0]){var
+L=K;return[2,L]}b=1}else{if(!c[2]){var
+j=e[2],Y=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!m(e[1],CS)){var
+e=b[1];if(!n(e[1],Dt)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!m(g[1],CT)){var
+g=c[1];if(!n(g[1],Du)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return e2(CU,a)}}}}}}}}}}return e2(l,a)},o=0;switch(j[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return ee(Dv,a)}}}}}}}}}}return ee(l,a)},o=0;switch(j[0]){case
 0:var
 k=j[1];if(k){var
-Z=k[1],i=Z[1],c=0;if(m(i,CV)&&m(i,CW)&&m(i,CX)&&m(i,CY))if(m(i,CZ))c=1;else{var
+Z=k[1],i=Z[1],d=0;if(n(i,Dw)&&n(i,Dx)&&n(i,Dy)&&n(i,Dz))if(n(i,DA))d=1;else{var
 _=Z[2];if(1===_[0]){var
 F=_[1];if(F){var
 l=F[1],h=0;switch(l[0]){case
 0:var
 G=l[1];if(G){var
-n=G[1][1],ac=0;if(m(n,C1)&&m(n,C2)&&m(n,C3)&&m(n,C4)){c=1;h=1;ac=1}if(!ac&&G[2]){c=1;h=1}}else{c=1;h=1}break;case
+m=G[1][1],ab=0;if(n(m,DC)&&n(m,DD)&&n(m,DE)&&n(m,DF)){d=1;h=1;ab=1}if(!ab&&G[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-$=l[1];if(m($,C5)&&m($,C6)){c=1;h=1}break;default:c=1;h=1}if(!h){var
+$=l[1];if(n($,DG)&&n($,DH)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 H=F[2];if(H){var
 I=H[2];if(I&&!(I[2]||k[2])){var
-ar=e1(I[1]),as=e0(H[1]),z=[6,X(g,l),as,ar];o=2;c=1}else
-c=1}else
-c=1}}else
-c=1}else
-c=1}if(!c&&!k[2])o=1}break;case
+as=ec(I[1]),at=eb(H[1]),z=[6,Y(f,l),at,as];o=2;d=1}else
+d=1}else
+d=1}}else
+d=1}else
+d=1}if(!d&&!k[2])o=1}break;case
 2:var
-aa=j[1];if(!m(aa,C7)||!m(aa,C8))o=1;break}switch(o){case
+aa=j[1];if(!n(aa,DI)||!n(aa,DJ))o=1;break}switch(o){case
 0:var
-z=ad(C0);break;case
+z=af(DB);break;case
 1:var
-z=X(g,j);break}return[7,z]}b=1}else{var
+z=Y(f,j);break}return[7,z]}b=1}else{var
+U=e[2];if(1===U[0]){var
+A=U[1];if(A){var
+B=A[2];if(B&&!B[2])if(c[2])b=1;else{var
+an=B[1],ao=A[1],v=ao,t=function(b,a){return[3,b,a,jc(M+1|0,an)]};b=2}}}}else{var
 V=e[2];if(1===V[0]){var
-A=V[1];if(A){var
-B=A[2];if(B&&!B[2])if(d[2])b=1;else{var
-am=B[1],an=A[1],v=an,u=function(b,a){return[3,b,a,iT(M+1|0,am)]};b=2}}}}else{var
-W=e[2];if(1===W[0]){var
-C=W[1];if(C){var
+C=V[1];if(C){var
 D=C[2];if(D){var
-E=D[2];if(E&&!E[2])if(d[2])b=1;else{var
-ao=E[1],ap=D[1],aq=C[1],v=aq,u=function(b,a){var
-c=e1(ao);return[4,b,a,e0(ap),c]};b=2}}}}}switch(b){case
-0:if(!d[2])return ad([0,CI,[0,a,CH]]);break;case
+E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
+ap=E[1],aq=D[1],ar=C[1],v=ar,t=function(b,a){var
+c=ec(ap);return[4,b,a,eb(aq),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return af([0,Di,[0,a,Dh]]);break;case
 1:break;default:var
-Q=n5(g,v);return u(Q[1],Q[2])}}break;case
-2:return[0,p[1]]}throw U}function
-n6(k){var
-b=dl(k),a=b[1];if(m(a,C$))if(m(a,Da)){var
-g=m(a,Db);if(!g)return g;if(m(a,Dc)){if(!m(a,Dd))return[2,Y(Q,ab(b[2]))]}else{var
+P=ot(f,v);return t(P[1],P[2])}}break;case
+2:return[0,p[1]]}throw W}function
+ou(k){var
+b=dr(k),a=b[1];if(n(a,DM))if(n(a,DN)){var
+g=n(a,DO);if(!g)return g;if(n(a,DP)){if(!n(a,DQ))return[2,X(T,ae(b[2]))]}else{var
 h=b[2];if(1===h[0]){var
 c=h[1];if(c){var
 d=c[2];if(d&&!d[2]){var
-l=cQ(d[1]);return[1,cQ(c[1]),l]}}}}}else{var
+l=cY(d[1]);return[1,cY(c[1]),l]}}}}}else{var
 i=b[2];if(1===i[0]){var
 e=i[1];if(e){var
 f=e[2];if(f&&!f[2]){var
-n=Y(iS,ab(f[1]));return[0,cQ(e[1]),n]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return ad([0,Df,[0,a,De]])}function
-n7(f,b){var
-a=ai(b),c=ab(t(a,Dk)),d=Y(function(g){var
+m=X(gN,ae(f[1]));return[0,cY(e[1]),m]}}}}else{var
+j=b[2];if(1===j[0]&&!j[1])return 1}return af([0,DS,[0,a,DR]])}function
+ov(f,b){var
+a=ai(b),c=ae(u(a,DX)),d=X(function(g){var
 a=ai(g);function
 b(d,c){var
-b=aY(a,c);return b?Y(d,ab(b[1])):b}var
-c=b(e0,Dg),d=cm(n6,aY(a,Dh)),e=cm(cQ,aY(a,Di));return[0,b(function(h){var
-b=ab(h);if(b){var
+b=a1(a,c);return b?X(d,ae(b[1])):b}var
+c=b(eb,DT),d=cs(ou,a1(a,DU)),e=cs(cY,a1(a,DV));return[0,b(function(h){var
+b=ae(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!m(c[1],C9)){if(!a[2]){if(m(eX(e),C_))throw U;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!n(c[1],DK)){if(!a[2]){if(n(e_(e),DL))throw W;d=1}}else
 d=1;if(d&&!a[2]){var
-g=e2(f,c);return[0,cQ(e),g]}}}throw U},Dj),e,d,c]},c),e=aY(a,Dl),g=cm(function(a){return n5(f,a)},e);return[0,nY(t(a,Dm)),g,d]}function
-n8(c){var
-a=ai(c),b=aY(a,Dn),d=b?Y(Q,ab(b[1])):b,e=n6(t(a,Do)),f=Y(Q,ab(t(a,Dp)));return[0,nY(t(a,Dq)),f,d,e]}function
-DA(c){var
+g=ee(f,c);return[0,cY(e),g]}}}throw W},DW),e,d,c]},c),e=a1(a,DY),g=cs(function(a){return ot(f,a)},e);return[0,om(u(a,DZ)),g,d]}function
+ow(c){var
+a=ai(c),b=a1(a,D0),d=b?X(T,ae(b[1])):b,e=ou(u(a,D1)),f=X(T,ae(u(a,D2)));return[0,om(u(a,D3)),f,d,e]}function
+Eb(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-DB(b){var
+Ec(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-DC(b){var
+Ed(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-f9(j(a[1]));return 10===c?1:0}function
-DG(p){var
-s=aq(p),c=[0,0];function
-u(a){if(c[1]<s)return aU(p,c[1]);throw U}function
-v(a){if(u(0)===a){c[1]++;return 0}throw U}function
-aa(a,b){for(;;){if(c[1]<s&&i(b,aU(p,c[1]))){c[1]++;continue}return dv(p,a,c[1]-a|0)}}function
-ac(d){v(34);function
+a!=="number"&&1===a[0])return 1-gj(j(a[1]));return 10===c?1:0}function
+Eh(p){var
+s=av(p),c=[0,0];function
+t(a){if(c[1]<s)return aW(p,c[1]);throw W}function
+v(a){if(t(0)===a){c[1]++;return 0}throw W}function
+aa(a,b){for(;;){if(c[1]<s&&i(b,aW(p,c[1]))){c[1]++;continue}return dB(p,a,c[1]-a|0)}}function
+ab(d){v(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
 b=aa(c[1],a);v(34);return b}function
-ae(e,a){if(u(0)===a){c[1]++;return 0}var
+ac(e,a){if(t(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
-d=[0,i(e,0),b];if(44===u(0)){c[1]++;var
-b=d;continue}v(a);return jD(d)}}function
-D(b,i){if(64<b)throw U;var
-a=u(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,ae(function(a){return D(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,ae(function(c){var
-a=ac(0);v(58);return[0,a,D(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,ac(0)];if(45===a)d=1}if(d){var
+d=[0,i(e,0),b];if(44===t(0)){c[1]++;var
+b=d;continue}v(a);return jY(d)}}function
+E(b,i){if(64<b)throw W;var
+a=t(0),d=0;if(48<=a){if(91===a){c[1]++;var
+e=93,f=b+1|0;return[1,ac(function(a){return E(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,ac(function(c){var
+a=ab(0);v(58);return[0,a,E(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,ab(0)];if(45===a)d=1}if(d){var
 h=c[1];c[1]++;return[3,aa(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw U}var
-aM=D(0,0),af=c[1]<s?1:0,aN=af?10===aU(p,c[1])?1:0:af;if(aN)c[1]++;if(c[1]<s)throw U;var
-z=ai(aM);if(m(aK(t(z,DH)),DI))throw U;var
-a=iR(t(z,DJ)),K=0;switch(a[0]){case
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
+aL=E(0,0),ad=c[1]<s?1:0,aM=ad?10===aW(p,c[1])?1:0:ad;if(aM)c[1]++;if(c[1]<s)throw W;var
+z=ai(aL);if(n(aR(u(z,Ei)),Ej))throw W;var
+a=jb(u(z,Ek)),K=0;switch(a[0]){case
 1:var
 I=a[1],L=0;if(typeof
 I==="number")if(I)var
@@ -7582,34 +7846,34 @@ if(1===I[1])var
 J=6;else
 L=1;if(L)var
 J=3;var
-l=[0,b$(a[2]),J];break;case
+l=[0,cd(a[2]),J];break;case
 2:var
-a1=1===a[1]?6:3,l=[0,b$(a[2]),a1];break;case
+a1=1===a[1]?6:3,l=[0,cd(a[2]),a1];break;case
 3:var
-a2=b$(a[1]),l=[0,b$(a[4]),a2];break;case
+a2=cd(a[1]),l=[0,cd(a[4]),a2];break;case
 7:var
 ag=a[2];K=1;break;case
 0:case
 5:var
 ag=a[1];K=1;break;default:var
-l=D5}if(K)var
-l=[0,b$(ag),3];var
-w=dl(t(z,DK)),x=w[1];if(m(x,Dv))if(m(x,Dw))if(m(x,Dx))var
-b=ad([0,Dz,[0,x,Dy]]);else
+l=EG}if(K)var
+l=[0,cd(ag),3];var
+w=dr(u(z,El)),x=w[1];if(n(x,D8))if(n(x,D9))if(n(x,D_))var
+b=af([0,Ea,[0,x,D$]]);else
 var
-y=n8(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
+y=ow(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
 var
-F=n7(l,w[2]),b=[0,F[1],F[2],F[3]];else
+F=ov(l,w[2]),b=[0,F[1],F[2],F[3]];else
 var
-aO=ab(w[2]),b=[2,Y(function(f){var
-a=dl(f),b=a[1];if(m(b,Dr)){if(m(b,Ds)){if(m(b,Dt)){var
-e=m(b,Du);if(e)throw U;return e}return[0,cQ(a[2])]}var
-c=n8(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=n7(l,a[2]);return[1,d[1],d[2],d[3]]},aO)];function
-aP(a){var
-b=a[1];return aA(function(a){return 8===a[2][0]?1:0},b)}function
-aQ(a){return 0!==a[3]?1:0}function
-ah(a){return aA(aQ,a)}function
+aN=ae(w[2]),b=[2,X(function(f){var
+a=dr(f),b=a[1];if(n(b,D4)){if(n(b,D5)){if(n(b,D6)){var
+e=n(b,D7);if(e)throw W;return e}return[0,cY(a[2])]}var
+c=ow(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=ov(l,a[2]);return[1,d[1],d[2],d[3]]},aN)];function
+aO(a){var
+b=a[1];return aD(function(a){return 7<a[2][0]?1:0},b)}function
+aP(a){return 0!==a[3]?1:0}function
+ah(a){return aD(aP,a)}function
 aj(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
@@ -7619,19 +7883,19 @@ al=a[4],ak=a[1];d=5;break;case
 2:d=1;break;default:d=3}break;case
 1:switch(b[0]){case
 0:var
-aV=b[3];if(aA(function(a){var
-b=a[1];return aA(function(a){switch(a[2][0]){case
+aU=b[3];if(aD(function(a){var
+b=a[1];return aD(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aV))ad(DX);else
+7:return 1;default:return 0}},b)},aU))af(Ey);else
 d=4;break;case
 1:d=3;break;default:d=4}break;case
 2:var
 ao=a[7],G=a[1],M=0;switch(b[0]){case
 0:var
-aW=1===G?6:3,ap=b$(a[2])===aW?1:0;if(ap){var
-at=0;if(2<=G||!(0===a[4][0]))at=1;else
+aV=1===G?6:3,ap=cd(a[2])===aV?1:0;if(ap){var
+as=0;if(2<=G||!(0===a[4][0]))as=1;else
 var
-H=1;if(at)var
+H=1;if(as)var
 H=0}else
 var
 H=ap;var
@@ -7640,87 +7904,87 @@ g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(m(c[1],DY))a=1;break;case
+1:if(n(c[1],Ez))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||m(f[1],DZ))a=1;break;default:a=1}if(!a)return 1-H}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aY=b[3];if(aA(function(a){return aA(aX,a[1])},aY))ad(D0);else{var
-au=0;if(aA(function(a){return 11===a[1]?1:0},ao)){var
-av=0;if(1===G&&2===a[5][0]){var
-ar=0;av=1}if(!av)var
-ar=1;if(ar){ad(D1);au=1}}if(!au){var
-aZ=b[3];if(g7(function(a){var
-b=a[1];return g7(function(d){var
+f=c[1];if(1!==f[0]||n(f[1],EA))a=1;break;default:a=1}if(!a)return 1-H}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},aY=b[3];if(aD(function(a){return aD(aX,a[1])},aY))af(EB);else{var
+at=0;if(aD(function(a){return 11===a[1]?1:0},ao)){var
+au=0;if(1===G&&2===a[5][0]){var
+aq=0;au=1}if(!au)var
+aq=1;if(aq){af(EC);at=1}}if(!at){var
+aZ=b[3];if(hg(function(a){var
+b=a[1];return hg(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(m(c,DD)){if(!m(c,DE))return aA(DC,ao)}else
+c=b[1];if(n(c,Ee)){if(!n(c,Ef))return aD(Ed,ao)}else
 a=1;break;case
-1:if(!m(b[1],DF))a=1;break;case
+1:if(!n(b[1],Eg))a=1;break;case
 7:case
 8:a=1;break}return a?1:0},b)},aZ)){d=2;M=1}else
-ad(D2)}}break;case
+af(ED)}}break;case
 1:var
-aw=0,as=b[4];if(typeof
-as!=="number"&&2===as[0])aw=1;if(!aw){d=3;M=1}break;default:d=1;M=1}break;case
+aw=0,ar=b[4];if(typeof
+ar!=="number"&&2===ar[0])aw=1;if(!aw){d=3;M=1}break;default:d=1;M=1}break;case
 3:switch(b[0]){case
-0:if(aA(aP,b[3]))ad(D3);else
+0:if(aD(aO,b[3]))af(EE);else
 d=2;break;case
 2:d=1;break;default:d=3}break;case
 7:switch(b[0]){case
 2:var
-a0=b[1];if(aA(function(a){if(typeof
-a!=="number"&&2===a[0])return aj(a[4]);return 0},a0))ad(D4);else
+a0=b[1];if(aD(function(a){if(typeof
+a!=="number"&&2===a[0])return aj(a[4]);return 0},a0))af(EF);else
 d=4;break;case
 1:d=3;break;default:d=4}break;default:d=3}var
 k=0;switch(d){case
-3:if(1===b[0]&&aj(b[4])){ad(DW);k=2}else
+3:if(1===b[0]&&aj(b[4])){af(Ex);k=2}else
 k=3;break;case
 4:k=3;break;case
 0:k=2;break;case
 5:k=4;break;case
 2:break;default:k=1}var
-g=0;switch(k){case
+h=0;switch(k){case
 3:var
 j=0;switch(a[0]){case
 1:var
 an=a[6];break;case
 4:var
 an=a[3];break;case
-5:if(aA(DA,a[4])){ad(DU);g=2;j=1}else
+5:if(aD(Eb,a[4])){af(Ev);h=2;j=1}else
 if(0===b[0]){var
-aT=b[3];if(aA(function(a){return 0!==a[1]?1:0},aT)){ad(DV);g=2;j=1}else
+aT=b[3];if(aD(function(a){return 0!==a[1]?1:0},aT)){af(Ew);h=2;j=1}else
 j=1}else
 j=1;break;case
 6:j=1;break;case
 7:var
-al=a[4],ak=a[2];g=3;j=1;break;default:g=1;j=1}if(!j)if(0===b[0]){if(aA(function(a){return 11===a[1]?1:0},an)){ad(DT);g=2}}else
-g=1;break;case
-2:g=2;break;case
-4:g=3;break;case
-0:break;default:g=1}var
-A=0;switch(g){case
+al=a[4],ak=a[2];h=3;j=1;break;default:h=1;j=1}if(!j)if(0===b[0]){if(aD(function(a){return 11===a[1]?1:0},an)){af(Eu);h=2}}else
+h=1;break;case
+2:h=2;break;case
+4:h=3;break;case
+0:break;default:h=1}var
+A=0;switch(h){case
 2:break;case
 3:var
-ax=0;if(aA(function(a){return 10===a[1]?1:0},al)&&aA(function(a){return 2===a[0]?1:0},ak)){ad(DL);ax=1}if(!ax)A=2;break;case
+ax=0;if(aD(function(a){return 10===a[1]?1:0},al)&&aD(function(a){return 2===a[0]?1:0},ak)){af(Em);ax=1}if(!ax)A=2;break;case
 0:A=2;break;default:A=1}var
 N=0;switch(A){case
 2:var
 r=0;switch(a[0]){case
 5:case
-7:if(aA(DB,a[4])){ad(DR);r=1}else
+7:if(aD(Ec,a[4])){af(Es);r=1}else
 if(7===a[0])switch(b[0]){case
 2:var
 aS=function(a){if(typeof
-a!=="number"&&1===a[0])return ah(a[3]);return 0};if(aA(aS,b[1]))ad(DS);r=1;break;case
+a!=="number"&&1===a[0])return ah(a[3]);return 0};if(aD(aS,b[1]))af(Et);r=1;break;case
 0:break;default:N=1;r=1}else
-r=1;break}if(!r)if(0===b[0]&&ah(b[3]))ad(DQ);else
+r=1;break}if(!r)if(0===b[0]&&ah(b[3]))af(Er);else
 N=1;break;case
 1:N=1;break}var
-am=ai(t(z,DM)),aR=aK(t(am,DN)),q=[0,a,b,aK(t(am,DO)),aR],f=q[1];switch(f[0]){case
+am=ai(u(z,En)),aQ=aR(u(am,Eo)),q=[0,a,b,aR(u(am,Ep)),aQ],f=q[1];switch(f[0]){case
 0:var
 O=q[2];if(1===O[0]){var
 B=O[4],ay=0;if(typeof
 B==="number"||!(0===B[0]))ay=1;else{var
-aD=B[1],aE=f[4],aF=f[3],P=E(iv(h(f[1]),aF,aE),aD);if(P){var
+aC=B[1],aE=f[4],aF=f[3],P=D(iP(g(f[1]),aF,aE),aC);if(P){var
 az=0,Q=P[1];if(typeof
 Q!=="number"&&14===Q[0]){var
 e=0;az=1}if(!az)var
@@ -7731,17 +7995,17 @@ e=1}else
 var
 e=1;break;case
 2:var
-R=f[7],S=f[6],T=f[2],V=q[2];if(1===V[0]){var
-aG=df(0,h(T),S,R),aH=h(T),W=iL(f[1]),X=gz(0,W,aH,S,R,V[4]);if(X){var
-C=X[1],aB=0;if(typeof
-C==="number"||!(0===C[0]))aB=1;else{var
-Z=hI(o,W,C[1],aG);if(Z){var
-aC=0,_=Z[1][1];if(typeof
+R=f[7],S=f[6],T=f[2],U=q[2];if(1===U[0]){var
+aG=dk(0,g(T),S,R),aH=g(T),V=i6(f[1]),Y=gI(0,V,aH,S,R,U[4]);if(Y){var
+C=Y[1],aA=0;if(typeof
+C==="number"||!(0===C[0]))aA=1;else{var
+Z=h0(o,V,C[1],aG);if(Z){var
+aB=0,_=Z[1][1];if(typeof
 _!=="number"&&14<_[0]){var
-e=0;aC=1}if(!aC)var
+e=0;aB=1}if(!aB)var
 e=1}else
 var
-e=1}if(aB)var
+e=1}if(aA)var
 e=1}else
 var
 e=1}else
@@ -7749,30 +8013,30 @@ var
 e=1;break;case
 7:var
 $=q[2],aI=f[4],aJ=f[2];if(2===$[0])var
-aL=$[1],e=n(function(a){if(typeof
+aK=$[1],e=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=E(iv(h(aJ),0,aI),e);if(c){var
+e=b[1],c=D(iP(g(aJ),0,aI),e);if(c){var
 d=c[1];if(typeof
-d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aL);else
+d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aK);else
 var
 e=1;break;default:var
-e=1}return e?q:ad(DP)}function
-D6(b){var
-c=aq(b),g=64,h=FH(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+e=1}return e?q:af(Eq)}function
+EH(b){var
+c=av(b),g=64,h=Gi(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=au(dv(b,a,18),D7);if(!e){var
+e=aw(dB(b,a,18),EI);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}F2(function(b){try{if(D6(b))var
-a=D9;else{try{var
-e=0,d=DG(b);e=1}catch(a){a=jv(a);if(a[1]===nX)var
-c=[0,a[2]];else{if(a!==U)throw a;var
+f=d;return f}}GD(function(b){try{if(EH(b))var
+a=EK;else{try{var
+e=0,d=Eh(b);e=1}catch(a){a=qP(a);if(a[1]===ol)var
+c=[0,a[2]];else{if(a!==W)throw a;var
 c=2}}if(e)var
-c=zn(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return D8}if(typeof
+c=zY(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return EJ}if(typeof
 a==="number")switch(a){case
-0:return D_;case
-1:return D$;default:return Ea}return a0(Eb,a[1])});jC(0);return}(globalThis));
+0:return EL;case
+1:return EM;default:return EN}return a3(EO,a[1])});jX(0);return}(globalThis));

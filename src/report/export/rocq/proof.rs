@@ -3,7 +3,7 @@
 use super::claim::{expression, Kind, Subject};
 use super::{lines, list, matrix, not_covered, optional, quoted, row, Exported};
 use orthocert_kernel::certificate::{
-    AtlasCell, Corner, Evidence, Failure, Node, Proof, Step, Tree, Witness,
+    AtlasCell, Corner, Evidence, Failure, Node, Part, Proof, Step, Tree, Witness,
 };
 use orthocert_kernel::claim::{Bound, Leg, Requirement};
 use orthocert_kernel::number::Expression;
@@ -52,7 +52,9 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
     let is_singular = refuted.iter().any(|fails| matches!(fails, Failure::Singular(_)));
     let is_one_to_one = matches!(proof, Proof::Tree(_)) && requires(&["one_to_one"]);
     let what = match (subject.kind, proof) {
-        (Kind::Formulas, _) if has(&|by| matches!(by, Evidence::Tolerances(..))) => {
+        (Kind::Formulas, _)
+            if has(&|by| matches!(by, Evidence::Tolerances(..) | Evidence::Fan(_))) =>
+        {
             "the evidence \"tolerances\" of such a mechanism"
         }
         (Kind::Turning, Proof::Tree(tree)) if has_other_apart(tree, subject) => {
@@ -178,9 +180,6 @@ fn evidence(by: &Evidence) -> Exported<String> {
         }
         Evidence::Corner(Corner::Q1) => "AtCorner Check.Q1".to_owned(),
         Evidence::Corner(Corner::Q2) => "AtCorner Check.Q2".to_owned(),
-        Evidence::Tolerances(_, ends, _) if ends.contains('1') => {
-            return not_covered("evidence \"tolerances\" with directions of one scale")
-        }
         Evidence::Tolerances(by, ends, directions) => {
             format!("Apart_ ({}) {} {}", evidence(by)?, quoted(ends), matrix(directions))
         }
@@ -192,10 +191,19 @@ fn evidence(by: &Evidence) -> Exported<String> {
             by => format!("AtControls_ ({})", at_controls(by)?),
         },
         Evidence::Turned(..) => return not_covered("the evidence \"turned\""),
-        Evidence::Fan(_) | Evidence::Between(..) => {
-            return not_covered(format!("the evidence \"{}\"", by.name()))
-        }
+        Evidence::Fan(parts) => format!("Fan_ {}", list(fan(parts)?)),
+        Evidence::Between(..) => return not_covered(format!("the evidence \"{}\"", by.name())),
     })
+}
+
+fn fan(parts: &[Part]) -> Exported<Vec<String>> {
+    let part = |Part(c, n, places, by): &Part| match by {
+        Evidence::Tolerances(..) => {
+            Ok(format!("({}, ({n})%Z, {places}%N, {})", row(c), evidence(by)?))
+        }
+        _ => not_covered("the evidence \"fan\" without \"tolerances\""),
+    };
+    parts.iter().map(part).collect()
 }
 
 fn at_controls(by: &Evidence) -> Exported<String> {
