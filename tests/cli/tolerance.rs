@@ -74,10 +74,10 @@ fn the_answer_does_not_depend_on_the_threads() {
     let folder = Folder::with(&[DESIGN]);
     let one = widened(&folder, &["--on", "anchor", "--threads", "1"]);
     assert_eq!(one, widened(&folder, &["--on", "anchor", "--threads", "3"]));
-    let text =
-        folder.run(&["tolerance", DESIGN, "--on", "anchor", "--gap", "0.0001"]).exits(3).stdout;
+    let short = ["--on", "anchor", "--gap", "0.0001", "--max-boxes", "60"];
+    let text = folder.run(&[&["tolerance", DESIGN], &short[..]].concat()).exits(3).stdout;
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    assert!(text.contains("the exit code is 3 for that"), "{text}");
+    assert!(text.contains("exit code"), "{text}");
     assert!(text.contains("  limited by\n") && text.contains("greatest psi <= 2"), "{text}");
 }
 
