@@ -1211,8 +1211,11 @@ Definition wanted_by (t : test) (e : evidence) : list nat :=
   end.
 (** Formulas that do not change with the scale of the parameters [J]. *)
 Definition is_level (degrees : list (option Z)) (i : nat) : bool := match nth i degrees None with Some 0%Z => true | _ => false end.
+(** Those that are defined for each of them, or for none. *)
+Definition has_degree (degrees : list (option Z)) (i : nat) : bool := match nth i degrees None with Some _ => true | None => false end.
 Definition are_level (t : test) (J : list nat) : bool :=
-  let all l := let degrees := Scale.degrees J tape in forallb (is_level degrees) (partial ++ places_of_rows whole ++ places_of_rows divided ++ l) in
+  let all l := let degrees := Scale.degrees J tape in
+    forallb (has_degree degrees) partial && forallb (is_level degrees) (places_of_rows whole ++ places_of_rows divided ++ l) in
   match t with
   | SigmaMin _ | SigmaMax _ | Conditioning _ | Solved _ _ => all []
   | AtLeast f => all [f]
@@ -1278,6 +1281,11 @@ Proof.
   destruct (nth i (Scale.degrees J tape) None) as [[| |] |]; try discriminate. destruct (H d) as [d' v]. split; [exact d' |].
   change (powerRZ s 0) with 1 in v. rewrite Rmult_1_l in v. exact v.
 Qed.
+Lemma degree_defined : forall i, has_degree (Scale.degrees J tape) i = true -> defined x scaled (formula_at i) -> defined x theta (formula_at i).
+Proof.
+  intros i h d. pose proof (Scale.degrees_sound x theta scaled s J s_positive is_scaled tape i) as H. unfold has_degree in h.
+  destruct (nth i (Scale.degrees J tape) None); [exact (proj1 (H d)) | discriminate].
+Qed.
 Lemma all_level : forall l, (forall i, In i l -> is_level (Scale.degrees J tape) i = true) -> Forall (defined x scaled) (map formula_at l) ->
   Forall (defined x theta) (map formula_at l) /\ map (value x scaled) (map formula_at l) = map (value x theta) (map formula_at l).
 Proof.
@@ -1299,10 +1307,10 @@ Qed.
 Lemma holds_level : forall ps ps' m t, are_level t J = true -> holds bits tape whole divided partial ps scaled m x t -> holds bits tape whole divided partial ps' theta m x t.
 Proof.
   intros ps ps' m t h H.
-  assert (All : forall l, forallb (is_level (Scale.degrees J tape)) (partial ++ places_of_rows whole ++ places_of_rows divided ++ l) = true ->
-    (forall i, In i partial -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\
+  assert (All : forall l, forallb (has_degree (Scale.degrees J tape)) partial && forallb (is_level (Scale.degrees J tape)) (places_of_rows whole ++ places_of_rows divided ++ l) = true ->
+    (forall i, In i partial -> has_degree (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\
     (forall i, In i (places_of_rows divided) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
-  { intros l k. rewrite forallb_forall in k. split; [| split; [| split]]; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
+  { intros l k. apply andb_true_iff in k as [p k]. rewrite forallb_forall in p, k. split; [exact p |]. split; [| split]; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
   assert (These : forall r bound, (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) ->
     of_these scaled x (map_rows formula_at r) bound -> of_these theta x (map_rows formula_at r) bound).
   { intros r bound k [H1 H2]. destruct (rows_level r k H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2]. }
@@ -1314,7 +1322,7 @@ Proof.
   { intros f k [d v]. destruct (level_sound f k d) as [d' e]. split; [exact d' | rewrite <- e; exact v]. }
   destruct t; cbn [are_level] in h; try discriminate; apply All in h as [a1 [a2 [a3 a4]]]; cbn [holds] in *.
   - destruct H as [H1 H2]. split; [| exact (Rows _ a2 a3 H2)].
-    rewrite Forall_forall in H1 |- *. intros f i. exact (proj1 (level_sound f (a1 f i) (H1 f i))).
+    rewrite Forall_forall in H1 |- *. intros f i. exact (degree_defined f (a1 f i) (H1 f i)).
   - exact (Rows _ a2 a3 H).
   - exact (Rows _ a2 a3 H).
   - exact (Sign f (a4 f (or_introl eq_refl)) H).
@@ -1325,14 +1333,14 @@ Qed.
 Lemma along_level : forall P m t, are_level t J = true -> holds_along bits tape whole partial scaled P m x t -> holds_along bits tape whole partial theta P m x t.
 Proof.
   intros P m t h H.
-  assert (All : forall l, forallb (is_level (Scale.degrees J tape)) (partial ++ places_of_rows whole ++ places_of_rows divided ++ l) = true ->
-    (forall i, In i partial -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
-  { intros l k. rewrite forallb_forall in k. split; [| split]; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
+  assert (All : forall l, forallb (has_degree (Scale.degrees J tape)) partial && forallb (is_level (Scale.degrees J tape)) (places_of_rows whole ++ places_of_rows divided ++ l) = true ->
+    (forall i, In i partial -> has_degree (Scale.degrees J tape) i = true) /\ (forall i, In i (places_of_rows whole) -> is_level (Scale.degrees J tape) i = true) /\ (forall i, In i l -> is_level (Scale.degrees J tape) i = true)).
+  { intros l k. apply andb_true_iff in k as [p k]. rewrite forallb_forall in p, k. split; [exact p |]. split; intros i hi; apply k; repeat rewrite in_app_iff; tauto. }
   assert (These : forall r bound, (forall i, In i (places_of_rows r) -> is_level (Scale.degrees J tape) i = true) ->
     of_these scaled x (map_rows formula_at r) bound -> of_these theta x (map_rows formula_at r) bound).
   { intros r bound k [H1 H2]. destruct (rows_level r k H1) as [G1 G2]. split; [exact G1 | rewrite <- G2; exact H2]. }
   destruct t; cbn [holds_along] in *; try contradiction; cbn [are_level] in h; apply All in h as [a1 [a2 a3]].
-  - destruct H as [H1 H2]. split; [| exact (These whole _ a2 H2)]. rewrite Forall_forall in H1 |- *. intros f i. exact (proj1 (level_sound f (a1 f i) (H1 f i))).
+  - destruct H as [H1 H2]. split; [| exact (These whole _ a2 H2)]. rewrite Forall_forall in H1 |- *. intros f i. exact (degree_defined f (a1 f i) (H1 f i)).
   - exact (These whole _ a2 H).
   - exact (These r _ a3 H).
 Qed.

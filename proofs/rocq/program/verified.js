@@ -2416,7 +2416,7 @@ b=e(aT,a[2][2]);return[0,a[1],b]},n);return f(dR(d),o);case
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(eB(a[2]),p);return f(a[1],q);case
 4:case
 8:return dR(a[1]);default:return g}}}function
-lf(o,n,l,k,j,a,e,i){var
+lf(p,o,n,l,j,a,e,i){var
 g=hN(a),h=g?m(function(b){var
 a=r(b,bV(fW,e,j),w);return I(a[1],a[2])},i):g;return h?m(function(T){switch(a[0]){case
 3:var
@@ -2430,7 +2430,7 @@ e=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 e=0}var
-g=0,h=bi(0,function(a){switch(a[0]){case
+i=0,g=bi(0,function(a){switch(a[0]){case
 1:var
 M=a[1],N=aj(function(a){return s(M,a)},T)?b:d;return[0,N];case
 5:return a[1];case
@@ -2482,9 +2482,11 @@ var
 w=h;var
 x=w}else
 var
-x=g;return x;default:return[0,d]}},o,g),i=f(dR(l),e),j=f(k,f(dR(n),i));return m(function(c){var
-a=r(c,h,0);if(a){var
-b=aJ(a[1]);return 0===b?1:0<b?0:0}return a},j)},e):h}function
+x=g;return x;default:return[0,d]}},p,i),h=m(function(c){var
+a=r(c,g,0),b=a?1:a;return b},l);if(h){var
+j=f(dR(n),e),k=f(dR(o),j);return m(function(c){var
+a=r(c,g,0);if(a){var
+b=aJ(a[1]);return 0===b?1:0<b?0:0}return a},k)}return h},e):h}function
 lg(j,a,i,h,g,f,e,d,c,b){var
 k=fH(hO(i,h,g,c,b),a);return hH(j,a,bV(fW,e,f),k,d)}function
 f1(b,a){if(a){var
