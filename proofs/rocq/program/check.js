@@ -101,6 +101,17 @@ if (of_design.includes("REJECTED")) fail(`rejected: ${of_designs.filter((_, i) =
 const two_poses = ["hexapod-flat-refuted", "hexapod-yaw-refuted"].map((name) => fs.readFileSync(path.join(made, `${name}.cert.json`), "latin1"));
 const one_of = path.join(made, "singular.json");
 const three_answers = (text) => { fs.writeFileSync(one_of, text); return [verify(text), natively([one_of])[0], exactly(one_of)]; };
+// Ever nearer to the last number with which all three accept, from one with which they reject: that number.
+const last_number = (text, rejected, accepted, steps, name, verdict = "CERTIFIED") => {
+  const ends = [rejected, accepted], written = (x) => text(x.toFixed(15).replace(/\.?0+$/, ""));
+  for (let i = 0; i < steps; i++) {
+    const middle = (rejected + accepted) / 2, answers = three_answers(written(middle));
+    if (new Set(answers).size > 1 || ![verdict, "REJECTED"].includes(answers[0])) fail(`${name} at ${middle}: ${answers}`);
+    if (answers[0] === verdict) accepted = middle; else rejected = middle;
+  }
+  if (steps > 1 && (rejected === ends[0] || accepted === ends[1])) fail(`${name}: no last number`);
+  return written(accepted);
+};
 for (const [text, from, to] of [
   // of one sign; outside of the box, and of the orientations; of fewer coordinates, and of more; a strut between others
   [two_poses[0], /"singular":\[[^\]]*\]/, '"singular":["-0.2","-0.2","-0.2","-0.0364","0.0446","-0.0371"]'],
@@ -192,15 +203,8 @@ for (const [name, edits, numbers] of [
   if (own.some((answer) => answer !== "CERTIFIED")) fail(`${name}: ${own}`);
   for (const [number, beyond] of numbers) {
     const [all, head, stated] = new RegExp(`("${number}":\\[?)"([\\d.]+)"`).exec(text.slice(claimed));
-    const with_ = (x) => text.slice(0, claimed) + text.slice(claimed).replace(all, `${head}"${x.toFixed(15).replace(/\.?0+$/, "")}"`);
-    let [rejected, certified] = [beyond, +stated];
-    for (let i = 0; i < 12; i++) {
-      const middle = (rejected + certified) / 2, answers = three_answers(with_(middle));
-      if (new Set(answers).size > 1 || !["CERTIFIED", "REJECTED"].includes(answers[0])) fail(`${name}, ${number} at ${middle}: ${answers}`);
-      if (answers[0] === "CERTIFIED") certified = middle; else rejected = middle;
-    }
-    if (certified === +stated || rejected === beyond) fail(`${name}: no last ${number}`);
-    read.push(with_(certified));
+    const with_ = (x) => text.slice(0, claimed) + text.slice(claimed).replace(all, `${head}"${x}"`);
+    read.push(last_number(with_, beyond, +stated, 12, `${name}, ${number}`));
   }
 }
 console.log("accuracy of platforms that turn: nine and 96 numbers with one answer, and 23 refused");
@@ -217,19 +221,11 @@ for (const [name, more, beyond, wrong] of [
   fs.writeFileSync(design, `${fs.readFileSync(path.join(__dirname, "../../../tests/designs/kernel", `${name}.toml`), "utf8")}\n${more}\n`);
   spawnSync(orthocert, ["verify", design, "-o", file]);
   const text = fs.readFileSync(file, "latin1"), [, stated] = /"(?:speed|joint)":\["[^\]]*\]\},"end":"\w+","bound":"([\d.]+)"/.exec(text);
-  const bounded = (b) => text.replace(`"bound":"${stated}"`, `"bound":"${b.toFixed(15).replace(/\.?0+$/, "")}"`);
-  let [rejected, certified] = [beyond * stated, +stated];
-  for (let i = 0; i < 16; i++) {
-    const middle = (rejected + certified) / 2, answers = three_answers(bounded(middle));
-    if (new Set(answers).size > 1 || !["CERTIFIED", "REJECTED"].includes(answers[0])) fail(`${name} at ${middle}: ${answers}`);
-    if (answers[0] === "CERTIFIED") certified = middle; else rejected = middle;
-  }
-  if (certified === +stated || rejected === beyond * stated) fail(`${name}: no last bound`);
+  read.push(last_number((b) => text.replace(`"bound":"${stated}"`, `"bound":"${b}"`), beyond * stated, +stated, 16, name));
   for (const [from, to] of wrong) {
     const answers = three_answers(text.replace(from, to));
     if (text.replace(from, to) === text || answers[2] !== "REJECTED" || answers.some((answer) => ["CERTIFIED", "REFUTED"].includes(answer))) fail(`${name}: ${answers}: ${from} ${to}`);
   }
-  read.push(bounded(certified));
 }
 console.log("accelerations of three platforms that turn, and four with a stiffness for each joint: 112 bounds with one answer, and 27 refused");
 // Refutations: of quantities on machines of each kind, at bounds ever nearer to the last with which the witness refutes; and in no directions, or others.
@@ -247,7 +243,7 @@ const refutations = [
   ["kernel/linear-delta-formulas", "stiffness = { joint = [3, 4, 5], min = 90 }", 0.01], ["kernel/agile-eye", "transmission = { max = 1.01 }", 9], ["kernel/agile-eye", "joint_force = { tool = 10, max = 1 }", 90],
   ["kernel/georg-v-type", "transmission = { max = 0.01 }", 9000],
 ];
-let ends = 0, no_refutations = 0;
+let no_refutations = 0;
 for (const [name, requirement, beyond, joint] of refutations) {
   const design = path.join(made, "refuted.toml"), file = path.join(made, "refuted.cert.json");
   const [head] = fs.readFileSync(path.join(__dirname, "../../../tests/designs", `${name}.toml`), "utf8").split("[requirements]");
@@ -256,16 +252,7 @@ for (const [name, requirement, beyond, joint] of refutations) {
   spawnSync(orthocert, ["verify", design, "-o", file]);
   const text = fs.readFileSync(file, "latin1"), quantity = joint ?? requirement.split(" ")[0];
   const [all, before, stated] = new RegExp(`("quantity":"${quantity}"(?:,"leg":1)?(?:,"given":\\{[^}]*\\})?,"end":"\\w+","bound":)"([\\d.]+)"`).exec(text);
-  const bounded = (b) => text.replace(all, `${before}"${b.toFixed(15).replace(/\.?0+$/, "")}"`);
-  let [rejected, refuted] = [beyond, +stated];
-  for (let i = 0; i < 12; i++) {
-    const middle = (rejected + refuted) / 2, answers = three_answers(bounded(middle));
-    if (new Set(answers).size > 1 || !["REFUTED", "REJECTED"].includes(answers[0])) fail(`${name}, ${quantity} at ${middle}: ${answers}`);
-    if (answers[0] === "REFUTED") refuted = middle; else rejected = middle;
-    ends++;
-  }
-  if (refuted === +stated || rejected === beyond) fail(`${name}, ${quantity}: no last bound`);
-  const nearest = bounded(refuted), [, number, directions] = /"obligation":\[(\d+),(\[.*?\])\]\}\}\}/.exec(text);
+  const nearest = last_number((b) => text.replace(all, `${before}"${b}"`), beyond, +stated, 12, `${name}, ${quantity}`, "REFUTED"), [, number, directions] = /"obligation":\[(\d+),(\[.*?\])\]\}\}\}/.exec(text);
   const with_ = (number, directions) => nearest.replace(/"obligation":\[\d+,\[.*?\]\]\}\}\}/, `"obligation":[${number},${directions}]}}}`);
   const zero = directions.replace(/-?\d+/g, "0"), others = directions.replace(/(\[\[?)-?(\d+),/, "$1-7$2,"), more = directions === "[]" ? "[[1]]" : directions.replace(/\]\]$/, ",1]]");
   for (const wrong of [with_(0, directions), with_(+number + 90, directions), with_(number, zero), with_(number, others), with_(number, more), with_(number, directions === "[]" ? "[[0]]" : "[]")]) {
@@ -275,7 +262,7 @@ for (const [name, requirement, beyond, joint] of refutations) {
   }
   read.push(nearest);
 }
-console.log(`refutations: ${ends} bounds of ${refutations.length} with one answer, and ${no_refutations} refused`);
+console.log(`refutations: ${12 * refutations.length} bounds of ${refutations.length} with one answer, and ${no_refutations} refused`);
 // Tolerances halved at the root of a tree, above twice its nodes: at bounds ever nearer to the last with which they are certified, and beyond that of the tree alone.
 for (const [name, m, numbers, beyond, further] of [
   ["orthoglide-tolerance", 3, 3, 0.8, 0], ["planar-3-prr", 3, 3, 0.8, 1], ["five-bar", 2, 2, 0.8, 1], ["hexapod-rubin-camera-as-made", 6, 36, 0.8, 17], ["five-bar-formulas", 2, 1, 0.8, 0],
@@ -283,16 +270,8 @@ for (const [name, m, numbers, beyond, further] of [
   const text = fs.readFileSync(path.join(made, `${name}.cert.json`), "latin1"), nodes = /"nodes":\[(.*)\]\}\},"prov/.exec(text)[1];
   const halved = (j, lower = nodes, upper = nodes) => text.replace(`"nodes":[${nodes}]`, `"nodes":[{"split":${m + j}},${[lower, upper].filter((x) => x).join()}]`);
   const [, stated] = /"end":"max","bound":"([\d.]+)"/.exec(text);
-  const lasts = [text, halved(further)].map((text) => {
-    let [rejected, certified] = [beyond * stated, +stated];
-    for (let i = 0; i < (m > 3 ? 1 : 20); i++) {
-      const middle = (rejected + certified) / 2, answers = three_answers(text.replace(`"bound":"${stated}"`, `"bound":"${middle.toFixed(15).replace(/\.?0+$/, "")}"`));
-      if (new Set(answers).size > 1 || !["CERTIFIED", "REJECTED"].includes(answers[0])) fail(`${name} halved, ${middle}: ${answers}`);
-      if (answers[0] === "CERTIFIED") certified = middle; else rejected = middle;
-    }
-    return certified;
-  });
-  if (m <= 3 && !(lasts[0] < +stated && lasts[1] < +stated)) fail(`${name} halved: no last bound`);
+  for (const whole of [text, halved(further)])
+    last_number((b) => whole.replace(`"bound":"${stated}"`, `"bound":"${b}"`), beyond * stated, +stated, m > 3 ? 1 : 20, `${name} halved`);
   for (const wrong of [halved(numbers), halved(further, nodes, ""), halved(further, "", nodes), halved(further, nodes, `${nodes},${nodes}`)]) {
     const answers = three_answers(wrong);
     if (answers.some((answer) => answer !== "REJECTED")) fail(`${name} halved: ${answers}`);

@@ -1,7 +1,7 @@
 //! By how much tests hold at the centre of a cell, and what its coordinates move that by to first order.
 
 use super::spectrum::{Spectrum, PAIRS};
-use crate::search::solver::doubles::{magnitude, middle, Pair};
+use crate::search::solver::doubles::{half_width, magnitude, middle, Pair};
 use crate::search::solver::evidence::Over;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::quantity::Test;
@@ -58,7 +58,7 @@ impl Margin {
         };
         // To first order or not: where it may not be defined, all counts.
         let along = of(|slope| magnitude(slope).copysign(middle(slope)));
-        let beyond = of(|slope| 0.5 * (slope.1 - slope.0));
+        let beyond = of(half_width);
         Some(Margin { centre: over.centre(f)?, along, beyond })
     }
 
@@ -114,7 +114,7 @@ pub(super) trait View {
     /// The middles of slopes, and by how much they vary over the cell.
     fn moved(&self, f: Formula) -> [[f64; 3]; 2] {
         let known = self.slopes(f).unwrap_or_default();
-        [known.map(|x| middle(&x)), known.map(|x| 0.5 * (x.1 - x.0))]
+        [known.map(|x| middle(&x)), known.map(|x| half_width(&x))]
     }
 }
 

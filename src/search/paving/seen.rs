@@ -3,7 +3,7 @@
 
 use super::margin::{Local, Margin, View};
 use super::spectrum::{Spectrum, PAIRS};
-use crate::search::solver::doubles::{middle, Doubles};
+use crate::search::solver::doubles::{half_width, middle, Doubles};
 use orthocert_kernel::arithmetic::Arithmetic;
 use orthocert_kernel::formula::Formula;
 use orthocert_kernel::quantity::Test;
@@ -158,7 +158,7 @@ impl Singular {
         let stretched = Entry {
             centre: middle(&sum.at_centre),
             moved: std::array::from_fn(|k| middle(&part(k))),
-            varied: std::array::from_fn(|k| 0.5 * (part(k).1 - part(k).0)),
+            varied: std::array::from_fn(|k| half_width(&part(k))),
         };
         let rows = local.rows().map(row).collect::<Option<_>>()?;
         Some(Singular { is_greatest, bound: over.centre(bound)?, v, rows, stretched })

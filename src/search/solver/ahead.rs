@@ -1,7 +1,6 @@
 //! Trees of fewer leaves, by a look at what becomes of halves.
 
-use super::doubles::Pair;
-use super::search::{halves, search, Boxes, Branch, Cell, Ends, Trial};
+use super::search::{halved, search, Boxes, Branch, Cell, Ends, Trial};
 use crate::search::{Budget, Control};
 use orthocert_kernel::certificate::Node;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -28,12 +27,8 @@ impl<P: Boxes> Ahead<'_, P> {
 
     /// How many of the halves along a coordinate are closed.
     fn closed(&self, cell: &Cell, k: usize, open: &[usize]) -> usize {
-        let is_closed = |edge: &Pair| {
-            let mut half = cell.clone();
-            half[k] = *edge;
-            self.tried(&half, open, false).open.is_empty()
-        };
-        halves(cell[k]).into_iter().flatten().filter(is_closed).count()
+        let is_closed = |half: &Cell| self.tried(half, open, false).open.is_empty();
+        halved(cell, k).into_iter().flatten().filter(is_closed).count()
     }
 }
 

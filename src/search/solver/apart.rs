@@ -1,6 +1,6 @@
 //! Tolerances apart: from which machine, and along which directions.
 
-use super::doubles::{middle, Pair};
+use super::doubles::{half_width, middle, Pair};
 use super::evidence::{At, Over};
 use super::rows::Rows;
 use nalgebra::{DVector, SymmetricEigen};
@@ -10,7 +10,7 @@ use orthocert_kernel::formula::Formula;
 use orthocert_kernel::machine::Leg;
 use orthocert_kernel::problem::Derived;
 use orthocert_kernel::quantity::Test;
-use orthocert_kernel::slope::evaluate;
+use orthocert_kernel::slope::{evaluate, Slope};
 use orthocert_kernel::test::{self, Row};
 use std::collections::BTreeMap;
 
@@ -276,9 +276,7 @@ impl Over<'_> {
         let mut slopes: BTreeMap<usize, f64> = BTreeMap::new();
         for (f, weight) in weights {
             for (j, derivative) in derivatives.get(f)? {
-                let derivative = values.of(*derivative)?;
-                let along = derivative.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
-                let slope = middle(&derivative.at_centre) + along.sum::<f64>();
+                let slope = at_place(values.of(*derivative)?, place);
                 let (low, high) = *self.prover.parameters().get(*j)?;
                 *slopes.entry(*j).or_default() += weight * slope * (high - low);
             }
@@ -287,8 +285,10 @@ impl Over<'_> {
     }
 }
 
-fn half_width((low, high): &Pair) -> f64 {
-    0.5 * (high - low)
+/// A formula at a place between the ends of each coordinate's range, about.
+pub(super) fn at_place(formula: &Slope<Pair>, place: &[f64]) -> f64 {
+    let along = formula.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
+    middle(&formula.at_centre) + along.sum::<f64>()
 }
 
 /// A direction with this greatest component, in integers.

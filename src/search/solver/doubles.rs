@@ -29,6 +29,11 @@ pub fn middle(x: &Pair) -> f64 {
     0.5 * (x.0 + x.1)
 }
 
+/// Half of how far its ends are apart.
+pub fn half_width((low, high): &Pair) -> f64 {
+    0.5 * (high - low)
+}
+
 /// The greatest absolute value in a pair.
 #[inline]
 pub fn magnitude(x: &Pair) -> f64 {

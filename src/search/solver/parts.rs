@@ -1,10 +1,10 @@
 //! Tolerances in parts: where they are too wide for boxes of any size, boxes of the workspace and of these.
 
-use super::apart::{Stretched, LENGTHS};
-use super::doubles::{middle, Pair};
+use super::apart::{at_place, Stretched, LENGTHS};
+use super::doubles::Pair;
 use super::evidence::{centre, Over, Prover};
 use super::rows::Rows;
-use super::search::{halves, Boxes, Cell, Trial};
+use super::search::{halved, Boxes, Cell, Trial};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use orthocert_kernel::certificate::Node;
 use orthocert_kernel::formula::Formula;
@@ -87,12 +87,8 @@ impl<'a> Parts<'a> {
         let greatest = |best: usize, k: usize| if own[k] > own[best] { k } else { best };
         let first = (0..self.coordinates).fold(0, greatest);
         let gain = |k: usize| {
-            let Some(edges) = halves(cell[k]) else { return f64::MIN };
-            let halves = edges.map(|edge| {
-                let mut half = cell.clone();
-                half[k] = edge;
-                self.margins(&half, open)
-            });
+            let Some(halves) = halved(cell, k) else { return f64::MIN };
+            let halves = halves.map(|half| self.margins(&half, open));
             let gains = before.iter().enumerate().flat_map(|(o, before)| {
                 halves.iter().map(move |half| match (before, half.get(o).copied().flatten()) {
                     (None, None) => 0.0,
@@ -205,11 +201,7 @@ impl Over<'_> {
         let w = directions.first()?;
         let derived = self.prover.checker.derived(self.formulas.place, false)?;
         let derivatives = &self.problem().derived.as_ref()?.of;
-        let at = |f: Formula| {
-            let slope = derived.of(f)?;
-            let along = slope.slopes.iter().zip(place).map(|(s, at)| middle(s) * at);
-            Some(middle(&slope.at_centre) + along.sum::<f64>())
-        };
+        let at = |f: Formula| Some(at_place(derived.of(f)?, place));
         let mut t = DMatrix::zeros(a.ncols(), a.ncols());
         let mut changes: Vec<(DVector<f64>, Changes)> = Vec::new();
         for (i, row) in rows.iter().enumerate() {

@@ -73,6 +73,16 @@ pub(super) fn halves((lo, hi): Pair) -> Option<[Pair; 2]> {
     (lo < middle && middle < hi).then_some([(lo, middle), (middle, hi)])
 }
 
+/// The halves of a box along a coordinate, unless its edge is too short.
+pub(super) fn halved(cell: &Cell, k: usize) -> Option<[Cell; 2]> {
+    let half = |edge| {
+        let mut half = cell.clone();
+        half[k] = edge;
+        half
+    };
+    Some(halves(*cell.get(k)?)?.map(half))
+}
+
 /// The end of a search.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -171,8 +181,8 @@ pub fn resume(
         tree[at].tried = true;
         if let Some(k) = node.split {
             tree[at].item.obligations = obligations;
-            let halves = halves(*tree[at].item.cell.get(k)?)?;
-            ahead.extend(halve(&mut tree, at, k, halves).into_iter().rev());
+            let cells = halved(&tree[at].item.cell, k)?;
+            ahead.extend(halve(&mut tree, at, k, cells).into_iter().rev());
         }
     }
     let grown = grow(problem, (tree, level), &[], ends, budget, control);
@@ -297,23 +307,21 @@ fn settle(tree: &mut Vec<Growing>, at: usize, trial: Trial, next: &mut Vec<usize
     };
     let axis = splittable.fold(None, greatest);
     let axis = axis.filter(|_| !trial.hopeless);
-    let Some((k, edges)) = axis.and_then(|k| Some((k, halves(cell[k])?))) else { return };
-    next.extend(halve(tree, at, k, edges));
+    let Some((k, cells)) = axis.and_then(|k| Some((k, halved(cell, k)?))) else { return };
+    next.extend(halve(tree, at, k, cells));
 }
 
 /// Adds the halves of a box, on which the same is open.
-fn halve(tree: &mut Vec<Growing>, at: usize, k: usize, edges: [Pair; 2]) -> [usize; 2] {
+fn halve(tree: &mut Vec<Growing>, at: usize, k: usize, cells: [Cell; 2]) -> [usize; 2] {
     let grown = &mut tree[at];
     grown.node.split = Some(k);
-    let Open { cell, depth, obligations } = grown.item.clone();
+    let (depth, obligations) = (grown.item.depth + 1, grown.item.obligations.clone());
     let mut halvings = grown.halvings.clone();
     halvings[k] += 1;
     let halves = [tree.len(), tree.len() + 1];
     tree[at].halves = Some(halves);
-    for edge in edges {
-        let mut half =
-            Open { cell: cell.clone(), depth: depth + 1, obligations: obligations.clone() };
-        half.cell[k] = edge;
+    for cell in cells {
+        let half = Open { cell, depth, obligations: obligations.clone() };
         tree.push(growing(half, halvings.clone()));
     }
     halves
