@@ -106,7 +106,19 @@ fn memory_is_bounded() {
     std::fs::create_dir_all(&folder).unwrap();
     let steps = |step: &str, most| format!("[{{\"by\":{}}}]", list(step, most));
     let roots = format!("{}2{}", "sqrt(".repeat(60), ")".repeat(60));
+    // Halves of so many numbers, the upper ones of which all wait.
+    let numbers: Vec<String> =
+        (0..16_000).map(|i| format!(r#"["a{i}",{{"min":"1","max":"3"}}]"#)).collect();
+    let halved: Vec<String> = (0..2000).map(|i| format!(r#"{{"split":{}}},"#, i + 1)).collect();
+    let halves = format!(
+        r#"{{"format":"orthocert/2","claim":{{"machine":{{"mechanism":{{"formulas":{{"coordinates":["x"],"parameters":[{}],"definitions":[],"joints":[{{"rho":"x"}}]}}}},"workspace":{{"box":{{"min":["0"],"max":["1"]}}}},"require":[]}}}},"verdict":"certified","proof":{{"tree":{{"precision":40,"nodes":[{}{}]}}}},"provenance":{{"tool":"hand","version":"1"}}}}
+"#,
+        numbers.join(","),
+        halved.concat(),
+        vec!["{}"; 2001].join(",")
+    );
     for (name, text) in [
+        ("halves", halves),
         ("steps", prototype(&steps("[0,\"cube\"]", MOST_BYTES))),
         ("evidence", prototype(&steps(r#"[0,{"lower":{"y":[[1]],"places":0}}]"#, MOST_BYTES))),
         ("empty-nodes", prototype(&list("{}", MOST_BYTES))),

@@ -8,11 +8,13 @@ pub use paving::{write_pair, write_steps};
 pub use sampled::{check_sample, Sampled};
 
 use crate::atlas::shown;
+use crate::cell::Cell;
 use crate::certificate::{AtlasCell, Certificate, Evidence};
 use crate::claim::{AtlasClaim, MachineClaim, Mechanism, Workspace};
 use crate::control::Control;
 use crate::cube::Cube;
 use crate::document::written;
+use crate::fixed::{Integer, Interval};
 use crate::formula::Formula;
 use crate::input::{ClaimError, Input, Value};
 use crate::rejected::Rejected;
@@ -47,6 +49,18 @@ pub fn written_out(claim: &MachineClaim) -> Result<MachineClaim, ClaimError> {
             Ok(MachineClaim { mechanism: Mechanism::Translational(legs), ..claim.clone() })
         }
         _ => Ok(claim.clone()),
+    }
+}
+
+impl<Z: Integer> Cell<Z> {
+    /// Both halves along coordinate `k`. `None` if there is no such coordinate, or nothing to halve.
+    pub fn halves(&self, k: usize) -> Option<[Self; 2]> {
+        let with = |half: Interval<Z>| {
+            let mut all = self.clone();
+            all.0[k] = half;
+            all
+        };
+        Some(self.0.get(k)?.halves()?.map(with))
     }
 }
 

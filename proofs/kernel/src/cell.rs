@@ -3,26 +3,20 @@
 use crate::fixed::{Integer, Interval};
 
 /// A box: for each coordinate a range with ends in multiples of `2^-bits`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell<Z>(pub Vec<Interval<Z>>);
 
-impl<Z: Integer> Cell<Z> {
-    /// Both halves along coordinate `k`, at `floor((lo + hi)/2)`: together they are the cell, whatever
-    /// is rounded. `None` if there is no such coordinate, or nothing to halve.
-    pub fn halves(&self, k: usize) -> Option<[Self; 2]> {
-        let Interval { lo, hi } = self.0.get(k)?;
-        let middle = lo.plus(hi)?.half();
-        if middle == *lo {
-            return None;
-        }
-        let with = |lo: &Z, hi: &Z| {
-            let mut half = self.clone();
-            half.0[k] = Interval { lo: lo.clone(), hi: hi.clone() };
-            half
-        };
-        Some([with(lo, &middle), with(&middle, hi)])
+impl<Z: Integer> Interval<Z> {
+    /// Both halves, at `floor((lo + hi)/2)`: together they are it, whatever is rounded. `None` if there is nothing to
+    /// halve.
+    pub fn halves(&self) -> Option<[Self; 2]> {
+        let middle = self.lo.plus(&self.hi)?.half();
+        let of = |lo: &Z, hi: &Z| Interval { lo: lo.clone(), hi: hi.clone() };
+        (middle != self.lo).then(|| [of(&self.lo, &middle), of(&middle, &self.hi)])
     }
+}
 
+impl<Z: Integer> Cell<Z> {
     /// Whether it touches the least, and the greatest corner of another.
     pub fn touches(&self, root: &Self) -> [bool; 2] {
         let all = |same: fn(&Interval<Z>, &Interval<Z>) -> bool| {

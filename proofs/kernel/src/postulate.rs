@@ -63,8 +63,7 @@ use crate::input::{enclosed, malformed, narrowed, ordered, sign, ClaimError};
 use crate::number::Expression;
 use crate::rejected::Rejected;
 use crate::slope::{evaluate, Slopes};
-use crate::tree::{self, bisect, discharge, Halved, Theorem};
-use std::rc::Rc;
+use crate::tree::{self, bisect, discharge, Of, Theorem};
 
 /// A face of the cube, for a range of `kappa` on one side of 1/2: what one of the trees is about.
 /// Coordinates are `u_y`, `u_z` and `kappa`.
@@ -261,14 +260,14 @@ impl Theorem for Vec<Part> {
         let arithmetic = Fixed::<Z>::new(bits);
         let mut nodes = tree.nodes.iter().enumerate();
         for part in self {
-            let step = |at: usize, node: &Node, (cell, _): &Halved<Z>, open: &mut [bool]| {
+            let step = |at: usize, node: &Node, (cell, _): Of<'_, Z>, open: &mut [bool]| {
                 if node.fails.is_some() || !node.at.is_empty() {
                     return Err(Rejected::Shape(at));
                 }
                 let edges = cell.edges().ok_or(Rejected::Shape(at))?;
                 discharge(at, node, open, |_, evidence| part.shows(&arithmetic, &edges, evidence))
             };
-            bisect(&mut nodes, (part.root(bits)?, Rc::default()), 1, false, step)?;
+            bisect(&mut nodes, (&part.root(bits)?, &[]), 1, false, step)?;
         }
         nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
     }

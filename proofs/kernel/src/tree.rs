@@ -12,7 +12,6 @@ use crate::step::Checker;
 use crate::test::{Over, Place};
 use crate::witness::fails_throughout;
 use num_bigint::BigInt;
-use std::rc::Rc;
 
 /// What a tree may be a proof of.
 pub(crate) trait Theorem {
@@ -36,7 +35,7 @@ pub(crate) fn check(theorem: &impl Theorem, tree: &Tree) -> Result<(), Rejected>
 }
 
 /// As the work of so many nodes counts the halving of a range: formulas without coordinates are evaluated again of both
-/// halves, and of each node that waits all ranges are kept.
+/// halves, and of what follows.
 const WORK_OF_HALVES: usize = 8;
 
 /// Half of the side of a cube is divided in so many parts, in which offsets are counted.
@@ -62,7 +61,7 @@ impl Theorem for Problem {
         let arithmetic = Fixed::<Z>::new(bits);
         let parameters = self.parameters(bits, &[])?;
         let with_ends = parameters.iter().zip(&self.inputs).filter(|(_, x)| x.has_two_ends());
-        let whole = Rc::new(Cell(with_ends.map(|(range, _)| range.clone()).collect()));
+        let whole: Vec<Interval<Z>> = with_ends.map(|(range, _)| range.clone()).collect();
         let mut checker = Checker::new(self, &arithmetic, parameters, self.tight(bits))
             .with_chords(tree.chords.clone());
         let is_evaluated = |node: &&Node| !node.by.is_empty() || node.fails.is_some();
@@ -78,11 +77,11 @@ impl Theorem for Problem {
             part.ok_or_else(|| malformed("side", "a number"))
         });
         let (root, unit) = (self.root(bits)?, unit.transpose()?);
-        let mut last = whole.clone();
-        let step = |at: usize, node: &Node, (cell, machines): &Halved<Z>, open: &mut [bool]| {
-            if !Rc::ptr_eq(machines, &last) {
-                last = machines.clone();
-                checker.narrow(&machines.0);
+        let mut is_whole = true;
+        let step = |at: usize, node: &Node, (cell, machines): Of<'_, Z>, open: &mut [bool]| {
+            if let Some(ranges) = machines {
+                is_whole = *ranges == whole;
+                checker.narrow(ranges);
             }
             let edges = cell.edges().ok_or(Rejected::Shape(at))?;
             let slopes = checker.slopes(edges.len());
@@ -94,8 +93,7 @@ impl Theorem for Problem {
                     Evidence::Outside => checker.is_outside(&over),
                     _ => {
                         let test = &self.obligations[obligation].test;
-                        let of_whole = matches!(test, Test::Accuracy(_));
-                        (!of_whole || Rc::ptr_eq(machines, &whole))
+                        (is_whole || !matches!(test, Test::Accuracy(_)))
                             && checker.shows(&over, test, evidence)
                     }
                 })?;
@@ -116,8 +114,7 @@ impl Theorem for Problem {
             (is_moved || node.at.is_empty()).then_some(()).ok_or(Rejected::Shape(at))
         };
         let mut nodes = tree.nodes.iter().enumerate();
-        let start = (root.clone(), whole.clone());
-        bisect(&mut nodes, start, self.obligations.len(), unit.is_some(), step)?;
+        bisect(&mut nodes, (&root, &whole), self.obligations.len(), unit.is_some(), step)?;
         nodes.next().map_or(Ok(()), |(at, _)| Err(Rejected::Shape(at)))
     }
 }
@@ -145,36 +142,41 @@ pub(crate) fn discharge(
     Ok(())
 }
 
-/// A cell, and the ranges of numbers with two ends.
-pub(crate) type Halved<Z> = (Cell<Z>, Rc<Cell<Z>>);
+/// A node's cell, and the ranges of numbers with two ends, if they are not those of the node before.
+pub(crate) type Of<'a, Z> = (&'a Cell<Z>, Option<&'a [Interval<Z>]>);
 
 /// The tree of `nodes` over a cell, in preorder: `step` discharges obligations, or shows that a leaf
 /// fails. Every leaf has to fail, or every one to have all obligations discharged. After the cell's coordinates
 /// those halved are the ranges.
 pub(crate) fn bisect<'a, Z: Integer>(
     nodes: &mut impl Iterator<Item = (usize, &'a Node)>,
-    root: Halved<Z>,
+    (root, ranges): (&Cell<Z>, &[Interval<Z>]),
     obligations: usize,
     fails: bool,
-    mut step: impl FnMut(usize, &Node, &Halved<Z>, &mut [bool]) -> Result<(), Rejected>,
+    mut step: impl FnMut(usize, &Node, Of<'_, Z>, &mut [bool]) -> Result<(), Rejected>,
 ) -> Result<(), Rejected> {
-    let mut waiting = vec![(root, vec![true; obligations])];
-    let mut last = 0;
-    while let Some((cell, mut open)) = waiting.pop() {
+    let (m, mut all) = (root.0.len(), [&root.0, ranges].concat());
+    // What a range is from then on, and what is open at the node that comes next, if one does.
+    let mut waiting = vec![(None, Some(vec![true; obligations]))];
+    let (mut last, mut are_others) = (0, false);
+    while let Some((halved, open)) = waiting.pop() {
+        if let Some((k, range)) = halved {
+            (all[k], are_others) = (range, are_others || k >= m);
+        }
+        let Some(mut open) = open else { continue };
         let (at, node) = nodes.next().ok_or(Rejected::Shape(last + 1))?;
         last = at;
-        step(at, node, &cell, &mut open)?;
+        let cell = Cell(all[..m].to_vec());
+        step(at, node, (&cell, are_others.then_some(&all[m..])), &mut open)?;
+        are_others = false;
         match (node.split, &node.fails, open.iter().position(|&open| open)) {
             (Some(_), Some(_), _) => return Err(Rejected::Shape(at)),
             (Some(k), None, _) => {
-                let (own, ranges) = &cell;
-                let halves = match k.checked_sub(own.0.len()) {
-                    None => own.halves(k).map(|two| two.map(|own| (own, ranges.clone()))),
-                    Some(j) => ranges.halves(j).map(|two| two.map(|x| (own.clone(), x.into()))),
-                };
-                let [lower, upper] = halves.ok_or(Rejected::Shape(at))?;
-                waiting.push((upper, open.clone()));
-                waiting.push((lower, open));
+                let own = all.get(k).cloned().ok_or(Rejected::Shape(at))?;
+                let [lower, upper] = own.halves().ok_or(Rejected::Shape(at))?;
+                waiting.push((Some((k, own)), None));
+                waiting.push((Some((k, upper)), Some(open.clone())));
+                waiting.push((Some((k, lower)), Some(open)));
             }
             (None, None, _) if fails => return Err(Rejected::Holds(at)),
             (None, Some(_), _) if !fails => return Err(Rejected::Open(at, 0)),
