@@ -6,7 +6,7 @@
 From Coq Require Import Reals.
 From Orthocert Require Import Vec3 SingularValues Kinematics Velocity Diagonal CubeLower Scaling
   Postulate Extremes Design TightCorner AllPsi Claim.
-From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Singular Legs Control Pose Drives Driven Certificate PavingText.
+From Orthocert.kernel Require Apart Solve Tolerances Check Machine Acceleration Accuracy Gradient Near Problem Faces Witness Cubes NoCube Closed Trig Arm Written AtPoint Turning Same Twins Singular Legs Control Pose Drives Driven Certificate PavingText.
 From Orthocert.instances Require OrthoglideTolerance LinearDelta PostulateAll PostulateUpTo2 FourSliders StrutsAndPlane DeltaSpeed DeltaMargin UpuAxes
   FiveBar PlanarPlatform FiveBarFormulas Prototype DeltaTooFast NoCube Atlas.
 Local Open Scope R_scope.
@@ -176,6 +176,12 @@ Check kernel.Turning.refute_turning_sound.
 Print Assumptions kernel.Turning.refute_turning_sound.
 Check kernel.Singular.refute_between_sound.
 Print Assumptions kernel.Singular.refute_between_sound.
+Check kernel.Same.fits_sound.
+Print Assumptions kernel.Same.fits_sound.
+Check @kernel.Twins.refute_same_sound.
+Print Assumptions kernel.Twins.refute_same_sound.
+Check @kernel.Twins.refute_same_pose_sound.
+Print Assumptions kernel.Twins.refute_same_pose_sound.
 Check kernel.Control.controls_decide.
 Print Assumptions kernel.Control.controls_decide.
 Check kernel.Pose.check_turning_sound.

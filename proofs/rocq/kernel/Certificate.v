@@ -9,7 +9,7 @@
 
 From Coq Require Import ZArith QArith Reals Lra List Bool String Ascii DecimalString.
 From Orthocert Require Import Vec3 SingularValues Kinematics Diagonal Postulate Claim.
-From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Singular Legs Inputs Pose Driven.
+From Orthocert.kernel Require Import Configuration Arm Written AtPoint Orientation Turning Singular Twins Legs Inputs Pose Driven.
 From Orthocert.kernel Require Tolerances.
 From Orthocert.kernel Require Import Statement Check Number Problem Faces Witness Closed Cubes NoCube.
 Import ListNotations.
@@ -117,7 +117,9 @@ Inductive step :=
 Inductive violation :=
   | Reach | Obligation (number : nat) (directions : list (list Z)) | Row (number leg : nat) | Dependent_
   (* det M has the other sign at this point *)
-  | Singular_ (other : list expression).
+  | Singular_ (other : list expression)
+  (* a point of this box has the same joint coordinates, about which the matrix is the inverse of M *)
+  | Same_ (number : nat) (least greatest : list expression) (y : list (list Z)) (places : N).
 
 (** [fails_], [offset_]: of leaves on which, moved by so many 16ths of the side, a claim fails. *)
 Record node := Node { by_ : list (nat * step); split_ : option nat; fails_ : option violation; offset_ : list Z }.
@@ -336,6 +338,8 @@ Definition violation_text (f : violation) : text :=
   | Obligation i vs => variant "obligation" (array [natural i; array (map integers_text vs)])
   | Row i l => variant "row" (array [natural i; natural l])
   | Singular_ other => variant "singular" (array (map number other))
+  | Same_ i a b y places => variant "same" (object [field "obligation" (natural i); field "least" (array (map number a)); field "greatest" (array (map number b));
+      field "inverse" (multiplier_text y places)])
   end.
 Definition node_text (n : node) : text :=
   object (match by_ n with [] => [] | l => [field "by" (array (map step_text l))] end ++
@@ -466,7 +470,7 @@ Fixpoint is_of (ns : list string) (x : expression) : bool :=
   | Binary _ y z => is_of ns y && is_of ns z
   end.
 Definition are_written (ns : list string) (l : list expression) : bool := forallb (fun x => is_written x && is_of ns x) l.
-Definition in_violation (f : violation) : list expression := match f with Singular_ other => other | _ => [] end.
+Definition in_violation (f : violation) : list expression := match f with Singular_ other => other | Same_ _ a b _ _ => (a ++ b)%list | _ => [] end.
 Definition is_precision (bits : positive) : bool := Pos.leb 32 bits && Pos.leb bits 1024.
 
 (** Every string of the certificate is one, every number is written as section 3 writes it, and precisions are
@@ -911,6 +915,9 @@ Definition means (c : certificate) : Prop :=
       driven_holds c /\ exists m P Q, is_about_driven c m P Q
   | Legs_ k ls ell w o rs, ByWitness _ _ _ _ => let c := driven_claim_of k ls ell w o rs in
       exists m P Q, Forall well_formed_driven m /\ is_about_driven c m P Q /\ ~ meets_driven c m P Q
+  | Turning_ k ls ell w o bs rs, ByWitness _ _ _ (Same_ _ _ _ _ _) => let c := turning_claim_of k ls ell w o bs rs in
+      one_pose c = true /\ exists m P Q P' Q', is_about_struts c m P Q /\ Statement.in_region (positions c) P' /\ in_orientations (turned c) Q' /\
+        Forall (fun l => strut_length l P' Q' = strut_length l P Q) m /\ ~ (P' = P /\ Q' = Q)
   | Turning_ k ls ell w o bs rs, ByWitness _ _ _ _ => let c := turning_claim_of k ls ell w o bs rs in
       exists m P Q, is_about_struts c m P Q /\ ~ meets_turning c m P Q
   | Turning_ k ls ell w o bs rs, Nodes _ _ _ => let c := turning_claim_of k ls ell w o bs rs in
@@ -1053,7 +1060,7 @@ End Steps.
 Definition nfailure_of (f : violation) : option nfailure :=
   match f with
   | Reach => Some NOutOfReach | Obligation i vs => Some (NFails i vs) | Row i leg => Some (NFailsAlong i leg) | Dependent_ => Some NDependent
-  | Singular_ _ => None
+  | Singular_ _ | Same_ _ _ _ _ _ => None
   end.
 
 (** The same of a tree whose leaves fail, and that has no steps. *)
@@ -1122,7 +1129,7 @@ Definition failure_of (k : claim) (f : violation) : option failure :=
       end
   | Row i leg => match nth_error rs i with Some (PsiMin _) => Some (FailsAlong i leg) | _ => None end
   | Dependent_ => Some AreDependent
-  | Singular_ _ => None
+  | Singular_ _ | Same_ _ _ _ _ _ => None
   end.
 
 Fixpoint take_list (v : list quantity) (l : list Claim.number) : list Claim.number * list Claim.number :=
@@ -1374,12 +1381,32 @@ Definition accept_driven_witness (k : mobility) (ls : list written_driven) (ell 
       refute_driven exact_bits (driven_claim_of k ls ell w o rs) m (numbers_of (firstn n point)) (skipn n point) f
   | _, _ => false
   end.
+(** Of two points: ends of the box, and the matrix of Same.v, of coordinates in the units 2^scales, those of joints 2^s. *)
+Fixpoint all_rational (l : list expression) : option (list Q) :=
+  match l with [] => Some [] | x :: l' => match rational (denoted x), all_rational l' with Some q, Some r => Some (Qred q :: r) | _, _ => None end end.
+Definition power_of_two (s : Z) : Q := if (0 <=? s)%Z then inject_Z (2 ^ s) else (1 # Z.to_pos (2 ^ (- s)))%Q.
+Definition inverse_of (scales : list Z) (least greatest : list Q) (y : list (list Z)) (places : N) : list (list Q) :=
+  if Nat.eqb (length y) (length scales) then
+    map (fun p => let '(s, (a, b), row) := p in
+      let k := Qred (2 * power_of_two (s - Z.of_N places) / (b - a))%Q in map (fun n => Qred (inject_Z n * k)) row)
+      (combine (combine scales (combine least greatest)) y)
+  else [].
 Definition accept_witness (ls : list written_leg) (w : written_region) (bs : list written_body) (rs : list written_requirement)
     (point machine : list expression) (how : violation) : bool :=
   let k := claim_of ls w bs rs in
-  match point, take_legs ls (map denoted machine), failure_of k how with
-  | [x; y; z], (m, []), Some f => is_one_each (flat_map quantities_of ls) machine && is_well_formed ls bs rs k &&
-      refute exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) f
+  let is_right := is_one_each (flat_map quantities_of ls) machine && is_well_formed ls bs rs k in
+  match point, take_legs ls (map denoted machine), how with
+  | [x; y; z], (m, []), Same_ i a b c places =>
+      match nth_error (require k) i, all_rational a, all_rational b with
+      | Some OneToOne, Some a, Some b => is_right &&
+          refute_same exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) a b (inverse_of [0; 0; 0]%Z a b c places)
+      | _, _, _ => false
+      end
+  | [x; y; z], (m, []), how =>
+      match failure_of k how with
+      | Some f => is_right && refute exact_bits k m (Numbers (denoted x) (denoted y) (denoted z)) f
+      | None => false
+      end
   | _, _, _ => false
   end.
 
@@ -1467,6 +1494,14 @@ Definition accept (c : certificate) : bool :=
       | (m, []) => is_one_each (flat_map (fun l => fst l ++ snd l)%list ls) machine && is_turning k ls ell w o bs rs &&
           let c := turning_claim_of k ls ell w o bs rs in
           match how, failure_at false (parts_of k) (length ls) bs rs how with
+          | Same_ i a b y places, _ =>
+              match all_rational a, all_rational b with
+              | Some a, Some b =>
+                  let s := (1 + order_of (flat_map (fun l => ends3 (fst l) ++ ends3 (snd l))%list (struts c)))%Z in
+                  Nat.eqb i (place_of_two_points false (parts_of k) (length ls) bs rs) &&
+                  refute_same_pose exact_bits n c m (numbers_of (firstn n point)) (skipn n point) a b (inverse_of (repeat 0 n ++ repeat (- s) (length point - n)) a b y places)%Z
+              | _, _ => false
+              end
           | Singular_ other, _ => let other := map denoted other in
               refute_between exact_bits c m (numbers_of (firstn n point)) (skipn n point) (numbers_of (firstn n other)) (skipn n other)
           | _, Some f => refute_turning exact_bits c m (numbers_of (firstn n point)) (skipn n point) f
@@ -1514,8 +1549,10 @@ Lemma accept_witness_sound : forall (names : naming) ls w bs rs point machine ho
   let c := claim_of ls w bs rs in exists m P, @is_about names c m P /\ ~ @meets names c m P.
 Proof.
   intros names ls w bs rs point machine how h. unfold accept_witness in h. destruct point as [| x [| y [| z [|]]]]; try discriminate.
-  destruct (take_legs _ _) as [m [|]]; [| discriminate]. destruct (failure_of _ how) as [f |]; [| discriminate].
-  apply andb_true_iff in h as [_ h]. exact (@refute_sound names _ _ _ _ _ h).
+  cbv zeta in h. destruct (take_legs _ _) as [m [|]]; [| destruct how; discriminate].
+  destruct how; try (destruct (failure_of _ _) as [f |]; [| discriminate]; apply andb_true_iff in h as [_ h]; exact (@refute_sound names _ _ _ _ _ h)).
+  destruct (nth_error _ _) as [[] |]; try discriminate. destruct (all_rational least) as [a |]; [| discriminate]. destruct (all_rational greatest) as [b |]; [| discriminate].
+  apply andb_true_iff in h as [_ h]. exact (@refute_same_sound names _ _ _ _ _ _ _ h).
 Qed.
 
 Lemma accept_cells_sound : forall ps ls w rs t part, accept_cells ps ls w rs part t = true -> is_atlas ps ls w rs part t.
@@ -1586,7 +1623,9 @@ Proof.
   - cbv zeta in h. destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_turning_sound _ _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_struts _ _) as [m [|]]; [| discriminate]. apply andb_true_iff in h as [_ h].
-    destruct how; try exact (refute_between_sound _ _ _ _ _ _ _ h); (destruct (failure_at _ _ _ _ _ _); [| discriminate]; exact (refute_turning_sound _ _ _ _ _ _ h)).
+    destruct how; try exact (refute_between_sound _ _ _ _ _ _ _ h);
+      try (destruct (all_rational least); [| discriminate]; destruct (all_rational greatest); [| discriminate]; apply andb_true_iff in h as [_ h]; exact (refute_same_pose_sound _ _ _ _ _ _ _ _ _ h));
+      (destruct (failure_at _ _ _ _ _ _); [| discriminate]; exact (refute_turning_sound _ _ _ _ _ _ h)).
   - destruct (tree_of _ _ _ _ _ nodes) as [[tr [|]] |]; try discriminate. apply andb_true_iff in h as [_ h].
     exact (certify_written_sound _ _ _ _ _ _ h).
   - cbv zeta in h. destruct (take_list _ _) as [thetas [|]]; [| discriminate]. destruct (failure_at _ _ _ _ _ how); [| discriminate].

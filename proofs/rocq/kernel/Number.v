@@ -147,19 +147,22 @@ Definition ratio_of (q : Q) : fixed := Fixed.ratio bits (Qnum q) (Qden q).
 Definition coordinate (k : nat) (a b : Q) : Slope.slope :=
   Slope.Slope (ratio_of ((a + b) * (1 # 2))) (Fixed (lo (ratio_of a)) (hi (ratio_of b))) (repeat zero k ++ [ratio_of ((b - a) * (1 # 2))]).
 
-Fixpoint sloped (x : number) : option Slope.slope :=
+Fixpoint sloped_by (coordinate : nat -> Q -> Q -> option Slope.slope) (x : number) : option Slope.slope :=
+  let own := sloped_by coordinate in
   if varies x then
     match x with
     | Ratio _ _ => None
-    | Varying k a b => if Nat.ltb k most_parameters && Qle_bool a b then Some (coordinate k a b) else None
-    | Plus x y => Slope.lift2 (fun f g => Some (Slope.s_add f g)) (sloped x) (sloped y)
-    | Minus x y => Slope.lift2 (fun f g => Some (Slope.s_sub f g)) (sloped x) (sloped y)
-    | Times x y => if same x y then Slope.lift (fun f => Some (Slope.s_sqr bits f)) (sloped x)
-        else Slope.lift2 (fun f g => Some (Slope.s_mul bits f g)) (sloped x) (sloped y)
-    | Over x y => Slope.lift2 (Slope.s_div bits) (sloped x) (sloped y)
-    | Root x => Slope.lift (Slope.s_sqrt bits) (sloped x)
+    | Varying k a b => coordinate k a b
+    | Plus x y => Slope.lift2 (fun f g => Some (Slope.s_add f g)) (own x) (own y)
+    | Minus x y => Slope.lift2 (fun f g => Some (Slope.s_sub f g)) (own x) (own y)
+    | Times x y => if same x y then Slope.lift (fun f => Some (Slope.s_sqr bits f)) (own x)
+        else Slope.lift2 (fun f g => Some (Slope.s_mul bits f g)) (own x) (own y)
+    | Over x y => Slope.lift2 (Slope.s_div bits) (own x) (own y)
+    | Root x => Slope.lift (Slope.s_sqrt bits) (own x)
     end
   else option_map Slope.constant (steady x).
+Definition sloped : number -> option Slope.slope :=
+  sloped_by (fun k a b => if Nat.ltb k most_parameters && Qle_bool a b then Some (coordinate k a b) else None).
 
 Definition enclose (x : number) : option fixed := if varies x then option_map Slope.range (sloped x) else steady x.
 
@@ -197,29 +200,38 @@ Proof.
         rewrite (map_nth (fun k => 2 * along k - 1)), seq_nth by exact hk. reflexivity.
 Qed.
 
-Lemma sloped_sound : forall x s, sloped x = Some s -> Slope.holds bits lambdas s (@value halfway x) (value x).
+(** Between two values of what varies, of which the slopes of each coordinate tell. *)
+Lemma sloped_by_sound : forall coordinate lambda (one other : naming), Forall (fun t => -1 <= t <= 1) lambda ->
+  (forall k a b s, coordinate k a b = Some s -> Slope.holds bits lambda s (@value one (Varying k a b)) (@value other (Varying k a b))) ->
+  forall x s, sloped_by coordinate x = Some s -> Slope.holds bits lambda s (@value one x) (@value other x).
 Proof.
-  assert (C : forall x s, varies x = false -> option_map Slope.constant (steady x) = Some s -> Slope.holds bits lambdas s (@value halfway x) (value x)).
-  { intros x s v h. destruct (steady x) as [a |] eqn:e; [| discriminate]. injection h as <-. rewrite (steady_value x halfway v).
+  intros coordinate lambda one other within_ holds_.
+  assert (C : forall x s, varies x = false -> option_map Slope.constant (steady x) = Some s -> Slope.holds bits lambda s (@value one x) (@value other x)).
+  { intros x s v h. destruct (steady x) as [a |] eqn:e; [| discriminate]. injection h as <-. rewrite (steady_value x one v), (steady_value x other v).
     apply Slope.constant_holds, steady_sound, e. }
   assert (L : forall f a s, Slope.lift f a = Some s -> exists t : Slope.slope, a = Some t /\ f t = Some s)
     by (intros f [t |] s h; [exists t; split; [reflexivity | exact h] | discriminate]).
   assert (L2 : forall f a b s, Slope.lift2 f a b = Some s -> exists t u : Slope.slope, a = Some t /\ b = Some u /\ f t u = Some s)
     by (intros f [t |] [u |] s h; try discriminate; exists t, u; split; [reflexivity | split; [reflexivity | exact h]]).
-  induction x as [n d | k p q | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros s h; cbn [sloped] in h;
+  induction x as [n d | k p q | x hx y hy | x hx y hy | x hx y hy | x hx y hy | x hx]; intros s h; cbn [sloped_by] in h; cbv zeta in h;
     match type of h with (if varies ?z then _ else _) = _ => destruct (varies z) eqn:v; [| exact (C _ s v h)] end.
   - discriminate.
-  - destruct (Nat.ltb k most_parameters) eqn:hk; [| discriminate]. destruct (Qle_bool p q) eqn:le; [| discriminate]. cbn in h. injection h as <-.
-    apply coordinate_holds; [apply Nat.ltb_lt, hk | apply Qreals.Qle_Rle, Qle_bool_iff, le].
-  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_add_holds bits _ lambdas_within _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
-  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_sub_holds bits _ lambdas_within _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
+  - exact (holds_ k p q s h).
+  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_add_holds bits _ within_ _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
+  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_sub_holds bits _ within_ _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
   - destruct (same x y) eqn:S.
     + apply same_sound in S. subst y. destruct (L _ _ _ h) as [t [e1 e]]. injection e as <-. cbn [value].
-      replace (@value halfway x * @value halfway x) with (@value halfway x ^ 2) by ring. replace (value x * value x) with (value x ^ 2) by ring.
-      exact (Slope.s_sqr_holds bits _ lambdas_within _ _ _ (hx _ e1)).
-    + destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_mul_holds bits _ lambdas_within _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
-  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. exact (proj2 (proj2 (Slope.s_div_holds bits _ lambdas_within _ _ _ _ _ _ _ e (hx _ e1) (hy _ e2)))).
-  - destruct (L _ _ _ h) as [t [e1 e]]. exact (proj2 (proj2 (Slope.s_sqrt_holds bits _ lambdas_within _ _ _ _ e (hx _ e1)))).
+      replace (@value one x * @value one x) with (@value one x ^ 2) by ring. replace (@value other x * @value other x) with (@value other x ^ 2) by ring.
+      exact (Slope.s_sqr_holds bits _ within_ _ _ _ (hx _ e1)).
+    + destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. injection e as <-. exact (Slope.s_mul_holds bits _ within_ _ _ _ _ _ _ (hx _ e1) (hy _ e2)).
+  - destruct (L2 _ _ _ _ h) as [t [u [e1 [e2 e]]]]. exact (proj2 (proj2 (Slope.s_div_holds bits _ within_ _ _ _ _ _ _ _ e (hx _ e1) (hy _ e2)))).
+  - destruct (L _ _ _ h) as [t [e1 e]]. exact (proj2 (proj2 (Slope.s_sqrt_holds bits _ within_ _ _ _ _ e (hx _ e1)))).
+Qed.
+
+Lemma sloped_sound : forall x s, sloped x = Some s -> Slope.holds bits lambdas s (@value halfway x) (value x).
+Proof.
+  apply sloped_by_sound; [exact lambdas_within |]. intros k a b s h. destruct (Nat.ltb k most_parameters) eqn:hk; [| discriminate]. destruct (Qle_bool a b) eqn:le; [| discriminate].
+  injection h as <-. apply coordinate_holds; [apply Nat.ltb_lt, hk | apply Qreals.Qle_Rle, Qle_bool_iff, le].
 Qed.
 
 Lemma enclose_sound : forall x a, enclose x = Some a -> contains a (value x).

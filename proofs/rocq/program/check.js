@@ -331,6 +331,68 @@ for (const to of [...places_of(/[-+0]/g, one_scale).map((at) => put(one_scale, a
 }
 read.push(scaled, fanned, both);
 console.log(`directions of one scale, and apart: three certificates and ${any} others with one answer, and ${places_of(/[-+0]/g, one_scale).length + 11} refused`);
+// Two points, or poses, with the same joint coordinates: legs whose joints in the base are in one plane, or on a line as those on the platform, and mirror images there.
+{
+  const inverse = (m) => {
+    const n = m.length, a = m.map((row, i) => [...row, ...row.map((_, j) => +(i === j))]);
+    for (let i = 0; i < n; i++) {
+      const p = a.slice(i).reduce((best, row, k) => Math.abs(row[i]) > Math.abs(a[best][i]) ? i + k : best, i);
+      [a[i], a[p]] = [a[p], a[i]];
+      const pivot = a[i][i];
+      a[i] = a[i].map((x) => x / pivot);
+      for (let k = 0; k < n; k++) if (k !== i) { const by = a[k][i]; a[k] = a[k].map((x, j) => x - by * a[i][j]); }
+    }
+    return a.map((row) => row.slice(n));
+  };
+  // At a pose with two or three coordinates of place and the tangents of half angles after them, in 2^s of length.
+  const twin = (claim, lengths, point, other, s, places) => {
+    const off = (k, h) => other.map((x, i) => +x + (i === k ? h : 0)), units = other.map((_, k) => k < places ? 1 : 2 ** s);
+    const rates = other.map((_, k) => lengths(off(k, 1e-6)).map((x, i) => (x - lengths(off(k, -1e-6))[i]) / 2e-6));
+    const y = inverse(rates[0].map((_, i) => rates.map((row) => row[i]))).map((row, k) => row.map((x) => Math.round(x * units[k] * 2 ** 20)));
+    const end = (sign) => JSON.stringify(other.map((x) => (+x + sign * 1e-6).toFixed(6).replace(/\.?0+$/, "")));
+    return `{"format":"orthocert/2","claim":{"machine":${claim}},"verdict":"refuted","proof":{"witness":{"precision":160,"point":${JSON.stringify(point)},"fails":{"same":` +
+      `{"obligation":1,"least":${end(-1)},"greatest":${end(1)},"inverse":{"y":${JSON.stringify(y)},"places":20}}}}},"provenance":{"tool":"t","version":"1"}}\n`;
+  };
+  const struts = (legs) => `"legs":[${legs.map(([a, p]) => `{"drive":"strut","anchor":${JSON.stringify(a)},"platform":${JSON.stringify(p)}}`)}]`;
+  const asks = '"require":[{"quantity":"one_to_one","end":"holds"}]';
+  const at_base = [["-1", "0", "0"], ["1", "-0.5", "0"], ["0.2", "1", "0"]], in_space = at_base.map((a) => [a, ["0", "0", "0"]]);
+  const on_a_line = [["-1", "-0.5"], ["0.2", "0.3"], ["1", "0.4"]];
+  const hexapod = [[1, -0.2], [1, 0.2], [-0.3, 0.9], [-0.6, 0.8], [-0.6, -0.8], [-0.3, -0.9]].map(([x, y], i) => [x, y, [[0.5, -0.6], [0.5, 0.6], [0.2, 0.5], [-0.5, 0.1], [-0.5, -0.1], [0.2, -0.5]][i]]);
+  const turned_along = ([x, y, z], [p, q]) => { const n = x * x + y * y + z * z; return [((1 - n + 2 * x * x) * p + 2 * (x * y - z) * q), 2 * (x * y + z) * p + (1 - n + 2 * y * y) * q, 2 * (x * z - y) * p + 2 * (y * z + x) * q].map((t) => t / (1 + n)); };
+  const twins = [
+    twin(`{"mechanism":{"translational":${struts(in_space).slice(7)}},"workspace":{"box":{"min":["-1","-1","-1"],"max":["1","1","1"]}},${asks}}`,
+      ([x, y, z]) => at_base.map(([a, b]) => Math.hypot(x - a, y - b, z)), ["0.1", "0.2", "0.8"], ["0.1", "0.2", "-0.8"], 1, 3),
+    twin(`{"mechanism":{"planar":{${struts(on_a_line.map(([a, p]) => [[a, "0"], [p, "0"]]))},"characteristic_length":"1"}},"workspace":{"box":{"min":["-0.3","-1.2"],"max":["0.3","1.1"]}},"orientation":{"range":["-20","20"]},${asks}}`,
+      ([x, y, t]) => on_a_line.map(([a, p]) => Math.hypot(x + p * (1 - t * t) / (1 + t * t) - a, y + p * 2 * t / (1 + t * t))), ["0.1", "-0.7", "0.05"], ["0.1", "0.7", "-0.05"], 1, 2),
+    ...['{"angle":"20"}', '{"tilt":{"tilt":"20","torsion":"9"}}', '{"roll_pitch_yaw":{"roll":["-20","20"],"pitch":["-20","20"],"yaw":["-9","9"]}}'].map((set) =>
+      twin(`{"mechanism":{"spatial":{${struts(hexapod.map(([x, y, p]) => [[`${x}`, `${y}`, "0"], [`${p[0]}`, `${p[1]}`, "0"]]))},"characteristic_length":"1"}},"workspace":{"box":{"min":["-0.2","-0.2","-1.2"],"max":["0.2","0.2","1.2"]}},"orientation":${set},${asks}}`,
+        ([x, y, z, ...c]) => hexapod.map(([a, b, p]) => { const t = set.includes("roll") ? turned_by(c, p) : turned_along(c, p); return Math.hypot(x + t[0] - a, y + t[1] - b, z + t[2]); }),
+        ["0.05", "0.02", "0.9", "0.03", "0.06", "0.01"], ["0.05", "0.02", "-0.9", "-0.03", "-0.06", "0.01"], 1, 3)),
+  ];
+  function turned_by([r, p, w], [x, y]) {
+    const [cr, sr, cp, sp, cw, sw] = [r, p, w].flatMap((t) => [(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)]), a = [x, y * cr, y * sr], b = [cp * a[0] + sp * a[2], a[1], cp * a[2] - sp * a[0]];
+    return [cw * b[0] - sw * b[1], sw * b[0] + cw * b[1], b[2]];
+  }
+  let no_twins = 0;
+  twins.forEach((text, i) => {
+    read.push(text);
+    const answers = three_answers(text);
+    if (answers.some((answer) => answer !== "REFUTED")) fail(`twins ${i}: ${answers}`);
+    const box = /"least":\["(-?[\d.]+)",.*?"greatest":\["(-?[\d.]+)"/.exec(text);
+    for (const [from, to] of [
+      ['"obligation":1', '"obligation":0'], ['"obligation":1', '"obligation":2'], [/"y":\[\[-?(\d+)/, '"y":[[9$1'], [/"y":\[\[[^\]]*\],/, '"y":['], [/"y":\[\[/, '"y":[[1,'], [/"y":(\[\[[^\]]*\]),/, '"y":$1,[1],'],
+      ['"places":20', '"places":18'], ['"places":20', '"places":19'], [`"least":["${box[1]}"`, `"least":["${box[2]}"`], [`"greatest":["${box[2]}"`, `"greatest":["9"`], [`"least":["${box[1]}"`, `"least":["${+box[1] + 0.0000015}"`],
+      [/"least":\["[^"]*",/, '"least":['], [/"point":\["[^"]*"/, '"point":["0.5"'], [/"least":(\[.*?\]),"greatest":(\[.*?\])/, '"least":$2,"greatest":$1'], ['"max":["0.3"', '"max":["0.05"'], ['"max":["0.2"', '"max":["0.01"'], ['"max":["1"', '"max":["0"'],
+      ['{"quantity":"one_to_one","end":"holds"}', '{"quantity":"joint_range","end":"min","bound":"0"}'],
+    ]) {
+      const wrong = text.replace(from, to);
+      if (wrong === text) continue;
+      const answers = three_answers(wrong);
+      if (answers.some((answer) => answer !== "REJECTED")) fail(`twins ${i}: ${answers}: ${from} ${to}`); else no_twins++;
+    }
+  });
+  console.log(`two poses with the same joint coordinates: ${twins.length} with one answer, and ${no_twins} refused`);
+}
 const are_covered = of_design.filter((answer) => !answer.startsWith("NOT COVERED")).length;
 console.log(`designs: ${are_covered} of ${of_designs.length} certificates are proved again, and exported to Rocq, the others refused in the same words`);
 fs.rmSync(made, { recursive: true });

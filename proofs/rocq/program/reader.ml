@@ -387,6 +387,10 @@ let fails v =
   | "row", Array [ i; leg ] -> Row (count i, count leg)
   | "dependent", Array [] -> Dependent_
   | "singular", other -> Singular_ (List.map number (array other))
+  | "same", v ->
+    let l = members v in
+    let numbers key = List.map number (array (get l key)) and inverse = members (get l "inverse") in
+    Same_ (count (get l "obligation"), numbers "least", numbers "greatest", List.map integers (array (get inverse "y")), places (get inverse "places"))
   | name, _ -> not_covered [ "the failure \""; name; "\"" ]
 let node n v =
   let l = members v in
@@ -461,7 +465,9 @@ let certificate text =
    | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs -> not_covered [ "\"one_to_one\" of such a mechanism" ]
    | Turning_ (_, _, _, _, _, _, rs), Nodes (_, _, nodes) when not (List.for_all (fun n -> List.for_all (is_pose_step rs) n.by_) nodes) ->
      not_covered [ "a step of a platform that turns that is not at control points" ]
-   | Turning_ _, ByWitness (_, _, _, Singular_ _) -> ()
+   | Turning_ _, ByWitness (_, _, _, (Singular_ _ | Same_ _)) | Machine_ _, ByWitness (_, _, _, Same_ _) -> ()
+   | _, ByWitness (_, _, _, Same_ _) -> not_covered [ "the failure \"same\" of such a mechanism" ]
+   | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, Same_ _) -> true | _ -> false) cells -> not_covered [ "the failure \"same\" of such a mechanism" ]
    | _, ByWitness (_, _, _, how) when is_singular how -> not_covered [ "the failure \"singular\" of such a mechanism" ]
    | Atlas_ _, Cells cells when List.exists (function Disproved (_, _, _, how) -> is_singular how | _ -> false) cells -> not_covered [ "the failure \"singular\" of such a mechanism" ]
    | (Machine_ (legs, _, _, rs), Nodes _ | Atlas_ (_, legs, _, rs, _, _), _) when plane_accelerates legs rs ->

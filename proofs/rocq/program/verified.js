@@ -3,100 +3,100 @@
 globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurable:true,get:b}),_T_));function
 b(){var
 b=this||self;b.globalThis=b;delete
-a.prototype._T_}}(Object));(function(K){"use strict";var
-jr="spatial",qk="Invalid_argument",g0="precision",aI='"',jq=1255,qj="inside",pn="(",po=0x800,qi="yaw",pk="range",pl="tree",pm="jsError",b9=0x8000,qh="sqrt(",pj=256,pi="obligation",fm="offset",bf="machine",ph="End_of_file",em="strut",jp="center",fl="arm",jo="Failure",qg="serial_margin",g9="parameters",cu=0xff,qf="bodies",qe="max_angle",jC="outside",g8="base_axis",jn="ENOENT",qd="singular",qc=122,pg="([^/]+)",qb="0",jm=0xf,fk=128,pf=0xdc00,p$="Sys_blocked_io",qa="fd ",fc="given",pe="ENOTEMPTY",aV=248,gZ="bound",pd="Division_by_zero",p9="by",p_=1027,pc="Sys_error",g7="slider",pb="torsion",p8="postulate",pa="proof",jB="joint_error",fj="refuted",eh="mechanism",gY="row",o$="EEXIST",p7="roll_pitch_yaw",g6="y",o_="cube",dv="lower",p6="within",o9="clearance",p5="turned",o8="control",gX="int_of_string",p3="definitions",p4="dependent",fi=1024,o6="from",o7="name",p2=" : flags Open_rdonly and Open_wronly are not compatible",o5="orthocert/2",p1="reach",o4=512,pZ="base_joint",p0="witness",fh="-",a9="platform",o3=0x7ff0,o2="pitch",jA=": Not a directory",bw="min",pX="trim",el="workspace",pY=" : file already exists",gW="split",pV='the failure "singular" of such a mechanism',jz="legs",pW="claim",jl="joint",dw=0xffffff,o1="platform_joint",o0="formulas",oZ="roll",gV="atlas",pT="nodes",pU="Out_of_memory",oY="psi_max",g5="orientation",gU=254,pS="angle",jy="index out of bounds",oX="end",pR="one_to_one",g4="_bigarr02",oW=" : flags Open_text and Open_binary are not compatible",bR="drive",oV="coordinates",pQ="holds",oU="lower_divided",oT="speed",pO="cylinder",pP="joints",ct=0xffff,pL="a leaf that fails",pM="acceleration",ff="certified",fg="chords",pN=12520,jk="on",eg="accuracy",fe="axis",pK="no_cube",pJ="parallel_margin",oS='the drive "',jj="Unix.Unix_error",g3="fails",gT="tool",ji="mkdir",pI="rho",g2=1000,jh="translational",jx="tolerances",oR="Stack_overflow",jw="characteristic_length",_="",jv="^",jg="places",gS=": No such file or directory",oQ="/static/",ek=0x3f,oO="stiffness",oP="Not_found",du="planar",fb="mode",pH="joint_speed",pG="Match_failure",oN="transmission",bv="anchor",pF="at",oM="joint_force",ej="leg",oL="joint_acceleration",g1="+",jf="rmdir",pE=0xf0,pD="spherical",oK=1026,pB="REJECTED",pC="undecided",bx="max",b_="direction",oI="leg_angle",oJ="orthoglide",fd="rank",pz="constraint_margin",pA="fan",gR="test",oG="Pervasives.do_at_exit",oH="utf8",bQ=0x80,ei="conditioning",ef="length",oF="Undefined_recursive_module",ju=")",oE="base",py="quantity",oD="joint_range",gQ="tilt",oC="Q2",px="reference",oA="this quantity in a claim that is refuted",oB="point",pv="corner",pw=0xe0,oz="version",jt="z",pt="to",pu=0xdfff,je="compare: functional value",ps="Assert_failure",bT="/",pr="provenance",dt="radius",gP="side",bS="require",pq="format",oy="Q1",js="ENOTDIR",ox="all",ds="box",pp=250;function
-jP(c,b,a){var
+a.prototype._T_}}(Object));(function(M){"use strict";var
+jE="spatial",qI="Invalid_argument",hb="precision",aJ='"',jD=1255,qH="inside",pG="(",pH=0x800,qG="yaw",pD="range",pE="tree",pF="jsError",cc=0x8000,qF="sqrt(",pC=256,ha="obligation",fA="offset",bi="machine",pB="End_of_file",ez="strut",jC="center",fz="arm",jB="Failure",qE="serial_margin",hj="parameters",cD=0xff,qD="bodies",qC="max_angle",jP="outside",hi="base_axis",jA="ENOENT",qB="singular",qA=122,pA="([^/]+)",qz="0",jz=0xf,fy=128,pz=0xdc00,qx="Sys_blocked_io",qy="fd ",fp="given",py="ENOTEMPTY",aX=248,g$="bound",px="Division_by_zero",qv="by",qw=1027,pw="Sys_error",hh="slider",pv="torsion",qu="postulate",pu="proof",jO="joint_error",fx="refuted",eu="mechanism",g_="row",pt="EEXIST",qt="roll_pitch_yaw",fw="y",ps="cube",dE="lower",qs="within",pr="clearance",qr="turned",pq="control",g9="int_of_string",qp="definitions",qq="dependent",fv=1024,po="from",pp="name",qo=" : flags Open_rdonly and Open_wronly are not compatible",pn="orthocert/2",qn="reach",pm=512,ql="base_joint",qm="witness",fu="-",bb="platform",pl=0x7ff0,pk="pitch",jN=": Not a directory",bB="min",qj="trim",ey="workspace",qk=" : file already exists",g8="split",qh='the failure "singular" of such a mechanism',jM="legs",qi="claim",jy="joint",dF=0xffffff,pj="platform_joint",pi="formulas",ph="roll",g7="atlas",qe="greatest",qf="nodes",qg="Out_of_memory",pg="psi_max",hg="orientation",g6=254,qd="angle",jL="index out of bounds",pf="end",qc="one_to_one",hf="_bigarr02",pe=" : flags Open_text and Open_binary are not compatible",qb="inverse",bV="drive",pd="coordinates",qa="holds",pc="lower_divided",pb="speed",p_="cylinder",p$="joints",cC=0xffff,p7="a leaf that fails",p8="acceleration",fs="certified",ft="chords",p9=12520,jx="on",p6="same",et="accuracy",fr="axis",p5="no_cube",p4="parallel_margin",pa='the drive "',jw="Unix.Unix_error",he="fails",g5="tool",jv="mkdir",p2="rho",p3="least",hd=1000,ju="translational",jK="tolerances",o$="Stack_overflow",jJ="characteristic_length",$="",jI="^",g3="places",g4=": No such file or directory",o_="/static/",ex=0x3f,o8="stiffness",o9="Not_found",dD="planar",fo="mode",p1="joint_speed",p0="Match_failure",o7="transmission",bA="anchor",pZ="at",o6="joint_force",ew="leg",o5="joint_acceleration",hc="+",jt="rmdir",pY=0xf0,pX="spherical",o4=1026,pV="REJECTED",pW="undecided",bC="max",cd="direction",o2="leg_angle",o3="orthoglide",fq="rank",pT="constraint_margin",pU="fan",g2="test",o0="Pervasives.do_at_exit",o1="utf8",bU=0x80,ev="conditioning",es="length",oZ="Undefined_recursive_module",jH=")",oY="base",pS="quantity",oX="joint_range",g1="tilt",oW="Q2",pR='the failure "same" of such a mechanism',pQ="reference",oU="this quantity in a claim that is refuted",oV="point",pO="corner",pP=0xe0,oT="version",jG="z",pM="to",pN=0xdfff,js="compare: functional value",pL="Assert_failure",bX="/",pK="provenance",dC="radius",g0="side",bW="require",pJ="format",oS="Q1",jF="ENOTDIR",oR="all",dB="box",pI=250;function
+j2(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=_;for(;0<a;b+=fi,a-=fi)e+=d.apply(null,c.slice(b,b+Math.min(a,fi)));return e}function
-g$(b){if(K.Uint8Array)var
-c=new(K.Uint8Array)(b.l);else
+e=$;for(;0<a;b+=fv,a-=fv)e+=d.apply(null,c.slice(b,b+Math.min(a,fv)));return e}function
+hl(b){if(M.Uint8Array)var
+c=new(M.Uint8Array)(b.l);else
 var
 c=new
 Array(b.l);var
 e=b.c,d=e.length,a=0;for(;a<d;a++)c[a]=e.charCodeAt(a);for(d=b.l;a<d;a++)c[a]=0;b.c=c;b.t=4;return c}function
-fn(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?jP(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
-if(b.t==2&&f==b.c.length){b.c+=d.t==4?jP(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)g$(b);var
+fB(d,e,b,f,c){if(c==0)return 0;if(f==0&&(c>=b.l||b.t==2&&c>=b.c.length)){b.c=d.t==4?j2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else
+if(b.t==2&&f==b.c.length){b.c+=d.t==4?j2(d.c,e,c):e==0&&d.c.length==c?d.c:d.c.substr(e,c);b.t=b.c.length==b.l?0:2}else{if(b.t!=4)hl(b);var
 g=d.c,h=b.c;if(d.t==4)if(f<=e)for(var
 a=0;a<c;a++)h[f+a]=g[e+a];else
 for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-ep(a){return a}function
-eo(a,b,c,d,e){fn(ep(a),b,c,d,e);return 0}function
-jE(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eC(a){return a}function
+eB(a,b,c,d,e){fB(eC(a),b,c,d,e);return 0}function
+jR(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
-c1(c,a){if(c.fun)return c1(c.fun,a);if(typeof
+c8(c,a){if(c.fun)return c8(c.fun,a);if(typeof
 c!=="function")return c;var
 b=c.length|0;if(b===0)return c.apply(null,a);var
 e=a.length|0,d=b-e|0;if(d==0)return c.apply(null,a);else
-if(d<0)return c1(c.apply(null,a.slice(0,b)),a.slice(b));else
+if(d<0)return c8(c.apply(null,a.slice(0,b)),a.slice(b));else
 return function(){var
 e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
-b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c1(c,d)}}function
-qM(b,a){if(b==0)return _;if(a.repeat)return a.repeat(b);var
-d=_,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eq(a){if(a.t==2)a.c+=qM(a.l-a.c.length,"\0");else
-a.c=jP(a.c,0,a.c.length);a.t=0}function
-er(a){a.t&6&&eq(a);return a.c}var
-GB=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-GA(a){if(GB)return Math.floor(Math.log2(a));var
+b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c8(c,d)}}function
+q_(b,a){if(b==0)return $;if(a.repeat)return a.repeat(b);var
+d=$,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+eD(a){if(a.t==2)a.c+=q_(a.l-a.c.length,"\0");else
+a.c=j2(a.c,0,a.c.length);a.t=0}function
+eE(a){a.t&6&&eD(a);return a.c}var
+Ho=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Hn(a){if(Ho)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-jH(c){var
-a=new(K.Float32Array)(1);a[0]=c;var
-b=new(K.Int32Array)(a.buffer);return b[0]|0}var
-qD=Math.pow(2,-24);function
-Gr(a){throw a}var
+jU(c){var
+a=new(M.Float32Array)(1);a[0]=c;var
+b=new(M.Int32Array)(a.buffer);return b[0]|0}var
+q1=Math.pow(2,-24);function
+He(a){throw a}var
 ax=[0];function
-qJ(){Gr(ax.Division_by_zero)}function
-J(b,c,a){this.lo=b&dw;this.mi=c&dw;this.hi=a&ct}J.prototype.caml_custom="_j";J.prototype.copy=function(){return new
-J(this.lo,this.mi,this.hi)};J.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};J.prototype.compare=function(a){var
-b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};J.prototype.neg=function(){var
+q7(){He(ax.Division_by_zero)}function
+L(b,c,a){this.lo=b&dF;this.mi=c&dF;this.hi=a&cC}L.prototype.caml_custom="_j";L.prototype.copy=function(){return new
+L(this.lo,this.mi,this.hi)};L.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.compare=function(a){var
+b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.neg=function(){var
 a=-this.lo,b=-this.mi+(a>>24),c=-this.hi+(b>>24);return new
-J(a,b,c)};J.prototype.add=function(a){var
+L(a,b,c)};L.prototype.add=function(a){var
 b=this.lo+a.lo,c=this.mi+a.mi+(b>>24),d=this.hi+a.hi+(c>>24);return new
-J(b,c,d)};J.prototype.sub=function(a){var
+L(b,c,d)};L.prototype.sub=function(a){var
 b=this.lo-a.lo,c=this.mi-a.mi+(b>>24),d=this.hi-a.hi+(c>>24);return new
-J(b,c,d)};J.prototype.mul=function(a){var
-b=this.lo*a.lo,c=(b*qD|0)+this.mi*a.lo+this.lo*a.mi,d=(c*qD|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
-J(b,c,d)};J.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};J.prototype.isNeg=function(){return this.hi<<16<0};J.prototype.and=function(a){return new
-J(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};J.prototype.or=function(a){return new
-J(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};J.prototype.xor=function(a){return new
-J(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};J.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-J(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
-J(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
-J(0,0,this.lo<<a-48)};J.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
-J(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
-J(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
-J(this.hi>>a-48,0,0)};J.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
+L(b,c,d)};L.prototype.mul=function(a){var
+b=this.lo*a.lo,c=(b*q1|0)+this.mi*a.lo+this.lo*a.mi,d=(c*q1|0)+this.hi*a.lo+this.mi*a.mi+this.lo*a.hi;return new
+L(b,c,d)};L.prototype.isZero=function(){return(this.lo|this.mi|this.hi)==0};L.prototype.isNeg=function(){return this.hi<<16<0};L.prototype.and=function(a){return new
+L(this.lo&a.lo,this.mi&a.mi,this.hi&a.hi)};L.prototype.or=function(a){return new
+L(this.lo|a.lo,this.mi|a.mi,this.hi|a.hi)};L.prototype.xor=function(a){return new
+L(this.lo^a.lo,this.mi^a.mi,this.hi^a.hi)};L.prototype.shift_left=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+L(this.lo<<a,this.mi<<a|this.lo>>24-a,this.hi<<a|this.mi>>24-a);if(a<48)return new
+L(0,this.lo<<a-24,this.mi<<a-24|this.lo>>48-a);return new
+L(0,0,this.lo<<a-48)};L.prototype.shift_right_unsigned=function(a){a=a&63;if(a==0)return this;if(a<24)return new
+L(this.lo>>a|this.mi<<24-a,this.mi>>a|this.hi<<24-a,this.hi>>a);if(a<48)return new
+L(this.mi>>a-24|this.hi<<48-a,this.hi>>a-24,0);return new
+L(this.hi>>a-48,0,0)};L.prototype.shift_right=function(a){a=a&63;if(a==0)return this;var
 c=this.hi<<16>>16;if(a<24)return new
-J(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
+L(this.lo>>a|this.mi<<24-a,this.mi>>a|c<<24-a,this.hi<<16>>a>>>16);var
 b=this.hi<<16>>31;if(a<48)return new
-J(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&ct);return new
-J(this.hi<<16>>a-32,b,b)};J.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dw;this.lo=this.lo<<1&dw};J.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dw;this.mi=(this.mi>>>1|this.hi<<23)&dw;this.hi=this.hi>>>1};J.prototype.udivmod=function(e){var
+L(this.mi>>a-24|this.hi<<48-a,this.hi<<16>>a-24>>16,b&cC);return new
+L(this.hi<<16>>a-32,b,b)};L.prototype.lsl1=function(){this.hi=this.hi<<1|this.mi>>23;this.mi=(this.mi<<1|this.lo>>23)&dF;this.lo=this.lo<<1&dF};L.prototype.lsr1=function(){this.lo=(this.lo>>>1|this.mi<<23)&dF;this.mi=(this.mi>>>1|this.hi<<23)&dF;this.hi=this.hi>>>1};L.prototype.udivmod=function(e){var
 c=0,b=this.copy(),a=e.copy(),d=new
-J(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};J.prototype.div=function(a){var
-b=this;if(a.isZero())qJ();var
-d=b.hi^a.hi;if(b.hi&b9)b=b.neg();if(a.hi&b9)a=a.neg();var
-c=b.udivmod(a).quotient;if(d&b9)c=c.neg();return c};J.prototype.mod=function(b){var
-a=this;if(b.isZero())qJ();var
-d=a.hi;if(a.hi&b9)a=a.neg();if(b.hi&b9)b=b.neg();var
-c=a.udivmod(b).modulus;if(d&b9)c=c.neg();return c};J.prototype.toInt=function(){return this.lo|this.mi<<24};J.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};J.prototype.toArray=function(){return[this.hi>>8,this.hi&cu,this.mi>>16,this.mi>>8&cu,this.mi&cu,this.lo>>16,this.lo>>8&cu,this.lo&cu]};J.prototype.lo32=function(){return this.lo|(this.mi&cu)<<24};J.prototype.hi32=function(){return this.mi>>>8&ct|this.hi<<16};function
-hb(b,c,a){return new
-J(b,c,a)}function
-ha(a){if(!isFinite(a)){if(isNaN(a))return hb(1,0,o3);return a>0?hb(0,0,o3):hb(0,0,0xfff0)}var
-f=a==0&&1/a==-Infinity?b9:a>=0?0:b9;if(f)a=-a;var
-b=GA(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-oK)}else{a/=Math.pow(2,b-p_);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+L(0,0,0);while(b.ucompare(a)>0){c++;a.lsl1()}while(c>=0){c--;d.lsl1();if(b.ucompare(a)>=0){d.lo++;b=b.sub(a)}a.lsr1()}return{quotient:d,modulus:b}};L.prototype.div=function(a){var
+b=this;if(a.isZero())q7();var
+d=b.hi^a.hi;if(b.hi&cc)b=b.neg();if(a.hi&cc)a=a.neg();var
+c=b.udivmod(a).quotient;if(d&cc)c=c.neg();return c};L.prototype.mod=function(b){var
+a=this;if(b.isZero())q7();var
+d=a.hi;if(a.hi&cc)a=a.neg();if(b.hi&cc)b=b.neg();var
+c=a.udivmod(b).modulus;if(d&cc)c=c.neg();return c};L.prototype.toInt=function(){return this.lo|this.mi<<24};L.prototype.toFloat=function(){return(this.hi<<16)*Math.pow(2,32)+this.mi*Math.pow(2,24)+this.lo};L.prototype.toArray=function(){return[this.hi>>8,this.hi&cD,this.mi>>16,this.mi>>8&cD,this.mi&cD,this.lo>>16,this.lo>>8&cD,this.lo&cD]};L.prototype.lo32=function(){return this.lo|(this.mi&cD)<<24};L.prototype.hi32=function(){return this.mi>>>8&cC|this.hi<<16};function
+hn(b,c,a){return new
+L(b,c,a)}function
+hm(a){if(!isFinite(a)){if(isNaN(a))return hn(1,0,pl);return a>0?hn(0,0,pl):hn(0,0,0xfff0)}var
+f=a==0&&1/a==-Infinity?cc:a>=0?0:cc;if(f)a=-a;var
+b=Hn(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-o4)}else{a/=Math.pow(2,b-qw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jm|f|b<<4;return hb(g,e,c)}function
-fq(a){return a.toArray()}function
-qr(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==g4)for(var
-a=0;a<b.dims.length;a++)if(b.dims[a]<ct)c.write(16,b.dims[a]);else{c.write(16,ct);c.write(32,0);c.write(32,b.dims[a])}else
+g=a|0;c=c&jz|f|b<<4;return hn(g,e,c)}function
+fE(a){return a.toArray()}function
+qP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hf)for(var
+a=0;a<b.dims.length;a++)if(b.dims[a]<cC)c.write(16,b.dims[a]);else{c.write(16,cC);c.write(32,0);c.write(32,b.dims[a])}else
 for(var
 a=0;a<b.dims.length;a++)c.write(32,b.dims[a]);switch(b.kind){case
 2:case
@@ -113,52 +113,52 @@ a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 a=0;a<b.data.length;a++)c.write(32,b.data[a]);break;case
 7:for(var
 a=0;a<b.data.length/2;a++){var
-e=fq(b.get(a));for(var
+e=fE(b.get(a));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 1:for(var
 a=0;a<b.data.length;a++){var
-e=fq(ha(b.get(a)));for(var
+e=fE(hm(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=jH(b.get(a));c.write(32,e)}break;case
+e=jU(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,jH(d[1]));c.write(32,jH(d[2]))}break;case
+d=b.get(a);c.write(32,jU(d[1]));c.write(32,jU(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
-f=b.get(a),e=fq(ha(f[1]));for(var
+f=b.get(a),e=fE(hm(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
-e=fq(ha(f[2]));for(var
+e=fE(hm(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Gt(b,a){throw[0,b,a]}function
-qR(a){if(a.length<24){for(var
+Hg(b,a){throw[0,b,a]}function
+rd(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
-jQ(e){for(var
-j=_,c=_,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bQ){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bQ;d++);if(d-b>o4){c.substr(0,1);j+=c;c=_;j+=e.slice(b,d)}else
-c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fk){g=h+(f<<6);if(f<pw){a=g-0x3080;if(a<bQ)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fk){g=h+(g<<6);if(f<pE){a=g-0xe2080;if(a<po||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fk&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
-if(a>ct)c+=String.fromCharCode(0xd7c0+(a>>10),pf+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fi){c.substr(0,1);j+=c;c=_}}return j+c}function
-b$(c,a,b){this.t=c;this.c=a;this.l=b}b$.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eq(this);case
-0:if(qR(this.c)){this.t=9;return this.c}this.t=8;case
-8:return this.c}};b$.prototype.toUtf16=function(){var
-a=this.toString();if(this.t==9)return a;return jQ(a)};b$.prototype.slice=function(){var
+j3(e){for(var
+j=$,c=$,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bU){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bU;d++);if(d-b>pm){c.substr(0,1);j+=c;c=$;j+=e.slice(b,d)}else
+c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy){g=h+(f<<6);if(f<pP){a=g-0x3080;if(a<bU)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy){g=h+(g<<6);if(f<pY){a=g-0xe2080;if(a<pH||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
+if(a>cC)c+=String.fromCharCode(0xd7c0+(a>>10),pz+(a&0x3FF));else
+c+=String.fromCharCode(a);if(c.length>fv){c.substr(0,1);j+=c;c=$}}return j+c}function
+ce(c,a,b){this.t=c;this.c=a;this.l=b}ce.prototype.toString=function(){switch(this.t){case
+9:return this.c;default:eD(this);case
+0:if(rd(this.c)){this.t=9;return this.c}this.t=8;case
+8:return this.c}};ce.prototype.toUtf16=function(){var
+a=this.toString();if(this.t==9)return a;return j3(a)};ce.prototype.slice=function(){var
 a=this.t==4?this.c.slice():this.c;return new
-b$(this.t,a,this.l)};function
-qu(a){return new
-b$(0,a,a.length)}function
-a(a){return qu(a)}function
-jO(c,b){Gt(c,a(b))}function
-aO(a){jO(ax.Invalid_argument,a)}function
-qp(a){switch(a){case
+ce(this.t,a,this.l)};function
+qS(a){return new
+ce(0,a,a.length)}function
+a(a){return qS(a)}function
+j1(c,b){Hg(c,a(b))}function
+aQ(a){j1(ax.Invalid_argument,a)}function
+qN(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-FX(c,e){var
-b=K,a;switch(c){case
+GK(c,e){var
+b=M,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
 2:a=b.Int8Array;break;case
@@ -171,52 +171,52 @@ b=K,a;switch(c){case
 9:a=b.Int32Array;break;case
 10:a=b.Float32Array;break;case
 11:a=b.Float64Array;break;case
-12:a=b.Uint8Array;break}if(!a)aO("Bigarray.create: unsupported kind");var
+12:a=b.Uint8Array;break}if(!a)aQ("Bigarray.create: unsupported kind");var
 d=new
-a(e*qp(c));return d}function
-jI(c){var
-a=new(K.Int32Array)(1);a[0]=c;var
-b=new(K.Float32Array)(a.buffer);return b[0]}function
-fp(a){return new
-J(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-jJ(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jm)==0?b&b9?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jm);if(c>0){a+=16;a*=Math.pow(2,c-p_)}else
-a*=Math.pow(2,-oK);if(b&b9)a=-a;return a}function
-jD(b){var
+a(e*qN(c));return d}function
+jV(c){var
+a=new(M.Int32Array)(1);a[0]=c;var
+b=new(M.Float32Array)(a.buffer);return b[0]}function
+fD(a){return new
+L(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
+jW(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jz)==0?b&cc?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jz);if(c>0){a+=16;a*=Math.pow(2,c-qw)}else
+a*=Math.pow(2,-o4);if(b&cc)a=-a;return a}function
+jQ(b){var
 d=b.length,c=1;for(var
-a=0;a<d;a++){if(b[a]<0)aO("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-Gb(b,a){return new
-J(b&dw,b>>>24&cu|(a&ct)<<8,a>>>16&ct)}function
-jK(a){return a.hi32()}function
-jL(a){return a.lo32()}function
-g_(){aO(jy)}var
-FY=g4;function
-c0(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c0.prototype.caml_custom=FY;c0.prototype.offset=function(b){var
+a=0;a<d;a++){if(b[a]<0)aQ("Bigarray.create: negative dimension");c=c*b[a]}return c}function
+G0(b,a){return new
+L(b&dF,b>>>24&cD|(a&cC)<<8,a>>>16&cC)}function
+jX(a){return a.hi32()}function
+jY(a){return a.lo32()}function
+hk(){aQ(jL)}var
+GL=hf;function
+c7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c7.prototype.caml_custom=GL;c7.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
-Array))aO("bigarray.js: invalid offset");if(this.dims.length!=b.length)aO("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
-a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])g_();c=c*this.dims[a]+b[a]}else
+Array))aQ("bigarray.js: invalid offset");if(this.dims.length!=b.length)aQ("Bigarray.get/set: bad number of dimensions");if(this.layout==0)for(var
+a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hk();c=c*this.dims[a]+b[a]}else
 for(var
-a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])g_();c=c*this.dims[a]+(b[a]-1)}return c};c0.prototype.get=function(a){switch(this.kind){case
+a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hk();c=c*this.dims[a]+(b[a]-1)}return c};c7.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return Gb(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return G0(d,b);case
 10:case
 11:var
-e=this.data[a*2+0],c=this.data[a*2+1];return[gU,e,c];default:return this.data[a]}};c0.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=jL(b);this.data[a*2+1]=jK(b);break;case
+e=this.data[a*2+0],c=this.data[a*2+1];return[g6,e,c];default:return this.data[a]}};c7.prototype.set=function(a,b){switch(this.kind){case
+7:this.data[a*2+0]=jY(b);this.data[a*2+1]=jX(b);break;case
 10:case
-11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};c0.prototype.fill=function(b){switch(this.kind){case
+11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};c7.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=jL(b),e=jK(b);if(c==e)this.data.fill(c);else
+c=jY(b),e=jX(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
 11:var
 d=b[1],f=b[2];if(d==f)this.data.fill(d);else
 for(var
-a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};c0.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
+a=0;a<this.data.length;a++)this.data[a]=a%2==0?d:f;break;default:this.data.fill(b);break}};c7.prototype.compare=function(b,g){if(this.layout!=b.layout||this.kind!=b.kind){var
 e=this.kind|this.layout<<8,f=b.kind|b.layout<<8;return f-e}if(this.dims.length!=b.dims.length)return b.dims.length-this.dims.length;for(var
 a=0;a<this.dims.length;a++)if(this.dims[a]!=b.dims[a])return this.dims[a]<b.dims[a]?-1:1;switch(this.kind){case
 0:case
@@ -236,26 +236,26 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-en(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}en.prototype=new
-c0();en.prototype.offset=function(a){if(typeof
+eA(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eA.prototype=new
+c7();eA.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aO("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])g_();return a};en.prototype.get=function(a){return this.data[a]};en.prototype.set=function(a,b){this.data[a]=b;return 0};en.prototype.fill=function(a){this.data.fill(a);return 0};function
-qn(c,d,a,b){var
-e=qp(c);if(jD(a)*e!=b.length)aO("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-en(c,d,a,b);return new
-c0(c,d,a,b)}function
-bU(b){if(!ax.Failure)ax.Failure=[aV,a(jo),-3];jO(ax.Failure,b)}function
-qo(b,v,r){var
-i=b.read32s();if(i<0||i>16)bU("input_value: wrong number of bigarray dimensions");var
-p=b.read32s(),j=p&cu,o=p>>8&1,h=[];if(r==g4)for(var
+aQ("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hk();return a};eA.prototype.get=function(a){return this.data[a]};eA.prototype.set=function(a,b){this.data[a]=b;return 0};eA.prototype.fill=function(a){this.data.fill(a);return 0};function
+qL(c,d,a,b){var
+e=qN(c);if(jQ(a)*e!=b.length)aQ("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+eA(c,d,a,b);return new
+c7(c,d,a,b)}function
+bY(b){if(!ax.Failure)ax.Failure=[aX,a(jB),-3];j1(ax.Failure,b)}function
+qM(b,v,r){var
+i=b.read32s();if(i<0||i>16)bY("input_value: wrong number of bigarray dimensions");var
+p=b.read32s(),j=p&cD,o=p>>8&1,h=[];if(r==hf)for(var
 a=0;a<i;a++){var
-n=b.read16u();if(n==ct){var
-t=b.read32u(),u=b.read32u();if(t!=0)bU("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
+n=b.read16u();if(n==cC){var
+t=b.read32u(),u=b.read32u();if(t!=0)bY("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=jD(h),f=FX(j,d),g=qn(j,o,h,f);switch(j){case
+d=jQ(h),f=GK(j,d),g=qL(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -269,129 +269,129 @@ a=0;a<d;a++)f[a]=b.read16u();break;case
 a=0;a<d;a++)f[a]=b.read32s();break;case
 8:case
 9:var
-s=b.read8u();if(s)bU("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
+s=b.read8u();if(s)bY("input_value: cannot read bigarray with 64-bit OCaml ints");for(var
 a=0;a<d;a++)f[a]=b.read32s();break;case
 7:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-q=fp(e);g.set(a,q)}break;case
+q=fD(e);g.set(a,q)}break;case
 1:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=jJ(fp(e));g.set(a,k)}break;case
+k=jW(fD(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=jI(b.read32s());g.set(a,k)}break;case
+k=jV(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=jI(b.read32s()),l=jI(b.read32s());g.set(a,[gU,m,l])}break;case
+m=jV(b.read32s()),l=jV(b.read32s());g.set(a,[g6,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=jJ(fp(e));for(var
+m=jW(fD(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=jJ(fp(e));g.set(a,[gU,m,l])}break}v[0]=(4+i)*4;return qn(j,o,h,f)}function
-qm(a,b,c){return a.compare(b,c)}function
-qG(a,b){return Math.imul(a,b)}function
-cv(b,a){a=qG(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=qG(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-F_(a,b){a=cv(a,jL(b));a=cv(a,jK(b));return a}function
-qC(a,b){return F_(a,ha(b))}function
-qq(c){var
-b=jD(c.dims),d=0;switch(c.kind){case
+l=jW(fD(e));g.set(a,[g6,m,l])}break}v[0]=(4+i)*4;return qL(j,o,h,f)}function
+qK(a,b,c){return a.compare(b,c)}function
+q4(a,b){return Math.imul(a,b)}function
+cE(b,a){a=q4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=q4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
+GX(a,b){a=cE(a,jY(b));a=cE(a,jX(b));return a}function
+q0(a,b){return GX(a,hm(b))}function
+qO(c){var
+b=jQ(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
-12:if(b>pj)b=pj;var
-e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cv(d,e)}e=0;switch(b&3){case
+12:if(b>pC)b=pC;var
+e=0,a=0;for(a=0;a+4<=c.data.length;a+=4){e=c.data[a+0]|c.data[a+1]<<8|c.data[a+2]<<16|c.data[a+3]<<24;d=cE(d,e)}e=0;switch(b&3){case
 3:e=c.data[a+2]<<16;case
 2:e|=c.data[a+1]<<8;case
-1:e|=c.data[a+0];d=cv(d,e)}break;case
+1:e|=c.data[a+0];d=cE(d,e)}break;case
 4:case
-5:if(b>fk)b=fk;var
-e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cv(d,e)}if((b&1)!=0)d=cv(d,c.data[a]);break;case
+5:if(b>fy)b=fy;var
+e=0,a=0;for(a=0;a+2<=c.data.length;a+=2){e=c.data[a+0]|c.data[a+1]<<16;d=cE(d,e)}if((b&1)!=0)d=cE(d,c.data[a]);break;case
 6:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cv(d,c.data[a]);break;case
+a=0;a<b;a++)d=cE(d,c.data[a]);break;case
 8:case
 9:if(b>64)b=64;for(var
-a=0;a<b;a++)d=cv(d,c.data[a]);break;case
+a=0;a<b;a++)d=cE(d,c.data[a]);break;case
 7:if(b>32)b=32;b*=2;for(var
-a=0;a<b;a++)d=cv(d,c.data[a]);break;case
+a=0;a<b;a++)d=cE(d,c.data[a]);break;case
 10:b*=2;case
 0:if(b>64)b=64;for(var
-a=0;a<b;a++)d=qC(d,c.data[a]);break;case
+a=0;a<b;a++)d=q0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
-a=0;a<b;a++)d=qC(d,c.data[a]);break}return d}function
-F$(a,b){b[0]=4;return a.read32s()}function
-Go(a,b){switch(a.read8u()){case
+a=0;a<b;a++)d=q0(d,c.data[a]);break}return d}function
+GY(a,b){b[0]=4;return a.read32s()}function
+Hb(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
-2:bU("input_value: native integer value too large");default:bU("input_value: ill-formed native integer")}}function
-Ge(c,d){var
+2:bY("input_value: native integer value too large");default:bY("input_value: ill-formed native integer")}}function
+G3(c,d){var
 b=new
 Array(8);for(var
-a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fp(b)}function
-Gd(e,d,b){var
-c=fq(d);for(var
+a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fD(b)}function
+G2(e,d,b){var
+c=fE(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-Ga(a,b,c){return a.compare(b)}function
-Gc(a){return a.lo32()^a.hi32()}var
-qx={"_j":{deserialize:Ge,serialize:Gd,fixed_length:8,compare:Ga,hash:Gc},"_i":{deserialize:F$,fixed_length:4},"_n":{deserialize:Go,fixed_length:4},"_bigarray":{deserialize:function(a,b){return qo(a,b,"_bigarray")},serialize:qr,compare:qm,hash:qq},"_bigarr02":{deserialize:function(a,b){return qo(a,b,g4)},serialize:qr,compare:qm,hash:qq}};function
-jG(a){return qx[a.caml_custom]&&qx[a.caml_custom].compare}function
-qv(f,c,d,e){var
-b=jG(c);if(b){var
+GZ(a,b,c){return a.compare(b)}function
+G1(a){return a.lo32()^a.hi32()}var
+qV={"_j":{deserialize:G3,serialize:G2,fixed_length:8,compare:GZ,hash:G1},"_i":{deserialize:GY,fixed_length:4},"_n":{deserialize:Hb,fixed_length:4},"_bigarray":{deserialize:function(a,b){return qM(a,b,"_bigarray")},serialize:qP,compare:qK,hash:qO},"_bigarr02":{deserialize:function(a,b){return qM(a,b,hf)},serialize:qP,compare:qK,hash:qO}};function
+jT(a){return qV[a.caml_custom]&&qV[a.caml_custom].compare}function
+qT(f,c,d,e){var
+b=jT(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
-jN(a){return a
+j0(a){return a
 instanceof
-b$}function
-qE(a){return jN(a)}function
-qw(a){if(typeof
-a==="number")return g2;else
-if(jN(a))return 252;else
-if(qE(a))return 1252;else
+ce}function
+q2(a){return j0(a)}function
+qU(a){if(typeof
+a==="number")return hd;else
+if(j0(a))return 252;else
+if(q2(a))return 1252;else
 if(a
 instanceof
 Array&&a[0]===a[0]>>>0&&a[0]<=255){var
-b=a[0]|0;return b==gU?0:b}else
+b=a[0]|0;return b==g6?0:b}else
 if(a
 instanceof
-String)return pN;else
+String)return p9;else
 if(typeof
-a=="string")return pN;else
+a=="string")return p9;else
 if(a
 instanceof
-Number)return g2;else
-if(a&&a.caml_custom)return jq;else
+Number)return hd;else
+if(a&&a.caml_custom)return jD;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-Gf(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-qt(a,b){a.t&6&&eq(a);b.t&6&&eq(b);return a.c<b.c?-1:a.c>b.c?1:0}function
-qN(a,b){return qt(a,b)}function
-jF(a,b,d){var
+G4(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+qR(a,b){a.t&6&&eD(a);b.t&6&&eD(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+q$(a,b){return qR(a,b)}function
+jS(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
-f=qw(a);if(f==pp){a=a[1];continue}var
-g=qw(b);if(g==pp){b=b[1];continue}if(f!==g){if(f==g2){if(g==jq)return qv(a,b,-1,d);return-1}if(g==g2){if(f==jq)return qv(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aO(je);break;case
+f=qU(a);if(f==pI){a=a[1];continue}var
+g=qU(b);if(g==pI){b=b[1];continue}if(f!==g){if(f==hd){if(g==jD)return qT(a,b,-1,d);return-1}if(g==hd){if(f==jD)return qT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aQ(js);break;case
 248:var
-c=Gf(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aO(je);break;case
-250:aO("equal: got Forward_tag, should not happen");break;case
-251:aO("equal: abstract value");break;case
+c=G4(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aQ(js);break;case
+250:aQ("equal: got Forward_tag, should not happen");break;case
+251:aQ("equal: abstract value");break;case
 252:if(a!==b){var
-c=qt(a,b);if(c!=0)return c|0}break;case
-253:aO("equal: got Double_tag, should not happen");break;case
-254:aO("equal: got Double_array_tag, should not happen");break;case
-255:aO("equal: got Custom_tag, should not happen");break;case
-1247:aO(je);break;case
+c=qR(a,b);if(c!=0)return c|0}break;case
+253:aQ("equal: got Double_tag, should not happen");break;case
+254:aQ("equal: got Double_array_tag, should not happen");break;case
+255:aQ("equal: got Custom_tag, should not happen");break;case
+1247:aQ(js);break;case
 1255:var
-i=jG(a);if(i!=jG(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aO("compare: abstract value");var
+i=jT(a);if(i!=jT(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aQ("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,182 +399,182 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=er(a),b=er(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=eE(a),b=eE(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-F5(a,b){return jF(a,b,true)}function
-cb(a){if(a<0)aO("Bytes.create");return new
-b$(a?2:9,_,a)}function
-qy(a,b){return+(jF(a,b,false)==0)}function
-F7(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=_;a.t=2}else{a.c=qM(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)g$(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Gp=0;function
-qA(){return Gp++}function
-Gh(a){return a.toUtf16()}function
-fr(){return typeof
-K.process!=="undefined"&&typeof
-K.process.versions!=="undefined"&&typeof
-K.process.versions.node!=="undefined"}function
-GC(){function
-a(a){if(a.charAt(0)===bT)return[_,a.substring(1)];return}function
+GS(a,b){return jS(a,b,true)}function
+cg(a){if(a<0)aQ("Bytes.create");return new
+ce(a?2:9,$,a)}function
+qW(a,b){return+(jS(a,b,false)==0)}function
+GU(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=$;a.t=2}else{a.c=q_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hl(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Hc=0;function
+qY(){return Hc++}function
+G6(a){return a.toUtf16()}function
+fF(){return typeof
+M.process!=="undefined"&&typeof
+M.process.versions!=="undefined"&&typeof
+M.process.versions.node!=="undefined"}function
+Hp(){function
+a(a){if(a.charAt(0)===bX)return[$,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||_,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||_,f=a[2]||_;return[d,c.substring(d.length+f.length)]}return}return fr()&&K.process&&K.process.platform?K.process.platform==="win32"?b:a:a}var
-jU=GC();function
-qO(a){return a.slice(-1)!==bT?a+bT:a}if(fr()&&K.process&&K.process.cwd)var
-fo=K.process.cwd().replace(/\\/g,bT);else
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||$,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||$,f=a[2]||$;return[d,c.substring(d.length+f.length)]}return}return fF()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
+j7=Hp();function
+ra(a){return a.slice(-1)!==bX?a+bX:a}if(fF()&&M.process&&M.process.cwd)var
+fC=M.process.cwd().replace(/\\/g,bX);else
 var
-fo="/static";fo=qO(fo);function
-Gj(a){a=Gh(a);if(!jU(a))a=fo+a;var
-e=jU(a),d=e[1].split(bT),b=[];for(var
+fC="/static";fC=ra(fC);function
+G8(a){a=G6(a);if(!j7(a))a=fC+a;var
+e=j7(a),d=e[1].split(bX),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Gx(e){for(var
-f=_,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bQ){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bQ;d++);if(d-c>o4){b.substr(0,1);f+=b;b=_;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<po){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bQ|a&ek)}else
-if(a<0xd800||a>=pu)b+=String.fromCharCode(pw|a>>12,bQ|a>>6&ek,bQ|a&ek);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pf||h>pu)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pE|a>>18,bQ|a>>12&ek,bQ|a>>6&ek,bQ|a&ek)}if(b.length>fi){b.substr(0,1);f+=b;b=_}}return f+b}function
-F2(a){var
-b=9;if(!qR(a))b=8,a=Gx(a);return new
-b$(b,a,a.length)}function
-es(a){return F2(a)}var
-GF=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",o$,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jn,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",js,pe,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
-dA(d,f,e,a){var
-b=GF.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,es(f||_),es(e||_)];return c}var
-qH={};function
-dx(a){return qH[a]}function
-dy(b,a){throw[0,b].concat(a)}function
-F1(a){return new
-b$(4,a,a.length)}function
-am(a){jO(ax.Sys_error,a)}function
-Gs(a){am(a+gS)}function
-qs(){aO(jy)}function
-F0(b,a){if(a>>>0>=b.l)qs();return jE(b,a)}function
-hc(a){return a.l}function
-ql(){}function
-aM(a){this.data=a}aM.prototype=new
-ql();aM.prototype.truncate=function(a){var
-b=this.data;this.data=cb(a|0);fn(b,0,this.data,0,a)};aM.prototype.length=function(){return hc(this.data)};aM.prototype.write=function(b,d,g,a){var
+Hk(e){for(var
+f=$,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bU){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bU;d++);if(d-c>pm){b.substr(0,1);f+=b;b=$;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<pH){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bU|a&ex)}else
+if(a<0xd800||a>=pN)b+=String.fromCharCode(pP|a>>12,bU|a>>6&ex,bU|a&ex);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pz||h>pN)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pY|a>>18,bU|a>>12&ex,bU|a>>6&ex,bU|a&ex)}if(b.length>fv){b.substr(0,1);f+=b;b=$}}return f+b}function
+GP(a){var
+b=9;if(!rd(a))b=8,a=Hk(a);return new
+ce(b,a,a.length)}function
+eF(a){return GP(a)}var
+Hs=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pt,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jA,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jF,py,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+dJ(d,f,e,a){var
+b=Hs.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eF(f||$),eF(e||$)];return c}var
+q5={};function
+dG(a){return q5[a]}function
+dH(b,a){throw[0,b].concat(a)}function
+GO(a){return new
+ce(4,a,a.length)}function
+ao(a){j1(ax.Sys_error,a)}function
+Hf(a){ao(a+g4)}function
+qQ(){aQ(jL)}function
+GN(b,a){if(a>>>0>=b.l)qQ();return jR(b,a)}function
+ho(a){return a.l}function
+qJ(){}function
+aO(a){this.data=a}aO.prototype=new
+qJ();aO.prototype.truncate=function(a){var
+b=this.data;this.data=cg(a|0);fB(b,0,this.data,0,a)};aO.prototype.length=function(){return ho(this.data)};aO.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cb(b+a),f=this.data;this.data=e;fn(f,0,this.data,0,c)}eo(d,g,this.data,b,a);return 0};aM.prototype.read=function(c,a,d,b){var
-e=this.length();fn(this.data,c,a,d,b);return 0};aM.prototype.read_one=function(a){return F0(this.data,a)};aM.prototype.close=function(){};aM.prototype.constructor=aM;function
-a2(b,a){this.content={};this.root=b;this.lookupFun=a}a2.prototype.nm=function(a){return this.root+a};a2.prototype.create_dir_if_needed=function(d){var
-c=d.split(bT),b=_;for(var
-a=0;a<c.length-1;a++){b+=c[a]+bT;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a2.prototype.slash=function(a){return/\/$/.test(a)?a:a+bT};a2.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
+e=cg(b+a),f=this.data;this.data=e;fB(f,0,this.data,0,c)}eB(d,g,this.data,b,a);return 0};aO.prototype.read=function(c,a,d,b){var
+e=this.length();fB(this.data,c,a,d,b);return 0};aO.prototype.read_one=function(a){return GN(this.data,a)};aO.prototype.close=function(){};aO.prototype.constructor=aO;function
+a7(b,a){this.content={};this.root=b;this.lookupFun=a}a7.prototype.nm=function(a){return this.root+a};a7.prototype.create_dir_if_needed=function(d){var
+c=d.split(bX),b=$;for(var
+a=0;a<c.length-1;a++){b+=c[a]+bX;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a7.prototype.slash=function(a){return/\/$/.test(a)?a:a+bX};a7.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aM(ep(c[1]))}}};a2.prototype.exists=function(a){if(a==_)return 1;var
-b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a2.prototype.mkdir=function(c,e,d){var
-b=d&&dx(jj);if(this.exists(c))if(b)dy(b,dA(o$,ji,this.nm(c)));else
-am(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||_;if(!this.exists(a))if(b)dy(b,dA(jn,ji,this.nm(a)));else
-am(a+gS);if(!this.is_dir(a))if(b)dy(b,dA(js,ji,this.nm(a)));else
-am(a+jA);this.create_dir_if_needed(this.slash(c))};a2.prototype.rmdir=function(a,f){var
-b=f&&dx(jj),c=a==_?_:this.slash(a),e=new
-RegExp(jv+c+pg);if(!this.exists(a))if(b)dy(b,dA(jn,jf,this.nm(a)));else
-am(a+gS);if(!this.is_dir(a))if(b)dy(b,dA(js,jf,this.nm(a)));else
-am(a+jA);for(var
+aO(eC(c[1]))}}};a7.prototype.exists=function(a){if(a==$)return 1;var
+b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a7.prototype.mkdir=function(c,e,d){var
+b=d&&dG(jw);if(this.exists(c))if(b)dH(b,dJ(pt,jv,this.nm(c)));else
+ao(c+": File exists");var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||$;if(!this.exists(a))if(b)dH(b,dJ(jA,jv,this.nm(a)));else
+ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jF,jv,this.nm(a)));else
+ao(a+jN);this.create_dir_if_needed(this.slash(c))};a7.prototype.rmdir=function(a,f){var
+b=f&&dG(jw),c=a==$?$:this.slash(a),e=new
+RegExp(jI+c+pA);if(!this.exists(a))if(b)dH(b,dJ(jA,jt,this.nm(a)));else
+ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jF,jt,this.nm(a)));else
+ao(a+jN);for(var
 d
 in
-this.content)if(d.match(e))if(b)dy(b,dA(pe,jf,this.nm(a)));else
-am(this.nm(a)+": Directory not empty");delete
-this.content[c]};a2.prototype.readdir=function(a){var
-f=a==_?_:this.slash(a);if(!this.exists(a))am(a+gS);if(!this.is_dir(a))am(a+jA);var
+this.content)if(d.match(e))if(b)dH(b,dJ(py,jt,this.nm(a)));else
+ao(this.nm(a)+": Directory not empty");delete
+this.content[c]};a7.prototype.readdir=function(a){var
+f=a==$?$:this.slash(a);if(!this.exists(a))ao(a+g4);if(!this.is_dir(a))ao(a+jN);var
 g=new
-RegExp(jv+f+pg),d={},c=[];for(var
+RegExp(jI+f+pA),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a2.prototype.is_dir=function(a){if(a==_)return true;var
-b=this.slash(a);return this.content[b]?1:0};a2.prototype.unlink=function(a){var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a7.prototype.is_dir=function(a){if(a==$)return true;var
+b=this.slash(a);return this.content[b]?1:0};a7.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
-this.content[a];return b};a2.prototype.open=function(a,b){if(b.rdonly&&b.wronly)am(this.nm(a)+p2);if(b.text&&b.binary)am(this.nm(a)+oW);this.lookup(a);if(this.content[a]){if(this.is_dir(a))am(this.nm(a)+" : is a directory");if(b.create&&b.excl)am(this.nm(a)+pY);var
+this.content[a];return b};a7.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ao(this.nm(a)+qo);if(b.text&&b.binary)ao(this.nm(a)+pe);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ao(this.nm(a)+" : is a directory");if(b.create&&b.excl)ao(this.nm(a)+qk);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
-aM(cb(0));return this.content[a]}else
-Gs(this.nm(a))};a2.prototype.register=function(c,a){var
-b;if(this.content[c])am(this.nm(c)+pY);if(jN(a))b=new
-aM(a);if(qE(a))b=new
-aM(ep(a));else
+aO(cg(0));return this.content[a]}else
+Hf(this.nm(a))};a7.prototype.register=function(c,a){var
+b;if(this.content[c])ao(this.nm(c)+qk);if(j0(a))b=new
+aO(a);if(q2(a))b=new
+aO(eC(a));else
 if(a
 instanceof
 Array)b=new
-aM(F1(a));else
+aO(GO(a));else
 if(typeof
 a==="string")b=new
-aM(qu(a));else
+aO(qS(a));else
 if(a.toString){var
-d=ep(es(a.toString()));b=new
-aM(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
-am(this.nm(c)+" : registering file with invalid content type")};a2.prototype.constructor=a2;function
-av(a){return hc(a)}function
-dz(b,a){return jE(b,a)}function
-FW(d){var
+d=eC(eF(a.toString()));b=new
+aO(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
+ao(this.nm(c)+" : registering file with invalid content type")};a7.prototype.constructor=a7;function
+av(a){return ho(a)}function
+dI(b,a){return jR(b,a)}function
+GJ(d){var
 c=av(d),b=new
-Array(c),a=0;for(;a<c;a++)b[a]=dz(d,a);return b}function
-FV(a){if(a.t!=4)g$(a);return a.c}function
-F4(a,c,b){b&=cu;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}g$(a)}a.c[c]=b;return 0}function
-F3(b,a,c){if(a>>>0>=b.l)qs();return F4(b,a,c)}function
-ca(a){this.fs=require("fs");this.fd=a}ca.prototype=new
-ql();ca.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){am(a.toString())}};ca.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){am(a.toString())}};ca.prototype.write=function(f,b,c,e){var
-a=FW(b);if(!(a
+Array(c),a=0;for(;a<c;a++)b[a]=dI(d,a);return b}function
+GI(a){if(a.t!=4)hl(a);return a.c}function
+GR(a,c,b){b&=cD;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hl(a)}a.c[c]=b;return 0}function
+GQ(b,a,c){if(a>>>0>=b.l)qQ();return GR(b,a,c)}function
+cf(a){this.fs=require("fs");this.fd=a}cf.prototype=new
+qJ();cf.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ao(a.toString())}};cf.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ao(a.toString())}};cf.prototype.write=function(f,b,c,e){var
+a=GJ(b);if(!(a
 instanceof
-K.Uint8Array))a=new(K.Uint8Array)(a);var
-d=K.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){am(a.toString())}return 0};ca.prototype.read=function(g,d,c,f){var
-a=FV(d);if(!(a
+M.Uint8Array))a=new(M.Uint8Array)(a);var
+d=M.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ao(a.toString())}return 0};cf.prototype.read=function(g,d,c,f){var
+a=GI(d);if(!(a
 instanceof
-K.Uint8Array))a=new(K.Uint8Array)(a);var
-e=K.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){am(a.toString())}for(var
-b=0;b<f;b++)F3(d,c+b,e[c+b]);return 0};ca.prototype.read_one=function(c){var
-b=new(K.Uint8Array)(1),a=K.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){am(a.toString())}return a[0]};ca.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){am(a.toString())}};ca.prototype.constructor=ca;function
-aN(a){this.fs=require("fs");this.root=a}aN.prototype.nm=function(a){return this.root+a};aN.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aN.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){am(a.toString())}};aN.prototype.unlink=function(a,c){try{var
-b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.open=function(f,c,g){var
+M.Uint8Array))a=new(M.Uint8Array)(a);var
+e=M.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ao(a.toString())}for(var
+b=0;b<f;b++)GQ(d,c+b,e[c+b]);return 0};cf.prototype.read_one=function(c){var
+b=new(M.Uint8Array)(1),a=M.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ao(a.toString())}return a[0]};cf.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ao(a.toString())}};cf.prototype.constructor=cf;function
+aP(a){this.fs=require("fs");this.root=a}aP.prototype.nm=function(a){return this.root+a};aP.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aP.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ao(a.toString())}};aP.prototype.unlink=function(a,c){try{var
+b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.open=function(f,c,g){var
 a=require("constants"),b=0;for(var
 e
 in
 c)switch(e){case"rdonly":b|=a.O_RDONLY;break;case"wronly":b|=a.O_WRONLY;break;case"append":b|=a.O_WRONLY|a.O_APPEND;break;case"create":b|=a.O_CREAT;break;case"truncate":b|=a.O_TRUNC;break;case"excl":b|=a.O_EXCL;break;case"binary":b|=a.O_BINARY;break;case"text":b|=a.O_TEXT;break;case"nonblock":b|=a.O_NONBLOCK;break}try{var
 d=this.fs.openSync(this.nm(f),b);return new
-ca(d)}catch(a){this.raise_nodejs_error(a,g)}};aN.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.stat=function(b,c){try{var
-a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.lstat=function(b,c){try{var
-a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aN.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),oH);return es(a)}catch(a){this.raise_nodejs_error(a,c)}};aN.prototype.raise_nodejs_error=function(a,d){var
-b=dx(jj);if(d&&b){var
-c=dA(a.code,a.syscall,a.path,a.errno);dy(b,c)}else
-am(a.toString())};aN.prototype.stats_from_js=function(a){var
+cf(d)}catch(a){this.raise_nodejs_error(a,g)}};aP.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.stat=function(b,c){try{var
+a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.lstat=function(b,c){try{var
+a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.readlink=function(b,c){try{var
+a=this.fs.readlinkSync(this.nm(b),o1);return eF(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.raise_nodejs_error=function(a,d){var
+b=dG(jw);if(d&&b){var
+c=dJ(a.code,a.syscall,a.path,a.errno);dH(b,c)}else
+ao(a.toString())};aP.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
 if(a.isDirectory())b=1;else
 if(a.isCharacterDevice())b=2;else
 if(a.isBlockDevice())b=3;else
 if(a.isSymbolicLink())b=4;else
 if(a.isFIFO())b=5;else
-if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aN.prototype.constructor=aN;function
-qB(b){var
-a=jU(b);if(!a)return;return a[0]+bT}var
-hd=qB(fo)||bU("unable to compute caml_root"),et=[];if(fr())et.push({path:hd,device:new
-aN(hd)});else
-et.push({path:hd,device:new
-a2(hd)});et.push({path:oQ,device:new
-a2(oQ)});function
-qV(b){var
-g=Gj(b),b=g.join(bT),f=qO(b),c;for(var
-e=0;e<et.length;e++){var
-a=et[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fr()){var
-d=qB(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
+if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aP.prototype.constructor=aP;function
+qZ(b){var
+a=j7(b);if(!a)return;return a[0]+bX}var
+hp=qZ(fC)||bY("unable to compute caml_root"),eG=[];if(fF())eG.push({path:hp,device:new
+aP(hp)});else
+eG.push({path:hp,device:new
+a7(hp)});eG.push({path:o_,device:new
+a7(o_)});function
+rh(b){var
+g=G8(b),b=g.join(bX),f=ra(b),c;for(var
+e=0;e<eG.length;e++){var
+a=eG[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fF()){var
+d=qZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aN(d)};et.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;am("no device found for "+f)}function
-F6(c,b){var
-a=qV(c);if(!a.device.register)bU("cannot register file");a.device.register(a.rest,b);return 0}function
-qQ(c,b){var
-c=a(c),b=a(b);return F6(c,b)}function
-F9(){var
-b=K.caml_fs_tmp;if(b)for(var
-a=0;a<b.length;a++)qQ(b[a].name,b[a].content);K.jsoo_create_file=qQ;K.caml_fs_tmp=[];return 0}function
-Gq(c){var
-a=0,e=av(c),b=10,d=1;if(e>0)switch(dz(c,a)){case
+aP(d)};eG.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ao("no device found for "+f)}function
+GT(c,b){var
+a=rh(c);if(!a.device.register)bY("cannot register file");a.device.register(a.rest,b);return 0}function
+rc(c,b){var
+c=a(c),b=a(b);return GT(c,b)}function
+GW(){var
+b=M.caml_fs_tmp;if(b)for(var
+a=0;a<b.length;a++)rc(b[a].name,b[a].content);M.jsoo_create_file=rc;M.caml_fs_tmp=[];return 0}function
+Hd(c){var
+a=0,e=av(c),b=10,d=1;if(e>0)switch(dI(c,a)){case
 45:a++;d=-1;break;case
-43:a++;d=1;break}if(a+1<e&&dz(c,a)==48)switch(dz(c,a+1)){case
+43:a++;d=1;break}if(a+1<e&&dI(c,a)==48)switch(dI(c,a+1)){case
 120:case
 88:b=16;a+=2;break;case
 111:case
@@ -583,33 +583,33 @@ a=0,e=av(c),b=10,d=1;if(e>0)switch(dz(c,a)){case
 66:b=2;a+=2;break;case
 117:case
 85:a+=2;break}return[a,d,b]}function
-qI(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qc)return a-87;return-1}function
-jM(f){var
-h=Gq(f),c=h[0],i=h[1],d=h[2],g=av(f),j=-1>>>0,e=c<g?dz(f,c):0,b=qI(e);if(b<0||b>=d)bU(gX);var
-a=b;for(c++;c<g;c++){e=dz(f,c);if(e==95)continue;b=qI(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bU(gX)}if(c!=g)bU(gX);a=i*a;if(d==10&&(a|0)!=a)bU(gX);return a|0}function
-Gi(a,b){return+(jF(a,b,false)<=0)}function
-Gk(a,d){if(a<0)g_();var
+q6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qA)return a-87;return-1}function
+jZ(f){var
+h=Hd(f),c=h[0],i=h[1],d=h[2],g=av(f),j=-1>>>0,e=c<g?dI(f,c):0,b=q6(e);if(b<0||b>=d)bY(g9);var
+a=b;for(c++;c<g;c++){e=dI(f,c);if(e==95)continue;b=q6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bY(g9)}if(c!=g)bY(g9);a=i*a;if(d==10&&(a|0)!=a)bY(g9);return a|0}function
+G7(a,b){return+(jS(a,b,false)<=0)}function
+G9(a,d){if(a<0)hk();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
-cw=new
+cF=new
 Array();function
-Gl(c){var
-a=cw[c];if(!a.opened)am("Cannot flush a closed channel");if(!a.buffer||a.buffer==_)return 0;if(a.fd&&ax.fds[a.fd]&&ax.fds[a.fd].output){var
+G_(c){var
+a=cF[c];if(!a.opened)ao("Cannot flush a closed channel");if(!a.buffer||a.buffer==$)return 0;if(a.fd&&ax.fds[a.fd]&&ax.fds[a.fd].output){var
 b=ax.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=_;return 0}function
-qL(e,f){var
-b=cw[e],d=a(f),c=av(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Gy(a){var
-a=jQ(a),b=K;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=$;return 0}function
+q9(e,f){var
+b=cF[e],d=a(f),c=av(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Hl(a){var
+a=j3(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Gz(a){var
-a=jQ(a),b=K;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
+Hm(a){var
+a=j3(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hf(c,e,d,a){if(ax.fds===undefined)ax.fds=new
+hr(c,e,d,a){if(ax.fds===undefined)ax.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ax.fds[c]=b;if(!ax.fd_last_idx||c>ax.fd_last_idx)ax.fd_last_idx=c;return c}function
-GG(c,b,g){var
+Ht(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,162 +619,162 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)am(er(c)+p2);if(a.text&&a.binary)am(er(c)+oW);var
-d=qV(c),e=d.device.open(d.rest,a),f=ax.fd_last_idx?ax.fd_last_idx:0;return hf(f+1,qL,e,a)}hf(0,qL,new
-aM(cb(0)));hf(1,Gz,new
-aM(cb(0)));hf(2,Gy,new
-aM(cb(0)));function
-Gm(a){var
-c=ax.fds[a];if(c.flags.wronly)am(qa+a+" is writeonly");var
-d=null;if(a==0&&fr()){var
-e=require("fs");d=function(){return es(e.readFileSync(0,oH))}}var
-b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cw[b.fd]=b;return b.fd}function
-qF(c){var
-b=ax.fds[c];if(b.flags.rdonly)am(qa+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:_};cw[a.fd]=a;return a.fd}function
-Gn(){var
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ao(eE(c)+qo);if(a.text&&a.binary)ao(eE(c)+pe);var
+d=rh(c),e=d.device.open(d.rest,a),f=ax.fd_last_idx?ax.fd_last_idx:0;return hr(f+1,q9,e,a)}hr(0,q9,new
+aO(cg(0)));hr(1,Hm,new
+aO(cg(0)));hr(2,Hl,new
+aO(cg(0)));function
+G$(a){var
+c=ax.fds[a];if(c.flags.wronly)ao(qy+a+" is writeonly");var
+d=null;if(a==0&&fF()){var
+e=require("fs");d=function(){return eF(e.readFileSync(0,o1))}}var
+b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cF[b.fd]=b;return b.fd}function
+q3(c){var
+b=ax.fds[c];if(b.flags.rdonly)ao(qy+c+" is readonly");var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:$};cF[a.fd]=a;return a.fd}function
+Ha(){var
 b=0;for(var
-a=0;a<cw.length;a++)if(cw[a]&&cw[a].opened&&cw[a].out)b=[0,cw[a].fd,b];return b}function
-by(b,c,a){if(a&&K.toplevelReloc)b=K.toplevelReloc(a);ax[b+1]=c;if(a)ax[a]=c}function
-Gu(a,b){qH[er(a)]=b;return 0}function
-FZ(a,b){if(a===b)return 1;a.t&6&&eq(a);b.t&6&&eq(b);return a.c==b.c?1:0}function
-aw(a,b){return FZ(a,b)}function
-Gw(){aO(jy)}function
-aW(b,a){if(a>>>0>=av(b))Gw();return dz(b,a)}function
-n(a,b){return 1-aw(a,b)}function
-he(a){return a}function
-qK(a){return a}function
-qP(a){if(a
+a=0;a<cF.length;a++)if(cF[a]&&cF[a].opened&&cF[a].out)b=[0,cF[a].fd,b];return b}function
+bD(b,c,a){if(a&&M.toplevelReloc)b=M.toplevelReloc(a);ax[b+1]=c;if(a)ax[a]=c}function
+Hh(a,b){q5[eE(a)]=b;return 0}function
+GM(a,b){if(a===b)return 1;a.t&6&&eD(a);b.t&6&&eD(b);return a.c==b.c?1:0}function
+aw(a,b){return GM(a,b)}function
+Hj(){aQ(jL)}function
+aY(b,a){if(a>>>0>=av(b))Hj();return dI(b,a)}function
+o(a,b){return 1-aw(a,b)}function
+hq(a){return a}function
+q8(a){return a}function
+rb(a){if(a
 instanceof
-Array)return a;if(K.RangeError&&a
+Array)return a;if(M.RangeError&&a
 instanceof
-K.RangeError&&a.message&&a.message.match(/maximum call stack/i))return qK(ax.Stack_overflow);if(K.InternalError&&a
+M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return q8(ax.Stack_overflow);if(M.InternalError&&a
 instanceof
-K.InternalError&&a.message&&a.message.match(/too much recursion/i))return qK(ax.Stack_overflow);if(a
+M.InternalError&&a.message&&a.message.match(/too much recursion/i))return q8(ax.Stack_overflow);if(a
 instanceof
-K.Error&&dx(pm))return[0,dx(pm),a];return[0,ax.Failure,es(String(a))]}function
-cc(a){return a<0?-a:a}function
+M.Error&&dG(pF))return[0,dG(pF),a];return[0,ax.Failure,eF(String(a))]}function
+ch(a){return a<0?-a:a}function
 C(a,b){return a+b}function
-jR(a,b){return a<b?-1:a>b?1:0}function
-qS(c,b){var
-a=c%b;return a<0?a+cc(b):a}function
-jS(a,b){return(a-qS(a,b))/b}function
-I(a,b){return a==b?1:0}function
-GD(c){K.orthocert_verify=function(b){return er(c1(c,[a(b)]))}}function
-G(a,b){return a<=b?1:0}function
-L(a,b){return a<b?1:0}function
-B(a,b){return a*b}function
+j4(a,b){return a<b?-1:a>b?1:0}function
+re(c,b){var
+a=c%b;return a<0?a+ch(b):a}function
+j5(a,b){return(a-re(a,b))/b}function
+J(a,b){return a==b?1:0}function
+Hq(c){M.orthocert_verify=function(b){return eE(c8(c,[a(b)]))}}function
+E(a,b){return a<=b?1:0}function
+K(a,b){return a<b?1:0}function
+A(a,b){return a*b}function
 R(a){return-a}function
-aB(a){return K.BigInt(a)}function
-qT(a,b){return a<<K.BigInt(b)}function
-qU(a,b){return a>>K.BigInt(b)}function
-aJ(a){return a<0?-1:a>0?1:0}function
-GE(a){if(a<0)throw new(K.Error)("a root of a negative number");if(a<2)return a;var
-d=K.BigInt(1),b=d<<K.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aC(a,b){return a-b}function
-jT(a){if(a>0x7fffffff||a<-0x80000000)throw new(K.Error)("a number of more than 32 bits");return K.Number(a)}function
-Gg(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-F8(b){var
-a=_;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Gg(b[1]))var
+aE(a){return M.BigInt(a)}function
+rf(a,b){return a<<M.BigInt(b)}function
+rg(a,b){return a>>M.BigInt(b)}function
+aK(a){return a<0?-1:a>0?1:0}function
+Hr(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
+d=M.BigInt(1),b=d<<M.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
+aA(a,b){return a-b}function
+j6(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
+G5(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+GV(b){var
+a=$;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&G5(b[1]))var
 e=b[2],f=1;else
 var
-f=2,e=b;a+=pn;for(var
+f=2,e=b;a+=pG;for(var
 d=f;d<e.length;d++){if(d>f)a+=", ";var
 c=e[d];if(typeof
 c=="number")a+=c.toString();else
 if(c
 instanceof
-b$)a+=aI+c.toString()+aI;else
+ce)a+=aJ+c.toString()+aJ;else
 if(typeof
-c=="string")a+=aI+c.toString()+aI;else
-a+="_"}a+=ju}else
-if(b[0]==aV)a+=b[1];return a}function
-qz(a){if(a
+c=="string")a+=aJ+c.toString()+aJ;else
+a+="_"}a+=jH}else
+if(b[0]==aX)a+=b[1];return a}function
+qX(a){if(a
 instanceof
-Array&&(a[0]==0||a[0]==aV)){var
-c=dx("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=F8(a),b=dx(oG);if(b)b(0);K.console.error("Fatal error: exception "+d+"\n")}}else
+Array&&(a[0]==0||a[0]==aX)){var
+c=dG("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
+d=GV(a),b=dG(o0);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Gv(){var
-a=K;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){qz(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)qz(a.error)})}Gv();function
-i(a,b){return a.length==1?a(b):c1(a,[b])}function
-al(a,b,c){return a.length==2?a(b,c):c1(a,[b,c])}function
-gO(a,b,c,d){return a.length==3?a(b,c,d):c1(a,[b,c,d])}function
-jd(a,b,c,d,e){return a.length==4?a(b,c,d,e):c1(a,[b,c,d,e])}F9();var
-jW=[aV,a(pc),-2],jV=[aV,a(qk),-4],EP=[0,[0,[0,[0,0]]]],EQ=[0,0],ER=[0,0],ES=[0,[0,0]],ET=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ES]]]]]]]]]]],gD=[0,[1,0],0],nR=[0,[2,0],0],iV=[0,[1,0],0],nQ=[0,[2,0],0],gB=[0,[1,0],0],iU=[0,[2,0],0],EU=[0,[0,[0,[0,0]]]],EV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EU]]]]]]]]]]],EW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EV]]]]]]]]]]],EX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EW]]]]]]]]]]],EY=[0,[0,0]],EZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EY]]]]]]]]]]],E0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EZ]]]]]]]]]]],E1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E0]]]]]]]]]]],E2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E1]]]]]]]]]]],E3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],E4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E3]]]]]]]]]]],E5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E4]]]]]]]]]]],E6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E5]]]]]]]]]]],E7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E6]]]]]]]]]]],E8=[0,[0,0]],E9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E8]]]]]]]]]]],E_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E9]]]]]]]]]]],E$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E_]]]]]]]]]]],Fa=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E$]]]]]]]]]]],Fb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fa]]]]]]]]]]],Fc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fb]]]]]]]]]]],Fd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fc]]]]]]]]]]],Fe=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Ff=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fe]]]]]]]]]]],Fg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ff]]]]]]]]]]],Fh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fg]]]]]]]]]]],Fi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fh]]]]]]]]]]],Fj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fi]]]]]]]]]]],Fk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fj]]]]]]]]]]],Fl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fk]]]]]]]]]]],Fm=[0,0],Fn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fm]]]]]]]]]]],Fo=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fn]]]]]]]]]]],Fp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fo]]]]]]]]]]],Fq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fp]]]]]]]]]]],Fr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fq]]]]]]]]]]],Fs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fr]]]]]]]]]]],Ft=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fs]]]]]]]]]]],Fu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ft]]]]]]]]]]],Fv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fu]]]]]]]]]]],Fw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fv]]]]]]]]]]],Fx=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Fy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fx]]]]]]]]]]],Fz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fz]]]]]]]]]]],FB=[0,[0,[0,[0,[0,0]]]]],FC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FB]]]]]]]]]]],FD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FC]]]]]]]]]]],FE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FD]]]]]]]]]]],FF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FE]]]]]]]]]]],FG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FF]]]]]]]]]]],FH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FG]]]]]]]]]]],FI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FH]]]]]]]]]]],FJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FI]]]]]]]]]]],FK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]]],FL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],FM=[0,0],FN=[0,[0,0]],FO=[0,0],FP=[0,[0,[0,[0,[0,0]]]]],ks=[0,[0,[0,0]]],c7=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gq=[0,[0,[0,[0,0]]]],FQ=[0,[0,[0,[0,[0,0]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]];by(11,[aV,a(oF),-12],oF);by(10,[aV,a(ps),-11],ps);by(9,[aV,a(p$),-10],p$);by(8,[aV,a(oR),-9],oR);by(7,[aV,a(pG),-8],pG);by(6,[aV,a(oP),-7],oP);by(5,[aV,a(pd),-6],pd);by(4,[aV,a(ph),-5],ph);by(3,jV,qk);by(2,[aV,a(jo),-3],jo);by(1,jW,pc);by(0,[aV,a(pU),-1],pU);var
-qW=a("String.sub / Bytes.sub"),qY=a(_),qX=a("String.concat"),qZ=a("Array.init"),q0=a("power"),rh=[0,0],ri=[0,0],ro=[0,0,0],rp=[0,0,0],rq=[0,0],rI=[0,0],rJ=[0,0],rM=[0,0],r6=[0,0],r9=[0,0],r$=[0,0],sa=[0,0],sp=[0,0],sq=[0,0],sT=[0,0],tb=[0,[0,[0,0]]],tF=[0,0],tT=[0,0],tU=[0,0],t4=a(","),uk=[0,a(ju),0],ul=a(pn),um=a("."),un=[0,[0,[0,0]]],uo=a(fh),up=a(jv),uq=[0,[0,[0,[0,[0,0]]]]],ur=[0,a(ju),0],us=a(qh),xp=a(oC),xr=a(oy),xq=a(pv),xs=a(ei),xt=a(eg),xu=a(qj),xv=a(p5),xw=a(o8),xx=a(jx),xy=a(pA),yK=[0,[0,0,0]],y1=[0,0],yL=a(gR),yM=[0,0],yN=a("divided"),yO=[0,1],yP=a("mirror"),yQ=[0,3],yR=a("negative"),yS=[0,2],yT=a(fg),yU=[0,5],yV=a(jC),yW=[0,4],yX=a(dv),yY=a(oU),yZ=a(fd),y0=a(b_),y2=[0,0],y3=[0,0],y4=[0,0],y7=[0,[0,[0,0]]],y8=[0,[0,[0,0]]],zx=[0,[0,[0,0]]],zZ=a(_),zS=[0,0],zT=[0,0],zU=[0,[0,[0,[0,0]]]],zV=[0,[0,[0,0]]],zW=[0,[0,[0,[0,0]]]],zX=[0,[0,[0,0]]],zQ=[0,[0,[0,0]]],zP=[0,0],zO=a(fd),zN=[0,[0,[0,0]]],zM=[0,0],zI=[0,[0,0]],zK=[0,[0,[0,0]]],zJ=[0,0],zE=[0,[0,[0,0]]],zD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EP]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],zy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],zz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],zA=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],zB=[0,[0,[0,[0,0]]],[0,0,0]],zv=[0,0],zw=[0,[0,0]],zu=[0,0,0],zt=[0,[0,[0,0]]],zn=[0,[0,0]],zo=[0,[0,[0,0]]],zp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EQ]]]]]]]]]]],zq=[0,[0,0]],zr=[0,[0,[0,0]]],zm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ER]]]]]]]]]]],zk=[0,[0,0]],zl=[0,[0,[0,0]]],zi=[0,[0,[0,0]]],zj=[0,[0,0]],zh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,ET]]]]]]]]]]],zg=[0,0],zf=[0,0],zc=[0,[0,0]],zd=[0,0],za=[0,0],zb=[0,1],y_=[0,[0,0]],y$=[0,0],y9=[0,0],y5=[0,0],y6=[0,1],yH=[0,0],yI=[0,1],yJ=[0,2],yD=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],yB=[0,[0,0],0],yC=[0,[1,0],0],yE=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],yz=[0,[0,0]],yA=[0,0],yy=[0,0],yx=[0,0],yw=[0,0],yv=[0,0],yu=[0,0,0],ys=[0,[0,0]],yt=[0,0],yr=[0,0,0],yp=[0,[0,[0,0]]],yq=[0,[0,[0,0]]],yo=[0,0],ym=[0,1,0],ye=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,EX]]]]]]]]]]],yf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E2]]]]]]]]]]],ya=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,E7]]]]]]]]]]],yb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fd]]]]]]]]]]],yc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fl]]]]]]]]]]],yd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fw]]]]]]]]]]],yg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Fy]]]]]]]]]]],yh=a("sqrt"),x_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FA]]]]]]]]]]],x$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],xZ=[0,a("\n"),0],x0=a(oz),x1=a(gT),x2=a(pr),x3=a(pa),x9=a(fj),x4=a(ff),x5=a("verdict"),x6=a(pW),x7=a(o5),x8=a(pq),xW=a(pl),xX=a(p0),xY=a(gV),xS=a(pC),xT=a(gW),xU=a(ff),xV=a(fj),xN=a(g3),xO=a(bf),xP=a(oB),xQ=a(g0),xK=a(pT),xL=a(fg),xM=a(g0),xG=a(pF),xH=a(g3),xI=a(gW),xJ=a(p9),xA=a(p1),xB=a(p4),xC=a(pi),xD=a(gY),xE=a(qd),xn=a(jg),xo=a(g6),xi=a(bx),xj=a(bw),xk=a(o7),wU=a(gY),wV=a(pI),wy=a(bf),wz=a(bS),wA=a(g5),wB=a(el),wC=a(du),wH=a(jh),wD=a(jw),wE=a(jz),wF=a(eh),wG=a(bf),wI=a(bS),wJ=a(g5),wK=a(el),wL=a(jw),wM=a(jz),wN=a(eh),wO=a(bf),wP=a(bS),wQ=a(bx),wR=a(bw),wS=a(ds),wT=a(el),wW=a(pP),wX=a(p3),wY=a(g9),wZ=a(oV),w0=a(o0),w1=a(eh),w2=a(bf),w3=a(bS),w4=a(gP),w5=a(o_),w6=a(el),w7=a(fm),w8=a(oJ),w9=a(eh),w_=a(bf),w$=a(gP),xa=a(bf),xb=a(pK),xe=a(ox),xc=a(oY),xd=a(p8),xf=a(fj),xg=a(ff),xh=a(bf),xl=a(g9),xm=a(gV),wt=a(bS),wu=a(el),wv=a(jh),ww=a(eh),ws=a(qf),wg=a(fm),wh=a(pX),wi=a(dt),wj=a(ej),wk=a(ej),wl=a(jk),wm=a(dt),wn=a(pt),wo=a(o6),wp=a(a9),wr=a(oE),wq=a(jk),v8=a(pk),v9=a(qi),v_=a(o2),v$=a(oZ),wa=a(p7),wb=a(pS),wc=a(pb),wd=a(gQ),we=a(gQ),v4=a(a9),v5=a(bv),v6=a(em),v7=a(bR),v0=a(du),v1=a(jr),v2=a(pD),vX=a(bx),vY=a(bw),vZ=a(ds),vQ=a(bx),vR=a(bw),vS=a(ds),vT=a(jt),vU=a(dt),vV=a(jp),vW=a(pO),vz=a(oX),vF=a(gT),vE=a(jB),vA=a(jl),vB=a(fc),vI=a(fe),vJ=a(jl),vG=a(fe),vH=a(fc),vK=a(oT),vL=a(pM),vM=a(fc),vN=a(qe),vO=a(jB),vP=a(fc),vC=a(ej),vD=a(py),vw=a(gZ),vx=a(gZ),vy=a(gZ),vs=a(pQ),vt=a(bw),vu=a(bx),vv=a(p6),vc=a(oN),vd=a(oD),ve=a(pH),vf=a(ei),vg=a(qg),vh=a(pJ),vi=a(oO),vj=a(pz),vk=a(oM),vl=a(o9),vm=a(oL),vn=a(pR),vo=a(eg),vp=a(oI),vq=a(pZ),vr=a(o1),uT=a(g1),uV=a(fh),uU=a(fb),uW=a(ef),uX=a(a9),uY=a(bv),uZ=a(b_),u0=a(g7),u1=a(bR),u2=a(a9),u3=a(bv),u4=a(em),u5=a(bR),u6=a(ef),u7=a(fl),u8=a(a9),u9=a(bv),u_=a(px),u$=a(fe),va=a(fl),vb=a(bR),uB=a(g1),uJ=a(fh),uC=a(fb),uD=a(ef),uE=a(a9),uF=a(bv),uG=a(b_),uH=a(g7),uI=a(bR),uK=a(g8),uL=a(a9),uM=a(bv),uN=a(em),uO=a(bR),uP=a(b_),uQ=a(du),uR=a(bR),uy=a(bx),uz=a(bw),uw=[0,a(aI),0],ux=a(aI),uu=a(_),ut=[0,a(aI),0],uv=a(aI),ug=a(g1),uh=a(fh),ui=a("*"),uj=a(bT),ub=[0,[0,[0,[0,[0,0]]]]],uc=[0,[0,[0,0]]],ud=[0,[0,0]],ue=[0,0],uf=[0,[0,[0,[0,0]]]],t$=a('":'),ua=a(aI),t9=[0,a(aI),0],t_=a(aI),t7=[0,a("}"),0],t8=a("{"),t5=[0,a("]"),0],t6=a("["),t3=[0,[0,[0,0]]],t2=[0,[0,[0,0]]],t0=[0,0],tX=[0,[0,[0,0]]],tY=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tZ=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],tV=[0,[0,0]],tW=[0,[0,[0,0]]],tS=[0,0],tO=[0,0],tP=[0,[0,[0,[0,[0,[0,0]]]]]],tQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],tM=[0,0],tJ=[0,0,0],tK=[0,0,0],tL=[0,0,0],tG=[0,[0,0]],tH=[0,[0,[0,0]]],tI=[0,0],tv=[0,[0,[0,[0,[0,[0,0]]]]]],tw=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tx=[0,[0,[0,0]]],ty=[0,[0,[0,0]]],tz=[0,[0,[0,[0,[0,[0,0]]]]]],tA=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],tC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],tD=[0,[0,[0,0]]],tE=[0,[0,[0,[0,[0,[0,0]]]]]],tu=[0,0],ts=[0,[0,0]],tt=[0,[0,[0,0]]],to=[0,0,0],tp=[0,0,0],tk=[0,0,0],tl=[0,0,0],tm=[0,0,0],tn=[0,0,0],tj=[0,0],ti=[0,0],th=[0,0],tf=[0,0],tg=[0,0],te=[0,0],tc=[0,0],td=[0,0],s7=[0,0],s8=[0,0],s9=[0,0],s_=[0,[0,[0,0]]],s6=[0,0],s1=[0,[0,[0,0]]],s2=[0,[0,0]],sZ=[0,[0,0]],s0=[0,[0,[0,0]]],sY=[0,0],sW=[0,0],sX=[0,0],sU=[0,0,0],sR=[0,[0,0]],sS=[0,0],sJ=[0,[0,0]],sK=[0,0],sL=[0,[0,0]],sM=[0,0],sN=[0,[0,0]],sO=[0,0],sP=[0,[0,0]],sQ=[0,0],sH=[0,[0,0]],sI=[0,0],sF=[0,[0,0]],sG=[0,0],sB=[0,[0,0]],sC=[0,0],sD=[0,0],sE=[0,[0,0]],ss=[0,[0,0]],st=[0,0],su=[0,[0,0]],sv=[0,0],sw=[0,0],sx=[0,[0,0]],sy=[0,[0,0]],sz=[0,[0,0]],sA=[0,0],so=[0,0],sn=[0,0],sk=[0,0],sl=[0,[0,0]],sj=[0,[0,[0,0]]],si=[0,[0,[0,[0,[0,[0,0]]]]]],se=[0,[0,0]],sf=[0,[0,0]],sg=[0,0],sd=[0,0],sb=[0,0],sc=[0,[0,[0,0]]],r_=[0,[0,[0,0]]],r7=[0,[0,[0,0]]],r5=[0,[0,[0,0]]],r3=[0,[0,[0,[0,[0,[0,0]]]]]],r4=[0,[0,[0,[0,[0,[0,0]]]]]],rY=[0,[0,0]],rZ=[0,0],r0=[0,[0,0]],r1=[0,[0,[0,0]]],r2=[0,[0,[0,0]]],rR=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],rS=[0,[0,[0,[0,[0,[0,0]]]]]],rT=[0,[0,[0,[0,[0,[0,0]]]]]],rU=[0,[0,[0,0]]],rV=[0,[0,[0,[0,[0,[0,0]]]]]],rW=[0,[0,[0,0]]],rX=[0,[0,[0,0]]],rP=[0,[0,0]],rQ=[0,0],rO=[0,0,0],rN=[0,0,0],rL=[0,0,0],rK=[0,[0,[0,0]]],rG=[0,0],rH=[0,0],rC=[0,[0,[0,0]]],rD=[0,[0,[0,0]]],rE=[0,[0,[0,0]]],rB=[0,[0,[0,[0,0]]]],rx=[0,[0,[0,0]]],ry=[0,[0,[0,0]]],rz=[0,[0,[0,0]]],rA=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rv=[0,[0,0]],rw=[0,0],rt=[0,[0,0]],ru=[0,0],rr=[0,[0,0]],rs=[0,0],re=[0,0],rf=[0,[0,0]],rc=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],ra=[0,0,0],q$=a(qb),q_=a(_),q9=[0,[0,0]],q7=[0,0],q4=[0,0],q6=[1,0],q5=[0,0],q3=[0,0],q1=[1,0],q2=[1,0],sm=[10,0,0,0,0],zL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],C0=a(bx),C1=a(bw),C2=a(o7),CS=a(g8),CT=[0,a("a base axis of such a platform"),0],CU=a(a9),CV=a(bv),CF=a(pS),CG=a(pk),CH=a(p7),CI=a(gQ),CJ=a(pb),CK=a(gQ),CL=a(qi),CM=a(o2),CN=a(oZ),Cv=a(pI),Cw=a(gY),B9=[0,a("such a machine with bodies"),0],BW=a(gV),BX=a(bf),BY=a(pK),BZ=a(p8),B2=a(oY),B3=a(ox),B4=a(bf),B5=a(bf),B7=a(gP),B6=[0,a("a claim that no cube of such a machine fits"),0],B8=a(qf),B_=a(eh),B$=a(el),Ca=a(du),Cb=a(jr),Cc=a(pD),Cd=a(g5),Ce=a(o0),Cf=a(oJ),Cg=a(jh),Cj=a(ds),Ck=a(pO),Cn=a(bS),Co=a(bS),Cp=a(o_),Cq=a(bS),Cr=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Cs=a(gP),Ct=a(fm),Cu=a(ds),Cx=a(bS),Cy=a(bx),Cz=a(bw),CA=a(pP),CB=a(p3),CC=a(g9),CD=a(oV),Ch=[0,a(aI),0],Ci=a('the mechanism "'),CE=a(jw),CO=a(g5),CP=a(du),CQ=a(jr),CR=a(jz),CW=a(bS),CZ=a(du),CX=[0,a("a platform that turns on struts and other drives"),0],CY=a(bS),Cl=[0,a(aI),0],Cm=a('the workspace "'),C3=a(bf),C4=a(bf),C6=a(fj),C7=a(ff),C8=a(g9),C5=[0,a("an atlas of such a machine"),0],B0=[0,a(aI),0],B1=a('a claim of the kind "'),Dj=a(jx),Dk=[0,a('the evidence "fan" without "tolerances"'),0],Db=a(pA),Dl=a(eg),Dm=a(ei),Dn=a(o8),Do=a(pv),Dp=a(b_),Dq=a(g6),Dr=a(jg),Ds=a(b_),Dc=a(qj),Dd=a(dv),De=a(oU),Df=a(fd),Dg=a(jx),Dh=[0,a(aI),0],Di=a('the evidence "'),Dt=a(dv),Du=a(g6),Dv=[0,1,1],Dw=a(eg),Dx=a(ei),Dy=a(dv),Dz=a(fd),DA=a(p5),DC=a(eg),DD=a(ei),DE=a(dv),DF=a(fd),DG=a(fg),DH=a(gR),DI=a(fg),DJ=a(gR),DB=[0,a("this evidence at control points"),0],EI=a('"orthocert-paving/'),Ez=a(dv),EA=a(dv),Ei=a(pq),Ej=a(o5),Ek=a(pW),EG=[0,3,3],El=a(pa),Ey=[0,a("this set of orientations with such drives"),0],EB=[0,a('this evidence "tolerances" of a platform that turns'),0],EC=[0,a('"one_to_one" of this set of orientations'),0],ED=[0,a("a step of a platform that turns that is not at control points"),0],EE=[0,a('the evidence "tolerances" of such a mechanism'),0],EF=[0,a(pV),0],Ex=[0,a(pV),0],Ev=[0,a(oA),0],Ew=[0,a("a step in a proof that no cube fits"),0],Eu=[0,a('"one_to_one" of such a mechanism'),0],Em=[0,a("the acceleration of a joint of a machine with a plane"),0],Es=[0,a("a stiffness for each joint in such a claim"),0],Et=[0,a(pL),0],Er=[0,a(pL),0],En=a(pr),Eo=a(oz),Ep=a(gT),Eq=[0,a(oA),0],Ee=a(jC),Ef=a(gR),Eg=a(b_),D8=a(gV),D9=a(pl),D_=a(p0),D$=[0,a(aI),0],Ea=a('a proof of the kind "'),D4=a(ff),D5=a(fj),D6=a(gW),D7=a(pC),D0=a(bf),D1=a(g3),D2=a(oB),D3=a(g0),DX=a(pT),DY=a(fg),DZ=a(g0),DT=a(pF),DU=a(g3),DV=a(gW),DW=a(p9),DM=a(p4),DN=a(pi),DO=a(p1),DP=a(gY),DQ=a(qd),DR=[0,a(aI),0],DS=a('the failure "'),DK=a(jC),DL=a(qb),C$=a(g6),Da=a(jg),C9=a(oy),C_=a(oC),BT=a(fm),BJ=a(jk),BK=a(oE),BL=a(ej),BM=a(a9),BR=a(pX),BS=a(fm),BU=a(dt),BV=a(ej),BN=a(dt),BO=a(pt),BP=a(o6),BQ=a(a9),BC=a(ds),BG=a(bx),BH=a(bw),BD=a(jp),BE=a(jt),BF=a(dt),Bw=a(ds),BA=a(bx),BB=a(bw),Bx=a(jp),By=a(jt),Bz=a(dt),Bv=[0,1],Bu=[0,1],Bs=[0,1],Br=[0,1],Bp=[0,1],Bq=[0,a("this quantity of such a mechanism"),0],A$=a(jl),Ba=a(pM),Bb=a(oT),Bc=a(jB),Bd=a(qe),Be=a(fe),A_=a(gT),A2=a(gZ),AR=a(py),AS=a(pH),Bh=a(eg),Bi=a(pZ),Bj=a(o9),Bk=a(ei),Bl=a(pz),Bm=a(oL),Bn=a(oM),Bo=a(oD),AT=a(oI),AU=a(pR),AV=a(pJ),AW=a(o1),AX=a(qg),AY=a(oO),AZ=a(oN),A0=[0,a(aI),0],A1=a('the quantity "'),A3=a(oX),A4=a(pQ),A5=a(bx),A6=a(bw),A7=a(p6),A8=[0,a(aI),0],A9=a('a bound "'),Bf=a(fc),Bg=a(ej),AP=a(bR),AQ=a(em),Au=a(bR),Av=a(g8),Aw=a(fl),Ax=a(g7),Ay=a(em),AB=a(a9),AC=a(bv),AD=a(fb),AE=a(ef),AF=a(a9),AG=a(bv),AH=a(b_),AI=a(fb),AJ=a(ef),AK=a(fl),AL=a(a9),AM=a(bv),AN=a(px),AO=a(fe),Az=[0,a('" of such a machine'),0],AA=a(oS),As=a(bR),At=a(fl),Ac=a(bR),Ad=a(du),Ae=a(g7),Af=a(em),Ai=a(g8),Aj=a(a9),Ak=a(bv),Al=a(fb),Am=a(ef),An=a(a9),Ao=a(bv),Ap=a(b_),Aq=a(b_),Ag=[0,a(aI),0],Ah=a(oS),z$=a(g1),Aa=a(fh),z9=a(" is not covered by the verified checker"),z_=a(_),z7=a(bx),z8=a(bw),z3=a(_),z4=a(qh),z5=a(_),z6=a(_),z2=[1,0],z0=a("Reader.Malformed"),z1=a("Reader.Not_covered"),EK=[0,a("a paving is checked by orthocert-verified")],EJ=a(pB),EL=a("CERTIFIED"),EM=a("REFUTED"),EN=a(pB),EO=a("NOT COVERED: ");function
-fs(a){throw[0,jV,a]}function
-a3(d,c){var
-a=av(d),e=av(c),b=cb(a+e|0);eo(d,0,b,0,a);eo(c,0,b,a,e);return he(b)}Gm(0);qF(1);qF(2);function
-jX(b){function
+Hi(){var
+a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){qX(b);a.process.exit(2)});else
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)qX(a.error)})}Hi();function
+i(a,b){return a.length==1?a(b):c8(a,[b])}function
+an(a,b,c){return a.length==2?a(b,c):c8(a,[b,c])}function
+fn(a,b,c,d){return a.length==3?a(b,c,d):c8(a,[b,c,d])}function
+jr(a,b,c,d,e){return a.length==4?a(b,c,d,e):c8(a,[b,c,d,e])}GW();var
+j9=[aX,a(pw),-2],j8=[aX,a(qI),-4],FC=[0,[0,[0,[0,0]]]],FD=[0,0],FE=[0,0],FF=[0,[0,0]],FG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FF]]]]]]]]]]],gO=[0,[1,0],0],n_=[0,[2,0],0],i$=[0,[1,0],0],n9=[0,[2,0],0],gM=[0,[1,0],0],i_=[0,[2,0],0],FH=[0,[0,[0,[0,0]]]],FI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FH]]]]]]]]]]],FJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FI]]]]]]]]]]],FK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]]],FL=[0,[0,0]],FM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],FN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],FO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],FP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],FQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]],FV=[0,[0,0]],FW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FV]]]]]]]]]]],FX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FW]]]]]]]]]]],FY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FX]]]]]]]]]]],FZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FY]]]]]]]]]]],F0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FZ]]]]]]]]]]],F1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F0]]]]]]]]]]],F2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F1]]]]]]]]]]],F3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],F4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F3]]]]]]]]]]],F5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F4]]]]]]]]]]],F6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F5]]]]]]]]]]],F7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F6]]]]]]]]]]],F8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F7]]]]]]]]]]],F9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F8]]]]]]]]]]],F_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F9]]]]]]]]]]],F$=[0,0],Ga=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F$]]]]]]]]]]],Gb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ga]]]]]]]]]]],Gc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gb]]]]]]]]]]],Gd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gc]]]]]]]]]]],Ge=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gd]]]]]]]]]]],Gf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ge]]]]]]]]]]],Gg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gf]]]]]]]]]]],Gh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gg]]]]]]]]]]],Gi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gh]]]]]]]]]]],Gj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gi]]]]]]]]]]],Gk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Gl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gk]]]]]]]]]]],Gm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Gn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gm]]]]]]]]]]],Go=[0,[0,[0,[0,[0,0]]]]],Gp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Go]]]]]]]]]]],Gq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gp]]]]]]]]]]],Gr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gq]]]]]]]]]]],Gs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gr]]]]]]]]]]],Gt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gs]]]]]]]]]]],Gu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gt]]]]]]]]]]],Gv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gu]]]]]]]]]]],Gw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gv]]]]]]]]]]],Gx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gw]]]]]]]]]]],Gy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]]],Gz=[0,0],GA=[0,[0,0]],GB=[0,0],GC=[0,[0,[0,[0,[0,0]]]]],kG=[0,[0,[0,0]]],dc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gC=[0,[0,[0,[0,0]]]],GD=[0,[0,[0,[0,[0,0]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],GH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]];bD(11,[aX,a(oZ),-12],oZ);bD(10,[aX,a(pL),-11],pL);bD(9,[aX,a(qx),-10],qx);bD(8,[aX,a(o$),-9],o$);bD(7,[aX,a(p0),-8],p0);bD(6,[aX,a(o9),-7],o9);bD(5,[aX,a(px),-6],px);bD(4,[aX,a(pB),-5],pB);bD(3,j8,qI);bD(2,[aX,a(jB),-3],jB);bD(1,j9,pw);bD(0,[aX,a(qg),-1],qg);var
+ri=a("String.sub / Bytes.sub"),rk=a($),rj=a("String.concat"),rl=a("Array.init"),rm=a("power"),rF=[0,0],rG=[0,0],rM=[0,0,0],rN=[0,0,0],rO=[0,0],r6=[0,0],r7=[0,0],r_=[0,0],ss=[0,0],sv=[0,0],sx=[0,0],sy=[0,0],sN=[0,0],sO=[0,0],tf=[0,0],tz=[0,[0,[0,0]]],t3=[0,0],uf=[0,0],ug=[0,0],uh=[0,0],uC=a(","),uU=[0,a(jH),0],uV=a(pG),uW=a("."),uX=[0,[0,[0,0]]],uY=a(fu),uZ=a(jI),u0=[0,[0,[0,[0,[0,0]]]]],u1=[0,a(jH),0],u2=a(qF),xZ=a(oW),x1=a(oS),x0=a(pO),x2=a(ev),x3=a(et),x4=a(qH),x5=a(qr),x6=a(pq),x7=a(jK),x8=a(pU),zn=[0,[0,0,0]],zE=[0,0],zo=a(g2),zp=[0,0],zq=a("divided"),zr=[0,1],zs=a("mirror"),zt=[0,3],zu=a("negative"),zv=[0,2],zw=a(ft),zx=[0,5],zy=a(jP),zz=[0,4],zA=a(dE),zB=a(pc),zC=a(fq),zD=a(cd),zF=[0,0],zG=[0,0],zH=[0,0],zK=[0,[0,[0,0]]],zL=[0,[0,[0,0]]],Aa=[0,[0,[0,0]]],Ao=[0,0],AD=a($),Aw=[0,0],Ax=[0,0],Ay=[0,[0,[0,[0,0]]]],Az=[0,[0,[0,0]]],AA=[0,[0,[0,[0,0]]]],AB=[0,[0,[0,0]]],Au=[0,[0,[0,0]]],At=[0,0],As=a(fq),Ar=[0,[0,[0,0]]],Aq=[0,0],Al=[0,[0,0]],An=[0,[0,[0,0]]],Am=[0,0],Ah=[0,[0,[0,0]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FC]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ad=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ae=[0,[0,[0,[0,0]]],[0,0,0]],z_=[0,0],z$=[0,[0,0]],z9=[0,0,0],z8=[0,[0,[0,0]]],z2=[0,[0,0]],z3=[0,[0,[0,0]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FD]]]]]]]]]]],z5=[0,[0,0]],z6=[0,[0,[0,0]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FE]]]]]]]]]]],zZ=[0,[0,0]],z0=[0,[0,[0,0]]],zX=[0,[0,[0,0]]],zY=[0,[0,0]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FG]]]]]]]]]]],zV=[0,0],zU=[0,0],zR=[0,[0,0]],zS=[0,0],zP=[0,0],zQ=[0,1],zN=[0,[0,0]],zO=[0,0],zM=[0,0],zI=[0,0],zJ=[0,1],zk=[0,0],zl=[0,1],zm=[0,2],zg=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],ze=[0,[0,0],0],zf=[0,[1,0],0],zh=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zc=[0,[0,0]],zd=[0,0],zb=[0,0],za=[0,0],y$=[0,0],y_=[0,0],y9=[0,0,0],y7=[0,[0,0]],y8=[0,0],y6=[0,0,0],y4=[0,[0,[0,0]]],y5=[0,[0,[0,0]]],y3=[0,0],y1=[0,1,0],yT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],yU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],yP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],yQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F2]]]]]]]]]]],yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F_]]]]]]]]]]],yS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gj]]]]]]]]]]],yV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gl]]]]]]]]]]],yW=a("sqrt"),yN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gn]]]]]]]]]]],yO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],yC=[0,a("\n"),0],yD=a(oT),yE=a(g5),yF=a(pK),yG=a(pu),yM=a(fx),yH=a(fs),yI=a("verdict"),yJ=a(qi),yK=a(pn),yL=a(pJ),yz=a(pE),yA=a(qm),yB=a(g7),yv=a(pW),yw=a(g8),yx=a(fs),yy=a(fx),yq=a(he),yr=a(bi),ys=a(oV),yt=a(hb),yn=a(qf),yo=a(ft),yp=a(hb),yj=a(pZ),yk=a(he),yl=a(g8),ym=a(qv),x_=a(qn),x$=a(qq),ya=a(ha),yb=a(g_),yc=a(qB),yd=a(qb),ye=a(qe),yf=a(p3),yg=a(ha),yh=a(p6),xX=a(g3),xY=a(fw),xS=a(bC),xT=a(bB),xU=a(pp),xs=a(g_),xt=a(p2),w8=a(bi),w9=a(bW),w_=a(hg),w$=a(ey),xa=a(dD),xf=a(ju),xb=a(jJ),xc=a(jM),xd=a(eu),xe=a(bi),xg=a(bW),xh=a(hg),xi=a(ey),xj=a(jJ),xk=a(jM),xl=a(eu),xm=a(bi),xn=a(bW),xo=a(bC),xp=a(bB),xq=a(dB),xr=a(ey),xu=a(p$),xv=a(qp),xw=a(hj),xx=a(pd),xy=a(pi),xz=a(eu),xA=a(bi),xB=a(bW),xC=a(g0),xD=a(ps),xE=a(ey),xF=a(fA),xG=a(o3),xH=a(eu),xI=a(bi),xJ=a(g0),xK=a(bi),xL=a(p5),xO=a(oR),xM=a(pg),xN=a(qu),xP=a(fx),xQ=a(fs),xR=a(bi),xV=a(hj),xW=a(g7),w3=a(bW),w4=a(ey),w5=a(ju),w6=a(eu),w2=a(qD),wQ=a(fA),wR=a(qj),wS=a(dC),wT=a(ew),wU=a(ew),wV=a(jx),wW=a(dC),wX=a(pM),wY=a(po),wZ=a(bb),w1=a(oY),w0=a(jx),wG=a(pD),wH=a(qG),wI=a(pk),wJ=a(ph),wK=a(qt),wL=a(qd),wM=a(pv),wN=a(g1),wO=a(g1),wC=a(bb),wD=a(bA),wE=a(ez),wF=a(bV),wy=a(dD),wz=a(jE),wA=a(pX),wv=a(bC),ww=a(bB),wx=a(dB),wo=a(bC),wp=a(bB),wq=a(dB),wr=a(jG),ws=a(dC),wt=a(jC),wu=a(p_),v9=a(pf),wd=a(g5),wc=a(jO),v_=a(jy),v$=a(fp),wg=a(fr),wh=a(jy),we=a(fr),wf=a(fp),wi=a(pb),wj=a(p8),wk=a(fp),wl=a(qC),wm=a(jO),wn=a(fp),wa=a(ew),wb=a(pS),v6=a(g$),v7=a(g$),v8=a(g$),v2=a(qa),v3=a(bB),v4=a(bC),v5=a(qs),vM=a(o7),vN=a(oX),vO=a(p1),vP=a(ev),vQ=a(qE),vR=a(p4),vS=a(o8),vT=a(pT),vU=a(o6),vV=a(pr),vW=a(o5),vX=a(qc),vY=a(et),vZ=a(o2),v0=a(ql),v1=a(pj),vr=a(hc),vt=a(fu),vs=a(fo),vu=a(es),vv=a(bb),vw=a(bA),vx=a(cd),vy=a(hh),vz=a(bV),vA=a(bb),vB=a(bA),vC=a(ez),vD=a(bV),vE=a(es),vF=a(fz),vG=a(bb),vH=a(bA),vI=a(pQ),vJ=a(fr),vK=a(fz),vL=a(bV),u$=a(hc),vh=a(fu),va=a(fo),vb=a(es),vc=a(bb),vd=a(bA),ve=a(cd),vf=a(hh),vg=a(bV),vi=a(hi),vj=a(bb),vk=a(bA),vl=a(ez),vm=a(bV),vn=a(cd),vo=a(dD),vp=a(bV),u8=a(bC),u9=a(bB),u6=[0,a(aJ),0],u7=a(aJ),u4=a($),u3=[0,a(aJ),0],u5=a(aJ),uQ=a(hc),uR=a(fu),uS=a("*"),uT=a(bX),uL=[0,[0,[0,[0,[0,0]]]]],uM=[0,[0,[0,0]]],uN=[0,[0,0]],uO=[0,0],uP=[0,[0,[0,[0,0]]]],uJ=a('":'),uK=a(aJ),uH=[0,a(aJ),0],uI=a(aJ),uF=[0,a("}"),0],uG=a("{"),uD=[0,a("]"),0],uE=a("["),uB=[0,[0,[0,0]]],uA=[0,[0,[0,0]]],uy=[0,0],uv=[0,[0,[0,0]]],uw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ux=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ut=[0,[0,0]],uu=[0,[0,[0,0]]],uq=[0,[0,[0,0]]],us=[0,[0,[0,0]]],ur=[0,0],un=[0,[0,0]],uo=[0,0],ul=[0,[0,0]],um=[0,0],uk=[0,[0,[0,0]]],ui=[0,[0,0]],uj=[0,0],ue=[0,0],ua=[0,0],ub=[0,[0,[0,[0,[0,[0,0]]]]]],uc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],t_=[0,0],t7=[0,0,0],t8=[0,0,0],t9=[0,0,0],t4=[0,[0,0]],t5=[0,[0,[0,0]]],t6=[0,0],tT=[0,[0,[0,[0,[0,[0,0]]]]]],tU=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tV=[0,[0,[0,0]]],tW=[0,[0,[0,0]]],tX=[0,[0,[0,[0,[0,[0,0]]]]]],tY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],t0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],t1=[0,[0,[0,0]]],t2=[0,[0,[0,[0,[0,[0,0]]]]]],tS=[0,0],tQ=[0,[0,0]],tR=[0,[0,[0,0]]],tM=[0,0,0],tN=[0,0,0],tI=[0,0,0],tJ=[0,0,0],tK=[0,0,0],tL=[0,0,0],tH=[0,0],tG=[0,0],tF=[0,0],tD=[0,0],tE=[0,0],tC=[0,0],tA=[0,0],tB=[0,0],tt=[0,0],tu=[0,0],tv=[0,0],tw=[0,[0,[0,0]]],ts=[0,0],tn=[0,[0,[0,0]]],to=[0,[0,0]],tl=[0,[0,0]],tm=[0,[0,[0,0]]],tk=[0,0],ti=[0,0],tj=[0,0],tg=[0,0,0],td=[0,[0,0]],te=[0,0],s7=[0,[0,0]],s8=[0,0],s9=[0,[0,0]],s_=[0,0],s$=[0,[0,0]],ta=[0,0],tb=[0,[0,0]],tc=[0,0],s5=[0,[0,0]],s6=[0,0],s3=[0,[0,0]],s4=[0,0],sZ=[0,[0,0]],s0=[0,0],s1=[0,0],s2=[0,[0,0]],sQ=[0,[0,0]],sR=[0,0],sS=[0,[0,0]],sT=[0,0],sU=[0,0],sV=[0,[0,0]],sW=[0,[0,0]],sX=[0,[0,0]],sY=[0,0],sM=[0,0],sL=[0,0],sI=[0,0],sJ=[0,[0,0]],sH=[0,[0,[0,0]]],sG=[0,[0,[0,[0,[0,[0,0]]]]]],sC=[0,[0,0]],sD=[0,[0,0]],sE=[0,0],sB=[0,0],sz=[0,0],sA=[0,[0,[0,0]]],sw=[0,[0,[0,0]]],st=[0,[0,[0,0]]],sr=[0,[0,[0,0]]],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,0]]]]]],sk=[0,[0,0]],sl=[0,0],sm=[0,[0,0]],sn=[0,[0,[0,0]]],so=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],se=[0,[0,[0,[0,[0,[0,0]]]]]],sf=[0,[0,[0,[0,[0,[0,0]]]]]],sg=[0,[0,[0,0]]],sh=[0,[0,[0,[0,[0,[0,0]]]]]],si=[0,[0,[0,0]]],sj=[0,[0,[0,0]]],sb=[0,[0,0]],sc=[0,0],sa=[0,0,0],r$=[0,0,0],r9=[0,0,0],r8=[0,[0,[0,0]]],r4=[0,0],r5=[0,0],r0=[0,[0,[0,0]]],r1=[0,[0,[0,0]]],r2=[0,[0,[0,0]]],rZ=[0,[0,[0,[0,0]]]],rV=[0,[0,[0,0]]],rW=[0,[0,[0,0]]],rX=[0,[0,[0,0]]],rY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rT=[0,[0,0]],rU=[0,0],rR=[0,[0,0]],rS=[0,0],rP=[0,[0,0]],rQ=[0,0],rC=[0,0],rD=[0,[0,0]],rA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],ry=[0,0,0],rx=a(qz),rw=a($),rv=[0,[0,0]],rt=[0,0],rq=[0,0],rs=[1,0],rr=[0,0],rp=[0,0],rn=[1,0],ro=[1,0],sK=[10,0,0,0,0],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],DE=a(bC),DF=a(bB),DG=a(pp),Dw=a(hi),Dx=[0,a("a base axis of such a platform"),0],Dy=a(bb),Dz=a(bA),Dj=a(qd),Dk=a(pD),Dl=a(qt),Dm=a(g1),Dn=a(pv),Do=a(g1),Dp=a(qG),Dq=a(pk),Dr=a(ph),C$=a(p2),Da=a(g_),CN=[0,a("such a machine with bodies"),0],CA=a(g7),CB=a(bi),CC=a(p5),CD=a(qu),CG=a(pg),CH=a(oR),CI=a(bi),CJ=a(bi),CL=a(g0),CK=[0,a("a claim that no cube of such a machine fits"),0],CM=a(qD),CO=a(eu),CP=a(ey),CQ=a(dD),CR=a(jE),CS=a(pX),CT=a(hg),CU=a(pi),CV=a(o3),CW=a(ju),CZ=a(dB),C0=a(p_),C3=a(bW),C4=a(bW),C5=a(ps),C6=a(bW),C7=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],C8=a(g0),C9=a(fA),C_=a(dB),Db=a(bW),Dc=a(bC),Dd=a(bB),De=a(p$),Df=a(qp),Dg=a(hj),Dh=a(pd),CX=[0,a(aJ),0],CY=a('the mechanism "'),Di=a(jJ),Ds=a(hg),Dt=a(dD),Du=a(jE),Dv=a(jM),DA=a(bW),DD=a(dD),DB=[0,a("a platform that turns on struts and other drives"),0],DC=a(bW),C1=[0,a(aJ),0],C2=a('the workspace "'),DH=a(bi),DI=a(bi),DK=a(fx),DL=a(fs),DM=a(hj),DJ=[0,a("an atlas of such a machine"),0],CE=[0,a(aJ),0],CF=a('a claim of the kind "'),DZ=a(jK),D0=[0,a('the evidence "fan" without "tolerances"'),0],DR=a(pU),D1=a(et),D2=a(ev),D3=a(pq),D4=a(pO),D5=a(cd),D6=a(fw),D7=a(g3),D8=a(cd),DS=a(qH),DT=a(dE),DU=a(pc),DV=a(fq),DW=a(jK),DX=[0,a(aJ),0],DY=a('the evidence "'),D9=a(dE),D_=a(fw),D$=[0,1,1],Ea=a(et),Eb=a(ev),Ec=a(dE),Ed=a(fq),Ee=a(qr),Eg=a(et),Eh=a(ev),Ei=a(dE),Ej=a(fq),Ek=a(ft),El=a(g2),Em=a(ft),En=a(g2),Ef=[0,a("this evidence at control points"),0],Fv=a('"orthocert-paving/'),Fl=a(dE),Fm=a(dE),E5=a(pJ),E6=a(pn),E7=a(qi),Ft=[0,3,3],E8=a(pu),Fk=[0,a("this set of orientations with such drives"),0],Fn=[0,a('this evidence "tolerances" of a platform that turns'),0],Fo=[0,a('"one_to_one" of this set of orientations'),0],Fp=[0,a("a step of a platform that turns that is not at control points"),0],Fq=[0,a('the evidence "tolerances" of such a mechanism'),0],Fr=[0,a(pR),0],Fs=[0,a(qh),0],Fj=[0,a(pR),0],Fi=[0,a(qh),0],Fg=[0,a(oU),0],Fh=[0,a("a step in a proof that no cube fits"),0],Ff=[0,a('"one_to_one" of such a mechanism'),0],E9=[0,a("the acceleration of a joint of a machine with a plane"),0],Fd=[0,a("a stiffness for each joint in such a claim"),0],Fe=[0,a(p7),0],Fc=[0,a(p7),0],E_=a(pK),E$=a(oT),Fa=a(g5),Fb=[0,a(oU),0],E1=a(jP),E2=a(g2),E3=a(cd),ET=a(g7),EU=a(pE),EV=a(qm),EW=[0,a(aJ),0],EX=a('a proof of the kind "'),EP=a(fs),EQ=a(fx),ER=a(g8),ES=a(pW),EL=a(bi),EM=a(he),EN=a(oV),EO=a(hb),EI=a(qf),EJ=a(ft),EK=a(hb),EE=a(pZ),EF=a(he),EG=a(g8),EH=a(qv),Eq=a(qq),Er=a(ha),Es=a(qn),Et=a(g_),Eu=a(p6),Ev=a(qB),Ey=a(qb),Ez=a(g3),EA=a(fw),EB=a(qe),EC=a(p3),ED=a(ha),Ew=[0,a(aJ),0],Ex=a('the failure "'),Eo=a(jP),Ep=a(qz),DP=a(fw),DQ=a(g3),DN=a(oS),DO=a(oW),Cx=a(fA),Cn=a(jx),Co=a(oY),Cp=a(ew),Cq=a(bb),Cv=a(qj),Cw=a(fA),Cy=a(dC),Cz=a(ew),Cr=a(dC),Cs=a(pM),Ct=a(po),Cu=a(bb),Cg=a(dB),Ck=a(bC),Cl=a(bB),Ch=a(jC),Ci=a(jG),Cj=a(dC),Ca=a(dB),Ce=a(bC),Cf=a(bB),Cb=a(jC),Cc=a(jG),Cd=a(dC),B$=[0,1],B_=[0,1],B8=[0,1],B7=[0,1],B5=[0,1],B6=[0,a("this quantity of such a mechanism"),0],BP=a(jy),BQ=a(p8),BR=a(pb),BS=a(jO),BT=a(qC),BU=a(fr),BO=a(g5),BG=a(g$),Bv=a(pS),Bw=a(p1),BX=a(et),BY=a(ql),BZ=a(pr),B0=a(ev),B1=a(pT),B2=a(o5),B3=a(o6),B4=a(oX),Bx=a(o2),By=a(qc),Bz=a(p4),BA=a(pj),BB=a(qE),BC=a(o8),BD=a(o7),BE=[0,a(aJ),0],BF=a('the quantity "'),BH=a(pf),BI=a(qa),BJ=a(bC),BK=a(bB),BL=a(qs),BM=[0,a(aJ),0],BN=a('a bound "'),BV=a(fp),BW=a(ew),Bt=a(bV),Bu=a(ez),A_=a(bV),A$=a(hi),Ba=a(fz),Bb=a(hh),Bc=a(ez),Bf=a(bb),Bg=a(bA),Bh=a(fo),Bi=a(es),Bj=a(bb),Bk=a(bA),Bl=a(cd),Bm=a(fo),Bn=a(es),Bo=a(fz),Bp=a(bb),Bq=a(bA),Br=a(pQ),Bs=a(fr),Bd=[0,a('" of such a machine'),0],Be=a(pa),A8=a(bV),A9=a(fz),AS=a(bV),AT=a(dD),AU=a(hh),AV=a(ez),AY=a(hi),AZ=a(bb),A0=a(bA),A1=a(fo),A2=a(es),A3=a(bb),A4=a(bA),A5=a(cd),A6=a(cd),AW=[0,a(aJ),0],AX=a(pa),AP=a(hc),AQ=a(fu),AN=a(" is not covered by the verified checker"),AO=a($),AL=a(bC),AM=a(bB),AH=a($),AI=a(qF),AJ=a($),AK=a($),AG=[1,0],AE=a("Reader.Malformed"),AF=a("Reader.Not_covered"),Fx=[0,a("a paving is checked by orthocert-verified")],Fw=a(pV),Fy=a("CERTIFIED"),Fz=a("REFUTED"),FA=a(pV),FB=a("NOT COVERED: ");function
+fG(a){throw[0,j8,a]}function
+a8(d,c){var
+a=av(d),e=av(c),b=cg(a+e|0);eB(d,0,b,0,a);eB(c,0,b,a,e);return hq(b)}G$(0);q3(1);q3(2);function
+j_(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{Gl(d)}catch(a){a=qP(a);if(a[1]!==jW)throw a;var
+c=a[2],d=a[1];try{G_(d)}catch(a){a=rb(a);if(a[1]!==j9)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Gn(0))}Gu(a(oG),jX);function
-cd(c){var
+a=c;continue}return 0}}return a(Ha(0))}Hh(a(o0),j_);function
+ci(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
-jY(d){var
+j$(d){var
 a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 X(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,X(b,c)]}return 0}function
-hg(d,c){var
+hs(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aD(d,c){var
+aB(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
-bz(b,c){var
-a=cb(b);F7(a,0,b,c);return he(a)}function
-dB(g,b,a){var
-d=ep(g),f=0;if(0<=b&&0<=a&&!((hc(d)-a|0)<b)){var
-c=cb(a);fn(d,b,c,0,a);var
+bE(b,c){var
+a=cg(b);GU(a,0,b,c);return hq(a)}function
+dK(g,b,a){var
+d=eC(g),f=0;if(0<=b&&0<=a&&!((ho(d)-a|0)<b)){var
+c=cg(a);fB(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fs(qW);return he(e)}function
-jZ(k,g){if(g){var
+e=fG(ri);return hq(e)}function
+ka(k,g){if(g){var
 h=av(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(av(i)+h|0)+c|0,m=b[2],n=c<=j?j:fs(qX),c=n,b=m;continue}var
+j=(av(i)+h|0)+c|0,m=b[2],n=c<=j?j:fG(rj),c=n,b=m;continue}var
 l=av(i)+c|0}else
 var
 l=c;var
-f=cb(l),e=p,d=g;for(;;){if(d){var
+f=cg(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eo(a,0,f,e,av(a));eo(k,0,f,e+av(a)|0,h);var
-e=(e+av(a)|0)+h|0,d=o;continue}eo(a,0,f,e,av(a))}return he(f)}}}return qY}function
-hh(b,c){if(0===b)return[0];if(0<=b){var
-d=Gk(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];eB(a,0,f,e,av(a));eB(k,0,f,e+av(a)|0,h);var
+e=(e+av(a)|0)+h|0,d=o;continue}eB(a,0,f,e,av(a))}return hq(f)}}}return rk}function
+ht(b,c){if(0===b)return[0];if(0<=b){var
+d=G9(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
-a=g;continue}break}}return d}return fs(qZ)}function
-hi(c){var
+a=g;continue}break}}return d}return fG(rl)}function
+hu(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
-d=aB(0),b=aB(1);function
+d=aE(0),b=aE(1);function
 p(a){return C(a,b)}function
-j0(b,a){return C(aB(b),a)}function
-c(b,a){return B(aB(b),a)}function
-aS(b,a){return[0,jS(b,a),qS(b,a)]}function
-hj(b,a){return G(b,a)?b:a}function
-bg(b,a){return G(b,a)?a:b}function
-eu(a){return eu}function
-U(a){return a?0:1}function
+kb(b,a){return C(aE(b),a)}function
+c(b,a){return A(aE(b),a)}function
+aT(b,a){return[0,j5(b,a),re(b,a)]}function
+hv(b,a){return E(b,a)?b:a}function
+bj(b,a){return E(b,a)?a:b}function
+eH(a){return eH}function
+T(a){return a?0:1}function
 y(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 ay(a){return a[1]}function
-aT(a){return a[2]}function
+aU(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
 f(a,b){if(a){var
 c=f(a[2],b);return[0,a[1],c]}return b}function
-j1(a){return typeof
-a==="number"?0:[0,j1(a[1])]}function
-j2(d,c){var
+kc(a){return typeof
+a==="number"?0:[0,kc(a[1])]}function
+kd(d,c){var
 a=d,b=c;for(;;)if(typeof
 a==="number")return b;else
 switch(a[0]){case
@@ -797,9 +797,9 @@ a=a[1],b=[7,b];continue;case
 8:var
 a=a[1],b=[8,b];continue;default:var
 a=a[1],b=[9,b];continue}}function
-ft(a){return j2(a,0)}function
-j3(a){if(typeof
-a==="number")return q1;else
+fH(a){return kd(a,0)}function
+ke(a){if(typeof
+a==="number")return rn;else
 switch(a[0]){case
 0:return[1,a[1]];case
 1:return[2,a[1]];case
@@ -809,185 +809,185 @@ switch(a[0]){case
 5:return[6,a[1]];case
 6:return[7,a[1]];case
 7:return[8,a[1]];case
-8:return[9,a[1]];default:return[0,j3(a[1])]}}function
-bB(a){if(typeof
-a==="number")return q2;else
+8:return[9,a[1]];default:return[0,ke(a[1])]}}function
+bG(a){if(typeof
+a==="number")return ro;else
 switch(a[0]){case
-0:return[1,bA(a[1])];case
-1:return[3,bA(a[1])];case
-2:return[5,bA(a[1])];case
-3:return[7,bA(a[1])];case
-4:return[9,bA(a[1])];case
-5:return[1,bB(a[1])];case
-6:return[3,bB(a[1])];case
-7:return[5,bB(a[1])];case
-8:return[7,bB(a[1])];default:return[9,bB(a[1])]}}function
-bA(a){if(typeof
+0:return[1,bF(a[1])];case
+1:return[3,bF(a[1])];case
+2:return[5,bF(a[1])];case
+3:return[7,bF(a[1])];case
+4:return[9,bF(a[1])];case
+5:return[1,bG(a[1])];case
+6:return[3,bG(a[1])];case
+7:return[5,bG(a[1])];case
+8:return[7,bG(a[1])];default:return[9,bG(a[1])]}}function
+bF(a){if(typeof
 a==="number")return 0;else
 switch(a[0]){case
-0:return[0,bA(a[1])];case
-1:return[2,bA(a[1])];case
-2:return[4,bA(a[1])];case
-3:return[6,bA(a[1])];case
-4:return[8,bA(a[1])];case
-5:return[0,bB(a[1])];case
-6:return[2,bB(a[1])];case
-7:return[4,bB(a[1])];case
-8:return[6,bB(a[1])];default:return[8,bB(a[1])]}}function
-bn(a){return a?a[1]:a}function
-P(b,a){return b?[0,P(b[1],a)]:a}function
-j4(a,b){return a?P(b,j4(a[1],b)):a}function
-ev(d,c){var
+0:return[0,bF(a[1])];case
+1:return[2,bF(a[1])];case
+2:return[4,bF(a[1])];case
+3:return[6,bF(a[1])];case
+4:return[8,bF(a[1])];case
+5:return[0,bG(a[1])];case
+6:return[2,bG(a[1])];case
+7:return[4,bG(a[1])];case
+8:return[6,bG(a[1])];default:return[8,bG(a[1])]}}function
+bs(a){return a?a[1]:a}function
+O(b,a){return b?[0,O(b[1],a)]:a}function
+kf(a,b){return a?O(b,kf(a[1],b)):a}function
+dL(d,c){var
 a=d,b=c;for(;;){if(a){if(b){var
 a=a[1],b=b[1];continue}return a}return a}}function
-ce(b,a){return b?a:a?0:1}function
-s(d,c){var
+cj(b,a){return b?a:a?0:1}function
+r(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 Y(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return 1}}function
-aX(b,a){return Y([0,b],a)}function
-j5(c){var
+aV(b,a){return Y([0,b],a)}function
+kg(c){var
 a=c;for(;;){if(a){var
 b=a[1];if(b){var
 a=b[1];continue}return b}return 1}}function
-fu(c,b,a){return c?i(b,fu(c[1],b,a)):a}function
-j6(a){if(a)var
-b=a[1],d=b?[0,j6(b[1])]:b,c=d;else
+fI(c,b,a){return c?i(b,fI(c[1],b,a)):a}function
+kh(a){if(a)var
+b=a[1],d=b?[0,kh(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hk(d,c){var
+hw(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
-j7(a){if(G(a,b))return b;var
-e=aS(a,aB(2)),f=e[1];return I(e[2],d)?p(c(2,j7(f))):p(c(2,c(2,f)))}function
-j8(c,a){return bg(b,aC(c,a))}function
-fv(a){if(G(a,b))return q4;var
-c=aS(a,aB(2)),e=c[1];return I(c[2],d)?[0,fv(e)]:[0,fv(e)]}function
-fw(a){if(G(a,b))return b;var
-c=aS(a,aB(2)),e=c[1];return I(c[2],d)?p(fw(e)):p(fw(e))}function
-j9(c,b){var
-a=jR(c,b);return 0===a?0:0<=a?2:1}function
-fx(j,i){var
-c=j,a=i;for(;;){if(G(c,b))return G(a,b)?1:I(aS(a,aB(2))[2],d)?0:0;var
-g=aS(c,aB(2)),h=g[1];if(I(g[2],d)){if(G(a,b))return 0;var
-e=aS(a,aB(2)),k=e[1];if(I(e[2],d)){var
-c=h,a=k;continue}return 0}if(G(a,b))return 0;var
-f=aS(a,aB(2)),l=f[1];if(I(f[2],d))return 0;var
+ki(a){if(E(a,b))return b;var
+e=aT(a,aE(2)),f=e[1];return J(e[2],d)?p(c(2,ki(f))):p(c(2,c(2,f)))}function
+kj(c,a){return bj(b,aA(c,a))}function
+fJ(a){if(E(a,b))return rq;var
+c=aT(a,aE(2)),e=c[1];return J(c[2],d)?[0,fJ(e)]:[0,fJ(e)]}function
+fK(a){if(E(a,b))return b;var
+c=aT(a,aE(2)),e=c[1];return J(c[2],d)?p(fK(e)):p(fK(e))}function
+kk(c,b){var
+a=j4(c,b);return 0===a?0:0<=a?2:1}function
+fL(j,i){var
+c=j,a=i;for(;;){if(E(c,b))return E(a,b)?1:J(aT(a,aE(2))[2],d)?0:0;var
+g=aT(c,aE(2)),h=g[1];if(J(g[2],d)){if(E(a,b))return 0;var
+e=aT(a,aE(2)),k=e[1];if(J(e[2],d)){var
+c=h,a=k;continue}return 0}if(E(a,b))return 0;var
+f=aT(a,aE(2)),l=f[1];if(J(f[2],d))return 0;var
 c=h,a=l;continue}}function
-fy(b,a){return 2<=j9(b,a)?0:1}function
-dC(i,e,a){if(i){var
-f=i[1];if(G(e,b))return[0,b,[0,b,a]];var
-w=aS(e,aB(2)),g=w[1];if(I(w[2],d)){if(G(a,b))return[0,b,[0,e,b]];var
-m=aS(a,aB(2)),A=m[1];if(I(m[2],d)){var
-j=dC(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
-k=dC(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(G(a,b))return[0,b,[0,e,b]];var
-v=aS(a,aB(2)),h=v[1];if(I(v[2],d)){var
-n=dC(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(j9(g,h)){case
+fM(b,a){return 2<=kk(b,a)?0:1}function
+dM(i,e,a){if(i){var
+f=i[1];if(E(e,b))return[0,b,[0,b,a]];var
+w=aT(e,aE(2)),g=w[1];if(J(w[2],d)){if(E(a,b))return[0,b,[0,e,b]];var
+m=aT(a,aE(2)),A=m[1];if(J(m[2],d)){var
+j=dM(f,g,A),x=j[2];return[0,c(2,j[1]),x]}var
+k=dM(f,g,a),l=k[2],y=l[2],z=[0,c(2,l[1]),y];return[0,k[1],z]}if(E(a,b))return[0,b,[0,e,b]];var
+v=aT(a,aE(2)),h=v[1];if(J(v[2],d)){var
+n=dM(f,e,h),o=n[2],B=c(2,o[2]);return[0,n[1],[0,o[1],B]]}switch(kk(g,h)){case
 0:return[0,e,[0,b,b]];case
 1:var
-p=dC(f,j8(h,g),e),q=p[2],r=q[2],D=[0,r,C(r,c(2,q[1]))];return[0,p[1],D];default:var
-s=dC(f,j8(g,h),a),t=s[2],u=t[2],E=[0,C(u,c(2,t[1])),u];return[0,s[1],E]}}return[0,b,[0,e,a]]}function
-fz(b,a){var
-c=fv(a);return dC(P(fv(b),c),b,a)}function
-j_(c,i,h){var
-e=i,a=h;for(;;){if(G(e,b))return a;var
-f=aS(e,aB(2)),g=f[1];if(I(f[2],d)){var
-e=g,a=al(c,a,a);continue}return al(c,a,j_(c,g,al(c,a,a)))}}function
-ew(a){return j_(P,a,q5)}function
-j$(a){return a?p(j$(a[1])):b}function
-cf(f,e){var
+p=dM(f,kj(h,g),e),q=p[2],r=q[2],D=[0,r,C(r,c(2,q[1]))];return[0,p[1],D];default:var
+s=dM(f,kj(g,h),a),t=s[2],u=t[2],F=[0,C(u,c(2,t[1])),u];return[0,s[1],F]}}return[0,b,[0,e,a]]}function
+fN(b,a){var
+c=fJ(a);return dM(O(fJ(b),c),b,a)}function
+kl(c,i,h){var
+e=i,a=h;for(;;){if(E(e,b))return a;var
+f=aT(e,aE(2)),g=f[1];if(J(f[2],d)){var
+e=g,a=an(c,a,a);continue}return an(c,a,kl(c,g,an(c,a,a)))}}function
+eI(a){return kl(O,a,rr)}function
+km(a){return a?p(km(a[1])):b}function
+ck(f,e){var
 a=f,d=e;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
-g=B(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
+g=A(c(2,p(c(2,c(2,b)))),d),a=a[1],d=g;continue;case
 1:var
-h=C(b,B(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
+h=C(b,A(c(2,p(c(2,c(2,b)))),d)),a=a[1],d=h;continue;case
 2:var
-i=B(c(2,p(c(2,c(2,b)))),d),j=C(c(2,b),i),a=a[1],d=j;continue;case
+i=A(c(2,p(c(2,c(2,b)))),d),j=C(c(2,b),i),a=a[1],d=j;continue;case
 3:var
-k=B(c(2,p(c(2,c(2,b)))),d),l=C(p(c(2,b)),k),a=a[1],d=l;continue;case
+k=A(c(2,p(c(2,c(2,b)))),d),l=C(p(c(2,b)),k),a=a[1],d=l;continue;case
 4:var
-m=B(c(2,p(c(2,c(2,b)))),d),n=C(c(2,c(2,b)),m),a=a[1],d=n;continue;case
+m=A(c(2,p(c(2,c(2,b)))),d),n=C(c(2,c(2,b)),m),a=a[1],d=n;continue;case
 5:var
-o=B(c(2,p(c(2,c(2,b)))),d),q=C(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
+o=A(c(2,p(c(2,c(2,b)))),d),q=C(p(c(2,c(2,b))),o),a=a[1],d=q;continue;case
 6:var
-r=B(c(2,p(c(2,c(2,b)))),d),s=C(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
+r=A(c(2,p(c(2,c(2,b)))),d),s=C(c(2,p(c(2,b))),r),a=a[1],d=s;continue;case
 7:var
-t=B(c(2,p(c(2,c(2,b)))),d),u=C(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
+t=A(c(2,p(c(2,c(2,b)))),d),u=C(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
-v=B(c(2,p(c(2,c(2,b)))),d),w=C(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
-x=B(c(2,p(c(2,c(2,b)))),d),y=C(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hl(a){if(G(a,b))return q6;var
-c=aS(a,aB(2)),e=c[1];return I(c[2],d)?bA(hl(e)):bB(hl(e))}function
-fA(a){return ft(hl(a))}function
-ka(c,b){var
-a=jR(c,b);return 0===a?0:0<=a?2:1}function
-kb(b,a){return 1===ka(b,a)?1:0}var
-kc=C,q8=R;function
-ex(k,f){if(0<=aJ(f)){var
-g=jT(f);if(0<=g){var
+v=A(c(2,p(c(2,c(2,b)))),d),w=C(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
+x=A(c(2,p(c(2,c(2,b)))),d),y=C(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
+hx(a){if(E(a,b))return rs;var
+c=aT(a,aE(2)),e=c[1];return J(c[2],d)?bF(hx(e)):bG(hx(e))}function
+fO(a){return fH(hx(a))}function
+kn(c,b){var
+a=j4(c,b);return 0===a?0:0<=a?2:1}function
+ko(b,a){return 1===kn(b,a)?1:0}var
+kp=C,ru=R;function
+bZ(k,f){if(0<=aK(f)){var
+g=j6(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
-h=a>>>1|0,i=B(c,c),j=1===(a&1)?B(e,c):e,e=j,c=i,a=h;continue}}return fs(q0)}return d}function
-hm(c){var
-a=aJ(c);return 0===a?d:0<a?b:R(b)}function
-hn(a){return 0<=aJ(a)?a:d}function
-ey(a){var
-c=aJ(a);return 0===c?b:0<c?a:b}function
-kd(m){var
+h=a>>>1|0,i=A(c,c),j=1===(a&1)?A(e,c):e,e=j,c=i,a=h;continue}}return fG(rm)}return d}function
+hy(c){var
+a=aK(c);return 0===a?d:0<a?b:R(b)}function
+hz(a){return 0<=aK(a)?a:d}function
+dN(a){var
+c=aK(a);return 0===c?b:0<c?a:b}function
+kq(m){var
 a=m;for(;;)if(typeof
 a==="number")return d;else
 switch(a[0]){case
 0:var
 a=a[1];continue;case
-1:return cf(a[1],b);case
+1:return ck(a[1],b);case
 2:var
-e=c(2,b);return cf(a[1],e);case
+e=c(2,b);return ck(a[1],e);case
 3:var
-f=p(c(2,b));return cf(a[1],f);case
+f=p(c(2,b));return ck(a[1],f);case
 4:var
-g=c(2,c(2,b));return cf(a[1],g);case
+g=c(2,c(2,b));return ck(a[1],g);case
 5:var
-h=p(c(2,c(2,b)));return cf(a[1],h);case
+h=p(c(2,c(2,b)));return ck(a[1],h);case
 6:var
-i=c(2,p(c(2,b)));return cf(a[1],i);case
+i=c(2,p(c(2,b)));return ck(a[1],i);case
 7:var
-j=p(c(2,p(c(2,b))));return cf(a[1],j);case
+j=p(c(2,p(c(2,b))));return ck(a[1],j);case
 8:var
-k=c(2,c(2,c(2,b)));return cf(a[1],k);default:var
-l=p(c(2,c(2,c(2,b))));return cf(a[1],l)}}function
-cg(b,a){var
-c=aJ(a);return 0===c?d:1===c?jS(b,a):j0(-1,jS(j0(-1,b),a))}function
-ke(a){var
-f=aJ(a);if(0===f)return d;if(0<f){if(G(a,b))return d;var
-c=aS(a,aB(2)),e=c[1];return I(c[2],d)?fw(e):fw(e)}return d}function
-fB(a){return 0<aJ(a)?GE(a):d}function
-ez(b,c){var
-a=jT(c);return 0<=a?qT(b,a):qU(b,-a|0)}function
-c2(b,c){var
-a=jT(c);return 0<=a?qU(b,a):qT(b,-a|0)}function
-bC(b,a){return a?a[1]:b}function
-bo(a){var
+k=c(2,c(2,c(2,b)));return ck(a[1],k);default:var
+l=p(c(2,c(2,c(2,b))));return ck(a[1],l)}}function
+cl(b,a){var
+c=aK(a);return 0===c?d:1===c?j5(b,a):kb(-1,j5(kb(-1,b),a))}function
+kr(a){var
+f=aK(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
+c=aT(a,aE(2)),e=c[1];return J(c[2],d)?fK(e):fK(e)}return d}function
+fP(a){return 0<aK(a)?Hr(a):d}function
+eJ(b,c){var
+a=j6(c);return 0<=a?rf(b,a):rg(b,-a|0)}function
+c9(b,c){var
+a=j6(c);return 0<=a?rg(b,a):rf(b,-a|0)}function
+bH(b,a){return a?a[1]:b}function
+bt(a){var
 b=a?a[2]:a;return b}function
-r(e,d,c){var
+q(e,d,c){var
 b=e,a=d;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return c}return a?a[1]:c}}function
-D(d,c){var
+F(d,c){var
 a=d,b=c;for(;;){if(b){if(a){var
 a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
-kf(a){if(a){var
-b=[0,a[1],0];return f(kf(a[2]),b)}return a}function
-eA(d,c){var
+ks(a){if(a){var
+b=[0,a[1],0];return f(ks(a[2]),b)}return a}function
+eK(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
-eB(a){if(a){var
-b=eB(a[2]);return f(a[1],b)}return a}function
-ho(g,f,e){var
+dO(a){if(a){var
+b=dO(a[2]);return f(a[1],b)}return a}function
+hA(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=al(g,b[1],a[1]);if(c){var
+c=an(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
@@ -998,12 +998,12 @@ var
 c=a;return c}function
 x(b,a){if(a){var
 c=x(b,a[2]);return f(i(b,a[1]),c)}return a}function
-bV(e,d,c){var
+b0(e,d,c){var
 a=d,b=c;for(;;){if(a){var
-f=al(e,b,a[1]),a=a[2],b=f;continue}return b}}function
-ar(c,b,a){if(a){var
-d=ar(c,b,a[2]);return al(c,a[1],d)}return b}function
-aj(e,d){var
+f=an(e,b,a[1]),a=a[2],b=f;continue}return b}}function
+as(c,b,a){if(a){var
+d=as(c,b,a[2]);return an(c,a[1],d)}return b}function
+ak(e,d){var
 a=d;for(;;){if(a){var
 b=i(e,a[1]);if(!b){var
 a=a[2];continue}var
@@ -1014,132 +1014,133 @@ m(d,c){var
 a=c;for(;;){if(a){var
 b=i(d,a[1]);if(b){var
 a=a[2];continue}return b}return 1}}function
-bh(b,e){var
+bk(b,e){var
 a=e;for(;;){if(a){var
-c=a[2],d=a[1];if(i(b,d))return[0,d,bh(b,c)];var
+c=a[2],d=a[1];if(i(b,d))return[0,d,bk(b,c)];var
 a=c;continue}return a}}function
-kg(d,c){var
+kt(d,c){var
 a=c;for(;;){if(a){var
 b=a[1];if(i(d,b))return[0,b];var
 a=a[2];continue}return a}}function
-ao(b,a){if(b)if(a)var
-d=ao(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
+ag(b,a){if(b)if(a)var
+d=ag(b[2],a[2]),c=[0,[0,b[1],a[1]],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bp(b,a){if(b)if(a)var
-d=bp(b[1],a[2]),c=[0,a[1],d];else
+aL(b,a){if(b)if(a)var
+d=aL(b[1],a[2]),c=[0,a[1],d];else
 var
 c=a;else
 var
 c=b;return c}function
-bW(d,c){var
+aZ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-aE(b,a){var
-c=a?[0,b,aE([0,b],a[1])]:a;return c}function
-as(b,a){var
-c=a?[0,b,as(b,a[1])]:a;return c}function
-kh(a){if(a){var
-e=kh(a[2]),f=B(c(2,b),e),g=a[1]?b:d;return C(g,f)}return d}function
-fC(j){function
+az(b,a){var
+c=a?[0,b,az([0,b],a[1])]:a;return c}function
+al(b,a){var
+c=a?[0,b,al(b,a[1])]:a;return c}function
+ku(a){if(a){var
+e=ku(a[2]),f=A(c(2,b),e),g=a[1]?b:d;return C(g,f)}return d}function
+fQ(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=kh([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aJ(b)?ew(b):0}function
-dD(c,b){var
-a=jR(B(c[1],b[2]),B(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
-c3(b,a){return G(B(b[1],a[2]),B(a[1],b[2]))}function
-dE(b,a){return[0,C(B(b[1],a[2]),B(a[1],b[2])),B(b[2],a[2])]}function
-ch(b,a){return[0,B(b[1],a[1]),B(b[2],a[2])]}function
-ki(a){return[0,R(a[1]),a[2]]}function
-fD(b,a){return dE(b,ki(a))}function
-hp(f,c){var
-a=c[1],e=aJ(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return ch(f,g)}function
-fE(q){var
-a=q[2],b=q[1],o=aJ(b);if(0===o)var
-c=[0,cc(a),[0,d,hm(a)]];else
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=ku([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aK(b)?eI(b):0}function
+kv(a){return[0,a,b]}function
+dP(c,b){var
+a=j4(A(c[1],b[2]),A(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
+bl(b,a){return E(A(b[1],a[2]),A(a[1],b[2]))}function
+c_(b,a){return[0,C(A(b[1],a[2]),A(a[1],b[2])),A(b[2],a[2])]}function
+a0(b,a){return[0,A(b[1],a[1]),A(b[2],a[2])]}function
+kw(a){return[0,R(a[1]),a[2]]}function
+dQ(b,a){return c_(b,kw(a))}function
+fR(f,c){var
+a=c[1],e=aK(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return a0(f,g)}function
+c$(q){var
+a=q[2],b=q[1],o=aK(b);if(0===o)var
+c=[0,ch(a),[0,d,hy(a)]];else
 if(0<o){var
-n=aJ(a);if(0===n)var
-c=[0,cc(b),[0,hm(b),d]];else
+n=aK(a);if(0===n)var
+c=[0,ch(b),[0,hy(b),d]];else
 if(0<n)var
-l=fz(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
+l=fN(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
-j=fz(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
-p=R(b),i=aJ(a);if(0===i)var
-c=[0,cc(b),[0,hm(b),d]];else
+j=fN(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
+p=R(b),i=aK(a);if(0===i)var
+c=[0,ch(b),[0,hy(b),d]];else
 if(0<i)var
-g=fz(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
+g=fN(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
-e=fz(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
-r=c[2],s=ey(r[2]);return[0,r[1],s]}function
-a_(a){if(typeof
-a==="number")return q_;else
+e=fN(p,R(a)),f=e[2],c=[0,e[1],[0,R(f[1]),R(f[2])]]}var
+r=c[2],s=dN(r[2]);return[0,r[1],s]}function
+bc(a){if(typeof
+a==="number")return rw;else
 switch(a[0]){case
 0:var
-b=a_(a[1]);return a3(bz(1,48),b);case
+b=bc(a[1]);return a8(bE(1,48),b);case
 1:var
-c=a_(a[1]);return a3(bz(1,49),c);case
+c=bc(a[1]);return a8(bE(1,49),c);case
 2:var
-d=a_(a[1]);return a3(bz(1,50),d);case
+d=bc(a[1]);return a8(bE(1,50),d);case
 3:var
-e=a_(a[1]);return a3(bz(1,51),e);case
+e=bc(a[1]);return a8(bE(1,51),e);case
 4:var
-f=a_(a[1]);return a3(bz(1,52),f);case
+f=bc(a[1]);return a8(bE(1,52),f);case
 5:var
-g=a_(a[1]);return a3(bz(1,53),g);case
+g=bc(a[1]);return a8(bE(1,53),g);case
 6:var
-h=a_(a[1]);return a3(bz(1,54),h);case
+h=bc(a[1]);return a8(bE(1,54),h);case
 7:var
-i=a_(a[1]);return a3(bz(1,55),i);case
+i=bc(a[1]);return a8(bE(1,55),i);case
 8:var
-j=a_(a[1]);return a3(bz(1,56),j);default:var
-k=a_(a[1]);return a3(bz(1,57),k)}}function
-eC(a){return typeof
-a==="number"?q$:a_(a)}function
-c4(a){return ex(c(2,b),a)}function
-kj(b,a){return c2(a,b)}function
-kk(b,a){return R(c2(R(a),b))}function
-fF(b,a){return R(cg(R(b),a))}function
-Q(c,b){var
-a=ez(b,c);return[0,a,a]}function
-kl(d,c,a){var
-b=ez(c,d),e=fF(b,a);return[0,cg(b,a),e]}function
+j=bc(a[1]);return a8(bE(1,56),j);default:var
+k=bc(a[1]);return a8(bE(1,57),k)}}function
+eL(a){return typeof
+a==="number"?rx:bc(a)}function
+cm(a){return bZ(c(2,b),a)}function
+kx(b,a){return c9(a,b)}function
+ky(b,a){return R(c9(R(a),b))}function
+fS(b,a){return R(cl(R(b),a))}function
+P(c,b){var
+a=eJ(b,c);return[0,a,a]}function
+kz(d,c,a){var
+b=eJ(c,d),e=fS(b,a);return[0,cl(b,a),e]}function
 z(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-F(b,a){return[0,aC(b[1],a[2]),aC(b[2],a[1])]}function
-ab(a){return[0,R(a[2]),R(a[1])]}function
-km(e,c,b,a){if(G(d,e))return G(d,b)?[0,B(e,b),B(c,a)]:G(a,d)?[0,B(c,b),B(e,a)]:[0,B(c,b),B(c,a)];if(G(c,d))return G(d,b)?[0,B(e,a),B(c,b)]:G(a,d)?[0,B(c,a),B(e,b)]:[0,B(e,a),B(e,b)];if(G(d,b))return[0,B(e,a),B(c,a)];if(G(a,d))return[0,B(c,b),B(e,b)];var
-f=bg(B(e,b),B(c,a));return[0,hj(B(e,a),B(c,b)),f]}function
+G(b,a){return[0,aA(b[1],a[2]),aA(b[2],a[1])]}function
+aa(a){return[0,R(a[2]),R(a[1])]}function
+kA(e,c,b,a){if(E(d,e))return E(d,b)?[0,A(e,b),A(c,a)]:E(a,d)?[0,A(c,b),A(e,a)]:[0,A(c,b),A(c,a)];if(E(c,d))return E(d,b)?[0,A(e,a),A(c,b)]:E(a,d)?[0,A(c,a),A(e,b)]:[0,A(e,a),A(e,b)];if(E(d,b))return[0,A(e,a),A(c,a)];if(E(a,d))return[0,A(c,b),A(e,b)];var
+f=bj(A(e,b),A(c,a));return[0,hv(A(e,a),A(c,b)),f]}function
 t(c,b,a){var
-d=km(b[1],b[2],a[1],a[2]),e=kk(c,d[2]);return[0,kj(c,d[1]),e]}function
+d=kA(b[1],b[2],a[1],a[2]),e=ky(c,d[2]);return[0,kx(c,d[1]),e]}function
 V(b,a){var
-c=B(a[1],a[1]),e=B(a[2],a[2]),h=kk(b,bg(c,e)),g=0;if(L(a[1],d)&&L(d,a[2])){var
+c=A(a[1],a[1]),e=A(a[2],a[2]),h=ky(b,bj(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kj(b,hj(c,e));return[0,f,h]}function
-hq(b,a){var
-c=ez(c4(b),b),d=fF(c,a[1]);return[0,cg(c,a[2]),d]}function
-bX(b,a){if(L(d,a[1]))return[0,hq(b,a)];var
-c=L(a[2],d),e=c?[0,ab(hq(b,ab(a)))]:c;return e}function
-bY(f,c){var
-g=L(d,c[1]);if(g)var
-e=ez(c[2],f),a=fB(e),i=I(B(a,a),e)?a:C(a,b),h=[0,[0,fB(ez(c[1],f)),i]];else
+f=kx(b,hv(c,e));return[0,f,h]}function
+hB(b,a){var
+c=eJ(cm(b),b),d=fS(c,a[1]);return[0,cl(c,a[2]),d]}function
+b1(b,a){if(K(d,a[1]))return[0,hB(b,a)];var
+c=K(a[2],d),e=c?[0,aa(hB(b,aa(a)))]:c;return e}function
+b2(f,c){var
+g=K(d,c[1]);if(g)var
+e=eJ(c[2],f),a=fP(e),i=J(A(a,a),e)?a:C(a,b),h=[0,[0,fP(eJ(c[1],f)),i]];else
 var
 h=g;return h}function
-dF(a){return 0===a[0]?a[2]:a[1]}function
-aP(f,d,c,b,a){if(b){if(a){var
-g=aP(f,d,c,b[2],a[2]);return[0,al(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
-cx(b,a){return c2(b,a)}function
-aQ(a,c,b){if(G(d,a)){var
-e=b[1],f=R(cx(R(B(a,b[2])),c));return[0,cx(B(a,e),c),f]}var
-g=b[2],h=R(cx(R(B(a,b[1])),c));return[0,cx(B(a,g),c),h]}function
-at(a){var
-c=R(c2(R(a[2]),b));return[0,c2(a[1],b),c]}function
-dG(c,b,a){var
-e=km(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=L(f,d)?a[2]:a[1],i=fF(f,h),j=L(g,d)?a[1]:a[2];return[0,cg(g,j),i]}function
-ci(a){return bg(a[2],R(a[1]))}var
-w=[0,d,d];function
-bZ(a){return[0,a[1],a[1]]}function
-cj(a){return[0,a[2],a[2]]}function
-bD(b,a){switch(a[0]){case
+dR(a){return 0===a[0]?a[2]:a[1]}function
+aF(f,d,c,b,a){if(b){if(a){var
+g=aF(f,d,c,b[2],a[2]);return[0,an(c,b[1],a[1]),g]}return e(f,b)}return e(d,a)}function
+cG(b,a){return c9(b,a)}function
+aR(a,c,b){if(E(d,a)){var
+e=b[1],f=R(cG(R(A(a,b[2])),c));return[0,cG(A(a,e),c),f]}var
+g=b[2],h=R(cG(R(A(a,b[1])),c));return[0,cG(A(a,g),c),h]}function
+aq(a){var
+c=R(c9(R(a[2]),b));return[0,c9(a[1],b),c]}function
+dS(c,b,a){var
+e=kA(c[1],c[2],b[1],b[2]),f=e[2],g=e[1],h=K(f,d)?a[2]:a[1],i=fS(f,h),j=K(g,d)?a[1]:a[2];return[0,cl(g,j),i]}function
+b3(a){return bj(a[2],R(a[1]))}var
+v=[0,d,d];function
+b4(a){return[0,a[1],a[1]]}function
+cn(a){return[0,a[2],a[2]]}function
+bI(b,a){switch(a[0]){case
 0:return[0,a[1]];case
 1:return[1,a[1]];case
 2:return[2,a[1]];case
@@ -1155,80 +1156,80 @@ f=i(b,a[2]);return[7,i(b,a[1]),f];case
 8:return[8,i(b,a[1])];case
 9:return[9,i(b,a[1])];default:var
 g=i(b,a[4]),h=i(b,a[3]),j=i(b,a[2]);return[10,a[1],j,h,g]}}function
-az(n,m){var
+aC(n,m){var
 d=n,c=m;for(;;){var
 a=c[1],b=d[1];switch(b[0]){case
-0:return 0===a[0]?s(b[1],a[1]):0;case
-1:return 1===a[0]?s(b[1],a[1]):0;case
-2:return 2===a[0]?I(b[1],a[1]):0;case
+0:return 0===a[0]?r(b[1],a[1]):0;case
+1:return 1===a[0]?r(b[1],a[1]):0;case
+2:return 2===a[0]?J(b[1],a[1]):0;case
 3:if(3===a[0]){var
-f=az(b[1],a[1]);if(f){var
+f=aC(b[1],a[1]);if(f){var
 d=b[2],c=a[2];continue}return f}return 0;case
 4:if(4===a[0]){var
-g=az(b[1],a[1]);if(g){var
+g=aC(b[1],a[1]);if(g){var
 d=b[2],c=a[2];continue}return g}return 0;case
 5:if(5===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 6:if(6===a[0]){var
-h=az(b[1],a[1]);if(h){var
+h=aC(b[1],a[1]);if(h){var
 d=b[2],c=a[2];continue}return h}return 0;case
 7:if(7===a[0]){var
-i=az(b[1],a[1]);if(i){var
+i=aC(b[1],a[1]);if(i){var
 d=b[2],c=a[2];continue}return i}return 0;case
 8:if(8===a[0]){var
 d=b[1],c=a[1];continue}return 0;case
 9:if(9===a[0]){var
 d=b[1],c=a[1];continue}return 0;default:if(10===a[0]){var
-j=ce(b[1],a[1]);if(j){var
-k=az(b[2],a[2]);if(k){var
-l=az(b[3],a[3]);if(l){var
+j=cj(b[1],a[1]);if(j){var
+k=aC(b[2],a[2]);if(k){var
+l=aC(b[3],a[3]);if(l){var
 d=b[4],c=a[4];continue}var
 e=l}else
 var
 e=k}else
 var
 e=j;return e}return 0}}}function
-fG(b){var
+fT(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
-aY(c,b){var
-a=fG(b);return a?I(c,a[1]):a}function
-eD(a){return L(cc(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+a1(c,b){var
+a=fT(b);return a?J(c,a[1]):a}function
+eM(a){return K(ch(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
-A(b,a){if(aY(d,b))return a;if(aY(d,a))return b;var
-c=fG(b);if(c){var
-e=c[1],f=fG(a);if(f){var
-g=f[1];if(eD(e)&&eD(g))return k(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
-bq(a){var
+B(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
+c=fT(b);if(c){var
+e=c[1],f=fT(a);if(f){var
+g=f[1];if(eM(e)&&eM(g))return k(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+bu(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eD(c)?k(R(c)):[0,[5,a]];case
+c=b[1];return eM(c)?k(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
-v(b,a){if(aY(d,a))return b;if(aY(d,b))return bq(a);var
+w(b,a){if(a1(d,a))return b;if(a1(d,b))return bu(a);var
 c=b[1];if(0===c[0]){var
-e=a[1];return 0===e[0]?s(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
-N(a){var
-c=fG(a);if(c){var
-b=c[1];return eD(b)?k(B(b,b)):[0,[8,a]]}return[0,[8,a]]}function
-q(a,c){if(!aY(d,a)&&!aY(b,c)){if(!aY(d,c)&&!aY(b,a))return az(a,c)?N(a):[0,[6,a,c]];return c}return a}function
-ah(c,a){return aY(b,a)?c:[0,[7,c,a]]}function
-aA(a){return aY(b,a)?a:[0,[9,a]]}function
-kn(d,c,b,a){return[0,[10,d,c,b,a]]}function
-bi(f,e,d,c){var
+e=a[1];return 0===e[0]?r(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
+Q(a){var
+c=fT(a);if(c){var
+b=c[1];return eM(b)?k(A(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+s(a,c){if(!a1(d,a)&&!a1(b,c)){if(!a1(d,c)&&!a1(b,a))return aC(a,c)?Q(a):[0,[6,a,c]];return c}return a}function
+aj(c,a){return a1(b,a)?c:[0,[7,c,a]]}function
+aD(a){return a1(b,a)?a:[0,[9,a]]}function
+kB(d,c,b,a){return[0,[10,d,c,b,a]]}function
+bm(f,e,d,c){var
 b=d,a=c;for(;;){if(b){var
-g=b[1],h=[0,i(e,bD(function(b){return function(a){return r(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
-ko(d,f,k,j,h){var
+g=b[1],h=[0,i(e,bI(function(b){return function(a){return q(a,b,f)}}(a),g)),a],b=b[2],a=h;continue}return a}}function
+kC(d,f,k,j,h){var
 b=k,c=j,a=h;for(;;){if(c){var
 e=c[2],g=c[1];if(b){if(b[1]){var
-l=[0,i(f,bD(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bo(b),c=e,a=l;continue}var
+l=[0,i(f,bI(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bt(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
-m=[0,i(f,bD(function(b){return function(a){return r(a,b,d)}}(a),g)),a],b=bo(b),c=e,a=m;continue}return a}}function
-eE(b,a){if(a){var
+m=[0,i(f,bI(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bt(b),c=e,a=m;continue}return a}}function
+eN(b,a){if(a){var
 c=a[2];if(b){var
-e=eE(b[1],c);return[0,a[1],e]}var
+e=eN(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
-kp(a){switch(a[0]){case
+kD(a){switch(a[0]){case
 10:return[0,a[2],[0,a[3],[0,a[4],0]]];case
 5:case
 8:case
@@ -1236,57 +1237,57 @@ kp(a){switch(a[0]){case
 0:case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
-fH(j,g){var
-k=0,l=ar(eE,e(function(a){return 0},g),j),c=eA(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?ar(eE,d,kp(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
-cy(a){var
+fU(j,g){var
+k=0,l=as(eN,e(function(a){return 0},g),j),c=eK(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?as(eN,d,kD(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+cH(a){var
 b=0;function
-c(a){return[0,a]}return bi(k(d),c,a,b)}function
-a4(d,c){var
-a=d,b=0;for(;;){if(a){if(az(c,a[1]))return b;var
+c(a){return[0,a]}return bm(k(d),c,a,b)}function
+a9(d,c){var
+a=d,b=0;for(;;){if(a){if(aC(c,a[1]))return b;var
 a=a[2],b=[0,b];continue}return a}}function
-c5(d,b){var
-e=b[1];if(aj(function(a){return az(d,a)},e))return b;var
+da(d,b){var
+e=b[1];if(ak(function(a){return aC(d,a)},e))return b;var
 a=d[1];switch(a[0]){case
 10:var
-j=c5(a[2],b),k=c5(a[3],j),c=c5(a[4],k);break;case
+j=da(a[2],b),k=da(a[3],j),c=da(a[4],k);break;case
 5:case
 8:case
 9:var
-c=c5(a[1],b);break;case
+c=da(a[1],b);break;case
 0:case
 1:case
 2:var
 c=b;break;default:var
-i=c5(a[1],b),c=c5(a[2],i)}var
-f=c[2],g=c[1],h=[0,bD(function(a){return a4(g,a)},a),f];return[0,[0,d,c[1]],h]}function
-cz(a){var
-b=bV(function(b,a){return c5(a,b)},a,ra),c=b[1],d=e(function(a){return a4(c,a)},a);return[0,kf(b[2]),d]}function
-fI(a){return ar(function(b,a){return C(ci(b),a)},d,a)}function
-ck(b,c,a){var
-d=fI(a),e=hj(c[2],C(b[2],d)),f=fI(a);return[0,b,[0,bg(c[1],aC(b[1],f)),e],a]}function
-$(a){return[0,a,a,0]}function
-b0(b,a){var
+i=da(a[1],b),c=da(a[2],i)}var
+f=c[2],g=c[1],h=[0,bI(function(a){return a9(g,a)},a),f];return[0,[0,d,c[1]],h]}function
+cI(a){var
+b=b0(function(b,a){return da(a,b)},a,ry),c=b[1],d=e(function(a){return a9(c,a)},a);return[0,ks(b[2]),d]}function
+fV(a){return as(function(b,a){return C(b3(b),a)},d,a)}function
+co(b,c,a){var
+d=fV(a),e=hv(c[2],C(b[2],d)),f=fV(a);return[0,b,[0,bj(c[1],aA(b[1],f)),e],a]}function
+Z(a){return[0,a,a,0]}function
+b5(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
-f=aP(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return ck(z(b[1],a[1]),g,f)}function
-bj(b,a){var
-c=a[3],d=b[3],e=aP(function(a){return a},ab,F,d,c),f=F(b[2],a[2]);return ck(F(b[1],a[1]),f,e)}function
-eF(a){var
-b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
-aF(a,c,b){var
+f=aF(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return co(z(b[1],a[1]),g,f)}function
+bn(b,a){var
+c=a[3],d=b[3],e=aF(function(a){return a},aa,G,d,c),f=G(b[2],a[2]);return co(G(b[1],a[1]),f,e)}function
+eO(a){var
+b=e(aa,a[3]),c=aa(a[2]);return[0,aa(a[1]),c,b]}function
+aG(a,c,b){var
 d=z(b[2],b[1]),e=z(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
-f=t(a,e,b);return at(z(t(a,d,c),f))}function
-i(b){return at(t(a,e,b))}var
-j=aP(function(b){return at(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return ck(t(a,c[1],b[1]),k,j)}function
-eG(b,a){var
-c=a[3],d=z(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=V(b,a[2]);return ck(V(b,a[1]),g,f)}function
-hr(a,b){var
-c=bY(a,b[1]);if(c){var
-g=c[1],d=bY(a,b[2]);if(d){var
-h=d[1],f=bX(a,z(h,g));if(f)var
-l=b[3],m=f[1],i=[0,ck(g,h,e(function(b){return t(a,m,b)},l))];else
+f=t(a,e,b);return aq(z(t(a,d,c),f))}function
+i(b){return aq(t(a,e,b))}var
+j=aF(function(b){return aq(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return co(t(a,c[1],b[1]),k,j)}function
+eP(b,a){var
+c=a[3],d=z(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=V(b,a[2]);return co(V(b,a[1]),g,f)}function
+hC(a,b){var
+c=b2(a,b[1]);if(c){var
+g=c[1],d=b2(a,b[2]);if(d){var
+h=d[1],f=b1(a,z(h,g));if(f)var
+l=b[3],m=f[1],i=[0,co(g,h,e(function(b){return t(a,m,b)},l))];else
 var
 i=f;var
 j=i}else
@@ -1295,494 +1296,495 @@ j=d;var
 k=j}else
 var
 k=c;return k}function
-dH(a,c,b){var
-d=bX(a,b[1]);if(d){var
-f=bX(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return F(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aP(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,ck(g,t(a,c[2],h),p)];else
+dT(a,c,b){var
+d=b1(a,b[1]);if(d){var
+f=b1(a,b[2]);if(f)var
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return aa(t(a,g,b))},o=aF(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,co(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
 var
 j=d;return j}function
-cA(b,a){return a?i(b,a[1]):a}function
-fJ(a){var
-b=e(at,a[3]),c=at(z(a[2],a[1]));return ck(a[1],c,b)}function
-kq(a,k,j,r,c){var
-l=fJ(k),m=fJ(j),g=fJ(c[1]),h=fJ(c[2]),s=aF(a,l,h),u=bj(aF(a,m,g),s),i=dH(a,$(Q(a,b)),u);if(i)var
-f=i[1],n=aF(a,bj(l,g),f),o=aF(a,bj(m,h),f),d=function(c,b){return aF(a,c,$(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b0(d(n,b),c)},y=function(a){return d(o,a)},z=aP(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bj(b,d(f,at(a)))[2]},C=function(a){return eF(d(f,at(a)))[2]},p=aP(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=ck(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,ck(c[1][1],c[1][2],H),F]];else
+cJ(b,a){return a?i(b,a[1]):a}function
+fW(a){var
+b=e(aq,a[3]),c=aq(z(a[2],a[1]));return co(a[1],c,b)}function
+kE(a,k,j,r,c){var
+l=fW(k),m=fW(j),g=fW(c[1]),h=fW(c[2]),s=aG(a,l,h),u=bn(aG(a,m,g),s),i=dT(a,Z(P(a,b)),u);if(i)var
+f=i[1],n=aG(a,bn(l,g),f),o=aG(a,bn(m,h),f),d=function(c,b){return aG(a,c,Z(b))},v=j[3],w=k[3],x=function(b,a){var
+c=d(o,a);return b5(d(n,b),c)},y=function(a){return d(o,a)},z=aF(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bn(b,d(f,aq(a)))[2]},C=function(a){return eO(d(f,aq(a)))[2]},p=aF(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=co(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,co(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
-kr(a,e,d,k){var
-p=eG(a,d),f=b0(eG(a,e),p),g=bj(b0(f,$(Q(a,b))),k),l=aF(a,$(Q(a,c(2,b))),f),q=eG(a,g),h=hr(a,bj(aF(a,$(Q(a,c(2,c(2,b)))),f),q));if(h){var
-m=h[1],r=aF(a,m,d),i=dH(a,b0(aF(a,g,e),r),l);if(i)var
-s=aF(a,m,e),j=dH(a,bj(aF(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
+kF(a,e,d,k){var
+p=eP(a,d),f=b5(eP(a,e),p),g=bn(b5(f,Z(P(a,b))),k),l=aG(a,Z(P(a,c(2,b))),f),q=eP(a,g),h=hC(a,bn(aG(a,Z(P(a,c(2,c(2,b)))),f),q));if(h){var
+m=h[1],r=aG(a,m,d),i=dT(a,b5(aG(a,g,e),r),l);if(i)var
+s=aG(a,m,e),j=dT(a,bn(aG(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
 n=i;var
 o=n}else
 var
 o=h;var
-u=cA(function(b){return kq(a,e,d,k,b)},o);return cA(function(b){return kq(a,e,d,k,b)},u)}function
-cl(d,b,a){if(b){if(a)return al(d,b[1],a[1]);var
+u=cJ(function(b){return kE(a,e,d,k,b)},o);return cJ(function(b){return kE(a,e,d,k,b)},u)}function
+cp(d,b,a){if(b){if(a)return an(d,b[1],a[1]);var
 c=a}else
 var
 c=b;return c}function
-bE(b,j,i){var
-f=$(w);return function(a){switch(a[0]){case
-0:return[0,r(a[1],j,f)];case
-1:return[0,r(a[1],i,f)];case
-2:return[0,$(Q(b,a[1]))];case
+bJ(b,j,i){var
+f=Z(v);return function(a){switch(a[0]){case
+0:return[0,q(a[1],j,f)];case
+1:return[0,q(a[1],i,f)];case
+2:return[0,Z(P(b,a[1]))];case
 3:var
-k=a[2],l=a[1];return cl(function(b,a){return[0,b0(b,a)]},l,k);case
+k=a[2],l=a[1];return cp(function(b,a){return[0,b5(b,a)]},l,k);case
 4:var
-m=a[2],n=a[1];return cl(function(b,a){return[0,bj(b,a)]},n,m);case
+m=a[2],n=a[1];return cp(function(b,a){return[0,bn(b,a)]},n,m);case
 5:var
-o=a[1];return cA(function(a){return[0,eF(a)]},o);case
+o=a[1];return cJ(function(a){return[0,eO(a)]},o);case
 6:var
-p=a[2],q=a[1];return cl(function(c,a){return[0,aF(b,c,a)]},q,p);case
+p=a[2],r=a[1];return cp(function(c,a){return[0,aG(b,c,a)]},r,p);case
 7:var
-s=a[2],t=a[1];return cl(function(a,c){return dH(b,a,c)},t,s);case
+s=a[2],t=a[1];return cp(function(a,c){return dT(b,a,c)},t,s);case
 8:var
-u=a[1];return cA(function(a){return[0,eG(b,a)]},u);case
+u=a[1];return cJ(function(a){return[0,eP(b,a)]},u);case
 9:var
-v=a[1];return cA(function(a){return hr(b,a)},v);default:var
+v=a[1];return cJ(function(a){return hC(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=kr(b,c[1],d[1],e[1]),x=a[1]?aT:ay;return y(x,w)}var
+w=kF(b,c[1],d[1],e[1]),x=a[1]?aU:ay;return y(x,w)}var
 g=e}else
 var
 g=d;var
 h=g}else
 var
 h=c;return h}}}function
-eH(c){var
+dU(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 0;case
 1:return 1;case
 6:var
 a=a[1];continue;default:var
-b=eH(a[1]);if(b)return b;var
+b=dU(a[1]);if(b)return b;var
 a=a[2];continue}}function
-cm(q,p){var
+cq(q,p){var
 b=q,a=p;for(;;)switch(b[0]){case
 0:if(0===a[0]){var
-c=I(b[1],a[1]);return c?fx(b[2],a[2]):c}return 0;case
+c=J(b[1],a[1]);return c?fL(b[2],a[2]):c}return 0;case
 1:var
 d=b[3],e=b[2];if(1===a[0]){var
-f=a[3],g=a[2],h=s(b[1],a[1]),i=h?I(e[1],g[1]):h,j=i?fx(e[2],g[2]):i,k=j?I(d[1],f[1]):j;return k?fx(d[2],f[2]):k}return 0;case
+f=a[3],g=a[2],h=r(b[1],a[1]),i=h?J(e[1],g[1]):h,j=i?fL(e[2],g[2]):i,k=j?J(d[1],f[1]):j;return k?fL(d[2],f[2]):k}return 0;case
 2:if(2===a[0]){var
-l=cm(b[1],a[1]);if(l){var
+l=cq(b[1],a[1]);if(l){var
 b=b[2],a=a[2];continue}return l}return 0;case
 3:if(3===a[0]){var
-m=cm(b[1],a[1]);if(m){var
+m=cq(b[1],a[1]);if(m){var
 b=b[2],a=a[2];continue}return m}return 0;case
 4:if(4===a[0]){var
-n=cm(b[1],a[1]);if(n){var
+n=cq(b[1],a[1]);if(n){var
 b=b[2],a=a[2];continue}return n}return 0;case
 5:if(5===a[0]){var
-o=cm(b[1],a[1]);if(o){var
+o=cq(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eI(c,a){switch(a[0]){case
+eQ(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
-m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,dE(b,a)]};break;case
+m=a[2],n=a[1],g=m,f=n,e=function(b,a){return[0,c_(b,a)]};break;case
 3:var
-o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,fD(b,a)]};break;case
+o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dQ(b,a)]};break;case
 4:var
-q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,ch(b,a)]};break;case
+q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a0(b,a)]};break;case
 5:var
-s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dD(a,[0,d,b])?0:[0,hp(c,a)]};break;default:var
-k=eI(c,a[1]);return k?i(c,k[1]):k}var
-h=eI(c,f);if(h){var
-j=eI(c,g);if(j)return e(h[1],j[1]);var
+s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dP(a,[0,d,b])?0:[0,fR(c,a)]};break;default:var
+k=eQ(c,a[1]);return k?i(c,k[1]):k}var
+h=eQ(c,f);if(h){var
+j=eQ(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
-rb(a){return 0}function
-cB(a){return eI(rb,a)}function
-bF(a,c){switch(c[0]){case
-0:return[0,kl(a,c[1],c[2])];case
+rz(a){return 0}function
+cr(a){return eQ(rz,a)}function
+bK(a,c){switch(c[0]){case
+0:return[0,kz(a,c[1],c[2])];case
 1:return 0;case
 2:var
-g=bF(a,c[1]);if(g)var
-h=bF(a,c[2]),D=h?[0,z(g[1],h[1])]:h,r=D;else
+g=bK(a,c[1]);if(g)var
+h=bK(a,c[2]),D=h?[0,z(g[1],h[1])]:h,r=D;else
 var
 r=g;return r;case
 3:var
-i=bF(a,c[1]);if(i)var
-j=bF(a,c[2]),E=j?[0,F(i[1],j[1])]:j,s=E;else
+i=bK(a,c[1]);if(i)var
+j=bK(a,c[2]),E=j?[0,G(i[1],j[1])]:j,s=E;else
 var
 s=i;return s;case
 4:var
-k=bF(a,c[1]);if(k)var
-l=bF(a,c[2]),G=l?[0,t(a,k[1],l[1])]:l,u=G;else
+k=bK(a,c[1]);if(k)var
+l=bK(a,c[2]),F=l?[0,t(a,k[1],l[1])]:l,u=F;else
 var
 u=k;return u;case
 5:var
-m=bF(a,c[1]);if(m){var
-n=bF(a,c[2]);if(n)var
-o=bX(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,v=H;else
+m=bK(a,c[1]);if(m){var
+n=bK(a,c[2]);if(n)var
+o=b1(a,n[1]),H=o?[0,t(a,m[1],o[1])]:o,w=H;else
 var
-v=n;var
-x=v}else
+w=n;var
+x=w}else
 var
 x=m;return x;default:var
-A=c[1],p=bF(a,A);if(p){var
-e=p[1];if(L(d,e[1]))return bY(a,e);var
-f=cB(A),J=f?U(c3([0,d,b],f[1])):f;if(J)return 0;if(L(d,e[2])){var
-B=bY(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
-q=I(e[2],d),C=q?[0,w]:q;return C}return p}}function
-fK(b,a){return kl(b,a[1],a[2])}function
-bG(a,d){if(eH(d))switch(d[0]){case
+A=c[1],p=bK(a,A);if(p){var
+e=p[1];if(K(d,e[1]))return b2(a,e);var
+f=cr(A),I=f?T(bl([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
+B=b2(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
+q=J(e[2],d),C=q?[0,v]:q;return C}return p}}function
+cs(b,a){return kz(b,a[1],a[2])}function
+eR(c,e,a){function
+b(a){return eR(c,e,a)}if(dU(a))switch(a[0]){case
 0:return 0;case
-1:var
-e=d[3],g=d[2],i=d[1],j=aX(i,ks),k=j?c3(g,e):j;if(k)var
-n=[0,b,c(2,b)],o=[0,fK(a,ch(fD(e,g),n)),0],p=f(as(w,i),o),q=fK(a,e)[2],r=[0,fK(a,g)[1],q],s=[0,b,c(2,b)],l=[0,[0,fK(a,ch(dE(g,e),s)),r,p]];else
-var
-l=k;return l;case
+1:return fn(e,a[1],a[2],a[3]);case
 2:var
-t=bG(a,d[2]),u=bG(a,d[1]);return cl(function(b,a){return[0,b0(b,a)]},u,t);case
+g=b(a[2]),h=b(a[1]);return cp(function(b,a){return[0,b5(b,a)]},h,g);case
 3:var
-v=bG(a,d[2]),x=bG(a,d[1]);return cl(function(b,a){return[0,bj(b,a)]},x,v);case
+i=b(a[2]),j=b(a[1]);return cp(function(b,a){return[0,bn(b,a)]},j,i);case
 4:var
-m=d[2],h=d[1];if(cm(h,m)){var
-z=bG(a,h);return cA(function(b){return[0,eG(a,b)]},z)}var
-A=bG(a,m),B=bG(a,h);return cl(function(c,b){return[0,aF(a,c,b)]},B,A);case
+f=a[2],d=a[1];if(cq(d,f)){var
+k=b(d);return cJ(function(a){return[0,eP(c,a)]},k)}var
+l=b(f),m=b(d);return cp(function(b,a){return[0,aG(c,b,a)]},m,l);case
 5:var
-C=bG(a,d[2]),D=bG(a,d[1]);return cl(function(b,c){return dH(a,b,c)},D,C);default:var
-E=bG(a,d[1]);return cA(function(b){return hr(a,b)},E)}return y($,bF(a,d))}function
-aK(b,a){if(eH(a)){var
-c=bG(b,a);return y(function(a){return a[2]},c)}return bF(b,a)}function
-hs(a){var
-e=bg(R(a),d);return ey(C(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-kt(a){return hn(C(hs(a),a))}function
-ku(b,a){var
-c=kt(b),d=R(cx(R(a[2]),c)),e=kt(b);return[0,cx(a[1],e),d]}function
-cC(c,a,b){var
-d=aK(C(c,hs(a)),b);return y(function(b){return ku(a,b)},d)}function
-ak(d,a){var
-b=cC(d,a[2],a[1][1]);if(b)var
-c=cC(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
+n=b(a[2]),o=b(a[1]);return cp(function(a,b){return dT(c,a,b)},o,n);default:var
+p=b(a[1]);return cJ(function(a){return hC(c,a)},p)}return y(Z,bK(c,a))}function
+aM(a,d){if(dU(d)){var
+e=eR(a,function(g,e,d){var
+h=aV(g,kG),i=h?bl(e,d):h;if(i)var
+k=[0,b,c(2,b)],l=[0,cs(a,a0(dQ(d,e),k)),0],m=f(al(v,g),l),n=cs(a,d)[2],o=[0,cs(a,e)[1],n],p=[0,b,c(2,b)],j=[0,[0,cs(a,a0(c_(e,d),p)),o,m]];else
+var
+j=i;return j},d);return y(function(a){return a[2]},e)}return bK(a,d)}function
+hD(a){var
+e=bj(R(a),d);return dN(C(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
+kH(a){return hz(C(hD(a),a))}function
+kI(b,a){var
+c=kH(b),d=R(cG(R(a[2]),c)),e=kH(b);return[0,cG(a[1],e),d]}function
+cK(c,a,b){var
+d=aM(C(c,hD(a)),b);return y(function(b){return kI(a,b)},d)}function
+am(d,a){var
+b=cK(d,a[2],a[1][1]);if(b)var
+c=cK(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
 var
 e=b;return e}function
-kv(b,a){var
-c=R(cx(R(a[2]),b));return[0,cx(a[1],b),c]}function
-fL(b,a){var
-c=fF(b[2],a);return[0,cg(b[1],a),c]}function
-kw(h,g,d,b){var
-e=b[2],f=j$(d),i=c(2,f),j=B(j7(f),i),a=fL(t(h,b[1],g),j),k=j5(d)?F(e,a):z(e,a);return[0,a,k]}function
-kx(a,d,c){if(c){var
-e=c[1];return kw(a,d,e,kx(a,d,e))}var
-f=Q(a,b);return[0,Q(a,b),f]}function
-ky(e,g){var
-o=c4(e),p=B(c(2,c(2,b)),o),j=G(g[2],p);if(j){var
-n=ew(e),i=rc[1],d=n,f=0,a=i;for(;;){if(d){var
+kJ(b,a){var
+c=R(cG(R(a[2]),b));return[0,cG(a[1],b),c]}function
+fX(b,a){var
+c=fS(b[2],a);return[0,cl(b[1],a),c]}function
+kK(h,g,d,b){var
+e=b[2],f=km(d),i=c(2,f),j=A(ki(f),i),a=fX(t(h,b[1],g),j),k=kg(d)?G(e,a):z(e,a);return[0,a,k]}function
+kL(a,d,c){if(c){var
+e=c[1];return kK(a,d,e,kL(a,d,e))}var
+f=P(a,b);return[0,P(a,b),f]}function
+kM(e,g){var
+o=cm(e),p=A(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
+n=eI(e),i=rA[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
-k=P(j4(rf,P(rd,f)),re),l=kx(e,g,k),q=kw(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
+k=O(kf(rD,O(rB,f)),rC),l=kL(e,g,k),q=kK(e,g,k,l)[2][2],m=[0,[0,l[2][1],q]];break}}else
 var
 m=j;return m}function
-kz(i){function
+kN(i){function
 a(h){var
-m=cg(c4(i),h),g=ew(i),f=m,e=d,a=b;for(;;){if(g){var
-j=C(a,c(2,b)),k=C(e,cg(f,a)),l=R(cg(f,B(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=B(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aC(B(c(2,c(2,c(2,c(2,b)))),g),f)}function
-kA(e,a){var
-f=G(d,a);if(f){var
-g=c(2,c(2,b));return ky(e,fL(V(e,[0,a,a]),g))}return f}function
-kB(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aC(kz(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=C(kz(a),n),e=kA(a,g);if(e){var
-f=kA(a,h);if(f)var
-i=L(d,e[1][1]),j=i?L(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
+m=cl(cm(i),h),g=eI(i),f=m,e=d,a=b;for(;;){if(g){var
+j=C(a,c(2,b)),k=C(e,cl(f,a)),l=R(cl(f,A(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
+e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=A(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aA(A(c(2,c(2,c(2,c(2,b)))),g),f)}function
+kO(e,a){var
+f=E(d,a);if(f){var
+g=c(2,c(2,b));return kM(e,fX(V(e,[0,a,a]),g))}return f}function
+kP(a){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aA(kN(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=C(kN(a),n),e=kO(a,g);if(e){var
+f=kO(a,h);if(f)var
+i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
 k=f;var
 l=k}else
 var
 l=e;return l}function
-kC(a,d){var
-c=V(a,d),e=Q(a,b);return F(z(c,c),e)}function
-cD(f,j){var
-e=aK(C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
-k=e[1],a=C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kB(a);if(d)var
-h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=ky(a,V(a,fL(t(a,k,d[1]),h))),g=y(function(b){return kC(a,kC(a,b))},i);else
+kQ(a,d){var
+c=V(a,d),e=P(a,b);return G(z(c,c),e)}function
+cL(f,j){var
+e=aM(C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
+k=e[1],a=C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kP(a);if(d)var
+h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=kM(a,V(a,fX(t(a,k,d[1]),h))),g=y(function(b){return kQ(a,kQ(a,b))},i);else
 var
 g=d;var
-l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return kv(l,a)},g)}return e}function
-kD(a,d){var
-e=kB(C(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
-f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return fL(t(a,d,kv(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
-fM(d,a){return cD(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
+l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return kJ(l,a)},g)}return e}function
+kR(a,d){var
+e=kP(C(a,c(2,c(2,c(2,c(2,c(2,c(2,b))))))));return y(function(e){var
+f=c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))));return fX(t(a,d,kJ(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e)),f)},e)}function
+fY(d,a){return cL(d,[3,a,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])}function
 h(i,e,c){var
-f=cB(c);if(f){var
-g=f[1];return e?U(c3(g,[0,d,b])):c3([0,d,b],g)}var
-a=aK(i,c);if(a){var
-h=a[1];return e?L(d,h[1]):G(d,h[1])}return a}function
-kE(c,b){var
-a=aK(c,b),d=a?1:a;return d}function
-bk(c,a,b){var
-d=cm(a,b),e=d?kE(c,a):d;return e?e:h(c,0,[3,b,a])}function
-rg(c){var
-a=fE(c),g=ey(fB(a[2])),b=[0,fB(a[1]),g],e=L(d,a[1]),f=e?dD(ch(b,b),c):e,h=f?[0,b]:f;return h}function
-kF(a){if(a){var
-e=a[2],c=a[1];if(dD(bC([0,d,b],c),[0,d,b])){var
-g=kF(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
+f=cr(c);if(f){var
+g=f[1];return e?T(bl(g,[0,d,b])):bl([0,d,b],g)}var
+a=aM(i,c);if(a){var
+h=a[1];return e?K(d,h[1]):E(d,h[1])}return a}function
+kS(c,b){var
+a=aM(c,b),d=a?1:a;return d}function
+bo(c,a,b){var
+d=cq(a,b),e=d?kS(c,a):d;return e?e:h(c,0,[3,b,a])}function
+rE(c){var
+a=c$(c),g=dN(fP(a[2])),b=[0,fP(a[1]),g],e=K(d,a[1]),f=e?dP(a0(b,b),c):e,h=f?[0,b]:f;return h}function
+kT(a){if(a){var
+e=a[2],c=a[1];if(dP(bH([0,d,b],c),[0,d,b])){var
+g=kT(e);return y(function(a){return[0,a[1],[0,c,a[2]]]},g)}var
 f=[0,[0,c,e]]}else
 var
 f=a;return f}function
-kG(c,a){var
-e=ao(c,a),f=[0,d,b];return ar(function(a,b){return fE(dE(ch(a[1],a[2]),b))},f,e)}function
-kH(c,j){if(c){var
-f=c[1],g=kF(j);if(g){var
+kU(c,a){var
+e=ag(c,a),f=[0,d,b];return as(function(a,b){return c$(c_(a0(a[1],a[2]),b))},f,e)}function
+kV(c,j){if(c){var
+f=c[1],g=kT(j);if(g){var
 h=g[1],a=h[1],k=function(c){var
-f=bC([0,d,b],a),g=hp(bC([0,d,b],c),f),h=bo(a),i=ao(bo(c),h);return e(function(a){var
-b=ch(g,a[2]);return fE(fD(a[1],b))},i)},l=kH(f,e(k,h[2]));return y(function(c){var
-e=bC([0,d,b],a);return[0,fE(hp(ki(kG(bo(a),c)),e)),c]},l)}var
-i=[0,[0,[0,b,b],as([0,d,b],f)]]}else
+f=bH([0,d,b],a),g=fR(bH([0,d,b],c),f),h=bt(a),i=ag(bt(c),h);return e(function(a){var
+b=a0(g,a[2]);return c$(dQ(a[1],b))},i)},l=kV(f,e(k,h[2]));return y(function(c){var
+e=bH([0,d,b],a);return[0,c$(fR(kw(kU(bt(a),c)),e)),c]},l)}var
+i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
-kI(a){if(a){var
-b=eI(rg,a[1]);if(b)var
-c=kI(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+kW(a){if(a){var
+b=eQ(rE,a[1]);if(b)var
+c=kW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rh}function
-kJ(a){if(a){var
-b=kI(a[1]);if(b)var
-c=kJ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+d=b;return d}return rF}function
+kX(a){if(a){var
+b=kW(a[1]);if(b)var
+c=kX(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return ri}function
-kK(i,l){var
-a=kJ(l);if(a){var
-j=a[1],c=kH(i,j);if(c){var
-e=c[1],f=s(g(e),i),h=f?aj(function(a){return U(dD(a,[0,d,b]))},e):f;return h?m(function(a){return dD(kG(a,e),[0,d,b])},j):h}var
+d=b;return d}return rG}function
+kY(i,l){var
+a=kX(l);if(a){var
+j=a[1],c=kV(i,j);if(c){var
+e=c[1],f=r(g(e),i),h=f?ak(function(a){return T(dP(a,[0,d,b]))},e):f;return h?m(function(a){return dP(kU(a,e),[0,d,b])},j):h}var
 k=c}else
 var
 k=a;return k}function
-rj(a){return a}function
-rk(a){return a}function
-rl(a,b){return aP(rk,rj,z,a,b)}function
-rm(a){return a}function
-rn(a){return a}function
-a5(a,b){return aP(rn,rm,rl,a,b)}function
-ht(a,f,c,d){if(c){var
-h=c[2],i=Q(a,b),g=dG(c[1],i,f);if(d){var
-j=ht(a,f,h,d[2]),k=d[1],l=function(c,b){return F(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aP(function(a){return a},m,l,k,c),j]}var
-n=ht(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
-fN(h,a){if(a){var
+rH(a){return a}function
+rI(a){return a}function
+rJ(a,b){return aF(rI,rH,z,a,b)}function
+rK(a){return a}function
+rL(a){return a}function
+a_(a,b){return aF(rL,rK,rJ,a,b)}function
+hE(a,f,c,d){if(c){var
+h=c[2],i=P(a,b),g=dS(c[1],i,f);if(d){var
+j=hE(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return aa(t(a,g,b))};return[0,aF(function(a){return a},m,l,k,c),j]}var
+n=hE(a,f,h,0);return[0,e(function(b){return aa(t(a,g,b))},c),n]}return d}function
+fZ(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=L(d,c[1]),i=e?[0,ht(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,hE(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
 var
 g=a;return g}function
-kL(g,f,e){var
+kZ(g,f,e){var
 a=f,b=e;for(;;){if(b){if(a){var
-c=fN(g,b);if(c){var
+c=fZ(g,b);if(c){var
 a=a[1],b=c[1];continue}var
 d=c}else
 var
 d=a;return d}return 1}}function
-kM(d,b,a){if(b)if(a)var
-e=a[1],f=kM(d,b[2],a[2]),g=ce(d,b[1])?bZ(e):cj(e),c=[0,g,f];else
+k0(d,b,a){if(b)if(a)var
+e=a[1],f=k0(d,b[2],a[2]),g=cj(d,b[1])?b4(e):cn(e),c=[0,g,f];else
 var
 c=a;else
 var
 c=b;return c}function
-kN(a,b){if(a)if(b)var
-d=kN(a[2],b[2]),c=[0,kM(a[1],a,b[1]),d];else
+k1(a,b){if(a)if(b)var
+d=k1(a[2],b[2]),c=[0,k0(a[1],a,b[1]),d];else
 var
 c=b;else
 var
 c=a;return c}function
-a$(a){if(a){var
-b=a[1],c=a$(b),d=e(function(a){return[0,1,a]},c),g=a$(b);return f(e(function(a){return[0,0,a]},g),d)}return ro}function
-dI(c,a){var
-b=g(a);if(kL(c,b,a))return 1;var
-d=a$(bn(b));return m(function(d){return kL(c,b,kN([0,0,d],a))},d)}function
+bd(a){if(a){var
+b=a[1],c=bd(b),d=e(function(a){return[0,1,a]},c),g=bd(b);return f(e(function(a){return[0,0,a]},g),d)}return rM}function
+dV(c,a){var
+b=g(a);if(kZ(c,b,a))return 1;var
+d=bd(bs(b));return m(function(d){return kZ(c,b,k1([0,0,d],a))},d)}function
 au(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
-aG(h,e){var
+aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
-d=b[1],f=b[2],g=c[1]?z(a,d):F(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hu(c,b,a){var
-d=a$(c);return m(function(c){return i(a,i(au(function(a){return aG(c,a)}),b))},d)}function
-hv(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aQ(c,C(h,b),a)},k=hv(h,j,i),l=function(c,b){var
-d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aP(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
+d=b[1],f=b[2],g=c[1]?z(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
+hF(c,b,a){var
+d=bd(c);return m(function(c){return i(a,i(au(function(a){return aH(c,a)}),b))},d)}function
+hG(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aR(c,C(h,b),a)},k=hG(h,j,i),l=function(c,b){var
+d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aF(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
 var
 g=c;else
 var
 g=d;return g}function
-dJ(b,d,a,c){function
+dW(b,d,a,c){function
 e(c,d){var
-e=aQ(d,b,a);return F(z(c,c),e)}function
-f(c){return ab(aQ(c,b,a))}return aP(function(a){return z(a,a)},f,e,d,c)}function
-fO(d,i,h,g){var
+e=aR(d,b,a);return G(z(c,c),e)}function
+f(c){return aa(aR(c,b,a))}return aF(function(a){return z(a,a)},f,e,d,c)}function
+f0(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cj(e[2]),k=a5(a,hv(d,f,dJ(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hw(b,a){return[0,[0,0,b],a]}function
-dK(i,b,c,h,f,a){function
+e=b[1],f=c[1],j=cn(e[2]),k=a_(a,hG(d,f,dW(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hH(b,a){return[0,[0,0,b],a]}function
+dX(i,b,c,h,f,a){function
 d(a){if(a){var
-j=as([0,ab(a[1][2]),0],b),c=fO(h,f,a[2],j),d=s(g(c),b);if(d)return dI(i,c);var
+j=al([0,aa(a[1][2]),0],b),c=f0(h,f,a[2],j),d=r(g(c),b);if(d)return dV(i,c);var
 e=d}else
 var
-e=a;return e}return hu(b,hw(c,a),d)}function
-fP(g,f,e){var
+e=a;return e}return hF(b,hH(c,a),d)}function
+f1(g,f,e){var
 a=f,b=e;for(;;){if(a){var
-d=a[1],h=d[1],c=fN(g,[0,[0,bZ(d[2]),h],b]);if(c){var
+d=a[1],h=d[1],c=fZ(g,[0,[0,b4(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hx(d,b,c,a){function
+hI(d,b,c,a){function
 e(a){if(a){var
-j=as([0,a[1][2],0],b),c=fP(d,a[2],j);if(c){var
-e=c[1],f=s(g(e),b);if(f)return dI(d,e);var
+j=al([0,a[1][2],0],b),c=f1(d,a[2],j);if(c){var
+e=c[1],f=r(g(e),b);if(f)return dV(d,e);var
 h=f}else
 var
 h=c;var
 i=h}else
 var
-i=a;return i}return hu(b,hw(c,a),e)}function
-kO(b,a){return e(function(a){return[0,a[1],b]},a)}function
-kP(b,a){var
-c=a$(b);return m(function(b){return L(d,aG(b,a)[1])},c)}function
-hy(c,b,a){var
-d=a[3],f=e(function(a){return aQ(c,b,a)},d),g=a[2];return[0,aQ(c,b,a[1]),g,f]}function
-kQ(a,b){var
-c=b[3],d=a[3],e=aP(function(a){return a},ab,F,d,c),f=a[2];return[0,F(a[1],b[1]),f,e]}function
-bH(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-ac(c,b,a){var
-d=al(c,b[3],a[3]),e=al(c,b[2],a[2]);return[0,al(c,b[1],a[1]),e,d]}function
-aU(b,a){var
-c=q(b,a[3]),d=q(b,a[2]);return[0,q(b,a[1]),d,c]}function
-ba(b,a){var
-c=ah(b[3],a),d=ah(b[2],a);return[0,ah(b[1],a),d,c]}function
-S(b,a){var
-c=q(b[3],a[3]),d=q(b[2],a[2]);return A(A(q(b[1],a[1]),d),c)}function
-c6(a){return ba(a,aA(S(a,a)))}function
-cE(a){var
-b=a[5];return b?b[1]:aA(a[2])}function
-fQ(b,a){return b?a:bq(a)}function
-kR(e,a,i,d,h){var
-f=S(a,e),b=ac(v,e,aU(f,a)),j=S(b,b),g=v(N(d),j),c=fQ(h,aA(g)),k=v(f,c),l=ac(A,a,ba(b,c));return[0,ac(A,b,aU(c,a)),g,l,k,[0,d],0,[0,i]]}function
-kS(a,e,d){var
-b=S(a,a),c=aA(b),f=[0,e],g=y(function(b){return ac(v,a,aU(S(b,a),b))},d);return[0,a,b,ba(a,c),c,0,g,f]}function
-kT(c,a){var
-d=S(a,c);return[0,a,k(b),a,d,0,0,0]}function
-eJ(a){return e(function(a){var
-b=a[2];return[0,bH(a[1]),b]},a)}function
-kU(a){return e(function(a){var
-c=k(b);return[0,bH(a[3]),c]},a)}function
-kV(b,a){var
+i=a;return i}return hF(b,hH(c,a),e)}function
+k2(b,a){return e(function(a){return[0,a[1],b]},a)}function
+k3(b,a){var
+c=bd(b);return m(function(b){return K(d,aH(b,a)[1])},c)}function
+hJ(c,b,a){var
+d=a[3],f=e(function(a){return aR(c,b,a)},d),g=a[2];return[0,aR(c,b,a[1]),g,f]}function
+k4(a,b){var
+c=b[3],d=a[3],e=aF(function(a){return a},aa,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
+bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+af(c,b,a){var
+d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
+aW(b,a){var
+c=s(b,a[3]),d=s(b,a[2]);return[0,s(b,a[1]),d,c]}function
+be(b,a){var
+c=aj(b[3],a),d=aj(b[2],a);return[0,aj(b[1],a),d,c]}function
+U(b,a){var
+c=s(b[3],a[3]),d=s(b[2],a[2]);return B(B(s(b[1],a[1]),d),c)}function
+db(a){return be(a,aD(U(a,a)))}function
+cM(a){var
+b=a[5];return b?b[1]:aD(a[2])}function
+f2(b,a){return b?a:bu(a)}function
+k5(e,a,i,d,h){var
+f=U(a,e),b=af(w,e,aW(f,a)),j=U(b,b),g=w(Q(d),j),c=f2(h,aD(g)),k=w(f,c),l=af(B,a,be(b,c));return[0,af(B,b,aW(c,a)),g,l,k,[0,d],0,[0,i]]}function
+k6(a,e,d){var
+b=U(a,a),c=aD(b),f=[0,e],g=y(function(b){return af(w,a,aW(U(b,a),b))},d);return[0,a,b,be(a,c),c,0,g,f]}function
+k7(c,a){var
+d=U(a,c);return[0,a,k(b),a,d,0,0,0]}function
+eS(a){return e(function(a){var
+b=a[2];return[0,bL(a[1]),b]},a)}function
+k8(a){return e(function(a){var
+c=k(b);return[0,bL(a[3]),c]},a)}function
+k9(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-kW(c,b,a){var
-d=al(c,b[3],a[3]),e=al(c,b[2],a[2]);return[0,al(c,b[1],a[1]),e,d]}function
-dL(d,a){var
-b=bY(d,[0,a[2],a[2]]);if(b){var
+k_(c,b,a){var
+d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
+dY(d,a){var
+b=b2(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
-fR(a,n,f,l,e,k,j){var
-o=kW(bj,k,j),b=kW(function(b,c){return aF(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b0(b0(b0($(Q(a,d)),h),g),c),p=a$(n);return m(function(c){var
-b=kV(function(b){return V(a,aG(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,dL(a,z(z(z(Q(a,d),k),j),h))),g=F(aG(c,i),m),n=f?F(g,aG(c,f[1])):g;return L(d,n[1])},p)}function
-b1(a){return c2(C(a[1],a[2]),b)}function
-dM(a){var
-b=b1(a);return aC(a[2],b)}function
-dN(c,b){if(b)var
-a=b[1],e=dN([0,c],b[2]),g=dM(a),h=[0,[0,dM(a),g],0],i=f(as(w,c),h),j=b1(a),d=[0,[0,[0,b1(a),j],a,i],e];else
+f3(a,n,f,l,e,k,j){var
+o=k_(bn,k,j),b=k_(function(b,c){return aG(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b5(b5(b5(Z(P(a,d)),h),g),c),p=bd(n);return m(function(c){var
+b=k9(function(b){return V(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,dY(a,z(z(z(P(a,d),k),j),h))),g=G(aH(c,i),m),n=f?G(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
+b6(a){return c9(C(a[1],a[2]),b)}function
+dZ(a){var
+b=b6(a);return aA(a[2],b)}function
+d0(c,b){if(b)var
+a=b[1],e=d0([0,c],b[2]),g=dZ(a),h=[0,[0,dZ(a),g],0],i=f(al(v,c),h),j=b6(a),d=[0,[0,[0,b6(a),j],a,i],e];else
 var
 d=b;return d}function
-cF(d,b){if(b){var
+cN(d,b){if(b){var
 c=b[2],a=b[1];if(d){var
-e=cF(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
-f=a[2],g=[0,[0,b1(a),f],c],h=b1(a);return[0,[0,[0,a[1],h],c],g]}return rp}function
-kX(d,c,a){if(c){if(a){var
-e=kX(d,c[2],a[2]);return z(aQ(c[1],C(d,b),a[1]),e)}return w}return w}function
-dO(f,a){if(a)var
-g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return kX(f,a,b)},j=dO(f,h),k=e(function(a){var
+e=cN(d[1],c);return[0,[0,a,e[1]],[0,a,e[2]]]}var
+f=a[2],g=[0,[0,b6(a),f],c],h=b6(a);return[0,[0,[0,a[1],h],c],g]}return rN}function
+k$(d,c,a){if(c){if(a){var
+e=k$(d,c[2],a[2]);return z(aR(c[1],C(d,b),a[1]),e)}return v}return v}function
+d1(f,a){if(a)var
+g=a[1],c=g[2],d=g[1],h=a[2],b=function(a,b){return k$(f,a,b)},j=d1(f,h),k=e(function(a){var
 e=b(d,a[2]);return z(b(a[1],c),e)},h),l=b(d,c),i=[0,[0,z(b(d,c),l),k],j];else
 var
 i=a;return i}function
-dP(e,b,d,a){if(b)if(a)var
-f=b[1],g=dP(e,b[2],d,a[2]),c=[0,[0,f,dJ(e,a[1][1],d,f)],g];else
+d2(e,b,d,a){if(b)if(a)var
+f=b[1],g=d2(e,b[2],d,a[2]),c=[0,[0,f,dW(e,a[1][1],d,f)],g];else
 var
 c=a;else
 var
 c=b;return c}function
-fS(f,d,c,b,a){if(a){var
+f4(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
-i=fS(f,d[1],c,b,g);return[0,[0,F(w,b),0],i]}var
-j=e(function(a){return[0,F(w,b),0]},g),h=[0,[0,F(ab(t(f,c,cj(a[1][2]))),b),0],j]}else
+i=f4(f,d[1],c,b,g);return[0,[0,G(v,b),0],i]}var
+j=e(function(a){return[0,G(v,b),0]},g),h=[0,[0,G(aa(t(f,c,cn(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
-a6(d,c,a){var
-b=s(g(a),c);return b?dI(d,a):b}function
-fT(d,b,a){if(b)var
-c=b[1],g=fT([0,d],b[2],a),h=f(as(w,d),[0,a,0]),e=[0,[0,c,[0,aC(c[1],a[2]),C(c[2],a[2])],h],g];else
+a$(d,c,a){var
+b=r(g(a),c);return b?dV(d,a):b}function
+f5(d,b,a){if(b)var
+c=b[1],g=f5([0,d],b[2],a),h=f(al(v,d),[0,a,0]),e=[0,[0,c,[0,aA(c[1],a[2]),C(c[2],a[2])],h],g];else
 var
 e=b;return e}function
-kY(d){if(d){var
+la(d){if(d){var
 a=d[1][1];if(a){var
 b=a[2];if(b){var
 c=b[2];if(c){if(c[2])return 0;var
-g=c[1],h=b[1],i=a[1],j=kY(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
+g=c[1],h=b[1],i=a[1],j=la(d[2]);return y(function(a){return[0,[0,[0,i,h],g],a]},j)}var
 e=c}else
 var
 e=b;var
 f=e}else
 var
-f=a;return f}return rq}function
-hz(a){return y(function(a){return y(eF,a)},a)}function
-cG(c,b,a){function
-d(a){return aF(c,b,a)}return y(function(a){return y(d,a)},a)}function
-hA(c,b,a){function
-d(a){return dH(c,a,b)}return y(function(a){return cA(d,a)},a)}function
-dQ(b,a){var
-c=ao(b,a);return e(function(c){var
+f=a;return f}return rO}function
+hK(a){return y(function(a){return y(eO,a)},a)}function
+cO(c,b,a){function
+d(a){return aG(c,b,a)}return y(function(a){return y(d,a)},a)}function
+hL(c,b,a){function
+d(a){return dT(c,a,b)}return y(function(a){return cJ(d,a)},a)}function
+d3(b,a){var
+c=ag(b,a);return e(function(c){var
 a=c[2],b=c[1];if(b){if(a){var
-d=a[1],e=b[1];return[0,cl(function(b,a){return[0,b0(b,a)]},e,d)]}return b}return a},c)}function
-fU(a){return $(Q(a,c(2,b)))}function
-kZ(a,au,at,K,c){var
-av=bD(ay,c),f=i(bE(a,au,at),av);switch(c[0]){case
+d=a[1],e=b[1];return[0,cp(function(b,a){return[0,b5(b,a)]},e,d)]}return b}return a},c)}function
+f6(a){return Z(P(a,c(2,b)))}function
+lb(a,au,at,K,c){var
+av=bI(ay,c),f=i(bJ(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
-c=s(N,d),e=c?[0,[0,$(Q(a,b))]]:c;return e},K);break;case
+c=r(N,d),e=c?[0,[0,Z(P(a,b))]]:c;return e},K);break;case
 3:var
-d=dQ(c[1][2],c[2][2]);break;case
+d=d3(c[1][2],c[2][2]);break;case
 4:var
-O=e(hz,c[2][2]),d=dQ(c[1][2],O);break;case
+O=e(hK,c[2][2]),d=d3(c[1][2],O);break;case
 5:var
-d=e(hz,c[1][2]);break;case
+d=e(hK,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
-P=x[2],R=g[1],S=e(function(b){return cG(a,R,b)},P),T=y[2],U=h[1],d=dQ(e(function(b){return cG(a,U,b)},T),S);else{var
+Q=x[2],R=g[1],S=e(function(b){return cO(a,R,b)},Q),T=y[2],U=h[1],d=d3(e(function(b){return cO(a,U,b)},T),S);else{var
 z=h;u=1}}else{var
 z=g;u=1}if(u)var
 d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eF(f[1]),X=e(function(b){return cG(a,W,b)},V),Y=dQ(c[1][2],X),Z=j[1],d=e(function(b){return hA(a,Z,b)},Y);else{var
+V=A[2],W=eO(f[1]),X=e(function(b){return cO(a,W,b)},V),Y=d3(c[1][2],X),_=j[1],d=e(function(b){return hL(a,_,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
 8:var
 C=c[1],k=C[1];if(k)var
-_=C[2],aa=k[1],ab=aF(a,fU(a),aa),d=e(function(b){return cG(a,ab,b)},_);else
+$=C[2],aa=k[1],ab=aG(a,f6(a),aa),d=e(function(b){return cO(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aF(a,fU(a),ad),d=e(function(b){return hA(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aG(a,f6(a),ad),d=e(function(b){return hL(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
 D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 o=n[1],p=D[1],M=0;if(p){var
-q=kr(a,m,o,p[1]);if(q){var
-G=q[1],r=G[2],t=G[1],af=E[2],ag=bj(o,r),ah=e(function(b){return cG(a,ag,b)},af),ai=F[2],aj=bj(m,t),ak=dQ(e(function(b){return cG(a,aj,b)},ai),ah),al=e(hz,D[2]),am=fU(a),an=dQ(e(function(b){return cG(a,am,b)},ak),al),ao=c[1]?t:eF(r),ap=e(function(b){return cG(a,ao,b)},an),aq=aF(a,m,r),ar=bj(aF(a,o,t),aq),as=aF(a,fU(a),ar),d=e(function(b){return hA(a,as,b)},ap);L=1;M=1}else
+q=kF(a,m,o,p[1]);if(q){var
+G=q[1],s=G[2],t=G[1],af=E[2],ag=bn(o,s),ah=e(function(b){return cO(a,ag,b)},af),ai=F[2],aj=bn(m,t),ak=d3(e(function(b){return cO(a,aj,b)},ai),ah),al=e(hK,D[2]),am=f6(a),an=d3(e(function(b){return cO(a,am,b)},ak),al),ao=c[1]?t:eO(s),ap=e(function(b){return cO(a,ao,b)},an),aq=aG(a,m,s),ar=bn(aG(a,o,t),aq),as=aG(a,f6(a),ar),d=e(function(b){return hL(a,as,b)},ap);L=1;M=1}else
 var
 H=q}else
 var
@@ -1794,112 +1796,112 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-hB(b,c,a){if(a)var
-f=a[1],g=hB(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
+hM(b,c,a){if(a)var
+f=a[1],g=hM(b,c,a[2]),d=[0,e(function(a){return aa(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hC(a){return m(function(a){var
-b=I(a[1],d);return b?I(a[2],d):b},a)}function
-hD(c,b,a){var
-d=ao(b,a);return ar(function(a,b){return z(t(c,a[1],a[2]),b)},w,d)}function
-hE(c,b,a){var
-d=ci(hD(c,a,b));return ar(function(b,a){return C(ci(b),a)},d,a)}function
-b2(a){return Q(a,b)}function
-eK(a,i,c,v,u){var
+hN(a){return m(function(a){var
+b=J(a[1],d);return b?J(a[2],d):b},a)}function
+hO(c,b,a){var
+d=ag(b,a);return as(function(a,b){return z(t(c,a[1],a[2]),b)},v,d)}function
+hP(c,b,a){var
+d=b3(hO(c,a,b));return as(function(b,a){return C(b3(b),a)},d,a)}function
+b7(a){return P(a,b)}function
+eT(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!hC(c)&&!hC(j)){var
-h=hE(a,i,j),o=b2(a),p=hE(a,i,c),b=dG([0,hE(a,i,c),p],o,[0,h,h])[1],k=L(d,h),l=k?L(d,b):k;if(l)var
-q=at(hq(a,[0,b,b])),r=function(b){return function(d,c){return F(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a5(e,hB(a,q,aP(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
+j=f[1],n=0;if(!hN(c)&&!hN(j)){var
+h=hP(a,i,j),o=b7(a),p=hP(a,i,c),b=dS([0,hP(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=aq(hB(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,hM(a,q,aF(function(c){return function(b){return t(a,c,b)}}(s),aa,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
 g=[0,e];if(g){var
 f=f[2],e=g[1];continue}return g}return[0,e]}}function
-k0(a){var
-b=a[2],c=e(function(a){return[0,a[1],w]},b);return[0,[0,a[1][1],w],c]}function
-k1(h,n,a,m,l,k){var
+lc(a){var
+b=a[2],c=e(function(a){return[0,a[1],v]},b);return[0,[0,a[1][1],v],c]}function
+ld(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cj(j[2]),p=a5(b,hv(a,f,dJ(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(at,dJ(a,b[1],b[2],c))}}(f),q),g=eK(h,n,e(function(b){return aQ(b,a,b2(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cn(j[2]),p=a_(b,hG(a,f,dW(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aq,dW(a,b[1],b[2],c))}}(f),q),g=eT(h,n,e(function(b){return aR(b,a,b7(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
-k2(c,b,a){var
-d=aE(0,a);return e(function(a){return s(a,b)?b2(c):w},d)}function
-k3(c,b,a){if(b){if(a){var
-d=k3(c,b[2],a[2]);return z(aQ(b[1],c,a[1]),d)}return w}return w}function
-k4(a,j){switch(j){case
+le(c,b,a){var
+d=az(0,a);return e(function(a){return r(a,b)?b7(c):v},d)}function
+lf(c,b,a){if(b){if(a){var
+d=lf(c,b[2],a[2]);return z(aR(b[1],c,a[1]),d)}return v}return v}function
+lg(a,j){switch(j){case
 0:var
-d=aC(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aA(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aC(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=c2(C(a[1],a[2]),b),h=aC(c,a[2]),i=aC(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
-fV(d,c,a){if(a)var
-e=a[1],g=fV(d,[0,c],a[2]),b=y(aT,kg(function(a){return s(a[1],c)},d)),h=b?k4(e,b[1])[1]:e,f=[0,h,g];else
+f=aA(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=c9(C(a[1],a[2]),b),h=aA(c,a[2]),i=aA(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+f7(d,c,a){if(a)var
+e=a[1],g=f7(d,[0,c],a[2]),b=y(aU,kt(function(a){return r(a[1],c)},d)),h=b?lg(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-hF(a,b){return e(function(a){var
-c=a[2];return k4(r(a[1],b,w),c)[2]},a)}function
-hG(i,b,g,a){function
-d(a){return aG(b,a[1])}var
-h=0,j=$(w);function
+hQ(a,b){return e(function(a){var
+c=a[2];return lg(q(a[1],b,v),c)[2]},a)}function
+hR(i,b,g,a){function
+d(a){return aH(b,a[1])}var
+h=0,j=Z(v);function
 c(g,d,a,b){if(a){var
-h=function(a){return aG(g,r(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
+h=function(a){return aH(g,q(d,a[2],j))},k=e(h,b[1]),l=h(b[2]),m=c(g,[0,d],a[2],b),n=a[1];return f(e(function(a){var
 b=t(i,a,l);return[0,e(function(b){return t(i,a,b)},k),b]},n),m)}return a}var
 k=c(b,h,g,a),l=d(a[2]);return[0,[0,e(d,a[1]),l],k]}var
-rF=$(w);function
-k5(e,d,c){if(d){var
-f=r(e,c[2],rG),a=f?f[1]:[0,rF];if(a)var
-b=k5([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
+r3=Z(v);function
+lh(e,d,c){if(d){var
+f=q(e,c[2],r4),a=f?f[1]:[0,r3];if(a)var
+b=lh([0,e],d[2],c),h=b?[0,[0,a[1],b[1]]]:b,g=h;else
 var
-g=a;return g}return rH}function
-k6(a,c,h,p,o,g,n){var
-d=a$(c);return m(function(d){var
+g=a;return g}return r5}function
+li(a,c,h,p,o,g,n){var
+d=bd(c);return m(function(d){var
 f=i(n,d);if(f){var
-q=t(a,o,f[1]),j=F(Q(a,b),q),r=h?F(j,aG(d,h[1])):j,k=function(b){function
-f(c){return t(a,b,aG(d,c))}var
-g=e(function(a){return e(f,a)},p);return a6(a,c,a5(as([0,r,0],c),g))},l=k(at(g));if(l)return k(ab(at(g)));var
+q=t(a,o,f[1]),j=G(P(a,b),q),r=h?G(j,aH(d,h[1])):j,k=function(b){function
+f(c){return t(a,b,aH(d,c))}var
+g=e(function(a){return e(f,a)},p);return a$(a,c,a_(al([0,r,0],c),g))},l=k(aq(g));if(l)return k(aa(aq(g)));var
 m=l}else
 var
 m=f;return m},d)}function
-k7(c,b,a){if(a){var
+lj(c,b,a){if(a){var
 d=a[2];if(c){var
-f=k7(c[1],b,d);return[0,a[1],f]}var
+f=lj(c[1],b,d);return[0,a[1],f]}var
 e=[0,b,d]}else
 var
 e=a;return e}function
-fW(a,g){var
-b=bh(function(e){var
-c=r(e,a,w),b=G(c[1],d),f=b?G(d,c[2]):b;return U(f)},g);if(b){if(b[2])return a;var
-f=b[1],c=r(f,a,w),e=L(d,c[1])?c[1]:c[2];return k7(f,[0,e,e],a)}return a}function
-k8(c,a){if(a)var
-b=a[2],f=k8(c,b),g=b?b[1]:e(q8,c),d=[0,[0,a[1],g],f];else
+f8(a,g){var
+b=bk(function(e){var
+c=q(e,a,v),b=E(c[1],d),f=b?E(d,c[2]):b;return T(f)},g);if(b){if(b[2])return a;var
+f=b[1],c=q(f,a,v),e=K(d,c[1])?c[1]:c[2];return lj(f,[0,e,e],a)}return a}function
+lk(c,a){if(a)var
+b=a[2],f=lk(c,b),g=b?b[1]:e(ru,c),d=[0,[0,a[1],g],f];else
 var
 d=a;return d}function
-cH(c,d,b,a){if(d){var
+cP(c,d,b,a){if(d){var
 e=d[1];if(a){var
-f=cH(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cH(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
-fX(a,c,b){if(c)if(b)var
-g=b[2],e=b[1],h=c[2],d=c[1],i=fX(a,h,g),j=function(c,b){var
-f=t(a,e,b);return z(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aP(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,z(d,d),e),l],i];else
+f=cP(c,e,b,a[2]);return[0,a[1],f]}return[0,c,cP(c,e,b,0)]}return a?[0,b,a[2]]:[0,b,0]}function
+f9(a,c,b){if(c)if(b)var
+g=b[2],e=b[1],h=c[2],d=c[1],i=f9(a,h,g),j=function(c,b){var
+f=t(a,e,b);return z(t(a,d,c),f)},k=function(b){return t(a,e,b)},l=aF(function(b){return t(a,d,b)},k,j,g,h),f=[0,[0,t(a,z(d,d),e),l],i];else
 var
 f=b;else
 var
 f=c;return f}function
-cI(d,c,b,a){return cH(w,c,hD(d,a,b),a)}function
-k9(g,b,f,a){if(a)var
-c=a[2],d=a[1],h=r(b,c,w),e=[0,d,cH(w,b,z(t(g,f,d),h),c)];else
+cQ(d,c,b,a){return cP(v,c,hO(d,a,b),a)}function
+ll(g,b,f,a){if(a)var
+c=a[2],d=a[1],h=q(b,c,v),e=[0,d,cP(v,b,z(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-hH(f,d,c,b,a){var
-g=e($,c);return ko(0,bE(f,dN(0,a),g),b,d,0)}function
-Z(a){if(a){var
+hS(f,d,c,b,a){var
+g=e(Z,c);return kC(0,bJ(f,d0(0,a),g),b,d,0)}function
+_(a){if(a){var
 b=a[1];if(b)var
-c=Z(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return rI}function
-fY(b,a){if(a){var
-h=a[1],n=h[1],c=Z(e(function(a){return r(a,b,0)},n));if(c){var
-f=r(h[2],b,0);if(f){var
-i=f[1],g=fY(b,a[2]);if(g)var
-j=L(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
+d=b;return d}return r6}function
+f_(b,a){if(a){var
+h=a[1],n=h[1],c=_(e(function(a){return q(a,b,0)},n));if(c){var
+f=q(h[2],b,0);if(f){var
+i=f[1],g=f_(b,a[2]);if(g)var
+j=K(d,i[2][1]),k=j?[0,[0,[0,c[1],i],g[1]]]:j;else
 var
 k=g;var
 l=k}else
@@ -1907,79 +1909,79 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return rJ}function
-cn(d,c,b){var
-a=fY(d,c);return a?i(b,a[1]):a}function
-cJ(a,b){return m(function(c){var
-a=r(c,b,0),d=a?1:a;return d},a)}function
-fZ(b,a){if(b){var
-c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aP(function(a){return a},f,z,e,d),h=a[2];return[0,z(a[1],c[1]),h,g]}return a}function
-hI(b,a){return b?kQ(a,b[1]):a}function
-hJ(h,g,b,f){var
-a=r(f,h,0);if(a){var
+m=c;return m}return r7}function
+ct(d,c,b){var
+a=f_(d,c);return a?i(b,a[1]):a}function
+cR(a,b){return m(function(c){var
+a=q(c,b,0),d=a?1:a;return d},a)}function
+f$(b,a){if(b){var
+c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aF(function(a){return a},f,z,e,d),h=a[2];return[0,z(a[1],c[1]),h,g]}return a}function
+hT(b,a){return b?k4(a,b[1]):a}function
+hU(h,g,b,f){var
+a=q(f,h,0);if(a){var
 c=a[1];if(b){var
-i=kQ(c,b[1]),e=a$(g);return m(function(a){return G(d,aG(a,i)[1])},e)}return G(d,c[2][1])}return a}function
-k_(f,d,a){function
-c(a){return aQ(a,d,Q(f,b))}if(a){var
-g=e(c,a[2]);return[0,c(a[1]),w,g]}return $(w)}function
-f0(b,a){var
-c=r(a[1],b,0);if(c){var
-d=r(a[2],b,0);if(d)var
-e=r(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
+i=k4(c,b[1]),e=bd(g);return m(function(a){return E(d,aH(a,i)[1])},e)}return E(d,c[2][1])}return a}function
+lm(f,d,a){function
+c(a){return aR(a,d,P(f,b))}if(a){var
+g=e(c,a[2]);return[0,c(a[1]),v,g]}return Z(v)}function
+ga(b,a){var
+c=q(a[1],b,0);if(c){var
+d=q(a[2],b,0);if(d)var
+e=q(a[3],b,0),h=e?[0,[0,c[1],d[1],e[1]]]:e,f=h;else
 var
 f=d;var
 g=f}else
 var
 g=c;return g}function
-hK(b,a){return Z(e(function(a){return r(a,b,0)},a))}function
-eL(c,k,X,D,i,h,j,f,a){switch(f[0]){case
+hV(b,a){return _(e(function(a){return q(a,b,0)},a))}function
+eU(c,k,X,D,i,h,j,f,a){switch(f[0]){case
 0:var
-r=f[1];if(typeof
+s=f[1];if(typeof
 a!=="number")switch(a[0]){case
 0:var
-Y=cJ(D,i);if(Y){var
-aE=a[2],aF=a[1],aH=fZ(j,$(r));return cn(i,k,function(a){return dK(c,h,aH,aF,aE,a)})}return Y;case
+Y=cR(D,i);if(Y){var
+aE=a[2],aF=a[1],aG=f$(j,Z(s));return ct(i,k,function(a){return dX(c,h,aG,aF,aE,a)})}return Y;case
 1:var
-_=cJ(D,i);if(_){var
-aI=a[2],aJ=a[1],aK=fZ(j,$(r));return cn(i,X,function(a){return dK(c,h,aK,aJ,aI,a)})}return _;case
+$=cR(D,i);if($){var
+aI=a[2],aJ=a[1],aK=f$(j,Z(s));return ct(i,X,function(a){return dX(c,h,aK,aJ,aI,a)})}return $;case
 2:var
-aa=cJ(D,i);if(aa){if(j)return 0;var
-ab=I(r[1],d),ac=ab?I(r[2],d):ab;if(ac){var
-aL=a[2],aM=a[1];return cn(i,k,function(a){return dK(c,h,[0,w,w,0],aM,aL,kO([0,w,w,0],a))})}var
+aa=cR(D,i);if(aa){if(j)return 0;var
+ab=J(s[1],d),ac=ab?J(s[2],d):ab;if(ac){var
+aL=a[2],aM=a[1];return ct(i,k,function(a){return dX(c,h,[0,v,v,0],aM,aL,k2([0,v,v,0],a))})}var
 ad=ac}else
 var
 ad=aa;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hI(j,$(ae));return cn(i,X,function(a){return hx(c,h,aN,a)})}if(!a){var
-aO=hI(j,$(ae));return cn(i,k,function(a){return hx(c,h,aO,a)})}}return 0;case
+aN=hT(j,Z(ae));return ct(i,X,function(a){return hI(c,h,aN,a)})}if(!a){var
+aO=hT(j,Z(ae));return ct(i,k,function(a){return hI(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
-af=a[1],l=k_(c,af,a[3]),ag=f[1],aP=a[2];return cn(i,k,function(d){var
-a=kP(h,l),b=a?dK(c,h,fZ(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hx(c,h,hI(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+af=a[1],l=lm(c,af,a[3]),ag=f[1],aP=a[2];return ct(i,k,function(d){var
+a=k3(h,l),b=a?dX(c,h,f$(j,l),af,aP,d):a;if(b){var
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hI(c,h,hT(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hJ(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return hU(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
-aR=a[2],aS=a[1],aT=fZ(j,$(f[2])),aU=function(a){return dK(c,h,aT,aS,aR,a)};return cn(i,f[1],aU)}return 0;case
+aQ=a[2],aS=a[1],aT=f$(j,Z(f[2])),aU=function(a){return dX(c,h,aT,aS,aQ,a)};return ct(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hJ(i,h,j,f[1]);case
-2:return hJ(i,h,j,f[2])}return 0;case
+0:return hU(i,h,j,f[1]);case
+2:return hU(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
-E=f0(i,f[1]);if(E){var
-G=f0(i,f[2]);if(G){var
-H=f0(i,f[3]);if(H){var
-J=f0(i,f[4]);if(J){var
-ah=J[1],ai=H[1],aj=G[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
+E=ga(i,f[1]);if(E){var
+F=ga(i,f[2]);if(F){var
+H=ga(i,f[3]);if(H){var
+I=ga(i,f[4]);if(I){var
+ah=I[1],ai=H[1],aj=F[1],ak=E[1],n=a[2],u=f[5],aV=a[1];if(n){var
 o=n[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
-aD=[0,n[1],o[1],p[1]],q=kV(function(f){function
-g(a){return aQ(a,aV,Q(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fI(a),i=C(d[2],h),j=fI(a);return[0,d,[0,aC(d[1],j),i],a]}return $(w)},aD),N=m(function(a){return s(g(a),[0,h])},n),O=N?fR(c,h,j,u,q,ak,ai):N,P=O?fR(c,h,j,u,q,ak,ah):O,R=P?fR(c,h,j,u,q,aj,ai):P;if(R)return fR(c,h,j,u,q,aj,ah);var
+aD=[0,n[1],o[1],p[1]],q=k9(function(f){function
+g(a){return aR(a,aV,P(c,b))}if(f){var
+a=e(g,f[2]),d=g(f[1]),h=fV(a),i=C(d[2],h),j=fV(a);return[0,d,[0,aA(d[1],j),i],a]}return Z(v)},aD),N=m(function(a){return r(g(a),[0,h])},n),O=N?f3(c,h,j,u,q,ak,ai):N,Q=O?f3(c,h,j,u,q,ak,ah):O,R=Q?f3(c,h,j,u,q,aj,ai):Q;if(R)return f3(c,h,j,u,q,aj,ah);var
 S=R}else
 var
 S=p;var
@@ -1989,41 +1991,41 @@ T=o;var
 U=T}else
 var
 U=n;return U}var
-al=J}else
+al=I}else
 var
 al=H;var
 am=al}else
 var
-am=G;var
+am=F;var
 an=am}else
 var
 an=E;return an}return 0;case
 7:if(typeof
 a!=="number"&&0===a[0]){var
-ao=a[2],ap=a[1],aW=f[2],aX=f[1];return cn(i,k,function(e){var
-a=s(g(e),h),d=a?s(g(ao),h):a;if(d){var
+ao=a[2],ap=a[1],aW=f[2],aX=f[1];return ct(i,k,function(e){var
+a=r(g(e),h),d=a?r(g(ao),h):a;if(d){var
 f=function(a){if(a){var
-d=a[2],e=s(g(d),h);if(e){var
-i=dO(ap,dP(ap,ao,Q(c,b),d));return a6(c,h,a5(fS(c,aX,aW,a[1][2],d),i))}var
+d=a[2],e=r(g(d),h);if(e){var
+i=d1(ap,d2(ap,ao,P(c,b),d));return a$(c,h,a_(f4(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:$(w);return hu(h,hw(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:Z(v);return hF(h,hH(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aY=f[3],aZ=f[2],a0=function(d){var
-a=kO([0,w,w,0],d),b=j?j[1]:[0,w,w,0];return dK(c,h,b,aZ,aY,a)};return cn(i,f[1],a0)}return 0;case
+a=k2([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return dX(c,h,b,aZ,aY,a)};return ct(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=hK(i,f[1]);if(K){var
-a1=f[2],L=Z(e(function(a){return hK(i,a)},a1));if(L){var
-M=hK(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
-v=M[1];if(v){var
-x=v[2];if(x){var
+K=hV(i,f[1]);if(K){var
+a1=f[2],L=_(e(function(a){return hV(i,a)},a1));if(L){var
+M=hV(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+w=M[1];if(w){var
+x=w[2];if(x){var
 A=x[2];if(A){var
 B=A[2];if(B){if(B[2])return 0;var
-aq=B[1],as=A[1][2],at=x[1][2],au=v[1][2],av=L[1],a2=K[1],W=k6(c,h,j,av,au,at,function(d){return[0,dL(c,ar(function(b,a){return z(V(c,aG(d,b)),a)},w,a2))]});return W?W:k6(c,h,j,av,au,at,function(f){var
-b=bZ(aq[1]),a=bY(c,F(as,V(c,b)));if(a){var
-d=bX(c,a[1]),e=F(as,t(c,b,aG(f,aq)));return y(function(a){return t(c,e,a)},d)}return a})}var
+aq=B[1],ar=A[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],W=li(c,h,j,av,au,at,function(d){return[0,dY(c,as(function(b,a){return z(V(c,aH(d,b)),a)},v,a2))]});return W?W:li(c,h,j,av,au,at,function(f){var
+b=b4(aq[1]),a=b2(c,G(ar,V(c,b)));if(a){var
+d=b1(c,a[1]),e=G(ar,t(c,b,aH(f,aq)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
 aw=A;var
@@ -2032,47 +2034,47 @@ var
 ax=x;var
 ay=ax}else
 var
-ay=v;var
+ay=w;var
 az=ay}else
 var
 az=M;var
-aA=az}else
+aB=az}else
 var
-aA=L;var
-aB=aA}else
+aB=L;var
+aC=aB}else
 var
-aB=K;return aB}return 0}}function
-k$(a,aa,q,l,n,_,h,k,j,f,c){if(9===f[0]){var
+aC=K;return aC}return 0}}function
+ln(a,ab,s,l,n,$,h,k,j,f,c){if(9===f[0]){var
 ac=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-K=c[2],u=c[1],ae=c[3];if(0<aJ(c[4]))return eL(a,q,l,n,h,g(k),j,f,c);var
-U=e($,_),D=bi(0,bE(a,fT(0,k,ad),U),aa,0),M=s(g(k),rK),N=M?cJ(n,D):M;if(N){var
-v=fY(D,l);if(v){var
-x=fY(h,l);if(x){var
-A=Z(e(function(b){var
-c=r(b[1],h,0);if(c)var
-f=b[2][2],a=Z(e(function(a){var
-b=r(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
+L=c[2],u=c[1],ae=c[3];if(0<aK(c[4]))return eU(a,s,l,n,h,g(k),j,f,c);var
+U=e(Z,$),D=bm(0,bJ(a,f5(0,k,ad),U),ab,0),M=r(g(k),r8),N=M?cR(n,D):M;if(N){var
+w=f_(D,l);if(w){var
+x=f_(h,l);if(x){var
+A=_(e(function(b){var
+c=q(b[1],h,0);if(c)var
+f=b[2][2],a=_(e(function(a){var
+b=q(a[2],h,0);return y(function(b){return[0,a[1],b]},b)},f)),g=a?[0,[0,b[2][1],a[1]]]:a,d=g;else
 var
 d=c;return d},ac));if(A){var
-B=kY(v[1]);if(B){var
-O=x[1],af=A[1],ag=B[1],E=dL(a,ar(function(f,h){function
+B=la(w[1]);if(B){var
+O=x[1],af=A[1],ag=B[1],E=dY(a,as(function(f,h){function
 b(b,d){var
-a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return ci(r(d,c[3],w))}function
+a=f[1],c=b?b[1]?f[2]:a[2]:a[1];return b3(q(d,c[3],v))}function
 c(a){var
-b=i(a,rr),c=bg(i(a,rs),b);return bg(i(a,0),c)}var
+b=i(a,rP),c=bj(i(a,rQ),b);return bj(i(a,0),c)}var
 d=c(function(a){var
-c=b(rt,a),d=b(ru,a);return C(C(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,rv),d=b(a,rw);return C(C(b(a,0),d),c)});return z(h,V(a,dL(a,t(a,[0,e,e],g))))},w,ag)),o=aQ(ae,u,Q(a,b)),G=L(d,F(o,E)[1]),H=G?s(g(K),rC):G,I=H?s(g(O),rD):H;if(I){var
-p=bX(a,o);if(p){var
-W=at(t(a,E,p[1])),X=F(Q(a,b),W),Y=a$(rE);return m(function(h){var
+c=b(rR,a),d=b(rS,a);return C(C(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
+c=b(a,rT),d=b(a,rU);return C(C(b(a,0),d),c)});return z(h,V(a,dY(a,t(a,[0,e,e],g))))},v,ag)),o=aR(ae,u,P(a,b)),F=K(d,G(o,E)[1]),H=F?r(g(L),r0):F,I=H?r(g(O),r1):H;if(I){var
+p=b1(a,o);if(p){var
+W=aq(t(a,E,p[1])),X=G(P(a,b),W),Y=bd(r2);return m(function(h){var
 g=e(function(b){var
-c=b[2],d=b[1];return cj(bV(function(d,b){var
-c=ci(aG(h,b[2]));return z(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(au(function(a){return aG(h,a)}),O),E=j?aG(h,j[1]):w,M=V(a,X),s=V(a,o),q=dO(u,dP(u,K,Q(a,b),r)),c=a5(as([0,ab(E),0],rx),q);if(g){var
+c=b[2],d=b[1];return cn(b0(function(d,b){var
+c=b3(aH(h,b[2]));return z(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(au(function(a){return aH(h,a)}),O),E=j?aH(h,j[1]):v,M=V(a,X),s=V(a,o),q=d1(u,d2(u,L,P(a,b),r)),c=a_(al([0,aa(E),0],rV),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a6(a,rz,a5(as([0,ab(s),0],ry),c));if(k)return m(function(D){var
-J=F(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a$(a,rX,a_(al([0,aa(s),0],rW),c));if(k)return m(function(D){var
+J=G(M,E),K=D[2]?B:aa(B),L=D[1]?C:aa(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2081,16 +2083,16 @@ f=c[2],p=0;if(f){var
 g=f[1],q=0;if(g){var
 h=g[2],r=0;if(h)if(h[2]){var
 k=0;l=1;m=1;n=1;p=1;q=1;r=1}else{var
-i=f[2],G=0;if(i){var
+i=f[2],F=0;if(i){var
 j=i[1],H=0;if(j)if(j[2]||i[2]){var
-k=0;l=1;m=1;n=1;p=1;q=1;r=1;G=1;H=1}else
+k=0;l=1;m=1;n=1;p=1;q=1;r=1;F=1;H=1}else
 var
 s=[0,[0,b[1],[0,d[1],[0,e[1],[0,L,0]]]],[0,[0,g[1],[0,h[1],[0,K,0]]],[0,[0,j[1],[0,I,0]],[0,[0,J,0],0]]]];else
 var
 s=j;if(!H)var
 t=s}else
 var
-t=i;if(!G)var
+t=i;if(!F)var
 u=t}else
 var
 u=h;if(!r)var
@@ -2111,7 +2113,7 @@ var
 z=b;if(!l){var
 A=z;o=1}}else{var
 A=c;o=1}if(o)var
-k=A;return a6(a,rB,k)},rA);var
+k=A;return a$(a,rZ,k)},rY);var
 l=k}else
 var
 l=f;var
@@ -2124,37 +2126,37 @@ p=g;return p},Y)}var
 J=p}else
 var
 J=I;return J}var
-P=B}else
+Q=B}else
 var
-P=A;var
-R=P}else
+Q=A;var
+R=Q}else
 var
 R=x;var
 S=R}else
 var
-S=v;var
+S=w;var
 T=S}else
 var
-T=N;return T}return eL(a,q,l,n,h,g(k),j,f,c)}return eL(a,q,l,n,h,g(k),j,f,c)}function
-hL(d){var
+T=N;return T}return eU(a,s,l,n,h,g(k),j,f,c)}return eU(a,s,l,n,h,g(k),j,f,c)}function
+hW(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=U(aj(function(b){return function(a){return s(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=T(ak(function(b){return function(a){return r(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-la(j,i,h,g,a){var
-d=r(a,j,0);if(d){var
-b=r(a,i,0);if(b)var
-c=k5(0,g,r(a,h,rL)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+lo(j,i,h,g,a){var
+d=q(a,j,0);if(d){var
+b=q(a,i,0);if(b)var
+c=lh(0,g,q(a,h,r9)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-hM(j,b,a){if(a){var
-k=a[1],l=k[2],c=Z(e(b,k[1]));if(c){var
+hX(j,b,a){if(a){var
+k=a[1],l=k[2],c=_(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
-g=r(l,j,0);if(g){var
-h=hM(j,b,a[2]);if(h)var
-m=L(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
+g=q(l,j,0);if(g){var
+h=hX(j,b,a[2]);if(h)var
+m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
 o=n}else
@@ -2163,28 +2165,28 @@ o=g;var
 p=o}else
 var
 p=f;var
-q=p}else
+r=p}else
 var
-q=c;return q}return rM}function
-lb(c,N,j,M,p,o,K,v,f,b,i,a){var
-h=g(K),O=dN(0,K),aI=bi(0,bE(c,O,e($,fV(i,0,p))),N,0),aK=e(ay,i),aJ=0,aL=e($,p),aM=bi(rN,function(a){return kZ(c,O,aL,aK,a)},N,aJ),aN=hF(i,p);function
-P(a){return la(o,aI,aM,i,a)}function
-x(a){return e(function(a){return Q(c,a)},a)}var
-aO=v?v[1]:$(w);function
-S(a){return a?a6(c,h,a[1]):a}function
+r=c;return r}return r_}function
+lp(c,N,j,M,p,o,L,w,f,b,i,a){var
+h=g(L),O=d0(0,L),aI=bm(0,bJ(c,O,e(Z,f7(i,0,p))),N,0),aK=e(ay,i),aJ=0,aL=e(Z,p),aM=bm(r$,function(a){return lb(c,O,aL,aK,a)},N,aJ),aN=hQ(i,p);function
+Q(a){return lo(o,aI,aM,i,a)}function
+x(a){return e(function(a){return P(c,a)},a)}var
+aO=w?w[1]:Z(v);function
+S(a){return a?a$(c,h,a[1]):a}function
 q(f,e,d,b,a){var
-g=as([0,ab(e),0],h);return S(k1(c,x(f),d,b,a,g))}function
+g=al([0,aa(e),0],h);return S(ld(c,x(f),d,b,a,g))}function
 T(A,z,y){var
-B=as([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
-k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,bZ(g),i],f];if(m){var
-o=L(d,g[1]);if(o)var
+B=al([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
+k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,b4(g),i],f];if(m){var
+o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,at(a[2]),b]},m),t=e(function(a){return w},i),u=[0,b2(c),t],v=b2(c),a=eK(c,[0,ab(dG(hD(c,i,q),v,g)),q],u,s,n);else
+b=a[1];return[0,aq(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b7(c),t],w=b7(c),a=eT(c,[0,aa(dS(hO(c,i,q),w,g)),q],u,s,n);else
 var
 a=o}else
 var
 a=[0,n];if(a){var
-j=fN(c,a[1]);if(j){var
+j=fZ(c,a[1]);if(j){var
 b=b[2],f=j[1];continue}var
 p=j}else
 var
@@ -2192,29 +2194,29 @@ p=a;var
 r=p}else
 var
 r=[0,f];return S(r)}}var
-aP=e(ay,i),U=m(function(a){return aX(a,g(p))},aP),V=U?hL(e(ay,i)):U,W=V?m(function(a){return s(g(a),h)},a):V;if(W){var
+aP=e(ay,i),U=m(function(a){return aV(a,g(p))},aP),V=U?hW(e(ay,i)):U,W=V?m(function(a){return r(g(a),h)},a):V;if(W){var
 u=0;switch(f[0]){case
 0:var
 y=f[1],H=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-aq=0;if(a){if(a[2])return 0;var
-aQ=a[1],aR=b[2],aS=b[1],X=cJ(M,o);if(X){var
+at=0;if(a){if(a[2])return 0;var
+aQ=a[1],aR=b[2],aS=b[1],X=cR(M,o);if(X){var
 l=function(c,a){var
-b=z(y,a);return function(a){return q(aQ,b,aS,aR,a)}},k=j;H=1;aq=1}else
+b=z(y,a);return function(a){return q(aQ,b,aS,aR,a)}},k=j;H=1;at=1}else
 var
-_=X}else
+$=X}else
 var
-_=a;if(!aq)return _;break;case
+$=a;if(!at)return $;break;case
 2:var
 au=0;if(a){if(a[2])return 0;var
-aU=a[1],aV=b[2],aW=b[1],aa=cJ(M,o),av=0;if(aa){if(v)return 0;var
-ac=I(y[1],d),ad=ac?I(y[2],d):ac;if(ad){var
-l=function(c,b,a){return q(aU,w,aW,aV,e(k0,a))},k=j;H=1;au=1;av=1}else
+aU=a[1],aW=b[2],aX=b[1],ab=cR(M,o),av=0;if(ab){if(w)return 0;var
+ac=J(y[1],d),ad=ac?J(y[2],d):ac;if(ad){var
+l=function(c,b,a){return q(aU,v,aX,aW,e(lc,a))},k=j;H=1;au=1;av=1}else
 var
 ae=ad}else
 var
-ae=aa;if(!av)var
+ae=ab;if(!av)var
 af=ae}else
 var
 af=a;if(!au)return af;break}if(!H)return 0;break;case
@@ -2222,162 +2224,162 @@ af=a;if(!au)return af;break}if(!H)return 0;break;case
 aw=0,aY=f[1];if(typeof
 b==="number"&&!b){if(!a)return a;if(a[2])return 0;var
 aZ=a[1],l=function(c,a){var
-b=F(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
+b=G(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;case
 2:var
 ax=0,a0=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
-az=0;if(a){var
-r=a[2],aA=0;if(r){if(r[2])return 0;var
-ag=b[1],a1=r[1],a2=a[1],a3=b[2],ah=k_(c,ag,b[3]),ai=kP(h,ah);if(ai){var
+aB=0;if(a){var
+s=a[2],aC=0;if(s){if(s[2])return 0;var
+ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lm(c,ah,b[3]),aj=k3(h,ai);if(aj){var
 l=function(f,b,a){var
-d=aG(f,ah),e=q(a2,z(d,b),ag,a3,a);return e?T(a1,F(t(c,a0,d),b),a):e},k=j;az=1;aA=1}else
+d=aH(f,ai),e=q(a2,z(d,b),ah,a3,a);return e?T(a1,G(t(c,a0,d),b),a):e},k=j;aB=1;aC=1}else
 var
-aj=ai}else
-var
-aj=r;if(!aA)var
 ak=aj}else
 var
-ak=a;if(!az)return ak}if(ax)return 0;break;case
+ak=s;if(!aC)var
+am=ak}else
+var
+am=a;if(!aB)return am}if(ax)return 0;break;case
 3:var
-aB=0;if(typeof
+aD=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
 B=f[1];u=1}else
-aB=1;if(aB)return 0;break;case
+aD=1;if(aD)return 0;break;case
 4:var
-aD=0,a7=f[2];if(typeof
-b==="number"||!(0===b[0]))aD=1;else{if(!a)return a;if(a[2])return 0;var
-a8=a[1],a9=b[2],a_=b[1],ba=function(c,a){var
-b=z(a7,a);return function(a){return q(a8,b,a_,a9,a)}},l=ba,k=f[1]}if(aD)return 0;break;case
+aE=0,a5=f[2];if(typeof
+b==="number"||!(0===b[0]))aE=1;else{if(!a)return a;if(a[2])return 0;var
+a6=a[1],a7=b[2],a8=b[1],a9=function(c,a){var
+b=z(a5,a);return function(a){return q(a6,b,a8,a7,a)}},l=a9,k=f[1]}if(aE)return 0;break;case
 5:var
-J=0;if(typeof
+I=0;if(typeof
 b==="number"&&!(3<=b))switch(b){case
 0:if(a)return 0;var
 B=f[1];u=1;break;case
 2:if(a)return 0;var
-B=f[2];u=1;break;default:J=1}else
-J=1;if(J)return 0;break;case
+B=f[2];u=1;break;default:I=1}else
+I=1;if(I)return 0;break;case
 7:var
-al=f[2],am=f[1],aF=0;if(typeof
+an=f[2],ao=f[1],aF=0;if(typeof
 b==="number"||!(0===b[0]))aF=1;else{var
-aH=0;if(a){if(a[2])return 0;var
-n=b[2],E=b[1],bb=a[1],an=s(g(j),h);if(an){var
+aG=0;if(a){if(a[2])return 0;var
+n=b[2],F=b[1],ba=a[1],ap=r(g(j),h);if(ap){var
 l=function(a,y){var
-z=x(bb);return function(f){var
-k=s(g(f),h),l=k?s(g(n),h):k;if(l){var
-r=e(ay,f),u=dO(E,dP(E,n,b2(c),r)),v=a5(fS(c,am,al,y,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
-o=b[1][2],p=s(a,am),q=e(function(f,h){return function(d){var
-a=ao(aE(0,g(n)),n);return e(function(a){var
-b=k3(E,a[2],d[1]);if(h&&s(a[1],f))return F(b,at(t(c,al,d[2])));return b},a)}}(a,p),o),j=eK(c,z,k2(c,a,w),q,i);if(j){var
+z=x(ba);return function(f){var
+k=r(g(f),h),l=k?r(g(n),h):k;if(l){var
+s=e(ay,f),u=d1(F,d2(F,n,b7(c),s)),v=a_(f4(c,ao,an,y,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+o=b[1][2],p=r(a,ao),q=e(function(f,h){return function(d){var
+a=ag(az(0,g(n)),n);return e(function(a){var
+b=lf(F,a[2],d[1]);if(h&&r(a[1],f))return G(b,aq(t(c,an,d[2])));return b},a)}}(a,p),o),j=eT(c,z,le(c,a,w),q,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
-d=[0,i];if(d)return a6(c,h,d[1]);var
+d=[0,i];if(d)return a$(c,h,d[1]);var
 m=d;break}}else
 var
-m=l;return m}},k=j;aH=1}else
+m=l;return m}},k=j;aG=1}else
 var
-ap=an}else
+ar=ap}else
 var
-ap=a;if(!aH)return ap}if(aF)return 0;break;default:return 0}if(u){var
-D=P(B);if(!D)return D;var
+ar=a;if(!aG)return ar}if(aF)return 0;break;default:return 0}if(u){var
+D=Q(B);if(!D)return D;var
 a4=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=ar(function(b,a){return C(bg(d,R(b[2][1])),a)},d,c);return G(d,aC(aC(a[1][2][1],e),b))},a)},Z=a4,Y=[0,[0,0,D[1]],0]}else{var
-A=hM(o,P,k);if(!A)return A;var
-Z=l,Y=A[1]}var
-aT=a$(h);return m(function(a){var
-b=e(function(b){return hG(c,a,aN,b)},Y);return gO(Z,a,aG(a,aO),b)},aT)}return W}function
-lc(a,W,y,V,p,o,T,x,n,h,l,i,S,aA,R,P){var
-k=g(T),X=dN(0,T),aB=bi(0,bE(a,X,e($,fV(l,0,p))),W,0),aD=e(ay,l),aC=0,aF=e($,p),aH=bi(rO,function(b){return kZ(a,X,aF,aD,b)},W,aC),aI=hF(l,p);function
-aJ(a){return la(o,aB,aH,l,a)}var
-aK=x?x[1]:$(w),v=ar(function(b,a){return bg(cc(b),a)},d,i);function
-M(a){if(a){if(I(cc(a[1]),v))return 0;var
+b=f[2],c=a[2],e=as(function(b,a){return C(bj(d,R(b[2][1])),a)},d,c);return E(d,aA(aA(a[1][2][1],e),b))},a)},_=a4,Y=[0,[0,0,D[1]],0]}else{var
+A=hX(o,Q,k);if(!A)return A;var
+_=l,Y=A[1]}var
+aT=bd(h);return m(function(a){var
+b=e(function(b){return hR(c,a,aN,b)},Y);return fn(_,a,aH(a,aO),b)},aT)}return W}function
+lq(a,W,y,V,p,o,U,x,n,h,l,i,S,aB,R,Q){var
+k=g(U),X=d0(0,U),aC=bm(0,bJ(a,X,e(Z,f7(l,0,p))),W,0),aE=e(ay,l),aD=0,aF=e(Z,p),aG=bm(sa,function(b){return lb(a,X,aF,aE,b)},W,aD),aI=hQ(l,p);function
+aJ(a){return lo(o,aC,aG,l,a)}var
+aK=x?x[1]:Z(v),w=as(function(b,a){return bj(ch(b),a)},d,i);function
+M(a){if(a){if(J(ch(a[1]),w))return 0;var
 b=[0,M(a[2])]}else
 var
 b=a;return b}var
-N=M(i);if(I(v,d))var
-aw=e(function(a){return w},i),ax=i?[0,b,i[2]]:i,A=[0,[0,[0,0,ax],d],aw];else
+N=M(i);if(J(w,d))var
+aw=e(function(a){return v},i),ax=i?[0,b,i[2]]:i,B=[0,[0,[0,0,ax],d],aw];else
 var
-O=hn(C(ke(v),b)),az=e(function(a){return w},i),A=[0,[0,[0,N,i],O],cH(w,N,Q(a,ex(c(2,b),O)),az)];var
-Y=A[1],Z=Y[1],D=Z[2],f=Z[1],_=A[2],aL=Y[2],j=e(function(c){return aQ(c,aL,Q(a,b))},D);function
-aa(h){var
-i=0,c=aE(0,k),d=ar(function(c,b){var
-d=cI(a,f,j,k2(a,c,k));return a5(b,hB(a,ab(h),d))},i,c),g=cI(a,f,j,e(function(b){return Q(a,B(R,b))},aA));return a5(d,fX(a,cI(a,f,j,e(function(c){return aQ(c,C(P,b),b2(a))},S)),g))}function
-ac(b){return b?a6(a,k,b[1]):b}function
-E(u,i,t,s){var
-c=t,b=s,d=aa(ab(u));for(;;){if(c&&b){var
-k=b[1],l=k[1],g=c[1],m=cI(a,f,j,e(function(b){return aQ(b,i,b2(a))},g)),o=cj(l[2]),p=cI(a,f,j,dJ(i,l[1],o,g)),q=a5(d,fX(a,e(at,m),p)),r=k[2],h=eK(a,_,m,e(function(c){return function(b){return cI(a,f,j,e(at,dJ(i,b[1],b[2],c)))}}(g),r),q);if(h){var
+O=hz(C(kr(w),b)),aA=e(function(a){return v},i),B=[0,[0,[0,N,i],O],cP(v,N,P(a,bZ(c(2,b),O)),aA)];var
+Y=B[1],_=Y[1],D=_[2],f=_[1],$=B[2],aL=Y[2],j=e(function(c){return aR(c,aL,P(a,b))},D);function
+ab(h){var
+i=0,c=az(0,k),d=as(function(c,b){var
+d=cQ(a,f,j,le(a,c,k));return a_(b,hM(a,aa(h),d))},i,c),g=cQ(a,f,j,e(function(b){return P(a,A(R,b))},aB));return a_(d,f9(a,cQ(a,f,j,e(function(c){return aR(c,C(Q,b),b7(a))},S)),g))}function
+ac(b){return b?a$(a,k,b[1]):b}function
+F(u,i,t,s){var
+c=t,b=s,d=ab(aa(u));for(;;){if(c&&b){var
+k=b[1],l=k[1],g=c[1],m=cQ(a,f,j,e(function(b){return aR(b,i,b7(a))},g)),o=cn(l[2]),p=cQ(a,f,j,dW(i,l[1],o,g)),q=a_(d,f9(a,e(aq,m),p)),r=k[2],h=eT(a,$,m,e(function(c){return function(b){return cQ(a,f,j,e(aq,dW(i,b[1],b[2],c)))}}(g),r),q);if(h){var
 c=c[2],b=b[2],d=h[1];continue}var
 n=h}else
 var
 n=[0,d];return ac(n)}}var
-aM=e(ay,l),ad=m(function(a){return aX(a,g(p))},aM),ae=ad?hL(e(ay,l)):ad,af=ae?s(g(D),k):ae,ag=af?s(g(S),k):af,ah=ag?G(d,R):ag,ai=ah?kb(P,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aX(f,k):ai,ak=aj?U(I(r(f,D,d),d)):aj;if(ak){switch(n[0]){case
+aM=e(ay,l),ad=m(function(a){return aV(a,g(p))},aM),ae=ad?hW(e(ay,l)):ad,af=ae?r(g(D),k):ae,ag=af?r(g(S),k):af,ah=ag?E(d,R):ag,ai=ah?ko(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aV(f,k):ai,ak=aj?T(J(q(f,D,d),d)):aj;if(ak){switch(n[0]){case
 0:var
-H=n[1],K=0;if(typeof
-h==="number")K=1;else
+H=n[1],L=0;if(typeof
+h==="number")L=1;else
 switch(h[0]){case
 0:var
-aN=h[2],aO=h[1],am=cJ(V,o);if(!am)return am;var
+aN=h[2],aO=h[1],al=cR(V,o);if(!al)return al;var
 u=function(a){var
-b=z(H,a);return function(a){return E(b,aO,aN,a)}},q=y;break;case
+b=z(H,a);return function(a){return F(b,aO,aN,a)}},s=y;break;case
 2:var
-aS=h[2],aT=h[1],an=cJ(V,o),as=0;if(an){if(x)return 0;var
-ao=I(H[1],d),ap=ao?I(H[2],d):ao;if(ap){var
-u=function(b,a){return E(w,aT,aS,e(k0,a))},q=y;as=1}else
+aS=h[2],aT=h[1],am=cR(V,o),at=0;if(am){if(x)return 0;var
+ao=J(H[1],d),ap=ao?J(H[2],d):ao;if(ap){var
+u=function(b,a){return F(v,aT,aS,e(lc,a))},s=y;at=1}else
 var
-aq=ap}else
+ar=ap}else
 var
-aq=an;if(!as)return aq;break;default:K=1}if(K)return 0;break;case
+ar=am;if(!at)return ar;break;default:L=1}if(L)return 0;break;case
 1:var
 au=0,aU=n[1];if(typeof
 h==="number"&&!h)var
 u=function(b){var
-G=F(aU,b);return function(F){var
-i=F,h=aa(G);for(;;){if(i){var
-n=i[1],o=n[1],k=o[2],p=n[2],b=cI(a,f,j,o[1]);if(p){var
-q=L(d,k[1]);if(q)var
-C=b2(a),c=bZ(ab(dG(r(f,b,w),C,k))),l=bZ(k),v=cH(w,f,c,0),x=r(f,b,w),y=a5(h,fX(a,v,cH(w,f,z(at(t(a,c,l)),x),b))),A=r(f,b,w),B=[0,[0,l,cH(w,f,z(t(a,c,l),A),b)],y],D=e(function(d){return function(b){var
-c=cI(a,f,j,b[1]);return k9(a,f,d,[0,at(b[2]),c])}}(c),p),E=e(function(a){return w},b),g=eK(a,[0,w,_],k9(a,f,c,[0,b2(a),E]),D,B);else
+F=G(aU,b);return function(G){var
+i=G,h=ab(F);for(;;){if(i){var
+n=i[1],o=n[1],k=o[2],p=n[2],b=cQ(a,f,j,o[1]);if(p){var
+r=K(d,k[1]);if(r)var
+C=b7(a),c=b4(aa(dS(q(f,b,v),C,k))),l=b4(k),w=cP(v,f,c,0),x=q(f,b,v),y=a_(h,f9(a,w,cP(v,f,z(aq(t(a,c,l)),x),b))),A=q(f,b,v),B=[0,[0,l,cP(v,f,z(t(a,c,l),A),b)],y],D=e(function(d){return function(b){var
+c=cQ(a,f,j,b[1]);return ll(a,f,d,[0,aq(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eT(a,[0,v,$],ll(a,f,c,[0,b7(a),E]),D,B);else
 var
-g=q}else
+g=r}else
 var
-g=[0,[0,[0,bZ(k),b],h]];if(g){var
-m=fN(a,g[1]);if(m){var
+g=[0,[0,[0,b4(k),b],h]];if(g){var
+m=fZ(a,g[1]);if(m){var
 i=i[2],h=m[1];continue}var
 s=m}else
 var
 s=g;var
 u=s}else
 var
-u=[0,h];return ac(u)}}},q=y;else
+u=[0,h];return ac(u)}}},s=y;else
 au=1;if(au)return 0;break;case
 4:var
-av=0,aV=n[2];if(typeof
+av=0,aW=n[2];if(typeof
 h==="number"||!(0===h[0]))av=1;else
 var
-aW=h[2],aY=h[1],aZ=function(a){var
-b=z(aV,a);return function(a){return E(b,aY,aW,a)}},u=aZ,q=n[1];if(av)return 0;break;default:return 0}var
-J=hM(o,aJ,q);if(J){var
-aP=J[1],aR=a$(k);return m(function(b){var
-c=e(function(c){return hG(a,b,aI,c)},aP);return al(u,aG(b,aK),c)},aR)}return J}return ak}function
-ld(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
+aX=h[2],aY=h[1],aZ=function(a){var
+b=z(aW,a);return function(a){return F(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
+I=hX(o,aJ,s);if(I){var
+aP=I[1],aQ=bd(k);return m(function(b){var
+c=e(function(c){return hR(a,b,aI,c)},aP);return an(u,aH(b,aK),c)},aQ)}return I}return ak}function
+lr(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
 c!=="number"&&10===c[0]){var
 a=c[3],s=c[2],b=c[1];if(typeof
 b!=="number"&&5===b[0]){if(a){if(a[2])return 0;var
 t=b[2],f=i(x,e);if(f){var
-u=G(d,t);if(u){var
-y=a[1],z=b[1];return lc(r,q,p,o,n,m,e,[0,hy(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
+u=E(d,t);if(u){var
+y=a[1],z=b[1];return lq(r,q,p,o,n,m,e,[0,hJ(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
 v=u}else
 var
 v=f;var
 w=v}else
 var
-w=a;return w}return a?a[2]?0:lc(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
-le(l,k,j,p,h,g,o,f,b,e,a){if(typeof
+w=a;return w}return a?a[2]?0:lq(r,q,p,o,n,m,e,0,l,b,s,a[1],k,j,h,g):a}return 0}function
+ls(l,k,j,p,h,g,o,f,b,e,a){if(typeof
 a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=i(o,b);if(m){var
-r=G(d,q);if(r){var
-y=a[1];return k$(l,k,j,p,h,g,f,b,[0,hy(q,a[3],m[1])],e,y)}var
+r=E(d,q);if(r){var
+y=a[1];return ln(l,k,j,p,h,g,f,b,[0,hJ(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2385,14 +2387,14 @@ s=m;return s;case
 t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=i(o,b);if(n){var
-w=G(d,v);if(w){var
-z=c[1];return lb(l,k,j,h,g,f,b,[0,hy(v,c[3],n[1])],e,z,u,t)}var
+w=E(d,v);if(w){var
+z=c[1];return lp(l,k,j,h,g,f,b,[0,hJ(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
-x=n;return x}return lb(l,k,j,h,g,f,b,0,e,c,u,t)}return k$(l,k,j,p,h,g,f,b,0,e,a)}function
-hN(a){return 9===a[0]?0:1}function
-dR(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-hO(j,d,i,a,h){var
+x=n;return x}return lp(l,k,j,h,g,f,b,0,e,c,u,t)}return ln(l,k,j,p,h,g,f,b,0,e,a)}function
+hY(a){return 9===a[0]?0:1}function
+d4(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+hZ(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2403,7 +2405,7 @@ b=b[3];continue;case
 5:case
 10:var
 b=b[1];continue;default:c=1}var
-k=c?0:1,l=k?d:j,g=dR(l);switch(a[0]){case
+k=c?0:1,l=k?d:j,g=d4(l);switch(a[0]){case
 0:return f(i,g);case
 3:return[0,a[1],0];case
 5:return[0,a[1],[0,a[2],0]];case
@@ -2411,18 +2413,18 @@ k=c?0:1,l=k?d:j,g=dR(l);switch(a[0]){case
 m=[0,a[1],[0,a[2],[0,a[3],[0,a[4],0]]]];return x(function(a){return[0,a[1],[0,a[2],[0,a[3],0]]]},m);case
 9:var
 n=a[2],o=x(function(a){var
-b=e(aT,a[2][2]);return[0,a[1],b]},n);return f(dR(d),o);case
+b=e(aU,a[2][2]);return[0,a[1],b]},n);return f(d4(d),o);case
 10:var
-p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(eB(a[2]),p);return f(a[1],q);case
+p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dO(a[2]),p);return f(a[1],q);case
 4:case
-8:return dR(a[1]);default:return g}}}function
-lf(p,o,n,l,j,a,e,i){var
-g=hN(a),h=g?m(function(b){var
-a=r(b,bV(fW,e,j),w);return I(a[1],a[2])},i):g;return h?m(function(T){switch(a[0]){case
+8:return d4(a[1]);default:return g}}}function
+lt(p,o,n,l,j,a,e,i){var
+g=hY(a),h=g?m(function(b){var
+a=q(b,b0(f8,e,j),v);return J(a[1],a[2])},i):g;return h?m(function(T){switch(a[0]){case
 3:var
 e=[0,a[1],0];break;case
 4:var
-e=dR(a[1]);break;case
+e=d4(a[1]);break;case
 5:var
 e=[0,a[1],[0,a[2],0]];break;case
 6:case
@@ -2430,9 +2432,9 @@ e=[0,a[1],[0,a[2],0]];break;case
 9:case
 10:return 0;default:var
 e=0}var
-i=0,g=bi(0,function(a){switch(a[0]){case
+i=0,g=bm(0,function(a){switch(a[0]){case
 1:var
-M=a[1],N=aj(function(a){return s(M,a)},T)?b:d;return[0,N];case
+M=a[1],N=ak(function(a){return r(M,a)},T)?b:d;return[0,N];case
 5:return a[1];case
 6:var
 i=a[1];if(i)var
@@ -2441,7 +2443,7 @@ var
 y=i;return y;case
 7:var
 k=a[1];if(k)var
-l=a[2],Q=l?[0,aC(k[1],l[1])]:l,z=Q;else
+l=a[2],Q=l?[0,aA(k[1],l[1])]:l,z=Q;else
 var
 z=k;return z;case
 8:var
@@ -2451,23 +2453,23 @@ var
 B=m;return B;case
 9:var
 n=a[1];if(n){var
-e=n[1],r=aJ(e);if(0===r)var
+e=n[1],s=aK(e);if(0===s)var
 f=1;else
-if(0<r)var
-f=G(e,b)?0:I(aS(e,aB(2))[2],d)?1:0;else
+if(0<s)var
+f=E(e,b)?0:J(aT(e,aE(2))[2],d)?1:0;else
 var
-t=R(e),f=G(t,b)?0:I(aS(t,aB(2))[2],d)?1:0;var
-S=f?[0,cg(e,c(2,b))]:f,D=S}else
+t=R(e),f=E(t,b)?0:J(aT(t,aE(2))[2],d)?1:0;var
+S=f?[0,cl(e,c(2,b))]:f,D=S}else
 var
 D=n;return D;case
 10:var
 o=a[2];if(o){var
 p=a[3];if(p){var
 q=a[4];if(q)var
-E=I(o[1],d),F=E?I(p[1],d):E,H=F?I(q[1],d):F,J=H?[0,d]:H;else
+F=J(o[1],d),G=F?J(p[1],d):F,H=G?J(q[1],d):G,I=H?[0,d]:H;else
 var
-J=q;var
-K=J}else
+I=q;var
+K=I}else
 var
 K=p;var
 L=K}else
@@ -2477,72 +2479,72 @@ L=o;return L;case
 4:var
 g=a[1];if(g){var
 h=a[2];if(h)var
-u=g[1],v=I(u,h[1]),O=v?[0,u]:v,w=O;else
+u=g[1],v=J(u,h[1]),O=v?[0,u]:v,w=O;else
 var
 w=h;var
 x=w}else
 var
 x=g;return x;default:return[0,d]}},p,i),h=m(function(c){var
-a=r(c,g,0),b=a?1:a;return b},l);if(h){var
-j=f(dR(n),e),k=f(dR(o),j);return m(function(c){var
-a=r(c,g,0);if(a){var
-b=aJ(a[1]);return 0===b?1:0<b?0:0}return a},k)}return h},e):h}function
-lg(j,a,i,h,g,f,e,d,c,b){var
-k=fH(hO(i,h,g,c,b),a);return hH(j,a,bV(fW,e,f),k,d)}function
-f1(b,a){if(a){var
+a=q(c,g,0),b=a?1:a;return b},l);if(h){var
+j=f(d4(n),e),k=f(d4(o),j);return m(function(c){var
+a=q(c,g,0);if(a){var
+b=aK(a[1]);return 0===b?1:0<b?0:0}return a},k)}return h},e):h}function
+lu(j,a,i,h,g,f,e,d,c,b){var
+k=fU(hZ(i,h,g,c,b),a);return hS(j,a,b0(f8,e,f),k,d)}function
+gb(b,a){if(a){var
 c=a[2];if(b){var
-e=f1(b[1],c);return[0,a[1],e]}var
+e=gb(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-eM(k,a,c,j,b,p,o,h,f,T,l){switch(l[0]){case
+eV(k,a,c,j,b,p,o,h,f,U,l){switch(l[0]){case
 0:var
-$=function(a){return m(U,a)},H=$,y=l[1];break;case
+$=function(a){return m(T,a)},H=$,y=l[1];break;case
 1:var
 aa=l[4],ab=l[3],ac=l[2],ad=function(d){var
-e=cF(ac,f),g=eM(k,a,c,j,b,p,o,h,e[1],d,ab);return g?eM(k,a,c,j,b,p,o,h,e[2],d,aa):g},H=ad,y=l[1];break;default:var
-ae=l[4],af=l[3],ag=l[2],ah=function(d){var
-n=ao(p,d),e=m(function(a){var
-b=hN(a[1]);return b?b:U(a[2])},n);if(e){var
-g=cF(ag,h),i=eM(k,a,c,j,b,p,o,g[1],f,d,af);if(i)return eM(k,a,c,j,b,p,o,g[2],f,d,ae);var
+e=cN(ac,f),g=eV(k,a,c,j,b,p,o,h,e[1],d,ab);return g?eV(k,a,c,j,b,p,o,h,e[2],d,aa):g},H=ad,y=l[1];break;default:var
+ae=l[4],af=l[3],ah=l[2],ai=function(d){var
+n=ag(p,d),e=m(function(a){var
+b=hY(a[1]);return b?b:T(a[2])},n);if(e){var
+g=cN(ah,h),i=eV(k,a,c,j,b,p,o,g[1],f,d,af);if(i)return eV(k,a,c,j,b,p,o,g[2],f,d,ae);var
 l=i}else
 var
-l=e;return l},H=ah,y=l[1]}if(y){var
-S=hH(k,a,h,fH(x(function(f){var
+l=e;return l},H=ai,y=l[1]}if(y){var
+S=hS(k,a,h,fU(x(function(f){var
 a=f[2],e=0;if(typeof
 a==="number"){if(4!==a)e=1}else
 if(11!==a[0])e=1;if(e){var
-d=D(p,f[1]);return d?hO(c,j,b,d[1],a):d}return 0},y),a),f),v=y,q=T;for(;;){if(v){var
-N=v[1],n=N[2],E=N[1],O=v[2],V=0;if(typeof
+d=F(p,f[1]);return d?hZ(c,j,b,d[1],a):d}return 0},y),a),f),v=y,s=U;for(;;){if(v){var
+N=v[1],n=N[2],D=N[1],O=v[2],V=0;if(typeof
 n==="number"&&4===n){var
 A=i(o,f);if(A)var
-X=A[1],W=a$(g(f)),F=m(function(b){return function(a){return L(aG(a,b)[2],d)}}(X),W);else
+X=A[1],W=bd(g(f)),E=m(function(b){return function(a){return K(aH(a,b)[2],d)}}(X),W);else
 var
-F=A;if(F){var
-v=O,q=e(function(a){return 0},q);continue}var
-u=F}else
+E=A;if(E){var
+v=O,s=e(function(a){return 0},s);continue}var
+u=E}else
 V=1;if(V){var
-P=r(E,q,0);if(P){var
-G=D(p,E);if(G){var
+P=q(D,s,0);if(P){var
+G=F(p,D);if(G){var
 w=G[1],I=0;if(typeof
 n==="number")I=1;else
 switch(n[0]){case
 11:var
-J=n[3],B=n[1],K=lf(a,c,j,b,h,w,B,n[2]);if(K)var
-Y=lg(k,a,c,j,b,h,B,f,w,J),t=le(k,a,c,j,b,bV(fW,B,h),o,Y,f,w,J);else
+J=n[3],B=n[1],L=lt(a,c,j,b,h,w,B,n[2]);if(L)var
+Y=lu(k,a,c,j,b,h,B,f,w,J),t=ls(k,a,c,j,b,b0(f8,B,h),o,Y,f,w,J);else
 var
-t=K;break;case
+t=L;break;case
 12:var
-C=n[1],M=U(s(g(C),0));if(M)var
-z=e(function(a){return a[1][1][1]},C),Z=z?k8(z[1],z):z,_=ao(Z,C),t=m(function(g){return function(r){var
+C=n[1],M=T(r(g(C),0));if(M)var
+z=e(function(a){return a[1][1][1]},C),Z=z?lk(z[1],z):z,_=ag(Z,C),t=m(function(g){return function(r){var
 s=r[2],e=r[1],l=s[1],m=l[1][2],n=l[2],d=s[2];if(typeof
 d!=="number"&&11===d[0]){var
-p=d[3],i=d[1],q=lf(a,c,j,b,h,g,i,d[2]);if(q){var
-t=e[2],u=e[1],v=lg(k,a,c,j,b,h,i,f,g,p);return ld(k,a,c,b,bV(fW,i,h),o,v,f,g,u,t,m,n,p)}return q}return ld(k,a,c,b,h,o,S,f,g,e[1],e[2],m,n,d)}}(w),_);else
+p=d[3],i=d[1],q=lt(a,c,j,b,h,g,i,d[2]);if(q){var
+t=e[2],u=e[1],v=lu(k,a,c,j,b,h,i,f,g,p);return lr(k,a,c,b,b0(f8,i,h),o,v,f,g,u,t,m,n,p)}return q}return lr(k,a,c,b,h,o,S,f,g,e[1],e[2],m,n,d)}}(w),_);else
 var
 t=M;break;default:I=1}if(I)var
-t=le(k,a,c,j,b,h,o,S,f,w,n);if(t){var
-v=O,q=f1(E,q);continue}var
+t=ls(k,a,c,j,b,h,o,S,f,w,n);if(t){var
+v=O,s=gb(D,s);continue}var
 Q=t}else
 var
 Q=G;var
@@ -2551,84 +2553,84 @@ var
 R=P;var
 u=R}}else
 var
-u=[0,q];break}}else
+u=[0,s];break}}else
 var
-u=[0,T];return u?H(u[1]):u}function
-hP(h,g,f,e,d,c,b,a){return function(i,j,k){return eM(h,g,f,e,d,b,a,c,i,j,k)}}function
-hQ(a){return e(function(a){return 1},a)}function
-dS(a,d,b,c){function
+u=[0,U];return u?H(u[1]):u}function
+h0(h,g,f,e,d,c,b,a){return function(i,j,k){return eV(h,g,f,e,d,b,a,c,i,j,k)}}function
+h1(a){return e(function(a){return 1},a)}function
+d5(a,d,b,c){function
 f(d,c){var
-f=ao(a[1],b[1]);return e(function(a){var
-b=q(c,a[2]);return A(q(d,a[1]),b)},f)}if(az(a[2],b[2])){var
+f=ag(a[1],b[1]);return e(function(a){var
+b=s(c,a[2]);return B(s(d,a[1]),b)},f)}if(aC(a[2],b[2])){var
 g=a[2];return[0,f(d,c),g]}var
-h=q(a[2],b[2]),i=q(c,a[2]);return[0,f(q(d,b[2]),i),h]}function
-lh(a){var
+h=s(a[2],b[2]),i=s(c,a[2]);return[0,f(s(d,b[2]),i),h]}function
+lv(a){var
 c=k(b);return[0,e(function(a){return k(d)},a),c]}function
-aZ(a,l){var
+a2(a,l){var
 f=l[1];switch(f[0]){case
 1:var
-u=f[1];if(aj(function(a){return s(u,a)},a)){var
+u=f[1];if(ak(function(a){return r(u,a)},a)){var
 C=k(b);return[0,e(function(a){var
-c=s(a,u)?b:d;return k(c)},a),C]}return lh(a);case
+c=r(a,u)?b:d;return k(c)},a),C]}return lv(a);case
 3:var
-D=k(b),E=aZ(a,f[2]),F=k(b);return dS(aZ(a,f[1]),F,E,D);case
+D=k(b),E=a2(a,f[2]),F=k(b);return d5(a2(a,f[1]),F,E,D);case
 4:var
-G=k(R(b)),H=aZ(a,f[2]),I=k(b);return dS(aZ(a,f[1]),I,H,G);case
+G=k(R(b)),H=a2(a,f[2]),I=k(b);return d5(a2(a,f[1]),I,H,G);case
 5:var
-w=aZ(a,f[1]),J=w[2];return[0,e(bq,w[1]),J];case
+v=a2(a,f[1]),J=v[2];return[0,e(bu,v[1]),J];case
 6:var
-x=f[2],y=f[1],K=aZ(a,x);return dS(aZ(a,y),x,K,y);case
+x=f[2],y=f[1],K=a2(a,x);return d5(a2(a,y),x,K,y);case
 7:var
-z=f[2],L=bq(l),M=aZ(a,z),N=k(b),i=dS(aZ(a,f[1]),N,M,L),O=i[1];if(m(function(a){return aY(d,a)},O))return i;var
-P=q(i[2],z);return[0,i[1],P];case
+z=f[2],L=bu(l),M=a2(a,z),N=k(b),i=d5(a2(a,f[1]),N,M,L),O=i[1];if(m(function(a){return a1(d,a)},O))return i;var
+P=s(i[2],z);return[0,i[1],P];case
 8:var
-A=f[1],B=aZ(a,A),Q=B[2],S=B[1],T=q(k(c(2,b)),A);return[0,e(function(a){return q(T,a)},S),Q];case
+A=f[1],B=a2(a,A),Q=B[2],S=B[1],T=s(k(c(2,b)),A);return[0,e(function(a){return s(T,a)},S),Q];case
 9:var
-j=aZ(a,f[1]),U=j[1];if(m(function(a){return aY(d,a)},U)){var
+j=a2(a,f[1]),U=j[1];if(m(function(a){return a1(d,a)},U)){var
 V=k(b);return[0,j[1],V]}var
-W=q(k(c(2,b)),l),X=q(j[2],W);return[0,j[1],X];case
+W=s(k(c(2,b)),l),X=s(j[2],W);return[0,j[1],X];case
 10:var
-n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],p=[0,[10,1,h,g,n]],Y=v(g,p),Z=aZ(a,g),_=v(h,o),$=dS(aZ(a,h),_,Z,Y),aa=k(R(b)),ab=aZ(a,n),r=dS($,k(c(2,b)),ab,aa),ac=r[1],ad=f[1]?o:bq(p),t=e(function(a){return q(ad,a)},ac);if(m(function(a){return aY(d,a)},t))return[0,t,r[2]];var
-ae=q(h,p),af=v(q(g,o),ae),ag=q(k(c(2,b)),af);return[0,t,q(r[2],ag)];default:return lh(a)}}function
-li(c,a){var
-b=aZ(c,a),f=b[1];return e(function(a){return aY(d,a)?a:ah(a,b[2])},f)}function
-lj(g){var
+n=f[4],g=f[3],h=f[2],o=[0,[10,0,h,g,n]],p=[0,[10,1,h,g,n]],Y=w(g,p),Z=a2(a,g),_=w(h,o),$=d5(a2(a,h),_,Z,Y),aa=k(R(b)),ab=a2(a,n),q=d5($,k(c(2,b)),ab,aa),ac=q[1],ad=f[1]?o:bu(p),t=e(function(a){return s(ad,a)},ac);if(m(function(a){return a1(d,a)},t))return[0,t,q[2]];var
+ae=s(h,p),af=w(s(g,o),ae),ag=s(k(c(2,b)),af);return[0,t,s(q[2],ag)];default:return lv(a)}}function
+lw(c,a){var
+b=a2(c,a),f=b[1];return e(function(a){return a1(d,a)?a:aj(a,b[2])},f)}function
+lx(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
-i=e[2],a=e[1];if(G(i,b)){if(0===c[0]){var
-j=c[2],m=c[1];if(G(j,b)){var
-k=I(a,m),l=k?eD(a):k;if(l)var
-n=I(g[2],d),f=n||I(a,d);else
+i=e[2],a=e[1];if(E(i,b)){if(0===c[0]){var
+j=c[2],m=c[1];if(E(j,b)){var
+k=J(a,m),l=k?eM(a):k;if(l)var
+n=J(g[2],d),f=n||J(a,d);else
 var
 f=l;var
-o=f?[0,a]:f;return o}return I(aS(j,aB(2))[2],d)?0:0}return 0}return I(aS(i,aB(2))[2],d)?0:0}return 0}function
-cK(c,b){var
-a=lj(c);return a?k(a[1]):[0,[1,b]]}function
-co(b,a){if(a)var
-d=co([0,b],a[2]),c=[0,cK(a[1],b),d];else
+o=f?[0,a]:f;return o}return J(aT(j,aE(2))[2],d)?0:0}return 0}return J(aT(i,aE(2))[2],d)?0:0}return 0}function
+cS(c,b){var
+a=lx(c);return a?k(a[1]):[0,[1,b]]}function
+cu(b,a){if(a)var
+d=cu([0,b],a[2]),c=[0,cS(a[1],b),d];else
 var
 c=a;return c}function
-a0(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
-f2(b,d,a){switch(a[0]){case
+a3(b,a){return[0,[0,b[1],a],[0,[0,b[2],a],[0,[0,b[3],a],0]]]}function
+gc(b,d,a){switch(a[0]){case
 0:var
-c=a[1],g=[0,[0,c[4],b],0],h=f(a0(c[3],b),g),i=f(a0(c[2],b),h);return f(a0(c[1],d),i);case
+c=a[1],g=[0,[0,c[4],b],0],h=f(a3(c[3],b),g),i=f(a3(c[2],b),h);return f(a3(c[1],d),i);case
 1:var
-e=a[3],j=e?a0(e[1],d):e,k=f(a0(a[2],b),j);return f(a0(a[1],b),k);default:return a0(a[1],d)}}function
-ag(b,a){var
-c=k(d),e=r(P(rP,a),b,c),f=k(d),g=r(P(rQ,a),b,f);return[0,r(a,b,k(d)),g,e]}function
-lk(b,a){return ac(v,ac(A,c7,a),b)}function
-f3(c,b,a){if(a){var
-e=a[2],g=f3(c,bo(b),e),h=a[1];return f(f2(c,bC(d,b),h),g)}return a}function
-hR(f,e,c,j){if(c){var
-b=c[1],v=P(j,g(f2(f,bC(d,e),b))),w=c[2],x=hR(f,bo(e),w,v),a=co(j,f2(f,bC(d,e),b));switch(b[0]){case
+e=a[3],j=e?a3(e[1],d):e,k=f(a3(a[2],b),j);return f(a3(a[1],b),k);default:return a3(a[1],d)}}function
+ai(b,a){var
+c=k(d),e=q(O(sb,a),b,c),f=k(d),g=q(O(sc,a),b,f);return[0,q(a,b,k(d)),g,e]}function
+ly(b,a){return af(w,af(B,dc,a),b)}function
+gd(c,b,a){if(a){var
+e=a[2],g=gd(c,bt(b),e),h=a[1];return f(gc(c,bH(d,b),h),g)}return a}function
+h2(f,e,c,j){if(c){var
+b=c[1],v=O(j,g(gc(f,bH(d,e),b))),w=c[2],x=h2(f,bt(e),w,v),a=cu(j,gc(f,bH(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=r(rR,a,k(d)),o=ac(A,c7,ag(a,rS)),p=c6(ag(a,0)),q=ag(a,rT),h=kR(lk(ag(a,rU),q),p,o,n,m);break;case
+m=b[1][5],n=q(sd,a,k(d)),o=af(B,dc,ai(a,se)),p=db(ai(a,0)),r=ai(a,sf),h=k5(ly(ai(a,sg),r),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,c6(ag(a,rV))]:i,t=ac(A,c7,ag(a,rW)),u=ag(a,rX),h=kS(lk(ag(a,0),u),t,s);break;default:var
-h=kT(c7,c6(ag(a,0)))}var
+i=b[3],s=i?[0,db(ai(a,sh))]:i,t=af(B,dc,ai(a,si)),u=ai(a,sj),h=k6(ly(ai(a,0),u),t,s);break;default:var
+h=k7(dc,db(ai(a,0)))}var
 l=[0,h,x]}else
 var
 l=c;return l}function
-bI(c,a){if(typeof
+bM(c,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 h=[5,a[3],a[2]];return[0,[0,h,h],d];case
@@ -2637,7 +2639,7 @@ j=a[2];return[0,[0,j,j],d];case
 8:var
 k=[5,a[2],a[1]];return[0,[0,k,k],d];case
 10:var
-p=a[3],q=dF(a[2]),l=[2,[2,dF(a[1]),q],p];return[0,[0,l,l],c];case
+p=a[3],q=dR(a[2]),l=[2,[2,dR(a[1]),q],p];return[0,[0,l,l],c];case
 11:var
 m=a[4];return[0,[0,m,m],c];case
 12:var
@@ -2654,190 +2656,190 @@ f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
 i=a[1];return[0,[0,i,i],d];default:var
 g=a[2];return[0,[0,g,g],c]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-eN(b,a){var
+eW(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
-dT(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(eN(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=eN(c,a[3]);return f(eN(c,a[2]),j)}function
-c8(b,a){if(typeof
+d6(c,a){if(0===a[0]){var
+e=[0,d,b],i=f(eW(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=eW(c,a[3]);return f(eW(c,a[2]),j)}function
+dd(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
-h=dT(b,a[2]);return f(dT(b,a[1]),h);case
+h=d6(b,a[2]);return f(d6(b,a[1]),h);case
 11:var
-i=eN(b,a[3]);return f(eN(b,a[2]),i);case
+i=eW(b,a[3]);return f(eW(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
 j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
-ll(c,b,a){var
-d=g(c8(c,b)),e=P(a[2],d);return[0,[0,a[1]],e]}function
-hS(c,b){if(az(b,c))return[0,k(d)];var
+lz(c,b,a){var
+d=g(dd(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
+h3(c,b){if(aC(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
-e=az(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
-lm(y,p,a,o){switch(o[0]){case
+e=aC(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
+lA(y,p,a,o){switch(o[0]){case
 0:var
-h=D(y,o[1]);if(h){var
+h=F(y,o[1]);if(h){var
 j=h[1];if(j){var
-q=j[1],s=q[1],c=s[2],e=s[1],t=q[2],z=ag(a,rY),B=ac(A,ac(v,e,aU(ah(r(rZ,a,k(d)),t),c)),z),C=ag(a,r0),f=ah(r(0,a,k(d)),t),l=hS(e[1],c[1]);if(l){var
-m=hS(e[2],c[2]);if(m){var
-n=hS(e[3],c[3]);if(n)var
-x=aU(f,c),g=ac(A,[0,l[1],m[1],n[1]],x);else
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=ai(a,sk),A=af(B,af(w,e,aW(aj(q(sl,a,k(d)),t),c)),z),C=ai(a,sm),f=aj(q(0,a,k(d)),t),l=h3(e[1],c[1]);if(l){var
+m=h3(e[2],c[2]);if(m){var
+n=h3(e[3],c[3]);if(n)var
+x=aW(f,c),g=af(B,[0,l[1],m[1],n[1]],x);else
 var
-g=ac(v,e,aU(v(k(b),f),c))}else
+g=af(w,e,aW(w(k(b),f),c))}else
 var
-g=ac(v,e,aU(v(k(b),f),c))}else
+g=af(w,e,aW(w(k(b),f),c))}else
 var
-g=ac(v,e,aU(v(k(b),f),c));var
-u=[0,[0,ac(A,g,C),B]]}else
+g=af(w,e,aW(w(k(b),f),c));var
+u=[0,[0,af(B,g,C),A]]}else
 var
 u=j;var
-w=u}else
+v=u}else
 var
-w=h;return w;case
+v=h;return v;case
 1:var
-E=ag(a,r1);return[0,[0,ag(a,0),E]];default:var
-F=i(p,ag(a,r2));return[0,[0,i(p,ag(a,0)),F]]}}function
-ln(e,d,c,h,g){var
-a=lm(e,d,bp(r3,c),h);if(a)var
-b=lm(e,d,bW(r4,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+D=ai(a,sn);return[0,[0,ai(a,0),D]];default:var
+E=i(p,ai(a,so));return[0,[0,i(p,ai(a,0)),E]]}}function
+lB(e,d,c,h,g){var
+a=lA(e,d,aL(sp,c),h);if(a)var
+b=lA(e,d,aZ(sq,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
-lo(g,c,d,b,a){var
-h=dT(c,a),i=co(d,f(dT(c,b),h));function
-j(a){return ac(A,c7,a)}return ln(e(function(a){var
+lC(g,c,d,b,a){var
+h=d6(c,a),i=cu(d,f(d6(c,b),h));function
+j(a){return af(B,dc,a)}return lB(e(function(a){var
 b=a[7];return y(function(b){var
-c=cE(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
-c9(d,c,b,a){var
-e=q(c,b);return v(q(d,a),e)}function
-bJ(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-lp(b,a){if(b)if(a)var
-d=b[1],e=lp(b[2],a[2]),f=q(d[2],a[1]),c=[0,[0,bH(d[1]),f],e];else
+c=cM(a);return[0,[0,b,a[1]],c]},b)},g),j,i,b,a)}function
+de(d,c,b,a){var
+e=s(c,b);return w(s(d,a),e)}function
+bN(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+lD(b,a){if(b)if(a)var
+d=b[1],e=lD(b[2],a[2]),f=s(d[2],a[1]),c=[0,[0,bL(d[1]),f],e];else
 var
 c=a;else
 var
 c=b;return c}function
-lq(a){if(a){var
+lE(a){if(a){var
 b=a[1][6];if(b){var
-c=b[1],d=lq(a[2]);if(d)var
-g=d[1],h=S(c,c),e=[0,[0,[0,bH(c),h],g]];else
+c=b[1],d=lE(a[2]);if(d)var
+g=d[1],h=U(c,c),e=[0,[0,[0,bL(c),h],g]];else
 var
 e=d;var
 f=e}else
 var
-f=b;return f}return r6}function
-eO(b,d,c,a){if(typeof
+f=b;return f}return ss}function
+eX(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
-i=c[1],j=cK(bI(d,a),i);return[0,e(function(a){var
-b=q(a[2],j);return[0,bH(a[1]),b]},b)];case
-9:return lq(b);case
+i=c[1],j=cS(bM(d,a),i);return[0,e(function(a){var
+b=s(a[2],j);return[0,bL(a[1]),b]},b)];case
+9:return lE(b);case
 15:var
-k=g(b),f=s(g(a[1]),k);if(f)var
-l=c8(d,a),h=[0,lp(b,co(c[2],l))];else
+k=g(b),f=r(g(a[1]),k);if(f)var
+l=dd(d,a),h=[0,lD(b,cu(c[2],l))];else
 var
 h=f;return h}return 0}function
-f4(e,l,j,a){var
-Q=j[1],c=cK(bI(l,a),Q),u=0;if(typeof
+ge(e,l,j,a){var
+P=j[1],c=cS(bM(l,a),P),u=0;if(typeof
 a==="number")u=1;else
 switch(a[0]){case
 2:var
-R=function(a){return[0,v(a[4],c),0]},g=R,f=a[1];break;case
+R=function(a){return[0,w(a[4],c),0]},g=R,f=a[1];break;case
 3:var
-T=function(a){return[0,v(c,a[4]),0]},g=T,f=a[1];break;case
+S=function(a){return[0,w(c,a[4]),0]},g=S,f=a[1];break;case
 4:var
-U=function(b){var
-a=b[1],d=N(a[3]),e=N(a[2]),f=N(a[1]),g=b[2];return[0,v(v(v(q(N(c),g),f),e),d),0]},g=U,f=a[1];break;case
+T=function(b){var
+a=b[1],d=Q(a[3]),e=Q(a[2]),f=Q(a[1]),g=b[2];return[0,w(w(w(s(Q(c),g),f),e),d),0]},g=T,f=a[1];break;case
 6:var
 V=function(b){var
 a=b[5];if(a)var
-e=N(a[1]),f=q(N(c),e),d=[0,v(b[2],f),0];else
+e=Q(a[1]),f=s(Q(c),e),d=[0,w(b[2],f),0];else
 var
 d=a;return d},g=V,f=a[1];break;case
 7:if(e){var
 m=e[2];if(m){var
 n=m[2];if(n){if(n[2])return 0;var
-y=n[1],z=m[1],B=e[1],h=y[1],i=z[1],p=B[1],K=c9(i[1],i[2],h[1],h[2]),L=q(p[3],K),M=c9(i[1],i[3],h[1],h[3]),O=q(p[2],M),P=c9(i[2],i[3],h[2],h[3]),w=A(v(q(p[1],P),O),L),W=cE(y),X=cE(z),C=q(q(q(c,cE(B)),X),W),Y=[0,bq(A(w,C)),0],E=[0,v(w,C),Y]}else
+y=n[1],z=m[1],A=e[1],h=y[1],i=z[1],p=A[1],K=de(i[1],i[2],h[1],h[2]),L=s(p[3],K),M=de(i[1],i[3],h[1],h[3]),N=s(p[2],M),O=de(i[2],i[3],h[2],h[3]),v=B(w(s(p[1],O),N),L),W=cM(y),X=cM(z),C=s(s(s(c,cM(A)),X),W),Y=[0,bu(B(v,C)),0],D=[0,w(v,C),Y]}else
 var
-E=n;var
-F=E}else
+D=n;var
+E=D}else
 var
-F=m;var
-G=F}else
+E=m;var
+G=E}else
 var
 G=e;return G;case
 10:var
-t=lo(e,l,j[2],a[1],a[2]);if(t){var
-H=t[1],I=H[2],J=H[1];return x(bH,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
+t=lC(e,l,j[2],a[1],a[2]);if(t){var
+H=t[1],I=H[2],J=H[1];return x(bL,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t;case
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=c8(l,a),f=co(j[2],n),h=ag(f,r5),b=ac(v,ag(f,0),h),i=N(c),k=N(cE(d)),m=ah(N(S(b,d[1])),k),g=[0,v(v(S(b,b),m),i),0];else
+n=dd(l,a),f=cu(j[2],n),h=ai(f,sr),b=af(w,ai(f,0),h),i=Q(c),k=Q(cM(d)),m=aj(Q(U(b,d[1])),k),g=[0,w(w(U(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
 _=function(e){var
-p=k(d),s=c8(l,a),t=r(0,co(j[2],s),p),f=ah(t,cE(e)),g=e[5];if(g){var
-m=aA(e[2]),h=ah(g[1],m),n=q(h,A(c,q(f,N(h))));return[0,v(k(b),n),0]}var
-i=e[7],o=i?[0,v(v(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
+p=k(d),r=dd(l,a),t=q(0,cu(j[2],r),p),f=aj(t,cM(e)),g=e[5];if(g){var
+m=aD(e[2]),h=aj(g[1],m),n=s(h,B(c,s(f,Q(h))));return[0,w(k(b),n),0]}var
+i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-s=eO(e,l,j,a);return s?bJ(s[1]):s;default:u=1}if(u)return 0;var
-o=D(e,f);return o?g(o[1]):o}function
-hT(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=hT(d,b,ll(b,e,c),g);return f(f4(d,b,c,e),h)}return a}var
-lr=[0,d,b],ls=[0,[0,lr,lr],d];function
-hU(a){return U(cm(a[1][1],a[1][2]))}function
-lt(a){var
-b=aE(0,g(a));return bh(function(b){return hU(r(b,a,ls))},b)}function
-f5(a,b){var
-c=li(lt(a),b),e=ao(lt(a),c);return bh(function(a){return U(aY(d,a[2]))},e)}function
-lu(b,a){var
+r=eX(e,l,j,a);return r?bN(r[1]):r;default:u=1}if(u)return 0;var
+o=F(e,f);return o?g(o[1]):o}function
+h4(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=h4(d,b,lz(b,e,c),g);return f(ge(d,b,c,e),h)}return a}var
+lF=[0,d,b],lG=[0,[0,lF,lF],d];function
+h5(a){return T(cq(a[1][1],a[1][2]))}function
+lH(a){var
+b=az(0,g(a));return bk(function(b){return h5(q(b,a,lG))},b)}function
+gf(a,b){var
+c=lw(lH(a),b),e=ag(lH(a),c);return bk(function(a){return T(a1(d,a[2]))},e)}function
+lI(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-lv(m,l,f,k,j,a){var
-d=f5(f,a);return Z(e(function(e){var
-a=r(e[1],f,ls),g=aC(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=ak(m,[0,[0,d,d],g]);return y(function(a){return[0,a,i(l,e[2])]},n)},d))}function
-lw(g,f,n,m,l,e,c){var
-h=[5,l,e],a=ak(g,[0,[0,h,h],d]);if(a){var
-b=lv(g,f,n,m,e,c);if(b)var
+lJ(m,l,f,k,j,a){var
+d=gf(f,a);return _(e(function(e){var
+a=q(e[1],f,lG),g=aA(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=am(m,[0,[0,d,d],g]);return y(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+lK(g,f,n,m,l,e,c){var
+h=[5,l,e],a=am(g,[0,[0,h,h],d]);if(a){var
+b=lJ(g,f,n,m,e,c);if(b)var
 o=[0,a[1],b[1]],j=[0,[0,i(f,c),o]];else
 var
 j=b;var
 k=j}else
 var
 k=a;return k}function
-lx(c,F,l,am,k,j,n,r){if(r){var
-a=r[1],aH=r[2],aI=lx(c,F,l,am,k,j,ll(j,a,n),aH);if(typeof
+lL(c,G,l,al,k,j,n,s){if(s){var
+a=s[1],aH=s[2],aI=lL(c,G,l,al,k,j,lz(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
-f=[0,[0,w]];else
+f=[0,[0,v]];else
 var
-ao=F[2],ap=F[1],aq=eJ(k),f=[0,[8,i(au(l),aq),ap,ao]];else
+ao=G[2],ap=G[1],aq=eS(k),f=[0,[8,i(au(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ar=ak(c,bI(j,a)),f=y(function(a){return[0,V(c,a)]},ar);break;case
+ar=am(c,bM(j,a)),f=y(function(a){return[0,V(c,a)]},ar);break;case
 1:var
-as=ak(c,bI(j,a)),f=y(function(a){return[1,V(c,a)]},as);break;case
+as=am(c,bM(j,a)),f=y(function(a){return[1,V(c,a)]},as);break;case
 5:var
-av=ak(c,bI(j,a)),f=y(function(a){return[2,V(c,a)]},av);break;case
+av=am(c,bM(j,a)),f=y(function(a){return[2,V(c,a)]},av);break;case
 8:var
-aw=eO(k,j,n,a),f=y(function(a){var
-d=Q(c,b);return[4,i(au(l),a),d]},aw);break;case
+aw=eX(k,j,n,a),f=y(function(a){var
+d=P(c,b);return[4,i(au(l),a),d]},aw);break;case
 9:var
-v=eO(k,j,n,a);if(v){var
-x=ak(c,bI(j,a));if(x)var
-ax=V(c,x[1]),ay=v[1],L=[0,[4,i(au(l),ay),ax]];else
+w=eX(k,j,n,a);if(w){var
+x=am(c,bM(j,a));if(x)var
+ax=V(c,x[1]),ay=w[1],L=[0,[4,i(au(l),ay),ax]];else
 var
 L=x;var
 M=L}else
 var
-M=v;var
+M=w;var
 f=M;break;case
 10:var
-z=lo(k,j,n[2],a[1],a[2]);if(z){var
-N=z[1],O=N[2],P=N[1],A=ak(c,bI(j,a));if(A){var
-R=A[1],S=G(d,R[1]);if(S)var
-p=function(a){return lu(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(P[2]),T=[0,[6,p(P[1]),aB,aA,az,R]];else
+z=lC(k,j,n[2],a[1],a[2]);if(z){var
+N=z[1],O=N[2],Q=N[1],A=am(c,bM(j,a));if(A){var
+R=A[1],S=E(d,R[1]);if(S)var
+p=function(a){return lI(l,a)},az=p(O[2]),aA=p(O[1]),aB=p(Q[2]),T=[0,[6,p(Q[1]),aB,aA,az,R]];else
 var
 T=S;var
 U=T}else
@@ -2848,7 +2850,7 @@ var
 W=z;var
 f=W;break;case
 12:var
-q=f4(k,j,n,a),t=0;if(q)if(q[2])var
+q=ge(k,j,n,a),t=0;if(q)if(q[2])var
 f=0;else{var
 X=h(c,0,a[2]),Y=X?h(c,1,a[4]):X;if(Y){var
 B=[0,[3,i(l,q[1])]];t=1}else{var
@@ -2856,16 +2858,16 @@ B=Y;t=1}}else{var
 B=q;t=1}if(t)var
 f=B;break;case
 13:var
-_=a[1],$=D(k,_),H=0;if($){var
+Z=a[1],$=F(k,Z),H=0;if($){var
 aa=h(c,1,a[2]),ab=aa?h(c,1,a[3]):aa;if(ab)var
-aC=ak(c,bI(j,a)),f=y(function(a){return[7,_,V(c,a)]},aC);else{var
+aC=am(c,bM(j,a)),f=y(function(a){return[7,Z,V(c,a)]},aC);else{var
 ac=ab;H=1}}else{var
 ac=$;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=s(g(k),r7),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
-C=ak(c,bI(j,a));if(C)var
-E=Z(e(function(a){return lw(c,l,am,j,ae,ad,a[4])},k)),aD=E?[0,[9,C[1],E[1]]]:E,ai=aD;else
+ad=a[2],ae=a[1],af=r(g(k),st),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+C=am(c,bM(j,a));if(C)var
+D=_(e(function(a){return lK(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
 ai=C;var
 aj=ai}else
@@ -2873,12 +2875,12 @@ var
 aj=ah;var
 f=aj;break;case
 15:var
-aE=[0,a[2],a[1]],aF=1,al=m(function(a){return h(c,aF,a)},aE);if(al)var
-aG=eO(k,j,n,a),f=y(function(a){var
-d=Q(c,b);return[4,i(au(l),a),d]},aG);else
+aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
+aG=eX(k,j,n,a),f=y(function(a){var
+d=P(c,b);return[4,i(au(l),a),d]},aG);else
 var
-f=al;break;default:var
-o=f4(k,j,n,a),I=0;if(o){var
+f=ak;break;default:var
+o=ge(k,j,n,a),I=0;if(o){var
 u=o[2],J=o[1];if(u)if(u[2])var
 f=0;else
 var
@@ -2888,20 +2890,20 @@ K=o;I=1}if(I)var
 f=K}var
 an=[0,f,aI]}else
 var
-an=r;return an}function
-r8(a){var
+an=s;return an}function
+su(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
-dU(a){if(0===a[0])return a[1];var
+d7(a){if(0===a[0])return a[1];var
 b=a[3],c=a[2],d=a[1];return[0,[0,[3,d,b],[2,d,b]],[0,[3,c,b],[2,c,b]],a[4]]}function
-ly(a,c,g,b){if(0===c[0])return 0;if(b){var
+lM(a,c,g,b){if(0===c[0])return 0;if(b){var
 d=b[2];if(d){var
 h=d[2];if(h){if(h[2])return 0;var
-e=d[1],f=b[1],i=cC(a,g,c[1]);if(i){var
-j=cC(a,g,c[2]);if(j){var
-k=cC(a,g,c[3]);if(k)var
-u=i[1],v=b1(f),l=F([0,b1(f),v],u),x=j[1],y=b1(e),m=F([0,b1(e),y],x),A=dM(e),B=[0,dM(e),A],C=[0,t(a,ab(z(m,m)),B),0],D=dM(f),E=[0,dM(f),D],G=[0,t(a,ab(z(l,l)),E),C],H=V(a,m),I=V(a,l),n=[0,[0,F(F(V(a,k[1]),I),H),w,G]];else
+e=d[1],f=b[1],i=cK(a,g,c[1]);if(i){var
+j=cK(a,g,c[2]);if(j){var
+k=cK(a,g,c[3]);if(k)var
+u=i[1],w=b6(f),l=G([0,b6(f),w],u),x=j[1],y=b6(e),m=G([0,b6(e),y],x),A=dZ(e),B=[0,dZ(e),A],C=[0,t(a,aa(z(m,m)),B),0],D=dZ(f),E=[0,dZ(f),D],F=[0,t(a,aa(z(l,l)),E),C],H=V(a,m),I=V(a,l),n=[0,[0,G(G(V(a,k[1]),I),H),v,F]];else
 var
 n=k;var
 o=n}else
@@ -2919,14 +2921,14 @@ r=d;var
 s=r}else
 var
 s=b;return s}function
-f6(a,p,o){var
-q=a0(p,o),b=e(function(b){return ak(a,b)},q);if(b){var
+gg(a,p,o){var
+q=a3(p,o),b=e(function(b){return am(a,b)},q);if(b){var
 g=b[1];if(g){var
 c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=V(a,i[1]),s=V(a,h[1]);return L(d,z(z(V(a,g[1]),s),r)[1])}var
+r=V(a,i[1]),s=V(a,h[1]);return K(d,z(z(V(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2942,154 +2944,154 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-aa(c,b,a){var
-d=al(c,b[3],a[3]),e=al(c,b[2],a[2]);return[0,al(c,b[1],a[1]),e,d]}function
-aq(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
+ab(c,b,a){var
+d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
+at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 H(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
-aH(a){return aq([5,[0,b,b],[6,H(a,a)]],a)}function
-cL(c,b,a){var
-d=bk(c,b[1],a);return d?bk(c,a,b[2]):d}function
-bb(c,b,a){var
-d=cL(c,b[1],a[1]),e=d?cL(c,b[2],a[2]):d;return e?cL(c,b[3],a[3]):e}function
-lz(b,c,a){switch(c[0]){case
+aI(a){return at([5,[0,b,b],[6,H(a,a)]],a)}function
+cT(c,b,a){var
+d=bo(c,b[1],a);return d?bo(c,a,b[2]):d}function
+bf(c,b,a){var
+d=cT(c,b[1],a[1]),e=d?cT(c,b[2],a[2]):d;return e?cT(c,b[3],a[3]):e}function
+lN(b,c,a){switch(c[0]){case
 0:var
 d=c[1];if(0===a[0]){var
-j=a[4],f=a[1],k=bb(b,d[1],f),l=k?h(b,1,H(f,f)):k,m=l?bb(b,d[2],a[2]):l,n=m?bb(b,d[3],a[3]):m,o=n?cL(b,d[4],j):n,p=o?h(b,1,j):o;return p?ce(d[5],a[5]):p}return 0;case
+j=a[4],f=a[1],k=bf(b,d[1],f),l=k?h(b,1,H(f,f)):k,m=l?bf(b,d[2],a[2]):l,n=m?bf(b,d[3],a[3]):m,o=n?cT(b,d[4],j):n,p=o?h(b,1,j):o;return p?cj(d[5],a[5]):p}return 0;case
 1:var
 q=c[3];if(1===a[0]){var
-e=a[3],r=bb(b,c[1],a[1]),s=r?bb(b,c[2],a[2]):r;if(s){if(q){if(e){var
-g=e[1],t=bb(b,q[1],g);if(t)return h(b,1,H(g,g));var
+e=a[3],r=bf(b,c[1],a[1]),s=r?bf(b,c[2],a[2]):r;if(s){if(q){if(e){var
+g=e[1],t=bf(b,q[1],g);if(t)return h(b,1,H(g,g));var
 u=t}else
 var
 u=e;return u}if(e)return 0;var
 v=1}else
 var
 v=s;return v}return 0;default:if(2===a[0]){var
-i=a[1],w=bb(b,c[1],i);return w?h(b,1,H(i,i)):w}return 0}}function
-c_(c,a,b){if(0===a[0])return bb(c,a[1],b);var
-d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cL(c,a[4],b[3]):i}function
-lA(g,f,i,h){var
+i=a[1],w=bf(b,c[1],i);return w?h(b,1,H(i,i)):w}return 0}}function
+cv(c,a,b){if(0===a[0])return bf(c,a[1],b);var
+d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cT(c,a[4],b[3]):i}function
+h6(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
-d=lz(g,b[1],a[1]);if(d){var
+d=lN(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
 e=d}else
 var
 e=a;var
 c=e}else
 var
-c=a?0:1;return c?c_(g,f[2],h):c}}function
-a7(c,b,a){var
-d=aa(function(b,a){return[2,b,a]},a,b);return aa(function(b,a){return[3,b,a]},d,c)}function
-eP(a,e,d,c){var
-b=a7(e,d,c),f=aH(a),g=aq(H(aH(a),b),f);return aa(function(b,a){return[3,b,a]},b,g)}function
-cM(f,e,d,a,c){var
-b=eP(f,e,d,c);return[3,[4,a,a],H(b,b)]}function
-c$(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
-b3(a,c){switch(a[0]){case
+c=a?0:1;return c?cv(g,f[2],h):c}}function
+ba(c,b,a){var
+d=ab(function(b,a){return[2,b,a]},a,b);return ab(function(b,a){return[3,b,a]},d,c)}function
+eY(a,e,d,c){var
+b=ba(e,d,c),f=aI(a),g=at(H(aI(a),b),f);return ab(function(b,a){return[3,b,a]},b,g)}function
+cU(f,e,d,a,c){var
+b=eY(f,e,d,c);return[3,[4,a,a],H(b,b)]}function
+df(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
+b8(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eP(d,f,e,c),h=cM(d,f,e,a[4],c),i=aq([5,[0,b,b],c$(a[5],h)],g),j=aH(d);return aa(function(b,a){return[2,b,a]},j,i);case
-1:return aH(a7(a[1],a[2],c));default:return aH(a[1])}}function
-cp(a,b){switch(a[0]){case
+e=a[3],f=a[2],d=a[1],g=eY(d,f,e,c),h=cU(d,f,e,a[4],c),i=at([5,[0,b,b],df(a[5],h)],g),j=aI(d);return ab(function(b,a){return[2,b,a]},j,i);case
+1:return aI(ba(a[1],a[2],c));default:return aI(a[1])}}function
+cw(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aH(c),g=cM(c,e,d,a[4],b),h=aq(c$(a[5],g),f),i=eP(c,e,d,b);return aa(function(b,a){return[2,b,a]},i,h);case
-1:return a7(a[1],a[2],b);default:return aH(a[1])}}function
-hV(a,b){switch(a[0]){case
+d=a[3],e=a[2],c=a[1],f=aI(c),g=cU(c,e,d,a[4],b),h=at(df(a[5],g),f),i=eY(c,e,d,b);return ab(function(b,a){return[2,b,a]},i,h);case
+1:return ba(a[1],a[2],b);default:return aI(a[1])}}function
+d8(a,b){switch(a[0]){case
 0:var
-c=a[3],d=a[2],e=a[1],h=cM(e,d,c,a[4],b),i=c$(a[5],h),j=a7(d,c,b);return[3,H(aH(e),j),i];case
+c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=df(a[5],h),j=ba(d,c,b);return[3,H(aI(e),j),i];case
 1:var
-f=a[2],g=a[1],k=a7(g,f,b);return[6,H(a7(g,f,b),k)];default:return H(aH(a[1]),b)}}function
-lB(a,b){switch(a[0]){case
-0:return[0,cM(a[1],a[2],a[3],a[4],b)];case
+f=a[2],g=a[1],k=ba(g,f,b);return[6,H(ba(g,f,b),k)];default:return H(aI(a[1]),b)}}function
+h7(a,b){switch(a[0]){case
+0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
-c=a[2],d=a[1],e=a7(d,c,b);return[0,H(a7(d,c,b),e)];default:return 0}}function
-eQ(e,c,a){var
-f=[0,d,b];return ar(function(b,d){var
-e=H(b3(b,c),a);return[2,[4,H(b3(b,c),a),e],d]},f,e)}function
-lC(f,e,c,a){if(f){if(e){var
-g=e[1],h=lC(f[2],e[2],c,a),i=H(b3(g,c),a),j=[4,H(b3(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
-lD(a){var
+c=a[2],d=a[1],e=ba(d,c,b);return[0,H(ba(d,c,b),e)];default:return 0}}function
+eZ(e,c,a){var
+f=[0,d,b];return as(function(b,d){var
+e=H(b8(b,c),a);return[2,[4,H(b8(b,c),a),e],d]},f,e)}function
+lO(f,e,c,a){if(f){if(e){var
+g=e[1],h=lO(f[2],e[2],c,a),i=H(b8(g,c),a),j=[4,H(b8(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
+lP(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-hW(a,c){switch(a[0]){case
+h8(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
-d=a[2],e=a[1],f=a7(e,d,c);return[6,H(a7(e,d,c),f)];default:return[0,b,b]}}function
-lE(d,i){if(d){var
+d=a[2],e=a[1],f=ba(e,d,c);return[6,H(ba(e,d,c),f)];default:return[0,b,b]}}function
+lQ(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=a7(a[1],a[2],i),k=aH(f),l=aq(H(aH(f),g),k),h=[0,aa(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=ba(a[1],a[2],i),k=aI(f),l=at(H(aI(f),g),k),h=[0,ab(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
 var
 b=0;if(b)var
-e=lE(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
+e=lQ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return r9}function
-cN(a){return[0,a[1],a[2],a[3]]}function
-lF(a,b){switch(a[0]){case
+j=b;return j}return sv}function
+cV(a){return[0,a[1],a[2],a[3]]}function
+lR(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aH(d),j=cM(d,g,c,f,b),k=aq(c$(a[5],j),i),l=eP(d,g,c,b),m=aa(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aI(d),j=cU(d,g,c,f,b),k=at(df(a[5],j),i),l=eY(d,g,c,b),m=ab(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=a7(a[1],h,b),n=[6,H(e,e)];return[0,[0,[0,aa(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
-lG(m,e,a){switch(a[0]){case
+h=a[2],e=ba(a[1],h,b),n=[6,H(e,e)];return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+lS(m,e,a){switch(a[0]){case
 0:var
-n=a[5],c=D(m,a[1]);if(c){var
+n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=cN(n),c=aq(a,o),d=aa(function(b,a){return[3,b,a]},p,c);return aa(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+b=cV(n),c=at(a,o),d=ab(function(b,a){return[3,b,a]},p,c);return ab(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
 var
 l=c;return l;case
 1:var
-r=cN(a[3]);return[0,[0,cN(a[2]),r]];default:var
-s=i(e,cN(a[3]));return[0,[0,i(e,cN(a[2])),s]]}}function
-lH(d,a,c,b){var
-e=aq(a,b),f=aq([3,d,a],c);return aa(function(b,a){return[2,b,a]},f,e)}function
-lI(a,l,c,k,j,x){var
+r=cV(a[3]);return[0,[0,cV(a[2]),r]];default:var
+s=i(e,cV(a[3]));return[0,[0,i(e,cV(a[2])),s]]}}function
+lT(d,a,c,b){var
+e=at(a,b),f=at([3,d,a],c);return ab(function(b,a){return[2,b,a]},f,e)}function
+lU(a,l,c,k,j,x){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],y=lH(b,g,n[1],n[2]),z=lH(b,f,m[1],m[2]),o=aa(function(b,a){return[3,b,a]},z,y),A=dF(j),p=[4,b,[2,[2,dF(k),A],x]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],H(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],y=lT(b,g,n[1],n[2]),z=lT(b,f,m[1],m[2]),o=ab(function(b,a){return[3,b,a]},z,y),A=dR(j),p=[4,b,[2,[2,dR(k),A],x]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],H(o,o)]);var
 v=u}else
 var
 v=e;var
 w=v}else
 var
 w=d;return w}function
-lJ(d,c,b,a,i,g,f,e){var
+lV(d,c,b,a,i,g,f,e){var
 j=h(d,1,b),k=j?h(d,1,a):j;if(k){var
-l=al(c,f,f),m=[4,[4,a,a],[4,al(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],al(c,e,e)],m])}return k}function
-lK(i,g,c,f,x,a){function
+l=an(c,f,f),m=[4,[4,a,a],[4,an(c,g,g),l]];return h(d,1,[3,[4,[4,[4,b,b],[4,i,i]],an(c,e,e)],m])}return k}function
+lW(i,g,c,f,x,a){function
 R(a){return[4,[4,[5,[0,b,b],a],[5,[0,b,b],a]],H(f,f)]}var
 N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aF=eQ(g,c,f);return h(i,1,[3,R(a[1]),aF]);case
+aF=eZ(g,c,f);return h(i,1,[3,R(a[1]),aF]);case
 1:var
-aG=R(a[1]);return h(i,1,[3,eQ(g,c,f),aG]);case
+aG=R(a[1]);return h(i,1,[3,eZ(g,c,f),aG]);case
 2:var
-aI=a[2],aJ=function(a){return[3,aI,hV(a,c)]},z=aJ,y=a[1];break;case
+aH=a[2],aJ=function(a){return[3,aH,d8(a,c)]},z=aJ,y=a[1];break;case
 3:var
-aK=a[2],aL=function(a){return[3,hV(a,c),aK]},z=aL,y=a[1];break;case
+aK=a[2],aL=function(a){return[3,d8(a,c),aK]},z=aL,y=a[1];break;case
 4:var
 S=a[3],T=a[2],aM=function(a){var
-b=b3(a,c);return[3,[4,[4,T,T],H(b3(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
+b=b8(a,c);return[3,[4,[4,T,T],H(b8(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
 5:var
-U=a[1],aN=H(f,f),aO=[4,[4,U,U],[4,eQ(g,c,x),aN]],aP=H(x,x);return h(i,1,[3,[4,eQ(g,c,f),aP],aO]);case
+U=a[1],aN=H(f,f),aO=[4,[4,U,U],[4,eZ(g,c,x),aN]],aP=H(x,x);return h(i,1,[3,[4,eZ(g,c,f),aP],aO]);case
 6:var
-V=a[2],B=D(g,a[1]);if(B){var
+V=a[2],B=F(g,a[1]);if(B){var
 k=B[1];if(0===k[0]){var
-C=k[4],aQ=cM(k[1],k[2],k[3],C,c),W=c$(k[5],aQ);return h(i,1,[3,[4,[4,V,C],[4,V,C]],[4,W,W]])}var
+C=k[4],aQ=cU(k[1],k[2],k[3],C,c),W=df(k[5],aQ);return h(i,1,[3,[4,[4,V,C],[4,V,C]],[4,W,W]])}var
 X=0}else
 var
 X=B;return X;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Y=q[1],Z=p[1],_=g[1],aR=hW(Y,c),aS=hW(Z,c),aT=hW(_,c),$=[4,[4,[4,a[1],aT],aS],aR],l=cp(Y,c),m=cp(Z,c),aU=cp(_,c),O=H(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),ab=h(i,1,[3,$,O]);if(ab)return h(i,1,[2,$,O]);var
-ac=ab}else
+Y=q[1],Z=p[1],_=g[1],aR=h8(Y,c),aS=h8(Z,c),aT=h8(_,c),$=[4,[4,[4,a[1],aT],aS],aR],l=cw(Y,c),m=cw(Z,c),aU=cw(_,c),O=H(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),aa=h(i,1,[3,$,O]);if(aa)return h(i,1,[2,$,O]);var
+ac=aa}else
 var
 ac=q;var
 ad=ac}else
@@ -3099,32 +3101,32 @@ ae=ad}else
 var
 ae=g;return ae;case
 8:var
-aV=eQ(g,c,f),aW=H(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
+aV=eZ(g,c,f),aW=H(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
-af=a[1],E=lE(g,c);if(E){var
-aX=E[1],az=[0,d,b],aA=ar(function(a,b){var
-c=H(aH(a),f);return[2,[4,H(aH(a),f),c],b]},az,aX);return h(i,1,[3,[4,[4,af,af],H(f,f)],aA])}return E;case
+af=a[1],D=lQ(g,c);if(D){var
+aX=D[1],az=[0,d,b],aA=as(function(a,b){var
+c=H(aI(a),f);return[2,[4,H(aI(a),f),c],b]},az,aX);return h(i,1,[3,[4,[4,af,af],H(f,f)],aA])}return D;case
 10:var
-aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return aa(aB,c,a)},aD=e(function(a){return lF(a,c)},g);return lI(i,function(a){return lG(aD,aC,a)},f,a0,aZ,aY);case
+aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return ab(aB,c,a)},aD=e(function(a){return lR(a,c)},g);return lU(i,function(a){return lS(aD,aC,a)},f,a0,aZ,aY);case
 11:var
-ag=a[4],F=D(g,a[1]);if(F){var
-G=lF(F[1],c);if(G){var
-n=G[1][1][2],a1=cN(a[3]),a2=cN(a[2]),r=aa(function(b,a){return[3,b,a]},a2,a1),ah=h(i,1,H(n,n));if(ah){var
+ag=a[4],E=F(g,a[1]);if(E){var
+G=lR(E[1],c);if(G){var
+n=G[1][1][2],a1=cV(a[3]),a2=cV(a[2]),r=ab(function(b,a){return[3,b,a]},a2,a1),ah=h(i,1,H(n,n));if(ah){var
 a3=H(n,n),a4=H(r,n),a5=[5,[4,H(r,n),a4],a3];return h(i,1,[3,[4,ag,ag],[3,H(r,r),a5]])}var
 ai=ah}else
 var
 ai=G;var
 aj=ai}else
 var
-aj=F;return aj;case
+aj=E;return aj;case
 12:var
-o=a[3],s=a[2],I=D(g,a[1]);if(I){var
+o=a[3],s=a[2],I=F(g,a[1]);if(I){var
 j=I[1],ak=h(i,0,s),al=ak?h(i,0,o):ak;if(al){var
 a6=a[4];switch(j[0]){case
 0:var
-v=j[4],w=[5,v,[6,cM(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
+v=j[4],w=[5,v,[6,cU(j[1],j[2],j[3],v,c)]],J=[4,w,[2,s,[4,[5,[4,o,o],v],[4,w,w]]]];break;case
 1:var
-P=j[2],Q=j[1],aE=a7(Q,P,c),J=[2,s,[5,[4,o,o],[6,H(a7(Q,P,c),aE)]]];break;default:var
+P=j[2],Q=j[1],aE=ba(Q,P,c),J=[2,s,[5,[4,o,o],[6,H(ba(Q,P,c),aE)]]];break;default:var
 J=s}var
 K=h(i,1,[3,J,a6])}else
 var
@@ -3138,9 +3140,9 @@ an=I;return an;case
 13:if(g){var
 t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
-ao=u[1],ap=t[1],as=g[1],at=a[1],L=D([0,f[1],[0,f[2],[0,f[3],0]]],at);if(L){var
-M=D([0,as,[0,ap,[0,ao,0]]],at);if(M){var
-au=M[1],a8=cp(au,c),a9=b3(au,c),a_=cp(ao,c),a$=aq(f[3],a_),ba=cp(ap,c),bb=aq(f[2],ba),bc=cp(as,c),bd=aq(f[1],bc),be=aa(function(b,a){return[2,b,a]},bd,bb),bf=aa(function(b,a){return[2,b,a]},be,a$);return lJ(i,H,a[2],a[3],L[1],bf,a9,a8)}var
+ao=u[1],ap=t[1],aq=g[1],ar=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],ar);if(L){var
+M=F([0,aq,[0,ap,[0,ao,0]]],ar);if(M){var
+au=M[1],a7=cw(au,c),a8=b8(au,c),a9=cw(ao,c),a_=at(f[3],a9),a$=cw(ap,c),bb=at(f[2],a$),bc=cw(aq,c),bd=at(f[1],bc),be=ab(function(b,a){return[2,b,a]},bd,bb),bf=ab(function(b,a){return[2,b,a]},be,a_);return lV(i,H,a[2],a[3],L[1],bf,a8,a7)}var
 av=M}else
 var
 av=L;var
@@ -3154,40 +3156,40 @@ ay=ax}else
 var
 ay=g;return ay;case
 15:var
-bg=lC(a[1],g,c,f),bh=H(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
-A=D(g,y);return A?h(i,1,z(A[1])):A}function
-br(a){return[0,a[1][1],a[2][1],a[3][1]]}function
-lL(a){switch(a[0]){case
+bg=lO(a[1],g,c,f),bh=H(f,f);return h(i,1,[3,[4,a[2],bh],bg]);default:N=1}if(N)return 0;var
+A=F(g,y);return A?h(i,1,z(A[1])):A}function
+bv(a){return[0,a[1][1],a[2][1],a[3][1]]}function
+lX(a){switch(a[0]){case
 0:var
-b=a[1],c=b[5],d=b[4][1],e=br(b[3]),f=br(b[2]);return[0,br(b[1]),f,e,d,c];case
+b=a[1],c=b[5],d=b[4][1],e=bv(b[3]),f=bv(b[2]);return[0,bv(b[1]),f,e,d,c];case
 1:var
-g=y(br,a[3]),h=br(a[2]);return[1,br(a[1]),h,g];default:return[2,br(a[1])]}}function
-hX(a){return 0===a[0]?br(a[1]):[0,a[1],a[2],a[4][1]]}function
-lM(b,a){var
-c=hX(a[2]);return lA(b,a,e(lL,a[1]),c)}function
-lN(b,a,c){var
-d=[0,c,bW(b,a)];return f(bp(b,a),d)}function
-bs(c,a){if(c){if(a){var
-e=bs(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
-lO(e,c,a){if(e){if(c){var
-f=c[1],g=lO(e[2],c[2],a),h=bs(f,a),i=[4,bs(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
-lP(b,a){if(b){if(a){var
-c=b[1],e=lP(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aP(function(a){return[4,c,a]},h,g,f,e)}var
+g=y(bv,a[3]),h=bv(a[2]);return[1,bv(a[1]),h,g];default:return[2,bv(a[1])]}}function
+h9(a){return 0===a[0]?bv(a[1]):[0,a[1],a[2],a[4][1]]}function
+lY(b,a){var
+c=h9(a[2]);return h6(b,a,e(lX,a[1]),c)}function
+lZ(b,a,c){var
+d=[0,c,aZ(b,a)];return f(aL(b,a),d)}function
+bw(c,a){if(c){if(a){var
+e=bw(c[2],a[2]);return[2,[4,c[1],a[1]],e]}return[0,d,b]}return[0,d,b]}function
+l0(e,c,a){if(e){if(c){var
+f=c[1],g=l0(e[2],c[2],a),h=bw(f,a),i=[4,bw(f,a),h];return[2,[4,e[1],i],g]}return[0,d,b]}return[0,d,b]}function
+l1(b,a){if(b){if(a){var
+c=b[1],e=l1(b[2],a[2]),f=a[1],g=function(b,a){return[2,[4,c,b],a]},h=function(a){return a};return aF(function(a){return[4,c,a]},h,g,f,e)}var
 d=a}else
 var
 d=b;return d}function
-lQ(a){if(a){var
+l2(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=lQ(a[2]);return y(function(a){return[0,c,a]},d)}return b}return r$}function
-hY(a){if(a){var
+c=b[1],d=l2(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sx}function
+h_(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=hY(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sa}function
-lR(a,l,k,f){var
-b=aK(a,l);if(b){var
-c=aK(a,k);if(c){var
-d=cD(a,f);if(d){var
-e=fM(a,f);if(e)var
-m=t(a,b[1],e[1]),g=[0,F(t(a,c[1],d[1]),m)];else
+c=b[1],d=h_(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sy}function
+l3(a,l,k,f){var
+b=aM(a,l);if(b){var
+c=aM(a,k);if(c){var
+d=cL(a,f);if(d){var
+e=fY(a,f);if(e)var
+m=t(a,b[1],e[1]),g=[0,G(t(a,c[1],d[1]),m)];else
 var
 g=e;var
 h=g}else
@@ -3199,18 +3201,18 @@ i=c;var
 j=i}else
 var
 j=b;return j}function
-lS(a){return a?L(a[1][2],d):a}function
-dV(a){return a?L(d,a[1][1]):a}function
-lT(d,a){return h(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-lU(f,z,l,y,a,j){function
-aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bs(a,a)]}var
+l4(a){return a?K(a[1][2],d):a}function
+d9(a){return a?K(d,a[1][1]):a}function
+l5(d,a){return h(d,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+l6(f,z,l,y,a,j){function
+aW(c,a){return[4,[4,[5,[0,b,b],c],[5,[0,b,b],c]],bw(a,a)]}var
 bB=l[1];function
 A(c){var
-a=[0,d,b];return ar(function(a,b){var
-d=bs(a,c);return[2,[4,bs(a,c),d],b]},a,bB)}function
+a=[0,d,b];return as(function(a,b){var
+d=bw(a,c);return[2,[4,bw(a,c),d],b]},a,bB)}function
 af(f,e){var
-a=D(l[1],f);if(a){var
-b=a[1],c=s(g(b),z);if(c)return i(e,b);var
+a=F(l[1],f);if(a){var
+b=a[1],c=r(g(b),z);if(c)return i(e,b);var
 d=c}else
 var
 d=a;return d}var
@@ -3219,13 +3221,13 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=sb;break;case
+a=sz;break;case
 13:case
 14:var
-a=sc;break;default:b=1}if(b)var
-a=z;return s(g(c),a)},a);if(aX){var
-r=0;if(typeof
-j==="number")r=1;else
+a=sA;break;default:b=1}if(b)var
+a=z;return r(g(c),a)},a);if(aX){var
+s=0;if(typeof
+j==="number")s=1;else
 switch(j[0]){case
 0:if(a){if(a[2])return 0;var
 aZ=a[1],bC=A(aZ);return h(f,1,[3,aW(j[1],aZ),bC])}return a;case
@@ -3239,18 +3241,18 @@ bG=j[2],bH=function(a){if(typeof
 a!=="number"&&0===a[0])return h(f,1,[3,a[1],bG]);return 0},ah=bH,ag=j[1];break;case
 4:if(a)return 0;var
 a1=j[3],a2=j[2],bI=function(a){var
-i=s(y,0);if(typeof
+i=r(y,0);if(typeof
 a!=="number"&&1===a[0]){var
-d=a[2],e=a[1],g=h(f,0,[3,[2,a2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a1]);return g?i?lS(lR(f,e,d,a2)):dV(lR(f,e,d,a1)):g}return 0},ah=bI,ag=j[1];break;case
+d=a[2],e=a[1],g=h(f,0,[3,[2,a2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],a1]);return g?i?l4(l3(f,e,d,a2)):d9(l3(f,e,d,a1)):g}return 0},ah=bI,ag=j[1];break;case
 5:if(a){var
 B=a[2];if(B){if(B[2])return 0;var
-aj=B[1],ak=a[1],a3=j[1],bJ=bs(ak,ak),bK=[4,[4,a3,a3],[4,A(aj),bJ]],bL=bs(aj,aj);return h(f,1,[3,[4,A(ak),bL],bK])}var
+aj=B[1],ak=a[1],a3=j[1],bJ=bw(ak,ak),bK=[4,[4,a3,a3],[4,A(aj),bJ]],bL=bw(aj,aj);return h(f,1,[3,[4,A(ak),bL],bK])}var
 a4=B}else
 var
 a4=a;return a4;case
 6:var
 a5=j[2],bM=j[3],bN=function(a){var
-b=[5,bM,a5],c=h(f,1,a5);return c?h(f,1,[3,bs(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
+b=[5,bM,a5],c=h(f,1,a5);return c?h(f,1,[3,bw(a,a),[4,b,b]]):c},a6=af(j[1],bN);if(a6){if(l[4]){if(a){var
 C=a[1];if(C){if(C[2])return 0;if(a[2])return 0;var
 a7=C[1];return h(f,1,[4,a7,a7])}var
 a8=C}else
@@ -3260,11 +3262,11 @@ a9=1}else
 var
 a9=a6;return a9;case
 7:if(a){if(a[2])return 0;var
-a_=a[1],al=j[1],bO=j[3],bP=j[2],am=hY(l[7]);if(am){var
-E=am[1],an=D(a_,al);if(an){var
-bQ=an[1],a$=s(g(E),z),ba=a$?m(function(a){return s(g(a),z)},E):a$;if(ba){var
-ao=D(E,al);if(ao){var
-bR=ao[1];return af(al,function(a){return lJ(f,bs,bP,bO,bQ,lP(a_,E),a,bR)})}var
+a_=a[1],al=j[1],bO=j[3],bP=j[2],am=h_(l[7]);if(am){var
+D=am[1],an=F(a_,al);if(an){var
+bQ=an[1],a$=r(g(D),z),ba=a$?m(function(a){return r(g(a),z)},D):a$;if(ba){var
+ao=F(D,al);if(ao){var
+bR=ao[1];return af(al,function(a){return lV(f,bw,bP,bO,bQ,l1(a_,D),a,bR)})}var
 bb=ao}else
 var
 bb=ba;var
@@ -3278,14 +3280,14 @@ be=bd}else
 var
 be=a;return be;case
 8:if(a){if(a[2])return 0;var
-ap=a[1],bS=lO(j[1],l[1],ap),bT=bs(ap,ap);return h(f,1,[3,[4,j[2],bT],bS])}return a;case
+ap=a[1],bS=l0(j[1],l[1],ap),bT=bw(ap,ap);return h(f,1,[3,[4,j[2],bT],bS])}return a;case
 9:if(a)return 0;var
 bf=j[3],bg=j[2],bU=function(d){var
 e=h(f,1,bg),g=e?h(f,0,bf):e;if(g){var
-a=aK(f,bs(d,d));if(a){var
-b=aK(f,[5,bf,bg]);if(b){var
-c=kD(f,b[1]);if(c){var
-l=V(f,c[1]);return dV([0,F(a[1],l)])}var
+a=aM(f,bw(d,d));if(a){var
+b=aM(f,[5,bf,bg]);if(b){var
+c=kR(f,b[1]);if(c){var
+l=V(f,c[1]);return d9([0,G(a[1],l)])}var
 i=c}else
 var
 i=b;var
@@ -3296,15 +3298,15 @@ k=j}else
 var
 k=g;return k};return af(j[1],bU);case
 10:if(a)return 0;var
-bW=j[2],bX=function(a){var
-b=[4,bW,a[3]],c=h(f,1,b);return c?h(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bi=bX,bh=j[1];r=2;break;case
+bV=j[2],bW=function(a){var
+b=[4,bV,a[3]],c=h(f,1,b);return c?h(f,1,[3,[4,b,b],[4,a[2],a[2]]]):c},bi=bW,bh=j[1];s=2;break;case
 11:if(a)return 0;var
-bY=j[2],bZ=function(d){var
-a=cD(f,bY);if(a){var
-b=aK(f,d[3]);if(b){var
-c=aK(f,d[2]);if(c){var
-e=t(f,a[1],b[1]),g=dV([0,e]);if(g){var
-k=V(f,c[1]);return dV([0,F(V(f,e),k)])}var
+bX=j[2],bY=function(d){var
+a=cL(f,bX);if(a){var
+b=aM(f,d[3]);if(b){var
+c=aM(f,d[2]);if(c){var
+e=t(f,a[1],b[1]),g=d9([0,e]);if(g){var
+k=V(f,c[1]);return d9([0,G(V(f,e),k)])}var
 h=g}else
 var
 h=c;var
@@ -3313,10 +3315,10 @@ var
 i=b;var
 j=i}else
 var
-j=a;return j},bi=bZ,bh=j[1];r=2;break;case
+j=a;return j},bi=bY,bh=j[1];s=2;break;case
 12:if(a)return 0;var
-at=lQ(l[3]);if(at){var
-bk=at[1],b0=j[1],bl=bV(function(b,a){return[4,b,a[3]]},bk,b0),au=e(function(a){return a[1]},bk),u=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(au){var
+at=l2(l[3]);if(at){var
+bk=at[1],bZ=j[1],bl=b0(function(b,a){return[4,b,a[3]]},bk,bZ),au=e(function(a){return a[1]},bk),u=function(d,c,b,a){return[3,[4,d,a],[4,c,b]]};if(au){var
 M=au[1];if(M){var
 N=M[2];if(N){var
 O=N[2],ax=N[1],ay=M[1],n=au[2];if(O)if(O[2]||!n)var
@@ -3328,7 +3330,7 @@ S=n[2];if(S){var
 T=S[1];if(T){var
 U=T[2];if(U){var
 W=U[2];if(W&&!(W[2]||S[2]))var
-az=W[1],aA=U[1],aB=T[1],aC=R[1],aD=Q[1],aE=P[1],bu=u(aE,aD,aB,aA),bv=[4,O[1],bu],bw=[4,ax,u(aE,aC,aB,az)],k=[2,[3,[4,ay,u(aD,aC,aA,az)],bw],bv];else
+az=W[1],aA=U[1],aB=T[1],aC=R[1],aD=Q[1],aE=P[1],bt=u(aE,aD,aB,aA),bu=[4,O[1],bt],bv=[4,ax,u(aE,aC,aB,az)],k=[2,[3,[4,ay,u(aD,aC,aA,az)],bv],bu];else
 var
 k=[0,d,b]}else
 var
@@ -3361,29 +3363,29 @@ bn=bm}else
 var
 bn=at;return bn;case
 13:var
-b1=j[2],av=D(l[4],j[1]);if(av){var
+b1=j[2],av=F(l[4],j[1]);if(av){var
 aw=av[1];if(aw){var
 bo=function(a){if(b1){var
-c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return aa(function(b,a){return[3,b,a]},e,c)}return a},G=j[4],q=bo(cN(j[3])),I=aw[1][1][2],o=H(I,q);if(lT(f,G)){if(y){if(y[1])return 0;if(a){var
+c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return ab(function(b,a){return[3,b,a]},e,c)}return a},E=j[4],q=bo(cV(j[3])),I=aw[1][1][2],o=H(I,q);if(l5(f,E)){if(y){if(y[1])return 0;if(a){var
 v=a[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x){if(x[2])return 0;if(a[2])return 0;var
 Z=bo([0,v[1],w[1],x[1]]),aF=H(I,Z),aG=h(f,1,o);if(aG){var
-_=cD(f,G);if(_){var
-aH=_[1],$=aK(f,[4,H(q,q),[4,aF,aF]]);if($){var
-ab=aK(f,[4,[4,o,o],H(Z,Z)]);if(ab){var
-aI=dV([0,aH]);if(aI){var
-bx=ab[1],by=$[1];return dV([0,F(t(f,V(f,aH),by),bx)])}var
+_=cL(f,E);if(_){var
+aH=_[1],$=aM(f,[4,H(q,q),[4,aF,aF]]);if($){var
+aa=aM(f,[4,[4,o,o],H(Z,Z)]);if(aa){var
+aI=d9([0,aH]);if(aI){var
+bx=aa[1],by=$[1];return d9([0,G(t(f,V(f,aH),by),bx)])}var
 aJ=aI}else
 var
-aJ=ab;var
-aL=aJ}else
+aJ=aa;var
+aK=aJ}else
 var
-aL=$;var
-aM=aL}else
+aK=$;var
+aL=aK}else
 var
-aM=_;var
-aN=aM}else
+aL=_;var
+aN=aL}else
 var
 aN=aG;var
 aO=aN}else
@@ -3398,11 +3400,11 @@ aQ=v;var
 aR=aQ}else
 var
 aR=a;return aR}return a?0:h(f,1,[3,[0,d,b],o])}if(y)return 0;if(a)return 0;var
-aS=h(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],G]);if(aS){var
-ac=cD(f,G);if(ac){var
-ad=aK(f,o);if(ad){var
-bz=H(I,I),ae=aK(f,[6,[4,H(q,q),bz]]);if(ae){var
-bA=t(f,ac[1],ae[1]);return lS([0,F(ad[1],bA)])}var
+aS=h(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E]);if(aS){var
+ac=cL(f,E);if(ac){var
+ad=aM(f,o);if(ad){var
+bz=H(I,I),ae=aM(f,[6,[4,H(q,q),bz]]);if(ae){var
+bA=t(f,ac[1],ae[1]);return l4([0,G(ad[1],bA)])}var
 aT=ae}else
 var
 aT=ad;var
@@ -3419,101 +3421,101 @@ bp=av;return bp;case
 J=a[1];if(J){var
 K=J[2];if(K){var
 L=K[2];if(L){if(L[2])return 0;if(a[2])return 0;var
-b2=j[3],b3=j[2],b4=j[1],b5=[0,J[1],K[1],L[1]],b6=l[5],b7=l[4];return lI(f,function(a){return lG(b7,b6,a)},b5,b4,b3,b2)}var
+b2=j[3],b3=j[2],b4=j[1],b5=[0,J[1],K[1],L[1]],b6=l[5],b7=l[4];return lU(f,function(a){return lS(b7,b6,a)},b5,b4,b3,b2)}var
 bq=L}else
 var
 bq=K;var
 br=bq}else
 var
 br=J;var
-bt=br}else
+bs=br}else
 var
-bt=a;return bt;default:r=1}switch(r){case
+bs=a;return bs;default:s=1}switch(s){case
 1:var
 aY=0;break;case
 2:var
-aq=D(l[3],bh);if(aq){var
-as=aq[1];if(as)return bi(as[1]);var
-bj=as}else
+aq=F(l[3],bh);if(aq){var
+ar=aq[1];if(ar)return bi(ar[1]);var
+bj=ar}else
 var
 bj=aq;return bj;default:var
-ai=D(l[2],ag);return ai?ah(ai[1]):ai}}else
+ai=F(l[2],ag);return ai?ah(ai[1]):ai}}else
 var
 aY=aX;return aY}function
-hZ(d,f,a){if(typeof
+h$(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
-4:return se;case
+4:return sC;case
 13:var
-e=a[4];if(lT(d,e)&&U(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return sf;return sg;case
-16:return f}return sd}function
-h0(e,d,g,f){var
+e=a[4];if(l5(d,e)&&T(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return sD;return sE;case
+16:return f}return sB}function
+ia(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aX(b,hZ(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=ev(b,hZ(e,d,c)),a=h;continue}return a}}function
-sh(a){return e(function(a){return[0,a,b]},a)}function
-h1(f,o,g,c,n,a){if(typeof
+c=a[1];if(aV(b,h$(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dL(b,h$(e,d,c)),a=h;continue}return a}}function
+sF(a){return e(function(a){return[0,a,b]},a)}function
+ib(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
-s=c[6];return aj(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=hY(c[7]);return i?kK(g,i[1]):i}else{if(0===a[0]){var
-j=h0(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(sh,a[2]);return lU(f,g,c,p[2],u,t)}return j}var
-k=h0(f,o,a[1],n);if(k){var
+s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
+i=h_(c[7]);return i?kY(g,i[1]):i}else{if(0===a[0]){var
+j=ia(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(sF,a[2]);return l6(f,g,c,p[2],u,t)}return j}var
+k=ia(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
-m=D(c[1],a[2]);return m?lU(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
+m=F(c[1],a[2]);return m?l6(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-h2(a){var
-b=aH(a[1]),c=aq(H(b,a[2]),b),d=a[2];return aa(function(b,a){return[3,b,a]},d,c)}function
-h3(a){return aH(h2(a))}function
-lV(c){var
-a=h3(c),b=aH(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-h4(a,b){return a7(a[3],a[4],b)}function
-h5(a,b){var
-c=h4(a,b);return H(h3(a),c)}function
-h6(a,b){var
-c=h4(a,b);return H(lV(a),c)}function
-lW(a,b){var
-c=h4(a,b);return H(aH(a[1]),c)}function
-h7(b,a){var
-c=h6(b,a),d=h5(b,a);return[2,[4,d,d],[4,c,c]]}function
-h8(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=lW(a,d);return[5,[2,h7(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
-lX(a,b){var
-f=a[5],c=[3,h8(a,b),f],d=lW(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
-f7(a,b){var
-c=lX(a,b);return c$(a[7],c)}function
-lY(b,a){var
-c=h7(b,a),d=h6(b,a),e=[4,f7(b,a),d],f=h5(b,a);return[5,[2,[4,h8(b,a),f],e],c]}function
-lZ(b,a){var
-c=h7(b,a),d=h5(b,a),e=[4,f7(b,a),d],f=h6(b,a);return[5,[3,[4,h8(b,a),f],e],c]}function
-h9(a,b){var
-c=lV(a),d=aq(lZ(a,b),c),e=h3(a),f=aq(lY(a,b),e),g=aa(function(b,a){return[2,b,a]},f,d),h=aq(a[5],g),i=a[3];return aa(function(b,a){return[2,b,a]},i,h)}function
-l0(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
-l1(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-h_(a,c,b){var
-d=[4,l0(a),b],e=[2,[4,l1(a),c],d],f=[4,l1(a),b];return[0,[3,[4,l0(a),c],f],e]}function
-l2(c,a){var
-b=h_(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-eR(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-dW(t,d,a){switch(t[0]){case
-0:return d?d[2]?a:l2(d[1],a):a;case
+ic(a){var
+b=aI(a[1]),c=at(H(b,a[2]),b),d=a[2];return ab(function(b,a){return[3,b,a]},d,c)}function
+id(a){return aI(ic(a))}function
+l7(c){var
+a=id(c),b=aI(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+ie(a,b){return ba(a[3],a[4],b)}function
+ig(a,b){var
+c=ie(a,b);return H(id(a),c)}function
+ih(a,b){var
+c=ie(a,b);return H(l7(a),c)}function
+l8(a,b){var
+c=ie(a,b);return H(aI(a[1]),c)}function
+ii(b,a){var
+c=ih(b,a),d=ig(b,a);return[2,[4,d,d],[4,c,c]]}function
+ij(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=l8(a,d);return[5,[2,ii(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+l9(a,b){var
+f=a[5],c=[3,ij(a,b),f],d=l8(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+gh(a,b){var
+c=l9(a,b);return df(a[7],c)}function
+l_(b,a){var
+c=ii(b,a),d=ih(b,a),e=[4,gh(b,a),d],f=ig(b,a);return[5,[2,[4,ij(b,a),f],e],c]}function
+l$(b,a){var
+c=ii(b,a),d=ig(b,a),e=[4,gh(b,a),d],f=ih(b,a);return[5,[3,[4,ij(b,a),f],e],c]}function
+ik(a,b){var
+c=l7(a),d=at(l$(a,b),c),e=id(a),f=at(l_(a,b),e),g=ab(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ab(function(b,a){return[2,b,a]},i,h)}function
+ma(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
+mb(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
+il(a,c,b){var
+d=[4,ma(a),b],e=[2,[4,mb(a),c],d],f=[4,mb(a),b];return[0,[3,[4,ma(a),c],f],e]}function
+mc(c,a){var
+b=il(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+e0(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+d_(t,d,a){switch(t[0]){case
+0:return d?d[2]?a:mc(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=h_(d[1],a[2],a[3]),m=j[1],k=h_(f[1],j[2],a[1]);return l2(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=il(d[1],a[2],a[3]),m=j[1],k=il(f[1],j[2],a[1]);return mc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=H(e,e),n=eR(e,a),o=aq([0,c(2,b),b],n),p=H(e,a),q=aq([4,[0,c(2,b),b],p],e),r=aq([3,[0,b,b],l],a),s=aa(function(b,a){return[2,b,a]},r,q);return aq([5,[0,b,b],[2,[0,b,b],l]],aa(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
-l3(c){var
-a=cB(c);return a?dD(a[1],[0,d,b]):a}function
-l4(a,n,k,j){if(l3(j)){var
+e=[0,d[1],h[1],i[1]],l=H(e,e),n=e0(e,a),o=at([0,c(2,b),b],n),p=H(e,a),q=at([4,[0,c(2,b),b],p],e),r=at([3,[0,b,b],l],a),s=ab(function(b,a){return[2,b,a]},r,q);return at([5,[0,b,b],[2,[0,b,b],l]],ab(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+md(c){var
+a=cr(c);return a?dP(a[1],[0,d,b]):a}function
+me(a,n,k,j){if(md(j)){var
 q=n?[3,[0,d,b],k]:k;return h(a,0,q)}var
-f=aK(a,k);if(f){var
-g=cD(a,[5,j,[0,c(2,b),b]]);if(g){var
-i=fM(a,[5,j,[0,c(2,b),b]]);if(i)var
-p=t(a,f[1],g[1]),l=[0,F(i[1],p)];else
+f=aM(a,k);if(f){var
+g=cL(a,[5,j,[0,c(2,b),b]]);if(g){var
+i=fY(a,[5,j,[0,c(2,b),b]]);if(i)var
+p=t(a,f[1],g[1]),l=[0,G(i[1],p)];else
 var
 l=i;var
 m=l}else
@@ -3522,26 +3524,26 @@ m=g;var
 e=m}else
 var
 e=f;if(e){var
-o=e[1];return n?G(d,o[1]):G(o[2],d)}return e}function
-eS(b,a,c){var
-d=bk(b,a[1],a[2]),e=d?l4(b,0,c,a[1]):d;return e?l4(b,1,c,a[2]):e}function
-l5(h,f,c){if(l3(c))return[0,w];var
-a=C(h,hs(f)),d=cD(a,c);if(d){var
-e=fM(a,c);if(e){var
-i=e[1],j=d[1],k=bX(a,z(Q(a,b),j));return y(function(b){return ku(f,t(a,i,b))},k)}var
+o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
+dg(b,a,c){var
+d=bo(b,a[1],a[2]),e=d?me(b,0,c,a[1]):d;return e?me(b,1,c,a[2]):e}function
+mf(h,f,c){if(md(c))return[0,v];var
+a=C(h,hD(f)),d=cL(a,c);if(d){var
+e=fY(a,c);if(e){var
+i=e[1],j=d[1],k=b1(a,z(P(a,b),j));return y(function(b){return kI(f,t(a,i,b))},k)}var
 g=e}else
 var
 g=d;return g}function
-da(a){return function(b){return l5(a,d,b)}}function
-db(d,a){var
+dh(a){return function(b){return mf(a,d,b)}}function
+di(d,a){var
 e=h(d,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]);return e?h(d,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-dc(a){return[0,[3,[0,d,b],a],a]}function
-l6(a,c,o,n){var
-h=bk(a,[0,d,b],c),j=h?db(a,c):h;if(j){var
-e=i(da(a),c);if(e){var
-f=aK(a,o);if(f){var
-g=aK(a,n);if(g){var
-p=f[1],q=g[1];return G(d,F(t(a,V(a,e[1]),q),p)[1])}var
+cW(a){return[0,[3,[0,d,b],a],a]}function
+mg(a,c,o,n){var
+h=bo(a,[0,d,b],c),j=h?di(a,c):h;if(j){var
+e=i(dh(a),c);if(e){var
+f=aM(a,o);if(f){var
+g=aM(a,n);if(g){var
+p=f[1],q=g[1];return E(d,G(t(a,V(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3551,12 +3553,12 @@ l=e;var
 m=l}else
 var
 m=j;return m}function
-f8(d,c,a){switch(c[0]){case
-0:return a?a[2]?0:eS(d,c[1],a[1]):a;case
+dj(d,c,a){switch(c[0]){case
+0:return a?a[2]?0:dg(d,c[1],a[1]):a;case
 1:if(a){var
 e=a[2];if(e){var
 f=e[2];if(f){if(f[2])return 0;var
-l=eS(d,c[1],a[1]),m=l?eS(d,c[2],e[1]):l;if(m)return eS(d,c[3],f[1]);var
+l=dg(d,c[1],a[1]),m=l?dg(d,c[2],e[1]):l;if(m)return dg(d,c[3],f[1]);var
 n=m}else
 var
 n=f;var
@@ -3569,7 +3571,7 @@ p=a;return p;case
 2:if(a){var
 g=a[2];if(g){var
 h=g[2];if(h){if(h[2])return 0;var
-q=h[1],r=g[1],s=a[1],B=H([0,s,r,q],[0,s,r,q]);return l6(d,c[1],B,[0,b,b])}var
+q=h[1],r=g[1],s=a[1],B=H([0,s,r,q],[0,s,r,q]);return mg(d,c[1],B,[0,b,b])}var
 t=h}else
 var
 t=g;var
@@ -3578,7 +3580,7 @@ var
 u=a;return u;default:if(a){var
 i=a[2];if(i){var
 j=i[2];if(j){if(j[2])return 0;var
-k=j[1],v=i[1],w=a[1],x=l6(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return eS(d,dc(c[2]),k);var
+k=j[1],v=i[1],w=a[1],x=mg(d,c[1],[2,[4,w,w],[4,v,v]],[2,[0,b,b],[4,k,k]]);if(x)return dg(d,cW(c[2]),k);var
 y=x}else
 var
 y=j;var
@@ -3588,86 +3590,86 @@ z=i;var
 A=z}else
 var
 A=a;return A}}var
-o=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
-bK(b){var
-a=ar(function(f,e){var
-a=aK(o,f);if(a)var
-b=a[1],c=bg(cc(b[1]),cc(b[2]));else
+n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))));function
+bx(b){var
+a=as(function(f,e){var
+a=aM(n,f);if(a)var
+b=a[1],c=bj(ch(b[1]),ch(b[2]));else
 var
-c=d;return bg(c,e)},d,b);return L(d,a)?aC(ke(a),o):d}function
-dX(a){return[0,a[1],[0,a[2],0]]}function
-bc(a){var
-b=dX(a[3]),c=f(dX(a[2]),b);return f(dX(a[1]),c)}function
-f9(a){return f6(o,a,bK(bc(a)))}function
-l7(b,a){if(a){var
-g=l7([0,b],a[2]),c=a[1];if(0===c[0])var
-d=c[1],e=cK([0,[0,d,d],c[2]],b);else
+c=d;return bj(c,e)},d,b);return K(d,a)?aA(kr(a),n):d}function
+d$(a){return[0,a[1],[0,a[2],0]]}function
+a4(a){var
+b=d$(a[3]),c=f(d$(a[2]),b);return f(d$(a[1]),c)}function
+gi(a){return gg(n,a,bx(a4(a)))}function
+mh(b,a){if(a){var
+g=mh([0,b],a[2]),c=a[1];if(0===c[0])var
+d=c[1],e=cS([0,[0,d,d],c[2]],b);else
 var
 e=[0,[1,b]];var
 f=[0,e,g]}else
 var
 f=a;return f}function
-l8(c,b,a){var
-d=dF(b);return[2,[2,dF(c),d],a]}function
-h$(b,a){return b?R(a):d}function
-eT(h,b,a){if(typeof
+mi(c,b,a){var
+d=dR(b);return[2,[2,dR(c),d],a]}function
+im(b,a){return b?R(a):d}function
+e1(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=h$(h,b);return[0,[5,q,a],C(h$(h,b),c)]},r);case
+c=im(h,b);return[0,[5,q,a],C(im(h,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
 12:return[0,[0,a[1],d],0];case
 13:var
-c=a[3],g=bK([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
+c=a[3],g=bx([0,c[1],[0,c[2],[0,c[3],0]]]);return[0,[2,a[4]],[0,[0,c[1],g],[0,[0,c[2],g],[0,[0,c[3],g],0]]]];case
 14:var
-k=a[2],l=a[1],s=dT(b,k),t=f(dT(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,l8(l,k,a[3]),b],u];case
+k=a[2],l=a[1],s=d6(b,k),t=f(d6(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t);return[0,[0,mi(l,k,a[3]),b],u];case
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bK([0,o,0]);return[0,[4,a[3],aC(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bx([0,o,0]);return[0,[4,a[3],aA(p,b)],[0,[0,o,p],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
-cO(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cO(h,c,b,P(e,g(eT(c,b,d))),i);return f(al(h,l7(e,eT(c,b,d)),d),j)}return a}function
-f_(b,a){var
-c=ao(b,a);return e(function(a){var
-b=q(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-ia(b,a){switch(a[0]){case
+cX(h,c,b,e,a){if(a){var
+d=a[1],i=a[2],j=cX(h,c,b,O(e,g(e1(c,b,d))),i);return f(an(h,mh(e,e1(c,b,d)),d),j)}return a}function
+gj(b,a){var
+c=ag(b,a);return e(function(a){var
+b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
+io(b,a){switch(a[0]){case
 0:var
-d=a[1];return ak(b,[0,[0,d,d],a[2]]);case
+d=a[1];return am(b,[0,[0,d,d],a[2]]);case
 1:var
-e=a[1],c=ak(b,[0,[0,e,e],a[2]]);return c?kD(b,c[1]):c;case
-2:return cD(b,a[1]);case
-3:return fM(b,a[1]);default:var
-f=a[1],g=db(b,f);return g?l5(b,a[2],f):g}}function
-b4(a){return 1===a?si:sj}function
-eU(d,c,b,a){var
-e=a[1],f=dW(d,c,a[2]),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
-ib(c,b,a){switch(c){case
+e=a[1],c=am(b,[0,[0,e,e],a[2]]);return c?kR(b,c[1]):c;case
+2:return cL(b,a[1]);case
+3:return fY(b,a[1]);default:var
+f=a[1],g=di(b,f);return g?mf(b,a[2],f):g}}function
+b9(a){return 1===a?sG:sH}function
+dk(d,c,b,a){var
+e=a[1],f=d_(d,c,a[2]),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+ip(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-l9(h,g,d,c,f,a){var
-e=eU(d,c,f,a);return ib(h,e,aq([5,[0,b,b],g],eR(dW(d,c,a[2]),e)))}function
-l_(c,j,i){var
+mj(h,g,d,c,f,a){var
+e=dk(d,c,f,a);return ip(h,e,at([5,[0,b,b],g],e0(d_(d,c,a[2]),e)))}function
+iq(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
-d=a[1],e=b[1],f=bb(c,e[1],d[1]),g=f?bb(c,e[2],d[2]):f;if(g){var
+d=a[1],e=b[1],f=bf(c,e[1],d[1]),g=f?bf(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
 h=g}else
 var
 h=a;return h}return a?0:1}}function
-bl(b,d){var
+bp(b,d){var
 a=d[1];if(8===a[0]){var
-c=a[1][1];return 0===c[0]?[0,[0,P(b,c[1])]]:[0,bD(function(a){return bl(b,a)},a)]}return[0,bD(function(a){return bl(b,a)},a)]}function
-dd(d,b,h){var
+c=a[1][1];return 0===c[0]?[0,[0,O(b,c[1])]]:[0,bI(function(a){return bp(b,a)},a)]}return[0,bI(function(a){return bp(b,a)},a)]}function
+dl(d,b,h){var
 c=h;for(;;){var
 a=c[1];switch(a[0]){case
 0:var
-e=a[1],f=U(s(e,b));return f?U(s(e,P(d,b))):f;case
+e=a[1],f=T(r(e,b));return f?T(r(e,O(d,b))):f;case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3675,31 +3677,31 @@ e=a[1],f=U(s(e,b));return f?U(s(e,P(d,b))):f;case
 8:case
 9:var
 c=a[1];continue;default:var
-g=dd(d,b,a[1]);if(g){var
+g=dl(d,b,a[1]);if(g){var
 c=a[2];continue}return g}}}function
-dY(c,b,m){var
+ea(c,b,m){var
 d=m;for(;;){var
 a=d[1];switch(a[0]){case
 5:var
 d=a[1];continue;case
 6:var
-f=a[2],g=a[1],h=dd(c,b,g),i=h?dY(c,b,f):h;if(i)var
+f=a[2],g=a[1],h=dl(c,b,g),i=h?ea(c,b,f):h;if(i)var
 j=i;else{var
-k=dY(c,b,g);if(k)return dd(c,b,f);var
+k=ea(c,b,g);if(k)return dl(c,b,f);var
 j=k}return j;case
 7:var
-l=dY(c,b,a[1]);return l?dd(c,b,a[2]):l;case
+l=ea(c,b,a[1]);return l?dl(c,b,a[2]):l;case
 10:return 0;case
 3:case
 4:var
-e=dY(c,b,a[1]);if(e){var
+e=ea(c,b,a[1]);if(e){var
 d=a[2];continue}return e;case
 8:case
-9:return dd(c,b,a[1]);default:return 1}}}function
-cq(c,e){var
+9:return dl(c,b,a[1]);default:return 1}}}function
+cx(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return U(s(a[1],c));case
+0:return T(r(a[1],c));case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3707,32 +3709,32 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=cq(c,a[1]);if(d){var
+d=cx(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-f$(d,b,m){var
+gk(d,b,m){var
 c=m;for(;;){var
 a=c[1];switch(a[0]){case
 3:var
-f=f$(d,b,a[1]);if(f){var
+f=gk(d,b,a[1]);if(f){var
 c=a[2];continue}return f;case
 4:var
-g=f$(d,b,a[1]);return g?cq(b,a[2]):g;case
+g=gk(d,b,a[1]);return g?cx(b,a[2]):g;case
 6:var
-h=a[2],i=a[1],j=cq(b,i);if(j){var
-k=cq(b,h);if(k)var
+h=a[2],i=a[1],j=cx(b,i);if(j){var
+k=cx(b,h);if(k)var
 e=k;else{var
-l=az(i,d);if(l){var
+l=aC(i,d);if(l){var
 c=h;continue}var
 e=l}}else
 var
 e=j;return e;case
 0:case
 1:case
-2:return 1;default:return cq(b,c)}}}function
-ga(c,e){var
+2:return 1;default:return cx(b,c)}}}function
+gl(c,e){var
 b=e;for(;;){var
 a=b[1];switch(a[0]){case
-0:return aX(a[1],c);case
+0:return aV(a[1],c);case
 10:return 0;case
 1:case
 2:return 1;case
@@ -3740,139 +3742,139 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-d=ga(c,a[1]);if(d){var
+d=gl(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
-gb(a,b){if(a){var
+gm(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gb(c,ar(eE,e,kp(d)))]:[0,sm,gb(c,e)]}var
-f=[0,d,gb(c,0)]}else
+e=b[2];return b[1]?[0,d,gm(c,as(eN,e,kD(d)))]:[0,sK,gm(c,e)]}var
+f=[0,d,gm(c,0)]}else
 var
 f=a;return f}function
-cP(b,a){return a?i(b,a[1]):a}function
-cQ(c,b,a){return cP(function(b){return cP(i(c,b),a)},b)}function
-l$(b,a){switch(a[0]){case
+cY(b,a){return a?i(b,a[1]):a}function
+cZ(c,b,a){return cY(function(b){return cY(i(c,b),a)},b)}function
+mk(b,a){switch(a[0]){case
 0:return a;case
 1:return a[1];default:var
 c=a[3],d=a[2],e=a[1];switch(b){case
 0:return e;case
 1:return d;default:return c}}}function
-ma(a){return 0===a[0]?a[1]:0}function
-mb(d,c){var
+ml(a){return 0===a[0]?a[1]:0}function
+mm(d,c){var
 b=d,a=c;for(;;){if(a){var
-e=a[2],b=l$(a[1],b),a=e;continue}return ma(b)}}function
-b5(b,a){switch(a[0]){case
+e=a[2],b=mk(a[1],b),a=e;continue}return ml(b)}}function
+b_(b,a){switch(a[0]){case
 0:return[0,i(b,a[1])];case
-1:return[1,b5(b,a[1])];default:var
-c=b5(b,a[3]),d=b5(b,a[2]);return[2,b5(b,a[1]),d,c]}}function
-bd(b,c,a){switch(c[0]){case
-0:return b5(i(b,c[1]),a);case
+1:return[1,b_(b,a[1])];default:var
+c=b_(b,a[3]),d=b_(b,a[2]);return[2,b_(b,a[1]),d,c]}}function
+bg(b,c,a){switch(c[0]){case
+0:return b_(i(b,c[1]),a);case
 1:var
 d=c[1];switch(a[0]){case
 0:var
-k=a[1];return[1,b5(function(a){return al(b,a,k)},d)];case
-1:return[1,bd(b,d,a[1])];default:var
-l=bd(b,d,a[3]),m=bd(b,d,a[2]);return[2,bd(b,d,a[1]),m,l]}default:var
+k=a[1];return[1,b_(function(a){return an(b,a,k)},d)];case
+1:return[1,bg(b,d,a[1])];default:var
+l=bg(b,d,a[3]),m=bg(b,d,a[2]);return[2,bg(b,d,a[1]),m,l]}default:var
 e=c[3],f=c[2],g=c[1];switch(a[0]){case
 0:var
-n=a[1],o=function(a){return al(b,a,n)},h=function(a){return b5(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
+n=a[1],o=function(a){return an(b,a,n)},h=function(a){return b_(o,a)},p=h(e),q=h(f);return[2,h(g),q,p];case
 1:var
-j=a[1],r=bd(b,e,j),s=bd(b,f,j);return[2,bd(b,g,j),s,r];default:var
-t=bd(b,e,a[3]),u=bd(b,f,a[2]);return[2,bd(b,g,a[1]),u,t]}}}function
-ic(c,f,a){if(a)var
+j=a[1],r=bg(b,e,j),s=bg(b,f,j);return[2,bg(b,g,j),s,r];default:var
+t=bg(b,e,a[3]),u=bg(b,f,a[2]);return[2,bg(b,g,a[1]),u,t]}}}function
+ir(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
 e=[0,a,V(c,a)];break;case
 1:var
-g=t(c,a,b),e=[0,at(z(a,b)),g];break;default:var
-e=[0,b,V(c,b)]}return[0,[0,i(f,e)]]},h=ic(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+g=t(c,a,b),e=[0,aq(z(a,b)),g];break;default:var
+e=[0,b,V(c,b)]}return[0,[0,i(f,e)]]},h=ir(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-id(b,x,c,a){var
-e=ic(b,aT,a),d=0,A=f(ic(b,ay,a),e);return bi(so,function(a){switch(a[0]){case
-0:return r(a[1],A,[0,[0,w]]);case
-1:return[0,[0,r(a[1],x,w)]];case
-2:return[0,[0,Q(b,a[1])]];case
+is(b,x,c,a){var
+e=ir(b,aU,a),d=0,A=f(ir(b,ay,a),e);return bm(sM,function(a){switch(a[0]){case
+0:return q(a[1],A,[0,[0,v]]);case
+1:return[0,[0,q(a[1],x,v)]];case
+2:return[0,[0,P(b,a[1])]];case
 3:var
-c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bd(function(a,b){return cQ(e,a,b)},d,c);case
+c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bg(function(a,b){return cZ(e,a,b)},d,c);case
 4:var
-f=a[2],g=a[1],h=function(b,a){return[0,F(b,a)]};return bd(function(a,b){return cQ(h,a,b)},g,f);case
+f=a[2],g=a[1],h=function(b,a){return[0,G(b,a)]};return bg(function(a,b){return cZ(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,ab(a)]};return b5(function(a){return cP(j,a)},i);case
+i=a[1],j=function(a){return[0,aa(a)]};return b_(function(a){return cY(j,a)},i);case
 6:var
-k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bd(function(a,b){return cQ(m,a,b)},l,k);case
+k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bg(function(a,b){return cZ(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
-d=bX(b,a);return y(function(a){return t(b,c,a)},d)};return bd(function(a,b){return cQ(p,a,b)},o,n);case
+d=b1(b,a);return y(function(a){return t(b,c,a)},d)};return bg(function(a,b){return cZ(p,a,b)},o,n);case
 8:var
-q=a[1],s=function(a){return[0,V(b,a)]};return b5(function(a){return cP(s,a)},q);case
+r=a[1],s=function(a){return[0,V(b,a)]};return b_(function(a){return cY(s,a)},r);case
 9:var
-u=a[1],v=function(a){return bY(b,a)};return b5(function(a){return cP(v,a)},u);default:return sn}},c,d)}function
-gc(a){if(a){var
+u=a[1],w=function(a){return b2(b,a)};return b_(function(a){return cY(w,a)},u);default:return sL}},c,d)}function
+gn(a){if(a){var
 b=a[1];if(b)var
-c=gc(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=gn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sp}function
-dZ(a){if(a){var
-g=a[1],b=g[2],c=gc(g[1]);if(c)if(b){var
-h=b[1],e=dZ(a[2]);if(e)var
-i=L(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
+d=b;return d}return sN}function
+eb(a){if(a){var
+g=a[1],b=g[2],c=gn(g[1]);if(c)if(b){var
+h=b[1],e=eb(a[2]);if(e)var
+i=K(d,h[1]),j=i?[0,[0,[0,c[1],h],e[1]]]:i;else
 var
 j=e;var
 f=j}else
 var
 f=b;else
 var
-f=c;return f}return sq}function
-d0(b,a){var
+f=c;return f}return sO}function
+ec(b,a){var
 c=a[3],d=y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(au(b),f),e,d]}function
-ie(c,g,f,b,a,e){if(b){var
+it(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jd(c,eu,eu,function(a){return l$(b,a)},e);return ie(c,g,bn(f),l,a,d)},i=d(0,aC(a,h));if(i){var
+d=jr(c,eH,eH,function(a){return mk(b,a)},e);return it(c,g,bs(f),l,a,d)},i=d(0,aA(a,h));if(i){var
 j=d(2,C(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return al(g,a,jd(c,eu,eu,ma,e))}function
-ig(e,c,b,a){var
-f=as(d,b);function
-g(b){return a}return function(a){return ie(e,g,c,f,d,a)}}function
-cR(a){if(a){var
-b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aQ(f,e,a)},d)}return[0,w]}function
-mc(f,e,k,j,i,a){var
-b=dZ(a[1]);if(b){var
+k=i;return k}return an(g,a,jr(c,eH,eH,ml,e))}function
+iu(e,c,b,a){var
+f=al(d,b);function
+g(b){return a}return function(a){return it(e,g,c,f,d,a)}}function
+c0(a){if(a){var
+b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aR(f,e,a)},d)}return[0,v]}function
+mn(f,e,k,j,i,a){var
+b=eb(a[1]);if(b){var
 c=a[2];if(c){var
-d=cR(a[3]);if(d){var
-l=d[1],m=as([0,F(ab(t(f,i,c[1])),l),0],e);return a6(f,e,fO(k,j,b[1],m))}var
+d=c0(a[3]);if(d){var
+l=d[1],m=al([0,G(aa(t(f,i,c[1])),l),0],e);return a$(f,e,f0(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
 h=g}else
 var
 h=b;return h}function
-md(i,d,h,g,c){var
-a=dZ(c[1]);if(a){var
-b=cR(c[3]);if(b){var
-j=as([0,F(w,b[1]),0],d),k=a[1];return a6(i,d,fO(h,g,e(function(a){return[0,a[1],w]},k),j))}var
+mo(i,d,h,g,c){var
+a=eb(c[1]);if(a){var
+b=c0(c[3]);if(b){var
+j=al([0,G(v,b[1]),0],d),k=a[1];return a$(i,d,f0(h,g,e(function(a){return[0,a[1],v]},k),j))}var
 f=b}else
 var
 f=a;return f}function
-me(a,c,E,i){var
-j=dZ(i[1]);if(j){var
+mp(a,c,E,i){var
+j=eb(i[1]);if(j){var
 k=i[2];if(k){var
-l=cR(i[3]);if(l){var
-G=l[1],e=F(t(a,E,k[1]),G),b=j[1];if(b){var
+l=c0(i[3]);if(l){var
+F=l[1],e=G(t(a,E,k[1]),F),b=j[1];if(b){var
 m=b[1],n=m[2];if(b[2]){var
-f=fP(a,b,as([0,e,0],c));if(f){var
-o=f[1],p=s(g(o),c);if(p)return dI(a,o);var
+f=f1(a,b,al([0,e,0],c));if(f){var
+o=f[1],p=r(g(o),c);if(p)return dV(a,o);var
 q=p}else
 var
 q=f;return q}var
-r=L(d,e[1]),u=r?L(d,n[1]):r;if(u){var
-A=B(e[1],n[1]),D=m[1];return L(ar(function(a,b){var
-c=ci(a);return C(B(ci(a),c),b)},d,D),A)}return u}var
-h=fP(a,b,as([0,e,0],c));if(h){var
-v=h[1],w=s(g(v),c);if(w)return dI(a,v);var
+s=K(d,e[1]),u=s?K(d,n[1]):s;if(u){var
+B=A(e[1],n[1]),D=m[1];return K(as(function(a,b){var
+c=b3(a);return C(A(b3(a),c),b)},d,D),B)}return u}var
+h=f1(a,b,al([0,e,0],c));if(h){var
+v=h[1],w=r(g(v),c);if(w)return dV(a,v);var
 x=w}else
 var
 x=h;return x}var
@@ -3882,136 +3884,136 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-sr(c){var
+sP(c){var
 a=c[2];if(a){var
-b=cR(c[3]);if(b)return G(d,F(a[1],b[1])[1]);var
+b=c0(c[3]);if(b)return E(d,G(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-ih(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-mf(a,c,b){var
-e=r(b,c,k(d)),f=aE(0,a);return m(function(b){return dY(a,b,e)},f)}function
-eV(a){var
-c=N(a);return A(k(b),c)}function
-gd(i,g){var
-h=eV(g),j=N(g),e=v(k(b),j),f=q(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bq(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bq(f),a,e]]:[0,[0,h,a,a],[0,a,e,bq(f)],[0,a,f,e]]}function
-eW(b,a){var
-c=S(b[3],a),d=S(b[2],a);return[0,S(b[1],a),d,c]}function
-mg(b,a){function
+iv(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+mq(a,c,b){var
+e=q(b,c,k(d)),f=az(0,a);return m(function(b){return ea(a,b,e)},f)}function
+e2(a){var
+c=Q(a);return B(k(b),c)}function
+go(i,g){var
+h=e2(g),j=Q(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bu(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bu(f),a,e]]:[0,[0,h,a,a],[0,a,e,bu(f)],[0,a,f,e]]}function
+e3(b,a){var
+c=U(b[3],a),d=U(b[2],a);return[0,U(b[1],a),d,c]}function
+mr(b,a){function
 c(b){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 d(a){var
-b=S(a,c(function(a){return a[3]})),d=S(a,c(function(a){return a[2]}));return[0,S(a,c(function(a){return a[1]})),d,b]}var
+b=U(a,c(function(a){return a[3]})),d=U(a,c(function(a){return a[2]}));return[0,U(a,c(function(a){return a[1]})),d,b]}var
 e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
-mh(w,u){function
-a(a){return[0,[0,P(u,a)]]}switch(w[0]){case
+ms(v,u){function
+a(a){return[0,[0,O(u,a)]]}switch(v[0]){case
 0:var
-x=eV(a(0));return[0,gd(ss,a(0)),x];case
+x=e2(a(0));return[0,go(sQ,a(0)),x];case
 1:var
-y=eV(a(0)),z=q(eV(a(st)),y),B=q(eV(a(su)),z),C=gd(0,a(0)),D=mg(gd(sw,a(sv)),C);return[0,mg(gd(sy,a(sx)),D),B];default:var
-E=a(sz),F=a(sA),g=[0,a(0),F,E],G=S(g,g),H=A(k(b),G),j=S(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
-d=N(a),e=q(k(c(2,b)),d);return A(v(k(b),j),e)},h=function(f,e,d,a){var
-g=al(f,q(e,d),a);return q(k(c(2,b)),g)},l=i(f),m=h(A,e,f,d),n=[0,h(v,d,f,e),m,l],o=h(v,e,f,d),p=i(e),r=[0,h(A,d,e,f),p,o],s=h(A,d,f,e),t=h(v,d,e,f);return[0,[0,[0,i(d),t,s],r,n],H]}}function
-mi(a){return 1<a[0]?[0,a[1],0]:0}function
-ge(a){switch(a[0]){case
+y=e2(a(0)),z=s(e2(a(sR)),y),A=s(e2(a(sS)),z),C=go(0,a(0)),D=mr(go(sU,a(sT)),C);return[0,mr(go(sW,a(sV)),D),A];default:var
+E=a(sX),F=a(sY),g=[0,a(0),F,E],G=U(g,g),H=B(k(b),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+d=Q(a),e=s(k(c(2,b)),d);return B(w(k(b),j),e)},h=function(f,e,d,a){var
+g=an(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(B,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
+mt(a){return 1<a[0]?[0,a[1],0]:0}function
+gp(a){switch(a[0]){case
 0:return[0,a[1],0];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];case
-2:return[0,dc(a[1]),0];default:var
-b=[0,dc(a[2]),0];return[0,dc(a[1]),b]}}function
-d1(a){return[0,[0,a[1]],[0,a[2]]]}function
-mj(a){switch(a[0]){case
-0:return[0,d1(a[1]),0];case
+2:return[0,cW(a[1]),0];default:var
+b=[0,cW(a[2]),0];return[0,cW(a[1]),b]}}function
+ed(a){return[0,[0,a[1]],[0,a[2]]]}function
+mu(a){switch(a[0]){case
+0:return[0,ed(a[1]),0];case
 1:var
-f=[0,d1(a[3]),0],g=[0,d1(a[2]),f];return[0,d1(a[1]),g];case
+f=[0,ed(a[3]),0],g=[0,ed(a[2]),f];return[0,ed(a[1]),g];case
 2:var
-b=d1(dc(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
-c=a[2],d=a[1],e=[0,[1,dc(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,d1(dc(c)),0]]]}}function
-mk(a,c){if(0===c[0]){var
-g=c[1];return i(da(a),g)}var
-h=c[1],d=i(da(a),h);if(d){var
-j=c[2],e=i(da(a),j);if(e){var
-k=V(a,e[1]),l=bY(a,z(Q(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+b=ed(cW(a[1]));return[0,b,[0,b,[0,b,0]]];default:var
+c=a[2],d=a[1],e=[0,[1,cW(d)[1],c],[1,d,c]];return[0,e,[0,e,[0,ed(cW(c)),0]]]}}function
+mv(a,c){if(0===c[0]){var
+g=c[1];return i(dh(a),g)}var
+h=c[1],d=i(dh(a),h);if(d){var
+j=c[2],e=i(dh(a),j);if(e){var
+k=V(a,e[1]),l=b2(a,z(P(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
-ml(d,c){var
-a=mk(d,c[1]);if(a)var
-b=mk(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
+mw(d,c){var
+a=mv(d,c[1]);if(a)var
+b=mv(d,c[2]),f=b?[0,[0,a[1][1],b[1][2]]]:b,e=f;else
 var
 e=a;return e}function
-mm(a,e,c){var
+mx(a,e,c){var
 b=c[1];if(1===b[0]){var
-f=b[1];if(aX(f,a))return c;var
-g=k(d);return r(ev(f,a),e,g)}return[0,bD(function(b){return mm(a,e,b)},b)]}function
-ii(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=li(h,c),j=bH(f),b=e(function(b){return mm(a,j,b)},i),l=r(sF,b,k(d)),m=r(sG,b,k(d));return[0,r(0,b,k(d)),m,l]}function
-b6(b,a){var
-c=q(b[2],a[1]),d=v(q(b[1],a[2]),c),e=q(b[1],a[3]),f=v(q(b[3],a[1]),e),g=q(b[3],a[2]);return[0,v(q(b[2],a[3]),g),f,d]}function
-de(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
-mn(c){function
+f=b[1];if(aV(f,a))return c;var
+g=k(d);return q(dL(f,a),e,g)}return[0,bI(function(b){return mx(a,e,b)},b)]}function
+iw(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lw(h,c),j=bL(f),b=e(function(b){return mx(a,j,b)},i),l=q(s3,b,k(d)),m=q(s4,b,k(d));return[0,q(0,b,k(d)),m,l]}function
+b$(b,a){var
+c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
+dm(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
+my(c){function
 a(a){var
-e=s(c,a)?b:d;return k(e)}var
-e=a(sH),f=a(sI);return[0,a(0),f,e]}function
-mo(b,a){if(a)var
-d=mo(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
+e=r(c,a)?b:d;return k(e)}var
+e=a(s5),f=a(s6);return[0,a(0),f,e]}function
+mz(b,a){if(a)var
+d=mz(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
 c=a;return c}function
-gf(c,b,a){switch(c){case
+gq(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
-mp(b,c,a){return c?bW(b,a):bp(b,a)}function
-mq(a){if(a){var
-f=a[1],b=f[2],c=gc(f[1]);if(c)if(b)var
-d=mq(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
+mA(b,c,a){return c?aZ(b,a):aL(b,a)}function
+mB(a){if(a){var
+f=a[1],b=f[2],c=gn(f[1]);if(c)if(b)var
+d=mB(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return sT}function
-mr(c,b,a){var
-d=ao(b,a);return ar(function(a,d){var
-b=ci(a[2]);return z(t(c,a[1],[0,b,b]),d)},w,d)}function
-ms(a,h,e,f,d){if(e)if(d)var
-i=d[1],o=ms(a,h,e[2],f,d[2]),p=i[2],q=bW(h,i[1]),c=e[1],j=at(t(a,c[3],f)),k=c[3],l=z(at(dG(p,Q(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cj(z(z(at(mr(a,c[4],q)),n),m)),o];else
+e=c;return e}return tf}function
+mC(c,b,a){var
+d=ag(b,a);return as(function(a,d){var
+b=b3(a[2]);return z(t(c,a[1],[0,b,b]),d)},v,d)}function
+mD(a,h,e,f,d){if(e)if(d)var
+i=d[1],o=mD(a,h,e[2],f,d[2]),p=i[2],q=aZ(h,i[1]),c=e[1],j=aq(t(a,c[3],f)),k=c[3],l=z(aq(dS(p,P(a,b),k)),j),m=t(a,c[2],l),n=t(a,c[1],f),g=[0,cn(z(z(aq(mC(a,c[4],q)),n),m)),o];else
 var
 g=d;else
 var
 g=e;return g}function
-sV(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
-mt(b,a){return Z(e(function(a){return r(a,b,0)},a))}function
-df(a){switch(a){case
-0:return sZ;case
-1:return s0;default:return 0}}function
-dg(a){switch(a){case
-0:return[0,s2,s1,k(d)];case
-1:return c7;default:var
+th(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+mE(b,a){return _(e(function(a){return q(a,b,0)},a))}function
+dn(a){switch(a){case
+0:return tl;case
+1:return tm;default:return 0}}function
+dp(a){switch(a){case
+0:return[0,to,tn,k(d)];case
+1:return dc;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gg(c,b,a){return ba(eW(c,a),b)}function
-mu(a){var
-d=S(a,a),e=A(k(b),d);return ah(k(c(2,b)),e)}function
-mv(k,j,i,h,g,a){var
-e=gg(j,i,g),c=b6(a,e),f=ac(A,c,b6(a,c)),d=ac(A,e,aU(mu(a),f)),b=ac(v,ac(A,dg(k),d),h);return[0,[0,d,b],aA(S(b,b))]}function
-bL(e,j){var
+gr(c,b,a){return be(e3(c,a),b)}function
+mF(a){var
+d=U(a,a),e=B(k(b),d);return aj(k(c(2,b)),e)}function
+mG(k,j,i,h,g,a){var
+e=gr(j,i,g),c=b$(a,e),f=af(B,c,b$(a,c)),d=af(B,e,aW(mF(a),f)),b=af(w,af(B,dp(k),d),h);return[0,[0,d,b],aD(U(b,b))]}function
+bO(e,j){var
 a=j[1];switch(a[0]){case
 1:var
-l=s(a[1],e)?b:d;return k(l);case
+l=r(a[1],e)?b:d;return k(l);case
 3:var
-m=bL(e,a[2]);return A(bL(e,a[1]),m);case
+m=bO(e,a[2]);return B(bO(e,a[1]),m);case
 4:var
-n=bL(e,a[2]);return v(bL(e,a[1]),n);case
-5:return bq(bL(e,a[1]));case
+n=bO(e,a[2]);return w(bO(e,a[1]),n);case
+5:return bu(bO(e,a[1]));case
 6:var
-g=a[2],h=a[1],o=q(h,bL(e,g));return A(q(g,bL(e,h)),o);case
+g=a[2],h=a[1],o=s(h,bO(e,g));return B(s(g,bO(e,h)),o);case
 7:var
-f=bL(e,a[1]);return aY(d,f)?f:ah(f,a[2]);case
+f=bO(e,a[1]);return a1(d,f)?f:aj(f,a[2]);case
 8:var
-i=a[1],p=bL(e,i);return q(q(k(c(2,b)),i),p);default:return k(d)}}function
-gh(c,b,k){var
+i=a[1],p=bO(e,i);return s(s(k(c(2,b)),i),p);default:return k(d)}}function
+gs(c,b,k){var
 e=k;for(;;){var
 a=e[1];switch(a[0]){case
 7:var
-g=gh(c,b,a[1]);if(g){var
+g=gs(c,b,a[1]);if(g){var
 h=a[2][1];if(1===h[0]){var
-i=h[1],j=L(d,r(i,c,w)[1]);return j?U(aj(function(a){return s(i,a)},b)):j}return 0}return g;case
+i=h[1],j=K(d,q(i,c,v)[1]);return j?T(ak(function(a){return r(i,a)},b)):j}return 0}return g;case
 5:case
 8:var
 e=a[1];continue;case
@@ -4020,9 +4022,9 @@ e=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-f=gh(c,b,a[1]);if(f){var
+f=gs(c,b,a[1]);if(f){var
 e=a[2];continue}return f}}}function
-mw(d){var
+mH(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 0:case
@@ -4033,72 +4035,72 @@ a=b[1];switch(a[0]){case
 8:case
 9:var
 b=a[1];continue;default:var
-c=mw(a[1]);if(c){var
+c=mH(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-mx(c,b,a){var
+mI(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-ij(b,a,c){return e(function(c){var
-d=mx(b,a,c[2]),f=c[1];return[0,e(function(c){return mx(b,a,c)},f),d]},c)}function
-my(b,a){return y(function(a){var
+ix(b,a,c){return e(function(c){var
+d=mI(b,a,c[2]),f=c[1];return[0,e(function(c){return mI(b,a,c)},f),d]},c)}function
+mJ(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-s3(a,b){var
-c=my(a,b[3]),d=i(a,b[2]);return[0,ij(a,a,b[1]),d,c]}function
-mz(c){var
+tp(a,b){var
+c=mJ(a,b[3]),d=i(a,b[2]);return[0,ix(a,a,b[1]),d,c]}function
+mK(c){var
 a=c[1];if(a){var
-b=gc(c[2]);if(b)var
-g=e($,b[1]),d=[0,[0,$(a[1]),g]];else
+b=gn(c[2]);if(b)var
+g=e(Z,b[1]),d=[0,[0,Z(a[1]),g]];else
 var
 d=b;var
 f=d}else
 var
 f=a;return f}function
-s4(c){var
-a=Z(e(mz,c[1]));if(a)var
-b=mz(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
+tq(c){var
+a=_(e(mK,c[1]));if(a)var
+b=mK(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-s5(a){return U(hC([0,a[2],a[1]]))}function
-ik(a){return[0,a[1],a[2]]}function
-mA(b,c,a){var
-d=e(function(c){return bl(b,bL(c,a))},c);return[0,bl(b,a),d]}function
-il(b,e,a,d){var
+tr(a){return T(hN([0,a[2],a[1]]))}function
+iy(a){return[0,a[1],a[2]]}function
+mL(b,c,a){var
+d=e(function(c){return bp(b,bO(c,a))},c);return[0,bp(b,a),d]}function
+iz(b,e,a,d){var
 c=x(function(a){var
-b=ik(a[2]);return f(x(ik,a[1]),b)},d),g=a?[0,bl(b,a[1]),0]:a,h=f(g,c);return[0,bl(b,e),h]}function
-mB(c,f,b,a){var
-d=gh(f,b,a),e=d?ga(c,a):d;return e?m(function(b){return ga(c,bL(b,a))},b):e}function
-mC(a){switch(a[0]){case
+b=iy(a[2]);return f(x(iy,a[1]),b)},d),g=a?[0,bp(b,a[1]),0]:a,h=f(g,c);return[0,bp(b,e),h]}function
+mM(c,f,b,a){var
+d=gs(f,b,a),e=d?gl(c,a):d;return e?m(function(b){return gl(c,bO(b,a))},b):e}function
+mN(a){switch(a[0]){case
 3:var
-d=ih(a[2]);return[0,a[3],d];case
+d=iv(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=ih(b[1]);return[0,b[2],e];case
+b=a[1],e=iv(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=ih(a[1]);return[0,a[2],c]}}function
-mD(a,aw,br,k,n,R,av,x,P,j,h){switch(j[0]){case
+c=iv(a[1]);return[0,a[2],c]}}function
+mO(a,aw,br,k,n,R,av,x,Q,j,h){switch(j[0]){case
 0:var
-ax=j[4],S=j[3],az=j[2],aA=j[1],U=0;if(typeof
+ax=j[4],S=j[3],aA=j[2],aB=j[1],U=0;if(typeof
 h==="number")U=1;else
 switch(h[0]){case
 0:var
-bs=h[2],bt=h[1],u=az,q=aA,p=function(b){return mc(a,n,bt,bs,S,b)},o=ax;break;case
+bt=h[2],bu=h[1],u=aA,s=aB,p=function(b){return mn(a,n,bu,bt,S,b)},o=ax;break;case
 2:var
-aB=I(S[1],d),aC=aB?I(S[2],d):aB;if(!aC)return aC;var
-bw=h[2],bx=h[1],u=az,q=aA,p=function(b){return md(a,n,bx,bw,b)},o=ax;break;default:U=1}if(U)return 0;break;case
+aC=J(S[1],d),aD=aC?J(S[2],d):aC;if(!aD)return aD;var
+bx=h[2],by=h[1],u=aA,s=aB,p=function(b){return mo(a,n,by,bx,b)},o=ax;break;default:U=1}if(U)return 0;break;case
 1:var
-aN=0;if(typeof
+aP=0;if(typeof
 h==="number"&&!h)var
-by=j[2],bz=j[1],bA=j[3],u=by,q=bz,bB=0,p=function(b){return me(a,n,bA,b)},o=bB;else
-aN=1;if(aN)return 0;break;case
+bz=j[2],bA=j[1],bB=j[3],u=bz,s=bA,bC=0,p=function(b){return mp(a,n,bB,b)},o=bC;else
+aP=1;if(aP)return 0;break;case
 2:if(typeof
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
-aD=B[2],aF=s(g(aD),k);if(aF){var
-bC=[0,j[1],j[2],P],bD=d0(function(a){return r(a,x,s8)},bC),aG=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bJ=function(w,i){var
-c=dZ(i[1]);if(c){var
+aE=B[2],aG=r(g(aE),k);if(aG){var
+bD=[0,j[1],j[2],Q],bE=ec(function(a){return q(a,x,tu)},bD),aH=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bK=function(w,i){var
+c=eb(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
-f=cR(i[3]);if(f){var
-k=f[1],l=function(c){return aQ(c,aG,Q(a,b))},u=l(w),v=e[1],g=z(t(a,l(bG),v),u),m=L(d,g[1]),o=m?a6(a,n,fO(aG,bH,j,as([0,F(ab(g),k),0],n))):m;if(o){var
-h=fP(a,j,as([0,F(t(a,bI,g),k),0],n));if(h)return a6(a,n,h[1]);var
+f=c0(i[3]);if(f){var
+k=f[1],l=function(c){return aR(c,aH,P(a,b))},u=l(w),v=e[1],g=z(t(a,l(bG),v),u),m=K(d,g[1]),o=m?a$(a,n,f0(aH,bH,j,al([0,G(aa(g),k),0],n))):m;if(o){var
+h=f1(a,j,al([0,G(t(a,bI,g),k),0],n));if(h)return a$(a,n,h[1]);var
 p=h}else
 var
 p=o;var
@@ -4110,20 +4112,20 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return ie(function(b,a){return d0},bJ,bF,aD,d,bD)}var
-aH=aF}else
+s=c;return s};return it(function(b,a){return ec},bK,bF,aE,d,bE)}var
+aI=aG}else
 var
-aH=B;return aH}return 0;case
+aI=B;return aI}return 0;case
 3:var
-aO=0;if(typeof
-h==="number"||!(0===h[0]))aO=1;else
+aQ=0;if(typeof
+h==="number"||!(0===h[0]))aQ=1;else
 var
-aI=h[2],aK=h[1],bK=j[3],bL=j[2],bM=j[4],bN=j[1],bO=function(f){var
-b=dZ(f[1]);if(b){var
+aJ=h[2],aM=h[1],bL=j[3],bM=j[2],bN=j[4],bO=j[1],bP=function(f){var
+b=eb(f[1]);if(b){var
 c=b[1],d=f[2];if(d){var
-e=cR(f[3]);if(e){var
-h=s(g(c),n),i=h?s(g(aI),n):h;if(i){var
-m=dO(aK,dP(aK,aI,d[1],c));return a6(a,n,a5(fS(a,bN,bM,e[1],c),m))}var
+e=c0(f[3]);if(e){var
+h=r(g(c),n),i=h?r(g(aJ),n):h;if(i){var
+m=d1(aM,d2(aM,aJ,d[1],c));return a$(a,n,a_(f4(a,bO,bN,e[1],c),m))}var
 j=i}else
 var
 j=e;var
@@ -4132,93 +4134,93 @@ var
 k=d;var
 l=k}else
 var
-l=b;return l},u=bK,q=bL,p=bO,o=j[5];if(aO)return 0;break;case
+l=b;return l},u=bL,s=bM,p=bP,o=j[5];if(aQ)return 0;break;case
 4:var
-aR=0;if(typeof
-h==="number"&&!h)var
-u=j[1],q=0,p=sr,o=0;else
-aR=1;if(aR)return 0;break;case
-5:var
 aS=0;if(typeof
-h==="number"||!(0===h[0]))aS=1;else{var
-C=h[2],aT=0;if(C){var
-D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bP=j[2],bQ=j[1],bR=Q(a,b),bS=[0,[0,D[1],0],0],bT=h[1],u=bP,q=bQ,bU=0,p=function(b){return mc(a,s9,bT,bS,bR,b)},o=bU;aT=1}else
-var
-aL=D}else
-var
-aL=C;if(!aT)return aL}if(aS)return 0;break;case
-6:var
-aU=0;if(typeof
 h==="number"&&!h)var
-bV=j[2],b0=j[1],b1=Q(a,b),u=bV,q=b0,b2=0,p=function(b){return me(a,s_,b1,b)},o=b2;else
-aU=1;if(aU)return 0;break;case
+u=j[1],s=0,p=sP,o=0;else
+aS=1;if(aS)return 0;break;case
+5:var
+aT=0;if(typeof
+h==="number"||!(0===h[0]))aT=1;else{var
+C=h[2],aU=0;if(C){var
+D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
+bQ=j[2],bR=j[1],bS=P(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,p=function(b){return mn(a,tv,bU,bT,bS,b)},o=bV;aU=1}else
+var
+aN=D}else
+var
+aN=C;if(!aU)return aN}if(aT)return 0;break;case
+6:var
+aW=0;if(typeof
+h==="number"&&!h)var
+bW=j[2],bX=j[1],bY=P(a,b),u=bW,s=bX,b0=0,p=function(b){return mp(a,tw,bY,b)},o=b0;else
+aW=1;if(aW)return 0;break;case
 7:var
-aV=0;if(typeof
+aX=0;if(typeof
 h==="number"&&5<=h)var
-b3=j[2],b4=j[1],b5=j[4],b6=j[3],u=b3,q=b4,b7=0,p=function(b){return md(a,n,b6,b5,b)},o=b7;else
-aV=1;if(aV)return 0;break;case
+b5=j[2],b6=j[1],b7=j[4],b8=j[3],u=b5,s=b6,b9=0,p=function(b){return mo(a,n,b8,b7,b)},o=b9;else
+aX=1;if(aX)return 0;break;case
 8:if(typeof
 h!=="number"&&9===h[0]){var
-E=h[4],aM=h[2],T=h[1],l=j[1],v=l[9],b8=h[3],a1=l[5],a2=fH(f(eB(l[4]),a1),aw),a3=e($,br),A=l[9],a4=l[8],a7=l[7],aZ=fT(A,as(w,ev(k,A)),a4),a0=f(e($,bW(A,R)),aZ),X=ko(0,bE(a,f(fT(0,bp(A,R),a7),a0),a3),a2,aw,0),_=0<aJ(E)?0<aJ(d)?fx(E,d):0:0<aJ(d)?0:1;if(_)var
-G=_;else
+E=h[4],aO=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=fU(f(dO(l[4]),a3),aw),a5=e(Z,br),A=l[9],a6=l[8],a7=l[7],a1=f5(A,al(v,dL(k,A)),a6),a2=f(e(Z,aZ(A,R)),a1),X=kC(0,bJ(a,f(f5(0,aL(A,R),a7),a2),a5),a4,aw,0),$=0<aK(E)?0<aK(d)?fL(E,d):0:0<aK(d)?0:1;if($)var
+F=$;else
 var
-aq=2<=ka(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=aq?aX(0,v):aq,G=au?aX(v,k):au;var
-aa=G?Y(v,k):G,ac=aa?s(g(R),k):aa,ad=ac?s(g(aM),k):ac,ae=ad?s(g(l[1]),k):ad,af=ae?s(g(l[6]),k):ae,ag=af?s(g(l[4]),k):af;if(ag)var
-a8=l[4],H=m(function(a){return s(g(a),k)},a8);else
+at=2<=kn(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aV(0,w):at,F=au?aV(w,k):au;var
+ab=F?Y(w,k):F,ac=ab?r(g(R),k):ab,ad=ac?r(g(aO),k):ac,ae=ad?r(g(l[1]),k):ad,af=ae?r(g(l[6]),k):ae,ah=af?r(g(l[4]),k):af;if(ah)var
+a8=l[4],H=m(function(a){return r(g(a),k)},a8);else
 var
-H=ag;if(H){var
-a9=l[4],J=Z(e(function(a){return mt(X,a)},a9));if(J){var
-ah=mt(X,l[5]);if(ah){var
-a_=l[6],K=Z(e(function(j){var
-c=j[1],k=l[7],d=r(c[1],av,0);if(d){var
-h=c[2][2],b=Z(e(function(a){var
-b=r(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cj(at(t(a,k,V(a,mr(a,e(ay,c[2][2]),i)))))];else
+H=ah;if(H){var
+a9=l[4],I=_(e(function(a){return mE(X,a)},a9));if(I){var
+ai=mE(X,l[5]);if(ai){var
+ba=l[6],L=_(e(function(j){var
+c=j[1],k=l[7],d=q(c[1],av,0);if(d){var
+h=c[2][2],b=_(e(function(a){var
+b=q(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
+i=b[1],f=[0,cn(aq(t(a,k,V(a,mC(a,e(ay,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
 var
-g=d;return g},a_));if(K){var
-ba=l[1],bb=l[2],M=Z(e(function(m){function
+g=d;return g},ba));if(L){var
+bb=l[1],bc=l[2],M=_(e(function(m){function
 f(e){var
-g=as(e,k),c=mb(r(m[2],x,sW),g);if(c){var
-h=as(e,k),d=mb(r(bb,x,sX),h);if(d){var
-i=d[1],j=Q(a,b);return bY(a,bZ(dG(c[1],j,i)))}var
+g=al(e,k),c=mm(q(m[2],x,ti),g);if(c){var
+h=al(e,k),d=mm(q(bc,x,tj),h);if(d){var
+i=d[1],j=P(a,b);return b2(a,b4(dS(c[1],j,i)))}var
 f=d}else
 var
 f=c;return f}var
 c=f(0);if(c){var
 e=f(2);if(e)var
-g=bZ(at(z(c[1],e[1]))),h=L(d,g[1]),l=h?[0,g]:h,i=l;else
+g=b4(aq(z(c[1],e[1]))),h=K(d,g[1]),l=h?[0,g]:h,i=l;else
 var
 i=e;var
 j=i}else
 var
-j=c;return j},ba));if(M){var
-bc=J[1],W=dL(a,ar(function(i,h){var
+j=c;return j},bb));if(M){var
+be=I[1],W=dY(a,as(function(i,h){var
 o=e(function(b){var
-a=aE(0,k);return e(function(a){return ci(r(a,b[3],w))},a)},i);function
+a=az(0,k);return e(function(a){return b3(q(a,b[3],v))},a)},i);function
 b(m,l){var
-n=mp(v,m,o),g=e(function(a){return mp(v,l,a)},n);function
-b(a){return ar(bg,d,a)}var
+n=mA(w,m,o),g=e(function(a){return mA(w,l,a)},n);function
+b(a){return as(bj,d,a)}var
 h=0;function
 i(a){return a}function
 j(a){return a}var
-c=b(ar(function(a,b){return aP(j,i,kc,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return ar(kc,d,a)},g));return dL(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return z(h,V(a,z(z(z(b(0,0),g),f),c)))},w,bc)),N=aQ(b8,T,Q(a,b)),ai=L(d,F(N,W)[1]);if(ai){var
-O=bX(a,N);if(O){var
-bd=at(t(a,W,O[1])),be=F(Q(a,b),bd),bf=[0,l[1],l[2],P],bh=d0(function(a){return r(a,x,sY)},bf),bi=l[6],bj=e(sV,ao(ao(K[1],M[1]),bi)),bk=V(a,be),bl=V(a,N),bm=l[10],aW=aE(0,k),aY=e(function(a){var
-d=bm?Y(v,a):aX(a,v);return d?b:ex(c(2,b),E)},aW),bo=function(q){var
-h=mq(q[1]);if(h){var
+c=b(as(function(a,b){return aF(j,i,kp,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return as(kp,d,a)},g));return dY(a,t(a,[0,f,f],k))}var
+c=b(1,1),f=b(1,0),g=b(0,1);return z(h,V(a,z(z(z(b(0,0),g),f),c)))},v,be)),N=aR(b_,T,P(a,b)),aj=K(d,G(N,W)[1]);if(aj){var
+O=b1(a,N);if(O){var
+bf=aq(t(a,W,O[1])),bg=G(P(a,b),bf),bh=[0,l[1],l[2],Q],bi=ec(function(a){return q(a,x,tk)},bh),bk=l[6],bl=e(th,ag(ag(L[1],M[1]),bk)),bm=V(a,bg),bn=V(a,N),bo=l[10],aY=az(0,k),a0=e(function(a){var
+d=bo?Y(w,a):aV(a,w);return d?b:bZ(c(2,b),E)},aY),bp=function(q){var
+h=mB(q[1]);if(h){var
 v=h[1],i=q[2];if(i){var
-j=i[1],l=cR(q[3]);if(l){var
-w=l[1],x=ms(a,k,bj,j,v),n=e(function(a){var
-c=a[2],b=ao(aY,a[1]);return[0,e(function(a){return aQ(a[1],d,a[2])},b),c]},v),G=dO(T,dP(T,aM,j,n)),o=a5(as([0,ab(w),0],k),G),H=F(t(a,j,bk),w),y=s(g(n),k),z=y?s(g(x),k):y;if(z){var
+j=i[1],l=c0(q[3]);if(l){var
+w=l[1],x=mD(a,k,bl,j,v),n=e(function(a){var
+c=a[2],b=ag(a0,a[1]);return[0,e(function(a){return aR(a[1],d,a[2])},b),c]},v),F=d1(T,d2(T,aO,j,n)),o=a_(al([0,aa(w),0],k),F),H=G(t(a,j,bm),w),y=r(g(n),k),z=y?r(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
-r=s(g(c[1]),b);if(r){var
+s=r(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
-u=r}else
+u=s}else
 var
 u=b;var
 A=u}else
@@ -4227,9 +4229,9 @@ A=b?0:1;var
 p=A;break}}else
 var
 p=z;var
-B=p?a6(a,k,a5(e(function(b){return[0,ab(t(a,bl,b[2])),0]},n),o)):p;if(B){var
-I=a$(bn(k));return m(function(g){var
-d=ao(f(g,sU),x),b=[0,[0,H,0],0],c=ao(o,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a6(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+B=p?a$(a,k,a_(e(function(b){return[0,aa(t(a,bn,b[2])),0]},n),o)):p;if(B){var
+I=bd(bs(k));return m(function(g){var
+d=ag(f(g,tg),x),b=[0,[0,H,0],0],c=ag(o,e(function(a){return a[1]?aa(a[2]):a[2]},d));return a$(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
@@ -4238,90 +4240,90 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=l[3];return i(ig(function(b,a){return d0},bq,k,bo),bh)}var
-aj=O}else
+E=h;return E},bq=l[3];return i(iu(function(b,a){return ec},bq,k,bp),bi)}var
+ak=O}else
 var
-aj=ai;var
-ak=aj}else
+ak=aj;var
+am=ak}else
 var
-ak=M;var
-al=ak}else
-var
-al=K;var
-am=al}else
-var
-am=ah;var
+am=M;var
 an=am}else
 var
-an=J;var
-ap=an}else
+an=L;var
+ao=an}else
 var
-ap=H;return ap}return 0;default:return 0}var
-bu=[0,q,u,P],bv=d0(function(a){return r(a,x,s7)},bu);return i(ig(function(b,a){return d0},o,k,p),bv)}function
-s$(b,a){var
-c=ho(hk,b[1],a[1]);return c?hk(b[2],a[2]):c}function
-mE(i,q,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eL(i,0,0,0,g,h,0,a[1],e):0}else
+ao=ai;var
+ap=ao}else
+var
+ap=I;var
+ar=ap}else
+var
+ar=H;return ar}return 0;default:return 0}var
+bv=[0,s,u,Q],bw=ec(function(a){return q(a,x,tt)},bv);return i(iu(function(b,a){return ec},o,k,p),bw)}function
+tx(b,a){var
+c=hA(hw,b[1],a[1]);return c?hw(b[2],a[2]):c}function
+mP(i,q,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
+e==="number"){if(0===e)return 9===a[0]?eU(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
 f!=="number"&&7===f[0]){if(k){var
-r=f[3],t=f[2],u=G(d,t),v=u?kb(r,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return mD(i,q,p,h,o,j,g,n,[0,[0,[0,k[1],t],r]],a,f[1]);var
+s=f[3],t=f[2],u=E(d,t),v=u?ko(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return mO(i,q,p,h,o,j,g,n,[0,[0,[0,k[1],t],s]],a,f[1]);var
 w=v}else
 var
-w=k;return w}return mD(i,q,p,h,o,j,g,n,0,a,f);case
-8:return 9===a[0]?eL(i,0,0,0,g,h,0,a[1],e):0;case
+w=k;return w}return mO(i,q,p,h,o,j,g,n,0,a,f);case
+8:return 9===a[0]?eU(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=ho(s$,a[1],A),m=l?1:l,x=m?s(a[2],z):m;return x?jd(y,j,a[3],a[4],e):x}return 0}return 0}function
-mF(b){var
+l=hA(tx,a[1],A),m=l?1:l,x=m?r(a[2],z):m;return x?jr(y,j,a[3],a[4],e):x}return 0}return 0}function
+mQ(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-ta(c){var
+ty(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-eX(a,o,l,j,A,v,b,u,s,C,h,k,au,c){switch(c[0]){case
+e4(a,o,l,j,A,w,b,u,s,C,h,k,au,c){switch(c[0]){case
 0:var
-av=function(a){return m(U,a)},N=av,p=c[1];break;case
+av=function(a){return m(T,a)},N=av,p=c[1];break;case
 1:var
 aw=c[4],ax=c[3],az=c[2],aA=function(c){var
-d=cF(az,k),e=eX(a,o,l,j,A,v,b,u,s,C,h,d[1],c,ax);return e?eX(a,o,l,j,A,v,b,u,s,C,h,d[2],c,aw):e},N=aA,p=c[1];break;default:var
+d=cN(az,k),e=e4(a,o,l,j,A,w,b,u,s,C,h,d[1],c,ax);return e?e4(a,o,l,j,A,w,b,u,s,C,h,d[2],c,aw):e},N=aA,p=c[1];break;default:var
 aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
-i=ao(j,c),d=m(function(b){var
+i=ag(j,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=hN(c[1]);break;default:var
-a=1}return a?a:U(b[2])},i);if(d){var
-e=cF(aD,h),f=eX(a,o,l,j,A,v,b,u,s,C,e[1],k,c,aC);if(f)return eX(a,o,l,j,A,v,b,u,s,C,e[2],k,c,aB);var
+a=hY(c[1]);break;default:var
+a=1}return a?a:T(b[2])},i);if(d){var
+e=cN(aD,h),f=e4(a,o,l,j,A,w,b,u,s,C,e[1],k,c,aC);if(f)return e4(a,o,l,j,A,w,b,u,s,C,e[2],k,c,aB);var
 g=f}else
 var
 g=d;return g},N=aE,p=c[1]}var
-ae=i(C,h),aa=aj(ta,p),ac=aa?hH(a,l,h,fH(x(function(c){var
-a=D(j,c[1]);if(a){var
+ae=i(C,h),ab=ak(ty,p),ac=ab?hS(a,l,h,fU(x(function(c){var
+a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return x(function(a){var
-b=e(aT,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return hO(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):aa,ad=aj(mF,p);if(ad)var
+b=e(aU,a[1][2][2]);return[0,a[1][1],b]},d);case
+9:return hZ(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ab,ad=ak(mQ,p);if(ad)var
 aq=x(function(b){var
-c=mF(b);if(c){var
-a=D(j,b[1]);if(a)return mC(a[1]);var
+c=mQ(b);if(c){var
+a=F(j,b[1]);if(a)return mN(a[1]);var
 d=a}else
 var
-d=c;return d},p),as=b?[0,b[1],0]:b,at=f(as,aq),ah=0,ai=ar(eE,e(function(a){return 0},o),at),M=id(a,h,eA(gb(eA(o,0),ai),ah),k);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,at=f(ar,aq),ai=0,aj=as(eN,e(function(a){return 0},o),at),M=is(a,h,eK(gm(eK(o,0),aj),ai),k);else
 var
 M=ad;var
-q=p,g=au;for(;;){if(q){var
-R=q[1],E=R[2],n=R[1],H=q[2];if(n){var
-S=r(n,g,0);if(S){var
-I=D(j,n);if(I){var
-T=mE(a,l,h,A,v,b,u,s,ae,k,M,ac,I[1],E);if(T){var
-q=H,g=f1(n,g);continue}var
-W=T}else
+r=p,g=au;for(;;){if(r){var
+R=r[1],D=R[2],n=R[1],H=r[2];if(n){var
+S=q(n,g,0);if(S){var
+I=F(j,n);if(I){var
+U=mP(a,l,h,A,w,b,u,s,ae,k,M,ac,I[1],D);if(U){var
+r=H,g=gb(n,g);continue}var
+W=U}else
 var
 W=I;var
 X=W}else
@@ -4329,264 +4331,264 @@ var
 X=S;var
 B=X}else{var
 af=0;if(typeof
-E==="number"&&4===E){var
-ag=0;if(b){var
-ap=0,O=e(function(b){return[0,b,V(a,b)]},k),al=e(aT,O),ak=0,am=f(e(ay,O),al),an=bi(0,function(o){return function(b){switch(b[0]){case
-0:return[0,r(b[1],o,w)];case
-1:return[0,r(b[1],h,w)];case
-2:return[0,Q(a,b[1])];case
+D==="number"&&4===D){var
+ah=0;if(b){var
+ap=0,O=e(function(b){return[0,b,V(a,b)]},k),am=e(aU,O),al=0,an=f(e(ay,O),am),ao=bm(0,function(o){return function(b){switch(b[0]){case
+0:return[0,q(b[1],o,v)];case
+1:return[0,q(b[1],h,v)];case
+2:return[0,P(a,b[1])];case
 3:var
-c=b[2],d=b[1];return cQ(function(b,a){return[0,z(b,a)]},d,c);case
+c=b[2],d=b[1];return cZ(function(b,a){return[0,z(b,a)]},d,c);case
 4:var
-e=b[2],f=b[1];return cQ(function(b,a){return[0,F(b,a)]},f,e);case
+e=b[2],f=b[1];return cZ(function(b,a){return[0,G(b,a)]},f,e);case
 5:var
-g=b[1];return cP(function(a){return[0,ab(a)]},g);case
+g=b[1];return cY(function(a){return[0,aa(a)]},g);case
 6:var
-i=b[2],j=b[1];return cQ(function(c,b){return[0,t(a,c,b)]},j,i);case
+i=b[2],j=b[1];return cZ(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
-k=b[2],l=b[1];return cQ(function(c,b){var
-d=bX(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
+k=b[2],l=b[1];return cZ(function(c,b){var
+d=b1(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return cP(function(b){return[0,V(a,b)]},m);case
+m=b[1];return cY(function(b){return[0,V(a,b)]},m);case
 9:var
-n=b[1];return cP(function(b){return bY(a,b)},n);default:return 0}}}(am),o,ak),G=r(b[1],an,ap);if(G){var
-J=L(G[1][2],d);ag=1}else
+n=b[1];return cY(function(b){return b2(a,b)},n);default:return 0}}}(an),o,al),E=q(b[1],ao,ap);if(E){var
+J=K(E[1][2],d);ah=1}else
 var
-P=G}else
+Q=E}else
 var
-P=b;if(!ag)var
-J=P;if(J){var
-q=H,g=e(function(a){return 0},g);continue}var
+Q=b;if(!ah)var
+J=Q;if(J){var
+r=H,g=e(function(a){return 0},g);continue}var
 B=J}else
 af=1;if(af){var
-Y=r(n,g,0);if(Y){var
-K=D(j,n);if(K){var
-Z=mE(a,l,h,A,v,b,u,s,ae,k,M,ac,K[1],E);if(Z){var
-q=H,g=f1(n,g);continue}var
+Y=q(n,g,0);if(Y){var
+L=F(j,n);if(L){var
+Z=mP(a,l,h,A,w,b,u,s,ae,k,M,ac,L[1],D);if(Z){var
+r=H,g=gb(n,g);continue}var
 _=Z}else
 var
-_=K;var
+_=L;var
 $=_}else
 var
 $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?N(B[1]):B}}function
-im(d,a){var
-e=N(a),f=q(q(k(c(2,b)),a),d);return A(v(N(d),f),e)}function
-io(k,a,d,j,c,h){var
-e=ac(v,dg(k),j);if(h){var
+iA(d,a){var
+e=Q(a),f=s(s(k(c(2,b)),a),d);return B(w(Q(d),f),e)}function
+iB(k,a,d,j,c,h){var
+e=af(w,dp(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=eW([0,b(function(a){return a[1]}),g,f],e);return ac(A,aU(d,c),l)}var
-m=eW(a,c);return ac(A,aU(d,e),m)}function
-mG(f,h,g,l,a,d){var
-e=dg(f),i=ac(v,e,a),j=eW(h,d),m=im(e[3],a[3]),n=im(e[2],a[2]),o=im(e[1],a[1]),p=A(A(A(S(d,d),o),n),m),r=S(j,i),s=q(k(c(2,b)),r),t=A(q(g,p),s),u=ba(b6(j,i),l);return[0,gf(f,io(f,h,g,a,d,0),u),t]}function
-mH(d,c,b,a){var
-e=gg(c,b,a);return ac(A,dg(d),e)}function
-mI(g,f,e,d,c){var
-b=mH(g,f,e,c),a=ac(v,b,d);return[0,[0,b,a],aA(S(a,a))]}function
-gi(b,a){var
-c=a0(a[2],b);return f(a0(a[1],b),c)}function
-ip(d,b,a,c){if(a)var
-e=a[1],f=co(c,gi(b,e)),i=P(c,g(gi(b,e))),j=ip(d,b,a[2],i),k=ag(f,tb),h=[0,al(d,ag(f,0),k),j];else
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e3([0,b(function(a){return a[1]}),g,f],e);return af(B,aW(d,c),l)}var
+m=e3(a,c);return af(B,aW(d,e),m)}function
+mR(f,h,g,l,a,d){var
+e=dp(f),i=af(w,e,a),j=e3(h,d),m=iA(e[3],a[3]),n=iA(e[2],a[2]),o=iA(e[1],a[1]),p=B(B(B(U(d,d),o),n),m),q=U(j,i),r=s(k(c(2,b)),q),t=B(s(g,p),r),u=be(b$(j,i),l);return[0,gq(f,iB(f,h,g,a,d,0),u),t]}function
+mS(d,c,b,a){var
+e=gr(c,b,a);return af(B,dp(d),e)}function
+mT(g,f,e,d,c){var
+b=mS(g,f,e,c),a=af(w,b,d);return[0,[0,b,a],aD(U(a,a))]}function
+gt(b,a){var
+c=a3(a[2],b);return f(a3(a[1],b),c)}function
+iC(d,b,a,c){if(a)var
+e=a[1],f=cu(c,gt(b,e)),i=O(c,g(gt(b,e))),j=iC(d,b,a[2],i),k=ai(f,tz),h=[0,an(d,ai(f,0),k),j];else
 var
 h=a;return h}function
-iq(f,o,e,n,a){var
-g=q(N(r(0,n,k(d))),o);if(typeof
+iD(f,o,e,n,a){var
+g=s(Q(q(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
-b=D(e,a[1]);if(b)var
-i=h(f,0,a[2]),j=i?[0,v(b[1][1][2],g)]:i;else
+b=F(e,a[1]);if(b)var
+i=h(f,0,a[2]),j=i?[0,w(b[1][1][2],g)]:i;else
 var
 j=b;return j;case
 3:var
-c=D(e,a[1]);if(c)var
-l=h(f,0,a[2]),m=l?[0,v(g,c[1][1][2])]:l;else
+c=F(e,a[1]);if(c)var
+l=h(f,0,a[2]),m=l?[0,w(g,c[1][1][2])]:l;else
 var
 m=c;return m}return 0}function
-mJ(c,b,a){if(typeof
+mU(c,b,a){if(typeof
 a!=="number"&&6===a[0]){var
-e=D(c,a[1]);return y(function(a){var
-c=r(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
-gj(a){return h(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
-mK(a){var
-b=ag(a,tc),c=aA(S(ag(a,td),b));return q(r(0,a,k(d)),c)}function
-mL(b,a){var
-c=S(a,ag(b,te));return[0,bH(aU(mK(b),a)),c]}function
-mM(e,d,a,c,b){var
-f=b[2],g=q(mK(a),f),h=c?gg(e,d,ag(a,tf)):ag(a,tg);return v(S(b[1][2],h),g)}function
-mN(h,g,f,d,c,b,a){var
-i=bo(c);function
-j(a){return mH(h,g,f,a)}return ln(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-eY(a){var
-b=r(th,a,k(d));return ah(r(0,a,k(d)),b)}function
-ir(a){return a[4][2]}function
-mO(g,o,n,m,a){var
-p=a[1][2],r=e(aT,f5(n,a[1][2])),h=eY(m),i=q(q(k(c(2,b)),o),h),d=a[1][1],j=bW(df(g),d),l=e(function(a){return q(a,i)},j);return[0,f(f(bp(df(g),d),l),r),p]}function
-mP(a){var
-b=a[3],c=a[2],d=a[1];return f9([0,[0,d,d],[0,c,c],[0,b,b]])}function
-tq(a){if(typeof
+e=F(c,a[1]);return y(function(a){var
+c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
+gu(a){return h(n,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
+mV(a){var
+b=ai(a,tA),c=aD(U(ai(a,tB),b));return s(q(0,a,k(d)),c)}function
+mW(b,a){var
+c=U(a,ai(b,tC));return[0,bL(aW(mV(b),a)),c]}function
+mX(e,d,a,c,b){var
+f=b[2],g=s(mV(a),f),h=c?gr(e,d,ai(a,tD)):ai(a,tE);return w(U(b[1][2],h),g)}function
+mY(h,g,f,d,c,b,a){var
+i=bt(c);function
+j(a){return mS(h,g,f,a)}return lB(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
+e5(a){var
+b=q(tF,a,k(d));return aj(q(0,a,k(d)),b)}function
+iE(a){return a[4][2]}function
+mZ(g,o,n,m,a){var
+p=a[1][2],q=e(aU,gf(n,a[1][2])),h=e5(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aZ(dn(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aL(dn(g),d),l),q),p]}function
+m0(a){var
+b=a[3],c=a[2],d=a[1];return gi([0,[0,d,d],[0,c,c],[0,b,b]])}function
+tO(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-mQ(b,a){switch(b){case
+m1(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
-gk(a){var
-c=cm(a[1],[0,d,b]);return c?cm(a[2],[0,d,b]):c}function
-is(d,a){switch(d){case
-0:return gk(a[3]);case
+gv(a){var
+c=cq(a[1],[0,d,b]);return c?cq(a[2],[0,d,b]):c}function
+iF(d,a){switch(d){case
+0:return gv(a[3]);case
 1:return 1;default:var
-b=gk(a[1]),c=b?gk(a[2]):b;return c?gk(a[3]):c}}function
-it(c,b){var
-a=x(function(a){return gi(c,a)},b),d=ao(aE(0,g(a)),a);return e(ay,bh(function(a){return hU(a[2])},d))}function
-mR(b){var
+b=gv(a[1]),c=b?gv(a[2]):b;return c?gv(a[3]):c}}function
+iG(c,b){var
+a=x(function(a){return gt(c,a)},b),d=ag(az(0,g(a)),a);return e(ay,bk(function(a){return h5(a[2])},d))}function
+m2(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
-mS(c){var
-a=c;for(;;){if(0===a[0])return aj(mR,a[1]);var
-d=aj(mR,a[1]),b=d||mS(a[3]);if(b)return b;var
+m3(c){var
+a=c;for(;;){if(0===a[0])return ak(m2,a[1]);var
+d=ak(m2,a[1]),b=d||m3(a[3]);if(b)return b;var
 a=a[4];continue}}function
-tr(a,aP,bD,B,C,aO){var
-l=B[1],j=b4(l),Y=B[6],bE=B[2],K=x(function(a){return gi(C,a)},bE),aQ=B[3],R=[0,[0,aQ,aQ],C],aa=[0,g(K)],bF=0,aR=x(function(a){return eT(bF,C,a)},Y),bG=df(l),aS=mh(B[5],bG),n=aS[2],H=aS[1],J=cK(R,g(K)),bK=B[2],T=g(K),bI=0,z=ip(function(e,a){function
+tP(a,aP,bD,A,C,aO){var
+l=A[1],j=b9(l),Y=A[6],bE=A[2],K=x(function(a){return gt(C,a)},bE),aQ=A[3],R=[0,[0,aQ,aQ],C],ab=[0,g(K)],bF=0,aR=x(function(a){return e1(bF,C,a)},Y),bG=dn(l),aS=ms(A[5],bG),o=aS[2],H=aS[1],J=cS(R,g(K)),bI=A[2],S=g(K),bH=0,z=iC(function(e,a){function
 i(g){var
-c=b4(l);if(l)var
+c=b9(l);if(l)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
 var
-o=k(d),b=[0,k(d),o,[0,[0,c]]];var
-t=mv(l,H,n,e,a,b)[2],h=mv(l,H,n,e,a,b),i=h[1],j=ba(i[2],h[2]),m=b6(i[1],j),p=ac(A,m,b6(m,b)),f=aU(mu(b),p),r=q(f[3],g),s=q(f[2],g);return[0,gf(l,j,[0,q(f[1],g),s,r]),t]}function
+n=k(d),b=[0,k(d),n,[0,[0,c]]];var
+t=mG(l,H,o,e,a,b)[2],h=mG(l,H,o,e,a,b),i=h[1],j=be(i[2],h[2]),m=b$(i[1],j),p=af(B,m,b$(m,b)),f=aW(mF(b),p),q=s(f[3],g),r=s(f[2],g);return[0,gq(l,j,[0,s(f[1],g),r,q]),t]}function
 j(Y){var
-w=mI(l,H,n,e,a),x=w[1],W=ac(v,dg(l),e),y=w[2],r=x[1],X=x[2],g=gg(H,n,a),i=ba(X,y),O=ah(S(g,i),J),P=N(J),Q=ah(S(a,a),P),R=2<=l?d:b,U=A(k(R),Q);function
-h(a){return[0,mn(a),0]}function
-f(a){return[0,ba(b6(mn(a),g),J),[0,a]]}switch(l){case
+v=mT(l,H,o,e,a),x=v[1],W=af(w,dp(l),e),y=v[2],q=x[1],X=x[2],g=gr(H,o,a),i=be(X,y),N=aj(U(g,i),J),O=Q(J),P=aj(U(a,a),O),R=2<=l?d:b,T=B(k(R),P);function
+h(a){return[0,my(a),0]}function
+f(a){return[0,be(b$(my(a),g),J),[0,a]]}switch(l){case
 0:var
-C=[0,f(sJ),0],D=[0,h(sK),C],p=[0,h(0),D];break;case
+C=[0,f(s7),0],D=[0,h(s8),C],p=[0,h(0),D];break;case
 1:var
-E=[0,f(sL),0],F=[0,f(sM),E],G=[0,f(0),F],I=[0,h(sN),G],K=[0,h(sO),I],p=[0,h(0),K];break;default:var
-L=[0,f(sP),0],M=[0,f(sQ),L],p=[0,f(0),M]}var
-j=ac(v,[0,[0,[1,T]],[0,[1,[0,T]]],[0,[1,[0,[0,T]]]]],e),m=ba(j,aA(S(j,j)));if(l)var
-o=ii(l,T,e,r,m[3]);else
+E=[0,f(s9),0],F=[0,f(s_),E],G=[0,f(0),F],I=[0,h(s$),G],K=[0,h(ta),I],p=[0,h(0),K];break;default:var
+L=[0,f(tb),0],M=[0,f(tc),L],p=[0,f(0),M]}var
+j=af(w,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=be(j,aD(U(j,j)));if(l)var
+n=iw(l,S,e,q,m[3]);else
 var
-z=k(d),B=k(d),o=[0,k(d),B,z];var
-t=ii(l,T,e,r,m[2]),u=ii(l,T,e,r,m[1]),V=mo(function(r,w){var
-e=w[1];function
+z=k(d),A=k(d),n=[0,k(d),A,z];var
+t=iw(l,S,e,q,m[2]),u=iw(l,S,e,q,m[1]),V=mz(function(q,v){var
+e=v[1];function
 a(b,a){var
-c=e[3],f=de(a,o),g=q(A(b[3],f),c),h=e[2],i=de(a,t),j=q(A(b[2],i),h),l=e[1],m=de(a,u),n=q(A(b[1],m),l);return A(A(A(k(d),n),j),g)}var
-x=a(o,sR),y=a(t,sS),z=[0,a(u,0),y,x],f=S(r[1],z),l=r[2];if(l){var
-h=l[1],m=w[2];if(m){var
-j=m[1],B=de(h,g),C=q(de(j,i),B),D=de(j,g),n=A(q(de(h,i),D),C),E=N(J);if(s(h,j))var
-F=S(i,g),p=v(n,q(k(c(2,b)),F));else
+c=e[3],f=dm(a,n),g=s(B(b[3],f),c),h=e[2],i=dm(a,t),j=s(B(b[2],i),h),l=e[1],m=dm(a,u),o=s(B(b[1],m),l);return B(B(B(k(d),o),j),g)}var
+x=a(n,td),y=a(t,te),z=[0,a(u,0),y,x],f=U(q[1],z),l=q[2];if(l){var
+h=l[1],m=v[2];if(m){var
+j=m[1],A=dm(h,g),C=s(dm(j,i),A),D=dm(j,g),o=B(s(dm(h,i),D),C),E=Q(J);if(r(h,j))var
+F=U(i,g),p=w(o,s(k(c(2,b)),F));else
 var
-p=n;return A(f,ah(p,E))}return f}return f},p);return[0,gf(l,i,ba(b6(g,ba(W,y)),J)),V,U,O]}var
-m=mI(l,H,n,e,a);function
-o(b){return io(l,H,n,e,a,b)}var
+p=o;return B(f,aj(p,E))}return f}return f},p);return[0,gq(l,i,be(b$(g,be(W,y)),J)),V,T,N]}var
+m=mT(l,H,o,e,a);function
+n(b){return iB(l,H,o,e,a,b)}var
 f=2<=l?d:b;function
 g(b){var
-c=N(J),d=k(f),e=q(v(N(b),d),c);return q(n,v(S(a,a),e))}var
-h=[0,S(io(l,H,n,e,a,1),a),g];return[0,mG(l,H,n,J,e,a),h,o,m,j,i]},C,bK,bI),W=e(function(a){return a[1]},z),bL=P(aa,g(aR)),bM=df(l),bN=B[5];function
-O(a){return[0,[0,P(bM,a)]]}var
-aI=N([0,[1,bL]]);switch(bN[0]){case
+c=Q(J),d=k(f),e=s(w(Q(b),d),c);return s(o,w(U(a,a),e))}var
+h=[0,U(iB(l,H,o,e,a,1),a),g];return[0,mR(l,H,o,J,e,a),h,n,m,j,i]},C,bI,bH),W=e(function(a){return a[1]},z),bJ=O(ab,g(aR)),bK=dn(l),bM=A[5];function
+N(a){return[0,[0,O(bK,a)]]}var
+aI=Q([0,[1,bJ]]);switch(bM[0]){case
 2:var
-bt=O(sB),bu=O(sC),aJ=[0,O(0),bu,bt],E=[0,v(aI,S(aJ,aJ))];break;case
+bt=N(sZ),bu=N(s0),aJ=[0,N(0),bu,bt],D=[0,w(aI,U(aJ,aJ))];break;case
 3:var
-bv=N(O(sD)),bw=N(O(0)),bx=N(O(sE)),E=[0,v(v(q(aI,A(k(b),bx)),bw),bv)];break;default:var
-E=0}var
-aV=B[7];if(aV)var
-bO=0,bP=B[2],an=ip(function(j,k){var
-a=mG(l,H,n,cK(R,g(K)),j,k),c=a[1];if(c){var
+bv=Q(N(s1)),bw=Q(N(0)),bx=Q(N(s2)),D=[0,w(w(s(aI,B(k(b),bx)),bw),bv)];break;default:var
+D=0}var
+aT=A[7];if(aT)var
+bO=0,bP=A[2],ao=iC(function(j,k){var
+a=mR(l,H,o,cS(R,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 h=d[2],e=d[1];if(h){var
-i=h[1],f=b6(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},C,bP,bO);else
+i=h[1],f=b$(j,[0,b,e,i]);return[0,[0,b,[0,e,[0,i,[0,f[1],[0,f[2],[0,f[3],0]]]]]],a[2]]}return[0,[0,b,[0,e,0]],a[2]]}return[0,[0,b,0],a[2]]}return[0,0,a[2]]},C,bP,bO);else
 var
-an=aV;var
-bQ=bJ(an),bR=E?[0,E[1],0]:E,bS=f(bR,bQ),bT=0,bU=f(K,[0,R,0]),bC=e(function(a){return a[1]},z),bV=[0,n,f(cO(function(c,b){if(typeof
+ao=aT;var
+bQ=bN(ao),bR=D?[0,D[1],0]:D,bS=f(bR,bQ),bT=0,bU=f(K,[0,R,0]),bC=e(function(a){return a[1]},z),bV=[0,o,f(cX(function(c,b){if(typeof
 b!=="number")switch(b[0]){case
 6:var
-g=mJ(z,c,b);if(g)var
+g=mU(z,c,b);if(g)var
 j=g[1],k=[0,j[1],[0,j[2],0]];else
 var
 k=g;return k;case
-8:return e(aT,f_(bC,c));case
+8:return e(aU,gj(bC,c));case
 13:var
-h=D(z,b[1]);if(h){var
-m=gj(b[4]);if(m){var
-o=mL(c,i(h[1][3],b[2]));return f(o[1],[0,o[2],0])}var
+h=F(z,b[1]);if(h){var
+m=gu(b[4]);if(m){var
+n=mW(c,i(h[1][3],b[2]));return f(n[1],[0,n[2],0])}var
 p=m}else
 var
 p=h;return p;case
-16:return x(function(a){return mO(l,J,bU,c,a)[1]},z)}var
-d=iq(a,n,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,aa,Y),bS)],ao=f(bJ(W),bV),bW=0,bX=f(K,[0,R,0]),aW=cO(function(b,a){if(typeof
+16:return x(function(a){return mZ(l,J,bU,c,a)[1]},z)}var
+d=iD(a,o,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,ab,Y),bS)],ap=f(bN(W),bV),bW=0,bX=f(K,[0,R,0]),aX=cX(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
-g=D(z,a[1]);if(g){if(gj(a[4]))return 0;var
-m=[0,mM(H,n,b,a[2],g[1][4]),0]}else
+g=F(z,a[1]);if(g){if(gu(a[4]))return 0;var
+m=[0,mX(H,o,b,a[2],g[1][4]),0]}else
 var
 m=g;return m;case
 14:var
-h=mN(l,H,n,z,b,a[1],a[2]);if(h){var
-o=h[1],p=o[2],q=o[1];return x(bH,[0,q[1],[0,q[2],[0,p[1],[0,p[2],0]]]])}return h;case
+h=mY(l,H,o,z,b,a[1],a[2]);if(h){var
+n=h[1],p=n[2],r=n[1];return x(bL,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
-j=D(z,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,r(ti,b,k(d)),s],u=[0,r(0,b,k(d)),t],v=f(eB(c[2]),u);return f(c[1],v)}return j;case
+j=F(z,a[1]);if(j){var
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(tG,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dO(c[2]),u);return f(c[1],v)}return j;case
 16:var
 w=x(function(a){var
-b=e(aT,f5(bX,ir(a)));return[0,ir(a),b]},z);return f(x(function(a){var
-c=eY(b),d=[0,i(a[6],c)[2],0],e=eY(b);return f(i(a[6],e)[1],d)},z),w)}return 0},bW,C,aa,Y),aY=cz(e(function(a){return bl(j,a)},ao))[1],aZ=cz(aW)[1],_=cy(aY),ap=cy(aZ);function
-u(a){return a4(_,bl(j,a))}function
-a0(i){if(0===B[4][0]){var
-q=y(u,E),t=u(n),e=df(l),f=s(g(i),j);if(f)var
-h=y(function(a){return[0,[0,a,d],d]},q),a=function(a){return r(a,_,k(d))},c=a(t),o=aE(0,e),b=m(function(b){var
-d=dd(j,b,c),e=d?m(function(d){var
+b=e(aU,gf(bX,iE(a)));return[0,iE(a),b]},z);return f(x(function(a){var
+c=e5(b),d=[0,i(a[6],c)[2],0],e=e5(b);return f(i(a[6],e)[1],d)},z),w)}return 0},bW,C,ab,Y),aY=cI(e(function(a){return bp(j,a)},ap))[1],aZ=cI(aX)[1],Z=cH(aY),aq=cH(aZ);function
+u(a){return a9(Z,bp(j,a))}function
+a0(i){if(0===A[4][0]){var
+s=y(u,D),t=u(o),e=dn(l),f=r(g(i),j);if(f)var
+h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),n=az(0,e),b=m(function(b){var
+d=dl(j,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
-d=a(c);return cq(P(j,b),d)},f);if(e){var
-g=a(d[2]);return f$(c,P(j,b),g)}return e},i):d;if(e){if(h){var
-g=a(h[1][1][1]);return cq(P(j,b),g)}var
+d=a(c);return cx(O(j,b),d)},f);if(e){var
+g=a(d[2]);return gk(c,O(j,b),g)}return e},i):d;if(e){if(h){var
+g=a(h[1][1][1]);return cx(O(j,b),g)}var
 f=1}else
 var
-f=e;return f},o);else
+f=e;return f},n);else
 var
 b=f;var
 p=b?e:b;return p}return 0}var
 X=a0(i(au(u),W)),a1=m(function(a){var
-b=bl(j,a),c=k(d);return az(r(u(a),_,c),b)},ao),a2=a1?m(function(a){return ga(j,a)},ao):a1,a3=a2?m(function(a){var
-b=k(d);return az(r(a4(ap,a),ap,b),a)},aW):a2,a5=a3?aj(tq,Y):a3;if(a5){var
-a7=U(B[7]);if(a7)var
-ad=a7;else{var
-br=B[5];if(1===l&&2===br[0])var
+b=bp(j,a),c=k(d);return aC(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gl(j,a)},ap):a1,a3=a2?m(function(a){var
+b=k(d);return aC(q(a9(aq,a),aq,b),a)},aX):a2,a4=a3?ak(tO,Y):a3;if(a4){var
+a5=T(A[7]);if(a5)var
+ac=a5;else{var
+br=A[5];if(1===l&&2===br[0])var
 bB=br[1],bs=h(a,1,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],bB]);else
 var
 bs=0;var
-ad=bs}}else
+ac=bs}}else
 var
-ad=a5;var
-a8=ad?is(l,dU(B[4])):ad,a9=a8?h(a,1,B[3]):a8;if(a9)var
-bY=ge(B[5]),aq=m(function(b){var
-c=db(a,b[1]);return c?db(a,b[2]):c},bY);else
+ac=a4;var
+a6=ac?iF(l,d7(A[4])):ac,a7=a6?h(a,1,A[3]):a6;if(a7)var
+bY=gp(A[5]),ar=m(function(b){var
+c=di(a,b[1]);return c?di(a,b[2]):c},bY);else
 var
-aq=a9;if(aq){var
-bZ=f(K,[0,R,0]),ar=Z(e(function(b){return ak(a,b)},bZ));if(ar){var
-at=Z(e(function(b){return ia(a,b)},aR));if(at){var
-b0=mQ(l,dU(B[4])),av=Z(e(function(b){return ak(a,[0,b,C])},b0));if(av){var
-a_=av[1],b1=mj(B[5]),aw=Z(e(function(b){return ml(a,b)},b1));if(aw){var
-a$=aw[1],b2=mi(B[5]),ax=Z(e(da(a),b2));if(ax){var
-b3=0,I=function(a){return a4(ap,a)},aB=f(K,[0,R,0]),aC=Z(cO(function(j,f){if(typeof
+ar=a7;if(ar){var
+bZ=f(K,[0,R,0]),as=_(e(function(b){return am(a,b)},bZ));if(as){var
+at=_(e(function(b){return io(a,b)},aR));if(at){var
+b0=m1(l,d7(A[4])),av=_(e(function(b){return am(a,[0,b,C])},b0));if(av){var
+a8=av[1],b1=mu(A[5]),aw=_(e(function(b){return mw(a,b)},b1));if(aw){var
+a_=aw[1],b2=mt(A[5]),ax=_(e(dh(a),b2));if(ax){var
+b3=0,I=function(a){return a9(aq,a)},aA=f(K,[0,R,0]),aB=_(cX(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
-E=f[4],aM=D(z,f[1]);if(aM){if(mP(f[3])&&h(a,0,E)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E])){var
-aN=f[2],aO=aM[1];if(gj(E)){var
-aG=mL(j,i(aO[3],aN)),U=aG[2];if(h(o,0,[3,E,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
+D=f[4],aM=F(z,f[1]);if(aM){if(m0(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],D])){var
+aN=f[2],aO=aM[1];if(gu(D)){var
+aG=mW(j,i(aO[3],aN)),U=aG[2];if(h(n,0,[3,D,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]]))var
 aH=0;else
 var
 be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
 aP=[0,[4,u(U)],aH]}else
 var
-aP=[0,[9,[3,I(mM(H,n,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return to}return tp;case
+aP=[0,[9,[3,I(mX(H,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return tM}return tN;case
 16:var
-Y=f[3],t=f[2],aQ=f[1],bg=b4(l);if(s(g(z),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&db(a,Y)){var
-aI=ak(a,[0,[0,t,t],C]);if(aI){var
-bh=aI[1],aJ=i(da(a),Y);if(aJ){var
-bi=aJ[1],aK=Z(e(function(f){var
-b=lw(a,I,aB,C,aQ,t,ir(f));if(b){var
-c=lv(a,u,aB,C,t,f[1][2]);if(c){var
-g=gh(0,0,f[1][2]);if(g)var
+Y=f[3],t=f[2],aQ=f[1],bg=b9(l);if(r(g(z),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&di(a,Y)){var
+aI=am(a,[0,[0,t,t],C]);if(aI){var
+bh=aI[1],aJ=i(dh(a),Y);if(aJ){var
+bi=aJ[1],aK=_(e(function(f){var
+b=lK(a,I,aA,C,aQ,t,iE(f));if(b){var
+c=lJ(a,u,aA,C,t,f[1][2]);if(c){var
+g=gs(0,0,f[1][2]);if(g)var
 i=e(ay,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
@@ -4595,31 +4597,31 @@ d=c;var
 h=d}else
 var
 h=b;return h},z));if(aK){var
-bj=aK[1],bk=e(function(a){return mO(l,J,aB,j,a)},z),aL=i(au(u),bk),W=function(a){var
-b=df(l),c=e(function(a){var
-b=eY(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
-b=eY(j);return e(I,i(a[6],b)[1])},z),f=a0(aL);return[0,[8,[0,aL,u(n),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return tk}return tl}return tm}return tn}var
-bm=0,v=e(function(a){return a[1]},z);function
-_(c,b,a){return[0,c,b,a,X]}var
-F=0;if(typeof
+bj=aK[1],bk=e(function(a){return mZ(l,J,aA,j,a)},z),aL=i(au(u),bk),W=function(a){var
+b=dn(l),c=e(function(a){var
+b=e5(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
+b=e5(j);return e(I,i(a[6],b)[1])},z),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,W(1),0];var
+bl=[0,W(1),0];return[0,W(0),bl]}return tI}return tJ}return tK}return tL}var
+bm=0,w=e(function(a){return a[1]},z);function
+Z(c,b,a){return[0,c,b,a,X]}var
+G=0;if(typeof
 f==="number")var
-aS=u(n),q=[0,_(i(au(u),v),aS,w)];else
+aS=u(o),s=[0,Z(i(au(u),w),aS,v)];else
 switch(f[0]){case
 0:var
-x=[5,[0,b,b],f[1]],K=_;F=1;break;case
+x=[5,[0,b,b],f[1]],K=Z;G=1;break;case
 1:var
-aU=[5,[0,b,b],f[1]],x=aU,K=function(c,b,a){return[1,c,b,a]};F=1;break;case
+aU=[5,[0,b,b],f[1]],x=aU,K=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=iq(a,n,z,j,f),q=y(function(a){return[4,u(a)]},aV);break;case
+aV=iD(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aV);break;case
 3:var
-aW=iq(a,n,z,j,f),q=y(function(a){return[4,u(a)]},aW);break;case
+aW=iD(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aW);break;case
 5:var
-$=f[1],aX=ak(a,[0,[0,$,$],d]),q=y(function(b){var
-c=V(a,b),d=u(n);return[2,i(au(u),v),d,c]},aX);break;case
+$=f[1],aX=am(a,[0,[0,$,$],d]),s=y(function(b){var
+c=V(a,b),d=u(o);return[2,i(au(u),w),d,c]},aX);break;case
 6:var
-L=D(z,f[1]);if(L){var
-M=mJ(z,j,f);if(M){var
+L=F(z,f[1]);if(L){var
+M=mU(z,j,f);if(M){var
 aa=M[1],ab=h(a,1,f[2]),ac=ab?h(a,1,f[3]):ab;if(ac)var
 aY=u(aa[2]),aZ=u(L[1][1][2]),ad=[0,[5,[0,[0,[0,u(aa[1]),0],aZ],0],aY]];else
 var
@@ -4630,117 +4632,117 @@ ae=M;var
 af=ae}else
 var
 af=L;var
-q=af;break;case
+s=af;break;case
 7:var
-ag=f[3],ah=f[2],ai=f[1],aj=D(z,ai),aR=0;if(aj){var
-al=h(a,1,ah),am=al?h(a,1,ag):al;if(am){var
-a1=[5,ah,ag],x=a1,K=function(c,b,a){return[3,ai,c,b,a,X]};F=1;aR=1}else
+ag=f[3],ah=f[2],ai=f[1],aj=F(z,ai),aR=0;if(aj){var
+ak=h(a,1,ah),al=ak?h(a,1,ag):ak;if(al){var
+a1=[5,ah,ag],x=a1,K=function(c,b,a){return[3,ai,c,b,a,X]};G=1;aR=1}else
 var
-an=am}else
+an=al}else
 var
 an=aj;if(!aR)var
-q=an;break;case
+s=an;break;case
 8:var
 ao=h(a,1,f[2]);if(ao)var
 a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a4=Q(a,b),a5=u(n),a6=f_(v,j),ap=[0,[0,i(au(u),a6),a5,a4,0]];else
+a4=P(a,b),a5=u(o),a6=gj(w,j),ap=[0,[0,i(au(u),a6),a5,a4,0]];else
 var
 ap=N;var
-q=ap;break;case
+s=ap;break;case
 14:var
-aq=f[2],ar=f[1],O=mN(l,H,n,z,j,ar,aq);if(O){var
-as=O[1],at=as[2],av=as[1],aw=l8(ar,aq,f[3]),P=ak(a,[0,[0,aw,aw],C]);if(P){var
-ax=P[1],az=G(d,ax[1]);if(az)var
-A=function(a){return lu(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aA=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
+aq=f[2],ar=f[1],O=mY(l,H,o,z,j,ar,aq);if(O){var
+as=O[1],at=as[2],av=as[1],aw=mi(ar,aq,f[3]),Q=am(a,[0,[0,aw,aw],C]);if(Q){var
+ax=Q[1],az=E(d,ax[1]);if(az)var
+A=function(a){return lI(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
 var
-aA=az;var
-aC=aA}else
+aB=az;var
+aC=aB}else
 var
-aC=P;var
+aC=Q;var
 aD=aC}else
 var
 aD=O;var
-q=aD;break;case
+s=aD;break;case
 15:var
-R=D(z,f[1]);if(R){var
+R=F(z,f[1]);if(R){var
 aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=i(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(r(tj,j,k(d))),bb=I(r(0,j,k(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=i(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(q(tH,j,k(d))),bb=I(q(0,j,k(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
 T=R;var
-q=T;break;default:var
-q=0}if(F)var
-aT=ak(a,[0,[0,x,x],d]),q=y(function(b){var
-c=V(a,b),d=u(n);return K(i(au(u),v),d,c)},aT);return[0,q,bm]},b3,C,aa,Y));if(aC){var
-bb=aC[1];if(B[7])var
-b5=aP[2],b7=aP[1],b8=u(n),ae=lN(bD,bb,[7,i(au(u),an),b8,b7,b5]);else
+s=T;break;default:var
+s=0}if(G)var
+aT=am(a,[0,[0,x,x],d]),s=y(function(b){var
+c=V(a,b),d=u(o);return K(i(au(u),w),d,c)},aT);return[0,s,bm]},b3,C,ab,Y));if(aB){var
+ba=aB[1];if(A[7])var
+b4=aP[2],b5=aP[1],b6=u(o),ad=lZ(bD,ba,[7,i(au(u),ao),b6,b5,b4]);else
 var
-ae=bb;var
-bc=s(g(f(a_,a$)),j),bd=bc?m(function(a){var
-b=mC(a);return m(function(a){return mf(j,_,a)},b)},ae):bc,be=bd?E?mf(j,_,u(E[1])):1:bd;if(be){var
-b9=f(at[1],ax[1]),aD=f(ar[1],b9),L=mS(aO),M=it(C,B[2]),$=L?e(function(a){var
-b=mA(j,M,a[2]),c=a[1];return[0,e(function(a){return mA(j,M,a)},c),b]},W):L,aF=L?cz(il(j,n,E,$))[1]:L,aG=cy(aF),af=function(a){return a4(aG,a)},b_=ij(af,af,$),b$=af(bl(j,n)),aH=y(function(a){return af(bl(j,a))},E),bf=U(L);if(bf)var
+ad=ba;var
+bb=r(g(f(a8,a_)),j),bc=bb?m(function(a){var
+b=mN(a);return m(function(a){return mq(j,Z,a)},b)},ad):bb,bd=bc?D?mq(j,Z,u(D[1])):1:bc;if(bd){var
+b7=f(at[1],ax[1]),aE=f(as[1],b7),L=m3(aO),M=iG(C,A[2]),$=L?e(function(a){var
+b=mL(j,M,a[2]),c=a[1];return[0,e(function(a){return mL(j,M,a)},c),b]},W):L,aF=L?cI(iz(j,o,D,$))[1]:L,aG=cH(aF),ae=function(a){return a9(aG,a)},b8=ix(ae,ae,$),b_=ae(bp(j,o)),aH=y(function(a){return ae(bp(j,a))},D),bf=T(L);if(bf)var
 ag=bf;else{var
-bq=s(g(W),j);if(bq){var
-bz=il(j,n,E,$),aL=m(function(a){var
-b=k(d);return az(r(a4(aG,a),aG,b),a)},bz);if(aL)var
-bA=il(j,n,E,$),ai=m(function(a){var
-b=aE(0,j);return m(function(b){return dY(j,b,a)},b)},bA);else
+bq=r(g(W),j);if(bq){var
+bz=iz(j,o,D,$),aL=m(function(a){var
+b=k(d);return aC(q(a9(aG,a),aG,b),a)},bz);if(aL)var
+bA=iz(j,o,D,$),ah=m(function(a){var
+b=az(0,j);return m(function(b){return ea(j,b,a)},b)},bA);else
 var
-ai=aL;if(ai){var
-aM=y(function(a){return bl(j,a)},E),al=bl(j,n),aK=mw(al);if(aK)var
-by=aE(0,X),aN=m(function(a){var
-b=dd(j,a,al),c=b?m(function(b){var
-d=b[2][2],e=f(x(ik,b[1]),d),g=P(j,a),c=m(function(a){return cq(g,a)},e);if(c){var
-h=b[2][1];return f$(al,P(j,a),h)}return c},$):b;if(c){if(aM){var
-e=aM[1];return cq(P(j,a),e)}var
+ah=aL;if(ah){var
+aM=y(function(a){return bp(j,a)},D),ai=bp(j,o),aK=mH(ai);if(aK)var
+by=az(0,X),aN=m(function(a){var
+b=dl(j,a,ai),c=b?m(function(b){var
+d=b[2][2],e=f(x(iy,b[1]),d),g=O(j,a),c=m(function(a){return cx(g,a)},e);if(c){var
+h=b[2][1];return gk(ai,O(j,a),h)}return c},$):b;if(c){if(aM){var
+e=aM[1];return cx(O(j,a),e)}var
 d=1}else
 var
 d=c;return d},by);else
 var
 aN=aK;var
-am=aN}else
+an=aN}else
 var
-am=ai;var
-cf=am?m(function(a){var
-c=a[1],b=m(function(a){return mB(j,aD,M,a)},c);return b?mB(j,aD,M,a[2]):b},W):am,ag=cf}else
+an=ah;var
+cf=an?m(function(a){var
+c=a[1],b=m(function(a){return mM(j,aE,M,a)},c);return b?mM(j,aE,M,a[2]):b},W):an,ag=cf}else
 var
 ag=bq}if(ag){var
-ca=e(function(a){return 1},ae),cb=f(a_,a$),cc=function(l,O,ac,aa,c){if(L){if(typeof
+ca=e(function(a){return 1},ad),cb=f(a8,a_),cc=function(l,O,ac,ab,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],o=c[2],p=c[1];if(typeof
 p!=="number"&&6===p[0]){if(h){if(h[2])return 0;var
-w=h[1],b=p[1],x=s(aa,X),y=x?aX(0,X):x;if(y)var
-v=ho(hk,e(ay,o),M),Y=v?1:v,q=Y;else
+w=h[1],b=p[1],x=r(ab,X),y=x?aV(0,X):x;if(y)var
+v=hA(hw,e(ay,o),M),Y=v?1:v,s=Y;else
 var
-q=y;var
-z=q?hL(M):q,A=z?m(function(a){return aX(a,g(l))},M):z,B=A?s(g(w),j):A;if(B){var
+s=y;var
+z=s?hW(M):s,A=z?m(function(a){return aV(a,g(l))},M):z,B=A?r(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
-I=b[2],H=b[1],E=0;u=1;break;case
+I=b[2],H=b[1],F=0;u=1;break;case
 7:var
-J=b[2],k=b[1],P=0;if(typeof
+J=b[2],k=b[1],Q=0;if(typeof
 k!=="number"&&0===k[0]){var
 R=0;if(aH){var
-K=G(d,J);if(K){var
-I=k[2],H=k[1],E=[0,[0,[0,aH[1],J],b[3]]];u=1;P=1;R=1}else
+K=E(d,J);if(K){var
+I=k[2],H=k[1],F=[0,[0,[0,aH[1],J],b[3]]];u=1;Q=1;R=1}else
 var
 N=K}else
 var
-N=aH;if(!R)return N}if(!P)return 0;break}if(u){var
-S=id(a,fV(o,0,l),aF,O),n=id(a,l,aF,O),f=function(b,a){return r(a,b,s6)},T=my(function(a){return f(n,a)},E),U=f(n,b$),V=function(a){return f(n,a)},W=[0,ij(function(a){return f(S,a)},V,b_),U,T],_=hF(o,l),$=function(g){var
-b=Z(e(s4,g[1]));if(b){var
+N=aH;if(!R)return N}if(!Q)return 0;break}if(u){var
+S=is(a,f7(o,0,l),aF,O),n=is(a,l,aF,O),f=function(b,a){return q(a,b,ts)},T=mJ(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},W=[0,ix(function(a){return f(S,a)},V,b8),U,T],Z=hQ(o,l),$=function(g){var
+b=_(e(tq,g[1]));if(b){var
 c=g[2];if(c){var
-d=cR(g[3]);if(d){var
-l=d[1],m=as([0,F(ab(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=hG(a,0,_,d),c=bh(s5,b[2]);return[0,b[1],c]},n),f=k1(a,e(function(b){return Q(a,b)},w),H,I,o,m);if(f)return a6(a,j,f[1]);var
+d=c0(g[3]);if(d){var
+l=d[1],m=al([0,G(aa(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=hR(a,0,Z,d),c=bk(tr,b[2]);return[0,b[1],c]},n),f=ld(a,e(function(b){return P(a,b)},w),H,I,o,m);if(f)return a$(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4749,152 +4751,152 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(ig(function(b,a){return s3},X,j,$),W)}var
+k=b;return k};return i(iu(function(b,a){return tp},X,j,$),W)}var
 C=0}else
 var
 C=B;var
 D=C}else
 var
-D=h;return D}return 0}return 0}return L},cd=u(n),ce=i(au(u),W);return eX(a,aY,aZ,ae,j,j,y(u,E),ce,cd,cc,aD,cb,ca,aO)}var
+D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(au(u),W);return e4(a,aY,aZ,ad,j,j,y(u,D),ce,cd,cc,aE,cb,ca,aO)}var
 bg=ag}else
 var
-bg=be;var
-bi=bg}else
+bg=bd;var
+bh=bg}else
 var
-bi=aC;var
+bh=aB;var
+bi=bh}else
+var
+bi=ax;var
 bj=bi}else
 var
-bj=ax;var
-bk=bj}else
+bj=aw;var
+bl=bj}else
 var
-bk=aw;var
-bm=bk}else
+bl=av;var
+bm=bl}else
 var
-bm=av;var
+bm=at;var
 bn=bm}else
 var
-bn=at;var
+bn=as;var
 bo=bn}else
 var
-bo=ar;var
-bp=bo}else
-var
-bp=aq;return bp}function
-eZ(b,a){return bk(b,a[1],a[2])}function
-mT(b,a){var
-c=eZ(b,a[1]),d=c?eZ(b,a[2]):c;return d?eZ(b,a[3]):d}function
-be(a){return typeof
-a==="number"?a?ts:tt:b4(a[1])}function
-mU(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ib(b[1],a,c)}function
-gl(a){if(0===a[0]){var
+bo=ar;return bo}function
+e6(b,a){return bo(b,a[1],a[2])}function
+m4(b,a){var
+c=e6(b,a[1]),d=c?e6(b,a[2]):c;return d?e6(b,a[3]):d}function
+bh(a){return typeof
+a==="number"?a?tQ:tR:b9(a[1])}function
+m5(b,a,c){return typeof
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ip(b[1],a,c)}function
+gw(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
-gm(b,c,a){return b?dW(b[1],c,a):a}function
-bM(d,c,b,a){var
-e=gl(a),f=gm(d,c,gl(a)),g=aa(function(b,a){return[2,b,a]},b,f);return aa(function(b,a){return[3,b,a]},g,e)}function
-mV(b,a){var
+gx(b,c,a){return b?d_(b[1],c,a):a}function
+bP(d,c,b,a){var
+e=gw(a),f=gx(d,c,gw(a)),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+m6(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
 d=[0,a[1],[0,a[2],[0,a[3],0]]]}else
 var
 d=c;return d}function
-mW(b,w,v){var
+m7(b,w,v){var
 e=w,d=v;for(;;){if(e){if(d){var
 f=d[1],j=e[1];if(0===j[0])var
-g=0===f[0]?lz(b,j[1],f[1]):0;else
+g=0===f[0]?lN(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
-a=f[1],c=j[1],k=bb(b,c[1],a[1]),l=k?bb(b,c[2],a[2]):k,m=l?bb(b,c[3],a[3]):l,n=m?bb(b,c[4],a[4]):m,o=n?cL(b,c[5],a[5]):n,p=o?cL(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,H(a[1],a[1])):r;if(s)var
-u=h2(a),i=h(b,1,H(h2(a),u));else
+a=f[1],c=j[1],k=bf(b,c[1],a[1]),l=k?bf(b,c[2],a[2]):k,m=l?bf(b,c[3],a[3]):l,n=m?bf(b,c[4],a[4]):m,o=n?cT(b,c[5],a[5]):n,p=o?cT(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,H(a[1],a[1])):r;if(s)var
+u=ic(a),i=h(b,1,H(ic(a),u));else
 var
 i=s;var
-g=i?ce(c[7],a[7]):i}if(g){var
+g=i?cj(c[7],a[7]):i}if(g){var
 e=e[2],d=d[2];continue}var
 t=g}else
 var
 t=d;return t}return d?0:1}}function
-mX(a){return typeof
-a==="number"?a?dg(0):c7:dg(a[1])}function
-iu(b,d,c){if(0===c[0])return f2(b,d[1],c[1]);var
-a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a0(a[4],b),e),h=f(a0(a[3],b),g),i=f(a0(a[2],d[2]),h);return f(a0(a[1],d[1]),i)}function
-iv(b,a){if(b){var
-c=b[1],d=c[2];return ba(eW(c[1],a),d)}return a}function
-mY(f,t,am,J,al,s,ak){if(s){var
-j=s[1],an=bC([0,d,d],al),a=co(ak,iu(J,an,j)),y=function(c,b){var
-d=ag(a,c);return ac(v,ac(A,mX(f),b),d)};if(0===j[0]){var
+m8(a){return typeof
+a==="number"?a?dp(0):dc:dp(a[1])}function
+iH(b,d,c){if(0===c[0])return gc(b,d[1],c[1]);var
+a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a3(a[4],b),e),h=f(a3(a[3],b),g),i=f(a3(a[2],d[2]),h);return f(a3(a[1],d[1]),i)}function
+iI(b,a){if(b){var
+c=b[1],d=c[2];return be(e3(c[1],a),d)}return a}function
+m9(f,t,am,J,al,r,ak){if(r){var
+j=r[1],an=bH([0,d,d],al),a=cu(ak,iH(J,an,j)),y=function(c,b){var
+d=ai(a,c);return af(w,af(B,m8(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=iv(t,ag(a,tv)),aE=z[1][5],B=r(tw,a,k(d)),C=ag(a,0),aa=y(tx,$),i=kR(aa,c6(C),aa,B,aE),ap=[0,aA(B),0],aq=[0,aA(S(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],B]],aq],$];break;case
+$=iI(t,ai(a,tT)),aE=z[1][5],A=q(tU,a,k(d)),C=ai(a,0),aa=y(tV,$),i=k5(aa,db(C),aa,A,aE),ap=[0,aD(A),0],aq=[0,aD(U(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ab=iv(t,ag(a,ty)),ad=z[3],D=ad?[0,ag(a,tz)]:ad,ae=y(0,ab),m=kS(ae,ae,0);if(D)var
-K=D[1],L=[0,aA(S(K,K)),0];else
+ab=iI(t,ai(a,tW)),ac=z[3],D=ac?[0,ai(a,tX)]:ac,ad=y(0,ab),m=k6(ad,ad,0);if(D)var
+K=D[1],L=[0,aD(U(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
-aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ag(a,0),aI=mX(f),n=kT(aI,c6(E)),ar=[0,aA(S(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
+aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ai(a,0),aI=m8(f),n=k7(aI,db(E)),ar=[0,aD(U(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-af=iv(t,ag(a,tA)),F=j[1][7],G=r(tB,a,k(d)),e=r(tC,a,k(d)),ai=ag(a,tD),H=ag(a,0),p=y(tE,af),o=c6(H),u=ac(v,ai,aU(S(o,ai),o)),w=c6(u),M=b6(o,w),O=S(p,w),Q=S(p,M),as=S(o,p),at=N(Q),R=A(N(O),at),au=N(as),T=v(N(G),au),av=q(k(c(2,b)),e),x=v(R,N(ah(A(R,v(N(e),T)),av))),aw=fQ(F,q(e,aA(x))),U=ah(O,e),V=fQ(F,ah(Q,e)),W=ah(T,N(e)),X=kn(0,U,V,W),Y=fQ(F,kn(1,U,V,W)),ax=aU(Y,M),Z=ac(v,p,aU(e,ac(A,aU(X,w),ax))),ay=[0,aA(G),0],az=[0,aA(e),ay],aB=[0,aA(S(u,u)),az],aC=[0,aA(S(H,H)),aB],aD=ba(Z,aw),l=[0,[0,Z,q(N(e),x),aD,[1,X,Y],[0,[0,x,G]],aC],af];var
-aP=P(ak,g(iu(J,an,j))),aQ=s[2],aR=mY(f,t,am,J,bo(al),aQ,aP),h=l[1],aS=l[2],aj=function(a){var
-b=ba(b6(aS,a),am);return typeof
-f==="number"?f?[0,a[1],[0,a[2],0]]:bH(a):gf(f[1],a,b)},I=h[1],_=typeof
-f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bH(I):_,aM=h[4],aN=aj(h[3]),aO=h[2],ao=[0,[0,aj(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
+ae=iI(t,ai(a,tY)),F=j[1][7],G=q(tZ,a,k(d)),e=q(t0,a,k(d)),ag=ai(a,t1),H=ai(a,0),p=y(t2,ae),o=db(H),u=af(w,ag,aW(U(o,ag),o)),v=db(u),M=b$(o,v),N=U(p,v),P=U(p,M),as=U(o,p),at=Q(P),R=B(Q(N),at),au=Q(as),S=w(Q(G),au),av=s(k(c(2,b)),e),x=w(R,Q(aj(B(R,w(Q(e),S)),av))),aw=f2(F,s(e,aD(x))),T=aj(N,e),V=f2(F,aj(P,e)),W=aj(S,Q(e)),X=kB(0,T,V,W),Y=f2(F,kB(1,T,V,W)),ax=aW(Y,M),Z=af(w,p,aW(e,af(B,aW(X,v),ax))),ay=[0,aD(G),0],az=[0,aD(e),ay],aA=[0,aD(U(u,u)),az],aB=[0,aD(U(H,H)),aA],aC=be(Z,aw),l=[0,[0,Z,s(Q(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
+aP=O(ak,g(iH(J,an,j))),aQ=r[2],aR=m9(f,t,am,J,bt(al),aQ,aP),h=l[1],aS=l[2],ah=function(a){var
+b=be(b$(aS,a),am);return typeof
+f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):gq(f[1],a,b)},I=h[1],_=typeof
+f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bL(I):_,aM=h[4],aN=ah(h[3]),aO=h[2],ao=[0,[0,ah(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
-ao=s;return ao}function
-iw(c,b,a){if(a){var
-e=a[2],g=iw(c,bo(b),e),h=a[1];return f(iu(c,bC([0,d,d],b),h),g)}return a}function
-mZ(a){if(a){var
+ao=r;return ao}function
+iJ(c,b,a){if(a){var
+e=a[2],g=iJ(c,bt(b),e),h=a[1];return f(iH(c,bH([0,d,d],b),h),g)}return a}function
+m_(a){if(a){var
 b=a[1][6];if(b)var
-c=mZ(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
+c=m_(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return tF}function
-m0(y,V,b){function
-c(a){return r(a,V,k(d))}function
-O(a){var
-e=a[2],f=q(N(c(0)),e),b=0,d=0,g=a[1];return[0,[0,bV(function(b,a){return v(b,N(a))},g,f),d],b]}function
-P(e){var
+d=b;return d}return t3}function
+m$(y,V,b){function
+c(a){return q(a,V,k(d))}function
+N(a){var
+e=a[2],f=s(Q(c(0)),e),b=0,d=0,g=a[1];return[0,[0,b0(function(b,a){return w(b,Q(a))},g,f),d],b]}function
+O(e){var
 a=e[6];if(a)var
-b=a[1],f=N(b[2]),g=q(N(c(0)),f),d=[0,[0,v(b[1],g),0],0];else
+b=a[1],f=Q(b[2]),g=s(Q(c(0)),f),d=[0,[0,w(b[1],g),0],0];else
 var
 d=a;return d}var
-E=0;if(typeof
-b==="number")E=1;else
+D=0;if(typeof
+b==="number")D=1;else
 switch(b[0]){case
 2:var
 W=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=c(0);return[0,[0,v(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
+d=c(0);return[0,[0,w(a[1],d),0],0]}return 0},g=W,f=b[1];break;case
 3:var
 X=function(b){var
 a=b[4];if(typeof
 a!=="number"&&0===a[0]){var
-d=a[1];return[0,[0,v(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
+d=a[1];return[0,[0,w(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 4:var
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=q(c(tG),b),g=[0,[0,v(q(c(tH),d),f),0],0],h=q(d,c(tI));return[0,[0,v(q(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=s(c(t4),b),g=[0,[0,w(s(c(t5),d),f),0],0],h=s(d,c(t6));return[0,[0,w(s(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return 0;return O(a)},g=Z,f=b[1];break;case
+b!=="number"&&1===b[0])return 0;return N(a)},g=Z,f=b[1];break;case
 9:var
 _=function(a){var
 b=a[4];if(typeof
-b!=="number"&&1===b[0])return O(a);return 0},g=_,f=b[1];break;case
+b!=="number"&&1===b[0])return N(a);return 0},g=_,f=b[1];break;case
 10:var
-g=P,f=b[1];break;case
+g=O,f=b[1];break;case
 11:var
 $=function(a){var
 b=a[4];if(typeof
-b!=="number"&&0===b[0])return P(a);return 0},g=$,f=b[1];break;case
+b!=="number"&&0===b[0])return O(a);return 0},g=$,f=b[1];break;case
 12:var
-B=mZ(y);if(B){var
-aa=c(0),Q=bV(q,B[1],aa),C=e(function(a){return a[5]},y);if(C){var
+A=m_(y);if(A){var
+aa=c(0),P=b0(s,A[1],aa),C=e(function(a){return a[5]},y);if(C){var
 h=C[2],i=C[1];if(i){var
-j=i[2],F=i[1];if(j){var
+j=i[2],E=i[1];if(j){var
 l=j[2],G=j[1];if(l)if(l[2]||!h)var
 a=k(d);else{var
 m=h[2],n=h[1];if(n){var
@@ -4902,13 +4904,13 @@ o=n[2],H=n[1];if(o){var
 p=o[2],I=o[1];if(p){var
 J=p[1];if(p[2]||!m)var
 a=k(d);else{var
-s=m[1];if(s){var
-t=s[2],K=s[1];if(t){var
+r=m[1];if(r){var
+t=r[2],K=r[1];if(t){var
 u=t[2],L=t[1];if(u){var
 M=u[1];if(u[2]||m[2])var
 a=k(d);else
 var
-S=c9(H,I,K,L),T=q(l[1],S),U=q(G,c9(H,J,K,M)),a=A(v(q(F,c9(I,J,L,M)),U),T)}else
+S=de(H,I,K,L),T=s(l[1],S),U=s(G,de(H,J,K,M)),a=B(w(s(E,de(I,J,L,M)),U),T)}else
 var
 a=k(d)}else
 var
@@ -4922,8 +4924,8 @@ a=k(d)}else
 var
 a=k(d)}else
 if(h){var
-w=h[1];if(w)var
-x=w[2],a=x?x[2]?k(d):h[2]?k(d):c9(F,G,w[1],x[1]):k(d);else
+v=h[1];if(v)var
+x=v[2],a=x?x[2]?k(d):h[2]?k(d):de(E,G,v[1],x[1]):k(d);else
 var
 a=k(d)}else
 var
@@ -4934,59 +4936,59 @@ var
 a=k(d)}else
 var
 a=k(d);var
-ab=[0,bq(A(a,Q)),0],R=[0,[0,v(a,Q),ab],0]}else
+ab=[0,bu(B(a,P)),0],R=[0,[0,w(a,P),ab],0]}else
 var
-R=B;return R;default:E=1}if(E)return 0;var
-z=D(y,f);return z?g(z[1]):z}function
-d2(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-e0(a){return e(function(a){var
+R=A;return R;default:D=1}if(D)return 0;var
+z=F(y,f);return z?g(z[1]):z}function
+ee(a){return e(function(a){return[0,a[1],a[2]]},a)}function
+e7(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
-m1(c,b,a){if(typeof
-a!=="number"&&8===a[0])return bJ(f_(d2(c),b));return eB(m0(c,b,a))}function
-m2(f,g,l,I,H,s,a){if(typeof
-a==="number")return[0,[0,[0,w]],0];else
+na(c,b,a){if(typeof
+a!=="number"&&8===a[0])return bN(gj(ee(c),b));return dO(m$(c,b,a))}function
+nb(f,g,l,I,H,s,a){if(typeof
+a==="number")return[0,[0,[0,v]],0];else
 switch(a[0]){case
 0:var
 J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
 M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-z=a[1],P=0,R=ak(f,[0,[0,z,z],d]);return[0,y(function(a){return[2,V(f,a)]},R),P];case
+z=a[1],Q=0,R=am(f,[0,[0,z,z],d]);return[0,y(function(a){return[2,V(f,a)]},R),Q];case
 7:var
-A=a[3],B=a[2],C=a[1];if(!D(l,C))return tL;var
+A=a[3],B=a[2],C=a[1];if(!F(l,C))return t9;var
 G=0;if(h(f,1,B)&&h(f,1,A))var
 S=[5,B,A],j=S,n=function(a){return[7,C,a]};else
-G=1;if(G)return tK;break;case
+G=1;if(G)return t8;break;case
 8:var
-E=h(f,1,a[2]),T=0;if(E)var
+D=h(f,1,a[2]),T=0;if(D)var
 U=a[1],W=1,q=m(function(a){return h(f,W,a)},U);else
 var
-q=E;if(q)var
-X=Q(f,b),Y=f_(d2(l),s),F=[0,[4,i(au(g),Y),X]];else
+q=D;if(q)var
+X=P(f,b),Y=gj(ee(l),s),E=[0,[4,i(au(g),Y),X]];else
 var
-F=q;return[0,F,T];default:var
+E=q;return[0,E,T];default:var
 r=0;if(typeof
 a==="number")r=1;else
 switch(a[0]){case
 4:var
-t=a[3],u=a[2],v=h(f,1,[3,t,u]),O=v?h(f,1,[3,[2,u,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],t]):v,k=O;break;case
+t=a[3],u=a[2],w=h(f,1,[3,t,u]),O=w?h(f,1,[3,[2,u,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],t]):w,k=O;break;case
 6:case
 9:var
 x=h(f,1,a[2]),k=x?h(f,0,a[3]):x;break;default:r=1}if(r)var
 k=1;var
-o=k?m0(l,s,a):k;if(o){var
+o=k?m$(l,s,a):k;if(o){var
 N=[0,o[1],o[2]];return e(function(a){if(a){var
 b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(g,b[1]);return[0,[5,i(g,c),e]]}var
 d=[0,[3,i(g,c)]]}else
 var
-d=a;return d},N)}return tJ}var
-K=0,L=ak(f,[0,[0,j,j],h$(I,H)]);return[0,y(function(a){return n(V(f,a))},L),K]}function
-m3(a){if(typeof
+d=a;return d},N)}return t7}var
+K=0,L=am(f,[0,[0,j,j],im(I,H)]);return[0,y(function(a){return n(V(f,a))},L),K]}function
+nc(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-tN(b){if(0===b[0])return[0,lL(b[1])];var
-a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=br(a[4]),g=br(a[3]),h=br(a[2]);return[1,[0,br(a[1]),h,g,f,e,d,c]]}function
-bN(c){var
+t$(b){if(0===b[0])return[0,lX(b[1])];var
+a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bv(a[4]),g=bv(a[3]),h=bv(a[2]);return[1,[0,bv(a[1]),h,g,f,e,d,c]]}function
+bQ(c){var
 a=c;for(;;)switch(a[0]){case
 0:var
 b=a[1];return[0,[0,[0,b,b],d],0];case
@@ -4995,104 +4997,104 @@ b=a[1];return[0,[0,[0,b,b],d],0];case
 7:case
 8:var
 a=a[1];continue;default:var
-e=bN(a[2]);return f(bN(a[1]),e)}}function
-bt(e,a,c){switch(a[0]){case
+e=bQ(a[2]);return f(bQ(a[1]),e)}}function
+by(e,a,c){switch(a[0]){case
 0:var
-r=a[1];return cK([0,[0,r,r],d],c);case
+q=a[1];return cS([0,[0,q,q],d],c);case
 1:var
 t=a[1],h=e,u=k(d);for(;;){if(h){var
-n=h[1];if(qy(n[1],t))return n[2];var
+n=h[1];if(qW(n[1],t))return n[2];var
 h=h[2];continue}return u}case
-2:return bq(bt(e,a[1],c));case
+2:return bu(by(e,a[1],c));case
 3:var
-j=a[2],f=a[1],i=A;break;case
+j=a[2],f=a[1],i=B;break;case
 4:var
-j=a[2],f=a[1],i=v;break;case
+j=a[2],f=a[1],i=w;break;case
 5:var
-j=a[2],f=a[1],i=q;break;case
+j=a[2],f=a[1],i=s;break;case
 6:var
-j=a[2],f=a[1],i=ah;break;case
+j=a[2],f=a[1],i=aj;break;case
 7:var
-l=ew(a[2]),m=bt(e,a[1],c);if(l){if(l[1]){var
-o=N(m),s=function(a){return q(a,o)},p=fu(bn(j6(l)),s,o);return j5(l)?p:q(p,m)}return m}return k(b);default:return aA(bt(e,a[1],c))}var
-w=bt(e,j,P(c,g(bN(f))));return i(bt(e,f,c),w)}function
-cS(c,h,b){var
+l=eI(a[2]),m=by(e,a[1],c);if(l){if(l[1]){var
+o=Q(m),r=function(a){return s(a,o)},p=fI(bs(kh(l)),r,o);return kg(l)?p:s(p,m)}return m}return k(b);default:return aD(by(e,a[1],c))}var
+v=by(e,j,O(c,g(bQ(f))));return i(by(e,f,c),v)}function
+c1(c,h,b){var
 a=h;for(;;)switch(a[0]){case
 6:var
-e=a[1],k=P(b,g(bN(e))),l=cS(c,a[2],k),m=f(cS(c,e,b),l);return[0,bt(c,a,b),m];case
+e=a[1],k=O(b,g(bQ(e))),l=c1(c,a[2],k),m=f(c1(c,e,b),l);return[0,by(c,a,b),m];case
 8:var
-n=cS(c,a[1],b);return[0,bt(c,a,b),n];case
+n=c1(c,a[1],b);return[0,by(c,a,b),n];case
 2:case
 7:var
 a=a[1];continue;case
 0:case
 1:return 0;default:var
-d=a[1],i=P(b,g(bN(d))),j=cS(c,a[2],i);return f(cS(c,d,b),j)}}function
-m4(i,h,f){var
+d=a[1],i=O(b,g(bQ(d))),j=c1(c,a[2],i);return f(c1(c,d,b),j)}}function
+nd(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
-d=a[1],e=d[2],j=P(c,g(bN(e))),k=a[2],l=bt(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-ix(c,a,b){if(a){var
-e=a[1],d=e[2],h=P(b,g(bN(d))),i=a[2],j=bt(c,d,b),k=ix([0,[0,e[1],j],c],i,h);return f(cS(c,d,b),k)}return a}function
-e1(a){return x(bN,a)}function
-m5(c,a,b){if(a)var
-d=a[1],f=P(b,g(bN(d))),h=m5(c,a[2],f),e=[0,bt(c,d,b),h];else
+d=a[1],e=d[2],j=O(c,g(bQ(e))),k=a[2],l=by(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
+iK(c,a,b){if(a){var
+e=a[1],d=e[2],h=O(b,g(bQ(d))),i=a[2],j=by(c,d,b),k=iK([0,[0,e[1],j],c],i,h);return f(c1(c,d,b),k)}return a}function
+e8(a){return x(bQ,a)}function
+ne(c,a,b){if(a)var
+d=a[1],f=O(b,g(bQ(d))),h=ne(c,a[2],f),e=[0,by(c,d,b),h];else
 var
 e=a;return e}function
-m6(c,a,b){if(a){var
-d=a[1],e=P(b,g(bN(d))),h=m6(c,a[2],e);return f(cS(c,d,b),h)}return a}function
-gn(a){return 0===a[0]?e1(a[1]):bN(a[1])}function
-iy(c,b,a){if(b){var
-d=b[1],j=P(a,g(gn(d))),k=iy(c,b[2],j);if(0===d[0])var
-h=m6(c,d[1],a);else
+nf(c,a,b){if(a){var
+d=a[1],e=O(b,g(bQ(d))),h=nf(c,a[2],e);return f(c1(c,d,b),h)}return a}function
+gy(a){return 0===a[0]?e8(a[1]):bQ(a[1])}function
+iL(c,b,a){if(b){var
+d=b[1],j=O(a,g(gy(d))),k=iL(c,b[2],j);if(0===d[0])var
+h=nf(c,d[1],a);else
 var
-e=d[1],i=cS(c,e,a),h=[0,bt(c,e,a),i];return f(h,k)}return b}function
-go(c){var
+e=d[1],i=c1(c,e,a),h=[0,by(c,e,a),i];return f(h,k)}return b}function
+gz(c){var
 a=c[1];switch(a[0]){case
 0:var
 b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
-b=bD(go,a)}return[0,b]}function
-iz(c){var
+b=bI(gz,a)}return[0,b]}function
+iM(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=iz(a[2]);return q(iz(a[1]),d);case
-9:return a[1];default:return N(b)}}}function
-iA(n,h,a,f){if(a){var
-c=a[1],w=P(f,g(gn(c))),x=iA(n,h,a[2],w);if(0===c[0])var
-l=m5(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
+d=iM(a[2]);return s(iM(a[1]),d);case
+9:return a[1];default:return Q(b)}}}function
+iN(n,h,a,f){if(a){var
+c=a[1],w=O(f,g(gy(c))),x=iN(n,h,a[2],w);if(0===c[0])var
+l=ne(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=bt(h,c[1],f),q=go(m),i=aZ(aE(0,n),q),d=go(i[2]),j=e(go,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return az(a,d)?k(b):ah(a,d)},j),o=[0,j,iz(d),v,u,t,s,r];var
+m=by(h,c[1],f),q=gz(m),i=a2(az(0,n),q),d=gz(i[2]),j=e(gz,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aC(a,d)?k(b):aj(a,d)},j),o=[0,j,iM(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
-m7(a){return e(function(a){return[0,a[2],d]},a)}function
-iB(a){var
-b=x(gn,a[4]),c=f(e1(e(aT,a[3])),b);return f(m7(a[2]),c)}function
-gp(a){var
-c=co(0,m7(a[2])),d=aE(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=ao(e(ay,a[2]),c);return f(ao(a[1],h),b)}function
-iC(b,d){var
+ng(a){return e(function(a){return[0,a[2],d]},a)}function
+iO(a){var
+b=x(gy,a[4]),c=f(e8(e(aU,a[3])),b);return f(ng(a[2]),c)}function
+gA(a){var
+c=cu(0,ng(a[2])),d=az(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=ag(e(ay,a[2]),c);return f(ag(a[1],h),b)}function
+iP(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
-e=a[1];return aj(function(a){return aw(e,a)},b);case
+e=a[1];return ak(function(a){return aw(e,a)},b);case
 2:case
 7:case
 8:var
 a=a[1];continue;default:var
-c=iC(b,a[1]);if(c){var
+c=iP(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
-m8(d){var
+nh(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=U(aj(function(b){return function(a){return qy(b,a)}}(e),b));if(c){var
+b=a[2],e=a[1],c=T(ak(function(b){return function(a){return qW(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-m9(a){var
-u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=Y(tO,h),p=o?Y(h,tP):o,q=p?Y(h,g(a[4])):p,r=q?Y(g(a[4]),tQ):q,s=r?m8(d):r;if(s){var
+ni(a){var
+u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=Y(ua,h),p=o?Y(h,ub):o,q=p?Y(h,g(a[4])):p,r=q?Y(g(a[4]),uc):q,s=r?nh(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=U(aj(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iC(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=T(ak(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iP(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5101,11 +5103,11 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return m(function(a){return iC(g,a)},c)},v)}return i}function
-d3(f,e,g){var
-h=g[1],a=bD(function(a){return d3(f,e,a)},h);switch(a[0]){case
-0:return r(a[1],f,[0,d,b]);case
-1:return r(a[1],e,[0,d,b]);case
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return m(function(a){return iP(g,a)},c)},v)}return i}function
+ef(f,e,g){var
+h=g[1],a=bI(function(a){return ef(f,e,a)},h);switch(a[0]){case
+0:return q(a[1],f,[0,d,b]);case
+1:return q(a[1],e,[0,d,b]);case
 2:return[0,a[1],b];case
 3:return[2,a[1],a[2]];case
 4:return[3,a[1],a[2]];case
@@ -5115,7 +5117,7 @@ h=g[1],a=bD(function(a){return d3(f,e,a)},h);switch(a[0]){case
 8:var
 c=a[1];return[4,c,c];case
 9:return[6,a[1]];default:return[0,d,b]}}function
-m_(d){var
+nj(d){var
 b=d;for(;;){var
 a=b[1];switch(a[0]){case
 10:return 0;case
@@ -5126,51 +5128,241 @@ b=a[1];continue;case
 0:case
 1:case
 2:return 1;default:var
-c=m_(a[1]);if(c){var
+c=nj(a[1]);if(c){var
 b=a[2];continue}return c}}}function
-m$(g,f,e){var
+nk(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
-c=cL(g,b[1],a[1]);if(c){var
+c=cT(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-tR(a){var
+ud(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
 c=0;var
 e=f(a[3],c);return f(a[1],e)}function
-na(b,h,g,d,c,a){if(a){var
-j=a[2],k=a[1],l=na(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bo,f(c,j)));return al(h,al(g,bC(b,k),m),l)}return b}function
-nb(a,f,e,d,c,b){if(c){var
-g=0,h=c[1];return na(a,e,d,function(b){return nb(a,f,e,d,h,b)},g,b)}return b?a:f}function
-nc(d,a){if(a){var
-b=aK(d,a[1]);if(b)var
-c=nc(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+nl(b,h,g,d,c,a){if(a){var
+j=a[2],k=a[1],l=nl(b,h,g,d,f(c,[0,k,0]),j),m=i(d,e(bt,f(c,j)));return an(h,an(g,bH(b,k),m),l)}return b}function
+nm(a,f,e,d,c,b){if(c){var
+g=0,h=c[1];return nl(a,e,d,function(b){return nm(a,f,e,d,h,b)},g,b)}return b?a:f}function
+nn(d,a){if(a){var
+b=aM(d,a[1]);if(b)var
+c=nn(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tT}function
-nd(d,a){if(a){var
-b=nc(d,a[1]);if(b)var
-c=nd(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
+e=b;return e}return uf}function
+no(d,a){if(a){var
+b=nn(d,a[1]);if(b)var
+c=no(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return tU}var
-gr=v(k(b),gq);function
-ne(e){var
-a=N(gr);if(e)var
-f=q(k(c(2,b)),a),g=A(k(c(2,c(2,b))),f),h=q(k(c(2,b)),a),d=ah(A(k(b),h),g);else
+e=b;return e}return ug}function
+np(c,j,d,b,a){var
+e=aV(d,j),g=e?bl(b,a):e;if(g)var
+k=cs(c,a)[2],h=[0,cs(c,b)[1],k],l=[0,cs(c,dQ(a,b)),0],i=[0,[0,h,h,f(al(v,d),l)]];else
 var
-i=A(k(c(2,b)),a),j=N(gq),d=ah(A(q(k(c(2,b)),j),a),i);return aA(d)}function
-nf(d,c,a){if(d){var
-e=ne(c),f=A(k(b),e),g=q(v(k(b),a),f);return v(k(b),g)}var
-h=k(b),i=ne(c),j=ah(k(b),i);return v(q(a,A(k(b),j)),h)}function
-d4(f,e,d,a){var
-g=N(a),h=N(d),i=v(v(k(c(2,b)),h),g),j=f?e?gr:ah(gr,q(k(c(2,b)),gq)):ah(gr,k(c(2,b))),l=q(N(j),i);return aA(A(k(b),l))}function
-ng(g,d){var
+i=g;return i}function
+iQ(a){if(a){var
+b=a[1];if(b)var
+c=iQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+var
+d=b;return d}return uh}function
+nq(c,b,a){if(b){if(a){var
+d=b[1],f=nq(c,b[2],a[2]),g=a[1],h=function(b,a){return z(t(c,d,b),a)},i=function(a){return a};return aF(function(a){return t(c,d,a)},i,h,g,f)}var
+e=a}else
+var
+e=b;return e}function
+nr(c,b,a){if(b){if(a){var
+d=nr(c,b[2],a[2]);return z(t(c,b[1],a[1]),d)}return v}return v}function
+ns(a){return as(function(d,a){var
+e=c(2,b);return C(bZ(b3(d),e),a)},d,a)}function
+nt(a,i,h){var
+d=g(i);function
+t(g,e,f){var
+d=[0,b,c(2,b)];return[0,Z(cs(a,a0(c_(e,f),d)))]}var
+j=iQ(e(function(b){return eR(a,t,b)},i));if(j){var
+u=j[1],w=function(b,c,e){return np(a,d,b,c,e)},k=iQ(e(function(b){return eR(a,w,b)},i));if(k){var
+x=function(b){return cs(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),B=e(function(b){return nr(a,b,e(function(a){return a[2]},u))},n),C=ag(az(0,d),n),D=e(function(c){var
+i=nq(a,c[2],z),j=c[1],d=[0,P(a,b),0],e=f(al(v,j),d);function
+g(b,a){return G(b,aq(a))}function
+h(a){return aa(aq(a))}return aF(function(a){return a},h,g,e,i)},C),o=r(g(h),d),p=o?m(function(a){return r(g(a),d)},h):o;if(p)var
+F=c(2,b),H=bZ(cm(a),F),I=ns(B),l=E(A(c(2,c(2,b)),I),H);else
+var
+l=p;if(l){var
+J=c(2,b),K=bZ(cm(a),J),L=ns(dO(D));return E(A(c(2,c(2,b)),L),K)}var
+q=l}else
+var
+q=k;var
+s=q}else
+var
+s=j;return s}function
+gB(a){return m(function(a){return T(dU(a))},a)}function
+bR(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+bq(a){return[0,a[1],a[2]]}function
+nu(b,a){var
+d=g(a),c=r(g(b),d);if(c){var
+e=ag(b,a);return m(function(a){return bl(a[1],a[2])},e)}return c}function
+iR(e,k,j,i){var
+c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
+f=a[1],l=h(e,1,[3,bq(c[1]),f]),g=l||h(e,1,[3,f,bq(b[1])]);if(!g){var
+c=c[2],b=b[2],a=a[2];continue}var
+d=g}else
+var
+d=a;else
+var
+d=b;else
+var
+d=c;return d}}function
+nv(f,e,b,a){var
+c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(function(a){var
+b=[0,i,[0,g,0]];return m(function(b){var
+c=[0,j,[0,h,0]];return m(function(c){var
+d=bq(c),g=bq(b);return cv(f,e,[0,bq(a),g,d])},c)},b)},k)}function
+e9(b,a){var
+c=a0(a,a);return bl(a0(b,b),c)?a:b}function
+e_(b,a,e,d){var
+c=dg(b,a,bq(e));return c?dg(b,a,bq(d)):c}function
+nw(a){var
+c=q(un,a,[0,d,b]),e=q(uo,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+iS(d,c,b,a){var
+e=dk(d,c,b,a);return H(dk(d,c,b,a),e)}function
+up(i,k,t,S,H,o,l,n,aR){var
+j=t[5],aI=ag(l,n),aJ=ag(az(0,g(l)),aI),af=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aJ),ax=t[7],ay=ax?iq(i,t[2],S):ax,aA=ay?cv(i,t[4],H):ay,aB=aA?dj(i,j,o):aA,aC=aB?Y(k,uq):aB;if(aC)var
+aS=O(k,g(o)),T=r(g(l),aS);else
+var
+T=aC;if(T)var
+aT=0===j[0]?ur:us,U=r(g(o),aT);else
+var
+U=T;var
+aD=U?nu(l,n):U;if(aD)var
+aU=nw(aL(k,n)),aV=nw(aL(k,l)),V=nv(i,t[4],aV,aU);else
+var
+V=aD;if(V){var
+a=aZ(k,n),c=aZ(k,l);switch(j[0]){case
+0:var
+X=0;if(c)if(c[2])var
+h=0;else
+if(a)var
+h=a[2]?0:e_(i,j[1],c[1],a[1]);else{var
+ah=a;X=1}else{var
+ah=c;X=1}if(X)var
+h=ah;break;case
+1:var
+Z=0;if(c){var
+v=c[2],I=0;if(v){var
+w=v[2],J=0;if(w)if(w[2]){var
+h=0;I=1;J=1}else
+if(a){var
+x=a[2],_=0;if(x){var
+y=x[2],$=0;if(y)if(y[2]){var
+h=0;I=1;J=1;_=1;$=1}else{var
+ai=e_(i,j[1],c[1],a[1]),aj=ai?e_(i,j[2],v[1],x[1]):ai;if(aj){var
+h=e_(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
+var
+ak=aj}else
+var
+ak=y;if(!$)var
+al=ak}else
+var
+al=x;if(!_)var
+P=al}else
+var
+P=a;else
+var
+P=w;if(!J)var
+am=P}else
+var
+am=v;if(!I){var
+an=am;Z=1}}else{var
+an=c;Z=1}if(Z)var
+h=an;break;case
+2:var
+aa=0;if(c){var
+z=c[2],K=0;if(z){var
+A=z[2],L=0;if(A)if(A[2]){var
+h=0;K=1;L=1}else
+if(a){var
+B=a[2],ab=0;if(B){var
+C=B[2];if(C)if(C[2]){var
+h=0;K=1;L=1;ab=1}else{var
+aM=[0,bq(e9(A[1],C[1])),0],aN=[0,bq(e9(z[1],B[1])),aM],h=dj(i,j,[0,bq(e9(c[1],a[1])),aN]);K=1;L=1;ab=1}else
+var
+ao=C}else
+var
+ao=B;if(!ab)var
+Q=ao}else
+var
+Q=a;else
+var
+Q=A;if(!L)var
+ap=Q}else
+var
+ap=z;if(!K){var
+aq=ap;aa=1}}else{var
+aq=c;aa=1}if(aa)var
+h=aq;break;default:var
+ac=0;if(c){var
+D=c[2],M=0;if(D){var
+E=D[2],N=0;if(E)if(E[2]){var
+h=0;M=1;N=1}else
+if(a){var
+F=a[2],ad=0;if(F){var
+G=F[2],ae=0;if(G)if(G[2]){var
+h=0;M=1;N=1;ad=1;ae=1}else{var
+p=G[1],s=E[1],aH=0,aO=0;if(bl(s,[0,d,b])&&bl([0,d,b],p))var
+ar=[0,d,b];else
+aH=1;if(aH)var
+aK=a0(p,p),ar=bl(a0(s,s),aK)?s:p;var
+aP=[0,bq(ar),aO],aQ=[0,bq(e9(D[1],F[1])),aP],as=dj(i,j,[0,bq(e9(c[1],a[1])),aQ]);if(as){var
+h=e_(i,cW(j[2]),s,p);M=1;N=1;ad=1;ae=1}else
+var
+at=as}else
+var
+at=G;if(!ae)var
+au=at}else
+var
+au=F;if(!ad)var
+R=au}else
+var
+R=a;else
+var
+R=E;if(!N)var
+av=R}else
+var
+av=D;if(!M){var
+aw=av;ac=1}}else{var
+aw=c;ac=1}if(ac)var
+h=aw}var
+W=h}else
+var
+W=V;if(W){var
+aW=aL(k,bR(H)),aX=aL(k,n),aE=iR(i,aL(k,l),aX,aW);if(aE)var
+u=aE;else{var
+aG=1===j[0]?0:1;if(aG)var
+aY=aZ(k,n),u=iR(i,aZ(k,l),aY,o);else
+var
+u=aG}}else
+var
+u=W;var
+aF=u?m(function(a){var
+c=bR(a[2]),b=gB(f(bR(a[1]),c));return b?gB([0,iS(j,o,H,a),0]):b},S):u;return aF?nt(i,e(function(c){var
+h=[6,iS(j,o,H,c)],a=aL(k,af),e=q(ul,a,[0,d,b]),f=q(um,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,iS(j,aZ(k,af),g,c)],h]},S),aR):aF}var
+gD=w(k(b),gC);function
+nx(e){var
+a=Q(gD);if(e)var
+f=s(k(c(2,b)),a),g=B(k(c(2,c(2,b))),f),h=s(k(c(2,b)),a),d=aj(B(k(b),h),g);else
+var
+i=B(k(c(2,b)),a),j=Q(gC),d=aj(B(s(k(c(2,b)),j),a),i);return aD(d)}function
+ny(d,c,a){if(d){var
+e=nx(c),f=B(k(b),e),g=s(w(k(b),a),f);return w(k(b),g)}var
+h=k(b),i=nx(c),j=aj(k(b),i);return w(s(a,B(k(b),j)),h)}function
+eg(f,e,d,a){var
+g=Q(a),h=Q(d),i=w(w(k(c(2,b)),h),g),j=f?e?gD:aj(gD,s(k(c(2,b)),gC)):aj(gD,k(c(2,b))),l=s(Q(j),i);return aD(B(k(b),l))}function
+nz(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?z(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-iD(w,v,u,t){var
-a=e(function(a){return r(a,u,0)},v);if(a){var
+iT(w,v,u,t){var
+a=e(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
 g=b[1];if(g){var
@@ -5179,7 +5371,7 @@ h=c[1];if(h){var
 d=c[2];if(d){var
 j=d[1];if(j){if(d[2])return 0;var
 x=j[1],y=h[1],z=g[1],A=f[1];return m(function(a){var
-c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dI(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
+c=i(a,x),d=i(a,y),e=i(a,z),b=i(a,A);return dV(w,[0,[0,b,[0,e,[0,d,0]]],[0,[0,b,[0,c,0]],[0,[0,b,0],0]]])},t)}var
 k=j}else
 var
 k=d;var
@@ -5195,18 +5387,18 @@ o=g;var
 p=o}else
 var
 p=b;var
-q=p}else
+r=p}else
 var
-q=f;var
-s=q}else
+r=f;var
+s=r}else
 var
 s=a;return s}function
-nh(f,i,e,c,h){var
-j=f?b:d,a=Q(i,j);function
+nA(f,i,e,c,h){var
+j=f?b:d,a=P(i,j);function
 g(b){var
-c=f?bZ(b):cj(b);return F(c,a)}var
-k=[0,$(h),0],l=[0,[0,a,c,[0,w,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
-ni(r,b,q,p,g,o,n){if(o){var
+c=f?b4(b):cn(b);return G(c,a)}var
+k=[0,Z(h),0],l=[0,[0,a,c,[0,v,[0,g(c),0]]],k];return[0,[0,a,e,[0,g(e),0]],l]}function
+nB(r,b,q,p,g,o,n){if(o){var
 x=o[1];if(x[1])return 0;if(o[2])return 0;if(n){var
 j=x[2],s=0;if(g){var
 h=g[2],c=0;if(h){var
@@ -5215,16 +5407,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aG,a$(tX)),z=e($,0),a=iD(b,p,bi(0,bE(b,dN(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aH,bd(uv)),z=e(Z,0),a=iT(b,p,bm(0,bJ(b,d0(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
-a=G(k[2],l[1]);c=1;d=1;f=1;break}else
+a=E(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(ng,tY),a=iD(b,p,bi(0,bE(b,nh(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(nz,uw),a=iT(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(ng,tZ),a=iD(b,p,bi(0,bE(b,nh(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(nz,ux),a=iT(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5234,29 +5426,29 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?t0:a}else
+y=a?uy:a}else
 var
 y=n;return y}return[0,n]}function
-nj(f,e,d,c,p,o,n){var
+nC(f,e,d,c,p,o,n){var
 b=p,g=o,a=n;for(;;)switch(a[0]){case
 0:var
-h=ni(f,e,d,c,b,a[1],g);return h?U(h[1]):h;case
+h=nB(f,e,d,c,b,a[1],g);return h?T(h[1]):h;case
 1:var
-i=ni(f,e,d,c,b,a[1],g);if(i){var
-j=i[1],k=cF(a[2],b),l=nj(f,e,d,c,k[1],j,a[3]);if(l){var
+i=nB(f,e,d,c,b,a[1],g);if(i){var
+j=i[1],k=cN(a[2],b),l=nC(f,e,d,c,k[1],j,a[3]);if(l){var
 b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-iE(a){return ex(c(2,b),aC(a,b))}function
-d5(i,a,e,w,v){var
-m=a?b:R(b),f=k(m),g=nf(a,e,tV),h=nf(a,e,tW),n=ah(g,d4(a,e,f,g)),o=[0,A(ah(h,d4(a,e,h,f)),n),0],p=ah(f,d4(a,e,f,g)),r=[0,A(ah(h,d4(a,e,g,h)),p),o],s=ah(f,d4(a,e,h,f)),t=[0,A(ah(g,d4(a,e,g,h)),s),r],u=a?e?k(c(2,b)):q(k(c(2,c(2,b))),gq):k(c(2,c(2,b))),j=cz([0,u,t]),l=[0,d,c4(i)];return nj(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-nk(a,g,b){if(L(g,iE(a))){if(b){var
+iU(a){return bZ(c(2,b),aA(a,b))}function
+eh(i,a,e,w,v){var
+m=a?b:R(b),f=k(m),g=ny(a,e,ut),h=ny(a,e,uu),n=aj(g,eg(a,e,f,g)),o=[0,B(aj(h,eg(a,e,h,f)),n),0],p=aj(f,eg(a,e,f,g)),q=[0,B(aj(h,eg(a,e,g,h)),p),o],r=aj(f,eg(a,e,h,f)),t=[0,B(aj(g,eg(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gC):k(c(2,c(2,b))),j=cI([0,u,t]),l=[0,d,cm(i)];return nC(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+nD(a,g,b){if(K(g,iU(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,iE(a)],v=c4(a),i=[0,iE(a),v],j=d5(a,0,1,h,b[1]),k=j?d5(a,0,0,i,c[1]):j;if(k){var
-l=d5(a,1,1,h,d[1]);if(l)return d5(a,1,0,i,e[1]);var
+h=[0,g,iU(a)],v=cm(a),i=[0,iU(a),v],j=eh(a,0,1,h,b[1]),k=j?eh(a,0,0,i,c[1]):j;if(k){var
+l=eh(a,1,1,h,d[1]);if(l)return eh(a,1,0,i,e[1]);var
 m=l}else
 var
 m=k;var
@@ -5273,283 +5465,285 @@ q=p}else
 var
 q=b;return q}if(b){var
 f=b[2];if(f){if(f[2])return 0;var
-r=[0,g,c4(a)],s=d5(a,0,0,r,b[1]);if(s)return d5(a,1,0,r,f[1]);var
+r=[0,g,cm(a)],s=eh(a,0,0,r,b[1]);if(s)return eh(a,1,0,r,f[1]);var
 t=s}else
 var
 t=f;var
 u=t}else
 var
 u=b;return u}function
-iF(a){var
-b=[1,[2,d]];return bV(function(b,a){return[1,[3,b,a]]},a,b)}function
-gs(a){return iF(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-gt(a,c){return iF(e(function(a){var
-d=[0,a[2]],b=ao(a[1],c);return[1,[7,[1,[8,iF(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
-nl(e,d,c,b,a){if(0===a[0])return r(a[1],b,0);var
-f=a[1],g=bD(function(a){return nl(e,d,c,b,a)},f);return i(bE(e,d,c),g)}function
-nm(a){return a?L(d,a[1][2][1]):a}function
-t1(a){var
-b=s(g(a),t2);return b?aj(function(a){return U(I(a,d))},a):b}function
-nn(c,f,b,a){if(b)if(a)var
-d=b[1],g=t(c,Q(c,a[1]),f),h=nn(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
+iV(a){var
+b=[1,[2,d]];return b0(function(b,a){return[1,[3,b,a]]},a,b)}function
+gE(a){return iV(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+gF(a,c){return iV(e(function(a){var
+d=[0,a[2]],b=ag(a[1],c);return[1,[7,[1,[8,iV(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+nE(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
+f=a[1],g=bI(function(a){return nE(e,d,c,b,a)},f);return i(bJ(e,d,c),g)}function
+nF(a){return a?K(d,a[1][2][1]):a}function
+uz(a){var
+b=r(g(a),uA);return b?ak(function(a){return T(J(a,d))},a):b}function
+nG(c,f,b,a){if(b)if(a)var
+d=b[1],g=t(c,P(c,a[1]),f),h=nG(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
 var
 e=a;else
 var
 e=b;return e}function
-no(d,c){var
-a=D(c,d);if(a){var
-b=a[1],e=b[1];return U(I(b1(b),e))}return a}function
-gu(b,a){return eA(eA(b,0),a)}function
-iG(a){if(a){var
-b=a[2],c=a[1];if(b)return gu(c,[0,t4,iG(b)]);var
+nH(d,c){var
+a=F(c,d);if(a){var
+b=a[1],e=b[1];return T(J(b6(b),e))}return a}function
+gG(b,a){return eK(eK(b,0),a)}function
+iW(a){if(a){var
+b=a[2],c=a[1];if(b)return gG(c,[0,uC,iW(b)]);var
 d=c}else
 var
 d=a;return d}function
-E(a){return[0,t6,gu(iG(a),t5)]}function
-ad(a){return[0,t8,gu(iG(a),t7)]}function
-an(a){return[0,t_,[0,a,t9]]}function
-l(b,a){return[0,a3(ua,a3(b,t$)),a]}function
-O(b,a){return ad([0,l(b,a),0])}function
-cT(d){var
-b=d,a=q3,e=0;for(;;){if(b){var
-c=j3(a),b=b[1],a=c;continue}return[0,eC(ft(a)),e]}}function
-iH(a){return[0,eC(fA(a)),0]}function
-e2(a){var
-c=aJ(a),f=0,b=0===c?q9:0<c?[0,fA(a)]:[1,fA(R(a))];if(0===b[0])var
-d=eC(b[1]);else
+D(a){return[0,uE,gG(iW(a),uD)]}function
+ad(a){return[0,uG,gG(iW(a),uF)]}function
+ap(a){return[0,uI,[0,a,uH]]}function
+l(b,a){return[0,a8(uK,a8(b,uJ)),a]}function
+N(b,a){return ad([0,l(b,a),0])}function
+cy(d){var
+b=d,a=rp,e=0;for(;;){if(b){var
+c=ke(a),b=b[1],a=c;continue}return[0,eL(fH(a)),e]}}function
+iX(a){return[0,eL(fO(a)),0]}function
+e$(a){var
+c=aK(a),f=0,b=0===c?rv:0<c?[0,fO(a)]:[1,fO(R(a))];if(0===b[0])var
+d=eL(b[1]);else
 var
-e=eC(b[1]),d=a3(bz(1,45),e);return[0,d,f]}function
-e3(a){var
-b=0,c=0<aJ(a)?fA(a):q7;return[0,eC(c),b]}function
-iI(a){switch(a[0]){case
-2:return uc;case
-3:return 2<=a[1]?ud:ue;case
-4:return uf;default:return ub}}function
-e4(b,a){function
-c(c,a){return Y(c,iI(a))?e4(b,a):[0,ul,f(e4(b,a),uk)]}switch(a[0]){case
+e=eL(b[1]),d=a8(bE(1,45),e);return[0,d,f]}function
+fa(a){var
+b=0,c=0<aK(a)?fO(a):rt;return[0,eL(c),b]}function
+iY(a){switch(a[0]){case
+2:return uM;case
+3:return 2<=a[1]?uN:uO;case
+4:return uP;default:return uL}}function
+fb(b,a){function
+c(c,a){return Y(c,iY(a))?fb(b,a):[0,uV,f(fb(b,a),uU)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
-e==="number")return[0,a_(g),0];var
-h=[0,um,[0,a_(e),0]];return[0,a_(g),h];case
+e==="number")return[0,bc(g),0];var
+h=[0,uW,[0,bc(e),0]];return[0,bc(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,uo,c(un,a[1])];case
+2:return[0,uY,c(uX,a[1])];case
 3:var
-j=a[3],k=c([0,iI(a)],j);switch(a[1]){case
+j=a[3],k=c([0,iY(a)],j);switch(a[1]){case
 0:var
-d=ug;break;case
+d=uQ;break;case
 1:var
-d=uh;break;case
+d=uR;break;case
 2:var
-d=ui;break;default:var
-d=uj}var
-l=a[2];return f(c(iI(a),l),[0,d,k]);case
+d=uS;break;default:var
+d=uT}var
+l=a[2];return f(c(iY(a),l),[0,d,k]);case
 4:var
-m=[0,up,iH(a[2])];return f(c(uq,a[1]),m);default:return[0,us,f(e4(b,a[1]),ur)]}}function
-M(a){return[0,uv,f(e4(function(a){return 0===a[0]?a[1]:uu},a),ut)]}function
-iJ(a){return[0,ux,f(e4(function(a){return a},a),uw)]}function
-cr(a){if(0===a[0])return M(a[1]);var
-b=[0,l(uy,M(a[2])),0];return ad([0,l(uz,M(a[1])),b])}function
-gv(b,a){var
-c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return E([0,i(b,a[1]),d])}function
-uA(a){function
-b(a){return gv(cr,a)}switch(a[0]){case
+m=[0,uZ,iX(a[2])];return f(c(u0,a[1]),m);default:return[0,u2,f(fb(b,a[1]),u1)]}}function
+I(a){return[0,u5,f(fb(function(a){return 0===a[0]?a[1]:u4},a),u3)]}function
+iZ(a){return[0,u7,f(fb(function(a){return a},a),u6)]}function
+cz(a){if(0===a[0])return I(a[1]);var
+b=[0,l(u8,I(a[2])),0];return ad([0,l(u9,I(a[1])),b])}function
+gH(b,a){var
+c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return D([0,i(b,a[1]),d])}function
+u_(a){function
+b(a){return gH(cz,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?uB:uJ,h=[0,l(uC,an(g)),e],i=[0,l(uD,cr(a[4])),h],j=[0,l(uE,b(a[3])),i],k=[0,l(uF,b(a[2])),j],m=[0,l(uG,b(a[1])),k],c=[0,l(uI,an(uH)),m];break;case
+e=0,g=a[5]?u$:vh,h=[0,l(va,ap(g)),e],i=[0,l(vb,cz(a[4])),h],j=[0,l(vc,b(a[3])),i],k=[0,l(vd,b(a[2])),j],m=[0,l(ve,b(a[1])),k],c=[0,l(vg,ap(vf)),m];break;case
 1:var
-d=a[3],n=d?[0,l(uK,b(d[1])),0]:d,o=[0,l(uL,b(a[2])),0],p=[0,l(uM,b(a[1])),o],c=f([0,l(uO,an(uN)),p],n);break;default:var
-q=[0,l(uP,b(a[1])),0],c=[0,l(uR,an(uQ)),q]}return ad(c)}function
-uS(a){function
-b(a){return E(e(cr,a))}function
+d=a[3],n=d?[0,l(vi,b(d[1])),0]:d,o=[0,l(vj,b(a[2])),0],p=[0,l(vk,b(a[1])),o],c=f([0,l(vm,ap(vl)),p],n);break;default:var
+q=[0,l(vn,b(a[1])),0],c=[0,l(vp,ap(vo)),q]}return ad(c)}function
+vq(a){function
+b(a){return D(e(cz,a))}function
 d(a){var
-b=a?uT:uV;return l(uU,an(b))}switch(a[0]){case
+b=a?vr:vt;return l(vs,ap(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(uW,cr(a[4])),f],h=[0,l(uX,b(a[3])),g],i=[0,l(uY,b(a[2])),h],j=[0,l(uZ,b(a[1])),i],c=[0,l(u1,an(u0)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(vu,cz(a[4])),f],h=[0,l(vv,b(a[3])),g],i=[0,l(vw,b(a[2])),h],j=[0,l(vx,b(a[1])),i],c=[0,l(vz,ap(vy)),j];break;case
 1:var
-k=[0,l(u2,b(a[2])),0],m=[0,l(u3,b(a[1])),k],c=[0,l(u5,an(u4)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(u6,cr(a[6])),n],p=[0,l(u7,cr(a[5])),o],q=[0,l(u8,b(a[4])),p],r=[0,l(u9,b(a[3])),q],s=[0,l(u_,b(a[2])),r],t=[0,l(u$,b(a[1])),s],c=[0,l(vb,an(va)),t]}return ad(c)}function
-iK(a){switch(a){case
-0:return vc;case
-1:return vd;case
-2:return ve;case
-3:return vf;case
-4:return vg;case
-5:return vh;case
-6:return vi;case
-7:return vj;case
-8:return vk;case
-9:return vl;case
-10:return vm;case
-11:return vn;case
-12:return vo;case
-13:return vp;case
-14:return vq;default:return vr}}function
-iL(a){if(typeof
-a==="number")return vs;else
+k=[0,l(vA,b(a[2])),0],m=[0,l(vB,b(a[1])),k],c=[0,l(vD,ap(vC)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(vE,cz(a[6])),n],p=[0,l(vF,cz(a[5])),o],q=[0,l(vG,b(a[4])),p],r=[0,l(vH,b(a[3])),q],s=[0,l(vI,b(a[2])),r],t=[0,l(vJ,b(a[1])),s],c=[0,l(vL,ap(vK)),t]}return ad(c)}function
+i0(a){switch(a){case
+0:return vM;case
+1:return vN;case
+2:return vO;case
+3:return vP;case
+4:return vQ;case
+5:return vR;case
+6:return vS;case
+7:return vT;case
+8:return vU;case
+9:return vV;case
+10:return vW;case
+11:return vX;case
+12:return vY;case
+13:return vZ;case
+14:return v0;default:return v1}}function
+i1(a){if(typeof
+a==="number")return v2;else
 switch(a[0]){case
-0:return vt;case
-1:return vu;default:return vv}}function
-e5(a){var
+0:return v3;case
+1:return v4;default:return v5}}function
+fc(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,l(vw,M(c[1])),0];break;case
+d=[0,l(v6,I(c[1])),0];break;case
 1:var
-d=[0,l(vx,M(c[1])),0];break;default:var
-n=[0,M(c[2]),0],d=[0,l(vy,E([0,M(c[1]),n])),0]}var
-o=[0,l(vz,an(iL(a[4]))),d],h=a[3];if(h){var
+d=[0,l(v7,I(c[1])),0];break;default:var
+n=[0,I(c[2]),0],d=[0,l(v8,D([0,I(c[1]),n])),0]}var
+o=[0,l(v9,ap(i1(a[4]))),d],h=a[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-q=E([0,M(b[1]),0]),j=a[1],p=0,r=6===j?vA:12===j?vE:vF,g=[0,l(vB,O(r,q)),p];break;case
+q=D([0,I(b[1]),0]),j=a[1],p=0,r=6===j?v_:12===j?wc:wd,g=[0,l(v$,N(r,q)),p];break;case
 1:var
-w=E(e(M,b[1])),m=a[1],v=0,x=14===m?vG:15<=m?vI:vJ,g=[0,l(vH,O(x,w)),v];break;case
+w=D(e(I,b[1])),m=a[1],v=0,x=14===m?we:15<=m?wg:wh,g=[0,l(wf,N(x,w)),v];break;case
 2:var
-y=[0,l(vK,E([0,M(b[2]),0])),0],g=[0,l(vM,ad([0,l(vL,E([0,M(b[1]),0])),y])),0];break;default:var
-z=[0,l(vN,E([0,M(b[2]),0])),0],g=[0,l(vP,ad([0,l(vO,E([0,M(b[1]),0])),z])),0]}var
+y=[0,l(wi,D([0,I(b[2]),0])),0],g=[0,l(wk,ad([0,l(wj,D([0,I(b[1]),0])),y])),0];break;default:var
+z=[0,l(wl,D([0,I(b[2]),0])),0],g=[0,l(wn,ad([0,l(wm,D([0,I(b[1]),0])),z])),0]}var
 k=g}else
 var
 k=h;var
-s=f(k,o),i=a[2],t=i?[0,l(vC,cT(i[1])),0]:i,u=f(t,s);return ad([0,l(vD,an(iK(a[1]))),u])}function
-np(a){if(0===a[0]){var
-b=[0,l(vQ,gv(M,a[2])),0];return O(vS,ad([0,l(vR,gv(M,a[1])),b]))}var
-c=[0,M(a[5]),0],d=[0,l(vT,E([0,M(a[4]),c])),0],e=[0,l(vU,M(a[3])),d],f=[0,M(a[2]),0];return O(vW,ad([0,l(vV,E([0,M(a[1]),f])),e]))}function
-nq(a){if(0===a[0]){var
-b=[0,l(vX,E(e(M,a[2]))),0];return O(vZ,ad([0,l(vY,E(e(M,a[1]))),b]))}return np([1,a[1],a[2],a[3],a[4],a[5]])}function
-nr(a){switch(a){case
-0:return v0;case
-1:return v1;default:return v2}}function
-v3(a){function
-b(a){return E(e(cr,a))}var
-c=[0,l(v4,b(a[2])),0],d=[0,l(v5,b(a[1])),c];return ad([0,l(v7,an(v6)),d])}function
-ns(a){function
+s=f(k,o),i=a[2],t=i?[0,l(wa,cy(i[1])),0]:i,u=f(t,s);return ad([0,l(wb,ap(i0(a[1]))),u])}function
+nI(a){if(0===a[0]){var
+b=[0,l(wo,gH(I,a[2])),0];return N(wq,ad([0,l(wp,gH(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,l(wr,D([0,I(a[4]),c])),0],e=[0,l(ws,I(a[3])),d],f=[0,I(a[2]),0];return N(wu,ad([0,l(wt,D([0,I(a[1]),f])),e]))}function
+nJ(a){if(0===a[0]){var
+b=[0,l(wv,D(e(I,a[2]))),0];return N(wx,ad([0,l(ww,D(e(I,a[1]))),b]))}return nI([1,a[1],a[2],a[3],a[4],a[5]])}function
+nK(a){switch(a){case
+0:return wy;case
+1:return wz;default:return wA}}function
+wB(a){function
+b(a){return D(e(cz,a))}var
+c=[0,l(wC,b(a[2])),0],d=[0,l(wD,b(a[1])),c];return ad([0,l(wF,ap(wE)),d])}function
+nL(a){function
 b(b,a){var
-c=[0,M(a),0];return E([0,M(b),c])}switch(a[0]){case
-0:return O(v8,b(a[1],a[2]));case
+c=[0,I(a),0];return D([0,I(b),c])}switch(a[0]){case
+0:return N(wG,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(v9,b(c[1],c[2])),0],g=[0,l(v_,b(d[1],d[2])),f];return O(wa,ad([0,l(v$,b(e[1],e[2])),g]));case
-2:return O(wb,M(a[1]));default:var
-h=[0,l(wc,M(a[2])),0];return O(we,ad([0,l(wd,M(a[1])),h]))}}function
-wf(a){function
-b(a){return gv(M,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(wg,b(c[1])),0]:c,g=[0,M(a[4]),0],h=[0,l(wh,E([0,M(a[3]),g])),0],i=[0,l(wi,M(a[2])),h],j=[0,l(wj,cT(a[1])),i],d=f([0,l(wl,an(wk)),j],e);else
+c=a[3],d=a[2],e=a[1],f=[0,l(wH,b(c[1],c[2])),0],g=[0,l(wI,b(d[1],d[2])),f];return N(wK,ad([0,l(wJ,b(e[1],e[2])),g]));case
+2:return N(wL,I(a[1]));default:var
+h=[0,l(wM,I(a[2])),0];return N(wO,ad([0,l(wN,I(a[1])),h]))}}function
+wP(a){function
+b(a){return gH(I,a)}if(0===a[0])var
+c=a[5],e=c?[0,l(wQ,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(wR,D([0,I(a[3]),g])),0],i=[0,l(wS,I(a[2])),h],j=[0,l(wT,cy(a[1])),i],d=f([0,l(wV,ap(wU)),j],e);else
 var
-k=[0,l(wm,M(a[4])),0],m=[0,l(wn,b(a[3])),k],n=[0,l(wo,b(a[2])),m],o=a[1]?wp:wr,d=[0,l(wq,an(o)),n];return ad(d)}function
-nt(a){var
-b=a?[0,l(ws,E(e(wf,a))),0]:a;return b}function
-iM(d,c,b,a){var
-g=[0,l(wt,E(e(e5,a))),0],h=f(nt(b),g),i=[0,l(wu,np(c)),0];return ad(f([0,l(ww,O(wv,E(e(uA,d)))),i],h))}function
-wx(a){switch(a[0]){case
-0:return O(wy,iM(a[1],a[2],a[3],a[4]));case
+k=[0,l(wW,I(a[4])),0],m=[0,l(wX,b(a[3])),k],n=[0,l(wY,b(a[2])),m],o=a[1]?wZ:w1,d=[0,l(w0,ap(o)),n];return ad(d)}function
+nM(a){var
+b=a?[0,l(w2,D(e(wP,a))),0]:a;return b}function
+i2(d,c,b,a){var
+g=[0,l(w3,D(e(fc,a))),0],h=f(nM(b),g),i=[0,l(w4,nI(c)),0];return ad(f([0,l(w6,N(w5,D(e(u_,d)))),i],h))}function
+w7(a){switch(a[0]){case
+0:return N(w8,i2(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=E(e(uS,a[2])),m=[0,l(wz,E(e(e5,a[6]))),0],n=b?[0,l(wA,ns(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(wB,nq(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=D(e(vq,a[2])),m=[0,l(w9,D(e(fc,a[6]))),0],n=b?[0,l(w_,nL(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(w$,nJ(a[4])),o];if(typeof
 d==="number")if(d)var
-h=wC;else{var
-i=O(wH,g);k=1}else
+h=xa;else{var
+i=N(xf,g);k=1}else
 var
-h=nr(d[1]);if(!k)var
-q=c?[0,l(wD,M(c[1])),0]:c,i=O(h,ad([0,l(wE,g),q]));return O(wG,ad([0,l(wF,i),p]));case
+h=nK(d[1]);if(!k)var
+q=c?[0,l(xb,I(c[1])),0]:c,i=N(h,ad([0,l(xc,g),q]));return N(xe,ad([0,l(xd,i),p]));case
 2:var
-r=[0,l(wI,E(e(e5,a[7]))),0],s=f(nt(a[6]),r),t=[0,l(wJ,ns(a[5])),0],u=[0,l(wK,nq(a[4])),t],v=[0,l(wL,M(a[3])),0],w=ad([0,l(wM,E(e(v3,a[2]))),v]);return O(wO,ad(f([0,l(wN,O(nr(a[1]),w)),u],s)));case
+r=[0,l(xg,D(e(fc,a[7]))),0],s=f(nM(a[6]),r),t=[0,l(xh,nL(a[5])),0],u=[0,l(xi,nJ(a[4])),t],v=[0,l(xj,I(a[3])),0],w=ad([0,l(xk,D(e(wB,a[2]))),v]);return N(xm,ad(f([0,l(xl,N(nK(a[1]),w)),u],s)));case
 3:var
-x=[0,l(wP,E(e(e5,a[7]))),0],y=[0,l(wQ,E(e(M,a[6]))),0],z=[0,l(wT,O(wS,ad([0,l(wR,E(e(M,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(wW,E(e(function(a){return 0===a[0]?O(wU,E(e(iJ,a[1]))):O(wV,iJ(a[1]))},B))),A],D=a[3],F=[0,l(wX,E(e(function(a){var
-b=[0,iJ(a[2]),0];return E([0,an(a[1]),b])},D))),C],G=a[2],H=[0,l(wY,E(e(function(a){var
-b=[0,cr(a[2]),0];return E([0,an(a[1]),b])},G))),F];return O(w2,ad([0,l(w1,O(w0,ad([0,l(wZ,E(e(an,a[1]))),H]))),z]));case
+x=[0,l(xn,D(e(fc,a[7]))),0],y=[0,l(xo,D(e(I,a[6]))),0],z=[0,l(xr,N(xq,ad([0,l(xp,D(e(I,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(xu,D(e(function(a){return 0===a[0]?N(xs,D(e(iZ,a[1]))):N(xt,iZ(a[1]))},B))),A],E=a[3],F=[0,l(xv,D(e(function(a){var
+b=[0,iZ(a[2]),0];return D([0,ap(a[1]),b])},E))),C],G=a[2],H=[0,l(xw,D(e(function(a){var
+b=[0,cz(a[2]),0];return D([0,ap(a[1]),b])},G))),F];return N(xA,ad([0,l(xz,N(xy,ad([0,l(xx,D(e(ap,a[1]))),H]))),z]));case
 4:var
-I=[0,l(w3,E(e(e5,a[3]))),0],J=[0,l(w6,O(w5,ad([0,l(w4,M(a[2])),0]))),I];return O(w_,ad([0,l(w9,O(w8,ad([0,l(w7,M(a[1])),0]))),J]));case
+J=[0,l(xB,D(e(fc,a[3]))),0],K=[0,l(xE,N(xD,ad([0,l(xC,I(a[2])),0]))),J];return N(xI,ad([0,l(xH,N(xG,ad([0,l(xF,I(a[1])),0]))),K]));case
 5:var
-K=[0,l(w$,M(a[5])),0];return O(xb,ad([0,l(xa,iM(a[1],[0,a[2],a[3]],0,a[4])),K]));case
+L=[0,l(xJ,I(a[5])),0];return N(xL,ad([0,l(xK,i2(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],L=0,N=j?cr(j[1]):an(xe);return O(xd,ad([0,l(xc,N),L]));default:var
-P=[0,l(xf,M(a[6])),0],Q=[0,l(xg,M(a[5])),P],R=[0,l(xh,iM(a[2],a[3],0,a[4])),Q],S=a[1];return O(xm,ad([0,l(xl,E(e(function(a){var
-b=[0,l(xi,M(a[2][2])),0],c=[0,l(xj,M(a[2][1])),b];return ad([0,l(xk,an(a[1])),c])},S))),R]))}}function
-d6(a){return E(e(e2,a))}function
-gw(b,a){var
-c=[0,l(xn,e3(a)),0];return ad([0,l(xo,E(e(d6,b))),c])}function
-d7(a){switch(a[0]){case
-0:return an(a[1]);case
+j=a[1],M=0,O=j?cz(j[1]):ap(xO);return N(xN,ad([0,l(xM,O),M]));default:var
+P=[0,l(xP,I(a[6])),0],Q=[0,l(xQ,I(a[5])),P],R=[0,l(xR,i2(a[2],a[3],0,a[4])),Q],S=a[1];return N(xW,ad([0,l(xV,D(e(function(a){var
+b=[0,l(xS,I(a[2][2])),0],c=[0,l(xT,I(a[2][1])),b];return ad([0,l(xU,ap(a[1])),c])},S))),R]))}}function
+ei(a){return D(e(e$,a))}function
+fd(b,a){var
+c=[0,l(xX,fa(a)),0];return ad([0,l(xY,D(e(ei,b))),c])}function
+ej(a){switch(a[0]){case
+0:return ap(a[1]);case
 1:var
-b=gw(a[2],a[3]);return O(a[1],b);case
+b=fd(a[2],a[3]);return N(a[1],b);case
 2:var
-c=a[1]?xp:xr;return O(xq,an(c));case
+c=a[1]?xZ:x1;return N(x0,ap(c));case
 3:var
-d=[0,d6(a[3]),0];return O(xs,E([0,gw(a[1],a[2]),d]));case
+d=[0,ei(a[3]),0];return N(x2,D([0,fd(a[1],a[2]),d]));case
 4:var
-f=[0,e3(a[4]),0],g=[0,e2(a[3]),f];return O(xt,E([0,gw(a[1],a[2]),g]));case
+f=[0,fa(a[4]),0],g=[0,e$(a[3]),f];return N(x3,D([0,fd(a[1],a[2]),g]));case
 5:var
-h=[0,e3(a[3]),0],i=[0,e2(a[2]),h];return O(xu,E([0,d7(a[1]),i]));case
+h=[0,fa(a[3]),0],i=[0,e$(a[2]),h];return N(x4,D([0,ej(a[1]),i]));case
 6:var
-j=[0,e3(a[3]),0],k=[0,e2(a[2]),j];return O(xv,E([0,d7(a[1]),k]));case
-7:return O(xw,d7(a[1]));case
+j=[0,fa(a[3]),0],k=[0,e$(a[2]),j];return N(x5,D([0,ej(a[1]),k]));case
+7:return N(x6,ej(a[1]));case
 8:var
-l=[0,E(e(d6,a[3])),0],m=[0,an(a[2]),l];return O(xx,E([0,d7(a[1]),m]));default:var
-n=a[1];return O(xy,E(e(function(a){var
-b=a[1],c=b[1],d=[0,d7(a[2]),0],e=[0,e3(b[2]),d],f=[0,e2(c[2]),e];return E([0,d6(c[1]),f])},n)))}}function
-xz(a){var
-b=[0,d7(a[2]),0];return E([0,cT(a[1]),b])}function
-nu(a){if(typeof
-a==="number")return 0===a?an(xA):an(xB);else
+l=[0,D(e(ei,a[3])),0],m=[0,ap(a[2]),l];return N(x7,D([0,ej(a[1]),m]));default:var
+n=a[1];return N(x8,D(e(function(a){var
+b=a[1],c=b[1],d=[0,ej(a[2]),0],e=[0,fa(b[2]),d],f=[0,e$(c[2]),e];return D([0,ei(c[1]),f])},n)))}}function
+x9(a){var
+b=[0,ej(a[2]),0];return D([0,cy(a[1]),b])}function
+nN(a){if(typeof
+a==="number")return 0===a?ap(x_):ap(x$);else
 switch(a[0]){case
 0:var
-b=[0,E(e(d6,a[2])),0];return O(xC,E([0,cT(a[1]),b]));case
+b=[0,D(e(ei,a[2])),0];return N(ya,D([0,cy(a[1]),b]));case
 1:var
-c=[0,cT(a[2]),0];return O(xD,E([0,cT(a[1]),c]));default:return O(xE,E(e(M,a[1])))}}function
-xF(a){var
-b=a[4],h=b?[0,l(xG,d6([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(xH,nu(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(xI,cT(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(xJ,E(e(xz,[0,c[1],c[2]]))),0]:c;return ad(f(n,m))}function
-nv(g,a,d){var
-h=[0,l(xK,E(e(xF,d))),0];if(a)var
-b=a[1],c=[0,l(xL,gw(b[1],b[2])),0];else
+c=[0,cy(a[2]),0];return N(yb,D([0,cy(a[1]),c]));case
+2:return N(yc,D(e(I,a[1])));default:var
+d=[0,l(yd,fd(a[4],a[5])),0],f=[0,l(ye,D(e(I,a[3]))),d],g=[0,l(yf,D(e(I,a[2]))),f];return N(yh,ad([0,l(yg,cy(a[1])),g]))}}function
+yi(a){var
+b=a[4],h=b?[0,l(yj,ei([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(yk,nN(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(yl,cy(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(ym,D(e(x9,[0,c[1],c[2]]))),0]:c;return ad(f(n,m))}function
+nO(g,a,d){var
+h=[0,l(yn,D(e(yi,d))),0];if(a)var
+b=a[1],c=[0,l(yo,fd(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ad([0,l(xM,iH(g)),i])}function
-nw(d,c,a,b){var
-g=[0,l(xN,nu(b)),0],h=a?[0,l(xO,E(e(M,a))),0]:a,i=f(h,g),j=[0,l(xP,E(e(M,c))),0];return ad(f([0,l(xQ,iH(d)),j],i))}function
-xR(a){if(typeof
-a==="number")return an(xS);else
+i=f(c,h);return ad([0,l(yp,iX(g)),i])}function
+nP(d,c,a,b){var
+g=[0,l(yq,nN(b)),0],h=a?[0,l(yr,D(e(I,a))),0]:a,i=f(h,g),j=[0,l(ys,D(e(I,c))),0];return ad(f([0,l(yt,iX(d)),j],i))}function
+yu(a){if(typeof
+a==="number")return ap(yv);else
 switch(a[0]){case
-0:return O(xT,cT(a[1]));case
-1:return O(xU,nv(a[1],a[2],a[3]));default:return O(xV,nw(a[1],a[2],a[3],a[4]))}}function
-gx(a){var
-b=hi(hh(av(a),function(b){return aW(a,b)}));return m(function(a){var
-b=U(34===a?1:0),c=b?U(92===a?1:0):b,d=c?Y(x_,fC(a)):c;return d?Y(fC(a),x$):d},b)}function
-nx(c){var
+0:return N(yw,cy(a[1]));case
+1:return N(yx,nO(a[1],a[2],a[3]));default:return N(yy,nP(a[1],a[2],a[3],a[4]))}}function
+gI(a){var
+b=hu(ht(av(a),function(b){return aY(a,b)}));return m(function(a){var
+b=T(34===a?1:0),c=b?T(92===a?1:0):b,d=c?Y(yN,fQ(a)):c;return d?Y(fQ(a),yO):d},b)}function
+nQ(c){var
 a=c;for(;;)switch(a[0]){case
 8:var
-b=gx(a[2]);if(b){var
+b=gI(a[2]);if(b){var
 a=a[1];continue}return b;case
 9:var
-d=a[1];return m(function(a){return nx(a[2])},d);case
+d=a[1];return m(function(a){return nQ(a[2])},d);case
 0:case
-1:return gx(a[1]);case
+1:return gI(a[1]);case
 5:case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-e6(b){function
+fe(b){function
 c(f){var
-a=fC(f),b=Y(ya,a),c=b?Y(a,yb):b;if(c)var
+a=fQ(f),b=Y(yP,a),c=b?Y(a,yQ):b;if(c)var
 d=c;else{var
-e=Y(yc,a);if(e)return Y(a,yd);var
+e=Y(yR,a);if(e)return Y(a,yS);var
 d=e}return d}var
-a=hi(hh(av(b),function(a){return aW(b,a)}));if(a){var
+a=hu(ht(av(b),function(a){return aY(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fC(a),f=Y(ye,e),h=f?Y(e,yf):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?Y(g(d),yg):f;if(h)return U(aw(b,yh));var
+e=fQ(a),f=Y(yT,e),h=f?Y(e,yU):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?Y(g(d),yV):f;if(h)return T(aw(b,yW));var
 i=h}else
 var
 i=a;return i}function
-iN(c){var
+i3(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return e6(a[1]);case
+1:return fe(a[1]);case
 3:var
-b=iN(a[2]);if(b){var
+b=i3(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-e7(m){var
+ff(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5560,40 +5754,40 @@ h=typeof
 e[1]==="number"?1:0,d=h?1:h;else
 var
 d=1;if(d){var
-f=ft(a[2]);if(typeof
+f=fH(a[2]);if(typeof
 f!=="number"&&0===f[0])return 0;var
 g=1}else
 var
 g=d;return g;case
 1:return 1;case
 3:var
-i=e7(a[2]);if(i){var
+i=ff(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=e7(a[1]),l=k?fy(c(2,b),j):k;return l?fy(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=ff(a[1]),l=k?fM(c(2,b),j):k;return l?fM(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
-d8(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
-bO(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-dh(a){return x(d8,bO(a))}function
-iO(a){switch(a[0]){case
+ek(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
+bS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+dq(a){return x(ek,bS(a))}function
+i4(a){switch(a[0]){case
 0:var
-c=d8(a[4]),d=f(dh(a[3]),c),e=f(dh(a[2]),d);return f(dh(a[1]),e);case
+c=ek(a[4]),d=f(dq(a[3]),c),e=f(dq(a[2]),d);return f(dq(a[1]),e);case
 1:var
-b=a[3],g=b?dh(b[1]):b,h=f(dh(a[2]),g);return f(dh(a[1]),h);default:return dh(a[1])}}function
-yi(a){switch(a[0]){case
+b=a[3],g=b?dq(b[1]):b,h=f(dq(a[2]),g);return f(dq(a[1]),h);default:return dq(a[1])}}function
+yX(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
 b=f(a[1],a[2]);break;default:var
-e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return x(d8,b)}function
-ny(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-nz(a){if(0===a[0]){var
-b=bO(a[2]);return f(bO(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
-nA(a){switch(a[0]){case
+e=f(a[4],[0,a[5],[0,a[6],0]]),g=f(a[3],e),h=f(a[2],g),b=f(a[1],h)}return x(ek,b)}function
+nR(a){return 0===a[0]?f(a[1],a[2]):[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+nS(a){if(0===a[0]){var
+b=bS(a[2]);return f(bS(a[1]),b)}return[0,a[1],[0,a[2],[0,a[3],[0,a[4],[0,a[5],0]]]]]}function
+nT(a){switch(a[0]){case
 1:var
 b=a[3],c=a[2],d=a[1];return[0,d[1],[0,d[2],[0,c[1],[0,c[2],[0,b[1],[0,b[2],0]]]]]];case
 2:return[0,a[1],0];default:return[0,a[1],[0,a[2],0]]}}function
-di(e){var
+dr(e){var
 a=e[4],h=typeof
 a==="number"?0:2===a[0]?[0,a[1],[0,a[2],0]]:[0,a[1],0],c=e[3];if(c){var
 b=c[1];switch(b[0]){case
@@ -5605,29 +5799,31 @@ d=[0,b[1],[0,b[2],0]]}var
 g=d}else
 var
 g=c;return f(g,h)}function
-nB(a){if(0===a[0]){var
-b=a[5],c=b?bO(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
-d=[0,a[4],0],e=f(bO(a[3]),d);return f(bO(a[2]),e)}function
-nC(b,e){var
+nU(a){if(0===a[0]){var
+b=a[5],c=b?bS(b[1]):b;return[0,a[2],[0,a[3],[0,a[4],c]]]}var
+d=[0,a[4],0],e=f(bS(a[3]),d);return f(bS(a[2]),e)}function
+nV(b,e){var
 a=e;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
 c=a[1];if(0===c[0]){var
-f=c[1];return aj(function(a){return aw(f,a)},b)}return 0;case
+f=c[1];return ak(function(a){return aw(f,a)},b)}return 0;case
 3:var
-d=nC(b,a[2]);if(d){var
+d=nV(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-e8(c,a){return m(function(a){var
-b=e7(a);return b?nC(c,a):b},a)}function
-nD(a){if(typeof
-a!=="number"&&2===a[0])return a[1];return 0}function
-nE(a){var
-d=fy(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fy(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
-nF(a,b){return b?[4,nF(a,b[1]),a]:a}function
+fg(c,a){return m(function(a){var
+b=ff(a);return b?nV(c,a):b},a)}function
+nW(a){if(typeof
+a!=="number")switch(a[0]){case
+2:return a[1];case
+3:return f(a[2],a[3])}return 0}function
+nX(a){var
+d=fM(c(2,c(2,c(2,c(2,c(2,b))))),a);return d?fM(a,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))):d}function
+nY(a,b){return b?[4,nY(a,b[1]),a]:a}function
 j(a){switch(a[0]){case
 0:var
-i=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return B(k,a)},m=fu(j1(i),l,b);return[0,kd(j2(ft(a[1]),i)),m];case
+i=a[2],k=c(2,p(c(2,c(2,b)))),l=function(a){return A(k,a)},m=fI(kc(i),l,b);return[0,kq(kd(fH(a[1]),i)),m];case
 1:var
 e=a[1];return 0===e[0]?[5,[0,b,b],[0,d,b]]:[1,e[1],e[2],e[3]];case
 2:var
@@ -5638,35 +5834,35 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bn(ew(a[2]));return nF(j(a[1]),n);default:return[6,j(a[1])]}}function
-bP(a){if(0===a[0]){var
+n=bs(eI(a[2]));return nY(j(a[1]),n);default:return[6,j(a[1])]}}function
+bT(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
-dj(a){var
-b=bP(a[3]),c=bP(a[2]);return[0,bP(a[1]),c,b]}function
-yj(a){switch(a[0]){case
+ds(a){var
+b=bT(a[3]),c=bT(a[2]);return[0,bT(a[1]),c,b]}function
+yY(a){switch(a[0]){case
 0:var
-b=a[5],c=bP(a[4]),d=dj(a[3]),e=dj(a[2]);return[0,[0,dj(a[1]),e,d,c,b]];case
+b=a[5],c=bT(a[4]),d=ds(a[3]),e=ds(a[2]);return[0,[0,ds(a[1]),e,d,c,b]];case
 1:var
-f=y(dj,a[3]),g=dj(a[2]);return[1,dj(a[1]),g,f];default:return[2,dj(a[1])]}}function
-nG(a){if(0===a[0]){var
+f=y(ds,a[3]),g=ds(a[2]);return[1,ds(a[1]),g,f];default:return[2,ds(a[1])]}}function
+nZ(a){if(0===a[0]){var
 c=a[2],d=a[1],b=function(a){var
 b=j(i(a,c));return[0,j(i(a,d)),b]},e=b(function(a){return a[3]}),f=b(function(a){return a[2]});return[0,[0,b(function(a){return a[1]}),f,e]]}var
 g=j(a[5]),h=[0,j(a[4]),g],k=j(a[3]),l=j(a[2]);return[1,j(a[1]),l,k,h]}function
-d9(a){var
+el(a){var
 b=j(a[3]),c=j(a[2]);return[0,j(a[1]),c,b]}function
-cU(a){if(0===a[0]){var
-c=a[5],h=c?d9(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bn(a[1]),l,k,i,h]}var
+c2(a){if(0===a[0]){var
+c=a[5],h=c?el(c[1]):[0,[0,d,b],[0,d,b],[0,d,b]],i=j(a[4]),k=j(a[3]),l=j(a[2]);return[0,bs(a[1]),l,k,i,h]}var
 e=a[4],f=a[3],g=a[2];if(a[1]){var
-m=d9(f),n=d9(g);return[2,j(e),n,m]}var
-o=d9(f),p=d9(g);return[1,j(e),p,o]}function
-gy(b,a){if(a){var
-c=a[1],d=a[2],g=gy(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bh(function(c){var
-a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:s(b[1],a[1]):0:0===a[0]?0:ce(b[1],a[1]);return U(d)},h),g)}return a}function
-yk(b){if(b[1])return 0;var
+m=el(f),n=el(g);return[2,j(e),n,m]}var
+o=el(f),p=el(g);return[1,j(e),p,o]}function
+gJ(b,a){if(a){var
+c=a[1],d=a[2],g=gJ(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bk(function(c){var
+a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:r(b[1],a[1]):0:0===a[0]?0:cj(b[1],a[1]);return T(d)},h),g)}return a}function
+yZ(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-yl(N,M,a){switch(a[1]){case
+y0(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -5712,23 +5908,23 @@ E=o;return E}return 0;case
 q=a[4];if(typeof
 q!=="number"&&0===q[0])return[0,[9,j(q[1])],0];return 0;case
 8:var
-r=a[4],K=0;if(typeof
-r==="number"||!(1===r[0]))K=1;else{var
-t=a[3],W=r[1];if(!t)return t;var
+s=a[4],K=0;if(typeof
+s==="number"||!(1===s[0]))K=1;else{var
+t=a[3],W=s[1];if(!t)return t;var
 F=t[1];if(0!==F[0])return 0;var
 X=F[1],c=function(a){var
 b=j(W);return[13,a,j(X),b]}}if(K)return 0;break;case
 9:var
 u=a[4];if(typeof
 u!=="number"&&0===u[0]){var
-Y=u[1],Z=gy(0,M);return e(function(h){var
+Y=u[1],Z=gJ(0,M);return e(function(h){var
 e=j(Y),a=h[2],c=h[1];if(0===c[0]){var
 f=c[1];if(0===a[0]){var
-g=function(a){return a?d9(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(s(f,a[1])){var
-i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bn(f),m,l,k]}var
-n=cU(a);return[10,cU(c),n,e]}var
-o=cU(a);return[10,cU(c),o,e]}var
-p=cU(a);return[10,cU(c),p,e]},Z)}return 0;case
+g=function(a){return a?el(a[1]):[0,[0,d,b],[0,d,b],[0,d,b]]};if(r(f,a[1])){var
+i=j(a[2]),k=[2,[2,j(c[2]),i],e],l=g(a[5]),m=g(c[5]);return[11,bs(f),m,l,k]}var
+n=c2(a);return[10,c2(c),n,e]}var
+o=c2(a);return[10,c2(c),o,e]}var
+p=c2(a);return[10,c2(c),p,e]},Z)}return 0;case
 10:var
 v=a[4],L=0;if(typeof
 v==="number"||!(1===v[0]))L=1;else{var
@@ -5738,15 +5934,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?ym:G;return ab;case
+a[4]==="number"?1:0,ab=G?y1:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bn(B[1]),0]:aE(0,N);return e(c,P)}function
-yn(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bs(B[1]),0]:az(0,N);return e(c,P)}function
+y2(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5763,8 +5959,8 @@ e=a[3];return e?0===e[1][0]?1:0:e}var
 d=a[3];if(!d)return d;if(0!==d[1][0])return 0;var
 b=q[1]}if(L)return 0;break;case
 3:var
-r=a[4];if(typeof
-r!=="number"&&1===r[0])return a[2]?0:a[3]?0:1;return 0;case
+s=a[4];if(typeof
+s!=="number"&&1===s[0])return a[2]?0:a[3]?0:1;return 0;case
 4:var
 M=0,t=a[4];if(typeof
 t==="number"||!(0===t[0]))M=1;else{var
@@ -5779,7 +5975,7 @@ w!=="number"&&0===w[0]){if(a[2])return 0;var
 f=a[3];if(f){var
 x=f[1];switch(x[0]){case
 0:return 1;case
-1:return s(g(x[1]),c);default:var
+1:return r(g(x[1]),c);default:var
 y=0}}else
 var
 y=f;return y}return 0;case
@@ -5790,7 +5986,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=s(c,yp),O=0;if(B){var
+B=r(c,y4),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -5816,19 +6012,19 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?s(c,yq):0:k}return 0;default:return 0}var
-o=Y(yo,b);return o?Y(b,c):o}function
-iP(d,c,b){var
-e=x(function(a){return yl(d,c,a)},b),a=x(yk,b),g=a?[0,a[1],a[2]]:yr;return f(g,e)}function
-iQ(a,d,c,b){var
-f=iP(g(a),c,b),h=nG(d);return[0,e(yj,a),h,f]}function
-nH(b){if(b[1])return 0;var
+k=a[3];return k?0===k[1][0]?r(c,y5):0:k}return 0;default:return 0}var
+o=Y(y3,b);return o?Y(b,c):o}function
+i5(d,c,b){var
+e=x(function(a){return y0(d,c,a)},b),a=x(yZ,b),g=a?[0,a[1],a[2]]:y6;return f(g,e)}function
+i6(a,d,c,b){var
+f=i5(g(a),c,b),h=nZ(d);return[0,e(yY,a),h,f]}function
+n0(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-nI(c){function
-a(a){return r(a,e(j,c),[0,d,b])}var
-f=a(ys),g=a(yt);return[0,a(0),g,f]}function
-iR(S,C,R,a){switch(a[1]){case
+n1(c){function
+a(a){return q(a,e(j,c),[0,d,b])}var
+f=a(y7),g=a(y8);return[0,a(0),g,f]}function
+i7(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -5866,7 +6062,7 @@ l!=="number"&&0===l[0]){var
 F=l[1],m=a[3];if(m){var
 n=m[1];switch(n[0]){case
 0:var
-$=j(F);return[0,[8,as(j(n[1]),C),$],0];case
+$=j(F);return[0,[8,al(j(n[1]),C),$],0];case
 1:var
 aa=j(F);return[0,[8,e(j,n[1]),aa],0];default:var
 G=0}}else
@@ -5882,8 +6078,8 @@ b=j(ab);return[7,a,j(ac),b]}}if(M)return 0;break;case
 9:var
 q=a[4];if(typeof
 q!=="number"&&0===q[0]){var
-ad=q[1],ae=gy(0,R);return e(function(a){var
-b=j(ad),c=cU(a[2]);return[14,cU(a[1]),c,b]},ae)}return 0;case
+ad=q[1],ae=gJ(0,R);return e(function(a){var
+b=j(ad),c=c2(a[2]);return[14,c2(a[1]),c,b]},ae)}return 0;case
 10:var
 r=a[4],N=0;if(typeof
 r==="number"||!(1===r[0]))N=1;else{var
@@ -5905,22 +6101,22 @@ ak=x[1],b=function(a){return[11,a,j(ak)]};if(O)return 0;break;case
 14:var
 y=a[4],P=0;if(typeof
 y==="number"||!(1===y[0]))P=1;else{var
-z=a[3],al=y[1];if(!z)return z;var
+z=a[3],am=y[1];if(!z)return z;var
 I=z[1];if(1!==I[0])return 0;var
-am=I[1],b=function(a){var
-b=j(al);return[13,a,0,nI(am),b]}}if(P)return 0;break;case
+an=I[1],b=function(a){var
+b=j(am);return[13,a,0,n1(an),b]}}if(P)return 0;break;case
 15:var
 A=a[4],Q=0;if(typeof
 A==="number"||!(1===A[0]))Q=1;else{var
-B=a[3],an=A[1];if(!B)return B;var
+B=a[3],ao=A[1];if(!B)return B;var
 J=B[1];if(1!==J[0])return 0;var
-ao=J[1],b=function(a){var
-b=j(an);return[13,a,1,nI(ao),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bn(D[1]),0]:aE(0,C);return e(b,U)}function
-dk(e,d,c,b){var
-g=x(function(a){return iR(e,d,c,a)},b),a=x(nH,b),h=a?[0,a[1],a[2]]:yu;return f(h,g)}function
-d_(a){return 11===a[1]?1:0}function
-b7(n,m,a){var
+ap=J[1],b=function(a){var
+b=j(ao);return[13,a,1,n1(ap),b]}}if(Q)return 0;break;default:return 0}var
+D=a[2],U=D?[0,bs(D[1]),0]:az(0,C);return e(b,U)}function
+dt(e,d,c,b){var
+g=x(function(a){return i7(e,d,c,a)},b),a=x(n0,b),h=a?[0,a[1],a[2]]:y9;return f(h,g)}function
+em(a){return 11===a[1]?1:0}function
+ca(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
 0:var
 c=a[4];if(typeof
@@ -5930,25 +6126,25 @@ l=0,d=a[4];if(typeof
 d!=="number"&&2===d[0]){var
 e=1;l=1}if(!l)var
 e=0;var
-f=ce(n,e);if(f){var
+f=cj(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Y(yv,h);return i?Y(h,m):i}var
+h=g[1],i=Y(y_,h);return i?Y(h,m):i}var
 j=1}else
 var
 j=f;return j;case
 3:var
 k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
-bu(r,b,a){var
+bz(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Y(yw,e),t=f?Y(e,b):f,c=t;else
+e=d[1],f=Y(y$,e),t=f?Y(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
 2:var
 i=a[4];if(typeof
 i!=="number"&&1===i[0]){var
-j=a[3];return j?0===j[1][0]?c:b7(0,b,a):b7(0,b,a)}return b7(0,b,a);case
+j=a[3];return j?0===j[1][0]?c:ca(0,b,a):ca(0,b,a)}return ca(0,b,a);case
 6:var
 k=a[4];if(typeof
 k!=="number"&&0===k[0]){var
@@ -5956,64 +6152,64 @@ l=a[3];if(l){var
 m=l[1];switch(m[0]){case
 0:return a[2]?0:1;case
 1:var
-n=s(g(m[1]),b);if(n){if(a[2])return 0;var
+n=r(g(m[1]),b);if(n){if(a[2])return 0;var
 o=1}else
 var
-o=n;return o;default:return b7(0,b,a)}}return b7(0,b,a)}return b7(0,b,a);case
+o=n;return o;default:return ca(0,b,a)}}return ca(0,b,a)}return ca(0,b,a);case
 8:var
 p=a[4];if(typeof
 p!=="number"&&1===p[0]){var
-q=a[3];return q?0===q[1][0]?c?s(b,r):c:b7(0,b,a):b7(0,b,a)}return b7(0,b,a)}return b7(0,b,a)}function
-aL(c,b,a){return 11===a[1]?typeof
-a[4]==="number"?a[2]?bu(c,b,a):a[3]?bu(c,b,a):1:bu(c,b,a):bu(c,b,a)}function
-nJ(f,c,b,a){var
+q=a[3];return q?0===q[1][0]?c?r(b,s):c:ca(0,b,a):ca(0,b,a)}return ca(0,b,a)}return ca(0,b,a)}function
+aN(c,b,a){return 11===a[1]?typeof
+a[4]==="number"?a[2]?bz(c,b,a):a[3]?bz(c,b,a):1:bz(c,b,a):bz(c,b,a)}function
+n2(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Y(yy,h),r=i?Y(h,b):i,d=r;else
+h=g[1],i=Y(zb,h),s=i?Y(h,b):i,d=s;else
 var
 d=1;switch(a[1]){case
-1:if(a[3])return bu(be(c),b,a);if(d){var
+1:if(a[3])return bz(bh(c),b,a);if(d){var
 q=0,j=a[4];if(typeof
 j!=="number"&&2===j[0]){var
 k=1;q=1}if(!q)var
-k=0;return ce(f,k)}return d;case
+k=0;return cj(f,k)}return d;case
 4:var
 l=a[4];if(typeof
-l!=="number"&&0===l[0])return a[3]?bu(be(c),b,a):d;return bu(be(c),b,a);case
+l!=="number"&&0===l[0])return a[3]?bz(bh(c),b,a):d;return bz(bh(c),b,a);case
 5:var
 m=a[4];if(typeof
-m!=="number"&&0===m[0]){if(a[3])return bu(be(c),b,a);var
-n=s(b,be(c));if(n){var
+m!=="number"&&0===m[0]){if(a[3])return bz(bh(c),b,a);var
+n=r(b,bh(c));if(n){var
 o=typeof
 c==="number"?1:0;if(o){if(a[2])return 0;var
 e=1}else
 var
 e=o}else
 var
-e=n;return e}return bu(be(c),b,a);case
+e=n;return e}return bz(bh(c),b,a);case
 13:var
 p=a[4];if(typeof
-p!=="number"&&1===p[0])return a[3]?bu(be(c),b,a):d?U(f):d;return bu(be(c),b,a);default:return bu(be(c),b,a)}}function
-cV(a){switch(a[0]){case
+p!=="number"&&1===p[0])return a[3]?bz(bh(c),b,a):d?T(f):d;return bz(bh(c),b,a);default:return bz(bh(c),b,a)}}function
+c3(a){switch(a[0]){case
 0:return[0,j([0,a[1],a[2]])];case
 1:return[1,a[1]];case
-2:return[2,cV(a[1])];case
+2:return[2,c3(a[1])];case
 3:var
-b=cV(a[2]),c=cV(a[3]);switch(a[1]){case
+b=c3(a[2]),c=c3(a[3]);switch(a[1]){case
 0:return[3,b,c];case
 1:return[4,b,c];case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
-d=a[2];return[7,cV(a[1]),d];default:return[8,cV(a[1])]}}function
-iS(i,h,f,b,d,c,a){var
-k=aj(d_,a),l=dk(0,g(b),0,a),m=ao(d,c),n=e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(cV,a[1])]:[1,cV(a[1])]},b),p=e(function(a){var
-b=cV(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
-b=bP(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-iT(c){function
+d=a[2];return[7,c3(a[1]),d];default:return[8,c3(a[1])]}}function
+i8(i,h,f,b,d,c,a){var
+k=ak(em,a),l=dt(0,g(b),0,a),m=ag(d,c),n=e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(c3,a[1])]:[1,c3(a[1])]},b),p=e(function(a){var
+b=c3(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
+b=bT(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
+i9(c){function
 a(e){var
-a=[0,d,b];return r(e,c,[0,a,a])}var
-e=a(yz),f=a(yA);return[0,a(0),f,e]}function
-dl(a){function
+a=[0,d,b];return q(e,c,[0,a,a])}var
+e=a(zc),f=a(zd);return[0,a(0),f,e]}function
+du(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 0:return[0,b([0,a[1],a[2]])];case
@@ -6021,29 +6217,29 @@ b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
 c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
-nK(a){if(0===a[0]){var
-b=ao(a[1],a[2]);return[0,iT(e(function(a){var
-b=j(a[2]);return[0,j(a[1]),b]},b))]}return nG([1,a[1],a[2],a[3],a[4],a[5]])}function
-nL(k,b,i,h,f,d,a){function
-c(a){return iT(e(bP,a))}var
-l=aj(d_,a),m=dk(0,g(b),d,a),n=dl(f),o=nK(h),p=j(i);return[0,k,e(function(a){var
+n3(a){if(0===a[0]){var
+b=ag(a[1],a[2]);return[0,i9(e(function(a){var
+b=j(a[2]);return[0,j(a[1]),b]},b))]}return nZ([1,a[1],a[2],a[3],a[4],a[5]])}function
+n4(k,b,i,h,f,d,a){function
+c(a){return i9(e(bT,a))}var
+l=ak(em,a),m=dt(0,g(b),d,a),n=du(f),o=n3(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
-gz(a){return aj(function(a){return 2===a[0]?1:0},a)}function
-nM(k,a,c,i,h,f){var
-l=g(a),m=dk(gz(a),l,0,f),n=y(dl,h),o=nK(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return iT(e(bP,a))}switch(a[0]){case
+gK(a){return ak(function(a){return 2===a[0]?1:0},a)}function
+n5(k,a,c,i,h,f){var
+l=g(a),m=dt(gK(a),l,0,f),n=y(du,h),o=n3(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
+c(a){return i9(e(bT,a))}switch(a[0]){case
 0:var
-k=a[5],l=bP(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
+k=a[5],l=bT(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
 o=c(a[2]);return[0,[1,c(a[1]),o,0]];default:var
 f=a[1];if(f)var
 g=c(f);else
 var
 h=[0,b,b],i=[0,d,b],j=[0,d,b],g=[0,[0,j,j],[0,i,i],[0,h,h]];var
-p=a[7],q=bP(a[6]),r=bP(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
-nN(a){return a[1]?0:1}function
-nO(l){var
-b=bh(nN,l);if(b){var
+p=a[7],q=bT(a[6]),r=bT(a[5]),s=c(a[4]),t=c(a[3]);return[1,[0,g,c(a[2]),t,s,r,q,p]]}},a),p,o,n,m]}function
+n6(a){return a[1]?0:1}function
+n7(l){var
+b=bk(n6,l);if(b){var
 d=b[1];if(d[2])return 0;if(d[3])return 0;var
 c=d[4],a=b[2];if(typeof
 c!=="number")switch(c[0]){case
@@ -6064,69 +6260,69 @@ k=a;return k}var
 i=0}else
 var
 i=b;return i}function
-nP(a){var
-c=nN(a);if(c)return c;if(1===a[1]){var
+n8(a){var
+c=n6(a);if(c)return c;if(1===a[1]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0])return 1;return 0}return 0}function
-gA(i,h,b){function
+gL(i,h,b){function
 c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gB,a(gB,b)),j=a(f,iU),k=i?f:a(c(b,gB),iU);function
-g(b){return a(b,[5,e(gB,d(iU,d(b,b)))])}var
+f=c(gM,a(gM,b)),j=a(f,i_),k=i?f:a(c(b,gM),i_);function
+g(b){return a(b,[5,e(gM,d(i_,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
-gC(f,e,d){function
+gN(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,iV,a(iV,d)],nQ),g=a(c,[5,[3,0,iV,b(nQ,b(c,c))]]);return[2,b(gA(f,e,d),g)]}function
-iW(e,g,a){function
+c=a([3,1,i$,a(i$,d)],n9),g=a(c,[5,[3,0,i$,b(n9,b(c,c))]]);return[2,b(gL(f,e,d),g)]}function
+ja(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
-h=f(gD,b(gD,a)),d=e?h:b(f(a,gD),nR),i=b(d,[5,[3,0,gD,c(nR,c(d,d))]]);return c(gA(e,g,a),i)}function
-nS(c,g,b,a){function
+h=f(gO,b(gO,a)),d=e?h:b(f(a,gO),n_),i=b(d,[5,[3,0,gO,c(n_,c(d,d))]]);return c(gL(e,g,a),i)}function
+n$(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=s(b,c)?a:yB;return[0,d]},yD)}return e(function(e){var
-j=[0,gA(c,b,a)],i=1,k=d(e,[2,g]);function
+d=r(b,c)?a:ze;return[0,d]},zg)}return e(function(e){var
+j=[0,gL(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=gA(c,b,a),l=d(e,f(f(gC(c,b,a),g),h));return[0,d(e,yC),l,k,j,i]},yE)}function
-nT(c,b,a){var
-d=[0,iW(c,b,a),0],e=[0,iW(c,b,a),d],f=[0,iW(c,b,a),e],g=[0,gC(c,b,a),0],h=[0,gC(c,b,a),g];return[0,[0,gC(c,b,a),h],f]}function
-nU(o,e,a){if(e)if(a){var
-g=e[1],h=a[1],k=cB(j(g[2][1]));if(k){var
-l=k[1],m=cB(j(g[2][2]));if(m)var
+h=gL(c,b,a),l=d(e,f(f(gN(c,b,a),g),h));return[0,d(e,zf),l,k,j,i]},zh)}function
+oa(c,b,a){var
+d=[0,ja(c,b,a),0],e=[0,ja(c,b,a),d],f=[0,ja(c,b,a),e],g=[0,gN(c,b,a),0],h=[0,gN(c,b,a),g];return[0,[0,gN(c,b,a),h],f]}function
+ob(o,e,a){if(e)if(a){var
+g=e[1],h=a[1],k=cr(j(g[2][1]));if(k){var
+l=k[1],m=cr(j(g[2][2]));if(m)var
 p=m[1],n=function(a){function
 d(a){return c(2,a)}var
-e=[0,a,fu(h[2],d,b)];return dE(l,ch(fD(p,l),e))},q=n(C(h[1],b)),f=[0,n(h[1]),q];else
+e=[0,a,fI(h[2],d,b)];return c_(l,a0(dQ(p,l),e))},q=n(C(h[1],b)),f=[0,n(h[1]),q];else
 var
 f=[0,[0,d,b],[0,d,b]]}else
 var
 f=[0,[0,d,b],[0,d,b]];var
-r=nU([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
+r=ob([0,o],e[2],a[2]),i=[0,[0,g[1],[1,o,f[1],f[2]]],r]}else
 var
 i=a;else
 var
 i=e;return i}function
-ap(b,a){switch(a[0]){case
+ar(b,a){switch(a[0]){case
 0:return[0,a[1],a[2]];case
 1:var
 c=a[1];if(0===c[0]){var
-e=c[1],d=kg(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
-2:return[2,ap(b,a[1])];case
+e=c[1],d=kt(function(a){return aw(e,a[1])},b);return d?[1,d[1][2]]:a}return a;case
+2:return[2,ar(b,a[1])];case
 3:var
-f=ap(b,a[3]),g=ap(b,a[2]);return[3,a[1],g,f];case
+f=ar(b,a[3]),g=ar(b,a[2]);return[3,a[1],g,f];case
 4:var
-h=a[2];return[4,ap(b,a[1]),h];default:return[5,ap(b,a[1])]}}function
-nV(b,a){if(0===a[0])return[0,ap(b,a[1])];var
-c=ap(b,a[2]);return[1,ap(b,a[1]),c]}function
-iX(b,a){var
+h=a[2];return[4,ar(b,a[1]),h];default:return[5,ar(b,a[1])]}}function
+oc(b,a){if(0===a[0])return[0,ar(b,a[1])];var
+c=ar(b,a[2]);return[1,ar(b,a[1]),c]}function
+jb(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-iY(c,a){if(c)if(a){var
+jc(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=iY(h,g);if(e){var
-i=e[1],f=iY(h,i[2]);if(f)var
+e=jc(h,g);if(e){var
+i=e[1],f=jc(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6138,62 +6334,62 @@ var
 d=a;else
 var
 d=c;return d}function
-iZ(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,iZ(g,f[1],h)];var
-j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,C(B(c(2,b),l),k),j],h]}else
+jd(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,jd(g,f[1],h)];var
+j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,C(A(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-yF(a){if(typeof
+zi(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-yG(a){if(typeof
+zj(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
-gE(e,a){if(0===a[0]){var
-f=[0,b,c(2,b)],g=gE(e,a[3]);return ch(dE(gE(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
-nW(a){return 0===a[0]?dX(a[1][4]):0}function
-nX(a){switch(a[0]){case
+gP(e,a){if(0===a[0]){var
+f=[0,b,c(2,b)],g=gP(e,a[3]);return a0(c_(gP(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
+od(a){return 0===a[0]?d$(a[1][4]):0}function
+oe(a){switch(a[0]){case
 0:var
-b=a[1],c=bc(b[3]);return f(bc(b[2]),c);case
+b=a[1],c=a4(b[3]);return f(a4(b[2]),c);case
 1:var
-d=bc(a[2]);return f(bc(a[1]),d);default:return 0}}function
-gF(a){switch(a[0]){case
-0:return bK(bc(a[1][1]));case
+d=a4(a[2]);return f(a4(a[1]),d);default:return 0}}function
+gQ(a){switch(a[0]){case
+0:return bx(a4(a[1][1]));case
 1:var
-b=a[3];return b?bK(bc(b[1])):d;default:return bK(bc(a[1]))}}function
-gG(c){var
-a=x(nW,c),d=a?[0,a[1],a[2]]:x(nX,c);return C(b,bK(d))}function
-nY(d,a){if(d){if(a){var
-b=a[1],g=d[1],e=nY(d[2],a[2]);if(e){var
+b=a[3];return b?bx(a4(b[1])):d;default:return bx(a4(a[1]))}}function
+gR(c){var
+a=x(od,c),d=a?[0,a[1],a[2]]:x(oe,c);return C(b,bx(d))}function
+of(d,a){if(d){if(a){var
+b=a[1],g=d[1],e=of(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=yH;else
+c=zk;else
 if(43===b)var
-c=yI;else
+c=zl;else
 var
-f=48===b?1:0,n=f?yJ:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?zm:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:yK}function
-d$(b,c,a){switch(a[0]){case
+m=a;return m}return a?0:zn}function
+en(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aw(d,yL))return yM;if(aw(d,yN))return yO;if(aw(d,yP))return yQ;if(aw(d,yR))return yS;if(aw(d,yT))return yU;var
-l=aw(d,yV),x=l?yW:l;return x;case
+d=a[1];if(aw(d,zo))return zp;if(aw(d,zq))return zr;if(aw(d,zs))return zt;if(aw(d,zu))return zv;if(aw(d,zw))return zx;var
+l=aw(d,zy),x=l?zz:l;return x;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aw(g,yX))return[0,[0,e,f]];if(aw(g,yY))return[0,[1,e,f]];if(aw(g,yZ))return[0,[2,e,f]];var
-m=aw(g,y0),z=m?[0,[8,e,f]]:m;return z;case
+e=a[3],f=a[2],g=a[1];if(aw(g,zA))return[0,[0,e,f]];if(aw(g,zB))return[0,[1,e,f]];if(aw(g,zC))return[0,[2,e,f]];var
+m=aw(g,zD),z=m?[0,[8,e,f]]:m;return z;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
 5:var
-h=d$(b,c,a[1]),A=h?[0,[5,h[1],a[2],a[3]]]:h;return A;case
+h=en(b,c,a[1]),A=h?[0,[5,h[1],a[2],a[3]]]:h;return A;case
 6:var
-i=d$(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
+i=en(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
 7:var
-C=d$(b,c,a[1]);return y(function(a){return[6,a]},C);case
+C=en(b,c,a[1]);return y(function(a){return[6,a]},C);case
 8:if(b){var
-n=a[3],o=a[2],j=d$(b,c,a[1]);if(j){var
-p=j[1],k=nY(b,hi(hh(av(o),function(a){return aW(o,a)})));if(k){var
+n=a[3],o=a[2],j=en(b,c,a[1]);if(j){var
+p=j[1],k=of(b,hu(ht(av(o),function(a){return aY(o,a)})));if(k){var
 q=k[1],r=q[2],s=q[1];if(r)return[0,[11,c,r,[10,p,s,n]]];var
 t=[0,[10,p,s,n]]}else
 var
@@ -6205,25 +6401,25 @@ v=u}else
 var
 v=b;return v;default:var
 w=function(a){if(a){var
-f=a[1],d=d$(b,c,f[2]);if(d)var
+f=a[1],d=en(b,c,f[2]);if(d)var
 e=w(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return y1},D=w(a[1]);return y(function(a){return[12,a]},D)}}function
-nZ(e,d,a){if(a){var
-f=a[1],b=d$(e,d,f[2]);if(b)var
-c=nZ(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
+g=d;return g}return zE},D=w(a[1]);return y(function(a){return[12,a]},D)}}function
+og(e,d,a){if(a){var
+f=a[1],b=en(e,d,f[2]);if(b)var
+c=og(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return y2}function
-dm(b,g,f,e,d,a){if(d)if(a){var
+g=b;return g}return zF}function
+dv(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
-n=c[2],o=a[2],p=d[1],h=nZ(f,e,c[1]);if(h){var
+n=c[2],o=a[2],p=d[1],h=og(f,e,c[1]);if(h){var
 i=h[1];if(n){var
-j=dm(b,g,f,e,p,o);if(j){var
-q=j[1],k=dm(b,g,f,e,p,q[2]);if(k){var
-r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aX(l,b))var
+j=dv(b,g,f,e,p,o);if(j){var
+q=j[1],k=dv(b,g,f,e,p,q[2]);if(k){var
+r=k[1],s=r[1],t=q[1],l=n[1],z=r[2];if(aV(l,b))var
 u=[0,[1,i,l,t,s]];else
 var
-x=D(g,ev(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
+x=F(g,dL(l,b)),u=y(function(a){return[2,i,a,t,s]},x);return y(function(a){return[0,a,z]},u)}var
 v=k}else
 var
 v=j;return v}var
@@ -6235,262 +6431,262 @@ var
 m=a;else
 var
 m=d;return m}function
-i0(i,h,f,e,d,a){if(d){if(a){var
-b=dm(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=i0(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+je(i,h,f,e,d,a){if(d){if(a){var
+b=dv(i,h,f,e,g(a),a);if(b)var
+j=b[1],c=je(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return y3}return a?0:y4}function
-n0(a){if(typeof
-a==="number")return 0===a?y5:y6;else
+k=b;return k}return zG}return a?0:zH}function
+oh(a){if(typeof
+a==="number")return 0===a?zI:zJ;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-i1(e,d,a){if(d)if(a){var
+jf(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=i1(e,m,l);if(g){var
-n=g[1],o=n[1],h=i1(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aX(f,y7))return[0,[0,[1,f,o,r],q]];var
-t=D(e,ev(f,y8));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=jf(e,m,l);if(g){var
+n=g[1],o=n[1],h=jf(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aV(f,zK))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dL(f,zL));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
-u=n0(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
+u=oh(c[1]);return y(function(a){return[0,[0,j,a],l]},u)}var
 i=c}else
 var
 i=a;else
 var
 i=d;return i}function
-cW(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
-dn(a,e){var
-b=cW(a[1],e),c=cW(a[2],b[2]),d=cW(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
-n1(d,c){if(d){var
+c4(b,a){return 0===b[0]?[0,j(b[1]),a]:a?[0,a[1],a[2]]:[0,j(b[1]),0]}function
+dw(a,e){var
+b=c4(a[1],e),c=c4(a[2],b[2]),d=c4(a[3],c[2]);return[0,[0,b[1],c[1],d[1]],d[2]]}function
+oi(d,c){if(d){var
 a=d[1];switch(a[0]){case
 0:var
-e=dn(a[1],c),f=dn(a[2],e[2]),g=dn(a[3],f[2]),h=cW(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
+e=dw(a[1],c),f=dw(a[2],e[2]),g=dw(a[3],f[2]),h=c4(a[4],g[2]),b=[0,[0,e[1],f[1],g[1],h[1],a[5]],h[2]];break;case
 1:var
-i=a[3],j=dn(a[1],c),k=j[1],l=dn(a[2],j[2]),m=l[2],n=l[1];if(i)var
-o=dn(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
+i=a[3],j=dw(a[1],c),k=j[1],l=dw(a[2],j[2]),m=l[2],n=l[1];if(i)var
+o=dw(i[1],m),b=[0,[1,k,n,[0,o[1]]],o[2]];else
 var
 b=[0,[1,k,n,0],m];break;default:var
-p=dn(a[1],c),b=[0,[2,p[1]],p[2]]}var
-q=n1(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
-bm(a,b){if(a){var
-c=cW(a[1],b),d=bm(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
-a8(c){function
-a(a){return r(a,c,[0,d,b])}var
-e=a(zc),f=a(zd);return[0,a(0),f,e]}function
-n2(a,b){if(a){var
-c=a[1],d=bm(c[1],b),e=bm(c[2],d[2]),f=n2(a[2],e[2]),g=f[2],h=f[1],i=a8(e[1]);return[0,[0,[0,a8(d[1]),i],h],g]}return[0,0,b]}function
-n3(f,c){if(f){var
+p=dw(a[1],c),b=[0,[2,p[1]],p[2]]}var
+q=oi(d[2],b[2]);return[0,[0,b[1],q[1]],q[2]]}return[0,0,c]}function
+br(a,b){if(a){var
+c=c4(a[1],b),d=br(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
+a5(c){function
+a(a){return q(a,c,[0,d,b])}var
+e=a(zR),f=a(zS);return[0,a(0),f,e]}function
+oj(a,b){if(a){var
+c=a[1],d=br(c[1],b),e=br(c[2],d[2]),f=oj(a[2],e[2]),g=f[2],h=f[1],i=a5(e[1]);return[0,[0,[0,a5(d[1]),i],h],g]}return[0,0,b]}function
+ok(f,c){if(f){var
 a=f[1];switch(a[0]){case
 0:var
-g=bm(a[1],c),h=bm(a[2],g[2]),i=bm(a[3],h[2]),j=cW(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a8(i[1]),y=a8(h[1]),e=[0,[0,[0,a8(g[1]),y,x,w,v]],u];break;case
+g=br(a[1],c),h=br(a[2],g[2]),i=br(a[3],h[2]),j=c4(a[4],i[2]),u=j[2],v=a[5],w=j[1],x=a5(i[1]),y=a5(h[1]),e=[0,[0,[0,a5(g[1]),y,x,w,v]],u];break;case
 1:var
-k=bm(a[1],c),l=bm(a[2],k[2]),z=l[2],A=a8(l[1]),e=[0,[0,[1,a8(k[1]),A,0]],z];break;default:var
-m=a[1],n=bm(m,c),o=bm(a[2],n[2]),p=bm(a[3],o[2]),q=bm(a[4],p[2]),r=cW(a[5],q[2]),s=cW(a[6],r[2]),B=m?a8(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a8(q[1]),H=a8(p[1]),e=[0,[1,[0,B,a8(o[1]),H,G,F,E,D]],C]}var
-t=n3(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
-dp(a){return kE(o,a)}function
-ze(a){if(typeof
+k=br(a[1],c),l=br(a[2],k[2]),z=l[2],A=a5(l[1]),e=[0,[0,[1,a5(k[1]),A,0]],z];break;default:var
+m=a[1],n=br(m,c),o=br(a[2],n[2]),p=br(a[3],o[2]),q=br(a[4],p[2]),r=c4(a[5],q[2]),s=c4(a[6],r[2]),B=m?a5(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a5(q[1]),H=a5(p[1]),e=[0,[1,[0,B,a5(o[1]),H,G,F,E,D]],C]}var
+t=ok(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
+dx(a){return kS(n,a)}function
+zT(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
-5:return h(o,1,[3,a[1],[0,b,b]]);case
-6:return h(o,1,a[2]);case
+5:return h(n,1,[3,a[1],[0,b,b]]);case
+6:return h(n,1,a[2]);case
 8:var
-d=h(o,1,a[1]);return d?h(o,1,a[2]):d;case
-10:return h(o,0,a[3]);case
+d=h(n,1,a[1]);return d?h(n,1,a[2]):d;case
+10:return h(n,0,a[3]);case
 11:var
-e=a[4];return 2===e[0]?h(o,0,e[2]):0;case
+e=a[4];return 2===e[0]?h(n,0,e[2]):0;case
 12:var
-f=h(o,0,a[2]),g=f?h(o,0,a[3]):f;return g?h(o,1,a[4]):g;case
+f=h(n,0,a[2]),g=f?h(n,0,a[3]):f;return g?h(n,1,a[4]):g;case
 14:var
-i=h(o,0,a[1]);return i?h(o,1,a[2]):i;case
+i=h(n,0,a[1]);return i?h(n,1,a[2]):i;case
 15:var
-j=[0,a[2],a[1]],k=1;return m(function(a){return h(o,k,a)},j);case
+j=[0,a[2],a[1]],k=1;return m(function(a){return h(n,k,a)},j);case
 2:case
-3:return dp(a[2]);case
+3:return dx(a[2]);case
 4:case
 13:var
-c=h(o,1,a[2]);return c?h(o,1,a[3]):c;default:return h(o,1,a[1])}}function
-i2(a){if(typeof
+c=h(n,1,a[2]);return c?h(n,1,a[3]):c;default:return h(n,1,a[1])}}function
+jg(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
-d=a[3],e=a[2],f=h(o,1,[3,d,e]),g=f?h(o,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(o,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):g;return i?h(o,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
-5:return h(o,1,[3,a[1],[0,b,b]]);case
+d=a[3],e=a[2],f=h(n,1,[3,d,e]),g=f?h(n,1,[3,[2,e,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b]],d]):f,i=g?h(n,0,[2,e,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b]]):g;return i?h(n,0,[3,[0,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))))),b],d]):i;case
+5:return h(n,1,[3,a[1],[0,b,b]]);case
 8:var
-y=[0,a[2],a[1]],z=1;return m(function(a){return h(o,z,a)},y);case
-10:return h(o,1,a[2]);case
+y=[0,a[2],a[1]],z=1;return m(function(a){return h(n,z,a)},y);case
+10:return h(n,1,a[2]);case
 11:var
-k=a[2],l=h(o,1,k);return l?h(o,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],k]):l;case
+k=a[2],l=h(n,1,k);return l?h(n,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],k]):l;case
 13:var
-n=a[4],q=mP(a[3]),r=q?h(o,1,n):q;return r?h(o,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],n]):r;case
-14:return h(o,0,a[3]);case
+o=a[4],q=m0(a[3]),r=q?h(n,1,o):q;return r?h(n,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],o]):r;case
+14:return h(n,0,a[3]);case
 15:var
-s=h(o,0,a[2]),t=s?h(o,0,a[3]):s;return t?h(o,1,a[4]):t;case
+s=h(n,0,a[2]),t=s?h(n,0,a[3]):s;return t?h(n,1,a[4]):t;case
 16:var
-u=a[3],v=h(o,0,a[1]),w=v?h(o,1,a[2]):v,x=w?h(o,1,u):w;return x?h(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
+u=a[3],v=h(n,0,a[1]),w=v?h(n,1,a[2]):v,x=w?h(n,1,u):w;return x?h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],u]):x;case
 2:case
-3:return dp(a[2]);case
+3:return dx(a[2]);case
 6:case
 7:case
 9:var
-j=h(o,1,a[2]);return j?h(o,1,a[3]):j;default:return h(o,1,a[1])}}function
-gH(d){var
+j=h(n,1,a[2]);return j?h(n,1,a[3]):j;default:return h(n,1,a[1])}}function
+gS(d){var
 a=d;for(;;){if(a){var
-b=a[2],e=a[1],c=U(aj(function(d){return function(a){var
-h=iK(a[1]),e=aw(iK(d[1]),h);if(e)var
-i=iL(a[4]),b=aw(iL(d[4]),i);else
+b=a[2],e=a[1],c=T(ak(function(d){return function(a){var
+h=i0(a[1]),e=aw(i0(d[1]),h);if(e)var
+i=i1(a[4]),b=aw(i1(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
-c=a[2];return c?s(f[1],c[1]):c}if(a[2])return 0;var
+c=a[2];return c?r(f[1],c[1]):c}if(a[2])return 0;var
 g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-e9(a){if(0===a[0])return dp(j(a[1]));var
-b=a[2],c=a[1];if(!eH(j(c))&&!eH(j(b))){var
-e=j(c);return h(o,1,[3,j(b),e])}var
-d=j(b);return bk(o,j(c),d)}function
-dq(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
-n4(a){switch(a[0]){case
+fh(a){if(0===a[0])return dx(j(a[1]));var
+b=a[2],c=a[1];if(!dU(j(c))&&!dU(j(b))){var
+e=j(c);return h(n,1,[3,j(b),e])}var
+d=j(b);return bo(n,j(c),d)}function
+dy(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
+ol(a){switch(a[0]){case
 0:var
-c=[0,a[4],0],d=f(dq(a[3]),c),e=f(dq(a[2]),d);return f(dq(a[1]),e);case
+c=[0,a[4],0],d=f(dy(a[3]),c),e=f(dy(a[2]),d);return f(dy(a[1]),e);case
 1:var
-b=a[3],g=b?dq(b[1]):b,h=f(dq(a[2]),g);return f(dq(a[1]),h);default:return dq(a[1])}}function
-n5(s,a,k){if(aj(function(a){return 9===a[1]?1:0},k)){var
-b=Y(g(a),zh),c=b?m(function(a){if(0===a[0]){var
-d=a[5],e=h(o,1,j(a[2])),g=e?h(o,0,j(a[3])):e,k=g?h(o,0,j(a[4])):g,c=0;if(k)if(d)var
-p=bO(d[1]),b=m(function(a){return dp(j(a))},p);else{var
+b=a[3],g=b?dy(b[1]):b,h=f(dy(a[2]),g);return f(dy(a[1]),h);default:return dy(a[1])}}function
+om(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
+b=Y(g(a),zW),c=b?m(function(a){if(0===a[0]){var
+d=a[5],e=h(n,1,j(a[2])),g=e?h(n,0,j(a[3])):e,k=g?h(n,0,j(a[4])):g,c=0;if(k)if(d)var
+p=bS(d[1]),b=m(function(a){return dx(j(a))},p);else{var
 l=1;c=1}else{var
 l=k;c=1}if(c)var
 b=l}else{var
-n=h(o,1,j(a[4]));if(n)var
-q=bO(a[3]),r=f(bO(a[2]),q),b=m(function(a){return dp(j(a))},r);else
+o=h(n,1,j(a[4]));if(o)var
+q=bS(a[3]),r=f(bS(a[2]),q),b=m(function(a){return dx(j(a))},r);else
 var
-b=n}return b?i(s,a):b},a):b;if(c)var
-d=gy(0,a),l=d?1:d,e=l;else
+b=o}return b?i(s,a):b},a):b;if(c)var
+d=gJ(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-n6(a){return a?zi:zj}function
-i3(a){switch(a){case
-0:return zk;case
-1:return zl;default:return 0}}function
-cX(a){var
-f=a[1],d=h(o,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bk(o,a[1],a[2]):d;if(e){var
-g=a[2];return h(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
-ea(a){var
-e=bk(o,[0,d,b],a);return e?h(o,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
-n7(c,b,a){if(0===a[0]){var
-d=a[2],e=a[1],f=s(g(e),c),i=f?s(g(d),c):f;if(i){var
-l=ao(e,d);return m(function(a){var
-b=j(a[2]);return bk(o,j(a[1]),b)},l)}return i}var
-k=b?h(o,1,j(a[3])):b;if(k){var
-n=j(a[5]);return bk(o,j(a[4]),n)}return k}function
-n8(a,e,F,E,t,r,f){function
+on(a){return a?zX:zY}function
+jh(a){switch(a){case
+0:return zZ;case
+1:return z0;default:return 0}}function
+c5(a){var
+f=a[1],d=h(n,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bo(n,a[1],a[2]):d;if(e){var
+g=a[2];return h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
+eo(a){var
+e=bo(n,[0,d,b],a);return e?h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],a]):e}function
+oo(c,b,a){if(0===a[0]){var
+d=a[2],e=a[1],f=r(g(e),c),i=f?r(g(d),c):f;if(i){var
+l=ag(e,d);return m(function(a){var
+b=j(a[2]);return bo(n,j(a[1]),b)},l)}return i}var
+k=b?h(n,1,j(a[3])):b;if(k){var
+o=j(a[5]);return bo(n,j(a[4]),o)}return k}function
+op(a,e,F,E,t,s,f){function
 u(b){var
-d=n6(a),c=s(g(b),d);return c?m(e9,b):c}var
+d=on(a),c=r(g(b),d);return c?m(fh,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
-G=g(e),l=Y(b4(a),G);else
+G=g(e),l=Y(b9(a),G);else
 var
 l=v;var
-w=l?Y(g(e),zm):l,x=w?h(o,1,j(F)):w;if(x)var
-H=1===a?1:0,n=n7(i3(a),H,E);else
+w=l?Y(g(e),z1):l,x=w?h(n,1,j(F)):w;if(x)var
+H=1===a?1:0,o=oo(jh(a),H,E);else
 var
-n=x;if(n)if(a){var
-d=dl(t);switch(d[0]){case
+o=x;if(o)if(a){var
+d=du(t);switch(d[0]){case
 0:var
 i=0;break;case
 1:var
-A=cX(d[1]),B=A?cX(d[2]):A,i=B?cX(d[3]):B;break;case
+A=c5(d[1]),B=A?c5(d[2]):A,i=B?c5(d[3]):B;break;case
 2:var
-i=ea(d[1]);break;default:var
-C=ea(d[1]),i=C?ea(d[2]):C}var
+i=eo(d[1]);break;default:var
+C=eo(d[1]),i=C?eo(d[2]):C}var
 k=i}else
 var
-D=dl(t),J=0===D[0]?cX(D[1]):0,k=J;else
+D=du(t),J=0===D[0]?c5(D[1]):0,k=J;else
 var
-k=n;if(k)var
-I=g(e),p=n5(function(a){if(0===a[0]){var
-b=a[1],c=Y(zg,b),d=c?Y(b,I):c;if(d){if(a[5])return 0;var
+k=o;if(k)var
+I=g(e),p=om(function(a){if(0===a[0]){var
+b=a[1],c=Y(zV,b),d=c?Y(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
-e=d;return e}return 1},r,f);else
+e=d;return e}return 1},s,f);else
 var
 p=k;if(p)var
-b=g(e),c=b4(a),y=n6(a),q=m(function(a){var
+b=g(e),c=b9(a),y=on(a),q=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=Y(yx,f),w=h?Y(f,b):h,d=w;else
+f=e[1],h=Y(za,f),w=h?Y(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
 i=a[4];if(typeof
-i!=="number"&&0===i[0])return a[2]?aL(c,b,a):a[3]?aL(c,b,a):1;return aL(c,b,a);case
+i!=="number"&&0===i[0])return a[2]?aN(c,b,a):a[3]?aN(c,b,a):1;return aN(c,b,a);case
 10:var
 j=a[4];if(typeof
 j!=="number"&&1===j[0]){var
-k=a[3];return k?2===k[1][0]?d:aL(c,b,a):aL(c,b,a)}return aL(c,b,a);case
+k=a[3];return k?2===k[1][0]?d:aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
 12:var
 l=a[4];if(typeof
-l!=="number"&&1===l[0]){if(a[2])return aL(c,b,a);var
-m=a[3];return m?3===m[1][0]?s(b,c):aL(c,b,a):aL(c,b,a)}return aL(c,b,a);case
+l!=="number"&&1===l[0]){if(a[2])return aN(c,b,a);var
+m=a[3];return m?3===m[1][0]?r(b,c):aN(c,b,a):aN(c,b,a)}return aN(c,b,a);case
 14:var
 n=a[4];if(typeof
 n!=="number"&&1===n[0]){var
 o=a[3];if(o){var
 p=o[1];if(1===p[0]){var
-q=s(g(p[1]),y),x=q?d:q;return x}return aL(c,b,a)}return aL(c,b,a)}return aL(c,b,a);case
+q=r(g(p[1]),y),x=q?d:q;return x}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);case
 15:var
-r=a[4];if(typeof
-r!=="number"&&1===r[0]){var
+s=a[4];if(typeof
+s!=="number"&&1===s[0]){var
 t=a[3];if(t){var
 u=t[1];if(1===u[0]){var
-v=s(g(u[1]),y),z=v?d:v;return z}return aL(c,b,a)}return aL(c,b,a)}return aL(c,b,a);default:return aL(c,b,a)}},f);else
+v=r(g(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},f);else
 var
 q=p;var
-z=q?gH(f):q;return z?m(i2,dk(0,g(e),r,f)):z}function
-n9(a){switch(a[0]){case
+z=q?gS(f):q;return z?m(jg,dt(0,g(e),s,f)):z}function
+oq(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
 1:return f(a[1],a[2]);default:var
 d=f(a[4],[0,a[5],[0,a[6],0]]),e=f(a[3],d),g=f(a[2],e);return f(a[1],g)}}function
-n_(a,e,d,R,n,w,l){var
+or(a,e,d,R,o,w,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?zn:zo;return s(g(a),b)}var
-i=gz(e),z=m(function(b){switch(b[0]){case
+b=p?z2:z3;return r(g(a),b)}var
+i=gK(e),z=m(function(b){switch(b[0]){case
 0:var
-d=U(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
+d=T(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
 1:var
-g=U(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
+g=T(i),h=g?c(b[1]):g,j=h?c(b[2]):h;if(j)var
 k=typeof
 a==="number"?1:0,l=k?1:k;else
 var
 l=j;return l;default:var
 m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)var
-S=g(e),q=Y(be(a),S);else
+S=g(e),q=Y(bh(a),S);else
 var
 q=z;var
-A=q?Y(g(e),zp):q,B=A?m(e9,x(n9,e)):A;if(B){var
+A=q?Y(g(e),z4):q,B=A?m(fh,x(oq,e)):A;if(B){var
 Q=0;if(typeof
 a==="number"&&!a){var
 C=1;Q=1}if(!Q)var
 C=0;var
-T=p?zq:zr,r=n7(T,C,R)}else
+U=p?z5:z6,s=oo(U,C,R)}else
 var
-r=B;if(r)if(typeof
+s=B;if(s)if(typeof
 a==="number")if(d)var
 b=0;else
 var
-V=y(dl,n)?0:1,b=V;else
+V=y(du,o)?0:1,b=V;else
 switch(a[1]){case
 0:if(d){var
-t=y(dl,n);if(t){var
+t=y(du,o);if(t){var
 F=t[1];if(0===F[0])var
-G=h(o,1,j(d[1])),H=G?cX(F[1]):G;else
+G=h(n,1,j(d[1])),H=G?c5(F[1]):G;else
 var
 H=0;var
 I=H}else
@@ -6500,15 +6696,15 @@ b=I}else
 var
 b=d;break;case
 1:if(d){var
-u=d[1],v=y(dl,n);if(v){var
+u=d[1],v=y(du,o);if(v){var
 f=v[1];switch(f[0]){case
 0:var
 k=0;break;case
 1:var
-K=h(o,1,j(u)),L=K?cX(f[1]):K,M=L?cX(f[2]):L,k=M?cX(f[3]):M;break;case
+K=h(n,1,j(u)),L=K?c5(f[1]):K,M=L?c5(f[2]):L,k=M?c5(f[3]):M;break;case
 2:var
-N=h(o,1,j(u)),k=N?ea(f[1]):N;break;default:var
-O=h(o,1,j(u)),P=O?ea(f[1]):O,k=P?ea(f[2]):P}var
+N=h(n,1,j(u)),k=N?eo(f[1]):N;break;default:var
+O=h(n,1,j(u)),P=O?eo(f[1]):O,k=P?eo(f[2]):P}var
 J=k}else
 var
 J=v;var
@@ -6517,110 +6713,110 @@ var
 b=d;break;default:var
 b=0}else
 var
-b=r;var
+b=s;var
 D=b?m(function(b){var
-c=nJ(i,a,g(e),b);if(c)var
+c=n2(i,a,g(e),b);if(c)var
 d=c;else{var
-f=w?d_(b):w;if(f)return aL(0,0,b);var
-d=f}return d},l):b,E=D?gH(l):D;return E?m(i2,dk(i,g(e),0,l)):E}function
-zs(a){switch(a[0]){case
-0:return f9(a[1][1]);case
+f=w?em(b):w;if(f)return aN(0,0,b);var
+d=f}return d},l):b,E=D?gS(l):D;return E?m(jg,dt(i,g(e),0,l)):E}function
+z7(a){switch(a[0]){case
+0:return gi(a[1][1]);case
 1:var
-b=a[3];return b?f9(b[1]):1;default:return f9(a[1])}}function
-i4(a,k,b,d){var
-e=n5(function(g){if(0===g[0]){var
-c=g[1],d=Y(zf,c);if(d){var
-b=D(a,bn(c));if(b){if(2===b[1][0])return 0;var
+b=a[3];return b?gi(b[1]):1;default:return gi(a[1])}}function
+ji(a,k,b,d){var
+e=om(function(g){if(0===g[0]){var
+c=g[1],d=Y(zU,c);if(d){var
+b=F(a,bs(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(zs,d[1]):e,h=f?Y(zt,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return yn(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(z7,d[1]):e,h=f?Y(z8,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return y2(l,a)},b);else
 var
 c=h;var
-i=c?gH(b):c,j=i?m(e9,x(n4,a)):i;return j?m(ze,d[3]):j}function
-n$(k,j,a,i,h,b){var
-l=g(k),n=g(h),c=s(g(i),n),d=c?m(function(b){var
-c=aL(l,g(a),b);if(c){var
+i=c?gS(b):c,j=i?m(fh,x(ol,a)):i;return j?m(zT,d[3]):j}function
+os(k,j,a,i,h,b){var
+l=g(k),n=g(h),c=r(g(i),n),d=c?m(function(b){var
+c=aN(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bn(e[1]),0]:aE(0,g(a));return m(function(c){var
-b=D(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gH(b):d,f=e?m(function(a){return e9(a[2])},j):e;return f?m(i2,dk(0,g(a),0,b)):f}function
-oa(a){if(a){var
-b=a[1];if(d_(b))return 0;var
-c=[0,b,oa(a[2])]}else
+e=b[2],f=e?[0,bs(e[1]),0]:az(0,g(a));return m(function(c){var
+b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gS(b):d,f=e?m(function(a){return fh(a[2])},j):e;return f?m(jg,dt(0,g(a),0,b)):f}function
+ot(a){if(a){var
+b=a[1];if(em(b))return 0;var
+c=[0,b,ot(a[2])]}else
 var
 c=a;return c}function
-i5(i,h,f,d,b){var
-j=oa(b),k=x(function(a){return iR(i,f,d,a)},j),c=ar(P,0,e(function(a){return hZ(o,h,a)},k)),a=x(nH,b),l=a?[0,a[1],a[2]]:zu;return P(g(l),c)}function
-i6(a){return 2<=a?zv:zw}function
-gI(m,l,k,j,f,i){var
-g=i5(m,l,k,j,f),c=n0(i);if(c){var
+gT(i,h,f,d,b){var
+j=ot(b),k=x(function(a){return i7(i,f,d,a)},j),c=as(O,0,e(function(a){return h$(n,h,a)},k)),a=x(n0,b),l=a?[0,a[1],a[2]]:z9;return O(g(l),c)}function
+gU(a){return 2<=a?z_:z$}function
+gV(m,l,k,j,f,i){var
+g=gT(m,l,k,j,f),c=oh(i);if(c){var
 a=c[1],e=0;if(typeof
 a==="number")var
 h=[0,a];else
 if(0===a[0]){var
 n=a[2],o=a[1],b=o,d=function(a){return[0,a,n]};e=1}else{var
-p=a[2],q=a[1],b=q,d=function(a){return[1,a,p]};e=1}if(e){if(!U(aj(d_,f))&&!aX(b,g))return s(b,g)?0:[0,d(bn(b))];return[0,d(b)]}}else
+p=a[2],q=a[1],b=q,d=function(a){return[1,a,p]};e=1}if(e){if(!T(ak(em,f))&&!aV(b,g))return r(b,g)?0:[0,d(bs(b))];return[0,d(b)]}}else
 var
 h=c;return h}function
-gJ(b,a){var
-c=g(bh(function(a){return 0===a[0]?0:1},b));return s(g(a),c)}function
-gK(a){var
-b=ao(aE(0,g(a)),a);return e(ay,bh(function(a){return hU(a[2])},b))}function
-ob(a){var
-b=a[1],c=e(gF,a[1]);return f3(gG(a[1]),c,b)}function
-i7(a){return gK(ob(a))}function
-oc(b,a){if(a){var
-c=a[1],d=a[2],g=oc(P(b,c[1]),d),h=c[2];return f(e(function(a){return aE(P(b,a),zx)},h),g)}return a}function
-od(e,a){function
+gW(b,a){var
+c=g(bk(function(a){return 0===a[0]?0:1},b));return r(g(a),c)}function
+gX(a){var
+b=ag(az(0,g(a)),a);return e(ay,bk(function(a){return h5(a[2])},b))}function
+ou(a){var
+b=a[1],c=e(gQ,a[1]);return gd(gR(a[1]),c,b)}function
+jj(a){return gX(ou(a))}function
+ov(b,a){if(a){var
+c=a[1],d=a[2],g=ov(O(b,c[1]),d),h=c[2];return f(e(function(a){return az(O(b,a),Aa)},h),g)}return a}function
+ow(e,a){function
 b(f){var
-a=D(e,f);if(a){var
-b=lj(a[1]);if(b)return I(b[1],d);var
+a=F(e,f);if(a){var
+b=lx(a[1]);if(b)return J(b[1],d);var
 c=1}else
 var
 c=a;return c}var
-c=oc(0,a);return bh(function(a){return m(b,a)},c)}function
-oe(a){switch(a[0]){case
-0:return zy;case
-1:return a[3]?zz:zA;default:return zB}}function
-zC(a){return 0===a[0]?oe(a[1]):zD}function
-i8(a){if(a){var
+c=ov(0,a);return bk(function(a){return m(b,a)},c)}function
+ox(a){switch(a[0]){case
+0:return Ab;case
+1:return a[3]?Ac:Ad;default:return Ae}}function
+Af(a){return 0===a[0]?ox(a[1]):Ag}function
+jk(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
-of(aD,Y,aC,X,W,b,aB,V){var
-a=iQ(Y,aC,X,W),aE=g(V),aF=e(oe,a[1]),aG=od(ob(a),aF),aH=aD?0:i7(a),B=dm(zE,i7(a),aH,aG,aE,V);if(B){var
-_=B[1];if(_[2])return 0;var
-$=i4(Y,X,W,a);if($){var
-aI=_[1],C=e(gF,a[1]),c=gG(a[1]),aJ=i8(aB),U=lM(o,a);if(U){var
-l=f3(c,C,a[1]),h=hR(c,C,a[1],0),ac=g(a[3]),ad=P(g(l),ac),J=[0,g(l),ad],ae=a[3],E=aj(function(a){if(typeof
+oy(aD,Y,aB,X,W,b,aA,V){var
+a=i6(Y,aB,X,W),aE=g(V),aF=e(ox,a[1]),aG=ow(ou(a),aF),aH=aD?0:jj(a),B=dv(Ah,jj(a),aH,aG,aE,V);if(B){var
+Z=B[1];if(Z[2])return 0;var
+$=ji(Y,X,W,a);if($){var
+aI=Z[1],C=e(gQ,a[1]),c=gR(a[1]),aJ=jk(aA),U=lY(n,a);if(U){var
+l=gd(c,C,a[1]),h=h2(c,C,a[1],0),ac=g(a[3]),ad=O(g(l),ac),J=[0,g(l),ad],ae=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?x(function(a){var
-b=e(aT,f5(l,a[4]));return[0,a[4],b]},h):E,ag=f(hT(h,c,J,a[3]),af),ah=f(bJ(kU(h)),ag),K=f(bJ(eJ(h)),ah),M=cz(K)[1],n=cy(M),N=m(function(a){var
-b=k(d);return az(r(a4(n,a),n,b),a)},K);if(N){var
-O=aj(r8,a[3]);if(O){var
+b=e(aU,gf(l,a[4]));return[0,a[4],b]},h):E,ag=f(h4(h,c,J,a[3]),af),ah=f(bN(k8(h)),ag),L=f(bN(eS(h)),ah),M=cI(L)[1],o=cH(M),N=m(function(a){var
+b=k(d);return aC(q(a9(o,a),o,b),a)},L);if(N){var
+P=ak(su,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
-q=p[1],u=bC(d,t);switch(q[0]){case
+r=p[1],u=bH(d,t);switch(r[0]){case
 0:var
-F=q[1],G=f6(b,F[1],u),D=0;if(G){var
-s=ak(b,[0,F[4],c]);if(s)var
-j=L(d,s[1][1]);else{var
+F=r[1],G=gg(b,F[1],u),D=0;if(G){var
+s=am(b,[0,F[4],c]);if(s)var
+j=K(d,s[1][1]);else{var
 H=s;D=1}}else{var
 H=G;D=1}if(D)var
 j=H;break;case
 1:var
-I=q[3],j=I?f6(b,I[1],u):1;break;default:var
-j=f6(b,q[1],u)}if(j){var
-ab=p[2],t=bo(t),p=ab;continue}var
+I=r[3],j=I?gg(b,I[1],u):1;break;default:var
+j=gg(b,r[1],u)}if(j){var
+ab=p[2],t=bt(t),p=ab;continue}var
 Q=j}else
 var
 Q=1;var
 v=Q;break}}else
 var
-v=O;if(v){var
-ai=a[3],al=x(function(a){return c8(c,a)},ai),am=a[3],an=f(l,f(e(function(a){return bI(c,a)},am),al)),w=Z(e(function(a){return ak(b,a)},an));if(w){var
-ao=a0(dU(a[2]),c),y=Z(e(function(a){return ak(b,a)},ao));if(y){var
-ap=a[3],z=Z(lx(b,aJ,function(a){return a4(n,a)},l,h,c,J,ap));if(z){var
-R=z[1],aq=hQ(R),ar=y[1],as=a[2],at=function(a){return ly(b,as,c,a)},av=w[1],aw=0,ax=kU(h),ay=i(au(function(a){return a4(n,a)}),ax),aA=eJ(h);return gO(hP(b,M,i(au(function(a){return a4(n,a)}),aA),ay,aw,av,R,at),ar,aq,aI)}var
+v=P;if(v){var
+ai=a[3],aj=x(function(a){return dd(c,a)},ai),al=a[3],an=f(l,f(e(function(a){return bM(c,a)},al),aj)),w=_(e(function(a){return am(b,a)},an));if(w){var
+ao=a3(d7(a[2]),c),y=_(e(function(a){return am(b,a)},ao));if(y){var
+ap=a[3],z=_(lL(b,aJ,function(a){return a9(o,a)},l,h,c,J,ap));if(z){var
+R=z[1],aq=h1(R),ar=y[1],as=a[2],at=function(a){return lM(b,as,c,a)},av=w[1],aw=0,ax=k8(h),ay=i(au(function(a){return a9(o,a)}),ax),az=eS(h);return fn(h0(b,M,i(au(function(a){return a9(o,a)}),az),ay,aw,av,R,at),ar,aq,aI)}var
 S=z}else
 var
 S=y;var
@@ -6635,36 +6831,36 @@ A=N;return A}return U}var
 aa=$}else
 var
 aa=B;return aa}function
-zF(a){if(0===a[0])return nW(a[1]);var
-b=a[1],c=dX(b[6]);return f(dX(b[5]),c)}function
-zG(a){if(0===a[0])return nX(a[1]);var
-b=a[1],c=bc(b[4]);return f(bc(b[3]),c)}function
-zH(a){if(0===a[0])return[0,gF(a[1]),d];var
-b=a[1],c=bK(bc(b[2]));return[0,bK(bc(b[1])),c]}function
-og(P,aG,aF,aE,aD,aC,j,aB){var
-a=nM(P,aG,aF,aE,aD,aC),aH=a[2],O=x(zF,aH),bb=O?[0,O[1],O[2]]:x(zG,aH),l=C(b,bK(bb)),Q=e(zH,a[2]),R=iw(l,Q,a[2]),bc=g(aB),bd=od(R,e(zC,a[2])),bf=gK(R),bg=gK(R),S=dm(be(P),bg,bf,bd,bc,aB);if(S){var
+Ai(a){if(0===a[0])return od(a[1]);var
+b=a[1],c=d$(b[6]);return f(d$(b[5]),c)}function
+Aj(a){if(0===a[0])return oe(a[1]);var
+b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
+Ak(a){if(0===a[0])return[0,gQ(a[1]),d];var
+b=a[1],c=bx(a4(b[2]));return[0,bx(a4(b[1])),c]}function
+oz(P,aG,aF,aE,aD,aB,j,aA){var
+a=n5(P,aG,aF,aE,aD,aB),aH=a[2],O=x(Ai,aH),bb=O?[0,O[1],O[2]]:x(Aj,aH),l=C(b,bx(bb)),Q=e(Ak,a[2]),R=iJ(l,Q,a[2]),bc=g(aA),bd=ow(R,e(Af,a[2])),be=gX(R),bf=gX(R),S=dv(bh(P),bf,be,bd,bc,aA);if(S){var
 aI=S[1];if(aI[2])return 0;var
-aJ=n_(P,aG,aF,aE,aD,0,aC);if(aJ){var
-bh=aI[1],a_=e(tN,a[2]),ax=mW(o,a[2],a_);if(ax)var
-a$=hX(a[4]),M=c_(o,a[4],a$);else
+aJ=or(P,aG,aF,aE,aD,0,aB);if(aJ){var
+bg=aI[1],a_=e(t$,a[2]),ax=m7(n,a[2],a_);if(ax)var
+a$=h9(a[4]),M=cv(n,a[4],a$);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=ge(ay[1]),aA=m(function(a){return eZ(o,a)},ba);else
+ba=gp(ay[1]),az=m(function(a){return e6(n,a)},ba);else
 var
-aA=1;var
-N=aA}else
+az=1;var
+N=az}else
 var
 N=M;if(N){var
-c=a[1],aO=be(c),u=a[6],B=iw(l,Q,a[2]),X=a[3],Y=[0,[0,X,X],l],_=[0,g(B)],D=a[2],q=D?0===D[1][0]?0:1:D,aP=a[5],aQ=y(function(a){var
+c=a[1],aO=bh(c),u=a[6],B=iJ(l,Q,a[2]),X=a[3],Y=[0,[0,X,X],l],Z=[0,g(B)],D=a[2],s=D?0===D[1][0]?0:1:D,aP=a[5],aQ=y(function(a){var
 b=typeof
-c==="number"?0:df(c[1]);return mh(a,b)},aP),aR=a[2],n=mY(c,aQ,cK(Y,g(B)),l,Q,aR,0),$=x(function(a){return a[7]},n),aS=f($,cO(function(a,b){return m1(n,a,b)},q,l,_,u)),aT=f(bJ(e0(n)),aS),aa=f(bJ(d2(n)),aT),ab=cz(aa)[1],ac=cy(ab),t=function(a){return a4(ac,a)},ad=m(function(a){var
-b=k(d);return az(r(t(a),ac,b),a)},aa),ae=ad?aj(m3,u):ad;if(ae){var
+c==="number"?0:dn(c[1]);return ms(a,b)},aP),aR=a[2],o=m9(c,aQ,cS(Y,g(B)),l,Q,aR,0),$=x(function(a){return a[7]},o),aS=f($,cX(function(a,b){return na(o,a,b)},s,l,Z,u)),aT=f(bN(e7(o)),aS),aa=f(bN(ee(o)),aT),ab=cI(aa)[1],ac=cH(ab),t=function(a){return a9(ac,a)},ad=m(function(a){var
+b=k(d);return aC(q(t(a),ac,b),a)},aa),ae=ad?ak(nc,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
-ag=c?is(0,dU(af)):1;else
+ag=c?iF(0,d7(af)):1;else
 var
-aM=dU(af),ag=is(c[1],aM);var
+aM=d7(af),ag=iF(c[1],aM);var
 E=ag}else
 var
 E=ae;if(E){var
@@ -6675,8 +6871,8 @@ if(2<=U[1])var
 v=0;else{var
 z=a[5],T=0;if(z){var
 V=h(j,1,a[3]);if(V)var
-aN=ge(z[1]),v=m(function(a){var
-b=db(j,a[1]);return b?db(j,a[2]):b},aN);else{var
+aN=gp(z[1]),v=m(function(a){var
+b=di(j,a[1]);return b?di(j,a[2]):b},aN);else{var
 W=V;T=1}}else{var
 W=z;T=1}if(T)var
 v=W}var
@@ -6684,25 +6880,25 @@ F=v}else
 var
 F=E;if(F)var
 aU=a[2],G=m(function(a){var
-b=0===a[0]?0:1;return ce(b,q)},aU);else
+b=0===a[0]?0:1;return cj(b,s)},aU);else
 var
 G=F;if(G){var
-aV=f(B,[0,Y,0]),H=Z(e(function(a){return ak(j,a)},aV));if(H){var
-aW=x(function(a){return eT(q,l,a)},u),I=Z(e(function(a){return ia(j,a)},aW));if(I){var
-p=dU(a[4]),aX=typeof
-c==="number"?c?[0,p[1],[0,p[2],0]]:[0,p[1],[0,p[2],[0,p[3],0]]]:mQ(c[1],p),J=Z(e(function(a){return ak(j,[0,a,l])},aX));if(J){var
+aV=f(B,[0,Y,0]),H=_(e(function(a){return am(j,a)},aV));if(H){var
+aW=x(function(a){return e1(s,l,a)},u),I=_(e(function(a){return io(j,a)},aW));if(I){var
+p=d7(a[4]),aX=typeof
+c==="number"?c?[0,p[1],[0,p[2],0]]:[0,p[1],[0,p[2],[0,p[3],0]]]:m1(c[1],p),J=_(e(function(a){return am(j,[0,a,l])},aX));if(J){var
 ah=J[1],ai=a[5];if(ai)var
-aY=mj(ai[1]),w=Z(e(function(a){return ml(j,a)},aY));else
+aY=mu(ai[1]),w=_(e(function(a){return mw(j,a)},aY));else
 var
-w=tM;if(w){var
-al=w[1],A=a[5],aZ=A?mi(A[1]):A,K=Z(e(da(j),aZ));if(K){var
-L=Z(cO(function(a,b){return m2(j,t,n,q,l,a,b)},q,l,_,u));if(L){var
-am=L[1],an=s(g(f(ah,al)),aO);if(an){var
-a0=hQ(am),a1=f(ah,al),aL=0,a2=a[4];if(typeof
+w=t_;if(w){var
+aj=w[1],A=a[5],aZ=A?mt(A[1]):A,K=_(e(dh(j),aZ));if(K){var
+L=_(cX(function(a,b){return nb(j,t,o,s,l,a,b)},s,l,Z,u));if(L){var
+al=L[1],an=r(g(f(ah,aj)),aO);if(an){var
+a0=h1(al),a1=f(ah,aj),aL=0,a2=a[4];if(typeof
 c==="number"&&!c){var
-ao=function(a){return ly(j,a2,l,a)};aL=1}if(!aL)var
+ao=function(a){return lM(j,a2,l,a)};aL=1}if(!aL)var
 ao=function(a){return 0};var
-a3=f(I[1],K[1]),a5=f(H[1],a3),a6=e(t,$),a7=e0(n),a8=i(au(t),a7),a9=d2(n);return gO(hP(j,ab,i(au(t),a9),a8,a6,a5,am,ao),a1,a0,bh)}var
+a3=f(I[1],K[1]),a4=f(H[1],a3),a5=e(t,$),a6=e7(o),a7=i(au(t),a6),a8=ee(o);return fn(h0(j,ab,i(au(t),a8),a7,a5,a4,al,ao),a1,a0,bg)}var
 ap=an}else
 var
 ap=L;var
@@ -6727,78 +6923,148 @@ aw=G;return aw}return N}var
 aK=aJ}else
 var
 aK=S;return aK}function
-oh(i,h,G,F,E,r,W,D,q){var
+oA(i,h,G,F,E,s,W,D,q){var
 H=typeof
-i==="number"?i?zI:zK:i3(i[1]),t=e(j,W),I=n3(h,e(j,D));if(I[2])return 0;var
-X=g(h),u=gI(gz(h),zJ,X,0,r,q);if(u){var
-J=gJ(x(n9,h),D),K=J?n_(i,h,G,F,E,1,r):J;if(K)var
-Y=be(i),v=s(g(t),Y);else
+i==="number"?i?Al:An:jh(i[1]),t=e(j,W),I=ok(h,e(j,D));if(I[2])return 0;var
+X=g(h),u=gV(gK(h),Am,X,0,s,q);if(u){var
+J=gW(x(oq,h),D),K=J?or(i,h,G,F,E,1,s):J;if(K)var
+Y=bh(i),v=r(g(t),Y);else
 var
 v=K;if(v){var
 M=0;if(typeof
 q==="number"&&q)var
-m=U(gz(h));else
+m=T(gK(h));else
 M=1;if(M)var
 m=1}else
 var
 m=v;if(m){var
-Z=u[1],a=bW(H,t),d=a8(bp(H,t)),k=I[1],f=nM(i,h,G,F,E,r),B=mW(o,f[2],k);if(B){var
-y=c_(o,f[4],d),w=0;if(y){var
+Z=u[1],a=aZ(H,t),d=a5(aL(H,t)),k=I[1],f=n5(i,h,G,F,E,s),B=m7(n,f[2],k);if(B){var
+y=cv(n,f[4],d),w=0;if(y){var
 z=f[5];if(z)var
-n=f8(o,z[1],a);else
+o=dj(n,z[1],a);else
 if(a)var
-n=0;else{var
+o=0;else{var
 A=1;w=1}}else{var
 A=y;w=1}if(w)var
-n=A;var
-p=n}else
+o=A;var
+p=o}else
 var
 p=B;if(p){var
 c=f[5],C=f[3],l=f[1],V=f[6],N=e(function(e){if(0===e[0])var
-h=bM(c,a,d,e),f=cp(e[1],h);else
+h=bP(c,a,d,e),f=cw(e[1],h);else
 var
-g=e[1],i=h9(g,bM(c,a,d,e)),j=g[4],k=bM(c,a,d,e),m=aa(function(b,a){return[2,b,a]},k,j),f=aa(function(b,a){return[3,b,a]},m,i);return[0,mU(l,f,aq([5,[0,b,b],C],eR(gm(c,a,gl(e)),f)))]},k),O=x(function(b){if(0===b[0]){var
-f=bM(c,a,d,b),e=lB(b[1],f),g=e?[0,e[1],0]:e;return g}var
-h=bM(c,a,d,b);return[0,lX(b[1],h),0]},k),P=function(b){var
-e=gm(c,a,b);return aa(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
-e=bM(c,a,d,g);if(0===g[0]){var
+g=e[1],i=ik(g,bP(c,a,d,e)),j=g[4],k=bP(c,a,d,e),m=ab(function(b,a){return[2,b,a]},k,j),f=ab(function(b,a){return[3,b,a]},m,i);return[0,m5(l,f,at([5,[0,b,b],C],e0(gx(c,a,gw(e)),f)))]},k),O=x(function(b){if(0===b[0]){var
+f=bP(c,a,d,b),e=h7(b[1],f),g=e?[0,e[1],0]:e;return g}var
+h=bP(c,a,d,b);return[0,l9(b[1],h),0]},k),P=function(b){var
+e=gx(c,a,b);return ab(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
+e=bP(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cM(h,k,j,i,e),m=c$(b[5],n),o=aq(m,aH(h)),p=eP(h,k,j,e);return[0,[0,mV(l,aa(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
-f=g[1],q=f[6],r=f7(f,e),s=h9(f,e),t=f[4],u=aa(function(b,a){return[2,b,a]},e,t);return[0,[0,mV(l,aa(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
-f=bM(c,a,d,b);return[0,hV(b[1],f)]}var
-e=b[1],g=lZ(e,bM(c,a,d,b));return[1,lY(e,bM(c,a,d,b)),g]},k),T=[0,e(function(e){if(0===e[0])var
-o=bM(c,a,d,e),g=b3(e[1],o);else
+i=b[4],j=b[3],k=b[2],h=b[1],n=cU(h,k,j,i,e),m=df(b[5],n),o=at(m,aI(h)),p=eY(h,k,j,e);return[0,[0,m6(l,ab(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
+f=g[1],q=f[6],r=gh(f,e),s=ik(f,e),t=f[4],u=ab(function(b,a){return[2,b,a]},e,t);return[0,[0,m6(l,ab(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
+f=bP(c,a,d,b);return[0,d8(b[1],f)]}var
+e=b[1],g=l$(e,bP(c,a,d,b));return[1,l_(e,bP(c,a,d,b)),g]},k),U=[0,e(function(e){if(0===e[0])var
+o=bP(c,a,d,e),g=b8(e[1],o);else
 var
-h=bM(c,a,d,e),f=e[1],i=h9(f,h),j=f[4],k=aa(function(b,a){return[2,b,a]},h,j),m=aa(function(b,a){return[3,b,a]},k,i),n=f7(f,h),g=aq([5,[0,b,b],[4,f[5],n]],m);return mU(l,g,aq([5,[0,b,b],C],eR(gm(c,a,gl(e)),g)))},k),S,R,Q,P,O,N];return h1(o,tu,be(f[1]),T,V,Z)}return p}var
+h=bP(c,a,d,e),f=e[1],i=ik(f,h),j=f[4],k=ab(function(b,a){return[2,b,a]},h,j),m=ab(function(b,a){return[3,b,a]},k,i),n=gh(f,h),g=at([5,[0,b,b],[4,f[5],n]],m);return m5(l,g,at([5,[0,b,b],C],e0(gx(c,a,gw(e)),g)))},k),S,R,Q,P,O,N];return ib(n,tS,bh(f[1]),U,V,Z)}return p}var
 L=m}else
 var
 L=u;return L}function
-oi(H,a0,aC,aB,F,aA,k){var
-l=iQ(H,a0,aC,aB);if(F){var
-I=F[2];if(I){var
-J=I[2];if(J){if(J[2])return 0;var
-aD=n1(H,e(j,aA));if(aD[2])return 0;var
-N=l[3];if(typeof
-k==="number")var
-a=0===k?za:zb;else
-switch(k[0]){case
+fi(a){if(a){var
+b=cr(j(a[1]));if(b){var
+c=fi(a[2]);if(c)var
+f=c[1],d=[0,[0,c$(b[1]),f]];else
+var
+d=c;var
+e=d}else
+var
+e=b;return e}return Ao}function
+oB(f,k,j,a,i){var
+l=g(f),h=r(g(a),l);if(h){var
+m=ag(ag(f,ag(k,j)),a);return e(function(f){var
+g=f[1],h=g[2],j=dQ(h[2],h[1]),a=aA(g[1],i),k=E(d,a)?kv(bZ(c(2,b),a)):[0,b,dN(bZ(c(2,b),R(a)))],l=c$(fR(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return c$(a0(kv(a),l))},m)},m)}return h}function
+oC(Q,bB,a8,a7,P,a6,a){var
+l=i6(Q,bB,a8,a7),a9=gW(x(ol,Q),a6),R=a9?ji(Q,a8,a7,l):a9;if(P){var
+S=P[2];if(S){var
+T=S[2];if(T){if(T[2])return 0;var
+a_=T[1],a$=S[1],ba=P[1],bb=oi(Q,e(j,a6));if(bb[2])return 0;var
+o=bb[1];if(typeof
+a!=="number"&&3===a[0]){var
+ad=F(l[3],a[1]);if(ad){var
+bg=ad[1];if(typeof
+bg==="number"&&bg){var
+ae=fi(a[2]);if(ae){var
+s=ae[1],af=fi(a[3]);if(af){var
+t=af[1];if(R){var
+bE=oB([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),bF=j(a_),bG=j(a$),U=[0,j(ba),bG,bF];if(s){var
+v=s[2];if(v){var
+w=v[2];if(w){if(w[2])return 0;if(t){var
+z=t[2];if(z){var
+B=z[2];if(B){if(B[2])return 0;var
+ar=B[1],as=z[1],at=t[1],au=w[1],av=v[1],aw=s[1],ax=[0,[1,0,aw,at],[1,uj,av,as],[1,ui,au,ar]],ay=h6(n,l,o,U);if(ay)var
+by=l[3],Y=ak(function(a){if(typeof
+a==="number"&&a)return 1;return 0},by);else
+var
+Y=ay;var
+az=Y?nu(s,t):Y,aA=az?nv(n,l[2],[0,[0,aw,av],au],[0,[0,at,as],ar]):az,aB=aA?iR(n,s,t,bR(U)):aA,aC=aB?m(function(a){switch(a[0]){case
 0:var
-O=k[2],p=k[1],aa=D(N,p);if(aa){var
-aK=0,ab=aa[1];if(typeof
-ab==="number"||!(13===ab[0]))aK=1;else
+k=[0,a[4],0],l=f(bR(a[3]),k),m=f(bR(a[2]),l),e=f(bR(a[1]),m);break;case
+1:var
+c=a[3],o=c?bR(c[1]):c,p=f(bR(a[2]),o),e=f(bR(a[1]),p);break;default:var
+e=bR(a[1])}var
+g=gB(e),h=g?gB([0,d8(a,U),0]):g;if(h){var
+i=h7(a,ax);if(i){var
+q=i[1],b=eR(n,function(a,b,c){return np(n,uk,a,b,c)},q);return b?K(d,b[1][2][1]):b}var
+j=1}else
 var
-Q=l[1],$=gG(Q),f=e(function(a){var
-f=g(Q);if(s(g(a),f)){var
-h=ao(Q,a);return e(function(a){var
-e=a[2],f=G(d,$),g=2===a[1][0]?1:0;return ce(g,f)?B(e,ex(c(2,b),cc($))):e},h)}return a},O);if(aK)var
-f=O}else
+j=h;return j},o):aB;if(aC)return nt(n,e(function(a){var
+b=d8(a,U);return[3,d8(a,ax),b]},o),bE);var
+aD=aC}else
 var
-f=O;var
-aY=D(N,p),aZ=l[1],P=y(function(b){if(typeof
+aD=B;var
+aE=aD}else
+var
+aE=z;var
+Z=aE}else
+var
+Z=t}else
+var
+Z=w;var
+aF=Z}else
+var
+aF=v;var
+aG=aF}else
+var
+aG=s;return aG}var
+bh=R}else
+var
+bh=af;var
+bi=bh}else
+var
+bi=ae;return bi}var
+bj=0}else
+var
+bj=ad;return bj}var
+_=l[3];if(typeof
+a==="number")var
+i=0===a?zP:zQ;else
+switch(a[0]){case
+0:var
+$=a[2],u=a[1],aI=F(_,u);if(aI){var
+bk=0,aJ=aI[1];if(typeof
+aJ==="number"||!(13===aJ[0]))bk=1;else
+var
+ab=l[1],aH=gR(ab),k=e(function(a){var
+f=g(ab);if(r(g(a),f)){var
+h=ag(ab,a);return e(function(a){var
+e=a[2],f=E(d,aH),g=2===a[1][0]?1:0;return cj(g,f)?A(e,bZ(c(2,b),ch(aH))):e},h)}return a},$);if(bk)var
+k=$}else
+var
+k=$;var
+bz=F(_,u),bA=l[1],aa=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return y_;case
+5:return zN;case
 12:var
-a=D(aZ,b[1]);if(a){if(2===a[1][0])return y$;var
+a=F(bA,b[1]);if(a){if(2===a[1][0])return zO;var
 c=0}else
 var
 c=a;return c;case
@@ -6807,429 +7073,441 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return y9},aY),S=0;if(P){var
-ac=P[1];if(ac){var
-ad=ac[1];if(ad)if(ad[1])var
-a=0;else{var
-T=0;if(f){var
-q=f[1],U=0;if(q){var
-r=q[2],V=0;if(r){var
-t=r[2],W=0;if(t)if(t[2]){var
-a=0;T=1;U=1;V=1;W=1}else{var
-u=f[2],aL=0;if(u){var
-v=u[1],aM=0;if(v){var
-w=v[2],aN=0;if(w){var
-z=w[2],aO=0;if(z)if(z[2]||u[2]){var
-a=0;T=1;U=1;V=1;W=1;aL=1;aM=1;aN=1;aO=1}else
+11:return 0}return zM},bz),ah=0;if(aa){var
+aK=aa[1];if(aK){var
+aL=aK[1];if(aL)if(aL[1])var
+i=0;else{var
+ai=0;if(k){var
+C=k[1],aj=0;if(C){var
+D=C[2],al=0;if(D){var
+G=D[2],am=0;if(G)if(G[2]){var
+i=0;ai=1;aj=1;al=1;am=1}else{var
+H=k[2],bl=0;if(H){var
+I=H[1],bm=0;if(I){var
+J=I[2],bn=0;if(J){var
+L=J[2],bo=0;if(L)if(L[2]||H[2]){var
+i=0;ai=1;aj=1;al=1;am=1;bl=1;bm=1;bn=1;bo=1}else
 var
-ae=[0,[0,p,[0,[0,q[1],r[1]],t[1]],[0,[0,v[1],w[1]],z[1]]]];else
+aM=[0,[0,u,[0,[0,C[1],D[1]],G[1]],[0,[0,I[1],J[1]],L[1]]]];else
 var
-ae=z;if(!aO)var
-af=ae}else
+aM=L;if(!bo)var
+aN=aM}else
 var
-af=w;if(!aN)var
-ag=af}else
+aN=J;if(!bn)var
+aO=aN}else
 var
-ag=v;if(!aM)var
-ah=ag}else
+aO=I;if(!bm)var
+aP=aO}else
 var
-ah=u;if(!aL)var
-ai=ah}else
+aP=H;if(!bl)var
+aQ=aP}else
 var
-ai=t;if(!W)var
-ak=ai}else
+aQ=G;if(!am)var
+aR=aQ}else
 var
-ak=r;if(!V)var
-al=ak}else
+aR=D;if(!al)var
+aS=aR}else
 var
-al=q;if(!U)var
-am=al}else
+aS=C;if(!aj)var
+aT=aS}else
 var
-am=f;if(!T)var
-a=am}else{var
-aP=0;if(f){var
-A=f[1],aQ=0;if(A){var
-C=A[2],aR=0;if(C){var
-E=C[2],aS=0;if(E)if(E[2]||f[2]){var
-a=0;aP=1;aQ=1;aR=1;aS=1}else
+aT=k;if(!ai)var
+i=aT}else{var
+bp=0;if(k){var
+M=k[1],bq=0;if(M){var
+N=M[2],br=0;if(N){var
+O=N[2],bs=0;if(O)if(O[2]||k[2]){var
+i=0;bp=1;bq=1;br=1;bs=1}else
 var
-an=E[1],ap=C[1],aq=A[1],ar=[0,[0,p,[0,[0,aq,ap],an],[0,[0,aq,ap],an]]];else
+aU=O[1],aV=N[1],aW=M[1],aX=[0,[0,u,[0,[0,aW,aV],aU],[0,[0,aW,aV],aU]]];else
 var
-ar=E;if(!aS)var
-as=ar}else
+aX=O;if(!bs)var
+aY=aX}else
 var
-as=C;if(!aR)var
-at=as}else
+aY=N;if(!br)var
+aZ=aY}else
 var
-at=A;if(!aQ)var
-au=at}else
+aZ=M;if(!bq)var
+a0=aZ}else
 var
-au=f;if(!aP)var
-a=au}}else
-if(f)var
-a=0;else{var
-av=[0,[0,d,d],d],aw=[0,[0,p,av,av]];S=1}}else{var
-aw=P;S=1}if(S)var
-a=aw;break;case
+a0=k;if(!bp)var
+i=a0}}else
+if(k)var
+i=0;else{var
+a1=[0,[0,d,d],d],a2=[0,[0,u,a1,a1]];ah=1}}else{var
+a2=aa;ah=1}if(ah)var
+i=a2;break;case
 1:var
-ax=k[1],R=D(N,ax),X=0;if(R){var
-aT=0,ay=R[1];if(typeof
-ay!=="number"&&1===ay[0]){var
-a=[0,[1,ax,k[2]]];aT=1}if(!aT){var
-az=0;X=1}}else{var
-az=R;X=1}if(X)var
-a=az;break;default:var
-a=0}if(a){var
-aE=gJ(x(n4,H),aA),aF=aE?i4(H,aC,aB,l):aE;if(aF){var
-i=a[1],a1=j(J[1]),a2=j(I[1]),m=[0,j(F[1]),a2,a1],n=aD[1],Y=lA(o,l,n,m);if(Y)if(typeof
-i==="number")return 0===i?aj(function(c){var
-a=lB(c,m);return a?h(o,0,[3,[0,d,b],a[1]]):a},n):kK(r_,e(function(b){var
-a=cp(b,m);return[0,a[1],[0,a[2],[0,a[3],0]]]},n));else{if(0===i[0]){var
-K=D(l[3],i[1]);if(K){var
-aU=K[1],aV=lD(i[3]);return lK(o,n,m,lD(i[2]),aV,aU)}return K}var
-L=D(l[3],i[1]);if(L){var
-M=D(n,i[2]);if(M){var
-Z=M[1],aW=L[1],aX=b3(Z,m);return lK(o,n,m,b3(Z,m),aX,aW)}var
-_=M}else
+a3=a[1],ac=F(_,a3),an=0;if(ac){var
+bt=0,a4=ac[1];if(typeof
+a4!=="number"&&1===a4[0]){var
+i=[0,[1,a3,a[2]]];bt=1}if(!bt){var
+a5=0;an=1}}else{var
+a5=ac;an=1}if(an)var
+i=a5;break;default:var
+i=0}if(i){if(R){var
+p=i[1],bC=j(a_),bD=j(a$),q=[0,j(ba),bD,bC],ao=h6(n,l,o,q);if(ao)if(typeof
+p==="number")return 0===p?ak(function(c){var
+a=h7(c,q);return a?h(n,0,[3,[0,d,b],a[1]]):a},o):kY(sw,e(function(b){var
+a=cw(b,q);return[0,a[1],[0,a[2],[0,a[3],0]]]},o));else{if(0===p[0]){var
+V=F(l[3],p[1]);if(V){var
+bu=V[1],bv=lP(p[3]);return lW(n,o,q,lP(p[2]),bv,bu)}return V}var
+W=F(l[3],p[1]);if(W){var
+X=F(o,p[2]);if(X){var
+ap=X[1],bw=W[1],bx=b8(ap,q);return lW(n,o,q,b8(ap,q),bx,bw)}var
+aq=X}else
 var
-_=L;return _}return Y}var
-aG=aF}else
+aq=W;return aq}return ao}var
+bc=R}else
 var
-aG=a;var
-aH=aG}else
+bc=i;var
+bd=bc}else
 var
-aH=J;var
-aI=aH}else
+bd=T;var
+be=bd}else
 var
-aI=I;var
-aJ=aI}else
+be=S;var
+bf=be}else
 var
-aJ=F;return aJ}function
-oj(m,l,b,k,z,x){var
+bf=P;return bf}function
+oD(m,l,b,k,z,x){var
 f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=D(f,g),n=h?aX(h[1][2],zL):h;if(n)var
-A=d[2],i=oj(m,l,b,k,iZ(0,g,f),A);else
+g=d[1],h=F(f,g),n=h?aV(h[1][2],Ap):h;if(n)var
+A=d[2],i=oD(m,l,b,k,jd(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=iZ(1,g,f),d=B;continue}return i}var
-c=d[1],a=nU(0,m,f),o=e(function(b){function
-d(b){return nV(a,b)}function
-c(a){return iX(d,a)}switch(b[0]){case
+B=d[3],f=jd(1,g,f),d=B;continue}return i}var
+c=d[1],a=ob(0,m,f),o=e(function(b){function
+d(b){return oc(a,b)}function
+c(a){return jb(d,a)}switch(b[0]){case
 0:var
-e=b[5],f=nV(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
+e=b[5],f=oc(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=iX(function(b){return ap(a,b)},q),s=b[1],j=[0,iX(function(b){return ap(a,b)},s),r];else
+q=b[2],r=jb(function(b){return ar(a,b)},q),s=b[1],j=[0,jb(function(b){return ar(a,b)},s),r];else
 var
-t=ap(a,b[5]),u=ap(a,b[4]),v=ap(a,b[3]),w=ap(a,b[2]),j=[1,ap(a,b[1]),w,v,u,t];var
+t=ar(a,b[5]),u=ar(a,b[4]),v=ar(a,b[3]),w=ar(a,b[2]),j=[1,ar(a,b[1]),w,v,u,t];var
 p=e(function(g){var
 c=g[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,ap(a,c[1])];break;case
+d=[0,ar(a,c[1])];break;case
 1:var
-d=[1,ap(a,c[1])];break;default:var
-m=ap(a,c[2]),d=[2,ap(a,c[1]),m]}var
+d=[1,ar(a,c[1])];break;default:var
+m=ar(a,c[2]),d=[2,ar(a,c[1]),m]}var
 h=g[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-f=[0,[0,ap(a,b[1])]];break;case
+f=[0,[0,ar(a,b[1])]];break;case
 1:var
-j=b[1],f=[0,[1,e(function(b){return ap(a,b)},j)]];break;case
+j=b[1],f=[0,[1,e(function(b){return ar(a,b)},j)]];break;case
 2:var
-k=ap(a,b[2]),f=[0,[2,ap(a,b[1]),k]];break;default:var
-l=ap(a,b[2]),f=[0,[3,ap(a,b[1]),l]]}var
+k=ar(a,b[2]),f=[0,[2,ar(a,b[1]),k]];break;default:var
+l=ar(a,b[2]),f=[0,[3,ar(a,b[1]),l]]}var
 i=f}else
 var
 i=h;return[0,g[1],g[2],i,d]},k);if(typeof
 c==="number")return 1;else
 switch(c[0]){case
 0:return 0;case
-1:return of(1,o,j,0,p,c[1],c[2],c[3]);default:var
-C=c[4],E=c[3],F=e(function(b){return ap(a,b)},E),G=c[2];return oi(o,j,0,p,e(function(b){return ap(a,b)},G),F,C)}}}function
-ok(h,g){var
-a=cB(j(h));if(a){var
-c=a[1],e=c3([0,d,b],c);if(e)return c3(c,g);var
+1:return oy(1,o,j,0,p,c[1],c[2],c[3]);default:var
+C=c[4],D=c[3],E=e(function(b){return ar(a,b)},D),G=c[2];return oC(o,j,0,p,e(function(b){return ar(a,b)},G),E,C)}}}function
+oE(h,g){var
+a=cr(j(h));if(a){var
+c=a[1],e=bl([0,d,b],c);if(e)return bl(c,g);var
 f=e}else
 var
 f=a;return f}function
-zR(p){var
-de=gx(p[3]),df=de?gx(p[4]):de;if(df){var
-K=p[1];switch(K[0]){case
+Av(p){var
+dh=gI(p[3]),di=dh?gI(p[4]):dh;if(di){var
+S=p[1];switch(S[0]){case
 3:var
-dn=m(e6,K[1]);if(dn)var
-gC=K[2],bD=m(function(a){return e6(a[1])},gC);else
+ds=m(fe,S[1]);if(ds)var
+gN=S[2],bH=m(function(a){return fe(a[1])},gN);else
 var
-bD=dn;if(bD)var
-gD=K[3],bF=m(function(a){var
-b=e6(a[1]),c=b?iN(a[2]):b;return c?e7(a[2]):c},gD);else
+bH=ds;if(bH)var
+gO=S[3],bI=m(function(a){var
+b=fe(a[1]),c=b?i3(a[2]):b;return c?ff(a[2]):c},gO);else
 var
-bF=bD;if(bF)var
-gH=K[4],aN=m(function(a){var
+bI=bH;if(bI)var
+gS=S[4],aR=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=iN(a);return b?e7(a):b},b)},gH);else
+b=i3(a);return b?ff(a):b},b)},gS);else
 var
-aN=bF;break;case
+aR=bI;break;case
 7:var
-gL=K[1],dq=m(function(a){var
-b=e6(a[1]);return b?e8(0,[0,a[2][1],[0,a[2][2],0]]):b},gL),aN=dq?e8(0,[0,K[5],[0,K[6],0]]):dq;break;default:var
-aN=1}var
-bB=aN}else
+gY=S[1],dt=m(function(a){var
+b=fe(a[1]);return b?fg(0,[0,a[2][1],[0,a[2][2],0]]):b},gY),aR=dt?fg(0,[0,S[5],[0,S[6],0]]):dt;break;default:var
+aR=1}var
+bF=aR}else
 var
-bB=df;var
-b_=0;if(bB){var
-dg=p[1],bC=7===dg[0]?e(ay,dg[1]):0,dh=function(c,b){var
-a=nE(c);return a?m(function(a){var
-e=a[1],b=m(function(a){return nx(a[2])},e);if(b){var
-c=a[3];if(c)return e8(bC,nD(c[1]));var
+bF=di;var
+cc=0;if(bF){var
+dl=p[1],bG=7===dl[0]?e(ay,dl[1]):0,dm=function(c,b){var
+a=nX(c);return a?m(function(a){var
+e=a[1],b=m(function(a){return nQ(a[2])},e);if(b){var
+c=a[3];if(c)return fg(bG,nW(c[1]));var
 d=1}else
 var
-d=b;return d},b):a},dj=function(e,d,c,b){var
-a=nE(e);return a?e8(bC,f(d,f(c,nD(b)))):a},l=p[1];switch(l[0]){case
+d=b;return d},b):a},dn=function(e,d,c,b){var
+a=nX(e);return a?fg(bG,f(d,f(c,nW(b)))):a},l=p[1];switch(l[0]){case
 0:var
-f6=x(di,l[4]),f7=f(x(nB,l[3]),f6),f9=f(nz(l[2]),f7),M=f(x(iO,l[1]),f9);break;case
+gg=x(dr,l[4]),gh=f(x(nU,l[3]),gg),gi=f(nS(l[2]),gh),U=f(x(i4,l[1]),gi);break;case
 1:var
-by=l[5],bz=l[3],f_=x(di,l[6]),f$=by?nA(by[1]):by,ga=f(f$,f_),gb=f(ny(l[4]),ga),gc=bz?[0,bz[1],0]:bz,gd=f(gc,gb),M=f(x(yi,l[2]),gd);break;case
+bC=l[5],bD=l[3],gj=x(dr,l[6]),gk=bC?nT(bC[1]):bC,gl=f(gk,gj),gm=f(nR(l[4]),gl),gn=bD?[0,bD[1],0]:bD,go=f(gn,gm),U=f(x(yX,l[2]),go);break;case
 2:var
-gf=x(di,l[7]),gg=f(x(nB,l[6]),gf),gh=f(nA(l[5]),gg),gi=f(ny(l[4]),gh),gj=[0,l[3],gi],gk=l[2],M=f(x(function(a){return x(d8,f(a[1],a[2]))},gk),gj);break;case
+gq=x(dr,l[7]),gr=f(x(nU,l[6]),gq),gs=f(nT(l[5]),gr),gt=f(nR(l[4]),gs),gu=[0,l[3],gt],gv=l[2],U=f(x(function(a){return x(ek,f(a[1],a[2]))},gv),gu);break;case
 3:var
-gl=x(di,l[7]),gm=f(l[6],gl),go=f(l[5],gm),gq=l[2],M=f(x(function(a){return d8(a[2])},gq),go);break;case
+gw=x(dr,l[7]),gx=f(l[6],gw),gz=f(l[5],gx),gB=l[2],U=f(x(function(a){return ek(a[2])},gB),gz);break;case
 4:var
-gr=x(di,l[3]),M=[0,l[1],[0,l[2],gr]];break;case
+gC=x(dr,l[3]),U=[0,l[1],[0,l[2],gC]];break;case
 5:var
-gu=x(di,l[4]),gv=f(bO(l[3]),gu),gw=f(bO(l[2]),gv),gy=f(x(iO,l[1]),gw),M=[0,l[5],gy];break;case
+gD=x(dr,l[4]),gG=f(bS(l[3]),gD),gH=f(bS(l[2]),gG),gJ=f(x(i4,l[1]),gH),U=[0,l[5],gJ];break;case
 6:var
-bA=l[1],M=bA?d8(bA[1]):bA;break;default:var
-gz=x(di,l[4]),gA=f(nz(l[3]),gz),M=f(x(iO,l[2]),gA)}var
-dk=e8(bC,M);if(dk){var
-N=p[2];switch(N[0]){case
+bE=l[1],U=bE?ek(bE[1]):bE;break;default:var
+gK=x(dr,l[4]),gL=f(nS(l[3]),gK),U=f(x(i4,l[2]),gL)}var
+dp=fg(bG,U);if(dp){var
+V=p[2];switch(V[0]){case
 0:var
-aC=dh(N[1],N[3]);break;case
+aG=dm(V[1],V[3]);break;case
 1:var
-aC=dj(N[1],N[2],N[3],N[4]);break;default:var
-gB=N[1],aC=m(function(a){if(typeof
+aG=dn(V[1],V[2],V[3],V[4]);break;default:var
+gM=V[1],aG=m(function(a){if(typeof
 a!=="number")switch(a[0]){case
-1:return dh(a[1],a[3]);case
-2:return dj(a[1],a[2],a[3],a[4])}return 1},gB)}}else{var
-dl=dk;b_=1}}else{var
-dl=bB;b_=1}if(b_)var
-aC=dl;if(aC){var
+1:return dm(a[1],a[3]);case
+2:return dn(a[1],a[2],a[3],a[4])}return 1},gM)}}else{var
+dq=dp;cc=1}}else{var
+dq=bF;cc=1}if(cc)var
+aG=dq;if(aG){var
 a=p[1];switch(a[0]){case
 0:var
-dJ=a[4],dK=a[3],dL=a[2],dM=a[1],_=p[2];switch(_[0]){case
-0:return of(0,dM,dL,dK,dJ,_[1],_[2],_[3]);case
-1:return oi(dM,dL,dK,dJ,_[2],_[3],_[4]);default:return 0}case
+dP=a[4],dQ=a[3],dR=a[2],dS=a[1],ac=p[2];switch(ac[0]){case
+0:return oy(0,dS,dR,dQ,dP,ac[1],ac[2],ac[3]);case
+1:return oC(dS,dR,dQ,dP,ac[2],ac[3],ac[4]);default:return 0}case
 1:var
-dO=a[6],dP=a[5],dQ=a[4],dR=a[3],dS=a[2],dT=a[1],al=p[2];switch(al[0]){case
-0:return og(dT,dS,dR,dQ,dP,dO,al[1],al[3]);case
-1:return oh(dT,dS,dR,dQ,dP,dO,al[2],al[3],al[4]);default:return 0}case
+dT=a[6],dU=a[5],dV=a[4],dW=a[3],dX=a[2],dY=a[1],ar=p[2];switch(ar[0]){case
+0:return oz(dY,dX,dW,dV,dU,dT,ar[1],ar[3]);case
+1:return oA(dY,dX,dW,dV,dU,dT,ar[2],ar[3],ar[4]);default:return 0}case
 2:var
-am=a[7],an=a[6],aR=a[5],aS=a[4],aU=a[3],O=a[2],S=a[1],ab=p[2];switch(ab[0]){case
+ad=a[7],ae=a[6],aW=a[5],aX=a[4],aY=a[3],D=a[2],I=a[1],af=p[2];switch(af[0]){case
 0:var
-dU=ab[3],T=nL(S,O,aU,aS,aR,an,am),gZ=T[2],bQ=C(b,bK(x(function(a){var
-b=bc(a[2]);return f(bc(a[1]),b)},gZ))),g0=g(dU),g1=it(bQ,T[2]),g2=it(bQ,T[2]),bR=dm(b4(S),g2,g1,0,g0,dU);if(bR){var
-dV=bR[1];if(dV[2])return 0;var
-dX=n8(S,O,aU,aS,aR,an,am);if(dX){var
-g3=dV[1],g4=g(O),g5=i5(0,i6(S),g4,an,am),g6=i8(ab[2]),g7=ab[1],eW=T[2],ce=m(function(a){var
-b=mT(o,a[1]);return b?mT(o,a[2]):b},eW);if(ce)var
-eX=hX(T[4]),a1=c_(o,T[4],eX);else
+dZ=af[3],W=n4(I,D,aY,aX,aW,ae,ad),g$=W[2],bR=C(b,bx(x(function(a){var
+b=a4(a[2]);return f(a4(a[1]),b)},g$))),ha=g(dZ),hb=iG(bR,W[2]),hc=iG(bR,W[2]),bU=dv(b9(I),hc,hb,0,ha,dZ);if(bU){var
+d1=bU[1];if(d1[2])return 0;var
+d2=op(I,D,aY,aX,aW,ae,ad);if(d2){var
+hd=d1[1],he=g(D),hf=gT(0,gU(I),he,ae,ad),hg=jk(af[2]),hh=af[1],e9=W[2],ci=m(function(a){var
+b=m4(n,a[1]);return b?m4(n,a[2]):b},e9);if(ci)var
+e_=h9(W[4]),a6=cv(n,W[4],e_);else
 var
-a1=ce;if(a1)var
-eY=ge(T[5]),a2=m(function(a){return eZ(o,a)},eY);else
+a6=ci;if(a6)var
+e$=gp(W[5]),a7=m(function(a){return e6(n,a)},e$);else
 var
-a2=a1;return a2?tr(g7,g6,g5,T,bQ,g3):a2}var
-dY=dX}else
+a7=a6;return a7?tP(hh,hg,hf,W,bR,hd):a7}var
+d3=d2}else
 var
-dY=bR;return dY;case
+d3=bU;return d3;case
 1:var
-aV=ab[4],dZ=ab[3],aW=e(j,ab[2]),ao=i3(S),d0=n2(O,e(j,dZ));if(d0[2])return 0;var
-z=d0[1],d1=gJ(x(function(a){return f(a[1],a[2])},O),dZ),d4=d1?n8(S,O,aU,aS,aR,an,am):d1;if(d4){var
-n=nL(S,O,aU,aS,aR,an,am);if(typeof
-aV!=="number"&&2===aV[0]){var
-d6=e(j,aV[1]),d7=bW(ao,d6),d9=a8(bp(ao,d6)),d$=bW(ao,aW),ea=a8(bp(ao,aW)),cR=l_(o,n[2],z);if(cR)var
-fJ=b4(n[1]),bn=s(g(z),fJ);else
+J=af[4],d4=af[3],ag=e(j,af[2]),z=jh(I),d5=oj(D,e(j,d4));if(d5[2])return 0;var
+A=d5[1],d6=gW(x(function(a){return f(a[1],a[2])},D),d4),d7=d6?op(I,D,aY,aX,aW,ae,ad):d6;if(d7){var
+o=n4(I,D,aY,aX,aW,ae,ad);if(typeof
+J!=="number")switch(J[0]){case
+2:var
+d9=e(j,J[1]),d$=aZ(z,d9),ea=a5(aL(z,d9)),eb=aZ(z,ag),ec=a5(aL(z,ag)),cW=iq(n,o[2],A);if(cW)var
+fV=b9(o[1]),bq=r(g(A),fV);else
 var
-bn=cR;var
-cS=bn?c_(o,n[4],ea):bn,cT=cS?c_(o,n[4],d9):cS,cU=cT?f8(o,n[5],d$):cT,cV=cU?f8(o,n[5],d7):cU;if(cV){var
-cW=n[1],fK=n[5],fL=n[3],cH=function(g,f){var
-h=e(function(a){return l9(cW,fL,fK,f,g,a)},z),i=b4(cW),a=nd(o,h);function
-c(a,b){return t(o,a,b)}var
-d=Q(o,b);return y(function(a){return nb(w,d,F,c,i,a)},a)},bj=cH(ea,d$);if(bj){var
-cI=bj[1],bl=cH(d9,d7);if(bl){var
-cJ=bl[1],cK=L(d,cI[1]),cL=cK?L(cJ[2],d):cK;if(cL)var
-cM=cL;else{var
-cQ=L(cI[2],d);if(cQ)return L(d,cJ[1]);var
-cM=cQ}var
-cN=cM}else
+bq=cW;var
+cY=bq?cv(n,o[4],ec):bq,cZ=cY?cv(n,o[4],ea):cY,c0=cZ?dj(n,o[5],eb):cZ,c1=c0?dj(n,o[5],d$):c0;if(c1){var
+c2=o[1],fW=o[5],fX=o[3],cL=function(g,f){var
+h=e(function(a){return mj(c2,fX,fW,f,g,a)},A),i=b9(c2),a=no(n,h);function
+c(a,b){return t(n,a,b)}var
+d=P(n,b);return y(function(a){return nm(v,d,G,c,i,a)},a)},bn=cL(ec,eb);if(bn){var
+cO=bn[1],bp=cL(ea,d$);if(bp){var
+cP=bp[1],cQ=K(d,cO[1]),cR=cQ?K(cP[2],d):cQ;if(cR)var
+cS=cR;else{var
+cV=K(cO[2],d);if(cV)return K(d,cP[1]);var
+cS=cV}var
+cT=cS}else
 var
-cN=bl;var
-cP=cN}else
+cT=bp;var
+cU=cT}else
 var
-cP=bj;return cP}return cV}var
-g8=g(O),bS=gI(0,i6(S),g8,an,am,aV);if(bS){var
-g9=bS[1],B=bW(ao,aW),V=a8(bp(ao,aW)),b$=l_(o,n[2],z),ca=b$?c_(o,n[4],V):b$,cb=ca?f8(o,n[5],B):ca;if(cb){var
-I=n[5],cc=n[3],cd=n[1],eQ=n[6],aZ=function(a){var
-b=eU(I,B,V,a);return H(eU(I,B,V,a),b)},eH=e(function(a){return[0,l9(cd,cc,I,B,V,a)]},z),eI=e(aZ,z),eK=function(a){var
-b=dW(I,B,a);return aa(function(b,a){return[2,b,a]},V,b)},eL=e(function(a){var
-b=[6,aZ(a)],c=eU(I,B,V,a),d=dW(I,B,a[2]);return[0,[0,[0,aa(function(b,a){return[2,b,a]},V,d),c],b]]},z),eM=e(function(a){return 0},z),eN=e(function(a){return[0,[6,aZ(a)]]},z),eP=[0,e(function(c){var
-a=aH(eU(I,B,V,c));return ib(cd,a,aq([5,[0,b,b],cc],eR(dW(I,B,c[2]),a)))},z),eN,eM,eL,eK,eI,eH],eS=b4(n[1]),eV=2<=n[1]?sk:sl;return h1(o,eV,eS,eP,eQ,g9)}return cb}var
-d5=bS}else
-var
-d5=d4;return d5;default:return 0}case
+cU=bn;return cU}return c1;case
 3:var
-ac=a[7],aD=a[6],aF=a[5],ad=a[4],bT=a[3],ae=a[2],ap=a[1],af=p[2];switch(af[0]){case
+bW=fi(J[2]);if(bW){var
+ed=bW[1],bX=fi(J[3]);if(bX){var
+eg=bX[1],hk=o[2],hl=C(b,bx(x(function(a){var
+b=a4(a[2]);return f(a4(a[1]),b)},hk))),hm=g(D),hn=gT(0,gU(I),hm,ae,ad),eh=r(J[1],hn);if(eh){var
+ho=J[5],hp=J[4],hq=al(R(hl),dL(g(ag),z)),hr=oB(f(al(d,z),hq),ed,eg,hp,ho),hs=aZ(z,ag);return up(n,z,o,A,a5(aL(z,ag)),hs,ed,eg,hr)}var
+ei=eh}else
+var
+ei=bX;var
+ej=ei}else
+var
+ej=bW;return ej}var
+hi=g(D),bV=gV(0,gU(I),hi,ae,ad,J);if(bV){var
+hj=bV[1],L=aZ(z,ag),X=a5(aL(z,ag)),cd=iq(n,o[2],A),ce=cd?cv(n,o[4],X):cd,cf=ce?dj(n,o[5],L):ce;if(cf){var
+N=o[5],cg=o[3],ch=o[1],e3=o[6],a2=function(a){var
+b=dk(N,L,X,a);return H(dk(N,L,X,a),b)},eT=e(function(a){return[0,mj(ch,cg,N,L,X,a)]},A),eU=e(a2,A),eV=function(a){var
+b=d_(N,L,a);return ab(function(b,a){return[2,b,a]},X,b)},eW=e(function(a){var
+b=[6,a2(a)],c=dk(N,L,X,a),d=d_(N,L,a[2]);return[0,[0,[0,ab(function(b,a){return[2,b,a]},X,d),c],b]]},A),eY=e(function(a){return 0},A),eZ=e(function(a){return[0,[6,a2(a)]]},A),e2=[0,e(function(c){var
+a=aI(dk(N,L,X,c));return ip(ch,a,at([5,[0,b,b],cg],e0(d_(N,L,c[2]),a)))},A),eZ,eY,eW,eV,eU,eT],e4=b9(o[1]),e5=2<=o[1]?sI:sJ;return ib(n,e5,e4,e2,e3,hj)}return cf}var
+d8=bV}else
+var
+d8=d7;return d8;default:return 0}case
+3:var
+ah=a[7],aH=a[6],aJ=a[5],ai=a[4],bY=a[3],aj=a[2],as=a[1],an=p[2];switch(an[0]){case
 0:var
-eb=af[3],g_=g(eb),g$=gK(iB(iS(ap,ae,bT,ad,aF,aD,ac)[1])),bU=dm(g(ap),g$,0,0,g_,eb);if(bU){var
-ec=bU[1];if(ec[2])return 0;var
-ed=n$(ap,ae,ad,aF,aD,ac);if(ed){var
-ha=ec[1],E=iS(ap,ae,bT,ad,aF,aD,ac),hb=i5(0,zS,g(ad),0,ac),ee=i8(af[2]),aG=af[1],ct=m9(E[1]);if(ct)var
-fu=E[1][2],bd=m(function(a){return bk(o,a[2][1],a[2][2])},fu);else
+el=an[3],ht=g(el),hu=gX(iO(i8(as,aj,bY,ai,aJ,aH,ah)[1])),bZ=dv(g(as),hu,0,0,ht,el);if(bZ){var
+en=bZ[1];if(en[2])return 0;var
+eo=os(as,aj,ai,aJ,aH,ah);if(eo){var
+hv=en[1],M=i8(as,aj,bY,ai,aJ,aH,ah),hw=gT(0,Aw,g(ai),0,ah),ep=jk(an[2]),aK=an[1],cA=ni(M[1]);if(cA)var
+fG=M[1][2],bg=m(function(a){return bo(n,a[2][1],a[2][2])},fG);else
 var
-bd=ct;if(bd)var
-fv=E[2],be=m(function(a){return bk(o,a[1],a[2])},fv);else
+bg=cA;if(bg)var
+fH=M[2],bh=m(function(a){return bo(n,a[1],a[2])},fH);else
 var
-be=bd;if(be){var
-u=E[1],a3=g(u[1]),aJ=E[3],a5=g(u[2]),cf=P(a5,g(e1(e(aT,u[3])))),e2=u[3],cg=m4(gp(u),e2,a5),X=iA(a3,cg,u[4],cf),e3=iy(cg,u[4],cf),e4=u[3],ch=f(ix(gp(u),e4,a5),e3),ci=g(iB(u)),e5=0,e_=f(ch,cO(function(a,b){return m1(X,a,b)},e5,d,ci,aJ)),e$=f(bJ(e0(X)),e_),cj=f(bJ(d2(X)),e$),a6=cz(cj)[1],fa=cy(a6),ai=function(a){return a4(fa,a)},ck=s(g(E[2]),a3);if(ck)var
-fb=u[4],a7=m(function(a){return 0===a[0]?s(g(a[1]),a3):1},fb);else
+bh=bg;if(bh){var
+u=M[1],a8=g(u[1]),aN=M[3],a_=g(u[2]),cj=O(a_,g(e8(e(aU,u[3])))),fa=u[3],ck=nd(gA(u),fa,a_),aa=iN(a8,ck,u[4],cj),fb=iL(ck,u[4],cj),fc=u[3],cl=f(iK(gA(u),fc,a_),fb),cn=g(iO(u)),fd=0,fj=f(cl,cX(function(a,b){return na(aa,a,b)},fd,d,cn,aN)),fk=f(bN(e7(aa)),fj),co=f(bN(ee(aa)),fk),a$=cI(co)[1],fl=cH(a$),aq=function(a){return a9(fl,a)},cp=r(g(M[2]),a8);if(cp)var
+fm=u[4],ba=m(function(a){return 0===a[0]?r(g(a[1]),a8):1},fm);else
 var
-a7=ck;var
-cl=a7?m(function(a){var
-b=k(d),c=cy(a6);return az(r(ai(a),c,b),a)},cj):a7,cm=cl?aj(m3,aJ):cl;if(cm){var
-cn=U(E[4]);if(cn)var
-aK=cn;else
+ba=cp;var
+cq=ba?m(function(a){var
+b=k(d),c=cH(a$);return aC(q(aq(a),c,b),a)},co):ba,cs=cq?ak(nc,aN):cq;if(cs){var
+ct=T(M[4]);if(ct)var
+aO=ct;else
 var
-ft=u[4],aK=m(function(a){return 0===a[0]?0:1},ft)}else
+fF=u[4],aO=m(function(a){return 0===a[0]?0:1},fF)}else
 var
-aK=cm;if(aK){var
-fc=iB(u),a9=Z(e(function(a){return ak(aG,a)},fc));if(a9){var
-fd=0,fe=x(function(a){return eT(fd,d,a)},aJ),a_=Z(e(function(a){return ia(aG,a)},fe));if(a_){var
-ff=E[2],a$=Z(e(function(a){return ak(aG,[0,a,d])},ff));if(a$){var
-fg=0,fh=0,ba=Z(cO(function(a,b){return m2(aG,ai,X,fh,d,a,b)},fg,d,ci,aJ));if(ba){var
-co=ba[1];if(E[4])var
-fi=ee[2],fj=ee[1],fk=e0(X),bb=lN(hb,co,[8,i(au(ai),fk),fj,fi]);else
+aO=cs;if(aO){var
+fo=iO(u),bb=_(e(function(a){return am(aK,a)},fo));if(bb){var
+fp=0,fq=x(function(a){return e1(fp,d,a)},aN),bc=_(e(function(a){return io(aK,a)},fq));if(bc){var
+fr=M[2],bd=_(e(function(a){return am(aK,[0,a,d])},fr));if(bd){var
+fs=0,ft=0,be=_(cX(function(a,b){return nb(aK,aq,aa,ft,d,a,b)},fs,d,cn,aN));if(be){var
+cu=be[1];if(M[4])var
+fu=ep[2],fv=ep[1],fw=e7(aa),bf=lZ(hw,cu,[8,i(au(aq),fw),fv,fu]);else
 var
-bb=co;var
-fl=hQ(bb),fm=a$[1],fn=function(a){return 0},fo=f(a9[1],a_[1]),fp=e(ai,ch),fq=e0(X),fr=i(au(ai),fq),fs=d2(X);return gO(hP(aG,a6,i(au(ai),fs),fr,fp,fo,bb,fn),fm,fl,ha)}var
-cp=ba}else
+bf=cu;var
+fx=h1(bf),fy=bd[1],fz=function(a){return 0},fA=f(bb[1],bc[1]),fB=e(aq,cl),fC=e7(aa),fD=i(au(aq),fC),fE=ee(aa);return fn(h0(aK,a$,i(au(aq),fE),fD,fB,fA,bf,fz),fy,fx,hv)}var
+cw=be}else
 var
-cp=a$;var
-cq=cp}else
+cw=bd;var
+cx=cw}else
 var
-cq=a_;var
-cr=cq}else
+cx=bc;var
+cy=cx}else
 var
-cr=a9;var
-cs=cr}else
+cy=bb;var
+cz=cy}else
 var
-cs=aK;return cs}return be}var
-ef=ed}else
+cz=aO;return cz}return bh}var
+eq=eo}else
 var
-ef=bU;return ef;case
+eq=bZ;return eq;case
 1:var
-eg=af[3],aI=iS(ap,ae,bT,ad,aF,aD,ac),hc=e(j,eg),eh=bm(e(aT,ae),hc);if(eh[2])return 0;var
-hd=af[4],bV=gI(0,zT,g(ad),0,ac,hd);if(bV){var
-ei=gJ(e(aT,ae),eg),ej=ei?n$(ap,ae,ad,aF,aD,ac):ei,ek=ej?m9(aI[1]):ej;if(ek)var
-he=aI[2],bX=m(function(a){return bk(o,a[1],a[2])},he);else
+er=an[3],aM=i8(as,aj,bY,ai,aJ,aH,ah),hx=e(j,er),es=br(e(aU,aj),hx);if(es[2])return 0;var
+hy=an[4],b0=gV(0,Ax,g(ai),0,ah,hy);if(b0){var
+et=gW(e(aU,aj),er),eu=et?os(as,aj,ai,aJ,aH,ah):et,ev=eu?ni(aM[1]):eu;if(ev)var
+hz=aM[2],b1=m(function(a){return bo(n,a[1],a[2])},hz);else
 var
-bX=ek;if(bX){var
-hf=bV[1],ag=e(j,af[2]),el=eh[1],v=aI[1],aL=g(v[1]),bf=g(v[2]),cu=P(bf,g(e1(e(aT,v[3])))),fC=v[3],cv=m4(gp(v),fC,bf),av=iA(aL,cv,v[4],cu),fD=iy(cv,v[4],cu),fE=v[3],cw=f(ix(gp(v),fE,bf),fD),fF=x(gn,v[4]),fG=f(e1(e(aT,v[3])),fF),aw=f(el,e(function(a){return a[1][1]},fG)),cx=m$(o,e(aT,v[2]),el),cA=cx?m$(o,aI[2],ag):cx,cD=cA?s(g(ag),aL):cA;if(cD)var
-fH=v[4],bg=m(function(a){return 0===a[0]?s(g(a[1]),aL):1},fH);else
+b1=ev;if(b1){var
+hA=b0[1],ao=e(j,an[2]),ew=es[1],w=aM[1],aP=g(w[1]),bi=g(w[2]),cB=O(bi,g(e8(e(aU,w[3])))),fO=w[3],cC=nd(gA(w),fO,bi),aA=iN(aP,cC,w[4],cB),fP=iL(cC,w[4],cB),fQ=w[3],cD=f(iK(gA(w),fQ,bi),fP),fR=x(gy,w[4]),fS=f(e8(e(aU,w[3])),fR),aB=f(ew,e(function(a){return a[1][1]},fS)),cE=nk(n,e(aU,w[2]),ew),cF=cE?nk(n,aM[2],ao):cE,cG=cF?r(g(ao),aP):cF;if(cG)var
+fT=w[4],bj=m(function(a){return 0===a[0]?r(g(a[1]),aP):1},fT);else
 var
-bg=cD;var
-cG=bg?m(m_,f(x(tR,av),cw)):bg;if(cG){var
-fI=aI[3],fw=e(function(a){var
-b=a[1];return[0,e(function(a){return d3(ag,aw,a)},b)]},av),fx=x(function(c){var
+bj=cG;var
+cJ=bj?m(nj,f(x(ud,aA),cD)):bj;if(cJ){var
+fU=aM[3],fI=e(function(a){var
+b=a[1];return[0,e(function(a){return ef(ao,aB,a)},b)]},aA),fJ=x(function(c){var
 a=c[1];switch(a[0]){case
 7:var
-b=d3(ag,aw,a[2]);return[0,[4,b,b],0];case
-9:return[0,d3(ag,aw,a[1]),0];default:return 0}},cw),fy=function(a){return a},fz=0,fA=e(function(a){return 0},av),fB=e(function(b){var
+b=ef(ao,aB,a[2]);return[0,[4,b,b],0];case
+9:return[0,ef(ao,aB,a[1]),0];default:return 0}},cD),fK=function(a){return a},fL=0,fM=e(function(a){return 0},aA),fN=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,d3(ag,aw,a[1])];return 0},av);return h1(o,tS,aL,[0,e(function(a){var
-b=a[3];return e(function(a){return d3(ag,aw,a)},b)},av),fB,fA,fz,fy,fx,fw],fI,hf)}return cG}var
-em=bX}else
+a!=="number"&&0===a[0])return[0,ef(ao,aB,a[1])];return 0},aA);return ib(n,ue,aP,[0,e(function(a){var
+b=a[3];return e(function(a){return ef(ao,aB,a)},b)},aA),fN,fM,fL,fK,fJ,fI],fU,hA)}return cJ}var
+ex=b1}else
 var
-em=bV;return em;default:return 0}case
+ex=b0;return ex;default:return 0}case
 4:var
-ah=a[3],ar=a[2],aX=a[1],as=p[2];switch(as[0]){case
+ap=a[3],av=a[2],a0=a[1],aw=p[2];switch(aw[0]){case
 0:var
-hg=as[3],hh=as[1],dv=dp(j(aX));if(dv){var
-bH=nO(ah);if(bH){var
-dw=bH[1],aA=dw[2],dx=j(aA),dy=j(dw[1]),c0=h(o,1,j(ar)),c1=c0?h(o,1,[3,dx,[0,b,b]]):c0,c2=c1?h(o,1,dy):c1,dz=c2?h(o,0,[3,[5,[0,b,b],dx],dy]):c2;if(dz)var
-gQ=0,gR=0,bL=m(function(a){return nJ(gR,gQ,zQ,a)},ah);else
+hB=aw[3],hC=aw[1],dA=dx(j(a0));if(dA){var
+bL=n7(ap);if(bL){var
+dB=bL[1],aE=dB[2],dC=j(aE),dD=j(dB[1]),c6=h(n,1,j(av)),c7=c6?h(n,1,[3,dC,[0,b,b]]):c6,c8=c7?h(n,1,dD):c7,dE=c8?h(n,0,[3,[5,[0,b,b],dC],dD]):c8;if(dE)var
+g2=0,g3=0,bO=m(function(a){return n2(g3,g2,Au,a)},ap);else
 var
-bL=dz;var
-dA=bL?m(function(c){if(1===c[1]){var
+bO=dE;var
+dF=bO?m(function(c){if(1===c[1]){var
 a=c[4];if(typeof
-a!=="number"&&0===a[0])return h(o,0,[3,[0,d,b],j(a[1])]);return 1}return 1},ah):bL;if(dA){var
-bG=bh(function(a){return U(nP(a))},ah);if(bG){var
-gS=[0,c(2,b),b],aO=h(o,0,[3,j(aA),gS]);if(aO)var
-bM=aO;else
+a!=="number"&&0===a[0])return h(n,0,[3,[0,d,b],j(a[1])]);return 1}return 1},ap):bO;if(dF){var
+bK=bk(function(a){return T(n8(a))},ap);if(bK){var
+g4=[0,c(2,b),b],aS=h(n,0,[3,j(aE),g4]);if(aS)var
+bP=aS;else
 var
-gV=j(aA),bM=h(o,0,[3,[0,c(2,b),b],gV]);if(bM){var
-du=x(function(a){var
-b=iR(0,zN,0,a);return e(function(b){return U(nP(a))},b)},ah),gN=function(f){var
+g7=j(aE),bP=h(n,0,[3,[0,c(2,b),b],g7]);if(bP){var
+dz=x(function(a){var
+b=i7(0,Ar,0,a);return e(function(b){return T(n8(a))},b)},ap),g0=function(f){var
 h=f[1];if(h){var
-i=h[1],j=r(i,du,0);if(j)var
-l=bp(i,du),k=[0,[0,g(bh(function(a){return a},l))]];else
+i=h[1],j=q(i,dz,0);if(j)var
+l=aL(i,dz),k=[0,[0,g(bk(function(a){return a},l))]];else
 var
 k=j;var
 a=k}else
 var
-a=zP;if(a){var
+a=At;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,zO,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},gP=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,x(gN,a[1]),d,c,b]},hg),gT=[0,bG[1],bG[2]],gU=nT(aO,ar,aA);return og(0,nS(aO,aX,ar,aA),0,gU,0,gT,hh,gP)}return bM}var
-dB=1}else
+2:return[0,[0,c,[1,As,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},g1=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,x(g0,a[1]),d,c,b]},hB),g5=[0,bK[1],bK[2]],g6=oa(aS,av,aE);return oz(0,n$(aS,a0,av,aE),0,g6,0,g5,hC,g1)}return bP}var
+dG=1}else
 var
-dB=dA;var
-dC=dB}else
+dG=dF;var
+dH=dG}else
 var
-dC=bH;var
-dD=dC}else
-var
-dD=dv;return dD;case
-1:var
-hi=as[4],hj=as[3],hk=as[2],dE=dp(j(aX));if(dE){var
-bN=nO(ah);if(bN){var
-aB=bN[1][2],gW=[0,c(2,b),b],aP=h(o,0,[3,j(aB),gW]),dF=h(o,1,j(ar)),dG=dF?h(o,1,[3,j(aB),[0,b,b]]):dF;if(dG)if(aP)var
-aQ=aP;else
-var
-gY=j(aB),aQ=h(o,0,[3,[0,c(2,b),b],gY]);else
-var
-aQ=dG;if(aQ){var
-gX=nT(aP,ar,aB);return oh(0,nS(aP,aX,ar,aB),0,gX,0,ah,hk,hj,hi)}var
-dH=aQ}else
-var
-dH=bN;var
+dH=bL;var
 dI=dH}else
 var
-dI=dE;return dI;default:return 0}case
+dI=dA;return dI;case
+1:var
+hD=aw[4],hE=aw[3],hF=aw[2],dJ=dx(j(a0));if(dJ){var
+bQ=n7(ap);if(bQ){var
+aF=bQ[1][2],g8=[0,c(2,b),b],aT=h(n,0,[3,j(aF),g8]),dK=h(n,1,j(av)),dM=dK?h(n,1,[3,j(aF),[0,b,b]]):dK;if(dM)if(aT)var
+aV=aT;else
+var
+g_=j(aF),aV=h(n,0,[3,[0,c(2,b),b],g_]);else
+var
+aV=dM;if(aV){var
+g9=oa(aT,av,aF);return oA(0,n$(aT,a0,av,aF),0,g9,0,ap,hF,hE,hD)}var
+dN=aV}else
+var
+dN=bQ;var
+dO=dN}else
+var
+dO=dJ;return dO;default:return 0}case
 5:var
-bY=a[4],en=a[1],bZ=p[2];if(0===bZ[0]){var
-eo=bZ[3],q=iQ(en,[0,a[2],a[3]],0,bY),hl=g(eo),b0=i1(i7(q),hl,eo);if(b0){var
-ep=b0[1];if(ep[2])return 0;var
-eq=i4(en,0,bY,q),er=eq?U(aj(d_,bY)):eq;if(er){var
-es=lM(o,q);if(es){var
-hm=ep[1],et=e(gF,q[1]),A=gG(q[1]),eu=j(a[5]),W=bZ[1],bs=f3(A,et,q[1]),J=hR(A,et,q[1],0),fQ=g(q[3]),fR=P(g(bs),fQ),aM=[0,g(bs),fR],fS=hT(J,A,aM,q[3]),fT=f(e(cE,J),fS),c6=f(bJ(eJ(J)),fT),c7=cz(c6)[1],bt=cy(c7),c9=q[2];if(0===c9[0]){var
-c$=m(function(a){var
-b=k(d);return az(r(a4(bt,a),bt,b),a)},c6),da=c$?h(o,1,eu):c$;if(da){var
-fU=q[3],fV=x(function(a){return c8(A,a)},fU),fW=q[3],fX=f(bs,f(e(function(a){return bI(A,a)},fW),fV)),bu=Z(e(function(a){return ak(W,a)},fX));if(bu){var
-fY=a0(c9[1],A),bv=Z(e(function(a){return ak(W,a)},fY));if(bv){var
-bw=cC(W,A,[5,eu,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bw){var
-bx=q[3],fZ=bv[1],f0=bu[1],f1=bw[1],ax=function(a){return a4(bt,a)},fN=aE(0,g(bx)),fO=e(function(k){var
-l=D(bx,k);if(l){var
-a=l[1],u=bp(k,bx),v=g(x(function(a){return c8(A,a)},u)),w=P(aM[2],v),j=[0,P(aM[1],k),w],r=eJ(J),f=i(au(ax),r),c=[1,[8,[1,[1,j[1]]]]],d=f4(J,A,j,a),n=d?[0,[3,e(ax,[0,d[1],d[2]])]]:d,m=0;if(typeof
+b2=a[4],ey=a[1],b3=p[2];if(0===b3[0]){var
+ez=b3[3],s=i6(ey,[0,a[2],a[3]],0,b2),hG=g(ez),b4=jf(jj(s),hG,ez);if(b4){var
+eA=b4[1];if(eA[2])return 0;var
+eB=ji(ey,0,b2,s),eC=eB?T(ak(em,b2)):eB;if(eC){var
+eD=lY(n,s);if(eD){var
+hH=eA[1],eE=e(gQ,s[1]),B=gR(s[1]),eF=j(a[5]),$=b3[1],bv=gd(B,eE,s[1]),Q=h2(B,eE,s[1],0),f2=g(s[3]),f3=O(g(bv),f2),aQ=[0,g(bv),f3],f4=h4(Q,B,aQ,s[3]),f5=f(e(cM,Q),f4),c_=f(bN(eS(Q)),f5),c$=cI(c_)[1],bw=cH(c$),da=s[2];if(0===da[0]){var
+db=m(function(a){var
+b=k(d);return aC(q(a9(bw,a),bw,b),a)},c_),dc=db?h(n,1,eF):db;if(dc){var
+f6=s[3],f7=x(function(a){return dd(B,a)},f6),f8=s[3],f9=f(bv,f(e(function(a){return bM(B,a)},f8),f7)),by=_(e(function(a){return am($,a)},f9));if(by){var
+f_=a3(da[1],B),bz=_(e(function(a){return am($,a)},f_));if(bz){var
+bA=cK($,B,[5,eF,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bA){var
+bB=s[3],f$=bz[1],ga=by[1],gb=bA[1],aD=function(a){return a9(bw,a)},fZ=az(0,g(bB)),f0=e(function(k){var
+l=F(bB,k);if(l){var
+a=l[1],u=aL(k,bB),v=g(x(function(a){return dd(B,a)},u)),w=O(aQ[2],v),j=[0,O(aQ[1],k),w],r=eS(Q),f=i(au(aD),r),c=[1,[8,[1,[1,j[1]]]]],d=ge(Q,B,j,a),n=d?[0,[3,e(aD,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
 4:var
-o=h(W,1,a[2]),s=o?n:o;return s;case
+o=h($,1,a[2]),s=o?n:o;return s;case
 5:return[0,[2,f,c]];case
 8:var
-p=h(W,1,[5,a[2],a[1]]);if(!p)return p;var
+p=h($,1,[5,a[2],a[1]]);if(!p)return p;var
 q=[1,[2,b]];m=1;break;case
 9:var
 q=c;m=1;break;case
@@ -7237,27 +7515,27 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eO(J,A,j,a);return y(function(a){return[0,i(au(ax),a),q]},t)}return 0}return l},fN),fP=e(function(a){return ax(cE(a))},J),c5=e(function(a){return ax(a[2])},J),f2=q[3],f5=aM[1],br=function(aC,aB,aA){var
+t=eX(Q,B,j,a);return y(function(a){return[0,i(au(aD),a),q]},t)}return 0}return l},fZ),f1=e(function(a){return aD(cM(a))},Q),c9=e(function(a){return aD(a[2])},Q),gc=s[3],gf=aQ[1],bu=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],aa=s(g(v),t3),ab=aa?m(function(a){var
-d=G(R(c(2,c(2,c(2,b)))),a);return d?G(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
-ac=nn(W,f1,dN(0,l),v),j=f[2],w=bi(0,bE(W,ac,e($,k)),c7,0),aD=e($,k),M=function(a){return nm(nl(W,ac,aD,w,a))};if(typeof
-j==="number")return 0===j?aj(function(b){var
-a=r(b,w,0);return a?G(a[1][2][2],d):a},c5):0;else{if(0===j[0]){var
-a=j[2],N=m(t1,a);if(N){var
-p=r(j[1],fO,0);if(p){var
+v=f[1],aa=r(g(v),uB),ab=aa?m(function(a){var
+d=E(R(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
+ac=nG($,gb,d0(0,l),v),j=f[2],w=bm(0,bJ($,ac,e(Z,k)),c$,0),aD=e(Z,k),M=function(a){return nF(nE($,ac,aD,w,a))};if(typeof
+j==="number")return 0===j?ak(function(b){var
+a=q(b,w,0);return a?E(a[1][2][2],d):a},c9):0;else{if(0===j[0]){var
+a=j[2],N=m(uz,a);if(N){var
+p=q(j[1],f0,0);if(p){var
 i=p[1];switch(i[0]){case
 0:var
 x=0;if(a)if(a[2])var
 h=0;else{var
-A=a[1],B=i[1],ap=gt(B,A),aq=gs(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
+A=a[1],B=i[1],ap=gF(B,A),aq=gE(A),C=[0,[0,B,[0,[1,[4,[1,[6,i[2],aq]],ap]],0]]];x=1}else{var
 C=a;x=1}if(x)var
 h=C;break;case
 1:var
 y=0;if(a)if(a[2])var
 h=0;else{var
-E=a[1],F=i[1],ar=gs(E),as=[1,[6,i[2],ar]],H=[0,[0,F,[0,[1,[4,gt(F,E),as]],0]]];y=1}else{var
+D=a[1],G=i[1],ar=gE(D),as=[1,[6,i[2],ar]],H=[0,[0,G,[0,[1,[4,gF(G,D),as]],0]]];y=1}else{var
 H=a;y=1}if(y)var
 h=H;break;case
 2:var
@@ -7265,7 +7543,7 @@ z=0;if(a){var
 n=a[2],ao=0;if(n)if(n[2]){var
 h=0;ao=1}else
 var
-I=n[1],J=a[1],o=i[1],at=gs(J),au=[1,[6,gt(o,I),at]],av=[1,[6,i[2],au]],aw=gs(I),K=[0,[0,o,[0,[1,[4,[1,[6,gt(o,J),aw]],av]],0]]];else
+I=n[1],J=a[1],o=i[1],at=gE(J),au=[1,[6,gF(o,I),at]],av=[1,[6,i[2],au]],aw=gE(I),K=[0,[0,o,[0,[1,[4,[1,[6,gF(o,J),aw]],av]],0]]];else
 var
 K=n;if(!ao){var
 L=K;z=1}}else{var
@@ -7274,7 +7552,7 @@ h=L;break;default:if(a)var
 h=0;else
 var
 ax=i[1],h=[0,[0,0,e(function(a){return[1,[5,[0,a]]]},ax)]]}if(h){var
-O=h[1],ay=O[1],Q=m(function(a){return nm(r(a[2],w,0))},ay);if(Q)return m(M,O[2]);var
+P=h[1],ay=P[1],Q=m(function(a){return nF(q(a[2],w,0))},ay);if(Q)return m(M,P[2]);var
 S=Q}else
 var
 S=h;var
@@ -7284,118 +7562,118 @@ T=p;var
 U=T}else
 var
 U=N;return U}var
-V=j[2],X=j[1],q=D(f2,X);if(q){var
-Y=q[1];if(typeof
-Y!=="number"&&1===Y[0]){var
-t=D(c5,V);if(t){var
-u=D(fP,V);if(u){var
-az=P(f5,X);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
+V=j[2],W=j[1],s=F(gc,W);if(s){var
+X=s[1];if(typeof
+X!=="number"&&1===X[0]){var
+t=F(c9,V);if(t){var
+u=F(f1,V);if(u){var
+az=O(gf,W);return M([1,[4,[1,[8,[0,u[1]]]],[1,[6,[1,[8,[1,[1,az]]]],[0,t[1]]]]]])}var
 _=u}else
 var
 _=t;return _}var
-Z=0}else
+Y=0}else
 var
-Z=q;return Z}}return ab;case
+Y=s;return Y}}return ab;case
 1:var
-ad=f[1],ae=no(ad,l);if(ae){var
-af=cF(ad,l),ag=br(k,af[1],f[2]);if(ag){var
+ad=f[1],ae=nH(ad,l);if(ae){var
+af=cN(ad,l),ag=bu(k,af[1],f[2]);if(ag){var
 l=af[2],f=f[3];continue}var
 ah=ag}else
 var
 ah=ae;return ah;default:var
-ai=f[1],ak=no(ai,k);if(ak){var
-al=cF(ai,k),am=br(al[1],l,f[2]);if(am){var
+ai=f[1],aj=nH(ai,k);if(aj){var
+al=cN(ai,k),am=bu(al[1],l,f[2]);if(am){var
 k=al[2],f=f[3];continue}var
 an=am}else
 var
-an=ak;return an}};return br(f0,fZ,hm)}var
-db=bw}else
+an=aj;return an}};return bu(ga,f$,hH)}var
+de=bA}else
 var
-db=bv;var
-dc=db}else
+de=bz;var
+df=de}else
 var
-dc=bu;var
-dd=dc}else
+df=by;var
+dg=df}else
 var
-dd=da;return dd}return 0}var
-ev=es}else
+dg=dc;return dg}return 0}var
+eG=eD}else
 var
-ev=er;var
-ew=ev}else
+eG=eC;var
+eH=eG}else
 var
-ew=b0;return ew}return 0;case
+eH=b4;return eH}return 0;case
 6:var
-ex=a[1];if(ex){var
-ey=ex[1],b1=p[2];if(0===b1[0]){var
-b2=i0(zV,0,0,0,zU,b1[3]);if(b2){var
-ez=e9(ey);if(ez){var
-hn=b2[1],eA=bP(ey)[2],aY=b1[1],bo=cC(aY,d,eA);if(bo){var
-bq=cC(aY,d,[5,[0,b,b],eA]);if(bq){var
-fM=bo[1][1],cX=L(c4(aY),fM);if(cX)return nk(aY,bq[1][1],hn);var
-cY=cX}else
+eI=a[1];if(eI){var
+eJ=eI[1],b5=p[2];if(0===b5[0]){var
+b6=je(Az,0,0,0,Ay,b5[3]);if(b6){var
+eK=fh(eJ);if(eK){var
+hI=b6[1],eL=bT(eJ)[2],a1=b5[1],bs=cK(a1,d,eL);if(bs){var
+bt=cK(a1,d,[5,[0,b,b],eL]);if(bt){var
+fY=bs[1][1],c3=K(cm(a1),fY);if(c3)return nD(a1,bt[1][1],hI);var
+c4=c3}else
 var
-cY=bq;var
-cZ=cY}else
+c4=bt;var
+c5=c4}else
 var
-cZ=bo;return cZ}var
-eB=ez}else
+c5=bs;return c5}var
+eM=eK}else
 var
-eB=b2;return eB}return 0}var
-b3=p[2];if(0===b3[0]){var
-b5=i0(zX,0,0,0,zW,b3[3]);return b5?nk(b3[1],d,b5[1]):b5}return 0;default:var
-at=a[1],eC=p[2];if(2===eC[0]){var
-eD=eC[1],b6=iY(g(eD),eD);if(b6){var
-eE=b6[1];if(eE[2])return 0;var
-b7=eE[1],dr=Y(zM,g(at)),ds=dr?Y(g(at),ks):dr,dt=ds?m8(e(ay,at)):ds,eF=dt?m(function(c){var
-a=cB(j(c[2][1]));if(a){var
-b=cB(j(c[2][2]));if(b)return U(c3(b[1],a[1]));var
+eM=b6;return eM}return 0}var
+b7=p[2];if(0===b7[0]){var
+b8=je(AB,0,0,0,AA,b7[3]);return b8?nD(b7[1],d,b8[1]):b8}return 0;default:var
+ax=a[1],eN=p[2];if(2===eN[0]){var
+eO=eN[1],b_=jc(g(eO),eO);if(b_){var
+eP=b_[1];if(eP[2])return 0;var
+b$=eP[1],du=Y(Aq,g(ax)),dw=du?Y(g(ax),kG):du,dy=dw?nh(e(ay,ax)):dw,eQ=dy?m(function(c){var
+a=cr(j(c[2][1]));if(a){var
+b=cr(j(c[2][2]));if(b)return T(bl(b[1],a[1]));var
 d=b}else
 var
-d=a;return d},at):dt;if(eF)var
-ho=gE(yF,b7),b8=ok(a[5],ho);else
+d=a;return d},ax):dy;if(eQ)var
+hJ=gP(zi,b$),ca=oE(a[5],hJ);else
 var
-b8=eF;if(b8)var
-hp=gE(yG,b7),b9=ok(a[6],hp);else
+ca=eQ;if(ca)var
+hK=gP(zj,b$),cb=oE(a[6],hK);else
 var
-b9=b8;if(b9){var
-gM=e(function(a){return[0,d,0]},at);return oj(at,a[2],a[3],a[4],gM,b7)}var
-eG=b9}else
+cb=ca;if(cb){var
+gZ=e(function(a){return[0,d,0]},ax);return oD(ax,a[2],a[3],a[4],gZ,b$)}var
+eR=cb}else
 var
-eG=b6;return eG}return 0}}return aC}var
-W=[aV,z0,qA(0)],ol=[aV,z1,qA(0)];function
-zY(m,b){var
-f=[0,l(x0,an(b[4])),0],g=[0,l(x2,ad([0,l(x1,an(b[3])),f])),0],a=b[2];switch(a[0]){case
+eR=b_;return eR}return 0}}return aG}var
+W=[aX,AE,qY(0)],oF=[aX,AF,qY(0)];function
+AC(m,b){var
+f=[0,l(yD,ap(b[4])),0],g=[0,l(yF,ad([0,l(yE,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=O(xW,nv(a[1],a[2],a[3]));break;case
+c=N(yz,nO(a[1],a[2],a[3]));break;case
 1:var
-c=O(xX,nw(a[1],a[2],a[3],a[4]));break;default:var
-c=O(xY,E(e(xR,a[1])))}var
-h=[0,l(x3,c),g],i=1===b[2][0]?x9:x4,j=[0,l(x5,an(i)),h],k=[0,l(x6,wx(b[1])),j],d=aw(jZ(zZ,gu(ad([0,l(x8,an(x7)),k]),xZ)),m);return d?zR(b):d}function
-ai(a){if(0===a[0])return a[1];throw W}function
-ae(a){if(1===a[0])return a[1];throw W}function
-aR(a){if(2===a[0])return a[1];throw W}function
-e_(a){if(3===a[0])return a[1];throw W}function
-a1(f,e){var
+c=N(yA,nP(a[1],a[2],a[3],a[4]));break;default:var
+c=N(yB,D(e(yu,a[1])))}var
+h=[0,l(yG,c),g],i=1===b[2][0]?yM:yH,j=[0,l(yI,ap(i)),h],k=[0,l(yJ,w7(b[1])),j],d=aw(ka(AD,gG(ad([0,l(yL,ap(yK)),k]),yC)),m);return d?Av(b):d}function
+ah(a){if(0===a[0])return a[1];throw W}function
+ac(a){if(1===a[0])return a[1];throw W}function
+aS(a){if(2===a[0])return a[1];throw W}function
+fj(a){if(3===a[0])return a[1];throw W}function
+a6(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===F5(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===GS(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 u(c,b){var
-a=a1(c,b);if(a)return a[1];throw W}function
-cs(b,a){var
+a=a6(c,b);if(a)return a[1];throw W}function
+cA(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-dr(a){switch(a[0]){case
+dz(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],z2]}throw W}function
-e$(e,d){var
-a=X(e,ae(d));if(a){var
+2:return[0,a[1],AG]}throw W}function
+fk(e,d){var
+a=X(e,ac(d));if(a){var
 b=a[2];if(b){var
 c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
-gL(i){var
-f=ep(i),d=[0,0],e=hc(f)-1|0;if(!(e<0)){var
+gY(i){var
+f=eC(i),d=[0,0],e=ho(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=jE(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
+a=d[1],g=jR(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7417,47 +7695,47 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fa(a){return kd(gL(a))}function
-eb(b){var
-a=e_(b);return 45===aW(a,0)?R(fa(dB(a,1,av(a)-1|0))):fa(a)}function
-om(a){return ey(fa(e_(a)))}function
-ec(a){return hn(fa(e_(a)))}function
-cY(c){var
-a=e_(c);if(6<av(a))throw W;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(jM(a))}function
-on(a){var
-b=97<=a?1:0,c=b?a<=qc?1:0:b;if(c)var
+fl(a){return kq(gY(a))}function
+ep(b){var
+a=fj(b);return 45===aY(a,0)?R(fl(dK(a,1,av(a)-1|0))):fl(a)}function
+oG(a){return dN(fl(fj(a)))}function
+dA(a){return hz(fl(fj(a)))}function
+cB(c){var
+a=fj(c);if(6<av(a))throw W;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(jZ(a))}function
+oH(a){var
+b=97<=a?1:0,c=b?a<=qA?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
-oo(y,b){var
+oI(y,b){var
 d=av(b),a=[0,0];function
 c(e){var
-c=a[1]<d?1:0,f=c?aW(b,a[1])===e?1:0:c;return f}function
+c=a[1]<d?1:0,f=c?aY(b,a[1])===e?1:0:c;return f}function
 l(e){var
-c=a[1];for(;;){if(a[1]<d&&48<=aW(b,a[1])&&!(57<aW(b,a[1]))){a[1]++;continue}return dB(b,c,a[1]-c|0)}}function
+c=a[1];for(;;){if(a[1]<d&&48<=aY(b,a[1])&&!(57<aY(b,a[1]))){a[1]++;continue}return dK(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
 d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
 h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aw(dB(b,a[1],5),z4)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aw(dK(b,a[1],5),AI)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
-v=0;if(a[1]<d&&on(aW(b,a[1]))){var
-o=a[1];for(;;){if(a[1]<d){var
-w=0;if(!on(aW(b,a[1]))&&95!==aW(b,a[1])&&(!(48<=aW(b,a[1]))||57<aW(b,a[1])))w=1;if(!w){a[1]++;continue}}var
-e=[1,i(y,dB(b,o,a[1]-o|0))];break}}else
+v=0;if(a[1]<d&&oH(aY(b,a[1]))){var
+n=a[1];for(;;){if(a[1]<d){var
+w=0;if(!oH(aY(b,a[1]))&&95!==aY(b,a[1])&&(!(48<=aY(b,a[1]))||57<aY(b,a[1])))w=1;if(!w){a[1]++;continue}}var
+e=[1,i(y,dK(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,z5);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,AJ);if(r)var
 s=r;else
 var
-t=1<av(g)?1:0,s=t?48===aW(g,0)?1:0:t;if(s)throw W;if(q){var
-k=q[1],x=0;if(aw(k,z6)||48===aW(k,av(k)-1|0))x=1;else
+t=1<av(g)?1:0,s=t?48===aY(g,0)?1:0:t;if(s)throw W;if(q){var
+k=q[1],x=0;if(aw(k,AK)||48===aY(k,av(k)-1|0))x=1;else
 var
-z=gL(k),e=[0,gL(g),z];if(x)throw W}else
+z=gY(k),e=[0,gY(g),z];if(x)throw W}else
 var
-e=[0,gL(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(n(f,z3)){if(!(2<av(f))&&2<=jM(f)&&!(64<jM(f)))return[4,e,ey(fa(f))];throw W}throw W}return e}function
+e=[0,gY(g),0]}}}if(c(94)){a[1]++;var
+f=l(0);if(o(f,AH)){if(!(2<av(f))&&2<=jZ(f)&&!(64<jZ(f)))return[4,e,dN(fl(f))];throw W}throw W}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
@@ -7467,46 +7745,46 @@ b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
 g=f(0);if(a[1]<d)throw W;return g}function
-gM(a){return oo(function(a){return[0,a]},a)}function
-i9(a){var
-b=aR(a);return oo(function(a){return a},b)}function
-T(a){return gM(aR(a))}function
-b8(a){if(2===a[0])return[0,gM(a[1])];var
-b=ai(a),c=T(u(b,z7));return[1,T(u(b,z8)),c]}function
-af(a){throw[0,ol,a3(jZ(z_,a),z9)]}function
-i_(c){var
-a=aR(c);if(n(a,z$)){var
-b=n(a,Aa);if(b)throw W;return b}return 1}function
-Ab(d){var
-b=ai(d);function
-a(a){return e$(b8,u(b,a))}var
-c=aR(u(b,Ac));if(n(c,Ad)){if(n(c,Ae)){if(n(c,Af))return af([0,Ah,[0,c,Ag]]);var
-e=a1(b,Ai),f=cs(function(a){return e$(b8,a)},e),g=a(Aj);return[1,a(Ak),g,f]}var
-h=i_(u(b,Al)),i=b8(u(b,Am)),j=a(An),k=a(Ao);return[0,a(Ap),k,j,i,h]}return[2,a(Aq)]}function
-Ar(d){var
-a=ai(d);if(a){var
-b=a[1];if(!n(b[1],As)){var
-c=b[2];if(2===c[0]&&!n(c[1],At))return 1}}return 0}function
-op(e){var
-b=ai(e);function
-a(a){return X(b8,ae(u(b,a)))}var
-c=aR(u(b,Au)),d=a1(b,Av);if(n(c,Aw)){if(n(c,Ax)){if(!n(c,Ay)&&!d){var
-f=a(AB);return[1,a(AC),f]}}else
+gZ(a){return oI(function(a){return[0,a]},a)}function
+jl(a){var
+b=aS(a);return oI(function(a){return a},b)}function
+S(a){return gZ(aS(a))}function
+cb(a){if(2===a[0])return[0,gZ(a[1])];var
+b=ah(a),c=S(u(b,AL));return[1,S(u(b,AM)),c]}function
+ae(a){throw[0,oF,a8(ka(AO,a),AN)]}function
+jm(c){var
+a=aS(c);if(o(a,AP)){var
+b=o(a,AQ);if(b)throw W;return b}return 1}function
+AR(d){var
+b=ah(d);function
+a(a){return fk(cb,u(b,a))}var
+c=aS(u(b,AS));if(o(c,AT)){if(o(c,AU)){if(o(c,AV))return ae([0,AX,[0,c,AW]]);var
+e=a6(b,AY),f=cA(function(a){return fk(cb,a)},e),g=a(AZ);return[1,a(A0),g,f]}var
+h=jm(u(b,A1)),i=cb(u(b,A2)),j=a(A3),k=a(A4);return[0,a(A5),k,j,i,h]}return[2,a(A6)]}function
+A7(d){var
+a=ah(d);if(a){var
+b=a[1];if(!o(b[1],A8)){var
+c=b[2];if(2===c[0]&&!o(c[1],A9))return 1}}return 0}function
+oJ(e){var
+b=ah(e);function
+a(a){return X(cb,ac(u(b,a)))}var
+c=aS(u(b,A_)),d=a6(b,A$);if(o(c,Ba)){if(o(c,Bb)){if(!o(c,Bc)&&!d){var
+f=a(Bf);return[1,a(Bg),f]}}else
 if(!d){var
-g=i_(u(b,AD)),h=b8(u(b,AE)),i=a(AF),j=a(AG);return[0,a(AH),j,i,h,g]}}else
+g=jm(u(b,Bh)),h=cb(u(b,Bi)),i=a(Bj),j=a(Bk);return[0,a(Bl),j,i,h,g]}}else
 if(!d){var
-k=i_(u(b,AI)),l=b8(u(b,AJ)),m=b8(u(b,AK)),o=a(AL),p=a(AM),q=a(AN);return[2,a(AO),q,p,o,m,l,k]}return af([0,AA,[0,c,Az]])}function
-oq(d){var
-a=ai(d);if(a){var
-b=a[1];if(!n(b[1],AP)){var
-c=b[2];if(2===c[0]&&!n(c[1],AQ))return 1}}return 0}function
-cZ(c,d){var
-a=ae(d);if(a){var
+k=jm(u(b,Bm)),l=cb(u(b,Bn)),m=cb(u(b,Bo)),n=a(Bp),p=a(Bq),q=a(Br);return[2,a(Bs),q,p,n,m,l,k]}return ae([0,Be,[0,c,Bd]])}function
+oK(d){var
+a=ah(d);if(a){var
+b=a[1];if(!o(b[1],Bt)){var
+c=b[2];if(2===c[0]&&!o(c[1],Bu))return 1}}return 0}function
+c6(c,d){var
+a=ac(d);if(a){var
 b=a[2];if(b&&!b[2]){var
 e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
-ed(g,p){var
-h=g?g[1]:g,c=ai(p),a=aR(u(c,AR)),j=qN(a,AS),f=0;if(0<=j)if(0<j)if(n(a,AT))if(n(a,AU))if(n(a,AV))if(n(a,AW))if(n(a,AX))if(n(a,AY)){var
-k=n(a,AZ);if(k)f=1;else
+eq(g,p){var
+h=g?g[1]:g,c=ah(p),a=aS(u(c,Bv)),j=q$(a,Bw),f=0;if(0<=j)if(0<j)if(o(a,Bx))if(o(a,By))if(o(a,Bz))if(o(a,BA))if(o(a,BB))if(o(a,BC)){var
+k=o(a,BD);if(k)f=1;else
 var
 b=k}else
 var
@@ -7524,7 +7802,7 @@ var
 b=13;else
 var
 b=2;else
-if(n(a,Bh))if(n(a,Bi))if(n(a,Bj))if(n(a,Bk))if(n(a,Bl))if(n(a,Bm))if(n(a,Bn))if(n(a,Bo))f=1;else
+if(o(a,BX))if(o(a,BY))if(o(a,BZ))if(o(a,B0))if(o(a,B1))if(o(a,B2))if(o(a,B3))if(o(a,B4))f=1;else
 var
 b=1;else
 var
@@ -7542,108 +7820,108 @@ b=14;else
 f=1;else
 var
 b=12;var
-o=f?af([0,A1,[0,a,A0]]):b;function
-i(a){return u(c,A2)}var
-d=aR(u(c,A3)),l=n(d,A4);if(l)if(n(d,A5))if(n(d,A6))if(n(d,A7))var
-e=af([0,A9,[0,d,A8]]);else
+n=f?ae([0,BF,[0,a,BE]]):b;function
+i(a){return u(c,BG)}var
+d=aS(u(c,BH)),l=o(d,BI);if(l)if(o(d,BJ))if(o(d,BK))if(o(d,BL))var
+e=ae([0,BN,[0,d,BM]]);else
 var
-m=cZ(T,i(0)),e=[2,m[1],m[2]];else
+m=c6(S,i(0)),e=[2,m[1],m[2]];else
 var
-e=[0,T(i(0))];else
+e=[0,S(i(0))];else
 var
-e=[1,T(i(0))];else
+e=[1,S(i(0))];else
 var
 e=l;function
 q(E){var
-a=ai(E),c=0;switch(o){case
+a=ah(E),c=0;switch(n){case
 6:if(a){var
-r=a[1];if(!n(r[1],A$)){var
+r=a[1];if(!o(r[1],BP)){var
 s=r[2];if(1===s[0]){var
 b=s[1],m=0;if(b&&!b[2])if(a[2])m=1;else{var
-e=b[1];c=1;m=1}if(!m&&!a[2])return[1,X(T,b)]}}}break;case
+e=b[1];c=1;m=1}if(!m&&!a[2])return[1,X(S,b)]}}}break;case
 10:if(a){var
-t=a[1];if(!n(t[1],Ba)){var
+t=a[1];if(!o(t[1],BQ)){var
 u=t[2];if(1===u[0]){var
 f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!n(v[1],Bb)){var
+v=g[1];if(!o(v[1],BR)){var
 w=v[2];if(1===w[0]){var
 i=w[1];if(i&&!i[2]&&!g[2]){var
-F=T(i[1]);return[2,T(f[1]),F]}}}}}}}}break;case
+F=S(i[1]);return[2,S(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!n(x[1],Bc)){var
+x=a[1];if(!o(x[1],BS)){var
 y=x[2];if(1===y[0]){var
 j=y[1];if(j&&!j[2]){var
 k=a[2],z=j[1];if(k){var
-A=k[1];if(!n(A[1],Bd)){var
+A=k[1];if(!o(A[1],BT)){var
 B=A[2];if(1===B[0]){var
 l=B[1];if(l&&!l[2]&&!k[2]&&h){var
-G=T(l[1]);return[3,T(z),G]}}}}else{var
+G=S(l[1]);return[3,S(z),G]}}}}else{var
 e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!n(C[1],Be)){var
-D=C[2];if(1===D[0]&&!a[2])return[1,X(T,D[1])]}}break;case
+C=a[1];if(!o(C[1],BU)){var
+D=C[2];if(1===D[0]&&!a[2])return[1,X(S,D[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!n(p[1],A_)){var
+p=a[1];if(!o(p[1],BO)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,T(e)];throw W}var
-r=cs(q,a1(c,Bf));return[0,o,cs(cY,a1(c,Bg)),r,e]}function
-or(c){var
-d=ed(Br,c),e=d[1];if(!(9<=e))switch(e){case
+e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw W}var
+r=cA(q,a6(c,BV));return[0,n,cA(cB,a6(c,BW)),r,e]}function
+oL(c){var
+d=eq(B7,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=ed(Bp,c),b=a[1];if(2!==b&&!(4<=b))return a;return af(Bq)}function
-os(a){var
-b=ed(Bs,a);return 11===b[1]?b:or(a)}function
-Bt(c){var
-d=ed(Bu,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
-if(2!==a)b=1;return b?d:os(c)}function
-i$(a){var
-b=ed(Bv,a),c=b[1];if(4<=c)switch(c-4|0){case
+a=eq(B5,c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(B6)}function
+oM(a){var
+b=eq(B8,a);return 11===b[1]?b:oL(a)}function
+B9(c){var
+d=eq(B_,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+if(2!==a)b=1;return b?d:oM(c)}function
+jn(a){var
+b=eq(B$,a),c=b[1];if(4<=c)switch(c-4|0){case
 0:case
 1:case
 7:case
-9:return b}return or(a)}function
-ja(b){var
-a=ai(b[2]);if(n(b[1],BC)){var
-c=cZ(T,u(a,BD)),d=cZ(T,u(a,BE)),e=d[2],f=d[1],g=T(u(a,BF));return[1,c[1],c[2],g,f,e]}var
-h=X(T,ae(u(a,BG)));return[0,X(T,ae(u(a,BH))),h]}function
-BI(f){var
-a=ai(f);function
-d(b){return T(u(a,b))}function
-c(b){return e$(T,u(a,b))}var
-b=aR(u(a,BJ));if(n(b,BK)){if(!n(b,BL)){var
-j=u(a,BR),e=cZ(function(a){return a},j),k=a1(a,BS),l=cs(function(a){return c(BT)},k),m=gM(aR(e[2])),o=gM(aR(e[1])),p=d(BU);return[0,cY(u(a,BV)),p,o,m,l]}if(n(b,BM))throw W}var
-g=d(BN),h=c(BO),i=c(BP);return[1,aw(b,BQ),i,h,g]}function
-jb(an){var
-g=dr(an),h=g[1];if(n(h,BW)){if(n(h,BX)){if(n(h,BY)){if(n(h,BZ))return af([0,B1,[0,h,B0]]);var
-w=u(ai(g[2]),B2),ab=0;if(2===w[0]){var
-K=n(w[1],B3);if(!K){var
+9:return b}return oL(a)}function
+jo(b){var
+a=ah(b[2]);if(o(b[1],Cg)){var
+c=c6(S,u(a,Ch)),d=c6(S,u(a,Ci)),e=d[2],f=d[1],g=S(u(a,Cj));return[1,c[1],c[2],g,f,e]}var
+h=X(S,ac(u(a,Ck)));return[0,X(S,ac(u(a,Cl))),h]}function
+Cm(f){var
+a=ah(f);function
+d(b){return S(u(a,b))}function
+c(b){return fk(S,u(a,b))}var
+b=aS(u(a,Cn));if(o(b,Co)){if(!o(b,Cp)){var
+j=u(a,Cv),e=c6(function(a){return a},j),k=a6(a,Cw),l=cA(function(a){return c(Cx)},k),m=gZ(aS(e[2])),n=gZ(aS(e[1])),p=d(Cy);return[0,cB(u(a,Cz)),p,n,m,l]}if(o(b,Cq))throw W}var
+g=d(Cr),h=c(Cs),i=c(Ct);return[1,aw(b,Cu),i,h,g]}function
+jp(an){var
+g=dz(an),h=g[1];if(o(h,CA)){if(o(h,CB)){if(o(h,CC)){if(o(h,CD))return ae([0,CF,[0,h,CE]]);var
+w=u(ah(g[2]),CG),ab=0;if(2===w[0]){var
+K=o(w[1],CH);if(!K){var
 J=K;ab=1}}if(!ab)var
-J=[0,b8(w)];return[6,J]}var
-L=ai(g[2]),j=jb([0,[0,[0,B5,u(L,B4)],0]]);if(0===j[0]){var
+J=[0,cb(w)];return[6,J]}var
+L=ah(g[2]),j=jp([0,[0,[0,CJ,u(L,CI)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=T(u(L,B7));return[5,j[1],x[1],x[2],j[4],ao]}}return af(B6)}var
-a=ai(g[2]),y=a1(a,B8),z=y?X(BI,ae(y[1])):y,o=function(b){var
-a=0!==z?1:0;return a?af(B9):a},k=dr(u(a,B_)),b=dr(u(a,B$)),c=k[1];if(n(c,Ca)&&n(c,Cb)&&n(c,Cc)){if(0===a1(a,Cd)){if(n(c,Ce)){var
-ac=0;if(n(c,Cf)){if(!n(c,Cg)){var
-M=b[1],ad=0;if(n(M,Cj)&&n(M,Ck)){ac=1;ad=1}if(!ad){var
-A=ae(k[2]),ap=ae(u(a,Cn)),N=X(function(a){return ed(0,a)},ap);if(!aD(Ar,A)&&!aD(function(a){return 13===a[1]?1:0},N)){var
-as=X(Ab,A),f=ai(b[2]);if(n(b[1],Bw))var
-H=cZ(T,u(f,Bx)),I=cZ(T,u(f,By)),aj=I[2],ak=I[1],al=T(u(f,Bz)),O=[1,H[1],H[2],al,ak,aj];else
+ao=S(u(L,CL));return[5,j[1],x[1],x[2],j[4],ao]}}return ae(CK)}var
+a=ah(g[2]),y=a6(a,CM),z=y?X(Cm,ac(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?ae(CN):a},k=dz(u(a,CO)),b=dz(u(a,CP)),c=k[1];if(o(c,CQ)&&o(c,CR)&&o(c,CS)){if(0===a6(a,CT)){if(o(c,CU)){var
+ad=0;if(o(c,CV)){if(!o(c,CW)){var
+M=b[1],af=0;if(o(M,CZ)&&o(M,C0)){ad=1;af=1}if(!af){var
+A=ac(k[2]),ap=ac(u(a,C3)),N=X(function(a){return eq(0,a)},ap);if(!aB(A7,A)&&!aB(function(a){return 13===a[1]?1:0},N)){var
+as=X(AR,A),f=ah(b[2]);if(o(b[1],Ca))var
+H=c6(S,u(f,Cb)),I=c6(S,u(f,Cc)),aj=I[2],ak=I[1],al=S(u(f,Cd)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=e$(T,u(f,BA)),O=[0,e$(T,u(f,BB)),am];return[0,as,O,z,N]}o(0);var
-aq=X(i$,ae(u(a,Co))),ar=ja(b);return[1,0,X(op,A),0,ar,0,aq]}}}else
-if(!n(b[1],Cp)){o(0);var
-P=X(i$,ae(u(a,Cq))),v=0,e=P;for(;;){if(e){var
+am=fk(S,u(f,Ce)),O=[0,fk(S,u(f,Cf)),am];return[0,as,O,z,N]}n(0);var
+aq=X(jn,ac(u(a,C4))),ar=jo(b);return[1,0,X(oJ,A),0,ar,0,aq]}}}else
+if(!o(b[1],C5)){n(0);var
+P=X(jn,ac(u(a,C6))),v=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 v=[0,G,v],e=F;continue}var
 e=F;continue}var
-m=jY(v),ag=0;if(m){var
+m=j$(v),ag=0;if(m){var
 d=0,Q=m[1][4];if(typeof
 Q==="number")d=1;else
 switch(Q[0]){case
@@ -7655,55 +7933,55 @@ D=1;if(!D)d=1}else
 d=1;break;case
 1:var
 C=m[2];if(C){var
-E=0,S=C[1][4];if(typeof
-S!=="number"&&0===S[0])if(C[2]){d=1;E=1}else
+E=0,T=C[1][4];if(typeof
+T!=="number"&&0===T[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)af(Cr);var
-at=T(u(ai(b[2]),Cs));return[4,T(u(ai(k[2]),Ct)),at,P]}}if(!ac)return af([0,Ci,[0,c,Ch]])}else
-if(!n(b[1],Cu)){o(0);var
-p=ai(k[2]),U=ai(b[2]),V=function(c,a){var
-b=ae(a);return X(function(d){var
-a=ae(d);if(a){var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)ae(C7);var
+at=S(u(ah(b[2]),C8));return[4,S(u(ah(k[2]),C9)),at,P]}}if(!ad)return ae([0,CY,[0,c,CX]])}else
+if(!o(b[1],C_)){n(0);var
+p=ah(k[2]),U=ah(b[2]),V=function(c,a){var
+b=ac(a);return X(function(d){var
+a=ac(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aR(a[1]),e]}}throw W},b)},au=function(d){var
-a=ai(d);if(a){var
-b=a[1],c=b[1];if(n(c,Cv)){if(!n(c,Cw)&&!a[2])return[0,X(i9,ae(b[2]))]}else
-if(!a[2])return[1,i9(b[2])]}throw W},av=X(os,ae(u(a,Cx))),ax=X(T,ae(u(U,Cy))),ay=X(T,ae(u(U,Cz))),az=X(au,ae(u(p,CA))),aA=V(i9,u(p,CB)),aB=V(b8,u(p,CC));return[3,X(aR,ae(u(p,CD))),aB,aA,az,ay,ax,av]}return af([0,Cm,[0,b[1],Cl]])}throw W}var
-Y=ai(k[2]),q=cs(T,a1(Y,CE)),aC=function(f){var
-a=dr(f),b=a[1];if(n(b,CF)){if(n(b,CG)){if(n(b,CH)){if(n(b,CI))throw W;var
-d=a[2],g=T(u(ai(d),CJ));return[3,T(u(ai(d),CK)),g]}var
-h=a[2],c=function(a){return cZ(T,u(ai(h),a))},i=c(CL),j=c(CM);return[1,c(CN),j,i]}var
-e=cZ(T,a[2]);return[0,e[1],e[2]]}return[2,T(a[2])]},r=cs(aC,a1(a,CO)),Z=n(c,CP),_=Z?n(c,CQ)?2:1:Z,s=ae(u(Y,CR));if(q&&r&&hg(oq,s)){var
+e=i(c,b[1]);return[0,aS(a[1]),e]}}throw W},b)},au=function(d){var
+a=ah(d);if(a){var
+b=a[1],c=b[1];if(o(c,C$)){if(!o(c,Da)&&!a[2])return[0,X(jl,ac(b[2]))]}else
+if(!a[2])return[1,jl(b[2])]}throw W},av=X(oM,ac(u(a,Db))),ax=X(S,ac(u(U,Dc))),ay=X(S,ac(u(U,Dd))),az=X(au,ac(u(p,De))),aA=V(jl,u(p,Df)),aC=V(cb,u(p,Dg));return[3,X(aS,ac(u(p,Dh))),aC,aA,az,ay,ax,av]}return ae([0,C2,[0,b[1],C1]])}throw W}var
+Y=ah(k[2]),q=cA(S,a6(Y,Di)),aD=function(f){var
+a=dz(f),b=a[1];if(o(b,Dj)){if(o(b,Dk)){if(o(b,Dl)){if(o(b,Dm))throw W;var
+d=a[2],g=S(u(ah(d),Dn));return[3,S(u(ah(d),Do)),g]}var
+h=a[2],c=function(a){return c6(S,u(ah(h),a))},i=c(Dp),j=c(Dq);return[1,c(Dr),j,i]}var
+e=c6(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cA(aD,a6(a,Ds)),Z=o(c,Dt),_=Z?o(c,Du)?2:1:Z,s=ac(u(Y,Dv));if(q&&r&&hs(oK,s)){var
 aE=function(c){var
-a=ai(c);function
-b(b){return X(b8,ae(u(a,b)))}if(0!==a1(a,CS))af(CT);var
-d=b(CU);return[0,b(CV),d]},aF=X(Bt,ae(u(a,CW))),aG=r[1],aH=ja(b),aI=q[1];return[2,_,X(aE,s),aI,aH,aG,z,aF]}o(0);var
-ah=0;if(!q&&aw(c,CZ)){var
-$=1;ah=1}if(!ah)var
+a=ah(c);function
+b(b){return X(cb,ac(u(a,b)))}if(0!==a6(a,Dw))ae(Dx);var
+d=b(Dy);return[0,b(Dz),d]},aF=X(B9,ac(u(a,DA))),aG=r[1],aH=jo(b),aI=q[1];return[2,_,X(aE,s),aI,aH,aG,z,aF]}n(0);var
+ai=0;if(!q&&aw(c,DD)){var
+$=1;ai=1}if(!ai)var
 $=[0,_];var
-aa=0!==r?1:0,aJ=aa?aD(oq,s):aa;if(aJ)af(CX);var
-aK=X(i$,ae(u(a,CY))),aL=ja(b);return[1,$,X(op,s),q,aL,r,aK]}var
-t=ai(g[2]);function
+aa=0!==r?1:0,aJ=aa?aB(oK,s):aa;if(aJ)ae(DB);var
+aK=X(jn,ac(u(a,DC))),aL=jo(b);return[1,$,X(oJ,s),q,aL,r,aK]}var
+t=ah(g[2]);function
 aM(b){var
-a=ai(b),c=T(u(a,C0)),d=[0,T(u(a,C1)),c];return[0,aR(u(a,C2)),d]}var
-l=jb([0,[0,[0,C4,u(t,C3)],0]]);if(0===l[0]&&!l[3]){var
-aN=T(u(t,C6)),aO=T(u(t,C7)),aP=l[4],aQ=l[2],aS=l[1];return[7,X(aM,ae(u(t,C8))),aS,aQ,aP,aO,aN]}return af(C5)}function
-gN(a){return X(eb,ae(a))}function
-jc(c,b){var
-a=gN(b);if(cd(a)!==c)throw W;return a}function
-ot(a,d){var
-b=ai(d),e=ae(u(b,C$)),f=a[2],c=X(function(a){return jc(f,a)},e),g=a[1];if(cd(c)!==g)throw W;return[0,c,ec(u(b,Da))]}function
-ee(f,p){var
+a=ah(b),c=S(u(a,DE)),d=[0,S(u(a,DF)),c];return[0,aS(u(a,DG)),d]}var
+l=jp([0,[0,[0,DI,u(t,DH)],0]]);if(0===l[0]&&!l[3]){var
+aN=S(u(t,DK)),aO=S(u(t,DL)),aP=l[4],aQ=l[2],aR=l[1];return[7,X(aM,ac(u(t,DM))),aR,aQ,aP,aO,aN]}return ae(DJ)}function
+fm(a){return X(ep,ac(a))}function
+jq(c,b){var
+a=fm(b);if(ci(a)!==c)throw W;return a}function
+oN(a,d){var
+b=ah(d),e=ac(u(b,DP)),f=a[2],c=X(function(a){return jq(f,a)},e),g=a[1];if(ci(c)!==g)throw W;return[0,c,dA(u(b,DQ))]}function
+er(f,p){var
 M=f[2];switch(p[0]){case
 0:var
 c=p[1];if(c){var
-e=c[1],a=e[1],N=qN(a,Db),b=0;if(0<=N)if(0<N)if(n(a,Dc)){var
-g=0;if(n(a,Dd)&&n(a,De)&&n(a,Df))if(n(a,Dg))g=1;else{var
+e=c[1],a=e[1],N=q$(a,DR),b=0;if(0<=N)if(0<N)if(o(a,DS)){var
+g=0;if(o(a,DT)&&o(a,DU)&&o(a,DV))if(o(a,DW))g=1;else{var
 O=e[2];if(1===O[0]){var
 q=O[1];if(q){var
 r=q[2];if(r){var
 s=r[2];if(s&&!s[2]){if(!c[2]){var
-ac=X(gN,ae(s[1])),ad=aR(r[1]);return[8,ee(f,q[1]),ad,ac]}b=1;g=1}else
+ad=X(fm,ac(s[1])),af=aS(r[1]);return[8,er(f,q[1]),af,ad]}b=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
@@ -7713,7 +7991,7 @@ Q=e[2];if(1===Q[0]){var
 w=Q[1];if(w){var
 x=w[2];if(x){var
 y=x[2];if(y&&!y[2]){if(!c[2]){var
-ah=ec(y[1]),aj=eb(x[1]);return[5,ee(f,w[1]),aj,ah]}b=1}}}}}else{var
+ai=dA(y[1]),aj=ep(x[1]);return[5,er(f,w[1]),aj,ai]}b=1}}}}}else{var
 R=e[2];if(1===R[0]){if(!c[2]){var
 ak=function(i){if(1===i[0]){var
 b=i[1];if(b){var
@@ -7721,124 +7999,125 @@ c=b[2];if(c){var
 d=c[2];if(d){var
 a=d[2];if(a){var
 e=a[1],h=0;if(0===e[0]){var
-g=e[1];if(g&&!(n(g[1][1],Dj)||g[2])){if(!a[2]){var
-j=ee(f,e),k=ec(d[1]),l=eb(c[1]);return[0,[0,[0,gN(b[1]),l],k],j]}}else
+g=e[1];if(g&&!(o(g[1][1],DZ)||g[2])){if(!a[2]){var
+j=er(f,e),k=dA(d[1]),l=ep(c[1]);return[0,[0,[0,fm(b[1]),l],k],j]}}else
 h=1}else
-h=1;if(h&&!a[2])return af(Dk)}}}}}throw W};return[9,X(ak,R[1])]}b=1}}else
-if(n(a,Dl))if(n(a,Dm))if(n(a,Dn))if(n(a,Do)){if(!n(a,Dp)){if(!c[2]){var
-S=ai(e[2]),al=ae(u(S,Dq)),am=M+1|0,T=X(function(a){return jc(am,a)},al);if(3===cd(T))return[1,Ds,T,ec(u(S,Dr))];throw W}b=1}}else{if(!c[2]){var
-J=aR(e[2]),K=n(J,C9);if(K){if(n(J,C_))throw W;var
+h=1;if(h&&!a[2])return ae(D0)}}}}}throw W};return[9,X(ak,R[1])]}b=1}}else
+if(o(a,D1))if(o(a,D2))if(o(a,D3))if(o(a,D4)){if(!o(a,D5)){if(!c[2]){var
+S=ah(e[2]),al=ac(u(S,D6)),am=M+1|0,T=X(function(a){return jq(am,a)},al);if(3===ci(T))return[1,D8,T,dA(u(S,D7))];throw W}b=1}}else{if(!c[2]){var
+J=aS(e[2]),K=o(J,DN);if(K){if(o(J,DO))throw W;var
 L=1}else
 var
 L=K;return[2,L]}b=1}else{if(!c[2]){var
 j=e[2],Y=function(l,a){if(0===a[0]){var
 b=a[1];if(b){var
-e=b[1];if(!n(e[1],Dt)){var
+e=b[1];if(!o(e[1],D9)){var
 f=e[2];if(0===f[0]){var
 c=f[1];if(c){var
-g=c[1];if(!n(g[1],Du)){var
+g=c[1];if(!o(g[1],D_)){var
 h=g[2];if(1===h[0]){var
 d=h[1];if(d){var
 i=d[1];if(1===i[0]){var
 j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return ee(Dv,a)}}}}}}}}}}return ee(l,a)},o=0;switch(j[0]){case
+k=c[2];if(k&&!k[2]&&!b[2])return er(D$,a)}}}}}}}}}}return er(l,a)},n=0;switch(j[0]){case
 0:var
 k=j[1];if(k){var
-Z=k[1],i=Z[1],d=0;if(n(i,Dw)&&n(i,Dx)&&n(i,Dy)&&n(i,Dz))if(n(i,DA))d=1;else{var
+Z=k[1],i=Z[1],d=0;if(o(i,Ea)&&o(i,Eb)&&o(i,Ec)&&o(i,Ed))if(o(i,Ee))d=1;else{var
 _=Z[2];if(1===_[0]){var
 F=_[1];if(F){var
 l=F[1],h=0;switch(l[0]){case
 0:var
 G=l[1];if(G){var
-m=G[1][1],ab=0;if(n(m,DC)&&n(m,DD)&&n(m,DE)&&n(m,DF)){d=1;h=1;ab=1}if(!ab&&G[2]){d=1;h=1}}else{d=1;h=1}break;case
+m=G[1][1],ab=0;if(o(m,Eg)&&o(m,Eh)&&o(m,Ei)&&o(m,Ej)){d=1;h=1;ab=1}if(!ab&&G[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-$=l[1];if(n($,DG)&&n($,DH)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+$=l[1];if(o($,Ek)&&o($,El)){d=1;h=1}break;default:d=1;h=1}if(!h){var
 H=F[2];if(H){var
 I=H[2];if(I&&!(I[2]||k[2])){var
-as=ec(I[1]),at=eb(H[1]),z=[6,Y(f,l),at,as];o=2;d=1}else
+as=dA(I[1]),at=ep(H[1]),z=[6,Y(f,l),at,as];n=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
-d=1}if(!d&&!k[2])o=1}break;case
+d=1}if(!d&&!k[2])n=1}break;case
 2:var
-aa=j[1];if(!n(aa,DI)||!n(aa,DJ))o=1;break}switch(o){case
+aa=j[1];if(!o(aa,Em)||!o(aa,En))n=1;break}switch(n){case
 0:var
-z=af(DB);break;case
+z=ae(Ef);break;case
 1:var
 z=Y(f,j);break}return[7,z]}b=1}else{var
 U=e[2];if(1===U[0]){var
 A=U[1];if(A){var
 B=A[2];if(B&&!B[2])if(c[2])b=1;else{var
-an=B[1],ao=A[1],v=ao,t=function(b,a){return[3,b,a,jc(M+1|0,an)]};b=2}}}}else{var
+an=B[1],ao=A[1],v=ao,t=function(b,a){return[3,b,a,jq(M+1|0,an)]};b=2}}}}else{var
 V=e[2];if(1===V[0]){var
 C=V[1];if(C){var
 D=C[2];if(D){var
 E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
 ap=E[1],aq=D[1],ar=C[1],v=ar,t=function(b,a){var
-c=ec(ap);return[4,b,a,eb(aq),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return af([0,Di,[0,a,Dh]]);break;case
+c=dA(ap);return[4,b,a,ep(aq),c]};b=2}}}}}switch(b){case
+0:if(!c[2])return ae([0,DY,[0,a,DX]]);break;case
 1:break;default:var
-P=ot(f,v);return t(P[1],P[2])}}break;case
+P=oN(f,v);return t(P[1],P[2])}}break;case
 2:return[0,p[1]]}throw W}function
-ou(k){var
-b=dr(k),a=b[1];if(n(a,DM))if(n(a,DN)){var
-g=n(a,DO);if(!g)return g;if(n(a,DP)){if(!n(a,DQ))return[2,X(T,ae(b[2]))]}else{var
-h=b[2];if(1===h[0]){var
-c=h[1];if(c){var
-d=c[2];if(d&&!d[2]){var
-l=cY(d[1]);return[1,cY(c[1]),l]}}}}}else{var
-i=b[2];if(1===i[0]){var
-e=i[1];if(e){var
-f=e[2];if(f&&!f[2]){var
-m=X(gN,ae(f[1]));return[0,cY(e[1]),m]}}}}else{var
-j=b[2];if(1===j[0]&&!j[1])return 1}return af([0,DS,[0,a,DR]])}function
-ov(f,b){var
-a=ai(b),c=ae(u(a,DX)),d=X(function(g){var
-a=ai(g);function
+oO(n){var
+b=dz(n),a=b[1];if(o(a,Eq))if(o(a,Er)){var
+h=o(a,Es);if(!h)return h;if(o(a,Et)){if(!o(a,Eu)){var
+c=ah(b[2]),i=function(a){return X(S,ac(u(c,a)))},j=ah(u(c,Ey)),p=dA(u(j,Ez)),q=X(fm,ac(u(j,EA))),r=i(EB),s=i(EC);return[3,cB(u(c,ED)),s,r,q,p]}if(!o(a,Ev))return[2,X(S,ac(b[2]))]}else{var
+k=b[2];if(1===k[0]){var
+d=k[1];if(d){var
+e=d[2];if(e&&!e[2]){var
+t=cB(e[1]);return[1,cB(d[1]),t]}}}}}else{var
+l=b[2];if(1===l[0]){var
+f=l[1];if(f){var
+g=f[2];if(g&&!g[2]){var
+v=X(fm,ac(g[1]));return[0,cB(f[1]),v]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return ae([0,Ex,[0,a,Ew]])}function
+oP(f,b){var
+a=ah(b),c=ac(u(a,EI)),d=X(function(g){var
+a=ah(g);function
 b(d,c){var
-b=a1(a,c);return b?X(d,ae(b[1])):b}var
-c=b(eb,DT),d=cs(ou,a1(a,DU)),e=cs(cY,a1(a,DV));return[0,b(function(h){var
-b=ae(h);if(b){var
+b=a6(a,c);return b?X(d,ac(b[1])):b}var
+c=b(ep,EE),d=cA(oO,a6(a,EF)),e=cA(cB,a6(a,EG));return[0,b(function(h){var
+b=ac(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!n(c[1],DK)){if(!a[2]){if(n(e_(e),DL))throw W;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Eo)){if(!a[2]){if(o(fj(e),Ep))throw W;d=1}}else
 d=1;if(d&&!a[2]){var
-g=ee(f,c);return[0,cY(e),g]}}}throw W},DW),e,d,c]},c),e=a1(a,DY),g=cs(function(a){return ot(f,a)},e);return[0,om(u(a,DZ)),g,d]}function
-ow(c){var
-a=ai(c),b=a1(a,D0),d=b?X(T,ae(b[1])):b,e=ou(u(a,D1)),f=X(T,ae(u(a,D2)));return[0,om(u(a,D3)),f,d,e]}function
-Eb(c){var
+g=er(f,c);return[0,cB(e),g]}}}throw W},EH),e,d,c]},c),e=a6(a,EJ),g=cA(function(a){return oN(f,a)},e);return[0,oG(u(a,EK)),g,d]}function
+oQ(c){var
+a=ah(c),b=a6(a,EL),d=b?X(S,ac(b[1])):b,e=oO(u(a,EM)),f=X(S,ac(u(a,EN)));return[0,oG(u(a,EO)),f,d,e]}function
+EY(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-Ec(b){var
+EZ(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-Ed(b){var
+E0(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
-a!=="number"&&1===a[0])return 1-gj(j(a[1]));return 10===c?1:0}function
-Eh(p){var
+a!=="number"&&1===a[0])return 1-gu(j(a[1]));return 10===c?1:0}function
+E4(p){var
 s=av(p),c=[0,0];function
-t(a){if(c[1]<s)return aW(p,c[1]);throw W}function
+t(a){if(c[1]<s)return aY(p,c[1]);throw W}function
 v(a){if(t(0)===a){c[1]++;return 0}throw W}function
-aa(a,b){for(;;){if(c[1]<s&&i(b,aW(p,c[1]))){c[1]++;continue}return dB(p,a,c[1]-a|0)}}function
-ab(d){v(34);function
+$(a,b){for(;;){if(c[1]<s&&i(b,aY(p,c[1]))){c[1]++;continue}return dK(p,a,c[1]-a|0)}}function
+aa(d){v(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=aa(c[1],a);v(34);return b}function
-ac(e,a){if(t(0)===a){c[1]++;return 0}var
+b=$(c[1],a);v(34);return b}function
+ab(e,a){if(t(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===t(0)){c[1]++;var
-b=d;continue}v(a);return jY(d)}}function
-E(b,i){if(64<b)throw W;var
+b=d;continue}v(a);return j$(d)}}function
+D(b,i){if(64<b)throw W;var
 a=t(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,ac(function(a){return E(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,ac(function(c){var
-a=ab(0);v(58);return[0,a,E(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,ab(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,aa(h,function(a){var
+e=93,f=b+1|0;return[1,ab(function(a){return D(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,ab(function(c){var
+a=aa(0);v(58);return[0,a,D(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,aa(0)];if(45===a)d=1}if(d){var
+h=c[1];c[1]++;return[3,$(h,function(a){var
 b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
-aL=E(0,0),ad=c[1]<s?1:0,aM=ad?10===aW(p,c[1])?1:0:ad;if(aM)c[1]++;if(c[1]<s)throw W;var
-z=ai(aL);if(n(aR(u(z,Ei)),Ej))throw W;var
-a=jb(u(z,Ek)),K=0;switch(a[0]){case
+aP=D(0,0),ad=c[1]<s?1:0,aQ=ad?10===aY(p,c[1])?1:0:ad;if(aQ)c[1]++;if(c[1]<s)throw W;var
+z=ah(aP);if(o(aS(u(z,E5)),E6))throw W;var
+a=jp(u(z,E7)),K=0;switch(a[0]){case
 1:var
 I=a[1],L=0;if(typeof
 I==="number")if(I)var
@@ -7848,102 +8127,112 @@ if(1===I[1])var
 J=6;else
 L=1;if(L)var
 J=3;var
-l=[0,cd(a[2]),J];break;case
+l=[0,ci(a[2]),J];break;case
 2:var
-a1=1===a[1]?6:3,l=[0,cd(a[2]),a1];break;case
+a4=1===a[1]?6:3,l=[0,ci(a[2]),a4];break;case
 3:var
-a2=cd(a[1]),l=[0,cd(a[4]),a2];break;case
+a5=ci(a[1]),l=[0,ci(a[4]),a5];break;case
 7:var
-ag=a[2];K=1;break;case
+af=a[2];K=1;break;case
 0:case
 5:var
-ag=a[1];K=1;break;default:var
-l=EG}if(K)var
-l=[0,cd(ag),3];var
-w=dr(u(z,El)),x=w[1];if(n(x,D8))if(n(x,D9))if(n(x,D_))var
-b=af([0,Ea,[0,x,D$]]);else
+af=a[1];K=1;break;default:var
+l=Ft}if(K)var
+l=[0,ci(af),3];var
+w=dz(u(z,E8)),x=w[1];if(o(x,ET))if(o(x,EU))if(o(x,EV))var
+b=ae([0,EX,[0,x,EW]]);else
 var
-y=ow(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
+y=oQ(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
 var
-F=ov(l,w[2]),b=[0,F[1],F[2],F[3]];else
+E=oP(l,w[2]),b=[0,E[1],E[2],E[3]];else
 var
-aN=ae(w[2]),b=[2,X(function(f){var
-a=dr(f),b=a[1];if(n(b,D4)){if(n(b,D5)){if(n(b,D6)){var
-e=n(b,D7);if(e)throw W;return e}return[0,cY(a[2])]}var
-c=ow(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=ov(l,a[2]);return[1,d[1],d[2],d[3]]},aN)];function
-aO(a){var
-b=a[1];return aD(function(a){return 7<a[2][0]?1:0},b)}function
-aP(a){return 0!==a[3]?1:0}function
-ah(a){return aD(aP,a)}function
-aj(a){if(typeof
+aR=ac(w[2]),b=[2,X(function(f){var
+a=dz(f),b=a[1];if(o(b,EP)){if(o(b,EQ)){if(o(b,ER)){var
+e=o(b,ES);if(e)throw W;return e}return[0,cB(a[2])]}var
+c=oQ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
+d=oP(l,a[2]);return[1,d[1],d[2],d[3]]},aR)];function
+aT(a){var
+b=a[1];return aB(function(a){return 7<a[2][0]?1:0},b)}function
+aU(a){return 0!==a[3]?1:0}function
+ag(a){return aB(aU,a)}function
+ai(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
 0:switch(b[0]){case
 0:var
-al=a[4],ak=a[1];d=5;break;case
-2:d=1;break;default:d=3}break;case
+ak=a[4],aj=a[1];d=6;break;case
+1:var
+am=b[4];d=typeof
+am==="number"||!(3===am[0])?2:5;break;default:d=1}break;case
 1:switch(b[0]){case
 0:var
-aU=b[3];if(aD(function(a){var
-b=a[1];return aD(function(a){switch(a[2][0]){case
+aZ=b[3];if(aB(function(a){var
+b=a[1];return aB(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aU))af(Ey);else
+7:return 1;default:return 0}},b)},aZ))ae(Fk);else
 d=4;break;case
-1:d=3;break;default:d=4}break;case
+1:d=2;break;default:d=4}break;case
 2:var
-ao=a[7],G=a[1],M=0;switch(b[0]){case
+ap=a[7],G=a[1];switch(b[0]){case
 0:var
-aV=1===G?6:3,ap=cd(a[2])===aV?1:0;if(ap){var
-as=0;if(2<=G||!(0===a[4][0]))as=1;else
+a0=1===G?6:3,aq=ci(a[2])===a0?1:0;if(aq){var
+au=0;if(2<=G||!(0===a[4][0]))au=1;else
 var
-H=1;if(as)var
+H=1;if(au)var
 H=0}else
 var
-H=ap;var
-aX=function(b){var
+H=aq;var
+a1=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(n(c[1],Ez))a=1;break;case
+1:if(o(c[1],Fl))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||n(f[1],EA))a=1;break;default:a=1}if(!a)return 1-H}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},aY=b[3];if(aD(function(a){return aD(aX,a[1])},aY))af(EB);else{var
-at=0;if(aD(function(a){return 11===a[1]?1:0},ao)){var
-au=0;if(1===G&&2===a[5][0]){var
-aq=0;au=1}if(!au)var
-aq=1;if(aq){af(EC);at=1}}if(!at){var
-aZ=b[3];if(hg(function(a){var
-b=a[1];return hg(function(d){var
+f=c[1];if(1!==f[0]||o(f[1],Fm))a=1;break;default:a=1}if(!a)return 1-H}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},a2=b[3],a6=0;if(aB(function(a){return aB(a1,a[1])},a2))ae(Fn);else{var
+aw=0;if(aB(function(a){return 11===a[1]?1:0},ap)){var
+ax=0;if(1===G&&2===a[5][0]){var
+ar=0;ax=1}if(!ax)var
+ar=1;if(ar){ae(Fo);aw=1}}if(!aw){var
+a3=b[3];if(hs(function(a){var
+b=a[1];return hs(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(n(c,Ee)){if(!n(c,Ef))return aD(Ed,ao)}else
+c=b[1];if(o(c,E1)){if(!o(c,E2))return aB(E0,ap)}else
 a=1;break;case
-1:if(!n(b[1],Eg))a=1;break;case
+1:if(!o(b[1],E3))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},aZ)){d=2;M=1}else
-af(ED)}}break;case
+8:a=1;break}return a?1:0},b)},a3)){d=3;a6=1}else
+ae(Fp)}}break;case
 1:var
-aw=0,ar=b[4];if(typeof
-ar!=="number"&&2===ar[0])aw=1;if(!aw){d=3;M=1}break;default:d=1;M=1}break;case
+ay=0,as=b[4];if(typeof
+as!=="number"&&1<as[0]){d=5;ay=1}if(!ay)d=2;break;default:d=1}break;case
 3:switch(b[0]){case
-0:if(aD(aO,b[3]))af(EE);else
-d=2;break;case
-2:d=1;break;default:d=3}break;case
+0:if(aB(aT,b[3]))ae(Fq);else
+d=3;break;case
+2:d=1;break;default:d=2}break;case
 7:switch(b[0]){case
 2:var
-a0=b[1];if(aD(function(a){if(typeof
-a!=="number"&&2===a[0])return aj(a[4]);return 0},a0))af(EF);else
+at=b[1],az=0;if(aB(function(a){if(typeof
+a!=="number"&&2===a[0]){var
+b=a[4];if(typeof
+b!=="number"&&3===b[0])return 1}return 0},at)){ae(Fr);az=1}else
+if(aB(function(a){if(typeof
+a!=="number"&&2===a[0])return ai(a[4]);return 0},at)){ae(Fs);az=1}else
 d=4;break;case
-1:d=3;break;default:d=4}break;default:d=3}var
+1:d=2;break;default:d=4}break;default:d=2}var
 k=0;switch(d){case
-3:if(1===b[0]&&aj(b[4])){af(Ex);k=2}else
+2:if(1===b[0]){var
+aA=0,ao=b[4];if(typeof
+ao!=="number"&&3===ao[0]){ae(Fj);aA=1}if(!aA)if(ai(b[4]))ae(Fi);else
+k=3}else
 k=3;break;case
 4:k=3;break;case
-0:k=2;break;case
-5:k=4;break;case
-2:break;default:k=1}var
+5:break;case
+0:break;case
+6:k=4;break;case
+3:k=1;break;default:k=2}var
 h=0;switch(k){case
 3:var
 j=0;switch(a[0]){case
@@ -7951,94 +8240,94 @@ j=0;switch(a[0]){case
 an=a[6];break;case
 4:var
 an=a[3];break;case
-5:if(aD(Eb,a[4])){af(Ev);h=2;j=1}else
+5:if(aB(EY,a[4])){ae(Fg);h=2;j=1}else
 if(0===b[0]){var
-aT=b[3];if(aD(function(a){return 0!==a[1]?1:0},aT)){af(Ew);h=2;j=1}else
+aX=b[3];if(aB(function(a){return 0!==a[1]?1:0},aX)){ae(Fh);h=2;j=1}else
 j=1}else
 j=1;break;case
 6:j=1;break;case
 7:var
-al=a[4],ak=a[2];h=3;j=1;break;default:h=1;j=1}if(!j)if(0===b[0]){if(aD(function(a){return 11===a[1]?1:0},an)){af(Eu);h=2}}else
+ak=a[4],aj=a[2];h=3;j=1;break;default:h=1;j=1}if(!j)if(0===b[0]){if(aB(function(a){return 11===a[1]?1:0},an)){ae(Ff);h=2}}else
 h=1;break;case
-2:h=2;break;case
+0:h=2;break;case
 4:h=3;break;case
-0:break;default:h=1}var
+1:break;default:h=1}var
 A=0;switch(h){case
 2:break;case
 3:var
-ax=0;if(aD(function(a){return 10===a[1]?1:0},al)&&aD(function(a){return 2===a[0]?1:0},ak)){af(Em);ax=1}if(!ax)A=2;break;case
+aC=0;if(aB(function(a){return 10===a[1]?1:0},ak)&&aB(function(a){return 2===a[0]?1:0},aj)){ae(E9);aC=1}if(!aC)A=2;break;case
 0:A=2;break;default:A=1}var
-N=0;switch(A){case
+M=0;switch(A){case
 2:var
 r=0;switch(a[0]){case
 5:case
-7:if(aD(Ec,a[4])){af(Es);r=1}else
+7:if(aB(EZ,a[4])){ae(Fd);r=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-aS=function(a){if(typeof
-a!=="number"&&1===a[0])return ah(a[3]);return 0};if(aD(aS,b[1]))af(Et);r=1;break;case
-0:break;default:N=1;r=1}else
-r=1;break}if(!r)if(0===b[0]&&ah(b[3]))af(Er);else
-N=1;break;case
-1:N=1;break}var
-am=ai(u(z,En)),aQ=aR(u(am,Eo)),q=[0,a,b,aR(u(am,Ep)),aQ],f=q[1];switch(f[0]){case
+aW=function(a){if(typeof
+a!=="number"&&1===a[0])return ag(a[3]);return 0};if(aB(aW,b[1]))ae(Fe);r=1;break;case
+0:break;default:M=1;r=1}else
+r=1;break}if(!r)if(0===b[0]&&ag(b[3]))ae(Fc);else
+M=1;break;case
+1:M=1;break}var
+al=ah(u(z,E_)),aV=aS(u(al,E$)),q=[0,a,b,aS(u(al,Fa)),aV],f=q[1];switch(f[0]){case
 0:var
-O=q[2];if(1===O[0]){var
-B=O[4],ay=0;if(typeof
-B==="number"||!(0===B[0]))ay=1;else{var
-aC=B[1],aE=f[4],aF=f[3],P=D(iP(g(f[1]),aF,aE),aC);if(P){var
-az=0,Q=P[1];if(typeof
-Q!=="number"&&14===Q[0]){var
-e=0;az=1}if(!az)var
+N=q[2];if(1===N[0]){var
+B=N[4],aD=0;if(typeof
+B==="number"||!(0===B[0]))aD=1;else{var
+aH=B[1],aI=f[4],aJ=f[3],O=F(i5(g(f[1]),aJ,aI),aH);if(O){var
+aE=0,P=O[1];if(typeof
+P!=="number"&&14===P[0]){var
+e=0;aE=1}if(!aE)var
 e=1}else
 var
-e=1}if(ay)var
+e=1}if(aD)var
 e=1}else
 var
 e=1;break;case
 2:var
-R=f[7],S=f[6],T=f[2],U=q[2];if(1===U[0]){var
-aG=dk(0,g(T),S,R),aH=g(T),V=i6(f[1]),Y=gI(0,V,aH,S,R,U[4]);if(Y){var
-C=Y[1],aA=0;if(typeof
-C==="number"||!(0===C[0]))aA=1;else{var
-Z=h0(o,V,C[1],aG);if(Z){var
-aB=0,_=Z[1][1];if(typeof
-_!=="number"&&14<_[0]){var
-e=0;aB=1}if(!aB)var
+Q=f[7],R=f[6],S=f[2],T=q[2];if(1===T[0]){var
+aK=dt(0,g(S),R,Q),aL=g(S),U=gU(f[1]),V=gV(0,U,aL,R,Q,T[4]);if(V){var
+C=V[1],aF=0;if(typeof
+C==="number"||!(0===C[0]))aF=1;else{var
+Y=ia(n,U,C[1],aK);if(Y){var
+aG=0,Z=Y[1][1];if(typeof
+Z!=="number"&&14<Z[0]){var
+e=0;aG=1}if(!aG)var
 e=1}else
 var
-e=1}if(aA)var
+e=1}if(aF)var
 e=1}else
 var
 e=1}else
 var
 e=1;break;case
 7:var
-$=q[2],aI=f[4],aJ=f[2];if(2===$[0])var
-aK=$[1],e=m(function(a){if(typeof
+_=q[2],aM=f[4],aN=f[2];if(2===_[0])var
+aO=_[1],e=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=D(iP(g(aJ),0,aI),e);if(c){var
+e=b[1],c=F(i5(g(aN),0,aM),e);if(c){var
 d=c[1];if(typeof
-d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aK);else
+d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aO);else
 var
 e=1;break;default:var
-e=1}return e?q:af(Eq)}function
-EH(b){var
-c=av(b),g=64,h=Gi(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+e=1}return e?q:ae(Fb)}function
+Fu(b){var
+c=av(b),g=64,h=G7(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aw(dB(b,a,18),EI);if(!e){var
+e=aw(dK(b,a,18),Fv);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}GD(function(b){try{if(EH(b))var
-a=EK;else{try{var
-e=0,d=Eh(b);e=1}catch(a){a=qP(a);if(a[1]===ol)var
+f=d;return f}}Hq(function(b){try{if(Fu(b))var
+a=Fx;else{try{var
+e=0,d=E4(b);e=1}catch(a){a=rb(a);if(a[1]===oF)var
 c=[0,a[2]];else{if(a!==W)throw a;var
 c=2}}if(e)var
-c=zY(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return EJ}if(typeof
+c=AC(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return Fw}if(typeof
 a==="number")switch(a){case
-0:return EL;case
-1:return EM;default:return EN}return a3(EO,a[1])});jX(0);return}(globalThis));
+0:return Fy;case
+1:return Fz;default:return FA}return a8(FB,a[1])});j_(0);return}(globalThis));

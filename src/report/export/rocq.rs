@@ -49,7 +49,7 @@ pub fn rocq(certificate: &Certificate) -> Exported<String> {
     let Certificate { claim, verdict, proof, provenance, format: _ } = certificate;
     let is_refuted = matches!(proof, Proof::Witness(_));
     let subject = claim::subject(claim)?;
-    let proof = proof::proof(proof, &subject)?;
+    let written = proof::proof(proof, &subject)?;
     if is_refuted != (*verdict == Verdict::Refuted) {
         return Err(ExportError::Verdict);
     }
@@ -65,14 +65,14 @@ pub fn rocq(certificate: &Certificate) -> Exported<String> {
     let [tool, version] = [&provenance.tool, &provenance.version].map(|label| quoted(label));
     let _ = write!(
         out,
-        "\n(** The evidence. *)\nLocal Open Scope nat_scope.\nDefinition the_proof : proof := {proof}.\n\
+        "\n(** The evidence. *)\nLocal Open Scope nat_scope.\nDefinition the_proof : proof := {written}.\n\
          Definition the_certificate : certificate := Certificate ({}) the_proof {tool} {version}.\n\n\
          Lemma accepted : accept the_certificate = true.\n\
          Proof. vm_cast_no_check (eq_refl true). Qed.\n\n\
          Theorem {} :\n  {}.\nProof. exact (accept_sound the_certificate accepted). Qed.\n",
         subject.term(),
         if is_refuted { "refuted" } else { "certified" },
-        subject.means(is_refuted)
+        subject.means(proof)
     );
     Ok(out)
 }

@@ -1,7 +1,7 @@
 //! Claims, as a `subject` of Certificate.v, and what `means` there says of them.
 
 use super::{apply, lines, list, not_covered, optional, quoted, text, Exported};
-use orthocert_kernel::certificate::{Claim, Failure};
+use orthocert_kernel::certificate::{Claim, Failure, Proof};
 use orthocert_kernel::claim::{
     Body, Bound, Formulas, JointFormula, Leg, MachineClaim, Mechanism, Orientation, Parameter,
     PsiMax, Quantity, Requirement, Sign, Turning, Workspace,
@@ -76,8 +76,14 @@ impl Subject<'_> {
     }
 
     /// What `means` says of a certificate of it, with a witness or without.
-    pub fn means(&self, is_refuted: bool) -> &'static str {
+    pub fn means(&self, proof: &Proof) -> &'static str {
+        let is_refuted = matches!(proof, Proof::Witness(_));
         match (self.kind, is_refuted) {
+            (Kind::Turning, true) if is_same(proof) => {
+                "one_pose the_claim = true /\\ exists m P Q P' Q', is_about_struts the_claim m P Q /\\\n  \
+                 Statement.in_region (positions the_claim) P' /\\ Orientation.in_orientations (turned the_claim) Q' /\\\n  \
+                 Forall (fun l => strut_length l P' Q' = strut_length l P Q) m /\\ ~ (P' = P /\\ Q' = Q)"
+            }
             (Kind::Machine, false) => "holds the_claim /\\ exists m P, is_about the_claim m P",
             (Kind::Machine, true) => "exists m P, is_about the_claim m P /\\ ~ meets the_claim m P",
             (Kind::Legs, false) => {
@@ -116,6 +122,10 @@ impl Subject<'_> {
             _ => "means the_certificate",
         }
     }
+}
+
+fn is_same(proof: &Proof) -> bool {
+    matches!(proof, Proof::Witness(witness) if matches!(witness.fails, Failure::Same { .. }))
 }
 
 /// Which requirements have a meaning for a kind of machine.

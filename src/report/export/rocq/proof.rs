@@ -50,6 +50,10 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
             .collect(),
     };
     let is_singular = refuted.iter().any(|fails| matches!(fails, Failure::Singular(_)));
+    let is_same = refuted.iter().any(|fails| matches!(fails, Failure::Same { .. }));
+    let is_of_two_points = |kind, proof: &Proof| {
+        matches!((kind, proof), (Kind::Machine | Kind::Turning, Proof::Witness(_)))
+    };
     let is_one_to_one = matches!(proof, Proof::Tree(_)) && requires(&["one_to_one"]);
     let what = match (subject.kind, proof) {
         (Kind::Formulas, _)
@@ -74,6 +78,9 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         }
         (kind, _) if is_singular && kind != Kind::Turning => {
             "the failure \"singular\" of such a mechanism"
+        }
+        (kind, proof) if is_same && !is_of_two_points(kind, proof) => {
+            "the failure \"same\" of such a mechanism"
         }
         (Kind::Machine, Proof::Tree(_)) | (Kind::Atlas, _) if accelerates_plane => {
             "the acceleration of a joint of a machine with a plane"
@@ -226,7 +233,11 @@ fn failure(fails: &Failure) -> Exported<String> {
         }
         Failure::Row(number, leg) => format!("(Row {number} {leg})"),
         Failure::Dependent => "Dependent_".to_owned(),
-        Failure::Same { .. } => return not_covered("the failure \"same\""),
+        Failure::Same { obligation, least, greatest, inverse: Multiplier { y, places } } => {
+            let [least, greatest] = [least, greatest].map(|all| list(all.iter().map(expression)));
+            let y = matrix(y);
+            format!("(Same_ {obligation} {least}%written {greatest}%written {y} {places})")
+        }
         Failure::Singular(other) => {
             format!("(Singular_ {}%written)", list(other.iter().map(expression)))
         }
