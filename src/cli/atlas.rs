@@ -20,12 +20,12 @@ use crate::report::atlas::{
     AtlasReport, BestDesign, MarginBound, MarkedDesign, Part, Standing, MARGIN,
 };
 use crate::report::map::{self, Point};
+use crate::report::page::theorem::theorem;
 use crate::report::CertificateFile;
 use crate::search::paving::unfinished as part_of;
 use crate::search::solver::{verify, Answer};
 use crate::search::{Budget, Control};
 use orthocert_checker::certificate::Certificate;
-use orthocert_checker::statement;
 use orthocert_kernel::certificate::{AtlasCell, Claim};
 use orthocert_kernel::number::Expression;
 use std::cmp::Ordering;
@@ -237,7 +237,7 @@ pub fn publish(
     };
     let contours = map::contours(design, &cells);
     let svg = map::picture(design, &cells, &contours, &points(&report));
-    let words = statement::statement(&certificate.claim, accepted.verdict);
+    let words = theorem(&certificate.claim, accepted.verdict);
     let title = design.title.as_deref().unwrap_or("Atlas");
     let page = map::page(title, (&svg, !contours.is_empty()), &report.facts(), &words);
     files.all.extend([(PICTURE, svg), (PAGE, page)]);

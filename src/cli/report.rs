@@ -9,6 +9,7 @@ use crate::files::digest::sha256;
 use crate::files::output;
 use crate::files::read::Named;
 use crate::files::shown::Shown;
+use crate::questions::summary::signed;
 use crate::report::page::paving::{PavingPage, DEPTH};
 use crate::report::page::{File, Page, Picture};
 use crate::search::paving::{components, Components, Decider, Detail, SurfaceError, Tree};
@@ -116,6 +117,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
     let unit = design.as_ref().and_then(|own| own.unit);
     let notes = design.as_ref().map(Design::notes).unwrap_or_default();
     let page = Page::new(&certificate, &accepted, file, title, unit).noting(notes);
+    let page = page.signing(|claim| signed(claim, unit));
     let pictures: Vec<&Picture> = page.pictures().collect();
     let files = arguments.write(&target, &page.html(), &pictures)?;
     let verdict = accepted.verdict;

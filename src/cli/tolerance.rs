@@ -7,7 +7,7 @@ use crate::exact::decimal::{exact, outward, Toward};
 use crate::exact::Exact;
 use crate::files::output;
 use crate::questions::frontier::Bracket;
-use crate::questions::tolerance::{legs_of, widest, Kind, Scheme};
+use crate::questions::tolerance::{legs_of, squares, widest, Kind, Scheme};
 use crate::report::text::{duration, wrap, WIDTH};
 use crate::report::{counterexample, CertificateFile, Counterexample};
 use crate::search::solver::{proof, refutation};
@@ -29,6 +29,8 @@ const BOXES: (usize, usize) = (2_000, 4);
 
 /// Significant digits of tolerances.
 const DIGITS: u32 = 6;
+/// Fractional bits of those that are not rational.
+const RATIO_BITS: u32 = 256;
 
 /// Its flags.
 #[derive(Debug, clap::Args)]
@@ -49,6 +51,9 @@ pub struct Arguments {
     /// Widen the parameters of one leg at a time, too, and rank the legs
     #[arg(long)]
     by_leg: bool,
+    /// Tell the tolerances of directions as those of their components, as the design writes them
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
     /// Write the certificates of both ends into this folder, which exists
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -183,7 +188,7 @@ pub fn run(arguments: &Arguments) -> Result<Status, Failure> {
             }
             print::json(&answer)?;
         }
-        Format::Text => print::answer(&text(&rows, arguments, design.unit, started))?,
+        Format::Text => print::answer(&text(&rows, arguments, &design, started))?,
     }
     let complete = rows.iter().all(|row| row.gap_reached);
     interrupt::unless_cancelled(if complete { Status::Done } else { Status::Undecided })
@@ -366,12 +371,20 @@ fn row(
     })
 }
 
-fn text(
-    rows: &[Row],
-    arguments: &Arguments,
-    unit: Option<&'static str>,
-    started: Instant,
-) -> String {
+/// The unit of a direction's tolerance for people: thousandths of its length.
+const PER_METRE: &str = "mm/m";
+
+/// A tolerance of the components of a vector, of which the square of the length is known, in thousandths of
+/// that; rounded as asked for. The same where it is not known.
+fn per_metre(t: Exact, square: Option<BigRational>, toward: Toward) -> Option<Exact> {
+    let Some(square) = square else { return Some(t) };
+    let thousandths = t.as_rational()? * BigRational::from_integer(1000.into());
+    let ratio = Exact::Rational(&thousandths * &thousandths / square).root().ok()?;
+    let [least, most] = ratio.ends(RATIO_BITS)?;
+    Some(Exact::Rational(if matches!(toward, Toward::Below) { least } else { most }))
+}
+
+fn text(rows: &[Row], arguments: &Arguments, design: &Design, started: Instant) -> String {
     let name = |row: &Row| match (&row.on[..], row.measure, row.leg) {
         ([name], _, Some(leg)) => format!("{name} of leg {leg}"),
         ([name], ..) => (*name).to_owned(),
@@ -379,8 +392,14 @@ fn text(
         (_, Measure::Component, _) => "all directions".to_owned(),
         (_, Measure::Share, _) => "all, at a common share".to_owned(),
     };
+    let sizes = |row: &Row| {
+        let told = row.measure == Measure::Component && !arguments.verbose;
+        let leg = row.leg.map(|leg| leg - 1);
+        told.then(|| squares(&design.claim.mechanism, &row.on, leg)).flatten()
+    };
     let measure = |row: &Row| match row.measure {
-        Measure::Length => unit.unwrap_or("length"),
+        Measure::Length => design.unit.unwrap_or("length"),
+        Measure::Component if sizes(row).is_some() => PER_METRE,
         Measure::Component => "component",
         Measure::Share => "share",
     };
@@ -396,7 +415,14 @@ fn text(
     let end = |x: &Option<Exact>, toward| {
         x.as_ref().map_or("not found".into(), |t| outward(t, DIGITS, toward))
     };
-    let ends = |row: &Row| [end(&row.certified, Toward::Below), end(&row.refuted, Toward::Above)];
+    let ends = |row: &Row| {
+        let [least, most] = sizes(row).map_or([None, None], |ends| ends.map(Some));
+        let scaled = |t: &Option<Exact>, square, toward| {
+            end(&t.clone().and_then(|t| per_metre(t, square, toward)), toward)
+        };
+        let certified = scaled(&row.certified, most, Toward::Below);
+        [certified, scaled(&row.refuted, least, Toward::Above)]
+    };
     let third = width(&mut rows.iter().flat_map(|row| ends(row).map(|end| end.len())), "certified");
     let mut out = String::new();
     let quiet = arguments.effort.quiet;
@@ -451,7 +477,15 @@ fn text(
         }
         wrap(&mut out, &format!("Each row had at most {each} of time."), 2);
     }
-    if rows.iter().any(|row| row.measure == Measure::Component) {
+    if rows.iter().any(|row| measure(row) == PER_METRE) {
+        wrap(
+            &mut out,
+            "A direction's t is that of each component of its unit vector: 1 mm/m, across it, is 0.0573 \
+             degrees. --verbose tells components as the design writes them.",
+            2,
+        );
+    }
+    if rows.iter().any(|row| measure(row) == "component") {
         wrap(
             &mut out,
             "A direction's t is that of its components as the design writes them: of a unit vector, \

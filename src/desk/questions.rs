@@ -7,6 +7,7 @@ use orthocert::exact::decimal::{approximate, exact, significant};
 use orthocert::exact::Exact;
 use orthocert::questions::decide::{as_written, by_proof_of};
 use orthocert::questions::limit::Place;
+use orthocert::questions::summary::signed;
 use orthocert::report::page::{machine, File, Page};
 use orthocert::report::Report;
 use orthocert::search::accepted::{check, Accepted};
@@ -60,7 +61,9 @@ pub fn answered(question: &[u8]) -> String {
             })
         }
         Ok(Question::Report { certificate, file, title }) => {
-            page(&certificate, &file, &title, |page| json!({ "html": page.html() }))
+            page(&certificate, &file, &title, |page| {
+                json!({ "html": page.signing(|claim| signed(claim, None)).html() })
+            })
         }
         Ok(Question::Limit { text, file, key }) => limit(&text, &file, &key),
         Err(error) => Err(error.to_string()),
@@ -177,11 +180,11 @@ fn page(
     certificate: &str,
     file: &str,
     title: &str,
-    then: impl FnOnce(&Page<'_>) -> Value,
+    then: impl FnOnce(Page<'_>) -> Value,
 ) -> Result<Value, String> {
     let bytes = certificate.as_bytes();
     let certificate = read(bytes).map_err(|reason| reason.to_string())?;
     let accepted = check(&certificate).map_err(|reason| reason.to_string())?;
     let file = File { name: file, bytes };
-    Ok(then(&Page::new(&certificate, &accepted, file, Some(title), None)))
+    Ok(then(Page::new(&certificate, &accepted, file, Some(title), None)))
 }

@@ -170,6 +170,28 @@ pub fn readable(x: &Exact) -> String {
     }
 }
 
+/// An exact number as a decimal; where that has more than so many characters, the nine digits that it begins
+/// with, and an ellipsis.
+pub fn begun(x: &Exact, most: u32) -> String {
+    if let Some(text) = x.as_rational().and_then(|x| terminating(x, most)) {
+        if text.len() <= most as usize {
+            return text;
+        }
+    }
+    match x.ends(SHOWN_BITS).map(|ends| ends.map(|end| first_digits(&end))) {
+        Some([least, most]) if least == most && least != "0" => least,
+        _ => x.to_string(),
+    }
+}
+
+fn first_digits(x: &BigRational) -> String {
+    let text = rounded(x, SHORTENED, if x.is_negative() { Toward::Above } else { Toward::Below });
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{mantissa}\u{2026}e{exponent}"),
+        None => text + "\u{2026}",
+    }
+}
+
 /// An exact number for people, never on its other side: itself where that is a decimal of so many digits,
 /// sign and point, and three more; else rounded outward.
 pub fn outward(x: &Exact, digits: u32, toward: Toward) -> String {
@@ -371,6 +393,26 @@ mod tests {
             ("7e400", "~7.00000000e400"),
         ] {
             assert_eq!(readable(&Exact::parse(text, 1000).unwrap()), shown);
+        }
+    }
+
+    #[test]
+    fn what_begins_with_digits_goes_on_with_them() {
+        for (text, shown) in [
+            ("1/2", "0.5"),
+            ("1/3", "0.333333333\u{2026}"),
+            ("-2/3", "-0.666666666\u{2026}"),
+            ("174.75*sqrt(3)/2", "151.337939\u{2026}"),
+            ("-sqrt(2)*1e30", "-1.41421356\u{2026}e30"),
+            ("0.12345678901234567891234567", "0.123456789\u{2026}"),
+            ("sqrt(2)*1e-60", "sqrt(2)/1e60"),
+        ] {
+            let x = Exact::parse(text, 1000).unwrap();
+            let found = begun(&x, 20);
+            assert!(
+                found == shown || shown.starts_with("sqrt") && found == x.to_string(),
+                "{found}"
+            );
         }
     }
 

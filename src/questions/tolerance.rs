@@ -7,13 +7,15 @@
 //! a band, where the tolerances are too wide to be proved in few parts.
 
 use crate::exact::arithmetic::apply;
+use crate::exact::Exact;
 use crate::questions::frontier::{
     frontier, proof_about, refutation, Bracket, NoAnswer, Succeeds, Walk, LARGEST_FACTOR,
 };
+use crate::report::exactly;
 use crate::search::solver::{self, number};
 use crate::search::{Budget, Control};
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 use orthocert_checker::certificate::Proof;
 use orthocert_kernel::claim::{Leg, MachineClaim, Mechanism, Quantity, Turning, Vector};
 use orthocert_kernel::number::{Expression, Operator};
@@ -98,6 +100,9 @@ impl Kind {
     }
 }
 
+/// Fractional bits of squares that are not rational.
+const SQUARE_BITS: u32 = 256;
+
 /// The legs of a mechanism.
 fn legs(mechanism: &Mechanism) -> &[Leg] {
     match mechanism {
@@ -135,6 +140,33 @@ pub(crate) fn parameters(leg: &mut Leg) -> Vec<(Kind, &mut Quantity)> {
         }
         Leg::Planar { direction } => vector(Kind::Direction, direction).collect(),
     }
+}
+
+/// Between which two numbers the squares of the lengths are of the vectors whose components are of these
+/// kinds, of one leg or of all, as they are written.
+pub fn squares(
+    mechanism: &Mechanism,
+    kinds: &[&str],
+    leg: Option<usize>,
+) -> Option<[BigRational; 2]> {
+    let mut all: Vec<[BigRational; 2]> = Vec::new();
+    let legs = legs(mechanism).iter().enumerate().filter(|(i, _)| leg.is_none_or(|leg| leg == *i));
+    for (_, leg) in legs {
+        let vectors = leg.quantities().into_iter().filter(|(name, ..)| kinds.contains(name));
+        for (.., components) in vectors.filter(|(.., components)| !components.is_empty()) {
+            let mut square = Exact::integer(0);
+            for quantity in components {
+                let [min, max] = quantity.ends().map(exactly);
+                let twice = min?.plus(max?).ok()?;
+                square = square.plus(twice.clone().times(twice).ok()?).ok()?;
+            }
+            let four = BigRational::from_integer(4.into());
+            all.push(square.ends(SQUARE_BITS)?.map(|end| end / &four));
+        }
+    }
+    let least = all.iter().map(|[least, _]| least).min()?.clone();
+    let most = all.iter().map(|[_, most]| most).max()?.clone();
+    least.is_positive().then_some([least, most])
 }
 
 impl fmt::Display for Kind {

@@ -33,6 +33,7 @@ pub use wrap::wrapped;
 use crate::exact::Exact;
 use crate::search::accepted::TreeSize;
 use crate::search::solver;
+use crate::search::solver::value::Coordinates;
 use num_rational::BigRational;
 use orthocert_checker::certificate::{Certificate, Proof, Verdict};
 use orthocert_kernel::certificate::Claim;
@@ -73,7 +74,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_unit: Option<&'static str>,
     /// The names of the workspace's coordinates, in the order of places.
-    pub coordinates: Vec<String>,
+    pub coordinates: Coordinates,
     /// The requirements, with the worst values found by sampling.
     pub requirements: Vec<Row>,
     /// How far the quantities that requirements bound really go: bounds with certificates of their
@@ -193,7 +194,7 @@ pub struct EarlierFile {
 
 impl Report {
     /// Nothing is known yet.
-    fn about(claim: Claim, coordinates: Vec<String>, boxes: usize, elapsed: Duration) -> Self {
+    fn about(claim: Claim, coordinates: Coordinates, boxes: usize, elapsed: Duration) -> Self {
         Report {
             verdict: Outcome::Undecided,
             title: None,

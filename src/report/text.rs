@@ -9,7 +9,7 @@ use super::{
 use crate::exact::decimal::{self, boxes, counted, exact, grouped, significant, Toward};
 use crate::exact::Exact;
 use crate::files::shown::Shown;
-use crate::search::solver::value::{in_length, listed, with_unit};
+use crate::search::solver::value::{in_length, listed, with_unit, Coordinates};
 use num_rational::BigRational;
 use orthocert_checker::certificate::Verdict;
 use std::fmt::Write;
@@ -302,7 +302,7 @@ pub fn machine(parameters: &[FreeParameter]) -> String {
 pub fn describe_counterexample(
     out: &mut String,
     found: &Counterexample,
-    coordinates: &[String],
+    coordinates: &Coordinates,
     verbose: bool,
 ) {
     out.push('\n');
@@ -325,7 +325,7 @@ pub fn describe_counterexample(
 }
 
 /// A point of a witness: exact, but for how it is turned, and for what is long unless all is told.
-fn point(out: &mut String, label: &str, point: &[Exact], coordinates: &[String], verbose: bool) {
+fn point(out: &mut String, label: &str, point: &[Exact], coordinates: &Coordinates, verbose: bool) {
     let values: Vec<String> = point.iter().map(exact).collect();
     let approximate: Vec<f64> =
         point.iter().map(|x| decimal::approximate(x).unwrap_or(f64::NAN)).collect();
@@ -354,7 +354,7 @@ fn point(out: &mut String, label: &str, point: &[Exact], coordinates: &[String],
 /// Regions that are told unless all are asked for.
 const REGIONS: usize = 2;
 
-fn describe_remains(out: &mut String, remains: &Remains, coordinates: &[String], verbose: bool) {
+fn describe_remains(out: &mut String, remains: &Remains, coordinates: &Coordinates, verbose: bool) {
     let number = |x: f64| significant(x, 3);
     out.push('\n');
     labelled(out, "why", &remains.reason);
@@ -403,7 +403,7 @@ fn describe_remains(out: &mut String, remains: &Remains, coordinates: &[String],
 }
 
 /// The ends of a box, in as many digits as tell them apart.
-fn extent(out: &mut String, min: &[f64], max: &[f64], coordinates: &[String]) {
+fn extent(out: &mut String, min: &[f64], max: &[f64], coordinates: &Coordinates) {
     for (k, axis) in coordinates.iter().enumerate() {
         let ends = |digits| (significant(min[k], digits), significant(max[k], digits));
         let apart = (PLACE_DIGITS..=17).map(ends).find(|(min, max)| min != max);

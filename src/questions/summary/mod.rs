@@ -7,6 +7,7 @@
 //! | `deviation` | how far a platform that turns is off, in position and angle       |
 //! | `nearest`   | the requirement with the least margin                             |
 //! | `shares`    | what each tolerance adds to the inaccuracy                        |
+//! | `signed`    | what a report says first                                          |
 //! | [`text`]    | the answer for people                                             |
 //!
 //! Every value stands beside the certificates that the exact checker has accepted for it; what is only
@@ -16,17 +17,21 @@ mod asked;
 mod deviation;
 mod nearest;
 mod shares;
+mod signed;
 pub mod text;
 
 pub use asked::Question;
 pub use nearest::Nearest;
 pub use shares::{Share, Shares};
+pub use signed::signed;
 
 use crate::exact::decimal::{rounded, Toward};
 use crate::exact::Exact;
 use crate::report::{exactly, Counterexample, Facts, Outcome, Report};
-use crate::search::solver::extremes::{enclose, is_singular, reached, Enclosed, NotEnclosed};
-use crate::search::solver::value::Bounded;
+use crate::search::solver::extremes::{
+    enclose, is_singular, reached, Enclosed, Extreme, NotEnclosed,
+};
+use crate::search::solver::value::{Bounded, Coordinates};
 use crate::search::solver::{sector, Verification};
 use crate::search::{Budget, Control, Steps};
 use asked::{asked, Asked};
@@ -51,7 +56,7 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_unit: Option<&'static str>,
     /// The names of the workspace's coordinates, in the order of places.
-    pub coordinates: Vec<String>,
+    pub coordinates: Coordinates,
     /// The counterexample of a refutation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterexample: Option<Counterexample>,
@@ -168,15 +173,6 @@ pub fn summary(
         left -= 1;
         let ends = match &asked {
             _ if singular => Err(NotEnclosed::Singular),
-            Asked::Known(_, value) => {
-                // Which the design's own certificate says.
-                let value = value.as_rational().filter(|_| certified).cloned();
-                value.ok_or(NotEnclosed::Undecided).map(|value| {
-                    let reached = Some(value.clone());
-                    let relative = Some(BigRational::from_integer(0.into()));
-                    vec![End { certified: value, reached, relative }]
-                })
-            }
             _ if control.is_cancelled() => Err(NotEnclosed::Cancelled),
             _ if is_over(budget) => Err(NotEnclosed::Undecided),
             Asked::Extreme(extreme)
@@ -193,25 +189,9 @@ pub fn summary(
                 let at = usize::from(extreme.bounded().angle);
                 both.clone().map(|both| vec![both[at].clone()])
             }
-            Asked::Extreme(extreme) => {
-                let found = steps.next(control, left, |control| {
-                    enclose(claim, extreme, &question.gap, budget, control)
-                });
-                found.map(|found| vec![End::from(found)])
-            }
-            Asked::Angle(leg) => {
-                let found = steps.next(control, left, |control| {
-                    sector::enclose(claim, *leg, &question.gap, budget, control)
-                });
-                found.map(|found| {
-                    let sides = found.certified.into_iter().zip(found.reached);
-                    let end = |(certified, reached): (_, Option<(_, _)>)| {
-                        let relative = Some(found.width.clone());
-                        End { certified, reached: reached.map(|(angle, _)| angle), relative }
-                    };
-                    sides.map(end).collect()
-                })
-            }
+            asked => steps.next(control, left, |control| {
+                ends(claim, asked, certified, &question.gap, budget, control)
+            }),
         };
         if let Err(error @ NotEnclosed::Claim(_)) = ends {
             return Err(error);
@@ -249,6 +229,39 @@ pub fn summary(
     }))
 }
 
+/// Where a quantity ends.
+fn ends(
+    claim: &MachineClaim,
+    asked: &Asked,
+    certified: bool,
+    gap: &BigRational,
+    budget: Budget,
+    control: &mut Control<'_>,
+) -> Result<Vec<End>, NotEnclosed> {
+    match asked {
+        Asked::Known(_, value) => {
+            // Which the design's own certificate says.
+            let value = value.as_rational().filter(|_| certified).cloned();
+            value.ok_or(NotEnclosed::Undecided).map(|value| {
+                let reached = Some(value.clone());
+                let relative = Some(BigRational::from_integer(0.into()));
+                vec![End { certified: value, reached, relative }]
+            })
+        }
+        Asked::Extreme(extreme) => {
+            Ok(vec![End::from(enclose(claim, extreme, gap, budget, control)?)])
+        }
+        Asked::Angle(leg) => {
+            let found = sector::enclose(claim, *leg, gap, budget, control)?;
+            let end = |(certified, reached): (_, Option<(_, _)>)| {
+                let relative = Some(found.width.clone());
+                End { certified, reached: reached.map(|(angle, _)| angle), relative }
+            };
+            Ok(found.certified.into_iter().zip(found.reached).map(end).collect())
+        }
+    }
+}
+
 /// With what the certificate of the design says where that is more.
 fn tightened(
     claim: &MachineClaim,
@@ -257,20 +270,7 @@ fn tightened(
     gap: &BigRational,
 ) -> Result<Vec<End>, NotEnclosed> {
     let Asked::Extreme(extreme) = asked else { return ends };
-    let (one, leg) = (&extreme.bounded().requirement, extreme.bounded().leg.map(|leg| leg + 1));
-    let own = claim.require.iter().filter(|own| {
-        let same = own.quantity == one.quantity && own.given == one.given;
-        same && (own.leg.is_none() || own.leg == leg)
-    });
-    let bounded =
-        |own: &Requirement| Bounded { requirement: own.clone(), ..extreme.bounded().clone() };
-    let mut bounds = own.filter_map(|own| match (&bounded(own).bound(), extreme.is_greatest()) {
-        (Bound::Min(bound), false) | (Bound::Max(bound), true) => {
-            exactly(bound)?.as_rational().cloned()
-        }
-        _ => None,
-    });
-    let Some(bound) = bounds.next() else { return ends };
+    let Some(bound) = required(claim, extreme) else { return ends };
     match &mut ends {
         Ok(ends) => {
             for End { certified, .. } in ends {
@@ -286,6 +286,24 @@ fn tightened(
         Err(_) => {}
     }
     ends
+}
+
+/// What the claim itself says of an extreme.
+fn required(claim: &MachineClaim, extreme: &Extreme) -> Option<BigRational> {
+    let (one, leg) = (&extreme.bounded().requirement, extreme.bounded().leg.map(|leg| leg + 1));
+    let own = claim.require.iter().filter(|own| {
+        let same = own.quantity == one.quantity && own.given == one.given;
+        same && (own.leg.is_none() || own.leg == leg)
+    });
+    let bounded =
+        |own: &Requirement| Bounded { requirement: own.clone(), ..extreme.bounded().clone() };
+    let mut bounds = own.filter_map(|own| match (&bounded(own).bound(), extreme.is_greatest()) {
+        (Bound::Min(bound), false) | (Bound::Max(bound), true) => {
+            exactly(bound)?.as_rational().cloned()
+        }
+        _ => None,
+    });
+    bounds.next()
 }
 
 /// Whether the time is up.

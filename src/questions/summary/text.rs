@@ -6,7 +6,7 @@ use crate::exact::decimal::{briefly, outward, percent, significant, Toward};
 use crate::exact::Exact;
 use crate::report::text::{describe_counterexample, headline_of, labelled, meaning, wrap, Style};
 use crate::report::{machine_at_ends, placed, pose_text};
-use crate::search::solver::value::in_length;
+use crate::search::solver::value::{in_length, Coordinates};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::fmt::Write;
@@ -55,7 +55,7 @@ pub fn text(summary: &Summary, style: Style) -> String {
     out
 }
 
-fn nearest(out: &mut String, found: &Nearest, coordinates: &[String], length: Option<&str>) {
+fn nearest(out: &mut String, found: &Nearest, coordinates: &Coordinates, length: Option<&str>) {
     let part = |x: &Exact, toward| {
         let x = x.as_rational().cloned().unwrap_or_default();
         percent(&x, FEW - 1, toward)
@@ -109,11 +109,12 @@ fn nearest(out: &mut String, found: &Nearest, coordinates: &[String], length: Op
 }
 
 /// A row of the table.
-struct Row {
+pub struct Row {
     words: String,
     joint: Option<usize>,
     unit: Option<&'static str>,
-    certified: String,
+    /// What is certified.
+    pub certified: String,
     reached: String,
 }
 
@@ -163,7 +164,8 @@ fn rows(values: &[Value]) -> Vec<Row> {
     rows
 }
 
-fn table(out: &mut String, values: &[Value], length: Option<&str>) {
+/// The rows by their names.
+pub fn lines(values: &[Value], length: Option<&str>) -> Vec<(String, Row)> {
     // Joints with the same stroke are one row.
     let mut all: Vec<(Row, Vec<usize>)> = Vec::new();
     for row in rows(values) {
@@ -198,12 +200,16 @@ fn table(out: &mut String, values: &[Value], length: Option<&str>) {
         // What the question gave in lengths per time is answered so.
         in_length(&words, row.unit.filter(|unit| !unit.contains("time")), length)
     };
-    let names: Vec<String> = all.iter().map(name).collect();
+    all.into_iter().map(|named| (name(&named), named.0)).collect()
+}
+
+fn table(out: &mut String, values: &[Value], length: Option<&str>) {
+    let all = lines(values, length);
     let width = |texts: &mut dyn Iterator<Item = usize>| texts.max().unwrap_or(0);
-    let first = width(&mut names.iter().map(|name| name.chars().count()));
-    let second = width(&mut all.iter().map(|(row, _)| row.certified.len())).clamp(9, 24);
+    let first = width(&mut all.iter().map(|(name, _)| name.chars().count()));
+    let second = width(&mut all.iter().map(|(_, row)| row.certified.len())).clamp(9, 24);
     let _ = writeln!(out, "\n  {:first$}  {:second$}  reaches", "quantity", "certified");
-    for (name, (row, _)) in names.iter().zip(&all) {
+    for (name, row) in &all {
         let line = format!("  {name:first$}  {:second$}  {}", row.certified, row.reached);
         let _ = writeln!(out, "{}", line.trim_end());
     }

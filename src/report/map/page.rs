@@ -15,7 +15,7 @@ const LINES: &str =
                      together.</p>\n";
 
 /// A page with a title, the picture, and what its lines are where it has some, a table of facts, and
-/// the statement of the certificate.
+/// the statement of the certificate as HTML.
 pub fn page(
     title: &str,
     (svg, has_lines): (&str, bool),
@@ -37,8 +37,7 @@ pub fn page(
     let _ = writeln!(
         out,
         "</dl></section>\n<section id=\"map\">{svg}{lines}</section>\n\
-         <section><h2>What is proved</h2>\n<pre>{}</pre></section></main>\n</html>",
-        xml(statement.trim_end())
+         <section><h2>What is proved</h2>\n{statement}</section></main>\n</html>",
     );
     out
 }

@@ -15,7 +15,7 @@ use crate::report::text::machine;
 use crate::report::{placed, pose_text};
 use crate::search::solver::approximate;
 use crate::search::solver::sample::At;
-use crate::search::solver::value::{coordinates, in_length};
+use crate::search::solver::value::{coordinates, in_length, OF_ANGLE};
 use orthocert_kernel::certificate as kernel;
 use orthocert_kernel::claim::{
     Bound, MachineClaim, Mechanism, NoCubeClaim, Requirement, Workspace,
@@ -136,7 +136,12 @@ impl General<'_> {
         };
         let row = &found.row;
         let name = in_length(&row.requirement, row.unit, self.length);
-        let what = mechanism::typeset(&format!("{name} {}", row.bound_text));
+        let bound = match &found.bound {
+            Bound::Min(bound) => format!(">= {}", mechanism::number(bound)),
+            Bound::Max(bound) => format!("<= {}", mechanism::number(bound)),
+            Bound::Within(_) | Bound::Holds => row.bound_text.clone(),
+        };
+        let what = mechanism::typeset(&format!("{name} {bound}"));
         Some(format!("{what}: {left}, {}", placed(&self.place(&row.at))))
     }
 
@@ -144,14 +149,14 @@ impl General<'_> {
         let row = |(number, requirement): (usize, &Requirement)| {
             let mut row = Row {
                 requirement: mechanism::typeset(&mechanism::short(requirement)),
-                bound: mechanism::bound(requirement),
+                bound: mechanism::bound(&requirement.bound),
                 found: "\u{2013}".to_owned(),
                 is_violated: false,
                 margin: "\u{2013}".to_owned(),
                 at: String::new(),
                 machine: String::new(),
             };
-            if let Some(Worst { row: own, leg, left, .. }) =
+            if let Some(Worst { row: own, leg, left, bound, .. }) =
                 worst.iter().find(|worst| worst.number == number)
             {
                 let leg = leg.map_or(String::new(), |leg| format!(", leg {leg}"));
@@ -170,8 +175,12 @@ impl General<'_> {
                         .map(str::to_owned),
                     (None, _) => None,
                 };
+                row.bound = mechanism::bound(bound);
                 if let Some(unit) = unit {
                     row.bound = format!("{} {unit}", row.bound);
+                }
+                if own.requirement.contains(OF_ANGLE) {
+                    row.requirement = row.requirement.replacen("accuracy", OF_ANGLE, 1);
                 }
                 row.is_violated = own.seems_violated;
                 let left = left.filter(|left| left.is_finite());
@@ -415,7 +424,7 @@ fn axes(claim: &MachineClaim) -> Vec<String> {
             None => name,
         },
     };
-    coordinates(claim).into_iter().map(one).collect()
+    coordinates(claim).iter().cloned().map(one).collect()
 }
 
 /// The counterexample in a table: names and values.

@@ -1,9 +1,9 @@
 //! A kernel claim in words and tables: machine, workspace, requirements, parameters.
 
-use crate::exact::decimal::significant;
+use crate::exact::decimal::begun;
 use crate::report::escape::xml;
+use crate::report::exactly;
 use crate::report::kernel::parameter;
-use crate::search::solver::approximate;
 use orthocert_kernel::claim::{
     Bound, Leg, MachineClaim, Mechanism, Orientation, Quantity, Requirement, Workspace,
 };
@@ -14,16 +14,12 @@ use std::fmt::Write;
 /// Longest name of a requirement in a table.
 const SHORT: usize = 48;
 
-/// Longest text of a number that is shown whole; the statement has all of it.
-const LONGEST: usize = 24;
+/// Most digits of a number that is shown whole; the statement has all of it.
+pub const LONGEST: u32 = 20;
 
-/// A number as it is written, or, where that is long, about.
+/// A number as a decimal; where that has too many digits, those that it begins with, and an ellipsis.
 pub fn number(x: &Expression) -> String {
-    let text = x.to_string();
-    match approximate(x) {
-        Some(value) if text.len() > LONGEST => format!("about {}", significant(value, 9)),
-        _ => text,
-    }
+    exactly(x).map_or_else(|| x.to_string(), |x| begun(&x, LONGEST))
 }
 
 fn numbers(all: &[Expression]) -> String {
@@ -183,8 +179,8 @@ pub fn short(requirement: &Requirement) -> String {
 }
 
 /// The bound, in words.
-pub fn bound(requirement: &Requirement) -> String {
-    match &requirement.bound {
+pub fn bound(bound: &Bound) -> String {
+    match bound {
         Bound::Min(bound) => format!("at least {}", number(bound)),
         Bound::Max(bound) => format!("at most {}", number(bound)),
         Bound::Within([min, max]) => format!("from {} to {}", number(min), number(max)),
@@ -208,15 +204,29 @@ pub fn formula(requirement: &Requirement) -> String {
     text + &of
 }
 
+/// Letters by their names: first those that have one for each leg.
+pub const LETTERS: [(&str, char); 8] = [
+    ("psi", '\u{3c8}'),
+    ("rho", '\u{3c1}'),
+    ("eta", '\u{3b7}'),
+    ("kappa", '\u{3ba}'),
+    ("theta", '\u{3b8}'),
+    ("omega", '\u{3c9}'),
+    ("sigma", '\u{3c3}'),
+    ("ell", '\u{2113}'),
+];
+
 /// The table's symbols of a leg, and how the paper writes them.
-const GREEK: [(&str, char); 3] = [("psi_i", '\u{3c8}'), ("rho_i", '\u{3c1}'), ("eta_i", '\u{3b7}')];
+fn of_legs_letters() -> impl Iterator<Item = (String, char)> {
+    LETTERS.into_iter().take(3).map(|(name, letter)| (format!("{name}_i"), letter))
+}
 
 /// A formula in Greek letters, with this index.
 pub fn greek(formula: &str, index: &str) -> String {
-    let written = |text: String, (name, letter): (&str, char)| {
-        text.replace(name, &format!("{letter}{index}"))
+    let written = |text: String, (name, letter): (String, char)| {
+        text.replace(&name, &format!("{letter}{index}"))
     };
-    GREEK.into_iter().fold(formula.to_owned(), written)
+    of_legs_letters().fold(formula.to_owned(), written)
 }
 
 /// A requirement over a picture: its name, and its formula where that has a letter for it.
@@ -233,7 +243,7 @@ pub fn heading(requirement: &Requirement) -> String {
 
 /// Whether a symbol is one of a leg, that papers have a letter for.
 fn is_letter(symbol: &str) -> bool {
-    GREEK.iter().any(|(name, _)| *name == symbol)
+    of_legs_letters().any(|(name, _)| name == symbol)
 }
 
 /// A requirement in letters and signs as papers have them: `greatest psi <= 2`, `rho_1`.

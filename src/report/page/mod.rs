@@ -6,6 +6,7 @@
 //! | `sections`      | the sections, in their order                                   |
 //! | `scene`         | what is drawn, mapped, marked and subdivided                   |
 //! | `words`         | the claim in words, formulas and tables                        |
+//! | `theorem`       | the statement as papers would have it                          |
 //! | `nominal`       | three translating legs in doubles                              |
 //! | `general`       | the scene of a kernel claim: any mechanism                     |
 //! | `shape`         | its machine as it is drawn                                     |
@@ -44,6 +45,7 @@ mod sections;
 mod shape;
 mod subdivision;
 pub(crate) mod svg;
+pub(crate) mod theorem;
 mod verified;
 mod words;
 
@@ -98,6 +100,8 @@ pub struct Page<'a> {
     unit: Option<&'static str>,
     /// What the design has and the claim has not.
     notes: Vec<String>,
+    /// Names of quantities, and between which ends they are certified to lie.
+    signed: Vec<(String, String)>,
     /// Three translating legs, and the scale of their maps; none where there is no single machine of
     /// them, or where its numbers exceed what doubles can show.
     machine: Option<(Nominal, Option<Scale>)>,
@@ -186,6 +190,7 @@ impl<'a> Page<'a> {
             title: title.unwrap_or(stem(file.name)).to_owned(),
             unit,
             notes: Vec::new(),
+            signed: Vec::new(),
             machine,
             scene,
             figures: Figures::default(),
@@ -197,6 +202,14 @@ impl<'a> Page<'a> {
     /// The page with what the design has and the claim has not.
     pub fn noting(self, notes: Vec<String>) -> Self {
         Page { notes, ..self }
+    }
+
+    /// The page of a certified claim with more that is certified: names of quantities and their ranges.
+    pub fn signing(self, of: impl FnOnce(&MachineClaim) -> Vec<(String, String)>) -> Self {
+        match (&self.certificate.claim, self.accepted.verdict) {
+            (Claim::Machine(claim), Verdict::Certified) => Page { signed: of(claim), ..self },
+            _ => self,
+        }
     }
 
     fn draw(&self) -> Figures {

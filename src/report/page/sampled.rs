@@ -29,6 +29,8 @@ pub struct Worst {
     pub number: usize,
     /// The value, where, and for which machine.
     pub row: report::Row,
+    /// What it is bounded by.
+    pub bound: Bound,
     /// The leg, counted from one, of quantities that each leg has.
     pub leg: Option<usize>,
     /// What is left to the bound, as a part of the greater of the two, of joint coordinates of the
@@ -146,8 +148,8 @@ impl<'a> Sampled<'a> {
         };
         let mut worst: Vec<Worst> = Vec::new();
         for (number, leg, bound, row) in &all {
-            let (number, leg, row) = (*number, *leg, row.clone());
-            let one = Worst { number, leg, left: left(number, leg, bound, &row), row };
+            let (number, leg, row, bound) = (*number, *leg, row.clone(), bound.clone());
+            let one = Worst { number, leg, left: left(number, leg, &bound, &row), row, bound };
             match worst.iter_mut().find(|other| other.number == number) {
                 Some(other) if one.row.margin < other.row.margin => *other = one,
                 Some(_) => {}

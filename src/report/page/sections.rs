@@ -61,14 +61,20 @@ impl Page<'_> {
         if let Some(nearest) = &self.scene.nearest {
             signed.push(("nearest limit", nearest.clone()));
         }
-        if let Some(unit) = self.unit {
-            signed.push(("lengths in", unit.to_owned()));
-        }
-        signed.extend(self.notes.iter().map(|note| ("note", note.clone())));
+        let mut signed: Vec<(String, String)> =
+            signed.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        signed.extend(
+            self.signed.iter().map(|(name, ends)| (mechanism::typeset(name), ends.clone())),
+        );
+        signed.extend(self.unit.map(|unit| ("lengths in".to_owned(), unit.to_owned())));
+        signed.extend(self.notes.iter().map(|note| ("note".to_owned(), note.clone())));
         for (name, value) in signed {
-            let _ = write!(out, "<dt>{name}</dt><dd>{}</dd>", xml(&value));
+            let _ = write!(out, "<dt>{}</dt><dd>{}</dd>", xml(&name), xml(&value));
         }
         out.push_str("</dl>");
+        if !self.signed.is_empty() {
+            out.push_str(SIGNED);
+        }
         if !self.scene.rows.is_empty() {
             out.push_str(&evidence::margins(&self.scene.rows));
         }
@@ -315,6 +321,11 @@ fn maps_of_slices(slices: &[Slice]) -> String {
     }
     out + "</section>\n"
 }
+
+/// What is said of ranges.
+const SIGNED: &str = "<p class=\"note\">Strokes, factors, speeds and the like never leave these ranges, at no point \
+    and for no machine of the claim: the exact checker has accepted a proof of each end when this page was made. \
+    <code>orthocert bounds -o</code> keeps such proofs.</p>";
 
 /// The controls of the view in space.
 const VIEWER: &str = "<div class=\"scripted\" id=\"viewer\"><div class=\"controls\">\

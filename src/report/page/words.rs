@@ -3,10 +3,10 @@
 use super::legs::Numbers;
 use super::mechanism;
 use super::nominal::Nominal;
+use super::theorem::theorem;
 use crate::exact::decimal::significant;
 use crate::report::escape::xml;
 use orthocert_checker::certificate::Verdict;
-use orthocert_checker::statement;
 use orthocert_kernel::certificate::Claim;
 use orthocert_kernel::claim as kernel;
 use orthocert_kernel::claim::{Every, Parameter, PsiMax};
@@ -54,14 +54,12 @@ pub fn machine_and_workspace(claim: &Claim) -> Option<[String; 2]> {
     }
 }
 
-/// The claim in the checker's words, and the formulas of what it speaks of.
+/// The claim in words, and the formulas of what it speaks of.
 pub fn claim_section(claim: &Claim, verdict: Verdict) -> String {
-    let statement = statement::statement(claim, verdict);
     let mut out = format!(
-        "<section id=\"claim\"><h2>What is {}</h2>\
-         <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>",
+        "<section id=\"claim\"><h2>What is {}</h2>{}",
         if verdict == Verdict::Certified { "proved" } else { "refuted" },
-        xml(statement.trim_end())
+        theorem(claim, verdict)
     );
     out.push_str(&formulas(claim, &asserted(claim)));
     out + "</section>\n"

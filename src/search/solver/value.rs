@@ -12,6 +12,7 @@ use orthocert_kernel::machine::{Joint, Leg};
 use orthocert_kernel::number::Expression;
 use orthocert_kernel::problem::Problem;
 use orthocert_kernel::quantity::{Obligation, Test};
+use serde::Serialize;
 
 /// Steps of the search for a bound that is tight.
 const STEPS: usize = 60;
@@ -96,12 +97,35 @@ pub fn in_length(name: &str, unit: Option<&str>, length: Option<&str>) -> String
     }
 }
 
+/// What an accuracy is of where it is not the position's.
+pub const OF_ANGLE: &str = "accuracy of the angle";
+
+/// The names of the coordinates of poses.
+#[derive(Clone, Debug, Default, Serialize)]
+#[serde(transparent)]
+pub struct Coordinates {
+    names: Vec<String>,
+    /// Whether orientations are told by their tilt and torsion.
+    #[serde(skip)]
+    pub by_tilt: bool,
+}
+
+impl std::ops::Deref for Coordinates {
+    type Target = [String];
+
+    fn deref(&self) -> &[String] {
+        &self.names
+    }
+}
+
 /// The names of the coordinates of a claim's workspace; of orientations half-angle tangents, about one
 /// axis or as the vector `tan(theta/2)` along the axis of the rotation.
-pub fn coordinates(claim: &MachineClaim) -> Vec<String> {
+pub fn coordinates(claim: &MachineClaim) -> Coordinates {
+    let by_tilt = matches!(claim.orientation, Some(Orientation::Tilt { .. }));
+    let of = |names| Coordinates { names, by_tilt };
     let in_plane = matches!(claim.mechanism, Mechanism::Planar(_));
     let m = match (&claim.mechanism, &claim.workspace) {
-        (Mechanism::Formulas(formulas), _) => return formulas.coordinates.clone(),
+        (Mechanism::Formulas(formulas), _) => return of(formulas.coordinates.clone()),
         (_, Workspace::Box { min, .. }) => min.len(),
         (_, Workspace::Cylinder { .. } | Workspace::Cube { .. }) => 3,
     };
@@ -112,7 +136,7 @@ pub fn coordinates(claim: &MachineClaim) -> Vec<String> {
         Some(Orientation::Angle(_) | Orientation::Tilt { .. }) => &["c_x", "c_y", "c_z"],
     };
     let places = ["x", "y", "z"].into_iter().take(if in_plane { m.min(2) } else { m });
-    places.chain(turns.iter().copied()).map(str::to_owned).collect()
+    of(places.chain(turns.iter().copied()).map(str::to_owned).collect())
 }
 
 impl Bounded {
@@ -133,7 +157,7 @@ impl Bounded {
         };
         let number = self.leg.map(|leg| leg + 1);
         match (quantity.as_str(), number) {
-            ("accuracy", _) if self.angle => "accuracy of the angle".to_owned(),
+            ("accuracy", _) if self.angle => OF_ANGLE.to_owned(),
             ("transmission", _) => format!("{end}psi"),
             ("joint_range", Some(leg)) => format!("{end}rho_{leg}"),
             ("joint_range", None) => format!("{end}rho"),

@@ -1,8 +1,9 @@
 //! The sections of a paving's page, in their order.
 
-use super::super::{mechanism, recheck, words};
+use super::super::{mechanism, recheck, theorem, words};
 use super::PavingPage;
-use crate::exact::decimal::{grouped, percent, significant, Toward};
+use crate::exact::decimal::{begun, grouped, percent, significant, Toward};
+use crate::exact::Exact;
 use crate::report::escape::xml;
 use num_rational::BigRational;
 use orthocert_kernel::paving::{Share, Summary, SHARE_BITS};
@@ -200,13 +201,19 @@ impl PavingPage<'_> {
     }
 
     fn claim_section(&self) -> String {
-        let statement = statement::paving(self.accepted);
+        let mut read = self.accepted.clone();
+        theorem::in_decimals(&mut read.header.claim.machine);
+        let [mut read, exact] = [&read, self.accepted].map(statement::paving);
+        let Summary { inner_share, boundary_share, .. } = &self.accepted.summary;
+        // With their lines, as one may begin the other.
+        for share in [*inner_share, Share(inner_share.0.saturating_add(boundary_share.0))] {
+            let decimals = begun(&Exact::Rational(share.fraction()), mechanism::LONGEST);
+            read = read.replace(&format!("  {share}\n"), &format!("{decimals}\n"));
+        }
         let mut out = format!(
-            "<section id=\"claim\"><h2>What is proved</h2>\
-             <p>In the words of the exact checker, complete and without rounding:</p><pre>{}</pre>\
-             <h3>In formulas</h3><p><var>R</var>: the points <var>P</var> of the box with:</p>\
+            "<section id=\"claim\"><h2>What is proved</h2>{}<h3>In formulas</h3><p><var>R</var>: the points <var>P</var> of the box with:</p>\
              <ul class=\"formulas\">",
-            xml(statement.trim_end())
+            theorem::shown(&read, &exact)
         );
         for requirement in &self.claim.require {
             let formula = words::symbols(&xml(&mechanism::formula(requirement)));

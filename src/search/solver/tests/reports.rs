@@ -24,7 +24,7 @@ fn a_certified_claim() {
     let claim = beyond(&five_bar(), 1e-2);
     let report = report(&claim, 1000);
     assert_eq!(objection(&report), None);
-    assert_eq!(report.coordinates, ["x", "y"]);
+    assert_eq!(report.coordinates[..], ["x", "y"]);
     let text = text::report(&report, text::Style::Plain, true);
     assert!(text.starts_with("CERTIFIED  design\n"), "{text}");
     assert!(text.contains("at P = (x, y)"), "{text}");
