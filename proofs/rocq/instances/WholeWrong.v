@@ -21,51 +21,51 @@ Local Notation accepts ls rs es := (check_claim 32 (claim_of ls rs) 9 [0; 0; 0]%
 
 Module Lines.
 Definition at_ (x y z : Z) : position := Position (x // 1) (y // 1) (z // 1).
-Example apart : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = true. Proof. vm_compute. reflexivity. Qed.
-Example farther : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (80 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example apart : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example farther : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (80 // 1)] [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 (** One behind the other, along the leg. *)
-Example along_the_leg : accepts sliders [Beside 0 (at_ 40 0 0) (at_ (-40) 0 0) (20 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example on_each_other : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 40 0) (1 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example of_the_other_sign : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByNegative] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_such_leg : accepts sliders [Beside 3 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example along_the_leg : accepts sliders [Beside 0 (at_ 40 0 0) (at_ (-40) 0 0) (20 // 1)] [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example on_each_other : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 40 0) (1 // 1)] [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_the_other_sign : accepts sliders [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByNegative] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_such_leg : accepts sliders [Beside 3 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] [Beside 2 (at_ 0 40 0) (at_ 0 (-40) 0) (1 // 1)] [ByTest] = false.
-Proof. vm_compute. reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl false). Qed.
 (** A direction that may be zero, or a length that may be negative, is no machine. *)
 Example no_direction : accepts [along 1 0 0; along 0 1 0; along 0 0 1; PlanarLeg (Tolerances (exactly (0 // 1)) (exactly (0 // 1)) (exactly (0 // 1)))]
   [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
-Proof. vm_compute. reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl false). Qed.
 Example no_length : accepts [along 1 0 0; along 0 1 0; SliderLeg (Slider (point 0 0 1) (point 0 0 0) (point 0 0 0) (exactly (-310 // 1)) true)]
   [Beside 0 (at_ 0 40 0) (at_ 0 (-40) 0) (79 // 1)] [ByTest] = false.
-Proof. vm_compute. reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl false). Qed.
 End Lines.
 
 Module Accelerations.
 Local Notation within_ leg a v b := [JointAcceleration leg (a // 1) (v // 1) (b // 1)].
-Example certified : accepts sliders (within_ 0 9000 1200 14000) [ByTest] = true. Proof. vm_compute. reflexivity. Qed.
-Example less : accepts sliders (within_ 0 9000 1200 13800) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_more_than_the_tool : accepts sliders (within_ 0 9000 0 9000) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example faster : accepts sliders (within_ 0 9000 2000 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example negative_acceleration : accepts sliders (within_ 0 (-9000) 1200 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example negative_bound : accepts sliders (within_ 0 0 1 (-15500)) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_such_leg : accepts sliders (within_ 3 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] (within_ 2 1 1 15500) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
+Example certified : accepts sliders (within_ 0 9000 1200 14000) [ByTest] = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example less : accepts sliders (within_ 0 9000 1200 13800) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_more_than_the_tool : accepts sliders (within_ 0 9000 0 9000) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example faster : accepts sliders (within_ 0 9000 2000 15500) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example negative_acceleration : accepts sliders (within_ 0 (-9000) 1200 15500) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example negative_bound : accepts sliders (within_ 0 0 1 (-15500)) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_such_leg : accepts sliders (within_ 3 1 1 15500) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_a_plane : accepts [along 1 0 0; along 0 1 0; PlanarLeg (point 0 0 1)] (within_ 2 1 1 15500) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 End Accelerations.
 
 Module Forces.
 Definition Y (n : Z) : evidence := ByLower 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z.
 Local Notation within_ leg tool b := [JointForce leg (tool // 1) (b // 1)].
-Example certified : accepts sliders (within_ 0 56 85) [Y 5] = true. Proof. vm_compute. reflexivity. Qed.
-Example less : accepts sliders (within_ 0 56 55) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
-Example greater_force : accepts sliders (within_ 0 90 85) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_multiplier : accepts sliders (within_ 0 56 85) [Y 0] = false. Proof. vm_compute. reflexivity. Qed.
-Example of_the_other_sign : accepts sliders (within_ 0 56 85) [Y (-5)] = false. Proof. vm_compute. reflexivity. Qed.
-Example by_a_sign : accepts sliders (within_ 0 56 85) [ByTest] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_such_leg : accepts sliders (within_ 3 56 85) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
-Example negative_bound : accepts sliders (within_ 0 56 (-85)) [Y 5] = false. Proof. vm_compute. reflexivity. Qed.
+Example certified : accepts sliders (within_ 0 56 85) [Y 5] = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example less : accepts sliders (within_ 0 56 55) [Y 5] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example greater_force : accepts sliders (within_ 0 90 85) [Y 5] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_multiplier : accepts sliders (within_ 0 56 85) [Y 0] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_the_other_sign : accepts sliders (within_ 0 56 85) [Y (-5)] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example by_a_sign : accepts sliders (within_ 0 56 85) [ByTest] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_such_leg : accepts sliders (within_ 3 56 85) [Y 5] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example negative_bound : accepts sliders (within_ 0 56 (-85)) [Y 5] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 (** Where there are more joints than coordinates, no force is determined. *)
 Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0 1)]) (within_ 0 56 1000)) 9 [0; 0; 0; 0]%Z
   (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByLower 3 [[5; 0; 0]; [0; 5; 0]; [0; 0; 5]; [0; 0; 1]]%Z)]%nat) = false.
-Proof. vm_compute. reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl false). Qed.
 End Forces.
 
 (** Of two points: one matrix for all cells. *)
@@ -73,40 +73,40 @@ Module Positions.
 Local Notation accepts_by Y t := (check_claim_by 32 (3%N, Y) (claim_of sliders [OneToOne]) 9 [0; 0; 0]%Z t).
 Definition Y (n : Z) : list (list Z) := [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z.
 Definition halved (e f : evidence) : tree := Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, e)])%nat (Leaf [(1, f)])%nat.
-Example certified : accepts_by (Y 8) (halved ByChords ByChords) = true. Proof. vm_compute. reflexivity. Qed.
-Example no_matrix : accepts_by (Y 0) (halved ByChords ByChords) = false. Proof. vm_compute. reflexivity. Qed.
-Example of_the_other_sign : accepts_by (Y (-8)) (halved ByChords ByChords) = false. Proof. vm_compute. reflexivity. Qed.
+Example certified : accepts_by (Y 8) (halved ByChords ByChords) = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example no_matrix : accepts_by (Y 0) (halved ByChords ByChords) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_the_other_sign : accepts_by (Y (-8)) (halved ByChords ByChords) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 (** A matrix of each cell shows that it has full rank there, and nothing of two points. *)
-Example a_matrix_of_each : accepts_by (Y 8) (halved (ByRank 3 (Y 8)) (ByRank 3 (Y 8))) = false. Proof. vm_compute. reflexivity. Qed.
-Example one_cell_left_out : accepts_by (Y 8) (Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, ByChords)])%nat (Leaf [])) = false. Proof. vm_compute. reflexivity. Qed.
-Example without_a_tree's_own : accepts sliders [OneToOne] [ByChords] = false. Proof. vm_compute. reflexivity. Qed.
+Example a_matrix_of_each : accepts_by (Y 8) (halved (ByRank 3 (Y 8)) (ByRank 3 (Y 8))) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example one_cell_left_out : accepts_by (Y 8) (Split [(0, ByRank 0 (Y 1))]%nat 0 (Leaf [(1, ByChords)])%nat (Leaf [])) = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example without_a_tree's_own : accepts sliders [OneToOne] [ByChords] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 End Positions.
 
 (** Where joint errors and tolerances put the platform: legs within 0.1 mm, and errors of thousandths of a mm. *)
 Module Errors.
 Definition near (n kappa : Z) : evidence := ByAccuracy 3 [[n; 0; 0]; [0; n; 0]; [0; 0; n]]%Z kappa 0%N.
 Local Notation within_ error b := [Accuracy (error // 1000) (b // 1000)].
-Example certified : accepts sliders (within_ 10 250) [near 8 1] = true. Proof. vm_compute. reflexivity. Qed.
-Example less : accepts sliders (within_ 10 200) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example of_larger_errors : accepts sliders (within_ 40 250) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example certified : accepts sliders (within_ 10 250) [near 8 1] = true. Proof. vm_cast_no_check (eq_refl true). Qed.
+Example less : accepts sliders (within_ 10 200) [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_larger_errors : accepts sliders (within_ 40 250) [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 (** So far that the rows differ by more than kappa. *)
-Example too_far : accepts sliders (within_ 10 60000) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example out_of_reach : accepts sliders (within_ 10 300000) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example negative_error : accepts sliders (within_ (-10) 250) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example negative_bound : accepts sliders (within_ 10 (-250)) [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_matrix : accepts sliders (within_ 10 250) [near 0 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example of_the_other_sign : accepts sliders (within_ 10 250) [near (-8) 1] = false. Proof. vm_compute. reflexivity. Qed.
-Example no_kappa : accepts sliders (within_ 10 250) [near 8 0] = false. Proof. vm_compute. reflexivity. Qed.
-Example a_greater_kappa : accepts sliders (within_ 10 250) [near 8 8] = false. Proof. vm_compute. reflexivity. Qed.
-Example by_rank : accepts sliders (within_ 10 250) [ByRank 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]]%Z] = false. Proof. vm_compute. reflexivity. Qed.
+Example too_far : accepts sliders (within_ 10 60000) [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example out_of_reach : accepts sliders (within_ 10 300000) [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example negative_error : accepts sliders (within_ (-10) 250) [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example negative_bound : accepts sliders (within_ 10 (-250)) [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_matrix : accepts sliders (within_ 10 250) [near 0 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example of_the_other_sign : accepts sliders (within_ 10 250) [near (-8) 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example no_kappa : accepts sliders (within_ 10 250) [near 8 0] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example a_greater_kappa : accepts sliders (within_ 10 250) [near 8 8] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
+Example by_rank : accepts sliders (within_ 10 250) [ByRank 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]]%Z] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 (** It shows nothing else. *)
-Example of_another_test : accepts sliders [PsiMin (1 // 10)] [near 8 1] = false. Proof. vm_compute. reflexivity. Qed.
+Example of_another_test : accepts sliders [PsiMin (1 // 10)] [near 8 1] = false. Proof. vm_cast_no_check (eq_refl false). Qed.
 (** A tolerance counts: without it, the same bound is far from what is so. *)
 Example exact : accepts (map (fun d => match d with SliderLeg c => SliderLeg (Slider (direction c) (anchor c) (Claim.platform c) (exactly (310 // 1)) true) | d => d end) sliders)
   (within_ 10 50) [near 8 1] = true.
-Proof. vm_compute. reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl true). Qed.
 (** More joints than coordinates: joint coordinates near those commanded belong to no position. *)
 Example four_joints : check_claim 32 (claim_of (sliders ++ [PlanarLeg (point 0 0 1)]) (within_ 10 250)) 9 [0; 0; 0; 0]%Z
   (Leaf [(0, ByRank 0 [[1; 0; 0]; [0; 1; 0]; [0; 0; 1]; [0; 0; 0]]%Z); (1, ByAccuracy 3 [[8; 0; 0]; [0; 8; 0]; [0; 0; 8]; [0; 0; 1]]%Z 1%Z 0%N)]%nat) = false.
-Proof. vm_compute. reflexivity. Qed.
+Proof. vm_cast_no_check (eq_refl false). Qed.
 End Errors.
