@@ -49,9 +49,10 @@ const OF_DESIGNS: [(&str, Verdict); 20] = [
     ("star-singular", Refuted),
 ];
 /// The same of `tests/designs/kernel/NAME.toml`.
-const OF_OTHER_KINDS: [(&str, Verdict); 11] = [
+const OF_OTHER_KINDS: [(&str, Verdict); 12] = [
     ("five-bar", Certified),
     ("five-bar-formulas", Certified),
+    ("five-bar-rough", Certified),
     ("orthoglide-formulas", Certified),
     ("planar-3-prr", Certified),
     ("planar-3-rpr", Certified),
