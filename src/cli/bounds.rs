@@ -298,6 +298,16 @@ fn lines(rows: &[Row]) -> Vec<Line<'_>> {
     lines
 }
 
+/// A quantity as people call it.
+fn in_words(symbol: &str) -> &str {
+    match symbol {
+        "sigma_max/sigma_min" => "condition number",
+        "|eta_i|/L_i" => "serial margin",
+        "|det A|/(L_1 .. L_n)" => "parallel margin",
+        other => other,
+    }
+}
+
 /// The table, where each extreme is reached, and what its columns are.
 fn text(
     rows: &[Row],
@@ -309,7 +319,8 @@ fn text(
     let coordinates = coordinates(&design.claim);
     let lines = lines(rows);
     let name = |line: &Line<'_>| {
-        let name = with_unit(&listed(&line.names), line.row.unit);
+        let name = listed(&line.names.iter().copied().map(in_words).collect::<Vec<_>>());
+        let name = with_unit(&name, line.row.unit);
         in_length(&name, line.row.unit, design.unit)
     };
     let names: Vec<String> = lines.iter().map(name).collect();

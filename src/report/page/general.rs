@@ -126,9 +126,11 @@ impl General<'_> {
     }
 
     /// The requirement of which the least is left, in a sentence.
-    fn nearest(&self, worst: &[Worst]) -> Option<String> {
+    fn nearest(&self, worst: &[Worst]) -> Option<(&'static str, String)> {
         let found = self.critical(worst, None)?;
-        let left = match found.left? {
+        let left = found.left?;
+        let label = if left < -NOISE { "violated" } else { "nearest limit" };
+        let left = match left {
             left if left == f64::NEG_INFINITY => "exceeded without bound".to_owned(),
             left if left < -NOISE => format!("exceeded by {}", share(-left)),
             left if left < NOISE => "met with equality".to_owned(),
@@ -142,7 +144,7 @@ impl General<'_> {
             Bound::Within(_) | Bound::Holds => row.bound_text.clone(),
         };
         let what = mechanism::typeset(&format!("{name} {bound}"));
-        Some(format!("{what}: {left}, {}", placed(&self.place(&row.at))))
+        Some((label, format!("{what}: {left}, {}", placed(&self.place(&row.at)))))
     }
 
     fn rows(&self, worst: &[Worst]) -> Vec<Row> {

@@ -25,7 +25,7 @@ pub struct Scene {
     /// What is mapped.
     pub slices: Vec<Slice>,
     /// The requirement nearest to its limit, in a sentence.
-    pub nearest: Option<String>,
+    pub nearest: Option<(&'static str, String)>,
     /// What is required, with the worst values found.
     pub rows: Vec<Row>,
     /// What is marked in all figures.

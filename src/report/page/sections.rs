@@ -59,7 +59,7 @@ impl Page<'_> {
         }
         let mut out = "<section id=\"overview\"><h2>Overview</h2><dl class=\"signed\">".to_owned();
         if let Some(nearest) = &self.scene.nearest {
-            signed.push(("nearest limit", nearest.clone()));
+            signed.push(nearest.clone());
         }
         let mut signed: Vec<(String, String)> =
             signed.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
