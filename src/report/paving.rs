@@ -1,6 +1,6 @@
 //! What a paving holds, for people and for scripts.
 
-use crate::exact::decimal::{boxes, grouped, percent, rounded, significant, Toward};
+use crate::exact::decimal::{boxes, briefly, grouped, percent, significant, Toward};
 use crate::exact::Exact;
 use crate::files::shown::Shown;
 use crate::search::paving::{box_ends, box_volume, Component, Components, Paved};
@@ -189,8 +189,8 @@ impl PavingReport {
         };
         let first = format!(
             "volume: between {}{unit} and {}{unit}, gap {gap}\n",
-            rounded(&inner, DIGITS, Toward::Below),
-            rounded(&(&inner + &open), DIGITS, Toward::Above),
+            briefly(&inner, DIGITS, Toward::Below),
+            briefly(&(&inner + &open), DIGITS, Toward::Above),
         );
         if quiet {
             return first;

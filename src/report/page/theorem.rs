@@ -102,6 +102,8 @@ enum Token<'a> {
     /// A word, a name, or a number.
     Word(&'a str),
     Sign(&'a str),
+    /// A parameter of a map: `<name>`.
+    Parameter(&'a str),
 }
 
 fn tokens(text: &str) -> Vec<Token<'_>> {
@@ -130,22 +132,24 @@ fn tokens(text: &str) -> Vec<Token<'_>> {
 /// A line as markup: `psi_i >= 0.5` with a Greek letter, an index and one sign; `(80)^2` without what is
 /// needed in plain text alone.
 fn typeset(text: &str) -> String {
-    use Token::{Sign, Word};
-    let mut all = tokens(text);
-    // A number in parentheses, unless they are a function's.
-    let mut i = 0;
-    while i + 2 < all.len() {
-        let of_function = i > 0 && matches!(all[i - 1], Word(_));
-        match all[i..i + 3] {
-            [Sign("("), Word(number), Sign(")")]
-                if !of_function && number.starts_with(|c: char| c.is_ascii_digit()) =>
-            {
-                all.remove(i + 2);
-                all.remove(i);
+    use Token::{Parameter, Sign, Word};
+    let mut all: Vec<Token<'_>> = Vec::new();
+    for token in tokens(text) {
+        all.push(token);
+        let bare = match all[..] {
+            [.., Sign("<"), Word(name), Sign(">")] => Some(Parameter(name)),
+            // In parentheses that are a function's, they stay.
+            [.., Word(_), Sign("("), _, Sign(")")] => None,
+            [.., Sign("("), x @ Parameter(_), Sign(")")] => Some(x),
+            [.., Sign("("), x @ Word(number), Sign(")")] => {
+                Some(x).filter(|_| number.starts_with(|c: char| c.is_ascii_digit()))
             }
-            _ => {}
+            _ => None,
+        };
+        if let Some(bare) = bare {
+            all.truncate(all.len() - 3);
+            all.push(bare);
         }
-        i += 1;
     }
     let mut out = String::new();
     for (i, token) in all.iter().enumerate() {
@@ -157,12 +161,16 @@ fn typeset(text: &str) -> String {
             }
             Word("sqrt") if after == Some(Sign("(")) => out.push('\u{221a}'),
             Word(name) => out.push_str(&letter(name)),
+            Parameter(name) => {
+                let _ = write!(out, "<var>{}</var>", xml(name));
+            }
             Sign("<=") => out.push('\u{2264}'),
             Sign(">=") => out.push('\u{2265}'),
             Sign("*") => out.push('\u{b7}'),
             Sign("^-1") => out.push_str("<sup>\u{2212}1</sup>"),
             Sign("^-T") => out.push_str("<sup>\u{2212}T</sup>"),
             Sign("^") if matches!(after, Some(Word(_))) => {}
+            Sign("'") if after == Some(Word("s")) => out.push('\u{2019}'),
             Sign("'") => out.push('\u{2032}'),
             Sign("-") => out.push(if is_hyphen(before, after) { '-' } else { '\u{2212}' }),
             Sign(sign) => out.push_str(&xml(sign)),
@@ -218,8 +226,9 @@ mod tests {
             ("(x - (0))^2 <= (80)^2", "x<sup>2</sup> \u{2264} 80<sup>2</sup>"),
             ("(x - (-1))^2", "(x \u{2212} (\u{2212}1))<sup>2</sup>"),
             ("q1 = -L t1/sqrt(1 + 2 t1^2)", "<var>q</var><sub>1</sub> = \u{2212}<var>L</var> <var>t</var><sub>1</sub>/\u{221a}(1 + 2 <var>t</var><sub>1</sub><sup>2</sup>)"),
+            ("the leg's P'", "the leg\u{2019}s <var>P</var>\u{2032}"),
             ("No axis-aligned cube, 2*x-y", "No axis-aligned cube, 2\u{b7}x\u{2212}y"),
-            ("eta < 0, <r> & my_own", "\u{3b7} &lt; 0, &lt;r&gt; &amp; my_own"),
+            ("eta < 0, (<r>)^2 & my_own", "\u{3b7} &lt; 0, <var>r</var><sup>2</sup> &amp; my_own"),
             ("from -(0.1\u{2026}) to 20", "from \u{2212}0.1\u{2026} to 20"),
             ("f(2), roots (5)", "f(2), roots 5"),
         ] {

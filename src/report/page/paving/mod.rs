@@ -14,7 +14,7 @@ mod sections;
 use super::isomap::Mark;
 use super::legs::Point;
 use super::{drawing, mechanism, shape, stem, File, Framed, Picture};
-use crate::exact::decimal::{percent, rounded, Toward};
+use crate::exact::decimal::{briefly, percent, Toward};
 use crate::report::paving::unit_of_volume;
 use crate::search::paving::{axes, box_ends, box_volume, ends, ranges, Components, Tree};
 use num_bigint::BigInt;
@@ -122,7 +122,8 @@ impl<'a> PavingPage<'a> {
             components,
             file,
             title: title.unwrap_or(stem(file.name)).to_owned(),
-            unit: unit_of_volume(claim, accepted.header.coordinates.as_deref(), unit),
+            unit: unit_of_volume(claim, accepted.header.coordinates.as_deref(), unit)
+                .map(|unit| unit.replace("^2", "\u{b2}").replace("^3", "\u{b3}")),
             marks,
             tree: view,
             ends: [least, width],
@@ -187,8 +188,8 @@ impl<'a> PavingPage<'a> {
                 Some(volume) => (unit, volume),
                 None => (" of the box".to_owned(), BigRational::from_integer(1.into())),
             };
-        let low = rounded(&(&inner * &whole), DIGITS, Toward::Below);
-        let high = rounded(&((inner + open) * whole), DIGITS, Toward::Above);
+        let low = briefly(&(&inner * &whole), DIGITS, Toward::Below);
+        let high = briefly(&((inner + open) * whole), DIGITS, Toward::Above);
         [low + &unit, high + &unit]
     }
 

@@ -208,7 +208,9 @@ impl PavingPage<'_> {
         // With their lines, as one may begin the other.
         for share in [*inner_share, Share(inner_share.0.saturating_add(boundary_share.0))] {
             let decimals = begun(&Exact::Rational(share.fraction()), mechanism::LONGEST);
-            read = read.replace(&format!("  {share}\n"), &format!("{decimals}\n"));
+            for end in ["\n", ".\n"] {
+                read = read.replace(&format!("  {share}{end}"), &format!("{decimals}{end}"));
+            }
         }
         let mut out = format!(
             "<section id=\"claim\"><h2>What is proved</h2>{}<h3>In formulas</h3><p><var>R</var>: the points <var>P</var> of the box with:</p>\
