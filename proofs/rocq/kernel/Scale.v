@@ -16,20 +16,24 @@ Definition is_in (J : list nat) (j : nat) : bool := existsb (Nat.eqb j) J.
 
 (** ** Powers of the scale of the parameters [J] *)
 
-Definition degree_op (J : list nat) (o : op (option Z)) : option Z :=
+(** What is 0 of all machines has every power: [Some None]. *)
+Definition degree_op (J : list nat) (o : op (option (option Z))) : option (option Z) :=
   match o with
-  | Coord _ | Integer _ => Some 0%Z
-  | Param j => Some (if is_in J j then 1 else 0)%Z
-  | Add (Some a) (Some b) | Sub (Some a) (Some b) => if (a =? b)%Z then Some a else None
-  | Neg a => a
-  | Mul (Some a) (Some b) => Some (a + b)%Z
-  | Div (Some a) (Some b) => Some (a - b)%Z
-  | Sqr (Some a) => Some (a + a)%Z
-  | Sqrt (Some a) => if Z.even a then Some (a / 2)%Z else None
-  | Elbow _ (Some a) (Some b) (Some t) => if ((a =? 0) && (b =? 0) && (t =? 0))%Z then Some 0%Z else None
+  | Coord _ => Some (Some 0%Z)
+  | Integer n => Some (if (n =? 0)%Z then None else Some 0%Z)
+  | Param j => Some (Some (if is_in J j then 1 else 0)%Z)
+  | Add (Some None) d | Add d (Some None) | Sub (Some None) d | Sub d (Some None) | Neg d => d
+  | Add (Some (Some a)) (Some (Some b)) | Sub (Some (Some a)) (Some (Some b)) => if (a =? b)%Z then Some (Some a) else None
+  | Mul (Some None) (Some _) | Mul (Some _) (Some None) | Div (Some None) (Some _) | Sqr (Some None) => Some None
+  | Mul (Some (Some a)) (Some (Some b)) => Some (Some (a + b)%Z)
+  | Div (Some (Some a)) (Some (Some b)) => Some (Some (a - b)%Z)
+  | Sqr (Some (Some a)) => Some (Some (a + a)%Z)
+  | Sqrt (Some (Some a)) => if Z.even a then Some (Some (a / 2)%Z) else None
+  | Elbow _ (Some a) (Some b) (Some t) => if forallb (fun d => match d with Some k => (k =? 0)%Z | None => true end) [a; b; t] then Some (Some 0%Z) else None
   | _ => None
   end.
-Definition degrees (J : list nat) (tape : list (op nat)) : list (option Z) := run (option Z) None (degree_op J) tape [].
+Definition degrees (J : list nat) (tape : list (op nat)) : list (option Z) :=
+  map (option_map (fun d => match d with Some k => k | None => 0%Z end)) (run (option (option Z)) None (degree_op J) tape []).
 
 Section Machines.
 Variables (x theta scaled : list R) (s : R) (J : list nat).
@@ -37,8 +41,9 @@ Hypothesis s_positive : 0 < s.
 Hypothesis is_scaled : forall j, nth j scaled 0 = (if is_in J j then s else 1) * nth j theta 0.
 
 (** Of a formula that is defined of the scaled machine. *)
-Definition has_degree (d : option Z) (f : formula) : Prop :=
-  match d with Some k => defined x scaled f -> defined x theta f /\ value x scaled f = powerRZ s k * value x theta f | None => True end.
+Definition is_scaled_by (d : option Z) (v w : R) : Prop := match d with Some k => v = powerRZ s k * w | None => v = 0 /\ w = 0 end.
+Definition has_degree (d : option (option Z)) (f : formula) : Prop :=
+  match d with Some e => defined x scaled f -> defined x theta f /\ is_scaled_by e (value x scaled f) (value x theta f) | None => True end.
 
 Lemma power_positive : forall k, 0 < powerRZ s k.
 Proof. intro k. apply powerRZ_lt, s_positive. Qed.
@@ -47,45 +52,72 @@ Proof. intros. apply powerRZ_add. lra. Qed.
 Lemma power_minus : forall a b, powerRZ s (a - b) = powerRZ s a / powerRZ s b.
 Proof. intros a b. unfold Z.sub. rewrite power_sum, powerRZ_neg'. unfold Rdiv. reflexivity. Qed.
 
+Lemma level_of : forall d v w, match d with Some k => (k =? 0)%Z | None => true end = true -> is_scaled_by d v w -> v = w.
+Proof. intros [k |] v w h H; cbn [is_scaled_by] in H; [apply Z.eqb_eq in h; subst k; rewrite H; cbn [powerRZ]; ring | lra]. Qed.
+Lemma not_zero_of : forall d v w, is_scaled_by d v w -> v <> 0 -> w <> 0.
+Proof. intros [k |] v w H n z; cbn [is_scaled_by] in H; apply n; [rewrite H, z; ring | tauto]. Qed.
 Lemma degree_op_sound : forall (o : op nat) f g, (forall i, has_degree (f i) (g i)) -> has_degree (degree_op J (map_op f o)) (F (map_op g o)).
 Proof.
   intros o f g H.
-  destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op degree_op].
-  - intros _. cbn [map_op value defined real_op defined_op all_op powerRZ]. split; [tauto | ring].
-  - intros _. cbn [map_op value defined real_op defined_op all_op]. split; [tauto |]. rewrite is_scaled. destruct (is_in J j); [rewrite powerRZ_1 | cbn [powerRZ]]; ring.
-  - intros _. cbn [map_op value defined real_op defined_op all_op powerRZ]. split; [tauto | ring].
-  - pose proof (H a) as Ha. pose proof (H b) as Hb. destruct (f a) as [p |], (f b) as [q |]; try exact I. destruct (Z.eqb_spec p q) as [<- |]; [| exact I].
-    intros [_ [da db]]. cbn [has_degree all_op map_op] in *. destruct (Ha da) as [ea va]. destruct (Hb db) as [eb vb].
-    split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, vb. ring.
-  - pose proof (H a) as Ha. pose proof (H b) as Hb. destruct (f a) as [p |], (f b) as [q |]; try exact I. destruct (Z.eqb_spec p q) as [<- |]; [| exact I].
-    intros [_ [da db]]. cbn [has_degree all_op map_op] in *. destruct (Ha da) as [ea va]. destruct (Hb db) as [eb vb].
-    split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, vb. ring.
-  - pose proof (H a) as Ha. destruct (f a) as [p |]; [| exact I].
-    intros [_ da]. cbn [has_degree all_op map_op] in *. destruct (Ha da) as [ea va]. split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va. ring.
-  - pose proof (H a) as Ha. pose proof (H b) as Hb. destruct (f a) as [p |], (f b) as [q |]; try exact I.
-    intros [_ [da db]]. cbn [has_degree all_op map_op] in *. destruct (Ha da) as [ea va]. destruct (Hb db) as [eb vb].
-    split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, vb, power_sum. ring.
-  - pose proof (H a) as Ha. pose proof (H b) as Hb. destruct (f a) as [p |], (f b) as [q |]; try exact I.
-    intros [n [da db]]. cbn [has_degree all_op map_op defined_op] in *. destruct (Ha da) as [ea va]. destruct (Hb db) as [eb vb]. pose proof (power_positive q) as q0.
-    rewrite vb in n. assert (n' : value x theta (g b) <> 0) by (intro z; apply n; rewrite z; ring).
-    split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, vb, power_minus. field. split; [exact n' | lra].
-  - pose proof (H a) as Ha. destruct (f a) as [p |]; [| exact I].
-    intros [_ da]. cbn [has_degree all_op map_op] in *. destruct (Ha da) as [ea va]. split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, power_sum. ring.
-  - pose proof (H a) as Ha. destruct (f a) as [p |]; [| exact I]. destruct (Z.even p) eqn:e; [| exact I].
-    intros [r da]. cbn [has_degree all_op map_op defined_op] in *. destruct (Ha da) as [ea va]. apply Z.even_spec in e as [q ->]. replace (2 * q / 2)%Z with q by (rewrite Z.mul_comm, Z.div_mul; lia).
+  destruct o as [k | j | n | a b | a b | a | a b | a b | a | a | second a b t]; cbn [map_op].
+  - intros _. cbn [degree_op value defined real_op defined_op all_op powerRZ is_scaled_by map_op]. split; [tauto | ring].
+  - intros _. cbn [degree_op value defined real_op defined_op all_op is_scaled_by map_op]. split; [tauto |]. rewrite is_scaled. destruct (is_in J j); [rewrite powerRZ_1 | cbn [powerRZ]]; ring.
+  - intros _. cbn [degree_op value defined real_op defined_op all_op map_op]. split; [tauto |]. destruct (Z.eqb_spec n 0) as [-> |]; cbn [is_scaled_by powerRZ]; [split; reflexivity | ring].
+  - pose proof (H a) as Ha. pose proof (H b) as Hb.
+    destruct (f a) as [[p |] |], (f b) as [[q |] |]; cbn [degree_op]; try exact I; try (destruct (Z.eqb_spec p q) as [<- |]; [| exact I]);
+      intros [_ [da db]]; cbn [has_degree all_op map_op is_scaled_by] in *; destruct (Ha da) as [ea va]; destruct (Hb db) as [eb vb];
+      (split; [cbn; tauto |]); cbn [value map_op real_op]; try match type of va with _ /\ _ => destruct va as [va va']; rewrite va, va' end; try match type of vb with _ /\ _ => destruct vb as [vb vb']; rewrite vb, vb' end;
+      try rewrite va; try rewrite vb; try (split; ring); ring.
+  - pose proof (H a) as Ha. pose proof (H b) as Hb.
+    destruct (f a) as [[p |] |], (f b) as [[q |] |]; cbn [degree_op]; try exact I; try (destruct (Z.eqb_spec p q) as [<- |]; [| exact I]);
+      intros [_ [da db]]; cbn [has_degree all_op map_op is_scaled_by] in *; destruct (Ha da) as [ea va]; destruct (Hb db) as [eb vb];
+      (split; [cbn; tauto |]); cbn [value map_op real_op]; try match type of va with _ /\ _ => destruct va as [va va']; rewrite va, va' end; try match type of vb with _ /\ _ => destruct vb as [vb vb']; rewrite vb, vb' end;
+      try rewrite va; try rewrite vb; try (split; ring); ring.
+  - pose proof (H a) as Ha. cbn [degree_op]. destruct (f a) as [[p |] |]; try exact I;
+      intros [_ da]; cbn [has_degree all_op map_op is_scaled_by] in *; destruct (Ha da) as [ea va]; (split; [cbn; tauto |]); cbn [value map_op real_op];
+      [rewrite va; ring | destruct va as [va va']; rewrite va, va'; split; ring].
+  - pose proof (H a) as Ha. pose proof (H b) as Hb.
+    destruct (f a) as [[p |] |], (f b) as [[q |] |]; cbn [degree_op]; try exact I;
+      intros [_ [da db]]; cbn [has_degree all_op map_op is_scaled_by] in *; destruct (Ha da) as [ea va]; destruct (Hb db) as [eb vb];
+      (split; [cbn; tauto |]); cbn [value map_op real_op]; try match type of va with _ /\ _ => destruct va as [va va']; rewrite va, va' end; try match type of vb with _ /\ _ => destruct vb as [vb vb']; rewrite vb, vb' end;
+      try (split; ring); rewrite va, vb, power_sum; ring.
+  - pose proof (H a) as Ha. pose proof (H b) as Hb.
+    assert (E : forall d e, f a = Some d -> f b = Some e -> defined x scaled (F (Div (g a) (g b))) ->
+      defined x theta (F (Div (g a) (g b))) /\ is_scaled_by d (value x scaled (g a)) (value x theta (g a)) /\
+      is_scaled_by e (value x scaled (g b)) (value x theta (g b)) /\ value x scaled (g b) <> 0 /\ value x theta (g b) <> 0).
+    { intros d e ea eb [n [da db]]. rewrite ea in Ha. rewrite eb in Hb. cbn [has_degree all_op map_op defined_op] in *. destruct (Ha da) as [ea' va]. destruct (Hb db) as [eb' vb].
+      pose proof (not_zero_of _ _ _ vb n) as n'. split; [cbn; tauto | tauto]. }
+    destruct (f a) as [[p |] |], (f b) as [[q |] |]; cbn [degree_op]; try exact I; intro d; destruct (E _ _ eq_refl eq_refl d) as [d' [va [vb [n n']]]];
+      (split; [exact d' |]); cbn [is_scaled_by] in *; cbn [value map_op real_op].
+    + rewrite va, vb, power_minus. field. split; [exact n' |]. pose proof (power_positive q). lra.
+    + destruct va as [va va']. rewrite va, va'. unfold Rdiv. split; ring.
+    + destruct va as [va va']. rewrite va, va'. unfold Rdiv. split; ring.
+  - pose proof (H a) as Ha. destruct (f a) as [[p |] |]; cbn [degree_op]; try exact I;
+      intros [_ da]; cbn [has_degree all_op map_op is_scaled_by] in *; destruct (Ha da) as [ea va]; (split; [cbn; tauto |]); cbn [value map_op real_op];
+      [rewrite va, power_sum; ring | destruct va as [va va']; rewrite va, va'; split; ring].
+  - pose proof (H a) as Ha. destruct (f a) as [[p |] |]; cbn [degree_op]; try exact I. destruct (Z.even p) eqn:e; [| exact I].
+    intros [r da]. cbn [has_degree all_op map_op defined_op is_scaled_by] in *. destruct (Ha da) as [ea va]. apply Z.even_spec in e as [q ->]. replace (2 * q / 2)%Z with q by (rewrite Z.mul_comm, Z.div_mul; lia).
     replace (2 * q)%Z with (q + q)%Z in va by lia. rewrite power_sum in va. pose proof (power_positive q) as q0. set (u := powerRZ s q) in *. rewrite va in r.
     assert (r' : 0 < value x theta (g a)) by nra.
     split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, sqrt_mult, sqrt_square by nra. reflexivity.
-  - pose proof (H a) as Ha. pose proof (H b) as Hb. pose proof (H t) as Ht. destruct (f a) as [p |], (f b) as [q |], (f t) as [r |]; try exact I.
-    destruct ((p =? 0) && (q =? 0) && (r =? 0))%Z eqn:e; [| exact I]. apply andb_true_iff in e as [e e3]. apply andb_true_iff in e as [e1 e2]. apply Z.eqb_eq in e1, e2, e3. subst p q r.
-    intros [n [da [db dt]]]. cbn [has_degree all_op map_op defined_op powerRZ] in *. destruct (Ha da) as [ea va]. destruct (Hb db) as [eb vb]. destruct (Ht dt) as [et vt].
-    rewrite Rmult_1_l in va, vb, vt. rewrite va, vb, vt in n. split; [cbn; tauto |]. cbn [value map_op real_op]. rewrite va, vb, vt. ring.
+  - pose proof (H a) as Ha. pose proof (H b) as Hb. pose proof (H t) as Ht. destruct (f a) as [p |], (f b) as [q |], (f t) as [r |]; try exact I. cbn [degree_op].
+    destruct (forallb _ [p; q; r]) eqn:e; [| exact I]. cbn [forallb] in e. apply andb_true_iff in e as [e1 e]. apply andb_true_iff in e as [e2 e]. apply andb_true_iff in e as [e3 _].
+    intros [n [da [db dt]]]. cbn [has_degree all_op map_op defined_op] in *. destruct (Ha da) as [ea va]. destruct (Hb db) as [eb vb]. destruct (Ht dt) as [et vt].
+    apply (level_of _ _ _ e1) in va. apply (level_of _ _ _ e2) in vb. apply (level_of _ _ _ e3) in vt.
+    rewrite va, vb, vt in n. split; [cbn; tauto |]. cbn [value map_op real_op is_scaled_by powerRZ]. rewrite va, vb, vt. ring.
 Qed.
 
-Theorem degrees_sound : forall tape i, has_degree (nth i (degrees J tape) None) (nth i (formulas tape) (integer 0)).
+Theorem degrees_sound : forall tape i, match nth i (degrees J tape) None with
+  | Some k => let f := nth i (formulas tape) (integer 0) in defined x scaled f -> defined x theta f /\ value x scaled f = powerRZ s k * value x theta f
+  | None => True
+  end.
 Proof.
-  intros tape. apply (nth_related _ _ _ _ has_degree); [exact I |].
-  apply (run_related (option Z) formula None (integer 0) (degree_op J) F has_degree); [exact I | exact degree_op_sound | constructor].
+  intros tape i. unfold degrees. change (@None Z) with (option_map (fun d => match d with Some k => k | None => 0%Z end) None). rewrite map_nth.
+  assert (H : has_degree (nth i (run (option (option Z)) None (degree_op J) tape []) None) (nth i (formulas tape) (integer 0))).
+  { apply (nth_related _ _ _ _ has_degree); [exact I |].
+    apply (run_related (option (option Z)) formula None (integer 0) (degree_op J) F has_degree); [exact I | exact degree_op_sound | constructor]. }
+  destruct (nth i (run _ _ _ _ _) None) as [[k |] |]; cbn [option_map has_degree is_scaled_by] in *; [exact H | | exact I].
+  intro d. destruct (H d) as [d' [v w]]. split; [exact d' |]. rewrite v, w. ring.
 Qed.
 End Machines.
 

@@ -331,6 +331,29 @@ for (const to of [...places_of(/[-+0]/g, one_scale).map((at) => put(one_scale, a
 }
 read.push(scaled, fanned, both);
 console.log(`directions of one scale, and apart: three certificates and ${any} others with one answer, and ${places_of(/[-+0]/g, one_scale).length + 11} refused`);
+// Components of directions that are 0 as they are written; places; and what is accepted, and not covered.
+{
+  const written = (mechanism, workspace, require, by) => `${JSON.stringify({ format: "orthocert/2", claim: { machine: { mechanism, workspace, require } }, verdict: "certified",
+    proof: { tree: { precision: 46, nodes: [{ by }] } }, provenance: { tool: "hand", version: "1" } })}\n`;
+  const unit = (n, places, least = 1) => ({ y: [...Array(n)].map((_, i) => [...Array(n)].map((_, j) => i === j ? least : 0)), places }), at = (k, x, n = 3) => [...Array(n)].map((_, i) => i === k ? x : "0");
+  const slider = (direction, k) => ({ drive: "slider", direction, anchor: at(k, "-1"), platform: at(0, "0"), length: "2", mode: "+" });
+  const sliders = (direction) => ({ translational: [slider(direction, 0), slider(at(1, "1"), 1), slider(at(2, "1.5"), 2)] });
+  const strut = (k) => ({ drive: "strut", anchor: at(k, "-2", 2), platform: ["0", "0"] });
+  const box = (n) => ({ box: { min: Array(n).fill("-0.1"), max: Array(n).fill("0.1") } }), round = { cylinder: { center: ["0", "0"], radius: "0.1", z: ["-0.1", "0.1"] } };
+  const long = { min: "0.9", max: "1" }, off = { min: "-0.01", max: "0.01" }, rank = (places, least) => ({ rank: unit(3, places, least) });
+  const apart = (direction, ends) => written(sliders(direction), box(3), [], [[0, { tolerances: [rank(1), ends, [[1, 1, 1]]] }]]);
+  for (const [text, exact_answer, answer] of [
+    [apart([long, "0", "0"], "1"), "CERTIFIED"], [apart([long, off, "0"], "10"), "CERTIFIED"], [apart([long, "0.01", "0"], "1"), "REJECTED"], [apart([long, { min: "0.01", max: "0.02" }, "0"], "10"), "REJECTED"],
+    [written(sliders(at(0, "1")), box(3), [], [[0, rank(63, 2 ** 40)]]), "CERTIFIED"], [written(sliders(at(0, "1")), box(3), [], [[0, rank(64, 2 ** 40)]]), "REJECTED"],
+    [written(sliders(at(0, "1")), round, [], [[0, { inside: [rank(1), 1, 10] }]]), "CERTIFIED", 'NOT COVERED: the evidence "inside" about "rank"'],
+    [written({ planar: { legs: [strut(0), strut(1)] } }, box(2), [{ quantity: "parallel_margin", end: "min", bound: "0.9" }], [[0, { rank: unit(2, 1) }], [1, "test"]]), "CERTIFIED",
+      'NOT COVERED: "parallel_margin" of struts in the plane'],
+  ]) {
+    const answers = three_answers(text);
+    if (answers[0] !== exact_answer || answers[1] !== answers[2] || !answers[1].startsWith(answer ?? exact_answer)) fail(`${answers}: ${text}`);
+    if (exact_answer !== "REJECTED") agrees(one_of, answers[1]);
+  }
+}
 // Two points, or poses, with the same joint coordinates: legs whose joints in the base are in one plane, or on a line as those on the platform, and mirror images there.
 {
   const inverse = (m) => {

@@ -72,7 +72,7 @@ let integer v =
   let s = digits v in
   if s.[0] = '-' then Z.opp (natural (String.sub s 1 (String.length s - 1))) else natural s
 let positive v = Z.to_pos (natural (digits v))
-let places v = Z.to_N (natural (digits v))
+let places v = match digits v with s when String.length s <= 2 && int_of_string s < 64 -> Z.to_N (natural s) | _ -> raise Malformed
 (* Counts of what is in a file: small. *)
 let count v =
   let s = digits v in
@@ -342,13 +342,16 @@ let matrix (n, m) v =
   let l = members v in
   let y = List.map (row m) (array (get l "y")) in
   if List.length y <> n then raise Malformed else (y, places (get l "places"))
-let rec evidence (n, m as shape) v =
+let rec evidence shape v =
+  (* Of the test of one leg, one number. *)
+  let (_, m as shape) = match v with Object [ ("lower", Object [ ("y", Array [ Array [ _ ] ]); _ ]) ] -> (1, 1) | _ -> shape in
   let multiplier f v = let y, places = matrix shape v in f y places in
   match v with
   | String name -> Plain name
   | Object [ ("corner", f) ] -> AtCorner (face f)
   | Object [ ("control", e) ] -> AtControls_ (at_controls shape e)
   | Object [ ("tolerances", Array [ e; ends; directions ]) ] -> Apart_ (evidence shape e, string ends, List.map integers (array directions))
+  | Object [ ("inside", Array [ Object [ ("rank", _) ]; _; _ ]) ] -> not_covered [ "the evidence \"inside\" about \"rank\"" ]
   | Object [ ("inside", Array [ e; k; p ]) ] -> Inside_ (evidence shape e, integer k, places p)
   | Object [ ("accuracy", Array [ y; kappa; q ]) ] ->
     multiplier (fun y p -> Accurate_ (y, p, integer kappa, places q)) y
@@ -366,11 +369,7 @@ let rec evidence (n, m as shape) v =
     Fan_ (List.map part parts)
   | Object [ (name, _) ] -> not_covered [ "the evidence \""; name; "\"" ]
   | _ -> raise Malformed
-(* At control points; of the test of one leg, one number. *)
 and at_controls shape v =
-  let evidence shape = function
-    | Object [ ("lower", Object [ ("y", Array [ Array [ _ ] ]); _ ]) ] as e -> evidence (1, 1) e
-    | e -> evidence shape e in
   match v with
   | Object [ ("turned", Array [ (String ("test" | "chords") | Object [ (("lower" | "rank" | "conditioning" | "accuracy"), _) ]) as e; n; p ]) ] -> Turned_ (evidence shape e, integer n, places p)
   | String ("test" | "chords") | Object [ (("lower" | "rank" | "conditioning" | "accuracy"), _) ] -> evidence shape v
@@ -460,6 +459,8 @@ let certificate text =
      not_covered [ "this evidence \"tolerances\" of a platform that turns" ]
    | Legs_ _, Nodes (_, _, nodes) when List.exists (fun n -> List.exists (fun (_, s) -> match s with Turned_ _ | AtControls_ _ -> true | _ -> false) n.by_) nodes ->
      not_covered [ "this set of orientations with such drives" ]
+   | Legs_ (_, legs, _, _, _, rs), _ when List.exists (fun r -> r.about_ = Parallel_) rs && List.exists (function AnyStrut_ _ -> true | _ -> false) legs ->
+     not_covered [ "\"parallel_margin\" of struts in the plane" ]
    | Turning_ (kind, _, _, _, orientation, _, rs), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs &&
        (match kind, orientation with InSpace, Angle_ _ -> false | _ -> true) -> not_covered [ "\"one_to_one\" of this set of orientations" ]
    | (Legs_ (_, _, _, _, _, rs) | Closed_ (_, _, rs)), Nodes _ when List.exists (fun r -> r.about_ = OneToOne_) rs -> not_covered [ "\"one_to_one\" of such a mechanism" ]

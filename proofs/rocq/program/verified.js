@@ -4,10 +4,10 @@ globalThis!=="object"&&(this?b():(a.defineProperty(a.prototype,"_T_",{configurab
 b(){var
 b=this||self;b.globalThis=b;delete
 a.prototype._T_}}(Object));(function(M){"use strict";var
-jE="spatial",qI="Invalid_argument",hb="precision",aJ='"',jD=1255,qH="inside",pG="(",pH=0x800,qG="yaw",pD="range",pE="tree",pF="jsError",cc=0x8000,qF="sqrt(",pC=256,ha="obligation",fA="offset",bi="machine",pB="End_of_file",ez="strut",jC="center",fz="arm",jB="Failure",qE="serial_margin",hj="parameters",cD=0xff,qD="bodies",qC="max_angle",jP="outside",hi="base_axis",jA="ENOENT",qB="singular",qA=122,pA="([^/]+)",qz="0",jz=0xf,fy=128,pz=0xdc00,qx="Sys_blocked_io",qy="fd ",fp="given",py="ENOTEMPTY",aX=248,g$="bound",px="Division_by_zero",qv="by",qw=1027,pw="Sys_error",hh="slider",pv="torsion",qu="postulate",pu="proof",jO="joint_error",fx="refuted",eu="mechanism",g_="row",pt="EEXIST",qt="roll_pitch_yaw",fw="y",ps="cube",dE="lower",qs="within",pr="clearance",qr="turned",pq="control",g9="int_of_string",qp="definitions",qq="dependent",fv=1024,po="from",pp="name",qo=" : flags Open_rdonly and Open_wronly are not compatible",pn="orthocert/2",qn="reach",pm=512,ql="base_joint",qm="witness",fu="-",bb="platform",pl=0x7ff0,pk="pitch",jN=": Not a directory",bB="min",qj="trim",ey="workspace",qk=" : file already exists",g8="split",qh='the failure "singular" of such a mechanism',jM="legs",qi="claim",jy="joint",dF=0xffffff,pj="platform_joint",pi="formulas",ph="roll",g7="atlas",qe="greatest",qf="nodes",qg="Out_of_memory",pg="psi_max",hg="orientation",g6=254,qd="angle",jL="index out of bounds",pf="end",qc="one_to_one",hf="_bigarr02",pe=" : flags Open_text and Open_binary are not compatible",qb="inverse",bV="drive",pd="coordinates",qa="holds",pc="lower_divided",pb="speed",p_="cylinder",p$="joints",cC=0xffff,p7="a leaf that fails",p8="acceleration",fs="certified",ft="chords",p9=12520,jx="on",p6="same",et="accuracy",fr="axis",p5="no_cube",p4="parallel_margin",pa='the drive "',jw="Unix.Unix_error",he="fails",g5="tool",jv="mkdir",p2="rho",p3="least",hd=1000,ju="translational",jK="tolerances",o$="Stack_overflow",jJ="characteristic_length",$="",jI="^",g3="places",g4=": No such file or directory",o_="/static/",ex=0x3f,o8="stiffness",o9="Not_found",dD="planar",fo="mode",p1="joint_speed",p0="Match_failure",o7="transmission",bA="anchor",pZ="at",o6="joint_force",ew="leg",o5="joint_acceleration",hc="+",jt="rmdir",pY=0xf0,pX="spherical",o4=1026,pV="REJECTED",pW="undecided",bC="max",cd="direction",o2="leg_angle",o3="orthoglide",fq="rank",pT="constraint_margin",pU="fan",g2="test",o0="Pervasives.do_at_exit",o1="utf8",bU=0x80,ev="conditioning",es="length",oZ="Undefined_recursive_module",jH=")",oY="base",pS="quantity",oX="joint_range",g1="tilt",oW="Q2",pR='the failure "same" of such a mechanism',pQ="reference",oU="this quantity in a claim that is refuted",oV="point",pO="corner",pP=0xe0,oT="version",jG="z",pM="to",pN=0xdfff,js="compare: functional value",pL="Assert_failure",bX="/",pK="provenance",dC="radius",g0="side",bW="require",pJ="format",oS="Q1",jF="ENOTDIR",oR="all",dB="box",pI=250;function
+jF="spatial",qI="Invalid_argument",hb="precision",aJ='"',jE=1255,qH="inside",pG="(",pH=0x800,qG="yaw",pD="range",pE="tree",pF="jsError",cc=0x8000,qF="sqrt(",pC=256,ha="obligation",fA="offset",bi="machine",pB="End_of_file",eA="strut",jD="center",fz="arm",jC="Failure",qE="serial_margin",hj="parameters",cD=0xff,qD="bodies",qC="max_angle",jQ="outside",hi="base_axis",jB="ENOENT",qB="singular",qA=122,pA="([^/]+)",qz="0",jA=0xf,fy=128,pz=0xdc00,qx="Sys_blocked_io",qy="fd ",fq="given",py="ENOTEMPTY",aX=248,g$="bound",px="Division_by_zero",qv="by",qw=1027,pw="Sys_error",hh="slider",pv="torsion",qu="postulate",pu="proof",jP="joint_error",fx="refuted",eu="mechanism",g_="row",pt="EEXIST",qt="roll_pitch_yaw",fw="y",ps="cube",dE="lower",qs="within",pr="clearance",qr="turned",pq="control",g9="int_of_string",qp="definitions",qq="dependent",fv=1024,po="from",pp="name",qo=" : flags Open_rdonly and Open_wronly are not compatible",pn="orthocert/2",qn="reach",pm=512,ql="base_joint",qm="witness",fu="-",bb="platform",pl=0x7ff0,pk="pitch",jO=": Not a directory",bB="min",qj="trim",ez="workspace",qk=" : file already exists",g8="split",qh='the failure "singular" of such a mechanism',jN="legs",qi="claim",jz="joint",dF=0xffffff,pj="platform_joint",pi="formulas",ph="roll",g7="atlas",qe="greatest",qf="nodes",qg="Out_of_memory",pg="psi_max",hg="orientation",g6=254,qd="angle",jM="index out of bounds",pf="end",qc="one_to_one",hf="_bigarr02",pe=" : flags Open_text and Open_binary are not compatible",qb="inverse",bV="drive",pd="coordinates",qa="holds",pc="lower_divided",pb="speed",p_="cylinder",p$="joints",cC=0xffff,p7="a leaf that fails",p8="acceleration",fs="certified",ft="chords",p9=12520,jy="on",p6="same",et="accuracy",fr="axis",p5="no_cube",p4="parallel_margin",pa='the drive "',jx="Unix.Unix_error",he="fails",g5="tool",jw="mkdir",p2="rho",p3="least",hd=1000,jv="translational",jL="tolerances",o$="Stack_overflow",jK="characteristic_length",aa="",jJ="^",g3="places",g4=": No such file or directory",o_="/static/",ey=0x3f,o8="stiffness",o9="Not_found",dD="planar",fp="mode",p1="joint_speed",p0="Match_failure",o7="transmission",bA="anchor",pZ="at",o6="joint_force",ex="leg",o5="joint_acceleration",hc="+",ju="rmdir",pY=0xf0,pX="spherical",o4=1026,pV="REJECTED",pW="undecided",bC="max",cd="direction",o2="leg_angle",o3="orthoglide",ew="rank",pT="constraint_margin",pU="fan",g2="test",o0="Pervasives.do_at_exit",o1="utf8",bU=0x80,ev="conditioning",es="length",oZ="Undefined_recursive_module",jI=")",oY="base",pS="quantity",oX="joint_range",g1="tilt",oW="Q2",pR='the failure "same" of such a mechanism',pQ="reference",oU="this quantity in a claim that is refuted",oV="point",pO="corner",pP=0xe0,oT="version",jH="z",pM="to",pN=0xdfff,jt="compare: functional value",pL="Assert_failure",bX="/",pK="provenance",dC="radius",g0="side",bW="require",pJ="format",oS="Q1",jG="ENOTDIR",oR="all",dB="box",pI=250;function
 j2(c,b,a){var
 d=String.fromCharCode;if(b==0&&a<=4096&&a==c.length)return d.apply(null,c);var
-e=$;for(;0<a;b+=fv,a-=fv)e+=d.apply(null,c.slice(b,b+Math.min(a,fv)));return e}function
+e=aa;for(;0<a;b+=fv,a-=fv)e+=d.apply(null,c.slice(b,b+Math.min(a,fv)));return e}function
 hl(b){if(M.Uint8Array)var
 c=new(M.Uint8Array)(b.l);else
 var
@@ -22,9 +22,9 @@ for(var
 a=c-1;a>=0;a--)h[f+a]=g[e+a];else{var
 i=Math.min(c,g.length-e);for(var
 a=0;a<i;a++)h[f+a]=g.charCodeAt(e+a);for(;a<c;a++)h[f+a]=0}}return 0}function
-eC(a){return a}function
-eB(a,b,c,d,e){fB(eC(a),b,c,d,e);return 0}function
-jR(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
+eD(a){return a}function
+eC(a,b,c,d,e){fB(eD(a),b,c,d,e);return 0}function
+jS(a,b){switch(a.t&6){default:if(b>=a.c.length)return 0;case
 0:return a.c.charCodeAt(b);case
 4:return a.c[b]}}function
 c8(c,a){if(c.fun)return c8(c.fun,a);if(typeof
@@ -37,22 +37,22 @@ e=arguments.length==0?1:arguments.length,d=new
 Array(a.length+e);for(var
 b=0;b<a.length;b++)d[b]=a[b];for(var
 b=0;b<arguments.length;b++)d[a.length+b]=arguments[b];return c8(c,d)}}function
-q_(b,a){if(b==0)return $;if(a.repeat)return a.repeat(b);var
-d=$,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
-eD(a){if(a.t==2)a.c+=q_(a.l-a.c.length,"\0");else
+q_(b,a){if(b==0)return aa;if(a.repeat)return a.repeat(b);var
+d=aa,c=0;for(;;){if(b&1)d+=a;b>>=1;if(b==0)return d;a+=a;c++;if(c==9)a.slice(0,1)}}function
+eE(a){if(a.t==2)a.c+=q_(a.l-a.c.length,"\0");else
 a.c=j2(a.c,0,a.c.length);a.t=0}function
-eE(a){a.t&6&&eD(a);return a.c}var
-Ho=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
-Hn(a){if(Ho)return Math.floor(Math.log2(a));var
+eF(a){a.t&6&&eE(a);return a.c}var
+Hv=Math.log2&&Math.log2(1.1235582092889474E+307)==1020;function
+Hu(a){if(Hv)return Math.floor(Math.log2(a));var
 b=0;if(a==0)return-Infinity;if(a>=1)while(a>=2){a/=2;b++}else
 while(a<1){a*=2;b--}return b}function
-jU(c){var
+jV(c){var
 a=new(M.Float32Array)(1);a[0]=c;var
 b=new(M.Int32Array)(a.buffer);return b[0]|0}var
 q1=Math.pow(2,-24);function
-He(a){throw a}var
+Hl(a){throw a}var
 ax=[0];function
-q7(){He(ax.Division_by_zero)}function
+q7(){Hl(ax.Division_by_zero)}function
 L(b,c,a){this.lo=b&dF;this.mi=c&dF;this.hi=a&cC}L.prototype.caml_custom="_j";L.prototype.copy=function(){return new
 L(this.lo,this.mi,this.hi)};L.prototype.ucompare=function(a){if(this.hi>a.hi)return 1;if(this.hi<a.hi)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.compare=function(a){var
 b=this.hi<<16,c=a.hi<<16;if(b>c)return 1;if(b<c)return-1;if(this.mi>a.mi)return 1;if(this.mi<a.mi)return-1;if(this.lo>a.lo)return 1;if(this.lo<a.lo)return-1;return 0};L.prototype.neg=function(){var
@@ -90,10 +90,10 @@ hn(b,c,a){return new
 L(b,c,a)}function
 hm(a){if(!isFinite(a)){if(isNaN(a))return hn(1,0,pl);return a>0?hn(0,0,pl):hn(0,0,0xfff0)}var
 f=a==0&&1/a==-Infinity?cc:a>=0?0:cc;if(f)a=-a;var
-b=Hn(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-o4)}else{a/=Math.pow(2,b-qw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
+b=Hu(a)+1023;if(b<=0){b=0;a/=Math.pow(2,-o4)}else{a/=Math.pow(2,b-qw);if(a<16){a*=2;b-=1}if(b==0)a/=2}var
 d=Math.pow(2,24),c=a|0;a=(a-c)*d;var
 e=a|0;a=(a-e)*d;var
-g=a|0;c=c&jz|f|b<<4;return hn(g,e,c)}function
+g=a|0;c=c&jA|f|b<<4;return hn(g,e,c)}function
 fE(a){return a.toArray()}function
 qP(c,b,g){c.write(32,b.dims.length);c.write(32,b.kind|b.layout<<8);if(b.caml_custom==hf)for(var
 a=0;a<b.dims.length;a++)if(b.dims[a]<cC)c.write(16,b.dims[a]);else{c.write(16,cC);c.write(32,0);c.write(32,b.dims[a])}else
@@ -121,28 +121,28 @@ e=fE(hm(b.get(a)));for(var
 d=0;d<8;d++)c.write(8,e[d])}break;case
 0:for(var
 a=0;a<b.data.length;a++){var
-e=jU(b.get(a));c.write(32,e)}break;case
+e=jV(b.get(a));c.write(32,e)}break;case
 10:for(var
 a=0;a<b.data.length/2;a++){var
-d=b.get(a);c.write(32,jU(d[1]));c.write(32,jU(d[2]))}break;case
+d=b.get(a);c.write(32,jV(d[1]));c.write(32,jV(d[2]))}break;case
 11:for(var
 a=0;a<b.data.length/2;a++){var
 f=b.get(a),e=fE(hm(f[1]));for(var
 d=0;d<8;d++)c.write(8,e[d]);var
 e=fE(hm(f[2]));for(var
 d=0;d<8;d++)c.write(8,e[d])}break}g[0]=(4+b.dims.length)*4;g[1]=(4+b.dims.length)*8}function
-Hg(b,a){throw[0,b,a]}function
+Hn(b,a){throw[0,b,a]}function
 rd(a){if(a.length<24){for(var
 b=0;b<a.length;b++)if(a.charCodeAt(b)>127)return false;return true}else
 return!/[^\x00-\x7f]/.test(a)}function
 j3(e){for(var
-j=$,c=$,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bU){for(var
-d=b+1;d<i&&(f=e.charCodeAt(d))<bU;d++);if(d-b>pm){c.substr(0,1);j+=c;c=$;j+=e.slice(b,d)}else
+j=aa,c=aa,g,f,h,a,b=0,i=e.length;b<i;b++){f=e.charCodeAt(b);if(f<bU){for(var
+d=b+1;d<i&&(f=e.charCodeAt(d))<bU;d++);if(d-b>pm){c.substr(0,1);j+=c;c=aa;j+=e.slice(b,d)}else
 c+=e.slice(b,d);if(d==i)break;b=d}a=1;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy){g=h+(f<<6);if(f<pP){a=g-0x3080;if(a<bU)a=1}else{a=2;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy){g=h+(g<<6);if(f<pY){a=g-0xe2080;if(a<pH||a>=0xd7ff&&a<0xe000)a=2}else{a=3;if(++b<i&&((h=e.charCodeAt(b))&-64)==fy&&f<0xf5){a=h-0x3c82080+(g<<6);if(a<0x10000||a>0x10ffff)a=3}}}}}if(a<4){b-=a;c+="\ufffd"}else
 if(a>cC)c+=String.fromCharCode(0xd7c0+(a>>10),pz+(a&0x3FF));else
-c+=String.fromCharCode(a);if(c.length>fv){c.substr(0,1);j+=c;c=$}}return j+c}function
+c+=String.fromCharCode(a);if(c.length>fv){c.substr(0,1);j+=c;c=aa}}return j+c}function
 ce(c,a,b){this.t=c;this.c=a;this.l=b}ce.prototype.toString=function(){switch(this.t){case
-9:return this.c;default:eD(this);case
+9:return this.c;default:eE(this);case
 0:if(rd(this.c)){this.t=9;return this.c}this.t=8;case
 8:return this.c}};ce.prototype.toUtf16=function(){var
 a=this.toString();if(this.t==9)return a;return j3(a)};ce.prototype.slice=function(){var
@@ -151,13 +151,13 @@ ce(this.t,a,this.l)};function
 qS(a){return new
 ce(0,a,a.length)}function
 a(a){return qS(a)}function
-j1(c,b){Hg(c,a(b))}function
+j1(c,b){Hn(c,a(b))}function
 aQ(a){j1(ax.Invalid_argument,a)}function
 qN(a){switch(a){case
 7:case
 10:case
 11:return 2;default:return 1}}function
-GK(c,e){var
+GR(c,e){var
 b=M,a;switch(c){case
 0:a=b.Float32Array;break;case
 1:a=b.Float64Array;break;case
@@ -174,25 +174,25 @@ b=M,a;switch(c){case
 12:a=b.Uint8Array;break}if(!a)aQ("Bigarray.create: unsupported kind");var
 d=new
 a(e*qN(c));return d}function
-jV(c){var
+jW(c){var
 a=new(M.Int32Array)(1);a[0]=c;var
 b=new(M.Float32Array)(a.buffer);return b[0]}function
 fD(a){return new
 L(a[7]<<0|a[6]<<8|a[5]<<16,a[4]<<0|a[3]<<8|a[2]<<16,a[1]<<0|a[0]<<8)}function
-jW(d){var
-f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jz)==0?b&cc?-Infinity:Infinity:NaN;var
-e=Math.pow(2,-24),a=(f*e+g)*e+(b&jz);if(c>0){a+=16;a*=Math.pow(2,c-qw)}else
+jX(d){var
+f=d.lo,g=d.mi,b=d.hi,c=(b&0x7fff)>>4;if(c==2047)return(f|g|b&jA)==0?b&cc?-Infinity:Infinity:NaN;var
+e=Math.pow(2,-24),a=(f*e+g)*e+(b&jA);if(c>0){a+=16;a*=Math.pow(2,c-qw)}else
 a*=Math.pow(2,-o4);if(b&cc)a=-a;return a}function
-jQ(b){var
+jR(b){var
 d=b.length,c=1;for(var
 a=0;a<d;a++){if(b[a]<0)aQ("Bigarray.create: negative dimension");c=c*b[a]}return c}function
-G0(b,a){return new
+G7(b,a){return new
 L(b&dF,b>>>24&cD|(a&cC)<<8,a>>>16&cC)}function
-jX(a){return a.hi32()}function
-jY(a){return a.lo32()}function
-hk(){aQ(jL)}var
-GL=hf;function
-c7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c7.prototype.caml_custom=GL;c7.prototype.offset=function(b){var
+jY(a){return a.hi32()}function
+jZ(a){return a.lo32()}function
+hk(){aQ(jM)}var
+GS=hf;function
+c7(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}c7.prototype.caml_custom=GS;c7.prototype.offset=function(b){var
 c=0;if(typeof
 b==="number")b=[b];if(!(b
 instanceof
@@ -201,15 +201,15 @@ a=0;a<this.dims.length;a++){if(b[a]<0||b[a]>=this.dims[a])hk();c=c*this.dims[a]+
 for(var
 a=this.dims.length-1;a>=0;a--){if(b[a]<1||b[a]>this.dims[a])hk();c=c*this.dims[a]+(b[a]-1)}return c};c7.prototype.get=function(a){switch(this.kind){case
 7:var
-d=this.data[a*2+0],b=this.data[a*2+1];return G0(d,b);case
+d=this.data[a*2+0],b=this.data[a*2+1];return G7(d,b);case
 10:case
 11:var
 e=this.data[a*2+0],c=this.data[a*2+1];return[g6,e,c];default:return this.data[a]}};c7.prototype.set=function(a,b){switch(this.kind){case
-7:this.data[a*2+0]=jY(b);this.data[a*2+1]=jX(b);break;case
+7:this.data[a*2+0]=jZ(b);this.data[a*2+1]=jY(b);break;case
 10:case
 11:this.data[a*2+0]=b[1];this.data[a*2+1]=b[2];break;default:this.data[a]=b;break}return 0};c7.prototype.fill=function(b){switch(this.kind){case
 7:var
-c=jY(b),e=jX(b);if(c==e)this.data.fill(c);else
+c=jZ(b),e=jY(b);if(c==e)this.data.fill(c);else
 for(var
 a=0;a<this.data.length;a++)this.data[a]=a%2==0?c:e;break;case
 10:case
@@ -236,17 +236,17 @@ a=0;a<this.data.length;a+=2){if(this.data[a+1]<b.data[a+1])return-1;if(this.data
 9:case
 12:for(var
 a=0;a<this.data.length;a++){if(this.data[a]<b.data[a])return-1;if(this.data[a]>b.data[a])return 1}break}return 0};function
-eA(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eA.prototype=new
-c7();eA.prototype.offset=function(a){if(typeof
+eB(c,d,b,a){this.kind=c;this.layout=d;this.dims=b;this.data=a}eB.prototype=new
+c7();eB.prototype.offset=function(a){if(typeof
 a!=="number")if(a
 instanceof
 Array&&a.length==1)a=a[0];else
-aQ("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hk();return a};eA.prototype.get=function(a){return this.data[a]};eA.prototype.set=function(a,b){this.data[a]=b;return 0};eA.prototype.fill=function(a){this.data.fill(a);return 0};function
+aQ("Ml_Bigarray_c_1_1.offset");if(a<0||a>=this.dims[0])hk();return a};eB.prototype.get=function(a){return this.data[a]};eB.prototype.set=function(a,b){this.data[a]=b;return 0};eB.prototype.fill=function(a){this.data.fill(a);return 0};function
 qL(c,d,a,b){var
-e=qN(c);if(jQ(a)*e!=b.length)aQ("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
-eA(c,d,a,b);return new
+e=qN(c);if(jR(a)*e!=b.length)aQ("length doesn't match dims");if(d==0&&a.length==1&&e==1)return new
+eB(c,d,a,b);return new
 c7(c,d,a,b)}function
-bY(b){if(!ax.Failure)ax.Failure=[aX,a(jB),-3];j1(ax.Failure,b)}function
+bY(b){if(!ax.Failure)ax.Failure=[aX,a(jC),-3];j1(ax.Failure,b)}function
 qM(b,v,r){var
 i=b.read32s();if(i<0||i>16)bY("input_value: wrong number of bigarray dimensions");var
 p=b.read32s(),j=p&cD,o=p>>8&1,h=[];if(r==hf)for(var
@@ -255,7 +255,7 @@ n=b.read16u();if(n==cC){var
 t=b.read32u(),u=b.read32u();if(t!=0)bY("input_value: bigarray dimension overflow in 32bit");n=u}h.push(n)}else
 for(var
 a=0;a<i;a++)h.push(b.read32u());var
-d=jQ(h),f=GK(j,d),g=qL(j,o,h,f);switch(j){case
+d=jR(h),f=GR(j,d),g=qL(j,o,h,f);switch(j){case
 2:for(var
 a=0;a<d;a++)f[a]=b.read8s();break;case
 3:case
@@ -282,28 +282,28 @@ e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-k=jW(fD(e));g.set(a,k)}break;case
+k=jX(fD(e));g.set(a,k)}break;case
 0:for(var
 a=0;a<d;a++){var
-k=jV(b.read32s());g.set(a,k)}break;case
+k=jW(b.read32s());g.set(a,k)}break;case
 10:for(var
 a=0;a<d;a++){var
-m=jV(b.read32s()),l=jV(b.read32s());g.set(a,[g6,m,l])}break;case
+m=jW(b.read32s()),l=jW(b.read32s());g.set(a,[g6,m,l])}break;case
 11:var
 e=new
 Array(8);for(var
 a=0;a<d;a++){for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-m=jW(fD(e));for(var
+m=jX(fD(e));for(var
 c=0;c<8;c++)e[c]=b.read8u();var
-l=jW(fD(e));g.set(a,[g6,m,l])}break}v[0]=(4+i)*4;return qL(j,o,h,f)}function
+l=jX(fD(e));g.set(a,[g6,m,l])}break}v[0]=(4+i)*4;return qL(j,o,h,f)}function
 qK(a,b,c){return a.compare(b,c)}function
 q4(a,b){return Math.imul(a,b)}function
 cE(b,a){a=q4(a,0xcc9e2d51|0);a=a<<15|a>>>32-15;a=q4(a,0x1b873593);b^=a;b=b<<13|b>>>32-13;return(b+(b<<2)|0)+(0xe6546b64|0)|0}function
-GX(a,b){a=cE(a,jY(b));a=cE(a,jX(b));return a}function
-q0(a,b){return GX(a,hm(b))}function
+G4(a,b){a=cE(a,jZ(b));a=cE(a,jY(b));return a}function
+q0(a,b){return G4(a,hm(b))}function
 qO(c){var
-b=jQ(c.dims),d=0;switch(c.kind){case
+b=jR(c.dims),d=0;switch(c.kind){case
 2:case
 3:case
 12:if(b>pC)b=pC;var
@@ -327,23 +327,23 @@ a=0;a<b;a++)d=q0(d,c.data[a]);break;case
 11:b*=2;case
 1:if(b>32)b=32;for(var
 a=0;a<b;a++)d=q0(d,c.data[a]);break}return d}function
-GY(a,b){b[0]=4;return a.read32s()}function
-Hb(a,b){switch(a.read8u()){case
+G5(a,b){b[0]=4;return a.read32s()}function
+Hi(a,b){switch(a.read8u()){case
 1:b[0]=4;return a.read32s();case
 2:bY("input_value: native integer value too large");default:bY("input_value: ill-formed native integer")}}function
-G3(c,d){var
+G_(c,d){var
 b=new
 Array(8);for(var
 a=0;a<8;a++)b[a]=c.read8u();d[0]=8;return fD(b)}function
-G2(e,d,b){var
+G9(e,d,b){var
 c=fE(d);for(var
 a=0;a<8;a++)e.write(8,c[a]);b[0]=8;b[1]=8}function
-GZ(a,b,c){return a.compare(b)}function
-G1(a){return a.lo32()^a.hi32()}var
-qV={"_j":{deserialize:G3,serialize:G2,fixed_length:8,compare:GZ,hash:G1},"_i":{deserialize:GY,fixed_length:4},"_n":{deserialize:Hb,fixed_length:4},"_bigarray":{deserialize:function(a,b){return qM(a,b,"_bigarray")},serialize:qP,compare:qK,hash:qO},"_bigarr02":{deserialize:function(a,b){return qM(a,b,hf)},serialize:qP,compare:qK,hash:qO}};function
-jT(a){return qV[a.caml_custom]&&qV[a.caml_custom].compare}function
+G6(a,b,c){return a.compare(b)}function
+G8(a){return a.lo32()^a.hi32()}var
+qV={"_j":{deserialize:G_,serialize:G9,fixed_length:8,compare:G6,hash:G8},"_i":{deserialize:G5,fixed_length:4},"_n":{deserialize:Hi,fixed_length:4},"_bigarray":{deserialize:function(a,b){return qM(a,b,"_bigarray")},serialize:qP,compare:qK,hash:qO},"_bigarr02":{deserialize:function(a,b){return qM(a,b,hf)},serialize:qP,compare:qK,hash:qO}};function
+jU(a){return qV[a.caml_custom]&&qV[a.caml_custom].compare}function
 qT(f,c,d,e){var
-b=jT(c);if(b){var
+b=jU(c);if(b){var
 a=d>0?b(c,f,e):b(f,c,e);if(e&&a!=a)return d;if(+a!=+a)return+a;if((a|0)!=0)return a|0}return d}function
 j0(a){return a
 instanceof
@@ -365,23 +365,23 @@ a=="string")return p9;else
 if(a
 instanceof
 Number)return hd;else
-if(a&&a.caml_custom)return jD;else
+if(a&&a.caml_custom)return jE;else
 if(a&&a.compare)return 1256;else
 if(typeof
 a=="function")return 1247;else
 if(typeof
 a=="symbol")return 1251;return 1001}function
-G4(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
-qR(a,b){a.t&6&&eD(a);b.t&6&&eD(b);return a.c<b.c?-1:a.c>b.c?1:0}function
+G$(a,b){if(a<b)return-1;if(a==b)return 0;return 1}function
+qR(a,b){a.t&6&&eE(a);b.t&6&&eE(b);return a.c<b.c?-1:a.c>b.c?1:0}function
 q$(a,b){return qR(a,b)}function
-jS(a,b,d){var
+jT(a,b,d){var
 e=[];for(;;){if(!(d&&a===b)){var
 f=qU(a);if(f==pI){a=a[1];continue}var
-g=qU(b);if(g==pI){b=b[1];continue}if(f!==g){if(f==hd){if(g==jD)return qT(a,b,-1,d);return-1}if(g==hd){if(f==jD)return qT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
-247:aQ(js);break;case
+g=qU(b);if(g==pI){b=b[1];continue}if(f!==g){if(f==hd){if(g==jE)return qT(a,b,-1,d);return-1}if(g==hd){if(f==jE)return qT(b,a,1,d);return 1}return f<g?-1:1}switch(f){case
+247:aQ(jt);break;case
 248:var
-c=G4(a[2],b[2]);if(c!=0)return c|0;break;case
-249:aQ(js);break;case
+c=G$(a[2],b[2]);if(c!=0)return c|0;break;case
+249:aQ(jt);break;case
 250:aQ("equal: got Forward_tag, should not happen");break;case
 251:aQ("equal: abstract value");break;case
 252:if(a!==b){var
@@ -389,9 +389,9 @@ c=qR(a,b);if(c!=0)return c|0}break;case
 253:aQ("equal: got Double_tag, should not happen");break;case
 254:aQ("equal: got Double_array_tag, should not happen");break;case
 255:aQ("equal: got Custom_tag, should not happen");break;case
-1247:aQ(js);break;case
+1247:aQ(jt);break;case
 1255:var
-i=jT(a);if(i!=jT(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aQ("compare: abstract value");var
+i=jU(a);if(i!=jU(b))return a.caml_custom<b.caml_custom?-1:1;if(!i)aQ("compare: abstract value");var
 c=i(a,b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
 1256:var
 c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;break;case
@@ -399,135 +399,135 @@ c=a.compare(b,d);if(c!=c)return d?-1:c;if(c!==(c|0))return-1;if(c!=0)return c|0;
 1001:if(a<b)return-1;if(a>b)return 1;if(a!=b){if(!d)return NaN;if(a==a)return 1;if(b==b)return-1}break;case
 1251:if(a!==b){if(!d)return NaN;return 1}break;case
 1252:var
-a=eE(a),b=eE(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
+a=eF(a),b=eF(b);if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 12520:var
 a=a.toString(),b=b.toString();if(a!==b){if(a<b)return-1;if(a>b)return 1}break;case
 246:case
 254:default:if(a.length!=b.length)return a.length<b.length?-1:1;if(a.length>1)e.push(a,b,1);break}}if(e.length==0)return 0;var
 h=e.pop();b=e.pop();a=e.pop();if(h+1<a.length)e.push(a,b,h+1);a=a[h];b=b[h]}}function
-GS(a,b){return jS(a,b,true)}function
+GZ(a,b){return jT(a,b,true)}function
 cg(a){if(a<0)aQ("Bytes.create");return new
-ce(a?2:9,$,a)}function
-qW(a,b){return+(jS(a,b,false)==0)}function
-GU(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=$;a.t=2}else{a.c=q_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hl(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
-Hc=0;function
-qY(){return Hc++}function
-G6(a){return a.toUtf16()}function
+ce(a?2:9,aa,a)}function
+qW(a,b){return+(jT(a,b,false)==0)}function
+G1(a,c,b,d){if(b>0)if(c==0&&(b>=a.l||a.t==2&&b>=a.c.length))if(d==0){a.c=aa;a.t=2}else{a.c=q_(b,String.fromCharCode(d));a.t=b==a.l?0:2}else{if(a.t!=4)hl(a);for(b+=c;c<b;c++)a.c[c]=d}return 0}var
+Hj=0;function
+qY(){return Hj++}function
+Hb(a){return a.toUtf16()}function
 fF(){return typeof
 M.process!=="undefined"&&typeof
 M.process.versions!=="undefined"&&typeof
 M.process.versions.node!=="undefined"}function
-Hp(){function
-a(a){if(a.charAt(0)===bX)return[$,a.substring(1)];return}function
+Hw(){function
+a(a){if(a.charAt(0)===bX)return[aa,a.substring(1)];return}function
 b(c){var
-g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||$,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
-d=a[1]||$,f=a[2]||$;return[d,c.substring(d.length+f.length)]}return}return fF()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
-j7=Hp();function
+g=/^([a-zA-Z]:|[\\/]{2}[^\\/]+[\\/]+[^\\/]+)?([\\/])?([\s\S]*?)$/,a=g.exec(c),b=a[1]||aa,e=Boolean(b&&b.charAt(1)!==":");if(Boolean(a[2]||e)){var
+d=a[1]||aa,f=a[2]||aa;return[d,c.substring(d.length+f.length)]}return}return fF()&&M.process&&M.process.platform?M.process.platform==="win32"?b:a:a}var
+j7=Hw();function
 ra(a){return a.slice(-1)!==bX?a+bX:a}if(fF()&&M.process&&M.process.cwd)var
 fC=M.process.cwd().replace(/\\/g,bX);else
 var
 fC="/static";fC=ra(fC);function
-G8(a){a=G6(a);if(!j7(a))a=fC+a;var
+Hd(a){a=Hb(a);if(!j7(a))a=fC+a;var
 e=j7(a),d=e[1].split(bX),b=[];for(var
 c=0;c<d.length;c++)switch(d[c]){case"..":if(b.length>1)b.pop();break;case".":break;default:b.push(d[c]);break}b.unshift(e[0]);b.orig=a;return b}function
-Hk(e){for(var
-f=$,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bU){for(var
-d=c+1;d<g&&(a=e.charCodeAt(d))<bU;d++);if(d-c>pm){b.substr(0,1);f+=b;b=$;f+=e.slice(c,d)}else
-b+=e.slice(c,d);if(d==g)break;c=d}if(a<pH){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bU|a&ex)}else
-if(a<0xd800||a>=pN)b+=String.fromCharCode(pP|a>>12,bU|a>>6&ex,bU|a&ex);else
-if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pz||h>pN)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pY|a>>18,bU|a>>12&ex,bU|a>>6&ex,bU|a&ex)}if(b.length>fv){b.substr(0,1);f+=b;b=$}}return f+b}function
-GP(a){var
-b=9;if(!rd(a))b=8,a=Hk(a);return new
+Hr(e){for(var
+f=aa,b=f,a,h,c=0,g=e.length;c<g;c++){a=e.charCodeAt(c);if(a<bU){for(var
+d=c+1;d<g&&(a=e.charCodeAt(d))<bU;d++);if(d-c>pm){b.substr(0,1);f+=b;b=aa;f+=e.slice(c,d)}else
+b+=e.slice(c,d);if(d==g)break;c=d}if(a<pH){b+=String.fromCharCode(0xc0|a>>6);b+=String.fromCharCode(bU|a&ey)}else
+if(a<0xd800||a>=pN)b+=String.fromCharCode(pP|a>>12,bU|a>>6&ey,bU|a&ey);else
+if(a>=0xdbff||c+1==g||(h=e.charCodeAt(c+1))<pz||h>pN)b+="\xef\xbf\xbd";else{c++;a=(a<<10)+h-0x35fdc00;b+=String.fromCharCode(pY|a>>18,bU|a>>12&ey,bU|a>>6&ey,bU|a&ey)}if(b.length>fv){b.substr(0,1);f+=b;b=aa}}return f+b}function
+GW(a){var
+b=9;if(!rd(a))b=8,a=Hr(a);return new
 ce(b,a,a.length)}function
-eF(a){return GP(a)}var
-Hs=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pt,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jA,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jF,py,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
+eG(a){return GW(a)}var
+Hz=["E2BIG","EACCES","EAGAIN","EBADF","EBUSY","ECHILD","EDEADLK","EDOM",pt,"EFAULT","EFBIG","EINTR","EINVAL","EIO","EISDIR","EMFILE","EMLINK","ENAMETOOLONG","ENFILE","ENODEV",jB,"ENOEXEC","ENOLCK","ENOMEM","ENOSPC","ENOSYS",jG,py,"ENOTTY","ENXIO","EPERM","EPIPE","ERANGE","EROFS","ESPIPE","ESRCH","EXDEV","EWOULDBLOCK","EINPROGRESS","EALREADY","ENOTSOCK","EDESTADDRREQ","EMSGSIZE","EPROTOTYPE","ENOPROTOOPT","EPROTONOSUPPORT","ESOCKTNOSUPPORT","EOPNOTSUPP","EPFNOSUPPORT","EAFNOSUPPORT","EADDRINUSE","EADDRNOTAVAIL","ENETDOWN","ENETUNREACH","ENETRESET","ECONNABORTED","ECONNRESET","ENOBUFS","EISCONN","ENOTCONN","ESHUTDOWN","ETOOMANYREFS","ETIMEDOUT","ECONNREFUSED","EHOSTDOWN","EHOSTUNREACH","ELOOP","EOVERFLOW"];function
 dJ(d,f,e,a){var
-b=Hs.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
-c=[b,eF(f||$),eF(e||$)];return c}var
+b=Hz.indexOf(d);if(b<0){if(a==null)a=-9999;b=[0,a]}var
+c=[b,eG(f||aa),eG(e||aa)];return c}var
 q5={};function
 dG(a){return q5[a]}function
 dH(b,a){throw[0,b].concat(a)}function
-GO(a){return new
+GV(a){return new
 ce(4,a,a.length)}function
 ao(a){j1(ax.Sys_error,a)}function
-Hf(a){ao(a+g4)}function
-qQ(){aQ(jL)}function
-GN(b,a){if(a>>>0>=b.l)qQ();return jR(b,a)}function
-ho(a){return a.l}function
+Hm(a){ao(a+g4)}function
+qQ(){aQ(jM)}function
+GU(b,a){if(a>>>0>=b.l)qQ();return jS(b,a)}function
+hp(a){return a.l}function
 qJ(){}function
 aO(a){this.data=a}aO.prototype=new
 qJ();aO.prototype.truncate=function(a){var
-b=this.data;this.data=cg(a|0);fB(b,0,this.data,0,a)};aO.prototype.length=function(){return ho(this.data)};aO.prototype.write=function(b,d,g,a){var
+b=this.data;this.data=cg(a|0);fB(b,0,this.data,0,a)};aO.prototype.length=function(){return hp(this.data)};aO.prototype.write=function(b,d,g,a){var
 c=this.length();if(b+a>=c){var
-e=cg(b+a),f=this.data;this.data=e;fB(f,0,this.data,0,c)}eB(d,g,this.data,b,a);return 0};aO.prototype.read=function(c,a,d,b){var
-e=this.length();fB(this.data,c,a,d,b);return 0};aO.prototype.read_one=function(a){return GN(this.data,a)};aO.prototype.close=function(){};aO.prototype.constructor=aO;function
+e=cg(b+a),f=this.data;this.data=e;fB(f,0,this.data,0,c)}eC(d,g,this.data,b,a);return 0};aO.prototype.read=function(c,a,d,b){var
+e=this.length();fB(this.data,c,a,d,b);return 0};aO.prototype.read_one=function(a){return GU(this.data,a)};aO.prototype.close=function(){};aO.prototype.constructor=aO;function
 a7(b,a){this.content={};this.root=b;this.lookupFun=a}a7.prototype.nm=function(a){return this.root+a};a7.prototype.create_dir_if_needed=function(d){var
-c=d.split(bX),b=$;for(var
+c=d.split(bX),b=aa;for(var
 a=0;a<c.length-1;a++){b+=c[a]+bX;if(this.content[b])continue;this.content[b]=Symbol("directory")}};a7.prototype.slash=function(a){return/\/$/.test(a)?a:a+bX};a7.prototype.lookup=function(b){if(!this.content[b]&&this.lookupFun){var
 c=this.lookupFun(a(this.root),a(b));if(c!==0){this.create_dir_if_needed(b);this.content[b]=new
-aO(eC(c[1]))}}};a7.prototype.exists=function(a){if(a==$)return 1;var
+aO(eD(c[1]))}}};a7.prototype.exists=function(a){if(a==aa)return 1;var
 b=this.slash(a);if(this.content[b])return 1;this.lookup(a);return this.content[a]?1:0};a7.prototype.mkdir=function(c,e,d){var
-b=d&&dG(jw);if(this.exists(c))if(b)dH(b,dJ(pt,jv,this.nm(c)));else
+b=d&&dG(jx);if(this.exists(c))if(b)dH(b,dJ(pt,jw,this.nm(c)));else
 ao(c+": File exists");var
-a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||$;if(!this.exists(a))if(b)dH(b,dJ(jA,jv,this.nm(a)));else
-ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jF,jv,this.nm(a)));else
-ao(a+jN);this.create_dir_if_needed(this.slash(c))};a7.prototype.rmdir=function(a,f){var
-b=f&&dG(jw),c=a==$?$:this.slash(a),e=new
-RegExp(jI+c+pA);if(!this.exists(a))if(b)dH(b,dJ(jA,jt,this.nm(a)));else
-ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jF,jt,this.nm(a)));else
-ao(a+jN);for(var
+a=/^(.*)\/[^/]+/.exec(c);a=a&&a[1]||aa;if(!this.exists(a))if(b)dH(b,dJ(jB,jw,this.nm(a)));else
+ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jG,jw,this.nm(a)));else
+ao(a+jO);this.create_dir_if_needed(this.slash(c))};a7.prototype.rmdir=function(a,f){var
+b=f&&dG(jx),c=a==aa?aa:this.slash(a),e=new
+RegExp(jJ+c+pA);if(!this.exists(a))if(b)dH(b,dJ(jB,ju,this.nm(a)));else
+ao(a+g4);if(!this.is_dir(a))if(b)dH(b,dJ(jG,ju,this.nm(a)));else
+ao(a+jO);for(var
 d
 in
-this.content)if(d.match(e))if(b)dH(b,dJ(py,jt,this.nm(a)));else
+this.content)if(d.match(e))if(b)dH(b,dJ(py,ju,this.nm(a)));else
 ao(this.nm(a)+": Directory not empty");delete
 this.content[c]};a7.prototype.readdir=function(a){var
-f=a==$?$:this.slash(a);if(!this.exists(a))ao(a+g4);if(!this.is_dir(a))ao(a+jN);var
+f=a==aa?aa:this.slash(a);if(!this.exists(a))ao(a+g4);if(!this.is_dir(a))ao(a+jO);var
 g=new
-RegExp(jI+f+pA),d={},c=[];for(var
+RegExp(jJ+f+pA),d={},c=[];for(var
 e
 in
 this.content){var
-b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a7.prototype.is_dir=function(a){if(a==$)return true;var
+b=e.match(g);if(b&&!d[b[1]]){d[b[1]]=true;c.push(b[1])}}return c};a7.prototype.is_dir=function(a){if(a==aa)return true;var
 b=this.slash(a);return this.content[b]?1:0};a7.prototype.unlink=function(a){var
 b=this.content[a]?true:false;delete
 this.content[a];return b};a7.prototype.open=function(a,b){if(b.rdonly&&b.wronly)ao(this.nm(a)+qo);if(b.text&&b.binary)ao(this.nm(a)+pe);this.lookup(a);if(this.content[a]){if(this.is_dir(a))ao(this.nm(a)+" : is a directory");if(b.create&&b.excl)ao(this.nm(a)+qk);var
 c=this.content[a];if(b.truncate)c.truncate();return c}else
 if(b.create){this.create_dir_if_needed(a);this.content[a]=new
 aO(cg(0));return this.content[a]}else
-Hf(this.nm(a))};a7.prototype.register=function(c,a){var
+Hm(this.nm(a))};a7.prototype.register=function(c,a){var
 b;if(this.content[c])ao(this.nm(c)+qk);if(j0(a))b=new
 aO(a);if(q2(a))b=new
-aO(eC(a));else
+aO(eD(a));else
 if(a
 instanceof
 Array)b=new
-aO(GO(a));else
+aO(GV(a));else
 if(typeof
 a==="string")b=new
 aO(qS(a));else
 if(a.toString){var
-d=eC(eF(a.toString()));b=new
+d=eD(eG(a.toString()));b=new
 aO(d)}if(b){this.create_dir_if_needed(c);this.content[c]=b}else
 ao(this.nm(c)+" : registering file with invalid content type")};a7.prototype.constructor=a7;function
-av(a){return ho(a)}function
-dI(b,a){return jR(b,a)}function
-GJ(d){var
-c=av(d),b=new
+au(a){return hp(a)}function
+dI(b,a){return jS(b,a)}function
+GQ(d){var
+c=au(d),b=new
 Array(c),a=0;for(;a<c;a++)b[a]=dI(d,a);return b}function
-GI(a){if(a.t!=4)hl(a);return a.c}function
-GR(a,c,b){b&=cD;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hl(a)}a.c[c]=b;return 0}function
-GQ(b,a,c){if(a>>>0>=b.l)qQ();return GR(b,a,c)}function
+GP(a){if(a.t!=4)hl(a);return a.c}function
+GY(a,c,b){b&=cD;if(a.t!=4){if(c==a.c.length){a.c+=String.fromCharCode(b);if(c+1==a.l)a.t=0;return 0}hl(a)}a.c[c]=b;return 0}function
+GX(b,a,c){if(a>>>0>=b.l)qQ();return GY(b,a,c)}function
 cf(a){this.fs=require("fs");this.fd=a}cf.prototype=new
 qJ();cf.prototype.truncate=function(a){try{this.fs.ftruncateSync(this.fd,a|0)}catch(a){ao(a.toString())}};cf.prototype.length=function(){try{return this.fs.fstatSync(this.fd).size}catch(a){ao(a.toString())}};cf.prototype.write=function(f,b,c,e){var
-a=GJ(b);if(!(a
+a=GQ(b);if(!(a
 instanceof
 M.Uint8Array))a=new(M.Uint8Array)(a);var
 d=M.Buffer.from(a);try{this.fs.writeSync(this.fd,d,c,e,f)}catch(a){ao(a.toString())}return 0};cf.prototype.read=function(g,d,c,f){var
-a=GI(d);if(!(a
+a=GP(d);if(!(a
 instanceof
 M.Uint8Array))a=new(M.Uint8Array)(a);var
 e=M.Buffer.from(a);try{this.fs.readSync(this.fd,e,c,f,g)}catch(a){ao(a.toString())}for(var
-b=0;b<f;b++)GQ(d,c+b,e[c+b]);return 0};cf.prototype.read_one=function(c){var
+b=0;b<f;b++)GX(d,c+b,e[c+b]);return 0};cf.prototype.read_one=function(c){var
 b=new(M.Uint8Array)(1),a=M.Buffer.from(b);try{this.fs.readSync(this.fd,a,0,1,c)}catch(a){ao(a.toString())}return a[0]};cf.prototype.close=function(){try{this.fs.closeSync(this.fd)}catch(a){ao(a.toString())}};cf.prototype.constructor=cf;function
 aP(a){this.fs=require("fs");this.root=a}aP.prototype.nm=function(a){return this.root+a};aP.prototype.exists=function(a){try{return this.fs.existsSync(this.nm(a))?1:0}catch(a){return 0}};aP.prototype.mkdir=function(b,a,c){try{this.fs.mkdirSync(this.nm(b),{mode:a});return 0}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.rmdir=function(a,b){try{this.fs.rmdirSync(this.nm(a));return 0}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.readdir=function(a,b){try{return this.fs.readdirSync(this.nm(a))}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.is_dir=function(a){try{return this.fs.statSync(this.nm(a)).isDirectory()?1:0}catch(a){ao(a.toString())}};aP.prototype.unlink=function(a,c){try{var
 b=this.fs.existsSync(this.nm(a))?1:0;this.fs.unlinkSync(this.nm(a));return b}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.open=function(f,c,g){var
@@ -539,8 +539,8 @@ d=this.fs.openSync(this.nm(f),b);return new
 cf(d)}catch(a){this.raise_nodejs_error(a,g)}};aP.prototype.rename=function(b,a,c){try{this.fs.renameSync(this.nm(b),this.nm(a))}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.stat=function(b,c){try{var
 a=this.fs.statSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.lstat=function(b,c){try{var
 a=this.fs.lstatSync(this.nm(b));return this.stats_from_js(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.symlink=function(d,c,a,b){try{this.fs.symlinkSync(this.nm(c),this.nm(a),d?"dir":"file");return 0}catch(a){this.raise_nodejs_error(a,b)}};aP.prototype.readlink=function(b,c){try{var
-a=this.fs.readlinkSync(this.nm(b),o1);return eF(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.raise_nodejs_error=function(a,d){var
-b=dG(jw);if(d&&b){var
+a=this.fs.readlinkSync(this.nm(b),o1);return eG(a)}catch(a){this.raise_nodejs_error(a,c)}};aP.prototype.raise_nodejs_error=function(a,d){var
+b=dG(jx);if(d&&b){var
 c=dJ(a.code,a.syscall,a.path,a.errno);dH(b,c)}else
 ao(a.toString())};aP.prototype.stats_from_js=function(a){var
 b;if(a.isFile())b=0;else
@@ -552,27 +552,27 @@ if(a.isFIFO())b=5;else
 if(a.isSocket())b=6;return[0,a.dev,a.ino,b,a.mode,a.nlink,a.uid,a.gid,a.rdev,a.size,a.atimeMs,a.mtimeMs,a.ctimeMs]};aP.prototype.constructor=aP;function
 qZ(b){var
 a=j7(b);if(!a)return;return a[0]+bX}var
-hp=qZ(fC)||bY("unable to compute caml_root"),eG=[];if(fF())eG.push({path:hp,device:new
-aP(hp)});else
-eG.push({path:hp,device:new
-a7(hp)});eG.push({path:o_,device:new
+hq=qZ(fC)||bY("unable to compute caml_root"),eH=[];if(fF())eH.push({path:hq,device:new
+aP(hq)});else
+eH.push({path:hq,device:new
+a7(hq)});eH.push({path:o_,device:new
 a7(o_)});function
 rh(b){var
-g=G8(b),b=g.join(bX),f=ra(b),c;for(var
-e=0;e<eG.length;e++){var
-a=eG[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fF()){var
+g=Hd(b),b=g.join(bX),f=ra(b),c;for(var
+e=0;e<eH.length;e++){var
+a=eH[e];if(f.search(a.path)==0&&(!c||c.path.length<a.path.length))c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}if(!c&&fF()){var
 d=qZ(b);if(d&&d.match(/^[a-zA-Z]:\/$/)){var
 a={path:d,device:new
-aP(d)};eG.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ao("no device found for "+f)}function
-GT(c,b){var
+aP(d)};eH.push(a);c={path:a.path,device:a.device,rest:b.substring(a.path.length,b.length)}}}if(c)return c;ao("no device found for "+f)}function
+G0(c,b){var
 a=rh(c);if(!a.device.register)bY("cannot register file");a.device.register(a.rest,b);return 0}function
 rc(c,b){var
-c=a(c),b=a(b);return GT(c,b)}function
-GW(){var
+c=a(c),b=a(b);return G0(c,b)}function
+G3(){var
 b=M.caml_fs_tmp;if(b)for(var
 a=0;a<b.length;a++)rc(b[a].name,b[a].content);M.jsoo_create_file=rc;M.caml_fs_tmp=[];return 0}function
-Hd(c){var
-a=0,e=av(c),b=10,d=1;if(e>0)switch(dI(c,a)){case
+Hk(c){var
+a=0,e=au(c),b=10,d=1;if(e>0)switch(dI(c,a)){case
 45:a++;d=-1;break;case
 43:a++;d=1;break}if(a+1<e&&dI(c,a)==48)switch(dI(c,a+1)){case
 120:case
@@ -584,32 +584,32 @@ a=0,e=av(c),b=10,d=1;if(e>0)switch(dI(c,a)){case
 117:case
 85:a+=2;break}return[a,d,b]}function
 q6(a){if(a>=48&&a<=57)return a-48;if(a>=65&&a<=90)return a-55;if(a>=97&&a<=qA)return a-87;return-1}function
-jZ(f){var
-h=Hd(f),c=h[0],i=h[1],d=h[2],g=av(f),j=-1>>>0,e=c<g?dI(f,c):0,b=q6(e);if(b<0||b>=d)bY(g9);var
+ho(f){var
+h=Hk(f),c=h[0],i=h[1],d=h[2],g=au(f),j=-1>>>0,e=c<g?dI(f,c):0,b=q6(e);if(b<0||b>=d)bY(g9);var
 a=b;for(c++;c<g;c++){e=dI(f,c);if(e==95)continue;b=q6(e);if(b<0||b>=d)break;a=d*a+b;if(a>j)bY(g9)}if(c!=g)bY(g9);a=i*a;if(d==10&&(a|0)!=a)bY(g9);return a|0}function
-G7(a,b){return+(jS(a,b,false)<=0)}function
-G9(a,d){if(a<0)hk();var
+Hc(a,b){return+(jT(a,b,false)<=0)}function
+He(a,d){if(a<0)hk();var
 a=a+1|0,b=new
 Array(a);b[0]=0;for(var
 c=1;c<a;c++)b[c]=d;return b}var
 cF=new
 Array();function
-G_(c){var
-a=cF[c];if(!a.opened)ao("Cannot flush a closed channel");if(!a.buffer||a.buffer==$)return 0;if(a.fd&&ax.fds[a.fd]&&ax.fds[a.fd].output){var
+Hf(c){var
+a=cF[c];if(!a.opened)ao("Cannot flush a closed channel");if(!a.buffer||a.buffer==aa)return 0;if(a.fd&&ax.fds[a.fd]&&ax.fds[a.fd].output){var
 b=ax.fds[a.fd].output;switch(b.length){case
-2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=$;return 0}function
+2:b(c,a.buffer);break;default:b(a.buffer)}}a.buffer=aa;return 0}function
 q9(e,f){var
-b=cF[e],d=a(f),c=av(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
-Hl(a){var
+b=cF[e],d=a(f),c=au(d);b.file.write(b.offset,d,0,c);b.offset+=c;return 0}function
+Hs(a){var
 a=j3(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stderr.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.error&&c.error(a)}}function
-Hm(a){var
+Ht(a){var
 a=j3(a),b=M;if(b.process&&b.process.stdout&&b.process.stdout.write)b.process.stdout.write(a);else{if(a.charCodeAt(a.length-1)==10)a=a.substr(0,a.length-1);var
 c=b.console;c&&c.log&&c.log(a)}}function
-hr(c,e,d,a){if(ax.fds===undefined)ax.fds=new
+hs(c,e,d,a){if(ax.fds===undefined)ax.fds=new
 Array();a=a?a:{};var
 b={};b.file=d;b.offset=a.append?d.length():0;b.flags=a;b.output=e;ax.fds[c]=b;if(!ax.fd_last_idx||c>ax.fd_last_idx)ax.fd_last_idx=c;return c}function
-Ht(c,b,g){var
+HA(c,b,g){var
 a={};while(b){switch(b[1]){case
 0:a.rdonly=1;break;case
 1:a.wronly=1;break;case
@@ -619,30 +619,30 @@ a={};while(b){switch(b[1]){case
 5:a.excl=1;break;case
 6:a.binary=1;break;case
 7:a.text=1;break;case
-8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ao(eE(c)+qo);if(a.text&&a.binary)ao(eE(c)+pe);var
-d=rh(c),e=d.device.open(d.rest,a),f=ax.fd_last_idx?ax.fd_last_idx:0;return hr(f+1,q9,e,a)}hr(0,q9,new
-aO(cg(0)));hr(1,Hm,new
-aO(cg(0)));hr(2,Hl,new
+8:a.nonblock=1;break}b=b[2]}if(a.rdonly&&a.wronly)ao(eF(c)+qo);if(a.text&&a.binary)ao(eF(c)+pe);var
+d=rh(c),e=d.device.open(d.rest,a),f=ax.fd_last_idx?ax.fd_last_idx:0;return hs(f+1,q9,e,a)}hs(0,q9,new
+aO(cg(0)));hs(1,Ht,new
+aO(cg(0)));hs(2,Hs,new
 aO(cg(0)));function
-G$(a){var
+Hg(a){var
 c=ax.fds[a];if(c.flags.wronly)ao(qy+a+" is writeonly");var
 d=null;if(a==0&&fF()){var
-e=require("fs");d=function(){return eF(e.readFileSync(0,o1))}}var
+e=require("fs");d=function(){return eG(e.readFileSync(0,o1))}}var
 b={file:c.file,offset:c.offset,fd:a,opened:true,out:false,refill:d};cF[b.fd]=b;return b.fd}function
 q3(c){var
 b=ax.fds[c];if(b.flags.rdonly)ao(qy+c+" is readonly");var
-a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:$};cF[a.fd]=a;return a.fd}function
-Ha(){var
+a={file:b.file,offset:b.offset,fd:c,opened:true,out:true,buffer:aa};cF[a.fd]=a;return a.fd}function
+Hh(){var
 b=0;for(var
 a=0;a<cF.length;a++)if(cF[a]&&cF[a].opened&&cF[a].out)b=[0,cF[a].fd,b];return b}function
 bD(b,c,a){if(a&&M.toplevelReloc)b=M.toplevelReloc(a);ax[b+1]=c;if(a)ax[a]=c}function
-Hh(a,b){q5[eE(a)]=b;return 0}function
-GM(a,b){if(a===b)return 1;a.t&6&&eD(a);b.t&6&&eD(b);return a.c==b.c?1:0}function
-aw(a,b){return GM(a,b)}function
-Hj(){aQ(jL)}function
-aY(b,a){if(a>>>0>=av(b))Hj();return dI(b,a)}function
+Ho(a,b){q5[eF(a)]=b;return 0}function
+GT(a,b){if(a===b)return 1;a.t&6&&eE(a);b.t&6&&eE(b);return a.c==b.c?1:0}function
+aw(a,b){return GT(a,b)}function
+Hq(){aQ(jM)}function
+aY(b,a){if(a>>>0>=au(b))Hq();return dI(b,a)}function
 o(a,b){return 1-aw(a,b)}function
-hq(a){return a}function
+hr(a){return a}function
 q8(a){return a}function
 rb(a){if(a
 instanceof
@@ -652,7 +652,7 @@ M.RangeError&&a.message&&a.message.match(/maximum call stack/i))return q8(ax.Sta
 instanceof
 M.InternalError&&a.message&&a.message.match(/too much recursion/i))return q8(ax.Stack_overflow);if(a
 instanceof
-M.Error&&dG(pF))return[0,dG(pF),a];return[0,ax.Failure,eF(String(a))]}function
+M.Error&&dG(pF))return[0,dG(pF),a];return[0,ax.Failure,eG(String(a))]}function
 ch(a){return a<0?-a:a}function
 C(a,b){return a+b}function
 j4(a,b){return a<b?-1:a>b?1:0}function
@@ -660,7 +660,7 @@ re(c,b){var
 a=c%b;return a<0?a+ch(b):a}function
 j5(a,b){return(a-re(a,b))/b}function
 J(a,b){return a==b?1:0}function
-Hq(c){M.orthocert_verify=function(b){return eE(c8(c,[a(b)]))}}function
+Hx(c){M.orthocert_verify=function(b){return eF(c8(c,[a(b)]))}}function
 E(a,b){return a<=b?1:0}function
 K(a,b){return a<b?1:0}function
 A(a,b){return a*b}function
@@ -669,13 +669,13 @@ aE(a){return M.BigInt(a)}function
 rf(a,b){return a<<M.BigInt(b)}function
 rg(a,b){return a>>M.BigInt(b)}function
 aK(a){return a<0?-1:a>0?1:0}function
-Hr(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
+Hy(a){if(a<0)throw new(M.Error)("a root of a negative number");if(a<2)return a;var
 d=M.BigInt(1),b=d<<M.BigInt((a.toString(16).length*4+1)/2|0),c;for(;;){c=b+a/b>>d;if(c>=b)return b;b=c}}function
-aA(a,b){return a-b}function
+aB(a,b){return a-b}function
 j6(a){if(a>0x7fffffff||a<-0x80000000)throw new(M.Error)("a number of more than 32 bits");return M.Number(a)}function
-G5(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
-GV(b){var
-a=$;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&G5(b[1]))var
+Ha(a){switch(a[2]){case-8:case-11:case-12:return 1;default:return 0}}function
+G2(b){var
+a=aa;if(b[0]==0){a+=b[1][1];if(b.length==3&&b[2][0]==0&&Ha(b[1]))var
 e=b[2],f=1;else
 var
 f=2,e=b;a+=pG;for(var
@@ -687,32 +687,32 @@ instanceof
 ce)a+=aJ+c.toString()+aJ;else
 if(typeof
 c=="string")a+=aJ+c.toString()+aJ;else
-a+="_"}a+=jH}else
+a+="_"}a+=jI}else
 if(b[0]==aX)a+=b[1];return a}function
 qX(a){if(a
 instanceof
 Array&&(a[0]==0||a[0]==aX)){var
 c=dG("Printexc.handle_uncaught_exception");if(c)c(a,false);else{var
-d=GV(a),b=dG(o0);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
+d=G2(a),b=dG(o0);if(b)b(0);M.console.error("Fatal error: exception "+d+"\n")}}else
 throw a}function
-Hi(){var
+Hp(){var
 a=M;if(a.process&&a.process.on)a.process.on("uncaughtException",function(b,c){qX(b);a.process.exit(2)});else
-if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)qX(a.error)})}Hi();function
+if(a.addEventListener)a.addEventListener("error",function(a){if(a.error)qX(a.error)})}Hp();function
 i(a,b){return a.length==1?a(b):c8(a,[b])}function
 an(a,b,c){return a.length==2?a(b,c):c8(a,[b,c])}function
-fn(a,b,c,d){return a.length==3?a(b,c,d):c8(a,[b,c,d])}function
-jr(a,b,c,d,e){return a.length==4?a(b,c,d,e):c8(a,[b,c,d,e])}GW();var
-j9=[aX,a(pw),-2],j8=[aX,a(qI),-4],FC=[0,[0,[0,[0,0]]]],FD=[0,0],FE=[0,0],FF=[0,[0,0]],FG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FF]]]]]]]]]]],gO=[0,[1,0],0],n_=[0,[2,0],0],i$=[0,[1,0],0],n9=[0,[2,0],0],gM=[0,[1,0],0],i_=[0,[2,0],0],FH=[0,[0,[0,[0,0]]]],FI=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FH]]]]]]]]]]],FJ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FI]]]]]]]]]]],FK=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]]],FL=[0,[0,0]],FM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],FN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],FO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],FP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],FQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]],FV=[0,[0,0]],FW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FV]]]]]]]]]]],FX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FW]]]]]]]]]]],FY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FX]]]]]]]]]]],FZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FY]]]]]]]]]]],F0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FZ]]]]]]]]]]],F1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F0]]]]]]]]]]],F2=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F1]]]]]]]]]]],F3=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],F4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F3]]]]]]]]]]],F5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F4]]]]]]]]]]],F6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F5]]]]]]]]]]],F7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F6]]]]]]]]]]],F8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F7]]]]]]]]]]],F9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F8]]]]]]]]]]],F_=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F9]]]]]]]]]]],F$=[0,0],Ga=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F$]]]]]]]]]]],Gb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ga]]]]]]]]]]],Gc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gb]]]]]]]]]]],Gd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gc]]]]]]]]]]],Ge=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gd]]]]]]]]]]],Gf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ge]]]]]]]]]]],Gg=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gf]]]]]]]]]]],Gh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gg]]]]]]]]]]],Gi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gh]]]]]]]]]]],Gj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gi]]]]]]]]]]],Gk=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Gl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gk]]]]]]]]]]],Gm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Gn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gm]]]]]]]]]]],Go=[0,[0,[0,[0,[0,0]]]]],Gp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Go]]]]]]]]]]],Gq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gp]]]]]]]]]]],Gr=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gq]]]]]]]]]]],Gs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gr]]]]]]]]]]],Gt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gs]]]]]]]]]]],Gu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gt]]]]]]]]]]],Gv=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gu]]]]]]]]]]],Gw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gv]]]]]]]]]]],Gx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gw]]]]]]]]]]],Gy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]]],Gz=[0,0],GA=[0,[0,0]],GB=[0,0],GC=[0,[0,[0,[0,[0,0]]]]],kG=[0,[0,[0,0]]],dc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gC=[0,[0,[0,[0,0]]]],GD=[0,[0,[0,[0,[0,0]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],GH=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]];bD(11,[aX,a(oZ),-12],oZ);bD(10,[aX,a(pL),-11],pL);bD(9,[aX,a(qx),-10],qx);bD(8,[aX,a(o$),-9],o$);bD(7,[aX,a(p0),-8],p0);bD(6,[aX,a(o9),-7],o9);bD(5,[aX,a(px),-6],px);bD(4,[aX,a(pB),-5],pB);bD(3,j8,qI);bD(2,[aX,a(jB),-3],jB);bD(1,j9,pw);bD(0,[aX,a(qg),-1],qg);var
-ri=a("String.sub / Bytes.sub"),rk=a($),rj=a("String.concat"),rl=a("Array.init"),rm=a("power"),rF=[0,0],rG=[0,0],rM=[0,0,0],rN=[0,0,0],rO=[0,0],r6=[0,0],r7=[0,0],r_=[0,0],ss=[0,0],sv=[0,0],sx=[0,0],sy=[0,0],sN=[0,0],sO=[0,0],tf=[0,0],tz=[0,[0,[0,0]]],t3=[0,0],uf=[0,0],ug=[0,0],uh=[0,0],uC=a(","),uU=[0,a(jH),0],uV=a(pG),uW=a("."),uX=[0,[0,[0,0]]],uY=a(fu),uZ=a(jI),u0=[0,[0,[0,[0,[0,0]]]]],u1=[0,a(jH),0],u2=a(qF),xZ=a(oW),x1=a(oS),x0=a(pO),x2=a(ev),x3=a(et),x4=a(qH),x5=a(qr),x6=a(pq),x7=a(jK),x8=a(pU),zn=[0,[0,0,0]],zE=[0,0],zo=a(g2),zp=[0,0],zq=a("divided"),zr=[0,1],zs=a("mirror"),zt=[0,3],zu=a("negative"),zv=[0,2],zw=a(ft),zx=[0,5],zy=a(jP),zz=[0,4],zA=a(dE),zB=a(pc),zC=a(fq),zD=a(cd),zF=[0,0],zG=[0,0],zH=[0,0],zK=[0,[0,[0,0]]],zL=[0,[0,[0,0]]],Aa=[0,[0,[0,0]]],Ao=[0,0],AD=a($),Aw=[0,0],Ax=[0,0],Ay=[0,[0,[0,[0,0]]]],Az=[0,[0,[0,0]]],AA=[0,[0,[0,[0,0]]]],AB=[0,[0,[0,0]]],Au=[0,[0,[0,0]]],At=[0,0],As=a(fq),Ar=[0,[0,[0,0]]],Aq=[0,0],Al=[0,[0,0]],An=[0,[0,[0,0]]],Am=[0,0],Ah=[0,[0,[0,0]]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FC]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Ab=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Ac=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ad=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ae=[0,[0,[0,[0,0]]],[0,0,0]],z_=[0,0],z$=[0,[0,0]],z9=[0,0,0],z8=[0,[0,[0,0]]],z2=[0,[0,0]],z3=[0,[0,[0,0]]],z4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FD]]]]]]]]]]],z5=[0,[0,0]],z6=[0,[0,[0,0]]],z1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FE]]]]]]]]]]],zZ=[0,[0,0]],z0=[0,[0,[0,0]]],zX=[0,[0,[0,0]]],zY=[0,[0,0]],zW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FG]]]]]]]]]]],zV=[0,0],zU=[0,0],zR=[0,[0,0]],zS=[0,0],zP=[0,0],zQ=[0,1],zN=[0,[0,0]],zO=[0,0],zM=[0,0],zI=[0,0],zJ=[0,1],zk=[0,0],zl=[0,1],zm=[0,2],zg=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],ze=[0,[0,0],0],zf=[0,[1,0],0],zh=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zc=[0,[0,0]],zd=[0,0],zb=[0,0],za=[0,0],y$=[0,0],y_=[0,0],y9=[0,0,0],y7=[0,[0,0]],y8=[0,0],y6=[0,0,0],y4=[0,[0,[0,0]]],y5=[0,[0,[0,0]]],y3=[0,0],y1=[0,1,0],yT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],yU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],yP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],yQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F2]]]]]]]]]]],yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F_]]]]]]]]]]],yS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gj]]]]]]]]]]],yV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gl]]]]]]]]]]],yW=a("sqrt"),yN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gn]]]]]]]]]]],yO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],yC=[0,a("\n"),0],yD=a(oT),yE=a(g5),yF=a(pK),yG=a(pu),yM=a(fx),yH=a(fs),yI=a("verdict"),yJ=a(qi),yK=a(pn),yL=a(pJ),yz=a(pE),yA=a(qm),yB=a(g7),yv=a(pW),yw=a(g8),yx=a(fs),yy=a(fx),yq=a(he),yr=a(bi),ys=a(oV),yt=a(hb),yn=a(qf),yo=a(ft),yp=a(hb),yj=a(pZ),yk=a(he),yl=a(g8),ym=a(qv),x_=a(qn),x$=a(qq),ya=a(ha),yb=a(g_),yc=a(qB),yd=a(qb),ye=a(qe),yf=a(p3),yg=a(ha),yh=a(p6),xX=a(g3),xY=a(fw),xS=a(bC),xT=a(bB),xU=a(pp),xs=a(g_),xt=a(p2),w8=a(bi),w9=a(bW),w_=a(hg),w$=a(ey),xa=a(dD),xf=a(ju),xb=a(jJ),xc=a(jM),xd=a(eu),xe=a(bi),xg=a(bW),xh=a(hg),xi=a(ey),xj=a(jJ),xk=a(jM),xl=a(eu),xm=a(bi),xn=a(bW),xo=a(bC),xp=a(bB),xq=a(dB),xr=a(ey),xu=a(p$),xv=a(qp),xw=a(hj),xx=a(pd),xy=a(pi),xz=a(eu),xA=a(bi),xB=a(bW),xC=a(g0),xD=a(ps),xE=a(ey),xF=a(fA),xG=a(o3),xH=a(eu),xI=a(bi),xJ=a(g0),xK=a(bi),xL=a(p5),xO=a(oR),xM=a(pg),xN=a(qu),xP=a(fx),xQ=a(fs),xR=a(bi),xV=a(hj),xW=a(g7),w3=a(bW),w4=a(ey),w5=a(ju),w6=a(eu),w2=a(qD),wQ=a(fA),wR=a(qj),wS=a(dC),wT=a(ew),wU=a(ew),wV=a(jx),wW=a(dC),wX=a(pM),wY=a(po),wZ=a(bb),w1=a(oY),w0=a(jx),wG=a(pD),wH=a(qG),wI=a(pk),wJ=a(ph),wK=a(qt),wL=a(qd),wM=a(pv),wN=a(g1),wO=a(g1),wC=a(bb),wD=a(bA),wE=a(ez),wF=a(bV),wy=a(dD),wz=a(jE),wA=a(pX),wv=a(bC),ww=a(bB),wx=a(dB),wo=a(bC),wp=a(bB),wq=a(dB),wr=a(jG),ws=a(dC),wt=a(jC),wu=a(p_),v9=a(pf),wd=a(g5),wc=a(jO),v_=a(jy),v$=a(fp),wg=a(fr),wh=a(jy),we=a(fr),wf=a(fp),wi=a(pb),wj=a(p8),wk=a(fp),wl=a(qC),wm=a(jO),wn=a(fp),wa=a(ew),wb=a(pS),v6=a(g$),v7=a(g$),v8=a(g$),v2=a(qa),v3=a(bB),v4=a(bC),v5=a(qs),vM=a(o7),vN=a(oX),vO=a(p1),vP=a(ev),vQ=a(qE),vR=a(p4),vS=a(o8),vT=a(pT),vU=a(o6),vV=a(pr),vW=a(o5),vX=a(qc),vY=a(et),vZ=a(o2),v0=a(ql),v1=a(pj),vr=a(hc),vt=a(fu),vs=a(fo),vu=a(es),vv=a(bb),vw=a(bA),vx=a(cd),vy=a(hh),vz=a(bV),vA=a(bb),vB=a(bA),vC=a(ez),vD=a(bV),vE=a(es),vF=a(fz),vG=a(bb),vH=a(bA),vI=a(pQ),vJ=a(fr),vK=a(fz),vL=a(bV),u$=a(hc),vh=a(fu),va=a(fo),vb=a(es),vc=a(bb),vd=a(bA),ve=a(cd),vf=a(hh),vg=a(bV),vi=a(hi),vj=a(bb),vk=a(bA),vl=a(ez),vm=a(bV),vn=a(cd),vo=a(dD),vp=a(bV),u8=a(bC),u9=a(bB),u6=[0,a(aJ),0],u7=a(aJ),u4=a($),u3=[0,a(aJ),0],u5=a(aJ),uQ=a(hc),uR=a(fu),uS=a("*"),uT=a(bX),uL=[0,[0,[0,[0,[0,0]]]]],uM=[0,[0,[0,0]]],uN=[0,[0,0]],uO=[0,0],uP=[0,[0,[0,[0,0]]]],uJ=a('":'),uK=a(aJ),uH=[0,a(aJ),0],uI=a(aJ),uF=[0,a("}"),0],uG=a("{"),uD=[0,a("]"),0],uE=a("["),uB=[0,[0,[0,0]]],uA=[0,[0,[0,0]]],uy=[0,0],uv=[0,[0,[0,0]]],uw=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ux=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ut=[0,[0,0]],uu=[0,[0,[0,0]]],uq=[0,[0,[0,0]]],us=[0,[0,[0,0]]],ur=[0,0],un=[0,[0,0]],uo=[0,0],ul=[0,[0,0]],um=[0,0],uk=[0,[0,[0,0]]],ui=[0,[0,0]],uj=[0,0],ue=[0,0],ua=[0,0],ub=[0,[0,[0,[0,[0,[0,0]]]]]],uc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],t_=[0,0],t7=[0,0,0],t8=[0,0,0],t9=[0,0,0],t4=[0,[0,0]],t5=[0,[0,[0,0]]],t6=[0,0],tT=[0,[0,[0,[0,[0,[0,0]]]]]],tU=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tV=[0,[0,[0,0]]],tW=[0,[0,[0,0]]],tX=[0,[0,[0,[0,[0,[0,0]]]]]],tY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],t0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],t1=[0,[0,[0,0]]],t2=[0,[0,[0,[0,[0,[0,0]]]]]],tS=[0,0],tQ=[0,[0,0]],tR=[0,[0,[0,0]]],tM=[0,0,0],tN=[0,0,0],tI=[0,0,0],tJ=[0,0,0],tK=[0,0,0],tL=[0,0,0],tH=[0,0],tG=[0,0],tF=[0,0],tD=[0,0],tE=[0,0],tC=[0,0],tA=[0,0],tB=[0,0],tt=[0,0],tu=[0,0],tv=[0,0],tw=[0,[0,[0,0]]],ts=[0,0],tn=[0,[0,[0,0]]],to=[0,[0,0]],tl=[0,[0,0]],tm=[0,[0,[0,0]]],tk=[0,0],ti=[0,0],tj=[0,0],tg=[0,0,0],td=[0,[0,0]],te=[0,0],s7=[0,[0,0]],s8=[0,0],s9=[0,[0,0]],s_=[0,0],s$=[0,[0,0]],ta=[0,0],tb=[0,[0,0]],tc=[0,0],s5=[0,[0,0]],s6=[0,0],s3=[0,[0,0]],s4=[0,0],sZ=[0,[0,0]],s0=[0,0],s1=[0,0],s2=[0,[0,0]],sQ=[0,[0,0]],sR=[0,0],sS=[0,[0,0]],sT=[0,0],sU=[0,0],sV=[0,[0,0]],sW=[0,[0,0]],sX=[0,[0,0]],sY=[0,0],sM=[0,0],sL=[0,0],sI=[0,0],sJ=[0,[0,0]],sH=[0,[0,[0,0]]],sG=[0,[0,[0,[0,[0,[0,0]]]]]],sC=[0,[0,0]],sD=[0,[0,0]],sE=[0,0],sB=[0,0],sz=[0,0],sA=[0,[0,[0,0]]],sw=[0,[0,[0,0]]],st=[0,[0,[0,0]]],sr=[0,[0,[0,0]]],sp=[0,[0,[0,[0,[0,[0,0]]]]]],sq=[0,[0,[0,[0,[0,[0,0]]]]]],sk=[0,[0,0]],sl=[0,0],sm=[0,[0,0]],sn=[0,[0,[0,0]]],so=[0,[0,[0,0]]],sd=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],se=[0,[0,[0,[0,[0,[0,0]]]]]],sf=[0,[0,[0,[0,[0,[0,0]]]]]],sg=[0,[0,[0,0]]],sh=[0,[0,[0,[0,[0,[0,0]]]]]],si=[0,[0,[0,0]]],sj=[0,[0,[0,0]]],sb=[0,[0,0]],sc=[0,0],sa=[0,0,0],r$=[0,0,0],r9=[0,0,0],r8=[0,[0,[0,0]]],r4=[0,0],r5=[0,0],r0=[0,[0,[0,0]]],r1=[0,[0,[0,0]]],r2=[0,[0,[0,0]]],rZ=[0,[0,[0,[0,0]]]],rV=[0,[0,[0,0]]],rW=[0,[0,[0,0]]],rX=[0,[0,[0,0]]],rY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rT=[0,[0,0]],rU=[0,0],rR=[0,[0,0]],rS=[0,0],rP=[0,[0,0]],rQ=[0,0],rC=[0,0],rD=[0,[0,0]],rA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],ry=[0,0,0],rx=a(qz),rw=a($),rv=[0,[0,0]],rt=[0,0],rq=[0,0],rs=[1,0],rr=[0,0],rp=[0,0],rn=[1,0],ro=[1,0],sK=[10,0,0,0,0],Ap=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],DE=a(bC),DF=a(bB),DG=a(pp),Dw=a(hi),Dx=[0,a("a base axis of such a platform"),0],Dy=a(bb),Dz=a(bA),Dj=a(qd),Dk=a(pD),Dl=a(qt),Dm=a(g1),Dn=a(pv),Do=a(g1),Dp=a(qG),Dq=a(pk),Dr=a(ph),C$=a(p2),Da=a(g_),CN=[0,a("such a machine with bodies"),0],CA=a(g7),CB=a(bi),CC=a(p5),CD=a(qu),CG=a(pg),CH=a(oR),CI=a(bi),CJ=a(bi),CL=a(g0),CK=[0,a("a claim that no cube of such a machine fits"),0],CM=a(qD),CO=a(eu),CP=a(ey),CQ=a(dD),CR=a(jE),CS=a(pX),CT=a(hg),CU=a(pi),CV=a(o3),CW=a(ju),CZ=a(dB),C0=a(p_),C3=a(bW),C4=a(bW),C5=a(ps),C6=a(bW),C7=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],C8=a(g0),C9=a(fA),C_=a(dB),Db=a(bW),Dc=a(bC),Dd=a(bB),De=a(p$),Df=a(qp),Dg=a(hj),Dh=a(pd),CX=[0,a(aJ),0],CY=a('the mechanism "'),Di=a(jJ),Ds=a(hg),Dt=a(dD),Du=a(jE),Dv=a(jM),DA=a(bW),DD=a(dD),DB=[0,a("a platform that turns on struts and other drives"),0],DC=a(bW),C1=[0,a(aJ),0],C2=a('the workspace "'),DH=a(bi),DI=a(bi),DK=a(fx),DL=a(fs),DM=a(hj),DJ=[0,a("an atlas of such a machine"),0],CE=[0,a(aJ),0],CF=a('a claim of the kind "'),DZ=a(jK),D0=[0,a('the evidence "fan" without "tolerances"'),0],DR=a(pU),D1=a(et),D2=a(ev),D3=a(pq),D4=a(pO),D5=a(cd),D6=a(fw),D7=a(g3),D8=a(cd),DS=a(qH),DT=a(dE),DU=a(pc),DV=a(fq),DW=a(jK),DX=[0,a(aJ),0],DY=a('the evidence "'),D9=a(dE),D_=a(fw),D$=[0,1,1],Ea=a(et),Eb=a(ev),Ec=a(dE),Ed=a(fq),Ee=a(qr),Eg=a(et),Eh=a(ev),Ei=a(dE),Ej=a(fq),Ek=a(ft),El=a(g2),Em=a(ft),En=a(g2),Ef=[0,a("this evidence at control points"),0],Fv=a('"orthocert-paving/'),Fl=a(dE),Fm=a(dE),E5=a(pJ),E6=a(pn),E7=a(qi),Ft=[0,3,3],E8=a(pu),Fk=[0,a("this set of orientations with such drives"),0],Fn=[0,a('this evidence "tolerances" of a platform that turns'),0],Fo=[0,a('"one_to_one" of this set of orientations'),0],Fp=[0,a("a step of a platform that turns that is not at control points"),0],Fq=[0,a('the evidence "tolerances" of such a mechanism'),0],Fr=[0,a(pR),0],Fs=[0,a(qh),0],Fj=[0,a(pR),0],Fi=[0,a(qh),0],Fg=[0,a(oU),0],Fh=[0,a("a step in a proof that no cube fits"),0],Ff=[0,a('"one_to_one" of such a mechanism'),0],E9=[0,a("the acceleration of a joint of a machine with a plane"),0],Fd=[0,a("a stiffness for each joint in such a claim"),0],Fe=[0,a(p7),0],Fc=[0,a(p7),0],E_=a(pK),E$=a(oT),Fa=a(g5),Fb=[0,a(oU),0],E1=a(jP),E2=a(g2),E3=a(cd),ET=a(g7),EU=a(pE),EV=a(qm),EW=[0,a(aJ),0],EX=a('a proof of the kind "'),EP=a(fs),EQ=a(fx),ER=a(g8),ES=a(pW),EL=a(bi),EM=a(he),EN=a(oV),EO=a(hb),EI=a(qf),EJ=a(ft),EK=a(hb),EE=a(pZ),EF=a(he),EG=a(g8),EH=a(qv),Eq=a(qq),Er=a(ha),Es=a(qn),Et=a(g_),Eu=a(p6),Ev=a(qB),Ey=a(qb),Ez=a(g3),EA=a(fw),EB=a(qe),EC=a(p3),ED=a(ha),Ew=[0,a(aJ),0],Ex=a('the failure "'),Eo=a(jP),Ep=a(qz),DP=a(fw),DQ=a(g3),DN=a(oS),DO=a(oW),Cx=a(fA),Cn=a(jx),Co=a(oY),Cp=a(ew),Cq=a(bb),Cv=a(qj),Cw=a(fA),Cy=a(dC),Cz=a(ew),Cr=a(dC),Cs=a(pM),Ct=a(po),Cu=a(bb),Cg=a(dB),Ck=a(bC),Cl=a(bB),Ch=a(jC),Ci=a(jG),Cj=a(dC),Ca=a(dB),Ce=a(bC),Cf=a(bB),Cb=a(jC),Cc=a(jG),Cd=a(dC),B$=[0,1],B_=[0,1],B8=[0,1],B7=[0,1],B5=[0,1],B6=[0,a("this quantity of such a mechanism"),0],BP=a(jy),BQ=a(p8),BR=a(pb),BS=a(jO),BT=a(qC),BU=a(fr),BO=a(g5),BG=a(g$),Bv=a(pS),Bw=a(p1),BX=a(et),BY=a(ql),BZ=a(pr),B0=a(ev),B1=a(pT),B2=a(o5),B3=a(o6),B4=a(oX),Bx=a(o2),By=a(qc),Bz=a(p4),BA=a(pj),BB=a(qE),BC=a(o8),BD=a(o7),BE=[0,a(aJ),0],BF=a('the quantity "'),BH=a(pf),BI=a(qa),BJ=a(bC),BK=a(bB),BL=a(qs),BM=[0,a(aJ),0],BN=a('a bound "'),BV=a(fp),BW=a(ew),Bt=a(bV),Bu=a(ez),A_=a(bV),A$=a(hi),Ba=a(fz),Bb=a(hh),Bc=a(ez),Bf=a(bb),Bg=a(bA),Bh=a(fo),Bi=a(es),Bj=a(bb),Bk=a(bA),Bl=a(cd),Bm=a(fo),Bn=a(es),Bo=a(fz),Bp=a(bb),Bq=a(bA),Br=a(pQ),Bs=a(fr),Bd=[0,a('" of such a machine'),0],Be=a(pa),A8=a(bV),A9=a(fz),AS=a(bV),AT=a(dD),AU=a(hh),AV=a(ez),AY=a(hi),AZ=a(bb),A0=a(bA),A1=a(fo),A2=a(es),A3=a(bb),A4=a(bA),A5=a(cd),A6=a(cd),AW=[0,a(aJ),0],AX=a(pa),AP=a(hc),AQ=a(fu),AN=a(" is not covered by the verified checker"),AO=a($),AL=a(bC),AM=a(bB),AH=a($),AI=a(qF),AJ=a($),AK=a($),AG=[1,0],AE=a("Reader.Malformed"),AF=a("Reader.Not_covered"),Fx=[0,a("a paving is checked by orthocert-verified")],Fw=a(pV),Fy=a("CERTIFIED"),Fz=a("REFUTED"),FA=a(pV),FB=a("NOT COVERED: ");function
+fo(a,b,c,d){return a.length==3?a(b,c,d):c8(a,[b,c,d])}function
+js(a,b,c,d,e){return a.length==4?a(b,c,d,e):c8(a,[b,c,d,e])}G3();var
+j9=[aX,a(pw),-2],j8=[aX,a(qI),-4],FJ=[0,[0,[0,[0,0]]]],FK=[0,0],FL=[0,0],FM=[0,[0,0]],FN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FM]]]]]]]]]]],gO=[0,[1,0],0],n_=[0,[2,0],0],ja=[0,[1,0],0],n9=[0,[2,0],0],gM=[0,[1,0],0],i$=[0,[2,0],0],FO=[0,[0,[0,[0,0]]]],FP=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FO]]]]]]]]]]],FQ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FP]]]]]]]]]]],FR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FQ]]]]]]]]]]],FS=[0,[0,0]],FT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FS]]]]]]]]]]],FU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FT]]]]]]]]]]],FV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FU]]]]]]]]]]],FW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FV]]]]]]]]]]],FX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],FY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FX]]]]]]]]]]],FZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FY]]]]]]]]]]],F0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FZ]]]]]]]]]]],F1=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F0]]]]]]]]]]],F2=[0,[0,0]],F3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F2]]]]]]]]]]],F4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F3]]]]]]]]]]],F5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F4]]]]]]]]]]],F6=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F5]]]]]]]]]]],F7=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F6]]]]]]]]]]],F8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F7]]]]]]]]]]],F9=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F8]]]]]]]]]]],F_=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],F$=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F_]]]]]]]]]]],Ga=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F$]]]]]]]]]]],Gb=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ga]]]]]]]]]]],Gc=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gb]]]]]]]]]]],Gd=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gc]]]]]]]]]]],Ge=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gd]]]]]]]]]]],Gf=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Ge]]]]]]]]]]],Gg=[0,0],Gh=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gg]]]]]]]]]]],Gi=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gh]]]]]]]]]]],Gj=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gi]]]]]]]]]]],Gk=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gj]]]]]]]]]]],Gl=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gk]]]]]]]]]]],Gm=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gl]]]]]]]]]]],Gn=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gm]]]]]]]]]]],Go=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gn]]]]]]]]]]],Gp=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Go]]]]]]]]]]],Gq=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gp]]]]]]]]]]],Gr=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],Gs=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gr]]]]]]]]]]],Gt=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],Gu=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gt]]]]]]]]]]],Gv=[0,[0,[0,[0,[0,0]]]]],Gw=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gv]]]]]]]]]]],Gx=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gw]]]]]]]]]]],Gy=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gx]]]]]]]]]]],Gz=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gy]]]]]]]]]]],GA=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gz]]]]]]]]]]],GB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GA]]]]]]]]]]],GC=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GB]]]]]]]]]]],GD=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GC]]]]]]]]]]],GE=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GD]]]]]]]]]]],GF=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GE]]]]]]]]]]],GG=[0,0],GH=[0,[0,0]],GI=[0,0],GJ=[0,[0,[0,[0,[0,0]]]]],kG=[0,[0,[0,0]]],dc=[0,[0,[0,0]],[0,[0,[0,0]]],[0,[0,[0,[0,0]]]]],gC=[0,[0,[0,[0,0]]]],GK=[0,[0,[0,[0,[0,0]]]]],GL=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GK]]]]]]]]]]],GM=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GL]]]]]]]]]]],GN=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GM]]]]]]]]]]],GO=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GN]]]]]]]]]]];bD(11,[aX,a(oZ),-12],oZ);bD(10,[aX,a(pL),-11],pL);bD(9,[aX,a(qx),-10],qx);bD(8,[aX,a(o$),-9],o$);bD(7,[aX,a(p0),-8],p0);bD(6,[aX,a(o9),-7],o9);bD(5,[aX,a(px),-6],px);bD(4,[aX,a(pB),-5],pB);bD(3,j8,qI);bD(2,[aX,a(jC),-3],jC);bD(1,j9,pw);bD(0,[aX,a(qg),-1],qg);var
+ri=a("String.sub / Bytes.sub"),rk=a(aa),rj=a("String.concat"),rl=a("Array.init"),rm=a("power"),rF=[0,0],rG=[0,0],rM=[0,0,0],rN=[0,0,0],rO=[0,0],r_=[0,0],r$=[0,0],sc=[0,0],sw=[0,0],sz=[0,0],sB=[0,0],sC=[0,0],sR=[0,0],sS=[0,0],tj=[0,0],tD=[0,[0,[0,0]]],t7=[0,0],uj=[0,0],uk=[0,0],ul=[0,0],uG=a(","),uY=[0,a(jI),0],uZ=a(pG),u0=a("."),u1=[0,[0,[0,0]]],u2=a(fu),u3=a(jJ),u4=[0,[0,[0,[0,[0,0]]]]],u5=[0,a(jI),0],u6=a(qF),x3=a(oW),x5=a(oS),x4=a(pO),x6=a(ev),x7=a(et),x8=a(qH),x9=a(qr),x_=a(pq),x$=a(jL),ya=a(pU),zr=[0,[0,0,0]],zI=[0,0],zs=a(g2),zt=[0,0],zu=a("divided"),zv=[0,1],zw=a("mirror"),zx=[0,3],zy=a("negative"),zz=[0,2],zA=a(ft),zB=[0,5],zC=a(jQ),zD=[0,4],zE=a(dE),zF=a(pc),zG=a(ew),zH=a(cd),zJ=[0,0],zK=[0,0],zL=[0,0],zO=[0,[0,[0,0]]],zP=[0,[0,[0,0]]],Ae=[0,[0,[0,0]]],As=[0,0],AH=a(aa),AA=[0,0],AB=[0,0],AC=[0,[0,[0,[0,0]]]],AD=[0,[0,[0,0]]],AE=[0,[0,[0,[0,0]]]],AF=[0,[0,[0,0]]],Ay=[0,[0,[0,0]]],Ax=[0,0],Aw=a(ew),Av=[0,[0,[0,0]]],Au=[0,0],Ap=[0,[0,0]],Ar=[0,[0,[0,0]]],Aq=[0,0],Al=[0,[0,[0,0]]],Ak=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FJ]]]]]]]]]],[0,0,[0,[0,[0,[0,0]]],0]]],Af=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]]],[0,0,0]],Ag=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],[0,[0,[0,[0,[0,[0,[0,0]]]]]],0]],Ah=[0,[0,[0,[0,[0,[0,[0,0]]]]]],0],Ai=[0,[0,[0,[0,0]]],[0,0,0]],Ac=[0,0],Ad=[0,[0,0]],Ab=[0,0,0],Aa=[0,[0,[0,0]]],z6=[0,[0,0]],z7=[0,[0,[0,0]]],z8=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FK]]]]]]]]]]],z9=[0,[0,0]],z_=[0,[0,[0,0]]],z5=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FL]]]]]]]]]]],z3=[0,[0,0]],z4=[0,[0,[0,0]]],z1=[0,[0,[0,0]]],z2=[0,[0,0]],z0=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FN]]]]]]]]]]],zZ=[0,0],zY=[0,0],zV=[0,[0,0]],zW=[0,0],zT=[0,0],zU=[0,1],zR=[0,[0,0]],zS=[0,0],zQ=[0,0],zM=[0,0],zN=[0,1],zo=[0,0],zp=[0,1],zq=[0,2],zk=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zi=[0,[0,0],0],zj=[0,[1,0],0],zl=[0,0,[0,[0,0],[0,[0,[0,0]],0]]],zg=[0,[0,0]],zh=[0,0],zf=[0,0],ze=[0,0],zd=[0,0],zc=[0,0],zb=[0,0,0],y$=[0,[0,0]],za=[0,0],y_=[0,0,0],y8=[0,[0,[0,0]]],y9=[0,[0,[0,0]]],y7=[0,0],y5=[0,1,0],yX=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FR]]]]]]]]]]],yY=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,FW]]]]]]]]]]],yT=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F1]]]]]]]]]]],yU=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,F9]]]]]]]]]]],yV=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gf]]]]]]]]]]],yW=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gq]]]]]]]]]]],yZ=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gs]]]]]]]]]]],y0=a("sqrt"),yR=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,Gu]]]]]]]]]]],yS=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GF]]]]]]]]]]],yG=[0,a("\n"),0],yH=a(oT),yI=a(g5),yJ=a(pK),yK=a(pu),yQ=a(fx),yL=a(fs),yM=a("verdict"),yN=a(qi),yO=a(pn),yP=a(pJ),yD=a(pE),yE=a(qm),yF=a(g7),yz=a(pW),yA=a(g8),yB=a(fs),yC=a(fx),yu=a(he),yv=a(bi),yw=a(oV),yx=a(hb),yr=a(qf),ys=a(ft),yt=a(hb),yn=a(pZ),yo=a(he),yp=a(g8),yq=a(qv),yc=a(qn),yd=a(qq),ye=a(ha),yf=a(g_),yg=a(qB),yh=a(qb),yi=a(qe),yj=a(p3),yk=a(ha),yl=a(p6),x1=a(g3),x2=a(fw),xW=a(bC),xX=a(bB),xY=a(pp),xw=a(g_),xx=a(p2),xa=a(bi),xb=a(bW),xc=a(hg),xd=a(ez),xe=a(dD),xj=a(jv),xf=a(jK),xg=a(jN),xh=a(eu),xi=a(bi),xk=a(bW),xl=a(hg),xm=a(ez),xn=a(jK),xo=a(jN),xp=a(eu),xq=a(bi),xr=a(bW),xs=a(bC),xt=a(bB),xu=a(dB),xv=a(ez),xy=a(p$),xz=a(qp),xA=a(hj),xB=a(pd),xC=a(pi),xD=a(eu),xE=a(bi),xF=a(bW),xG=a(g0),xH=a(ps),xI=a(ez),xJ=a(fA),xK=a(o3),xL=a(eu),xM=a(bi),xN=a(g0),xO=a(bi),xP=a(p5),xS=a(oR),xQ=a(pg),xR=a(qu),xT=a(fx),xU=a(fs),xV=a(bi),xZ=a(hj),x0=a(g7),w7=a(bW),w8=a(ez),w9=a(jv),w_=a(eu),w6=a(qD),wU=a(fA),wV=a(qj),wW=a(dC),wX=a(ex),wY=a(ex),wZ=a(jy),w0=a(dC),w1=a(pM),w2=a(po),w3=a(bb),w5=a(oY),w4=a(jy),wK=a(pD),wL=a(qG),wM=a(pk),wN=a(ph),wO=a(qt),wP=a(qd),wQ=a(pv),wR=a(g1),wS=a(g1),wG=a(bb),wH=a(bA),wI=a(eA),wJ=a(bV),wC=a(dD),wD=a(jF),wE=a(pX),wz=a(bC),wA=a(bB),wB=a(dB),ws=a(bC),wt=a(bB),wu=a(dB),wv=a(jH),ww=a(dC),wx=a(jD),wy=a(p_),wb=a(pf),wh=a(g5),wg=a(jP),wc=a(jz),wd=a(fq),wk=a(fr),wl=a(jz),wi=a(fr),wj=a(fq),wm=a(pb),wn=a(p8),wo=a(fq),wp=a(qC),wq=a(jP),wr=a(fq),we=a(ex),wf=a(pS),v_=a(g$),v$=a(g$),wa=a(g$),v6=a(qa),v7=a(bB),v8=a(bC),v9=a(qs),vQ=a(o7),vR=a(oX),vS=a(p1),vT=a(ev),vU=a(qE),vV=a(p4),vW=a(o8),vX=a(pT),vY=a(o6),vZ=a(pr),v0=a(o5),v1=a(qc),v2=a(et),v3=a(o2),v4=a(ql),v5=a(pj),vv=a(hc),vx=a(fu),vw=a(fp),vy=a(es),vz=a(bb),vA=a(bA),vB=a(cd),vC=a(hh),vD=a(bV),vE=a(bb),vF=a(bA),vG=a(eA),vH=a(bV),vI=a(es),vJ=a(fz),vK=a(bb),vL=a(bA),vM=a(pQ),vN=a(fr),vO=a(fz),vP=a(bV),vd=a(hc),vl=a(fu),ve=a(fp),vf=a(es),vg=a(bb),vh=a(bA),vi=a(cd),vj=a(hh),vk=a(bV),vm=a(hi),vn=a(bb),vo=a(bA),vp=a(eA),vq=a(bV),vr=a(cd),vs=a(dD),vt=a(bV),va=a(bC),vb=a(bB),u_=[0,a(aJ),0],u$=a(aJ),u8=a(aa),u7=[0,a(aJ),0],u9=a(aJ),uU=a(hc),uV=a(fu),uW=a("*"),uX=a(bX),uP=[0,[0,[0,[0,[0,0]]]]],uQ=[0,[0,[0,0]]],uR=[0,[0,0]],uS=[0,0],uT=[0,[0,[0,[0,0]]]],uN=a('":'),uO=a(aJ),uL=[0,a(aJ),0],uM=a(aJ),uJ=[0,a("}"),0],uK=a("{"),uH=[0,a("]"),0],uI=a("["),uF=[0,[0,[0,0]]],uE=[0,[0,[0,0]]],uC=[0,0],uz=[0,[0,[0,0]]],uA=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],uB=[0,[0,1,[0,0,0]],[0,[0,0,[0,1,0]],[0,[0,1,[0,1,0]],0]]],ux=[0,[0,0]],uy=[0,[0,[0,0]]],uu=[0,[0,[0,0]]],uw=[0,[0,[0,0]]],uv=[0,0],ur=[0,[0,0]],us=[0,0],up=[0,[0,0]],uq=[0,0],uo=[0,[0,[0,0]]],um=[0,[0,0]],un=[0,0],ui=[0,0],ue=[0,0],uf=[0,[0,[0,[0,[0,[0,0]]]]]],ug=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GG]]]]]]]]]]],uc=[0,0],t$=[0,0,0],ua=[0,0,0],ub=[0,0,0],t8=[0,[0,0]],t9=[0,[0,[0,0]]],t_=[0,0],tX=[0,[0,[0,[0,[0,[0,0]]]]]],tY=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],tZ=[0,[0,[0,0]]],t0=[0,[0,[0,0]]],t1=[0,[0,[0,[0,[0,[0,0]]]]]],t2=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],t3=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GH]]]]]]]]]]],t4=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GI]]]]]]]]]]],t5=[0,[0,[0,0]]],t6=[0,[0,[0,[0,[0,[0,0]]]]]],tW=[0,0],tU=[0,[0,0]],tV=[0,[0,[0,0]]],tQ=[0,0,0],tR=[0,0,0],tM=[0,0,0],tN=[0,0,0],tO=[0,0,0],tP=[0,0,0],tL=[0,0],tK=[0,0],tJ=[0,0],tH=[0,0],tI=[0,0],tG=[0,0],tE=[0,0],tF=[0,0],tx=[0,0],ty=[0,0],tz=[0,0],tA=[0,[0,[0,0]]],tw=[0,0],tr=[0,[0,[0,0]]],ts=[0,[0,0]],tp=[0,[0,0]],tq=[0,[0,[0,0]]],to=[0,0],tm=[0,0],tn=[0,0],tk=[0,0,0],th=[0,[0,0]],ti=[0,0],s$=[0,[0,0]],ta=[0,0],tb=[0,[0,0]],tc=[0,0],td=[0,[0,0]],te=[0,0],tf=[0,[0,0]],tg=[0,0],s9=[0,[0,0]],s_=[0,0],s7=[0,[0,0]],s8=[0,0],s3=[0,[0,0]],s4=[0,0],s5=[0,0],s6=[0,[0,0]],sU=[0,[0,0]],sV=[0,0],sW=[0,[0,0]],sX=[0,0],sY=[0,0],sZ=[0,[0,0]],s0=[0,[0,0]],s1=[0,[0,0]],s2=[0,0],sQ=[0,0],sP=[0,0],sM=[0,0],sN=[0,[0,0]],sL=[0,[0,[0,0]]],sK=[0,[0,[0,[0,[0,[0,0]]]]]],sG=[0,[0,0]],sH=[0,[0,0]],sI=[0,0],sF=[0,0],sD=[0,0],sE=[0,[0,[0,0]]],sA=[0,[0,[0,0]]],sx=[0,[0,[0,0]]],sv=[0,[0,[0,0]]],st=[0,[0,[0,[0,[0,[0,0]]]]]],su=[0,[0,[0,[0,[0,[0,0]]]]]],so=[0,[0,0]],sp=[0,0],sq=[0,[0,0]],sr=[0,[0,[0,0]]],ss=[0,[0,[0,0]]],sh=[0,[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]]],si=[0,[0,[0,[0,[0,[0,0]]]]]],sj=[0,[0,[0,[0,[0,[0,0]]]]]],sk=[0,[0,[0,0]]],sl=[0,[0,[0,[0,[0,[0,0]]]]]],sm=[0,[0,[0,0]]],sn=[0,[0,[0,0]]],sf=[0,[0,0]],sg=[0,0],se=[0,0,0],sd=[0,0,0],sb=[0,0,0],sa=[0,[0,[0,0]]],r6=[0,0],r7=[0,0],r8=[0,0],r9=[0,0],r4=[0,0],r5=[0,0],r0=[0,[0,[0,0]]],r1=[0,[0,[0,0]]],r2=[0,[0,[0,0]]],rZ=[0,[0,[0,[0,0]]]],rV=[0,[0,[0,0]]],rW=[0,[0,[0,0]]],rX=[0,[0,[0,0]]],rY=[0,[0,1,1],[0,[0,0,1],[0,[0,1,0],[0,[0,0,0],0]]]],rT=[0,[0,0]],rU=[0,0],rR=[0,[0,0]],rS=[0,0],rP=[0,[0,0]],rQ=[0,0],rC=[0,0],rD=[0,[0,0]],rA=[0,[0,[0,[0,[0,[0,[0,[0,0]]]]]]]],rB=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GJ]]]]]]]]]]],ry=[0,0,0],rx=a(qz),rw=a(aa),rv=[0,[0,0]],rt=[0,0],rq=[0,0],rs=[1,0],rr=[0,0],rp=[0,0],rn=[1,0],ro=[1,0],sO=[10,0,0,0,0],At=[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,[0,GO]]]]]]]]]]],DI=a(bC),DJ=a(bB),DK=a(pp),DA=a(hi),DB=[0,a("a base axis of such a platform"),0],DC=a(bb),DD=a(bA),Dn=a(qd),Do=a(pD),Dp=a(qt),Dq=a(g1),Dr=a(pv),Ds=a(g1),Dt=a(qG),Du=a(pk),Dv=a(ph),Dd=a(p2),De=a(g_),CR=[0,a("such a machine with bodies"),0],CE=a(g7),CF=a(bi),CG=a(p5),CH=a(qu),CK=a(pg),CL=a(oR),CM=a(bi),CN=a(bi),CP=a(g0),CO=[0,a("a claim that no cube of such a machine fits"),0],CQ=a(qD),CS=a(eu),CT=a(ez),CU=a(dD),CV=a(jF),CW=a(pX),CX=a(hg),CY=a(pi),CZ=a(o3),C0=a(jv),C3=a(dB),C4=a(p_),C7=a(bW),C8=a(bW),C9=a(ps),C_=a(bW),C$=[0,a("the closed design with other bounds on psi than one from below and one from above"),0],Da=a(g0),Db=a(fA),Dc=a(dB),Df=a(bW),Dg=a(bC),Dh=a(bB),Di=a(p$),Dj=a(qp),Dk=a(hj),Dl=a(pd),C1=[0,a(aJ),0],C2=a('the mechanism "'),Dm=a(jK),Dw=a(hg),Dx=a(dD),Dy=a(jF),Dz=a(jN),DE=a(bW),DH=a(dD),DF=[0,a("a platform that turns on struts and other drives"),0],DG=a(bW),C5=[0,a(aJ),0],C6=a('the workspace "'),DL=a(bi),DM=a(bi),DO=a(fx),DP=a(fs),DQ=a(hj),DN=[0,a("an atlas of such a machine"),0],CI=[0,a(aJ),0],CJ=a('a claim of the kind "'),D6=a(jL),D7=[0,a('the evidence "fan" without "tolerances"'),0],DV=a(dE),Ee=a(fw),Ef=[0,1,1],DW=a(pU),D8=a(et),D9=a(ev),D_=a(pq),D$=a(pO),Ea=a(cd),Eb=a(fw),Ec=a(g3),Ed=a(cd),DX=a(qH),DY=a(dE),DZ=a(pc),D0=a(ew),D1=a(jL),D4=a(ew),D5=[0,a('the evidence "inside" about "rank"'),0],D2=[0,a(aJ),0],D3=a('the evidence "'),Eg=a(et),Eh=a(ev),Ei=a(dE),Ej=a(ew),Ek=a(qr),Em=a(et),En=a(ev),Eo=a(dE),Ep=a(ew),Eq=a(ft),Er=a(g2),Es=a(ft),Et=a(g2),El=[0,a("this evidence at control points"),0],FC=a('"orthocert-paving/'),Fs=a(dE),Ft=a(dE),E$=a(pJ),Fa=a(pn),Fb=a(qi),FA=[0,3,3],Fc=a(pu),Fq=[0,a("this set of orientations with such drives"),0],Fr=[0,a('"parallel_margin" of struts in the plane'),0],Fu=[0,a('this evidence "tolerances" of a platform that turns'),0],Fv=[0,a('"one_to_one" of this set of orientations'),0],Fw=[0,a("a step of a platform that turns that is not at control points"),0],Fx=[0,a('the evidence "tolerances" of such a mechanism'),0],Fy=[0,a(pR),0],Fz=[0,a(qh),0],Fp=[0,a(pR),0],Fo=[0,a(qh),0],Fm=[0,a(oU),0],Fn=[0,a("a step in a proof that no cube fits"),0],Fl=[0,a('"one_to_one" of such a mechanism'),0],Fd=[0,a("the acceleration of a joint of a machine with a plane"),0],Fj=[0,a("a stiffness for each joint in such a claim"),0],Fk=[0,a(p7),0],Fi=[0,a(p7),0],Fe=a(pK),Ff=a(oT),Fg=a(g5),Fh=[0,a(oU),0],E7=a(jQ),E8=a(g2),E9=a(cd),EZ=a(g7),E0=a(pE),E1=a(qm),E2=[0,a(aJ),0],E3=a('a proof of the kind "'),EV=a(fs),EW=a(fx),EX=a(g8),EY=a(pW),ER=a(bi),ES=a(he),ET=a(oV),EU=a(hb),EO=a(qf),EP=a(ft),EQ=a(hb),EK=a(pZ),EL=a(he),EM=a(g8),EN=a(qv),Ew=a(qq),Ex=a(ha),Ey=a(qn),Ez=a(g_),EA=a(p6),EB=a(qB),EE=a(qb),EF=a(g3),EG=a(fw),EH=a(qe),EI=a(p3),EJ=a(ha),EC=[0,a(aJ),0],ED=a('the failure "'),Eu=a(jQ),Ev=a(qz),DT=a(fw),DU=a(g3),DR=a(oS),DS=a(oW),CB=a(fA),Cr=a(jy),Cs=a(oY),Ct=a(ex),Cu=a(bb),Cz=a(qj),CA=a(fA),CC=a(dC),CD=a(ex),Cv=a(dC),Cw=a(pM),Cx=a(po),Cy=a(bb),Ck=a(dB),Co=a(bC),Cp=a(bB),Cl=a(jD),Cm=a(jH),Cn=a(dC),Ce=a(dB),Ci=a(bC),Cj=a(bB),Cf=a(jD),Cg=a(jH),Ch=a(dC),Cd=[0,1],Cc=[0,1],Ca=[0,1],B$=[0,1],B9=[0,1],B_=[0,a("this quantity of such a mechanism"),0],BT=a(jz),BU=a(p8),BV=a(pb),BW=a(jP),BX=a(qC),BY=a(fr),BS=a(g5),BK=a(g$),Bz=a(pS),BA=a(p1),B1=a(et),B2=a(ql),B3=a(pr),B4=a(ev),B5=a(pT),B6=a(o5),B7=a(o6),B8=a(oX),BB=a(o2),BC=a(qc),BD=a(p4),BE=a(pj),BF=a(qE),BG=a(o8),BH=a(o7),BI=[0,a(aJ),0],BJ=a('the quantity "'),BL=a(pf),BM=a(qa),BN=a(bC),BO=a(bB),BP=a(qs),BQ=[0,a(aJ),0],BR=a('a bound "'),BZ=a(fq),B0=a(ex),Bx=a(bV),By=a(eA),Bc=a(bV),Bd=a(hi),Be=a(fz),Bf=a(hh),Bg=a(eA),Bj=a(bb),Bk=a(bA),Bl=a(fp),Bm=a(es),Bn=a(bb),Bo=a(bA),Bp=a(cd),Bq=a(fp),Br=a(es),Bs=a(fz),Bt=a(bb),Bu=a(bA),Bv=a(pQ),Bw=a(fr),Bh=[0,a('" of such a machine'),0],Bi=a(pa),Ba=a(bV),Bb=a(fz),AW=a(bV),AX=a(dD),AY=a(hh),AZ=a(eA),A2=a(hi),A3=a(bb),A4=a(bA),A5=a(fp),A6=a(es),A7=a(bb),A8=a(bA),A9=a(cd),A_=a(cd),A0=[0,a(aJ),0],A1=a(pa),AT=a(hc),AU=a(fu),AR=a(" is not covered by the verified checker"),AS=a(aa),AP=a(bC),AQ=a(bB),AL=a(aa),AM=a(qF),AN=a(aa),AO=a(aa),AK=[1,0],AI=a("Reader.Malformed"),AJ=a("Reader.Not_covered"),FE=[0,a("a paving is checked by orthocert-verified")],FD=a(pV),FF=a("CERTIFIED"),FG=a("REFUTED"),FH=a(pV),FI=a("NOT COVERED: ");function
 fG(a){throw[0,j8,a]}function
 a8(d,c){var
-a=av(d),e=av(c),b=cg(a+e|0);eB(d,0,b,0,a);eB(c,0,b,a,e);return hq(b)}G$(0);q3(1);q3(2);function
+a=au(d),e=au(c),b=cg(a+e|0);eC(d,0,b,0,a);eC(c,0,b,a,e);return hr(b)}Hg(0);q3(1);q3(2);function
 j_(b){function
 a(b){var
 a=b;for(;;){if(a){var
-c=a[2],d=a[1];try{G_(d)}catch(a){a=rb(a);if(a[1]!==j9)throw a;var
+c=a[2],d=a[1];try{Hf(d)}catch(a){a=rb(a);if(a[1]!==j9)throw a;var
 e=a}var
-a=c;continue}return 0}}return a(Ha(0))}Hh(a(o0),j_);function
+a=c;continue}return 0}}return a(Hh(0))}Ho(a(o0),j_);function
 ci(c){var
 b=0,a=c;for(;;){if(a){var
 b=b+1|0,a=a[2];continue}return b}}function
@@ -721,38 +721,38 @@ a=d,b=0;for(;;){if(a){var
 c=[0,a[1],b],a=a[2],b=c;continue}return b}}function
 X(b,a){if(a){var
 c=a[2],d=i(b,a[1]);return[0,d,X(b,c)]}return 0}function
-hs(d,c){var
+ht(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b){var
 a=e;continue}return b}return 1}}function
-aB(d,c){var
+ay(d,c){var
 a=c;for(;;){if(a){var
 e=a[2],b=i(d,a[1]);if(b)return b;var
 a=e;continue}return 0}}function
 bE(b,c){var
-a=cg(b);GU(a,0,b,c);return hq(a)}function
+a=cg(b);G1(a,0,b,c);return hr(a)}function
 dK(g,b,a){var
-d=eC(g),f=0;if(0<=b&&0<=a&&!((ho(d)-a|0)<b)){var
+d=eD(g),f=0;if(0<=b&&0<=a&&!((hp(d)-a|0)<b)){var
 c=cg(a);fB(d,b,c,0,a);var
 e=c;f=1}if(!f)var
-e=fG(ri);return hq(e)}function
+e=fG(ri);return hr(e)}function
 ka(k,g){if(g){var
-h=av(k),c=0,b=g,p=0;for(;;){if(b){var
+h=au(k),c=0,b=g,p=0;for(;;){if(b){var
 i=b[1];if(b[2]){var
-j=(av(i)+h|0)+c|0,m=b[2],n=c<=j?j:fG(rj),c=n,b=m;continue}var
-l=av(i)+c|0}else
+j=(au(i)+h|0)+c|0,m=b[2],n=c<=j?j:fG(rj),c=n,b=m;continue}var
+l=au(i)+c|0}else
 var
 l=c;var
 f=cg(l),e=p,d=g;for(;;){if(d){var
 a=d[1];if(d[2]){var
-o=d[2];eB(a,0,f,e,av(a));eB(k,0,f,e+av(a)|0,h);var
-e=(e+av(a)|0)+h|0,d=o;continue}eB(a,0,f,e,av(a))}return hq(f)}}}return rk}function
-ht(b,c){if(0===b)return[0];if(0<=b){var
-d=G9(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
+o=d[2];eC(a,0,f,e,au(a));eC(k,0,f,e+au(a)|0,h);var
+e=(e+au(a)|0)+h|0,d=o;continue}eC(a,0,f,e,au(a))}return hr(f)}}}return rk}function
+hu(b,c){if(0===b)return[0];if(0<=b){var
+d=He(b,i(c,0)),e=b-1|0,f=1;if(!(e<1)){var
 a=f;for(;;){d[1+a]=i(c,a);var
 g=a+1|0;if(e!==a){var
 a=g;continue}break}}return d}return fG(rl)}function
-hu(c){var
+hv(c){var
 a=c.length-1-1|0,b=0;for(;;){if(0<=a){var
 d=[0,c[1+a],b],a=a-1|0,b=d;continue}return b}}var
 d=aE(0),b=aE(1);function
@@ -760,13 +760,13 @@ p(a){return C(a,b)}function
 kb(b,a){return C(aE(b),a)}function
 c(b,a){return A(aE(b),a)}function
 aT(b,a){return[0,j5(b,a),re(b,a)]}function
-hv(b,a){return E(b,a)?b:a}function
+hw(b,a){return E(b,a)?b:a}function
 bj(b,a){return E(b,a)?a:b}function
-eH(a){return eH}function
+eI(a){return eI}function
 T(a){return a?0:1}function
 y(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
-ay(a){return a[1]}function
+az(a){return a[1]}function
 aU(a){return a[2]}function
 g(a){var
 b=a?[0,g(a[2])]:a;return b}function
@@ -857,12 +857,12 @@ kh(a){if(a)var
 b=a[1],d=b?[0,kh(b[1])]:b,c=d;else
 var
 c=a;return c}function
-hw(d,c){var
+hx(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[1];continue}return a}return a?0:1}}function
 ki(a){if(E(a,b))return b;var
 e=aT(a,aE(2)),f=e[1];return J(e[2],d)?p(c(2,ki(f))):p(c(2,c(2,f)))}function
-kj(c,a){return bj(b,aA(c,a))}function
+kj(c,a){return bj(b,aB(c,a))}function
 fJ(a){if(E(a,b))return rq;var
 c=aT(a,aE(2)),e=c[1];return J(c[2],d)?[0,fJ(e)]:[0,fJ(e)]}function
 fK(a){if(E(a,b))return b;var
@@ -895,7 +895,7 @@ kl(c,i,h){var
 e=i,a=h;for(;;){if(E(e,b))return a;var
 f=aT(e,aE(2)),g=f[1];if(J(f[2],d)){var
 e=g,a=an(c,a,a);continue}return an(c,a,kl(c,g,an(c,a,a)))}}function
-eI(a){return kl(O,a,rr)}function
+eJ(a){return kl(O,a,rr)}function
 km(a){return a?p(km(a[1])):b}function
 ck(f,e){var
 a=f,d=e;for(;;)if(typeof
@@ -920,9 +920,9 @@ t=A(c(2,p(c(2,c(2,b)))),d),u=C(p(c(2,p(c(2,b)))),t),a=a[1],d=u;continue;case
 8:var
 v=A(c(2,p(c(2,c(2,b)))),d),w=C(c(2,c(2,c(2,b))),v),a=a[1],d=w;continue;default:var
 x=A(c(2,p(c(2,c(2,b)))),d),y=C(p(c(2,c(2,c(2,b)))),x),a=a[1],d=y;continue}}function
-hx(a){if(E(a,b))return rs;var
-c=aT(a,aE(2)),e=c[1];return J(c[2],d)?bF(hx(e)):bG(hx(e))}function
-fO(a){return fH(hx(a))}function
+hy(a){if(E(a,b))return rs;var
+c=aT(a,aE(2)),e=c[1];return J(c[2],d)?bF(hy(e)):bG(hy(e))}function
+fO(a){return fH(hy(a))}function
 kn(c,b){var
 a=j4(c,b);return 0===a?0:0<=a?2:1}function
 ko(b,a){return 1===kn(b,a)?1:0}var
@@ -931,9 +931,9 @@ bZ(k,f){if(0<=aK(f)){var
 g=j6(f);if(0<=g){var
 e=b,c=k,a=g;for(;;){if(0===a)return e;var
 h=a>>>1|0,i=A(c,c),j=1===(a&1)?A(e,c):e,e=j,c=i,a=h;continue}}return fG(rm)}return d}function
-hy(c){var
+hz(c){var
 a=aK(c);return 0===a?d:0<a?b:R(b)}function
-hz(a){return 0<=aK(a)?a:d}function
+hA(a){return 0<=aK(a)?a:d}function
 dN(a){var
 c=aK(a);return 0===c?b:0<c?a:b}function
 kq(m){var
@@ -963,8 +963,8 @@ c=aK(a);return 0===c?d:1===c?j5(b,a):kb(-1,j5(kb(-1,b),a))}function
 kr(a){var
 f=aK(a);if(0===f)return d;if(0<f){if(E(a,b))return d;var
 c=aT(a,aE(2)),e=c[1];return J(c[2],d)?fK(e):fK(e)}return d}function
-fP(a){return 0<aK(a)?Hr(a):d}function
-eJ(b,c){var
+fP(a){return 0<aK(a)?Hy(a):d}function
+eK(b,c){var
 a=j6(c);return 0<=a?rf(b,a):rg(b,-a|0)}function
 c9(b,c){var
 a=j6(c);return 0<=a?rg(b,a):rf(b,-a|0)}function
@@ -980,12 +980,12 @@ a=a[2],b=b[1];continue}return a}var
 e=a?[0,a[1]]:a;return e}}function
 ks(a){if(a){var
 b=[0,a[1],0];return f(ks(a[2]),b)}return a}function
-eK(d,c){var
+eL(d,c){var
 a=d,b=c;for(;;){if(a){var
 e=[0,a[1],b],a=a[2],b=e;continue}return b}}function
 dO(a){if(a){var
 b=dO(a[2]);return f(a[1],b)}return a}function
-hA(g,f,e){var
+hB(g,f,e){var
 b=f,a=e;for(;;){if(b){if(a){var
 c=an(g,b[1],a[1]);if(c){var
 b=b[2],a=a[2];continue}var
@@ -1037,15 +1037,15 @@ c=b;return c}function
 aZ(d,c){var
 b=d,a=c;for(;;){if(b){if(a){var
 b=b[1],a=a[2];continue}return a}return a}}function
-az(b,a){var
-c=a?[0,b,az([0,b],a[1])]:a;return c}function
+aA(b,a){var
+c=a?[0,b,aA([0,b],a[1])]:a;return c}function
 al(b,a){var
 c=a?[0,b,al(b,a[1])]:a;return c}function
 ku(a){if(a){var
 e=ku(a[2]),f=A(c(2,b),e),g=a[1]?b:d;return C(g,f)}return d}function
 fQ(j){function
 a(a){return 0!==(j&1<<a)?1:0}var
-c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=ku([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aK(b)?eI(b):0}function
+c=a(7),d=a(6),e=a(5),f=a(4),g=a(3),h=a(2),i=a(1),b=ku([0,a(0),[0,i,[0,h,[0,g,[0,f,[0,e,[0,d,[0,c,0]]]]]]]]);return 0<aK(b)?eJ(b):0}function
 kv(a){return[0,a,b]}function
 dP(c,b){var
 a=j4(A(c[1],b[2]),A(b[1],c[2])),d=0===a?0:0<=a?2:1;return d?0:1}function
@@ -1058,16 +1058,16 @@ fR(f,c){var
 a=c[1],e=aK(a),g=0===e?[0,d,b]:0<e?[0,c[2],a]:[0,R(c[2]),R(a)];return a0(f,g)}function
 c$(q){var
 a=q[2],b=q[1],o=aK(b);if(0===o)var
-c=[0,ch(a),[0,d,hy(a)]];else
+c=[0,ch(a),[0,d,hz(a)]];else
 if(0<o){var
 n=aK(a);if(0===n)var
-c=[0,ch(b),[0,hy(b),d]];else
+c=[0,ch(b),[0,hz(b),d]];else
 if(0<n)var
 l=fN(b,a),m=l[2],c=[0,l[1],[0,m[1],m[2]]];else
 var
 j=fN(b,R(a)),k=j[2],c=[0,j[1],[0,k[1],R(k[2])]]}else{var
 p=R(b),i=aK(a);if(0===i)var
-c=[0,ch(b),[0,hy(b),d]];else
+c=[0,ch(b),[0,hz(b),d]];else
 if(0<i)var
 g=fN(p,a),h=g[2],c=[0,g[1],[0,R(h[1]),h[2]]];else
 var
@@ -1095,34 +1095,34 @@ i=bc(a[1]);return a8(bE(1,55),i);case
 8:var
 j=bc(a[1]);return a8(bE(1,56),j);default:var
 k=bc(a[1]);return a8(bE(1,57),k)}}function
-eL(a){return typeof
+eM(a){return typeof
 a==="number"?rx:bc(a)}function
 cm(a){return bZ(c(2,b),a)}function
 kx(b,a){return c9(a,b)}function
 ky(b,a){return R(c9(R(a),b))}function
 fS(b,a){return R(cl(R(b),a))}function
 P(c,b){var
-a=eJ(b,c);return[0,a,a]}function
+a=eK(b,c);return[0,a,a]}function
 kz(d,c,a){var
-b=eJ(c,d),e=fS(b,a);return[0,cl(b,a),e]}function
+b=eK(c,d),e=fS(b,a);return[0,cl(b,a),e]}function
 z(b,a){return[0,C(b[1],a[1]),C(b[2],a[2])]}function
-G(b,a){return[0,aA(b[1],a[2]),aA(b[2],a[1])]}function
-aa(a){return[0,R(a[2]),R(a[1])]}function
+G(b,a){return[0,aB(b[1],a[2]),aB(b[2],a[1])]}function
+ab(a){return[0,R(a[2]),R(a[1])]}function
 kA(e,c,b,a){if(E(d,e))return E(d,b)?[0,A(e,b),A(c,a)]:E(a,d)?[0,A(c,b),A(e,a)]:[0,A(c,b),A(c,a)];if(E(c,d))return E(d,b)?[0,A(e,a),A(c,b)]:E(a,d)?[0,A(c,a),A(e,b)]:[0,A(e,a),A(e,b)];if(E(d,b))return[0,A(e,a),A(c,a)];if(E(a,d))return[0,A(c,b),A(e,b)];var
-f=bj(A(e,b),A(c,a));return[0,hv(A(e,a),A(c,b)),f]}function
+f=bj(A(e,b),A(c,a));return[0,hw(A(e,a),A(c,b)),f]}function
 t(c,b,a){var
 d=kA(b[1],b[2],a[1],a[2]),e=ky(c,d[2]);return[0,kx(c,d[1]),e]}function
-V(b,a){var
+W(b,a){var
 c=A(a[1],a[1]),e=A(a[2],a[2]),h=ky(b,bj(c,e)),g=0;if(K(a[1],d)&&K(d,a[2])){var
 f=d;g=1}if(!g)var
-f=kx(b,hv(c,e));return[0,f,h]}function
-hB(b,a){var
-c=eJ(cm(b),b),d=fS(c,a[1]);return[0,cl(c,a[2]),d]}function
-b1(b,a){if(K(d,a[1]))return[0,hB(b,a)];var
-c=K(a[2],d),e=c?[0,aa(hB(b,aa(a)))]:c;return e}function
+f=kx(b,hw(c,e));return[0,f,h]}function
+hC(b,a){var
+c=eK(cm(b),b),d=fS(c,a[1]);return[0,cl(c,a[2]),d]}function
+b1(b,a){if(K(d,a[1]))return[0,hC(b,a)];var
+c=K(a[2],d),e=c?[0,ab(hC(b,ab(a)))]:c;return e}function
 b2(f,c){var
 g=K(d,c[1]);if(g)var
-e=eJ(c[2],f),a=fP(e),i=J(A(a,a),e)?a:C(a,b),h=[0,[0,fP(eJ(c[1],f)),i]];else
+e=eK(c[2],f),a=fP(e),i=J(A(a,a),e)?a:C(a,b),h=[0,[0,fP(eK(c[1],f)),i]];else
 var
 h=g;return h}function
 dR(a){return 0===a[0]?a[2]:a[1]}function
@@ -1193,23 +1193,23 @@ fT(b){var
 a=b[1];return 2===a[0]?[0,a[1]]:0}function
 a1(c,b){var
 a=fT(b);return a?J(c,a[1]):a}function
-eM(a){return K(ch(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
+eN(a){return K(ch(a),c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b))))))))))))))))}function
 k(a){return[0,[2,a]]}function
 B(b,a){if(a1(d,b))return a;if(a1(d,a))return b;var
 c=fT(b);if(c){var
 e=c[1],f=fT(a);if(f){var
-g=f[1];if(eM(e)&&eM(g))return k(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
+g=f[1];if(eN(e)&&eN(g))return k(C(e,g));return[0,[3,b,a]]}return[0,[3,b,a]]}return[0,[3,b,a]]}function
 bu(a){var
 b=a[1];switch(b[0]){case
 2:var
-c=b[1];return eM(c)?k(R(c)):[0,[5,a]];case
+c=b[1];return eN(c)?k(R(c)):[0,[5,a]];case
 5:return b[1];default:return[0,[5,a]]}}function
 w(b,a){if(a1(d,a))return b;if(a1(d,b))return bu(a);var
 c=b[1];if(0===c[0]){var
 e=a[1];return 0===e[0]?r(c[1],e[1])?k(d):[0,[4,b,a]]:[0,[4,b,a]]}return[0,[4,b,a]]}function
 Q(a){var
 c=fT(a);if(c){var
-b=c[1];return eM(b)?k(A(b,b)):[0,[8,a]]}return[0,[8,a]]}function
+b=c[1];return eN(b)?k(A(b,b)):[0,[8,a]]}return[0,[8,a]]}function
 s(a,c){if(!a1(d,a)&&!a1(b,c)){if(!a1(d,c)&&!a1(b,a))return aC(a,c)?Q(a):[0,[6,a,c]];return c}return a}function
 aj(c,a){return a1(b,a)?c:[0,[7,c,a]]}function
 aD(a){return a1(b,a)?a:[0,[9,a]]}function
@@ -1223,9 +1223,9 @@ e=c[2],g=c[1];if(b){if(b[1]){var
 l=[0,i(f,bI(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bt(b),c=e,a=l;continue}var
 b=b[2],c=e,a=[0,d,a];continue}var
 m=[0,i(f,bI(function(b){return function(a){return q(a,b,d)}}(a),g)),a],b=bt(b),c=e,a=m;continue}return a}}function
-eN(b,a){if(a){var
+eO(b,a){if(a){var
 c=a[2];if(b){var
-e=eN(b[1],c);return[0,a[1],e]}var
+e=eO(b[1],c);return[0,a[1],e]}var
 d=[0,1,c]}else
 var
 d=a;return d}function
@@ -1238,8 +1238,8 @@ kD(a){switch(a[0]){case
 1:case
 2:return 0;default:return[0,a[1],[0,a[2],0]]}}function
 fU(j,g){var
-k=0,l=as(eN,e(function(a){return 0},g),j),c=eK(g,0),b=l,a=k;for(;;){if(c){if(b){var
-d=b[2],f=b[1],h=[0,f,a],i=f?as(eN,d,kD(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
+k=0,l=as(eO,e(function(a){return 0},g),j),c=eL(g,0),b=l,a=k;for(;;){if(c){if(b){var
+d=b[2],f=b[1],h=[0,f,a],i=f?as(eO,d,kD(c[1])):d,c=c[2],b=i,a=h;continue}return a}return a}}function
 cH(a){var
 b=0;function
 c(a){return[0,a]}return bm(k(d),c,a,b)}function
@@ -1265,25 +1265,25 @@ cI(a){var
 b=b0(function(b,a){return da(a,b)},a,ry),c=b[1],d=e(function(a){return a9(c,a)},a);return[0,ks(b[2]),d]}function
 fV(a){return as(function(b,a){return C(b3(b),a)},d,a)}function
 co(b,c,a){var
-d=fV(a),e=hv(c[2],C(b[2],d)),f=fV(a);return[0,b,[0,bj(c[1],aA(b[1],f)),e],a]}function
+d=fV(a),e=hw(c[2],C(b[2],d)),f=fV(a);return[0,b,[0,bj(c[1],aB(b[1],f)),e],a]}function
 Z(a){return[0,a,a,0]}function
 b5(b,a){var
 c=a[3],d=b[3];function
 e(a){return a}var
 f=aF(function(a){return a},e,z,d,c),g=z(b[2],a[2]);return co(z(b[1],a[1]),g,f)}function
 bn(b,a){var
-c=a[3],d=b[3],e=aF(function(a){return a},aa,G,d,c),f=G(b[2],a[2]);return co(G(b[1],a[1]),f,e)}function
-eO(a){var
-b=e(aa,a[3]),c=aa(a[2]);return[0,aa(a[1]),c,b]}function
+c=a[3],d=b[3],e=aF(function(a){return a},ab,G,d,c),f=G(b[2],a[2]);return co(G(b[1],a[1]),f,e)}function
+eP(a){var
+b=e(ab,a[3]),c=ab(a[2]);return[0,ab(a[1]),c,b]}function
 aG(a,c,b){var
 d=z(b[2],b[1]),e=z(c[2],c[1]),f=b[3],g=c[3];function
 h(c,b){var
 f=t(a,e,b);return aq(z(t(a,d,c),f))}function
 i(b){return aq(t(a,e,b))}var
 j=aF(function(b){return aq(t(a,d,b))},i,h,g,f),k=t(a,c[2],b[2]);return co(t(a,c[1],b[1]),k,j)}function
-eP(b,a){var
-c=a[3],d=z(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=V(b,a[2]);return co(V(b,a[1]),g,f)}function
-hC(a,b){var
+eQ(b,a){var
+c=a[3],d=z(a[2],a[1]),f=e(function(a){return t(b,d,a)},c),g=W(b,a[2]);return co(W(b,a[1]),g,f)}function
+hD(a,b){var
 c=b2(a,b[1]);if(c){var
 g=c[1],d=b2(a,b[2]);if(d){var
 h=d[1],f=b1(a,z(h,g));if(f)var
@@ -1299,7 +1299,7 @@ k=c;return k}function
 dT(a,c,b){var
 d=b1(a,b[1]);if(d){var
 f=b1(a,b[2]);if(f)var
-h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return aa(t(a,g,b))},o=aF(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,co(g,t(a,c[2],h),p)];else
+h=f[1],g=t(a,c[1],d[1]),k=b[3],l=c[3],m=function(c,b){return G(c,t(a,g,b))},n=function(b){return ab(t(a,g,b))},o=aF(function(a){return a},n,m,l,k),p=e(function(b){return t(a,h,b)},o),i=[0,co(g,t(a,c[2],h),p)];else
 var
 i=f;var
 j=i}else
@@ -1311,11 +1311,11 @@ b=e(aq,a[3]),c=aq(z(a[2],a[1]));return co(a[1],c,b)}function
 kE(a,k,j,r,c){var
 l=fW(k),m=fW(j),g=fW(c[1]),h=fW(c[2]),s=aG(a,l,h),u=bn(aG(a,m,g),s),i=dT(a,Z(P(a,b)),u);if(i)var
 f=i[1],n=aG(a,bn(l,g),f),o=aG(a,bn(m,h),f),d=function(c,b){return aG(a,c,Z(b))},v=j[3],w=k[3],x=function(b,a){var
-c=d(o,a);return b5(d(n,b),c)},y=function(a){return d(o,a)},z=aF(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bn(b,d(f,aq(a)))[2]},C=function(a){return eO(d(f,aq(a)))[2]},p=aF(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=co(c[2][1],c[2][2],E),G=aa(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,co(c[1][1],c[1][2],H),F]];else
+c=d(o,a);return b5(d(n,b),c)},y=function(a){return d(o,a)},z=aF(function(a){return d(n,a)},y,x,w,v),A=r[3],B=function(b,a){return bn(b,d(f,aq(a)))[2]},C=function(a){return eP(d(f,aq(a)))[2]},p=aF(function(a){return a[2]},C,B,z,A),D=g[2],E=e(function(b){return t(a,D,b)},p),F=co(c[2][1],c[2][2],E),G=ab(h[2]),H=e(function(b){return t(a,G,b)},p),q=[0,[0,co(c[1][1],c[1][2],H),F]];else
 var
 q=i;return q}function
 kF(a,e,d,k){var
-p=eP(a,d),f=b5(eP(a,e),p),g=bn(b5(f,Z(P(a,b))),k),l=aG(a,Z(P(a,c(2,b))),f),q=eP(a,g),h=hC(a,bn(aG(a,Z(P(a,c(2,c(2,b)))),f),q));if(h){var
+p=eQ(a,d),f=b5(eQ(a,e),p),g=bn(b5(f,Z(P(a,b))),k),l=aG(a,Z(P(a,c(2,b))),f),q=eQ(a,g),h=hD(a,bn(aG(a,Z(P(a,c(2,c(2,b)))),f),q));if(h){var
 m=h[1],r=aG(a,m,d),i=dT(a,b5(aG(a,g,e),r),l);if(i)var
 s=aG(a,m,e),j=dT(a,bn(aG(a,g,d),s),l),t=j?[0,[0,i[1],j[1]]]:j,n=t;else
 var
@@ -1338,19 +1338,19 @@ k=a[2],l=a[1];return cp(function(b,a){return[0,b5(b,a)]},l,k);case
 4:var
 m=a[2],n=a[1];return cp(function(b,a){return[0,bn(b,a)]},n,m);case
 5:var
-o=a[1];return cJ(function(a){return[0,eO(a)]},o);case
+o=a[1];return cJ(function(a){return[0,eP(a)]},o);case
 6:var
 p=a[2],r=a[1];return cp(function(c,a){return[0,aG(b,c,a)]},r,p);case
 7:var
 s=a[2],t=a[1];return cp(function(a,c){return dT(b,a,c)},t,s);case
 8:var
-u=a[1];return cJ(function(a){return[0,eP(b,a)]},u);case
+u=a[1];return cJ(function(a){return[0,eQ(b,a)]},u);case
 9:var
-v=a[1];return cJ(function(a){return hC(b,a)},v);default:var
+v=a[1];return cJ(function(a){return hD(b,a)},v);default:var
 c=a[2];if(c){var
 d=a[3];if(d){var
 e=a[4];if(e){var
-w=kF(b,c[1],d[1],e[1]),x=a[1]?aU:ay;return y(x,w)}var
+w=kF(b,c[1],d[1],e[1]),x=a[1]?aU:az;return y(x,w)}var
 g=e}else
 var
 g=d;var
@@ -1385,7 +1385,7 @@ b=b[2],a=a[2];continue}return n}return 0;case
 o=cq(b[1],a[1]);if(o){var
 b=b[2],a=a[2];continue}return o}return 0;default:if(6===a[0]){var
 b=b[1],a=a[1];continue}return 0}}function
-eQ(c,a){switch(a[0]){case
+eR(c,a){switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return 0;case
 2:var
@@ -1396,14 +1396,14 @@ o=a[2],p=a[1],g=o,f=p,e=function(b,a){return[0,dQ(b,a)]};break;case
 q=a[2],r=a[1],g=q,f=r,e=function(b,a){return[0,a0(b,a)]};break;case
 5:var
 s=a[2],t=a[1],g=s,f=t,e=function(c,a){return dP(a,[0,d,b])?0:[0,fR(c,a)]};break;default:var
-k=eQ(c,a[1]);return k?i(c,k[1]):k}var
-h=eQ(c,f);if(h){var
-j=eQ(c,g);if(j)return e(h[1],j[1]);var
+k=eR(c,a[1]);return k?i(c,k[1]):k}var
+h=eR(c,f);if(h){var
+j=eR(c,g);if(j)return e(h[1],j[1]);var
 l=j}else
 var
 l=h;return l}function
 rz(a){return 0}function
-cr(a){return eQ(rz,a)}function
+cr(a){return eR(rz,a)}function
 bK(a,c){switch(c[0]){case
 0:return[0,kz(a,c[1],c[2])];case
 1:return 0;case
@@ -1437,34 +1437,34 @@ f=cr(A),I=f?T(bl([0,d,b],f[1])):f;if(I)return 0;if(K(d,e[2])){var
 B=b2(a,[0,e[2],e[2]]);return y(function(a){return[0,d,a[2]]},B)}var
 q=J(e[2],d),C=q?[0,v]:q;return C}return p}}function
 cs(b,a){return kz(b,a[1],a[2])}function
-eR(c,e,a){function
-b(a){return eR(c,e,a)}if(dU(a))switch(a[0]){case
+eS(c,e,a){function
+b(a){return eS(c,e,a)}if(dU(a))switch(a[0]){case
 0:return 0;case
-1:return fn(e,a[1],a[2],a[3]);case
+1:return fo(e,a[1],a[2],a[3]);case
 2:var
 g=b(a[2]),h=b(a[1]);return cp(function(b,a){return[0,b5(b,a)]},h,g);case
 3:var
 i=b(a[2]),j=b(a[1]);return cp(function(b,a){return[0,bn(b,a)]},j,i);case
 4:var
 f=a[2],d=a[1];if(cq(d,f)){var
-k=b(d);return cJ(function(a){return[0,eP(c,a)]},k)}var
+k=b(d);return cJ(function(a){return[0,eQ(c,a)]},k)}var
 l=b(f),m=b(d);return cp(function(b,a){return[0,aG(c,b,a)]},m,l);case
 5:var
 n=b(a[2]),o=b(a[1]);return cp(function(a,b){return dT(c,a,b)},o,n);default:var
-p=b(a[1]);return cJ(function(a){return hC(c,a)},p)}return y(Z,bK(c,a))}function
+p=b(a[1]);return cJ(function(a){return hD(c,a)},p)}return y(Z,bK(c,a))}function
 aM(a,d){if(dU(d)){var
-e=eR(a,function(g,e,d){var
+e=eS(a,function(g,e,d){var
 h=aV(g,kG),i=h?bl(e,d):h;if(i)var
 k=[0,b,c(2,b)],l=[0,cs(a,a0(dQ(d,e),k)),0],m=f(al(v,g),l),n=cs(a,d)[2],o=[0,cs(a,e)[1],n],p=[0,b,c(2,b)],j=[0,[0,cs(a,a0(c_(e,d),p)),o,m]];else
 var
 j=i;return j},d);return y(function(a){return a[2]},e)}return bK(a,d)}function
-hD(a){var
+hE(a){var
 e=bj(R(a),d);return dN(C(c(2,c(2,c(2,c(2,c(2,c(2,b)))))),e))}function
-kH(a){return hz(C(hD(a),a))}function
+kH(a){return hA(C(hE(a),a))}function
 kI(b,a){var
 c=kH(b),d=R(cG(R(a[2]),c)),e=kH(b);return[0,cG(a[1],e),d]}function
 cK(c,a,b){var
-d=aM(C(c,hD(a)),b);return y(function(b){return kI(a,b)},d)}function
+d=aM(C(c,hE(a)),b);return y(function(b){return kI(a,b)},d)}function
 am(d,a){var
 b=cK(d,a[2],a[1][1]);if(b)var
 c=cK(d,a[2],a[1][2]),f=c?[0,[0,b[1][1],c[1][2]]]:c,e=f;else
@@ -1481,7 +1481,7 @@ e=c[1];return kK(a,d,e,kL(a,d,e))}var
 f=P(a,b);return[0,P(a,b),f]}function
 kM(e,g){var
 o=cm(e),p=A(c(2,c(2,b)),o),j=E(g[2],p);if(j){var
-n=eI(e),i=rA[1],d=n,f=0,a=i;for(;;){if(d){var
+n=eJ(e),i=rA[1],d=n,f=0,a=i;for(;;){if(d){var
 h=d[1];if(a){var
 d=h,a=a[1];continue}var
 d=h,f=[0,f],a=i;continue}var
@@ -1490,14 +1490,14 @@ var
 m=j;return m}function
 kN(i){function
 a(h){var
-m=cl(cm(i),h),g=eI(i),f=m,e=d,a=b;for(;;){if(g){var
+m=cl(cm(i),h),g=eJ(i),f=m,e=d,a=b;for(;;){if(g){var
 j=C(a,c(2,b)),k=C(e,cl(f,a)),l=R(cl(f,A(h,h))),g=g[1],f=l,e=k,a=j;continue}return e}}var
-e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=A(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aA(A(c(2,c(2,c(2,c(2,b)))),g),f)}function
+e=a(p(c(2,p(c(2,p(c(2,p(c(2,c(2,p(c(2,p(c(2,b)))))))))))))),f=A(c(2,c(2,b)),e),g=a(p(c(2,c(2,b))));return aB(A(c(2,c(2,c(2,c(2,b)))),g),f)}function
 kO(e,a){var
 f=E(d,a);if(f){var
-g=c(2,c(2,b));return kM(e,fX(V(e,[0,a,a]),g))}return f}function
+g=c(2,c(2,b));return kM(e,fX(W(e,[0,a,a]),g))}return f}function
 kP(a){var
-m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aA(kN(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=C(kN(a),n),e=kO(a,g);if(e){var
+m=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),g=aB(kN(a),m),n=c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,c(2,b)))))))))))),h=C(kN(a),n),e=kO(a,g);if(e){var
 f=kO(a,h);if(f)var
 i=K(d,e[1][1]),j=i?K(f[1][2],d):i,k=j?[0,[0,g,h]]:j;else
 var
@@ -1506,11 +1506,11 @@ l=k}else
 var
 l=e;return l}function
 kQ(a,d){var
-c=V(a,d),e=P(a,b);return G(z(c,c),e)}function
+c=W(a,d),e=P(a,b);return G(z(c,c),e)}function
 cL(f,j){var
 e=aM(C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),j);if(e){var
 k=e[1],a=C(f,c(2,c(2,c(2,c(2,c(2,c(2,b))))))),d=kP(a);if(d)var
-h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=kM(a,V(a,fX(t(a,k,d[1]),h))),g=y(function(b){return kQ(a,kQ(a,b))},i);else
+h=c(2,c(2,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))))),i=kM(a,W(a,fX(t(a,k,d[1]),h))),g=y(function(b){return kQ(a,kQ(a,b))},i);else
 var
 g=d;var
 l=c(2,c(2,c(2,c(2,c(2,c(2,b))))));return y(function(a){return kJ(l,a)},g)}return e}function
@@ -1547,7 +1547,7 @@ i=[0,[0,[0,b,b],al([0,d,b],f)]]}else
 var
 i=c;return i}function
 kW(a){if(a){var
-b=eQ(rE,a[1]);if(b)var
+b=eR(rE,a[1]);if(b)var
 c=kW(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
 d=b;return d}return rF}function
@@ -1569,13 +1569,13 @@ rJ(a,b){return aF(rI,rH,z,a,b)}function
 rK(a){return a}function
 rL(a){return a}function
 a_(a,b){return aF(rL,rK,rJ,a,b)}function
-hE(a,f,c,d){if(c){var
+hF(a,f,c,d){if(c){var
 h=c[2],i=P(a,b),g=dS(c[1],i,f);if(d){var
-j=hE(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return aa(t(a,g,b))};return[0,aF(function(a){return a},m,l,k,c),j]}var
-n=hE(a,f,h,0);return[0,e(function(b){return aa(t(a,g,b))},c),n]}return d}function
+j=hF(a,f,h,d[2]),k=d[1],l=function(c,b){return G(c,t(a,g,b))},m=function(b){return ab(t(a,g,b))};return[0,aF(function(a){return a},m,l,k,c),j]}var
+n=hF(a,f,h,0);return[0,e(function(b){return ab(t(a,g,b))},c),n]}return d}function
 fZ(h,a){if(a){var
 b=a[1];if(b)var
-c=b[1],e=K(d,c[1]),i=e?[0,hE(h,c,b[2],a[2])]:e,f=i;else
+c=b[1],e=K(d,c[1]),i=e?[0,hF(h,c,b[2],a[2])]:e,f=i;else
 var
 f=b;var
 g=f}else
@@ -1605,16 +1605,16 @@ b=a[1],c=bd(b),d=e(function(a){return[0,1,a]},c),g=bd(b);return f(e(function(a){
 dV(c,a){var
 b=g(a);if(kZ(c,b,a))return 1;var
 d=bd(bs(b));return m(function(d){return kZ(c,b,k1([0,0,d],a))},d)}function
-au(a){function
+av(a){function
 b(b){var
 c=i(a,b[2]);return[0,e(a,b[1]),c]}return function(a){return e(b,a)}}function
 aH(h,e){var
 c=h,a=e[1],b=e[3];for(;;){if(c){if(b){var
 d=b[1],f=b[2],g=c[1]?z(a,d):G(a,d),c=c[2],a=g,b=f;continue}return a}return a}}function
-hF(c,b,a){var
-d=bd(c);return m(function(c){return i(a,i(au(function(a){return aH(c,a)}),b))},d)}function
-hG(h,d,c){if(d)if(c)var
-i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aR(c,C(h,b),a)},k=hG(h,j,i),l=function(c,b){var
+hG(c,b,a){var
+d=bd(c);return m(function(c){return i(a,i(av(function(a){return aH(c,a)}),b))},d)}function
+hH(h,d,c){if(d)if(c)var
+i=c[2],e=c[1],j=d[2],f=d[1],a=function(c,a){return aR(c,C(h,b),a)},k=hH(h,j,i),l=function(c,b){var
 d=a(b,e);return z(a(f,c),d)},m=function(b){return a(b,e)},n=aF(function(b){return a(f,b)},m,l,i,j),o=a(f,e),g=[0,[0,z(a(f,e),o),n],k];else
 var
 g=c;else
@@ -1623,22 +1623,22 @@ g=d;return g}function
 dW(b,d,a,c){function
 e(c,d){var
 e=aR(d,b,a);return G(z(c,c),e)}function
-f(c){return aa(aR(c,b,a))}return aF(function(a){return z(a,a)},f,e,d,c)}function
+f(c){return ab(aR(c,b,a))}return aF(function(a){return z(a,a)},f,e,d,c)}function
 f0(d,i,h,g){var
 c=i,b=h,a=g;for(;;){if(c){if(b){var
-e=b[1],f=c[1],j=cn(e[2]),k=a_(a,hG(d,f,dW(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
-hH(b,a){return[0,[0,0,b],a]}function
+e=b[1],f=c[1],j=cn(e[2]),k=a_(a,hH(d,f,dW(d,e[1],j,f))),c=c[2],b=b[2],a=k;continue}return a}return a}}function
+hI(b,a){return[0,[0,0,b],a]}function
 dX(i,b,c,h,f,a){function
 d(a){if(a){var
-j=al([0,aa(a[1][2]),0],b),c=f0(h,f,a[2],j),d=r(g(c),b);if(d)return dV(i,c);var
+j=al([0,ab(a[1][2]),0],b),c=f0(h,f,a[2],j),d=r(g(c),b);if(d)return dV(i,c);var
 e=d}else
 var
-e=a;return e}return hF(b,hH(c,a),d)}function
+e=a;return e}return hG(b,hI(c,a),d)}function
 f1(g,f,e){var
 a=f,b=e;for(;;){if(a){var
 d=a[1],h=d[1],c=fZ(g,[0,[0,b4(d[2]),h],b]);if(c){var
 a=a[2],b=c[1];continue}return c}return[0,b]}}function
-hI(d,b,c,a){function
+hJ(d,b,c,a){function
 e(a){if(a){var
 j=al([0,a[1][2],0],b),c=f1(d,a[2],j);if(c){var
 e=c[1],f=r(g(e),b);if(f)return dV(d,e);var
@@ -1647,14 +1647,14 @@ var
 h=c;var
 i=h}else
 var
-i=a;return i}return hF(b,hH(c,a),e)}function
+i=a;return i}return hG(b,hI(c,a),e)}function
 k2(b,a){return e(function(a){return[0,a[1],b]},a)}function
 k3(b,a){var
 c=bd(b);return m(function(b){return K(d,aH(b,a)[1])},c)}function
-hJ(c,b,a){var
+hK(c,b,a){var
 d=a[3],f=e(function(a){return aR(c,b,a)},d),g=a[2];return[0,aR(c,b,a[1]),g,f]}function
 k4(a,b){var
-c=b[3],d=a[3],e=aF(function(a){return a},aa,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
+c=b[3],d=a[3],e=aF(function(a){return a},ab,G,d,c),f=a[2];return[0,G(a[1],b[1]),f,e]}function
 bL(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 af(c,b,a){var
 d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
@@ -1674,7 +1674,7 @@ k6(a,e,d){var
 b=U(a,a),c=aD(b),f=[0,e],g=y(function(b){return af(w,a,aW(U(b,a),b))},d);return[0,a,b,be(a,c),c,0,g,f]}function
 k7(c,a){var
 d=U(a,c);return[0,a,k(b),a,d,0,0,0]}function
-eS(a){return e(function(a){var
+eT(a){return e(function(a){var
 b=a[2];return[0,bL(a[1]),b]},a)}function
 k8(a){return e(function(a){var
 c=k(b);return[0,bL(a[3]),c]},a)}function
@@ -1687,10 +1687,10 @@ b=b2(d,[0,a[2],a[2]]);if(b){var
 c=b[1];return[0,c[2],c[2]]}return[0,a[2],a[2]]}function
 f3(a,n,f,l,e,k,j){var
 o=k_(bn,k,j),b=k_(function(b,c){return aG(a,b,c)},e,o),c=b[3],g=b[2],h=b[1],i=b5(b5(b5(Z(P(a,d)),h),g),c),p=bd(n);return m(function(c){var
-b=k9(function(b){return V(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,dY(a,z(z(z(P(a,d),k),j),h))),g=G(aH(c,i),m),n=f?G(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
+b=k9(function(b){return W(a,aH(c,b))},e),h=b[3],j=b[2],k=b[1],m=t(a,l,dY(a,z(z(z(P(a,d),k),j),h))),g=G(aH(c,i),m),n=f?G(g,aH(c,f[1])):g;return K(d,n[1])},p)}function
 b6(a){return c9(C(a[1],a[2]),b)}function
 dZ(a){var
-b=b6(a);return aA(a[2],b)}function
+b=b6(a);return aB(a[2],b)}function
 d0(c,b){if(b)var
 a=b[1],e=d0([0,c],b[2]),g=dZ(a),h=[0,[0,dZ(a),g],0],i=f(al(v,c),h),j=b6(a),d=[0,[0,[0,b6(a),j],a,i],e];else
 var
@@ -1715,13 +1715,13 @@ c=b;return c}function
 f4(f,d,c,b,a){if(a){var
 g=a[2];if(d){var
 i=f4(f,d[1],c,b,g);return[0,[0,G(v,b),0],i]}var
-j=e(function(a){return[0,G(v,b),0]},g),h=[0,[0,G(aa(t(f,c,cn(a[1][2]))),b),0],j]}else
+j=e(function(a){return[0,G(v,b),0]},g),h=[0,[0,G(ab(t(f,c,cn(a[1][2]))),b),0],j]}else
 var
 h=a;return h}function
 a$(d,c,a){var
 b=r(g(a),c);return b?dV(d,a):b}function
 f5(d,b,a){if(b)var
-c=b[1],g=f5([0,d],b[2],a),h=f(al(v,d),[0,a,0]),e=[0,[0,c,[0,aA(c[1],a[2]),C(c[2],a[2])],h],g];else
+c=b[1],g=f5([0,d],b[2],a),h=f(al(v,d),[0,a,0]),e=[0,[0,c,[0,aB(c[1],a[2]),C(c[2],a[2])],h],g];else
 var
 e=b;return e}function
 la(d){if(d){var
@@ -1735,10 +1735,10 @@ e=b;var
 f=e}else
 var
 f=a;return f}return rO}function
-hK(a){return y(function(a){return y(eO,a)},a)}function
+hL(a){return y(function(a){return y(eP,a)},a)}function
 cO(c,b,a){function
 d(a){return aG(c,b,a)}return y(function(a){return y(d,a)},a)}function
-hL(c,b,a){function
+hM(c,b,a){function
 d(a){return dT(c,a,b)}return y(function(a){return cJ(d,a)},a)}function
 d3(b,a){var
 c=ag(b,a);return e(function(c){var
@@ -1746,16 +1746,16 @@ a=c[2],b=c[1];if(b){if(a){var
 d=a[1],e=b[1];return[0,cp(function(b,a){return[0,b5(b,a)]},e,d)]}return b}return a},c)}function
 f6(a){return Z(P(a,c(2,b)))}function
 lb(a,au,at,K,c){var
-av=bI(ay,c),f=i(bJ(a,au,at),av);switch(c[0]){case
+av=bI(az,c),f=i(bJ(a,au,at),av);switch(c[0]){case
 1:var
 N=c[1],d=e(function(d){var
 c=r(N,d),e=c?[0,[0,Z(P(a,b))]]:c;return e},K);break;case
 3:var
 d=d3(c[1][2],c[2][2]);break;case
 4:var
-O=e(hK,c[2][2]),d=d3(c[1][2],O);break;case
+O=e(hL,c[2][2]),d=d3(c[1][2],O);break;case
 5:var
-d=e(hK,c[1][2]);break;case
+d=e(hL,c[1][2]);break;case
 6:var
 x=c[2],y=c[1],g=y[1],u=0;if(g){var
 h=x[1];if(h)var
@@ -1766,7 +1766,7 @@ d=z;break;case
 7:var
 v=0;if(f){var
 A=c[2],j=A[1];if(j)var
-V=A[2],W=eO(f[1]),X=e(function(b){return cO(a,W,b)},V),Y=d3(c[1][2],X),_=j[1],d=e(function(b){return hL(a,_,b)},Y);else{var
+V=A[2],W=eP(f[1]),X=e(function(b){return cO(a,W,b)},V),Y=d3(c[1][2],X),_=j[1],d=e(function(b){return hM(a,_,b)},Y);else{var
 B=j;v=1}}else{var
 B=f;v=1}if(v)var
 d=B;break;case
@@ -1776,7 +1776,7 @@ $=C[2],aa=k[1],ab=aG(a,f6(a),aa),d=e(function(b){return cO(a,ab,b)},$);else
 var
 d=k;break;case
 9:if(f)var
-ac=c[1][2],ad=f[1],ae=aG(a,f6(a),ad),d=e(function(b){return hL(a,ae,b)},ac);else
+ac=c[1][2],ad=f[1],ae=aG(a,f6(a),ad),d=e(function(b){return hM(a,ae,b)},ac);else
 var
 d=f;break;case
 10:var
@@ -1784,7 +1784,7 @@ D=c[4],E=c[3],F=c[2],l=F[1],w=0;if(l){var
 m=l[1],n=E[1],L=0;if(n){var
 o=n[1],p=D[1],M=0;if(p){var
 q=kF(a,m,o,p[1]);if(q){var
-G=q[1],s=G[2],t=G[1],af=E[2],ag=bn(o,s),ah=e(function(b){return cO(a,ag,b)},af),ai=F[2],aj=bn(m,t),ak=d3(e(function(b){return cO(a,aj,b)},ai),ah),al=e(hK,D[2]),am=f6(a),an=d3(e(function(b){return cO(a,am,b)},ak),al),ao=c[1]?t:eO(s),ap=e(function(b){return cO(a,ao,b)},an),aq=aG(a,m,s),ar=bn(aG(a,o,t),aq),as=aG(a,f6(a),ar),d=e(function(b){return hL(a,as,b)},ap);L=1;M=1}else
+G=q[1],s=G[2],t=G[1],af=E[2],ag=bn(o,s),ah=e(function(b){return cO(a,ag,b)},af),ai=F[2],aj=bn(m,t),ak=d3(e(function(b){return cO(a,aj,b)},ai),ah),al=e(hL,D[2]),am=f6(a),an=d3(e(function(b){return cO(a,am,b)},ak),al),ao=c[1]?t:eP(s),ap=e(function(b){return cO(a,ao,b)},an),aq=aG(a,m,s),ar=bn(aG(a,o,t),aq),as=aG(a,f6(a),ar),d=e(function(b){return hM(a,as,b)},ap);L=1;M=1}else
 var
 H=q}else
 var
@@ -1796,22 +1796,22 @@ J=I;w=1}}else{var
 J=l;w=1}if(w)var
 d=J;break;default:var
 d=e(function(a){return 0},K)}return[0,f,d]}function
-hM(b,c,a){if(a)var
-f=a[1],g=hM(b,c,a[2]),d=[0,e(function(a){return aa(t(b,t(b,c,f),a))},a),g];else
+hN(b,c,a){if(a)var
+f=a[1],g=hN(b,c,a[2]),d=[0,e(function(a){return ab(t(b,t(b,c,f),a))},a),g];else
 var
 d=a;return d}function
-hN(a){return m(function(a){var
+hO(a){return m(function(a){var
 b=J(a[1],d);return b?J(a[2],d):b},a)}function
-hO(c,b,a){var
-d=ag(b,a);return as(function(a,b){return z(t(c,a[1],a[2]),b)},v,d)}function
 hP(c,b,a){var
-d=b3(hO(c,a,b));return as(function(b,a){return C(b3(b),a)},d,a)}function
+d=ag(b,a);return as(function(a,b){return z(t(c,a[1],a[2]),b)},v,d)}function
+hQ(c,b,a){var
+d=b3(hP(c,a,b));return as(function(b,a){return C(b3(b),a)},d,a)}function
 b7(a){return P(a,b)}function
-eT(a,i,c,v,u){var
+eU(a,i,c,v,u){var
 f=v,e=u;for(;;){if(f){var
-j=f[1],n=0;if(!hN(c)&&!hN(j)){var
-h=hP(a,i,j),o=b7(a),p=hP(a,i,c),b=dS([0,hP(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
-q=aq(hB(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,hM(a,q,aF(function(c){return function(b){return t(a,c,b)}}(s),aa,r,j,c)))];else
+j=f[1],n=0;if(!hO(c)&&!hO(j)){var
+h=hQ(a,i,j),o=b7(a),p=hQ(a,i,c),b=dS([0,hQ(a,i,c),p],o,[0,h,h])[1],k=K(d,h),l=k?K(d,b):k;if(l)var
+q=aq(hC(a,[0,b,b])),r=function(b){return function(d,c){return G(t(a,[0,b,b],d),c)}}(b),s=[0,b,b],m=[0,a_(e,hN(a,q,aF(function(c){return function(b){return t(a,c,b)}}(s),ab,r,j,c)))];else
 var
 m=l;var
 g=m;n=1}if(!n)var
@@ -1821,25 +1821,25 @@ lc(a){var
 b=a[2],c=e(function(a){return[0,a[1],v]},b);return[0,[0,a[1][1],v],c]}function
 ld(h,n,a,m,l,k){var
 d=m,c=l,b=k;for(;;){if(d){if(c){var
-i=c[1],j=i[1],f=d[1],o=cn(j[2]),p=a_(b,hG(a,f,dW(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aq,dW(a,b[1],b[2],c))}}(f),q),g=eT(h,n,e(function(b){return aR(b,a,b7(h))},f),r,p);if(g){var
+i=c[1],j=i[1],f=d[1],o=cn(j[2]),p=a_(b,hH(a,f,dW(a,j[1],o,f))),q=i[2],r=e(function(c){return function(b){return e(aq,dW(a,b[1],b[2],c))}}(f),q),g=eU(h,n,e(function(b){return aR(b,a,b7(h))},f),r,p);if(g){var
 d=d[2],c=c[2],b=g[1];continue}return g}return[0,b]}return[0,b]}}function
 le(c,b,a){var
-d=az(0,a);return e(function(a){return r(a,b)?b7(c):v},d)}function
+d=aA(0,a);return e(function(a){return r(a,b)?b7(c):v},d)}function
 lf(c,b,a){if(b){if(a){var
 d=lf(c,b[2],a[2]);return z(aR(b[1],c,a[1]),d)}return v}return v}function
 lg(a,j){switch(j){case
 0:var
-d=aA(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
+d=aB(a[2],a[1]),e=a[1];return[0,[0,e,e],[0,[0,d,d],0]];case
 1:var
-f=aA(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
-c=c9(C(a[1],a[2]),b),h=aA(c,a[2]),i=aA(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
+f=aB(a[1],a[2]),g=a[2];return[0,[0,g,g],[0,[0,f,f],0]];default:var
+c=c9(C(a[1],a[2]),b),h=aB(c,a[2]),i=aB(a[2],c);return[0,[0,c,c],[0,[0,i,i],[0,[0,h,h],0]]]}}function
 f7(d,c,a){if(a)var
 e=a[1],g=f7(d,[0,c],a[2]),b=y(aU,kt(function(a){return r(a[1],c)},d)),h=b?lg(e,b[1])[1]:e,f=[0,h,g];else
 var
 f=a;return f}function
-hQ(a,b){return e(function(a){var
+hR(a,b){return e(function(a){var
 c=a[2];return lg(q(a[1],b,v),c)[2]},a)}function
-hR(i,b,g,a){function
+hS(i,b,g,a){function
 d(a){return aH(b,a[1])}var
 h=0,j=Z(v);function
 c(g,d,a,b){if(a){var
@@ -1857,7 +1857,7 @@ d=bd(c);return m(function(d){var
 f=i(n,d);if(f){var
 q=t(a,o,f[1]),j=G(P(a,b),q),r=h?G(j,aH(d,h[1])):j,k=function(b){function
 f(c){return t(a,b,aH(d,c))}var
-g=e(function(a){return e(f,a)},p);return a$(a,c,a_(al([0,r,0],c),g))},l=k(aq(g));if(l)return k(aa(aq(g)));var
+g=e(function(a){return e(f,a)},p);return a$(a,c,a_(al([0,r,0],c),g))},l=k(aq(g));if(l)return k(ab(aq(g)));var
 m=l}else
 var
 m=f;return m},d)}function
@@ -1885,18 +1885,18 @@ var
 f=b;else
 var
 f=c;return f}function
-cQ(d,c,b,a){return cP(v,c,hO(d,a,b),a)}function
+cQ(d,c,b,a){return cP(v,c,hP(d,a,b),a)}function
 ll(g,b,f,a){if(a)var
 c=a[2],d=a[1],h=q(b,c,v),e=[0,d,cP(v,b,z(t(g,f,d),h),c)];else
 var
 e=a;return e}function
-hS(f,d,c,b,a){var
+hT(f,d,c,b,a){var
 g=e(Z,c);return kC(0,bJ(f,d0(0,a),g),b,d,0)}function
 _(a){if(a){var
 b=a[1];if(b)var
 c=_(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return r6}function
+d=b;return d}return r_}function
 f_(b,a){if(a){var
 h=a[1],n=h[1],c=_(e(function(a){return q(a,b,0)},n));if(c){var
 f=q(h[2],b,0);if(f){var
@@ -1909,15 +1909,15 @@ var
 l=f;var
 m=l}else
 var
-m=c;return m}return r7}function
+m=c;return m}return r$}function
 ct(d,c,b){var
 a=f_(d,c);return a?i(b,a[1]):a}function
 cR(a,b){return m(function(c){var
 a=q(c,b,0),d=a?1:a;return d},a)}function
 f$(b,a){if(b){var
 c=b[1],d=c[3],e=a[3],f=function(a){return a},g=aF(function(a){return a},f,z,e,d),h=a[2];return[0,z(a[1],c[1]),h,g]}return a}function
-hT(b,a){return b?k4(a,b[1]):a}function
-hU(h,g,b,f){var
+hU(b,a){return b?k4(a,b[1]):a}function
+hV(h,g,b,f){var
 a=q(f,h,0);if(a){var
 c=a[1];if(b){var
 i=k4(c,b[1]),e=bd(g);return m(function(a){return E(d,aH(a,i)[1])},e)}return E(d,c[2][1])}return a}function
@@ -1933,8 +1933,8 @@ f=d;var
 g=f}else
 var
 g=c;return g}function
-hV(b,a){return _(e(function(a){return q(a,b,0)},a))}function
-eU(c,k,X,D,i,h,j,f,a){switch(f[0]){case
+hW(b,a){return _(e(function(a){return q(a,b,0)},a))}function
+eV(c,k,X,D,i,h,j,f,a){switch(f[0]){case
 0:var
 s=f[1];if(typeof
 a!=="number")switch(a[0]){case
@@ -1954,22 +1954,22 @@ ad=aa;return ad}return 0;case
 1:var
 ae=f[1];if(typeof
 a==="number"){if(1===a){var
-aN=hT(j,Z(ae));return ct(i,X,function(a){return hI(c,h,aN,a)})}if(!a){var
-aO=hT(j,Z(ae));return ct(i,k,function(a){return hI(c,h,aO,a)})}}return 0;case
+aN=hU(j,Z(ae));return ct(i,X,function(a){return hJ(c,h,aN,a)})}if(!a){var
+aO=hU(j,Z(ae));return ct(i,k,function(a){return hJ(c,h,aO,a)})}}return 0;case
 2:if(typeof
 a!=="number"&&3===a[0]){var
 af=a[1],l=lm(c,af,a[3]),ag=f[1],aP=a[2];return ct(i,k,function(d){var
 a=k3(h,l),b=a?dX(c,h,f$(j,l),af,aP,d):a;if(b){var
-f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hI(c,h,hT(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
+f=l[3],g=e(function(a){return t(c,ag,a)},f),i=l[2];return hJ(c,h,hU(j,[0,t(c,ag,l[1]),i,g]),d)}return b})}return 0;case
 3:if(typeof
-a==="number"&&!a)return hU(i,h,j,f[1]);return 0;case
+a==="number"&&!a)return hV(i,h,j,f[1]);return 0;case
 4:if(typeof
 a!=="number"&&0===a[0]){var
 aQ=a[2],aS=a[1],aT=f$(j,Z(f[2])),aU=function(a){return dX(c,h,aT,aS,aQ,a)};return ct(i,f[1],aU)}return 0;case
 5:if(typeof
 a==="number"&&!(3<=a))switch(a){case
-0:return hU(i,h,j,f[1]);case
-2:return hU(i,h,j,f[2])}return 0;case
+0:return hV(i,h,j,f[1]);case
+2:return hV(i,h,j,f[2])}return 0;case
 6:if(typeof
 a!=="number"&&8===a[0]){var
 E=ga(i,f[1]);if(E){var
@@ -1981,7 +1981,7 @@ o=n[2];if(o){var
 p=o[2];if(p){if(p[2])return 0;var
 aD=[0,n[1],o[1],p[1]],q=k9(function(f){function
 g(a){return aR(a,aV,P(c,b))}if(f){var
-a=e(g,f[2]),d=g(f[1]),h=fV(a),i=C(d[2],h),j=fV(a);return[0,d,[0,aA(d[1],j),i],a]}return Z(v)},aD),N=m(function(a){return r(g(a),[0,h])},n),O=N?f3(c,h,j,u,q,ak,ai):N,Q=O?f3(c,h,j,u,q,ak,ah):O,R=Q?f3(c,h,j,u,q,aj,ai):Q;if(R)return f3(c,h,j,u,q,aj,ah);var
+a=e(g,f[2]),d=g(f[1]),h=fV(a),i=C(d[2],h),j=fV(a);return[0,d,[0,aB(d[1],j),i],a]}return Z(v)},aD),N=m(function(a){return r(g(a),[0,h])},n),O=N?f3(c,h,j,u,q,ak,ai):N,Q=O?f3(c,h,j,u,q,ak,ah):O,R=Q?f3(c,h,j,u,q,aj,ai):Q;if(R)return f3(c,h,j,u,q,aj,ah);var
 S=R}else
 var
 S=p;var
@@ -2009,22 +2009,22 @@ d=a[2],e=r(g(d),h);if(e){var
 i=d1(ap,d2(ap,ao,P(c,b),d));return a$(c,h,a_(f4(c,aX,aW,a[1][2],d),i))}var
 f=e}else
 var
-f=a;return f},i=j?j[1]:Z(v);return hF(h,hH(i,e),f)}return d})}return 0;case
+f=a;return f},i=j?j[1]:Z(v);return hG(h,hI(i,e),f)}return d})}return 0;case
 8:if(typeof
 a==="number"&&5<=a){var
 aY=f[3],aZ=f[2],a0=function(d){var
 a=k2([0,v,v,0],d),b=j?j[1]:[0,v,v,0];return dX(c,h,b,aZ,aY,a)};return ct(i,f[1],a0)}return 0;case
 9:return 0;default:if(typeof
 a==="number"&&!a){var
-K=hV(i,f[1]);if(K){var
-a1=f[2],L=_(e(function(a){return hV(i,a)},a1));if(L){var
-M=hV(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
+K=hW(i,f[1]);if(K){var
+a1=f[2],L=_(e(function(a){return hW(i,a)},a1));if(L){var
+M=hW(i,[0,f[3],[0,f[4],[0,f[5],[0,f[6],0]]]]);if(M){var
 w=M[1];if(w){var
 x=w[2];if(x){var
 A=x[2];if(A){var
 B=A[2];if(B){if(B[2])return 0;var
-aq=B[1],ar=A[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],W=li(c,h,j,av,au,at,function(d){return[0,dY(c,as(function(b,a){return z(V(c,aH(d,b)),a)},v,a2))]});return W?W:li(c,h,j,av,au,at,function(f){var
-b=b4(aq[1]),a=b2(c,G(ar,V(c,b)));if(a){var
+aq=B[1],ar=A[1][2],at=x[1][2],au=w[1][2],av=L[1],a2=K[1],V=li(c,h,j,av,au,at,function(d){return[0,dY(c,as(function(b,a){return z(W(c,aH(d,b)),a)},v,a2))]});return V?V:li(c,h,j,av,au,at,function(f){var
+b=b4(aq[1]),a=b2(c,G(ar,W(c,b)));if(a){var
 d=b1(c,a[1]),e=G(ar,t(c,b,aH(f,aq)));return y(function(a){return t(c,e,a)},d)}return a})}var
 aw=B}else
 var
@@ -2038,17 +2038,17 @@ ay=w;var
 az=ay}else
 var
 az=M;var
-aB=az}else
+aA=az}else
 var
-aB=L;var
-aC=aB}else
+aA=L;var
+aC=aA}else
 var
 aC=K;return aC}return 0}}function
-ln(a,ab,s,l,n,$,h,k,j,f,c){if(9===f[0]){var
+ln(a,aa,s,l,n,$,h,k,j,f,c){if(9===f[0]){var
 ac=f[2],ad=f[1];if(typeof
 c!=="number"&&9===c[0]){var
-L=c[2],u=c[1],ae=c[3];if(0<aK(c[4]))return eU(a,s,l,n,h,g(k),j,f,c);var
-U=e(Z,$),D=bm(0,bJ(a,f5(0,k,ad),U),ab,0),M=r(g(k),r8),N=M?cR(n,D):M;if(N){var
+L=c[2],u=c[1],ae=c[3];if(0<aK(c[4]))return eV(a,s,l,n,h,g(k),j,f,c);var
+U=e(Z,$),D=bm(0,bJ(a,f5(0,k,ad),U),aa,0),M=r(g(k),sa),N=M?cR(n,D):M;if(N){var
 w=f_(D,l);if(w){var
 x=f_(h,l);if(x){var
 A=_(e(function(b){var
@@ -2065,16 +2065,16 @@ c(a){var
 b=i(a,rP),c=bj(i(a,rQ),b);return bj(i(a,0),c)}var
 d=c(function(a){var
 c=b(rR,a),d=b(rS,a);return C(C(b(0,a),d),c)}),g=[0,d,d],e=c(function(a){var
-c=b(a,rT),d=b(a,rU);return C(C(b(a,0),d),c)});return z(h,V(a,dY(a,t(a,[0,e,e],g))))},v,ag)),o=aR(ae,u,P(a,b)),F=K(d,G(o,E)[1]),H=F?r(g(L),r0):F,I=H?r(g(O),r1):H;if(I){var
+c=b(a,rT),d=b(a,rU);return C(C(b(a,0),d),c)});return z(h,W(a,dY(a,t(a,[0,e,e],g))))},v,ag)),o=aR(ae,u,P(a,b)),F=K(d,G(o,E)[1]),H=F?r(g(L),r0):F,I=H?r(g(O),r1):H;if(I){var
 p=b1(a,o);if(p){var
-W=aq(t(a,E,p[1])),X=G(P(a,b),W),Y=bd(r2);return m(function(h){var
+V=aq(t(a,E,p[1])),X=G(P(a,b),V),Y=bd(r2);return m(function(h){var
 g=e(function(b){var
 c=b[2],d=b[1];return cn(b0(function(d,b){var
-c=b3(aH(h,b[2]));return z(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(au(function(a){return aH(h,a)}),O),E=j?aH(h,j[1]):v,M=V(a,X),s=V(a,o),q=d1(u,d2(u,L,P(a,b),r)),c=a_(al([0,aa(E),0],rV),q);if(g){var
+c=b3(aH(h,b[2]));return z(d,t(a,b[1],[0,c,c]))},c,d))},af),r=i(av(function(a){return aH(h,a)}),O),E=j?aH(h,j[1]):v,M=W(a,X),s=W(a,o),q=d1(u,d2(u,L,P(a,b),r)),c=a_(al([0,ab(E),0],rV),q);if(g){var
 d=g[2];if(d){var
 f=d[2];if(f){if(f[2])return 0;var
-B=d[1],C=g[1],I=f[1],k=a$(a,rX,a_(al([0,aa(s),0],rW),c));if(k)return m(function(D){var
-J=G(M,E),K=D[2]?B:aa(B),L=D[1]?C:aa(C),o=0;if(c){var
+B=d[1],C=g[1],I=f[1],k=a$(a,rX,a_(al([0,ab(s),0],rW),c));if(k)return m(function(D){var
+J=G(M,E),K=D[2]?B:ab(B),L=D[1]?C:ab(C),o=0;if(c){var
 b=c[1],l=0;if(b){var
 d=b[2],m=0;if(d){var
 e=d[2],n=0;if(e)if(e[2]){var
@@ -2137,25 +2137,25 @@ var
 S=w;var
 T=S}else
 var
-T=N;return T}return eU(a,s,l,n,h,g(k),j,f,c)}return eU(a,s,l,n,h,g(k),j,f,c)}function
-hW(d){var
+T=N;return T}return eV(a,s,l,n,h,g(k),j,f,c)}return eV(a,s,l,n,h,g(k),j,f,c)}function
+hX(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=T(ak(function(b){return function(a){return r(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
 lo(j,i,h,g,a){var
 d=q(a,j,0);if(d){var
 b=q(a,i,0);if(b)var
-c=lh(0,g,q(a,h,r9)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
+c=lh(0,g,q(a,h,sb)),k=c?[0,[0,b[1],c[1]]]:c,e=k;else
 var
 e=b;var
 f=e}else
 var
 f=d;return f}function
-hX(j,b,a){if(a){var
+hY(j,b,a){if(a){var
 k=a[1],l=k[2],c=_(e(b,k[1]));if(c){var
 f=i(b,l);if(f){var
 g=q(l,j,0);if(g){var
-h=hX(j,b,a[2]);if(h)var
+h=hY(j,b,a[2]);if(h)var
 m=K(d,g[1][2][1]),n=m?[0,[0,[0,c[1],f[1]],h[1]]]:m;else
 var
 n=h;var
@@ -2167,21 +2167,21 @@ var
 p=f;var
 r=p}else
 var
-r=c;return r}return r_}function
+r=c;return r}return sc}function
 lp(c,N,j,M,p,o,L,w,f,b,i,a){var
-h=g(L),O=d0(0,L),aI=bm(0,bJ(c,O,e(Z,f7(i,0,p))),N,0),aK=e(ay,i),aJ=0,aL=e(Z,p),aM=bm(r$,function(a){return lb(c,O,aL,aK,a)},N,aJ),aN=hQ(i,p);function
+h=g(L),O=d0(0,L),aI=bm(0,bJ(c,O,e(Z,f7(i,0,p))),N,0),aK=e(az,i),aJ=0,aL=e(Z,p),aM=bm(sd,function(a){return lb(c,O,aL,aK,a)},N,aJ),aN=hR(i,p);function
 Q(a){return lo(o,aI,aM,i,a)}function
 x(a){return e(function(a){return P(c,a)},a)}var
 aO=w?w[1]:Z(v);function
 S(a){return a?a$(c,h,a[1]):a}function
 q(f,e,d,b,a){var
-g=al([0,aa(e),0],h);return S(ld(c,x(f),d,b,a,g))}function
+g=al([0,ab(e),0],h);return S(ld(c,x(f),d,b,a,g))}function
 T(A,z,y){var
 B=al([0,z,0],h),q=x(A),b=y,f=B;for(;;){if(b){var
 k=b[1],l=k[1],g=l[2],i=l[1],m=k[2],n=[0,[0,b4(g),i],f];if(m){var
 o=K(d,g[1]);if(o)var
 s=e(function(a){var
-b=a[1];return[0,aq(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b7(c),t],w=b7(c),a=eT(c,[0,aa(dS(hO(c,i,q),w,g)),q],u,s,n);else
+b=a[1];return[0,aq(a[2]),b]},m),t=e(function(a){return v},i),u=[0,b7(c),t],w=b7(c),a=eU(c,[0,ab(dS(hP(c,i,q),w,g)),q],u,s,n);else
 var
 a=o}else
 var
@@ -2194,7 +2194,7 @@ p=a;var
 r=p}else
 var
 r=[0,f];return S(r)}}var
-aP=e(ay,i),U=m(function(a){return aV(a,g(p))},aP),V=U?hW(e(ay,i)):U,W=V?m(function(a){return r(g(a),h)},a):V;if(W){var
+aP=e(az,i),U=m(function(a){return aV(a,g(p))},aP),V=U?hX(e(az,i)):U,W=V?m(function(a){return r(g(a),h)},a):V;if(W){var
 u=0;switch(f[0]){case
 0:var
 y=f[1],H=0;if(typeof
@@ -2210,13 +2210,13 @@ var
 $=a;if(!at)return $;break;case
 2:var
 au=0;if(a){if(a[2])return 0;var
-aU=a[1],aW=b[2],aX=b[1],ab=cR(M,o),av=0;if(ab){if(w)return 0;var
+aU=a[1],aW=b[2],aX=b[1],aa=cR(M,o),av=0;if(aa){if(w)return 0;var
 ac=J(y[1],d),ad=ac?J(y[2],d):ac;if(ad){var
 l=function(c,b,a){return q(aU,v,aX,aW,e(lc,a))},k=j;H=1;au=1;av=1}else
 var
 ae=ad}else
 var
-ae=ab;if(!av)var
+ae=aa;if(!av)var
 af=ae}else
 var
 af=a;if(!au)return af;break}if(!H)return 0;break;case
@@ -2228,18 +2228,18 @@ b=G(aY,a);return function(a){return T(aZ,b,a)}},k=j;aw=1}if(!aw)return 0;break;c
 2:var
 ax=0,a0=f[1];if(typeof
 b==="number"||!(3===b[0]))ax=1;else{var
-aB=0;if(a){var
+ay=0;if(a){var
 s=a[2],aC=0;if(s){if(s[2])return 0;var
 ah=b[1],a1=s[1],a2=a[1],a3=b[2],ai=lm(c,ah,b[3]),aj=k3(h,ai);if(aj){var
 l=function(f,b,a){var
-d=aH(f,ai),e=q(a2,z(d,b),ah,a3,a);return e?T(a1,G(t(c,a0,d),b),a):e},k=j;aB=1;aC=1}else
+d=aH(f,ai),e=q(a2,z(d,b),ah,a3,a);return e?T(a1,G(t(c,a0,d),b),a):e},k=j;ay=1;aC=1}else
 var
 ak=aj}else
 var
 ak=s;if(!aC)var
 am=ak}else
 var
-am=a;if(!aB)return am}if(ax)return 0;break;case
+am=a;if(!ay)return am}if(ax)return 0;break;case
 3:var
 aD=0;if(typeof
 b==="number"&&!b){if(a)return 0;var
@@ -2266,10 +2266,10 @@ n=b[2],F=b[1],ba=a[1],ap=r(g(j),h);if(ap){var
 l=function(a,y){var
 z=x(ba);return function(f){var
 k=r(g(f),h),l=k?r(g(n),h):k;if(l){var
-s=e(ay,f),u=d1(F,d2(F,n,b7(c),s)),v=a_(f4(c,ao,an,y,e(ay,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
+s=e(az,f),u=d1(F,d2(F,n,b7(c),s)),v=a_(f4(c,ao,an,y,e(az,f)),u),a=0,b=f,i=v,w=g(n);for(;;){if(b){var
 o=b[1][2],p=r(a,ao),q=e(function(f,h){return function(d){var
-a=ag(az(0,g(n)),n);return e(function(a){var
-b=lf(F,a[2],d[1]);if(h&&r(a[1],f))return G(b,aq(t(c,an,d[2])));return b},a)}}(a,p),o),j=eT(c,z,le(c,a,w),q,i);if(j){var
+a=ag(aA(0,g(n)),n);return e(function(a){var
+b=lf(F,a[2],d[1]);if(h&&r(a[1],f))return G(b,aq(t(c,an,d[2])));return b},a)}}(a,p),o),j=eU(c,z,le(c,a,w),q,i);if(j){var
 a=[0,a],b=b[2],i=j[1];continue}var
 d=j}else
 var
@@ -2283,13 +2283,13 @@ var
 ar=a;if(!aG)return ar}if(aF)return 0;break;default:return 0}if(u){var
 D=Q(B);if(!D)return D;var
 a4=function(b,f,a){return m(function(a){var
-b=f[2],c=a[2],e=as(function(b,a){return C(bj(d,R(b[2][1])),a)},d,c);return E(d,aA(aA(a[1][2][1],e),b))},a)},_=a4,Y=[0,[0,0,D[1]],0]}else{var
-A=hX(o,Q,k);if(!A)return A;var
+b=f[2],c=a[2],e=as(function(b,a){return C(bj(d,R(b[2][1])),a)},d,c);return E(d,aB(aB(a[1][2][1],e),b))},a)},_=a4,Y=[0,[0,0,D[1]],0]}else{var
+A=hY(o,Q,k);if(!A)return A;var
 _=l,Y=A[1]}var
 aT=bd(h);return m(function(a){var
-b=e(function(b){return hR(c,a,aN,b)},Y);return fn(_,a,aH(a,aO),b)},aT)}return W}function
+b=e(function(b){return hS(c,a,aN,b)},Y);return fo(_,a,aH(a,aO),b)},aT)}return W}function
 lq(a,W,y,V,p,o,U,x,n,h,l,i,S,aB,R,Q){var
-k=g(U),X=d0(0,U),aC=bm(0,bJ(a,X,e(Z,f7(l,0,p))),W,0),aE=e(ay,l),aD=0,aF=e(Z,p),aG=bm(sa,function(b){return lb(a,X,aF,aE,b)},W,aD),aI=hQ(l,p);function
+k=g(U),X=d0(0,U),aC=bm(0,bJ(a,X,e(Z,f7(l,0,p))),W,0),aE=e(az,l),aD=0,aF=e(Z,p),aG=bm(se,function(b){return lb(a,X,aF,aE,b)},W,aD),aI=hR(l,p);function
 aJ(a){return lo(o,aC,aG,l,a)}var
 aK=x?x[1]:Z(v),w=as(function(b,a){return bj(ch(b),a)},d,i);function
 M(a){if(a){if(J(ch(a[1]),w))return 0;var
@@ -2299,20 +2299,20 @@ b=a;return b}var
 N=M(i);if(J(w,d))var
 aw=e(function(a){return v},i),ax=i?[0,b,i[2]]:i,B=[0,[0,[0,0,ax],d],aw];else
 var
-O=hz(C(kr(w),b)),aA=e(function(a){return v},i),B=[0,[0,[0,N,i],O],cP(v,N,P(a,bZ(c(2,b),O)),aA)];var
+O=hA(C(kr(w),b)),ay=e(function(a){return v},i),B=[0,[0,[0,N,i],O],cP(v,N,P(a,bZ(c(2,b),O)),ay)];var
 Y=B[1],_=Y[1],D=_[2],f=_[1],$=B[2],aL=Y[2],j=e(function(c){return aR(c,aL,P(a,b))},D);function
-ab(h){var
-i=0,c=az(0,k),d=as(function(c,b){var
-d=cQ(a,f,j,le(a,c,k));return a_(b,hM(a,aa(h),d))},i,c),g=cQ(a,f,j,e(function(b){return P(a,A(R,b))},aB));return a_(d,f9(a,cQ(a,f,j,e(function(c){return aR(c,C(Q,b),b7(a))},S)),g))}function
+aa(h){var
+i=0,c=aA(0,k),d=as(function(c,b){var
+d=cQ(a,f,j,le(a,c,k));return a_(b,hN(a,ab(h),d))},i,c),g=cQ(a,f,j,e(function(b){return P(a,A(R,b))},aB));return a_(d,f9(a,cQ(a,f,j,e(function(c){return aR(c,C(Q,b),b7(a))},S)),g))}function
 ac(b){return b?a$(a,k,b[1]):b}function
 F(u,i,t,s){var
-c=t,b=s,d=ab(aa(u));for(;;){if(c&&b){var
-k=b[1],l=k[1],g=c[1],m=cQ(a,f,j,e(function(b){return aR(b,i,b7(a))},g)),o=cn(l[2]),p=cQ(a,f,j,dW(i,l[1],o,g)),q=a_(d,f9(a,e(aq,m),p)),r=k[2],h=eT(a,$,m,e(function(c){return function(b){return cQ(a,f,j,e(aq,dW(i,b[1],b[2],c)))}}(g),r),q);if(h){var
+c=t,b=s,d=aa(ab(u));for(;;){if(c&&b){var
+k=b[1],l=k[1],g=c[1],m=cQ(a,f,j,e(function(b){return aR(b,i,b7(a))},g)),o=cn(l[2]),p=cQ(a,f,j,dW(i,l[1],o,g)),q=a_(d,f9(a,e(aq,m),p)),r=k[2],h=eU(a,$,m,e(function(c){return function(b){return cQ(a,f,j,e(aq,dW(i,b[1],b[2],c)))}}(g),r),q);if(h){var
 c=c[2],b=b[2],d=h[1];continue}var
 n=h}else
 var
 n=[0,d];return ac(n)}}var
-aM=e(ay,l),ad=m(function(a){return aV(a,g(p))},aM),ae=ad?hW(e(ay,l)):ad,af=ae?r(g(D),k):ae,ag=af?r(g(S),k):af,ah=ag?E(d,R):ag,ai=ah?ko(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aV(f,k):ai,ak=aj?T(J(q(f,D,d),d)):aj;if(ak){switch(n[0]){case
+aM=e(az,l),ad=m(function(a){return aV(a,g(p))},aM),ae=ad?hX(e(az,l)):ad,af=ae?r(g(D),k):ae,ag=af?r(g(S),k):af,ah=ag?E(d,R):ag,ai=ah?ko(Q,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):ah,aj=ai?aV(f,k):ai,ak=aj?T(J(q(f,D,d),d)):aj;if(ak){switch(n[0]){case
 0:var
 H=n[1],L=0;if(typeof
 h==="number")L=1;else
@@ -2334,11 +2334,11 @@ au=0,aU=n[1];if(typeof
 h==="number"&&!h)var
 u=function(b){var
 F=G(aU,b);return function(G){var
-i=G,h=ab(F);for(;;){if(i){var
+i=G,h=aa(F);for(;;){if(i){var
 n=i[1],o=n[1],k=o[2],p=n[2],b=cQ(a,f,j,o[1]);if(p){var
 r=K(d,k[1]);if(r)var
-C=b7(a),c=b4(aa(dS(q(f,b,v),C,k))),l=b4(k),w=cP(v,f,c,0),x=q(f,b,v),y=a_(h,f9(a,w,cP(v,f,z(aq(t(a,c,l)),x),b))),A=q(f,b,v),B=[0,[0,l,cP(v,f,z(t(a,c,l),A),b)],y],D=e(function(d){return function(b){var
-c=cQ(a,f,j,b[1]);return ll(a,f,d,[0,aq(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eT(a,[0,v,$],ll(a,f,c,[0,b7(a),E]),D,B);else
+C=b7(a),c=b4(ab(dS(q(f,b,v),C,k))),l=b4(k),w=cP(v,f,c,0),x=q(f,b,v),y=a_(h,f9(a,w,cP(v,f,z(aq(t(a,c,l)),x),b))),A=q(f,b,v),B=[0,[0,l,cP(v,f,z(t(a,c,l),A),b)],y],D=e(function(d){return function(b){var
+c=cQ(a,f,j,b[1]);return ll(a,f,d,[0,aq(b[2]),c])}}(c),p),E=e(function(a){return v},b),g=eU(a,[0,v,$],ll(a,f,c,[0,b7(a),E]),D,B);else
 var
 g=r}else
 var
@@ -2358,16 +2358,16 @@ h==="number"||!(0===h[0]))av=1;else
 var
 aX=h[2],aY=h[1],aZ=function(a){var
 b=z(aW,a);return function(a){return F(b,aY,aX,a)}},u=aZ,s=n[1];if(av)return 0;break;default:return 0}var
-I=hX(o,aJ,s);if(I){var
+I=hY(o,aJ,s);if(I){var
 aP=I[1],aQ=bd(k);return m(function(b){var
-c=e(function(c){return hR(a,b,aI,c)},aP);return an(u,aH(b,aK),c)},aQ)}return I}return ak}function
+c=e(function(c){return hS(a,b,aI,c)},aP);return an(u,aH(b,aK),c)},aQ)}return I}return ak}function
 lr(r,q,p,o,n,x,m,e,l,k,j,h,g,c){if(typeof
 c!=="number"&&10===c[0]){var
 a=c[3],s=c[2],b=c[1];if(typeof
 b!=="number"&&5===b[0]){if(a){if(a[2])return 0;var
 t=b[2],f=i(x,e);if(f){var
 u=E(d,t);if(u){var
-y=a[1],z=b[1];return lq(r,q,p,o,n,m,e,[0,hJ(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
+y=a[1],z=b[1];return lq(r,q,p,o,n,m,e,[0,hK(t,b[3],f[1])],l,z,s,y,k,j,h,g)}var
 v=u}else
 var
 v=f;var
@@ -2379,7 +2379,7 @@ a!=="number")switch(a[0]){case
 5:var
 q=a[2],m=i(o,b);if(m){var
 r=E(d,q);if(r){var
-y=a[1];return ln(l,k,j,p,h,g,f,b,[0,hJ(q,a[3],m[1])],e,y)}var
+y=a[1];return ln(l,k,j,p,h,g,f,b,[0,hK(q,a[3],m[1])],e,y)}var
 s=r}else
 var
 s=m;return s;case
@@ -2388,13 +2388,13 @@ t=a[3],u=a[2],c=a[1];if(typeof
 c!=="number"&&5===c[0]){var
 v=c[2],n=i(o,b);if(n){var
 w=E(d,v);if(w){var
-z=c[1];return lp(l,k,j,h,g,f,b,[0,hJ(v,c[3],n[1])],e,z,u,t)}var
+z=c[1];return lp(l,k,j,h,g,f,b,[0,hK(v,c[3],n[1])],e,z,u,t)}var
 x=w}else
 var
 x=n;return x}return lp(l,k,j,h,g,f,b,0,e,c,u,t)}return ln(l,k,j,p,h,g,f,b,0,e,a)}function
-hY(a){return 9===a[0]?0:1}function
+hZ(a){return 9===a[0]?0:1}function
 d4(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
-hZ(j,d,i,a,h){var
+h0(j,d,i,a,h){var
 b=h;for(;;){var
 c=0;if(typeof
 b==="number"){if(1!==b)c=1}else
@@ -2418,103 +2418,134 @@ b=e(aU,a[2][2]);return[0,a[1],b]},n);return f(d4(d),o);case
 p=[0,a[3],[0,a[4],[0,a[5],[0,a[6],0]]]],q=f(dO(a[2]),p);return f(a[1],q);case
 4:case
 8:return d4(a[1]);default:return g}}}function
-lt(p,o,n,l,j,a,e,i){var
-g=hY(a),h=g?m(function(b){var
-a=q(b,b0(f8,e,j),v);return J(a[1],a[2])},i):g;return h?m(function(T){switch(a[0]){case
+lt(u,t,s,p,k,a,g,j){var
+h=hZ(a),i=h?m(function(b){var
+a=q(b,b0(f8,g,k),v);return J(a[1],a[2])},j):h;return i?m(function(ao){switch(a[0]){case
 3:var
-e=[0,a[1],0];break;case
+g=[0,a[1],0];break;case
 4:var
-e=d4(a[1]);break;case
+g=d4(a[1]);break;case
 5:var
-e=[0,a[1],[0,a[2],0]];break;case
+g=[0,a[1],[0,a[2],0]];break;case
 6:case
 8:case
 9:case
 10:return 0;default:var
-e=0}var
-i=0,g=bm(0,function(a){switch(a[0]){case
+g=0}var
+j=0,k=bm(0,function(a){switch(a[0]){case
+0:return[0,[0,d]];case
 1:var
-M=a[1],N=ak(function(a){return r(M,a)},T)?b:d;return[0,N];case
+ad=a[1],ae=ak(function(a){return r(ad,a)},ao)?b:d;return[0,[0,ae]];case
+2:var
+af=J(a[1],d)?0:[0,d];return[0,af];case
+3:var
+e=a[2],j=a[1];if(j){var
+z=j[1];if(z){if(e){var
+A=e[1];if(A){var
+B=z[1],D=J(B,A[1]),ag=D?[0,[0,B]]:D;return ag}var
+F=j}else
+var
+F=e;return F}return e}if(e){if(e[1])return 0;var
+G=j}else
+var
+G=e;return G;case
+4:var
+f=a[2],k=a[1];if(k){var
+H=k[1];if(H){if(f){var
+I=f[1];if(I){var
+K=H[1],L=J(K,I[1]),ah=L?[0,[0,K]]:L;return ah}var
+M=k}else
+var
+M=f;return M}return f}if(f){if(f[1])return 0;var
+N=k}else
+var
+N=f;return N;case
 5:return a[1];case
 6:var
-i=a[1];if(i)var
-j=a[2],P=j?[0,C(i[1],j[1])]:j,y=P;else
-var
-y=i;return y;case
-7:var
-k=a[1];if(k)var
-l=a[2],Q=l?[0,aA(k[1],l[1])]:l,z=Q;else
-var
-z=k;return z;case
-8:var
-m=a[1];if(m)var
-A=m[1],B=[0,C(A,A)];else
-var
-B=m;return B;case
-9:var
 n=a[1];if(n){var
-e=n[1],s=aK(e);if(0===s)var
-f=1;else
-if(0<s)var
-f=E(e,b)?0:J(aT(e,aE(2))[2],d)?1:0;else
+O=n[1],g=a[2];if(O){if(g){var
+P=g[1];if(P)return[0,[0,C(O[1],P[1])]];var
+Q=r6}else
 var
-t=R(e),f=E(t,b)?0:J(aT(t,aE(2))[2],d)?1:0;var
-S=f?[0,cl(e,c(2,b))]:f,D=S}else
+Q=g;return Q}var
+ai=g?r7:g,S=ai}else
 var
-D=n;return D;case
-10:var
-o=a[2];if(o){var
-p=a[3];if(p){var
-q=a[4];if(q)var
-F=J(o[1],d),G=F?J(p[1],d):F,H=G?J(q[1],d):G,I=H?[0,d]:H;else
+S=n;return S;case
+7:var
+o=a[1];if(o){var
+T=o[1],h=a[2];if(T){if(h)var
+p=h[1],aj=p?[0,[0,aB(T[1],p[1])]]:p,U=aj;else
 var
-I=q;var
-K=I}else
+U=h;return U}var
+al=h?r8:h,V=al}else
 var
-K=p;var
-L=K}else
+V=o;return V;case
+8:var
+q=a[1];if(q){var
+W=q[1];if(W){var
+X=W[1];return[0,[0,C(X,X)]]}var
+Y=r9}else
 var
-L=o;return L;case
-3:case
-4:var
-g=a[1];if(g){var
-h=a[2];if(h)var
-u=g[1],v=J(u,h[1]),O=v?[0,u]:v,w=O;else
+Y=q;return Y;case
+9:var
+s=a[1];if(s){var
+t=s[1];if(t){var
+i=t[1],x=aK(i);if(0===x)var
+l=1;else
+if(0<x)var
+l=E(i,b)?0:J(aT(i,aE(2))[2],d)?1:0;else
 var
-w=h;var
-x=w}else
+y=R(i),l=E(y,b)?0:J(aT(y,aE(2))[2],d)?1:0;var
+am=l?[0,[0,cl(i,c(2,b))]]:l,Z=am}else
 var
-x=g;return x;default:return[0,d]}},p,i),h=m(function(c){var
-a=q(c,g,0),b=a?1:a;return b},l);if(h){var
-j=f(d4(n),e),k=f(d4(o),j);return m(function(c){var
-a=q(c,g,0);if(a){var
-b=aK(a[1]);return 0===b?1:0<b?0:0}return a},k)}return h},e):h}function
+Z=t;var
+_=Z}else
+var
+_=s;return _;default:var
+u=a[2];if(u){var
+v=a[3];if(v){var
+w=a[4];if(w)var
+an=[0,u[1],[0,v[1],[0,w[1],0]]],$=m(function(a){return a?J(a[1],d):1},an),aa=$?[0,[0,d]]:$;else
+var
+aa=w;var
+ab=aa}else
+var
+ab=v;var
+ac=ab}else
+var
+ac=u;return ac}},u,j);function
+l(a){return a?a[1]:d}var
+h=e(function(a){return y(l,a)},k),i=m(function(c){var
+a=q(c,h,0),b=a?1:a;return b},p);if(i){var
+n=f(d4(s),g),o=f(d4(t),n);return m(function(c){var
+a=q(c,h,0);if(a){var
+b=aK(a[1]);return 0===b?1:0<b?0:0}return a},o)}return i},g):i}function
 lu(j,a,i,h,g,f,e,d,c,b){var
-k=fU(hZ(i,h,g,c,b),a);return hS(j,a,b0(f8,e,f),k,d)}function
+k=fU(h0(i,h,g,c,b),a);return hT(j,a,b0(f8,e,f),k,d)}function
 gb(b,a){if(a){var
 c=a[2];if(b){var
 e=gb(b[1],c);return[0,a[1],e]}var
 d=[0,0,c]}else
 var
 d=a;return d}function
-eV(k,a,c,j,b,p,o,h,f,U,l){switch(l[0]){case
+eW(k,a,c,j,b,p,o,h,f,U,l){switch(l[0]){case
 0:var
 $=function(a){return m(T,a)},H=$,y=l[1];break;case
 1:var
 aa=l[4],ab=l[3],ac=l[2],ad=function(d){var
-e=cN(ac,f),g=eV(k,a,c,j,b,p,o,h,e[1],d,ab);return g?eV(k,a,c,j,b,p,o,h,e[2],d,aa):g},H=ad,y=l[1];break;default:var
+e=cN(ac,f),g=eW(k,a,c,j,b,p,o,h,e[1],d,ab);return g?eW(k,a,c,j,b,p,o,h,e[2],d,aa):g},H=ad,y=l[1];break;default:var
 ae=l[4],af=l[3],ah=l[2],ai=function(d){var
 n=ag(p,d),e=m(function(a){var
-b=hY(a[1]);return b?b:T(a[2])},n);if(e){var
-g=cN(ah,h),i=eV(k,a,c,j,b,p,o,g[1],f,d,af);if(i)return eV(k,a,c,j,b,p,o,g[2],f,d,ae);var
+b=hZ(a[1]);return b?b:T(a[2])},n);if(e){var
+g=cN(ah,h),i=eW(k,a,c,j,b,p,o,g[1],f,d,af);if(i)return eW(k,a,c,j,b,p,o,g[2],f,d,ae);var
 l=i}else
 var
 l=e;return l},H=ai,y=l[1]}if(y){var
-S=hS(k,a,h,fU(x(function(f){var
+S=hT(k,a,h,fU(x(function(f){var
 a=f[2],e=0;if(typeof
 a==="number"){if(4!==a)e=1}else
 if(11!==a[0])e=1;if(e){var
-d=F(p,f[1]);return d?hZ(c,j,b,d[1],a):d}return 0},y),a),f),v=y,s=U;for(;;){if(v){var
+d=F(p,f[1]);return d?h0(c,j,b,d[1],a):d}return 0},y),a),f),v=y,s=U;for(;;){if(v){var
 N=v[1],n=N[2],D=N[1],O=v[2],V=0;if(typeof
 n==="number"&&4===n){var
 A=i(o,f);if(A)var
@@ -2556,8 +2587,8 @@ var
 u=[0,s];break}}else
 var
 u=[0,U];return u?H(u[1]):u}function
-h0(h,g,f,e,d,c,b,a){return function(i,j,k){return eV(h,g,f,e,d,b,a,c,i,j,k)}}function
-h1(a){return e(function(a){return 1},a)}function
+h1(h,g,f,e,d,c,b,a){return function(i,j,k){return eW(h,g,f,e,d,b,a,c,i,j,k)}}function
+h2(a){return e(function(a){return 1},a)}function
 d5(a,d,b,c){function
 f(d,c){var
 f=ag(a[1],b[1]);return e(function(a){var
@@ -2598,7 +2629,7 @@ lx(g){var
 h=g[1],c=h[2],e=h[1];if(0===e[0]){var
 i=e[2],a=e[1];if(E(i,b)){if(0===c[0]){var
 j=c[2],m=c[1];if(E(j,b)){var
-k=J(a,m),l=k?eM(a):k;if(l)var
+k=J(a,m),l=k?eN(a):k;if(l)var
 n=J(g[2],d),f=n||J(a,d);else
 var
 f=l;var
@@ -2616,16 +2647,16 @@ c=a[1],g=[0,[0,c[4],b],0],h=f(a3(c[3],b),g),i=f(a3(c[2],b),h);return f(a3(c[1],d
 1:var
 e=a[3],j=e?a3(e[1],d):e,k=f(a3(a[2],b),j);return f(a3(a[1],b),k);default:return a3(a[1],d)}}function
 ai(b,a){var
-c=k(d),e=q(O(sb,a),b,c),f=k(d),g=q(O(sc,a),b,f);return[0,q(a,b,k(d)),g,e]}function
+c=k(d),e=q(O(sf,a),b,c),f=k(d),g=q(O(sg,a),b,f);return[0,q(a,b,k(d)),g,e]}function
 ly(b,a){return af(w,af(B,dc,a),b)}function
 gd(c,b,a){if(a){var
 e=a[2],g=gd(c,bt(b),e),h=a[1];return f(gc(c,bH(d,b),h),g)}return a}function
-h2(f,e,c,j){if(c){var
-b=c[1],v=O(j,g(gc(f,bH(d,e),b))),w=c[2],x=h2(f,bt(e),w,v),a=cu(j,gc(f,bH(d,e),b));switch(b[0]){case
+h3(f,e,c,j){if(c){var
+b=c[1],v=O(j,g(gc(f,bH(d,e),b))),w=c[2],x=h3(f,bt(e),w,v),a=cu(j,gc(f,bH(d,e),b));switch(b[0]){case
 0:var
-m=b[1][5],n=q(sd,a,k(d)),o=af(B,dc,ai(a,se)),p=db(ai(a,0)),r=ai(a,sf),h=k5(ly(ai(a,sg),r),p,o,n,m);break;case
+m=b[1][5],n=q(sh,a,k(d)),o=af(B,dc,ai(a,si)),p=db(ai(a,0)),r=ai(a,sj),h=k5(ly(ai(a,sk),r),p,o,n,m);break;case
 1:var
-i=b[3],s=i?[0,db(ai(a,sh))]:i,t=af(B,dc,ai(a,si)),u=ai(a,sj),h=k6(ly(ai(a,0),u),t,s);break;default:var
+i=b[3],s=i?[0,db(ai(a,sl))]:i,t=af(B,dc,ai(a,sm)),u=ai(a,sn),h=k6(ly(ai(a,0),u),t,s);break;default:var
 h=k7(dc,db(ai(a,0)))}var
 l=[0,h,x]}else
 var
@@ -2650,23 +2681,23 @@ o=[5,a[2],a[3]];return[0,[0,o,o],d];case
 0:case
 1:var
 f=[5,[0,b,b],a[1]];return[0,[0,f,f],d];case
-5:case
-7:case
-9:var
-i=a[1];return[0,[0,i,i],d];default:var
-g=a[2];return[0,[0,g,g],c]}var
+2:case
+3:case
+14:var
+g=a[2];return[0,[0,g,g],c];default:var
+i=a[1];return[0,[0,i,i],d]}var
 e=[0,d,b];return[0,[0,e,e],d]}function
-eW(b,a){var
+eX(b,a){var
 c=a[3],d=a[2],e=a[1];return[0,[0,[0,e,e],b],[0,[0,[0,d,d],b],[0,[0,[0,c,c],b],0]]]}function
 d6(c,a){if(0===a[0]){var
-e=[0,d,b],i=f(eW(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
-j=eW(c,a[3]);return f(eW(c,a[2]),j)}function
+e=[0,d,b],i=f(eX(c,a[5]),[0,[0,[0,e,e],d],0]),g=a[4],h=a[3];return f([0,[0,[0,h,h],c],[0,[0,[0,g,g],c],0]],i)}var
+j=eX(c,a[3]);return f(eX(c,a[2]),j)}function
 dd(b,a){if(typeof
 a!=="number")switch(a[0]){case
 10:var
 h=d6(b,a[2]);return f(d6(b,a[1]),h);case
 11:var
-i=eW(b,a[3]);return f(eW(b,a[2]),i);case
+i=eX(b,a[3]);return f(eX(b,a[2]),i);case
 12:var
 c=a[3],g=[5,[4,c,c],a[4]];return[0,[0,[0,g,g],b],0];case
 15:var
@@ -2674,16 +2705,16 @@ j=a[2],k=a[1];return e(function(b){var
 a=[5,j,b];return[0,[0,a,a],d]},k)}return 0}function
 lz(c,b,a){var
 d=g(dd(c,b)),e=O(a[2],d);return[0,[0,a[1]],e]}function
-h3(c,b){if(aC(b,c))return[0,k(d)];var
+h4(c,b){if(aC(b,c))return[0,k(d)];var
 a=b[1];if(4===a[0]){var
 e=aC(a[1],c),f=e?[0,a[2]]:e;return f}return 0}function
 lA(y,p,a,o){switch(o[0]){case
 0:var
 h=F(y,o[1]);if(h){var
 j=h[1];if(j){var
-r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=ai(a,sk),A=af(B,af(w,e,aW(aj(q(sl,a,k(d)),t),c)),z),C=ai(a,sm),f=aj(q(0,a,k(d)),t),l=h3(e[1],c[1]);if(l){var
-m=h3(e[2],c[2]);if(m){var
-n=h3(e[3],c[3]);if(n)var
+r=j[1],s=r[1],c=s[2],e=s[1],t=r[2],z=ai(a,so),A=af(B,af(w,e,aW(aj(q(sp,a,k(d)),t),c)),z),C=ai(a,sq),f=aj(q(0,a,k(d)),t),l=h4(e[1],c[1]);if(l){var
+m=h4(e[2],c[2]);if(m){var
+n=h4(e[3],c[3]);if(n)var
 x=aW(f,c),g=af(B,[0,l[1],m[1],n[1]],x);else
 var
 g=af(w,e,aW(w(k(b),f),c))}else
@@ -2698,11 +2729,11 @@ v=u}else
 var
 v=h;return v;case
 1:var
-D=ai(a,sn);return[0,[0,ai(a,0),D]];default:var
-E=i(p,ai(a,so));return[0,[0,i(p,ai(a,0)),E]]}}function
+D=ai(a,sr);return[0,[0,ai(a,0),D]];default:var
+E=i(p,ai(a,ss));return[0,[0,i(p,ai(a,0)),E]]}}function
 lB(e,d,c,h,g){var
-a=lA(e,d,aL(sp,c),h);if(a)var
-b=lA(e,d,aZ(sq,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
+a=lA(e,d,aL(st,c),h);if(a)var
+b=lA(e,d,aZ(su,c),g),i=b?[0,[0,a[1],b[1]]]:b,f=i;else
 var
 f=a;return f}function
 lC(g,c,d,b,a){var
@@ -2727,8 +2758,8 @@ var
 e=d;var
 f=e}else
 var
-f=b;return f}return ss}function
-eX(b,d,c,a){if(typeof
+f=b;return f}return sw}function
+eY(b,d,c,a){if(typeof
 a!=="number")switch(a[0]){case
 8:var
 i=c[1],j=cS(bM(d,a),i);return[0,e(function(a){var
@@ -2774,7 +2805,7 @@ H=t[1],I=H[2],J=H[1];return x(bL,[0,J[1],[0,J[2],[0,I[1],[0,I[2],0]]]])}return t
 11:var
 Z=function(d){var
 e=d[7];if(e)var
-n=dd(l,a),f=cu(j[2],n),h=ai(f,sr),b=af(w,ai(f,0),h),i=Q(c),k=Q(cM(d)),m=aj(Q(U(b,d[1])),k),g=[0,w(w(U(b,b),m),i),0];else
+n=dd(l,a),f=cu(j[2],n),h=ai(f,sv),b=af(w,ai(f,0),h),i=Q(c),k=Q(cM(d)),m=aj(Q(U(b,d[1])),k),g=[0,w(w(U(b,b),m),i),0];else
 var
 g=e;return g},g=Z,f=a[1];break;case
 12:var
@@ -2785,21 +2816,21 @@ i=e[7],o=i?[0,w(w(k(b),c),f),0]:i;return o},g=_,f=a[1];break;case
 8:case
 9:case
 15:var
-r=eX(e,l,j,a);return r?bN(r[1]):r;default:u=1}if(u)return 0;var
+r=eY(e,l,j,a);return r?bN(r[1]):r;default:u=1}if(u)return 0;var
 o=F(e,f);return o?g(o[1]):o}function
-h4(d,b,c,a){if(a){var
-e=a[1],g=a[2],h=h4(d,b,lz(b,e,c),g);return f(ge(d,b,c,e),h)}return a}var
+h5(d,b,c,a){if(a){var
+e=a[1],g=a[2],h=h5(d,b,lz(b,e,c),g);return f(ge(d,b,c,e),h)}return a}var
 lF=[0,d,b],lG=[0,[0,lF,lF],d];function
-h5(a){return T(cq(a[1][1],a[1][2]))}function
+h6(a){return T(cq(a[1][1],a[1][2]))}function
 lH(a){var
-b=az(0,g(a));return bk(function(b){return h5(q(b,a,lG))},b)}function
+b=aA(0,g(a));return bk(function(b){return h6(q(b,a,lG))},b)}function
 gf(a,b){var
 c=lw(lH(a),b),e=ag(lH(a),c);return bk(function(a){return T(a1(d,a[2]))},e)}function
 lI(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
 lJ(m,l,f,k,j,a){var
 d=gf(f,a);return _(e(function(e){var
-a=q(e[1],f,lG),g=aA(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=am(m,[0,[0,d,d],g]);return y(function(a){return[0,a,i(l,e[2])]},n)},d))}function
+a=q(e[1],f,lG),g=aB(a[2],k),h=[4,[0,c(2,b),b],j],d=[5,[3,a[1][2],a[1][1]],h],n=am(m,[0,[0,d,d],g]);return y(function(a){return[0,a,i(l,e[2])]},n)},d))}function
 lK(g,f,n,m,l,e,c){var
 h=[5,l,e],a=am(g,[0,[0,h,h],d]);if(a){var
 b=lJ(g,f,n,m,e,c);if(b)var
@@ -2814,21 +2845,21 @@ a=s[1],aH=s[2],aI=lL(c,G,l,al,k,j,lz(j,a,n),aH);if(typeof
 a==="number")if(0===a)var
 f=[0,[0,v]];else
 var
-ao=G[2],ap=G[1],aq=eS(k),f=[0,[8,i(au(l),aq),ap,ao]];else
+ao=G[2],ap=G[1],aq=eT(k),f=[0,[8,i(av(l),aq),ap,ao]];else
 switch(a[0]){case
 0:var
-ar=am(c,bM(j,a)),f=y(function(a){return[0,V(c,a)]},ar);break;case
+ar=am(c,bM(j,a)),f=y(function(a){return[0,W(c,a)]},ar);break;case
 1:var
-as=am(c,bM(j,a)),f=y(function(a){return[1,V(c,a)]},as);break;case
+as=am(c,bM(j,a)),f=y(function(a){return[1,W(c,a)]},as);break;case
 5:var
-av=am(c,bM(j,a)),f=y(function(a){return[2,V(c,a)]},av);break;case
+au=am(c,bM(j,a)),f=y(function(a){return[2,W(c,a)]},au);break;case
 8:var
-aw=eX(k,j,n,a),f=y(function(a){var
-d=P(c,b);return[4,i(au(l),a),d]},aw);break;case
+aw=eY(k,j,n,a),f=y(function(a){var
+d=P(c,b);return[4,i(av(l),a),d]},aw);break;case
 9:var
-w=eX(k,j,n,a);if(w){var
+w=eY(k,j,n,a);if(w){var
 x=am(c,bM(j,a));if(x)var
-ax=V(c,x[1]),ay=w[1],L=[0,[4,i(au(l),ay),ax]];else
+ax=W(c,x[1]),ay=w[1],L=[0,[4,i(av(l),ay),ax]];else
 var
 L=x;var
 M=L}else
@@ -2845,10 +2876,10 @@ T=S;var
 U=T}else
 var
 U=A;var
-W=U}else
+V=U}else
 var
-W=z;var
-f=W;break;case
+V=z;var
+f=V;break;case
 12:var
 q=ge(k,j,n,a),t=0;if(q)if(q[2])var
 f=0;else{var
@@ -2860,12 +2891,12 @@ f=B;break;case
 13:var
 Z=a[1],$=F(k,Z),H=0;if($){var
 aa=h(c,1,a[2]),ab=aa?h(c,1,a[3]):aa;if(ab)var
-aC=am(c,bM(j,a)),f=y(function(a){return[7,Z,V(c,a)]},aC);else{var
+aC=am(c,bM(j,a)),f=y(function(a){return[7,Z,W(c,a)]},aC);else{var
 ac=ab;H=1}}else{var
 ac=$;H=1}if(H)var
 f=ac;break;case
 14:var
-ad=a[2],ae=a[1],af=r(g(k),st),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
+ad=a[2],ae=a[1],af=r(g(k),sx),ag=af?h(c,0,ae):af,ah=ag?h(c,1,ad):ag;if(ah){var
 C=am(c,bM(j,a));if(C)var
 D=_(e(function(a){return lK(c,l,al,j,ae,ad,a[4])},k)),aD=D?[0,[9,C[1],D[1]]]:D,ai=aD;else
 var
@@ -2876,8 +2907,8 @@ aj=ah;var
 f=aj;break;case
 15:var
 aE=[0,a[2],a[1]],aF=1,ak=m(function(a){return h(c,aF,a)},aE);if(ak)var
-aG=eX(k,j,n,a),f=y(function(a){var
-d=P(c,b);return[4,i(au(l),a),d]},aG);else
+aG=eY(k,j,n,a),f=y(function(a){var
+d=P(c,b);return[4,i(av(l),a),d]},aG);else
 var
 f=ak;break;default:var
 o=ge(k,j,n,a),I=0;if(o){var
@@ -2891,7 +2922,7 @@ f=K}var
 an=[0,f,aI]}else
 var
 an=s;return an}function
-su(a){var
+sy(a){var
 b=0;if(typeof
 a==="number"){if(0!==a)b=1}else
 if(0!==a[0])b=1;return b?0:1}function
@@ -2903,7 +2934,7 @@ h=d[2];if(h){if(h[2])return 0;var
 e=d[1],f=b[1],i=cK(a,g,c[1]);if(i){var
 j=cK(a,g,c[2]);if(j){var
 k=cK(a,g,c[3]);if(k)var
-u=i[1],w=b6(f),l=G([0,b6(f),w],u),x=j[1],y=b6(e),m=G([0,b6(e),y],x),A=dZ(e),B=[0,dZ(e),A],C=[0,t(a,aa(z(m,m)),B),0],D=dZ(f),E=[0,dZ(f),D],F=[0,t(a,aa(z(l,l)),E),C],H=V(a,m),I=V(a,l),n=[0,[0,G(G(V(a,k[1]),I),H),v,F]];else
+u=i[1],w=b6(f),l=G([0,b6(f),w],u),x=j[1],y=b6(e),m=G([0,b6(e),y],x),A=dZ(e),B=[0,dZ(e),A],C=[0,t(a,ab(z(m,m)),B),0],D=dZ(f),E=[0,dZ(f),D],F=[0,t(a,ab(z(l,l)),E),C],H=W(a,m),I=W(a,l),n=[0,[0,G(G(W(a,k[1]),I),H),v,F]];else
 var
 n=k;var
 o=n}else
@@ -2928,7 +2959,7 @@ c=b[2];if(c){var
 h=c[1];if(h){var
 f=c[2];if(f){var
 i=f[1];if(i){if(f[2])return 0;var
-r=V(a,i[1]),s=V(a,h[1]);return K(d,z(z(V(a,g[1]),s),r)[1])}var
+r=W(a,i[1]),s=W(a,h[1]);return K(d,z(z(W(a,g[1]),s),r)[1])}var
 j=i}else
 var
 j=f;var
@@ -2944,7 +2975,7 @@ m=g;var
 n=m}else
 var
 n=b;return n}function
-ab(c,b,a){var
+ac(c,b,a){var
 d=an(c,b[3],a[3]),e=an(c,b[2],a[2]);return[0,an(c,b[1],a[1]),e,d]}function
 at(b,a){return[0,[4,b,a[1]],[4,b,a[2]],[4,b,a[3]]]}function
 H(b,a){return[2,[2,[4,b[1],a[1]],[4,b[2],a[2]]],[4,b[3],a[3]]]}function
@@ -2970,7 +3001,7 @@ v=s;return v}return 0;default:if(2===a[0]){var
 i=a[1],w=bf(b,c[1],i);return w?h(b,1,H(i,i)):w}return 0}}function
 cv(c,a,b){if(0===a[0])return bf(c,a[1],b);var
 d=a[3],e=[3,b[1],a[1]],f=[3,b[2],a[2]],g=h(c,0,[3,[3,[4,d,d],[4,e,e]],[4,f,f]]),i=g?h(c,0,d):g;return i?cT(c,a[4],b[3]):i}function
-h6(g,f,i,h){var
+h7(g,f,i,h){var
 b=f[1],a=i;for(;;){if(b){if(a){var
 d=lN(g,b[1],a[1]);if(d){var
 b=b[2],a=a[2];continue}var
@@ -2981,44 +3012,44 @@ c=e}else
 var
 c=a?0:1;return c?cv(g,f[2],h):c}}function
 ba(c,b,a){var
-d=ab(function(b,a){return[2,b,a]},a,b);return ab(function(b,a){return[3,b,a]},d,c)}function
-eY(a,e,d,c){var
-b=ba(e,d,c),f=aI(a),g=at(H(aI(a),b),f);return ab(function(b,a){return[3,b,a]},b,g)}function
+d=ac(function(b,a){return[2,b,a]},a,b);return ac(function(b,a){return[3,b,a]},d,c)}function
+eZ(a,e,d,c){var
+b=ba(e,d,c),f=aI(a),g=at(H(aI(a),b),f);return ac(function(b,a){return[3,b,a]},b,g)}function
 cU(f,e,d,a,c){var
-b=eY(f,e,d,c);return[3,[4,a,a],H(b,b)]}function
+b=eZ(f,e,d,c);return[3,[4,a,a],H(b,b)]}function
 df(c,a){return c?[6,a]:[3,[0,d,b],[6,a]]}function
 b8(a,c){switch(a[0]){case
 0:var
-e=a[3],f=a[2],d=a[1],g=eY(d,f,e,c),h=cU(d,f,e,a[4],c),i=at([5,[0,b,b],df(a[5],h)],g),j=aI(d);return ab(function(b,a){return[2,b,a]},j,i);case
+e=a[3],f=a[2],d=a[1],g=eZ(d,f,e,c),h=cU(d,f,e,a[4],c),i=at([5,[0,b,b],df(a[5],h)],g),j=aI(d);return ac(function(b,a){return[2,b,a]},j,i);case
 1:return aI(ba(a[1],a[2],c));default:return aI(a[1])}}function
 cw(a,b){switch(a[0]){case
 0:var
-d=a[3],e=a[2],c=a[1],f=aI(c),g=cU(c,e,d,a[4],b),h=at(df(a[5],g),f),i=eY(c,e,d,b);return ab(function(b,a){return[2,b,a]},i,h);case
+d=a[3],e=a[2],c=a[1],f=aI(c),g=cU(c,e,d,a[4],b),h=at(df(a[5],g),f),i=eZ(c,e,d,b);return ac(function(b,a){return[2,b,a]},i,h);case
 1:return ba(a[1],a[2],b);default:return aI(a[1])}}function
 d8(a,b){switch(a[0]){case
 0:var
 c=a[3],d=a[2],e=a[1],h=cU(e,d,c,a[4],b),i=df(a[5],h),j=ba(d,c,b);return[3,H(aI(e),j),i];case
 1:var
 f=a[2],g=a[1],k=ba(g,f,b);return[6,H(ba(g,f,b),k)];default:return H(aI(a[1]),b)}}function
-h7(a,b){switch(a[0]){case
+h8(a,b){switch(a[0]){case
 0:return[0,cU(a[1],a[2],a[3],a[4],b)];case
 1:var
 c=a[2],d=a[1],e=ba(d,c,b);return[0,H(ba(d,c,b),e)];default:return 0}}function
-eZ(e,c,a){var
+e0(e,c,a){var
 f=[0,d,b];return as(function(b,d){var
 e=H(b8(b,c),a);return[2,[4,H(b8(b,c),a),e],d]},f,e)}function
 lO(f,e,c,a){if(f){if(e){var
 g=e[1],h=lO(f[2],e[2],c,a),i=H(b8(g,c),a),j=[4,H(b8(g,c),a),i];return[2,[4,f[1],j],h]}return[0,d,b]}return[0,d,b]}function
 lP(a){var
 c=a[1];return[0,[0,c[1],b],[0,c[2],b],[0,a[2],b]]}function
-h8(a,c){switch(a[0]){case
+h9(a,c){switch(a[0]){case
 0:return a[4];case
 1:var
 d=a[2],e=a[1],f=ba(e,d,c);return[6,H(ba(e,d,c),f)];default:return[0,b,b]}}function
 lQ(d,i){if(d){var
 a=d[1];if(1===a[0]){var
 c=a[3];if(c)var
-f=c[1],g=ba(a[1],a[2],i),k=aI(f),l=at(H(aI(f),g),k),h=[0,ab(function(b,a){return[3,b,a]},g,l)];else
+f=c[1],g=ba(a[1],a[2],i),k=aI(f),l=at(H(aI(f),g),k),h=[0,ac(function(b,a){return[3,b,a]},g,l)];else
 var
 h=c;var
 b=h}else
@@ -3026,19 +3057,19 @@ var
 b=0;if(b)var
 e=lQ(d[2],i),m=e?[0,[0,b[1],e[1]]]:e,j=m;else
 var
-j=b;return j}return sv}function
+j=b;return j}return sz}function
 cV(a){return[0,a[1],a[2],a[3]]}function
 lR(a,b){switch(a[0]){case
 0:var
-f=a[4],c=a[3],g=a[2],d=a[1],i=aI(d),j=cU(d,g,c,f,b),k=at(df(a[5],j),i),l=eY(d,g,c,b),m=ab(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,c),m],f]];case
+f=a[4],c=a[3],g=a[2],d=a[1],i=aI(d),j=cU(d,g,c,f,b),k=at(df(a[5],j),i),l=eZ(d,g,c,b),m=ac(function(b,a){return[2,b,a]},l,k);return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,c),m],f]];case
 1:var
-h=a[2],e=ba(a[1],h,b),n=[6,H(e,e)];return[0,[0,[0,ab(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
+h=a[2],e=ba(a[1],h,b),n=[6,H(e,e)];return[0,[0,[0,ac(function(b,a){return[2,b,a]},b,h),e],n]];default:return 0}}function
 lS(m,e,a){switch(a[0]){case
 0:var
 n=a[5],c=F(m,a[1]);if(c){var
 d=c[1];if(d)var
 f=d[1],g=f[1],h=f[2],o=g[2],p=g[1],j=function(a){var
-b=cV(n),c=at(a,o),d=ab(function(b,a){return[3,b,a]},p,c);return ab(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
+b=cV(n),c=at(a,o),d=ac(function(b,a){return[3,b,a]},p,c);return ac(function(b,a){return[2,b,a]},d,b)},q=j([5,a[4],h]),k=[0,[0,j([3,[0,b,b],[5,a[3],h]]),q]];else
 var
 k=d;var
 l=k}else
@@ -3048,11 +3079,11 @@ l=c;return l;case
 r=cV(a[3]);return[0,[0,cV(a[2]),r]];default:var
 s=i(e,cV(a[3]));return[0,[0,i(e,cV(a[2])),s]]}}function
 lT(d,a,c,b){var
-e=at(a,b),f=at([3,d,a],c);return ab(function(b,a){return[2,b,a]},f,e)}function
+e=at(a,b),f=at([3,d,a],c);return ac(function(b,a){return[2,b,a]},f,e)}function
 lU(a,l,c,k,j,x){var
 d=i(l,k);if(d){var
 m=d[1],e=i(l,j);if(e){var
-n=e[1],f=c[1],g=c[2],b=c[3],y=lT(b,g,n[1],n[2]),z=lT(b,f,m[1],m[2]),o=ab(function(b,a){return[3,b,a]},z,y),A=dR(j),p=[4,b,[2,[2,dR(k),A],x]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],H(o,o)]);var
+n=e[1],f=c[1],g=c[2],b=c[3],y=lT(b,g,n[1],n[2]),z=lT(b,f,m[1],m[2]),o=ac(function(b,a){return[3,b,a]},z,y),A=dR(j),p=[4,b,[2,[2,dR(k),A],x]],q=h(a,1,b),r=q?h(a,0,f):q,s=r?h(a,0,[3,b,f]):r,t=s?h(a,0,g):s,u=t?h(a,0,[3,b,g]):t;if(u)return h(a,1,[3,[4,p,p],H(o,o)]);var
 v=u}else
 var
 v=e;var
@@ -3068,9 +3099,9 @@ N=0;if(typeof
 a==="number")N=1;else
 switch(a[0]){case
 0:var
-aF=eZ(g,c,f);return h(i,1,[3,R(a[1]),aF]);case
+aF=e0(g,c,f);return h(i,1,[3,R(a[1]),aF]);case
 1:var
-aG=R(a[1]);return h(i,1,[3,eZ(g,c,f),aG]);case
+aG=R(a[1]);return h(i,1,[3,e0(g,c,f),aG]);case
 2:var
 aH=a[2],aJ=function(a){return[3,aH,d8(a,c)]},z=aJ,y=a[1];break;case
 3:var
@@ -3079,7 +3110,7 @@ aK=a[2],aL=function(a){return[3,d8(a,c),aK]},z=aL,y=a[1];break;case
 S=a[3],T=a[2],aM=function(a){var
 b=b8(a,c);return[3,[4,[4,T,T],H(b8(a,c),b)],[4,S,S]]},z=aM,y=a[1];break;case
 5:var
-U=a[1],aN=H(f,f),aO=[4,[4,U,U],[4,eZ(g,c,x),aN]],aP=H(x,x);return h(i,1,[3,[4,eZ(g,c,f),aP],aO]);case
+U=a[1],aN=H(f,f),aO=[4,[4,U,U],[4,e0(g,c,x),aN]],aP=H(x,x);return h(i,1,[3,[4,e0(g,c,f),aP],aO]);case
 6:var
 V=a[2],B=F(g,a[1]);if(B){var
 k=B[1];if(0===k[0]){var
@@ -3090,28 +3121,28 @@ X=B;return X;case
 7:if(g){var
 p=g[2];if(p){var
 q=p[2];if(q){if(q[2])return 0;var
-Y=q[1],Z=p[1],_=g[1],aR=h8(Y,c),aS=h8(Z,c),aT=h8(_,c),$=[4,[4,[4,a[1],aT],aS],aR],l=cw(Y,c),m=cw(Z,c),aU=cw(_,c),O=H(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),aa=h(i,1,[3,$,O]);if(aa)return h(i,1,[2,$,O]);var
-ac=aa}else
+Y=q[1],Z=p[1],_=g[1],aR=h9(Y,c),aS=h9(Z,c),aT=h9(_,c),$=[4,[4,[4,a[1],aT],aS],aR],l=cw(Y,c),m=cw(Z,c),aU=cw(_,c),O=H(aU,[0,[3,[4,m[2],l[3]],[4,m[3],l[2]]],[3,[4,m[3],l[1]],[4,m[1],l[3]]],[3,[4,m[1],l[2]],[4,m[2],l[1]]]]),aa=h(i,1,[3,$,O]);if(aa)return h(i,1,[2,$,O]);var
+ab=aa}else
 var
-ac=q;var
-ad=ac}else
+ab=q;var
+ad=ab}else
 var
 ad=p;var
 ae=ad}else
 var
 ae=g;return ae;case
 8:var
-aV=eZ(g,c,f),aW=H(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
+aV=e0(g,c,f),aW=H(f,f);return h(i,1,[3,[4,[5,a[2],a[1]],aW],aV]);case
 9:var
 af=a[1],D=lQ(g,c);if(D){var
 aX=D[1],az=[0,d,b],aA=as(function(a,b){var
 c=H(aI(a),f);return[2,[4,H(aI(a),f),c],b]},az,aX);return h(i,1,[3,[4,[4,af,af],H(f,f)],aA])}return D;case
 10:var
-aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return ab(aB,c,a)},aD=e(function(a){return lR(a,c)},g);return lU(i,function(a){return lS(aD,aC,a)},f,a0,aZ,aY);case
+aY=a[3],aZ=a[2],a0=a[1],aB=function(b,a){return[2,b,a]},aC=function(a){return ac(aB,c,a)},aD=e(function(a){return lR(a,c)},g);return lU(i,function(a){return lS(aD,aC,a)},f,a0,aZ,aY);case
 11:var
 ag=a[4],E=F(g,a[1]);if(E){var
 G=lR(E[1],c);if(G){var
-n=G[1][1][2],a1=cV(a[3]),a2=cV(a[2]),r=ab(function(b,a){return[3,b,a]},a2,a1),ah=h(i,1,H(n,n));if(ah){var
+n=G[1][1][2],a1=cV(a[3]),a2=cV(a[2]),r=ac(function(b,a){return[3,b,a]},a2,a1),ah=h(i,1,H(n,n));if(ah){var
 a3=H(n,n),a4=H(r,n),a5=[5,[4,H(r,n),a4],a3];return h(i,1,[3,[4,ag,ag],[3,H(r,r),a5]])}var
 ai=ah}else
 var
@@ -3142,7 +3173,7 @@ t=g[2];if(t){var
 u=t[2];if(u){if(u[2])return 0;var
 ao=u[1],ap=t[1],aq=g[1],ar=a[1],L=F([0,f[1],[0,f[2],[0,f[3],0]]],ar);if(L){var
 M=F([0,aq,[0,ap,[0,ao,0]]],ar);if(M){var
-au=M[1],a7=cw(au,c),a8=b8(au,c),a9=cw(ao,c),a_=at(f[3],a9),a$=cw(ap,c),bb=at(f[2],a$),bc=cw(aq,c),bd=at(f[1],bc),be=ab(function(b,a){return[2,b,a]},bd,bb),bf=ab(function(b,a){return[2,b,a]},be,a_);return lV(i,H,a[2],a[3],L[1],bf,a8,a7)}var
+au=M[1],a7=cw(au,c),a8=b8(au,c),a9=cw(ao,c),a_=at(f[3],a9),a$=cw(ap,c),bb=at(f[2],a$),bc=cw(aq,c),bd=at(f[1],bc),be=ac(function(b,a){return[2,b,a]},bd,bb),bf=ac(function(b,a){return[2,b,a]},be,a_);return lV(i,H,a[2],a[3],L[1],bf,a8,a7)}var
 av=M}else
 var
 av=L;var
@@ -3164,9 +3195,9 @@ lX(a){switch(a[0]){case
 b=a[1],c=b[5],d=b[4][1],e=bv(b[3]),f=bv(b[2]);return[0,bv(b[1]),f,e,d,c];case
 1:var
 g=y(bv,a[3]),h=bv(a[2]);return[1,bv(a[1]),h,g];default:return[2,bv(a[1])]}}function
-h9(a){return 0===a[0]?bv(a[1]):[0,a[1],a[2],a[4][1]]}function
+h_(a){return 0===a[0]?bv(a[1]):[0,a[1],a[2],a[4][1]]}function
 lY(b,a){var
-c=h9(a[2]);return h6(b,a,e(lX,a[1]),c)}function
+c=h_(a[2]);return h7(b,a,e(lX,a[1]),c)}function
 lZ(b,a,c){var
 d=[0,c,aZ(b,a)];return f(aL(b,a),d)}function
 bw(c,a){if(c){if(a){var
@@ -3180,10 +3211,10 @@ var
 d=b;return d}function
 l2(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=l2(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sx}function
-h_(a){if(a){var
+c=b[1],d=l2(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sB}function
+h$(a){if(a){var
 b=a[1];if(b){var
-c=b[1],d=h_(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sy}function
+c=b[1],d=h$(a[2]);return y(function(a){return[0,c,a]},d)}return b}return sC}function
 l3(a,l,k,f){var
 b=aM(a,l);if(b){var
 c=aM(a,k);if(c){var
@@ -3221,10 +3252,10 @@ b=0;if(typeof
 j==="number")b=1;else
 switch(j[0]){case
 6:var
-a=sz;break;case
+a=sD;break;case
 13:case
 14:var
-a=sA;break;default:b=1}if(b)var
+a=sE;break;default:b=1}if(b)var
 a=z;return r(g(c),a)},a);if(aX){var
 s=0;if(typeof
 j==="number")s=1;else
@@ -3262,7 +3293,7 @@ a9=1}else
 var
 a9=a6;return a9;case
 7:if(a){if(a[2])return 0;var
-a_=a[1],al=j[1],bO=j[3],bP=j[2],am=h_(l[7]);if(am){var
+a_=a[1],al=j[1],bO=j[3],bP=j[2],am=h$(l[7]);if(am){var
 D=am[1],an=F(a_,al);if(an){var
 bQ=an[1],a$=r(g(D),z),ba=a$?m(function(a){return r(g(a),z)},D):a$;if(ba){var
 ao=F(D,al);if(ao){var
@@ -3287,7 +3318,7 @@ e=h(f,1,bg),g=e?h(f,0,bf):e;if(g){var
 a=aM(f,bw(d,d));if(a){var
 b=aM(f,[5,bf,bg]);if(b){var
 c=kR(f,b[1]);if(c){var
-l=V(f,c[1]);return d9([0,G(a[1],l)])}var
+l=W(f,c[1]);return d9([0,G(a[1],l)])}var
 i=c}else
 var
 i=b;var
@@ -3306,7 +3337,7 @@ a=cL(f,bX);if(a){var
 b=aM(f,d[3]);if(b){var
 c=aM(f,d[2]);if(c){var
 e=t(f,a[1],b[1]),g=d9([0,e]);if(g){var
-k=V(f,c[1]);return d9([0,G(V(f,e),k)])}var
+k=W(f,c[1]);return d9([0,G(W(f,e),k)])}var
 h=g}else
 var
 h=c;var
@@ -3329,8 +3360,8 @@ R=Q[2];if(R&&!R[2]){var
 S=n[2];if(S){var
 T=S[1];if(T){var
 U=T[2];if(U){var
-W=U[2];if(W&&!(W[2]||S[2]))var
-az=W[1],aA=U[1],aB=T[1],aC=R[1],aD=Q[1],aE=P[1],bt=u(aE,aD,aB,aA),bu=[4,O[1],bt],bv=[4,ax,u(aE,aC,aB,az)],k=[2,[3,[4,ay,u(aD,aC,aA,az)],bv],bu];else
+V=U[2];if(V&&!(V[2]||S[2]))var
+az=V[1],aA=U[1],aB=T[1],aC=R[1],aD=Q[1],aE=P[1],bt=u(aE,aD,aB,aA),bu=[4,O[1],bt],bv=[4,ax,u(aE,aC,aB,az)],k=[2,[3,[4,ay,u(aD,aC,aA,az)],bv],bu];else
 var
 k=[0,d,b]}else
 var
@@ -3366,7 +3397,7 @@ bn=at;return bn;case
 b1=j[2],av=F(l[4],j[1]);if(av){var
 aw=av[1];if(aw){var
 bo=function(a){if(b1){var
-c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return ab(function(b,a){return[3,b,a]},e,c)}return a},E=j[4],q=bo(cV(j[3])),I=aw[1][1][2],o=H(I,q);if(l5(f,E)){if(y){if(y[1])return 0;if(a){var
+c=i(l[5],[0,[0,d,b],[0,d,b],[0,d,b]]),e=i(l[5],a);return ac(function(b,a){return[3,b,a]},e,c)}return a},E=j[4],q=bo(cV(j[3])),I=aw[1][1][2],o=H(I,q);if(l5(f,E)){if(y){if(y[1])return 0;if(a){var
 v=a[1];if(v){var
 w=v[2];if(w){var
 x=w[2];if(x){if(x[2])return 0;if(a[2])return 0;var
@@ -3375,7 +3406,7 @@ _=cL(f,E);if(_){var
 aH=_[1],$=aM(f,[4,H(q,q),[4,aF,aF]]);if($){var
 aa=aM(f,[4,[4,o,o],H(Z,Z)]);if(aa){var
 aI=d9([0,aH]);if(aI){var
-bx=aa[1],by=$[1];return d9([0,G(t(f,V(f,aH),by),bx)])}var
+bx=aa[1],by=$[1];return d9([0,G(t(f,W(f,aH),by),bx)])}var
 aJ=aI}else
 var
 aJ=aa;var
@@ -3401,16 +3432,16 @@ aR=aQ}else
 var
 aR=a;return aR}return a?0:h(f,1,[3,[0,d,b],o])}if(y)return 0;if(a)return 0;var
 aS=h(f,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],E]);if(aS){var
-ac=cL(f,E);if(ac){var
+ab=cL(f,E);if(ab){var
 ad=aM(f,o);if(ad){var
 bz=H(I,I),ae=aM(f,[6,[4,H(q,q),bz]]);if(ae){var
-bA=t(f,ac[1],ae[1]);return l4([0,G(ad[1],bA)])}var
+bA=t(f,ab[1],ae[1]);return l4([0,G(ad[1],bA)])}var
 aT=ae}else
 var
 aT=ad;var
 aU=aT}else
 var
-aU=ac;var
+aU=ab;var
 aV=aU}else
 var
 aV=aS;return aV}var
@@ -3442,72 +3473,72 @@ bj=aq;return bj;default:var
 ai=F(l[2],ag);return ai?ah(ai[1]):ai}}else
 var
 aY=aX;return aY}function
-h$(d,f,a){if(typeof
+ia(d,f,a){if(typeof
 a!=="number")switch(a[0]){case
-4:return sC;case
+4:return sG;case
 13:var
-e=a[4];if(l5(d,e)&&T(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return sD;return sE;case
-16:return f}return sB}function
-ia(e,d,g,f){var
+e=a[4];if(l5(d,e)&&T(h(d,0,[3,e,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b]])))return sH;return sI;case
+16:return f}return sF}function
+ib(e,d,g,f){var
 b=g,a=f;for(;;){if(a){var
-c=a[1];if(aV(b,h$(e,d,c)))return[0,[0,c,b]];var
-h=a[2],b=dL(b,h$(e,d,c)),a=h;continue}return a}}function
-sF(a){return e(function(a){return[0,a,b]},a)}function
-ib(f,o,g,c,n,a){if(typeof
+c=a[1];if(aV(b,ia(e,d,c)))return[0,[0,c,b]];var
+h=a[2],b=dL(b,ia(e,d,c)),a=h;continue}return a}}function
+sJ(a){return e(function(a){return[0,a,b]},a)}function
+ic(f,o,g,c,n,a){if(typeof
 a==="number"){if(0===a){var
 s=c[6];return ak(function(a){return h(f,0,[3,[0,d,b],a])},s)}var
-i=h_(c[7]);return i?kY(g,i[1]):i}else{if(0===a[0]){var
-j=ia(f,o,a[1],n);if(j){var
-p=j[1],t=p[1],u=e(sF,a[2]);return l6(f,g,c,p[2],u,t)}return j}var
-k=ia(f,o,a[1],n);if(k){var
+i=h$(c[7]);return i?kY(g,i[1]):i}else{if(0===a[0]){var
+j=ib(f,o,a[1],n);if(j){var
+p=j[1],t=p[1],u=e(sJ,a[2]);return l6(f,g,c,p[2],u,t)}return j}var
+k=ib(f,o,a[1],n);if(k){var
 q=k[1],l=q[1];if(typeof
 l!=="number"&&1===l[0]){var
 m=F(c[1],a[2]);return m?l6(f,g,c,q[2],[0,m[1],0],[1,l[1]]):m}var
 r=0}else
 var
 r=k;return r}}function
-ic(a){var
-b=aI(a[1]),c=at(H(b,a[2]),b),d=a[2];return ab(function(b,a){return[3,b,a]},d,c)}function
-id(a){return aI(ic(a))}function
+id(a){var
+b=aI(a[1]),c=at(H(b,a[2]),b),d=a[2];return ac(function(b,a){return[3,b,a]},d,c)}function
+ie(a){return aI(id(a))}function
 l7(c){var
-a=id(c),b=aI(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
-ie(a,b){return ba(a[3],a[4],b)}function
-ig(a,b){var
-c=ie(a,b);return H(id(a),c)}function
+a=ie(c),b=aI(c[1]);return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+ig(a,b){return ba(a[3],a[4],b)}function
 ih(a,b){var
-c=ie(a,b);return H(l7(a),c)}function
+c=ig(a,b);return H(ie(a),c)}function
+ii(a,b){var
+c=ig(a,b);return H(l7(a),c)}function
 l8(a,b){var
-c=ie(a,b);return H(aI(a[1]),c)}function
-ii(b,a){var
-c=ih(b,a),d=ig(b,a);return[2,[4,d,d],[4,c,c]]}function
-ij(a,d){var
-h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=l8(a,d);return[5,[2,ii(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
+c=ig(a,b);return H(aI(a[1]),c)}function
+ij(b,a){var
+c=ii(b,a),d=ih(b,a);return[2,[4,d,d],[4,c,c]]}function
+ik(a,d){var
+h=a[5],i=[4,[0,c(2,b),b],h],e=a[6],f=a[5],g=l8(a,d);return[5,[2,ij(a,d),[2,[4,g,g],[3,[4,f,f],[4,e,e]]]],i]}function
 l9(a,b){var
-f=a[5],c=[3,ij(a,b),f],d=l8(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
+f=a[5],c=[3,ik(a,b),f],d=l8(a,b),e=a[6];return[3,[3,[4,e,e],[4,d,d]],[4,c,c]]}function
 gh(a,b){var
 c=l9(a,b);return df(a[7],c)}function
 l_(b,a){var
-c=ii(b,a),d=ih(b,a),e=[4,gh(b,a),d],f=ig(b,a);return[5,[2,[4,ij(b,a),f],e],c]}function
+c=ij(b,a),d=ii(b,a),e=[4,gh(b,a),d],f=ih(b,a);return[5,[2,[4,ik(b,a),f],e],c]}function
 l$(b,a){var
-c=ii(b,a),d=ig(b,a),e=[4,gh(b,a),d],f=ih(b,a);return[5,[3,[4,ij(b,a),f],e],c]}function
-ik(a,b){var
-c=l7(a),d=at(l$(a,b),c),e=id(a),f=at(l_(a,b),e),g=ab(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ab(function(b,a){return[2,b,a]},i,h)}function
+c=ij(b,a),d=ih(b,a),e=[4,gh(b,a),d],f=ii(b,a);return[5,[3,[4,ik(b,a),f],e],c]}function
+il(a,b){var
+c=l7(a),d=at(l$(a,b),c),e=ie(a),f=at(l_(a,b),e),g=ac(function(b,a){return[2,b,a]},f,d),h=at(a[5],g),i=a[3];return ac(function(b,a){return[2,b,a]},i,h)}function
 ma(a){return[5,[3,[0,b,b],[4,a,a]],[2,[0,b,b],[4,a,a]]]}function
 mb(a){return[5,[4,[0,c(2,b),b],a],[2,[0,b,b],[4,a,a]]]}function
-il(a,c,b){var
+im(a,c,b){var
 d=[4,ma(a),b],e=[2,[4,mb(a),c],d],f=[4,mb(a),b];return[0,[3,[4,ma(a),c],f],e]}function
 mc(c,a){var
-b=il(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
-e0(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
+b=im(c,a[1],a[2]);return[0,b[1],b[2],a[3]]}function
+e1(b,a){return[0,[3,[4,b[2],a[3]],[4,b[3],a[2]]],[3,[4,b[3],a[1]],[4,b[1],a[3]]],[3,[4,b[1],a[2]],[4,b[2],a[1]]]]}function
 d_(t,d,a){switch(t[0]){case
 0:return d?d[2]?a:mc(d[1],a):a;case
 1:if(d){var
 f=d[2];if(f){var
 g=f[2];if(g){if(g[2])return a;var
-j=il(d[1],a[2],a[3]),m=j[1],k=il(f[1],j[2],a[1]);return mc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
+j=im(d[1],a[2],a[3]),m=j[1],k=im(f[1],j[2],a[1]);return mc(g[1],[0,k[2],m,k[1]])}return a}return a}return a;default:if(d){var
 h=d[2];if(h){var
 i=h[2];if(i){if(i[2])return a;var
-e=[0,d[1],h[1],i[1]],l=H(e,e),n=e0(e,a),o=at([0,c(2,b),b],n),p=H(e,a),q=at([4,[0,c(2,b),b],p],e),r=at([3,[0,b,b],l],a),s=ab(function(b,a){return[2,b,a]},r,q);return at([5,[0,b,b],[2,[0,b,b],l]],ab(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
+e=[0,d[1],h[1],i[1]],l=H(e,e),n=e1(e,a),o=at([0,c(2,b),b],n),p=H(e,a),q=at([4,[0,c(2,b),b],p],e),r=at([3,[0,b,b],l],a),s=ac(function(b,a){return[2,b,a]},r,q);return at([5,[0,b,b],[2,[0,b,b],l]],ac(function(b,a){return[2,b,a]},s,o))}return a}return a}return a}}function
 md(c){var
 a=cr(c);return a?dP(a[1],[0,d,b]):a}function
 me(a,n,k,j){if(md(j)){var
@@ -3528,7 +3559,7 @@ o=e[1];return n?E(d,o[1]):E(o[2],d)}return e}function
 dg(b,a,c){var
 d=bo(b,a[1],a[2]),e=d?me(b,0,c,a[1]):d;return e?me(b,1,c,a[2]):e}function
 mf(h,f,c){if(md(c))return[0,v];var
-a=C(h,hD(f)),d=cL(a,c);if(d){var
+a=C(h,hE(f)),d=cL(a,c);if(d){var
 e=fY(a,c);if(e){var
 i=e[1],j=d[1],k=b1(a,z(P(a,b),j));return y(function(b){return kI(f,t(a,i,b))},k)}var
 g=e}else
@@ -3543,7 +3574,7 @@ h=bo(a,[0,d,b],c),j=h?di(a,c):h;if(j){var
 e=i(dh(a),c);if(e){var
 f=aM(a,o);if(f){var
 g=aM(a,n);if(g){var
-p=f[1],q=g[1];return E(d,G(t(a,V(a,e[1]),q),p)[1])}var
+p=f[1],q=g[1];return E(d,G(t(a,W(a,e[1]),q),p)[1])}var
 k=g}else
 var
 k=f;var
@@ -3596,7 +3627,7 @@ a=as(function(f,e){var
 a=aM(n,f);if(a)var
 b=a[1],c=bj(ch(b[1]),ch(b[2]));else
 var
-c=d;return bj(c,e)},d,b);return K(d,a)?aA(kr(a),n):d}function
+c=d;return bj(c,e)},d,b);return K(d,a)?aB(kr(a),n):d}function
 d$(a){return[0,a[1],[0,a[2],0]]}function
 a4(a){var
 b=d$(a[3]),c=f(d$(a[2]),b);return f(d$(a[1]),c)}function
@@ -3611,15 +3642,15 @@ var
 f=a;return f}function
 mi(c,b,a){var
 d=dR(b);return[2,[2,dR(c),d],a]}function
-im(b,a){return b?R(a):d}function
-e1(h,b,a){if(typeof
+io(b,a){return b?R(a):d}function
+e2(h,b,a){if(typeof
 a!=="number")switch(a[0]){case
 4:var
 i=a[3],j=a[2];return[0,[2,j],[0,[3,j],[0,[2,i],[0,[3,i],0]]]];case
 6:return[0,[0,[5,a[3],a[2]],d],0];case
 8:var
 q=a[2],r=a[1];return e(function(a){var
-c=im(h,b);return[0,[5,q,a],C(im(h,b),c)]},r);case
+c=io(h,b);return[0,[5,q,a],C(io(h,b),c)]},r);case
 9:return[0,[1,[5,a[3],a[2]],R(b)],0];case
 10:return[0,[0,a[2],d],0];case
 11:return[0,[2,a[2]],0];case
@@ -3631,15 +3662,15 @@ k=a[2],l=a[1],s=d6(b,k),t=f(d6(b,l),s),u=e(function(a){return[0,a[1][2],a[2]]},t
 15:var
 m=a[4],n=a[3];return[0,[0,[5,a[2],m],d],[0,[0,[5,[4,n,n],m],b],0]];case
 16:var
-o=a[2],p=bx([0,o,0]);return[0,[4,a[3],aA(p,b)],[0,[0,o,p],0]];case
+o=a[2],p=bx([0,o,0]);return[0,[4,a[3],aB(p,b)],[0,[0,o,p],0]];case
 2:case
 3:return[0,[0,a[2],b],0]}return 0}function
 cX(h,c,b,e,a){if(a){var
-d=a[1],i=a[2],j=cX(h,c,b,O(e,g(e1(c,b,d))),i);return f(an(h,mh(e,e1(c,b,d)),d),j)}return a}function
+d=a[1],i=a[2],j=cX(h,c,b,O(e,g(e2(c,b,d))),i);return f(an(h,mh(e,e2(c,b,d)),d),j)}return a}function
 gj(b,a){var
 c=ag(b,a);return e(function(a){var
 b=s(a[1][2],a[2]);return[0,a[1][1],b]},c)}function
-io(b,a){switch(a[0]){case
+ip(b,a){switch(a[0]){case
 0:var
 d=a[1];return am(b,[0,[0,d,d],a[2]]);case
 1:var
@@ -3647,15 +3678,15 @@ e=a[1],c=am(b,[0,[0,e,e],a[2]]);return c?kR(b,c[1]):c;case
 2:return cL(b,a[1]);case
 3:return fY(b,a[1]);default:var
 f=a[1],g=di(b,f);return g?mf(b,a[2],f):g}}function
-b9(a){return 1===a?sG:sH}function
+b9(a){return 1===a?sK:sL}function
 dk(d,c,b,a){var
-e=a[1],f=d_(d,c,a[2]),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
-ip(c,b,a){switch(c){case
+e=a[1],f=d_(d,c,a[2]),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
+iq(c,b,a){switch(c){case
 0:return[0,b[1],[0,b[2],[0,a[3],0]]];case
 1:return[0,b[1],[0,b[2],[0,b[3],[0,a[1],[0,a[2],[0,a[3],0]]]]]];default:return[0,a[1],[0,a[2],[0,a[3],0]]]}}function
 mj(h,g,d,c,f,a){var
-e=dk(d,c,f,a);return ip(h,e,at([5,[0,b,b],g],e0(d_(d,c,a[2]),e)))}function
-iq(c,j,i){var
+e=dk(d,c,f,a);return iq(h,e,at([5,[0,b,b],g],e1(d_(d,c,a[2]),e)))}function
+ir(c,j,i){var
 b=j,a=i;for(;;){if(b){if(a){var
 d=a[1],e=b[1],f=bf(c,e[1],d[1]),g=f?bf(c,e[2],d[2]):f;if(g){var
 b=b[2],a=a[2];continue}var
@@ -3746,7 +3777,7 @@ d=gl(c,a[1]);if(d){var
 b=a[2];continue}return d}}}function
 gm(a,b){if(a){var
 c=a[2],d=a[1];if(b){var
-e=b[2];return b[1]?[0,d,gm(c,as(eN,e,kD(d)))]:[0,sK,gm(c,e)]}var
+e=b[2];return b[1]?[0,d,gm(c,as(eO,e,kD(d)))]:[0,sO,gm(c,e)]}var
 f=[0,d,gm(c,0)]}else
 var
 f=a;return f}function
@@ -3780,18 +3811,18 @@ n=a[1],o=function(a){return an(b,a,n)},h=function(a){return b_(o,a)},p=h(e),q=h(
 1:var
 j=a[1],r=bg(b,e,j),s=bg(b,f,j);return[2,bg(b,g,j),s,r];default:var
 t=bg(b,e,a[3]),u=bg(b,f,a[2]);return[2,bg(b,g,a[1]),u,t]}}}function
-ir(c,f,a){if(a)var
+is(c,f,a){if(a)var
 d=a[1],b=function(h){var
 a=[0,d[1],d[1]],b=[0,d[2],d[2]];switch(h){case
 0:var
-e=[0,a,V(c,a)];break;case
+e=[0,a,W(c,a)];break;case
 1:var
 g=t(c,a,b),e=[0,aq(z(a,b)),g];break;default:var
-e=[0,b,V(c,b)]}return[0,[0,i(f,e)]]},h=ir(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
+e=[0,b,W(c,b)]}return[0,[0,i(f,e)]]},h=is(c,f,a[2]),j=e(function(a){return[1,a]},h),k=b(2),l=b(1),g=[0,[2,b(0),l,k],j];else
 var
 g=a;return g}function
-is(b,x,c,a){var
-e=ir(b,aU,a),d=0,A=f(ir(b,ay,a),e);return bm(sM,function(a){switch(a[0]){case
+it(b,x,c,a){var
+e=is(b,aU,a),d=0,A=f(is(b,az,a),e);return bm(sQ,function(a){switch(a[0]){case
 0:return q(a[1],A,[0,[0,v]]);case
 1:return[0,[0,q(a[1],x,v)]];case
 2:return[0,[0,P(b,a[1])]];case
@@ -3800,21 +3831,21 @@ c=a[2],d=a[1],e=function(b,a){return[0,z(b,a)]};return bg(function(a,b){return c
 4:var
 f=a[2],g=a[1],h=function(b,a){return[0,G(b,a)]};return bg(function(a,b){return cZ(h,a,b)},g,f);case
 5:var
-i=a[1],j=function(a){return[0,aa(a)]};return b_(function(a){return cY(j,a)},i);case
+i=a[1],j=function(a){return[0,ab(a)]};return b_(function(a){return cY(j,a)},i);case
 6:var
 k=a[2],l=a[1],m=function(c,a){return[0,t(b,c,a)]};return bg(function(a,b){return cZ(m,a,b)},l,k);case
 7:var
 n=a[2],o=a[1],p=function(c,a){var
 d=b1(b,a);return y(function(a){return t(b,c,a)},d)};return bg(function(a,b){return cZ(p,a,b)},o,n);case
 8:var
-r=a[1],s=function(a){return[0,V(b,a)]};return b_(function(a){return cY(s,a)},r);case
+r=a[1],s=function(a){return[0,W(b,a)]};return b_(function(a){return cY(s,a)},r);case
 9:var
-u=a[1],w=function(a){return b2(b,a)};return b_(function(a){return cY(w,a)},u);default:return sL}},c,d)}function
+u=a[1],w=function(a){return b2(b,a)};return b_(function(a){return cY(w,a)},u);default:return sP}},c,d)}function
 gn(a){if(a){var
 b=a[1];if(b)var
 c=gn(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return sN}function
+d=b;return d}return sR}function
 eb(a){if(a){var
 g=a[1],b=g[2],c=gn(g[1]);if(c)if(b){var
 h=b[1],e=eb(a[2]);if(e)var
@@ -3825,27 +3856,27 @@ f=j}else
 var
 f=b;else
 var
-f=c;return f}return sO}function
+f=c;return f}return sS}function
 ec(b,a){var
 c=a[3],d=y(function(a){var
-c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(au(b),f),e,d]}function
-it(c,g,f,b,a,e){if(b){var
+c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},c),e=i(b,a[2]),f=a[1];return[0,i(av(b),f),e,d]}function
+iu(c,g,f,b,a,e){if(b){var
 h=b[1],l=b[2],d=function(b,a){var
-d=jr(c,eH,eH,function(a){return mk(b,a)},e);return it(c,g,bs(f),l,a,d)},i=d(0,aA(a,h));if(i){var
+d=js(c,eI,eI,function(a){return mk(b,a)},e);return iu(c,g,bs(f),l,a,d)},i=d(0,aB(a,h));if(i){var
 j=d(2,C(a,h));if(j)return f?1:d(1,a);var
 k=j}else
 var
-k=i;return k}return an(g,a,jr(c,eH,eH,ml,e))}function
-iu(e,c,b,a){var
+k=i;return k}return an(g,a,js(c,eI,eI,ml,e))}function
+iv(e,c,b,a){var
 f=al(d,b);function
-g(b){return a}return function(a){return it(e,g,c,f,d,a)}}function
+g(b){return a}return function(a){return iu(e,g,c,f,d,a)}}function
 c0(a){if(a){var
 b=a[1],c=b[1],d=c[1],e=b[2],f=c[2];return y(function(a){return aR(f,e,a)},d)}return[0,v]}function
 mn(f,e,k,j,i,a){var
 b=eb(a[1]);if(b){var
 c=a[2];if(c){var
 d=c0(a[3]);if(d){var
-l=d[1],m=al([0,G(aa(t(f,i,c[1])),l),0],e);return a$(f,e,f0(k,j,b[1],m))}var
+l=d[1],m=al([0,G(ab(t(f,i,c[1])),l),0],e);return a$(f,e,f0(k,j,b[1],m))}var
 g=d}else
 var
 g=c;var
@@ -3884,20 +3915,20 @@ y=k;var
 z=y}else
 var
 z=j;return z}function
-sP(c){var
+sT(c){var
 a=c[2];if(a){var
 b=c0(c[3]);if(b)return E(d,G(a[1],b[1])[1]);var
 e=b}else
 var
 e=a;return e}function
-iv(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
+iw(a){return x(function(a){return f(a[1],[0,a[2],0])},a)}function
 mq(a,c,b){var
-e=q(b,c,k(d)),f=az(0,a);return m(function(b){return ea(a,b,e)},f)}function
-e2(a){var
+e=q(b,c,k(d)),f=aA(0,a);return m(function(b){return ea(a,b,e)},f)}function
+e3(a){var
 c=Q(a);return B(k(b),c)}function
 go(i,g){var
-h=e2(g),j=Q(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bu(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bu(f),a,e]]:[0,[0,h,a,a],[0,a,e,bu(f)],[0,a,f,e]]}function
-e3(b,a){var
+h=e3(g),j=Q(g),e=w(k(b),j),f=s(k(c(2,b)),g),a=k(d);return i?i[1]?[0,[0,e,bu(f),a],[0,f,e,a],[0,a,a,h]]:[0,[0,e,a,f],[0,a,h,a],[0,bu(f),a,e]]:[0,[0,h,a,a],[0,a,e,bu(f)],[0,a,f,e]]}function
+e4(b,a){var
 c=U(b[3],a),d=U(b[2],a);return[0,U(b[1],a),d,c]}function
 mr(b,a){function
 c(b){var
@@ -3908,10 +3939,10 @@ e=d(b[3]),f=d(b[2]);return[0,d(b[1]),f,e]}function
 ms(v,u){function
 a(a){return[0,[0,O(u,a)]]}switch(v[0]){case
 0:var
-x=e2(a(0));return[0,go(sQ,a(0)),x];case
+x=e3(a(0));return[0,go(sU,a(0)),x];case
 1:var
-y=e2(a(0)),z=s(e2(a(sR)),y),A=s(e2(a(sS)),z),C=go(0,a(0)),D=mr(go(sU,a(sT)),C);return[0,mr(go(sW,a(sV)),D),A];default:var
-E=a(sX),F=a(sY),g=[0,a(0),F,E],G=U(g,g),H=B(k(b),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
+y=e3(a(0)),z=s(e3(a(sV)),y),A=s(e3(a(sW)),z),C=go(0,a(0)),D=mr(go(sY,a(sX)),C);return[0,mr(go(s0,a(sZ)),D),A];default:var
+E=a(s1),F=a(s2),g=[0,a(0),F,E],G=U(g,g),H=B(k(b),G),j=U(g,g),d=g[1],e=g[2],f=g[3],i=function(a){var
 d=Q(a),e=s(k(c(2,b)),d);return B(w(k(b),j),e)},h=function(f,e,d,a){var
 g=an(f,s(e,d),a);return s(k(c(2,b)),g)},l=i(f),m=h(B,e,f,d),n=[0,h(w,d,f,e),m,l],o=h(w,e,f,d),p=i(e),q=[0,h(B,d,e,f),p,o],r=h(B,d,f,e),t=h(w,d,e,f);return[0,[0,[0,i(d),t,r],q,n],H]}}function
 mt(a){return 1<a[0]?[0,a[1],0]:0}function
@@ -3932,7 +3963,7 @@ mv(a,c){if(0===c[0]){var
 g=c[1];return i(dh(a),g)}var
 h=c[1],d=i(dh(a),h);if(d){var
 j=c[2],e=i(dh(a),j);if(e){var
-k=V(a,e[1]),l=b2(a,z(P(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
+k=W(a,e[1]),l=b2(a,z(P(a,b),k)),m=d[1];return y(function(b){return t(a,m,b)},l)}var
 f=e}else
 var
 f=d;return f}function
@@ -3945,15 +3976,15 @@ mx(a,e,c){var
 b=c[1];if(1===b[0]){var
 f=b[1];if(aV(f,a))return c;var
 g=k(d);return q(dL(f,a),e,g)}return[0,bI(function(b){return mx(a,e,b)},b)]}function
-iw(g,a,n,f,c){var
-h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lw(h,c),j=bL(f),b=e(function(b){return mx(a,j,b)},i),l=q(s3,b,k(d)),m=q(s4,b,k(d));return[0,q(0,b,k(d)),m,l]}function
+ix(g,a,n,f,c){var
+h=g?[0,a,[0,[0,a],[0,[0,[0,a]],0]]]:[0,a,[0,[0,a],0]],i=lw(h,c),j=bL(f),b=e(function(b){return mx(a,j,b)},i),l=q(s7,b,k(d)),m=q(s8,b,k(d));return[0,q(0,b,k(d)),m,l]}function
 b$(b,a){var
 c=s(b[2],a[1]),d=w(s(b[1],a[2]),c),e=s(b[1],a[3]),f=w(s(b[3],a[1]),e),g=s(b[3],a[2]);return[0,w(s(b[2],a[3]),g),f,d]}function
 dm(b,a){return b?b[1]?a[3]:a[2]:a[1]}function
 my(c){function
 a(a){var
 e=r(c,a)?b:d;return k(e)}var
-e=a(s5),f=a(s6);return[0,a(0),f,e]}function
+e=a(s9),f=a(s_);return[0,a(0),f,e]}function
 mz(b,a){if(a)var
 d=mz(b,a[2]),c=[0,e(i(b,a[1]),a),d];else
 var
@@ -3968,7 +3999,7 @@ d=mB(a[2]),g=d?[0,[0,[0,c[1],b[1]],d[1]]]:d,e=g;else
 var
 e=b;else
 var
-e=c;return e}return tf}function
+e=c;return e}return tj}function
 mC(c,b,a){var
 d=ag(b,a);return as(function(a,d){var
 b=b3(a[2]);return z(t(c,a[1],[0,b,b]),d)},v,d)}function
@@ -3978,16 +4009,16 @@ var
 g=d;else
 var
 g=e;return g}function
-th(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
+tl(a){return[0,a[1][1],a[2][1][2][1],a[1][2],a[2][2]]}function
 mE(b,a){return _(e(function(a){return q(a,b,0)},a))}function
 dn(a){switch(a){case
-0:return tl;case
-1:return tm;default:return 0}}function
+0:return tp;case
+1:return tq;default:return 0}}function
 dp(a){switch(a){case
-0:return[0,to,tn,k(d)];case
+0:return[0,ts,tr,k(d)];case
 1:return dc;default:var
 b=k(d),c=k(d);return[0,k(d),c,b]}}function
-gr(c,b,a){return be(e3(c,a),b)}function
+gr(c,b,a){return be(e4(c,a),b)}function
 mF(a){var
 d=U(a,a),e=B(k(b),d);return aj(k(c(2,b)),e)}function
 mG(k,j,i,h,g,a){var
@@ -4039,12 +4070,12 @@ c=mH(a[1]);if(c){var
 b=a[2];continue}return c}}}function
 mI(c,b,a){var
 d=e(b,a[2]);return[0,i(c,a[1]),d]}function
-ix(b,a,c){return e(function(c){var
+iy(b,a,c){return e(function(c){var
 d=mI(b,a,c[2]),f=c[1];return[0,e(function(c){return mI(b,a,c)},f),d]},c)}function
 mJ(b,a){return y(function(a){var
 c=a[2],d=a[1][2];return[0,[0,i(b,a[1][1]),d],c]},a)}function
-tp(a,b){var
-c=mJ(a,b[3]),d=i(a,b[2]);return[0,ix(a,a,b[1]),d,c]}function
+tt(a,b){var
+c=mJ(a,b[3]),d=i(a,b[2]);return[0,iy(a,a,b[1]),d,c]}function
 mK(c){var
 a=c[1];if(a){var
 b=gn(c[2]);if(b)var
@@ -4054,38 +4085,38 @@ d=b;var
 f=d}else
 var
 f=a;return f}function
-tq(c){var
+tu(c){var
 a=_(e(mK,c[1]));if(a)var
 b=mK(c[2]),f=b?[0,[0,a[1],b[1]]]:b,d=f;else
 var
 d=a;return d}function
-tr(a){return T(hN([0,a[2],a[1]]))}function
-iy(a){return[0,a[1],a[2]]}function
+tv(a){return T(hO([0,a[2],a[1]]))}function
+iz(a){return[0,a[1],a[2]]}function
 mL(b,c,a){var
 d=e(function(c){return bp(b,bO(c,a))},c);return[0,bp(b,a),d]}function
-iz(b,e,a,d){var
+iA(b,e,a,d){var
 c=x(function(a){var
-b=iy(a[2]);return f(x(iy,a[1]),b)},d),g=a?[0,bp(b,a[1]),0]:a,h=f(g,c);return[0,bp(b,e),h]}function
+b=iz(a[2]);return f(x(iz,a[1]),b)},d),g=a?[0,bp(b,a[1]),0]:a,h=f(g,c);return[0,bp(b,e),h]}function
 mM(c,f,b,a){var
 d=gs(f,b,a),e=d?gl(c,a):d;return e?m(function(b){return gl(c,bO(b,a))},b):e}function
 mN(a){switch(a[0]){case
 3:var
-d=iv(a[2]);return[0,a[3],d];case
+d=iw(a[2]);return[0,a[3],d];case
 4:return[0,a[1],0];case
 8:var
-b=a[1],e=iv(b[1]);return[0,b[2],e];case
+b=a[1],e=iw(b[1]);return[0,b[2],e];case
 9:return 0;default:var
-c=iv(a[1]);return[0,a[2],c]}}function
+c=iw(a[1]);return[0,a[2],c]}}function
 mO(a,aw,br,k,n,R,av,x,Q,j,h){switch(j[0]){case
 0:var
-ax=j[4],S=j[3],aA=j[2],aB=j[1],U=0;if(typeof
+ax=j[4],S=j[3],ay=j[2],aB=j[1],U=0;if(typeof
 h==="number")U=1;else
 switch(h[0]){case
 0:var
-bt=h[2],bu=h[1],u=aA,s=aB,p=function(b){return mn(a,n,bu,bt,S,b)},o=ax;break;case
+bt=h[2],bu=h[1],u=ay,s=aB,p=function(b){return mn(a,n,bu,bt,S,b)},o=ax;break;case
 2:var
 aC=J(S[1],d),aD=aC?J(S[2],d):aC;if(!aD)return aD;var
-bx=h[2],by=h[1],u=aA,s=aB,p=function(b){return mo(a,n,by,bx,b)},o=ax;break;default:U=1}if(U)return 0;break;case
+bx=h[2],by=h[1],u=ay,s=aB,p=function(b){return mo(a,n,by,bx,b)},o=ax;break;default:U=1}if(U)return 0;break;case
 1:var
 aP=0;if(typeof
 h==="number"&&!h)var
@@ -4095,11 +4126,11 @@ aP=1;if(aP)return 0;break;case
 h!=="number"&&3===h[0]){var
 B=h[3];if(B){var
 aE=B[2],aG=r(g(aE),k);if(aG){var
-bD=[0,j[1],j[2],Q],bE=ec(function(a){return q(a,x,tu)},bD),aH=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bK=function(w,i){var
+bD=[0,j[1],j[2],Q],bE=ec(function(a){return q(a,x,ty)},bD),aH=h[1],bF=0,bG=B[1],bH=h[2],bI=j[3],bK=function(w,i){var
 c=eb(i[1]);if(c){var
 j=c[1],e=i[2];if(e){var
 f=c0(i[3]);if(f){var
-k=f[1],l=function(c){return aR(c,aH,P(a,b))},u=l(w),v=e[1],g=z(t(a,l(bG),v),u),m=K(d,g[1]),o=m?a$(a,n,f0(aH,bH,j,al([0,G(aa(g),k),0],n))):m;if(o){var
+k=f[1],l=function(c){return aR(c,aH,P(a,b))},u=l(w),v=e[1],g=z(t(a,l(bG),v),u),m=K(d,g[1]),o=m?a$(a,n,f0(aH,bH,j,al([0,G(ab(g),k),0],n))):m;if(o){var
 h=f1(a,j,al([0,G(t(a,bI,g),k),0],n));if(h)return a$(a,n,h[1]);var
 p=h}else
 var
@@ -4112,7 +4143,7 @@ var
 r=e;var
 s=r}else
 var
-s=c;return s};return it(function(b,a){return ec},bK,bF,aE,d,bE)}var
+s=c;return s};return iu(function(b,a){return ec},bK,bF,aE,d,bE)}var
 aI=aG}else
 var
 aI=B;return aI}return 0;case
@@ -4138,14 +4169,14 @@ l=b;return l},u=bL,s=bM,p=bP,o=j[5];if(aQ)return 0;break;case
 4:var
 aS=0;if(typeof
 h==="number"&&!h)var
-u=j[1],s=0,p=sP,o=0;else
+u=j[1],s=0,p=sT,o=0;else
 aS=1;if(aS)return 0;break;case
 5:var
 aT=0;if(typeof
 h==="number"||!(0===h[0]))aT=1;else{var
 C=h[2],aU=0;if(C){var
 D=C[1];if(D){if(D[2])return 0;if(C[2])return 0;var
-bQ=j[2],bR=j[1],bS=P(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,p=function(b){return mn(a,tv,bU,bT,bS,b)},o=bV;aU=1}else
+bQ=j[2],bR=j[1],bS=P(a,b),bT=[0,[0,D[1],0],0],bU=h[1],u=bQ,s=bR,bV=0,p=function(b){return mn(a,tz,bU,bT,bS,b)},o=bV;aU=1}else
 var
 aN=D}else
 var
@@ -4153,7 +4184,7 @@ aN=C;if(!aU)return aN}if(aT)return 0;break;case
 6:var
 aW=0;if(typeof
 h==="number"&&!h)var
-bW=j[2],bX=j[1],bY=P(a,b),u=bW,s=bX,b0=0,p=function(b){return mp(a,tw,bY,b)},o=b0;else
+bW=j[2],bX=j[1],bY=P(a,b),u=bW,s=bX,b0=0,p=function(b){return mp(a,tA,bY,b)},o=b0;else
 aW=1;if(aW)return 0;break;case
 7:var
 aX=0;if(typeof
@@ -4166,7 +4197,7 @@ E=h[4],aO=h[2],T=h[1],l=j[1],w=l[9],b_=h[3],a3=l[5],a4=fU(f(dO(l[4]),a3),aw),a5=
 F=$;else
 var
 at=2<=kn(E,c(2,c(2,c(2,c(2,b)))))?0:1,au=at?aV(0,w):at,F=au?aV(w,k):au;var
-ab=F?Y(w,k):F,ac=ab?r(g(R),k):ab,ad=ac?r(g(aO),k):ac,ae=ad?r(g(l[1]),k):ad,af=ae?r(g(l[6]),k):ae,ah=af?r(g(l[4]),k):af;if(ah)var
+aa=F?Y(w,k):F,ac=aa?r(g(R),k):aa,ad=ac?r(g(aO),k):ac,ae=ad?r(g(l[1]),k):ad,af=ae?r(g(l[6]),k):ae,ah=af?r(g(l[4]),k):af;if(ah)var
 a8=l[4],H=m(function(a){return r(g(a),k)},a8);else
 var
 H=ah;if(H){var
@@ -4176,7 +4207,7 @@ ba=l[6],L=_(e(function(j){var
 c=j[1],k=l[7],d=q(c[1],av,0);if(d){var
 h=c[2][2],b=_(e(function(a){var
 b=q(a[2],av,0);return y(function(a){return a[2]},b)},h));if(b)var
-i=b[1],f=[0,cn(aq(t(a,k,V(a,mC(a,e(ay,c[2][2]),i)))))];else
+i=b[1],f=[0,cn(aq(t(a,k,W(a,mC(a,e(az,c[2][2]),i)))))];else
 var
 f=b;var
 g=f}else
@@ -4184,8 +4215,8 @@ var
 g=d;return g},ba));if(L){var
 bb=l[1],bc=l[2],M=_(e(function(m){function
 f(e){var
-g=al(e,k),c=mm(q(m[2],x,ti),g);if(c){var
-h=al(e,k),d=mm(q(bc,x,tj),h);if(d){var
+g=al(e,k),c=mm(q(m[2],x,tm),g);if(c){var
+h=al(e,k),d=mm(q(bc,x,tn),h);if(d){var
 i=d[1],j=P(a,b);return b2(a,b4(dS(c[1],j,i)))}var
 f=d}else
 var
@@ -4198,9 +4229,9 @@ i=e;var
 j=i}else
 var
 j=c;return j},bb));if(M){var
-be=I[1],W=dY(a,as(function(i,h){var
+be=I[1],V=dY(a,as(function(i,h){var
 o=e(function(b){var
-a=az(0,k);return e(function(a){return b3(q(a,b[3],v))},a)},i);function
+a=aA(0,k);return e(function(a){return b3(q(a,b[3],v))},a)},i);function
 b(m,l){var
 n=mA(w,m,o),g=e(function(a){return mA(w,l,a)},n);function
 b(a){return as(bj,d,a)}var
@@ -4208,15 +4239,15 @@ h=0;function
 i(a){return a}function
 j(a){return a}var
 c=b(as(function(a,b){return aF(j,i,kp,a,b)},h,g)),k=[0,c,c],f=b(e(function(a){return as(kp,d,a)},g));return dY(a,t(a,[0,f,f],k))}var
-c=b(1,1),f=b(1,0),g=b(0,1);return z(h,V(a,z(z(z(b(0,0),g),f),c)))},v,be)),N=aR(b_,T,P(a,b)),aj=K(d,G(N,W)[1]);if(aj){var
+c=b(1,1),f=b(1,0),g=b(0,1);return z(h,W(a,z(z(z(b(0,0),g),f),c)))},v,be)),N=aR(b_,T,P(a,b)),aj=K(d,G(N,V)[1]);if(aj){var
 O=b1(a,N);if(O){var
-bf=aq(t(a,W,O[1])),bg=G(P(a,b),bf),bh=[0,l[1],l[2],Q],bi=ec(function(a){return q(a,x,tk)},bh),bk=l[6],bl=e(th,ag(ag(L[1],M[1]),bk)),bm=V(a,bg),bn=V(a,N),bo=l[10],aY=az(0,k),a0=e(function(a){var
+bf=aq(t(a,V,O[1])),bg=G(P(a,b),bf),bh=[0,l[1],l[2],Q],bi=ec(function(a){return q(a,x,to)},bh),bk=l[6],bl=e(tl,ag(ag(L[1],M[1]),bk)),bm=W(a,bg),bn=W(a,N),bo=l[10],aY=aA(0,k),a0=e(function(a){var
 d=bo?Y(w,a):aV(a,w);return d?b:bZ(c(2,b),E)},aY),bp=function(q){var
 h=mB(q[1]);if(h){var
 v=h[1],i=q[2];if(i){var
 j=i[1],l=c0(q[3]);if(l){var
 w=l[1],x=mD(a,k,bl,j,v),n=e(function(a){var
-c=a[2],b=ag(a0,a[1]);return[0,e(function(a){return aR(a[1],d,a[2])},b),c]},v),F=d1(T,d2(T,aO,j,n)),o=a_(al([0,aa(w),0],k),F),H=G(t(a,j,bm),w),y=r(g(n),k),z=y?r(g(x),k):y;if(z){var
+c=a[2],b=ag(a0,a[1]);return[0,e(function(a){return aR(a[1],d,a[2])},b),c]},v),F=d1(T,d2(T,aO,j,n)),o=a_(al([0,ab(w),0],k),F),H=G(t(a,j,bm),w),y=r(g(n),k),z=y?r(g(x),k):y;if(z){var
 b=k,c=o;for(;;){if(c){if(b){var
 s=r(g(c[1]),b);if(s){var
 b=b[1],c=c[2];continue}var
@@ -4229,9 +4260,9 @@ A=b?0:1;var
 p=A;break}}else
 var
 p=z;var
-B=p?a$(a,k,a_(e(function(b){return[0,aa(t(a,bn,b[2])),0]},n),o)):p;if(B){var
+B=p?a$(a,k,a_(e(function(b){return[0,ab(t(a,bn,b[2])),0]},n),o)):p;if(B){var
 I=bd(bs(k));return m(function(g){var
-d=ag(f(g,tg),x),b=[0,[0,H,0],0],c=ag(o,e(function(a){return a[1]?aa(a[2]):a[2]},d));return a$(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
+d=ag(f(g,tk),x),b=[0,[0,H,0],0],c=ag(o,e(function(a){return a[1]?ab(a[2]):a[2]},d));return a$(a,[0,k],f(e(function(a){return f(a[1],[0,a[2],0])},c),b))},I)}var
 C=B}else
 var
 C=l;var
@@ -4240,7 +4271,7 @@ var
 D=i;var
 E=D}else
 var
-E=h;return E},bq=l[3];return i(iu(function(b,a){return ec},bq,k,bp),bi)}var
+E=h;return E},bq=l[3];return i(iv(function(b,a){return ec},bq,k,bp),bi)}var
 ak=O}else
 var
 ak=aj;var
@@ -4259,11 +4290,11 @@ ap=I;var
 ar=ap}else
 var
 ar=H;return ar}return 0;default:return 0}var
-bv=[0,s,u,Q],bw=ec(function(a){return q(a,x,tt)},bv);return i(iu(function(b,a){return ec},o,k,p),bw)}function
-tx(b,a){var
-c=hA(hw,b[1],a[1]);return c?hw(b[2],a[2]):c}function
+bv=[0,s,u,Q],bw=ec(function(a){return q(a,x,tx)},bv);return i(iv(function(b,a){return ec},o,k,p),bw)}function
+tB(b,a){var
+c=hB(hx,b[1],a[1]);return c?hx(b[2],a[2]):c}function
 mP(i,q,p,h,o,k,A,z,y,j,n,g,a,e){if(typeof
-e==="number"){if(0===e)return 9===a[0]?eU(i,0,0,0,g,h,0,a[1],e):0}else
+e==="number"){if(0===e)return 9===a[0]?eV(i,0,0,0,g,h,0,a[1],e):0}else
 switch(e[0]){case
 6:var
 f=e[1];if(typeof
@@ -4272,49 +4303,49 @@ s=f[3],t=f[2],u=E(d,t),v=u?ko(s,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):u;if(v)return m
 w=v}else
 var
 w=k;return w}return mO(i,q,p,h,o,j,g,n,0,a,f);case
-8:return 9===a[0]?eU(i,0,0,0,g,h,0,a[1],e):0;case
+8:return 9===a[0]?eV(i,0,0,0,g,h,0,a[1],e):0;case
 10:if(0===a[0]){var
-l=hA(tx,a[1],A),m=l?1:l,x=m?r(a[2],z):m;return x?jr(y,j,a[3],a[4],e):x}return 0}return 0}function
+l=hB(tB,a[1],A),m=l?1:l,x=m?r(a[2],z):m;return x?js(y,j,a[3],a[4],e):x}return 0}return 0}function
 mQ(b){var
 a=b[2];if(typeof
 a!=="number"&&6===a[0])return 1;return 0}function
-ty(c){var
+tC(c){var
 b=0,a=c[2];if(typeof
 a==="number"){if(0!==a)b=1}else
 switch(a[0]){case
 6:case
 8:break;default:b=1}return b?0:1}function
-e4(a,o,l,j,A,w,b,u,s,C,h,k,au,c){switch(c[0]){case
+e5(a,o,l,j,A,w,b,u,s,C,h,k,au,c){switch(c[0]){case
 0:var
 av=function(a){return m(T,a)},N=av,p=c[1];break;case
 1:var
-aw=c[4],ax=c[3],az=c[2],aA=function(c){var
-d=cN(az,k),e=e4(a,o,l,j,A,w,b,u,s,C,h,d[1],c,ax);return e?e4(a,o,l,j,A,w,b,u,s,C,h,d[2],c,aw):e},N=aA,p=c[1];break;default:var
+aw=c[4],ax=c[3],ay=c[2],aA=function(c){var
+d=cN(ay,k),e=e5(a,o,l,j,A,w,b,u,s,C,h,d[1],c,ax);return e?e5(a,o,l,j,A,w,b,u,s,C,h,d[2],c,aw):e},N=aA,p=c[1];break;default:var
 aB=c[4],aC=c[3],aD=c[2],aE=function(c){var
 i=ag(j,c),d=m(function(b){var
 c=b[1];switch(c[0]){case
 8:var
 a=0;break;case
 9:var
-a=hY(c[1]);break;default:var
+a=hZ(c[1]);break;default:var
 a=1}return a?a:T(b[2])},i);if(d){var
-e=cN(aD,h),f=e4(a,o,l,j,A,w,b,u,s,C,e[1],k,c,aC);if(f)return e4(a,o,l,j,A,w,b,u,s,C,e[2],k,c,aB);var
+e=cN(aD,h),f=e5(a,o,l,j,A,w,b,u,s,C,e[1],k,c,aC);if(f)return e5(a,o,l,j,A,w,b,u,s,C,e[2],k,c,aB);var
 g=f}else
 var
 g=d;return g},N=aE,p=c[1]}var
-ae=i(C,h),ab=ak(ty,p),ac=ab?hS(a,l,h,fU(x(function(c){var
+ae=i(C,h),aa=ak(tC,p),ac=aa?hT(a,l,h,fU(x(function(c){var
 a=F(j,c[1]);if(a){var
 b=a[1];switch(b[0]){case
 8:var
 d=b[1][6];return x(function(a){var
 b=e(aU,a[1][2][2]);return[0,a[1][1],b]},d);case
-9:return hZ(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):ab,ad=ak(mQ,p);if(ad)var
+9:return h0(0,0,0,b[1],c[2]);default:return 0}}return a},p),l),k):aa,ad=ak(mQ,p);if(ad)var
 aq=x(function(b){var
 c=mQ(b);if(c){var
 a=F(j,b[1]);if(a)return mN(a[1]);var
 d=a}else
 var
-d=c;return d},p),ar=b?[0,b[1],0]:b,at=f(ar,aq),ai=0,aj=as(eN,e(function(a){return 0},o),at),M=is(a,h,eK(gm(eK(o,0),aj),ai),k);else
+d=c;return d},p),ar=b?[0,b[1],0]:b,at=f(ar,aq),ai=0,aj=as(eO,e(function(a){return 0},o),at),M=it(a,h,eL(gm(eL(o,0),aj),ai),k);else
 var
 M=ad;var
 r=p,g=au;for(;;){if(r){var
@@ -4323,17 +4354,17 @@ S=q(n,g,0);if(S){var
 I=F(j,n);if(I){var
 U=mP(a,l,h,A,w,b,u,s,ae,k,M,ac,I[1],D);if(U){var
 r=H,g=gb(n,g);continue}var
-W=U}else
+V=U}else
 var
-W=I;var
-X=W}else
+V=I;var
+X=V}else
 var
 X=S;var
 B=X}else{var
 af=0;if(typeof
 D==="number"&&4===D){var
 ah=0;if(b){var
-ap=0,O=e(function(b){return[0,b,V(a,b)]},k),am=e(aU,O),al=0,an=f(e(ay,O),am),ao=bm(0,function(o){return function(b){switch(b[0]){case
+ap=0,O=e(function(b){return[0,b,W(a,b)]},k),am=e(aU,O),al=0,an=f(e(az,O),am),ao=bm(0,function(o){return function(b){switch(b[0]){case
 0:return[0,q(b[1],o,v)];case
 1:return[0,q(b[1],h,v)];case
 2:return[0,P(a,b[1])];case
@@ -4342,14 +4373,14 @@ c=b[2],d=b[1];return cZ(function(b,a){return[0,z(b,a)]},d,c);case
 4:var
 e=b[2],f=b[1];return cZ(function(b,a){return[0,G(b,a)]},f,e);case
 5:var
-g=b[1];return cY(function(a){return[0,aa(a)]},g);case
+g=b[1];return cY(function(a){return[0,ab(a)]},g);case
 6:var
 i=b[2],j=b[1];return cZ(function(c,b){return[0,t(a,c,b)]},j,i);case
 7:var
 k=b[2],l=b[1];return cZ(function(c,b){var
 d=b1(a,b);return y(function(b){return t(a,c,b)},d)},l,k);case
 8:var
-m=b[1];return cY(function(b){return[0,V(a,b)]},m);case
+m=b[1];return cY(function(b){return[0,W(a,b)]},m);case
 9:var
 n=b[1];return cY(function(b){return b2(a,b)},n);default:return 0}}}(an),o,al),E=q(b[1],ao,ap);if(E){var
 J=K(E[1][2],d);ah=1}else
@@ -4374,26 +4405,26 @@ $=Y;var
 B=$}}}else
 var
 B=[0,g];return B?N(B[1]):B}}function
-iA(d,a){var
+iB(d,a){var
 e=Q(a),f=s(s(k(c(2,b)),a),d);return B(w(Q(d),f),e)}function
-iB(k,a,d,j,c,h){var
+iC(k,a,d,j,c,h){var
 e=af(w,dp(k),j);if(h){var
 b=function(b){var
-c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e3([0,b(function(a){return a[1]}),g,f],e);return af(B,aW(d,c),l)}var
-m=e3(a,c);return af(B,aW(d,e),m)}function
+c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]},f=b(function(a){return a[3]}),g=b(function(a){return a[2]}),l=e4([0,b(function(a){return a[1]}),g,f],e);return af(B,aW(d,c),l)}var
+m=e4(a,c);return af(B,aW(d,e),m)}function
 mR(f,h,g,l,a,d){var
-e=dp(f),i=af(w,e,a),j=e3(h,d),m=iA(e[3],a[3]),n=iA(e[2],a[2]),o=iA(e[1],a[1]),p=B(B(B(U(d,d),o),n),m),q=U(j,i),r=s(k(c(2,b)),q),t=B(s(g,p),r),u=be(b$(j,i),l);return[0,gq(f,iB(f,h,g,a,d,0),u),t]}function
+e=dp(f),i=af(w,e,a),j=e4(h,d),m=iB(e[3],a[3]),n=iB(e[2],a[2]),o=iB(e[1],a[1]),p=B(B(B(U(d,d),o),n),m),q=U(j,i),r=s(k(c(2,b)),q),t=B(s(g,p),r),u=be(b$(j,i),l);return[0,gq(f,iC(f,h,g,a,d,0),u),t]}function
 mS(d,c,b,a){var
 e=gr(c,b,a);return af(B,dp(d),e)}function
 mT(g,f,e,d,c){var
 b=mS(g,f,e,c),a=af(w,b,d);return[0,[0,b,a],aD(U(a,a))]}function
 gt(b,a){var
 c=a3(a[2],b);return f(a3(a[1],b),c)}function
-iC(d,b,a,c){if(a)var
-e=a[1],f=cu(c,gt(b,e)),i=O(c,g(gt(b,e))),j=iC(d,b,a[2],i),k=ai(f,tz),h=[0,an(d,ai(f,0),k),j];else
+iD(d,b,a,c){if(a)var
+e=a[1],f=cu(c,gt(b,e)),i=O(c,g(gt(b,e))),j=iD(d,b,a[2],i),k=ai(f,tD),h=[0,an(d,ai(f,0),k),j];else
 var
 h=a;return h}function
-iD(f,o,e,n,a){var
+iE(f,o,e,n,a){var
 g=s(Q(q(0,n,k(d))),o);if(typeof
 a!=="number")switch(a[0]){case
 2:var
@@ -4412,34 +4443,34 @@ e=F(c,a[1]);return y(function(a){var
 c=q(0,b,k(d)),e=i(a[2][2],c);return[0,a[2][1],e]},e)}return 0}function
 gu(a){return h(n,0,[3,[0,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b))))))))),b],a])}function
 mV(a){var
-b=ai(a,tA),c=aD(U(ai(a,tB),b));return s(q(0,a,k(d)),c)}function
+b=ai(a,tE),c=aD(U(ai(a,tF),b));return s(q(0,a,k(d)),c)}function
 mW(b,a){var
-c=U(a,ai(b,tC));return[0,bL(aW(mV(b),a)),c]}function
+c=U(a,ai(b,tG));return[0,bL(aW(mV(b),a)),c]}function
 mX(e,d,a,c,b){var
-f=b[2],g=s(mV(a),f),h=c?gr(e,d,ai(a,tD)):ai(a,tE);return w(U(b[1][2],h),g)}function
+f=b[2],g=s(mV(a),f),h=c?gr(e,d,ai(a,tH)):ai(a,tI);return w(U(b[1][2],h),g)}function
 mY(h,g,f,d,c,b,a){var
 i=bt(c);function
 j(a){return mS(h,g,f,a)}return lB(e(function(a){return[0,a[4]]},d),j,i,b,a)}function
-e5(a){var
-b=q(tF,a,k(d));return aj(q(0,a,k(d)),b)}function
-iE(a){return a[4][2]}function
+e6(a){var
+b=q(tJ,a,k(d));return aj(q(0,a,k(d)),b)}function
+iF(a){return a[4][2]}function
 mZ(g,o,n,m,a){var
-p=a[1][2],q=e(aU,gf(n,a[1][2])),h=e5(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aZ(dn(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aL(dn(g),d),l),q),p]}function
+p=a[1][2],q=e(aU,gf(n,a[1][2])),h=e6(m),i=s(s(k(c(2,b)),o),h),d=a[1][1],j=aZ(dn(g),d),l=e(function(a){return s(a,i)},j);return[0,f(f(aL(dn(g),d),l),q),p]}function
 m0(a){var
 b=a[3],c=a[2],d=a[1];return gi([0,[0,d,d],[0,c,c],[0,b,b]])}function
-tO(a){if(typeof
+tS(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
 m1(b,a){switch(b){case
 0:return[0,a[1],[0,a[2],0]];case
 1:return[0,a[1],[0,a[2],[0,a[3],0]]];default:return 0}}function
 gv(a){var
 c=cq(a[1],[0,d,b]);return c?cq(a[2],[0,d,b]):c}function
-iF(d,a){switch(d){case
+iG(d,a){switch(d){case
 0:return gv(a[3]);case
 1:return 1;default:var
 b=gv(a[1]),c=b?gv(a[2]):b;return c?gv(a[3]):c}}function
-iG(c,b){var
-a=x(function(a){return gt(c,a)},b),d=ag(az(0,g(a)),a);return e(ay,bk(function(a){return h5(a[2])},d))}function
+iH(c,b){var
+a=x(function(a){return gt(c,a)},b),d=ag(aA(0,g(a)),a);return e(az,bk(function(a){return h6(a[2])},d))}function
 m2(b){var
 a=b[2];if(typeof
 a!=="number"&&10===a[0])return 1;return 0}function
@@ -4447,8 +4478,8 @@ m3(c){var
 a=c;for(;;){if(0===a[0])return ak(m2,a[1]);var
 d=ak(m2,a[1]),b=d||m3(a[3]);if(b)return b;var
 a=a[4];continue}}function
-tP(a,aP,bD,A,C,aO){var
-l=A[1],j=b9(l),Y=A[6],bE=A[2],K=x(function(a){return gt(C,a)},bE),aQ=A[3],R=[0,[0,aQ,aQ],C],ab=[0,g(K)],bF=0,aR=x(function(a){return e1(bF,C,a)},Y),bG=dn(l),aS=ms(A[5],bG),o=aS[2],H=aS[1],J=cS(R,g(K)),bI=A[2],S=g(K),bH=0,z=iC(function(e,a){function
+tT(a,aP,bD,A,C,aO){var
+l=A[1],j=b9(l),Y=A[6],bE=A[2],K=x(function(a){return gt(C,a)},bE),aQ=A[3],R=[0,[0,aQ,aQ],C],aa=[0,g(K)],bF=0,aR=x(function(a){return e2(bF,C,a)},Y),bG=dn(l),aS=ms(A[5],bG),o=aS[2],H=aS[1],J=cS(R,g(K)),bI=A[2],S=g(K),bH=0,z=iD(function(e,a){function
 i(g){var
 c=b9(l);if(l)var
 b=[0,[0,[0,c]],[0,[0,[0,c]]],[0,[0,[0,[0,c]]]]];else
@@ -4460,39 +4491,39 @@ v=mT(l,H,o,e,a),x=v[1],W=af(w,dp(l),e),y=v[2],q=x[1],X=x[2],g=gr(H,o,a),i=be(X,y
 h(a){return[0,my(a),0]}function
 f(a){return[0,be(b$(my(a),g),J),[0,a]]}switch(l){case
 0:var
-C=[0,f(s7),0],D=[0,h(s8),C],p=[0,h(0),D];break;case
+C=[0,f(s$),0],D=[0,h(ta),C],p=[0,h(0),D];break;case
 1:var
-E=[0,f(s9),0],F=[0,f(s_),E],G=[0,f(0),F],I=[0,h(s$),G],K=[0,h(ta),I],p=[0,h(0),K];break;default:var
-L=[0,f(tb),0],M=[0,f(tc),L],p=[0,f(0),M]}var
+E=[0,f(tb),0],F=[0,f(tc),E],G=[0,f(0),F],I=[0,h(td),G],K=[0,h(te),I],p=[0,h(0),K];break;default:var
+L=[0,f(tf),0],M=[0,f(tg),L],p=[0,f(0),M]}var
 j=af(w,[0,[0,[1,S]],[0,[1,[0,S]]],[0,[1,[0,[0,S]]]]],e),m=be(j,aD(U(j,j)));if(l)var
-n=iw(l,S,e,q,m[3]);else
+n=ix(l,S,e,q,m[3]);else
 var
 z=k(d),A=k(d),n=[0,k(d),A,z];var
-t=iw(l,S,e,q,m[2]),u=iw(l,S,e,q,m[1]),V=mz(function(q,v){var
+t=ix(l,S,e,q,m[2]),u=ix(l,S,e,q,m[1]),V=mz(function(q,v){var
 e=v[1];function
 a(b,a){var
 c=e[3],f=dm(a,n),g=s(B(b[3],f),c),h=e[2],i=dm(a,t),j=s(B(b[2],i),h),l=e[1],m=dm(a,u),o=s(B(b[1],m),l);return B(B(B(k(d),o),j),g)}var
-x=a(n,td),y=a(t,te),z=[0,a(u,0),y,x],f=U(q[1],z),l=q[2];if(l){var
+x=a(n,th),y=a(t,ti),z=[0,a(u,0),y,x],f=U(q[1],z),l=q[2];if(l){var
 h=l[1],m=v[2];if(m){var
 j=m[1],A=dm(h,g),C=s(dm(j,i),A),D=dm(j,g),o=B(s(dm(h,i),D),C),E=Q(J);if(r(h,j))var
 F=U(i,g),p=w(o,s(k(c(2,b)),F));else
 var
 p=o;return B(f,aj(p,E))}return f}return f},p);return[0,gq(l,i,be(b$(g,be(W,y)),J)),V,T,N]}var
 m=mT(l,H,o,e,a);function
-n(b){return iB(l,H,o,e,a,b)}var
+n(b){return iC(l,H,o,e,a,b)}var
 f=2<=l?d:b;function
 g(b){var
 c=Q(J),d=k(f),e=s(w(Q(b),d),c);return s(o,w(U(a,a),e))}var
-h=[0,U(iB(l,H,o,e,a,1),a),g];return[0,mR(l,H,o,J,e,a),h,n,m,j,i]},C,bI,bH),W=e(function(a){return a[1]},z),bJ=O(ab,g(aR)),bK=dn(l),bM=A[5];function
+h=[0,U(iC(l,H,o,e,a,1),a),g];return[0,mR(l,H,o,J,e,a),h,n,m,j,i]},C,bI,bH),V=e(function(a){return a[1]},z),bJ=O(aa,g(aR)),bK=dn(l),bM=A[5];function
 N(a){return[0,[0,O(bK,a)]]}var
 aI=Q([0,[1,bJ]]);switch(bM[0]){case
 2:var
-bt=N(sZ),bu=N(s0),aJ=[0,N(0),bu,bt],D=[0,w(aI,U(aJ,aJ))];break;case
+bt=N(s3),bu=N(s4),aJ=[0,N(0),bu,bt],D=[0,w(aI,U(aJ,aJ))];break;case
 3:var
-bv=Q(N(s1)),bw=Q(N(0)),bx=Q(N(s2)),D=[0,w(w(s(aI,B(k(b),bx)),bw),bv)];break;default:var
+bv=Q(N(s5)),bw=Q(N(0)),bx=Q(N(s6)),D=[0,w(w(s(aI,B(k(b),bx)),bw),bv)];break;default:var
 D=0}var
 aT=A[7];if(aT)var
-bO=0,bP=A[2],ao=iC(function(j,k){var
+bO=0,bP=A[2],ao=iD(function(j,k){var
 a=mR(l,H,o,cS(R,g(K)),j,k),c=a[1];if(c){var
 d=c[2],b=c[1];if(d){var
 h=d[2],e=d[1];if(h){var
@@ -4515,7 +4546,7 @@ p=m}else
 var
 p=h;return p;case
 16:return x(function(a){return mZ(l,J,bU,c,a)[1]},z)}var
-d=iD(a,o,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,ab,Y),bS)],ap=f(bN(W),bV),bW=0,bX=f(K,[0,R,0]),aX=cX(function(b,a){if(typeof
+d=iE(a,o,z,c,b),q=d?[0,d[1],0]:d;return q},bT,C,aa,Y),bS)],ap=f(bN(V),bV),bW=0,bX=f(K,[0,R,0]),aX=cX(function(b,a){if(typeof
 a!=="number")switch(a[0]){case
 13:var
 g=F(z,a[1]);if(g){if(gu(a[4]))return 0;var
@@ -4527,15 +4558,15 @@ h=mY(l,H,o,z,b,a[1],a[2]);if(h){var
 n=h[1],p=n[2],r=n[1];return x(bL,[0,r[1],[0,r[2],[0,p[1],[0,p[2],0]]]])}return h;case
 15:var
 j=F(z,a[1]);if(j){var
-c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(tG,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dO(c[2]),u);return f(c[1],v)}return j;case
+c=i(j[1][5],0),s=[0,c[3],[0,c[4],0]],t=[0,q(tK,b,k(d)),s],u=[0,q(0,b,k(d)),t],v=f(dO(c[2]),u);return f(c[1],v)}return j;case
 16:var
 w=x(function(a){var
-b=e(aU,gf(bX,iE(a)));return[0,iE(a),b]},z);return f(x(function(a){var
-c=e5(b),d=[0,i(a[6],c)[2],0],e=e5(b);return f(i(a[6],e)[1],d)},z),w)}return 0},bW,C,ab,Y),aY=cI(e(function(a){return bp(j,a)},ap))[1],aZ=cI(aX)[1],Z=cH(aY),aq=cH(aZ);function
+b=e(aU,gf(bX,iF(a)));return[0,iF(a),b]},z);return f(x(function(a){var
+c=e6(b),d=[0,i(a[6],c)[2],0],e=e6(b);return f(i(a[6],e)[1],d)},z),w)}return 0},bW,C,aa,Y),aY=cI(e(function(a){return bp(j,a)},ap))[1],aZ=cI(aX)[1],Z=cH(aY),aq=cH(aZ);function
 u(a){return a9(Z,bp(j,a))}function
 a0(i){if(0===A[4][0]){var
 s=y(u,D),t=u(o),e=dn(l),f=r(g(i),j);if(f)var
-h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),n=az(0,e),b=m(function(b){var
+h=y(function(a){return[0,[0,a,d],d]},s),a=function(a){return q(a,Z,k(d))},c=a(t),n=aA(0,e),b=m(function(b){var
 d=dl(j,b,c),e=d?m(function(d){var
 f=d[1],e=m(function(c){var
 d=a(c);return cx(O(j,b),d)},f);if(e){var
@@ -4547,9 +4578,9 @@ f=e;return f},n);else
 var
 b=f;var
 p=b?e:b;return p}return 0}var
-X=a0(i(au(u),W)),a1=m(function(a){var
+X=a0(i(av(u),V)),a1=m(function(a){var
 b=bp(j,a),c=k(d);return aC(q(u(a),Z,c),b)},ap),a2=a1?m(function(a){return gl(j,a)},ap):a1,a3=a2?m(function(a){var
-b=k(d);return aC(q(a9(aq,a),aq,b),a)},aX):a2,a4=a3?ak(tO,Y):a3;if(a4){var
+b=k(d);return aC(q(a9(aq,a),aq,b),a)},aX):a2,a4=a3?ak(tS,Y):a3;if(a4){var
 a5=T(A[7]);if(a5)var
 ac=a5;else{var
 br=A[5];if(1===l&&2===br[0])var
@@ -4559,17 +4590,17 @@ bs=0;var
 ac=bs}}else
 var
 ac=a4;var
-a6=ac?iF(l,d7(A[4])):ac,a7=a6?h(a,1,A[3]):a6;if(a7)var
+a6=ac?iG(l,d7(A[4])):ac,a7=a6?h(a,1,A[3]):a6;if(a7)var
 bY=gp(A[5]),ar=m(function(b){var
 c=di(a,b[1]);return c?di(a,b[2]):c},bY);else
 var
 ar=a7;if(ar){var
 bZ=f(K,[0,R,0]),as=_(e(function(b){return am(a,b)},bZ));if(as){var
-at=_(e(function(b){return io(a,b)},aR));if(at){var
-b0=m1(l,d7(A[4])),av=_(e(function(b){return am(a,[0,b,C])},b0));if(av){var
-a8=av[1],b1=mu(A[5]),aw=_(e(function(b){return mw(a,b)},b1));if(aw){var
+at=_(e(function(b){return ip(a,b)},aR));if(at){var
+b0=m1(l,d7(A[4])),au=_(e(function(b){return am(a,[0,b,C])},b0));if(au){var
+a8=au[1],b1=mu(A[5]),aw=_(e(function(b){return mw(a,b)},b1));if(aw){var
 a_=aw[1],b2=mt(A[5]),ax=_(e(dh(a),b2));if(ax){var
-b3=0,I=function(a){return a9(aq,a)},aA=f(K,[0,R,0]),aB=_(cX(function(j,f){if(typeof
+b3=0,I=function(a){return a9(aq,a)},ay=f(K,[0,R,0]),aB=_(cX(function(j,f){if(typeof
 f!=="number")switch(f[0]){case
 13:var
 D=f[4],aM=F(z,f[1]);if(aM){if(m0(f[3])&&h(a,0,D)&&h(a,0,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],D])){var
@@ -4580,16 +4611,16 @@ var
 be=u(U),bf=u(U),aH=[0,[6,[0,[0,e(u,aG[1]),bf],0],be],0];var
 aP=[0,[4,u(U)],aH]}else
 var
-aP=[0,[9,[3,I(mX(H,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return tM}return tN;case
+aP=[0,[9,[3,I(mX(H,o,j,aN,aO[4]))]],0];return e(function(a){return[0,a]},aP)}return tQ}return tR;case
 16:var
 Y=f[3],t=f[2],aQ=f[1],bg=b9(l);if(r(g(z),bg)&&h(a,0,aQ)&&h(a,1,t)&&h(a,1,Y)&&di(a,Y)){var
 aI=am(a,[0,[0,t,t],C]);if(aI){var
 bh=aI[1],aJ=i(dh(a),Y);if(aJ){var
 bi=aJ[1],aK=_(e(function(f){var
-b=lK(a,I,aA,C,aQ,t,iE(f));if(b){var
-c=lJ(a,u,aA,C,t,f[1][2]);if(c){var
+b=lK(a,I,ay,C,aQ,t,iF(f));if(b){var
+c=lJ(a,u,ay,C,t,f[1][2]);if(c){var
 g=gs(0,0,f[1][2]);if(g)var
-i=e(ay,c[1]),d=[0,[0,b[1],i]];else
+i=e(az,c[1]),d=[0,[0,b[1],i]];else
 var
 d=g}else
 var
@@ -4597,28 +4628,28 @@ d=c;var
 h=d}else
 var
 h=b;return h},z));if(aK){var
-bj=aK[1],bk=e(function(a){return mZ(l,J,aA,j,a)},z),aL=i(au(u),bk),W=function(a){var
+bj=aK[1],bk=e(function(a){return mZ(l,J,ay,j,a)},z),aL=i(av(u),bk),V=function(a){var
 b=dn(l),c=e(function(a){var
-b=e5(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
-b=e5(j);return e(I,i(a[6],b)[1])},z),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,W(1),0];var
-bl=[0,W(1),0];return[0,W(0),bl]}return tI}return tJ}return tK}return tL}var
+b=e6(j);return I(i(a[6],b)[2])},z),d=e(function(a){var
+b=e6(j);return e(I,i(a[6],b)[1])},z),f=a0(aL);return[0,[8,[0,aL,u(o),f,d,c,bj,bh,bi,b,a]]]};if(2<=l)return[0,V(1),0];var
+bl=[0,V(1),0];return[0,V(0),bl]}return tM}return tN}return tO}return tP}var
 bm=0,w=e(function(a){return a[1]},z);function
 Z(c,b,a){return[0,c,b,a,X]}var
 G=0;if(typeof
 f==="number")var
-aS=u(o),s=[0,Z(i(au(u),w),aS,v)];else
+aS=u(o),s=[0,Z(i(av(u),w),aS,v)];else
 switch(f[0]){case
 0:var
 x=[5,[0,b,b],f[1]],K=Z;G=1;break;case
 1:var
 aU=[5,[0,b,b],f[1]],x=aU,K=function(c,b,a){return[1,c,b,a]};G=1;break;case
 2:var
-aV=iD(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aV);break;case
+aV=iE(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aV);break;case
 3:var
-aW=iD(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aW);break;case
+aW=iE(a,o,z,j,f),s=y(function(a){return[4,u(a)]},aW);break;case
 5:var
 $=f[1],aX=am(a,[0,[0,$,$],d]),s=y(function(b){var
-c=V(a,b),d=u(o);return[2,i(au(u),w),d,c]},aX);break;case
+c=W(a,b),d=u(o);return[2,i(av(u),w),d,c]},aX);break;case
 6:var
 L=F(z,f[1]);if(L){var
 M=mU(z,j,f);if(M){var
@@ -4647,17 +4678,17 @@ ao=h(a,1,f[2]);if(ao)var
 a2=f[1],a3=1,N=m(function(b){return h(a,a3,b)},a2);else
 var
 N=ao;if(N)var
-a4=P(a,b),a5=u(o),a6=gj(w,j),ap=[0,[0,i(au(u),a6),a5,a4,0]];else
+a4=P(a,b),a5=u(o),a6=gj(w,j),ap=[0,[0,i(av(u),a6),a5,a4,0]];else
 var
 ap=N;var
 s=ap;break;case
 14:var
 aq=f[2],ar=f[1],O=mY(l,H,o,z,j,ar,aq);if(O){var
-as=O[1],at=as[2],av=as[1],aw=mi(ar,aq,f[3]),Q=am(a,[0,[0,aw,aw],C]);if(Q){var
-ax=Q[1],az=E(d,ax[1]);if(az)var
-A=function(a){return lI(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(av[2]),aB=[0,[9,[6,A(av[1]),a9,a8,a7,ax]]];else
+as=O[1],at=as[2],au=as[1],aw=mi(ar,aq,f[3]),Q=am(a,[0,[0,aw,aw],C]);if(Q){var
+ax=Q[1],aA=E(d,ax[1]);if(aA)var
+A=function(a){return lI(I,a)},a7=A(at[2]),a8=A(at[1]),a9=A(au[2]),aB=[0,[9,[6,A(au[1]),a9,a8,a7,ax]]];else
 var
-aB=az;var
+aB=aA;var
 aC=aB}else
 var
 aC=Q;var
@@ -4671,7 +4702,7 @@ aE=h(a,1,f[4]);if(aE)var
 aF=h(a,0,f[2]),S=aF?h(a,0,f[3]):aF;else
 var
 S=aE;if(S)var
-B=i(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(q(tH,j,k(d))),bb=I(q(0,j,k(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
+B=i(R[1][5],0),a_=I(B[4]),a$=I(B[3]),ba=I(q(tL,j,k(d))),bb=I(q(0,j,k(d))),bc=B[2],bd=e(function(a){return e(I,a)},bc),T=[0,[9,[10,e(I,B[1]),bd,bb,ba,a$,a_]]];else
 var
 T=S}else
 var
@@ -4679,27 +4710,27 @@ T=R;var
 s=T;break;default:var
 s=0}if(G)var
 aT=am(a,[0,[0,x,x],d]),s=y(function(b){var
-c=V(a,b),d=u(o);return K(i(au(u),w),d,c)},aT);return[0,s,bm]},b3,C,ab,Y));if(aB){var
+c=W(a,b),d=u(o);return K(i(av(u),w),d,c)},aT);return[0,s,bm]},b3,C,aa,Y));if(aB){var
 ba=aB[1];if(A[7])var
-b4=aP[2],b5=aP[1],b6=u(o),ad=lZ(bD,ba,[7,i(au(u),ao),b6,b5,b4]);else
+b4=aP[2],b5=aP[1],b6=u(o),ad=lZ(bD,ba,[7,i(av(u),ao),b6,b5,b4]);else
 var
 ad=ba;var
 bb=r(g(f(a8,a_)),j),bc=bb?m(function(a){var
 b=mN(a);return m(function(a){return mq(j,Z,a)},b)},ad):bb,bd=bc?D?mq(j,Z,u(D[1])):1:bc;if(bd){var
-b7=f(at[1],ax[1]),aE=f(as[1],b7),L=m3(aO),M=iG(C,A[2]),$=L?e(function(a){var
-b=mL(j,M,a[2]),c=a[1];return[0,e(function(a){return mL(j,M,a)},c),b]},W):L,aF=L?cI(iz(j,o,D,$))[1]:L,aG=cH(aF),ae=function(a){return a9(aG,a)},b8=ix(ae,ae,$),b_=ae(bp(j,o)),aH=y(function(a){return ae(bp(j,a))},D),bf=T(L);if(bf)var
+b7=f(at[1],ax[1]),aE=f(as[1],b7),L=m3(aO),M=iH(C,A[2]),$=L?e(function(a){var
+b=mL(j,M,a[2]),c=a[1];return[0,e(function(a){return mL(j,M,a)},c),b]},V):L,aF=L?cI(iA(j,o,D,$))[1]:L,aG=cH(aF),ae=function(a){return a9(aG,a)},b8=iy(ae,ae,$),b_=ae(bp(j,o)),aH=y(function(a){return ae(bp(j,a))},D),bf=T(L);if(bf)var
 ag=bf;else{var
-bq=r(g(W),j);if(bq){var
-bz=iz(j,o,D,$),aL=m(function(a){var
+bq=r(g(V),j);if(bq){var
+bz=iA(j,o,D,$),aL=m(function(a){var
 b=k(d);return aC(q(a9(aG,a),aG,b),a)},bz);if(aL)var
-bA=iz(j,o,D,$),ah=m(function(a){var
-b=az(0,j);return m(function(b){return ea(j,b,a)},b)},bA);else
+bA=iA(j,o,D,$),ah=m(function(a){var
+b=aA(0,j);return m(function(b){return ea(j,b,a)},b)},bA);else
 var
 ah=aL;if(ah){var
 aM=y(function(a){return bp(j,a)},D),ai=bp(j,o),aK=mH(ai);if(aK)var
-by=az(0,X),aN=m(function(a){var
+by=aA(0,X),aN=m(function(a){var
 b=dl(j,a,ai),c=b?m(function(b){var
-d=b[2][2],e=f(x(iy,b[1]),d),g=O(j,a),c=m(function(a){return cx(g,a)},e);if(c){var
+d=b[2][2],e=f(x(iz,b[1]),d),g=O(j,a),c=m(function(a){return cx(g,a)},e);if(c){var
 h=b[2][1];return gk(ai,O(j,a),h)}return c},$):b;if(c){if(aM){var
 e=aM[1];return cx(O(j,a),e)}var
 d=1}else
@@ -4711,18 +4742,18 @@ an=aN}else
 var
 an=ah;var
 cf=an?m(function(a){var
-c=a[1],b=m(function(a){return mM(j,aE,M,a)},c);return b?mM(j,aE,M,a[2]):b},W):an,ag=cf}else
+c=a[1],b=m(function(a){return mM(j,aE,M,a)},c);return b?mM(j,aE,M,a[2]):b},V):an,ag=cf}else
 var
 ag=bq}if(ag){var
-ca=e(function(a){return 1},ad),cb=f(a8,a_),cc=function(l,O,ac,ab,c){if(L){if(typeof
+ca=e(function(a){return 1},ad),cb=f(a8,a_),cc=function(l,O,ac,aa,c){if(L){if(typeof
 c!=="number"&&10===c[0]){var
 h=c[3],o=c[2],p=c[1];if(typeof
 p!=="number"&&6===p[0]){if(h){if(h[2])return 0;var
-w=h[1],b=p[1],x=r(ab,X),y=x?aV(0,X):x;if(y)var
-v=hA(hw,e(ay,o),M),Y=v?1:v,s=Y;else
+w=h[1],b=p[1],x=r(aa,X),y=x?aV(0,X):x;if(y)var
+v=hB(hx,e(az,o),M),Y=v?1:v,s=Y;else
 var
 s=y;var
-z=s?hW(M):s,A=z?m(function(a){return aV(a,g(l))},M):z,B=A?r(g(w),j):A;if(B){var
+z=s?hX(M):s,A=z?m(function(a){return aV(a,g(l))},M):z,B=A?r(g(w),j):A;if(B){var
 u=0;if(typeof
 b!=="number")switch(b[0]){case
 0:var
@@ -4737,12 +4768,12 @@ var
 N=K}else
 var
 N=aH;if(!R)return N}if(!Q)return 0;break}if(u){var
-S=is(a,f7(o,0,l),aF,O),n=is(a,l,aF,O),f=function(b,a){return q(a,b,ts)},T=mJ(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},W=[0,ix(function(a){return f(S,a)},V,b8),U,T],Z=hQ(o,l),$=function(g){var
-b=_(e(tq,g[1]));if(b){var
+S=it(a,f7(o,0,l),aF,O),n=it(a,l,aF,O),f=function(b,a){return q(a,b,tw)},T=mJ(function(a){return f(n,a)},F),U=f(n,b_),V=function(a){return f(n,a)},W=[0,iy(function(a){return f(S,a)},V,b8),U,T],Z=hR(o,l),$=function(g){var
+b=_(e(tu,g[1]));if(b){var
 c=g[2];if(c){var
 d=c0(g[3]);if(d){var
-l=d[1],m=al([0,G(aa(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
-b=hR(a,0,Z,d),c=bk(tr,b[2]);return[0,b[1],c]},n),f=ld(a,e(function(b){return P(a,b)},w),H,I,o,m);if(f)return a$(a,j,f[1]);var
+l=d[1],m=al([0,G(ab(t(a,ac,c[1])),l),0],j),n=b[1],o=e(function(d){var
+b=hS(a,0,Z,d),c=bk(tv,b[2]);return[0,b[1],c]},n),f=ld(a,e(function(b){return P(a,b)},w),H,I,o,m);if(f)return a$(a,j,f[1]);var
 h=f}else
 var
 h=d;var
@@ -4751,13 +4782,13 @@ var
 i=c;var
 k=i}else
 var
-k=b;return k};return i(iu(function(b,a){return tp},X,j,$),W)}var
+k=b;return k};return i(iv(function(b,a){return tt},X,j,$),W)}var
 C=0}else
 var
 C=B;var
 D=C}else
 var
-D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(au(u),W);return e4(a,aY,aZ,ad,j,j,y(u,D),ce,cd,cc,aE,cb,ca,aO)}var
+D=h;return D}return 0}return 0}return L},cd=u(o),ce=i(av(u),V);return e5(a,aY,aZ,ad,j,j,y(u,D),ce,cd,cc,aE,cb,ca,aO)}var
 bg=ag}else
 var
 bg=bd;var
@@ -4772,7 +4803,7 @@ var
 bj=aw;var
 bl=bj}else
 var
-bl=av;var
+bl=au;var
 bm=bl}else
 var
 bm=at;var
@@ -4782,20 +4813,20 @@ bn=as;var
 bo=bn}else
 var
 bo=ar;return bo}function
-e6(b,a){return bo(b,a[1],a[2])}function
+e7(b,a){return bo(b,a[1],a[2])}function
 m4(b,a){var
-c=e6(b,a[1]),d=c?e6(b,a[2]):c;return d?e6(b,a[3]):d}function
+c=e7(b,a[1]),d=c?e7(b,a[2]):c;return d?e7(b,a[3]):d}function
 bh(a){return typeof
-a==="number"?a?tQ:tR:b9(a[1])}function
+a==="number"?a?tU:tV:b9(a[1])}function
 m5(b,a,c){return typeof
-b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:ip(b[1],a,c)}function
+b==="number"?b?[0,a[1],[0,a[2],0]]:[0,a[1],[0,a[2],[0,a[3],0]]]:iq(b[1],a,c)}function
 gw(a){if(0===a[0]){var
 c=a[1];switch(c[0]){case
 0:return c[3];case
 1:return c[2];default:return[0,[0,d,b],[0,d,b],[0,d,b]]}}return a[1][4]}function
 gx(b,c,a){return b?d_(b[1],c,a):a}function
 bP(d,c,b,a){var
-e=gw(a),f=gx(d,c,gw(a)),g=ab(function(b,a){return[2,b,a]},b,f);return ab(function(b,a){return[3,b,a]},g,e)}function
+e=gw(a),f=gx(d,c,gw(a)),g=ac(function(b,a){return[2,b,a]},b,f);return ac(function(b,a){return[3,b,a]},g,e)}function
 m6(b,a){var
 c=typeof
 b==="number"?1:0;if(c){if(b)return[0,a[1],[0,a[2],0]];var
@@ -4809,7 +4840,7 @@ g=0===f[0]?lN(b,j[1],f[1]):0;else
 if(0===f[0])var
 g=0;else{var
 a=f[1],c=j[1],k=bf(b,c[1],a[1]),l=k?bf(b,c[2],a[2]):k,m=l?bf(b,c[3],a[3]):l,n=m?bf(b,c[4],a[4]):m,o=n?cT(b,c[5],a[5]):n,p=o?cT(b,c[6],a[6]):o,q=p?h(b,1,a[5]):p,r=q?h(b,1,a[6]):q,s=r?h(b,1,H(a[1],a[1])):r;if(s)var
-u=ic(a),i=h(b,1,H(ic(a),u));else
+u=id(a),i=h(b,1,H(id(a),u));else
 var
 i=s;var
 g=i?cj(c[7],a[7]):i}if(g){var
@@ -4819,38 +4850,38 @@ var
 t=d;return t}return d?0:1}}function
 m8(a){return typeof
 a==="number"?a?dp(0):dc:dp(a[1])}function
-iH(b,d,c){if(0===c[0])return gc(b,d[1],c[1]);var
+iI(b,d,c){if(0===c[0])return gc(b,d[1],c[1]);var
 a=c[1],e=[0,[0,a[5],b],[0,[0,a[6],b],0]],g=f(a3(a[4],b),e),h=f(a3(a[3],b),g),i=f(a3(a[2],d[2]),h);return f(a3(a[1],d[1]),i)}function
-iI(b,a){if(b){var
-c=b[1],d=c[2];return be(e3(c[1],a),d)}return a}function
+iJ(b,a){if(b){var
+c=b[1],d=c[2];return be(e4(c[1],a),d)}return a}function
 m9(f,t,am,J,al,r,ak){if(r){var
-j=r[1],an=bH([0,d,d],al),a=cu(ak,iH(J,an,j)),y=function(c,b){var
+j=r[1],an=bH([0,d,d],al),a=cu(ak,iI(J,an,j)),y=function(c,b){var
 d=ai(a,c);return af(w,af(B,m8(f),b),d)};if(0===j[0]){var
 z=j[1];switch(z[0]){case
 0:var
-$=iI(t,ai(a,tT)),aE=z[1][5],A=q(tU,a,k(d)),C=ai(a,0),aa=y(tV,$),i=k5(aa,db(C),aa,A,aE),ap=[0,aD(A),0],aq=[0,aD(U(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
+$=iJ(t,ai(a,tX)),aE=z[1][5],A=q(tY,a,k(d)),C=ai(a,0),aa=y(tZ,$),i=k5(aa,db(C),aa,A,aE),ap=[0,aD(A),0],aq=[0,aD(U(C,C)),ap],l=[0,[0,i[1],i[2],i[3],[0,i[4]],[0,[0,i[2],A]],aq],$];break;case
 1:var
-ab=iI(t,ai(a,tW)),ac=z[3],D=ac?[0,ai(a,tX)]:ac,ad=y(0,ab),m=k6(ad,ad,0);if(D)var
+ab=iJ(t,ai(a,t0)),ac=z[3],D=ac?[0,ai(a,t1)]:ac,ad=y(0,ab),m=k6(ad,ad,0);if(D)var
 K=D[1],L=[0,aD(U(K,K)),0];else
 var
 L=D;var
 l=[0,[0,m[1],m[2],m[3],[0,m[4]],0,L],ab];break;default:var
 aF=k(d),aG=k(d),aH=[0,k(d),aG,aF],E=ai(a,0),aI=m8(f),n=k7(aI,db(E)),ar=[0,aD(U(E,E)),0],l=[0,[0,n[1],n[2],n[3],[0,n[4]],0,ar],aH]}}else
 var
-ae=iI(t,ai(a,tY)),F=j[1][7],G=q(tZ,a,k(d)),e=q(t0,a,k(d)),ag=ai(a,t1),H=ai(a,0),p=y(t2,ae),o=db(H),u=af(w,ag,aW(U(o,ag),o)),v=db(u),M=b$(o,v),N=U(p,v),P=U(p,M),as=U(o,p),at=Q(P),R=B(Q(N),at),au=Q(as),S=w(Q(G),au),av=s(k(c(2,b)),e),x=w(R,Q(aj(B(R,w(Q(e),S)),av))),aw=f2(F,s(e,aD(x))),T=aj(N,e),V=f2(F,aj(P,e)),W=aj(S,Q(e)),X=kB(0,T,V,W),Y=f2(F,kB(1,T,V,W)),ax=aW(Y,M),Z=af(w,p,aW(e,af(B,aW(X,v),ax))),ay=[0,aD(G),0],az=[0,aD(e),ay],aA=[0,aD(U(u,u)),az],aB=[0,aD(U(H,H)),aA],aC=be(Z,aw),l=[0,[0,Z,s(Q(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
-aP=O(ak,g(iH(J,an,j))),aQ=r[2],aR=m9(f,t,am,J,bt(al),aQ,aP),h=l[1],aS=l[2],ah=function(a){var
+ae=iJ(t,ai(a,t2)),F=j[1][7],G=q(t3,a,k(d)),e=q(t4,a,k(d)),ag=ai(a,t5),H=ai(a,0),p=y(t6,ae),o=db(H),u=af(w,ag,aW(U(o,ag),o)),v=db(u),M=b$(o,v),N=U(p,v),P=U(p,M),as=U(o,p),at=Q(P),R=B(Q(N),at),au=Q(as),S=w(Q(G),au),av=s(k(c(2,b)),e),x=w(R,Q(aj(B(R,w(Q(e),S)),av))),aw=f2(F,s(e,aD(x))),T=aj(N,e),V=f2(F,aj(P,e)),W=aj(S,Q(e)),X=kB(0,T,V,W),Y=f2(F,kB(1,T,V,W)),ax=aW(Y,M),Z=af(w,p,aW(e,af(B,aW(X,v),ax))),ay=[0,aD(G),0],az=[0,aD(e),ay],aA=[0,aD(U(u,u)),az],aB=[0,aD(U(H,H)),aA],aC=be(Z,aw),l=[0,[0,Z,s(Q(e),x),aC,[1,X,Y],[0,[0,x,G]],aB],ae];var
+aP=O(ak,g(iI(J,an,j))),aQ=r[2],aR=m9(f,t,am,J,bt(al),aQ,aP),h=l[1],aS=l[2],ah=function(a){var
 b=be(b$(aS,a),am);return typeof
 f==="number"?f?[0,a[1],[0,a[2],0]]:bL(a):gq(f[1],a,b)},I=h[1],_=typeof
 f==="number"?1:0,aJ=h[6],aK=h[5],aL=_?f?[0,I[1],[0,I[2],0]]:bL(I):_,aM=h[4],aN=ah(h[3]),aO=h[2],ao=[0,[0,ah(h[1]),aO,aN,aM,aL,aK,aJ],aR]}else
 var
 ao=r;return ao}function
-iJ(c,b,a){if(a){var
-e=a[2],g=iJ(c,bt(b),e),h=a[1];return f(iH(c,bH([0,d,d],b),h),g)}return a}function
+iK(c,b,a){if(a){var
+e=a[2],g=iK(c,bt(b),e),h=a[1];return f(iI(c,bH([0,d,d],b),h),g)}return a}function
 m_(a){if(a){var
 b=a[1][6];if(b)var
 c=m_(a[2]),e=c?[0,[0,b[1][2],c[1]]]:c,d=e;else
 var
-d=b;return d}return t3}function
+d=b;return d}return t7}function
 m$(y,V,b){function
 c(a){return q(a,V,k(d))}function
 N(a){var
@@ -4877,7 +4908,7 @@ d=a[1];return[0,[0,w(c(0),d),0],0]}return 0},g=X,f=b[1];break;case
 Y=function(e){var
 a=e[4];if(typeof
 a!=="number"&&1===a[0]){var
-b=a[2],d=a[1],f=s(c(t4),b),g=[0,[0,w(s(c(t5),d),f),0],0],h=s(d,c(t6));return[0,[0,w(s(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
+b=a[2],d=a[1],f=s(c(t8),b),g=[0,[0,w(s(c(t9),d),f),0],0],h=s(d,c(t_));return[0,[0,w(s(b,c(0)),h),0],g]}return 0},g=Y,f=b[1];break;case
 6:var
 Z=function(a){var
 b=a[4];if(typeof
@@ -4941,7 +4972,7 @@ var
 R=A;return R;default:D=1}if(D)return 0;var
 z=F(y,f);return z?g(z[1]):z}function
 ee(a){return e(function(a){return[0,a[1],a[2]]},a)}function
-e7(a){return e(function(a){var
+e8(a){return e(function(a){var
 c=k(b);return[0,a[3],c]},a)}function
 na(c,b,a){if(typeof
 a!=="number"&&8===a[0])return bN(gj(ee(c),b));return dO(m$(c,b,a))}function
@@ -4953,18 +4984,18 @@ J=[5,[0,b,b],a[1]],j=J,n=function(a){return[0,a]};break;case
 1:var
 M=[5,[0,b,b],a[1]],j=M,n=function(a){return[1,a]};break;case
 5:var
-z=a[1],Q=0,R=am(f,[0,[0,z,z],d]);return[0,y(function(a){return[2,V(f,a)]},R),Q];case
+z=a[1],Q=0,R=am(f,[0,[0,z,z],d]);return[0,y(function(a){return[2,W(f,a)]},R),Q];case
 7:var
-A=a[3],B=a[2],C=a[1];if(!F(l,C))return t9;var
+A=a[3],B=a[2],C=a[1];if(!F(l,C))return ub;var
 G=0;if(h(f,1,B)&&h(f,1,A))var
 S=[5,B,A],j=S,n=function(a){return[7,C,a]};else
-G=1;if(G)return t8;break;case
+G=1;if(G)return ua;break;case
 8:var
 D=h(f,1,a[2]),T=0;if(D)var
-U=a[1],W=1,q=m(function(a){return h(f,W,a)},U);else
+U=a[1],V=1,q=m(function(a){return h(f,V,a)},U);else
 var
 q=D;if(q)var
-X=P(f,b),Y=gj(ee(l),s),E=[0,[4,i(au(g),Y),X]];else
+X=P(f,b),Y=gj(ee(l),s),E=[0,[4,i(av(g),Y),X]];else
 var
 E=q;return[0,E,T];default:var
 r=0;if(typeof
@@ -4982,11 +5013,11 @@ b=a[2],c=a[1];if(b){if(b[2])return 0;var
 e=i(g,b[1]);return[0,[5,i(g,c),e]]}var
 d=[0,[3,i(g,c)]]}else
 var
-d=a;return d},N)}return t7}var
-K=0,L=am(f,[0,[0,j,j],im(I,H)]);return[0,y(function(a){return n(V(f,a))},L),K]}function
+d=a;return d},N)}return t$}var
+K=0,L=am(f,[0,[0,j,j],io(I,H)]);return[0,y(function(a){return n(W(f,a))},L),K]}function
 nc(a){if(typeof
 a!=="number"&&0!==a[0])return 0;return 1}function
-t$(b){if(0===b[0])return[0,lX(b[1])];var
+ud(b){if(0===b[0])return[0,lX(b[1])];var
 a=b[1],c=a[7],d=a[6][1],e=a[5][1],f=bv(a[4]),g=bv(a[3]),h=bv(a[2]);return[1,[0,bv(a[1]),h,g,f,e,d,c]]}function
 bQ(c){var
 a=c;for(;;)switch(a[0]){case
@@ -5015,7 +5046,7 @@ j=a[2],f=a[1],i=s;break;case
 6:var
 j=a[2],f=a[1],i=aj;break;case
 7:var
-l=eI(a[2]),m=by(e,a[1],c);if(l){if(l[1]){var
+l=eJ(a[2]),m=by(e,a[1],c);if(l){if(l[1]){var
 o=Q(m),r=function(a){return s(a,o)},p=fI(bs(kh(l)),r,o);return kg(l)?p:s(p,m)}return m}return k(b);default:return aD(by(e,a[1],c))}var
 v=by(e,j,O(c,g(bQ(f))));return i(by(e,f,c),v)}function
 c1(c,h,b){var
@@ -5033,18 +5064,18 @@ d=a[1],i=O(b,g(bQ(d))),j=c1(c,a[2],i);return f(c1(c,d,b),j)}}function
 nd(i,h,f){var
 b=i,a=h,c=f;for(;;){if(a){var
 d=a[1],e=d[2],j=O(c,g(bQ(e))),k=a[2],l=by(b,e,c),b=[0,[0,d[1],l],b],a=k,c=j;continue}return b}}function
-iK(c,a,b){if(a){var
-e=a[1],d=e[2],h=O(b,g(bQ(d))),i=a[2],j=by(c,d,b),k=iK([0,[0,e[1],j],c],i,h);return f(c1(c,d,b),k)}return a}function
-e8(a){return x(bQ,a)}function
+iL(c,a,b){if(a){var
+e=a[1],d=e[2],h=O(b,g(bQ(d))),i=a[2],j=by(c,d,b),k=iL([0,[0,e[1],j],c],i,h);return f(c1(c,d,b),k)}return a}function
+e9(a){return x(bQ,a)}function
 ne(c,a,b){if(a)var
 d=a[1],f=O(b,g(bQ(d))),h=ne(c,a[2],f),e=[0,by(c,d,b),h];else
 var
 e=a;return e}function
 nf(c,a,b){if(a){var
 d=a[1],e=O(b,g(bQ(d))),h=nf(c,a[2],e);return f(c1(c,d,b),h)}return a}function
-gy(a){return 0===a[0]?e8(a[1]):bQ(a[1])}function
-iL(c,b,a){if(b){var
-d=b[1],j=O(a,g(gy(d))),k=iL(c,b[2],j);if(0===d[0])var
+gy(a){return 0===a[0]?e9(a[1]):bQ(a[1])}function
+iM(c,b,a){if(b){var
+d=b[1],j=O(a,g(gy(d))),k=iM(c,b[2],j);if(0===d[0])var
 h=nf(c,d[1],a);else
 var
 e=d[1],i=c1(c,e,a),h=[0,by(c,e,a),i];return f(h,k)}return b}function
@@ -5055,28 +5086,28 @@ b=[1,a[1]];break;case
 1:var
 b=[0,a[1]];break;default:var
 b=bI(gz,a)}return[0,b]}function
-iM(c){var
+iN(c){var
 b=c;for(;;){var
 a=b[1];switch(a[0]){case
 5:var
 b=a[1];continue;case
 6:var
-d=iM(a[2]);return s(iM(a[1]),d);case
+d=iN(a[2]);return s(iN(a[1]),d);case
 9:return a[1];default:return Q(b)}}}function
-iN(n,h,a,f){if(a){var
-c=a[1],w=O(f,g(gy(c))),x=iN(n,h,a[2],w);if(0===c[0])var
+iO(n,h,a,f){if(a){var
+c=a[1],w=O(f,g(gy(c))),x=iO(n,h,a[2],w);if(0===c[0])var
 l=ne(h,c[1],f),o=[0,l,k(b),l,0,0,0,0];else
 var
-m=by(h,c[1],f),q=gz(m),i=a2(az(0,n),q),d=gz(i[2]),j=e(gz,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aC(a,d)?k(b):aj(a,d)},j),o=[0,j,iM(d),v,u,t,s,r];var
+m=by(h,c[1],f),q=gz(m),i=a2(aA(0,n),q),d=gz(i[2]),j=e(gz,i[1]),r=0,s=0,t=0,u=[0,m],v=e(function(a){return aC(a,d)?k(b):aj(a,d)},j),o=[0,j,iN(d),v,u,t,s,r];var
 p=[0,o,x]}else
 var
 p=a;return p}function
 ng(a){return e(function(a){return[0,a[2],d]},a)}function
-iO(a){var
-b=x(gy,a[4]),c=f(e8(e(aU,a[3])),b);return f(ng(a[2]),c)}function
+iP(a){var
+b=x(gy,a[4]),c=f(e9(e(aU,a[3])),b);return f(ng(a[2]),c)}function
 gA(a){var
-c=cu(0,ng(a[2])),d=az(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=ag(e(ay,a[2]),c);return f(ag(a[1],h),b)}function
-iP(b,d){var
+c=cu(0,ng(a[2])),d=aA(0,g(a[1])),h=e(function(a){return[0,[0,a]]},d),b=ag(e(az,a[2]),c);return f(ag(a[1],h),b)}function
+iQ(b,d){var
 a=d;for(;;)switch(a[0]){case
 0:return 1;case
 1:var
@@ -5085,16 +5116,16 @@ e=a[1];return ak(function(a){return aw(e,a)},b);case
 7:case
 8:var
 a=a[1];continue;default:var
-c=iP(b,a[1]);if(c){var
+c=iQ(b,a[1]);if(c){var
 a=a[2];continue}return c}}function
 nh(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=T(ak(function(b){return function(a){return qW(b,a)}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
 ni(a){var
-u=e(ay,a[2]),d=f(a[1],u),h=g(a[1]),o=Y(ua,h),p=o?Y(h,ub):o,q=p?Y(h,g(a[4])):p,r=q?Y(g(a[4]),uc):q,s=r?nh(d):r;if(s){var
+u=e(az,a[2]),d=f(a[1],u),h=g(a[1]),o=Y(ue,h),p=o?Y(h,uf):o,q=p?Y(h,g(a[4])):p,r=q?Y(g(a[4]),ug):q,s=r?nh(d):r;if(s){var
 c=d,b=a[3];for(;;){if(b){var
-j=b[1],k=j[1],l=T(ak(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iP(c,j[2]):l;if(n){var
+j=b[1],k=j[1],l=T(ak(function(b){return function(a){return aw(b,a)}}(k),c)),n=l?iQ(c,j[2]):l;if(n){var
 c=[0,k,c],b=b[2];continue}var
 t=n}else
 var
@@ -5103,7 +5134,7 @@ i=t;break}}else
 var
 i=s;if(i){var
 v=a[4];return m(function(b){var
-c=0===b[0]?b[1]:[0,b[1],0],g=f(e(ay,a[3]),d);return m(function(a){return iP(g,a)},c)},v)}return i}function
+c=0===b[0]?b[1]:[0,b[1],0],g=f(e(az,a[3]),d);return m(function(a){return iQ(g,a)},c)},v)}return i}function
 ef(f,e,g){var
 h=g[1],a=bI(function(a){return ef(f,e,a)},h);switch(a[0]){case
 0:return q(a[1],f,[0,d,b]);case
@@ -5137,7 +5168,7 @@ b=b[2],a=a[2];continue}var
 d=c}else
 var
 d=a;return d}return a?0:1}}function
-ud(a){var
+uh(a){var
 b=a[4],d=0;if(typeof
 b!=="number"&&0===b[0]){var
 c=[0,b[1],0];d=1}if(!d)var
@@ -5151,22 +5182,22 @@ nn(d,a){if(a){var
 b=aM(d,a[1]);if(b)var
 c=nn(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return uf}function
+e=b;return e}return uj}function
 no(d,a){if(a){var
 b=nn(d,a[1]);if(b)var
 c=no(d,a[2]),f=c?[0,[0,b[1],c[1]]]:c,e=f;else
 var
-e=b;return e}return ug}function
+e=b;return e}return uk}function
 np(c,j,d,b,a){var
 e=aV(d,j),g=e?bl(b,a):e;if(g)var
 k=cs(c,a)[2],h=[0,cs(c,b)[1],k],l=[0,cs(c,dQ(a,b)),0],i=[0,[0,h,h,f(al(v,d),l)]];else
 var
 i=g;return i}function
-iQ(a){if(a){var
+iR(a){if(a){var
 b=a[1];if(b)var
-c=iQ(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
+c=iR(a[2]),e=c?[0,[0,b[1],c[1]]]:c,d=e;else
 var
-d=b;return d}return uh}function
+d=b;return d}return ul}function
 nq(c,b,a){if(b){if(a){var
 d=b[1],f=nq(c,b[2],a[2]),g=a[1],h=function(b,a){return z(t(c,d,b),a)},i=function(a){return a};return aF(function(a){return t(c,d,a)},i,h,g,f)}var
 e=a}else
@@ -5180,12 +5211,12 @@ nt(a,i,h){var
 d=g(i);function
 t(g,e,f){var
 d=[0,b,c(2,b)];return[0,Z(cs(a,a0(c_(e,f),d)))]}var
-j=iQ(e(function(b){return eR(a,t,b)},i));if(j){var
-u=j[1],w=function(b,c,e){return np(a,d,b,c,e)},k=iQ(e(function(b){return eR(a,w,b)},i));if(k){var
-x=function(b){return cs(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),B=e(function(b){return nr(a,b,e(function(a){return a[2]},u))},n),C=ag(az(0,d),n),D=e(function(c){var
+j=iR(e(function(b){return eS(a,t,b)},i));if(j){var
+u=j[1],w=function(b,c,e){return np(a,d,b,c,e)},k=iR(e(function(b){return eS(a,w,b)},i));if(k){var
+x=function(b){return cs(a,b)},n=e(function(a){return e(x,a)},h),y=k[1],z=e(function(a){return a[3]},y),B=e(function(b){return nr(a,b,e(function(a){return a[2]},u))},n),C=ag(aA(0,d),n),D=e(function(c){var
 i=nq(a,c[2],z),j=c[1],d=[0,P(a,b),0],e=f(al(v,j),d);function
 g(b,a){return G(b,aq(a))}function
-h(a){return aa(aq(a))}return aF(function(a){return a},h,g,e,i)},C),o=r(g(h),d),p=o?m(function(a){return r(g(a),d)},h):o;if(p)var
+h(a){return ab(aq(a))}return aF(function(a){return a},h,g,e,i)},C),o=r(g(h),d),p=o?m(function(a){return r(g(a),d)},h):o;if(p)var
 F=c(2,b),H=bZ(cm(a),F),I=ns(B),l=E(A(c(2,c(2,b)),I),H);else
 var
 l=p;if(l){var
@@ -5202,7 +5233,7 @@ bq(a){return[0,a[1],a[2]]}function
 nu(b,a){var
 d=g(a),c=r(g(b),d);if(c){var
 e=ag(b,a);return m(function(a){return bl(a[1],a[2])},e)}return c}function
-iR(e,k,j,i){var
+iS(e,k,j,i){var
 c=k,b=j,a=i;for(;;){if(c)if(b)if(a){var
 f=a[1],l=h(e,1,[3,bq(c[1]),f]),g=l||h(e,1,[3,f,bq(b[1])]);if(!g){var
 c=c[2],b=b[2],a=a[2];continue}var
@@ -5218,20 +5249,20 @@ c=a[1],d=b[1],g=c[2],h=a[2],i=d[2],j=b[2],k=[0,d[1],[0,c[1],0]];return m(functio
 b=[0,i,[0,g,0]];return m(function(b){var
 c=[0,j,[0,h,0]];return m(function(c){var
 d=bq(c),g=bq(b);return cv(f,e,[0,bq(a),g,d])},c)},b)},k)}function
-e9(b,a){var
+e_(b,a){var
 c=a0(a,a);return bl(a0(b,b),c)?a:b}function
-e_(b,a,e,d){var
+e$(b,a,e,d){var
 c=dg(b,a,bq(e));return c?dg(b,a,bq(d)):c}function
 nw(a){var
-c=q(un,a,[0,d,b]),e=q(uo,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
-iS(d,c,b,a){var
+c=q(ur,a,[0,d,b]),e=q(us,a,[0,d,b]);return[0,[0,q(0,a,[0,d,b]),e],c]}function
+iT(d,c,b,a){var
 e=dk(d,c,b,a);return H(dk(d,c,b,a),e)}function
-up(i,k,t,S,H,o,l,n,aR){var
-j=t[5],aI=ag(l,n),aJ=ag(az(0,g(l)),aI),af=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aJ),ax=t[7],ay=ax?iq(i,t[2],S):ax,aA=ay?cv(i,t[4],H):ay,aB=aA?dj(i,j,o):aA,aC=aB?Y(k,uq):aB;if(aC)var
+ut(i,k,t,S,H,o,l,n,aR){var
+j=t[5],aI=ag(l,n),aJ=ag(aA(0,g(l)),aI),af=e(function(a){return[1,a[1],a[2][1],a[2][2]]},aJ),ax=t[7],ay=ax?ir(i,t[2],S):ax,az=ay?cv(i,t[4],H):ay,aB=az?dj(i,j,o):az,aC=aB?Y(k,uu):aB;if(aC)var
 aS=O(k,g(o)),T=r(g(l),aS);else
 var
 T=aC;if(T)var
-aT=0===j[0]?ur:us,U=r(g(o),aT);else
+aT=0===j[0]?uv:uw,U=r(g(o),aT);else
 var
 U=T;var
 aD=U?nu(l,n):U;if(aD)var
@@ -5243,7 +5274,7 @@ a=aZ(k,n),c=aZ(k,l);switch(j[0]){case
 X=0;if(c)if(c[2])var
 h=0;else
 if(a)var
-h=a[2]?0:e_(i,j[1],c[1],a[1]);else{var
+h=a[2]?0:e$(i,j[1],c[1],a[1]);else{var
 ah=a;X=1}else{var
 ah=c;X=1}if(X)var
 h=ah;break;case
@@ -5256,8 +5287,8 @@ if(a){var
 x=a[2],_=0;if(x){var
 y=x[2],$=0;if(y)if(y[2]){var
 h=0;I=1;J=1;_=1;$=1}else{var
-ai=e_(i,j[1],c[1],a[1]),aj=ai?e_(i,j[2],v[1],x[1]):ai;if(aj){var
-h=e_(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
+ai=e$(i,j[1],c[1],a[1]),aj=ai?e$(i,j[2],v[1],x[1]):ai;if(aj){var
+h=e$(i,j[3],w[1],y[1]);I=1;J=1;_=1;$=1}else
 var
 ak=aj}else
 var
@@ -5285,7 +5316,7 @@ if(a){var
 B=a[2],ab=0;if(B){var
 C=B[2];if(C)if(C[2]){var
 h=0;K=1;L=1;ab=1}else{var
-aM=[0,bq(e9(A[1],C[1])),0],aN=[0,bq(e9(z[1],B[1])),aM],h=dj(i,j,[0,bq(e9(c[1],a[1])),aN]);K=1;L=1;ab=1}else
+aM=[0,bq(e_(A[1],C[1])),0],aN=[0,bq(e_(z[1],B[1])),aM],h=dj(i,j,[0,bq(e_(c[1],a[1])),aN]);K=1;L=1;ab=1}else
 var
 ao=C}else
 var
@@ -5313,8 +5344,8 @@ p=G[1],s=E[1],aH=0,aO=0;if(bl(s,[0,d,b])&&bl([0,d,b],p))var
 ar=[0,d,b];else
 aH=1;if(aH)var
 aK=a0(p,p),ar=bl(a0(s,s),aK)?s:p;var
-aP=[0,bq(ar),aO],aQ=[0,bq(e9(D[1],F[1])),aP],as=dj(i,j,[0,bq(e9(c[1],a[1])),aQ]);if(as){var
-h=e_(i,cW(j[2]),s,p);M=1;N=1;ad=1;ae=1}else
+aP=[0,bq(ar),aO],aQ=[0,bq(e_(D[1],F[1])),aP],as=dj(i,j,[0,bq(e_(c[1],a[1])),aQ]);if(as){var
+h=e$(i,cW(j[2]),s,p);M=1;N=1;ad=1;ae=1}else
 var
 at=as}else
 var
@@ -5336,17 +5367,17 @@ h=aw}var
 W=h}else
 var
 W=V;if(W){var
-aW=aL(k,bR(H)),aX=aL(k,n),aE=iR(i,aL(k,l),aX,aW);if(aE)var
+aW=aL(k,bR(H)),aX=aL(k,n),aE=iS(i,aL(k,l),aX,aW);if(aE)var
 u=aE;else{var
 aG=1===j[0]?0:1;if(aG)var
-aY=aZ(k,n),u=iR(i,aZ(k,l),aY,o);else
+aY=aZ(k,n),u=iS(i,aZ(k,l),aY,o);else
 var
 u=aG}}else
 var
 u=W;var
 aF=u?m(function(a){var
-c=bR(a[2]),b=gB(f(bR(a[1]),c));return b?gB([0,iS(j,o,H,a),0]):b},S):u;return aF?nt(i,e(function(c){var
-h=[6,iS(j,o,H,c)],a=aL(k,af),e=q(ul,a,[0,d,b]),f=q(um,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,iS(j,aZ(k,af),g,c)],h]},S),aR):aF}var
+c=bR(a[2]),b=gB(f(bR(a[1]),c));return b?gB([0,iT(j,o,H,a),0]):b},S):u;return aF?nt(i,e(function(c){var
+h=[6,iT(j,o,H,c)],a=aL(k,af),e=q(up,a,[0,d,b]),f=q(uq,a,[0,d,b]),g=[0,q(0,a,[0,d,b]),f,e];return[3,[6,iT(j,aZ(k,af),g,c)],h]},S),aR):aF}var
 gD=w(k(b),gC);function
 nx(e){var
 a=Q(gD);if(e)var
@@ -5361,7 +5392,7 @@ g=Q(a),h=Q(d),i=w(w(k(c(2,b)),h),g),j=f?e?gD:aj(gD,s(k(c(2,b)),gC)):aj(gD,k(c(2,
 nz(g,d){var
 c=g,a=d[1],b=d[3];for(;;){if(c){if(b){var
 e=b[2],f=c[1]?z(a,b[1]):a,c=c[2],a=f,b=e;continue}return a}return a}}function
-iT(w,v,u,t){var
+iU(w,v,u,t){var
 a=e(function(a){return q(a,u,0)},v);if(a){var
 f=a[1];if(f){var
 b=a[2];if(b){var
@@ -5407,16 +5438,16 @@ a=0;c=1;d=1}else{var
 t=i[1],k=h[1],l=g[1],f=0;if(typeof
 j==="number")switch(j){case
 0:var
-A=e(aH,bd(uv)),z=e(Z,0),a=iT(b,p,bm(0,bJ(b,d0(0,g),z),q,0),A);c=1;d=1;f=1;break;case
+A=e(aH,bd(uz)),z=e(Z,0),a=iU(b,p,bm(0,bJ(b,d0(0,g),z),q,0),A);c=1;d=1;f=1;break;case
 3:var
 a=E(k[2],l[1]);c=1;d=1;f=1;break}else
 if(4===j[0]){var
 m=j[1];if(r)if(m){var
-B=e(nz,uw),a=iT(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
+B=e(nz,uA),a=iU(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),B);c=1;d=1;f=1}else{var
 a=m;c=1;d=1;f=1}else
 if(m){var
 a=0;c=1;d=1;f=1}else{var
-C=e(nz,ux),a=iT(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
+C=e(nz,uB),a=iU(b,p,bm(0,bJ(b,nA(r,b,l,k,t),0),q,0),C);c=1;d=1;f=1}}if(!f)var
 u=0}else
 var
 u=i;if(!d)var
@@ -5426,7 +5457,7 @@ v=h;if(!c){var
 w=v;s=1}}else{var
 w=g;s=1}if(s)var
 a=w;var
-y=a?uy:a}else
+y=a?uC:a}else
 var
 y=n;return y}return[0,n]}function
 nC(f,e,d,c,p,o,n){var
@@ -5440,14 +5471,14 @@ b=k[2],g=j,a=a[4];continue}var
 m=l}else
 var
 m=i;return m;default:return 0}}function
-iU(a){return bZ(c(2,b),aA(a,b))}function
+iV(a){return bZ(c(2,b),aB(a,b))}function
 eh(i,a,e,w,v){var
-m=a?b:R(b),f=k(m),g=ny(a,e,ut),h=ny(a,e,uu),n=aj(g,eg(a,e,f,g)),o=[0,B(aj(h,eg(a,e,h,f)),n),0],p=aj(f,eg(a,e,f,g)),q=[0,B(aj(h,eg(a,e,g,h)),p),o],r=aj(f,eg(a,e,h,f)),t=[0,B(aj(g,eg(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gC):k(c(2,c(2,b))),j=cI([0,u,t]),l=[0,d,cm(i)];return nC(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
-nD(a,g,b){if(K(g,iU(a))){if(b){var
+m=a?b:R(b),f=k(m),g=ny(a,e,ux),h=ny(a,e,uy),n=aj(g,eg(a,e,f,g)),o=[0,B(aj(h,eg(a,e,h,f)),n),0],p=aj(f,eg(a,e,f,g)),q=[0,B(aj(h,eg(a,e,g,h)),p),o],r=aj(f,eg(a,e,h,f)),t=[0,B(aj(g,eg(a,e,g,h)),r),q],u=a?e?k(c(2,b)):s(k(c(2,c(2,b))),gC):k(c(2,c(2,b))),j=cI([0,u,t]),l=[0,d,cm(i)];return nC(a,i,j[1],j[2],[0,l,[0,l,[0,w,0]]],1,v)}function
+nD(a,g,b){if(K(g,iV(a))){if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 e=d[2];if(e){if(e[2])return 0;var
-h=[0,g,iU(a)],v=cm(a),i=[0,iU(a),v],j=eh(a,0,1,h,b[1]),k=j?eh(a,0,0,i,c[1]):j;if(k){var
+h=[0,g,iV(a)],v=cm(a),i=[0,iV(a),v],j=eh(a,0,1,h,b[1]),k=j?eh(a,0,0,i,c[1]):j;if(k){var
 l=eh(a,1,1,h,d[1]);if(l)return eh(a,1,0,i,e[1]);var
 m=l}else
 var
@@ -5472,16 +5503,16 @@ t=f;var
 u=t}else
 var
 u=b;return u}function
-iV(a){var
+iW(a){var
 b=[1,[2,d]];return b0(function(b,a){return[1,[3,b,a]]},a,b)}function
-gE(a){return iV(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
-gF(a,c){return iV(e(function(a){var
-d=[0,a[2]],b=ag(a[1],c);return[1,[7,[1,[8,iV(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
+gE(a){return iW(e(function(a){return[1,[8,[1,[2,a]]]]},a))}function
+gF(a,c){return iW(e(function(a){var
+d=[0,a[2]],b=ag(a[1],c);return[1,[7,[1,[8,iW(e(function(a){return[1,[6,[0,a[1]],[1,[2,a[2]]]]]},b))]],d]]},a))}function
 nE(e,d,c,b,a){if(0===a[0])return q(a[1],b,0);var
 f=a[1],g=bI(function(a){return nE(e,d,c,b,a)},f);return i(bJ(e,d,c),g)}function
 nF(a){return a?K(d,a[1][2][1]):a}function
-uz(a){var
-b=r(g(a),uA);return b?ak(function(a){return T(J(a,d))},a):b}function
+uD(a){var
+b=r(g(a),uE);return b?ak(function(a){return T(J(a,d))},a):b}function
 nG(c,f,b,a){if(b)if(a)var
 d=b[1],g=t(c,P(c,a[1]),f),h=nG(c,f,b[2],a[2]),i=d[3],j=z(d[2],g),e=[0,[0,z(d[1],g),j,i],h];else
 var
@@ -5491,221 +5522,221 @@ e=b;return e}function
 nH(d,c){var
 a=F(c,d);if(a){var
 b=a[1],e=b[1];return T(J(b6(b),e))}return a}function
-gG(b,a){return eK(eK(b,0),a)}function
-iW(a){if(a){var
-b=a[2],c=a[1];if(b)return gG(c,[0,uC,iW(b)]);var
+gG(b,a){return eL(eL(b,0),a)}function
+iX(a){if(a){var
+b=a[2],c=a[1];if(b)return gG(c,[0,uG,iX(b)]);var
 d=c}else
 var
 d=a;return d}function
-D(a){return[0,uE,gG(iW(a),uD)]}function
-ad(a){return[0,uG,gG(iW(a),uF)]}function
-ap(a){return[0,uI,[0,a,uH]]}function
-l(b,a){return[0,a8(uK,a8(b,uJ)),a]}function
-N(b,a){return ad([0,l(b,a),0])}function
+D(a){return[0,uI,gG(iX(a),uH)]}function
+ae(a){return[0,uK,gG(iX(a),uJ)]}function
+ap(a){return[0,uM,[0,a,uL]]}function
+l(b,a){return[0,a8(uO,a8(b,uN)),a]}function
+N(b,a){return ae([0,l(b,a),0])}function
 cy(d){var
 b=d,a=rp,e=0;for(;;){if(b){var
-c=ke(a),b=b[1],a=c;continue}return[0,eL(fH(a)),e]}}function
-iX(a){return[0,eL(fO(a)),0]}function
-e$(a){var
-c=aK(a),f=0,b=0===c?rv:0<c?[0,fO(a)]:[1,fO(R(a))];if(0===b[0])var
-d=eL(b[1]);else
-var
-e=eL(b[1]),d=a8(bE(1,45),e);return[0,d,f]}function
+c=ke(a),b=b[1],a=c;continue}return[0,eM(fH(a)),e]}}function
+iY(a){return[0,eM(fO(a)),0]}function
 fa(a){var
-b=0,c=0<aK(a)?fO(a):rt;return[0,eL(c),b]}function
-iY(a){switch(a[0]){case
-2:return uM;case
-3:return 2<=a[1]?uN:uO;case
-4:return uP;default:return uL}}function
-fb(b,a){function
-c(c,a){return Y(c,iY(a))?fb(b,a):[0,uV,f(fb(b,a),uU)]}switch(a[0]){case
+c=aK(a),f=0,b=0===c?rv:0<c?[0,fO(a)]:[1,fO(R(a))];if(0===b[0])var
+d=eM(b[1]);else
+var
+e=eM(b[1]),d=a8(bE(1,45),e);return[0,d,f]}function
+fb(a){var
+b=0,c=0<aK(a)?fO(a):rt;return[0,eM(c),b]}function
+iZ(a){switch(a[0]){case
+2:return uQ;case
+3:return 2<=a[1]?uR:uS;case
+4:return uT;default:return uP}}function
+fc(b,a){function
+c(c,a){return Y(c,iZ(a))?fc(b,a):[0,uZ,f(fc(b,a),uY)]}switch(a[0]){case
 0:var
 e=a[2],g=a[1];if(typeof
 e==="number")return[0,bc(g),0];var
-h=[0,uW,[0,bc(e),0]];return[0,bc(g),h];case
+h=[0,u0,[0,bc(e),0]];return[0,bc(g),h];case
 1:return[0,i(b,a[1]),0];case
-2:return[0,uY,c(uX,a[1])];case
+2:return[0,u2,c(u1,a[1])];case
 3:var
-j=a[3],k=c([0,iY(a)],j);switch(a[1]){case
+j=a[3],k=c([0,iZ(a)],j);switch(a[1]){case
 0:var
-d=uQ;break;case
+d=uU;break;case
 1:var
-d=uR;break;case
+d=uV;break;case
 2:var
-d=uS;break;default:var
-d=uT}var
-l=a[2];return f(c(iY(a),l),[0,d,k]);case
+d=uW;break;default:var
+d=uX}var
+l=a[2];return f(c(iZ(a),l),[0,d,k]);case
 4:var
-m=[0,uZ,iX(a[2])];return f(c(u0,a[1]),m);default:return[0,u2,f(fb(b,a[1]),u1)]}}function
-I(a){return[0,u5,f(fb(function(a){return 0===a[0]?a[1]:u4},a),u3)]}function
-iZ(a){return[0,u7,f(fb(function(a){return a},a),u6)]}function
+m=[0,u3,iY(a[2])];return f(c(u4,a[1]),m);default:return[0,u6,f(fc(b,a[1]),u5)]}}function
+I(a){return[0,u9,f(fc(function(a){return 0===a[0]?a[1]:u8},a),u7)]}function
+i0(a){return[0,u$,f(fc(function(a){return a},a),u_)]}function
 cz(a){if(0===a[0])return I(a[1]);var
-b=[0,l(u8,I(a[2])),0];return ad([0,l(u9,I(a[1])),b])}function
+b=[0,l(va,I(a[2])),0];return ae([0,l(vb,I(a[1])),b])}function
 gH(b,a){var
 c=[0,i(b,a[3]),0],d=[0,i(b,a[2]),c];return D([0,i(b,a[1]),d])}function
-u_(a){function
+vc(a){function
 b(a){return gH(cz,a)}switch(a[0]){case
 0:var
-e=0,g=a[5]?u$:vh,h=[0,l(va,ap(g)),e],i=[0,l(vb,cz(a[4])),h],j=[0,l(vc,b(a[3])),i],k=[0,l(vd,b(a[2])),j],m=[0,l(ve,b(a[1])),k],c=[0,l(vg,ap(vf)),m];break;case
+e=0,g=a[5]?vd:vl,h=[0,l(ve,ap(g)),e],i=[0,l(vf,cz(a[4])),h],j=[0,l(vg,b(a[3])),i],k=[0,l(vh,b(a[2])),j],m=[0,l(vi,b(a[1])),k],c=[0,l(vk,ap(vj)),m];break;case
 1:var
-d=a[3],n=d?[0,l(vi,b(d[1])),0]:d,o=[0,l(vj,b(a[2])),0],p=[0,l(vk,b(a[1])),o],c=f([0,l(vm,ap(vl)),p],n);break;default:var
-q=[0,l(vn,b(a[1])),0],c=[0,l(vp,ap(vo)),q]}return ad(c)}function
-vq(a){function
+d=a[3],n=d?[0,l(vm,b(d[1])),0]:d,o=[0,l(vn,b(a[2])),0],p=[0,l(vo,b(a[1])),o],c=f([0,l(vq,ap(vp)),p],n);break;default:var
+q=[0,l(vr,b(a[1])),0],c=[0,l(vt,ap(vs)),q]}return ae(c)}function
+vu(a){function
 b(a){return D(e(cz,a))}function
 d(a){var
-b=a?vr:vt;return l(vs,ap(b))}switch(a[0]){case
+b=a?vv:vx;return l(vw,ap(b))}switch(a[0]){case
 0:var
-f=[0,d(a[5]),0],g=[0,l(vu,cz(a[4])),f],h=[0,l(vv,b(a[3])),g],i=[0,l(vw,b(a[2])),h],j=[0,l(vx,b(a[1])),i],c=[0,l(vz,ap(vy)),j];break;case
+f=[0,d(a[5]),0],g=[0,l(vy,cz(a[4])),f],h=[0,l(vz,b(a[3])),g],i=[0,l(vA,b(a[2])),h],j=[0,l(vB,b(a[1])),i],c=[0,l(vD,ap(vC)),j];break;case
 1:var
-k=[0,l(vA,b(a[2])),0],m=[0,l(vB,b(a[1])),k],c=[0,l(vD,ap(vC)),m];break;default:var
-n=[0,d(a[7]),0],o=[0,l(vE,cz(a[6])),n],p=[0,l(vF,cz(a[5])),o],q=[0,l(vG,b(a[4])),p],r=[0,l(vH,b(a[3])),q],s=[0,l(vI,b(a[2])),r],t=[0,l(vJ,b(a[1])),s],c=[0,l(vL,ap(vK)),t]}return ad(c)}function
-i0(a){switch(a){case
-0:return vM;case
-1:return vN;case
-2:return vO;case
-3:return vP;case
-4:return vQ;case
-5:return vR;case
-6:return vS;case
-7:return vT;case
-8:return vU;case
-9:return vV;case
-10:return vW;case
-11:return vX;case
-12:return vY;case
-13:return vZ;case
-14:return v0;default:return v1}}function
-i1(a){if(typeof
-a==="number")return v2;else
+k=[0,l(vE,b(a[2])),0],m=[0,l(vF,b(a[1])),k],c=[0,l(vH,ap(vG)),m];break;default:var
+n=[0,d(a[7]),0],o=[0,l(vI,cz(a[6])),n],p=[0,l(vJ,cz(a[5])),o],q=[0,l(vK,b(a[4])),p],r=[0,l(vL,b(a[3])),q],s=[0,l(vM,b(a[2])),r],t=[0,l(vN,b(a[1])),s],c=[0,l(vP,ap(vO)),t]}return ae(c)}function
+i1(a){switch(a){case
+0:return vQ;case
+1:return vR;case
+2:return vS;case
+3:return vT;case
+4:return vU;case
+5:return vV;case
+6:return vW;case
+7:return vX;case
+8:return vY;case
+9:return vZ;case
+10:return v0;case
+11:return v1;case
+12:return v2;case
+13:return v3;case
+14:return v4;default:return v5}}function
+i2(a){if(typeof
+a==="number")return v6;else
 switch(a[0]){case
-0:return v3;case
-1:return v4;default:return v5}}function
-fc(a){var
+0:return v7;case
+1:return v8;default:return v9}}function
+fd(a){var
 c=a[4];if(typeof
 c==="number")var
 d=0;else
 switch(c[0]){case
 0:var
-d=[0,l(v6,I(c[1])),0];break;case
+d=[0,l(v_,I(c[1])),0];break;case
 1:var
-d=[0,l(v7,I(c[1])),0];break;default:var
-n=[0,I(c[2]),0],d=[0,l(v8,D([0,I(c[1]),n])),0]}var
-o=[0,l(v9,ap(i1(a[4]))),d],h=a[3];if(h){var
+d=[0,l(v$,I(c[1])),0];break;default:var
+n=[0,I(c[2]),0],d=[0,l(wa,D([0,I(c[1]),n])),0]}var
+o=[0,l(wb,ap(i2(a[4]))),d],h=a[3];if(h){var
 b=h[1];switch(b[0]){case
 0:var
-q=D([0,I(b[1]),0]),j=a[1],p=0,r=6===j?v_:12===j?wc:wd,g=[0,l(v$,N(r,q)),p];break;case
+q=D([0,I(b[1]),0]),j=a[1],p=0,r=6===j?wc:12===j?wg:wh,g=[0,l(wd,N(r,q)),p];break;case
 1:var
-w=D(e(I,b[1])),m=a[1],v=0,x=14===m?we:15<=m?wg:wh,g=[0,l(wf,N(x,w)),v];break;case
+w=D(e(I,b[1])),m=a[1],v=0,x=14===m?wi:15<=m?wk:wl,g=[0,l(wj,N(x,w)),v];break;case
 2:var
-y=[0,l(wi,D([0,I(b[2]),0])),0],g=[0,l(wk,ad([0,l(wj,D([0,I(b[1]),0])),y])),0];break;default:var
-z=[0,l(wl,D([0,I(b[2]),0])),0],g=[0,l(wn,ad([0,l(wm,D([0,I(b[1]),0])),z])),0]}var
+y=[0,l(wm,D([0,I(b[2]),0])),0],g=[0,l(wo,ae([0,l(wn,D([0,I(b[1]),0])),y])),0];break;default:var
+z=[0,l(wp,D([0,I(b[2]),0])),0],g=[0,l(wr,ae([0,l(wq,D([0,I(b[1]),0])),z])),0]}var
 k=g}else
 var
 k=h;var
-s=f(k,o),i=a[2],t=i?[0,l(wa,cy(i[1])),0]:i,u=f(t,s);return ad([0,l(wb,ap(i0(a[1]))),u])}function
+s=f(k,o),i=a[2],t=i?[0,l(we,cy(i[1])),0]:i,u=f(t,s);return ae([0,l(wf,ap(i1(a[1]))),u])}function
 nI(a){if(0===a[0]){var
-b=[0,l(wo,gH(I,a[2])),0];return N(wq,ad([0,l(wp,gH(I,a[1])),b]))}var
-c=[0,I(a[5]),0],d=[0,l(wr,D([0,I(a[4]),c])),0],e=[0,l(ws,I(a[3])),d],f=[0,I(a[2]),0];return N(wu,ad([0,l(wt,D([0,I(a[1]),f])),e]))}function
+b=[0,l(ws,gH(I,a[2])),0];return N(wu,ae([0,l(wt,gH(I,a[1])),b]))}var
+c=[0,I(a[5]),0],d=[0,l(wv,D([0,I(a[4]),c])),0],e=[0,l(ww,I(a[3])),d],f=[0,I(a[2]),0];return N(wy,ae([0,l(wx,D([0,I(a[1]),f])),e]))}function
 nJ(a){if(0===a[0]){var
-b=[0,l(wv,D(e(I,a[2]))),0];return N(wx,ad([0,l(ww,D(e(I,a[1]))),b]))}return nI([1,a[1],a[2],a[3],a[4],a[5]])}function
+b=[0,l(wz,D(e(I,a[2]))),0];return N(wB,ae([0,l(wA,D(e(I,a[1]))),b]))}return nI([1,a[1],a[2],a[3],a[4],a[5]])}function
 nK(a){switch(a){case
-0:return wy;case
-1:return wz;default:return wA}}function
-wB(a){function
+0:return wC;case
+1:return wD;default:return wE}}function
+wF(a){function
 b(a){return D(e(cz,a))}var
-c=[0,l(wC,b(a[2])),0],d=[0,l(wD,b(a[1])),c];return ad([0,l(wF,ap(wE)),d])}function
+c=[0,l(wG,b(a[2])),0],d=[0,l(wH,b(a[1])),c];return ae([0,l(wJ,ap(wI)),d])}function
 nL(a){function
 b(b,a){var
 c=[0,I(a),0];return D([0,I(b),c])}switch(a[0]){case
-0:return N(wG,b(a[1],a[2]));case
+0:return N(wK,b(a[1],a[2]));case
 1:var
-c=a[3],d=a[2],e=a[1],f=[0,l(wH,b(c[1],c[2])),0],g=[0,l(wI,b(d[1],d[2])),f];return N(wK,ad([0,l(wJ,b(e[1],e[2])),g]));case
-2:return N(wL,I(a[1]));default:var
-h=[0,l(wM,I(a[2])),0];return N(wO,ad([0,l(wN,I(a[1])),h]))}}function
-wP(a){function
+c=a[3],d=a[2],e=a[1],f=[0,l(wL,b(c[1],c[2])),0],g=[0,l(wM,b(d[1],d[2])),f];return N(wO,ae([0,l(wN,b(e[1],e[2])),g]));case
+2:return N(wP,I(a[1]));default:var
+h=[0,l(wQ,I(a[2])),0];return N(wS,ae([0,l(wR,I(a[1])),h]))}}function
+wT(a){function
 b(a){return gH(I,a)}if(0===a[0])var
-c=a[5],e=c?[0,l(wQ,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(wR,D([0,I(a[3]),g])),0],i=[0,l(wS,I(a[2])),h],j=[0,l(wT,cy(a[1])),i],d=f([0,l(wV,ap(wU)),j],e);else
+c=a[5],e=c?[0,l(wU,b(c[1])),0]:c,g=[0,I(a[4]),0],h=[0,l(wV,D([0,I(a[3]),g])),0],i=[0,l(wW,I(a[2])),h],j=[0,l(wX,cy(a[1])),i],d=f([0,l(wZ,ap(wY)),j],e);else
 var
-k=[0,l(wW,I(a[4])),0],m=[0,l(wX,b(a[3])),k],n=[0,l(wY,b(a[2])),m],o=a[1]?wZ:w1,d=[0,l(w0,ap(o)),n];return ad(d)}function
+k=[0,l(w0,I(a[4])),0],m=[0,l(w1,b(a[3])),k],n=[0,l(w2,b(a[2])),m],o=a[1]?w3:w5,d=[0,l(w4,ap(o)),n];return ae(d)}function
 nM(a){var
-b=a?[0,l(w2,D(e(wP,a))),0]:a;return b}function
-i2(d,c,b,a){var
-g=[0,l(w3,D(e(fc,a))),0],h=f(nM(b),g),i=[0,l(w4,nI(c)),0];return ad(f([0,l(w6,N(w5,D(e(u_,d)))),i],h))}function
-w7(a){switch(a[0]){case
-0:return N(w8,i2(a[1],a[2],a[3],a[4]));case
+b=a?[0,l(w6,D(e(wT,a))),0]:a;return b}function
+i3(d,c,b,a){var
+g=[0,l(w7,D(e(fd,a))),0],h=f(nM(b),g),i=[0,l(w8,nI(c)),0];return ae(f([0,l(w_,N(w9,D(e(vc,d)))),i],h))}function
+w$(a){switch(a[0]){case
+0:return N(xa,i3(a[1],a[2],a[3],a[4]));case
 1:var
-b=a[5],c=a[3],d=a[1],g=D(e(vq,a[2])),m=[0,l(w9,D(e(fc,a[6]))),0],n=b?[0,l(w_,nL(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(w$,nJ(a[4])),o];if(typeof
+b=a[5],c=a[3],d=a[1],g=D(e(vu,a[2])),m=[0,l(xb,D(e(fd,a[6]))),0],n=b?[0,l(xc,nL(b[1])),0]:b,o=f(n,m),k=0,p=[0,l(xd,nJ(a[4])),o];if(typeof
 d==="number")if(d)var
-h=xa;else{var
-i=N(xf,g);k=1}else
+h=xe;else{var
+i=N(xj,g);k=1}else
 var
 h=nK(d[1]);if(!k)var
-q=c?[0,l(xb,I(c[1])),0]:c,i=N(h,ad([0,l(xc,g),q]));return N(xe,ad([0,l(xd,i),p]));case
+q=c?[0,l(xf,I(c[1])),0]:c,i=N(h,ae([0,l(xg,g),q]));return N(xi,ae([0,l(xh,i),p]));case
 2:var
-r=[0,l(xg,D(e(fc,a[7]))),0],s=f(nM(a[6]),r),t=[0,l(xh,nL(a[5])),0],u=[0,l(xi,nJ(a[4])),t],v=[0,l(xj,I(a[3])),0],w=ad([0,l(xk,D(e(wB,a[2]))),v]);return N(xm,ad(f([0,l(xl,N(nK(a[1]),w)),u],s)));case
+r=[0,l(xk,D(e(fd,a[7]))),0],s=f(nM(a[6]),r),t=[0,l(xl,nL(a[5])),0],u=[0,l(xm,nJ(a[4])),t],v=[0,l(xn,I(a[3])),0],w=ae([0,l(xo,D(e(wF,a[2]))),v]);return N(xq,ae(f([0,l(xp,N(nK(a[1]),w)),u],s)));case
 3:var
-x=[0,l(xn,D(e(fc,a[7]))),0],y=[0,l(xo,D(e(I,a[6]))),0],z=[0,l(xr,N(xq,ad([0,l(xp,D(e(I,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(xu,D(e(function(a){return 0===a[0]?N(xs,D(e(iZ,a[1]))):N(xt,iZ(a[1]))},B))),A],E=a[3],F=[0,l(xv,D(e(function(a){var
-b=[0,iZ(a[2]),0];return D([0,ap(a[1]),b])},E))),C],G=a[2],H=[0,l(xw,D(e(function(a){var
-b=[0,cz(a[2]),0];return D([0,ap(a[1]),b])},G))),F];return N(xA,ad([0,l(xz,N(xy,ad([0,l(xx,D(e(ap,a[1]))),H]))),z]));case
+x=[0,l(xr,D(e(fd,a[7]))),0],y=[0,l(xs,D(e(I,a[6]))),0],z=[0,l(xv,N(xu,ae([0,l(xt,D(e(I,a[5]))),y]))),x],A=0,B=a[4],C=[0,l(xy,D(e(function(a){return 0===a[0]?N(xw,D(e(i0,a[1]))):N(xx,i0(a[1]))},B))),A],E=a[3],F=[0,l(xz,D(e(function(a){var
+b=[0,i0(a[2]),0];return D([0,ap(a[1]),b])},E))),C],G=a[2],H=[0,l(xA,D(e(function(a){var
+b=[0,cz(a[2]),0];return D([0,ap(a[1]),b])},G))),F];return N(xE,ae([0,l(xD,N(xC,ae([0,l(xB,D(e(ap,a[1]))),H]))),z]));case
 4:var
-J=[0,l(xB,D(e(fc,a[3]))),0],K=[0,l(xE,N(xD,ad([0,l(xC,I(a[2])),0]))),J];return N(xI,ad([0,l(xH,N(xG,ad([0,l(xF,I(a[1])),0]))),K]));case
+J=[0,l(xF,D(e(fd,a[3]))),0],K=[0,l(xI,N(xH,ae([0,l(xG,I(a[2])),0]))),J];return N(xM,ae([0,l(xL,N(xK,ae([0,l(xJ,I(a[1])),0]))),K]));case
 5:var
-L=[0,l(xJ,I(a[5])),0];return N(xL,ad([0,l(xK,i2(a[1],[0,a[2],a[3]],0,a[4])),L]));case
+L=[0,l(xN,I(a[5])),0];return N(xP,ae([0,l(xO,i3(a[1],[0,a[2],a[3]],0,a[4])),L]));case
 6:var
-j=a[1],M=0,O=j?cz(j[1]):ap(xO);return N(xN,ad([0,l(xM,O),M]));default:var
-P=[0,l(xP,I(a[6])),0],Q=[0,l(xQ,I(a[5])),P],R=[0,l(xR,i2(a[2],a[3],0,a[4])),Q],S=a[1];return N(xW,ad([0,l(xV,D(e(function(a){var
-b=[0,l(xS,I(a[2][2])),0],c=[0,l(xT,I(a[2][1])),b];return ad([0,l(xU,ap(a[1])),c])},S))),R]))}}function
-ei(a){return D(e(e$,a))}function
-fd(b,a){var
-c=[0,l(xX,fa(a)),0];return ad([0,l(xY,D(e(ei,b))),c])}function
+j=a[1],M=0,O=j?cz(j[1]):ap(xS);return N(xR,ae([0,l(xQ,O),M]));default:var
+P=[0,l(xT,I(a[6])),0],Q=[0,l(xU,I(a[5])),P],R=[0,l(xV,i3(a[2],a[3],0,a[4])),Q],S=a[1];return N(x0,ae([0,l(xZ,D(e(function(a){var
+b=[0,l(xW,I(a[2][2])),0],c=[0,l(xX,I(a[2][1])),b];return ae([0,l(xY,ap(a[1])),c])},S))),R]))}}function
+ei(a){return D(e(fa,a))}function
+fe(b,a){var
+c=[0,l(x1,fb(a)),0];return ae([0,l(x2,D(e(ei,b))),c])}function
 ej(a){switch(a[0]){case
 0:return ap(a[1]);case
 1:var
-b=fd(a[2],a[3]);return N(a[1],b);case
+b=fe(a[2],a[3]);return N(a[1],b);case
 2:var
-c=a[1]?xZ:x1;return N(x0,ap(c));case
+c=a[1]?x3:x5;return N(x4,ap(c));case
 3:var
-d=[0,ei(a[3]),0];return N(x2,D([0,fd(a[1],a[2]),d]));case
+d=[0,ei(a[3]),0];return N(x6,D([0,fe(a[1],a[2]),d]));case
 4:var
-f=[0,fa(a[4]),0],g=[0,e$(a[3]),f];return N(x3,D([0,fd(a[1],a[2]),g]));case
+f=[0,fb(a[4]),0],g=[0,fa(a[3]),f];return N(x7,D([0,fe(a[1],a[2]),g]));case
 5:var
-h=[0,fa(a[3]),0],i=[0,e$(a[2]),h];return N(x4,D([0,ej(a[1]),i]));case
+h=[0,fb(a[3]),0],i=[0,fa(a[2]),h];return N(x8,D([0,ej(a[1]),i]));case
 6:var
-j=[0,fa(a[3]),0],k=[0,e$(a[2]),j];return N(x5,D([0,ej(a[1]),k]));case
-7:return N(x6,ej(a[1]));case
+j=[0,fb(a[3]),0],k=[0,fa(a[2]),j];return N(x9,D([0,ej(a[1]),k]));case
+7:return N(x_,ej(a[1]));case
 8:var
-l=[0,D(e(ei,a[3])),0],m=[0,ap(a[2]),l];return N(x7,D([0,ej(a[1]),m]));default:var
-n=a[1];return N(x8,D(e(function(a){var
-b=a[1],c=b[1],d=[0,ej(a[2]),0],e=[0,fa(b[2]),d],f=[0,e$(c[2]),e];return D([0,ei(c[1]),f])},n)))}}function
-x9(a){var
+l=[0,D(e(ei,a[3])),0],m=[0,ap(a[2]),l];return N(x$,D([0,ej(a[1]),m]));default:var
+n=a[1];return N(ya,D(e(function(a){var
+b=a[1],c=b[1],d=[0,ej(a[2]),0],e=[0,fb(b[2]),d],f=[0,fa(c[2]),e];return D([0,ei(c[1]),f])},n)))}}function
+yb(a){var
 b=[0,ej(a[2]),0];return D([0,cy(a[1]),b])}function
 nN(a){if(typeof
-a==="number")return 0===a?ap(x_):ap(x$);else
+a==="number")return 0===a?ap(yc):ap(yd);else
 switch(a[0]){case
 0:var
-b=[0,D(e(ei,a[2])),0];return N(ya,D([0,cy(a[1]),b]));case
+b=[0,D(e(ei,a[2])),0];return N(ye,D([0,cy(a[1]),b]));case
 1:var
-c=[0,cy(a[2]),0];return N(yb,D([0,cy(a[1]),c]));case
-2:return N(yc,D(e(I,a[1])));default:var
-d=[0,l(yd,fd(a[4],a[5])),0],f=[0,l(ye,D(e(I,a[3]))),d],g=[0,l(yf,D(e(I,a[2]))),f];return N(yh,ad([0,l(yg,cy(a[1])),g]))}}function
-yi(a){var
-b=a[4],h=b?[0,l(yj,ei([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(yk,nN(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(yl,cy(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(ym,D(e(x9,[0,c[1],c[2]]))),0]:c;return ad(f(n,m))}function
+c=[0,cy(a[2]),0];return N(yf,D([0,cy(a[1]),c]));case
+2:return N(yg,D(e(I,a[1])));default:var
+d=[0,l(yh,fe(a[4],a[5])),0],f=[0,l(yi,D(e(I,a[3]))),d],g=[0,l(yj,D(e(I,a[2]))),f];return N(yl,ae([0,l(yk,cy(a[1])),g]))}}function
+ym(a){var
+b=a[4],h=b?[0,l(yn,ei([0,b[1],b[2]])),0]:b,d=a[3],i=d?[0,l(yo,nN(d[1])),0]:d,j=f(i,h),g=a[2],k=g?[0,l(yp,cy(g[1])),0]:g,m=f(k,j),c=a[1],n=c?[0,l(yq,D(e(yb,[0,c[1],c[2]]))),0]:c;return ae(f(n,m))}function
 nO(g,a,d){var
-h=[0,l(yn,D(e(yi,d))),0];if(a)var
-b=a[1],c=[0,l(yo,fd(b[1],b[2])),0];else
+h=[0,l(yr,D(e(ym,d))),0];if(a)var
+b=a[1],c=[0,l(ys,fe(b[1],b[2])),0];else
 var
 c=a;var
-i=f(c,h);return ad([0,l(yp,iX(g)),i])}function
+i=f(c,h);return ae([0,l(yt,iY(g)),i])}function
 nP(d,c,a,b){var
-g=[0,l(yq,nN(b)),0],h=a?[0,l(yr,D(e(I,a))),0]:a,i=f(h,g),j=[0,l(ys,D(e(I,c))),0];return ad(f([0,l(yt,iX(d)),j],i))}function
-yu(a){if(typeof
-a==="number")return ap(yv);else
+g=[0,l(yu,nN(b)),0],h=a?[0,l(yv,D(e(I,a))),0]:a,i=f(h,g),j=[0,l(yw,D(e(I,c))),0];return ae(f([0,l(yx,iY(d)),j],i))}function
+yy(a){if(typeof
+a==="number")return ap(yz);else
 switch(a[0]){case
-0:return N(yw,cy(a[1]));case
-1:return N(yx,nO(a[1],a[2],a[3]));default:return N(yy,nP(a[1],a[2],a[3],a[4]))}}function
+0:return N(yA,cy(a[1]));case
+1:return N(yB,nO(a[1],a[2],a[3]));default:return N(yC,nP(a[1],a[2],a[3],a[4]))}}function
 gI(a){var
-b=hu(ht(av(a),function(b){return aY(a,b)}));return m(function(a){var
-b=T(34===a?1:0),c=b?T(92===a?1:0):b,d=c?Y(yN,fQ(a)):c;return d?Y(fQ(a),yO):d},b)}function
+b=hv(hu(au(a),function(b){return aY(a,b)}));return m(function(a){var
+b=T(34===a?1:0),c=b?T(92===a?1:0):b,d=c?Y(yR,fQ(a)):c;return d?Y(fQ(a),yS):d},b)}function
 nQ(c){var
 a=c;for(;;)switch(a[0]){case
 8:var
@@ -5719,31 +5750,31 @@ d=a[1];return m(function(a){return nQ(a[2])},d);case
 6:case
 7:var
 a=a[1];continue;default:return 1}}function
-fe(b){function
+ff(b){function
 c(f){var
-a=fQ(f),b=Y(yP,a),c=b?Y(a,yQ):b;if(c)var
+a=fQ(f),b=Y(yT,a),c=b?Y(a,yU):b;if(c)var
 d=c;else{var
-e=Y(yR,a);if(e)return Y(a,yS);var
+e=Y(yV,a);if(e)return Y(a,yW);var
 d=e}return d}var
-a=hu(ht(av(b),function(a){return aY(b,a)}));if(a){var
+a=hv(hu(au(b),function(a){return aY(b,a)}));if(a){var
 d=a[2],e=c(a[1]),f=e?m(function(a){var
 b=c(a);if(b)var
 d=b;else
 var
-e=fQ(a),f=Y(yT,e),h=f?Y(e,yU):f,d=h;var
-g=d||(95===a?1:0);return g},d):e,h=f?Y(g(d),yV):f;if(h)return T(aw(b,yW));var
+e=fQ(a),f=Y(yX,e),h=f?Y(e,yY):f,d=h;var
+g=d||(95===a?1:0);return g},d):e,h=f?Y(g(d),yZ):f;if(h)return T(aw(b,y0));var
 i=h}else
 var
 i=a;return i}function
-i3(c){var
+i4(c){var
 a=c;for(;;)switch(a[0]){case
 0:return 1;case
-1:return fe(a[1]);case
+1:return ff(a[1]);case
 3:var
-b=i3(a[2]);if(b){var
+b=i4(a[2]);if(b){var
 a=a[3];continue}return b;default:var
 a=a[1];continue}}function
-ff(m){var
+fg(m){var
 a=m;for(;;)switch(a[0]){case
 0:var
 e=a[1];if(typeof
@@ -5761,20 +5792,20 @@ var
 g=d;return g;case
 1:return 1;case
 3:var
-i=ff(a[2]);if(i){var
+i=fg(a[2]);if(i){var
 a=a[3];continue}return i;case
 4:var
-j=a[2],k=ff(a[1]),l=k?fM(c(2,b),j):k;return l?fM(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
+j=a[2],k=fg(a[1]),l=k?fM(c(2,b),j):k;return l?fM(j,c(2,c(2,c(2,c(2,c(2,c(2,b))))))):l;default:var
 a=a[1];continue}}function
 ek(a){return 0===a[0]?[0,a[1],0]:[0,a[1],[0,a[2],0]]}function
 bS(a){return[0,a[1],[0,a[2],[0,a[3],0]]]}function
 dq(a){return x(ek,bS(a))}function
-i4(a){switch(a[0]){case
+i5(a){switch(a[0]){case
 0:var
 c=ek(a[4]),d=f(dq(a[3]),c),e=f(dq(a[2]),d);return f(dq(a[1]),e);case
 1:var
 b=a[3],g=b?dq(b[1]):b,h=f(dq(a[2]),g);return f(dq(a[1]),h);default:return dq(a[1])}}function
-yX(a){switch(a[0]){case
+y1(a){switch(a[0]){case
 0:var
 c=f(a[3],[0,a[4],0]),d=f(a[2],c),b=f(a[1],d);break;case
 1:var
@@ -5812,8 +5843,8 @@ f=c[1];return ak(function(a){return aw(f,a)},b)}return 0;case
 d=nV(b,a[2]);if(d){var
 a=a[3];continue}return d;default:var
 a=a[1];continue}}function
-fg(c,a){return m(function(a){var
-b=ff(a);return b?nV(c,a):b},a)}function
+fh(c,a){return m(function(a){var
+b=fg(a);return b?nV(c,a):b},a)}function
 nW(a){if(typeof
 a!=="number")switch(a[0]){case
 2:return a[1];case
@@ -5834,13 +5865,13 @@ g=j(a[2]),h=j(a[3]);switch(a[1]){case
 1:return[3,g,h];case
 2:return[4,g,h];default:return[5,g,h]}case
 4:var
-n=bs(eI(a[2]));return nY(j(a[1]),n);default:return[6,j(a[1])]}}function
+n=bs(eJ(a[2]));return nY(j(a[1]),n);default:return[6,j(a[1])]}}function
 bT(a){if(0===a[0]){var
 b=j(a[1]);return[0,b,b]}var
 c=j(a[2]);return[0,j(a[1]),c]}function
 ds(a){var
 b=bT(a[3]),c=bT(a[2]);return[0,bT(a[1]),c,b]}function
-yY(a){switch(a[0]){case
+y2(a){switch(a[0]){case
 0:var
 b=a[5],c=bT(a[4]),d=ds(a[3]),e=ds(a[2]);return[0,[0,ds(a[1]),e,d,c,b]];case
 1:var
@@ -5859,10 +5890,10 @@ o=el(f),p=el(g);return[1,j(e),p,o]}function
 gJ(b,a){if(a){var
 c=a[1],d=a[2],g=gJ(f(b,[0,c,0]),d),h=e(function(a){return[0,c,a]},b);return f(bk(function(c){var
 a=c[2],b=c[1],d=0===b[0]?b[5]?0:0===a[0]?a[5]?0:r(b[1],a[1]):0:0===a[0]?0:cj(b[1],a[1]);return T(d)},h),g)}return a}function
-yZ(b){if(b[1])return 0;var
+y3(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
-y0(N,M,a){switch(a[1]){case
+y4(N,M,a){switch(a[1]){case
 0:var
 g=a[4];if(typeof
 g!=="number"&&0===g[0])return[0,[1,j(g[1])],0];return 0;case
@@ -5934,15 +5965,15 @@ $=x[2],aa=x[1],c=function(a){var
 b=j(_),c=j($);return[12,a,j(aa),c,b]}}if(L)return 0;break;case
 11:var
 G=typeof
-a[4]==="number"?1:0,ab=G?y1:G;return ab;case
+a[4]==="number"?1:0,ab=G?y5:G;return ab;case
 12:var
 y=a[4];if(typeof
 y!=="number"&&1===y[0]){var
 z=a[3];if(z){var
 H=z[1];if(0===H[0]){var
 ac=j(y[1]);return[0,[14,j(H[1]),ac],0]}return 0}return z}return 0;default:return 0}var
-B=a[2],P=B?[0,bs(B[1]),0]:az(0,N);return e(c,P)}function
-y2(c,a){switch(a[1]){case
+B=a[2],P=B?[0,bs(B[1]),0]:aA(0,N);return e(c,P)}function
+y6(c,a){switch(a[1]){case
 0:var
 l=a[4];if(typeof
 l!=="number"&&2!==l[0])return a[2]?0:a[3]?0:1;return 0;case
@@ -5986,7 +6017,7 @@ z!=="number"&&0===z[0])return a[2]?0:a[3]?0:1;return 0;case
 N=0,A=a[4];if(typeof
 A==="number"||!(1===A[0]))N=1;else{var
 h=a[3];if(!h)return h;if(0!==h[1][0])return 0;var
-B=r(c,y4),O=0;if(B){var
+B=r(c,y8),O=0;if(B){var
 C=a[2];if(C){var
 b=C[1];O=1}else
 var
@@ -6012,19 +6043,19 @@ I=H;return I;case
 12:var
 J=a[4];if(typeof
 J!=="number"&&1===J[0]){if(a[2])return 0;var
-k=a[3];return k?0===k[1][0]?r(c,y5):0:k}return 0;default:return 0}var
-o=Y(y3,b);return o?Y(b,c):o}function
-i5(d,c,b){var
-e=x(function(a){return y0(d,c,a)},b),a=x(yZ,b),g=a?[0,a[1],a[2]]:y6;return f(g,e)}function
-i6(a,d,c,b){var
-f=i5(g(a),c,b),h=nZ(d);return[0,e(yY,a),h,f]}function
+k=a[3];return k?0===k[1][0]?r(c,y9):0:k}return 0;default:return 0}var
+o=Y(y7,b);return o?Y(b,c):o}function
+i6(d,c,b){var
+e=x(function(a){return y4(d,c,a)},b),a=x(y3,b),g=a?[0,a[1],a[2]]:y_;return f(g,e)}function
+i7(a,d,c,b){var
+f=i6(g(a),c,b),h=nZ(d);return[0,e(y2,a),h,f]}function
 n0(b){if(b[1])return 0;var
 a=b[4];if(typeof
 a!=="number"&&1===a[0])return[0,[0,j(a[1])],0];return 0}function
 n1(c){function
 a(a){return q(a,e(j,c),[0,d,b])}var
-f=a(y7),g=a(y8);return[0,a(0),g,f]}function
-i7(S,C,R,a){switch(a[1]){case
+f=a(y$),g=a(za);return[0,a(0),g,f]}function
+i8(S,C,R,a){switch(a[1]){case
 0:var
 d=a[4];if(typeof
 d!=="number"&&0===d[0])return[0,[1,j(d[1])],0];return 0;case
@@ -6112,9 +6143,9 @@ B=a[3],ao=A[1];if(!B)return B;var
 J=B[1];if(1!==J[0])return 0;var
 ap=J[1],b=function(a){var
 b=j(ao);return[13,a,1,n1(ap),b]}}if(Q)return 0;break;default:return 0}var
-D=a[2],U=D?[0,bs(D[1]),0]:az(0,C);return e(b,U)}function
+D=a[2],U=D?[0,bs(D[1]),0]:aA(0,C);return e(b,U)}function
 dt(e,d,c,b){var
-g=x(function(a){return i7(e,d,c,a)},b),a=x(n0,b),h=a?[0,a[1],a[2]]:y9;return f(h,g)}function
+g=x(function(a){return i8(e,d,c,a)},b),a=x(n0,b),h=a?[0,a[1],a[2]]:zb;return f(h,g)}function
 em(a){return 11===a[1]?1:0}function
 ca(n,m,a){var
 b=a[1];if(!(4<=b))switch(b){case
@@ -6128,7 +6159,7 @@ e=1;l=1}if(!l)var
 e=0;var
 f=cj(n,e);if(f){var
 g=a[2];if(g){var
-h=g[1],i=Y(y_,h);return i?Y(h,m):i}var
+h=g[1],i=Y(zc,h);return i?Y(h,m):i}var
 j=1}else
 var
 j=f;return j;case
@@ -6137,7 +6168,7 @@ k=a[4];if(typeof
 k!=="number"&&1===k[0])return a[2]?0:a[3]?0:1;return 0}return 0}function
 bz(s,b,a){var
 d=a[2];if(d)var
-e=d[1],f=Y(y$,e),t=f?Y(e,b):f,c=t;else
+e=d[1],f=Y(zd,e),t=f?Y(e,b):f,c=t;else
 var
 c=1;var
 h=a[1];if(!(9<=h))switch(h){case
@@ -6164,7 +6195,7 @@ aN(c,b,a){return 11===a[1]?typeof
 a[4]==="number"?a[2]?bz(c,b,a):a[3]?bz(c,b,a):1:bz(c,b,a):bz(c,b,a)}function
 n2(f,c,b,a){var
 g=a[2];if(g)var
-h=g[1],i=Y(zb,h),s=i?Y(h,b):i,d=s;else
+h=g[1],i=Y(zf,h),s=i?Y(h,b):i,d=s;else
 var
 d=1;switch(a[1]){case
 1:if(a[3])return bz(bh(c),b,a);if(d){var
@@ -6200,15 +6231,15 @@ b=c3(a[2]),c=c3(a[3]);switch(a[1]){case
 2:return[5,b,c];default:return[6,b,c]}case
 4:var
 d=a[2];return[7,c3(a[1]),d];default:return[8,c3(a[1])]}}function
-i8(i,h,f,b,d,c,a){var
+i9(i,h,f,b,d,c,a){var
 k=ak(em,a),l=dt(0,g(b),0,a),m=ag(d,c),n=e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},m),o=e(function(a){return 0===a[0]?[0,e(c3,a[1])]:[1,c3(a[1])]},b),p=e(function(a){var
 b=c3(a[2]);return[0,a[1],b]},f);return[0,[0,i,e(function(a){var
 b=bT(a[2]);return[0,a[1],b]},h),p,o],n,l,k]}function
-i9(c){function
+i_(c){function
 a(e){var
 a=[0,d,b];return q(e,c,[0,a,a])}var
-e=a(zc),f=a(zd);return[0,a(0),f,e]}function
+e=a(zg),f=a(zh);return[0,a(0),f,e]}function
 du(a){function
 b(a){var
 b=j(a[2]);return[0,j(a[1]),b]}switch(a[0]){case
@@ -6218,16 +6249,16 @@ c=b(a[3]),d=b(a[2]);return[1,b(a[1]),d,c];case
 2:return[2,j(a[1])];default:var
 e=j(a[2]);return[3,j(a[1]),e]}}function
 n3(a){if(0===a[0]){var
-b=ag(a[1],a[2]);return[0,i9(e(function(a){var
+b=ag(a[1],a[2]);return[0,i_(e(function(a){var
 b=j(a[2]);return[0,j(a[1]),b]},b))]}return nZ([1,a[1],a[2],a[3],a[4],a[5]])}function
 n4(k,b,i,h,f,d,a){function
-c(a){return i9(e(bT,a))}var
+c(a){return i_(e(bT,a))}var
 l=ak(em,a),m=dt(0,g(b),d,a),n=du(f),o=n3(h),p=j(i);return[0,k,e(function(a){var
 b=c(a[2]);return[0,c(a[1]),b]},b),p,o,n,m,l]}function
 gK(a){return ak(function(a){return 2===a[0]?1:0},a)}function
 n5(k,a,c,i,h,f){var
 l=g(a),m=dt(gK(a),l,0,f),n=y(du,h),o=n3(i),p=c?j(c[1]):[0,b,b];return[0,k,e(function(a){function
-c(a){return i9(e(bT,a))}switch(a[0]){case
+c(a){return i_(e(bT,a))}switch(a[0]){case
 0:var
 k=a[5],l=bT(a[4]),m=c(a[3]),n=c(a[2]);return[0,[0,[0,c(a[1]),n,m,l,k]]];case
 1:var
@@ -6269,26 +6300,26 @@ c(b,a){return[3,1,b,a]}function
 a(b,a){return[3,3,b,a]}function
 d(b,a){return[3,2,b,a]}function
 e(b,a){return[3,0,b,a]}var
-f=c(gM,a(gM,b)),j=a(f,i_),k=i?f:a(c(b,gM),i_);function
-g(b){return a(b,[5,e(gM,d(i_,d(b,b)))])}var
+f=c(gM,a(gM,b)),j=a(f,i$),k=i?f:a(c(b,gM),i$);function
+g(b){return a(b,[5,e(gM,d(i$,d(b,b)))])}var
 l=g(k);return a(h,e(g(j),l))}function
 gN(f,e,d){function
 a(b,a){return[3,3,b,a]}function
 b(b,a){return[3,2,b,a]}var
-c=a([3,1,i$,a(i$,d)],n9),g=a(c,[5,[3,0,i$,b(n9,b(c,c))]]);return[2,b(gL(f,e,d),g)]}function
-ja(e,g,a){function
+c=a([3,1,ja,a(ja,d)],n9),g=a(c,[5,[3,0,ja,b(n9,b(c,c))]]);return[2,b(gL(f,e,d),g)]}function
+jb(e,g,a){function
 f(b,a){return[3,1,b,a]}function
 b(b,a){return[3,3,b,a]}function
 c(b,a){return[3,2,b,a]}var
 h=f(gO,b(gO,a)),d=e?h:b(f(a,gO),n_),i=b(d,[5,[3,0,gO,c(n_,c(d,d))]]);return c(gL(e,g,a),i)}function
 n$(c,g,b,a){function
 d(b,a){return e(function(c){var
-d=r(b,c)?a:ze;return[0,d]},zg)}return e(function(e){var
+d=r(b,c)?a:zi;return[0,d]},zk)}return e(function(e){var
 j=[0,gL(c,b,a)],i=1,k=d(e,[2,g]);function
 f(b,a){return[3,1,b,a]}var
-h=gL(c,b,a),l=d(e,f(f(gN(c,b,a),g),h));return[0,d(e,zf),l,k,j,i]},zh)}function
+h=gL(c,b,a),l=d(e,f(f(gN(c,b,a),g),h));return[0,d(e,zj),l,k,j,i]},zl)}function
 oa(c,b,a){var
-d=[0,ja(c,b,a),0],e=[0,ja(c,b,a),d],f=[0,ja(c,b,a),e],g=[0,gN(c,b,a),0],h=[0,gN(c,b,a),g];return[0,[0,gN(c,b,a),h],f]}function
+d=[0,jb(c,b,a),0],e=[0,jb(c,b,a),d],f=[0,jb(c,b,a),e],g=[0,gN(c,b,a),0],h=[0,gN(c,b,a),g];return[0,[0,gN(c,b,a),h],f]}function
 ob(o,e,a){if(e)if(a){var
 g=e[1],h=a[1],k=cr(j(g[2][1]));if(k){var
 l=k[1],m=cr(j(g[2][2]));if(m)var
@@ -6316,13 +6347,13 @@ f=ar(b,a[3]),g=ar(b,a[2]);return[3,a[1],g,f];case
 h=a[2];return[4,ar(b,a[1]),h];default:return[5,ar(b,a[1])]}}function
 oc(b,a){if(0===a[0])return[0,ar(b,a[1])];var
 c=ar(b,a[2]);return[1,ar(b,a[1]),c]}function
-jb(b,a){var
+jc(b,a){var
 c=i(b,a[3]),d=i(b,a[2]);return[0,i(b,a[1]),d,c]}function
-jc(c,a){if(c)if(a){var
+jd(c,a){if(c)if(a){var
 g=a[2],b=a[1],h=c[1];if(typeof
 b!=="number"&&0===b[0]){var
-e=jc(h,g);if(e){var
-i=e[1],f=jc(h,i[2]);if(f)var
+e=jd(h,g);if(e){var
+i=e[1],f=jd(h,i[2]);if(f)var
 j=f[1],k=[0,[0,[0,b[1],i[1],j[1]],j[2]]];else
 var
 k=f;var
@@ -6334,14 +6365,14 @@ var
 d=a;else
 var
 d=c;return d}function
-jd(g,f,a){if(a){var
-e=a[1],h=a[2];if(f)return[0,e,jd(g,f[1],h)];var
+je(g,f,a){if(a){var
+e=a[1],h=a[2];if(f)return[0,e,je(g,f[1],h)];var
 j=[0,e[2]],k=g?b:d,l=e[1],i=[0,[0,C(A(c(2,b),l),k),j],h]}else
 var
 i=a;return i}function
-zi(a){if(typeof
+zm(a){if(typeof
 a!=="number"&&1===a[0])return 1;return 0}function
-zj(a){if(typeof
+zn(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}function
 gP(e,a){if(0===a[0]){var
 f=[0,b,c(2,b)],g=gP(e,a[3]);return a0(c_(gP(e,a[2]),g),f)}return i(e,a[1])?[0,b,b]:[0,d,b]}function
@@ -6360,24 +6391,24 @@ a=x(od,c),d=a?[0,a[1],a[2]]:x(oe,c);return C(b,bx(d))}function
 of(d,a){if(d){if(a){var
 b=a[1],g=d[1],e=of(d[2],a[2]);if(e){var
 h=e[1],i=h[2],j=h[1];if(45===b)var
-c=zk;else
+c=zo;else
 if(43===b)var
-c=zl;else
+c=zp;else
 var
-f=48===b?1:0,n=f?zm:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
+f=48===b?1:0,n=f?zq:f,c=n;if(c)return[0,[0,[0,[0,g,c[1]],j],i]];var
 k=49===b?1:0,o=k?[0,[0,j,[0,g,i]]]:k,l=o}else
 var
 l=e;var
 m=l}else
 var
-m=a;return m}return a?0:zn}function
+m=a;return m}return a?0:zr}function
 en(b,c,a){switch(a[0]){case
 0:var
-d=a[1];if(aw(d,zo))return zp;if(aw(d,zq))return zr;if(aw(d,zs))return zt;if(aw(d,zu))return zv;if(aw(d,zw))return zx;var
-l=aw(d,zy),x=l?zz:l;return x;case
+d=a[1];if(aw(d,zs))return zt;if(aw(d,zu))return zv;if(aw(d,zw))return zx;if(aw(d,zy))return zz;if(aw(d,zA))return zB;var
+l=aw(d,zC),x=l?zD:l;return x;case
 1:var
-e=a[3],f=a[2],g=a[1];if(aw(g,zA))return[0,[0,e,f]];if(aw(g,zB))return[0,[1,e,f]];if(aw(g,zC))return[0,[2,e,f]];var
-m=aw(g,zD),z=m?[0,[8,e,f]]:m;return z;case
+e=a[3],f=a[2],g=a[1];if(aw(g,zE))return[0,[0,e,f]];if(aw(g,zF))return[0,[1,e,f]];if(aw(g,zG))return[0,[2,e,f]];var
+m=aw(g,zH),z=m?[0,[8,e,f]]:m;return z;case
 2:return[0,[4,a[1]]];case
 3:return[0,[3,a[2],a[1],a[3]]];case
 4:return[0,[9,a[2],a[1],a[3],a[4]]];case
@@ -6389,7 +6420,7 @@ i=en(b,c,a[1]),B=i?[0,[7,i[1],a[2],a[3]]]:i;return B;case
 C=en(b,c,a[1]);return y(function(a){return[6,a]},C);case
 8:if(b){var
 n=a[3],o=a[2],j=en(b,c,a[1]);if(j){var
-p=j[1],k=of(b,hu(ht(av(o),function(a){return aY(o,a)})));if(k){var
+p=j[1],k=of(b,hv(hu(au(o),function(a){return aY(o,a)})));if(k){var
 q=k[1],r=q[2],s=q[1];if(r)return[0,[11,c,r,[10,p,s,n]]];var
 t=[0,[10,p,s,n]]}else
 var
@@ -6404,12 +6435,12 @@ w=function(a){if(a){var
 f=a[1],d=en(b,c,f[2]);if(d)var
 e=w(a[2]),h=e?[0,[0,[0,f[1],d[1]],e[1]]]:e,g=h;else
 var
-g=d;return g}return zE},D=w(a[1]);return y(function(a){return[12,a]},D)}}function
+g=d;return g}return zI},D=w(a[1]);return y(function(a){return[12,a]},D)}}function
 og(e,d,a){if(a){var
 f=a[1],b=en(e,d,f[2]);if(b)var
 c=og(e,d,a[2]),h=c?[0,[0,[0,f[1],b[1]],c[1]]]:c,g=h;else
 var
-g=b;return g}return zF}function
+g=b;return g}return zJ}function
 dv(b,g,f,e,d,a){if(d)if(a){var
 c=a[1];if(c[3])return 0;if(c[4])return 0;var
 n=c[2],o=a[2],p=d[1],h=og(f,e,c[1]);if(h){var
@@ -6431,23 +6462,23 @@ var
 m=a;else
 var
 m=d;return m}function
-je(i,h,f,e,d,a){if(d){if(a){var
+jf(i,h,f,e,d,a){if(d){if(a){var
 b=dv(i,h,f,e,g(a),a);if(b)var
-j=b[1],c=je(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
+j=b[1],c=jf(i,h,f,e,d[1],j[2]),l=c?[0,[0,j[1],c[1]]]:c,k=l;else
 var
-k=b;return k}return zG}return a?0:zH}function
+k=b;return k}return zK}return a?0:zL}function
 oh(a){if(typeof
-a==="number")return 0===a?zI:zJ;else
+a==="number")return 0===a?zM:zN;else
 switch(a[0]){case
 0:return[0,[0,a[1],a[2]]];case
 1:return[0,[1,a[1],a[2]]];default:return 0}}function
-jf(e,d,a){if(d)if(a){var
+jg(e,d,a){if(d)if(a){var
 b=a[1];if(b[1])return 0;var
 j=b[4],c=b[3],k=b[2],l=a[2],m=d[1];if(k){if(c)return 0;if(j)return 0;var
-f=k[1],g=jf(e,m,l);if(g){var
-n=g[1],o=n[1],h=jf(e,m,n[2]);if(h){var
-p=h[1],q=p[2],r=p[1];if(aV(f,zK))return[0,[0,[1,f,o,r],q]];var
-t=F(e,dL(f,zL));return y(function(a){return[0,[2,a,o,r],q]},t)}var
+f=k[1],g=jg(e,m,l);if(g){var
+n=g[1],o=n[1],h=jg(e,m,n[2]);if(h){var
+p=h[1],q=p[2],r=p[1];if(aV(f,zO))return[0,[0,[1,f,o,r],q]];var
+t=F(e,dL(f,zP));return y(function(a){return[0,[2,a,o,r],q]},t)}var
 s=h}else
 var
 s=g;return s}if(c){var
@@ -6475,7 +6506,7 @@ br(a,b){if(a){var
 c=c4(a[1],b),d=br(a[2],c[2]);return[0,[0,c[1],d[1]],d[2]]}return[0,0,b]}function
 a5(c){function
 a(a){return q(a,c,[0,d,b])}var
-e=a(zR),f=a(zS);return[0,a(0),f,e]}function
+e=a(zV),f=a(zW);return[0,a(0),f,e]}function
 oj(a,b){if(a){var
 c=a[1],d=br(c[1],b),e=br(c[2],d[2]),f=oj(a[2],e[2]),g=f[2],h=f[1],i=a5(e[1]);return[0,[0,[0,a5(d[1]),i],h],g]}return[0,0,b]}function
 ok(f,c){if(f){var
@@ -6487,7 +6518,7 @@ k=br(a[1],c),l=br(a[2],k[2]),z=l[2],A=a5(l[1]),e=[0,[0,[1,a5(k[1]),A,0]],z];brea
 m=a[1],n=br(m,c),o=br(a[2],n[2]),p=br(a[3],o[2]),q=br(a[4],p[2]),r=c4(a[5],q[2]),s=c4(a[6],r[2]),B=m?a5(n[1]):[0,[0,d,b],[0,d,b],[0,b,b]],C=s[2],D=a[7],E=s[1],F=r[1],G=a5(q[1]),H=a5(p[1]),e=[0,[1,[0,B,a5(o[1]),H,G,F,E,D]],C]}var
 t=ok(f[2],e[2]);return[0,[0,e[1],t[1]],t[2]]}return[0,0,c]}function
 dx(a){return kS(n,a)}function
-zT(a){if(typeof
+zX(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 5:return h(n,1,[3,a[1],[0,b,b]]);case
@@ -6508,7 +6539,7 @@ j=[0,a[2],a[1]],k=1;return m(function(a){return h(n,k,a)},j);case
 4:case
 13:var
 c=h(n,1,a[2]);return c?h(n,1,a[3]):c;default:return h(n,1,a[1])}}function
-jg(a){if(typeof
+jh(a){if(typeof
 a==="number")return 1;else
 switch(a[0]){case
 4:var
@@ -6535,8 +6566,8 @@ j=h(n,1,a[2]);return j?h(n,1,a[3]):j;default:return h(n,1,a[1])}}function
 gS(d){var
 a=d;for(;;){if(a){var
 b=a[2],e=a[1],c=T(ak(function(d){return function(a){var
-h=i0(a[1]),e=aw(i0(d[1]),h);if(e)var
-i=i1(a[4]),b=aw(i1(d[4]),i);else
+h=i1(a[1]),e=aw(i1(d[1]),h);if(e)var
+i=i2(a[4]),b=aw(i2(d[4]),i);else
 var
 b=e;if(b){var
 f=d[2];if(f){var
@@ -6545,7 +6576,7 @@ g=1}else
 var
 g=b;return g}}(e),b));if(c){var
 a=b;continue}return c}return 1}}function
-fh(a){if(0===a[0])return dx(j(a[1]));var
+fi(a){if(0===a[0])return dx(j(a[1]));var
 b=a[2],c=a[1];if(!dU(j(c))&&!dU(j(b))){var
 e=j(c);return h(n,1,[3,j(b),e])}var
 d=j(b);return bo(n,j(c),d)}function
@@ -6556,7 +6587,7 @@ c=[0,a[4],0],d=f(dy(a[3]),c),e=f(dy(a[2]),d);return f(dy(a[1]),e);case
 1:var
 b=a[3],g=b?dy(b[1]):b,h=f(dy(a[2]),g);return f(dy(a[1]),h);default:return dy(a[1])}}function
 om(s,a,k){if(ak(function(a){return 9===a[1]?1:0},k)){var
-b=Y(g(a),zW),c=b?m(function(a){if(0===a[0]){var
+b=Y(g(a),z0),c=b?m(function(a){if(0===a[0]){var
 d=a[5],e=h(n,1,j(a[2])),g=e?h(n,0,j(a[3])):e,k=g?h(n,0,j(a[4])):g,c=0;if(k)if(d)var
 p=bS(d[1]),b=m(function(a){return dx(j(a))},p);else{var
 l=1;c=1}else{var
@@ -6569,10 +6600,10 @@ b=o}return b?i(s,a):b},a):b;if(c)var
 d=gJ(0,a),l=d?1:d,e=l;else
 var
 e=c;return e}return a?0:1}function
-on(a){return a?zX:zY}function
-jh(a){switch(a){case
-0:return zZ;case
-1:return z0;default:return 0}}function
+on(a){return a?z1:z2}function
+ji(a){switch(a){case
+0:return z3;case
+1:return z4;default:return 0}}function
 c5(a){var
 f=a[1],d=h(n,1,[2,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],f]),e=d?bo(n,a[1],a[2]):d;if(e){var
 g=a[2];return h(n,1,[3,[0,c(2,c(2,p(c(2,c(2,p(c(2,p(c(2,c(2,b)))))))))),b],g])}return e}function
@@ -6586,14 +6617,14 @@ k=b?h(n,1,j(a[3])):b;if(k){var
 o=j(a[5]);return bo(n,j(a[4]),o)}return k}function
 op(a,e,F,E,t,s,f){function
 u(b){var
-d=on(a),c=r(g(b),d);return c?m(fh,b):c}var
+d=on(a),c=r(g(b),d);return c?m(fi,b):c}var
 v=m(function(a){var
 b=u(a[1]);return b?u(a[2]):b},e);if(v)var
 G=g(e),l=Y(b9(a),G);else
 var
 l=v;var
-w=l?Y(g(e),z1):l,x=w?h(n,1,j(F)):w;if(x)var
-H=1===a?1:0,o=oo(jh(a),H,E);else
+w=l?Y(g(e),z5):l,x=w?h(n,1,j(F)):w;if(x)var
+H=1===a?1:0,o=oo(ji(a),H,E);else
 var
 o=x;if(o)if(a){var
 d=du(t);switch(d[0]){case
@@ -6610,7 +6641,7 @@ D=du(t),J=0===D[0]?c5(D[1]):0,k=J;else
 var
 k=o;if(k)var
 I=g(e),p=om(function(a){if(0===a[0]){var
-b=a[1],c=Y(zV,b),d=c?Y(b,I):c;if(d){if(a[5])return 0;var
+b=a[1],c=Y(zZ,b),d=c?Y(b,I):c;if(d){if(a[5])return 0;var
 e=1}else
 var
 e=d;return e}return 1},s,f);else
@@ -6618,7 +6649,7 @@ var
 p=k;if(p)var
 b=g(e),c=b9(a),y=on(a),q=m(function(a){var
 e=a[2];if(e)var
-f=e[1],h=Y(za,f),w=h?Y(f,b):h,d=w;else
+f=e[1],h=Y(ze,f),w=h?Y(f,b):h,d=w;else
 var
 d=1;switch(a[1]){case
 9:var
@@ -6646,7 +6677,7 @@ u=t[1];if(1===u[0]){var
 v=r(g(u[1]),y),z=v?d:v;return z}return aN(c,b,a)}return aN(c,b,a)}return aN(c,b,a);default:return aN(c,b,a)}},f);else
 var
 q=p;var
-z=q?gS(f):q;return z?m(jg,dt(0,g(e),s,f)):z}function
+z=q?gS(f):q;return z?m(jh,dt(0,g(e),s,f)):z}function
 oq(a){switch(a[0]){case
 0:var
 b=f(a[3],[0,a[4],0]),c=f(a[2],b);return f(a[1],c);case
@@ -6656,7 +6687,7 @@ or(a,e,d,R,o,w,l){var
 p=typeof
 a==="number"?a?1:a:a[1]?0:1;function
 c(a){var
-b=p?z2:z3;return r(g(a),b)}var
+b=p?z6:z7;return r(g(a),b)}var
 i=gK(e),z=m(function(b){switch(b[0]){case
 0:var
 d=T(i),e=d?c(b[1]):d,f=e?c(b[2]):e;return f?c(b[3]):f;case
@@ -6670,12 +6701,12 @@ m=b[1],n=p?m?0:1:c(m),o=n?c(b[2]):n,q=o?c(b[3]):o;return q?c(b[4]):q}},e);if(z)v
 S=g(e),q=Y(bh(a),S);else
 var
 q=z;var
-A=q?Y(g(e),z4):q,B=A?m(fh,x(oq,e)):A;if(B){var
+A=q?Y(g(e),z8):q,B=A?m(fi,x(oq,e)):A;if(B){var
 Q=0;if(typeof
 a==="number"&&!a){var
 C=1;Q=1}if(!Q)var
 C=0;var
-U=p?z5:z6,s=oo(U,C,R)}else
+U=p?z9:z_,s=oo(U,C,R)}else
 var
 s=B;if(s)if(typeof
 a==="number")if(d)var
@@ -6718,39 +6749,39 @@ D=b?m(function(b){var
 c=n2(i,a,g(e),b);if(c)var
 d=c;else{var
 f=w?em(b):w;if(f)return aN(0,0,b);var
-d=f}return d},l):b,E=D?gS(l):D;return E?m(jg,dt(i,g(e),0,l)):E}function
-z7(a){switch(a[0]){case
+d=f}return d},l):b,E=D?gS(l):D;return E?m(jh,dt(i,g(e),0,l)):E}function
+z$(a){switch(a[0]){case
 0:return gi(a[1][1]);case
 1:var
 b=a[3];return b?gi(b[1]):1;default:return gi(a[1])}}function
-ji(a,k,b,d){var
+jj(a,k,b,d){var
 e=om(function(g){if(0===g[0]){var
-c=g[1],d=Y(zU,c);if(d){var
+c=g[1],d=Y(zY,c);if(d){var
 b=F(a,bs(c));if(b){if(2===b[1][0])return 0;var
 e=1}else
 var
 e=b;var
 f=e}else
 var
-f=d;return f}return 1},k,b),f=e?m(z7,d[1]):e,h=f?Y(z8,g(a)):f;if(h)var
-l=g(a),c=m(function(a){return y2(l,a)},b);else
+f=d;return f}return 1},k,b),f=e?m(z$,d[1]):e,h=f?Y(Aa,g(a)):f;if(h)var
+l=g(a),c=m(function(a){return y6(l,a)},b);else
 var
 c=h;var
-i=c?gS(b):c,j=i?m(fh,x(ol,a)):i;return j?m(zT,d[3]):j}function
+i=c?gS(b):c,j=i?m(fi,x(ol,a)):i;return j?m(zX,d[3]):j}function
 os(k,j,a,i,h,b){var
 l=g(k),n=g(h),c=r(g(i),n),d=c?m(function(b){var
 c=aN(l,g(a),b);if(c){var
 d=b[1];if(1===d){var
-e=b[2],f=e?[0,bs(e[1]),0]:az(0,g(a));return m(function(c){var
-b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gS(b):d,f=e?m(function(a){return fh(a[2])},j):e;return f?m(jg,dt(0,g(a),0,b)):f}function
+e=b[2],f=e?[0,bs(e[1]),0]:aA(0,g(a));return m(function(c){var
+b=F(a,c);return b?0===b[1][0]?0:1:b},f)}return 11===d?m(function(a){return 0===a[0]?0:1},a):1}return c},b):c,e=d?gS(b):d,f=e?m(function(a){return fi(a[2])},j):e;return f?m(jh,dt(0,g(a),0,b)):f}function
 ot(a){if(a){var
 b=a[1];if(em(b))return 0;var
 c=[0,b,ot(a[2])]}else
 var
 c=a;return c}function
 gT(i,h,f,d,b){var
-j=ot(b),k=x(function(a){return i7(i,f,d,a)},j),c=as(O,0,e(function(a){return h$(n,h,a)},k)),a=x(n0,b),l=a?[0,a[1],a[2]]:z9;return O(g(l),c)}function
-gU(a){return 2<=a?z_:z$}function
+j=ot(b),k=x(function(a){return i8(i,f,d,a)},j),c=as(O,0,e(function(a){return ia(n,h,a)},k)),a=x(n0,b),l=a?[0,a[1],a[2]]:Ab;return O(g(l),c)}function
+gU(a){return 2<=a?Ac:Ad}function
 gV(m,l,k,j,f,i){var
 g=gT(m,l,k,j,f),c=oh(i);if(c){var
 a=c[1],e=0;if(typeof
@@ -6764,12 +6795,12 @@ h=c;return h}function
 gW(b,a){var
 c=g(bk(function(a){return 0===a[0]?0:1},b));return r(g(a),c)}function
 gX(a){var
-b=ag(az(0,g(a)),a);return e(ay,bk(function(a){return h5(a[2])},b))}function
+b=ag(aA(0,g(a)),a);return e(az,bk(function(a){return h6(a[2])},b))}function
 ou(a){var
 b=a[1],c=e(gQ,a[1]);return gd(gR(a[1]),c,b)}function
-jj(a){return gX(ou(a))}function
+jk(a){return gX(ou(a))}function
 ov(b,a){if(a){var
-c=a[1],d=a[2],g=ov(O(b,c[1]),d),h=c[2];return f(e(function(a){return az(O(b,a),Aa)},h),g)}return a}function
+c=a[1],d=a[2],g=ov(O(b,c[1]),d),h=c[2];return f(e(function(a){return aA(O(b,a),Ae)},h),g)}return a}function
 ow(e,a){function
 b(f){var
 a=F(e,f);if(a){var
@@ -6779,21 +6810,21 @@ var
 c=a;return c}var
 c=ov(0,a);return bk(function(a){return m(b,a)},c)}function
 ox(a){switch(a[0]){case
-0:return Ab;case
-1:return a[3]?Ac:Ad;default:return Ae}}function
-Af(a){return 0===a[0]?ox(a[1]):Ag}function
-jk(a){if(a){var
+0:return Af;case
+1:return a[3]?Ag:Ah;default:return Ai}}function
+Aj(a){return 0===a[0]?ox(a[1]):Ak}function
+jl(a){if(a){var
 b=a[1];return[0,b[2],b[1]]}return[0,d,0]}function
 oy(aD,Y,aB,X,W,b,aA,V){var
-a=i6(Y,aB,X,W),aE=g(V),aF=e(ox,a[1]),aG=ow(ou(a),aF),aH=aD?0:jj(a),B=dv(Ah,jj(a),aH,aG,aE,V);if(B){var
+a=i7(Y,aB,X,W),aE=g(V),aF=e(ox,a[1]),aG=ow(ou(a),aF),aH=aD?0:jk(a),B=dv(Al,jk(a),aH,aG,aE,V);if(B){var
 Z=B[1];if(Z[2])return 0;var
-$=ji(Y,X,W,a);if($){var
-aI=Z[1],C=e(gQ,a[1]),c=gR(a[1]),aJ=jk(aA),U=lY(n,a);if(U){var
-l=gd(c,C,a[1]),h=h2(c,C,a[1],0),ac=g(a[3]),ad=O(g(l),ac),J=[0,g(l),ad],ae=a[3],E=ak(function(a){if(typeof
+$=jj(Y,X,W,a);if($){var
+aI=Z[1],C=e(gQ,a[1]),c=gR(a[1]),aJ=jl(aA),U=lY(n,a);if(U){var
+l=gd(c,C,a[1]),h=h3(c,C,a[1],0),ac=g(a[3]),ad=O(g(l),ac),J=[0,g(l),ad],ae=a[3],E=ak(function(a){if(typeof
 a!=="number"&&14===a[0])return 1;return 0},ae),af=E?x(function(a){var
-b=e(aU,gf(l,a[4]));return[0,a[4],b]},h):E,ag=f(h4(h,c,J,a[3]),af),ah=f(bN(k8(h)),ag),L=f(bN(eS(h)),ah),M=cI(L)[1],o=cH(M),N=m(function(a){var
+b=e(aU,gf(l,a[4]));return[0,a[4],b]},h):E,ag=f(h5(h,c,J,a[3]),af),ah=f(bN(k8(h)),ag),L=f(bN(eT(h)),ah),M=cI(L)[1],o=cH(M),N=m(function(a){var
 b=k(d);return aC(q(a9(o,a),o,b),a)},L);if(N){var
-P=ak(su,a[3]);if(P){var
+P=ak(sy,a[3]);if(P){var
 t=C,p=a[1];for(;;){if(p){var
 r=p[1],u=bH(d,t);switch(r[0]){case
 0:var
@@ -6816,7 +6847,7 @@ v=P;if(v){var
 ai=a[3],aj=x(function(a){return dd(c,a)},ai),al=a[3],an=f(l,f(e(function(a){return bM(c,a)},al),aj)),w=_(e(function(a){return am(b,a)},an));if(w){var
 ao=a3(d7(a[2]),c),y=_(e(function(a){return am(b,a)},ao));if(y){var
 ap=a[3],z=_(lL(b,aJ,function(a){return a9(o,a)},l,h,c,J,ap));if(z){var
-R=z[1],aq=h1(R),ar=y[1],as=a[2],at=function(a){return lM(b,as,c,a)},av=w[1],aw=0,ax=k8(h),ay=i(au(function(a){return a9(o,a)}),ax),az=eS(h);return fn(h0(b,M,i(au(function(a){return a9(o,a)}),az),ay,aw,av,R,at),ar,aq,aI)}var
+R=z[1],aq=h2(R),ar=y[1],as=a[2],at=function(a){return lM(b,as,c,a)},au=w[1],aw=0,ax=k8(h),ay=i(av(function(a){return a9(o,a)}),ax),az=eT(h);return fo(h1(b,M,i(av(function(a){return a9(o,a)}),az),ay,aw,au,R,at),ar,aq,aI)}var
 S=z}else
 var
 S=y;var
@@ -6831,36 +6862,36 @@ A=N;return A}return U}var
 aa=$}else
 var
 aa=B;return aa}function
-Ai(a){if(0===a[0])return od(a[1]);var
+Am(a){if(0===a[0])return od(a[1]);var
 b=a[1],c=d$(b[6]);return f(d$(b[5]),c)}function
-Aj(a){if(0===a[0])return oe(a[1]);var
+An(a){if(0===a[0])return oe(a[1]);var
 b=a[1],c=a4(b[4]);return f(a4(b[3]),c)}function
-Ak(a){if(0===a[0])return[0,gQ(a[1]),d];var
+Ao(a){if(0===a[0])return[0,gQ(a[1]),d];var
 b=a[1],c=bx(a4(b[2]));return[0,bx(a4(b[1])),c]}function
 oz(P,aG,aF,aE,aD,aB,j,aA){var
-a=n5(P,aG,aF,aE,aD,aB),aH=a[2],O=x(Ai,aH),bb=O?[0,O[1],O[2]]:x(Aj,aH),l=C(b,bx(bb)),Q=e(Ak,a[2]),R=iJ(l,Q,a[2]),bc=g(aA),bd=ow(R,e(Af,a[2])),be=gX(R),bf=gX(R),S=dv(bh(P),bf,be,bd,bc,aA);if(S){var
+a=n5(P,aG,aF,aE,aD,aB),aH=a[2],O=x(Am,aH),bb=O?[0,O[1],O[2]]:x(An,aH),l=C(b,bx(bb)),Q=e(Ao,a[2]),R=iK(l,Q,a[2]),bc=g(aA),bd=ow(R,e(Aj,a[2])),be=gX(R),bf=gX(R),S=dv(bh(P),bf,be,bd,bc,aA);if(S){var
 aI=S[1];if(aI[2])return 0;var
 aJ=or(P,aG,aF,aE,aD,0,aB);if(aJ){var
-bg=aI[1],a_=e(t$,a[2]),ax=m7(n,a[2],a_);if(ax)var
-a$=h9(a[4]),M=cv(n,a[4],a$);else
+bg=aI[1],a_=e(ud,a[2]),ax=m7(n,a[2],a_);if(ax)var
+a$=h_(a[4]),M=cv(n,a[4],a$);else
 var
 M=ax;if(M){var
 ay=a[5];if(ay)var
-ba=gp(ay[1]),az=m(function(a){return e6(n,a)},ba);else
+ba=gp(ay[1]),az=m(function(a){return e7(n,a)},ba);else
 var
 az=1;var
 N=az}else
 var
 N=M;if(N){var
-c=a[1],aO=bh(c),u=a[6],B=iJ(l,Q,a[2]),X=a[3],Y=[0,[0,X,X],l],Z=[0,g(B)],D=a[2],s=D?0===D[1][0]?0:1:D,aP=a[5],aQ=y(function(a){var
+c=a[1],aO=bh(c),u=a[6],B=iK(l,Q,a[2]),X=a[3],Y=[0,[0,X,X],l],Z=[0,g(B)],D=a[2],s=D?0===D[1][0]?0:1:D,aP=a[5],aQ=y(function(a){var
 b=typeof
-c==="number"?0:dn(c[1]);return ms(a,b)},aP),aR=a[2],o=m9(c,aQ,cS(Y,g(B)),l,Q,aR,0),$=x(function(a){return a[7]},o),aS=f($,cX(function(a,b){return na(o,a,b)},s,l,Z,u)),aT=f(bN(e7(o)),aS),aa=f(bN(ee(o)),aT),ab=cI(aa)[1],ac=cH(ab),t=function(a){return a9(ac,a)},ad=m(function(a){var
+c==="number"?0:dn(c[1]);return ms(a,b)},aP),aR=a[2],o=m9(c,aQ,cS(Y,g(B)),l,Q,aR,0),$=x(function(a){return a[7]},o),aS=f($,cX(function(a,b){return na(o,a,b)},s,l,Z,u)),aT=f(bN(e8(o)),aS),aa=f(bN(ee(o)),aT),ab=cI(aa)[1],ac=cH(ab),t=function(a){return a9(ac,a)},ad=m(function(a){var
 b=k(d);return aC(q(t(a),ac,b),a)},aa),ae=ad?ak(nc,u):ad;if(ae){var
 af=a[4];if(typeof
 c==="number")var
-ag=c?iF(0,d7(af)):1;else
+ag=c?iG(0,d7(af)):1;else
 var
-aM=d7(af),ag=iF(c[1],aM);var
+aM=d7(af),ag=iG(c[1],aM);var
 E=ag}else
 var
 E=ae;if(E){var
@@ -6884,21 +6915,21 @@ b=0===a[0]?0:1;return cj(b,s)},aU);else
 var
 G=F;if(G){var
 aV=f(B,[0,Y,0]),H=_(e(function(a){return am(j,a)},aV));if(H){var
-aW=x(function(a){return e1(s,l,a)},u),I=_(e(function(a){return io(j,a)},aW));if(I){var
+aW=x(function(a){return e2(s,l,a)},u),I=_(e(function(a){return ip(j,a)},aW));if(I){var
 p=d7(a[4]),aX=typeof
 c==="number"?c?[0,p[1],[0,p[2],0]]:[0,p[1],[0,p[2],[0,p[3],0]]]:m1(c[1],p),J=_(e(function(a){return am(j,[0,a,l])},aX));if(J){var
 ah=J[1],ai=a[5];if(ai)var
 aY=mu(ai[1]),w=_(e(function(a){return mw(j,a)},aY));else
 var
-w=t_;if(w){var
+w=uc;if(w){var
 aj=w[1],A=a[5],aZ=A?mt(A[1]):A,K=_(e(dh(j),aZ));if(K){var
 L=_(cX(function(a,b){return nb(j,t,o,s,l,a,b)},s,l,Z,u));if(L){var
 al=L[1],an=r(g(f(ah,aj)),aO);if(an){var
-a0=h1(al),a1=f(ah,aj),aL=0,a2=a[4];if(typeof
+a0=h2(al),a1=f(ah,aj),aL=0,a2=a[4];if(typeof
 c==="number"&&!c){var
 ao=function(a){return lM(j,a2,l,a)};aL=1}if(!aL)var
 ao=function(a){return 0};var
-a3=f(I[1],K[1]),a4=f(H[1],a3),a5=e(t,$),a6=e7(o),a7=i(au(t),a6),a8=ee(o);return fn(h0(j,ab,i(au(t),a8),a7,a5,a4,al,ao),a1,a0,bg)}var
+a3=f(I[1],K[1]),a4=f(H[1],a3),a5=e(t,$),a6=e8(o),a7=i(av(t),a6),a8=ee(o);return fo(h1(j,ab,i(av(t),a8),a7,a5,a4,al,ao),a1,a0,bg)}var
 ap=an}else
 var
 ap=L;var
@@ -6914,10 +6945,10 @@ as=J;var
 at=as}else
 var
 at=I;var
-av=at}else
+au=at}else
 var
-av=H;var
-aw=av}else
+au=H;var
+aw=au}else
 var
 aw=G;return aw}return N}var
 aK=aJ}else
@@ -6925,8 +6956,8 @@ var
 aK=S;return aK}function
 oA(i,h,G,F,E,s,W,D,q){var
 H=typeof
-i==="number"?i?Al:An:jh(i[1]),t=e(j,W),I=ok(h,e(j,D));if(I[2])return 0;var
-X=g(h),u=gV(gK(h),Am,X,0,s,q);if(u){var
+i==="number"?i?Ap:Ar:ji(i[1]),t=e(j,W),I=ok(h,e(j,D));if(I[2])return 0;var
+X=g(h),u=gV(gK(h),Aq,X,0,s,q);if(u){var
 J=gW(x(oq,h),D),K=J?or(i,h,G,F,E,1,s):J;if(K)var
 Y=bh(i),v=r(g(t),Y);else
 var
@@ -6953,37 +6984,37 @@ p=B;if(p){var
 c=f[5],C=f[3],l=f[1],V=f[6],N=e(function(e){if(0===e[0])var
 h=bP(c,a,d,e),f=cw(e[1],h);else
 var
-g=e[1],i=ik(g,bP(c,a,d,e)),j=g[4],k=bP(c,a,d,e),m=ab(function(b,a){return[2,b,a]},k,j),f=ab(function(b,a){return[3,b,a]},m,i);return[0,m5(l,f,at([5,[0,b,b],C],e0(gx(c,a,gw(e)),f)))]},k),O=x(function(b){if(0===b[0]){var
-f=bP(c,a,d,b),e=h7(b[1],f),g=e?[0,e[1],0]:e;return g}var
+g=e[1],i=il(g,bP(c,a,d,e)),j=g[4],k=bP(c,a,d,e),m=ac(function(b,a){return[2,b,a]},k,j),f=ac(function(b,a){return[3,b,a]},m,i);return[0,m5(l,f,at([5,[0,b,b],C],e1(gx(c,a,gw(e)),f)))]},k),O=x(function(b){if(0===b[0]){var
+f=bP(c,a,d,b),e=h8(b[1],f),g=e?[0,e[1],0]:e;return g}var
 h=bP(c,a,d,b);return[0,l9(b[1],h),0]},k),P=function(b){var
-e=gx(c,a,b);return ab(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
+e=gx(c,a,b);return ac(function(b,a){return[2,b,a]},d,e)},Q=0,R=e(function(g){var
 e=bP(c,a,d,g);if(0===g[0]){var
 b=g[1];if(0===b[0]){var
-i=b[4],j=b[3],k=b[2],h=b[1],n=cU(h,k,j,i,e),m=df(b[5],n),o=at(m,aI(h)),p=eY(h,k,j,e);return[0,[0,m6(l,ab(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
-f=g[1],q=f[6],r=gh(f,e),s=ik(f,e),t=f[4],u=ab(function(b,a){return[2,b,a]},e,t);return[0,[0,m6(l,ab(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
+i=b[4],j=b[3],k=b[2],h=b[1],n=cU(h,k,j,i,e),m=df(b[5],n),o=at(m,aI(h)),p=eZ(h,k,j,e);return[0,[0,m6(l,ac(function(b,a){return[2,b,a]},p,o)),m,i]]}return 0}var
+f=g[1],q=f[6],r=gh(f,e),s=il(f,e),t=f[4],u=ac(function(b,a){return[2,b,a]},e,t);return[0,[0,m6(l,ac(function(b,a){return[3,b,a]},u,s)),r,q]]},k),S=e(function(b){if(0===b[0]){var
 f=bP(c,a,d,b);return[0,d8(b[1],f)]}var
 e=b[1],g=l$(e,bP(c,a,d,b));return[1,l_(e,bP(c,a,d,b)),g]},k),U=[0,e(function(e){if(0===e[0])var
 o=bP(c,a,d,e),g=b8(e[1],o);else
 var
-h=bP(c,a,d,e),f=e[1],i=ik(f,h),j=f[4],k=ab(function(b,a){return[2,b,a]},h,j),m=ab(function(b,a){return[3,b,a]},k,i),n=gh(f,h),g=at([5,[0,b,b],[4,f[5],n]],m);return m5(l,g,at([5,[0,b,b],C],e0(gx(c,a,gw(e)),g)))},k),S,R,Q,P,O,N];return ib(n,tS,bh(f[1]),U,V,Z)}return p}var
+h=bP(c,a,d,e),f=e[1],i=il(f,h),j=f[4],k=ac(function(b,a){return[2,b,a]},h,j),m=ac(function(b,a){return[3,b,a]},k,i),n=gh(f,h),g=at([5,[0,b,b],[4,f[5],n]],m);return m5(l,g,at([5,[0,b,b],C],e1(gx(c,a,gw(e)),g)))},k),S,R,Q,P,O,N];return ic(n,tW,bh(f[1]),U,V,Z)}return p}var
 L=m}else
 var
 L=u;return L}function
-fi(a){if(a){var
+fj(a){if(a){var
 b=cr(j(a[1]));if(b){var
-c=fi(a[2]);if(c)var
+c=fj(a[2]);if(c)var
 f=c[1],d=[0,[0,c$(b[1]),f]];else
 var
 d=c;var
 e=d}else
 var
-e=b;return e}return Ao}function
+e=b;return e}return As}function
 oB(f,k,j,a,i){var
 l=g(f),h=r(g(a),l);if(h){var
 m=ag(ag(f,ag(k,j)),a);return e(function(f){var
-g=f[1],h=g[2],j=dQ(h[2],h[1]),a=aA(g[1],i),k=E(d,a)?kv(bZ(c(2,b),a)):[0,b,dN(bZ(c(2,b),R(a)))],l=c$(fR(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return c$(a0(kv(a),l))},m)},m)}return h}function
+g=f[1],h=g[2],j=dQ(h[2],h[1]),a=aB(g[1],i),k=E(d,a)?kv(bZ(c(2,b),a)):[0,b,dN(bZ(c(2,b),R(a)))],l=c$(fR(a0([0,c(2,b),b],k),j)),m=f[2];return e(function(a){return c$(a0(kv(a),l))},m)},m)}return h}function
 oC(Q,bB,a8,a7,P,a6,a){var
-l=i6(Q,bB,a8,a7),a9=gW(x(ol,Q),a6),R=a9?ji(Q,a8,a7,l):a9;if(P){var
+l=i7(Q,bB,a8,a7),a9=gW(x(ol,Q),a6),R=a9?jj(Q,a8,a7,l):a9;if(P){var
 S=P[2];if(S){var
 T=S[2];if(T){if(T[2])return 0;var
 a_=T[1],a$=S[1],ba=P[1],bb=oi(Q,e(j,a6));if(bb[2])return 0;var
@@ -6992,28 +7023,28 @@ a!=="number"&&3===a[0]){var
 ad=F(l[3],a[1]);if(ad){var
 bg=ad[1];if(typeof
 bg==="number"&&bg){var
-ae=fi(a[2]);if(ae){var
-s=ae[1],af=fi(a[3]);if(af){var
+ae=fj(a[2]);if(ae){var
+s=ae[1],af=fj(a[3]);if(af){var
 t=af[1];if(R){var
 bE=oB([0,d,[0,d,[0,d,0]]],s,t,a[4],a[5]),bF=j(a_),bG=j(a$),U=[0,j(ba),bG,bF];if(s){var
 v=s[2];if(v){var
 w=v[2];if(w){if(w[2])return 0;if(t){var
 z=t[2];if(z){var
 B=z[2];if(B){if(B[2])return 0;var
-ar=B[1],as=z[1],at=t[1],au=w[1],av=v[1],aw=s[1],ax=[0,[1,0,aw,at],[1,uj,av,as],[1,ui,au,ar]],ay=h6(n,l,o,U);if(ay)var
+ar=B[1],as=z[1],at=t[1],au=w[1],av=v[1],aw=s[1],ax=[0,[1,0,aw,at],[1,un,av,as],[1,um,au,ar]],ay=h7(n,l,o,U);if(ay)var
 by=l[3],Y=ak(function(a){if(typeof
 a==="number"&&a)return 1;return 0},by);else
 var
 Y=ay;var
-az=Y?nu(s,t):Y,aA=az?nv(n,l[2],[0,[0,aw,av],au],[0,[0,at,as],ar]):az,aB=aA?iR(n,s,t,bR(U)):aA,aC=aB?m(function(a){switch(a[0]){case
+az=Y?nu(s,t):Y,aA=az?nv(n,l[2],[0,[0,aw,av],au],[0,[0,at,as],ar]):az,aB=aA?iS(n,s,t,bR(U)):aA,aC=aB?m(function(a){switch(a[0]){case
 0:var
 k=[0,a[4],0],l=f(bR(a[3]),k),m=f(bR(a[2]),l),e=f(bR(a[1]),m);break;case
 1:var
 c=a[3],o=c?bR(c[1]):c,p=f(bR(a[2]),o),e=f(bR(a[1]),p);break;default:var
 e=bR(a[1])}var
 g=gB(e),h=g?gB([0,d8(a,U),0]):g;if(h){var
-i=h7(a,ax);if(i){var
-q=i[1],b=eR(n,function(a,b,c){return np(n,uk,a,b,c)},q);return b?K(d,b[1][2][1]):b}var
+i=h8(a,ax);if(i){var
+q=i[1],b=eS(n,function(a,b,c){return np(n,uo,a,b,c)},q);return b?K(d,b[1][2][1]):b}var
 j=1}else
 var
 j=h;return j},o):aB;if(aC)return nt(n,e(function(a){var
@@ -7046,7 +7077,7 @@ var
 bj=ad;return bj}var
 _=l[3];if(typeof
 a==="number")var
-i=0===a?zP:zQ;else
+i=0===a?zT:zU;else
 switch(a[0]){case
 0:var
 $=a[2],u=a[1],aI=F(_,u);if(aI){var
@@ -7062,9 +7093,9 @@ var
 k=$;var
 bz=F(_,u),bA=l[1],aa=y(function(b){if(typeof
 b!=="number")switch(b[0]){case
-5:return zN;case
+5:return zR;case
 12:var
-a=F(bA,b[1]);if(a){if(2===a[1][0])return zO;var
+a=F(bA,b[1]);if(a){if(2===a[1][0])return zS;var
 c=0}else
 var
 c=a;return c;case
@@ -7073,7 +7104,7 @@ c=a;return c;case
 4:case
 6:case
 7:case
-11:return 0}return zM},bz),ah=0;if(aa){var
+11:return 0}return zQ},bz),ah=0;if(aa){var
 aK=aa[1];if(aK){var
 aL=aK[1];if(aL)if(aL[1])var
 i=0;else{var
@@ -7146,9 +7177,9 @@ a5=0;an=1}}else{var
 a5=ac;an=1}if(an)var
 i=a5;break;default:var
 i=0}if(i){if(R){var
-p=i[1],bC=j(a_),bD=j(a$),q=[0,j(ba),bD,bC],ao=h6(n,l,o,q);if(ao)if(typeof
+p=i[1],bC=j(a_),bD=j(a$),q=[0,j(ba),bD,bC],ao=h7(n,l,o,q);if(ao)if(typeof
 p==="number")return 0===p?ak(function(c){var
-a=h7(c,q);return a?h(n,0,[3,[0,d,b],a[1]]):a},o):kY(sw,e(function(b){var
+a=h8(c,q);return a?h(n,0,[3,[0,d,b],a[1]]):a},o):kY(sA,e(function(b){var
 a=cw(b,q);return[0,a[1],[0,a[2],[0,a[3],0]]]},o));else{if(0===p[0]){var
 V=F(l[3],p[1]);if(V){var
 bu=V[1],bv=lP(p[3]);return lW(n,o,q,lP(p[2]),bv,bu)}return V}var
@@ -7172,19 +7203,19 @@ var
 bf=P;return bf}function
 oD(m,l,b,k,z,x){var
 f=z,d=x;for(;;){if(0===d[0]){var
-g=d[1],h=F(f,g),n=h?aV(h[1][2],Ap):h;if(n)var
-A=d[2],i=oD(m,l,b,k,jd(0,g,f),A);else
+g=d[1],h=F(f,g),n=h?aV(h[1][2],At):h;if(n)var
+A=d[2],i=oD(m,l,b,k,je(0,g,f),A);else
 var
 i=n;if(i){var
-B=d[3],f=jd(1,g,f),d=B;continue}return i}var
+B=d[3],f=je(1,g,f),d=B;continue}return i}var
 c=d[1],a=ob(0,m,f),o=e(function(b){function
 d(b){return oc(a,b)}function
-c(a){return jb(d,a)}switch(b[0]){case
+c(a){return jc(d,a)}switch(b[0]){case
 0:var
 e=b[5],f=oc(a,b[4]),g=c(b[3]),h=c(b[2]);return[0,c(b[1]),h,g,f,e];case
 1:var
 i=y(c,b[3]),j=c(b[2]);return[1,c(b[1]),j,i];default:return[2,c(b[1])]}},l);if(0===b[0])var
-q=b[2],r=jb(function(b){return ar(a,b)},q),s=b[1],j=[0,jb(function(b){return ar(a,b)},s),r];else
+q=b[2],r=jc(function(b){return ar(a,b)},q),s=b[1],j=[0,jc(function(b){return ar(a,b)},s),r];else
 var
 t=ar(a,b[5]),u=ar(a,b[4]),v=ar(a,b[3]),w=ar(a,b[2]),j=[1,ar(a,b[1]),w,v,u,t];var
 p=e(function(g){var
@@ -7220,43 +7251,43 @@ c=a[1],e=bl([0,d,b],c);if(e)return bl(c,g);var
 f=e}else
 var
 f=a;return f}function
-Av(p){var
+Az(p){var
 dh=gI(p[3]),di=dh?gI(p[4]):dh;if(di){var
 S=p[1];switch(S[0]){case
 3:var
-ds=m(fe,S[1]);if(ds)var
-gN=S[2],bH=m(function(a){return fe(a[1])},gN);else
+ds=m(ff,S[1]);if(ds)var
+gN=S[2],bH=m(function(a){return ff(a[1])},gN);else
 var
 bH=ds;if(bH)var
 gO=S[3],bI=m(function(a){var
-b=fe(a[1]),c=b?i3(a[2]):b;return c?ff(a[2]):c},gO);else
+b=ff(a[1]),c=b?i4(a[2]):b;return c?fg(a[2]):c},gO);else
 var
 bI=bH;if(bI)var
 gS=S[4],aR=m(function(a){var
 b=0===a[0]?a[1]:[0,a[1],0];return m(function(a){var
-b=i3(a);return b?ff(a):b},b)},gS);else
+b=i4(a);return b?fg(a):b},b)},gS);else
 var
 aR=bI;break;case
 7:var
 gY=S[1],dt=m(function(a){var
-b=fe(a[1]);return b?fg(0,[0,a[2][1],[0,a[2][2],0]]):b},gY),aR=dt?fg(0,[0,S[5],[0,S[6],0]]):dt;break;default:var
+b=ff(a[1]);return b?fh(0,[0,a[2][1],[0,a[2][2],0]]):b},gY),aR=dt?fh(0,[0,S[5],[0,S[6],0]]):dt;break;default:var
 aR=1}var
 bF=aR}else
 var
 bF=di;var
 cc=0;if(bF){var
-dl=p[1],bG=7===dl[0]?e(ay,dl[1]):0,dm=function(c,b){var
+dl=p[1],bG=7===dl[0]?e(az,dl[1]):0,dm=function(c,b){var
 a=nX(c);return a?m(function(a){var
 e=a[1],b=m(function(a){return nQ(a[2])},e);if(b){var
-c=a[3];if(c)return fg(bG,nW(c[1]));var
+c=a[3];if(c)return fh(bG,nW(c[1]));var
 d=1}else
 var
 d=b;return d},b):a},dn=function(e,d,c,b){var
-a=nX(e);return a?fg(bG,f(d,f(c,nW(b)))):a},l=p[1];switch(l[0]){case
+a=nX(e);return a?fh(bG,f(d,f(c,nW(b)))):a},l=p[1];switch(l[0]){case
 0:var
-gg=x(dr,l[4]),gh=f(x(nU,l[3]),gg),gi=f(nS(l[2]),gh),U=f(x(i4,l[1]),gi);break;case
+gg=x(dr,l[4]),gh=f(x(nU,l[3]),gg),gi=f(nS(l[2]),gh),U=f(x(i5,l[1]),gi);break;case
 1:var
-bC=l[5],bD=l[3],gj=x(dr,l[6]),gk=bC?nT(bC[1]):bC,gl=f(gk,gj),gm=f(nR(l[4]),gl),gn=bD?[0,bD[1],0]:bD,go=f(gn,gm),U=f(x(yX,l[2]),go);break;case
+bC=l[5],bD=l[3],gj=x(dr,l[6]),gk=bC?nT(bC[1]):bC,gl=f(gk,gj),gm=f(nR(l[4]),gl),gn=bD?[0,bD[1],0]:bD,go=f(gn,gm),U=f(x(y1,l[2]),go);break;case
 2:var
 gq=x(dr,l[7]),gr=f(x(nU,l[6]),gq),gs=f(nT(l[5]),gr),gt=f(nR(l[4]),gs),gu=[0,l[3],gt],gv=l[2],U=f(x(function(a){return x(ek,f(a[1],a[2]))},gv),gu);break;case
 3:var
@@ -7264,11 +7295,11 @@ gw=x(dr,l[7]),gx=f(l[6],gw),gz=f(l[5],gx),gB=l[2],U=f(x(function(a){return ek(a[
 4:var
 gC=x(dr,l[3]),U=[0,l[1],[0,l[2],gC]];break;case
 5:var
-gD=x(dr,l[4]),gG=f(bS(l[3]),gD),gH=f(bS(l[2]),gG),gJ=f(x(i4,l[1]),gH),U=[0,l[5],gJ];break;case
+gD=x(dr,l[4]),gG=f(bS(l[3]),gD),gH=f(bS(l[2]),gG),gJ=f(x(i5,l[1]),gH),U=[0,l[5],gJ];break;case
 6:var
 bE=l[1],U=bE?ek(bE[1]):bE;break;default:var
-gK=x(dr,l[4]),gL=f(nS(l[3]),gK),U=f(x(i4,l[2]),gL)}var
-dp=fg(bG,U);if(dp){var
+gK=x(dr,l[4]),gL=f(nS(l[3]),gK),U=f(x(i5,l[2]),gL)}var
+dp=fh(bG,U);if(dp){var
 V=p[2];switch(V[0]){case
 0:var
 aG=dm(V[1],V[3]);break;case
@@ -7283,9 +7314,9 @@ dq=bF;cc=1}if(cc)var
 aG=dq;if(aG){var
 a=p[1];switch(a[0]){case
 0:var
-dP=a[4],dQ=a[3],dR=a[2],dS=a[1],ac=p[2];switch(ac[0]){case
-0:return oy(0,dS,dR,dQ,dP,ac[1],ac[2],ac[3]);case
-1:return oC(dS,dR,dQ,dP,ac[2],ac[3],ac[4]);default:return 0}case
+dP=a[4],dQ=a[3],dR=a[2],dS=a[1],ab=p[2];switch(ab[0]){case
+0:return oy(0,dS,dR,dQ,dP,ab[1],ab[2],ab[3]);case
+1:return oC(dS,dR,dQ,dP,ab[2],ab[3],ab[4]);default:return 0}case
 1:var
 dT=a[6],dU=a[5],dV=a[4],dW=a[3],dX=a[2],dY=a[1],ar=p[2];switch(ar[0]){case
 0:return oz(dY,dX,dW,dV,dU,dT,ar[1],ar[3]);case
@@ -7294,27 +7325,27 @@ dT=a[6],dU=a[5],dV=a[4],dW=a[3],dX=a[2],dY=a[1],ar=p[2];switch(ar[0]){case
 ad=a[7],ae=a[6],aW=a[5],aX=a[4],aY=a[3],D=a[2],I=a[1],af=p[2];switch(af[0]){case
 0:var
 dZ=af[3],W=n4(I,D,aY,aX,aW,ae,ad),g$=W[2],bR=C(b,bx(x(function(a){var
-b=a4(a[2]);return f(a4(a[1]),b)},g$))),ha=g(dZ),hb=iG(bR,W[2]),hc=iG(bR,W[2]),bU=dv(b9(I),hc,hb,0,ha,dZ);if(bU){var
+b=a4(a[2]);return f(a4(a[1]),b)},g$))),ha=g(dZ),hb=iH(bR,W[2]),hc=iH(bR,W[2]),bU=dv(b9(I),hc,hb,0,ha,dZ);if(bU){var
 d1=bU[1];if(d1[2])return 0;var
 d2=op(I,D,aY,aX,aW,ae,ad);if(d2){var
-hd=d1[1],he=g(D),hf=gT(0,gU(I),he,ae,ad),hg=jk(af[2]),hh=af[1],e9=W[2],ci=m(function(a){var
-b=m4(n,a[1]);return b?m4(n,a[2]):b},e9);if(ci)var
-e_=h9(W[4]),a6=cv(n,W[4],e_);else
+hd=d1[1],he=g(D),hf=gT(0,gU(I),he,ae,ad),hg=jl(af[2]),hh=af[1],e6=W[2],ci=m(function(a){var
+b=m4(n,a[1]);return b?m4(n,a[2]):b},e6);if(ci)var
+e_=h_(W[4]),a6=cv(n,W[4],e_);else
 var
 a6=ci;if(a6)var
-e$=gp(W[5]),a7=m(function(a){return e6(n,a)},e$);else
+e$=gp(W[5]),a7=m(function(a){return e7(n,a)},e$);else
 var
-a7=a6;return a7?tP(hh,hg,hf,W,bR,hd):a7}var
+a7=a6;return a7?tT(hh,hg,hf,W,bR,hd):a7}var
 d3=d2}else
 var
 d3=bU;return d3;case
 1:var
-J=af[4],d4=af[3],ag=e(j,af[2]),z=jh(I),d5=oj(D,e(j,d4));if(d5[2])return 0;var
+J=af[4],d4=af[3],ag=e(j,af[2]),z=ji(I),d5=oj(D,e(j,d4));if(d5[2])return 0;var
 A=d5[1],d6=gW(x(function(a){return f(a[1],a[2])},D),d4),d7=d6?op(I,D,aY,aX,aW,ae,ad):d6;if(d7){var
 o=n4(I,D,aY,aX,aW,ae,ad);if(typeof
 J!=="number")switch(J[0]){case
 2:var
-d9=e(j,J[1]),d$=aZ(z,d9),ea=a5(aL(z,d9)),eb=aZ(z,ag),ec=a5(aL(z,ag)),cW=iq(n,o[2],A);if(cW)var
+d9=e(j,J[1]),d$=aZ(z,d9),ea=a5(aL(z,d9)),eb=aZ(z,ag),ec=a5(aL(z,ag)),cW=ir(n,o[2],A);if(cW)var
 fV=b9(o[1]),bq=r(g(A),fV);else
 var
 bq=cW;var
@@ -7335,11 +7366,11 @@ cU=cT}else
 var
 cU=bn;return cU}return c1;case
 3:var
-bW=fi(J[2]);if(bW){var
-ed=bW[1],bX=fi(J[3]);if(bX){var
+bW=fj(J[2]);if(bW){var
+ed=bW[1],bX=fj(J[3]);if(bX){var
 eg=bX[1],hk=o[2],hl=C(b,bx(x(function(a){var
 b=a4(a[2]);return f(a4(a[1]),b)},hk))),hm=g(D),hn=gT(0,gU(I),hm,ae,ad),eh=r(J[1],hn);if(eh){var
-ho=J[5],hp=J[4],hq=al(R(hl),dL(g(ag),z)),hr=oB(f(al(d,z),hq),ed,eg,hp,ho),hs=aZ(z,ag);return up(n,z,o,A,a5(aL(z,ag)),hs,ed,eg,hr)}var
+ho=J[5],hp=J[4],hq=al(R(hl),dL(g(ag),z)),hr=oB(f(al(d,z),hq),ed,eg,hp,ho),hs=aZ(z,ag);return ut(n,z,o,A,a5(aL(z,ag)),hs,ed,eg,hr)}var
 ei=eh}else
 var
 ei=bX;var
@@ -7347,29 +7378,29 @@ ej=ei}else
 var
 ej=bW;return ej}var
 hi=g(D),bV=gV(0,gU(I),hi,ae,ad,J);if(bV){var
-hj=bV[1],L=aZ(z,ag),X=a5(aL(z,ag)),cd=iq(n,o[2],A),ce=cd?cv(n,o[4],X):cd,cf=ce?dj(n,o[5],L):ce;if(cf){var
+hj=bV[1],L=aZ(z,ag),X=a5(aL(z,ag)),cd=ir(n,o[2],A),ce=cd?cv(n,o[4],X):cd,cf=ce?dj(n,o[5],L):ce;if(cf){var
 N=o[5],cg=o[3],ch=o[1],e3=o[6],a2=function(a){var
-b=dk(N,L,X,a);return H(dk(N,L,X,a),b)},eT=e(function(a){return[0,mj(ch,cg,N,L,X,a)]},A),eU=e(a2,A),eV=function(a){var
-b=d_(N,L,a);return ab(function(b,a){return[2,b,a]},X,b)},eW=e(function(a){var
-b=[6,a2(a)],c=dk(N,L,X,a),d=d_(N,L,a[2]);return[0,[0,[0,ab(function(b,a){return[2,b,a]},X,d),c],b]]},A),eY=e(function(a){return 0},A),eZ=e(function(a){return[0,[6,a2(a)]]},A),e2=[0,e(function(c){var
-a=aI(dk(N,L,X,c));return ip(ch,a,at([5,[0,b,b],cg],e0(d_(N,L,c[2]),a)))},A),eZ,eY,eW,eV,eU,eT],e4=b9(o[1]),e5=2<=o[1]?sI:sJ;return ib(n,e5,e4,e2,e3,hj)}return cf}var
+b=dk(N,L,X,a);return H(dk(N,L,X,a),b)},eS=e(function(a){return[0,mj(ch,cg,N,L,X,a)]},A),eU=e(a2,A),eV=function(a){var
+b=d_(N,L,a);return ac(function(b,a){return[2,b,a]},X,b)},eW=e(function(a){var
+b=[6,a2(a)],c=dk(N,L,X,a),d=d_(N,L,a[2]);return[0,[0,[0,ac(function(b,a){return[2,b,a]},X,d),c],b]]},A),eX=e(function(a){return 0},A),eZ=e(function(a){return[0,[6,a2(a)]]},A),e0=[0,e(function(c){var
+a=aI(dk(N,L,X,c));return iq(ch,a,at([5,[0,b,b],cg],e1(d_(N,L,c[2]),a)))},A),eZ,eX,eW,eV,eU,eS],e4=b9(o[1]),e5=2<=o[1]?sM:sN;return ic(n,e5,e4,e0,e3,hj)}return cf}var
 d8=bV}else
 var
 d8=d7;return d8;default:return 0}case
 3:var
 ah=a[7],aH=a[6],aJ=a[5],ai=a[4],bY=a[3],aj=a[2],as=a[1],an=p[2];switch(an[0]){case
 0:var
-el=an[3],ht=g(el),hu=gX(iO(i8(as,aj,bY,ai,aJ,aH,ah)[1])),bZ=dv(g(as),hu,0,0,ht,el);if(bZ){var
+el=an[3],ht=g(el),hu=gX(iP(i9(as,aj,bY,ai,aJ,aH,ah)[1])),bZ=dv(g(as),hu,0,0,ht,el);if(bZ){var
 en=bZ[1];if(en[2])return 0;var
 eo=os(as,aj,ai,aJ,aH,ah);if(eo){var
-hv=en[1],M=i8(as,aj,bY,ai,aJ,aH,ah),hw=gT(0,Aw,g(ai),0,ah),ep=jk(an[2]),aK=an[1],cA=ni(M[1]);if(cA)var
+hv=en[1],M=i9(as,aj,bY,ai,aJ,aH,ah),hw=gT(0,AA,g(ai),0,ah),ep=jl(an[2]),aK=an[1],cA=ni(M[1]);if(cA)var
 fG=M[1][2],bg=m(function(a){return bo(n,a[2][1],a[2][2])},fG);else
 var
 bg=cA;if(bg)var
 fH=M[2],bh=m(function(a){return bo(n,a[1],a[2])},fH);else
 var
 bh=bg;if(bh){var
-u=M[1],a8=g(u[1]),aN=M[3],a_=g(u[2]),cj=O(a_,g(e8(e(aU,u[3])))),fa=u[3],ck=nd(gA(u),fa,a_),aa=iN(a8,ck,u[4],cj),fb=iL(ck,u[4],cj),fc=u[3],cl=f(iK(gA(u),fc,a_),fb),cn=g(iO(u)),fd=0,fj=f(cl,cX(function(a,b){return na(aa,a,b)},fd,d,cn,aN)),fk=f(bN(e7(aa)),fj),co=f(bN(ee(aa)),fk),a$=cI(co)[1],fl=cH(a$),aq=function(a){return a9(fl,a)},cp=r(g(M[2]),a8);if(cp)var
+u=M[1],a8=g(u[1]),aN=M[3],a_=g(u[2]),cj=O(a_,g(e9(e(aU,u[3])))),fa=u[3],ck=nd(gA(u),fa,a_),aa=iO(a8,ck,u[4],cj),fb=iM(ck,u[4],cj),fc=u[3],cl=f(iL(gA(u),fc,a_),fb),cn=g(iP(u)),fd=0,fe=f(cl,cX(function(a,b){return na(aa,a,b)},fd,d,cn,aN)),fk=f(bN(e8(aa)),fe),co=f(bN(ee(aa)),fk),a$=cI(co)[1],fl=cH(a$),aq=function(a){return a9(fl,a)},cp=r(g(M[2]),a8);if(cp)var
 fm=u[4],ba=m(function(a){return 0===a[0]?r(g(a[1]),a8):1},fm);else
 var
 ba=cp;var
@@ -7381,15 +7412,15 @@ var
 fF=u[4],aO=m(function(a){return 0===a[0]?0:1},fF)}else
 var
 aO=cs;if(aO){var
-fo=iO(u),bb=_(e(function(a){return am(aK,a)},fo));if(bb){var
-fp=0,fq=x(function(a){return e1(fp,d,a)},aN),bc=_(e(function(a){return io(aK,a)},fq));if(bc){var
+fn=iP(u),bb=_(e(function(a){return am(aK,a)},fn));if(bb){var
+fp=0,fq=x(function(a){return e2(fp,d,a)},aN),bc=_(e(function(a){return ip(aK,a)},fq));if(bc){var
 fr=M[2],bd=_(e(function(a){return am(aK,[0,a,d])},fr));if(bd){var
 fs=0,ft=0,be=_(cX(function(a,b){return nb(aK,aq,aa,ft,d,a,b)},fs,d,cn,aN));if(be){var
 cu=be[1];if(M[4])var
-fu=ep[2],fv=ep[1],fw=e7(aa),bf=lZ(hw,cu,[8,i(au(aq),fw),fv,fu]);else
+fu=ep[2],fv=ep[1],fw=e8(aa),bf=lZ(hw,cu,[8,i(av(aq),fw),fv,fu]);else
 var
 bf=cu;var
-fx=h1(bf),fy=bd[1],fz=function(a){return 0},fA=f(bb[1],bc[1]),fB=e(aq,cl),fC=e7(aa),fD=i(au(aq),fC),fE=ee(aa);return fn(h0(aK,a$,i(au(aq),fE),fD,fB,fA,bf,fz),fy,fx,hv)}var
+fx=h2(bf),fy=bd[1],fz=function(a){return 0},fA=f(bb[1],bc[1]),fB=e(aq,cl),fC=e8(aa),fD=i(av(aq),fC),fE=ee(aa);return fo(h1(aK,a$,i(av(aq),fE),fD,fB,fA,bf,fz),fy,fx,hv)}var
 cw=be}else
 var
 cw=bd;var
@@ -7406,36 +7437,36 @@ eq=eo}else
 var
 eq=bZ;return eq;case
 1:var
-er=an[3],aM=i8(as,aj,bY,ai,aJ,aH,ah),hx=e(j,er),es=br(e(aU,aj),hx);if(es[2])return 0;var
-hy=an[4],b0=gV(0,Ax,g(ai),0,ah,hy);if(b0){var
+er=an[3],aM=i9(as,aj,bY,ai,aJ,aH,ah),hx=e(j,er),es=br(e(aU,aj),hx);if(es[2])return 0;var
+hy=an[4],b0=gV(0,AB,g(ai),0,ah,hy);if(b0){var
 et=gW(e(aU,aj),er),eu=et?os(as,aj,ai,aJ,aH,ah):et,ev=eu?ni(aM[1]):eu;if(ev)var
 hz=aM[2],b1=m(function(a){return bo(n,a[1],a[2])},hz);else
 var
 b1=ev;if(b1){var
-hA=b0[1],ao=e(j,an[2]),ew=es[1],w=aM[1],aP=g(w[1]),bi=g(w[2]),cB=O(bi,g(e8(e(aU,w[3])))),fO=w[3],cC=nd(gA(w),fO,bi),aA=iN(aP,cC,w[4],cB),fP=iL(cC,w[4],cB),fQ=w[3],cD=f(iK(gA(w),fQ,bi),fP),fR=x(gy,w[4]),fS=f(e8(e(aU,w[3])),fR),aB=f(ew,e(function(a){return a[1][1]},fS)),cE=nk(n,e(aU,w[2]),ew),cF=cE?nk(n,aM[2],ao):cE,cG=cF?r(g(ao),aP):cF;if(cG)var
+hA=b0[1],ao=e(j,an[2]),ew=es[1],w=aM[1],aP=g(w[1]),bi=g(w[2]),cB=O(bi,g(e9(e(aU,w[3])))),fO=w[3],cC=nd(gA(w),fO,bi),ay=iO(aP,cC,w[4],cB),fP=iM(cC,w[4],cB),fQ=w[3],cD=f(iL(gA(w),fQ,bi),fP),fR=x(gy,w[4]),fS=f(e9(e(aU,w[3])),fR),aB=f(ew,e(function(a){return a[1][1]},fS)),cE=nk(n,e(aU,w[2]),ew),cF=cE?nk(n,aM[2],ao):cE,cG=cF?r(g(ao),aP):cF;if(cG)var
 fT=w[4],bj=m(function(a){return 0===a[0]?r(g(a[1]),aP):1},fT);else
 var
 bj=cG;var
-cJ=bj?m(nj,f(x(ud,aA),cD)):bj;if(cJ){var
+cJ=bj?m(nj,f(x(uh,ay),cD)):bj;if(cJ){var
 fU=aM[3],fI=e(function(a){var
-b=a[1];return[0,e(function(a){return ef(ao,aB,a)},b)]},aA),fJ=x(function(c){var
+b=a[1];return[0,e(function(a){return ef(ao,aB,a)},b)]},ay),fJ=x(function(c){var
 a=c[1];switch(a[0]){case
 7:var
 b=ef(ao,aB,a[2]);return[0,[4,b,b],0];case
-9:return[0,ef(ao,aB,a[1]),0];default:return 0}},cD),fK=function(a){return a},fL=0,fM=e(function(a){return 0},aA),fN=e(function(b){var
+9:return[0,ef(ao,aB,a[1]),0];default:return 0}},cD),fK=function(a){return a},fL=0,fM=e(function(a){return 0},ay),fN=e(function(b){var
 a=b[4];if(typeof
-a!=="number"&&0===a[0])return[0,ef(ao,aB,a[1])];return 0},aA);return ib(n,ue,aP,[0,e(function(a){var
-b=a[3];return e(function(a){return ef(ao,aB,a)},b)},aA),fN,fM,fL,fK,fJ,fI],fU,hA)}return cJ}var
+a!=="number"&&0===a[0])return[0,ef(ao,aB,a[1])];return 0},ay);return ic(n,ui,aP,[0,e(function(a){var
+b=a[3];return e(function(a){return ef(ao,aB,a)},b)},ay),fN,fM,fL,fK,fJ,fI],fU,hA)}return cJ}var
 ex=b1}else
 var
 ex=b0;return ex;default:return 0}case
 4:var
-ap=a[3],av=a[2],a0=a[1],aw=p[2];switch(aw[0]){case
+ap=a[3],au=a[2],a0=a[1],aw=p[2];switch(aw[0]){case
 0:var
 hB=aw[3],hC=aw[1],dA=dx(j(a0));if(dA){var
 bL=n7(ap);if(bL){var
-dB=bL[1],aE=dB[2],dC=j(aE),dD=j(dB[1]),c6=h(n,1,j(av)),c7=c6?h(n,1,[3,dC,[0,b,b]]):c6,c8=c7?h(n,1,dD):c7,dE=c8?h(n,0,[3,[5,[0,b,b],dC],dD]):c8;if(dE)var
-g2=0,g3=0,bO=m(function(a){return n2(g3,g2,Au,a)},ap);else
+dB=bL[1],aE=dB[2],dC=j(aE),dD=j(dB[1]),c6=h(n,1,j(au)),c7=c6?h(n,1,[3,dC,[0,b,b]]):c6,c8=c7?h(n,1,dD):c7,dE=c8?h(n,0,[3,[5,[0,b,b],dC],dD]):c8;if(dE)var
+g2=0,g3=0,bO=m(function(a){return n2(g3,g2,Ay,a)},ap);else
 var
 bO=dE;var
 dF=bO?m(function(c){if(1===c[1]){var
@@ -7447,7 +7478,7 @@ bP=aS;else
 var
 g7=j(aE),bP=h(n,0,[3,[0,c(2,b),b],g7]);if(bP){var
 dz=x(function(a){var
-b=i7(0,Ar,0,a);return e(function(b){return T(n8(a))},b)},ap),g0=function(f){var
+b=i8(0,Av,0,a);return e(function(b){return T(n8(a))},b)},ap),g0=function(f){var
 h=f[1];if(h){var
 i=h[1],j=q(i,dz,0);if(j)var
 l=aL(i,dz),k=[0,[0,g(bk(function(a){return a},l))]];else
@@ -7455,11 +7486,11 @@ var
 k=j;var
 a=k}else
 var
-a=At;if(a){var
+a=Ax;if(a){var
 c=a[1],e=f[2];switch(e[0]){case
 0:return[0,[0,c,[0,e[1]]],0];case
-2:return[0,[0,c,[1,As,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},g1=e(function(a){var
-b=a[4],c=a[3],d=a[2];return[0,x(g0,a[1]),d,c,b]},hB),g5=[0,bK[1],bK[2]],g6=oa(aS,av,aE);return oz(0,n$(aS,a0,av,aE),0,g6,0,g5,hC,g1)}return bP}var
+2:return[0,[0,c,[1,Aw,[0,[0,b,[0,d,[0,d,0]]],[0,[0,d,[0,b,[0,d,0]]],[0,[0,d,[0,d,[0,b,0]]],0]]],d]],0];default:return[0,[0,c,e],0]}}return a},g1=e(function(a){var
+b=a[4],c=a[3],d=a[2];return[0,x(g0,a[1]),d,c,b]},hB),g5=[0,bK[1],bK[2]],g6=oa(aS,au,aE);return oz(0,n$(aS,a0,au,aE),0,g6,0,g5,hC,g1)}return bP}var
 dG=1}else
 var
 dG=dF;var
@@ -7472,13 +7503,13 @@ dI=dA;return dI;case
 1:var
 hD=aw[4],hE=aw[3],hF=aw[2],dJ=dx(j(a0));if(dJ){var
 bQ=n7(ap);if(bQ){var
-aF=bQ[1][2],g8=[0,c(2,b),b],aT=h(n,0,[3,j(aF),g8]),dK=h(n,1,j(av)),dM=dK?h(n,1,[3,j(aF),[0,b,b]]):dK;if(dM)if(aT)var
+aF=bQ[1][2],g8=[0,c(2,b),b],aT=h(n,0,[3,j(aF),g8]),dK=h(n,1,j(au)),dM=dK?h(n,1,[3,j(aF),[0,b,b]]):dK;if(dM)if(aT)var
 aV=aT;else
 var
 g_=j(aF),aV=h(n,0,[3,[0,c(2,b),b],g_]);else
 var
 aV=dM;if(aV){var
-g9=oa(aT,av,aF);return oA(0,n$(aT,a0,av,aF),0,g9,0,ap,hF,hE,hD)}var
+g9=oa(aT,au,aF);return oA(0,n$(aT,a0,au,aF),0,g9,0,ap,hF,hE,hD)}var
 dN=aV}else
 var
 dN=bQ;var
@@ -7487,19 +7518,19 @@ var
 dO=dJ;return dO;default:return 0}case
 5:var
 b2=a[4],ey=a[1],b3=p[2];if(0===b3[0]){var
-ez=b3[3],s=i6(ey,[0,a[2],a[3]],0,b2),hG=g(ez),b4=jf(jj(s),hG,ez);if(b4){var
+ez=b3[3],s=i7(ey,[0,a[2],a[3]],0,b2),hG=g(ez),b4=jg(jk(s),hG,ez);if(b4){var
 eA=b4[1];if(eA[2])return 0;var
-eB=ji(ey,0,b2,s),eC=eB?T(ak(em,b2)):eB;if(eC){var
+eB=jj(ey,0,b2,s),eC=eB?T(ak(em,b2)):eB;if(eC){var
 eD=lY(n,s);if(eD){var
-hH=eA[1],eE=e(gQ,s[1]),B=gR(s[1]),eF=j(a[5]),$=b3[1],bv=gd(B,eE,s[1]),Q=h2(B,eE,s[1],0),f2=g(s[3]),f3=O(g(bv),f2),aQ=[0,g(bv),f3],f4=h4(Q,B,aQ,s[3]),f5=f(e(cM,Q),f4),c_=f(bN(eS(Q)),f5),c$=cI(c_)[1],bw=cH(c$),da=s[2];if(0===da[0]){var
+hH=eA[1],eE=e(gQ,s[1]),B=gR(s[1]),eF=j(a[5]),$=b3[1],bv=gd(B,eE,s[1]),Q=h3(B,eE,s[1],0),f2=g(s[3]),f3=O(g(bv),f2),aQ=[0,g(bv),f3],f4=h5(Q,B,aQ,s[3]),f5=f(e(cM,Q),f4),c_=f(bN(eT(Q)),f5),c$=cI(c_)[1],bw=cH(c$),da=s[2];if(0===da[0]){var
 db=m(function(a){var
 b=k(d);return aC(q(a9(bw,a),bw,b),a)},c_),dc=db?h(n,1,eF):db;if(dc){var
 f6=s[3],f7=x(function(a){return dd(B,a)},f6),f8=s[3],f9=f(bv,f(e(function(a){return bM(B,a)},f8),f7)),by=_(e(function(a){return am($,a)},f9));if(by){var
 f_=a3(da[1],B),bz=_(e(function(a){return am($,a)},f_));if(bz){var
 bA=cK($,B,[5,eF,[0,c(2,c(2,c(2,c(2,b)))),b]]);if(bA){var
-bB=s[3],f$=bz[1],ga=by[1],gb=bA[1],aD=function(a){return a9(bw,a)},fZ=az(0,g(bB)),f0=e(function(k){var
+bB=s[3],f$=bz[1],ga=by[1],gb=bA[1],aD=function(a){return a9(bw,a)},fZ=aA(0,g(bB)),f0=e(function(k){var
 l=F(bB,k);if(l){var
-a=l[1],u=aL(k,bB),v=g(x(function(a){return dd(B,a)},u)),w=O(aQ[2],v),j=[0,O(aQ[1],k),w],r=eS(Q),f=i(au(aD),r),c=[1,[8,[1,[1,j[1]]]]],d=ge(Q,B,j,a),n=d?[0,[3,e(aD,[0,d[1],d[2]])]]:d,m=0;if(typeof
+a=l[1],u=aL(k,bB),v=g(x(function(a){return dd(B,a)},u)),w=O(aQ[2],v),j=[0,O(aQ[1],k),w],r=eT(Q),f=i(av(aD),r),c=[1,[8,[1,[1,j[1]]]]],d=ge(Q,B,j,a),n=d?[0,[3,e(aD,[0,d[1],d[2]])]]:d,m=0;if(typeof
 a!=="number")switch(a[0]){case
 0:return[0,[0,f,c]];case
 1:return[0,[1,f,c]];case
@@ -7515,15 +7546,15 @@ q=c;m=1;break;case
 3:case
 6:case
 7:return n}if(m){var
-t=eX(Q,B,j,a);return y(function(a){return[0,i(au(aD),a),q]},t)}return 0}return l},fZ),f1=e(function(a){return aD(cM(a))},Q),c9=e(function(a){return aD(a[2])},Q),gc=s[3],gf=aQ[1],bu=function(aC,aB,aA){var
+t=eY(Q,B,j,a);return y(function(a){return[0,i(av(aD),a),q]},t)}return 0}return l},fZ),f1=e(function(a){return aD(cM(a))},Q),c9=e(function(a){return aD(a[2])},Q),gc=s[3],gf=aQ[1],bu=function(aC,aB,aA){var
 k=aC,l=aB,f=aA;for(;;)switch(f[0]){case
 0:var
-v=f[1],aa=r(g(v),uB),ab=aa?m(function(a){var
+v=f[1],aa=r(g(v),uF),ab=aa?m(function(a){var
 d=E(R(c(2,c(2,c(2,b)))),a);return d?E(a,c(2,c(2,c(2,b)))):d},v):aa;if(ab){var
 ac=nG($,gb,d0(0,l),v),j=f[2],w=bm(0,bJ($,ac,e(Z,k)),c$,0),aD=e(Z,k),M=function(a){return nF(nE($,ac,aD,w,a))};if(typeof
 j==="number")return 0===j?ak(function(b){var
 a=q(b,w,0);return a?E(a[1][2][2],d):a},c9):0;else{if(0===j[0]){var
-a=j[2],N=m(uz,a);if(N){var
+a=j[2],N=m(uD,a);if(N){var
 p=q(j[1],f0,0);if(p){var
 i=p[1];switch(i[0]){case
 0:var
@@ -7605,8 +7636,8 @@ eH=b4;return eH}return 0;case
 6:var
 eI=a[1];if(eI){var
 eJ=eI[1],b5=p[2];if(0===b5[0]){var
-b6=je(Az,0,0,0,Ay,b5[3]);if(b6){var
-eK=fh(eJ);if(eK){var
+b6=jf(AD,0,0,0,AC,b5[3]);if(b6){var
+eK=fi(eJ);if(eK){var
 hI=b6[1],eL=bT(eJ)[2],a1=b5[1],bs=cK(a1,d,eL);if(bs){var
 bt=cK(a1,d,[5,[0,b,b],eL]);if(bt){var
 fY=bs[1][1],c3=K(cm(a1),fY);if(c3)return nD(a1,bt[1][1],hI);var
@@ -7620,60 +7651,60 @@ eM=eK}else
 var
 eM=b6;return eM}return 0}var
 b7=p[2];if(0===b7[0]){var
-b8=je(AB,0,0,0,AA,b7[3]);return b8?nD(b7[1],d,b8[1]):b8}return 0;default:var
+b8=jf(AF,0,0,0,AE,b7[3]);return b8?nD(b7[1],d,b8[1]):b8}return 0;default:var
 ax=a[1],eN=p[2];if(2===eN[0]){var
-eO=eN[1],b_=jc(g(eO),eO);if(b_){var
+eO=eN[1],b_=jd(g(eO),eO);if(b_){var
 eP=b_[1];if(eP[2])return 0;var
-b$=eP[1],du=Y(Aq,g(ax)),dw=du?Y(g(ax),kG):du,dy=dw?nh(e(ay,ax)):dw,eQ=dy?m(function(c){var
+b$=eP[1],du=Y(Au,g(ax)),dw=du?Y(g(ax),kG):du,dy=dw?nh(e(az,ax)):dw,eQ=dy?m(function(c){var
 a=cr(j(c[2][1]));if(a){var
 b=cr(j(c[2][2]));if(b)return T(bl(b[1],a[1]));var
 d=b}else
 var
 d=a;return d},ax):dy;if(eQ)var
-hJ=gP(zi,b$),ca=oE(a[5],hJ);else
+hJ=gP(zm,b$),ca=oE(a[5],hJ);else
 var
 ca=eQ;if(ca)var
-hK=gP(zj,b$),cb=oE(a[6],hK);else
+hK=gP(zn,b$),cb=oE(a[6],hK);else
 var
 cb=ca;if(cb){var
 gZ=e(function(a){return[0,d,0]},ax);return oD(ax,a[2],a[3],a[4],gZ,b$)}var
 eR=cb}else
 var
 eR=b_;return eR}return 0}}return aG}var
-W=[aX,AE,qY(0)],oF=[aX,AF,qY(0)];function
-AC(m,b){var
-f=[0,l(yD,ap(b[4])),0],g=[0,l(yF,ad([0,l(yE,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
+V=[aX,AI,qY(0)],oF=[aX,AJ,qY(0)];function
+AG(m,b){var
+f=[0,l(yH,ap(b[4])),0],g=[0,l(yJ,ae([0,l(yI,ap(b[3])),f])),0],a=b[2];switch(a[0]){case
 0:var
-c=N(yz,nO(a[1],a[2],a[3]));break;case
+c=N(yD,nO(a[1],a[2],a[3]));break;case
 1:var
-c=N(yA,nP(a[1],a[2],a[3],a[4]));break;default:var
-c=N(yB,D(e(yu,a[1])))}var
-h=[0,l(yG,c),g],i=1===b[2][0]?yM:yH,j=[0,l(yI,ap(i)),h],k=[0,l(yJ,w7(b[1])),j],d=aw(ka(AD,gG(ad([0,l(yL,ap(yK)),k]),yC)),m);return d?Av(b):d}function
-ah(a){if(0===a[0])return a[1];throw W}function
-ac(a){if(1===a[0])return a[1];throw W}function
-aS(a){if(2===a[0])return a[1];throw W}function
-fj(a){if(3===a[0])return a[1];throw W}function
+c=N(yE,nP(a[1],a[2],a[3],a[4]));break;default:var
+c=N(yF,D(e(yy,a[1])))}var
+h=[0,l(yK,c),g],i=1===b[2][0]?yQ:yL,j=[0,l(yM,ap(i)),h],k=[0,l(yN,w$(b[1])),j],d=aw(ka(AH,gG(ae([0,l(yP,ap(yO)),k]),yG)),m);return d?Az(b):d}function
+ah(a){if(0===a[0])return a[1];throw V}function
+ad(a){if(1===a[0])return a[1];throw V}function
+aS(a){if(2===a[0])return a[1];throw V}function
+fk(a){if(3===a[0])return a[1];throw V}function
 a6(f,e){var
 a=f;for(;;){if(a){var
-b=a[1],c=a[2],d=b[2];if(0===GS(b[1],e))return[0,d];var
+b=a[1],c=a[2],d=b[2];if(0===GZ(b[1],e))return[0,d];var
 a=c;continue}return 0}}function
 u(c,b){var
-a=a6(c,b);if(a)return a[1];throw W}function
+a=a6(c,b);if(a)return a[1];throw V}function
 cA(b,a){var
 c=a?[0,i(b,a[1])]:a;return c}function
 dz(a){switch(a[0]){case
 0:var
 b=a[1];if(b&&!b[2]){var
 c=b[1];return[0,c[1],c[2]]}break;case
-2:return[0,a[1],AG]}throw W}function
-fk(e,d){var
-a=X(e,ac(d));if(a){var
+2:return[0,a[1],AK]}throw V}function
+fl(e,d){var
+a=X(e,ad(d));if(a){var
 b=a[2];if(b){var
-c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw W}function
+c=b[2];if(c&&!c[2])return[0,a[1],b[1],c[1]]}}throw V}function
 gY(i){var
-f=eC(i),d=[0,0],e=ho(f)-1|0;if(!(e<0)){var
+f=eD(i),d=[0,0],e=hp(f)-1|0;if(!(e<0)){var
 c=e;for(;;){var
-a=d[1],g=jR(f,c)-48|0;if(9<g>>>0)throw W;switch(g){case
+a=d[1],g=jS(f,c)-48|0;if(9<g>>>0)throw V;switch(g){case
 0:var
 b=[0,a];break;case
 1:var
@@ -7695,30 +7726,31 @@ b=[8,a];break;default:var
 b=[9,a]}d[1]=b;var
 h=c-1|0;if(0!==c){var
 c=h;continue}break}}return d[1]}function
-fl(a){return kq(gY(a))}function
+fm(a){return kq(gY(a))}function
 ep(b){var
-a=fj(b);return 45===aY(a,0)?R(fl(dK(a,1,av(a)-1|0))):fl(a)}function
-oG(a){return dN(fl(fj(a)))}function
-dA(a){return hz(fl(fj(a)))}function
+a=fk(b);return 45===aY(a,0)?R(fm(dK(a,1,au(a)-1|0))):fm(a)}function
+oG(a){return dN(fm(fk(a)))}function
+dA(b){var
+a=fk(b);if(!(2<au(a))&&!(64<=ho(a)))return hA(fm(a));throw V}function
 cB(c){var
-a=fj(c);if(6<av(a))throw W;function
-b(a){return 0<a?[0,b(a-1|0)]:0}return b(jZ(a))}function
+a=fk(c);if(6<au(a))throw V;function
+b(a){return 0<a?[0,b(a-1|0)]:0}return b(ho(a))}function
 oH(a){var
 b=97<=a?1:0,c=b?a<=qA?1:0:b;if(c)var
 d=c;else
 var
 e=65<=a?1:0,d=e?a<=90?1:0:e;return d}function
 oI(y,b){var
-d=av(b),a=[0,0];function
+d=au(b),a=[0,0];function
 c(e){var
 c=a[1]<d?1:0,f=c?aY(b,a[1])===e?1:0:c;return f}function
 l(e){var
 c=a[1];for(;;){if(a[1]<d&&48<=aY(b,a[1])&&!(57<aY(b,a[1]))){a[1]++;continue}return dK(b,c,a[1]-c|0)}}function
 m(b){a[1]++;var
-d=f(b+1|0);if(c(41)){a[1]++;return d}throw W}function
-h(j){if(64<j)throw W;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
+d=f(b+1|0);if(c(41)){a[1]++;return d}throw V}function
+h(j){if(64<j)throw V;if(c(45)){a[1]++;return[2,h(j+1|0)]}if(c(40))var
 e=m(j);else{var
-u=0;if((a[1]+5|0)<=d&&aw(dK(b,a[1],5),AI)){a[1]=a[1]+4|0;var
+u=0;if((a[1]+5|0)<=d&&aw(dK(b,a[1],5),AM)){a[1]=a[1]+4|0;var
 e=[5,m(j)]}else
 u=1;if(u){var
 v=0;if(a[1]<d&&oH(aY(b,a[1]))){var
@@ -7726,65 +7758,65 @@ n=a[1];for(;;){if(a[1]<d){var
 w=0;if(!oH(aY(b,a[1]))&&95!==aY(b,a[1])&&(!(48<=aY(b,a[1]))||57<aY(b,a[1])))w=1;if(!w){a[1]++;continue}}var
 e=[1,i(y,dK(b,n,a[1]-n|0))];break}}else
 v=1;if(v){var
-g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,AJ);if(r)var
+g=l(0),p=c(46),q=p?(a[1]++,[0,l(0)]):p,r=aw(g,AN);if(r)var
 s=r;else
 var
-t=1<av(g)?1:0,s=t?48===aY(g,0)?1:0:t;if(s)throw W;if(q){var
-k=q[1],x=0;if(aw(k,AK)||48===aY(k,av(k)-1|0))x=1;else
+t=1<au(g)?1:0,s=t?48===aY(g,0)?1:0:t;if(s)throw V;if(q){var
+k=q[1],x=0;if(aw(k,AO)||48===aY(k,au(k)-1|0))x=1;else
 var
-z=gY(k),e=[0,gY(g),z];if(x)throw W}else
+z=gY(k),e=[0,gY(g),z];if(x)throw V}else
 var
 e=[0,gY(g),0]}}}if(c(94)){a[1]++;var
-f=l(0);if(o(f,AH)){if(!(2<av(f))&&2<=jZ(f)&&!(64<jZ(f)))return[4,e,dN(fl(f))];throw W}throw W}return e}function
+f=l(0);if(o(f,AL)){if(!(2<au(f))&&2<=ho(f)&&!(64<ho(f)))return[4,e,dN(fm(f))];throw V}throw V}return e}function
 e(d){var
 b=h(d);for(;;){if(c(42)){a[1]++;var
 b=[3,2,b,h(d)];continue}if(c(47)){a[1]++;var
 b=[3,3,b,h(d)];continue}return b}}function
-f(d){if(64<d)throw W;var
+f(d){if(64<d)throw V;var
 b=e(d);for(;;){if(c(43)){a[1]++;var
 b=[3,0,b,e(d)];continue}if(c(45)){a[1]++;var
 b=[3,1,b,e(d)];continue}return b}}var
-g=f(0);if(a[1]<d)throw W;return g}function
+g=f(0);if(a[1]<d)throw V;return g}function
 gZ(a){return oI(function(a){return[0,a]},a)}function
-jl(a){var
+jm(a){var
 b=aS(a);return oI(function(a){return a},b)}function
 S(a){return gZ(aS(a))}function
 cb(a){if(2===a[0])return[0,gZ(a[1])];var
-b=ah(a),c=S(u(b,AL));return[1,S(u(b,AM)),c]}function
-ae(a){throw[0,oF,a8(ka(AO,a),AN)]}function
-jm(c){var
-a=aS(c);if(o(a,AP)){var
-b=o(a,AQ);if(b)throw W;return b}return 1}function
-AR(d){var
+b=ah(a),c=S(u(b,AP));return[1,S(u(b,AQ)),c]}function
+$(a){throw[0,oF,a8(ka(AS,a),AR)]}function
+jn(c){var
+a=aS(c);if(o(a,AT)){var
+b=o(a,AU);if(b)throw V;return b}return 1}function
+AV(d){var
 b=ah(d);function
-a(a){return fk(cb,u(b,a))}var
-c=aS(u(b,AS));if(o(c,AT)){if(o(c,AU)){if(o(c,AV))return ae([0,AX,[0,c,AW]]);var
-e=a6(b,AY),f=cA(function(a){return fk(cb,a)},e),g=a(AZ);return[1,a(A0),g,f]}var
-h=jm(u(b,A1)),i=cb(u(b,A2)),j=a(A3),k=a(A4);return[0,a(A5),k,j,i,h]}return[2,a(A6)]}function
-A7(d){var
+a(a){return fl(cb,u(b,a))}var
+c=aS(u(b,AW));if(o(c,AX)){if(o(c,AY)){if(o(c,AZ))return $([0,A1,[0,c,A0]]);var
+e=a6(b,A2),f=cA(function(a){return fl(cb,a)},e),g=a(A3);return[1,a(A4),g,f]}var
+h=jn(u(b,A5)),i=cb(u(b,A6)),j=a(A7),k=a(A8);return[0,a(A9),k,j,i,h]}return[2,a(A_)]}function
+A$(d){var
 a=ah(d);if(a){var
-b=a[1];if(!o(b[1],A8)){var
-c=b[2];if(2===c[0]&&!o(c[1],A9))return 1}}return 0}function
+b=a[1];if(!o(b[1],Ba)){var
+c=b[2];if(2===c[0]&&!o(c[1],Bb))return 1}}return 0}function
 oJ(e){var
 b=ah(e);function
-a(a){return X(cb,ac(u(b,a)))}var
-c=aS(u(b,A_)),d=a6(b,A$);if(o(c,Ba)){if(o(c,Bb)){if(!o(c,Bc)&&!d){var
-f=a(Bf);return[1,a(Bg),f]}}else
+a(a){return X(cb,ad(u(b,a)))}var
+c=aS(u(b,Bc)),d=a6(b,Bd);if(o(c,Be)){if(o(c,Bf)){if(!o(c,Bg)&&!d){var
+f=a(Bj);return[1,a(Bk),f]}}else
 if(!d){var
-g=jm(u(b,Bh)),h=cb(u(b,Bi)),i=a(Bj),j=a(Bk);return[0,a(Bl),j,i,h,g]}}else
+g=jn(u(b,Bl)),h=cb(u(b,Bm)),i=a(Bn),j=a(Bo);return[0,a(Bp),j,i,h,g]}}else
 if(!d){var
-k=jm(u(b,Bm)),l=cb(u(b,Bn)),m=cb(u(b,Bo)),n=a(Bp),p=a(Bq),q=a(Br);return[2,a(Bs),q,p,n,m,l,k]}return ae([0,Be,[0,c,Bd]])}function
+k=jn(u(b,Bq)),l=cb(u(b,Br)),m=cb(u(b,Bs)),n=a(Bt),p=a(Bu),q=a(Bv);return[2,a(Bw),q,p,n,m,l,k]}return $([0,Bi,[0,c,Bh]])}function
 oK(d){var
 a=ah(d);if(a){var
-b=a[1];if(!o(b[1],Bt)){var
-c=b[2];if(2===c[0]&&!o(c[1],Bu))return 1}}return 0}function
+b=a[1];if(!o(b[1],Bx)){var
+c=b[2];if(2===c[0]&&!o(c[1],By))return 1}}return 0}function
 c6(c,d){var
-a=ac(d);if(a){var
+a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw W}function
+e=i(c,b[1]);return[0,i(c,a[1]),e]}}throw V}function
 eq(g,p){var
-h=g?g[1]:g,c=ah(p),a=aS(u(c,Bv)),j=q$(a,Bw),f=0;if(0<=j)if(0<j)if(o(a,Bx))if(o(a,By))if(o(a,Bz))if(o(a,BA))if(o(a,BB))if(o(a,BC)){var
-k=o(a,BD);if(k)f=1;else
+h=g?g[1]:g,c=ah(p),a=aS(u(c,Bz)),j=q$(a,BA),f=0;if(0<=j)if(0<j)if(o(a,BB))if(o(a,BC))if(o(a,BD))if(o(a,BE))if(o(a,BF))if(o(a,BG)){var
+k=o(a,BH);if(k)f=1;else
 var
 b=k}else
 var
@@ -7802,7 +7834,7 @@ var
 b=13;else
 var
 b=2;else
-if(o(a,BX))if(o(a,BY))if(o(a,BZ))if(o(a,B0))if(o(a,B1))if(o(a,B2))if(o(a,B3))if(o(a,B4))f=1;else
+if(o(a,B1))if(o(a,B2))if(o(a,B3))if(o(a,B4))if(o(a,B5))if(o(a,B6))if(o(a,B7))if(o(a,B8))f=1;else
 var
 b=1;else
 var
@@ -7820,10 +7852,10 @@ b=14;else
 f=1;else
 var
 b=12;var
-n=f?ae([0,BF,[0,a,BE]]):b;function
-i(a){return u(c,BG)}var
-d=aS(u(c,BH)),l=o(d,BI);if(l)if(o(d,BJ))if(o(d,BK))if(o(d,BL))var
-e=ae([0,BN,[0,d,BM]]);else
+n=f?$([0,BJ,[0,a,BI]]):b;function
+i(a){return u(c,BK)}var
+d=aS(u(c,BL)),l=o(d,BM);if(l)if(o(d,BN))if(o(d,BO))if(o(d,BP))var
+e=$([0,BR,[0,d,BQ]]);else
 var
 m=c6(S,i(0)),e=[2,m[1],m[2]];else
 var
@@ -7835,89 +7867,89 @@ e=l;function
 q(E){var
 a=ah(E),c=0;switch(n){case
 6:if(a){var
-r=a[1];if(!o(r[1],BP)){var
+r=a[1];if(!o(r[1],BT)){var
 s=r[2];if(1===s[0]){var
 b=s[1],m=0;if(b&&!b[2])if(a[2])m=1;else{var
 e=b[1];c=1;m=1}if(!m&&!a[2])return[1,X(S,b)]}}}break;case
 10:if(a){var
-t=a[1];if(!o(t[1],BQ)){var
+t=a[1];if(!o(t[1],BU)){var
 u=t[2];if(1===u[0]){var
 f=u[1];if(f&&!f[2]){var
 g=a[2];if(g){var
-v=g[1];if(!o(v[1],BR)){var
+v=g[1];if(!o(v[1],BV)){var
 w=v[2];if(1===w[0]){var
 i=w[1];if(i&&!i[2]&&!g[2]){var
 F=S(i[1]);return[2,S(f[1]),F]}}}}}}}}break;case
 12:if(a){var
-x=a[1];if(!o(x[1],BS)){var
+x=a[1];if(!o(x[1],BW)){var
 y=x[2];if(1===y[0]){var
 j=y[1];if(j&&!j[2]){var
 k=a[2],z=j[1];if(k){var
-A=k[1];if(!o(A[1],BT)){var
+A=k[1];if(!o(A[1],BX)){var
 B=A[2];if(1===B[0]){var
 l=B[1];if(l&&!l[2]&&!k[2]&&h){var
 G=S(l[1]);return[3,S(z),G]}}}}else{var
 e=z;c=1}}}}}break;case
 14:case
 15:if(a){var
-C=a[1];if(!o(C[1],BU)){var
+C=a[1];if(!o(C[1],BY)){var
 D=C[2];if(1===D[0]&&!a[2])return[1,X(S,D[1])]}}break;case
 2:case
 8:if(a){var
-p=a[1];if(!o(p[1],BO)){var
+p=a[1];if(!o(p[1],BS)){var
 q=p[2];if(1===q[0]){var
 d=q[1];if(d&&!d[2]&&!a[2]){var
-e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw W}var
-r=cA(q,a6(c,BV));return[0,n,cA(cB,a6(c,BW)),r,e]}function
+e=d[1];c=1}}}}break}if(c)return[0,S(e)];throw V}var
+r=cA(q,a6(c,BZ));return[0,n,cA(cB,a6(c,B0)),r,e]}function
 oL(c){var
-d=eq(B7,c),e=d[1];if(!(9<=e))switch(e){case
+d=eq(B$,c),e=d[1];if(!(9<=e))switch(e){case
 2:case
 6:case
 8:return d}var
-a=eq(B5,c),b=a[1];if(2!==b&&!(4<=b))return a;return ae(B6)}function
+a=eq(B9,c),b=a[1];if(2!==b&&!(4<=b))return a;return $(B_)}function
 oM(a){var
-b=eq(B8,a);return 11===b[1]?b:oL(a)}function
-B9(c){var
-d=eq(B_,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
+b=eq(Ca,a);return 11===b[1]?b:oL(a)}function
+Cb(c){var
+d=eq(Cc,c),a=d[1]-9|0,b=0;if(3<a>>>0){if(5<=a)b=1}else
 if(2!==a)b=1;return b?d:oM(c)}function
-jn(a){var
-b=eq(B$,a),c=b[1];if(4<=c)switch(c-4|0){case
+jo(a){var
+b=eq(Cd,a),c=b[1];if(4<=c)switch(c-4|0){case
 0:case
 1:case
 7:case
 9:return b}return oL(a)}function
-jo(b){var
-a=ah(b[2]);if(o(b[1],Cg)){var
-c=c6(S,u(a,Ch)),d=c6(S,u(a,Ci)),e=d[2],f=d[1],g=S(u(a,Cj));return[1,c[1],c[2],g,f,e]}var
-h=X(S,ac(u(a,Ck)));return[0,X(S,ac(u(a,Cl))),h]}function
-Cm(f){var
+jp(b){var
+a=ah(b[2]);if(o(b[1],Ck)){var
+c=c6(S,u(a,Cl)),d=c6(S,u(a,Cm)),e=d[2],f=d[1],g=S(u(a,Cn));return[1,c[1],c[2],g,f,e]}var
+h=X(S,ad(u(a,Co)));return[0,X(S,ad(u(a,Cp))),h]}function
+Cq(f){var
 a=ah(f);function
 d(b){return S(u(a,b))}function
-c(b){return fk(S,u(a,b))}var
-b=aS(u(a,Cn));if(o(b,Co)){if(!o(b,Cp)){var
-j=u(a,Cv),e=c6(function(a){return a},j),k=a6(a,Cw),l=cA(function(a){return c(Cx)},k),m=gZ(aS(e[2])),n=gZ(aS(e[1])),p=d(Cy);return[0,cB(u(a,Cz)),p,n,m,l]}if(o(b,Cq))throw W}var
-g=d(Cr),h=c(Cs),i=c(Ct);return[1,aw(b,Cu),i,h,g]}function
-jp(an){var
-g=dz(an),h=g[1];if(o(h,CA)){if(o(h,CB)){if(o(h,CC)){if(o(h,CD))return ae([0,CF,[0,h,CE]]);var
-w=u(ah(g[2]),CG),ab=0;if(2===w[0]){var
-K=o(w[1],CH);if(!K){var
-J=K;ab=1}}if(!ab)var
+c(b){return fl(S,u(a,b))}var
+b=aS(u(a,Cr));if(o(b,Cs)){if(!o(b,Ct)){var
+j=u(a,Cz),e=c6(function(a){return a},j),k=a6(a,CA),l=cA(function(a){return c(CB)},k),m=gZ(aS(e[2])),n=gZ(aS(e[1])),p=d(CC);return[0,cB(u(a,CD)),p,n,m,l]}if(o(b,Cu))throw V}var
+g=d(Cv),h=c(Cw),i=c(Cx);return[1,aw(b,Cy),i,h,g]}function
+jq(an){var
+g=dz(an),h=g[1];if(o(h,CE)){if(o(h,CF)){if(o(h,CG)){if(o(h,CH))return $([0,CJ,[0,h,CI]]);var
+w=u(ah(g[2]),CK),ac=0;if(2===w[0]){var
+K=o(w[1],CL);if(!K){var
+J=K;ac=1}}if(!ac)var
 J=[0,cb(w)];return[6,J]}var
-L=ah(g[2]),j=jp([0,[0,[0,CJ,u(L,CI)],0]]);if(0===j[0]){var
+L=ah(g[2]),j=jq([0,[0,[0,CN,u(L,CM)],0]]);if(0===j[0]){var
 x=j[2];if(0===x[0]&&!j[3]){var
-ao=S(u(L,CL));return[5,j[1],x[1],x[2],j[4],ao]}}return ae(CK)}var
-a=ah(g[2]),y=a6(a,CM),z=y?X(Cm,ac(y[1])):y,n=function(b){var
-a=0!==z?1:0;return a?ae(CN):a},k=dz(u(a,CO)),b=dz(u(a,CP)),c=k[1];if(o(c,CQ)&&o(c,CR)&&o(c,CS)){if(0===a6(a,CT)){if(o(c,CU)){var
-ad=0;if(o(c,CV)){if(!o(c,CW)){var
-M=b[1],af=0;if(o(M,CZ)&&o(M,C0)){ad=1;af=1}if(!af){var
-A=ac(k[2]),ap=ac(u(a,C3)),N=X(function(a){return eq(0,a)},ap);if(!aB(A7,A)&&!aB(function(a){return 13===a[1]?1:0},N)){var
-as=X(AR,A),f=ah(b[2]);if(o(b[1],Ca))var
-H=c6(S,u(f,Cb)),I=c6(S,u(f,Cc)),aj=I[2],ak=I[1],al=S(u(f,Cd)),O=[1,H[1],H[2],al,ak,aj];else
+ao=S(u(L,CP));return[5,j[1],x[1],x[2],j[4],ao]}}return $(CO)}var
+a=ah(g[2]),y=a6(a,CQ),z=y?X(Cq,ad(y[1])):y,n=function(b){var
+a=0!==z?1:0;return a?$(CR):a},k=dz(u(a,CS)),b=dz(u(a,CT)),c=k[1];if(o(c,CU)&&o(c,CV)&&o(c,CW)){if(0===a6(a,CX)){if(o(c,CY)){var
+ae=0;if(o(c,CZ)){if(!o(c,C0)){var
+M=b[1],af=0;if(o(M,C3)&&o(M,C4)){ae=1;af=1}if(!af){var
+A=ad(k[2]),ap=ad(u(a,C7)),N=X(function(a){return eq(0,a)},ap);if(!ay(A$,A)&&!ay(function(a){return 13===a[1]?1:0},N)){var
+as=X(AV,A),f=ah(b[2]);if(o(b[1],Ce))var
+H=c6(S,u(f,Cf)),I=c6(S,u(f,Cg)),aj=I[2],ak=I[1],al=S(u(f,Ch)),O=[1,H[1],H[2],al,ak,aj];else
 var
-am=fk(S,u(f,Ce)),O=[0,fk(S,u(f,Cf)),am];return[0,as,O,z,N]}n(0);var
-aq=X(jn,ac(u(a,C4))),ar=jo(b);return[1,0,X(oJ,A),0,ar,0,aq]}}}else
-if(!o(b[1],C5)){n(0);var
-P=X(jn,ac(u(a,C6))),v=0,e=P;for(;;){if(e){var
+am=fl(S,u(f,Ci)),O=[0,fl(S,u(f,Cj)),am];return[0,as,O,z,N]}n(0);var
+aq=X(jo,ad(u(a,C8))),ar=jp(b);return[1,0,X(oJ,A),0,ar,0,aq]}}}else
+if(!o(b[1],C9)){n(0);var
+P=X(jo,ad(u(a,C_))),v=0,e=P;for(;;){if(e){var
 F=e[2],G=e[1];if(0===G[1]){var
 v=[0,G,v],e=F;continue}var
 e=F;continue}var
@@ -7936,132 +7968,141 @@ C=m[2];if(C){var
 E=0,T=C[1][4];if(typeof
 T!=="number"&&0===T[0])if(C[2]){d=1;E=1}else
 E=1;if(!E)d=1}else
-d=1;break;default:d=1}if(!d)ag=1}if(!ag)ae(C7);var
-at=S(u(ah(b[2]),C8));return[4,S(u(ah(k[2]),C9)),at,P]}}if(!ad)return ae([0,CY,[0,c,CX]])}else
-if(!o(b[1],C_)){n(0);var
-p=ah(k[2]),U=ah(b[2]),V=function(c,a){var
-b=ac(a);return X(function(d){var
-a=ac(d);if(a){var
+d=1;break;default:d=1}if(!d)ag=1}if(!ag)$(C$);var
+at=S(u(ah(b[2]),Da));return[4,S(u(ah(k[2]),Db)),at,P]}}if(!ae)return $([0,C2,[0,c,C1]])}else
+if(!o(b[1],Dc)){n(0);var
+p=ah(k[2]),U=ah(b[2]),W=function(c,a){var
+b=ad(a);return X(function(d){var
+a=ad(d);if(a){var
 b=a[2];if(b&&!b[2]){var
-e=i(c,b[1]);return[0,aS(a[1]),e]}}throw W},b)},au=function(d){var
+e=i(c,b[1]);return[0,aS(a[1]),e]}}throw V},b)},au=function(d){var
 a=ah(d);if(a){var
-b=a[1],c=b[1];if(o(c,C$)){if(!o(c,Da)&&!a[2])return[0,X(jl,ac(b[2]))]}else
-if(!a[2])return[1,jl(b[2])]}throw W},av=X(oM,ac(u(a,Db))),ax=X(S,ac(u(U,Dc))),ay=X(S,ac(u(U,Dd))),az=X(au,ac(u(p,De))),aA=V(jl,u(p,Df)),aC=V(cb,u(p,Dg));return[3,X(aS,ac(u(p,Dh))),aC,aA,az,ay,ax,av]}return ae([0,C2,[0,b[1],C1]])}throw W}var
-Y=ah(k[2]),q=cA(S,a6(Y,Di)),aD=function(f){var
-a=dz(f),b=a[1];if(o(b,Dj)){if(o(b,Dk)){if(o(b,Dl)){if(o(b,Dm))throw W;var
-d=a[2],g=S(u(ah(d),Dn));return[3,S(u(ah(d),Do)),g]}var
-h=a[2],c=function(a){return c6(S,u(ah(h),a))},i=c(Dp),j=c(Dq);return[1,c(Dr),j,i]}var
-e=c6(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cA(aD,a6(a,Ds)),Z=o(c,Dt),_=Z?o(c,Du)?2:1:Z,s=ac(u(Y,Dv));if(q&&r&&hs(oK,s)){var
+b=a[1],c=b[1];if(o(c,Dd)){if(!o(c,De)&&!a[2])return[0,X(jm,ad(b[2]))]}else
+if(!a[2])return[1,jm(b[2])]}throw V},av=X(oM,ad(u(a,Df))),ax=X(S,ad(u(U,Dg))),az=X(S,ad(u(U,Dh))),aA=X(au,ad(u(p,Di))),aB=W(jm,u(p,Dj)),aC=W(cb,u(p,Dk));return[3,X(aS,ad(u(p,Dl))),aC,aB,aA,az,ax,av]}return $([0,C6,[0,b[1],C5]])}throw V}var
+Y=ah(k[2]),q=cA(S,a6(Y,Dm)),aD=function(f){var
+a=dz(f),b=a[1];if(o(b,Dn)){if(o(b,Do)){if(o(b,Dp)){if(o(b,Dq))throw V;var
+d=a[2],g=S(u(ah(d),Dr));return[3,S(u(ah(d),Ds)),g]}var
+h=a[2],c=function(a){return c6(S,u(ah(h),a))},i=c(Dt),j=c(Du);return[1,c(Dv),j,i]}var
+e=c6(S,a[2]);return[0,e[1],e[2]]}return[2,S(a[2])]},r=cA(aD,a6(a,Dw)),Z=o(c,Dx),_=Z?o(c,Dy)?2:1:Z,s=ad(u(Y,Dz));if(q&&r&&ht(oK,s)){var
 aE=function(c){var
 a=ah(c);function
-b(b){return X(cb,ac(u(a,b)))}if(0!==a6(a,Dw))ae(Dx);var
-d=b(Dy);return[0,b(Dz),d]},aF=X(B9,ac(u(a,DA))),aG=r[1],aH=jo(b),aI=q[1];return[2,_,X(aE,s),aI,aH,aG,z,aF]}n(0);var
-ai=0;if(!q&&aw(c,DD)){var
-$=1;ai=1}if(!ai)var
-$=[0,_];var
-aa=0!==r?1:0,aJ=aa?aB(oK,s):aa;if(aJ)ae(DB);var
-aK=X(jn,ac(u(a,DC))),aL=jo(b);return[1,$,X(oJ,s),q,aL,r,aK]}var
+b(b){return X(cb,ad(u(a,b)))}if(0!==a6(a,DA))$(DB);var
+d=b(DC);return[0,b(DD),d]},aF=X(Cb,ad(u(a,DE))),aG=r[1],aH=jp(b),aI=q[1];return[2,_,X(aE,s),aI,aH,aG,z,aF]}n(0);var
+ai=0;if(!q&&aw(c,DH)){var
+aa=1;ai=1}if(!ai)var
+aa=[0,_];var
+ab=0!==r?1:0,aJ=ab?ay(oK,s):ab;if(aJ)$(DF);var
+aK=X(jo,ad(u(a,DG))),aL=jp(b);return[1,aa,X(oJ,s),q,aL,r,aK]}var
 t=ah(g[2]);function
 aM(b){var
-a=ah(b),c=S(u(a,DE)),d=[0,S(u(a,DF)),c];return[0,aS(u(a,DG)),d]}var
-l=jp([0,[0,[0,DI,u(t,DH)],0]]);if(0===l[0]&&!l[3]){var
-aN=S(u(t,DK)),aO=S(u(t,DL)),aP=l[4],aQ=l[2],aR=l[1];return[7,X(aM,ac(u(t,DM))),aR,aQ,aP,aO,aN]}return ae(DJ)}function
-fm(a){return X(ep,ac(a))}function
-jq(c,b){var
-a=fm(b);if(ci(a)!==c)throw W;return a}function
+a=ah(b),c=S(u(a,DI)),d=[0,S(u(a,DJ)),c];return[0,aS(u(a,DK)),d]}var
+l=jq([0,[0,[0,DM,u(t,DL)],0]]);if(0===l[0]&&!l[3]){var
+aN=S(u(t,DO)),aO=S(u(t,DP)),aP=l[4],aQ=l[2],aR=l[1];return[7,X(aM,ad(u(t,DQ))),aR,aQ,aP,aO,aN]}return $(DN)}function
+fn(a){return X(ep,ad(a))}function
+jr(c,b){var
+a=fn(b);if(ci(a)!==c)throw V;return a}function
 oN(a,d){var
-b=ah(d),e=ac(u(b,DP)),f=a[2],c=X(function(a){return jq(f,a)},e),g=a[1];if(ci(c)!==g)throw W;return[0,c,dA(u(b,DQ))]}function
-er(f,p){var
-M=f[2];switch(p[0]){case
+b=ah(d),e=ad(u(b,DT)),f=a[2],c=X(function(a){return jr(f,a)},e),g=a[1];if(ci(c)!==g)throw V;return[0,c,dA(u(b,DU))]}function
+er(au,i){var
+as=0;if(0===i[0]){var
+s=i[1];if(s){var
+S=s[1];if(!o(S[1],DV)){var
+ai=S[2];if(0===ai[0]){var
+J=ai[1];if(J){var
+aj=J[1];if(!o(aj[1],Ee)){var
+ak=aj[2];if(1===ak[0]){var
+K=ak[1];if(K){var
+al=K[1];if(1===al[0]){var
+am=al[1];if(am&&!am[2]&&!K[2]){var
+an=J[2];if(an&&!an[2]&&!s[2]){var
+f=Ef;as=1}}}}}}}}}}}if(!as)var
+f=au;var
+T=f[2];switch(i[0]){case
 0:var
-c=p[1];if(c){var
-e=c[1],a=e[1],N=q$(a,DR),b=0;if(0<=N)if(0<N)if(o(a,DS)){var
-g=0;if(o(a,DT)&&o(a,DU)&&o(a,DV))if(o(a,DW))g=1;else{var
-O=e[2];if(1===O[0]){var
-q=O[1];if(q){var
-r=q[2];if(r){var
-s=r[2];if(s&&!s[2]){if(!c[2]){var
-ad=X(fm,ac(s[1])),af=aS(r[1]);return[8,er(f,q[1]),af,ad]}b=1;g=1}else
+b=i[1];if(b){var
+e=b[1],c=e[1],U=q$(c,DW),a=0;if(0<=U)if(0<U)if(o(c,DX)){var
+g=0;if(o(c,DY)&&o(c,DZ)&&o(c,D0))if(o(c,D1))g=1;else{var
+W=e[2];if(1===W[0]){var
+t=W[1];if(t){var
+v=t[2];if(v){var
+w=v[2];if(w&&!w[2]){if(!b[2]){var
+av=X(fn,ad(w[1])),aw=aS(v[1]);return[8,er(f,t[1]),aw,av]}a=1;g=1}else
 g=1}else
 g=1}else
 g=1}else
-g=1}if(!g)if(c[2])b=1;else{var
-ag=e[2],v=ag,t=function(c,b){return[1,a,c,b]};b=2}}else{var
-Q=e[2];if(1===Q[0]){var
-w=Q[1];if(w){var
-x=w[2];if(x){var
-y=x[2];if(y&&!y[2]){if(!c[2]){var
-ai=dA(y[1]),aj=ep(x[1]);return[5,er(f,w[1]),aj,ai]}b=1}}}}}else{var
-R=e[2];if(1===R[0]){if(!c[2]){var
-ak=function(i){if(1===i[0]){var
+g=1}if(!g)if(b[2])a=1;else{var
+ax=e[2],y=ax,x=function(b,a){return[1,c,b,a]};a=2}}else{var
+Z=e[2];if(1===Z[0]){var
+k=Z[1];if(k){var
+z=k[1],q=0;if(0===z[0]){var
+A=z[1];if(A&&!o(A[1][1],D4)&&!A[2]){var
+_=k[2];if(_){var
+aa=_[2];if(aa&&!aa[2]){if(!b[2])return $(D5);a=1;q=1}else
+q=1}else
+q=1}}if(!q){var
+B=k[2];if(B){var
+C=B[2];if(C&&!C[2]){if(!b[2]){var
+ay=dA(C[1]),az=ep(B[1]);return[5,er(f,z),az,ay]}a=1}}}}}}else{var
+ab=e[2];if(1===ab[0]){if(!b[2]){var
+aA=function(i){if(1===i[0]){var
 b=i[1];if(b){var
 c=b[2];if(c){var
 d=c[2];if(d){var
 a=d[2];if(a){var
 e=a[1],h=0;if(0===e[0]){var
-g=e[1];if(g&&!(o(g[1][1],DZ)||g[2])){if(!a[2]){var
-j=er(f,e),k=dA(d[1]),l=ep(c[1]);return[0,[0,[0,fm(b[1]),l],k],j]}}else
+g=e[1];if(g&&!(o(g[1][1],D6)||g[2])){if(!a[2]){var
+j=er(f,e),k=dA(d[1]),l=ep(c[1]);return[0,[0,[0,fn(b[1]),l],k],j]}}else
 h=1}else
-h=1;if(h&&!a[2])return ae(D0)}}}}}throw W};return[9,X(ak,R[1])]}b=1}}else
-if(o(a,D1))if(o(a,D2))if(o(a,D3))if(o(a,D4)){if(!o(a,D5)){if(!c[2]){var
-S=ah(e[2]),al=ac(u(S,D6)),am=M+1|0,T=X(function(a){return jq(am,a)},al);if(3===ci(T))return[1,D8,T,dA(u(S,D7))];throw W}b=1}}else{if(!c[2]){var
-J=aS(e[2]),K=o(J,DN);if(K){if(o(J,DO))throw W;var
-L=1}else
+h=1;if(h&&!a[2])return $(D7)}}}}}throw V};return[9,X(aA,ab[1])]}a=1}}else
+if(o(c,D8))if(o(c,D9))if(o(c,D_))if(o(c,D$)){if(!o(c,Ea)){if(!b[2]){var
+ac=ah(e[2]),aB=ad(u(ac,Eb)),aC=T+1|0,ae=X(function(a){return jr(aC,a)},aB);if(3===ci(ae))return[1,Ed,ae,dA(u(ac,Ec))];throw V}a=1}}else{if(!b[2]){var
+P=aS(e[2]),Q=o(P,DR);if(Q){if(o(P,DS))throw V;var
+R=1}else
 var
-L=K;return[2,L]}b=1}else{if(!c[2]){var
-j=e[2],Y=function(l,a){if(0===a[0]){var
-b=a[1];if(b){var
-e=b[1];if(!o(e[1],D9)){var
-f=e[2];if(0===f[0]){var
-c=f[1];if(c){var
-g=c[1];if(!o(g[1],D_)){var
-h=g[2];if(1===h[0]){var
-d=h[1];if(d){var
-i=d[1];if(1===i[0]){var
-j=i[1];if(j&&!j[2]&&!d[2]){var
-k=c[2];if(k&&!k[2]&&!b[2])return er(D$,a)}}}}}}}}}}return er(l,a)},n=0;switch(j[0]){case
+R=Q;return[2,R]}a=1}else{if(!b[2]){var
+l=e[2],r=0;switch(l[0]){case
 0:var
-k=j[1];if(k){var
-Z=k[1],i=Z[1],d=0;if(o(i,Ea)&&o(i,Eb)&&o(i,Ec)&&o(i,Ed))if(o(i,Ee))d=1;else{var
-_=Z[2];if(1===_[0]){var
-F=_[1];if(F){var
-l=F[1],h=0;switch(l[0]){case
+m=l[1];if(m){var
+ao=m[1],j=ao[1],d=0;if(o(j,Eg)&&o(j,Eh)&&o(j,Ei)&&o(j,Ej))if(o(j,Ek))d=1;else{var
+ap=ao[2];if(1===ap[0]){var
+L=ap[1];if(L){var
+n=L[1],h=0;switch(n[0]){case
 0:var
-G=l[1];if(G){var
-m=G[1][1],ab=0;if(o(m,Eg)&&o(m,Eh)&&o(m,Ei)&&o(m,Ej)){d=1;h=1;ab=1}if(!ab&&G[2]){d=1;h=1}}else{d=1;h=1}break;case
+M=n[1];if(M){var
+p=M[1][1],at=0;if(o(p,Em)&&o(p,En)&&o(p,Eo)&&o(p,Ep)){d=1;h=1;at=1}if(!at&&M[2]){d=1;h=1}}else{d=1;h=1}break;case
 2:var
-$=l[1];if(o($,Ek)&&o($,El)){d=1;h=1}break;default:d=1;h=1}if(!h){var
-H=F[2];if(H){var
-I=H[2];if(I&&!(I[2]||k[2])){var
-as=dA(I[1]),at=ep(H[1]),z=[6,Y(f,l),at,as];n=2;d=1}else
+aq=n[1];if(o(aq,Eq)&&o(aq,Er)){d=1;h=1}break;default:d=1;h=1}if(!h){var
+N=L[2];if(N){var
+O=N[2];if(O&&!(O[2]||m[2])){var
+aI=dA(O[1]),aJ=ep(N[1]),D=[6,er(f,n),aJ,aI];r=2;d=1}else
 d=1}else
 d=1}}else
 d=1}else
-d=1}if(!d&&!k[2])n=1}break;case
+d=1}if(!d&&!m[2])r=1}break;case
 2:var
-aa=j[1];if(!o(aa,Em)||!o(aa,En))n=1;break}switch(n){case
+ar=l[1];if(!o(ar,Es)||!o(ar,Et))r=1;break}switch(r){case
 0:var
-z=ae(Ef);break;case
+D=$(El);break;case
 1:var
-z=Y(f,j);break}return[7,z]}b=1}else{var
-U=e[2];if(1===U[0]){var
-A=U[1];if(A){var
-B=A[2];if(B&&!B[2])if(c[2])b=1;else{var
-an=B[1],ao=A[1],v=ao,t=function(b,a){return[3,b,a,jq(M+1|0,an)]};b=2}}}}else{var
-V=e[2];if(1===V[0]){var
-C=V[1];if(C){var
-D=C[2];if(D){var
-E=D[2];if(E&&!E[2])if(c[2])b=1;else{var
-ap=E[1],aq=D[1],ar=C[1],v=ar,t=function(b,a){var
-c=dA(ap);return[4,b,a,ep(aq),c]};b=2}}}}}switch(b){case
-0:if(!c[2])return ae([0,DY,[0,a,DX]]);break;case
+D=er(f,l);break}return[7,D]}a=1}else{var
+af=e[2];if(1===af[0]){var
+E=af[1];if(E){var
+F=E[2];if(F&&!F[2])if(b[2])a=1;else{var
+aD=F[1],aE=E[1],y=aE,x=function(b,a){return[3,b,a,jr(T+1|0,aD)]};a=2}}}}else{var
+ag=e[2];if(1===ag[0]){var
+G=ag[1];if(G){var
+H=G[2];if(H){var
+I=H[2];if(I&&!I[2])if(b[2])a=1;else{var
+aF=I[1],aG=H[1],aH=G[1],y=aH,x=function(b,a){var
+c=dA(aF);return[4,b,a,ep(aG),c]};a=2}}}}}switch(a){case
+0:if(!b[2])return $([0,D3,[0,c,D2]]);break;case
 1:break;default:var
-P=oN(f,v);return t(P[1],P[2])}}break;case
-2:return[0,p[1]]}throw W}function
+Y=oN(f,y);return x(Y[1],Y[2])}}break;case
+2:return[0,i[1]]}throw V}function
 oO(n){var
-b=dz(n),a=b[1];if(o(a,Eq))if(o(a,Er)){var
-h=o(a,Es);if(!h)return h;if(o(a,Et)){if(!o(a,Eu)){var
-c=ah(b[2]),i=function(a){return X(S,ac(u(c,a)))},j=ah(u(c,Ey)),p=dA(u(j,Ez)),q=X(fm,ac(u(j,EA))),r=i(EB),s=i(EC);return[3,cB(u(c,ED)),s,r,q,p]}if(!o(a,Ev))return[2,X(S,ac(b[2]))]}else{var
+b=dz(n),a=b[1];if(o(a,Ew))if(o(a,Ex)){var
+h=o(a,Ey);if(!h)return h;if(o(a,Ez)){if(!o(a,EA)){var
+c=ah(b[2]),i=function(a){return X(S,ad(u(c,a)))},j=ah(u(c,EE)),p=dA(u(j,EF)),q=X(fn,ad(u(j,EG))),r=i(EH),s=i(EI);return[3,cB(u(c,EJ)),s,r,q,p]}if(!o(a,EB))return[2,X(S,ad(b[2]))]}else{var
 k=b[2];if(1===k[0]){var
 d=k[1];if(d){var
 e=d[2];if(e&&!e[2]){var
@@ -8069,55 +8110,55 @@ t=cB(e[1]);return[1,cB(d[1]),t]}}}}}else{var
 l=b[2];if(1===l[0]){var
 f=l[1];if(f){var
 g=f[2];if(g&&!g[2]){var
-v=X(fm,ac(g[1]));return[0,cB(f[1]),v]}}}}else{var
-m=b[2];if(1===m[0]&&!m[1])return 1}return ae([0,Ex,[0,a,Ew]])}function
+v=X(fn,ad(g[1]));return[0,cB(f[1]),v]}}}}else{var
+m=b[2];if(1===m[0]&&!m[1])return 1}return $([0,ED,[0,a,EC]])}function
 oP(f,b){var
-a=ah(b),c=ac(u(a,EI)),d=X(function(g){var
+a=ah(b),c=ad(u(a,EO)),d=X(function(g){var
 a=ah(g);function
 b(d,c){var
-b=a6(a,c);return b?X(d,ac(b[1])):b}var
-c=b(ep,EE),d=cA(oO,a6(a,EF)),e=cA(cB,a6(a,EG));return[0,b(function(h){var
-b=ac(h);if(b){var
+b=a6(a,c);return b?X(d,ad(b[1])):b}var
+c=b(ep,EK),d=cA(oO,a6(a,EL)),e=cA(cB,a6(a,EM));return[0,b(function(h){var
+b=ad(h);if(b){var
 a=b[2];if(a){var
-c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Eo)){if(!a[2]){if(o(fj(e),Ep))throw W;d=1}}else
+c=a[1],e=b[1],d=0;if(2===c[0]&&!o(c[1],Eu)){if(!a[2]){if(o(fk(e),Ev))throw V;d=1}}else
 d=1;if(d&&!a[2]){var
-g=er(f,c);return[0,cB(e),g]}}}throw W},EH),e,d,c]},c),e=a6(a,EJ),g=cA(function(a){return oN(f,a)},e);return[0,oG(u(a,EK)),g,d]}function
+g=er(f,c);return[0,cB(e),g]}}}throw V},EN),e,d,c]},c),e=a6(a,EP),g=cA(function(a){return oN(f,a)},e);return[0,oG(u(a,EQ)),g,d]}function
 oQ(c){var
-a=ah(c),b=a6(a,EL),d=b?X(S,ac(b[1])):b,e=oO(u(a,EM)),f=X(S,ac(u(a,EN)));return[0,oG(u(a,EO)),f,d,e]}function
-EY(c){var
+a=ah(c),b=a6(a,ER),d=b?X(S,ad(b[1])):b,e=oO(u(a,ES)),f=X(S,ad(u(a,ET)));return[0,oG(u(a,EU)),f,d,e]}function
+E4(c){var
 a=c[1],b=0;if(10<=a){if(!(13<=a))b=1}else
 if(8===a)b=1;return b?1:0}function
-EZ(b){var
+E5(b){var
 a=b[3];if(a&&1===a[1][0])return 1;return 0}function
-E0(b){var
+E6(b){var
 c=b[1],a=b[4];if(14<=c&&typeof
 a!=="number"&&1===a[0])return 1-gu(j(a[1]));return 10===c?1:0}function
-E4(p){var
-s=av(p),c=[0,0];function
-t(a){if(c[1]<s)return aY(p,c[1]);throw W}function
-v(a){if(t(0)===a){c[1]++;return 0}throw W}function
-$(a,b){for(;;){if(c[1]<s&&i(b,aY(p,c[1]))){c[1]++;continue}return dK(p,a,c[1]-a|0)}}function
-aa(d){v(34);function
+E_(p){var
+s=au(p),c=[0,0];function
+t(a){if(c[1]<s)return aY(p,c[1]);throw V}function
+v(a){if(t(0)===a){c[1]++;return 0}throw V}function
+aa(a,b){for(;;){if(c[1]<s&&i(b,aY(p,c[1]))){c[1]++;continue}return dK(p,a,c[1]-a|0)}}function
+ab(d){v(34);function
 a(a){var
 b=34!==a?1:0;if(b)var
 c=92!==a?1:0,d=c?32<=a?1:0:c;else
 var
 d=b;return d}var
-b=$(c[1],a);v(34);return b}function
-ab(e,a){if(t(0)===a){c[1]++;return 0}var
+b=aa(c[1],a);v(34);return b}function
+ac(e,a){if(t(0)===a){c[1]++;return 0}var
 b=0;for(;;){var
 d=[0,i(e,0),b];if(44===t(0)){c[1]++;var
 b=d;continue}v(a);return j$(d)}}function
-D(b,i){if(64<b)throw W;var
+D(b,i){if(64<b)throw V;var
 a=t(0),d=0;if(48<=a){if(91===a){c[1]++;var
-e=93,f=b+1|0;return[1,ab(function(a){return D(f,a)},e)]}if(123===a){c[1]++;var
-g=125;return[0,ab(function(c){var
-a=aa(0);v(58);return[0,a,D(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,aa(0)];if(45===a)d=1}if(d){var
-h=c[1];c[1]++;return[3,$(h,function(a){var
-b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw W}var
-aP=D(0,0),ad=c[1]<s?1:0,aQ=ad?10===aY(p,c[1])?1:0:ad;if(aQ)c[1]++;if(c[1]<s)throw W;var
-z=ah(aP);if(o(aS(u(z,E5)),E6))throw W;var
-a=jp(u(z,E7)),K=0;switch(a[0]){case
+e=93,f=b+1|0;return[1,ac(function(a){return D(f,a)},e)]}if(123===a){c[1]++;var
+g=125;return[0,ac(function(c){var
+a=ab(0);v(58);return[0,a,D(b+1|0,0)]},g)]}if(!(58<=a))d=1}else{if(34===a)return[2,ab(0)];if(45===a)d=1}if(d){var
+h=c[1];c[1]++;return[3,aa(h,function(a){var
+b=48<=a?1:0,c=b?a<=57?1:0:b;return c})]}throw V}var
+aQ=D(0,0),ae=c[1]<s?1:0,aR=ae?10===aY(p,c[1])?1:0:ae;if(aR)c[1]++;if(c[1]<s)throw V;var
+z=ah(aQ);if(o(aS(u(z,E$)),Fa))throw V;var
+a=jq(u(z,Fb)),K=0;switch(a[0]){case
 1:var
 I=a[1],L=0;if(typeof
 I==="number")if(I)var
@@ -8129,32 +8170,32 @@ L=1;if(L)var
 J=3;var
 l=[0,ci(a[2]),J];break;case
 2:var
-a4=1===a[1]?6:3,l=[0,ci(a[2]),a4];break;case
+a7=1===a[1]?6:3,l=[0,ci(a[2]),a7];break;case
 3:var
-a5=ci(a[1]),l=[0,ci(a[4]),a5];break;case
+a8=ci(a[1]),l=[0,ci(a[4]),a8];break;case
 7:var
 af=a[2];K=1;break;case
 0:case
 5:var
 af=a[1];K=1;break;default:var
-l=Ft}if(K)var
+l=FA}if(K)var
 l=[0,ci(af),3];var
-w=dz(u(z,E8)),x=w[1];if(o(x,ET))if(o(x,EU))if(o(x,EV))var
-b=ae([0,EX,[0,x,EW]]);else
+w=dz(u(z,Fc)),x=w[1];if(o(x,EZ))if(o(x,E0))if(o(x,E1))var
+b=$([0,E3,[0,x,E2]]);else
 var
 y=oQ(w[2]),b=[1,y[1],y[2],y[3],y[4]];else
 var
 E=oP(l,w[2]),b=[0,E[1],E[2],E[3]];else
 var
-aR=ac(w[2]),b=[2,X(function(f){var
-a=dz(f),b=a[1];if(o(b,EP)){if(o(b,EQ)){if(o(b,ER)){var
-e=o(b,ES);if(e)throw W;return e}return[0,cB(a[2])]}var
+aT=ad(w[2]),b=[2,X(function(f){var
+a=dz(f),b=a[1];if(o(b,EV)){if(o(b,EW)){if(o(b,EX)){var
+e=o(b,EY);if(e)throw V;return e}return[0,cB(a[2])]}var
 c=oQ(a[2]);return[2,c[1],c[2],c[3],c[4]]}var
-d=oP(l,a[2]);return[1,d[1],d[2],d[3]]},aR)];function
-aT(a){var
-b=a[1];return aB(function(a){return 7<a[2][0]?1:0},b)}function
-aU(a){return 0!==a[3]?1:0}function
-ag(a){return aB(aU,a)}function
+d=oP(l,a[2]);return[1,d[1],d[2],d[3]]},aT)];function
+aU(a){var
+b=a[1];return ay(function(a){return 7<a[2][0]?1:0},b)}function
+aV(a){return 0!==a[3]?1:0}function
+ag(a){return ay(aV,a)}function
 ai(a){if(typeof
 a!=="number"&&2===a[0])return 1;return 0}var
 d=0;switch(a[0]){case
@@ -8163,69 +8204,72 @@ d=0;switch(a[0]){case
 ak=a[4],aj=a[1];d=6;break;case
 1:var
 am=b[4];d=typeof
-am==="number"||!(3===am[0])?2:5;break;default:d=1}break;case
-1:switch(b[0]){case
-0:var
-aZ=b[3];if(aB(function(a){var
-b=a[1];return aB(function(a){switch(a[2][0]){case
+am==="number"||!(3===am[0])?1:5;break;default:d=2}break;case
+1:var
+av=0;if(0===b[0]){var
+a0=b[3];if(ay(function(a){var
+b=a[1];return ay(function(a){switch(a[2][0]){case
 6:case
-7:return 1;default:return 0}},b)},aZ))ae(Fk);else
-d=4;break;case
-1:d=2;break;default:d=4}break;case
+7:return 1;default:return 0}},b)},a0)){$(Fq);av=1}}if(!av){var
+a1=a[6];if(ay(function(a){return 5===a[1]?1:0},a1)){var
+a2=a[2];if(ay(function(a){return 1===a[0]?1:0},a2))$(Fr);else
+d=1}else
+d=1}break;case
 2:var
 ap=a[7],G=a[1];switch(b[0]){case
 0:var
-a0=1===G?6:3,aq=ci(a[2])===a0?1:0;if(aq){var
-au=0;if(2<=G||!(0===a[4][0]))au=1;else
+a3=1===G?6:3,aq=ci(a[2])===a3?1:0;if(aq){var
+aw=0;if(2<=G||!(0===a[4][0]))aw=1;else
 var
-H=1;if(au)var
+H=1;if(aw)var
 H=0}else
 var
 H=aq;var
-a1=function(b){var
+a4=function(b){var
 g=0;if(!b[1]){var
 d=b[2];if(8===d[0]){var
 e=d[1];if(7===e[0]){var
 c=e[1],a=0;switch(c[0]){case
-1:if(o(c[1],Fl))a=1;break;case
+1:if(o(c[1],Fs))a=1;break;case
 6:var
-f=c[1];if(1!==f[0]||o(f[1],Fm))a=1;break;default:a=1}if(!a)return 1-H}}else
-g=1}if(!g&&8===b[2][0])return 1;return 0},a2=b[3],a6=0;if(aB(function(a){return aB(a1,a[1])},a2))ae(Fn);else{var
-aw=0;if(aB(function(a){return 11===a[1]?1:0},ap)){var
-ax=0;if(1===G&&2===a[5][0]){var
-ar=0;ax=1}if(!ax)var
-ar=1;if(ar){ae(Fo);aw=1}}if(!aw){var
-a3=b[3];if(hs(function(a){var
-b=a[1];return hs(function(d){var
+f=c[1];if(1!==f[0]||o(f[1],Ft))a=1;break;default:a=1}if(!a)return 1-H}}else
+g=1}if(!g&&8===b[2][0])return 1;return 0},a5=b[3],a9=0;if(ay(function(a){return ay(a4,a[1])},a5))$(Fu);else{var
+ax=0;if(ay(function(a){return 11===a[1]?1:0},ap)){var
+az=0;if(1===G&&2===a[5][0]){var
+ar=0;az=1}if(!az)var
+ar=1;if(ar){$(Fv);ax=1}}if(!ax){var
+a6=b[3];if(ht(function(a){var
+b=a[1];return ht(function(d){var
 b=d[2],a=0;switch(b[0]){case
 0:var
-c=b[1];if(o(c,E1)){if(!o(c,E2))return aB(E0,ap)}else
+c=b[1];if(o(c,E7)){if(!o(c,E8))return ay(E6,ap)}else
 a=1;break;case
-1:if(!o(b[1],E3))a=1;break;case
+1:if(!o(b[1],E9))a=1;break;case
 7:case
-8:a=1;break}return a?1:0},b)},a3)){d=3;a6=1}else
-ae(Fp)}}break;case
+8:a=1;break}return a?1:0},b)},a6)){d=3;a9=1}else
+$(Fw)}}break;case
 1:var
-ay=0,as=b[4];if(typeof
-as!=="number"&&1<as[0]){d=5;ay=1}if(!ay)d=2;break;default:d=1}break;case
+aA=0,as=b[4];if(typeof
+as==="number"||!(1<as[0]))aA=1;else
+d=5;if(aA)d=1;break;default:d=2}break;case
 3:switch(b[0]){case
-0:if(aB(aT,b[3]))ae(Fq);else
+0:if(ay(aU,b[3]))$(Fx);else
 d=3;break;case
-2:d=1;break;default:d=2}break;case
+2:d=2;break;default:d=1}break;case
 7:switch(b[0]){case
 2:var
-at=b[1],az=0;if(aB(function(a){if(typeof
+at=b[1],aB=0;if(ay(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
-b!=="number"&&3===b[0])return 1}return 0},at)){ae(Fr);az=1}else
-if(aB(function(a){if(typeof
-a!=="number"&&2===a[0])return ai(a[4]);return 0},at)){ae(Fs);az=1}else
+b!=="number"&&3===b[0])return 1}return 0},at)){$(Fy);aB=1}else
+if(ay(function(a){if(typeof
+a!=="number"&&2===a[0])return ai(a[4]);return 0},at)){$(Fz);aB=1}else
 d=4;break;case
-1:d=2;break;default:d=4}break;default:d=2}var
+1:d=1;break;default:d=4}break;default:d=1}var
 k=0;switch(d){case
-2:if(1===b[0]){var
-aA=0,ao=b[4];if(typeof
-ao!=="number"&&3===ao[0]){ae(Fj);aA=1}if(!aA)if(ai(b[4]))ae(Fi);else
+1:if(1===b[0]){var
+aC=0,ao=b[4];if(typeof
+ao!=="number"&&3===ao[0]){$(Fp);aC=1}if(!aC)if(ai(b[4]))$(Fo);else
 k=3}else
 k=3;break;case
 4:k=3;break;case
@@ -8240,14 +8284,14 @@ j=0;switch(a[0]){case
 an=a[6];break;case
 4:var
 an=a[3];break;case
-5:if(aB(EY,a[4])){ae(Fg);h=2;j=1}else
+5:if(ay(E4,a[4])){$(Fm);h=2;j=1}else
 if(0===b[0]){var
-aX=b[3];if(aB(function(a){return 0!==a[1]?1:0},aX)){ae(Fh);h=2;j=1}else
+aZ=b[3];if(ay(function(a){return 0!==a[1]?1:0},aZ)){$(Fn);h=2;j=1}else
 j=1}else
 j=1;break;case
 6:j=1;break;case
 7:var
-ak=a[4],aj=a[2];h=3;j=1;break;default:h=1;j=1}if(!j)if(0===b[0]){if(aB(function(a){return 11===a[1]?1:0},an)){ae(Ff);h=2}}else
+ak=a[4],aj=a[2];h=3;j=1;break;default:h=1;j=1}if(!j)if(0===b[0]){if(ay(function(a){return 11===a[1]?1:0},an)){$(Fl);h=2}}else
 h=1;break;case
 0:h=2;break;case
 4:h=3;break;case
@@ -8255,79 +8299,79 @@ h=1;break;case
 A=0;switch(h){case
 2:break;case
 3:var
-aC=0;if(aB(function(a){return 10===a[1]?1:0},ak)&&aB(function(a){return 2===a[0]?1:0},aj)){ae(E9);aC=1}if(!aC)A=2;break;case
+aD=0;if(ay(function(a){return 10===a[1]?1:0},ak)&&ay(function(a){return 2===a[0]?1:0},aj)){$(Fd);aD=1}if(!aD)A=2;break;case
 0:A=2;break;default:A=1}var
 M=0;switch(A){case
 2:var
 r=0;switch(a[0]){case
 5:case
-7:if(aB(EZ,a[4])){ae(Fd);r=1}else
+7:if(ay(E5,a[4])){$(Fj);r=1}else
 if(7===a[0])switch(b[0]){case
 2:var
-aW=function(a){if(typeof
-a!=="number"&&1===a[0])return ag(a[3]);return 0};if(aB(aW,b[1]))ae(Fe);r=1;break;case
+aX=function(a){if(typeof
+a!=="number"&&1===a[0])return ag(a[3]);return 0};if(ay(aX,b[1]))$(Fk);r=1;break;case
 0:break;default:M=1;r=1}else
-r=1;break}if(!r)if(0===b[0]&&ag(b[3]))ae(Fc);else
+r=1;break}if(!r)if(0===b[0]&&ag(b[3]))$(Fi);else
 M=1;break;case
 1:M=1;break}var
-al=ah(u(z,E_)),aV=aS(u(al,E$)),q=[0,a,b,aS(u(al,Fa)),aV],f=q[1];switch(f[0]){case
+al=ah(u(z,Fe)),aW=aS(u(al,Ff)),q=[0,a,b,aS(u(al,Fg)),aW],f=q[1];switch(f[0]){case
 0:var
 N=q[2];if(1===N[0]){var
-B=N[4],aD=0;if(typeof
-B==="number"||!(0===B[0]))aD=1;else{var
-aH=B[1],aI=f[4],aJ=f[3],O=F(i5(g(f[1]),aJ,aI),aH);if(O){var
-aE=0,P=O[1];if(typeof
+B=N[4],aE=0;if(typeof
+B==="number"||!(0===B[0]))aE=1;else{var
+aI=B[1],aJ=f[4],aK=f[3],O=F(i6(g(f[1]),aK,aJ),aI);if(O){var
+aF=0,P=O[1];if(typeof
 P!=="number"&&14===P[0]){var
-e=0;aE=1}if(!aE)var
+e=0;aF=1}if(!aF)var
 e=1}else
 var
-e=1}if(aD)var
+e=1}if(aE)var
 e=1}else
 var
 e=1;break;case
 2:var
 Q=f[7],R=f[6],S=f[2],T=q[2];if(1===T[0]){var
-aK=dt(0,g(S),R,Q),aL=g(S),U=gU(f[1]),V=gV(0,U,aL,R,Q,T[4]);if(V){var
-C=V[1],aF=0;if(typeof
-C==="number"||!(0===C[0]))aF=1;else{var
-Y=ia(n,U,C[1],aK);if(Y){var
-aG=0,Z=Y[1][1];if(typeof
+aL=dt(0,g(S),R,Q),aM=g(S),U=gU(f[1]),W=gV(0,U,aM,R,Q,T[4]);if(W){var
+C=W[1],aG=0;if(typeof
+C==="number"||!(0===C[0]))aG=1;else{var
+Y=ib(n,U,C[1],aL);if(Y){var
+aH=0,Z=Y[1][1];if(typeof
 Z!=="number"&&14<Z[0]){var
-e=0;aG=1}if(!aG)var
+e=0;aH=1}if(!aH)var
 e=1}else
 var
-e=1}if(aF)var
+e=1}if(aG)var
 e=1}else
 var
 e=1}else
 var
 e=1;break;case
 7:var
-_=q[2],aM=f[4],aN=f[2];if(2===_[0])var
-aO=_[1],e=m(function(a){if(typeof
+_=q[2],aN=f[4],aO=f[2];if(2===_[0])var
+aP=_[1],e=m(function(a){if(typeof
 a!=="number"&&2===a[0]){var
 b=a[4];if(typeof
 b!=="number"&&0===b[0]){var
-e=b[1],c=F(i5(g(aN),0,aM),e);if(c){var
+e=b[1],c=F(i6(g(aO),0,aN),e);if(c){var
 d=c[1];if(typeof
-d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aO);else
+d!=="number"&&14===d[0])return 0;return 1}return 1}return 1}return 1},aP);else
 var
 e=1;break;default:var
-e=1}return e?q:ae(Fb)}function
-Fu(b){var
-c=av(b),g=64,h=G7(64,c)?g:c,a=0,i=h-18|0;for(;;){var
+e=1}return e?q:$(Fh)}function
+FB(b){var
+c=au(b),g=64,h=Hc(64,c)?g:c,a=0,i=h-18|0;for(;;){var
 d=a<=i?1:0;if(d){var
-e=aw(dK(b,a,18),Fv);if(!e){var
+e=aw(dK(b,a,18),FC);if(!e){var
 a=a+1|0;continue}var
 f=e}else
 var
-f=d;return f}}Hq(function(b){try{if(Fu(b))var
-a=Fx;else{try{var
-e=0,d=E4(b);e=1}catch(a){a=rb(a);if(a[1]===oF)var
-c=[0,a[2]];else{if(a!==W)throw a;var
+f=d;return f}}Hx(function(b){try{if(FB(b))var
+a=FE;else{try{var
+e=0,d=E_(b);e=1}catch(a){a=rb(a);if(a[1]===oF)var
+c=[0,a[2]];else{if(a!==V)throw a;var
 c=2}}if(e)var
-c=AC(b,d)?1===d[2][0]?1:0:2;var
-a=c}}catch(a){return Fw}if(typeof
+c=AG(b,d)?1===d[2][0]?1:0:2;var
+a=c}}catch(a){return FD}if(typeof
 a==="number")switch(a){case
-0:return Fy;case
-1:return Fz;default:return FA}return a8(FB,a[1])});j_(0);return}(globalThis));
+0:return FF;case
+1:return FG;default:return FH}return a8(FI,a[1])});j_(0);return}(globalThis));

@@ -67,6 +67,12 @@ fn covered(proof: &Proof, subject: &Subject<'_>) -> Exported<()> {
         (Kind::Legs, _) if has(&|by| matches!(by, Evidence::Turned(..) | Evidence::Control(_))) => {
             "this set of orientations with such drives"
         }
+        (Kind::Legs, _)
+            if requires(&["parallel_margin"])
+                && subject.legs.iter().any(|leg| matches!(leg, Leg::Strut { .. })) =>
+        {
+            "\"parallel_margin\" of struts in the plane"
+        }
         (Kind::Turning, _) if is_one_to_one && !subject.is_about_any_axis => {
             "\"one_to_one\" of this set of orientations"
         }
@@ -189,6 +195,9 @@ fn evidence(by: &Evidence) -> Exported<String> {
         Evidence::Corner(Corner::Q2) => "AtCorner Check.Q2".to_owned(),
         Evidence::Tolerances(by, ends, directions) => {
             format!("Apart_ ({}) {} {}", evidence(by)?, quoted(ends), matrix(directions))
+        }
+        Evidence::Inside(by, ..) if matches!(**by, Evidence::Rank(_)) => {
+            return not_covered("the evidence \"inside\" about \"rank\"")
         }
         Evidence::Inside(by, n, places) => format!("Inside_ ({}) ({n}) {places}", evidence(by)?),
         Evidence::Control(by) => match &**by {
