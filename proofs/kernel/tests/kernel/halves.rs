@@ -142,6 +142,14 @@ fn what_is_true_of_one_half_alone_is_not_shown() {
     let deep = Node { split: Some(2), ..Node::default() };
     once("0.3", &[&deep, &shown, &shown, &shown]).expect("accepted");
     assert_eq!(once("0.3", &[&shown, &deep, &shown, &shown]), Err(Rejected::Step(1, 1)));
+    // After a half, what is no part of it is of all machines again.
+    let across = Node { split: Some(0), ..top.clone() };
+    let beside = |upper: &[&Node]| {
+        let all = [&across, &deep, &shown, &shown].into_iter().chain(upper.iter().copied());
+        check(&of(&coordinate("0.51"), all.cloned().collect()))
+    };
+    beside(&[&deep, &shown, &shown]).expect("accepted");
+    assert_eq!(beside(&[&shown]), Err(Rejected::Step(4, 1)));
 }
 
 #[test]
@@ -197,12 +205,15 @@ fn an_accuracy_is_of_the_whole_tolerance() {
     let good = certify(&own("0.3"), 50).expect("a proof");
     let Proof::Tree(tree) = &good.proof else { panic!("a tree") };
     let [Node { by, .. }] = &tree.nodes[..] else { panic!("one node") };
-    let at = |top: Vec<Step>, halves: Vec<Step>| {
-        let node = |by: &Vec<Step>| Node { by: by.clone(), ..Node::default() };
-        let nodes = vec![Node { split: Some(2), ..node(&top) }, node(&halves), node(&halves)];
+    let of_nodes = |nodes: Vec<Node>| {
         let tree = Tree { nodes, ..tree.clone() };
         check(&certificate(&own("0.3"), Verdict::Certified, Proof::Tree(tree)))
     };
+    let node = |by: &Vec<Step>| Node { by: by.clone(), ..Node::default() };
+    let parts = |top: &Vec<Step>, halves: &Vec<Step>| {
+        vec![Node { split: Some(2), ..node(top) }, node(halves), node(halves)]
+    };
+    let at = |top: Vec<Step>, halves: Vec<Step>| of_nodes(parts(&top, &halves));
     let (accuracy, rest): (Vec<Step>, Vec<Step>) =
         by.iter().cloned().partition(|Step(_, by)| matches!(by, Evidence::Accuracy(..)));
     let number = accuracy[0].0;
@@ -210,6 +221,10 @@ fn an_accuracy_is_of_the_whole_tolerance() {
     at(accuracy.clone(), rest.clone()).expect("accepted");
     assert_eq!(at(rest.clone(), accuracy.clone()), Err(Rejected::Step(1, number)));
     assert_eq!(at(Vec::new(), by.clone()), Err(Rejected::Step(1, number)));
+    // Beside halves it is of the whole again.
+    let across = |lower: Vec<Node>| [vec![halved(0)], lower, vec![node(by)]].concat();
+    of_nodes(across(parts(by, &Vec::new()))).expect("accepted");
+    assert_eq!(of_nodes(across(parts(&rest, &accuracy))), Err(Rejected::Step(2, number)));
 }
 
 #[test]
