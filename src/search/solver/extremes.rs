@@ -319,7 +319,7 @@ pub fn enclose(
     let found = narrowest(relative, |width| {
         for _ in 0..ROUNDS {
             let step = width * known.size()?;
-            let (inner, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
+            let (_, outer) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
             let outer_claim = extreme.claim(claim, &outer).ok_or(NotEnclosed::Undecided)?;
             let found = steps.next(control, 2, |control| {
                 certify(&outer_claim, &mut known, extreme, &mut begun, budget, control)
@@ -330,15 +330,10 @@ pub fn enclose(
                 Attempt::Undecided(Stop::Time) => return Err(NotEnclosed::Undecided),
                 Attempt::Undecided(_) => break,
             };
-            let refuted = match extreme.well_formed(claim, &inner) {
-                Some(claim) => match refute(&claim, &known.place) {
-                    // What is too near to its bound to be refuted may not be at a looser width.
-                    None => break,
-                    found => found,
-                },
-                None => None,
-            };
-            let width = width.clone();
+            // What is too near to its bound to be refuted may not be at a looser width.
+            let Some(found) = inner_end(claim, extreme, &known, [relative, width])? else { break };
+            let width = (width + width + found.width) / BigRational::from_integer(3.into());
+            let Inner { value: inner, refuted, .. } = found;
             return Ok(Some(Enclosed { width, inner, outer, refuted, certified, boxes }));
         }
         Ok(None)
@@ -386,17 +381,40 @@ pub fn reached(
 ) -> Result<(f64, Option<BigRational>), NotEnclosed> {
     let probe = extreme.probe(claim).ok_or(NotEnclosed::Undecided)?;
     let known = Found::worst(&probe, extreme, ROUNDS)?;
-    let mut width = relative.clone();
-    while width <= loosest() {
-        let (inner, _) =
-            ends(extreme, known.value, &(&width * known.size()?)).ok_or(NotEnclosed::Undecided)?;
-        let claim = extreme.well_formed(claim, &inner);
-        if claim.is_some_and(|claim| refute(&claim, &known.place).is_some()) {
-            return Ok((known.value, Some(inner)));
+    let found = inner_end(claim, extreme, &known, [relative, &loosest()])?;
+    Ok((known.value, found.filter(|found| found.refuted.is_some()).map(|found| found.value)))
+}
+
+/// An inner end, of a width of its own.
+struct Inner {
+    width: BigRational,
+    value: BigRational,
+    /// As in [`Enclosed`].
+    refuted: Option<Box<Certificate>>,
+}
+
+/// The inner end of the narrowest width, from the first to the second and by doubles, of which it is refuted, or is
+/// no claim's bound.
+fn inner_end(
+    claim: &MachineClaim,
+    extreme: &Extreme,
+    known: &Found,
+    [narrowest, widest]: [&BigRational; 2],
+) -> Result<Option<Inner>, NotEnclosed> {
+    let mut width = narrowest.clone();
+    loop {
+        let step = &width * known.size()?;
+        let (value, _) = ends(extreme, known.value, &step).ok_or(NotEnclosed::Undecided)?;
+        let own = extreme.well_formed(claim, &value);
+        let refuted = own.as_ref().and_then(|claim| refute(claim, &known.place));
+        if own.is_none() || refuted.is_some() {
+            return Ok(Some(Inner { width, value, refuted }));
         }
-        width *= BigRational::from_integer(2.into());
+        if width >= *widest {
+            return Ok(None);
+        }
+        width = (&width + &width).min(widest.clone());
     }
-    Ok((known.value, None))
 }
 
 /// What the first sampling finds of an extreme.

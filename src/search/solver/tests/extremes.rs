@@ -102,7 +102,9 @@ fn a_looser_bound_goes_on_where_a_tighter_one_stopped() {
     let most = enclosed(5_000);
     // Short of one box at the first width, it goes on from all others.
     let less = enclosed(most.boxes - 1);
-    assert_eq!(less.width, &most.width * BigRational::from_integer(2.into()));
+    // Twice as far outside, and refuted as near as before.
+    assert_eq!(less.width, &most.width * BigRational::new(5.into(), 3.into()));
+    assert_eq!(less.inner, most.inner);
     assert!(less.boxes >= most.boxes - 1 && less.boxes <= most.boxes + 8, "{}", less.boxes);
     assert!(less.outer > most.outer);
 }
